@@ -1,0 +1,80 @@
+# The part of ViSP's module macros that our modules use, for a build on an installed ViSP.
+# Same names and arguments as cmake/VISPModule.cmake of ViSP 3.5, so one module CMakeLists.txt serves both builds.
+
+# Modules are visited once, in the order of the add_subdirectory() calls in the root CMakeLists.txt.
+macro(vp_add_module _name)
+  set(name ${_name})
+  set(the_module visp_${_name})
+  set(_vispdirect_kind REQUIRED)
+  set(_vispdirect_deps "")
+  foreach(_vispdirect_dep ${ARGN})
+    if(_vispdirect_dep MATCHES "^(REQUIRED|OPTIONAL|PRIVATE_REQUIRED|PRIVATE_OPTIONAL)$")
+      set(_vispdirect_kind ${_vispdirect_dep})
+    elseif(TARGET ${_vispdirect_dep} OR NOT _vispdirect_dep MATCHES "^visp_")
+      list(APPEND _vispdirect_deps ${_vispdirect_dep})
+    elseif(_vispdirect_kind MATCHES "REQUIRED$")
+      message(STATUS "visp-direct: module ${name} is not built, ${_vispdirect_dep} is missing")
+      return()
+    endif()
+  endforeach()
+  set(VISP_MODULE_${the_module}_DEPS ${_vispdirect_deps})
+  set(HAVE_${the_module} TRUE CACHE INTERNAL "")
+endmacro()
+
+macro(vp_module_disable _name)
+  message(STATUS "visp-direct: module ${_name} is not built")
+  return()
+endmacro()
+
+macro(vp_glob_module_sources)
+  file(GLOB_RECURSE VISP_MODULE_${the_module}_HEADERS CONFIGURE_DEPENDS "${CMAKE_CURRENT_LIST_DIR}/include/visp3/*.h")
+  file(GLOB_RECURSE VISP_MODULE_${the_module}_SOURCES CONFIGURE_DEPENDS "${CMAKE_CURRENT_LIST_DIR}/src/*.cpp"
+       "${CMAKE_CURRENT_LIST_DIR}/src/*.h")
+endmacro()
+
+macro(vp_module_include_directories)
+  set(VISP_MODULE_${the_module}_PRIVATE_INCLUDES ${ARGN})
+endmacro()
+
+macro(vp_create_module)
+  add_library(${the_module} ${VISP_MODULE_${the_module}_HEADERS} ${VISP_MODULE_${the_module}_SOURCES})
+  add_library(VispDirect::${name} ALIAS ${the_module})
+  target_include_directories(${the_module}
+    PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_LIST_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
+    PRIVATE "${CMAKE_CURRENT_LIST_DIR}/src")
+  target_include_directories(${the_module} SYSTEM
+    PUBLIC "$<BUILD_INTERFACE:${VISP_INCLUDE_DIRS};${VISP_DIRECT_EIGEN3_INCLUDE_DIR}>"
+    PRIVATE ${VISP_MODULE_${the_module}_PRIVATE_INCLUDES})
+  target_link_libraries(${the_module} PUBLIC ${VISP_MODULE_${the_module}_DEPS} PRIVATE ${ARGN})
+  target_compile_definitions(${the_module} PRIVATE visp_EXPORTS)
+  set_target_properties(${the_module} PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+  install(TARGETS ${the_module} EXPORT VispDirectTargets
+          LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(DIRECTORY "${CMAKE_CURRENT_LIST_DIR}/include/visp3" DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+endmacro()
+
+# Every test/*.cpp becomes a program and a ctest entry, as in ViSP.
+macro(vp_add_tests)
+  set(_vispdirect_deps "")
+  set(_vispdirect_skip "")
+  set(_vispdirect_list _vispdirect_deps)
+  foreach(_vispdirect_arg ${ARGN})
+    if(_vispdirect_arg STREQUAL "DEPENDS_ON")
+      set(_vispdirect_list _vispdirect_deps)
+    elseif(_vispdirect_arg STREQUAL "SOURCES_EXCLUDE")
+      set(_vispdirect_list _vispdirect_skip)
+    else()
+      list(APPEND ${_vispdirect_list} ${_vispdirect_arg})
+    endif()
+  endforeach()
+  file(GLOB _vispdirect_tests CONFIGURE_DEPENDS "${CMAKE_CURRENT_LIST_DIR}/test/*.cpp")
+  foreach(_vispdirect_source ${_vispdirect_tests})
+    get_filename_component(_vispdirect_file ${_vispdirect_source} NAME)
+    if(NOT _vispdirect_file IN_LIST _vispdirect_skip)
+      get_filename_component(_vispdirect_test ${_vispdirect_source} NAME_WE)
+      add_executable(${_vispdirect_test} ${_vispdirect_source})
+      target_link_libraries(${_vispdirect_test} PRIVATE ${the_module} ${_vispdirect_deps})
+      add_test(NAME ${_vispdirect_test} COMMAND ${_vispdirect_test})
+    endif()
+  endforeach()
+endmacro()

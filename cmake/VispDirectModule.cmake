@@ -1,0 +1,72 @@
+# Included at the top of every module's CMakeLists.txt, in a standalone build and inside a ViSP source tree.
+# It may run many times (ViSP processes contrib modules in two passes), so every action here is idempotent.
+
+set(VISP_DIRECT_ROOT "${CMAKE_CURRENT_LIST_DIR}/.." CACHE INTERNAL "Root folder of visp-direct")
+
+# Eigen is a hard requirement of every module: it is the only matrix type inside the real-time step functions.
+if(NOT VISP_DIRECT_EIGEN3_INCLUDE_DIR)
+  find_package(Eigen3 3.3 REQUIRED NO_MODULE)
+  get_target_property(_vispdirect_eigen_dirs Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
+  set(VISP_DIRECT_EIGEN3_INCLUDE_DIR "${_vispdirect_eigen_dirs}" CACHE INTERNAL "Eigen include folders")
+  unset(_vispdirect_eigen_dirs)
+endif()
+
+# The standalone build sets C++17 once; a ViSP tree may still default to C++11. Call after vp_create_module().
+macro(vispdirect_module_settings)
+  target_compile_features(${the_module} PUBLIC cxx_std_17)
+  set_target_properties(${the_module} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+  target_compile_options(${the_module} PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang>:-Wall;-Wextra;-Wshadow;-Wnon-virtual-dtor>)
+endmacro()
+
+# vispdirect_add_tests([DEPENDS_ON module...] [EXCLUDE file...]): every test/*.cpp of the module is one Catch2 program
+# with the shared main of test/support. Benchmarks are never tests: see vispdirect_add_benchmarks.
+macro(vispdirect_add_tests)
+  if(BUILD_TESTS)
+    vispdirect_test_support()
+    vp_add_tests(DEPENDS_ON vispdirect_test_support ${ARGN})
+    file(GLOB _vispdirect_tests CONFIGURE_DEPENDS "${CMAKE_CURRENT_LIST_DIR}/test/*.cpp")
+    foreach(_vispdirect_test ${_vispdirect_tests})
+      get_filename_component(_vispdirect_test ${_vispdirect_test} NAME_WE)
+      if(TARGET ${_vispdirect_test})
+        target_compile_features(${_vispdirect_test} PRIVATE cxx_std_17)
+      endif()
+    endforeach()
+    unset(_vispdirect_tests)
+    unset(_vispdirect_test)
+  endif()
+endmacro()
+
+# One static library with Catch2's main, the allocation counter and seeded randomness, shared by all test programs.
+function(vispdirect_test_support)
+  if(TARGET vispdirect_test_support)
+    return()
+  endif()
+  find_path(VISP_DIRECT_CATCH2_INCLUDE_DIR NAMES catch2/catch.hpp catch2/catch_all.hpp catch.hpp
+            HINTS ${CATCH2_INCLUDE_DIRS} "${VISP_SOURCE_DIR}/3rdparty/catch2" PATH_SUFFIXES include)
+  if(NOT VISP_DIRECT_CATCH2_INCLUDE_DIR)
+    message(FATAL_ERROR "visp-direct: Catch2 not found; install it (Debian: catch2) or configure with BUILD_TESTS=OFF")
+  endif()
+  file(GLOB support_sources CONFIGURE_DEPENDS "${VISP_DIRECT_ROOT}/test/support/*.cpp")
+  add_library(vispdirect_test_support STATIC ${support_sources})
+  target_include_directories(vispdirect_test_support PUBLIC "${VISP_DIRECT_ROOT}/test/support"
+                             SYSTEM PUBLIC ${VISP_DIRECT_CATCH2_INCLUDE_DIR} ${VISP_DIRECT_EIGEN3_INCLUDE_DIR} ${VISP_INCLUDE_DIRS})
+  target_compile_features(vispdirect_test_support PUBLIC cxx_std_17)
+  target_compile_definitions(vispdirect_test_support PUBLIC VISP_DIRECT_DATA_DIR="${VISP_DIRECT_ROOT}/data")
+endfunction()
+
+# vispdirect_add_benchmarks([libraries]): every benchmark/*.cpp of the module is one Google Benchmark program.
+# Standalone only; never part of ctest.
+macro(vispdirect_add_benchmarks)
+  if(VISP_DIRECT_STANDALONE AND BUILD_BENCHMARKS)
+    file(GLOB _vispdirect_benchmarks CONFIGURE_DEPENDS "${CMAKE_CURRENT_LIST_DIR}/benchmark/*.cpp")
+    foreach(_vispdirect_source ${_vispdirect_benchmarks})
+      get_filename_component(_vispdirect_target ${_vispdirect_source} NAME_WE)
+      add_executable(${_vispdirect_target} ${_vispdirect_source})
+      target_link_libraries(${_vispdirect_target} PRIVATE ${the_module} benchmark::benchmark ${ARGN})
+      target_compile_definitions(${_vispdirect_target} PRIVATE VISP_DIRECT_DATA_DIR="${VISP_DIRECT_ROOT}/data")
+    endforeach()
+    unset(_vispdirect_benchmarks)
+    unset(_vispdirect_source)
+    unset(_vispdirect_target)
+  endif()
+endmacro()

@@ -1,0 +1,81 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpTwist.h
+ * \brief Velocity of a rigid body as a value: linear part first, then angular.
+ */
+#ifndef vpTwist_h
+#define vpTwist_h
+
+#include <visp3/core/vpColVector.h>
+#include <visp3/direct_core/vpDirectCompat.h>
+
+#include <array>
+#include <cstddef>
+
+BEGIN_VISP_NAMESPACE
+
+/*!
+ * \class vpTwist
+ * \ingroup group_direct_core
+ * \brief Rigid-body velocity (vx, vy, vz, wx, wy, wz) in m/s and rad/s, stored in place.
+ *
+ * ViSP passes velocities as a vpColVector, which lives on the heap. A real-time step must not allocate, so the laws,
+ * filters and trajectories of visp-direct exchange this type and convert at the edge with toColVector().
+ * The frame is stated by whoever owns the twist; throughout visp-direct it is the current camera frame unless said.
+ */
+class VISP_EXPORT vpTwist
+{
+public:
+  //! The zero twist.
+  constexpr vpTwist() = default;
+  //! Linear part (m/s), then angular part (rad/s).
+  constexpr vpTwist(double vx, double vy, double vz, double wx, double wy, double wz) : m_data{{vx, vy, vz, wx, wy, wz}}
+  { }
+
+  /*!
+   * Copy of a 6-vector of ViSP (linear, angular).
+   * \throw vpException (dimensionError) if \e v has not 6 rows.
+   */
+  static vpTwist fromColVector(const vpColVector &v);
+  //! A new vpColVector of 6 rows. Allocates.
+  [[nodiscard]] vpColVector toColVector() const;
+  //! Write into \e v, which allocates only if it has not 6 rows yet.
+  void copyTo(vpColVector &v) const;
+
+  //! Component \e i: 0-2 linear (m/s), 3-5 angular (rad/s).
+  [[nodiscard]] constexpr double operator[](std::size_t i) const { return m_data[i]; }
+  //! Component \e i, writable.
+  [[nodiscard]] constexpr double &operator[](std::size_t i) { return m_data[i]; }
+  //! The six numbers, linear part first.
+  [[nodiscard]] const double *data() const { return m_data.data(); }
+  //! The six numbers, linear part first, writable.
+  [[nodiscard]] double *data() { return m_data.data(); }
+
+  //! Euclidean norm of the linear part, m/s.
+  [[nodiscard]] double linearNorm() const;
+  //! Euclidean norm of the angular part, rad/s.
+  [[nodiscard]] double angularNorm() const;
+  //! True if no component is infinite or NaN.
+  [[nodiscard]] bool isFinite() const;
+  //! The twist with all components multiplied by \e factor.
+  [[nodiscard]] vpTwist scaled(double factor) const;
+
+private:
+  std::array<double, 6> m_data{};
+};
+
+/*!
+ * Scale the whole twist by one factor so that its linear and angular norms stay within the limits. Direction is kept:
+ * clipping component by component would bend the path and break the view constraint.
+ * \param twist : Twist to limit.
+ * \param maxLinear : Largest linear norm, m/s, > 0.
+ * \param maxAngular : Largest angular norm, rad/s, > 0.
+ * \return The scaled twist; the input itself when it is within both limits.
+ */
+[[nodiscard]] VISP_EXPORT vpTwist limitTwist(const vpTwist &twist, double maxLinear, double maxAngular);
+
+END_VISP_NAMESPACE
+#endif

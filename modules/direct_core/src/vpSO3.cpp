@@ -1,0 +1,103 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include <visp3/direct_core/vpSO3.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+BEGIN_VISP_NAMESPACE
+
+namespace vpSO3
+{
+namespace
+{
+// Below this squared angle the Taylor series is exact to rounding while the closed forms lose digits.
+constexpr double smallAngle2 = 1e-4;
+
+double sinOverAngle(double a2)
+{
+  if (a2 < smallAngle2) {
+    return 1. - a2 / 6. * (1. - a2 / 20. * (1. - a2 / 42.));
+  }
+  const double a = std::sqrt(a2);
+  return std::sin(a) / a;
+}
+
+double oneMinusCosOverAngle2(double a2)
+{
+  if (a2 < smallAngle2) {
+    return 0.5 - a2 / 24. * (1. - a2 / 30. * (1. - a2 / 56.));
+  }
+  const double s = std::sin(0.5 * std::sqrt(a2));
+  return 2. * s * s / a2;
+}
+
+double angleMinusSinOverAngle3(double a2)
+{
+  if (a2 < smallAngle2) {
+    return 1. / 6. - a2 / 120. * (1. - a2 / 42. * (1. - a2 / 72.));
+  }
+  const double a = std::sqrt(a2);
+  return (a - std::sin(a)) / (a2 * a);
+}
+} // namespace
+
+Eigen::Matrix3d skew(const Eigen::Vector3d &a)
+{
+  Eigen::Matrix3d m;
+  m << 0., -a.z(), a.y(), a.z(), 0., -a.x(), -a.y(), a.x(), 0.;
+  return m;
+}
+
+Eigen::Matrix3d exp(const Eigen::Vector3d &e)
+{
+  const double a2 = e.squaredNorm();
+  const Eigen::Matrix3d k = skew(e);
+  return Eigen::Matrix3d::Identity() + sinOverAngle(a2) * k + oneMinusCosOverAngle2(a2) * k * k;
+}
+
+Eigen::Vector3d log(const Eigen::Matrix3d &R)
+{
+  // Through the quaternion: well conditioned for every angle, no branch on the trace is needed beyond Eigen's own.
+  Eigen::Quaterniond q(R);
+  if (q.w() < 0.) {
+    q.coeffs() = -q.coeffs();
+  }
+  const double s = q.vec().norm(); // sin(theta / 2)
+  const double ratio = s < 1e-9 ? 2. / q.w() : 2. * std::atan2(s, q.w()) / s;
+  return ratio * q.vec();
+}
+
+Eigen::Matrix3d rightJacobian(const Eigen::Vector3d &e)
+{
+  const double a2 = e.squaredNorm();
+  const Eigen::Matrix3d k = skew(e);
+  return Eigen::Matrix3d::Identity() - oneMinusCosOverAngle2(a2) * k + angleMinusSinOverAngle3(a2) * k * k;
+}
+
+Eigen::Matrix3d rightJacobianInverse(const Eigen::Vector3d &e)
+{
+  const double a2 = e.squaredNorm();
+  const Eigen::Matrix3d k = skew(e);
+  double c;
+  if (a2 < smallAngle2) {
+    c = 1. / 12. + a2 / 720. * (1. + a2 / 42.);
+  }
+  else {
+    const double half = 0.5 * std::sqrt(a2);
+    c = (1. - half / std::tan(half)) / a2;
+  }
+  return Eigen::Matrix3d::Identity() + 0.5 * k + c * k * k;
+}
+
+Eigen::Matrix3d minimalRotation(const Eigen::Vector3d &from, const Eigen::Vector3d &to)
+{
+  return Eigen::Quaterniond::FromTwoVectors(from, to).toRotationMatrix();
+}
+} // namespace vpSO3
+
+END_VISP_NAMESPACE

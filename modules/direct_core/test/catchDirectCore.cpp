@@ -1,0 +1,124 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "vpCatch.h"
+
+#include <visp3/core/vpThetaUVector.h>
+#include <visp3/direct_core/vpSO3.h>
+#include <visp3/direct_core/vpTwist.h>
+
+#include <Eigen/Geometry>
+
+VISP_DIRECT_USING_NAMESPACE
+
+namespace
+{
+Eigen::Vector3d randomDirection(std::mt19937_64 &rng)
+{
+  std::normal_distribution<double> gauss;
+  Eigen::Vector3d v(gauss(rng), gauss(rng), gauss(rng));
+  return v.normalized();
+}
+
+// Angles where formulas break: zero, tiny, the switch to series, right angles, near and at pi.
+const double criticalAngles[] = {0., 1e-12, 1e-9, 1e-6, 0.0099, 0.0101, 1., M_PI / 2., 3., M_PI - 1e-6, M_PI - 1e-10};
+} // namespace
+
+TEST_CASE("exp and log are inverse at every angle", "[so3]")
+{
+  auto rng = vpTestSupport::generator(1);
+  CAPTURE(vpTestSupport::seed());
+  std::uniform_real_distribution<double> angle(0., M_PI);
+  for (int i = 0; i < 5000; ++i) {
+    const double theta = i < 1100 ? criticalAngles[i % 11] : angle(rng);
+    const Eigen::Vector3d e = theta * randomDirection(rng);
+    const Eigen::Matrix3d R = vpSO3::exp(e);
+    CAPTURE(theta, e.transpose());
+    REQUIRE((R * R.transpose() - Eigen::Matrix3d::Identity()).norm() < 1e-14);
+    REQUIRE((R - Eigen::AngleAxisd(theta, theta > 0. ? Eigen::Vector3d(e / theta) : Eigen::Vector3d::UnitX()).matrix()).norm() < 1e-14);
+    REQUIRE((vpSO3::log(R) - e).norm() < 1e-13 + 1e-7 * (theta > M_PI - 1e-8));
+  }
+}
+
+TEST_CASE("log agrees with vpThetaUVector", "[so3]")
+{
+  auto rng = vpTestSupport::generator(2);
+  CAPTURE(vpTestSupport::seed());
+  std::uniform_real_distribution<double> angle(0.01, 3.1);
+  for (int i = 0; i < 1000; ++i) {
+    const Eigen::Vector3d e = angle(rng) * randomDirection(rng);
+    const Eigen::Matrix3d R = vpSO3::exp(e);
+    vpRotationMatrix M;
+    for (unsigned int r = 0; r < 3; ++r) {
+      for (unsigned int c = 0; c < 3; ++c) {
+        M[r][c] = R(r, c);
+      }
+    }
+    const vpThetaUVector tu(M);
+    REQUIRE((vpSO3::log(R) - Eigen::Vector3d(tu[0], tu[1], tu[2])).norm() < 1e-9);
+  }
+}
+
+TEST_CASE("right Jacobian equals finite differences and its inverse", "[so3]")
+{
+  auto rng = vpTestSupport::generator(3);
+  CAPTURE(vpTestSupport::seed());
+  std::uniform_real_distribution<double> angle(0., M_PI - 1e-3);
+  const double h = 1e-6;
+  for (int i = 0; i < 2000; ++i) {
+    const double theta = i < 800 ? criticalAngles[i % 8] : angle(rng);
+    const Eigen::Vector3d e = theta * randomDirection(rng);
+    const Eigen::Matrix3d J = vpSO3::rightJacobian(e);
+    CAPTURE(theta);
+    REQUIRE((J * vpSO3::rightJacobianInverse(e) - Eigen::Matrix3d::Identity()).norm() < 1e-12);
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d d = h * Eigen::Vector3d::Unit(k);
+      const Eigen::Vector3d rate = vpSO3::log(vpSO3::exp(e - d).transpose() * vpSO3::exp(e + d)) / (2. * h);
+      REQUIRE((rate - J.col(k)).norm() < 1e-9);
+    }
+  }
+}
+
+TEST_CASE("minimal rotation takes one direction to the other about their common normal", "[so3]")
+{
+  auto rng = vpTestSupport::generator(4);
+  CAPTURE(vpTestSupport::seed());
+  for (int i = 0; i < 2000; ++i) {
+    const Eigen::Vector3d a = randomDirection(rng), b = i == 0 ? Eigen::Vector3d(-a) : (i == 1 ? a : randomDirection(rng));
+    const Eigen::Matrix3d R = vpSO3::minimalRotation(2. * a, 0.3 * b);
+    REQUIRE((R * a - b).norm() < 1e-12);
+    REQUIRE(std::abs(vpSO3::log(R).norm() - std::atan2(a.cross(b).norm(), a.dot(b))) < 1e-7);
+  }
+}
+
+TEST_CASE("twist converts, limits uniformly and rejects wrong sizes", "[twist]")
+{
+  const vpTwist v(3., 0., 4., 0., 0., 1.);
+  const vpTwist limited = limitTwist(v, 1., 10.);
+  CHECK(limited.linearNorm() == Approx(1.));
+  CHECK(limited[5] == Approx(0.2)); // one factor for all six components
+  CHECK(limitTwist(v, 5., 1.)[0] == 3.);
+  CHECK(vpTwist::fromColVector(v.toColVector())[2] == 4.);
+  CHECK_FALSE(vpTwist(0., NAN, 0., 0., 0., 0.).isFinite());
+  CHECK_THROWS_WITH(vpTwist::fromColVector(vpColVector(5)), Catch::Contains("a twist has 6 components, got a vector of 5"));
+}
+
+TEST_CASE("rotation kernel and twist allocate nothing", "[so3][twist][realtime]")
+{
+  if (!vpTestSupport::canCountAllocations()) {
+    WARN("allocations cannot be counted in this build");
+    return;
+  }
+  double sink = 0.;
+  const Eigen::Vector3d e(0.3, -0.2, 0.9);
+  vpColVector column(6);
+  const unsigned long before = vpTestSupport::allocationCount();
+  for (int i = 0; i < 100; ++i) {
+    const Eigen::Matrix3d R = vpSO3::exp(e * i * 0.03);
+    sink += vpSO3::log(R).x() + vpSO3::rightJacobianInverse(e)(0, 1) + limitTwist(vpTwist(1., 2., 3., 4., 5., 6.), 1., 1.)[0];
+    vpTwist(1., 2., 3., 4., 5., sink).copyTo(column);
+  }
+  REQUIRE(vpTestSupport::allocationCount() == before);
+  REQUIRE(std::isfinite(sink));
+}

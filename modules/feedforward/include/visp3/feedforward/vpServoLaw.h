@@ -1,0 +1,108 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpServoLaw.h
+ * \brief The one interface of all servo laws.
+ */
+#ifndef vpServoLaw_h
+#define vpServoLaw_h
+
+#include <visp3/feedforward/vpServoCommand.h>
+#include <visp3/feedforward/vpServoMeasurement.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+BEGIN_VISP_NAMESPACE
+
+/*!
+ * \brief Gains of the laws. One set serves all of them, so that a comparison tunes none alone.
+ */
+struct VISP_EXPORT vpServoGains {
+  double lambda = 1.;           //!< Gain on the translation and on image errors, 1/s, > 0.
+  double rotation = 1.;         //!< Factor on the gain of the rotation, > 0; 2 in the ids with `-rot2` and in `ff-lookat*`.
+  double kappa = 1.;            //!< Weight of the image term of `ff-sum`, >= 0.
+  double saturation = 0.5;      //!< Bound c of c tanh(D/c) in `ff-sum`, rad, > 0.
+  double integral = 1.;         //!< Gain on the integral of the rotation error in `ff-lookat-pi`, 1/s^2, >= 0.
+  double integralLimit = 0.5;   //!< Largest angular velocity that the integral may add, rad/s, > 0 (anti-windup).
+
+  /*!
+   * \throw vpException (badValue) naming the gain and its value when one is out of its range or not finite.
+   */
+  void validate() const;
+};
+
+/*!
+ * \class vpServoLaw
+ * \ingroup group_feedforward
+ * \brief A servo law: measurement and goal in, camera twist out.
+ *
+ * Set-up (create(), setGoal()) validates and throws. The step update() never throws and never allocates for the laws
+ * of this module; it answers bad input with a status and zero twist.
+ *
+ * \code
+ * auto law = vpServoLaw::create("ff-lookat-pi", vpServoGains());
+ * law->setGoal(goal);
+ * for (;;) {
+ *   vpServoCommand command = law->update(measurement, dt);
+ *   robot.setVelocity(vpRobot::CAMERA_FRAME, command.v.toColVector());
+ * }
+ * \endcode
+ */
+class VISP_EXPORT vpServoLaw
+{
+public:
+  virtual ~vpServoLaw() = default;
+  vpServoLaw(const vpServoLaw &) = delete;
+  vpServoLaw &operator=(const vpServoLaw &) = delete;
+
+  /*!
+   * Make a law by name.
+   * \param id : One of ids().
+   * \param gains : Gains; validated here.
+   * \throw vpException (badValue) naming the unknown id and listing the known ones, or naming the bad gain.
+   */
+  [[nodiscard]] static std::unique_ptr<vpServoLaw> create(const std::string &id, const vpServoGains &gains = {});
+  //! All ids that create() knows, in the order in which reports list them.
+  [[nodiscard]] static const std::vector<std::string> &ids();
+
+  /*!
+   * Set or change the goal. The integral of `ff-lookat-pi` is kept: friction does not change with the goal.
+   * \throw vpException (badValue) when the goal has no points, or one that is not finite or has no positive depth.
+   */
+  void setGoal(const vpServoGoal &goal);
+  //! Forget the goal and all state (integrals).
+  void reset();
+  //! The id the law was made from.
+  [[nodiscard]] const std::string &id() const { return m_id; }
+  //! The goal in force.
+  [[nodiscard]] const vpServoGoal &goal() const { return m_goal; }
+
+  /*!
+   * One cycle.
+   * \param measurement : What was seen. An invalid one gives zero twist and vpServoStatus::Holding; what to do about a
+   *   lost target is decided by vpTargetLossRecovery.
+   * \param dt : Time since the last call, s, > 0; used by integrals only.
+   */
+  [[nodiscard]] vpServoCommand update(const vpServoMeasurement &measurement, double dt) noexcept;
+
+protected:
+  vpServoLaw(std::string id, const vpServoGains &gains);
+  //! Called by setGoal() after validation: precompute what depends on the goal.
+  virtual void goalChanged() {}
+  //! Called by reset(): forget internal state.
+  virtual void stateReset() {}
+  //! The law itself. The measurement is valid, finite, and has the goal's number of points. Must not throw or allocate.
+  virtual vpServoCommand step(const vpServoMeasurement &measurement, double dt) noexcept = 0;
+
+  std::string m_id;
+  vpServoGains m_gains;
+  vpServoGoal m_goal;
+  bool m_hasGoal = false;
+};
+
+END_VISP_NAMESPACE
+#endif

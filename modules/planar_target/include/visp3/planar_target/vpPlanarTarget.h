@@ -1,0 +1,100 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpPlanarTarget.h
+ * \brief Reference image and camera in, pose of the textured plane out.
+ */
+#ifndef vpPlanarTarget_h
+#define vpPlanarTarget_h
+
+#include <visp3/core/vpCameraParameters.h>
+#include <visp3/core/vpImage.h>
+#include <visp3/planar_target/vpPlanarTargetResult.h>
+
+#include <memory>
+#include <string>
+
+BEGIN_VISP_NAMESPACE
+
+//! Keypoint detector with its descriptor.
+enum class vpKeypointType {
+  ORB,   //!< OpenCV; fast, the default.
+  SIFT,  //!< OpenCV; most precise before refinement, slow.
+  AKAZE, //!< OpenCV; the fallback when ORB finds too few.
+  KAZE,  //!< OpenCV.
+  BRISK, //!< OpenCV.
+  SURF   //!< dlib (Debian's OpenCV has none).
+};
+
+//! Name of the detector ("ORB"), static text.
+[[nodiscard]] VISP_EXPORT const char *toString(vpKeypointType type);
+//! \throw vpException (badValue) naming an unknown detector and the known ones.
+[[nodiscard]] VISP_EXPORT vpKeypointType keypointTypeFromString(const std::string &name);
+
+//! \brief Settings of a target. The defaults serve 640x480 images of a target that fills a third of the view or more.
+struct VISP_EXPORT vpPlanarTargetConfig {
+  vpKeypointType keypoints = vpKeypointType::ORB; //!< Detector for acquisition.
+  bool fallback = true;             //!< Try AKAZE when the detector above gives too few inliers; costs time only then.
+  unsigned int maxKeypoints = 1500; //!< More find smaller targets and take longer; detectors without a bound ignore it.
+  unsigned int minInliers = 12;     //!< Fewer agreeing matches are TooFewInliers, >= 8.
+  double inlierThreshold = 3.;      //!< Largest reprojection error of an inlier, px, > 0.
+  double minCorrelation = 0.6;      //!< Below this the pose is not trusted (LowCorrelation), 0..1.
+  unsigned int refinementSize = 200; //!< Longer side of the reference at the finest level of the refinement, px; cost grows with its square.
+  unsigned int maxIterations = 30;  //!< Of the refinement, over all levels.
+  bool refine = true;               //!< False: keypoints only, for comparison with tables 4.2 and 4.3 of the thesis.
+
+  //! \throw vpException (badValue) naming the field and its value.
+  void validate() const;
+};
+
+/*!
+ * \class vpPlanarTarget
+ * \ingroup group_planar_target
+ * \brief Finds and follows one textured planar target.
+ *
+ * process() tracks the target from the frame before by its grey values (photometric Gauss-Newton with Tukey weights, gain
+ * and bias); when there is nothing to track, or tracking fails, it acquires it by keypoints (OpenCV's USAC_MAGSAC) and then
+ * refines. It never gives a pose that the image does not support: see vpPlanarTargetStatus.
+ */
+class VISP_EXPORT vpPlanarTarget
+{
+public:
+  /*!
+   * \param reference : Fronto-parallel image of the target.
+   * \param width, height : Metric size of what the reference image shows, m, > 0.
+   * \param camera : Intrinsics of the images given to process(). Distortion (perspectiveProjWithDistortion) is undone.
+   * \param config : Settings.
+   * \throw vpException (badValue / dimensionError) naming what is wrong: image under 32x32 px, blank image (too little
+   * texture for keypoints and for the refinement), size not positive, bad setting.
+   */
+  vpPlanarTarget(const vpImage<unsigned char> &reference, double width, double height, const vpCameraParameters &camera,
+                 const vpPlanarTargetConfig &config = {});
+  ~vpPlanarTarget();
+  vpPlanarTarget(vpPlanarTarget &&) noexcept;
+  vpPlanarTarget &operator=(vpPlanarTarget &&) noexcept;
+
+  //! Track, or acquire when that fails. \param image : Frame of any size of at least 32x32 px.
+  const vpPlanarTargetResult &process(const vpImage<unsigned char> &image);
+  //! Acquire by keypoints, whatever was known before.
+  const vpPlanarTargetResult &acquire(const vpImage<unsigned char> &image);
+  //! Track only, from the last pose or from \e cMoGuess.
+  const vpPlanarTargetResult &track(const vpImage<unsigned char> &image);
+  const vpPlanarTargetResult &track(const vpImage<unsigned char> &image, const vpHomogeneousMatrix &cMoGuess);
+  //! Forget where the target was.
+  void reset();
+
+  //! The last result.
+  [[nodiscard]] const vpPlanarTargetResult &result() const;
+  //! Metric size of the target, m.
+  [[nodiscard]] double width() const;
+  [[nodiscard]] double height() const;
+
+private:
+  class Impl;
+  std::unique_ptr<Impl> m_impl;
+};
+
+END_VISP_NAMESPACE
+#endif

@@ -1,0 +1,100 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpServoExperiment.h
+ * \brief The closed loop: sensor -> law -> filter -> recovery -> plant, and the log of it.
+ */
+#ifndef vpServoExperiment_h
+#define vpServoExperiment_h
+
+#include <visp3/feedforward/vpServoLaw.h>
+#include <visp3/simulation/vpServoPlant.h>
+#include <visp3/simulation/vpServoTask.h>
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+BEGIN_VISP_NAMESPACE
+
+/*!
+ * \brief One row of the log, taken each cycle of the inner loop. Angles in rad, all else in SI units and px.
+ *
+ * World frame: the camera at the start of the experiment.
+ */
+struct VISP_EXPORT vpServoSample {
+  double time = 0.;             //!< s since the start.
+  int segment = 0;              //!< Index of the segment in force.
+  vpHomogeneousMatrix wMc;      //!< True pose of the camera in the world.
+  vpHomogeneousMatrix cMo;      //!< True pose of the object in the camera.
+  vpTwist commanded;            //!< Twist asked for, camera frame.
+  vpTwist actual;               //!< Twist that the plant executed, camera frame.
+  double yaw = 0.;              //!< Rotation of the camera about the vertical (y axis of the world), rad.
+  double goalYaw = 0.;          //!< The same of the goal.
+  double referenceYaw = 0.;     //!< Where the law wants to turn to: yaw of R exp(w / (lambda * rotation)), figures 5.6 and 5.8.
+  double rotationError = 0.;    //!< Angle of the true cdMc, rad.
+  double translationError = 0.; //!< Length of the true cdMc, m.
+  double u = 0., v = 0.;        //!< True, noise-free image of the object's centre, px.
+  double imageErrorU = 0.;      //!< u minus the goal's u, px.
+  double imageErrorV = 0.;      //!< v minus the goal's v, px.
+  bool inView = true;           //!< All of the object's corners lie in the image (true pose).
+  bool measured = false;        //!< The measurement in use was valid.
+  bool newFrame = false;        //!< A vision result arrived in this cycle.
+  vpServoStatus status = vpServoStatus::NoGoal;
+};
+
+//! \brief What to run. All fields together with the seed determine the result.
+struct VISP_EXPORT vpServoRunSpec {
+  std::string law = "ff-lookat-pi"; //!< Id of the law, optionally followed by `+cbf`.
+  std::string measure = "points";   //!< "points" (noisy points through a homography) or "image" (rendered views through planar_target).
+  vpServoGains gains;               //!< The same for every law.
+  vpServoPlant plant;
+  vpServoTask task = vpServoTask::thesis();
+  unsigned int seed = 1;
+  std::string target;               //!< Image file of the object for measure "image".
+};
+
+//! \brief The figures of a run; the same names as in summary.json.
+struct VISP_EXPORT vpServoMetrics {
+  double max_image_error_px = 0.;   //!< Largest distance of the object's centre from where it shall be seen.
+  double rms_image_error_px = 0.;
+  double end_rotation_deg = 0.;     //!< Largest rotation error at the end of a segment.
+  double end_translation_mm = 0.;   //!< Largest translation error at the end of a segment.
+  double yaw_range_deg = 0.;        //!< Largest minus smallest yaw.
+  double ideal_yaw_range_deg = 0.;  //!< The same of the goals (and the start).
+  double out_of_view_s = 0.;        //!< Time during which a corner of the object is out of the image.
+  double settle_s = 0.;             //!< Mean over the segments of the time until the error stays below 2 deg and 5 mm; the segment's duration when it never does.
+  double path_length_m = 0.;
+  double peak_linear_mps = 0.;      //!< Of the executed motion.
+  double peak_angular_radps = 0.;
+  int deadlock_cycles = 0;          //!< Cycles with vpServoStatus::Deadlock.
+  std::string status;               //!< "ok", or a sentence on how the run ended otherwise (target lost, deadlock).
+};
+
+//! \brief A finished run.
+struct VISP_EXPORT vpServoRun {
+  vpServoRunSpec spec;
+  std::vector<vpServoSample> samples;
+  vpServoMetrics metrics;
+};
+
+/*!
+ * Run one experiment.
+ * \param spec : What to run; validated first.
+ * \param progress : If given, called now and then with the share done, 0..1; return false to stop early.
+ * \throw vpException naming what is wrong with the spec (unknown law, measure, plant field, target image).
+ */
+[[nodiscard]] VISP_EXPORT vpServoRun runServoExperiment(const vpServoRunSpec &spec,
+                                                        const std::function<bool(double)> &progress = {});
+
+/*!
+ * The figures of a log.
+ */
+[[nodiscard]] VISP_EXPORT vpServoMetrics evaluateServoRun(const vpServoRunSpec &spec, const std::vector<vpServoSample> &samples);
+
+END_VISP_NAMESPACE
+#endif

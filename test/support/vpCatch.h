@@ -1,0 +1,43 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpCatch.h
+ * \brief Catch2 for every build: 2.13 of Debian, the copy embedded in ViSP 3.5, or 3.x.
+ *
+ * The main function is in vpTestMain.cpp, linked to all tests. Random tests take their seed from
+ * vpTestSupport::seed(), which Catch2's `--rng-seed` sets and every failure prints.
+ */
+#ifndef vpCatch_h
+#define vpCatch_h
+
+#if __has_include(<catch2/catch_all.hpp>)
+#include <catch2/catch_all.hpp>
+using Catch::Approx;
+#elif __has_include(<catch2/catch.hpp>)
+#include <catch2/catch.hpp>
+#else
+#include <catch.hpp>
+#endif
+
+#include <random>
+
+namespace vpTestSupport
+{
+/*!
+ * Seed of this run: fixed by default so that a failure repeats, another with `--rng-seed N` or `--rng-seed time`.
+ * Use with CAPTURE(seed).
+ */
+unsigned int seed();
+
+//! Generator of the random problem number \e index of this run: independent streams, repeatable one by one.
+std::mt19937_64 generator(unsigned int index = 0);
+
+//! Number of heap allocations (malloc, calloc, realloc, new) made by this thread since the program began.
+unsigned long allocationCount();
+//! False when the build cannot count (sanitizers); tests of allocations skip themselves then, saying so.
+bool canCountAllocations();
+} // namespace vpTestSupport
+
+#endif
