@@ -36,8 +36,8 @@ struct VISP_EXPORT vpServoTask {
   vpCameraParameters camera;       //!< Intrinsics, pixels; no distortion.
   unsigned int width = 640;        //!< Image width, px.
   unsigned int height = 480;       //!< Image height, px.
-  double objectWidth = 0.20;       //!< Width of the object, m, > 0.
-  double objectHeight = 0.15;      //!< Height of the object, m, > 0.
+  double objectWidth = 0.16;       //!< Width of the object, m, > 0.
+  double objectHeight = 0.16;      //!< Height of the object, m, > 0.
   unsigned int pointCount = 30;    //!< Number of feature points on the object (measurement by points), >= 4.
   vpHomogeneousMatrix initial;     //!< Pose of the object in the camera at the start, m.
   std::vector<vpServoSegment> segments; //!< Visited one after another; at least one.
