@@ -92,6 +92,7 @@ public:
   [[nodiscard]] double height() const;
 
 private:
+  friend class vpPlanarTargetDatabase; // shares one frame between many targets
   class Impl;
   std::unique_ptr<Impl> m_impl;
 };

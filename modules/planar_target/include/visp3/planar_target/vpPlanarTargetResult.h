@@ -24,8 +24,6 @@ enum class vpPlanarTargetStatus {
   Tracked,          //!< Followed from the frame before by its grey values.
   NoTexture,        //!< The image has too few keypoints.
   TooFewInliers,    //!< Keypoints were matched, but too few agree on one homography.
-  PureRotation,     //!< Of two views without metric reference: the homography is a rotation, translation is unobservable.
-  Ambiguous,        //!< Of two views: two decompositions fit and nothing tells them apart yet.
   OutOfView,        //!< The target left the image or is seen from behind or too obliquely.
   LowCorrelation,   //!< The grey values do not fit the reference: lost or hidden.
   NoFrame           //!< No image was given yet.

@@ -1,0 +1,83 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpPlanarTargetDatabase.h
+ * \brief Several planar targets at once, from a folder of photographs.
+ */
+#ifndef vpPlanarTargetDatabase_h
+#define vpPlanarTargetDatabase_h
+
+#include <visp3/planar_target/vpPlanarTarget.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+BEGIN_VISP_NAMESPACE
+
+//! \brief One target of the database, as it was seen in the last frame.
+struct VISP_EXPORT vpPlanarTargetSighting {
+  std::string name;            //!< Name in the database.
+  double width = 0.;           //!< Metric size of the target, m.
+  double height = 0.;          //!< m.
+  vpPlanarTargetResult result; //!< Status, and pose if it was found.
+};
+
+/*!
+ * \class vpPlanarTargetDatabase
+ * \ingroup group_planar_target
+ * \brief Looks for every target of a collection in each frame.
+ *
+ * A folder holds the reference photographs and a file targets.json that lists them:
+ * \code{.json}
+ * { "targets": [
+ *   { "name": "box", "image": "box.png", "width_m": 0.16, "height_m": 0.11 },
+ *   { "name": "poster", "image": "poster.jpg", "width_m": 0.42 }
+ * ] }
+ * \endcode
+ * Without height_m the height follows from the photograph's aspect ratio. Nothing is left out in silence: a file that
+ * cannot be used, an unknown field, or a photograph in the folder that targets.json does not list is an error.
+ *
+ * The frame's pyramid is built once and its keypoints are extracted once for all targets; targets that are being
+ * tracked need no keypoints.
+ */
+class VISP_EXPORT vpPlanarTargetDatabase
+{
+public:
+  //! An empty database. \param camera : As for vpPlanarTarget. \param config : Settings of every target.
+  explicit vpPlanarTargetDatabase(const vpCameraParameters &camera, const vpPlanarTargetConfig &config = {});
+  ~vpPlanarTargetDatabase();
+  vpPlanarTargetDatabase(vpPlanarTargetDatabase &&) noexcept;
+  vpPlanarTargetDatabase &operator=(vpPlanarTargetDatabase &&) noexcept;
+
+  /*!
+   * All targets of a folder, in the order of its targets.json.
+   * \throw vpException (ioError, badValue) naming the file, and the field and its value where it is one.
+   */
+  [[nodiscard]] static vpPlanarTargetDatabase fromFolder(const std::string &folder, const vpCameraParameters &camera,
+                                                         const vpPlanarTargetConfig &config = {});
+  /*!
+   * Add a target.
+   * \param name : Not empty, each once. \param reference, width, height : As for vpPlanarTarget.
+   * \throw vpException (badValue) naming the target and what is wrong with it.
+   */
+  void add(const std::string &name, const vpImage<unsigned char> &reference, double width, double height);
+
+  //! Number of targets.
+  [[nodiscard]] std::size_t size() const;
+  //! Look for all targets. \return One entry for each, in the order in which they were added.
+  const std::vector<vpPlanarTargetSighting> &process(const vpImage<unsigned char> &image);
+  //! The last result; all NoFrame before the first frame.
+  [[nodiscard]] const std::vector<vpPlanarTargetSighting> &sightings() const;
+  //! Forget where all targets were.
+  void reset();
+
+private:
+  class Store;
+  std::unique_ptr<Store> m_store;
+};
+
+END_VISP_NAMESPACE
+#endif

@@ -1,0 +1,74 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpPlaneMatcher.h
+ * \brief Two views of a textured plane in, their homography out; neither size nor camera need be known.
+ */
+#ifndef vpPlaneMatcher_h
+#define vpPlaneMatcher_h
+
+#include <visp3/planar_target/vpPlanarTarget.h>
+#include <visp3/vision/vpHomography.h>
+
+#include <array>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+BEGIN_VISP_NAMESPACE
+
+//! \brief What two views have in common.
+struct VISP_EXPORT vpPlaneMatch {
+  //! Acquired; NoTexture or TooFewInliers when there is no homography; NoFrame before the first frame.
+  vpPlanarTargetStatus status = vpPlanarTargetStatus::NoFrame;
+  std::string message;                //!< One sentence for a person.
+  std::array<double, 9> homography{}; //!< Row by row: pixels of the reference to pixels of the frame, H(2,2) = 1.
+  std::vector<std::pair<vpImagePoint, vpImagePoint> > inliers; //!< Agreeing matches: in the reference, in the frame; px.
+
+  //! True if there is a homography.
+  [[nodiscard]] bool found() const { return status == vpPlanarTargetStatus::Acquired; }
+  /*!
+   * The Euclidean homography K^-1 H K, as vpTwoViewDecomposition takes it.
+   * \param camera : Of both views, without distortion.
+   */
+  [[nodiscard]] vpHomography euclidean(const vpCameraParameters &camera) const;
+  //! The inliers in the reference view in normalised coordinates, as vpTwoViewDecomposition takes them.
+  [[nodiscard]] std::vector<std::pair<double, double> > referencePoints(const vpCameraParameters &camera) const;
+};
+
+/*!
+ * \class vpPlaneMatcher
+ * \ingroup group_planar_target
+ * \brief Keypoints, mutual best matches and a robust homography (OpenCV's USAC_MAGSAC) between a reference view and frames.
+ *
+ * For a plane of which nothing is known but one picture. With vpTwoViewDecomposition it gives the camera's motion up to
+ * scale (thesis 4.3); where the metric size is known, vpPlanarTarget gives more and is far more precise.
+ */
+class VISP_EXPORT vpPlaneMatcher
+{
+public:
+  /*!
+   * \param reference : Reference view, at least 32x32 px. \param config : Its keypoints, maxKeypoints, minInliers and
+   * inlierThreshold are used.
+   * \throw vpException (dimensionError, badValue) naming what is wrong: image too small, too few keypoints, bad setting.
+   */
+  explicit vpPlaneMatcher(const vpImage<unsigned char> &reference, const vpPlanarTargetConfig &config = {});
+  ~vpPlaneMatcher();
+  vpPlaneMatcher(vpPlaneMatcher &&) noexcept;
+  vpPlaneMatcher &operator=(vpPlaneMatcher &&) noexcept;
+
+  //! Compare a frame with the reference view.
+  const vpPlaneMatch &match(const vpImage<unsigned char> &image);
+  //! The last result.
+  [[nodiscard]] const vpPlaneMatch &result() const;
+
+private:
+  class Impl;
+  std::unique_ptr<Impl> m_impl;
+};
+
+END_VISP_NAMESPACE
+#endif

@@ -1,0 +1,45 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpKeypointExtractor.h
+ * \brief Internal: one interface to the keypoint detectors of OpenCV and dlib.
+ */
+#ifndef vpKeypointExtractor_h
+#define vpKeypointExtractor_h
+
+#include <visp3/planar_target/vpPlanarTarget.h>
+
+#include <opencv2/core.hpp>
+
+#include <memory>
+#include <vector>
+
+BEGIN_VISP_NAMESPACE
+
+//! Keypoints of one image; row i of the descriptors belongs to point i. Pixel (0,0) is the centre of the top-left pixel.
+struct vpKeypointSet {
+  std::vector<cv::Point2f> points;
+  cv::Mat descriptors; //!< CV_8U (binary, compared by Hamming distance) or CV_32F (Euclidean distance).
+};
+
+class vpKeypointExtractor
+{
+public:
+  virtual ~vpKeypointExtractor() = default;
+  //! Strongest keypoints of a CV_8UC1 image, with descriptors.
+  virtual void extract(const cv::Mat &image, vpKeypointSet &keypoints) = 0;
+};
+
+/*!
+ * \param maxKeypoints : Bound on the number of keypoints; the strongest are kept.
+ * \throw vpException (fatalError) if \e type is SURF and this build has no dlib.
+ */
+std::unique_ptr<vpKeypointExtractor> makeKeypointExtractor(vpKeypointType type, unsigned int maxKeypoints);
+
+//! SURF, in surf/: by dlib, or an exception that says how to get it.
+std::unique_ptr<vpKeypointExtractor> makeSurfExtractor(unsigned int maxKeypoints);
+
+END_VISP_NAMESPACE
+#endif

@@ -1,0 +1,25 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpKeypointMatcher.h
+ * \brief Internal: keypoint sets in, pairs that are each other's best and clearly better than the second out.
+ */
+#ifndef vpKeypointMatcher_h
+#define vpKeypointMatcher_h
+
+#include "vpKeypointExtractor.h"
+
+#include <utility>
+
+BEGIN_VISP_NAMESPACE
+
+/*!
+ * Pairs (index in \e reference, index in \e current). Each is the mutual nearest neighbour, and nearer than \e ratio times
+ * the second nearest in the current image (Lowe). One distance matrix serves both tests.
+ */
+std::vector<std::pair<int, int> > matchKeypoints(const vpKeypointSet &reference, const vpKeypointSet &current, float ratio);
+
+END_VISP_NAMESPACE
+#endif

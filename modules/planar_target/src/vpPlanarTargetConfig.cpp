@@ -1,0 +1,92 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include <visp3/planar_target/vpPlanarTarget.h>
+
+#include <visp3/core/vpException.h>
+
+#include <array>
+#include <utility>
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+constexpr std::array<std::pair<vpKeypointType, const char *>, 6> keypointNames = {{{vpKeypointType::ORB, "ORB"},
+                                                                                   {vpKeypointType::SIFT, "SIFT"},
+                                                                                   {vpKeypointType::AKAZE, "AKAZE"},
+                                                                                   {vpKeypointType::KAZE, "KAZE"},
+                                                                                   {vpKeypointType::BRISK, "BRISK"},
+                                                                                   {vpKeypointType::SURF, "SURF"}}};
+} // namespace
+
+const char *toString(vpKeypointType type)
+{
+  for (const auto &entry : keypointNames) {
+    if (entry.first == type) {
+      return entry.second;
+    }
+  }
+  return "unknown";
+}
+
+vpKeypointType keypointTypeFromString(const std::string &name)
+{
+  std::string known;
+  for (const auto &entry : keypointNames) {
+    if (name == entry.second) {
+      return entry.first;
+    }
+    known += std::string(known.empty() ? "" : ", ") + entry.second;
+  }
+  throw vpException(vpException::badValue, "keypoint detector '%s' is not known, choose one of %s", name.c_str(), known.c_str());
+}
+
+const char *toString(vpPlanarTargetStatus status)
+{
+  switch (status) {
+  case vpPlanarTargetStatus::Acquired:
+    return "Acquired";
+  case vpPlanarTargetStatus::Tracked:
+    return "Tracked";
+  case vpPlanarTargetStatus::NoTexture:
+    return "NoTexture";
+  case vpPlanarTargetStatus::TooFewInliers:
+    return "TooFewInliers";
+  case vpPlanarTargetStatus::OutOfView:
+    return "OutOfView";
+  case vpPlanarTargetStatus::LowCorrelation:
+    return "LowCorrelation";
+  case vpPlanarTargetStatus::NoFrame:
+    return "NoFrame";
+  }
+  return "unknown";
+}
+
+void vpPlanarTargetConfig::validate() const
+{
+  if (toString(keypoints) == std::string("unknown")) {
+    throw vpException(vpException::badValue, "keypoint type %d is not known", static_cast<int>(keypoints));
+  }
+  if (minInliers < 8) {
+    throw vpException(vpException::badValue, "minInliers is %u, must be >= 8", minInliers);
+  }
+  if (maxKeypoints < minInliers || maxKeypoints > 100000) {
+    throw vpException(vpException::badValue, "maxKeypoints is %u, must be between minInliers (%u) and 100000", maxKeypoints, minInliers);
+  }
+  if (!(inlierThreshold > 0. && inlierThreshold < 1e3)) {
+    throw vpException(vpException::badValue, "inlierThreshold is %g px, must be > 0 and < 1000", inlierThreshold);
+  }
+  if (!(minCorrelation >= 0. && minCorrelation <= 1.)) {
+    throw vpException(vpException::badValue, "minCorrelation is %g, must be within 0 and 1", minCorrelation);
+  }
+  if (refinementSize < 32 || refinementSize > 4096) {
+    throw vpException(vpException::badValue, "refinementSize is %u px, must be within 32 and 4096", refinementSize);
+  }
+  if (maxIterations < 1 || maxIterations > 1000) {
+    throw vpException(vpException::badValue, "maxIterations is %u, must be within 1 and 1000", maxIterations);
+  }
+}
+
+END_VISP_NAMESPACE

@@ -1,0 +1,109 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include <visp3/planar_target/vpPlanarTargetDatabase.h>
+
+#include "vpPlanarTargetImpl.h"
+#include "vpTargetList.h"
+
+#include <visp3/core/vpException.h>
+
+#include <utility>
+
+BEGIN_VISP_NAMESPACE
+
+class vpPlanarTargetDatabase::Store
+{
+public:
+  Store(const vpCameraParameters &camera, const vpPlanarTargetConfig &config)
+    : m_camera(camera), m_config(config), m_frame(config.maxKeypoints)
+  { }
+
+  vpCameraParameters m_camera;
+  vpPlanarTargetConfig m_config;
+  vpTargetFrame m_frame; // of all targets
+  std::vector<std::unique_ptr<vpPlanarTarget::Impl> > m_targets;
+  std::vector<vpPlanarTargetSighting> m_sightings; // one for each target
+};
+
+vpPlanarTargetDatabase::vpPlanarTargetDatabase(const vpCameraParameters &camera, const vpPlanarTargetConfig &config)
+{
+  config.validate();
+  m_store = std::make_unique<Store>(camera, config);
+}
+
+vpPlanarTargetDatabase::~vpPlanarTargetDatabase() = default;
+vpPlanarTargetDatabase::vpPlanarTargetDatabase(vpPlanarTargetDatabase &&) noexcept = default;
+vpPlanarTargetDatabase &vpPlanarTargetDatabase::operator=(vpPlanarTargetDatabase &&) noexcept = default;
+
+vpPlanarTargetDatabase vpPlanarTargetDatabase::fromFolder(const std::string &folder, const vpCameraParameters &camera,
+                                                          const vpPlanarTargetConfig &config)
+{
+  vpPlanarTargetDatabase database(camera, config);
+  for (const vpTargetListEntry &entry : readTargetList(folder)) {
+    vpImage<unsigned char> reference;
+    readReference(entry.file, reference);
+    const double height = entry.height.value_or(entry.width * reference.getHeight() / reference.getWidth());
+    try {
+      database.add(entry.name, reference, entry.width, height);
+    }
+    catch (const vpException &error) {
+      throw vpException(error.getCode(), entry.file + ": " + error.getStringMessage());
+    }
+  }
+  return database;
+}
+
+void vpPlanarTargetDatabase::add(const std::string &name, const vpImage<unsigned char> &reference, double width,
+                                 double height)
+{
+  if (name.empty()) {
+    throw vpException(vpException::badValue, "a target of the database has an empty name");
+  }
+  for (const vpPlanarTargetSighting &other : m_store->m_sightings) {
+    if (other.name == name) {
+      throw vpException(vpException::badValue, "the database has a target '%s' already", name.c_str());
+    }
+  }
+  try {
+    m_store->m_targets.push_back(
+        std::make_unique<vpPlanarTarget::Impl>(reference, width, height, m_store->m_camera, m_store->m_config));
+  }
+  catch (const vpException &error) {
+    throw vpException(error.getCode(), "target '" + name + "': " + error.getStringMessage());
+  }
+  m_store->m_sightings.push_back({name, width, height, {}});
+}
+
+std::size_t vpPlanarTargetDatabase::size() const { return m_store->m_targets.size(); }
+
+const std::vector<vpPlanarTargetSighting> &vpPlanarTargetDatabase::process(const vpImage<unsigned char> &image)
+{
+  bool assigned = false;
+  for (std::size_t i = 0; i < m_store->m_targets.size(); ++i) {
+    vpPlanarTarget::Impl &target = *m_store->m_targets[i];
+    if (!target.refuse(image)) {
+      if (!assigned) {
+        m_store->m_frame.assign(image);
+        assigned = true;
+      }
+      target.process(m_store->m_frame);
+    }
+    m_store->m_sightings[i].result = target.m_result;
+  }
+  return m_store->m_sightings;
+}
+
+const std::vector<vpPlanarTargetSighting> &vpPlanarTargetDatabase::sightings() const { return m_store->m_sightings; }
+
+void vpPlanarTargetDatabase::reset()
+{
+  for (std::size_t i = 0; i < m_store->m_targets.size(); ++i) {
+    m_store->m_targets[i]->m_known = false;
+    m_store->m_targets[i]->m_result = vpPlanarTargetResult();
+    m_store->m_sightings[i].result = vpPlanarTargetResult();
+  }
+}
+
+END_VISP_NAMESPACE

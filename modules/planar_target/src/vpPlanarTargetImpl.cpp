@@ -1,0 +1,303 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "vpPlanarTargetImpl.h"
+
+#include "vpKeypointMatcher.h"
+
+#include <visp3/core/vpException.h>
+#include <visp3/core/vpPixelMeterConversion.h>
+#include <visp3/direct_core/vpSO3.h>
+
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+constexpr unsigned int smallestImage = 32; // px, reference and frame
+constexpr double smallestContrast = 4.;    // standard deviation of the reference, grey levels
+constexpr int keypointReferenceSize = 400; // px; a larger reference is reduced so that its keypoints have a frame's scale
+constexpr float loweRatio = 0.8f;
+constexpr double keypointReach = 2.;      // px; how far keypoints put the target from its place
+constexpr double motionReach = 4.;        // px; likewise the frame before
+constexpr double largestTurn = 0.35;      // rad between frames; more is beyond the reach, and means another optimum
+constexpr double smallestFrontality = 0.17; // 80 deg from the normal
+constexpr double smallestInImage = 0.25;    // share of the target
+constexpr double smallestUnhidden = 0.4;    // share of what is in the image; half is where robust estimation ends
+
+template <typename... Args> std::string sentence(const char *format, Args... args)
+{
+  char text[256];
+  std::snprintf(text, sizeof(text), format, args...);
+  return text;
+}
+
+cv::Mat view(const vpImage<unsigned char> &image)
+{
+  return cv::Mat(static_cast<int>(image.getHeight()), static_cast<int>(image.getWidth()), CV_8UC1, image.bitmap);
+}
+
+vpTargetPlane makePlane(const vpImage<unsigned char> &reference, double width, double height)
+{
+  if (reference.getWidth() < smallestImage || reference.getHeight() < smallestImage) {
+    throw vpException(vpException::dimensionError, "reference image is %ux%u px, must be at least %ux%u", reference.getWidth(),
+                      reference.getHeight(), smallestImage, smallestImage);
+  }
+  if (!(width > 0.) || !(height > 0.) || !std::isfinite(width) || !std::isfinite(height)) {
+    throw vpException(vpException::badValue, "size of the target is %g x %g m, must be > 0", width, height);
+  }
+  return {width, height, static_cast<int>(reference.getWidth()), static_cast<int>(reference.getHeight())};
+}
+} // namespace
+
+vpPlanarTarget::Impl::Impl(const vpImage<unsigned char> &reference, double width, double height,
+                           const vpCameraParameters &camera, const vpPlanarTargetConfig &config)
+  : m_config(config), m_viewer(camera), m_camera(vpPinhole::fromCamera(camera)),
+    m_plane(makePlane(reference, width, height)), m_ownFrame(config.maxKeypoints)
+{
+  config.validate();
+  const cv::Mat image = view(reference);
+  m_model = std::make_unique<vpPhotometricModel>(image, m_plane, static_cast<int>(config.refinementSize));
+  if (m_model->contrast() < smallestContrast) {
+    throw vpException(vpException::badValue, "reference image is blank: its grey values deviate by %.1f from their mean, must be at "
+                                             "least %.0f", m_model->contrast(), smallestContrast);
+  }
+  m_refiner = std::make_unique<vpPhotometricRefiner>(*m_model, m_plane, m_camera);
+
+  cv::Mat reduced = image;
+  const double scale = static_cast<double>(keypointReferenceSize) / std::max(image.cols, image.rows);
+  if (scale < 1.) {
+    cv::resize(image, reduced, cv::Size(), scale, scale, cv::INTER_AREA);
+  }
+  const vpTargetPlane reducedPlane{width, height, reduced.cols, reduced.rows};
+  std::vector<vpKeypointType> types{config.keypoints};
+  if (config.fallback && config.keypoints != vpKeypointType::AKAZE) {
+    types.push_back(vpKeypointType::AKAZE);
+  }
+  unsigned int most = 0;
+  for (vpKeypointType type : types) {
+    Reference r{type, {}, {}};
+    makeKeypointExtractor(type, config.maxKeypoints)->extract(reduced, r.keypoints);
+    for (const cv::Point2f &p : r.keypoints.points) {
+      r.plane.push_back(reducedPlane.metric(p.x, p.y));
+    }
+    most = std::max(most, static_cast<unsigned int>(r.plane.size()));
+    m_references.push_back(std::move(r));
+  }
+  if (most < config.minInliers) {
+    throw vpException(vpException::badValue, "reference image has too little texture: %u %s keypoints, at least %u are needed",
+                      most, toString(types.front()), config.minInliers);
+  }
+}
+
+bool vpPlanarTarget::Impl::refuse(const vpImage<unsigned char> &image)
+{
+  if (image.getWidth() >= smallestImage && image.getHeight() >= smallestImage) {
+    return false;
+  }
+  fail(vpPlanarTargetStatus::NoTexture, sentence("The image is %ux%u px, at least %ux%u are needed.", image.getWidth(),
+                                                 image.getHeight(), smallestImage, smallestImage));
+  return true;
+}
+
+void vpPlanarTarget::Impl::fail(vpPlanarTargetStatus status, const std::string &message)
+{
+  m_known = false;
+  m_result.status = status;
+  m_result.message = message;
+  m_result.cMo = vpHomogeneousMatrix();
+  m_result.homography.fill(0.);
+  m_result.corners.fill(vpImagePoint());
+}
+
+void vpPlanarTarget::Impl::process(vpTargetFrame &frame)
+{
+  if (!m_known) {
+    acquire(frame);
+    return;
+  }
+  trackLast(frame);
+  if (m_result.found()) {
+    return;
+  }
+  const vpPlanarTargetResult lost = m_result;
+  acquire(frame);
+  // Keypoints cannot tell that the target has just left the view; tracking can.
+  if (!m_result.found() && lost.status == vpPlanarTargetStatus::OutOfView) {
+    m_result = lost;
+  }
+}
+
+void vpPlanarTarget::Impl::acquire(vpTargetFrame &frame)
+{
+  m_known = false;
+  m_result = vpPlanarTargetResult();
+  for (const Reference &reference : m_references) {
+    const vpPlanarTargetResult before = m_result;
+    acquireWith(reference, frame);
+    if (m_result.found()) {
+      return;
+    }
+    // Report the detector that came furthest.
+    if (before.inliers > m_result.inliers) {
+      m_result = before;
+    }
+  }
+}
+
+void vpPlanarTarget::Impl::acquireWith(const Reference &reference, vpTargetFrame &frame)
+{
+  m_result = vpPlanarTargetResult();
+  const vpKeypointSet &current = frame.keypoints(reference.type);
+  if (current.points.size() < m_config.minInliers) {
+    fail(vpPlanarTargetStatus::NoTexture, sentence("The image has %zu %s keypoints, at least %u are needed.",
+                                                   current.points.size(), toString(reference.type), m_config.minInliers));
+    return;
+  }
+  vpPlaneMatches matches;
+  for (const auto &pair : matchKeypoints(reference.keypoints, current, loweRatio)) {
+    const cv::Point2f &p = current.points[static_cast<std::size_t>(pair.second)];
+    Eigen::Vector2d x;
+    vpPixelMeterConversion::convertPoint(m_viewer, p.x, p.y, x.x(), x.y());
+    matches.plane.push_back(reference.plane[static_cast<std::size_t>(pair.first)]);
+    matches.image.push_back(x);
+  }
+  const double pixels = std::sqrt(m_camera.px * m_camera.py);
+  const vpPlanePoses poses = planePoses(matches, m_plane.cols / m_plane.width, pixels, m_config.inlierThreshold, m_config.minInliers);
+  m_result.inliers = static_cast<unsigned int>(poses.inliers.size());
+  if (m_result.inliers < m_config.minInliers) {
+    fail(vpPlanarTargetStatus::TooFewInliers, sentence("%u of %zu %s matches agree on one plane, at least %u must.", m_result.inliers,
+                                                       matches.plane.size(), toString(reference.type), m_config.minInliers));
+    return;
+  }
+  if (!checkView(poses.best)) {
+    return;
+  }
+  vpRigidPose pose = poses.best;
+  if (m_config.refine) {
+    double best = 0.;
+    for (const vpRigidPose &start : {poses.best, poses.rival.value_or(poses.best)}) {
+      vpRigidPose refined = start;
+      // Two independent witnesses: a refinement that leaves the keypoints has found something else.
+      if (m_refiner->refine(frame.pyramid(), refined, keypointReach, m_config.maxIterations) &&
+          pixels * medianError(matches, poses.inliers, refined) < 2. * m_config.inlierThreshold) {
+        const double correlation = m_refiner->verify(frame.pyramid(), refined).correlation;
+        if (correlation > best) {
+          best = correlation;
+          pose = refined;
+        }
+      }
+      if (!poses.rival) {
+        break;
+      }
+    }
+    if (best == 0.) {
+      fail(vpPlanarTargetStatus::LowCorrelation, sentence("%u keypoints agree on a pose that the grey values do not confirm.", m_result.inliers));
+      return;
+    }
+  }
+  conclude(frame, pose, vpPlanarTargetStatus::Acquired);
+}
+
+void vpPlanarTarget::Impl::trackLast(vpTargetFrame &frame)
+{
+  if (m_known) {
+    track(frame, vpRigidPose::fromMatrix(m_result.cMo));
+  }
+  else {
+    m_result = vpPlanarTargetResult();
+    fail(vpPlanarTargetStatus::LowCorrelation, "There is no earlier pose to track from.");
+  }
+}
+
+void vpPlanarTarget::Impl::track(vpTargetFrame &frame, const vpRigidPose &guess)
+{
+  m_result = vpPlanarTargetResult();
+  if (!guess.isFinite()) {
+    fail(vpPlanarTargetStatus::OutOfView, "The pose to track from is not finite.");
+    return;
+  }
+  if (!checkView(guess)) {
+    return;
+  }
+  vpRigidPose pose = guess;
+  if (!m_refiner->refine(frame.pyramid(), pose, motionReach, m_config.maxIterations)) {
+    fail(vpPlanarTargetStatus::LowCorrelation, "The refinement diverged: the grey values do not lead to the target.");
+    return;
+  }
+  const double turn = vpSO3::log(pose.R * guess.R.transpose()).norm();
+  if (turn > largestTurn) {
+    fail(vpPlanarTargetStatus::LowCorrelation, sentence("The target would have turned by %.0f deg in one frame, at most %.0f deg can be tracked.",
+                                                        turn * 180. / M_PI, largestTurn * 180. / M_PI));
+    return;
+  }
+  conclude(frame, pose, vpPlanarTargetStatus::Tracked);
+}
+
+// The plane must be in front of the camera and face it.
+bool vpPlanarTarget::Impl::checkView(const vpRigidPose &pose)
+{
+  const double depth = nearestCornerDepth(m_plane, pose), facing = frontality(pose);
+  if (!(depth > 0.)) {
+    fail(vpPlanarTargetStatus::OutOfView, sentence("A corner of the target is at depth %.3g m, behind the camera.", depth));
+    return false;
+  }
+  if (!(facing > smallestFrontality)) {
+    fail(vpPlanarTargetStatus::OutOfView, sentence("The target is seen at %.0f deg from its normal, at most %.0f deg can be used.",
+                                                   std::acos(facing) * 180. / M_PI, std::acos(smallestFrontality) * 180. / M_PI));
+    return false;
+  }
+  return true;
+}
+
+// Only a pose that the grey values confirm becomes a result.
+bool vpPlanarTarget::Impl::conclude(const vpTargetFrame &frame, const vpRigidPose &pose, vpPlanarTargetStatus success)
+{
+  if (!pose.isFinite() || !checkView(pose)) {
+    return false;
+  }
+  const vpPhotometricFit fit = m_refiner->verify(frame.pyramid(), pose);
+  m_result.correlation = fit.correlation;
+  m_result.visible = fit.visible;
+  if (fit.inImage < smallestInImage) {
+    fail(vpPlanarTargetStatus::OutOfView, sentence("%.0f %% of the target is in the image, at least %.0f %% must be.",
+                                                   100. * fit.inImage, 100. * smallestInImage));
+    return false;
+  }
+  if (fit.visible < smallestUnhidden * fit.inImage) {
+    fail(vpPlanarTargetStatus::LowCorrelation, sentence("%.0f %% of the target in the image fits the reference, at least %.0f %% must.",
+                                                        100. * fit.visible / fit.inImage, 100. * smallestUnhidden));
+    return false;
+  }
+  if (!(fit.correlation >= m_config.minCorrelation)) {
+    fail(vpPlanarTargetStatus::LowCorrelation, sentence("Correlation with the reference is %.2f, must be at least %.2f.",
+                                                        fit.correlation, m_config.minCorrelation));
+    return false;
+  }
+  m_known = true;
+  m_result.status = success;
+  pose.copyTo(m_result.cMo);
+  const Eigen::Matrix3d H = m_plane.homography(pose, m_camera);
+  for (int i = 0; i < 9; ++i) {
+    m_result.homography[static_cast<std::size_t>(i)] = H(i / 3, i % 3);
+  }
+  const auto corners = m_plane.corners();
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Eigen::Vector3d P = pose.R.leftCols<2>() * corners[i] + pose.t;
+    const Eigen::Vector2d p = m_camera.project(P.head<2>() / P.z());
+    m_result.corners[i].set_uv(p.x(), p.y());
+  }
+  m_result.message = success == vpPlanarTargetStatus::Acquired
+                         ? sentence("Acquired with %u inliers, correlation %.2f, %.0f %% visible.", m_result.inliers, fit.correlation,
+                                    100. * fit.visible)
+                         : sentence("Tracked, correlation %.2f, %.0f %% visible.", fit.correlation, 100. * fit.visible);
+  return true;
+}
+
+END_VISP_NAMESPACE

@@ -1,0 +1,58 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpPlanarTargetImpl.h
+ * \brief Internal: vpPlanarTarget on a frame that several targets may share.
+ */
+#ifndef vpPlanarTargetImpl_h
+#define vpPlanarTargetImpl_h
+
+#include "vpPhotometricRefiner.h"
+#include "vpTargetFrame.h"
+
+BEGIN_VISP_NAMESPACE
+
+class vpPlanarTarget::Impl
+{
+public:
+  Impl(const vpImage<unsigned char> &reference, double width, double height, const vpCameraParameters &camera,
+       const vpPlanarTargetConfig &config);
+
+  void process(vpTargetFrame &frame);
+  void acquire(vpTargetFrame &frame);
+  void track(vpTargetFrame &frame, const vpRigidPose &guess);
+  //! Track from the last pose; with none, the status stays what the last frame left.
+  void trackLast(vpTargetFrame &frame);
+  //! A frame that is too small to be processed at all.
+  bool refuse(const vpImage<unsigned char> &image);
+
+  vpPlanarTargetConfig m_config;
+  vpCameraParameters m_viewer; //!< as given, for undistortion
+  vpPinhole m_camera;
+  vpTargetPlane m_plane;
+  vpTargetFrame m_ownFrame;
+  vpPlanarTargetResult m_result;
+  bool m_known = false; //!< m_result holds the pose of the frame before
+
+private:
+  //! One detector, and what it finds on the reference.
+  struct Reference {
+    vpKeypointType type;
+    vpKeypointSet keypoints;
+    std::vector<Eigen::Vector2d> plane;
+  };
+
+  void acquireWith(const Reference &reference, vpTargetFrame &frame);
+  bool checkView(const vpRigidPose &pose);
+  bool conclude(const vpTargetFrame &frame, const vpRigidPose &pose, vpPlanarTargetStatus success);
+  void fail(vpPlanarTargetStatus status, const std::string &message);
+
+  std::vector<Reference> m_references;
+  std::unique_ptr<vpPhotometricModel> m_model;
+  std::unique_ptr<vpPhotometricRefiner> m_refiner;
+};
+
+END_VISP_NAMESPACE
+#endif
