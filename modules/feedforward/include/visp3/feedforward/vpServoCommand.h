@@ -15,13 +15,13 @@ BEGIN_VISP_NAMESPACE
 
 //! How the servo step went. The motion is safe to execute in every case.
 enum class vpServoStatus {
-  Servoing,     //!< The law's own twist.
-  ViewLimited,  //!< The twist was changed to keep the target in the view or within the velocity rows.
-  Deadlock,     //!< The view constraint leaves no motion that goes on towards the goal; the twist is near zero.
-  Holding,      //!< The target is lost: standing still, in the hope that it comes back.
-  Retreating,   //!< The target is lost: going back along the last good motion.
-  Lost,         //!< The target is lost and the way back is used up: standing still until it is seen or reset() is called.
-  NoGoal,       //!< No goal was set yet; zero twist.
+  Servoing,    //!< The law's own twist.
+  ViewLimited, //!< The twist was changed to keep the target in the view or within the velocity rows.
+  Deadlock,    //!< The view constraint leaves no motion that goes on towards the goal; the twist is near zero.
+  Holding,     //!< The target is lost: standing still, in the hope that it comes back.
+  Retreating,  //!< The target is lost: going back along the last good motion.
+  Lost,   //!< The target is lost and the way back is used up: standing still until it is seen or reset() is called.
+  NoGoal, //!< No goal was set yet; zero twist.
   InvalidInput, //!< The measurement is not finite, has a depth <= 0 or not the goal's points; zero twist.
   Degenerate    //!< The law has no answer here (too few points, singular interaction matrix); zero twist.
 };
@@ -33,7 +33,7 @@ enum class vpServoStatus {
 
 //! \brief Result of one servo step.
 struct VISP_EXPORT vpServoCommand {
-  vpTwist v;                                   //!< Camera twist in the current camera frame, m/s and rad/s.
+  vpTwist v;                                    //!< Camera twist in the current camera frame, m/s and rad/s.
   vpServoStatus status = vpServoStatus::NoGoal; //!< How the step went.
 };
 

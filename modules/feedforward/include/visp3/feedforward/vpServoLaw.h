@@ -22,12 +22,12 @@ BEGIN_VISP_NAMESPACE
  * \brief Gains of the laws. One set serves all of them, so that a comparison tunes none alone.
  */
 struct VISP_EXPORT vpServoGains {
-  double lambda = 1.;           //!< Gain on the translation and on image errors, 1/s, > 0.
-  double rotation = 1.;         //!< Factor on the gain of the rotation, > 0; 2 in the ids with `-rot2` and in `ff-lookat*`.
-  double kappa = 1.;            //!< Weight of the image term of `ff-sum`, >= 0.
-  double saturation = 0.5;      //!< Bound c of c tanh(D/c) in `ff-sum`, rad, > 0.
-  double integral = 1.;         //!< Gain on the integral of the rotation error in `ff-lookat-pi`, 1/s^2, >= 0.
-  double integralLimit = 0.5;   //!< Largest angular velocity that the integral may add, rad/s, > 0 (anti-windup).
+  double lambda = 1.;      //!< Gain on the translation and on image errors, 1/s, > 0.
+  double rotation = 1.;    //!< Factor on the gain of the rotation, > 0; 2 in the ids with `-rot2` and in `ff-lookat*`.
+  double kappa = 1.;       //!< Weight of the image term of `ff-sum`, >= 0.
+  double saturation = 0.5; //!< Bound c of c tanh(D/c) in `ff-sum`, rad, > 0.
+  double integral = 1.;    //!< Gain on the integral of the rotation error in `ff-lookat-pi`, 1/s^2, >= 0.
+  double integralLimit = 0.5; //!< Largest angular velocity that the integral may add, rad/s, > 0 (anti-windup).
 
   /*!
    * \throw vpException (badValue) naming the gain and its value when one is out of its range or not finite.
@@ -70,7 +70,8 @@ public:
   [[nodiscard]] static const std::vector<std::string> &ids();
 
   /*!
-   * Set or change the goal. The integral of `ff-lookat-pi` is kept: friction does not change with the goal.
+   * Set or change the goal, also every cycle. The integral of `ff-lookat-pi` is kept, except on axes that now turn the
+   * other way: friction has turned with them.
    * \throw vpException (badValue) when the goal has no points, or one that is not finite or has no positive depth.
    */
   void setGoal(const vpServoGoal &goal);
@@ -82,6 +83,18 @@ public:
   [[nodiscard]] const vpServoGoal &goal() const { return m_goal; }
 
   /*!
+   * Effective gain on the rotation error, 1/s: what the law multiplies it with, all factors included. With it the
+   * rotation a law aims at can be told from its output: R exp(w / rotationGain()), see vpServoController.
+   */
+  [[nodiscard]] virtual double rotationGain() const noexcept;
+
+  /*!
+   * Tell the law that its last twist was not executed as it was given (limited, filtered, or the target was lost), so
+   * that integrals do not wind up. vpServoController calls it.
+   */
+  virtual void notifyInterrupted() noexcept {}
+
+  /*!
    * One cycle.
    * \param measurement : What was seen. An invalid one gives zero twist and vpServoStatus::Holding; what to do about a
    *   lost target is decided by vpTargetLossRecovery.
@@ -90,7 +103,8 @@ public:
   [[nodiscard]] vpServoCommand update(const vpServoMeasurement &measurement, double dt) noexcept;
 
 protected:
-  vpServoLaw(std::string id, const vpServoGains &gains);
+  //! \param rotationFactor : Fixed factor of this law on top of vpServoGains::rotation; 2 for the ids with `-rot2`.
+  vpServoLaw(std::string id, const vpServoGains &gains, double rotationFactor = 1.);
   //! Called by setGoal() after validation: precompute what depends on the goal.
   virtual void goalChanged() {}
   //! Called by reset(): forget internal state.
@@ -100,6 +114,7 @@ protected:
 
   std::string m_id;
   vpServoGains m_gains;
+  double m_rotationFactor;
   vpServoGoal m_goal;
   bool m_hasGoal = false;
 };

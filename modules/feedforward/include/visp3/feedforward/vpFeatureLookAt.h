@@ -1,0 +1,80 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpFeatureLookAt.h
+ * \brief Visual feature for vpServo: how far the camera is turned from where it sees the object in its place.
+ */
+#ifndef vpFeatureLookAt_h
+#define vpFeatureLookAt_h
+
+#include <visp3/core/vpHomogeneousMatrix.h>
+#include <visp3/direct_core/vpDirectCompat.h>
+#include <visp3/visual_features/vpBasicFeature.h>
+
+#include <Eigen/Core>
+
+BEGIN_VISP_NAMESPACE
+
+/*!
+ * \class vpFeatureLookAt
+ * \ingroup group_feedforward
+ * \brief The error of the law `ff-lookat` as a feature of vpServo, 3 components, rad.
+ *
+ * With (R, t) of cdMc and O* the object's origin in the desired camera frame, R_la is the rotation of least angle from
+ * O* to O* - t, the orientation in which the camera sees the object where the desired camera sees it, and
+ * s = theta u(R_la^T R). Its desired value is zero. The interaction matrix is exact:
+ * L = J_r^-1(s) [R^T W R, I], with W the rate of R_la per rate of the direction O* - t.
+ *
+ * Together with vpFeatureTranslation for cdMc and the current interaction matrix this gives the law `ff-lookat` with
+ * equal gains on translation and rotation.
+ *
+ * \code
+ * vpFeatureTranslation t(vpFeatureTranslation::cdMc);
+ * vpFeatureLookAt gaze;
+ * vpServo task;
+ * task.setServo(vpServo::EYEINHAND_CAMERA);
+ * task.setInteractionMatrixType(vpServo::CURRENT);
+ * task.addFeature(t);
+ * task.addFeature(gaze);
+ * // each cycle:
+ * t.buildFrom(cdMc);
+ * gaze.buildFrom(cdMc, cdMo);
+ * vpColVector v = task.computeControlLaw();
+ * \endcode
+ */
+class VISP_EXPORT vpFeatureLookAt : public vpBasicFeature
+{
+public:
+  //! The feature at the goal: zero.
+  vpFeatureLookAt();
+
+  /*!
+   * \param cdMc : Pose of the current camera in the desired camera frame, m.
+   * \param cdMo : Pose of the object in the desired camera frame, m.
+   * \throw vpException (badValue) when the camera is at the object's origin or on its opposite side.
+   */
+  void buildFrom(const vpHomogeneousMatrix &cdMc, const vpHomogeneousMatrix &cdMo);
+
+  //! Set the feature to zero, its desired value.
+  void init() VP_OVERRIDE;
+  //! Rows of the interaction matrix chosen by \e select, n x 6.
+  vpMatrix interaction(unsigned int select = FEATURE_ALL) VP_OVERRIDE;
+  //! Print the chosen components to the standard output.
+  void print(unsigned int select = FEATURE_ALL) const VP_OVERRIDE;
+  //! A copy on the heap, owned by the caller.
+  vpFeatureLookAt *duplicate() const VP_OVERRIDE;
+  //! A rotation has no place in the image: draws nothing.
+  void display(const vpCameraParameters &, const vpImage<unsigned char> &, const vpColor &,
+               unsigned int) const VP_OVERRIDE
+  {}
+  //! Draws nothing.
+  void display(const vpCameraParameters &, const vpImage<vpRGBa> &, const vpColor &, unsigned int) const VP_OVERRIDE {}
+
+private:
+  Eigen::Matrix<double, 3, 6> m_interaction;
+};
+
+END_VISP_NAMESPACE
+#endif

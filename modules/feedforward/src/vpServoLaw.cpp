@@ -1,0 +1,176 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include <visp3/feedforward/vpServoLaw.h>
+
+#include "vpServoLaws.h"
+#include "vpServoPose.h"
+
+#include <visp3/core/vpException.h>
+
+#include <Eigen/LU>
+
+#include <cmath>
+#include <utility>
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+struct Entry {
+  const char *id;
+  vpServoLaws::Maker make;
+  double rotationFactor;
+};
+
+const Entry entries[] = {
+    {"pbvs1", vpServoLaws::makePbvs1, 1.},           {"pbvs1-rot2", vpServoLaws::makePbvs1, 2.},
+    {"pbvs2", vpServoLaws::makePbvs2, 1.},           {"ibvs", vpServoLaws::makeIbvs, 1.},
+    {"hybrid25d", vpServoLaws::makeHybrid25d, 1.},   {"kyrki", vpServoLaws::makeKyrki, 1.},
+    {"kyrki-rot2", vpServoLaws::makeKyrki, 2.},      {"kyrki-decoupled", vpServoLaws::makeKyrkiDecoupled, 1.},
+    {"ff-sum", vpServoLaws::makeFeedforwardSum, 1.}, {"ff-lookat", vpServoLaws::makeLookAt, 2.},
+    {"ff-lookat-pi", vpServoLaws::makeLookAtPi, 2.},
+};
+
+bool isFinite(const vpServoPoint &point)
+{
+  return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.Z);
+}
+
+bool isPose(const vpHomogeneousMatrix &M)
+{
+  // NaN and infinity fail the comparisons too.
+  const Eigen::Matrix3d R = vpServoPose::rotation(M);
+  return (R * R.transpose() - Eigen::Matrix3d::Identity()).squaredNorm() < 1e-6 && R.determinant() > 0. &&
+         vpServoPose::translation(M).allFinite();
+}
+
+bool isUsable(const vpServoMeasurement &measurement, const vpServoGoal &goal)
+{
+  if (measurement.points.size() != goal.points.size() || !isPose(measurement.cMo)) {
+    return false;
+  }
+  for (const vpServoPoint &point : measurement.points) {
+    if (point.visible && (!isFinite(point) || point.Z <= 0.)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+void requireGain(bool ok, const char *name, double value, const char *unit, const char *range)
+{
+  if (!ok) {
+    throw vpException(vpException::badValue, "servo gain %s is %g%s, must be %s", name, value, unit, range);
+  }
+}
+} // namespace
+
+void vpServoGains::validate() const
+{
+  const auto positive = [](double value) { return std::isfinite(value) && value > 0.; };
+  const auto notNegative = [](double value) { return std::isfinite(value) && value >= 0.; };
+  requireGain(positive(lambda), "lambda", lambda, " 1/s", "finite and > 0");
+  requireGain(positive(rotation), "rotation", rotation, "", "finite and > 0");
+  requireGain(notNegative(kappa), "kappa", kappa, "", "finite and >= 0");
+  requireGain(positive(saturation), "saturation", saturation, " rad", "finite and > 0");
+  requireGain(notNegative(integral), "integral", integral, " 1/s^2", "finite and >= 0");
+  requireGain(positive(integralLimit), "integralLimit", integralLimit, " rad/s", "finite and > 0");
+}
+
+vpServoLaw::vpServoLaw(std::string id, const vpServoGains &gains, double rotationFactor)
+  : m_id(std::move(id)), m_gains(gains), m_rotationFactor(rotationFactor)
+{}
+
+std::unique_ptr<vpServoLaw> vpServoLaw::create(const std::string &id, const vpServoGains &gains)
+{
+  gains.validate();
+  for (const Entry &entry : entries) {
+    if (id == entry.id) {
+      return entry.make(id, gains, entry.rotationFactor);
+    }
+  }
+  std::string known;
+  for (const std::string &name : ids()) {
+    known += (known.empty() ? "" : ", ") + name;
+  }
+  throw vpException(vpException::badValue, "servo law \"%s\" is unknown, known laws are: %s", id.c_str(),
+                    known.c_str());
+}
+
+const std::vector<std::string> &vpServoLaw::ids()
+{
+  static const std::vector<std::string> all = []() {
+    std::vector<std::string> names;
+    for (const Entry &entry : entries) {
+      names.emplace_back(entry.id);
+    }
+    return names;
+  }();
+  return all;
+}
+
+void vpServoLaw::setGoal(const vpServoGoal &goal)
+{
+  if (goal.points.empty()) {
+    throw vpException(vpException::badValue, "the servo goal has 0 points, needs at least 1");
+  }
+  if (!isPose(goal.cdMo)) {
+    throw vpException(vpException::badValue,
+                      "the servo goal's cdMo is not a finite rigid motion, its translation is (%g, %g, %g) m",
+                      goal.cdMo[0][3], goal.cdMo[1][3], goal.cdMo[2][3]);
+  }
+  const Eigen::Vector3d origin = vpServoPose::translation(goal.cdMo);
+  if (origin.z() <= 0.) {
+    throw vpException(vpException::badValue, "the object's origin in the servo goal has depth %g m, must be > 0",
+                      origin.z());
+  }
+  for (std::size_t i = 0; i < goal.points.size(); ++i) {
+    const vpServoPoint &point = goal.points[i];
+    if (!isFinite(point) || point.Z <= 0.) {
+      throw vpException(vpException::badValue,
+                        "point %u of the servo goal is x = %g, y = %g, Z = %g m, must be finite with Z > 0",
+                        static_cast<unsigned int>(i), point.x, point.y, point.Z);
+    }
+  }
+  m_goal = goal;
+  m_hasGoal = true;
+  goalChanged();
+}
+
+void vpServoLaw::reset()
+{
+  m_goal = vpServoGoal();
+  m_hasGoal = false;
+  stateReset();
+}
+
+double vpServoLaw::rotationGain() const noexcept { return m_gains.lambda * m_rotationFactor * m_gains.rotation; }
+
+vpServoCommand vpServoLaw::update(const vpServoMeasurement &measurement, double dt) noexcept
+{
+  vpServoCommand command;
+  const bool timeUsable = std::isfinite(dt) && dt > 0.;
+  if (!m_hasGoal) {
+    command.status = vpServoStatus::NoGoal;
+  }
+  else if (timeUsable && !measurement.valid) {
+    command.status = vpServoStatus::Holding;
+  }
+  else if (!timeUsable || !isUsable(measurement, m_goal)) {
+    command.status = vpServoStatus::InvalidInput;
+  }
+  else {
+    command = step(measurement, dt);
+    if (!command.v.isFinite()) {
+      command = {vpTwist(), vpServoStatus::Degenerate};
+    }
+  }
+  if (command.status != vpServoStatus::Servoing) {
+    notifyInterrupted();
+  }
+  return command;
+}
+
+END_VISP_NAMESPACE

@@ -1,0 +1,32 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpServoLaws.h
+ * \brief The makers of the laws, one family a source file; vpServoLaw::create() is the only caller.
+ */
+#ifndef vpServoLaws_h
+#define vpServoLaws_h
+
+#include <visp3/feedforward/vpServoLaw.h>
+
+BEGIN_VISP_NAMESPACE
+
+namespace vpServoLaws
+{
+using Maker = std::unique_ptr<vpServoLaw> (*)(const std::string &id, const vpServoGains &gains, double rotationFactor);
+
+std::unique_ptr<vpServoLaw> makePbvs1(const std::string &id, const vpServoGains &gains, double rotationFactor);
+std::unique_ptr<vpServoLaw> makePbvs2(const std::string &id, const vpServoGains &gains, double rotationFactor);
+std::unique_ptr<vpServoLaw> makeIbvs(const std::string &id, const vpServoGains &gains, double rotationFactor);
+std::unique_ptr<vpServoLaw> makeHybrid25d(const std::string &id, const vpServoGains &gains, double rotationFactor);
+std::unique_ptr<vpServoLaw> makeKyrki(const std::string &id, const vpServoGains &gains, double rotationFactor);
+std::unique_ptr<vpServoLaw> makeKyrkiDecoupled(const std::string &id, const vpServoGains &gains, double rotationFactor);
+std::unique_ptr<vpServoLaw> makeFeedforwardSum(const std::string &id, const vpServoGains &gains, double rotationFactor);
+std::unique_ptr<vpServoLaw> makeLookAt(const std::string &id, const vpServoGains &gains, double rotationFactor);
+std::unique_ptr<vpServoLaw> makeLookAtPi(const std::string &id, const vpServoGains &gains, double rotationFactor);
+} // namespace vpServoLaws
+
+END_VISP_NAMESPACE
+#endif

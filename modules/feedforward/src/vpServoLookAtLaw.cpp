@@ -1,0 +1,150 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "vpLookAt.h"
+#include "vpServoLaws.h"
+#include "vpServoPose.h"
+
+#include <cmath>
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+// Where the camera is, seen from a goal.
+struct Gaze {
+  vpServoPose::Error error;
+  vpLookAt lookAt;
+  Eigen::Vector3d e = Eigen::Vector3d::Zero(); // log(R_la^T R), rad, where R_la is defined
+
+  Gaze(const vpHomogeneousMatrix &cdMo, const vpHomogeneousMatrix &cMo)
+    : error(vpServoPose::error(cdMo, cMo)), lookAt(vpServoPose::translation(cdMo), error.t)
+  {
+    if (lookAt.defined) {
+      e = vpSO3::log(lookAt.rotation.transpose() * error.R);
+    }
+  }
+};
+
+/*
+ * The recommended law. The camera translates as in PBVS-1 and turns towards R_la (vpLookAt). With the error
+ * e = log(R_la^T R) and the rate of R_la, which the commanded translation causes, fed forward,
+ * w = -k e + R^T rate d', e' = J_r^-1(e) (w - R^T rate d') = -k e exactly. R_la becomes the identity when the
+ * translation is done, so the commanded pose is reached.
+ */
+class vpServoLookAt : public vpServoLaw
+{
+public:
+  vpServoLookAt(const std::string &id, const vpServoGains &gains, double rotationFactor)
+    : vpServoLaw(id, gains, rotationFactor)
+  {}
+
+protected:
+  vpServoCommand step(const vpServoMeasurement &measurement, double dt) noexcept VP_OVERRIDE
+  {
+    const Gaze gaze(m_goal.cdMo, measurement.cMo);
+    if (!gaze.lookAt.defined) {
+      return {vpTwist(), vpServoStatus::Degenerate};
+    }
+    const Eigen::Matrix3d toCamera = gaze.error.R.transpose();
+    const Eigen::Vector3d v = -m_gains.lambda * (toCamera * gaze.error.t);
+    // d' = -t' = lambda t.
+    const Eigen::Vector3d feedforward = toCamera * (gaze.lookAt.rate * (m_gains.lambda * gaze.error.t));
+    const Eigen::Vector3d w = -rotationGain() * gaze.e + feedforward;
+    return {vpServoPose::twist(v, w - integral(measurement, gaze.e, w, dt)), vpServoStatus::Servoing};
+  }
+
+  //! Angular velocity to take off the wanted one \e w, camera frame, rad/s; zero in this law.
+  virtual Eigen::Vector3d integral(const vpServoMeasurement &, const Eigen::Vector3d & /*e*/,
+                                   const Eigen::Vector3d & /*w*/, double) noexcept
+  {
+    return Eigen::Vector3d::Zero();
+  }
+};
+
+/*
+ * The same with an integral term against friction and other velocity errors of the rotation axes. What is integrated is
+ * not e but its distance from e_m, where e_m' = -k e_m starts at the first error and jumps with e when the goal does.
+ * So the way to a far goal, which is no disturbance, leaves the integral at zero and causes no overshoot. Anti-windup:
+ * - bounded norm;
+ * - no integration over a step whose predecessor was not executed as asked (e_m starts again);
+ * - friction turns round with the motion: when the law asks an axis to go against the integral and faster than it, the
+ *   integral of this axis starts again from zero. Kept, it would double the disturbance after each reversal.
+ */
+class vpServoLookAtPi : public vpServoLookAt
+{
+public:
+  vpServoLookAtPi(const std::string &id, const vpServoGains &gains, double rotationFactor)
+    : vpServoLookAt(id, gains, rotationFactor)
+  {}
+  void notifyInterrupted() noexcept VP_OVERRIDE { m_restart = true; }
+
+protected:
+  void goalChanged() VP_OVERRIDE
+  {
+    // Several goals may come between two steps; the model belongs to the one of the last step.
+    if (!m_goalMoved) {
+      m_modelGoal = m_lastGoal;
+      m_goalMoved = true;
+    }
+    m_lastGoal = m_goal.cdMo;
+  }
+
+  void stateReset() VP_OVERRIDE
+  {
+    m_restart = true;
+    m_integral.setZero();
+  }
+
+  Eigen::Vector3d integral(const vpServoMeasurement &measurement, const Eigen::Vector3d &e, const Eigen::Vector3d &w,
+                           double dt) noexcept VP_OVERRIDE
+  {
+    if (m_goalMoved && !m_restart) {
+      const Gaze before(m_modelGoal, measurement.cMo);
+      m_restart = !before.lookAt.defined;
+      m_model += e - before.e;
+    }
+    if (m_restart) {
+      m_model = e;
+    }
+    m_goalMoved = m_restart = false;
+
+    for (int axis = 0; axis < 3; ++axis) {
+      // The integral is subtracted: of the same sign as w it opposes it.
+      if (w[axis] * m_integral[axis] > 0. && std::abs(w[axis]) > std::abs(m_integral[axis])) {
+        m_integral[axis] = 0.;
+      }
+    }
+    m_integral += m_gains.integral * dt * (e - m_model);
+    const double norm = m_integral.norm();
+    if (norm > m_gains.integralLimit) {
+      m_integral *= m_gains.integralLimit / norm;
+    }
+    m_model *= std::exp(-rotationGain() * dt);
+    return m_integral;
+  }
+
+private:
+  bool m_restart = true;
+  bool m_goalMoved = false;
+  vpHomogeneousMatrix m_lastGoal;  // cdMo in force
+  vpHomogeneousMatrix m_modelGoal; // cdMo that m_model belongs to, when the goal has moved since
+  Eigen::Vector3d m_model = Eigen::Vector3d::Zero();
+  Eigen::Vector3d m_integral = Eigen::Vector3d::Zero();
+};
+} // namespace
+
+std::unique_ptr<vpServoLaw> vpServoLaws::makeLookAt(const std::string &id, const vpServoGains &gains,
+                                                    double rotationFactor)
+{
+  return std::make_unique<vpServoLookAt>(id, gains, rotationFactor);
+}
+
+std::unique_ptr<vpServoLaw> vpServoLaws::makeLookAtPi(const std::string &id, const vpServoGains &gains,
+                                                      double rotationFactor)
+{
+  return std::make_unique<vpServoLookAtPi>(id, gains, rotationFactor);
+}
+
+END_VISP_NAMESPACE

@@ -1,0 +1,106 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include <visp3/feedforward/vpTargetLossRecovery.h>
+
+#include <visp3/core/vpException.h>
+
+#include <algorithm>
+#include <cmath>
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+// Slower than this, m/s and rad/s, is standing still: not worth a place in the memory.
+constexpr double slowest = 1e-6;
+// Rounding of sums of cycle times must not add a cycle.
+constexpr double timeTolerance = 1e-9;
+
+void require(bool ok, const char *name, double value, const char *range)
+{
+  if (!ok) {
+    throw vpException(vpException::badValue, "%s of the target-loss recovery is %g, must be %s", name, value, range);
+  }
+}
+} // namespace
+
+void vpTargetLossConfig::validate() const
+{
+  require(std::isfinite(holdTime) && holdTime >= 0., "holdTime", holdTime, "finite and >= 0 s");
+  require(std::isfinite(retreatTime) && retreatTime >= 0., "retreatTime", retreatTime, "finite and >= 0 s");
+  require(std::isfinite(maxLinear) && maxLinear > 0., "maxLinear", maxLinear, "finite and > 0 m/s");
+  require(std::isfinite(maxAngular) && maxAngular > 0., "maxAngular", maxAngular, "finite and > 0 rad/s");
+  require(capacity >= 1 && capacity <= 100000, "capacity", capacity, "in 1..100000");
+}
+
+vpTargetLossRecovery::vpTargetLossRecovery(const vpTargetLossConfig &config) : m_config(config)
+{
+  config.validate();
+  m_samples.resize(config.capacity);
+}
+
+void vpTargetLossRecovery::reset() noexcept
+{
+  m_next = m_count = 0;
+  m_lostFor = m_undone = 0.;
+}
+
+void vpTargetLossRecovery::remember(const vpTwist &v, double duration) noexcept
+{
+  if (v.linearNorm() < slowest && v.angularNorm() < slowest) {
+    return;
+  }
+  m_samples[m_next].v = v;
+  m_samples[m_next].duration = duration;
+  m_next = (m_next + 1) % m_samples.size();
+  m_count = std::min(m_count + 1, m_samples.size());
+}
+
+vpServoCommand vpTargetLossRecovery::retreat(double dt) noexcept
+{
+  vpTwist sum; // twist times time
+  double budget = dt;
+  while (budget > timeTolerance && m_count > 0 && m_undone < m_config.retreatTime - timeTolerance) {
+    const std::size_t last = (m_next + m_samples.size() - 1) % m_samples.size();
+    Sample &sample = m_samples[last];
+    const double stretch =
+        std::max({1., sample.v.linearNorm() / m_config.maxLinear, sample.v.angularNorm() / m_config.maxAngular});
+    // In recorded time; the camera takes stretch times as long.
+    const double piece = std::min({sample.duration, budget / stretch, m_config.retreatTime - m_undone});
+    for (std::size_t i = 0; i < 6; ++i) {
+      sum[i] -= sample.v[i] * piece;
+    }
+    budget -= piece * stretch;
+    m_undone += piece;
+    sample.duration -= piece;
+    if (sample.duration <= timeTolerance) {
+      m_next = last;
+      --m_count;
+    }
+  }
+  if (budget >= dt) {
+    return {vpTwist(), vpServoStatus::Lost};
+  }
+  return {sum.scaled(1. / dt), vpServoStatus::Retreating};
+}
+
+vpServoCommand vpTargetLossRecovery::update(const vpServoCommand &command, double dt) noexcept
+{
+  if (!(std::isfinite(dt) && dt > 0.)) {
+    return {vpTwist(), vpServoStatus::InvalidInput};
+  }
+  if (command.status != vpServoStatus::Holding) {
+    m_lostFor = m_undone = 0.;
+    if (command.v.isFinite()) {
+      remember(command.v, dt);
+    }
+    return command;
+  }
+  const bool holding = m_lostFor < m_config.holdTime - timeTolerance;
+  m_lostFor += dt;
+  return holding ? vpServoCommand{vpTwist(), vpServoStatus::Holding} : retreat(dt);
+}
+
+END_VISP_NAMESPACE

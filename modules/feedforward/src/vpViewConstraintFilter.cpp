@@ -1,0 +1,175 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include <visp3/feedforward/vpViewConstraintFilter.h>
+
+#include <visp3/core/vpException.h>
+
+#include <algorithm>
+#include <cmath>
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+// Less than this share of the wanted speed left: stuck.
+constexpr double deadlockShare = 0.02;
+// Wanted speeds below this, in units of the limits, are standing still, not deadlock.
+constexpr double standstill = 1e-6;
+// Least factor of the scaling to the wanted speed for which the margin is derived.
+constexpr double smallestScale = 0.5;
+
+void require(bool ok, const char *name, double value, const char *range)
+{
+  if (!ok) {
+    throw vpException(vpException::badValue, "%s of the view constraint is %g, must be %s", name, value, range);
+  }
+}
+
+double speed(const vpTwist &twist, const vpViewConstraintConfig &config)
+{
+  return std::max(twist.linearNorm() / config.maxLinear, twist.angularNorm() / config.maxAngular);
+}
+} // namespace
+
+vpViewConstraintConfig vpViewConstraintConfig::fromCamera(const vpCameraParameters &camera, unsigned int width,
+                                                          unsigned int height)
+{
+  if (width == 0 || height == 0) {
+    throw vpException(vpException::badValue, "the view constraint's image is %u x %u px, must not be empty", width,
+                      height);
+  }
+  vpViewConstraintConfig config;
+  config.left = -camera.get_u0() / camera.get_px();
+  config.right = (width - 1. - camera.get_u0()) / camera.get_px();
+  config.top = -camera.get_v0() / camera.get_py();
+  config.bottom = (height - 1. - camera.get_v0()) / camera.get_py();
+  config.validate();
+  return config;
+}
+
+void vpViewConstraintConfig::validate() const
+{
+  require(std::isfinite(left) && left < 0., "left border", left, "finite and < 0");
+  require(std::isfinite(right) && right > 0., "right border", right, "finite and > 0");
+  require(std::isfinite(top) && top < 0., "top border", top, "finite and < 0");
+  require(std::isfinite(bottom) && bottom > 0., "bottom border", bottom, "finite and > 0");
+  require(std::isfinite(period) && period > 0., "period", period, "finite and > 0 s");
+  require(gamma > 0. && gamma * period <= 0.5, "gamma", gamma, "> 0 and at most 0.5 / period 1/s");
+  require(imageUncertainty >= 0. && imageUncertainty < std::min({-left, right, -top, bottom}), "imageUncertainty",
+          imageUncertainty, ">= 0 and less than the distance from the principal point to each border");
+  require(depthUncertainty >= 0. && depthUncertainty <= 0.9, "depthUncertainty", depthUncertainty, "in 0..0.9");
+  require(std::isfinite(maxLinear) && maxLinear > 0., "maxLinear", maxLinear, "finite and > 0 m/s");
+  require(std::isfinite(maxAngular) && maxAngular > 0., "maxAngular", maxAngular, "finite and > 0 rad/s");
+}
+
+vpViewConstraintFilter::vpViewConstraintFilter(const vpViewConstraintConfig &config) : m_config(config), m_inside(true)
+{
+  config.validate();
+  m_radius = std::hypot(std::max(-config.left, config.right), std::max(-config.top, config.bottom));
+}
+
+double vpViewConstraintFilter::margin(double Z, double linear, double angular, double period) const noexcept
+{
+  // Z' >= -V - W rho Z bounds the least depth within the period.
+  const double nearest = Z * (1. - m_config.depthUncertainty);
+  const double zeta = (nearest - linear * period) * std::exp(-angular * m_radius * period);
+  const double rho1 = std::hypot(1., m_radius);
+  const double C = rho1 * angular * (linear / zeta + angular * rho1);
+  const double kappa = linear / zeta + angular * m_radius;
+  const double gamma = std::min(m_config.gamma, 0.5 / period);
+  return C * period * std::exp(4. * kappa * period) / gamma;
+}
+
+bool vpViewConstraintFilter::addRows(const vpServoPoint &point, double linear, double angular, double period) noexcept
+{
+  const double gamma = std::min(m_config.gamma, 0.5 / period);
+  const double inset = margin(point.Z, linear, angular, period) + m_config.imageUncertainty;
+  const double x = point.x, y = point.y;
+  const double distance[4] = {x - m_config.left, m_config.right - x, y - m_config.top, m_config.bottom - y};
+  for (double b : distance) {
+    m_inside = m_inside && b >= m_config.imageUncertainty;
+  }
+  const int ends = m_config.depthUncertainty > 0. ? 2 : 1;
+  for (int end = 0; end < ends; ++end) {
+    const double inverseZ = 1. / (point.Z * (1. + (end == 0 ? -1. : 1.) * m_config.depthUncertainty));
+    Eigen::Matrix<double, 2, 6> L;
+    L << -inverseZ, 0., x * inverseZ, x * y, -1. - x * x, y, //
+        0., -inverseZ, y * inverseZ, 1. + y * y, -x * y, -x;
+    L.leftCols<3>() *= m_config.maxLinear;
+    L.rightCols<3>() *= m_config.maxAngular;
+    for (int border = 0; border < 4; ++border) {
+      const double inwards = border % 2 == 0 ? 1. : -1.;
+      if (!m_projection.addRow(inwards * L.row(border / 2).transpose(), -gamma * (distance[border] - inset))) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+vpServoCommand vpViewConstraintFilter::filter(const vpServoCommand &wanted, const std::vector<vpServoPoint> &outline,
+                                              double dt) noexcept
+{
+  if (wanted.status != vpServoStatus::Servoing) {
+    return wanted;
+  }
+  const vpServoCommand invalid{vpTwist(), vpServoStatus::InvalidInput};
+  if (!wanted.v.isFinite() || !(std::isfinite(dt) && dt > 0.)) {
+    return invalid;
+  }
+  int visible = 0;
+  double period = std::max(dt, m_config.period), maxLinear = m_config.maxLinear;
+  for (const vpServoPoint &point : outline) {
+    if (!point.visible) {
+      continue;
+    }
+    ++visible;
+    if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.Z) || point.Z <= 0.) {
+      return invalid;
+    }
+    // The margin needs a camera that cannot come near the point within one period.
+    maxLinear = std::min(maxLinear, 0.5 * point.Z * (1. - m_config.depthUncertainty) / period);
+  }
+  if (visible > maxPoints) {
+    return invalid;
+  }
+
+  const vpTwist start = limitTwist(wanted.v, maxLinear, m_config.maxAngular);
+  const double startSpeed = speed(start, m_config);
+  m_projection.clear();
+  m_inside = true;
+  for (const vpServoPoint &point : outline) {
+    if (point.visible && !addRows(point, startSpeed * m_config.maxLinear, startSpeed * m_config.maxAngular, period)) {
+      return invalid;
+    }
+  }
+
+  vpTwistProjection::Vector x;
+  for (int i = 0; i < 6; ++i) {
+    x[i] = start[i] / (i < 3 ? m_config.maxLinear : m_config.maxAngular);
+  }
+  vpServoCommand command{vpTwist(), vpServoStatus::Deadlock};
+  if (m_projection.solve(x) == vpTwistProjection::Result::Solved) {
+    x = m_projection.solution();
+    const double solvedSpeed = std::max(x.head<3>().norm(), x.tail<3>().norm());
+    const double scale = solvedSpeed > startSpeed ? startSpeed / solvedSpeed : 1.;
+    // Points outside the image have to come back at whatever speed; a guarantee for the border does not exist there.
+    if (scale >= smallestScale || !m_inside) {
+      for (int i = 0; i < 6; ++i) {
+        command.v[i] = scale * x[i] * (i < 3 ? m_config.maxLinear : m_config.maxAngular);
+      }
+    }
+  }
+  if (startSpeed <= standstill || speed(command.v, m_config) > deadlockShare * startSpeed) {
+    double change = 0.;
+    for (int i = 0; i < 6; ++i) {
+      change = std::max(change, std::abs(command.v[i] - wanted.v[i]));
+    }
+    command.status = change > 1e-9 ? vpServoStatus::ViewLimited : vpServoStatus::Servoing;
+  }
+  return command;
+}
+
+END_VISP_NAMESPACE

@@ -1,0 +1,102 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// The examples of the module's README.md: compiled, run, and compared with the text there, line by line.
+#include "vpCatch.h"
+#include "vpServoScene.h"
+
+#include <visp3/feedforward/vpFeatureLookAt.h>
+#include <visp3/feedforward/vpServoController.h>
+#include <visp3/visual_features/vpFeatureTranslation.h>
+#include <visp3/vs/vpServo.h>
+
+#include <fstream>
+#include <iterator>
+
+namespace
+{
+using namespace vpServoScene;
+
+std::string read(const std::string &name)
+{
+  std::ifstream file(name);
+  INFO(name);
+  REQUIRE(file.good());
+  return std::string(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+}
+
+// Stands in for ViSP's robot: flies as it is told.
+struct vpRobot {
+  enum Frame { CAMERA_FRAME };
+  vpHomogeneousMatrix cMo;
+  void setVelocity(Frame, const vpColVector &v) { cMo = move(cMo, vpTwist::fromColVector(v), 0.01); }
+};
+} // namespace
+
+TEST_CASE("the controller example of the README reaches its goal", "[readme]")
+{
+  auto rng = vpTestSupport::generator(61);
+  const auto points = object(rng, 0.16, 8);
+  const vpCameraParameters camera(800., 800., 320., 240.);
+  const vpServoGoal goal = vpServoScene::goal(pose(Eigen::Matrix3d::Identity(), {0., 0., 0.5}), points);
+  vpRobot robot{pose(turn(0.4, Eigen::Vector3d::UnitY()), {0.05, 0.02, 0.7})};
+  const auto look = [&]() {
+    vpServoMeasurement seen;
+    measure(robot.cMo, points, seen);
+    return seen;
+  };
+  int cycles = 0;
+  const auto closeEnough = [&](const vpServoMeasurement &seen) {
+    return translationError(goal.cdMo, seen.cMo) < 1e-3 || ++cycles > 2000;
+  };
+  vpServoMeasurement seen = look();
+  // clang-format off
+vpServoControllerConfig config;
+config.view = vpViewConstraintConfig::fromCamera(camera, 640, 480);
+vpServoController servo = vpServoController::create("ff-lookat-pi+cbf", config);
+servo.setGoal(goal);         // cdMo and the object's points as the desired camera sees them
+while (!closeEnough(seen)) { // seen.valid = false when the target was not found
+  const vpServoCommand command = servo.update(seen, 0.01);
+  robot.setVelocity(vpRobot::CAMERA_FRAME, command.v.toColVector());
+  seen = look();
+}
+  // clang-format on
+  CHECK(cycles < 2000);
+}
+
+TEST_CASE("the vpServo example of the README moves like the law", "[readme]")
+{
+  const vpHomogeneousMatrix cdMo = pose(Eigen::Matrix3d::Identity(), {0., 0., 0.5});
+  const vpHomogeneousMatrix cdMc = cdMo * pose(turn(0.4, Eigen::Vector3d::UnitY()), {0.05, 0.02, 0.7}).inverse();
+  // clang-format off
+vpFeatureTranslation position(vpFeatureTranslation::cdMc);
+vpFeatureLookAt gaze;
+vpServo task;
+task.setServo(vpServo::EYEINHAND_CAMERA);
+task.setInteractionMatrixType(vpServo::CURRENT);
+task.setLambda(1.);
+task.addFeature(position);
+task.addFeature(gaze);
+position.buildFrom(cdMc); // these three lines each cycle
+gaze.buildFrom(cdMc, cdMo);
+const vpColVector v = task.computeControlLaw();
+  // clang-format on
+  task.kill();
+  const Eigen::Vector3d t = rotation(cdMc).transpose() * translation(cdMc);
+  CHECK((Eigen::Vector3d(v[0], v[1], v[2]) + t).norm() < 1e-9);
+}
+
+TEST_CASE("the README has the examples as they are compiled here", "[readme]")
+{
+  const std::string readme = read(std::string(VISP_DIRECT_DATA_DIR) + "/../modules/feedforward/README.md");
+  const std::string here = read(__FILE__);
+  int blocks = 0;
+  for (std::size_t at = readme.find("```cpp\n"); at != std::string::npos; at = readme.find("```cpp\n", at + 7)) {
+    const std::string block = readme.substr(at + 7, readme.find("```", at + 7) - at - 7);
+    INFO(block);
+    CHECK(here.find(block) != std::string::npos);
+    ++blocks;
+  }
+  CHECK(blocks == 2);
+}

@@ -1,0 +1,158 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpServoScene.h
+ * \brief For the tests: a planar object, a camera that flies exactly as told, and random places for both.
+ */
+#ifndef vpServoScene_h
+#define vpServoScene_h
+
+#include <visp3/core/vpExponentialMap.h>
+#include <visp3/feedforward/vpServoLaw.h>
+
+#include <Eigen/Geometry>
+
+#include <random>
+
+VISP_DIRECT_USING_NAMESPACE
+
+namespace vpServoScene
+{
+//! Camera of the comparison: 640x480 px, f = 800 px.
+constexpr double halfWidth = 0.4, halfHeight = 0.3;
+
+inline vpHomogeneousMatrix pose(const Eigen::Matrix3d &R, const Eigen::Vector3d &t)
+{
+  vpHomogeneousMatrix M;
+  for (unsigned int i = 0; i < 3; ++i) {
+    for (unsigned int k = 0; k < 3; ++k) {
+      M[i][k] = R(i, k);
+    }
+    M[i][3] = t[i];
+  }
+  return M;
+}
+
+inline Eigen::Matrix3d rotation(const vpHomogeneousMatrix &M)
+{
+  Eigen::Matrix3d R;
+  R << M[0][0], M[0][1], M[0][2], M[1][0], M[1][1], M[1][2], M[2][0], M[2][1], M[2][2];
+  return R;
+}
+
+inline Eigen::Vector3d translation(const vpHomogeneousMatrix &M) { return {M[0][3], M[1][3], M[2][3]}; }
+
+inline double uniform(std::mt19937_64 &rng, double low, double high)
+{
+  return std::uniform_real_distribution<double>(low, high)(rng);
+}
+
+inline Eigen::Vector3d direction(std::mt19937_64 &rng)
+{
+  std::normal_distribution<double> gauss;
+  return Eigen::Vector3d(gauss(rng), gauss(rng), gauss(rng)).normalized();
+}
+
+//! A twist of the given speeds in any direction.
+inline vpTwist randomTwist(std::mt19937_64 &rng, double linear, double angular)
+{
+  const Eigen::Vector3d v = linear * direction(rng), w = angular * direction(rng);
+  return {v.x(), v.y(), v.z(), w.x(), w.y(), w.z()};
+}
+
+inline Eigen::Matrix3d turn(double angle, const Eigen::Vector3d &axis)
+{
+  return Eigen::AngleAxisd(angle, axis).toRotationMatrix();
+}
+
+//! Object points in the plane z = 0: the corners of a square first, then others; \e size is the side, m.
+inline std::vector<Eigen::Vector3d> object(std::mt19937_64 &rng, double size, int count)
+{
+  std::vector<Eigen::Vector3d> points;
+  const double h = 0.5 * size;
+  for (const Eigen::Vector2d &corner :
+       {Eigen::Vector2d(-h, -h), Eigen::Vector2d(h, -h), Eigen::Vector2d(h, h), Eigen::Vector2d(-h, h)}) {
+    points.emplace_back(corner.x(), corner.y(), 0.);
+  }
+  while (static_cast<int>(points.size()) < count) {
+    points.emplace_back(uniform(rng, -h, h), uniform(rng, -h, h), 0.);
+  }
+  points.resize(count);
+  return points;
+}
+
+//! What an ideal camera sees; points behind it or beyond 80 deg are not visible.
+inline void project(const vpHomogeneousMatrix &cMo, const std::vector<Eigen::Vector3d> &object,
+                    std::vector<vpServoPoint> &points)
+{
+  points.resize(object.size());
+  const Eigen::Matrix3d R = rotation(cMo);
+  for (std::size_t i = 0; i < object.size(); ++i) {
+    const Eigen::Vector3d P = R * object[i] + translation(cMo);
+    points[i].visible = P.z() > 0.17 * P.norm();
+    if (points[i].visible) {
+      points[i] = {P.x() / P.z(), P.y() / P.z(), P.z(), true};
+    }
+  }
+}
+
+inline vpServoGoal goal(const vpHomogeneousMatrix &cdMo, const std::vector<Eigen::Vector3d> &object)
+{
+  vpServoGoal result;
+  result.cdMo = cdMo;
+  project(cdMo, object, result.points);
+  return result;
+}
+
+inline void measure(const vpHomogeneousMatrix &cMo, const std::vector<Eigen::Vector3d> &object,
+                    vpServoMeasurement &measurement)
+{
+  measurement.valid = true;
+  measurement.cMo = cMo;
+  project(cMo, object, measurement.points);
+  measurement.outline = measurement.points; // the first four are the corners
+  measurement.outline.resize(std::min<std::size_t>(4, measurement.points.size()));
+}
+
+//! The pose after moving with a constant twist for \e dt: exponential map, exact.
+inline vpHomogeneousMatrix move(const vpHomogeneousMatrix &cMo, const vpTwist &v, double dt)
+{
+  return vpExponentialMap::direct(v.toColVector(), dt).inverse() * cMo;
+}
+
+//! True if all points lie within the borders of the image.
+inline bool inView(const std::vector<vpServoPoint> &points)
+{
+  for (const vpServoPoint &p : points) {
+    if (!p.visible || std::abs(p.x) > halfWidth || std::abs(p.y) > halfHeight) {
+      return false;
+    }
+  }
+  return true;
+}
+
+//! Pose of an object that faces the camera more or less and whose origin is seen at the given distance and bearing.
+inline vpHomogeneousMatrix randomPose(std::mt19937_64 &rng, double near, double far, double bearing, double tilt)
+{
+  const double z = uniform(rng, near, far), azimuth = uniform(rng, 0., 2. * M_PI);
+  const double r = z * std::tan(uniform(rng, 0., bearing));
+  const Eigen::Vector3d t(r * std::cos(azimuth), r * std::sin(azimuth), z);
+  return pose(turn(uniform(rng, 0., tilt), direction(rng)), t);
+}
+
+//! Angle of cdMc, rad.
+inline double rotationError(const vpHomogeneousMatrix &cdMo, const vpHomogeneousMatrix &cMo)
+{
+  return Eigen::AngleAxisd(rotation(cdMo) * rotation(cMo).transpose()).angle();
+}
+
+//! Length of the translation of cdMc, m.
+inline double translationError(const vpHomogeneousMatrix &cdMo, const vpHomogeneousMatrix &cMo)
+{
+  return translation(cdMo * cMo.inverse()).norm();
+}
+} // namespace vpServoScene
+
+#endif
