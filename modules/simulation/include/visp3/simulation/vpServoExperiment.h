@@ -10,6 +10,7 @@
 #define vpServoExperiment_h
 
 #include <visp3/feedforward/vpServoLaw.h>
+#include <visp3/simulation/vpPlaneRenderer.h>
 #include <visp3/simulation/vpServoPlant.h>
 #include <visp3/simulation/vpServoTask.h>
 
@@ -22,20 +23,22 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
- * \brief One row of the log, taken each cycle of the inner loop. Angles in rad, all else in SI units and px.
+ * \brief One row of the log, taken each cycle of the inner loop: what is true at #time, and the motion from then until
+ * the next row. Angles in rad, all else in SI units and px.
  *
  * World frame: the camera at the start of the experiment.
  */
 struct VISP_EXPORT vpServoSample {
-  double time = 0.;             //!< s since the start.
-  int segment = 0;              //!< Index of the segment in force.
-  vpHomogeneousMatrix wMc;      //!< True pose of the camera in the world.
-  vpHomogeneousMatrix cMo;      //!< True pose of the object in the camera.
-  vpTwist commanded;            //!< Twist asked for, camera frame.
-  vpTwist actual;               //!< Twist that the plant executed, camera frame.
-  double yaw = 0.;              //!< Rotation of the camera about the vertical (y axis of the world), rad.
-  double goalYaw = 0.;          //!< The same of the goal.
-  double referenceYaw = 0.;     //!< Where the law wants to turn to: yaw of R exp(w / (lambda * rotation)), figures 5.6 and 5.8.
+  double time = 0.;        //!< s since the start.
+  int segment = 0;         //!< Index of the segment in force.
+  vpHomogeneousMatrix wMc; //!< True pose of the camera in the world.
+  vpHomogeneousMatrix cMo; //!< True pose of the object in the camera.
+  vpTwist commanded;       //!< Twist asked for, camera frame.
+  vpTwist actual;          //!< Twist that the plant executed, camera frame.
+  double yaw = 0.;         //!< Rotation of the camera about the vertical (y axis of the world), rad.
+  double goalYaw = 0.;     //!< The same of the goal.
+  //! Where the law wants to turn to: yaw of R exp(w / gain) with vpServoLaw::rotationGain(); figures 5.6 and 5.8.
+  double referenceYaw = 0.;
   double rotationError = 0.;    //!< Angle of the true cdMc, rad.
   double translationError = 0.; //!< Length of the true cdMc, m.
   double u = 0., v = 0.;        //!< True, noise-free image of the object's centre, px.
@@ -50,29 +53,31 @@ struct VISP_EXPORT vpServoSample {
 //! \brief What to run. All fields together with the seed determine the result.
 struct VISP_EXPORT vpServoRunSpec {
   std::string law = "ff-lookat-pi"; //!< Id of the law, optionally followed by `+cbf`.
-  std::string measure = "points";   //!< "points" (noisy points through a homography) or "image" (rendered views through planar_target).
+  std::string measure = "points";   //!< "points" (vpServoSensor::points) or "image" (vpServoSensor::image).
   vpServoGains gains;               //!< The same for every law.
   vpServoPlant plant;
   vpServoTask task = vpServoTask::thesis();
-  unsigned int seed = 1;
-  std::string target;               //!< Image file of the object for measure "image".
+  unsigned int seed = 1; //!< Of all noise.
+  std::string target;    //!< Image file of the object for measure "image".
+  vpCameraFaults faults; //!< Of the pictures for measure "image", in the place of vpServoPlant::pixelNoise.
 };
 
 //! \brief The figures of a run; the same names as in summary.json.
 struct VISP_EXPORT vpServoMetrics {
-  double max_image_error_px = 0.;   //!< Largest distance of the object's centre from where it shall be seen.
+  double max_image_error_px = 0.; //!< Largest distance of the object's centre from where it shall be seen.
   double rms_image_error_px = 0.;
-  double end_rotation_deg = 0.;     //!< Largest rotation error at the end of a segment.
-  double end_translation_mm = 0.;   //!< Largest translation error at the end of a segment.
-  double yaw_range_deg = 0.;        //!< Largest minus smallest yaw.
-  double ideal_yaw_range_deg = 0.;  //!< The same of the goals (and the start).
-  double out_of_view_s = 0.;        //!< Time during which a corner of the object is out of the image.
-  double settle_s = 0.;             //!< Mean over the segments of the time until the error stays below 2 deg and 5 mm; the segment's duration when it never does.
+  double end_rotation_deg = 0.;    //!< Largest rotation error at the end of a segment.
+  double end_translation_mm = 0.;  //!< Largest translation error at the end of a segment.
+  double yaw_range_deg = 0.;       //!< Largest minus smallest yaw.
+  double ideal_yaw_range_deg = 0.; //!< The same of the goals (and the start).
+  double out_of_view_s = 0.;       //!< Time during which a corner of the object is out of the image.
+  //! Time until the error stays below 2 deg and 5 mm, the segment's duration if it never does; mean over the segments.
+  double settle_s = 0.;
   double path_length_m = 0.;
-  double peak_linear_mps = 0.;      //!< Of the executed motion.
+  double peak_linear_mps = 0.; //!< Of the executed motion.
   double peak_angular_radps = 0.;
-  int deadlock_cycles = 0;          //!< Cycles with vpServoStatus::Deadlock.
-  std::string status;               //!< "ok", or a sentence on how the run ended otherwise (target lost, deadlock).
+  int deadlock_cycles = 0; //!< Cycles with vpServoStatus::Deadlock.
+  std::string status;      //!< "ok", or a sentence on how the run ended otherwise (target lost, deadlock).
 };
 
 //! \brief A finished run.
@@ -94,7 +99,8 @@ struct VISP_EXPORT vpServoRun {
 /*!
  * The figures of a log.
  */
-[[nodiscard]] VISP_EXPORT vpServoMetrics evaluateServoRun(const vpServoRunSpec &spec, const std::vector<vpServoSample> &samples);
+[[nodiscard]] VISP_EXPORT vpServoMetrics evaluateServoRun(const vpServoRunSpec &spec,
+                                                          const std::vector<vpServoSample> &samples);
 
 END_VISP_NAMESPACE
 #endif

@@ -30,8 +30,8 @@ struct VISP_EXPORT vpServoPlant {
   double maxAngular = 1.5;  //!< Limit of the angular speed, rad/s, > 0.
 
   /*!
-   * The plants of the comparison: "A" perfect; "B" 10 Hz vision, 100 ms latency, 100 Hz loop with odometry, 0.5 px noise,
-   * 30 ms lag, deadband 0.10 rad/s; "D" like B with 0.20 rad/s.
+   * The plants of the comparison: "A" perfect; "B" 10 Hz vision, 100 ms latency, 100 Hz loop with odometry, 0.5 px
+   * noise, 30 ms lag, deadband 0.10 rad/s; "D" like B with 0.20 rad/s.
    * \throw vpException (badValue) naming an unknown plant and the known ones.
    */
   [[nodiscard]] static vpServoPlant byName(const std::string &name);

@@ -1,0 +1,81 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "vpPhotoPyramid.h"
+
+#include <visp3/core/vpImageTools.h>
+
+#include <algorithm>
+#include <cmath>
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+constexpr unsigned int coarsestSize = 16; // px; smaller copies would serve objects of a few pixels only
+constexpr int margin = 1;                 // texels; bilinear interpolation ends at the centres of the border texels
+
+// Each pixel is the mean of 2x2; an odd last row or column counts twice.
+vpImage<unsigned char> halved(const vpImage<unsigned char> &fine)
+{
+  vpImage<unsigned char> coarse((fine.getHeight() + 1) / 2, (fine.getWidth() + 1) / 2);
+  for (unsigned int r = 0; r < coarse.getHeight(); ++r) {
+    const unsigned int r0 = 2 * r, r1 = std::min(r0 + 1, fine.getHeight() - 1);
+    for (unsigned int c = 0; c < coarse.getWidth(); ++c) {
+      const unsigned int c0 = 2 * c, c1 = std::min(c0 + 1, fine.getWidth() - 1);
+      coarse[r][c] = static_cast<unsigned char>((fine[r0][c0] + fine[r0][c1] + fine[r1][c0] + fine[r1][c1] + 2) / 4);
+    }
+  }
+  return coarse;
+}
+
+vpImage<unsigned char> withMargin(const vpImage<unsigned char> &image)
+{
+  const int h = static_cast<int>(image.getHeight()), w = static_cast<int>(image.getWidth());
+  vpImage<unsigned char> wide(h + 2 * margin, w + 2 * margin);
+  for (int r = 0; r < h + 2 * margin; ++r) {
+    for (int c = 0; c < w + 2 * margin; ++c) {
+      wide[r][c] = image[std::clamp(r - margin, 0, h - 1)][std::clamp(c - margin, 0, w - 1)];
+    }
+  }
+  return wide;
+}
+} // namespace
+
+vpPhotoPyramid::vpPhotoPyramid(const vpImage<unsigned char> &photo, double width, double height)
+  : m_width(width), m_height(height), m_photoWidth(photo.getWidth()), m_photoHeight(photo.getHeight())
+{
+  vpImage<unsigned char> level = photo;
+  m_levels.push_back(withMargin(level));
+  while (std::min(level.getWidth(), level.getHeight()) >= 2 * coarsestSize) {
+    level = halved(level);
+    m_levels.push_back(withMargin(level));
+  }
+}
+
+void vpPhotoPyramid::draw(const vpHomogeneousMatrix &cMo, const vpCameraParameters &camera, double area,
+                          vpImage<unsigned char> &image) const
+{
+  // Photograph pixels per pixel along one axis, on average.
+  const double step = std::sqrt(static_cast<double>(m_photoWidth) * m_photoHeight / std::max(area, 1e-3));
+  const long level = std::clamp<long>(std::lround(std::log2(step)), 0, static_cast<long>(m_levels.size()) - 1);
+  const double texel = std::ldexp(1., static_cast<int>(level));
+  // Texel i of the level, margin counted, is centred i - margin + 1/2 texels from the photograph's left edge.
+  const double xScale = texel * m_width / m_photoWidth, yScale = texel * m_height / m_photoHeight;
+  const double x0 = (0.5 - margin) * xScale - 0.5 * m_width, y0 = (0.5 - margin) * yScale - 0.5 * m_height;
+  vpMatrix H(3, 3); // texels to pixels: K [r1 r2 t] (x, y, 1) with x = x0 + xScale i, y likewise
+  for (unsigned int r = 0; r < 3; ++r) {
+    H[r][0] = cMo[r][0] * xScale;
+    H[r][1] = cMo[r][1] * yScale;
+    H[r][2] = cMo[r][0] * x0 + cMo[r][1] * y0 + cMo[r][3];
+  }
+  for (unsigned int c = 0; c < 3; ++c) {
+    H[0][c] = camera.get_px() * H[0][c] + camera.get_u0() * H[2][c];
+    H[1][c] = camera.get_py() * H[1][c] + camera.get_v0() * H[2][c];
+  }
+  // Not in fixed point: its 16 bits leave the perspective terms two digits.
+  vpImageTools::warpImage(m_levels[level], H, image, vpImageTools::INTERPOLATION_LINEAR, false);
+}
+
+END_VISP_NAMESPACE

@@ -1,0 +1,156 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include <visp3/simulation/vpServoSensor.h>
+
+#include <visp3/core/vpException.h>
+#include <visp3/core/vpGaussRand.h>
+#include <visp3/core/vpPoint.h>
+#include <visp3/core/vpUniRand.h>
+#include <visp3/vision/vpHomography.h>
+#include <visp3/vision/vpPose.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
+
+#include <algorithm>
+#include <cmath>
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+// The points belong to the object, not to the experiment: another seed must not mean another object.
+constexpr unsigned int objectSeed = 5;
+constexpr unsigned int fewestPoints = 4;
+// Points closer to a line than this share of the object's size (standard deviation) do not tell the tilt about it.
+constexpr double smallestSpread = 0.05;
+
+// Pose of the plane z = 0 from its homography to normalised image coordinates: H ~ [r1 r2 t], positive depth.
+vpHomogeneousMatrix poseFromHomography(const vpHomography &H)
+{
+  Eigen::Matrix3d M;
+  for (unsigned int r = 0; r < 3; ++r) {
+    for (unsigned int c = 0; c < 3; ++c) {
+      M(r, c) = H[r][c];
+    }
+  }
+  M /= std::copysign(0.5 * (M.col(0).norm() + M.col(1).norm()), M(2, 2));
+  Eigen::Matrix3d axes;
+  axes << M.col(0), M.col(1), M.col(0).cross(M.col(1));
+  // Noise makes the axes not quite orthonormal: take the nearest rotation.
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(axes, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::Matrix3d R = svd.matrixU() * svd.matrixV().transpose();
+  vpHomogeneousMatrix cMo;
+  for (unsigned int r = 0; r < 3; ++r) {
+    for (unsigned int c = 0; c < 3; ++c) {
+      cMo[r][c] = R(r, c);
+    }
+    cMo[r][3] = M(r, 2);
+  }
+  return cMo;
+}
+
+// Standard deviation of the points across the line that fits them best.
+double spreadAcrossLine(const std::vector<double> &X, const std::vector<double> &Y)
+{
+  const Eigen::Map<const Eigen::ArrayXd> x(X.data(), X.size()), y(Y.data(), Y.size());
+  const Eigen::ArrayXd dx = x - x.mean(), dy = y - y.mean();
+  const double xx = (dx * dx).mean(), yy = (dy * dy).mean(), xy = (dx * dy).mean();
+  return std::sqrt(std::max(0., 0.5 * (xx + yy - std::hypot(xx - yy, 2. * xy)))); // smaller eigenvalue
+}
+
+class vpPointSensor : public vpServoSensor
+{
+public:
+  vpPointSensor(const vpServoTask &task, double pixelNoise, unsigned int seed)
+    : vpServoSensor(task, randomPoints(task)), m_pixelNoise(pixelNoise), m_noise(pixelNoise, 0., seed)
+  {}
+
+protected:
+  bool look(const vpHomogeneousMatrix &cMo, vpServoMeasurement &result) VP_OVERRIDE
+  {
+    project(m_points, cMo, result.points);
+    for (vpServoPoint &p : result.points) {
+      // Drawn for hidden points too: the noise of a later frame must not depend on what this one showed.
+      const double du = m_noise(), dv = m_noise();
+      p.x += du / m_task.camera.get_px();
+      p.y += dv / m_task.camera.get_py();
+      p.visible = p.visible && inPicture(p.x, p.y);
+    }
+    return estimatePose(result) && takeDepths(result);
+  }
+
+private:
+  static std::vector<ObjectPoint> randomPoints(const vpServoTask &task)
+  {
+    vpUniRand random(objectSeed);
+    std::vector<ObjectPoint> points(task.pointCount);
+    for (ObjectPoint &p : points) {
+      p.x = random.uniform(-0.5, 0.5) * task.objectWidth;
+      p.y = random.uniform(-0.5, 0.5) * task.objectHeight;
+    }
+    return points;
+  }
+
+  bool estimatePose(vpServoMeasurement &result) const
+  {
+    std::vector<double> X, Y, x, y;
+    std::vector<vpPoint> points;
+    for (std::size_t i = 0; i < m_points.size(); ++i) {
+      if (!result.points[i].visible) {
+        continue;
+      }
+      X.push_back(m_points[i].x);
+      Y.push_back(m_points[i].y);
+      x.push_back(result.points[i].x);
+      y.push_back(result.points[i].y);
+      points.emplace_back(X.back(), Y.back(), 0.);
+      points.back().set_x(x.back());
+      points.back().set_y(y.back());
+    }
+    if (points.size() < fewestPoints ||
+        spreadAcrossLine(X, Y) < smallestSpread * std::min(m_task.objectWidth, m_task.objectHeight)) {
+      return false;
+    }
+    try {
+      vpHomography H;
+      vpHomography::DLT(X, Y, x, y, H, true);
+      result.cMo = poseFromHomography(H);
+      vpPose pose(points);
+      pose.setVvsEpsilon(1e-10); // of the summed squares; the noise alone makes 1e-5
+      pose.poseVirtualVS(result.cMo);
+      return pose.computeResidual(result.cMo) < largestResidual() * largestResidual() * 2. * points.size();
+    }
+    catch (const vpException &) { // how ViSP says that these few points determine no homography
+      return false;
+    }
+  }
+
+  // More than any noise does: the refinement went astray. Normalised, per coordinate, root mean square.
+  double largestResidual() const { return (3. * m_pixelNoise + 1.) / m_task.camera.get_px(); }
+
+  bool takeDepths(vpServoMeasurement &result) const
+  {
+    for (std::size_t i = 0; i < m_points.size(); ++i) {
+      vpServoPoint &p = result.points[i];
+      p.Z = result.cMo[2][0] * m_points[i].x + result.cMo[2][1] * m_points[i].y + result.cMo[2][3];
+      if (p.visible && !(p.Z > 0.)) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  double m_pixelNoise;
+  vpGaussRand m_noise;
+};
+} // namespace
+
+std::unique_ptr<vpServoSensor> vpServoSensor::points(const vpServoTask &task, double pixelNoise, unsigned int seed)
+{
+  return std::make_unique<vpPointSensor>(task, pixelNoise, seed);
+}
+
+END_VISP_NAMESPACE
