@@ -1,0 +1,66 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file appMain.h
+ * \brief From command line to exit status, the same for every program.
+ */
+#ifndef vpApp_appMain_h
+#define vpApp_appMain_h
+
+#include <CLI/CLI.hpp>
+
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+namespace vpApp
+{
+//! Exit statuses of all programs of visp-direct.
+enum ExitStatus : int {
+  ExitOk = 0,           //!< Done.
+  ExitData = 1,         //!< The data or the machine do not allow it: unreadable image, full disk, no display.
+  ExitUsage = 2,        //!< The command line is wrong.
+  ExitInterrupted = 130 //!< Ended by Ctrl-C, as a shell reports it.
+};
+
+//! \brief A mistake on the command line. runMain() turns it into ExitUsage.
+class UsageError : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+//! \brief Thrown by throwIfInterrupted(). runMain() turns it into ExitInterrupted.
+class Interrupted : public std::runtime_error
+{
+public:
+  Interrupted() : std::runtime_error("interrupted, nothing was written") {}
+};
+
+/*!
+ * Run a program's body and turn whatever it throws into one sentence on stderr, "program: what is wrong", and an exit
+ * status. Also makes Ctrl-C end the program by way of throwIfInterrupted(), so that destructors remove temporary files.
+ * \param program : Name that begins the sentence.
+ * \param body : The program; its exit status is returned.
+ */
+[[nodiscard]] int runMain(const std::string &program, const std::function<int()> &body);
+
+/*!
+ * Parse the command line.
+ * \return False when there is nothing left to do because `--help` or `--version` was asked for, and printed.
+ * \throw UsageError with CLI11's message, as one line.
+ */
+[[nodiscard]] bool parseCommandLine(CLI::App &app, int argc, const char *const *argv);
+
+//! True after Ctrl-C.
+[[nodiscard]] bool interrupted();
+//! \throw Interrupted after Ctrl-C.
+void throwIfInterrupted();
+
+//! The message of any exception as one line without the decoration that libraries add.
+[[nodiscard]] std::string sentenceOf(const std::exception &error);
+} // namespace vpApp
+
+#endif

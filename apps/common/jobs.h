@@ -1,0 +1,31 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file jobs.h
+ * \brief Independent pieces of work on several threads.
+ */
+#ifndef vpApp_jobs_h
+#define vpApp_jobs_h
+
+#include <cstddef>
+#include <functional>
+
+namespace vpApp
+{
+//! Number of processor cores, at least 1.
+[[nodiscard]] unsigned int coreCount();
+
+/*!
+ * Call \e work(0) ... \e work(count - 1), each once, on \e threads threads. Work is handed out in order. OpenCV's own
+ * threads are off meanwhile: the jobs fill the cores already.
+ * \param count : Number of pieces. \param threads : >= 1; with 1 everything runs in the calling thread.
+ * \param work : Must be safe to call at the same time for different indices.
+ * \throw Whatever \e work throws: the exception of the lowest index, after all threads have ended. Pieces that were not
+ * begun by then are left out.
+ */
+void runJobs(std::size_t count, unsigned int threads, const std::function<void(std::size_t)> &work);
+} // namespace vpApp
+
+#endif

@@ -1,0 +1,202 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "jsonReader.h"
+#include "outputFolder.h"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace vpApp
+{
+namespace
+{
+using nlohmann::json;
+
+std::string lineAndColumn(const std::string &text, std::size_t byte)
+{
+  std::size_t line = 1;
+  std::size_t column = 1;
+  for (std::size_t i = 0; i + 1 < byte && i < text.size(); ++i) {
+    if (text[i] == '\n') {
+      ++line;
+      column = 1;
+    }
+    else {
+      ++column;
+    }
+  }
+  return "line " + std::to_string(line) + ", column " + std::to_string(column);
+}
+
+// nlohmann: "[json.exception.parse_error.101] parse error at line 1, column 5: syntax error while parsing value - ..."
+std::string reasonOf(const json::exception &error)
+{
+  std::string reason = error.what();
+  for (const char *mark : {"] ", "column ", ": "}) {
+    const std::size_t at = reason.find(mark);
+    if (at != std::string::npos) {
+      reason.erase(0, at + std::char_traits<char>::length(mark));
+    }
+  }
+  return reason;
+}
+
+// Keeps the parser from taking the last of two fields of the same name in silence.
+class DuplicateCheck
+{
+public:
+  explicit DuplicateCheck(const std::string &file) : m_file(file) {}
+  bool operator()(json::parse_event_t event, json &value)
+  {
+    if (event == json::parse_event_t::object_start) {
+      m_fields.emplace_back();
+    }
+    else if (event == json::parse_event_t::object_end) {
+      m_fields.pop_back();
+    }
+    else if (event == json::parse_event_t::key && !m_fields.back().insert(value.get<std::string>()).second) {
+      throw std::runtime_error(m_file + ": field " + value.dump() + " is given twice");
+    }
+    return true;
+  }
+
+private:
+  std::string m_file;
+  std::vector<std::set<std::string>> m_fields;
+};
+
+std::string shortDump(const json &value)
+{
+  std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
+  return text.size() <= 60 ? text : text.substr(0, 57) + "...";
+}
+} // namespace
+
+json readJsonFile(const std::string &file)
+{
+  const std::string text = readFile(file);
+  try {
+    DuplicateCheck check(file);
+    return json::parse(text, [&check](int, json::parse_event_t event, json &value) { return check(event, value); });
+  }
+  catch (const json::parse_error &error) {
+    throw std::runtime_error(file + ": " + lineAndColumn(text, error.byte) + ": " + reasonOf(error));
+  }
+  catch (const json::exception &error) {
+    throw std::runtime_error(file + ": " + reasonOf(error));
+  }
+}
+
+JsonObject::JsonObject(const json &value, std::string file, std::string path)
+  : m_value(&value), m_file(std::move(file)), m_path(std::move(path))
+{
+  if (!value.is_object()) {
+    throw wrong(m_path.empty() ? "the file" : m_path, value, "an object { }");
+  }
+}
+
+bool JsonObject::has(const std::string &field)
+{
+  m_known.insert(field);
+  return m_value->contains(field);
+}
+
+double JsonObject::number(const std::string &field)
+{
+  const json &value = at(field);
+  if (!value.is_number() || !std::isfinite(value.get<double>())) {
+    throw wrong(pathOf(field), value, "a number");
+  }
+  return value.get<double>();
+}
+
+double JsonObject::number(const std::string &field, double fallback) { return has(field) ? number(field) : fallback; }
+
+unsigned int JsonObject::count(const std::string &field, unsigned int fallback)
+{
+  if (!has(field)) {
+    return fallback;
+  }
+  const json &value = at(field);
+  if (!value.is_number_unsigned() || value.get<std::uint64_t>() > std::numeric_limits<unsigned int>::max()) {
+    throw wrong(pathOf(field), value, "a whole number >= 0");
+  }
+  return value.get<unsigned int>();
+}
+
+std::string JsonObject::text(const std::string &field, const std::string &fallback)
+{
+  if (!has(field)) {
+    return fallback;
+  }
+  const json &value = at(field);
+  if (!value.is_string()) {
+    throw wrong(pathOf(field), value, "a text");
+  }
+  return value.get<std::string>();
+}
+
+std::vector<double> JsonObject::numbers(const std::string &field, std::size_t size)
+{
+  const json &value = at(field);
+  bool good = value.is_array() && value.size() == size;
+  for (std::size_t i = 0; good && i < size; ++i) {
+    good = value[i].is_number() && std::isfinite(value[i].get<double>());
+  }
+  if (!good) {
+    throw wrong(pathOf(field), value, "a list of " + std::to_string(size) + " numbers");
+  }
+  return value.get<std::vector<double>>();
+}
+
+JsonObject JsonObject::object(const std::string &field) { return JsonObject(at(field), m_file, pathOf(field)); }
+
+std::vector<JsonObject> JsonObject::objects(const std::string &field)
+{
+  const json &value = at(field);
+  if (!value.is_array() || value.empty()) {
+    throw wrong(pathOf(field), value, "a list of at least one object");
+  }
+  std::vector<JsonObject> list;
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    list.emplace_back(value[i], m_file, pathOf(field) + "[" + std::to_string(i) + "]");
+  }
+  return list;
+}
+
+void JsonObject::finish() const
+{
+  for (const auto &item : m_value->items()) {
+    if (m_known.count(item.key()) == 0) {
+      std::string known;
+      for (const std::string &field : m_known) {
+        known += (known.empty() ? "" : ", ") + field;
+      }
+      throw std::runtime_error(m_file + ": unknown field " + pathOf(item.key()) + "; known are " + known);
+    }
+  }
+}
+
+std::runtime_error JsonObject::error(const std::string &sentence) const
+{
+  return std::runtime_error(m_file + ": " + (m_path.empty() ? "" : m_path + ": ") + sentence);
+}
+
+const json &JsonObject::at(const std::string &field)
+{
+  if (!has(field)) {
+    throw std::runtime_error(m_file + ": " + pathOf(field) + " is missing");
+  }
+  return (*m_value)[field];
+}
+
+std::string JsonObject::pathOf(const std::string &field) const { return m_path.empty() ? field : m_path + "." + field; }
+
+std::runtime_error JsonObject::wrong(const std::string &path, const json &value, const std::string &expected) const
+{
+  return std::runtime_error(m_file + ": " + path + " is " + shortDump(value) + ", must be " + expected);
+}
+} // namespace vpApp

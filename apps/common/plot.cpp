@@ -1,0 +1,217 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "plot.h"
+#include "outputFolder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <locale>
+#include <sstream>
+#include <stdexcept>
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+extern char **environ;
+
+namespace vpApp
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+//! A folder under the system's temporary folder, removed at the end.
+class ScratchFolder
+{
+public:
+  ScratchFolder()
+  {
+    std::string name = (fs::temp_directory_path() / "visp-direct-plot-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) {
+      throw std::runtime_error(name + ": a temporary folder cannot be made");
+    }
+    m_path = name;
+  }
+  ~ScratchFolder()
+  {
+    std::error_code ignored;
+    fs::remove_all(m_path, ignored);
+  }
+  ScratchFolder(const ScratchFolder &) = delete;
+  ScratchFolder &operator=(const ScratchFolder &) = delete;
+  [[nodiscard]] std::string file(const std::string &name) const { return (m_path / name).string(); }
+
+private:
+  fs::path m_path;
+};
+
+// Answers gnuplot's exit status; its output and complaints go to log.
+int runGnuplot(const std::string &argument, const std::string &log)
+{
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, 1, log.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
+  posix_spawn_file_actions_adddup2(&actions, 1, 2);
+  std::string program = "gnuplot";
+  std::string copy = argument;
+  char *const arguments[] = {program.data(), copy.data(), nullptr};
+  pid_t pid = 0;
+  const int error = posix_spawnp(&pid, "gnuplot", &actions, nullptr, arguments, environ);
+  posix_spawn_file_actions_destroy(&actions);
+  int status = 0;
+  if (error != 0 || waitpid(pid, &status, 0) != pid || (WIFEXITED(status) && WEXITSTATUS(status) == 127)) {
+    throw std::runtime_error(
+        "gnuplot draws the plots of the report and was not found; install it (Debian: gnuplot-nox)");
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+std::string quoted(const std::string &text)
+{
+  std::string result = "'";
+  for (const char c : text) {
+    result += c == '\'' ? "''" : std::string(1, c == '\n' ? ' ' : c);
+  }
+  return result + "'";
+}
+
+std::string range(const std::pair<double, double> &limits)
+{
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << '[';
+  if (limits.first < limits.second) {
+    text << limits.first << ':' << limits.second;
+  }
+  text << ']';
+  return text.str();
+}
+
+// Distance of the tics of a map: 1, 2 or 5 times a power of ten, some five of them over the width of the data.
+double ticStep(const Plot &plot)
+{
+  double least = HUGE_VAL;
+  double largest = -HUGE_VAL;
+  for (const PlotCurve &curve : plot.curves) {
+    for (const double x : curve.x) {
+      if (std::isfinite(x)) {
+        least = std::min(least, x);
+        largest = std::max(largest, x);
+      }
+    }
+  }
+  const double wanted = std::max(largest - least, 1e-6) / 5.;
+  const double power = std::pow(10., std::floor(std::log10(wanted)));
+  for (const double factor : {1., 2., 5.}) {
+    if (factor * power >= wanted) {
+      return factor * power;
+    }
+  }
+  return 10. * power;
+}
+
+std::string lineStyle(const PlotCurve &curve)
+{
+  const std::string colour = " linecolor rgb " + quoted(curve.colour);
+  if (curve.style == PlotStyle::Points) {
+    return "points pointtype 7 pointsize 0.5" + colour;
+  }
+  std::string dash;
+  if (curve.style == PlotStyle::Dashed) {
+    dash = " dashtype (9,5)";
+  }
+  else if (curve.style == PlotStyle::Dotted) {
+    dash = " dashtype (2,4)";
+  }
+  std::ostringstream width;
+  width.imbue(std::locale::classic());
+  width << curve.width;
+  return "lines linewidth " + width.str() + dash + colour;
+}
+
+std::string scriptOf(const Plot &plot, const std::string &output)
+{
+  std::ostringstream script;
+  script.imbue(std::locale::classic());
+  script << "set encoding utf8\n"
+         << "set terminal svg size " << plot.width << "," << plot.height
+         << " dynamic noenhanced font 'DejaVu Sans,Helvetica,Arial,14' background '#ffffff'\n"
+         << "set output " << quoted(output) << "\n"
+         << "set title " << quoted(plot.title) << "\n"
+         << "set xlabel " << quoted(plot.xLabel) << "\nset ylabel " << quoted(plot.yLabel) << "\n"
+         << "set grid linecolor rgb '#dfe3e8'\nset border linecolor rgb '#555555'\n"
+         << "set key outside right top vertical Left reverse samplen 2\n";
+  if (plot.equalAxes) {
+    script << "set size ratio -1\nset offsets graph 0.08, graph 0.08, graph 0.04, graph 0.04\n"
+           << "set xtics " << ticStep(plot) << "\nset ytics " << ticStep(plot) << "\n";
+  }
+  else { // room for the texts of the marks
+    script << "set offsets 0, 0, graph 0.12, graph 0.04\n";
+  }
+  if (plot.fromZero) {
+    script << "set yrange [0:*]\n";
+  }
+  if (!plot.categories.empty()) {
+    script << "set xtics rotate by -35 (";
+    for (std::size_t i = 0; i < plot.categories.size(); ++i) {
+      script << (i == 0 ? "" : ", ") << quoted(plot.categories[i]) << " " << i;
+    }
+    script << ")\n";
+  }
+  for (const PlotMark &mark : plot.marks) {
+    script << "set arrow from " << mark.x << ", graph 0 to " << mark.x << ", graph 1 nohead back "
+           << "linecolor rgb '#999999' dashtype (3,3)\n"
+           << "set label " << quoted(mark.label) << " at " << mark.x << ", graph 0.96 offset 0.6,0 front "
+           << "textcolor rgb '#666666'\n";
+  }
+  for (std::size_t i = 0; i < plot.curves.size(); ++i) {
+    const PlotCurve &curve = plot.curves[i];
+    script << "$curve" << i << " << EOD\n";
+    bool gap = true;
+    for (std::size_t k = 0; k < std::min(curve.x.size(), curve.y.size()); ++k) {
+      const bool good = std::isfinite(curve.x[k]) && std::isfinite(curve.y[k]);
+      if (good) {
+        script << curve.x[k] << ' ' << curve.y[k] << '\n';
+      }
+      else if (!gap) {
+        script << '\n'; // an empty line interrupts the curve
+      }
+      gap = !good;
+    }
+    script << "EOD\n";
+  }
+  script << "plot " << range(plot.xRange);
+  for (std::size_t i = 0; i < plot.curves.size(); ++i) {
+    const PlotCurve &curve = plot.curves[i];
+    script << (i == 0 ? " " : ", \\\n  ") << "$curve" << i << " using 1:2 with " << lineStyle(curve)
+           << (curve.label.empty() ? " notitle" : " title " + quoted(curve.label));
+  }
+  script << "\n";
+  return script.str();
+}
+} // namespace
+
+void requireGnuplot()
+{
+  const ScratchFolder scratch;
+  (void)runGnuplot("--version", scratch.file("log"));
+}
+
+std::string renderSvg(const Plot &plot)
+{
+  const ScratchFolder scratch;
+  const std::string script = scratch.file("plot.gp");
+  std::ofstream(script) << scriptOf(plot, scratch.file("plot.svg"));
+  if (runGnuplot(script, scratch.file("log")) != 0) {
+    throw std::runtime_error("gnuplot failed on the plot \"" + plot.title + "\": " + readFile(scratch.file("log")));
+  }
+  return readFile(scratch.file("plot.svg"));
+}
+} // namespace vpApp

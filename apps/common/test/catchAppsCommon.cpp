@@ -1,0 +1,349 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// What the programs share: exit statuses, progress, jobs, JSON errors, HTML, result folders, plots and videos.
+#include "vpCatch.h"
+
+#include "appMain.h"
+#include "dataFile.h"
+#include "htmlReport.h"
+#include "jobs.h"
+#include "jsonReader.h"
+#include "outputFolder.h"
+#include "plot.h"
+#include "progress.h"
+#include "videoFile.h"
+
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include <unistd.h>
+
+namespace fs = std::filesystem;
+
+namespace
+{
+//! An empty folder for one test, removed afterwards.
+struct TestFolder {
+  TestFolder()
+  {
+    std::string name = (fs::temp_directory_path() / "visp-direct-test-XXXXXX").string();
+    path = mkdtemp(name.data());
+  }
+  ~TestFolder() { fs::remove_all(path); }
+  std::string write(const std::string &name, const std::string &content) const
+  {
+    fs::create_directories((path / name).parent_path());
+    std::ofstream(path / name, std::ios::binary) << content;
+    return (path / name).string();
+  }
+  [[nodiscard]] std::vector<std::string> entries() const
+  {
+    std::vector<std::string> names;
+    for (const fs::directory_entry &entry : fs::recursive_directory_iterator(path)) {
+      names.push_back(fs::relative(entry.path(), path).string());
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+  fs::path path;
+};
+
+//! What a call throws, as text.
+template <typename Call> std::string complaint(const Call &call)
+{
+  try {
+    call();
+  }
+  catch (const std::exception &error) {
+    return error.what();
+  }
+  return "no exception";
+}
+
+//! Collects what a piece of code prints on a stream.
+class Captured
+{
+public:
+  explicit Captured(std::ostream &stream) : m_stream(stream), m_before(stream.rdbuf(m_text.rdbuf())) {}
+  ~Captured() { m_stream.rdbuf(m_before); }
+  [[nodiscard]] std::string text() const { return m_text.str(); }
+
+private:
+  std::ostream &m_stream;
+  std::ostringstream m_text;
+  std::streambuf *m_before;
+};
+} // namespace
+
+TEST_CASE("runMain turns exceptions into one sentence and an exit status", "[apps]")
+{
+  const auto run = [](const std::function<int()> &body) {
+    const Captured printed(std::cerr);
+    const int status = vpApp::runMain("prog", body);
+    return std::make_pair(status, printed.text());
+  };
+  CHECK(run([] { return 0; }) == std::make_pair(0, std::string()));
+  CHECK(run([]() -> int { throw std::runtime_error("photo.png: cannot\nbe  read"); }) ==
+        std::make_pair(1, std::string("prog: photo.png: cannot be read\n")));
+  CHECK(run([]() -> int { throw vpApp::UsageError("--jobs is 0"); }) ==
+        std::make_pair(2, std::string("prog: --jobs is 0 (see prog --help)\n")));
+  CHECK(run([]() -> int { throw vpApp::Interrupted(); }).first == 130);
+  CHECK(run([]() -> int { throw std::bad_alloc(); }).second == "prog: out of memory\n");
+}
+
+TEST_CASE("parseCommandLine tells help from mistakes", "[apps]")
+{
+  const auto parse = [](std::vector<const char *> arguments) {
+    CLI::App app{"test", "prog"};
+    int number = 0;
+    app.add_option("--number", number);
+    arguments.insert(arguments.begin(), "prog");
+    return vpApp::parseCommandLine(app, static_cast<int>(arguments.size()), arguments.data());
+  };
+  CHECK(parse({"--number", "3"}));
+  const Captured printed(std::cout);
+  CHECK_FALSE(parse({"--help"}));
+  CHECK(printed.text().find("--number") != std::string::npos);
+  CHECK_THROWS_AS(parse({"--nonsense"}), vpApp::UsageError);
+  CHECK(complaint([&] { (void)parse({"--number", "x"}); }).find("--number") != std::string::npos);
+}
+
+TEST_CASE("Progress shows a bar, plain lines or nothing", "[apps]")
+{
+  std::ostringstream bar, lines, silent;
+  {
+    vpApp::Progress a("work", 4., bar, vpApp::Progress::Style::Bar);
+    vpApp::Progress b("work", 4., lines, vpApp::Progress::Style::Lines);
+    vpApp::Progress c("work", 4., silent, vpApp::Progress::Style::Silent);
+    CHECK(a.share() == 0.);
+    for (int i = 0; i < 40; ++i) {
+      a.add(0.1);
+      b.add(0.1);
+      c.add(0.1);
+    }
+    CHECK(a.share() == Approx(1.));
+  }
+  CHECK(bar.str().find("\rwork [") == 0);
+  CHECK(bar.str().find("100 %") != std::string::npos);
+  CHECK(bar.str().back() == '\n');
+  CHECK(silent.str().empty());
+  CHECK(lines.str().find('\r') == std::string::npos);
+  const std::string printed = lines.str();
+  CAPTURE(printed);
+  for (const char *quarter : {"work: 25 %", "work: 50 %", "work: 75 %", "work: 100 %"}) {
+    CHECK(printed.find(quarter) != std::string::npos);
+  }
+  CHECK(std::count(printed.begin(), printed.end(), '\n') == 4);
+}
+
+TEST_CASE("runJobs does every piece once and passes on the first error", "[apps]")
+{
+  for (const unsigned int threads : {1u, 3u, 16u}) {
+    CAPTURE(threads);
+    std::vector<std::atomic<int>> done(50);
+    vpApp::runJobs(done.size(), threads, [&](std::size_t i) { ++done[i]; });
+    for (const std::atomic<int> &count : done) {
+      CHECK(count == 1);
+    }
+    vpApp::runJobs(0, threads, [](std::size_t) { throw std::runtime_error("never called"); });
+
+    std::atomic<int> calls{0};
+    const std::string error = complaint([&] {
+      vpApp::runJobs(1000, threads, [&](std::size_t i) {
+        ++calls;
+        if (i >= 5) {
+          throw std::runtime_error("job " + std::to_string(i));
+        }
+      });
+    });
+    CHECK(error == "job 5");
+    CHECK(calls < 1000);
+  }
+}
+
+TEST_CASE("JSON errors name the file, the place and the value", "[apps]")
+{
+  const TestFolder folder;
+  const auto reading = [&](const std::string &content) {
+    const std::string file = folder.write("task.json", content);
+    const std::string text = complaint([&] {
+      const nlohmann::json json = vpApp::readJsonFile(file);
+      vpApp::JsonObject top(json, "task.json");
+      vpApp::JsonObject camera = top.object("camera");
+      (void)camera.number("px");
+      (void)camera.number("py", 800.);
+      (void)camera.count("width", 640);
+      camera.finish();
+      (void)top.text("name", "none");
+      if (top.has("poses")) {
+        for (vpApp::JsonObject &pose : top.objects("poses")) {
+          (void)pose.numbers("t", 3);
+          pose.finish();
+        }
+      }
+      top.finish();
+    });
+    const std::size_t at = text.find("task.json");
+    return at == std::string::npos ? text : text.substr(at);
+  };
+  CHECK(reading(R"({"camera": {"px": 1}})") == "no exception");
+  CHECK(reading(R"({"camera": {"px": 1}, "poses": [{"t": [1, 2, 3]}]})") == "no exception");
+  CHECK(reading("{\n  \"camera\": {\"px\": NaN}\n}").find("task.json: line 2, column 20: ") == 0);
+  CHECK(reading("{\"camera\"").find("task.json: line 1, column ") == 0);
+  CHECK(reading("").find("task.json: line 1, column 1") == 0);
+  CHECK(reading("[1, 2]") == "task.json: the file is [1,2], must be an object { }");
+  CHECK(reading(R"({"camera": {"px": 1e999}})") == "task.json: number overflow parsing '1e999'");
+  CHECK(reading(R"({"camera": {"px": "wide"}})") == "task.json: camera.px is \"wide\", must be a number");
+  CHECK(reading(R"({"camera": {}})") == "task.json: camera.px is missing");
+  CHECK(reading(R"({"camera": {"px": 1, "fx": 2}})") == "task.json: unknown field camera.fx; known are px, py, width");
+  CHECK(reading(R"({"camera": {"px": 1, "width": -3}})") ==
+        "task.json: camera.width is -3, must be a whole number >= 0");
+  CHECK(reading(R"({"camera": {"px": 1}, "name": 7})") == "task.json: name is 7, must be a text");
+  CHECK(reading(R"({"camera": {"px": 1}, "poses": []})") ==
+        "task.json: poses is [], must be a list of at least one object");
+  CHECK(reading(R"({"camera": {"px": 1}, "poses": [{"t": [1, 2, 3]}, {"t": [1, 2]}]})") ==
+        "task.json: poses[1].t is [1,2], must be a list of 3 numbers");
+  CHECK(reading(R"({"camera": {"px": 1, "px": 2}})") == "task.json: field \"px\" is given twice");
+  CHECK(complaint([&] { (void)vpApp::readJsonFile(folder.path / "none.json"); }).find("none.json: cannot be read") !=
+        std::string::npos);
+}
+
+TEST_CASE("HTML is escaped and self-contained", "[apps]")
+{
+  CHECK(vpApp::escapeHtml("<a href=\"x\">'&'</a>") == "&lt;a href=&quot;x&quot;&gt;&#39;&amp;&#39;&lt;/a&gt;");
+  CHECK(vpApp::dataUri("text/plain", "") == "data:text/plain;base64,");
+  CHECK(vpApp::dataUri("text/plain", "M") == "data:text/plain;base64,TQ==");
+  CHECK(vpApp::dataUri("text/plain", "Ma") == "data:text/plain;base64,TWE=");
+  CHECK(vpApp::dataUri("text/plain", "Man") == "data:text/plain;base64,TWFu");
+  CHECK(vpApp::dataUri("text/plain", std::string("\xff\x00\xfe", 3)) == "data:text/plain;base64,/wD+");
+
+  vpApp::HtmlReport report("A <title>", "lead & more");
+  report.section("First <section>");
+  report.paragraph("<script>");
+  vpApp::HtmlTable table;
+  table.header = {{vpApp::HtmlCell("law"), vpApp::HtmlCell("px", "", 2)}};
+  table.rows = {{vpApp::HtmlCell("group")},
+                {vpApp::HtmlCell("a<b", "left"), vpApp::HtmlCell("1", "best"), vpApp::HtmlCell("2")}};
+  report.table(table, "caption");
+  const std::string html = report.html();
+  CHECK(html.find("<title>A &lt;title&gt;</title>") != std::string::npos);
+  CHECK(html.find("<script>") == std::string::npos);
+  CHECK(html.find("<a href=\"#s1\">First &lt;section&gt;</a>") != std::string::npos);
+  CHECK(html.find("<td class=\"left\">a&lt;b</td><td class=\"best\">1</td>") != std::string::npos);
+  CHECK(html.find("<td colspan=\"3\">group</td>") != std::string::npos);
+  CHECK(html.find("src=\"http") == std::string::npos);
+}
+
+TEST_CASE("A result folder appears whole or not at all", "[apps]")
+{
+  const TestFolder folder;
+  const std::string wanted = (folder.path / "deep" / "out").string();
+
+  SECTION("nothing is left without commit, not even the parent folder")
+  {
+    {
+      vpApp::OutputFolder out("prog", wanted);
+      out.write("video/a.txt", "a");
+      CHECK_FALSE(fs::exists(wanted));
+    }
+    CHECK(folder.entries().empty());
+  }
+  SECTION("commit puts all in place, and the program may replace its own folder")
+  {
+    for (const char *content : {"first", "second"}) {
+      vpApp::OutputFolder out("prog", wanted + "/");
+      out.write("video/a.txt", content);
+      out.writeSummary({{"runs", 1}});
+      out.commit();
+      CHECK(vpApp::readFile(fs::path(wanted) / "video/a.txt") == content);
+    }
+    const nlohmann::json summary = vpApp::readJsonFile(wanted + "/summary.json");
+    CHECK(summary["program"] == "prog");
+    CHECK(summary["files"] == nlohmann::json({"summary.json", "video/a.txt"}));
+
+    folder.write("deep/out/my-notes.txt", "mine");
+    {
+      vpApp::OutputFolder out("prog", wanted);
+      out.write("b.txt", "third");
+      out.writeSummary({});
+      out.commit();
+    }
+    CHECK(folder.entries() == std::vector<std::string>({"deep", "deep/out", "deep/out/b.txt", "deep/out/my-notes.txt",
+                                                        "deep/out/summary.json"}));
+    CHECK(complaint([&] { vpApp::OutputFolder("other", wanted); }).find("not a result of other") != std::string::npos);
+  }
+  SECTION("a folder of somebody else is left alone, an empty one is used")
+  {
+    folder.write("deep/out/thesis.txt", "years of work");
+    CHECK(complaint([&] { vpApp::OutputFolder("prog", wanted); }).find("is left alone") != std::string::npos);
+    folder.write("deep/out/summary.json", "{\"program\": 3");
+    CHECK(complaint([&] { vpApp::OutputFolder("prog", wanted); }).find("is left alone") != std::string::npos);
+    fs::remove_all(wanted);
+    fs::create_directory(wanted);
+    {
+      vpApp::OutputFolder out("prog", wanted);
+      out.writeSummary({});
+      out.commit();
+    }
+    CHECK(fs::exists(fs::path(wanted) / "summary.json"));
+  }
+  SECTION("a place that cannot be written is named")
+  {
+    const std::string file = folder.write("file", "");
+    CHECK(complaint([&] { vpApp::OutputFolder("prog", file); }) == file + ": exists and is not a folder");
+    CHECK(complaint([&] { vpApp::OutputFolder("prog", file + "/out"); }).find(file + "/out: cannot be written") == 0);
+    CHECK(complaint([&] { vpApp::OutputFolder("prog", "/proc/out"); }).find("/proc/out: cannot be written") == 0);
+  }
+}
+
+TEST_CASE("Data files are found, and a missing one is named", "[apps]")
+{
+  CHECK(fs::exists(vpApp::dataFile("target/klimt.jpg")));
+  CHECK(complaint([] { (void)vpApp::dataFile("target/none.jpg"); }).find("target/none.jpg") != std::string::npos);
+  setenv("VISP_DIRECT_DATA", "/nowhere", 1);
+  CHECK(complaint([] { (void)vpApp::dataFile("target/klimt.jpg"); }).find("is not in /nowhere;") != std::string::npos);
+  unsetenv("VISP_DIRECT_DATA");
+}
+
+TEST_CASE("gnuplot draws a plot with awkward labels and gaps", "[apps]")
+{
+  vpApp::Plot plot;
+  plot.title = "it's \"quoted\" & <odd>";
+  plot.xLabel = "time (s)";
+  plot.yLabel = "error_px";
+  plot.marks = {{1., "to pose 2"}};
+  plot.curves = {{"a_b", "#d62728", vpApp::PlotStyle::Dashed, 2., {0., 1., 2., 3.}, {0., NAN, 1., 2.}},
+                 {"never", "#000000", vpApp::PlotStyle::Solid, 2., {}, {}}};
+  const std::string svg = vpApp::renderSvg(plot);
+  CHECK(svg.find("</svg>") != std::string::npos);
+  CHECK(svg.find("a_b") != std::string::npos);
+  CHECK(svg.find("&amp; &lt;odd") != std::string::npos);
+
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", "/nowhere", 1);
+  CHECK(complaint([] { vpApp::requireGnuplot(); }).find("install it") != std::string::npos);
+  setenv("PATH", path.c_str(), 1);
+  vpApp::requireGnuplot();
+}
+
+TEST_CASE("A video file can be read back", "[apps]")
+{
+  const TestFolder folder;
+  const std::string file = (folder.path / "a.mp4").string();
+  vpApp::VideoFile video(file, 160, 120, 10.);
+  for (int i = 0; i < 12; ++i) {
+    video.write(cv::Mat(120, 160, CV_8UC3, cv::Scalar(20 * i, 0, 0)));
+  }
+  video.close();
+  cv::VideoCapture capture(file);
+  REQUIRE(capture.isOpened());
+  CHECK(capture.get(cv::CAP_PROP_FRAME_COUNT) == 12.);
+  CHECK(complaint([] { vpApp::VideoFile("/nowhere/a.mp4", 160, 120, 10.); }).find("/nowhere/a.mp4") == 0);
+}

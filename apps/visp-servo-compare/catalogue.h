@@ -1,0 +1,55 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file catalogue.h
+ * \brief What a person wants to know of each law and plant: a name, a sentence, a colour.
+ */
+#ifndef servoCompare_catalogue_h
+#define servoCompare_catalogue_h
+
+#include <visp3/simulation/vpServoPlant.h>
+
+#include <string>
+#include <vector>
+
+VISP_DIRECT_USING_NAMESPACE
+
+namespace servoCompare
+{
+//! Laws that are compared like with like: those of one group close the rotation error equally fast.
+enum class GainGroup {
+  Single,  //!< Rotation gain lambda.
+  Double,  //!< Effective rotation gain 2 lambda near the goal.
+  Integral //!< Rotation gain 2 lambda and an integral term.
+};
+
+//! Title of a group, for tables.
+[[nodiscard]] const char *titleOf(GainGroup group);
+
+//! \brief How a law is shown.
+struct LawInfo {
+  std::string id;       //!< As in vpServoLaw::ids(), with `+cbf` if filtered.
+  std::string name;     //!< For legends.
+  std::string sentence; //!< For --list and the report.
+  std::string colour;   //!< #rrggbb, the same in every figure.
+  GainGroup group = GainGroup::Single;
+};
+
+//! What is known of a law; `+cbf` gives the law's own entry with the filter added to name and sentence.
+[[nodiscard]] LawInfo lawInfo(const std::string &id);
+//! All ids of vpServoLaw::ids(), as `"a, b, c"`.
+[[nodiscard]] std::string knownLaws();
+//! The id without `+cbf`.
+[[nodiscard]] std::string withoutFilter(const std::string &id);
+//! True if the id ends in `+cbf`.
+[[nodiscard]] bool isFiltered(const std::string &id);
+
+//! Names of the plants of the comparison: A, B, D.
+[[nodiscard]] const std::vector<std::string> &standardPlants();
+//! A plant in one sentence, from its parameters.
+[[nodiscard]] std::string sentenceOf(const vpServoPlant &plant);
+} // namespace servoCompare
+
+#endif

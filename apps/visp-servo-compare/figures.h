@@ -1,0 +1,34 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file figures.h
+ * \brief The plots of the report: figures 5.6 to 5.10 of the thesis again, the camera's path, and the seeds.
+ */
+#ifndef servoCompare_figures_h
+#define servoCompare_figures_h
+
+#include "results.h"
+
+namespace servoCompare
+{
+//! \brief A figure, ready for the page.
+struct Figure {
+  std::string name;    //!< File name without suffix: "figure-5.6".
+  std::string svg;     //!< The drawing.
+  std::string title;   //!< In a few words.
+  std::string caption; //!< What to see, and how it differs from the thesis.
+};
+
+/*!
+ * Draw all figures that the runs allow.
+ * \param jobs : Figures drawn at a time.
+ */
+[[nodiscard]] std::vector<Figure> drawFigures(const Plan &plan, const Results &results, unsigned int jobs);
+
+//! The laws of the figures: of \e preferred those that were run, or the first few that were run.
+[[nodiscard]] std::vector<std::string> figureLaws(const Plan &plan, const std::vector<std::string> &preferred);
+} // namespace servoCompare
+
+#endif

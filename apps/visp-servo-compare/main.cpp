@@ -1,0 +1,104 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// visp-servo-compare: all servo laws on one task, and a report.
+#include "catalogue.h"
+#include "options.h"
+#include "plan.h"
+#include "reportPage.h"
+#include "runLog.h"
+#include "summary.h"
+
+#include "appMain.h"
+#include "plot.h"
+
+#include <visp3/feedforward/vpServoLaw.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include <chrono>
+#include <iostream>
+
+namespace
+{
+using namespace servoCompare;
+
+void printList()
+{
+  std::cout << "Laws (--law), each also with +cbf for the filter that keeps the object in the view:\n";
+  for (const std::string &id : vpServoLaw::ids()) {
+    std::cout << "  " << id << std::string(id.size() < 17 ? 17 - id.size() : 1, ' ') << lawInfo(id).sentence << "\n";
+  }
+  std::cout << "Plants (--plant):\n";
+  for (const std::string &name : standardPlants()) {
+    std::cout << "  " << name << "  " << sentenceOf(vpServoPlant::byName(name)) << "\n";
+  }
+}
+
+std::string joined(int argc, const char *const *argv)
+{
+  std::string line = "visp-servo-compare";
+  for (int i = 1; i < argc; ++i) {
+    line += std::string(" ") + argv[i];
+  }
+  return line;
+}
+
+//! The photo as a file that ViSP reads whatever its format was.
+std::string writeTarget(const Target &target, vpApp::OutputFolder &out)
+{
+  const std::string file = out.file("target.png");
+  const cv::Mat photo(target.photo.getHeight(), target.photo.getWidth(), CV_8UC1, target.photo.bitmap);
+  if (!cv::imwrite(file, photo)) {
+    throw std::runtime_error(file + ": cannot be written");
+  }
+  return file;
+}
+
+void compare(const Options &options, const std::string &commandLine)
+{
+  const auto start = std::chrono::steady_clock::now();
+  const Plan plan = makePlan(options);
+  vpApp::requireGnuplot();
+  std::unique_ptr<CameraWindow> window;
+  if (options.display) {
+    window = std::make_unique<CameraWindow>();
+  }
+  vpApp::OutputFolder out("visp-servo-compare", options.out);
+
+  const Results results = runAll(plan, writeTarget(plan.target, out), options.jobs,
+                                 [&](const vpServoRun &run) { out.write(logName(run.spec), csvOf(run)); });
+  ReportParts parts;
+  parts.videos = writeVideos(plan, results, out, options.jobs, window.get());
+  parts.figures = drawFigures(plan, results, options.jobs);
+  parts.filmStrip = drawFilmStrip(plan, results);
+  for (const Figure &figure : parts.figures) {
+    out.write("figure/" + figure.name + ".svg", figure.svg);
+  }
+  out.write("figure/figure-5.11.jpg", parts.filmStrip.jpeg);
+  parts.commandLine = commandLine;
+  parts.wallTime = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  out.write("report.html", reportPage(plan, results, parts, out));
+  out.writeSummary(summaryOf(plan, results, commandLine, parts.wallTime));
+  vpApp::throwIfInterrupted();
+  out.commit();
+  std::cout << "Report: " << (out.path() / "report.html").string() << std::endl;
+}
+} // namespace
+
+int main(int argc, char **argv)
+{
+  return vpApp::runMain("visp-servo-compare", [&]() -> int {
+    Options options;
+    if (!readOptions(argc, argv, options)) {
+      return vpApp::ExitOk;
+    }
+    if (options.list) {
+      printList();
+      return vpApp::ExitOk;
+    }
+    compare(options, joined(argc, argv));
+    return vpApp::ExitOk;
+  });
+}

@@ -1,0 +1,179 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "plan.h"
+
+#include "appMain.h"
+#include "catalogue.h"
+#include "dataFile.h"
+#include "format.h"
+
+#include <visp3/planar_target/vpPlanarTarget.h>
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <cstring>
+
+namespace servoCompare
+{
+namespace
+{
+constexpr const char *POINTS = "points";
+constexpr const char *IMAGE = "image";
+constexpr int LARGEST_PHOTO = 1024; // px; more detail than any view of it shows
+constexpr int SMALLEST_PHOTO = 32;  // px
+
+bool contains(const std::vector<std::string> &list, const std::string &item)
+{
+  return std::find(list.begin(), list.end(), item) != list.end();
+}
+
+std::vector<std::string> withoutRepeats(const std::vector<std::string> &list)
+{
+  std::vector<std::string> unique;
+  for (const std::string &item : list) {
+    if (!contains(unique, item)) {
+      unique.push_back(item);
+    }
+  }
+  return unique;
+}
+
+std::vector<std::string> chooseLaws(const std::vector<std::string> &asked)
+{
+  for (const std::string &id : asked) {
+    if (!contains(vpServoLaw::ids(), withoutFilter(id))) {
+      throw vpApp::UsageError("--law: unknown law \"" + id + "\"; known are " + knownLaws() + ", each also with +cbf");
+    }
+  }
+  return asked.empty() ? vpServoLaw::ids() : withoutRepeats(asked);
+}
+
+std::vector<vpServoPlant> choosePlants(const std::vector<std::string> &asked, const std::vector<vpServoPlant> &own)
+{
+  if (asked.empty()) {
+    return own;
+  }
+  std::vector<vpServoPlant> plants;
+  for (const std::string &name : withoutRepeats(asked)) {
+    const auto found =
+        std::find_if(own.begin(), own.end(), [&](const vpServoPlant &plant) { return plant.name == name; });
+    if (found != own.end()) {
+      plants.push_back(*found);
+    }
+    else if (contains(standardPlants(), name)) {
+      plants.push_back(vpServoPlant::byName(name));
+    }
+    else {
+      std::vector<std::string> known = standardPlants();
+      for (const vpServoPlant &plant : own) {
+        known.push_back(plant.name);
+      }
+      throw vpApp::UsageError("--plant: unknown plant \"" + name + "\"; known are " + enumerate(withoutRepeats(known)));
+    }
+  }
+  return plants;
+}
+
+//! By which measures to run a law on a plant.
+std::vector<std::string> chooseMeasures(const Options &options, const std::string &law, const vpServoPlant &plant)
+{
+  if (options.full) {
+    return {POINTS, IMAGE};
+  }
+  if (!options.measures.empty()) {
+    return withoutRepeats(options.measures);
+  }
+  const bool alsoImage = contains({"pbvs1", "kyrki", "ff-lookat-pi"}, law) && plant.deadband > 0.;
+  return alsoImage ? std::vector<std::string>{POINTS, IMAGE} : std::vector<std::string>{POINTS};
+}
+
+Target readTarget(const std::string &asked)
+{
+  Target target;
+  target.isDefault = asked.empty();
+  target.file = asked.empty() ? vpApp::dataFile("target/klimt.jpg") : asked;
+  cv::Mat photo = cv::imread(target.file, cv::IMREAD_GRAYSCALE);
+  if (photo.empty()) {
+    throw std::runtime_error(target.file + ": is not an image that can be read");
+  }
+  if (photo.cols < SMALLEST_PHOTO || photo.rows < SMALLEST_PHOTO) {
+    throw std::runtime_error(target.file + ": is " + std::to_string(photo.cols) + "x" + std::to_string(photo.rows) +
+                             " px, must be at least 32x32 px");
+  }
+  const double scale = double(LARGEST_PHOTO) / std::max(photo.cols, photo.rows);
+  if (scale < 1.) {
+    cv::resize(photo, photo, cv::Size(), scale, scale, cv::INTER_AREA);
+  }
+  target.photo.resize(photo.rows, photo.cols);
+  for (int row = 0; row < photo.rows; ++row) {
+    std::memcpy(target.photo[row], photo.ptr(row), photo.cols);
+  }
+  return target;
+}
+
+//! Say now, not after minutes, that the photo cannot serve as a target.
+void requireUsableTarget(const Target &target, const vpServoTask &task)
+{
+  try {
+    const vpPlanarTarget probe(target.photo, task.objectWidth, task.objectHeight, task.camera);
+  }
+  catch (const std::exception &error) {
+    throw std::runtime_error(target.file + ": " + vpApp::sentenceOf(error));
+  }
+}
+} // namespace
+
+Plan makePlan(const Options &options)
+{
+  for (const std::string &measure : options.measures) {
+    if (measure != POINTS && measure != IMAGE) {
+      throw vpApp::UsageError("--measure: unknown measure \"" + measure + "\"; known are points and image");
+    }
+  }
+  Plan plan;
+  plan.laws = chooseLaws(options.laws);
+  if (!options.taskFile.empty()) {
+    plan.scenario = readScenario(options.taskFile);
+  }
+  plan.scenario.plants = choosePlants(options.plants, plan.scenario.plants);
+  plan.target = readTarget(options.target);
+  vpServoTask &task = plan.scenario.task;
+  if (!plan.target.isDefault) {
+    task.objectHeight = task.objectWidth * plan.target.photo.getHeight() / plan.target.photo.getWidth();
+    requireUsableTarget(plan.target, task);
+  }
+  plan.seed = options.seed;
+  plan.repetitions = options.repetitions;
+
+  for (const std::string &law : plan.laws) {
+    for (const vpServoPlant &plant : plan.scenario.plants) {
+      for (const std::string &measure : chooseMeasures(options, law, plant)) {
+        vpServoRunSpec spec;
+        spec.law = law;
+        spec.measure = measure;
+        spec.gains = plan.scenario.gains;
+        spec.plant = plant;
+        spec.task = task;
+        if (plant.pixelNoise > 0.) {
+          spec.faults = plan.scenario.faults;
+        }
+        for (unsigned int i = 0; i < plan.repetitions; ++i) {
+          spec.seed = plan.seed + i;
+          plan.runs.push_back(spec);
+        }
+      }
+    }
+  }
+  for (const char *measure : {POINTS, IMAGE}) {
+    if (std::any_of(plan.runs.begin(), plan.runs.end(),
+                    [&](const vpServoRunSpec &run) { return run.measure == measure; })) {
+      plan.measures.emplace_back(measure);
+    }
+  }
+  return plan;
+}
+} // namespace servoCompare

@@ -1,0 +1,43 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file replay.h
+ * \brief Logged runs as videos and film strips of the camera's view.
+ */
+#ifndef servoCompare_replay_h
+#define servoCompare_replay_h
+
+#include "cameraWindow.h"
+#include "results.h"
+
+#include "outputFolder.h"
+
+namespace servoCompare
+{
+//! \brief The video of one law.
+struct ReplayVideo {
+  std::string name;    //!< File inside the result folder.
+  std::string caption; //!< Law, what happens, how fast.
+  bool forBrowsers = true;
+};
+
+/*!
+ * Write a video of each law on the hardest plant, sped up to last some 8 s.
+ * \param jobs : Videos at a time. \param window : When given, the frames are also shown, one law after another.
+ */
+[[nodiscard]] std::vector<ReplayVideo> writeVideos(const Plan &plan, const Results &results, vpApp::OutputFolder &out,
+                                                   unsigned int jobs, CameraWindow *window);
+
+//! \brief Film strips as in figure 5.11: a row of views for each law.
+struct FilmStrip {
+  std::string jpeg;
+  std::vector<std::string> laws; //!< Rows from top to bottom.
+  std::vector<double> times;     //!< Columns, s.
+};
+//! Views of the first segment, up to its end, on the hardest plant.
+[[nodiscard]] FilmStrip drawFilmStrip(const Plan &plan, const Results &results);
+} // namespace servoCompare
+
+#endif

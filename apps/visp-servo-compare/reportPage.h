@@ -1,0 +1,33 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file reportPage.h
+ * \brief The page that a person reads.
+ */
+#ifndef servoCompare_reportPage_h
+#define servoCompare_reportPage_h
+
+#include "figures.h"
+#include "replay.h"
+
+namespace servoCompare
+{
+//! \brief What the page is made of, besides plan and results.
+struct ReportParts {
+  std::vector<Figure> figures;
+  FilmStrip filmStrip;
+  std::vector<ReplayVideo> videos;
+  std::string commandLine;
+  double wallTime = 0.; //!< s
+};
+
+/*!
+ * The page as HTML. \param out : Where the videos lie.
+ */
+[[nodiscard]] std::string reportPage(const Plan &plan, const Results &results, const ReportParts &parts,
+                                     vpApp::OutputFolder &out);
+} // namespace servoCompare
+
+#endif

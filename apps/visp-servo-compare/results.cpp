@@ -1,0 +1,92 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "results.h"
+
+#include "appMain.h"
+#include "jobs.h"
+#include "progress.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace servoCompare
+{
+namespace
+{
+//! Expected cost of a run relative to one by points: rendering and vision take most of the time.
+double costOf(const vpServoRunSpec &spec) { return spec.measure == "image" ? 2. * spec.plant.visionRate : 1.; }
+} // namespace
+
+std::vector<double> Results::values(const std::string &law, const std::string &plant, const std::string &measure,
+                                    Metric metric) const
+{
+  std::vector<double> list;
+  for (const vpServoRun &run : m_runs) {
+    if (run.spec.law == law && run.spec.plant.name == plant && run.spec.measure == measure) {
+      list.push_back(run.metrics.*metric);
+    }
+  }
+  return list;
+}
+
+std::optional<Spread> Results::spread(const std::string &law, const std::string &plant, const std::string &measure,
+                                      Metric metric) const
+{
+  std::vector<double> list = values(law, plant, measure, metric);
+  if (list.empty()) {
+    return std::nullopt;
+  }
+  std::sort(list.begin(), list.end());
+  const std::size_t half = list.size() / 2;
+  const double median = list.size() % 2 == 1 ? list[half] : (list[half - 1] + list[half]) / 2.;
+  return Spread{median, list.front(), list.back()};
+}
+
+const vpServoRun *Results::find(const std::string &law, const std::string &plant, const std::string &measure) const
+{
+  for (const vpServoRun &run : m_runs) {
+    if (run.spec.law == law && run.spec.plant.name == plant && run.spec.measure == measure) {
+      return &run;
+    }
+  }
+  return nullptr;
+}
+
+Results runAll(const Plan &plan, const std::string &targetFile, unsigned int jobs,
+               const std::function<void(const vpServoRun &)> &finished)
+{
+  std::vector<std::size_t> order(plan.runs.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return costOf(plan.runs[a]) > costOf(plan.runs[b]); });
+  double total = 0.;
+  for (const vpServoRunSpec &spec : plan.runs) {
+    total += costOf(spec);
+  }
+
+  Results results(plan.runs.size());
+  vpApp::Progress progress("simulating " + std::to_string(plan.runs.size()) + " runs", total);
+  vpApp::runJobs(order.size(), jobs, [&](std::size_t i) {
+    vpServoRunSpec spec = plan.runs[order[i]];
+    spec.target = targetFile;
+    double shown = 0.;
+    vpServoRun run = runServoExperiment(spec, [&](double share) {
+      progress.add((share - shown) * costOf(spec));
+      shown = share;
+      return !vpApp::interrupted();
+    });
+    vpApp::throwIfInterrupted();
+    progress.add((1. - shown) * costOf(spec));
+    if (spec.seed == plan.seed) {
+      finished(run);
+    }
+    else {
+      run.samples = {};
+    }
+    results.set(order[i], std::move(run));
+  });
+  return results;
+}
+} // namespace servoCompare

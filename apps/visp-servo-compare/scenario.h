@@ -1,0 +1,41 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file scenario.h
+ * \brief Task, gains and plants: built in, or from the user's JSON file.
+ */
+#ifndef servoCompare_scenario_h
+#define servoCompare_scenario_h
+
+#include <visp3/feedforward/vpServoLaw.h>
+#include <visp3/simulation/vpPlaneRenderer.h>
+#include <visp3/simulation/vpServoPlant.h>
+#include <visp3/simulation/vpServoTask.h>
+
+#include <string>
+#include <vector>
+
+VISP_DIRECT_USING_NAMESPACE
+
+namespace servoCompare
+{
+//! \brief Everything of a comparison but the laws. The default is the task of the thesis.
+struct Scenario {
+  Scenario();
+  vpServoTask task;
+  std::string description;
+  vpServoGains gains;
+  std::vector<vpServoPlant> plants; //!< At least one; the first ones are easier than the last ones.
+  vpCameraFaults faults;            //!< Of the rendered views, on plants that are not perfect.
+};
+
+/*!
+ * Read a task file; data/scenario/README.md documents its fields.
+ * \throw std::runtime_error naming the file, the field and its value.
+ */
+[[nodiscard]] Scenario readScenario(const std::string &file);
+} // namespace servoCompare
+
+#endif

@@ -1,0 +1,125 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "summary.h"
+
+#include "runLog.h"
+
+#include <visp3/core/vpMath.h>
+#include <visp3/core/vpPoseVector.h>
+
+namespace servoCompare
+{
+namespace
+{
+using Json = nlohmann::ordered_json;
+
+Json jsonOf(const vpHomogeneousMatrix &M)
+{
+  const vpPoseVector pose(M);
+  return {{"position_m", {pose[0], pose[1], pose[2]}},
+          {"rotation_deg", {vpMath::deg(pose[3]), vpMath::deg(pose[4]), vpMath::deg(pose[5])}}};
+}
+
+Json jsonOf(const vpServoGains &gains)
+{
+  return {{"lambda", gains.lambda},     {"rotation", gains.rotation},
+          {"kappa", gains.kappa},       {"saturation_rad", gains.saturation},
+          {"integral", gains.integral}, {"integral_limit_radps", gains.integralLimit}};
+}
+
+Json jsonOf(const vpServoPlant &plant)
+{
+  return {{"name", plant.name},
+          {"loop_rate_hz", plant.loopRate},
+          {"vision_rate_hz", plant.visionRate},
+          {"latency_s", plant.latency},
+          {"pixel_noise_px", plant.pixelNoise},
+          {"lag_s", plant.lag},
+          {"deadband_radps", plant.deadband},
+          {"max_linear_mps", plant.maxLinear},
+          {"max_angular_radps", plant.maxAngular}};
+}
+
+Json jsonOf(const vpCameraFaults &faults)
+{
+  return {{"noise", faults.noise},
+          {"blur_px", faults.blur},
+          {"gain", faults.gain},
+          {"bias", faults.bias},
+          {"occlusion", faults.occlusion}};
+}
+
+Json jsonOf(const vpServoTask &task)
+{
+  Json segments = Json::array();
+  for (const vpServoSegment &segment : task.segments) {
+    Json item = jsonOf(segment.cdMo);
+    item["name"] = segment.name;
+    item["duration_s"] = segment.duration;
+    segments.push_back(item);
+  }
+  return {{"name", task.name},
+          {"camera",
+           {{"px", task.camera.get_px()},
+            {"py", task.camera.get_py()},
+            {"u0", task.camera.get_u0()},
+            {"v0", task.camera.get_v0()},
+            {"width", task.width},
+            {"height", task.height}}},
+          {"object", {{"width_m", task.objectWidth}, {"height_m", task.objectHeight}, {"points", task.pointCount}}},
+          {"start", jsonOf(task.initial)},
+          {"segments", segments}};
+}
+
+Json jsonOf(const Plan &plan, const vpServoRun &run)
+{
+  const vpServoMetrics &m = run.metrics;
+  Json item = {{"law", run.spec.law},
+               {"plant", run.spec.plant.name},
+               {"measure", run.spec.measure},
+               {"seed", run.spec.seed},
+               {"max_image_error_px", m.max_image_error_px},
+               {"rms_image_error_px", m.rms_image_error_px},
+               {"end_rotation_deg", m.end_rotation_deg},
+               {"end_translation_mm", m.end_translation_mm},
+               {"yaw_range_deg", m.yaw_range_deg},
+               {"ideal_yaw_range_deg", m.ideal_yaw_range_deg},
+               {"out_of_view_s", m.out_of_view_s},
+               {"settle_s", m.settle_s},
+               {"path_length_m", m.path_length_m},
+               {"peak_linear_mps", m.peak_linear_mps},
+               {"peak_angular_radps", m.peak_angular_radps},
+               {"deadlock_cycles", m.deadlock_cycles},
+               {"status", m.status},
+               {"gains", jsonOf(run.spec.gains)},
+               {"plant_parameters", jsonOf(run.spec.plant)}};
+  if (run.spec.measure == "image") {
+    item["image_faults"] = jsonOf(run.spec.faults);
+  }
+  if (run.spec.seed == plan.seed) {
+    item["log"] = logName(run.spec);
+  }
+  return item;
+}
+} // namespace
+
+Json summaryOf(const Plan &plan, const Results &results, const std::string &commandLine, double wallTime)
+{
+  Json runs = Json::array();
+  for (const vpServoRun &run : results.runs()) {
+    runs.push_back(jsonOf(plan, run));
+  }
+  return {{"program", "visp-servo-compare"},
+          {"version", VISP_DIRECT_VERSION},
+          {"visp_version", std::to_string(VISP_VERSION_MAJOR) + "." + std::to_string(VISP_VERSION_MINOR) + "." +
+                               std::to_string(VISP_VERSION_PATCH)},
+          {"command_line", commandLine},
+          {"wall_time_s", wallTime},
+          {"data", "simulated robots; the target is a photograph, its views are rendered"},
+          {"target", plan.target.file},
+          {"task", jsonOf(plan.scenario.task)},
+          {"runs", runs}};
+}
+} // namespace servoCompare

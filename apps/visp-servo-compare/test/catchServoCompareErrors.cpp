@@ -1,0 +1,157 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// Every kind of bad input: the exit status, one sentence that names the thing and its value, and nothing written.
+#include "vpCatch.h"
+
+#include "programRun.h"
+
+#include <algorithm>
+
+namespace
+{
+constexpr int DATA = 1;
+constexpr int USAGE = 2;
+
+//! The good task file, with one piece replaced.
+std::string task(const std::string &piece = "", const std::string &replacement = "")
+{
+  std::string text = R"({
+  "camera": {"px": 800, "py": 800, "u0": 320, "v0": 240},
+  "object": {"width_m": 0.18, "height_m": 0.18},
+  "start": {"position_m": [0, 0, 0.5], "rotation_deg": [0, 0, 0]},
+  "segments": [{"position_m": [0, 0, 0.4], "rotation_deg": [0, 0, 0], "duration_s": 1}],
+  "gains": {"lambda": 1},
+  "plants": [{"name": "P", "vision_rate_hz": 10}]
+})";
+  if (!piece.empty()) {
+    text.replace(text.find(piece), piece.size(), replacement);
+  }
+  return text;
+}
+
+std::string grey(int width, int height) // a PGM file
+{
+  return "P5\n" + std::to_string(width) + " " + std::to_string(height) + "\n255\n" +
+         std::string(width * height, '\x7f');
+}
+
+struct Case {
+  std::string arguments;
+  int status;
+  std::string sentence; //!< What stderr must contain.
+};
+
+void check(ProgramRun &run, const Case &bad)
+{
+  std::vector<std::string> before = run.entries();
+  const int status = run(bad.arguments + " --out result");
+  CAPTURE(bad.arguments, run.err(), run.out());
+  CHECK(status == bad.status);
+  CHECK(run.err().find("visp-servo-compare: ") == 0);
+  CHECK(run.err().find(bad.sentence) != std::string::npos);
+  CHECK(std::count(run.err().begin(), run.err().end(), '\n') == 1);
+  CHECK(run.out().empty());
+  std::vector<std::string> after = run.entries();
+  std::sort(before.begin(), before.end());
+  std::sort(after.begin(), after.end());
+  CHECK(before == after);
+}
+} // namespace
+
+TEST_CASE("A wrong command line ends with status 2", "[visp-servo-compare]")
+{
+  ProgramRun run;
+  const std::vector<Case> cases = {
+      {"--nonsense", USAGE, "--nonsense"},
+      {"surplus", USAGE, "surplus"},
+      {"--law pbvs9", USAGE, "unknown law \"pbvs9\"; known are pbvs1, "},
+      {"--law pbvs1+cbf+cbf", USAGE, "unknown law \"pbvs1+cbf+cbf\""},
+      {"--plant Z", USAGE, "unknown plant \"Z\"; known are A, B and D"},
+      {"--measure radar", USAGE, "unknown measure \"radar\"; known are points and image"},
+      {"--jobs 0", USAGE, "--jobs is 0, must be"},
+      {"--jobs two", USAGE, "--jobs is two, must be"},
+      {"--monte-carlo -3", USAGE, "--monte-carlo is -3, must be"},
+      {"--monte-carlo 0", USAGE, "--monte-carlo is 0, must be"},
+      {"--seed minus", USAGE, "--seed"},
+      {"--full --law pbvs1", USAGE, "--full"},
+      {"--target none.jpg", USAGE, "none.jpg"},
+      {"--task none.json", USAGE, "none.json"},
+      {"--law", USAGE, "--law"},
+  };
+  for (const Case &bad : cases) {
+    check(run, bad);
+  }
+}
+
+TEST_CASE("A bad photo ends with status 1", "[visp-servo-compare]")
+{
+  ProgramRun run;
+  run.write("text.jpg", "this is not an image");
+  run.write("empty.png", "");
+  run.write("dot.pgm", grey(1, 1));
+  run.write("blank.pgm", grey(200, 150));
+  std::filesystem::create_directory(run.path("folder.png"));
+  check(run, {"--target text.jpg", DATA, "text.jpg: is not an image"});
+  check(run, {"--target empty.png", DATA, "empty.png: is not an image"});
+  check(run, {"--target dot.pgm", DATA, "dot.pgm: is 1x1 px, must be at least 32x32 px"});
+  check(run, {"--target blank.pgm", DATA, "blank.pgm: "});
+  check(run, {"--target folder.png", USAGE, "folder.png"});
+}
+
+TEST_CASE("A bad task file ends with status 1 and names the field", "[visp-servo-compare]")
+{
+  ProgramRun run;
+  const auto with = [&](const std::string &content, const std::string &sentence) {
+    run.write("task.json", content);
+    check(run, {"--task task.json", DATA, "task.json: " + sentence});
+  };
+  with("", "line 1, column 1: ");
+  with("{\n  \"camera\": [\n}", "line 3, column 1: ");
+  with(task("\"lambda\": 1", "\"lambda\": NaN"), "line 6, column ");
+  with(task("\"lambda\": 1", "\"lambda\": 1e999"), "number overflow parsing '1e999'");
+  with(task("\"lambda\": 1", "\"lambda\": \"NaN\""), "gains.lambda is \"NaN\", must be a number");
+  with(task("\"lambda\": 1", "\"lambda\": -1"), "servo gain lambda is -1");
+  with(task("\"lambda\": 1", "\"lamda\": 1"), "unknown field gains.lamda; known are ");
+  with(task("\"vision_rate_hz\": 10", "\"vision_rate_hz\": -10"), "plants[0]: visionRate of the plant is -10 Hz");
+  with(task("\"vision_rate_hz\": 10", "\"vision_rate_hz\": 1000"), "plants[0]: visionRate of the plant is 1000 Hz");
+  with(task("\"vision_rate_hz\": 10", "\"like\": \"Q\""), "plants[0]: unknown plant 'Q'");
+  with(task("[{\"name\": \"P\"", "[{\"name\": \"P\"}, {\"name\": \"P\""), "plants[1]: there is a plant \"P\" before");
+  with(task("\"duration_s\": 1", "\"duration_s\": 0"), "duration of segment 0");
+  with(task("[0, 0, 0.4]", "[0, 0, -0.4]"), "cdMo of segment 0");
+  with(task("[0, 0, 0.4]", "[0, 0]"), "segments[0].position_m is [0,0], must be a list of 3 numbers");
+  with(task("\"px\": 800", "\"px\": 0"), "camera: px is 0, must be > 0");
+  with(task("\"width_m\": 0.18", "\"width_m\": -0.18"), "objectWidth of the task is -0.18");
+  with(task("\"object\"", "\"objekt\""), "object is missing");
+  run.write("task.json", task());
+  check(run, {"--task task.json --plant Q", USAGE, "unknown plant \"Q\"; known are A, B, D and P"});
+}
+
+TEST_CASE("A result folder that cannot be written ends with status 1 before anything is run", "[visp-servo-compare]")
+{
+  ProgramRun run;
+  run.write("file", "");
+  CHECK(run("--out file/result") == DATA);
+  CHECK(run.err().find("file/result: cannot be written") != std::string::npos);
+  CHECK(run("--out file") == DATA);
+  CHECK(run.err().find("file: exists and is not a folder") != std::string::npos);
+  std::filesystem::create_directory(run.path("mine"));
+  run.write("mine/thesis.tex", "years of work");
+  CHECK(run("--out mine") == DATA);
+  CHECK(run.err().find("mine: is not empty and not a result of visp-servo-compare") != std::string::npos);
+  CHECK(std::filesystem::exists(run.path("mine/thesis.tex")));
+  CHECK(run("--out ''") == USAGE);
+}
+
+TEST_CASE("What the machine lacks is named", "[visp-servo-compare]")
+{
+  ProgramRun run;
+  CHECK(run("--display --out result", "env -u DISPLAY") == DATA);
+  CHECK(run.err().find("--display needs a screen") != std::string::npos);
+  CHECK(run("--out result", "VISP_DIRECT_DATA=/nowhere") == DATA);
+  CHECK(run.err().find("data file target/klimt.jpg is not in /nowhere") != std::string::npos);
+  CHECK(run("--out result", "PATH=/nowhere") == DATA);
+  CHECK(run.err().find("gnuplot") != std::string::npos);
+  CHECK(run.entries().empty());
+}
