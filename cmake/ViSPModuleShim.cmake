@@ -1,6 +1,11 @@
 # The part of ViSP's module macros that our modules use, for a build on an installed ViSP.
 # Same names and arguments as cmake/VISPModule.cmake of ViSP 3.5, so one module CMakeLists.txt serves both builds.
 
+# Installed libraries and programs find each other wherever the folder is moved to.
+file(RELATIVE_PATH _vispdirect_bin_to_lib "/${CMAKE_INSTALL_BINDIR}" "/${CMAKE_INSTALL_LIBDIR}")
+set(CMAKE_INSTALL_RPATH "$ORIGIN;$ORIGIN/${_vispdirect_bin_to_lib}")
+unset(_vispdirect_bin_to_lib)
+
 # Modules are visited once, in the order of the add_subdirectory() calls in the root CMakeLists.txt.
 macro(vp_add_module _name)
   set(name ${_name})
@@ -36,7 +41,10 @@ macro(vp_module_include_directories)
   set(VISP_MODULE_${the_module}_PRIVATE_INCLUDES ${ARGN})
 endmacro()
 
+# vp_create_module([libraries] [LINK_PRIVATE libraries]): as in ViSP; here all of the libraries are private.
 macro(vp_create_module)
+  set(_vispdirect_libraries ${ARGN})
+  list(REMOVE_ITEM _vispdirect_libraries LINK_PRIVATE)
   add_library(${the_module} ${VISP_MODULE_${the_module}_HEADERS} ${VISP_MODULE_${the_module}_SOURCES})
   add_library(VispDirect::${name} ALIAS ${the_module})
   target_include_directories(${the_module}
@@ -45,9 +53,12 @@ macro(vp_create_module)
   target_include_directories(${the_module} SYSTEM
     PUBLIC "$<BUILD_INTERFACE:${VISP_INCLUDE_DIRS};${VISP_DIRECT_EIGEN3_INCLUDE_DIR}>"
     PRIVATE ${VISP_MODULE_${the_module}_PRIVATE_INCLUDES})
-  target_link_libraries(${the_module} PUBLIC ${VISP_MODULE_${the_module}_DEPS} PRIVATE ${ARGN})
+  target_link_libraries(${the_module} PUBLIC ${VISP_MODULE_${the_module}_DEPS} $<INSTALL_INTERFACE:Eigen3::Eigen>
+                        PRIVATE ${_vispdirect_libraries})
+  unset(_vispdirect_libraries)
   target_compile_definitions(${the_module} PRIVATE visp_EXPORTS)
-  set_target_properties(${the_module} PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+  set_target_properties(${the_module} PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION}
+                        SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   install(TARGETS ${the_module} EXPORT VispDirectTargets
           LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(DIRECTORY "${CMAKE_CURRENT_LIST_DIR}/include/visp3" DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
@@ -67,7 +78,7 @@ macro(vp_add_tests)
       list(APPEND ${_vispdirect_list} ${_vispdirect_arg})
     endif()
   endforeach()
-  file(GLOB _vispdirect_tests CONFIGURE_DEPENDS "${CMAKE_CURRENT_LIST_DIR}/test/*.cpp")
+  file(GLOB_RECURSE _vispdirect_tests CONFIGURE_DEPENDS "${CMAKE_CURRENT_LIST_DIR}/test/*.cpp")
   foreach(_vispdirect_source ${_vispdirect_tests})
     get_filename_component(_vispdirect_file ${_vispdirect_source} NAME)
     if(NOT _vispdirect_file IN_LIST _vispdirect_skip)

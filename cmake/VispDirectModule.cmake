@@ -1,7 +1,7 @@
 # Included at the top of every module's CMakeLists.txt, in a standalone build and inside a ViSP source tree.
 # It may run many times (ViSP processes contrib modules in two passes), so every action here is idempotent.
 
-set(VISP_DIRECT_ROOT "${CMAKE_CURRENT_LIST_DIR}/.." CACHE INTERNAL "Root folder of visp-direct")
+get_filename_component(VISP_DIRECT_ROOT "${CMAKE_CURRENT_LIST_DIR}/.." ABSOLUTE)
 
 # Eigen is a hard requirement of every module: it is the only matrix type inside the real-time step functions.
 if(NOT VISP_DIRECT_EIGEN3_INCLUDE_DIR)
@@ -15,16 +15,20 @@ endif()
 macro(vispdirect_module_settings)
   target_compile_features(${the_module} PUBLIC cxx_std_17)
   set_target_properties(${the_module} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
-  target_compile_options(${the_module} PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang>:-Wall;-Wextra;-Wshadow;-Wnon-virtual-dtor>)
+  target_compile_options(${the_module} PRIVATE "$<$<CXX_COMPILER_ID:GNU,Clang>:-Wall;-Wextra;-Wshadow;-Wnon-virtual-dtor>")
+  # A library with an undefined symbol shall fail here and not in the first program that uses it.
+  if(CMAKE_SYSTEM_NAME STREQUAL "Linux" AND NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+    target_link_options(${the_module} PRIVATE LINKER:-z,defs)
+  endif()
 endmacro()
 
-# vispdirect_add_tests([DEPENDS_ON module...] [EXCLUDE file...]): every test/*.cpp of the module is one Catch2 program
+# vispdirect_add_tests([DEPENDS_ON module...] [SOURCES_EXCLUDE file...]): every test/*.cpp of the module is one Catch2 program
 # with the shared main of test/support. Benchmarks are never tests: see vispdirect_add_benchmarks.
 macro(vispdirect_add_tests)
   if(BUILD_TESTS)
     vispdirect_test_support()
     vp_add_tests(DEPENDS_ON vispdirect_test_support ${ARGN})
-    file(GLOB _vispdirect_tests CONFIGURE_DEPENDS "${CMAKE_CURRENT_LIST_DIR}/test/*.cpp")
+    file(GLOB_RECURSE _vispdirect_tests CONFIGURE_DEPENDS "${CMAKE_CURRENT_LIST_DIR}/test/*.cpp")
     foreach(_vispdirect_test ${_vispdirect_tests})
       get_filename_component(_vispdirect_test ${_vispdirect_test} NAME_WE)
       if(TARGET ${_vispdirect_test})
@@ -48,8 +52,9 @@ function(vispdirect_test_support)
   endif()
   file(GLOB support_sources CONFIGURE_DEPENDS "${VISP_DIRECT_ROOT}/test/support/*.cpp")
   add_library(vispdirect_test_support STATIC ${support_sources})
-  target_include_directories(vispdirect_test_support PUBLIC "${VISP_DIRECT_ROOT}/test/support"
-                             SYSTEM PUBLIC ${VISP_DIRECT_CATCH2_INCLUDE_DIR} ${VISP_DIRECT_EIGEN3_INCLUDE_DIR} ${VISP_INCLUDE_DIRS})
+  target_include_directories(vispdirect_test_support PUBLIC "${VISP_DIRECT_ROOT}/test/support")
+  target_include_directories(vispdirect_test_support SYSTEM PUBLIC
+                             ${VISP_DIRECT_CATCH2_INCLUDE_DIR} ${VISP_DIRECT_EIGEN3_INCLUDE_DIR} ${VISP_INCLUDE_DIRS})
   target_compile_features(vispdirect_test_support PUBLIC cxx_std_17)
   target_compile_definitions(vispdirect_test_support PUBLIC VISP_DIRECT_DATA_DIR="${VISP_DIRECT_ROOT}/data")
 endfunction()
@@ -68,5 +73,13 @@ macro(vispdirect_add_benchmarks)
     unset(_vispdirect_benchmarks)
     unset(_vispdirect_source)
     unset(_vispdirect_target)
+  endif()
+endmacro()
+
+# For programs, which unlike modules get no include folders from vp_create_module: sets VISP_INCLUDE_DIRS. In a ViSP tree
+# the targets carry none and ViSP's own build tree config tells; standalone the root has found ViSP, once.
+macro(vispdirect_find_visp)
+  if(NOT VISP_DIRECT_STANDALONE)
+    find_package(VISP REQUIRED)
   endif()
 endmacro()

@@ -1,0 +1,90 @@
+# shellcheck shell=bash disable=SC2034
+# Sourced by demo.sh, test.sh and scripts/lint.sh: from a fresh Debian 12 to a configured and built tree.
+# Every step is one line for the reader; what the tools print goes to build/*.log and is shown when a step fails.
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+build=$root/build/release
+logs=$root/build
+mkdir -p "$logs"
+
+# What the build needs from Debian 12. ViSP brings OpenCV and Eigen, which we name because we use them ourselves.
+packages=(g++ cmake ninja-build libvisp-dev libopencv-dev libeigen3-dev libdlib-dev catch2 libbenchmark-dev
+  libcli11-dev nlohmann-json3-dev gnuplot-nox)
+
+# run LOG SENTENCE COMMAND...
+run() {
+  local log=$logs/$1 start=$SECONDS status=0
+  printf '%s ... ' "$2"
+  shift 2
+  "$@" >"$log" 2>&1 </dev/null || status=$?
+  if [ "$status" -eq 0 ]; then
+    echo "done, $((SECONDS - start)) s"
+  else
+    echo "failed"
+    # The lines that say why, wherever they stand, then the end; compilers write long lines.
+    {
+      grep -m 10 -E '^(FAILED|E): |error: |undefined reference|CMake Error' "$log" && echo ...
+      tail -n 15 "$log"
+    } | cut -c 1-200 >&2
+    echo "The command was: $*" >&2
+    echo "Its whole output is in ${log#"$root"/}" >&2
+    exit "$status"
+  fi
+}
+
+as_root() {
+  if [ "$(id -u)" -eq 0 ]; then
+    env DEBIAN_FRONTEND=noninteractive "$@"
+  else
+    sudo env DEBIAN_FRONTEND=noninteractive "$@"
+  fi
+}
+
+apt_install() {
+  local get=(apt-get -y -o DPkg::Lock::Timeout=300)
+  as_root "${get[@]}" install --no-install-recommends "$@" && return
+  # No package lists yet, or out of date: fetch them once and try again.
+  as_root "${get[@]}" update && as_root "${get[@]}" install --no-install-recommends "$@"
+}
+
+# install_packages PACKAGE...: those that are missing; nothing is asked of the network when none is.
+install_packages() {
+  local package missing=()
+  if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
+    echo "This is no Debian: please install the equivalents of: $*"
+    return
+  fi
+  for package in "$@"; do
+    [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || missing+=("$package")
+  done
+  [ ${#missing[@]} -gt 0 ] || return 0
+  if [ "$(id -u)" -ne 0 ] && ! command -v sudo >/dev/null; then
+    echo "Missing packages. As root: apt-get install --no-install-recommends ${missing[*]}" >&2
+    exit 1
+  fi
+  # Ask for the password before the output goes to a log.
+  [ "$(id -u)" -eq 0 ] || sudo -v || exit 1
+  run install.log "Installing ${#missing[@]} Debian packages and what they need" apt_install "${missing[@]}"
+}
+
+# Compilers at work: one a processor, but one per 1.5 GB of free memory at most. JOBS=N overrides.
+job_count() {
+  local jobs memory
+  jobs=$(nproc 2>/dev/null || echo 1)
+  memory=$(awk '/^MemAvailable:/ { print int($2 / 1572864) }' /proc/meminfo 2>/dev/null || true)
+  if [ -n "$memory" ] && [ "$memory" -lt "$jobs" ]; then
+    jobs=$memory
+  fi
+  [ "$jobs" -ge 1 ] || jobs=1
+  echo "${JOBS:-$jobs}"
+}
+
+# build_tree TARGET...: configure and build; incremental.
+build_tree() {
+  local options=()
+  ! command -v ccache >/dev/null || options=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+  cd "$root" || exit 1 # presets are looked for in the current folder
+  run configure.log "Configuring" cmake --preset release ${options[@]+"${options[@]}"}
+  run build.log "Building, $(job_count) at a time (minutes the first time)" \
+    cmake --build --preset release --parallel "$(job_count)" --target "$@"
+}

@@ -1,0 +1,22 @@
+#!/usr/bin/env bash
+# Install what is missing, build everything and run all tests. Arguments go to ctest: ./test.sh -R Servo
+set -euo pipefail
+# shellcheck source=scripts/setup.sh
+source "$(dirname "${BASH_SOURCE[0]}")/scripts/setup.sh"
+
+install_packages "${packages[@]}"
+build_tree all
+
+report=$logs/test-results.xml
+rm -f "$report"
+status=0
+ctest --preset release --parallel "$(job_count)" --no-tests=error --output-junit "$report" "$@" 2>&1 || status=$?
+
+count() { sed -nE "s/^[[:space:]]*$1=\"([0-9]+)\".*/\\1/p; s/.*<testsuite[^>]* $1=\"([0-9]+)\".*/\\1/p" "$report" | head -n 1; }
+if [ ! -f "$report" ]; then
+  echo "test.sh: ctest ran no tests (status $status)"
+  exit $((status ? status : 1))
+fi
+total=$(count tests) failed=$(count failures) skipped=$(($(count skipped) + $(count disabled)))
+echo "test.sh: $((total - failed - skipped)) passed, $failed failed, $skipped skipped, $SECONDS s in all"
+exit "$status"
