@@ -1,0 +1,206 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// Planning times, with the thesis's iteration beside them. Ruckig is not packaged in Debian, so it is no peer here.
+#include <visp3/trajectory/vpDirectTrajectory.h>
+#include <visp3/trajectory/vpPoseTrajectory.h>
+#include <visp3/trajectory/vpThesisDuration.h>
+#include <visp3/trajectory/vpTwistShaper.h>
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <random>
+
+VISP_DIRECT_USING_NAMESPACE
+
+namespace
+{
+constexpr double none = std::numeric_limits<double>::infinity();
+
+double uniform(std::mt19937_64 &rng, double low, double high)
+{
+  return std::uniform_real_distribution<double>(low, high)(rng);
+}
+
+// Retargeting in mid-motion: each problem starts somewhere on the way to another goal. The limits are those of a
+// robot's joints. `wanted` selects problems by the form that answers them (Hold: any).
+template <int N> std::vector<vpTrajectoryProblem> retargets(int count, vpTrajectoryForm wanted, bool jerk = false)
+{
+  std::mt19937_64 rng(1);
+  std::vector<vpTrajectoryProblem> problems;
+  vpTrajectoryPlanner planner(N);
+  vpTrajectoryPlan plan(N);
+  while (static_cast<int>(problems.size()) < count) {
+    vpTrajectoryInput<N> input;
+    for (int i = 0; i < N; ++i) {
+      input.maxVelocity[i] = uniform(rng, 0.5, 2.);
+      input.maxAcceleration[i] = uniform(rng, 1., 5.);
+      input.maxJerk[i] = jerk ? 20. * input.maxAcceleration[i] : none;
+      input.goal.q[i] = uniform(rng, -1., 1.);
+    }
+    vpTrajectoryProblem problem(N);
+    static_cast<void>(input.copyTo(problem));
+    static_cast<void>(planner.plan(problem, 0., plan));
+    const double t = uniform(rng, 0.05, 0.95) * plan.duration();
+    for (int i = 0; i < N; ++i) {
+      problem.setStart(i, plan.at(i, t));
+      problem.field(vpTrajectoryProblem::GoalQ)[i] = uniform(rng, -1., 1.);
+    }
+    static_cast<void>(planner.plan(problem, 0., plan));
+    if (wanted == vpTrajectoryForm::Hold || plan.form() == wanted) {
+      problems.push_back(problem);
+    }
+  }
+  return problems;
+}
+
+// Time of each call: mean by Google Benchmark, the distribution here. The clock itself costs about 25 ns a call.
+template <typename Call> void measure(benchmark::State &state, std::size_t count, Call call)
+{
+  using Clock = std::chrono::steady_clock;
+  std::vector<double> ns;
+  ns.reserve(count * 20);
+  for (int round = 0; round < 20; ++round) {
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto begin = Clock::now();
+      call(k);
+      ns.push_back(std::chrono::duration<double, std::nano>(Clock::now() - begin).count());
+    }
+  }
+  std::sort(ns.begin(), ns.end());
+  std::size_t k = 0;
+  for (auto _ : state) {
+    call(k);
+    k = k + 1 < count ? k + 1 : 0;
+  }
+  state.counters["p50_us"] = 1e-3 * ns[ns.size() / 2];
+  state.counters["p99_us"] = 1e-3 * ns[ns.size() * 99 / 100];
+  state.counters["max_us"] = 1e-3 * ns.back();
+}
+
+template <int N> void planning(benchmark::State &state, vpTrajectoryForm form, bool jerk = false)
+{
+  const auto problems = retargets<N>(5000, form, jerk);
+  vpTrajectoryPlanner planner(N);
+  vpTrajectoryPlan plan(N);
+  int iterations = 0;
+  measure(state, problems.size(), [&](std::size_t k) {
+    benchmark::DoNotOptimize(planner.plan(problems[k], 0., plan));
+    iterations = std::max(iterations, plan.iterations());
+  });
+  state.counters["iterations"] = iterations;
+}
+
+void planning1(benchmark::State &state, vpTrajectoryForm form) { planning<1>(state, form); }
+void planning7(benchmark::State &state, vpTrajectoryForm form, bool jerk) { planning<7>(state, form, jerk); }
+
+// What a control loop pays: one cycle of update(), a new goal every 20 cycles.
+template <int N> void cycle(benchmark::State &state)
+{
+  std::mt19937_64 rng(2);
+  vpDirectTrajectory<N> trajectory;
+  vpTrajectoryInput<N> input;
+  vpTrajectoryOutput<N> output;
+  int i = 0;
+  measure(state, 5000, [&](std::size_t) {
+    if (i++ % 20 == 0) {
+      for (int axis = 0; axis < N; ++axis) {
+        input.goal.q[axis] = uniform(rng, -1., 1.);
+      }
+    }
+    benchmark::DoNotOptimize(trajectory.update(input, output, 1e-3));
+  });
+}
+
+void sixthOrder(benchmark::State &state)
+{
+  std::mt19937_64 rng(3);
+  std::vector<vpTrajectoryProblem> problems;
+  vpTrajectoryPlanner planner(1, 1);
+  vpTrajectoryPlan plan(1, 1);
+  while (problems.size() < 5000) {
+    vpTrajectoryInput<1> input;
+    input.goal.q[0] = uniform(rng, -1., 1.);
+    vpTrajectoryVia<1> via;
+    via.tau = uniform(rng, 0.3, 0.7);
+    via.q[0] = uniform(rng, -1., 1.);
+    input.vias.push_back(via);
+    input.start.v[0] = uniform(rng, -0.3, 0.3);
+    input.start.a[0] = uniform(rng, -0.3, 0.3);
+    vpTrajectoryProblem problem(1, 1);
+    static_cast<void>(input.copyTo(problem));
+    static_cast<void>(planner.plan(problem, 0., plan));
+    if (plan.form() == vpTrajectoryForm::Direct) {
+      problems.push_back(problem);
+    }
+  }
+  int iterations = 0;
+  measure(state, problems.size(), [&](std::size_t k) {
+    benchmark::DoNotOptimize(planner.plan(problems[k], 0., plan));
+    iterations = std::max(iterations, plan.iterations());
+  });
+  state.counters["iterations"] = iterations;
+}
+
+// Retargets that a single polynomial answers, by (6.6) with its default gains, one axis.
+void thesisIteration(benchmark::State &state)
+{
+  const auto problems = retargets<1>(5000, vpTrajectoryForm::Direct);
+  int notConverged = 0, calls = 0;
+  measure(state, problems.size(), [&](std::size_t k) {
+    const vpTrajectoryProblem &problem = problems[k];
+    const vpAxisState from = problem.start(0), to = problem.goal(0);
+    const vpMotionFamily motion = vpMotionFamily::pointToPoint(from, to, 3);
+    const vpAxisLimits limits = problem.limits(0);
+    const double T = std::max(vpMinimumDuration::lowerBound(from, to, limits), 0.1);
+    const vpDurationAnswer answer = vpThesisDuration::solve(motion, limits, {0.5, 0.1}, T, 2600);
+    notConverged += answer.kind != vpDurationAnswer::Kind::Found;
+    ++calls;
+    benchmark::DoNotOptimize(answer.T);
+  });
+  state.counters["not_converged_percent"] = 100. * notConverged / calls;
+}
+
+void poseRetarget(benchmark::State &state)
+{
+  vpPoseTrajectory trajectory;
+  std::mt19937_64 rng(4);
+  std::vector<vpHomogeneousMatrix> goals;
+  for (int k = 0; k < 500; ++k) {
+    goals.emplace_back(uniform(rng, -0.5, 0.5), uniform(rng, -0.5, 0.5), uniform(rng, -0.5, 0.5), uniform(rng, -1., 1.),
+                       uniform(rng, -1., 1.), uniform(rng, -1., 1.));
+  }
+  measure(state, goals.size(), [&](std::size_t k) {
+    static_cast<void>(trajectory.setGoal(goals[k]));
+    benchmark::DoNotOptimize(trajectory.update(0.05));
+  });
+}
+
+void shaperStep(benchmark::State &state)
+{
+  vpTwistShaper shaper;
+  std::mt19937_64 rng(5);
+  measure(state, 5000, [&](std::size_t) {
+    benchmark::DoNotOptimize(
+        shaper.update(vpTwist(uniform(rng, -1., 1.), 0.2, 0.1, uniform(rng, -1., 1.), 0., 0.1), 1e-3));
+  });
+}
+} // namespace
+
+BENCHMARK_CAPTURE(planning1, retarget, vpTrajectoryForm::Hold)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(planning7, retarget, vpTrajectoryForm::Hold, false)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(planning7, retarget_direct, vpTrajectoryForm::Direct, false)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(planning7, retarget_fallback, vpTrajectoryForm::Ramped, false)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(planning7, retarget_jerk_limits, vpTrajectoryForm::Hold, true)->Unit(benchmark::kMicrosecond);
+BENCHMARK(sixthOrder)->Unit(benchmark::kMicrosecond);
+BENCHMARK(cycle<1>)->Unit(benchmark::kMicrosecond);
+BENCHMARK(cycle<7>)->Unit(benchmark::kMicrosecond);
+BENCHMARK(thesisIteration)->Unit(benchmark::kMicrosecond);
+BENCHMARK(poseRetarget)->Unit(benchmark::kMicrosecond);
+BENCHMARK(shaperStep)->Unit(benchmark::kMicrosecond);
+
+BENCHMARK_MAIN();

@@ -1,0 +1,144 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpPoseTrajectory.h
+ * \brief Direct trajectory generation for a camera pose: goal pose in, camera twist out.
+ */
+#ifndef vpPoseTrajectory_h
+#define vpPoseTrajectory_h
+
+#include <visp3/core/vpHomogeneousMatrix.h>
+#include <visp3/direct_core/vpTwist.h>
+#include <visp3/trajectory/vpTrajectoryPlanner.h>
+
+#include <Eigen/Core>
+
+BEGIN_VISP_NAMESPACE
+
+//! How the rotation is planned. Both follow the geodesic whenever the present turning lies on it (at rest it does).
+enum class vpRotationPath {
+  Geodesic,      //!< Limits bound the angle's rates: the norm over the rotation vector. Straight line also in position.
+  RotationVector //!< Limits bound each component of the rotation vector's rates.
+};
+
+//! \brief Limits and choices of vpPoseTrajectory.
+struct VISP_EXPORT vpPoseTrajectoryOptions {
+  double linearVelocity = 0.25;    //!< Bound on |v_c|, m/s, > 0.
+  double linearAcceleration = 0.5; //!< Bound on the norm of the acceleration of the camera's origin, m/s^2, > 0.
+  double linearJerk = std::numeric_limits<double>::infinity(); //!< Per axis, m/s^3, > 0.
+  double angularVelocity = 0.5;                                //!< Bound on |w_c|, rad/s, > 0.
+  /*!
+   * Bound on the second derivative of the rotation vector, rad/s^2, > 0. On a geodesic this is the angular acceleration;
+   * while turning from one axis to another that one may be larger by up to 0.32 |w_c|^2.
+   */
+  double angularAcceleration = 1.;
+  double angularJerk = std::numeric_limits<double>::infinity(); //!< Per component, rad/s^3, > 0.
+  vpRotationPath rotation = vpRotationPath::Geodesic;           //!< How the rotation is planned.
+  vpReplanPolicy policy = vpReplanPolicy::EventMinTime;         //!< Replanning policy.
+  double arrivalTime = 0.;     //!< FixedArrival: s from reset() or from the arrival before, > 0.
+  double minimumDuration = 0.; //!< No plan is shorter, s, >= 0; the floor of KeepArrival.
+  bool cruise = false;         //!< Allow ramp, constant velocity, ramp on long moves.
+
+  /*!
+   * \throw vpException (badValue) naming the number and its value when one is out of its range.
+   */
+  void validate() const;
+};
+
+/*!
+ * \brief Pose of the camera and how it moves, f being the fixed reference frame of the caller.
+ */
+struct VISP_EXPORT vpCameraState {
+  Eigen::Matrix3d fRc = Eigen::Matrix3d::Identity(); //!< Rotation of the camera in f.
+  Eigen::Vector3d ftc = Eigen::Vector3d::Zero();     //!< Position of the camera in f, m.
+  vpTwist v; //!< v_c: velocity of the camera in the current camera frame, m/s and rad/s.
+  vpTwist a; //!< Acceleration of the camera's origin and angular acceleration, in the current camera frame.
+
+  //! Write fMc into \e pose. Never allocates.
+  void copyTo(vpHomogeneousMatrix &pose) const;
+};
+
+/*!
+ * \class vpPoseTrajectory
+ * \ingroup group_trajectory
+ * \brief Moves a camera from any moving state to a goal pose within limits, on SE(3).
+ *
+ * Position: three synchronised axes. Rotation: R(t) = R_0 exp(e(t)) with R_0 the rotation when the plan began, so e
+ * starts at zero, where e' = w_c and e'' = w_c' exactly, and the hand-over at a new goal is smooth for every turning
+ * state. The twist is v_c = R^T p', w_c = J_r(e) e', valid up to an angle of pi. As |J_r| <= 1, a bound on |e'| bounds
+ * |w_c|. Position and rotation arrive together.
+ *
+ * \code
+ * vpPoseTrajectory trajectory(options);
+ * trajectory.reset(fMc);
+ * trajectory.setGoal(fMcd);                       // again at every image, if it moves
+ * while (trajectory.update(dt).result != vpTrajectoryResult::Finished) {
+ *   robot.setVelocity(vpRobot::CAMERA_FRAME, trajectory.state().v.toColVector());
+ * }
+ * \endcode
+ */
+class VISP_EXPORT vpPoseTrajectory
+{
+public:
+  /*!
+   * At rest at the identity.
+   * \throw vpException (badValue) when an option is out of its range.
+   */
+  explicit vpPoseTrajectory(const vpPoseTrajectoryOptions &options = {});
+
+  /*!
+   * Change limits and choices; an event.
+   * \throw vpException (badValue) when an option is out of its range.
+   */
+  void setOptions(const vpPoseTrajectoryOptions &options);
+  /*!
+   * Start anew, holding this pose; the goal becomes the pose itself unless set again.
+   * \param fMc : Pose of the camera in the reference frame.
+   * \param v, a : Its velocity and acceleration in the current camera frame, see vpCameraState.
+   * \return InvalidInput (and nothing changes) when a number is not finite or the rotation is not one.
+   */
+  vpTrajectoryStatus reset(const vpHomogeneousMatrix &fMc, const vpTwist &v = {}, const vpTwist &a = {}) noexcept;
+  /*!
+   * Set or change the goal, at any cycle; an event when it differs. Never allocates.
+   * \param fMcd : Pose of the camera at the goal in the reference frame.
+   * \param twist : Its velocity there, in the goal's camera frame, kept constant by the goal.
+   * \return InvalidInput (and the old goal stays) when a number is not finite or the rotation is not one.
+   */
+  vpTrajectoryStatus setGoal(const vpHomogeneousMatrix &fMcd, const vpTwist &twist = {}) noexcept;
+  //! One cycle of \e dt seconds. Never throws, never allocates.
+  vpTrajectoryStatus update(double dt) noexcept;
+
+  [[nodiscard]] const vpCameraState &state() const { return m_state; } //!< Commanded state.
+  //! The state at \e t, s from the start of the plan in force.
+  [[nodiscard]] vpCameraState at(double t) const noexcept;
+  [[nodiscard]] double duration() const { return m_plan.duration(); } //!< Of the plan in force, s.
+  [[nodiscard]] double remaining() const
+  {
+    return m_clock < duration() ? duration() - m_clock : 0.;
+  } //!< Until arrival, s.
+  //! The plan in force: axes 0-2 position (m), 3-5 rotation vector (rad) from the rotation where it began.
+  [[nodiscard]] const vpTrajectoryPlan &plan() const { return m_plan; }
+
+private:
+  void fillLimits() noexcept;
+  void replan() noexcept;
+
+  vpPoseTrajectoryOptions m_options;
+  vpTrajectoryProblem m_problem;
+  vpTrajectoryPlanner m_planner;
+  vpTrajectoryPlan m_plan;
+  vpTrajectoryStatus m_planStatus;
+  Eigen::Matrix3d m_fR0 = Eigen::Matrix3d::Identity(); // where the rotation vector counts from
+  Eigen::Matrix3d m_fRd = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d m_ftd = Eigen::Vector3d::Zero();
+  vpTwist m_goalTwist;
+  vpCameraState m_state;
+  double m_clock = 0.;
+  double m_arrival = -1.; // FixedArrival: on m_clock; negative: counts from the next plan
+  bool m_event = false;
+};
+
+END_VISP_NAMESPACE
+#endif

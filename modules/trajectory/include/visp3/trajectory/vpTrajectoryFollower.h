@@ -1,0 +1,76 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpTrajectoryFollower.h
+ * \brief The control cycle: advance along the plan, replan at events, answer the commanded state.
+ */
+#ifndef vpTrajectoryFollower_h
+#define vpTrajectoryFollower_h
+
+#include <visp3/trajectory/vpThesisDuration.h>
+#include <visp3/trajectory/vpTrajectoryPlanner.h>
+
+BEGIN_VISP_NAMESPACE
+
+/*!
+ * \class vpTrajectoryFollower
+ * \ingroup group_trajectory
+ * \brief Direct trajectory generation (algorithm 6.2, corrected) for a number of axes known at run time only.
+ *
+ * vpDirectTrajectory is the typed form that users write. An event is any change of goal, limits, vias or options; the
+ * new plan starts at the commanded state of the last cycle, never at a measured one, so the motion is C2 across events.
+ */
+class VISP_EXPORT vpTrajectoryFollower
+{
+public:
+  /*!
+   * \throw vpException (badValue) when \e axes < 1 or \e maxVias < 0.
+   */
+  explicit vpTrajectoryFollower(int axes, int maxVias = 0);
+
+  //! One cycle of \e dt seconds. Never throws, never allocates.
+  vpTrajectoryStatus update(const vpTrajectoryProblem &problem, double dt) noexcept;
+  //! One cycle with an input that could not even be read: the motion goes on, the answer is \e fault.
+  vpTrajectoryStatus advance(const vpTrajectoryStatus &fault, double dt) noexcept;
+  //! The next update() starts from the problem's start state.
+  void reset() noexcept { m_started = false; }
+
+  [[nodiscard]] vpAxisState state(int axis) const noexcept { return m_plan.at(axis, m_clock); } //!< Commanded state.
+  [[nodiscard]] const vpTrajectoryPlan &plan() const { return m_plan; }                         //!< Plan in force.
+  [[nodiscard]] const vpTrajectoryStatus &status() const { return m_status; }                   //!< Of the last cycle.
+  [[nodiscard]] double clock() const { return m_clock; } //!< Since the plan in force began, s.
+  [[nodiscard]] double remaining() const
+  {
+    return m_clock < m_plan.duration() ? m_plan.duration() - m_clock : 0.;
+  }                                                          //!< s.
+  [[nodiscard]] bool isNewPlan() const { return m_newPlan; } //!< The last cycle made a plan.
+
+private:
+  enum class Event { None, Task, Rate };
+  [[nodiscard]] Event detect(const vpTrajectoryProblem &problem) const noexcept;
+  void takeRest(const vpTrajectoryProblem &problem) noexcept;
+  [[nodiscard]] double floorOf(const vpTrajectoryProblem &problem, Event event) noexcept;
+  void replan(const vpTrajectoryProblem &problem, Event event) noexcept;
+  void iterateThesis() noexcept;
+  void tick(double dt) noexcept;
+  [[nodiscard]] vpTrajectoryStatus currentStatus(bool arrivedBefore) const noexcept;
+
+  vpTrajectoryProblem m_task; // in force, as the user gave it
+  vpTrajectoryProblem m_rest; // what was left of it when the plan began, from the commanded state
+  vpTrajectoryPlanner m_planner;
+  vpTrajectoryPlan m_plan;
+  vpTrajectoryStatus m_status;
+  vpTrajectoryStatus m_planStatus;
+  double m_clock = 0.;       // since the plan began
+  double m_sinceReplan = 0.; // for the rate-based use
+  double m_arrival = 0.;     // FixedArrival: on m_clock
+  double m_thesisT = 0.;
+  bool m_thesisBusy = false;
+  bool m_started = false;
+  bool m_newPlan = false;
+};
+
+END_VISP_NAMESPACE
+#endif

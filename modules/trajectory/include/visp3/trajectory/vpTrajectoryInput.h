@@ -1,0 +1,131 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpTrajectoryInput.h
+ * \brief What a trajectory is asked and what it answers, typed by the number of axes.
+ */
+#ifndef vpTrajectoryInput_h
+#define vpTrajectoryInput_h
+
+#include <visp3/trajectory/vpTrajectoryPlan.h>
+#include <visp3/trajectory/vpTrajectoryProblem.h>
+
+#include <Eigen/Core>
+
+#include <limits>
+#include <vector>
+
+BEGIN_VISP_NAMESPACE
+
+//! One number per axis; \e N is the number of axes or Eigen::Dynamic.
+template <int N> using vpAxisVector = Eigen::Matrix<double, N, 1>;
+
+//! Position (unit), velocity, acceleration and jerk of all axes.
+template <int N> struct vpTrajectoryState {
+  vpAxisVector<N> q, v, a, j;
+
+  //! All zero.
+  explicit vpTrajectoryState(int axes = N == Eigen::Dynamic ? 0 : N) : q(vpAxisVector<N>::Zero(axes)), v(q), a(q), j(q)
+  {}
+};
+
+//! A place to go through at the fraction \e tau of the move.
+template <int N> struct vpTrajectoryVia {
+  double tau = 0.5;             //!< Time as a fraction of the whole move, in (0, 1), ascending.
+  vpAxisVector<N> q, v, a;      //!< Place, velocity, acceleration.
+  bool hasVelocity = false;     //!< \e v is given; otherwise it is chosen for least jerk.
+  bool hasAcceleration = false; //!< \e a is given too; needs \e hasVelocity.
+
+  //! Position only, at zero.
+  explicit vpTrajectoryVia(int axes = N == Eigen::Dynamic ? 0 : N) : q(vpAxisVector<N>::Zero(axes)), v(q), a(q) {}
+};
+
+/*!
+ * \brief Start, goal, limits, vias and options: everything that vpDirectTrajectory reads, each cycle.
+ *
+ * Change any member at any cycle; that is an event. \e start is read in the first cycle and after reset() only.
+ */
+template <int N> struct vpTrajectoryInput {
+  vpTrajectoryState<N> start;      //!< Where the motion begins.
+  vpTrajectoryState<N> goal;       //!< Where it ends. The jerk is read for vpTrajectoryContinuity::C3 only.
+  vpAxisVector<N> maxVelocity;     //!< unit/s, > 0; infinity: none. Of velocity and acceleration one must be limited.
+  vpAxisVector<N> maxAcceleration; //!< unit/s^2, > 0; infinity: none.
+  vpAxisVector<N> maxJerk;         //!< unit/s^3, > 0; infinity (the default): none.
+  vpAxisVector<N> minPosition;     //!< unit; -infinity (the default): none.
+  vpAxisVector<N> maxPosition;     //!< unit; infinity (the default): none.
+  std::vector<vpTrajectoryVia<N>> vias; //!< Vias, at most as many as the trajectory was set up for.
+  vpTrajectoryOptions options;          //!< Everything else.
+
+  //! At rest at zero with limits of 1.
+  explicit vpTrajectoryInput(int axes = N == Eigen::Dynamic ? 0 : N)
+    : start(axes), goal(axes), maxVelocity(vpAxisVector<N>::Ones(axes)), maxAcceleration(maxVelocity),
+      maxJerk(vpAxisVector<N>::Constant(axes, std::numeric_limits<double>::infinity())), minPosition(-maxJerk),
+      maxPosition(maxJerk)
+  {}
+
+  /*!
+   * Write into \e problem, which must have been made for this number of axes. Never allocates.
+   * \return InvalidInput when a vector has another length or there are too many vias, otherwise Working.
+   */
+  vpTrajectoryStatus copyTo(vpTrajectoryProblem &problem) const noexcept;
+};
+
+//! What one cycle answers.
+template <int N> struct vpTrajectoryOutput {
+  vpTrajectoryState<N> state; //!< Commanded state.
+  vpTrajectoryStatus status;  //!< How the step went; status.message() is a sentence.
+  double time = 0.;           //!< Since the plan in force began, s.
+  double duration = 0.;       //!< Of the plan in force, s.
+  double remaining = 0.;      //!< Until arrival, s.
+  bool newPlan = false;       //!< This cycle made a plan.
+
+  //! All zero.
+  explicit vpTrajectoryOutput(int axes = N == Eigen::Dynamic ? 0 : N) : state(axes) {}
+};
+
+template <int N> vpTrajectoryStatus vpTrajectoryInput<N>::copyTo(vpTrajectoryProblem &problem) const noexcept
+{
+  using P = vpTrajectoryProblem;
+  const int n = problem.axes();
+  vpTrajectoryStatus status;
+  status.result = vpTrajectoryResult::Working;
+  const auto copy = [&](const vpAxisVector<N> &from, P::Field field) {
+    if (from.size() == n) {
+      std::copy_n(from.data(), n, problem.field(field));
+    }
+    else {
+      status = {vpTrajectoryResult::InvalidInput, vpTrajectoryFault::AxisCount, n, static_cast<double>(from.size())};
+    }
+  };
+  copy(start.q, P::StartQ);
+  copy(start.v, P::StartV);
+  copy(start.a, P::StartA);
+  copy(start.j, P::StartJ);
+  copy(goal.q, P::GoalQ);
+  copy(goal.v, P::GoalV);
+  copy(goal.a, P::GoalA);
+  copy(goal.j, P::GoalJ);
+  copy(maxVelocity, P::MaxVelocity);
+  copy(maxAcceleration, P::MaxAcceleration);
+  copy(maxJerk, P::MaxJerk);
+  copy(minPosition, P::MinPosition);
+  copy(maxPosition, P::MaxPosition);
+  problem.options = options;
+  problem.setViaCount(static_cast<int>(vias.size()));
+  for (int k = 0; k < static_cast<int>(vias.size()) && k < problem.maxVias(); ++k) {
+    const vpTrajectoryVia<N> &via = vias[static_cast<std::size_t>(k)];
+    for (const vpAxisVector<N> *x : {&via.q, &via.v, &via.a}) {
+      if (x->size() != n) {
+        return {vpTrajectoryResult::InvalidInput, vpTrajectoryFault::AxisCount, n, static_cast<double>(x->size())};
+      }
+    }
+    problem.setVia(k, via.tau, via.q.data(), via.hasVelocity ? via.v.data() : nullptr,
+                   via.hasVelocity && via.hasAcceleration ? via.a.data() : nullptr);
+  }
+  return status;
+}
+
+END_VISP_NAMESPACE
+#endif

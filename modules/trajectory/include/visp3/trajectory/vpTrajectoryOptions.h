@@ -1,0 +1,100 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpTrajectoryOptions.h
+ * \brief The choices of section 6.2 of the thesis: continuity, replanning policy, synchronisation, timing.
+ */
+#ifndef vpTrajectoryOptions_h
+#define vpTrajectoryOptions_h
+
+#include <visp3/direct_core/vpDirectCompat.h>
+
+#include <array>
+#include <cstdint>
+#include <initializer_list>
+#include <limits>
+
+BEGIN_VISP_NAMESPACE
+
+//! Highest derivative that is continuous across replans (6.2, "trajectory type").
+enum class vpTrajectoryContinuity {
+  C1, //!< Cubic: position and velocity. The acceleration jumps.
+  C2, //!< Quintic: and acceleration; the minimum-jerk motion.
+  C3  //!< Septic: and jerk.
+};
+
+//! What happens to the time of arrival when the goal or the limits change.
+enum class vpReplanPolicy {
+  EventMinTime, //!< Smallest duration, found anew at events only: never shortened in between, which would spoil the ending.
+  KeepArrival, //!< The time of arrival stays; it is put off only when the limits need it. For goals measured with noise.
+  FixedArrival //!< The time of arrival is given: vpTrajectoryOptions::arrivalTime.
+};
+
+//! How the axes go together.
+enum class vpSynchronisation {
+  Time,     //!< All axes arrive at the same time.
+  Straight, //!< All axes stay on the straight line to the goal when start and goal velocities lie on it, otherwise Time.
+  None      //!< Each axis arrives as early as it can.
+};
+
+//! How the duration is found.
+enum class vpDurationMethod {
+  Exact,          //!< vpMinimumDuration, with safe fallback forms when a single polynomial cannot keep the limits.
+  ThesisIteration //!< vpThesisDuration, (6.6): a baseline for comparison. May exceed limits; see its documentation.
+};
+
+//! What a FixedArrival plan does when the limits do not allow the given time. The result is ArrivalInfeasible in both cases.
+enum class vpLateArrival {
+  Extend,      //!< Keep the limits and arrive at the earliest feasible time.
+  ExceedLimits //!< Keep the time with a single polynomial and exceed the limits (printing; figure 6.5).
+};
+
+//! Limit on the Euclidean norm over some axes, such as the Cartesian speed of three of them.
+struct VISP_EXPORT vpAxisGroup {
+  std::uint64_t axes = 0;                                           //!< Bit i set: axis i belongs to the group.
+  double maxSpeed = std::numeric_limits<double>::infinity();        //!< unit/s, > 0.
+  double maxAcceleration = std::numeric_limits<double>::infinity(); //!< unit/s^2, > 0.
+
+  vpAxisGroup() = default;
+  //! Group of these axes, 0 ... 63.
+  vpAxisGroup(std::initializer_list<int> members, double speed,
+              double acceleration = std::numeric_limits<double>::infinity())
+    : maxSpeed(speed), maxAcceleration(acceleration)
+  {
+    for (int i : members) {
+      axes |= i >= 0 && i < 64 ? std::uint64_t(1) << i : 0;
+    }
+  }
+  [[nodiscard]] bool contains(int axis) const { return axis < 64 && (axes >> axis & 1) != 0; } //!< Membership.
+};
+
+//! \brief Everything about a trajectory that is not one number per axis.
+struct VISP_EXPORT vpTrajectoryOptions {
+  static constexpr int maxGroups = 4; //!< Largest number of groups.
+
+  vpTrajectoryContinuity continuity = vpTrajectoryContinuity::C2; //!< Continuity across replans.
+  vpReplanPolicy policy = vpReplanPolicy::EventMinTime;           //!< Replanning policy.
+  vpSynchronisation synchronisation = vpSynchronisation::Time;    //!< How the axes go together.
+  vpDurationMethod method = vpDurationMethod::Exact;              //!< How the duration is found.
+  vpLateArrival lateArrival = vpLateArrival::Extend;              //!< For FixedArrival.
+  //! Allow ramp, constant velocity, ramp when it is faster than the single polynomial (long moves); C2 only.
+  bool cruise = false;
+  double arrivalTime = 0.;     //!< FixedArrival: s from the event that set it, > 0.
+  double minimumDuration = 0.; //!< No plan is shorter than this, s, >= 0; the floor of KeepArrival.
+  double freeze = 0.05;     //!< Within this time of the arrival a plan is not recomputed without a new goal, s, >= 0.
+  double replanPeriod = 0.; //!< Rate-based use (6.2.1): recompute the polynomial every so often, s; 0: at events only.
+  double thesisVelocityGain = 0.5;             //!< d_v of (6.6), s/(unit/s), > 0.
+  double thesisAccelerationGain = 0.1;         //!< d_alpha of (6.6), s/(unit/s^2), > 0.
+  int thesisStepsPerCycle = 1000;              //!< 1 spreads the iteration over the cycles (figure 6.6), >= 1.
+  std::array<vpAxisGroup, maxGroups> groups{}; //!< Limits on norms; a group without axes is not used.
+};
+
+//! True when both describe the same choices.
+[[nodiscard]] VISP_EXPORT bool operator==(const vpTrajectoryOptions &a, const vpTrajectoryOptions &b);
+//! True when a choice differs.
+[[nodiscard]] inline bool operator!=(const vpTrajectoryOptions &a, const vpTrajectoryOptions &b) { return !(a == b); }
+
+END_VISP_NAMESPACE
+#endif

@@ -1,0 +1,148 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpTrajectoryPlan.h
+ * \brief A planned motion of several axes: polynomials one after another, and what can be asked of them.
+ */
+#ifndef vpTrajectoryPlan_h
+#define vpTrajectoryPlan_h
+
+#include <visp3/trajectory/vpMotionFamily.h>
+
+#include <vector>
+
+BEGIN_VISP_NAMESPACE
+
+//! The shape that an axis was given.
+enum class vpTrajectoryForm {
+  Hold,   //!< Start and goal are the same.
+  Direct, //!< One polynomial (or one per via), the minimum-jerk motion.
+  Cruise, //!< Ramp, constant velocity, ramp.
+  Ramped, //!< Acceleration ramps around a polynomial: no single polynomial keeps the limits.
+  StopAndGo, //!< Comes to rest, goes, and takes up the final velocity: keeps position and group limits that nothing else keeps.
+  Vias //!< From via to via, because no single duration keeps the limits over all of them.
+};
+
+//! The form as a word ("Direct"), for files; static text.
+[[nodiscard]] VISP_EXPORT const char *toString(vpTrajectoryForm form);
+
+//! A polynomial on its own clock: q(t) = p((t - begin)/duration).
+struct VISP_EXPORT vpTrajectorySegment {
+  double begin = 0.;    //!< s from the start of the plan.
+  double duration = 0.; //!< s, > 0.
+  vpPolynomial p;       //!< Position in s = (t - begin)/duration; the constant is the place itself.
+};
+
+//! Exact extremes of one axis over a plan.
+struct VISP_EXPORT vpTrajectoryPeaks {
+  double minPosition = 0.;  //!< Lowest place.
+  double maxPosition = 0.;  //!< Highest place.
+  double velocity = 0.;     //!< Largest |v|, unit/s.
+  double acceleration = 0.; //!< Largest |a|, unit/s^2.
+  double jerk = 0.;         //!< Largest |j|, unit/s^3.
+  double squaredJerk = 0.;  //!< Integral of j^2, unit^2/s^5.
+};
+
+//! An interval in which every axis is one polynomial in t - begin, for reports.
+struct VISP_EXPORT vpTrajectoryPiece {
+  double begin = 0.;                             //!< s from the start of the plan.
+  double end = 0.;                               //!< s from the start of the plan.
+  std::vector<std::vector<double>> coefficients; //!< Per axis, from the constant up, in t - begin (s).
+};
+
+/*!
+ * \class vpTrajectoryPlan
+ * \ingroup group_trajectory
+ * \brief An immutable motion, as a value. Made by vpTrajectoryPlanner; reading it never allocates except pieces().
+ */
+class VISP_EXPORT vpTrajectoryPlan
+{
+public:
+  /*!
+   * An empty plan with room for its axes.
+   * \throw vpException (badValue) when \e axes < 1 or \e maxVias < 0.
+   */
+  explicit vpTrajectoryPlan(int axes, int maxVias = 0);
+
+  [[nodiscard]] int axes() const { return m_axes; }            //!< Number of axes.
+  [[nodiscard]] double duration() const { return m_duration; } //!< Until the last axis arrives, s.
+  //! Until this axis arrives, s: below duration() with vpSynchronisation::None only.
+  [[nodiscard]] double duration(int axis) const { return m_tracks[static_cast<std::size_t>(axis)].duration; }
+  [[nodiscard]] double brakingEnd() const
+  {
+    return m_brakingEnd;
+  } //!< Until the start is back inside the limits, s; 0: it was.
+  [[nodiscard]] vpTrajectoryForm form(int axis) const
+  {
+    return m_tracks[static_cast<std::size_t>(axis)].form;
+  } //!< Shape of an axis.
+  //! The worst form over the axes.
+  [[nodiscard]] vpTrajectoryForm form() const;
+  [[nodiscard]] int iterations() const { return m_iterations; } //!< Most looks that one search of this plan took.
+
+  /*!
+   * State of an axis at time \e t (s from the start of the plan), any finite t. Before the start: the start. After the
+   * end a goal acceleration is ramped down and a goal velocity is kept.
+   */
+  [[nodiscard]] vpAxisState at(int axis, double t) const noexcept;
+  //! Number of segments of an axis.
+  [[nodiscard]] int segments(int axis) const { return m_tracks[static_cast<std::size_t>(axis)].count; }
+  //! Segment \e i of an axis, 0 <= i < segments(axis).
+  [[nodiscard]] const vpTrajectorySegment &segment(int axis, int i) const
+  {
+    return m_segments[static_cast<std::size_t>(axis * m_capacity + i)];
+  }
+  //! Number of vias that the plan goes through.
+  [[nodiscard]] int vias() const { return m_vias; }
+  //! When via \e k is passed, s from the start of the plan.
+  [[nodiscard]] double viaTime(int k) const { return m_viaTimes[static_cast<std::size_t>(k)]; }
+  //! Exact extremes of an axis, from the roots of the derivatives.
+  [[nodiscard]] vpTrajectoryPeaks peaks(int axis) const noexcept;
+  /*!
+   * Exact peak of the Euclidean norm of the velocities (order 1) or accelerations (order 2) over the axes whose bit is
+   * set in \e axes.
+   */
+  [[nodiscard]] double peakNorm(unsigned long long axes, int order) const noexcept;
+  //! The plan cut at every change of polynomial of any axis. Allocates.
+  [[nodiscard]] std::vector<vpTrajectoryPiece> pieces() const;
+
+  /*! \name For planners */
+  //! @{
+  void clear() noexcept;                                          //!< Forget the motion, keep the room.
+  void begin(int axis, double q, vpTrajectoryForm form) noexcept; //!< Start the track of an axis at place \e q.
+  //! Append a motion relative to where the track ends now. Ignored when \e duration is not > 0 or the room is used up.
+  void append(int axis, const vpPolynomial &relative, double duration) noexcept;
+  //! Close a track: the exact goal and the time of the ramp that takes its acceleration down afterwards.
+  void finish(int axis, const vpAxisState &goal, double rampTime) noexcept;
+  void setBrakingEnd(double t) { m_brakingEnd = t; } //!< See brakingEnd().
+  void setIterations(int n) { m_iterations = n; }    //!< See iterations().
+  void addVia(double t) noexcept; //!< The next via is passed at \e t. Ignored when the room is used up.
+  //! @}
+
+private:
+  struct Track {
+    int count = 0;
+    double duration = 0.;
+    double place = 0.; // where the track ends
+    double rampTime = 0.;
+    vpAxisState goal{};
+    vpTrajectoryForm form = vpTrajectoryForm::Hold;
+  };
+  [[nodiscard]] double nextBreak(double t) const noexcept;
+  [[nodiscard]] vpPolynomial between(int axis, double from, double to) const noexcept;
+
+  int m_axes;
+  int m_capacity; // segments per axis
+  int m_vias = 0;
+  double m_duration = 0.;
+  double m_brakingEnd = 0.;
+  int m_iterations = 0;
+  std::vector<Track> m_tracks;
+  std::vector<vpTrajectorySegment> m_segments; // axes x capacity: sized at construction, so that a copy keeps its room
+  std::vector<double> m_viaTimes;
+};
+
+END_VISP_NAMESPACE
+#endif

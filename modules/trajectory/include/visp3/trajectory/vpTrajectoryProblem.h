@@ -1,0 +1,124 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpTrajectoryProblem.h
+ * \brief Start, goal, limits, vias and options of a trajectory for any number of axes, in flat storage.
+ */
+#ifndef vpTrajectoryProblem_h
+#define vpTrajectoryProblem_h
+
+#include <visp3/trajectory/vpMinimumDuration.h>
+#include <visp3/trajectory/vpTrajectoryOptions.h>
+#include <visp3/trajectory/vpTrajectoryResult.h>
+
+#include <vector>
+
+BEGIN_VISP_NAMESPACE
+
+/*!
+ * \class vpTrajectoryProblem
+ * \ingroup group_trajectory
+ * \brief What vpTrajectoryPlanner is asked, with the number of axes known at run time only.
+ *
+ * vpTrajectoryInput is the typed form that users write; this is what it becomes. Allocates at construction only.
+ */
+class VISP_EXPORT vpTrajectoryProblem
+{
+public:
+  //! One number per axis each.
+  enum Field {
+    StartQ,
+    StartV,
+    StartA,
+    StartJ, //!< Start state; the rest is what an event may change.
+    GoalQ,
+    GoalV,
+    GoalA,
+    GoalJ,
+    MaxVelocity,
+    MaxAcceleration,
+    MaxJerk,
+    MinPosition,
+    MaxPosition,
+    FieldCount
+  };
+
+  /*!
+   * At rest at zero, without limits.
+   * \param axes : Number of axes, >= 1.
+   * \param maxVias : Room for so many vias, >= 0.
+   * \throw vpException (badValue) naming the number that is out of range.
+   */
+  explicit vpTrajectoryProblem(int axes, int maxVias = 0);
+
+  [[nodiscard]] int axes() const { return m_axes; }       //!< Number of axes.
+  [[nodiscard]] int maxVias() const { return m_maxVias; } //!< Room for vias.
+  [[nodiscard]] int vias() const { return m_vias; }       //!< Number of vias in use.
+
+  //! The numbers of a field, axes() of them.
+  [[nodiscard]] double *field(Field f) { return m_values.data() + static_cast<std::size_t>(f * m_axes); }
+  [[nodiscard]] const double *field(Field f) const
+  {
+    return m_values.data() + static_cast<std::size_t>(f * m_axes);
+  } //!< \overload
+
+  //! Use \e count vias; above maxVias() the problem becomes invalid (TooManyVias).
+  void setViaCount(int count) { m_vias = count; }
+  /*!
+   * Via \e k, 0 <= k < maxVias().
+   * \param tau : Time as a fraction of the whole move.
+   * \param q, v, a : axes() numbers each; \e v, \e a may be null: left free.
+   */
+  void setVia(int k, double tau, const double *q, const double *v, const double *a);
+  [[nodiscard]] double viaTime(int k) const { return m_viaTimes[static_cast<std::size_t>(k)]; } //!< tau of via \e k.
+  [[nodiscard]] int viaOrder(int k) const
+  {
+    return m_viaOrders[static_cast<std::size_t>(k)];
+  } //!< 1: q; 2: q, v; 3: q, v, a.
+  //! Place, velocity and acceleration of via \e k on \e axis.
+  [[nodiscard]] vpAxisState viaState(int k, int axis) const;
+  //! Forget the first \e count vias and put the others on the clock of what is left of the move from fraction \e done on.
+  void dropVias(int count, double done);
+
+  //! Take goal, limits and options of \e other, made for as many axes, and keep the vias.
+  void takeTask(const vpTrajectoryProblem &other);
+
+  void setStart(int axis, const vpAxisState &x);   //!< Set the start state of an axis.
+  [[nodiscard]] vpAxisState start(int axis) const; //!< Start state of an axis.
+  [[nodiscard]] vpAxisState goal(int axis) const;  //!< Goal state of an axis.
+  //! Limits of an axis; positions relative to its start.
+  [[nodiscard]] vpAxisLimits limits(int axis) const;
+
+  //! Goal, limits, vias and options are the same (the start is not compared).
+  [[nodiscard]] bool sameTask(const vpTrajectoryProblem &other) const;
+  //! The vias are the same.
+  [[nodiscard]] bool sameVias(const vpTrajectoryProblem &other) const;
+  /*!
+   * Check every number.
+   * \param startToo : Also the start state.
+   * \return InvalidInput with the first fault found, or Working.
+   */
+  [[nodiscard]] vpTrajectoryStatus validate(bool startToo) const noexcept;
+
+  vpTrajectoryOptions options; //!< Everything that is not one number per axis.
+
+private:
+  [[nodiscard]] double at(Field f, int axis) const { return m_values[static_cast<std::size_t>(f * m_axes + axis)]; }
+  [[nodiscard]] vpTrajectoryStatus validateAxis(int axis) const noexcept;
+  [[nodiscard]] vpTrajectoryStatus validateGroups() const noexcept;
+  [[nodiscard]] vpTrajectoryStatus validateVias() const noexcept;
+  [[nodiscard]] vpTrajectoryStatus validateOptions() const noexcept;
+
+  int m_axes;
+  int m_maxVias;
+  int m_vias = 0;
+  std::vector<double> m_values;    // FieldCount x axes
+  std::vector<double> m_viaValues; // maxVias x 3 x axes
+  std::vector<double> m_viaTimes;
+  std::vector<int> m_viaOrders;
+};
+
+END_VISP_NAMESPACE
+#endif

@@ -1,0 +1,86 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpTrajectoryResult.h
+ * \brief How a trajectory step went, as a value and as a sentence.
+ */
+#ifndef vpTrajectoryResult_h
+#define vpTrajectoryResult_h
+
+#include <visp3/direct_core/vpDirectCompat.h>
+
+#include <string>
+
+BEGIN_VISP_NAMESPACE
+
+//! How the step went. The motion is safe to execute in every case (with the exceptions that the user asked for by name).
+enum class vpTrajectoryResult {
+  Working,            //!< On the way, within the limits.
+  Finished,           //!< The goal was reached in this cycle.
+  Holding,            //!< The goal was reached before; nothing changed.
+  Braking,            //!< The start was outside the limits: coming back inside as fast as the limits allow.
+  InvalidInput,       //!< The input has a bad value; the motion goes on as planned before.
+  NoFeasibleDuration, //!< The limits contradict each other or the goal; the motion keeps those that can be kept.
+  ArrivalInfeasible   //!< The given arrival time cannot be kept within the limits.
+};
+
+//! What the matter is, in detail.
+enum class vpTrajectoryFault {
+  None,                    //!< Nothing.
+  StartNotFinite,          //!< A number of the start state is NaN or infinite.
+  GoalNotFinite,           //!< A number of the goal state is NaN or infinite.
+  VelocityLimit,           //!< A velocity limit is not > 0.
+  AccelerationLimit,       //!< An acceleration limit is not > 0.
+  JerkLimit,               //!< A jerk limit is not > 0.
+  NoLimit,                 //!< Neither velocity nor acceleration is limited.
+  PositionLimits,          //!< The lower position limit is not below the upper one.
+  GoalOutsidePosition,     //!< The goal is outside its position limits.
+  GoalOutsideVelocity,     //!< The goal velocity is above its limit.
+  GoalOutsideAcceleration, //!< The goal acceleration is above its limit.
+  GoalOutsideGroup,        //!< The goal velocity of a group is above its limit.
+  GroupLimit,              //!< A limit of a group is not > 0.
+  GroupAxis,               //!< A group names an axis that does not exist, or an axis of another group.
+  ViaNotFinite,            //!< A number of a via is NaN or infinite.
+  ViaTime,                 //!< tau of a via is not in (0, 1).
+  ViaOrder,                //!< tau of a via is not above that of the one before.
+  ViaOutsideLimits,        //!< Position, velocity or acceleration of a via is outside the limits.
+  TooManyVias,             //!< More vias than were set up.
+  ViaContinuity,           //!< Vias need continuity C2.
+  AxisCount,               //!< A vector has not one number per axis.
+  ArrivalTime,             //!< The arrival time of FixedArrival is not > 0 and finite.
+  Duration,                //!< minimumDuration, freeze or replanPeriod is negative or not finite.
+  ThesisGain,              //!< A gain of (6.6) is not > 0.
+  ThesisSteps,             //!< The number of steps per cycle is not >= 1.
+  NotARotation,            //!< The rotation of a pose is not orthonormal to 1e-6.
+  TimeStep,                //!< dt is not finite and > 0.
+  GoalContradiction,       //!< The goal cannot be approached within the limits (such as v = v_max with a < 0).
+  PositionUnreachable,     //!< The position limits cannot be kept from this state; they were dropped.
+  ArrivalTooEarly          //!< The given arrival time needs more than the limits allow.
+};
+
+/*!
+ * \brief Result with its reason: which axis, which value.
+ */
+struct VISP_EXPORT vpTrajectoryStatus {
+  vpTrajectoryResult result = vpTrajectoryResult::Holding; //!< How the step went.
+  vpTrajectoryFault fault = vpTrajectoryFault::None;       //!< Why, when something is wrong.
+  int index = -1;                                          //!< Axis (from 0), via or group that is meant; -1: none.
+  double value = 0.; //!< The value that is wrong, or the earliest feasible arrival in s.
+
+  //! True unless the input is invalid or limits had to be dropped.
+  [[nodiscard]] bool isGood() const
+  {
+    return result != vpTrajectoryResult::InvalidInput && result != vpTrajectoryResult::NoFeasibleDuration &&
+           result != vpTrajectoryResult::ArrivalInfeasible;
+  }
+  //! One sentence that names axis and value, such as "velocity limit of axis 3 is -1, must be > 0". Allocates.
+  [[nodiscard]] std::string message() const;
+};
+
+//! The result as a word ("Working"), for files; static text.
+[[nodiscard]] VISP_EXPORT const char *toString(vpTrajectoryResult result);
+
+END_VISP_NAMESPACE
+#endif

@@ -1,0 +1,90 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpTwistShaper.h
+ * \brief Makes any commanded twist start from the present one, with bounded acceleration and jerk.
+ */
+#ifndef vpTwistShaper_h
+#define vpTwistShaper_h
+
+#include <visp3/direct_core/vpTwist.h>
+
+BEGIN_VISP_NAMESPACE
+
+//! \brief Limits of vpTwistShaper, for the linear and the angular part.
+struct VISP_EXPORT vpTwistShaperLimits {
+  double linearAcceleration = 1.;  //!< m/s^2, > 0.
+  double linearJerk = 10.;         //!< m/s^3, > 0; infinity switches the jerk limit off.
+  double angularAcceleration = 1.; //!< rad/s^2, > 0.
+  double angularJerk = 10.;        //!< rad/s^3, > 0; infinity switches the jerk limit off.
+  /*!
+   * True: the limits bound the Euclidean norm of the linear and of the angular part, and a change from rest keeps its
+   * direction. False: they bound each of the six components.
+   */
+  bool norm = true;
+
+  /*!
+   * \throw vpException (badValue) naming the limit and its value when one is not > 0.
+   */
+  void validate() const;
+};
+
+/*!
+ * \class vpTwistShaper
+ * \ingroup group_trajectory
+ * \brief Put after any vpServo or servo law: raw twist in, twist with bounded acceleration (and jerk) out.
+ *
+ * Classical visual servoing answers v = -lambda L^+ e, whose first value is a step: infinite acceleration at t = 0
+ * (thesis, 6.1.1, figure 6.1). The shaper follows the raw twist along the time-optimal ramps of vpVelocityRamp, planned
+ * anew each cycle from its own commanded twist and acceleration. With constant input it arrives exactly, in finite time.
+ *
+ * \code
+ * vpTwistShaper shaper(limits);
+ * for (;;) {
+ *   v = shaper.update(vpTwist::fromColVector(task.computeControlLaw()), dt);
+ * }
+ * \endcode
+ */
+class VISP_EXPORT vpTwistShaper
+{
+public:
+  /*!
+   * Starts at rest.
+   * \throw vpException (badValue) when a limit is not > 0.
+   */
+  explicit vpTwistShaper(const vpTwistShaperLimits &limits = {});
+
+  //! Start anew from this twist and this rate of change (m/s^2, rad/s^2), for example those of a moving robot.
+  void reset(const vpTwist &twist = {}, const vpTwist &acceleration = {});
+  /*!
+   * Change the limits; they hold from the next cycle on. An acceleration above a lowered limit comes down at full jerk.
+   * \throw vpException (badValue) when a limit is not > 0.
+   */
+  void setLimits(const vpTwistShaperLimits &limits);
+
+  /*!
+   * One cycle. Never throws, never allocates.
+   * \param raw : The wished twist, in any fixed component meaning (usually the camera frame). When it is not finite the
+   *   shaper brakes towards zero instead.
+   * \param dt : Time since the last call, s. When it is not finite and > 0 the twist stays as it is.
+   * \return The twist to command.
+   */
+  [[nodiscard]] vpTwist update(const vpTwist &raw, double dt) noexcept;
+
+  //! The commanded twist.
+  [[nodiscard]] const vpTwist &twist() const { return m_twist; }
+  //! Its present rate of change, m/s^2 and rad/s^2.
+  [[nodiscard]] const vpTwist &acceleration() const { return m_acceleration; }
+
+private:
+  void updatePart(int first, const vpTwist &raw, double maxAcceleration, double maxJerk, double dt) noexcept;
+
+  vpTwistShaperLimits m_limits;
+  vpTwist m_twist;
+  vpTwist m_acceleration;
+};
+
+END_VISP_NAMESPACE
+#endif

@@ -1,0 +1,65 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpVelocityRamp.h
+ * \brief Time-optimal change of velocity under limits on acceleration and jerk.
+ */
+#ifndef vpVelocityRamp_h
+#define vpVelocityRamp_h
+
+#include <visp3/trajectory/vpMotionFamily.h>
+
+BEGIN_VISP_NAMESPACE
+
+/*!
+ * \class vpVelocityRamp
+ * \ingroup group_trajectory
+ * \brief The fastest way from (v, a) to (v_target, 0) with |a| <= a_max and |j| <= j_max: at most four pieces of
+ * constant jerk.
+ *
+ * Used to brake from outside the limits and, one cycle at a time, by vpTwistShaper. A start beyond a_max first comes
+ * back to it at full jerk.
+ */
+class VISP_EXPORT vpVelocityRamp
+{
+public:
+  static constexpr int maxPieces = 4;
+
+  //! A stretch of constant jerk.
+  struct Piece {
+    double duration = 0.; //!< s, >= 0.
+    double jerk = 0.;     //!< unit/s^3.
+  };
+
+  //! No motion.
+  vpVelocityRamp() = default;
+  /*!
+   * \param v, a : Present velocity and acceleration.
+   * \param target : Velocity to reach with zero acceleration.
+   * \param maxAcceleration, maxJerk : Limits, > 0 and finite.
+   */
+  vpVelocityRamp(double v, double a, double target, double maxAcceleration, double maxJerk) noexcept;
+
+  //! Total duration, s.
+  [[nodiscard]] double duration() const { return m_duration; }
+  //! Number of pieces, 0 when the target is reached already.
+  [[nodiscard]] int count() const { return m_count; }
+  //! Piece \e i of count().
+  [[nodiscard]] const Piece &piece(int i) const { return m_pieces[static_cast<std::size_t>(i)]; }
+  /*!
+   * State at time \e t >= 0 with the place counted from \e q; after the end the velocity stays at the target, exactly.
+   */
+  [[nodiscard]] vpAxisState at(double q, double t) const noexcept;
+
+private:
+  void add(double duration, double jerk);
+
+  std::array<Piece, maxPieces> m_pieces{};
+  int m_count = 0;
+  double m_v = 0., m_a = 0., m_target = 0., m_duration = 0.;
+};
+
+END_VISP_NAMESPACE
+#endif

@@ -1,0 +1,337 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "vpAxisForms.h"
+
+#include <algorithm>
+#include <cmath>
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+vpPolynomial scaled(vpPolynomial p, double factor)
+{
+  for (int k = 0; k <= p.degree(); ++k) {
+    p[k] *= factor;
+  }
+  return p;
+}
+
+bool within(const vpPolynomial &p, double place, const vpAxisLimits &limits)
+{
+  const auto range = p.range();
+  const double slack = vpMinimumDuration::tolerance * (std::abs(place) + range.max - range.min);
+  return place + range.min >= limits.minPosition - slack && place + range.max <= limits.maxPosition + slack;
+}
+
+bool isBounded(const vpAxisLimits &limits)
+{
+  return std::isfinite(limits.minPosition) || std::isfinite(limits.maxPosition);
+}
+} // namespace
+
+double vpAxisTask::rampUnit() const
+{
+  const double scale = limits.velocity / limits.acceleration;
+  return std::isfinite(scale) && scale > 0. ? 0.1 * scale : 0.05;
+}
+
+double vpAxisTask::brakeAcceleration() const
+{
+  // Without a limit: stop within the ramp unit.
+  return std::isfinite(limits.acceleration)
+             ? limits.acceleration
+             : std::max({std::abs(from[2]), std::abs(from[1]) / rampUnit(), limits.velocity / rampUnit()});
+}
+
+double vpAxisTask::brakeJerk() const { return std::min(limits.jerk, brakeAcceleration() / rampUnit()); }
+
+vpAxisLimits vpAxisTask::withoutPosition() const
+{
+  vpAxisLimits free = limits;
+  free.minPosition = -infinity;
+  free.maxPosition = infinity;
+  return free;
+}
+
+double rampDuration(const vpAxisState &x, const vpAxisTask &task) noexcept
+{
+  const double a = std::abs(x[2]);
+  if (task.order == 2 || (a == 0. && (task.order == 3 || x[3] == 0.))) {
+    return 0.;
+  }
+  if (task.order == 4) {
+    // Cubic acceleration: any short enough ramp keeps a start that is inside; take the longest of a few.
+    const vpMotionFamily ramp = vpMotionFamily::accelerationStep(x, {x[0], x[1], 0., 0.}, 2);
+    double r = 4. * task.rampUnit();
+    for (int i = 0; i < 40; ++i, r *= 0.5) {
+      if (vpMinimumDuration::isFeasible(ramp, task.withoutPosition(), r)) {
+        return r;
+      }
+    }
+    return -1.;
+  }
+  const double room = task.limits.velocity - std::copysign(1., x[2]) * x[1];
+  // Without an acceleration limit to compare with: change the velocity by a tenth of its limit.
+  const double gentle = std::isfinite(task.limits.acceleration)
+                            ? a / task.brakeJerk()
+                            : std::max(0.2 * task.limits.velocity / a, a / task.limits.jerk);
+  const double r = std::min(gentle, 2. * room / a);
+  const bool tooHard = r < a / task.limits.jerk * (1. - 1e-9);
+  return tooHard || r < 1e-6 * gentle ? -1. : r;
+}
+
+bool needsBraking(const vpAxisTask &task) noexcept
+{
+  const double slack = 1. + 1e-12;
+  if (std::abs(task.from[1]) > task.limits.velocity * slack) {
+    return true;
+  }
+  vpAxisTask quintic = task;
+  quintic.order = 3;
+  return task.order > 2 &&
+         (std::abs(task.from[2]) > task.limits.acceleration * slack || rampDuration(task.from, quintic) < 0.);
+}
+
+void vpFramedMotion::open(const vpAxisTask &task) noexcept
+{
+  m_heads = m_tails = 0;
+  m_fixed = 0.;
+  m_order = task.order;
+  m_head = task.from;
+  m_tail = task.to;
+}
+
+void vpFramedMotion::addHead(const vpPolynomial &p, double duration) noexcept
+{
+  m_headPieces[static_cast<std::size_t>(m_heads++)] = {p, duration};
+  m_fixed += duration;
+}
+
+void vpFramedMotion::brake(const vpAxisTask &task, double target, double duration, double jerk) noexcept
+{
+  const double a = m_order > 2 ? m_head[2] : 0.;
+  const vpVelocityRamp ramp(m_head[1], a, target, task.brakeAcceleration(), jerk);
+  vpAxisState x{m_head[0], m_head[1], a, 0.};
+  double t = 0.;
+  for (int i = 0; i < ramp.count(); ++i) {
+    const auto &piece = ramp.piece(i);
+    const double d = piece.duration;
+    addHead({0., x[1] * d, x[2] * d * d / 2., piece.jerk * d * d * d / 6.}, d);
+    t += d;
+    x = ramp.at(m_head[0], t);
+  }
+  const double rest = duration - t;
+  if (rest > 0.) {
+    addHead({0., target * rest}, rest);
+  }
+  m_head = {x[0] + std::max(rest, 0.) * target, target, 0., 0.};
+}
+
+void vpFramedMotion::launch(const vpAxisTask &task, double jerk) noexcept
+{
+  // Time runs backwards from the goal: braking from (-v, a).
+  const double a = m_order > 2 ? m_tail[2] : 0.;
+  const vpVelocityRamp ramp(-m_tail[1], a, 0., task.brakeAcceleration(), jerk);
+  vpAxisState x{m_tail[0], -m_tail[1], a, 0.};
+  double t = 0.;
+  for (int i = 0; i < ramp.count() && m_tails < maxTail; ++i) {
+    const auto &piece = ramp.piece(i);
+    const double d = piece.duration;
+    const vpPolynomial backwards{0., x[1] * d, x[2] * d * d / 2., piece.jerk * d * d * d / 6.};
+    vpPolynomial p = backwards.composed(1., -1.);
+    p[0] = 0.;
+    m_tailPieces[static_cast<std::size_t>(m_tails++)] = {p, d};
+    m_fixed += d;
+    t += d;
+    x = ramp.at(m_tail[0], t);
+  }
+  m_tail = {x[0], 0., 0., 0.};
+}
+
+void vpFramedMotion::rampHead(double r) noexcept
+{
+  if (!(r > 0.)) {
+    return;
+  }
+  const vpPolynomial p = vpMotionFamily::accelerationStep(m_head, {m_head[0], m_head[1], 0., 0.}, m_order - 2).at(r);
+  const auto end = p.jet(1.);
+  addHead(p, r);
+  m_head = {m_head[0] + end[0], end[1] / r, 0., 0.};
+}
+
+void vpFramedMotion::rampTail(double r) noexcept
+{
+  if (!(r > 0.)) {
+    return;
+  }
+  const double j = m_order == 4 ? m_tail[3] : 0.;
+  const double v = m_tail[1] - r * (m_tail[2] / 2. - r * j / 12.);
+  const vpPolynomial p = vpMotionFamily::accelerationStep({0., v, 0., 0.}, m_tail, m_order - 2).at(r);
+  m_tailPieces[static_cast<std::size_t>(m_tails++)] = {p, r};
+  m_fixed += r;
+  m_tail = {m_tail[0] - p.value(1.), v, 0., 0.};
+}
+
+void vpFramedMotion::stopHead(double T) noexcept
+{
+  if (m_head[1] == 0. || !(T > 0.)) {
+    return;
+  }
+  const vpPolynomial p = vpMotionFamily::velocityStep(m_head, {}, m_order - 1).at(T);
+  addHead(p, T);
+  m_head = {m_head[0] + p.value(1.), 0., 0., 0.};
+}
+
+void vpFramedMotion::stopTail(double T) noexcept
+{
+  if (m_tail[1] == 0. || !(T > 0.)) {
+    return;
+  }
+  const vpPolynomial p = vpMotionFamily::velocityStep({}, m_tail, m_order - 1).at(T);
+  m_tailPieces[static_cast<std::size_t>(m_tails++)] = {p, T};
+  m_fixed += T;
+  m_tail = {m_tail[0] - p.value(1.), 0., 0., 0.};
+}
+
+void vpFramedMotion::close(const vpAxisTask &task) noexcept
+{
+  m_middle = vpMotionFamily::pointToPoint(m_head, m_tail, m_order);
+  m_middleLimits = task.limits;
+  m_middleLimits.minPosition -= m_head[0];
+  m_middleLimits.maxPosition -= m_head[0];
+  m_lower = vpMinimumDuration::lowerBound(m_head, m_tail, m_middleLimits);
+}
+
+bool vpFramedMotion::fixedKeepPosition(const vpAxisLimits &limits) const noexcept
+{
+  if (!isBounded(limits)) {
+    return true;
+  }
+  double place = 0.;
+  for (int i = 0; i < m_heads; ++i) {
+    const vpPolynomial &p = m_headPieces[static_cast<std::size_t>(i)].p;
+    if (!within(p, place, limits)) {
+      return false;
+    }
+    place += p.value(1.);
+  }
+  place = m_tail[0];
+  for (int i = m_tails; i > 0; --i) {
+    const vpPolynomial &p = m_tailPieces[static_cast<std::size_t>(i - 1)].p;
+    if (!within(p, place, limits)) {
+      return false;
+    }
+    place += p.value(1.);
+  }
+  return true;
+}
+
+double vpFramedMotion::next(double T) const noexcept
+{
+  const double free = T - m_fixed;
+  if (free < m_lower && m_fixed + m_lower > T) {
+    return m_fixed + m_lower;
+  }
+  const double now = std::max(free, m_lower);
+  const double candidate = vpMinimumDuration::nextCandidate(m_middle, m_middleLimits, now);
+  return candidate == now ? T : std::max(m_fixed + candidate, T * (1. + 4e-16));
+}
+
+void vpFramedMotion::emitHead(vpTrajectoryPlan &plan, int axis, double factor) const noexcept
+{
+  for (int i = 0; i < m_heads; ++i) {
+    const Piece &piece = m_headPieces[static_cast<std::size_t>(i)];
+    plan.append(axis, scaled(piece.p, factor), piece.duration);
+  }
+}
+
+void vpFramedMotion::emit(vpTrajectoryPlan &plan, int axis, double factor, double T) const noexcept
+{
+  emitHead(plan, axis, factor);
+  const double free = T - m_fixed;
+  plan.append(axis, scaled(m_middle.at(free), factor), free);
+  for (int i = m_tails; i > 0; --i) {
+    const Piece &piece = m_tailPieces[static_cast<std::size_t>(i - 1)];
+    plan.append(axis, scaled(piece.p, factor), piece.duration);
+  }
+}
+
+void vpCruiseMotion::open(const vpAxisTask &task, const vpFramedMotion &framed) noexcept
+{
+  m_available = false;
+  m_from = framed.head();
+  m_to = framed.tail();
+  m_braked = framed.fixedDuration();
+  m_limits = task.limits;
+  const double h = m_to[0] - m_from[0];
+  if (task.order != 3 || h == 0. || !std::isfinite(task.limits.velocity) || !std::isfinite(task.limits.acceleration)) {
+    return;
+  }
+  const double full = std::copysign(task.limits.velocity, h);
+  const vpMotionFamily up = vpMotionFamily::velocityStep(m_from, {m_from[0], full, 0., 0.}, 2);
+  const vpMotionFamily down = vpMotionFamily::velocityStep({m_to[0], full, 0., 0.}, m_to, 2);
+  const vpAxisLimits free = task.withoutPosition();
+  const vpDurationAnswer a = vpMinimumDuration::solve(
+      up, free, vpMinimumDuration::lowerBound({0., m_from[1], m_from[2], 0.}, {0., full, 0., 0.}, free));
+  const vpDurationAnswer b = vpMinimumDuration::solve(
+      down, free, vpMinimumDuration::lowerBound({0., full, 0., 0.}, {0., m_to[1], m_to[2], 0.}, free));
+  if (a.kind != vpDurationAnswer::Kind::Found || b.kind != vpDurationAnswer::Kind::Found) {
+    return;
+  }
+  m_up = a.T;
+  m_down = b.T;
+  const double constant = (h - up.at(m_up).value(1.) - down.at(m_down).value(1.)) / full;
+  m_shortest = m_braked + m_up + m_down + constant;
+  m_available = constant >= 0.;
+}
+
+bool vpCruiseMotion::ramps(double cruise, vpPolynomial &up, vpPolynomial &down) const noexcept
+{
+  const vpMotionFamily first = vpMotionFamily::velocityStep(m_from, {0., cruise, 0., 0.}, 2);
+  const vpMotionFamily last = vpMotionFamily::velocityStep({0., cruise, 0., 0.}, m_to, 2);
+  vpAxisLimits free = m_limits;
+  free.minPosition = -infinity;
+  free.maxPosition = infinity;
+  up = first.at(m_up);
+  down = last.at(m_down);
+  return std::abs(cruise) <= m_limits.velocity * (1. + vpMinimumDuration::tolerance) &&
+         vpMinimumDuration::isFeasible(first, free, m_up) && vpMinimumDuration::isFeasible(last, free, m_down) &&
+         (!isBounded(m_limits) ||
+          (within(up, m_from[0], m_limits) && within(down, m_to[0] - down.value(1.), m_limits)));
+}
+
+// The velocity that takes the duration T with the same ramps; their lengths are linear in it.
+double vpCruiseMotion::cruiseAt(double T) const noexcept
+{
+  const double ends =
+      m_up * (m_from[1] / 2. + m_up * m_from[2] / 12.) + m_down * (m_to[1] / 2. - m_down * m_to[2] / 12.);
+  return (m_to[0] - m_from[0] - ends) / (T - m_braked - 0.5 * (m_up + m_down));
+}
+
+double vpCruiseMotion::next(double T) const noexcept
+{
+  if (!m_available) {
+    return infinity;
+  }
+  T = std::max(T, m_shortest);
+  vpPolynomial up, down;
+  return ramps(cruiseAt(T), up, down) ? T : infinity;
+}
+
+void vpCruiseMotion::emit(vpTrajectoryPlan &plan, int axis, double factor, double T) const noexcept
+{
+  vpPolynomial up, down;
+  const double cruise = cruiseAt(T);
+  static_cast<void>(ramps(cruise, up, down));
+  const double constant = T - m_braked - m_up - m_down;
+  plan.append(axis, scaled(up, factor), m_up);
+  plan.append(axis, {0., factor * cruise * constant}, constant);
+  plan.append(axis, scaled(down, factor), m_down);
+}
+
+END_VISP_NAMESPACE

@@ -1,0 +1,120 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpAxisForms.h
+ * \brief The shapes that the motion of one axis can take, each with one free duration.
+ */
+#ifndef vpAxisForms_h
+#define vpAxisForms_h
+
+#include <visp3/trajectory/vpMinimumDuration.h>
+#include <visp3/trajectory/vpTrajectoryPlan.h>
+#include <visp3/trajectory/vpVelocityRamp.h>
+
+BEGIN_VISP_NAMESPACE
+
+//! One axis on its way from a state to a state; places are relative to the start, so from[0] is 0.
+struct vpAxisTask {
+  vpAxisState from{};
+  vpAxisState to{};
+  vpAxisLimits limits;
+  int order = 3; // conditions at each end: 2 cubic, 3 quintic, 4 septic
+
+  //! Duration of an acceleration ramp over the full range when no jerk limit sets it: a tenth of v_max/a_max.
+  [[nodiscard]] double rampUnit() const;
+  //! Acceleration and jerk to brake with.
+  [[nodiscard]] double brakeAcceleration() const;
+  [[nodiscard]] double brakeJerk() const;
+  //! The limits without those on the position.
+  [[nodiscard]] vpAxisLimits withoutPosition() const;
+};
+
+/*!
+ * Duration of the ramp from acceleration a to zero that starts in this state (j matters for order 4): gentle if there
+ * is room, never beyond the velocity limit. Zero when there is nothing to ramp, negative when no ramp keeps the limits.
+ */
+double rampDuration(const vpAxisState &x, const vpAxisTask &task) noexcept;
+
+//! True when the state is outside the limits or cannot but leave them: braking comes first.
+bool needsBraking(const vpAxisTask &task) noexcept;
+
+/*!
+ * Fixed pieces, one polynomial of free duration, fixed pieces. Everything except the cruise form is of this kind.
+ */
+class vpFramedMotion
+{
+public:
+  //! Start over: nothing fixed yet.
+  void open(const vpAxisTask &task) noexcept;
+  //! Fixed pieces at the head: braking to the velocity \e target with zero acceleration, padded to \e duration if longer.
+  void brake(const vpAxisTask &task, double target, double duration, double jerk) noexcept;
+  //! Fixed pieces at the tail: as fast as the limits allow from rest to the velocity before the tail.
+  void launch(const vpAxisTask &task, double jerk) noexcept;
+  //! Fixed pieces: the acceleration ramps, at the head from the present state, at the tail up to the goal.
+  void rampHead(double duration) noexcept;
+  void rampTail(double duration) noexcept;
+  //! Fixed pieces: from the present velocity to rest, and from rest to the velocity before the tail.
+  void stopHead(double duration) noexcept;
+  void stopTail(double duration) noexcept;
+  //! Everything fixed is in place: make the polynomial between.
+  void close(const vpAxisTask &task) noexcept;
+
+  [[nodiscard]] const vpAxisState &head() const { return m_head; } //!< State in which the free polynomial begins.
+  [[nodiscard]] const vpAxisState &tail() const { return m_tail; } //!< State in which it ends.
+  [[nodiscard]] double fixedDuration() const { return m_fixed; }   //!< Of all fixed pieces, s.
+  [[nodiscard]] const vpMotionFamily &middle() const { return m_middle; } //!< The free polynomial.
+  //! The fixed pieces stay within the position limits.
+  [[nodiscard]] bool fixedKeepPosition(const vpAxisLimits &limits) const noexcept;
+  //! One look: the total duration \e T itself if the limits are kept, else the next candidate; see vpMinimumDuration.
+  [[nodiscard]] double next(double T) const noexcept;
+  //! Append the motion of total duration \e T to a plan, times \e factor.
+  void emit(vpTrajectoryPlan &plan, int axis, double factor, double T) const noexcept;
+  //! Append the pieces at the head only.
+  void emitHead(vpTrajectoryPlan &plan, int axis, double factor) const noexcept;
+
+private:
+  struct Piece {
+    vpPolynomial p;
+    double duration = 0.;
+  };
+  static constexpr int maxHead = 7; // braking 4, padding, ramp, stop
+  static constexpr int maxTail = 4; // ramp, stop, or a launch of three; the last one first
+
+  void addHead(const vpPolynomial &p, double duration) noexcept;
+
+  std::array<Piece, maxHead> m_headPieces{};
+  std::array<Piece, maxTail> m_tailPieces{};
+  int m_heads = 0, m_tails = 0, m_order = 3;
+  double m_fixed = 0., m_lower = 0.;
+  vpAxisState m_head{}, m_tail{};
+  vpMotionFamily m_middle;
+  vpAxisLimits m_middleLimits;
+};
+
+/*!
+ * Ramp, constant velocity, ramp: for long moves. The ramps are quartic, their durations are those of full speed.
+ */
+class vpCruiseMotion
+{
+public:
+  //! Set up after the head of \e framed (which may have braked). Not available without both limits or on short moves.
+  void open(const vpAxisTask &task, const vpFramedMotion &framed) noexcept;
+  //! Smallest feasible duration >= T of this form, or infinity.
+  [[nodiscard]] double next(double T) const noexcept;
+  //! Append the motion of total duration \e T to a plan, times \e factor, without the head of \e framed.
+  void emit(vpTrajectoryPlan &plan, int axis, double factor, double T) const noexcept;
+
+private:
+  [[nodiscard]] bool ramps(double cruise, vpPolynomial &up, vpPolynomial &down) const noexcept;
+  [[nodiscard]] double cruiseAt(double T) const noexcept;
+
+  bool m_available = false;
+  double m_braked = 0., m_up = 0., m_down = 0., m_shortest = 0.;
+  vpAxisState m_from{}, m_to{};
+  vpAxisLimits m_limits;
+};
+
+END_VISP_NAMESPACE
+#endif

@@ -1,0 +1,292 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "vpRootKernel.h"
+
+#include <visp3/trajectory/vpMinimumDuration.h>
+
+#include <algorithm>
+#include <cmath>
+
+BEGIN_VISP_NAMESPACE
+
+namespace vpMinimumDuration
+{
+namespace
+{
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr int size = vpMotionFamily::maxDegree + 1;
+constexpr double farAway = 1.05; // a jump by so much that looking for a longer one does not pay
+
+// A derivative of the motion at the present T, with its roots.
+struct Level {
+  double c[size];
+  int degree = 0;
+  double roots[size];
+  int rootCount = 0;
+
+  void differentiateFrom(const Level &upper)
+  {
+    degree = std::max(upper.degree - 1, 0);
+    c[0] = 0.;
+    vpRootKernel::differentiate(upper.c, upper.degree, c);
+  }
+  void findRoots(const Level *below)
+  {
+    if (degree <= 2) {
+      rootCount = vpRootKernel::closedFormRoots(c, degree, roots);
+    }
+    else if (below != nullptr) {
+      rootCount =
+          vpRootKernel::rootsBetween(c, degree, below->roots, below->rootCount, vpRootKernel::Wanted::Extrema, roots);
+    }
+    else {
+      rootCount = vpRootKernel::allRoots(c, degree, roots);
+    }
+  }
+  [[nodiscard]] double noise() const
+  {
+    double sum = 0.;
+    for (int k = 0; k <= degree; ++k) {
+      sum += std::abs(c[k]);
+    }
+    return 2. * epsilon * sum;
+  }
+};
+
+double power(double x, int n)
+{
+  double p = 1.;
+  for (int i = 0; i < n; ++i) {
+    p *= x;
+  }
+  return p;
+}
+
+// In place: the polynomial in x = T' - T instead of T'. Its constant becomes the excess, exactly as it was seen.
+void shift(double *g, int degree, double T, double excess)
+{
+  for (int i = 0; i < degree; ++i) {
+    for (int k = degree - 1; k >= i; --k) {
+      g[k] += T * g[k + 1];
+    }
+  }
+  g[0] = excess;
+}
+
+vpPolynomial derivativeOf(const vpMotionFamily &motion, int d, double T)
+{
+  const vpPolynomial first = motion.at(T).derivative();
+  return d == 1 ? first : first.derivative();
+}
+
+// From one duration to the next that may be feasible, given how far the root of g is.
+double advance(double T, double root) { return std::max(T + root, T * (1. + 2. * epsilon)); }
+
+// The search over the extrema of one derivative at one T.
+class Look
+{
+public:
+  Look(const vpMotionFamily &motion, double T) : m_motion(motion), m_T(T) {}
+  [[nodiscard]] double next() const { return m_next; }
+
+  // |d^d p/ds^d| <= limit (share T)^d, at the extrema and, unless they are given values, at the ends.
+  void boundAbsolute(const Level &level, const Level &derivative, int d, double limit)
+  {
+    const double bound = limit * power(m_motion.share() * m_T, d);
+    const double allowed = bound * (1. + tolerance) + level.noise();
+    forEachCandidate(derivative, d, [&](double s) {
+      const double y = vpRootKernel::horner(level.c, level.degree, s);
+      if (std::abs(y) > allowed) {
+        jump(s, d, std::copysign(1., y), limit, std::abs(y) - bound);
+      }
+    });
+  }
+
+  // lower <= p <= upper, all relative to the start.
+  void boundPosition(const Level &level, const Level &derivative, double lower, double upper)
+  {
+    // Relative to the room where there is one, never below what evaluating p loses.
+    const double room =
+        std::max(std::isfinite(lower) ? std::abs(lower) : 0., std::isfinite(upper) ? std::abs(upper) : 0.);
+    const double slack = tolerance * room + 0.5 * level.noise();
+    forEachCandidate(derivative, 0, [&](double s) {
+      const double y = vpRootKernel::horner(level.c, level.degree, s);
+      if (y > upper + slack) {
+        jump(s, 0, 1., upper, y - upper);
+      }
+      if (y < lower - slack) {
+        jump(s, 0, -1., -lower, lower - y);
+      }
+    });
+  }
+
+private:
+  template <typename Check> void forEachCandidate(const Level &derivative, int d, Check check) const
+  {
+    for (int i = 0; i < derivative.rootCount; ++i) {
+      check(derivative.roots[i]);
+    }
+    if (!m_motion.isGivenAtEnds(d)) {
+      check(0.);
+      check(1.);
+    }
+  }
+
+  void jump(double s, int d, double sign, double limit, double excess)
+  {
+    auto g = m_motion.inDuration(s, d);
+    for (double &c : g) {
+      c *= sign;
+    }
+    g[static_cast<std::size_t>(d)] -= limit * power(m_motion.share(), d);
+    const int degree = std::max(m_motion.power(), d);
+    shift(g.data(), degree, m_T, excess);
+    m_next = std::max(m_next, advance(m_T, vpRootKernel::firstPositiveRoot(g.data(), degree)));
+  }
+
+  const vpMotionFamily &m_motion;
+  double m_T;
+  double m_next = m_T;
+};
+} // namespace
+
+double nextCandidate(const vpMotionFamily &motion, const vpAxisLimits &limits, double T) noexcept
+{
+  Level level[5];
+  level[0].degree = motion.degree();
+  motion.evaluate(T, level[0].c);
+  for (int d = 1; d <= 3; ++d) {
+    level[d].differentiateFrom(level[d - 1]);
+  }
+  const bool position = std::isfinite(limits.minPosition) || std::isfinite(limits.maxPosition);
+  const bool jerk = std::isfinite(limits.jerk);
+  const bool acceleration = std::isfinite(limits.acceleration);
+  // Where no closed form gives the roots, a bound first: often none are needed.
+  const bool velocity = std::isfinite(limits.velocity) &&
+                        !(level[2].degree > 2 && vpRootKernel::isSurelyWithin(level[1].c, level[1].degree,
+                                                                              limits.velocity * motion.share() * T));
+  // From the highest derivative down: the roots of each split the next into monotone pieces.
+  Look look(motion, T);
+  const bool deep = level[3].degree > 2 && (position || velocity || acceleration);
+  if (jerk || deep) {
+    level[4].differentiateFrom(level[3]);
+    level[4].findRoots(nullptr);
+  }
+  if (jerk) {
+    look.boundAbsolute(level[3], level[4], 3, limits.jerk);
+  }
+  if (position || velocity || acceleration) {
+    level[3].findRoots(&level[4]);
+  }
+  if (acceleration) {
+    look.boundAbsolute(level[2], level[3], 2, limits.acceleration);
+  }
+  if (look.next() > farAway * T) {
+    return look.next(); // the peak velocity here is of no interest any more
+  }
+  if (position || velocity) {
+    level[2].findRoots(&level[3]);
+  }
+  if (velocity) {
+    look.boundAbsolute(level[1], level[2], 1, limits.velocity);
+  }
+  if (position) {
+    level[1].findRoots(&level[2]);
+    look.boundPosition(level[0], level[1], limits.minPosition, limits.maxPosition);
+  }
+  return look.next();
+}
+
+double nextCandidate(const vpMotionFamily *const motions[], int count, const vpNormLimits &limits, double T) noexcept
+{
+  double next = T;
+  for (int d = 1; d <= 2; ++d) {
+    const double limit = d == 1 ? limits.velocity : limits.acceleration;
+    if (!std::isfinite(limit) || count == 0) {
+      continue;
+    }
+    vpPolynomial squared;
+    for (int i = 0; i < count; ++i) {
+      const vpPolynomial y = derivativeOf(*motions[i], d, T), y2 = y.times(y);
+      squared.setDegree(std::max(squared.degree(), y2.degree()));
+      for (int k = 0; k <= y2.degree(); ++k) {
+        squared[k] += y2[k];
+      }
+    }
+    const double share = motions[0]->share();
+    const double bound = limit * limit * power(share * T, 2 * d);
+    const auto check = [&](double s) {
+      // The square locates the extrema; its value is taken from the parts, which keeps the digits.
+      double y = 0., noise = 0.;
+      for (int i = 0; i < count; ++i) {
+        const vpPolynomial part = derivativeOf(*motions[i], d, T);
+        const double value = part.value(s);
+        double magnitude = 0.;
+        for (int k = 0; k <= part.degree(); ++k) {
+          magnitude += std::abs(part[k]);
+        }
+        y += value * value;
+        noise += 2. * std::abs(value) * epsilon * magnitude;
+      }
+      if (!(y > bound * (1. + 2. * tolerance) + noise)) {
+        return;
+      }
+      // Sum of the squares of polynomials in T, minus limit^2 (share T)^(2 d).
+      double g[2 * vpMotionFamily::maxPower + 1] = {};
+      for (int i = 0; i < count; ++i) {
+        const auto part = motions[i]->inDuration(s, d);
+        for (std::size_t a = 0; a < part.size(); ++a) {
+          for (std::size_t b = 0; b < part.size(); ++b) {
+            g[a + b] += part[a] * part[b];
+          }
+        }
+      }
+      g[2 * d] -= limit * limit * power(share, 2 * d);
+      const int degree = 2 * vpMotionFamily::maxPower;
+      shift(g, degree, T, y - bound);
+      next = std::max(next, advance(T, vpRootKernel::firstPositiveRoot(g, degree)));
+    };
+    for (double s : squared.derivative().roots()) {
+      check(s);
+    }
+    if (!motions[0]->isGivenAtEnds(d)) {
+      check(0.);
+      check(1.);
+    }
+  }
+  return next;
+}
+
+vpDurationAnswer solve(const vpMotionFamily &motion, const vpAxisLimits &limits, double floor) noexcept
+{
+  vpDurationAnswer answer;
+  answer.T = floor;
+  while (answer.iterations < maxIterations) {
+    ++answer.iterations;
+    const double next = nextCandidate(motion, limits, answer.T);
+    if (next == answer.T) {
+      answer.kind = vpDurationAnswer::Kind::Found;
+      return answer;
+    }
+    if (!(next < infinity)) {
+      answer.kind = vpDurationAnswer::Kind::Infeasible;
+      return answer;
+    }
+    answer.T = next;
+  }
+  return answer;
+}
+
+double lowerBound(const vpAxisState &from, const vpAxisState &to, const vpAxisLimits &limits) noexcept
+{
+  const double scale = limits.velocity / limits.acceleration;
+  const double smallest = 1e-6 * (std::isfinite(scale) && scale > 0. ? scale : 1.);
+  return std::max({smallest, std::abs(to[0] - from[0]) / limits.velocity,
+                   std::abs(to[1] - from[1]) / limits.acceleration, std::abs(to[2] - from[2]) / limits.jerk});
+}
+} // namespace vpMinimumDuration
+
+END_VISP_NAMESPACE

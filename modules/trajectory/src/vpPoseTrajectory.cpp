@@ -1,0 +1,279 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include <visp3/trajectory/vpPoseTrajectory.h>
+
+#include <visp3/core/vpException.h>
+#include <visp3/direct_core/vpSO3.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+using P = vpTrajectoryProblem;
+
+// J_r'(e, e') e': what the change of the right Jacobian adds to the angular acceleration.
+Eigen::Vector3d jacobianRateTerm(const Eigen::Vector3d &e, const Eigen::Vector3d &rate)
+{
+  // J_r = I - B [e]x + C [e]x^2; b and c are B'/theta and C'/theta.
+  const double x = e.squaredNorm();
+  double C, b, c;
+  if (x < 0.1) {
+    C = 1. / 6. - x / 120. * (1. - x / 42. * (1. - x / 72. * (1. - x / 110.)));
+    b = -1. / 12. + x / 180. * (1. - 3. * x / 112. * (1. - 2. * x / 135.));
+    c = -1. / 60. + x / 1260. * (1. - x / 48. * (1. - 2. * x / 165.));
+  }
+  else {
+    const double theta = std::sqrt(x), s = std::sin(theta), half = std::sin(0.5 * theta), versine = 2. * half * half;
+    C = (theta - s) / (theta * x);
+    b = (theta * s - 2. * versine) / (x * x);
+    c = (theta * versine - 3. * (theta - s)) / (x * x * theta);
+  }
+  const double along = e.dot(rate);
+  const Eigen::Vector3d turn = e.cross(rate);
+  return -b * along * turn + c * along * e.cross(turn) + C * rate.cross(turn);
+}
+
+Eigen::Vector3d linear(const vpTwist &v) { return {v[0], v[1], v[2]}; }
+Eigen::Vector3d angular(const vpTwist &v) { return {v[3], v[4], v[5]}; }
+
+vpTwist twist(const Eigen::Vector3d &v, const Eigen::Vector3d &w) { return {v.x(), v.y(), v.z(), w.x(), w.y(), w.z()}; }
+
+// Read a pose and make its rotation orthonormal to the last digit.
+vpTrajectoryStatus read(const vpHomogeneousMatrix &M, bool start, Eigen::Matrix3d &R, Eigen::Vector3d &t)
+{
+  Eigen::Matrix3d raw;
+  for (unsigned int r = 0; r < 3; ++r) {
+    for (unsigned int c = 0; c < 4; ++c) {
+      if (!std::isfinite(M[r][c])) {
+        return {vpTrajectoryResult::InvalidInput,
+                start ? vpTrajectoryFault::StartNotFinite : vpTrajectoryFault::GoalNotFinite, static_cast<int>(r),
+                M[r][c]};
+      }
+      (c < 3 ? raw(r, c) : t(r)) = M[r][c];
+    }
+  }
+  const double error = (raw.transpose() * raw - Eigen::Matrix3d::Identity()).norm();
+  if (error > 1e-6 || raw.determinant() < 0.) {
+    return {vpTrajectoryResult::InvalidInput, vpTrajectoryFault::NotARotation, -1, raw.determinant() < 0. ? 2. : error};
+  }
+  R = Eigen::Quaterniond(raw).normalized().toRotationMatrix();
+  return {vpTrajectoryResult::Working, vpTrajectoryFault::None, -1, 0.};
+}
+
+void requirePositive(const char *name, double value, const char *unit)
+{
+  if (!(value > 0.)) {
+    throw vpException(vpException::badValue, "%s of the pose trajectory is %g %s, must be > 0", name, value, unit);
+  }
+}
+} // namespace
+
+void vpPoseTrajectoryOptions::validate() const
+{
+  requirePositive("linear velocity limit", linearVelocity, "m/s");
+  requirePositive("linear acceleration limit", linearAcceleration, "m/s^2");
+  requirePositive("linear jerk limit", linearJerk, "m/s^3");
+  requirePositive("angular velocity limit", angularVelocity, "rad/s");
+  requirePositive("angular acceleration limit", angularAcceleration, "rad/s^2");
+  requirePositive("angular jerk limit", angularJerk, "rad/s^3");
+  if (policy == vpReplanPolicy::FixedArrival) {
+    requirePositive("arrival time", std::isfinite(arrivalTime) ? arrivalTime : -1., "s");
+  }
+  if (!(minimumDuration >= 0.) || !std::isfinite(minimumDuration)) {
+    throw vpException(vpException::badValue, "minimum duration of the pose trajectory is %g s, must be >= 0",
+                      minimumDuration);
+  }
+}
+
+void vpCameraState::copyTo(vpHomogeneousMatrix &pose) const
+{
+  for (unsigned int r = 0; r < 3; ++r) {
+    for (unsigned int c = 0; c < 3; ++c) {
+      pose[r][c] = fRc(r, c);
+    }
+    pose[r][3] = ftc(r);
+  }
+}
+
+vpPoseTrajectory::vpPoseTrajectory(const vpPoseTrajectoryOptions &options) : m_problem(6), m_planner(6), m_plan(6)
+{
+  setOptions(options);
+  static_cast<void>(reset(vpHomogeneousMatrix()));
+}
+
+void vpPoseTrajectory::setOptions(const vpPoseTrajectoryOptions &options)
+{
+  options.validate();
+  if (options.policy == vpReplanPolicy::FixedArrival &&
+      (m_options.policy != options.policy || m_options.arrivalTime != options.arrivalTime)) {
+    m_arrival = -1.; // counts from now
+  }
+  m_options = options;
+  m_event = true;
+  fillLimits();
+}
+
+void vpPoseTrajectory::fillLimits() noexcept
+{
+  const bool norm = m_options.rotation == vpRotationPath::Geodesic;
+  vpTrajectoryOptions &o = m_problem.options;
+  o = vpTrajectoryOptions();
+  o.policy = m_options.policy;
+  o.cruise = m_options.cruise;
+  o.synchronisation = norm ? vpSynchronisation::Straight : vpSynchronisation::Time;
+  o.groups[0] = vpAxisGroup({0, 1, 2}, m_options.linearVelocity, m_options.linearAcceleration);
+  if (norm) {
+    o.groups[1] = vpAxisGroup({3, 4, 5}, m_options.angularVelocity, m_options.angularAcceleration);
+  }
+  for (int i = 0; i < 6; ++i) {
+    const bool position = i < 3;
+    m_problem.field(P::MaxVelocity)[i] = position ? m_options.linearVelocity : m_options.angularVelocity;
+    m_problem.field(P::MaxAcceleration)[i] = position ? m_options.linearAcceleration : m_options.angularAcceleration;
+    m_problem.field(P::MaxJerk)[i] = position ? m_options.linearJerk : m_options.angularJerk;
+  }
+}
+
+vpTrajectoryStatus vpPoseTrajectory::reset(const vpHomogeneousMatrix &fMc, const vpTwist &v, const vpTwist &a) noexcept
+{
+  vpCameraState x;
+  const vpTrajectoryStatus status = read(fMc, true, x.fRc, x.ftc);
+  if (!status.isGood()) {
+    return status;
+  }
+  for (std::size_t i = 0; i < 6; ++i) {
+    if (!std::isfinite(v[i]) || !std::isfinite(a[i])) {
+      return {vpTrajectoryResult::InvalidInput, vpTrajectoryFault::StartNotFinite, static_cast<int>(i),
+              std::isfinite(v[i]) ? a[i] : v[i]};
+    }
+  }
+  x.v = v;
+  x.a = a;
+  m_state = x;
+  m_fRd = x.fRc;
+  m_ftd = x.ftc;
+  m_goalTwist = vpTwist();
+  m_plan.clear();
+  m_clock = 0.;
+  m_arrival = -1.;
+  m_event = true;
+  return status;
+}
+
+vpTrajectoryStatus vpPoseTrajectory::setGoal(const vpHomogeneousMatrix &fMcd, const vpTwist &goalTwist) noexcept
+{
+  Eigen::Matrix3d R;
+  Eigen::Vector3d t;
+  const vpTrajectoryStatus status = read(fMcd, false, R, t);
+  if (!status.isGood()) {
+    return status;
+  }
+  bool same = R == m_fRd && t == m_ftd;
+  for (std::size_t i = 0; i < 6; ++i) {
+    if (!std::isfinite(goalTwist[i])) {
+      return {vpTrajectoryResult::InvalidInput, vpTrajectoryFault::GoalNotFinite, static_cast<int>(i), goalTwist[i]};
+    }
+    same = same && goalTwist[i] == m_goalTwist[i];
+  }
+  if (goalTwist.linearNorm() > m_options.linearVelocity || goalTwist.angularNorm() > m_options.angularVelocity) {
+    const bool position = goalTwist.linearNorm() > m_options.linearVelocity;
+    return {vpTrajectoryResult::InvalidInput, vpTrajectoryFault::GoalOutsideGroup, position ? 0 : 1,
+            position ? goalTwist.linearNorm() : goalTwist.angularNorm()};
+  }
+  m_event = m_event || !same;
+  m_fRd = R;
+  m_ftd = t;
+  m_goalTwist = goalTwist;
+  return status;
+}
+
+void vpPoseTrajectory::replan() noexcept
+{
+  const vpCameraState &x = m_state;
+  m_fR0 = Eigen::Quaterniond(x.fRc).normalized().toRotationMatrix();
+  // At e = 0 the right Jacobian is the identity and its rate adds nothing: e' = w, e'' = w'.
+  const Eigen::Vector3d p1 = x.fRc * linear(x.v), p2 = x.fRc * linear(x.a), e1 = angular(x.v), e2 = angular(x.a);
+  const Eigen::Vector3d w = angular(m_goalTwist), goal = vpSO3::log(m_fR0.transpose() * m_fRd);
+  const Eigen::Matrix3d inverse = vpSO3::rightJacobianInverse(goal);
+  Eigen::Vector3d goal1 = inverse * w;
+  // Near pi the rates of the rotation vector exceed those of the rotation; the limits are on the former.
+  goal1 *= std::min(1., m_options.angularVelocity / std::max(goal1.norm(), 1e-300));
+  Eigen::Vector3d goal2 = -inverse * jacobianRateTerm(goal, goal1);
+  goal2 *= std::min(1., m_options.angularAcceleration / std::max(goal2.norm(), 1e-300));
+  const Eigen::Vector3d goalP1 = m_fRd * linear(m_goalTwist);
+  Eigen::Vector3d goalP2 = m_fRd * w.cross(linear(m_goalTwist));
+  goalP2 *= std::min(1., m_options.linearAcceleration / std::max(goalP2.norm(), 1e-300));
+  for (int i = 0; i < 3; ++i) {
+    m_problem.setStart(i, {x.ftc[i], p1[i], p2[i], 0.});
+    m_problem.setStart(i + 3, {0., e1[i], e2[i], 0.});
+    const double values[2][3] = {{m_ftd[i], goalP1[i], goalP2[i]}, {goal[i], goal1[i], goal2[i]}};
+    for (int k = 0; k < 2; ++k) {
+      m_problem.field(P::GoalQ)[i + 3 * k] = values[k][0];
+      m_problem.field(P::GoalV)[i + 3 * k] = values[k][1];
+      m_problem.field(P::GoalA)[i + 3 * k] = values[k][2];
+    }
+  }
+  double floor = m_options.minimumDuration;
+  if (m_options.policy == vpReplanPolicy::FixedArrival) {
+    m_arrival = m_arrival >= 0. && remaining() > 0. ? std::max(m_arrival - m_clock, 0.) : m_options.arrivalTime;
+    floor = m_arrival;
+  }
+  else if (m_options.policy == vpReplanPolicy::KeepArrival) {
+    floor = std::max(floor, remaining());
+  }
+  m_planStatus = m_planner.plan(m_problem, floor, m_plan);
+  m_clock = 0.;
+}
+
+vpTrajectoryStatus vpPoseTrajectory::update(double dt) noexcept
+{
+  if (!(dt > 0.) || !std::isfinite(dt)) {
+    return {vpTrajectoryResult::InvalidInput, vpTrajectoryFault::TimeStep, -1, dt};
+  }
+  const bool event = m_event;
+  if (event) {
+    replan();
+    m_event = false;
+  }
+  const bool arrivedBefore = !event && m_clock >= duration();
+  m_clock += dt;
+  if (std::abs(m_clock - duration()) < 1e-8 * dt) {
+    m_clock = duration(); // sums of dt differ from the duration by rounding
+  }
+  m_state = at(m_clock);
+  if (m_clock >= duration()) {
+    return {arrivedBefore ? vpTrajectoryResult::Holding : vpTrajectoryResult::Finished, vpTrajectoryFault::None, -1,
+            0.};
+  }
+  if (m_planStatus.result == vpTrajectoryResult::Braking && m_clock >= m_plan.brakingEnd()) {
+    return {vpTrajectoryResult::Working, vpTrajectoryFault::None, -1, 0.};
+  }
+  return m_planStatus;
+}
+
+vpCameraState vpPoseTrajectory::at(double t) const noexcept
+{
+  Eigen::Vector3d q[3], e[3];
+  for (int i = 0; i < 3; ++i) {
+    const vpAxisState place = m_plan.at(i, t), turn = m_plan.at(i + 3, t);
+    for (int k = 0; k < 3; ++k) {
+      q[k][i] = place[static_cast<std::size_t>(k)];
+      e[k][i] = turn[static_cast<std::size_t>(k)];
+    }
+  }
+  vpCameraState x;
+  x.fRc = m_fR0 * vpSO3::exp(e[0]);
+  x.ftc = q[0];
+  const Eigen::Matrix3d J = vpSO3::rightJacobian(e[0]);
+  x.v = twist(x.fRc.transpose() * q[1], J * e[1]);
+  x.a = twist(x.fRc.transpose() * q[2], J * e[2] + jacobianRateTerm(e[0], e[1]));
+  return x;
+}
+
+END_VISP_NAMESPACE

@@ -1,0 +1,191 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include <visp3/trajectory/vpTrajectoryFollower.h>
+
+#include <algorithm>
+#include <cmath>
+
+BEGIN_VISP_NAMESPACE
+
+vpTrajectoryFollower::vpTrajectoryFollower(int axes, int maxVias)
+  : m_task(axes, maxVias), m_rest(axes, maxVias), m_planner(axes, maxVias), m_plan(axes, maxVias)
+{}
+
+vpTrajectoryStatus vpTrajectoryFollower::update(const vpTrajectoryProblem &problem, double dt) noexcept
+{
+  m_newPlan = false;
+  if (problem.axes() != m_plan.axes()) {
+    return advance({vpTrajectoryResult::InvalidInput, vpTrajectoryFault::AxisCount, m_plan.axes(), 1. * problem.axes()},
+                   dt);
+  }
+  if (!(dt > 0.) || !std::isfinite(dt)) {
+    return m_status = {vpTrajectoryResult::InvalidInput, vpTrajectoryFault::TimeStep, -1, dt};
+  }
+  const Event event = detect(problem);
+  if (event == Event::Task) {
+    const vpTrajectoryStatus input = problem.validate(!m_started);
+    if (!input.isGood()) {
+      return advance(input, dt);
+    }
+    replan(problem, event);
+  }
+  else if (m_thesisBusy) {
+    iterateThesis();
+  }
+  else if (event == Event::Rate) {
+    replan(problem, event);
+  }
+  const bool arrivedBefore = m_clock >= m_plan.duration() && !m_newPlan;
+  tick(dt);
+  return m_status = currentStatus(arrivedBefore);
+}
+
+vpTrajectoryStatus vpTrajectoryFollower::advance(const vpTrajectoryStatus &fault, double dt) noexcept
+{
+  m_newPlan = false;
+  if (m_started && dt > 0. && std::isfinite(dt)) {
+    tick(dt);
+  }
+  return m_status = fault;
+}
+
+void vpTrajectoryFollower::tick(double dt) noexcept
+{
+  m_clock += dt;
+  m_sinceReplan += dt;
+  // Sums of dt differ from the duration by rounding; that must not cost a cycle.
+  if (std::abs(m_clock - m_plan.duration()) < 1e-8 * dt) {
+    m_clock = m_plan.duration();
+  }
+}
+
+vpTrajectoryFollower::Event vpTrajectoryFollower::detect(const vpTrajectoryProblem &problem) const noexcept
+{
+  if (!m_started) {
+    return Event::Task;
+  }
+  const vpTrajectoryOptions &options = problem.options;
+  const bool frozen = remaining() > 0. && remaining() < options.freeze;
+  if (!problem.sameTask(m_task)) {
+    // A fixed arrival cannot be put off, and so close to it nothing sensible fits in: the change waits for the arrival.
+    const bool wait =
+        options.policy == vpReplanPolicy::FixedArrival && options.arrivalTime == m_task.options.arrivalTime;
+    return wait && frozen ? Event::None : Event::Task;
+  }
+  const bool due = options.replanPeriod > 0. && m_sinceReplan >= options.replanPeriod * (1. - 1e-9);
+  return due && !frozen && remaining() > 0. ? Event::Rate : Event::None;
+}
+
+// What is left to do from the commanded state: vias that were passed are dropped until the list of vias changes.
+void vpTrajectoryFollower::takeRest(const vpTrajectoryProblem &problem) noexcept
+{
+  if (!m_started) {
+    m_rest = problem;
+    return;
+  }
+  if (problem.sameVias(m_task)) {
+    int passed = 0;
+    double begin = 0., tauBegin = 0.;
+    while (passed < m_plan.vias() && m_plan.viaTime(passed) <= m_clock) {
+      begin = m_plan.viaTime(passed);
+      tauBegin = m_rest.viaTime(passed);
+      ++passed;
+    }
+    const bool last = passed >= m_plan.vias();
+    const double end = last ? m_plan.duration() : m_plan.viaTime(passed);
+    const double tauEnd = last ? 1. : m_rest.viaTime(passed);
+    const double done =
+        end > begin ? tauBegin + (tauEnd - tauBegin) * std::min((m_clock - begin) / (end - begin), 1.) : tauEnd;
+    m_rest.dropVias(passed, done);
+    m_rest.takeTask(problem);
+  }
+  else {
+    m_rest = problem;
+  }
+  for (int i = 0; i < m_rest.axes(); ++i) {
+    m_rest.setStart(i, state(i));
+  }
+}
+
+double vpTrajectoryFollower::floorOf(const vpTrajectoryProblem &problem, Event event) noexcept
+{
+  const vpTrajectoryOptions &options = problem.options;
+  if (options.policy == vpReplanPolicy::FixedArrival) {
+    // The date stays while the goal is refined; one that could not be kept means: as early as possible.
+    const bool goesOn = m_started && remaining() > 0. && m_task.options.policy == options.policy &&
+                        m_task.options.arrivalTime == options.arrivalTime;
+    m_arrival = goesOn ? std::max(m_arrival - m_clock, 0.) : options.arrivalTime;
+    return m_arrival;
+  }
+  const bool keep = event == Event::Rate || options.policy == vpReplanPolicy::KeepArrival;
+  return std::max(options.minimumDuration, keep && m_started ? remaining() : 0.);
+}
+
+void vpTrajectoryFollower::replan(const vpTrajectoryProblem &problem, Event event) noexcept
+{
+  const double left = m_started ? remaining() : 0.;
+  const double floor = floorOf(problem, event);
+  takeRest(problem);
+  m_task = problem;
+  m_started = true;
+  m_newPlan = true;
+  m_clock = m_sinceReplan = 0.;
+  m_thesisBusy = problem.options.method == vpDurationMethod::ThesisIteration;
+  if (m_thesisBusy) {
+    // (6.9) at the beginning, the time that is left at an event (6.8).
+    m_thesisT = left;
+    for (int i = 0; i < m_rest.axes() && left == 0.; ++i) {
+      const vpAxisLimits limits = m_rest.limits(i);
+      const double h = std::abs(m_rest.goal(i)[0] - m_rest.start(i)[0]);
+      m_thesisT =
+          std::max({m_thesisT, 15. / 8. * h / limits.velocity, std::sqrt(10. / std::sqrt(3.) * h / limits.acceleration),
+                    vpMinimumDuration::lowerBound(m_rest.start(i), m_rest.goal(i), limits)});
+    }
+    iterateThesis();
+    return;
+  }
+  m_planStatus = m_planner.plan(m_rest, floor, m_plan);
+}
+
+// Some steps of (6.6), from the commanded state, until no axis asks for a change.
+void vpTrajectoryFollower::iterateThesis() noexcept
+{
+  if (m_clock > 0.) {
+    takeRest(m_task);
+    m_thesisT = remaining();
+    m_clock = 0.;
+  }
+  const vpTrajectoryOptions &options = m_rest.options;
+  const vpThesisDuration::Gains gains{options.thesisVelocityGain, options.thesisAccelerationGain};
+  const int order = 2 + static_cast<int>(options.continuity);
+  bool converged = false;
+  for (int step = 0; step < options.thesisStepsPerCycle && !converged; ++step) {
+    double extra = -0.5 * m_thesisT;
+    for (int i = 0; i < m_rest.axes(); ++i) {
+      const vpMotionFamily motion = vpMotionFamily::pointToPoint(m_rest.start(i), m_rest.goal(i), order);
+      extra = std::max(extra, vpThesisDuration::extraTime(motion, m_rest.limits(i), gains, m_thesisT));
+    }
+    m_thesisT += extra;
+    converged = std::abs(extra) < 1e-10 * m_thesisT;
+  }
+  m_thesisBusy = !converged && m_thesisT > options.freeze;
+  m_newPlan = true;
+  m_planner.planDirect(m_rest, m_thesisT, m_plan);
+  m_planStatus = {vpTrajectoryResult::Working, vpTrajectoryFault::None, -1, 0.};
+}
+
+vpTrajectoryStatus vpTrajectoryFollower::currentStatus(bool arrivedBefore) const noexcept
+{
+  if (m_clock >= m_plan.duration()) {
+    return {arrivedBefore ? vpTrajectoryResult::Holding : vpTrajectoryResult::Finished, vpTrajectoryFault::None, -1,
+            0.};
+  }
+  if (m_planStatus.result == vpTrajectoryResult::Braking && m_clock >= m_plan.brakingEnd()) {
+    return {vpTrajectoryResult::Working, vpTrajectoryFault::None, -1, 0.};
+  }
+  return m_planStatus;
+}
+
+END_VISP_NAMESPACE

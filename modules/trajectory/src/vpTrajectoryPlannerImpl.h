@@ -1,0 +1,59 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpTrajectoryPlannerImpl.h
+ * \brief Scratch memory and steps of vpTrajectoryPlanner.
+ */
+#ifndef vpTrajectoryPlannerImpl_h
+#define vpTrajectoryPlannerImpl_h
+
+#include "vpMotionUnit.h"
+#include "vpViaSpline.h"
+
+#include <visp3/trajectory/vpTrajectoryPlanner.h>
+
+BEGIN_VISP_NAMESPACE
+
+struct vpTrajectoryPlanner::Impl {
+  Impl(int count, int maxVias);
+  [[nodiscard]] vpMotionAxis &axis(int i) { return axes[static_cast<std::size_t>(i)]; }
+
+  // A leg: all axes from `from` to `to`.
+  void setTasks(const vpTrajectoryProblem &problem);
+  void makeUnits(const vpTrajectoryOptions &options);
+  bool makeStraight(const vpTrajectoryOptions &options);
+  double searchLeg(const vpTrajectoryOptions &options, double floor, bool independent);
+  void emitLeg(vpTrajectoryPlan &plan, bool viaLeg);
+  void noteFaults();
+  void finish(const vpTrajectoryProblem &problem, vpTrajectoryPlan &plan);
+  double planPointToPoint(const vpTrajectoryProblem &problem, double floor, vpTrajectoryPlan &plan);
+
+  // Vias: one T over all of them, or leg by leg.
+  [[nodiscard]] vpMotionFamily &segment(int k, int i) { return chain[static_cast<std::size_t>(k * n + i)]; }
+  [[nodiscard]] int segments(const vpTrajectoryProblem &problem) const;
+  void makeChain(const vpTrajectoryProblem &problem);
+  double searchChain(const vpTrajectoryProblem &problem, double floor);
+  void emitChain(const vpTrajectoryProblem &problem, double T, vpTrajectoryPlan &plan);
+  double planLegs(const vpTrajectoryProblem &problem, bool withFloors, vpTrajectoryPlan &plan);
+  double planVias(const vpTrajectoryProblem &problem, double floor, vpTrajectoryPlan &plan);
+
+  int n;
+  std::vector<vpAxisState> from, to; // of the present leg, places as in the problem
+  std::vector<vpMotionAxis> axes;    // one more for the straight line
+  std::vector<vpMotionUnit> units;
+  std::vector<double> unitDurations;
+  int unitCount = 0;
+  bool straight = false;
+  std::vector<double> direction; // of the straight line
+  vpViaSpline spline;
+  std::vector<vpMotionFamily> chain; // segment by segment, axis by axis
+  std::vector<const vpMotionFamily *> column;
+  std::vector<double> legs; // durations
+  int iterations = 0;
+  vpTrajectoryStatus fault; // what had to be dropped
+};
+
+END_VISP_NAMESPACE
+#endif

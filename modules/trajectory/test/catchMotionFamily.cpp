@@ -1,0 +1,180 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// Polynomials and the closed forms built on them.
+#include "vpTrajectoryTestKit.h"
+
+#include <Eigen/LU>
+
+VISP_DIRECT_USING_NAMESPACE
+using namespace vpTrajectoryTest;
+
+TEST_CASE("roots of products of known factors are found, each once", "[polynomial]")
+{
+  auto rng = vpTestSupport::generator(50);
+  CAPTURE(vpTestSupport::seed());
+  for (int k = 0; k < 20000; ++k) {
+    const int degree = 1 + k % 8;
+    vpPolynomial p{uniform(rng, 0.5, 2.)};
+    std::vector<double> known;
+    for (int i = 0; i < degree; ++i) {
+      const double root = uniform(rng, -0.5, 1.5);
+      p = p.times({-root, 1.});
+      if (root >= 0. && root <= 1.) {
+        known.push_back(root);
+      }
+    }
+    std::sort(known.begin(), known.end());
+    double gap = 1.;
+    for (std::size_t i = 1; i < known.size(); ++i) {
+      gap = std::min(gap, known[i] - known[i - 1]);
+    }
+    if (gap < 0.02) {
+      continue; // clusters are ill-conditioned whatever the method
+    }
+    const auto roots = p.roots();
+    CAPTURE(k, degree, gap);
+    REQUIRE(roots.count == static_cast<int>(known.size()));
+    for (std::size_t i = 0; i < known.size(); ++i) {
+      REQUIRE(std::abs(roots.s[i] - known[i]) < 1e-8);
+      REQUIRE(std::abs(p.value(roots.s[i])) < 1e-13);
+    }
+  }
+}
+
+TEST_CASE("special roots: double, at the ends, degenerate degrees", "[polynomial]")
+{
+  CHECK(vpPolynomial{0.25, -1., 1.}.roots().count == 1); // (s - 1/2)^2
+  const auto touching = vpPolynomial{-0.5, 1.}.times({-0.5, 1.}).times({2., 1.}).roots();
+  REQUIRE(touching.count == 1);
+  CHECK(touching.s[0] == Approx(0.5));
+  CHECK(vpPolynomial{0., 1., -1.}.roots().count == 2);    // 0 and 1
+  CHECK(vpPolynomial{0., 0., 1.}.roots().count == 1);     // s^2
+  CHECK(vpPolynomial{1., 0., 0., 0.}.roots().count == 0); // a constant stored with degree 3
+  CHECK(vpPolynomial{}.roots().count == 0);
+  CHECK(vpPolynomial{-0.3, 1., 0., 0., 0., 0.}.roots().count == 1); // a line stored with degree 5
+  CHECK(vpPolynomial{1., 0., 1.}.roots().count == 0);
+}
+
+TEST_CASE("range is the range of a dense sampling, and composition a change of clock", "[polynomial]")
+{
+  auto rng = vpTestSupport::generator(51);
+  CAPTURE(vpTestSupport::seed());
+  for (int k = 0; k < 2000; ++k) {
+    vpPolynomial p;
+    p.setDegree(k % 9);
+    for (int i = 0; i <= p.degree(); ++i) {
+      p[i] = uniform(rng, -1., 1.);
+    }
+    const double a = uniform(rng, 0., 0.5), b = uniform(rng, 0.5, 1.);
+    const auto range = p.range(a, b);
+    const vpPolynomial q = p.composed(a, b - a);
+    double low = 1e9, high = -1e9;
+    for (int i = 0; i <= 400; ++i) {
+      const double s = a + (b - a) * i / 400.;
+      low = std::min(low, p.value(s));
+      high = std::max(high, p.value(s));
+      REQUIRE(std::abs(q.value(i / 400.) - p.value(s)) < 1e-13);
+    }
+    REQUIRE(range.min <= low + 1e-14);
+    REQUIRE(range.min > low - 1e-3);
+    REQUIRE(range.max >= high - 1e-14);
+    REQUIRE(range.max < high + 1e-3);
+    REQUIRE(p.value(range.atMax) == range.max);
+    REQUIRE(p.value(range.atMin) == range.min);
+    const auto jet = p.jet(a);
+    REQUIRE(std::abs(jet[2] - p.derivative().derivative().value(a)) < 1e-11);
+    REQUIRE(std::abs(jet[3] - p.derivative().derivative().derivative().value(a)) < 1e-10);
+  }
+}
+
+TEST_CASE("families meet their boundary values at every duration", "[family]")
+{
+  auto rng = vpTestSupport::generator(52);
+  CAPTURE(vpTestSupport::seed());
+  for (int k = 0; k < 5000; ++k) {
+    vpAxisState x{}, y{};
+    for (std::size_t i = 0; i < 4; ++i) {
+      x[i] = uniform(rng, -2., 2.);
+      y[i] = uniform(rng, -2., 2.);
+    }
+    const double T = logUniform(rng, 0.05, 20.);
+    const auto check = [&](const vpMotionFamily &motion, int first, int order) {
+      const vpPolynomial p = motion.at(T);
+      const auto begin = p.jet(0.), end = p.jet(1.);
+      double scale = 0.;
+      for (int i = 0; i <= p.degree(); ++i) {
+        scale = std::max(scale, std::abs(p[i]));
+      }
+      for (int d = 0; d < first + order; ++d) {
+        const double place = d == 0 ? x[0] : 0.;
+        CAPTURE(T, d, first, order);
+        REQUIRE(std::abs(begin[static_cast<std::size_t>(d)] + place - x[static_cast<std::size_t>(d)] * std::pow(T, d)) <
+                1e-14 * (1. + scale));
+        if (d >= first) {
+          REQUIRE(std::abs(end[static_cast<std::size_t>(d)] + place - y[static_cast<std::size_t>(d)] * std::pow(T, d)) <
+                  1e-13 * std::pow(10., d) * (1. + scale));
+        }
+      }
+      const double s = uniform(rng, 0., 1.);
+      for (int d = 0; d < 4; ++d) {
+        const auto c = motion.inDuration(s, d);
+        REQUIRE(std::abs(c[0] + T * (c[1] + T * (c[2] + T * c[3])) - p.jet(s)[static_cast<std::size_t>(d)]) <
+                1e-10 * (1. + scale));
+      }
+    };
+    for (int order = 2; order <= 4; ++order) {
+      check(vpMotionFamily::pointToPoint(x, y, order), 0, order);
+      check(vpMotionFamily::velocityStep(x, y, order - 1), 1, order - 1);
+    }
+    check(vpMotionFamily::accelerationStep(x, y, 1), 2, 1);
+    check(vpMotionFamily::accelerationStep(x, y, 2), 2, 2);
+    const double tau = uniform(rng, 0.1, 0.9);
+    const vpAxisState via{uniform(rng, -2., 2.), uniform(rng, -2., 2.), uniform(rng, -2., 2.), 0.};
+    const vpMotionFamily six = vpMotionFamily::throughPosition(x, y, via[0], tau),
+                         eight = vpMotionFamily::throughState(x, y, via, tau);
+    check(six, 0, 3);
+    check(eight, 0, 3);
+    CHECK(six.degree() == 6);
+    CHECK(eight.degree() == 8);
+    // Near the ends a via is a lever: the digits are those of the largest coefficient.
+    const auto largest = [T](const vpMotionFamily &motion) {
+      double scale = 1.;
+      for (int i = 0; i <= motion.degree(); ++i) {
+        scale = std::max(scale, std::abs(motion.at(T)[i]));
+      }
+      return scale;
+    };
+    REQUIRE(std::abs(six.at(T).value(tau) + x[0] - via[0]) < 1e-14 * largest(six));
+    const auto through = eight.at(T).jet(tau);
+    REQUIRE(std::abs(through[0] + x[0] - via[0]) < 1e-13 * largest(eight));
+    REQUIRE(std::abs(through[1] - via[1] * T) < 1e-12 * largest(eight));
+    REQUIRE(std::abs(through[2] - via[2] * T * T) < 1e-11 * largest(eight));
+  }
+}
+
+TEST_CASE("the quintic is the solution of the Vandermonde system (3.61)", "[family]")
+{
+  auto rng = vpTestSupport::generator(53);
+  CAPTURE(vpTestSupport::seed());
+  for (int k = 0; k < 1000; ++k) {
+    const double T = uniform(rng, 0.5, 3.);
+    Eigen::Matrix<double, 6, 6> V = Eigen::Matrix<double, 6, 6>::Zero();
+    for (int i = 0; i < 6; ++i) {
+      V(0, i) = i == 0;
+      V(1, i) = i == 1;
+      V(2, i) = i == 2 ? 2. : 0.;
+      V(3, i) = std::pow(T, i);
+      V(4, i) = i < 1 ? 0. : i * std::pow(T, i - 1);
+      V(5, i) = i < 2 ? 0. : i * (i - 1) * std::pow(T, i - 2);
+    }
+    const Eigen::Matrix<double, 6, 1> b =
+        Eigen::Matrix<double, 6, 1>::NullaryExpr([&](Eigen::Index) { return uniform(rng, -1., 1.); });
+    const Eigen::Matrix<double, 6, 1> a = V.fullPivLu().solve(b);
+    const vpPolynomial p = vpMotionFamily::pointToPoint({b[0], b[1], b[2], 0.}, {b[3], b[4], b[5], 0.}, 3).at(T);
+    for (int i = 1; i < 6; ++i) {
+      REQUIRE(std::abs(p[i] - a[i] * std::pow(T, i)) < 1e-10);
+    }
+  }
+}

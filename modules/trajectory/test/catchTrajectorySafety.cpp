@@ -1,0 +1,83 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// Every problem strictly inside the limits gets a motion that keeps them, to rounding, at its exact extrema.
+#include "vpTrajectoryTestKit.h"
+
+VISP_DIRECT_USING_NAMESPACE
+using namespace vpTrajectoryTest;
+
+namespace
+{
+struct Tally {
+  double violation = -1., mismatch = 0., longest = 0.;
+  int unanswered = 0, iterations = 0;
+  int forms[6] = {};
+};
+
+template <int N, typename Make> Tally run(unsigned int stream, int count, Make make)
+{
+  auto rng = vpTestSupport::generator(stream);
+  Tally tally;
+  vpTrajectoryPlan plan(N);
+  for (int k = 0; k < count; ++k) {
+    const auto problem = make(rng, k);
+    const vpTrajectoryStatus status = vpDirectTrajectory<N>::calculate(problem, plan);
+    const double violation = worstViolation(problem, plan), mismatch = worstMismatch(problem, plan);
+    if (status.result != vpTrajectoryResult::Working || !(violation <= 1e-12) || !(mismatch <= 1e-12)) {
+      CAPTURE(k, status.message(), toString(plan.form()), violation, mismatch, plan.duration());
+      CAPTURE(problem.start.q.transpose(), problem.start.v.transpose(), problem.start.a.transpose());
+      CAPTURE(problem.goal.q.transpose(), problem.goal.v.transpose(), problem.goal.a.transpose());
+      CAPTURE(problem.maxVelocity.transpose(), problem.maxAcceleration.transpose(), problem.maxJerk.transpose());
+      CHECK(status.result == vpTrajectoryResult::Working);
+      CHECK(violation <= 1e-12);
+      REQUIRE(mismatch <= 1e-12);
+      ++tally.unanswered;
+    }
+    tally.violation = std::max(tally.violation, violation);
+    tally.mismatch = std::max(tally.mismatch, mismatch);
+    tally.iterations = std::max(tally.iterations, plan.iterations());
+    ++tally.forms[static_cast<int>(plan.form())];
+  }
+  return tally;
+}
+
+template <int N> void requireAllSafe(unsigned int stream, bool jerk)
+{
+  const int count = problems(100000 / (jerk ? 4 : 1));
+  const Tally tally = run<N>(stream, count, [jerk](std::mt19937_64 &rng, int k) {
+    auto input = randomInput<N>(rng, static_cast<Class>(k % 4), jerk);
+    input.options.cruise = (k / 4) % 2 == 1;
+    return input;
+  });
+  WARN(N << " axes, " << count << " problems" << (jerk ? " with jerk limits" : "") << ": worst violation "
+         << tally.violation << ", worst mismatch " << tally.mismatch << ", at most " << tally.iterations
+         << " iterations; direct " << tally.forms[1] << ", cruise " << tally.forms[2] << ", ramped " << tally.forms[3]
+         << ", stop and go " << tally.forms[4]);
+  CHECK(tally.unanswered == 0);
+  CHECK(tally.iterations <= vpMinimumDuration::maxIterations);
+  CHECK(tally.forms[3] > count / 1000); // the fallback was exercised
+}
+} // namespace
+
+TEST_CASE("every problem of 1 axis is answered safely", "[safety]")
+{
+  CAPTURE(vpTestSupport::seed());
+  requireAllSafe<1>(10, false);
+  requireAllSafe<1>(11, true);
+}
+
+TEST_CASE("every problem of 3 axes is answered safely", "[safety]")
+{
+  CAPTURE(vpTestSupport::seed());
+  requireAllSafe<3>(12, false);
+  requireAllSafe<3>(13, true);
+}
+
+TEST_CASE("every problem of 7 axes is answered safely", "[safety]")
+{
+  CAPTURE(vpTestSupport::seed());
+  requireAllSafe<7>(14, false);
+  requireAllSafe<7>(15, true);
+}
