@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 BEGIN_VISP_NAMESPACE
 
@@ -20,12 +21,13 @@ constexpr double tukey = 4.685;        // 95 % efficiency under Gaussian noise
 constexpr double madToSigma = 1.4826;  // likewise
 constexpr double smallestSigma = 1.5;  // grey levels; below, rounding and interpolation would be rejected as occlusion
 constexpr double smallestGain = 0.05;  // below, the frame shows nothing of the reference
-constexpr double largestShift = 0.5;    // samples; at the start of a level
+constexpr double largestShift = 0.3;    // samples; at the start of a level
 constexpr double smallestShift = 0.1;   // samples; what blur and interpolation are worth
 constexpr double usualMove = 0.1;      // of a step, share of the distance
 constexpr double usualTurn = 0.03;      // of a step, rad
 constexpr double coarsePixels = 4.;     // per sample; at coarser levels
 constexpr double coarseTilt = 1e-4;    // rad, the tilt stays what it was
+constexpr double converged = 0.02;     // samples; the last step at the finest level
 constexpr double largestStep = 0.5;    // likewise: a longer step is divergence
 constexpr std::size_t fewestSamples = 100; // to fit eight numbers
 constexpr std::size_t enoughForMedian = 4000;
@@ -133,7 +135,8 @@ double vpPhotometricRefiner::median()
   return *middle;
 }
 
-// Gain and bias from medians: right within the reach of the first iteration, whatever hides a part of the target.
+// Gain and bias of the last frame or from medians, whichever fits better: whatever hides a part of the target must not
+// decide on them, for what is wrong with them is taken for misalignment.
 void vpPhotometricRefiner::startPhotometry(const vpPhotometricLevel &level)
 {
   const std::size_t stride = std::max<std::size_t>(1, level.samples.size() / enoughForMedian);
@@ -150,8 +153,14 @@ void vpPhotometricRefiner::startPhotometry(const vpPhotometricLevel &level)
   const float frame = medianOf([&](std::size_t i) { return m_values[i]; });
   const float referenceSpread = medianOf([&](std::size_t i) { return std::abs(level.samples[i].value - reference); });
   const float frameSpread = medianOf([&](std::size_t i) { return std::abs(m_values[i] - frame); });
+  const double lastGain = m_gain, lastBias = m_bias, last = residuals(level);
   m_gain = std::clamp(static_cast<double>(frameSpread / std::max(1.f, referenceSpread)), 0.2, 5.);
   m_bias = frame - m_gain * reference;
+  if (last < residuals(level)) {
+    m_gain = lastGain;
+    m_bias = lastBias;
+  }
+  fitPhotometry(level);
 }
 
 // Residuals of the samples; returns their robust deviation.
@@ -205,11 +214,14 @@ vpPhotometricRefiner::Design vpPhotometricRefiner::accumulate(const vpPhotometri
   return sum;
 }
 
-// One Gauss-Newton step at one level; shift, in samples, is how far off the pose may be, before and after.
-bool vpPhotometricRefiner::iterate(const std::vector<cv::Mat> &pyramid, std::size_t index, vpRigidPose &pose, double &shift)
+/*
+ * One Gauss-Newton step at one level. shift, in samples, is how far off the pose may be, before and after. sigma never
+ * grows within a level: it would let a step that makes things worse look like a noisier image.
+ */
+bool vpPhotometricRefiner::iterate(const std::vector<cv::Mat> &pyramid, std::size_t index, const vpPhotometricLevel &level,
+                                   vpRigidPose &pose, double &shift, double &sigma)
 {
-  const vpPhotometricLevel &level = m_model.level(index, m_soft);
-  const double sigma = residuals(level);
+  sigma = std::min(sigma, residuals(level));
   const Design N = accumulate(level, sigma, shift);
   const double gain = std::max(m_gain, smallestGain);
   const Eigen::Matrix<double, 10, 8> P = poseToDesign(pose, m_model.unit(), gain);
@@ -234,6 +246,36 @@ bool vpPhotometricRefiner::iterate(const std::vector<cv::Mat> &pyramid, std::siz
   return nearestCornerDepth(m_plane, pose) > 0. && sample(pyramid, index, pose) >= fewestSamples;
 }
 
+bool vpPhotometricRefiner::start(const std::vector<cv::Mat> &pyramid, std::size_t index, const vpRigidPose &pose)
+{
+  if (sample(pyramid, index, pose) < fewestSamples) {
+    return false;
+  }
+  startPhotometry(m_model.level(index, 0));
+  return true;
+}
+
+// Steps at one level until they are small or their number is used up; shift is the length of the last one, samples.
+bool vpPhotometricRefiner::descend(const std::vector<cv::Mat> &pyramid, std::size_t index, std::size_t soft, vpRigidPose &pose,
+                                   unsigned int iterations, unsigned int &budget, double &shift)
+{
+  constexpr double enough = 0.002;
+  double sigma = std::numeric_limits<double>::infinity();
+  shift = largestShift;
+  if (sample(pyramid, index, pose) < fewestSamples) {
+    return false;
+  }
+  while (iterations > 0 && shift > enough) {
+    --iterations;
+    --budget;
+    shift = std::clamp(shift, smallestShift, largestShift);
+    if (!iterate(pyramid, index, m_model.level(index, soft), pose, shift, sigma)) {
+      return false;
+    }
+  }
+  return true;
+}
+
 bool vpPhotometricRefiner::refine(const std::vector<cv::Mat> &pyramid, vpRigidPose &pose, double reach,
                                   unsigned int maxIterations)
 {
@@ -243,30 +285,29 @@ bool vpPhotometricRefiner::refine(const std::vector<cv::Mat> &pyramid, vpRigidPo
     ++coarsest;
   }
   unsigned int budget = maxIterations;
-  for (std::size_t index = coarsest + 1; index-- > finest;) {
-    if (sample(pyramid, index, pose) < fewestSamples) {
+  for (std::size_t index = coarsest; index > finest; --index) {
+    if (index == coarsest && !start(pyramid, index, pose)) {
       return false;
     }
-    if (index == coarsest) {
-      startPhotometry(m_model.level(index, m_soft));
+    const unsigned int share = budget / static_cast<unsigned int>(index - finest + 1);
+    double shift = 0.;
+    // A coarse level of the frame is sharp, whatever blurred the frame.
+    if (!descend(pyramid, index, 0, pose, share, budget, shift)) {
+      return false;
     }
-    if (index == finest) {
-      matchBlur(index);
+  }
+  if (coarsest == finest && !start(pyramid, finest, pose)) {
+    return false;
+  }
+  // Blur can be told only where the pose is right, and the pose is right only with the blur told.
+  double shift = largestShift;
+  do {
+    if (!descend(pyramid, finest, m_soft, pose, budget, budget, shift)) {
+      return false;
     }
-    const unsigned int levelsLeft = static_cast<unsigned int>(index - finest) + 1;
-    const unsigned int last = budget - (budget + levelsLeft - 1) / levelsLeft;
-    const double enough = index == finest ? 0.002 : 0.02;
-    double shift = largestShift;
-    while (budget > last) {
-      --budget;
-      if (!iterate(pyramid, index, pose, shift)) {
-        return false;
-      }
-      if (shift < enough) {
-        break;
-      }
-      shift = std::clamp(shift, smallestShift, largestShift);
-    }
+  } while (matchBlur(finest) && budget > 0);
+  if (shift > converged) {
+    return false;
   }
   // Products of rotations drift from orthonormality: nearest rotation by one Newton step.
   pose.R = 0.5 * pose.R * (3. * Eigen::Matrix3d::Identity() - pose.R.transpose() * pose.R);
@@ -311,9 +352,10 @@ double vpPhotometricRefiner::fitPhotometry(const vpPhotometricLevel &level)
   return sigma;
 }
 
-// Take the softness whose residuals are smallest for their gain, by descent from the one of the last frame.
-void vpPhotometricRefiner::matchBlur(std::size_t index)
+// Take the softness whose residuals are smallest for their gain, by descent from the present one; true if it is another.
+bool vpPhotometricRefiner::matchBlur(std::size_t index)
 {
+  const std::size_t before = m_soft;
   const auto misfit = [&](std::size_t soft) {
     const double sigma = fitPhotometry(m_model.level(index, soft));
     return m_gain > smallestGain ? sigma / m_gain : rejected;
@@ -331,6 +373,7 @@ void vpPhotometricRefiner::matchBlur(std::size_t index)
     }
   }
   misfit(m_soft);
+  return m_soft != before;
 }
 
 vpPhotometricFit vpPhotometricRefiner::verify(const std::vector<cv::Mat> &pyramid, const vpRigidPose &pose)

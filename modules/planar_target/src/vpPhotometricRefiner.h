@@ -44,7 +44,7 @@ public:
    * \param reach : How far the points of the target may be from their place, px. Decides on the coarsest level: a level
    * coarser than needed is a detour on which an occlusion leads astray.
    * \param maxIterations : Over all levels.
-   * \return False if it diverged; \e pose is undefined then.
+   * \return False if it diverged or did not converge; \e pose is undefined then.
    */
   bool refine(const std::vector<cv::Mat> &pyramid, vpRigidPose &pose, double reach, unsigned int maxIterations);
 
@@ -58,12 +58,16 @@ private:
   double pixelsPerSample(std::size_t level, const vpRigidPose &pose) const;
   std::size_t finestUseful(const vpRigidPose &pose) const;
   std::size_t sample(const std::vector<cv::Mat> &pyramid, std::size_t level, const vpRigidPose &pose);
-  bool iterate(const std::vector<cv::Mat> &pyramid, std::size_t level, vpRigidPose &pose, double &shift);
+  bool start(const std::vector<cv::Mat> &pyramid, std::size_t index, const vpRigidPose &pose);
+  bool descend(const std::vector<cv::Mat> &pyramid, std::size_t index, std::size_t soft, vpRigidPose &pose,
+               unsigned int iterations, unsigned int &budget, double &shift);
+  bool iterate(const std::vector<cv::Mat> &pyramid, std::size_t index, const vpPhotometricLevel &level, vpRigidPose &pose,
+               double &shift, double &sigma);
   void startPhotometry(const vpPhotometricLevel &level);
   double fitPhotometry(const vpPhotometricLevel &level);
   double residuals(const vpPhotometricLevel &level);
   Design accumulate(const vpPhotometricLevel &level, double sigma, double shift) const;
-  void matchBlur(std::size_t level);
+  bool matchBlur(std::size_t level);
   double median();
 
   const vpPhotometricModel &m_model;

@@ -25,7 +25,7 @@ constexpr double smallestContrast = 4.;    // standard deviation of the referenc
 constexpr int keypointReferenceSize = 400; // px; a larger reference is reduced so that its keypoints have a frame's scale
 constexpr float loweRatio = 0.8f;
 constexpr double keypointReach = 2.;      // px; how far keypoints put the target from its place
-constexpr double motionReach = 4.;        // px; likewise the frame before
+constexpr double motionReach = 14.;       // px; likewise the frame before
 constexpr double largestTurn = 0.35;      // rad between frames; more is beyond the reach, and means another optimum
 constexpr double smallestFrontality = 0.17; // 80 deg from the normal
 constexpr double smallestInImage = 0.25;    // share of the target
@@ -226,18 +226,26 @@ void vpPlanarTarget::Impl::track(vpTargetFrame &frame, const vpRigidPose &guess)
   if (!checkView(guess)) {
     return;
   }
+  // Small motion is the rule, and the fine levels alone stand more occlusion; the coarse ones reach further.
+  if (!trackFrom(frame, guess, keypointReach)) {
+    trackFrom(frame, guess, motionReach);
+  }
+}
+
+bool vpPlanarTarget::Impl::trackFrom(const vpTargetFrame &frame, const vpRigidPose &guess, double reach)
+{
   vpRigidPose pose = guess;
-  if (!m_refiner->refine(frame.pyramid(), pose, motionReach, m_config.maxIterations)) {
-    fail(vpPlanarTargetStatus::LowCorrelation, "The refinement diverged: the grey values do not lead to the target.");
-    return;
+  if (!m_refiner->refine(frame.pyramid(), pose, reach, m_config.maxIterations)) {
+    fail(vpPlanarTargetStatus::LowCorrelation, "The refinement did not converge: the grey values do not lead to the target.");
+    return false;
   }
   const double turn = vpSO3::log(pose.R * guess.R.transpose()).norm();
   if (turn > largestTurn) {
     fail(vpPlanarTargetStatus::LowCorrelation, sentence("The target would have turned by %.0f deg in one frame, at most %.0f deg can be tracked.",
                                                         turn * 180. / M_PI, largestTurn * 180. / M_PI));
-    return;
+    return false;
   }
-  conclude(frame, pose, vpPlanarTargetStatus::Tracked);
+  return conclude(frame, pose, vpPlanarTargetStatus::Tracked);
 }
 
 // The plane must be in front of the camera and face it.

@@ -45,6 +45,7 @@ private:
   };
 
   void acquireWith(const Reference &reference, vpTargetFrame &frame);
+  bool trackFrom(const vpTargetFrame &frame, const vpRigidPose &guess, double reach);
   bool checkView(const vpRigidPose &pose);
   bool conclude(const vpTargetFrame &frame, const vpRigidPose &pose, vpPlanarTargetStatus success);
   void fail(vpPlanarTargetStatus status, const std::string &message);
