@@ -20,7 +20,7 @@ class OpenCvExtractor : public vpKeypointExtractor
 public:
   OpenCvExtractor(cv::Ptr<cv::Feature2D> feature, unsigned int maxKeypoints)
     : m_feature(std::move(feature)), m_maxKeypoints(maxKeypoints)
-  { }
+  {}
 
   void extract(const cv::Mat &image, vpKeypointSet &keypoints) override
   {
@@ -42,7 +42,8 @@ std::unique_ptr<vpKeypointExtractor> makeKeypointExtractor(vpKeypointType type, 
   cv::Ptr<cv::Feature2D> feature;
   switch (type) {
   case vpKeypointType::ORB:
-    feature = cv::ORB::create(static_cast<int>(maxKeypoints), 1.2f, 8, 31, 0, 2, cv::ORB::HARRIS_SCORE, 31, fastThreshold);
+    feature =
+        cv::ORB::create(static_cast<int>(maxKeypoints), 1.2f, 8, 31, 0, 2, cv::ORB::HARRIS_SCORE, 31, fastThreshold);
     break;
   case vpKeypointType::SIFT:
     feature = cv::SIFT::create(static_cast<int>(maxKeypoints));

@@ -17,9 +17,10 @@ BEGIN_VISP_NAMESPACE
 
 /*!
  * Pairs (index in \e reference, index in \e current). Each is the mutual nearest neighbour, and nearer than \e ratio times
- * the second nearest in the current image (Lowe). One distance matrix serves both tests.
+ * the second nearest in the current image (Lowe). One pass over the distances serves both tests.
  */
-std::vector<std::pair<int, int> > matchKeypoints(const vpKeypointSet &reference, const vpKeypointSet &current, float ratio);
+std::vector<std::pair<int, int>> matchKeypoints(const vpKeypointSet &reference, const vpKeypointSet &current,
+                                                float ratio);
 
 END_VISP_NAMESPACE
 #endif

@@ -45,7 +45,8 @@ vpPhotometricModel::vpPhotometricModel(const cv::Mat &reference, const vpTargetP
   reference.convertTo(source, CV_32F);
   double scale = std::min(1., static_cast<double>(finestSize) / std::max(reference.cols, reference.rows));
   do {
-    const cv::Size size(static_cast<int>(std::lround(scale * reference.cols)), static_cast<int>(std::lround(scale * reference.rows)));
+    const cv::Size size(static_cast<int>(std::lround(scale * reference.cols)),
+                        static_cast<int>(std::lround(scale * reference.rows)));
     cv::resize(source, image, size, 0., 0., cv::INTER_AREA);
     if (m_levels[0].empty()) {
       cv::Scalar mean, deviation;

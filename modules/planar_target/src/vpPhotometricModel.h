@@ -19,16 +19,16 @@ BEGIN_VISP_NAMESPACE
 
 //! One sample of the reference.
 struct vpPhotometricSample {
-  float value;     //!< grey value
-  float dx, dy;    //!< its derivatives by the coordinates in the plane, per vpPhotometricModel::unit()
-  float slope2;    //!< square of the gradient's length, (grey levels per sample)^2
+  float value;  //!< grey value
+  float dx, dy; //!< its derivatives by the coordinates in the plane, per vpPhotometricModel::unit()
+  float slope2; //!< square of the gradient's length, (grey levels per sample)^2
 };
 
 //! One level of the reference.
 struct vpPhotometricLevel {
-  int cols = 0, rows = 0;          //!< of the samples; the border of the level is left out
-  double firstX = 0., firstY = 0.; //!< first sample in the plane, in units of vpPhotometricModel::unit()
-  double pitchX = 0., pitchY = 0.; //!< between samples, same units
+  int cols = 0, rows = 0;                   //!< of the samples; the border of the level is left out
+  double firstX = 0., firstY = 0.;          //!< first sample in the plane, in units of vpPhotometricModel::unit()
+  double pitchX = 0., pitchY = 0.;          //!< between samples, same units
   std::vector<vpPhotometricSample> samples; //!< row by row
 };
 
@@ -54,7 +54,10 @@ public:
   //! Number of levels.
   [[nodiscard]] std::size_t levels() const { return m_levels[0].size(); }
   //! A level, 0 the finest; \e soft is an index of softness. Levels of different softness have the same samples' places.
-  [[nodiscard]] const vpPhotometricLevel &level(std::size_t index, std::size_t soft) const { return m_levels[soft][index]; }
+  [[nodiscard]] const vpPhotometricLevel &level(std::size_t index, std::size_t soft) const
+  {
+    return m_levels[soft][index];
+  }
   //! Unit of the plane coordinates: half the longer side of the target, m.
   [[nodiscard]] double unit() const { return m_unit; }
   //! Standard deviation of the reference's grey values at the finest level.

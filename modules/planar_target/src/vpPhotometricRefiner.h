@@ -9,16 +9,9 @@
 #ifndef vpPhotometricRefiner_h
 #define vpPhotometricRefiner_h
 
-#include "vpPhotometricModel.h"
+#include "vpPhotometry.h"
 
 BEGIN_VISP_NAMESPACE
-
-//! How the grey values of a frame fit the reference at a pose.
-struct vpPhotometricFit {
-  double correlation = 0.; //!< Normalised correlation over the samples that are seen and not rejected, blockwise zero-mean.
-  double inImage = 0.;     //!< Share of the samples that fall into the image.
-  double visible = 0.;     //!< Share of the samples that fall into the image and are not rejected.
-};
 
 /*!
  * Minimises sum rho(I(w(p; T)) - g R(p) - b) over the pose T, the gain g and the bias b, with Tukey's rho, R the reference
@@ -52,32 +45,22 @@ public:
   vpPhotometricFit verify(const std::vector<cv::Mat> &pyramid, const vpRigidPose &pose);
 
 private:
-  //! Upper triangle of the normal equations: 8 of the homography, gain, bias, and the residual in column 10.
+  //! Normal equations: 8 of the homography, gain, bias, and the residual in column 10; filled up to whole registers.
   using Design = Eigen::Matrix<double, 12, 12>;
 
-  double pixelsPerSample(std::size_t level, const vpRigidPose &pose) const;
   std::size_t finestUseful(const vpRigidPose &pose) const;
-  std::size_t sample(const std::vector<cv::Mat> &pyramid, std::size_t level, const vpRigidPose &pose);
   bool start(const std::vector<cv::Mat> &pyramid, std::size_t index, const vpRigidPose &pose);
   bool descend(const std::vector<cv::Mat> &pyramid, std::size_t index, std::size_t soft, vpRigidPose &pose,
                unsigned int iterations, unsigned int &budget, double &shift);
-  bool iterate(const std::vector<cv::Mat> &pyramid, std::size_t index, const vpPhotometricLevel &level, vpRigidPose &pose,
-               double &shift, double &sigma);
-  void startPhotometry(const vpPhotometricLevel &level);
-  double fitPhotometry(const vpPhotometricLevel &level);
-  double residuals(const vpPhotometricLevel &level);
+  bool iterate(const std::vector<cv::Mat> &pyramid, std::size_t index, const vpPhotometricLevel &level,
+               vpRigidPose &pose, double &shift, double &sigma);
   Design accumulate(const vpPhotometricLevel &level, double sigma, double shift) const;
-  bool matchBlur(std::size_t level);
-  double median();
+  bool matchBlur(std::size_t index);
 
   const vpPhotometricModel &m_model;
   vpTargetPlane m_plane;
-  vpPinhole m_camera;
-  double m_gain = 1., m_bias = 0.; //!< frame = gain * reference + bias
-  std::size_t m_soft = 1;          //!< softness that fitted the last frame
-  std::vector<float> m_values;     //!< of the frame at each sample, < 0 outside of it
-  std::vector<float> m_residuals;  //!< outside: larger than any cut
-  std::vector<float> m_scratch;
+  vpPhotometry m_photometry;
+  std::size_t m_soft = 1; //!< softness that fitted the last frame
 };
 
 END_VISP_NAMESPACE

@@ -13,7 +13,7 @@ BEGIN_VISP_NAMESPACE
 vpPlanarTarget::vpPlanarTarget(const vpImage<unsigned char> &reference, double width, double height,
                                const vpCameraParameters &camera, const vpPlanarTargetConfig &config)
   : m_impl(std::make_unique<Impl>(reference, width, height, camera, config))
-{ }
+{}
 
 vpPlanarTarget::~vpPlanarTarget() = default;
 vpPlanarTarget::vpPlanarTarget(vpPlanarTarget &&) noexcept = default;
@@ -46,7 +46,8 @@ const vpPlanarTargetResult &vpPlanarTarget::track(const vpImage<unsigned char> &
   return m_impl->m_result;
 }
 
-const vpPlanarTargetResult &vpPlanarTarget::track(const vpImage<unsigned char> &image, const vpHomogeneousMatrix &cMoGuess)
+const vpPlanarTargetResult &vpPlanarTarget::track(const vpImage<unsigned char> &image,
+                                                  const vpHomogeneousMatrix &cMoGuess)
 {
   if (!m_impl->refuse(image)) {
     m_impl->m_ownFrame.assign(image);

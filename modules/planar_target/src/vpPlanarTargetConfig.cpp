@@ -40,7 +40,8 @@ vpKeypointType keypointTypeFromString(const std::string &name)
     }
     known += std::string(known.empty() ? "" : ", ") + entry.second;
   }
-  throw vpException(vpException::badValue, "keypoint detector '%s' is not known, choose one of %s", name.c_str(), known.c_str());
+  throw vpException(vpException::badValue, "keypoint detector '%s' is not known, choose one of %s", name.c_str(),
+                    known.c_str());
 }
 
 const char *toString(vpPlanarTargetStatus status)
@@ -73,7 +74,8 @@ void vpPlanarTargetConfig::validate() const
     throw vpException(vpException::badValue, "minInliers is %u, must be >= 8", minInliers);
   }
   if (maxKeypoints < minInliers || maxKeypoints > 100000) {
-    throw vpException(vpException::badValue, "maxKeypoints is %u, must be between minInliers (%u) and 100000", maxKeypoints, minInliers);
+    throw vpException(vpException::badValue, "maxKeypoints is %u, must be between minInliers (%u) and 100000",
+                      maxKeypoints, minInliers);
   }
   if (!(inlierThreshold > 0. && inlierThreshold < 1e3)) {
     throw vpException(vpException::badValue, "inlierThreshold is %g px, must be > 0 and < 1000", inlierThreshold);

@@ -18,12 +18,12 @@ class vpPlanarTargetDatabase::Store
 public:
   Store(const vpCameraParameters &camera, const vpPlanarTargetConfig &config)
     : m_camera(camera), m_config(config), m_frame(config.maxKeypoints)
-  { }
+  {}
 
   vpCameraParameters m_camera;
   vpPlanarTargetConfig m_config;
   vpTargetFrame m_frame; // of all targets
-  std::vector<std::unique_ptr<vpPlanarTarget::Impl> > m_targets;
+  std::vector<std::unique_ptr<vpPlanarTarget::Impl>> m_targets;
   std::vector<vpPlanarTargetSighting> m_sightings; // one for each target
 };
 

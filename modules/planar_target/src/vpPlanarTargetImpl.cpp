@@ -22,11 +22,12 @@ namespace
 {
 constexpr unsigned int smallestImage = 32; // px, reference and frame
 constexpr double smallestContrast = 4.;    // standard deviation of the reference, grey levels
-constexpr int keypointReferenceSize = 400; // px; a larger reference is reduced so that its keypoints have a frame's scale
+constexpr int keypointReferenceSize =
+    400; // px; a larger reference is reduced so that its keypoints have a frame's scale
 constexpr float loweRatio = 0.8f;
-constexpr double keypointReach = 2.;      // px; how far keypoints put the target from its place
-constexpr double motionReach = 14.;       // px; likewise the frame before
-constexpr double largestTurn = 0.35;      // rad between frames; more is beyond the reach, and means another optimum
+constexpr double keypointReach = 2.;        // px; how far keypoints put the target from its place
+constexpr double motionReach = 14.;         // px; likewise the frame before
+constexpr double largestTurn = 0.35;        // rad between frames; more is beyond the reach, and means another optimum
 constexpr double smallestFrontality = 0.17; // 80 deg from the normal
 constexpr double smallestInImage = 0.25;    // share of the target
 constexpr double smallestUnhidden = 0.4;    // share of what is in the image; half is where robust estimation ends
@@ -46,8 +47,8 @@ cv::Mat view(const vpImage<unsigned char> &image)
 vpTargetPlane makePlane(const vpImage<unsigned char> &reference, double width, double height)
 {
   if (reference.getWidth() < smallestImage || reference.getHeight() < smallestImage) {
-    throw vpException(vpException::dimensionError, "reference image is %ux%u px, must be at least %ux%u", reference.getWidth(),
-                      reference.getHeight(), smallestImage, smallestImage);
+    throw vpException(vpException::dimensionError, "reference image is %ux%u px, must be at least %ux%u",
+                      reference.getWidth(), reference.getHeight(), smallestImage, smallestImage);
   }
   if (!(width > 0.) || !(height > 0.) || !std::isfinite(width) || !std::isfinite(height)) {
     throw vpException(vpException::badValue, "size of the target is %g x %g m, must be > 0", width, height);
@@ -65,8 +66,10 @@ vpPlanarTarget::Impl::Impl(const vpImage<unsigned char> &reference, double width
   const cv::Mat image = view(reference);
   m_model = std::make_unique<vpPhotometricModel>(image, m_plane, static_cast<int>(config.refinementSize));
   if (m_model->contrast() < smallestContrast) {
-    throw vpException(vpException::badValue, "reference image is blank: its grey values deviate by %.1f from their mean, must be at "
-                                             "least %.0f", m_model->contrast(), smallestContrast);
+    throw vpException(vpException::badValue,
+                      "reference image is blank: its grey values deviate by %.1f from their mean, must be at "
+                      "least %.0f",
+                      m_model->contrast(), smallestContrast);
   }
   m_refiner = std::make_unique<vpPhotometricRefiner>(*m_model, m_plane, m_camera);
 
@@ -91,8 +94,9 @@ vpPlanarTarget::Impl::Impl(const vpImage<unsigned char> &reference, double width
     m_references.push_back(std::move(r));
   }
   if (most < config.minInliers) {
-    throw vpException(vpException::badValue, "reference image has too little texture: %u %s keypoints, at least %u are needed",
-                      most, toString(types.front()), config.minInliers);
+    throw vpException(vpException::badValue,
+                      "reference image has too little texture: %u %s keypoints, at least %u are needed", most,
+                      toString(types.front()), config.minInliers);
   }
 }
 
@@ -156,8 +160,9 @@ void vpPlanarTarget::Impl::acquireWith(const Reference &reference, vpTargetFrame
   m_result = vpPlanarTargetResult();
   const vpKeypointSet &current = frame.keypoints(reference.type);
   if (current.points.size() < m_config.minInliers) {
-    fail(vpPlanarTargetStatus::NoTexture, sentence("The image has %zu %s keypoints, at least %u are needed.",
-                                                   current.points.size(), toString(reference.type), m_config.minInliers));
+    fail(vpPlanarTargetStatus::NoTexture,
+         sentence("The image has %zu %s keypoints, at least %u are needed.", current.points.size(),
+                  toString(reference.type), m_config.minInliers));
     return;
   }
   vpPlaneMatches matches;
@@ -169,11 +174,13 @@ void vpPlanarTarget::Impl::acquireWith(const Reference &reference, vpTargetFrame
     matches.image.push_back(x);
   }
   const double pixels = std::sqrt(m_camera.px * m_camera.py);
-  const vpPlanePoses poses = planePoses(matches, m_plane.cols / m_plane.width, pixels, m_config.inlierThreshold, m_config.minInliers);
+  const vpPlanePoses poses =
+      planePoses(matches, m_plane.cols / m_plane.width, pixels, m_config.inlierThreshold, m_config.minInliers);
   m_result.inliers = static_cast<unsigned int>(poses.inliers.size());
   if (m_result.inliers < m_config.minInliers) {
-    fail(vpPlanarTargetStatus::TooFewInliers, sentence("%u of %zu %s matches agree on one plane, at least %u must.", m_result.inliers,
-                                                       matches.plane.size(), toString(reference.type), m_config.minInliers));
+    fail(vpPlanarTargetStatus::TooFewInliers,
+         sentence("%u of %zu %s matches agree on one plane, at least %u must.", m_result.inliers, matches.plane.size(),
+                  toString(reference.type), m_config.minInliers));
     return;
   }
   if (!checkView(poses.best)) {
@@ -198,7 +205,8 @@ void vpPlanarTarget::Impl::acquireWith(const Reference &reference, vpTargetFrame
       }
     }
     if (best == 0.) {
-      fail(vpPlanarTargetStatus::LowCorrelation, sentence("%u keypoints agree on a pose that the grey values do not confirm.", m_result.inliers));
+      fail(vpPlanarTargetStatus::LowCorrelation,
+           sentence("%u keypoints agree on a pose that the grey values do not confirm.", m_result.inliers));
       return;
     }
   }
@@ -236,13 +244,15 @@ bool vpPlanarTarget::Impl::trackFrom(const vpTargetFrame &frame, const vpRigidPo
 {
   vpRigidPose pose = guess;
   if (!m_refiner->refine(frame.pyramid(), pose, reach, m_config.maxIterations)) {
-    fail(vpPlanarTargetStatus::LowCorrelation, "The refinement did not converge: the grey values do not lead to the target.");
+    fail(vpPlanarTargetStatus::LowCorrelation,
+         "The refinement did not converge: the grey values do not lead to the target.");
     return false;
   }
   const double turn = vpSO3::log(pose.R * guess.R.transpose()).norm();
   if (turn > largestTurn) {
-    fail(vpPlanarTargetStatus::LowCorrelation, sentence("The target would have turned by %.0f deg in one frame, at most %.0f deg can be tracked.",
-                                                        turn * 180. / M_PI, largestTurn * 180. / M_PI));
+    fail(vpPlanarTargetStatus::LowCorrelation,
+         sentence("The target would have turned by %.0f deg in one frame, at most %.0f deg can be tracked.",
+                  turn * 180. / M_PI, largestTurn * 180. / M_PI));
     return false;
   }
   return conclude(frame, pose, vpPlanarTargetStatus::Tracked);
@@ -253,12 +263,14 @@ bool vpPlanarTarget::Impl::checkView(const vpRigidPose &pose)
 {
   const double depth = nearestCornerDepth(m_plane, pose), facing = frontality(pose);
   if (!(depth > 0.)) {
-    fail(vpPlanarTargetStatus::OutOfView, sentence("A corner of the target is at depth %.3g m, behind the camera.", depth));
+    fail(vpPlanarTargetStatus::OutOfView,
+         sentence("A corner of the target is at depth %.3g m, behind the camera.", depth));
     return false;
   }
   if (!(facing > smallestFrontality)) {
-    fail(vpPlanarTargetStatus::OutOfView, sentence("The target is seen at %.0f deg from its normal, at most %.0f deg can be used.",
-                                                   std::acos(facing) * 180. / M_PI, std::acos(smallestFrontality) * 180. / M_PI));
+    fail(vpPlanarTargetStatus::OutOfView,
+         sentence("The target is seen at %.0f deg from its normal, at most %.0f deg can be used.",
+                  std::acos(facing) * 180. / M_PI, std::acos(smallestFrontality) * 180. / M_PI));
     return false;
   }
   return true;
@@ -279,13 +291,15 @@ bool vpPlanarTarget::Impl::conclude(const vpTargetFrame &frame, const vpRigidPos
     return false;
   }
   if (fit.visible < smallestUnhidden * fit.inImage) {
-    fail(vpPlanarTargetStatus::LowCorrelation, sentence("%.0f %% of the target in the image fits the reference, at least %.0f %% must.",
-                                                        100. * fit.visible / fit.inImage, 100. * smallestUnhidden));
+    fail(vpPlanarTargetStatus::LowCorrelation,
+         sentence("%.0f %% of the target in the image fits the reference, at least %.0f %% must.",
+                  100. * fit.visible / fit.inImage, 100. * smallestUnhidden));
     return false;
   }
   if (!(fit.correlation >= m_config.minCorrelation)) {
-    fail(vpPlanarTargetStatus::LowCorrelation, sentence("Correlation with the reference is %.2f, must be at least %.2f.",
-                                                        fit.correlation, m_config.minCorrelation));
+    fail(vpPlanarTargetStatus::LowCorrelation,
+         sentence("Correlation with the reference is %.2f, must be at least %.2f.", fit.correlation,
+                  m_config.minCorrelation));
     return false;
   }
   m_known = true;
@@ -302,8 +316,8 @@ bool vpPlanarTarget::Impl::conclude(const vpTargetFrame &frame, const vpRigidPos
     m_result.corners[i].set_uv(p.x(), p.y());
   }
   m_result.message = success == vpPlanarTargetStatus::Acquired
-                         ? sentence("Acquired with %u inliers, correlation %.2f, %.0f %% visible.", m_result.inliers, fit.correlation,
-                                    100. * fit.visible)
+                         ? sentence("Acquired with %u inliers, correlation %.2f, %.0f %% visible.", m_result.inliers,
+                                    fit.correlation, 100. * fit.visible)
                          : sentence("Tracked, correlation %.2f, %.0f %% visible.", fit.correlation, 100. * fit.visible);
   return true;
 }

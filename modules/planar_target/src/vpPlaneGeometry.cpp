@@ -57,8 +57,10 @@ vpPinhole vpPinhole::fromCamera(const vpCameraParameters &camera)
     p.kud = camera.get_kud();
     break;
   default:
-    throw vpException(vpException::badValue, "camera model %d is not supported, use perspectiveProjWithoutDistortion or "
-                                             "perspectiveProjWithDistortion", static_cast<int>(camera.get_projModel()));
+    throw vpException(vpException::badValue,
+                      "camera model %d is not supported, use perspectiveProjWithoutDistortion or "
+                      "perspectiveProjWithDistortion",
+                      static_cast<int>(camera.get_projModel()));
   }
   return p;
 }
@@ -90,7 +92,8 @@ Eigen::Matrix3d vpTargetPlane::homography(const vpRigidPose &pose, const vpPinho
 {
   Eigen::Matrix3d K, pixelToPlane, planeToCamera;
   K << camera.px, 0., camera.u0, 0., camera.py, camera.v0, 0., 0., 1.;
-  pixelToPlane << width / cols, 0., (0.5 / cols - 0.5) * width, 0., height / rows, (0.5 / rows - 0.5) * height, 0., 0., 1.;
+  pixelToPlane << width / cols, 0., (0.5 / cols - 0.5) * width, 0., height / rows, (0.5 / rows - 0.5) * height, 0., 0.,
+      1.;
   planeToCamera << pose.R.col(0), pose.R.col(1), pose.t;
   const Eigen::Matrix3d H = K * planeToCamera * pixelToPlane;
   return H(2, 2) != 0. ? Eigen::Matrix3d(H / H(2, 2)) : H;

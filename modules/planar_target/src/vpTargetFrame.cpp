@@ -11,7 +11,7 @@ BEGIN_VISP_NAMESPACE
 namespace
 {
 constexpr std::size_t maxLevels = 5;
-constexpr double smoothing = 1.; // px; of noise, and so that the reference can be made as soft as the frame
+constexpr double smoothing = 1.;   // px; of noise, and so that the reference can be made as soft as the frame
 constexpr int minSideToHalve = 48; // a smaller level would not hold the coarsest template any more
 } // namespace
 

@@ -23,7 +23,7 @@ BEGIN_VISP_NAMESPACE
 class vpTargetFrame
 {
 public:
-  explicit vpTargetFrame(unsigned int maxKeypoints) : m_maxKeypoints(maxKeypoints) { }
+  explicit vpTargetFrame(unsigned int maxKeypoints) : m_maxKeypoints(maxKeypoints) {}
 
   //! Take a new frame (the pixels are copied) and forget the keypoints of the one before.
   void assign(const vpImage<unsigned char> &image);

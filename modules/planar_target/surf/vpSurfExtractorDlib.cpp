@@ -17,7 +17,7 @@ constexpr double detectionThreshold = 10.;
 class SurfExtractor : public vpKeypointExtractor
 {
 public:
-  explicit SurfExtractor(unsigned int maxKeypoints) : m_maxKeypoints(maxKeypoints) { }
+  explicit SurfExtractor(unsigned int maxKeypoints) : m_maxKeypoints(maxKeypoints) {}
 
   void extract(const cv::Mat &image, vpKeypointSet &keypoints) override
   {
@@ -26,7 +26,8 @@ public:
     keypoints.points.resize(found.size());
     keypoints.descriptors.create(static_cast<int>(found.size()), 64, CV_32F);
     for (std::size_t i = 0; i < found.size(); ++i) {
-      keypoints.points[i] = cv::Point2f(static_cast<float>(found[i].p.center.x()), static_cast<float>(found[i].p.center.y()));
+      keypoints.points[i] =
+          cv::Point2f(static_cast<float>(found[i].p.center.x()), static_cast<float>(found[i].p.center.y()));
       float *row = keypoints.descriptors.ptr<float>(static_cast<int>(i));
       for (long k = 0; k < 64; ++k) {
         row[k] = static_cast<float>(found[i].des(k));

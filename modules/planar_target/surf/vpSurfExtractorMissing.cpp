@@ -10,9 +10,10 @@ BEGIN_VISP_NAMESPACE
 
 std::unique_ptr<vpKeypointExtractor> makeSurfExtractor(unsigned int)
 {
-  throw vpException(vpException::fatalError,
-                    "SURF keypoints need dlib, which this build lacks: install libdlib-dev and configure again, or choose "
-                    "ORB, SIFT, AKAZE, KAZE or BRISK");
+  throw vpException(
+      vpException::fatalError,
+      "SURF keypoints need dlib, which this build lacks: install libdlib-dev and configure again, or choose "
+      "ORB, SIFT, AKAZE, KAZE or BRISK");
 }
 
 END_VISP_NAMESPACE

@@ -65,7 +65,8 @@ inline Image background(std::mt19937_64 &rng, unsigned int rows = 480, unsigned 
   Image I(rows, cols);
   for (unsigned int i = 0; i < rows; ++i) {
     for (unsigned int j = 0; j < cols; ++j) {
-      I[i][j] = static_cast<unsigned char>(std::lround(grid.getValue(static_cast<double>(i) / cell, static_cast<double>(j) / cell)));
+      I[i][j] = static_cast<unsigned char>(
+          std::lround(grid.getValue(static_cast<double>(i) / cell, static_cast<double>(j) / cell)));
     }
   }
   return I;
@@ -96,11 +97,12 @@ inline void draw(Image &I, const Target &target, const vpCameraParameters &cam, 
   vpCameraParameters fine;
   const double shift = 0.5 * (s - 1.);
   if (cam.get_projModel() == vpCameraParameters::perspectiveProjWithDistortion) {
-    fine.initPersProjWithDistortion(s * cam.get_px(), s * cam.get_py(), s * cam.get_u0() + shift, s * cam.get_v0() + shift,
-                                    cam.get_kud(), cam.get_kdu());
+    fine.initPersProjWithDistortion(s * cam.get_px(), s * cam.get_py(), s * cam.get_u0() + shift,
+                                    s * cam.get_v0() + shift, cam.get_kud(), cam.get_kdu());
   }
   else {
-    fine.initPersProjWithoutDistortion(s * cam.get_px(), s * cam.get_py(), s * cam.get_u0() + shift, s * cam.get_v0() + shift);
+    fine.initPersProjWithoutDistortion(s * cam.get_px(), s * cam.get_py(), s * cam.get_u0() + shift,
+                                       s * cam.get_v0() + shift);
   }
   Image large(s * I.getHeight(), s * I.getWidth());
   for (unsigned int i = 0; i < large.getHeight(); ++i) {
@@ -141,7 +143,8 @@ inline void occlude(Image &target, const Image &occluder, double share, std::mt1
   std::uniform_real_distribution<double> uniform(0., 1.);
   const double aspect = std::sqrt(share) * std::exp(uniform(rng) - 0.5); // share of the width
   const double w = std::min(1., aspect), h = std::min(1., share / w);
-  const unsigned int cols = static_cast<unsigned int>(w * target.getWidth()), rows = static_cast<unsigned int>(h * target.getHeight());
+  const unsigned int cols = static_cast<unsigned int>(w * target.getWidth()),
+                     rows = static_cast<unsigned int>(h * target.getHeight());
   const unsigned int left = static_cast<unsigned int>(uniform(rng) * (target.getWidth() - cols));
   const unsigned int top = static_cast<unsigned int>(uniform(rng) * (target.getHeight() - rows));
   for (unsigned int i = 0; i < rows; ++i) {

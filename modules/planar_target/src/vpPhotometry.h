@@ -1,0 +1,89 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpPhotometry.h
+ * \brief Internal: the grey values of a frame at the samples of the reference, and how they fit.
+ */
+#ifndef vpPhotometry_h
+#define vpPhotometry_h
+
+#include "vpPhotometricModel.h"
+
+BEGIN_VISP_NAMESPACE
+
+//! Which residuals pass: e^2 < noise2 + slope2 * (slope of the sample)^2, the bound of Tukey's weight.
+struct vpPhotometricBound {
+  float noise2;
+  float slope2;
+
+  //! Tukey's weight (1 - e^2 / bound)^2, 0 beyond the bound.
+  [[nodiscard]] float weight(float residual, const vpPhotometricSample &sample) const
+  {
+    const float fit = 1.f - residual * residual / (noise2 + slope2 * sample.slope2);
+    return fit > 0.f ? fit * fit : 0.f;
+  }
+};
+
+//! How the grey values of a frame fit the reference at a pose.
+struct vpPhotometricFit {
+  double correlation =
+      0.;              //!< Normalised correlation over the samples that are seen and not rejected, blockwise zero-mean.
+  double inImage = 0.; //!< Share of the samples that fall into the image.
+  double visible = 0.; //!< Share of the samples that fall into the image and are not rejected.
+};
+
+/*!
+ * Values of one frame at the samples of one level, with frame = gain * reference + bias. Gain and bias stay from frame to
+ * frame. The work space is allocated by the constructor.
+ */
+class vpPhotometry
+{
+public:
+  static constexpr std::size_t fewestSamples = 100; //!< to fit six numbers of a pose and two of the light
+  static constexpr double smallestGain = 0.05;      //!< below, the frame shows nothing of the reference
+  static constexpr double smallestShift = 0.1;      //!< samples; what blur and interpolation are worth
+
+  //! \e model must outlive this object.
+  vpPhotometry(const vpPhotometricModel &model, const vpPinhole &camera);
+
+  //! Pixels of the frame between two samples of a level.
+  [[nodiscard]] double pixelsPerSample(std::size_t level, const vpRigidPose &pose) const;
+  //! Read the frame at the samples of a level; returns how many are in the image.
+  std::size_t sample(const std::vector<cv::Mat> &pyramid, std::size_t level, const vpRigidPose &pose);
+
+  //! Gain and bias of the last frame or from medians, whichever fits better, then fit().
+  void start(const vpPhotometricLevel &level);
+  //! Gain and bias at the present samples, reweighted until they stand; returns the robust deviation of the residuals.
+  double fit(const vpPhotometricLevel &level);
+  //! Residuals at the present samples, gain and bias; returns their robust deviation.
+  double update(const vpPhotometricLevel &level);
+  void addToLight(double gain, double bias);
+
+  /*!
+   * \param sigma : Deviation of the residuals from noise. \param shift : Samples that the pose may be off, or what blur and
+   * interpolation are worth. With sigma alone, which the flat parts of a picture dominate, every edge that is off would
+   * pass for an occlusion, and edges are what the pose is found from.
+   */
+  [[nodiscard]] vpPhotometricBound bound(double sigma, double shift) const;
+  //! Correlation and shares at the present samples, after fit() gave \e sigma.
+  [[nodiscard]] vpPhotometricFit judge(const vpPhotometricLevel &level, double sigma) const;
+
+  [[nodiscard]] double gain() const { return m_gain; }
+  //! Residual of each sample; enormous outside of the image.
+  [[nodiscard]] const std::vector<float> &residuals() const { return m_residuals; }
+
+private:
+  double median();
+
+  const vpPhotometricModel &m_model;
+  vpPinhole m_camera;
+  double m_gain = 1., m_bias = 0.;
+  std::vector<float> m_values; //!< of the frame at each sample, < 0 outside of it
+  std::vector<float> m_residuals;
+  std::vector<float> m_scratch;
+};
+
+END_VISP_NAMESPACE
+#endif
