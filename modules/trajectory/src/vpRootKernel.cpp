@@ -30,13 +30,15 @@ constexpr double inverseBinomial[9][9] = {{1.},
                                           {1., 1. / 7., 1. / 21., 1. / 35., 1. / 35., 1. / 21., 1. / 7., 1.},
                                           {1., 1. / 8., 1. / 28., 1. / 56., 1. / 70., 1. / 56., 1. / 28., 1. / 8., 1.}};
 
-double magnitude(const double *c, int degree)
+// What rounding can make of the value at s >= 0. Near zero the high coefficients do not count: a bound over the whole
+// interval would take small values there for zero and miss the root beside them.
+double rounding(const double *c, int degree, double s)
 {
-  double sum = 0.;
-  for (int k = 0; k <= degree; ++k) {
-    sum += std::abs(c[k]);
+  double sum = std::abs(c[degree]);
+  for (int k = degree - 1; k >= 0; --k) {
+    sum = sum * s + std::abs(c[k]);
   }
-  return sum;
+  return 2. * epsilon * sum;
 }
 
 // The root between l and r, where the polynomial is monotone and changes sign: Newton, halving when it leaves the bracket.
@@ -108,11 +110,9 @@ int rootsBetween(const double *c, int degree, const double *critical, int critic
   const bool touching = wanted == Wanted::Roots;
   // Newton squares its error once more in the step that ends it.
   const double precision = touching ? 2. * epsilon : 1e-6;
-  const double zero = touching ? 2. * epsilon * magnitude(c, degree) : 0.;
   int count = 0;
   double l = 0., fl = c[0];
-  if (touching && std::abs(fl) <= zero) {
-    fl = 0.;
+  if (touching && fl == 0.) {
     out[count++] = 0.;
   }
   for (int i = 0; i <= criticalCount && count < degree; ++i) {
@@ -121,7 +121,7 @@ int rootsBetween(const double *c, int degree, const double *critical, int critic
       continue;
     }
     double fr = horner(c, degree, r);
-    if (std::abs(fr) <= zero) {
+    if (touching && std::abs(fr) <= rounding(c, degree, r)) {
       fr = 0.;
     }
     if (fl * fr < 0.) {

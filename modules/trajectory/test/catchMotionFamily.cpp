@@ -55,6 +55,11 @@ TEST_CASE("special roots: double, at the ends, degenerate degrees", "[polynomial
   CHECK(vpPolynomial{}.roots().count == 0);
   CHECK(vpPolynomial{-0.3, 1., 0., 0., 0., 0.}.roots().count == 1); // a line stored with degree 5
   CHECK(vpPolynomial{1., 0., 1.}.roots().count == 0);
+  // Small roots beside large coefficients: values near zero are small there, and no roots.
+  const auto small = vpPolynomial{-1e-9, 1.}.times({-3e-9, 1.}).times({2., -1.}).times({3., 1.}).roots();
+  REQUIRE(small.count == 2);
+  CHECK(small.s[0] == Approx(1e-9).epsilon(1e-9));
+  CHECK(small.s[1] == Approx(3e-9).epsilon(1e-9));
 }
 
 TEST_CASE("range is the range of a dense sampling, and composition a change of clock", "[polynomial]")
