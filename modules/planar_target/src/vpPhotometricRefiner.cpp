@@ -23,7 +23,8 @@ constexpr double usualTurn = 0.03;   // of a step, rad
 constexpr double coarsePixels = 4.;  // per sample; at coarser levels
 constexpr double coarseTilt = 1e-4;  // rad, the tilt stays what it was
 constexpr double converged = 0.02;   // samples; the last step at the finest level
-constexpr double largestStep = 0.5;  // likewise: a longer step is divergence
+constexpr double largestStep = 0.5;  // rad, and share of the distance; a longer one is divergence
+constexpr unsigned int patience = 8; // steps; one that is still large then will not lead to the target
 
 // The eight parameters of a homography I + A near the identity:
 // dx = a0 x + a1 y + a2 - x (a6 x + a7 y), dy = a3 x + a4 y + a5 - y (a6 x + a7 y).
@@ -141,15 +142,17 @@ bool vpPhotometricRefiner::start(const std::vector<cv::Mat> &pyramid, std::size_
 bool vpPhotometricRefiner::descend(const std::vector<cv::Mat> &pyramid, std::size_t index, std::size_t soft,
                                    vpRigidPose &pose, unsigned int iterations, unsigned int &budget, double &shift)
 {
-  constexpr double enough = 0.002;
+  const double enough = index == 0 ? 0.004 : 0.02;
   double sigma = std::numeric_limits<double>::infinity();
   shift = largestShift;
   if (m_photometry.sample(pyramid, index, pose) < vpPhotometry::fewestSamples) {
     return false;
   }
-  while (iterations > 0 && shift > enough) {
-    --iterations;
+  for (unsigned int k = 0; k < iterations && shift > enough; ++k) {
     --budget;
+    if (k >= patience && shift > largestShift) {
+      return false;
+    }
     shift = std::clamp(shift, vpPhotometry::smallestShift, largestShift);
     if (!iterate(pyramid, index, m_model.level(index, soft), pose, shift, sigma)) {
       return false;

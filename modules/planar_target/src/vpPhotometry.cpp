@@ -154,9 +154,13 @@ double vpPhotometry::fit(const vpPhotometricLevel &level)
     if (!(det > 1e-9 * N(0, 0) * N(1, 1))) {
       break; // what is left is of one grey value
     }
-    m_gain += (N(1, 1) * N(0, 2) - N(0, 1) * N(1, 2)) / det;
-    m_bias += (N(0, 0) * N(1, 2) - N(0, 1) * N(0, 2)) / det;
+    const double gain = (N(1, 1) * N(0, 2) - N(0, 1) * N(1, 2)) / det;
+    const double bias = (N(0, 0) * N(1, 2) - N(0, 1) * N(0, 2)) / det;
+    addToLight(gain, bias);
     sigma = update(level);
+    if (std::abs(gain) < 1e-3 * std::abs(m_gain) && std::abs(bias) < 0.1) {
+      break;
+    }
   }
   return sigma;
 }

@@ -216,13 +216,10 @@ void vpMotionUnit::buildFallback() noexcept
       vpAxisTask &task = m_members[static_cast<std::size_t>(i)]->task;
       task.to[2] = task.to[3] = 0.;
     }
-    if (m_braking == 0.) {
-      buildDirect();
-    }
-    else {
+    if (m_braking > 0.) {
       brake();
-      buildDirect();
     }
+    buildDirect();
     m_fallbackReady = true;
   }
   for (int i = 0; i < m_count; ++i) {
