@@ -4,7 +4,7 @@ set -euo pipefail
 # shellcheck source=scripts/setup.sh
 source "$(dirname "${BASH_SOURCE[0]}")/scripts/setup.sh"
 
-install_packages "${packages[@]}"
+install_packages "${packages[@]}" "${test_packages[@]}"
 build_tree all
 
 report=$logs/test-results.xml

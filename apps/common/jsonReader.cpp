@@ -5,6 +5,7 @@
 #include "jsonReader.h"
 #include "outputFolder.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -68,6 +69,21 @@ private:
   std::vector<std::set<std::string>> m_fields;
 };
 
+//! \param where : Says where the byte (from 1) of a syntax error is.
+template <class Where> json parse(const std::string &text, const std::string &name, Where where)
+{
+  try {
+    DuplicateCheck check(name);
+    return json::parse(text, [&check](int, json::parse_event_t event, json &value) { return check(event, value); });
+  }
+  catch (const json::parse_error &error) {
+    throw std::runtime_error(name + ": " + where(error.byte) + ": " + reasonOf(error));
+  }
+  catch (const json::exception &error) {
+    throw std::runtime_error(name + ": " + reasonOf(error));
+  }
+}
+
 std::string shortDump(const json &value)
 {
   std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
@@ -78,23 +94,21 @@ std::string shortDump(const json &value)
 json readJsonFile(const std::string &file)
 {
   const std::string text = readFile(file);
-  try {
-    DuplicateCheck check(file);
-    return json::parse(text, [&check](int, json::parse_event_t event, json &value) { return check(event, value); });
-  }
-  catch (const json::parse_error &error) {
-    throw std::runtime_error(file + ": " + lineAndColumn(text, error.byte) + ": " + reasonOf(error));
-  }
-  catch (const json::exception &error) {
-    throw std::runtime_error(file + ": " + reasonOf(error));
-  }
+  return parse(text, file, [&text](std::size_t byte) { return lineAndColumn(text, byte); });
+}
+
+json parseJsonLine(const std::string &line, const std::string &place)
+{
+  return parse(line, place,
+               [](std::size_t byte) { return "column " + std::to_string(std::max<std::size_t>(byte, 1)); });
 }
 
 JsonObject::JsonObject(const json &value, std::string file, std::string path)
   : m_value(&value), m_file(std::move(file)), m_path(std::move(path))
 {
   if (!value.is_object()) {
-    throw wrong(m_path.empty() ? "the file" : m_path, value, "an object { }");
+    throw std::runtime_error(m_file + ": " + (m_path.empty() ? "the content" : m_path) + " is " + shortDump(value) +
+                             ", must be an object { }");
   }
 }
 
@@ -106,9 +120,9 @@ bool JsonObject::has(const std::string &field)
 
 double JsonObject::number(const std::string &field)
 {
-  const json &value = at(field);
+  const json &value = this->value(field);
   if (!value.is_number() || !std::isfinite(value.get<double>())) {
-    throw wrong(pathOf(field), value, "a number");
+    throw wrong(field, value, "a number");
   }
   return value.get<double>();
 }
@@ -120,9 +134,9 @@ unsigned int JsonObject::count(const std::string &field, unsigned int fallback)
   if (!has(field)) {
     return fallback;
   }
-  const json &value = at(field);
+  const json &value = this->value(field);
   if (!value.is_number_unsigned() || value.get<std::uint64_t>() > std::numeric_limits<unsigned int>::max()) {
-    throw wrong(pathOf(field), value, "a whole number >= 0");
+    throw wrong(field, value, "a whole number >= 0");
   }
   return value.get<unsigned int>();
 }
@@ -132,33 +146,45 @@ std::string JsonObject::text(const std::string &field, const std::string &fallba
   if (!has(field)) {
     return fallback;
   }
-  const json &value = at(field);
+  const json &value = this->value(field);
   if (!value.is_string()) {
-    throw wrong(pathOf(field), value, "a text");
+    throw wrong(field, value, "a text");
   }
   return value.get<std::string>();
 }
 
+bool JsonObject::flag(const std::string &field, bool fallback)
+{
+  if (!has(field)) {
+    return fallback;
+  }
+  const json &value = this->value(field);
+  if (!value.is_boolean()) {
+    throw wrong(field, value, "true or false");
+  }
+  return value.get<bool>();
+}
+
 std::vector<double> JsonObject::numbers(const std::string &field, std::size_t size)
 {
-  const json &value = at(field);
+  const json &value = this->value(field);
   bool good = value.is_array() && value.size() == size;
   for (std::size_t i = 0; good && i < size; ++i) {
     good = value[i].is_number() && std::isfinite(value[i].get<double>());
   }
   if (!good) {
-    throw wrong(pathOf(field), value, "a list of " + std::to_string(size) + " numbers");
+    throw wrong(field, value, "a list of " + std::to_string(size) + " numbers");
   }
   return value.get<std::vector<double>>();
 }
 
-JsonObject JsonObject::object(const std::string &field) { return JsonObject(at(field), m_file, pathOf(field)); }
+JsonObject JsonObject::object(const std::string &field) { return JsonObject(value(field), m_file, pathOf(field)); }
 
 std::vector<JsonObject> JsonObject::objects(const std::string &field)
 {
-  const json &value = at(field);
+  const json &value = this->value(field);
   if (!value.is_array() || value.empty()) {
-    throw wrong(pathOf(field), value, "a list of at least one object");
+    throw wrong(field, value, "a list of at least one object");
   }
   std::vector<JsonObject> list;
   for (std::size_t i = 0; i < value.size(); ++i) {
@@ -185,7 +211,7 @@ std::runtime_error JsonObject::error(const std::string &sentence) const
   return std::runtime_error(m_file + ": " + (m_path.empty() ? "" : m_path + ": ") + sentence);
 }
 
-const json &JsonObject::at(const std::string &field)
+const json &JsonObject::value(const std::string &field)
 {
   if (!has(field)) {
     throw std::runtime_error(m_file + ": " + pathOf(field) + " is missing");
@@ -195,8 +221,8 @@ const json &JsonObject::at(const std::string &field)
 
 std::string JsonObject::pathOf(const std::string &field) const { return m_path.empty() ? field : m_path + "." + field; }
 
-std::runtime_error JsonObject::wrong(const std::string &path, const json &value, const std::string &expected) const
+std::runtime_error JsonObject::wrong(const std::string &field, const json &value, const std::string &expected) const
 {
-  return std::runtime_error(m_file + ": " + path + " is " + shortDump(value) + ", must be " + expected);
+  return std::runtime_error(m_file + ": " + pathOf(field) + " is " + shortDump(value) + ", must be " + expected);
 }
 } // namespace vpApp

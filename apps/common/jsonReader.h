@@ -22,6 +22,12 @@ namespace vpApp
  * \throw std::runtime_error naming the file, and the line and column of a syntax error.
  */
 [[nodiscard]] nlohmann::json readJsonFile(const std::string &file);
+/*!
+ * Parse one line of a file of JSON lines, as strictly as readJsonFile().
+ * \param line : The text. \param place : Begins every message ("problems.jsonl:3").
+ * \throw std::runtime_error naming the place, and the column of a syntax error.
+ */
+[[nodiscard]] nlohmann::json parseJsonLine(const std::string &line, const std::string &place);
 
 /*!
  * \brief One JSON object that is read field by field.
@@ -48,6 +54,8 @@ public:
   [[nodiscard]] unsigned int count(const std::string &field, unsigned int fallback);
   //! A text, \e fallback when missing.
   [[nodiscard]] std::string text(const std::string &field, const std::string &fallback);
+  //! True or false, \e fallback when missing.
+  [[nodiscard]] bool flag(const std::string &field, bool fallback);
   //! Exactly \e size finite numbers.
   [[nodiscard]] std::vector<double> numbers(const std::string &field, std::size_t size);
   //! An object. \throw std::runtime_error when missing.
@@ -55,16 +63,19 @@ public:
   //! A list of objects, at least one. \throw std::runtime_error when missing or empty.
   [[nodiscard]] std::vector<JsonObject> objects(const std::string &field);
 
+  //! Whatever stands there, for what the other readers do not cover. \throw std::runtime_error when missing.
+  [[nodiscard]] const nlohmann::json &value(const std::string &field);
+
   //! \throw std::runtime_error naming the first field that was not asked for, and those that were.
   void finish() const;
   //! An error about this object: "file: path: sentence".
   [[nodiscard]] std::runtime_error error(const std::string &sentence) const;
+  //! An error about a value in it: "file: path.field is VALUE, must be EXPECTED".
+  [[nodiscard]] std::runtime_error wrong(const std::string &field, const nlohmann::json &value,
+                                         const std::string &expected) const;
 
 private:
-  const nlohmann::json &at(const std::string &field);
-  std::string pathOf(const std::string &field) const;
-  [[nodiscard]] std::runtime_error wrong(const std::string &path, const nlohmann::json &value,
-                                         const std::string &expected) const;
+  [[nodiscard]] std::string pathOf(const std::string &field) const;
 
   const nlohmann::json *m_value; // owned by the caller
   std::string m_file;

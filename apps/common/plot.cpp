@@ -121,7 +121,7 @@ std::string lineStyle(const PlotCurve &curve)
 {
   const std::string colour = " linecolor rgb " + quoted(curve.colour);
   if (curve.style == PlotStyle::Points) {
-    return "points pointtype 7 pointsize 0.5" + colour;
+    return "points pointtype 7 pointsize " + std::to_string(0.25 * curve.width) + colour;
   }
   std::string dash;
   if (curve.style == PlotStyle::Dashed) {
@@ -136,15 +136,11 @@ std::string lineStyle(const PlotCurve &curve)
   return "lines linewidth " + width.str() + dash + colour;
 }
 
-std::string scriptOf(const Plot &plot, const std::string &output)
+//! The commands that draw one plot. \param id : Of the plot in the picture.
+void draw(const Plot &plot, std::size_t id, std::ostream &script)
 {
-  std::ostringstream script;
-  script.imbue(std::locale::classic());
-  script << "set encoding utf8\n"
-         << "set terminal svg size " << plot.width << "," << plot.height
-         << " dynamic noenhanced font 'DejaVu Sans,Helvetica,Arial,14' background '#ffffff'\n"
-         << "set output " << quoted(output) << "\n"
-         << "set title " << quoted(plot.title) << "\n"
+  const std::string data = "$curve" + std::to_string(id) + "_";
+  script << "set title " << quoted(plot.title) << "\n"
          << "set xlabel " << quoted(plot.xLabel) << "\nset ylabel " << quoted(plot.yLabel) << "\n"
          << "set grid linecolor rgb '#dfe3e8'\nset border linecolor rgb '#555555'\n"
          << "set key outside right top vertical Left reverse samplen 2\n";
@@ -173,7 +169,7 @@ std::string scriptOf(const Plot &plot, const std::string &output)
   }
   for (std::size_t i = 0; i < plot.curves.size(); ++i) {
     const PlotCurve &curve = plot.curves[i];
-    script << "$curve" << i << " << EOD\n";
+    script << data << i << " << EOD\n";
     bool gap = true;
     for (std::size_t k = 0; k < std::min(curve.x.size(), curve.y.size()); ++k) {
       const bool good = std::isfinite(curve.x[k]) && std::isfinite(curve.y[k]);
@@ -190,11 +186,52 @@ std::string scriptOf(const Plot &plot, const std::string &output)
   script << "plot " << range(plot.xRange);
   for (std::size_t i = 0; i < plot.curves.size(); ++i) {
     const PlotCurve &curve = plot.curves[i];
-    script << (i == 0 ? " " : ", \\\n  ") << "$curve" << i << " using 1:2 with " << lineStyle(curve)
+    script << (i == 0 ? " " : ", \\\n  ") << data << i << " using 1:2 with " << lineStyle(curve)
            << (curve.label.empty() ? " notitle" : " title " + quoted(curve.label));
   }
   script << "\n";
+}
+
+// The margins make room for the legend and are the same in all panels.
+std::string scriptOf(const std::vector<Plot> &panels, PlotFormat format, const std::string &output)
+{
+  unsigned int width = 0;
+  unsigned int height = 0;
+  for (const Plot &plot : panels) {
+    width = std::max(width, plot.width);
+    height += plot.height;
+  }
+  std::ostringstream script;
+  script.imbue(std::locale::classic());
+  script << "set encoding utf8\nset terminal "
+         << (format == PlotFormat::Svg ? "svg dynamic noenhanced font 'DejaVu Sans,Helvetica,Arial,14'"
+                                       : "pngcairo noenhanced font 'DejaVu Sans,11'")
+         << " size " << width << "," << height << " background '#ffffff'\nset output " << quoted(output) << "\n";
+  if (panels.size() > 1) {
+    script << "set multiplot\n";
+  }
+  unsigned int below = height;
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    if (panels.size() > 1) {
+      below -= panels[i].height;
+      script << "reset\nset origin 0, " << 1. * below / height << "\nset size 1, " << 1. * panels[i].height / height
+             << "\nset lmargin 11\nset rmargin 22\n";
+    }
+    draw(panels[i], i, script);
+  }
   return script.str();
+}
+
+std::string render(const std::vector<Plot> &panels, PlotFormat format)
+{
+  const ScratchFolder scratch;
+  const std::string script = scratch.file("plot.gp");
+  std::ofstream(script) << scriptOf(panels, format, scratch.file("plot"));
+  if (runGnuplot(script, scratch.file("log")) != 0) {
+    throw std::runtime_error("gnuplot failed on the plot \"" + panels.front().title +
+                             "\": " + readFile(scratch.file("log")));
+  }
+  return readFile(scratch.file("plot"));
 }
 } // namespace
 
@@ -204,14 +241,13 @@ void requireGnuplot()
   (void)runGnuplot("--version", scratch.file("log"));
 }
 
-std::string renderSvg(const Plot &plot)
+std::string renderSvg(const Plot &plot) { return render({plot}, PlotFormat::Svg); }
+
+std::string renderPanels(const std::vector<Plot> &panels, PlotFormat format)
 {
-  const ScratchFolder scratch;
-  const std::string script = scratch.file("plot.gp");
-  std::ofstream(script) << scriptOf(plot, scratch.file("plot.svg"));
-  if (runGnuplot(script, scratch.file("log")) != 0) {
-    throw std::runtime_error("gnuplot failed on the plot \"" + plot.title + "\": " + readFile(scratch.file("log")));
+  if (panels.empty()) {
+    throw std::runtime_error("a picture needs at least one plot");
   }
-  return readFile(scratch.file("plot.svg"));
+  return render(panels, format);
 }
 } // namespace vpApp

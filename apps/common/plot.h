@@ -4,7 +4,7 @@
  */
 /*!
  * \file plot.h
- * \brief Line plots as SVG, drawn by the program gnuplot.
+ * \brief Line plots as SVG or PNG, drawn by the program gnuplot.
  */
 #ifndef vpApp_plot_h
 #define vpApp_plot_h
@@ -60,6 +60,17 @@ void requireGnuplot();
  * \throw std::runtime_error with gnuplot's complaint.
  */
 [[nodiscard]] std::string renderSvg(const Plot &plot);
+
+//! What a picture is written as.
+enum class PlotFormat { Svg, Png };
+
+/*!
+ * Plots below each other in one picture, as wide as the widest, with the same margins, so that the same x stands at the
+ * same place in all of them.
+ * \param panels : From top to bottom, at least one.
+ * \throw std::runtime_error with gnuplot's complaint.
+ */
+[[nodiscard]] std::string renderPanels(const std::vector<Plot> &panels, PlotFormat format);
 } // namespace vpApp
 
 #endif

@@ -22,6 +22,7 @@ using Catch::Approx;
 #endif
 
 #include <random>
+#include <string>
 
 namespace vpTestSupport
 {
@@ -33,6 +34,9 @@ unsigned int seed();
 
 //! Generator of the random problem number \e index of this run: independent streams, repeatable one by one.
 std::mt19937_64 generator(unsigned int index = 0);
+
+//! Leave a check out, saying why ("image x is not installed"). When nothing failed, ctest then reports "Skipped".
+void skip(const std::string &why);
 
 //! Number of heap allocations (malloc, calloc, realloc, new) made by this thread since the program began.
 unsigned long allocationCount();

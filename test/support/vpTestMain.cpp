@@ -12,7 +12,9 @@
 
 namespace
 {
+constexpr int skipped = 77; // SKIP_RETURN_CODE of cmake/VispDirectModule.cmake
 unsigned int s_seed = 20240613;
+bool s_skipped = false;
 }
 
 namespace vpTestSupport
@@ -23,6 +25,12 @@ std::mt19937_64 generator(unsigned int index)
 {
   std::seed_seq sequence{s_seed, index};
   return std::mt19937_64(sequence);
+}
+
+void skip(const std::string &why)
+{
+  s_skipped = true;
+  WARN("skipped: " << why);
 }
 } // namespace vpTestSupport
 
@@ -45,5 +53,6 @@ int main(int argc, char *argv[])
   if (seedGiven) {
     s_seed = session.config().rngSeed();
   }
-  return session.run();
+  const int failed = session.run();
+  return failed == 0 && s_skipped ? skipped : failed;
 }

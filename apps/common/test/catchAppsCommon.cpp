@@ -198,7 +198,7 @@ TEST_CASE("JSON errors name the file, the place and the value", "[apps]")
   CHECK(reading("{\n  \"camera\": {\"px\": NaN}\n}").find("task.json: line 2, column 20: ") == 0);
   CHECK(reading("{\"camera\"").find("task.json: line 1, column ") == 0);
   CHECK(reading("").find("task.json: line 1, column 1") == 0);
-  CHECK(reading("[1, 2]") == "task.json: the file is [1,2], must be an object { }");
+  CHECK(reading("[1, 2]") == "task.json: the content is [1,2], must be an object { }");
   CHECK(reading(R"({"camera": {"px": 1e999}})") == "task.json: number overflow parsing '1e999'");
   CHECK(reading(R"({"camera": {"px": "wide"}})") == "task.json: camera.px is \"wide\", must be a number");
   CHECK(reading(R"({"camera": {}})") == "task.json: camera.px is missing");

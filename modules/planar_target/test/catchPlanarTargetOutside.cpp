@@ -53,7 +53,7 @@ std::pair<double, double> apply(const std::array<double, 9> &H, double u, double
 TEST_CASE("graf1 to graf3: homography of real photographs against the measured one", "[planar_target][outside]")
 {
   if (!vpIoTools::checkFilename(opencvFile("graf1.png"))) {
-    WARN("skipped: OpenCV's sample images (Debian package opencv-doc) are not installed");
+    vpTestSupport::skip("OpenCV's sample images (Debian package opencv-doc) are not installed");
     return;
   }
   vpPlanarScene::Image first, third;
@@ -92,7 +92,7 @@ TEST_CASE("AprilTag scene: pose of each tag against the renderer's", "[planar_ta
 {
   const std::string folder = vpIoTools::getViSPImagesDataPath() + "/AprilTag/benchmark/640x480";
   if (!vpIoTools::checkFilename(folder + "/tag36_11_640x480.png")) {
-    WARN("skipped: visp-images-data is not installed and VISP_INPUT_IMAGE_PATH does not name it");
+    vpTestSupport::skip("visp-images-data is not installed and VISP_INPUT_IMAGE_PATH does not name it");
     return;
   }
   vpPlanarScene::Image I;

@@ -1,0 +1,78 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file programRun.h
+ * \brief Runs a program in an empty folder and catches what it says.
+ */
+#ifndef vpApp_test_programRun_h
+#define vpApp_test_programRun_h
+
+#include "outputFolder.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <sys/wait.h>
+
+//! \brief An empty folder for one test, the working directory of the program; removed afterwards.
+class ProgramRun
+{
+public:
+  //! \param program : Path of the program.
+  explicit ProgramRun(std::string program) : m_program(std::move(program))
+  {
+    std::string name = (std::filesystem::temp_directory_path() / "visp-direct-program-XXXXXX").string();
+    m_folder = mkdtemp(name.data());
+  }
+  ~ProgramRun() { std::filesystem::remove_all(m_folder); }
+  ProgramRun(const ProgramRun &) = delete;
+  ProgramRun &operator=(const ProgramRun &) = delete;
+
+  //! Run with these arguments (shell syntax), optionally after an assignment of environment variables; the exit status.
+  int operator()(const std::string &arguments, const std::string &environment = "")
+  {
+    const std::string command = "cd '" + m_folder.string() + "' && " + environment + " '" + m_program + "' " +
+                                arguments + " >stdout.txt 2>stderr.txt";
+    const int status = std::system(command.c_str());
+    m_out = take("stdout.txt");
+    m_err = take("stderr.txt");
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  [[nodiscard]] const std::string &out() const { return m_out; }
+  [[nodiscard]] const std::string &err() const { return m_err; }
+  [[nodiscard]] std::filesystem::path path(const std::string &name) const { return m_folder / name; }
+
+  void write(const std::string &name, const std::string &content) const
+  {
+    std::ofstream(path(name), std::ios::binary) << content;
+  }
+  //! Names in the folder, sorted by nothing.
+  [[nodiscard]] std::vector<std::string> entries() const
+  {
+    std::vector<std::string> names;
+    for (const auto &entry : std::filesystem::directory_iterator(m_folder)) {
+      names.push_back(entry.path().filename().string());
+    }
+    return names;
+  }
+
+private:
+  std::string take(const std::string &name) const
+  {
+    const std::string content = vpApp::readFile(path(name));
+    std::filesystem::remove(path(name));
+    return content;
+  }
+
+  std::string m_program;
+  std::filesystem::path m_folder;
+  std::string m_out;
+  std::string m_err;
+};
+
+#endif

@@ -1,0 +1,28 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file figure.h
+ * \brief A motion as a picture: position, velocity, acceleration, jerk over time, with limits and events.
+ */
+#ifndef planTrajectory_figure_h
+#define planTrajectory_figure_h
+
+#include "motion.h"
+#include "plot.h"
+
+#include <string>
+
+namespace planTrajectory
+{
+/*!
+ * Draw a motion. Solid: what is executed; thin: what a plan would have done had no event come; dashed: the limits in
+ * force; dotted: the goal; grey vertical lines: events; dots: vias.
+ * \param title : First line of the picture.
+ */
+[[nodiscard]] std::string drawMotion(const Problem &problem, const Motion &motion, const std::string &title,
+                                     vpApp::PlotFormat format);
+} // namespace planTrajectory
+
+#endif

@@ -1,0 +1,51 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file problemLine.h
+ * \brief One line of the input: a motion that is asked for.
+ */
+#ifndef planTrajectory_problemLine_h
+#define planTrajectory_problemLine_h
+
+#include <visp3/trajectory/vpTrajectoryInput.h>
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace planTrajectory
+{
+//! Number of axes known at run time only.
+using Input = vpTrajectoryInput<Eigen::Dynamic>;
+
+//! \brief A change of goal, limits, vias or options while the motion is under way.
+struct Event {
+  double t = 0.; //!< s from the start of the motion.
+  Input input;   //!< Everything as it is from then on.
+};
+
+//! \brief A motion that is asked for. The format is described in data/trajectory/README.md.
+struct Problem {
+  std::string place;         //!< Where it was read, for messages: "problems.jsonl:3".
+  std::size_t line = 1;      //!< Number of the line, from 1.
+  nlohmann::ordered_json id; //!< The user's name for it, any JSON value; null: none.
+  Input input;               //!< Start, goal, limits, vias, options.
+  std::vector<Event> events; //!< In the order of time.
+  double dt = 0.001;         //!< Control cycle, s.
+
+  [[nodiscard]] int axes() const { return static_cast<int>(input.goal.q.size()); } //!< Number of axes.
+};
+
+/*!
+ * Read one line.
+ * \param text : The line, a JSON object. \param place : Begins every message. \param line : Number of the line.
+ * \throw std::runtime_error: one sentence that names the place, the field with its axis, and the value. Whether the
+ * numbers make sense as a motion is not looked at, vpDirectTrajectory does that.
+ */
+[[nodiscard]] Problem readProblem(const std::string &text, const std::string &place, std::size_t line);
+} // namespace planTrajectory
+
+#endif
