@@ -192,6 +192,8 @@ void shaperStep(benchmark::State &state)
 } // namespace
 
 BENCHMARK_CAPTURE(planning1, retarget, vpTrajectoryForm::Hold)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(planning1, retarget_direct, vpTrajectoryForm::Direct)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(planning1, retarget_fallback, vpTrajectoryForm::Ramped)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(planning7, retarget, vpTrajectoryForm::Hold, false)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(planning7, retarget_direct, vpTrajectoryForm::Direct, false)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(planning7, retarget_fallback, vpTrajectoryForm::Ramped, false)->Unit(benchmark::kMicrosecond);

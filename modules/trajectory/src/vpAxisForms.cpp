@@ -204,7 +204,8 @@ void vpFramedMotion::close(const vpAxisTask &task) noexcept
   m_middleLimits = task.limits;
   m_middleLimits.minPosition -= m_head[0];
   m_middleLimits.maxPosition -= m_head[0];
-  m_lower = vpMinimumDuration::lowerBound(m_head, m_tail, m_middleLimits);
+  m_lower = vpMinimumDuration::raiseLowerBound(m_middle, m_middleLimits,
+                                               vpMinimumDuration::lowerBound(m_head, m_tail, m_middleLimits));
 }
 
 bool vpFramedMotion::fixedKeepPosition(const vpAxisLimits &limits) const noexcept

@@ -92,6 +92,24 @@ public:
   Look(const vpMotionFamily &motion, double T) : m_motion(motion), m_T(T) {}
   [[nodiscard]] double next() const { return m_next; }
 
+  // As the extremum that asked for the longest jump moves on with T, to the roots of its next places. Each step starts
+  // where the limit is broken, so nothing is skipped; to follow one extremum is cheaper than to seek all.
+  [[nodiscard]] double nextFollowing()
+  {
+    constexpr int steps = 4;
+    for (int k = 0; k < steps && m_last.d > 0 && m_next < infinity; ++k) {
+      double y = 0.;
+      m_last.s = follow(m_last.s, m_last.d, m_next, y);
+      const double bound = m_last.limit * power(m_motion.share() * m_next, m_last.d);
+      const double excess = m_last.sign * y - bound;
+      if (!(excess > 1e-9 * bound)) {
+        break;
+      }
+      m_next = step(m_last.s, m_last.d, m_last.sign, m_last.limit, m_next, excess);
+    }
+    return m_next;
+  }
+
   // |d^d p/ds^d| <= limit (share T)^d, at the extrema and, unless they are given values, at the ends.
   void boundAbsolute(const Level &level, const Level &derivative, int d, double limit)
   {
@@ -123,6 +141,17 @@ public:
     });
   }
 
+  // |d^d p/ds^d| <= limit (share T)^d at a place chosen beforehand.
+  void boundAt(double s, int d, double limit)
+  {
+    const auto g = m_motion.inDuration(s, d);
+    const double y = ((g[3] * m_T + g[2]) * m_T + g[1]) * m_T + g[0];
+    const double bound = limit * power(m_motion.share() * m_T, d);
+    if (std::abs(y) > bound * (1. + 1e-9)) {
+      jump(s, d, std::copysign(1., y), limit, std::abs(y) - bound);
+    }
+  }
+
 private:
   template <typename Check> void forEachCandidate(const Level &derivative, int d, Check check) const
   {
@@ -135,7 +164,17 @@ private:
     }
   }
 
+  // To the next root of the extremum's own g.
   void jump(double s, int d, double sign, double limit, double excess)
+  {
+    const double next = step(s, d, sign, limit, m_T, excess);
+    if (next > m_next) {
+      m_next = next;
+      m_last = {s, d, sign, limit};
+    }
+  }
+
+  [[nodiscard]] double step(double s, int d, double sign, double limit, double T, double excess) const
   {
     auto g = m_motion.inDuration(s, d);
     for (double &c : g) {
@@ -143,13 +182,42 @@ private:
     }
     g[static_cast<std::size_t>(d)] -= limit * power(m_motion.share(), d);
     const int degree = std::max(m_motion.power(), d);
-    shift(g.data(), degree, m_T, excess);
-    m_next = std::max(m_next, advance(m_T, vpRootKernel::firstPositiveRoot(g.data(), degree)));
+    shift(g.data(), degree, T, excess);
+    return advance(T, vpRootKernel::firstPositiveRoot(g.data(), degree));
   }
+
+  // One Newton step from s towards the extremum of the derivative d at T, and the value there.
+  [[nodiscard]] double follow(double s, int d, double T, double &value) const
+  {
+    double c[size];
+    m_motion.evaluate(T, c);
+    int degree = m_motion.degree();
+    for (int k = 0; k < d; ++k) {
+      vpRootKernel::differentiate(c, degree--, c);
+    }
+    double y = 0., slope = 0., curvature = 0.;
+    for (int k = degree; k >= 0; --k) {
+      curvature = curvature * s + slope;
+      slope = slope * s + y;
+      y = y * s + c[k];
+    }
+    const double next = s - slope / (2. * curvature);
+    const double place = next >= 0. && next <= 1. ? next : s;
+    value = vpRootKernel::horner(c, degree, place);
+    return place;
+  }
+
+  struct Extremum {
+    double s = 0.;
+    int d = 0;
+    double sign = 1.;
+    double limit = 0.;
+  };
 
   const vpMotionFamily &m_motion;
   double m_T;
   double m_next = m_T;
+  Extremum m_last; // that m_next is due to
 };
 } // namespace
 
@@ -185,7 +253,7 @@ double nextCandidate(const vpMotionFamily &motion, const vpAxisLimits &limits, d
     look.boundAbsolute(level[2], level[3], 2, limits.acceleration);
   }
   if (look.next() > farAway * T) {
-    return look.next(); // the peak velocity here is of no interest any more
+    return look.nextFollowing(); // the peak velocity here is of no interest any more
   }
   if (position || velocity) {
     level[2].findRoots(&level[3]);
@@ -197,7 +265,7 @@ double nextCandidate(const vpMotionFamily &motion, const vpAxisLimits &limits, d
     level[1].findRoots(&level[2]);
     look.boundPosition(level[0], level[1], limits.minPosition, limits.maxPosition);
   }
-  return look.next();
+  return look.nextFollowing();
 }
 
 double nextCandidate(const vpMotionFamily *const motions[], int count, const vpNormLimits &limits, double T) noexcept
@@ -278,6 +346,20 @@ vpDurationAnswer solve(const vpMotionFamily &motion, const vpAxisLimits &limits,
     answer.T = next;
   }
   return answer;
+}
+
+double raiseLowerBound(const vpMotionFamily &motion, const vpAxisLimits &limits, double T) noexcept
+{
+  Look look(motion, T);
+  if (std::isfinite(limits.velocity)) {
+    look.boundAt(0.5, 1, limits.velocity);
+  }
+  if (std::isfinite(limits.acceleration)) {
+    constexpr double early = 0.21132486540518712; // (3 - sqrt(3))/6
+    look.boundAt(early, 2, limits.acceleration);
+    look.boundAt(1. - early, 2, limits.acceleration);
+  }
+  return look.next();
 }
 
 double lowerBound(const vpAxisState &from, const vpAxisState &to, const vpAxisLimits &limits) noexcept

@@ -46,7 +46,7 @@ void vpMotionUnit::prepare(bool allowCruise) noexcept
 // The forms that start in the present head of `direct`.
 void vpMotionUnit::buildDirect() noexcept
 {
-  m_fallbackReady = false;
+  m_fallbackReady = m_stoppingReady = false;
   for (int i = 0; i < m_count; ++i) {
     vpMotionAxis &axis = *m_members[static_cast<std::size_t>(i)];
     if (m_braking == 0.) {
@@ -181,8 +181,8 @@ double vpMotionUnit::fallbackNext(double T) noexcept
       best = cruise;
       m_form = vpTrajectoryForm::Cruise;
     }
-    if (!(best < infinity) && m_stoppingUsable) {
-      best = search(&vpMotionAxis::stopping, T);
+    if (!(best < infinity)) {
+      best = stoppingNext(T);
       m_form = vpTrajectoryForm::StopAndGo;
     }
     if (best < infinity) {
@@ -197,6 +197,14 @@ double vpMotionUnit::fallbackNext(double T) noexcept
     buildDirect();
   }
   return infinity;
+}
+
+double vpMotionUnit::stoppingNext(double T) noexcept
+{
+  if (!m_stoppingReady) {
+    buildStopping();
+  }
+  return m_stoppingUsable ? search(&vpMotionAxis::stopping, T) : infinity;
 }
 
 void vpMotionUnit::buildFallback() noexcept
@@ -232,6 +240,12 @@ void vpMotionUnit::buildFallback() noexcept
       axis.cruise.open(axis.task, axis.direct);
     }
   }
+}
+
+// From the ramped form.
+void vpMotionUnit::buildStopping() noexcept
+{
+  m_stoppingReady = true;
   const double stopHead = commonStop(true), stopTail = commonStop(false);
   m_stoppingUsable = true;
   for (int i = 0; i < m_count; ++i) {

@@ -70,6 +70,7 @@ private:
   [[nodiscard]] double search(Form form, double T) noexcept;
   [[nodiscard]] double cruiseNext(double T) const noexcept;
   [[nodiscard]] double fallbackNext(double T) noexcept;
+  [[nodiscard]] double stoppingNext(double T) noexcept;
   [[nodiscard]] bool isAtGoal(bool atRest) const noexcept;
   [[nodiscard]] bool breaksNorm() const noexcept;
   [[nodiscard]] double commonRamp(bool head) noexcept;
@@ -77,6 +78,7 @@ private:
   void brake() noexcept;
   void buildDirect() noexcept;
   void buildFallback() noexcept;
+  void buildStopping() noexcept;
   void stopHard() noexcept;
   [[nodiscard]] double normNext(const vpMotionFamily *families, double T) noexcept;
 
@@ -85,7 +87,8 @@ private:
   std::vector<const vpMotionFamily *> m_families;
   int m_count = 0;
   vpNormLimits m_norm;
-  bool m_hasNorm = false, m_allowCruise = false, m_fallbackReady = false, m_stoppingUsable = false;
+  bool m_hasNorm = false, m_allowCruise = false;
+  bool m_fallbackReady = false, m_stoppingReady = false, m_stoppingUsable = false; // built when first needed
   bool m_droppedPosition = false, m_droppedGoal = false;
   double m_braking = 0.;
   int m_iterations = 0;

@@ -89,6 +89,14 @@ constexpr double tolerance = 2e-13; //!< Relative excess over a limit that count
 [[nodiscard]] VISP_EXPORT double lowerBound(const vpAxisState &from, const vpAxisState &to,
                                             const vpAxisLimits &limits) noexcept;
 
+/*!
+ * A later lower bound than \e T from the limits at three fixed places: where a motion from rest to rest is fastest, and
+ * where it accelerates most. Cheaper than a look, because no extrema are sought.
+ * \return \e T or later; infinity when no later duration is feasible.
+ */
+[[nodiscard]] VISP_EXPORT double raiseLowerBound(const vpMotionFamily &motion, const vpAxisLimits &limits,
+                                                 double T) noexcept;
+
 //! True when the motion of exactly this duration keeps its limits.
 [[nodiscard]] inline bool isFeasible(const vpMotionFamily &motion, const vpAxisLimits &limits, double T) noexcept
 {
