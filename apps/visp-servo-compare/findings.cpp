@@ -225,8 +225,9 @@ std::optional<std::string> unfinished(const Results &results)
   std::vector<std::string> list;
   for (const vpServoRun &run : results.runs()) {
     if (run.metrics.status != "ok" && list.size() < 5) {
-      list.push_back(run.spec.law + " on " + run.spec.plant.name + " by " + run.spec.measure + " (seed " +
-                     std::to_string(run.spec.seed) + "): " + run.metrics.status);
+      list.push_back(run.spec.law + " on " + run.spec.plant.name + " by " + run.spec.measure +
+                     (run.spec.shape ? ", shaped" : "") + " (seed " + std::to_string(run.spec.seed) +
+                     "): " + run.metrics.status);
     }
   }
   if (list.empty()) {

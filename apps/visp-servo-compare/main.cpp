@@ -8,6 +8,7 @@
 #include "plan.h"
 #include "reportPage.h"
 #include "runLog.h"
+#include "stepFigure.h"
 #include "summary.h"
 
 #include "appMain.h"
@@ -72,6 +73,10 @@ void compare(const Options &options, const std::string &commandLine)
   ReportParts parts;
   parts.videos = writeVideos(plan, results, out, options.jobs, window.get());
   parts.figures = drawFigures(plan, results, options.jobs);
+  if (plan.shaped) {
+    parts.step = drawStep(plan, results);
+    out.write("figure/" + parts.step->name + ".svg", parts.step->svg);
+  }
   parts.filmStrip = drawFilmStrip(plan, results);
   for (const Figure &figure : parts.figures) {
     out.write("figure/" + figure.name + ".svg", figure.svg);

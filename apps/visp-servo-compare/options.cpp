@@ -5,7 +5,9 @@
 #include "options.h"
 
 #include "appMain.h"
+#include "format.h"
 #include "jobs.h"
+#include "scenario.h"
 
 #include <visp3/core/vpConfig.h>
 
@@ -33,6 +35,8 @@ constexpr const char *EXAMPLES = R"(Examples:
       with rendered views of your own photo, measured by the vision of visp-direct
   visp-servo-compare --monte-carlo 20 --measure points
       20 seeds of every run; the report shows median and range
+  visp-servo-compare --law pbvs1,ff-lookat-pi --plant A --shape
+      what it takes to start without a step in velocity, and what that costs
   visp-servo-compare --task my-task.json
       your own poses, camera, gains and robots; start from data/scenario/thesis-5.4.json
 
@@ -62,6 +66,17 @@ public:
     return lines;
   }
 };
+
+std::string shapeHelp()
+{
+  const vpTwistShaperLimits limits = Scenario().shape;
+  return "Run all a second time with the commanded twist shaped: no step at the start or at a new goal, acceleration "
+         "at "
+         "most " +
+         number(limits.linearAcceleration, 3) + " m/s^2 and " + number(limits.angularAcceleration, 3) +
+         " rad/s^2, jerk at most " + number(limits.linearJerk, 3) + " m/s^3 and " + number(limits.angularJerk, 3) +
+         " rad/s^3, or as \"shape\" of the task file says; the report shows both";
+}
 
 void requireAtLeastOne(const char *option, const std::string &text, unsigned int &value)
 {
@@ -106,6 +121,7 @@ bool readOptions(int argc, const char *const *argv, Options &options)
       ->delimiter(',')
       ->option_text("KIND,...");
   app.add_flag("--full", options.full, "Everything: all laws, all plants, points and image (takes long)");
+  app.add_flag("--shape", options.shape, shapeHelp());
   app.add_option("--task", options.taskFile, "Task file instead of the thesis' task; see data/scenario/README.md")
       ->check(CLI::ExistingFile)
       ->option_text("FILE.json");

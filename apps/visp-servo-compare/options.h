@@ -20,6 +20,7 @@ struct Options {
   std::vector<std::string> plants;   //!< Names; empty for all.
   std::vector<std::string> measures; //!< "points", "image"; empty for the default choice.
   bool full = false;                 //!< Everything with everything.
+  bool shape = false;                //!< Each run a second time with its twist shaped.
   std::string taskFile;              //!< Empty for the task of the thesis.
   std::string target;                //!< Photo of the object; empty for the one of data/.
   unsigned int repetitions = 1;      //!< Seeds a run.

@@ -148,6 +148,7 @@ Plan makePlan(const Options &options)
   }
   plan.seed = options.seed;
   plan.repetitions = options.repetitions;
+  plan.shaped = options.shape;
 
   for (const std::string &law : plan.laws) {
     for (const vpServoPlant &plant : plan.scenario.plants) {
@@ -161,9 +162,17 @@ Plan makePlan(const Options &options)
         if (plant.pixelNoise > 0.) {
           spec.faults = plan.scenario.faults;
         }
-        for (unsigned int i = 0; i < plan.repetitions; ++i) {
-          spec.seed = plan.seed + i;
-          plan.runs.push_back(spec);
+        for (const bool shaped : {false, true}) {
+          if (shaped && !plan.shaped) {
+            continue;
+          }
+          if (shaped) {
+            spec.shape = plan.scenario.shape;
+          }
+          for (unsigned int i = 0; i < plan.repetitions; ++i) {
+            spec.seed = plan.seed + i;
+            plan.runs.push_back(spec);
+          }
         }
       }
     }

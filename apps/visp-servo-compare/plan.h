@@ -31,7 +31,9 @@ struct Plan {
   std::vector<std::string> laws;
   std::vector<std::string> measures; //!< Those that occur in #runs, points before image.
   std::vector<vpServoRunSpec>
-      runs; //!< For each law, plant and measure one after another all seeds. vpServoRunSpec::target is still empty.
+      runs; //!< For each law, plant and measure one after another all seeds, raw and, if #shaped, then shaped.
+            //!< vpServoRunSpec::target is still empty.
+  bool shaped = false; //!< Every run occurs raw and shaped.
   unsigned int seed = 1;
   unsigned int repetitions = 1;
 

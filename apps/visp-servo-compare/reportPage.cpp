@@ -10,6 +10,7 @@
 #include "htmlReport.h"
 #include "options.h"
 #include "resultTable.h"
+#include "stepTable.h"
 
 #include <visp3/core/vpMath.h>
 #include <visp3/core/vpPoseVector.h>
@@ -146,6 +147,46 @@ void writeFigures(HtmlReport &page, const ReportParts &parts)
   }
 }
 
+void writeStep(HtmlReport &page, const Plan &plan, const Results &results, const Figure &figure)
+{
+  const vpTwistShaperLimits &limits = plan.scenario.shape;
+  page.section("The step at the start");
+  page.paragraph(
+      "A servo law answers an error with a velocity in proportion to it. At t = 0, and whenever the goal changes, the "
+      "robot is asked to jump to that velocity within one cycle; section 6.1.1 of the thesis calls it an infinite "
+      "acceleration. A shaper (vpTwistShaper) behind any law makes a ramp of the jump. Here its limits are " +
+      number(limits.linearAcceleration, 4) + " m/s^2 and " + number(limits.angularAcceleration, 4) +
+      " rad/s^2, with a jerk of at most " + number(limits.linearJerk, 4) + " m/s^3 and " +
+      number(limits.angularJerk, 4) +
+      " rad/s^3. Every run was made twice, with the law's own twist (raw) and with the shaper (shaped). Only this "
+      "section tells of the shaped runs.");
+  page.list(stepFindings(plan, results));
+  page.picture(vpApp::dataUri("image/svg+xml", figure.svg), figure.title, figure.title + ". " + figure.caption);
+  bool first = true;
+  for (const std::string &measure : plan.measures) {
+    for (const vpServoPlant &plant : plan.scenario.plants) {
+      const HtmlTable table = stepTable(plan, results, plant, measure);
+      if (table.rows.empty()) {
+        continue;
+      }
+      const std::string where = "plant " + plant.name + ", measured by " + measure;
+      if (!first) {
+        page.beginDetails("The same on " + where);
+      }
+      page.table(table, "Raw and shaped on " + where +
+                            ". m/s2, rad/s2: largest change of the commanded twist from one cycle to the next, divided "
+                            "by the cycle of " +
+                            number(1000. / plant.loopRate, 3) +
+                            " ms. max px, end deg, end mm, settle s, out s: as in the tables above." +
+                            (plan.repetitions > 1 ? " Medians over the seeds." : ""));
+      if (!first) {
+        page.endDetails();
+      }
+      first = false;
+    }
+  }
+}
+
 void writeFilm(HtmlReport &page, const Plan &plan, const ReportParts &parts, vpApp::OutputFolder &out)
 {
   page.section("What the camera sees");
@@ -241,6 +282,9 @@ std::string reportPage(const Plan &plan, const Results &results, const ReportPar
   writeWhat(page, plan, results);
   writeTables(page, plan, results);
   writeFigures(page, parts);
+  if (parts.step) {
+    writeStep(page, plan, results, *parts.step);
+  }
   writeFilm(page, plan, parts, out);
   writeParameters(page, plan, parts);
   return page.html();

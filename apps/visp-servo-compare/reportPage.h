@@ -17,6 +17,7 @@ namespace servoCompare
 //! \brief What the page is made of, besides plan and results.
 struct ReportParts {
   std::vector<Figure> figures;
+  std::optional<Figure> step; //!< Of the section on shaped runs, if there are any.
   FilmStrip filmStrip;
   std::vector<ReplayVideo> videos;
   std::string commandLine;

@@ -17,14 +17,21 @@ namespace
 {
 //! Expected cost of a run relative to one by points: rendering and vision take most of the time.
 double costOf(const vpServoRunSpec &spec) { return spec.measure == "image" ? 2. * spec.plant.visionRate : 1.; }
+
+bool matches(const vpServoRunSpec &spec, const std::string &law, const std::string &plant, const std::string &measure,
+             Command command)
+{
+  return spec.law == law && spec.plant.name == plant && spec.measure == measure &&
+         spec.shape.has_value() == (command == Command::Shaped);
+}
 } // namespace
 
 std::vector<double> Results::values(const std::string &law, const std::string &plant, const std::string &measure,
-                                    Metric metric) const
+                                    Metric metric, Command command) const
 {
   std::vector<double> list;
   for (const vpServoRun &run : m_runs) {
-    if (run.spec.law == law && run.spec.plant.name == plant && run.spec.measure == measure) {
+    if (matches(run.spec, law, plant, measure, command)) {
       list.push_back(run.metrics.*metric);
     }
   }
@@ -32,9 +39,9 @@ std::vector<double> Results::values(const std::string &law, const std::string &p
 }
 
 std::optional<Spread> Results::spread(const std::string &law, const std::string &plant, const std::string &measure,
-                                      Metric metric) const
+                                      Metric metric, Command command) const
 {
-  std::vector<double> list = values(law, plant, measure, metric);
+  std::vector<double> list = values(law, plant, measure, metric, command);
   if (list.empty()) {
     return std::nullopt;
   }
@@ -44,10 +51,11 @@ std::optional<Spread> Results::spread(const std::string &law, const std::string 
   return Spread{median, list.front(), list.back()};
 }
 
-const vpServoRun *Results::find(const std::string &law, const std::string &plant, const std::string &measure) const
+const vpServoRun *Results::find(const std::string &law, const std::string &plant, const std::string &measure,
+                                Command command) const
 {
   for (const vpServoRun &run : m_runs) {
-    if (run.spec.law == law && run.spec.plant.name == plant && run.spec.measure == measure) {
+    if (matches(run.spec, law, plant, measure, command)) {
       return &run;
     }
   }

@@ -28,6 +28,9 @@ struct Spread {
 //! A field of vpServoMetrics.
 using Metric = double vpServoMetrics::*;
 
+//! What the robot gets: the law's twist as it is, or shaped (Plan::shaped).
+enum class Command { Raw, Shaped };
+
 //! \brief All runs in the order of Plan::runs.
 class Results
 {
@@ -38,14 +41,15 @@ public:
   [[nodiscard]] const std::vector<vpServoRun> &runs() const { return m_runs; }
 
   //! The run with the first seed, which has its samples; nullptr if it was not asked for.
-  [[nodiscard]] const vpServoRun *find(const std::string &law, const std::string &plant,
-                                       const std::string &measure) const;
+  [[nodiscard]] const vpServoRun *find(const std::string &law, const std::string &plant, const std::string &measure,
+                                       Command command = Command::Raw) const;
   //! A metric over all seeds; nothing if the run was not asked for.
   [[nodiscard]] std::optional<Spread> spread(const std::string &law, const std::string &plant,
-                                             const std::string &measure, Metric metric) const;
+                                             const std::string &measure, Metric metric,
+                                             Command command = Command::Raw) const;
   //! A metric of each seed.
   [[nodiscard]] std::vector<double> values(const std::string &law, const std::string &plant, const std::string &measure,
-                                           Metric metric) const;
+                                           Metric metric, Command command = Command::Raw) const;
 
 private:
   std::vector<vpServoRun> m_runs;

@@ -33,7 +33,9 @@ void append(std::string &csv, double value)
 std::string logName(const vpServoRunSpec &spec)
 {
   return "log/" +
-         fileName(spec.law + "-" + spec.plant.name + "-" + spec.measure + "-seed" + std::to_string(spec.seed)) + ".csv";
+         fileName(spec.law + "-" + spec.plant.name + "-" + spec.measure + "-seed" + std::to_string(spec.seed) +
+                  (spec.shape ? "-shaped" : "")) +
+         ".csv";
 }
 
 std::string csvOf(const vpServoRun &run)

@@ -17,7 +17,8 @@ VISP_DIRECT_USING_NAMESPACE
 
 namespace servoCompare
 {
-//! File name of a run's log inside the result folder: "log/pbvs1-D-points-seed1.csv".
+//! File name of a run's log inside the result folder: "log/pbvs1-D-points-seed1.csv", shaped
+//! "log/pbvs1-D-points-seed1-shaped.csv".
 [[nodiscard]] std::string logName(const vpServoRunSpec &spec);
 /*!
  * The log as CSV: a line of names with units, then a line for each cycle of the inner loop. Pose: camera in the world

@@ -129,6 +129,20 @@ void readFaults(JsonObject object, vpCameraFaults &faults)
   faults.occlusion = object.number("occlusion", faults.occlusion);
   object.finish();
 }
+void readShape(JsonObject object, vpTwistShaperLimits &limits)
+{
+  const auto read = [&object](const char *field, double &limit) {
+    limit = object.number(field, limit);
+    if (limit <= 0.) { // the shaper would not name the field
+      throw object.error(std::string(field) + " is " + number(limit, 6) + ", must be > 0");
+    }
+  };
+  read("linear_acceleration_mps2", limits.linearAcceleration);
+  read("linear_jerk_mps3", limits.linearJerk);
+  read("angular_acceleration_radps2", limits.angularAcceleration);
+  read("angular_jerk_radps3", limits.angularJerk);
+  object.finish();
+}
 } // namespace
 
 Scenario::Scenario() : task(vpServoTask::thesis())
@@ -138,6 +152,8 @@ Scenario::Scenario() : task(vpServoTask::thesis())
   }
   faults.noise = 2.;
   faults.blur = 0.5;
+  shape.angularAcceleration = 2.5 * shape.linearAcceleration;
+  shape.angularJerk = 2.5 * shape.linearJerk;
 }
 
 Scenario readScenario(const std::string &file)
@@ -161,6 +177,9 @@ Scenario readScenario(const std::string &file)
   }
   if (top.has("image_faults")) {
     readFaults(top.object("image_faults"), scenario.faults);
+  }
+  if (top.has("shape")) {
+    readShape(top.object("shape"), scenario.shape);
   }
   top.finish();
   try {

@@ -13,6 +13,7 @@
 #include <visp3/simulation/vpPlaneRenderer.h>
 #include <visp3/simulation/vpServoPlant.h>
 #include <visp3/simulation/vpServoTask.h>
+#include <visp3/trajectory/vpTwistShaper.h>
 
 #include <string>
 #include <vector>
@@ -29,6 +30,11 @@ struct Scenario {
   vpServoGains gains;
   std::vector<vpServoPlant> plants; //!< At least one; the first ones are easier than the last ones.
   vpCameraFaults faults;            //!< Of the rendered views, on plants that are not perfect.
+  /*!
+   * Of the shaped runs. By default the angular limits are 2.5 1/m times the linear ones: turning keeps pace with going
+   * sideways at 0.4 m from the object, which it holds in the image.
+   */
+  vpTwistShaperLimits shape;
 };
 
 /*!

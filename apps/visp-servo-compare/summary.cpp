@@ -51,6 +51,14 @@ Json jsonOf(const vpCameraFaults &faults)
           {"occlusion", faults.occlusion}};
 }
 
+Json jsonOf(const vpTwistShaperLimits &limits)
+{
+  return {{"linear_acceleration_mps2", limits.linearAcceleration},
+          {"linear_jerk_mps3", limits.linearJerk},
+          {"angular_acceleration_radps2", limits.angularAcceleration},
+          {"angular_jerk_radps3", limits.angularJerk}};
+}
+
 Json jsonOf(const vpServoTask &task)
 {
   Json segments = Json::array();
@@ -80,6 +88,7 @@ Json jsonOf(const Plan &plan, const vpServoRun &run)
                {"plant", run.spec.plant.name},
                {"measure", run.spec.measure},
                {"seed", run.spec.seed},
+               {"shaped", run.spec.shape.has_value()},
                {"max_image_error_px", m.max_image_error_px},
                {"rms_image_error_px", m.rms_image_error_px},
                {"end_rotation_deg", m.end_rotation_deg},
@@ -91,12 +100,17 @@ Json jsonOf(const Plan &plan, const vpServoRun &run)
                {"path_length_m", m.path_length_m},
                {"peak_linear_mps", m.peak_linear_mps},
                {"peak_angular_radps", m.peak_angular_radps},
+               {"peak_linear_acceleration_mps2", m.peak_linear_acceleration_mps2},
+               {"peak_angular_acceleration_radps2", m.peak_angular_acceleration_radps2},
                {"deadlock_cycles", m.deadlock_cycles},
                {"status", m.status},
                {"gains", jsonOf(run.spec.gains)},
                {"plant_parameters", jsonOf(run.spec.plant)}};
   if (run.spec.measure == "image") {
     item["image_faults"] = jsonOf(run.spec.faults);
+  }
+  if (run.spec.shape) {
+    item["shape"] = jsonOf(*run.spec.shape);
   }
   if (run.spec.seed == plan.seed) {
     item["log"] = logName(run.spec);

@@ -15,7 +15,7 @@ namespace
 constexpr int skipped = 77; // SKIP_RETURN_CODE of cmake/VispDirectModule.cmake
 unsigned int s_seed = 20240613;
 bool s_skipped = false;
-}
+} // namespace
 
 namespace vpTestSupport
 {
@@ -39,7 +39,8 @@ int main(int argc, char *argv[])
   std::vector<char *> arguments;
   bool seedGiven = false;
   for (int i = 0; i < argc; ++i) {
-    if (std::strcmp(argv[i], "-c") == 0 || std::strcmp(argv[i], "-d") == 0 || std::strcmp(argv[i], "--no-display") == 0) {
+    if (std::strcmp(argv[i], "-c") == 0 || std::strcmp(argv[i], "-d") == 0 ||
+        std::strcmp(argv[i], "--no-display") == 0) {
       continue;
     }
     seedGiven = seedGiven || std::strcmp(argv[i], "--rng-seed") == 0;

@@ -12,6 +12,7 @@
 #include "plan.h"
 #include "results.h"
 #include "runLog.h"
+#include "stepTable.h"
 
 #include <visp3/feedforward/vpServoLaw.h>
 
@@ -111,6 +112,7 @@ TEST_CASE("The task file of the data folder is the built-in task", "[visp-servo-
   CHECK(inspection.plants[1].latency == 0.2);
   CHECK(inspection.plants[1].deadband == vpServoPlant::byName("B").deadband);
   CHECK(inspection.gains.lambda == 0.8);
+  CHECK(inspection.shape.linearAcceleration == built.shape.linearAcceleration);
 }
 
 TEST_CASE("The plan holds what was asked for", "[visp-servo-compare]")
@@ -134,6 +136,84 @@ TEST_CASE("The plan holds what was asked for", "[visp-servo-compare]")
   CHECK(plan.hardPlant().name == "D");
   CHECK(plan.mainMeasure() == "points");
   CHECK(logName(plan.runs[4]) == "log/ibvs+cbf-D-points-seed5.csv");
+}
+
+TEST_CASE("With --shape every run occurs raw and shaped, and each is found", "[visp-servo-compare]")
+{
+  Options options;
+  options.laws = {"ibvs"};
+  options.plants = {"A", "D"};
+  options.measures = {"points"};
+  options.repetitions = 2;
+  CHECK_FALSE(makePlan(options).shaped);
+  options.shape = true;
+  const Plan plan = makePlan(options);
+  CHECK(plan.shaped);
+  REQUIRE(plan.runs.size() == 8); // plant A: seeds 1 and 2 raw, then shaped; then plant D
+  for (std::size_t i = 0; i < 8; ++i) {
+    CAPTURE(i);
+    CHECK(plan.runs[i].plant.name == (i < 4 ? "A" : "D"));
+    CHECK(plan.runs[i].seed == 1 + i % 2);
+    CHECK(plan.runs[i].shape.has_value() == (i % 4 >= 2));
+  }
+  CHECK(plan.runs[2].shape->linearAcceleration == 1.);
+  CHECK(plan.runs[2].shape->angularAcceleration == 2.5);
+  CHECK(plan.runs[2].shape->linearJerk == 10.);
+  CHECK(plan.runs[2].shape->angularJerk == 25.);
+  CHECK(logName(plan.runs[0]) == "log/ibvs-A-points-seed1.csv");
+  CHECK(logName(plan.runs[2]) == "log/ibvs-A-points-seed1-shaped.csv");
+
+  const Results results = resultsOf(plan, [](const vpServoRunSpec &spec) {
+    vpServoMetrics m;
+    m.settle_s = spec.seed + (spec.shape ? 100. : 0.);
+    return m;
+  });
+  CHECK_FALSE(results.find("ibvs", "A", "points")->spec.shape);
+  CHECK(results.find("ibvs", "A", "points", Command::Shaped)->spec.shape);
+  CHECK(results.spread("ibvs", "D", "points", &vpServoMetrics::settle_s)->largest == 2.);
+  CHECK(results.spread("ibvs", "D", "points", &vpServoMetrics::settle_s, Command::Shaped)->least == 101.);
+  const vpApp::HtmlTable table = stepTable(plan, results, plan.hardPlant(), "points");
+  REQUIRE(table.rows.size() == 1);
+  REQUIRE(table.rows[0].size() == 15); // law, then seven figures raw and shaped
+  CHECK(table.rows[0][11].text == "1.50");
+  CHECK(table.rows[0][12].text == "101.50");
+  CHECK(stepTable(plan, results, plan.hardPlant(), "image").rows.empty());
+}
+
+TEST_CASE("What shaping costs follows from the numbers", "[visp-servo-compare]")
+{
+  Options options;
+  options.laws = {"ibvs", "pbvs1+cbf"};
+  options.plants = {"A"};
+  options.measures = {"points"};
+  options.shape = true;
+  const Plan plan = makePlan(options);
+  double lost = 0.7; // s
+  const auto findings = [&]() {
+    return stepFindings(plan, resultsOf(plan, [&](const vpServoRunSpec &spec) {
+                          const bool ibvs = spec.law == "ibvs";
+                          vpServoMetrics m;
+                          m.peak_linear_acceleration_mps2 = spec.shape ? 1. : ibvs ? 22.36 : 30.;
+                          m.peak_angular_acceleration_radps2 = spec.shape ? (ibvs ? 2.5 : 2.) : 49.6;
+                          m.max_image_error_px = spec.shape ? (ibvs ? 15. : 40.) : 10.;
+                          m.end_rotation_deg = 0.25;
+                          m.settle_s = spec.shape ? (ibvs ? 4. : 3.5) : 3.;
+                          m.out_of_view_s = spec.shape && !ibvs ? lost : 0.;
+                          return m;
+                        }));
+  };
+  const std::vector<std::string> sentences = findings();
+  REQUIRE(sentences.size() == 4); // one plant: its cost is told once
+  CHECK(sentences[0] == "Over all laws and plants the command asks for accelerations of up to 30 m/s^2 and 49.6 "
+                        "rad/s^2 raw, and of up to 1 m/s^2 and 2.5 rad/s^2 shaped.");
+  CHECK(sentences[1] ==
+        "What it costs on plant A: the largest image error rises most with pbvs1+cbf, from 10.0 to 40.0 px; the "
+        "rotation error at the end rises with no law; the time to settle rises most with ibvs, from 3.00 to 4.00 s; "
+        "the time out of view rises most with pbvs1+cbf, from 0.00 to 0.70 s.");
+  CHECK(sentences[2].find("promises nothing. Longer out of view for that: pbvs1+cbf on plant A (0.00 s raw, 0.70 s "
+                          "shaped).") != std::string::npos);
+  lost = 0.;
+  CHECK(findings()[2].find("In these runs no filtered law is longer out of view") != std::string::npos);
 }
 
 TEST_CASE("The answer follows from the numbers", "[visp-servo-compare]")

@@ -23,6 +23,7 @@ std::string task(const std::string &piece = "", const std::string &replacement =
   "start": {"position_m": [0, 0, 0.5], "rotation_deg": [0, 0, 0]},
   "segments": [{"position_m": [0, 0, 0.4], "rotation_deg": [0, 0, 0], "duration_s": 1}],
   "gains": {"lambda": 1},
+  "shape": {"linear_jerk_mps3": 20},
   "plants": [{"name": "P", "vision_rate_hz": 10}]
 })";
   if (!piece.empty()) {
@@ -62,7 +63,7 @@ void check(ProgramRun &run, const Case &bad)
 
 TEST_CASE("A wrong command line ends with status 2", "[visp-servo-compare]")
 {
-  ProgramRun run;
+  ProgramRun run(SERVO_COMPARE);
   const std::vector<Case> cases = {
       {"--nonsense", USAGE, "--nonsense"},
       {"surplus", USAGE, "surplus"},
@@ -79,6 +80,7 @@ TEST_CASE("A wrong command line ends with status 2", "[visp-servo-compare]")
       {"--target none.jpg", USAGE, "none.jpg"},
       {"--task none.json", USAGE, "none.json"},
       {"--law", USAGE, "--law"},
+      {"--shape=soft", USAGE, "--shape"},
   };
   for (const Case &bad : cases) {
     check(run, bad);
@@ -87,7 +89,7 @@ TEST_CASE("A wrong command line ends with status 2", "[visp-servo-compare]")
 
 TEST_CASE("A bad photo ends with status 1", "[visp-servo-compare]")
 {
-  ProgramRun run;
+  ProgramRun run(SERVO_COMPARE);
   run.write("text.jpg", "this is not an image");
   run.write("empty.png", "");
   run.write("dot.pgm", grey(1, 1));
@@ -102,7 +104,7 @@ TEST_CASE("A bad photo ends with status 1", "[visp-servo-compare]")
 
 TEST_CASE("A bad task file ends with status 1 and names the field", "[visp-servo-compare]")
 {
-  ProgramRun run;
+  ProgramRun run(SERVO_COMPARE);
   const auto with = [&](const std::string &content, const std::string &sentence) {
     run.write("task.json", content);
     check(run, {"--task task.json", DATA, "task.json: " + sentence});
@@ -124,13 +126,22 @@ TEST_CASE("A bad task file ends with status 1 and names the field", "[visp-servo
   with(task("\"px\": 800", "\"px\": 0"), "camera: px is 0, must be > 0");
   with(task("\"width_m\": 0.18", "\"width_m\": -0.18"), "objectWidth of the task is -0.18");
   with(task("\"object\"", "\"objekt\""), "object is missing");
+  // The shaper's limits are checked whether or not --shape is given.
+  const std::string jerk = "\"linear_jerk_mps3\": 20";
+  with(task(jerk, "\"linear_jerk_mps3\": 0"), "shape: linear_jerk_mps3 is 0, must be > 0");
+  with(task(jerk, "\"linear_acceleration_mps2\": -1"), "shape: linear_acceleration_mps2 is -1, must be > 0");
+  with(task(jerk, "\"angular_acceleration_radps2\": -0.5"), "shape: angular_acceleration_radps2 is -0.5, must be > 0");
+  with(task(jerk, "\"angular_jerk_radps3\": -25"), "shape: angular_jerk_radps3 is -25, must be > 0");
+  with(task(jerk, "\"angular_jerk_radps3\": \"inf\""), "shape.angular_jerk_radps3 is \"inf\", must be a number");
+  with(task(jerk, "\"linear_jerk\": 20"), "unknown field shape.linear_jerk; known are ");
+  with(task("{" + jerk + "}", "[1, 10]"), "shape is [1,10], must be ");
   run.write("task.json", task());
   check(run, {"--task task.json --plant Q", USAGE, "unknown plant \"Q\"; known are A, B, D and P"});
 }
 
 TEST_CASE("A result folder that cannot be written ends with status 1 before anything is run", "[visp-servo-compare]")
 {
-  ProgramRun run;
+  ProgramRun run(SERVO_COMPARE);
   run.write("file", "");
   CHECK(run("--out file/result") == DATA);
   CHECK(run.err().find("file/result: cannot be written") != std::string::npos);
@@ -146,7 +157,7 @@ TEST_CASE("A result folder that cannot be written ends with status 1 before anyt
 
 TEST_CASE("What the machine lacks is named", "[visp-servo-compare]")
 {
-  ProgramRun run;
+  ProgramRun run(SERVO_COMPARE);
   CHECK(run("--display --out result", "env -u DISPLAY") == DATA);
   CHECK(run.err().find("--display needs a screen") != std::string::npos);
   CHECK(run("--out result", "VISP_DIRECT_DATA=/nowhere") == DATA);

@@ -50,7 +50,7 @@ std::map<std::string, std::vector<double>> readCsv(const std::filesystem::path &
 
 TEST_CASE("A small comparison leaves a whole result", "[visp-servo-compare]")
 {
-  ProgramRun run;
+  ProgramRun run(SERVO_COMPARE);
   const int status = run("--law pbvs1,ff-lookat-pi --plant A --measure points --out new/result");
   CAPTURE(run.err());
   REQUIRE(status == 0);
@@ -65,9 +65,10 @@ TEST_CASE("A small comparison leaves a whole result", "[visp-servo-compare]")
   REQUIRE(summary["runs"].size() == 2);
   for (const nlohmann::json &item : summary["runs"]) {
     CAPTURE(item);
-    for (const char *field : {"max_image_error_px", "rms_image_error_px", "end_rotation_deg", "end_translation_mm",
-                              "yaw_range_deg", "ideal_yaw_range_deg", "out_of_view_s", "settle_s", "path_length_m",
-                              "peak_linear_mps", "peak_angular_radps", "deadlock_cycles"}) {
+    for (const char *field :
+         {"max_image_error_px", "rms_image_error_px", "end_rotation_deg", "end_translation_mm", "yaw_range_deg",
+          "ideal_yaw_range_deg", "out_of_view_s", "settle_s", "path_length_m", "peak_linear_mps", "peak_angular_radps",
+          "peak_linear_acceleration_mps2", "peak_angular_acceleration_radps2", "deadlock_cycles"}) {
       CAPTURE(field);
       REQUIRE(item[field].is_number());
       CHECK(std::isfinite(item[field].get<double>()));
@@ -76,6 +77,7 @@ TEST_CASE("A small comparison leaves a whole result", "[visp-servo-compare]")
     CHECK(item["plant"] == "A");
     CHECK(item["measure"] == "points");
     CHECK(item["seed"] == 1);
+    CHECK(item["shaped"] == false);
     CHECK(item["status"] == "ok");
     CHECK(item["ideal_yaw_range_deg"].get<double>() == Approx(56.79).margin(0.01));
     CHECK(item["end_rotation_deg"].get<double>() < 0.2);
@@ -127,7 +129,7 @@ TEST_CASE("A small comparison leaves a whole result", "[visp-servo-compare]")
 
 TEST_CASE("Several seeds and a task of one's own", "[visp-servo-compare]")
 {
-  ProgramRun run;
+  ProgramRun run(SERVO_COMPARE);
   run.write("task.json", R"({
   "name": "a <b> & c",
   "camera": {"px": 400, "py": 400, "u0": 159.5, "v0": 119.5, "width": 320, "height": 240},
@@ -163,9 +165,81 @@ TEST_CASE("Several seeds and a task of one's own", "[visp-servo-compare]")
   CHECK(std::filesystem::exists(run.path("result/figure/seeds-rotation.svg")));
 }
 
+TEST_CASE("Shaped runs stand beside the raw ones", "[visp-servo-compare]")
+{
+  ProgramRun run(SERVO_COMPARE);
+  run.write("task.json", R"({
+  "camera": {"px": 800, "py": 800, "u0": 320, "v0": 240},
+  "object": {"width_m": 0.18, "height_m": 0.18},
+  "start": {"position_m": [0, 0, 0.5], "rotation_deg": [0, 0, 0]},
+  "segments": [{"position_m": [0.02, 0, 0.4], "rotation_deg": [0, -20, 0], "duration_s": 2},
+               {"position_m": [0, 0, 0.5], "rotation_deg": [0, 0, 0], "duration_s": 2}],
+  "shape": {"linear_acceleration_mps2": 0.8, "linear_jerk_mps3": 5, "angular_jerk_radps3": 30},
+  "plants": [{"name": "P"}]
+})");
+  const std::string arguments = "--task task.json --law pbvs1,ff-lookat+cbf --measure points ";
+  const int status = run(arguments + "--shape --out result");
+  CAPTURE(run.err());
+  REQUIRE(status == 0);
+  const nlohmann::json runs = vpApp::readJsonFile(run.path("result/summary.json"))["runs"];
+  REQUIRE(runs.size() == 4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const nlohmann::json &item = runs[i];
+    CAPTURE(item);
+    const bool shaped = i % 2 == 1;
+    CHECK(item["law"] == (i < 2 ? "pbvs1" : "ff-lookat+cbf"));
+    CHECK(item["shaped"] == shaped);
+    CHECK(item.contains("shape") == shaped);
+    if (shaped) {
+      CHECK(item["shape"]["linear_acceleration_mps2"] == 0.8);
+      CHECK(item["shape"]["linear_jerk_mps3"] == 5.);
+      CHECK(item["shape"]["angular_acceleration_radps2"] == 2.5);
+      CHECK(item["shape"]["angular_jerk_radps3"] == 30.);
+    }
+    CHECK((item["peak_linear_acceleration_mps2"] <= 0.8 * (1. + 1e-9)) == shaped);
+    CHECK((item["peak_angular_acceleration_radps2"] <= 2.5 * (1. + 1e-9)) == shaped);
+
+    // The log holds what the robot was asked for; its digits are 7.
+    auto log = readCsv(run.path("result/" + item["log"].get<std::string>()));
+    REQUIRE(log["time_s"].size() == 400);
+    double peak = 0., before[3] = {0., 0., 0.};
+    for (std::size_t k = 0; k < 400; ++k) {
+      double sum = 0.;
+      for (int axis = 0; axis < 3; ++axis) {
+        const double v = log[std::string("commanded_v") + "xyz"[axis] + "_mps"][k];
+        sum += std::pow((v - before[axis]) / 0.01, 2);
+        before[axis] = v;
+      }
+      peak = std::max(peak, std::sqrt(sum));
+    }
+    CHECK(peak == Approx(item["peak_linear_acceleration_mps2"].get<double>()).epsilon(1e-4));
+  }
+  const std::string page = vpApp::readFile(run.path("result/report.html"));
+  CHECK(countOf(page, "<h2 ") == 6);
+  CHECK(page.find("The step at the start</h2>") != std::string::npos);
+  CHECK(page.find("0.8 m/s^2 and 2.5 rad/s^2, with a jerk of at most 5 m/s^3 and 30 rad/s^3") != std::string::npos);
+  CHECK(page.find("what PBVS-1 commands on plant P") != std::string::npos);
+  CHECK(page.find("The view filter stands before the shaper") != std::string::npos);
+  CHECK(countOf(page, ">shaped</th>") == 7);
+  const std::string figure = vpApp::readFile(run.path("result/figure/figure-6.1.svg"));
+  for (const char *piece : {"Linear speed", "Linear acceleration", "Angular speed", "Angular acceleration", "shaped"}) {
+    CAPTURE(piece);
+    CHECK(figure.find(piece) != std::string::npos);
+  }
+
+  // Without --shape the limits of the file change nothing, and the raw runs are the same.
+  REQUIRE(run(arguments + "--out plain") == 0);
+  const nlohmann::json plain = vpApp::readJsonFile(run.path("plain/summary.json"))["runs"];
+  REQUIRE(plain.size() == 2);
+  CHECK(plain[0] == runs[0]);
+  CHECK(plain[1] == runs[2]);
+  CHECK(vpApp::readFile(run.path("plain/report.html")).find("The step at the start") == std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(run.path("plain/figure/figure-6.1.svg")));
+}
+
 TEST_CASE("The photo gives the object its height", "[visp-servo-compare]")
 {
-  ProgramRun run;
+  ProgramRun run(SERVO_COMPARE);
   const std::string photo = VISP_DIRECT_DATA_DIR "/target/box.png"; // 324x223 px
   REQUIRE(run("--target '" + photo + "' --law pbvs1 --plant A --measure points --out result") == 0);
   const nlohmann::json task = vpApp::readJsonFile(run.path("result/summary.json"))["task"];
@@ -175,9 +249,10 @@ TEST_CASE("The photo gives the object its height", "[visp-servo-compare]")
 
 TEST_CASE("Help, version and list are printed", "[visp-servo-compare]")
 {
-  ProgramRun run;
+  ProgramRun run(SERVO_COMPARE);
   CHECK(run("--help") == 0);
-  for (const char *piece : {"Examples:", "--monte-carlo N", "--law LAW,...", "Exit status: 0", "--display"}) {
+  for (const char *piece : {"Examples:", "--monte-carlo N", "--law LAW,...", "Exit status: 0", "--display", "--shape",
+                            "1 m/s^2 and 2.5 rad/s^2"}) {
     CAPTURE(piece);
     CHECK(run.out().find(piece) != std::string::npos);
   }

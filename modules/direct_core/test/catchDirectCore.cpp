@@ -36,7 +36,8 @@ TEST_CASE("exp and log are inverse at every angle", "[so3]")
     const Eigen::Matrix3d R = vpSO3::exp(e);
     CAPTURE(theta, e.transpose());
     REQUIRE((R * R.transpose() - Eigen::Matrix3d::Identity()).norm() < 1e-14);
-    REQUIRE((R - Eigen::AngleAxisd(theta, theta > 0. ? Eigen::Vector3d(e / theta) : Eigen::Vector3d::UnitX()).matrix()).norm() < 1e-14);
+    REQUIRE((R - Eigen::AngleAxisd(theta, theta > 0. ? Eigen::Vector3d(e / theta) : Eigen::Vector3d::UnitX()).matrix())
+                .norm() < 1e-14);
     REQUIRE((vpSO3::log(R) - e).norm() < 1e-13 + 1e-7 * (theta > M_PI - 1e-8));
   }
 }
@@ -85,7 +86,8 @@ TEST_CASE("minimal rotation takes one direction to the other about their common 
   auto rng = vpTestSupport::generator(4);
   CAPTURE(vpTestSupport::seed());
   for (int i = 0; i < 2000; ++i) {
-    const Eigen::Vector3d a = randomDirection(rng), b = i == 0 ? Eigen::Vector3d(-a) : (i == 1 ? a : randomDirection(rng));
+    const Eigen::Vector3d a = randomDirection(rng),
+                          b = i == 0 ? Eigen::Vector3d(-a) : (i == 1 ? a : randomDirection(rng));
     const Eigen::Matrix3d R = vpSO3::minimalRotation(2. * a, 0.3 * b);
     REQUIRE((R * a - b).norm() < 1e-12);
     REQUIRE(std::abs(vpSO3::log(R).norm() - std::atan2(a.cross(b).norm(), a.dot(b))) < 1e-7);
@@ -101,7 +103,8 @@ TEST_CASE("twist converts, limits uniformly and rejects wrong sizes", "[twist]")
   CHECK(limitTwist(v, 5., 1.)[0] == 3.);
   CHECK(vpTwist::fromColVector(v.toColVector())[2] == 4.);
   CHECK_FALSE(vpTwist(0., NAN, 0., 0., 0., 0.).isFinite());
-  CHECK_THROWS_WITH(vpTwist::fromColVector(vpColVector(5)), Catch::Contains("a twist has 6 components, got a vector of 5"));
+  CHECK_THROWS_WITH(vpTwist::fromColVector(vpColVector(5)),
+                    Catch::Contains("a twist has 6 components, got a vector of 5"));
 }
 
 TEST_CASE("rotation kernel and twist allocate nothing", "[so3][twist][realtime]")
@@ -116,7 +119,8 @@ TEST_CASE("rotation kernel and twist allocate nothing", "[so3][twist][realtime]"
   const unsigned long before = vpTestSupport::allocationCount();
   for (int i = 0; i < 100; ++i) {
     const Eigen::Matrix3d R = vpSO3::exp(e * i * 0.03);
-    sink += vpSO3::log(R).x() + vpSO3::rightJacobianInverse(e)(0, 1) + limitTwist(vpTwist(1., 2., 3., 4., 5., 6.), 1., 1.)[0];
+    sink += vpSO3::log(R).x() + vpSO3::rightJacobianInverse(e)(0, 1) +
+            limitTwist(vpTwist(1., 2., 3., 4., 5., 6.), 1., 1.)[0];
     vpTwist(1., 2., 3., 4., 5., sink).copyTo(column);
   }
   REQUIRE(vpTestSupport::allocationCount() == before);

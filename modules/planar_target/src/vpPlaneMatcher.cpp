@@ -39,8 +39,9 @@ public:
     m_extractor = makeKeypointExtractor(config.keypoints, config.maxKeypoints);
     m_extractor->extract(view(reference), m_reference);
     if (m_reference.points.size() < config.minInliers) {
-      throw vpException(vpException::badValue, "reference image has too little texture: %u %s keypoints, at least %u are needed",
-                        static_cast<unsigned int>(m_reference.points.size()), toString(config.keypoints), config.minInliers);
+      throw vpException(
+          vpException::badValue, "reference image has too little texture: %u %s keypoints, at least %u are needed",
+          static_cast<unsigned int>(m_reference.points.size()), toString(config.keypoints), config.minInliers);
     }
   }
 
@@ -49,13 +50,14 @@ public:
     m_result = vpPlaneMatch();
     if (image.getWidth() < smallestImage || image.getHeight() < smallestImage) {
       fail(vpPlanarTargetStatus::NoTexture, "The image is " + std::to_string(image.getWidth()) + "x" +
-                                              std::to_string(image.getHeight()) + " px, at least 32x32 are needed.");
+                                                std::to_string(image.getHeight()) + " px, at least 32x32 are needed.");
       return;
     }
     m_extractor->extract(view(image), m_current);
     if (m_current.points.size() < m_config.minInliers) {
-      fail(vpPlanarTargetStatus::NoTexture, "The image has " + std::to_string(m_current.points.size()) + " keypoints, at least " +
-                                              std::to_string(m_config.minInliers) + " are needed.");
+      fail(vpPlanarTargetStatus::NoTexture, "The image has " + std::to_string(m_current.points.size()) +
+                                                " keypoints, at least " + std::to_string(m_config.minInliers) +
+                                                " are needed.");
       return;
     }
     std::vector<cv::Point2f> from, to;
@@ -74,16 +76,17 @@ public:
       }
     }
     if (m_result.inliers.size() < m_config.minInliers) {
-      fail(vpPlanarTargetStatus::TooFewInliers, std::to_string(m_result.inliers.size()) + " of " + std::to_string(from.size()) +
-                                                  " matches agree on one plane, at least " +
-                                                  std::to_string(m_config.minInliers) + " must.");
+      fail(vpPlanarTargetStatus::TooFewInliers,
+           std::to_string(m_result.inliers.size()) + " of " + std::to_string(from.size()) +
+               " matches agree on one plane, at least " + std::to_string(m_config.minInliers) + " must.");
       return;
     }
     for (int i = 0; i < 9; ++i) {
       m_result.homography[static_cast<std::size_t>(i)] = H.at<double>(i / 3, i % 3) / H.at<double>(2, 2);
     }
     m_result.status = vpPlanarTargetStatus::Acquired;
-    m_result.message = std::to_string(m_result.inliers.size()) + " of " + std::to_string(from.size()) + " matches agree.";
+    m_result.message =
+        std::to_string(m_result.inliers.size()) + " of " + std::to_string(from.size()) + " matches agree.";
   }
 
   vpPlaneMatch m_result;
@@ -102,7 +105,7 @@ private:
 
 vpPlaneMatcher::vpPlaneMatcher(const vpImage<unsigned char> &reference, const vpPlanarTargetConfig &config)
   : m_impl(std::make_unique<Impl>(reference, config))
-{ }
+{}
 
 vpPlaneMatcher::~vpPlaneMatcher() = default;
 vpPlaneMatcher::vpPlaneMatcher(vpPlaneMatcher &&) noexcept = default;
@@ -125,9 +128,9 @@ vpHomography vpPlaneMatch::euclidean(const vpCameraParameters &camera) const
   return H.collineation2homography(camera);
 }
 
-std::vector<std::pair<double, double> > vpPlaneMatch::referencePoints(const vpCameraParameters &camera) const
+std::vector<std::pair<double, double>> vpPlaneMatch::referencePoints(const vpCameraParameters &camera) const
 {
-  std::vector<std::pair<double, double> > points(inliers.size());
+  std::vector<std::pair<double, double>> points(inliers.size());
   std::transform(inliers.begin(), inliers.end(), points.begin(), [&camera](const auto &pair) {
     std::pair<double, double> p;
     vpPixelMeterConversion::convertPoint(camera, pair.first, p.first, p.second);

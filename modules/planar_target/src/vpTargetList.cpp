@@ -53,7 +53,8 @@ double length(const json &entry, const char *field, const std::string &place, co
 std::string text(const json &entry, const char *field, const std::string &place, const std::string &file)
 {
   if (!entry.contains(field) || !entry[field].is_string() || entry[field].get<std::string>().empty()) {
-    fail(file, place + "." + field + " is " + (entry.contains(field) ? entry[field].dump() : "missing") + ", must be a text");
+    fail(file,
+         place + "." + field + " is " + (entry.contains(field) ? entry[field].dump() : "missing") + ", must be a text");
   }
   return entry[field].get<std::string>();
 }
@@ -61,8 +62,10 @@ std::string text(const json &entry, const char *field, const std::string &place,
 bool isPhotograph(const fs::path &path)
 {
   std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
-  static const std::set<std::string> known = {".png", ".jpg", ".jpeg", ".pgm", ".ppm", ".bmp", ".tif", ".tiff", ".webp"};
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  static const std::set<std::string> known = {".png", ".jpg", ".jpeg", ".pgm", ".ppm",
+                                              ".bmp", ".tif", ".tiff", ".webp"};
   return known.count(extension) > 0;
 }
 

@@ -25,7 +25,7 @@ double angleBetween(const vpColVector &a, const vpColVector &b)
   return std::atan2(u.cross(v).norm(), u.dot(v));
 }
 
-bool inFront(const vpColVector &normal, const std::vector<std::pair<double, double> > &points)
+bool inFront(const vpColVector &normal, const std::vector<std::pair<double, double>> &points)
 {
   return std::all_of(points.begin(), points.end(), [&](const std::pair<double, double> &p) {
     return normal[0] * p.first + normal[1] * p.second + normal[2] > 0.;
@@ -98,12 +98,12 @@ const char *toString(vpTwoViewStatus status)
 void vpTwoViewConfig::validate() const
 {
   if (!(minTranslation > 0.) || !std::isfinite(minTranslation)) {
-    throw vpException(vpException::badValue, "minTranslation of the two-view decomposition is %g, must be finite and > 0",
-                      minTranslation);
+    throw vpException(vpException::badValue,
+                      "minTranslation of the two-view decomposition is %g, must be finite and > 0", minTranslation);
   }
   if (!(normalTolerance > 0. && normalTolerance <= 0.5)) {
-    throw vpException(vpException::badValue, "normalTolerance of the two-view decomposition is %g rad, must be in (0, 0.5]",
-                      normalTolerance);
+    throw vpException(vpException::badValue,
+                      "normalTolerance of the two-view decomposition is %g rad, must be in (0, 0.5]", normalTolerance);
   }
 }
 
@@ -137,7 +137,7 @@ void vpTwoViewDecomposition::conclude(vpTwoViewStatus status, const std::string 
 }
 
 const vpTwoViewResult &vpTwoViewDecomposition::process(const vpHomography &c2Hc1,
-                                                       const std::vector<std::pair<double, double> > &points)
+                                                       const std::vector<std::pair<double, double>> &points)
 {
   m_result = vpTwoViewResult();
   vpHomography H;
@@ -150,8 +150,9 @@ const vpTwoViewResult &vpTwoViewDecomposition::process(const vpHomography &c2Hc1
   const double moved = sigma[0] - sigma[2]; // = |t| / d
   if (moved < m_config.minTranslation) {
     char text[160];
-    std::snprintf(text, sizeof(text), "The camera moved by %.4f of the plane's distance, at least %.4f are needed: it only turned.",
-                  moved, m_config.minTranslation);
+    std::snprintf(text, sizeof(text),
+                  "The camera moved by %.4f of the plane's distance, at least %.4f are needed: it only turned.", moved,
+                  m_config.minTranslation);
     conclude(vpTwoViewStatus::PureRotation, text);
     return m_result;
   }
@@ -203,8 +204,8 @@ void vpTwoViewDecomposition::chooseByPrior()
   const double nearest = angleBetween(candidates[0].normal, m_hypotheses[0]);
   const double rival = candidates.size() == 2 ? angleBetween(candidates[1].normal, m_hypotheses[0]) : M_PI;
   if (rival - nearest < m_config.normalTolerance) {
-    conclude(vpTwoViewStatus::Ambiguous, "Both planes are about as far from the prior, " + degrees(nearest) + " and " +
-                                           degrees(rival) + ".");
+    conclude(vpTwoViewStatus::Ambiguous,
+             "Both planes are about as far from the prior, " + degrees(nearest) + " and " + degrees(rival) + ".");
     return;
   }
   m_result.best = candidates[0];
@@ -215,9 +216,10 @@ void vpTwoViewDecomposition::chooseByHistory()
 {
   const std::vector<vpTwoViewMotion> &candidates = m_result.candidates;
   const auto nearest = [&candidates](const vpColVector &normal) {
-    return *std::min_element(candidates.begin(), candidates.end(), [&](const vpTwoViewMotion &a, const vpTwoViewMotion &b) {
-      return angleBetween(a.normal, normal) < angleBetween(b.normal, normal);
-    });
+    return *std::min_element(candidates.begin(), candidates.end(),
+                             [&](const vpTwoViewMotion &a, const vpTwoViewMotion &b) {
+                               return angleBetween(a.normal, normal) < angleBetween(b.normal, normal);
+                             });
   };
   const auto refuted = [&](const vpColVector &normal) {
     return angleBetween(nearest(normal).normal, normal) > m_config.normalTolerance;
@@ -234,8 +236,8 @@ void vpTwoViewDecomposition::chooseByHistory()
     }
   }
   conclude(vpTwoViewStatus::Ambiguous, "Two planes explain all frames so far, " +
-                                         degrees(angleBetween(m_hypotheses[0], m_hypotheses[1])) +
-                                         " apart; another motion will tell.");
+                                           degrees(angleBetween(m_hypotheses[0], m_hypotheses[1])) +
+                                           " apart; another motion will tell.");
 }
 
 END_VISP_NAMESPACE

@@ -20,7 +20,8 @@ std::string dataFolder() { return std::string(VISP_DIRECT_DATA_DIR) + "/target";
 class Folder
 {
 public:
-  Folder() : m_path(fs::temp_directory_path() / ("vp-targets-" + std::to_string(vpTestSupport::generator(77)() % 1000000)))
+  Folder()
+    : m_path(fs::temp_directory_path() / ("vp-targets-" + std::to_string(vpTestSupport::generator(77)() % 1000000)))
   {
     fs::remove_all(m_path);
     fs::create_directories(m_path);
@@ -64,7 +65,8 @@ TEST_CASE("three targets are found, followed and told apart in one frame", "[dat
   // One target is taken away: the others stay, the missing one is not made up.
   vpPlanarScene::Image I = vpPlanarScene::background(rng);
   const vpPlanarTargetSighting first = database.sightings()[0];
-  vpPlanarScene::draw(I, {vpPlanarScene::photo("klimt.jpg"), first.width, first.height}, vpPlanarScene::camera(), first.result.cMo);
+  vpPlanarScene::draw(I, {vpPlanarScene::photo("klimt.jpg"), first.width, first.height}, vpPlanarScene::camera(),
+                      first.result.cMo);
   database.process(I);
   CHECK(database.sightings()[0].result.found());
   CHECK_FALSE(database.sightings()[1].result.found());
@@ -81,9 +83,12 @@ TEST_CASE("what is wrong with a folder of targets is said in a sentence", "[data
   using Catch::Contains;
   const Folder folder;
   const auto load = [&]() { return vpPlanarTargetDatabase::fromFolder(folder.path(), vpPlanarScene::camera()); };
-  const auto list = [&](const std::string &entry) { folder.write("targets.json", "{ \"targets\": [ " + entry + " ] }"); };
+  const auto list = [&](const std::string &entry) {
+    folder.write("targets.json", "{ \"targets\": [ " + entry + " ] }");
+  };
 
-  CHECK_THROWS_WITH(vpPlanarTargetDatabase::fromFolder(folder.path() + "/none", vpPlanarScene::camera()), Contains("is not a folder"));
+  CHECK_THROWS_WITH(vpPlanarTargetDatabase::fromFolder(folder.path() + "/none", vpPlanarScene::camera()),
+                    Contains("is not a folder"));
   CHECK_THROWS_WITH(load(), Contains("targets.json: cannot be read"));
   folder.write("targets.json", "{ \"targets\": [");
   CHECK_THROWS_WITH(load(), Contains("targets.json: is not JSON") && Contains("line 1"));

@@ -68,8 +68,10 @@ TEST_CASE("graf1 to graf3: homography of real photographs against the measured o
     vpPlaneMatcher matcher(first, config);
     const vpPlaneMatch &match = matcher.match(third);
     CAPTURE(toString(type), match.message);
-    if (!match.found()) { // 40 deg of view change: SURF of dlib is not made for it; no homography is better than a wrong one
-      std::cout << "graf1/graf3 " << toString(type) << ": " << toString(match.status) << ", " << match.message << std::endl;
+    if (!match
+             .found()) { // 40 deg of view change: SURF of dlib is not made for it; no homography is better than a wrong one
+      std::cout << "graf1/graf3 " << toString(type) << ": " << toString(match.status) << ", " << match.message
+                << std::endl;
       CHECK((type == vpKeypointType::SURF || type == vpKeypointType::BRISK || type == vpKeypointType::KAZE));
       continue;
     }
@@ -82,8 +84,8 @@ TEST_CASE("graf1 to graf3: homography of real photographs against the measured o
         ++count;
       }
     }
-    std::cout << "graf1/graf3 " << toString(type) << ": mean distance from the measured homography " << sum / count << " px, "
-              << match.inliers.size() << " inliers" << std::endl;
+    std::cout << "graf1/graf3 " << toString(type) << ": mean distance from the measured homography " << sum / count
+              << " px, " << match.inliers.size() << " inliers" << std::endl;
     CHECK(sum / count < 5.);
   }
 }
@@ -138,13 +140,15 @@ TEST_CASE("AprilTag scene: pose of each tag against the renderer's", "[planar_ta
     const vpPlanarTargetResult &result = target.track(I, shift * truth * turn);
     CAPTURE(tag, result.message);
     if (!result.found()) {
-      std::cout << "AprilTag scene, tag " << tag << " at " << Z << " m: " << toString(result.status) << ", " << result.message << std::endl;
+      std::cout << "AprilTag scene, tag " << tag << " at " << Z << " m: " << toString(result.status) << ", "
+                << result.message << std::endl;
       continue;
     }
     ++found;
     const double position = vpPlanarScene::positionError(truth, result.cMo) / Z;
     const double angle = std::sqrt(vpPlanarScene::rotationError(truth, result.cMo).sumSquare());
-    std::cout << "AprilTag scene, tag " << tag << " at " << Z << " m: position off by " << 100. * position << " % of the distance, "
+    std::cout << "AprilTag scene, tag " << tag << " at " << Z << " m: position off by " << 100. * position
+              << " % of the distance, "
               << "rotation by " << angle << " deg, correlation " << result.correlation << std::endl;
     // The tags are 30 to 80 px wide, and the scene's own corners and poses disagree by 0.14 to 0.36 px.
     CHECK(position < 0.02);

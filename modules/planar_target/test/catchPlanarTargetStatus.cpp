@@ -41,7 +41,8 @@ TEST_CASE("a target that moves is acquired once and then tracked", "[planar_targ
   vpPlanarTarget target = tracker();
   CHECK(target.result().status == vpPlanarTargetStatus::NoFrame);
   for (int frame = 0; frame < 20; ++frame) {
-    const vpHomogeneousMatrix cMo = vpPlanarScene::pose(0.002 * frame, -0.001 * frame, 0.5 + 0.003 * frame, 0.01 * frame, 0.1, 0.015 * frame);
+    const vpHomogeneousMatrix cMo =
+        vpPlanarScene::pose(0.002 * frame, -0.001 * frame, 0.5 + 0.003 * frame, 0.01 * frame, 0.1, 0.015 * frame);
     const vpPlanarTargetResult &r = target.process(viewOf(cMo, 10 + frame));
     CAPTURE(frame, r.message);
     REQUIRE(r.status == (frame == 0 ? vpPlanarTargetStatus::Acquired : vpPlanarTargetStatus::Tracked));
@@ -101,7 +102,8 @@ TEST_CASE("a target that leaves, turns away or is covered is lost, and found aga
   }
   REQUIRE(lost);
   CAPTURE(target.result().message);
-  CHECK((target.result().status == vpPlanarTargetStatus::OutOfView || target.result().status == vpPlanarTargetStatus::TooFewInliers));
+  CHECK((target.result().status == vpPlanarTargetStatus::OutOfView ||
+         target.result().status == vpPlanarTargetStatus::TooFewInliers));
   requireNoPose(target.result());
 
   REQUIRE(target.process(viewOf(front)).status == vpPlanarTargetStatus::Acquired);
@@ -113,7 +115,8 @@ TEST_CASE("a target that leaves, turns away or is covered is lost, and found aga
   CHECK(target.result().status == vpPlanarTargetStatus::OutOfView); // a guess from behind
   requireNoPose(target.track(viewOf(front)));                       // nothing to track from
   CHECK(target.result().status == vpPlanarTargetStatus::LowCorrelation);
-  REQUIRE(target.track(viewOf(front), vpPlanarScene::pose(0.004, 0., 0.51, 0.02, 0., 0.02)).status == vpPlanarTargetStatus::Tracked);
+  REQUIRE(target.track(viewOf(front), vpPlanarScene::pose(0.004, 0., 0.51, 0.02, 0., 0.02)).status ==
+          vpPlanarTargetStatus::Tracked);
 }
 
 TEST_CASE("distortion of the lens is undone", "[planar_target]")
@@ -153,8 +156,8 @@ TEST_CASE("two photographs of one plane to motion up to scale", "[planar_target]
   vpColVector prior(3);
   prior[2] = 1.;
   decomposition.setNormalPrior(prior);
-  const vpTwoViewResult &motion = decomposition.process(match.euclidean(vpPlanarScene::camera()),
-                                                        match.referencePoints(vpPlanarScene::camera()));
+  const vpTwoViewResult &motion =
+      decomposition.process(match.euclidean(vpPlanarScene::camera()), match.referencePoints(vpPlanarScene::camera()));
   CAPTURE(motion.message);
   REQUIRE(motion.status == vpTwoViewStatus::Unique);
   const vpHomogeneousMatrix c2Mc1 = c2Mo * c1Mo.inverse();

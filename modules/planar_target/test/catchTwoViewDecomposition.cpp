@@ -14,7 +14,7 @@ VISP_DIRECT_USING_NAMESPACE
 
 namespace
 {
-using Points = std::vector<std::pair<double, double> >;
+using Points = std::vector<std::pair<double, double>>;
 
 struct Motion {
   vpRotationMatrix R;
@@ -80,7 +80,10 @@ public:
       }
     }
   }
-  double depth(const std::pair<double, double> &p) const { return normal[0] * p.first + normal[1] * p.second + normal[2]; }
+  double depth(const std::pair<double, double> &p) const
+  {
+    return normal[0] * p.first + normal[1] * p.second + normal[2];
+  }
 
   vpColVector normal;
   Points points;
@@ -140,14 +143,15 @@ TEST_CASE("the true motion is among the candidates, and what a prior or depth pi
     vpTwoViewDecomposition informed;
     informed.setNormalPrior(unit(world.normal[0] + 0.05, world.normal[1] - 0.05, world.normal[2]));
     informed.process(H, world.points);
-    const bool close = result.candidates.size() == 2 &&
-                       angle(result.candidates[0].normal, result.candidates[1].normal) < 0.3;
+    const bool close =
+        result.candidates.size() == 2 && angle(result.candidates[0].normal, result.candidates[1].normal) < 0.3;
     if (!close) {
       REQUIRE(informed.result().status == vpTwoViewStatus::Unique);
       REQUIRE(isTrue(informed.result().best, truth, world.normal));
     }
   }
-  std::cout << "two views: " << unique << " of 2000 decided by positive depth, " << twofold << " ambiguous" << std::endl;
+  std::cout << "two views: " << unique << " of 2000 decided by positive depth, " << twofold << " ambiguous"
+            << std::endl;
   CHECK(unique > 100); // both branches are exercised
   CHECK(twofold > 100);
 }
@@ -163,7 +167,8 @@ TEST_CASE("further motions decide between the two planes, and never for the fals
     bool done = false;
     for (unsigned int frame = 1; frame <= 10; ++frame) {
       const Motion truth = world.motion();
-      const vpTwoViewResult &result = decomposition.process(homography(truth, world.normal, world.scale()), world.points);
+      const vpTwoViewResult &result =
+          decomposition.process(homography(truth, world.normal, world.scale()), world.points);
       CAPTURE(i, frame, result.message);
       if (result.status == vpTwoViewStatus::Unique) {
         REQUIRE(isTrue(result.best, truth, world.normal));
@@ -177,7 +182,8 @@ TEST_CASE("further motions decide between the two planes, and never for the fals
     }
     decided += done;
   }
-  std::cout << "several views: " << decided << " of 500 decided, after " << frames / decided << " frames on average" << std::endl;
+  std::cout << "several views: " << decided << " of 500 decided, after " << frames / decided << " frames on average"
+            << std::endl;
   CHECK(decided == 500);
 }
 
@@ -227,7 +233,8 @@ TEST_CASE("what cannot be decomposed is refused", "[two-view][errors]")
 
   vpTwoViewConfig config;
   config.minTranslation = -1.;
-  CHECK_THROWS_WITH(vpTwoViewDecomposition(config), Catch::Contains("minTranslation of the two-view decomposition is -1"));
+  CHECK_THROWS_WITH(vpTwoViewDecomposition(config),
+                    Catch::Contains("minTranslation of the two-view decomposition is -1"));
   CHECK_THROWS_WITH(decomposition.setNormalPrior(vpColVector(3)), Catch::Contains("must be finite and not zero"));
   CHECK_THROWS_WITH(decomposition.setNormalPrior(vpColVector(2)), Catch::Contains("has 2 components"));
 }

@@ -136,6 +136,10 @@ vpServoRun runServoExperiment(const vpServoRunSpec &spec, const std::function<bo
   const auto sensor = makeSensor(spec);
   vpFrictionCamera robot(spec.plant);
   robot.setRobotState(vpRobot::STATE_VELOCITY_CONTROL);
+  std::optional<vpTwistShaper> shaper;
+  if (spec.shape) {
+    shaper.emplace(*spec.shape);
+  }
   vpVisionChannel vision(spec.plant.visionRate, spec.plant.latency);
   vpOdometryBridge odometry;
   vpServoMeasurement frame, result, measurement;
@@ -167,11 +171,16 @@ vpServoRun runServoExperiment(const vpServoRunSpec &spec, const std::function<bo
     }
     odometry.predict(measurement);
     const vpServoCommand command = servo.update(measurement, dt);
-    command.v.copyTo(velocity);
+    vpTwist asked = command.v;
+    if (shaper) {
+      // The plant's speed limits come first: behind the shaper their onset would be a kink in its smooth twist.
+      asked = shaper->update(limitTwist(asked, spec.plant.maxLinear, spec.plant.maxAngular), dt);
+    }
+    asked.copyTo(velocity);
     robot.setVelocity(vpRobot::CAMERA_FRAME, velocity);
     odometry.move(robot.actualTwist(), (cycle + 1) * dt);
 
-    s.commanded = command.v;
+    s.commanded = asked;
     s.actual = robot.actualTwist();
     s.referenceYaw = referenceYaw(s.wMc, command.v, servo.law().rotationGain());
     s.measured = measurement.valid;

@@ -56,6 +56,11 @@ std::string describeEnd(const vpServoRunSpec &spec, const std::vector<vpServoSam
   return text;
 }
 
+vpTwist minus(const vpTwist &a, const vpTwist &b)
+{
+  return vpTwist(a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3], a[4] - b[4], a[5] - b[5]);
+}
+
 // Time from a segment's first sample until its errors are small for good.
 double settlingTime(const vpServoSample *first, const vpServoSample *last, double cycle)
 {
@@ -78,6 +83,7 @@ vpServoMetrics evaluateServoRun(const vpServoRunSpec &spec, const std::vector<vp
   const double cycle = 1. / spec.plant.loopRate;
   double squares = 0., lowestYaw = samples.front().yaw, highestYaw = lowestYaw, settleSum = 0.;
   int segments = 0;
+  vpTwist before; // the camera starts at rest
   const vpServoSample *const end = samples.data() + samples.size();
   const vpServoSample *segmentBegin = samples.data();
   for (const vpServoSample *s = samples.data(); s != end; ++s) {
@@ -90,6 +96,11 @@ vpServoMetrics evaluateServoRun(const vpServoRunSpec &spec, const std::vector<vp
     m.path_length_m += s->actual.linearNorm() * cycle;
     m.peak_linear_mps = std::max(m.peak_linear_mps, s->actual.linearNorm());
     m.peak_angular_radps = std::max(m.peak_angular_radps, s->actual.angularNorm());
+    const vpTwist asked = limitTwist(s->commanded, spec.plant.maxLinear, spec.plant.maxAngular);
+    const vpTwist change = minus(asked, before);
+    m.peak_linear_acceleration_mps2 = std::max(m.peak_linear_acceleration_mps2, change.linearNorm() / cycle);
+    m.peak_angular_acceleration_radps2 = std::max(m.peak_angular_acceleration_radps2, change.angularNorm() / cycle);
+    before = asked;
     m.deadlock_cycles += s->status == vpServoStatus::Deadlock ? 1 : 0;
     if (s + 1 == end || (s + 1)->segment != s->segment) {
       m.end_rotation_deg = std::max(m.end_rotation_deg, vpMath::deg(s->rotationError));

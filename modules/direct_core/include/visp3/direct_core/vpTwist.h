@@ -33,7 +33,7 @@ public:
   constexpr vpTwist() = default;
   //! Linear part (m/s), then angular part (rad/s).
   constexpr vpTwist(double vx, double vy, double vz, double wx, double wy, double wz) : m_data{{vx, vy, vz, wx, wy, wz}}
-  { }
+  {}
 
   /*!
    * Copy of a 6-vector of ViSP (linear, angular).

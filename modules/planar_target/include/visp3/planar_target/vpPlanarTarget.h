@@ -41,9 +41,10 @@ struct VISP_EXPORT vpPlanarTargetConfig {
   unsigned int minInliers = 12;     //!< Fewer agreeing matches are TooFewInliers, >= 8.
   double inlierThreshold = 3.;      //!< Largest reprojection error of an inlier, px, > 0.
   double minCorrelation = 0.6;      //!< Below this the pose is not trusted (LowCorrelation), 0..1.
-  unsigned int refinementSize = 200; //!< Longer side of the reference at the finest level of the refinement, px; cost grows with its square.
-  unsigned int maxIterations = 30;  //!< Of the refinement, over all levels.
-  bool refine = true;               //!< False: keypoints only, for comparison with tables 4.2 and 4.3 of the thesis.
+  unsigned int refinementSize =
+      200; //!< Longer side of the reference at the finest level of the refinement, px; cost grows with its square.
+  unsigned int maxIterations = 30; //!< Of the refinement, over all levels.
+  bool refine = true;              //!< False: keypoints only, for comparison with tables 4.2 and 4.3 of the thesis.
 
   //! \throw vpException (badValue) naming the field and its value.
   void validate() const;

@@ -20,13 +20,13 @@ BEGIN_VISP_NAMESPACE
 
 //! How a frame went. Only Acquired and Tracked carry a pose.
 enum class vpPlanarTargetStatus {
-  Acquired,         //!< Found by keypoints, refined on the grey values.
-  Tracked,          //!< Followed from the frame before by its grey values.
-  NoTexture,        //!< The image has too few keypoints.
-  TooFewInliers,    //!< Keypoints were matched, but too few agree on one homography.
-  OutOfView,        //!< The target left the image or is seen from behind or too obliquely.
-  LowCorrelation,   //!< The grey values do not fit the reference: lost or hidden.
-  NoFrame           //!< No image was given yet.
+  Acquired,       //!< Found by keypoints, refined on the grey values.
+  Tracked,        //!< Followed from the frame before by its grey values.
+  NoTexture,      //!< The image has too few keypoints.
+  TooFewInliers,  //!< Keypoints were matched, but too few agree on one homography.
+  OutOfView,      //!< The target left the image or is seen from behind or too obliquely.
+  LowCorrelation, //!< The grey values do not fit the reference: lost or hidden.
+  NoFrame         //!< No image was given yet.
 };
 
 //! The status as a word ("Tracked"), static text.
@@ -35,13 +35,14 @@ enum class vpPlanarTargetStatus {
 //! \brief Result for one target in one frame.
 struct VISP_EXPORT vpPlanarTargetResult {
   vpPlanarTargetStatus status = vpPlanarTargetStatus::NoFrame;
-  std::string message;              //!< One sentence for a person, with the numbers that matter.
-  vpHomogeneousMatrix cMo;          //!< Pose of the target in the camera, m; the target's plane is z = 0, x right, y down.
+  std::string message;     //!< One sentence for a person, with the numbers that matter.
+  vpHomogeneousMatrix cMo; //!< Pose of the target in the camera, m; the target's plane is z = 0, x right, y down.
   std::array<double, 9> homography{}; //!< Row by row: pixels of the reference image to pixels of the frame, H(2,2) = 1.
-  std::array<vpImagePoint, 4> corners; //!< The reference image's corners in the frame: top left, top right, bottom right, bottom left; px.
-  unsigned int inliers = 0;         //!< Matches that agree (acquisition).
-  double correlation = 0.;          //!< Zero-mean normalised correlation of the visible part with the reference, -1..1.
-  double visible = 0.;              //!< Share of the target's samples that are in the image and not rejected as occluded, 0..1.
+  std::array<vpImagePoint, 4>
+      corners; //!< The reference image's corners in the frame: top left, top right, bottom right, bottom left; px.
+  unsigned int inliers = 0; //!< Matches that agree (acquisition).
+  double correlation = 0.;  //!< Zero-mean normalised correlation of the visible part with the reference, -1..1.
+  double visible = 0.;      //!< Share of the target's samples that are in the image and not rejected as occluded, 0..1.
 
   //! True if there is a pose.
   [[nodiscard]] bool found() const

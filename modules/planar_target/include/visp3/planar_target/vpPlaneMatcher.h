@@ -26,7 +26,7 @@ struct VISP_EXPORT vpPlaneMatch {
   vpPlanarTargetStatus status = vpPlanarTargetStatus::NoFrame;
   std::string message;                //!< One sentence for a person.
   std::array<double, 9> homography{}; //!< Row by row: pixels of the reference to pixels of the frame, H(2,2) = 1.
-  std::vector<std::pair<vpImagePoint, vpImagePoint> > inliers; //!< Agreeing matches: in the reference, in the frame; px.
+  std::vector<std::pair<vpImagePoint, vpImagePoint>> inliers; //!< Agreeing matches: in the reference, in the frame; px.
 
   //! True if there is a homography.
   [[nodiscard]] bool found() const { return status == vpPlanarTargetStatus::Acquired; }
@@ -36,7 +36,7 @@ struct VISP_EXPORT vpPlaneMatch {
    */
   [[nodiscard]] vpHomography euclidean(const vpCameraParameters &camera) const;
   //! The inliers in the reference view in normalised coordinates, as vpTwoViewDecomposition takes them.
-  [[nodiscard]] std::vector<std::pair<double, double> > referencePoints(const vpCameraParameters &camera) const;
+  [[nodiscard]] std::vector<std::pair<double, double>> referencePoints(const vpCameraParameters &camera) const;
 };
 
 /*!

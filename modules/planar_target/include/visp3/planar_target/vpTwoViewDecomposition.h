@@ -34,9 +34,9 @@ enum class vpTwoViewStatus {
 
 //! \brief One physically possible motion.
 struct VISP_EXPORT vpTwoViewMotion {
-  vpRotationMatrix c2Rc1;         //!< Orientation of the reference camera in the current one.
+  vpRotationMatrix c2Rc1;               //!< Orientation of the reference camera in the current one.
   vpTranslationVector t = {0., 0., 0.}; //!< c2tc1 over d, the distance of the plane from the reference camera; no unit.
-  vpColVector normal;             //!< Unit normal of the plane in the reference camera, pointing away from it.
+  vpColVector normal;                   //!< Unit normal of the plane in the reference camera, pointing away from it.
 };
 
 //! \brief Result of one frame.
@@ -49,8 +49,9 @@ struct VISP_EXPORT vpTwoViewResult {
 
 //! \brief Settings of vpTwoViewDecomposition.
 struct VISP_EXPORT vpTwoViewConfig {
-  double minTranslation = 0.02;    //!< Shorter motions, as a share of the plane's distance, are PureRotation, > 0.
-  double normalTolerance = 0.0873; //!< Normals closer than this are the same plane, rad, 0..0.5 (5 deg). Raise it with the noise.
+  double minTranslation = 0.02; //!< Shorter motions, as a share of the plane's distance, are PureRotation, > 0.
+  double normalTolerance =
+      0.0873; //!< Normals closer than this are the same plane, rad, 0..0.5 (5 deg). Raise it with the noise.
   //! \throw vpException (badValue) naming the field and its value.
   void validate() const;
 };
@@ -94,7 +95,7 @@ public:
    * \param c2Hc1 : Homography from the reference view to the current one, normalised coordinates, any scale.
    * \param points : Points of the plane that both views see, (x, y) in the reference view, normalised; at least one.
    */
-  const vpTwoViewResult &process(const vpHomography &c2Hc1, const std::vector<std::pair<double, double> > &points);
+  const vpTwoViewResult &process(const vpHomography &c2Hc1, const std::vector<std::pair<double, double>> &points);
   //! The last result.
   [[nodiscard]] const vpTwoViewResult &result() const { return m_result; }
 

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpServoExperiment.h
- * \brief The closed loop: sensor -> law -> filter -> recovery -> plant, and the log of it.
+ * \brief The closed loop: sensor -> law -> filter -> recovery -> twist shaper -> plant, and the log of it.
  */
 #ifndef vpServoExperiment_h
 #define vpServoExperiment_h
@@ -13,10 +13,12 @@
 #include <visp3/simulation/vpPlaneRenderer.h>
 #include <visp3/simulation/vpServoPlant.h>
 #include <visp3/simulation/vpServoTask.h>
+#include <visp3/trajectory/vpTwistShaper.h>
 
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,7 +35,7 @@ struct VISP_EXPORT vpServoSample {
   int segment = 0;         //!< Index of the segment in force.
   vpHomogeneousMatrix wMc; //!< True pose of the camera in the world.
   vpHomogeneousMatrix cMo; //!< True pose of the object in the camera.
-  vpTwist commanded;       //!< Twist asked for, camera frame.
+  vpTwist commanded;       //!< Twist asked of the plant, after the shaper if there is one; camera frame.
   vpTwist actual;          //!< Twist that the plant executed, camera frame.
   double yaw = 0.;         //!< Rotation of the camera about the vertical (y axis of the world), rad.
   double goalYaw = 0.;     //!< The same of the goal.
@@ -60,6 +62,11 @@ struct VISP_EXPORT vpServoRunSpec {
   unsigned int seed = 1; //!< Of all noise.
   std::string target;    //!< Image file of the object for measure "image".
   vpCameraFaults faults; //!< Of the pictures for measure "image", in the place of vpServoPlant::pixelNoise.
+  /*!
+   * Limits of a vpTwistShaper between controller and plant; without them the plant gets the controller's twist as it
+   * is. The shaper starts at rest and is never reset: a new goal, a lost target and the retreat after it are ramps too.
+   */
+  std::optional<vpTwistShaperLimits> shape;
 };
 
 //! \brief The figures of a run; the same names as in summary.json.
@@ -76,8 +83,15 @@ struct VISP_EXPORT vpServoMetrics {
   double path_length_m = 0.;
   double peak_linear_mps = 0.; //!< Of the executed motion.
   double peak_angular_radps = 0.;
-  int deadlock_cycles = 0; //!< Cycles with vpServoStatus::Deadlock.
-  std::string status;      //!< "ok", or a sentence on how the run ended otherwise (target lost, deadlock).
+  /*!
+   * Largest linear part of the change of vpServoSample::commanded, within the plant's speed limits, from one cycle to
+   * the next, divided by the cycle. The first change is that from rest, so a step at t = 0 shows here: as a number that
+   * grows with the loop rate.
+   */
+  double peak_linear_acceleration_mps2 = 0.;
+  double peak_angular_acceleration_radps2 = 0.; //!< The same of the angular part.
+  int deadlock_cycles = 0;                      //!< Cycles with vpServoStatus::Deadlock.
+  std::string status; //!< "ok", or a sentence on how the run ended otherwise (target lost, deadlock).
 };
 
 //! \brief A finished run.
@@ -91,7 +105,8 @@ struct VISP_EXPORT vpServoRun {
  * Run one experiment.
  * \param spec : What to run; validated first.
  * \param progress : If given, called now and then with the share done, 0..1; return false to stop early.
- * \throw vpException naming what is wrong with the spec (unknown law, measure, plant field, target image).
+ * \throw vpException naming what is wrong with the spec (unknown law, measure, plant field, target image,
+ * limit of the shaper).
  */
 [[nodiscard]] VISP_EXPORT vpServoRun runServoExperiment(const vpServoRunSpec &spec,
                                                         const std::function<bool(double)> &progress = {});
