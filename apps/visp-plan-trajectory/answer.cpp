@@ -4,6 +4,7 @@
  */
 #include "answer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <locale>
 #include <sstream>
@@ -99,8 +100,8 @@ std::string csvOf(const Problem &problem, const Motion &motion)
     }
     csv << '\n';
   };
-  for (double k = 0.; k <= cycles; ++k) {
-    row(std::min(k * problem.dt, motion.duration()));
+  for (long k = 0; k <= static_cast<long>(cycles); ++k) {
+    row(std::min(static_cast<double>(k) * problem.dt, motion.duration()));
   }
   if (motion.duration() > cycles * problem.dt) {
     row(motion.duration());

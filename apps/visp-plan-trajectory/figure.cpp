@@ -17,7 +17,8 @@ using vpApp::Plot;
 using vpApp::PlotCurve;
 using vpApp::PlotStyle;
 
-constexpr int points = 1000; // of a curve
+constexpr int points = 1000;      // of a curve
+constexpr int formerPoints = 250; // of what a replaced plan would have done
 constexpr double gap = std::numeric_limits<double>::quiet_NaN();
 
 // Okabe and Ito: told apart by colour-blind readers too.
@@ -81,8 +82,8 @@ PlotCurve formerCurve(const Motion &motion, int axis, std::size_t derivative)
     if (rest < 0.005 * motion.duration()) {
       continue;
     }
-    for (int k = 0; k <= points / 4; ++k) {
-      const double t = former.end + rest * std::min(1. * k / (points / 4), 1. - 1e-9); // not beyond the arrival
+    for (int k = 0; k <= formerPoints; ++k) {
+      const double t = former.end + rest * std::min(1. * k / formerPoints, 1. - 1e-9); // not beyond the arrival
       curve.x.push_back(t);
       curve.y.push_back(former.plan.at(axis, t - former.begin)[derivative]);
     }

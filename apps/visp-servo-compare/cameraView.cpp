@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace servoCompare
 {
@@ -39,7 +40,7 @@ void write(cv::Mat &picture, const std::string &text, const cv::Point &at, doubl
 
 CameraView::CameraView(const Plan &plan, int width)
   : m_task(plan.scenario.task), m_scale(double(width) / m_task.width), m_camera(scaled(m_task.camera, m_scale)),
-    m_size(width, static_cast<int>(m_task.height * m_scale + 0.5)),
+    m_size(width, static_cast<int>(std::lround(m_task.height * m_scale))),
     m_renderer(plan.target.photo, m_task.objectWidth, m_task.objectHeight, m_camera, m_size.width, m_size.height)
 {}
 

@@ -49,7 +49,7 @@ std::string joined(int argc, const char *const *argv)
 //! The photo as a file that ViSP reads whatever its format was.
 std::string writeTarget(const Target &target, vpApp::OutputFolder &out)
 {
-  const std::string file = out.file("target.png");
+  std::string file = out.file("target.png");
   const cv::Mat photo(target.photo.getHeight(), target.photo.getWidth(), CV_8UC1, target.photo.bitmap);
   if (!cv::imwrite(file, photo)) {
     throw std::runtime_error(file + ": cannot be written");

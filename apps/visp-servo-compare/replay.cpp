@@ -64,9 +64,10 @@ void replay(const Plan &plan, const vpServoRun &run, const std::function<bool(co
   const double step = speedUp(run.spec.task) / VIDEO_RATE;
   const std::string speed = number(speedUp(run.spec.task), 2);
   const std::string title = lawInfo(run.spec.law).name + " - plant " + run.spec.plant.name + " - " + speed + "x speed";
-  for (double time = 0.; time <= run.samples.back().time + step / 2; time += step) {
+  const auto frames = static_cast<int>(std::lround(run.samples.back().time / step));
+  for (int i = 0; i <= frames; ++i) {
     vpApp::throwIfInterrupted();
-    if (!frame(view.drawWithTitle(run, run.samples[indexAt(run, time)], title))) {
+    if (!frame(view.drawWithTitle(run, run.samples[indexAt(run, i * step)], title))) {
       return;
     }
   }

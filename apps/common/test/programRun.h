@@ -64,7 +64,7 @@ public:
 private:
   std::string take(const std::string &name) const
   {
-    const std::string content = vpApp::readFile(path(name));
+    std::string content = vpApp::readFile(path(name));
     std::filesystem::remove(path(name));
     return content;
   }

@@ -53,7 +53,7 @@ vpTrajectoryPlan::vpTrajectoryPlan(int axes, int maxVias) : m_axes(axes), m_capa
     throw vpException(vpException::badValue, "a plan has room for %d vias, must be >= 0", maxVias);
   }
   m_tracks.resize(static_cast<std::size_t>(axes));
-  m_segments.resize(static_cast<std::size_t>(axes * m_capacity));
+  m_segments.resize(index(axes, 0));
   m_viaTimes.resize(static_cast<std::size_t>(maxVias));
 }
 
@@ -78,7 +78,7 @@ void vpTrajectoryPlan::append(int axis, const vpPolynomial &relative, double dur
   if (!(duration > 0.) || track.count >= m_capacity) {
     return;
   }
-  vpTrajectorySegment &segment = m_segments[static_cast<std::size_t>(axis * m_capacity + track.count)];
+  vpTrajectorySegment &segment = m_segments[index(axis, track.count)];
   ++track.count;
   segment.begin = track.duration;
   segment.duration = duration;

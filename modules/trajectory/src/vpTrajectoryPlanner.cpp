@@ -19,7 +19,8 @@ int orderOf(vpTrajectoryContinuity continuity) { return 2 + static_cast<int>(con
 vpTrajectoryPlanner::Impl::Impl(int count, int maxVias)
   : n(count), from(static_cast<std::size_t>(count)), to(from), axes(static_cast<std::size_t>(count) + 1),
     units(static_cast<std::size_t>(count)), unitDurations(static_cast<std::size_t>(count)),
-    direction(static_cast<std::size_t>(count)), spline(maxVias), chain(static_cast<std::size_t>(count * (maxVias + 1))),
+    direction(static_cast<std::size_t>(count)), spline(maxVias),
+    chain(static_cast<std::size_t>(count) * (static_cast<std::size_t>(maxVias) + 1)),
     column(static_cast<std::size_t>(count)), legs(static_cast<std::size_t>(maxVias) + 1)
 {
   for (vpMotionUnit &unit : units) {

@@ -31,7 +31,10 @@ struct vpTrajectoryPlanner::Impl {
   double planPointToPoint(const vpTrajectoryProblem &problem, double floor, vpTrajectoryPlan &plan);
 
   // Vias: one T over all of them, or leg by leg.
-  [[nodiscard]] vpMotionFamily &segment(int k, int i) { return chain[static_cast<std::size_t>(k * n + i)]; }
+  [[nodiscard]] vpMotionFamily &segment(int k, int i)
+  {
+    return chain[static_cast<std::size_t>(k) * static_cast<std::size_t>(n) + static_cast<std::size_t>(i)];
+  }
   [[nodiscard]] int segments(const vpTrajectoryProblem &problem) const;
   void makeChain(const vpTrajectoryProblem &problem);
   double searchChain(const vpTrajectoryProblem &problem, double floor);

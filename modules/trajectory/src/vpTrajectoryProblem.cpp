@@ -113,7 +113,7 @@ vpAxisLimits vpTrajectoryProblem::limits(int axis) const
 
 bool vpTrajectoryProblem::sameVias(const vpTrajectoryProblem &other) const
 {
-  const auto values = static_cast<std::size_t>(std::min(m_vias, m_maxVias) * 3 * m_axes);
+  const auto values = static_cast<std::size_t>(std::min(m_vias, m_maxVias)) * 3 * static_cast<std::size_t>(m_axes);
   const auto count = static_cast<std::ptrdiff_t>(std::min(m_vias, m_maxVias));
   return m_axes == other.m_axes && m_vias == other.m_vias &&
          std::equal(m_viaTimes.begin(), m_viaTimes.begin() + count, other.m_viaTimes.begin()) &&
@@ -124,7 +124,7 @@ bool vpTrajectoryProblem::sameVias(const vpTrajectoryProblem &other) const
 bool vpTrajectoryProblem::sameTask(const vpTrajectoryProblem &other) const
 {
   // Bit by bit, so that a NaN is no event in every cycle.
-  const auto count = static_cast<std::size_t>((FieldCount - GoalQ) * m_axes);
+  const std::size_t count = index(FieldCount, 0) - index(GoalQ, 0);
   return m_axes == other.m_axes && std::memcmp(field(GoalQ), other.field(GoalQ), count * sizeof(double)) == 0 &&
          options == other.options && sameVias(other);
 }

@@ -140,7 +140,7 @@ void report(const char *name, int count, const Counts &counts)
 TEST_CASE("no shorter duration exists than the one found", "[minimum]")
 {
   CAPTURE(vpTestSupport::seed());
-  const int count = problems(10000);
+  const int count = problems(100000);
   const char *names[] = {"rest to rest", "retarget mid-motion", "any to rest", "any to any"};
   for (int jerk = 0; jerk < 2; ++jerk) {
     for (int kind = 0; kind < 4; ++kind) {

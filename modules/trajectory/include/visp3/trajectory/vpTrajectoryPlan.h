@@ -90,10 +90,7 @@ public:
   //! Number of segments of an axis.
   [[nodiscard]] int segments(int axis) const { return m_tracks[static_cast<std::size_t>(axis)].count; }
   //! Segment \e i of an axis, 0 <= i < segments(axis).
-  [[nodiscard]] const vpTrajectorySegment &segment(int axis, int i) const
-  {
-    return m_segments[static_cast<std::size_t>(axis * m_capacity + i)];
-  }
+  [[nodiscard]] const vpTrajectorySegment &segment(int axis, int i) const { return m_segments[index(axis, i)]; }
   //! Number of vias that the plan goes through.
   [[nodiscard]] int vias() const { return m_vias; }
   //! When via \e k is passed, s from the start of the plan.
@@ -130,6 +127,10 @@ private:
     vpAxisState goal{};
     vpTrajectoryForm form = vpTrajectoryForm::Hold;
   };
+  [[nodiscard]] std::size_t index(int axis, int i) const
+  {
+    return static_cast<std::size_t>(axis) * static_cast<std::size_t>(m_capacity) + static_cast<std::size_t>(i);
+  }
   [[nodiscard]] double nextBreak(double t) const noexcept;
   [[nodiscard]] vpPolynomial between(int axis, double from, double to) const noexcept;
 

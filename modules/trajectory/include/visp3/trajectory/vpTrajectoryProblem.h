@@ -58,11 +58,8 @@ public:
   [[nodiscard]] int vias() const { return m_vias; }       //!< Number of vias in use.
 
   //! The numbers of a field, axes() of them.
-  [[nodiscard]] double *field(Field f) { return m_values.data() + static_cast<std::size_t>(f * m_axes); }
-  [[nodiscard]] const double *field(Field f) const
-  {
-    return m_values.data() + static_cast<std::size_t>(f * m_axes);
-  } //!< \overload
+  [[nodiscard]] double *field(Field f) { return m_values.data() + index(f, 0); }
+  [[nodiscard]] const double *field(Field f) const { return m_values.data() + index(f, 0); } //!< \overload
 
   //! Use \e count vias; above maxVias() the problem becomes invalid (TooManyVias).
   void setViaCount(int count) { m_vias = count; }
@@ -105,7 +102,11 @@ public:
   vpTrajectoryOptions options; //!< Everything that is not one number per axis.
 
 private:
-  [[nodiscard]] double at(Field f, int axis) const { return m_values[static_cast<std::size_t>(f * m_axes + axis)]; }
+  [[nodiscard]] double at(Field f, int axis) const { return m_values[index(f, axis)]; }
+  [[nodiscard]] std::size_t index(Field f, int axis) const
+  {
+    return static_cast<std::size_t>(f) * static_cast<std::size_t>(m_axes) + static_cast<std::size_t>(axis);
+  }
   [[nodiscard]] vpTrajectoryStatus validateAxis(int axis) const noexcept;
   [[nodiscard]] vpTrajectoryStatus validateGroups() const noexcept;
   [[nodiscard]] vpTrajectoryStatus validateVias() const noexcept;
