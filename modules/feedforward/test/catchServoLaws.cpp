@@ -155,6 +155,25 @@ TEST_CASE("laws without enough points are degenerate, not wild", "[laws]")
   CHECK(statusWith("ibvs", square, 3) == vpServoStatus::Servoing);
   const std::vector<Eigen::Vector3d> line = {{-0.1, 0., 0.}, {0., 0., 0.}, {0.05, 0., 0.}, {0.1, 0., 0.}};
   CHECK(statusWith("ibvs", line, 4) == vpServoStatus::Degenerate);
+  for (unsigned int k = 0; k < 200; ++k) { // a line however it lies, and a small square far away, which is enough
+    auto random = vpTestSupport::generator(1300 + k);
+    CAPTURE(vpTestSupport::seed(), k);
+    const bool worst = k == 0; // straight ahead, 2 m away
+    const vpHomogeneousMatrix seenFrom =
+        worst ? pose(Eigen::Matrix3d::Identity(), {0., 0., 2.}) : randomPose(random, 0.4, 2., 0.3, 0.8);
+    const Eigen::Vector3d along(0.06, 0.02, 0.01);
+    const auto status = [&](const std::vector<Eigen::Vector3d> &points) {
+      auto law = vpServoLaw::create("ibvs");
+      law->setGoal(goal(cdMo, points));
+      vpServoMeasurement measurement;
+      measure(seenFrom, points, measurement);
+      return law->update(measurement, 0.01).status;
+    };
+    REQUIRE(status({-along, 0.3 * along, along, 1.7 * along}) == vpServoStatus::Degenerate);
+    const double half = 0.0025;
+    REQUIRE(status({{-half, -half, 0.}, {half, -half, 0.}, {half, half, 0.}, {-half, half, 0.}}) ==
+            vpServoStatus::Servoing);
+  }
   for (const char *id : {"hybrid25d", "kyrki", "kyrki-rot2", "kyrki-decoupled", "ff-sum"}) {
     CAPTURE(id);
     CHECK(statusWith(id, square, 0) == vpServoStatus::Degenerate);

@@ -208,6 +208,18 @@ TEST_CASE("a point outside the view comes back and never goes farther out", "[fi
   CHECK(back == outside);
 }
 
+TEST_CASE("a point outside the view comes back however little motion is wanted", "[filter]")
+{
+  const vpViewConstraintConfig config = vga();
+  vpViewConstraintFilter filter(config);
+  const vpServoPoint gone{config.left - 0.1, 0., 0.5, true};
+  const vpServoCommand command = filter.filter(wanted(vpTwist(1e-5, 0., 0., 0., 0., 0.)), {gone}, config.period);
+  CHECK(command.status == vpServoStatus::ViewLimited);
+  const double x = gone.x;
+  const double xDot = -command.v[0] / gone.Z + x * command.v[2] / gone.Z - (1. + x * x) * command.v[4];
+  CHECK(xDot > 1e-6); // towards the image
+}
+
 TEST_CASE("a point on the very border stays inside during the next period at full speed", "[filter]")
 {
   // What the margin is derived for. Half of the twists slide the point along the border and roll at the same time, so
