@@ -19,6 +19,7 @@ using vpApp::PlotStyle;
 
 constexpr int points = 1000;      // of a curve
 constexpr int formerPoints = 250; // of what a replaced plan would have done
+constexpr double shortest = 1e-3; // time axis of a motion that takes no time, s
 constexpr double gap = std::numeric_limits<double>::quiet_NaN();
 
 // Okabe and Ito: told apart by colour-blind readers too.
@@ -66,6 +67,11 @@ PlotCurve curveOf(const Motion &motion, int axis, std::size_t derivative)
       curve.x.push_back(piece.begin + t);
       curve.y.push_back(value);
     }
+  }
+  if (motion.pieces.empty()) { // it is there already
+    const double value = motion.at(axis, 0.)[derivative];
+    curve.x = {0., shortest};
+    curve.y = {value, value};
   }
   curve.colour = colourOf(axis);
   curve.width = 2.2;
@@ -164,7 +170,7 @@ Plot panel(const Problem &problem, const Motion &motion, std::size_t derivative,
   Plot plot;
   plot.yLabel = yLabel;
   plot.height = 260;
-  plot.xRange = {0., std::max(motion.duration(), problem.events.empty() ? 0. : problem.events.back().t)};
+  plot.xRange = {0., std::max({motion.duration(), problem.events.empty() ? 0. : problem.events.back().t, shortest})};
   const int axes = problem.axes();
   for (int i = 0; i < axes; ++i) {
     PlotCurve former = formerCurve(motion, i, derivative);
@@ -185,7 +191,7 @@ Plot panel(const Problem &problem, const Motion &motion, std::size_t derivative,
 std::string drawMotion(const Problem &problem, const Motion &motion, const std::string &title, vpApp::PlotFormat format)
 {
   const int axes = problem.axes();
-  const std::vector<Interval> list = intervals(problem, motion.duration());
+  const std::vector<Interval> list = intervals(problem, std::max(motion.duration(), shortest));
   std::vector<Plot> plots{panel(problem, motion, 0, "position (unit)"), panel(problem, motion, 1, "velocity (unit/s)"),
                           panel(problem, motion, 2, "acceleration (unit/s²)"),
                           panel(problem, motion, 3, "jerk (unit/s³)")};

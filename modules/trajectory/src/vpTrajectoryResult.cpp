@@ -21,6 +21,8 @@ const char *sentence(vpTrajectoryFault fault)
     return "start state of axis %d has the value %g, must be finite";
   case vpTrajectoryFault::GoalNotFinite:
     return "goal state of axis %d has the value %g, must be finite";
+  case vpTrajectoryFault::OutOfRange:
+    return "axis %d has the value %g, numbers must be at most 1e12 and limits at least 1e-12";
   case vpTrajectoryFault::VelocityLimit:
     return "velocity limit of axis %d is %g, must be > 0";
   case vpTrajectoryFault::AccelerationLimit:

@@ -18,6 +18,10 @@ vpTrajectoryStatus fault(vpTrajectoryFault what, int index, double value)
   return {vpTrajectoryResult::InvalidInput, what, index, value};
 }
 
+// Beyond these, powers of a duration leave the range of a double.
+constexpr double largest = 1e12;
+constexpr double smallestLimit = 1e-12;
+
 bool isDuration(double t) { return t >= 0. && std::isfinite(t); }
 } // namespace
 
@@ -28,6 +32,9 @@ vpTrajectoryStatus vpTrajectoryProblem::validate(bool startToo) const noexcept
     for (double x : from) {
       if (startToo && !std::isfinite(x)) {
         return fault(vpTrajectoryFault::StartNotFinite, i, x);
+      }
+      if (startToo && std::abs(x) > largest) {
+        return fault(vpTrajectoryFault::OutOfRange, i, x);
       }
     }
     const vpTrajectoryStatus status = validateAxis(i);
@@ -52,6 +59,9 @@ vpTrajectoryStatus vpTrajectoryProblem::validateAxis(int i) const noexcept
     if (!std::isfinite(x)) {
       return fault(vpTrajectoryFault::GoalNotFinite, i, x);
     }
+    if (std::abs(x) > largest) {
+      return fault(vpTrajectoryFault::OutOfRange, i, x);
+    }
   }
   const double v = at(MaxVelocity, i), a = at(MaxAcceleration, i), j = at(MaxJerk, i);
   if (!(v > 0.)) {
@@ -62,6 +72,11 @@ vpTrajectoryStatus vpTrajectoryProblem::validateAxis(int i) const noexcept
   }
   if (!(j > 0.)) {
     return fault(vpTrajectoryFault::JerkLimit, i, j);
+  }
+  for (double limit : {v, a, j}) {
+    if (limit < smallestLimit || (limit > largest && std::isfinite(limit))) {
+      return fault(vpTrajectoryFault::OutOfRange, i, limit);
+    }
   }
   if (!std::isfinite(v) && !std::isfinite(a) && options.policy != vpReplanPolicy::FixedArrival) {
     return fault(vpTrajectoryFault::NoLimit, i, v);

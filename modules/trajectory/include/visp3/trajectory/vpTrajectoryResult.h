@@ -31,6 +31,7 @@ enum class vpTrajectoryFault {
   None,                    //!< Nothing.
   StartNotFinite,          //!< A number of the start state is NaN or infinite.
   GoalNotFinite,           //!< A number of the goal state is NaN or infinite.
+  OutOfRange,              //!< A number is above 1e12 or a limit below 1e-12: beyond what can be computed reliably.
   VelocityLimit,           //!< A velocity limit is not > 0.
   AccelerationLimit,       //!< An acceleration limit is not > 0.
   JerkLimit,               //!< A jerk limit is not > 0.
