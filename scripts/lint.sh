@@ -36,6 +36,7 @@ case $what in
     # Headers are read through the files that include them; a file outside the build has no command to be read with.
     compiled=()
     for file in "${sources[@]}"; do
+      [[ $file != */benchmark/* ]] || continue # Google Benchmark's macros are not ours to mend
       if [[ $file == *.cpp ]] && grep -qF "\"file\": \"$(realpath "$file")\"" "$build/compile_commands.json"; then
         compiled+=("$file")
       fi
