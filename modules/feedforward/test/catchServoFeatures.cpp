@@ -76,7 +76,7 @@ vpColVector compute(vpServo &task, double lambda)
   task.setServo(vpServo::EYEINHAND_CAMERA);
   task.setInteractionMatrixType(vpServo::CURRENT, vpServo::PSEUDO_INVERSE);
   task.setLambda(lambda);
-  const vpColVector v = task.computeControlLaw();
+  vpColVector v = task.computeControlLaw();
   task.kill();
   return v;
 }

@@ -51,7 +51,7 @@ public:
   //! Pixels of the frame between two samples of a level.
   [[nodiscard]] double pixelsPerSample(std::size_t level, const vpRigidPose &pose) const;
   //! Read the frame at the samples of a level; returns how many are in the image.
-  std::size_t sample(const std::vector<cv::Mat> &pyramid, std::size_t level, const vpRigidPose &pose);
+  std::size_t sample(const std::vector<cv::Mat> &pyramid, std::size_t index, const vpRigidPose &pose);
 
   //! Gain and bias of the last frame or from medians, whichever fits better, then fit().
   void start(const vpPhotometricLevel &level);
