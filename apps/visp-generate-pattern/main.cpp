@@ -1,0 +1,53 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// visp-generate-pattern: pictures of a repetitive product in motion, with the true places of its cells.
+#include "options.h"
+#include "sequence.h"
+
+#include "appMain.h"
+
+#include <iostream>
+
+namespace
+{
+using namespace generatePattern;
+
+std::string joined(int argc, const char *const *argv)
+{
+  std::string line = "visp-generate-pattern";
+  for (int i = 1; i < argc; ++i) {
+    line += std::string(" ") + argv[i];
+  }
+  return line;
+}
+
+void generate(const Options &options, const std::string &commandLine)
+{
+  vpApp::OutputFolder out("visp-generate-pattern", options.out);
+  const std::size_t places = writeSequence(options, out);
+  const nlohmann::ordered_json spec = jsonOf(options.task);
+  out.write("config.json", spec.dump(2) + "\n");
+  nlohmann::ordered_json summary = {{"version", VISP_DIRECT_VERSION},
+                                    {"command", commandLine},
+                                    {"frames", options.task.frames},
+                                    {"places", places},
+                                    {"spec", spec}};
+  out.writeSummary(summary);
+  vpApp::throwIfInterrupted();
+  out.commit();
+  std::cout << options.task.frames << " frames with " << places << " true places: " << options.out << std::endl;
+}
+} // namespace
+
+int main(int argc, char **argv)
+{
+  return vpApp::runMain("visp-generate-pattern", [&]() -> int {
+    Options options;
+    if (readOptions(argc, argv, options)) {
+      generate(options, joined(argc, argv));
+    }
+    return vpApp::ExitOk;
+  });
+}

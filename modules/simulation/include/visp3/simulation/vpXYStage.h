@@ -1,0 +1,130 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpXYStage.h
+ * \brief A planar stage with friction, stiction, lag and delay.
+ */
+#ifndef vpXYStage_h
+#define vpXYStage_h
+
+#include <visp3/direct_core/vpDirectCompat.h>
+
+#include <array>
+#include <limits>
+#include <vector>
+
+BEGIN_VISP_NAMESPACE
+
+/*!
+ * \brief One axis of a vpXYStage. The units are yours: a length L (px, m), a time T (frame, s) and a force F. With mass 1,
+ * forces are accelerations, L/T^2.
+ */
+struct VISP_EXPORT vpXYStageAxis {
+  double mass = 1.;             //!< Moved mass, F T^2/L, > 0.
+  double viscous = 0.;          //!< Friction per velocity, F T/L, >= 0.
+  double coulomb = 0.;          //!< Friction of a fast motion apart from the viscous part, F, >= 0.
+  double stiction = 0.;         //!< Force that sets the axis in motion, F, >= #coulomb.
+  double stribeckVelocity = 1.; //!< Velocity over which the friction falls from stiction to Coulomb, L/T, > 0.
+  double viscousRise = 0.;      //!< Share by which #viscous is larger beyond #viscousRiseFrom, >= -1.
+  double viscousRiseFrom = 0.;  //!< Position where that begins, L.
+  double lag = 0.;              //!< Time constant from commanded to acting force, T, >= 0.
+  double delay = 0.;            //!< Dead time of the command, T, >= 0.
+  double maxVelocity = std::numeric_limits<double>::infinity(); //!< The axis is held at this speed, L/T, > 0.
+
+  //! \return Friction against the motion at a velocity > 0 and a position, F: the steady force that keeps this velocity.
+  [[nodiscard]] double friction(double velocity, double position) const;
+  /*!
+   * \param name : Of the axis, for the message.
+   * \throw vpException (badValue) naming axis, field and value when one is out of its range or not finite.
+   */
+  void validate(const char *name) const;
+};
+
+//! \brief Both axes of a vpXYStage.
+struct VISP_EXPORT vpXYStageSpec {
+  vpXYStageAxis x; //!< Along the rows of the image.
+  vpXYStageAxis y; //!< Along its columns.
+
+  /*!
+   * The linear motors with dry bearings of thesis chapter 7, units px and frame (1/1600 s), mass 1: viscous friction 0.02,
+   * 30 % more beyond the fifth cell; Coulomb 0.08, stiction 0.12, Stribeck velocity 0.3 px/frame, lag 0.3 frame. No delay:
+   * the 1.28 frames of that system are the camera's. The thesis does not print the numbers: they were searched for so that
+   * a simulation shows its velocity errors; others would too.
+   */
+  [[nodiscard]] static vpXYStageSpec thesis();
+  //! \throw vpException (badValue) naming axis, field and value when one is out of its range or not finite.
+  void validate() const;
+};
+
+/*!
+ * \class vpXYStage
+ * \ingroup group_simulation
+ * \brief A stage with two independent axes that is driven by forces; with mass 1, by accelerations.
+ *
+ * Per axis, with the command u held constant in each step:
+ * \f[ \tau \dot f = u(t - d) - f, \qquad m \dot v = f - \mathrm{sgn}(v) \left( F_c + (F_s - F_c) e^{-(v / v_s)^2} + F_v |v|
+ * \right) \f]
+ * A resting axis stays at rest while |f| <= Fs, and a moving one comes to rest when its velocity passes through 0. A
+ * step is cut where a delayed command changes and integrated in at least 32 parts: the lag exactly, the friction by the
+ * midpoint rule; see catchXYStage for the errors. The same commands give the same motion, bit for bit.
+ *
+ * \code
+ * vpXYStage stage(vpXYStageSpec::thesis());
+ * for (int frame = 0; frame < 100; ++frame) {
+ *   stage.step(1., {0.2, 0.}); // after a while, about 6 px/frame
+ * }
+ * product.render(stage.state().position[0], stage.state().position[1], ...);
+ * \endcode
+ */
+class VISP_EXPORT vpXYStage
+{
+public:
+  using Pair = std::array<double, 2>; //!< x, y.
+
+  //! \brief All that the stage remembers apart from commands on their way.
+  struct State {
+    double time = 0.;                          //!< Since reset(), T.
+    Pair position{{0., 0.}};                   //!< L.
+    Pair velocity{{0., 0.}};                   //!< L/T.
+    Pair force{{0., 0.}};                      //!< That acts, after delay and lag, F.
+    std::array<bool, 2> resting{{true, true}}; //!< Held by stiction.
+  };
+
+  //! \throw vpException (badValue) naming axis, field and value of a specification that is out of its range.
+  explicit vpXYStage(const vpXYStageSpec &spec);
+
+  /*!
+   * Move for a while. Does not allocate.
+   * \param dt : Duration, T; > 0 and at least 1/1000 of the longest delay.
+   * \param command : Forces, F, from now until the next call; they act after the delay.
+   * \return state() afterwards.
+   * \throw vpException (badValue) naming an argument that is out of its range or not finite; nothing has moved then.
+   */
+  const State &step(double dt, const Pair &command);
+  //! State now.
+  [[nodiscard]] const State &state() const { return m_state; }
+  //! What it was made from.
+  [[nodiscard]] const vpXYStageSpec &spec() const { return m_spec; }
+  //! Back to rest at a position, L, at time 0, with no command on its way. \throw vpException unless it is finite.
+  void reset(const Pair &position = {{0., 0.}});
+
+private:
+  //! \brief A command and when it was given.
+  struct Given {
+    double time;
+    Pair command;
+  };
+  void stepAxis(std::size_t axis, double dt);
+  void integrate(std::size_t axis, double command, double duration, int parts);
+  void part(std::size_t axis, double command, double h);
+
+  vpXYStageSpec m_spec;
+  std::array<vpXYStageAxis, 2> m_axes;
+  State m_state;
+  std::vector<Given> m_given; // those that act now or later, oldest first; room for all of them is reserved
+};
+
+END_VISP_NAMESPACE
+#endif
