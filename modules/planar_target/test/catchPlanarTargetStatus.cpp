@@ -124,7 +124,6 @@ TEST_CASE("distortion of the lens is undone", "[planar_target]")
   vpCameraParameters lens;
   lens.initPersProjWithDistortion(800., 800., 319.5, 239.5, -0.2, 0.2);
   const vpHomogeneousMatrix cMo = vpPlanarScene::pose(0.03, -0.01, 0.5, 0.1, 0.2, -0.3);
-  auto rng = vpTestSupport::generator(40);
   // Drawn without distortion, then bent pixel by pixel: distorted (xd, yd) shows what is at (xd, yd) (1 + kdu rd^2).
   Image straight(720, 960), bent(480, 640);
   vpPlanarScene::draw(straight, klimt(), vpCameraParameters(800., 800., 479.5, 359.5), cMo);
