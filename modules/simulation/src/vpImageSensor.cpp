@@ -55,8 +55,10 @@ private:
     const unsigned int rows = (task.pointCount + columns - 1) / columns;
     std::vector<ObjectPoint> points;
     for (unsigned int i = 0; i < task.pointCount; ++i) {
-      points.push_back({((i % columns + 0.5) / columns - 0.5) * task.objectWidth,
-                        ((i / columns + 0.5) / rows - 0.5) * task.objectHeight});
+      const unsigned int row = i / columns;
+      const unsigned int column = i % columns;
+      points.push_back({((column + 0.5) / columns - 0.5) * task.objectWidth,
+                        ((row + 0.5) / rows - 0.5) * task.objectHeight});
     }
     return points;
   }
