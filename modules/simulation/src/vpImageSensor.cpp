@@ -57,8 +57,8 @@ private:
     for (unsigned int i = 0; i < task.pointCount; ++i) {
       const unsigned int row = i / columns;
       const unsigned int column = i % columns;
-      points.push_back({((column + 0.5) / columns - 0.5) * task.objectWidth,
-                        ((row + 0.5) / rows - 0.5) * task.objectHeight});
+      points.push_back(
+          {((column + 0.5) / columns - 0.5) * task.objectWidth, ((row + 0.5) / rows - 0.5) * task.objectHeight});
     }
     return points;
   }
