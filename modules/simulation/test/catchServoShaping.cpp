@@ -8,8 +8,8 @@
 #include <visp3/core/vpException.h>
 #include <visp3/simulation/vpServoExperiment.h>
 
+#include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 VISP_DIRECT_USING_NAMESPACE
@@ -76,8 +76,9 @@ bool sameMotion(const vpServoRun &a, const vpServoRun &b)
     return false;
   }
   for (std::size_t k = 0; k < a.samples.size(); ++k) {
-    if (std::memcmp(a.samples[k].commanded.data(), b.samples[k].commanded.data(), 6 * sizeof(double)) != 0 ||
-        std::memcmp(a.samples[k].wMc.data, b.samples[k].wMc.data, 16 * sizeof(double)) != 0) {
+    const double *v = a.samples[k].commanded.data();
+    const double *M = a.samples[k].wMc.data;
+    if (!std::equal(v, v + 6, b.samples[k].commanded.data()) || !std::equal(M, M + 16, b.samples[k].wMc.data)) {
       return false;
     }
   }

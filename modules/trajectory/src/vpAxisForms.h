@@ -53,11 +53,11 @@ public:
   //! Fixed pieces at the tail: as fast as the limits allow from rest to the velocity before the tail.
   void launch(const vpAxisTask &task, double jerk) noexcept;
   //! Fixed pieces: the acceleration ramps, at the head from the present state, at the tail up to the goal.
-  void rampHead(double duration) noexcept;
-  void rampTail(double duration) noexcept;
+  void rampHead(double r) noexcept;
+  void rampTail(double r) noexcept;
   //! Fixed pieces: from the present velocity to rest, and from rest to the velocity before the tail.
-  void stopHead(double duration) noexcept;
-  void stopTail(double duration) noexcept;
+  void stopHead(double T) noexcept;
+  void stopTail(double T) noexcept;
   //! Everything fixed is in place: make the polynomial between.
   void close(const vpAxisTask &task) noexcept;
 

@@ -107,7 +107,7 @@ private:
   {
     return static_cast<std::size_t>(f) * static_cast<std::size_t>(m_axes) + static_cast<std::size_t>(axis);
   }
-  [[nodiscard]] vpTrajectoryStatus validateAxis(int axis) const noexcept;
+  [[nodiscard]] vpTrajectoryStatus validateAxis(int i) const noexcept;
   [[nodiscard]] vpTrajectoryStatus validateGroups() const noexcept;
   [[nodiscard]] vpTrajectoryStatus validateVias() const noexcept;
   [[nodiscard]] vpTrajectoryStatus validateOptions() const noexcept;
