@@ -1,0 +1,49 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpPatternThreshold.h
+ * \brief Thresholds of table 7.1, computed from a histogram.
+ *
+ * ViSP's autoThreshold() knows Otsu and Isodata too, but it allocates and overwrites the image, and has no minimum error.
+ */
+#ifndef vpPatternThreshold_h
+#define vpPatternThreshold_h
+
+#include <visp3/direct_core/vpDirectCompat.h>
+
+#include <array>
+#include <cstdint>
+
+BEGIN_VISP_NAMESPACE
+
+//! How the image is divided into bright and dark.
+enum class vpPatternThreshold {
+  Otsu,        //!< Greatest variance between the classes (Otsu 1979).
+  Isodata,     //!< Mean of the class means, iterated (Ridler and Calvard 1978).
+  MinimumError //!< Two normal distributions of least classification error (Kittler and Illingworth 1986).
+};
+
+//! Number of pixels of each grey value.
+using vpPatternHistogram = std::array<std::uint32_t, 256>;
+
+//! A threshold and how well it divides.
+struct VISP_EXPORT vpPatternThresholdResult {
+  int threshold = -1; //!< Values above it are bright; 0 to 254. -1: all pixels have the same value, there is none.
+  double separability = 0.; //!< Variance between the classes over the total variance, 0 to 1 (noise alone: about 0.64).
+  double darkMean = 0.;     //!< Mean of the values up to the threshold, 0 to 255.
+  double brightMean = 0.;   //!< Mean of the values above the threshold, 0 to 255.
+};
+
+/*!
+ * \brief Threshold of a histogram, thesis table 7.1. Allocates nothing; an empty histogram has the threshold -1.
+ */
+[[nodiscard]] VISP_EXPORT vpPatternThresholdResult vpFindThreshold(const vpPatternHistogram &histogram,
+                                                                   vpPatternThreshold method);
+
+//! The method as a word ("Otsu"), for files; static text.
+[[nodiscard]] VISP_EXPORT const char *toString(vpPatternThreshold method);
+
+END_VISP_NAMESPACE
+#endif

@@ -1,0 +1,68 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpPatternTracker.h
+ * \brief Centres and motion of the cells of a repetitive product, frame by frame.
+ */
+#ifndef vpPatternTracker_h
+#define vpPatternTracker_h
+
+#include <visp3/pattern/vpPatternFrame.h>
+#include <visp3/pattern/vpPatternOptions.h>
+
+#include <visp3/core/vpImage.h>
+
+#include <memory>
+
+BEGIN_VISP_NAMESPACE
+
+/*!
+ * \brief Tracks rectangular, rounded or dot cells that repeat on a lattice (thesis section 7.2.2, with another method).
+ *
+ * Acquisition: threshold, run-length labels, sub-pixel edges, robust lattice. Then a template is learned from the images
+ * themselves and aligned with every cell by Gauss-Newton steps that leave out brightness, contrast and their slopes;
+ * pixels under dust and cracks are masked, cells that do not fit are not valid.
+ *
+ * The motion must stay below half a pitch per frame: a pattern without deviations that moves by 0.8 pitch looks like one
+ * that moves by -0.2, and no method can tell. Motion near half a pitch and sudden jumps start a new epoch.
+ *
+ * All memory is taken in the constructor. track() does not allocate, throw, lock or print.
+ */
+class VISP_EXPORT vpPatternTracker
+{
+public:
+  /*!
+   * \param width, height Size of the images, px, each in [16, 16384].
+   * \param options Checked here.
+   * \throw vpException (badValue) that names what is out of range, and its value.
+   */
+  vpPatternTracker(unsigned int width, unsigned int height, const vpPatternOptions &options = vpPatternOptions());
+  ~vpPatternTracker();
+  vpPatternTracker(vpPatternTracker &&) noexcept;            //!< Moves; the other may only be destroyed or assigned to.
+  vpPatternTracker &operator=(vpPatternTracker &&) noexcept; //!< Moves; the other may only be destroyed or assigned to.
+  vpPatternTracker(const vpPatternTracker &) = delete;
+  vpPatternTracker &operator=(const vpPatternTracker &) = delete;
+
+  /*!
+   * \brief Take the next image.
+   * \param image 8-bit image of the size given to the constructor; another size gives Lost with WrongSize.
+   * \return The result, valid until the next call.
+   */
+  const vpPatternFrame &track(const vpImage<unsigned char> &image);
+
+  //! The result of the last image.
+  [[nodiscard]] const vpPatternFrame &frame() const;
+  //! The options in use.
+  [[nodiscard]] const vpPatternOptions &options() const;
+  //! Forget lattice, template and identities; the next image is acquired anew. Does not allocate.
+  void reset();
+
+private:
+  class Impl;
+  std::unique_ptr<Impl> m_impl;
+};
+
+END_VISP_NAMESPACE
+#endif

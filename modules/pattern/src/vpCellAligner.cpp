@@ -1,0 +1,315 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "vpCellAligner.h"
+
+#include "vpPatternSimd.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+constexpr int size = vpTemplateBank::basisSize;
+constexpr int maxSteps = 5;
+constexpr double reach = 0.2;   // px from the phase: there the third order of the template is below 0.002 px
+constexpr double maxStep = 1.5; // px: the template says nothing about what is farther
+
+// sums[k] = row k of q times w. All numbers are 16 bits wide and the sums 32: the compiler multiplies and adds pairs.
+VISP_PATTERN_CLONES void products(const std::int16_t *q, const std::int16_t *w, int n, std::int32_t *sums)
+{
+  std::int32_t s[size] = {};
+  for (int k = 0; k < size; ++k) {
+    const std::int16_t *row = q + k * n;
+    std::int32_t sum = 0;
+    for (int i = 0; i < n; ++i) {
+      sum += static_cast<std::int32_t>(row[i]) * static_cast<std::int32_t>(w[i]);
+    }
+    s[k] = sum;
+  }
+  std::copy_n(s, size, sums);
+}
+
+VISP_PATTERN_CLONES std::int64_t energy(const std::int16_t *w, int n)
+{
+  std::int64_t sum = 0;
+  for (int begin = 0; begin < n; begin += 16384) { // 16384 squares of 8-bit numbers fit into 32 bits
+    const int end = std::min(n, begin + 16384);
+    std::int32_t part = 0;
+    for (int i = begin; i < end; ++i) {
+      part += static_cast<std::int32_t>(w[i]) * static_cast<std::int32_t>(w[i]);
+    }
+    sum += part;
+  }
+  return sum;
+}
+
+// The window, row after row without gaps. All rows but the last are written in whole vectors: what is too much comes from
+// the row below in the image and is overwritten by the next row.
+VISP_PATTERN_CLONES void toWindow(const unsigned char *from, std::ptrdiff_t stride, int columns, int rows,
+                                  std::int16_t *__restrict to)
+{
+  constexpr int vector = 16;
+  for (int r = 0; r + 1 < rows; ++r) {
+    const unsigned char *row = from + r * stride;
+    std::int16_t *out = to + static_cast<std::ptrdiff_t>(r) * columns;
+    for (int i = 0; i < columns; i += vector) {
+      for (int k = 0; k < vector; ++k) {
+        out[i + k] = static_cast<std::int16_t>(row[i + k] - 128);
+      }
+    }
+  }
+  const unsigned char *row = from + (rows - 1) * stride;
+  for (int i = 0; i < columns; ++i) {
+    to[static_cast<std::ptrdiff_t>(rows - 1) * columns + i] = static_cast<std::int16_t>(row[i] - 128);
+  }
+}
+
+VISP_PATTERN_CLONES void addRow(const std::int16_t *q, float factor, int n, float *__restrict to)
+{
+  for (int i = 0; i < n; ++i) {
+    to[i] += factor * static_cast<float>(q[i]);
+  }
+}
+
+// The window is in the image.
+bool fits(const vpImage<unsigned char> &image, const vpTemplateBank &bank, const vpTemplateBank::Place &place)
+{
+  return place.x >= bank.halfWidth() && place.y >= bank.halfHeight() &&
+         place.x + bank.halfWidth() < static_cast<int>(image.getWidth()) &&
+         place.y + bank.halfHeight() < static_cast<int>(image.getHeight());
+}
+
+// Contrast and step from z, with known slopes: three equations.
+struct Step {
+  double contrast, dx, dy;
+};
+Step solve(const vpTemplateBank::Phase &phase, const double *z, const vpSlopes &slopes)
+{
+  double u[4];
+  for (std::size_t k = 1; k < 4; ++k) {
+    u[k] = z[k] - phase.r[k][4] * slopes[0] - phase.r[k][5] * slopes[1] - phase.r[k][6] * slopes[2] -
+           phase.r[k][7] * slopes[3];
+  }
+  const double uy = u[3] / phase.r[3][3], ux = (u[2] - phase.r[2][3] * uy) / phase.r[2][2];
+  const double s = (u[1] - phase.r[1][2] * ux - phase.r[1][3] * uy) / phase.r[1][1];
+  return {s, -ux / s, -uy / s};
+}
+
+// What this cell alone says about the slopes.
+vpSlopes slopesOf(const vpTemplateBank::Phase &phase, const double *z)
+{
+  vpSlopes g{};
+  for (std::size_t k = 4; k-- > 0;) {
+    double v = z[k + 4];
+    for (std::size_t j = k + 1; j < 4; ++j) {
+      v -= phase.r[k + 4][j + 4] * g[j];
+    }
+    g[k] = v / phase.r[k + 4][k + 4];
+  }
+  return g;
+}
+
+// Variances of x and y for unit noise: the inverse of two by two of R.
+void variances(const vpTemplateBank::Phase &phase, double contrast, vpCellFit &fit)
+{
+  const double a = phase.r[2][2], b = phase.r[2][3], c = phase.r[3][3], s2 = contrast * contrast;
+  fit.yy = 1. / (c * c * s2);
+  fit.xx = (1. / (a * a) + b * b / (a * a * c * c)) / s2;
+}
+} // namespace
+
+vpCellAligner::vpCellAligner(std::size_t maxPixels)
+  : m_window(maxPixels + 16), m_model(maxPixels + 16), m_mask(maxPixels + 16)
+{}
+
+void vpCellAligner::load(const vpImage<unsigned char> &image, const vpTemplateBank &bank,
+                         const vpTemplateBank::Place &place)
+{
+  const int columns = 2 * bank.halfWidth() + 1, rows = 2 * bank.halfHeight() + 1;
+  const unsigned char *from =
+      image[static_cast<unsigned int>(place.y - bank.halfHeight())] + place.x - bank.halfWidth();
+  toWindow(from, static_cast<std::ptrdiff_t>(image.getWidth()), columns, rows, m_window.data());
+  std::fill(m_window.begin() + bank.pixels(), m_window.begin() + bank.stride(), static_cast<std::int16_t>(0));
+}
+
+vpCellFit vpCellAligner::align(const vpImage<unsigned char> &image, const vpTemplateBank &bank, double x, double y)
+{
+  vpCellFit fit;
+  int loadedX = -1, loadedY = -1;
+  for (int step = 0; step < maxSteps; ++step) {
+    const vpTemplateBank::Place place = bank.place(x, y);
+    if (!fits(image, bank, place)) {
+      return fit;
+    }
+    if (place.x != loadedX || place.y != loadedY) {
+      load(image, bank, place);
+      loadedX = place.x;
+      loadedY = place.y;
+    }
+    const vpTemplateBank::Phase &phase = bank.phase(place.phase);
+    std::int32_t sums[size];
+    products(phase.q, m_window.data(), bank.stride(), sums);
+    double z[size];
+    for (int k = 0; k < size; ++k) {
+      z[k] = static_cast<double>(phase.scale[static_cast<std::size_t>(k)]) * sums[k];
+    }
+    const Step s = solve(phase, z, m_slopes);
+    // Without contrast there is nothing to align with.
+    if (!(s.contrast > 0.1 && s.contrast < 10.)) {
+      return fit;
+    }
+    x = place.px + std::clamp(s.dx, -maxStep, maxStep);
+    y = place.py + std::clamp(s.dy, -maxStep, maxStep);
+    if (std::abs(s.dx) < reach && std::abs(s.dy) < reach) {
+      double rest = static_cast<double>(energy(m_window.data(), bank.stride()));
+      for (const double v : z) {
+        rest -= v * v;
+      }
+      fit.ok = true;
+      fit.x = x;
+      fit.y = y;
+      fit.contrast = s.contrast;
+      fit.variance =
+          std::max(0.05, rest / std::max(1, bank.pixels() - size)); // rounding to whole grey values alone: 1/12
+      variances(phase, s.contrast, fit);
+      fit.slopes = slopesOf(phase, z);
+      return fit;
+    }
+  }
+  return fit;
+}
+
+// Pixels that do not fit, and their neighbours: the rim of a speck is too faint to be seen and too dark to be right.
+void vpCellAligner::findMask(int n, int columns, float limit)
+{
+  std::fill_n(m_mask.begin(), n, static_cast<unsigned char>(0));
+  for (int i = 0; i < n; ++i) {
+    if (std::abs(m_model[static_cast<std::size_t>(i)] - static_cast<float>(m_window[static_cast<std::size_t>(i)])) <=
+        limit) {
+      continue;
+    }
+    for (int row = i - columns; row <= i + columns; row += columns) {
+      for (int k = std::max(0, row - 1); k <= std::min(n - 1, row + 1); ++k) {
+        m_mask[static_cast<std::size_t>(k)] = 1;
+      }
+    }
+  }
+}
+
+vpCellFit vpCellAligner::alignMasked(const vpImage<unsigned char> &image, const vpTemplateBank &bank, double x,
+                                     double y, double noise)
+{
+  // Q is orthonormal over all pixels. Without the masked ones its normal matrix is the unit matrix less their products,
+  // so that each round solves four equations exactly. The slopes h come from the other cells: dirt would tilt them.
+  constexpr int maxRounds = 8, lastRounds = 3;
+  constexpr double limits[] = {6., 4.5, 3.5}; // wide open at first: the dirt has drawn the model towards itself
+  using Vector4 = Eigen::Vector4d;
+  vpCellFit fit;
+  const int n = bank.pixels();
+  int loadedX = -1, loadedY = -1, count = 0, settled = 0, opening = 0;
+  vpTemplateBank::Place place{};
+  double z[size] = {}, h[size] = {};
+  Eigen::Matrix4d normal;
+  Vector4 solution = Vector4::Zero();
+  Step s{};
+  bool started = false;
+  for (int round = 0; round < maxRounds && settled < lastRounds; ++round) {
+    const vpTemplateBank::Place next = bank.place(x, y);
+    if (!fits(image, bank, next)) {
+      return fit;
+    }
+    const vpTemplateBank::Phase &phase = bank.phase(next.phase);
+    if (!started || next.phase != place.phase || next.x != place.x || next.y != place.y) {
+      place = next;
+      if (place.x != loadedX || place.y != loadedY) {
+        load(image, bank, place);
+        loadedX = place.x;
+        loadedY = place.y;
+      }
+      std::int32_t sums[size];
+      products(phase.q, m_window.data(), bank.stride(), sums);
+      for (std::size_t k = 0; k < size; ++k) {
+        z[k] = static_cast<double>(phase.scale[k]) * sums[k];
+        h[k] = phase.r[k][4] * m_slopes[0] + phase.r[k][5] * m_slopes[1] + phase.r[k][6] * m_slopes[2] +
+               phase.r[k][7] * m_slopes[3];
+      }
+      for (int k = 0; k < 4; ++k) {
+        solution[k] = z[k] - h[k];
+      }
+      started = true;
+      settled = 0;
+    }
+    std::fill_n(m_model.begin(), n, 0.F);
+    for (int k = 0; k < size; ++k) {
+      const double value = h[k] + (k < 4 ? solution[k] : 0.);
+      addRow(phase.q + k * bank.stride(), static_cast<float>(value) * phase.scale[static_cast<std::size_t>(k)], n,
+             m_model.data());
+    }
+    const float limit = static_cast<float>(noise * limits[std::min(opening++, 2)]);
+    normal.setIdentity();
+    Vector4 right(z[0] - h[0], z[1] - h[1], z[2] - h[2], z[3] - h[3]);
+    count = 0;
+    findMask(n, 2 * bank.halfWidth() + 1, limit);
+    for (int i = 0; i < n; ++i) {
+      if (m_mask[static_cast<std::size_t>(i)] != 0) {
+        const std::size_t k = static_cast<std::size_t>(i);
+        ++count;
+        double q[size];
+        double value = m_window[k];
+        for (int j = 0; j < size; ++j) {
+          q[j] = static_cast<double>(phase.q[j * bank.stride() + i]) * phase.scale[static_cast<std::size_t>(j)];
+          value -= q[j] * h[j];
+        }
+        const Vector4 a(q[0], q[1], q[2], q[3]);
+        normal.noalias() -= a * a.transpose();
+        right -= a * value;
+      }
+    }
+    if (3 * count > n) {
+      return fit;
+    }
+    solution = normal.ldlt().solve(right);
+    for (std::size_t k = 0; k < size; ++k) {
+      m_sum[k] = h[k] + (k < 4 ? solution[static_cast<Eigen::Index>(k)] : 0.);
+    }
+    s = solve(phase, m_sum.data(), m_slopes);
+    if (!(s.contrast > 0.1 && s.contrast < 10.)) {
+      return fit;
+    }
+    fit.x = place.px + std::clamp(s.dx, -maxStep, maxStep);
+    fit.y = place.py + std::clamp(s.dy, -maxStep, maxStep);
+    if (std::abs(s.dx) > reach || std::abs(s.dy) > reach) {
+      x = fit.x; // a new phase starts over, but with the mask nearly closed
+      y = fit.y;
+    }
+    settled += opening >= 3 ? 1 : 0;
+  }
+  double rest = 0.;
+  for (int i = 0; i < n; ++i) {
+    const std::size_t k = static_cast<std::size_t>(i);
+    rest += m_mask[k] != 0 ? 0. : std::pow(static_cast<double>(static_cast<float>(m_window[k]) - m_model[k]), 2);
+  }
+  const vpTemplateBank::Phase &phase = bank.phase(place.phase);
+  Eigen::Matrix4d r = Eigen::Matrix4d::Zero();
+  for (int i = 0; i < 4; ++i) {
+    for (int j = i; j < 4; ++j) {
+      r(i, j) = phase.r[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+    }
+  }
+  const Eigen::Matrix4d covariance = (r.transpose() * normal * r).inverse() / (s.contrast * s.contrast);
+  fit.xx = covariance(2, 2);
+  fit.yy = covariance(3, 3);
+  fit.contrast = s.contrast;
+  fit.variance = std::max(0.05, rest / std::max(1, n - count - size));
+  fit.masked = true;
+  fit.ok = settled > 0 && fit.xx > 0. && fit.yy > 0. && std::abs(s.dx) < 2. * reach && std::abs(s.dy) < 2. * reach;
+  return fit;
+}
+
+END_VISP_NAMESPACE

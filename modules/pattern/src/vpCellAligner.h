@@ -1,0 +1,52 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// Gauss-Newton alignment of one cell, and what the pixels that do not fit are worth.
+#ifndef vpCellAligner_h
+#define vpCellAligner_h
+
+#include "vpTemplateBank.h"
+
+BEGIN_VISP_NAMESPACE
+
+//! Slopes of the illumination: of x, y, xT and yT, grey values per px and 1 per px. Where the light falls off evenly they
+//! are the same everywhere.
+using vpSlopes = std::array<double, 4>;
+
+struct vpCellFit {
+  bool ok = false;         // the window is in the image and the steps converged
+  double x = 0., y = 0.;   // centre, px
+  double contrast = 0.;    // of the template's, 1 when it is the same
+  double variance = 0.;    // of the residuals, grey values squared
+  double xx = 0., yy = 0.; // variance of x and y for residuals of variance 1
+  bool masked = false;     // pixels were left out
+  vpSlopes slopes{};       // as this cell alone shows them
+};
+
+class vpCellAligner
+{
+public:
+  explicit vpCellAligner(std::size_t maxPixels);
+
+  //! The slopes that all cells share; 0 at first.
+  void setSlopes(const vpSlopes &slopes) { m_slopes = slopes; }
+  //! Least squares from the start (x, y); all pixels count.
+  vpCellFit align(const vpImage<unsigned char> &image, const vpTemplateBank &bank, double x, double y);
+  //! The same with the pixels left out whose residual is above 3.5 times \e noise.
+  vpCellFit alignMasked(const vpImage<unsigned char> &image, const vpTemplateBank &bank, double x, double y,
+                        double noise);
+
+private:
+  void findMask(int n, int columns, float limit);
+  void load(const vpImage<unsigned char> &image, const vpTemplateBank &bank, const vpTemplateBank::Place &place);
+
+  vpSlopes m_slopes{};
+  std::vector<std::int16_t> m_window;
+  std::vector<float> m_model;
+  std::array<double, vpTemplateBank::basisSize> m_sum{};
+  std::vector<unsigned char> m_mask;
+};
+
+END_VISP_NAMESPACE
+#endif

@@ -1,0 +1,47 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// What is remembered of each cell from frame to frame: a ring in rows and columns, of fixed size.
+#ifndef vpCellMemory_h
+#define vpCellMemory_h
+
+#include <visp3/direct_core/vpDirectCompat.h>
+
+#include <vector>
+
+BEGIN_VISP_NAMESPACE
+
+class vpCellMemory
+{
+public:
+  struct Slot {
+    bool used = false;
+    int row = 0, column = 0, count = 0; // count: measurements in the deviation
+    double offsetX = 0., offsetY = 0.;  // smoothed deviation from the lattice, px
+    double x = 0., y = 0., varianceX = 0., varianceY = 0.;
+    unsigned int frame = 0; // of x and y
+    int cell = -1;          // index among the cells of that frame
+  };
+
+  explicit vpCellMemory(std::size_t capacity) : m_slots(capacity) {}
+
+  //! Forget everything, and make room for twice so many rows and columns as are in view.
+  void shape(int rowsInView, int columnsInView);
+  //! Forget everything.
+  void clear();
+  //! The cell if it is remembered, or null.
+  Slot *find(int row, int column);
+  //! The cell; an older one in its place is forgotten.
+  Slot &claim(int row, int column);
+  //! Deviation to start from: its own, or the mean of its remembered neighbours. True when it is its own.
+  bool deviation(int row, int column, double &x, double &y);
+
+private:
+  Slot &at(int row, int column);
+  std::vector<Slot> m_slots;
+  int m_rows = 1, m_columns = 1;
+};
+
+END_VISP_NAMESPACE
+#endif

@@ -1,0 +1,48 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// The regular lattice behind a set of spots, whatever else is among them.
+#ifndef vpLatticeFit_h
+#define vpLatticeFit_h
+
+#include "vpRunLabels.h"
+
+#include <array>
+#include <vector>
+
+BEGIN_VISP_NAMESPACE
+
+//! origin + column * a + row * b, in px.
+struct vpLattice {
+  double ox = 0., oy = 0., ax = 0., ay = 0., bx = 0., by = 0.;
+  double x(double row, double column) const { return ox + column * ax + row * bx; }
+  double y(double row, double column) const { return oy + column * ay + row * by; }
+  //! Row and column, not rounded, of a point.
+  void invert(double px, double py, double &row, double &column) const;
+  //! The lattice vector part (in px) that is left of a vector after taking away whole pitches.
+  void reduce(double &dx, double &dy) const;
+};
+
+class vpLatticeFit
+{
+public:
+  explicit vpLatticeFit(std::size_t maxSpots);
+
+  //! Keep the spots of the commonest size; false when fewer than four are alike.
+  bool keepAlike(std::vector<vpPatternSpot> &spots);
+  //! Lattice of the spots, whose strays are removed. \e a points right, \e b down. False: no two periods each way.
+  bool fit(std::vector<vpPatternSpot> &spots, double minPitch, vpLattice &lattice);
+  int medianWidth() const { return m_width; }
+  int medianHeight() const { return m_height; }
+
+private:
+  bool direction(const std::vector<vpPatternSpot> &spots, bool down, double minPitch, double &vx, double &vy);
+  bool solve(const std::vector<vpPatternSpot> &spots, double reach, vpLattice &lattice, std::size_t &inliers);
+
+  std::vector<int> m_sorted;
+  int m_width = 0, m_height = 0;
+};
+
+END_VISP_NAMESPACE
+#endif

@@ -1,0 +1,257 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// From an image to a lattice without any knowledge, and the learning of the template.
+#include "vpPatternTrackerImpl.h"
+
+#include "vpCellEdges.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+constexpr double leastSeparability = 0.7; // noise alone has 0.64
+constexpr int leastArea = 9;              // px
+constexpr int windowsPerFrame = 4;
+constexpr double nearHalf = 0.4; // of a pitch: beyond it the neighbour may have been taken
+
+// Every second row and column of big enough images: the threshold needs no more.
+vpPatternHistogram histogram(const vpImage<unsigned char> &image)
+{
+  vpPatternHistogram h{};
+  const unsigned int step = image.getSize() > 4096 ? 2 : 1, width = image.getWidth();
+  for (unsigned int y = 0; y < image.getHeight(); y += step) {
+    const unsigned char *row = image[y];
+    for (unsigned int x = y / step % step; x < width; x += step) {
+      ++h[row[x]];
+    }
+  }
+  return h;
+}
+} // namespace
+
+vpPatternReason vpPatternTracker::Impl::detectPolarity(const vpImage<unsigned char> &image,
+                                                       const vpPatternThresholdResult &level, bool bright,
+                                                       vpLattice &lattice)
+{
+  if (!m_labels.find(image, level.threshold, bright, leastArea)) {
+    return vpPatternReason::TooMuchNoise;
+  }
+  std::vector<vpPatternSpot> &spots = m_labels.spots();
+  if (!m_fitter.keepAlike(spots)) {
+    return vpPatternReason::NoCells;
+  }
+  const double half = 0.5 * (level.darkMean + level.brightMean);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < spots.size(); ++i) {
+    vpPatternSpot spot = spots[i];
+    bool good = false;
+    switch (m_options.method) {
+    case vpPatternMethod::ThesisAlgorithm:
+      good = vpThesisCentre(image, m_options.derivative, spot);
+      break;
+    case vpPatternMethod::ThesisAlgorithmFixed:
+      good = vpThesisCentreFixed(image, m_options.derivative, spot);
+      break;
+    case vpPatternMethod::GaussNewton:
+    case vpPatternMethod::HalfMaximumEdges:
+      good = vpHalfMaximumCentre(image, half, spot);
+      break;
+    }
+    // A centre outside its box is one of Algorithm 7.4's runaway parabolas.
+    if (good && spot.x > spot.left && spot.x < spot.right && spot.y > spot.top && spot.y < spot.bottom) {
+      spots[kept++] = spot;
+    }
+  }
+  spots.resize(kept);
+  return kept >= 4 && m_fitter.fit(spots, m_options.minPitch, lattice) ? vpPatternReason::None
+                                                                       : vpPatternReason::NoLattice;
+}
+
+vpPatternReason vpPatternTracker::Impl::detect(const vpImage<unsigned char> &image, vpLattice &lattice)
+{
+  const vpPatternThresholdResult level = vpFindThreshold(histogram(image), m_options.threshold);
+  if (level.threshold < 0 || level.brightMean - level.darkMean < m_options.minContrast ||
+      level.separability < leastSeparability) {
+    return vpPatternReason::NoContrast;
+  }
+  if (m_options.polarity != vpPatternPolarity::Automatic) {
+    return detectPolarity(image, level, m_options.polarity == vpPatternPolarity::Bright, lattice);
+  }
+  vpPatternReason reason = detectPolarity(image, level, m_bright, lattice);
+  if (reason != vpPatternReason::None && !m_known) {
+    if (detectPolarity(image, level, !m_bright, lattice) == vpPatternReason::None) {
+      m_bright = !m_bright;
+      reason = vpPatternReason::None;
+    }
+  }
+  return reason;
+}
+
+// Take over a lattice that was found without knowledge: the cells keep their numbers when they can.
+vpPatternReason vpPatternTracker::Impl::adopt(const vpLattice &found)
+{
+  const double dax = found.ax - m_lattice.ax, day = found.ay - m_lattice.ay;
+  const double dbx = found.bx - m_lattice.bx, dby = found.by - m_lattice.by;
+  const bool same = m_known && std::hypot(dax, day) < 0.05 * std::hypot(found.ax, found.ay) &&
+                    std::hypot(dbx, dby) < 0.08 * std::hypot(found.bx, found.by);
+  if (!same || m_lostFrames > m_options.maxLostFrames) {
+    const bool again = m_known;
+    m_known = true;
+    m_lattice = found;
+    m_row = m_column = 0;
+    m_memory.shape(static_cast<int>(m_height / std::hypot(found.bx, found.by)) + 1,
+                   static_cast<int>(m_width / std::hypot(found.ax, found.ay)) + 1);
+    m_vx = m_vy = 0.;
+    if (!same) {
+      m_stage = Stage::Learning;
+      m_learned = 0;
+      m_bank.clear();
+    }
+    m_frame.epoch += again ? 1 : 0;
+    return again ? vpPatternReason::Restarted : vpPatternReason::None;
+  }
+  // From one image to the next the least motion counts; after a loss the motion went on, as far as we know.
+  const double frames = m_lostFrames;
+  double dx = found.ox - m_lattice.ox - frames * m_vx, dy = found.oy - m_lattice.oy - frames * m_vy;
+  found.reduce(dx, dy);
+  vpLattice l = found;
+  l.ox = m_lattice.ox + dx + frames * m_vx;
+  l.oy = m_lattice.oy + dy + frames * m_vy;
+  vpLattice unit = found;
+  unit.ox = unit.oy = 0.;
+  double row = 0., column = 0.;
+  unit.invert(dx, dy, row, column);
+  m_lattice = l;
+  if (std::abs(row) > nearHalf || std::abs(column) > nearHalf) {
+    return vpPatternReason::AmbiguousMotion;
+  }
+  return vpPatternReason::None;
+}
+
+// A frame that is measured by its edges: while learning, and always with the baselines.
+void vpPatternTracker::Impl::acquire(const vpImage<unsigned char> &image)
+{
+  vpLattice found;
+  const vpPatternReason reason = detect(image, found);
+  if (reason != vpPatternReason::None) {
+    lose(reason, m_known ? vpPatternStatus::Lost : vpPatternStatus::Acquiring);
+    return;
+  }
+  const vpPatternReason note = adopt(found);
+  if (m_stage == Stage::Searching) {
+    m_stage = Stage::Learning;
+  }
+  if (note == vpPatternReason::AmbiguousMotion) {
+    renumber(note);
+  }
+  cellsFromSpots();
+  measureMotion();
+  updateDeviations();
+  remember();
+  anchor();
+  m_lostFrames = 0;
+  const bool baseline = m_options.method != vpPatternMethod::GaussNewton;
+  if (note != vpPatternReason::None) {
+    m_frame.status = vpPatternStatus::Degraded;
+    m_frame.reason = note;
+  }
+  else if (baseline) {
+    const bool few = 2 * m_frame.validCells < static_cast<int>(m_frame.cells.size());
+    m_frame.status = few ? vpPatternStatus::Degraded : vpPatternStatus::Tracking;
+    m_frame.reason = few ? vpPatternReason::CellsMissing : vpPatternReason::None;
+  }
+  else {
+    m_frame.status = vpPatternStatus::Acquiring;
+    m_frame.reason = vpPatternReason::Learning;
+  }
+  if (!baseline) {
+    learn(image);
+  }
+}
+
+void vpPatternTracker::Impl::cellsFromSpots()
+{
+  listCells(0.5 * m_fitter.medianWidth() + 1., 0.5 * m_fitter.medianHeight() + 1.);
+  for (std::size_t i = 0; i < m_frame.cells.size(); ++i) {
+    vpCellMemory::Slot &slot = m_memory.claim(m_frame.cells[i].row, m_frame.cells[i].column);
+    slot.cell = static_cast<int>(i);
+  }
+  const double unknown = std::numeric_limits<double>::infinity();
+  for (const vpPatternSpot &spot : m_labels.spots()) {
+    double row = 0., column = 0.;
+    m_lattice.invert(spot.x, spot.y, row, column);
+    const int r = m_row + static_cast<int>(std::lround(row)), c = m_column + static_cast<int>(std::lround(column));
+    const vpCellMemory::Slot &slot = m_memory.claim(r, c);
+    const std::size_t i = static_cast<std::size_t>(slot.cell);
+    if (slot.cell < 0 || i >= m_frame.cells.size() || m_frame.cells[i].row != r || m_frame.cells[i].column != c) {
+      continue;
+    }
+    vpPatternCell &cell = m_frame.cells[i];
+    cell.x = spot.x;
+    cell.y = spot.y;
+    cell.sigmaX = m_edgeVarianceX > 0. ? std::sqrt(m_edgeVarianceX) : unknown;
+    cell.sigmaY = m_edgeVarianceY > 0. ? std::sqrt(m_edgeVarianceY) : unknown;
+    m_frame.validCells += cell.valid ? 0 : 1;
+    cell.valid = true;
+  }
+}
+
+void vpPatternTracker::Impl::learn(const vpImage<unsigned char> &image)
+{
+  if (m_stage == Stage::Learning) {
+    if (m_learned == 0) {
+      const double gapX = std::hypot(m_lattice.ax, m_lattice.ay) - m_fitter.medianWidth();
+      const double gapY = std::hypot(m_lattice.bx, m_lattice.by) - m_fitter.medianHeight();
+      const int hw = static_cast<int>(std::ceil(0.5 * m_fitter.medianWidth() + std::clamp(0.5 * gapX + 0.5, 1.5, 3.)));
+      const int hh = static_cast<int>(std::ceil(0.5 * m_fitter.medianHeight() + std::clamp(0.5 * gapY + 0.5, 1.5, 3.)));
+      if (!m_learner.begin(hw, hh)) {
+        m_frame.reason = vpPatternReason::NoLattice;
+        return;
+      }
+    }
+    ++m_learned;
+    const std::size_t n = m_frame.cells.size();
+    int taken = 0;
+    for (std::size_t i = 0; i < n && taken < windowsPerFrame; ++i) {
+      const vpPatternCell &cell = m_frame.cells[(i + static_cast<std::size_t>(m_rotate)) % n];
+      taken += cell.valid && m_learner.add(image, cell.x, cell.y) ? 1 : 0;
+    }
+    m_rotate += windowsPerFrame;
+    if (m_learned >= m_options.learningFrames && m_learner.count() >= std::min(16, m_options.learningFrames * 2)) {
+      m_stage = m_learner.finish() ? Stage::Refining : Stage::Learning;
+      m_learned = m_refined = 0;
+    }
+  }
+  else if (m_stage == Stage::Refining) {
+    // Twice: the second time only little is left.
+    const std::size_t n = m_frame.cells.size();
+    int taken = 0;
+    for (std::size_t i = 0; i < n && taken < windowsPerFrame; ++i) {
+      const vpPatternCell &cell = m_frame.cells[(i + static_cast<std::size_t>(m_rotate)) % n];
+      taken += cell.valid && m_learner.addResidual(image, cell.x, cell.y) ? 1 : 0;
+    }
+    m_rotate += windowsPerFrame;
+    if (m_learner.residuals() >= windowsPerFrame * m_options.learningFrames) {
+      m_stage = m_learner.refine() ? m_stage : Stage::Learning;
+      if (m_stage == Stage::Refining && ++m_refined == 2) {
+        m_bank.begin(m_learner);
+        m_stage = Stage::Preparing;
+      }
+    }
+  }
+  else if (m_stage == Stage::Preparing && m_bank.prepare(m_learner, m_options.phasesPerFrame)) {
+    m_stage = Stage::Locked;
+    m_slopes = {};
+    m_slopeWeight = 0.;
+    m_aligner.setSlopes(m_slopes);
+    m_noise = 0.;
+  }
+}
+
+END_VISP_NAMESPACE

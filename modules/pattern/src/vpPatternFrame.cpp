@@ -1,0 +1,63 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include <visp3/pattern/vpPatternFrame.h>
+
+#include <cmath>
+
+BEGIN_VISP_NAMESPACE
+
+double vpPatternLattice::columnPitch() const { return std::hypot(columnPitchX, columnPitchY); }
+double vpPatternLattice::rowPitch() const { return std::hypot(rowPitchX, rowPitchY); }
+double vpPatternLattice::angle() const { return std::atan2(columnPitchY, columnPitchX); }
+
+const char *vpPatternFrame::message() const
+{
+  switch (reason) {
+  case vpPatternReason::WrongSize:
+    return "Lost: the image has not the size that the tracker was made for.";
+  case vpPatternReason::NoContrast:
+    return "No lock: the image has no contrast.";
+  case vpPatternReason::NoCells:
+    return "No lock: there are no spots of equal size.";
+  case vpPatternReason::TooMuchNoise:
+    return "No lock: there are more spots than a pattern can have.";
+  case vpPatternReason::NoLattice:
+    return "No lock: there are not two periods of a lattice each way in view.";
+  case vpPatternReason::CellTooSmall:
+    return "No lock: the cells or their pitch are too small.";
+  case vpPatternReason::Learning:
+    return "Acquiring: the lattice is known, the template is being learned.";
+  case vpPatternReason::CellsMissing:
+    return "Degraded: less than half of the cells in view fit the pattern.";
+  case vpPatternReason::AmbiguousMotion:
+    return "Degraded: the motion is near or above half a pitch, the identities started anew.";
+  case vpPatternReason::IdentitySlip:
+    return "Degraded: the cells do not deviate from the lattice as before, the identities started anew.";
+  case vpPatternReason::Restarted:
+    return "Degraded: found again after a long loss, the identities started anew.";
+  case vpPatternReason::NoMatch:
+    return "Lost: the image does not show the pattern where it can be.";
+  case vpPatternReason::None:
+    break;
+  }
+  return status == vpPatternStatus::Tracking ? "Tracking." : "Acquiring: no image yet.";
+}
+
+const char *toString(vpPatternStatus status)
+{
+  switch (status) {
+  case vpPatternStatus::Tracking:
+    return "Tracking";
+  case vpPatternStatus::Degraded:
+    return "Degraded";
+  case vpPatternStatus::Lost:
+    return "Lost";
+  case vpPatternStatus::Acquiring:
+    break;
+  }
+  return "Acquiring";
+}
+
+END_VISP_NAMESPACE

@@ -1,0 +1,241 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// The state machine of vpPatternTracker, and what acquisition and tracking share.
+#include "vpPatternTrackerImpl.h"
+
+#include <visp3/core/vpException.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+std::size_t roomForCells(unsigned int width, unsigned int height, double minPitch)
+{
+  return static_cast<std::size_t>((width / minPitch + 2.) * (height / minPitch + 2.));
+}
+
+// Two periods must be in view, so a cell with its surroundings covers at most a quarter of the image, and some margin.
+std::size_t roomForPixels(unsigned int width, unsigned int height)
+{
+  return std::min<std::size_t>((width / 2 + 24) * static_cast<std::size_t>(height / 2 + 28), 1u << 20);
+}
+
+unsigned int checkedSize(const char *name, unsigned int value)
+{
+  if (value < 16 || value > 16384) {
+    throw vpException(vpException::badValue, "vpPatternTracker: the image %s is %u px, must be in [16, 16384]", name,
+                      value);
+  }
+  return value;
+}
+
+const vpPatternOptions &checkedOptions(const vpPatternOptions &options)
+{
+  options.check();
+  return options;
+}
+} // namespace
+
+vpPatternTracker::Impl::Impl(unsigned int width, unsigned int height, const vpPatternOptions &options)
+  : m_options(checkedOptions(options)), m_width(checkedSize("width", width)), m_height(checkedSize("height", height)),
+    m_maxCells(roomForCells(width, height, options.minPitch)), m_labels(width, height, m_maxCells),
+    m_fitter(m_maxCells), m_learner(roomForPixels(width, height)), m_bank(roomForPixels(width, height)),
+    m_aligner(roomForPixels(width, height)), m_memory(4 * m_maxCells + 64), m_meanX(m_maxCells), m_meanY(m_maxCells)
+{
+  m_frame.cells.reserve(m_maxCells);
+  m_fits.reserve(m_maxCells);
+  m_startX.reserve(m_maxCells);
+  m_startY.reserve(m_maxCells);
+  m_scratch.reserve(m_maxCells);
+  m_ownStart.reserve(m_maxCells);
+  reset();
+}
+
+void vpPatternTracker::Impl::reset()
+{
+  m_stage = Stage::Searching;
+  m_known = false;
+  m_bank.clear();
+  m_memory.clear();
+  m_lostFrames = m_learned = m_rotate = m_row = m_column = 0;
+  m_vx = m_vy = m_noise = m_edgeVarianceX = m_edgeVarianceY = 0.;
+  m_frame.epoch += m_images > 0 ? 1 : 0;
+  lose(vpPatternReason::None, vpPatternStatus::Acquiring);
+  m_lostFrames = 0;
+  m_frame.lattice = vpPatternLattice();
+}
+
+const vpPatternFrame &vpPatternTracker::Impl::track(const vpImage<unsigned char> &image)
+{
+  m_frame.index = m_images++;
+  m_frame.cells.clear();
+  m_frame.validCells = 0;
+  m_frame.hasMotion = false;
+  m_gap = static_cast<unsigned int>(m_lostFrames);
+  if (image.getWidth() != m_width || image.getHeight() != m_height) {
+    lose(vpPatternReason::WrongSize, vpPatternStatus::Lost);
+  }
+  else if (m_stage == Stage::Locked) {
+    follow(image);
+  }
+  else {
+    acquire(image);
+  }
+  publish();
+  return m_frame;
+}
+
+// Cells whose window of +-halfWidth by +-halfHeight is completely inside the image, at their place in the lattice.
+void vpPatternTracker::Impl::listCells(double halfWidth, double halfHeight)
+{
+  m_frame.cells.clear();
+  m_frame.validCells = 0;
+  double rowLow = 1e9, rowHigh = -1e9, columnLow = 1e9, columnHigh = -1e9;
+  for (int corner = 0; corner < 4; ++corner) {
+    double r = 0., c = 0.;
+    m_lattice.invert(corner % 2 == 0 ? 0. : m_width - 1., corner / 2 == 0 ? 0. : m_height - 1., r, c);
+    rowLow = std::min(rowLow, r);
+    rowHigh = std::max(rowHigh, r);
+    columnLow = std::min(columnLow, c);
+    columnHigh = std::max(columnHigh, c);
+  }
+  for (int r = static_cast<int>(std::floor(rowLow)); r <= rowHigh + 1.; ++r) {
+    for (int c = static_cast<int>(std::floor(columnLow)); c <= columnHigh + 1.; ++c) {
+      vpPatternCell cell;
+      cell.row = m_row + r;
+      cell.column = m_column + c;
+      cell.x = m_lattice.x(r, c);
+      cell.y = m_lattice.y(r, c);
+      if (cell.x >= halfWidth && cell.y >= halfHeight && cell.x <= m_width - 1. - halfWidth &&
+          cell.y <= m_height - 1. - halfHeight && m_frame.cells.size() < m_maxCells) {
+        m_frame.cells.push_back(cell);
+      }
+    }
+  }
+}
+
+void vpPatternTracker::Impl::measureMotion()
+{
+  // Centres from edges know their deviation from the spread of their motion only; before that, any equal value does.
+  const bool edges = m_stage != Stage::Locked || m_options.method != vpPatternMethod::GaussNewton;
+  m_meanX.clear();
+  m_meanY.clear();
+  double squaresX = 0., squaresY = 0., sumX = 0., sumY = 0.;
+  int n = 0;
+  for (const vpPatternCell &cell : m_frame.cells) {
+    const vpCellMemory::Slot *slot = cell.valid ? m_memory.find(cell.row, cell.column) : nullptr;
+    if (slot == nullptr || slot->frame + 1 != m_frame.index) {
+      continue;
+    }
+    const double dx = cell.x - slot->x, dy = cell.y - slot->y;
+    const bool unknown = !std::isfinite(cell.sigmaX) || !std::isfinite(slot->varianceX);
+    m_meanX.add(dx, unknown ? 0.01 : cell.sigmaX * cell.sigmaX + slot->varianceX);
+    m_meanY.add(dy, unknown ? 0.01 : cell.sigmaY * cell.sigmaY + slot->varianceY);
+    sumX += dx;
+    sumY += dy;
+    squaresX += dx * dx;
+    squaresY += dy * dy;
+    ++n;
+  }
+  const vpRobustMean::Result x = m_meanX.mean(), y = m_meanY.mean();
+  m_frame.hasMotion = x.count > 0 && y.count > 0;
+  if (!m_frame.hasMotion) {
+    return;
+  }
+  m_frame.dx = x.value;
+  m_frame.dy = y.value;
+  m_frame.sigmaDx = std::sqrt(x.variance);
+  m_frame.sigmaDy = std::sqrt(y.variance);
+  if (edges) {
+    m_vx = x.value;
+    m_vy = y.value;
+    if (n >= 3) {
+      const double vx = std::max(1e-6, 0.5 * (squaresX - sumX * sumX / n) / (n - 1));
+      const double vy = std::max(1e-6, 0.5 * (squaresY - sumY * sumY / n) / (n - 1));
+      m_edgeVarianceX += (m_edgeVarianceX > 0. ? 0.05 : 1.) * (vx - m_edgeVarianceX);
+      m_edgeVarianceY += (m_edgeVarianceY > 0. ? 0.05 : 1.) * (vy - m_edgeVarianceY);
+    }
+  }
+}
+
+void vpPatternTracker::Impl::remember()
+{
+  for (const vpPatternCell &cell : m_frame.cells) {
+    if (cell.valid) {
+      vpCellMemory::Slot &slot = m_memory.claim(cell.row, cell.column);
+      slot.x = cell.x;
+      slot.y = cell.y;
+      slot.varianceX = cell.sigmaX * cell.sigmaX;
+      slot.varianceY = cell.sigmaY * cell.sigmaY;
+      slot.frame = m_frame.index;
+    }
+  }
+}
+
+// Keep the lattice's own (0, 0) near the middle of the view: far away an error of the pitch would move the cells.
+void vpPatternTracker::Impl::anchor()
+{
+  double row = 0., column = 0.;
+  m_lattice.invert(0.5 * (m_width - 1.), 0.5 * (m_height - 1.), row, column);
+  const double r = std::abs(row) > 0.75 ? std::round(row) : 0., c = std::abs(column) > 0.75 ? std::round(column) : 0.;
+  const double x = m_lattice.x(r, c), y = m_lattice.y(r, c);
+  m_lattice.ox = x;
+  m_lattice.oy = y;
+  m_row += static_cast<int>(r);
+  m_column += static_cast<int>(c);
+}
+
+void vpPatternTracker::Impl::renumber(vpPatternReason reason)
+{
+  // The old deviations belong to other cells, and so does the motion.
+  m_memory.clear();
+  ++m_frame.epoch;
+  m_frame.reason = reason;
+}
+
+void vpPatternTracker::Impl::lose(vpPatternReason reason, vpPatternStatus status)
+{
+  m_frame.status = status;
+  m_frame.reason = reason;
+  m_frame.cells.clear();
+  m_frame.validCells = 0;
+  m_frame.hasMotion = false;
+  ++m_lostFrames;
+}
+
+void vpPatternTracker::Impl::publish()
+{
+  if (!m_frame.hasMotion) {
+    m_frame.dx = m_frame.dy = 0.;
+    m_frame.sigmaDx = m_frame.sigmaDy = std::numeric_limits<double>::infinity();
+  }
+  m_frame.noise = std::sqrt(m_noise);
+  if (m_known) {
+    m_frame.lattice = {m_lattice.x(-m_row, -m_column),
+                       m_lattice.y(-m_row, -m_column),
+                       m_lattice.ax,
+                       m_lattice.ay,
+                       m_lattice.bx,
+                       m_lattice.by};
+  }
+}
+
+vpPatternTracker::vpPatternTracker(unsigned int width, unsigned int height, const vpPatternOptions &options)
+  : m_impl(std::make_unique<Impl>(width, height, options))
+{}
+vpPatternTracker::~vpPatternTracker() = default;
+vpPatternTracker::vpPatternTracker(vpPatternTracker &&) noexcept = default;
+vpPatternTracker &vpPatternTracker::operator=(vpPatternTracker &&) noexcept = default;
+
+const vpPatternFrame &vpPatternTracker::track(const vpImage<unsigned char> &image) { return m_impl->track(image); }
+const vpPatternFrame &vpPatternTracker::frame() const { return m_impl->m_frame; }
+const vpPatternOptions &vpPatternTracker::options() const { return m_impl->m_options; }
+void vpPatternTracker::reset() { m_impl->reset(); }
+
+END_VISP_NAMESPACE

@@ -1,0 +1,88 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// State and steps of vpPatternTracker.
+#ifndef vpPatternTrackerImpl_h
+#define vpPatternTrackerImpl_h
+
+#include "vpCellAligner.h"
+#include "vpCellMemory.h"
+#include "vpLatticeFit.h"
+#include "vpRobustMean.h"
+#include "vpRunLabels.h"
+
+#include <visp3/pattern/vpPatternTracker.h>
+
+BEGIN_VISP_NAMESPACE
+
+class vpPatternTracker::Impl
+{
+public:
+  Impl(unsigned int width, unsigned int height, const vpPatternOptions &options);
+  const vpPatternFrame &track(const vpImage<unsigned char> &image);
+  void reset();
+
+  vpPatternOptions m_options;
+  vpPatternFrame m_frame;
+
+private:
+  enum class Stage { Searching, Learning, Refining, Preparing, Locked };
+
+  // Acquisition (vpPatternAcquisition.cpp)
+  vpPatternReason detect(const vpImage<unsigned char> &image, vpLattice &lattice);
+  vpPatternReason detectPolarity(const vpImage<unsigned char> &image, const vpPatternThresholdResult &level,
+                                 bool bright, vpLattice &lattice);
+  vpPatternReason adopt(const vpLattice &found);
+  void acquire(const vpImage<unsigned char> &image);
+  void cellsFromSpots();
+  void learn(const vpImage<unsigned char> &image);
+
+  // Tracking (vpPatternAlignment.cpp)
+  void follow(const vpImage<unsigned char> &image);
+  bool alignAll(const vpImage<unsigned char> &image);
+  void validate(const vpImage<unsigned char> &image);
+  bool updateLattice();
+
+  // Both
+  void listCells(double halfWidth, double halfHeight);
+  void measureMotion();
+  bool wasInLast(const vpCellMemory::Slot &slot) const { return slot.frame + 1 + m_gap == m_frame.index; }
+  void remember();
+  void updateDeviations();
+  void anchor();
+  void renumber(vpPatternReason reason);
+  void lose(vpPatternReason reason, vpPatternStatus status);
+  void publish();
+
+  unsigned int m_width, m_height;
+  std::size_t m_maxCells;
+  Stage m_stage = Stage::Searching;
+  vpRunLabels m_labels;
+  vpLatticeFit m_fitter;
+  vpTemplateLearner m_learner;
+  vpTemplateBank m_bank;
+  vpCellAligner m_aligner;
+  vpCellMemory m_memory;
+  vpRobustMean m_meanX, m_meanY;
+
+  vpLattice m_lattice; // its (0, 0) is the cell (m_row, m_column), near the middle of the view
+  int m_row = 0, m_column = 0;
+  unsigned int m_images = 0;   // so far
+  bool m_known = false;        // m_lattice holds for an earlier image
+  bool m_bright = true;        // polarity
+  double m_vx = 0., m_vy = 0.; // px/frame
+  unsigned int m_gap = 0;      // images without a lock just before this one
+  int m_lostFrames = 0, m_learned = 0, m_refined = 0, m_rotate = 0;
+  double m_noise = 0.; // variance of the residuals, smoothed
+  vpSlopes m_slopes{}; // of the illumination
+  double m_slopeWeight = 0.;
+  double m_edgeVarianceX = 0.,
+         m_edgeVarianceY = 0.;   // of centres from edges, from the spread of their motion; 0: unknown
+  std::vector<vpCellFit> m_fits; // of the cells of m_frame
+  std::vector<double> m_startX, m_startY, m_scratch;
+  std::vector<unsigned char> m_ownStart; // the start of the cell comes from its own deviation
+};
+
+END_VISP_NAMESPACE
+#endif

@@ -1,0 +1,84 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "vpRobustMean.h"
+
+#include <algorithm>
+#include <cmath>
+
+BEGIN_VISP_NAMESPACE
+
+vpRobustMean::vpRobustMean(std::size_t capacity)
+{
+  m_values.reserve(capacity);
+  m_variances.reserve(capacity);
+  m_scratch.reserve(capacity);
+}
+
+void vpRobustMean::clear()
+{
+  m_values.clear();
+  m_variances.clear();
+}
+
+void vpRobustMean::add(double value, double variance)
+{
+  m_values.push_back(value);
+  m_variances.push_back(variance);
+}
+
+double vpRobustMean::median(std::vector<double> &values)
+{
+  if (values.empty()) {
+    return 0.;
+  }
+  if (values.size() <= 24) { // sorting by insertion is faster than anything clever
+    for (std::size_t i = 1; i < values.size(); ++i) {
+      const double v = values[i];
+      std::size_t k = i;
+      for (; k > 0 && values[k - 1] > v; --k) {
+        values[k] = values[k - 1];
+      }
+      values[k] = v;
+    }
+    return values[values.size() / 2];
+  }
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+vpRobustMean::Result vpRobustMean::mean()
+{
+  Result result;
+  if (m_values.empty()) {
+    return result;
+  }
+  m_scratch.assign(m_values.begin(), m_values.end());
+  result.median = median(m_scratch);
+  for (std::size_t i = 0; i < m_values.size(); ++i) {
+    m_scratch[i] = std::abs(m_values[i] - result.median);
+  }
+  const double spread = 1.48 * median(m_scratch);
+  double sum = 0., weights = 0., squares = 0.;
+  for (std::size_t i = 0; i < m_values.size(); ++i) {
+    const double scale = 5. * std::max(spread, std::sqrt(m_variances[i]));
+    const double u = (m_values[i] - result.median) / scale;
+    if (std::abs(u) >= 1.) {
+      continue;
+    }
+    const double w = (1. - u * u) * (1. - u * u) / m_variances[i];
+    sum += w * m_values[i];
+    weights += w;
+    squares += w * w * m_variances[i];
+    ++result.count;
+  }
+  if (result.count > 0) {
+    result.value = sum / weights;
+    result.variance = squares / (weights * weights);
+  }
+  return result;
+}
+
+END_VISP_NAMESPACE

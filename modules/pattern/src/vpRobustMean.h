@@ -1,0 +1,35 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// Robust means over the cells.
+#ifndef vpRobustMean_h
+#define vpRobustMean_h
+
+#include <visp3/direct_core/vpDirectCompat.h>
+
+#include <vector>
+
+BEGIN_VISP_NAMESPACE
+
+class vpRobustMean
+{
+public:
+  struct Result {
+    double value = 0., variance = 0., median = 0.;
+    int count = 0; // with a weight
+  };
+  explicit vpRobustMean(std::size_t capacity);
+
+  void clear();
+  void add(double value, double variance);
+  //! Tukey's biweight about the median, each value weighted with its variance.
+  Result mean();
+  static double median(std::vector<double> &values);
+
+private:
+  std::vector<double> m_values, m_variances, m_scratch;
+};
+
+END_VISP_NAMESPACE
+#endif

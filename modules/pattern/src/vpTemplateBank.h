@@ -1,0 +1,74 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// The template at all sub-pixel phases, ready for Gauss-Newton: one orthonormal basis per phase.
+#ifndef vpTemplateBank_h
+#define vpTemplateBank_h
+
+#include "vpTemplateLearner.h"
+
+#include <array>
+#include <cstdint>
+
+BEGIN_VISP_NAMESPACE
+
+/*!
+ * A cell at the phase p plus a small d looks like  c + s (T - dx Tx - dy Ty) + g1 x + g2 y + g3 xT + g4 yT: brightness c,
+ * contrast s and slopes g of the illumination. With the columns 1, T, Tx, Ty, x, y, xT, yT, B = Q R and z = Q' I, the
+ * rows of R give the unknowns, and |I|^2 - |z|^2 is what is left over. The slopes are the same for all cells and change
+ * slowly; estimated for each cell anew they would double the variance of y.
+ *
+ * Q is kept as 16-bit integers: eight products in one instruction of any x86-64.
+ */
+class vpTemplateBank
+{
+public:
+  static constexpr int basisSize = 8;
+  //! Phases per axis. Gauss-Newton covers the rest of a quarter of a pixel without loss, and with 8 the bases would not
+  //! stay in the cache: 8 were half as fast and no better.
+  static constexpr int finest = 4;
+  static constexpr int maxPhases = finest * finest;
+
+  struct Phase {
+    std::array<float, basisSize> scale{};                     // z = scale * sum of integers
+    std::array<std::array<double, basisSize>, basisSize> r{}; // upper triangle
+    const std::int16_t *q = nullptr;                          // basisSize rows of stride()
+  };
+  //! Position of a cell: middle pixel of its window, and phase.
+  struct Place {
+    int x, y, phase;
+    double px, py; // where the phase is, px
+  };
+
+  explicit vpTemplateBank(std::size_t maxPixels);
+
+  //! Take over what was learned; no phase is ready yet.
+  void begin(const vpTemplateLearner &learner);
+  //! Prepare the next phases; true when all are ready.
+  bool prepare(const vpTemplateLearner &learner, int count);
+  bool isReady() const { return m_phases > 0 && m_ready == m_phases; }
+  void clear() { m_phases = m_ready = 0; }
+
+  Place place(double x, double y) const;
+  const Phase &phase(int index) const { return m_phase[static_cast<std::size_t>(index)]; }
+  int halfWidth() const { return m_hw; }
+  int halfHeight() const { return m_hh; }
+  //! Difference between the brightest and the darkest pixel of the template, grey values.
+  double range() const { return m_range; }
+  int pixels() const { return (2 * m_hw + 1) * (2 * m_hh + 1); }
+  int stride() const { return (pixels() + 15) / 16 * 16; }
+
+private:
+  void build(const vpTemplateLearner &learner, int index);
+
+  int m_hw = 0, m_hh = 0, m_perAxis = finest, m_phases = 0, m_ready = 0;
+  double m_range = 0.;
+  std::size_t m_capacity;
+  std::array<Phase, maxPhases> m_phase;
+  std::vector<std::int16_t> m_q;
+  std::vector<float> m_basis; // basisSize rows
+};
+
+END_VISP_NAMESPACE
+#endif

@@ -1,0 +1,364 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// Tracking against the truth of patterns in closed form: accuracy, honesty, identity, loss, bad input, allocation.
+#include "vpAnalyticPattern.h"
+
+#include "vpCatch.h"
+
+#include <visp3/core/vpException.h>
+#include <visp3/pattern/vpPatternTracker.h>
+
+#include <map>
+
+VISP_DIRECT_USING_NAMESPACE
+using vpPatternTest::Pattern;
+
+namespace
+{
+// Errors of the valid cells, cell by cell, against the nearest true one.
+struct Statistics {
+  double sx = 0., sy = 0., xx = 0., yy = 0., chi = 0., motion = 0.;
+  int count = 0, motions = 0, far = 0, slips = 0;
+  std::map<std::pair<int, int>, std::pair<int, int>> names;
+  unsigned int epoch = 0;
+
+  void add(const Pattern &pattern, const vpPatternFrame &frame, double dx)
+  {
+    if (frame.epoch != epoch) {
+      names.clear();
+      epoch = frame.epoch;
+    }
+    for (const vpPatternCell &cell : frame.cells) {
+      if (!cell.valid) {
+        continue;
+      }
+      const int column = static_cast<int>(std::lround((cell.x - pattern.x) / pattern.pitchX));
+      const int row = static_cast<int>(std::lround((cell.y - pattern.y) / pattern.pitchY));
+      const double ex = cell.x - pattern.cellPositionX(row, column), ey = cell.y - pattern.cellPositionY(row, column);
+      far += std::hypot(ex, ey) > 1. ? 1 : 0;
+      const auto name = names.emplace(std::make_pair(cell.row, cell.column), std::make_pair(row, column)).first;
+      slips += name->second != std::make_pair(row, column) ? 1 : 0;
+      sx += ex;
+      sy += ey;
+      xx += ex * ex;
+      yy += ey * ey;
+      chi += 0.5 * (ex * ex / (cell.sigmaX * cell.sigmaX) + ey * ey / (cell.sigmaY * cell.sigmaY));
+      ++count;
+    }
+    if (frame.hasMotion) {
+      motion += (frame.dx - dx) * (frame.dx - dx);
+      ++motions;
+    }
+  }
+  double meanX() const { return sx / count; }
+  double meanY() const { return sy / count; }
+  double sigmaX() const { return std::sqrt(xx / count - meanX() * meanX()); }
+  double sigmaY() const { return std::sqrt(yy / count - meanY() * meanY()); }
+};
+
+// Track until locked; false when that takes too long.
+bool lock(Pattern &pattern, vpPatternTracker &tracker, std::mt19937_64 &rng, double vx, double vy)
+{
+  vpImage<unsigned char> image;
+  for (int i = 0; i < 150; ++i) {
+    pattern.x += vx;
+    pattern.y += vy;
+    pattern.render(rng, image);
+    if (tracker.track(image).status == vpPatternStatus::Tracking) {
+      return true;
+    }
+  }
+  return false;
+}
+
+Statistics run(Pattern &pattern, vpPatternTracker &tracker, std::mt19937_64 &rng, int frames, double vx, double vy)
+{
+  Statistics statistics;
+  vpImage<unsigned char> image;
+  for (int i = 0; i < frames; ++i) {
+    pattern.x += vx;
+    pattern.y += vy;
+    pattern.render(rng, image);
+    const vpPatternFrame &frame = tracker.track(image);
+    REQUIRE(frame.status == vpPatternStatus::Tracking);
+    statistics.add(pattern, frame, vx);
+  }
+  return statistics;
+}
+} // namespace
+
+TEST_CASE("centres reach the Cramer-Rao bound and say how good they are", "[pattern]")
+{
+  auto rng = vpTestSupport::generator(400);
+  CAPTURE(vpTestSupport::seed());
+  Pattern pattern;
+  const bool dark = GENERATE(false, true);
+  if (dark) {
+    std::swap(pattern.dark, pattern.bright);
+  }
+  vpPatternTracker tracker(160, 100);
+  REQUIRE(lock(pattern, tracker, rng, 3.3, 0.41));
+  const Statistics s = run(pattern, tracker, rng, 250, 3.3, 0.41);
+  double boundX = 0., boundY = 0.;
+  pattern.bound(boundX, boundY);
+  CAPTURE(dark, boundX, boundY, s.count);
+  CHECK(s.sigmaX() < 1.1 * boundX);
+  CHECK(s.sigmaY() < 1.15 * boundY);
+  CHECK(std::abs(s.meanX()) < 0.01);
+  CHECK(std::abs(s.meanY()) < 0.01);
+  CHECK(s.chi / s.count == Approx(1.).margin(0.2)); // the deviations that are told are the true ones
+  CHECK(std::sqrt(s.motion / s.motions) < 0.008);
+  CHECK(s.count > 250 * 8);
+  CHECK(s.slips == 0);
+}
+
+TEST_CASE("a slope of the illumination moves no centre", "[pattern]")
+{
+  auto rng = vpTestSupport::generator(401);
+  CAPTURE(vpTestSupport::seed());
+  Pattern pattern;
+  pattern.slope = 0.2;
+  vpPatternTracker tracker(160, 100);
+  REQUIRE(lock(pattern, tracker, rng, 2.7, -0.3));
+  const Statistics s = run(pattern, tracker, rng, 250, 2.7, -0.3);
+  CHECK(std::abs(s.meanX()) < 0.02);
+  CHECK(std::abs(s.meanY()) < 0.02);
+}
+
+TEST_CASE("cells keep their row and column over a long way, forth and back", "[pattern]")
+{
+  auto rng = vpTestSupport::generator(402);
+  CAPTURE(vpTestSupport::seed());
+  Pattern pattern;
+  pattern.jitter = 0.5;
+  vpPatternTracker tracker(160, 100);
+  REQUIRE(lock(pattern, tracker, rng, 1., 1.));
+  const unsigned int epoch = tracker.frame().epoch;
+  Statistics s;
+  s.epoch = epoch;
+  vpImage<unsigned char> image;
+  for (int i = 0; i < 900; ++i) {
+    const double vx = 9. * std::sin(i * 0.013), vy = 3. * std::cos(i * 0.021);
+    pattern.x += vx;
+    pattern.y += vy;
+    pattern.render(rng, image);
+    const vpPatternFrame &frame = tracker.track(image);
+    CAPTURE(i, frame.message(), frame.validCells, frame.cells.size());
+    REQUIRE(frame.status == vpPatternStatus::Tracking);
+    s.add(pattern, frame, vx);
+  }
+  CHECK(s.slips == 0);
+  CHECK(s.far == 0);
+  CHECK(tracker.frame().epoch == epoch);
+  // The map of deviations shows what the cells were made with, up to a common part.
+  double error = 0.;
+  int n = 0;
+  for (const vpPatternCell &cell : tracker.frame().cells) {
+    const auto truth = s.names.find({cell.row, cell.column});
+    if (cell.valid && truth != s.names.end()) {
+      const double made = pattern.deviation(truth->second.first, truth->second.second, 0);
+      error += std::pow(cell.deviationX - made, 2);
+      ++n;
+    }
+  }
+  CHECK(std::sqrt(error / n) < 0.3);
+}
+
+TEST_CASE("after a gap the same cells have the same names", "[pattern]")
+{
+  auto rng = vpTestSupport::generator(403);
+  CAPTURE(vpTestSupport::seed());
+  Pattern pattern;
+  vpPatternTracker tracker(160, 100);
+  REQUIRE(lock(pattern, tracker, rng, 4.2, 0.2));
+  Statistics s = run(pattern, tracker, rng, 5, 4.2, 0.2);
+  const vpImage<unsigned char> black(100, 160, 0);
+  for (int i = 0; i < 6; ++i) {
+    const vpPatternFrame &frame = tracker.track(black);
+    CHECK(frame.status == vpPatternStatus::Lost);
+    CHECK(frame.cells.empty());
+    CHECK(!frame.hasMotion);
+    pattern.x += 4.2;
+    pattern.y += 0.2;
+  }
+  vpImage<unsigned char> image;
+  for (int i = 0; i < 5; ++i) {
+    pattern.x += 4.2;
+    pattern.y += 0.2;
+    pattern.render(rng, image);
+    const vpPatternFrame &frame = tracker.track(image);
+    CHECK(frame.validCells > 0);
+    s.add(pattern, frame, 4.2);
+  }
+  CHECK(tracker.frame().status == vpPatternStatus::Tracking);
+  CHECK(tracker.frame().epoch == 0);
+  CHECK(s.slips == 0);
+}
+
+TEST_CASE("a sudden move below half a pitch is followed, one near half a pitch is reported", "[pattern]")
+{
+  auto rng = vpTestSupport::generator(404);
+  CAPTURE(vpTestSupport::seed());
+  Pattern pattern;
+  vpPatternTracker tracker(160, 100);
+  REQUIRE(lock(pattern, tracker, rng, 0.5, 0.));
+  Statistics s = run(pattern, tracker, rng, 5, 0.5, 0.);
+  vpImage<unsigned char> image;
+  const double share = GENERATE(0.2, 0.35, -0.3, 0.45, 0.55, -0.52);
+  CAPTURE(share);
+  pattern.x += share * pattern.pitchX;
+  pattern.render(rng, image);
+  const vpPatternFrame &frame = tracker.track(image);
+  if (std::abs(share) < 0.4) {
+    CHECK(frame.status == vpPatternStatus::Tracking);
+    CHECK(frame.epoch == 0);
+    s.add(pattern, frame, share * pattern.pitchX);
+    CHECK(s.slips == 0);
+    CHECK(frame.dx == Approx(share * pattern.pitchX).margin(0.1));
+  }
+  else {
+    CHECK(frame.status == vpPatternStatus::Degraded);
+    CHECK(frame.reason == vpPatternReason::AmbiguousMotion);
+    CHECK(frame.epoch == 1);
+    CHECK(!frame.hasMotion);
+  }
+}
+
+TEST_CASE("images without a pattern are never tracked", "[pattern]")
+{
+  auto rng = vpTestSupport::generator(405);
+  CAPTURE(vpTestSupport::seed());
+  std::uniform_int_distribution<int> any(0, 255);
+  Pattern coarse; // one cell in view, parts of others
+  coarse.pitchX = 150.;
+  coarse.cellX = 100.;
+  coarse.pitchY = 90.;
+  coarse.cellY = 60.;
+  coarse.x = 80.;
+  coarse.y = 50.;
+  vpImage<unsigned char> black(100, 160, 0), white(100, 160, 255), noise(100, 160), big;
+  const auto fill = [&](int kind) -> const vpImage<unsigned char> & {
+    if (kind == 2) {
+      std::normal_distribution<double> normal(120., 30.);
+      for (unsigned int i = 0; i < noise.getSize(); ++i) {
+        noise.bitmap[i] = static_cast<unsigned char>(std::clamp(std::lround(normal(rng)), 0L, 255L));
+      }
+    }
+    else if (kind == 3) {
+      for (unsigned int i = 0; i < noise.getSize(); ++i) {
+        noise.bitmap[i] = static_cast<unsigned char>(any(rng) < 128 ? 20 : 220);
+      }
+    }
+    else if (kind == 4) {
+      coarse.render(rng, noise);
+    }
+    return kind == 0 ? black : kind == 1 ? white : noise;
+  };
+  const int kind = GENERATE(0, 1, 2, 3, 4);
+  CAPTURE(kind);
+  vpPatternTracker tracker(160, 100);
+  for (int i = 0; i < 60; ++i) {
+    const vpPatternFrame &frame = tracker.track(fill(kind));
+    CHECK(frame.status == vpPatternStatus::Acquiring);
+    CHECK(frame.reason != vpPatternReason::None);
+    CHECK(frame.validCells == 0);
+  }
+  CHECK(std::string(tracker.frame().message()).find("No lock: ") == 0);
+  // A locked tracker says Lost, whatever else it is shown.
+  Pattern pattern;
+  vpPatternTracker locked(160, 100);
+  REQUIRE(lock(pattern, locked, rng, 1., 0.));
+  for (int i = 0; i < 30; ++i) {
+    CHECK(locked.track(fill(kind)).status != vpPatternStatus::Tracking);
+  }
+}
+
+TEST_CASE("images of another size and bad options are refused in words", "[pattern]")
+{
+  vpPatternTracker tracker(160, 100);
+  const vpImage<unsigned char> image(99, 160, 0), empty;
+  CHECK(tracker.track(image).status == vpPatternStatus::Lost);
+  CHECK(std::string(tracker.frame().message()) == "Lost: the image has not the size that the tracker was made for.");
+  CHECK(tracker.track(empty).reason == vpPatternReason::WrongSize);
+  vpPatternOptions options;
+  options.minPitch = 2.;
+  CHECK_THROWS_WITH(vpPatternTracker(160, 100, options), Catch::Contains("minPitch is 2, must be in [4, 1000]"));
+  options = vpPatternOptions();
+  options.maxCellSigma = NAN;
+  CHECK_THROWS_WITH(vpPatternTracker(160, 100, options), Catch::Contains("maxCellSigma is nan"));
+  CHECK_THROWS_WITH(vpPatternTracker(8, 100), Catch::Contains("width is 8 px, must be in [16, 16384]"));
+}
+
+TEST_CASE("no image makes the tracker allocate", "[pattern][realtime]")
+{
+  if (!vpTestSupport::canCountAllocations()) {
+    WARN("allocations cannot be counted in this build");
+    return;
+  }
+  auto rng = vpTestSupport::generator(406);
+  CAPTURE(vpTestSupport::seed());
+  const auto method = static_cast<vpPatternMethod>(GENERATE(0, 1, 2, 3));
+  CAPTURE(toString(method));
+  Pattern pattern;
+  pattern.jitter = 0.3;
+  std::vector<vpImage<unsigned char>> images(120);
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    pattern.x += 3.1;
+    pattern.y += i == 90 ? 8. : 0.4;
+    pattern.render(rng, images[i]);
+    if (i % 17 == 16) { // dirt
+      for (unsigned int k = 30; k < 60; ++k) {
+        images[i][k][k] = images[i][k][k + 1] = 0;
+      }
+    }
+    if (i == 80) {
+      images[i] = 0;
+    }
+  }
+  std::uniform_int_distribution<int> any(0, 255);
+  for (unsigned int i = 0; i < images[85].getSize(); ++i) {
+    images[85].bitmap[i] = static_cast<unsigned char>(any(rng));
+  }
+  images[86].resize(20, 20);
+  vpPatternOptions options;
+  options.method = method;
+  vpPatternTracker tracker(160, 100, options);
+  const unsigned long before = vpTestSupport::allocationCount();
+  for (const vpImage<unsigned char> &image : images) {
+    static_cast<void>(tracker.track(image));
+  }
+  tracker.reset();
+  static_cast<void>(tracker.track(images[0]));
+  CHECK(vpTestSupport::allocationCount() == before);
+}
+
+TEST_CASE("Algorithm 7.4 has the errors that were published, its correction has not", "[pattern][baseline]")
+{
+  auto rng = vpTestSupport::generator(407);
+  CAPTURE(vpTestSupport::seed());
+  const auto derivative = static_cast<vpPatternDerivative>(GENERATE(0, 1, 2, 3));
+  CAPTURE(toString(derivative));
+  Pattern pattern;
+  vpPatternOptions options;
+  options.derivative = derivative;
+  for (const bool literal : {true, false}) {
+    options.method = literal ? vpPatternMethod::ThesisAlgorithm : vpPatternMethod::ThesisAlgorithmFixed;
+    vpPatternTracker tracker(160, 100, options);
+    REQUIRE(lock(pattern, tracker, rng, 3.37, 0.21));
+    const Statistics s = run(pattern, tracker, rng, 150, 3.37, 0.21);
+    CAPTURE(literal, s.sigmaX(), s.sigmaY());
+    if (literal) {
+      CHECK(s.meanX() == Approx(0.5).margin(0.03));
+      CHECK(s.sigmaX() > 0.12);
+      CHECK(s.sigmaX() < 0.25);
+    }
+    else {
+      CHECK(std::abs(s.meanX()) < 0.01);
+      CHECK(s.sigmaX() < 0.12);
+    }
+    CHECK(std::abs(s.meanY()) < 0.02);
+    CHECK(s.slips == 0);
+  }
+}
