@@ -17,22 +17,36 @@ namespace
 {
 constexpr int size = vpTemplateBank::basisSize;
 constexpr int maxSteps = 5;
-constexpr double reach = 0.2;   // px from the phase: there the third order of the template is below 0.002 px
+constexpr int unknowns = 4;     // rows of the basis for brightness, contrast, x and y; the slopes come after them
 constexpr double maxStep = 1.5; // px: the template says nothing about what is farther
 
-// sums[k] = row k of q times w. All numbers are 16 bits wide and the sums 32: the compiler multiplies and adds pairs.
-VISP_PATTERN_CLONES void products(const std::int16_t *q, const std::int16_t *w, int n, std::int32_t *sums)
+// sums[k] = row k of q times w, four rows that share what is loaded of w. All numbers are 16 bits wide and the sums 32: the
+// compiler multiplies and adds pairs.
+VISP_PATTERN_CLONES void fourProducts(const std::int16_t *q, const std::int16_t *w, int n, std::int32_t *sums)
 {
-  std::int32_t s[size] = {};
-  for (int k = 0; k < size; ++k) {
-    const std::int16_t *row = q + k * n;
-    std::int32_t sum = 0;
-    for (int i = 0; i < n; ++i) {
-      sum += static_cast<std::int32_t>(row[i]) * static_cast<std::int32_t>(w[i]);
-    }
-    s[k] = sum;
+  const std::int16_t *q1 = q + n, *q2 = q1 + n, *q3 = q2 + n;
+  std::int32_t s0 = 0, s1 = 0, s2 = 0, s3 = 0;
+  for (int i = 0; i < n; ++i) {
+    const std::int32_t v = w[i];
+    s0 += static_cast<std::int32_t>(q[i]) * v;
+    s1 += static_cast<std::int32_t>(q1[i]) * v;
+    s2 += static_cast<std::int32_t>(q2[i]) * v;
+    s3 += static_cast<std::int32_t>(q3[i]) * v;
   }
-  std::copy_n(s, size, sums);
+  sums[0] = s0;
+  sums[1] = s1;
+  sums[2] = s2;
+  sums[3] = s3;
+}
+
+// z = Q' w for four rows of the basis from \e first on.
+void project(const vpTemplateBank::Phase &phase, int first, const std::int16_t *w, int stride, double *z)
+{
+  std::int32_t sums[4];
+  fourProducts(phase.q + first * stride, w, stride, sums);
+  for (int k = 0; k < 4; ++k) {
+    z[first + k] = static_cast<double>(phase.scale[static_cast<std::size_t>(first + k)]) * sums[k];
+  }
 }
 
 VISP_PATTERN_CLONES std::int64_t energy(const std::int16_t *w, int n)
@@ -101,6 +115,17 @@ Step solve(const vpTemplateBank::Phase &phase, const double *z, const vpSlopes &
   return {s, -ux / s, -uy / s};
 }
 
+// What the slopes should give on the rows of the basis that are theirs.
+void knownSlopes(const vpTemplateBank::Phase &phase, const vpSlopes &slopes, double *z)
+{
+  for (std::size_t k = unknowns; k < size; ++k) {
+    z[k] = 0.;
+    for (std::size_t j = k; j < size; ++j) {
+      z[k] += phase.r[k][j] * slopes[j - unknowns];
+    }
+  }
+}
+
 // What this cell alone says about the slopes.
 vpSlopes slopesOf(const vpTemplateBank::Phase &phase, const double *z)
 {
@@ -138,7 +163,28 @@ void vpCellAligner::load(const vpImage<unsigned char> &image, const vpTemplateBa
   std::fill(m_window.begin() + bank.pixels(), m_window.begin() + bank.stride(), static_cast<std::int16_t>(0));
 }
 
-vpCellFit vpCellAligner::align(const vpImage<unsigned char> &image, const vpTemplateBank &bank, double x, double y)
+void vpCellAligner::prefetch(const vpImage<unsigned char> &image, const vpTemplateBank &bank, double x, double y)
+{
+#if defined(__GNUC__)
+  constexpr int most = 32, line = 64; // rows of a window, and bytes of a line of the cache
+  const int left = static_cast<int>(x) - bank.halfWidth(), top = static_cast<int>(y) - bank.halfHeight();
+  const int width = 2 * bank.halfWidth() + 1, height = 2 * bank.halfHeight() + 1;
+  if (width > line || height > most || left < 0 || top < 0 || left + width > static_cast<int>(image.getWidth()) ||
+      top + height > static_cast<int>(image.getHeight())) {
+    return; // of big windows the processor sees by itself what comes next
+  }
+  for (int row = top; row < top + height; ++row) {
+    const unsigned char *from = image[static_cast<unsigned int>(row)] + left;
+    __builtin_prefetch(from);
+    __builtin_prefetch(from + width - 1);
+  }
+#else
+  static_cast<void>(image), static_cast<void>(bank), static_cast<void>(x), static_cast<void>(y);
+#endif
+}
+
+vpCellFit vpCellAligner::align(const vpImage<unsigned char> &image, const vpTemplateBank &bank, double x, double y,
+                               bool withSlopes)
 {
   vpCellFit fit;
   int loadedX = -1, loadedY = -1;
@@ -153,12 +199,8 @@ vpCellFit vpCellAligner::align(const vpImage<unsigned char> &image, const vpTemp
       loadedY = place.y;
     }
     const vpTemplateBank::Phase &phase = bank.phase(place.phase);
-    std::int32_t sums[size];
-    products(phase.q, m_window.data(), bank.stride(), sums);
     double z[size];
-    for (int k = 0; k < size; ++k) {
-      z[k] = static_cast<double>(phase.scale[static_cast<std::size_t>(k)]) * sums[k];
-    }
+    project(phase, 0, m_window.data(), bank.stride(), z);
     const Step s = solve(phase, z, m_slopes);
     // Without contrast there is nothing to align with.
     if (!(s.contrast > 0.1 && s.contrast < 10.)) {
@@ -166,7 +208,15 @@ vpCellFit vpCellAligner::align(const vpImage<unsigned char> &image, const vpTemp
     }
     x = place.px + std::clamp(s.dx, -maxStep, maxStep);
     y = place.py + std::clamp(s.dy, -maxStep, maxStep);
-    if (std::abs(s.dx) < reach && std::abs(s.dy) < reach) {
+    if (std::abs(s.dx) < bank.reach() && std::abs(s.dy) < bank.reach()) {
+      if (withSlopes) {
+        project(phase, unknowns, m_window.data(), bank.stride(), z);
+        fit.slopes = slopesOf(phase, z);
+        fit.hasSlopes = true;
+      }
+      else {
+        knownSlopes(phase, m_slopes, z); // near enough for the sum of what is left over
+      }
       double rest = static_cast<double>(energy(m_window.data(), bank.stride()));
       for (const double v : z) {
         rest -= v * v;
@@ -178,7 +228,6 @@ vpCellFit vpCellAligner::align(const vpImage<unsigned char> &image, const vpTemp
       fit.variance =
           std::max(0.05, rest / std::max(1, bank.pixels() - size)); // rounding to whole grey values alone: 1/12
       variances(phase, s.contrast, fit);
-      fit.slopes = slopesOf(phase, z);
       return fit;
     }
   }
@@ -232,10 +281,9 @@ vpCellFit vpCellAligner::alignMasked(const vpImage<unsigned char> &image, const 
         loadedX = place.x;
         loadedY = place.y;
       }
-      std::int32_t sums[size];
-      products(phase.q, m_window.data(), bank.stride(), sums);
+      project(phase, 0, m_window.data(), bank.stride(), z);
+      project(phase, unknowns, m_window.data(), bank.stride(), z);
       for (std::size_t k = 0; k < size; ++k) {
-        z[k] = static_cast<double>(phase.scale[k]) * sums[k];
         h[k] = phase.r[k][4] * m_slopes[0] + phase.r[k][5] * m_slopes[1] + phase.r[k][6] * m_slopes[2] +
                phase.r[k][7] * m_slopes[3];
       }
@@ -284,7 +332,7 @@ vpCellFit vpCellAligner::alignMasked(const vpImage<unsigned char> &image, const 
     }
     fit.x = place.px + std::clamp(s.dx, -maxStep, maxStep);
     fit.y = place.py + std::clamp(s.dy, -maxStep, maxStep);
-    if (std::abs(s.dx) > reach || std::abs(s.dy) > reach) {
+    if (std::abs(s.dx) > bank.reach() || std::abs(s.dy) > bank.reach()) {
       x = fit.x; // a new phase starts over, but with the mask nearly closed
       y = fit.y;
     }
@@ -308,7 +356,7 @@ vpCellFit vpCellAligner::alignMasked(const vpImage<unsigned char> &image, const 
   fit.contrast = s.contrast;
   fit.variance = std::max(0.05, rest / std::max(1, n - count - size));
   fit.masked = true;
-  fit.ok = settled > 0 && fit.xx > 0. && fit.yy > 0. && std::abs(s.dx) < 2. * reach && std::abs(s.dy) < 2. * reach;
+  fit.ok = settled > 0 && fit.xx > 0. && fit.yy > 0. && std::abs(s.dx) < 2. * bank.reach() && std::abs(s.dy) < 2. * bank.reach();
   return fit;
 }
 

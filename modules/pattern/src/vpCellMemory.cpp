@@ -5,42 +5,52 @@
 #include "vpCellMemory.h"
 
 #include <algorithm>
-#include <utility>
 
 BEGIN_VISP_NAMESPACE
 
 namespace
 {
-int wrap(int i, int n) { return (i % n + n) % n; }
+// Least number of bits that count to n.
+int bitsFor(int n)
+{
+  int bits = 0;
+  while ((1 << bits) < n && bits < 20) {
+    ++bits;
+  }
+  return bits;
+}
 } // namespace
 
-void vpCellMemory::shape(int rowsInView, int columnsInView)
+void vpCellMemory::shape(int rows, int columns)
 {
-  const int room = static_cast<int>(m_slots.size());
-  m_columns = std::clamp(2 * columnsInView + 2, 1, room);
-  m_rows = std::clamp(2 * rowsInView + 2, 1, room / m_columns);
+  m_rowBits = bitsFor(rows);
+  m_columnBits = bitsFor(columns);
+  while ((std::size_t(1) << (m_rowBits + m_columnBits)) > m_slots.size()) {
+    --(m_rowBits > m_columnBits ? m_rowBits : m_columnBits);
+  }
   clear();
 }
 
-void vpCellMemory::clear() { std::fill(m_slots.begin(), m_slots.end(), Slot()); }
-
 vpCellMemory::Slot &vpCellMemory::at(int row, int column)
 {
-  return m_slots[static_cast<std::size_t>(wrap(row, m_rows) * m_columns + wrap(column, m_columns))];
+  const unsigned int r = static_cast<unsigned int>(row) & ((1u << m_rowBits) - 1);
+  const unsigned int c = static_cast<unsigned int>(column) & ((1u << m_columnBits) - 1);
+  return m_slots[(static_cast<std::size_t>(r) << m_columnBits) + c];
 }
 
 vpCellMemory::Slot *vpCellMemory::find(int row, int column)
 {
   Slot &slot = at(row, column);
-  return slot.count > 0 && slot.row == row && slot.column == column ? &slot : nullptr;
+  const bool same = slot.generation == m_generation && slot.row == row && slot.column == column;
+  return same && slot.count > 0 ? &slot : nullptr;
 }
 
 vpCellMemory::Slot &vpCellMemory::claim(int row, int column)
 {
   Slot &slot = at(row, column);
-  if (!slot.used || slot.row != row || slot.column != column) {
+  if (slot.generation != m_generation || slot.row != row || slot.column != column) {
     slot = Slot();
-    slot.used = true;
+    slot.generation = m_generation;
     slot.row = row;
     slot.column = column;
   }
@@ -56,8 +66,8 @@ bool vpCellMemory::deviation(int row, int column, double &x, double &y)
   }
   int n = 0;
   x = y = 0.;
-  for (const auto &step : {std::pair<int, int>{0, 1}, {0, -1}, {1, 0}, {-1, 0}}) {
-    if (const Slot *other = find(row + step.first, column + step.second)) {
+  for (const Slot *other : {find(row, column + 1), find(row, column - 1), find(row + 1, column), find(row - 1, column)}) {
+    if (other != nullptr) {
       x += other->offsetX;
       y += other->offsetY;
       ++n;

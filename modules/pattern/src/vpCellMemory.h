@@ -16,7 +16,7 @@ class vpCellMemory
 {
 public:
   struct Slot {
-    bool used = false;
+    unsigned int generation = 0; // of the memory when it was claimed
     int row = 0, column = 0, count = 0; // count: measurements in the deviation
     double offsetX = 0., offsetY = 0.;  // smoothed deviation from the lattice, px
     double x = 0., y = 0., varianceX = 0., varianceY = 0.;
@@ -26,10 +26,10 @@ public:
 
   explicit vpCellMemory(std::size_t capacity) : m_slots(capacity) {}
 
-  //! Forget everything, and make room for twice so many rows and columns as are in view.
-  void shape(int rowsInView, int columnsInView);
-  //! Forget everything.
-  void clear();
+  //! Forget everything, and make room for so many rows and columns at a time, as far as there is room.
+  void shape(int rows, int columns);
+  //! Forget everything. Takes no time: what was there belongs to another generation.
+  void clear() { ++m_generation; }
   //! The cell if it is remembered, or null.
   Slot *find(int row, int column);
   //! The cell; an older one in its place is forgotten.
@@ -40,7 +40,8 @@ public:
 private:
   Slot &at(int row, int column);
   std::vector<Slot> m_slots;
-  int m_rows = 1, m_columns = 1;
+  unsigned int m_generation = 1;
+  int m_rowBits = 0, m_columnBits = 0; // powers of two: finding a cell takes no division
 };
 
 END_VISP_NAMESPACE

@@ -108,9 +108,10 @@ bool vpLatticeFit::direction(const std::vector<vpPatternSpot> &spots, bool down,
   for (std::size_t i = 0; i < count; ++i) {
     double sx = 0., sy = 0.;
     std::size_t votes = 0;
-    const double limit = 0.08 * std::hypot(x[i], y[i]) + 1.;
+    const double limit = 0.08 * std::sqrt(x[i] * x[i] + y[i] * y[i]) + 1.;
     for (std::size_t k = 0; k < count; ++k) {
-      if (std::hypot(x[k] - x[i], y[k] - y[i]) < limit) {
+      const double dx = x[k] - x[i], dy = y[k] - y[i];
+      if (dx * dx + dy * dy < limit * limit) {
         sx += x[k];
         sy += y[k];
         ++votes;
@@ -171,7 +172,7 @@ bool vpLatticeFit::fit(std::vector<vpPatternSpot> &spots, double minPitch, vpLat
   }
   double nearest = std::numeric_limits<double>::infinity();
   for (const vpPatternSpot &spot : spots) {
-    const double d = std::hypot(spot.x - sx, spot.y - sy);
+    const double dx = spot.x - sx, dy = spot.y - sy, d = dx * dx + dy * dy;
     if (d < nearest) {
       nearest = d;
       l.ox = spot.x;

@@ -105,8 +105,8 @@ vpPatternReason vpPatternTracker::Impl::adopt(const vpLattice &found)
     m_known = true;
     m_lattice = found;
     m_row = m_column = 0;
-    m_memory.shape(static_cast<int>(m_height / std::hypot(found.bx, found.by)) + 1,
-                   static_cast<int>(m_width / std::hypot(found.ax, found.ay)) + 1);
+    const Range range = inView(0., 0.);
+    m_memory.shape(range.rowHigh - range.rowLow + 3, range.columnHigh - range.columnLow + 3);
     m_vx = m_vy = 0.;
     if (!same) {
       m_stage = Stage::Learning;

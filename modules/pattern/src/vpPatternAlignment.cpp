@@ -21,6 +21,7 @@ constexpr double nearHalf = 0.4;    // of a pitch
 constexpr double maskedSigma = 0.1; // px: what dirt does to a centre although its pixels are left out (rendered dirt)
 constexpr double latticeGain = 0.02;
 constexpr double slopeMemory = 400.; // cells
+constexpr std::size_t slopesEvery = 3; // cells, once they are known: they change slowly
 } // namespace
 
 bool vpPatternTracker::Impl::alignAll(const vpImage<unsigned char> &image)
@@ -33,13 +34,16 @@ bool vpPatternTracker::Impl::alignAll(const vpImage<unsigned char> &image)
   m_ownStart.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     const vpPatternCell &cell = m_frame.cells[i];
+    if (i + 1 < n) {
+      m_aligner.prefetch(image, m_bank, m_frame.cells[i + 1].x, m_frame.cells[i + 1].y);
+    }
     double x = 0., y = 0.;
     // What left the view and comes back is remembered, but the lattice has moved on since.
     const vpCellMemory::Slot *slot = m_memory.find(cell.row, cell.column);
     m_ownStart[i] = m_memory.deviation(cell.row, cell.column, x, y) && wasInLast(*slot) ? 1 : 0;
     m_startX[i] = cell.x + x;
     m_startY[i] = cell.y + y;
-    m_fits[i] = m_aligner.align(image, m_bank, m_startX[i], m_startY[i]);
+    m_fits[i] = m_aligner.align(image, m_bank, m_startX[i], m_startY[i], m_slopeWeight < slopeMemory || (i + m_frame.index) % slopesEvery == 0);
   }
   validate(image);
   return m_frame.validCells >= 1 && 5 * m_frame.validCells >= static_cast<int>(n);
@@ -94,7 +98,7 @@ void vpPatternTracker::Impl::validate(const vpImage<unsigned char> &image)
   vpSlopes sum{};
   int clean = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    if (m_frame.cells[i].valid && !m_fits[i].masked) {
+    if (m_frame.cells[i].valid && m_fits[i].hasSlopes) {
       ++clean;
       for (std::size_t k = 0; k < sum.size(); ++k) {
         sum[k] += m_fits[i].slopes[k];
@@ -139,8 +143,9 @@ bool vpPatternTracker::Impl::updateLattice()
   for (std::size_t i = 0; i < n; ++i) {
     const vpPatternCell &cell = m_frame.cells[i];
     if (cell.valid && m_ownStart[i] != 0) {
-      m_scratch.push_back(std::hypot(cell.x - m_startX[i] - dx, cell.y - m_startY[i] - dy));
-      sigma += std::hypot(cell.sigmaX, cell.sigmaY);
+      const double ex = cell.x - m_startX[i] - dx, ey = cell.y - m_startY[i] - dy;
+      m_scratch.push_back(std::sqrt(ex * ex + ey * ey));
+      sigma += std::sqrt(cell.sigmaX * cell.sigmaX + cell.sigmaY * cell.sigmaY);
     }
   }
   const std::size_t known = m_scratch.size();

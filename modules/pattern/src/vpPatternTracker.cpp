@@ -91,22 +91,31 @@ const vpPatternFrame &vpPatternTracker::Impl::track(const vpImage<unsigned char>
   return m_frame;
 }
 
-// Cells whose window of +-halfWidth by +-halfHeight is completely inside the image, at their place in the lattice.
-void vpPatternTracker::Impl::listCells(double halfWidth, double halfHeight)
+// Rows and columns of the lattice, from its own (0, 0), that may have a cell in the view less this border.
+vpPatternTracker::Impl::Range vpPatternTracker::Impl::inView(double halfWidth, double halfHeight) const
 {
-  m_frame.cells.clear();
-  m_frame.validCells = 0;
   double rowLow = 1e9, rowHigh = -1e9, columnLow = 1e9, columnHigh = -1e9;
   for (int corner = 0; corner < 4; ++corner) {
     double r = 0., c = 0.;
-    m_lattice.invert(corner % 2 == 0 ? 0. : m_width - 1., corner / 2 == 0 ? 0. : m_height - 1., r, c);
+    m_lattice.invert(corner % 2 == 0 ? halfWidth : m_width - 1. - halfWidth,
+                     corner / 2 == 0 ? halfHeight : m_height - 1. - halfHeight, r, c);
     rowLow = std::min(rowLow, r);
     rowHigh = std::max(rowHigh, r);
     columnLow = std::min(columnLow, c);
     columnHigh = std::max(columnHigh, c);
   }
-  for (int r = static_cast<int>(std::floor(rowLow)); r <= rowHigh + 1.; ++r) {
-    for (int c = static_cast<int>(std::floor(columnLow)); c <= columnHigh + 1.; ++c) {
+  return {static_cast<int>(std::ceil(rowLow)), static_cast<int>(std::floor(rowHigh)),
+          static_cast<int>(std::ceil(columnLow)), static_cast<int>(std::floor(columnHigh))};
+}
+
+// Cells whose window of +-halfWidth by +-halfHeight is completely inside the image, at their place in the lattice.
+void vpPatternTracker::Impl::listCells(double halfWidth, double halfHeight)
+{
+  m_frame.cells.clear();
+  m_frame.validCells = 0;
+  const Range range = inView(halfWidth, halfHeight);
+  for (int r = range.rowLow; r <= range.rowHigh; ++r) {
+    for (int c = range.columnLow; c <= range.columnHigh; ++c) {
       vpPatternCell cell;
       cell.row = m_row + r;
       cell.column = m_column + c;

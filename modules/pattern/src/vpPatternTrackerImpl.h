@@ -45,6 +45,10 @@ private:
   bool updateLattice();
 
   // Both
+  struct Range {
+    int rowLow, rowHigh, columnLow, columnHigh;
+  };
+  Range inView(double halfWidth, double halfHeight) const;
   void listCells(double halfWidth, double halfHeight);
   void measureMotion();
   bool wasInLast(const vpCellMemory::Slot &slot) const { return slot.frame + 1 + m_gap == m_frame.index; }

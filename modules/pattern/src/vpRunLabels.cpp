@@ -10,6 +10,29 @@
 
 BEGIN_VISP_NAMESPACE
 
+namespace
+{
+#if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
+constexpr bool firstByteIsLow = false;
+#else
+constexpr bool firstByteIsLow = true;
+#endif
+
+// Number of the lowest bit that is set; there must be one.
+int firstBit(std::uint64_t bits)
+{
+#if defined(__GNUC__)
+  return __builtin_ctzll(bits);
+#else
+  int n = 0;
+  for (; (bits & 1) == 0; bits >>= 1) {
+    ++n;
+  }
+  return n;
+#endif
+}
+} // namespace
+
 vpRunLabels::vpRunLabels(unsigned int width, unsigned int height, std::size_t maxSpots)
   : m_width(static_cast<int>(width)), m_height(static_cast<int>(height)), m_maxSpots(maxSpots)
 {
@@ -35,49 +58,53 @@ void vpRunLabels::join(int a, int b)
   m_parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
 }
 
+// Runs of one row. 64 pixels at a time become 64 bits, and the ends of runs are where a bit differs from the one before.
 bool vpRunLabels::scanRow(const unsigned char *row, int threshold, bool bright)
 {
-  const auto isSpot = [=](int x) { return (row[x] > threshold) == bright; };
-  // Eight pixels at a time: adding 127 - t to the low seven bits sets the top bit where they exceed t.
   const std::uint64_t ones = 0x0101010101010101u, top = 0x8080808080808080u;
+  // Adding 127 - t to the low seven bits of each byte sets its top bit where they exceed t.
   const std::uint64_t add = ones * static_cast<unsigned>(127 - (threshold & 127));
-  int x = 0;
-  bool inside = false;
+  const std::uint64_t other = bright ? 0 : ~std::uint64_t(0), high = threshold < 128 ? ~std::uint64_t(0) : 0;
+  std::uint64_t last = 0; // 1: the pixel before belongs to a run
   int begin = 0;
-  const auto change = [&](int at) {
-    if (inside) {
-      if (m_runs.size() == m_runs.capacity()) {
-        return false;
+  for (int x = 0; x < m_width; x += 64) {
+    std::uint64_t bits = 0;
+    if (firstByteIsLow && x + 64 <= m_width) {
+      for (int byte = 0; byte < 64; byte += 8) {
+        std::uint64_t v;
+        std::memcpy(&v, row + x + byte, 8);
+        const std::uint64_t low = (v & ~top) + add;
+        const std::uint64_t above = ((low & v) | ((low | v) & high)) & top;
+        bits |= (((above >> 7) * 0x0102040810204080u) >> 56) << byte; // the eight bits side by side
       }
-      m_runs.push_back({begin, at, -1});
+      bits ^= other;
     }
     else {
-      begin = at;
+      for (int i = 0; i < 64 && x + i < m_width; ++i) {
+        bits |= static_cast<std::uint64_t>((row[x + i] > threshold) == bright) << i;
+      }
     }
-    inside = !inside;
-    return true;
-  };
-  for (; x + 8 <= m_width; x += 8) {
-    std::uint64_t v;
-    std::memcpy(&v, row + x, 8);
-    const std::uint64_t low = (v & ~top) + add;
-    const std::uint64_t above = (threshold < 128 ? (low | v) : (low & v)) & top;
-    const std::uint64_t bits = bright ? above : above ^ top;
-    if (bits == (inside ? top : 0)) {
-      continue;
-    }
-    for (int i = x; i < x + 8; ++i) {
-      if (isSpot(i) != inside && !change(i)) {
+    for (std::uint64_t ends = bits ^ (bits << 1 | last); ends != 0; ends &= ends - 1) {
+      const int at = x + firstBit(ends);
+      last ^= 1;
+      if (last != 0) {
+        begin = at;
+      }
+      else if (m_runs.size() == m_runs.capacity()) {
         return false;
+      }
+      else {
+        m_runs.push_back({begin, at, -1});
       }
     }
   }
-  for (; x < m_width; ++x) {
-    if (isSpot(x) != inside && !change(x)) {
+  if (last != 0) { // up to the border of the image
+    if (m_runs.size() == m_runs.capacity()) {
       return false;
     }
+    m_runs.push_back({begin, m_width, -1});
   }
-  return !inside || change(m_width);
+  return true;
 }
 
 bool vpRunLabels::find(const vpImage<unsigned char> &image, int threshold, bool bright, int minArea)

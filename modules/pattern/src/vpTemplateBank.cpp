@@ -70,16 +70,17 @@ bool vpTemplateBank::prepare(const vpTemplateLearner &learner, int count)
 
 vpTemplateBank::Place vpTemplateBank::place(double x, double y) const
 {
-  const int steps = m_perAxis, half = steps / 2;
-  const int ix = static_cast<int>(std::floor(x * steps + 0.5)) + half,
-            iy = static_cast<int>(std::floor(y * steps + 0.5)) + half;
+  // In steps of a phase, rounded and counted from the first phase of pixel 0; nothing negative can be in the image.
+  const int bits = m_perAxis == 4 ? 2 : m_perAxis == 2 ? 1 : 0, half = m_perAxis / 2, mask = m_perAxis - 1;
+  const int ix = static_cast<int>(x * m_perAxis + 0.5) + half, iy = static_cast<int>(y * m_perAxis + 0.5) + half;
+  const int phaseX = ix & mask, phaseY = iy & mask;
+  const double step = 1. / m_perAxis;
   Place p;
-  p.x = static_cast<int>(std::floor(static_cast<double>(ix) / steps));
-  p.y = static_cast<int>(std::floor(static_cast<double>(iy) / steps));
-  const int phaseX = ix - p.x * steps, phaseY = iy - p.y * steps;
-  p.phase = phaseY * steps + phaseX;
-  p.px = p.x + static_cast<double>(phaseX - half) / steps;
-  p.py = p.y + static_cast<double>(phaseY - half) / steps;
+  p.x = ix >> bits;
+  p.y = iy >> bits;
+  p.phase = (phaseY << bits) + phaseX;
+  p.px = p.x + (phaseX - half) * step;
+  p.py = p.y + (phaseY - half) * step;
   return p;
 }
 
