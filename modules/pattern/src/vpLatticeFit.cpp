@@ -14,7 +14,9 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-constexpr std::size_t maxSeeds = 24; // that look for their neighbours: enough for a vote, few enough for big images
+constexpr std::size_t leastSpots = 4; // two by two
+constexpr double offLattice = 0.25;   // pitch: how far a cell may be off its place, in a tilted view or of a flexible product
+constexpr std::size_t maxSeeds = 16; // that look for their neighbours: enough for a vote, near enough to be even
 }
 
 void vpLattice::invert(double px, double py, double &row, double &column) const
@@ -32,35 +34,53 @@ void vpLattice::reduce(double &dx, double &dy) const
   dy -= column * ay + row * by;
 }
 
-vpLatticeFit::vpLatticeFit(std::size_t maxSpots) { m_sorted.reserve(maxSpots); }
+vpLatticeFit::vpLatticeFit(std::size_t maxSpots)
+{
+  m_sorted.reserve(maxSpots);
+  m_nodes.reserve(maxSpots);
+  m_reached.reserve(maxSpots);
+  m_seeds.reserve(maxSpots);
+}
+
+// Area with the most others within this factor, of the sorted ones; 0 when nowhere are enough alike.
+int vpLatticeFit::commonestArea(double tolerance) const
+{
+  std::size_t most = 0, low = 0, high = 0;
+  int area = 0;
+  for (const int candidate : m_sorted) {
+    while (m_sorted[low] * tolerance < candidate) {
+      ++low;
+    }
+    while (high < m_sorted.size() && m_sorted[high] <= candidate * tolerance) {
+      ++high;
+    }
+    // Of equal numbers the greater spots: specks of noise are alike, too.
+    if (high - low >= leastSpots && (high - low) * static_cast<std::size_t>(candidate) >= most) {
+      most = (high - low) * static_cast<std::size_t>(candidate);
+      area = candidate;
+    }
+  }
+  return area;
+}
 
 bool vpLatticeFit::keepAlike(std::vector<vpPatternSpot> &spots)
 {
-  // The commonest area: the one with the most others within a fifth; noise and dust are many but not alike.
+  // The commonest area: the one with the most others within a fifth; noise and dust are many but not alike. Then all that
+  // are like it as far as a tilted view makes them so.
   m_sorted.clear();
   for (const vpPatternSpot &spot : spots) {
     m_sorted.push_back(spot.area);
   }
   std::sort(m_sorted.begin(), m_sorted.end());
-  std::size_t most = 0, low = 0, high = 0;
+  // A tilted view of few cells has no four of the same size.
   int area = 0;
-  for (const int candidate : m_sorted) {
-    while (m_sorted[low] * 6 < candidate * 5) {
-      ++low;
-    }
-    while (high < m_sorted.size() && m_sorted[high] * 5 <= candidate * 6) {
-      ++high;
-    }
-    // Of equal numbers the greater spots: specks of noise are alike, too.
-    if ((high - low) * static_cast<std::size_t>(candidate) >= most) {
-      most = (high - low) * static_cast<std::size_t>(candidate);
-      area = candidate;
-    }
+  for (const double tolerance : {1.2, 1.7}) {
+    area = area == 0 ? commonestArea(tolerance) : area;
   }
   spots.erase(std::remove_if(spots.begin(), spots.end(),
-                             [&](const vpPatternSpot &s) { return s.area * 5 > area * 6 || s.area * 6 < area * 5; }),
+                             [&](const vpPatternSpot &s) { return 2 * s.area > 5 * area || 5 * s.area < 2 * area; }),
               spots.end());
-  if (spots.size() < 4) {
+  if (area == 0 || spots.size() < leastSpots) {
     return false;
   }
   const auto median = [&](bool wide) {
@@ -74,13 +94,56 @@ bool vpLatticeFit::keepAlike(std::vector<vpPatternSpot> &spots)
   };
   m_width = median(true);
   m_height = median(false);
-  spots.erase(std::remove_if(spots.begin(), spots.end(),
-                             [&](const vpPatternSpot &s) {
-                               return std::abs(s.width() - m_width) > 2 + m_width / 10 ||
-                                      std::abs(s.height() - m_height) > 2 + m_height / 10;
-                             }),
-              spots.end());
-  return spots.size() >= 4;
+  return keepKnown(spots) && spots.size() >= leastSpots;
+}
+
+bool vpLatticeFit::isLikeMedian(const vpPatternSpot &spot) const
+{
+  return std::abs(spot.width() - m_width) <= 2 + 2 * m_width / 5 && std::abs(spot.height() - m_height) <= 2 + 2 * m_height / 5;
+}
+
+bool vpLatticeFit::keepKnown(std::vector<vpPatternSpot> &spots) const
+{
+  spots.erase(
+      std::remove_if(spots.begin(), spots.end(), [this](const vpPatternSpot &s) { return !isLikeMedian(s); }),
+      spots.end());
+  return !spots.empty();
+}
+
+bool vpLatticeFit::shift(const std::vector<vpPatternSpot> &spots, vpLattice &lattice) const
+{
+  // The first spot names a lattice; the others have to agree.
+  double sx = 0., sy = 0.;
+  for (const vpPatternSpot &spot : spots) {
+    double dx = spot.x - spots[0].x, dy = spot.y - spots[0].y;
+    lattice.reduce(dx, dy);
+    if (std::abs(dx) > 0.1 * m_width + 1. || std::abs(dy) > 0.1 * m_height + 1.) {
+      return false;
+    }
+    sx += dx / static_cast<double>(spots.size());
+    sy += dy / static_cast<double>(spots.size());
+  }
+  lattice.ox = spots[0].x + sx;
+  lattice.oy = spots[0].y + sy;
+  return true;
+}
+
+// The spots nearest to the middle of all, nearest first.
+void vpLatticeFit::findSeeds(const std::vector<vpPatternSpot> &spots)
+{
+  double sx = 0., sy = 0.;
+  for (const vpPatternSpot &spot : spots) {
+    sx += spot.x / static_cast<double>(spots.size());
+    sy += spot.y / static_cast<double>(spots.size());
+  }
+  m_seeds.clear();
+  for (std::size_t i = 0; i < spots.size(); ++i) {
+    const double dx = spots[i].x - sx, dy = spots[i].y - sy;
+    m_seeds.push_back({dx * dx + dy * dy, i});
+  }
+  const std::size_t count = std::min(maxSeeds, spots.size());
+  std::partial_sort(m_seeds.begin(), m_seeds.begin() + static_cast<std::ptrdiff_t>(count), m_seeds.end());
+  m_seeds.resize(count);
 }
 
 // The commonest vector to the next spot on the right (or below): each seed names one, the one with most others wins.
@@ -89,9 +152,8 @@ bool vpLatticeFit::direction(const std::vector<vpPatternSpot> &spots, bool down,
 {
   std::array<double, maxSeeds> x{}, y{};
   std::size_t count = 0;
-  const std::size_t seeds = std::min(maxSeeds, spots.size());
-  for (std::size_t k = 0; k < seeds; ++k) {
-    const vpPatternSpot &seed = spots[k * spots.size() / seeds];
+  for (const auto &candidate : m_seeds) {
+    const vpPatternSpot &seed = spots[candidate.second];
     double nearest = std::numeric_limits<double>::infinity();
     for (const vpPatternSpot &other : spots) {
       const double dx = other.x - seed.x, dy = other.y - seed.y;
@@ -108,7 +170,7 @@ bool vpLatticeFit::direction(const std::vector<vpPatternSpot> &spots, bool down,
   for (std::size_t i = 0; i < count; ++i) {
     double sx = 0., sy = 0.;
     std::size_t votes = 0;
-    const double limit = 0.08 * std::sqrt(x[i] * x[i] + y[i] * y[i]) + 1.;
+    const double limit = 0.2 * std::sqrt(x[i] * x[i] + y[i] * y[i]) + 1.;
     for (std::size_t k = 0; k < count; ++k) {
       const double dx = x[k] - x[i], dy = y[k] - y[i];
       if (dx * dx + dy * dy < limit * limit) {
@@ -126,27 +188,67 @@ bool vpLatticeFit::direction(const std::vector<vpPatternSpot> &spots, bool down,
   return most >= 2 && 2 * most >= count && std::hypot(vx, vy) >= minPitch;
 }
 
-// Least squares over the spots within \e reach pitches of the origin that are near their lattice point.
-bool vpLatticeFit::solve(const std::vector<vpPatternSpot> &spots, double reach, vpLattice &lattice,
-                         std::size_t &inliers)
+// Index of the spot nearest to a point, within reach; the number of spots when there is none. Spots are sorted by top.
+std::size_t vpLatticeFit::nearest(const std::vector<vpPatternSpot> &spots, double x, double y, double reach) const
+{
+  const int high = 2 * m_height + 3; // no spot is higher
+  const auto first = std::lower_bound(spots.begin(), spots.end(), static_cast<int>(y - reach) - high,
+                                      [](const vpPatternSpot &spot, int top) { return spot.top < top; });
+  std::size_t best = spots.size();
+  double least = reach * reach;
+  for (auto spot = first; spot != spots.end() && spot->top <= y + reach; ++spot) {
+    const double dx = spot->x - x, dy = spot->y - y, d = dx * dx + dy * dy;
+    if (d < least) {
+      least = d;
+      best = static_cast<std::size_t>(spot - spots.begin());
+    }
+  }
+  return best;
+}
+
+// From neighbour to neighbour: steps may change on the way, in a tilted view or on a flexible product.
+void vpLatticeFit::walk(const std::vector<vpPatternSpot> &spots, std::size_t seed, const vpLattice &lattice)
+{
+  m_nodes.assign(spots.size(), Node());
+  m_reached.clear();
+  m_nodes[seed] = {true, 0, 0, lattice.ax, lattice.ay, lattice.bx, lattice.by};
+  m_reached.push_back(seed);
+  for (std::size_t k = 0; k < m_reached.size(); ++k) {
+    const Node node = m_nodes[m_reached[k]];
+    const vpPatternSpot &from = spots[m_reached[k]];
+    const double reach = offLattice * std::sqrt(std::min(node.ax * node.ax + node.ay * node.ay,
+                                                         node.bx * node.bx + node.by * node.by));
+    for (int step = 0; step < 4; ++step) {
+      const bool along = step < 2;
+      const int sign = step % 2 == 0 ? 1 : -1;
+      const double vx = along ? node.ax : node.bx, vy = along ? node.ay : node.by;
+      const std::size_t i = nearest(spots, from.x + sign * vx, from.y + sign * vy, reach);
+      if (i == spots.size() || m_nodes[i].reached) {
+        continue;
+      }
+      Node &to = m_nodes[i];
+      to = node;
+      (along ? to.column : to.row) += sign;
+      // Half of what is seen: the cells are uneven, too.
+      (along ? to.ax : to.bx) += 0.5 * (sign * (spots[i].x - from.x) - vx);
+      (along ? to.ay : to.by) += 0.5 * (sign * (spots[i].y - from.y) - vy);
+      m_reached.push_back(i);
+    }
+  }
+}
+
+// Least squares over the spots that were reached. False when they do not span two directions.
+bool vpLatticeFit::solve(const std::vector<vpPatternSpot> &spots, vpLattice &lattice) const
 {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Matrix<double, 3, 2> right = Eigen::Matrix<double, 3, 2>::Zero();
-  inliers = 0;
-  for (const vpPatternSpot &spot : spots) {
-    double row = 0., column = 0.;
-    lattice.invert(spot.x, spot.y, row, column);
-    const double r = std::round(row), c = std::round(column);
-    if (std::abs(r) > reach || std::abs(c) > reach || std::abs(row - r) > 0.2 || std::abs(column - c) > 0.2) {
-      continue;
-    }
-    const Eigen::Vector3d a(1., c, r);
+  for (const std::size_t i : m_reached) {
+    const Eigen::Vector3d a(1., m_nodes[i].column, m_nodes[i].row);
     normal += a * a.transpose();
-    right += a * Eigen::RowVector2d(spot.x, spot.y);
-    ++inliers;
+    right += a * Eigen::RowVector2d(spots[i].x, spots[i].y);
   }
   const Eigen::LDLT<Eigen::Matrix3d> ldlt(normal);
-  if (inliers < 4 || ldlt.vectorD().minCoeff() < 1e-6) {
+  if (m_reached.size() < leastSpots || ldlt.vectorD().minCoeff() < 1e-6) {
     return false;
   }
   const Eigen::Matrix<double, 3, 2> s = ldlt.solve(right);
@@ -157,6 +259,7 @@ bool vpLatticeFit::solve(const std::vector<vpPatternSpot> &spots, double reach, 
 bool vpLatticeFit::fit(std::vector<vpPatternSpot> &spots, double minPitch, vpLattice &lattice)
 {
   vpLattice l;
+  findSeeds(spots);
   if (!direction(spots, false, minPitch, l.ax, l.ay) || !direction(spots, true, minPitch, l.bx, l.by)) {
     return false;
   }
@@ -164,44 +267,26 @@ bool vpLatticeFit::fit(std::vector<vpPatternSpot> &spots, double minPitch, vpLat
   if (l.ax * l.by - l.ay * l.bx < 0.5 * std::hypot(l.ax, l.ay) * std::hypot(l.bx, l.by)) {
     return false;
   }
-  // The spot nearest to the middle starts; the lattice grows from it, so that an error of the pitch cannot add up.
-  double sx = 0., sy = 0.;
-  for (const vpPatternSpot &spot : spots) {
-    sx += spot.x / static_cast<double>(spots.size());
-    sy += spot.y / static_cast<double>(spots.size());
-  }
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const vpPatternSpot &spot : spots) {
-    const double dx = spot.x - sx, dy = spot.y - sy, d = dx * dx + dy * dy;
-    if (d < nearest) {
-      nearest = d;
-      l.ox = spot.x;
-      l.oy = spot.y;
-    }
-  }
-  std::size_t inliers = 0, before = 0;
-  for (double reach = 2.; reach < 20000.; reach *= 2.) {
-    if (!solve(spots, reach, l, inliers)) {
-      continue;
-    }
-    if (inliers == before) {
-      break;
-    }
-    before = inliers;
-  }
-  if (inliers < 4 || inliers * 10 < spots.size() * 6) {
+  walk(spots, m_seeds[0].second, l);
+  if (!solve(spots, l)) {
     return false;
   }
-  lattice = l;
-  spots.erase(std::remove_if(spots.begin(), spots.end(),
-                             [&](const vpPatternSpot &s) {
-                               double row = 0., column = 0.;
-                               l.invert(s.x, s.y, row, column);
-                               return std::abs(row - std::round(row)) > 0.2 ||
-                                      std::abs(column - std::round(column)) > 0.2;
-                             }),
-              spots.end());
-  return true;
+  // Those that were reached, or lie behind a gap on the same lattice; the place must be the one that rounding names.
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < spots.size(); ++i) {
+    double row = 0., column = 0.;
+    l.invert(spots[i].x, spots[i].y, row, column);
+    const double r = std::round(row), c = std::round(column);
+    const bool on = m_nodes[i].reached ? m_nodes[i].row == static_cast<int>(r) && m_nodes[i].column == static_cast<int>(c)
+                                       : std::abs(row - r) < offLattice && std::abs(column - c) < offLattice;
+    if (on) {
+      spots[kept++] = spots[i];
+    }
+  }
+  const bool most = kept >= leastSpots && kept * 10 >= spots.size() * 6;
+  spots.resize(kept);
+  lattice = most ? l : lattice;
+  return most;
 }
 
 END_VISP_NAMESPACE

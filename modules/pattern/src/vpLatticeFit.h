@@ -9,6 +9,7 @@
 #include "vpRunLabels.h"
 
 #include <array>
+#include <utility>
 #include <vector>
 
 BEGIN_VISP_NAMESPACE
@@ -33,14 +34,32 @@ public:
   bool keepAlike(std::vector<vpPatternSpot> &spots);
   //! Lattice of the spots, whose strays are removed. \e a points right, \e b down. False: no two periods each way.
   bool fit(std::vector<vpPatternSpot> &spots, double minPitch, vpLattice &lattice);
+  //! Keep the spots of the size that keepAlike() found last; false when there are none.
+  bool keepKnown(std::vector<vpPatternSpot> &spots) const;
+  //! Move a lattice that is known onto spots that are too few to show one. False when they are not on one lattice.
+  bool shift(const std::vector<vpPatternSpot> &spots, vpLattice &lattice) const;
   int medianWidth() const { return m_width; }
   int medianHeight() const { return m_height; }
 
 private:
+  void findSeeds(const std::vector<vpPatternSpot> &spots);
   bool direction(const std::vector<vpPatternSpot> &spots, bool down, double minPitch, double &vx, double &vy);
-  bool solve(const std::vector<vpPatternSpot> &spots, double reach, vpLattice &lattice, std::size_t &inliers);
+  int commonestArea(double tolerance) const;
+  bool isLikeMedian(const vpPatternSpot &spot) const;
+  void walk(const std::vector<vpPatternSpot> &spots, std::size_t seed, const vpLattice &lattice);
+  std::size_t nearest(const std::vector<vpPatternSpot> &spots, double x, double y, double reach) const;
+  bool solve(const std::vector<vpPatternSpot> &spots, vpLattice &lattice) const;
 
+  //! A spot that the walk has reached: its place in the lattice, and the steps to its neighbours.
+  struct Node {
+    bool reached = false;
+    int row = 0, column = 0;
+    double ax = 0., ay = 0., bx = 0., by = 0.;
+  };
   std::vector<int> m_sorted;
+  std::vector<std::pair<double, std::size_t>> m_seeds; // squared distance from the middle, index
+  std::vector<Node> m_nodes;          // one per spot
+  std::vector<std::size_t> m_reached; // in the order of the walk
   int m_width = 0, m_height = 0;
 };
 

@@ -43,7 +43,9 @@ vpPatternReason vpPatternTracker::Impl::detectPolarity(const vpImage<unsigned ch
     return vpPatternReason::TooMuchNoise;
   }
   std::vector<vpPatternSpot> &spots = m_labels.spots();
-  if (!m_fitter.keepAlike(spots)) {
+  // While the cells are learned in a view of hardly two periods, many images show fewer than four of them.
+  const bool few = spots.size() < 4 && m_stage != Stage::Searching;
+  if (few ? !m_fitter.keepKnown(spots) : !m_fitter.keepAlike(spots)) {
     return vpPatternReason::NoCells;
   }
   const double half = 0.5 * (level.darkMean + level.brightMean);
@@ -69,6 +71,10 @@ vpPatternReason vpPatternTracker::Impl::detectPolarity(const vpImage<unsigned ch
     }
   }
   spots.resize(kept);
+  if (few && kept > 0) {
+    lattice = m_lattice;
+    return m_fitter.shift(spots, lattice) ? vpPatternReason::None : vpPatternReason::NoLattice;
+  }
   return kept >= 4 && m_fitter.fit(spots, m_options.minPitch, lattice) ? vpPatternReason::None
                                                                        : vpPatternReason::NoLattice;
 }
@@ -85,10 +91,10 @@ vpPatternReason vpPatternTracker::Impl::detect(const vpImage<unsigned char> &ima
   }
   vpPatternReason reason = detectPolarity(image, level, m_bright, lattice);
   if (reason != vpPatternReason::None && !m_known) {
-    if (detectPolarity(image, level, !m_bright, lattice) == vpPatternReason::None) {
-      m_bright = !m_bright;
-      reason = vpPatternReason::None;
-    }
+    const vpPatternReason other = detectPolarity(image, level, !m_bright, lattice);
+    m_bright = other == vpPatternReason::None ? !m_bright : m_bright;
+    // Which of two failures is told: the one that came farther.
+    reason = other == vpPatternReason::None || reason == vpPatternReason::NoCells ? other : reason;
   }
   return reason;
 }
@@ -116,18 +122,22 @@ vpPatternReason vpPatternTracker::Impl::adopt(const vpLattice &found)
     m_frame.epoch += again ? 1 : 0;
     return again ? vpPatternReason::Restarted : vpPatternReason::None;
   }
+  // The vectors that are known are better than those of one image, and the deviations were measured from them. Compare
+  // where both lattices have a point near the middle of the view: there an error of the vectors counts least.
+  double row = 0., column = 0.;
+  found.invert(0.5 * (m_width - 1.), 0.5 * (m_height - 1.), row, column);
+  const double px = found.x(std::round(row), std::round(column)), py = found.y(std::round(row), std::round(column));
   // From one image to the next the least motion counts; after a loss the motion went on, as far as we know.
   const double frames = m_lostFrames;
-  double dx = found.ox - m_lattice.ox - frames * m_vx, dy = found.oy - m_lattice.oy - frames * m_vy;
-  found.reduce(dx, dy);
-  vpLattice l = found;
-  l.ox = m_lattice.ox + dx + frames * m_vx;
-  l.oy = m_lattice.oy + dy + frames * m_vy;
-  vpLattice unit = found;
+  m_lattice.ox += frames * m_vx;
+  m_lattice.oy += frames * m_vy;
+  double dx = px - m_lattice.ox, dy = py - m_lattice.oy;
+  m_lattice.reduce(dx, dy);
+  m_lattice.ox += dx;
+  m_lattice.oy += dy;
+  vpLattice unit = m_lattice;
   unit.ox = unit.oy = 0.;
-  double row = 0., column = 0.;
   unit.invert(dx, dy, row, column);
-  m_lattice = l;
   if (std::abs(row) > nearHalf || std::abs(column) > nearHalf) {
     return vpPatternReason::AmbiguousMotion;
   }
@@ -151,18 +161,22 @@ void vpPatternTracker::Impl::acquire(const vpImage<unsigned char> &image)
     renumber(note);
   }
   cellsFromSpots();
+  updateLattice();
   measureMotion();
   updateDeviations();
   remember();
   anchor();
   m_lostFrames = 0;
+  if (m_stage == Stage::Learning && m_learned == 0) {
+    m_share = 0.;
+  }
   const bool baseline = m_options.method != vpPatternMethod::GaussNewton;
   if (note != vpPatternReason::None) {
     m_frame.status = vpPatternStatus::Degraded;
     m_frame.reason = note;
   }
   else if (baseline) {
-    const bool few = 2 * m_frame.validCells < static_cast<int>(m_frame.cells.size());
+    const bool few = 2. * m_frame.validCells < usualCells();
     m_frame.status = few ? vpPatternStatus::Degraded : vpPatternStatus::Tracking;
     m_frame.reason = few ? vpPatternReason::CellsMissing : vpPatternReason::None;
   }
@@ -170,6 +184,7 @@ void vpPatternTracker::Impl::acquire(const vpImage<unsigned char> &image)
     m_frame.status = vpPatternStatus::Acquiring;
     m_frame.reason = vpPatternReason::Learning;
   }
+  updateShare();
   if (!baseline) {
     learn(image);
   }
@@ -178,6 +193,7 @@ void vpPatternTracker::Impl::acquire(const vpImage<unsigned char> &image)
 void vpPatternTracker::Impl::cellsFromSpots()
 {
   listCells(0.5 * m_fitter.medianWidth() + 1., 0.5 * m_fitter.medianHeight() + 1.);
+  expectCells(true);
   for (std::size_t i = 0; i < m_frame.cells.size(); ++i) {
     vpCellMemory::Slot &slot = m_memory.claim(m_frame.cells[i].row, m_frame.cells[i].column);
     slot.cell = static_cast<int>(i);

@@ -26,28 +26,84 @@ constexpr std::size_t slopesEvery = 3; // cells, once they are known: they chang
 
 bool vpPatternTracker::Impl::alignAll(const vpImage<unsigned char> &image)
 {
-  listCells(m_bank.halfWidth() + 0.5, m_bank.halfHeight() + 0.5);
-  const std::size_t n = m_frame.cells.size();
-  m_fits.resize(n);
-  m_startX.resize(n);
-  m_startY.resize(n);
-  m_ownStart.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const vpPatternCell &cell = m_frame.cells[i];
-    if (i + 1 < n) {
-      m_aligner.prefetch(image, m_bank, m_frame.cells[i + 1].x, m_frame.cells[i + 1].y);
-    }
-    double x = 0., y = 0.;
-    // What left the view and comes back is remembered, but the lattice has moved on since.
-    const vpCellMemory::Slot *slot = m_memory.find(cell.row, cell.column);
-    m_ownStart[i] = m_memory.deviation(cell.row, cell.column, x, y) && wasInLast(*slot) ? 1 : 0;
-    m_startX[i] = cell.x + x;
-    m_startY[i] = cell.y + y;
-    m_fits[i] = m_aligner.align(image, m_bank, m_startX[i], m_startY[i], m_slopeWeight < slopeMemory || (i + m_frame.index) % slopesEvery == 0);
+  startAll(image);
+  if (!deviateAsBefore()) {
+    renumber(vpPatternReason::IdentitySlip); // forgets the deviations, so that this is not asked again
+    startAll(image);
   }
   validate(image);
-  return m_frame.validCells >= 1 && 5 * m_frame.validCells >= static_cast<int>(n);
+  if (mostKnownAreGone()) {
+    // Perhaps other cells have taken their places: see whether they fit when nothing is expected of them.
+    const int before = m_frame.validCells;
+    startAll(image, false);
+    validate(image);
+    if (m_frame.validCells > before + 1 && 3 * m_frame.validCells > 4 * before) {
+      renumber(vpPatternReason::IdentitySlip);
+    }
+    else { // dirt, or something in front
+      startAll(image);
+      validate(image);
+    }
+  }
+  return m_frame.validCells >= 1 && m_frame.validCells >= 0.2 * usualCells();
 }
+
+// Of the cells that were measured in the last image, and are still in view, at least four and more than half are not.
+bool vpPatternTracker::Impl::mostKnownAreGone() const
+{
+  int known = 0, gone = 0;
+  for (std::size_t i = 0; i < m_frame.cells.size(); ++i) {
+    known += m_ownStart[i] != 0 ? 1 : 0;
+    gone += m_ownStart[i] != 0 && !m_frame.cells[i].valid ? 1 : 0;
+  }
+  return known >= 4 && 2 * gone > known;
+}
+
+// Align every cell from its place in the lattice and, when \e expected, its own deviation.
+void vpPatternTracker::Impl::startAll(const vpImage<unsigned char> &image, bool expected)
+{
+  listCells(m_bank.halfWidth() + 0.5, m_bank.halfHeight() + 0.5);
+  expectCells(expected);
+  const std::size_t n = m_frame.cells.size();
+  m_fits.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (i + 1 < n) {
+      vpCellAligner::prefetch(image, m_bank, m_startX[i + 1], m_startY[i + 1]);
+    }
+    const bool withSlopes = m_slopeWeight < slopeMemory || (i + m_frame.index) % slopesEvery == 0;
+    m_fits[i] = m_aligner.align(image, m_bank, m_startX[i], m_startY[i], withSlopes);
+  }
+}
+
+// False when cells that are known and clean lie otherwise to each other than before: these are not the same cells.
+bool vpPatternTracker::Impl::deviateAsBefore()
+{
+  const std::size_t n = m_frame.cells.size();
+  const auto counts = [&](std::size_t i) {
+    return m_ownStart[i] != 0 && m_fits[i].ok && m_fits[i].variance < dirty * m_noise + allowance();
+  };
+  const auto median = [&](auto value) {
+    m_scratch.clear();
+    for (std::size_t i = 0; i < n; ++i) {
+      if (counts(i)) {
+        m_scratch.push_back(value(i));
+      }
+    }
+    return vpRobustMean::median(m_scratch);
+  };
+  const double dx = median([&](std::size_t i) { return m_fits[i].x - m_startX[i]; });
+  const double dy = median([&](std::size_t i) { return m_fits[i].y - m_startY[i]; });
+  double sigma = 0.;
+  const double off = median([&](std::size_t i) {
+    const double ex = m_fits[i].x - m_startX[i] - dx, ey = m_fits[i].y - m_startY[i] - dy;
+    sigma += std::sqrt(m_fits[i].variance * (m_fits[i].xx + m_fits[i].yy));
+    return std::sqrt(ex * ex + ey * ey);
+  });
+  return m_scratch.size() < 4 || off < std::max(0.1, 6. * sigma / static_cast<double>(m_scratch.size()));
+}
+
+// The template is not perfect: a hundredth of its range is nothing to look into.
+double vpPatternTracker::Impl::allowance() const { return 1e-4 * m_bank.range() * m_bank.range(); }
 
 void vpPatternTracker::Impl::validate(const vpImage<unsigned char> &image)
 {
@@ -64,8 +120,6 @@ void vpPatternTracker::Impl::validate(const vpImage<unsigned char> &image)
   // The usual residuals, whether the light changes or most cells are dirty.
   const double now = median([&](std::size_t i) { return m_fits[i].variance; });
   const double usual = m_noise > 0. ? std::clamp(now, 0.5 * m_noise, 2. * m_noise) : std::max(now, 0.05);
-  // The template is not perfect: a hundredth of its range is nothing to look into.
-  const double allowance = std::pow(0.01 * m_bank.range(), 2);
   const double contrast = median([&](std::size_t i) { return m_fits[i].contrast; });
   const double shiftX = median([&](std::size_t i) { return m_fits[i].x - m_startX[i]; });
   const double shiftY = median([&](std::size_t i) { return m_fits[i].y - m_startY[i]; });
@@ -78,13 +132,13 @@ void vpPatternTracker::Impl::validate(const vpImage<unsigned char> &image)
       const double dx = f.x - m_startX[i] - shiftX, dy = f.y - m_startY[i] - shiftY;
       return dx * dx + dy * dy < gate * gate;
     };
-    if (!fit.ok || fit.variance > dirty * usual + allowance || !near(fit)) {
+    if (!fit.ok || fit.variance > dirty * usual + allowance() || !near(fit)) {
       fit = m_aligner.alignMasked(image, m_bank, m_startX[i] + shiftX, m_startY[i] + shiftY, std::sqrt(usual));
     }
     vpPatternCell &cell = m_frame.cells[i];
     const double hidden = fit.masked ? maskedSigma * maskedSigma : 0.;
     const double sx = std::sqrt(fit.variance * fit.xx + hidden), sy = std::sqrt(fit.variance * fit.yy + hidden);
-    cell.valid = fit.ok && fit.variance < hopeless * usual + allowance && fit.contrast > 0.5 * contrast &&
+    cell.valid = fit.ok && fit.variance < hopeless * usual + allowance() && fit.contrast > 0.5 * contrast &&
                  fit.contrast < 2. * contrast && near(fit) && sx < m_options.maxCellSigma &&
                  sy < m_options.maxCellSigma;
     if (cell.valid) {
@@ -118,43 +172,10 @@ void vpPatternTracker::Impl::validate(const vpImage<unsigned char> &image)
   }
 }
 
-// Move the lattice onto the cells. False when the cells that are known do not deviate from it as before.
-bool vpPatternTracker::Impl::updateLattice()
-{
-  const std::size_t n = m_frame.cells.size();
-  bool anyKnown = false;
-  for (std::size_t i = 0; i < n; ++i) {
-    anyKnown = anyKnown || (m_frame.cells[i].valid && m_ownStart[i] != 0);
-  }
-  m_meanX.clear();
-  m_meanY.clear();
-  for (std::size_t i = 0; i < n; ++i) {
-    const vpPatternCell &cell = m_frame.cells[i];
-    if (cell.valid && (!anyKnown || m_ownStart[i] != 0)) {
-      m_meanX.add(cell.x - m_startX[i], cell.sigmaX * cell.sigmaX);
-      m_meanY.add(cell.y - m_startY[i], cell.sigmaY * cell.sigmaY);
-    }
-  }
-  const double dx = m_meanX.mean().value, dy = m_meanY.mean().value;
-  m_lattice.ox += dx;
-  m_lattice.oy += dy;
-  m_scratch.clear();
-  double sigma = 0.;
-  for (std::size_t i = 0; i < n; ++i) {
-    const vpPatternCell &cell = m_frame.cells[i];
-    if (cell.valid && m_ownStart[i] != 0) {
-      const double ex = cell.x - m_startX[i] - dx, ey = cell.y - m_startY[i] - dy;
-      m_scratch.push_back(std::sqrt(ex * ex + ey * ey));
-      sigma += std::sqrt(cell.sigmaX * cell.sigmaX + cell.sigmaY * cell.sigmaY);
-    }
-  }
-  const std::size_t known = m_scratch.size();
-  return known < 4 || vpRobustMean::median(m_scratch) < std::max(0.1, 6. * sigma / static_cast<double>(known));
-}
-
 void vpPatternTracker::Impl::follow(const vpImage<unsigned char> &image)
 {
   const vpLattice last = m_lattice;
+  const unsigned int epoch = m_frame.epoch;
   m_lattice.ox += m_vx * (m_lostFrames + 1);
   m_lattice.oy += m_vy * (m_lostFrames + 1);
   vpPatternReason note = vpPatternReason::None;
@@ -178,7 +199,7 @@ void vpPatternTracker::Impl::follow(const vpImage<unsigned char> &image)
       return;
     }
   }
-  const bool consistent = updateLattice();
+  updateLattice();
   vpLattice unit = m_lattice;
   unit.ox = unit.oy = 0.;
   double row = 0., column = 0.;
@@ -187,10 +208,10 @@ void vpPatternTracker::Impl::follow(const vpImage<unsigned char> &image)
   if (std::abs(row) > nearHalf * frames || std::abs(column) > nearHalf * frames) {
     note = vpPatternReason::AmbiguousMotion;
   }
-  else if (!consistent && note == vpPatternReason::None) {
+  if (m_frame.epoch != epoch && note == vpPatternReason::None) {
     note = vpPatternReason::IdentitySlip;
   }
-  if (note == vpPatternReason::AmbiguousMotion || note == vpPatternReason::IdentitySlip) {
+  else if (note == vpPatternReason::AmbiguousMotion) {
     renumber(note);
   }
   m_vx = (m_lattice.ox - last.ox) / frames;
@@ -200,7 +221,8 @@ void vpPatternTracker::Impl::follow(const vpImage<unsigned char> &image)
   remember();
   anchor();
   m_lostFrames = 0;
-  const bool few = 2 * m_frame.validCells < static_cast<int>(m_frame.cells.size());
+  const bool few = 2. * m_frame.validCells < usualCells();
+  updateShare();
   m_frame.reason = note != vpPatternReason::None ? note : few ? vpPatternReason::CellsMissing : vpPatternReason::None;
   m_frame.status = m_frame.reason == vpPatternReason::None ? vpPatternStatus::Tracking : vpPatternStatus::Degraded;
 }

@@ -15,6 +15,8 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
+constexpr double unknownVariance = 0.01; // px^2, of centres of which nothing is known yet: any equal value does
+
 std::size_t roomForCells(unsigned int width, unsigned int height, double minPitch)
 {
   return static_cast<std::size_t>((width / minPitch + 2.) * (height / minPitch + 2.));
@@ -64,7 +66,7 @@ void vpPatternTracker::Impl::reset()
   m_bank.clear();
   m_memory.clear();
   m_lostFrames = m_learned = m_rotate = m_row = m_column = 0;
-  m_vx = m_vy = m_noise = m_edgeVarianceX = m_edgeVarianceY = 0.;
+  m_vx = m_vy = m_noise = m_edgeVarianceX = m_edgeVarianceY = m_share = 0.;
   m_frame.epoch += m_images > 0 ? 1 : 0;
   lose(vpPatternReason::None, vpPatternStatus::Acquiring);
   m_lostFrames = 0;
@@ -129,6 +131,57 @@ void vpPatternTracker::Impl::listCells(double halfWidth, double halfHeight)
   }
 }
 
+// Number of valid cells that there should be: where the product ends in view, or cells are missing, not all are there.
+double vpPatternTracker::Impl::usualCells() const { return m_share * static_cast<double>(m_frame.cells.size()); }
+
+void vpPatternTracker::Impl::updateShare()
+{
+  if (!m_frame.cells.empty()) {
+    const double share = m_frame.validCells / static_cast<double>(m_frame.cells.size());
+    m_share += (m_share > 0. ? 0.05 : 1.) * (share - m_share);
+  }
+}
+
+// Where each cell should be: its place in the lattice and its deviation, if that was seen in the last image and counts.
+void vpPatternTracker::Impl::expectCells(bool deviations)
+{
+  const std::size_t n = m_frame.cells.size();
+  m_startX.resize(n);
+  m_startY.resize(n);
+  m_ownStart.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const vpPatternCell &cell = m_frame.cells[i];
+    double x = 0., y = 0.;
+    // What left the view and comes back is remembered, but the lattice has moved on since.
+    const bool own = deviations && m_memory.deviation(cell.row, cell.column, x, y);
+    m_ownStart[i] = own && wasInLast(*m_memory.find(cell.row, cell.column)) ? 1 : 0;
+    m_startX[i] = cell.x + x;
+    m_startY[i] = cell.y + y;
+  }
+}
+
+// Move the lattice onto the cells: those that are known show how it has moved, the others how they deviate.
+void vpPatternTracker::Impl::updateLattice()
+{
+  const std::size_t n = m_frame.cells.size();
+  bool anyKnown = false;
+  for (std::size_t i = 0; i < n; ++i) {
+    anyKnown = anyKnown || (m_frame.cells[i].valid && m_ownStart[i] != 0);
+  }
+  const auto variance = [](double sigma) { return std::isfinite(sigma) ? sigma * sigma : unknownVariance; };
+  m_meanX.clear();
+  m_meanY.clear();
+  for (std::size_t i = 0; i < n; ++i) {
+    const vpPatternCell &cell = m_frame.cells[i];
+    if (cell.valid && (!anyKnown || m_ownStart[i] != 0)) {
+      m_meanX.add(cell.x - m_startX[i], variance(cell.sigmaX));
+      m_meanY.add(cell.y - m_startY[i], variance(cell.sigmaY));
+    }
+  }
+  m_lattice.ox += m_meanX.mean().value;
+  m_lattice.oy += m_meanY.mean().value;
+}
+
 void vpPatternTracker::Impl::measureMotion()
 {
   // Centres from edges know their deviation from the spread of their motion only; before that, any equal value does.
@@ -144,8 +197,8 @@ void vpPatternTracker::Impl::measureMotion()
     }
     const double dx = cell.x - slot->x, dy = cell.y - slot->y;
     const bool unknown = !std::isfinite(cell.sigmaX) || !std::isfinite(slot->varianceX);
-    m_meanX.add(dx, unknown ? 0.01 : cell.sigmaX * cell.sigmaX + slot->varianceX);
-    m_meanY.add(dy, unknown ? 0.01 : cell.sigmaY * cell.sigmaY + slot->varianceY);
+    m_meanX.add(dx, unknown ? unknownVariance : cell.sigmaX * cell.sigmaX + slot->varianceX);
+    m_meanY.add(dy, unknown ? unknownVariance : cell.sigmaY * cell.sigmaY + slot->varianceY);
     sumX += dx;
     sumY += dy;
     squaresX += dx * dx;

@@ -41,8 +41,11 @@ private:
   // Tracking (vpPatternAlignment.cpp)
   void follow(const vpImage<unsigned char> &image);
   bool alignAll(const vpImage<unsigned char> &image);
+  void startAll(const vpImage<unsigned char> &image, bool expected = true);
+  bool mostKnownAreGone() const;
+  bool deviateAsBefore();
+  double allowance() const;
   void validate(const vpImage<unsigned char> &image);
-  bool updateLattice();
 
   // Both
   struct Range {
@@ -50,6 +53,10 @@ private:
   };
   Range inView(double halfWidth, double halfHeight) const;
   void listCells(double halfWidth, double halfHeight);
+  double usualCells() const;
+  void updateShare();
+  void expectCells(bool deviations);
+  void updateLattice();
   void measureMotion();
   bool wasInLast(const vpCellMemory::Slot &slot) const { return slot.frame + 1 + m_gap == m_frame.index; }
   void remember();
@@ -78,6 +85,7 @@ private:
   double m_vx = 0., m_vy = 0.; // px/frame
   unsigned int m_gap = 0;      // images without a lock just before this one
   int m_lostFrames = 0, m_learned = 0, m_refined = 0, m_rotate = 0;
+  double m_share = 0.; // of the cells in view that are valid, smoothed
   double m_noise = 0.; // variance of the residuals, smoothed
   vpSlopes m_slopes{}; // of the illumination
   double m_slopeWeight = 0.;
