@@ -121,8 +121,22 @@ void vpPatternTracker::Impl::validate(const vpImage<unsigned char> &image)
   const double now = median([&](std::size_t i) { return m_fits[i].variance; });
   const double usual = m_noise > 0. ? std::clamp(now, 0.5 * m_noise, 2. * m_noise) : std::max(now, 0.05);
   const double contrast = median([&](std::size_t i) { return m_fits[i].contrast; });
-  const double shiftX = median([&](std::size_t i) { return m_fits[i].x - m_startX[i]; });
-  const double shiftY = median([&](std::size_t i) { return m_fits[i].y - m_startY[i]; });
+  // What all have moved by, as the known ones show it: new ones also show their deviations.
+  bool anyKnown = false;
+  for (std::size_t i = 0; i < n; ++i) {
+    anyKnown = anyKnown || (m_fits[i].ok && m_ownStart[i] != 0);
+  }
+  const auto shift = [&](const std::vector<double> &start, auto centre) {
+    m_scratch.clear();
+    for (std::size_t i = 0; i < n; ++i) {
+      if (m_fits[i].ok && (!anyKnown || m_ownStart[i] != 0)) {
+        m_scratch.push_back(centre(m_fits[i]) - start[i]);
+      }
+    }
+    return vpRobustMean::median(m_scratch);
+  };
+  const double shiftX = shift(m_startX, [](const vpCellFit &fit) { return fit.x; });
+  const double shiftY = shift(m_startY, [](const vpCellFit &fit) { return fit.y; });
   const double pitch = std::min(std::hypot(m_lattice.ax, m_lattice.ay), std::hypot(m_lattice.bx, m_lattice.by));
   const double newGate = std::clamp(0.12 * pitch, 0.5, 4.);
   for (std::size_t i = 0; i < n; ++i) {
