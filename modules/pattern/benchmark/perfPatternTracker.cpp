@@ -2,7 +2,8 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Time per image of tracking, acquisition and the baselines, with OpenCV's and ViSP's own ways of doing it beside them.
+// Time per image and accuracy of tracking, acquisition and the baselines, with OpenCV's and ViSP's own ways of doing it
+// beside them. Deviations and biases are px; over_bound is the deviation over the Cramer-Rao bound of this pattern.
 #include "../test/vpAnalyticPattern.h"
 
 #include <visp3/blob/vpDot2.h>
@@ -15,6 +16,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <numeric>
 
 VISP_DIRECT_USING_NAMESPACE
 using vpPatternTest::Pattern;
@@ -23,28 +26,75 @@ namespace
 {
 constexpr int frames = 200; // a closed path, so that it can be gone round and round
 
-std::vector<vpImage<unsigned char>> sequence(unsigned int width, unsigned int height, double amplitude = 40.)
+struct Sequence {
+  Pattern pattern; // at its last place
+  std::vector<vpImage<unsigned char>> images;
+  std::vector<double> x, y; // of cell (0, 0)
+};
+
+Sequence sequence(unsigned int width, unsigned int height, double amplitude = 40.)
 {
   std::mt19937_64 rng(1);
-  std::vector<vpImage<unsigned char>> images(frames);
-  Pattern pattern;
-  pattern.width = width;
-  pattern.height = height;
-  const double x = pattern.x, y = pattern.y;
+  Sequence s;
+  s.images.resize(frames);
+  s.pattern.width = width;
+  s.pattern.height = height;
+  const double x = s.pattern.x, y = s.pattern.y;
   for (int i = 0; i < frames; ++i) {
     const double phase = 2. * M_PI * i / frames;
-    pattern.x = x + amplitude * std::sin(phase);
-    pattern.y = y + 0.3 * amplitude * std::cos(phase);
-    pattern.render(rng, images[static_cast<std::size_t>(i)]);
+    s.pattern.x = x + amplitude * std::sin(phase);
+    s.pattern.y = y + 0.3 * amplitude * std::cos(phase);
+    s.pattern.render(rng, s.images[static_cast<std::size_t>(i)]);
+    s.x.push_back(s.pattern.x);
+    s.y.push_back(s.pattern.y);
   }
-  return images;
+  return s;
 }
 
-const std::vector<vpImage<unsigned char>> &small()
+const Sequence &small()
 {
-  static const auto images = sequence(160, 100);
-  return images;
+  static const Sequence s = sequence(160, 100);
+  return s;
 }
+
+// Errors of centres against the true ones, and what no method can do better than.
+class Accuracy
+{
+public:
+  void add(const Sequence &s, std::size_t k, double x, double y)
+  {
+    const double ex = x - s.x[k] - s.pattern.pitchX * std::round((x - s.x[k]) / s.pattern.pitchX);
+    const double ey = y - s.y[k] - s.pattern.pitchY * std::round((y - s.y[k]) / s.pattern.pitchY);
+    m_x.push_back(ex);
+    m_y.push_back(ey);
+  }
+  void tell(benchmark::State &state, const Sequence &s) const
+  {
+    double boundX = 0., boundY = 0.;
+    s.pattern.bound(boundX, boundY);
+    state.counters["sigma_x"] = sigma(m_x);
+    state.counters["sigma_y"] = sigma(m_y);
+    state.counters["bias_x"] = mean(m_x);
+    state.counters["over_bound_x"] = sigma(m_x) / boundX;
+    state.counters["over_bound_y"] = sigma(m_y) / boundY;
+  }
+
+private:
+  static double mean(const std::vector<double> &v)
+  {
+    return std::accumulate(v.begin(), v.end(), 0.) / static_cast<double>(std::max<std::size_t>(1, v.size()));
+  }
+  static double sigma(const std::vector<double> &v)
+  {
+    const double m = mean(v);
+    double sum = 0.;
+    for (const double e : v) {
+      sum += (e - m) * (e - m);
+    }
+    return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, v.size())));
+  }
+  std::vector<double> m_x, m_y;
+};
 
 // Time of each call: mean by Google Benchmark, the distribution here. The clock itself costs about 25 ns a call.
 template <typename Call> void measure(benchmark::State &state, std::size_t count, int rounds, Call call)
@@ -70,21 +120,30 @@ template <typename Call> void measure(benchmark::State &state, std::size_t count
   state.counters["p99_us"] = us[us.size() * 99 / 100];
 }
 
-void track(benchmark::State &state, const std::vector<vpImage<unsigned char>> &images, const vpPatternOptions &options)
+void track(benchmark::State &state, const Sequence &s, const vpPatternOptions &options)
 {
-  vpPatternTracker tracker(images[0].getWidth(), images[0].getHeight(), options);
-  for (const auto &image : images) { // acquire and learn
+  vpPatternTracker tracker(s.images[0].getWidth(), s.images[0].getHeight(), options);
+  for (const auto &image : s.images) { // acquire and learn
     static_cast<void>(tracker.track(image));
   }
+  Accuracy accuracy;
+  for (std::size_t k = 0; k < s.images.size(); ++k) {
+    for (const vpPatternCell &cell : tracker.track(s.images[k]).cells) {
+      if (cell.valid) {
+        accuracy.add(s, k, cell.x, cell.y);
+      }
+    }
+  }
   std::size_t cells = 0, locked = 0, all = 0;
-  measure(state, images.size(), images[0].getSize() > 100000 ? 1 : 30, [&](std::size_t k) {
-    const vpPatternFrame &frame = tracker.track(images[k]);
+  measure(state, s.images.size(), s.images[0].getSize() > 100000 ? 1 : 30, [&](std::size_t k) {
+    const vpPatternFrame &frame = tracker.track(s.images[k]);
     cells += static_cast<std::size_t>(frame.validCells);
     locked += frame.status == vpPatternStatus::Tracking ? 1 : 0;
     ++all;
   });
   state.counters["cells"] = static_cast<double>(cells) / static_cast<double>(all);
   state.counters["locked_percent"] = 100. * static_cast<double>(locked) / static_cast<double>(all);
+  accuracy.tell(state, s);
 }
 
 void tracking(benchmark::State &state) { track(state, small(), vpPatternOptions()); }
@@ -102,8 +161,7 @@ void baseline(benchmark::State &state, vpPatternMethod method, vpPatternThreshol
 void scaling(benchmark::State &state)
 {
   const auto size = static_cast<unsigned int>(state.range(0));
-  auto images = sequence(size, size, 4.);
-  track(state, images, vpPatternOptions());
+  track(state, sequence(size, size, 4.), vpPatternOptions());
 }
 
 // The first image after a reset: threshold, labels, edges, lattice, names.
@@ -112,9 +170,9 @@ void coldAcquisition(benchmark::State &state)
   vpPatternOptions options;
   options.method = vpPatternMethod::HalfMaximumEdges;
   vpPatternTracker tracker(160, 100, options);
-  measure(state, small().size(), 30, [&](std::size_t k) {
+  measure(state, small().images.size(), 30, [&](std::size_t k) {
     tracker.reset();
-    benchmark::DoNotOptimize(tracker.track(small()[k]).validCells);
+    benchmark::DoNotOptimize(tracker.track(small().images[k]).validCells);
   });
 }
 
@@ -125,7 +183,7 @@ void learning(benchmark::State &state)
     if (k == 0) {
       tracker.reset();
     }
-    benchmark::DoNotOptimize(tracker.track(small()[k]).validCells);
+    benchmark::DoNotOptimize(tracker.track(small().images[k]).validCells);
   });
 }
 
@@ -138,19 +196,33 @@ void opencvComponents(benchmark::State &state)
 {
   cv::setNumThreads(1);
   cv::Mat binary, labels, statistics, centroids;
-  measure(state, small().size(), 10, [&](std::size_t k) {
-    cv::threshold(view(small()[k]), binary, 0, 255, cv::THRESH_BINARY | cv::THRESH_OTSU);
-    benchmark::DoNotOptimize(cv::connectedComponentsWithStats(binary, labels, statistics, centroids));
-  });
+  const auto find = [&](std::size_t k) {
+    cv::threshold(view(small().images[k]), binary, 0, 255, cv::THRESH_BINARY | cv::THRESH_OTSU);
+    return cv::connectedComponentsWithStats(binary, labels, statistics, centroids);
+  };
+  Accuracy accuracy;
+  for (std::size_t k = 0; k < small().images.size(); ++k) {
+    const int n = find(k);
+    for (int i = 1; i < n; ++i) {
+      const int left = statistics.at<int>(i, cv::CC_STAT_LEFT), top = statistics.at<int>(i, cv::CC_STAT_TOP);
+      const bool whole = left > 0 && top > 0 && left + statistics.at<int>(i, cv::CC_STAT_WIDTH) < 160 &&
+                         top + statistics.at<int>(i, cv::CC_STAT_HEIGHT) < 100;
+      if (whole && statistics.at<int>(i, cv::CC_STAT_AREA) > 200) {
+        accuracy.add(small(), k, centroids.at<double>(i, 0), centroids.at<double>(i, 1));
+      }
+    }
+  }
+  measure(state, small().images.size(), 10, [&](std::size_t k) { benchmark::DoNotOptimize(find(k)); });
+  accuracy.tell(state, small());
 }
 
 void opencvMatchTemplate(benchmark::State &state)
 {
   cv::setNumThreads(1);
-  const cv::Mat cell = view(small()[0])(cv::Rect(40, 40, 46, 18)).clone();
+  const cv::Mat cell = view(small().images[0])(cv::Rect(40, 40, 46, 18)).clone();
   cv::Mat score;
-  measure(state, small().size(), 10, [&](std::size_t k) {
-    cv::matchTemplate(view(small()[k]), cell, score, cv::TM_CCOEFF_NORMED);
+  measure(state, small().images.size(), 10, [&](std::size_t k) {
+    cv::matchTemplate(view(small().images[k]), cell, score, cv::TM_CCOEFF_NORMED);
     benchmark::DoNotOptimize(score.data);
   });
 }
@@ -163,16 +235,17 @@ void vispDot2(benchmark::State &state)
   vpPatternTracker finder(160, 100, options);
   std::vector<vpDot2> dots;
   std::size_t lost = 0, all = 0;
-  measure(state, small().size(), 3, [&](std::size_t k) {
+  Accuracy accuracy;
+  measure(state, small().images.size(), 3, [&](std::size_t k) {
     if (k % 20 == 0) { // cells leave and enter: begin anew
       dots.clear();
-      for (const vpPatternCell &cell : finder.track(small()[k]).cells) {
+      for (const vpPatternCell &cell : finder.track(small().images[k]).cells) {
         dots.emplace_back(vpImagePoint(cell.y, cell.x));
         dots.back().setGraphics(false);
         dots.back().setGrayLevelMin(115);
         dots.back().setGrayLevelMax(255);
         try {
-          dots.back().initTracking(small()[k], vpImagePoint(cell.y, cell.x), 115, 255);
+          dots.back().initTracking(small().images[k], vpImagePoint(cell.y, cell.x), 115, 255);
         }
         catch (const vpException &) {
           dots.pop_back();
@@ -182,7 +255,8 @@ void vispDot2(benchmark::State &state)
     for (vpDot2 &dot : dots) {
       ++all;
       try {
-        dot.track(small()[k], false);
+        dot.track(small().images[k], false);
+        accuracy.add(small(), k, dot.getCog().get_u(), dot.getCog().get_v());
       }
       catch (const vpException &) {
         ++lost;
@@ -191,30 +265,43 @@ void vispDot2(benchmark::State &state)
   });
   state.counters["lost_percent"] =
       100. * static_cast<double>(lost) / static_cast<double>(std::max<std::size_t>(1, all));
+  accuracy.tell(state, small());
+}
+// Table 7.1: the threshold alone, from the histogram of an image.
+void threshold(benchmark::State &state, vpPatternThreshold method)
+{
+  vpPatternHistogram histogram{};
+  for (unsigned int i = 0; i < small().images[0].getSize(); ++i) {
+    ++histogram[small().images[0].bitmap[i]];
+  }
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(vpFindThreshold(histogram, method));
+  }
 }
 } // namespace
 
 BENCHMARK(tracking)->Unit(benchmark::kMicrosecond);
 BENCHMARK(coldAcquisition)->Unit(benchmark::kMicrosecond);
 BENCHMARK(learning)->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(baseline, half_maximum, vpPatternMethod::HalfMaximumEdges, vpPatternThreshold::Otsu,
-                  vpPatternDerivative::Symmetric)
+BENCHMARK_CAPTURE(baseline, half_maximum, vpPatternMethod::HalfMaximumEdges, vpPatternThreshold::Otsu, vpPatternDerivative::Symmetric)
     ->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(baseline, thesis_7_4, vpPatternMethod::ThesisAlgorithm, vpPatternThreshold::Otsu,
-                  vpPatternDerivative::Symmetric)
+BENCHMARK_CAPTURE(baseline, thesis_7_4, vpPatternMethod::ThesisAlgorithm, vpPatternThreshold::Otsu, vpPatternDerivative::Symmetric)
     ->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(baseline, thesis_7_4_fixed, vpPatternMethod::ThesisAlgorithmFixed, vpPatternThreshold::Otsu,
-                  vpPatternDerivative::Symmetric)
+BENCHMARK_CAPTURE(baseline, thesis_7_4_fixed, vpPatternMethod::ThesisAlgorithmFixed, vpPatternThreshold::Otsu, vpPatternDerivative::Symmetric)
     ->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(baseline, thesis_7_4_isodata, vpPatternMethod::ThesisAlgorithm, vpPatternThreshold::Isodata,
-                  vpPatternDerivative::Symmetric)
+BENCHMARK_CAPTURE(baseline, thesis_7_4_isodata, vpPatternMethod::ThesisAlgorithm, vpPatternThreshold::Isodata, vpPatternDerivative::Symmetric)
     ->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(baseline, thesis_7_4_minimum_error, vpPatternMethod::ThesisAlgorithm,
-                  vpPatternThreshold::MinimumError, vpPatternDerivative::Symmetric)
+BENCHMARK_CAPTURE(baseline, thesis_7_4_minimum_error, vpPatternMethod::ThesisAlgorithm, vpPatternThreshold::MinimumError, vpPatternDerivative::Symmetric)
     ->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(baseline, thesis_7_4_sobel, vpPatternMethod::ThesisAlgorithm, vpPatternThreshold::Otsu,
-                  vpPatternDerivative::Sobel)
+BENCHMARK_CAPTURE(baseline, thesis_7_4_fixed_roberts, vpPatternMethod::ThesisAlgorithmFixed, vpPatternThreshold::Otsu, vpPatternDerivative::Roberts)
     ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(baseline, thesis_7_4_fixed_prewitt, vpPatternMethod::ThesisAlgorithmFixed, vpPatternThreshold::Otsu, vpPatternDerivative::Prewitt)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(baseline, thesis_7_4_fixed_sobel, vpPatternMethod::ThesisAlgorithmFixed, vpPatternThreshold::Otsu, vpPatternDerivative::Sobel)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(threshold, otsu, vpPatternThreshold::Otsu)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(threshold, isodata, vpPatternThreshold::Isodata)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(threshold, minimum_error, vpPatternThreshold::MinimumError)->Unit(benchmark::kMicrosecond);
 BENCHMARK(opencvComponents)->Unit(benchmark::kMicrosecond);
 BENCHMARK(opencvMatchTemplate)->Unit(benchmark::kMicrosecond);
 BENCHMARK(vispDot2)->Unit(benchmark::kMicrosecond);
