@@ -1,0 +1,103 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpAlphaBetaFilter.h
+ * \brief A value and its rate from noisy values, with two fixed gains.
+ */
+#ifndef vpAlphaBetaFilter_h
+#define vpAlphaBetaFilter_h
+
+#include <visp3/direct_core/vpDirectCompat.h>
+
+BEGIN_VISP_NAMESPACE
+
+/*!
+ * \brief Gains of a vpAlphaBetaFilter. Stable exactly for alpha > 0 and 0 < beta < 4 - 2 alpha.
+ */
+struct VISP_EXPORT vpAlphaBetaGains {
+  double alpha = 0.37; //!< Share of the residual that goes into the value, in (0, 2); useful below 1.
+  double beta = 0.045; //!< Share that goes into the rate (times the period), in (0, 4 - 2 alpha).
+
+  /*!
+   * Both poles in one place: beta = 2 - alpha - 2 sqrt(1 - alpha), the fastest answer without overshoot.
+   * \param alpha : In (0, 1).
+   * \throw vpException (badValue) naming alpha and its value.
+   */
+  [[nodiscard]] static vpAlphaBetaGains criticallyDamped(double alpha);
+  /*!
+   * The steady state of a Kalman filter whose acceleration is white, constant over each period (Kalata):
+   * beta = 2 (2 - alpha) - 4 sqrt(1 - alpha); twice the beta of critical damping, with some overshoot.
+   * \param alpha : In (0, 1).
+   * \throw vpException (badValue) naming alpha and its value.
+   */
+  [[nodiscard]] static vpAlphaBetaGains steadyKalman(double alpha);
+
+  /*!
+   * Variance of the filtered value over that of the measurements (white noise, steady state):
+   * (2 alpha^2 + 2 beta - 3 alpha beta) / (alpha (4 - 2 alpha - beta)).
+   */
+  [[nodiscard]] double valueVariance() const;
+  //! Variance of the rate times the period squared, over that of the measurements: 2 beta^2 / (alpha (4 - 2 alpha - beta)).
+  [[nodiscard]] double rateVariance() const;
+  //! \throw vpException (badValue) naming the gain that makes the filter unstable, and its value.
+  void validate() const;
+};
+
+/*!
+ * \class vpAlphaBetaFilter
+ * \ingroup group_printing
+ * \brief Alpha-beta filter, thesis (7.23) (missing there) and (7.24).
+ *
+ * With the period T and the residual r:
+ * \f[ x^- = x + T v + \tfrac{1}{2} T^2 u, \; v^- = v + T u, \; r = z - x^-, \; x = x^- + \alpha r, \; v = v^- + \beta r / T \f]
+ * where u is the known acceleration of the value, 0 unless given. The value may be a position (the rate is the velocity)
+ * or a measured velocity (the rate is the acceleration). With velocities in px/frame the period is 1.
+ *
+ * step() does not allocate, throw, lock or print.
+ */
+class VISP_EXPORT vpAlphaBetaFilter
+{
+public:
+  //! \brief What the filter remembers, and its answer.
+  struct State {
+    double value = 0.;    //!< Filtered value, unit.
+    double rate = 0.;     //!< Its rate, unit per time.
+    double residual = 0.; //!< Last measurement minus its prediction, unit.
+    bool started = false; //!< A measurement has come.
+  };
+
+  /*!
+   * \param gains : Checked here.
+   * \param period : Time between measurements, > 0, frame or s.
+   * \throw vpException (badValue) naming what is out of range, and its value.
+   */
+  explicit vpAlphaBetaFilter(const vpAlphaBetaGains &gains = vpAlphaBetaGains(), double period = 1.);
+
+  /*!
+   * Take a measurement.
+   * \param z : Value; the first one starts the filter there at rate 0. When it is not finite, the filter predicts only.
+   * \param u : Known acceleration of the value since the last step, unit per time squared.
+   */
+  const State &step(double z, double u = 0.) noexcept;
+  //! A period without a measurement.
+  const State &skip(double u = 0.) noexcept;
+  //! Value after another \e dt, (7.24) for dt = 1 and 2 periods.
+  [[nodiscard]] double predict(double dt) const noexcept { return m_state.value + dt * m_state.rate; }
+  //! Start from a known value and rate.
+  void reset(double value, double rate) noexcept;
+  //! Start from the next measurement.
+  void reset() noexcept { m_state = State(); }
+
+  [[nodiscard]] const State &state() const { return m_state; }            //!< Of the last step.
+  [[nodiscard]] const vpAlphaBetaGains &gains() const { return m_gains; } //!< As given.
+
+private:
+  vpAlphaBetaGains m_gains;
+  double m_period;
+  State m_state;
+};
+
+END_VISP_NAMESPACE
+#endif

@@ -1,0 +1,76 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpFrictionIdentification.h
+ * \brief Mass and friction of an axis from a log of forces and motion.
+ */
+#ifndef vpFrictionIdentification_h
+#define vpFrictionIdentification_h
+
+#include <visp3/printing/vpFrictionModel.h>
+
+#include <vector>
+
+BEGIN_VISP_NAMESPACE
+
+//! \brief One row of the log.
+struct VISP_EXPORT vpFrictionSample {
+  double force = 0.;        //!< That acted, F.
+  double velocity = 0.;     //!< L/T.
+  double acceleration = 0.; //!< L/T^2.
+};
+
+//! \brief What the identification may be told.
+struct VISP_EXPORT vpFrictionIdentificationSpec {
+  bool stribeck = true;      //!< Also stiction and Stribeck velocity; otherwise stiction = Coulomb.
+  double minVelocity = 0.;   //!< Slower samples are not used (they may stick), L/T, >= 0.
+  double outlier = 4.685;    //!< Tukey's bound, in standard deviations, > 1; 4.685 keeps 95 % efficiency.
+  double maxCondition = 1e3; //!< Largest condition number of the scaled regressors, > 1.
+
+  //! \throw vpException (badValue) naming the field that is out of range, and its value.
+  void validate() const;
+};
+
+//! How an identification ended.
+enum class vpFrictionStatus {
+  Good,          //!< All parameters hold.
+  TooFewSamples, //!< Less than ten samples for each parameter.
+  NotExcited,    //!< Velocities or accelerations vary too little to tell the parameters apart; nothing holds.
+  NoStribeck,    //!< The slow samples do not show a Stribeck term; stiction = Coulomb, the rest holds.
+  NotFinite      //!< A sample is not finite; nothing holds.
+};
+
+//! \brief Parameters with their standard deviations.
+struct VISP_EXPORT vpFrictionIdentification {
+  vpFrictionStatus status = vpFrictionStatus::TooFewSamples; //!< How far to rely on the rest.
+  vpFrictionModel model;                                     //!< Best parameters.
+  double sigmaMass = 0.;                                     //!< Standard deviation of the mass.
+  double sigmaViscous = 0.;                                  //!< Of the viscous friction.
+  double sigmaCoulomb = 0.;                                  //!< Of the Coulomb friction.
+  double sigmaStiction = 0.;                                 //!< Of stiction, at the Stribeck velocity found.
+  double noise = 0.;     //!< Standard deviation of the forces about the model, robust, F.
+  int samples = 0;       //!< Used.
+  int outliers = 0;      //!< Of these, with weight 0.
+  double condition = 0.; //!< Condition number of the scaled regressors.
+
+  //! The status in a sentence; static text, never null.
+  [[nodiscard]] const char *message() const;
+};
+
+/*!
+ * \ingroup group_printing
+ * \brief Mass, viscous, Coulomb and Stribeck friction from a log such as a velocity ramp (thesis section 7.3.4): weighted
+ * least squares with Tukey's weights, started from absolute values; the Stribeck velocity by a search over the fit.
+ *
+ * Velocities and accelerations are taken as exact: filter them before, without delay between them and the forces.
+ * Allocates; not for control loops.
+ * \throw vpException (badValue) naming a field of \e spec that is out of range.
+ */
+[[nodiscard]] VISP_EXPORT vpFrictionIdentification
+vpIdentifyFriction(const std::vector<vpFrictionSample> &log,
+                   const vpFrictionIdentificationSpec &spec = vpFrictionIdentificationSpec());
+
+END_VISP_NAMESPACE
+#endif

@@ -1,0 +1,109 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpMotionObserver.h
+ * \brief State of a driven axis now, from positions that are late and commands that are known.
+ */
+#ifndef vpMotionObserver_h
+#define vpMotionObserver_h
+
+#include <visp3/printing/vpFrictionModel.h>
+
+#include <Eigen/Core>
+
+#include <array>
+
+BEGIN_VISP_NAMESPACE
+
+/*!
+ * \brief Parameters of a vpMotionObserver: length L (px), time T (frame), force F.
+ */
+struct VISP_EXPORT vpMotionObserverSpec {
+  vpFrictionModel model;          //!< Mass and friction of the axis.
+  double lag = 0.3;               //!< Time constant from command to force, T, >= 0.
+  double delay = 0.;              //!< Dead time of the command, T, in [0, 16].
+  double velocityNoise = 1e-5;    //!< Density of the unmodelled acceleration, L^2/T^3, >= 0.
+  double disturbanceNoise = 1e-6; //!< Density with which the friction error walks, F^2/T, > 0.
+  double gate = 6.;               //!< Measurements off by more standard deviations are not used, > 0, may be infinite.
+  double sigmaPosition = 1.;      //!< Standard deviation at the start, L, > 0.
+  double sigmaVelocity = 1e-3;    //!< At the start, L/T, > 0; small: at rest.
+  double sigmaDisturbance = 0.03; //!< Of the friction error at the start, F, > 0.
+
+  //! \throw vpException (badValue) naming the field that is out of range, and its value.
+  void validate() const;
+};
+
+//! \brief State of the axis at an instant.
+struct VISP_EXPORT vpObservedMotion {
+  double time = 0.;          //!< T.
+  double position = 0.;      //!< L.
+  double velocity = 0.;      //!< L/T.
+  double acceleration = 0.;  //!< L/T^2.
+  double force = 0.;         //!< That acts, behind the lag, F.
+  double disturbance = 0.;   //!< Friction beyond the model, against positive motion, F.
+  double sigmaPosition = 0.; //!< L.
+  double sigmaVelocity = 0.; //!< L/T.
+};
+
+/*!
+ * \class vpMotionObserver
+ * \ingroup group_printing
+ * \brief Kalman filter on m v' = f - F(v) - d, lag f' = u - f, d' = noise, with the model's friction F.
+ *
+ * The belief stands at the time of the newest measurement, a camera's delay ago. From there at() integrates the model to
+ * any later time with the commands that were given since: to the present, or to when the next command will act. So the
+ * delay of the camera costs accuracy but no phase. Friction that the model does not know ends up in the disturbance d.
+ *
+ * The third measurement in a row beyond the gate is taken to be right and the belief to be wrong.
+ *
+ * Functions of the loop do not allocate, throw, lock or print.
+ */
+class VISP_EXPORT vpMotionObserver
+{
+public:
+  static constexpr int capacity = 64; //!< Commands remembered; steps since the oldest measurement that is awaited.
+
+  //! \throw vpException (badValue) naming the field of \e spec that is out of range, and its value.
+  explicit vpMotionObserver(const vpMotionObserverSpec &spec = vpMotionObserverSpec());
+
+  //! A command given at a time, held until the next one. Times must not decrease; otherwise it is ignored.
+  void command(double time, double force) noexcept;
+  /*!
+   * A position that was true at \e time.
+   * \param time : T; not before the last measurement. \param position : L. \param sigma : Its standard deviation, L, > 0.
+   * \return False when it was not used: too late, not finite or beyond the gate.
+   */
+  bool measure(double time, double position, double sigma) noexcept;
+  //! The state at a time; before the last measurement: there. Later than the last command: as if it were held.
+  [[nodiscard]] vpObservedMotion at(double time) const noexcept;
+  //! Back to rest at a place and time.
+  void reset(double time = 0., double position = 0.) noexcept;
+  //! As given.
+  [[nodiscard]] const vpMotionObserverSpec &spec() const { return m_spec; }
+
+private:
+  //! \brief Belief at a time: position, velocity, force, disturbance.
+  struct Belief {
+    double time = 0.;
+    Eigen::Vector4d x = Eigen::Vector4d::Zero();
+    Eigen::Matrix4d P = Eigen::Matrix4d::Zero();
+  };
+  struct Command {
+    double time = 0., force = 0.;
+  };
+  void advance(Belief &belief, double time) const noexcept;
+  void part(Belief &belief, double command, double h) const noexcept;
+  [[nodiscard]] double commandAt(double time, double &until) const noexcept;
+  [[nodiscard]] double acceleration(const Eigen::Vector4d &x) const noexcept;
+
+  vpMotionObserverSpec m_spec;
+  Belief m_belief;
+  std::array<Command, capacity> m_commands; // in order of time, oldest first
+  int m_count = 0;
+  int m_refused = 0; // measurements beyond the gate in a row
+};
+
+END_VISP_NAMESPACE
+#endif

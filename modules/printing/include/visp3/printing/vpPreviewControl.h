@@ -1,0 +1,72 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpPreviewControl.h
+ * \brief The command for the time at which it acts.
+ */
+#ifndef vpPreviewControl_h
+#define vpPreviewControl_h
+
+#include <visp3/printing/vpFrictionModel.h>
+#include <visp3/trajectory/vpMotionFamily.h>
+
+#include <limits>
+
+BEGIN_VISP_NAMESPACE
+
+/*!
+ * \brief Parameters of a vpPreviewControl: length L (px), time T (frame), force F.
+ */
+struct VISP_EXPORT vpPreviewControlSpec {
+  vpFrictionModel model;     //!< Mass and friction of the axis.
+  double positionGain = 0.;  //!< Force per position error, F/L, >= 0. 0: the velocity alone is controlled.
+  double velocityGain = 0.3; //!< Force per velocity error, F T/L, >= 0.
+  double lag = 0.3;          //!< From command to force, T, >= 0.
+  double delay = 0.;         //!< Dead time of the command, T, >= 0.
+  double period = 1.;        //!< A command is held for so long, T, > 0.
+  double maxForce = std::numeric_limits<double>::infinity(); //!< |command| <= maxForce, F, > 0.
+
+  //! \throw vpException (badValue) naming the field that is out of range, and its value.
+  void validate() const;
+};
+
+/*!
+ * \class vpPreviewControl
+ * \ingroup group_printing
+ * \brief Feedforward (7.26) and state feedback, both for the time at which the command acts.
+ *
+ * A command given now acts from now + delay for one period, through the lag: its feedforward is that of the reference in the
+ * middle of this time, actsAt(), with the lag inverted, u = F + lag F'. Its feedback is that of the state predicted for
+ * feedbackAt(), when it begins to act. Without memory: the same input gives the same answer.
+ */
+class VISP_EXPORT vpPreviewControl
+{
+public:
+  //! \brief What is asked in a step.
+  struct Input {
+    vpAxisState reference{};         //!< Position, velocity, acceleration, jerk at actsAt(now).
+    vpAxisState referenceFeedback{}; //!< The same at feedbackAt(now).
+    double position = 0.;            //!< Predicted for feedbackAt(now), L.
+    double velocity = 0.;            //!< Predicted for feedbackAt(now), L/T.
+    double disturbance = 0.;         //!< Friction beyond the model, F.
+  };
+
+  //! \throw vpException (badValue) naming the field of \e spec that is out of range, and its value.
+  explicit vpPreviewControl(const vpPreviewControlSpec &spec = vpPreviewControlSpec());
+  //! When a command given at \e now acts in the mean.
+  [[nodiscard]] double actsAt(double now) const noexcept { return now + m_spec.delay + 0.5 * m_spec.period; }
+  //! When it begins to act.
+  [[nodiscard]] double feedbackAt(double now) const noexcept { return now + m_spec.delay; }
+  //! The command, F; 0 if the input is not finite. Never throws or allocates.
+  [[nodiscard]] double force(const Input &input) const noexcept;
+  //! As given.
+  [[nodiscard]] const vpPreviewControlSpec &spec() const { return m_spec; }
+
+private:
+  vpPreviewControlSpec m_spec;
+};
+
+END_VISP_NAMESPACE
+#endif

@@ -1,0 +1,255 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include <visp3/printing/vpFrictionIdentification.h>
+
+#include "vpPrintingCheck.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+
+BEGIN_VISP_NAMESPACE
+
+using namespace vpPrintingCheck;
+
+namespace
+{
+//! \brief Result of a robust linear fit.
+struct Fit {
+  Eigen::VectorXd x, weights;
+  Eigen::MatrixXd covariance;
+  double sigma = 0., cost = 0., condition = std::numeric_limits<double>::infinity();
+};
+
+// Median of absolute values times 1.4826: the standard deviation, if half of them are good.
+double robustSigma(const Eigen::VectorXd &r)
+{
+  std::vector<double> a(static_cast<std::size_t>(r.size()));
+  for (Eigen::Index i = 0; i < r.size(); ++i) {
+    a[static_cast<std::size_t>(i)] = std::fabs(r[i]);
+  }
+  const auto middle = a.begin() + static_cast<std::ptrdiff_t>(a.size() / 2);
+  std::nth_element(a.begin(), middle, a.end());
+  return 1.4826 * *middle;
+}
+
+double conditionOf(const Eigen::MatrixXd &A)
+{
+  Eigen::MatrixXd scaled = A;
+  for (Eigen::Index k = 0; k < A.cols(); ++k) {
+    const double norm = A.col(k).norm();
+    if (!(norm > 0.)) {
+      return std::numeric_limits<double>::infinity();
+    }
+    scaled.col(k) /= norm;
+  }
+  const Eigen::VectorXd values = Eigen::JacobiSVD<Eigen::MatrixXd>(scaled).singularValues();
+  return values[values.size() - 1] > 0. ? values[0] / values[values.size() - 1]
+                                        : std::numeric_limits<double>::infinity();
+}
+
+Eigen::VectorXd solveWeighted(const Eigen::MatrixXd &A, const Eigen::VectorXd &b, const Eigen::VectorXd &w)
+{
+  const Eigen::VectorXd root = w.cwiseSqrt();
+  return (root.asDiagonal() * A).colPivHouseholderQr().solve(root.cwiseProduct(b));
+}
+
+Fit robustFit(const Eigen::MatrixXd &A, const Eigen::VectorXd &b, double outlier)
+{
+  Fit fit;
+  fit.weights = Eigen::VectorXd::Ones(b.size());
+  fit.x = solveWeighted(A, b, fit.weights);
+  // Least absolute values first: they are not drawn away by outliers. Then Tukey at a fixed scale.
+  for (int i = 0; i < 20; ++i) {
+    const Eigen::VectorXd r = b - A * fit.x;
+    const double floor = 1e-3 * robustSigma(r) + 1e-15;
+    fit.weights = r.cwiseAbs().cwiseMax(floor).cwiseInverse();
+    fit.x = solveWeighted(A, b, fit.weights);
+  }
+  const double scale = std::max(robustSigma(b - A * fit.x), 1e-12 * (b.cwiseAbs().maxCoeff() + 1e-300));
+  for (int i = 0; i < 30; ++i) {
+    const Eigen::ArrayXd u = (b - A * fit.x).array() / (outlier * scale);
+    fit.weights = (u.abs() < 1.).select((1. - u.square()).square(), 0.).matrix();
+    const Eigen::VectorXd before = fit.x;
+    fit.x = solveWeighted(A, b, fit.weights);
+    if ((fit.x - before).norm() <= 1e-12 * fit.x.norm()) {
+      break;
+    }
+  }
+  const Eigen::VectorXd r = b - A * fit.x;
+  const Eigen::ArrayXd u = (r.array() / (outlier * scale)).abs().min(1.);
+  fit.cost = (1. - (1. - u.square()).cube()).sum(); // Tukey's, at this scale
+  fit.condition = conditionOf(A);
+  // Asymptotic covariance of an M-estimator.
+  const Eigen::ArrayXd psi = fit.weights.array() * r.array();
+  const Eigen::ArrayXd slope = (u < 1.).select((1. - u.square()) * (1. - 5. * u.square()), 0.);
+  const double n = static_cast<double>(b.size()), freedom = std::max(1., n - static_cast<double>(A.cols()));
+  const double meanSlope = std::max(slope.mean(), 1e-6);
+  const double variance = psi.square().sum() / freedom / (meanSlope * meanSlope);
+  fit.sigma = robustSigma(r);
+  fit.covariance = variance * (A.transpose() * A).ldlt().solve(Eigen::MatrixXd::Identity(A.cols(), A.cols()));
+  return fit;
+}
+
+Eigen::MatrixXd regressors(const std::vector<vpFrictionSample> &log, double stribeckVelocity)
+{
+  Eigen::MatrixXd A(static_cast<Eigen::Index>(log.size()), stribeckVelocity > 0. ? 4 : 3);
+  for (Eigen::Index i = 0; i < A.rows(); ++i) {
+    const vpFrictionSample &s = log[static_cast<std::size_t>(i)];
+    const double sign = std::copysign(1., s.velocity);
+    A(i, 0) = s.acceleration;
+    A(i, 1) = s.velocity;
+    A(i, 2) = sign;
+    if (stribeckVelocity > 0.) {
+      const double ratio = s.velocity / stribeckVelocity;
+      A(i, 3) = sign * std::exp(-ratio * ratio);
+    }
+  }
+  return A;
+}
+
+// Sum of absolute residuals of the fit that makes it least, by a few reweighted steps.
+double absoluteCost(const Eigen::MatrixXd &A, const Eigen::VectorXd &b)
+{
+  Eigen::VectorXd r = b - A * solveWeighted(A, b, Eigen::VectorXd::Ones(b.size()));
+  for (int i = 0; i < 10; ++i) {
+    const double floor = 1e-3 * robustSigma(r) + 1e-15;
+    r = b - A * solveWeighted(A, b, r.cwiseAbs().cwiseMax(floor).cwiseInverse());
+  }
+  return r.cwiseAbs().sum();
+}
+
+// The Stribeck velocity of the least residuals, by a scan in its logarithm and golden sections. With weights: squares; with
+// none yet: absolute values, for weights of a fit without Stribeck's term would leave out the slow samples.
+double bestStribeck(const std::vector<vpFrictionSample> &log, const Eigen::VectorXd &b, const Eigen::VectorXd &weights,
+                    double low, double high)
+{
+  const auto cost = [&](double logVelocity) {
+    const Eigen::MatrixXd A = regressors(log, std::exp(logVelocity));
+    if (weights.size() == 0) {
+      return absoluteCost(A, b);
+    }
+    const Eigen::VectorXd root = weights.cwiseSqrt();
+    return (root.cwiseProduct(b - A * solveWeighted(A, b, weights))).squaredNorm();
+  };
+  const double from = std::log(low), to = std::log(high);
+  constexpr int steps = 40;
+  int best = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i <= steps; ++i) {
+    const double c = cost(from + (to - from) * i / steps);
+    if (c < least) {
+      least = c;
+      best = i;
+    }
+  }
+  double a = from + (to - from) * std::max(0, best - 1) / steps,
+         z = from + (to - from) * std::min(steps, best + 1) / steps;
+  const double golden = 0.5 * (std::sqrt(5.) - 1.);
+  for (int i = 0; i < 40; ++i) {
+    const double p = z - golden * (z - a), q = a + golden * (z - a);
+    (cost(p) < cost(q) ? z : a) = cost(p) < cost(q) ? q : p;
+  }
+  return std::exp(0.5 * (a + z));
+}
+} // namespace
+
+void vpFrictionIdentificationSpec::validate() const
+{
+  const char *const owner = "friction identification";
+  notNegative("minVelocity", owner, minVelocity);
+  require(outlier > 1. && std::isfinite(outlier), "outlier", owner, outlier, "> 1 and finite");
+  require(maxCondition > 1., "maxCondition", owner, maxCondition, "> 1");
+}
+
+const char *vpFrictionIdentification::message() const
+{
+  switch (status) {
+  case vpFrictionStatus::Good:
+    return "Good: all parameters are identified.";
+  case vpFrictionStatus::TooFewSamples:
+    return "TooFewSamples: less than ten moving samples for each parameter.";
+  case vpFrictionStatus::NotExcited:
+    return "NotExcited: velocities or accelerations vary too little to tell the parameters apart.";
+  case vpFrictionStatus::NoStribeck:
+    return "NoStribeck: the slow samples show no Stribeck term; stiction is set to Coulomb friction.";
+  default:
+    return "NotFinite: a sample is not finite.";
+  }
+}
+
+vpFrictionIdentification vpIdentifyFriction(const std::vector<vpFrictionSample> &log,
+                                            const vpFrictionIdentificationSpec &spec)
+{
+  spec.validate();
+  vpFrictionIdentification result;
+  std::vector<vpFrictionSample> used;
+  double slowest = std::numeric_limits<double>::infinity(), fastest = 0.;
+  for (const vpFrictionSample &s : log) {
+    if (!std::isfinite(s.force) || !std::isfinite(s.velocity) || !std::isfinite(s.acceleration)) {
+      result.status = vpFrictionStatus::NotFinite;
+      return result;
+    }
+    const double speed = std::fabs(s.velocity);
+    if (speed > 0. && speed >= spec.minVelocity) {
+      used.push_back(s);
+      slowest = std::min(slowest, speed);
+      fastest = std::max(fastest, speed);
+    }
+  }
+  result.samples = static_cast<int>(used.size());
+  if (used.size() < 30) {
+    return result;
+  }
+  Eigen::VectorXd b(static_cast<Eigen::Index>(used.size()));
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    b[static_cast<Eigen::Index>(i)] = used[i].force;
+  }
+  Fit fit = robustFit(regressors(used, 0.), b, spec.outlier);
+  result.condition = fit.condition;
+  if (!(fit.condition <= spec.maxCondition)) {
+    result.status = vpFrictionStatus::NotExcited;
+    return result;
+  }
+  result.status = vpFrictionStatus::Good;
+  double stribeck = 0.;
+  if (spec.stribeck) {
+    result.status = vpFrictionStatus::NoStribeck;
+    const double low = std::max(slowest, 1e-3 * fastest), high = 0.5 * fastest;
+    if (used.size() >= 50 && high > low) {
+      stribeck = bestStribeck(used, b, Eigen::VectorXd(), low, high);
+      Fit full = robustFit(regressors(used, stribeck), b, spec.outlier);
+      for (int i = 0; i < 2; ++i) { // the outliers are known by now
+        stribeck = bestStribeck(used, b, full.weights, low, high);
+        full = robustFit(regressors(used, stribeck), b, spec.outlier);
+      }
+      // The search over its velocity makes a term of pure noise look significant at 3 sigma; 5 is safe.
+      const bool shown = full.condition <= spec.maxCondition && full.x[3] > 5. * std::sqrt(full.covariance(3, 3));
+      if (shown) {
+        fit = full;
+        result.status = vpFrictionStatus::Good;
+        result.condition = full.condition;
+      }
+    }
+  }
+  result.model.mass = fit.x[0];
+  result.model.viscous = fit.x[1];
+  result.model.coulomb = fit.x[2];
+  result.model.stiction = fit.x[2];
+  result.sigmaMass = std::sqrt(fit.covariance(0, 0));
+  result.sigmaViscous = std::sqrt(fit.covariance(1, 1));
+  result.sigmaCoulomb = std::sqrt(fit.covariance(2, 2));
+  result.sigmaStiction = result.sigmaCoulomb;
+  if (result.status == vpFrictionStatus::Good && fit.x.size() == 4) {
+    result.model.stiction += fit.x[3];
+    result.model.stribeckVelocity = stribeck;
+    result.sigmaStiction = std::sqrt(fit.covariance(2, 2) + fit.covariance(3, 3) + 2. * fit.covariance(2, 3));
+  }
+  result.noise = fit.sigma;
+  result.outliers = static_cast<int>((fit.weights.array() == 0.).count());
+  return result;
+}
+
+END_VISP_NAMESPACE

@@ -1,0 +1,197 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include <visp3/printing/vpMotionObserver.h>
+
+#include "vpPrintingCheck.h"
+
+#include <algorithm>
+#include <limits>
+
+BEGIN_VISP_NAMESPACE
+
+using namespace vpPrintingCheck;
+
+namespace
+{
+enum Index { Place, Velocity, Force, Disturbance };
+constexpr double longestPart = 0.25; // of an integration step, T: error of the velocity below 1e-4 px/frame
+constexpr int patience = 3;          // so many measurements beyond the gate in a row are no outliers
+constexpr double longestRun = 1000.; // T; nobody extrapolates farther
+} // namespace
+
+void vpMotionObserverSpec::validate() const
+{
+  const char *const owner = "motion observer";
+  model.validate(owner);
+  notNegative("lag", owner, lag);
+  require(delay >= 0. && delay <= 16., "delay", owner, delay, "in [0, 16]");
+  notNegative("velocityNoise", owner, velocityNoise);
+  positive("disturbanceNoise", owner, disturbanceNoise);
+  require(gate > 0., "gate", owner, gate, "> 0");
+  positive("sigmaPosition", owner, sigmaPosition);
+  positive("sigmaVelocity", owner, sigmaVelocity);
+  positive("sigmaDisturbance", owner, sigmaDisturbance);
+}
+
+vpMotionObserver::vpMotionObserver(const vpMotionObserverSpec &spec) : m_spec(spec)
+{
+  spec.validate();
+  reset();
+}
+
+void vpMotionObserver::reset(double time, double position) noexcept
+{
+  if (!std::isfinite(time) || !std::isfinite(position)) {
+    return;
+  }
+  m_belief = Belief();
+  m_refused = 0;
+  m_belief.time = time;
+  m_belief.x[Place] = position;
+  m_belief.P.diagonal() << m_spec.sigmaPosition * m_spec.sigmaPosition, m_spec.sigmaVelocity * m_spec.sigmaVelocity, 0.,
+      m_spec.sigmaDisturbance * m_spec.sigmaDisturbance;
+  m_count = 0;
+}
+
+void vpMotionObserver::command(double time, double force) noexcept
+{
+  if (!std::isfinite(time) || !std::isfinite(force) ||
+      (m_count > 0 && time < m_commands[static_cast<std::size_t>(m_count - 1)].time)) {
+    return;
+  }
+  if (m_count == capacity) {
+    std::move(m_commands.begin() + 1, m_commands.end(), m_commands.begin());
+    --m_count;
+  }
+  m_commands[static_cast<std::size_t>(m_count)] = {time, force};
+  ++m_count;
+}
+
+// The command that acts at a time, and until when.
+double vpMotionObserver::commandAt(double time, double &until) const noexcept
+{
+  until = std::numeric_limits<double>::infinity();
+  double force = 0.;
+  for (int i = m_count - 1; i >= 0; --i) {
+    const Command &c = m_commands[static_cast<std::size_t>(i)];
+    const double begin = c.time + m_spec.delay;
+    if (begin <= time + 1e-12) {
+      force = c.force;
+      break;
+    }
+    until = begin;
+  }
+  return force;
+}
+
+double vpMotionObserver::acceleration(const Eigen::Vector4d &x) const noexcept
+{
+  const double drive = x[Force] - x[Disturbance];
+  if (x[Velocity] == 0.) { // held by stiction, or about to go
+    const double held = std::max(m_spec.model.stiction, m_spec.model.coulomb);
+    return std::fabs(drive) <= held ? 0. : (drive - std::copysign(held, drive)) / m_spec.model.mass;
+  }
+  return (drive - m_spec.model.friction(x[Velocity])) / m_spec.model.mass;
+}
+
+// One part of an integration step: the lag exactly, the rest by the midpoint rule.
+void vpMotionObserver::part(Belief &b, double command, double h) const noexcept
+{
+  const double decay = m_spec.lag > 0. ? std::exp(-h / m_spec.lag) : 0.;
+  const double share = m_spec.lag > 0. ? (1. - decay) * m_spec.lag / h : 0.; // of the old force in the mean
+  const double v = b.x[Velocity];
+  Eigen::Vector4d x = b.x;
+  x[Force] = command + (b.x[Force] - command) * share; // mean over the part
+  const double first = acceleration(x);
+  const bool moves = v != 0. || first != 0.;
+  Eigen::Vector4d middle = x;
+  middle[Velocity] += 0.5 * h * first;
+  const bool turned = v != 0. && middle[Velocity] * v <= 0.;
+  double next = turned ? 0. : v + h * acceleration(middle);
+  if (v != 0. && next * v <= 0.) {
+    next = 0.; // comes to rest
+  }
+  b.x[Place] += 0.5 * h * (v + next);
+  b.x[Velocity] = next;
+  b.x[Force] = command + (b.x[Force] - command) * decay;
+
+  const double m = m_spec.model.mass;
+  const double a = moves ? 1. : 0.; // at rest neither force nor disturbance has an effect
+  Eigen::Matrix4d F = Eigen::Matrix4d::Identity();
+  F(Place, Velocity) = h;
+  F(Place, Force) = a * 0.5 * h * h * share / m;
+  F(Place, Disturbance) = -a * 0.5 * h * h / m;
+  F(Velocity, Velocity) = std::exp(-h * m_spec.model.viscous / m);
+  F(Velocity, Force) = a * h * share / m;
+  F(Velocity, Disturbance) = -a * h / m;
+  F(Force, Force) = decay;
+  b.P = (F * b.P * F.transpose()).eval();
+  b.P(Velocity, Velocity) += a * m_spec.velocityNoise * h;
+  b.P(Disturbance, Disturbance) += m_spec.disturbanceNoise * h;
+  b.time += h;
+}
+
+void vpMotionObserver::advance(Belief &b, double time) const noexcept
+{
+  const double end = std::min(time, b.time + longestRun);
+  while (end - b.time > 1e-12) {
+    double until = 0.;
+    const double command = commandAt(b.time, until);
+    const double span = std::min(end, until) - b.time;
+    const int parts = std::max(1, static_cast<int>(std::ceil(span / longestPart)));
+    for (int i = 0; i < parts; ++i) {
+      part(b, command, span / parts);
+    }
+  }
+  b.time = std::max(b.time, end);
+}
+
+bool vpMotionObserver::measure(double time, double position, double sigma) noexcept
+{
+  if (!std::isfinite(time) || !std::isfinite(position) || !(sigma > 0.) || !std::isfinite(sigma) ||
+      time < m_belief.time) {
+    return false;
+  }
+  advance(m_belief, time);
+  const double innovation = position - m_belief.x[Place];
+  const double expected2 = m_belief.P(Place, Place) + sigma * sigma;
+  if (!(innovation * innovation <= m_spec.gate * m_spec.gate * expected2)) {
+    if (++m_refused < patience) {
+      return false;
+    }
+    // Not outliers any more: the model is wrong, such as friction that changed. Doubt the belief instead.
+    m_belief.P(Place, Place) += innovation * innovation;
+    m_belief.P(Velocity, Velocity) += innovation * innovation / (patience * patience);
+    m_belief.P(Disturbance, Disturbance) += m_spec.sigmaDisturbance * m_spec.sigmaDisturbance;
+  }
+  m_refused = 0;
+  const double S = m_belief.P(Place, Place) + sigma * sigma;
+  const Eigen::Vector4d K = m_belief.P.col(Place) / S;
+  m_belief.x += K * innovation;
+  Eigen::Matrix4d rest = Eigen::Matrix4d::Identity();
+  rest.col(Place) -= K;
+  m_belief.P = (rest * m_belief.P * rest.transpose() + sigma * sigma * K * K.transpose()).eval();
+  return true;
+}
+
+vpObservedMotion vpMotionObserver::at(double time) const noexcept
+{
+  Belief b = m_belief;
+  if (std::isfinite(time)) {
+    advance(b, time);
+  }
+  vpObservedMotion motion;
+  motion.time = b.time;
+  motion.position = b.x[Place];
+  motion.velocity = b.x[Velocity];
+  motion.acceleration = acceleration(b.x);
+  motion.force = b.x[Force];
+  motion.disturbance = b.x[Disturbance];
+  motion.sigmaPosition = std::sqrt(b.P(Place, Place));
+  motion.sigmaVelocity = std::sqrt(b.P(Velocity, Velocity));
+  return motion;
+}
+
+END_VISP_NAMESPACE

@@ -1,0 +1,51 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include <visp3/printing/vpProductOdometer.h>
+
+#include "vpPrintingCheck.h"
+
+#include <algorithm>
+
+BEGIN_VISP_NAMESPACE
+
+vpProductOdometer::vpProductOdometer(int capacity)
+{
+  vpPrintingCheck::require(capacity >= 1 && capacity <= 65536, "capacity", "product odometer", capacity,
+                           "in [1, 65536]");
+  m_last.resize(static_cast<std::size_t>(capacity));
+}
+
+void vpProductOdometer::reset() noexcept
+{
+  m_count = 0;
+  m_started = false;
+  m_output = Output();
+}
+
+const vpProductOdometer::Output &vpProductOdometer::step(const vpPatternCell *cells, std::size_t count,
+                                                         unsigned int epoch, double predictedX,
+                                                         double predictedY) noexcept
+{
+  const std::size_t used = cells == nullptr ? 0 : std::min(count, m_last.size());
+  const vpCellVelocity moved =
+      m_started && epoch == m_epoch ? vpFindCellVelocity(m_last.data(), m_count, cells, used) : vpCellVelocity();
+  m_output.measured = moved.cells > 0;
+  m_output.cells = moved.cells;
+  m_output.dx = m_output.measured ? moved.vx : predictedX;
+  m_output.dy = m_output.measured ? moved.vy : predictedY;
+  m_output.sigmaX = moved.sigmaX;
+  m_output.sigmaY = moved.sigmaY;
+  if (m_started) {
+    m_output.x += m_output.dx;
+    m_output.y += m_output.dy;
+  }
+  std::copy_n(cells, used, m_last.begin());
+  m_count = used;
+  m_epoch = epoch;
+  m_started = true;
+  return m_output;
+}
+
+END_VISP_NAMESPACE

@@ -1,0 +1,123 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// Parameters that are known, from logs with noise and outliers; logs that cannot tell; stated deviations.
+#include "vpCatch.h"
+
+#include <visp3/printing/vpFrictionIdentification.h>
+
+#include <cmath>
+
+VISP_DIRECT_USING_NAMESPACE
+
+namespace
+{
+double uniform(std::mt19937_64 &rng, double low, double high)
+{
+  return std::uniform_real_distribution<double>(low, high)(rng);
+}
+
+vpFrictionModel randomModel(std::mt19937_64 &rng)
+{
+  vpFrictionModel model;
+  model.mass = uniform(rng, 0.5, 2.);
+  model.viscous = uniform(rng, 0.01, 0.05);
+  model.coulomb = uniform(rng, 0.05, 0.15);
+  model.stiction = model.coulomb + uniform(rng, 0.03, 0.1);
+  model.stribeckVelocity = uniform(rng, 0.2, 0.6);
+  return model;
+}
+
+//! Ramps of the velocity up and down, in both directions.
+std::vector<vpFrictionSample> ramps(const vpFrictionModel &model, int n, double noise, double outliers, double top,
+                                    std::mt19937_64 &rng)
+{
+  std::normal_distribution<double> normal(0., noise);
+  std::vector<vpFrictionSample> log;
+  for (int k = 0; k < n; ++k) {
+    vpFrictionSample s;
+    const double phase = 8. * k / n - std::floor(8. * k / n);
+    s.velocity = (k < n / 2 ? 1. : -1.) * (phase < 0.5 ? 0.01 + top * 2. * phase : 0.01 + top * 2. * (1. - phase));
+    s.acceleration = (k < n / 2 ? 1. : -1.) * (phase < 0.5 ? 0.05 : -0.05);
+    s.force = model.force(s.velocity, s.acceleration) + normal(rng);
+    if (uniform(rng, 0., 1.) < outliers) {
+      s.force += uniform(rng, 0.2, 1.);
+    }
+    log.push_back(s);
+  }
+  return log;
+}
+} // namespace
+
+TEST_CASE("Without noise the parameters are exact, outliers or not", "[friction]")
+{
+  auto rng = vpTestSupport::generator(40);
+  CAPTURE(vpTestSupport::seed());
+  for (int problem = 0; problem < 15; ++problem) {
+    const vpFrictionModel model = randomModel(rng);
+    const auto found = vpIdentifyFriction(ramps(model, 800, 1e-6, problem % 2 == 0 ? 0. : 0.1, 6., rng));
+    CAPTURE(model.mass, model.viscous, model.coulomb, model.stiction, model.stribeckVelocity, found.message());
+    REQUIRE(found.status == vpFrictionStatus::Good);
+    CHECK(found.model.mass == Approx(model.mass).epsilon(1e-3));
+    CHECK(found.model.viscous == Approx(model.viscous).epsilon(1e-3));
+    CHECK(found.model.coulomb == Approx(model.coulomb).epsilon(1e-3));
+    CHECK(found.model.stiction == Approx(model.stiction).epsilon(1e-3));
+    CHECK(found.model.stribeckVelocity == Approx(model.stribeckVelocity).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("Errors are as large as their stated deviations, with a tenth of outliers", "[friction]")
+{
+  auto rng = vpTestSupport::generator(41);
+  CAPTURE(vpTestSupport::seed());
+  double sum2[3] = {0., 0., 0.};
+  constexpr int problems = 200;
+  vpFrictionIdentificationSpec spec;
+  spec.stribeck = false;
+  for (int problem = 0; problem < problems; ++problem) {
+    vpFrictionModel model = randomModel(rng);
+    model.stiction = model.coulomb;
+    const auto found = vpIdentifyFriction(ramps(model, 300, 0.01, 0.1, 6., rng), spec);
+    REQUIRE(found.status == vpFrictionStatus::Good);
+    sum2[0] += std::pow((found.model.mass - model.mass) / found.sigmaMass, 2);
+    sum2[1] += std::pow((found.model.viscous - model.viscous) / found.sigmaViscous, 2);
+    sum2[2] += std::pow((found.model.coulomb - model.coulomb) / found.sigmaCoulomb, 2);
+    CHECK(found.outliers > 5);
+    CHECK(found.noise == Approx(0.01).epsilon(0.5));
+  }
+  for (const double s : sum2) {
+    CHECK(s / problems > 0.6);
+    CHECK(s / problems < 1.5);
+  }
+}
+
+TEST_CASE("A log that cannot tell is refused", "[friction]")
+{
+  auto rng = vpTestSupport::generator(42);
+  CAPTURE(vpTestSupport::seed());
+  const vpFrictionModel model = randomModel(rng);
+  std::vector<vpFrictionSample> constant(200);
+  for (auto &s : constant) {
+    s.velocity = 4.;
+    s.force = model.force(4., 0.);
+  }
+  CHECK(vpIdentifyFriction(constant).status == vpFrictionStatus::NotExcited);
+  CHECK(vpIdentifyFriction({}).status == vpFrictionStatus::TooFewSamples);
+  constant[7].force = NAN;
+  CHECK(vpIdentifyFriction(constant).status == vpFrictionStatus::NotFinite);
+  CHECK(std::string(vpIdentifyFriction(constant).message()).find("not finite") != std::string::npos);
+  int invented = 0; // a Stribeck term where there is none
+  for (int problem = 0; problem < 30; ++problem) {
+    vpFrictionModel plain = model;
+    plain.stiction = plain.coulomb;
+    const auto found = vpIdentifyFriction(ramps(plain, 300, 0.01, 0., 6., rng));
+    invented += found.status == vpFrictionStatus::Good ? 1 : 0;
+    CHECK(found.model.coulomb == Approx(plain.coulomb).margin(0.01));
+  }
+  CHECK(invented <= 1);
+  vpFrictionIdentificationSpec spec;
+  spec.outlier = 0.5;
+  CHECK_THROWS_WITH(vpIdentifyFriction(constant, spec),
+                    Catch::Contains("outlier of the friction identification is 0.5, must be > 1"));
+}

@@ -1,0 +1,547 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include <visp3/simulation/vpPrintExperiment.h>
+
+#include "vpPrintCellSensor.h"
+
+#include <visp3/printing/vpMotionKalmanFilter.h>
+#include <visp3/printing/vpProductOdometer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+constexpr int partsPerFrame = 32;   // of the truth
+constexpr double rowStepTime = 30.; // frame
+constexpr int longestTurn = 400;    // frames that a row may take beyond its cells
+
+//! \brief True motion, remembered for exposures and landings.
+class Truth
+{
+public:
+  //! \brief State at a time.
+  struct Point {
+    double t, x, y, vx, vy;
+  };
+  explicit Truth(const vpXYStageSpec &spec) : m_stage(spec) { remember(); }
+  void step(double fx, double fy, int share)
+  {
+    for (int i = 0; i < partsPerFrame / share; ++i) {
+      m_stage.step(1. / partsPerFrame, {{fx, fy}});
+      remember();
+    }
+  }
+  [[nodiscard]] double now() const { return m_points.back().t; }
+  [[nodiscard]] const Point &last() const { return m_points.back(); }
+  //! Interpolated by cubics; at rest before the start.
+  [[nodiscard]] Point at(double t) const
+  {
+    if (t <= 0.) {
+      return {t, m_points[0].x, m_points[0].y, 0., 0.};
+    }
+    const auto i = std::min(static_cast<std::size_t>(t * partsPerFrame), m_points.size() - 2);
+    const Point &a = m_points[i], &b = m_points[i + 1];
+    const double h = b.t - a.t, s = (t - a.t) / h;
+    const auto cubic = [&](double p, double v, double q, double w) {
+      const double d = q - p, c = 3. * d - h * (2. * v + w), e = -2. * d + h * (v + w);
+      return p + s * (h * v + s * (c + s * e));
+    };
+    return {t, cubic(a.x, a.vx, b.x, b.vx), cubic(a.y, a.vy, b.y, b.vy), a.vx + s * (b.vx - a.vx),
+            a.vy + s * (b.vy - a.vy)};
+  }
+
+private:
+  void remember()
+  {
+    const vpXYStage::State &s = m_stage.state();
+    m_points.push_back({static_cast<double>(m_points.size()) / partsPerFrame, s.position[0], s.position[1],
+                        s.velocity[0], s.velocity[1]});
+  }
+  vpXYStage m_stage;
+  std::vector<Point> m_points;
+};
+
+//! \brief A run in progress.
+class Experiment
+{
+public:
+  explicit Experiment(const vpPrintExperimentSpec &spec)
+    : m_spec(spec), m_product(spec.product), m_sensor(spec, m_product), m_truth(spec.stage),
+      m_centreX(0.5 * (spec.product.width - 1.)), m_centreY(0.5 * (spec.product.height - 1.)),
+      m_nozzle(m_centreX + spec.nozzleOffset), m_trigger(triggerSpec()), m_reference(spec.reference),
+      m_referenceY(vpPrintReferenceSpec()), m_pid(spec.pid), m_preview(within(spec.preview)),
+      m_previewAcross(within(spec.previewAcross)), m_observer(spec.observer), m_observerY(spec.observer),
+      m_alphaBeta(spec.filter), m_kalman(kalmanSpec())
+  {
+    start();
+  }
+
+  vpPrintRun run(const std::function<bool(double)> &progress)
+  {
+    const int total = m_spec.rows * m_spec.cellsPerRow;
+    const double slowest = m_spec.product.pitchX / m_spec.dropVelocity;
+    const int limit =
+        m_spec.frames > 0 ? m_spec.frames : static_cast<int>(1.5 * total * slowest) + longestTurn * (m_spec.rows + 1);
+    for (int frame = 0; frame < limit; ++frame) {
+      step(frame);
+      if (m_spec.frames == 0 && done()) {
+        break;
+      }
+      if (progress && frame % 64 == 0 && !progress(static_cast<double>(frame) / limit)) {
+        break;
+      }
+    }
+    evaluate();
+    return std::move(m_run);
+  }
+
+private:
+  void start()
+  {
+    m_run.spec = m_spec;
+    m_sigmaX = m_spec.sensorModel.sigmaX / std::sqrt(m_spec.sensorModel.effectiveCells);
+    m_sigmaY = m_spec.sensorModel.sigmaY / std::sqrt(m_spec.sensorModel.effectiveCells);
+    m_kalman.reset(-m_spec.visionDelay);
+    m_observer.reset(-m_spec.visionDelay - 1.);
+    m_observerY.reset(-m_spec.visionDelay - 1.);
+    m_reference.reset(0., 0., -1);
+    m_referenceY.reset(0., 0., 0);
+  }
+
+  [[nodiscard]] vpPreviewControlSpec within(vpPreviewControlSpec preview) const
+  {
+    preview.period = 1. / m_spec.commandsPerFrame;
+    return preview;
+  }
+
+  [[nodiscard]] vpPrintTriggerSpec triggerSpec() const
+  {
+    vpPrintTriggerSpec trigger;
+    trigger.method = m_spec.trigger;
+    trigger.nozzle = m_nozzle;
+    trigger.nozzleAcross = m_centreY;
+    trigger.rowTolerance = 0.4 * m_spec.product.pitchY;
+    trigger.travelTime = m_spec.travelTime;
+    trigger.electronicsDelay = m_spec.electronicsDelay;
+    trigger.match = 0.4 * std::min(m_spec.product.pitchX, m_spec.product.pitchY);
+    return trigger;
+  }
+
+  [[nodiscard]] vpMotionKalmanSpec kalmanSpec() const
+  {
+    vpMotionKalmanSpec kalman;
+    kalman.processNoise = 0.05; // the reference's jerk, about 0.3 px/frame^3 rms, and more at the start
+    kalman.sigmaPosition = 1.;
+    kalman.sigmaVelocity = 0.01;
+    kalman.sigmaAcceleration = 0.01;
+    kalman.maxDelay = 0.;
+    return kalman;
+  }
+
+  [[nodiscard]] int direction(int row) const { return row % 2 == 0 ? 1 : -1; }
+  //! Column of the k-th cell of a row.
+  [[nodiscard]] int columnOf(int row, int k) const { return row % 2 == 0 ? -1 - k : -m_spec.cellsPerRow + k; }
+  [[nodiscard]] long keyOf(int row, int k) const { return static_cast<long>(row) * (m_spec.cellsPerRow + 1L) + k; }
+
+  //! True place of a cell at displacement 0. The product tells it when the cell is in the middle of the image.
+  vpPatternTruthCell truthOf(int row, int column)
+  {
+    const auto key = std::make_pair(row, column);
+    const auto known = m_truths.find(key);
+    if (known != m_truths.end()) {
+      return known->second;
+    }
+    const double x = -column * m_spec.product.pitchX, y = -row * m_spec.product.pitchY;
+    vpPatternTruthCell found;
+    for (vpPatternTruthCell cell : m_product.cells(x, y)) {
+      if (cell.row == row && cell.column == column) {
+        cell.x -= x;
+        cell.y -= y;
+        found = cell;
+      }
+    }
+    m_truths[key] = found;
+    return found;
+  }
+
+  //! Displacement at which a cell is at the nozzle, as far as it is known: measured, or a pitch from its neighbour.
+  double placeOf(int row, int column)
+  {
+    double along = 0., across = 0.;
+    if (m_trigger.find(row, column, m_sensor.epoch(), along, across)) {
+      m_lastKnown = {row, column, along};
+      return m_nozzle - along;
+    }
+    if (m_lastKnown.row == row) {
+      return m_nozzle - m_lastKnown.along - (column - m_lastKnown.column) * m_spec.product.pitchX;
+    }
+    return m_nozzle - m_centreX - column * m_spec.product.pitchX;
+  }
+
+  // The cells from the present one on, turns between the rows.
+  void makeTargets()
+  {
+    m_targets.clear();
+    const long perRow = m_spec.cellsPerRow + 1L;
+    const double pitch = m_spec.product.pitchX, turn = 2. * pitch / m_spec.dropVelocity;
+    const long begin = std::max(0L, m_present - 1);
+    for (long key = begin; key < begin + 5; ++key) {
+      const int row = static_cast<int>(key / perRow), k = static_cast<int>(key % perRow);
+      if (row >= m_spec.rows) {
+        break;
+      }
+      vpPrintTarget target;
+      target.key = key;
+      if (k < m_spec.cellsPerRow) {
+        target.position = placeOf(row, columnOf(row, k));
+        target.velocity = direction(row) * m_spec.dropVelocity;
+        target.duration = k == 0 && row > 0 ? turn : 0.;
+      }
+      else {
+        target.position = placeOf(row, columnOf(row, k - 1)) + direction(row) * pitch;
+        target.velocity = 0.;
+        target.duration = turn;
+      }
+      m_targets.push_back(target);
+    }
+    m_row = std::min(static_cast<int>(m_present / perRow), m_spec.rows - 1);
+    // Behind the last cell of a row the stage steps to the next one.
+    const bool turning = m_present % perRow == m_spec.cellsPerRow;
+    const int rowAcross = std::min(turning ? m_row + 1 : m_row, m_spec.rows - 1);
+    m_targetY = vpPrintTarget();
+    m_targetY.key = rowAcross;
+    m_targetY.position = -rowAcross * m_spec.product.pitchY;
+    m_targetY.velocity = 0.;
+    m_targetY.duration = rowStepTime;
+  }
+
+  void step(int frame)
+  {
+    const double now = frame, capture = now - m_spec.visionDelay;
+    vpPrintSample sample;
+    sample.frame = frame;
+    sense(frame, capture, sample);
+    makeTargets();
+    const vpPrintReference::Output &reference = m_reference.step(now, m_targets.data(), m_targets.size());
+    m_present = reference.hasTarget ? reference.target : m_present;
+    if (!reference.hasTarget && !m_targets.empty() && now > 1.) {
+      m_present = m_targets.back().key;
+    }
+    m_referenceY.step(now, &m_targetY, 1);
+
+    const vpAxisState r = m_reference.at(now);
+    const bool observed = m_spec.controller == vpPrintController::Observer;
+    sample.estimatedVelocity = m_observer.at(now).velocity;
+    const double fx = observed ? previewForce(m_preview, now, m_observer, m_reference) : pidForce(r, sample);
+    fire(now, capture, sample);
+
+    const Truth::Point truth = m_truth.last();
+    sample.x = truth.x;
+    sample.y = truth.y;
+    sample.vx = truth.vx;
+    sample.vy = truth.vy;
+    sample.referencePosition = r[0];
+    sample.referenceVelocity = r[1];
+    sample.force = fx;
+    sample.row = m_row;
+    m_run.samples.push_back(sample);
+    drive(now, fx);
+    land();
+  }
+
+  void sense(int frame, double capture, vpPrintSample &sample)
+  {
+    std::mt19937_64 &random = m_sensor.random();
+    const double exposure = capture + m_spec.captureJitter * m_normal(random);
+    sample.dropped = std::uniform_real_distribution<double>(0., 1.)(random) < m_spec.dropped && frame > 2;
+    sample.measuredVelocity = m_run.samples.empty() ? 0. : m_run.samples.back().measuredVelocity;
+    m_seen = false;
+    if (sample.dropped) {
+      return;
+    }
+    const Truth::Point truth = m_truth.at(std::min(exposure, m_truth.now()));
+    m_sensor.see(truth.x, truth.y, truth.vx, truth.vy, static_cast<unsigned int>(frame));
+    sample.cells = static_cast<int>(m_sensor.cells().size());
+    if (m_sensor.cells().empty()) {
+      return;
+    }
+    const double gap = capture - m_lastCapture;
+    const vpProductOdometer::Output &moved =
+        m_odometer.step(m_sensor.cells().data(), m_sensor.cells().size(), m_sensor.epoch(),
+                        positionAt(capture) - positionAt(m_lastCapture), 0.);
+    m_seen = true;
+    if (moved.measured) {
+      sample.measuredVelocity = moved.dx / gap;
+    }
+    m_lastCapture = capture;
+    m_alphaBeta.step(sample.measuredVelocity);
+    m_kalman.add({vpMotionReadingKind::Position, capture, moved.x, m_sigmaX});
+    m_observer.measure(capture, moved.x, m_sigmaX);
+    m_observerY.measure(capture, moved.y, m_sigmaY);
+  }
+
+  [[nodiscard]] double positionAt(double t) const
+  {
+    return m_spec.controller == vpPrintController::Observer ? m_observer.at(t).position : m_kalman.at(t).position;
+  }
+
+  double pidForce(const vpAxisState &r, vpPrintSample &sample)
+  {
+    if (!m_seen) {
+      m_alphaBeta.skip();
+    }
+    vpPrintVelocityControl::Input input;
+    input.velocity = r[1];
+    input.acceleration = r[2];
+    input.measured = m_alphaBeta.predict(1.);
+    sample.estimatedVelocity = input.measured;
+    return m_pid.step(input).force;
+  }
+
+  // The commands of a frame.
+  void drive(double now, double first)
+  {
+    const int n = m_spec.commandsPerFrame;
+    for (int i = 0; i < n; ++i) {
+      const double t = now + static_cast<double>(i) / n;
+      const bool observed = m_spec.controller == vpPrintController::Observer;
+      const double fx = observed ? previewForce(m_preview, t, m_observer, m_reference) : first;
+      const double fy = previewForce(m_previewAcross, t, m_observerY, m_referenceY);
+      m_observer.command(t, fx);
+      m_observerY.command(t, fy);
+      m_truth.step(fx, fy, n);
+    }
+  }
+
+  static double previewForce(const vpPreviewControl &control, double now, const vpMotionObserver &observer,
+                             const vpPrintReference &reference)
+  {
+    const vpObservedMotion motion = observer.at(control.feedbackAt(now));
+    vpPreviewControl::Input input;
+    input.reference = reference.at(control.actsAt(now));
+    input.referenceFeedback = reference.at(control.feedbackAt(now));
+    input.position = motion.position;
+    input.velocity = motion.velocity;
+    input.disturbance = motion.velocity == 0. && input.reference[1] == 0. ? 0. : motion.disturbance;
+    return control.force(input);
+  }
+
+  void fire(double now, double capture, const vpPrintSample &sample)
+  {
+    vpPrintTriggerInput input;
+    input.time = now;
+    input.captureTime = capture;
+    if (m_seen) {
+      input.cells = m_sensor.cells().data();
+      input.cellCount = m_sensor.cells().size();
+    }
+    input.epoch = m_sensor.epoch();
+    input.firstColumn = -m_spec.cellsPerRow;
+    input.lastColumn = -1;
+    const vpObservedMotion across = m_observerY.at(now);
+    // The sum of displacements, not a filtered position: an error that all cells have in common cancels exactly, and
+    // the lag of a filter would make the cells wander.
+    input.captureAlong = m_odometer.output().x;
+    input.captureAcross = m_odometer.output().y;
+    input.across.time = now;
+    input.across.position = across.position;
+    input.across.velocity = across.velocity;
+    input.along.time = now;
+    if (m_spec.controller == vpPrintController::Observer) {
+      const vpObservedMotion motion = m_observer.at(now);
+      input.along.position = motion.position;
+      input.along.velocity = motion.velocity;
+      input.along.plan = m_reference.pieces();
+      input.along.pieces = m_reference.pieceCount();
+    }
+    else {
+      const vpMotionEstimate motion = m_kalman.at(now);
+      input.along.position = motion.position;
+      input.along.velocity = motion.velocity;
+      input.along.acceleration = motion.acceleration;
+      input.along.accelerationTime = 1.;
+      if (m_spec.trigger == vpPrintTriggerMethod::ThesisAlgorithm) {
+        input.along.velocity = sample.estimatedVelocity;
+      }
+    }
+    const vpPrintTriggerOutput &out = m_trigger.step(input);
+    for (int i = 0; i < out.shotCount; ++i) {
+      m_flying.push_back(out.shots[static_cast<std::size_t>(i)]);
+    }
+  }
+
+  // Drops whose landing is in the past by now.
+  void land()
+  {
+    for (std::size_t i = 0; i < m_flying.size();) {
+      const vpPrintShot &shot = m_flying[i];
+      const double landing = shot.fireTime + m_spec.electronicsDelay + m_spec.travelTime;
+      if (landing > m_truth.now()) {
+        ++i;
+        continue;
+      }
+      const Truth::Point truth = m_truth.at(landing);
+      const vpPatternTruthCell cell = truthOf(shot.row, shot.column);
+      vpPrintDrop drop;
+      drop.row = shot.row;
+      drop.column = shot.column;
+      drop.fireTime = shot.fireTime;
+      drop.landTime = landing;
+      drop.errorX = (m_nozzle - cell.x - truth.x) * m_spec.product.pixelSize;
+      drop.errorY = (m_centreY - cell.y - truth.y) * m_spec.product.pixelSize;
+      drop.velocity = truth.vx;
+      drop.late = shot.late;
+      m_run.drops.push_back(drop);
+      m_flying.erase(m_flying.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+    // Cells that pass the nozzle.
+    const Truth::Point before = m_truth.at(m_truth.now() - 1.), after = m_truth.last();
+    while (m_passing < static_cast<long>(m_spec.rows) * m_spec.cellsPerRow) {
+      const int row = static_cast<int>(m_passing / m_spec.cellsPerRow);
+      const int column = columnOf(row, static_cast<int>(m_passing % m_spec.cellsPerRow));
+      const double place = m_nozzle - truthOf(row, column).x;
+      if (direction(row) * (after.x - place) < 0. || std::fabs(before.y + row * m_spec.product.pitchY) > 4.) {
+        break;
+      }
+      double low = before.t, high = after.t; // bisection
+      for (int i = 0; i < 50; ++i) {
+        const double t = 0.5 * (low + high);
+        (direction(row) * (m_truth.at(t).x - place) < 0. ? low : high) = t;
+      }
+      m_passes.push_back({row, column, high, direction(row) * m_truth.at(high).vx});
+      ++m_passing;
+    }
+  }
+
+  [[nodiscard]] bool done() const
+  {
+    return m_passing == static_cast<long>(m_spec.rows) * m_spec.cellsPerRow &&
+           m_truth.now() > m_passes.back().time + 4. + m_spec.travelTime + m_spec.electronicsDelay;
+  }
+
+  void evaluate()
+  {
+    vpPrintMetrics &m = m_run.metrics;
+    m.frames = static_cast<int>(m_run.samples.size());
+    m.complete = m_passing == static_cast<long>(m_spec.rows) * m_spec.cellsPerRow;
+    double measured = 0., truth = 0.;
+    int count = 0;
+    for (std::size_t i = std::max<std::size_t>(1, static_cast<std::size_t>(m_spec.evaluateFrom));
+         i < m_run.samples.size(); ++i) {
+      const vpPrintSample &s = m_run.samples[i];
+      measured += std::pow(s.measuredVelocity - m_run.samples[i - 1].referenceVelocity, 2);
+      truth += std::pow(s.vx - s.referenceVelocity, 2);
+      ++count;
+    }
+    m.rms_velocity_error = std::sqrt(measured / std::max(1, count));
+    m.rms_true_velocity_error = std::sqrt(truth / std::max(1, count));
+    double centre = 0.;
+    count = 0;
+    for (const Pass &pass : m_passes) {
+      if (pass.time >= m_spec.evaluateFrom) {
+        const double error = std::fabs(pass.velocity - m_spec.dropVelocity);
+        centre += error * error;
+        m.centre_velocity_worst = std::max(m.centre_velocity_worst, error);
+        ++count;
+      }
+    }
+    m.centre_velocity_error = std::sqrt(centre / std::max(1, count));
+    evaluateDrops();
+  }
+
+  void evaluateDrops()
+  {
+    vpPrintMetrics &m = m_run.metrics;
+    std::sort(m_run.drops.begin(), m_run.drops.end(),
+              [](const vpPrintDrop &a, const vpPrintDrop &b) { return a.landTime < b.landTime; });
+    std::map<std::pair<int, int>, int> drops;
+    double sum = 0.;
+    int within = 0;
+    for (const vpPrintDrop &drop : m_run.drops) {
+      const double distance = std::hypot(drop.errorX, drop.errorY);
+      sum += distance * distance;
+      m.landing_worst_um = std::max(m.landing_worst_um, distance);
+      within += distance <= 10. ? 1 : 0;
+      ++drops[{drop.row, drop.column}];
+    }
+    const double n = static_cast<double>(m_run.drops.size());
+    m.landing_rms_um = n > 0. ? std::sqrt(sum / n) : 0.;
+    m.landed_within_10um = n > 0. ? within / n : 0.;
+    for (const auto &cell : drops) {
+      ++m.printed;
+      m.doubled += cell.second > 1 ? 1 : 0;
+    }
+    // A cell that passed in the last frames may still be waited for.
+    for (const Pass &pass : m_passes) {
+      const bool over = pass.time + 4. + m_spec.travelTime + m_spec.electronicsDelay <= m_truth.now();
+      m.missed += over && drops.count({pass.row, pass.column}) == 0 ? 1 : 0;
+    }
+    if (m_run.drops.size() > 1) {
+      const double time = m_run.drops.back().landTime - m_run.drops.front().landTime;
+      m.throughput_cells_per_s = (n - 1.) / time * m_spec.frameRate;
+    }
+    double constant = 0., taken = 0.;
+    for (std::size_t i = 1; i < m_passes.size(); ++i) {
+      if (m_passes[i].row == m_passes[i - 1].row) {
+        const double way =
+            truthOf(m_passes[i].row, m_passes[i].column).x - truthOf(m_passes[i].row, m_passes[i - 1].column).x;
+        constant += std::fabs(way) / m_spec.dropVelocity;
+        taken += m_passes[i].time - m_passes[i - 1].time;
+      }
+    }
+    m.gain_over_constant = taken > 0. ? constant / taken - 1. : 0.;
+  }
+
+  //! \brief A cell at the nozzle.
+  struct Pass {
+    int row, column;
+    double time, velocity;
+  };
+  struct Known {
+    int row, column;
+    double along;
+  };
+
+  const vpPrintExperimentSpec m_spec;
+  vpProductPattern m_product;
+  vpPrintCellSensor m_sensor;
+  Truth m_truth;
+  double m_centreX, m_centreY, m_nozzle;
+  vpPrintTrigger m_trigger;
+  vpPrintReference m_reference, m_referenceY;
+  vpPrintVelocityControl m_pid;
+  vpPreviewControl m_preview, m_previewAcross;
+  vpMotionObserver m_observer, m_observerY;
+  vpAlphaBetaFilter m_alphaBeta;
+  vpMotionKalmanFilter m_kalman;
+  vpProductOdometer m_odometer;
+  std::normal_distribution<double> m_normal{0., 1.};
+  double m_sigmaX = 1., m_sigmaY = 1.;
+  double m_lastCapture = 0.;
+  bool m_seen = false;
+  std::vector<vpPrintTarget> m_targets;
+  vpPrintTarget m_targetY;
+  long m_present = 0; // key of the present target
+  int m_row = 0;
+  Known m_lastKnown{-1, 0, 0.};
+  std::vector<vpPrintShot> m_flying;
+  std::vector<Pass> m_passes;
+  long m_passing = 0; // cells that have passed, in the order of printing
+  std::map<std::pair<int, int>, vpPatternTruthCell> m_truths;
+  vpPrintRun m_run;
+};
+} // namespace
+
+vpPrintRun runPrintExperiment(const vpPrintExperimentSpec &spec, const std::function<bool(double)> &progress)
+{
+  spec.validate();
+  return Experiment(spec).run(progress);
+}
+
+END_VISP_NAMESPACE
