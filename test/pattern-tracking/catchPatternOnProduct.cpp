@@ -131,7 +131,7 @@ TEST_CASE("every outline, polarity and size of image is tracked without a parame
   CAPTURE(vpTestSupport::seed());
   vpProductPatternSpec spec = product(455);
   int frames = 300, locks = 100;
-  const int kind = GENERATE(range(0, 13));
+  const int kind = GENERATE(range(0, 14));
   switch (kind) {
   case 0: // round dots
     spec.shape = vpProductShape::Dot;
@@ -187,6 +187,12 @@ TEST_CASE("every outline, polarity and size of image is tracked without a parame
   case 12: // the pitch changes by a fiftieth along the product
     spec.pitchX = 60.;
     spec.flexAmplitudeX = 4.;
+    break;
+  case 13: // a thousand cells, under uneven light
+    spec.width = 1000;
+    spec.height = 900;
+    spec.illuminationX = 0.2;
+    frames = 90;
     break;
   }
   CAPTURE(kind);

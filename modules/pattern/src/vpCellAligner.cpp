@@ -150,7 +150,8 @@ void variances(const vpTemplateBank::Phase &phase, double contrast, vpCellFit &f
 } // namespace
 
 vpCellAligner::vpCellAligner(std::size_t maxPixels)
-  : m_window(maxPixels + 16), m_model(maxPixels + 16), m_mask(maxPixels + 16)
+  : m_room(alignedRoom<std::int16_t>(maxPixels + 32)), m_window(alignedBegin(m_room)), m_model(maxPixels + 32),
+    m_mask(maxPixels + 32)
 {}
 
 void vpCellAligner::load(const vpImage<unsigned char> &image, const vpTemplateBank &bank,
@@ -159,8 +160,8 @@ void vpCellAligner::load(const vpImage<unsigned char> &image, const vpTemplateBa
   const int columns = 2 * bank.halfWidth() + 1, rows = 2 * bank.halfHeight() + 1;
   const unsigned char *from =
       image[static_cast<unsigned int>(place.y - bank.halfHeight())] + place.x - bank.halfWidth();
-  toWindow(from, static_cast<std::ptrdiff_t>(image.getWidth()), columns, rows, m_window.data());
-  std::fill(m_window.begin() + bank.pixels(), m_window.begin() + bank.stride(), static_cast<std::int16_t>(0));
+  toWindow(from, static_cast<std::ptrdiff_t>(image.getWidth()), columns, rows, m_window);
+  std::fill(m_window + bank.pixels(), m_window + bank.stride(), static_cast<std::int16_t>(0));
 }
 
 void vpCellAligner::prefetch(const vpImage<unsigned char> &image, const vpTemplateBank &bank, double x, double y)
@@ -200,7 +201,7 @@ vpCellFit vpCellAligner::align(const vpImage<unsigned char> &image, const vpTemp
     }
     const vpTemplateBank::Phase &phase = bank.phase(place.phase);
     double z[size];
-    project(phase, 0, m_window.data(), bank.stride(), z);
+    project(phase, 0, m_window, bank.stride(), z);
     const Step s = solve(phase, z, m_slopes);
     // Without contrast there is nothing to align with.
     if (!(s.contrast > 0.1 && s.contrast < 10.)) {
@@ -210,14 +211,14 @@ vpCellFit vpCellAligner::align(const vpImage<unsigned char> &image, const vpTemp
     y = place.py + std::clamp(s.dy, -maxStep, maxStep);
     if (std::abs(s.dx) < bank.reach() && std::abs(s.dy) < bank.reach()) {
       if (withSlopes) {
-        project(phase, unknowns, m_window.data(), bank.stride(), z);
+        project(phase, unknowns, m_window, bank.stride(), z);
         fit.slopes = slopesOf(phase, z);
         fit.hasSlopes = true;
       }
       else {
         knownSlopes(phase, m_slopes, z); // near enough for the sum of what is left over
       }
-      double rest = static_cast<double>(energy(m_window.data(), bank.stride()));
+      double rest = static_cast<double>(energy(m_window, bank.stride()));
       for (const double v : z) {
         rest -= v * v;
       }
@@ -281,8 +282,8 @@ vpCellFit vpCellAligner::alignMasked(const vpImage<unsigned char> &image, const 
         loadedX = place.x;
         loadedY = place.y;
       }
-      project(phase, 0, m_window.data(), bank.stride(), z);
-      project(phase, unknowns, m_window.data(), bank.stride(), z);
+      project(phase, 0, m_window, bank.stride(), z);
+      project(phase, unknowns, m_window, bank.stride(), z);
       for (std::size_t k = 0; k < size; ++k) {
         h[k] = phase.r[k][4] * m_slopes[0] + phase.r[k][5] * m_slopes[1] + phase.r[k][6] * m_slopes[2] +
                phase.r[k][7] * m_slopes[3];

@@ -29,6 +29,8 @@ class vpCellAligner
 {
 public:
   explicit vpCellAligner(std::size_t maxPixels);
+  vpCellAligner(const vpCellAligner &) = delete;
+  vpCellAligner &operator=(const vpCellAligner &) = delete;
 
   //! The slopes that all cells share; 0 at first.
   void setSlopes(const vpSlopes &slopes) { m_slopes = slopes; }
@@ -45,7 +47,8 @@ private:
   void load(const vpImage<unsigned char> &image, const vpTemplateBank &bank, const vpTemplateBank::Place &place);
 
   vpSlopes m_slopes{};
-  std::vector<std::int16_t> m_window;
+  std::vector<std::int16_t> m_room;
+  std::int16_t *m_window; // in m_room, aligned
   std::vector<float> m_model;
   std::array<double, vpTemplateBank::basisSize> m_sum{};
   std::vector<unsigned char> m_mask;

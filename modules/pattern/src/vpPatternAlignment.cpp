@@ -28,20 +28,23 @@ bool vpPatternTracker::Impl::alignAll(const vpImage<unsigned char> &image)
 {
   startAll(image);
   if (!deviateAsBefore()) {
-    renumber(vpPatternReason::IdentitySlip); // forgets the deviations, so that this is not asked again
+    renumber(vpPatternReason::IdentitySlip); // forgets the deviations, so that all cells are new
     startAll(image);
+    static_cast<void>(deviateAsBefore());
   }
   validate(image);
   if (mostKnownAreGone()) {
     // Perhaps other cells have taken their places: see whether they fit when nothing is expected of them.
     const int before = m_frame.validCells;
     startAll(image, false);
+    static_cast<void>(deviateAsBefore());
     validate(image);
     if (m_frame.validCells > before + 1 && 3 * m_frame.validCells > 4 * before) {
       renumber(vpPatternReason::IdentitySlip);
     }
     else { // dirt, or something in front
       startAll(image);
+      static_cast<void>(deviateAsBefore());
       validate(image);
     }
   }
@@ -75,31 +78,38 @@ void vpPatternTracker::Impl::startAll(const vpImage<unsigned char> &image, bool 
   }
 }
 
-// False when cells that are known and clean lie otherwise to each other than before: these are not the same cells.
+// What all cells have moved by, as the known ones show it: new ones also show their deviations. False when cells that
+// are known and clean lie otherwise to each other than before: these are not the same cells.
 bool vpPatternTracker::Impl::deviateAsBefore()
 {
   const std::size_t n = m_frame.cells.size();
-  const auto counts = [&](std::size_t i) {
-    return m_ownStart[i] != 0 && m_fits[i].ok && m_fits[i].variance < dirty * m_noise + allowance();
-  };
-  const auto median = [&](auto value) {
+  bool anyKnown = false;
+  for (std::size_t i = 0; i < n; ++i) {
+    anyKnown = anyKnown || (m_fits[i].ok && m_ownStart[i] != 0);
+  }
+  const auto shift = [&](const std::vector<double> &start, double vpCellFit::*centre) {
     m_scratch.clear();
     for (std::size_t i = 0; i < n; ++i) {
-      if (counts(i)) {
-        m_scratch.push_back(value(i));
+      if (m_fits[i].ok && (!anyKnown || m_ownStart[i] != 0)) {
+        m_scratch.push_back(m_fits[i].*centre - start[i]);
       }
     }
     return vpRobustMean::median(m_scratch);
   };
-  const double dx = median([&](std::size_t i) { return m_fits[i].x - m_startX[i]; });
-  const double dy = median([&](std::size_t i) { return m_fits[i].y - m_startY[i]; });
+  m_shiftX = shift(m_startX, &vpCellFit::x);
+  m_shiftY = shift(m_startY, &vpCellFit::y);
+  m_scratch.clear();
   double sigma = 0.;
-  const double off = median([&](std::size_t i) {
-    const double ex = m_fits[i].x - m_startX[i] - dx, ey = m_fits[i].y - m_startY[i] - dy;
-    sigma += std::sqrt(m_fits[i].variance * (m_fits[i].xx + m_fits[i].yy));
-    return std::sqrt(ex * ex + ey * ey);
-  });
-  return m_scratch.size() < 4 || off < std::max(0.1, 6. * sigma / static_cast<double>(m_scratch.size()));
+  for (std::size_t i = 0; i < n; ++i) {
+    const vpCellFit &fit = m_fits[i];
+    if (m_ownStart[i] != 0 && fit.ok && fit.variance < dirty * m_noise + allowance()) {
+      const double ex = fit.x - m_startX[i] - m_shiftX, ey = fit.y - m_startY[i] - m_shiftY;
+      m_scratch.push_back(std::sqrt(ex * ex + ey * ey));
+      sigma += std::sqrt(fit.variance * (fit.xx + fit.yy));
+    }
+  }
+  const double count = static_cast<double>(m_scratch.size());
+  return count < 4. || vpRobustMean::median(m_scratch) < std::max(0.1, 6. * sigma / count);
 }
 
 // The template is not perfect: a hundredth of its range is nothing to look into.
@@ -121,33 +131,17 @@ void vpPatternTracker::Impl::validate(const vpImage<unsigned char> &image)
   const double now = median([&](std::size_t i) { return m_fits[i].variance; });
   const double usual = m_noise > 0. ? std::clamp(now, 0.5 * m_noise, 2. * m_noise) : std::max(now, 0.05);
   const double contrast = median([&](std::size_t i) { return m_fits[i].contrast; });
-  // What all have moved by, as the known ones show it: new ones also show their deviations.
-  bool anyKnown = false;
-  for (std::size_t i = 0; i < n; ++i) {
-    anyKnown = anyKnown || (m_fits[i].ok && m_ownStart[i] != 0);
-  }
-  const auto shift = [&](const std::vector<double> &start, auto centre) {
-    m_scratch.clear();
-    for (std::size_t i = 0; i < n; ++i) {
-      if (m_fits[i].ok && (!anyKnown || m_ownStart[i] != 0)) {
-        m_scratch.push_back(centre(m_fits[i]) - start[i]);
-      }
-    }
-    return vpRobustMean::median(m_scratch);
-  };
-  const double shiftX = shift(m_startX, [](const vpCellFit &fit) { return fit.x; });
-  const double shiftY = shift(m_startY, [](const vpCellFit &fit) { return fit.y; });
   const double pitch = std::min(std::hypot(m_lattice.ax, m_lattice.ay), std::hypot(m_lattice.bx, m_lattice.by));
   const double newGate = std::clamp(0.12 * pitch, 0.5, 4.);
   for (std::size_t i = 0; i < n; ++i) {
     vpCellFit &fit = m_fits[i];
     const double gate = m_ownStart[i] != 0 ? std::min(knownGate, newGate) : newGate;
     const auto near = [&](const vpCellFit &f) {
-      const double dx = f.x - m_startX[i] - shiftX, dy = f.y - m_startY[i] - shiftY;
+      const double dx = f.x - m_startX[i] - m_shiftX, dy = f.y - m_startY[i] - m_shiftY;
       return dx * dx + dy * dy < gate * gate;
     };
     if (!fit.ok || fit.variance > dirty * usual + allowance() || !near(fit)) {
-      fit = m_aligner.alignMasked(image, m_bank, m_startX[i] + shiftX, m_startY[i] + shiftY, std::sqrt(usual));
+      fit = m_aligner.alignMasked(image, m_bank, m_startX[i] + m_shiftX, m_startY[i] + m_shiftY, std::sqrt(usual));
     }
     vpPatternCell &cell = m_frame.cells[i];
     const double hidden = fit.masked ? maskedSigma * maskedSigma : 0.;
@@ -176,8 +170,9 @@ void vpPatternTracker::Impl::validate(const vpImage<unsigned char> &image)
   if (clean > 0) {
     // Few cells say little. From the first image on the mean of all that was seen, later the recent past.
     m_slopeWeight = std::min(m_slopeWeight + clean, slopeMemory);
+    const double gain = std::min(1., clean / m_slopeWeight); // more cells than the memory are all there is to know
     for (std::size_t k = 0; k < sum.size(); ++k) {
-      m_slopes[k] += (sum[k] - clean * m_slopes[k]) / m_slopeWeight;
+      m_slopes[k] += gain * (sum[k] / clean - m_slopes[k]);
     }
     m_aligner.setSlopes(m_slopes);
   }

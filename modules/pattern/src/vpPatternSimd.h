@@ -13,4 +13,25 @@
 #define VISP_PATTERN_CLONES
 #endif
 
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+//! Vectors of this many bytes that begin at multiples of it never lie in two lines of the cache.
+constexpr std::size_t vpPatternAlignment = 64;
+
+//! Room for \e count numbers from alignedBegin() on.
+template <typename Number> std::vector<Number> alignedRoom(std::size_t count)
+{
+  return std::vector<Number>(count + vpPatternAlignment / sizeof(Number));
+}
+
+//! First number of alignedRoom() whose address is a multiple of vpPatternAlignment.
+template <typename Number> Number *alignedBegin(std::vector<Number> &room)
+{
+  const auto address = reinterpret_cast<std::uintptr_t>(room.data());
+  const std::size_t over = address % vpPatternAlignment;
+  return room.data() + (over == 0 ? 0 : (vpPatternAlignment - over) / sizeof(Number));
+}
+
 #endif

@@ -178,8 +178,9 @@ void vpPatternTracker::Impl::updateLattice()
       m_meanY.add(cell.y - m_startY[i], variance(cell.sigmaY));
     }
   }
-  m_lattice.ox += m_meanX.mean().value;
-  m_lattice.oy += m_meanY.mean().value;
+  const bool aligned = m_stage == Stage::Locked; // the shift is known then, and is as good a centre as the median
+  m_lattice.ox += (aligned ? m_meanX.mean(m_shiftX) : m_meanX.mean()).value;
+  m_lattice.oy += (aligned ? m_meanY.mean(m_shiftY) : m_meanY.mean()).value;
 }
 
 void vpPatternTracker::Impl::measureMotion()
@@ -205,7 +206,8 @@ void vpPatternTracker::Impl::measureMotion()
     squaresY += dy * dy;
     ++n;
   }
-  const vpRobustMean::Result x = m_meanX.mean(), y = m_meanY.mean();
+  const vpRobustMean::Result x = edges ? m_meanX.mean() : m_meanX.mean(m_vx); // the lattice has moved by m_vx
+  const vpRobustMean::Result y = edges ? m_meanY.mean() : m_meanY.mean(m_vy);
   m_frame.hasMotion = x.count > 0 && y.count > 0;
   if (!m_frame.hasMotion) {
     return;

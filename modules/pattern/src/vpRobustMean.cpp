@@ -71,20 +71,25 @@ double vpRobustMean::median(std::vector<double> &values)
 
 vpRobustMean::Result vpRobustMean::mean()
 {
+  m_scratch.assign(m_values.begin(), m_values.end());
+  return mean(median(m_scratch));
+}
+
+vpRobustMean::Result vpRobustMean::mean(double centre)
+{
   Result result;
   if (m_values.empty()) {
     return result;
   }
-  m_scratch.assign(m_values.begin(), m_values.end());
-  result.median = median(m_scratch);
+  m_scratch.resize(m_values.size());
   for (std::size_t i = 0; i < m_values.size(); ++i) {
-    m_scratch[i] = std::abs(m_values[i] - result.median);
+    m_scratch[i] = std::abs(m_values[i] - centre);
   }
   const double spread = 1.48 * median(m_scratch);
   double sum = 0., weights = 0., squares = 0.;
   for (std::size_t i = 0; i < m_values.size(); ++i) {
     const double scale = 5. * std::max(spread, std::sqrt(m_variances[i]));
-    const double u = (m_values[i] - result.median) / scale;
+    const double u = (m_values[i] - centre) / scale;
     if (std::abs(u) >= 1.) {
       continue;
     }

@@ -16,14 +16,16 @@ class vpRobustMean
 {
 public:
   struct Result {
-    double value = 0., variance = 0., median = 0.;
+    double value = 0., variance = 0.;
     int count = 0; // with a weight
   };
   explicit vpRobustMean(std::size_t capacity);
 
   void clear();
   void add(double value, double variance);
-  //! Tukey's biweight about the median, each value weighted with its variance.
+  //! Tukey's biweight about \e centre, each value weighted with its variance.
+  Result mean(double centre);
+  //! The same about the median.
   Result mean();
   static double median(std::vector<double> &values);
 

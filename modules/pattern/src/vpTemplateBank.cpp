@@ -40,9 +40,11 @@ VISP_PATTERN_CLONES void subtract(float *__restrict a, float factor, const float
 }
 } // namespace
 
-vpTemplateBank::vpTemplateBank(std::size_t maxPixels) : m_capacity(maxPixels)
+vpTemplateBank::vpTemplateBank(std::size_t maxPixels)
+  : m_capacity(maxPixels),
+    m_room(static_cast<std::size_t>(maxPhases * basisSize) * (std::min<std::size_t>(maxPixels, 65536) + 32)),
+    m_q(alignedRoom<std::int16_t>(m_room))
 {
-  m_q.resize(static_cast<std::size_t>(maxPhases * basisSize) * std::min<std::size_t>(maxPixels, 65536));
   m_basis.resize(basisSize * maxPixels);
 }
 
@@ -53,7 +55,7 @@ void vpTemplateBank::begin(const vpTemplateLearner &learner)
   m_ready = 0;
   // Big cells take coarser phases; the Gauss-Newton step covers the rest.
   m_perAxis = finest;
-  while (static_cast<std::size_t>(m_perAxis * m_perAxis * basisSize * stride()) > m_q.size() && m_perAxis > 1) {
+  while (static_cast<std::size_t>(m_perAxis * m_perAxis * basisSize * stride()) > m_room && m_perAxis > 1) {
     m_perAxis /= 2;
   }
   m_phases = m_perAxis * m_perAxis;
@@ -127,7 +129,7 @@ void vpTemplateBank::build(const vpTemplateLearner &learner, int index)
       b[j][i] *= inverse;
     }
   }
-  std::int16_t *q = &m_q[static_cast<std::size_t>(index * basisSize) * static_cast<std::size_t>(stride())];
+  std::int16_t *q = alignedBegin(m_q) + static_cast<std::ptrdiff_t>(index * basisSize) * stride();
   phase.q = q;
   for (std::size_t k = 0; k < basisSize; ++k) {
     float largest = 0.F;

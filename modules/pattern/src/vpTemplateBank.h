@@ -60,7 +60,7 @@ public:
   //! Difference between the brightest and the darkest pixel of the template, grey values.
   double range() const { return m_range; }
   int pixels() const { return (2 * m_hw + 1) * (2 * m_hh + 1); }
-  int stride() const { return (pixels() + 15) / 16 * 16; }
+  int stride() const { return (pixels() + 31) / 32 * 32; } // whole lines of the cache
 
 private:
   void build(const vpTemplateLearner &learner, int index);
@@ -69,6 +69,7 @@ private:
   double m_range = 0.;
   std::size_t m_capacity;
   std::array<Phase, maxPhases> m_phase;
+  std::size_t m_room; // numbers in m_q
   std::vector<std::int16_t> m_q;
   std::vector<float> m_basis; // basisSize rows
 };
