@@ -4,24 +4,19 @@
  */
 /*!
  * \file format.h
- * \brief Numbers as text, independent of the locale.
+ * \brief Numbers as text, by their short names.
  */
 #ifndef servoCompare_format_h
 #define servoCompare_format_h
 
-#include <string>
-#include <vector>
+#include "numberText.h"
 
 namespace servoCompare
 {
-//! \e value with \e digits significant digits, "0.2" or "57".
-[[nodiscard]] std::string number(double value, int digits);
-//! \e value with \e decimals digits after the point, "0.20".
-[[nodiscard]] std::string fixed(double value, int decimals);
-//! "a", "a and b", "a, b and c".
-[[nodiscard]] std::string enumerate(const std::vector<std::string> &items);
-//! A file name made of any text: letters, digits, `-`, `+` and `.` stay, all else becomes `_`.
-[[nodiscard]] std::string fileName(const std::string &text);
+using vpApp::enumerate;
+using vpApp::fileName;
+using vpApp::fixed;
+using vpApp::number;
 } // namespace servoCompare
 
 #endif

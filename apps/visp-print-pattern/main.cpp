@@ -1,0 +1,82 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// visp-print-pattern: drops on a moving, flexible product, in a closed loop through the camera.
+#include "options.h"
+#include "pictures.h"
+#include "reportPage.h"
+#include "results.h"
+#include "tables.h"
+
+#include "appMain.h"
+#include "outputFolder.h"
+#include "plot.h"
+
+#include <chrono>
+#include <iostream>
+
+namespace
+{
+using namespace printPattern;
+
+std::string joined(int argc, const char *const *argv)
+{
+  std::string line = "visp-print-pattern";
+  for (int i = 1; i < argc; ++i) {
+    line += std::string(" ") + argv[i];
+  }
+  return line;
+}
+
+void print(const Options &options, const std::string &commandLine)
+{
+  const auto start = std::chrono::steady_clock::now();
+  vpApp::requireGnuplot();
+  vpApp::OutputFolder out("visp-print-pattern", options.out);
+  const Results results = runAll(options);
+  const vpPrintRun &run = results.runs.front();
+  ReportParts parts;
+  parts.commandLine = commandLine;
+  parts.own = ownFigures(results);
+  parts.printed = pngOf(printedProduct(run));
+  out.write("product.png", parts.printed);
+  if (options.replicas) {
+    parts.thesis = thesisFigures(results);
+    parts.thesis.insert(parts.thesis.begin(), distortionFigure());
+    parts.detection = pngOf(detection(vpPrintExperimentSpec::thesisPid()));
+    out.write("figure/figure-7.11.png", parts.detection);
+  }
+  for (const auto *figures : {&parts.own, &parts.thesis}) {
+    for (const Figure &figure : *figures) {
+      out.write("figure/" + figure.name + ".svg", figure.svg);
+    }
+  }
+  if (options.video) {
+    parts.video = "camera.mp4";
+    writeVideo(run, out.file(parts.video));
+  }
+  out.write("motion.csv", motionCsv(run));
+  out.write("drops.csv", dropsCsv(run));
+  out.write("report.html", reportPage(options, results, parts));
+  const double wallTime = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  out.writeSummary(summaryOf(options, results, commandLine, wallTime));
+  vpApp::throwIfInterrupted();
+  out.commit();
+  std::cout << sumOf(results.runs, &vpPrintMetrics::printed) << " cells printed, "
+            << sumOf(results.runs, &vpPrintMetrics::missed) << " missed, "
+            << sumOf(results.runs, &vpPrintMetrics::doubled) << " doubled: " << (out.path() / "report.html").string()
+            << std::endl;
+}
+} // namespace
+
+int main(int argc, char **argv)
+{
+  return vpApp::runMain("visp-print-pattern", [&]() -> int {
+    Options options;
+    if (readOptions(argc, argv, options)) {
+      print(options, joined(argc, argv));
+    }
+    return vpApp::ExitOk;
+  });
+}

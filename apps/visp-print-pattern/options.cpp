@@ -1,0 +1,219 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "options.h"
+
+#include "appMain.h"
+#include "numberText.h"
+
+#include <visp3/core/vpException.h>
+
+#include <map>
+
+namespace printPattern
+{
+namespace
+{
+constexpr const char *ABOUT =
+    R"(Print a drop into every cell of a moving, flexible product, with the camera as the only encoder: camera -> cells ->
+motion -> trajectory -> control -> stage -> drops, all simulated, and a report. Lengths are px of the image (4.5 um),
+times are frames (1/1600 s). The product, the stage and the figures are those of chapter 7 of the thesis.)";
+
+constexpr const char *EXAMPLES =
+    R"(Examples:
+  visp-print-pattern
+      40 cells through rendered images and the tracker, the experiments of the thesis, out/print-pattern/report.html
+  visp-print-pattern --axis xy --rows 4 --flex 2 --defects
+      four rows of a flexible, dirty product, printed one after another
+  visp-print-pattern --controller pid-ff --sensor thesis --trigger thesis --runs 50 --cells 200
+      the thesis's own way, 50 times
+  visp-print-pattern --reference constant --no-thesis
+      constant velocity, for the throughput to compare with
+
+Exit status: 0 done, 1 the machine or the disk does not allow it, 2 the command line is wrong.)";
+
+constexpr std::size_t NAME_COLUMN = 34; // width, characters
+
+template <typename Value> Value valueOf(const std::string &option, const std::string &name,
+                                        const std::map<std::string, Value> &values)
+{
+  const auto found = values.find(name);
+  if (found == values.end()) {
+    std::vector<std::string> names;
+    for (const auto &value : values) {
+      names.push_back(value.first);
+    }
+    throw vpApp::UsageError(option + " is " + name + ", must be one of " + vpApp::enumerate(names));
+  }
+  return found->second;
+}
+
+//! \brief Texts and numbers as they stand on the command line, before they become a specification.
+struct Words {
+  std::string controller = "observer", reference = "centres", trigger = "horizon", axis = "x";
+  std::vector<double> filter;
+  bool defects = false, noReplicas = false;
+  int rows = 0;
+  double meanVelocity = 5., maxVelocity = 6., dropTime = 10.8, flex = 0., flexPeriod = 20., jitter = 0., noise = 4.;
+  double dropVelocity = 4., visionDelay = 1.28, travelTime = 0.32, nozzle = 0., dropped = 0.;
+  int cells = 40, frames = 0;
+  unsigned int seed = 1;
+};
+
+void addControl(CLI::App &app, Words &words, Options &options)
+{
+  const char *group = "Control";
+  app.add_option("--controller", words.controller, "observer, pid or pid-ff (with mass and friction feedforward)")
+      ->option_text("NAME (observer)")
+      ->group(group);
+  app.add_option("--filter", words.filter, "Gains of the alpha-beta filter, for pid and pid-ff")
+      ->expected(2)
+      ->option_text("ALPHA BETA")
+      ->group(group);
+  app.add_option("--sensor", options.sensor,
+                 "image: rendered pictures through vpPatternTracker; tracker, thesis: true places with the errors of that "
+                 "tracker, or of the thesis's detection")
+      ->option_text("NAME (image)")
+      ->group(group);
+  app.add_option("--trigger", words.trigger, "horizon: each cell exactly once; thesis: algorithm 7.5")
+      ->option_text("NAME (horizon)")
+      ->group(group);
+}
+
+void addMotion(CLI::App &app, Words &words)
+{
+  const char *group = "Motion";
+  app.add_option("--reference", words.reference,
+                 "centres: drop velocity at the centres and faster between; arrival: a fixed time from cell to cell; "
+                 "limited: as fast as a limit allows; constant: drop velocity all the way")
+      ->option_text("NAME (centres)")
+      ->group(group);
+  app.add_option("--drop-velocity", words.dropVelocity, "At the centres")->option_text("PX/FRAME (4)")->group(group);
+  app.add_option("--mean-velocity", words.meanVelocity, "For centres")->option_text("PX/FRAME (5)")->group(group);
+  app.add_option("--drop-time", words.dropTime, "For arrival")->option_text("FRAMES (10.8)")->group(group);
+  app.add_option("--max-velocity", words.maxVelocity, "For limited")->option_text("PX/FRAME (6)")->group(group);
+  app.add_option("--axis", words.axis, "x: one row; xy: rows one after another, to and fro")
+      ->option_text("NAME (x)")
+      ->group(group);
+  app.add_option("--rows", words.rows, "With --axis xy")->option_text("N (3)")->group(group);
+  app.add_option("--cells", words.cells, "In a row")->option_text("N (40)")->group(group);
+  app.add_option("--frames", words.frames, "Stop after so many; 0: when all cells are printed")
+      ->option_text("N (0)")
+      ->group(group);
+}
+
+void addWorld(CLI::App &app, Words &words)
+{
+  const char *group = "Product, camera and head";
+  app.add_option("--flex", words.flex, "Flexible pitch: cells lie up to this far before or behind their place, in x and y")
+      ->option_text("PX (0)")
+      ->group(group);
+  app.add_option("--flex-period", words.flexPeriod, "Over so many cells")->option_text("CELLS (20)")->group(group);
+  app.add_option("--jitter", words.jitter, "Standard deviation of a cell's place")->option_text("PX (0)")->group(group);
+  app.add_flag("--defects", words.defects, "Dust and cracks: 12 and 3 in view")->group(group);
+  app.add_option("--noise", words.noise, "Of the camera, see visp-generate-pattern")->option_text("NS (4)")->group(group);
+  app.add_option("--vision-delay", words.visionDelay, "From exposure to control")->option_text("FRAMES (1.28)")->group(group);
+  app.add_option("--dropped", words.dropped, "Share of frames that never arrive")->option_text("SHARE (0)")->group(group);
+  app.add_option("--travel-time", words.travelTime, "Of a drop")->option_text("FRAMES (0.32)")->group(group);
+  app.add_option("--nozzle", words.nozzle, "Place of the nozzle from the middle of the image")
+      ->option_text("PX (0)")
+      ->group(group);
+}
+
+vpPrintExperimentSpec specOf(const Words &words, const Options &options)
+{
+  const auto controller = valueOf<vpPrintController>("--controller", words.controller,
+                                                     {{"observer", vpPrintController::Observer},
+                                                      {"pid", vpPrintController::Pid},
+                                                      {"pid-ff", vpPrintController::PidFeedforward}});
+  const auto model = valueOf<vpPrintSensorModel>("--sensor", options.sensor,
+                                                 {{"image", vpPrintSensorModel::tracker()},
+                                                  {"tracker", vpPrintSensorModel::tracker()},
+                                                  {"thesis", vpPrintSensorModel::thesis()}});
+  vpPrintExperimentSpec spec = vpPrintExperimentSpec::withObserver(model);
+  if (controller != vpPrintController::Observer) {
+    const vpPrintExperimentSpec pid = controller == vpPrintController::Pid ? vpPrintExperimentSpec::thesisPid()
+                                                                           : vpPrintExperimentSpec::thesisFeedforward();
+    spec.controller = controller;
+    spec.pid = pid.pid;
+    spec.filter = pid.filter;
+  }
+  if (!words.filter.empty()) {
+    spec.filter = {words.filter[0], words.filter[1]};
+  }
+  spec.sensor = options.sensor == "image" ? vpPrintSensor::Image : vpPrintSensor::Model;
+  spec.trigger = valueOf<vpPrintTriggerMethod>(
+      "--trigger", words.trigger,
+      {{"horizon", vpPrintTriggerMethod::Horizon}, {"thesis", vpPrintTriggerMethod::ThesisAlgorithm}});
+  spec.reference.mode = valueOf<vpPrintReferenceMode>("--reference", words.reference,
+                                                      {{"centres", vpPrintReferenceMode::CellVelocity},
+                                                       {"arrival", vpPrintReferenceMode::FixedArrival},
+                                                       {"limited", vpPrintReferenceMode::LimitedVelocity},
+                                                       {"constant", vpPrintReferenceMode::ConstantVelocity}});
+  spec.reference.meanVelocity = words.meanVelocity;
+  spec.reference.maxVelocity = words.maxVelocity;
+  spec.reference.dropTime = words.dropTime;
+  spec.dropVelocity = words.dropVelocity;
+  const bool both = valueOf<bool>("--axis", words.axis, {{"x", false}, {"xy", true}});
+  if (!both && words.rows > 1) {
+    throw vpApp::UsageError("--rows is " + std::to_string(words.rows) + ", more than one row needs --axis xy");
+  }
+  spec.rows = both ? (words.rows == 0 ? 3 : words.rows) : 1;
+  spec.cellsPerRow = words.cells;
+  spec.frames = words.frames;
+  spec.product.flexAmplitudeX = spec.product.flexAmplitudeY = words.flex;
+  spec.product.flexPeriodX = spec.product.flexPeriodY = words.flexPeriod;
+  spec.product.jitter = words.jitter;
+  spec.product.noise = words.noise;
+  spec.product.dust = words.defects ? 12. / 1.6 : 0.; // per 100 x 100 px
+  spec.product.cracks = words.defects ? 3. / 1.6 : 0.;
+  spec.product.seed = words.seed;
+  spec.visionDelay = words.visionDelay;
+  spec.dropped = words.dropped;
+  spec.travelTime = words.travelTime;
+  spec.nozzleOffset = words.nozzle;
+  spec.seed = words.seed;
+  return spec;
+}
+} // namespace
+
+bool readOptions(int argc, const char *const *argv, Options &options)
+{
+  CLI::App app(ABOUT, "visp-print-pattern");
+  app.get_formatter()->column_width(NAME_COLUMN);
+  app.footer(EXAMPLES);
+  app.set_version_flag("--version", std::string("visp-print-pattern ") + VISP_DIRECT_VERSION);
+  Words words;
+  app.add_option("--out", options.out, "Folder for the result (out/print-pattern)")->option_text("DIR");
+  app.add_option("--runs", options.runs, "Repeat with other seeds, 1..10000")->option_text("N (1)");
+  app.add_option("--seed", words.seed, "Of everything random")->option_text("N (1)");
+  app.add_option("--jobs", options.jobs, "Runs at a time")->option_text("N (cores)");
+  app.add_flag("--no-thesis", words.noReplicas, "Leave out the experiments of the thesis");
+  app.add_flag("--video", options.video, "Write camera.mp4: what the camera sees, and the drops");
+  addControl(app, words, options);
+  addMotion(app, words);
+  addWorld(app, words);
+  if (!vpApp::parseCommandLine(app, argc, argv)) {
+    return false;
+  }
+  if (options.out.empty()) {
+    throw vpApp::UsageError("--out is empty, must name a folder");
+  }
+  if (options.runs < 1 || options.runs > 10000) {
+    throw vpApp::UsageError("--runs is " + std::to_string(options.runs) + ", must be 1..10000");
+  }
+  if (options.jobs > 256) {
+    throw vpApp::UsageError("--jobs is " + std::to_string(options.jobs) + ", must be at most 256");
+  }
+  options.replicas = !words.noReplicas;
+  options.spec = specOf(words, options);
+  try {
+    options.spec.validate();
+  }
+  catch (const vpException &error) {
+    throw vpApp::UsageError(vpApp::sentenceOf(error));
+  }
+  return true;
+}
+} // namespace printPattern

@@ -1,0 +1,39 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file options.h
+ * \brief The command line of visp-print-pattern.
+ */
+#ifndef printPattern_options_h
+#define printPattern_options_h
+
+#include <visp3/simulation/vpPrintExperiment.h>
+
+#include <string>
+
+namespace printPattern
+{
+VISP_DIRECT_USING_NAMESPACE
+
+//! \brief What the user asked for.
+struct Options {
+  vpPrintExperimentSpec spec;         //!< The run of the user.
+  std::string sensor = "image";       //!< image, tracker or thesis; the last two are models of a sensor.
+  int runs = 1;                       //!< Runs of it with other seeds, for statistics.
+  bool replicas = true;               //!< Also the experiments of the thesis.
+  bool video = false;                 //!< Write camera.mp4.
+  unsigned int jobs = 0;              //!< Runs at a time, 0: one per core.
+  std::string out = "out/print-pattern"; //!< Result folder.
+};
+
+/*!
+ * Read the command line.
+ * \return False when the program has nothing left to do (`--help`, `--version`).
+ * \throw vpApp::UsageError naming the option and its value.
+ */
+[[nodiscard]] bool readOptions(int argc, const char *const *argv, Options &options);
+} // namespace printPattern
+
+#endif

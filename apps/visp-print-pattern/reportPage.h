@@ -1,0 +1,30 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file reportPage.h
+ * \brief The page that visp-print-pattern writes.
+ */
+#ifndef printPattern_reportPage_h
+#define printPattern_reportPage_h
+
+#include "figures.h"
+
+namespace printPattern
+{
+//! \brief What the page shows besides the numbers.
+struct ReportParts {
+  std::vector<Figure> own;      //!< Of the user's run.
+  std::vector<Figure> thesis;   //!< Of the thesis's experiments; may be empty.
+  std::string printed;          //!< The printed product, PNG.
+  std::string detection;        //!< Figure 7.11, PNG; empty without the thesis's experiments.
+  std::string video;            //!< File beside the page, or empty.
+  std::string commandLine;      //!< That made it.
+};
+
+//! The page, with everything but the video in it.
+[[nodiscard]] std::string reportPage(const Options &options, const Results &results, const ReportParts &parts);
+} // namespace printPattern
+
+#endif

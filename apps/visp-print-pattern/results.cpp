@@ -1,0 +1,156 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "results.h"
+
+#include "appMain.h"
+#include "jobs.h"
+#include "progress.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace printPattern
+{
+namespace
+{
+constexpr int REPLICA_SEEDS = 8; // as many as the figures of the design were found with
+
+//! Figure 7.12: a step of the velocity, PID.
+vpPrintExperimentSpec stepResponse()
+{
+  vpPrintExperimentSpec spec = vpPrintExperimentSpec::thesisPid();
+  spec.reference.mode = vpPrintReferenceMode::ConstantVelocity;
+  spec.cellsPerRow = 60;
+  spec.frames = 480; // 0.3 s
+  return spec;
+}
+
+vpPrintExperimentSpec observerOn(const vpPrintSensorModel &sensor)
+{
+  vpPrintExperimentSpec spec = vpPrintExperimentSpec::withObserver(sensor);
+  spec.product.jitter = 0.3; // as in the thesis's experiments
+  spec.cellsPerRow = 40;
+  spec.frames = 120;
+  return spec;
+}
+
+std::vector<Replica> replicasOfThesis()
+{
+  const auto make = [](const char *figure, const char *name, double thesis, const vpPrintExperimentSpec &spec) {
+    Replica replica;
+    replica.figure = figure;
+    replica.name = name;
+    replica.thesis = thesis;
+    replica.runs.resize(REPLICA_SEEDS);
+    for (vpPrintRun &run : replica.runs) {
+      run.spec = spec;
+    }
+    return replica;
+  };
+  return {make("7.12", "PID, step of the velocity", 0., stepResponse()),
+          make("7.13", "PID", 0.57, vpPrintExperimentSpec::thesisPid()),
+          make("7.14", "PID and feedforward", 0.40, vpPrintExperimentSpec::thesisFeedforward()),
+          make("7.15", "PID, poorly tuned filter", 0.64, vpPrintExperimentSpec::thesisPoorFilter()),
+          make("", "Observer, the thesis's sensor", 0., observerOn(vpPrintSensorModel::thesis())),
+          make("", "Observer, our tracker", 0., observerOn(vpPrintSensorModel::tracker()))};
+}
+
+double percentile(const std::vector<double> &ascending, double share)
+{
+  const auto last = static_cast<double>(ascending.size() - 1);
+  return ascending[static_cast<std::size_t>(std::ceil(share * last))];
+}
+} // namespace
+
+Landing landingOf(const std::vector<vpPrintRun> &runs)
+{
+  Landing landing;
+  for (const vpPrintRun &run : runs) {
+    for (const vpPrintDrop &drop : run.drops) {
+      landing.errors.push_back(std::hypot(drop.errorX, drop.errorY));
+    }
+  }
+  std::sort(landing.errors.begin(), landing.errors.end());
+  if (!landing.errors.empty()) {
+    landing.p50 = percentile(landing.errors, 0.5);
+    landing.p99 = percentile(landing.errors, 0.99);
+    landing.max = landing.errors.back();
+    const auto end = std::upper_bound(landing.errors.begin(), landing.errors.end(), Landing::tolerance);
+    landing.within =
+        static_cast<double>(end - landing.errors.begin()) / static_cast<double>(landing.errors.size());
+  }
+  return landing;
+}
+
+double rmsOf(const std::vector<vpPrintRun> &runs, double vpPrintMetrics::*figure)
+{
+  double sum = 0.;
+  for (const vpPrintRun &run : runs) {
+    sum += std::pow(run.metrics.*figure, 2);
+  }
+  return runs.empty() ? 0. : std::sqrt(sum / static_cast<double>(runs.size()));
+}
+
+double meanOf(const std::vector<vpPrintRun> &runs, double vpPrintMetrics::*figure)
+{
+  double sum = 0.;
+  for (const vpPrintRun &run : runs) {
+    sum += run.metrics.*figure;
+  }
+  return runs.empty() ? 0. : sum / static_cast<double>(runs.size());
+}
+
+int sumOf(const std::vector<vpPrintRun> &runs, int vpPrintMetrics::*count)
+{
+  int sum = 0;
+  for (const vpPrintRun &run : runs) {
+    sum += run.metrics.*count;
+  }
+  return sum;
+}
+
+Results runAll(const Options &options)
+{
+  Results results;
+  results.runs.resize(static_cast<std::size_t>(options.runs));
+  for (std::size_t i = 0; i < results.runs.size(); ++i) {
+    results.runs[i].spec = options.spec;
+    results.runs[i].spec.seed += static_cast<unsigned int>(i);
+    results.runs[i].spec.product.seed += static_cast<unsigned int>(i);
+  }
+  std::vector<Replica> replicas = options.replicas ? replicasOfThesis() : std::vector<Replica>();
+  std::vector<vpPrintRun *> jobs;
+  for (vpPrintRun &run : results.runs) {
+    jobs.push_back(&run);
+  }
+  for (Replica &replica : replicas) {
+    for (std::size_t i = 0; i < replica.runs.size(); ++i) {
+      replica.runs[i].spec.seed = replica.runs[i].spec.product.seed = static_cast<unsigned int>(i + 1);
+      jobs.push_back(&replica.runs[i]);
+    }
+  }
+  {
+    vpApp::Progress progress("printing", static_cast<double>(jobs.size()));
+    vpApp::runJobs(jobs.size(), options.jobs == 0 ? vpApp::coreCount() : options.jobs, [&](std::size_t k) {
+      double done = 0.;
+      *jobs[k] = runPrintExperiment(jobs[k]->spec, [&](double share) {
+        progress.add(std::max(0., share - done));
+        done = std::max(done, share);
+        return !vpApp::interrupted();
+      });
+      progress.add(1. - done);
+    });
+  }
+  vpApp::throwIfInterrupted();
+  results.landing = landingOf(results.runs);
+  for (Replica &replica : replicas) {
+    replica.rms_velocity_error = rmsOf(replica.runs, &vpPrintMetrics::rms_velocity_error);
+    replica.centre_velocity_error = rmsOf(replica.runs, &vpPrintMetrics::centre_velocity_error);
+    (replica.figure.empty() ? results.observers : results.replicas).push_back(std::move(replica));
+  }
+  return results;
+}
+} // namespace printPattern

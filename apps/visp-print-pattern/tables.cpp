@@ -1,0 +1,144 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "tables.h"
+
+#include <locale>
+#include <sstream>
+
+namespace printPattern
+{
+namespace
+{
+using Json = nlohmann::ordered_json;
+
+std::ostringstream table(const char *heading)
+{
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(10);
+  text << heading << "\n";
+  return text;
+}
+
+Json jsonOf(const Replica &replica)
+{
+  Json json = {{"figure", replica.figure},
+               {"name", replica.name},
+               {"seeds", replica.runs.size()},
+               {"rms_velocity_error", replica.rms_velocity_error}};
+  if (replica.thesis > 0.) {
+    json["thesis"] = replica.thesis;
+    json["ratio"] = replica.rms_velocity_error / replica.thesis;
+  }
+  json["centre_velocity_error"] = replica.centre_velocity_error;
+  return json;
+}
+
+Json jsonOf(const vpPrintExperimentSpec &spec, const std::string &sensor)
+{
+  return {{"controller", nameOf(spec.controller)},
+          {"sensor", sensor},
+          {"reference", nameOf(spec.reference.mode)},
+          {"trigger", spec.trigger == vpPrintTriggerMethod::Horizon ? "horizon" : "thesis"},
+          {"rows", spec.rows},
+          {"cells_per_row", spec.cellsPerRow},
+          {"drop_velocity_px_per_frame", spec.dropVelocity},
+          {"flex_px", spec.product.flexAmplitudeX},
+          {"jitter_px", spec.product.jitter},
+          {"dust_per_view", spec.product.dust * 1.6},
+          {"noise", spec.product.noise},
+          {"vision_delay_frames", spec.visionDelay},
+          {"travel_time_frames", spec.travelTime},
+          {"dropped_frames", spec.dropped},
+          {"frame_rate_hz", spec.frameRate},
+          {"seed", spec.seed}};
+}
+} // namespace
+
+std::string nameOf(vpPrintController controller)
+{
+  switch (controller) {
+  case vpPrintController::Pid:
+    return "pid";
+  case vpPrintController::PidFeedforward:
+    return "pid-ff";
+  case vpPrintController::Observer:
+    break;
+  }
+  return "observer";
+}
+
+std::string nameOf(vpPrintReferenceMode mode)
+{
+  switch (mode) {
+  case vpPrintReferenceMode::FixedArrival:
+    return "arrival";
+  case vpPrintReferenceMode::LimitedVelocity:
+    return "limited";
+  case vpPrintReferenceMode::ConstantVelocity:
+    return "constant";
+  case vpPrintReferenceMode::CellVelocity:
+    break;
+  }
+  return "centres";
+}
+
+std::string motionCsv(const vpPrintRun &run)
+{
+  std::ostringstream text = table("frame,row,x,y,vx,vy,reference_x,reference_vx,measured_vx,estimated_vx,force,cells,dropped");
+  for (const vpPrintSample &s : run.samples) {
+    text << s.frame << ',' << s.row << ',' << s.x << ',' << s.y << ',' << s.vx << ',' << s.vy << ','
+         << s.referencePosition << ',' << s.referenceVelocity << ',' << s.measuredVelocity << ',' << s.estimatedVelocity
+         << ',' << s.force << ',' << s.cells << ',' << (s.dropped ? 1 : 0) << "\n";
+  }
+  return text.str();
+}
+
+std::string dropsCsv(const vpPrintRun &run)
+{
+  std::ostringstream text = table("row,column,fire_frame,land_frame,error_x_um,error_y_um,vx,late");
+  for (const vpPrintDrop &d : run.drops) {
+    text << d.row << ',' << d.column << ',' << d.fireTime << ',' << d.landTime << ',' << d.errorX << ',' << d.errorY
+         << ',' << d.velocity << ',' << (d.late ? 1 : 0) << "\n";
+  }
+  return text.str();
+}
+
+Json summaryOf(const Options &options, const Results &results, const std::string &commandLine, double wallTime)
+{
+  const std::vector<vpPrintRun> &runs = results.runs;
+  bool complete = true;
+  for (const vpPrintRun &run : runs) {
+    complete = complete && run.metrics.complete;
+  }
+  Json summary = {{"version", VISP_DIRECT_VERSION},
+                  {"command", commandLine},
+                  {"runs", runs.size()},
+                  {"rms_velocity_error", rmsOf(runs, &vpPrintMetrics::rms_velocity_error)},
+                  {"rms_true_velocity_error", rmsOf(runs, &vpPrintMetrics::rms_true_velocity_error)},
+                  {"centre_velocity_error", rmsOf(runs, &vpPrintMetrics::centre_velocity_error)},
+                  {"landing_error_um",
+                   {{"p50", results.landing.p50}, {"p99", results.landing.p99}, {"max", results.landing.max}}},
+                  {"landed_within_10um", results.landing.within},
+                  {"printed", sumOf(runs, &vpPrintMetrics::printed)},
+                  {"missed", sumOf(runs, &vpPrintMetrics::missed)},
+                  {"doubled", sumOf(runs, &vpPrintMetrics::doubled)},
+                  {"throughput_cells_per_s", meanOf(runs, &vpPrintMetrics::throughput_cells_per_s)},
+                  {"gain_over_constant", meanOf(runs, &vpPrintMetrics::gain_over_constant)},
+                  {"complete", complete},
+                  {"spec", jsonOf(options.spec, options.sensor)}};
+  Json replicas = Json::array();
+  for (const auto *list : {&results.replicas, &results.observers}) {
+    for (const Replica &replica : *list) {
+      replicas.push_back(jsonOf(replica));
+    }
+  }
+  if (!replicas.empty()) {
+    summary["thesis"] = replicas;
+  }
+  summary["wall_time_s"] = wallTime;
+  return summary;
+}
+} // namespace printPattern

@@ -1,0 +1,32 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file tables.h
+ * \brief Runs as CSV and as summary.json.
+ */
+#ifndef printPattern_tables_h
+#define printPattern_tables_h
+
+#include "results.h"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+namespace printPattern
+{
+//! What is true and known at each frame; see data/pattern/README.md.
+[[nodiscard]] std::string motionCsv(const vpPrintRun &run);
+//! Where each drop landed.
+[[nodiscard]] std::string dropsCsv(const vpPrintRun &run);
+//! summary.json without the fields that OutputFolder adds.
+[[nodiscard]] nlohmann::ordered_json summaryOf(const Options &options, const Results &results,
+                                               const std::string &commandLine, double wallTime);
+//! Names of the command line.
+[[nodiscard]] std::string nameOf(vpPrintController controller);
+[[nodiscard]] std::string nameOf(vpPrintReferenceMode mode);
+} // namespace printPattern
+
+#endif

@@ -1,0 +1,194 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// The program as its users run it: exit status, what it says, and that its figures follow from its own tables.
+#include "vpCatch.h"
+
+#include "programRun.h"
+
+#include <nlohmann/json.hpp>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+namespace
+{
+using nlohmann::json;
+
+constexpr int OK = 0;
+constexpr int USAGE = 2;
+
+//! Columns of a table by name.
+std::map<std::string, std::vector<double>> columnsOf(const std::string &csv)
+{
+  std::map<std::string, std::vector<double>> columns;
+  std::vector<std::string> names;
+  std::istringstream stream(csv);
+  std::string line, field;
+  std::getline(stream, line);
+  for (std::istringstream heading(line); std::getline(heading, field, ',');) {
+    names.push_back(field);
+  }
+  while (std::getline(stream, line)) {
+    std::istringstream fields(line);
+    for (const std::string &name : names) {
+      std::getline(fields, field, ',');
+      columns[name].push_back(std::stod(field));
+    }
+  }
+  return columns;
+}
+} // namespace
+
+TEST_CASE("The summary follows from the tables", "[visp-print-pattern]")
+{
+  ProgramRun run(PRINT_PATTERN);
+  const std::string arguments = GENERATE(
+      std::string("--sensor tracker --cells 60 --jitter 0.3 --flex 2"),
+      std::string("--sensor thesis --controller pid-ff --cells 40 --axis xy --rows 2 --dropped 0.01"),
+      std::string("--cells 15 --reference constant"));
+  CAPTURE(arguments);
+  REQUIRE(run(arguments + " --no-thesis --out d") == OK);
+  const json summary = json::parse(vpApp::readFile(run.path("d/summary.json")));
+  auto drops = columnsOf(vpApp::readFile(run.path("d/drops.csv")));
+  auto motion = columnsOf(vpApp::readFile(run.path("d/motion.csv")));
+  // Landing errors.
+  std::vector<double> errors;
+  std::map<std::pair<double, double>, int> count;
+  for (std::size_t i = 0; i < drops["row"].size(); ++i) {
+    errors.push_back(std::hypot(drops["error_x_um"][i], drops["error_y_um"][i]));
+    ++count[{drops["row"][i], drops["column"][i]}];
+  }
+  std::sort(errors.begin(), errors.end());
+  REQUIRE(!errors.empty());
+  CHECK(summary["landing_error_um"]["max"].get<double>() == Approx(errors.back()).epsilon(1e-6));
+  CHECK(summary["landing_error_um"]["p50"].get<double>() == Approx(errors[errors.size() / 2]).epsilon(1e-6));
+  CHECK(summary["printed"] == count.size());
+  const auto twice = std::count_if(count.begin(), count.end(), [](const auto &cell) { return cell.second > 1; });
+  CHECK(summary["doubled"] == twice);
+  const auto cells = summary["spec"]["rows"].get<std::size_t>() * summary["spec"]["cells_per_row"].get<std::size_t>();
+  CHECK(summary["complete"] == true);
+  CHECK(summary["printed"].get<std::size_t>() + summary["missed"].get<std::size_t>() == cells);
+  // Velocity error as measured, against the reference of the step before.
+  double sum = 0.;
+  std::size_t n = 0;
+  for (std::size_t i = 60; i < motion["frame"].size(); ++i, ++n) {
+    sum += std::pow(motion["measured_vx"][i] - motion["reference_vx"][i - 1], 2);
+  }
+  CHECK(summary["rms_velocity_error"].get<double>() == Approx(std::sqrt(sum / static_cast<double>(n))).epsilon(1e-6));
+  // Throughput.
+  const double time = *std::max_element(drops["land_frame"].begin(), drops["land_frame"].end()) -
+                      *std::min_element(drops["land_frame"].begin(), drops["land_frame"].end());
+  CHECK(summary["throughput_cells_per_s"].get<double>() ==
+        Approx((static_cast<double>(errors.size()) - 1.) / time * 1600.).epsilon(1e-6));
+  for (const json &file : summary["files"]) {
+    CHECK(std::filesystem::exists(run.path("d/" + file.get<std::string>())));
+  }
+  CHECK(run.out().find("cells printed, ") != std::string::npos);
+}
+
+TEST_CASE("Through rendered pictures every cell gets one drop, within the tolerance", "[visp-print-pattern]")
+{
+  ProgramRun run(PRINT_PATTERN);
+  REQUIRE(run("--no-thesis --axis xy --rows 2 --cells 12 --flex 1.5 --jitter 0.2 --defects --out d") == OK);
+  const json summary = json::parse(vpApp::readFile(run.path("d/summary.json")));
+  CHECK(summary["printed"] == 24);
+  CHECK(summary["missed"] == 0);
+  CHECK(summary["doubled"] == 0);
+  CHECK(summary["landed_within_10um"] == 1.);
+  CHECK(!cv::imread(run.path("d/product.png").string()).empty());
+}
+
+TEST_CASE("The reference between the centres is faster than constant velocity", "[visp-print-pattern]")
+{
+  ProgramRun run(PRINT_PATTERN);
+  REQUIRE(run("--no-thesis --sensor tracker --out centres") == OK);
+  REQUIRE(run("--no-thesis --sensor tracker --reference constant --out constant") == OK);
+  const json centres = json::parse(vpApp::readFile(run.path("centres/summary.json")));
+  const json constant = json::parse(vpApp::readFile(run.path("constant/summary.json")));
+  CHECK(centres["gain_over_constant"].get<double>() == Approx(0.25).margin(0.02));
+  CHECK(std::abs(constant["gain_over_constant"].get<double>()) < 0.01);
+  CHECK(centres["throughput_cells_per_s"].get<double>() > 1.2 * constant["throughput_cells_per_s"].get<double>());
+}
+
+TEST_CASE("The experiments of the thesis come out within a tenth", "[visp-print-pattern]")
+{
+  ProgramRun run(PRINT_PATTERN);
+  REQUIRE(run("--sensor tracker --cells 5 --out d") == OK);
+  const json summary = json::parse(vpApp::readFile(run.path("d/summary.json")));
+  std::map<std::string, json> figures;
+  for (const json &replica : summary["thesis"]) {
+    figures[replica["figure"].get<std::string>()] = replica;
+  }
+  for (const std::string figure : {"7.13", "7.14", "7.15"}) {
+    REQUIRE(figures.count(figure) == 1);
+    CHECK(figures[figure]["ratio"].get<double>() == Approx(1.).margin(0.1));
+    CHECK(figures[figure]["seeds"] == 8);
+  }
+  const std::string page = vpApp::readFile(run.path("d/report.html"));
+  for (const char *text : {"Figure 7.10", "Figure 7.11", "Figure 7.12", "Figure 7.13", "Figure 7.14", "Figure 7.15"}) {
+    CHECK(page.find(text) != std::string::npos);
+  }
+  CHECK(!cv::imread(run.path("d/figure/figure-7.11.png").string()).empty());
+}
+
+TEST_CASE("Algorithm 7.5 misses or doubles cells, the horizon does not", "[visp-print-pattern]")
+{
+  ProgramRun run(PRINT_PATTERN);
+  const std::string task = "--no-thesis --sensor thesis --cells 200 --runs 4 ";
+  REQUIRE(run(task + "--trigger thesis --out thesis") == OK);
+  REQUIRE(run(task + "--out horizon") == OK);
+  const json thesis = json::parse(vpApp::readFile(run.path("thesis/summary.json")));
+  const json horizon = json::parse(vpApp::readFile(run.path("horizon/summary.json")));
+  CHECK(thesis["missed"].get<int>() + thesis["doubled"].get<int>() > 0);
+  CHECK(horizon["missed"] == 0);
+  CHECK(horizon["doubled"] == 0);
+  CHECK(horizon["printed"] == 800);
+}
+
+TEST_CASE("The same command gives the same result, another seed another", "[visp-print-pattern]")
+{
+  ProgramRun run(PRINT_PATTERN);
+  const std::string task = "--no-thesis --sensor thesis --cells 10 --runs 3 ";
+  REQUIRE(run(task + "--jobs 1 --out a") == OK);
+  REQUIRE(run(task + "--jobs 3 --out b") == OK);
+  REQUIRE(run(task + "--seed 2 --out c") == OK);
+  CHECK(vpApp::readFile(run.path("a/drops.csv")) == vpApp::readFile(run.path("b/drops.csv")));
+  CHECK(vpApp::readFile(run.path("a/drops.csv")) != vpApp::readFile(run.path("c/drops.csv")));
+}
+
+TEST_CASE("Wrong command lines are told in a sentence", "[visp-print-pattern]")
+{
+  ProgramRun run(PRINT_PATTERN);
+  const std::vector<std::pair<std::string, std::string>> wrong = {
+      {"--controller lqr", "--controller is lqr, must be one of observer, pid and pid-ff"},
+      {"--sensor eye", "--sensor is eye, must be one of image, thesis and tracker"},
+      {"--reference best", "--reference is best, must be one of arrival, centres, constant and limited"},
+      {"--trigger later", "--trigger is later, must be one of horizon and thesis"},
+      {"--axis z", "--axis is z, must be one of x and xy"},
+      {"--rows 3", "--rows is 3, more than one row needs --axis xy"},
+      {"--runs 0", "--runs is 0, must be 1..10000"},
+      {"--cells 0", "cellsPerRow"},
+      {"--flex 30", "flex"},
+      {"--filter 0.5 4", "beta"},
+      {"--dropped 0.9", "dropped"},
+      {"--out ''", "--out is empty"},
+      {"--colour red", "--colour"},
+  };
+  for (const auto &[arguments, sentence] : wrong) {
+    CAPTURE(arguments);
+    CHECK(run(arguments) == USAGE);
+    CAPTURE(run.err());
+    CHECK(run.err().find(sentence) != std::string::npos);
+    CHECK(std::count(run.err().begin(), run.err().end(), '\n') <= 2);
+    CHECK(run.entries().empty());
+  }
+  CHECK(run("--help") == OK);
+  CHECK(run.out().find("Examples:") != std::string::npos);
+  CHECK(run("--version") == OK);
+}
