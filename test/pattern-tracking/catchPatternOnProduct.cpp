@@ -247,6 +247,27 @@ TEST_CASE("cells that move by a pitch at once are known to be others when they a
   }
 }
 
+TEST_CASE("the end of learning is no motion", "[pattern]")
+{
+  CAPTURE(vpTestSupport::seed());
+  vpProductPatternSpec spec = product(458);
+  spec.illuminationX = 0.25; // edges are off by 0.07 px then
+  const vpProductPattern product(spec);
+  vpPatternTracker tracker(spec.width, spec.height);
+  vpImage<unsigned char> image;
+  bool wasTracking = false;
+  for (int k = 0; k < 80; ++k) {
+    product.render(3. * k, 0., 3., 0., static_cast<unsigned int>(k), image);
+    const vpPatternFrame &frame = tracker.track(image);
+    if (frame.status == vpPatternStatus::Tracking && !wasTracking) {
+      REQUIRE(frame.hasMotion);
+      CHECK(std::abs(frame.dx - 3.) < 0.03);
+      wasTracking = true;
+    }
+  }
+  CHECK(wasTracking);
+}
+
 TEST_CASE("a motion above half a pitch is never Tracking when the cells are uneven", "[pattern]")
 {
   CAPTURE(vpTestSupport::seed());

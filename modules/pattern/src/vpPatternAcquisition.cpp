@@ -267,6 +267,16 @@ void vpPatternTracker::Impl::learn(const vpImage<unsigned char> &image)
     m_slopeWeight = 0.;
     m_aligner.setSlopes(m_slopes);
     m_noise = 0.;
+    // Measure this image again, as the next one will be: edges and template do not see quite the same centre, under
+    // uneven light, and the difference is no motion. Twice: the first time shows the slopes of the light.
+    if (alignAll(image) && alignAll(image)) {
+      updateLattice();
+      updateDeviations();
+      remember();
+    }
+    else {
+      cellsFromSpots();
+    }
   }
 }
 
