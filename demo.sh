@@ -1,12 +1,23 @@
 #!/usr/bin/env bash
-# Install what is missing, build visp-servo-compare and run it. Arguments go to the program: ./demo.sh --help
+# Install what is missing, build a program and run it: visp-servo-compare unless the first argument names another one
+# (./demo.sh visp-print-pattern). The other arguments go to the program: ./demo.sh --help
 set -euo pipefail
 from=$PWD # relative paths in the arguments mean the caller's folder
 # shellcheck source=scripts/setup.sh
 source "$(dirname "${BASH_SOURCE[0]}")/scripts/setup.sh"
 
-# The report goes to out/ of the repository unless the arguments name a folder.
-out=$root/out/servo-compare
+program=visp-servo-compare
+if [[ ${1:-} == visp-* ]]; then
+  program=$1
+  shift
+  if [ ! -d "$root/apps/$program" ]; then
+    echo "demo.sh: there is no program $program, only $(cd "$root/apps" && echo visp-*)" >&2
+    exit 2
+  fi
+fi
+
+# The result goes to out/ of the repository unless the arguments name a folder.
+out=$root/out/${program#visp-}
 arguments=(--out "$out" "$@")
 for ((i = 1; i <= $#; i++)); do
   case ${!i} in
@@ -14,17 +25,20 @@ for ((i = 1; i <= $#; i++)); do
     --out=*) out=${!i#--out=} arguments=("$@") ;;
   esac
 done
+if [ "$program" = visp-plan-trajectory ]; then # reads problems and answers them, and has no folder
+  arguments=("$@")
+fi
 
 install_packages "${packages[@]}"
-build_tree visp-servo-compare
+build_tree "$program"
 
 cd "$from"
 began=$(mktemp)
 trap 'rm -f "$began"' EXIT
 status=0
-"$build/bin/visp-servo-compare" "${arguments[@]}" || status=$?
+"$build/bin/$program" "${arguments[@]}" || status=$?
 if [ "$status" -ne 0 ]; then
-  echo "demo.sh: visp-servo-compare ended with status $status, $SECONDS s in all" >&2
+  echo "demo.sh: $program ended with status $status, $SECONDS s in all" >&2
 elif [ "$out/report.html" -nt "$began" ]; then
   echo "demo.sh: the report is in $(realpath "$out/report.html"), $SECONDS s in all"
 fi

@@ -104,6 +104,16 @@ TEST_CASE("Through rendered pictures every cell gets one drop, within the tolera
   CHECK(!cv::imread(run.path("d/product.png").string()).empty());
 }
 
+TEST_CASE("Rows that are bent and off their regular place are hit in the middle", "[visp-print-pattern]")
+{
+  ProgramRun run(PRINT_PATTERN);
+  REQUIRE(run("--no-thesis --sensor tracker --axis xy --rows 4 --cells 25 --flex 2 --out d") == OK);
+  const json summary = json::parse(vpApp::readFile(run.path("d/summary.json")));
+  CHECK(summary["printed"] == 100);
+  // 2 px = 9 um is how far the rows are off.
+  CHECK(summary["landing_error_um"]["max"].get<double>() < 1.5);
+}
+
 TEST_CASE("The reference between the centres is faster than constant velocity", "[visp-print-pattern]")
 {
   ProgramRun run(PRINT_PATTERN);

@@ -19,6 +19,7 @@ namespace
 {
 constexpr int partsPerFrame = 32;   // of the truth
 constexpr double rowStepTime = 30.; // frame
+constexpr double followTime = 12.;  // frame, to where the cells of a row are measured
 constexpr int longestTurn = 400;    // frames that a row may take beyond its cells
 
 //! \brief True motion, remembered for exposures and landings.
@@ -185,7 +186,7 @@ private:
   }
 
   // The cells from the present one on, turns between the rows.
-  void makeTargets()
+  void makeTargets(double now)
   {
     m_targets.clear();
     const long perRow = m_spec.cellsPerRow + 1L;
@@ -214,11 +215,26 @@ private:
     // Behind the last cell of a row the stage steps to the next one.
     const bool turning = m_present % perRow == m_spec.cellsPerRow;
     const int rowAcross = std::min(turning ? m_row + 1 : m_row, m_spec.rows - 1);
+    // The nozzle follows the cells across the rows, too: the next three, as they were measured.
+    double sum = 0.;
+    int known = 0;
+    const int first = turning ? 0 : static_cast<int>(m_present % perRow);
+    for (int k = first; k < std::min(first + 3, m_spec.cellsPerRow); ++k) {
+      double along = 0., across = 0.;
+      if (m_trigger.find(rowAcross, columnOf(rowAcross, k), m_sensor.epoch(), along, across)) {
+        sum += m_centreY - across;
+        ++known;
+      }
+    }
+    const double regular = -rowAcross * m_spec.product.pitchY;
+    m_acrossOffset = known > 0 ? sum / known - regular : m_acrossOffset;
     m_targetY = vpPrintTarget();
-    m_targetY.key = rowAcross;
-    m_targetY.position = -rowAcross * m_spec.product.pitchY;
+    m_targetY.key = m_present + 1;
+    m_targetY.position = regular + m_acrossOffset;
     m_targetY.velocity = 0.;
-    m_targetY.duration = rowStepTime;
+    m_stepArrival = turning && !m_turning ? now + rowStepTime : m_stepArrival;
+    m_turning = turning;
+    m_targetY.duration = std::max(m_stepArrival - now, followTime);
   }
 
   void step(int frame)
@@ -227,7 +243,7 @@ private:
     vpPrintSample sample;
     sample.frame = frame;
     sense(frame, capture, sample);
-    makeTargets();
+    makeTargets(now);
     const vpPrintReference::Output &reference = m_reference.step(now, m_targets.data(), m_targets.size());
     m_present = reference.hasTarget ? reference.target : m_present;
     if (!reference.hasTarget && !m_targets.empty() && now > 1.) {
@@ -405,8 +421,9 @@ private:
     while (m_passing < static_cast<long>(m_spec.rows) * m_spec.cellsPerRow) {
       const int row = static_cast<int>(m_passing / m_spec.cellsPerRow);
       const int column = columnOf(row, static_cast<int>(m_passing % m_spec.cellsPerRow));
-      const double place = m_nozzle - truthOf(row, column).x;
-      if (direction(row) * (after.x - place) < 0. || std::fabs(before.y + row * m_spec.product.pitchY) > 4.) {
+      const vpPatternTruthCell cell = truthOf(row, column);
+      const double place = m_nozzle - cell.x;
+      if (direction(row) * (after.x - place) < 0. || std::fabs(before.y + cell.y - m_centreY) > 4.) {
         break;
       }
       double low = before.t, high = after.t; // bisection
@@ -529,6 +546,9 @@ private:
   vpPrintTarget m_targetY;
   long m_present = 0; // key of the present target
   int m_row = 0;
+  bool m_turning = false;
+  double m_stepArrival = 0.;  // when the step to the row ends
+  double m_acrossOffset = 0.; // of the rows from their regular place, px
   Known m_lastKnown{-1, 0, 0.};
   std::vector<vpPrintShot> m_flying;
   std::vector<Pass> m_passes;
