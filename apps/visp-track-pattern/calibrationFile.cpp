@@ -1,0 +1,111 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "calibrationFile.h"
+
+#include "jsonReader.h"
+#include "tableFile.h"
+
+#include <visp3/core/vpException.h>
+#include <visp3/core/vpMath.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace trackPattern
+{
+namespace
+{
+vpMicroscopeCalibration readJson(const std::string &file)
+{
+  const nlohmann::json json = vpApp::readJsonFile(file);
+  vpApp::JsonObject top(json, file);
+  vpMicroscopeCalibration c;
+  c.width = top.count("width", 0);
+  c.height = top.count("height", 0);
+  c.scaleX = top.number("scale_x_px_per_m");
+  c.scaleY = top.number("scale_y_px_per_m", c.scaleX);
+  c.rotation = vpMath::rad(top.number("rotation_deg", 0.));
+  c.mirrored = top.flag("mirrored", false);
+  c.tx = top.number("tx_m", 0.);
+  c.ty = top.number("ty_m", 0.);
+  c.kappa1 = top.number("kappa1_per_px2", 0.);
+  c.u0 = top.number("u0_px", 0.5 * (c.width - 1.));
+  c.v0 = top.number("v0_px", 0.5 * (c.height - 1.));
+  static_cast<void>(top.text("comment", ""));
+  static_cast<void>(top.has("quality"));
+  top.finish();
+  for (const auto &[name, value] : {std::pair<const char *, double>{"scale_x_px_per_m", c.scaleX},
+                                    std::pair<const char *, double>{"scale_y_px_per_m", c.scaleY}}) {
+    if (!(value > 0.)) {
+      throw top.wrong(name, value, "a number > 0");
+    }
+  }
+  return c;
+}
+} // namespace
+
+nlohmann::ordered_json jsonOf(const vpMicroscopeCalibrationResult &result, std::size_t views)
+{
+  const vpMicroscopeCalibration &c = result.calibration;
+  nlohmann::ordered_json sigma = {{"scale_x_px_per_m", result.sigma(vpMicroscopeScaleX)},
+                                  {"scale_y_px_per_m", result.sigma(vpMicroscopeScaleY)},
+                                  {"rotation_deg", vpMath::deg(result.sigma(vpMicroscopeRotation))},
+                                  {"tx_m", result.sigma(vpMicroscopeTx)},
+                                  {"ty_m", result.sigma(vpMicroscopeTy)},
+                                  {"kappa1_per_px2", result.kappa1Sigma}};
+  nlohmann::ordered_json covariance = nlohmann::ordered_json::array();
+  for (Eigen::Index i = 0; i < result.covariance.rows(); ++i) {
+    std::vector<double> row;
+    for (Eigen::Index j = 0; j < result.covariance.cols(); ++j) {
+      row.push_back(result.covariance(i, j));
+    }
+    covariance.push_back(row);
+  }
+  return {{"comment", result.message},
+          {"width", c.width},
+          {"height", c.height},
+          {"scale_x_px_per_m", c.scaleX},
+          {"scale_y_px_per_m", c.scaleY},
+          {"rotation_deg", vpMath::deg(c.rotation)},
+          {"mirrored", c.mirrored},
+          {"tx_m", c.tx},
+          {"ty_m", c.ty},
+          {"kappa1_per_px2", c.kappa1},
+          {"u0_px", c.u0},
+          {"v0_px", c.v0},
+          {"quality",
+           {{"kappa1_status", toString(result.kappa1Status)},
+            {"kappa1_effect_px", result.kappa1Effect},
+            {"standard_deviations", sigma},
+            {"covariance_of", {"scale_x", "scale_y", "kappa1", "u0", "v0", "rotation_rad", "tx", "ty"}},
+            {"covariance", covariance},
+            {"residual_rms_px", result.residualRms},
+            {"variance_factor", result.varianceFactor},
+            {"degrees_of_freedom", result.degreesOfFreedom},
+            {"condition", result.condition},
+            {"views", views},
+            {"converged", result.converged}}}};
+}
+
+vpMicroscopeCalibration readCalibration(const std::string &file, const std::string &cameraName, unsigned int width,
+                                        unsigned int height)
+{
+  const bool isXml = file.size() > 4 && file.compare(file.size() - 4, 4, ".xml") == 0;
+  if (isXml) {
+    try {
+      return vpMicroscopeCalibration::loadXml(file, cameraName, width, height);
+    }
+    catch (const vpException &error) {
+      throw std::runtime_error(error.getStringMessage());
+    }
+  }
+  const vpMicroscopeCalibration calibration = readJson(file);
+  if (calibration.width != width || calibration.height != height) {
+    throw std::runtime_error(text("%s: is for images of %u x %u px, these have %u x %u px", file.c_str(),
+                                  calibration.width, calibration.height, width, height));
+  }
+  return calibration;
+}
+} // namespace trackPattern

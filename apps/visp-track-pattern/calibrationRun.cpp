@@ -1,0 +1,85 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "calibrationRun.h"
+
+#include <visp3/core/vpException.h>
+
+#include <stdexcept>
+
+namespace trackPattern
+{
+namespace
+{
+constexpr std::size_t MOST_VIEWS = 100;
+constexpr std::size_t LEAST_POINTS = 6; // what vpPlanarMicroscopeCalibration asks of a view
+} // namespace
+
+CalibrationRun::CalibrationRun(const Options &options) : m_dotGrid(options.dotGrid), m_pitch(options.pitch) {}
+
+void CalibrationRun::add(const vpImage<unsigned char> &image, const vpPatternFrame &frame, double left, double top)
+{
+  const bool wanted = m_seen++ % m_stride == 0;
+  if (!wanted) {
+    return;
+  }
+  std::vector<vpCalibrationPoint> points;
+  if (m_dotGrid) {
+    try {
+      points = vpCalibrationPoints(image, m_pitch);
+    }
+    catch (const vpException &error) {
+      m_complaint = error.getStringMessage();
+      return;
+    }
+  }
+  else if (frame.status == vpPatternStatus::Tracking) {
+    points = vpCalibrationPoints(frame, m_pitch);
+  }
+  for (vpCalibrationPoint &point : points) {
+    point.u += left;
+    point.v += top;
+  }
+  if (points.size() >= LEAST_POINTS) {
+    keep(std::move(points));
+  }
+}
+
+void CalibrationRun::keep(std::vector<vpCalibrationPoint> points)
+{
+  m_views.push_back(std::move(points));
+  if (m_views.size() == 2 * MOST_VIEWS) { // every second one goes, and from now on only every second one comes
+    for (std::size_t i = 1; i < MOST_VIEWS; ++i) {
+      m_views[i] = std::move(m_views[2 * i]);
+    }
+    m_views.resize(MOST_VIEWS);
+    m_stride *= 2;
+  }
+}
+
+vpMicroscopeCalibrationResult CalibrationRun::compute(unsigned int width, unsigned int height) const
+{
+  if (m_views.empty()) {
+    if (m_dotGrid) {
+      throw std::runtime_error(
+          "--calibrate: in no image a grid of dots was found" +
+          (m_complaint.empty() ? std::string(", or it had less than 6 dots") : "; of the last one: " + m_complaint));
+    }
+    throw std::runtime_error("--calibrate: in no image the product was tracked with at least 6 cells; it takes some 60 "
+                             "images of a product that moves (for still images of a grid add --dot-grid)");
+  }
+  vpMicroscopeCalibrationOptions options;
+  options.sigmaFromResiduals = true; // a real product is not exactly regular
+  vpPlanarMicroscopeCalibration calibration(width, height, options);
+  try {
+    for (const std::vector<vpCalibrationPoint> &points : m_views) {
+      calibration.addView(points);
+    }
+    return calibration.compute();
+  }
+  catch (const vpException &error) {
+    throw std::runtime_error("--calibrate: " + error.getStringMessage());
+  }
+}
+} // namespace trackPattern

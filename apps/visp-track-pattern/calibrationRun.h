@@ -1,0 +1,49 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file calibrationRun.h
+ * \brief Collects views of the product while it is tracked, and calibrates the microscope from them.
+ */
+#ifndef trackPattern_calibrationRun_h
+#define trackPattern_calibrationRun_h
+
+#include "options.h"
+
+#include <visp3/pattern/vpPatternFrame.h>
+#include <visp3/pattern/vpPlanarMicroscopeCalibration.h>
+
+#include <visp3/core/vpImage.h>
+
+#include <string>
+#include <vector>
+
+namespace trackPattern
+{
+/*!
+ * \brief Keeps views evenly over a recording of unknown length, so that memory and time stay bounded.
+ */
+class CalibrationRun
+{
+public:
+  explicit CalibrationRun(const Options &options);
+  //! One image and what was found in it. \param left, top : Of the part that was tracked, px.
+  void add(const vpImage<unsigned char> &image, const vpPatternFrame &frame, double left, double top);
+  [[nodiscard]] std::size_t viewCount() const { return m_views.size(); }
+  //! \throw std::runtime_error saying why there is nothing to calibrate from.
+  [[nodiscard]] vpMicroscopeCalibrationResult compute(unsigned int width, unsigned int height) const;
+
+private:
+  void keep(std::vector<vpCalibrationPoint> points);
+
+  bool m_dotGrid;
+  vpCalibrationPitch m_pitch;
+  std::vector<std::vector<vpCalibrationPoint>> m_views;
+  std::size_t m_seen = 0;
+  std::size_t m_stride = 1;
+  std::string m_complaint; // of the last image without a grid
+};
+} // namespace trackPattern
+
+#endif

@@ -1,0 +1,74 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// visp-track-pattern: centres and motion of the cells of a repetitive product, from images, a video or a camera.
+#include "imageSource.h"
+#include "options.h"
+#include "report.h"
+#include "trackRun.h"
+
+#include "appMain.h"
+#include "outputFolder.h"
+#include "plot.h"
+
+#include <filesystem>
+#include <iostream>
+#include <stdexcept>
+
+namespace
+{
+using namespace trackPattern;
+
+constexpr std::uintmax_t LARGEST_SHOWN_VIDEO = 12U << 20U; // bytes; a larger one would make the page slow
+
+std::string joined(int argc, const char *const *argv)
+{
+  std::string line = "visp-track-pattern";
+  for (int i = 1; i < argc; ++i) {
+    line += std::string(" ") + argv[i];
+  }
+  return line;
+}
+
+std::string videoFor(const Options &options, vpApp::OutputFolder &out)
+{
+  if (options.overlay != OverlayKind::Mp4) {
+    return "";
+  }
+  const std::string file = out.file("overlay.mp4");
+  std::error_code ignored;
+  const std::uintmax_t size = std::filesystem::file_size(file, ignored);
+  return !ignored && size < LARGEST_SHOWN_VIDEO ? vpApp::readFile(file) : "";
+}
+
+void track(const Options &options, const std::string &commandLine)
+{
+  vpApp::requireGnuplot();
+  const std::unique_ptr<ImageSource> source = makeSource(options);
+  vpApp::OutputFolder out("visp-track-pattern", options.out);
+  const RunResults results = trackAll(options, *source, out);
+  out.write("report.html", reportPage(results, options, videoFor(options, out), commandLine));
+  out.writeSummary(summaryOf(results, options, commandLine));
+  vpApp::throwIfInterrupted();
+  out.commit();
+  for (const std::string &line : findings(results)) {
+    std::cout << line << "\n";
+  }
+  std::cout << "Report: " << (std::filesystem::path(options.out) / "report.html").string() << std::endl;
+  if (results.imagesWithCells() == 0) {
+    throw std::runtime_error("no pattern was found; the report shows the images as they were read");
+  }
+}
+} // namespace
+
+int main(int argc, char **argv)
+{
+  return vpApp::runMain("visp-track-pattern", [&]() -> int {
+    Options options;
+    if (readOptions(argc, argv, options)) {
+      track(options, joined(argc, argv));
+    }
+    return vpApp::ExitOk;
+  });
+}

@@ -1,0 +1,36 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file tableFile.h
+ * \brief A table in the result folder that grows line by line; it may be larger than the memory.
+ */
+#ifndef trackPattern_tableFile_h
+#define trackPattern_tableFile_h
+
+#include "outputFolder.h"
+
+#include <fstream>
+#include <string>
+
+namespace trackPattern
+{
+class TableFile
+{
+public:
+  TableFile(vpApp::OutputFolder &out, const std::string &name, const std::string &heading);
+  void add(const std::string &line) { m_stream << line << '\n'; }
+  //! \throw std::runtime_error naming the file when the disk refuses.
+  void close();
+
+private:
+  std::string m_name;
+  std::ofstream m_stream;
+};
+
+//! Like printf, as a string.
+[[nodiscard]] std::string text(const char *format, ...) __attribute__((format(printf, 1, 2)));
+} // namespace trackPattern
+
+#endif

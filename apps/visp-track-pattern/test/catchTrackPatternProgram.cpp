@@ -1,0 +1,334 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// The program as its users run it: exit status, what is on which stream, what is written.
+#include "vpCatch.h"
+
+#include "programRun.h"
+
+#include <nlohmann/json.hpp>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+namespace
+{
+using nlohmann::json;
+
+constexpr int OK = 0;
+constexpr int DATA = 1;
+constexpr int USAGE = 2;
+
+//! \brief A table with a heading.
+struct Table {
+  std::vector<std::string> heading;
+  std::vector<std::map<std::string, std::string>> lines;
+};
+
+std::vector<std::string> split(const std::string &line)
+{
+  std::vector<std::string> parts;
+  std::istringstream stream(line);
+  for (std::string part; std::getline(stream, part, ',');) {
+    parts.push_back(part);
+  }
+  return parts;
+}
+
+Table tableOf(const std::string &csv)
+{
+  Table table;
+  std::istringstream stream(csv);
+  std::string line;
+  std::getline(stream, line);
+  table.heading = split(line);
+  while (std::getline(stream, line)) {
+    const std::vector<std::string> parts = split(line);
+    REQUIRE(parts.size() == table.heading.size());
+    table.lines.emplace_back();
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      table.lines.back()[table.heading[i]] = parts[i];
+    }
+  }
+  return table;
+}
+
+double number(const std::map<std::string, std::string> &line, const std::string &name)
+{
+  return std::stod(line.at(name));
+}
+
+json summaryIn(const ProgramRun &run, const std::string &folder)
+{
+  return json::parse(vpApp::readFile(run.path(folder + "/summary.json")));
+}
+
+//! A sequence of visp-generate-pattern in the folder of \e run.
+void generate(const ProgramRun &run, const std::string &arguments)
+{
+  const std::string command =
+      "cd '" + run.path("").string() + "' && '" GENERATE_PATTERN "' " + arguments + " >/dev/null 2>&1";
+  REQUIRE(std::system(command.c_str()) == 0);
+}
+} // namespace
+
+TEST_CASE("Without input it tracks its own sequence and says how far it is from the truth", "[visp-track-pattern]")
+{
+  ProgramRun run(TRACK_PATTERN);
+  REQUIRE(run("--frames 130 --seed 3") == OK);
+  CHECK(run.out().find("The product was tracked in ") == 0);
+  CHECK(run.out().find("Against the truth, ") != std::string::npos);
+  CHECK(run.out().find("Report: out/track-pattern/report.html\n") != std::string::npos);
+  const json summary = summaryIn(run, "out/track-pattern");
+  CHECK(summary["program"] == "visp-track-pattern");
+  CHECK(summary["images"] == 130);
+  CHECK(summary["status"]["tracking"].get<int>() > 50);
+  CHECK(summary["status"]["lost"] == 0);
+  const json &errors = summary["errors"]["tracking"];
+  CHECK(errors["x"]["sigma_px"].get<double>() < 0.02);
+  CHECK(errors["y"]["sigma_px"].get<double>() < 0.012);
+  CHECK(std::abs(errors["x"]["mean_px"].get<double>()) < 0.01);
+  CHECK(errors["x"]["rms_over_told_sigma"].get<double>() == Approx(1.).margin(0.3));
+  CHECK(errors["other_name"] == 0);
+  CHECK(errors["no_cell_there"] == 0);
+  for (const json &file : summary["files"]) {
+    CHECK(std::filesystem::exists(run.path("out/track-pattern/" + file.get<std::string>())));
+  }
+  CHECK(std::filesystem::file_size(run.path("out/track-pattern/overlay.mp4")) > 1000);
+  const std::string page = vpApp::readFile(run.path("out/track-pattern/report.html"));
+  for (const char *part : {"What came out", "Status", "Motion", "Accuracy", "How regular the product is", "Time",
+                           "Settings", "data:video/mp4", "data:image/svg+xml"}) {
+    CHECK(page.find(part) != std::string::npos);
+  }
+  const Table motion = tableOf(vpApp::readFile(run.path("out/track-pattern/motion.csv")));
+  CHECK(motion.heading == split("frame,dx,dy,sigma,status,microseconds,sigma_dx,sigma_dy,reason,epoch,valid_cells"));
+  REQUIRE(motion.lines.size() == 130);
+  CHECK(motion.lines[0].at("dx") == "nan");
+  CHECK(motion.lines[129].at("status") == "Tracking");
+  CHECK(number(motion.lines[129], "sigma") ==
+        Approx(std::hypot(number(motion.lines[129], "sigma_dx"), number(motion.lines[129], "sigma_dy"))).margin(2e-5));
+  const Table cells = tableOf(vpApp::readFile(run.path("out/track-pattern/cells.csv")));
+  CHECK(cells.heading == split("frame,row,column,x,y,sigma_x,sigma_y,valid,epoch"));
+  CHECK(cells.lines.size() > 130 * 6);
+}
+
+TEST_CASE("The folder of visp-generate-pattern brings its truth, a region keeps the places", "[visp-track-pattern]")
+{
+  ProgramRun run(TRACK_PATTERN);
+  generate(run, "--noise 4 --frames 90 --motion 3.3 0.4 --width 200 --height 120 --out d");
+  struct Case {
+    std::string arguments;
+    std::size_t images;
+  };
+  for (const Case &c : {Case{"d", 90}, Case{"d/frames --roi 20,10,160,100", 90}, Case{"d/ --frames 80", 80}}) {
+    CAPTURE(c.arguments);
+    REQUIRE(run(c.arguments + " --overlay none --out t") == OK);
+    const json summary = summaryIn(run, "t");
+    CHECK(summary["images"] == c.images);
+    const json &errors = summary["errors"]["tracking"];
+    CHECK(errors["x"]["number"].get<int>() > 100);
+    CHECK(std::abs(errors["x"]["mean_px"].get<double>()) < 0.01);
+    CHECK(errors["x"]["sigma_px"].get<double>() < 0.02);
+    CHECK(errors["dx"]["sigma_px"].get<double>() < 0.02);
+    CHECK_FALSE(std::filesystem::exists(run.path("t/overlay.mp4")));
+  }
+  // The same images by pattern or by name bring no truth.
+  REQUIRE(run("'d/frames/%06d.png' --overlay none --frames 5 --out t") == OK);
+  CHECK_FALSE(summaryIn(run, "t").contains("errors"));
+  REQUIRE(run("d/frames/000003.png d/frames/000004.png --overlay png --out t") == OK);
+  CHECK(summaryIn(run, "t")["images"] == 2);
+  const cv::Mat overlay = cv::imread(run.path("t/overlay/000004.png").string(), cv::IMREAD_UNCHANGED);
+  CHECK(overlay.cols == 800);
+  CHECK(overlay.rows % 2 == 0);
+}
+
+TEST_CASE("Methods, thresholds and derivatives are selectable; the printed algorithm has its bias",
+          "[visp-track-pattern]")
+{
+  ProgramRun run(TRACK_PATTERN);
+  generate(run, "--noise 4 --frames 40 --motion 3.37 0.21 --out d");
+  const auto biasOf = [&](const std::string &arguments) {
+    CAPTURE(arguments);
+    REQUIRE(run("d --overlay none --out t " + arguments) == OK);
+    const json summary = summaryIn(run, "t");
+    const json &x = summary["errors"][summary["errors"]["tracking"]["x"].is_null() ? "acquiring" : "tracking"]["x"];
+    return x["mean_px"].get<double>();
+  };
+  CHECK(biasOf("--method thesis --derivative sobel") == Approx(0.5).margin(0.05));
+  CHECK(std::abs(biasOf("--method thesis-fixed --derivative roberts")) < 0.03);
+  CHECK(std::abs(biasOf("--method half-maximum --threshold isodata")) < 0.03);
+  CHECK(std::abs(biasOf("--threshold minimum-error --polarity bright")) < 0.03);
+  CHECK(summaryIn(run, "t")["threshold"] == "MinimumError");
+}
+
+TEST_CASE("The product calibrates the microscope, and then places are micrometres too", "[visp-track-pattern]")
+{
+  ProgramRun run(TRACK_PATTERN);
+  generate(run, "--noise 4 --frames 100 --motion 3.3 0.4 --out d");
+  REQUIRE(run("d --calibrate --pitch-um 220 80 --overlay none --out scale") == OK);
+  CHECK(run.out().find("The distortion kappa1 is unobservable and taken as 0") != std::string::npos);
+  const json calibration = json::parse(vpApp::readFile(run.path("scale/calibration.json")));
+  CHECK(1e6 / calibration["scale_x_px_per_m"].get<double>() == Approx(4.5).epsilon(2e-3));
+  CHECK(calibration["quality"]["kappa1_status"] == "Unobservable");
+  for (const std::string file : {"scale/calibration.json", "scale/calibration.xml"}) {
+    CAPTURE(file);
+    REQUIRE(run("d --overlay none --out um --calibration " + file) == OK);
+    CHECK(run.out().find("In micrometres: 4.5") != std::string::npos);
+    CHECK(vpApp::readFile(run.path("um/motion.csv")).find("-nan") == std::string::npos);
+    const Table motion = tableOf(vpApp::readFile(run.path("um/motion.csv")));
+    CHECK(number(motion.lines.back(), "dx_um") == Approx(4.5 * number(motion.lines.back(), "dx")).epsilon(5e-3));
+    const Table cells = tableOf(vpApp::readFile(run.path("um/cells.csv")));
+    const auto &a = cells.lines[cells.lines.size() - 2], &b = cells.lines.back();
+    CHECK(number(b, "x_um") - number(a, "x_um") ==
+          Approx(4.5 * (number(b, "x") - number(a, "x"))).epsilon(0.01).margin(0.5));
+  }
+  CHECK(run("d --frames 3 --overlay none --out um --roi 5,5,150,90 --calibration scale/calibration.json") == OK);
+}
+
+TEST_CASE("A still grid of dots calibrates by single images", "[visp-track-pattern]")
+{
+  ProgramRun run(TRACK_PATTERN);
+  generate(run,
+           "--shape dot --pitch-x 30 --pitch-y 30 --opening-x 14 --opening-y 14 --width 320 --height 240 --noise 2 "
+           "--frames 3 --motion 0 0 --rotation 3 --out d");
+  REQUIRE(run("d --calibrate --dot-grid --pitch-um 90 90 --overlay none --out scale") == OK);
+  const json calibration = json::parse(vpApp::readFile(run.path("scale/calibration.json")));
+  CHECK(1e6 / calibration["scale_x_px_per_m"].get<double>() == Approx(3.).epsilon(1e-3));
+  CHECK(calibration["rotation_deg"].get<double>() == Approx(3.).margin(0.05));
+  CHECK(calibration["quality"]["views"] == 3);
+}
+
+TEST_CASE("Videos and colour images are read", "[visp-track-pattern]")
+{
+  ProgramRun run(TRACK_PATTERN);
+  generate(run, "--noise 1 --frames 80 --motion 3 0 --video --out d");
+  REQUIRE(run("d/video.mp4 --overlay none --out t") == OK);
+  const json summary = summaryIn(run, "t");
+  CHECK(summary["images"] == 80);
+  CHECK(summary["status"]["lost"] == 0);
+  CHECK(summary["lattice"]["column_pitch_px"].get<double>() == Approx(220. / 4.5).epsilon(0.01));
+  std::filesystem::create_directory(run.path("colour"));
+  for (int i = 0; i < 3; ++i) {
+    const std::string name = "/00000" + std::to_string(i) + ".png";
+    cv::Mat grey = cv::imread(run.path("d/frames" + name).string(), cv::IMREAD_COLOR);
+    cv::imwrite(run.path("colour" + name).string(), grey);
+  }
+  REQUIRE(run("colour --overlay none --out t") == OK);
+  CHECK(run.out().find("The images are in colour; they were made grey.") != std::string::npos);
+}
+
+TEST_CASE("Images without a pattern end with status 1 and a whole report", "[visp-track-pattern]")
+{
+  ProgramRun run(TRACK_PATTERN);
+  cv::imwrite(run.path("black.png").string(), cv::Mat(100, 160, CV_8UC1, cv::Scalar(7)));
+  CHECK(run("black.png --out t") == DATA);
+  CHECK(run.out().find("No pattern was found in any of the 1 image. The tracker says: No lock: ") == 0);
+  CHECK(run.err().find("visp-track-pattern: no pattern was found; the report shows the images as they were read") !=
+        std::string::npos);
+  CHECK(std::filesystem::exists(run.path("t/report.html")));
+  CHECK(tableOf(vpApp::readFile(run.path("t/motion.csv"))).lines.size() == 1);
+}
+
+TEST_CASE("Bad use ends with a sentence and nothing written", "[visp-track-pattern]")
+{
+  ProgramRun run(TRACK_PATTERN);
+  std::filesystem::create_directory(run.path("mine"));
+  run.write("mine/notes.txt", "precious");
+  std::filesystem::create_directory(run.path("sizes"));
+  cv::Mat small(100, 160, CV_8UC1), other(100, 161, CV_8UC1);
+  cv::randu(small, 0, 255);
+  cv::randu(other, 0, 255);
+  cv::imwrite(run.path("sizes/1.png").string(), small);
+  cv::imwrite(run.path("sizes/2.png").string(), other);
+  cv::imwrite(run.path("good.png").string(), small);
+  cv::imwrite(run.path("tiny.png").string(), small(cv::Rect(0, 0, 8, 8)));
+  cv::imwrite(run.path("deep.png").string(), cv::Mat(100, 160, CV_16UC1, cv::Scalar(500)));
+  run.write("cut.png", vpApp::readFile(run.path("good.png")).substr(0, 3000));
+  run.write("film.mp4", "no film");
+  run.write("bad.json", R"({"scale_x_px_per_m": 2e5, "width": 640, "height": 480})");
+  const std::size_t entries = run.entries().size();
+  struct Case {
+    std::string arguments;
+    int status;
+    std::string sentence;
+  };
+  const std::vector<Case> cases = {
+      {"--nonsense", USAGE, "--nonsense"},
+      {"--frames 0", USAGE, "--frames is 0, must be 1..10000000"},
+      {"--frames few", USAGE, "--frames"},
+      {"--roi 1,2,3", USAGE, "--roi is 1,2,3, must be X,Y,WIDTH,HEIGHT in whole pixels, at least 16 x 16"},
+      {"--roi 0,0,8,8", USAGE, "--roi is 0,0,8,8"},
+      {"--roi ' 0,0,20,20'", USAGE, "--roi is 0,0,20,20, must be"},
+      {"--roi -1,0,20,20", USAGE, "--roi"},
+      {"--method best", USAGE, "--method is best, must be gauss-newton, half-maximum, thesis or thesis-fixed"},
+      {"--threshold 128", USAGE, "--threshold is 128, must be isodata, minimum-error or otsu"},
+      {"--derivative scharr", USAGE, "--derivative is scharr, must be prewitt, roberts, sobel or symmetric"},
+      {"--polarity grey", USAGE, "--polarity is grey, must be automatic, bright or dark"},
+      {"--overlay gif", USAGE, "--overlay is gif, must be mp4, none or png"},
+      {"--video-rate 0", USAGE, "--video-rate is 0"},
+      {"--out ''", USAGE, "--out"},
+      {"--calibrate", USAGE, "--calibrate needs --pitch-um X Y"},
+      {"--calibrate --pitch-um 220 -80", USAGE, "--pitch-um is -80.000000 um, must be > 0"},
+      {"--calibrate --pitch-um 220 80 --pitch-sigma-um -1", USAGE, "--pitch-sigma-um is -1.000000 um, must be >= 0"},
+      {"--pitch-um 220 80", USAGE, "--dot-grid, --pitch-um and --pitch-sigma-um belong to --calibrate"},
+      {"--calibrate --pitch-um 1 1 --calibration x.json", USAGE, "not both in one run"},
+      {"--camera 0 good.png", USAGE, "--camera and the input good.png are both given"},
+      {"--camera front", USAGE, "--camera is front, must be a number or /dev/videoN"},
+      {"--camera 9999", DATA, "/dev/video9999: the camera cannot be opened"},
+      {"/dev/video9999", DATA, "/dev/video9999: the camera cannot be opened"},
+      {"none", DATA, "none: there is no such file or folder"},
+      {"none.png", DATA, "none.png: there is no such file or folder"},
+      {"good.png none.png", DATA, "none.png: there is no such file"},
+      {"mine", DATA, "mine: the folder holds no images"},
+      {"'x%04d.png'", DATA, "x%04d.png: no file has such a name"},
+      {"'x%s.png'", DATA, "x%s.png: is no pattern"},
+      {"deep.png", DATA, "deep.png: has 16 bits a value, must have 8"},
+      {"cut.png", DATA, "cut.png: is not an image that can be read, or is cut short"},
+      {"film.mp4", DATA, "film.mp4: is not a video that can be read"},
+      {"sizes", DATA, "sizes/2.png: has 161 x 100 px, sizes/1.png has 160 x 100 px"},
+      {"tiny.png", DATA, "width is 8 px, must be in [16, 16384]"},
+      {"good.png --roi 100,0,100,50", DATA, "--roi 100,0,100,50 does not lie in good.png of 160 x 100 px"},
+      {"good.png --calibration none.json", DATA, "none.json: cannot be read"},
+      {"good.png --calibration none.xml", DATA, "none.xml: cannot be read"},
+      {"good.png --calibration bad.json", DATA, "bad.json: is for images of 640 x 480 px, these have 160 x 100 px"},
+      {"--frames 5 --calibrate --pitch-um 220 80", DATA, "--calibrate: in no image the product was tracked"},
+      {"good.png --calibrate --dot-grid --pitch-um 1 1", DATA, "--calibrate: in no image a grid of dots was found"},
+      {"good.png --out mine", DATA, "mine: is not empty and not a result of visp-track-pattern"},
+      {"good.png --out bad.json", DATA, "bad.json: exists and is not a folder"},
+      {"good.png --out /proc/none/out", DATA, "/proc/none/out: cannot be written"},
+  };
+  for (const Case &bad : cases) {
+    CAPTURE(bad.arguments);
+    CHECK(run(bad.arguments) == bad.status);
+    CAPTURE(run.err());
+    const std::size_t sentence = run.err().rfind("visp-track-pattern: ");
+    CHECK((sentence == 0 || (sentence != std::string::npos && run.err()[sentence - 1] == '\n')));
+    CHECK(std::count(run.err().begin(), run.err().end(), '\n') <= 5); // the sentence, and progress at every quarter
+    CHECK(run.err().find(bad.sentence) != std::string::npos);
+    CHECK(run.out().empty());
+    CHECK(run.entries().size() == entries);
+  }
+  CHECK(run("good.png --display", "DISPLAY=") == DATA);
+  CHECK(run.err().find("--display needs") != std::string::npos);
+  CHECK(vpApp::readFile(run.path("mine/notes.txt")) == "precious");
+  CHECK(run("--help") == OK);
+  CHECK(run.out().find("--pitch-um") != std::string::npos);
+  CHECK(run("--version") == OK);
+}
+
+TEST_CASE("What is written is described", "[visp-track-pattern]")
+{
+  const std::string readme = vpApp::readFile(DATA_FOLDER "/pattern/README.md");
+  for (const char *word :
+       {"visp-track-pattern", "cells.csv", "frame,row,column,x,y,sigma_x,sigma_y,valid,epoch",
+        "frame,dx,dy,sigma,status,microseconds,sigma_dx,sigma_dy,reason,epoch,valid_cells", "x_um,y_um", "dx_um,dy_um",
+        "calibration.json", "scale_x_px_per_m", "kappa1_per_px2", "calibration.xml", "overlay.mp4"}) {
+    CAPTURE(word);
+    CHECK(readme.find(word) != std::string::npos);
+  }
+}

@@ -1,0 +1,306 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "trackRun.h"
+#include "calibrationFile.h"
+#include "calibrationRun.h"
+#include "comparison.h"
+#include "overlay.h"
+#include "tableFile.h"
+#include "trackWindow.h"
+
+#include "appMain.h"
+#include "progress.h"
+
+#include <visp3/core/vpException.h>
+#include <visp3/pattern/vpPatternTracker.h>
+
+#include <chrono>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+
+namespace trackPattern
+{
+namespace
+{
+std::string sizeOf(const vpImage<unsigned char> &image)
+{
+  return std::to_string(image.getWidth()) + " x " + std::to_string(image.getHeight()) + " px";
+}
+
+//! The images as the tracker gets them, all of one size.
+class Window
+{
+public:
+  Window(const vpImage<unsigned char> &first, const std::optional<Roi> &roi, const std::string &name)
+    : m_width(first.getWidth()), m_height(first.getHeight()), m_roi(roi), m_firstName(name)
+  {
+    if (roi && (roi->x + roi->width > m_width || roi->y + roi->height > m_height)) {
+      throw std::runtime_error(text("--roi %u,%u,%u,%u does not lie in %s of %s", roi->x, roi->y, roi->width,
+                                    roi->height, name.c_str(), sizeOf(first).c_str()));
+    }
+  }
+  [[nodiscard]] unsigned int width() const { return m_roi ? m_roi->width : m_width; }
+  [[nodiscard]] unsigned int height() const { return m_roi ? m_roi->height : m_height; }
+  [[nodiscard]] double left() const { return m_roi ? m_roi->x : 0.; }
+  [[nodiscard]] double top() const { return m_roi ? m_roi->y : 0.; }
+
+  const vpImage<unsigned char> &cut(const vpImage<unsigned char> &image, const std::string &name)
+  {
+    if (image.getWidth() != m_width || image.getHeight() != m_height) {
+      throw std::runtime_error(text("%s: has %s, %s has %u x %u px", name.c_str(), sizeOf(image).c_str(),
+                                    m_firstName.c_str(), m_width, m_height));
+    }
+    if (!m_roi) {
+      return image;
+    }
+    m_part.resize(m_roi->height, m_roi->width);
+    for (unsigned int v = 0; v < m_roi->height; ++v) {
+      std::copy_n(image[m_roi->y + v] + m_roi->x, m_roi->width, m_part[v]);
+    }
+    return m_part;
+  }
+
+private:
+  unsigned int m_width;
+  unsigned int m_height;
+  std::optional<Roi> m_roi;
+  std::string m_firstName;
+  vpImage<unsigned char> m_part;
+};
+
+// printf tells a negative NaN from a positive one; a table shall not.
+double plain(double value) { return std::isnan(value) ? NOTHING : value; }
+
+//! cells.csv and motion.csv.
+class Tables
+{
+public:
+  Tables(vpApp::OutputFolder &out, bool um)
+    : m_um(um), m_cells(out, "cells.csv",
+                        std::string("frame,row,column,x,y,sigma_x,sigma_y,valid,epoch") + (um ? ",x_um,y_um" : "")),
+      m_motion(out, "motion.csv",
+               std::string("frame,dx,dy,sigma,status,microseconds,sigma_dx,sigma_dy,reason,epoch,valid_cells") +
+                   (um ? ",dx_um,dy_um" : ""))
+  {}
+  void add(const vpPatternFrame &frame, const FrameRecord &record, double left, double top,
+           const std::optional<vpMicroscopeCalibration> &calibration)
+  {
+    for (const vpPatternCell &cell : frame.cells) {
+      std::string line = text("%u,%d,%d,%.5f,%.5f,%.5f,%.5f,%d,%u", record.number, cell.row, cell.column, cell.x + left,
+                              cell.y + top, cell.sigmaX, cell.sigmaY, cell.valid ? 1 : 0, frame.epoch);
+      if (m_um) {
+        const Eigen::Vector2d plane = 1e6 * calibration->toPlane(cell.x + left, cell.y + top);
+        line += text(",%.5f,%.5f", plain(plane.x()), plain(plane.y()));
+      }
+      m_cells.add(line);
+    }
+    std::string line =
+        text("%u,%.5f,%.5f,%.5f,%s,%.2f,%.5f,%.5f,%s,%u,%d", record.number, plain(record.dx), plain(record.dy),
+             plain(std::hypot(record.sigmaDx, record.sigmaDy)), toString(record.status), record.microseconds,
+             plain(record.sigmaDx), plain(record.sigmaDy), reasonWord(record.reason), record.epoch, record.validCells);
+    if (m_um) {
+      line += text(",%.5f,%.5f", plain(record.dxUm), plain(record.dyUm));
+    }
+    m_motion.add(line);
+  }
+  void close()
+  {
+    m_cells.close();
+    m_motion.close();
+  }
+
+private:
+  static const char *reasonWord(vpPatternReason reason)
+  {
+    static constexpr const char *words[] = {
+        "None",     "WrongSize",    "NoContrast",      "NoCells",      "TooMuchNoise", "NoLattice", "CellTooSmall",
+        "Learning", "CellsMissing", "AmbiguousMotion", "IdentitySlip", "Restarted",    "NoMatch"};
+    const auto index = static_cast<std::size_t>(reason);
+    return index < std::size(words) ? words[index] : "Unknown";
+  }
+
+  bool m_um;
+  TableFile m_cells;
+  TableFile m_motion;
+};
+
+FrameRecord recordOf(const vpPatternFrame &frame, unsigned int number, double microseconds)
+{
+  FrameRecord record;
+  record.number = number;
+  record.status = frame.status;
+  record.reason = frame.reason;
+  record.message = frame.message();
+  record.epoch = frame.epoch;
+  record.validCells = frame.validCells;
+  record.cells = static_cast<int>(frame.cells.size());
+  record.microseconds = microseconds;
+  if (frame.hasMotion) {
+    record.dx = frame.dx;
+    record.dy = frame.dy;
+    record.sigmaDx = frame.sigmaDx;
+    record.sigmaDy = frame.sigmaDy;
+  }
+  std::vector<double> sigmaX, sigmaY;
+  for (const vpPatternCell &cell : frame.cells) {
+    if (cell.valid) {
+      sigmaX.push_back(cell.sigmaX);
+      sigmaY.push_back(cell.sigmaY);
+    }
+  }
+  record.sigmaX = quantile(sigmaX, 0.5);
+  record.sigmaY = quantile(sigmaY, 0.5);
+  return record;
+}
+
+// The displacement where the image has its centre; the scale hardly changes over the image.
+void convertMotion(const vpMicroscopeCalibration &calibration, FrameRecord &record)
+{
+  const double u = 0.5 * (calibration.width - 1.), v = 0.5 * (calibration.height - 1.);
+  const Eigen::Vector2d moved = 1e6 * (calibration.toPlane(u + 0.5 * record.dx, v + 0.5 * record.dy) -
+                                       calibration.toPlane(u - 0.5 * record.dx, v - 0.5 * record.dy));
+  record.dxUm = moved.x();
+  record.dyUm = moved.y();
+}
+
+//! Everything that is made at the first image, when its size is known.
+class Session
+{
+public:
+  Session(const Options &options, vpApp::OutputFolder &out, const vpImage<unsigned char> &first,
+          const std::string &name)
+    : m_options(options), m_window(first, options.roi, name), m_tracker(makeTracker(m_window, options.tracker, name)),
+      m_overlays(out, options.overlay, options.videoRate), m_collector(options)
+  {
+    m_results.width = first.getWidth();
+    m_results.height = first.getHeight();
+    if (!options.calibration.empty()) {
+      m_results.calibration =
+          readCalibration(options.calibration, options.cameraName, m_results.width, m_results.height);
+    }
+    m_tables = std::make_unique<Tables>(out, m_results.calibration.has_value());
+  }
+
+  //! The overlay, for the window; empty when nobody wants one.
+  cv::Mat take(const vpImage<unsigned char> &image, const ImageSource &source, bool draw)
+  {
+    const vpImage<unsigned char> &part = m_window.cut(image, source.name());
+    const auto start = std::chrono::steady_clock::now();
+    const vpPatternFrame &frame = m_tracker.track(part);
+    const double microseconds =
+        std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
+    FrameRecord record = recordOf(frame, source.number(), microseconds);
+    if (m_results.calibration) {
+      convertMotion(*m_results.calibration, record);
+    }
+    const std::optional<FrameTruth> truth = source.truth();
+    if (truth) {
+      m_comparison.add(frame, *truth, m_window.left(), m_window.top(), record, m_results);
+    }
+    else {
+      m_comparison.skip();
+    }
+    for (const vpPatternCell &cell : frame.cells) {
+      if (cell.valid) {
+        m_results.deviations[{frame.epoch, cell.row, cell.column}] = {cell.deviationX, cell.deviationY};
+      }
+    }
+    if (frame.lattice.columnPitch() > 0.) {
+      m_results.lattice = frame.lattice;
+    }
+    if (m_options.calibrate) {
+      m_collector.add(part, frame, m_window.left(), m_window.top());
+    }
+    m_tables->add(frame, record, m_window.left(), m_window.top(), m_results.calibration);
+    m_results.frames.push_back(record);
+    const bool better = frame.status == vpPatternStatus::Tracking || m_results.frames.size() == 1 ||
+                        (frame.validCells > 0 && !m_pictureHasCells);
+    if (!draw && m_options.overlay == OverlayKind::None && !better) {
+      return {};
+    }
+    cv::Mat picture = drawOverlay(image, frame, m_options.roi, record.number);
+    m_overlays.add(picture, record.number);
+    if (better) {
+      m_pictureHasCells = frame.validCells > 0;
+      m_picture = picture;
+    }
+    return picture;
+  }
+
+  RunResults finish(const ImageSource &source, vpApp::OutputFolder &out)
+  {
+    m_tables->close();
+    m_overlays.close();
+    m_results.input = source.description();
+    m_results.remark = source.remark();
+    m_results.picture = pngOf(m_picture);
+    if (m_options.calibrate) {
+      m_results.calibrated = m_collector.compute(m_results.width, m_results.height);
+      m_results.calibrationViews = m_collector.viewCount();
+      out.write("calibration.json", jsonOf(*m_results.calibrated, m_results.calibrationViews).dump(2) + "\n");
+      m_results.calibrated->calibration.saveXml(out.file("calibration.xml"));
+    }
+    return std::move(m_results);
+  }
+
+private:
+  static vpPatternTracker makeTracker(const Window &window, const vpPatternOptions &options, const std::string &name)
+  {
+    try {
+      return vpPatternTracker(window.width(), window.height(), options);
+    }
+    catch (const vpException &error) {
+      throw std::runtime_error(name + ": " + error.getStringMessage());
+    }
+  }
+
+  const Options &m_options;
+  Window m_window;
+  vpPatternTracker m_tracker;
+  std::unique_ptr<Tables> m_tables;
+  OverlayFiles m_overlays;
+  CalibrationRun m_collector;
+  Comparison m_comparison;
+  RunResults m_results;
+  cv::Mat m_picture;
+  bool m_pictureHasCells = false;
+};
+} // namespace
+
+RunResults trackAll(const Options &options, ImageSource &source, vpApp::OutputFolder &out)
+{
+  std::unique_ptr<TrackWindow> screen;
+  if (options.display) {
+    screen = std::make_unique<TrackWindow>();
+  }
+  std::unique_ptr<vpApp::Progress> progress;
+  if (source.count() > 0) {
+    progress = std::make_unique<vpApp::Progress>("tracking " + std::to_string(source.count()) + " images",
+                                                 static_cast<double>(source.count()));
+  }
+  std::unique_ptr<Session> session;
+  vpImage<unsigned char> image;
+  bool going = true;
+  while (going && source.next(image)) {
+    vpApp::throwIfInterrupted();
+    if (!session) {
+      session = std::make_unique<Session>(options, out, image, source.name());
+    }
+    const cv::Mat picture = session->take(image, source, screen != nullptr);
+    if (screen) {
+      going = screen->show(picture, options.camera.empty() ? 1. / options.videoRate : 0.);
+    }
+    if (progress) {
+      progress->add(1.);
+    }
+  }
+  if (!session) {
+    throw std::runtime_error(source.description() + " holds no image");
+  }
+  return session->finish(source, out);
+}
+} // namespace trackPattern

@@ -1,0 +1,46 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file truth.h
+ * \brief Where the cells truly are, when that is known.
+ */
+#ifndef trackPattern_truth_h
+#define trackPattern_truth_h
+
+#include <visp3/simulation/vpProductPattern.h>
+
+#include <filesystem>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+VISP_DIRECT_USING_NAMESPACE
+
+namespace trackPattern
+{
+//! \brief The truth about one frame.
+struct FrameTruth {
+  std::vector<vpPatternTruthCell> cells; //!< All cells in view.
+  double x = 0.;                         //!< Displacement of the product, px.
+  double y = 0.;                         //!< Displacement of the product, px.
+};
+
+//! \brief The truth that visp-generate-pattern wrote: truth.csv and motion.csv.
+class TruthFiles
+{
+public:
+  //! True when \e folder holds both files.
+  [[nodiscard]] static bool areIn(const std::filesystem::path &folder);
+  //! \throw std::runtime_error naming file, line and what is wrong.
+  explicit TruthFiles(const std::filesystem::path &folder);
+  //! Of a frame by its number; nothing when the files do not have it.
+  [[nodiscard]] std::optional<FrameTruth> at(unsigned int frame) const;
+
+private:
+  std::unordered_map<unsigned int, FrameTruth> m_frames;
+};
+} // namespace trackPattern
+
+#endif

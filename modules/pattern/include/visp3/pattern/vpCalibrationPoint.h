@@ -1,0 +1,70 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpCalibrationPoint.h
+ * \brief Points for the calibrations: where something is seen, and where it is.
+ */
+#ifndef vpCalibrationPoint_h
+#define vpCalibrationPoint_h
+
+#include <visp3/pattern/vpPatternFrame.h>
+
+#include <visp3/core/vpImage.h>
+
+#include <vector>
+
+BEGIN_VISP_NAMESPACE
+
+/*!
+ * \brief A point that is known on the product or on a calibration grid, and was measured in an image.
+ *
+ * Pixels: u to the right, v down, (0, 0) is the centre of the top left pixel. Object coordinates are metres.
+ */
+struct VISP_EXPORT vpCalibrationPoint {
+  double u = 0.;          //!< Measured, px to the right.
+  double v = 0.;          //!< Measured, px down.
+  double x = 0.;          //!< On the object, m.
+  double y = 0.;          //!< On the object, m.
+  double z = 0.;          //!< On the object, m; vpPlanarMicroscopeCalibration wants one plane, z = 0.
+  double sigmaU = 1.;     //!< Standard deviation of u, px, > 0.
+  double sigmaV = 1.;     //!< Standard deviation of v, px, > 0.
+  double sigmaPlane = 0.; //!< Standard deviation of x and of y (a product is not made exactly), m, >= 0.
+};
+
+//! \brief The product or the grid as a ruler: how far its cells are from each other.
+struct VISP_EXPORT vpCalibrationPitch {
+  double columns = 0.;    //!< From a cell to its neighbour in the next column, m, > 0.
+  double rows = 0.;       //!< From a cell to its neighbour in the next row, m, > 0.
+  double sigmaPlane = 0.; //!< Standard deviation of the place of a cell, each axis, m, >= 0.
+
+  //! \throw vpException (badValue) naming the field and its value.
+  void check() const;
+};
+
+/*!
+ * The valid cells of a frame as points of the lattice: x = column * columns, y = row * rows, z = 0.
+ *
+ * The columns are those that vpPatternTracker counts to the right in the image and the rows those that it counts
+ * downwards, so that a product that lies across shows its pitches exchanged. The standard deviations are the cells'
+ * own; 0.1 px where
+ * the tracker does not know them, as in its first image: then set vpMicroscopeCalibrationOptions::sigmaFromResiduals.
+ * \throw vpException (badValue) naming a pitch that is not > 0.
+ */
+[[nodiscard]] VISP_EXPORT std::vector<vpCalibrationPoint> vpCalibrationPoints(const vpPatternFrame &frame,
+                                                                              const vpCalibrationPitch &pitch);
+
+/*!
+ * The dots of one image of a calibration grid, of either polarity, as points of the lattice. Their centres are found by
+ * half-maximum edges (vpPatternMethod::HalfMaximumEdges).
+ * \param image : 8 bit, at least 16 x 16 px; two periods each way must be in view, and the view must be straight:
+ * rows and columns are a lattice, which they are not under a strong perspective.
+ * \throw vpException (badValue) naming a pitch that is not > 0; (fatalError) with the tracker's sentence when it finds
+ * no lattice.
+ */
+[[nodiscard]] VISP_EXPORT std::vector<vpCalibrationPoint> vpCalibrationPoints(const vpImage<unsigned char> &image,
+                                                                              const vpCalibrationPitch &pitch);
+
+END_VISP_NAMESPACE
+#endif

@@ -1,0 +1,80 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpMicroscopeCalibration.h
+ * \brief From the image of a microscope to its product plane and back.
+ */
+#ifndef vpMicroscopeCalibration_h
+#define vpMicroscopeCalibration_h
+
+#include <visp3/direct_core/vpDirectCompat.h>
+
+#include <visp3/core/vpCameraParameters.h>
+
+#include <Eigen/Core>
+
+#include <string>
+
+BEGIN_VISP_NAMESPACE
+
+/*!
+ * \brief A camera that looks straight at a plane of fixed depth (thesis section 7.2.1, equation (7.7)).
+ *
+ * With the pixel relative to the principal point, d = (u - u0, (v - v0) scaleX / scaleY), and a point p of the plane,
+ * \f[ d \, (1 + \kappa_1 |d|^2) = s_x \left( R(\theta) \, F p + t \right) \f]
+ * where F mirrors y when #mirrored is set. scaleX is the magnification M_o = f / t_z of (7.7) in px per metre of
+ * product;
+ * with square pixels scaleY is the same.
+ */
+struct VISP_EXPORT vpMicroscopeCalibration {
+  unsigned int width = 0;  //!< Columns of the images, px.
+  unsigned int height = 0; //!< Rows of the images, px.
+  double scaleX = 1.;      //!< px per m along u, > 0.
+  double scaleY = 1.;      //!< px per m along v, > 0.
+  double rotation = 0.;    //!< theta: of the product in the image, from u towards v (clockwise as seen), rad.
+  bool mirrored = false;   //!< The image shows the product as a mirror does.
+  double tx = 0.;          //!< Where the product's origin is along u, from the principal point, m.
+  double ty = 0.;          //!< The same along v.
+  double kappa1 = 0.;      //!< Radial distortion, px^-2 (columns); positive: barrel, negative: pincushion.
+  double u0 = 0.;          //!< Principal point, px: the centre of the distortion.
+  double v0 = 0.;          //!< Principal point, px.
+
+  //! Where a pixel is on the product, m.
+  [[nodiscard]] Eigen::Vector2d toPlane(double u, double v) const;
+  //! Where a point of the product, m, is seen, px. NaN where the distortion of a negative #kappa1 has no inverse.
+  [[nodiscard]] Eigen::Vector2d toImage(double x, double y) const;
+  //! Size of a pixel on the product, um, along u; the mean over the image is this but for the distortion.
+  [[nodiscard]] double pixelSizeUm() const { return 1e6 / scaleX; }
+  //! #kappa1 per square metre of product, as in table 7.4 (there um^-2: times 1e-12).
+  [[nodiscard]] double kappa1PerSquareMetre() const { return kappa1 * scaleX * scaleX; }
+
+  /*!
+   * As ViSP's camera one metre away from the product: its normalised coordinates are metres on the product, relative to
+   * the principal point and not turned. `kdu` is exact (vpPixelMeterConversion agrees with toPlane()); `kud`, which is
+   * another model, agrees with it at the corner of the image that is farthest from the principal point.
+   */
+  [[nodiscard]] vpCameraParameters toCamera() const;
+  //! From such a camera; rotation and translation are zero.
+  //! \throw vpException (badValue) naming a scale that is not > 0.
+  [[nodiscard]] static vpMicroscopeCalibration fromCamera(const vpCameraParameters &camera, unsigned int width,
+                                                          unsigned int height);
+  /*!
+   * Write toCamera() as ViSP's camera file. Rotation, translation and mirroring are not part of that file.
+   * \param file : Must not exist, ViSP would add to it. \param name : Of the camera in the file.
+   * ViSP reports on std::cout and std::cerr, which are silent meanwhile: not for two threads at once.
+   * \throw vpException (ioError) naming the file.
+   */
+  void saveXml(const std::string &file, const std::string &name = "microscope") const;
+  /*!
+   * Read a camera with distortion from ViSP's camera file. For one thread, as saveXml().
+   * \param width, height : Size of the images, px.
+   * \throw vpException (ioError) naming the file and the camera when it is not in there for this size.
+   */
+  [[nodiscard]] static vpMicroscopeCalibration loadXml(const std::string &file, const std::string &name,
+                                                       unsigned int width, unsigned int height);
+};
+
+END_VISP_NAMESPACE
+#endif

@@ -1,0 +1,41 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// What every calibration asks of its points, in sentences.
+#ifndef vpCalibrationInput_h
+#define vpCalibrationInput_h
+
+#include <visp3/pattern/vpCalibrationPoint.h>
+
+#include <Eigen/Core>
+
+#include <vector>
+
+BEGIN_VISP_NAMESPACE
+
+// Throws vpException (badValue) that names what is out of range.
+void vpCheckCalibrationImage(unsigned int width, unsigned int height);
+void vpCheckCalibrationRange(const char *field, double value, double least, double most, const char *unit);
+// NaN stands for "not given".
+void vpCheckPrincipalPoint(const char *field, double value);
+
+// Checks number, finiteness and standard deviations; "point 3 of view 0: u is nan, must be finite".
+void vpCheckCalibrationView(std::size_t view, const std::vector<vpCalibrationPoint> &points, std::size_t least);
+
+// How the points of a view lie: centre, principal axes (columns, longest first), standard deviations along them.
+struct vpCalibrationSpread {
+  Eigen::Vector3d centre;
+  Eigen::Matrix3d axes; // right-handed
+  Eigen::Vector3d sigma;
+
+  [[nodiscard]] bool isLine() const { return !(sigma[1] > 1e-6 * sigma[0]); }
+  [[nodiscard]] bool isPlane() const { return !(sigma[2] > 1e-3 * sigma[0]); }
+};
+[[nodiscard]] vpCalibrationSpread vpSpreadOf(const std::vector<vpCalibrationPoint> &points);
+
+// The same of the places in the image; sigma[2] is 0.
+[[nodiscard]] vpCalibrationSpread vpImageSpreadOf(const std::vector<vpCalibrationPoint> &points);
+
+END_VISP_NAMESPACE
+#endif

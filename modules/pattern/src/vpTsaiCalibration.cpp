@@ -1,0 +1,268 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "vpCalibrationInput.h"
+#include "vpTsaiCalibrationProblem.h"
+
+#include <visp3/pattern/vpTsaiCalibration.h>
+
+#include <visp3/core/vpException.h>
+#include <visp3/core/vpRotationMatrix.h>
+#include <visp3/core/vpTranslationVector.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+using State = vpTsaiState;
+
+constexpr std::size_t leastPoints = 6;
+constexpr std::size_t leastOfBody = 8;
+constexpr double largestDoubt = 0.1; // standard deviation of f over f in a reliable result
+
+vpHomogeneousMatrix poseOf(const vpTsaiPose &pose, const Eigen::Vector3d &origin)
+{
+  const Eigen::Vector3d t = pose.t - pose.R * origin;
+  vpRotationMatrix R;
+  for (unsigned int i = 0; i < 3; ++i) {
+    for (unsigned int j = 0; j < 3; ++j) {
+      R[i][j] = pose.R(i, j);
+    }
+  }
+  return {vpTranslationVector(t.x(), t.y(), t.z()), R};
+}
+
+// The focal length that a view tells, with the pose that it tells; the better of two where the tilt may have two signs.
+vpTsaiDepth bestDepth(const vpTsaiView &view, const std::vector<vpTsaiPose> &poses, double f, vpTsaiPose &best)
+{
+  vpTsaiDepth result;
+  for (const vpTsaiPose &pose : poses) {
+    const vpTsaiDepth depth = vpFindTsaiDepth(view, pose, f);
+    if (depth.sensible && (!result.sensible || depth.misfit < result.misfit)) {
+      result = depth;
+      best = pose;
+      best.t.z() = depth.tz;
+    }
+  }
+  return result;
+}
+
+double median(std::vector<double> values)
+{
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+  return values[values.size() / 2];
+}
+
+// Poses for a focal length; false when a view has none.
+bool placeAll(const std::vector<vpTsaiView> &views, const std::vector<std::vector<vpTsaiPose>> &candidates, double f,
+              State &state, double &misfit)
+{
+  state.poses.assign(views.size(), vpTsaiPose());
+  misfit = 0.;
+  for (std::size_t k = 0; k < views.size(); ++k) {
+    const vpTsaiDepth depth = bestDepth(views[k], candidates[k], f, state.poses[k]);
+    if (!depth.sensible) {
+      return false;
+    }
+    misfit += depth.misfit * depth.misfit;
+  }
+  state.shared[State::F] = f;
+  return true;
+}
+
+// The focal length with which all views fit best, among those that single views tell and a row of plausible ones: a
+// view that is hardly tilted tells nearly nothing.
+bool start(const std::vector<vpTsaiView> &views, const std::vector<std::vector<vpTsaiPose>> &candidates, double width,
+           State &state)
+{
+  std::vector<double> told;
+  for (std::size_t k = 0; k < views.size(); ++k) {
+    vpTsaiPose ignored;
+    const vpTsaiDepth depth = bestDepth(views[k], candidates[k], 0., ignored);
+    if (depth.sensible) {
+      told.push_back(depth.f);
+    }
+  }
+  if (!told.empty()) {
+    told.push_back(median(told));
+  }
+  for (const double share : {0.5, 0.8, 1.2, 2., 4., 8.}) {
+    told.push_back(share * width);
+  }
+  double least = HUGE_VAL;
+  for (const double f : told) {
+    State trial = state;
+    double misfit = 0.;
+    if (placeAll(views, candidates, f, trial, misfit) && misfit < least) {
+      least = misfit;
+      state = trial;
+    }
+  }
+  return std::isfinite(least);
+}
+
+template <class... Values> std::string sentence(const char *format, Values... values)
+{
+  char text[400];
+  std::snprintf(text, sizeof text, format, values...);
+  return text;
+}
+
+std::string messageOf(const vpTsaiCalibrationResult &result)
+{
+  std::string text = sentence("The focal length is %.6g +- %.2g px, the principal point (%.6g +- %.2g, %.6g +- %.2g) px"
+                              ", kappa1 %.4g +- %.2g px^-2. The residuals are %.3g px (rms).",
+                              result.px, result.sigma(vpTsaiPx), result.u0, result.sigma(vpTsaiU0), result.v0,
+                              result.sigma(vpTsaiV0), result.kappa1, result.sigma(vpTsaiKappa1), result.residualRms);
+  if (!result.converged) {
+    text += " The refinement did not come to its end.";
+  }
+  if (!result.reliable) {
+    text += " This is not reliable: the views do not tell the focal length apart from the distance. Tilt the plane, or "
+            "for a plane parallel to the image use the planar microscope calibration.";
+  }
+  return text;
+}
+Eigen::Matrix<double, vpTsaiParameterCount, vpTsaiParameterCount> covarianceOf(const vpBundleSolution<State> &solution,
+                                                                               const std::vector<int> &isFree)
+{
+  Eigen::Matrix<double, vpTsaiParameterCount, vpTsaiParameterCount> all, by;
+  all.setZero();
+  by.setIdentity(); // the order is the same, only py is made of two
+  by(vpTsaiPy, State::F) = solution.state.shared[State::Aspect];
+  by(vpTsaiPy, State::Aspect) = solution.state.shared[State::F];
+  for (std::size_t i = 0; i < isFree.size(); ++i) {
+    for (std::size_t j = 0; j < isFree.size(); ++j) {
+      all(isFree[i], isFree[j]) = solution.sharedCovariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+    }
+  }
+  return by * all * by.transpose();
+}
+
+vpTsaiCalibrationResult resultOf(const vpTsaiProblem &problem, const vpBundleSolution<State> &solution,
+                                 const std::vector<std::vector<vpCalibrationPoint>> &points,
+                                 const std::vector<vpTsaiView> &views)
+{
+  vpTsaiCalibrationResult result;
+  const std::array<double, State::SharedCount> &s = solution.state.shared;
+  result.px = s[State::F];
+  result.py = s[State::F] * s[State::Aspect];
+  result.kappa1 = s[State::Kappa1];
+  result.u0 = s[State::U0];
+  result.v0 = s[State::V0];
+  double squares = 0.;
+  int count = 0;
+  for (std::size_t k = 0; k < views.size(); ++k) {
+    result.cMo.push_back(poseOf(solution.state.poses[k], views[k].origin));
+    const Eigen::VectorXd residual = problem.view(solution.state, k).residual;
+    for (std::size_t i = 0; i < points[k].size(); ++i) {
+      const auto row = static_cast<Eigen::Index>(2 * i);
+      squares +=
+          std::pow(residual[row] * points[k][i].sigmaU, 2) + std::pow(residual[row + 1] * points[k][i].sigmaV, 2);
+      ++count;
+    }
+  }
+  result.residualRms = std::sqrt(squares / count);
+  result.degreesOfFreedom = 2 * count - static_cast<int>(problem.shared()) - 6 * static_cast<int>(views.size());
+  result.varianceFactor = result.degreesOfFreedom > 0 ? solution.chi2 / result.degreesOfFreedom : 1.;
+  result.covariance = covarianceOf(solution, problem.freeParameters());
+  result.condition = solution.condition;
+  result.iterations = solution.iterations;
+  result.converged = solution.converged;
+  result.reliable = solution.converged && result.sigma(vpTsaiPx) < largestDoubt * result.px;
+  result.message = messageOf(result);
+  return result;
+}
+} // namespace
+
+void vpTsaiCalibrationOptions::check() const
+{
+  vpCheckPrincipalPoint("u0", u0);
+  vpCheckPrincipalPoint("v0", v0);
+  vpCheckCalibrationRange("aspect", aspect, 0.1, 10., "");
+}
+
+double vpTsaiCalibrationResult::sigma(vpTsaiParameter parameter) const
+{
+  return std::sqrt(std::max(0., covariance(parameter, parameter)));
+}
+
+vpCameraParameters vpTsaiCalibrationResult::toCamera() const
+{
+  const double kdu = kappa1 * px * px;
+  vpCameraParameters camera;
+  camera.initPersProjWithDistortion(px, py, u0, v0, -kdu, kdu);
+  return camera;
+}
+
+vpTsaiCalibration::vpTsaiCalibration(unsigned int width, unsigned int height, const vpTsaiCalibrationOptions &options)
+  : m_width(width), m_height(height), m_options(options)
+{
+  vpCheckCalibrationImage(width, height);
+  options.check();
+  if (std::isnan(options.u0)) {
+    m_options.u0 = 0.5 * (width - 1.);
+  }
+  if (std::isnan(options.v0)) {
+    m_options.v0 = 0.5 * (height - 1.);
+  }
+}
+
+void vpTsaiCalibration::addView(const std::vector<vpCalibrationPoint> &points)
+{
+  const std::size_t view = m_views.size();
+  vpCheckCalibrationView(view, points, leastPoints);
+  const vpCalibrationSpread spread = vpSpreadOf(points);
+  if (spread.isLine()) {
+    throw vpException(vpException::badValue, "the points of view %zu lie on a line of the object", view);
+  }
+  if (vpImageSpreadOf(points).isLine()) {
+    throw vpException(vpException::badValue, "the points of view %zu lie on a line of the image", view);
+  }
+  if (!spread.isPlane() && points.size() < leastOfBody) {
+    throw vpException(vpException::badValue, "view %zu has %zu points that lie in no plane, must have at least %zu",
+                      view, points.size(), leastOfBody);
+  }
+  m_views.push_back(points);
+}
+
+vpTsaiCalibrationResult vpTsaiCalibration::compute() const
+{
+  if (m_views.empty()) {
+    throw vpException(vpException::badValue, "there is no view to calibrate from");
+  }
+  std::vector<vpTsaiView> views;
+  std::vector<std::vector<vpTsaiPose>> candidates;
+  for (const std::vector<vpCalibrationPoint> &points : m_views) {
+    views.push_back(vpMakeTsaiView(points, m_options.u0, m_options.v0, m_options.aspect));
+    candidates.push_back(vpAlignTsaiView(views.back()));
+    if (candidates.back().empty()) {
+      throw vpException(vpException::fatalError,
+                        "the points of view %zu do not determine its pose: too many of them lie on a line",
+                        views.size() - 1);
+    }
+  }
+  State state;
+  state.shared = {{0., m_options.aspect, 0., m_options.u0, m_options.v0}};
+  if (!start(views, candidates, m_width, state)) {
+    throw vpException(vpException::fatalError, "no camera sees the points so: are they mirrored, or is y or z turned?");
+  }
+  const bool onePlane = views.size() == 1 && views[0].planar;
+  const bool aspect = m_options.estimateAspect && !onePlane, principal = m_options.estimatePrincipalPoint && !onePlane;
+  // From few parameters to many: far from the answer those that are weakly determined run away.
+  const vpTsaiProblem few(m_views, views, {{true, false, false, false, false}});
+  state = vpSolveBundle(few, state).state;
+  if (m_options.estimateKappa1) {
+    const vpTsaiProblem more(m_views, views, {{true, false, true, false, false}});
+    state = vpSolveBundle(more, state).state;
+  }
+  const vpTsaiProblem problem(m_views, views, {{true, aspect, m_options.estimateKappa1, principal, principal}});
+  return resultOf(problem, vpSolveBundle(problem, state), m_views, views);
+}
+
+END_VISP_NAMESPACE

@@ -1,0 +1,681 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// The planar calibration against random truths: exactness, honest covariance, what kappa1 can be told from, bad input;
+// and the algorithm as printed, beside it.
+#include "vpAnalyticPattern.h"
+#include "vpCatch.h"
+
+#include <visp3/core/vpException.h>
+#include <visp3/core/vpMath.h>
+#include <visp3/pattern/vpPatternTracker.h>
+#include <visp3/pattern/vpPlanarMicroscopeCalibration.h>
+
+#include <Eigen/Dense>
+
+#include <cmath>
+#include <functional>
+
+VISP_DIRECT_USING_NAMESPACE
+
+namespace
+{
+using Points = std::vector<vpCalibrationPoint>;
+using Vector8 = Eigen::Matrix<double, 8, 1>;
+
+struct Problem {
+  vpMicroscopeCalibration truth; // with the placement of view 0
+  std::vector<vpMicroscopeCalibration> views;
+  double pitchX = 220e-6, pitchY = 80e-6; // m
+};
+
+double uniform(std::mt19937_64 &rng, double from, double to)
+{
+  return std::uniform_real_distribution<double>(from, to)(rng);
+}
+
+Problem randomProblem(std::mt19937_64 &rng, int views, double kappa, unsigned int width = 640,
+                      unsigned int height = 480)
+{
+  Problem problem;
+  vpMicroscopeCalibration &c = problem.truth;
+  c.width = width;
+  c.height = height;
+  c.scaleX = c.scaleY = 1e6 / (width < 320 ? 4.5 : uniform(rng, 3., 6.));
+  c.kappa1 = kappa;
+  c.u0 = 0.5 * (width - 1.);
+  c.v0 = 0.5 * (height - 1.);
+  c.mirrored = uniform(rng, 0., 1.) < 0.5;
+  for (int k = 0; k < views; ++k) {
+    c.rotation = width < 320 ? uniform(rng, -0.1, 0.1) : uniform(rng, -M_PI, M_PI); // a window must show two columns
+    c.tx = uniform(rng, -5e-3, 5e-3); // the lattice goes on for ever, its origin may be far outside
+    c.ty = uniform(rng, -5e-3, 5e-3);
+    problem.views.push_back(c);
+  }
+  c = problem.views[0];
+  return problem;
+}
+
+// The cells that a view shows, with noise.
+Points pointsOf(const Problem &problem, std::size_t view, double sigmaU, double sigmaV, std::mt19937_64 &rng)
+{
+  const vpMicroscopeCalibration &c = problem.views[view];
+  std::normal_distribution<double> normal;
+  double least[2] = {1e9, 1e9}, most[2] = {-1e9, -1e9};
+  for (const double u : {0., c.width - 1.}) {
+    for (const double v : {0., c.height - 1.}) {
+      const Eigen::Vector2d p = c.toPlane(u, v);
+      for (const int axis : {0, 1}) {
+        const double pitch = axis == 0 ? problem.pitchX : problem.pitchY;
+        least[axis] = std::min(least[axis], std::floor(p[axis] / pitch));
+        most[axis] = std::max(most[axis], std::ceil(p[axis] / pitch));
+      }
+    }
+  }
+  Points points;
+  for (double row = least[1]; row <= most[1]; ++row) {
+    for (double column = least[0]; column <= most[0]; ++column) {
+      vpCalibrationPoint point;
+      point.x = column * problem.pitchX;
+      point.y = row * problem.pitchY;
+      const Eigen::Vector2d seen = c.toImage(point.x, point.y);
+      if (seen.x() > 0. && seen.y() > 0. && seen.x() < c.width - 1. && seen.y() < c.height - 1.) {
+        point.u = seen.x() + sigmaU * normal(rng);
+        point.v = seen.y() + sigmaV * normal(rng);
+        point.sigmaU = sigmaU > 0. ? sigmaU : 1.;
+        point.sigmaV = sigmaV > 0. ? sigmaV : 1.;
+        points.push_back(point);
+      }
+    }
+  }
+  return points;
+}
+
+Vector8 parametersOf(const vpMicroscopeCalibration &c)
+{
+  Vector8 p;
+  p << c.scaleX, c.scaleY, c.kappa1, c.u0, c.v0, c.rotation, c.tx, c.ty;
+  return p;
+}
+
+Vector8 errorOf(const vpMicroscopeCalibration &found, const vpMicroscopeCalibration &truth)
+{
+  Vector8 error = parametersOf(found) - parametersOf(truth);
+  error[vpMicroscopeRotation] = std::remainder(error[vpMicroscopeRotation], 2. * M_PI);
+  return error;
+}
+
+// Sum of squares of a calibration over a view, by its public functions: an oracle for the minimum.
+double chi2Of(const Vector8 &p, bool mirrored, const Points &points)
+{
+  vpMicroscopeCalibration c;
+  c.scaleX = p[0];
+  c.scaleY = p[1];
+  c.kappa1 = p[2];
+  c.u0 = p[3];
+  c.v0 = p[4];
+  c.rotation = p[5];
+  c.tx = p[6];
+  c.ty = p[7];
+  c.mirrored = mirrored;
+  double sum = 0.;
+  for (const vpCalibrationPoint &point : points) {
+    const Eigen::Vector2d seen = c.toImage(point.x, point.y);
+    sum += std::pow((seen.x() - point.u) / point.sigmaU, 2) + std::pow((seen.y() - point.v) / point.sigmaV, 2);
+  }
+  return sum;
+}
+
+// Thesis (7.8) to (7.11) as printed: 5-vector divided by ty, rows of u and v added. NaN where it fails.
+struct Literal {
+  double scale = NAN, kappa = NAN;
+};
+// \param stacked : (7.11) with the rows of u and v stacked instead.
+Literal literal(const Points &points, double u0, double v0, bool mirrored, bool stacked)
+{
+  const auto n = static_cast<Eigen::Index>(points.size());
+  Eigen::MatrixXd rows(n, 5);
+  Eigen::VectorXd right(n);
+  const auto at = [&](Eigen::Index i, double &u, double &v, double &x, double &y) {
+    const vpCalibrationPoint &point = points[static_cast<std::size_t>(i)];
+    u = point.u - u0;
+    v = point.v - v0;
+    x = 1e3 * point.x; // mm
+    y = 1e3 * (mirrored ? -point.y : point.y);
+  };
+  double u = 0., v = 0., x = 0., y = 0.;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    at(i, u, v, x, y);
+    rows.row(i) << v * x, v * y, v, -u * x, -u * y;
+    right[i] = u;
+  }
+  const Eigen::VectorXd h = rows.colPivHouseholderQr().solve(right);
+  // r11 = r22 and r12 = -r21: ty from the length of the first columns, its sign from a point.
+  double ty = 1. / std::sqrt(0.5 * (h[0] * h[0] + h[1] * h[1] + h[3] * h[3] + h[4] * h[4]));
+  at(0, u, v, x, y);
+  if ((ty * (h[0] * x + h[1] * y + h[2])) * u < 0.) {
+    ty = -ty;
+  }
+  Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    at(i, u, v, x, y);
+    const double p = ty * (h[0] * x + h[1] * y + h[2]), q = ty * (h[3] * x + h[4] * y + 1.), r2 = u * u + v * v;
+    if (stacked) {
+      const Eigen::Vector2d a(p, -u * r2), b(q, -v * r2);
+      normal += a * a.transpose() + b * b.transpose();
+      sum += a * u + b * v;
+    }
+    else {
+      const Eigen::Vector2d a(p + q, -(u + v) * r2);
+      normal += a * a.transpose();
+      sum += a * (u + v);
+    }
+  }
+  const Eigen::Vector2d unit = normal.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::Vector2d solution =
+      unit.asDiagonal() * (unit.asDiagonal() * normal * unit.asDiagonal()).inverse() * (unit.asDiagonal() * sum);
+  return {1e3 * solution[0], solution[1]};
+}
+
+struct Moments {
+  double sum = 0., squares = 0.;
+  int n = 0;
+  void add(double x)
+  {
+    sum += x;
+    squares += x * x;
+    ++n;
+  }
+  [[nodiscard]] double mean() const { return sum / n; }
+  [[nodiscard]] double rms() const { return std::sqrt(squares / n); }
+  [[nodiscard]] double sigma() const { return std::sqrt(squares / n - mean() * mean()); }
+};
+} // namespace
+
+TEST_CASE("without noise every calibration is found exactly", "[calibration]")
+{
+  auto rng = vpTestSupport::generator(510);
+  CAPTURE(vpTestSupport::seed());
+  for (int trial = 0; trial < 300; ++trial) {
+    const int views = 1 + trial % 3;
+    Problem problem = randomProblem(rng, views, uniform(rng, -3e-7, 3e-7));
+    vpMicroscopeCalibrationOptions options;
+    options.minSignificance = 0.;
+    options.minEffect = 0.;
+    const bool everything = trial % 4 == 3;
+    if (everything) { // aspect and principal point too
+      const double aspect = uniform(rng, 0.95, 1.05), u0 = uniform(rng, 290., 350.), v0 = uniform(rng, 210., 270.);
+      problem.truth.scaleY *= aspect;
+      problem.truth.u0 = u0;
+      problem.truth.v0 = v0;
+      for (vpMicroscopeCalibration &view : problem.views) {
+        view.scaleY *= aspect;
+        view.u0 = u0;
+        view.v0 = v0;
+      }
+      options.estimateAspect = options.estimatePrincipalPoint = true;
+    }
+    vpPlanarMicroscopeCalibration calibration(640, 480, options);
+    for (std::size_t k = 0; k < problem.views.size(); ++k) {
+      calibration.addView(pointsOf(problem, k, 0., 0., rng));
+    }
+    const vpMicroscopeCalibrationResult result = calibration.compute();
+    CAPTURE(trial, result.message, problem.truth.kappa1);
+    REQUIRE(result.converged);
+    REQUIRE(result.residualRms < 1e-6);
+    REQUIRE(result.calibration.mirrored == problem.truth.mirrored);
+    const Vector8 error = errorOf(result.calibration, problem.truth);
+    REQUIRE(std::abs(error[vpMicroscopeScaleX]) < 1e-8 * problem.truth.scaleX);
+    REQUIRE(std::abs(error[vpMicroscopeScaleY]) < 1e-8 * problem.truth.scaleY);
+    REQUIRE(std::abs(error[vpMicroscopeKappa1]) < 1e-12);
+    REQUIRE(error.segment<2>(vpMicroscopeU0).norm() < 1e-3);
+    REQUIRE(std::abs(error[vpMicroscopeRotation]) < 1e-8);
+    REQUIRE(error.tail<2>().norm() < 1e-8);
+    for (std::size_t k = 0; k < problem.views.size(); ++k) {
+      REQUIRE(std::remainder(result.placements[k].rotation - problem.views[k].rotation, 2. * M_PI) ==
+              Approx(0.).margin(1e-8));
+      REQUIRE(result.placements[k].tx == Approx(problem.views[k].tx).margin(1e-8));
+      REQUIRE(result.placements[k].ty == Approx(problem.views[k].ty).margin(1e-8));
+    }
+  }
+}
+
+TEST_CASE("scale, kappa1 and placement have the errors that the covariance says", "[calibration]")
+{
+  auto rng = vpTestSupport::generator(511);
+  CAPTURE(vpTestSupport::seed());
+  constexpr int problems = 1500;
+  Moments nees, scale, kappa, factor, rotation;
+  Moments gain[2]; // printed over corrected: squared errors in units of our deviations
+  int failed = 0;
+  for (int trial = 0; trial < problems; ++trial) {
+    const double size = uniform(rng, 4e-8, 3e-7);
+    Problem problem = randomProblem(rng, 1 + trial % 2, trial % 2 == 0 ? size : -size);
+    if (trial % 3 != 0) { // the origin in view: its place then depends on the scale and not only on the rotation
+      problem.views[0].tx *= 0.1;
+      problem.views[0].ty *= 0.1;
+      problem.truth = problem.views[0];
+    }
+    vpMicroscopeCalibrationOptions options;
+    options.minSignificance = 0.; // whatever comes out, so that nothing is selected
+    options.minEffect = 0.;
+    vpPlanarMicroscopeCalibration calibration(640, 480, options);
+    Points first;
+    for (std::size_t k = 0; k < problem.views.size(); ++k) {
+      const Points points = pointsOf(problem, k, 0.06, 0.03, rng);
+      first = k == 0 ? points : first;
+      calibration.addView(points);
+    }
+    const vpMicroscopeCalibrationResult result = calibration.compute();
+    REQUIRE(result.converged);
+    REQUIRE(result.kappa1Status == vpKappa1Status::Estimated);
+    const Vector8 error = errorOf(result.calibration, problem.truth);
+    Eigen::Matrix<double, 5, 1> e;
+    Eigen::Matrix<double, 5, 5> C;
+    const int index[5] = {vpMicroscopeScaleX, vpMicroscopeKappa1, vpMicroscopeRotation, vpMicroscopeTx, vpMicroscopeTy};
+    for (int i = 0; i < 5; ++i) {
+      const double si = result.sigma(static_cast<vpMicroscopeParameter>(index[i]));
+      e[i] = error[index[i]] / si;
+      for (int j = 0; j < 5; ++j) {
+        C(i, j) =
+            result.covariance(index[i], index[j]) / (si * result.sigma(static_cast<vpMicroscopeParameter>(index[j])));
+      }
+    }
+    nees.add(e.dot(C.ldlt().solve(e)));
+    scale.add(e[0]);
+    kappa.add(e[1]);
+    rotation.add(e[2]);
+    factor.add(result.varianceFactor);
+    REQUIRE(result.kappa1Sigma == Approx(result.sigma(vpMicroscopeKappa1)));
+    if (problem.views.size() == 1) {
+      const Literal printed = literal(first, problem.truth.u0, problem.truth.v0, problem.truth.mirrored, false);
+      if (std::abs(printed.scale / problem.truth.scaleX - 1.) < 0.1) {
+        gain[0].add((printed.scale - problem.truth.scaleX) / result.sigma(vpMicroscopeScaleX));
+        gain[1].add((printed.kappa - problem.truth.kappa1) / result.sigma(vpMicroscopeKappa1));
+      }
+      else {
+        ++failed;
+      }
+    }
+  }
+  WARN("NEES of (scale, kappa1, rotation, tx, ty) over "
+       << problems << " problems: " << nees.mean() << " (expected 5)"
+       << "; mean and rms of error over sigma: scale " << scale.mean() << ", " << scale.rms() << "; kappa1 "
+       << kappa.mean() << ", " << kappa.rms() << "; rotation " << rotation.mean() << ", " << rotation.rms()
+       << "; variance factor " << factor.mean() << ". As printed: rms error over our sigma: scale " << gain[0].rms()
+       << ", kappa1 " << gain[1].rms() << "; scale wrong by more than 10 % in " << failed << " of "
+       << gain[0].n + failed);
+  const double tolerance = 5. / std::sqrt(1. * problems);
+  CHECK(nees.mean() == Approx(5.).margin(std::sqrt(10.) * tolerance));
+  CHECK(std::abs(scale.mean()) < tolerance);
+  CHECK(std::abs(kappa.mean()) < tolerance);
+  CHECK(std::abs(rotation.mean()) < tolerance);
+  CHECK(scale.rms() == Approx(1.).margin(tolerance));
+  CHECK(kappa.rms() == Approx(1.).margin(tolerance));
+  CHECK(factor.mean() == Approx(1.).margin(0.02));
+  CHECK(gain[0].rms() > 1.3);
+  CHECK(gain[1].rms() > 1.2);
+}
+
+TEST_CASE("the result is the minimum, in every direction", "[calibration]")
+{
+  auto rng = vpTestSupport::generator(512);
+  CAPTURE(vpTestSupport::seed());
+  for (int trial = 0; trial < 40; ++trial) {
+    Problem problem = randomProblem(rng, 1, uniform(rng, 1e-7, 3e-7));
+    problem.views[0].tx *= 0.1; // the origin in view
+    problem.views[0].ty *= 0.1;
+    problem.truth = problem.views[0];
+    const Points points = pointsOf(problem, 0, 0.1, 0.05, rng);
+    vpMicroscopeCalibrationOptions options;
+    options.estimateAspect = options.estimatePrincipalPoint = true;
+    vpPlanarMicroscopeCalibration calibration(640, 480, options);
+    calibration.addView(points);
+    const vpMicroscopeCalibrationResult result = calibration.compute();
+    CAPTURE(trial, result.message);
+    REQUIRE(result.principalPointEstimated);
+    const Vector8 best = parametersOf(result.calibration);
+    const double least = chi2Of(best, result.calibration.mirrored, points);
+    // Along the eigenvectors of the covariance, a step of one deviation raises the sum of squares by one.
+    const Vector8 sigma = result.covariance.diagonal().cwiseSqrt();
+    const Eigen::Matrix<double, 8, 8> correlation =
+        sigma.cwiseInverse().asDiagonal() * result.covariance * sigma.cwiseInverse().asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 8, 8>> solver(correlation);
+    for (int i = 0; i < 8; ++i) {
+      const Vector8 step =
+          sigma.asDiagonal() * solver.eigenvectors().col(i) * std::sqrt(std::max(0., solver.eigenvalues()[i]));
+      for (const double sign : {1., -1.}) {
+        CHECK(chi2Of(best + sign * step, result.calibration.mirrored, points) - least == Approx(1.).margin(0.03));
+      }
+    }
+    CHECK(least == Approx(result.varianceFactor * result.degreesOfFreedom).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("rows of u and v are stacked: what adding them costs", "[calibration]")
+{
+  auto rng = vpTestSupport::generator(513);
+  CAPTURE(vpTestSupport::seed());
+  double least = 1e9, most = 0.;
+  for (const double band : {1e9, 100., 25.}) { // the product fills the image, or a band along or across its diagonal
+    for (const double side : {1., -1.}) {
+      Problem problem = randomProblem(rng, 1, 1.4e-8);
+      problem.views[0].rotation = 0.2;
+      problem.views[0].tx = 1e-4;
+      problem.views[0].ty = 0.7e-3; // not near zero, or (7.8) as printed fails
+      problem.views[0].mirrored = false;
+      Moments scale[2], kappa[2];
+      for (int trial = 0; trial < 300; ++trial) {
+        Points points;
+        for (const vpCalibrationPoint &point : pointsOf(problem, 0, 0.05, 0.05, rng)) {
+          if (std::abs(point.u - problem.truth.u0 + side * (point.v - problem.truth.v0)) < band) {
+            points.push_back(point);
+          }
+        }
+        for (const int stacked : {0, 1}) {
+          const Literal found = literal(points, problem.truth.u0, problem.truth.v0, false, stacked == 1);
+          scale[stacked].add(found.scale);
+          kappa[stacked].add(found.kappa);
+        }
+      }
+      const double ratioScale = scale[0].sigma() / scale[1].sigma(), ratioKappa = kappa[0].sigma() / kappa[1].sigma();
+      WARN("|u " << (side > 0. ? "+" : "-") << " v| < " << band << " px: deviations of added rows over stacked rows: "
+                 << ratioScale << " (scale), " << ratioKappa << " (kappa1)");
+      least = std::min({least, ratioScale, ratioKappa});
+      most = std::max({most, ratioScale, ratioKappa});
+    }
+  }
+  CHECK(least > 0.9);
+  CHECK(most > 3.);
+}
+
+TEST_CASE("(7.8) as printed fails where the origin is seen at the centre, the homogeneous form does not",
+          "[calibration]")
+{
+  auto rng = vpTestSupport::generator(514);
+  CAPTURE(vpTestSupport::seed());
+  constexpr int trials = 300;
+  Moments printed, ours, printedFar;
+  for (int trial = 0; trial < trials; ++trial) {
+    Problem problem = randomProblem(rng, 1, 2e-7);
+    for (const bool centred : {false, true}) {
+      problem.views[0].tx = centred ? 0. : 0.3e-3;
+      problem.views[0].ty = centred ? 0. : 0.5e-3;
+      problem.truth = problem.views[0];
+      const Points points = pointsOf(problem, 0, 0.05, 0.05, rng);
+      const Literal found = literal(points, problem.truth.u0, problem.truth.v0, problem.truth.mirrored, false);
+      (centred ? printed : printedFar).add(found.scale / problem.truth.scaleX - 1.);
+      vpPlanarMicroscopeCalibration calibration(640, 480);
+      calibration.addView(points);
+      ours.add(calibration.compute().calibration.scaleX / problem.truth.scaleX - 1.);
+    }
+  }
+  WARN("rms error of the scale: " << printed.rms() << " as printed with the origin at the centre, " << printedFar.rms()
+                                  << " with it elsewhere; " << ours.rms() << " here");
+  CHECK(printed.rms() > 10. * printedFar.rms());
+  CHECK(printed.rms() > 0.01);
+  CHECK(ours.rms() < 1e-4);
+}
+
+TEST_CASE("kappa1 of a good lens is unobservable at 160 x 100 px, whatever the noise and however many frames",
+          "[calibration]")
+{
+  auto rng = vpTestSupport::generator(515);
+  CAPTURE(vpTestSupport::seed());
+  int wrong = 0, insignificant = 0, withoutEffect = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    // Table 7.4 (-6.72e-10 um^-2) and the 0.1 % at 200 px of a low-distortion lens.
+    const double kappas[] = {-6.72e-10 * 4.5 * 4.5, 6.72e-10 * 4.5 * 4.5, 0.001 / (200. * 200.), 0.};
+    const int views = trial % 10 == 0 ? 200 : 1 + trial % 5;
+    const Problem problem = randomProblem(rng, views, kappas[trial % 4], 160, 100);
+    const bool fine = trial % 2 == 0;
+    vpPlanarMicroscopeCalibration calibration(160, 100);
+    for (int k = 0; k < views; ++k) {
+      calibration.addView(
+          pointsOf(problem, static_cast<std::size_t>(k), fine ? 0.0153 : 0.18, fine ? 0.0078 : 0.035, rng));
+    }
+    const vpMicroscopeCalibrationResult result = calibration.compute();
+    wrong += result.kappa1Status != vpKappa1Status::Unobservable ? 1 : 0;
+    CHECK(result.calibration.kappa1 == 0.);
+    CHECK(result.kappa1Sigma > 0.);
+    CHECK(result.covariance(vpMicroscopeKappa1, vpMicroscopeKappa1) == 0.);
+    CHECK(result.message.find("The distortion kappa1 is unobservable and taken as 0: ") != std::string::npos);
+    insignificant += result.message.find("standard deviations from zero, less than 5") != std::string::npos ? 1 : 0;
+    withoutEffect += result.message.find("would move the worst corner by ") != std::string::npos ? 1 : 0;
+  }
+  CHECK(wrong == 0);
+  CHECK(insignificant > 0);
+  CHECK(withoutEffect > 0); // 200 frames say that it is there, and it does not matter
+  // A lens ten times as bad as that shows its distortion over the whole sensor, and in many fine frames in the window.
+  for (const unsigned int width : {640U, 160U}) {
+    const Problem problem = randomProblem(rng, 60, 0.01 / (200. * 200.), width, width == 640U ? 480U : 100U);
+    vpPlanarMicroscopeCalibration calibration(width, width == 640U ? 480U : 100U);
+    for (std::size_t k = 0; k < 60; ++k) {
+      calibration.addView(pointsOf(problem, k, 0.0153, 0.0078, rng));
+    }
+    const vpMicroscopeCalibrationResult result = calibration.compute();
+    CAPTURE(result.message);
+    CHECK(result.kappa1Status == vpKappa1Status::Estimated);
+    CHECK(result.calibration.kappa1 == Approx(2.5e-7).margin(5. * result.kappa1Sigma));
+  }
+}
+
+TEST_CASE("noise alone is taken for distortion in less than one of a thousand views", "[calibration]")
+{
+  auto rng = vpTestSupport::generator(516);
+  CAPTURE(vpTestSupport::seed());
+  int wrong = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    const Problem problem = randomProblem(rng, 1, 0., 320, 240);
+    vpPlanarMicroscopeCalibration calibration(320, 240);
+    calibration.addView(pointsOf(problem, 0, 0.5, 0.5, rng));
+    wrong += calibration.compute().kappa1Status == vpKappa1Status::Estimated ? 1 : 0;
+  }
+  CHECK(wrong <= 1);
+}
+
+TEST_CASE("unknown deviations come from the residuals, a product that is not exact from sigmaPlane", "[calibration]")
+{
+  auto rng = vpTestSupport::generator(517);
+  CAPTURE(vpTestSupport::seed());
+  Moments byResiduals, byPlane;
+  for (int trial = 0; trial < 400; ++trial) {
+    const Problem problem = randomProblem(rng, 1, 0., 640, 480);
+    Points points = pointsOf(problem, 0, 0.1, 0.1, rng);
+    vpMicroscopeCalibrationOptions options;
+    options.estimateKappa1 = false;
+    options.sigmaFromResiduals = true;
+    vpPlanarMicroscopeCalibration first(640, 480, options);
+    for (vpCalibrationPoint &point : points) {
+      point.sigmaU = point.sigmaV = 3.; // nonsense
+    }
+    first.addView(points);
+    const vpMicroscopeCalibrationResult a = first.compute();
+    CHECK(a.kappa1Status == vpKappa1Status::NotAsked);
+    CHECK(a.message.find("The distortion was not asked for.") != std::string::npos);
+    byResiduals.add((a.calibration.scaleX - problem.truth.scaleX) / a.sigma(vpMicroscopeScaleX));
+
+    std::normal_distribution<double> normal;
+    for (vpCalibrationPoint &point : points) {
+      point.sigmaU = point.sigmaV = 0.1;
+      point.sigmaPlane = 1e-6;
+      point.x += 1e-6 * normal(rng);
+      point.y += 1e-6 * normal(rng);
+    }
+    options.sigmaFromResiduals = false;
+    vpPlanarMicroscopeCalibration second(640, 480, options);
+    second.addView(points);
+    const vpMicroscopeCalibrationResult b = second.compute();
+    CHECK(b.varianceFactor == Approx(1.).margin(0.25));
+    byPlane.add((b.calibration.scaleX - problem.truth.scaleX) / b.sigma(vpMicroscopeScaleX));
+  }
+  CHECK(byResiduals.rms() == Approx(1.).margin(0.2));
+  CHECK(byPlane.rms() == Approx(1.).margin(0.2));
+}
+
+TEST_CASE("a plane that is not parallel to the image is suspected", "[calibration]")
+{
+  auto rng = vpTestSupport::generator(521);
+  CAPTURE(vpTestSupport::seed());
+  const Problem problem = randomProblem(rng, 1, 0.);
+  Points points = pointsOf(problem, 0, 0.05, 0.05, rng);
+  const auto messageOf = [&points] {
+    vpPlanarMicroscopeCalibration calibration(640, 480);
+    calibration.addView(points);
+    return calibration.compute().message;
+  };
+  CHECK(messageOf().find("far too much") == std::string::npos);
+  for (vpCalibrationPoint &point : points) { // perspective
+    const double depth = 1. + 1e-5 * (point.u - problem.truth.u0);
+    point.u = problem.truth.u0 + (point.u - problem.truth.u0) / depth;
+    point.v = problem.truth.v0 + (point.v - problem.truth.v0) / depth;
+  }
+  CHECK(messageOf().find("That is far too much: the plane is not parallel to the image") != std::string::npos);
+}
+
+TEST_CASE("two rows of cells, which lie on a conic, are enough", "[calibration]")
+{
+  auto rng = vpTestSupport::generator(518);
+  CAPTURE(vpTestSupport::seed());
+  for (int trial = 0; trial < 100; ++trial) {
+    Problem problem = randomProblem(rng, 1, 0.);
+    std::normal_distribution<double> normal;
+    Points points;
+    for (int row = 0; row < 2; ++row) {
+      for (int column = 0; column < 3; ++column) {
+        vpCalibrationPoint point;
+        point.x = column * 220e-6;
+        point.y = row * 80e-6;
+        const Eigen::Vector2d seen = problem.truth.toImage(point.x, point.y);
+        point.u = seen.x() + 0.01 * normal(rng);
+        point.v = seen.y() + 0.01 * normal(rng);
+        point.sigmaU = point.sigmaV = 0.01;
+        points.push_back(point);
+      }
+    }
+    vpPlanarMicroscopeCalibration calibration(640, 480);
+    calibration.addView(points);
+    const vpMicroscopeCalibrationResult result = calibration.compute();
+    CAPTURE(result.message);
+    CHECK(result.calibration.scaleX == Approx(problem.truth.scaleX).epsilon(1e-3));
+    CHECK(result.calibration.mirrored == problem.truth.mirrored);
+  }
+}
+
+TEST_CASE("the product is its own ruler", "[calibration]")
+{
+  auto rng = vpTestSupport::generator(519);
+  CAPTURE(vpTestSupport::seed());
+  vpPatternTest::Pattern pattern;
+  vpPatternTracker tracker(160, 100);
+  vpPlanarMicroscopeCalibration calibration(160, 100);
+  vpImage<unsigned char> image;
+  const vpCalibrationPitch pitch{220e-6, 220e-6 / pattern.pitchX * pattern.pitchY, 0.};
+  for (int i = 0; i < 120; ++i) {
+    pattern.x += 2.7;
+    pattern.y += 0.3;
+    pattern.render(rng, image);
+    const vpPatternFrame &frame = tracker.track(image);
+    if (frame.status == vpPatternStatus::Tracking && i % 4 == 0) {
+      calibration.addView(vpCalibrationPoints(frame, pitch));
+    }
+  }
+  REQUIRE(calibration.viewCount() > 5);
+  const vpMicroscopeCalibrationResult result = calibration.compute();
+  CAPTURE(result.message);
+  CHECK(result.kappa1Status == vpKappa1Status::Unobservable);
+  CHECK(result.calibration.scaleX == Approx(pattern.pitchX / 220e-6).epsilon(3e-4));
+  CHECK(std::abs(result.calibration.scaleX - pattern.pitchX / 220e-6) < 5. * result.sigma(vpMicroscopeScaleX));
+  CHECK(std::abs(result.calibration.rotation) < 1e-3);
+  CHECK_FALSE(result.calibration.mirrored);
+  CHECK(result.varianceFactor == Approx(1.).margin(0.4));
+
+  // One image of a grid.
+  pattern.noise = 1.;
+  pattern.pitchX = pattern.pitchY = 20.;
+  pattern.cellX = pattern.cellY = 10.;
+  pattern.render(rng, image);
+  vpPlanarMicroscopeCalibration fromGrid(160, 100);
+  fromGrid.addView(vpCalibrationPoints(image, {100e-6, 100e-6, 0.}));
+  CHECK(fromGrid.compute().calibration.scaleX == Approx(20. / 100e-6).epsilon(1e-3));
+  image = 77;
+  CHECK_THROWS_WITH(vpCalibrationPoints(image, {100e-6, 100e-6, 0.}),
+                    Catch::Contains("no dots of a grid were found: "));
+  CHECK_THROWS_WITH(vpCalibrationPoints(image, {-1., 100e-6, 0.}),
+                    Catch::Contains("the pitch of the columns is -1 m, must be > 0"));
+  CHECK_THROWS_WITH(vpCalibrationPoints(tracker.frame(), {1., NAN, 0.}),
+                    Catch::Contains("the pitch of the rows is nan m, must be > 0"));
+  CHECK_THROWS_WITH(vpCalibrationPoints(tracker.frame(), {1., 1., -1.}),
+                    Catch::Contains("sigmaPlane of the pitch is -1 m, must be >= 0"));
+}
+
+TEST_CASE("bad input to the planar calibration is refused in words", "[calibration]")
+{
+  auto rng = vpTestSupport::generator(520);
+  CAPTURE(vpTestSupport::seed());
+  const Problem problem = randomProblem(rng, 2, 0.);
+  const Points good = pointsOf(problem, 0, 0., 0., rng);
+  const auto refusalOf = [&](const std::function<void(Points &)> &spoil) -> std::string {
+    Points points = good;
+    spoil(points);
+    vpPlanarMicroscopeCalibration calibration(640, 480);
+    calibration.addView(good);
+    try {
+      calibration.addView(points);
+      static_cast<void>(calibration.compute());
+    }
+    catch (const vpException &error) {
+      return error.getStringMessage();
+    }
+    return "accepted";
+  };
+  CHECK(refusalOf([](Points &p) { p.resize(5); }) == "view 1 has 5 points, must have at least 6");
+  CHECK(refusalOf([](Points &p) { p.clear(); }) == "view 1 has 0 points, must have at least 6");
+  CHECK(refusalOf([](Points &p) { p[3].u = NAN; }) == "point 3 of view 1: u is nan, must be finite");
+  CHECK(refusalOf([](Points &p) { p[2].y = HUGE_VAL; }) == "point 2 of view 1: y is inf, must be finite");
+  CHECK(refusalOf([](Points &p) { p[0].sigmaV = 0.; }) == "point 0 of view 1: sigmaV is 0 px, must be > 0");
+  CHECK(refusalOf([](Points &p) { p[0].sigmaU = NAN; }) == "point 0 of view 1: sigmaU is nan px, must be > 0");
+  CHECK(refusalOf([](Points &p) { p[0].sigmaPlane = -1.; }) == "point 0 of view 1: sigmaPlane is -1 m, must be >= 0");
+  CHECK(refusalOf([](Points &p) { p[1].z = 0.1; }) == "point 1 of view 1: z is 0.1 m, must be 0");
+  CHECK(refusalOf([](Points &p) {
+          for (vpCalibrationPoint &point : p) {
+            point.y = 2. * point.x;
+          }
+        }) == "the points of view 1 lie on a line of the product");
+  CHECK(refusalOf([](Points &p) {
+          for (vpCalibrationPoint &point : p) {
+            point.v = 100.;
+          }
+        }) == "the points of view 1 lie on a line of the image");
+  CHECK(refusalOf([](Points &p) {
+          for (vpCalibrationPoint &point : p) {
+            point.x = point.y = 0.;
+          }
+        }) == "the points of view 1 lie on a line of the product");
+  const std::string mirrored = refusalOf([](Points &p) {
+    for (vpCalibrationPoint &point : p) {
+      point.y = -point.y;
+    }
+  });
+  CHECK(mirrored.find("view 1 shows the product ") == 0);
+
+  CHECK_THROWS_WITH(vpPlanarMicroscopeCalibration(640, 480).compute(),
+                    Catch::Contains("there is no view to calibrate from"));
+  CHECK_THROWS_WITH(vpPlanarMicroscopeCalibration(640, 4), Catch::Contains("height is 4 px, must be in [8, 65536]"));
+  vpMicroscopeCalibrationOptions options;
+  options.aspect = 0.;
+  CHECK_THROWS_WITH(vpPlanarMicroscopeCalibration(640, 480, options),
+                    Catch::Contains("aspect is 0, must be in [0.1, 10]"));
+  options = vpMicroscopeCalibrationOptions();
+  options.u0 = HUGE_VAL;
+  CHECK_THROWS_WITH(vpPlanarMicroscopeCalibration(640, 480, options), Catch::Contains("u0 is inf px, must be within"));
+  options = vpMicroscopeCalibrationOptions();
+  options.minEffect = -1.;
+  CHECK_THROWS_WITH(vpPlanarMicroscopeCalibration(640, 480, options), Catch::Contains("minEffect is -1 px"));
+  options = vpMicroscopeCalibrationOptions();
+  options.minSignificance = NAN;
+  CHECK_THROWS_WITH(vpPlanarMicroscopeCalibration(640, 480, options), Catch::Contains("minSignificance is nan"));
+  CHECK(std::string(toString(vpKappa1Status::Unobservable)) == "Unobservable");
+}
