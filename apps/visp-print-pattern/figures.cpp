@@ -23,8 +23,8 @@ using vpApp::PlotStyle;
 
 constexpr const char *REFERENCE = "#000000", *MEASURED = "#9ecae1", *TRUE_VALUE = "#d62728", *LIMIT = "#2ca02c";
 constexpr double FIRST_FRAMES = 160.; // that the plot of the velocity shows
-constexpr double SMALL = 0.3; // share of the tolerance below which it is not drawn
-constexpr double PIXEL = 4.5; // um, of figure 7.10
+constexpr double SMALL = 0.3;         // share of the tolerance below which it is not drawn
+constexpr double PIXEL = 4.5;         // um, of figure 7.10
 
 //! Velocities against time in seconds.
 Plot velocityPlot(const vpPrintRun &run, const std::string &title)
@@ -134,8 +134,10 @@ std::vector<Figure> ownFigures(const Results &results)
   Plot velocity = velocityPlot(run, "Velocity of the product");
   velocity.xRange = {0., std::min<double>(FIRST_FRAMES, static_cast<double>(run.samples.size())) / run.spec.frameRate};
   return {{"velocity", "Reference, true and measured velocity of the product",
-           "The beginning of the first run. Slowest at the centres of the cells, where the drops land. The measured velocity "
-           "is that of the last two frames that arrived, so it comes later than the true one.", vpApp::renderSvg(velocity)},
+           "The beginning of the first run. Slowest at the centres of the cells, where the drops land. The measured "
+           "velocity "
+           "is that of the last two frames that arrived, so it comes later than the true one.",
+           vpApp::renderSvg(velocity)},
           landingFigure(run),
           histogramFigure(results.landing)};
 }
@@ -176,9 +178,10 @@ Figure distortionFigure()
     plot.curves.push_back(curve);
   }
   plot.marks = {{80., "edge of a 160 px image"}};
-  return {"figure-7.10", "Figure 7.10: mismatch of pixel locations for several radial distortions",
-          "It grows with the cube of the distance: 1 % at 200 px is 2 px there and 0.13 px at the edge of a 160 px image, "
-          "0.1 % is 0.013 px there, less than the tracker's error of a cell. From the calibration's own model.",
-          vpApp::renderSvg(plot)};
+  return {
+      "figure-7.10", "Figure 7.10: mismatch of pixel locations for several radial distortions",
+      "It grows with the cube of the distance: 1 % at 200 px is 2 px there and 0.13 px at the edge of a 160 px image, "
+      "0.1 % is 0.013 px there, less than the tracker's error of a cell. From the calibration's own model.",
+      vpApp::renderSvg(plot)};
 }
 } // namespace printPattern

@@ -35,8 +35,8 @@ Exit status: 0 done, 1 the machine or the disk does not allow it, 2 the command 
 
 constexpr std::size_t NAME_COLUMN = 34; // width, characters
 
-template <typename Value> Value valueOf(const std::string &option, const std::string &name,
-                                        const std::map<std::string, Value> &values)
+template <typename Value>
+Value valueOf(const std::string &option, const std::string &name, const std::map<std::string, Value> &values)
 {
   const auto found = values.find(name);
   if (found == values.end()) {
@@ -71,10 +71,14 @@ void addControl(CLI::App &app, Words &words, Options &options)
       ->expected(2)
       ->option_text("ALPHA BETA")
       ->group(group);
-  app.add_option("--sensor", options.sensor,
-                 "image: rendered pictures through vpPatternTracker; tracker, thesis: true places with the errors of that "
-                 "tracker, or of the thesis's detection")
+  app.add_option(
+         "--sensor", options.sensor,
+         "image: rendered pictures through vpPatternTracker; tracker, thesis: true places with the errors of that "
+         "tracker, or of the thesis's detection")
       ->option_text("NAME (image)")
+      ->group(group);
+  app.add_flag("--identify", options.identify,
+               "First find mass and friction of the stage from a ramp that the camera watches, and use them")
       ->group(group);
   app.add_option("--trigger", words.trigger, "horizon: each cell exactly once; thesis: algorithm 7.5")
       ->option_text("NAME (horizon)")
@@ -106,15 +110,22 @@ void addMotion(CLI::App &app, Words &words)
 void addWorld(CLI::App &app, Words &words)
 {
   const char *group = "Product, camera and head";
-  app.add_option("--flex", words.flex, "Flexible pitch: cells lie up to this far before or behind their place, in x and y")
+  app.add_option("--flex", words.flex,
+                 "Flexible pitch: cells lie up to this far before or behind their place, in x and y")
       ->option_text("PX (0)")
       ->group(group);
   app.add_option("--flex-period", words.flexPeriod, "Over so many cells")->option_text("CELLS (20)")->group(group);
   app.add_option("--jitter", words.jitter, "Standard deviation of a cell's place")->option_text("PX (0)")->group(group);
   app.add_flag("--defects", words.defects, "Dust and cracks: 12 and 3 in view")->group(group);
-  app.add_option("--noise", words.noise, "Of the camera, see visp-generate-pattern")->option_text("NS (4)")->group(group);
-  app.add_option("--vision-delay", words.visionDelay, "From exposure to control")->option_text("FRAMES (1.28)")->group(group);
-  app.add_option("--dropped", words.dropped, "Share of frames that never arrive")->option_text("SHARE (0)")->group(group);
+  app.add_option("--noise", words.noise, "Of the camera, see visp-generate-pattern")
+      ->option_text("NS (4)")
+      ->group(group);
+  app.add_option("--vision-delay", words.visionDelay, "From exposure to control")
+      ->option_text("FRAMES (1.28)")
+      ->group(group);
+  app.add_option("--dropped", words.dropped, "Share of frames that never arrive")
+      ->option_text("SHARE (0)")
+      ->group(group);
   app.add_option("--travel-time", words.travelTime, "Of a drop")->option_text("FRAMES (0.32)")->group(group);
   app.add_option("--nozzle", words.nozzle, "Place of the nozzle from the middle of the image")
       ->option_text("PX (0)")

@@ -19,12 +19,13 @@ VISP_DIRECT_USING_NAMESPACE
 
 //! \brief What the user asked for.
 struct Options {
-  vpPrintExperimentSpec spec;         //!< The run of the user.
-  std::string sensor = "image";       //!< image, tracker or thesis; the last two are models of a sensor.
-  int runs = 1;                       //!< Runs of it with other seeds, for statistics.
-  bool replicas = true;               //!< Also the experiments of the thesis.
-  bool video = false;                 //!< Write camera.mp4.
-  unsigned int jobs = 0;              //!< Runs at a time, 0: one per core.
+  vpPrintExperimentSpec spec;            //!< The run of the user.
+  std::string sensor = "image";          //!< image, tracker or thesis; the last two are models of a sensor.
+  int runs = 1;                          //!< Runs of it with other seeds, for statistics.
+  bool replicas = true;                  //!< Also the experiments of the thesis.
+  bool identify = false;                 //!< First find mass and friction of the stage from a ramp.
+  bool video = false;                    //!< Write camera.mp4.
+  unsigned int jobs = 0;                 //!< Runs at a time, 0: one per core.
   std::string out = "out/print-pattern"; //!< Result folder.
 };
 

@@ -120,9 +120,10 @@ cv::Mat strip(const vpPrintRun &run, const Drops &drops, int row, int column, co
 cv::Mat printedProduct(const vpPrintRun &run)
 {
   const Drops drops = dropsByCell(run);
-  const auto worst = std::max_element(run.drops.begin(), run.drops.end(), [](const vpPrintDrop &a, const vpPrintDrop &b) {
-    return std::hypot(a.errorX, a.errorY) < std::hypot(b.errorX, b.errorY);
-  });
+  const auto worst =
+      std::max_element(run.drops.begin(), run.drops.end(), [](const vpPrintDrop &a, const vpPrintDrop &b) {
+        return std::hypot(a.errorX, a.errorY) < std::hypot(b.errorX, b.errorY);
+      });
   cv::Mat picture = strip(run, drops, 0, -3, "The first cells (cell -1 is printed first)");
   if (worst != run.drops.end()) {
     const cv::Mat second = strip(run, drops, worst->row, worst->column,
@@ -197,7 +198,8 @@ void writeVideo(const vpPrintRun &run, const std::string &file)
 {
   constexpr int scale = 4;
   constexpr double rate = 25.;
-  const int width = static_cast<int>(run.spec.product.width) * scale, height = static_cast<int>(run.spec.product.height) * scale;
+  const int width = static_cast<int>(run.spec.product.width) * scale,
+            height = static_cast<int>(run.spec.product.height) * scale;
   vpApp::VideoFile video(file, width, height, rate);
   for (std::size_t i = 0; i < run.samples.size(); ++i) {
     vpApp::throwIfInterrupted();

@@ -15,12 +15,12 @@ namespace printPattern
 {
 //! \brief What the page shows besides the numbers.
 struct ReportParts {
-  std::vector<Figure> own;      //!< Of the user's run.
-  std::vector<Figure> thesis;   //!< Of the thesis's experiments; may be empty.
-  std::string printed;          //!< The printed product, PNG.
-  std::string detection;        //!< Figure 7.11, PNG; empty without the thesis's experiments.
-  std::string video;            //!< File beside the page, or empty.
-  std::string commandLine;      //!< That made it.
+  std::vector<Figure> own;    //!< Of the user's run.
+  std::vector<Figure> thesis; //!< Of the thesis's experiments; may be empty.
+  std::string printed;        //!< The printed product, PNG.
+  std::string detection;      //!< Figure 7.11, PNG; empty without the thesis's experiments.
+  std::string video;          //!< File beside the page, or empty.
+  std::string commandLine;    //!< That made it.
 };
 
 //! The page, with everything but the video in it.

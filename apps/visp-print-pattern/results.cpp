@@ -79,8 +79,7 @@ Landing landingOf(const std::vector<vpPrintRun> &runs)
     landing.p99 = percentile(landing.errors, 0.99);
     landing.max = landing.errors.back();
     const auto end = std::upper_bound(landing.errors.begin(), landing.errors.end(), Landing::tolerance);
-    landing.within =
-        static_cast<double>(end - landing.errors.begin()) / static_cast<double>(landing.errors.size());
+    landing.within = static_cast<double>(end - landing.errors.begin()) / static_cast<double>(landing.errors.size());
   }
   return landing;
 }
@@ -115,9 +114,14 @@ int sumOf(const std::vector<vpPrintRun> &runs, int vpPrintMetrics::*count)
 Results runAll(const Options &options)
 {
   Results results;
+  vpPrintExperimentSpec spec = options.spec;
+  if (options.identify) {
+    results.identification = identifyStage(spec);
+    useIdentified(*results.identification, spec);
+  }
   results.runs.resize(static_cast<std::size_t>(options.runs));
   for (std::size_t i = 0; i < results.runs.size(); ++i) {
-    results.runs[i].spec = options.spec;
+    results.runs[i].spec = spec;
     results.runs[i].spec.seed += static_cast<unsigned int>(i);
     results.runs[i].spec.product.seed += static_cast<unsigned int>(i);
   }

@@ -9,7 +9,10 @@
 #ifndef printPattern_results_h
 #define printPattern_results_h
 
+#include "identification.h"
 #include "options.h"
+
+#include <optional>
 
 #include <string>
 #include <vector>
@@ -29,20 +32,21 @@ struct Landing {
 
 //! \brief An experiment of the thesis, repeated.
 struct Replica {
-  std::string figure;               //!< "7.13".
-  std::string name;                 //!< "PID".
-  double thesis = 0.;               //!< Velocity error that the thesis gives, rms, px/frame; 0: none.
-  std::vector<vpPrintRun> runs;     //!< With different seeds; the first one is drawn.
-  double rms_velocity_error = 0.;   //!< Of all runs together, px/frame.
+  std::string figure;                //!< "7.13".
+  std::string name;                  //!< "PID".
+  double thesis = 0.;                //!< Velocity error that the thesis gives, rms, px/frame; 0: none.
+  std::vector<vpPrintRun> runs;      //!< With different seeds; the first one is drawn.
+  double rms_velocity_error = 0.;    //!< Of all runs together, px/frame.
   double centre_velocity_error = 0.; //!< The same at the centres.
 };
 
 //! \brief All that was run.
 struct Results {
-  std::vector<vpPrintRun> runs;   //!< Of the user's specification; the first one is drawn.
-  Landing landing;                //!< Of these.
-  std::vector<Replica> replicas;  //!< Experiments of the thesis, by figure; may be empty.
-  std::vector<Replica> observers; //!< The same task with the observer: thesis's sensor, and our tracker.
+  std::optional<Identification> identification; //!< With --identify.
+  std::vector<vpPrintRun> runs;                 //!< Of the user's specification; the first one is drawn.
+  Landing landing;                              //!< Of these.
+  std::vector<Replica> replicas;                //!< Experiments of the thesis, by figure; may be empty.
+  std::vector<Replica> observers;               //!< The same task with the observer: thesis's sensor, and our tracker.
 };
 
 /*!

@@ -36,6 +36,21 @@ Json jsonOf(const Replica &replica)
   return json;
 }
 
+Json jsonOf(const Identification &identification)
+{
+  const vpFrictionIdentification &found = identification.found;
+  const auto value = [](double estimate, double sigma, double truth) {
+    return Json{{"found", estimate}, {"sigma", sigma}, {"true", truth}};
+  };
+  const vpFrictionModel &truth = identification.truth;
+  return {{"frames", identification.frames},
+          {"message", found.message()},
+          {"mass", value(found.model.mass, found.sigmaMass, truth.mass)},
+          {"viscous", value(found.model.viscous, found.sigmaViscous, truth.viscous)},
+          {"coulomb", value(found.model.coulomb, found.sigmaCoulomb, truth.coulomb)},
+          {"stiction", value(found.model.stiction, found.sigmaStiction, truth.stiction)}};
+}
+
 Json jsonOf(const vpPrintExperimentSpec &spec, const std::string &sensor)
 {
   return {{"controller", nameOf(spec.controller)},
@@ -87,7 +102,8 @@ std::string nameOf(vpPrintReferenceMode mode)
 
 std::string motionCsv(const vpPrintRun &run)
 {
-  std::ostringstream text = table("frame,row,x,y,vx,vy,reference_x,reference_vx,measured_vx,estimated_vx,force,cells,dropped");
+  std::ostringstream text =
+      table("frame,row,x,y,vx,vy,reference_x,reference_vx,measured_vx,estimated_vx,force,cells,dropped");
   for (const vpPrintSample &s : run.samples) {
     text << s.frame << ',' << s.row << ',' << s.x << ',' << s.y << ',' << s.vx << ',' << s.vy << ','
          << s.referencePosition << ',' << s.referenceVelocity << ',' << s.measuredVelocity << ',' << s.estimatedVelocity
@@ -113,22 +129,25 @@ Json summaryOf(const Options &options, const Results &results, const std::string
   for (const vpPrintRun &run : runs) {
     complete = complete && run.metrics.complete;
   }
-  Json summary = {{"version", VISP_DIRECT_VERSION},
-                  {"command", commandLine},
-                  {"runs", runs.size()},
-                  {"rms_velocity_error", rmsOf(runs, &vpPrintMetrics::rms_velocity_error)},
-                  {"rms_true_velocity_error", rmsOf(runs, &vpPrintMetrics::rms_true_velocity_error)},
-                  {"centre_velocity_error", rmsOf(runs, &vpPrintMetrics::centre_velocity_error)},
-                  {"landing_error_um",
-                   {{"p50", results.landing.p50}, {"p99", results.landing.p99}, {"max", results.landing.max}}},
-                  {"landed_within_10um", results.landing.within},
-                  {"printed", sumOf(runs, &vpPrintMetrics::printed)},
-                  {"missed", sumOf(runs, &vpPrintMetrics::missed)},
-                  {"doubled", sumOf(runs, &vpPrintMetrics::doubled)},
-                  {"throughput_cells_per_s", meanOf(runs, &vpPrintMetrics::throughput_cells_per_s)},
-                  {"gain_over_constant", meanOf(runs, &vpPrintMetrics::gain_over_constant)},
-                  {"complete", complete},
-                  {"spec", jsonOf(options.spec, options.sensor)}};
+  Json summary = {
+      {"version", VISP_DIRECT_VERSION},
+      {"command", commandLine},
+      {"runs", runs.size()},
+      {"rms_velocity_error", rmsOf(runs, &vpPrintMetrics::rms_velocity_error)},
+      {"rms_true_velocity_error", rmsOf(runs, &vpPrintMetrics::rms_true_velocity_error)},
+      {"centre_velocity_error", rmsOf(runs, &vpPrintMetrics::centre_velocity_error)},
+      {"landing_error_um", {{"p50", results.landing.p50}, {"p99", results.landing.p99}, {"max", results.landing.max}}},
+      {"landed_within_10um", results.landing.within},
+      {"printed", sumOf(runs, &vpPrintMetrics::printed)},
+      {"missed", sumOf(runs, &vpPrintMetrics::missed)},
+      {"doubled", sumOf(runs, &vpPrintMetrics::doubled)},
+      {"throughput_cells_per_s", meanOf(runs, &vpPrintMetrics::throughput_cells_per_s)},
+      {"gain_over_constant", meanOf(runs, &vpPrintMetrics::gain_over_constant)},
+      {"complete", complete},
+      {"spec", jsonOf(options.spec, options.sensor)}};
+  if (results.identification) {
+    summary["identification"] = jsonOf(*results.identification);
+  }
   Json replicas = Json::array();
   for (const auto *list : {&results.replicas, &results.observers}) {
     for (const Replica &replica : *list) {

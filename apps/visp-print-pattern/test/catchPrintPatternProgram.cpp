@@ -48,10 +48,10 @@ std::map<std::string, std::vector<double>> columnsOf(const std::string &csv)
 TEST_CASE("The summary follows from the tables", "[visp-print-pattern]")
 {
   ProgramRun run(PRINT_PATTERN);
-  const std::string arguments = GENERATE(
-      std::string("--sensor tracker --cells 60 --jitter 0.3 --flex 2"),
-      std::string("--sensor thesis --controller pid-ff --cells 40 --axis xy --rows 2 --dropped 0.01"),
-      std::string("--cells 15 --reference constant"));
+  const std::string arguments =
+      GENERATE(std::string("--sensor tracker --cells 60 --jitter 0.3 --flex 2"),
+               std::string("--sensor thesis --controller pid-ff --cells 40 --axis xy --rows 2 --dropped 0.01"),
+               std::string("--cells 15 --reference constant"));
   CAPTURE(arguments);
   REQUIRE(run(arguments + " --no-thesis --out d") == OK);
   const json summary = json::parse(vpApp::readFile(run.path("d/summary.json")));
@@ -102,6 +102,22 @@ TEST_CASE("Through rendered pictures every cell gets one drop, within the tolera
   CHECK(summary["doubled"] == 0);
   CHECK(summary["landed_within_10um"] == 1.);
   CHECK(!cv::imread(run.path("d/product.png").string()).empty());
+}
+
+TEST_CASE("Friction that the camera identified serves as well as the known one", "[visp-print-pattern]")
+{
+  ProgramRun run(PRINT_PATTERN);
+  const std::string seed = GENERATE(std::string("1"), std::string("2"), std::string("3"));
+  REQUIRE(run("--no-thesis --sensor tracker --identify --seed " + seed + " --out d") == OK);
+  const json summary = json::parse(vpApp::readFile(run.path("d/summary.json")));
+  const json &found = summary["identification"];
+  CAPTURE(found.dump());
+  for (const char *name : {"mass", "viscous", "coulomb"}) {
+    CHECK(found[name]["found"].get<double>() == Approx(found[name]["true"].get<double>()).epsilon(0.1));
+    CHECK(found[name]["sigma"].get<double>() < 0.1 * found[name]["true"].get<double>());
+  }
+  CHECK(summary["centre_velocity_error"].get<double>() < 0.03);
+  CHECK(summary["missed"] == 0);
 }
 
 TEST_CASE("Rows that are bent and off their regular place are hit in the middle", "[visp-print-pattern]")

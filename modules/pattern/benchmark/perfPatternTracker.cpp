@@ -283,21 +283,29 @@ void threshold(benchmark::State &state, vpPatternThreshold method)
 BENCHMARK(tracking)->Unit(benchmark::kMicrosecond);
 BENCHMARK(coldAcquisition)->Unit(benchmark::kMicrosecond);
 BENCHMARK(learning)->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(baseline, half_maximum, vpPatternMethod::HalfMaximumEdges, vpPatternThreshold::Otsu, vpPatternDerivative::Symmetric)
+BENCHMARK_CAPTURE(baseline, half_maximum, vpPatternMethod::HalfMaximumEdges, vpPatternThreshold::Otsu,
+                  vpPatternDerivative::Symmetric)
     ->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(baseline, thesis_7_4, vpPatternMethod::ThesisAlgorithm, vpPatternThreshold::Otsu, vpPatternDerivative::Symmetric)
+BENCHMARK_CAPTURE(baseline, thesis_7_4, vpPatternMethod::ThesisAlgorithm, vpPatternThreshold::Otsu,
+                  vpPatternDerivative::Symmetric)
     ->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(baseline, thesis_7_4_fixed, vpPatternMethod::ThesisAlgorithmFixed, vpPatternThreshold::Otsu, vpPatternDerivative::Symmetric)
+BENCHMARK_CAPTURE(baseline, thesis_7_4_fixed, vpPatternMethod::ThesisAlgorithmFixed, vpPatternThreshold::Otsu,
+                  vpPatternDerivative::Symmetric)
     ->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(baseline, thesis_7_4_isodata, vpPatternMethod::ThesisAlgorithm, vpPatternThreshold::Isodata, vpPatternDerivative::Symmetric)
+BENCHMARK_CAPTURE(baseline, thesis_7_4_isodata, vpPatternMethod::ThesisAlgorithm, vpPatternThreshold::Isodata,
+                  vpPatternDerivative::Symmetric)
     ->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(baseline, thesis_7_4_minimum_error, vpPatternMethod::ThesisAlgorithm, vpPatternThreshold::MinimumError, vpPatternDerivative::Symmetric)
+BENCHMARK_CAPTURE(baseline, thesis_7_4_minimum_error, vpPatternMethod::ThesisAlgorithm,
+                  vpPatternThreshold::MinimumError, vpPatternDerivative::Symmetric)
     ->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(baseline, thesis_7_4_fixed_roberts, vpPatternMethod::ThesisAlgorithmFixed, vpPatternThreshold::Otsu, vpPatternDerivative::Roberts)
+BENCHMARK_CAPTURE(baseline, thesis_7_4_fixed_roberts, vpPatternMethod::ThesisAlgorithmFixed, vpPatternThreshold::Otsu,
+                  vpPatternDerivative::Roberts)
     ->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(baseline, thesis_7_4_fixed_prewitt, vpPatternMethod::ThesisAlgorithmFixed, vpPatternThreshold::Otsu, vpPatternDerivative::Prewitt)
+BENCHMARK_CAPTURE(baseline, thesis_7_4_fixed_prewitt, vpPatternMethod::ThesisAlgorithmFixed, vpPatternThreshold::Otsu,
+                  vpPatternDerivative::Prewitt)
     ->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(baseline, thesis_7_4_fixed_sobel, vpPatternMethod::ThesisAlgorithmFixed, vpPatternThreshold::Otsu, vpPatternDerivative::Sobel)
+BENCHMARK_CAPTURE(baseline, thesis_7_4_fixed_sobel, vpPatternMethod::ThesisAlgorithmFixed, vpPatternThreshold::Otsu,
+                  vpPatternDerivative::Sobel)
     ->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(threshold, otsu, vpPatternThreshold::Otsu)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(threshold, isodata, vpPatternThreshold::Isodata)->Unit(benchmark::kMicrosecond);

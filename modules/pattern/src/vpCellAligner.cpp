@@ -357,7 +357,8 @@ vpCellFit vpCellAligner::alignMasked(const vpImage<unsigned char> &image, const 
   fit.contrast = s.contrast;
   fit.variance = std::max(0.05, rest / std::max(1, n - count - size));
   fit.masked = true;
-  fit.ok = settled > 0 && fit.xx > 0. && fit.yy > 0. && std::abs(s.dx) < 2. * bank.reach() && std::abs(s.dy) < 2. * bank.reach();
+  fit.ok = settled > 0 && fit.xx > 0. && fit.yy > 0. && std::abs(s.dx) < 2. * bank.reach() &&
+           std::abs(s.dy) < 2. * bank.reach();
   return fit;
 }
 

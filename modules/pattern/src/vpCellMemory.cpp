@@ -66,7 +66,8 @@ bool vpCellMemory::deviation(int row, int column, double &x, double &y)
   }
   int n = 0;
   x = y = 0.;
-  for (const Slot *other : {find(row, column + 1), find(row, column - 1), find(row + 1, column), find(row - 1, column)}) {
+  for (const Slot *other :
+       {find(row, column + 1), find(row, column - 1), find(row + 1, column), find(row - 1, column)}) {
     if (other != nullptr) {
       x += other->offsetX;
       y += other->offsetY;

@@ -16,7 +16,7 @@ class vpCellMemory
 {
 public:
   struct Slot {
-    unsigned int generation = 0; // of the memory when it was claimed
+    unsigned int generation = 0;        // of the memory when it was claimed
     int row = 0, column = 0, count = 0; // count: measurements in the deviation
     double offsetX = 0., offsetY = 0.;  // smoothed deviation from the lattice, px
     double x = 0., y = 0., varianceX = 0., varianceY = 0.;

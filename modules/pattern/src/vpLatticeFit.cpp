@@ -15,9 +15,10 @@ BEGIN_VISP_NAMESPACE
 namespace
 {
 constexpr std::size_t leastSpots = 4; // two by two
-constexpr double offLattice = 0.25;   // pitch: how far a cell may be off its place, in a tilted view or of a flexible product
+constexpr double offLattice =
+    0.25; // pitch: how far a cell may be off its place, in a tilted view or of a flexible product
 constexpr std::size_t maxSeeds = 16; // that look for their neighbours: enough for a vote, near enough to be even
-}
+} // namespace
 
 void vpLattice::invert(double px, double py, double &row, double &column) const
 {
@@ -99,14 +100,14 @@ bool vpLatticeFit::keepAlike(std::vector<vpPatternSpot> &spots)
 
 bool vpLatticeFit::isLikeMedian(const vpPatternSpot &spot) const
 {
-  return std::abs(spot.width() - m_width) <= 2 + 2 * m_width / 5 && std::abs(spot.height() - m_height) <= 2 + 2 * m_height / 5;
+  return std::abs(spot.width() - m_width) <= 2 + 2 * m_width / 5 &&
+         std::abs(spot.height() - m_height) <= 2 + 2 * m_height / 5;
 }
 
 bool vpLatticeFit::keepKnown(std::vector<vpPatternSpot> &spots) const
 {
-  spots.erase(
-      std::remove_if(spots.begin(), spots.end(), [this](const vpPatternSpot &s) { return !isLikeMedian(s); }),
-      spots.end());
+  spots.erase(std::remove_if(spots.begin(), spots.end(), [this](const vpPatternSpot &s) { return !isLikeMedian(s); }),
+              spots.end());
   return !spots.empty();
 }
 
@@ -216,8 +217,8 @@ void vpLatticeFit::walk(const std::vector<vpPatternSpot> &spots, std::size_t see
   for (std::size_t k = 0; k < m_reached.size(); ++k) {
     const Node node = m_nodes[m_reached[k]];
     const vpPatternSpot &from = spots[m_reached[k]];
-    const double reach = offLattice * std::sqrt(std::min(node.ax * node.ax + node.ay * node.ay,
-                                                         node.bx * node.bx + node.by * node.by));
+    const double reach =
+        offLattice * std::sqrt(std::min(node.ax * node.ax + node.ay * node.ay, node.bx * node.bx + node.by * node.by));
     for (int step = 0; step < 4; ++step) {
       const bool along = step < 2;
       const int sign = step % 2 == 0 ? 1 : -1;
@@ -277,8 +278,9 @@ bool vpLatticeFit::fit(std::vector<vpPatternSpot> &spots, double minPitch, vpLat
     double row = 0., column = 0.;
     l.invert(spots[i].x, spots[i].y, row, column);
     const double r = std::round(row), c = std::round(column);
-    const bool on = m_nodes[i].reached ? m_nodes[i].row == static_cast<int>(r) && m_nodes[i].column == static_cast<int>(c)
-                                       : std::abs(row - r) < offLattice && std::abs(column - c) < offLattice;
+    const bool on = m_nodes[i].reached
+                        ? m_nodes[i].row == static_cast<int>(r) && m_nodes[i].column == static_cast<int>(c)
+                        : std::abs(row - r) < offLattice && std::abs(column - c) < offLattice;
     if (on) {
       spots[kept++] = spots[i];
     }

@@ -58,8 +58,8 @@ private:
   };
   std::vector<int> m_sorted;
   std::vector<std::pair<double, std::size_t>> m_seeds; // squared distance from the middle, index
-  std::vector<Node> m_nodes;          // one per spot
-  std::vector<std::size_t> m_reached; // in the order of the walk
+  std::vector<Node> m_nodes;                           // one per spot
+  std::vector<std::size_t> m_reached;                  // in the order of the walk
   int m_width = 0, m_height = 0;
 };
 

@@ -20,7 +20,7 @@ constexpr double knownGate = 0.5;   // px: how far a known cell may move against
 constexpr double nearHalf = 0.4;    // of a pitch
 constexpr double maskedSigma = 0.1; // px: what dirt does to a centre although its pixels are left out (rendered dirt)
 constexpr double latticeGain = 0.02;
-constexpr double slopeMemory = 400.; // cells
+constexpr double slopeMemory = 400.;   // cells
 constexpr std::size_t slopesEvery = 3; // cells, once they are known: they change slowly
 } // namespace
 

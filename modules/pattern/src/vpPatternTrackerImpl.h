@@ -90,8 +90,8 @@ private:
   vpSlopes m_slopes{}; // of the illumination
   double m_slopeWeight = 0.;
   double m_edgeVarianceX = 0.,
-         m_edgeVarianceY = 0.;   // of centres from edges, from the spread of their motion; 0: unknown
-  std::vector<vpCellFit> m_fits; // of the cells of m_frame
+         m_edgeVarianceY = 0.;         // of centres from edges, from the spread of their motion; 0: unknown
+  std::vector<vpCellFit> m_fits;       // of the cells of m_frame
   double m_shiftX = 0., m_shiftY = 0.; // what all cells are off their start
   std::vector<double> m_startX, m_startY, m_scratch;
   std::vector<unsigned char> m_ownStart; // the start of the cell comes from its own deviation
