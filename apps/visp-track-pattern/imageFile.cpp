@@ -28,17 +28,11 @@ std::string extensionOf(const std::filesystem::path &file)
   return extension;
 }
 
-// libjpeg and libpng fill up what is missing and only warn; the end of the file tells.
+// libjpeg fills up what is missing and only warns; the end of the file tells.
 bool isCutShort(const std::string &content)
 {
-  const auto begins = [&content](const std::string &start) { return content.compare(0, start.size(), start) == 0; };
-  if (begins("\xff\xd8")) {
-    return content.rfind("\xff\xd9") == std::string::npos;
-  }
-  if (begins("\x89PNG")) {
-    return content.rfind("IEND") == std::string::npos;
-  }
-  return false;
+  const bool isJpeg = content.compare(0, 2, "\xff\xd8") == 0;
+  return isJpeg && content.rfind("\xff\xd9") == std::string::npos;
 }
 } // namespace
 

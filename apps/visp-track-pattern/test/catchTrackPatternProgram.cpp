@@ -136,6 +136,26 @@ TEST_CASE("The folder of visp-generate-pattern brings its truth, a region keeps 
     CHECK(errors["x"]["sigma_px"].get<double>() < 0.02);
     CHECK(errors["dx"]["sigma_px"].get<double>() < 0.02);
     CHECK_FALSE(std::filesystem::exists(run.path("t/overlay.mp4")));
+    // The table itself, not only what the program compares.
+    const Table truth = tableOf(vpApp::readFile(run.path("d/truth.csv")));
+    const Table cells = tableOf(vpApp::readFile(run.path("t/cells.csv")));
+    const std::string last = cells.lines.back().at("frame");
+    int compared = 0;
+    for (const auto &cell : cells.lines) {
+      if (cell.at("frame") != last || cell.at("valid") != "1") {
+        continue;
+      }
+      double nearest = HUGE_VAL;
+      for (const auto &place : truth.lines) {
+        if (place.at("frame") == last) {
+          nearest = std::min(
+              nearest, std::hypot(number(place, "x") - number(cell, "x"), number(place, "y") - number(cell, "y")));
+        }
+      }
+      CHECK(nearest < 0.2);
+      ++compared;
+    }
+    CHECK(compared >= 6);
   }
   // The same images by pattern or by name bring no truth.
   REQUIRE(run("'d/frames/%06d.png' --overlay none --frames 5 --out t") == OK);

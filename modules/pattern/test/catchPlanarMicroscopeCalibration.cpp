@@ -354,6 +354,44 @@ TEST_CASE("the result is the minimum, in every direction", "[calibration]")
   }
 }
 
+TEST_CASE("the covariance also holds for points at the edge of the image", "[calibration]")
+{
+  auto rng = vpTestSupport::generator(522);
+  CAPTURE(vpTestSupport::seed());
+  for (int trial = 0; trial < 40; ++trial) { // off the centre, place and scale hang together
+    Problem problem = randomProblem(rng, 1, 0.);
+    problem.views[0].tx *= 0.1;
+    problem.views[0].ty *= 0.1;
+    Points points;
+    for (const vpCalibrationPoint &point : pointsOf(problem, 0, 0.1, 0.05, rng)) {
+      if (point.u > 420.) {
+        points.push_back(point);
+      }
+    }
+    vpMicroscopeCalibrationOptions options;
+    options.estimateKappa1 = false;
+    vpPlanarMicroscopeCalibration calibration(640, 480, options);
+    calibration.addView(points);
+    const vpMicroscopeCalibrationResult result = calibration.compute();
+    const Vector8 best = parametersOf(result.calibration);
+    const double least = chi2Of(best, result.calibration.mirrored, points);
+    const Vector8 sigma = result.covariance.diagonal().cwiseSqrt();
+    const Vector8 unit = (sigma.array() > 0.).select(sigma, 1.);
+    const Eigen::Matrix<double, 8, 8> correlation =
+        unit.cwiseInverse().asDiagonal() * result.covariance * unit.cwiseInverse().asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 8, 8>> solver(correlation);
+    int directions = 0;
+    for (int i = 0; i < 8; ++i) {
+      if (solver.eigenvalues()[i] > 1e-9) { // the others were given
+        const Vector8 step = unit.asDiagonal() * solver.eigenvectors().col(i) * std::sqrt(solver.eigenvalues()[i]);
+        CHECK(chi2Of(best + step, result.calibration.mirrored, points) - least == Approx(1.).margin(0.01));
+        ++directions;
+      }
+    }
+    CHECK(directions == 4); // scale, rotation, tx, ty
+  }
+}
+
 TEST_CASE("rows of u and v are stacked: what adding them costs", "[calibration]")
 {
   auto rng = vpTestSupport::generator(513);
