@@ -314,6 +314,36 @@ TEST_CASE("dust, cracks, rotation and uneven cells cost no lock", "[pattern]")
   CHECK(o.count > frames * 7);
 }
 
+TEST_CASE("cells under dirt are left out while the template is learned, too", "[pattern]")
+{
+  CAPTURE(vpTestSupport::seed());
+  vpProductPatternSpec spec = product(459);
+  spec.dust = 12. / 1.6;
+  spec.cracks = 3. / 1.6;
+  const vpProductPattern product(spec);
+  int valid = 0, far = 0;
+  for (int start = 0; start < 20; ++start) {
+    vpPatternTracker tracker(spec.width, spec.height);
+    vpImage<unsigned char> image;
+    for (int k = 0; k < 15; ++k) {
+      const double x = 500. * start + 4. * k;
+      product.render(x, 0., 4., 0., static_cast<unsigned int>(k), image);
+      const auto truth = product.cells(x, 0.);
+      for (const vpPatternCell &cell : tracker.track(image).cells) {
+        double nearest = HUGE_VAL;
+        for (const vpPatternTruthCell &t : truth) {
+          nearest = std::min(nearest, std::hypot(t.x - cell.x, t.y - cell.y));
+        }
+        valid += cell.valid ? 1 : 0;
+        far += cell.valid && nearest > 1. ? 1 : 0;
+      }
+    }
+  }
+  CAPTURE(valid, far);
+  CHECK(valid > 300);
+  CHECK(100 * far < valid);
+}
+
 TEST_CASE("a flexible, turned product is followed", "[pattern]")
 {
   CAPTURE(vpTestSupport::seed());

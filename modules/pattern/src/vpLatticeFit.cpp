@@ -129,6 +129,31 @@ bool vpLatticeFit::shift(const std::vector<vpPatternSpot> &spots, vpLattice &lat
   return true;
 }
 
+void vpLatticeFit::removeDirty(std::vector<vpPatternSpot> &spots)
+{
+  // In a tilted view the logarithm of the area runs evenly over the image. Dirt changes it for some: twice, the second
+  // time without those that were far off.
+  constexpr double tolerance[] = {0.25, 0.06};
+  for (const double limit : tolerance) {
+    Eigen::Matrix3d normal = 1e-9 * Eigen::Matrix3d::Identity();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    const auto row = [](const vpPatternSpot &s) { return Eigen::Vector3d(1., 1e-3 * s.x, 1e-3 * s.y); };
+    for (const vpPatternSpot &spot : spots) {
+      normal += row(spot) * row(spot).transpose();
+      right += row(spot) * std::log(spot.area);
+    }
+    const Eigen::Vector3d even = normal.ldlt().solve(right);
+    const auto dirty = [&](const vpPatternSpot &s) {
+      const double rounding = 2. * (s.width() + s.height()) / s.area; // a pixel more or less all around: not dirt
+      return std::abs(std::log(s.area) - even.dot(row(s))) > limit + std::min(0.15, 0.1 * rounding);
+    };
+    if (2 * std::count_if(spots.begin(), spots.end(), dirty) > static_cast<std::ptrdiff_t>(spots.size())) {
+      return; // not even at all: nothing can be said
+    }
+    spots.erase(std::remove_if(spots.begin(), spots.end(), dirty), spots.end());
+  }
+}
+
 // The spots nearest to the middle of all, nearest first.
 void vpLatticeFit::findSeeds(const std::vector<vpPatternSpot> &spots)
 {

@@ -32,6 +32,8 @@ public:
 
   //! Keep the spots of the commonest size; false when fewer than four are alike.
   bool keepAlike(std::vector<vpPatternSpot> &spots);
+  //! Remove spots whose size is not that of those around them: dirt has eaten from them, or grown onto them.
+  static void removeDirty(std::vector<vpPatternSpot> &spots);
   //! Lattice of the spots, whose strays are removed. \e a points right, \e b down. False: no two periods each way.
   bool fit(std::vector<vpPatternSpot> &spots, double minPitch, vpLattice &lattice);
   //! Keep the spots of the size that keepAlike() found last; false when there are none.

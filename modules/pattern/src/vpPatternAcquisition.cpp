@@ -75,8 +75,11 @@ vpPatternReason vpPatternTracker::Impl::detectPolarity(const vpImage<unsigned ch
     lattice = m_lattice;
     return m_fitter.shift(spots, lattice) ? vpPatternReason::None : vpPatternReason::NoLattice;
   }
-  return kept >= 4 && m_fitter.fit(spots, m_options.minPitch, lattice) ? vpPatternReason::None
-                                                                       : vpPatternReason::NoLattice;
+  if (kept < 4 || !m_fitter.fit(spots, m_options.minPitch, lattice)) {
+    return vpPatternReason::NoLattice;
+  }
+  vpLatticeFit::removeDirty(spots);
+  return vpPatternReason::None;
 }
 
 vpPatternReason vpPatternTracker::Impl::detect(const vpImage<unsigned char> &image, vpLattice &lattice)
