@@ -1,0 +1,59 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpArmDynamics.h
+ * \brief Inertia matrix, Coriolis and gravity terms of an arm. Needs Orocos KDL when the module is built.
+ */
+#ifndef vpArmDynamics_h
+#define vpArmDynamics_h
+
+#include <visp3/manipulator/vpArmModel.h>
+
+#include <memory>
+
+BEGIN_VISP_NAMESPACE
+
+/*!
+ * \class vpArmDynamics
+ * \ingroup group_manipulator
+ * \brief M(q) q'' + C(q, q') q' + F_f(q') + g(q) = tau, thesis (3.1), without the friction. Rotor inertias are on the
+ * diagonal of M.
+ *
+ * The recursions are those of Orocos KDL. An object holds scratch: use one in each thread.
+ */
+class VISP_EXPORT vpArmDynamics
+{
+public:
+  /*!
+   * \param gravity : Acceleration of free fall in the base frame, m/s^2.
+   * \throw vpException (badValue) naming the first link that has no mass.
+   */
+  explicit vpArmDynamics(const vpArmModel &model, const Eigen::Vector3d &gravity = Eigen::Vector3d(0., 0., -9.81));
+  ~vpArmDynamics();
+  vpArmDynamics(vpArmDynamics &&) noexcept;
+  vpArmDynamics &operator=(vpArmDynamics &&) noexcept;
+  vpArmDynamics(const vpArmDynamics &) = delete;
+  vpArmDynamics &operator=(const vpArmDynamics &) = delete;
+
+  //! M(q), kg m^2 (kg for prismatic joints), symmetric and positive definite.
+  void inertia(const vpJointVector &q, vpJointMatrix &M);
+  //! C(q, q') q', Nm or N.
+  void coriolis(const vpJointVector &q, const vpJointVector &velocity, vpJointVector &torque);
+  //! g(q), Nm or N: what holds the arm still.
+  void gravity(const vpJointVector &q, vpJointVector &torque);
+  /*!
+   * q'' = M^-1 (tau - C q' - g), rad/s^2 or m/s^2. Friction belongs into \e torque.
+   * \return False when M is not positive definite; \e acceleration is zero then.
+   */
+  bool acceleration(const vpJointVector &q, const vpJointVector &velocity, const vpJointVector &torque,
+                    vpJointVector &acceleration);
+
+private:
+  class Impl;
+  std::unique_ptr<Impl> m_impl;
+};
+
+END_VISP_NAMESPACE
+#endif

@@ -1,0 +1,93 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpArmKinematics.h
+ * \brief Forward kinematics, Jacobians and their derivatives of a vpArmModel.
+ */
+#ifndef vpArmKinematics_h
+#define vpArmKinematics_h
+
+#include <visp3/manipulator/vpArmModel.h>
+
+#include <array>
+
+BEGIN_VISP_NAMESPACE
+
+//! \brief Frame in which a velocity of the arm is expressed, and the point whose linear velocity it has.
+enum class vpArmFrame {
+  Base,        //!< Origin of the end effector, axes of the base (fJe of ViSP).
+  EndEffector, //!< Origin and axes of the end effector (eJe of ViSP).
+  Camera       //!< Origin and axes of the camera: what visual servoing commands.
+};
+
+/*!
+ * \ingroup group_manipulator
+ * \brief Scratch of one arm in one configuration: filled by vpArmKinematics::forward() and jacobian(). One for each
+ * thread.
+ */
+struct VISP_EXPORT vpArmData {
+  int size = 0;    //!< Number of joints n of the arm that filled it; 0: not filled.
+  vpJointVector q; //!< Configuration, rad or m.
+  std::array<vpRigidTransform, vpArmMaxJoints>
+      joint;             //!< Joints in the base; z is the axis, the frame moves with its link.
+  vpRigidTransform tool; //!< fMe: end effector in the base.
+  vpArmJacobian J;       //!< Geometric Jacobian (3.9)-(3.13) in vpArmFrame::Base.
+};
+
+/*!
+ * \ingroup group_manipulator
+ * \brief Kernels of fixed capacity; none of them allocates, throws, locks or prints. Joints are numbered from 0 here.
+ *
+ * Of (3.12)-(3.13) as corrected: z_{i-1} is the third column of R^0_{i-1}, the axis in the base frame.
+ */
+namespace vpArmKinematics
+{
+/*!
+ * Frames of all joints and of the end effector, (3.8), and the configuration itself.
+ * \param q : n numbers; must be of the arm's size.
+ */
+VISP_EXPORT void forward(const vpArmModel &model, const vpJointVector &q, vpArmData &data) noexcept;
+//! Geometric Jacobian in the base frame; after forward().
+VISP_EXPORT void jacobian(const vpArmModel &model, vpArmData &data) noexcept;
+//! forward() and jacobian().
+VISP_EXPORT void update(const vpArmModel &model, const vpJointVector &q, vpArmData &data) noexcept;
+
+//! Frame of link \e i (1..n; 0 is the base) in the base; after forward().
+[[nodiscard]] VISP_EXPORT vpRigidTransform link(const vpArmModel &model, const vpArmData &data, int i) noexcept;
+//! fMc: camera in the base; after forward().
+[[nodiscard]] VISP_EXPORT vpRigidTransform camera(const vpArmModel &model, const vpArmData &data) noexcept;
+
+//! Geometric Jacobian in a frame; after jacobian().
+[[nodiscard]] VISP_EXPORT vpArmJacobian geometric(const vpArmModel &model, const vpArmData &data,
+                                                  vpArmFrame frame) noexcept;
+/*!
+ * Analytic Jacobian (3.14) for the pose (position, rotation vector theta u) of the end effector in the base: the
+ * angular rows are J_l^-1(theta u) times the geometric ones. Valid for an angle <= pi; the rotation vector jumps at pi.
+ * After jacobian().
+ */
+[[nodiscard]] VISP_EXPORT vpArmJacobian analytic(const vpArmModel &model, const vpArmData &data) noexcept;
+/*!
+ * Linear Jacobian of the origin of joint \e k (a column for every joint, 0 from joint k on): the partial Jacobian that
+ * the distance indices use. In the base frame; after forward(). \e k = n is the end effector.
+ */
+[[nodiscard]] VISP_EXPORT Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, vpArmMaxJoints>
+pointJacobian(const vpArmModel &model, const vpArmData &data, int k) noexcept;
+
+/*!
+ * Column \e i of dJ/dq_k in the base frame, exact: a revolute k <= i turns column i, a revolute i < k sees its arm grow
+ * by column k, and prismatic joints change nothing else. After jacobian().
+ */
+[[nodiscard]] VISP_EXPORT Eigen::Matrix<double, 6, 1> columnDerivative(const vpArmModel &model, const vpArmData &data,
+                                                                       int i, int k) noexcept;
+//! dJ/dq_k in a frame; after jacobian().
+[[nodiscard]] VISP_EXPORT vpArmJacobian derivative(const vpArmModel &model, const vpArmData &data, int k,
+                                                   vpArmFrame frame) noexcept;
+//! dJ/dt = sum_k dJ/dq_k q'_k in a frame; after jacobian().
+[[nodiscard]] VISP_EXPORT vpArmJacobian timeDerivative(const vpArmModel &model, const vpArmData &data,
+                                                       const vpJointVector &velocity, vpArmFrame frame) noexcept;
+} // namespace vpArmKinematics
+
+END_VISP_NAMESPACE
+#endif

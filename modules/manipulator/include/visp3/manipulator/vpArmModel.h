@@ -1,0 +1,88 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpArmModel.h
+ * \brief An arm that has been checked and does not change any more.
+ */
+#ifndef vpArmModel_h
+#define vpArmModel_h
+
+#include <visp3/manipulator/vpArmSpec.h>
+
+#include <array>
+
+BEGIN_VISP_NAMESPACE
+
+/*!
+ * \class vpArmModel
+ * \ingroup group_manipulator
+ * \brief Immutable serial arm of 1 to 8 joints; what a cycle computes from it goes to vpArmData.
+ *
+ * Make it from a vpArmSpec, with vpLoadArmJson() or with vpLoadArmUrdf(). Copies are cheap enough for set-up, not for a
+ * loop.
+ */
+class VISP_EXPORT vpArmModel
+{
+public:
+  /*!
+   * \throw vpException (badValue) naming the arm or its file, the joint or link, and the value: no joint or more than
+   * 8, empty or doubled names, limits that are not lower < upper, velocity, acceleration or torque limits not > 0,
+   * masses not > 0, inertias that no body can have, rotations that are none, capsules of a link that does not exist or
+   * with a radius not > 0.
+   */
+  explicit vpArmModel(const vpArmSpec &spec);
+
+  //! Number of joints n.
+  [[nodiscard]] int size() const noexcept { return m_size; }
+  //! Everything it was made from.
+  [[nodiscard]] const vpArmSpec &spec() const noexcept { return m_spec; }
+  //! The file it came from, or its name.
+  [[nodiscard]] const std::string &label() const noexcept
+  {
+    return m_spec.source.empty() ? m_spec.name : m_spec.source;
+  }
+  //! True when joint \e i (0..n-1) is prismatic.
+  [[nodiscard]] bool isPrismatic(int i) const noexcept { return m_prismatic[static_cast<std::size_t>(i)]; }
+  //! True when joint \e i (0..n-1) turns without end.
+  [[nodiscard]] bool isContinuous(int i) const noexcept { return m_continuous[static_cast<std::size_t>(i)]; }
+  //! Lower position limits, rad or m; -infinity for a continuous joint.
+  [[nodiscard]] const vpJointVector &lower() const noexcept { return m_lower; }
+  //! Upper position limits, rad or m; infinity for a continuous joint.
+  [[nodiscard]] const vpJointVector &upper() const noexcept { return m_upper; }
+  //! Velocity limits, rad/s or m/s; may be infinite.
+  [[nodiscard]] const vpJointVector &velocity() const noexcept { return m_velocity; }
+  //! Acceleration limits, rad/s^2 or m/s^2; may be infinite.
+  [[nodiscard]] const vpJointVector &acceleration() const noexcept { return m_acceleration; }
+  //! Torque or force limits, Nm or N; may be infinite.
+  [[nodiscard]] const vpJointVector &torque() const noexcept { return m_torque; }
+  //! True when every link has a mass.
+  [[nodiscard]] bool hasMasses() const noexcept { return m_hasMasses; }
+  /*!
+   * \param user : Who needs them, for the message ("the redundancy solver").
+   * \throw vpException (badValue) naming the first joint whose velocity or acceleration limit is infinite.
+   */
+  void requireMotionLimits(const char *user) const;
+
+  //! Offset of joint \e i, added to its coordinate.
+  [[nodiscard]] double offset(int i) const noexcept { return m_offset[static_cast<std::size_t>(i)]; }
+  //! Frame of joint \e i at q_i + offset = 0 in the moving frame of joint i - 1 (of the base for i = 0).
+  [[nodiscard]] const vpRigidTransform &step(int i) const noexcept { return m_step[static_cast<std::size_t>(i)]; }
+  //! Frame of the last link in the moving frame of the last joint, times the tool.
+  [[nodiscard]] const vpRigidTransform &toolStep() const noexcept { return m_toolStep; }
+
+private:
+  vpArmSpec m_spec;
+  int m_size = 0;
+  bool m_hasMasses = false;
+  std::array<bool, vpArmMaxJoints> m_prismatic{};
+  std::array<bool, vpArmMaxJoints> m_continuous{};
+  std::array<double, vpArmMaxJoints> m_offset{};
+  std::array<vpRigidTransform, vpArmMaxJoints> m_step;
+  vpRigidTransform m_toolStep;
+  vpJointVector m_lower, m_upper, m_velocity, m_acceleration, m_torque;
+};
+
+END_VISP_NAMESPACE
+#endif

@@ -1,0 +1,49 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpArmTypes.h
+ * \brief Vectors and matrices of a serial arm, stored in place: nothing here lives on the heap.
+ */
+#ifndef vpArmTypes_h
+#define vpArmTypes_h
+
+#include <visp3/core/vpHomogeneousMatrix.h>
+#include <visp3/direct_core/vpDirectCompat.h>
+
+#include <Eigen/Core>
+
+BEGIN_VISP_NAMESPACE
+
+//! Most joints that an arm may have.
+constexpr int vpArmMaxJoints = 8;
+
+//! One number a joint: rad, rad/s, Nm, ... for a revolute joint, m, m/s, N, ... for a prismatic one. Size n <= 8.
+using vpJointVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, vpArmMaxJoints, 1>;
+//! 6 x n, linear part (rows 0-2) first, then angular.
+using vpArmJacobian = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, vpArmMaxJoints>;
+//! n x n.
+using vpJointMatrix =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, vpArmMaxJoints, vpArmMaxJoints>;
+
+/*!
+ * \ingroup group_manipulator
+ * \brief Pose aMb of a frame b in a frame a, as a rotation and a translation (m). ViSP's vpHomogeneousMatrix allocates.
+ */
+struct VISP_EXPORT vpRigidTransform {
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity(); //!< aRb.
+  Eigen::Vector3d p = Eigen::Vector3d::Zero();     //!< Origin of b in a, m.
+
+  //! aMc = aMb * bMc.
+  [[nodiscard]] vpRigidTransform operator*(const vpRigidTransform &bMc) const { return {R * bMc.R, p + R * bMc.p}; }
+  //! bMa.
+  [[nodiscard]] vpRigidTransform inverse() const { return {R.transpose(), -(R.transpose() * p)}; }
+  //! The same as a matrix of ViSP. Allocates.
+  [[nodiscard]] vpHomogeneousMatrix toHomogeneous() const;
+  //! From a matrix of ViSP.
+  [[nodiscard]] static vpRigidTransform fromHomogeneous(const vpHomogeneousMatrix &M);
+};
+
+END_VISP_NAMESPACE
+#endif

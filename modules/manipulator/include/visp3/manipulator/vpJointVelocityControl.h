@@ -1,0 +1,71 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpJointVelocityControl.h
+ * \brief Joint torques from joint velocities: PI.
+ */
+#ifndef vpJointVelocityControl_h
+#define vpJointVelocityControl_h
+
+#include <visp3/manipulator/vpJointFriction.h>
+
+BEGIN_VISP_NAMESPACE
+
+/*!
+ * \ingroup group_manipulator
+ * \brief Gains of vpJointVelocityControl, one of each a joint.
+ */
+struct VISP_EXPORT vpJointVelocityControlSpec {
+  double period = 0.001;           //!< Of the calls, s, > 0.
+  vpJointVector kp;                //!< K_p, Nm s/rad or N s/m, >= 0.
+  vpJointVector ki;                //!< K_i, Nm/rad or N/m, >= 0.
+  vpJointVector maxTorque;         //!< Nm or N, > 0; infinity: none.
+  bool compensateFriction = false; //!< Adds friction of the wanted velocity.
+  vpJointFriction friction;        //!< Used when compensateFriction.
+
+  /*!
+   * \throw vpException (badValue) naming the field and the joint that are out of range, and the value.
+   */
+  void validate() const;
+};
+
+/*!
+ * \class vpJointVelocityControl
+ * \ingroup group_manipulator
+ * \brief tau = K_p e' + K_i xi, xi' = e', thesis (3.20)-(3.21), e' the velocity error; the integral stands still where
+ * the torque is at its limit and would grow further.
+ */
+class VISP_EXPORT vpJointVelocityControl
+{
+public:
+  //! What a step is told; all of n numbers.
+  struct Input {
+    vpJointVector velocity;       //!< Measured or estimated, rad/s or m/s.
+    vpJointVector wantedVelocity; //!< q'_d.
+    vpJointVector feedforward;    //!< g(q), or zero, Nm or N.
+  };
+  //! What a step answers.
+  struct Output {
+    vpJointVector torque;       //!< Nm or N, within maxTorque.
+    unsigned int saturated = 0; //!< Bit i: joint i is at its torque limit.
+    bool valid = true;          //!< False: an input was not finite or of a wrong size; the torque is zero.
+  };
+
+  //! \throw vpException (badValue), see vpJointVelocityControlSpec::validate().
+  explicit vpJointVelocityControl(const vpJointVelocityControlSpec &spec);
+  //! Starts anew with an empty integral.
+  void reset() noexcept;
+  //! One cycle; no allocation, no exception.
+  void step(const Input &input, Output &output) noexcept;
+  //! xi, rad or m.
+  [[nodiscard]] const vpJointVector &integral() const noexcept { return m_integral; }
+
+private:
+  vpJointVelocityControlSpec m_spec;
+  vpJointVector m_integral;
+};
+
+END_VISP_NAMESPACE
+#endif

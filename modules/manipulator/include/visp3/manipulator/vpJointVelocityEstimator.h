@@ -1,0 +1,55 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpJointVelocityEstimator.h
+ * \brief Joint velocities from noisy joint positions.
+ */
+#ifndef vpJointVelocityEstimator_h
+#define vpJointVelocityEstimator_h
+
+#include <visp3/manipulator/vpArmTypes.h>
+
+BEGIN_VISP_NAMESPACE
+
+/*!
+ * \class vpJointVelocityEstimator
+ * \ingroup group_manipulator
+ * \brief Thesis 8.2.3: integrates instead of differentiating. A model q'' = a, integrated, is corrected by its position
+ * error with two equal poles at exp(-bandwidth period), so velocity has no steady error in a ramp and none in any
+ * motion whose acceleration is given.
+ */
+class VISP_EXPORT vpJointVelocityEstimator
+{
+public:
+  /*!
+   * \param size : Number of joints, 1..8.
+   * \param period : Of the calls, s, > 0.
+   * \param bandwidth : rad/s, > 0: low is smooth, high is quick.
+   * \throw vpException (badValue) naming the parameter that is out of range, and its value.
+   */
+  vpJointVelocityEstimator(int size, double period, double bandwidth);
+
+  //! Starts anew at the next reading, at rest.
+  void reset() noexcept;
+  /*!
+   * One cycle; no allocation, no exception. A reading that is not finite is left out: the model goes on.
+   * \param q : Measured positions, unwrapped, rad or m; of the right size.
+   * \param acceleration : That of the last period if known, rad/s^2 or m/s^2; empty: zero.
+   * \return Velocities now, rad/s or m/s.
+   */
+  const vpJointVector &step(const vpJointVector &q, const vpJointVector &acceleration = vpJointVector()) noexcept;
+  //! Velocities of the last step.
+  [[nodiscard]] const vpJointVector &velocity() const noexcept { return m_velocity; }
+  //! Smoothed positions of the last step.
+  [[nodiscard]] const vpJointVector &position() const noexcept { return m_position; }
+
+private:
+  double m_period, m_alpha, m_beta;
+  bool m_started = false;
+  vpJointVector m_position, m_velocity;
+};
+
+END_VISP_NAMESPACE
+#endif

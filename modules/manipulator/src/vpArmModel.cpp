@@ -1,0 +1,177 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include <visp3/core/vpException.h>
+#include <visp3/manipulator/vpArmModel.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include <cmath>
+#include <set>
+#include <sstream>
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+[[noreturn]] void fail(const vpArmSpec &spec, const std::string &sentence)
+{
+  const std::string where =
+      spec.source.empty() ? "arm " + (spec.name.empty() ? "without a name" : spec.name) : spec.source;
+  throw vpException(vpException::badValue, "%s: %s", where.c_str(), sentence.c_str());
+}
+
+std::string text(double value)
+{
+  std::ostringstream out;
+  out << value;
+  return out.str();
+}
+
+void positive(const vpArmSpec &spec, const std::string &what, double value)
+{
+  if (!(value > 0.)) {
+    fail(spec, what + " is " + text(value) + ", must be > 0");
+  }
+}
+
+void notNegative(const vpArmSpec &spec, const std::string &what, double value)
+{
+  if (!(value >= 0.) || !std::isfinite(value)) {
+    fail(spec, what + " is " + text(value) + ", must be >= 0 and finite");
+  }
+}
+
+void rigid(const vpArmSpec &spec, const std::string &what, const vpRigidTransform &T)
+{
+  if (!T.p.allFinite() || !T.R.allFinite() ||
+      (T.R * T.R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() > 1e-9 || T.R.determinant() < 0.) {
+    fail(spec, what + " is not a rotation and a finite translation");
+  }
+}
+
+void checkJoint(const vpArmSpec &spec, const vpArmJointSpec &joint, std::set<std::string> &names)
+{
+  if (joint.name.empty()) {
+    fail(spec, "a joint has no name");
+  }
+  if (!names.insert(joint.name).second) {
+    fail(spec, "joint " + joint.name + " stands twice");
+  }
+  const std::string of = " of joint " + joint.name;
+  rigid(spec, "frame before" + of, joint.before);
+  rigid(spec, "frame after" + of, joint.after);
+  if (!std::isfinite(joint.offset)) {
+    fail(spec, "offset" + of + " is " + text(joint.offset) + ", must be finite");
+  }
+  if (joint.type != vpJointType::Continuous &&
+      (!std::isfinite(joint.lower) || !std::isfinite(joint.upper) || !(joint.lower < joint.upper))) {
+    fail(spec, "limits" + of + " are " + text(joint.lower) + " and " + text(joint.upper) +
+                   ", must be finite and lower < upper");
+  }
+  positive(spec, "velocity limit" + of, joint.velocity);
+  positive(spec, "acceleration limit" + of, joint.acceleration);
+  positive(spec, "torque limit" + of, joint.torque);
+  notNegative(spec, "rotor inertia" + of, joint.rotorInertia);
+  notNegative(spec, "viscous friction" + of, joint.viscous);
+  notNegative(spec, "Coulomb friction" + of, joint.coulomb);
+}
+
+void checkLink(const vpArmSpec &spec, const vpArmLinkSpec &link)
+{
+  if (!link.hasMass) {
+    return;
+  }
+  const std::string of = " of link " + link.name;
+  positive(spec, "mass" + of, link.mass);
+  if (!std::isfinite(link.mass) || !link.com.allFinite() || !link.inertia.allFinite()) {
+    fail(spec, "mass, centre of mass or inertia" + of + " is not finite");
+  }
+  const Eigen::Vector3d moments = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(link.inertia).eigenvalues();
+  const double slack = 1e-9 * (1. + moments.cwiseAbs().maxCoeff());
+  if ((link.inertia - link.inertia.transpose()).cwiseAbs().maxCoeff() > slack || moments(0) < -slack ||
+      moments(0) + moments(1) < moments(2) - slack) {
+    fail(spec, "inertia" + of + " has the principal moments " + text(moments(0)) + ", " + text(moments(1)) + ", " +
+                   text(moments(2)) + " kg m^2, which no body has");
+  }
+}
+} // namespace
+
+vpArmJointSpec vpArmJointSpec::standardDH(double a, double alpha, double d, double offset)
+{
+  vpArmJointSpec joint;
+  joint.offset = offset;
+  joint.after.R = Eigen::AngleAxisd(alpha, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  joint.after.p << a, 0., d;
+  return joint;
+}
+
+vpArmModel::vpArmModel(const vpArmSpec &spec) : m_spec(spec), m_size(static_cast<int>(spec.joints.size()))
+{
+  if (m_size < 1 || m_size > vpArmMaxJoints) {
+    fail(spec, std::to_string(m_size) + " moving joints, must be 1 to " + std::to_string(vpArmMaxJoints));
+  }
+  if (!spec.links.empty() && spec.links.size() != spec.joints.size()) {
+    fail(spec, std::to_string(spec.links.size()) + " links for " + std::to_string(m_size) + " joints, must be as many");
+  }
+  std::set<std::string> names;
+  for (const vpArmJointSpec &joint : spec.joints) {
+    checkJoint(spec, joint, names);
+  }
+  m_hasMasses = !spec.links.empty();
+  for (const vpArmLinkSpec &link : spec.links) {
+    checkLink(spec, link);
+    m_hasMasses = m_hasMasses && link.hasMass;
+  }
+  rigid(spec, "tool", spec.tool);
+  rigid(spec, "camera", spec.camera);
+  for (const vpArmCapsule &capsule : spec.capsules) {
+    if (capsule.link < 0 || capsule.link > m_size) {
+      fail(spec,
+           "a capsule belongs to link " + std::to_string(capsule.link) + ", must be 0 to " + std::to_string(m_size));
+    }
+    positive(spec, "capsule radius of link " + std::to_string(capsule.link), capsule.radius);
+    if (!capsule.from.allFinite() || !capsule.to.allFinite() || !std::isfinite(capsule.radius)) {
+      fail(spec, "a capsule of link " + std::to_string(capsule.link) + " is not finite");
+    }
+  }
+
+  for (vpJointVector *vector : {&m_lower, &m_upper, &m_velocity, &m_acceleration, &m_torque}) {
+    vector->resize(m_size);
+  }
+  vpRigidTransform previous;
+  for (int i = 0; i < m_size; ++i) {
+    const std::size_t k = static_cast<std::size_t>(i);
+    const vpArmJointSpec &joint = spec.joints[k];
+    m_continuous[k] = joint.type == vpJointType::Continuous;
+    m_prismatic[k] = joint.type == vpJointType::Prismatic;
+    m_offset[k] = joint.offset;
+    m_step[k] = previous * joint.before;
+    previous = joint.after;
+    m_lower(i) = m_continuous[k] ? -infinity : joint.lower;
+    m_upper(i) = m_continuous[k] ? infinity : joint.upper;
+    m_velocity(i) = joint.velocity;
+    m_acceleration(i) = joint.acceleration;
+    m_torque(i) = joint.torque;
+  }
+  m_toolStep = previous * spec.tool;
+}
+
+void vpArmModel::requireMotionLimits(const char *user) const
+{
+  for (const vpArmJointSpec &joint : m_spec.joints) {
+    if (!std::isfinite(joint.velocity)) {
+      fail(m_spec, "velocity limit of joint " + joint.name + " is infinite, " + user + " needs one");
+    }
+    if (!std::isfinite(joint.acceleration)) {
+      fail(m_spec, "acceleration limit of joint " + joint.name + " is infinite, " + user + " needs one");
+    }
+  }
+}
+
+END_VISP_NAMESPACE

@@ -1,0 +1,304 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include <visp3/core/vpException.h>
+#include <visp3/manipulator/vpArmUrdf.h>
+
+#include <console_bridge/console.h>
+#include <urdf_model/model.h>
+#include <urdf_parser/urdf_parser.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <fstream>
+#include <mutex>
+#include <sstream>
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+[[noreturn]] void fail(const std::string &file, const std::string &sentence)
+{
+  throw vpException(vpException::badValue, "%s: %s", file.c_str(), sentence.c_str());
+}
+
+// urdfdom says what is wrong to a handler of the whole process, and answers with an empty pointer. The first
+// sentence says what, the second where; more than two say the same again.
+class Listener : public console_bridge::OutputHandler
+{
+public:
+  Listener() { console_bridge::useOutputHandler(this); }
+  ~Listener() override { console_bridge::restorePreviousOutputHandler(); }
+  Listener(const Listener &) = delete;
+  Listener &operator=(const Listener &) = delete;
+  void log(const std::string &text, console_bridge::LogLevel level, const char *, int) override
+  {
+    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR && m_count++ < 2) {
+      m_text += (m_text.empty() ? "" : "; ") + text;
+      std::replace(m_text.begin(), m_text.end(), '\n', ' ');
+    }
+  }
+  [[nodiscard]] const std::string &text() const { return m_text; }
+
+private:
+  std::string m_text;
+  int m_count = 0;
+};
+
+urdf::ModelInterfaceSharedPtr parse(const std::string &file)
+{
+  std::ifstream in(file);
+  if (!in) {
+    throw vpException(vpException::ioError, "%s: cannot be read", file.c_str());
+  }
+  std::stringstream text;
+  text << in.rdbuf();
+  static std::mutex mutex; // the handler is one for the process
+  const std::lock_guard<std::mutex> lock(mutex);
+  const Listener listener;
+  urdf::ModelInterfaceSharedPtr tree;
+  try {
+    tree = urdf::parseURDF(text.str());
+  }
+  catch (const std::exception &e) {
+    fail(file, e.what());
+  }
+  // A malformed element is reported, and the tree may come all the same, with the element left out.
+  if (!tree || !listener.text().empty()) {
+    fail(file, listener.text().empty() ? "is no URDF" : listener.text());
+  }
+  return tree;
+}
+
+vpRigidTransform pose(const urdf::Pose &from)
+{
+  vpRigidTransform T;
+  T.R = Eigen::Quaterniond(from.rotation.w, from.rotation.x, from.rotation.y, from.rotation.z)
+            .normalized()
+            .toRotationMatrix();
+  T.p << from.position.x, from.position.y, from.position.z;
+  return T;
+}
+
+vpArmLinkSpec massOf(const urdf::Link &link)
+{
+  vpArmLinkSpec spec;
+  spec.name = link.name;
+  spec.hasMass = link.inertial != nullptr;
+  if (spec.hasMass) {
+    const urdf::Inertial &from = *link.inertial;
+    const vpRigidTransform at = pose(from.origin);
+    spec.mass = from.mass;
+    spec.com = at.p;
+    Eigen::Matrix3d I;
+    I << from.ixx, from.ixy, from.ixz, from.ixy, from.iyy, from.iyz, from.ixz, from.iyz, from.izz;
+    spec.inertia = at.R * I * at.R.transpose();
+  }
+  return spec;
+}
+
+Eigen::Matrix3d steiner(double mass, const Eigen::Vector3d &r)
+{
+  return mass * (r.squaredNorm() * Eigen::Matrix3d::Identity() - r * r.transpose());
+}
+
+// A body that is fixed to a link at a pose becomes part of it.
+void carry(vpArmLinkSpec &link, const vpArmLinkSpec &part, const vpRigidTransform &at)
+{
+  if (!part.hasMass) {
+    return;
+  }
+  const Eigen::Vector3d com = at.R * part.com + at.p;
+  const Eigen::Matrix3d inertia = at.R * part.inertia * at.R.transpose();
+  if (!link.hasMass) {
+    link.hasMass = true;
+    link.mass = part.mass;
+    link.com = com;
+    link.inertia = inertia;
+    return;
+  }
+  const double mass = link.mass + part.mass;
+  const Eigen::Vector3d both = (link.mass * link.com + part.mass * com) / mass;
+  link.inertia += steiner(link.mass, link.com - both) + inertia + steiner(part.mass, com - both);
+  link.mass = mass;
+  link.com = both;
+}
+
+void surface(const urdf::Link &link, int number, const vpRigidTransform &at, std::vector<vpArmCapsule> &capsules)
+{
+  for (const urdf::CollisionSharedPtr &collision : link.collision_array) {
+    if (!collision->geometry) {
+      continue;
+    }
+    const vpRigidTransform T = at * pose(collision->origin);
+    double half = 0.; // of the segment, along z
+    Eigen::Vector3d direction = T.R.col(2);
+    vpArmCapsule capsule;
+    if (const auto *cylinder = dynamic_cast<const urdf::Cylinder *>(collision->geometry.get())) {
+      // Encloses the rims as well, so it reaches past the flat ends.
+      capsule.radius = cylinder->radius;
+      half = 0.5 * cylinder->length;
+    }
+    else if (const auto *sphere = dynamic_cast<const urdf::Sphere *>(collision->geometry.get())) {
+      capsule.radius = sphere->radius;
+    }
+    else if (const auto *box = dynamic_cast<const urdf::Box *>(collision->geometry.get())) {
+      const double size[3] = {box->dim.x, box->dim.y, box->dim.z};
+      const int k = static_cast<int>(std::max_element(size, size + 3) - size);
+      capsule.radius = 0.5 * std::hypot(size[(k + 1) % 3], size[(k + 2) % 3]);
+      half = 0.5 * size[k];
+      direction = T.R.col(k);
+    }
+    else {
+      continue;
+    }
+    capsule.link = number;
+    capsule.from = T.p - half * direction;
+    capsule.to = T.p + half * direction;
+    capsules.push_back(capsule);
+  }
+}
+
+urdf::LinkConstSharedPtr find(const urdf::ModelInterface &tree, const std::string &file, const std::string &name)
+{
+  const urdf::LinkConstSharedPtr link = tree.getLink(name);
+  if (!link) {
+    fail(file, "there is no link " + name);
+  }
+  return link;
+}
+
+std::string onlyLeaf(const urdf::ModelInterface &tree, const std::string &file)
+{
+  std::vector<std::string> leaves;
+  for (const auto &item : tree.links_) {
+    if (item.second->child_links.empty()) {
+      leaves.push_back(item.first);
+    }
+  }
+  if (leaves.size() != 1) {
+    std::string names;
+    for (const std::string &name : leaves) {
+      names += (names.empty() ? "" : ", ") + name;
+    }
+    fail(file, "the end effector is not unique, name one of the links " + names);
+  }
+  return leaves.front();
+}
+
+// Joints from a link down to another one, in this order.
+std::vector<urdf::JointSharedPtr> path(const urdf::ModelInterface &tree, const std::string &file,
+                                       const std::string &base, const std::string &tip)
+{
+  std::vector<urdf::JointSharedPtr> joints;
+  urdf::LinkConstSharedPtr link = find(tree, file, tip);
+  static_cast<void>(find(tree, file, base));
+  while (link->name != base) {
+    if (!link->parent_joint) {
+      fail(file, "link " + tip + " is not below link " + base);
+    }
+    joints.push_back(link->parent_joint);
+    link = find(tree, file, link->parent_joint->parent_link_name);
+  }
+  std::reverse(joints.begin(), joints.end());
+  return joints;
+}
+
+vpArmJointSpec moving(const urdf::Joint &from, const std::string &file, const vpArmUrdfOptions &options)
+{
+  vpArmJointSpec joint;
+  joint.name = from.name;
+  if (from.mimic) {
+    fail(file, "joint " + from.name + " mimics joint " + from.mimic->joint_name + ", which this model cannot express");
+  }
+  switch (from.type) {
+  case urdf::Joint::REVOLUTE:
+    joint.type = vpJointType::Revolute;
+    break;
+  case urdf::Joint::CONTINUOUS:
+    joint.type = vpJointType::Continuous;
+    break;
+  case urdf::Joint::PRISMATIC:
+    joint.type = vpJointType::Prismatic;
+    break;
+  default:
+    fail(file, "joint " + from.name + " is floating or planar, must be revolute, continuous, prismatic or fixed");
+  }
+  const Eigen::Vector3d axis(from.axis.x, from.axis.y, from.axis.z);
+  if (!(axis.norm() > 1e-9)) {
+    fail(file, "axis of joint " + from.name + " is zero");
+  }
+  // Our joints move about z: turn it to the axis, and back after the motion.
+  const Eigen::Matrix3d turn = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis).toRotationMatrix();
+  joint.before = pose(from.parent_to_joint_origin_transform) * vpRigidTransform{turn, Eigen::Vector3d::Zero()};
+  joint.after.R = turn.transpose();
+  if (from.limits) {
+    joint.lower = from.limits->lower;
+    joint.upper = from.limits->upper;
+    joint.velocity = from.limits->velocity;
+    joint.torque = from.limits->effort;
+  }
+  joint.acceleration = options.acceleration;
+  if (from.dynamics) {
+    joint.viscous = from.dynamics->damping;
+    joint.coulomb = from.dynamics->friction;
+  }
+  return joint;
+}
+} // namespace
+
+vpArmModel vpLoadArmUrdf(const std::string &file, const vpArmUrdfOptions &options)
+{
+  const urdf::ModelInterfaceSharedPtr tree = parse(file);
+  const std::string base = options.base.empty() ? tree->getRoot()->name : options.base;
+  const std::string tip = options.tip.empty() ? onlyLeaf(*tree, file) : options.tip;
+  vpArmSpec spec;
+  spec.source = file;
+  spec.name = tree->getName();
+  surface(*find(*tree, file, base), 0, {}, spec.capsules);
+  vpRigidTransform fixed; // from the last moving link to the present one
+  for (const urdf::JointSharedPtr &from : path(*tree, file, base, tip)) {
+    const urdf::LinkConstSharedPtr child = find(*tree, file, from->child_link_name);
+    if (from->type == urdf::Joint::FIXED) {
+      fixed = fixed * pose(from->parent_to_joint_origin_transform);
+      if (!spec.links.empty()) {
+        const vpArmLinkSpec part = massOf(*child);
+        if (part.hasMass && !(part.mass > 0.)) {
+          fail(file, "mass of link " + part.name + " is " + std::to_string(part.mass) + ", must be > 0");
+        }
+        carry(spec.links.back(), part, fixed);
+      }
+    }
+    else {
+      vpArmJointSpec joint = moving(*from, file, options);
+      joint.before = fixed * joint.before;
+      fixed = {};
+      spec.joints.push_back(joint);
+      spec.links.push_back(massOf(*child));
+    }
+    surface(*child, static_cast<int>(spec.joints.size()), fixed, spec.capsules);
+  }
+  spec.tool = fixed;
+  if (!options.camera.empty()) {
+    // Up or down from the end effector over fixed joints only.
+    const auto toCommon = [&](const std::string &from) {
+      vpRigidTransform T;
+      for (const urdf::JointSharedPtr &joint :
+           path(*tree, file, spec.joints.empty() ? base : tree->getJoint(spec.joints.back().name)->child_link_name,
+                from)) {
+        if (joint->type != urdf::Joint::FIXED) {
+          fail(file, "joint " + joint->name + " between the end effector and the camera is not fixed");
+        }
+        T = T * pose(joint->parent_to_joint_origin_transform);
+      }
+      return T;
+    };
+    spec.camera = toCommon(tip).inverse() * toCommon(options.camera);
+  }
+  return vpArmModel(spec);
+}
+
+END_VISP_NAMESPACE

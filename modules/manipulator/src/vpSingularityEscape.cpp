@@ -1,0 +1,149 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "vpSingularityEscape.h"
+
+#include <algorithm>
+#include <cmath>
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+using vpTaskLevel::Joints;
+using vpTaskLevel::Square;
+
+// Eigenvectors (columns of V) and eigenvalues of the symmetric upper left d x d part, by Jacobi's rotations: d is 2 or
+// 3 mostly.
+void eigen(Square A, int d, Square &V, Joints &values)
+{
+  V.setIdentity();
+  for (int sweep = 0; sweep < 20; ++sweep) {
+    double off = 0.;
+    for (int i = 0; i < d; ++i) {
+      for (int j = i + 1; j < d; ++j) {
+        const double c = A(i, j);
+        off = std::max(off, std::fabs(c));
+        if (c == 0.) {
+          continue;
+        }
+        const double theta = (A(j, j) - A(i, i)) / (2. * c);
+        const double t = std::copysign(1., theta) / (std::fabs(theta) + std::sqrt(1. + theta * theta));
+        const double cosine = 1. / std::sqrt(1. + t * t), sine = t * cosine;
+        for (Square *M : {&A, &V}) {
+          const Joints x = M->col(i);
+          M->col(i) = cosine * x - sine * M->col(j);
+          M->col(j) = sine * x + cosine * M->col(j);
+        }
+        const Joints row = A.row(i).transpose();
+        A.row(i) = (cosine * row - sine * A.row(j).transpose()).transpose();
+        A.row(j) = (sine * row + cosine * A.row(j).transpose()).transpose();
+      }
+    }
+    if (off < 1e-14) {
+      break;
+    }
+  }
+  values = A.diagonal();
+}
+} // namespace
+
+namespace vpSingularityEscape
+{
+Square curvature(const vpArmModel &model, const vpArmData &data, vpArmFrame frame,
+                 const Eigen::Matrix<double, 6, 1> &lost, const Joints &scale)
+{
+  Square H = Square::Zero();
+  for (int k = 0; k < data.size; ++k) {
+    const vpArmJacobian D = vpArmKinematics::derivative(model, data, k, frame);
+    for (int l = 0; l < data.size; ++l) {
+      H(k, l) = scale(k) * scale(l) * lost.dot(D.col(l));
+    }
+  }
+  return H;
+}
+
+Room room(const vpTaskLevel::Basis &taken, const Joints &mayMove)
+{
+  Room space;
+  vpTaskLevel::Basis all = taken;
+  for (;;) {
+    // The joint of which most is left, so that the vectors are well defined.
+    Joints best = Joints::Zero();
+    double most = 0.1;
+    for (int i = 0; i < vpArmMaxJoints; ++i) {
+      if (mayMove(i) > 0.) {
+        const Joints left = all.free(Joints::Unit(i));
+        if (left.norm() > most) {
+          most = left.norm();
+          best = left;
+        }
+      }
+    }
+    if (!(best.squaredNorm() > 0.)) {
+      return space;
+    }
+    best /= most;
+    all.add(best);
+    space.vectors.col(space.count++) = best;
+  }
+}
+
+bool direction(const Room &space, const Square &H, double sense, const Joints &slope, const Joints &motion, Joints &z)
+{
+  const int d = space.count;
+  if (d == 0) {
+    return false;
+  }
+  const double flat = 1e-3 * (1e-3 + H.cwiseAbs().maxCoeff());
+  const Square symmetric = 0.5 * sense * (H + H.transpose());
+  // All in the coordinates of the room; beyond d there are zeros.
+  const Joints pull = space.vectors.transpose() * (symmetric * motion); // how the motion gains by a self-motion
+  const Square inside = space.vectors.transpose() * symmetric * space.vectors;
+  Square V;
+  Joints values;
+  eigen(inside, d, V, values);
+  int top = 0;
+  Square neutral = Square::Zero(); // self-motion that does not bend the arm away from the demand
+  for (int i = 0; i < d; ++i) {
+    top = values(i) > values(top) ? i : top;
+    if (values(i) > -flat) {
+      neutral += V.col(i) * V.col(i).transpose();
+    }
+  }
+  const Joints turning = neutral * pull;
+  if (values(top) > flat) {
+    // Bends the arm: moves along the demand whichever way it goes.
+    z = V.col(top);
+  }
+  else if (turning.norm() > flat * std::max(1e-3, motion.norm())) {
+    // Turns the lost direction away from the demand.
+    z = space.vectors * turning.normalized();
+    return true;
+  }
+  else {
+    // The demand is the lost direction itself: turn it, either way does.
+    const Square change = neutral * (space.vectors.transpose() * H);
+    eigen(change * change.transpose(), d, V, values);
+    top = 0;
+    for (int i = 1; i < d; ++i) {
+      top = values(i) > values(top) ? i : top;
+    }
+    if (values(top) < flat * flat) {
+      return false;
+    }
+    z = V.col(top);
+  }
+  const double second = pull.dot(z);
+  z = (space.vectors * z).eval();
+  // Of the two signs the one that already serves the demand, so that the arm does not turn round on its way out.
+  const double first = sense * slope.dot(z);
+  if ((std::fabs(first) > 1e-6 ? first : second) < 0.) {
+    z = -z;
+  }
+  return true;
+}
+} // namespace vpSingularityEscape
+
+END_VISP_NAMESPACE

@@ -1,0 +1,229 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// What is in the files arrives, and what is wrong with them is said in one sentence with the file and the element.
+#include "vpArmTestKit.h"
+#include "vpCatch.h"
+
+#include <visp3/core/vpException.h>
+
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+
+using namespace vpArmTestKit;
+
+namespace
+{
+std::string contentOf(const std::string &file)
+{
+  std::ifstream in(file);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+// A copy of a file with one piece replaced, in the working folder; removed again.
+class Broken
+{
+public:
+  Broken(const std::string &original, const std::string &from, const std::string &to)
+    : m_name("catchArmFiles-broken" + original.substr(original.rfind('.')))
+  {
+    std::string text = contentOf(dataFile(original));
+    const std::size_t place = text.find(from);
+    REQUIRE(place != std::string::npos);
+    text.replace(place, from.size(), to);
+    std::ofstream(m_name) << text;
+  }
+  ~Broken() { std::remove(m_name.c_str()); }
+  Broken(const Broken &) = delete;
+  Broken &operator=(const Broken &) = delete;
+  [[nodiscard]] const std::string &name() const { return m_name; }
+
+private:
+  std::string m_name;
+};
+
+std::string jsonError(const std::string &from, const std::string &to)
+{
+  const Broken file("amor.json", from, to);
+  try {
+    static_cast<void>(vpLoadArmJson(file.name()));
+  }
+  catch (const vpException &e) {
+    return e.getStringMessage();
+  }
+  return "no error";
+}
+
+std::string urdfError(const std::string &from, const std::string &to, const std::string &tip = "tool")
+{
+  const Broken file("generic-6r.urdf", from, to);
+  vpArmUrdfOptions options;
+  options.tip = tip;
+  try {
+    static_cast<void>(vpLoadArmUrdf(file.name(), options));
+  }
+  catch (const vpException &e) {
+    return e.getStringMessage();
+  }
+  return "no error";
+}
+
+std::string specError(const vpArmSpec &spec)
+{
+  try {
+    static_cast<void>(vpArmModel(spec));
+  }
+  catch (const vpException &e) {
+    return e.getStringMessage();
+  }
+  return "no error";
+}
+} // namespace
+
+TEST_CASE("AMOR's file holds the note's ranges", "[files]")
+{
+  const vpArmModel &model = amor();
+  CHECK(model.size() == 7);
+  for (const int i : {0, 4, 6}) {
+    CHECK(model.isContinuous(i));
+    CHECK(std::isinf(model.upper()(i)));
+  }
+  const double degree = pi / 180.;
+  CHECK(model.lower()(1) == Approx(-15. * degree));
+  CHECK(model.upper()(1) == Approx(135. * degree));
+  CHECK(model.lower()(2) == Approx(-120. * degree));
+  CHECK(model.lower()(3) == Approx(-165. * degree));
+  CHECK(model.upper()(3) == 0.);
+  CHECK(model.upper()(5) == Approx(87.5 * degree));
+  CHECK(model.offset(1) == Approx(pi));
+  CHECK(model.spec().capsules.size() == 4);
+  CHECK_NOTHROW(model.requireMotionLimits("the test"));
+  CHECK(model.hasMasses());
+}
+
+TEST_CASE("The URDF's chain is read with limits, masses, capsules and camera", "[files]")
+{
+  const vpArmModel &model = sixAxes();
+  CHECK(model.size() == 6);
+  CHECK(model.isContinuous(0));
+  CHECK(model.lower()(1) == -1.9);
+  CHECK(model.velocity()(5) == 5.);
+  CHECK(model.acceleration()(5) == 12.);
+  CHECK(model.torque()(5) == 15.);
+  CHECK(model.spec().joints[2].viscous == 2.);
+  CHECK(model.spec().links[5].mass == Approx(0.8)); // flange and tool
+  CHECK(model.spec().capsules.size() == 5);
+  vpArmUrdfOptions options;
+  options.tip = "camera";
+  const vpArmModel camera = vpLoadArmUrdf(dataFile("generic-6r.urdf"), options);
+  vpArmData a, b;
+  const vpJointVector q = vector({0.3, 0.2, -0.4, 0.5, 0.6, 0.7});
+  vpArmKinematics::forward(model, q, a);
+  vpArmKinematics::forward(camera, q, b);
+  CHECK(difference(vpArmKinematics::camera(model, a), b.tool) < 1e-12);
+  CHECK_THROWS_WITH(camera.requireMotionLimits("the redundancy solver"),
+                    Catch::Contains("generic-6r.urdf: acceleration limit of joint base_yaw is infinite, the redundancy "
+                                    "solver needs one"));
+}
+
+TEST_CASE("Errors in JSON name the file and the field", "[files]")
+{
+  const std::string file = "catchArmFiles-broken.json: ";
+  CHECK(jsonError("\"joints\": [", "\"joints\": ").find(file + "parse error at line") == 0);
+  CHECK(jsonError("\"a_m\": 0.0623, ", "") == file + "joints[0].a_m is missing");
+  CHECK(jsonError("\"a_m\": 0.0623", "\"a_m\": \"long\"") == file + "joints[0].a_m must be a number");
+  CHECK(jsonError("\"a_m\": 0.0623", "\"a_m\": 0.0623, \"colour\": 3") ==
+        file + "joints[0].colour is not a known field");
+  CHECK(jsonError("\"continuous\"", "\"rolling\"") ==
+        file + "joints[0].type is rolling, must be revolute, continuous or prismatic");
+  CHECK(jsonError("\"mass_kg\": 2.4", "\"mass_kg\": -2.4") == file + "mass of link link2 is -2.4, must be > 0");
+  CHECK(jsonError("\"mass_kg\": 2.4", "\"mass_kg\": 0") == file + "mass of link link2 is 0, must be > 0");
+  CHECK(jsonError("\"upper_deg\": 135", "\"upper_deg\": -135")
+            .find(file + "limits of joint q2 are -0.261799 and -2.35619") == 0);
+  CHECK(jsonError("\"lower_deg\": -15, ", "") == file + "joints[1].lower_deg is missing");
+  CHECK(jsonError("\"velocity\": 1.5", "\"velocity\": -1.5") ==
+        file + "velocity limit of joint q1 is -1.5, must be > 0");
+  CHECK(jsonError("\"name\": \"q2\"", "\"name\": \"q1\"") == file + "joint q1 stands twice");
+  CHECK(jsonError("\"link\": 3", "\"link\": 9") == file + "a capsule belongs to link 9, must be 0 to 7");
+  CHECK(jsonError("[0, 0, 0.1755]", "[0, 0.1755]") == file + "tool.translation_m must be a list of 3 numbers");
+  CHECK(jsonError("\"inertia_kg_m2\": [0.013, 0.013, 0.013", "\"inertia_kg_m2\": [0.013, 0.013, 0.13")
+            .find(file + "inertia of link link1 has the principal moments") == 0);
+  CHECK_THROWS_WITH(vpLoadArmJson("nowhere.json"), Catch::Contains("nowhere.json: cannot be read"));
+}
+
+TEST_CASE("Errors in URDF name the file and the element", "[files]")
+{
+  const std::string file = "catchArmFiles-broken.urdf: ";
+  const auto says = [&file](const std::string &message, const std::string &element) {
+    CAPTURE(message);
+    CHECK(message.find(file) == 0);
+    CHECK(message.find(element) != std::string::npos);
+    CHECK(message.find('\n') == std::string::npos);
+  };
+  says(urdfError("</robot>", ""), "Error");
+  says(urdfError("<robot name", "<arm name"), "Error");
+  says(urdfError("<child link=\"forearm\"/>", "<child link=\"missing\"/>"), "missing");
+  says(urdfError("<parent link=\"forearm\"/>", "<parent link=\"nobody\"/>"), "nobody");
+  says(urdfError("<limit lower=\"-1.9\" upper=\"2.2\" effort=\"200\" velocity=\"2.4\"/>", ""), "shoulder");
+  says(urdfError("<mass value=\"7.2\"/>", "<mass value=\"-7.2\"/>"), "mass of link upper_arm is -7.2, must be > 0");
+  says(urdfError("<mass value=\"0.6\"/>", "<mass value=\"0\"/>"), "mass of link tool is 0");
+  says(urdfError("<mass value=\"7.2\"/>", "<mass value=\"heavy\"/>"), "upper_arm");
+  says(urdfError("<axis xyz=\"0 -1 0\"/>", "<axis xyz=\"0 0 0\"/>"), "axis of joint elbow is zero");
+  says(urdfError("name=\"elbow\" type=\"revolute\"", "name=\"elbow\" type=\"floating\""),
+       "joint elbow is floating or planar");
+  says(urdfError("<dynamics damping=\"2.0\" friction=\"3.0\"/>", "<mimic joint=\"shoulder\"/>"),
+       "joint elbow mimics joint shoulder");
+  says(urdfError("tool_mount", "tool_mount", ""), "the end effector is not unique, name one of the links camera, tool");
+  says(urdfError("tool_mount", "tool_mount", "hand"), "there is no link hand");
+  says(urdfError("lower=\"-1.9\"", "lower=\"2.9\""), "limits of joint shoulder are 2.9 and 2.2");
+  CHECK_THROWS_WITH(vpLoadArmUrdf("nowhere.urdf"), Catch::Contains("nowhere.urdf: cannot be read"));
+  vpArmUrdfOptions options;
+  options.base = "tool";
+  options.tip = "forearm";
+  CHECK_THROWS_WITH(vpLoadArmUrdf(dataFile("generic-6r.urdf"), options),
+                    Catch::Contains("link forearm is not below link tool"));
+}
+
+TEST_CASE("A continuous joint without a limit of velocity is refused where one is needed", "[files]")
+{
+  const Broken file("generic-6r.urdf", "<limit effort=\"200\" velocity=\"2.6\"/>", "");
+  vpArmUrdfOptions options;
+  options.tip = "tool";
+  options.acceleration = 5.;
+  const vpArmModel model = vpLoadArmUrdf(file.name(), options);
+  CHECK_THROWS_WITH(model.requireMotionLimits("the redundancy solver"),
+                    Catch::Contains("velocity limit of joint base_yaw is infinite, the redundancy solver needs one"));
+}
+
+TEST_CASE("A model by hand is checked as one from a file", "[files]")
+{
+  const auto says = [](const vpArmSpec &spec, const std::string &sentence) {
+    CHECK(specError(spec) == "arm mixed: " + sentence);
+  };
+  vpArmSpec spec = mixed().spec();
+  spec.joints.clear();
+  spec.links.clear();
+  says(spec, "0 moving joints, must be 1 to 8");
+  spec = mixed().spec();
+  spec.links.pop_back();
+  says(spec, "3 links for 4 joints, must be as many");
+  spec = mixed().spec();
+  spec.joints[1].before.R(0, 0) += 0.1;
+  says(spec, "frame before of joint m1 is not a rotation and a finite translation");
+  spec = mixed().spec();
+  spec.joints[1].offset = NAN;
+  says(spec, "offset of joint m1 is nan, must be finite");
+  spec = mixed().spec();
+  spec.joints[3].acceleration = 0.;
+  says(spec, "acceleration limit of joint m3 is 0, must be > 0");
+  spec = mixed().spec();
+  spec.joints[2].coulomb = -1.;
+  says(spec, "Coulomb friction of joint m2 is -1, must be >= 0 and finite");
+  spec = mixed().spec();
+  spec.tool.R *= 2.;
+  says(spec, "tool is not a rotation and a finite translation");
+}

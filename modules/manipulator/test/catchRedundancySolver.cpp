@@ -1,0 +1,468 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// One step of the solver: inverse, projection, priorities, singularities, limits, errors.
+#include "vpArmTestKit.h"
+#include "vpCatch.h"
+
+#include <visp3/core/vpException.h>
+#include <visp3/manipulator/vpJointBounds.h>
+#include <visp3/manipulator/vpRedundancySolver.h>
+
+#include <Eigen/LU>
+
+#include <iostream>
+
+using namespace vpArmTestKit;
+
+namespace
+{
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+// Limits so wide that they do not matter.
+vpArmModel unlimited(const vpArmModel &model)
+{
+  vpArmSpec spec = model.spec();
+  for (vpArmJointSpec &joint : spec.joints) {
+    joint.velocity = joint.acceleration = 1e6;
+    joint.lower -= 100.;
+    joint.upper += 100.;
+  }
+  return vpArmModel(spec);
+}
+
+vpRedundancyInput input(int n, const Vector6 &twist, vpArmFrame frame = vpArmFrame::Base)
+{
+  vpRedundancyInput in;
+  in.twist = vpTwist(twist(0), twist(1), twist(2), twist(3), twist(4), twist(5));
+  in.frame = frame;
+  in.previous = vpJointVector::Zero(n);
+  return in;
+}
+
+Vector6 randomTwist(std::mt19937_64 &rng)
+{
+  Vector6 v;
+  for (int i = 0; i < 6; ++i) {
+    v(i) = uniform(rng, -0.3, 0.3);
+  }
+  return v;
+}
+
+vpArmData at(const vpArmModel &model, const vpJointVector &q)
+{
+  vpArmData data;
+  vpArmKinematics::update(model, q, data);
+  return data;
+}
+
+vpJointVector randomWeights(int n, std::mt19937_64 &rng)
+{
+  vpJointVector w(n);
+  for (int i = 0; i < n; ++i) {
+    w(i) = std::exp(uniform(rng, -2., 2.));
+  }
+  return w;
+}
+} // namespace
+
+TEST_CASE("Away from singularities the inverse is (3.23) and the self-motion is N W^-1 grad m", "[solver]")
+{
+  auto rng = vpTestSupport::generator(31);
+  CAPTURE(vpTestSupport::seed());
+  const vpArmModel model = unlimited(amor());
+  int regular = 0, descents = 0;
+  for (int problem = 0; problem < 3000; ++problem) {
+    vpRedundancySpec spec;
+    spec.weights = randomWeights(7, rng);
+    spec.singularRegion = 1e-3;
+    spec.softGradient = 1e-9;
+    const vpRedundancySolver solver(model, spec);
+    const vpArmData data = at(model, configuration(amor(), rng));
+    const vpArmFrame frame = problem % 3 == 0   ? vpArmFrame::Base
+                             : problem % 3 == 1 ? vpArmFrame::EndEffector
+                                                : vpArmFrame::Camera;
+    const Vector6 twist = randomTwist(rng);
+    vpRedundancyInput in = input(7, twist, frame);
+    vpRedundancyOutput out;
+    solver.step(data, in, out);
+    if (out.smallestSingular < 0.02) {
+      continue;
+    }
+    ++regular;
+    const Eigen::MatrixXd J = vpArmKinematics::geometric(model, data, frame);
+    const Eigen::MatrixXd Winv = spec.weights.cwiseInverse().asDiagonal();
+    const Eigen::MatrixXd inverse = Winv * J.transpose() * (J * Winv * J.transpose()).inverse();
+    const Eigen::VectorXd expected = inverse * twist;
+    REQUIRE((out.velocity - expected).norm() < 1e-7 * (1. + expected.norm()));
+    REQUIRE(out.status == vpRedundancyStatus::Exact);
+    REQUIRE(out.taskShare == Approx(1.));
+
+    in.indices[0] = vpSelfMotionIndex::posture(configuration(amor(), rng));
+    in.indexCount = 1;
+    solver.step(data, in, out);
+    vpIndexValue index;
+    REQUIRE(vpEvaluateIndex(model, data, in.indices[0], index));
+    const Eigen::MatrixXd N = Eigen::MatrixXd::Identity(7, 7) - inverse * J;
+    const Eigen::VectorXd projected = N * Winv * index.gradient;
+    // k0 as corrected: half the length of the task's motion.
+    const Eigen::VectorXd self = 0.5 * std::max(expected.norm(), spec.minSelfMotion) * projected.normalized();
+    REQUIRE((out.selfMotion - self).norm() < 1e-6 * (1. + self.norm()));
+    REQUIRE((J * out.selfMotion).norm() < 1e-9 * (1. + self.norm()));
+    REQUIRE(index.gradient.dot(out.selfMotion) > 0.);
+    descents += index.gradient.dot(N * index.gradient) < 0. ? 1 : 0; // as printed
+  }
+  std::cout << "N grad m, as printed, descends in " << 100. * descents / regular << " % of " << regular << " cases\n";
+  CHECK(regular > 1500);
+  CHECK(descents > regular / 20);
+}
+
+TEST_CASE("Tasks keep their order", "[solver]")
+{
+  auto rng = vpTestSupport::generator(32);
+  CAPTURE(vpTestSupport::seed());
+  const vpArmModel model = unlimited(amor());
+  vpRedundancySpec spec;
+  spec.singularRegion = 1e-3;
+  const vpRedundancySolver solver(model, spec);
+  double with = 0., without = 0.;
+  for (int problem = 0; problem < 1000; ++problem) {
+    const vpArmData data = at(model, configuration(amor(), rng));
+    const Vector6 twist = randomTwist(rng);
+    vpRedundancyInput in = input(7, twist);
+    // The turn about the tool's own axis is free: two joints are to spare.
+    in.frame = vpArmFrame::EndEffector;
+    in.free[5] = true;
+    vpRedundancyOutput out;
+    solver.step(data, in, out);
+    const Eigen::MatrixXd J = vpArmKinematics::geometric(model, data, in.frame);
+    if (out.smallestSingular < 0.02) {
+      continue;
+    }
+    REQUIRE((J * out.velocity - twist).head(5).norm() < 1e-8);
+    const auto partial = vpArmKinematics::pointJacobian(model, data, 3);
+    const Eigen::Vector3d wanted(0.1, -0.05, 0.08);
+    without += (partial * out.velocity - wanted).norm();
+    in.tasks[0] = vpArmTask::pointVelocity(model, data, 3, wanted);
+    in.taskCount = 1;
+    in.indices[0] = vpSelfMotionIndex::jointLimits();
+    in.indexCount = 1;
+    solver.step(data, in, out);
+    REQUIRE((J * out.velocity - twist).head(5).norm() < 1e-7);
+    with += (partial * (out.velocity - out.selfMotion) - wanted).norm();
+  }
+  std::cout << "error of the lower task, sum: " << with << ", without it " << without << '\n';
+  CHECK(with < 0.8 * without);
+}
+
+TEST_CASE("No velocity or acceleration ever exceeds its limit", "[limits]")
+{
+  auto rng = vpTestSupport::generator(33);
+  CAPTURE(vpTestSupport::seed());
+  double velocity = -1., acceleration = -1.;
+  for (int problem = 0; problem < 20000; ++problem) {
+    const vpArmModel &model = problem % 2 == 0 ? amor() : sixAxes();
+    const int n = model.size();
+    vpRedundancySpec spec;
+    spec.policy = problem % 4 < 2 ? vpLimitPolicy::StopJoints : vpLimitPolicy::ScaleMotion;
+    const vpRedundancySolver solver(model, spec);
+    vpJointVector q = configuration(model, rng);
+    if (problem % 5 == 0) { // beyond a limit, or exactly at one
+      q(1) = problem % 10 == 0 ? model.upper()(1) : model.upper()(1) + 0.1;
+    }
+    if (problem % 7 == 0) {
+      q(n - 2) = 0.;
+    }
+    vpRedundancyInput in = input(n, 10. * uniform(rng, 0., 1.) * randomTwist(rng), vpArmFrame::Camera);
+    in.previous = model.velocity().cwiseProduct(randomVector(n, rng));
+    in.indices[0] = vpSelfMotionIndex::manipulability(100.);
+    in.indices[1] = vpSelfMotionIndex::jointLimits();
+    in.indexCount = 2;
+    vpRedundancyOutput out;
+    solver.step(at(model, q), in, out);
+    CAPTURE(problem, out.velocity.transpose(), in.previous.transpose(), q.transpose());
+    REQUIRE(out.velocity.allFinite());
+    velocity = std::max(velocity, (out.velocity.cwiseAbs() - model.velocity()).maxCoeff());
+    acceleration = std::max(acceleration,
+                            ((out.velocity - in.previous).cwiseAbs() / spec.period - model.acceleration()).maxCoeff());
+    REQUIRE(velocity <= 0.);
+    REQUIRE(acceleration <= 1e-9);
+    REQUIRE(out.taskShare >= 0.);
+    REQUIRE(out.taskShare <= 1.);
+  }
+}
+
+TEST_CASE("From rest neither velocity nor acceleration limits bend the tool's way", "[limits]")
+{
+  auto rng = vpTestSupport::generator(34);
+  CAPTURE(vpTestSupport::seed());
+  const vpRedundancySolver solver(amor());
+  int checked = 0;
+  for (int problem = 0; problem < 1000; ++problem) {
+    const vpArmData data = at(amor(), configuration(amor(), rng, 0.2));
+    const Vector6 twist = 20. * randomTwist(rng);
+    vpRedundancyInput in = input(7, twist);
+    vpRedundancyOutput out;
+    // The fastest motion along the way, and the first step towards it.
+    for (int k = 0; k < 400; ++k) {
+      solver.step(data, in, out);
+      in.previous = out.velocity;
+      if (k == 0 && out.smallestSingular >= 0.05 && out.stoppedJoints == 0) {
+        const Vector6 done = data.J * out.velocity;
+        REQUIRE(done.normalized().dot(twist.normalized()) > 1. - 1e-9);
+        ++checked;
+      }
+    }
+    if (out.smallestSingular >= 0.05 && out.stoppedJoints == 0) {
+      const Vector6 done = data.J * out.velocity;
+      REQUIRE(done.normalized().dot(twist.normalized()) > 1. - 1e-9);
+      // Some joint is at its limit.
+      REQUIRE((out.status == vpRedundancyStatus::Scaled || out.status == vpRedundancyStatus::Exact));
+      const double most = (out.velocity.cwiseAbs().cwiseQuotient(amor().velocity())).maxCoeff();
+      REQUIRE((out.status == vpRedundancyStatus::Exact || most == Approx(1.)));
+    }
+  }
+  CHECK(checked > 300);
+}
+
+TEST_CASE("Only the joint at its limit stops, and the spare joint takes over", "[limits]")
+{
+  auto rng = vpTestSupport::generator(35);
+  CAPTURE(vpTestSupport::seed());
+  int stopped = 0, exact = 0;
+  for (int problem = 0; problem < 2000; ++problem) {
+    vpRedundancySpec spec;
+    spec.policy = vpLimitPolicy::StopJoints;
+    const vpRedundancySolver stopping(amor(), spec);
+    spec.policy = vpLimitPolicy::ScaleMotion;
+    const vpRedundancySolver scaling(amor(), spec);
+    vpJointVector q = configuration(amor(), rng, 0.1);
+    const int joint = 1 + static_cast<int>(rng() % 3);
+    q(joint) = problem % 2 == 0 ? amor().upper()(joint) : amor().lower()(joint);
+    const vpArmData data = at(amor(), q);
+    vpRedundancyInput in = input(7, 0.02 * randomTwist(rng));
+    const Vector6 twist(in.twist.data());
+    vpRedundancyOutput out;
+    stopping.step(data, in, out);
+    if (out.smallestSingular < 0.05 || out.stoppedJoints != 1U << joint) {
+      continue;
+    }
+    ++stopped;
+    REQUIRE(out.velocity(joint) == Approx(0.).margin(1e-12));
+    for (int k = 0; k < 60 && out.status == vpRedundancyStatus::Accelerating; ++k) {
+      in.previous = out.velocity;
+      stopping.step(data, in, out);
+    }
+    if (out.status == vpRedundancyStatus::Exact) {
+      REQUIRE((data.J * out.velocity - twist).norm() < 1e-7);
+      ++exact;
+    }
+    in.previous.setZero();
+    scaling.step(data, in, out);
+    REQUIRE(out.velocity.norm() == 0.);
+    REQUIRE(out.status == vpRedundancyStatus::BlockedByLimits);
+    REQUIRE(std::string(out.sentence()).find("position limits") != std::string::npos);
+  }
+  CHECK(stopped > 200);
+  CHECK(exact > 3 * stopped / 4);
+}
+
+TEST_CASE("A joint always brakes before its limit", "[limits]")
+{
+  auto rng = vpTestSupport::generator(36);
+  CAPTURE(vpTestSupport::seed());
+  double nearest = 1.;
+  for (int problem = 0; problem < 2000; ++problem) {
+    const double period = std::exp(uniform(rng, -7., -3.)), margin = uniform(rng, 0., 0.05);
+    vpJointVector q = configuration(sixAxes(), rng, 0.02), v = vpJointVector::Zero(6);
+    vpJointBounds bounds;
+    for (int k = 0; k < 500; ++k) {
+      bounds.update(sixAxes(), q, v, period, margin);
+      for (int i = 0; i < 6; ++i) {
+        const double before = v(i);
+        v(i) = bounds.clamp(i, problem % 2 == 0 ? 100. : uniform(rng, -100., 100.));
+        REQUIRE(std::fabs(v(i) - before) <= sixAxes().acceleration()(i) * period * (1. + 1e-12));
+      }
+      q += period * v;
+      for (const int i : {1, 2, 3, 4}) {
+        REQUIRE(q(i) <= sixAxes().upper()(i) - margin + 1e-12);
+        REQUIRE(q(i) >= sixAxes().lower()(i) + margin - 1e-12);
+      }
+    }
+    nearest = problem % 2 == 0 && period > 0.01 ? std::min(nearest, sixAxes().upper()(4) - margin - q(4)) : nearest;
+  }
+  CHECK(nearest < 1e-3); // and does not stay away from it
+}
+
+TEST_CASE("A stretched arm escapes inwards and says that there is no way out", "[singular]")
+{
+  // Arm to the side and as long as it gets: the elbow is offset, so that is not at 0.
+  vpJointVector longest = vector({0.3, 1., 0.2, 0., 0.4, 0.7, 0.1});
+  double most = 0.;
+  for (int k = 0; k < 1000000; ++k) {
+    vpJointVector q = longest;
+    q(3) = -1e-6 * k;
+    vpArmData data;
+    vpArmKinematics::forward(amor(), q, data);
+    const double reach = (data.joint[5].p - data.joint[1].p).norm();
+    if (reach < most) {
+      break;
+    }
+    most = reach;
+    longest = q;
+  }
+  for (const double bend : {0., 1e-8, 1e-5, 1e-3, 1e-2}) {
+    CAPTURE(bend);
+    vpJointVector start = longest;
+    start(3) -= bend;
+    vpArmData data = at(amor(), start);
+    // The direction that is lost lies along forearm and upper arm.
+    const Eigen::Vector3d along = (data.joint[5].p - data.joint[1].p).normalized();
+    const vpRedundancySolver solver(amor());
+    Vector6 twist;
+    twist << -0.05 * along, 0., 0., 0.;
+    vpRedundancyInput in = input(7, twist);
+    vpRedundancyOutput out;
+    vpJointVector q = start;
+    const double length = (data.joint[5].p - data.joint[1].p).norm();
+    bool escaped = false;
+    for (int k = 0; k < 800; ++k) {
+      data = at(amor(), q);
+      solver.step(data, in, out);
+      escaped = escaped || out.status == vpRedundancyStatus::Escaping;
+      in.previous = out.velocity;
+      q += 0.005 * out.velocity;
+      REQUIRE(q(3) <= 1e-12);
+    }
+    CHECK((at(amor(), q).joint[5].p - at(amor(), q).joint[1].p).norm() < length - 0.02);
+    CHECK((escaped || bend > 5e-3));
+  }
+}
+
+TEST_CASE("A planar arm stretched straight cannot reach farther, and says so", "[singular]")
+{
+  vpArmSpec spec;
+  spec.name = "planar";
+  for (int i = 0; i < 3; ++i) {
+    vpArmJointSpec joint = vpArmJointSpec::standardDH(0.5 - 0.1 * i, 0., 0., 0.);
+    joint.name = "p" + std::to_string(i);
+    joint.type = vpJointType::Continuous;
+    joint.velocity = 2.;
+    joint.acceleration = 10.;
+    spec.joints.push_back(joint);
+  }
+  const vpArmModel arm(spec);
+  const vpRedundancySolver solver(arm);
+  for (const double bend : {0., 1e-9, 1e-6, 1e-4}) {
+    for (const double sign : {1., -1.}) {
+      Vector6 twist = Vector6::Zero();
+      twist(0) = 0.05 * sign;
+      vpRedundancyInput in = input(3, twist);
+      in.free = {false, false, true, true, true, true};
+      vpRedundancyOutput out;
+      vpJointVector q = vector({0., bend, -0.5 * bend});
+      for (int k = 0; k < 400; ++k) {
+        solver.step(at(arm, q), in, out);
+        in.previous = out.velocity;
+        q += 0.005 * out.velocity;
+      }
+      CAPTURE(bend, sign, out.sentence(), q.transpose());
+      if (sign > 0.) {
+        CHECK(out.status == vpRedundancyStatus::BlockedBySingularity);
+        CHECK(out.velocity.norm() < 0.01);
+        CHECK(at(arm, q).tool.p(0) > 1.2 - 1e-6);
+      }
+      else {
+        CHECK(at(arm, q).tool.p(0) < 1.2 - 0.05);
+        CHECK(std::fabs(at(arm, q).tool.p(1)) < 0.02);
+      }
+    }
+  }
+}
+
+TEST_CASE("Damping is smooth where it sets in", "[singular]")
+{
+  // No jump of the answer while the elbow straightens through the edge of the singular region.
+  const vpArmModel model = unlimited(amor());
+  vpRedundancySpec spec;
+  spec.escapeSpeed = 0.;
+  const vpRedundancySolver solver(model, spec);
+  vpRedundancyOutput out;
+  vpJointVector before;
+  double jump = 0., most = 0.;
+  Vector6 twist;
+  twist << 0.05, 0.03, -0.04, 0.1, 0.05, 0.02;
+  for (int k = 0; k <= 20000; ++k) {
+    const vpJointVector q = vector({0.3, 1., 0.2, -0.5 + 2.5e-5 * k, 0.4, 0.7, 0.1});
+    solver.step(at(model, q), input(7, twist), out);
+    if (k > 0) {
+      jump = std::max(jump, (out.velocity - before).norm());
+    }
+    most = std::max(most, out.velocity.norm());
+    before = out.velocity;
+  }
+  CAPTURE(jump, most);
+  CHECK(jump < 2e-3);
+  CHECK(most < 3.);
+}
+
+TEST_CASE("The step takes nonsense and does not allocate", "[solver]")
+{
+  const vpRedundancySolver solver(amor());
+  const vpArmData data = at(amor(), home());
+  vpRedundancyInput in = input(7, Vector6::Constant(0.01));
+  in.indices[0] = vpSelfMotionIndex::manipulability();
+  in.indices[1] = vpSelfMotionIndex::lineDistance(3, vpIndexSense::Attract);
+  in.indices[2] = vpSelfMotionIndex::jointLimits();
+  in.indexCount = 3;
+  in.tasks[0] = vpArmTask::pointVelocity(amor(), data, 3, Eigen::Vector3d::Zero());
+  in.taskCount = 1;
+  vpRedundancyOutput out;
+  const vpArmData singular = at(amor(), vpJointVector::Zero(7));
+  const unsigned long before = vpTestSupport::allocationCount();
+  for (int k = 0; k < 100; ++k) {
+    solver.step(k % 2 == 0 ? data : singular, in, out);
+    in.previous = out.velocity;
+  }
+  CHECK(vpTestSupport::allocationCount() == before);
+
+  in.previous = vpJointVector::Constant(7, 0.5);
+  vpRedundancyInput broken = in;
+  broken.twist[2] = NAN;
+  solver.step(data, broken, out);
+  CHECK(out.status == vpRedundancyStatus::InvalidInput);
+  CHECK(out.velocity(0) == Approx(0.5 - 0.005 * 6.)); // brakes at its limit
+  broken = in;
+  broken.previous = vpJointVector::Zero(3);
+  solver.step(data, broken, out);
+  CHECK(out.status == vpRedundancyStatus::InvalidInput);
+  CHECK(out.velocity.norm() == 0.);
+  solver.step(vpArmData(), in, out);
+  CHECK(out.status == vpRedundancyStatus::InvalidInput);
+  broken = in;
+  broken.indexCount = 100;
+  solver.step(data, broken, out);
+  CHECK(out.status == vpRedundancyStatus::InvalidInput);
+  CHECK(std::string(out.sentence()) == "An input is not finite or of a wrong size; the arm brakes.");
+
+  const auto says = [](const vpRedundancySpec &spec, const char *sentence) {
+    CHECK_THROWS_WITH(vpRedundancySolver(amor(), spec), Catch::Contains(sentence));
+  };
+  vpRedundancySpec spec;
+  spec.period = 0.;
+  says(spec, "period of the redundancy solver for");
+  spec = {};
+  spec.selfMotion = -0.5;
+  says(spec, "is -0.5, must be in [0, 1]");
+  spec = {};
+  spec.weights = vpJointVector::Constant(7, -2.);
+  says(spec, "weight of the redundancy solver for");
+  spec = {};
+  spec.positionMargin = 2.;
+  says(spec, "less than half the range of every joint");
+  vpArmSpec arm = mixed().spec();
+  arm.joints[1].velocity = std::numeric_limits<double>::infinity();
+  CHECK_THROWS_WITH(vpRedundancySolver(vpArmModel(arm)),
+                    Catch::Contains("velocity limit of joint m1 is infinite, the redundancy solver needs one"));
+}

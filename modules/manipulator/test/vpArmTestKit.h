@@ -1,0 +1,193 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// The two arms of the tests, as our models and as chains of KDL that are made another way, and random configurations.
+#ifndef vpArmTestKit_h
+#define vpArmTestKit_h
+
+#include <visp3/manipulator/vpArmJson.h>
+#include <visp3/manipulator/vpArmKinematics.h>
+#include <visp3/manipulator/vpArmUrdf.h>
+
+#include <Eigen/Geometry>
+
+#include <kdl/chain.hpp>
+#include <urdf_model/model.h>
+#include <urdf_parser/urdf_parser.h>
+
+#include <cmath>
+#include <memory>
+#include <random>
+#include <string>
+
+VISP_DIRECT_USING_NAMESPACE
+
+namespace vpArmTestKit
+{
+constexpr double pi = 3.14159265358979323846;
+
+inline std::string dataFile(const std::string &name) { return std::string(VISP_DIRECT_DATA_DIR) + "/robot/" + name; }
+
+inline const vpArmModel &amor()
+{
+  static const vpArmModel model = vpLoadArmJson(dataFile("amor.json"));
+  return model;
+}
+
+inline const vpArmModel &sixAxes()
+{
+  static const vpArmModel model = [] {
+    vpArmUrdfOptions options;
+    options.tip = "tool";
+    options.camera = "camera";
+    options.acceleration = 12.;
+    return vpLoadArmUrdf(dataFile("generic-6r.urdf"), options);
+  }();
+  return model;
+}
+
+//! Revolute, prismatic, revolute, prismatic, in skew frames: for what the two arms have not.
+inline const vpArmModel &mixed()
+{
+  static const vpArmModel model = [] {
+    vpArmSpec spec;
+    spec.name = "mixed";
+    for (int i = 0; i < 4; ++i) {
+      vpArmJointSpec joint = vpArmJointSpec::standardDH(0.2 - 0.05 * i, 0.7 + 0.4 * i, 0.1 * i, 0.3);
+      joint.before.R = Eigen::AngleAxisd(0.4 * i, Eigen::Vector3d(1., 2., -1.).normalized()).toRotationMatrix();
+      joint.name = "m" + std::to_string(i);
+      joint.type = i % 2 == 1 ? vpJointType::Prismatic : vpJointType::Revolute;
+      joint.lower = -0.8;
+      joint.upper = 1.;
+      joint.velocity = 1.;
+      joint.acceleration = 5.;
+      spec.joints.push_back(joint);
+      vpArmLinkSpec link;
+      link.name = "l" + std::to_string(i);
+      link.hasMass = true;
+      link.mass = 1. + i;
+      link.com << 0.03 * i, -0.05, 0.02;
+      link.inertia = Eigen::Vector3d(0.02, 0.03, 0.025).asDiagonal();
+      spec.links.push_back(link);
+    }
+    spec.tool.p << 0.02, 0.03, 0.1;
+    spec.camera.p << 0.05, 0., -0.02;
+    spec.camera.R = Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitY()).toRotationMatrix();
+    return vpArmModel(spec);
+  }();
+  return model;
+}
+
+inline vpJointVector vector(std::initializer_list<double> values)
+{
+  vpJointVector v(static_cast<Eigen::Index>(values.size()));
+  Eigen::Index i = 0;
+  for (const double value : values) {
+    v(i++) = value;
+  }
+  return v;
+}
+
+//! The note's home of AMOR.
+inline vpJointVector home() { return vector({.246, .868, -1.237, -2.390, -2.591, -1.099, .324}); }
+
+inline double uniform(std::mt19937_64 &rng, double from, double to)
+{
+  return std::uniform_real_distribution<double>(from, to)(rng);
+}
+
+//! Within the limits, away from them by a share of the range; continuous joints anywhere in +-pi.
+inline vpJointVector configuration(const vpArmModel &model, std::mt19937_64 &rng, double share = 0.)
+{
+  vpJointVector q(model.size());
+  for (int i = 0; i < model.size(); ++i) {
+    const double lower = model.isContinuous(i) ? -pi : model.lower()(i);
+    const double upper = model.isContinuous(i) ? pi : model.upper()(i);
+    q(i) = uniform(rng, lower + share * (upper - lower), upper - share * (upper - lower));
+  }
+  return q;
+}
+
+inline vpJointVector randomVector(int n, std::mt19937_64 &rng)
+{
+  vpJointVector v(n);
+  for (int i = 0; i < n; ++i) {
+    v(i) = uniform(rng, -1., 1.);
+  }
+  return v;
+}
+
+//! AMOR from the printed table by KDL's own DH frames, with the note's offset, tool and masses.
+inline KDL::Chain kdlAmor(bool withTool = true, double offset2 = pi)
+{
+  const double a[] = {0.0623, 0., 0.097, 0., 0.0502, 0., 0.}, d[] = {0.155, 0., 0.41946, 0., 0.3582, 0., 0.07};
+  const double alpha[] = {-pi / 2., -pi / 2., pi / 2., -pi / 2., pi / 2., -pi / 2., 0.};
+  const double mass[] = {2.6, 2.4, 2.0, 1.6, 1.2, 0.8, 0.9};
+  KDL::Chain chain;
+  for (int i = 0; i < 7; ++i) {
+    KDL::Frame end = KDL::Frame::DH(a[i], alpha[i], d[i], i == 1 ? offset2 : 0.);
+    // Half way between the two ends of the link, in the frame at its end.
+    const KDL::Vector com = 0.5 * end.Inverse().p;
+    const double I = 0.005 * mass[i];
+    if (i == 6 && withTool) {
+      const KDL::Frame tool(KDL::Vector(0., 0., 0.1755));
+      end = end * tool;
+      chain.addSegment(
+          KDL::Segment(KDL::Joint(KDL::Joint::RotZ), end,
+                       KDL::RigidBodyInertia(mass[i], tool.Inverse() * com, KDL::RotationalInertia(I, I, I))));
+    }
+    else {
+      chain.addSegment(KDL::Segment(KDL::Joint(KDL::Joint::RotZ), end,
+                                    KDL::RigidBodyInertia(mass[i], com, KDL::RotationalInertia(I, I, I))));
+    }
+  }
+  return chain;
+}
+
+inline KDL::Frame kdlFrame(const urdf::Pose &pose)
+{
+  return {KDL::Rotation::Quaternion(pose.rotation.x, pose.rotation.y, pose.rotation.z, pose.rotation.w),
+          KDL::Vector(pose.position.x, pose.position.y, pose.position.z)};
+}
+
+inline KDL::RigidBodyInertia kdlBody(const urdf::Link &link)
+{
+  if (!link.inertial) {
+    return KDL::RigidBodyInertia::Zero();
+  }
+  const urdf::Inertial &from = *link.inertial;
+  const KDL::Frame at = kdlFrame(from.origin);
+  const KDL::RotationalInertia I(from.ixx, from.iyy, from.izz, from.ixy, from.ixz, from.iyz);
+  return at * KDL::RigidBodyInertia(from.mass, KDL::Vector::Zero(), I);
+}
+
+//! The six axes straight from urdfdom's tree: joints about their own axes, fixed segments left as they are.
+inline KDL::Chain kdlSixAxes()
+{
+  const urdf::ModelInterfaceSharedPtr tree = urdf::parseURDFFile(dataFile("generic-6r.urdf"));
+  KDL::Chain chain;
+  for (const char *name :
+       {"base_yaw", "shoulder", "elbow", "forearm_roll", "wrist_bend", "flange_roll", "tool_mount"}) {
+    const urdf::JointConstSharedPtr joint = tree->getJoint(name);
+    const KDL::Frame at = kdlFrame(joint->parent_to_joint_origin_transform);
+    const KDL::Vector axis(joint->axis.x, joint->axis.y, joint->axis.z);
+    const KDL::RigidBodyInertia body = kdlBody(*tree->getLink(joint->child_link_name));
+    if (joint->type == urdf::Joint::FIXED) {
+      chain.addSegment(KDL::Segment(KDL::Joint(KDL::Joint::None), at, body));
+    }
+    else {
+      chain.addSegment(KDL::Segment(KDL::Joint(at.p, at.M * axis, KDL::Joint::RotAxis), at, body));
+    }
+  }
+  return chain;
+}
+
+//! Pose error of b seen from a, in the base: position (m), then rotation vector (rad) by the closed form of small
+//! angles.
+inline double difference(const vpRigidTransform &a, const vpRigidTransform &b)
+{
+  return std::max((a.p - b.p).cwiseAbs().maxCoeff(), (a.R - b.R).cwiseAbs().maxCoeff());
+}
+} // namespace vpArmTestKit
+#endif
