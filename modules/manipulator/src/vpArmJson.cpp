@@ -76,6 +76,18 @@ public:
     }
     return v;
   }
+  vpJointVector numbers(const char *field, std::size_t most)
+  {
+    const json &value = get(field);
+    if (!value.is_array() || value.size() > most) {
+      fail(place(field), "must be a list of at most " + std::to_string(most) + " numbers");
+    }
+    vpJointVector v(static_cast<Eigen::Index>(value.size()));
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      v(static_cast<Eigen::Index>(i)) = number(value[i], place(field) + "[" + std::to_string(i) + "]");
+    }
+    return v;
+  }
   // Every element of a list of objects, with its place.
   template <class Function> void each(const char *field, Function function)
   {
@@ -172,6 +184,8 @@ vpArmJointSpec joint(Object &object)
   spec.rotorInertia = object.number("rotor_inertia", 0.);
   spec.viscous = object.number("viscous", 0.);
   spec.coulomb = object.number("coulomb", 0.);
+  spec.kp = object.number("kp", 0.);
+  spec.kd = object.number("kd", 0.);
   return spec;
 }
 
@@ -237,6 +251,10 @@ vpArmModel vpLoadArmJson(const std::string &file)
   }
   top.optional("tool", [&](Object &object) { spec.tool = frame(object); });
   top.optional("camera", [&](Object &object) { spec.camera = frame(object); });
+  top.ignore("home");
+  if (top.has("home")) {
+    spec.home = top.numbers("home", vpArmMaxJoints);
+  }
   top.done();
   return vpArmModel(spec);
 }

@@ -80,6 +80,26 @@ void checkJoint(const vpArmSpec &spec, const vpArmJointSpec &joint, std::set<std
   notNegative(spec, "rotor inertia" + of, joint.rotorInertia);
   notNegative(spec, "viscous friction" + of, joint.viscous);
   notNegative(spec, "Coulomb friction" + of, joint.coulomb);
+  notNegative(spec, "kp" + of, joint.kp);
+  notNegative(spec, "kd" + of, joint.kd);
+}
+
+void checkHome(const vpArmSpec &spec)
+{
+  if (spec.home.size() == 0) {
+    return;
+  }
+  if (spec.home.size() != static_cast<Eigen::Index>(spec.joints.size())) {
+    fail(spec, "home has " + std::to_string(spec.home.size()) + " numbers, must have one for each of " +
+                   std::to_string(spec.joints.size()) + " joints");
+  }
+  for (std::size_t i = 0; i < spec.joints.size(); ++i) {
+    const vpArmJointSpec &joint = spec.joints[i];
+    const double q = spec.home(static_cast<Eigen::Index>(i));
+    if (!std::isfinite(q) || (joint.type != vpJointType::Continuous && (q < joint.lower || q > joint.upper))) {
+      fail(spec, "home of joint " + joint.name + " is " + text(q) + ", must be within its limits");
+    }
+  }
 }
 
 void checkLink(const vpArmSpec &spec, const vpArmLinkSpec &link)
@@ -128,6 +148,7 @@ vpArmModel::vpArmModel(const vpArmSpec &spec) : m_spec(spec), m_size(static_cast
     checkLink(spec, link);
     m_hasMasses = m_hasMasses && link.hasMass;
   }
+  checkHome(spec);
   rigid(spec, "tool", spec.tool);
   rigid(spec, "camera", spec.camera);
   for (const vpArmCapsule &capsule : spec.capsules) {
@@ -160,6 +181,13 @@ vpArmModel::vpArmModel(const vpArmSpec &spec) : m_spec(spec), m_size(static_cast
     m_torque(i) = joint.torque;
   }
   m_toolStep = previous * spec.tool;
+  m_home = spec.home;
+  if (m_home.size() == 0) {
+    m_home.setZero(m_size);
+    for (int i = 0; i < m_size; ++i) {
+      m_home(i) = isContinuous(i) ? 0. : 0.5 * (m_lower(i) + m_upper(i));
+    }
+  }
 }
 
 void vpArmModel::requireMotionLimits(const char *user) const

@@ -103,6 +103,14 @@ TEST_CASE("AMOR's file holds the note's ranges", "[files]")
   CHECK(model.spec().capsules.size() == 4);
   CHECK_NOTHROW(model.requireMotionLimits("the test"));
   CHECK(model.hasMasses());
+  CHECK((model.home() - home()).norm() == 0.);
+  CHECK(model.spec().joints[4].kp == 120.);
+  CHECK(model.spec().joints[6].kd == 3.);
+  CHECK(sixAxes().spec().home.size() == 0);
+  for (int i = 0; i < 6; ++i) {
+    const double middle = 0.5 * (sixAxes().lower()(i) + sixAxes().upper()(i));
+    CHECK(sixAxes().home()(i) == Approx(sixAxes().isContinuous(i) ? 0. : middle));
+  }
 }
 
 TEST_CASE("The URDF's chain is read with limits, masses, capsules and camera", "[files]")
@@ -138,6 +146,10 @@ TEST_CASE("Errors in JSON name the file and the field", "[files]")
   CHECK(jsonError("\"a_m\": 0.0623", "\"a_m\": \"long\"") == file + "joints[0].a_m must be a number");
   CHECK(jsonError("\"a_m\": 0.0623", "\"a_m\": 0.0623, \"colour\": 3") ==
         file + "joints[0].colour is not a known field");
+  CHECK(jsonError("[0.246, ", "[") == file + "home has 6 numbers, must have one for each of 7 joints");
+  CHECK(jsonError("0.246, 0.868", "0.246, 2.868") == file + "home of joint q2 is 2.868, must be within its limits");
+  CHECK(jsonError("[0.246, ", "[\"none\", ") == file + "home[0] must be a number");
+  CHECK(jsonError("\"kp\": 400", "\"kp\": -4") == file + "kp of joint q1 is -4, must be >= 0 and finite");
   CHECK(jsonError("\"continuous\"", "\"rolling\"") ==
         file + "joints[0].type is rolling, must be revolute, continuous or prismatic");
   CHECK(jsonError("\"mass_kg\": 2.4", "\"mass_kg\": -2.4") == file + "mass of link link2 is -2.4, must be > 0");

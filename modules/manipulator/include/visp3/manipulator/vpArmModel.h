@@ -57,6 +57,8 @@ public:
   [[nodiscard]] const vpJointVector &acceleration() const noexcept { return m_acceleration; }
   //! Torque or force limits, Nm or N; may be infinite.
   [[nodiscard]] const vpJointVector &torque() const noexcept { return m_torque; }
+  //! Where work starts: that of the spec, else the middle of every range (0 for a continuous joint), rad or m.
+  [[nodiscard]] const vpJointVector &home() const noexcept { return m_home; }
   //! True when every link has a mass.
   [[nodiscard]] bool hasMasses() const noexcept { return m_hasMasses; }
   /*!
@@ -81,7 +83,7 @@ private:
   std::array<double, vpArmMaxJoints> m_offset{};
   std::array<vpRigidTransform, vpArmMaxJoints> m_step;
   vpRigidTransform m_toolStep;
-  vpJointVector m_lower, m_upper, m_velocity, m_acceleration, m_torque;
+  vpJointVector m_lower, m_upper, m_velocity, m_acceleration, m_torque, m_home;
 };
 
 END_VISP_NAMESPACE

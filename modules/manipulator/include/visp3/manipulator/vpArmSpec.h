@@ -45,6 +45,8 @@ struct VISP_EXPORT vpArmJointSpec {
   double rotorInertia = 0.;                                //!< Of the drive, seen at the joint, kg m^2 or kg, >= 0.
   double viscous = 0.;                                     //!< Viscous friction, Nm s/rad or N s/m, >= 0.
   double coulomb = 0.;                                     //!< Coulomb friction, Nm or N, >= 0.
+  double kp = 0.; //!< Position gain of the joint's drive, Nm/rad or N/m, >= 0; 0: not known.
+  double kd = 0.; //!< Velocity gain of the joint's drive, Nm s/rad or N s/m, >= 0; 0: not known.
 
   //! A revolute joint by its row of a standard DH table: lengths in m, angles in rad.
   [[nodiscard]] static vpArmJointSpec standardDH(double a, double alpha, double d, double offset);
@@ -86,6 +88,7 @@ struct VISP_EXPORT vpArmSpec {
   std::vector<vpArmCapsule> capsules; //!< May be empty.
   vpRigidTransform tool;              //!< End effector in the frame of the last link.
   vpRigidTransform camera;            //!< eMc: camera in the end effector's frame.
+  vpJointVector home;                 //!< Where work starts, rad or m, within the limits; empty: not known.
 };
 
 END_VISP_NAMESPACE
