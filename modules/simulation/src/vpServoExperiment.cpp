@@ -7,12 +7,12 @@
 #include <visp3/core/vpException.h>
 #include <visp3/core/vpMeterPixelConversion.h>
 #include <visp3/feedforward/vpServoController.h>
-#include <visp3/simulation/vpFrictionCamera.h>
 #include <visp3/simulation/vpOdometryBridge.h>
 #include <visp3/simulation/vpServoSensor.h>
 #include <visp3/simulation/vpVisionChannel.h>
 
 #include "vpServoGeometry.h"
+#include "vpServoRobot.h"
 
 #include <algorithm>
 #include <cmath>
@@ -134,8 +134,7 @@ vpServoRun runServoExperiment(const vpServoRunSpec &spec, const std::function<bo
 
   vpServoController servo = makeController(spec);
   const auto sensor = makeSensor(spec);
-  vpFrictionCamera robot(spec.plant);
-  robot.setRobotState(vpRobot::STATE_VELOCITY_CONTROL);
+  const auto robot = vpServoRobot::create(spec);
   std::optional<vpTwistShaper> shaper;
   if (spec.shape) {
     shaper.emplace(*spec.shape);
@@ -143,7 +142,6 @@ vpServoRun runServoExperiment(const vpServoRunSpec &spec, const std::function<bo
   vpVisionChannel vision(spec.plant.visionRate, spec.plant.latency);
   vpOdometryBridge odometry;
   vpServoMeasurement frame, result, measurement;
-  vpColVector velocity(6);
 
   vpServoRun run;
   run.spec = spec;
@@ -157,7 +155,7 @@ vpServoRun runServoExperiment(const vpServoRunSpec &spec, const std::function<bo
     vpServoSample s;
     s.time = cycle * dt;
     s.segment = segment;
-    s.wMc = robot.getPosition();
+    s.wMc = robot->wMc();
     s.cMo = s.wMc.inverse() * spec.task.initial;
     fillTruth(spec.task, spec.task.segments[segment], s);
 
@@ -176,21 +174,27 @@ vpServoRun runServoExperiment(const vpServoRunSpec &spec, const std::function<bo
       // The plant's speed limits come first: behind the shaper their onset would be a kink in its smooth twist.
       asked = shaper->update(limitTwist(asked, spec.plant.maxLinear, spec.plant.maxAngular), dt);
     }
-    asked.copyTo(velocity);
-    robot.setVelocity(vpRobot::CAMERA_FRAME, velocity);
-    odometry.move(robot.actualTwist(), (cycle + 1) * dt);
+    robot->move(asked);
+    odometry.move(robot->actual(), (cycle + 1) * dt);
 
     s.commanded = asked;
-    s.actual = robot.actualTwist();
+    s.actual = robot->actual();
     s.referenceYaw = referenceYaw(s.wMc, command.v, servo.law().rotationGain());
     s.measured = measurement.valid;
     s.status = command.status;
     run.samples.push_back(s);
+    vpArmSample joints;
+    if (robot->sample(joints)) {
+      run.arm.push_back(joints);
+    }
     if (progress && (cycle + 1) % reportEvery == 0 && !progress(double(cycle + 1) / cycles)) {
       break;
     }
   }
   run.metrics = evaluateServoRun(spec, run.samples);
+  if (spec.arm) {
+    run.armMetrics = evaluateArmRun(spec.arm->model, run.arm, dt);
+  }
   return run;
 }
 

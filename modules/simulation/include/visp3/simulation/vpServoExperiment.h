@@ -12,6 +12,7 @@
 #include <visp3/feedforward/vpServoLaw.h>
 #include <visp3/simulation/vpPlaneRenderer.h>
 #include <visp3/simulation/vpServoPlant.h>
+#include <visp3/simulation/vpServoArm.h>
 #include <visp3/simulation/vpServoTask.h>
 #include <visp3/trajectory/vpTwistShaper.h>
 
@@ -67,6 +68,8 @@ struct VISP_EXPORT vpServoRunSpec {
    * is. The shaper starts at rest and is never reset: a new goal, a lost target and the retreat after it are ramps too.
    */
   std::optional<vpTwistShaperLimits> shape;
+  //! Carries the camera; null: the camera flies freely, with the lag and friction of the plant.
+  std::shared_ptr<const vpServoArm> arm;
 };
 
 //! \brief The figures of a run; the same names as in summary.json.
@@ -99,6 +102,8 @@ struct VISP_EXPORT vpServoRun {
   vpServoRunSpec spec;
   std::vector<vpServoSample> samples;
   vpServoMetrics metrics;
+  std::vector<vpArmSample> arm;           //!< As many as samples, at the end of each cycle; none without an arm.
+  std::optional<vpArmMetrics> armMetrics; //!< Given when there is an arm.
 };
 
 /*!

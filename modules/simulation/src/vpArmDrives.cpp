@@ -1,0 +1,171 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include <visp3/simulation/vpArmDrives.h>
+
+#include <visp3/core/vpException.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+constexpr double naturalFrequency = 12.;    // rad/s, least of gains that nobody gave
+constexpr double frictionError = 1. / 300.; // rad or m that Coulomb friction may hold back with such gains
+constexpr double estimatorBandwidth = 300.; // rad/s
+constexpr int inertiaSamples = 200;
+
+void requireGood(const char *field, double value, bool good, const char *range)
+{
+  if (!good || !std::isfinite(value)) {
+    throw vpException(vpException::badValue, "%s of the arm's drives is %g, must be %s and finite", field, value,
+                      range);
+  }
+}
+
+// The largest inertia that each drive may see, kg m^2.
+vpJointVector largestInertia(const vpArmModel &model)
+{
+  std::mt19937_64 rng(1);
+  std::uniform_real_distribution<double> share(0., 1.);
+  vpArmDynamics dynamics(model);
+  vpJointVector most = vpJointVector::Zero(model.size());
+  for (int sample = 0; sample < inertiaSamples; ++sample) {
+    vpJointVector q(model.size());
+    for (int i = 0; i < model.size(); ++i) {
+      const double lower = model.isContinuous(i) ? -M_PI : model.lower()(i);
+      const double upper = model.isContinuous(i) ? M_PI : model.upper()(i);
+      q(i) = lower + share(rng) * (upper - lower);
+    }
+    vpJointMatrix M;
+    dynamics.inertia(q, M);
+    most = most.cwiseMax(M.diagonal());
+  }
+  return most;
+}
+
+vpJointPositionControlSpec controlOf(const vpArmModel &model, const vpArmDriveSpec &spec)
+{
+  vpJointPositionControlSpec control;
+  const vpJointVector inertia = largestInertia(model);
+  control.kp.resize(model.size());
+  control.kd.resize(model.size());
+  for (int i = 0; i < model.size(); ++i) {
+    const vpArmJointSpec &joint = model.spec().joints[static_cast<std::size_t>(i)];
+    const bool given = joint.kp > 0.;
+    const double stiffness = std::max(inertia(i) * naturalFrequency * naturalFrequency, joint.coulomb / frictionError);
+    control.kp(i) = given ? joint.kp : stiffness;
+    control.kd(i) = given ? joint.kd : 2. * std::sqrt(stiffness * inertia(i));
+  }
+  control.kp = spec.kp.size() > 0 ? spec.kp : control.kp;
+  control.kd = spec.kd.size() > 0 ? spec.kd : control.kd;
+  control.maxTorque = model.torque();
+  control.compensateFriction = spec.compensateFriction;
+  control.friction = vpJointFriction::of(model);
+  return control;
+}
+} // namespace
+
+void vpArmDriveSpec::validate(const vpArmModel &model) const
+{
+  requireGood("period", period, period > 0., "> 0");
+  requireGood("frictionScale", frictionScale, frictionScale >= 0., ">= 0");
+  requireGood("encoderNoise", encoderNoise, encoderNoise >= 0., ">= 0");
+  for (const vpJointVector *gain : {&kp, &kd}) {
+    if (gain->size() > 0 && gain->size() != model.size()) {
+      throw vpException(vpException::badValue, "%s of the arm's drives has %d numbers, must have %d or none",
+                        gain == &kp ? "kp" : "kd", static_cast<int>(gain->size()), model.size());
+    }
+  }
+}
+
+vpArmDrives::vpArmDrives(const vpArmModel &model, const vpArmDriveSpec &spec) : m_model(&model), m_spec(spec)
+{
+  spec.validate(model);
+  if (!spec.ideal) {
+    m_plant.emplace(model, spec.frictionScale);
+    m_dynamics.emplace(model);
+    m_control.emplace(controlOf(model, spec));
+  }
+  reset(model.home());
+}
+
+void vpArmDrives::reset(const vpJointVector &q)
+{
+  if (q.size() != m_model->size() || !q.allFinite()) {
+    throw vpException(vpException::badValue,
+                      "the configuration of the arm's drives has %d numbers, must have %d finite ones",
+                      static_cast<int>(q.size()), m_model->size());
+  }
+  m_wanted = q;
+  m_command.setZero(q.size());
+  m_output.torque.setZero(q.size());
+  m_saturated = 0;
+  m_random.seed(m_spec.seed);
+  m_noise = std::normal_distribution<double>(0., 1.);
+  if (m_plant) {
+    m_plant->reset(q);
+    m_dynamics->gravity(q, m_output.torque);
+    m_estimator.reset();
+    if (m_spec.encoderNoise > 0.) {
+      m_estimator.emplace(m_model->size(), m_spec.period, estimatorBandwidth);
+    }
+  }
+  measure();
+}
+
+void vpArmDrives::move(const vpJointVector &velocity, double duration) noexcept
+{
+  if (velocity.size() == m_wanted.size() && velocity.allFinite()) {
+    m_command = velocity;
+  }
+  else {
+    m_command.setZero();
+  }
+  m_saturated = 0;
+  if (m_spec.ideal) {
+    m_wanted += duration * m_command;
+    measure();
+    return;
+  }
+  const int cycles = std::max(1, static_cast<int>(std::ceil(duration / m_spec.period - 1e-9)));
+  for (int i = 0; i < cycles; ++i) {
+    cycle(duration / cycles);
+  }
+}
+
+void vpArmDrives::holdHere() noexcept
+{
+  m_wanted = m_input.q;
+  m_command.setZero();
+}
+
+void vpArmDrives::cycle(double dt) noexcept
+{
+  m_wanted += dt * m_command;
+  m_input.wantedQ = m_wanted;
+  m_input.wantedVelocity = m_command;
+  m_dynamics->gravity(m_input.q, m_input.feedforward);
+  m_control->step(m_input, m_output);
+  m_saturated |= m_output.saturated;
+  m_plant->step(m_output.torque, dt);
+  measure();
+}
+
+void vpArmDrives::measure() noexcept
+{
+  m_input.q = q();
+  m_input.velocity = velocity();
+  if (m_estimator) {
+    for (Eigen::Index i = 0; i < m_input.q.size(); ++i) {
+      m_input.q(i) += m_spec.encoderNoise * m_noise(m_random);
+    }
+    m_input.velocity = m_estimator->step(m_input.q);
+  }
+}
+
+END_VISP_NAMESPACE

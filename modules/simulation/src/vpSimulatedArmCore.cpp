@@ -1,0 +1,143 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "vpSimulatedArmCore.h"
+
+#include <visp3/core/vpException.h>
+
+#include <cmath>
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+// The cycles of joint control fill a control period exactly.
+vpArmDriveSpec driveSpec(const vpSimulatedArmSpec &spec)
+{
+  vpArmDriveSpec drives = spec.drives;
+  drives.period = spec.redundancy.period / std::max(1., std::ceil(spec.redundancy.period / drives.period - 1e-9));
+  return drives;
+}
+const vpArmModel &checked(const vpArmModel &model, const vpSimulatedArmSpec &spec)
+{
+  spec.validate(model);
+  return model;
+}
+} // namespace
+
+vpSimulatedArmCore::vpSimulatedArmCore(const vpArmModel &arm, const vpSimulatedArmSpec &armSpec)
+  : model(checked(arm, armSpec)), spec(armSpec), m_motion(model, spec.redundancy, spec.closedLoop),
+    m_drives(model, driveSpec(spec))
+{
+  m_motion.setSelfMotion(spec.indices, spec.free);
+  m_drives.reset(spec.start.size() > 0 ? spec.start : model.home());
+}
+
+void vpSimulatedArmCore::commandUntil(double deadline) { m_deadline = deadline; }
+
+void vpSimulatedArmCore::stop()
+{
+  m_motion.hold();
+  m_lost = -1;
+}
+
+bool vpSimulatedArmCore::atRest() const noexcept
+{
+  return m_motion.kind() == vpArmTaskKind::Hold && m_drives.command().cwiseAbs().maxCoeff() == 0.;
+}
+
+void vpSimulatedArmCore::tick() noexcept
+{
+  const bool byVelocity = m_motion.kind() == vpArmTaskKind::JointVelocity || m_motion.kind() == vpArmTaskKind::Twist;
+  const bool stale = byVelocity && time() > m_deadline + 1e-9;
+  if (stale) {
+    m_motion.hold();
+  }
+  m_drives.move(m_motion.next(m_drives.wanted(), m_drives.command()), m_motion.period());
+  ++m_periods;
+  superviseDrives();
+  const bool wasStale = m_status == vpSimulatedArmStatus::Stale && m_motion.kind() == vpArmTaskKind::Hold;
+  m_status = stale || wasStale ? vpSimulatedArmStatus::Stale : judge();
+}
+
+void vpSimulatedArmCore::superviseDrives() noexcept
+{
+  if (m_lost >= 0) {
+    return;
+  }
+  Eigen::Index joint = 0;
+  if ((m_drives.wanted() - m_drives.measured()).cwiseAbs().maxCoeff(&joint) > spec.followingError) {
+    m_lost = static_cast<int>(joint);
+    m_motion.hold();
+    m_drives.holdHere();
+  }
+}
+
+vpSimulatedArmStatus vpSimulatedArmCore::judge() const noexcept
+{
+  if (m_lost >= 0) {
+    return vpSimulatedArmStatus::NotFollowing;
+  }
+  if (atRest()) {
+    return vpSimulatedArmStatus::Stopped;
+  }
+  if (m_motion.kind() == vpArmTaskKind::Hold) {
+    return vpSimulatedArmStatus::Moving;
+  }
+  switch (m_motion.solver().status) {
+  case vpRedundancyStatus::Exact:
+  case vpRedundancyStatus::Accelerating:
+    return vpSimulatedArmStatus::Moving;
+  case vpRedundancyStatus::BlockedByLimits:
+  case vpRedundancyStatus::BlockedBySingularity:
+    return vpSimulatedArmStatus::Blocked;
+  default:
+    return vpSimulatedArmStatus::Limited;
+  }
+}
+
+vpSimulatedArmState vpSimulatedArmCore::state() const
+{
+  return {time(),
+          m_drives.q(),
+          m_drives.velocity(),
+          m_drives.wanted(),
+          m_drives.command(),
+          m_drives.torque(),
+          m_motion.solver(),
+          m_status};
+}
+
+std::string vpSimulatedArmCore::sentence() const
+{
+  switch (m_status) {
+  case vpSimulatedArmStatus::Stopped:
+    return "the arm is at rest";
+  case vpSimulatedArmStatus::Moving:
+    return "the arm does what it was asked to";
+  case vpSimulatedArmStatus::Stale:
+    return "the last velocity is too old, the arm has braked and holds";
+  case vpSimulatedArmStatus::NotFollowing:
+    return "joint " + model.spec().joints[static_cast<std::size_t>(m_lost)].name +
+           " did not follow its command, the arm holds until it is stopped";
+  default:
+    return m_motion.solver().sentence();
+  }
+}
+
+vpArmData vpSimulatedArmCore::kinematics() const
+{
+  vpArmData data;
+  vpArmKinematics::update(model, m_drives.q(), data);
+  return data;
+}
+
+vpArmData vpSimulatedArmCore::measuredKinematics() const
+{
+  vpArmData data;
+  vpArmKinematics::update(model, m_drives.measured(), data);
+  return data;
+}
+
+END_VISP_NAMESPACE
