@@ -109,15 +109,27 @@ const std::vector<std::string> &standardPlants()
   return names;
 }
 
-std::string sentenceOf(const vpServoPlant &plant)
+std::string sentenceOf(const vpServoPlant &plant, bool onArm)
 {
   const bool perfect = plant.latency == 0. && plant.pixelNoise == 0. && plant.lag == 0. && plant.deadband == 0.;
-  std::string sentence = perfect ? "Perfect: executes every twist at once, no noise" : "Imperfect";
+  std::string sentence = perfect && onArm ? "Perfect: the joints are where they are commanded to be, no noise"
+                         : perfect        ? "Perfect: executes every twist at once, no noise"
+                                          : "Imperfect";
   sentence += "; vision at " + number(plant.visionRate, 3) + " Hz";
   if (!perfect) {
     sentence += " with " + number(1000. * plant.latency, 3) + " ms latency and " + number(plant.pixelNoise, 3) +
-                " px noise, odometry between frames; velocity lag " + number(1000. * plant.lag, 3) +
-                " ms; friction takes " + number(plant.deadband, 3) + " rad/s off each rotation axis";
+                " px noise, odometry between frames; ";
+    if (!onArm) {
+      sentence += "velocity lag " + number(1000. * plant.lag, 3) + " ms; friction takes " + number(plant.deadband, 3) +
+                  " rad/s off each rotation axis";
+    }
+    else if (plant.lag == 0. && plant.deadband == 0.) {
+      sentence += "the joints are where they are commanded to be";
+    }
+    else {
+      sentence += "joints driven by torques at 1 kHz against " + number(plant.deadband / 0.1, 3) +
+                  " times the friction of the arm's file";
+    }
   }
   return sentence + "; inner loop " + number(plant.loopRate, 3) + " Hz.";
 }

@@ -48,8 +48,8 @@ struct LawInfo {
 
 //! Names of the plants of the comparison: A, B, D.
 [[nodiscard]] const std::vector<std::string> &standardPlants();
-//! A plant in one sentence, from its parameters.
-[[nodiscard]] std::string sentenceOf(const vpServoPlant &plant);
+//! A plant in one sentence, from its parameters. \param onArm : An arm's joints take the place of lag and deadband.
+[[nodiscard]] std::string sentenceOf(const vpServoPlant &plant, bool onArm = false);
 } // namespace servoCompare
 
 #endif

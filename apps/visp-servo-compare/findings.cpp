@@ -26,10 +26,14 @@ struct Figures {
 };
 
 //! What a plant is called in a sentence.
-std::string plantName(const vpServoPlant &plant)
+std::string plantName(const Plan &plan, const vpServoPlant &plant)
 {
-  const std::string friction = plant.deadband > 0. ? " (friction " + number(plant.deadband, 2) + " rad/s)" : "";
-  return "plant " + plant.name + friction;
+  if (plant.deadband <= 0.) {
+    return "plant " + plant.name;
+  }
+  return "plant " + plant.name +
+         (plan.arm ? " (" + number(plant.deadband / 0.1, 2) + " times the joint friction)"
+                   : " (friction " + number(plant.deadband, 2) + " rad/s)");
 }
 
 //! Reads the medians of one plant and measure.
@@ -84,7 +88,7 @@ std::string arrival(const Plan &plan, const Reader &reader)
       arrived.push_back(withRotation(law));
     }
   }
-  const std::string where = "On " + plantName(plan.hardPlant()) + ", ";
+  const std::string where = "On " + plantName(plan, plan.hardPlant()) + ", ";
   const std::string goal = " within " + number(ARRIVED, 2) + " deg of every goal";
   const std::string count = std::to_string(laws.size());
   if (arrived.empty()) {
@@ -126,11 +130,11 @@ std::optional<std::string> matchedRival(const Plan &plan, const Reader &reader)
   if (tie(*feedforward, *rival)) {
     const auto integral = reader.of("ff-lookat-pi");
     const bool better = integral && integral->rotation < 0.5 * std::min(feedforward->rotation, rival->rotation);
-    return head + "tie on " + plantName(plan.hardPlant()) + ": " + numbers +
+    return head + "tie on " + plantName(plan, plan.hardPlant()) + ": " + numbers +
            "; at equal gain the form of the law makes no difference there" +
            (better ? ", what does is the integral of ff-lookat-pi." : ".");
   }
-  return head + "differ on " + plantName(plan.hardPlant()) + ": " + numbers + ".";
+  return head + "differ on " + plantName(plan, plan.hardPlant()) + ": " + numbers + ".";
 }
 
 //! What the feedforward is good for: the rotation gain can rise without the object leaving its place in the image.
@@ -145,7 +149,7 @@ std::optional<std::string> benefit(const Plan &plan, const Results &results)
   };
   return "The doubled rotation gain moves the object in the image by up to " + fixed(error("pbvs1-rot2"), 1) +
          " px with PBVS-1 and by up to " + fixed(error("ff-lookat"), 1) + " px with ff-lookat on " +
-         plantName(plan.easyPlant()) + ".";
+         plantName(plan, plan.easyPlant()) + ".";
 }
 
 //! The statement of the thesis, tested with the rivals of the thesis.
@@ -162,7 +166,7 @@ std::optional<std::string> thesisOrder(const Plan &plan, const Reader &reader)
   };
   const bool holds = notWorse(*pbvs) && notWorse(*kyrki);
   return "The order of the thesis (its law at least as good as PBVS and Kyrki, figures 5.8 to 5.10) " +
-         std::string(holds ? "holds" : "does not hold in all figures") + " on " + plantName(plan.hardPlant()) +
+         std::string(holds ? "holds" : "does not hold in all figures") + " on " + plantName(plan, plan.hardPlant()) +
          " against the rivals of the thesis: " + turning(*sum, reader.idealYaw()) + ", " +
          turning(*pbvs, reader.idealYaw()) + ", " + turning(*kyrki, reader.idealYaw()) +
          ". These rivals have half its effective rotation gain; see the matched group of the table.";
@@ -176,7 +180,7 @@ std::string outOfView(const Plan &plan, const Reader &reader)
       losers.push_back(law.law + " (" + fixed(law.out, 1) + " s)");
     }
   }
-  const std::string where = " on " + plantName(plan.hardPlant());
+  const std::string where = " on " + plantName(plan, plan.hardPlant());
   if (losers.empty()) {
     return "No law lets a corner of the object leave the image" + where + ".";
   }
@@ -195,7 +199,7 @@ std::optional<std::string> filterAgainstFriction(const Plan &plan, const Reader 
   if (losers.empty()) {
     return std::nullopt;
   }
-  return "The view filter takes the robot's obedience for granted; on " + plantName(plan.hardPlant()) +
+  return "The view filter takes the robot's obedience for granted; on " + plantName(plan, plan.hardPlant()) +
          ", which does not execute all that is commanded, a corner is lost in spite of it: " + enumerate(losers) + ".";
 }
 
@@ -216,7 +220,7 @@ std::optional<std::string> imageAgainstPoints(const Plan &plan, const Results &r
   if (pairs.empty()) {
     return std::nullopt;
   }
-  return "Measured in rendered views instead of by noisy points, the laws end on " + plantName(plan.hardPlant()) +
+  return "Measured in rendered views instead of by noisy points, the laws end on " + plantName(plan, plan.hardPlant()) +
          " with: " + enumerate(pairs) + ".";
 }
 

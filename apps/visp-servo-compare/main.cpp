@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 // visp-servo-compare: all servo laws on one task, and a report.
+#include "armFigures.h"
 #include "catalogue.h"
 #include "options.h"
 #include "plan.h"
@@ -73,6 +74,10 @@ void compare(const Options &options, const std::string &commandLine)
   ReportParts parts;
   parts.videos = writeVideos(plan, results, out, options.jobs, window.get());
   parts.figures = drawFigures(plan, results, options.jobs);
+  parts.armFigures = drawArmFigures(plan, results);
+  for (const Figure &figure : parts.armFigures) {
+    out.write("figure/" + figure.name + ".svg", figure.svg);
+  }
   if (plan.shaped) {
     parts.step = drawStep(plan, results);
     out.write("figure/" + parts.step->name + ".svg", parts.step->svg);

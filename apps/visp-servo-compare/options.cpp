@@ -37,6 +37,10 @@ constexpr const char *EXAMPLES = R"(Examples:
       20 seeds of every run; the report shows median and range
   visp-servo-compare --law pbvs1,ff-lookat-pi --plant A --shape
       what it takes to start without a step in velocity, and what that costs
+  visp-servo-compare --robot amor --measure points
+      a seven-joint arm carries the camera; the report shows its joints
+  visp-servo-compare --robot my-arm.urdf --robot-tip tool0 --robot-camera camera_link --plant A
+      your own arm
   visp-servo-compare --task my-task.json
       your own poses, camera, gains and robots; start from data/scenario/thesis-5.4.json
 
@@ -125,6 +129,28 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   app.add_option("--task", options.taskFile, "Task file instead of the thesis' task; see data/scenario/README.md")
       ->check(CLI::ExistingFile)
       ->option_text("FILE.json");
+  app.add_option("--robot", options.robot.robot,
+                 "What carries the camera: camera (flies freely), amor (the arm of the thesis), or an arm as .urdf or "
+                 ".json file, see data/robot/README.md. On an arm plant A is ideal; B and D are driven by torques "
+                 "against joint friction, on D twice that of the file (default: camera)")
+      ->option_text("ROBOT");
+  app.add_option("--robot-base", options.robot.base, "First link of the URDF's chain (default: the root)")
+      ->option_text("LINK");
+  app.add_option("--robot-tip", options.robot.tip, "Its last link (default: the only leaf)")->option_text("LINK");
+  app.add_option("--robot-camera", options.robot.camera, "Link that is the camera (default: the tip)")
+      ->option_text("LINK");
+  app.add_option("--robot-acceleration", options.robot.acceleration,
+                 "Acceleration limit of all joints of the URDF, which has none, rad/s^2 or m/s^2 (default: 10)")
+      ->check(CLI::PositiveNumber)
+      ->option_text("A");
+  app.add_option("--self-motion", options.robot.selfMotion,
+                 "What spare joints do: limits (away from joint limits), manipulability, posture (stay near the "
+                 "start), or none (default: limits,manipulability)")
+      ->delimiter(',')
+      ->option_text("WISH,...");
+  app.add_option("--limits", options.robot.limits,
+                 "At a position limit stop only that joint, or scale the whole motion (default: stop)")
+      ->option_text("stop|scale");
   app.add_option("--target", options.target, "Photo of the flat object (default: klimt.jpg of the data folder)")
       ->check(CLI::ExistingFile)
       ->option_text("IMAGE");

@@ -14,6 +14,17 @@
 
 namespace servoCompare
 {
+//! \brief Which robot carries the camera.
+struct RobotOptions {
+  std::string robot = "camera"; //!< "camera", "amor", or a .urdf or .json file.
+  std::string base;             //!< First link of a URDF's chain; empty for the root.
+  std::string tip;              //!< Last link; empty for the only leaf.
+  std::string camera;           //!< Link that is the camera; empty for the tip itself.
+  double acceleration = 10.;    //!< Limit of all joints of a URDF, rad/s^2 or m/s^2.
+  std::vector<std::string> selfMotion{"limits", "manipulability"}; //!< What the spare joints climb.
+  std::string limits = "stop";                                     //!< At position limits: "stop" or "scale".
+};
+
 //! \brief What the user asked for, not yet looked up or checked against each other.
 struct Options {
   std::vector<std::string> laws;     //!< Ids; empty for all.
@@ -29,6 +40,7 @@ struct Options {
   bool display = false;
   unsigned int jobs = 1;
   bool list = false;
+  RobotOptions robot;
 };
 
 /*!

@@ -8,6 +8,7 @@
 #include "catalogue.h"
 #include "dataFile.h"
 #include "format.h"
+#include "robotChoice.h"
 
 #include <visp3/planar_target/vpPlanarTarget.h>
 
@@ -125,6 +126,20 @@ void requireUsableTarget(const Target &target, const vpServoTask &task)
     throw std::runtime_error(target.file + ": " + vpApp::sentenceOf(error));
   }
 }
+
+//! Say now that the arm cannot be driven as a plant wants it.
+void requireDrivable(const Plan &plan)
+{
+  for (const vpServoPlant &plant : plan.scenario.plants) {
+    try {
+      const vpArmDrives probe(plan.arm->model, plan.arm->forPlant(plant).drives);
+    }
+    catch (const vpException &error) {
+      throw std::runtime_error(vpApp::sentenceOf(error) + "; plant " + plant.name +
+                               " needs masses, plants without lag and deadband such as A do not");
+    }
+  }
+}
 } // namespace
 
 Plan makePlan(const Options &options)
@@ -149,6 +164,10 @@ Plan makePlan(const Options &options)
   plan.seed = options.seed;
   plan.repetitions = options.repetitions;
   plan.shaped = options.shape;
+  plan.arm = chooseArm(options.robot, task);
+  if (plan.arm) {
+    requireDrivable(plan);
+  }
 
   for (const std::string &law : plan.laws) {
     for (const vpServoPlant &plant : plan.scenario.plants) {
@@ -159,6 +178,7 @@ Plan makePlan(const Options &options)
         spec.gains = plan.scenario.gains;
         spec.plant = plant;
         spec.task = task;
+        spec.arm = plan.arm;
         if (plant.pixelNoise > 0.) {
           spec.faults = plan.scenario.faults;
         }

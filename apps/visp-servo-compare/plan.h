@@ -33,7 +33,8 @@ struct Plan {
   std::vector<vpServoRunSpec>
       runs; //!< For each law, plant and measure one after another all seeds, raw and, if #shaped, then shaped.
             //!< vpServoRunSpec::target is still empty.
-  bool shaped = false; //!< Every run occurs raw and shaped.
+  std::shared_ptr<const vpServoArm> arm; //!< Carries the camera in all runs; null: it flies freely.
+  bool shaped = false;                   //!< Every run occurs raw and shaped.
   unsigned int seed = 1;
   unsigned int repetitions = 1;
 

@@ -4,12 +4,15 @@
  */
 #include "reportPage.h"
 
+#include "armFigures.h"
+#include "armTable.h"
 #include "catalogue.h"
 #include "findings.h"
 #include "format.h"
 #include "htmlReport.h"
 #include "options.h"
 #include "resultTable.h"
+#include "robotChoice.h"
 #include "stepTable.h"
 
 #include <visp3/core/vpMath.h>
@@ -85,8 +88,11 @@ void writeWhat(HtmlReport &page, const Plan &plan, const Results &results)
     page.paragraph(plan.scenario.description);
   }
   std::vector<std::string> items;
+  if (plan.arm) {
+    items.push_back("The camera is in the hand of an arm: " + sentenceOf(*plan.arm));
+  }
   for (const vpServoPlant &plant : plan.scenario.plants) {
-    items.push_back("Plant " + plant.name + ": " + sentenceOf(plant));
+    items.push_back("Plant " + plant.name + ": " + sentenceOf(plant, plan.arm != nullptr));
   }
   page.list(items);
   page.paragraph(
@@ -143,6 +149,33 @@ void writeFigures(HtmlReport &page, const ReportParts &parts)
   page.paragraph(
       "Numbered as in the thesis where they repeat one of its figures. A law has the same colour everywhere.");
   for (const Figure &figure : parts.figures) {
+    page.picture(vpApp::dataUri("image/svg+xml", figure.svg), figure.title, figure.title + ". " + figure.caption);
+  }
+}
+
+void writeArm(HtmlReport &page, const Plan &plan, const Results &results, const std::vector<Figure> &figures)
+{
+  page.section("The arm");
+  page.paragraph(
+      "The law's twist becomes joint velocities within all limits every 5 ms; where joints are to spare, what is left "
+      "of them moves without moving the camera (self-motion). On plants with friction the drives follow by torques at "
+      "1 kHz: PD control with gravity, no friction compensation, friction that sticks. Masses, gains and friction of "
+      "the "
+      "AMOR arm are assumed, the thesis does not give them.");
+  page.paragraph(
+      "Such drives integrate the commanded velocity: a joint that sticks is pushed harder until it moves. A law "
+      "without "
+      "an integral of its own therefore ends nearer to the goal than on a robot whose friction swallows small "
+      "velocities, as plants B and D are without an arm.");
+  page.table(armTable(plan, results),
+             "By law and plant, measured by " + plan.mainMeasure() +
+                 ". limit margin: least distance of a joint from a position limit, and which; 0 means that it was held "
+                 "there. speed, acceleration: largest part of a joint's limit that was commanded; 100 is the limit "
+                 "itself, which is never exceeded. self-motion: way the joints made for their own good. slowed: less "
+                 "motion than asked for, by limits or near singularities; blocked: none.");
+  page.table(jointErrorTable(plan, results, armLaw(plan)),
+             "How well the joints follow their commands, with " + armLaw(plan) + " (mm for sliding joints).");
+  for (const Figure &figure : figures) {
     page.picture(vpApp::dataUri("image/svg+xml", figure.svg), figure.title, figure.title + ". " + figure.caption);
   }
 }
@@ -252,6 +285,9 @@ void writeParameters(HtmlReport &page, const Plan &plan, const ReportParts &part
       {"Command line", parts.commandLine},
       {"Wall time", fixed(parts.wallTime, 0) + " s"},
   };
+  if (plan.arm) {
+    facts.emplace_back("Robot", plan.arm->model.label() + ": " + sentenceOf(*plan.arm));
+  }
   facts.insert(facts.end(), rest.begin(), rest.end());
   page.facts(facts, "Rotations are theta u; frames as in ViSP: z along the optical axis, x right, y down.");
 
@@ -265,8 +301,11 @@ void writeParameters(HtmlReport &page, const Plan &plan, const ReportParts &part
                            HtmlCell(number(1000. * p.lag, 4)), HtmlCell(number(p.deadband, 4)),
                            HtmlCell(number(p.maxLinear, 4)), HtmlCell(number(p.maxAngular, 4))});
   }
-  page.table(plants,
-             "The plants. Friction is seen as a velocity that each rotation axis loses. Limits scale the whole twist.");
+  page.table(plants, plan.arm
+                         ? "The plants. On an arm lag and friction come from its joints: friction 0.1 stands for "
+                           "that of the arm's file, 0.2 for twice that. Limits scale the whole twist."
+                         : "The plants. Friction is seen as a velocity that each rotation axis loses. Limits scale "
+                           "the whole twist.");
   page.paragraph(
       "Beside this page: summary.json (all figures of all runs), log/ (one CSV file for each run), figure/ (the "
       "drawings as SVG), video/ (the films).");
@@ -282,6 +321,9 @@ std::string reportPage(const Plan &plan, const Results &results, const ReportPar
   writeWhat(page, plan, results);
   writeTables(page, plan, results);
   writeFigures(page, parts);
+  if (plan.arm) {
+    writeArm(page, plan, results, parts.armFigures);
+  }
   if (parts.step) {
     writeStep(page, plan, results, *parts.step);
   }

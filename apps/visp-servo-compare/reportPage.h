@@ -16,6 +16,7 @@ namespace servoCompare
 {
 //! \brief What the page is made of, besides plan and results.
 struct ReportParts {
+  std::vector<Figure> armFigures; //!< Of the joints; empty without an arm.
   std::vector<Figure> figures;
   std::optional<Figure> step; //!< Of the section on shaped runs, if there are any.
   FilmStrip filmStrip;

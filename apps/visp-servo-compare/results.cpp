@@ -92,6 +92,7 @@ Results runAll(const Plan &plan, const std::string &targetFile, unsigned int job
     }
     else {
       run.samples = {};
+      run.arm = {};
     }
     results.set(order[i], std::move(run));
   });

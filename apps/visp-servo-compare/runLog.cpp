@@ -20,13 +20,42 @@ constexpr const char *HEADER =
     "commanded_vx_mps,commanded_vy_mps,commanded_vz_mps,commanded_wx_radps,commanded_wy_radps,commanded_wz_radps,"
     "actual_vx_mps,actual_vy_mps,actual_vz_mps,actual_wx_radps,actual_wy_radps,actual_wz_radps,"
     "reference_yaw_rad,goal_yaw_rad,yaw_rad,rotation_error_rad,translation_error_m,"
-    "u_px,v_px,image_error_u_px,image_error_v_px,image_error_px,in_view,measured,new_frame,status\n";
+    "u_px,v_px,image_error_u_px,image_error_v_px,image_error_px,in_view,measured,new_frame,status";
 
 void append(std::string &csv, double value)
 {
   char text[32];
   std::snprintf(text, sizeof(text), "%.7g,", value);
   csv += text;
+}
+
+//! Columns of the arm, if there is one: the joints at the end of the cycle.
+std::string armHeader(const vpServoRun &run)
+{
+  std::string header;
+  if (!run.arm.empty()) {
+    for (const char *quantity : {"q", "wanted", "velocity", "command", "torque"}) {
+      for (const vpArmJointSpec &joint : run.spec.arm->model.spec().joints) {
+        header += std::string(",") + quantity + "_" + fileName(joint.name);
+      }
+    }
+    header += ",limit_margin,manipulability,self_motion_radps,arm_status";
+  }
+  return header;
+}
+
+void appendArm(std::string &csv, const vpArmSample &s)
+{
+  csv += ',';
+  for (const vpJointVector *joints : {&s.q, &s.wanted, &s.velocity, &s.command, &s.torque}) {
+    for (Eigen::Index i = 0; i < joints->size(); ++i) {
+      append(csv, (*joints)(i));
+    }
+  }
+  append(csv, s.limitMargin);
+  append(csv, s.manipulability);
+  append(csv, s.selfMotion);
+  csv += toString(s.status);
 }
 } // namespace
 
@@ -40,9 +69,10 @@ std::string logName(const vpServoRunSpec &spec)
 
 std::string csvOf(const vpServoRun &run)
 {
-  std::string csv = HEADER;
-  csv.reserve(320 * (run.samples.size() + 1));
-  for (const vpServoSample &s : run.samples) {
+  std::string csv = HEADER + armHeader(run) + "\n";
+  csv.reserve((run.arm.empty() ? 320 : 800) * (run.samples.size() + 1));
+  for (std::size_t row = 0; row < run.samples.size(); ++row) {
+    const vpServoSample &s = run.samples[row];
     append(csv, s.time);
     csv += fileName(run.spec.task.segments[s.segment].name) + ",";
     const vpPoseVector pose(s.wMc);
@@ -62,6 +92,9 @@ std::string csvOf(const vpServoRun &run)
     csv += s.measured ? "1," : "0,";
     csv += s.newFrame ? "1," : "0,";
     csv += toString(s.status);
+    if (row < run.arm.size()) {
+      appendArm(csv, run.arm[row]);
+    }
     csv += '\n';
   }
   return csv;

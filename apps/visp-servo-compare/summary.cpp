@@ -81,6 +81,38 @@ Json jsonOf(const vpServoTask &task)
           {"segments", segments}};
 }
 
+Json jsonOf(const vpJointVector &joints) { return std::vector<double>(joints.data(), joints.data() + joints.size()); }
+
+Json jsonOf(const vpArmModel &model, const vpArmMetrics &m)
+{
+  Json item = {{"joint_rms", jsonOf(m.joint_rms)},
+               {"peak_velocity_share", m.peak_velocity_share},
+               {"peak_acceleration_share", m.peak_acceleration_share},
+               {"least_manipulability", m.least_manipulability},
+               {"self_motion_rad", m.self_motion_rad},
+               {"limited_s", m.limited_s},
+               {"blocked_s", m.blocked_s},
+               {"status", m.status}};
+  if (m.least_margin_joint >= 0) {
+    item["least_limit_margin"] = m.least_limit_margin;
+    item["least_margin_joint"] = model.spec().joints[static_cast<std::size_t>(m.least_margin_joint)].name;
+  }
+  return item;
+}
+
+Json jsonOf(const vpServoArm &arm)
+{
+  Json joints = Json::array();
+  for (const vpArmJointSpec &joint : arm.model.spec().joints) {
+    joints.push_back(joint.name);
+  }
+  return {{"name", arm.model.spec().name},
+          {"file", arm.model.spec().source},
+          {"joints", joints},
+          {"start", jsonOf(arm.spec.start)},
+          {"limits", arm.spec.redundancy.policy == vpLimitPolicy::StopJoints ? "stop" : "scale"}};
+}
+
 Json jsonOf(const Plan &plan, const vpServoRun &run)
 {
   const vpServoMetrics &m = run.metrics;
@@ -112,6 +144,9 @@ Json jsonOf(const Plan &plan, const vpServoRun &run)
   if (run.spec.shape) {
     item["shape"] = jsonOf(*run.spec.shape);
   }
+  if (run.armMetrics) {
+    item["arm"] = jsonOf(run.spec.arm->model, *run.armMetrics);
+  }
   if (run.spec.seed == plan.seed) {
     item["log"] = logName(run.spec);
   }
@@ -125,15 +160,19 @@ Json summaryOf(const Plan &plan, const Results &results, const std::string &comm
   for (const vpServoRun &run : results.runs()) {
     runs.push_back(jsonOf(plan, run));
   }
-  return {{"program", "visp-servo-compare"},
-          {"version", VISP_DIRECT_VERSION},
-          {"visp_version", std::to_string(VISP_VERSION_MAJOR) + "." + std::to_string(VISP_VERSION_MINOR) + "." +
-                               std::to_string(VISP_VERSION_PATCH)},
-          {"command_line", commandLine},
-          {"wall_time_s", wallTime},
-          {"data", "simulated robots; the target is a photograph, its views are rendered"},
-          {"target", plan.target.file},
-          {"task", jsonOf(plan.scenario.task)},
-          {"runs", runs}};
+  Json summary = {{"program", "visp-servo-compare"},
+                  {"version", VISP_DIRECT_VERSION},
+                  {"visp_version", std::to_string(VISP_VERSION_MAJOR) + "." + std::to_string(VISP_VERSION_MINOR) + "." +
+                                       std::to_string(VISP_VERSION_PATCH)},
+                  {"command_line", commandLine},
+                  {"wall_time_s", wallTime},
+                  {"data", "simulated robots; the target is a photograph, its views are rendered"},
+                  {"target", plan.target.file},
+                  {"task", jsonOf(plan.scenario.task)},
+                  {"runs", runs}};
+  if (plan.arm) {
+    summary["robot"] = jsonOf(*plan.arm);
+  }
+  return summary;
 }
 } // namespace servoCompare

@@ -87,6 +87,40 @@ TEST_CASE("A wrong command line ends with status 2", "[visp-servo-compare]")
   }
 }
 
+TEST_CASE("A bad robot ends with a sentence that names the file and the element", "[visp-servo-compare]")
+{
+  ProgramRun run(SERVO_COMPARE);
+  check(run, {"--robot spot", USAGE, "--robot is spot, must be camera, amor, a .urdf or a .json file"});
+  check(run, {"--robot amor --self-motion dance", USAGE, "--self-motion: unknown wish \"dance\""});
+  check(run, {"--robot amor --self-motion none,limits", USAGE, "--self-motion: unknown wish \"none\""});
+  check(run, {"--limits bounce", USAGE, "--limits is bounce, must be stop or scale"});
+  check(run, {"--robot-acceleration -1", USAGE, "--robot-acceleration"});
+  check(run, {"--robot none.urdf", DATA, "none.urdf"});
+  run.write("broken.urdf", "<robot name='b'><link");
+  check(run, {"--robot broken.urdf", DATA, "broken.urdf"});
+  const std::string links = "<robot name='b'><link name='a'/><link name='b'/><link name='c'/>";
+  const std::string joint = "<joint name='j' type='revolute'><parent link='a'/><child link='b'/>"
+                            "<limit lower='-1' upper='1' velocity='1' effort='1'/></joint>";
+  run.write("two.urdf", links + joint +
+                            "<joint name='k' type='revolute'><parent link='a'/><child link='c'/><limit lower='-1' "
+                            "upper='1' velocity='1' effort='1'/></joint></robot>");
+  check(run, {"--robot two.urdf --plant A", DATA, "two.urdf"});
+  check(run, {"--robot two.urdf --robot-tip z --plant A", DATA, "two.urdf"});
+  // One joint cannot take the camera to all poses; nor can an arm without masses be driven by torques.
+  check(run, {"--robot two.urdf --robot-tip b --plant A", DATA, "from none of 200 start configurations"});
+  std::string amor = vpApp::readFile(std::string(VISP_DIRECT_DATA_DIR) + "/robot/amor.json");
+  const std::string mass =
+      "\"mass_kg\": 2.4, \"com_m\": [0.0, 0.0, 0.0], \"inertia_kg_m2\": [0.012, 0.012, 0.012, 0, 0, 0]";
+  REQUIRE(amor.find(", " + mass) != std::string::npos);
+  amor.erase(amor.find(", " + mass), mass.size() + 2);
+  run.write("light.json", amor);
+  check(run, {"--robot light.json --plant A,B", DATA, "link2"});
+  const std::string limit = "\"acceleration\": 6.0, ";
+  amor.erase(amor.find(limit), limit.size());
+  run.write("unlimited.json", amor);
+  check(run, {"--robot unlimited.json --plant A", DATA, "unlimited.json: acceleration limit of joint q1 is infinite"});
+}
+
 TEST_CASE("A bad photo ends with status 1", "[visp-servo-compare]")
 {
   ProgramRun run(SERVO_COMPARE);

@@ -270,3 +270,47 @@ TEST_CASE("Help, version and list are printed", "[visp-servo-compare]")
   }
   CHECK(run.entries().empty());
 }
+
+TEST_CASE("On an arm the result has the joints", "[visp-servo-compare]")
+{
+  const std::string sixAxes = std::string(VISP_DIRECT_DATA_DIR) + "/robot/generic-6r.urdf";
+  for (const std::string &robot : {std::string("amor"), sixAxes + " --robot-tip tool --robot-camera camera"}) {
+    ProgramRun run(SERVO_COMPARE);
+    const int status = run("--robot " + robot + " --law pbvs1,ff-lookat-pi --plant A,B --measure points --out result");
+    CAPTURE(robot, run.err());
+    REQUIRE(status == 0);
+    const nlohmann::json summary = vpApp::readJsonFile(run.path("result/summary.json"));
+    const std::size_t joints = robot == "amor" ? 7 : 6;
+    REQUIRE(summary["robot"]["joints"].size() == joints);
+    REQUIRE(summary["robot"]["start"].size() == joints);
+    REQUIRE(summary["runs"].size() == 4);
+    for (const nlohmann::json &item : summary["runs"]) {
+      const nlohmann::json &arm = item["arm"];
+      CAPTURE(item["law"], item["plant"], arm);
+      CHECK(arm["status"] == "ok");
+      CHECK(arm["peak_velocity_share"] <= 1.);
+      CHECK(item["end_rotation_deg"] < 0.6);
+      const bool perfect = item["plant"] == "A";
+      for (const double rms : arm["joint_rms"]) {
+        CHECK((perfect ? rms == 0. : rms > 1e-4 && rms < 0.006));
+      }
+      CHECK((arm["self_motion_rad"] > 0.) == (joints == 7));
+      auto columns = readCsv(run.path("result").append(item["log"].get<std::string>()));
+      const std::string first = summary["robot"]["joints"][0];
+      REQUIRE(columns.count("q_" + first) == 1);
+      // What the joints show is what the table says.
+      double squares = 0.;
+      const std::vector<double> &q = columns["q_" + first], &wanted = columns["wanted_" + first];
+      for (std::size_t i = 0; i < q.size(); ++i) {
+        squares += (q[i] - wanted[i]) * (q[i] - wanted[i]);
+      }
+      CHECK(std::sqrt(squares / static_cast<double>(q.size())) ==
+            Approx(arm["joint_rms"][0].get<double>()).margin(1e-6));
+    }
+    const std::string page = vpApp::readFile(run.path("result/report.html"));
+    CHECK(page.find("The arm") != std::string::npos);
+    CHECK((page.find("thesis, table 8.1") != std::string::npos) == (joints == 7));
+    CHECK(std::filesystem::exists(run.path("result/figure/arm-joints.svg")));
+    CHECK(std::filesystem::exists(run.path("result/figure/arm-errors.svg")));
+  }
+}
