@@ -92,6 +92,15 @@ bool parseCommandLine(CLI::App &app, int argc, const char *const *argv)
   }
 }
 
+std::string commandLine(const std::string &program, int argc, const char *const *argv)
+{
+  std::string line = program;
+  for (int i = 1; i < argc; ++i) {
+    line += std::string(" ") + argv[i];
+  }
+  return line;
+}
+
 bool interrupted() { return s_interrupted != 0; }
 
 void throwIfInterrupted()

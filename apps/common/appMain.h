@@ -54,6 +54,9 @@ public:
  */
 [[nodiscard]] bool parseCommandLine(CLI::App &app, int argc, const char *const *argv);
 
+//! The command as it was typed, for reports and summaries: the program's name and its arguments.
+[[nodiscard]] std::string commandLine(const std::string &program, int argc, const char *const *argv);
+
 //! True after Ctrl-C.
 [[nodiscard]] bool interrupted();
 //! \throw Interrupted after Ctrl-C.

@@ -14,15 +14,6 @@ namespace
 {
 using namespace generatePattern;
 
-std::string joined(int argc, const char *const *argv)
-{
-  std::string line = "visp-generate-pattern";
-  for (int i = 1; i < argc; ++i) {
-    line += std::string(" ") + argv[i];
-  }
-  return line;
-}
-
 void generate(const Options &options, const std::string &commandLine)
 {
   vpApp::OutputFolder out("visp-generate-pattern", options.out);
@@ -46,7 +37,7 @@ int main(int argc, char **argv)
   return vpApp::runMain("visp-generate-pattern", [&]() -> int {
     Options options;
     if (readOptions(argc, argv, options)) {
-      generate(options, joined(argc, argv));
+      generate(options, vpApp::commandLine("visp-generate-pattern", argc, argv));
     }
     return vpApp::ExitOk;
   });

@@ -20,15 +20,6 @@ namespace
 {
 using namespace printPattern;
 
-std::string joined(int argc, const char *const *argv)
-{
-  std::string line = "visp-print-pattern";
-  for (int i = 1; i < argc; ++i) {
-    line += std::string(" ") + argv[i];
-  }
-  return line;
-}
-
 void print(const Options &options, const std::string &commandLine)
 {
   const auto start = std::chrono::steady_clock::now();
@@ -75,7 +66,7 @@ int main(int argc, char **argv)
   return vpApp::runMain("visp-print-pattern", [&]() -> int {
     Options options;
     if (readOptions(argc, argv, options)) {
-      print(options, joined(argc, argv));
+      print(options, vpApp::commandLine("visp-print-pattern", argc, argv));
     }
     return vpApp::ExitOk;
   });

@@ -38,15 +38,6 @@ void printList()
   }
 }
 
-std::string joined(int argc, const char *const *argv)
-{
-  std::string line = "visp-servo-compare";
-  for (int i = 1; i < argc; ++i) {
-    line += std::string(" ") + argv[i];
-  }
-  return line;
-}
-
 //! The photo as a file that ViSP reads whatever its format was.
 std::string writeTarget(const Target &target, vpApp::OutputFolder &out)
 {
@@ -63,9 +54,9 @@ void compare(const Options &options, const std::string &commandLine)
   const auto start = std::chrono::steady_clock::now();
   const Plan plan = makePlan(options);
   vpApp::requireGnuplot();
-  std::unique_ptr<CameraWindow> window;
+  std::unique_ptr<vpApp::PictureWindow> window;
   if (options.display) {
-    window = std::make_unique<CameraWindow>();
+    window = std::make_unique<vpApp::PictureWindow>("visp-servo-compare: the camera's view");
   }
   vpApp::OutputFolder out("visp-servo-compare", options.out);
 
@@ -108,7 +99,7 @@ int main(int argc, char **argv)
       printList();
       return vpApp::ExitOk;
     }
-    compare(options, joined(argc, argv));
+    compare(options, vpApp::commandLine("visp-servo-compare", argc, argv));
     return vpApp::ExitOk;
   });
 }

@@ -75,7 +75,7 @@ void replay(const Plan &plan, const vpServoRun &run, const std::function<bool(co
 } // namespace
 
 std::vector<ReplayVideo> writeVideos(const Plan &plan, const Results &results, vpApp::OutputFolder &out,
-                                     unsigned int jobs, CameraWindow *window)
+                                     unsigned int jobs, vpApp::PictureWindow *window)
 {
   std::vector<const vpServoRun *> runs;
   std::vector<ReplayVideo> videos;

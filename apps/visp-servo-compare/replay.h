@@ -9,10 +9,10 @@
 #ifndef servoCompare_replay_h
 #define servoCompare_replay_h
 
-#include "cameraWindow.h"
 #include "results.h"
 
 #include "outputFolder.h"
+#include "pictureWindow.h"
 
 namespace servoCompare
 {
@@ -28,7 +28,7 @@ struct ReplayVideo {
  * \param jobs : Videos at a time. \param window : When given, the frames are also shown, one law after another.
  */
 [[nodiscard]] std::vector<ReplayVideo> writeVideos(const Plan &plan, const Results &results, vpApp::OutputFolder &out,
-                                                   unsigned int jobs, CameraWindow *window);
+                                                   unsigned int jobs, vpApp::PictureWindow *window);
 
 //! \brief Film strips as in figure 5.11: a row of views for each law.
 struct FilmStrip {

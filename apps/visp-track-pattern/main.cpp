@@ -22,15 +22,6 @@ using namespace trackPattern;
 
 constexpr std::uintmax_t LARGEST_SHOWN_VIDEO = 12U << 20U; // bytes; a larger one would make the page slow
 
-std::string joined(int argc, const char *const *argv)
-{
-  std::string line = "visp-track-pattern";
-  for (int i = 1; i < argc; ++i) {
-    line += std::string(" ") + argv[i];
-  }
-  return line;
-}
-
 std::string videoFor(const Options &options, vpApp::OutputFolder &out)
 {
   if (options.overlay != OverlayKind::Mp4) {
@@ -67,7 +58,7 @@ int main(int argc, char **argv)
   return vpApp::runMain("visp-track-pattern", [&]() -> int {
     Options options;
     if (readOptions(argc, argv, options)) {
-      track(options, joined(argc, argv));
+      track(options, vpApp::commandLine("visp-track-pattern", argc, argv));
     }
     return vpApp::ExitOk;
   });

@@ -8,9 +8,9 @@
 #include "comparison.h"
 #include "overlay.h"
 #include "tableFile.h"
-#include "trackWindow.h"
 
 #include "appMain.h"
+#include "pictureWindow.h"
 #include "progress.h"
 
 #include <visp3/core/vpException.h>
@@ -273,9 +273,9 @@ private:
 
 RunResults trackAll(const Options &options, ImageSource &source, vpApp::OutputFolder &out)
 {
-  std::unique_ptr<TrackWindow> screen;
+  std::unique_ptr<vpApp::PictureWindow> screen;
   if (options.display) {
-    screen = std::make_unique<TrackWindow>();
+    screen = std::make_unique<vpApp::PictureWindow>("visp-track-pattern: click to end");
   }
   std::unique_ptr<vpApp::Progress> progress;
   if (source.count() > 0) {

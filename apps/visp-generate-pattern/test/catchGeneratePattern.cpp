@@ -97,14 +97,14 @@ TEST_CASE("A task survives being written and read", "[visp-generate-pattern]")
 
 TEST_CASE("The example is read, an empty object is the default", "[visp-generate-pattern]")
 {
-  const Task oled = readTask(std::string(DATA_FOLDER) + "/pattern/oled.json");
+  const Task oled = readTask(std::string(VISP_DIRECT_DATA_DIR) + "/pattern/oled.json");
   CHECK(oled.product.pitchX == Approx(220. / 4.5).epsilon(1e-6));
   CHECK(oled.product.noise == 4.);
   CHECK(oled.motion.swing[1] == 1.);
   const TemporaryFile file("{}");
   CHECK(jsonOf(readTask(file.path())) == jsonOf(Task()));
 
-  const std::string readme = vpApp::readFile(std::string(DATA_FOLDER) + "/pattern/README.md");
+  const std::string readme = vpApp::readFile(std::string(VISP_DIRECT_DATA_DIR) + "/pattern/README.md");
   for (const Field &field : fields()) { // "_y" may stand for the second of a pair
     const std::string name = std::string(field.group) + "." + field.nameWith('_');
     CAPTURE(name);

@@ -119,7 +119,7 @@ TEST_CASE("Frames and tables are those of vpProductPattern", "[visp-generate-pat
 TEST_CASE("A written configuration makes the same sequence again", "[visp-generate-pattern]")
 {
   ProgramRun run(GENERATE_PATTERN);
-  REQUIRE(run("--config '" DATA_FOLDER
+  REQUIRE(run("--config '" VISP_DIRECT_DATA_DIR
               "/pattern/oled.json' --frames 5 --noise 2 --video --width 101 --height 81 --out a") == OK);
   const json config = json::parse(vpApp::readFile(run.path("a/config.json")));
   CHECK(config["frames"] == 5); // the option goes before the file

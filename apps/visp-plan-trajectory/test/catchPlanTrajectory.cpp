@@ -282,7 +282,7 @@ TEST_CASE("Bad lines are refused with axis and value", "[visp-plan-trajectory]")
 TEST_CASE("The example files are answered, and have a picture", "[visp-plan-trajectory]")
 {
   for (const char *name : {"figure-6.3.jsonl", "examples.jsonl"}) {
-    std::istringstream file(vpApp::readFile(std::string(DATA_FOLDER) + "/trajectory/" + name));
+    std::istringstream file(vpApp::readFile(std::string(VISP_DIRECT_DATA_DIR) + "/trajectory/" + name));
     std::size_t line = 0;
     for (std::string text; std::getline(file, text);) {
       ++line;

@@ -343,7 +343,7 @@ TEST_CASE("Bad use ends with a sentence and nothing written", "[visp-track-patte
 
 TEST_CASE("What is written is described", "[visp-track-pattern]")
 {
-  const std::string readme = vpApp::readFile(DATA_FOLDER "/pattern/README.md");
+  const std::string readme = vpApp::readFile(VISP_DIRECT_DATA_DIR "/pattern/README.md");
   for (const char *word :
        {"visp-track-pattern", "cells.csv", "frame,row,column,x,y,sigma_x,sigma_y,valid,epoch",
         "frame,dx,dy,sigma,status,microseconds,sigma_dx,sigma_dy,reason,epoch,valid_cells", "x_um,y_um", "dx_um,dy_um",

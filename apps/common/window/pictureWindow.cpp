@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-#include "trackWindow.h"
+#include "pictureWindow.h"
 
 #include <visp3/core/vpImage.h>
 #include <visp3/core/vpImageConvert.h>
@@ -15,22 +15,24 @@
 
 VISP_DIRECT_USING_NAMESPACE
 
-namespace trackPattern
+namespace vpApp
 {
-class TrackWindow::Impl
+class PictureWindow::Impl
 {
 public:
 #if defined(VISP_HAVE_X11)
   vpDisplayX display;
 #endif
   vpImage<vpRGBa> image;
+  std::string title;
   bool open = false;
 };
 
 #if defined(VISP_HAVE_X11)
 
-TrackWindow::TrackWindow() : m_impl(std::make_unique<Impl>())
+PictureWindow::PictureWindow(const std::string &title) : m_impl(std::make_unique<Impl>())
 {
+  m_impl->title = title;
   const char *screen = std::getenv("DISPLAY");
   if (screen == nullptr || *screen == '\0') {
     throw std::runtime_error("--display needs a screen, but the environment variable DISPLAY is not set");
@@ -46,14 +48,14 @@ TrackWindow::TrackWindow() : m_impl(std::make_unique<Impl>())
   }
 }
 
-TrackWindow::~TrackWindow() = default;
+PictureWindow::~PictureWindow() = default;
 
-bool TrackWindow::show(const cv::Mat &picture, double duration)
+bool PictureWindow::show(const cv::Mat &picture, double duration)
 {
   const double start = vpTime::measureTimeMs();
   vpImageConvert::convert(picture, m_impl->image);
   if (!m_impl->open) {
-    m_impl->display.init(m_impl->image, 100, 100, "visp-track-pattern: click to end");
+    m_impl->display.init(m_impl->image, 100, 100, m_impl->title);
     m_impl->open = true;
   }
   vpDisplay::display(m_impl->image);
@@ -65,11 +67,14 @@ bool TrackWindow::show(const cv::Mat &picture, double duration)
 
 #else
 
-TrackWindow::TrackWindow() { throw std::runtime_error("--display needs X11, and this ViSP was built without it"); }
+PictureWindow::PictureWindow(const std::string &)
+{
+  throw std::runtime_error("--display needs X11, and this ViSP was built without it");
+}
 
-TrackWindow::~TrackWindow() = default;
+PictureWindow::~PictureWindow() = default;
 
-bool TrackWindow::show(const cv::Mat &, double) { return false; }
+bool PictureWindow::show(const cv::Mat &, double) { return false; }
 
 #endif
-} // namespace trackPattern
+} // namespace vpApp

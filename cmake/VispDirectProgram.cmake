@@ -1,0 +1,72 @@
+# A program of visp-direct, in its own build and as an app of a ViSP source tree that has this folder among its contrib
+# modules. Included at the top of every program's CMakeLists.txt.
+include("${CMAKE_CURRENT_LIST_DIR}/VispDirectModule.cmake")
+
+# vispdirect_add_program(visp-NAME TARGET...): the program of this folder, on modules and libraries that must be there;
+# without one of them it is not built, which is said in a line. All but main.cpp becomes a library vispdirect_NAME, so
+# that the tests of test/ can link it.
+macro(vispdirect_add_program vispdirect_program)
+  vispdirect_find_visp()
+  find_package(nlohmann_json QUIET)
+  find_package(CLI11 QUIET)
+  find_package(OpenCV 4 QUIET COMPONENTS core imgproc imgcodecs videoio)
+  add_subdirectory("${CMAKE_CURRENT_LIST_DIR}/../common" "${CMAKE_CURRENT_BINARY_DIR}/common")
+  if(NOT TARGET vispdirect_apps_common)
+    return()
+  endif()
+  foreach(vispdirect_need ${ARGN})
+    if(NOT TARGET ${vispdirect_need})
+      message(STATUS "visp-direct: program ${vispdirect_program} is not built, ${vispdirect_need} is missing")
+      return()
+    endif()
+  endforeach()
+
+  string(REGEX REPLACE "^visp-" "" vispdirect_library "${vispdirect_program}")
+  string(REPLACE "-" "_" vispdirect_library "vispdirect_${vispdirect_library}")
+  file(GLOB vispdirect_sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_LIST_DIR}/*.cpp" "${CMAKE_CURRENT_LIST_DIR}/*.h")
+  list(REMOVE_ITEM vispdirect_sources "${CMAKE_CURRENT_LIST_DIR}/main.cpp")
+  add_library(${vispdirect_library} STATIC ${vispdirect_sources})
+  target_include_directories(${vispdirect_library} PUBLIC "${CMAKE_CURRENT_LIST_DIR}")
+  target_include_directories(${vispdirect_library} SYSTEM PUBLIC ${VISP_INCLUDE_DIRS} ${VISP_DIRECT_EIGEN3_INCLUDE_DIR})
+  target_link_libraries(${vispdirect_library} PUBLIC vispdirect_apps_common ${ARGN})
+  target_compile_options(${vispdirect_library} PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang>:-Wall;-Wextra;-Wshadow>)
+
+  add_executable(${vispdirect_program} main.cpp)
+  target_link_libraries(${vispdirect_program} PRIVATE ${vispdirect_library})
+
+  if(VISP_DIRECT_STANDALONE)
+    install(TARGETS ${vispdirect_program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+    if(BUILD_TESTS)
+      add_subdirectory(test)
+    endif()
+  endif()
+endmacro()
+
+# vispdirect_add_part_test(TEST visp-NAME): TEST.cpp on the parts of a program.
+function(vispdirect_add_part_test test program)
+  string(REGEX REPLACE "^visp-" "" library "${program}")
+  string(REPLACE "-" "_" library "vispdirect_${library}")
+  vispdirect_add_app_test(${test} ${library})
+endfunction()
+
+# vispdirect_add_program_test(TEST visp-NAME...): TEST.cpp runs programs. Their paths are the macros NAME, in capitals with
+# underscores.
+function(vispdirect_add_program_test test)
+  vispdirect_add_app_test(${test} vispdirect_apps_common)
+  foreach(program ${ARGN})
+    string(REGEX REPLACE "^visp-" "" variable "${program}")
+    string(REPLACE "-" "_" variable "${variable}")
+    string(TOUPPER "${variable}" variable)
+    target_compile_definitions(${test} PRIVATE ${variable}="$<TARGET_FILE:${program}>")
+    add_dependencies(${test} ${program})
+  endforeach()
+endfunction()
+
+# What both kinds have in common: the shared main, the kit of apps/common/test, the data folder, skipping.
+function(vispdirect_add_app_test test)
+  add_executable(${test} ${test}.cpp)
+  target_include_directories(${test} PRIVATE "${VISP_DIRECT_ROOT}/apps/common/test")
+  target_link_libraries(${test} PRIVATE ${ARGN} vispdirect_test_support)
+  add_test(NAME ${test} COMMAND ${test})
+  set_tests_properties(${test} PROPERTIES SKIP_RETURN_CODE 77)
+endfunction()
