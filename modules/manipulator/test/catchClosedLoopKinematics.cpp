@@ -341,3 +341,36 @@ TEST_CASE("Any motion ends at the goal or says why it stopped, within all limits
     }
   }
 }
+
+TEST_CASE("The step does not allocate, and brakes on nonsense", "[loop]")
+{
+  vpClosedLoopKinematics loop(amor());
+  vpClosedLoopInput input;
+  vpClosedLoopState state;
+  vpClosedLoopOutput output;
+  vpArmData data;
+  vpArmKinematics::forward(amor(), home(), data);
+  state.q = home();
+  input.goal = data.tool;
+  input.goal.p(0) += 0.2;
+  input.indices[0] = vpSelfMotionIndex::manipulability();
+  input.indices[1] = vpSelfMotionIndex::jointLimits();
+  input.indexCount = 2;
+  loop.step(input, state, output);
+  const unsigned long before = vpTestSupport::allocationCount();
+  for (int k = 0; k < 100; ++k) {
+    loop.step(input, state, output);
+  }
+  CHECK(vpTestSupport::allocationCount() == before);
+  REQUIRE(state.velocity.norm() > 0.05);
+  input.goal.p(1) = NAN;
+  for (int k = 0; k < 100; ++k) {
+    const double speed = state.velocity.norm();
+    loop.step(input, state, output);
+    REQUIRE(output.status == vpClosedLoopStatus::InvalidInput);
+    REQUIRE(state.velocity.norm() <= speed);
+    REQUIRE(state.q.allFinite());
+  }
+  CHECK(state.velocity.norm() == 0.);
+  CHECK(vpTestSupport::allocationCount() == before);
+}

@@ -268,6 +268,34 @@ TEST_CASE("Only the joint at its limit stops, and the spare joint takes over", "
   CHECK(exact > 3 * stopped / 4);
 }
 
+TEST_CASE("What a joint still moves while it brakes before its limit is taken off the others", "[limits]")
+{
+  auto rng = vpTestSupport::generator(36);
+  CAPTURE(vpTestSupport::seed());
+  const vpRedundancySolver solver(amor());
+  int moving = 0;
+  for (int problem = 0; problem < 2000; ++problem) {
+    vpJointVector q = configuration(amor(), rng, 0.2);
+    const int joint = 1 + static_cast<int>(rng() % 3);
+    q(joint) = problem % 2 == 0 ? amor().upper()(joint) - 2e-4 : amor().lower()(joint) + 2e-4;
+    const vpArmData data = at(amor(), q);
+    vpRedundancyInput in = input(7, 0.3 * randomTwist(rng));
+    const Vector6 twist(in.twist.data());
+    vpRedundancyOutput out;
+    for (int k = 0; k < 60; ++k) { // the arm stands, its commands settle
+      solver.step(data, in, out);
+      in.previous = out.velocity;
+    }
+    if (out.status != vpRedundancyStatus::Exact || out.stoppedJoints != 1U << joint || out.smallestSingular < 0.05) {
+      continue;
+    }
+    ++moving;
+    REQUIRE(std::fabs(out.velocity(joint)) > 0.01);
+    REQUIRE((data.J * out.velocity - twist).norm() < 1e-7);
+  }
+  CHECK(moving > 20);
+}
+
 TEST_CASE("A joint always brakes before its limit", "[limits]")
 {
   auto rng = vpTestSupport::generator(36);
@@ -378,6 +406,39 @@ TEST_CASE("A planar arm stretched straight cannot reach farther, and says so", "
         CHECK(std::fabs(at(arm, q).tool.p(1)) < 0.02);
       }
     }
+  }
+}
+
+TEST_CASE("A straight arm whose elbow bends one way only comes in that way", "[singular]")
+{
+  for (const double side : {1., -1.}) {
+    vpArmSpec spec;
+    spec.name = "one way";
+    for (int i = 0; i < 2; ++i) {
+      vpArmJointSpec joint = vpArmJointSpec::standardDH(0.5, 0., 0., 0.);
+      joint.name = "p" + std::to_string(i);
+      joint.lower = i == 0 ? -3. : std::min(0., 2.5 * side);
+      joint.upper = i == 0 ? 3. : std::max(0., 2.5 * side);
+      joint.velocity = 2.;
+      joint.acceleration = 10.;
+      spec.joints.push_back(joint);
+    }
+    const vpArmModel arm(spec);
+    const vpRedundancySolver solver(arm);
+    Vector6 twist = Vector6::Zero();
+    twist(0) = -0.05;
+    vpRedundancyInput in = input(2, twist);
+    in.free = {false, false, true, true, true, true};
+    vpRedundancyOutput out;
+    vpJointVector q = vector({0., 0.});
+    for (int k = 0; k < 400; ++k) {
+      solver.step(at(arm, q), in, out);
+      in.previous = out.velocity;
+      q += 0.005 * out.velocity;
+    }
+    CAPTURE(side, out.sentence(), q.transpose());
+    CHECK(at(arm, q).tool.p(0) < 1. - 0.05);
+    CHECK(q(1) * side > 0.3);
   }
 }
 
