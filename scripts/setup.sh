@@ -9,7 +9,8 @@ mkdir -p "$logs"
 
 # What the build needs from Debian 12. ViSP brings OpenCV and Eigen, which we name because we use them ourselves.
 packages=(g++ cmake ninja-build libvisp-dev libopencv-dev libeigen3-dev libdlib-dev catch2 libbenchmark-dev
-  libcli11-dev nlohmann-json3-dev liborocos-kdl-dev liburdfdom-dev gnuplot-nox)
+  libcli11-dev nlohmann-json3-dev liborocos-kdl-dev liburdfdom-dev libfcl-dev liboctomap-dev
+  libompl-dev gnuplot-nox)
 # Real images that some tests check against; those are skipped where the images are missing.
 test_packages=(visp-images-data opencv-doc)
 

@@ -1,0 +1,196 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// Time of distances and of checks of motions, with FCL on the same pairs and motions beside.
+#include <visp3/avoidance/vpCertifiedMotion.h>
+#include <visp3/avoidance/vpCollisionSceneJson.h>
+#include <visp3/avoidance/vpDiscreteMotion.h>
+#include <visp3/avoidance/vpFclChecker.h>
+#include <visp3/direct_core/vpSO3.h>
+#include <visp3/manipulator/vpArmJson.h>
+
+#include <benchmark/benchmark.h>
+
+#include <random>
+
+VISP_DIRECT_USING_NAMESPACE
+
+namespace
+{
+std::string dataFile(const std::string &name) { return std::string(VISP_DIRECT_DATA_DIR) + "/" + name; }
+
+// AMOR with seven capsules, one a link, so that 10 of the pairs of capsules are not adjacent.
+const vpArmModel &arm()
+{
+  static const vpArmModel model = [] {
+    vpArmSpec spec = vpLoadArmJson(dataFile("robot/amor.json")).spec();
+    spec.capsules = {{1, {0., 0., 0.}, {-0.0623, 0.155, 0.}, 0.07},   {2, {0., 0., -0.02}, {0., 0., 0.02}, 0.05},
+                     {3, {0., 0., 0.}, {-0.097, -0.41946, 0.}, 0.06}, {4, {0., 0., -0.02}, {0., 0., 0.02}, 0.05},
+                     {5, {0., 0., 0.}, {-0.0502, -0.3582, 0.}, 0.05}, {6, {0., 0., -0.02}, {0., 0., 0.02}, 0.045},
+                     {7, {0., 0., -0.07}, {0., 0., 0.1}, 0.045}};
+    return vpArmModel(spec);
+  }();
+  return model;
+}
+
+// Ten spheres, capsules, boxes and cylinders about the arm: 70 pairs, and 10 of 21 pairs of capsules.
+const vpCollisionScene &scene()
+{
+  static const vpCollisionScene made = [] {
+    std::mt19937_64 rng(3);
+    std::uniform_real_distribution<double> u(-1., 1.);
+    vpCollisionSceneSpec spec;
+    for (int j = 0; j < 10; ++j) {
+      vpCollisionObject object;
+      object.name = "o" + std::to_string(j);
+      object.shape = j % 4 == 0   ? vpCollisionShape::sphere(0.08)
+                     : j % 4 == 1 ? vpCollisionShape::capsule(0.05, 0.3)
+                     : j % 4 == 2 ? vpCollisionShape::box({0.2, 0.1, 0.3})
+                                  : vpCollisionShape::cylinder(0.06, 0.25);
+      Eigen::Vector3d p(u(rng), u(rng), u(rng));
+      object.pose.p = (0.7 + 0.3 * u(rng)) * p.normalized();
+      object.pose.R = vpSO3::exp(3. * Eigen::Vector3d(u(rng), u(rng), u(rng)));
+      spec.objects.push_back(object);
+    }
+    // 15 pairs are not adjacent; leave five out.
+    spec.allowedLinks = {{1, 3}, {2, 4}, {3, 5}, {4, 6}, {5, 7}};
+    return vpCollisionScene(arm(), spec);
+  }();
+  return made;
+}
+
+const std::vector<vpJointVector> &configurations()
+{
+  static const std::vector<vpJointVector> all = [] {
+    std::mt19937_64 rng(5);
+    std::uniform_real_distribution<double> share(0., 1.);
+    std::vector<vpJointVector> list(1024, vpJointVector(7));
+    for (vpJointVector &q : list) {
+      for (int i = 0; i < 7; ++i) {
+        const double lower = arm().isContinuous(i) ? -3. : arm().lower()(i),
+                     upper = arm().isContinuous(i) ? 3. : arm().upper()(i);
+        q(i) = lower + share(rng) * (upper - lower);
+      }
+    }
+    return list;
+  }();
+  return all;
+}
+
+// A third of the way between two random configurations; free ones or any.
+struct Motion {
+  vpJointVector from, to;
+};
+const std::vector<Motion> &motions(bool onlyFree)
+{
+  static const auto make = [](bool free) {
+    std::vector<Motion> list;
+    const vpCertifiedMotion certified(scene());
+    vpMotionScratch scratch;
+    for (std::size_t k = 0; list.size() < 256 && k + 1 < 4096; ++k) {
+      const vpJointVector from = configurations()[k % 1024], to = configurations()[(k * 7 + 1) % 1024];
+      const Motion m{from, from + (to - from) / (3. + static_cast<double>(k / 1024))};
+      if (!free || certified.check(m.from, m.to, scratch).isFree()) {
+        list.push_back(m);
+      }
+    }
+    return list;
+  };
+  static const std::vector<Motion> all = make(false), free = make(true);
+  return onlyFree ? free : all;
+}
+
+// Every one of the 80 distances, with nearest points.
+void allPairsOwn(benchmark::State &state)
+{
+  vpCollisionData data;
+  vpNearPairs near;
+  std::size_t k = 0;
+  for (auto _ : state) {
+    scene().place(configurations()[k++ % 1024], data);
+    scene().near(data, 1e9, near);
+    benchmark::DoNotOptimize(near.pairs.data());
+  }
+  state.counters["pairs"] = near.count;
+}
+BENCHMARK(allPairsOwn);
+
+// What a control cycle wants: pairs nearer than 0.35 m.
+void nearPairsOwn(benchmark::State &state)
+{
+  vpCollisionData data;
+  vpNearPairs near;
+  std::size_t k = 0;
+  for (auto _ : state) {
+    scene().place(configurations()[k++ % 1024], data);
+    scene().near(data, 0.35, near);
+    benchmark::DoNotOptimize(near.pairs.data());
+  }
+}
+BENCHMARK(nearPairsOwn);
+
+template <class Checker> void leastClearance(benchmark::State &state)
+{
+  Checker checker(scene());
+  std::size_t k = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(checker.clearance(configurations()[k++ % 1024], 1e9).distance);
+  }
+}
+void leastClearanceOwn(benchmark::State &state) { leastClearance<vpSceneChecker>(state); }
+void leastClearanceFcl(benchmark::State &state) { leastClearance<vpFclChecker>(state); }
+BENCHMARK(leastClearanceOwn);
+BENCHMARK(leastClearanceFcl);
+
+template <class Checker> void inCollision(benchmark::State &state)
+{
+  Checker checker(scene());
+  std::size_t k = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(checker.inCollision(configurations()[k++ % 1024], 0.));
+  }
+}
+void inCollisionOwn(benchmark::State &state) { inCollision<vpSceneChecker>(state); }
+void inCollisionFcl(benchmark::State &state) { inCollision<vpFclChecker>(state); }
+BENCHMARK(inCollisionOwn);
+BENCHMARK(inCollisionFcl);
+
+void motionCertified(benchmark::State &state, bool free)
+{
+  const vpCertifiedMotion certified(scene());
+  vpMotionScratch scratch;
+  const std::vector<Motion> &list = motions(free);
+  std::size_t k = 0;
+  double evaluated = 0.;
+  for (auto _ : state) {
+    const Motion &m = list[k++ % list.size()];
+    evaluated += certified.check(m.from, m.to, scratch).evaluated;
+  }
+  state.counters["configurations"] = evaluated / static_cast<double>(state.iterations());
+}
+BENCHMARK_CAPTURE(motionCertified, free, true);
+BENCHMARK_CAPTURE(motionCertified, any, false);
+
+template <class Checker> void motionDiscrete(benchmark::State &state, bool free)
+{
+  Checker checker(scene());
+  vpDiscreteMotion discrete(checker, 0.05);
+  const std::vector<Motion> &list = motions(free);
+  std::size_t k = 0;
+  double evaluated = 0.;
+  for (auto _ : state) {
+    const Motion &m = list[k++ % list.size()];
+    evaluated += discrete.check(m.from, m.to).evaluated;
+  }
+  state.counters["configurations"] = evaluated / static_cast<double>(state.iterations());
+}
+void motionDiscreteOwn(benchmark::State &state, bool free) { motionDiscrete<vpSceneChecker>(state, free); }
+void motionDiscreteFcl(benchmark::State &state, bool free) { motionDiscrete<vpFclChecker>(state, free); }
+BENCHMARK_CAPTURE(motionDiscreteOwn, free, true);
+BENCHMARK_CAPTURE(motionDiscreteOwn, any, false);
+BENCHMARK_CAPTURE(motionDiscreteFcl, free, true);
+BENCHMARK_CAPTURE(motionDiscreteFcl, any, false);
+} // namespace
+
+BENCHMARK_MAIN();

@@ -1,0 +1,87 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpCertifiedMotion.h
+ * \brief Proof that a straight motion between two configurations is free.
+ */
+#ifndef vpCertifiedMotion_h
+#define vpCertifiedMotion_h
+
+#include <visp3/avoidance/vpCollisionScene.h>
+#include <visp3/avoidance/vpMotionResult.h>
+#include <visp3/avoidance/vpReachBounds.h>
+
+#include <memory>
+
+BEGIN_VISP_NAMESPACE
+
+/*!
+ * \ingroup group_avoidance
+ * \brief Parameters of vpCertifiedMotion.
+ */
+struct VISP_EXPORT vpCertifiedMotionSpec {
+  double margin = 0.;       //!< Clearance that must be exceeded everywhere, m, >= 0.
+  double resolution = 1e-5; //!< Pieces in which the arm moves less than this are not split further, m, > 0.
+};
+
+/*!
+ * \class vpMotionScratch
+ * \ingroup group_avoidance
+ * \brief Memory of vpCertifiedMotion::check(); one for each thread. It grows when a scene with more pairs is checked.
+ */
+class VISP_EXPORT vpMotionScratch
+{
+public:
+  vpMotionScratch();
+  ~vpMotionScratch();
+  vpMotionScratch(vpMotionScratch &&other) noexcept;
+  vpMotionScratch &operator=(vpMotionScratch &&other) noexcept;
+
+private:
+  friend class vpCertifiedMotion;
+  struct Memory;
+  std::unique_ptr<Memory> m_memory;
+};
+
+/*!
+ * \class vpCertifiedMotion
+ * \ingroup group_avoidance
+ * \brief Free is a proof for every point of the motion q(s) = from + s (to - from), not a statement about samples.
+ *
+ * An interval of half-width h about s_m is free for a pair when its clearance at s_m, less the margin, exceeds what its
+ * parts can move within it: the smaller of h sum_j R_ij |dq_j| (vpReachBounds) and h |v| + h^2 / 2 sum_jk |dq_j| |dq_k|
+ * R_i,max(j,k), with v the velocity of the capsule's ends along the motion at s_m; the second term bounds the
+ * acceleration. Convex obstacles are also tested along the normal of the nearest points, where only the velocity towards
+ * the obstacle counts. In pairs of two capsules only the joints between them count. Intervals that are not proven are
+ * split into eight, with the unproven pairs alone; eight configurations are evaluated at once.
+ *
+ * Immutable; may be shared by threads, each with its own vpMotionScratch.
+ */
+class VISP_EXPORT vpCertifiedMotion
+{
+public:
+  /*!
+   * \param scene : Must outlive this. Objects may be moved, added and removed, but not during check(); velocities play
+   * no part.
+   * \throw vpException (badValue) naming margin or resolution and its value.
+   */
+  explicit vpCertifiedMotion(const vpCollisionScene &scene, const vpCertifiedMotionSpec &spec = {});
+
+  //! Checks the motion, both ends included. Does not allocate unless the scratch has to grow.
+  [[nodiscard]] vpMotionResult check(const vpJointVector &from, const vpJointVector &to,
+                                     vpMotionScratch &scratch) const;
+  //! What it was made with.
+  [[nodiscard]] const vpCertifiedMotionSpec &spec() const noexcept { return m_spec; }
+  //! R_ij of the scene's arm.
+  [[nodiscard]] const vpReachBounds &reach() const noexcept { return m_reach; }
+
+private:
+  const vpCollisionScene *m_scene;
+  vpCertifiedMotionSpec m_spec;
+  vpReachBounds m_reach;
+};
+
+END_VISP_NAMESPACE
+#endif

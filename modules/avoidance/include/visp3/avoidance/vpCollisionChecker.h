@@ -1,0 +1,53 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpCollisionChecker.h
+ * \brief One configuration at a time, by the fast path or by another library.
+ */
+#ifndef vpCollisionChecker_h
+#define vpCollisionChecker_h
+
+#include <visp3/avoidance/vpCollisionScene.h>
+
+BEGIN_VISP_NAMESPACE
+
+/*!
+ * \class vpCollisionChecker
+ * \ingroup group_avoidance
+ * \brief What a planner or a discrete motion asks. One for each thread; the scene must outlive it.
+ */
+class VISP_EXPORT vpCollisionChecker
+{
+public:
+  virtual ~vpCollisionChecker() = default;
+  //! Number of joints of the arm: the size of a configuration.
+  [[nodiscard]] virtual int jointCount() const noexcept = 0;
+  //! True when a pair that must not touch has a clearance <= \e margin (m) in configuration \e q.
+  [[nodiscard]] virtual bool inCollision(const vpJointVector &q, double margin) = 0;
+  //! The pair with the least clearance below \e cutoff (m), see vpCollisionScene::clearance().
+  [[nodiscard]] virtual vpClearance clearance(const vpJointVector &q, double cutoff) = 0;
+};
+
+/*!
+ * \class vpSceneChecker
+ * \ingroup group_avoidance
+ * \brief The fast path of vpCollisionScene. Does not allocate.
+ */
+class VISP_EXPORT vpSceneChecker : public vpCollisionChecker
+{
+public:
+  //! \param scene : Must outlive the checker.
+  explicit vpSceneChecker(const vpCollisionScene &scene) : m_scene(&scene) {}
+  [[nodiscard]] int jointCount() const noexcept VP_OVERRIDE { return m_scene->arm().size(); }
+  [[nodiscard]] bool inCollision(const vpJointVector &q, double margin) VP_OVERRIDE;
+  [[nodiscard]] vpClearance clearance(const vpJointVector &q, double cutoff) VP_OVERRIDE;
+
+private:
+  const vpCollisionScene *m_scene;
+  vpCollisionData m_data;
+};
+
+END_VISP_NAMESPACE
+#endif

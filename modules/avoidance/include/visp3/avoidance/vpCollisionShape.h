@@ -1,0 +1,78 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpCollisionShape.h
+ * \brief What a body looks like to collision checks.
+ */
+#ifndef vpCollisionShape_h
+#define vpCollisionShape_h
+
+#include <visp3/avoidance/vpOctree.h>
+#include <visp3/avoidance/vpTriangleMesh.h>
+
+#include <optional>
+
+BEGIN_VISP_NAMESPACE
+
+//! \brief Kind of a shape.
+enum class vpShapeType {
+  Sphere,   //!< About the origin.
+  Capsule,  //!< All points within a radius of a segment along z, centred on the origin.
+  Box,      //!< Axes along the frame's, centred on the origin.
+  Cylinder, //!< Solid, along z, centred on the origin.
+  Mesh,     //!< vpTriangleMesh.
+  Octree    //!< vpOctree.
+};
+
+/*!
+ * \class vpCollisionShape
+ * \ingroup group_avoidance
+ * \brief Shape as a value, in its own frame; lengths in m. Meshes and octrees are shared between copies.
+ */
+class VISP_EXPORT vpCollisionShape
+{
+public:
+  //! \throw vpException (badValue) naming the radius unless it is > 0 and finite.
+  [[nodiscard]] static vpCollisionShape sphere(double radius);
+  /*!
+   * \param length : Between the centres of the two caps, >= 0.
+   * \throw vpException (badValue) naming the number: radius not > 0, length not >= 0, or not finite.
+   */
+  [[nodiscard]] static vpCollisionShape capsule(double radius, double length);
+  //! \param size : Lengths of the edges. \throw vpException (badValue) naming the one that is not > 0 and finite.
+  [[nodiscard]] static vpCollisionShape box(const Eigen::Vector3d &size);
+  //! \throw vpException (badValue) naming radius or length unless they are > 0 and finite.
+  [[nodiscard]] static vpCollisionShape cylinder(double radius, double length);
+  //! A surface of triangles.
+  [[nodiscard]] static vpCollisionShape mesh(const vpTriangleMesh &mesh);
+  //! Occupied cubes.
+  [[nodiscard]] static vpCollisionShape octree(const vpOctree &octree);
+
+  //! Which of the factories made it.
+  [[nodiscard]] vpShapeType type() const noexcept { return m_type; }
+  //! Radius of a sphere, capsule or cylinder, m; 0 for the others.
+  [[nodiscard]] double radius() const noexcept { return m_radius; }
+  //! Length of a capsule (between the centres of its caps) or cylinder, m; 0 for the others.
+  [[nodiscard]] double length() const noexcept { return m_length; }
+  //! Lengths of a box's edges, m; 0 for the others.
+  [[nodiscard]] const Eigen::Vector3d &size() const noexcept { return m_size; }
+  //! The mesh; only for vpShapeType::Mesh.
+  [[nodiscard]] const vpTriangleMesh &mesh() const { return m_mesh.value(); }
+  //! The octree; only for vpShapeType::Octree.
+  [[nodiscard]] const vpOctree &octree() const { return m_octree.value(); }
+
+private:
+  vpCollisionShape() = default;
+
+  vpShapeType m_type = vpShapeType::Sphere;
+  double m_radius = 0.;
+  double m_length = 0.;
+  Eigen::Vector3d m_size = Eigen::Vector3d::Zero();
+  std::optional<vpTriangleMesh> m_mesh;
+  std::optional<vpOctree> m_octree;
+};
+
+END_VISP_NAMESPACE
+#endif

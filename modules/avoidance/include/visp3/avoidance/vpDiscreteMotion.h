@@ -1,0 +1,43 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpDiscreteMotion.h
+ * \brief The usual check of a motion: samples at a fixed step. For comparison.
+ */
+#ifndef vpDiscreteMotion_h
+#define vpDiscreteMotion_h
+
+#include <visp3/avoidance/vpCollisionChecker.h>
+#include <visp3/avoidance/vpMotionResult.h>
+
+BEGIN_VISP_NAMESPACE
+
+/*!
+ * \class vpDiscreteMotion
+ * \ingroup group_avoidance
+ * \brief Looks at configurations at most a step apart, the middle first as OMPL does. What lies between two samples is
+ * not seen: "free" may be wrong.
+ */
+class VISP_EXPORT vpDiscreteMotion
+{
+public:
+  /*!
+   * \param checker : Own fast path or FCL; must outlive this.
+   * \param step : Largest change of a joint between samples, rad or m, > 0.
+   * \param margin : m, >= 0, as vpCertifiedMotion.
+   * \throw vpException (badValue) naming step or margin and its value.
+   */
+  explicit vpDiscreteMotion(vpCollisionChecker &checker, double step = 0.05, double margin = 0.);
+  //! Both ends included.
+  [[nodiscard]] vpMotionResult check(const vpJointVector &from, const vpJointVector &to);
+
+private:
+  vpCollisionChecker *m_checker;
+  double m_step;
+  double m_margin;
+};
+
+END_VISP_NAMESPACE
+#endif

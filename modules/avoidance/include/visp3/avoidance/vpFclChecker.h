@@ -1,0 +1,49 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpFclChecker.h
+ * \brief The same questions answered by FCL, for comparison. Needs FCL when the module is built.
+ */
+#ifndef vpFclChecker_h
+#define vpFclChecker_h
+
+#include <visp3/avoidance/vpCollisionChecker.h>
+
+#include <memory>
+
+BEGIN_VISP_NAMESPACE
+
+/*!
+ * \class vpFclChecker
+ * \ingroup group_avoidance
+ * \brief All pairs of a scene by FCL 0.7: an independent implementation, slower and less exact than the fast path.
+ *
+ * Distances of capsules from boxes err by up to a millimetre there; meshes are surfaces without inside; penetrating
+ * pairs have the distance 0 (so do those whose axis is deeper than the inflation). Boolean checks use FCL's collide()
+ * for a margin and inflation of 0, its distance otherwise. The ground is checked by the scene: FCL 0.7 has no distance from
+ * a half space and crashes. Allocates.
+ */
+class VISP_EXPORT vpFclChecker : public vpCollisionChecker
+{
+public:
+  //! Takes the scene's objects as they are now; their poses are read anew at every call.
+  explicit vpFclChecker(const vpCollisionScene &scene);
+  ~vpFclChecker() VP_OVERRIDE;
+  vpFclChecker(const vpFclChecker &) = delete;
+  vpFclChecker &operator=(const vpFclChecker &) = delete;
+
+  [[nodiscard]] int jointCount() const noexcept VP_OVERRIDE { return m_scene->arm().size(); }
+  [[nodiscard]] bool inCollision(const vpJointVector &q, double margin) VP_OVERRIDE;
+  [[nodiscard]] vpClearance clearance(const vpJointVector &q, double cutoff) VP_OVERRIDE;
+
+private:
+  struct Bodies;
+  const vpCollisionScene *m_scene;
+  vpCollisionData m_data;
+  std::unique_ptr<Bodies> m_bodies;
+};
+
+END_VISP_NAMESPACE
+#endif

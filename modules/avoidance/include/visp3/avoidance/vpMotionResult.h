@@ -1,0 +1,41 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpMotionResult.h
+ * \brief What a check of a straight motion between two configurations says.
+ */
+#ifndef vpMotionResult_h
+#define vpMotionResult_h
+
+#include <visp3/avoidance/vpCollisionData.h>
+
+BEGIN_VISP_NAMESPACE
+
+//! \brief Verdict on a motion.
+enum class vpMotionStatus {
+  Free,      //!< vpCertifiedMotion: proven; vpDiscreteMotion: no sample collides.
+  Collision, //!< A configuration with a clearance <= the margin was found.
+  Undecided, //!< vpCertifiedMotion only: nearer to the margin than the resolution. Not free.
+  BadInput   //!< A configuration of the wrong size or not finite.
+};
+
+/*!
+ * \ingroup group_avoidance
+ * \brief Verdict, and where.
+ */
+struct VISP_EXPORT vpMotionResult {
+  vpMotionStatus status = vpMotionStatus::BadInput; //!< Only Free may be driven.
+  double s = 0.;     //!< Collision and Undecided: place on the motion, 0 at its start, 1 at its end.
+  vpClearance pair;  //!< Collision and Undecided: the pair there, not always the nearest one.
+  int evaluated = 0; //!< Configurations looked at.
+
+  //! True when the motion is free.
+  [[nodiscard]] bool isFree() const noexcept { return status == vpMotionStatus::Free; }
+  //! One sentence for the status.
+  [[nodiscard]] const char *sentence() const noexcept;
+};
+
+END_VISP_NAMESPACE
+#endif

@@ -1,0 +1,66 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpOctree.h
+ * \brief Occupied space as cubes, from memory, from a file of octomap or from depth images (vpDepthOctomap).
+ */
+#ifndef vpOctree_h
+#define vpOctree_h
+
+#include <visp3/direct_core/vpDirectCompat.h>
+
+#include <Eigen/Core>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+BEGIN_VISP_NAMESPACE
+
+struct vpOctreeData;
+
+/*!
+ * \ingroup group_avoidance
+ * \brief One occupied cube, axes along those of the map.
+ */
+struct VISP_EXPORT vpOctreeCell {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero(); //!< m, in the map's frame.
+  double size = 0.;                                 //!< Length of an edge, m, > 0.
+};
+
+/*!
+ * \class vpOctree
+ * \ingroup group_avoidance
+ * \brief Immutable set of occupied cubes with a tree of boxes for distances; copies share it. Unknown space counts as
+ * free. May hold no cube at all.
+ */
+class VISP_EXPORT vpOctree
+{
+public:
+  /*!
+   * \param cells : Cubes of any size.
+   * \param label : For messages.
+   * \throw vpException (badValue) naming \e label and the first cell that is not finite or has a size not > 0.
+   */
+  explicit vpOctree(const std::vector<vpOctreeCell> &cells, const std::string &label = "octree");
+  /*!
+   * Occupied leaves of a .bt or .ot file of octomap.
+   * \throw vpException (ioError) when it cannot be read, (fatalError) when the module was built without octomap.
+   */
+  [[nodiscard]] static vpOctree load(const std::string &file);
+
+  //! The cubes.
+  [[nodiscard]] const std::vector<vpOctreeCell> &cells() const noexcept;
+  //! What it was called at construction.
+  [[nodiscard]] const std::string &label() const noexcept;
+  //! For this module's own use.
+  [[nodiscard]] const vpOctreeData &data() const noexcept { return *m_data; }
+
+private:
+  std::shared_ptr<const vpOctreeData> m_data;
+};
+
+END_VISP_NAMESPACE
+#endif

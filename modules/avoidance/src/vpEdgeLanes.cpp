@@ -1,0 +1,105 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "vpLane.h"
+#include "vpSegmentKernel.h"
+
+#include "vpEdgeLanes.h"
+
+#include <cmath>
+
+// One entry for every generation of the processor, chosen at run time: the build needs no -march, and no type whose layout
+// depends on it crosses a call.
+#if defined(__x86_64__) && defined(__GNUC__)
+#define VP_TARGET(set) __attribute__((target(set)))
+#else
+#define VP_TARGET(set)
+#endif
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+using namespace vpSegmentKernel;
+// Rounding of distances, and of the normals of nearest points over the size of a core.
+constexpr double rounding = 1e-9, normalRounding = 1e-7;
+
+namespace two
+{
+using vpLane = vpLane2;
+using Vector = V3<vpLane>;
+constexpr int lanes = 2;
+#include "vpEdgeLanesBody.h"
+} // namespace two
+namespace four
+{
+using vpLane = vpLane4;
+using Vector = V3<vpLane>;
+constexpr int lanes = 4;
+#include "vpEdgeLanesBody.h"
+} // namespace four
+namespace eight
+{
+using vpLane = vpLane8;
+using Vector = V3<vpLane>;
+constexpr int lanes = 8;
+#include "vpEdgeLanesBody.h"
+} // namespace eight
+
+using Entry = void (*)(const vpEdgeMotion &, const vpEdgePair *, const std::uint32_t *, int, double, double,
+                       std::uint8_t *, vpEdgeBatch &);
+
+void evaluateBaseline(const vpEdgeMotion &motion, const vpEdgePair *pairs, const std::uint32_t *list, int count,
+                      double start, double piece, std::uint8_t *unproven, vpEdgeBatch &batch)
+{
+  for (int group = 0; group < 8; group += 2) {
+    if (!two::evaluate(motion, pairs, list, count, start, piece, group, unproven, batch)) {
+      return;
+    }
+  }
+}
+
+VP_TARGET("avx2,fma")
+void evaluateAvx2(const vpEdgeMotion &motion, const vpEdgePair *pairs, const std::uint32_t *list, int count,
+                  double start, double piece, std::uint8_t *unproven, vpEdgeBatch &batch)
+{
+  for (int group = 0; group < 8; group += 4) {
+    if (!four::evaluate(motion, pairs, list, count, start, piece, group, unproven, batch)) {
+      return;
+    }
+  }
+}
+
+VP_TARGET("avx512f,avx512dq,avx512vl,avx2,fma")
+void evaluateAvx512(const vpEdgeMotion &motion, const vpEdgePair *pairs, const std::uint32_t *list, int count,
+                    double start, double piece, std::uint8_t *unproven, vpEdgeBatch &batch)
+{
+  static_cast<void>(eight::evaluate(motion, pairs, list, count, start, piece, 0, unproven, batch));
+}
+
+Entry chooseEntry()
+{
+#if defined(__x86_64__) && defined(__GNUC__)
+  __builtin_cpu_init();
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl")) {
+    return evaluateAvx512;
+  }
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
+    return evaluateAvx2;
+  }
+#endif
+  return evaluateBaseline;
+}
+
+const Entry chosen = chooseEntry();
+} // namespace
+
+void vpEvaluateEdge(const vpEdgeMotion &motion, const vpEdgePair *pairs, const std::uint32_t *list, int count,
+                    double start, double width, std::uint8_t *unproven, vpEdgeBatch &batch) noexcept
+{
+  batch.hitPair = -1;
+  chosen(motion, pairs, list, count, start, width / 8., unproven, batch);
+}
+
+END_VISP_NAMESPACE

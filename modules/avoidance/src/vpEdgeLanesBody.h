@@ -1,0 +1,281 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// Included by vpEdgeLanes.cpp once for every width of vector, each time in a namespace that defines vpLane and lanes: not
+// a template, because all of it has to be compiled for the entry's instruction set.
+
+struct Frame {
+  Vector x, y, z, p;
+};
+
+//! Velocity per unit of s of the points of a body: at r it is linear + angular x r.
+struct Twist {
+  Vector linear, angular;
+};
+
+struct Capsule {
+  Vector from, to;         // Ends of the axis.
+  Vector fromRate, toRate; // Their velocities.
+  Vector centre;           // Half way.
+  vpLane fastest;          // No point of the axis is faster.
+};
+
+VP_KERNEL_INLINE vpLane filled(double v) { return constant<vpLane>(v); }
+VP_KERNEL_INLINE Vector filled(double x, double y, double z) { return {filled(x), filled(y), filled(z)}; }
+VP_KERNEL_INLINE Vector filled(const Eigen::Vector3d &v) { return {filled(v.x()), filled(v.y()), filled(v.z())}; }
+VP_KERNEL_INLINE Vector place(const Frame &f, const Eigen::Vector3d &v)
+{
+  return f.p + filled(v.x()) * f.x + filled(v.y()) * f.y + filled(v.z()) * f.z;
+}
+VP_KERNEL_INLINE Vector turn(const Frame &f, const Eigen::Vector3d &v)
+{
+  return filled(v.x()) * f.x + filled(v.y()) * f.y + filled(v.z()) * f.z;
+}
+VP_KERNEL_INLINE vpLane absolute(const vpLane &v) { return v < 0. ? -v : v; }
+VP_KERNEL_INLINE vpLane norm(const Vector &v) { return root(dot(v, v)); }
+VP_KERNEL_INLINE Vector rate(const Twist &t, const Vector &p) { return t.linear + cross(t.angular, p); }
+
+// Cosines and sines of angles at equal steps, from two by turning on.
+VP_KERNEL_INLINE void turns(double first, double step, vpLane &c, vpLane &s)
+{
+  c[0] = std::cos(first);
+  s[0] = std::sin(first);
+  double cd = std::cos(step), sd = std::sin(step);
+  for (int done = 1; done < lanes; done *= 2) {
+    for (int l = 0; l < done; ++l) {
+      c[done + l] = c[l] * cd - s[l] * sd;
+      s[done + l] = s[l] * cd + c[l] * sd;
+    }
+    const double twice = cd * cd - sd * sd;
+    sd = 2. * sd * cd;
+    cd = twice;
+  }
+}
+
+// vpArmKinematics::forward() for every lane, with the velocities of the links along the motion.
+VP_KERNEL_INLINE void placeArm(const vpEdgeMotion &motion, double first, double step, Frame *frames, Twist *twists)
+{
+  const vpArmModel &arm = motion.scene->arm();
+  Frame now = {filled(1., 0., 0.), filled(0., 1., 0.), filled(0., 0., 1.), filled(0., 0., 0.)};
+  Twist twist = {now.p, now.p};
+  for (int i = 0; i < arm.size(); ++i) {
+    const vpRigidTransform &T = arm.step(i);
+    const Frame placed = {turn(now, T.R.col(0)), turn(now, T.R.col(1)), turn(now, T.R.col(2)), place(now, T.p)};
+    const double q = motion.from(i) + first * motion.change(i) + arm.offset(i), dq = step * motion.change(i);
+    const vpLane speed = filled(motion.change(i));
+    now = placed;
+    if (arm.isPrismatic(i)) {
+      vpLane travel;
+      for (int l = 0; l < lanes; ++l) {
+        travel[l] = q + l * dq;
+      }
+      now.p = placed.p + travel * placed.z;
+      twist.linear = twist.linear + speed * placed.z;
+    }
+    else {
+      vpLane c = filled(0.), s = filled(0.);
+      turns(q, dq, c, s);
+      now.x = c * placed.x + s * placed.y;
+      now.y = c * placed.y - s * placed.x;
+      twist.linear = twist.linear + speed * cross(placed.p, placed.z);
+      twist.angular = twist.angular + speed * placed.z;
+    }
+    frames[i] = now;
+    twists[i] = twist;
+  }
+}
+
+VP_KERNEL_INLINE void placeCapsules(const vpCollisionScene &scene, const Frame *frames, const Twist *twists,
+                                    Capsule *capsules)
+{
+  for (int i = 0; i < scene.capsuleCount(); ++i) {
+    const vpArmCapsule &c = scene.capsule(i);
+    Capsule &to = capsules[i];
+    if (c.link == 0) {
+      to.from = filled(c.from);
+      to.to = filled(c.to);
+      to.fromRate = to.toRate = filled(0., 0., 0.);
+      to.centre = filled(0.5) * (to.from + to.to);
+      to.fastest = filled(0.);
+      continue;
+    }
+    to.from = place(frames[c.link - 1], c.from);
+    to.to = place(frames[c.link - 1], c.to);
+    to.fromRate = rate(twists[c.link - 1], to.from);
+    to.toRate = rate(twists[c.link - 1], to.to);
+    to.centre = filled(0.5) * (to.from + to.to);
+    to.fastest = larger(norm(to.fromRate), norm(to.toRate));
+  }
+}
+
+// Into the axes of an object.
+VP_KERNEL_INLINE Vector local(const vpRigidTransform &T, const Vector &p)
+{
+  const Vector d = p - filled(T.p);
+  return {dot(filled(T.R.col(0)), d), dot(filled(T.R.col(1)), d), dot(filled(T.R.col(2)), d)};
+}
+VP_KERNEL_INLINE Vector global(const vpRigidTransform &T, const Vector &v)
+{
+  const Vector x = filled(T.R.col(0)), y = filled(T.R.col(1)), z = filled(T.R.col(2));
+  return filled(T.p) + v.x * x + v.y * y + v.z * z;
+}
+
+VP_KERNEL_INLINE Nearest<vpLane> toCore(const vpCollisionCore &core, const Capsule &c)
+{
+  if (core.type == vpShapeType::Sphere) {
+    return toPoint(c.from, c.to, filled(core.pose.p));
+  }
+  if (core.type == vpShapeType::Capsule) {
+    return toSegment(c.from, c.to, filled(core.end(-1.)), filled(core.end(1.)));
+  }
+  const Vector from = local(core.pose, c.from), to = local(core.pose, c.to);
+  Nearest<vpLane> near;
+  if (core.type == vpShapeType::Box) {
+    near = toBox(from, to, filled(core.half));
+  }
+  else {
+    near = toCylinder(from, to, filled(core.half.x()), filled(core.half.z()));
+  }
+  near.a = global(core.pose, near.a);
+  near.b = global(core.pose, near.b);
+  return near;
+}
+
+struct Verdict {
+  vpLane clearance; // Less the margin.
+  vpLane slack;     // What is left of it after the motion.
+};
+
+// An end of the axis beyond the separating plane, after it has moved.
+VP_KERNEL_INLINE vpLane leftOf(const Vector &normal, const vpLane &height, const Vector &speed, double radii,
+                               double half, double acceleration)
+{
+  return height - radii - normalRounding - half * absolute(dot(normal, speed)) - 0.5 * half * half * acceleration;
+}
+
+//! From the nearest points of convex cores.
+VP_KERNEL_INLINE Verdict judge(const Nearest<vpLane> &near, const Capsule &c, const vpLane &need, double radii,
+                               double half, double acceleration)
+{
+  Verdict v;
+  v.clearance = near.distance - radii;
+  const Vector normal = ratio(filled(1.), near.distance) * (near.a - near.b);
+  const vpLane from = leftOf(normal, dot(normal, c.from - near.b), c.fromRate, radii, half, acceleration);
+  const vpLane to = leftOf(normal, dot(normal, c.to - near.b), c.toRate, radii, half, acceleration);
+  v.slack = larger(v.clearance - need, smaller(from, to));
+  return v;
+}
+
+// Meshes and octrees: one lane after the other, only where it is needed.
+VP_KERNEL_INLINE Verdict walk(const vpCollisionCore &core, const Capsule &c, const vpLane &need, const vpLane &apart,
+                              double radii)
+{
+  Verdict v = {apart, apart - need};
+  for (int l = 0; l < lanes; ++l) {
+    if (!(v.slack[l] > rounding)) {
+      const Eigen::Vector3d from(c.from.x[l], c.from.y[l], c.from.z[l]), to(c.to.x[l], c.to.y[l], c.to.z[l]);
+      const double cutoff = radii + need[l] + 2. * rounding;
+      v.clearance[l] = std::fmin(core.nearest(from, to, cutoff).distance, cutoff) - radii;
+      v.slack[l] = v.clearance[l] - need[l];
+    }
+  }
+  return v;
+}
+
+VP_KERNEL_INLINE bool all(const vpLane &slack)
+{
+  bool yes = true;
+  for (int l = 0; l < lanes; ++l) {
+    yes = yes && slack[l] > rounding;
+  }
+  return yes;
+}
+
+VP_KERNEL_INLINE Verdict judgeObject(const Capsule &c, const vpEdgePair &pair, double half)
+{
+  const vpCollisionCore &core = *pair.core;
+  const double radii = pair.radii;
+  const vpLane need = smaller(filled(half * pair.speed), half * c.fastest + 0.5 * half * half * pair.acceleration);
+  // Spheres around both: most pairs are done with that.
+  const vpLane apart = norm(c.centre - filled(core.centre)) - pair.bounds;
+  if (all(apart - need)) {
+    return {apart, apart - need};
+  }
+  return core.isConvex() ? judge(toCore(core, c), c, need, radii, half, pair.acceleration)
+                         : walk(core, c, need, apart, radii);
+}
+
+// In the frame of the inner capsule's link, where that one stands still.
+VP_KERNEL_INLINE Verdict judgeSelf(const Capsule &inner, const Twist &innerTwist, const Capsule &outer,
+                                   const vpEdgePair &pair, double half)
+{
+  const double radii = pair.radii;
+  Capsule seen = outer;
+  seen.fromRate = outer.fromRate - rate(innerTwist, outer.from);
+  seen.toRate = outer.toRate - rate(innerTwist, outer.to);
+  const vpLane fastest = larger(norm(seen.fromRate), norm(seen.toRate));
+  const vpLane need = smaller(filled(half * pair.speed), half * fastest + 0.5 * half * half * pair.acceleration);
+  const vpLane apart = norm(outer.centre - inner.centre) - pair.bounds;
+  if (all(apart - need)) {
+    return {apart, apart - need};
+  }
+  return judge(toSegment(outer.from, outer.to, inner.from, inner.to), seen, need, radii, half, pair.acceleration);
+}
+
+VP_KERNEL_INLINE Verdict judgeGround(const vpHalfSpace &ground, const Capsule &c, const vpEdgePair &pair, double half)
+{
+  const double radii = pair.radii;
+  const Vector normal = filled(ground.normal);
+  const vpLane from = dot(normal, c.from) - ground.offset, to = dot(normal, c.to) - ground.offset;
+  return {smaller(from, to) - radii, smaller(leftOf(normal, from, c.fromRate, radii, half, pair.acceleration),
+                                             leftOf(normal, to, c.toRate, radii, half, pair.acceleration))};
+}
+
+// Lanes group..group + lanes - 1 of the eight. False when a pair collides.
+VP_KERNEL_INLINE bool evaluate(const vpEdgeMotion &motion, const vpEdgePair *pairs, const std::uint32_t *list,
+                               int count, double start, double piece, int group, std::uint8_t *unproven,
+                               vpEdgeBatch &batch)
+{
+  const vpCollisionScene &scene = *motion.scene;
+  Frame frames[vpArmMaxJoints];
+  Twist twists[vpArmMaxJoints];
+  Capsule capsules[vpArmMaxCapsules];
+  placeArm(motion, start + (group + 0.5) * piece, piece, frames, twists);
+  placeCapsules(scene, frames, twists, capsules);
+  const Twist still = {filled(0., 0., 0.), filled(0., 0., 0.)};
+  const double half = 0.5 * piece;
+  vpLane tightest = filled(std::numeric_limits<double>::infinity());
+  for (int k = 0; k < count; ++k) {
+    const vpEdgePair &pair = pairs[list[k]];
+    const Capsule &c = capsules[pair.capsule];
+    Verdict v;
+    if (pair.kind == vpCollisionKind::Object) {
+      v = judgeObject(c, pair, half);
+    }
+    else if (pair.kind == vpCollisionKind::Self) {
+      v = judgeSelf(capsules[pair.other], pair.innerLink > 0 ? twists[pair.innerLink - 1] : still, c, pair, half);
+    }
+    else {
+      v = judgeGround(*motion.ground, c, pair, half);
+    }
+    tightest = smaller(tightest, v.slack);
+    unsigned int mask = 0;
+    for (int l = 0; l < lanes; ++l) {
+      // In this sense, so that a NaN proves nothing.
+      mask |= v.slack[l] > rounding ? 0U : 1U << l;
+    }
+    unproven[k] = static_cast<std::uint8_t>((group == 0 ? 0U : unproven[k]) | mask << group);
+    for (int l = 0; mask != 0 && l < lanes; ++l) {
+      if ((mask >> l & 1U) != 0 && v.clearance[l] <= 0.) {
+        batch.hitPair = k;
+        batch.hitLane = group + l;
+        return false;
+      }
+    }
+  }
+  for (int l = 0; l < lanes; ++l) {
+    batch.slack[group + l] = tightest[l] == tightest[l] ? tightest[l] : -std::numeric_limits<double>::infinity();
+  }
+  return true;
+}

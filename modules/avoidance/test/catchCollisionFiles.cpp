@@ -1,0 +1,241 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// What is in the files arrives, and what is wrong with them is said in one sentence with the file and the element.
+#include "vpAvoidanceTestKit.h"
+#include "vpCatch.h"
+
+#include <visp3/avoidance/vpCertifiedMotion.h>
+#include <visp3/avoidance/vpCollisionSceneJson.h>
+#include <visp3/core/vpException.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+
+using namespace vpAvoidanceTestKit;
+
+namespace
+{
+// A file in the working folder; removed again.
+class File
+{
+public:
+  File(const std::string &name, const std::string &text) : m_name("catchCollisionFiles-" + name)
+  {
+    std::ofstream(m_name, std::ios::binary) << text;
+  }
+  ~File() { std::remove(m_name.c_str()); }
+  File(const File &) = delete;
+  File &operator=(const File &) = delete;
+  [[nodiscard]] const std::string &name() const { return m_name; }
+
+private:
+  std::string m_name;
+};
+
+template <class Call> std::string errorOf(Call call)
+{
+  try {
+    static_cast<void>(call());
+  }
+  catch (const vpException &e) {
+    return e.getStringMessage();
+  }
+  return "no error";
+}
+
+std::string sceneError(const std::string &text)
+{
+  const File file("scene.json", text);
+  return errorOf([&] { return vpLoadCollisionScene(file.name()); });
+}
+
+std::string objectError(const std::string &fields)
+{
+  return sceneError("{\"name\": \"s\", \"objects\": [{\"name\": \"o\", " + fields + "}]}");
+}
+
+std::string meshError(const std::string &ending, const std::string &text)
+{
+  const File file("mesh" + ending, text);
+  return errorOf([&] { return vpTriangleMesh::load(file.name()); });
+}
+
+const char *const cube = "# a cube of quads\n"
+                         "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nvn 0 0 1\n"
+                         "f 4 3 2 1\nf 5 6 7 8\nf 1//1 2//1 6//1 5//1\nf 2 3 7 6\nf 3 4 8 7\nf -8 -4 -1 -5\n";
+
+std::string binaryStl(const vpTriangleMesh &mesh)
+{
+  std::string bytes(80, ' ');
+  bytes.replace(0, 5, "solid"); // Binary files that begin as text ones exist.
+  const auto add = [&bytes](const void *data, std::size_t size) {
+    bytes.append(static_cast<const char *>(data), size);
+  };
+  const std::uint32_t count = static_cast<std::uint32_t>(mesh.triangles().size());
+  add(&count, 4);
+  for (const auto &t : mesh.triangles()) {
+    float numbers[12] = {};
+    for (int k = 0; k < 3; ++k) {
+      for (int i = 0; i < 3; ++i) {
+        numbers[3 + 3 * k + i] =
+            static_cast<float>(mesh.vertices()[static_cast<std::size_t>(t[static_cast<std::size_t>(k)])](i));
+      }
+    }
+    add(numbers, sizeof(numbers));
+    bytes.append(2, '\0');
+  }
+  return bytes;
+}
+} // namespace
+
+TEST_CASE("Meshes from files", "[files]")
+{
+  const File obj("cube.obj", cube);
+  const vpTriangleMesh mesh = vpTriangleMesh::load(obj.name(), 0.5);
+  CHECK(mesh.vertices().size() == 8);
+  CHECK(mesh.triangles().size() == 12);
+  CHECK(mesh.isWatertight());
+  CHECK(mesh.vertices()[6] == Vector3d(0.5, 0.5, 0.5));
+  const File stl("cube.stl", binaryStl(mesh));
+  const vpTriangleMesh binary = vpTriangleMesh::load(stl.name());
+  CHECK(binary.vertices().size() == 8);
+  CHECK(binary.triangles().size() == 12);
+  CHECK(binary.isWatertight());
+  const File text("text.stl", "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+                              "endloop\nendfacet\nendsolid\n");
+  const vpTriangleMesh one = vpTriangleMesh::load(text.name());
+  CHECK(one.triangles().size() == 1);
+  CHECK(one.sentence() == text.name() + ": the surface has holes (3 edges with one triangle), it counts as a sheet "
+                                        "without inside");
+}
+
+TEST_CASE("Errors in meshes name the file and the place", "[files]")
+{
+  const std::string obj = "catchCollisionFiles-mesh.obj: ", stl = "catchCollisionFiles-mesh.stl: ";
+  CHECK(meshError(".obj", "v 0 0\n") == obj + "line 1: a vertex needs three numbers");
+  CHECK(meshError(".obj", "v 0 0 0\nf 1 2 3\n") == obj + "line 2: vertex 2 of 1 does not exist");
+  CHECK(meshError(".obj", "v 0 0 0\nf 1 x 3\n") == obj + "line 2: \"x\" is no index of a vertex");
+  CHECK(meshError(".obj", "v 0 0 0\nf 1 1\n") == obj + "line 2: a face needs three vertices");
+  CHECK(meshError(".obj", "v 0 0 0\nf 1 1 1\n") == obj + "there is no triangle with an area");
+  CHECK(meshError(".obj", "") == obj + "there is no triangle with an area");
+  CHECK(meshError(".obj", "v nan 0 0\n").find(obj) == 0);
+  CHECK(meshError(".stl", "") == stl + "is neither a text nor a binary STL file");
+  CHECK(meshError(".stl", "solid\nvertex 0 0 0\n") == stl + "triangle 0 is cut off");
+  CHECK(meshError(".stl", "solid\nvertex 0 0\n") == stl + "triangle 0: a vertex needs three numbers");
+  CHECK(meshError(".stl", binaryStl(tetrahedron(1.)).substr(0, 200)) == stl + "there is no triangle with an area");
+  std::string cut = binaryStl(tetrahedron(1.)).substr(0, 200);
+  cut[0] = ' ';
+  CHECK(meshError(".stl", cut) == stl + "says 4 triangles and ends in triangle 2");
+  CHECK(meshError(".ply", "ply") == "catchCollisionFiles-mesh.ply: is no .obj and no .stl file");
+  CHECK(errorOf([] { return vpTriangleMesh::load("nowhere.obj"); }) == "nowhere.obj: cannot be read");
+  CHECK(errorOf([] { return vpTriangleMesh::load("nowhere.obj", -1.); }) ==
+        "nowhere.obj: scale is -1, must be > 0 and finite");
+  CHECK(errorOf([] { return vpOctree::load("nowhere.bt"); }) == "nowhere.bt: cannot be read");
+  const File tree("no.bt", "no tree");
+  CHECK(errorOf([&] { return vpOctree::load(tree.name()); }) == tree.name() + ": is no octree of octomap");
+}
+
+TEST_CASE("A scene with everything arrives", "[files]")
+{
+  const File obj("all.obj", cube);
+  const File file("scene.json", R"({"name": "all", "comment": "x",
+    "ground": {"normal": [0, 0, 2], "offset_m": -0.1, "first_link": 4},
+    "allowed_link_pairs": [[1, 5]],
+    "objects": [
+      {"name": "a", "shape": "sphere", "radius_m": 0.1, "inflation_m": 0.02,
+       "velocity": {"linear_m_s": [0.1, 0, 0], "angular_rad_s": [0, 0, 1]}},
+      {"name": "b", "shape": "capsule", "radius_m": 0.1, "length_m": 0.2, "pose": {"translation_m": [0, 1, 0]}},
+      {"name": "c", "shape": "box", "size_m": [0.1, 0.2, 0.3],
+       "pose": {"translation_m": [0, 0, 1], "rotation_deg": [0, 0, 90]}},
+      {"name": "d", "shape": "cylinder", "radius_m": 0.1, "length_m": 0.2, "allowed_links": [5, 7]},
+      {"name": "e", "shape": "mesh", "file": "catchCollisionFiles-all.obj", "scale": 0.1},
+      {"name": "f", "shape": "mesh", "vertices_m": [[0,0,0],[1,0,0],[0,1,0]], "triangles": [[0,1,2]]},
+      {"name": "g", "shape": "octree", "cells_m": [[0, 0, 0, 0.1]]}],
+    "tasks": [{"name": "t", "start_rad": [0,0,0,0,0,0,0], "goal_rad": [1,0,0,0,0,0,0]}]})");
+  const vpCollisionSceneFile all = vpLoadCollisionScene(file.name());
+  CHECK(all.name == "all");
+  CHECK(all.spec.objects.size() == 7);
+  CHECK(all.spec.objects[0].velocity[5] == 1.);
+  CHECK(all.spec.objects[2].pose.R(1, 0) == Approx(1.));
+  CHECK(all.spec.allowedContacts.size() == 2);
+  CHECK(all.spec.objects[4].shape.mesh().vertices()[6].x() == Approx(0.1));
+  REQUIRE(all.warnings.size() == 1);
+  CHECK(all.warnings[0].find(file.name() + ": objects[5]: mesh: the surface has holes") == 0);
+  CHECK(all.tasks[0].goal(0) == 1.);
+  const vpCollisionScene scene(amor(), all.spec);
+  CHECK(scene.selfPairs().size() == 2);
+  CHECK(scene.ground()->normal.z() == 1.);
+  CHECK_FALSE(scene.isChecked(3, 3));
+  CHECK(scene.isChecked(1, 3));
+}
+
+TEST_CASE("Errors in scenes name the file and the element", "[files]")
+{
+  const std::string file = "catchCollisionFiles-scene.json: ";
+  CHECK(sceneError("{\"name\": ").find(file + "parse error at line 1") == 0);
+  CHECK(sceneError("[]") == file + "the file must be an object");
+  CHECK(sceneError("").find(file + "parse error") == 0);
+  CHECK(sceneError("{\"name\": \"s\"}") == file + "objects is missing");
+  CHECK(sceneError("{\"name\": \"s\", \"objects\": [], \"obstacles\": []}") == file + "obstacles is not a known field");
+  CHECK(sceneError("{\"name\": \"s\", \"objects\": {}}") == file + "objects must be a list");
+  CHECK(sceneError("{\"name\": \"s\", \"objects\": [], \"allowed_link_pairs\": [[1]]}") ==
+        file + "allowed_link_pairs must be a list of lists of 2 numbers");
+  CHECK(sceneError("{\"name\": \"s\", \"objects\": [], \"allowed_link_pairs\": [[1, 2.5]]}") ==
+        file + "allowed_link_pairs must hold whole numbers");
+  CHECK(sceneError("{\"name\": \"s\", \"objects\": [], \"tasks\": [{\"name\": \"t\", \"start_rad\": [0], \"goal_rad\": "
+                   "[0, 1]}]}") == file + "tasks[0].goal_rad must have as many numbers as start_rad");
+  CHECK(objectError("\"shape\": \"cone\"") ==
+        file + "objects[0].shape is cone, must be sphere, capsule, box, cylinder, mesh or octree");
+  CHECK(objectError("\"shape\": \"sphere\"") == file + "objects[0].radius_m is missing");
+  CHECK(objectError("\"shape\": \"sphere\", \"radius_m\": -1") ==
+        file + "objects[0]: radius of the sphere is -1 m, must be > 0 and finite");
+  CHECK(objectError("\"shape\": \"sphere\", \"radius_m\": \"big\"") == file + "objects[0].radius_m must be a number");
+  CHECK(objectError("\"shape\": \"sphere\", \"radius_m\": NaN").find(file + "parse error") == 0);
+  CHECK(objectError("\"shape\": \"sphere\", \"radius_m\": 1, \"size_m\": 3") ==
+        file + "objects[0].size_m is not a known field");
+  CHECK(objectError("\"shape\": \"box\", \"size_m\": [1, 2]") ==
+        file + "objects[0].size_m must be a list of 3 numbers");
+  CHECK(objectError("\"shape\": \"box\", \"size_m\": [1, 2, 0]") ==
+        file + "objects[0]: size of the box along z is 0 m, must be > 0 and finite");
+  CHECK(objectError("\"shape\": \"sphere\", \"radius_m\": 1, \"pose\": {}") ==
+        file + "objects[0].pose.translation_m is missing");
+  CHECK(objectError("\"shape\": \"mesh\", \"file\": \"nowhere.stl\"") ==
+        file + "objects[0]: nowhere.stl: cannot be read");
+  CHECK(objectError("\"shape\": \"mesh\", \"vertices_m\": [[0, 0]], \"triangles\": []") ==
+        file + "objects[0].vertices_m must be a list of lists of 3 numbers");
+  CHECK(objectError("\"shape\": \"mesh\", \"vertices_m\": [[0, 0, 0]], \"triangles\": [[0, 0, 4]]") ==
+        file + "objects[0]: mesh: triangle 0 uses vertex 4 of 1");
+  CHECK(objectError("\"shape\": \"octree\", \"cells_m\": [[0, 0, 0, -1]]") ==
+        file + "objects[0]: octree: cell 0 has the size -1 m, must be > 0, and all finite");
+  CHECK(objectError("\"shape\": \"octree\", \"file\": \"nowhere.bt\"") ==
+        file + "objects[0]: nowhere.bt: cannot be read");
+  CHECK(errorOf([] { return vpLoadCollisionScene("nowhere.json"); }) == "nowhere.json: cannot be read");
+}
+
+TEST_CASE("The scenes of data/scene load, and their tasks start and end free", "[files]")
+{
+  for (const char *name : {"empty", "s4a-pillar", "s4b-shelf", "s6-trap", "seen"}) {
+    CAPTURE(name);
+    const vpCollisionSceneFile file = vpLoadCollisionScene(dataFile("scene/" + std::string(name) + ".json"));
+    CHECK(file.warnings.empty());
+    const vpCollisionScene scene(amor(), file.spec);
+    const vpCertifiedMotion certified(scene);
+    vpMotionScratch scratch;
+    CHECK((std::string(name) == "empty") == file.tasks.empty());
+    for (const vpMotionTask &task : file.tasks) {
+      CHECK(certified.check(task.start, task.start, scratch).isFree());
+      CHECK(certified.check(task.goal, task.goal, scratch).isFree());
+      // Or there would be nothing to plan.
+      CHECK(certified.check(task.start, task.goal, scratch).status == vpMotionStatus::Collision);
+      for (int i = 0; i < 7; ++i) {
+        for (const double q : {task.start(i), task.goal(i)}) {
+          CHECK((amor().isContinuous(i) || (q >= amor().lower()(i) && q <= amor().upper()(i))));
+        }
+      }
+    }
+  }
+}
