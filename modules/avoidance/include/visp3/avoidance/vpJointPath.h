@@ -1,0 +1,35 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpJointPath.h
+ * \brief A way through configurations, without time.
+ */
+#ifndef vpJointPath_h
+#define vpJointPath_h
+
+#include <visp3/manipulator/vpArmTypes.h>
+
+#include <vector>
+
+BEGIN_VISP_NAMESPACE
+
+/*!
+ * \ingroup group_avoidance
+ * \brief Configurations joined by straight motions in joint space.
+ */
+struct VISP_EXPORT vpJointPath {
+  std::vector<vpJointVector> points; //!< rad or m; the first is the start, the last the goal.
+
+  //! Sum of the Euclidean lengths of the motions, rad (radians and metres as they are).
+  [[nodiscard]] double length() const noexcept;
+  /*!
+   * Configuration at a part of the length. Does not allocate.
+   * \param s : 0..1, clamped. The path must have a point.
+   */
+  [[nodiscard]] vpJointVector at(double s) const noexcept;
+};
+
+END_VISP_NAMESPACE
+#endif

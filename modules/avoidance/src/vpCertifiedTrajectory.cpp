@@ -1,0 +1,134 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include <visp3/avoidance/vpCertifiedTrajectory.h>
+
+#include "vpCollisionCore.h"
+
+#include <visp3/core/vpException.h>
+
+#include <algorithm>
+#include <cmath>
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+constexpr int deepest = 40; // halvings; the resolution ends it long before
+
+// What an object moves by within h, at most.
+double motionOf(const vpCollisionScene &scene, int object, double h)
+{
+  const vpTwist &v = scene.object(object).velocity;
+  const vpCollisionCore &core = scene.core(object);
+  return h * (v.linearNorm() + v.angularNorm() * (core.middle.norm() + core.bound + core.radius));
+}
+} // namespace
+
+vpCertifiedTrajectory::vpCertifiedTrajectory(const vpCollisionScene &scene, const vpCertifiedMotionSpec &spec)
+  : m_scene(&scene), m_spec(spec), m_reach(scene.arm())
+{
+  if (!(spec.margin >= 0.) || !std::isfinite(spec.margin)) {
+    throw vpException(vpException::badValue, "margin of the certified trajectory is %g m, must be >= 0 and finite",
+                      spec.margin);
+  }
+  if (!(spec.resolution > 0.) || !std::isfinite(spec.resolution)) {
+    throw vpException(vpException::badValue, "resolution of the certified trajectory is %g m, must be > 0 and finite",
+                      spec.resolution);
+  }
+  m_acceleration.setZero(scene.arm().size());
+}
+
+vpCertifiedTrajectory::Verdict vpCertifiedTrajectory::look(const vpTrajectoryPlan &plan, double middle, double half,
+                                                           double objectTime, vpTrajectoryClearance &result) noexcept
+{
+  const int n = m_scene->arm().size(), capsules = m_scene->capsuleCount();
+  vpJointVector q(n), way(n);
+  for (int j = 0; j < n; ++j) {
+    const vpAxisState x = plan.at(j, middle);
+    q(j) = x[0];
+    way(j) = std::fabs(x[1]) * half + 0.5 * m_acceleration(j) * half * half;
+  }
+  double farthest = 0., objects = 0.;
+  for (int i = 0; i < capsules; ++i) {
+    double sum = 0.;
+    for (int j = 0; j < n; ++j) {
+      sum += m_reach(i, j) * way(j);
+    }
+    m_motion[static_cast<std::size_t>(i)] = sum;
+    farthest = std::max(farthest, sum);
+  }
+  for (int k = 0; k < m_scene->objectCount(); ++k) {
+    objects = std::max(objects, motionOf(*m_scene, k, half));
+  }
+  m_largest = farthest + std::max(farthest, objects);
+  m_scene->place(q, m_data);
+  m_scene->near(m_data, m_spec.margin + m_largest, m_near, objectTime);
+  ++result.evaluated;
+  Verdict verdict = m_near.dropped ? Verdict::Split : Verdict::Free;
+  for (int k = 0; k < m_near.count; ++k) {
+    const vpClearance &pair = m_near.pairs[static_cast<std::size_t>(k)];
+    double moves = m_motion[static_cast<std::size_t>(pair.capsule)];
+    moves += pair.kind == vpCollisionKind::Self     ? m_motion[static_cast<std::size_t>(pair.other)]
+             : pair.kind == vpCollisionKind::Object ? motionOf(*m_scene, pair.other, half)
+                                                    : 0.;
+    result.least = std::min(result.least, pair.distance);
+    if (pair.distance <= m_spec.margin) {
+      result.pair = pair;
+      return Verdict::Collision;
+    }
+    if (pair.distance <= m_spec.margin + moves) {
+      result.pair = pair;
+      verdict = Verdict::Split;
+    }
+  }
+  return verdict;
+}
+
+vpTrajectoryClearance vpCertifiedTrajectory::check(const vpTrajectoryPlan &plan, double from, double to,
+                                                   double age) noexcept
+{
+  vpTrajectoryClearance result;
+  result.least = std::numeric_limits<double>::infinity();
+  const int n = m_scene->arm().size();
+  if (plan.axes() != n || !std::isfinite(from) || !std::isfinite(to) || !std::isfinite(age) || from > to) {
+    return result;
+  }
+  for (int j = 0; j < n; ++j) {
+    m_acceleration(j) = plan.peaks(j).acceleration;
+  }
+  // Depth first and from the start on: all before the place that is told is proven to be free.
+  struct Part {
+    double middle, half;
+  };
+  std::array<Part, deepest + 2> open; // one half waits for each halving
+  open[0] = {0.5 * (from + to), 0.5 * (to - from)};
+  int count = 1;
+  bool collides = false;
+  while (count > 0) {
+    const Part part = open[static_cast<std::size_t>(--count)];
+    const Verdict verdict = look(plan, part.middle, part.half, part.middle - from + age, result);
+    if (verdict == Verdict::Free) {
+      continue;
+    }
+    collides = collides || verdict == Verdict::Collision;
+    if (m_largest < m_spec.resolution || count + 2 > deepest) {
+      result.status = collides ? vpMotionStatus::Collision : vpMotionStatus::Undecided;
+      result.time = part.middle - part.half;
+      return result;
+    }
+    const double half = 0.5 * part.half;
+    if (verdict == Verdict::Collision) {
+      count = 0; // what comes later does not matter any more
+    }
+    else {
+      open[static_cast<std::size_t>(count++)] = {part.middle + half, half};
+    }
+    open[static_cast<std::size_t>(count++)] = {part.middle - half, half};
+  }
+  result.status = vpMotionStatus::Free;
+  return result;
+}
+
+END_VISP_NAMESPACE

@@ -1,0 +1,327 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include <visp3/avoidance/vpPathPlanner.h>
+
+#include "vpMotionCheck.h"
+
+#include <visp3/core/vpException.h>
+
+#include <ompl/base/MotionValidator.h>
+#include <ompl/base/objectives/PathLengthOptimizationObjective.h>
+#include <ompl/base/spaces/RealVectorStateSpace.h>
+#include <ompl/geometric/PathSimplifier.h>
+#include <ompl/geometric/planners/informedtrees/BITstar.h>
+#include <ompl/geometric/planners/kpiece/KPIECE1.h>
+#include <ompl/geometric/planners/prm/PRM.h>
+#include <ompl/geometric/planners/rrt/RRT.h>
+#include <ompl/geometric/planners/rrt/RRTConnect.h>
+#include <ompl/geometric/planners/rrt/RRTstar.h>
+#include <ompl/util/Console.h>
+#include <ompl/util/RandomNumbers.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <mutex>
+
+namespace ob = ompl::base;
+namespace og = ompl::geometric;
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+using Clock = std::chrono::steady_clock;
+using Space = ob::RealVectorStateSpace;
+
+double since(const Clock::time_point &start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+vpJointVector jointsOf(const ob::State *state, int n)
+{
+  return Eigen::Map<const Eigen::VectorXd>(state->as<Space::StateType>()->values, n);
+}
+
+// OMPL's view of our checks.
+class Validity : public ob::StateValidityChecker
+{
+public:
+  Validity(const ob::SpaceInformationPtr &si, vpMotionCheck &check, int n)
+    : ob::StateValidityChecker(si), m_check(&check), m_n(n)
+  {}
+  bool isValid(const ob::State *state) const VP_OVERRIDE
+  {
+    return si_->satisfiesBounds(state) && !m_check->inCollision(jointsOf(state, m_n));
+  }
+
+private:
+  vpMotionCheck *m_check;
+  int m_n;
+};
+
+class Motions : public ob::MotionValidator
+{
+public:
+  Motions(const ob::SpaceInformationPtr &si, vpMotionCheck &check, int n)
+    : ob::MotionValidator(si), m_check(&check), m_n(n)
+  {}
+  bool checkMotion(const ob::State *from, const ob::State *to) const VP_OVERRIDE { return check(from, to).isFree(); }
+  bool checkMotion(const ob::State *from, const ob::State *to,
+                   std::pair<ob::State *, double> &lastValid) const VP_OVERRIDE
+  {
+    const vpMotionResult result = check(from, to);
+    if (!result.isFree()) {
+      // Only the start is known to be free: what lies before the place that was found need not be.
+      lastValid.second = 0.;
+      if (lastValid.first != nullptr) {
+        si_->copyState(lastValid.first, from);
+      }
+    }
+    return result.isFree();
+  }
+
+private:
+  [[nodiscard]] vpMotionResult check(const ob::State *from, const ob::State *to) const
+  {
+    const vpMotionResult result = m_check->motion(jointsOf(from, m_n), jointsOf(to, m_n));
+    (result.isFree() ? valid_ : invalid_)++;
+    return result;
+  }
+
+  vpMotionCheck *m_check;
+  int m_n;
+};
+
+template <class Planner> ob::PlannerPtr withRange(const ob::SpaceInformationPtr &si, double range)
+{
+  auto planner = std::make_shared<Planner>(si);
+  if (range > 0.) {
+    planner->setRange(range);
+  }
+  return planner;
+}
+
+ob::PlannerPtr makePlanner(const vpPathPlannerSpec &spec, const ob::SpaceInformationPtr &si)
+{
+  if (spec.planner == "RRT") {
+    return withRange<og::RRT>(si, spec.range);
+  }
+  if (spec.planner == "RRTstar") {
+    return withRange<og::RRTstar>(si, spec.range);
+  }
+  if (spec.planner == "KPIECE") {
+    return withRange<og::KPIECE1>(si, spec.range);
+  }
+  if (spec.planner == "PRM") {
+    return std::make_shared<og::PRM>(si);
+  }
+  if (spec.planner == "BITstar") {
+    return std::make_shared<og::BITstar>(si);
+  }
+  return withRange<og::RRTConnect>(si, spec.range);
+}
+
+// OMPL's seeds come from one generator of the process.
+std::mutex &seedLock()
+{
+  static std::mutex lock;
+  return lock;
+}
+
+void requireGood(const char *field, double value, bool good, const char *range)
+{
+  if (!good || !std::isfinite(value)) {
+    throw vpException(vpException::badValue, "%s of the path planner is %g, must be %s and finite", field, value,
+                      range);
+  }
+}
+
+// The goal's angles of continuous joints, by the short way from the start.
+vpJointVector nearGoal(const vpArmModel &arm, const vpJointVector &start, const vpJointVector &goal)
+{
+  vpJointVector near = goal;
+  for (int i = 0; i < arm.size(); ++i) {
+    if (arm.isContinuous(i)) {
+      near(i) = start(i) + std::remainder(goal(i) - start(i), 2. * M_PI);
+    }
+  }
+  return near;
+}
+
+ob::StateSpacePtr makeSpace(const vpArmModel &arm, const vpJointVector &start, const vpJointVector &goal)
+{
+  auto space = std::make_shared<Space>(static_cast<unsigned int>(arm.size()));
+  ob::RealVectorBounds bounds(static_cast<unsigned int>(arm.size()));
+  for (int i = 0; i < arm.size(); ++i) {
+    const auto k = static_cast<unsigned int>(i);
+    // A whole turn is room enough for a joint without limits.
+    bounds.setLow(k, arm.isContinuous(i) ? std::min(start(i), goal(i)) - M_PI : arm.lower()(i));
+    bounds.setHigh(k, arm.isContinuous(i) ? std::max(start(i), goal(i)) + M_PI : arm.upper()(i));
+  }
+  space->setBounds(bounds);
+  return space;
+}
+
+ob::ScopedState<Space> stateOf(const ob::StateSpacePtr &space, const vpJointVector &q)
+{
+  ob::ScopedState<Space> state(space);
+  for (Eigen::Index i = 0; i < q.size(); ++i) {
+    state->values[i] = q(i);
+  }
+  return state;
+}
+
+vpJointPath pathOf(const og::PathGeometric &path, int n)
+{
+  vpJointPath result;
+  for (std::size_t i = 0; i < path.getStateCount(); ++i) {
+    result.points.push_back(jointsOf(path.getState(static_cast<unsigned int>(i)), n));
+  }
+  return result;
+}
+} // namespace
+
+class vpPathPlanner::Impl
+{
+public:
+  Impl(const vpCollisionScene &s, const vpPathPlannerSpec &p) : scene(&s), spec(p)
+  {
+    spec.validate();
+    check = vpMotionCheck::create(s, p);
+    ompl::msg::noOutputHandler(); // what it would print is in the result
+  }
+
+  //! Why a configuration cannot be an end of the path; Solved when it can.
+  vpPathStatus judge(const vpJointVector &q, bool isStart, std::string &sentence)
+  {
+    const vpArmModel &arm = scene->arm();
+    const std::string end = isStart ? "start" : "goal";
+    if (q.size() != arm.size() || !q.allFinite()) {
+      sentence = "The " + end + " has " + std::to_string(q.size()) + " numbers, must have " +
+                 std::to_string(arm.size()) + " finite ones.";
+      return vpPathStatus::BadInput;
+    }
+    for (int i = 0; i < arm.size(); ++i) {
+      if (q(i) < arm.lower()(i) || q(i) > arm.upper()(i)) {
+        sentence = "Joint " + arm.spec().joints[static_cast<std::size_t>(i)].name + " of the " + end + " is at " +
+                   std::to_string(q(i)) + ", outside its limits.";
+        return vpPathStatus::OutsideLimits;
+      }
+    }
+    scene->place(q, data);
+    const vpClearance pair = scene->clearance(data, spec.margin + 1e-12);
+    if (pair.kind != vpCollisionKind::None || check->inCollision(q)) {
+      sentence = "In the " + end + " the arm is nearer than the margin: " + scene->describe(pair) + ".";
+      return isStart ? vpPathStatus::StartInCollision : vpPathStatus::GoalInCollision;
+    }
+    return vpPathStatus::Solved;
+  }
+
+  void search(const vpJointVector &start, const vpJointVector &goal, vpPathResult &result)
+  {
+    const int n = scene->arm().size();
+    std::unique_lock<std::mutex> lock(seedLock());
+    ompl::RNG::setSeed(spec.seed);
+    const ob::StateSpacePtr space = makeSpace(scene->arm(), start, goal);
+    const auto si = std::make_shared<ob::SpaceInformation>(space);
+    si->setStateValidityChecker(std::make_shared<Validity>(si, *check, n));
+    const auto motions = std::make_shared<Motions>(si, *check, n);
+    si->setMotionValidator(motions);
+    si->setup();
+    const auto problem = std::make_shared<ob::ProblemDefinition>(si);
+    problem->setStartAndGoalStates(stateOf(space, start), stateOf(space, goal));
+    const auto objective = std::make_shared<ob::PathLengthOptimizationObjective>(si);
+    if (spec.stopAtFirst) {
+      objective->setCostThreshold(ob::Cost(std::numeric_limits<double>::infinity()));
+    }
+    problem->setOptimizationObjective(objective);
+    const ob::PlannerPtr planner = makePlanner(spec, si);
+    planner->setProblemDefinition(problem);
+    planner->setup();
+    const auto begin = Clock::now();
+    og::PathSimplifier simplifier(si);
+    lock.unlock();
+    const ob::PlannerStatus status = planner->solve(spec.timeLimit);
+    result.planningTime = since(begin);
+    const bool exact = status == ob::PlannerStatus::EXACT_SOLUTION;
+    if (exact) {
+      auto path = *problem->getSolutionPath()->as<og::PathGeometric>();
+      const auto shortening = Clock::now();
+      if (spec.shortenTime > 0.) {
+        simplifier.simplify(path, spec.shortenTime);
+      }
+      result.shortenTime = since(shortening);
+      result.path = pathOf(path, n);
+    }
+    result.motions = static_cast<long>(motions->getValidMotionCount() + motions->getInvalidMotionCount());
+    result.status = exact ? vpPathStatus::Solved : vpPathStatus::TimedOut;
+  }
+
+  const vpCollisionScene *scene;
+  vpPathPlannerSpec spec;
+  std::unique_ptr<vpMotionCheck> check;
+  vpCollisionData data;
+};
+
+const std::vector<std::string> &vpPathPlanner::names()
+{
+  static const std::vector<std::string> all{"RRT", "RRTConnect", "RRTstar", "PRM", "BITstar", "KPIECE"};
+  return all;
+}
+
+void vpPathPlannerSpec::validate() const
+{
+  const std::vector<std::string> &names = vpPathPlanner::names();
+  if (std::find(names.begin(), names.end(), planner) == names.end()) {
+    std::string known;
+    for (const std::string &name : names) {
+      known += (known.empty() ? "" : ", ") + name;
+    }
+    throw vpException(vpException::badValue, "unknown path planner '%s', known are %s", planner.c_str(), known.c_str());
+  }
+  requireGood("margin", margin, margin >= 0., ">= 0");
+  requireGood("step", step, step > 0., "> 0");
+  requireGood("timeLimit", timeLimit, timeLimit > 0., "> 0");
+  requireGood("range", range, range >= 0., ">= 0");
+  requireGood("shortenTime", shortenTime, shortenTime >= 0., ">= 0");
+  requireGood("seed", seed, seed >= 1, ">= 1");
+}
+
+vpPathPlanner::vpPathPlanner(const vpCollisionScene &scene, const vpPathPlannerSpec &spec)
+  : m_impl(std::make_unique<Impl>(scene, spec))
+{}
+vpPathPlanner::~vpPathPlanner() = default;
+vpPathPlanner::vpPathPlanner(vpPathPlanner &&) noexcept = default;
+vpPathPlanner &vpPathPlanner::operator=(vpPathPlanner &&) noexcept = default;
+
+const vpPathPlannerSpec &vpPathPlanner::spec() const noexcept { return m_impl->spec; }
+
+vpPathResult vpPathPlanner::plan(const vpJointVector &start, const vpJointVector &goal)
+{
+  vpPathResult result;
+  result.status = m_impl->judge(start, true, result.sentence);
+  if (result.status == vpPathStatus::Solved) {
+    result.status = m_impl->judge(goal, false, result.sentence);
+  }
+  if (result.status != vpPathStatus::Solved) {
+    return result;
+  }
+  const auto begin = Clock::now();
+  const vpJointVector end = nearGoal(m_impl->scene->arm(), start, goal);
+  if (m_impl->check->motion(start, end).isFree()) {
+    result.path.points = {start, end};
+    result.motions = 1;
+    result.planningTime = since(begin);
+    result.sentence = "The straight motion is free.";
+    return result;
+  }
+  m_impl->search(start, end, result);
+  result.sentence = result.status == vpPathStatus::Solved
+                        ? "A path was found."
+                        : m_impl->spec.planner + " found no path in " + std::to_string(m_impl->spec.timeLimit) +
+                              " s; that does not mean that there is none.";
+  return result;
+}
+
+END_VISP_NAMESPACE

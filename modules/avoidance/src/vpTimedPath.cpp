@@ -1,0 +1,146 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include <visp3/avoidance/vpTimedPath.h>
+
+#include <visp3/core/vpException.h>
+#include <visp3/trajectory/vpDirectTrajectory.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+using Input = vpTrajectoryInput<Eigen::Dynamic>;
+
+void requireShare(const char *field, double value)
+{
+  if (!(value > 0. && value <= 1.)) {
+    throw vpException(vpException::badValue, "%s of the timed path is %g, must be > 0 and <= 1", field, value);
+  }
+}
+
+//! Points first..last of a path as one motion from rest to rest.
+Input inputOf(const vpArmModel &arm, const vpJointPath &path, std::size_t first, std::size_t last,
+              const vpTimedPathSpec &spec)
+{
+  Input input(arm.size());
+  input.start.q = path.points[first];
+  input.goal.q = path.points[last];
+  input.maxVelocity = spec.speed * arm.velocity();
+  input.maxAcceleration = spec.acceleration * arm.acceleration();
+  input.minPosition = arm.lower();
+  input.maxPosition = arm.upper();
+  input.options.synchronisation = last == first + 1 ? vpSynchronisation::Straight : vpSynchronisation::Time;
+  double length = 0., way = 0.;
+  for (std::size_t i = first; i < last; ++i) {
+    length += (path.points[i + 1] - path.points[i]).norm();
+  }
+  for (std::size_t i = first + 1; i < last; ++i) {
+    way += (path.points[i] - path.points[i - 1]).norm();
+    vpTrajectoryVia<Eigen::Dynamic> via(arm.size());
+    via.tau = way / length;
+    via.q = path.points[i];
+    input.vias.push_back(via);
+  }
+  return input;
+}
+
+//! The path without points at the same place.
+vpJointPath withoutRepeats(const vpJointPath &path)
+{
+  vpJointPath result;
+  for (const vpJointVector &q : path.points) {
+    if (result.points.empty() || (q - result.points.back()).norm() > 1e-9) {
+      result.points.push_back(q);
+    }
+  }
+  return result;
+}
+} // namespace
+
+vpTimedPath::vpTimedPath(const vpCollisionScene &scene, const vpJointPath &path, const vpTimedPathSpec &spec)
+{
+  const vpArmModel &arm = scene.arm();
+  requireShare("speed", spec.speed);
+  requireShare("acceleration", spec.acceleration);
+  arm.requireMotionLimits("a timed path");
+  if (path.points.empty()) {
+    throw vpException(vpException::badValue, "the path to be timed has no points");
+  }
+  for (const vpJointVector &q : path.points) {
+    if (q.size() != arm.size() || !q.allFinite()) {
+      throw vpException(vpException::badValue,
+                        "a point of the path to be timed has %d numbers, must have %d finite ones",
+                        static_cast<int>(q.size()), arm.size());
+    }
+  }
+  m_start = path.points.front();
+  m_worst.status = vpMotionStatus::Free;
+  const vpJointPath way = withoutRepeats(path);
+  vpCertifiedTrajectory certificate(scene, {spec.margin, spec.resolution});
+  // Stretches that are still to be done, the next one last.
+  std::vector<std::pair<std::size_t, std::size_t>> open;
+  if (way.points.size() > 1) {
+    open.emplace_back(0, way.points.size() - 1);
+  }
+  while (!open.empty()) {
+    const auto [first, last] = open.back();
+    open.pop_back();
+    const Input input = inputOf(arm, way, first, last, spec);
+    vpTrajectoryPlan plan(arm.size());
+    const vpTrajectoryStatus status = vpDirectTrajectory<Eigen::Dynamic>::calculate(input, plan);
+    const bool single = last == first + 1;
+    if (!status.isGood() && single) {
+      throw vpException(vpException::badValue, "the path cannot be timed: %s", status.message().c_str());
+    }
+    const vpTrajectoryClearance clearance = status.isGood() ? certificate.check(plan) : vpTrajectoryClearance();
+    if (single || clearance.isFree()) {
+      append(plan, clearance);
+      continue;
+    }
+    const std::size_t middle = (first + last) / 2;
+    open.emplace_back(middle, last);
+    open.emplace_back(first, middle);
+  }
+}
+
+void vpTimedPath::append(const vpTrajectoryPlan &plan, const vpTrajectoryClearance &clearance)
+{
+  if (m_worst.isFree()) {
+    m_worst = clearance;
+    m_worst.time += m_duration;
+  }
+  m_parts.push_back({m_duration, plan});
+  m_duration += plan.duration();
+}
+
+vpAxisState vpTimedPath::at(int joint, double t) const noexcept
+{
+  const auto next = std::upper_bound(m_parts.begin(), m_parts.end(), t,
+                                     [](double time, const Part &part) { return time < part.begin; });
+  if (m_parts.empty()) {
+    return {m_start(joint), 0., 0., 0.};
+  }
+  const Part &part = next == m_parts.begin() ? *next : *(next - 1);
+  return part.plan.at(joint, t - part.begin);
+}
+
+std::string vpTimedPath::sentence(const vpCollisionScene &scene) const
+{
+  char text[128];
+  if (!isFree()) {
+    std::snprintf(text, sizeof(text), "Not free after %.2f s: ", m_worst.time);
+    return text + scene.describe(m_worst.pair) + ".";
+  }
+  const int rests = std::max(0, static_cast<int>(m_parts.size()) - 1);
+  std::snprintf(text, sizeof(text), "Free, %.2f s, %d %s on the way.", m_duration, rests,
+                rests == 1 ? "rest" : "rests");
+  return text;
+}
+
+END_VISP_NAMESPACE

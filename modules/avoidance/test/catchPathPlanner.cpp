@@ -1,0 +1,253 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// Paths of all planners: free where that was promised, between the right ends, within the limits, and honest failures.
+#include "vpAvoidanceTestKit.h"
+#include "vpCatch.h"
+#include "vpIndependentClearance.h"
+
+#include <visp3/avoidance/vpCollisionChecker.h>
+#include <visp3/avoidance/vpCollisionSceneJson.h>
+#include <visp3/avoidance/vpPathPlanner.h>
+#include <visp3/core/vpException.h>
+
+#include <cstdlib>
+#include <iostream>
+
+using namespace vpAvoidanceTestKit;
+
+namespace
+{
+int times(int plans)
+{
+  const char *factor = std::getenv("VISP_DIRECT_LONG_TESTS");
+  return factor == nullptr ? plans : plans * std::max(1, std::atoi(factor));
+}
+
+//! Least clearance at so many places of a path, by code that shares nothing with the planner.
+double recheck(const vpCollisionScene &scene, const vpCollisionSceneSpec &spec, const vpJointPath &path, int places)
+{
+  const IndependentClearance oracle(scene.arm(), spec);
+  double least = 0.1;
+  for (int i = 0; i <= places; ++i) {
+    least = std::min(least, oracle.clearance(path.at(static_cast<double>(i) / places), scene.selfPairs(), least));
+  }
+  return least;
+}
+
+void requireEnds(const vpArmModel &arm, const vpPathResult &result, const vpJointVector &start,
+                 const vpJointVector &goal)
+{
+  REQUIRE(result.path.points.size() >= 2);
+  REQUIRE((result.path.points.front() - start).norm() < 1e-12);
+  for (int i = 0; i < arm.size(); ++i) {
+    const double off = result.path.points.back()(i) - goal(i);
+    REQUIRE(std::fabs(arm.isContinuous(i) ? std::remainder(off, 2. * pi) : off) < 1e-9);
+    for (const vpJointVector &q : result.path.points) {
+      REQUIRE(q(i) >= arm.lower()(i));
+      REQUIRE(q(i) <= arm.upper()(i));
+    }
+  }
+}
+} // namespace
+
+TEST_CASE("RRTConnect with certified motions solves pillar and shelf, free at every place", "[planner]")
+{
+  int plans = 0, motions = 0;
+  std::vector<double> planning;
+  for (const char *name : {"scene/s4a-pillar.json", "scene/s4b-shelf.json"}) {
+    const vpCollisionSceneFile file = vpLoadCollisionScene(dataFile(name));
+    const vpCollisionScene scene(amor(), file.spec);
+    for (int k = 0; k < times(10); ++k) {
+      for (const vpMotionTask &task : file.tasks) {
+        vpPathPlannerSpec spec;
+        spec.seed = static_cast<unsigned int>(k + 1);
+        vpPathPlanner planner(scene, spec);
+        const vpPathResult result = planner.plan(task.start, task.goal);
+        CAPTURE(name, task.name, k, result.sentence);
+        REQUIRE(result.status == vpPathStatus::Solved);
+        requireEnds(amor(), result, task.start, task.goal);
+        REQUIRE(recheck(scene, file.spec, result.path, 10000) >= spec.margin - 1e-9);
+        planning.push_back(result.planningTime);
+        motions += static_cast<int>(result.motions);
+        ++plans;
+      }
+    }
+  }
+  std::sort(planning.begin(), planning.end());
+  std::cout << plans << " certified plans, none nearer than the margin at 10,000 places; " << motions / plans
+            << " motions checked on average\n";
+}
+
+TEST_CASE("Every planner finds a free path round the pillar", "[planner]")
+{
+  const vpCollisionSceneFile file = vpLoadCollisionScene(dataFile("scene/s4a-pillar.json"));
+  const vpCollisionScene scene(amor(), file.spec);
+  for (const std::string &name : vpPathPlanner::names()) {
+    int solved = 0;
+    for (unsigned int seed = 1; seed <= 3; ++seed) {
+      vpPathPlannerSpec spec;
+      spec.planner = name;
+      spec.seed = seed;
+      spec.timeLimit = 10.; // slow machines; most need milliseconds
+      vpPathPlanner planner(scene, spec);
+      const vpPathResult result = planner.plan(file.tasks[0].start, file.tasks[0].goal);
+      CAPTURE(name, seed, result.sentence);
+      if (result.status == vpPathStatus::Solved) {
+        ++solved;
+        requireEnds(amor(), result, file.tasks[0].start, file.tasks[0].goal);
+        REQUIRE(recheck(scene, file.spec, result.path, 2000) >= spec.margin - 1e-9);
+      }
+      else {
+        REQUIRE(result.status == vpPathStatus::TimedOut);
+      }
+    }
+    CHECK(solved >= 1);
+  }
+}
+
+TEST_CASE("Discrete validation calls paths free that are not", "[planner]")
+{
+  // Boards thinner than a step: nothing but luck keeps samples from passing them.
+  auto rng = vpTestSupport::generator(901);
+  CAPTURE(vpTestSupport::seed());
+  int certified = 0, discrete = 0, lies = 0;
+  for (int problem = 0; problem < times(15); ++problem) {
+    vpCollisionSceneSpec spec;
+    for (int k = 0; k < 8; ++k) {
+      vpCollisionObject board;
+      board.name = "board " + std::to_string(k);
+      board.shape = vpCollisionShape::box({0.4, 0.4, 0.004});
+      board.pose = pose(rng, 1.);
+      board.pose.p = uniform(rng, 0.5, 0.9) * board.pose.p.normalized(); // the shoulder must have room
+      spec.objects.push_back(board);
+    }
+    const vpCollisionScene scene(amor(), spec);
+    vpSceneChecker checker(scene);
+    vpJointVector ends[2];
+    for (vpJointVector &q : ends) {
+      int attempts = 0;
+      do {
+        q = configuration(amor(), rng);
+      } while (checker.inCollision(q, 0.) && ++attempts < 10000);
+    }
+    vpPathPlannerSpec how;
+    how.margin = 0.;
+    how.timeLimit = 1.;
+    how.step = 0.2;
+    how.shortenTime = 0.05;
+    vpPathPlanner sure(scene, how);
+    const vpPathResult a = sure.plan(ends[0], ends[1]);
+    if (a.status == vpPathStatus::Solved) {
+      ++certified;
+      REQUIRE(recheck(scene, spec, a.path, 10000) >= -1e-9);
+    }
+    how.validation = vpMotionValidation::Discrete;
+    vpPathPlanner hopeful(scene, how);
+    const vpPathResult b = hopeful.plan(ends[0], ends[1]);
+    if (b.status == vpPathStatus::Solved) {
+      ++discrete;
+      lies += recheck(scene, spec, b.path, 10000) < -1e-6 ? 1 : 0;
+    }
+  }
+  std::cout << "among thin boards: " << certified << " certified paths, all free; " << discrete
+            << " discrete ones (0.2 rad), " << lies << " of them collide\n";
+  CHECK(certified >= 10);
+  CHECK(lies > 0);
+}
+
+TEST_CASE("Plans repeat for a seed, and paths are shorter after shortening", "[planner]")
+{
+  const vpCollisionSceneFile file = vpLoadCollisionScene(dataFile("scene/s4b-shelf.json"));
+  const vpCollisionScene scene(amor(), file.spec);
+  vpPathPlannerSpec spec;
+  spec.shortenTime = 0.;
+  spec.timeLimit = 60.;
+  vpPathPlanner first(scene, spec), second(scene, spec);
+  const vpPathResult a = first.plan(file.tasks[0].start, file.tasks[0].goal);
+  const vpPathResult b = second.plan(file.tasks[0].start, file.tasks[0].goal);
+  REQUIRE(a.status == vpPathStatus::Solved);
+  REQUIRE(a.path.points.size() == b.path.points.size());
+  for (std::size_t i = 0; i < a.path.points.size(); ++i) {
+    REQUIRE(a.path.points[i] == b.path.points[i]);
+  }
+  spec.shortenTime = 0.5;
+  vpPathPlanner third(scene, spec);
+  const vpPathResult c = third.plan(file.tasks[0].start, file.tasks[0].goal);
+  REQUIRE(c.status == vpPathStatus::Solved);
+  CHECK(c.path.length() < a.path.length());
+}
+
+TEST_CASE("What cannot be planned is said", "[planner]")
+{
+  const vpCollisionSceneFile file = vpLoadCollisionScene(dataFile("scene/s4a-pillar.json"));
+  vpCollisionScene scene(amor(), file.spec);
+  vpPathPlannerSpec spec;
+  spec.timeLimit = 0.2;
+  vpPathPlanner planner(scene, spec);
+  const vpJointVector start = file.tasks[0].start, goal = file.tasks[0].goal;
+
+  vpJointVector beyond = goal;
+  beyond(1) = 3.;
+  vpPathResult result = planner.plan(start, beyond);
+  CHECK(result.status == vpPathStatus::OutsideLimits);
+  CHECK(result.sentence == "Joint q2 of the goal is at 3.000000, outside its limits.");
+  CHECK(planner.plan(vpJointVector::Zero(3), goal).status == vpPathStatus::BadInput);
+  CHECK(planner.plan(start, vpJointVector::Constant(7, NAN)).status == vpPathStatus::BadInput);
+
+  result = planner.plan(start, start);
+  CHECK(result.status == vpPathStatus::Solved);
+  CHECK(result.path.length() == 0.);
+
+  // An obstacle in the hand of the goal; then one that shuts it in.
+  vpArmData data;
+  vpArmKinematics::forward(amor(), goal, data);
+  vpCollisionObject ball;
+  ball.name = "ball";
+  ball.pose = data.tool;
+  const int index = scene.add(ball);
+  result = planner.plan(start, goal);
+  CHECK(result.status == vpPathStatus::GoalInCollision);
+  CHECK(result.sentence.find("ball") != std::string::npos);
+  CHECK(planner.plan(goal, start).status == vpPathStatus::StartInCollision);
+  scene.remove(index);
+  for (int side = 0; side < 6; ++side) {
+    vpCollisionObject wall;
+    wall.name = "wall " + std::to_string(side);
+    Vector3d size = Vector3d::Constant(0.8), place = Vector3d::Zero();
+    size(side / 2) = 0.01;
+    place(side / 2) = side % 2 == 0 ? -0.4 : 0.4;
+    wall.shape = vpCollisionShape::box(size);
+    wall.pose.p = data.tool.p + place;
+    scene.add(wall);
+  }
+  result = planner.plan(start, goal);
+  CAPTURE(result.sentence);
+  CHECK(result.status != vpPathStatus::Solved);
+  CHECK(!result.sentence.empty());
+
+  spec.planner = "RRTX";
+  CHECK_THROWS_WITH(
+      vpPathPlanner(scene, spec),
+      Catch::Contains("unknown path planner 'RRTX', known are RRT, RRTConnect, RRTstar, PRM, BITstar, KPIECE"));
+  spec = vpPathPlannerSpec();
+  spec.margin = -0.1;
+  CHECK_THROWS_WITH(vpPathPlanner(scene, spec), Catch::Contains("margin of the path planner is -0.1, must be >= 0"));
+  spec = vpPathPlannerSpec();
+  spec.timeLimit = NAN;
+  CHECK_THROWS_WITH(vpPathPlanner(scene, spec), Catch::Contains("timeLimit of the path planner is nan"));
+}
+
+TEST_CASE("A path is walked by its length", "[planner]")
+{
+  vpJointPath path;
+  for (const double x : {0., 1., 1., 4.}) {
+    path.points.push_back(vpJointVector::Constant(1, x));
+  }
+  CHECK(path.length() == 4.);
+  CHECK(path.at(-1.)(0) == 0.);
+  CHECK(path.at(0.25)(0) == 1.);
+  CHECK(path.at(0.5)(0) == Approx(2.));
+  CHECK(path.at(2.)(0) == 4.);
+}

@@ -1,0 +1,240 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// Trajectories in time: what is called free is free at every instant, and the limits of the joints are kept.
+#include "vpAvoidanceTestKit.h"
+#include "vpCatch.h"
+#include "vpIndependentClearance.h"
+
+#include <visp3/avoidance/vpCollisionSceneJson.h>
+#include <visp3/avoidance/vpPathPlanner.h>
+#include <visp3/avoidance/vpTimedPath.h>
+#include <visp3/core/vpException.h>
+#include <visp3/trajectory/vpDirectTrajectory.h>
+
+#include <iostream>
+
+using namespace vpAvoidanceTestKit;
+
+namespace
+{
+vpCollisionSceneSpec randomScene(std::mt19937_64 &rng, bool moving)
+{
+  vpCollisionSceneSpec spec;
+  const int count = 3 + static_cast<int>(rng() % 5);
+  for (int k = 0; k < count; ++k) {
+    vpCollisionObject object;
+    object.name = "object " + std::to_string(k);
+    const double size = uniform(rng, 0.04, 0.2);
+    object.shape = k % 3 == 0   ? vpCollisionShape::sphere(size)
+                   : k % 3 == 1 ? vpCollisionShape::box({size, 0.3, 0.6 * size})
+                                : vpCollisionShape::capsule(0.5 * size, 0.4);
+    object.pose = pose(rng, 0.9);
+    if (moving) {
+      const Vector3d v = point(rng, 0.3), w = point(rng, 1.);
+      object.velocity = vpTwist(v.x(), v.y(), v.z(), w.x(), w.y(), w.z());
+    }
+    spec.objects.push_back(object);
+  }
+  return spec;
+}
+
+//! From one random state to another, or through vias.
+vpTrajectoryPlan randomPlan(std::mt19937_64 &rng)
+{
+  vpTrajectoryInput<Eigen::Dynamic> input(7);
+  input.start.q = configuration(amor(), rng);
+  input.goal.q = input.start.q + uniform(rng, 0.1, 0.6) * (configuration(amor(), rng) - input.start.q);
+  for (int i = 0; i < 7; ++i) {
+    input.start.v(i) = uniform(rng, -0.4, 0.4);
+  }
+  input.maxVelocity = amor().velocity();
+  input.maxAcceleration = amor().acceleration();
+  vpTrajectoryPlan plan(7);
+  REQUIRE(vpDirectTrajectory<Eigen::Dynamic>::calculate(input, plan).isGood());
+  return plan;
+}
+
+//! The objects moved on, as the oracle sees them.
+vpCollisionSceneSpec at(const vpCollisionSceneSpec &spec, double time)
+{
+  vpCollisionSceneSpec later = spec;
+  for (vpCollisionObject &object : later.objects) {
+    object.pose = object.poseAt(time);
+  }
+  return later;
+}
+
+vpJointVector placeOf(const vpTrajectoryPlan &plan, double t)
+{
+  vpJointVector q(plan.axes());
+  for (int j = 0; j < plan.axes(); ++j) {
+    q(j) = plan.at(j, t)[0];
+  }
+  return q;
+}
+} // namespace
+
+TEST_CASE("A trajectory that is called free is free at every instant, with obstacles that move", "[trajectory]")
+{
+  auto rng = vpTestSupport::generator(911);
+  CAPTURE(vpTestSupport::seed());
+  int free = 0, collisions = 0, undecided = 0;
+  long looks = 0;
+  for (int problem = 0; problem < 600; ++problem) {
+    const bool moving = problem % 2 == 1;
+    const vpCollisionSceneSpec spec = randomScene(rng, moving);
+    const vpCollisionScene scene(amor(), spec);
+    const vpTrajectoryPlan plan = randomPlan(rng);
+    const double age = moving ? uniform(rng, 0., 0.3) : 0.;
+    vpCertifiedTrajectory certificate(scene, {problem % 3 == 0 ? 0.01 : 0., 1e-4});
+    const double margin = problem % 3 == 0 ? 0.01 : 0.;
+    const vpTrajectoryClearance verdict = certificate.check(plan, 0., plan.duration(), age);
+    CAPTURE(problem, plan.duration(), verdict.time);
+    looks += verdict.evaluated;
+    if (verdict.isFree()) {
+      ++free;
+      for (int i = 0; i <= 300; ++i) {
+        const double t = plan.duration() * i / 300.;
+        const vpCollisionSceneSpec then = at(spec, t + age);
+        const IndependentClearance oracle(amor(), then);
+        REQUIRE(oracle.clearance(placeOf(plan, t), scene.selfPairs(), margin + 0.01) >= margin - 1e-9);
+      }
+    }
+    else if (verdict.status == vpMotionStatus::Collision) {
+      ++collisions;
+      const vpCollisionSceneSpec then = at(spec, verdict.time + age);
+      const IndependentClearance oracle(amor(), then);
+      REQUIRE(oracle.clearance(placeOf(plan, verdict.time), scene.selfPairs(), 1.) <= margin + 3e-4);
+      for (int i = 0; i < 100 && verdict.time > 0.; ++i) { // the first place: all before is free
+        const double t = verdict.time * i / 100.;
+        const vpCollisionSceneSpec earlier = at(spec, t + age);
+        const IndependentClearance before(amor(), earlier);
+        REQUIRE(before.clearance(placeOf(plan, t), scene.selfPairs(), margin + 0.01) >= margin - 1e-9);
+      }
+      REQUIRE(verdict.pair.kind != vpCollisionKind::None);
+    }
+    else {
+      REQUIRE(verdict.status == vpMotionStatus::Undecided);
+      ++undecided;
+    }
+  }
+  std::cout << free << " free, " << collisions << " collide, " << undecided << " undecided; " << looks / 600
+            << " configurations looked at on average\n";
+  CHECK(free > 100);
+  CHECK(collisions > 100);
+  CHECK(undecided < 30);
+}
+
+TEST_CASE("Timed paths keep limits, ends and freedom", "[path]")
+{
+  int rests = 0, motions = 0;
+  for (const char *name : {"scene/s4a-pillar.json", "scene/s4b-shelf.json"}) {
+    const vpCollisionSceneFile file = vpLoadCollisionScene(dataFile(name));
+    const vpCollisionScene scene(amor(), file.spec);
+    for (unsigned int seed = 1; seed <= 4; ++seed) {
+      for (const vpMotionTask &task : file.tasks) {
+        vpPathPlannerSpec how;
+        how.seed = seed;
+        vpPathPlanner planner(scene, how);
+        const vpPathResult found = planner.plan(task.start, task.goal);
+        REQUIRE(found.status == vpPathStatus::Solved);
+        vpTimedPathSpec spec;
+        spec.margin = 0.8 * how.margin;
+        const vpTimedPath timed(scene, found.path, spec);
+        CAPTURE(name, seed, task.name, timed.sentence(scene));
+        REQUIRE(timed.isFree());
+        const IndependentClearance oracle(amor(), file.spec);
+        vpJointVector q(7);
+        const int places = 3000;
+        for (int i = 0; i <= places; ++i) {
+          const double t = timed.duration() * i / places;
+          for (int j = 0; j < 7; ++j) {
+            const vpAxisState x = timed.at(j, t);
+            q(j) = x[0];
+            REQUIRE(std::fabs(x[1]) <= amor().velocity()(j) * (1. + 1e-9));
+            REQUIRE(std::fabs(x[2]) <= amor().acceleration()(j) * (1. + 1e-9));
+          }
+          REQUIRE(oracle.clearance(q, scene.selfPairs(), 0.05) >= spec.margin - 1e-9);
+        }
+        REQUIRE((q - found.path.points.back()).norm() < 1e-9);
+        for (const vpTimedPath::Part &part : timed.parts()) {
+          for (int j = 0; j < 7; ++j) {
+            REQUIRE(part.plan.at(j, 0.)[1] == Approx(0.).margin(1e-9));
+            REQUIRE(part.plan.at(j, part.plan.duration())[1] == Approx(0.).margin(1e-9));
+          }
+        }
+        rests += static_cast<int>(timed.parts().size()) - 1;
+        ++motions;
+      }
+    }
+  }
+  std::cout << motions << " timed paths, " << rests << " rests on the way in all\n";
+}
+
+TEST_CASE("A straight motion is timed as a straight line, and a path through an obstacle is not called free", "[path]")
+{
+  auto rng = vpTestSupport::generator(912);
+  CAPTURE(vpTestSupport::seed());
+  vpCollisionScene scene(amor());
+  for (int problem = 0; problem < 50; ++problem) {
+    vpJointPath path;
+    path.points = {configuration(amor(), rng), configuration(amor(), rng)};
+    const vpTimedPath timed(scene, path);
+    const vpJointVector way = path.points[1] - path.points[0];
+    for (double t = 0.; t < timed.duration(); t += 0.05) {
+      vpJointVector q(7);
+      for (int j = 0; j < 7; ++j) {
+        q(j) = timed.at(j, t)[0];
+      }
+      const double share = (q - path.points[0]).dot(way) / way.squaredNorm();
+      REQUIRE((q - path.points[0] - share * way).norm() < 1e-9);
+    }
+  }
+  vpJointVector start(7);
+  start << .246, .868, -1.237, -2.390, -2.591, -1.099, .324;
+  vpJointPath path;
+  path.points = {start, start}; // a motion of none
+  const vpTimedPath still(scene, path);
+  CHECK(still.duration() == 0.);
+  CHECK(still.isFree());
+  CHECK(still.at(3, 1.)[0] == start(3));
+  path.points[1](0) += 1.;
+  vpArmData data;
+  vpArmKinematics::forward(amor(), 0.5 * (path.points[0] + path.points[1]), data);
+  vpCollisionObject ball;
+  ball.name = "ball";
+  ball.pose = data.tool;
+  scene.add(ball);
+  const vpTimedPath blocked(scene, path);
+  CHECK_FALSE(blocked.isFree());
+  CHECK(blocked.sentence(scene).find("ball") != std::string::npos);
+  CHECK(blocked.clearance().time < 0.5 * blocked.duration());
+
+  vpTimedPathSpec spec;
+  spec.speed = 0.;
+  CHECK_THROWS_WITH(vpTimedPath(scene, path, spec), Catch::Contains("speed of the timed path is 0, must be > 0"));
+  CHECK_THROWS_WITH(vpTimedPath(scene, vpJointPath()), Catch::Contains("has no points"));
+  path.points[0] = vpJointVector::Zero(3);
+  CHECK_THROWS_WITH(vpTimedPath(scene, path), Catch::Contains("has 3 numbers, must have 7"));
+  CHECK_THROWS_WITH(vpCertifiedTrajectory(scene, {-1., 1e-4}),
+                    Catch::Contains("margin of the certified trajectory is -1 m"));
+}
+
+TEST_CASE("The check of a trajectory does not allocate and refuses nonsense", "[trajectory]")
+{
+  auto rng = vpTestSupport::generator(913);
+  const vpCollisionScene scene(amor(), randomScene(rng, true));
+  vpCertifiedTrajectory certificate(scene);
+  const vpTrajectoryPlan plan = randomPlan(rng);
+  static_cast<void>(certificate.check(plan));
+  const unsigned long before = vpTestSupport::allocationCount();
+  for (int k = 0; k < 5; ++k) {
+    static_cast<void>(certificate.check(plan, 0., plan.duration(), 0.1 * k));
+  }
+  CHECK(vpTestSupport::allocationCount() == before);
+  CHECK(certificate.check(vpTrajectoryPlan(3)).status == vpMotionStatus::BadInput);
+  CHECK(certificate.check(plan, 1., 0.).status == vpMotionStatus::BadInput);
+  CHECK(certificate.check(plan, 0., NAN).status == vpMotionStatus::BadInput);
+}
