@@ -86,11 +86,16 @@ apps=()
 for folder in "$root"/apps/visp-*/; do
   [ -f "$folder/CMakeLists.txt" ] && apps+=("$(basename "$folder")")
 done
-echo "contrib: ${#modules[@]} modules (${modules[*]}), ${#tests[@]} test programs, ${#apps[@]} applications"
+tutorials=()
+for source in "$root"/tutorial/*/tutorial-*.cpp; do
+  [ -f "$source" ] && tutorials+=("$(basename "$source" .cpp)")
+done
+echo "contrib: ${#modules[@]} modules (${modules[*]}), ${#tests[@]} test programs, ${#apps[@]} applications," \
+  "${#tutorials[@]} tutorials"
 
-# $1: what VISP_CONTRIB_MODULES_PATH names; the rest: further targets to build.
+# $1: what VISP_CONTRIB_MODULES_PATH names; the rest: further targets to build. Those named tutorial-* are tests, too.
 build_and_test() {
-  local path=$1 log target
+  local path=$1 log target run
   shift
   log=$build/contrib.log
   echo "contrib: configuring with VISP_CONTRIB_MODULES_PATH=$path"
@@ -98,17 +103,21 @@ build_and_test() {
   rm -f "$build/CMakeCache.txt"
   cmake -S "$visp" -B "$build" -G Ninja -DVISP_CONTRIB_MODULES_PATH="$path" -DCMAKE_BUILD_TYPE=Release \
     -DCMAKE_CXX_FLAGS_RELEASE='-O1 -DNDEBUG' -DBUILD_TESTS=ON -DBUILD_APPS=ON -DBUILD_EXAMPLES=OFF -DBUILD_DEMOS=OFF \
-    -DBUILD_TUTORIALS=OFF -DBUILD_JAVA=OFF "${switches[@]}" >"$log" 2>&1 || { tail -n 30 "$log" >&2; return 1; }
+    -DBUILD_TUTORIALS=ON -DBUILD_JAVA=OFF "${switches[@]}" >"$log" 2>&1 || { tail -n 30 "$log" >&2; return 1; }
   grep -E 'visp-direct|disabled because' "$log" || true
   for target in "${modules[@]/#/visp_}" "${tests[@]}" "$@"; do
     ninja -C "$build" -t query "$target" >/dev/null 2>&1 || { echo "contrib: ViSP did not take up $target" >&2; return 1; }
   done
   ninja -C "$build" ${JOBS:+-j "$JOBS"} "${modules[@]/#/visp_}" "${tests[@]}" "$@" >>"$log" 2>&1 ||
     { tail -n 40 "$log" >&2; return 1; }
-  (cd "$build" && ctest --output-on-failure --no-tests=error -R "^($(IFS='|'; echo "${tests[*]}"))\$")
+  run=("${tests[@]}")
+  for target in "$@"; do
+    [[ $target != tutorial-* ]] || run+=("$target")
+  done
+  (cd "$build" && ctest --output-on-failure --no-tests=error -R "^($(IFS='|'; echo "${run[*]}"))\$")
 }
 
 start=$SECONDS
-build_and_test "$root" ${apps[@]+"${apps[@]}"}
+build_and_test "$root" ${apps[@]+"${apps[@]}"} ${tutorials[@]+"${tutorials[@]}"}
 build_and_test "$root/modules"
 echo "contrib: both ways build and pass their tests, $((SECONDS - start)) s"
