@@ -2,156 +2,20 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-#include <visp3/core/vpException.h>
 #include <visp3/manipulator/vpArmJson.h>
 
-#include <nlohmann/json.hpp>
-
-#include <Eigen/Geometry>
+#include "vpJsonObject.h"
 
 #include <cmath>
-#include <fstream>
-#include <set>
 
 BEGIN_VISP_NAMESPACE
 
 namespace
 {
-using nlohmann::json;
-constexpr double degree = M_PI / 180.;
-
-// One object of the file, with its place in it for messages.
-class Object
-{
-public:
-  Object(const json &value, const std::string &file, const std::string &place)
-    : m_value(value), m_file(file), m_place(place)
-  {
-    if (!value.is_object()) {
-      fail(m_place.empty() ? "the file" : m_place, "must be an object");
-    }
-  }
-  Object(const Object &) = delete;
-  Object &operator=(const Object &) = delete;
-
-  [[noreturn]] void fail(const std::string &what, const std::string &why) const
-  {
-    throw vpException(vpException::badValue, "%s: %s %s", m_file.c_str(), what.c_str(), why.c_str());
-  }
-  [[nodiscard]] bool has(const char *field) const { return m_value.contains(field); }
-  [[nodiscard]] std::string place(const char *field) const { return m_place.empty() ? field : m_place + "." + field; }
-  [[nodiscard]] const std::string &file() const { return m_file; }
-
-  const json &get(const char *field)
-  {
-    m_known.insert(field);
-    if (!has(field)) {
-      fail(place(field), "is missing");
-    }
-    return m_value[field];
-  }
-  double number(const char *field) { return number(get(field), place(field)); }
-  double number(const char *field, double otherwise)
-  {
-    m_known.insert(field);
-    return has(field) ? number(field) : otherwise;
-  }
-  std::string string(const char *field)
-  {
-    const json &value = get(field);
-    if (!value.is_string()) {
-      fail(place(field), "must be a text");
-    }
-    return value.get<std::string>();
-  }
-  template <int N> Eigen::Matrix<double, N, 1> vector(const char *field)
-  {
-    const json &value = get(field);
-    if (!value.is_array() || value.size() != static_cast<std::size_t>(N)) {
-      fail(place(field), "must be a list of " + std::to_string(N) + " numbers");
-    }
-    Eigen::Matrix<double, N, 1> v;
-    for (int i = 0; i < N; ++i) {
-      v(i) = number(value[static_cast<std::size_t>(i)], place(field) + "[" + std::to_string(i) + "]");
-    }
-    return v;
-  }
-  vpJointVector numbers(const char *field, std::size_t most)
-  {
-    const json &value = get(field);
-    if (!value.is_array() || value.size() > most) {
-      fail(place(field), "must be a list of at most " + std::to_string(most) + " numbers");
-    }
-    vpJointVector v(static_cast<Eigen::Index>(value.size()));
-    for (std::size_t i = 0; i < value.size(); ++i) {
-      v(static_cast<Eigen::Index>(i)) = number(value[i], place(field) + "[" + std::to_string(i) + "]");
-    }
-    return v;
-  }
-  // Every element of a list of objects, with its place.
-  template <class Function> void each(const char *field, Function function)
-  {
-    const json &list = get(field);
-    if (!list.is_array()) {
-      fail(place(field), "must be a list");
-    }
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      Object object(list[i], m_file, place(field) + "[" + std::to_string(i) + "]");
-      function(object);
-      object.done();
-    }
-  }
-  // A field that is an object and may be left out.
-  template <class Function> void optional(const char *field, Function function)
-  {
-    m_known.insert(field);
-    if (has(field)) {
-      Object object(m_value[field], m_file, place(field));
-      function(object);
-      object.done();
-    }
-  }
-  void ignore(const char *field) { m_known.insert(field); }
-  void done() const
-  {
-    for (const auto &item : m_value.items()) {
-      if (m_known.count(item.key()) == 0) {
-        fail(place(item.key().c_str()), "is not a known field");
-      }
-    }
-  }
-
-private:
-  double number(const json &value, const std::string &where) const
-  {
-    if (!value.is_number()) {
-      fail(where, "must be a number");
-    }
-    return value.get<double>();
-  }
-
-  const json &m_value;
-  const std::string &m_file;
-  std::string m_place;
-  std::set<std::string> m_known;
-};
-
-vpRigidTransform frame(Object &object)
-{
-  vpRigidTransform T;
-  T.p = object.vector<3>("translation_m");
-  object.ignore("rotation_deg");
-  if (object.has("rotation_deg")) {
-    const Eigen::Vector3d e = degree * object.vector<3>("rotation_deg");
-    if (e.norm() > 0.) {
-      T.R = Eigen::AngleAxisd(e.norm(), e.normalized()).toRotationMatrix();
-    }
-  }
-  return T;
-}
+constexpr double degree = vpJsonObject::degree;
 
 // Limits of turning joints are degrees in the file, those of sliding ones metres.
-vpArmJointSpec joint(Object &object)
+vpArmJointSpec joint(vpJsonObject &object)
 {
   const std::string type = object.string("type");
   const bool slides = type == "prismatic";
@@ -189,7 +53,7 @@ vpArmJointSpec joint(Object &object)
   return spec;
 }
 
-vpArmLinkSpec link(Object &object)
+vpArmLinkSpec link(vpJsonObject &object)
 {
   vpArmLinkSpec spec;
   spec.name = object.string("name");
@@ -204,7 +68,7 @@ vpArmLinkSpec link(Object &object)
   return spec;
 }
 
-vpArmCapsule capsule(Object &object)
+vpArmCapsule capsule(vpJsonObject &object)
 {
   vpArmCapsule spec;
   const double link = object.number("link");
@@ -221,39 +85,30 @@ vpArmCapsule capsule(Object &object)
 
 vpArmModel vpLoadArmJson(const std::string &file)
 {
-  std::ifstream in(file);
-  if (!in) {
-    throw vpException(vpException::ioError, "%s: cannot be read", file.c_str());
-  }
-  json content;
-  try {
-    content = json::parse(in);
-  }
-  catch (const json::exception &e) {
-    std::string why = e.what();
-    const std::size_t prefix = why.find("] ");
-    why = prefix == std::string::npos ? why : why.substr(prefix + 2);
-    throw vpException(vpException::badValue, "%s: %s", file.c_str(), why.c_str());
-  }
-  Object top(content, file, "");
+  const nlohmann::json content = vpParseJsonFile(file);
+  vpJsonObject top(content, file, "");
   vpArmSpec spec;
   spec.source = file;
   spec.name = top.string("name");
   top.ignore("comment");
-  top.each("joints", [&](Object &object) { spec.joints.push_back(joint(object)); });
+  top.each("joints", [&](vpJsonObject &object) { spec.joints.push_back(joint(object)); });
   top.ignore("links");
   if (top.has("links")) {
-    top.each("links", [&](Object &object) { spec.links.push_back(link(object)); });
+    top.each("links", [&](vpJsonObject &object) { spec.links.push_back(link(object)); });
   }
   top.ignore("capsules");
   if (top.has("capsules")) {
-    top.each("capsules", [&](Object &object) { spec.capsules.push_back(capsule(object)); });
+    top.each("capsules", [&](vpJsonObject &object) { spec.capsules.push_back(capsule(object)); });
   }
-  top.optional("tool", [&](Object &object) { spec.tool = frame(object); });
-  top.optional("camera", [&](Object &object) { spec.camera = frame(object); });
+  top.optional("tool", [&](vpJsonObject &object) { spec.tool = object.transform<vpRigidTransform>(); });
+  top.optional("camera", [&](vpJsonObject &object) { spec.camera = object.transform<vpRigidTransform>(); });
   top.ignore("home");
   if (top.has("home")) {
-    spec.home = top.numbers("home", vpArmMaxJoints);
+    const std::vector<double> home = top.numbers("home");
+    if (home.size() > static_cast<std::size_t>(vpArmMaxJoints)) {
+      top.fail("home", "must be a list of at most " + std::to_string(vpArmMaxJoints) + " numbers");
+    }
+    spec.home = Eigen::Map<const Eigen::VectorXd>(home.data(), static_cast<Eigen::Index>(home.size()));
   }
   top.done();
   return vpArmModel(spec);
