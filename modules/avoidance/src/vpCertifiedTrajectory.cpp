@@ -40,6 +40,11 @@ vpCertifiedTrajectory::vpCertifiedTrajectory(const vpCollisionScene &scene, cons
   m_acceleration.setZero(scene.arm().size());
 }
 
+void vpCertifiedTrajectory::setMargin(double margin) noexcept
+{
+  m_spec.margin = margin >= 0. && std::isfinite(margin) ? margin : 0.;
+}
+
 vpCertifiedTrajectory::Verdict vpCertifiedTrajectory::look(const vpTrajectoryPlan &plan, double middle, double half,
                                                            double objectTime, vpTrajectoryClearance &result) noexcept
 {

@@ -65,6 +65,9 @@ public:
     return check(plan, 0., plan.duration());
   }
 
+  //! Changes the margin, m; values that are not >= 0 and finite count as 0. No exception.
+  void setMargin(double margin) noexcept;
+
 private:
   enum class Verdict { Free, Collision, Split };
   Verdict look(const vpTrajectoryPlan &plan, double middle, double half, double objectTime,
