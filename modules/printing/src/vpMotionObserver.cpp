@@ -19,6 +19,7 @@ enum Index { Place, Velocity, Force, Disturbance };
 constexpr double longestPart = 0.25; // of an integration step, T: error of the velocity below 1e-4 px/frame
 constexpr int patience = 3;          // so many measurements beyond the gate in a row are no outliers
 constexpr double longestRun = 1000.; // T; nobody extrapolates farther
+constexpr double certainOdds = 50.;  // of a change of friction: then it has happened
 } // namespace
 
 void vpMotionObserverSpec::validate() const
@@ -29,6 +30,7 @@ void vpMotionObserverSpec::validate() const
   require(delay >= 0. && delay <= 16., "delay", owner, delay, "in [0, 16]");
   notNegative("velocityNoise", owner, velocityNoise);
   positive("disturbanceNoise", owner, disturbanceNoise);
+  require(changeRate >= 0. && changeRate <= 1., "changeRate", owner, changeRate, "in [0, 1]");
   require(gate > 0., "gate", owner, gate, "> 0");
   positive("sigmaPosition", owner, sigmaPosition);
   positive("sigmaVelocity", owner, sigmaVelocity);
@@ -52,7 +54,8 @@ void vpMotionObserver::reset(double time, double position) noexcept
   m_belief.x[Place] = position;
   m_belief.P.diagonal() << m_spec.sigmaPosition * m_spec.sigmaPosition, m_spec.sigmaVelocity * m_spec.sigmaVelocity, 0.,
       m_spec.sigmaDisturbance * m_spec.sigmaDisturbance;
-  m_count = 0;
+  m_count = m_changeCount = 0;
+  m_lean.setZero();
 }
 
 void vpMotionObserver::command(double time, double force) noexcept
@@ -97,7 +100,7 @@ double vpMotionObserver::acceleration(const Eigen::Vector4d &x) const noexcept
 }
 
 // One part of an integration step: the lag exactly, the rest by the midpoint rule.
-void vpMotionObserver::part(Belief &b, double command, double h) const noexcept
+void vpMotionObserver::part(Belief &b, double command, double h, Eigen::Matrix4d *transition) const noexcept
 {
   const double decay = m_spec.lag > 0. ? std::exp(-h / m_spec.lag) : 0.;
   const double share = m_spec.lag > 0. ? (1. - decay) * m_spec.lag / h : 0.; // of the old force in the mean
@@ -128,12 +131,15 @@ void vpMotionObserver::part(Belief &b, double command, double h) const noexcept
   F(Velocity, Disturbance) = -a * h / m;
   F(Force, Force) = decay;
   b.P = (F * b.P * F.transpose()).eval();
+  if (transition != nullptr) {
+    *transition = (F * *transition).eval();
+  }
   b.P(Velocity, Velocity) += a * m_spec.velocityNoise * h;
   b.P(Disturbance, Disturbance) += m_spec.disturbanceNoise * h;
   b.time += h;
 }
 
-void vpMotionObserver::advance(Belief &b, double time) const noexcept
+void vpMotionObserver::advance(Belief &b, double time, Eigen::Matrix4d *transition) const noexcept
 {
   const double end = std::min(time, b.time + longestRun);
   while (end - b.time > 1e-12) {
@@ -142,7 +148,7 @@ void vpMotionObserver::advance(Belief &b, double time) const noexcept
     const double span = std::min(end, until) - b.time;
     const int parts = std::max(1, static_cast<int>(std::ceil(span / longestPart)));
     for (int i = 0; i < parts; ++i) {
-      part(b, command, span / parts);
+      part(b, command, span / parts, transition);
     }
   }
   b.time = std::max(b.time, end);
@@ -154,7 +160,12 @@ bool vpMotionObserver::measure(double time, double position, double sigma) noexc
       time < m_belief.time) {
     return false;
   }
-  advance(m_belief, time);
+  Eigen::Matrix4d transition = Eigen::Matrix4d::Identity();
+  advance(m_belief, time, &transition);
+  for (int i = 0; i < m_changeCount; ++i) {
+    Change &change = m_changes[static_cast<std::size_t>(i)];
+    change.response = (transition * change.response).eval();
+  }
   const double innovation = position - m_belief.x[Place];
   const double expected2 = m_belief.P(Place, Place) + sigma * sigma;
   if (!(innovation * innovation <= m_spec.gate * m_spec.gate * expected2)) {
@@ -173,12 +184,62 @@ bool vpMotionObserver::measure(double time, double position, double sigma) noexc
   Eigen::Matrix4d rest = Eigen::Matrix4d::Identity();
   rest.col(Place) -= K;
   m_belief.P = (rest * m_belief.P * rest.transpose() + sigma * sigma * K * K.transpose()).eval();
+  lookForChange(innovation, S, K);
   return true;
+}
+
+// Friction may have changed at any of the last measurements. Each of these hypotheses knows what the belief's error would
+// be for a change by 1, and with it what the innovations since say about the size of the change.
+void vpMotionObserver::lookForChange(double innovation, double S, const Eigen::Vector4d &K) noexcept
+{
+  m_lean.setZero();
+  if (!(m_spec.changeRate > 0.)) {
+    return;
+  }
+  const double prior = 1. / (m_spec.sigmaDisturbance * m_spec.sigmaDisturbance);
+  double odds = 0.; // of any change to none
+  for (int i = 0; i < m_changeCount; ++i) {
+    Change &change = m_changes[static_cast<std::size_t>(i)];
+    const double g = change.response[Place];
+    change.information += g * g / S;
+    change.score += g * innovation / S;
+    change.response -= K * g;
+    const double certain = change.information + prior;
+    const double evidence = m_spec.changeRate * std::sqrt(prior / certain) *
+                            std::exp(std::min(300., 0.5 * change.score * change.score / certain));
+    odds += evidence;
+    m_lean += evidence * change.score / certain * change.response;
+    change.evidence = evidence;
+  }
+  m_lean /= 1. + odds;
+  if (odds > certainOdds) {
+    takeChange();
+  }
+  if (m_changeCount == window) {
+    std::move(m_changes.begin() + 1, m_changes.end(), m_changes.begin());
+    --m_changeCount;
+  }
+  Change &next = m_changes[static_cast<std::size_t>(m_changeCount++)];
+  next = Change();
+  next.response[Disturbance] = 1.;
+}
+
+// The belief takes the likeliest change over, and what stays unknown about its size.
+void vpMotionObserver::takeChange() noexcept
+{
+  const Change &change = *std::max_element(m_changes.begin(), m_changes.begin() + m_changeCount,
+                                           [](const Change &a, const Change &b) { return a.evidence < b.evidence; });
+  const double certain = change.information + 1. / (m_spec.sigmaDisturbance * m_spec.sigmaDisturbance);
+  m_belief.x += change.response * (change.score / certain);
+  m_belief.P += change.response * change.response.transpose() / certain;
+  m_lean.setZero();
+  m_changeCount = 0;
 }
 
 vpObservedMotion vpMotionObserver::at(double time) const noexcept
 {
   Belief b = m_belief;
+  b.x += m_lean;
   if (std::isfinite(time)) {
     advance(b, time);
   }

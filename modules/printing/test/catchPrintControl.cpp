@@ -179,6 +179,55 @@ TEST_CASE("A change of friction does not lock the observer out", "[observer]")
   CHECK(observer.at(200.).disturbance == Approx(0.05).margin(0.005));
 }
 
+TEST_CASE("A sudden change of friction is found early, and none where there is none", "[observer]")
+{
+  auto rng = vpTestSupport::generator(53);
+  CAPTURE(vpTestSupport::seed());
+  std::normal_distribution<double> normal(0., 1.);
+  constexpr int problems = 300, changeAt = 60, frames = 90;
+  vpMotionObserverSpec spec;
+  spec.model = stage();
+  spec.disturbanceNoise = 3e-7;
+  spec.velocityNoise = 1e-6;
+  vpMotionObserverSpec looking = spec;
+  looking.changeRate = 0.003;
+  // Squares of the errors of the disturbance: with and without the hypotheses, 12 frames behind a change and without one.
+  double found = 0., late = 0., quiet = 0., still = 0., promised = 0.;
+  for (int problem = 0; problem < problems; ++problem) {
+    const bool changes = problem % 2 == 0;
+    const double change = (problem % 4 == 0 ? 1. : -1.) * uniform(rng, 0.025, 0.045);
+    vpMotionObserver plain(spec), clever(looking);
+    Plant plant;
+    plant.model = stage();
+    for (int k = 0; k < frames; ++k) {
+      plant.disturbance = changes && k >= changeAt ? change : 0.;
+      const double command = 0.25 + 0.1 * std::sin(0.6 * k); // faster and slower from cell to cell
+      plain.command(k, command);
+      clever.command(k, command);
+      plant.run(command, 1.);
+      const double seen = plant.p + 0.127 * normal(rng);
+      plain.measure(k + 1., seen, 0.127);
+      clever.measure(k + 1., seen, 0.127);
+      const double a = clever.at(k + 1.).disturbance - plant.disturbance;
+      const double b = plain.at(k + 1.).disturbance - plant.disturbance;
+      if (k == changeAt + 12) {
+        (changes ? found : quiet) += 2. * a * a / problems;
+        (changes ? late : still) += 2. * b * b / problems;
+      }
+      if (k == frames - 1 && changes) {
+        const vpObservedMotion now = clever.at(k + 1.);
+        promised += 2. * std::pow((now.position - plant.p) / now.sigmaPosition, 2) / problems;
+      }
+    }
+  }
+  CAPTURE(found, late, quiet, still, promised);
+  CHECK(found < 0.15 * late);
+  CHECK(found < 0.01 * 0.01);
+  CHECK(quiet < 0.006 * 0.006); // a tenth of the frames' false alarms would be seen
+  CHECK(quiet < 4. * still);
+  CHECK(promised < 1.6); // its own deviation holds behind a change, too
+}
+
 TEST_CASE("The preview makes a lagging plant follow a sine without feedback", "[preview]")
 {
   for (const double period : {1., 0.25}) {
@@ -217,13 +266,19 @@ TEST_CASE("Controls say what is wrong and do not allocate", "[control]")
   spec.delay = 20.;
   CHECK_THROWS_WITH(vpMotionObserver(spec), Catch::Contains("delay of the motion observer is 20, must be in [0, 16]"));
   spec = vpMotionObserverSpec();
+  spec.changeRate = 2.;
+  CHECK_THROWS_WITH(vpMotionObserver(spec),
+                    Catch::Contains("changeRate of the motion observer is 2, must be in [0, 1]"));
+  spec = vpMotionObserverSpec();
   spec.model.mass = 0.;
   CHECK_THROWS_WITH(vpMotionObserver(spec), Catch::Contains("mass of the motion observer is 0, must be > 0"));
   vpPreviewControlSpec preview;
   preview.period = 0.;
   CHECK_THROWS_WITH(vpPreviewControl(preview), Catch::Contains("period of the preview control is 0, must be > 0"));
   vpPrintVelocityControl control;
-  vpMotionObserver observer;
+  spec = vpMotionObserverSpec();
+  spec.changeRate = 0.01;
+  vpMotionObserver observer(spec);
   const vpPreviewControl ahead;
   CHECK(ahead.force({{{NAN, NAN, 0., 0.}}, {}, 0., 0., 0.}) == 0.);
   CHECK_FALSE(observer.measure(NAN, 0., 1.));

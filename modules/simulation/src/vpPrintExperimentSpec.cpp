@@ -87,7 +87,10 @@ vpPrintExperimentSpec vpPrintExperimentSpec::withObserver(const vpPrintSensorMod
   spec.previewAcross.positionGain = 0.25;
   spec.commandsPerFrame = 4;
   const bool fine = sensor.sigmaX / std::sqrt(sensor.effectiveCells) < 0.03;
-  spec.observer.disturbanceNoise = fine ? 1e-7 : 3e-6;
+  // A coarse sensor needs a quiet filter, which would learn too late where the friction rises. A fine one sees the errors of
+  // the friction model instead: to it everything would be a change.
+  spec.observer.disturbanceNoise = fine ? 1e-7 : 3e-7;
+  spec.observer.changeRate = fine ? 0. : 0.003;
   spec.observer.velocityNoise = 1e-6;
   return spec;
 }

@@ -60,11 +60,11 @@ TEST_CASE("Observer and preview keep the velocity at the centres", "[print]")
   vpPrintExperimentSpec spec = vpPrintExperimentSpec::withObserver(vpPrintSensorModel::thesis());
   spec.cellsPerRow = 40;
   const vpPrintMetrics thesis = over8Seeds(spec);
-  CHECK(thesis.centre_velocity_error < 0.035);
+  CHECK(thesis.centre_velocity_error < 0.025); // friction rises at frame 55, just before errors count
   CHECK(thesis.landed_within_10um == 1.);
   CHECK(thesis.rms_velocity_error < 0.4);
-  spec.evaluateFrom = 120; // once the friction that rises at frame 55 is known
-  CHECK(over8Seeds(spec).centre_velocity_error < 0.03);
+  spec.evaluateFrom = 120; // long after
+  CHECK(over8Seeds(spec).centre_velocity_error < 0.018);
   CHECK(thesis.landing_worst_um < 5.);
   spec = vpPrintExperimentSpec::withObserver(vpPrintSensorModel::tracker());
   spec.cellsPerRow = 40;

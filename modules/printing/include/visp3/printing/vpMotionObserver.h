@@ -26,10 +26,12 @@ struct VISP_EXPORT vpMotionObserverSpec {
   double delay = 0.;              //!< Dead time of the command, T, in [0, 16].
   double velocityNoise = 1e-5;    //!< Density of the unmodelled acceleration, L^2/T^3, >= 0.
   double disturbanceNoise = 1e-6; //!< Density with which the friction error walks, F^2/T, > 0.
+  //! How often friction changes at once, by about sigmaDisturbance: changes per measurement, in [0, 1]; 0: never.
+  double changeRate = 0.;
   double gate = 6.;               //!< Measurements off by more standard deviations are not used, > 0, may be infinite.
   double sigmaPosition = 1.;      //!< Standard deviation at the start, L, > 0.
   double sigmaVelocity = 1e-3;    //!< At the start, L/T, > 0; small: at rest.
-  double sigmaDisturbance = 0.03; //!< Of the friction error at the start, F, > 0.
+  double sigmaDisturbance = 0.03; //!< Of the friction error at the start and of its sudden changes, F, > 0.
 
   //! \throw vpException (badValue) naming the field that is out of range, and its value.
   void validate() const;
@@ -55,6 +57,12 @@ struct VISP_EXPORT vpObservedMotion {
  * The belief stands at the time of the newest measurement, a camera's delay ago. From there at() integrates the model to
  * any later time with the commands that were given since: to the present, or to when the next command will act. So the
  * delay of the camera costs accuracy but no phase. Friction that the model does not know ends up in the disturbance d.
+ *
+ * Friction that changes at once is found late by a filter that is quiet enough for a coarse sensor. With a changeRate, each
+ * of the last measurements carries the hypothesis that it changed there; what the innovations since say for each of them,
+ * with the rate and the size as priors, moves the state at once, and for good when the odds are 50 to 1 (generalised
+ * likelihood ratio with priors, after Willsky and Jones 1976). This takes any error of the model for a change that the sensor can
+ * resolve: leave it out with a sensor that sees the errors of the model.
  *
  * The third measurement in a row beyond the gate is taken to be right and the belief to be wrong.
  *
@@ -93,8 +101,17 @@ private:
   struct Command {
     double time = 0., force = 0.;
   };
-  void advance(Belief &belief, double time) const noexcept;
-  void part(Belief &belief, double command, double h) const noexcept;
+  //! \brief Friction that changed at an instant, and what speaks for it.
+  struct Change {
+    Eigen::Vector4d response = Eigen::Vector4d::Zero(); // of the belief's error to a change by 1
+    double information = 0., score = 0.;                // of the innovations since, about the size
+    double evidence = 0.;                               // odds of this change to none
+  };
+  static constexpr int window = 24; // measurements that a change may be back
+  void advance(Belief &belief, double time, Eigen::Matrix4d *transition = nullptr) const noexcept;
+  void part(Belief &belief, double command, double h, Eigen::Matrix4d *transition) const noexcept;
+  void lookForChange(double innovation, double S, const Eigen::Vector4d &K) noexcept;
+  void takeChange() noexcept;
   [[nodiscard]] double commandAt(double time, double &until) const noexcept;
   [[nodiscard]] double acceleration(const Eigen::Vector4d &x) const noexcept;
 
@@ -102,7 +119,10 @@ private:
   Belief m_belief;
   std::array<Command, capacity> m_commands; // in order of time, oldest first
   int m_count = 0;
-  int m_refused = 0; // measurements beyond the gate in a row
+  std::array<Change, window> m_changes; // oldest first
+  int m_changeCount = 0;
+  Eigen::Vector4d m_lean = Eigen::Vector4d::Zero(); // what changes that are not certain yet add to the belief's mean
+  int m_refused = 0;                                // measurements beyond the gate in a row
 };
 
 END_VISP_NAMESPACE
