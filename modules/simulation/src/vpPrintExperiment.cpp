@@ -5,6 +5,8 @@
 #include <visp3/simulation/vpPrintExperiment.h>
 
 #include "vpPrintCellSensor.h"
+#include "vpPrintEvaluation.h"
+#include "vpPrintTruth.h"
 
 #include <visp3/printing/vpMotionKalmanFilter.h>
 #include <visp3/printing/vpProductOdometer.h>
@@ -17,56 +19,9 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-constexpr int partsPerFrame = 32;   // of the truth
 constexpr double rowStepTime = 30.; // frame
 constexpr double followTime = 12.;  // frame, to where the cells of a row are measured
 constexpr int longestTurn = 400;    // frames that a row may take beyond its cells
-
-//! \brief True motion, remembered for exposures and landings.
-class Truth
-{
-public:
-  //! \brief State at a time.
-  struct Point {
-    double t, x, y, vx, vy;
-  };
-  explicit Truth(const vpXYStageSpec &spec) : m_stage(spec) { remember(); }
-  void step(double fx, double fy, int share)
-  {
-    for (int i = 0; i < partsPerFrame / share; ++i) {
-      m_stage.step(1. / partsPerFrame, {{fx, fy}});
-      remember();
-    }
-  }
-  [[nodiscard]] double now() const { return m_points.back().t; }
-  [[nodiscard]] const Point &last() const { return m_points.back(); }
-  //! Interpolated by cubics; at rest before the start.
-  [[nodiscard]] Point at(double t) const
-  {
-    if (t <= 0.) {
-      return {t, m_points[0].x, m_points[0].y, 0., 0.};
-    }
-    const auto i = std::min(static_cast<std::size_t>(t * partsPerFrame), m_points.size() - 2);
-    const Point &a = m_points[i], &b = m_points[i + 1];
-    const double h = b.t - a.t, s = (t - a.t) / h;
-    const auto cubic = [&](double p, double v, double q, double w) {
-      const double d = q - p, c = 3. * d - h * (2. * v + w), e = -2. * d + h * (v + w);
-      return p + s * (h * v + s * (c + s * e));
-    };
-    return {t, cubic(a.x, a.vx, b.x, b.vx), cubic(a.y, a.vy, b.y, b.vy), a.vx + s * (b.vx - a.vx),
-            a.vy + s * (b.vy - a.vy)};
-  }
-
-private:
-  void remember()
-  {
-    const vpXYStage::State &s = m_stage.state();
-    m_points.push_back({static_cast<double>(m_points.size()) / partsPerFrame, s.position[0], s.position[1],
-                        s.velocity[0], s.velocity[1]});
-  }
-  vpXYStage m_stage;
-  std::vector<Point> m_points;
-};
 
 //! \brief A run in progress.
 class Experiment
@@ -98,7 +53,7 @@ public:
         break;
       }
     }
-    evaluate();
+    vpEvaluatePrintRun(m_run, m_passes, m_truth.now());
     return std::move(m_run);
   }
 
@@ -257,7 +212,7 @@ private:
     const double fx = observed ? previewForce(m_preview, now, m_observer, m_reference) : pidForce(r, sample);
     fire(now, capture, sample);
 
-    const Truth::Point truth = m_truth.last();
+    const vpPrintTruth::Point truth = m_truth.last();
     sample.x = truth.x;
     sample.y = truth.y;
     sample.vx = truth.vx;
@@ -281,7 +236,7 @@ private:
     if (sample.dropped) {
       return;
     }
-    const Truth::Point truth = m_truth.at(std::min(exposure, m_truth.now()));
+    const vpPrintTruth::Point truth = m_truth.at(std::min(exposure, m_truth.now()));
     m_sensor.see(truth.x, truth.y, truth.vx, truth.vy, static_cast<unsigned int>(frame));
     sample.cells = static_cast<int>(m_sensor.cells().size());
     if (m_sensor.cells().empty()) {
@@ -402,7 +357,7 @@ private:
         ++i;
         continue;
       }
-      const Truth::Point truth = m_truth.at(landing);
+      const vpPrintTruth::Point truth = m_truth.at(landing);
       const vpPatternTruthCell cell = truthOf(shot.row, shot.column);
       vpPrintDrop drop;
       drop.row = shot.row;
@@ -417,7 +372,7 @@ private:
       m_flying.erase(m_flying.begin() + static_cast<std::ptrdiff_t>(i));
     }
     // Cells that pass the nozzle.
-    const Truth::Point before = m_truth.at(m_truth.now() - 1.), after = m_truth.last();
+    const vpPrintTruth::Point before = m_truth.at(m_truth.now() - 1.), after = m_truth.last();
     while (m_passing < static_cast<long>(m_spec.rows) * m_spec.cellsPerRow) {
       const int row = static_cast<int>(m_passing / m_spec.cellsPerRow);
       const int column = columnOf(row, static_cast<int>(m_passing % m_spec.cellsPerRow));
@@ -431,7 +386,7 @@ private:
         const double t = 0.5 * (low + high);
         (direction(row) * (m_truth.at(t).x - place) < 0. ? low : high) = t;
       }
-      m_passes.push_back({row, column, high, direction(row) * m_truth.at(high).vx});
+      m_passes.push_back({row, column, high, direction(row) * m_truth.at(high).vx, cell.x});
       ++m_passing;
     }
   }
@@ -442,84 +397,6 @@ private:
            m_truth.now() > m_passes.back().time + 4. + m_spec.travelTime + m_spec.electronicsDelay;
   }
 
-  void evaluate()
-  {
-    vpPrintMetrics &m = m_run.metrics;
-    m.frames = static_cast<int>(m_run.samples.size());
-    m.complete = m_passing == static_cast<long>(m_spec.rows) * m_spec.cellsPerRow;
-    double measured = 0., truth = 0.;
-    int count = 0;
-    for (std::size_t i = std::max<std::size_t>(1, static_cast<std::size_t>(m_spec.evaluateFrom));
-         i < m_run.samples.size(); ++i) {
-      const vpPrintSample &s = m_run.samples[i];
-      measured += std::pow(s.measuredVelocity - m_run.samples[i - 1].referenceVelocity, 2);
-      truth += std::pow(s.vx - s.referenceVelocity, 2);
-      ++count;
-    }
-    m.rms_velocity_error = std::sqrt(measured / std::max(1, count));
-    m.rms_true_velocity_error = std::sqrt(truth / std::max(1, count));
-    double centre = 0.;
-    count = 0;
-    for (const Pass &pass : m_passes) {
-      if (pass.time >= m_spec.evaluateFrom) {
-        const double error = std::fabs(pass.velocity - m_spec.dropVelocity);
-        centre += error * error;
-        m.centre_velocity_worst = std::max(m.centre_velocity_worst, error);
-        ++count;
-      }
-    }
-    m.centre_velocity_error = std::sqrt(centre / std::max(1, count));
-    evaluateDrops();
-  }
-
-  void evaluateDrops()
-  {
-    vpPrintMetrics &m = m_run.metrics;
-    std::sort(m_run.drops.begin(), m_run.drops.end(),
-              [](const vpPrintDrop &a, const vpPrintDrop &b) { return a.landTime < b.landTime; });
-    std::map<std::pair<int, int>, int> drops;
-    double sum = 0.;
-    int within = 0;
-    for (const vpPrintDrop &drop : m_run.drops) {
-      const double distance = std::hypot(drop.errorX, drop.errorY);
-      sum += distance * distance;
-      m.landing_worst_um = std::max(m.landing_worst_um, distance);
-      within += distance <= 10. ? 1 : 0;
-      ++drops[{drop.row, drop.column}];
-    }
-    const double n = static_cast<double>(m_run.drops.size());
-    m.landing_rms_um = n > 0. ? std::sqrt(sum / n) : 0.;
-    m.landed_within_10um = n > 0. ? within / n : 0.;
-    for (const auto &cell : drops) {
-      ++m.printed;
-      m.doubled += cell.second > 1 ? 1 : 0;
-    }
-    // A cell that passed in the last frames may still be waited for.
-    for (const Pass &pass : m_passes) {
-      const bool over = pass.time + 4. + m_spec.travelTime + m_spec.electronicsDelay <= m_truth.now();
-      m.missed += over && drops.count({pass.row, pass.column}) == 0 ? 1 : 0;
-    }
-    if (m_run.drops.size() > 1) {
-      const double time = m_run.drops.back().landTime - m_run.drops.front().landTime;
-      m.throughput_cells_per_s = (n - 1.) / time * m_spec.frameRate;
-    }
-    double constant = 0., taken = 0.;
-    for (std::size_t i = 1; i < m_passes.size(); ++i) {
-      if (m_passes[i].row == m_passes[i - 1].row) {
-        const double way =
-            truthOf(m_passes[i].row, m_passes[i].column).x - truthOf(m_passes[i].row, m_passes[i - 1].column).x;
-        constant += std::fabs(way) / m_spec.dropVelocity;
-        taken += m_passes[i].time - m_passes[i - 1].time;
-      }
-    }
-    m.gain_over_constant = taken > 0. ? constant / taken - 1. : 0.;
-  }
-
-  //! \brief A cell at the nozzle.
-  struct Pass {
-    int row, column;
-    double time, velocity;
-  };
   struct Known {
     int row, column;
     double along;
@@ -528,7 +405,7 @@ private:
   const vpPrintExperimentSpec m_spec;
   vpProductPattern m_product;
   vpPrintCellSensor m_sensor;
-  Truth m_truth;
+  vpPrintTruth m_truth;
   double m_centreX, m_centreY, m_nozzle;
   vpPrintTrigger m_trigger;
   vpPrintReference m_reference, m_referenceY;
@@ -551,7 +428,7 @@ private:
   double m_acrossOffset = 0.; // of the rows from their regular place, px
   Known m_lastKnown{-1, 0, 0.};
   std::vector<vpPrintShot> m_flying;
-  std::vector<Pass> m_passes;
+  std::vector<vpPrintPass> m_passes;
   long m_passing = 0; // cells that have passed, in the order of printing
   std::map<std::pair<int, int>, vpPatternTruthCell> m_truths;
   vpPrintRun m_run;
