@@ -148,6 +148,43 @@ void track(benchmark::State &state, const Sequence &s, const vpPatternOptions &o
 
 void tracking(benchmark::State &state) { track(state, small(), vpPatternOptions()); }
 
+// A piece of work for the next template in each image instead of each 128th.
+void trackingRefreshedAlways(benchmark::State &state)
+{
+  vpPatternOptions options;
+  options.refreshEvery = 1;
+  track(state, small(), options);
+}
+
+// To and fro by 8 degrees, 0.08 from image to image, and to and fro along the rows: the template is learned anew in a hurry.
+void trackingTurning(benchmark::State &state)
+{
+  constexpr int images = 400, toLearn = 100; // the first ones do not turn
+  std::mt19937_64 rng(2);
+  Sequence s;
+  s.images.resize(toLearn + images);
+  for (int i = 0; i < toLearn + images; ++i) {
+    const double phase = 4. * std::max(0, i - toLearn) / images; // 0..4
+    const double share = phase < 1. ? phase : phase < 3. ? 2. - phase : phase - 4.;
+    s.pattern.rotation = 8. * M_PI / 180. * share;
+    s.pattern.x = 80. + 20. * std::sin(2. * M_PI * i / 100);
+    s.pattern.render(rng, s.images[static_cast<std::size_t>(i)]);
+  }
+  vpPatternTracker tracker(160, 100);
+  unsigned int templates = 0;
+  std::size_t locked = 0, all = 0;
+  for (int i = 0; i < toLearn; ++i) {
+    templates = tracker.track(s.images[static_cast<std::size_t>(i)]).templates;
+  }
+  measure(state, images, 30, [&](std::size_t k) {
+    const vpPatternFrame &frame = tracker.track(s.images[toLearn + k]);
+    locked += frame.status == vpPatternStatus::Tracking ? 1 : 0;
+    ++all;
+  });
+  state.counters["images_per_template"] = static_cast<double>(all) / (tracker.frame().templates - templates);
+  state.counters["locked_percent"] = 100. * static_cast<double>(locked) / static_cast<double>(all);
+}
+
 void baseline(benchmark::State &state, vpPatternMethod method, vpPatternThreshold threshold,
               vpPatternDerivative derivative)
 {
@@ -281,6 +318,8 @@ void threshold(benchmark::State &state, vpPatternThreshold method)
 } // namespace
 
 BENCHMARK(tracking)->Unit(benchmark::kMicrosecond);
+BENCHMARK(trackingRefreshedAlways)->Unit(benchmark::kMicrosecond);
+BENCHMARK(trackingTurning)->Unit(benchmark::kMicrosecond);
 BENCHMARK(coldAcquisition)->Unit(benchmark::kMicrosecond);
 BENCHMARK(learning)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(baseline, half_maximum, vpPatternMethod::HalfMaximumEdges, vpPatternThreshold::Otsu,

@@ -16,12 +16,40 @@ BEGIN_VISP_NAMESPACE
 namespace
 {
 constexpr int size = vpTemplateBank::basisSize;
-constexpr int maxSteps = 5;
+constexpr int maxSteps = 10;    // one, or two, unless the motion has changed a lot
 constexpr int unknowns = 4;     // rows of the basis for brightness, contrast, x and y; the slopes come after them
 constexpr double maxStep = 1.5; // px: the template says nothing about what is farther
 
-// sums[k] = row k of q times w, four rows that share what is loaded of w. All numbers are 16 bits wide and the sums 32: the
+// sums[k] = row k of q times w, for rows that share what is loaded of w. All numbers are 16 bits wide and the sums 32: the
 // compiler multiplies and adds pairs.
+struct StepSums {
+  std::int64_t contrast, x, y, brightness, energy;
+};
+VISP_PATTERN_CLONES StepSums stepProducts(const std::int16_t *q0, const std::int16_t *q1, const std::int16_t *w, int n)
+{
+  constexpr int most = 65536; // squares of 8-bit numbers fit into 32 bits
+  const std::int16_t *q2 = q1 + n, *q3 = q2 + n;
+  StepSums sums{0, 0, 0, 0, 0};
+  for (int begin = 0; begin < n; begin += most) {
+    const int end = std::min(n, begin + most);
+    std::int32_t s0 = 0, s1 = 0, s2 = 0, s3 = 0, squares = 0;
+    for (int i = begin; i < end; ++i) {
+      const std::int32_t v = w[i];
+      s0 += static_cast<std::int32_t>(q0[i]) * v;
+      s1 += static_cast<std::int32_t>(q1[i]) * v;
+      s2 += static_cast<std::int32_t>(q2[i]) * v;
+      s3 += static_cast<std::int32_t>(q3[i]) * v;
+      squares += v * v;
+    }
+    sums.brightness += s0;
+    sums.contrast += s1;
+    sums.x += s2;
+    sums.y += s3;
+    sums.energy += squares;
+  }
+  return sums;
+}
+
 VISP_PATTERN_CLONES void fourProducts(const std::int16_t *q, const std::int16_t *w, int n, std::int32_t *sums)
 {
   const std::int16_t *q1 = q + n, *q2 = q1 + n, *q3 = q2 + n;
@@ -39,28 +67,32 @@ VISP_PATTERN_CLONES void fourProducts(const std::int16_t *q, const std::int16_t 
   sums[3] = s3;
 }
 
-// z = Q' w for four rows of the basis from \e first on.
-void project(const vpTemplateBank::Phase &phase, int first, const std::int16_t *w, int stride, double *z)
+double scaled(const vpTemplateBank::Phase &phase, int row, std::int64_t sum)
 {
-  std::int32_t sums[4];
-  fourProducts(phase.q + first * stride, w, stride, sums);
-  for (int k = 0; k < 4; ++k) {
-    z[first + k] = static_cast<double>(phase.scale[static_cast<std::size_t>(first + k)]) * sums[k];
-  }
+  return static_cast<double>(phase.scale[static_cast<std::size_t>(row)]) * static_cast<double>(sum);
 }
 
-VISP_PATTERN_CLONES std::int64_t energy(const std::int16_t *w, int n)
+// z = Q' w for brightness, contrast, x and y; returns |w|^2. The row of the brightness is one number, the same in all
+// phases: that of the first stays in the cache.
+double projectStep(const vpTemplateBank &bank, const vpTemplateBank::Phase &phase, const std::int16_t *w, double *z)
 {
-  std::int64_t sum = 0;
-  for (int begin = 0; begin < n; begin += 16384) { // 16384 squares of 8-bit numbers fit into 32 bits
-    const int end = std::min(n, begin + 16384);
-    std::int32_t part = 0;
-    for (int i = begin; i < end; ++i) {
-      part += static_cast<std::int32_t>(w[i]) * static_cast<std::int32_t>(w[i]);
-    }
-    sum += part;
+  const vpTemplateBank::Phase &first = bank.phase(0);
+  const StepSums sums = stepProducts(first.q, phase.q + bank.stride(), w, bank.stride());
+  z[0] = scaled(first, 0, sums.brightness);
+  z[1] = scaled(phase, 1, sums.contrast);
+  z[2] = scaled(phase, 2, sums.x);
+  z[3] = scaled(phase, 3, sums.y);
+  return static_cast<double>(sums.energy);
+}
+
+// z = Q' w for the slopes.
+void projectSlopes(const vpTemplateBank::Phase &phase, const std::int16_t *w, int stride, double *z)
+{
+  std::int32_t sums[4];
+  fourProducts(phase.q + unknowns * stride, w, stride, sums);
+  for (int k = 0; k < 4; ++k) {
+    z[unknowns + k] = scaled(phase, unknowns + k, sums[k]);
   }
-  return sum;
 }
 
 // The window, row after row without gaps. All rows but the last are written in whole vectors: what is too much comes from
@@ -107,12 +139,13 @@ Step solve(const vpTemplateBank::Phase &phase, const double *z, const vpSlopes &
 {
   double u[4];
   for (std::size_t k = 1; k < 4; ++k) {
-    u[k] = z[k] - phase.r[k][4] * slopes[0] - phase.r[k][5] * slopes[1] - phase.r[k][6] * slopes[2] -
-           phase.r[k][7] * slopes[3];
+    // In brackets: what is known before z.
+    u[k] = z[k] - ((phase.r[k][4] * slopes[0] + phase.r[k][5] * slopes[1]) +
+                   (phase.r[k][6] * slopes[2] + phase.r[k][7] * slopes[3]));
   }
-  const double uy = u[3] / phase.r[3][3], ux = (u[2] - phase.r[2][3] * uy) / phase.r[2][2];
-  const double s = (u[1] - phase.r[1][2] * ux - phase.r[1][3] * uy) / phase.r[1][1];
-  return {s, -ux / s, -uy / s};
+  const double uy = u[3] * phase.inverse[3], ux = (u[2] - phase.r[2][3] * uy) * phase.inverse[2];
+  const double s = (u[1] - phase.r[1][2] * ux - phase.r[1][3] * uy) * phase.inverse[1], inverse = 1. / s;
+  return {s, -ux * inverse, -uy * inverse};
 }
 
 // What the slopes should give on the rows of the basis that are theirs.
@@ -138,14 +171,6 @@ vpSlopes slopesOf(const vpTemplateBank::Phase &phase, const double *z)
     g[k] = v / phase.r[k + 4][k + 4];
   }
   return g;
-}
-
-// Variances of x and y for unit noise: the inverse of two by two of R.
-void variances(const vpTemplateBank::Phase &phase, double contrast, vpCellFit &fit)
-{
-  const double a = phase.r[2][2], b = phase.r[2][3], c = phase.r[3][3], s2 = contrast * contrast;
-  fit.yy = 1. / (c * c * s2);
-  fit.xx = (1. / (a * a) + b * b / (a * a * c * c)) / s2;
 }
 } // namespace
 
@@ -174,8 +199,9 @@ void vpCellAligner::prefetch(const vpImage<unsigned char> &image, const vpTempla
       top + height > static_cast<int>(image.getHeight())) {
     return; // of big windows the processor sees by itself what comes next
   }
-  for (int row = top; row < top + height; ++row) {
-    const unsigned char *from = image[static_cast<unsigned int>(row)] + left;
+  const std::ptrdiff_t stride = image.getWidth();
+  const unsigned char *from = image.bitmap + top * stride + left, *end = from + height * stride;
+  for (; from != end; from += stride) {
     __builtin_prefetch(from);
     __builtin_prefetch(from + width - 1);
   }
@@ -201,7 +227,7 @@ vpCellFit vpCellAligner::align(const vpImage<unsigned char> &image, const vpTemp
     }
     const vpTemplateBank::Phase &phase = bank.phase(place.phase);
     double z[size];
-    project(phase, 0, m_window, bank.stride(), z);
+    const double energy = projectStep(bank, phase, m_window, z);
     const Step s = solve(phase, z, m_slopes);
     // Without contrast there is nothing to align with.
     if (!(s.contrast > 0.1 && s.contrast < 10.)) {
@@ -211,14 +237,14 @@ vpCellFit vpCellAligner::align(const vpImage<unsigned char> &image, const vpTemp
     y = place.py + std::clamp(s.dy, -maxStep, maxStep);
     if (std::abs(s.dx) < bank.reach() && std::abs(s.dy) < bank.reach()) {
       if (withSlopes) {
-        project(phase, unknowns, m_window, bank.stride(), z);
+        projectSlopes(phase, m_window, bank.stride(), z);
         fit.slopes = slopesOf(phase, z);
         fit.hasSlopes = true;
       }
       else {
         knownSlopes(phase, m_slopes, z); // near enough for the sum of what is left over
       }
-      double rest = static_cast<double>(energy(m_window, bank.stride()));
+      double rest = energy;
       for (const double v : z) {
         rest -= v * v;
       }
@@ -228,7 +254,9 @@ vpCellFit vpCellAligner::align(const vpImage<unsigned char> &image, const vpTemp
       fit.contrast = s.contrast;
       fit.variance =
           std::max(0.05, rest / std::max(1, bank.pixels() - size)); // rounding to whole grey values alone: 1/12
-      variances(phase, s.contrast, fit);
+      const double unit = 1. / (s.contrast * s.contrast);
+      fit.xx = phase.xx * unit;
+      fit.yy = phase.yy * unit;
       return fit;
     }
   }
@@ -282,8 +310,8 @@ vpCellFit vpCellAligner::alignMasked(const vpImage<unsigned char> &image, const 
         loadedX = place.x;
         loadedY = place.y;
       }
-      project(phase, 0, m_window, bank.stride(), z);
-      project(phase, unknowns, m_window, bank.stride(), z);
+      static_cast<void>(projectStep(bank, phase, m_window, z));
+      projectSlopes(phase, m_window, bank.stride(), z);
       for (std::size_t k = 0; k < size; ++k) {
         h[k] = phase.r[k][4] * m_slopes[0] + phase.r[k][5] * m_slopes[1] + phase.r[k][6] * m_slopes[2] +
                phase.r[k][7] * m_slopes[3];

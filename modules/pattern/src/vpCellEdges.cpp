@@ -26,27 +26,28 @@ struct View {
   }
 };
 
-// Crossing of the level between two neighbouring pixels, or NaN.
-double crossing(const View &view, int line, int from, int to, double level)
-{
-  const double a = view.at(from, line) - level, b = view.at(to, line) - level;
-  return a * b > 0. || a == b ? NAN : from + (to - from) * a / (a - b);
-}
+// Where the level is crossed between two neighbouring pixels with the values a and b, in steps from a; or NaN.
+double crossing(double a, double b) { return a * b > 0. || a == b ? NAN : a / (a - b); }
 
-// Mean of the middle between both edges over the middle three quarters of the lines.
-double middle(const View &view, int low, int high, int firstLine, int lastLine, double level)
+// Mean of the middle between both edges over the middle three quarters of the lines. \e along and \e across are the steps
+// in memory; the box does not touch the border of the image.
+double middle(const unsigned char *pixels, std::ptrdiff_t along, std::ptrdiff_t across, int low, int high,
+              int firstLine, int lastLine, double level)
 {
   const int skip = (lastLine - firstLine + 1) / 8, step = std::max(1, (lastLine - firstLine + 1) / 16);
+  const int most = std::min(3, high - low + 2);
   double sum = 0.;
   int count = 0;
   for (int line = firstLine + skip; line <= lastLine - skip; line += step) {
+    const unsigned char *from = pixels + line * across;
+    const auto value = [&](int position) { return from[position * along] - level; };
     // The box may be a pixel wider than this line, at rounded corners or when the cell is turned.
     double edges[2] = {NAN, NAN};
-    for (int k = 0; k < 3 && std::isnan(edges[0]); ++k) {
-      edges[0] = crossing(view, line, low - 1 + k, low + k, level);
+    for (int k = 0; k < most && std::isnan(edges[0]); ++k) {
+      edges[0] = low - 1 + k + crossing(value(low - 1 + k), value(low + k));
     }
-    for (int k = 0; k < 3 && std::isnan(edges[1]); ++k) {
-      edges[1] = crossing(view, line, high + 1 - k, high - k, level);
+    for (int k = 0; k < most && std::isnan(edges[1]); ++k) {
+      edges[1] = high + 1 - k - crossing(value(high + 1 - k), value(high - k));
     }
     if (!std::isnan(edges[0]) && !std::isnan(edges[1])) {
       sum += 0.5 * (edges[0] + edges[1]);
@@ -99,8 +100,9 @@ int roundToInt(double value) { return static_cast<int>(std::lround(value)); }
 
 bool vpHalfMaximumCentre(const vpImage<unsigned char> &image, double level, vpPatternSpot &spot)
 {
-  spot.x = middle({image, false}, spot.left, spot.right, spot.top, spot.bottom, level);
-  spot.y = middle({image, true}, spot.top, spot.bottom, spot.left, spot.right, level);
+  const std::ptrdiff_t row = image.getWidth();
+  spot.x = middle(image.bitmap, 1, row, spot.left, spot.right, spot.top, spot.bottom, level);
+  spot.y = middle(image.bitmap, row, 1, spot.top, spot.bottom, spot.left, spot.right, level);
   return std::isfinite(spot.x) && std::isfinite(spot.y);
 }
 

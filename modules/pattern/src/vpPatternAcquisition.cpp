@@ -6,6 +6,7 @@
 #include "vpPatternTrackerImpl.h"
 
 #include "vpCellEdges.h"
+#include "vpSubsampledHistogram.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,30 +17,16 @@ BEGIN_VISP_NAMESPACE
 namespace
 {
 constexpr double leastSeparability = 0.7; // noise alone has 0.64
-constexpr int leastArea = 9;              // px
 constexpr int windowsPerFrame = 4;
 constexpr double nearHalf = 0.4; // of a pitch: beyond it the neighbour may have been taken
 
-// Every second row and column of big enough images: the threshold needs no more.
-vpPatternHistogram histogram(const vpImage<unsigned char> &image)
-{
-  vpPatternHistogram h{};
-  const unsigned int step = image.getSize() > 4096 ? 2 : 1, width = image.getWidth();
-  for (unsigned int y = 0; y < image.getHeight(); y += step) {
-    const unsigned char *row = image[y];
-    for (unsigned int x = y / step % step; x < width; x += step) {
-      ++h[row[x]];
-    }
-  }
-  return h;
-}
 } // namespace
 
 vpPatternReason vpPatternTracker::Impl::detectPolarity(const vpImage<unsigned char> &image,
                                                        const vpPatternThresholdResult &level, bool bright,
                                                        vpLattice &lattice)
 {
-  if (!m_labels.find(image, level.threshold, bright, leastArea)) {
+  if (!m_labels.find(image, level.threshold, bright, vpRunLabels::leastArea)) {
     return vpPatternReason::TooMuchNoise;
   }
   std::vector<vpPatternSpot> &spots = m_labels.spots();
@@ -84,7 +71,7 @@ vpPatternReason vpPatternTracker::Impl::detectPolarity(const vpImage<unsigned ch
 
 vpPatternReason vpPatternTracker::Impl::detect(const vpImage<unsigned char> &image, vpLattice &lattice)
 {
-  const vpPatternThresholdResult level = vpFindThreshold(histogram(image), m_options.threshold);
+  const vpPatternThresholdResult level = vpFindThreshold(vpSubsampledHistogram(image), m_options.threshold);
   if (level.threshold < 0 || level.brightMean - level.darkMean < m_options.minContrast ||
       level.separability < leastSeparability) {
     return vpPatternReason::NoContrast;
@@ -116,6 +103,7 @@ vpPatternReason vpPatternTracker::Impl::adopt(const vpLattice &found)
     m_row = m_column = 0;
     const Range range = inView(0., 0.);
     m_memory.shape(range.rowHigh - range.rowLow + 3, range.columnHigh - range.columnLow + 3);
+    m_turn = {0., 0., 0., 0., 0., 0.};
     m_vx = m_vy = 0.;
     if (!same) {
       m_stage = Stage::Learning;
@@ -270,6 +258,7 @@ void vpPatternTracker::Impl::learn(const vpImage<unsigned char> &image)
     m_slopeWeight = 0.;
     m_aligner.setSlopes(m_slopes);
     m_noise = 0.;
+    beginRefresh();
     // Measure this image again, as the next one will be: edges and template do not see quite the same centre, under
     // uneven light, and the difference is no motion. Twice: the first time shows the slopes of the light.
     if (alignAll(image) && alignAll(image)) {

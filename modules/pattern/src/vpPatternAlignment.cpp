@@ -20,6 +20,8 @@ constexpr double knownGate = 0.5;   // px: how far a known cell may move against
 constexpr double nearHalf = 0.4;    // of a pitch
 constexpr double maskedSigma = 0.1; // px: what dirt does to a centre although its pixels are left out (rendered dirt)
 constexpr double latticeGain = 0.02;
+constexpr int hurryAfterTurn = 30;     // images
+constexpr int restlessAfterTurn = 10;  // images
 constexpr double slopeMemory = 400.;   // cells
 constexpr std::size_t slopesEvery = 3; // cells, once they are known: they change slowly
 } // namespace
@@ -108,8 +110,74 @@ bool vpPatternTracker::Impl::deviateAsBefore()
       sigma += std::sqrt(fit.variance * (fit.xx + fit.yy));
     }
   }
-  const double count = static_cast<double>(m_scratch.size());
-  return count < 4. || vpRobustMean::median(m_scratch) < std::max(0.1, 6. * sigma / count);
+  const double count = static_cast<double>(m_scratch.size()), calm = std::max(0.1, 6. * sigma / count);
+  const double limit = m_restless > 0 ? 3. * calm : calm; // in perspective the deviations turn, too
+  const double usual = vpRobustMean::median(m_scratch);
+  if (count < 3. || usual < 2. * sigma / count) {
+    return true;
+  }
+  return turnLattice(limit) || count < 4. || usual < limit;
+}
+
+// A pattern that turns or tilts is no other one, and takes its lattice along at once; it is expected to go on. By least
+// squares from the known and clean cells; false when it is not that: what is left would be above \e limit for each
+// freedom, or it would be much for one image, or may be noise.
+bool vpPatternTracker::Impl::turnLattice(double limit)
+{
+  constexpr double significant = 80.; // sum of squares that it explains, in variances, with six freedoms
+  constexpr double most = 0.05;       // of the pitch
+  constexpr double gain = 0.4;
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Matrix<double, 3, 2> right = Eigen::Matrix<double, 3, 2>::Zero();
+  double squares = 0., variances = 0.;
+  int count = 0;
+  for (std::size_t i = 0; i < m_frame.cells.size(); ++i) {
+    const vpCellFit &fit = m_fits[i];
+    if (m_ownStart[i] != 0 && fit.ok && fit.variance < dirty * m_noise + allowance()) {
+      const Eigen::Vector3d a(1., m_frame.cells[i].column - m_column, m_frame.cells[i].row - m_row);
+      const Eigen::RowVector2d e(fit.x - m_startX[i] - m_shiftX, fit.y - m_startY[i] - m_shiftY);
+      normal += a * a.transpose();
+      right += a * e;
+      squares += e.squaredNorm();
+      variances += fit.variance * (fit.xx + fit.yy);
+      ++count;
+    }
+  }
+  const Eigen::LDLT<Eigen::Matrix3d> ldlt(normal);
+  if (count < 3 || ldlt.vectorD().minCoeff() < 0.1) {
+    return false;
+  }
+  const Eigen::Matrix<double, 3, 2> s = ldlt.solve(right);
+  const double explained = (s.transpose() * right).trace();
+  const double rest = std::sqrt(std::max(0., squares - explained) / std::max(1, count - 3));
+  // Other cells would deviate at random, not evenly over the view.
+  if ((rest > limit && explained < 0.95 * squares) || explained < significant * 0.5 * variances / count ||
+      s.row(1).norm() > most * std::hypot(m_lattice.ax, m_lattice.ay) ||
+      s.row(2).norm() > most * std::hypot(m_lattice.bx, m_lattice.by)) {
+    return false;
+  }
+  m_lattice.ox += s(0, 0);
+  m_lattice.oy += s(0, 1);
+  m_lattice.ax += s(1, 0);
+  m_lattice.ay += s(1, 1);
+  m_lattice.bx += s(2, 0);
+  m_lattice.by += s(2, 1);
+  m_turn.ax += gain * s(1, 0);
+  m_turn.ay += gain * s(1, 1);
+  m_turn.bx += gain * s(2, 0);
+  m_turn.by += gain * s(2, 1);
+  for (std::size_t i = 0; i < m_frame.cells.size(); ++i) {
+    const int c = m_frame.cells[i].column - m_column, r = m_frame.cells[i].row - m_row;
+    const double dx = s(0, 0) + c * s(1, 0) + r * s(2, 0), dy = s(0, 1) + c * s(1, 1) + r * s(2, 1);
+    m_frame.cells[i].x += dx;
+    m_frame.cells[i].y += dy;
+    m_startX[i] += dx;
+    m_startY[i] += dy;
+  }
+  m_turned = true;
+  m_restless = restlessAfterTurn;
+  m_hurry = std::max(m_hurry, hurryAfterTurn);
+  return true;
 }
 
 // The template is not perfect: a hundredth of its range is nothing to look into.
@@ -135,7 +203,7 @@ void vpPatternTracker::Impl::validate(const vpImage<unsigned char> &image)
   const double newGate = std::clamp(0.12 * pitch, 0.5, 4.);
   for (std::size_t i = 0; i < n; ++i) {
     vpCellFit &fit = m_fits[i];
-    const double gate = m_ownStart[i] != 0 ? std::min(knownGate, newGate) : newGate;
+    const double gate = m_ownStart[i] == 0 ? newGate : std::min(m_restless > 0 ? 3. * knownGate : knownGate, newGate);
     const auto near = [&](const vpCellFit &f) {
       const double dx = f.x - m_startX[i] - m_shiftX, dy = f.y - m_startY[i] - m_shiftY;
       return dx * dx + dy * dy < gate * gate;
@@ -181,12 +249,29 @@ void vpPatternTracker::Impl::validate(const vpImage<unsigned char> &image)
   }
 }
 
+// The lattice turns on as it did; less and less without a reason to.
+void vpPatternTracker::Impl::turnOn()
+{
+  constexpr double fade = 0.8;
+  m_turned = false;
+  m_restless = std::max(0, m_restless - 1);
+  m_lattice.ax += m_turn.ax;
+  m_lattice.ay += m_turn.ay;
+  m_lattice.bx += m_turn.bx;
+  m_lattice.by += m_turn.by;
+  m_turn.ax *= fade;
+  m_turn.ay *= fade;
+  m_turn.bx *= fade;
+  m_turn.by *= fade;
+}
+
 void vpPatternTracker::Impl::follow(const vpImage<unsigned char> &image)
 {
   const vpLattice last = m_lattice;
   const unsigned int epoch = m_frame.epoch;
   m_lattice.ox += m_vx * (m_lostFrames + 1);
   m_lattice.oy += m_vy * (m_lostFrames + 1);
+  turnOn();
   vpPatternReason note = vpPatternReason::None;
   const bool late = m_lostFrames > m_options.maxLostFrames;
   if (late || !alignAll(image)) {
@@ -200,6 +285,9 @@ void vpPatternTracker::Impl::follow(const vpImage<unsigned char> &image)
         acquire(image);
         return;
       }
+      reason = alignAll(image) ? vpPatternReason::None : vpPatternReason::NoMatch;
+    }
+    else if (!late && relocate(image)) {
       reason = alignAll(image) ? vpPatternReason::None : vpPatternReason::NoMatch;
     }
     if (reason != vpPatternReason::None) {
@@ -234,6 +322,12 @@ void vpPatternTracker::Impl::follow(const vpImage<unsigned char> &image)
   updateShare();
   m_frame.reason = note != vpPatternReason::None ? note : few ? vpPatternReason::CellsMissing : vpPatternReason::None;
   m_frame.status = m_frame.reason == vpPatternReason::None ? vpPatternStatus::Tracking : vpPatternStatus::Degraded;
+  if (m_hurry > 0 && m_frame.validCells < static_cast<int>(m_frame.cells.size())) {
+    lookForMissing(image);
+  }
+  if (m_frame.status == vpPatternStatus::Tracking) {
+    refresh(image);
+  }
 }
 
 // What is common to the deviations belongs to the lattice; the rest stays with the cells.
@@ -271,7 +365,7 @@ void vpPatternTracker::Impl::updateDeviations()
     if (cell.valid) {
       vpCellMemory::Slot &own = m_memory.claim(cell.row, cell.column);
       own.count = wasInLast(own) ? own.count : 0;
-      own.count = std::min(own.count + 1, 20);
+      own.count = std::min(own.count + 1, m_turned ? 3 : 20); // in perspective deviations turn, too
       own.offsetX += (cell.x - m_lattice.x(r, c) - own.offsetX) / own.count;
       own.offsetY += (cell.y - m_lattice.y(r, c) - own.offsetY) / own.count;
       slot = &own;

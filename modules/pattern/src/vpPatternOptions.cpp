@@ -25,6 +25,7 @@ void vpPatternOptions::check() const
   inRange("minPitch", minPitch, 4., 1000.);
   inRange("learningFrames", learningFrames, 2, 10000);
   inRange("phasesPerFrame", phasesPerFrame, 1, 16);
+  inRange("refreshEvery", refreshEvery, 0, 1000000);
   inRange("maxCellSigma", maxCellSigma, 1e-6, 10.);
   inRange("maxLostFrames", maxLostFrames, 0, 1000000);
 }

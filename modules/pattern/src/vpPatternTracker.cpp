@@ -48,7 +48,8 @@ vpPatternTracker::Impl::Impl(unsigned int width, unsigned int height, const vpPa
   : m_options(checkedOptions(options)), m_width(checkedSize("width", width)), m_height(checkedSize("height", height)),
     m_maxCells(roomForCells(width, height, options.minPitch)), m_labels(width, height, m_maxCells),
     m_fitter(m_maxCells), m_learner(roomForPixels(width, height)), m_bank(roomForPixels(width, height)),
-    m_aligner(roomForPixels(width, height)), m_memory(4 * m_maxCells + 64), m_meanX(m_maxCells), m_meanY(m_maxCells)
+    m_nextBank(options.refreshEvery > 0 ? roomForPixels(width, height) : 0), m_aligner(roomForPixels(width, height)),
+    m_memory(4 * m_maxCells + 64), m_meanX(m_maxCells), m_meanY(m_maxCells)
 {
   m_frame.cells.reserve(m_maxCells);
   m_fits.reserve(m_maxCells);
@@ -67,6 +68,7 @@ void vpPatternTracker::Impl::reset()
   m_memory.clear();
   m_lostFrames = m_learned = m_rotate = m_row = m_column = 0;
   m_vx = m_vy = m_noise = m_edgeVarianceX = m_edgeVarianceY = m_share = 0.;
+  m_turn = {0., 0., 0., 0., 0., 0.};
   m_frame.epoch += m_images > 0 ? 1 : 0;
   lose(vpPatternReason::None, vpPatternStatus::Acquiring);
   m_lostFrames = 0;

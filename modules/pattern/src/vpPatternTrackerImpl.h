@@ -38,6 +38,12 @@ private:
   void cellsFromSpots();
   void learn(const vpImage<unsigned char> &image);
 
+  // Known cells that are not where they should be (vpPatternRelocation.cpp)
+  bool relocate(const vpImage<unsigned char> &image);
+  void lookForMissing(const vpImage<unsigned char> &image);
+  bool findSpots(const vpImage<unsigned char> &image);
+  const vpPatternSpot *spotAt(double x, double y, double reach) const;
+
   // Tracking (vpPatternAlignment.cpp)
   void follow(const vpImage<unsigned char> &image);
   bool alignAll(const vpImage<unsigned char> &image);
@@ -46,6 +52,16 @@ private:
   bool deviateAsBefore();
   double allowance() const;
   void validate(const vpImage<unsigned char> &image);
+  bool turnLattice(double limit);
+  void turnOn();
+
+  // Learning the template anew while tracking (vpPatternRefresh.cpp)
+  enum class Refresh { Collecting, Refining, Restoring, Preparing };
+  void beginRefresh();
+  void refresh(const vpImage<unsigned char> &image);
+  bool collect(const vpImage<unsigned char> &image, int &taken);
+  bool isGoodExample(std::size_t cell) const;
+  bool exchange(const vpImage<unsigned char> &image);
 
   // Both
   struct Range {
@@ -72,7 +88,7 @@ private:
   vpRunLabels m_labels;
   vpLatticeFit m_fitter;
   vpTemplateLearner m_learner;
-  vpTemplateBank m_bank;
+  vpTemplateBank m_bank, m_nextBank;
   vpCellAligner m_aligner;
   vpCellMemory m_memory;
   vpRobustMean m_meanX, m_meanY;
@@ -87,7 +103,14 @@ private:
   int m_lostFrames = 0, m_learned = 0, m_refined = 0, m_rotate = 0;
   double m_share = 0.; // of the cells in view that are valid, smoothed
   double m_noise = 0.; // variance of the residuals, smoothed
-  vpSlopes m_slopes{}; // of the illumination
+  Refresh m_refresh = Refresh::Collecting;
+  int m_hurry = 0;                          // images for which the template is learned anew as fast as at first
+  int m_sinceFit = 0;                       // images since the template was first learned
+  double m_fitNoise = 0.;                   // m_noise as it was with a template just learned
+  vpLattice m_turn{0., 0., 0., 0., 0., 0.}; // change of the vectors of the lattice from image to image
+  bool m_turned = false;                    // the lattice has turned in this image
+  int m_restless = 0;                       // images for which it may go on
+  vpSlopes m_slopes{};                      // of the illumination
   double m_slopeWeight = 0.;
   double m_edgeVarianceX = 0.,
          m_edgeVarianceY = 0.;         // of centres from edges, from the spread of their motion; 0: unknown

@@ -6,16 +6,39 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
 
 BEGIN_VISP_NAMESPACE
 
 namespace
 {
-#if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
-constexpr bool firstByteIsLow = false;
+constexpr int block = 64; // pixels
+
+#if defined(__SSE2__)
+// Bit i is set when pixel i is above the threshold, 0..255.
+std::uint64_t blockAbove(const unsigned char *pixels, int threshold)
+{
+  const __m128i limit = _mm_set1_epi8(static_cast<char>(threshold));
+  std::uint64_t bits = 0;
+  for (int i = 0; i < block; i += 16) {
+    const __m128i v = _mm_loadu_si128(reinterpret_cast<const __m128i *>(pixels + i));
+    const __m128i notAbove = _mm_cmpeq_epi8(_mm_max_epu8(v, limit), limit);
+    bits |= static_cast<std::uint64_t>(_mm_movemask_epi8(notAbove)) << i;
+  }
+  return ~bits;
+}
 #else
-constexpr bool firstByteIsLow = true;
+std::uint64_t blockAbove(const unsigned char *pixels, int threshold)
+{
+  std::uint64_t bits = 0;
+  for (int i = 0; i < block; ++i) {
+    bits |= static_cast<std::uint64_t>(pixels[i] > threshold) << i;
+  }
+  return bits;
+}
 #endif
 
 // Number of the lowest bit that is set; there must be one.
@@ -61,31 +84,28 @@ void vpRunLabels::join(int a, int b)
 // Runs of one row. 64 pixels at a time become 64 bits, and the ends of runs are where a bit differs from the one before.
 bool vpRunLabels::scanRow(const unsigned char *row, int threshold, bool bright)
 {
-  const std::uint64_t ones = 0x0101010101010101u, top = 0x8080808080808080u;
-  // Adding 127 - t to the low seven bits of each byte sets its top bit where they exceed t.
-  const std::uint64_t add = ones * static_cast<unsigned>(127 - (threshold & 127));
-  const std::uint64_t other = bright ? 0 : ~std::uint64_t(0), high = threshold < 128 ? ~std::uint64_t(0) : 0;
+  const std::uint64_t other = bright ? 0 : ~std::uint64_t(0);
   std::uint64_t last = 0; // 1: the pixel before belongs to a run
   int begin = 0;
-  for (int x = 0; x < m_width; x += 64) {
+  for (int x = 0; x < m_width; x += block) {
+    const int left = m_width - x;
     std::uint64_t bits = 0;
-    if (firstByteIsLow && x + 64 <= m_width) {
-      for (int byte = 0; byte < 64; byte += 8) {
-        std::uint64_t v;
-        std::memcpy(&v, row + x + byte, 8);
-        const std::uint64_t low = (v & ~top) + add;
-        const std::uint64_t above = ((low & v) | ((low | v) & high)) & top;
-        bits |= (((above >> 7) * 0x0102040810204080u) >> 56) << byte; // the eight bits side by side
-      }
-      bits ^= other;
+    if (left >= block) {
+      bits = blockAbove(row + x, threshold) ^ other;
+    }
+    else if (m_width >= block) { // the last 64 of the row, without those that were seen before
+      bits = (blockAbove(row + m_width - block, threshold) ^ other) >> (block - left);
     }
     else {
-      for (int i = 0; i < 64 && x + i < m_width; ++i) {
+      for (int i = 0; i < left; ++i) {
         bits |= static_cast<std::uint64_t>((row[x + i] > threshold) == bright) << i;
       }
     }
     for (std::uint64_t ends = bits ^ (bits << 1 | last); ends != 0; ends &= ends - 1) {
       const int at = x + firstBit(ends);
+      if (at >= m_width) { // a run up to the border of the image, which ends below
+        break;
+      }
       last ^= 1;
       if (last != 0) {
         begin = at;

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 BEGIN_VISP_NAMESPACE
 
@@ -38,6 +39,32 @@ VISP_PATTERN_CLONES void subtract(float *__restrict a, float factor, const float
     a[i] -= factor * b[i];
   }
 }
+// Round to 16 bits; returns what one step of them is worth. Neither a number nor the sum over pixels of +-256 may overflow.
+VISP_PATTERN_CLONES float toIntegers(const float *b, int n, std::int16_t *__restrict q)
+{
+  constexpr int lanes = 16; // so that the compiler may use vectors without reordering a sum
+  float largest[lanes] = {}, sums[lanes] = {};
+  int i = 0;
+  for (; i + lanes <= n; i += lanes) {
+    for (int k = 0; k < lanes; ++k) {
+      const float v = std::abs(b[i + k]);
+      largest[k] = v > largest[k] ? v : largest[k];
+      sums[k] += v;
+    }
+  }
+  for (; i < n; ++i) {
+    largest[0] = std::max(largest[0], std::abs(b[i]));
+    sums[0] += std::abs(b[i]);
+  }
+  const float most = *std::max_element(largest, largest + lanes);
+  const double sum = std::accumulate(sums, sums + lanes, 0.);
+  const float gain = static_cast<float>(std::min(32000. / most, 2.1e9 / (256. * sum + 1.)));
+  for (i = 0; i < n; ++i) {
+    const float v = b[i] * gain;
+    q[i] = static_cast<std::int16_t>(static_cast<std::int32_t>(v + (v < 0.F ? -0.5F : 0.5F)));
+  }
+  return 1.F / gain;
+}
 } // namespace
 
 vpTemplateBank::vpTemplateBank(std::size_t maxPixels)
@@ -52,7 +79,7 @@ void vpTemplateBank::begin(const vpTemplateLearner &learner)
 {
   m_hw = learner.halfWidth();
   m_hh = learner.halfHeight();
-  m_ready = 0;
+  m_ready = m_piece = 0;
   // Big cells take coarser phases; the Gauss-Newton step covers the rest.
   m_perAxis = finest;
   while (static_cast<std::size_t>(m_perAxis * m_perAxis * basisSize * stride()) > m_room && m_perAxis > 1) {
@@ -64,7 +91,34 @@ void vpTemplateBank::begin(const vpTemplateLearner &learner)
 bool vpTemplateBank::prepare(const vpTemplateLearner &learner, int count)
 {
   for (; count > 0 && m_ready < m_phases; --count) {
-    build(learner, m_ready);
+    for (int piece = 0; piece < piecesPerPhase; ++piece) {
+      static_cast<void>(preparePiece(learner));
+    }
+  }
+  return isReady();
+}
+
+bool vpTemplateBank::preparePiece(const vpTemplateLearner &learner)
+{
+  if (m_ready == m_phases) {
+    return isReady();
+  }
+  switch (m_piece) {
+  case 0:
+    fillBasis(learner, m_ready);
+    break;
+  case 1:
+    orthogonalise(m_ready, 0, 6);
+    break;
+  case 2:
+    orthogonalise(m_ready, 6, basisSize);
+    break;
+  default:
+    quantise(m_ready);
+    break;
+  }
+  if (++m_piece == piecesPerPhase) {
+    m_piece = 0;
     ++m_ready;
   }
   return isReady();
@@ -86,65 +140,74 @@ vpTemplateBank::Place vpTemplateBank::place(double x, double y) const
   return p;
 }
 
-void vpTemplateBank::build(const vpTemplateLearner &learner, int index)
+void vpTemplateBank::fillBasis(const vpTemplateLearner &learner, int index)
 {
   const int n = pixels(), columns = 2 * m_hw + 1, half = m_perAxis / 2;
-  const std::size_t room = m_capacity;
-  float *b[basisSize];
-  for (std::size_t k = 0; k < basisSize; ++k) {
-    b[k] = &m_basis[k * room];
-  }
+  float *const one = column(0), *const value = column(1), *const x = column(4), *const y = column(5);
+  float *const xt = column(6), *const yt = column(7);
   learner.evaluate(static_cast<double>(index % m_perAxis - half) / m_perAxis,
-                   static_cast<double>(index / m_perAxis - half) / m_perAxis, b[1], b[2], b[3]);
-  const auto extremes = std::minmax_element(b[1], b[1] + n);
+                   static_cast<double>(index / m_perAxis - half) / m_perAxis, value, column(2), column(3));
+  const auto extremes = std::minmax_element(value, value + n);
   m_range = *extremes.second - *extremes.first;
-  double mean = 0.;
+  double sum = 0.;
   for (int i = 0; i < n; ++i) {
-    mean += b[1][i] / n;
+    sum += value[i];
   }
-  for (int i = 0; i < n; ++i) {
-    const float x = static_cast<float>(i % columns - m_hw), y = static_cast<float>(i / columns - m_hh);
-    const float t = b[1][i] - static_cast<float>(mean); // the constant column takes the mean
-    b[0][i] = 1.F;
-    b[1][i] = t;
-    b[4][i] = x;
-    b[5][i] = y;
-    b[6][i] = x * t;
-    b[7][i] = y * t;
+  const float mean = static_cast<float>(sum / n); // the constant column takes it
+  for (int row = 0, i = 0; row <= 2 * m_hh; ++row) {
+    const float v = static_cast<float>(row - m_hh);
+    for (int c = 0; c < columns; ++c, ++i) {
+      const float u = static_cast<float>(c - m_hw), t = value[i] - mean;
+      one[i] = 1.F;
+      value[i] = t;
+      x[i] = u;
+      y[i] = v;
+      xt[i] = u * t;
+      yt[i] = v * t;
+    }
   }
+  m_phase[static_cast<std::size_t>(index)].r = {};
+}
+
+// Gram-Schmidt for the columns from \e from on, before \e end.
+void vpTemplateBank::orthogonalise(int index, std::size_t from, std::size_t end)
+{
+  const int n = pixels();
   Phase &phase = m_phase[static_cast<std::size_t>(index)];
   auto &r = phase.r;
-  r = {};
-  for (std::size_t j = 0; j < basisSize; ++j) {
+  for (std::size_t j = from; j < end; ++j) {
+    float *const b = column(j);
     for (int pass = 0; pass < 2; ++pass) { // twice is enough (Kahan)
       for (std::size_t k = 0; k < j; ++k) {
-        const float projection = dot(b[k], b[j], n);
+        const float projection = dot(column(k), b, n);
         r[k][j] += projection;
-        subtract(b[j], projection, b[k], n);
+        subtract(b, projection, column(k), n);
       }
     }
-    r[j][j] = std::sqrt(std::max(1e-12F, dot(b[j], b[j], n)));
+    r[j][j] = std::sqrt(std::max(1e-12F, dot(b, b, n)));
     const float inverse = static_cast<float>(1. / r[j][j]);
     for (int i = 0; i < n; ++i) {
-      b[j][i] *= inverse;
+      b[i] *= inverse;
     }
   }
+  for (std::size_t k = 0; k < phase.inverse.size(); ++k) {
+    phase.inverse[k] = 1. / r[k][k];
+  }
+  // Of the inverse of R two by two, x and y.
+  const double ix = phase.inverse[2], iy = phase.inverse[3];
+  phase.yy = iy * iy;
+  phase.xx = ix * ix * (1. + r[2][3] * r[2][3] * iy * iy);
+}
+
+void vpTemplateBank::quantise(int index)
+{
+  const int n = pixels();
+  Phase &phase = m_phase[static_cast<std::size_t>(index)];
   std::int16_t *q = alignedBegin(m_q) + static_cast<std::ptrdiff_t>(index * basisSize) * stride();
   phase.q = q;
   for (std::size_t k = 0; k < basisSize; ++k) {
-    float largest = 0.F;
-    double sum = 0.;
-    for (int i = 0; i < n; ++i) {
-      largest = std::max(largest, std::abs(b[k][i]));
-      sum += std::abs(b[k][i]);
-    }
-    // Neither a number nor the sum over pixels of +-256 may overflow.
-    const float gain = static_cast<float>(std::min(32000. / largest, 2.1e9 / (256. * sum + 1.)));
-    for (int i = 0; i < n; ++i) {
-      q[i] = static_cast<std::int16_t>(std::lrint(b[k][i] * gain));
-    }
+    phase.scale[k] = toIntegers(column(k), n, q);
     std::fill(q + n, q + stride(), static_cast<std::int16_t>(0));
-    phase.scale[k] = 1.F / gain;
     q += stride();
   }
 }

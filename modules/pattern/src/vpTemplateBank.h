@@ -31,9 +31,11 @@ public:
   static constexpr int maxPhases = finest * finest;
 
   struct Phase {
-    std::array<float, basisSize> scale{};                     // z = scale * sum of integers
-    std::array<std::array<double, basisSize>, basisSize> r{}; // upper triangle
     const std::int16_t *q = nullptr;                          // basisSize rows of stride()
+    std::array<float, basisSize> scale{};                     // z = scale * sum of integers
+    std::array<double, 4> inverse{};                          // of the first numbers on the diagonal of r
+    double xx = 0., yy = 0.;                                  // variances of x and y for contrast and noise of 1
+    std::array<std::array<double, basisSize>, basisSize> r{}; // upper triangle
   };
   //! Position of a cell: middle pixel of its window, and phase.
   struct Place {
@@ -47,8 +49,10 @@ public:
   void begin(const vpTemplateLearner &learner);
   //! Prepare the next phases; true when all are ready.
   bool prepare(const vpTemplateLearner &learner, int count);
+  //! Prepare a piece of a phase, so small that it fits beside the tracking of an image; true when all are ready.
+  bool preparePiece(const vpTemplateLearner &learner);
   bool isReady() const { return m_phases > 0 && m_ready == m_phases; }
-  void clear() { m_phases = m_ready = 0; }
+  void clear() { m_phases = m_ready = m_piece = 0; }
 
   Place place(double x, double y) const;
   const Phase &phase(int index) const { return m_phase[static_cast<std::size_t>(index)]; }
@@ -63,9 +67,14 @@ public:
   int stride() const { return (pixels() + 31) / 32 * 32; } // whole lines of the cache
 
 private:
-  void build(const vpTemplateLearner &learner, int index);
+  static constexpr int piecesPerPhase = 4;
+  void fillBasis(const vpTemplateLearner &learner, int index);
+  void orthogonalise(int index, std::size_t from, std::size_t end);
+  void quantise(int index);
+  float *column(std::size_t k) { return &m_basis[k * m_capacity]; }
 
   int m_hw = 0, m_hh = 0, m_perAxis = finest, m_phases = 0, m_ready = 0;
+  int m_piece = 0; // of the phase in work
   double m_range = 0.;
   std::size_t m_capacity;
   std::array<Phase, maxPhases> m_phase;

@@ -4,6 +4,7 @@
  */
 #include "vpTemplateLearner.h"
 
+#include "vpCubicFilter.h"
 #include "vpPatternSimd.h"
 
 #include <Eigen/Dense>
@@ -14,58 +15,22 @@
 
 BEGIN_VISP_NAMESPACE
 
+using namespace vpCubicFilter;
+
 namespace
 {
-using Taps = std::array<float, 4>;
-
-// Interpolation by a cubic of third order (Keys 1981) between the second and the third of four neighbours.
-Taps keys(double f)
-{
-  return {static_cast<float>(((-0.5 * f + 1.) * f - 0.5) * f), static_cast<float>((1.5 * f - 2.5) * f * f + 1.),
-          static_cast<float>(((-1.5 * f + 2.) * f + 0.5) * f), static_cast<float>((0.5 * f - 0.5) * f * f)};
-}
-
-// Cubic B-spline and its derivative.
-Taps spline(double f)
-{
-  const double g = 1. - f;
-  return {static_cast<float>(g * g * g / 6.), static_cast<float>((4. - 6. * f * f + 3. * f * f * f) / 6.),
-          static_cast<float>((4. - 6. * g * g + 3. * g * g * g) / 6.), static_cast<float>(f * f * f / 6.)};
-}
-
-Taps splineSlope(double f)
-{
-  const double g = 1. - f;
-  return {static_cast<float>(-0.5 * g * g), static_cast<float>(-2. * f + 1.5 * f * f),
-          static_cast<float>(2. * g - 1.5 * g * g), static_cast<float>(0.5 * f * f)};
-}
-
-// to[i] = sum of t[k] from[i + k * stride]
-void filter(const float *from, int count, int stride, const Taps &t, float *__restrict to)
-{
-  for (int i = 0; i < count; ++i) {
-    to[i] = t[0] * from[i] + t[1] * from[i + stride] + t[2] * from[i + 2 * stride] + t[3] * from[i + 3 * stride];
-  }
-}
-
-// The border of the image goes on for ever: only what is around the window of a cell may lie out there.
-float clampedPixel(const vpImage<unsigned char> &image, int x, int y)
-{
-  return static_cast<float>(image[static_cast<unsigned int>(std::clamp(y, 0, static_cast<int>(image.getHeight()) - 1))]
-                                 [static_cast<unsigned int>(std::clamp(x, 0, static_cast<int>(image.getWidth()) - 1))]);
-}
+const float splinePole = static_cast<float>(std::sqrt(3.) - 2.);
 
 // Coefficients of the cubic B-spline through the values, in place: causal and anticausal recursion (Unser 1993).
-void prefilter(float *values, int count, int stride)
+void prefilter(float *values, int count)
 {
-  const float pole = static_cast<float>(std::sqrt(3.) - 2.);
-  values[0] *= 6.F / (1.F - pole); // the border value goes on for ever
+  values[0] *= 6.F / (1.F - splinePole); // the border value goes on for ever
   for (int i = 1; i < count; ++i) {
-    values[i * stride] = 6.F * values[i * stride] + pole * values[(i - 1) * stride];
+    values[i] = 6.F * values[i] + splinePole * values[i - 1];
   }
-  values[(count - 1) * stride] /= 1.F - pole;
+  values[count - 1] /= 1.F - splinePole;
   for (int i = count - 2; i >= 0; --i) {
-    values[i * stride] = pole * (values[(i + 1) * stride] - values[i * stride]);
+    values[i] = splinePole * (values[i + 1] - values[i]);
   }
 }
 } // namespace
@@ -77,6 +42,7 @@ vpTemplateLearner::vpTemplateLearner(std::size_t maxPixels) : m_capacity(maxPixe
   m_mean.resize(maxPixels);
   m_first.resize(medianCount * maxPixels);
   m_correction.resize(maxPixels);
+  m_old.resize(maxPixels);
   m_coefficients.resize(maxPixels);
   m_scratch.resize(2 * maxPixels);
 }
@@ -171,118 +137,145 @@ bool vpTemplateLearner::add(const vpImage<unsigned char> &image, double x, doubl
   return true;
 }
 
-bool vpTemplateLearner::finish() { return m_count >= medianCount && makeSpline(); }
+bool vpTemplateLearner::finish()
+{
+  m_limit = 3.F * m_spread;
+  return m_count >= medianCount && makeSpline();
+}
 
-void vpTemplateLearner::makeCoefficients()
+// Of a half of the rows.
+void vpTemplateLearner::coefficientsAlongRows(bool lower)
+{
+  const int w = columns(), begin = lower ? rows() / 2 : 0, end = lower ? rows() : rows() / 2;
+  std::copy(m_mean.begin() + begin * w, m_mean.begin() + end * w, m_coefficients.begin() + begin * w);
+  for (int r = begin; r < end; ++r) {
+    prefilter(&m_coefficients[static_cast<std::size_t>(r * w)], w);
+  }
+}
+
+// As prefilter(), all columns side by side.
+void vpTemplateLearner::coefficientsAlongColumns()
 {
   const int w = columns(), h = rows();
-  m_coefficients = m_mean; // of the same size: no allocation
-  for (int r = 0; r < h; ++r) {
-    prefilter(&m_coefficients[static_cast<std::size_t>(r * w)], w, 1);
+  float *c = m_coefficients.data();
+  for (int x = 0; x < w; ++x) {
+    c[x] *= 6.F / (1.F - splinePole);
   }
-  for (int c = 0; c < w; ++c) {
-    prefilter(&m_coefficients[static_cast<std::size_t>(c)], h, w);
+  for (int r = 1; r < h; ++r) {
+    float *row = c + r * w;
+    for (int x = 0; x < w; ++x) {
+      row[x] = 6.F * row[x] + splinePole * row[x - w];
+    }
+  }
+  float *last = c + (h - 1) * w;
+  for (int x = 0; x < w; ++x) {
+    last[x] /= 1.F - splinePole;
+  }
+  for (int r = h - 2; r >= 0; --r) {
+    float *row = c + r * w;
+    for (int x = 0; x < w; ++x) {
+      row[x] = splinePole * (row[x + w] - row[x]);
+    }
+  }
+}
+
+// A cell is symmetric about its centre. What is odd in the mean is a shift, or a slope of the illumination. Of a half of the
+// pixels, as the other half of the window says the same with the other sign.
+void vpTemplateLearner::addSymmetry(bool lower)
+{
+  const int wide = 2 * m_hw + 1, n = wide * (2 * m_hh + 1), begin = lower ? n / 4 : 0, end = lower ? n / 2 : n / 4;
+  const float *t = m_first.data(), *tx = t + m_capacity, *ty = tx + m_capacity;
+  if (!lower) {
+    m_normal = {};
+    m_right = {};
+  }
+  for (int i = begin; i < end; ++i) {
+    const int o = n - 1 - i;
+    const double even = 0.5 * (t[i] + t[o]) - m_level, x = i % wide - m_hw, y = i / wide - m_hh;
+    const double odd = 0.5 * (t[i] - t[o]);
+    const std::array<double, unknowns> a = {0.5 * (tx[i] - tx[o]), 0.5 * (ty[i] - ty[o]), x, y, x * even, y * even};
+    for (std::size_t k = 0; k < unknowns; ++k) {
+      for (std::size_t l = 0; l < unknowns; ++l) {
+        m_normal[k][l] += a[k] * a[l];
+      }
+      m_right[k] += a[k] * odd;
+    }
+  }
+}
+
+void vpTemplateLearner::centreOnSymmetry()
+{
+  using Matrix6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
+  using Vector6 = Eigen::Matrix<double, 6, 1>;
+  const Vector6 odd =
+      Eigen::Map<const Matrix6>(m_normal[0].data()).ldlt().solve(Eigen::Map<const Vector6>(m_right.data()));
+  m_centreX -= odd[0];
+  m_centreY -= odd[1];
+  m_good = m_good && std::abs(m_centreX) < 1. && std::abs(m_centreY) < 1.;
+  if (!m_good) {
+    return;
+  }
+  // The slopes are the image's, not the cell's.
+  const int w = columns();
+  const float gx = static_cast<float>(odd[2]), gy = static_cast<float>(odd[3]), level = static_cast<float>(m_level);
+  const float hx = static_cast<float>(odd[4]), hy = static_cast<float>(odd[5]);
+  for (int r = 0; r < rows(); ++r) {
+    const float y = static_cast<float>(r - (m_hh + margin) - m_centreY);
+    float *row = &m_mean[static_cast<std::size_t>(r * w)];
+    for (int c = 0; c < w; ++c) {
+      const float x = static_cast<float>(c - (m_hw + margin)) - static_cast<float>(m_centreX);
+      row[c] -= gx * x + gy * y + (hx * x + hy * y) * (row[c] - level);
+    }
+  }
+}
+
+void vpTemplateLearner::beginSpline(int rounds)
+{
+  m_rounds = rounds;
+  m_piece = 0;
+  m_good = true;
+}
+
+// One round: coefficients, values and slopes, centre. At the end the coefficients once more.
+bool vpTemplateLearner::splinePiece()
+{
+  switch (m_piece++) {
+  case 0:
+    coefficientsAlongRows(false);
+    return false;
+  case 1:
+    coefficientsAlongRows(true);
+    return false;
+  case 2:
+    coefficientsAlongColumns();
+    if (m_rounds == 0) {
+      forgetResiduals();
+      return true;
+    }
+    return false;
+  case 3: // the first windows, or the residuals, are used up: their room serves
+    evaluate(0., 0., m_first.data(), m_first.data() + m_capacity, m_first.data() + 2 * m_capacity);
+    return false;
+  case 4:
+    addSymmetry(false);
+    return false;
+  case 5:
+    addSymmetry(true);
+    return false;
+  default:
+    centreOnSymmetry();
+    --m_rounds;
+    m_piece = 0;
+    return !m_good;
   }
 }
 
 bool vpTemplateLearner::makeSpline()
 {
-  // A cell is symmetric about its centre. What is odd in the mean is a shift, or a slope of the illumination.
-  const int w = columns(), wide = 2 * m_hw + 1, n = wide * (2 * m_hh + 1);
-  const float *t = m_first.data(), *tx = t + m_capacity, *ty = tx + m_capacity; // the first windows are used up
-  using Vector6 = Eigen::Matrix<double, 6, 1>;
-  Vector6 odd = Vector6::Zero();
-  for (int round = 0; round < 3; ++round) {
-    makeCoefficients();
-    evaluate(0., 0., m_first.data(), m_first.data() + m_capacity, m_first.data() + 2 * m_capacity);
-    Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
-    Vector6 right = Vector6::Zero();
-    for (int i = 0; i < n; ++i) {
-      const int o = n - 1 - i;
-      const double even = 0.5 * (t[i] + t[o]) - m_level, x = i % wide - m_hw, y = i / wide - m_hh;
-      Vector6 a;
-      a << 0.5 * (tx[i] - tx[o]), 0.5 * (ty[i] - ty[o]), x, y, x * even, y * even;
-      normal.noalias() += a * a.transpose();
-      right += a * (0.5 * (t[i] - t[o]));
-    }
-    odd = normal.ldlt().solve(right);
-    m_centreX -= odd[0];
-    m_centreY -= odd[1];
-    if (!(std::abs(m_centreX) < 1. && std::abs(m_centreY) < 1.)) {
-      return false;
-    }
-    // The slopes are the image's, not the cell's.
-    for (int r = 0; r < rows(); ++r) {
-      for (int c = 0; c < w; ++c) {
-        const double x = c - (m_hw + margin) - m_centreX, y = r - (m_hh + margin) - m_centreY;
-        float &v = m_mean[static_cast<std::size_t>(r * w + c)];
-        v -= static_cast<float>(odd[2] * x + odd[3] * y + (odd[4] * x + odd[5] * y) * (v - m_level));
-      }
-    }
+  beginSpline(3);
+  while (!splinePiece()) {
   }
-  makeCoefficients();
-  m_residuals = 0;
-  std::fill(m_correction.begin(), m_correction.end(), 0.F);
-  return true;
-}
-
-bool vpTemplateLearner::addResidual(const vpImage<unsigned char> &image, double x, double y)
-{
-  const int ix = static_cast<int>(std::floor(x + 0.5)), iy = static_cast<int>(std::floor(y + 0.5));
-  const int hw = m_hw + extra, hh = m_hh + extra, wide = 2 * hw + 1, high = 2 * hh + 1, n = wide * high;
-  if (ix < m_hw || iy < m_hh || ix + m_hw >= static_cast<int>(image.getWidth()) ||
-      iy + m_hh >= static_cast<int>(image.getHeight())) {
-    return false;
-  }
-  // The first windows are not needed any more: their room serves for the model and its slopes.
-  float *model = m_first.data();
-  evaluateOn(hw, hh, x - ix, y - iy, model, model + m_capacity, model + 2 * m_capacity);
-  double sm = 0., si = 0., smm = 0., smi = 0.;
-  for (int i = 0; i < n; ++i) {
-    const double m = model[i], v = clampedPixel(image, ix - hw + i % wide, iy - hh + i / wide);
-    sm += m;
-    si += v;
-    smm += m * m;
-    smi += m * v;
-  }
-  const double gain = (smi - sm * si / n) / std::max(1., smm - sm * sm / n), offset = (si - gain * sm) / n;
-  if (gain < 0.2) {
-    return false;
-  }
-  float *rest = model + m_capacity, *padded = rest + m_capacity;
-  const float limit = 3.F * m_spread;
-  for (int i = 0; i < n; ++i) {
-    const double v = clampedPixel(image, ix - hw + i % wide, iy - hh + i / wide);
-    rest[i] = std::clamp(static_cast<float>((v - offset) / gain) - model[i], -limit, limit);
-  }
-  // Shift what is left over back onto the grid of the template; beyond the window the nearest value stands in.
-  const int w = columns(), h = rows(), room = w * (h + 3);
-  const double sx = ix - x + m_centreX, sy = iy - y + m_centreY; // pixel u shows the template at u + s
-  const int dx = static_cast<int>(std::ceil(sx)), dy = static_cast<int>(std::ceil(sy));
-  const double fx = dx - sx, fy = dy - sy;
-  for (int r = 0; r < h + 3; ++r) {
-    const int from = std::clamp(r - margin + extra - 1 - dy, 0, high - 1) * wide;
-    for (int c = 0; c < w; ++c) {
-      padded[r * w + c] = rest[from + std::clamp(c - margin + extra - 1 - dx, 0, wide - 1)];
-    }
-  }
-  const Taps tx = keys(fx), ty = keys(fy);
-  filter(padded, room - 3, 1, tx, m_rowPass.data());
-  filter(m_rowPass.data(), w * h - 3, w, ty, m_window.data());
-  for (int i = 0; i < w * h - 3; ++i) {
-    m_correction[static_cast<std::size_t>(i)] += m_window[static_cast<std::size_t>(i)];
-  }
-  ++m_residuals;
-  return true;
-}
-
-bool vpTemplateLearner::refine()
-{
-  const float share = 1.F / static_cast<float>(std::max(1, m_residuals));
-  for (std::size_t i = 0; i < m_mean.size(); ++i) {
-    m_mean[i] += share * m_correction[i];
-  }
-  return makeSpline();
+  return m_good;
 }
 
 void vpTemplateLearner::evaluate(double px, double py, float *value, float *dx, float *dy) const

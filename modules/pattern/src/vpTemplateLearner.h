@@ -9,6 +9,7 @@
 #include <visp3/core/vpImage.h>
 #include <visp3/direct_core/vpDirectCompat.h>
 
+#include <array>
 #include <vector>
 
 BEGIN_VISP_NAMESPACE
@@ -34,6 +35,19 @@ public:
   //! Add the residuals to the template and finish it again.
   bool refine();
 
+  //! Residuals are clipped to this, grey values; at first three deviations of the windows from their mean.
+  void setLimit(double limit) { m_limit = static_cast<float>(limit); }
+  //! Mean square of the mean residual on the window, times their number: their variance when the template fits, more when
+  //! it does not.
+  double misfit() const;
+  //! refine() in pieces, with a share of the residuals only: begin, then refinePiece() until it says true.
+  void beginRefine(double share);
+  bool refinePiece();
+  //! After the last piece: the cell is still symmetric about a centre near the old one.
+  bool isGood() const { return m_good; }
+  //! Back to the template before beginRefine(), in pieces too.
+  void beginRestore();
+
   int halfWidth() const { return m_hw; }
   int halfHeight() const { return m_hh; }
   //! Value, and derivatives with respect to x and y, on the window of pixels when the centre is at (px, py), |p| <= 1,
@@ -50,15 +64,29 @@ private:
   void resample(const vpImage<unsigned char> &image, int ix, int iy, double fx, double fy);
   void normalise();
   void mix();
-  void makeCoefficients();
+  std::size_t used() const { return static_cast<std::size_t>(columns()) * static_cast<std::size_t>(rows()); }
+  void forgetResiduals();
+  void beginSpline(int rounds);
+  bool splinePiece();
   bool makeSpline();
+  void coefficientsAlongRows(bool lower);
+  void coefficientsAlongColumns();
+  void addSymmetry(bool lower);
+  void centreOnSymmetry();
 
   std::size_t m_capacity;
   int m_hw = 0, m_hh = 0, m_count = 0, m_residuals = 0;
   double m_centreX = 0., m_centreY = 0.; // of symmetry, from the middle of the grid
   double m_level = 0., m_contrast = 1.;  // of the first window, to which the others are brought
   float m_spread = 1.F;                  // mean absolute deviation from the mean
-  std::vector<float> m_window, m_rowPass, m_mean, m_first, m_correction;
+  float m_limit = 3.F;                   // of residuals
+  int m_rounds = 0, m_piece = 0;         // of makeSpline() that are left; in this round
+  bool m_good = false;
+  static constexpr std::size_t unknowns = 6; // shift, slopes of the light
+  std::array<std::array<double, unknowns>, unknowns> m_normal{};
+  std::array<double, unknowns> m_right{};
+  double m_oldCentreX = 0., m_oldCentreY = 0.;
+  std::vector<float> m_window, m_rowPass, m_mean, m_first, m_correction, m_old;
   std::vector<float> m_coefficients; // of the spline through the mean
   mutable std::vector<float> m_scratch;
 };

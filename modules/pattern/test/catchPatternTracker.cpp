@@ -286,6 +286,9 @@ TEST_CASE("images of another size and bad options are refused in words", "[patte
   options.minPitch = 2.;
   CHECK_THROWS_WITH(vpPatternTracker(160, 100, options), Catch::Contains("minPitch is 2, must be in [4, 1000]"));
   options = vpPatternOptions();
+  options.refreshEvery = -1;
+  CHECK_THROWS_WITH(vpPatternTracker(160, 100, options), Catch::Contains("refreshEvery is -1, must be in [0, 1e+06]"));
+  options = vpPatternOptions();
   options.maxCellSigma = NAN;
   CHECK_THROWS_WITH(vpPatternTracker(160, 100, options), Catch::Contains("maxCellSigma is nan"));
   CHECK_THROWS_WITH(vpPatternTracker(8, 100), Catch::Contains("width is 8 px, must be in [16, 16384]"));

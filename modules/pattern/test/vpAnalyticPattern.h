@@ -25,6 +25,7 @@ struct Pattern {
          slope = 0.;       // slope: share by which the light falls off across the image
   double jitter = 0.;      // px, fixed for each cell
   double x = 20., y = 12.; // centre of cell (0, 0)
+  double rotation = 0.;    // rad, about that centre; of the pictures only
 
   // Deviation of a cell from its place, the same whenever it is asked for.
   double deviation(int row, int column, int axis) const
@@ -38,12 +39,18 @@ struct Pattern {
   double edge(double u) const { return 0.5 * std::erf(u / (std::sqrt(2.) * blur)); }
   double value(double u, double v) const
   {
+    const double lightAt = u;
+    if (rotation != 0.) {
+      const double du = u - x, dv = v - y;
+      u = x + std::cos(rotation) * du + std::sin(rotation) * dv;
+      v = y - std::sin(rotation) * du + std::cos(rotation) * dv;
+    }
     const int column = static_cast<int>(std::lround((u - x) / pitchX)),
               row = static_cast<int>(std::lround((v - y) / pitchY));
     const double du = u - cellPositionX(row, column), dv = v - cellPositionY(row, column);
     const double inside =
         (edge(du + 0.5 * cellX) - edge(du - 0.5 * cellX)) * (edge(dv + 0.5 * cellY) - edge(dv - 0.5 * cellY));
-    const double light = 1. + slope * (u / (width - 1.) - 0.5) * 2.;
+    const double light = 1. + slope * (lightAt / (width - 1.) - 0.5) * 2.;
     return (dark + (bright - dark) * inside) * light;
   }
   double sigma(double value) const { return noise * std::sqrt(0.36 + value / 157.); }

@@ -91,7 +91,8 @@ struct VISP_EXPORT vpPatternFrame {
   double sigmaDx = std::numeric_limits<double>::infinity(); //!< Standard deviation of dx, px.
   double sigmaDy = std::numeric_limits<double>::infinity(); //!< Standard deviation of dy, px.
   vpPatternLattice lattice;                                 //!< The regular lattice in this image.
-  double noise = 0.; //!< Standard deviation of the grey values about the template, grey values.
+  unsigned int templates = 0; //!< Templates so far: 1 once it is learned, one more each time it was learned anew.
+  double noise = 0.;          //!< Standard deviation of the grey values about the template, grey values.
 
   //! The status in a sentence, such as "Lost: the image has no contrast." Static text, never null.
   [[nodiscard]] const char *message() const;

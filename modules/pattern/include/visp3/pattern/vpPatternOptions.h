@@ -49,6 +49,10 @@ struct VISP_EXPORT vpPatternOptions {
   int learningFrames = 16;  //!< Frames from which the template is learned, three times over, in [2, 10000].
   int phasesPerFrame =
       2; //!< Sub-pixel phases of the template (of 16) that are prepared per frame afterwards, in [1, 16].
+  //! Every so many images, while tracking, a piece of work goes into learning the template anew from cells that fit well,
+  //! in [0, 1000000]; 0: never. About 115 pieces make a template, each takes about as long as tracking a small image once
+  //! more. When the pattern turns or the template fits badly, the work of each image is that of learning.
+  int refreshEvery = 128;
   double maxCellSigma = 0.25; //!< A cell with a larger standard deviation is not valid, px, in (0, 10].
   int maxLostFrames = 20;     //!< After more frames without a lock the identities start anew, in [0, 1000000].
 

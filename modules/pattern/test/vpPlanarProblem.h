@@ -1,0 +1,107 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// Random views of a plane of cells for the tests of the planar calibration.
+#ifndef vpPlanarProblem_h
+#define vpPlanarProblem_h
+
+#include <visp3/pattern/vpPlanarMicroscopeCalibration.h>
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace vpPatternTest
+{
+VISP_DIRECT_USING_NAMESPACE
+
+using Points = std::vector<vpCalibrationPoint>;
+
+struct Problem {
+  vpMicroscopeCalibration truth; // with the placement of view 0
+  std::vector<vpMicroscopeCalibration> views;
+  double pitchX = 220e-6, pitchY = 80e-6; // m
+};
+
+inline double uniform(std::mt19937_64 &rng, double from, double to)
+{
+  return std::uniform_real_distribution<double>(from, to)(rng);
+}
+
+inline Problem randomProblem(std::mt19937_64 &rng, int views, double kappa, unsigned int width = 640,
+                             unsigned int height = 480)
+{
+  Problem problem;
+  vpMicroscopeCalibration &c = problem.truth;
+  c.width = width;
+  c.height = height;
+  c.scaleX = c.scaleY = 1e6 / (width < 320 ? 4.5 : uniform(rng, 3., 6.));
+  c.kappa1 = kappa;
+  c.u0 = 0.5 * (width - 1.);
+  c.v0 = 0.5 * (height - 1.);
+  c.mirrored = uniform(rng, 0., 1.) < 0.5;
+  for (int k = 0; k < views; ++k) {
+    c.rotation = width < 320 ? uniform(rng, -0.1, 0.1) : uniform(rng, -M_PI, M_PI); // a window must show two columns
+    c.tx = uniform(rng, -5e-3, 5e-3); // the lattice goes on for ever, its origin may be far outside
+    c.ty = uniform(rng, -5e-3, 5e-3);
+    problem.views.push_back(c);
+  }
+  c = problem.views[0];
+  return problem;
+}
+
+// The cells that a view shows, with noise.
+inline Points pointsOf(const Problem &problem, std::size_t view, double sigmaU, double sigmaV, std::mt19937_64 &rng)
+{
+  const vpMicroscopeCalibration &c = problem.views[view];
+  std::normal_distribution<double> normal;
+  double least[2] = {1e9, 1e9}, most[2] = {-1e9, -1e9};
+  for (const double u : {0., c.width - 1.}) {
+    for (const double v : {0., c.height - 1.}) {
+      const Eigen::Vector2d p = c.toPlane(u, v);
+      for (const int axis : {0, 1}) {
+        const double pitch = axis == 0 ? problem.pitchX : problem.pitchY;
+        least[axis] = std::min(least[axis], std::floor(p[axis] / pitch));
+        most[axis] = std::max(most[axis], std::ceil(p[axis] / pitch));
+      }
+    }
+  }
+  Points points;
+  for (double row = least[1]; row <= most[1]; ++row) {
+    for (double column = least[0]; column <= most[0]; ++column) {
+      vpCalibrationPoint point;
+      point.x = column * problem.pitchX;
+      point.y = row * problem.pitchY;
+      const Eigen::Vector2d seen = c.toImage(point.x, point.y);
+      if (seen.x() > 0. && seen.y() > 0. && seen.x() < c.width - 1. && seen.y() < c.height - 1.) {
+        point.u = seen.x() + sigmaU * normal(rng);
+        point.v = seen.y() + sigmaV * normal(rng);
+        point.sigmaU = sigmaU > 0. ? sigmaU : 1.;
+        point.sigmaV = sigmaV > 0. ? sigmaV : 1.;
+        points.push_back(point);
+      }
+    }
+  }
+  return points;
+}
+
+struct Moments {
+  double sum = 0., squares = 0.;
+  int n = 0;
+  void add(double x)
+  {
+    sum += x;
+    squares += x * x;
+    ++n;
+  }
+  [[nodiscard]] double mean() const { return sum / n; }
+  [[nodiscard]] double rms() const { return std::sqrt(squares / n); }
+  [[nodiscard]] double sigma() const { return std::sqrt(squares / n - mean() * mean()); }
+};
+} // namespace vpPatternTest
+
+#endif
