@@ -98,7 +98,8 @@ vpTimedPath::vpTimedPath(const vpCollisionScene &scene, const vpJointPath &path,
     if (!status.isGood() && single) {
       throw vpException(vpException::badValue, "the path cannot be timed: %s", status.message().c_str());
     }
-    const vpTrajectoryClearance clearance = status.isGood() ? certificate.check(plan) : vpTrajectoryClearance();
+    const vpTrajectoryClearance clearance =
+        status.isGood() ? certificate.check(plan, 0., plan.duration(), m_duration) : vpTrajectoryClearance();
     if (single || clearance.isFree()) {
       append(plan, clearance);
       continue;

@@ -222,6 +222,45 @@ TEST_CASE("A straight motion is timed as a straight line, and a path through an 
                     Catch::Contains("margin of the certified trajectory is -1 m"));
 }
 
+TEST_CASE("Obstacles move on while the arm is under way, behind a rest too", "[path]")
+{
+  // There and back by the base, with a rest between, since the way back is the way there. A ball crosses the place where
+  // the tool rests: too early, at that time, and when the arm is back.
+  vpJointVector start(7);
+  start << .246, .868, -1.237, -2.390, -2.591, -1.099, .324;
+  vpJointVector out = start;
+  out(0) += 1.2;
+  vpJointPath path;
+  path.points = {start, out, start};
+  vpArmData data;
+  vpArmKinematics::forward(amor(), out, data);
+  vpCollisionScene empty(amor());
+  const vpTimedPath alone(empty, path);
+  const double turn = 0.5 * alone.duration();
+  for (const double late : {-1.2, 0., 2.}) {
+    vpCollisionSceneSpec spec;
+    vpCollisionObject ball;
+    ball.name = "ball";
+    ball.velocity = vpTwist(0., 0., 1., 0., 0., 0.);
+    ball.pose.p = data.tool.p - Vector3d(0., 0., turn + late);
+    spec.objects.push_back(ball);
+    const vpCollisionScene scene(amor(), spec);
+    const vpTimedPath timed(scene, path);
+    bool touches = false;
+    for (double t = 0.; t < timed.duration(); t += 0.002) {
+      vpJointVector q(7);
+      for (int j = 0; j < 7; ++j) {
+        q(j) = timed.at(j, t)[0];
+      }
+      const vpCollisionSceneSpec then = at(spec, t);
+      touches = touches || IndependentClearance(amor(), then).clearance(q, scene.selfPairs(), 0.1) < 0.;
+    }
+    CAPTURE(late, timed.parts().size(), timed.sentence(scene));
+    CHECK(timed.isFree() == !touches);
+    CHECK(touches == (late == 0.));
+  }
+}
+
 TEST_CASE("The check of a trajectory does not allocate and refuses nonsense", "[trajectory]")
 {
   auto rng = vpTestSupport::generator(913);

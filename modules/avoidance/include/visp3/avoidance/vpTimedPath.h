@@ -48,7 +48,7 @@ public:
   };
 
   /*!
-   * \param scene : Objects as they are now, at rest. \param path : At least one point, within the position limits.
+   * \param scene : Objects where they are when the motion starts; they move on by their velocities. \param path : At least one point, within the position limits.
    * \throw vpException (badValue) naming a parameter, a joint without velocity or acceleration limit, or an empty path.
    */
   vpTimedPath(const vpCollisionScene &scene, const vpJointPath &path, const vpTimedPathSpec &spec = {});
