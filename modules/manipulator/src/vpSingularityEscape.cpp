@@ -66,26 +66,30 @@ Square curvature(const vpArmModel &model, const vpArmData &data, vpArmFrame fram
 
 Room room(const vpTaskLevel::Basis &taken, const Joints &mayMove)
 {
+  constexpr double least = 0.01; // squared length of what is left of a joint's own direction
   Room space;
   vpTaskLevel::Basis all = taken;
+  // The basis is orthonormal: of unit vector i there is left 1 - sum v_k(i)^2.
+  Joints left = Joints::Ones();
+  for (int k = 0; k < all.count; ++k) {
+    left -= all.vectors.col(k).cwiseAbs2();
+  }
   for (;;) {
     // The joint of which most is left, so that the vectors are well defined.
-    Joints best = Joints::Zero();
-    double most = 0.1;
+    int joint = -1;
+    double most = least;
     for (int i = 0; i < vpArmMaxJoints; ++i) {
-      if (mayMove(i) > 0.) {
-        const Joints left = all.free(Joints::Unit(i));
-        if (left.norm() > most) {
-          most = left.norm();
-          best = left;
-        }
+      if (mayMove(i) > 0. && left(i) > most) {
+        most = left(i);
+        joint = i;
       }
     }
-    if (!(best.squaredNorm() > 0.)) {
+    if (joint < 0) {
       return space;
     }
-    best /= most;
+    const Joints best = all.free(Joints::Unit(joint)).normalized();
     all.add(best);
+    left -= best.cwiseAbs2();
     space.vectors.col(space.count++) = best;
   }
 }
