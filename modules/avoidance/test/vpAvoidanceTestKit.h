@@ -6,9 +6,10 @@
 #ifndef vpAvoidanceTestKit_h
 #define vpAvoidanceTestKit_h
 
+#include "vpTestArms.h"
+
 #include <visp3/avoidance/vpCollisionScene.h>
 #include <visp3/direct_core/vpSO3.h>
-#include <visp3/manipulator/vpArmJson.h>
 
 #include <Eigen/Geometry>
 
@@ -22,15 +23,9 @@ VISP_DIRECT_USING_NAMESPACE
 namespace vpAvoidanceTestKit
 {
 using Eigen::Vector3d;
-constexpr double pi = 3.14159265358979323846;
+using namespace vpTestArms;
 
 inline std::string dataFile(const std::string &name) { return std::string(VISP_DIRECT_DATA_DIR) + "/" + name; }
-
-inline const vpArmModel &amor()
-{
-  static const vpArmModel model = vpLoadArmJson(dataFile("robot/amor.json"));
-  return model;
-}
 
 //! Revolute, prismatic, revolute, prismatic, in skew frames, with capsules also on the base and two on one link.
 inline const vpArmModel &mixed()
@@ -55,11 +50,6 @@ inline const vpArmModel &mixed()
   return model;
 }
 
-inline double uniform(std::mt19937_64 &rng, double from, double to)
-{
-  return std::uniform_real_distribution<double>(from, to)(rng);
-}
-
 inline Vector3d point(std::mt19937_64 &rng, double size)
 {
   return {uniform(rng, -size, size), uniform(rng, -size, size), uniform(rng, -size, size)};
@@ -68,18 +58,6 @@ inline Vector3d point(std::mt19937_64 &rng, double size)
 inline vpRigidTransform pose(std::mt19937_64 &rng, double size)
 {
   return {vpSO3::exp(3. * point(rng, 1.)), point(rng, size)};
-}
-
-//! Within the limits; continuous joints anywhere in +-pi.
-inline vpJointVector configuration(const vpArmModel &model, std::mt19937_64 &rng)
-{
-  vpJointVector q(model.size());
-  for (int i = 0; i < model.size(); ++i) {
-    const double lower = model.isContinuous(i) ? -pi : model.lower()(i);
-    const double upper = model.isContinuous(i) ? pi : model.upper()(i);
-    q(i) = uniform(rng, lower, upper);
-  }
-  return q;
 }
 
 //! A sphere, capsule, box or cylinder of a size between 2 cm and 40 cm.

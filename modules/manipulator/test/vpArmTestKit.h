@@ -6,9 +6,9 @@
 #ifndef vpArmTestKit_h
 #define vpArmTestKit_h
 
-#include <visp3/manipulator/vpArmJson.h>
+#include "vpTestArms.h"
+
 #include <visp3/manipulator/vpArmKinematics.h>
-#include <visp3/manipulator/vpArmUrdf.h>
 
 #include <Eigen/Geometry>
 
@@ -25,27 +25,9 @@ VISP_DIRECT_USING_NAMESPACE
 
 namespace vpArmTestKit
 {
-constexpr double pi = 3.14159265358979323846;
+using namespace vpTestArms;
 
 inline std::string dataFile(const std::string &name) { return std::string(VISP_DIRECT_DATA_DIR) + "/robot/" + name; }
-
-inline const vpArmModel &amor()
-{
-  static const vpArmModel model = vpLoadArmJson(dataFile("amor.json"));
-  return model;
-}
-
-inline const vpArmModel &sixAxes()
-{
-  static const vpArmModel model = [] {
-    vpArmUrdfOptions options;
-    options.tip = "tool";
-    options.camera = "camera";
-    options.acceleration = 12.;
-    return vpLoadArmUrdf(dataFile("generic-6r.urdf"), options);
-  }();
-  return model;
-}
 
 //! Revolute, prismatic, revolute, prismatic, in skew frames: for what the two arms have not.
 inline const vpArmModel &mixed()
@@ -91,32 +73,6 @@ inline vpJointVector vector(std::initializer_list<double> values)
 
 //! The note's home of AMOR.
 inline vpJointVector home() { return vector({.246, .868, -1.237, -2.390, -2.591, -1.099, .324}); }
-
-inline double uniform(std::mt19937_64 &rng, double from, double to)
-{
-  return std::uniform_real_distribution<double>(from, to)(rng);
-}
-
-//! Within the limits, away from them by a share of the range; continuous joints anywhere in +-pi.
-inline vpJointVector configuration(const vpArmModel &model, std::mt19937_64 &rng, double share = 0.)
-{
-  vpJointVector q(model.size());
-  for (int i = 0; i < model.size(); ++i) {
-    const double lower = model.isContinuous(i) ? -pi : model.lower()(i);
-    const double upper = model.isContinuous(i) ? pi : model.upper()(i);
-    q(i) = uniform(rng, lower + share * (upper - lower), upper - share * (upper - lower));
-  }
-  return q;
-}
-
-inline vpJointVector randomVector(int n, std::mt19937_64 &rng)
-{
-  vpJointVector v(n);
-  for (int i = 0; i < n; ++i) {
-    v(i) = uniform(rng, -1., 1.);
-  }
-  return v;
-}
 
 //! AMOR from the printed table by KDL's own DH frames, with the note's offset, tool and masses.
 inline KDL::Chain kdlAmor(bool withTool = true, double offset2 = pi)
