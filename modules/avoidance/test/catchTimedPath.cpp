@@ -261,6 +261,39 @@ TEST_CASE("Obstacles move on while the arm is under way, behind a rest too", "[p
   }
 }
 
+TEST_CASE("Parts behind a rest meet obstacles where they are by then", "[path]")
+{
+  auto rng = vpTestSupport::generator(914);
+  CAPTURE(vpTestSupport::seed());
+  int withRests = 0;
+  for (int problem = 0; problem < 600; ++problem) {
+    const vpCollisionSceneSpec spec = randomScene(rng, true);
+    const vpCollisionScene scene(amor(), spec);
+    vpJointPath path;
+    path.points = {configuration(amor(), rng)};
+    for (int k = 0; k < 2; ++k) {
+      path.points.push_back(path.points.back() + 0.4 * (configuration(amor(), rng) - path.points.back()));
+    }
+    const vpTimedPath timed(scene, path);
+    if (timed.parts().size() < 2 || !timed.isFree()) {
+      continue;
+    }
+    ++withRests;
+    CAPTURE(problem, timed.duration());
+    for (int i = 0; i <= 300; ++i) {
+      const double t = timed.duration() * i / 300.;
+      vpJointVector q(7);
+      for (int j = 0; j < 7; ++j) {
+        q(j) = timed.at(j, t)[0];
+      }
+      const vpCollisionSceneSpec then = at(spec, t);
+      REQUIRE(IndependentClearance(amor(), then).clearance(q, scene.selfPairs(), 0.01) >= -1e-9);
+    }
+  }
+  std::cout << withRests << " paths with a rest are free among moving obstacles\n";
+  CHECK(withRests > 5);
+}
+
 TEST_CASE("The check of a trajectory does not allocate and refuses nonsense", "[trajectory]")
 {
   auto rng = vpTestSupport::generator(913);
