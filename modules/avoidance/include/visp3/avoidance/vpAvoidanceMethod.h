@@ -1,0 +1,100 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#ifndef vpAvoidanceMethod_h
+#define vpAvoidanceMethod_h
+
+#include <visp3/avoidance/vpCollisionScene.h>
+
+BEGIN_VISP_NAMESPACE
+
+/*!
+ * \ingroup group_avoidance
+ * \brief Where the arm shall go. Methods that move the tool read #position, methods that move joints read #q.
+ */
+struct VISP_EXPORT vpAvoidanceGoal {
+  vpJointVector q;                                      //!< Configuration, rad or m; empty: only the position is given.
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();   //!< Of the end effector's origin in the base, m.
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();   //!< Of that goal, m/s; 0 for a goal at rest.
+
+  //! A configuration and where it brings the end effector. \throw vpException (badValue) when it does not fit the arm.
+  [[nodiscard]] static vpAvoidanceGoal at(const vpArmModel &model, const vpJointVector &q);
+};
+
+//! \brief How the motion stands.
+enum class vpAvoidanceStatus {
+  Moving,           //!< On the direct way to the goal.
+  Detouring,        //!< On a way round something, or a slower one behind it.
+  Slowed,           //!< Slower than planned: otherwise the arm could not stop in time.
+  Waiting,          //!< There is no free way now: brakes or stands, and goes on when there is one.
+  Arrived,          //!< At the goal, at rest.
+  GoalInCollision,  //!< The goal is not free: brakes or stands, and goes on when it is.
+  StartInCollision, //!< The arm touches something already: stands.
+  Unreachable,      //!< The arm cannot get to the goal whether there are obstacles or not: brakes or stands.
+  Unsafe,           //!< Brakes, but something has come so that it may not end in time.
+  InvalidInput      //!< A number is not finite or a vector has a wrong size; brakes.
+};
+
+//! The status as a word ("Moving"), for files; static text.
+[[nodiscard]] VISP_EXPORT const char *toString(vpAvoidanceStatus status);
+//! The status as a sentence for a person; static text.
+[[nodiscard]] VISP_EXPORT const char *sentence(vpAvoidanceStatus status);
+
+/*!
+ * \ingroup group_avoidance
+ * \brief What to command for the next period, and why.
+ */
+struct VISP_EXPORT vpAvoidanceOutput {
+  vpJointVector velocity;                                     //!< rad/s or m/s.
+  vpAvoidanceStatus status = vpAvoidanceStatus::InvalidInput; //!< How the motion stands.
+  vpClearance pair;                                           //!< What is in the way, if something is.
+  Eigen::Vector3d wanted = Eigen::Vector3d::Zero(); //!< Where the end effector is planned to be after the period, m.
+  bool stopping = false; //!< A protective stop acts: the plan's own bounds gave way to those of the joints.
+};
+
+/*!
+ * \class vpAvoidanceMethod
+ * \ingroup group_avoidance
+ * \brief A way to bring an arm to a goal among obstacles: one interface for all that are compared.
+ *
+ * A method is made with a scene, which it reads and never changes. Its owner moves the objects there to where they are
+ * now, with their velocities, between the calls:
+ * \code
+ * method.start(q, goal);
+ * while (output.status != vpAvoidanceStatus::Arrived) {
+ *   if (newImage) {
+ *     tracks.applyTo(scene);        // objects may come and go here
+ *     method.look();
+ *   }
+ *   method.step(q, output);
+ *   q += period * output.velocity;  // or what the drives were told
+ * }
+ * \endcode
+ */
+class VISP_EXPORT vpAvoidanceMethod
+{
+public:
+  virtual ~vpAvoidanceMethod() = default;
+
+  /*!
+   * Begins a motion at rest in \e q. May allocate and take milliseconds.
+   * \return What step() will say, if it does nothing else: Moving, or why the arm will stand.
+   */
+  virtual vpAvoidanceStatus start(const vpJointVector &q, const vpAvoidanceGoal &goal) = 0;
+  //! The goal has moved. No allocation; takes effect in the next look(). Ignored when it is not finite or does not fit.
+  virtual void setGoal(const vpAvoidanceGoal &goal) noexcept = 0;
+  /*!
+   * The scene has changed: looks at the coming motion again, and for a better one. May allocate and take milliseconds;
+   * call it as often as images come.
+   */
+  virtual void look() = 0;
+  /*!
+   * One period; no allocation, no exception, no lock.
+   * \param q : Commanded configuration now, rad or m.
+   */
+  virtual void step(const vpJointVector &q, vpAvoidanceOutput &output) noexcept = 0;
+};
+
+END_VISP_NAMESPACE
+#endif

@@ -1,0 +1,79 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include <visp3/avoidance/vpAvoidanceMethod.h>
+
+#include <visp3/core/vpException.h>
+
+BEGIN_VISP_NAMESPACE
+
+vpAvoidanceGoal vpAvoidanceGoal::at(const vpArmModel &model, const vpJointVector &q)
+{
+  if (q.size() != model.size() || !q.allFinite()) {
+    throw vpException(vpException::badValue, "a goal of %d numbers does not fit arm %s of %d joints, or is not finite",
+                      static_cast<int>(q.size()), model.label().c_str(), model.size());
+  }
+  vpArmData data;
+  vpArmKinematics::forward(model, q, data);
+  vpAvoidanceGoal goal;
+  goal.q = q;
+  goal.position = data.tool.p;
+  return goal;
+}
+
+const char *toString(vpAvoidanceStatus status)
+{
+  switch (status) {
+  case vpAvoidanceStatus::Moving:
+    return "Moving";
+  case vpAvoidanceStatus::Detouring:
+    return "Detouring";
+  case vpAvoidanceStatus::Slowed:
+    return "Slowed";
+  case vpAvoidanceStatus::Waiting:
+    return "Waiting";
+  case vpAvoidanceStatus::Arrived:
+    return "Arrived";
+  case vpAvoidanceStatus::GoalInCollision:
+    return "GoalInCollision";
+  case vpAvoidanceStatus::StartInCollision:
+    return "StartInCollision";
+  case vpAvoidanceStatus::Unreachable:
+    return "Unreachable";
+  case vpAvoidanceStatus::Unsafe:
+    return "Unsafe";
+  case vpAvoidanceStatus::InvalidInput:
+    break;
+  }
+  return "InvalidInput";
+}
+
+const char *sentence(vpAvoidanceStatus status)
+{
+  switch (status) {
+  case vpAvoidanceStatus::Moving:
+    return "The arm is on the direct way to the goal.";
+  case vpAvoidanceStatus::Detouring:
+    return "The arm goes round an obstacle, or slower behind it.";
+  case vpAvoidanceStatus::Slowed:
+    return "The arm moves slower than planned, so that it can stop in time.";
+  case vpAvoidanceStatus::Waiting:
+    return "The arm waits: there is no free way to the goal now.";
+  case vpAvoidanceStatus::Arrived:
+    return "The arm is at the goal.";
+  case vpAvoidanceStatus::GoalInCollision:
+    return "The arm waits: at the goal it would touch something.";
+  case vpAvoidanceStatus::StartInCollision:
+    return "The arm stands: it touches something already.";
+  case vpAvoidanceStatus::Unreachable:
+    return "The arm stands: it cannot get to the goal, obstacles or not.";
+  case vpAvoidanceStatus::Unsafe:
+    return "The arm brakes, but something has come into its way to rest.";
+  case vpAvoidanceStatus::InvalidInput:
+    break;
+  }
+  return "The configuration or the goal is not finite or of a wrong size; the arm brakes.";
+}
+
+END_VISP_NAMESPACE
