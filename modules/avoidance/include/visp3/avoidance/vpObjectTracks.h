@@ -30,15 +30,15 @@ struct VISP_EXPORT vpObjectSighting {
  * \brief Parameters of vpObjectTracks.
  */
 struct VISP_EXPORT vpObjectTrackSpec {
-  double acceleration = 0.5;         //!< Of objects, unforeseen: standard deviation, m/s^2, > 0. Large: quick, noisy.
-  double angularAcceleration = 1.;   //!< The same in rad/s^2, > 0.
-  double gate = 5.;                  //!< A sighting farther than so many standard deviations is doubted, > 0.
-  int doubts = 2;                    //!< So many doubted sightings in a row start the track anew, >= 1.
-  double restSigmas = 3.;            //!< A velocity below so many of its standard deviations counts as rest, >= 0.
-  double inflationSigmas = 3.;       //!< The shape counts as so many standard deviations of its place thicker, >= 0.
-  double maxInflation = 0.1;         //!< At most, m, >= 0.
-  double coast = 0.5;                //!< Without a sighting an object moves on for so long, s, >= 0; then it stays.
-  double forget = 5.;                //!< Without a sighting for so long it is dropped, s, > 0; infinity: never.
+  double acceleration = 0.5;       //!< Of objects, unforeseen: standard deviation, m/s^2, > 0. Large: quick, noisy.
+  double angularAcceleration = 1.; //!< The same in rad/s^2, > 0.
+  double gate = 5.;                //!< A sighting farther than so many standard deviations is doubted, > 0.
+  int doubts = 2;                  //!< So many doubted sightings in a row start the track anew, >= 1.
+  double restSigmas = 3.;          //!< A velocity below so many of its standard deviations counts as rest, >= 0.
+  double inflationSigmas = 3.;     //!< The shape counts as so many standard deviations of its place thicker, >= 0.
+  double maxInflation = 0.1;       //!< At most, m, >= 0.
+  double coast = 0.5;              //!< Without a sighting an object moves on for so long, s, >= 0; then it stays.
+  double forget = 5.;              //!< Without a sighting for so long it is dropped, s, > 0; infinity: never.
 
   //! \throw vpException (badValue) naming the field that is out of range, and its value.
   void validate() const;
