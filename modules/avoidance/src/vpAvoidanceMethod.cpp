@@ -6,7 +6,28 @@
 
 #include <visp3/core/vpException.h>
 
+#include <cmath>
+
 BEGIN_VISP_NAMESPACE
+
+namespace
+{
+void requireGood(const char *field, double value, bool good, const char *range)
+{
+  if (!good || !std::isfinite(value)) {
+    throw vpException(vpException::badValue, "%s of the avoidance method is %g, must be %s", field, value, range);
+  }
+}
+} // namespace
+
+void vpAvoidanceMethodSpec::validate() const
+{
+  requireGood("period", period, period > 0., "> 0 s");
+  requireGood("maxVelocity", maxVelocity, maxVelocity > 0., "> 0 m/s");
+  requireGood("maxAcceleration", maxAcceleration, maxAcceleration > 0., "> 0 m/s^2");
+  requireGood("margin", margin, margin >= 0., ">= 0 m");
+  requireGood("seed", seed, seed >= 1, ">= 1");
+}
 
 vpAvoidanceGoal vpAvoidanceGoal::at(const vpArmModel &model, const vpJointVector &q)
 {

@@ -325,6 +325,13 @@ vpPathPlanner::~vpPathPlanner() = default;
 vpPathPlanner::vpPathPlanner(vpPathPlanner &&) noexcept = default;
 vpPathPlanner &vpPathPlanner::operator=(vpPathPlanner &&) noexcept = default;
 
+void vpPathPlanner::setTimeLimit(double seconds) noexcept
+{
+  m_impl->spec.timeLimit = seconds > 0. ? seconds : m_impl->spec.timeLimit;
+}
+
+void vpPathPlanner::setSeed(unsigned int seed) noexcept { m_impl->spec.seed = seed > 0 ? seed : m_impl->spec.seed; }
+
 const vpPathPlannerSpec &vpPathPlanner::spec() const noexcept { return m_impl->spec; }
 
 vpPathResult vpPathPlanner::plan(const vpJointVector &start, const vpJointVector &goal)

@@ -4,6 +4,8 @@
  */
 #include <visp3/avoidance/vpStopSupervisor.h>
 
+#include "vpStopPlan.h"
+
 #include <visp3/core/vpException.h>
 
 #include <algorithm>
@@ -61,27 +63,9 @@ vpStopSupervisor::vpStopSupervisor(const vpCollisionScene &scene, const vpStopSu
 
 void vpStopSupervisor::reset() noexcept { m_moving = false; }
 
-// One period at a velocity, then all joints to rest at the same time, the slowest to brake at its limit.
-void vpStopSupervisor::planStop(const vpJointVector &q, const vpJointVector &velocity) noexcept
-{
-  const int n = m_scene->arm().size();
-  double braking = 0.;
-  for (int j = 0; j < n; ++j) {
-    braking = std::max(braking, std::fabs(velocity(j)) / m_scene->arm().acceleration()(j));
-  }
-  m_candidate.clear();
-  for (int j = 0; j < n; ++j) {
-    const double v = velocity(j);
-    m_candidate.begin(j, q(j), vpTrajectoryForm::Direct);
-    m_candidate.append(j, {0., v * m_spec.period}, m_spec.period);
-    m_candidate.append(j, {0., v * braking, -0.5 * v * braking}, braking);
-    m_candidate.finish(j, {q(j) + v * (m_spec.period + 0.5 * braking), 0., 0., 0.}, 0.);
-  }
-}
-
 bool vpStopSupervisor::admit(const vpJointVector &q, const vpJointVector &velocity, vpClearance &pair) noexcept
 {
-  planStop(q, velocity);
+  planStop(m_scene->arm(), q, velocity, m_spec.period, m_candidate);
   m_certificate.setMargin(m_spec.margin);
   const vpTrajectoryClearance verdict = m_certificate.check(m_candidate, 0., m_candidate.duration(), m_spec.latency);
   if (verdict.isFree()) {

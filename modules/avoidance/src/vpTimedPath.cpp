@@ -24,7 +24,17 @@ void requireShare(const char *field, double value)
   }
 }
 
-//! Points first..last of a path as one motion from rest to rest.
+void requireSize(const char *field, const vpJointVector &value, int n)
+{
+  if (value.size() != 0 && (value.size() != n || !value.allFinite())) {
+    throw vpException(vpException::badValue, "%s at the start of the timed path has %d numbers, must have %d finite ones",
+                      field, static_cast<int>(value.size()), n);
+  }
+}
+
+bool isMoving(const vpJointVector &rate) { return rate.size() != 0 && rate.cwiseAbs().maxCoeff() > 0.; }
+
+//! Points first..last of a path as one motion to rest, from rest except at the path's start.
 Input inputOf(const vpArmModel &arm, const vpJointPath &path, std::size_t first, std::size_t last,
               const vpTimedPathSpec &spec)
 {
@@ -35,7 +45,13 @@ Input inputOf(const vpArmModel &arm, const vpJointPath &path, std::size_t first,
   input.maxAcceleration = spec.acceleration * arm.acceleration();
   input.minPosition = arm.lower();
   input.maxPosition = arm.upper();
-  input.options.synchronisation = last == first + 1 ? vpSynchronisation::Straight : vpSynchronisation::Time;
+  input.options.synchronisation = last <= first + 1 ? vpSynchronisation::Straight : vpSynchronisation::Time;
+  if (first == 0 && spec.startVelocity.size() != 0) {
+    input.start.v = spec.startVelocity;
+  }
+  if (first == 0 && spec.startAcceleration.size() != 0) {
+    input.start.a = spec.startAcceleration;
+  }
   double length = 0., way = 0.;
   for (std::size_t i = first; i < last; ++i) {
     length += (path.points[i + 1] - path.points[i]).norm();
@@ -65,9 +81,25 @@ vpJointPath withoutRepeats(const vpJointPath &path)
 
 vpTimedPath::vpTimedPath(const vpCollisionScene &scene, const vpJointPath &path, const vpTimedPathSpec &spec)
 {
+  vpCertifiedTrajectory certificate(scene, {spec.margin, spec.resolution});
+  build(scene, path, spec, certificate);
+}
+
+vpTimedPath::vpTimedPath(const vpCollisionScene &scene, const vpJointPath &path, const vpTimedPathSpec &spec,
+                         vpCertifiedTrajectory &certificate)
+{
+  certificate.setMargin(spec.margin);
+  build(scene, path, spec, certificate);
+}
+
+void vpTimedPath::build(const vpCollisionScene &scene, const vpJointPath &path, const vpTimedPathSpec &spec,
+                        vpCertifiedTrajectory &certificate)
+{
   const vpArmModel &arm = scene.arm();
   requireShare("speed", spec.speed);
   requireShare("acceleration", spec.acceleration);
+  requireSize("velocity", spec.startVelocity, arm.size());
+  requireSize("acceleration", spec.startAcceleration, arm.size());
   arm.requireMotionLimits("a timed path");
   if (path.points.empty()) {
     throw vpException(vpException::badValue, "the path to be timed has no points");
@@ -82,10 +114,10 @@ vpTimedPath::vpTimedPath(const vpCollisionScene &scene, const vpJointPath &path,
   m_start = path.points.front();
   m_worst.status = vpMotionStatus::Free;
   const vpJointPath way = withoutRepeats(path);
-  vpCertifiedTrajectory certificate(scene, {spec.margin, spec.resolution});
   // Stretches that are still to be done, the next one last.
   std::vector<std::pair<std::size_t, std::size_t>> open;
-  if (way.points.size() > 1) {
+  const bool moving = isMoving(spec.startVelocity) || isMoving(spec.startAcceleration);
+  if (way.points.size() > 1 || moving) {
     open.emplace_back(0, way.points.size() - 1);
   }
   while (!open.empty()) {
@@ -94,7 +126,11 @@ vpTimedPath::vpTimedPath(const vpCollisionScene &scene, const vpJointPath &path,
     const Input input = inputOf(arm, way, first, last, spec);
     vpTrajectoryPlan plan(arm.size());
     const vpTrajectoryStatus status = vpDirectTrajectory<Eigen::Dynamic>::calculate(input, plan);
-    const bool single = last == first + 1;
+    const bool single = last <= first + 1;
+    if (!status.isGood() && single && moving && first == 0) {
+      m_worst = vpTrajectoryClearance();
+      return;
+    }
     if (!status.isGood() && single) {
       throw vpException(vpException::badValue, "the path cannot be timed: %s", status.message().c_str());
     }

@@ -54,6 +54,21 @@ struct VISP_EXPORT vpAvoidanceOutput {
 };
 
 /*!
+ * \ingroup group_avoidance
+ * \brief What all methods have in common, so that they are compared on equal terms.
+ */
+struct VISP_EXPORT vpAvoidanceMethodSpec {
+  double period = 0.005;       //!< Of step(), s, > 0.
+  double maxVelocity = 0.5;    //!< Of the end effector's origin, m/s, > 0 (thesis 8.3.4).
+  double maxAcceleration = 1.; //!< Of the same, m/s^2, > 0.
+  double margin = 0.01;        //!< Clearance that is kept, m, >= 0.
+  unsigned int seed = 1;       //!< Of planners that sample, >= 1.
+
+  //! \throw vpException (badValue) naming the field that is out of range, and its value.
+  void validate() const;
+};
+
+/*!
  * \class vpAvoidanceMethod
  * \ingroup group_avoidance
  * \brief A way to bring an arm to a goal among obstacles: one interface for all that are compared.

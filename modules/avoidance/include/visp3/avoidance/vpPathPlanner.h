@@ -101,7 +101,11 @@ public:
 
   //! Plans from \e start to \e goal (n numbers each, rad or m). Allocates.
   [[nodiscard]] vpPathResult plan(const vpJointVector &start, const vpJointVector &goal);
-  //! What it was made with.
+  //! Changes the longest time for planning, s; values that are not > 0 are left out.
+  void setTimeLimit(double seconds) noexcept;
+  //! Changes the seed, so that another try is another try; 0 is left out.
+  void setSeed(unsigned int seed) noexcept;
+  //! The parameters.
   [[nodiscard]] const vpPathPlannerSpec &spec() const noexcept;
 
 private:

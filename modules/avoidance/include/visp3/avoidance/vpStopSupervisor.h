@@ -84,7 +84,6 @@ public:
 
 private:
   bool admit(const vpJointVector &q, const vpJointVector &velocity, vpClearance &pair) noexcept;
-  void planStop(const vpJointVector &q, const vpJointVector &velocity) noexcept;
   [[nodiscard]] bool isRetreat(const vpClearance &now) noexcept;
 
   const vpCollisionScene *m_scene;

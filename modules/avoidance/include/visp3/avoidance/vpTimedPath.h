@@ -26,6 +26,8 @@ struct VISP_EXPORT vpTimedPathSpec {
   double acceleration = 1.; //!< Part of their acceleration limits, (0, 1].
   double margin = 0.;       //!< Clearance that is proven, m, >= 0; not above that of the path's planner.
   double resolution = 1e-4; //!< See vpCertifiedMotionSpec, m, > 0.
+  vpJointVector startVelocity;     //!< Of the joints at the path's first point, n numbers; empty: at rest.
+  vpJointVector startAcceleration; //!< The same for their accelerations.
 };
 
 /*!
@@ -37,6 +39,9 @@ struct VISP_EXPORT vpTimedPathSpec {
  * points and may touch what the path does not; vpCertifiedTrajectory looks at it. Where it is not free it is replaced by
  * two with a rest between them, down to single straight motions, which all joints traverse with the same polynomial and
  * which so are the path itself.
+ *
+ * With a velocity at the start, the first trajectory takes it up; the way to the second point is then not straight, and
+ * what is not free cannot always be mended by a rest.
  */
 class VISP_EXPORT vpTimedPath
 {
@@ -52,8 +57,16 @@ public:
    * \throw vpException (badValue) naming a parameter, a joint without velocity or acceleration limit, or an empty path.
    */
   vpTimedPath(const vpCollisionScene &scene, const vpJointPath &path, const vpTimedPathSpec &spec = {});
+  /*!
+   * \overload
+   * \param certificate : For the same scene; saves the 10 ms of making one. Its margin becomes that of the spec, its
+   * resolution stays.
+   */
+  vpTimedPath(const vpCollisionScene &scene, const vpJointPath &path, const vpTimedPathSpec &spec,
+              vpCertifiedTrajectory &certificate);
 
-  //! True when all of it is proven to be free with the margin. False for a path that is not free itself.
+  //! True when all of it is proven to be free with the margin. False for a path that is not free itself, or that cannot
+  //! be taken up from the velocity at its start within the limits.
   [[nodiscard]] bool isFree() const noexcept { return m_worst.isFree(); }
   //! The first part that is not free, or the last one.
   [[nodiscard]] const vpTrajectoryClearance &clearance() const noexcept { return m_worst; }
@@ -69,6 +82,8 @@ public:
   [[nodiscard]] std::string sentence(const vpCollisionScene &scene) const;
 
 private:
+  void build(const vpCollisionScene &scene, const vpJointPath &path, const vpTimedPathSpec &spec,
+             vpCertifiedTrajectory &certificate);
   void append(const vpTrajectoryPlan &plan, const vpTrajectoryClearance &clearance);
 
   std::vector<Part> m_parts;

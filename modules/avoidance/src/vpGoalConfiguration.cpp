@@ -1,0 +1,87 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include <visp3/avoidance/vpGoalConfiguration.h>
+
+#include <visp3/core/vpException.h>
+#include <visp3/manipulator/vpClosedLoopKinematics.h>
+
+#include <cmath>
+#include <random>
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+constexpr double period = 0.02; // s of a motion that nobody makes: only its end counts
+constexpr int longest = 1500;   // periods
+
+vpJointVector randomConfiguration(const vpArmModel &arm, std::mt19937_64 &random)
+{
+  vpJointVector q(arm.size());
+  for (int j = 0; j < arm.size(); ++j) {
+    const double low = arm.isContinuous(j) ? -M_PI : arm.lower()(j), high = arm.isContinuous(j) ? M_PI : arm.upper()(j);
+    q(j) = std::uniform_real_distribution<double>(low, high)(random);
+  }
+  return q;
+}
+
+std::optional<vpJointVector> reach(vpClosedLoopKinematics &kinematics, const vpArmModel &arm,
+                                   const Eigen::Vector3d &position, const vpJointVector &from)
+{
+  vpArmData data;
+  vpArmKinematics::forward(arm, from, data);
+  vpClosedLoopInput input;
+  input.goal = {data.tool.R, position};
+  input.free = {false, false, false, true, true, true};
+  input.indices[0] = vpSelfMotionIndex::jointLimits();
+  input.indexCount = 1;
+  vpClosedLoopState state;
+  state.q = from;
+  vpClosedLoopOutput output;
+  for (int i = 0; i < longest; ++i) {
+    kinematics.step(input, state, output);
+    if (output.status != vpClosedLoopStatus::Moving) {
+      break;
+    }
+  }
+  return output.status == vpClosedLoopStatus::Reached ? std::optional<vpJointVector>(state.q) : std::nullopt;
+}
+} // namespace
+
+std::optional<vpJointVector> goalConfiguration(const vpCollisionScene &scene, const vpJointVector &from,
+                                               const Eigen::Vector3d &position, double margin, int attempts,
+                                               unsigned int seed)
+{
+  const vpArmModel &arm = scene.arm();
+  if (from.size() != arm.size() || !from.allFinite() || !position.allFinite()) {
+    throw vpException(vpException::badValue,
+                      "a goal configuration is sought from %d numbers, arm %s has %d joints; all must be finite",
+                      static_cast<int>(from.size()), arm.label().c_str(), arm.size());
+  }
+  vpRedundancySpec redundancy;
+  redundancy.period = period;
+  vpClosedLoopSpec spec;
+  spec.maxLinear = 3.;
+  spec.stallTime = 1.;
+  vpClosedLoopKinematics kinematics(arm, redundancy, spec);
+  std::mt19937_64 random(seed);
+  std::optional<vpJointVector> first;
+  vpCollisionData data;
+  vpJointVector start = from;
+  for (int attempt = 0; attempt < attempts; ++attempt, start = randomConfiguration(arm, random)) {
+    const std::optional<vpJointVector> q = reach(kinematics, arm, position, start);
+    if (!q) {
+      continue;
+    }
+    scene.place(*q, data);
+    if (!scene.inCollision(data, margin)) {
+      return q;
+    }
+    first = first ? first : q;
+  }
+  return first;
+}
+
+END_VISP_NAMESPACE

@@ -1,0 +1,470 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include <visp3/avoidance/vpPlannedMotion.h>
+
+#include "vpStopPlan.h"
+
+#include <visp3/avoidance/vpGoalConfiguration.h>
+#include <visp3/core/vpException.h>
+#include <visp3/trajectory/vpDirectTrajectory.h>
+
+#include <algorithm>
+#include <cmath>
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+constexpr double sampleTime = 0.005; // s, for the speed of the tool along a motion
+constexpr double reserve = 0.99;     // of the tool's bounds, for what is between the samples
+constexpr double slack = 1e-4;       // m: the rest of a motion is proven again with so much less margin
+
+void requireGood(const char *field, double value, bool good, const char *range)
+{
+  if (!good || !std::isfinite(value)) {
+    throw vpException(vpException::badValue, "%s of the planned motion is %g, must be %s", field, value, range);
+  }
+}
+
+vpPathPlannerSpec plannerSpec(const vpPlannedMotionSpec &spec, double clearance)
+{
+  spec.validate();
+  vpPathPlannerSpec result;
+  result.planner = spec.planner;
+  result.validation = spec.validation;
+  result.margin = spec.common.margin + clearance;
+  result.shortenTime = spec.shortenTime;
+  result.seed = spec.common.seed;
+  return result;
+}
+
+bool moves(const vpCollisionScene &scene)
+{
+  for (int i = 0; i < scene.objectCount(); ++i) {
+    for (int k = 0; k < 6; ++k) {
+      if (scene.object(i).velocity[k] != 0.) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+} // namespace
+
+void vpPlannedMotionSpec::validate() const
+{
+  common.validate();
+  requireGood("clearance", clearance, clearance >= 0., ">= 0 m");
+  requireGood("startTime", startTime, startTime > 0., "> 0 s");
+  requireGood("replanTime", replanTime, replanTime > 0., "> 0 s");
+  requireGood("shortenTime", shortenTime, shortenTime >= 0., ">= 0 s");
+}
+
+vpPlannedMotion::vpPlannedMotion(const vpCollisionScene &scene, const vpPlannedMotionSpec &spec)
+  : m_scene(&scene), m_spec(spec), m_view(scene), m_wide(m_view, plannerSpec(spec, spec.clearance)),
+    m_near(m_view, plannerSpec(spec, 0.)), m_now(scene, {spec.common.margin, 1e-4}),
+    m_later(m_view, {spec.common.margin, 1e-4})
+{
+  scene.arm().requireMotionLimits("a planned motion");
+}
+
+vpAxisState vpPlannedMotion::at(int joint, double t) const noexcept
+{
+  if (m_parts.empty()) {
+    return {m_hold(joint), 0., 0., 0.};
+  }
+  std::size_t i = m_parts.size() - 1;
+  while (i > 0 && m_parts[i].begin > t) {
+    --i;
+  }
+  return m_parts[i].plan.at(joint, t - m_parts[i].begin);
+}
+
+vpPlannedMotion::State vpPlannedMotion::state(double t) const
+{
+  const int n = m_scene->arm().size();
+  State result{vpJointVector(n), vpJointVector(n), vpJointVector(n)};
+  for (int j = 0; j < n; ++j) {
+    const vpAxisState x = at(j, std::min(t, m_duration));
+    result.q(j) = x[0];
+    result.v(j) = t >= m_duration ? 0. : x[1];
+    result.a(j) = t >= m_duration ? 0. : x[2];
+  }
+  return result;
+}
+
+// The scene as it will be; objects may have come and gone since the last time.
+void vpPlannedMotion::predict(double time)
+{
+  if (m_view.revision() != m_scene->revision()) {
+    m_view = *m_scene;
+  }
+  for (int i = 0; i < m_scene->objectCount(); ++i) {
+    const vpCollisionObject &object = m_scene->object(i);
+    m_view.moveObject(i, object.poseAt(time));
+    m_view.setVelocity(i, object.velocity);
+    m_view.setInflation(i, object.inflation);
+  }
+}
+
+vpAvoidanceStatus vpPlannedMotion::start(const vpJointVector &q, const vpAvoidanceGoal &goal)
+{
+  m_parts.clear();
+  m_duration = m_clock = 0.;
+  m_toGoal = false;
+  m_hold = q;
+  m_status = vpAvoidanceStatus::InvalidInput;
+  if (q.size() != m_scene->arm().size() || !q.allFinite() || !goal.position.allFinite() ||
+      (goal.q.size() != 0 && (goal.q.size() != q.size() || !goal.q.allFinite()))) {
+    return m_status;
+  }
+  m_wish = m_goal = goal;
+  m_goalChanged = true;
+  m_status = vpAvoidanceStatus::Waiting;
+  m_tries = 0;
+  m_planningTime = m_spec.startTime;
+  look();
+  m_planningTime = m_spec.replanTime;
+  return m_status;
+}
+
+void vpPlannedMotion::setGoal(const vpAvoidanceGoal &goal) noexcept
+{
+  const bool fits = goal.q.size() == 0 || (goal.q.size() == m_scene->arm().size() && goal.q.allFinite());
+  if (!fits || !goal.position.allFinite() || m_hold.size() == 0) {
+    return;
+  }
+  const bool same = goal.q.size() == m_wish.q.size() && (goal.q.size() == 0 || goal.q == m_wish.q) &&
+                    goal.position == m_wish.position;
+  m_goalChanged = m_goalChanged || !same;
+  m_wish = goal;
+}
+
+void vpPlannedMotion::look()
+{
+  if (m_status == vpAvoidanceStatus::InvalidInput) {
+    return;
+  }
+  m_now.setMargin(std::max(0., m_spec.common.margin - slack));
+  if (m_goalChanged) {
+    m_goal = m_wish;
+    const State here = state(m_clock);
+    if (m_goal.q.size() == 0) {
+      const auto q = goalConfiguration(*m_scene, here.q, m_goal.position, m_spec.common.margin + m_spec.clearance);
+      m_goal.q = q ? *q : vpJointVector();
+    }
+    m_goalChanged = false;
+    m_toGoal = false;
+  }
+  if (m_goal.q.size() == 0) {
+    brake();
+    m_status = vpAvoidanceStatus::Unreachable;
+    return;
+  }
+  if (m_toGoal && (isAtRest() || restIsFree())) {
+    return;
+  }
+  if (isAtRest()) {
+    planFromRest();
+  }
+  else if (m_spec.replanning == vpReplanning::FromRest || !planOnTheFly()) {
+    if (m_toGoal || !restIsFree()) {
+      brake();
+    }
+  }
+}
+
+bool vpPlannedMotion::restIsFree()
+{
+  for (const vpTimedPath::Part &part : m_parts) {
+    const double end = part.begin + part.plan.duration();
+    if (end < m_clock) {
+      continue;
+    }
+    const double from = std::max(0., m_clock - part.begin);
+    const vpTrajectoryClearance verdict =
+        m_now.check(part.plan, from, part.plan.duration(), std::max(0., part.begin - m_clock));
+    if (!verdict.isFree()) {
+      m_pair = verdict.pair;
+      return false;
+    }
+  }
+  return true;
+}
+
+// The path's points that are still to come, from where the motion is.
+vpJointPath vpPlannedMotion::restOfPath() const
+{
+  vpJointPath path;
+  path.points.push_back(state(m_clock).q);
+  const double soon = m_clock + 2. * m_spec.common.period;
+  for (const vpTimedPath::Part &part : m_parts) {
+    for (int k = 0; k < part.plan.vias(); ++k) {
+      if (part.begin + part.plan.viaTime(k) > soon) {
+        path.points.push_back(state(part.begin + part.plan.viaTime(k)).q);
+      }
+    }
+    const double end = part.begin + part.plan.duration();
+    if (end > soon) {
+      path.points.push_back(state(end).q);
+    }
+  }
+  return path;
+}
+
+// With room first, then with the margin alone; never twice with the same seed.
+vpPathResult vpPlannedMotion::findPath(const vpJointVector &from, double time)
+{
+  predict(time);
+  vpPathResult result;
+  for (vpPathPlanner *planner : {&m_wide, &m_near}) {
+    planner->setSeed(m_spec.common.seed + m_tries++);
+    planner->setTimeLimit(m_planningTime);
+    result = planner->plan(from, m_goal.q);
+    if (result.status == vpPathStatus::Solved) {
+      break;
+    }
+  }
+  return result;
+}
+
+// By how much the tool is within its bounds of velocity and acceleration; below 1: it is not.
+vpPlannedMotion::Shares vpPlannedMotion::toolShares(const vpTimedPath &path) const
+{
+  const int n = m_scene->arm().size();
+  vpArmData data;
+  vpJointVector q(n), v(n);
+  Shares share;
+  Eigen::Vector3d before = Eigen::Vector3d::Zero();
+  for (double t = 0.; t <= path.duration(); t += sampleTime) {
+    for (int j = 0; j < n; ++j) {
+      const vpAxisState x = path.at(j, t);
+      q(j) = x[0];
+      v(j) = x[1];
+    }
+    vpArmKinematics::update(m_scene->arm(), q, data);
+    const Eigen::Vector3d velocity = data.J.topRows<3>() * v;
+    share.velocity = std::min(share.velocity, reserve * m_spec.common.maxVelocity / std::max(1e-9, velocity.norm()));
+    if (t > 0.) {
+      const double acceleration = (velocity - before).norm() / sampleTime;
+      share.acceleration =
+          std::min(share.acceleration, reserve * m_spec.common.maxAcceleration / std::max(1e-9, acceleration));
+    }
+    before = velocity;
+  }
+  return share;
+}
+
+std::optional<vpPlannedMotion::Parts> vpPlannedMotion::timed(const vpJointPath &path, const State &from, double begin,
+                                                             double speed, double acceleration)
+{
+  vpTimedPathSpec spec;
+  spec.margin = m_spec.common.margin;
+  spec.startVelocity = from.v;
+  spec.startAcceleration = from.a;
+  predict(begin);
+  // Slower until the tool keeps its bounds; what it has at the start is not asked of it again.
+  for (int attempt = 0; attempt < 6; ++attempt) {
+    spec.speed = speed;
+    spec.acceleration = acceleration;
+    const vpTimedPath motion(m_view, path, spec, m_later);
+    if (!motion.isFree()) {
+      return std::nullopt;
+    }
+    const Shares tool = toolShares(motion);
+    if (tool.velocity >= 1. && tool.acceleration >= 1.) {
+      Parts parts = motion.parts();
+      for (vpTimedPath::Part &part : parts) {
+        part.begin += begin;
+      }
+      return parts;
+    }
+    speed = std::max(0.01, speed * std::min(1., 0.999 * tool.velocity));
+    acceleration = std::max(0.01, acceleration * std::min(1., 0.999 * tool.acceleration));
+  }
+  return std::nullopt;
+}
+
+void vpPlannedMotion::follow(Parts parts, bool toGoal, vpAvoidanceStatus status)
+{
+  m_hold = state(m_clock).q;
+  m_parts = std::move(parts);
+  m_duration = m_parts.empty() ? 0. : m_parts.back().begin + m_parts.back().plan.duration();
+  m_clock = 0.;
+  m_stopping = 0.;
+  m_toGoal = toGoal;
+  m_status = status;
+  if (toGoal) {
+    m_pair = vpClearance();
+  }
+}
+
+void vpPlannedMotion::planFromRest()
+{
+  const State here = state(m_clock);
+  vpPathStatus why = vpPathStatus::Solved;
+  for (const double time : {0., 0.5, 1.5}) {
+    if (time > 0. && !moves(*m_scene)) {
+      break;
+    }
+    const vpPathResult found = findPath(here.q, time);
+    why = time == 0. ? found.status : why;
+    if (found.status != vpPathStatus::Solved) {
+      continue;
+    }
+    for (const double share : {1., 0.4}) {
+      if (auto parts = timed(found.path, here, 0., share, share * share)) {
+        follow(std::move(*parts), true,
+               found.path.points.size() > 2 ? vpAvoidanceStatus::Detouring : vpAvoidanceStatus::Moving);
+        return;
+      }
+    }
+  }
+  switch (why) {
+  case vpPathStatus::StartInCollision:
+    m_status = vpAvoidanceStatus::StartInCollision;
+    break;
+  case vpPathStatus::GoalInCollision:
+    m_status = vpAvoidanceStatus::GoalInCollision;
+    break;
+  case vpPathStatus::OutsideLimits:
+    m_status = vpAvoidanceStatus::Unreachable;
+    break;
+  default:
+    m_status = vpAvoidanceStatus::Waiting;
+    break;
+  }
+  vpCollisionData data;
+  m_scene->place(why == vpPathStatus::GoalInCollision ? m_goal.q : here.q, data);
+  m_pair = m_scene->clearance(data);
+}
+
+bool vpPlannedMotion::planOnTheFly()
+{
+  const State here = state(m_clock);
+  const auto take = [&](const vpJointPath &path, std::initializer_list<double> speeds) {
+    for (const double speed : speeds) {
+      if (auto parts = timed(path, here, 0., speed, 1.)) {
+        follow(std::move(*parts), true, vpAvoidanceStatus::Detouring);
+        return true;
+      }
+    }
+    return false;
+  };
+  if (m_toGoal && take(restOfPath(), {1., 0.6, 0.35, 0.2})) {
+    return true;
+  }
+  for (const double time : {0., 0.5, 1.5}) {
+    if (time > 0. && !moves(*m_scene)) {
+      break;
+    }
+    const vpPathResult found = findPath(here.q, time);
+    if (found.status == vpPathStatus::Solved && take(found.path, {1., 0.5})) {
+      return true;
+    }
+  }
+  return stopAndPlan();
+}
+
+// A stop that is free, and a path that is free behind it.
+bool vpPlannedMotion::stopAndPlan()
+{
+  for (const vpTrajectoryPlan &stop : stops()) {
+    const double duration = stop.duration();
+    if (!m_now.check(stop, 0., duration).isFree()) {
+      continue;
+    }
+    const int n = m_scene->arm().size();
+    State rest{vpJointVector(n), vpJointVector::Zero(n), vpJointVector::Zero(n)};
+    for (int j = 0; j < n; ++j) {
+      rest.q(j) = stop.at(j, duration)[0];
+    }
+    const vpPathResult found = findPath(rest.q, duration);
+    if (found.status != vpPathStatus::Solved) {
+      continue;
+    }
+    if (auto parts = timed(found.path, rest, duration, 1., 1.)) {
+      parts->insert(parts->begin(), {0., stop});
+      follow(std::move(*parts), true, vpAvoidanceStatus::Detouring);
+      m_stopping = duration;
+      return true;
+    }
+  }
+  return false;
+}
+
+// Straight on, and to places that the motion would go through next: all joints at rest there as soon as they can.
+std::vector<vpTrajectoryPlan> vpPlannedMotion::stops() const
+{
+  const vpArmModel &arm = m_scene->arm();
+  const State here = state(m_clock);
+  std::vector<vpTrajectoryPlan> result;
+  vpTrajectoryPlan straight(arm.size());
+  planStop(arm, here.q, here.v, 0., straight);
+  result.push_back(straight);
+  for (const double ahead : {0.08, 0.15, 0.25, 0.4, 0.6}) {
+    if (m_clock + ahead > m_duration) {
+      break;
+    }
+    vpTrajectoryInput<Eigen::Dynamic> input(arm.size());
+    input.start.q = here.q;
+    input.start.v = here.v;
+    input.start.a = here.a;
+    input.goal.q = state(m_clock + ahead).q;
+    input.maxVelocity = arm.velocity();
+    input.maxAcceleration = arm.acceleration();
+    input.minPosition = arm.lower();
+    input.maxPosition = arm.upper();
+    vpTrajectoryPlan plan(arm.size());
+    if (vpDirectTrajectory<Eigen::Dynamic>::calculate(input, plan).isGood()) {
+      result.push_back(plan);
+    }
+  }
+  return result;
+}
+
+void vpPlannedMotion::brake()
+{
+  if (isAtRest()) {
+    return;
+  }
+  std::vector<vpTrajectoryPlan> plans = stops();
+  const auto free =
+      std::find_if(plans.begin(), plans.end(), [&](const vpTrajectoryPlan &plan) { return m_now.check(plan).isFree(); });
+  const bool safe = free != plans.end();
+  const vpTrajectoryPlan &stop = safe ? *free : plans.front();
+  const vpClearance pair = m_pair;
+  follow({{0., stop}}, false, safe ? vpAvoidanceStatus::Waiting : vpAvoidanceStatus::Unsafe);
+  m_pair = pair;
+  m_stopping = m_duration;
+}
+
+void vpPlannedMotion::step(const vpJointVector &q, vpAvoidanceOutput &output) noexcept
+{
+  const vpArmModel &arm = m_scene->arm();
+  const int n = arm.size();
+  output.velocity = vpJointVector::Zero(n);
+  output.status = vpAvoidanceStatus::InvalidInput;
+  output.pair = m_pair;
+  output.stopping = false;
+  if (m_hold.size() != n || q.size() != n || !q.allFinite()) {
+    return;
+  }
+  output.stopping = m_clock < m_stopping;
+  m_clock = std::min(m_clock + m_spec.common.period, m_duration);
+  double scale = 1.;
+  vpJointVector wanted(n);
+  for (int j = 0; j < n; ++j) {
+    wanted(j) = at(j, m_clock)[0];
+    output.velocity(j) = (wanted(j) - q(j)) / m_spec.common.period;
+    scale = std::max(scale, std::fabs(output.velocity(j)) / arm.velocity()(j));
+  }
+  output.velocity /= scale;
+  vpArmKinematics::forward(arm, wanted, m_data);
+  output.wanted = m_data.tool.p;
+  output.status = m_toGoal && isAtRest() ? vpAvoidanceStatus::Arrived : m_status;
+}
+
+END_VISP_NAMESPACE

@@ -1,0 +1,19 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#ifndef vpPlannerMethods_h
+#define vpPlannerMethods_h
+
+#include <visp3/avoidance/vpAvoidanceMethod.h>
+
+#include <memory>
+
+BEGIN_VISP_NAMESPACE
+
+//! vpPlannedMotion. \throw vpException (notImplementedError) when OMPL was missing.
+[[nodiscard]] std::unique_ptr<vpAvoidanceMethod> makePlannedMotion(const vpCollisionScene &scene, bool onTheFly,
+                                                                   const vpAvoidanceMethodSpec &spec);
+
+END_VISP_NAMESPACE
+#endif
