@@ -18,7 +18,8 @@ double vpClearanceSearch::at(double time, const vpJointVector &q)
   return std::min(m_truth.scene().clearance(m_data, horizon).distance, horizon);
 }
 
-// No clearance changes by more while the joints move by dq within dt: one capsule and an obstacle, or two capsules.
+// No clearance changes by more while the joints move by dq within dt. Of two capsules only the outer one moves as seen
+// from the inner one, by the joints between them.
 double vpClearanceSearch::motion(const vpJointVector &dq, double dt) const
 {
   double arm = 0.;
@@ -29,7 +30,7 @@ double vpClearanceSearch::motion(const vpJointVector &dq, double dt) const
     }
     arm = std::max(arm, way);
   }
-  return arm + std::max(arm, m_truth.fastest() * dt);
+  return arm + m_truth.fastest() * dt;
 }
 
 void vpClearanceSearch::split(Interval &interval, double s0, double c0, double s1, double c1)

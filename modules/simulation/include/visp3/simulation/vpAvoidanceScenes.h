@@ -51,10 +51,11 @@ namespace vpAvoidanceScenes
 constexpr double feasibleMargin = 0.03;
 
 /*!
- * S1, figures 8.6 to 8.12: from the tool at (0.05, 0.63) m straight on to (0.05, 0.93) m. Between 0.3 and 0.6 s a ball
+ * S1, figures 8.6 to 8.12: from the tool at (0.05, 0.63) m straight on to (0.05, 0.93) m. Between 0.2 and 0.45 s a ball
  * appears on the way, and with it the goal moves to (0.225, 0.93) m, as in figure 8.8. The thesis tells place and time
  * of the new goal, not of the obstacle: its radius is 50 mm, its place and the time hang on the seed; the straight way
- * touches it, and a path from the start to the new goal is known. Camera at 10 Hz.
+ * touches it, but not where the arm already is or cannot stop any more, and a path from the start to the new goal is
+ * known. Camera at 10 Hz.
  */
 [[nodiscard]] VISP_EXPORT vpAvoidanceScenario figure88(const std::shared_ptr<const vpArmModel> &arm, unsigned int seed);
 /*!
