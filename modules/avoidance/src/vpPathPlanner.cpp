@@ -11,6 +11,7 @@
 #include <ompl/base/MotionValidator.h>
 #include <ompl/base/objectives/PathLengthOptimizationObjective.h>
 #include <ompl/base/spaces/RealVectorStateSpace.h>
+#include <ompl/base/terminationconditions/IterationTerminationCondition.h>
 #include <ompl/geometric/PathSimplifier.h>
 #include <ompl/geometric/planners/informedtrees/BITstar.h>
 #include <ompl/geometric/planners/kpiece/KPIECE1.h>
@@ -91,6 +92,16 @@ private:
 
   vpMotionCheck *m_check;
   int m_n;
+};
+
+// With a seed of its own: planners ask for samplers while they search, when other threads do so, too.
+class Sampler : public ob::RealVectorStateSampler
+{
+public:
+  Sampler(const ob::StateSpace *space, unsigned int seed) : ob::RealVectorStateSampler(space)
+  {
+    rng_.setLocalSeed(seed);
+  }
 };
 
 template <class Planner> ob::PlannerPtr withRange(const ob::SpaceInformationPtr &si, double range)
@@ -224,6 +235,8 @@ public:
     std::unique_lock<std::mutex> lock(seedLock());
     ompl::RNG::setSeed(spec.seed);
     const ob::StateSpacePtr space = makeSpace(scene->arm(), start, goal);
+    space->setStateSamplerAllocator(
+        [seed = spec.seed](const ob::StateSpace *s) mutable { return std::make_shared<Sampler>(s, seed++); });
     const auto si = std::make_shared<ob::SpaceInformation>(space);
     si->setStateValidityChecker(std::make_shared<Validity>(si, *check, n));
     const auto motions = std::make_shared<Motions>(si, *check, n);
@@ -242,7 +255,7 @@ public:
     const auto begin = Clock::now();
     og::PathSimplifier simplifier(si);
     lock.unlock();
-    const ob::PlannerStatus status = planner->solve(spec.timeLimit);
+    const ob::PlannerStatus status = solve(*planner);
     result.planningTime = since(begin);
     const bool exact = status == ob::PlannerStatus::EXACT_SOLUTION;
     if (exact) {
@@ -256,6 +269,23 @@ public:
     }
     result.motions = static_cast<long>(motions->getValidMotionCount() + motions->getInvalidMotionCount());
     result.status = exact ? vpPathStatus::Solved : vpPathStatus::TimedOut;
+  }
+
+  //! Of a search, for messages.
+  [[nodiscard]] std::string limits() const
+  {
+    const std::string time = std::to_string(spec.timeLimit) + " s";
+    return spec.iterations == 0 ? time : time + " or " + std::to_string(spec.iterations) + " iterations";
+  }
+
+  [[nodiscard]] ob::PlannerStatus solve(ob::Planner &planner) const
+  {
+    const auto time = ob::timedPlannerTerminationCondition(spec.timeLimit);
+    if (spec.iterations == 0) {
+      return planner.solve(time);
+    }
+    ob::IterationTerminationCondition rounds(spec.iterations);
+    return planner.solve(ob::plannerOrTerminationCondition(time, rounds));
   }
 
   const vpCollisionScene *scene;
@@ -324,10 +354,10 @@ vpPathResult vpPathPlanner::plan(const vpJointVector &start, const vpJointVector
     return result;
   }
   m_impl->search(start, end, result);
-  result.sentence = result.status == vpPathStatus::Solved
-                        ? "A path was found."
-                        : m_impl->spec.planner + " found no path in " + std::to_string(m_impl->spec.timeLimit) +
-                              " s; that does not mean that there is none.";
+  result.sentence =
+      result.status == vpPathStatus::Solved
+          ? "A path was found."
+          : m_impl->spec.planner + " found no path in " + m_impl->limits() + "; that does not mean that there is none.";
   return result;
 }
 

@@ -14,6 +14,7 @@
 
 #include <cstdlib>
 #include <iostream>
+#include <thread>
 
 using namespace vpAvoidanceTestKit;
 
@@ -250,4 +251,71 @@ TEST_CASE("A path is walked by its length", "[planner]")
   CHECK(path.at(0.25)(0) == 1.);
   CHECK(path.at(0.5)(0) == Approx(2.));
   CHECK(path.at(2.)(0) == 4.);
+}
+
+TEST_CASE("Plans repeat for a seed, alone and while other threads plan", "[planner]")
+{
+  const vpCollisionSceneFile file = vpLoadCollisionScene(dataFile("scene/s4b-shelf.json"));
+  const vpCollisionScene scene(amor(), file.spec);
+  constexpr unsigned int seeds = 8;
+  const auto plan = [&](unsigned int seed) {
+    vpPathPlannerSpec spec;
+    spec.seed = seed;
+    spec.shortenTime = 0.; // a limit of time
+    spec.timeLimit = 60.;
+    spec.iterations = 5000;
+    vpPathPlanner planner(scene, spec);
+    std::vector<double> numbers;
+    for (const vpJointVector &q : planner.plan(file.tasks[1].start, file.tasks[1].goal).path.points) {
+      numbers.insert(numbers.end(), q.data(), q.data() + q.size());
+    }
+    return numbers;
+  };
+  std::vector<std::vector<double>> alone, together(seeds);
+  for (unsigned int k = 0; k < seeds; ++k) {
+    alone.push_back(plan(k + 1));
+    REQUIRE(alone.back().size() >= 14);
+  }
+  for (int round = 0; round < 5; ++round) {
+    std::vector<std::thread> threads;
+    for (unsigned int half = 0; half < 4; ++half) {
+      threads.emplace_back([&, half] {
+        for (unsigned int k = half; k < seeds; k += 4) {
+          together[k] = plan(k + 1);
+        }
+      });
+    }
+    for (std::thread &thread : threads) {
+      thread.join();
+    }
+    for (unsigned int k = 0; k < seeds; ++k) {
+      CHECK((alone[k] == together[k]));
+    }
+  }
+  CHECK((alone[0] != alone[1]));
+}
+
+TEST_CASE("A limit of iterations ends a search that has no end", "[planner]")
+{
+  vpCollisionSceneSpec closed; // walls on all sides, and the goal turned away: no way round the base
+  for (int k = 0; k < 2; ++k) {
+    vpCollisionObject wall;
+    wall.name = "wall " + std::to_string(k);
+    wall.shape = vpCollisionShape::box({0.05, 4., 4.});
+    wall.pose.p.x() = k == 0 ? -0.25 : 0.25;
+    closed.objects.push_back(wall);
+  }
+  const vpCollisionScene scene(amor(), closed);
+  vpPathPlannerSpec spec;
+  spec.iterations = 20;
+  spec.timeLimit = 1000.;
+  vpJointVector start = amor().home(), goal = start;
+  start << 1.6, 1.4, 0., -1.6, 0., 0., 0.;
+  goal = start;
+  goal(0) = -1.6;
+  vpPathPlanner planner(scene, spec);
+  const vpPathResult result = planner.plan(start, goal);
+  CAPTURE(result.sentence);
+  CHECK(result.status == vpPathStatus::TimedOut);
+  CHECK(result.sentence.find(" or 20 iterations;") != std::string::npos);
 }

@@ -2,15 +2,22 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
+/*!
+ * \file vpObjectTracks.h
+ * \brief From sightings of obstacles to obstacles that move: place, velocity and uncertainty of each, now.
+ */
 #ifndef vpObjectTracks_h
 #define vpObjectTracks_h
 
 #include <visp3/avoidance/vpCollisionScene.h>
 
+#include <limits>
 #include <string>
 #include <vector>
 
 BEGIN_VISP_NAMESPACE
+
+class vpTrackFilter;
 
 /*!
  * \ingroup group_avoidance
@@ -28,17 +35,27 @@ struct VISP_EXPORT vpObjectSighting {
 /*!
  * \ingroup group_avoidance
  * \brief Parameters of vpObjectTracks.
+ *
+ * Unforeseen accelerations are white noise of density q = acceleration^2 persistence (m^2/s^3): after a time t the
+ * velocity has changed by sqrt(q t), one standard deviation, and the place by sqrt(q t^3 / 3), at any rate of sightings.
  */
 struct VISP_EXPORT vpObjectTrackSpec {
   double acceleration = 0.5;       //!< Of objects, unforeseen: standard deviation, m/s^2, > 0. Large: quick, noisy.
   double angularAcceleration = 1.; //!< The same in rad/s^2, > 0.
+  double persistence = 0.1;        //!< An unforeseen acceleration lasts about so long, s, > 0.
+  double restAcceleration = 0.02;  //!< As #acceleration, for what is at rest and not seen now, m/s^2, >= 0.
+  double startVelocity = 0.3;      //!< Of something just found: standard deviation of each component, m/s, > 0.
+  double startTurn = 0.5;          //!< The same of its rotation, rad/s, > 0.
   double gate = 5.;                //!< A sighting farther than so many standard deviations is doubted, > 0.
-  int doubts = 2;                  //!< So many doubted sightings in a row start the track anew, >= 1.
+  int doubts = 2;                  //!< So many doubted sightings in a row that agree start the track anew, >= 1.
   double restSigmas = 3.;          //!< A velocity below so many of its standard deviations counts as rest, >= 0.
-  double inflationSigmas = 3.;     //!< The shape counts as so many standard deviations of its place thicker, >= 0.
-  double maxInflation = 0.1;       //!< At most, m, >= 0.
-  double coast = 0.5;              //!< Without a sighting an object moves on for so long, s, >= 0; then it stays.
-  double forget = 5.;              //!< Without a sighting for so long it is dropped, s, > 0; infinity: never.
+  double restSpeed = 0.03;     //!< Nothing faster may count as rest, m/s, > 0: decides how many sightings that takes.
+  double restTurn = 0.1;       //!< The same of the rotation, rad/s, > 0.
+  double inflationSigmas = 3.; //!< The shape counts as so many standard deviations of its place thicker, >= 0.
+  double maxInflation = 0.1;   //!< At most, m, >= 0.
+  double fresh = 0.15;         //!< Seen within that time it is vpTrackStatus::Tracked, s, >= 0.
+  double coast = 0.5;          //!< Without a sighting an object moves on for so long, s, >= 0; then it stays.
+  double forget = 5.;          //!< Without a sighting for so long it is dropped, s, > 0; infinity: never.
 
   //! \throw vpException (badValue) naming the field that is out of range, and its value.
   void validate() const;
@@ -52,21 +69,27 @@ enum class vpTrackStatus {
   Lost      //!< Not seen for longer than vpObjectTrackSpec::coast; stays where it was thought to be.
 };
 
+//! The status as a word ("Tracked"), for files; static text.
+[[nodiscard]] VISP_EXPORT const char *toString(vpTrackStatus status);
+
 /*!
  * \ingroup group_avoidance
  * \brief One row of the table.
  */
 struct VISP_EXPORT vpObjectTrack {
-  std::string name;                          //!< Of the sightings.
-  vpCollisionShape shape;                    //!< Of the last sighting.
-  vpRigidTransform pose;                     //!< fMo now, m.
-  vpTwist velocity;                          //!< Of the object's origin, and angular; axes of the base; m/s, rad/s.
-  double positionSigma = 0.;                 //!< Standard deviation of each coordinate now, m.
-  double velocitySigma = 0.;                 //!< Of each component of the linear velocity, m/s.
-  double inflation = 0.;                     //!< For vpCollisionObject, m.
-  double age = 0.;                           //!< Since the exposure of the last sighting, s.
-  int sightings = 0;                         //!< How often it was seen.
-  double confidence = 0.;                    //!< 0..1: grows with sightings, falls with age and with doubts.
+  std::string name;                                        //!< Of the sightings.
+  vpCollisionShape shape = vpCollisionShape::sphere(0.05); //!< Of the last sighting.
+  vpRigidTransform pose;                                   //!< fMo now, m.
+  vpTwist velocity;          //!< Of the object's origin, and angular; axes of the base; m/s, rad/s. At rest exactly 0.
+  double positionSigma = 0.; //!< Standard deviation of each coordinate now, m.
+  double angleSigma = 0.;    //!< Of each component of the rotation now, rad.
+  double velocitySigma = 0.; //!< Of each component of the linear velocity, m/s.
+  double inflation = 0.;     //!< For vpCollisionObject, m: for place and rotation, at the point farthest out.
+  double age = 0.;           //!< Since the exposure of the last sighting that was used, s.
+  int sightings = 0;         //!< How often it was seen since it was found or started anew.
+  int restarts = 0;          //!< How often it was found somewhere else than it could be and was started anew.
+  double confidence = 0.;    //!< 0..1: grows with sightings, falls with age, doubts and restarts.
+  bool resting = false;      //!< Does not move, as far as the sightings tell; it may turn.
   vpTrackStatus status = vpTrackStatus::New; //!< How good that is.
 };
 
@@ -78,19 +101,33 @@ struct VISP_EXPORT vpObjectTrack {
  * Each object has a Kalman filter of constant velocity for position and one for rotation (on SO(3), error in the axes of
  * the base). Sightings count at their times of exposure; what is asked for is predicted to now. What is not seen any more
  * grows by its uncertainty and is not forgotten at once: an obstacle that hides is still there.
+ *
+ * A line is fitted through as many of the last sightings as tell vpObjectTrackSpec::restSpeed from rest. When its slope
+ * and its scatter are those of noise, the object is at rest: its place is their mean, its velocity exactly 0.
+ *
+ * A sighting outside the gate is not used. When several in a row agree with each other the object is there: the track is
+ * started anew, which vpObjectTrack::restarts counts and vpObjectTrack::confidence shows. Four times as many in a row
+ * that do not agree do the same.
  */
 class VISP_EXPORT vpObjectTracks
 {
 public:
   //! \throw vpException (badValue), see vpObjectTrackSpec::validate().
   explicit vpObjectTracks(const vpObjectTrackSpec &spec = {});
+  vpObjectTracks(const vpObjectTracks &other);
+  vpObjectTracks(vpObjectTracks &&other) noexcept;
+  vpObjectTracks &operator=(const vpObjectTracks &other);
+  vpObjectTracks &operator=(vpObjectTracks &&other) noexcept;
+  ~vpObjectTracks();
 
   /*!
-   * A sensor saw an object. Sightings that are older than the last one of their track, or not finite, are left out.
+   * A sensor saw an object. Left out are sightings older than the last one of their track, doubted ones, and broken
+   * ones: without a name, with a number that is not finite or a standard deviation that is not > 0. Allocates for a new
+   * name. Call advance() when all sightings of the moment are in.
    * \return True when it was used.
    */
   bool add(const vpObjectSighting &sighting);
-  //! Predicts every track to \e now, s, and drops the forgotten ones. Times that go back are left out.
+  //! Predicts every track to \e now, s, and drops the forgotten ones. Times that go back are left out. No allocation.
   void advance(double now);
   //! All tracks, at the time of the last advance().
   [[nodiscard]] const std::vector<vpObjectTrack> &tracks() const noexcept { return m_tracks; }
@@ -98,28 +135,28 @@ public:
   [[nodiscard]] const vpObjectTrack *find(const std::string &name) const noexcept;
 
   /*!
-   * Brings the tracks into a scene: objects are added, moved, given velocity and inflation, and removed when their track
-   * is gone. Objects that never were a track (fixed ones) stay as they are. Allocates when an object comes, goes or
-   * changes its shape.
+   * Brings the tracks into a scene, always the same one: objects are added, moved, given velocity and inflation, and
+   * removed when their track is gone. An object of that name that was in the scene before is taken over; it is known to
+   * exist, so it stays, at rest, where it was last when its track is gone. All other objects stay as they are. Allocates
+   * when an object comes, goes or changes its shape.
    * \return True when it did.
    */
   bool applyTo(vpCollisionScene &scene);
 
 private:
-  struct Filter {
-    double time = 0.; // of the last sighting
-    Eigen::Vector3d position = Eigen::Vector3d::Zero(), linear = Eigen::Vector3d::Zero();
-    Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
-    Eigen::Vector3d angular = Eigen::Vector3d::Zero();
-    Eigen::Matrix2d P = Eigen::Matrix2d::Zero(), Q = Eigen::Matrix2d::Zero(); // the same for each axis
-    int doubted = 0;
+  struct Applied {
+    std::string name;
+    bool brought; // by applyTo(), and not there before
   };
+  void refresh(std::size_t i) noexcept;
+  bool place(vpCollisionScene &scene, const vpObjectTrack &track);
+  bool withdraw(vpCollisionScene &scene);
 
   vpObjectTrackSpec m_spec;
   std::vector<vpObjectTrack> m_tracks;
-  std::vector<Filter> m_filters;
-  std::vector<std::string> m_applied; // names that applyTo() brought into the scene
-  double m_now = 0.;
+  std::vector<vpTrackFilter> m_filters; // one for each track
+  std::vector<Applied> m_applied;
+  double m_now = -std::numeric_limits<double>::infinity();
 };
 
 END_VISP_NAMESPACE

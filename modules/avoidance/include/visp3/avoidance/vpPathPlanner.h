@@ -35,6 +35,8 @@ struct VISP_EXPORT vpPathPlannerSpec {
   double margin = 0.005;                                         //!< Clearance kept, m, >= 0.
   double step = 0.05;       //!< Discrete validation: largest change of a joint between samples, rad or m, > 0.
   double timeLimit = 2.;    //!< For planning, s, > 0.
+  //! Planning ends after so many rounds of the planner's loop, too; 0: only with the time. Repeats on any machine.
+  unsigned int iterations = 0;
   bool stopAtFirst = true;  //!< RRT* and BIT*: false goes on improving until the time is up.
   double range = 0.;        //!< Longest motion of a tree, rad or m, >= 0; 0: OMPL chooses.
   double shortenTime = 0.2; //!< Longest time for making a found way shorter (OMPL's PathSimplifier), s, >= 0; 0: none.

@@ -1,0 +1,249 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include <visp3/avoidance/vpObjectTracks.h>
+
+#include "vpTrackFilter.h"
+
+#include <visp3/core/vpException.h>
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+// A sensor's numbers are rounded; vpCollisionScene wants 1e-6.
+constexpr double rotationTolerance = 1e-6;
+
+bool isPositive(double value) { return std::isfinite(value) && value > 0.; }
+
+bool isGood(const vpObjectSighting &sighting)
+{
+  const Eigen::Matrix3d &R = sighting.pose.R;
+  return !sighting.name.empty() && std::isfinite(sighting.time) && sighting.pose.p.allFinite() && R.allFinite() &&
+         (R * R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < rotationTolerance &&
+         R.determinant() > 0. && isPositive(sighting.positionSigma) && isPositive(sighting.angleSigma);
+}
+
+bool isSame(const vpCollisionShape &a, const vpCollisionShape &b)
+{
+  if (a.type() != b.type() || a.radius() != b.radius() || a.length() != b.length() || a.size() != b.size()) {
+    return false;
+  }
+  return a.type() == vpShapeType::Mesh     ? &a.mesh().data() == &b.mesh().data()
+         : a.type() == vpShapeType::Octree ? &a.octree().data() == &b.octree().data()
+                                           : true;
+}
+
+//! Of the point farthest from the shape's origin, m.
+double reach(const vpCollisionShape &shape)
+{
+  double farthest = 0.;
+  switch (shape.type()) {
+  case vpShapeType::Sphere:
+    return shape.radius();
+  case vpShapeType::Capsule:
+    return 0.5 * shape.length() + shape.radius();
+  case vpShapeType::Box:
+    return 0.5 * shape.size().norm();
+  case vpShapeType::Cylinder:
+    return std::hypot(0.5 * shape.length(), shape.radius());
+  case vpShapeType::Mesh:
+    for (const Eigen::Vector3d &vertex : shape.mesh().vertices()) {
+      farthest = std::max(farthest, vertex.norm());
+    }
+    return farthest;
+  case vpShapeType::Octree:
+    for (const vpOctreeCell &cell : shape.octree().cells()) {
+      farthest = std::max(farthest, (cell.centre.cwiseAbs().array() + 0.5 * cell.size).matrix().norm());
+    }
+    return farthest;
+  }
+  return farthest;
+}
+
+vpCollisionObject toObject(const vpObjectTrack &track)
+{
+  vpCollisionObject object;
+  object.name = track.name;
+  object.shape = track.shape;
+  object.pose = track.pose;
+  object.velocity = track.velocity;
+  object.inflation = track.inflation;
+  return object;
+}
+} // namespace
+
+void vpObjectTrackSpec::validate() const
+{
+  const auto require = [](bool good, const char *field, double value, const char *range) {
+    if (!good) {
+      throw vpException(vpException::badValue, "%s of the object tracks is %g, must be %s", field, value, range);
+    }
+  };
+  const auto positive = [&](const char *field, double value, const char *range) {
+    require(isPositive(value), field, value, range);
+  };
+  const auto notNegative = [&](const char *field, double value, const char *range) {
+    require(std::isfinite(value) && value >= 0., field, value, range);
+  };
+  positive("acceleration", acceleration, "> 0 m/s^2 and finite");
+  positive("angularAcceleration", angularAcceleration, "> 0 rad/s^2 and finite");
+  positive("persistence", persistence, "> 0 s and finite");
+  notNegative("restAcceleration", restAcceleration, ">= 0 m/s^2 and finite");
+  positive("startVelocity", startVelocity, "> 0 m/s and finite");
+  positive("startTurn", startTurn, "> 0 rad/s and finite");
+  positive("gate", gate, "> 0 and finite");
+  require(doubts >= 1, "doubts", doubts, ">= 1");
+  notNegative("restSigmas", restSigmas, ">= 0 and finite");
+  positive("restSpeed", restSpeed, "> 0 m/s and finite");
+  positive("restTurn", restTurn, "> 0 rad/s and finite");
+  notNegative("inflationSigmas", inflationSigmas, ">= 0 and finite");
+  notNegative("maxInflation", maxInflation, ">= 0 m and finite");
+  notNegative("fresh", fresh, ">= 0 s and finite");
+  notNegative("coast", coast, ">= 0 s and finite");
+  require(forget > 0., "forget", forget, "> 0 s");
+}
+
+const char *toString(vpTrackStatus status)
+{
+  switch (status) {
+  case vpTrackStatus::New:
+    return "New";
+  case vpTrackStatus::Tracked:
+    return "Tracked";
+  case vpTrackStatus::Coasting:
+    return "Coasting";
+  case vpTrackStatus::Lost:
+    break;
+  }
+  return "Lost";
+}
+
+vpObjectTracks::vpObjectTracks(const vpObjectTrackSpec &spec) : m_spec(spec) { m_spec.validate(); }
+vpObjectTracks::vpObjectTracks(const vpObjectTracks &other) = default;
+vpObjectTracks::vpObjectTracks(vpObjectTracks &&other) noexcept = default;
+vpObjectTracks &vpObjectTracks::operator=(const vpObjectTracks &other) = default;
+vpObjectTracks &vpObjectTracks::operator=(vpObjectTracks &&other) noexcept = default;
+vpObjectTracks::~vpObjectTracks() = default;
+
+const vpObjectTrack *vpObjectTracks::find(const std::string &name) const noexcept
+{
+  const auto found = std::find_if(m_tracks.begin(), m_tracks.end(),
+                                  [&name](const vpObjectTrack &track) { return track.name == name; });
+  return found == m_tracks.end() ? nullptr : &*found;
+}
+
+bool vpObjectTracks::add(const vpObjectSighting &sighting)
+{
+  if (!isGood(sighting)) {
+    return false;
+  }
+  const vpObjectTrack *const known = find(sighting.name);
+  std::size_t i = m_tracks.size();
+  if (known == nullptr) {
+    m_tracks.emplace_back();
+    m_tracks.back().name = sighting.name;
+    m_filters.emplace_back(sighting, m_spec);
+  }
+  else {
+    i = static_cast<std::size_t>(known - m_tracks.data());
+    if (sighting.time < m_filters[i].time()) {
+      return false;
+    }
+    if (!m_filters[i].add(sighting, m_spec)) {
+      refresh(i); // confidence has fallen
+      return false;
+    }
+  }
+  if (known == nullptr || !isSame(m_tracks[i].shape, sighting.shape)) {
+    m_tracks[i].shape = sighting.shape;
+    m_filters[i].setReach(reach(sighting.shape));
+  }
+  refresh(i);
+  return true;
+}
+
+void vpObjectTracks::refresh(std::size_t i) noexcept
+{
+  vpObjectTrack &track = m_tracks[i];
+  m_filters[i].predict(m_now, m_spec, track);
+  const double sigma = std::hypot(track.positionSigma, track.angleSigma * m_filters[i].reach());
+  track.inflation = std::min(m_spec.inflationSigmas * sigma, m_spec.maxInflation);
+}
+
+void vpObjectTracks::advance(double now)
+{
+  if (!std::isfinite(now) || now < m_now) {
+    return;
+  }
+  m_now = now;
+  for (std::size_t i = m_tracks.size(); i-- > 0;) {
+    if (m_now - m_filters[i].time() > m_spec.forget) {
+      m_tracks.erase(m_tracks.begin() + static_cast<std::ptrdiff_t>(i));
+      m_filters.erase(m_filters.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+    else {
+      refresh(i);
+    }
+  }
+}
+
+// Returns true when the list of objects changed.
+bool vpObjectTracks::place(vpCollisionScene &scene, const vpObjectTrack &track)
+{
+  const int i = scene.find(track.name);
+  const bool known = std::any_of(m_applied.begin(), m_applied.end(),
+                                 [&track](const Applied &applied) { return applied.name == track.name; });
+  if (!known) {
+    m_applied.push_back({track.name, i < 0});
+  }
+  if (i >= 0 && isSame(scene.object(i).shape, track.shape)) {
+    static_cast<void>(scene.moveObject(i, track.pose));
+    static_cast<void>(scene.setVelocity(i, track.velocity));
+    static_cast<void>(scene.setInflation(i, track.inflation));
+    return false;
+  }
+  if (i >= 0) {
+    scene.remove(i);
+  }
+  scene.add(toObject(track));
+  return true;
+}
+
+// Objects whose tracks are gone. Returns true when the list of objects changed.
+bool vpObjectTracks::withdraw(vpCollisionScene &scene)
+{
+  bool changed = false;
+  for (std::size_t k = m_applied.size(); k-- > 0;) {
+    if (find(m_applied[k].name) != nullptr) {
+      continue;
+    }
+    const int i = scene.find(m_applied[k].name);
+    if (i >= 0 && m_applied[k].brought) {
+      scene.remove(i);
+      changed = true;
+    }
+    else if (i >= 0) {
+      static_cast<void>(scene.setVelocity(i, vpTwist()));
+    }
+    m_applied.erase(m_applied.begin() + static_cast<std::ptrdiff_t>(k));
+  }
+  return changed;
+}
+
+bool vpObjectTracks::applyTo(vpCollisionScene &scene)
+{
+  bool changed = withdraw(scene);
+  for (const vpObjectTrack &track : m_tracks) {
+    changed = place(scene, track) || changed;
+  }
+  return changed;
+}
+
+END_VISP_NAMESPACE

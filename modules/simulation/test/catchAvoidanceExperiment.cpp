@@ -1,0 +1,329 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// The loop of avoidance against closed forms: a sledge that is driven by a known polynomial past balls.
+#include "vpCatch.h"
+#include "vpMethodsOfTests.h"
+
+#include <visp3/core/vpException.h>
+
+#include <cmath>
+
+using namespace vpMethodsOfTests;
+
+namespace
+{
+std::string messageOf(vpAvoidanceRunSpec spec)
+{
+  try {
+    static_cast<void>(runAvoidanceExperiment(spec));
+  }
+  catch (const vpException &e) {
+    return e.getStringMessage();
+  }
+  return "no error";
+}
+
+double minimumJerk(double t, double duration)
+{
+  const double s = std::min(1., t / duration);
+  return s * s * s * (10. - 15. * s + 6. * s * s);
+}
+} // namespace
+
+TEST_CASE("The figures of a straight motion are those of its polynomial", "[avoidance-experiment]")
+{
+  for (const double T : {1.5, 4.}) {
+    BlindMethod::Spec blind;
+    blind.duration = T;
+    vpAvoidanceRunSpec spec = sledgeRun(-0.2, 0.6, blind);
+    spec.methodSpec.period = 0.002;
+    const double h = 0.8;
+    const vpAvoidanceRun run = runAvoidanceExperiment(spec);
+    const vpAvoidanceMetrics &m = run.metrics;
+    CAPTURE(T, m.status);
+    CHECK(m.success);
+    CHECK(m.goal_error_m < 1e-12);
+    CHECK(m.peak_v == Approx(15. / 8. * h / T).epsilon(2e-3));
+    CHECK(m.peak_a == Approx(10. / std::sqrt(3.) * h / (T * T)).epsilon(5e-3));
+    CHECK(m.peak_jerk == Approx(60. * h / (T * T * T)).epsilon(2e-2)); // at the ends, where differences are late
+    CHECK(m.jerk_integral == Approx(720. * h * h / std::pow(T, 5)).epsilon(1e-2));
+    CHECK(m.path_length == Approx(h).epsilon(1e-9));
+    CHECK(m.duration_s < T);
+    CHECK(m.duration_s > 0.9 * T);
+    CHECK(run.samples.back().time - m.duration_s == Approx(0.2).margin(0.01));
+    CHECK(m.min_clearance_m == 1.); // nothing is there
+    const bool tooFast = 15. / 8. * h / T > 0.5, tooHard = 10. / std::sqrt(3.) * h / (T * T) > 1.;
+    CHECK((m.tool_v_violations > 0) == tooFast);
+    CHECK((m.tool_a_violations > 0) == tooHard);
+    CHECK(m.joint_v_violations == 0);
+    CHECK(m.joint_a_violations == 0);
+  }
+}
+
+TEST_CASE("The limits of the joints are those of the arm", "[avoidance-experiment]")
+{
+  BlindMethod::Spec blind;
+  blind.duration = 0.8; // 3 m: 7 m/s, 27 m/s^2
+  const vpAvoidanceRun run = runAvoidanceExperiment(sledgeRun(-1., 2., blind));
+  int fast = 0;
+  for (int i = 0; i < 160; ++i) {
+    const double v = 3. * (minimumJerk(0.005 * (i + 1), 0.8) - minimumJerk(0.005 * i, 0.8)) / 0.005;
+    fast += v > 2. * (1. + 1e-6) ? 1 : 0;
+  }
+  CHECK(run.metrics.joint_v_violations == fast);
+  CHECK(fast > 50);
+  CHECK(run.metrics.joint_a_violations > 20);
+}
+
+TEST_CASE("The least clearance is that between the samples, too", "[avoidance-experiment]")
+{
+  auto rng = vpTestSupport::generator(11);
+  CAPTURE(vpTestSupport::seed());
+  int touched = 0;
+  for (int problem = 0; problem < 60; ++problem) {
+    BlindMethod::Spec blind;
+    blind.duration = 0.5;
+    vpAvoidanceRunSpec spec = sledgeRun(0., 0.8, blind);
+    spec.methodSpec.period = 0.05; // up to 15 cm of the arm between two samples
+    const Vector3d cross(uniform(rng, 0.2, 0.6), uniform(rng, -0.1, 0.1), 0.);
+    const Vector3d velocity(uniform(rng, -1., 1.), uniform(rng, -2., 2.), uniform(rng, -2., 2.));
+    const double meets = uniform(rng, 0.1, 0.5);
+    spec.obstacles.push_back(movingBall(cross - meets * velocity, velocity));
+    if (problem % 3 == 0) {
+      spec.obstacles.back().turnAfter = uniform(rng, 0.25, 0.6);
+    }
+    const vpAvoidanceRun run = runAvoidanceExperiment(spec);
+
+    double least = 1.;
+    for (const vpAvoidanceSample &s : run.samples) {
+      for (int i = 0; i < 2000 && &s != &run.samples.back(); ++i) { // every 25 us
+        const double t = 0.05 / 2000 * i;
+        vpRigidTransform pose;
+        vpTwist unused;
+        spec.obstacles.back().stateAt(s.time + t, pose, unused);
+        least = std::min(least, (Vector3d(s.q(0) + t * s.command(0), 0., 0.) - pose.p).norm() - ball - 0.04);
+      }
+    }
+    CAPTURE(problem, least, run.metrics.min_clearance_m);
+    CHECK(run.metrics.min_clearance_m <= least + 2e-4);
+    CHECK(run.metrics.min_clearance_m >= least - 2e-4);
+    if (std::fabs(least) > 3e-4) {
+      const int collisions = run.metrics.collisions_moving + run.metrics.collisions_standing;
+      CHECK((collisions > 0) == (least < 0.));
+      touched += least < 0. ? 1 : 0;
+    }
+  }
+  CHECK(touched > 5);
+  CHECK(touched < 55);
+}
+
+TEST_CASE("What runs into an arm at rest is counted apart", "[avoidance-experiment]")
+{
+  // The sledge rests at 0.5 m from 1 s on; the ball comes down on it at 2 s, goes, and comes again.
+  BlindMethod::Spec blind;
+  blind.duration = 1.;
+  vpAvoidanceRunSpec spec = sledgeRun(0., 0.5, blind);
+  spec.goalMoves.push_back({8., 8., spec.goal}); // something to stay for
+  vpMovingObstacle falling = movingBall({0.5, 0., 1.}, {0., 0., -0.5});
+  falling.turnAfter = 2.2;
+  spec.obstacles.push_back(falling);
+  const vpAvoidanceMetrics standing = runAvoidanceExperiment(spec).metrics;
+  CHECK(standing.collisions_standing == 2);
+  CHECK(standing.collisions_moving == 0);
+  CHECK(standing.success);
+
+  spec.makeMethod = sledgeRun(0., 0.5).makeMethod; // takes 2 s: it still moves a little, or not, when the ball comes
+  spec.obstacles.front().object.velocity[2] = -1.; // comes at 1 s
+  spec.obstacles.front().object.pose.p.x() = 0.25;
+  const vpAvoidanceMetrics moving = runAvoidanceExperiment(spec).metrics;
+  CHECK(moving.collisions_moving == 1);
+  CHECK_FALSE(moving.success);
+  CHECK(moving.status.find("touched something while it moved, 1 times, by ") == 0);
+}
+
+TEST_CASE("What appears is there from then on, and goes when it vanishes", "[avoidance-experiment]")
+{
+  auto diary = std::make_shared<BlindMethod::Diary>();
+  vpAvoidanceRunSpec spec = sledgeRun(0., 0.5, {}, diary);
+  spec.obstacles.push_back(movingBall({0.25, 0., 0.}, {0., 0., 0.}));
+  spec.obstacles.front().appears = 0.3;
+  spec.obstacles.front().vanishes = 0.6; // the sledge is 10 cm away then
+  const vpAvoidanceRun run = runAvoidanceExperiment(spec);
+  CHECK(run.metrics.success);
+  for (const vpAvoidanceSample &s : run.samples) {
+    CHECK((s.clearance.kind == vpCollisionKind::Object) == (s.time >= 0.3 - 1e-9 && s.time < 0.6 - 1e-9));
+    CHECK((s.nearest == "ball") == (s.clearance.kind == vpCollisionKind::Object));
+  }
+  for (std::size_t i = 0; i < diary->seenAt.size(); ++i) { // seen with the first frame from then on
+    const double t = 0.005 * static_cast<double>(i);
+    CHECK(std::isfinite(diary->seenAt[i]) == (t >= 0.3 - 1e-9 && t < 0.6 - 1e-9));
+  }
+}
+
+TEST_CASE("Frames come at their rate, after their latency, and not while the camera is covered",
+          "[avoidance-experiment]")
+{
+  struct Watcher : vpObstacleSensor {
+    explicit Watcher(std::shared_ptr<std::vector<double>> exposures) : times(std::move(exposures)) {}
+    void look(const vpCollisionScene &, const vpCollisionData &, double time,
+              std::vector<vpObjectSighting> &result) override
+    {
+      times->push_back(time);
+      result.clear();
+    }
+    std::shared_ptr<std::vector<double>> times;
+  };
+  auto diary = std::make_shared<BlindMethod::Diary>();
+  auto exposures = std::make_shared<std::vector<double>>();
+  vpAvoidanceRunSpec spec = sledgeRun(0., 0.5, {}, diary);
+  spec.sight = vpObstacleSight::Custom;
+  spec.makeSensor = [exposures](unsigned int) { return std::make_unique<Watcher>(exposures); };
+  spec.visionRate = 20.;
+  spec.latency = 0.03;
+  spec.covered = {{0.42, 0.81}};
+  const vpAvoidanceRun run = runAvoidanceExperiment(spec);
+  REQUIRE(exposures->size() > 20);
+  int frame = 0;
+  for (const double time : *exposures) {
+    frame = frame == 9 ? 17 : frame; // 0.45 .. 0.80 s are covered
+    CHECK(time == Approx(0.05 * frame).margin(1e-9));
+    ++frame;
+  }
+  REQUIRE(diary->looks.size() + 1 >= exposures->size());
+  for (std::size_t i = 0; i < diary->looks.size(); ++i) {
+    CHECK(0.005 * diary->looks[i] == Approx((*exposures)[i] + 0.03).margin(1e-9));
+  }
+  CHECK(run.lookTimes.size() == diary->looks.size());
+}
+
+TEST_CASE("A goal that moves is told at its rate", "[avoidance-experiment]")
+{
+  auto diary = std::make_shared<BlindMethod::Diary>();
+  vpAvoidanceRunSpec spec = sledgeRun(0., 0.5, {}, diary);
+  spec.goalMoves = {{0.5, 0.9, vpAvoidanceGoal::at(*spec.arm, at(0.9))},
+                    {1.2, 1.2, vpAvoidanceGoal::at(*spec.arm, at(0.7))}};
+  const vpAvoidanceRun run = runAvoidanceExperiment(spec);
+  CHECK(run.metrics.success);
+  REQUIRE(diary->goals.size() >= 60);
+  for (std::size_t i = 0; i < diary->goals.size(); ++i) {
+    const double t = 0.02 * static_cast<double>(i + 1); // the first one came with start()
+    const double x = t < 0.5 ? 0.5 : t < 0.9 ? 0.5 + t - 0.5 : t < 1.2 - 1e-9 ? 0.9 : 0.7;
+    CHECK(diary->goals[i].position.x() == Approx(x).margin(1e-9));
+    CHECK(diary->goals[i].q(0) == Approx(x).margin(1e-9));
+  }
+
+  auto noisy = std::make_shared<BlindMethod::Diary>();
+  spec.goalNoise = 0.01;
+  spec.makeMethod = sledgeRun(0., 0.5, {}, noisy).makeMethod;
+  CHECK(runAvoidanceExperiment(spec).metrics.success); // in the end the goal is told without noise
+  double squares = 0.;
+  for (std::size_t i = 0; i < 59; ++i) {
+    squares += std::pow(noisy->goals[i].position.y(), 2);
+  }
+  CHECK(std::sqrt(squares / 59) == Approx(0.01).epsilon(0.4));
+  CHECK(noisy->goals.back().position.y() == 0.);
+}
+
+TEST_CASE("A stop without a reason is a false one", "[avoidance-experiment]")
+{
+  // At 0.5 s the sledge moves at 0.4 m/s and would be 0.4 m farther on a second later.
+  BlindMethod::Spec blind;
+  blind.duration = 2.5;
+  blind.stopFrom = 1.2;
+  blind.stopTo = 1.5;
+  const auto run = [&](const std::vector<vpMovingObstacle> &obstacles) {
+    vpAvoidanceRunSpec spec = sledgeRun(0., 0.6, blind);
+    spec.obstacles = obstacles;
+    return runAvoidanceExperiment(spec).metrics;
+  };
+  CHECK(run({}).stops == 1);
+  CHECK(run({}).false_stops == 1);
+  CHECK(run({movingBall({0.5, 0., 0.}, {0., 0., 0.})}).false_stops == 0);
+  // Beside the way, at a distance of 0.05 + 0.04 + the margin of 10 mm + 20 mm, less or more.
+  CHECK(run({movingBall({0.5, 0.119, 0.}, {0., 0., 0.})}).false_stops == 0);
+  CHECK(run({movingBall({0.5, 0.121, 0.}, {0., 0., 0.})}).false_stops == 1);
+  // Behind it; and one that crosses in time, or so late that a second is over.
+  CHECK(run({movingBall({-0.3, 0., 0.}, {0., 0., 0.})}).false_stops == 1);
+  CHECK(run({movingBall({0.45, 1.58, 0.}, {0., -1., 0.})}).false_stops == 0);
+  CHECK(run({movingBall({0.45, 3.9, 0.}, {0., -1., 0.})}).false_stops == 1);
+}
+
+TEST_CASE("The same specification gives the same log, another seed another one", "[avoidance-experiment]")
+{
+  vpAvoidanceRunSpec spec = sledgeRun(0., 0.5);
+  spec.goalMoves = {{0.5, 0.9, vpAvoidanceGoal::at(*spec.arm, at(0.9))}};
+  spec.goalNoise = 0.002;
+  const auto flat = [](const vpAvoidanceRun &run) {
+    std::vector<double> n;
+    for (const vpAvoidanceSample &s : run.samples) {
+      n.insert(n.end(),
+               {s.time, s.q(0), s.commanded(0), s.command(0), s.tool.x(), s.goalDistance, s.clearance.distance});
+    }
+    return n;
+  };
+  const std::vector<double> first = flat(runAvoidanceExperiment(spec));
+  CHECK((first == flat(runAvoidanceExperiment(spec)))); // in brackets: thousands of numbers are not printed
+  spec.seed = 2;
+  CHECK((first != flat(runAvoidanceExperiment(spec))));
+}
+
+TEST_CASE("Through sensor, latency and tracks the method sees an obstacle about where it is", "[avoidance-experiment]")
+{
+  auto diary = std::make_shared<BlindMethod::Diary>();
+  vpAvoidanceRunSpec spec = sledgeRun(0., 0.3, {}, diary);
+  spec.goalMoves = {{3., 3., spec.goal}};
+  spec.sight = vpObstacleSight::Poses;
+  spec.latency = 0.1;
+  spec.covered = {{1.5, 1.8}};
+  spec.obstacles.push_back(movingBall({-0.6, 0.5, 0.}, {0.3, 0., 0.}));
+  static_cast<void>(runAvoidanceExperiment(spec));
+  REQUIRE(diary->seenAt.size() > 600);
+  for (std::size_t i = 0; i < diary->seenAt.size(); ++i) {
+    const double t = 0.005 * static_cast<double>(i), truth = -0.6 + 0.3 * t;
+    CAPTURE(t, truth);
+    CHECK(std::isfinite(diary->seenAt[i]) == (t > 0.1 - 1e-9));
+    // Without the velocity it would be seen 30 mm behind, and 90 mm while the camera is covered.
+    if (t > 1.) {
+      CHECK(diary->seenAt[i] == Approx(truth).margin(t > 1.6 && t < 2. ? 0.02 : 0.01));
+    }
+  }
+  auto other = std::make_shared<BlindMethod::Diary>();
+  spec.makeMethod = sledgeRun(0., 0.3, {}, other).makeMethod;
+  static_cast<void>(runAvoidanceExperiment(spec));
+  const std::size_t first = 25; // NaN before
+  CHECK((std::vector<double>(diary->seenAt.begin() + first, diary->seenAt.end()) ==
+         std::vector<double>(other->seenAt.begin() + first, other->seenAt.end())));
+}
+
+TEST_CASE("Errors name the field and its value", "[avoidance-experiment]")
+{
+  const vpAvoidanceRunSpec good = sledgeRun(0., 0.5);
+  const auto broken = [&](const std::function<void(vpAvoidanceRunSpec &)> &breakIt) {
+    vpAvoidanceRunSpec spec = good;
+    breakIt(spec);
+    return messageOf(spec);
+  };
+  CHECK(broken([](auto &) {}) == "no error");
+  CHECK(broken([](auto &s) { s.arm = nullptr; }) == "the avoidance experiment has no arm");
+  CHECK(broken([](auto &s) { s.visionRate = 0.; }) ==
+        "visionRate of the avoidance experiment is 0, must be > 0 Hz and finite");
+  CHECK(broken([](auto &s) { s.latency = -0.1; }) ==
+        "latency of the avoidance experiment is -0.1, must be >= 0 s and finite");
+  CHECK(broken([](auto &s) { s.maxDuration = INFINITY; }) ==
+        "maxDuration of the avoidance experiment is inf, must be > 0 s and finite");
+  CHECK(broken([](auto &s) { s.start = vpJointVector::Zero(3); }) ==
+        "the start of the avoidance experiment has 3 numbers, must have 1 finite ones");
+  CHECK(broken([](auto &s) { s.goal.position.x() = NAN; }) ==
+        "the goal of the avoidance experiment is nan, must be a number and finite");
+  CHECK(broken([](auto &s) {
+          s.goalMoves = {{1., 0.5, s.goal}};
+        }) == "end of a goal's move of the avoidance experiment is 0.5, must be >= its begin and finite");
+  CHECK(broken([](auto &s) { s.sight = vpObstacleSight::Custom; }) ==
+        "makeSensor of the avoidance experiment is empty, a custom sensor needs it");
+  CHECK(broken([](auto &s) {
+          s.obstacles.push_back(movingBall({1., 0., 0.}, {0., 0., 0.}));
+          s.obstacles.back().turnAfter = 0.1;
+        }) == "turnAfter of obstacle ball is 0.1, must be 0 or > turnTime, and finite");
+}
