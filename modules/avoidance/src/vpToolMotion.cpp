@@ -19,6 +19,7 @@ vpRedundancySpec solverSpec(double period)
   vpRedundancySpec spec;
   spec.period = period;
   spec.policy = vpLimitPolicy::StopJoints;
+  spec.selfAcceleration = 0.4;
   return spec;
 }
 } // namespace
