@@ -19,7 +19,7 @@ namespace
 {
 constexpr double ending = 0.5;  // s: the last part of a motion is left as it is, or its smooth end would be lost
 constexpr double quicker = 0.9; // of what is left: a new motion is worth changing to
-constexpr double slack = 1e-4; // m: the rest of a motion is proven again with so much less margin
+constexpr double slack = 1e-4;  // m: the rest of a motion is proven again with so much less margin
 
 void requireGood(const char *field, double value, bool good, const char *range)
 {

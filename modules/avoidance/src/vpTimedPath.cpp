@@ -99,7 +99,6 @@ vpTrajectoryStatus planWithinBounds(const vpArmModel &arm, Input &input, const v
   return status;
 }
 
-
 //! Points first..last of a path as one motion to rest, from rest except at the path's start.
 Input inputOf(const vpArmModel &arm, const vpJointPath &path, std::size_t first, std::size_t last,
               const vpTimedPathSpec &spec)

@@ -23,10 +23,10 @@ BEGIN_VISP_NAMESPACE
  * \brief Parameters of vpTimedPath.
  */
 struct VISP_EXPORT vpTimedPathSpec {
-  double speed = 1.;               //!< Part of the joints' velocity limits that is used, (0, 1].
-  double acceleration = 1.;        //!< Part of their acceleration limits, (0, 1].
-  double margin = 0.;              //!< Clearance that is proven, m, >= 0; not above that of the path's planner.
-  double resolution = 1e-4;        //!< See vpCertifiedMotionSpec, m, > 0.
+  double speed = 1.;        //!< Part of the joints' velocity limits that is used, (0, 1].
+  double acceleration = 1.; //!< Part of their acceleration limits, (0, 1].
+  double margin = 0.;       //!< Clearance that is proven, m, >= 0; not above that of the path's planner.
+  double resolution = 1e-4; //!< See vpCertifiedMotionSpec, m, > 0.
   //! Bounds of the end effector's origin, m/s and m/s^2, > 0; infinity: none. Each trajectory is made so much longer that
   //! it keeps them at samples 5 ms apart, with 1 % to spare for what is between.
   double toolVelocity = std::numeric_limits<double>::infinity();
