@@ -20,6 +20,8 @@ namespace
 {
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
+constexpr double longestMotion = 0.2; // s; over a longer time a velocity says little
+
 double square(double x) { return x * x; }
 
 double worst(const Eigen::Matrix3d &covariance)
@@ -102,12 +104,13 @@ vpObstacleDetector::vpObstacleDetector(vpPlanarTargetDatabase targets, const vpC
     detection.sentence = "No picture was taken yet.";
     m_detections.push_back(detection);
   }
+  m_memory.resize(m_detections.size());
 }
 
 void vpObstacleDetector::reset()
 {
   m_targets.reset();
-  m_hasLast = false;
+  m_memory.assign(m_detections.size(), Memory());
   for (vpObstacleDetection &detection : m_detections) {
     detection.seen = false;
     detection.status = vpPlanarTargetStatus::NoFrame;
@@ -119,17 +122,18 @@ const std::vector<vpObstacleDetection> &vpObstacleDetector::process(const vpImag
                                                                     const vpRigidTransform &fMc, double time)
 {
   const bool known = fMc.p.allFinite() && fMc.R.allFinite() && std::isfinite(time);
-  if (known && m_hasLast) {
-    m_targets.predict((fMc.inverse() * m_last).toHomogeneous());
+  if (known) {
+    predict(fMc, time);
   }
-  m_last = known ? fMc : m_last;
-  m_hasLast = known;
   const std::vector<vpPlanarTargetSighting> &targets = m_targets.process(image);
   for (std::size_t i = 0; i < targets.size(); ++i) {
     vpObstacleDetection &detection = m_detections[i];
     detection.seen = false;
     detection.status = targets[i].result.status;
     detection.sentence = targets[i].result.message;
+    if (!targets[i].result.found() || !known) {
+      m_memory[i].isKnown = false;
+    }
     if (!targets[i].result.found()) {
       continue;
     }
@@ -137,9 +141,43 @@ const std::vector<vpObstacleDetection> &vpObstacleDetector::process(const vpImag
       detection.sentence = "Where the camera was, or when, is not finite.";
       continue;
     }
+    remember(fMc * vpRigidTransform::fromHomogeneous(targets[i].result.cMo), time, m_memory[i]);
     conclude(targets[i], fMc, time, detection);
   }
   return m_detections;
+}
+
+// By the camera's motion and, when it was seen twice of late, by the target's own.
+void vpObstacleDetector::predict(const vpRigidTransform &fMc, double time)
+{
+  for (std::size_t i = 0; i < m_memory.size(); ++i) {
+    const Memory &memory = m_memory[i];
+    const double dt = time - memory.time;
+    if (!memory.isKnown) {
+      continue;
+    }
+    vpRigidTransform fMo = memory.fMo;
+    if (dt > 0. && dt < longestMotion) {
+      fMo.p += dt * memory.linear;
+      fMo.R = vpSO3::exp(dt * memory.angular) * fMo.R;
+    }
+    m_targets.predict(i, (fMc.inverse() * fMo).toHomogeneous());
+  }
+}
+
+void vpObstacleDetector::remember(const vpRigidTransform &fMo, double time, Memory &memory)
+{
+  const double dt = time - memory.time;
+  const bool isMotion = memory.isKnown && dt > 0. && dt < longestMotion;
+  const vpRigidTransform before = memory.fMo;
+  memory = Memory();
+  memory.fMo = fMo;
+  memory.time = time;
+  memory.isKnown = true;
+  if (isMotion) {
+    memory.linear = (fMo.p - before.p) / dt;
+    memory.angular = vpSO3::log(fMo.R * before.R.transpose()) / dt;
+  }
 }
 
 void vpObstacleDetector::conclude(const vpPlanarTargetSighting &target, const vpRigidTransform &fMc, double time,

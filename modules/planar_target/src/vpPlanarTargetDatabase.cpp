@@ -101,18 +101,16 @@ const std::vector<vpPlanarTargetSighting> &vpPlanarTargetDatabase::process(const
 
 const std::vector<vpPlanarTargetSighting> &vpPlanarTargetDatabase::sightings() const { return m_store->m_sightings; }
 
-void vpPlanarTargetDatabase::predict(const vpHomogeneousMatrix &cMl)
+void vpPlanarTargetDatabase::predict(std::size_t i, const vpHomogeneousMatrix &cMo)
 {
-  for (unsigned int i = 0; i < 12; ++i) {
-    if (!std::isfinite(cMl.data[i])) {
+  for (unsigned int k = 0; k < 12; ++k) {
+    if (!std::isfinite(cMo.data[k])) {
       return;
     }
   }
-  // The results of the last frame stay as they were given; the poses to track from are the targets' own.
-  for (const auto &target : m_store->m_targets) {
-    if (target->m_known) {
-      target->m_result.cMo = cMl * target->m_result.cMo;
-    }
+  // The results of the last frame stay as they were given; the pose to track from is the target's own.
+  if (i < m_store->m_targets.size() && m_store->m_targets[i]->m_known) {
+    m_store->m_targets[i]->m_result.cMo = cMo;
   }
 }
 

@@ -143,10 +143,11 @@ TEST_CASE("a target is followed through large motions of the camera when these a
                                                           frame % 2 == 0 ? 0.25 : -0.25, 0., 0.05);
     if (frame > 0) {
       cMo = moved * cMo;
-      told.predict(moved);
+      told.predict(0, moved * told.sightings()[0].result.cMo);
       vpHomogeneousMatrix broken = moved;
       broken[0][3] = std::nan("");
-      told.predict(broken); // ignored
+      told.predict(0, broken); // ignored
+      told.predict(1, moved);  // there is none
     }
     vpPlanarScene::Image I = vpPlanarScene::background(rng);
     vpPlanarScene::draw(I, klimt, vpPlanarScene::camera(), cMo);

@@ -98,11 +98,11 @@ struct Box {
         }
         continue;
       }
-      const double sign = along(i) > 0. ? 1. : -1.;
-      const double first = (-sign * half(i) - from(i)) / along(i), last = (sign * half(i) - from(i)) / along(i);
-      out = std::min(out, last);
-      if (first > in) {
-        in = first;
+      const double inverse = 1. / along(i);
+      const double middle = -from(i) * inverse, reach = std::fabs(half(i) * inverse);
+      out = std::min(out, middle + reach);
+      if (middle - reach > in) {
+        in = middle - reach;
         axis = i;
       }
     }

@@ -77,11 +77,13 @@ void vpSceneRaster::drawBody(const Body &body, const vpRigidTransform &cMo, cons
   const Window w = window(centre, radius);
   const Eigen::Matrix3d oRc = cMo.R.transpose();
   const Eigen::Vector3d from = -(oRc * cMo.p), lit = oRc * m_light;
+  const Eigen::Vector3d step = m_camera.get_px_inverse() * oRc.col(0);
   for (int r = w.top; r <= w.bottom; ++r) {
     float *depth = m_depth[static_cast<unsigned int>(r)];
+    const Eigen::Vector3d first = oRc * ray(0., r);
     for (int c = w.left; c <= w.right; ++c) {
       Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
-      const double t = body.hit(from, oRc * ray(c, r), normal);
+      const double t = body.hit(from, first + c * step, normal);
       if (!(t >= nearest) || t >= static_cast<double>(depth[c])) {
         continue;
       }

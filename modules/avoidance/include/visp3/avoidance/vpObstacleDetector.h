@@ -54,6 +54,9 @@ struct VISP_EXPORT vpObstacleDetection {
  * everything metric, and it reaches vpPlanarTargetSighting::depth behind it. The box's frame is in its middle, its z axis
  * points into the photograph.
  *
+ * A target is looked for where it would be by the motion of the camera and its own last motion, so that both may move
+ * farther between pictures than tracking alone would bridge.
+ *
  * The deviations come from the geometry of the view: the information that the target's corners have about the pose,
  * when each is uncertain by vpObstacleDetectorSpec::pixelSigma, or more as the picture correlates less with the
  * photograph. Depth is worse than the other two coordinates; the sighting carries the worst direction. Deviations of the
@@ -90,6 +93,14 @@ public:
   void reset();
 
 private:
+  struct Memory {
+    vpRigidTransform fMo; // of the target, in the last picture
+    Eigen::Vector3d linear = Eigen::Vector3d::Zero(), angular = Eigen::Vector3d::Zero(); // in the base
+    double time = 0.;
+    bool isKnown = false;
+  };
+  void predict(const vpRigidTransform &fMc, double time);
+  static void remember(const vpRigidTransform &fMo, double time, Memory &memory);
   void conclude(const vpPlanarTargetSighting &target, const vpRigidTransform &fMc, double time,
                 vpObstacleDetection &detection) const;
 
@@ -97,8 +108,7 @@ private:
   vpCameraParameters m_camera;
   vpObstacleDetectorSpec m_spec;
   std::vector<vpObstacleDetection> m_detections;
-  vpRigidTransform m_last; // fMc of the last picture
-  bool m_hasLast = false;
+  std::vector<Memory> m_memory; // one for each target
 };
 
 END_VISP_NAMESPACE

@@ -76,10 +76,11 @@ public:
   //! The last result; all NoFrame before the first frame.
   [[nodiscard]] const std::vector<vpPlanarTargetSighting> &sightings() const;
   /*!
-   * The camera has moved since the last frame, which saves a moving camera from losing what it tracks.
-   * \param cMl : The camera at the last frame in the camera at the next one. One that is not finite is ignored.
+   * Where a target is expected in the next frame, which saves a moving camera from losing what it tracks. Ignored for a
+   * target that was not found in the last frame.
+   * \param i : 0..size()-1. \param cMo : Its pose in the camera then. Ignored when it is not finite.
    */
-  void predict(const vpHomogeneousMatrix &cMl);
+  void predict(std::size_t i, const vpHomogeneousMatrix &cMo);
   //! Forget where all targets were.
   void reset();
 
