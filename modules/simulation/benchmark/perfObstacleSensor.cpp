@@ -148,8 +148,8 @@ static void look(benchmark::State &state)
   std::vector<vpObjectSighting> sightings;
   std::size_t seen = 0, frames = 0;
   for (auto _ : state) {
-    // One of them at 0.3 m/s, there and back.
-    const Vector3d step = (frames / 6 % 2 == 0 ? 0.01 : -0.01) * bench.fMc.R.col(0);
+    // One of them at 0.15 m/s, there and back by 0.1 m.
+    const Vector3d step = (frames / 20 % 2 == 0 ? 0.005 : -0.005) * bench.fMc.R.col(0);
     static_cast<void>(scene.moveObject(0, {scene.object(0).pose.R, scene.object(0).pose.p + step}));
     sensor.look(scene, bench.arm, static_cast<double>(frames) / 30., sightings);
     seen += sightings.size();

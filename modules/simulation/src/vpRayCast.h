@@ -22,7 +22,7 @@ BEGIN_VISP_NAMESPACE
 
 /*!
  * Each body has hit(): the first cut of the ray from + t along, t > 0, where it enters the body. It gives t, infinity for
- * none, and the outward normal there (of any length).
+ * none, and the normal there (of any length and sign).
  */
 namespace vpRayCast
 {
@@ -89,26 +89,17 @@ struct Box {
   Vector3d half;
   [[nodiscard]] double hit(const Vector3d &from, const Vector3d &along, Vector3d &normal) const
   {
-    double in = -none, out = none;
-    int axis = 0;
-    for (int i = 0; i < 3; ++i) {
-      if (along(i) == 0.) {
-        if (std::fabs(from(i)) > half(i)) {
-          return none;
-        }
-        continue;
-      }
-      const double inverse = 1. / along(i);
-      const double middle = -from(i) * inverse, reach = std::fabs(half(i) * inverse);
-      out = std::min(out, middle + reach);
-      if (middle - reach > in) {
-        in = middle - reach;
-        axis = i;
-      }
+    // A ray along a face gets a slope that cannot matter instead of a division by 0.
+    const auto slope = [](double d) { return 1. / (d == 0. ? 1e-300 : d); };
+    const Vector3d inverse(slope(along.x()), slope(along.y()), slope(along.z()));
+    const Vector3d middle = -from.cwiseProduct(inverse), reach = half.cwiseProduct(inverse).cwiseAbs();
+    const Vector3d first = middle - reach, last = middle + reach;
+    const double in = std::max({first.x(), first.y(), first.z()}), out = std::min({last.x(), last.y(), last.z()});
+    if (!(in > 0.) || in > out) {
+      return none;
     }
-    normal.setZero();
-    normal(axis) = along(axis) > 0. ? -1. : 1.;
-    return in > 0. && in <= out ? in : none;
+    normal = Vector3d(first.x() == in ? 1. : 0., first.y() == in ? 1. : 0., first.z() == in ? 1. : 0.);
+    return in;
   }
 };
 
@@ -125,7 +116,6 @@ struct Triangle {
     }
     normal = (b - a).cross(c - a);
     const double t = normal.dot(p) / normal.dot(along);
-    normal = normal.dot(along) > 0. ? (-normal).eval() : normal;
     return t > 0. ? t : none; // false for NaN: the ray lies in the triangle's plane
   }
 };

@@ -69,12 +69,41 @@ vpSceneRaster::Window vpSceneRaster::window(const Eigen::Vector3d &centre, doubl
   return w;
 }
 
-// The bounding sphere is in the camera's frame.
+// The pixels around a box's corners are far fewer than those of its sphere, when it is all in front of the camera.
+void vpSceneRaster::drawBox(const Eigen::Vector3d &half, const vpRigidTransform &cMo)
+{
+  Window w = window(cMo.p, half.norm());
+  double left = m_width, right = -1., top = m_height, bottom = -1.;
+  bool isInFront = true;
+  for (int i = 0; i < 8; ++i) {
+    const Eigen::Vector3d signs(i % 2 == 0 ? -1. : 1., i / 2 % 2 == 0 ? -1. : 1., i / 4 == 0 ? -1. : 1.);
+    const Eigen::Vector3d corner = cMo.R * half.cwiseProduct(signs) + cMo.p;
+    isInFront = isInFront && corner.z() > nearest;
+    const double u = m_camera.get_px() * corner.x() / corner.z() + m_camera.get_u0();
+    const double v = m_camera.get_py() * corner.y() / corner.z() + m_camera.get_v0();
+    left = std::min(left, u);
+    right = std::max(right, u);
+    top = std::min(top, v);
+    bottom = std::max(bottom, v);
+  }
+  if (isInFront) {
+    w.left = std::max(w.left, static_cast<int>(std::max(left - 1., 0.)));
+    w.right = std::min(w.right, static_cast<int>(std::min(right + 1., m_width - 1.)));
+    w.top = std::max(w.top, static_cast<int>(std::max(top - 1., 0.)));
+    w.bottom = std::min(w.bottom, static_cast<int>(std::min(bottom + 1., m_height - 1.)));
+  }
+  drawIn(w, vpRayCast::Box{half}, cMo);
+}
+
 template <class Body>
 void vpSceneRaster::drawBody(const Body &body, const vpRigidTransform &cMo, const Eigen::Vector3d &centre,
                              double radius)
 {
-  const Window w = window(centre, radius);
+  drawIn(window(centre, radius), body, cMo);
+}
+
+template <class Body> void vpSceneRaster::drawIn(const Window &w, const Body &body, const vpRigidTransform &cMo)
+{
   const Eigen::Matrix3d oRc = cMo.R.transpose();
   const Eigen::Vector3d from = -(oRc * cMo.p), lit = oRc * m_light;
   const Eigen::Vector3d step = m_camera.get_px_inverse() * oRc.col(0);
@@ -113,7 +142,7 @@ void vpSceneRaster::drawObject(const vpCollisionObject &object, const vpRigidTra
     drawBody(vpRayCast::Tube{shape.radius(), half, false}, cMo, cMo.p, std::hypot(shape.radius(), half));
     return;
   case vpShapeType::Box:
-    drawBody(vpRayCast::Box{0.5 * shape.size()}, cMo, cMo.p, 0.5 * shape.size().norm());
+    drawBox(0.5 * shape.size(), cMo);
     return;
   case vpShapeType::Mesh: {
     const std::vector<Eigen::Vector3d> &vertices = shape.mesh().vertices();
@@ -131,8 +160,7 @@ void vpSceneRaster::drawObject(const vpCollisionObject &object, const vpRigidTra
   case vpShapeType::Octree:
     for (const vpOctreeCell &cell : shape.octree().cells()) {
       const vpRigidTransform cMcell = cMo * vpRigidTransform{Eigen::Matrix3d::Identity(), cell.centre};
-      const Eigen::Vector3d size = Eigen::Vector3d::Constant(0.5 * cell.size);
-      drawBody(vpRayCast::Box{size}, cMcell, cMcell.p, size.norm());
+      drawBox(Eigen::Vector3d::Constant(0.5 * cell.size), cMcell);
     }
     return;
   }

@@ -40,8 +40,11 @@ private:
     int left, top, right, bottom; // pixels, all included
   };
   [[nodiscard]] Window window(const Eigen::Vector3d &centre, double radius) const;
+  // The bounding sphere is in the camera's frame.
   template <class Body>
   void drawBody(const Body &body, const vpRigidTransform &cMo, const Eigen::Vector3d &centre, double radius);
+  template <class Body> void drawIn(const Window &w, const Body &body, const vpRigidTransform &cMo);
+  void drawBox(const Eigen::Vector3d &half, const vpRigidTransform &cMo);
   void drawObject(const vpCollisionObject &object, const vpRigidTransform &cMf);
   void drawGround(const vpHalfSpace &ground, const vpRigidTransform &fMc);
 
