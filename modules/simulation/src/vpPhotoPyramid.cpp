@@ -45,7 +45,7 @@ vpImage<unsigned char> withMargin(const vpImage<unsigned char> &image)
 }
 
 // What vpImageTools::warpImage() does with linear interpolation and not in fixed point (whose 16 bits leave the perspective
-// terms two digits), in a quarter of the time. H takes pixels of the photo to pixels of the image.
+// terms two digits), the same to the bit and in less time. H takes pixels of the photo to pixels of the image.
 void warp(const vpImage<unsigned char> &photo, const vpMatrix &H, vpImage<unsigned char> &image)
 {
   const Eigen::Matrix3d A = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(H.data).inverse();
