@@ -6,13 +6,16 @@
 
 #include "vpPlannerMethods.h"
 
+#include <visp3/avoidance/vpDirectTrajectoryAvoidance.h>
+#include <visp3/avoidance/vpPotentialFieldAvoidance.h>
 #include <visp3/core/vpException.h>
 
 BEGIN_VISP_NAMESPACE
 
 const std::vector<std::string> &avoidanceMethodNames()
 {
-  static const std::vector<std::string> names{"planner", "planner-dtg"};
+  static const std::vector<std::string> names{"potential", "potential-corrected", "dtg", "dtg-via",
+                                              "planner",   "planner-dtg"};
   return names;
 }
 
@@ -21,6 +24,18 @@ std::unique_ptr<vpAvoidanceMethod> makeAvoidanceMethod(const std::string &name, 
 {
   if (name == "planner" || name == "planner-dtg") {
     return makePlannedMotion(scene, name == "planner-dtg", spec);
+  }
+  if (name == "potential" || name == "potential-corrected") {
+    vpPotentialFieldAvoidanceSpec full;
+    full.common = spec;
+    full.form = name == "potential" ? vpFieldForm::Thesis : vpFieldForm::Corrected;
+    return std::make_unique<vpPotentialFieldAvoidance>(scene, full);
+  }
+  if (name == "dtg" || name == "dtg-via") {
+    vpDirectTrajectoryAvoidanceSpec full;
+    full.common = spec;
+    full.detour = name == "dtg" ? vpDetourKind::Final : vpDetourKind::Via;
+    return std::make_unique<vpDirectTrajectoryAvoidance>(scene, full);
   }
   std::string known;
   for (const std::string &other : avoidanceMethodNames()) {

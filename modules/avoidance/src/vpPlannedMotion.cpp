@@ -431,8 +431,8 @@ void vpPlannedMotion::brake()
     return;
   }
   std::vector<vpTrajectoryPlan> plans = stops();
-  const auto free =
-      std::find_if(plans.begin(), plans.end(), [&](const vpTrajectoryPlan &plan) { return m_now.check(plan).isFree(); });
+  const auto free = std::find_if(plans.begin(), plans.end(),
+                                 [&](const vpTrajectoryPlan &plan) { return m_now.check(plan).isFree(); });
   const bool safe = free != plans.end();
   const vpTrajectoryPlan &stop = safe ? *free : plans.front();
   const vpClearance pair = m_pair;

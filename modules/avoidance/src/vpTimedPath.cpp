@@ -27,8 +27,9 @@ void requireShare(const char *field, double value)
 void requireSize(const char *field, const vpJointVector &value, int n)
 {
   if (value.size() != 0 && (value.size() != n || !value.allFinite())) {
-    throw vpException(vpException::badValue, "%s at the start of the timed path has %d numbers, must have %d finite ones",
-                      field, static_cast<int>(value.size()), n);
+    throw vpException(vpException::badValue,
+                      "%s at the start of the timed path has %d numbers, must have %d finite ones", field,
+                      static_cast<int>(value.size()), n);
   }
 }
 

@@ -14,9 +14,9 @@ BEGIN_VISP_NAMESPACE
  * \brief Where the arm shall go. Methods that move the tool read #position, methods that move joints read #q.
  */
 struct VISP_EXPORT vpAvoidanceGoal {
-  vpJointVector q;                                      //!< Configuration, rad or m; empty: only the position is given.
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();   //!< Of the end effector's origin in the base, m.
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();   //!< Of that goal, m/s; 0 for a goal at rest.
+  vpJointVector q;                                    //!< Configuration, rad or m; empty: only the position is given.
+  Eigen::Vector3d position = Eigen::Vector3d::Zero(); //!< Of the end effector's origin in the base, m.
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero(); //!< Of that goal, m/s; 0 for a goal at rest.
 
   //! A configuration and where it brings the end effector. \throw vpException (badValue) when it does not fit the arm.
   [[nodiscard]] static vpAvoidanceGoal at(const vpArmModel &model, const vpJointVector &q);

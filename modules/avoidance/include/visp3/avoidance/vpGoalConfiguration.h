@@ -24,11 +24,9 @@ BEGIN_VISP_NAMESPACE
  * the first found; none when the place cannot be reached.
  * \throw vpException (badValue) when \e from does not fit the arm or \e position is not finite.
  */
-[[nodiscard]] VISP_EXPORT std::optional<vpJointVector> goalConfiguration(const vpCollisionScene &scene,
-                                                                         const vpJointVector &from,
-                                                                         const Eigen::Vector3d &position,
-                                                                         double margin = 0., int attempts = 20,
-                                                                         unsigned int seed = 1);
+[[nodiscard]] VISP_EXPORT std::optional<vpJointVector>
+goalConfiguration(const vpCollisionScene &scene, const vpJointVector &from, const Eigen::Vector3d &position,
+                  double margin = 0., int attempts = 20, unsigned int seed = 1);
 
 END_VISP_NAMESPACE
 #endif

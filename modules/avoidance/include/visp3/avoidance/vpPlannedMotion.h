@@ -25,14 +25,14 @@ enum class vpReplanning {
  * \brief Parameters of vpPlannedMotion.
  */
 struct VISP_EXPORT vpPlannedMotionSpec {
-  vpAvoidanceMethodSpec common;                      //!< Its seed goes to the planner.
-  vpReplanning replanning = vpReplanning::OnTheFly;  //!< See there.
-  std::string planner = "RRTConnect";                //!< See vpPathPlannerSpec.
+  vpAvoidanceMethodSpec common;                                  //!< Its seed goes to the planner.
+  vpReplanning replanning = vpReplanning::OnTheFly;              //!< See there.
+  std::string planner = "RRTConnect";                            //!< See vpPathPlannerSpec.
   vpMotionValidation validation = vpMotionValidation::Certified; //!< See vpPathPlannerSpec.
-  double clearance = 0.005;    //!< Of paths beyond the margin, m, >= 0: room for the timing to leave the path.
-  double startTime = 2.;       //!< For planning in start(), s, > 0.
-  double replanTime = 0.05;    //!< For each planning in look(), s, > 0.
-  double shortenTime = 0.05;   //!< For making a found way shorter, s, >= 0.
+  double clearance = 0.005;  //!< Of paths beyond the margin, m, >= 0: room for the timing to leave the path.
+  double startTime = 2.;     //!< For planning in start(), s, > 0.
+  double replanTime = 0.05;  //!< For each planning in look(), s, > 0.
+  double shortenTime = 0.05; //!< For making a found way shorter, s, >= 0.
 
   //! \throw vpException (badValue) naming the field that is out of range, and its value.
   void validate() const;
@@ -116,7 +116,7 @@ private:
   Parts m_parts;
   double m_duration = 0., m_clock = 0.;
   double m_stopping = 0.; // until then the motion is a stop
-  vpJointVector m_hold; // where it stands while there are no parts
+  vpJointVector m_hold;   // where it stands while there are no parts
   vpAvoidanceStatus m_status = vpAvoidanceStatus::InvalidInput;
   vpClearance m_pair;
   vpArmData m_data;

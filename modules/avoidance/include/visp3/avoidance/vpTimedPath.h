@@ -22,10 +22,10 @@ BEGIN_VISP_NAMESPACE
  * \brief Parameters of vpTimedPath.
  */
 struct VISP_EXPORT vpTimedPathSpec {
-  double speed = 1.;        //!< Part of the joints' velocity limits that is used, (0, 1].
-  double acceleration = 1.; //!< Part of their acceleration limits, (0, 1].
-  double margin = 0.;       //!< Clearance that is proven, m, >= 0; not above that of the path's planner.
-  double resolution = 1e-4; //!< See vpCertifiedMotionSpec, m, > 0.
+  double speed = 1.;               //!< Part of the joints' velocity limits that is used, (0, 1].
+  double acceleration = 1.;        //!< Part of their acceleration limits, (0, 1].
+  double margin = 0.;              //!< Clearance that is proven, m, >= 0; not above that of the path's planner.
+  double resolution = 1e-4;        //!< See vpCertifiedMotionSpec, m, > 0.
   vpJointVector startVelocity;     //!< Of the joints at the path's first point, n numbers; empty: at rest.
   vpJointVector startAcceleration; //!< The same for their accelerations.
 };

@@ -1,0 +1,145 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "vpDetourSearch.h"
+
+#include <algorithm>
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+using Eigen::Vector3d;
+constexpr std::array<double, 3> speeds{1., 0.5, 0.25};
+constexpr double atGoal = 0.01; // m: a conflict of a tool so near to its goal is one of the goal
+
+//! Where a via has to go in to be between the right ones: the stretch whose line is nearest to a place.
+int stretchOf(const vpToolTask &task, const Vector3d &from, const Vector3d &place)
+{
+  int best = 0;
+  double least = 1e9;
+  Vector3d begin = from;
+  for (int k = 0; k <= task.viaCount; ++k) {
+    const Vector3d end = k < task.viaCount ? task.vias[static_cast<std::size_t>(k)] : task.goal;
+    const Vector3d way = end - begin;
+    const double share = way.squaredNorm() > 0. ? std::clamp((place - begin).dot(way) / way.squaredNorm(), 0., 1.) : 0.;
+    const double distance = (begin + share * way - place).norm();
+    if (distance < least) {
+      least = distance;
+      best = k;
+    }
+    begin = end;
+  }
+  return best;
+}
+} // namespace
+
+vpDetourSearch::vpDetourSearch(const vpCollisionScene &scene, const vpDirectTrajectoryAvoidanceSpec &spec,
+                               const vpToolMotionSpec &motion)
+  : m_scene(&scene), m_spec(spec), m_forecast(scene, motion),
+    m_path(spec.common.maxVelocity, spec.common.maxAcceleration), m_plan(vpToolPath::room())
+{}
+
+vpForecast vpDetourSearch::foresee(const vpDetourStart &start, const vpTrajectoryPlan &plan, double clock,
+                                   double margin)
+{
+  return m_forecast.run(start.q, start.velocity, plan, clock, start.posture, start.orientation, margin);
+}
+
+vpForecast vpDetourSearch::foresee(const vpDetourStart &start, vpToolTask &task, double margin)
+{
+  vpForecast result;
+  for (const double speed : speeds) {
+    task.speed = speed;
+    if (!m_path.plan(start.tool, task, m_plan)) {
+      continue;
+    }
+    --m_left;
+    result = foresee(start, m_plan, 0., margin);
+    if (result.status != vpForecastStatus::TooFast) {
+      break;
+    }
+  }
+  return result;
+}
+
+void vpDetourSearch::expand(const vpDetourStart &start, const Node &node, const vpForecast &conflict)
+{
+  if (node.task.viaCount == vpToolTask::maxVias) {
+    return;
+  }
+  const int stretch = stretchOf(node.task, start.tool.x, conflict.tool);
+  const Vector3d from = stretch == 0 ? start.tool.x : node.task.vias[static_cast<std::size_t>(stretch - 1)];
+  const Vector3d to =
+      stretch == node.task.viaCount ? node.task.goal : node.task.vias[static_cast<std::size_t>(stretch)];
+  for (const Vector3d &place : placesBeside(*m_scene, conflict, from, to, m_spec.toolClearance, m_spec.sides)) {
+    Node child = node;
+    for (int k = child.task.viaCount; k > stretch; --k) {
+      child.task.vias[static_cast<std::size_t>(k)] = child.task.vias[static_cast<std::size_t>(k - 1)];
+    }
+    child.task.vias[static_cast<std::size_t>(stretch)] = place;
+    ++child.task.viaCount;
+    child.length = child.task.length(start.tool.x);
+    m_open.push_back(child);
+    std::push_heap(m_open.begin(), m_open.end(), [](const Node &a, const Node &b) { return a.length > b.length; });
+  }
+}
+
+// Behind a stop at a final position beside the obstacle.
+bool vpDetourSearch::leadsToGoal(const vpDetourStart &start, const vpForecast &there, const Vector3d &goal)
+{
+  vpToolState rest;
+  rest.x = there.tool;
+  vpToolTask task;
+  task.goal = goal;
+  if (!m_path.plan(rest, task, m_plan)) {
+    return false;
+  }
+  --m_left;
+  const vpForecast onward = m_forecast.run(there.end, vpJointVector::Zero(there.end.size()), m_plan, 0., start.posture,
+                                           start.orientation, m_spec.common.margin + m_spec.clearance, there.time);
+  return onward.status == vpForecastStatus::Free || onward.status == vpForecastStatus::TooFast;
+}
+
+vpDetourResult vpDetourSearch::search(const vpDetourStart &start, const Vector3d &goal, const Vector3d &goalVelocity)
+{
+  const double margin = m_spec.common.margin + m_spec.clearance;
+  const auto longer = [](const Node &a, const Node &b) { return a.length > b.length; };
+  vpDetourResult result;
+  Node first;
+  first.task.goal = goal;
+  first.task.goalVelocity = goalVelocity;
+  first.length = (goal - start.tool.x).norm();
+  m_open.assign(1, first);
+  m_left = m_spec.forecasts;
+  bool isFirst = true;
+  while (!m_open.empty() && m_left > 0) {
+    std::pop_heap(m_open.begin(), m_open.end(), longer);
+    Node node = m_open.back();
+    m_open.pop_back();
+    const bool final = m_spec.detour == vpDetourKind::Final && node.task.viaCount > 0;
+    if (final) { // the newest place is where it stops first
+      node.task.goal = node.task.vias[0];
+      node.task.goalVelocity.setZero();
+      node.task.viaCount = 0;
+    }
+    const vpForecast forecast = foresee(start, node.task, margin);
+    if (isFirst) {
+      result.direct = forecast;
+      isFirst = false;
+    }
+    if (forecast.status == vpForecastStatus::Free && (!final || leadsToGoal(start, forecast, goal))) {
+      result.task = node.task;
+      return result;
+    }
+    const bool blocked =
+        forecast.status == vpForecastStatus::Conflict && (forecast.tool - node.task.goal).norm() < atGoal;
+    if (forecast.status == vpForecastStatus::Conflict && !blocked && !final) {
+      expand(start, node, forecast);
+    }
+  }
+  return result;
+}
+
+END_VISP_NAMESPACE

@@ -1,0 +1,328 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include <visp3/avoidance/vpDirectTrajectoryAvoidance.h>
+
+#include "vpDetourSearch.h"
+
+#include <visp3/avoidance/vpStopSupervisor.h>
+#include <visp3/core/vpException.h>
+
+#include <algorithm>
+#include <cmath>
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+using Eigen::Vector3d;
+constexpr double offPlan = 2e-4; // m: a tool farther from its plan than this has left it
+constexpr double atGoal = 1e-4;  // m
+constexpr double atRest = 1e-3;  // m/s
+constexpr double quicker = 0.9;  // of the rest of a detour: the direct way is worth changing to
+
+void requireGood(const char *field, double value, bool good, const char *range)
+{
+  if (!good || !std::isfinite(value)) {
+    throw vpException(vpException::badValue, "%s of the direct trajectory avoidance is %g, must be %s", field, value,
+                      range);
+  }
+}
+} // namespace
+
+void vpDirectTrajectoryAvoidanceSpec::validate() const
+{
+  common.validate();
+  requireGood("clearance", clearance, clearance >= 0., ">= 0 m");
+  requireGood("toolClearance", toolClearance, toolClearance >= 0., ">= 0 m");
+  requireGood("sides", sides, sides >= 2 && sides <= 32, "2 to 32");
+  requireGood("forecasts", forecasts, forecasts >= 1, ">= 1");
+}
+
+class vpDirectTrajectoryAvoidance::Impl
+{
+public:
+  Impl(const vpCollisionScene &s, const vpDirectTrajectoryAvoidanceSpec &p)
+    : scene(&s), spec(checked(p)), motion(s.arm(), motionSpec(p)), search(s, p, motionSpec(p)),
+      path(p.common.maxVelocity, p.common.maxAcceleration), plan(vpToolPath::room()), supervisor(s, supervisorSpec(p))
+  {}
+
+  bool begin(const vpJointVector &q, const vpAvoidanceGoal &wish)
+  {
+    const int n = scene->arm().size();
+    started = q.size() == n && q.allFinite() && fits(wish);
+    if (!started) {
+      return false;
+    }
+    goal = wished = wish;
+    configuration = q;
+    velocity = vpJointVector::Zero(n);
+    scene->place(q, data);
+    orientation = data.arm.tool.R;
+    tool = vpToolState();
+    tool.x = data.arm.tool.p;
+    task = vpToolTask();
+    task.goal = tool.x;
+    toGoal = false;
+    rebase = true;
+    status = vpAvoidanceStatus::Waiting;
+    supervisor.reset();
+    return true;
+  }
+
+  bool fits(const vpAvoidanceGoal &g) const noexcept
+  {
+    const int n = scene->arm().size();
+    return g.position.allFinite() && g.velocity.allFinite() &&
+           (g.q.size() == 0 || (g.q.size() == n && g.q.allFinite()));
+  }
+
+  void look()
+  {
+    const bool moved =
+        (wished.position - goal.position).norm() > 1e-9 || (wished.velocity - goal.velocity).norm() > 1e-9;
+    goal = wished;
+    const vpDetourStart here{tool, configuration, velocity, posture(), orientation};
+    if (!moved && following()) {
+      const vpForecast rest = search.foresee(here, plan, clock, spec.common.margin + 0.5 * spec.clearance);
+      if (rest.status == vpForecastStatus::Free) {
+        if (toGoal && task.viaCount == 0) {
+          return;
+        }
+        shorten(here);
+        return;
+      }
+    }
+    else if (!moved && toGoal && isArrived()) {
+      return;
+    }
+    const vpDetourResult found = search.search(here, goal.position, goal.velocity);
+    pair = found.direct.status == vpForecastStatus::Conflict ? found.direct.pair : vpClearance();
+    if (found.task) {
+      take(*found.task);
+      return;
+    }
+    status = found.direct.status != vpForecastStatus::Conflict   ? vpAvoidanceStatus::Unreachable
+             : (found.direct.tool - goal.position).norm() < 0.01 ? vpAvoidanceStatus::GoalInCollision
+                                                                 : vpAvoidanceStatus::Waiting;
+    brake();
+  }
+
+  void step(const vpJointVector &q, vpAvoidanceOutput &output) noexcept
+  {
+    const double period = spec.common.period;
+    if (rebase) {
+      rebase = false;
+      clock = 0.;
+      if (!path.plan(tool, task, plan) && !path.stop(tool, plan)) {
+        plan.clear();
+      }
+    }
+    clock = std::min(clock + period, plan.duration());
+    const vpToolState next = vpToolPath::at(plan, clock);
+    scene->place(q, data);
+    const Vector3d x = data.arm.tool.p;
+    scene->place(q + 0.5 * period * velocity, data); // half a period on the Jacobian is that of the mean
+    scene->near(data, motion.spec().repelRange, near);
+    motion.step(data, near, (next.x - x) / period, leaning, orientation, velocity, solved);
+    supervisor.step(q, solved.velocity, supervised);
+    finish(q, next, output);
+  }
+
+  [[nodiscard]] bool isArrived() const noexcept
+  {
+    return (tool.x - goal.position).norm() < atGoal && tool.v.norm() < atRest;
+  }
+
+  const vpCollisionScene *scene;
+  vpDirectTrajectoryAvoidanceSpec spec;
+  vpAvoidanceGoal goal, wished;
+  bool started = false;
+  vpJointVector configuration, velocity; // commanded, at the end of the last period
+  vpAvoidanceStatus status = vpAvoidanceStatus::InvalidInput;
+  vpToolTask task;
+  bool toGoal = false; // the task ends at the goal, not at a place beside an obstacle or a stop
+
+private:
+  static const vpDirectTrajectoryAvoidanceSpec &checked(const vpDirectTrajectoryAvoidanceSpec &spec)
+  {
+    spec.validate();
+    return spec;
+  }
+  static vpToolMotionSpec motionSpec(const vpDirectTrajectoryAvoidanceSpec &spec)
+  {
+    vpToolMotionSpec result;
+    result.period = spec.common.period;
+    result.keepOrientation = spec.keepOrientation;
+    return result;
+  }
+  static vpStopSupervisorSpec supervisorSpec(const vpDirectTrajectoryAvoidanceSpec &spec)
+  {
+    vpStopSupervisorSpec result;
+    result.period = spec.common.period;
+    result.margin = spec.common.margin;
+    return result;
+  }
+
+  //! Under way on a motion that look() took.
+  [[nodiscard]] bool following() const noexcept { return !stopped && !rebase && clock < plan.duration(); }
+  [[nodiscard]] vpJointVector posture() const { return spec.usePosture ? goal.q : vpJointVector(); }
+
+  void take(const vpToolTask &wish)
+  {
+    task = wish;
+    toGoal = (task.goal - goal.position).norm() < 1e-9;
+    stopped = false;
+    rebase = true;
+    leaning = posture();
+    status = toGoal && task.viaCount == 0 ? vpAvoidanceStatus::Moving : vpAvoidanceStatus::Detouring;
+  }
+
+  //! On a detour: is the direct way free by now?
+  void shorten(const vpDetourStart &here)
+  {
+    vpToolTask direct;
+    direct.goal = goal.position;
+    direct.goalVelocity = goal.velocity;
+    const vpForecast ahead = search.foresee(here, direct, spec.common.margin + spec.clearance);
+    const bool better = !toGoal || ahead.time < quicker * (plan.duration() - clock);
+    if (ahead.status == vpForecastStatus::Free && better) {
+      take(direct);
+    }
+  }
+
+  void brake()
+  {
+    if (!stopped || tool.v.norm() > atRest) {
+      vpTrajectoryPlan stop = vpToolPath::room();
+      task = vpToolTask();
+      task.goal = path.stop(tool, stop) ? vpToolPath::at(stop, stop.duration()).x : tool.x;
+      rebase = true;
+    }
+    stopped = true;
+    toGoal = false;
+  }
+
+  //! What was commanded, where that leads, and whether the plan still holds.
+  void finish(const vpJointVector &q, const vpToolState &next, vpAvoidanceOutput &output) noexcept
+  {
+    const double period = spec.common.period;
+    output.velocity = supervised.velocity;
+    output.wanted = next.x;
+    configuration = q + period * supervised.velocity;
+    vpArmKinematics::forward(scene->arm(), configuration, data.arm);
+    const Vector3d reached = data.arm.tool.p;
+    velocity = supervised.velocity;
+    const bool passed = supervised.status == vpSupervision::Passed;
+    if (passed && (reached - next.x).norm() < offPlan) {
+      tool = next;
+    }
+    else {
+      leave(reached, q);
+    }
+    output.stopping = supervised.status == vpSupervision::Stopping || supervised.status == vpSupervision::Slowed ||
+                      supervised.status == vpSupervision::Unsafe;
+    output.pair = passed ? pair : supervised.pair;
+    output.status = supervised.status == vpSupervision::Unsafe         ? vpAvoidanceStatus::Unsafe
+                    : supervised.status == vpSupervision::InvalidInput ? vpAvoidanceStatus::InvalidInput
+                    : toGoal && isArrived()                            ? vpAvoidanceStatus::Arrived
+                    : passed || stopped                                ? status
+                                                                       : vpAvoidanceStatus::Slowed;
+  }
+
+  //! The next motion starts from what was allowed.
+  void leave(const Vector3d &reached, const vpJointVector &q) noexcept
+  {
+    const Vector3d before = tool.v;
+    scene->place(q, data);
+    vpToolState now;
+    now.x = reached;
+    now.v = (reached - data.arm.tool.p) / spec.common.period;
+    now.a = (now.v - before) / spec.common.period;
+    const double fast = spec.common.maxVelocity / std::max(1e-9, now.v.norm());
+    const double hard = spec.common.maxAcceleration / std::max(1e-9, now.a.norm());
+    now.v *= std::min(1., fast);
+    now.a *= std::min(1., hard);
+    tool = now;
+    dropPassedVias();
+    rebase = true;
+  }
+
+  void dropPassedVias() noexcept
+  {
+    while (task.viaCount > 0 && plan.vias() >= task.viaCount && clock >= plan.viaTime(plan.vias() - task.viaCount)) {
+      for (int k = 1; k < task.viaCount; ++k) {
+        task.vias[static_cast<std::size_t>(k - 1)] = task.vias[static_cast<std::size_t>(k)];
+      }
+      --task.viaCount;
+    }
+  }
+
+  vpToolMotion motion;
+  vpDetourSearch search;
+  vpToolPath path;
+  vpTrajectoryPlan plan;
+  vpStopSupervisor supervisor;
+  vpToolState tool; // commanded, at the end of the last period
+  Eigen::Matrix3d orientation = Eigen::Matrix3d::Identity();
+  vpJointVector leaning;
+  double clock = 0.;
+  bool rebase = true;  // the next step plans from #tool
+  bool stopped = true; // braking or standing, because nothing is free
+  vpClearance pair;
+  vpCollisionData data;
+  vpNearPairs near;
+  vpRedundancyOutput solved;
+  vpSupervisedVelocity supervised;
+};
+
+vpDirectTrajectoryAvoidance::vpDirectTrajectoryAvoidance(const vpCollisionScene &scene,
+                                                         const vpDirectTrajectoryAvoidanceSpec &spec)
+  : m_impl(std::make_unique<Impl>(scene, spec))
+{}
+vpDirectTrajectoryAvoidance::~vpDirectTrajectoryAvoidance() = default;
+
+vpAvoidanceStatus vpDirectTrajectoryAvoidance::start(const vpJointVector &q, const vpAvoidanceGoal &goal)
+{
+  if (!m_impl->begin(q, goal)) {
+    return vpAvoidanceStatus::InvalidInput;
+  }
+  m_impl->look();
+  return m_impl->status;
+}
+
+void vpDirectTrajectoryAvoidance::setGoal(const vpAvoidanceGoal &goal) noexcept
+{
+  if (m_impl->started && m_impl->fits(goal)) {
+    m_impl->wished = goal;
+  }
+}
+
+void vpDirectTrajectoryAvoidance::look()
+{
+  if (m_impl->started) {
+    m_impl->look();
+  }
+}
+
+void vpDirectTrajectoryAvoidance::step(const vpJointVector &q, vpAvoidanceOutput &output) noexcept
+{
+  output = vpAvoidanceOutput();
+  output.velocity = vpJointVector::Zero(m_impl->scene->arm().size());
+  if (m_impl->started && q.size() == output.velocity.size() && q.allFinite()) {
+    m_impl->step(q, output);
+  }
+}
+
+std::vector<Vector3d> vpDirectTrajectoryAvoidance::detour() const
+{
+  const vpToolTask &task = m_impl->task;
+  std::vector<Vector3d> places(task.vias.begin(), task.vias.begin() + task.viaCount);
+  if (m_impl->started && !m_impl->toGoal) {
+    places.push_back(task.goal);
+  }
+  return places;
+}
+
+END_VISP_NAMESPACE

@@ -1,0 +1,193 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include <visp3/avoidance/vpPotentialFieldAvoidance.h>
+
+#include "vpToolMotion.h"
+
+#include <visp3/core/vpException.h>
+
+#include <algorithm>
+#include <cmath>
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+using Eigen::Vector3d;
+constexpr double still = 2e-3; // m/s: a slower tool stands
+
+void requireGood(const char *field, double value)
+{
+  if (!(value > 0.) || !std::isfinite(value)) {
+    throw vpException(vpException::badValue, "%s of the potential field is %g, must be > 0", field, value);
+  }
+}
+
+//! The arm as the text drives it: no limits of velocity and acceleration.
+vpArmModel withoutMotionLimits(const vpArmModel &arm)
+{
+  vpArmSpec spec = arm.spec();
+  for (vpArmJointSpec &joint : spec.joints) {
+    joint.velocity = 1e3;
+    joint.acceleration = 1e6;
+  }
+  return vpArmModel(spec);
+}
+
+double signOf(double x) { return x < 0. ? -1. : 1.; }
+} // namespace
+
+void vpPotentialFieldAvoidanceSpec::validate() const
+{
+  common.validate();
+  metres.validate(vpFieldForm::Corrected);
+  pixels.validate(vpFieldForm::Thesis);
+  requireGood("gain", gain);
+  requireGood("avoidSpeed", avoidSpeed);
+  requireGood("focal", focal);
+  requireGood("imageWidth", imageWidth);
+  requireGood("imageHeight", imageHeight);
+  requireGood("sight", sight);
+  requireGood("tolerance", tolerance);
+}
+
+class vpPotentialFieldAvoidance::Impl
+{
+public:
+  Impl(const vpCollisionScene &s, const vpPotentialFieldAvoidanceSpec &p)
+    : scene(&s), spec(p), arm(p.form == vpFieldForm::Thesis ? withoutMotionLimits(s.arm()) : s.arm()),
+      motion(arm, motionSpec(p))
+  {
+    spec.validate();
+    scene->arm().requireMotionLimits("a potential field");
+    for (const vpArmCapsule &capsule : arm.spec().capsules) {
+      last = std::max(last, capsule.link);
+    }
+  }
+
+  void step(const vpJointVector &q, vpAvoidanceOutput &output) noexcept
+  {
+    scene->place(q, data);
+    scene->near(data, cutoff(), near);
+    const Vector3d x = data.arm.tool.p;
+    const Vector3d error = goal.position - x;
+    Vector3d task = spec.gain * error;
+    bool avoiding = false;
+    output.pair = vpClearance();
+    const Vector3d velocity = spec.form == vpFieldForm::Thesis ? asPrinted(task, avoiding) //
+                                                               : radial(task, avoiding, output.pair);
+    motion.step(data, near, velocity, goal.q, data.arm.tool.R, previous, solved);
+    output.velocity = previous = solved.velocity;
+    const Vector3d moved = data.arm.J.topRows<3>() * solved.velocity;
+    output.wanted = x + spec.common.period * moved;
+    const bool stands = moved.norm() < still;
+    output.status = stands && error.norm() <= spec.tolerance ? vpAvoidanceStatus::Arrived
+                    : stands && !starting                    ? vpAvoidanceStatus::Waiting
+                    : avoiding                               ? vpAvoidanceStatus::Detouring
+                                                             : vpAvoidanceStatus::Moving;
+    starting = starting && stands;
+  }
+
+  //! The obstacle next to the image's centre, while its own centre is in the picture.
+  Vector3d asPrinted(const Vector3d &task, bool &avoiding) const noexcept
+  {
+    const vpRigidTransform fMc = vpArmKinematics::camera(arm, data.arm);
+    Eigen::Vector2d nearest = Eigen::Vector2d::Constant(1e6);
+    for (int i = 0; i < scene->objectCount(); ++i) {
+      const Vector3d p = fMc.R.transpose() * (scene->object(i).pose.p - fMc.p);
+      if (p.z() <= 0. || p.z() > spec.sight) {
+        continue;
+      }
+      const Eigen::Vector2d offset = spec.focal * p.head<2>() / p.z();
+      const bool seen = std::fabs(offset.x()) < 0.5 * spec.imageWidth && std::fabs(offset.y()) < 0.5 * spec.imageHeight;
+      nearest = seen && offset.norm() < nearest.norm() ? offset : nearest;
+    }
+    if (nearest.x() >= 1e6) {
+      return task;
+    }
+    avoiding = true;
+    const Vector3d away(-spec.avoidSpeed * signOf(nearest.x()), -spec.avoidSpeed * signOf(nearest.y()), 0.);
+    return fMc.R * blendAsPrinted(spec.pixels, nearest, away, fMc.R.transpose() * task);
+  }
+
+  //! All that is near the last link, the nearest last: it decides.
+  Vector3d radial(const Vector3d &task, bool &avoiding, vpClearance &nearest) noexcept
+  {
+    Vector3d velocity = task;
+    const double limit = spec.common.maxVelocity;
+    velocity *= std::min(1., limit / std::max(1e-9, velocity.norm()));
+    const auto begin = near.pairs.begin(), end = begin + near.count;
+    std::sort(begin, end, [](const vpClearance &a, const vpClearance &b) { return a.distance > b.distance; });
+    for (auto pair = begin; pair != end; ++pair) {
+      const bool counts = pair->kind == vpCollisionKind::Object || pair->kind == vpCollisionKind::Ground;
+      if (!counts || arm.spec().capsules[static_cast<std::size_t>(pair->capsule)].link != last) {
+        continue;
+      }
+      const double distance = pair->distance - spec.common.margin;
+      velocity = blendRadial(spec.metres, distance, pair->normal, spec.avoidSpeed, velocity);
+      avoiding = avoiding || fieldWeight(spec.metres, spec.form, distance) > 0.05;
+      nearest = *pair;
+    }
+    return velocity * std::min(1., limit / std::max(1e-9, velocity.norm()));
+  }
+
+  const vpCollisionScene *scene;
+  vpPotentialFieldAvoidanceSpec spec;
+  vpArmModel arm;
+  vpToolMotion motion;
+  int last = 0; // link that carries the outermost capsule
+  vpAvoidanceGoal goal;
+  vpJointVector previous;
+  bool starting = true, valid = false;
+  vpCollisionData data;
+  vpNearPairs near;
+  vpRedundancyOutput solved;
+
+private:
+  static vpToolMotionSpec motionSpec(const vpPotentialFieldAvoidanceSpec &spec)
+  {
+    vpToolMotionSpec result;
+    result.period = spec.common.period;
+    return result;
+  }
+  double cutoff() const noexcept { return spec.common.margin + spec.metres.centre + 3. * spec.metres.width; }
+};
+
+vpPotentialFieldAvoidance::vpPotentialFieldAvoidance(const vpCollisionScene &scene,
+                                                     const vpPotentialFieldAvoidanceSpec &spec)
+  : m_impl(std::make_unique<Impl>(scene, spec))
+{}
+vpPotentialFieldAvoidance::~vpPotentialFieldAvoidance() = default;
+
+vpAvoidanceStatus vpPotentialFieldAvoidance::start(const vpJointVector &q, const vpAvoidanceGoal &goal)
+{
+  const int n = m_impl->arm.size();
+  m_impl->valid = q.size() == n && q.allFinite() && goal.position.allFinite() &&
+                  (goal.q.size() == 0 || (goal.q.size() == n && goal.q.allFinite()));
+  m_impl->previous = vpJointVector::Zero(n);
+  m_impl->starting = true;
+  m_impl->goal = goal;
+  return m_impl->valid ? vpAvoidanceStatus::Moving : vpAvoidanceStatus::InvalidInput;
+}
+
+void vpPotentialFieldAvoidance::setGoal(const vpAvoidanceGoal &goal) noexcept
+{
+  const int n = m_impl->arm.size();
+  if (goal.position.allFinite() && (goal.q.size() == 0 || (goal.q.size() == n && goal.q.allFinite()))) {
+    m_impl->goal = goal;
+  }
+}
+
+void vpPotentialFieldAvoidance::step(const vpJointVector &q, vpAvoidanceOutput &output) noexcept
+{
+  const int n = m_impl->arm.size();
+  output = vpAvoidanceOutput();
+  output.velocity = vpJointVector::Zero(n);
+  if (m_impl->valid && q.size() == n && q.allFinite()) {
+    m_impl->step(q, output);
+  }
+}
+
+END_VISP_NAMESPACE

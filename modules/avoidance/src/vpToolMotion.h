@@ -1,0 +1,56 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#ifndef vpToolMotion_h
+#define vpToolMotion_h
+
+#include <visp3/avoidance/vpCollisionScene.h>
+#include <visp3/manipulator/vpRedundancySolver.h>
+
+BEGIN_VISP_NAMESPACE
+
+//! \brief How the joints follow a motion of the tool.
+struct vpToolMotionSpec {
+  double period = 0.005;        // of the steps, s
+  double repelRange = 0.12;     // m: nearer obstacles push the joints next to them away
+  double postureGain = 0.3;     // towards the goal's configuration, when there is one
+  double limitGain = 0.1;       // away from position limits
+  bool keepOrientation = false; // of the end effector, which costs three of the joints' freedoms
+  double orientationGain = 5.;  // 1/s
+};
+
+/*!
+ * \class vpToolMotion
+ * \brief Joint velocities for a velocity of the tool's origin (thesis (8.1), (8.10)-(8.12), corrected): what the task
+ * leaves free moves the arm's body away from obstacles, to the goal's posture and away from limits.
+ *
+ * No allocation, no exception in step(). Used with a coarse period to foresee a motion and with a fine one to make it.
+ */
+class vpToolMotion
+{
+public:
+  explicit vpToolMotion(const vpArmModel &model, const vpToolMotionSpec &spec = {});
+
+  /*!
+   * \param data : After vpCollisionScene::place(); the Jacobian is added. \param near : Pairs of that configuration.
+   * \param velocity : Of the tool's origin, base frame, m/s. \param posture : Configuration to lean to; may be empty.
+   * \param orientation : Kept, if the spec says so. \param previous : Joint velocities of the last period.
+   */
+  void step(vpCollisionData &data, const vpNearPairs &near, const Eigen::Vector3d &velocity,
+            const vpJointVector &posture, const Eigen::Matrix3d &orientation, const vpJointVector &previous,
+            vpRedundancyOutput &output) noexcept;
+
+  [[nodiscard]] const vpToolMotionSpec &spec() const noexcept { return m_spec; }
+
+private:
+  void repel(const vpCollisionData &data, const vpNearPairs &near) noexcept;
+
+  const vpArmModel *m_model;
+  vpToolMotionSpec m_spec;
+  vpRedundancySolver m_solver;
+  vpRedundancyInput m_input;
+};
+
+END_VISP_NAMESPACE
+#endif
