@@ -70,7 +70,16 @@ const vpAvoidanceSample &sampleAt(const vpAvoidanceRun &run, double share)
   return run.samples.back();
 }
 
-std::string seedText(const vpAvoidanceRun &run) { return "seed " + std::to_string(run.spec.seed); }
+//! Which of the scene's runs is shown: "right to left, seed 1".
+std::string whichRun(const Plan &plan, const std::string &scene)
+{
+  for (const Problem &problem : plan.problems) {
+    if (problem.scene == scene && problem.shown) {
+      return (problem.variant.empty() ? "" : problem.variant + ", ") + "seed " + std::to_string(problem.seed);
+    }
+  }
+  return "";
+}
 
 void addGhosts(const vpAvoidanceRun &run, vpApp::ArmPicture &picture)
 {
@@ -91,7 +100,7 @@ Figure drawArm(const Plan &plan, const Results &results, const SceneInfo &scene)
   const std::string hero = heroOf(plan, results, scene.id);
   const vpAvoidanceRun &run = *results.find(scene.id, hero);
   vpApp::ArmPicture picture;
-  picture.title = scene.id + " " + scene.name + ", " + seedText(run) + ": arm of " + methodInfo(hero).name;
+  picture.title = scene.id + " " + scene.name + ", " + whichRun(plan, scene.id) + ": arm of " + methodInfo(hero).name;
   picture.ground = run.spec.scene.ground.has_value();
   picture.objects = run.spec.scene.objects;
   const double middle = sampleAt(run, 0.5).time;
@@ -124,7 +133,7 @@ Figure animateArm(const Plan &plan, const Results &results, const SceneInfo &sce
   const std::string hero = heroOf(plan, results, scene.id);
   const vpAvoidanceRun &run = *results.find(scene.id, hero);
   vpApp::ArmAnimation animation;
-  animation.title = scene.id + " " + scene.name + ", " + seedText(run) + ": " + methodInfo(hero).name;
+  animation.title = scene.id + " " + scene.name + ", " + whichRun(plan, scene.id) + ": " + methodInfo(hero).name;
   animation.ground = run.spec.scene.ground.has_value();
   animation.still = run.spec.scene.objects;
   for (const vpMovingObstacle &obstacle : run.spec.obstacles) {

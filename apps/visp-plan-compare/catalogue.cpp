@@ -42,8 +42,9 @@ const std::vector<SceneInfo> &standardScenes()
        "at 10 Hz.",
        20, 4},
       {"S2", "random static",
-       "Random boxes, balls, capsules and cylinders; each scene is certified to have a way, with 30 mm to spare.", 200,
-       6},
+       "Random boxes, balls, capsules and cylinders; neither the joints nor the tool "
+       "can go straight, and each scene is certified to have a way, with 30 mm to spare.",
+       200, 6},
       {"S3", "crossing",
        "Two obstacles at constant speed cross the arm's way, 0.1 to 0.5 m/s, seen at 30 or 10 Hz with 50 ms of latency "
        "and 3 mm of noise. Seed 1 is the shown case: 0.3 m/s at 30 Hz.",

@@ -28,12 +28,13 @@ std::string nameOf(const std::string &method)
 
 std::string pText(double p) { return p < 0.001 ? "p < 0.001" : "p = " + number(p, 2); }
 
-//! Scenes where no method does significantly better, pair by pair, and it succeeds at all.
+//! Scenes where no method does significantly better, pair by pair, where it succeeds at all and touches nothing.
 std::vector<std::string> unbeatenScenes(const Plan &plan, const Results &results, const std::string &method)
 {
   std::vector<std::string> scenes;
   for (const SceneInfo &scene : plan.scenes) {
-    bool beaten = results.cell(scene.id, method).successes() == 0;
+    const Cell cell = results.cell(scene.id, method);
+    bool beaten = cell.successes() == 0 || cell.runsWith(&M::collisions_moving) > 0;
     for (const std::string &other : plan.methods) {
       const Pairing p = pairUp(results, scene.id, other, method);
       beaten = beaten || (p.onlyFirst > p.onlySecond && p.p < SIGNIFICANT);
@@ -44,6 +45,29 @@ std::vector<std::string> unbeatenScenes(const Plan &plan, const Results &results
   }
   return scenes;
 }
+
+//! Of these, those where its median duration is the least of all methods that are as good there.
+std::vector<std::string> quickestScenes(const Plan &plan, const Results &results, const std::string &method)
+{
+  const auto duration = [&](const std::string &scene, const std::string &m) {
+    return median(results.cell(scene, m).values(&M::duration_s, true));
+  };
+  std::vector<std::string> scenes;
+  for (const std::string &scene : unbeatenScenes(plan, results, method)) {
+    const bool quickest = std::all_of(plan.methods.begin(), plan.methods.end(), [&](const std::string &other) {
+      const std::vector<std::string> good = unbeatenScenes(plan, results, other);
+      return std::find(good.begin(), good.end(), scene) == good.end() ||
+             duration(scene, method) <= duration(scene, other);
+    });
+    if (quickest) {
+      scenes.push_back(scene);
+    }
+  }
+  return scenes;
+}
+
+//! A time in ms; what is too short to tell is said to be so.
+std::string msText(double ms) { return ms < 0.001 ? "less than 0.001" : number(ms, 2); }
 
 //! Of the methods that never touched anything, or of all when there is none.
 std::vector<std::string> safest(const Plan &plan, const Results &results)
@@ -111,10 +135,12 @@ std::string verdictOf(const Plan &plan, const Results &results, const std::strin
   const int touched = cell.runsWith(&M::collisions_moving);
   const int overTool = cell.runsWith(&M::tool_a_violations), overSpeed = cell.runsWith(&M::tool_v_violations);
   const int overJoints = std::max(cell.runsWith(&M::joint_v_violations), cell.runsWith(&M::joint_a_violations));
-  std::string text = good.empty()
-                         ? "Good for none of the scenes run here: elsewhere another method does significantly "
-                           "better. "
-                         : "Good for " + enumerate(good) + ", where no other method does significantly better. ";
+  std::string text = good.empty() ? "Good for none of these scenes: it touches something, or another method does "
+                                    "significantly better. "
+                                  : "Good for " + enumerate(good) +
+                                        ", where it touches nothing and no other method does significantly better. ";
+  const std::vector<std::string> quick = quickestScenes(plan, results, method);
+  text += quick.empty() ? "" : "The quickest of those in " + enumerate(quick) + ". ";
   text += touched == 0 ? "It touched nothing in " + std::to_string(cell.runs.size()) + " runs. "
                        : "It touched something while moving in " + countText(touched, cell.runs.size()) + " runs. ";
   text += overJoints == 0
@@ -124,8 +150,8 @@ std::string verdictOf(const Plan &plan, const Results &results, const std::strin
                                     : "the tool's bound of speed was exceeded in " + std::to_string(overSpeed) +
                                           " runs, that of acceleration in " + std::to_string(overTool) + ". ";
   const std::vector<double> replan = cell.replanTimes();
-  text += "Looking again takes " + number(percentile(replan, .5), 2) + " ms (median) and " +
-          number(percentile(replan, .99), 2) + " ms (99 %).";
+  text += "Looking again takes " + msText(percentile(replan, .5)) + " ms (median) and " +
+          msText(percentile(replan, .99)) + " ms (99 %).";
   const int falseStops = cell.sum(&M::false_stops), stops = cell.sum(&M::stops);
   if (stops > 0) {
     text += " " + countText(falseStops, static_cast<std::size_t>(stops)) + " stops were false.";

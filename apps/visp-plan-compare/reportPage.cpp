@@ -34,6 +34,11 @@ std::string intervalText(const Cell &cell)
          fixed(100. * i.high, 1) + " %";
 }
 
+std::string msText(double ms) { return ms < 0.001 ? "0.000" : number(ms, 2); }
+
+//! Millimetres; rounding errors are none.
+std::string mmText(double m) { return m < 1e-8 ? "0" : number(1000. * m, 2); }
+
 HtmlCell methodCell(const std::string &method)
 {
   const MethodInfo info = methodInfo(method);
@@ -108,18 +113,19 @@ const std::vector<Column> &columns()
          const std::vector<double> v = c.values(&M::min_clearance_m, false);
          return v.empty() ? std::string("-") : fixed(1000. * *std::min_element(v.begin(), v.end()), 1);
        }},
-      {"goal mm", [](const Cell &c) { return number(1000. * median(c.values(&M::goal_error_m, false)), 2); }},
-      {"s", [](const Cell &c) { return fixed(median(c.values(&M::duration_s, true)), 2); }},
-      {"path m", [](const Cell &c) { return fixed(median(c.values(&M::path_length, true)), 2); }},
+      {"goal mm", [](const Cell &c) { return mmText(median(c.values(&M::goal_error_m, false))); }},
+      {"s", [](const Cell &c) { return c.successes() > 0 ? fixed(median(c.values(&M::duration_s, true)), 2) : "-"; }},
+      {"path m",
+       [](const Cell &c) { return c.successes() > 0 ? fixed(median(c.values(&M::path_length, true)), 2) : "-"; }},
       {"v", [](const Cell &c) { return number(percentile(c.values(&M::peak_v, false), 1.), 3); }},
       {"a", [](const Cell &c) { return number(percentile(c.values(&M::peak_a, false), 1.), 3); }},
       {"jerk", [](const Cell &c) { return number(percentile(c.values(&M::peak_jerk, false), 1.), 3); }},
-      {"jerk^2", [](const Cell &c) { return number(median(c.values(&M::jerk_integral, true)), 3); }},
+      {"jerk^2",
+       [](const Cell &c) { return c.successes() > 0 ? number(median(c.values(&M::jerk_integral, true)), 3) : "-"; }},
       {"replan ms",
        [](const Cell &c) {
          const std::vector<double> t = c.replanTimes();
-         return number(percentile(t, .5), 2) + " / " + number(percentile(t, .95), 2) + " / " +
-                number(percentile(t, .99), 2);
+         return msText(percentile(t, .5)) + " / " + msText(percentile(t, .95)) + " / " + msText(percentile(t, .99));
        }},
       {"false stops",
        [](const Cell &c) {

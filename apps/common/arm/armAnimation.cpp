@@ -123,14 +123,19 @@ void drawArm(ArmCanvas &canvas, const vpArmModel &arm, const vpJointVector &q)
   }
 }
 
-ArmCanvas layOut(const vpArmModel &arm, const ArmAnimation &animation)
+ArmCanvas layOut(const vpArmModel &arm, const ArmAnimation &animation, const std::string &id)
 {
-  ArmCanvas canvas(arm);
+  ArmCanvas canvas(arm, id + "view");
   for (const vpCollisionObject &object : animation.still) {
     canvas.show(object);
   }
   for (const ArmFrame &frame : animation.frames) {
     canvas.show(frame.q);
+  }
+  for (const vpCollisionObject &object : animation.objects) {
+    if (object.velocity.linearNorm() == 0.) { // what moves comes from far away
+      canvas.show(object);
+    }
   }
   for (const ArmTrace &trace : animation.traces) {
     for (const Eigen::Vector3d &p : trace.points) {
@@ -147,7 +152,7 @@ ArmCanvas layOut(const vpArmModel &arm, const ArmAnimation &animation)
 
 std::string armAnimationHtml(const vpArmModel &arm, const ArmAnimation &animation, const std::string &id)
 {
-  ArmCanvas canvas = layOut(arm, animation);
+  ArmCanvas canvas = layOut(arm, animation, id);
   canvas.heading(animation.title, animation.ground);
   for (const vpCollisionObject &object : animation.still) {
     canvas.object(object, STILL);

@@ -115,6 +115,12 @@ void ArmCanvas::heading(const std::string &title, bool ground)
   for (int i = 0; i < 2; ++i) {
     add(text(m_frames[i].corner.x(), HEAD - 8., names[i], "font-size=\"12\" fill=\"#666666\""));
   }
+  for (int i = 0; i < 2; ++i) { // half the gap belongs to each view
+    const Vector2d size = m_scale * (m_frames[i].high - m_frames[i].low) + Vector2d(GAP, 10.);
+    add("<clipPath id=\"" + escapeHtml(m_id) + std::to_string(i) + "\"><rect x=\"" +
+        px(m_frames[i].corner.x() - 0.5 * GAP) + "\" y=\"" + px(m_frames[i].corner.y() - 5.) + "\" width=\"" +
+        px(size.x()) + "\" height=\"" + px(size.y()) + "\"/></clipPath>\n");
+  }
   const Frame &f = m_frames[1];
   if (ground) {
     add(line(pixel(Vector2d(f.low.x(), 0.), ArmView::Side), pixel(Vector2d(f.high.x(), 0.), ArmView::Side),
@@ -127,10 +133,12 @@ void ArmCanvas::heading(const std::string &title, bool ground)
 
 void ArmCanvas::object(const vpCollisionObject &object, const std::string &attributes)
 {
-  for (const ArmView view : views) {
-    for (const Polygon &polygon : outline(object, view)) {
-      add("<polygon points=\"" + points(polygon, view) + "\" " + attributes + "/>\n");
+  for (int i = 0; i < 2; ++i) {
+    add("<g clip-path=\"url(#" + escapeHtml(m_id) + std::to_string(i) + ")\">\n");
+    for (const Polygon &polygon : outline(object, views[i])) {
+      add("<polygon points=\"" + points(polygon, views[i]) + "\" " + attributes + "/>\n");
     }
+    add("</g>\n");
   }
 }
 

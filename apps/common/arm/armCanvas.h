@@ -19,7 +19,8 @@ class ArmCanvas
 public:
   static constexpr ArmView views[2] = {ArmView::Top, ArmView::Side};
 
-  explicit ArmCanvas(const vpArmModel &arm) : m_arm(&arm) {}
+  //! \param id : Begins the names in the document; differs among the documents of a page.
+  explicit ArmCanvas(const vpArmModel &arm, std::string id = "view") : m_arm(&arm), m_id(std::move(id)) {}
 
   void show(const vpCollisionObject &object); //!< Make room for it.
   void show(const Eigen::Vector3d &place);    //!< Make room for it.
@@ -27,6 +28,7 @@ public:
   void layOut();                              //!< From here on the scale stands.
 
   void heading(const std::string &title, bool ground);
+  //! What lies outside a view is cut off.
   void object(const vpCollisionObject &object, const std::string &attributes);
   void ghost(const ArmGhost &ghost);
   void trace(const ArmTrace &trace);
@@ -56,6 +58,7 @@ private:
   void include(const Eigen::Vector2d &p, ArmView view, double room);
 
   const vpArmModel *m_arm;
+  std::string m_id;
   Frame m_frames[2];
   double m_scale = 1.;
   double m_height = 0.;
