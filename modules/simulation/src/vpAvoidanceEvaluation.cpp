@@ -122,6 +122,8 @@ void evaluateEnd(const vpAvoidanceRun &run, vpAvoidanceMetrics &m)
 }
 } // namespace
 
+bool vpAvoidanceEvaluation::isAtRest(const vpJointVector &command) { return !moves(command); }
+
 bool vpAvoidanceEvaluation::isThere(const vpAvoidanceRunSpec &spec, const vpAvoidanceSample &sample)
 {
   return sample.goalDistance <= spec.goalTolerance && !moves(sample.command);

@@ -19,6 +19,8 @@ namespace vpAvoidanceEvaluation
 {
 //! True when the tool is at the goal and the joints are commanded to rest.
 [[nodiscard]] bool isThere(const vpAvoidanceRunSpec &spec, const vpAvoidanceSample &sample);
+//! True when the joints are commanded to rest.
+[[nodiscard]] bool isAtRest(const vpJointVector &command);
 //! All figures. \param knots : The true motion.
 [[nodiscard]] vpAvoidanceMetrics evaluate(const vpAvoidanceRun &run, const std::vector<vpMotionKnot> &knots);
 } // namespace vpAvoidanceEvaluation

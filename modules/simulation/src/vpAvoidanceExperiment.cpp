@@ -19,6 +19,7 @@ namespace
 {
 constexpr double holdTime = 0.2;     // s that the arm must rest at the goal
 constexpr double patience = 1.;      // s that a method may call itself arrived where it is not
+constexpr double stuckTime = 5.;     // s without any motion
 constexpr double longestStep = 1e-3; // s between knots of drives that are not ideal
 
 double secondsSince(std::chrono::steady_clock::time_point start)
@@ -114,7 +115,10 @@ private:
     const bool there = vpAvoidanceEvaluation::isThere(*m_spec, s), arrived = s.status == vpAvoidanceStatus::Arrived;
     m_thereSince = there ? std::min(m_thereSince, s.time) : HUGE_VAL;
     m_arrivedSince = arrived ? std::min(m_arrivedSince, s.time) : HUGE_VAL;
-    return s.time - m_thereSince >= holdTime || s.time - m_arrivedSince >= patience;
+    const bool still = vpAvoidanceEvaluation::isAtRest(s.command) && m_truth.isStill(s.time);
+    m_stillSince = still ? std::min(m_stillSince, s.time) : HUGE_VAL;
+    return s.time - m_thereSince >= holdTime || s.time - m_arrivedSince >= patience ||
+           s.time - m_stillSince >= stuckTime;
   }
   vpAvoidanceSample observe(double t)
   {
@@ -143,7 +147,7 @@ private:
   vpCollisionData m_data;
   vpAvoidanceOutput m_output;
   std::vector<vpMotionKnot> m_knots;
-  double m_thereSince = HUGE_VAL, m_arrivedSince = HUGE_VAL; // s
+  double m_thereSince = HUGE_VAL, m_arrivedSince = HUGE_VAL, m_stillSince = HUGE_VAL; // s
 };
 } // namespace
 

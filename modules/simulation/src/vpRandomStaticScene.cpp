@@ -6,6 +6,7 @@
 
 #include <visp3/direct_core/vpSO3.h>
 
+#include <algorithm>
 #include <cmath>
 
 BEGIN_VISP_NAMESPACE
@@ -66,7 +67,15 @@ bool touches(const vpCollisionScene &scene, const vpJointVector &start, const vp
   return false;
 }
 
-//! Start and goal free and some way apart, the straight motion not free, a path known.
+//! True when the tool can go straight, but not freely.
+bool toolTouches(const vpCollisionScene &scene, const vpJointVector &start, const vpJointVector &goal)
+{
+  const std::vector<vpJointVector> line = vpSceneDraw::toolLine(scene.arm(), start, goal, 60);
+  return std::any_of(line.begin(), line.end(),
+                     [&](const vpJointVector &q) { return !vpSceneDraw::isFree(scene, q, 0.); });
+}
+
+//! Start and goal free and some way apart, neither straight motion free, a path known.
 bool isGood(const vpCollisionScene &scene, const vpJointVector &start, const vpJointVector &goal, unsigned int seed)
 {
   constexpr double least = 0.3, most = 0.8; // m, way of the tool
@@ -76,7 +85,8 @@ bool isGood(const vpCollisionScene &scene, const vpJointVector &start, const vpJ
       !vpSceneDraw::isFree(scene, goal, vpAvoidanceScenes::feasibleMargin)) {
     return false;
   }
-  return touches(scene, start, goal) && vpSceneDraw::hasPath(scene, start, goal, seed);
+  return touches(scene, start, goal) && toolTouches(scene, start, goal) &&
+         vpSceneDraw::hasPath(scene, start, goal, seed);
 }
 } // namespace
 

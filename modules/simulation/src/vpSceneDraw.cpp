@@ -4,6 +4,8 @@
  */
 #include "vpSceneDraw.h"
 
+#include "vpReachPoint.h"
+
 #include <visp3/avoidance/vpPathPlanner.h>
 #include <visp3/core/vpException.h>
 
@@ -89,6 +91,21 @@ bool vpSceneDraw::isFree(const vpCollisionScene &scene, const vpJointVector &q, 
   vpCollisionData data;
   scene.place(q, data);
   return !scene.inCollision(data, margin);
+}
+
+std::vector<vpJointVector> vpSceneDraw::toolLine(const vpArmModel &arm, const vpJointVector &start,
+                                                 const vpJointVector &goal, int count)
+{
+  const Eigen::Vector3d from = tool(arm, start), way = tool(arm, goal) - from;
+  std::vector<vpJointVector> line = {start};
+  for (int i = 1; i < count; ++i) {
+    vpJointVector q = line.back();
+    if (!vpReachPoint(arm, from + static_cast<double>(i) / (count - 1) * way, q)) {
+      return {};
+    }
+    line.push_back(q);
+  }
+  return line;
 }
 
 bool vpSceneDraw::hasPath(const vpCollisionScene &scene, const vpJointVector &start, const vpJointVector &goal,

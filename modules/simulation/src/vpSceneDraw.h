@@ -40,6 +40,12 @@ void requireArm(const std::shared_ptr<const vpArmModel> &arm);
 [[nodiscard]] Eigen::Vector3d tool(const vpArmModel &arm, const vpJointVector &q);
 //! True when no pair is nearer than \e margin, m.
 [[nodiscard]] bool isFree(const vpCollisionScene &scene, const vpJointVector &q, double margin);
+/*!
+ * Configurations of an arm whose tool goes straight from \e start to the place of \e goal, \e count of them in equal
+ * steps; empty when it cannot.
+ */
+[[nodiscard]] std::vector<vpJointVector> toolLine(const vpArmModel &arm, const vpJointVector &start,
+                                                  const vpJointVector &goal, int count);
 //! True when a planner with a limit of iterations finds a certified path.
 [[nodiscard]] bool hasPath(const vpCollisionScene &scene, const vpJointVector &start, const vpJointVector &goal,
                            unsigned int seed);

@@ -5,6 +5,7 @@
 #include "vpTrueScene.h"
 
 #include <algorithm>
+#include <cmath>
 
 BEGIN_VISP_NAMESPACE
 
@@ -32,6 +33,15 @@ void vpTrueScene::enter(double t)
     o.index = o.index >= 0 ? m_scene.find(o.motion.object.name) : -1;
   }
   place(t);
+}
+
+bool vpTrueScene::isStill(double t) const noexcept
+{
+  return std::all_of(m_obstacles.begin(), m_obstacles.end(), [t](const Obstacle &o) {
+    const bool gone = t >= o.motion.vanishes;
+    return gone ||
+           (t >= o.motion.appears && std::isinf(o.motion.vanishes) && o.motion.object.velocity.linearNorm() == 0.);
+  });
 }
 
 void vpTrueScene::place(double t) noexcept

@@ -25,6 +25,8 @@ public:
   void place(double t) noexcept;
   //! As it was last made.
   [[nodiscard]] const vpCollisionScene &scene() const noexcept { return m_scene; }
+  //! True when no obstacle moves, comes or goes from time \e t on.
+  [[nodiscard]] bool isStill(double t) const noexcept;
   //! Speed that no obstacle ever exceeds, m/s.
   [[nodiscard]] double fastest() const noexcept { return m_fastest; }
 

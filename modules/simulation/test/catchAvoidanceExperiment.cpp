@@ -250,6 +250,26 @@ TEST_CASE("A stop without a reason is a false one", "[avoidance-experiment]")
   CHECK(run({movingBall({0.45, 3.9, 0.}, {0., -1., 0.})}).false_stops == 1);
 }
 
+TEST_CASE("A run in which nothing moves any more ends", "[avoidance-experiment]")
+{
+  BlindMethod::Spec blind;
+  blind.stopFrom = 0.5;
+  blind.stopTo = 100.;
+  const auto run = [&](const std::vector<vpMovingObstacle> &obstacles) {
+    vpAvoidanceRunSpec spec = sledgeRun(0., 0.6, blind);
+    spec.obstacles = obstacles;
+    const vpAvoidanceRun r = runAvoidanceExperiment(spec);
+    CHECK_FALSE(r.metrics.success);
+    return r.samples.back().time;
+  };
+  CHECK(run({}) == Approx(5.5).margin(0.02));
+  CHECK(run({movingBall({3., 0., 0.}, {0., 0., 0.})}) == Approx(5.5).margin(0.02));
+  CHECK(run({movingBall({3., 0., 0.}, {0., 0.1, 0.})}) == Approx(20.).margin(0.02));
+  vpMovingObstacle late = movingBall({3., 0., 0.}, {0., 0., 0.});
+  late.appears = 2.;
+  CHECK(run({late}) == Approx(7.).margin(0.02));
+}
+
 TEST_CASE("The same specification gives the same log, another seed another one", "[avoidance-experiment]")
 {
   vpAvoidanceRunSpec spec = sledgeRun(0., 0.5);

@@ -107,7 +107,7 @@ TEST_CASE("Random static scenes: ends free, the straight motion not", "[avoidanc
 
 TEST_CASE("Crossing obstacles hit who takes no notice, and not who waits", "[avoidance-scenes]")
 {
-  for (unsigned int seed = 1; seed <= 10; ++seed) {
+  for (unsigned int seed = 1; seed <= 5; ++seed) {
     vpCrossingSpec spec;
     spec.speed = 0.1 * (1 + seed % 5);
     const vpAvoidanceScenario s = crossing(arm(), seed, spec);
@@ -125,8 +125,8 @@ TEST_CASE("Crossing obstacles hit who takes no notice, and not who waits", "[avo
     CHECK(s.run.obstacles.size() == 2);
     CHECK(s.run.obstacles[0].object.velocity.linearNorm() == Approx(spec.speed));
     CHECK(flat(s) == flat(crossing(arm(), seed, spec)));
-    if (seed == 10) {
-      CHECK(hit >= 5);
+    if (seed == 5) {
+      CHECK(hit >= 3);
     }
   }
 }

@@ -90,8 +90,8 @@ struct VISP_EXPORT vpAvoidanceRun {
 
 /*!
  * Runs one experiment. It ends when the arm is at the goal, at rest (joints commanded no faster than 0.01 rad/s or m/s)
- * for 0.2 s, or the method has called itself arrived for 1 s, and the goal does not move any more; or with
- * vpAvoidanceRunSpec::maxDuration.
+ * for 0.2 s, or the method has called itself arrived for 1 s, and the goal does not move any more; when nothing has moved
+ * for 5 s, neither arm nor obstacle nor goal, and nothing is to come; or with vpAvoidanceRunSpec::maxDuration.
  * \param spec : What to run; validated first.
  * \param progress : If given, called now and then with the share of maxDuration that is done, 0..1; return false to stop
  * early.

@@ -60,15 +60,15 @@ constexpr double feasibleMargin = 0.03;
 [[nodiscard]] VISP_EXPORT vpAvoidanceScenario figure88(const std::shared_ptr<const vpArmModel> &arm, unsigned int seed);
 /*!
  * S2: three to ten boxes, balls, capsules and cylinders of 6 to 60 cm about the arm, known from the start; start and
- * goal are random configurations whose tools are 0.3 to 0.8 m apart. The straight motion of the joints is not free, and a
- * path is known. Needs OMPL.
+ * goal are random configurations whose tools are 0.3 to 0.8 m apart. Neither the straight motion of the joints nor that
+ * of the tool is free, and a path is known. Needs OMPL.
  */
 [[nodiscard]] VISP_EXPORT vpAvoidanceScenario randomStatic(const std::shared_ptr<const vpArmModel> &arm,
                                                            unsigned int seed);
 /*!
- * S3: two balls or capsules at constant speed cross the way of the arm, seen with noise of 3 mm. An arm that takes no
- * notice (straight motion of the joints at half their speed) is hit while it moves; one that waits at the start until
- * they are gone, and then goes the same way, is not.
+ * S3: a ball and a capsule at constant speed cross the way of the arm, seen with noise of 3 mm. An arm that takes no
+ * notice is hit while it moves, whether it moves its joints straight, at half their speed, or its tool, at 0.25 m/s on
+ * average; one that waits at the start until they are gone, and then moves its joints straight, is not.
  */
 [[nodiscard]] VISP_EXPORT vpAvoidanceScenario crossing(const std::shared_ptr<const vpArmModel> &arm, unsigned int seed,
                                                        const vpCrossingSpec &spec = {});

@@ -1,0 +1,208 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "armCanvas.h"
+
+#include "htmlReport.h"
+#include "numberText.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vpApp
+{
+namespace
+{
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+constexpr double WIDTH = 960.; // px
+constexpr double GAP = 30.;    // px, about and between the views
+constexpr double HEAD = 46.;   // px, title and names of the views
+
+std::string px(double value) { return number(std::round(10. * value) / 10., 6); }
+
+std::string text(double x, double y, const std::string &what, const std::string &attributes = "")
+{
+  return "<text x=\"" + px(x) + "\" y=\"" + px(y) + "\" " + attributes + ">" + escapeHtml(what) + "</text>\n";
+}
+
+std::string line(const Vector2d &a, const Vector2d &b, const std::string &attributes)
+{
+  return "<line x1=\"" + px(a.x()) + "\" y1=\"" + px(a.y()) + "\" x2=\"" + px(b.x()) + "\" y2=\"" + px(b.y()) + "\" " +
+         attributes + "/>\n";
+}
+} // namespace
+
+PlacedArm placeArm(const vpArmModel &arm, const vpJointVector &q)
+{
+  vpCollisionData data;
+  const vpCollisionScene scene(arm);
+  scene.place(q, data);
+  PlacedArm placed;
+  placed.capsules.assign(data.capsules.begin(), data.capsules.begin() + scene.capsuleCount());
+  placed.tool = data.arm.tool.p;
+  return placed;
+}
+
+void ArmCanvas::include(const Vector2d &p, ArmView view, double room)
+{
+  frame(view).low = frame(view).low.cwiseMin(p - Vector2d::Constant(room));
+  frame(view).high = frame(view).high.cwiseMax(p + Vector2d::Constant(room));
+}
+
+void ArmCanvas::show(const vpCollisionObject &object)
+{
+  for (const ArmView view : views) {
+    for (const Polygon &polygon : outline(object, view)) {
+      for (const Vector2d &p : polygon) {
+        include(p, view, 0.);
+      }
+    }
+  }
+}
+
+void ArmCanvas::show(const Vector3d &place)
+{
+  for (const ArmView view : views) {
+    include(project(place, view), view, 0.03);
+  }
+}
+
+void ArmCanvas::show(const vpJointVector &q)
+{
+  const PlacedArm placed = placeArm(*m_arm, q);
+  for (const vpPlacedCapsule &capsule : placed.capsules) {
+    for (const ArmView view : views) {
+      include(project(capsule.from, view), view, capsule.radius);
+      include(project(capsule.to, view), view, capsule.radius);
+    }
+  }
+  show(placed.tool);
+}
+
+void ArmCanvas::layOut()
+{
+  const Vector2d top = m_frames[0].high - m_frames[0].low, side = m_frames[1].high - m_frames[1].low;
+  m_scale = std::min(420., (WIDTH - 3. * GAP) / (top.x() + side.x()));
+  m_frames[0].corner = {GAP, HEAD};
+  m_frames[1].corner = {2. * GAP + m_scale * top.x(), HEAD};
+  m_height = HEAD + m_scale * std::max(top.y(), side.y()) + GAP;
+}
+
+Vector2d ArmCanvas::pixel(const Vector2d &projected, ArmView view) const
+{
+  const Frame &f = frame(view);
+  return f.corner + m_scale * Vector2d(projected.x() - f.low.x(), f.high.y() - projected.y());
+}
+
+Vector2d ArmCanvas::pixel(const Vector3d &place, ArmView view) const { return pixel(project(place, view), view); }
+
+std::string ArmCanvas::points(const Polygon &polygon, ArmView view) const
+{
+  std::string list;
+  for (const Vector2d &p : polygon) {
+    const Vector2d at = pixel(p, view);
+    list += (list.empty() ? "" : " ") + px(at.x()) + "," + px(at.y());
+  }
+  return list;
+}
+
+void ArmCanvas::heading(const std::string &title, bool ground)
+{
+  add(text(GAP, 18., title, "font-size=\"15\" font-weight=\"600\""));
+  const char *names[] = {"from above: x right, y up", "from the side: y right, z up"};
+  for (int i = 0; i < 2; ++i) {
+    add(text(m_frames[i].corner.x(), HEAD - 8., names[i], "font-size=\"12\" fill=\"#666666\""));
+  }
+  for (int i = 0; i < 2; ++i) { // half the gap belongs to each view
+    const Vector2d size = m_scale * (m_frames[i].high - m_frames[i].low) + Vector2d(GAP, 10.);
+    add("<clipPath id=\"" + escapeHtml(m_id) + std::to_string(i) + "\"><rect x=\"" +
+        px(m_frames[i].corner.x() - 0.5 * GAP) + "\" y=\"" + px(m_frames[i].corner.y() - 5.) + "\" width=\"" +
+        px(size.x()) + "\" height=\"" + px(size.y()) + "\"/></clipPath>\n");
+  }
+  const Frame &f = m_frames[1];
+  if (ground) {
+    add(line(pixel(Vector2d(f.low.x(), 0.), ArmView::Side), pixel(Vector2d(f.high.x(), 0.), ArmView::Side),
+             "stroke=\"#999999\" stroke-width=\"1.5\""));
+  }
+  const Vector2d from(GAP, m_height - 10.); // a decimetre
+  add(line(from, from + Vector2d(0.1 * m_scale, 0.), "stroke=\"#333333\" stroke-width=\"2\""));
+  add(text(from.x() + 0.1 * m_scale + 6., from.y() + 4., "0.1 m", "font-size=\"11\" fill=\"#333333\""));
+}
+
+void ArmCanvas::object(const vpCollisionObject &object, const std::string &attributes)
+{
+  for (int i = 0; i < 2; ++i) {
+    add("<g clip-path=\"url(#" + escapeHtml(m_id) + std::to_string(i) + ")\">\n");
+    for (const Polygon &polygon : outline(object, views[i])) {
+      add("<polygon points=\"" + points(polygon, views[i]) + "\" " + attributes + "/>\n");
+    }
+    add("</g>\n");
+  }
+}
+
+void ArmCanvas::ghost(const ArmGhost &ghost)
+{
+  const PlacedArm placed = placeArm(*m_arm, ghost.q);
+  for (const ArmView view : views) {
+    add("<g stroke=\"" + escapeHtml(ghost.colour) + "\" fill=\"" + escapeHtml(ghost.colour) + "\" opacity=\"" +
+        number(ghost.opacity, 3) + "\" stroke-linecap=\"round\">\n");
+    for (const vpPlacedCapsule &c : placed.capsules) {
+      add(line(pixel(c.from, view), pixel(c.to, view), "stroke-width=\"" + px(2. * c.radius * m_scale) + "\""));
+    }
+    const Vector2d wrist = pixel(placed.capsules.empty() ? placed.tool : placed.capsules.back().to, view);
+    const Vector2d tool = pixel(placed.tool, view);
+    add(line(wrist, tool, "stroke-width=\"3\""));
+    add("<circle cx=\"" + px(tool.x()) + "\" cy=\"" + px(tool.y()) + "\" r=\"4\"/></g>\n");
+  }
+}
+
+void ArmCanvas::trace(const ArmTrace &trace)
+{
+  for (const ArmView view : views) {
+    std::string list;
+    for (const Vector3d &p : trace.points) {
+      const Vector2d at = pixel(p, view);
+      list += (list.empty() ? "" : " ") + px(at.x()) + "," + px(at.y());
+    }
+    add("<polyline points=\"" + list + "\" fill=\"none\" stroke=\"" + escapeHtml(trace.colour) +
+        "\" stroke-width=\"2\"" + (trace.dashed ? " stroke-dasharray=\"6 4\"" : "") + "/>\n");
+  }
+}
+
+void ArmCanvas::mark(const ArmMark &mark)
+{
+  for (const ArmView view : views) {
+    const Vector2d at = pixel(mark.place, view);
+    add(line(at - Vector2d(5., 0.), at + Vector2d(5., 0.), "stroke=\"#000000\" stroke-width=\"1.5\""));
+    add(line(at - Vector2d(0., 5.), at + Vector2d(0., 5.), "stroke=\"#000000\" stroke-width=\"1.5\""));
+    add(text(at.x() + 7., at.y() - 5., mark.label,
+             "font-size=\"12\" stroke=\"#ffffff\" stroke-width=\"3\" paint-order=\"stroke\""));
+  }
+}
+
+void ArmCanvas::legend(const std::vector<ArmTrace> &traces)
+{
+  double x = GAP + 90.;
+  for (const ArmTrace &trace : traces) {
+    if (trace.label.empty()) {
+      continue;
+    }
+    const Vector2d from(x, m_height - 10.);
+    add(line(from, from + Vector2d(22., 0.),
+             "stroke=\"" + escapeHtml(trace.colour) + "\" stroke-width=\"3\"" +
+                 (trace.dashed ? " stroke-dasharray=\"6 4\"" : "")));
+    add(text(x + 27., from.y() + 4., trace.label, "font-size=\"12\""));
+    x += 45. + 7.2 * static_cast<double>(trace.label.size());
+  }
+}
+
+std::string ArmCanvas::svg(const std::string &attributes) const
+{
+  const std::string size = "viewBox=\"0 0 " + px(WIDTH) + " " + px(m_height) + "\"";
+  return "<svg xmlns=\"http://www.w3.org/2000/svg\" " + size + " width=\"" + px(WIDTH) + "\" height=\"" + px(m_height) +
+         "\" font-family=\"DejaVu Sans, Helvetica, Arial, sans-serif\" " + attributes + ">\n" +
+         "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n" + m_elements + "</svg>\n";
+}
+} // namespace vpApp

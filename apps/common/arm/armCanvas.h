@@ -1,0 +1,76 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file armCanvas.h
+ * \brief Two orthographic views beside each other as SVG elements.
+ */
+#ifndef vpApp_armCanvas_h
+#define vpApp_armCanvas_h
+
+#include "shapeOutline.h"
+
+namespace vpApp
+{
+//! \brief Metres to pixels, and what is drawn so far. First show() everything that shall fit, then draw.
+class ArmCanvas
+{
+public:
+  static constexpr ArmView views[2] = {ArmView::Top, ArmView::Side};
+
+  //! \param id : Begins the names in the document; differs among the documents of a page.
+  explicit ArmCanvas(const vpArmModel &arm, std::string id = "view") : m_arm(&arm), m_id(std::move(id)) {}
+
+  void show(const vpCollisionObject &object); //!< Make room for it.
+  void show(const Eigen::Vector3d &place);    //!< Make room for it.
+  void show(const vpJointVector &q);          //!< Make room for the arm.
+  void layOut();                              //!< From here on the scale stands.
+
+  void heading(const std::string &title, bool ground);
+  //! What lies outside a view is cut off.
+  void object(const vpCollisionObject &object, const std::string &attributes);
+  void ghost(const ArmGhost &ghost);
+  void trace(const ArmTrace &trace);
+  void mark(const ArmMark &mark);
+  //! The traces that have a label.
+  void legend(const std::vector<ArmTrace> &traces);
+  void add(const std::string &element) { m_elements += element; }
+
+  //! Pixel of a place.
+  [[nodiscard]] Eigen::Vector2d pixel(const Eigen::Vector3d &place, ArmView view) const;
+  [[nodiscard]] Eigen::Vector2d pixel(const Eigen::Vector2d &projected, ArmView view) const;
+  //! Pixels of a metre.
+  [[nodiscard]] double scale() const { return m_scale; }
+  //! A polygon's "points".
+  [[nodiscard]] std::string points(const Polygon &polygon, ArmView view) const;
+  //! The document. \param attributes : Of its element.
+  [[nodiscard]] std::string svg(const std::string &attributes = "") const;
+
+private:
+  struct Frame {
+    Eigen::Vector2d low = Eigen::Vector2d::Constant(-0.1),
+                    high = Eigen::Vector2d::Constant(0.1); // m, the base at least
+    Eigen::Vector2d corner = Eigen::Vector2d::Zero();      // px, top left
+  };
+  [[nodiscard]] Frame &frame(ArmView view) { return m_frames[view == ArmView::Top ? 0 : 1]; }
+  [[nodiscard]] const Frame &frame(ArmView view) const { return m_frames[view == ArmView::Top ? 0 : 1]; }
+  void include(const Eigen::Vector2d &p, ArmView view, double room);
+
+  const vpArmModel *m_arm;
+  std::string m_id;
+  Frame m_frames[2];
+  double m_scale = 1.;
+  double m_height = 0.;
+  std::string m_elements;
+};
+
+//! The capsules of an arm and its tool in a configuration, in the base.
+struct PlacedArm {
+  std::vector<vpPlacedCapsule> capsules;
+  Eigen::Vector3d tool = Eigen::Vector3d::Zero();
+};
+[[nodiscard]] PlacedArm placeArm(const vpArmModel &arm, const vpJointVector &q);
+} // namespace vpApp
+
+#endif

@@ -1,0 +1,27 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file arenaLog.h
+ * \brief Logs for Planner Arena: the text format of ompl::tools::Benchmark, which ompl_benchmark_statistics.py reads.
+ */
+#ifndef planCompare_arenaLog_h
+#define planCompare_arenaLog_h
+
+#include "results.h"
+
+namespace planCompare
+{
+/*!
+ * The log of one scene: every method a planner, every problem a run. Times are those of planning (start and all looks),
+ * in s as OMPL has them; all else is in the units of vpAvoidanceMetrics.
+ * \param startedAt : As "2024-05-17 08:30:00".
+ */
+[[nodiscard]] std::string arenaLog(const Plan &plan, const Results &results, const SceneInfo &scene,
+                                   const std::string &startedAt);
+//! Now, as arenaLog() wants it.
+[[nodiscard]] std::string timeText();
+} // namespace planCompare
+
+#endif

@@ -1,0 +1,196 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "figures.h"
+
+#include "armFigures.h"
+#include "jobs.h"
+#include "plot.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace planCompare
+{
+namespace
+{
+using vpApp::Plot;
+using vpApp::PlotCurve;
+using vpApp::PlotStyle;
+
+constexpr std::size_t CURVE_POINTS = 800; // more does not show
+constexpr double CUT = 3.;                // of the bound of a: what is above is drawn there
+
+using Value = std::function<double(const vpAvoidanceRun &, std::size_t)>;
+
+Eigen::Vector3d velocityAt(const vpAvoidanceRun &run, std::size_t i)
+{
+  if (i == 0 || i >= run.samples.size()) {
+    return Eigen::Vector3d::Zero();
+  }
+  const vpAvoidanceSample &a = run.samples[i - 1], &b = run.samples[i];
+  return (b.tool - a.tool) / std::max(b.time - a.time, 1e-9);
+}
+
+double speed(const vpAvoidanceRun &run, std::size_t i) { return velocityAt(run, i).norm(); }
+
+double acceleration(const vpAvoidanceRun &run, std::size_t i)
+{
+  const double a = (velocityAt(run, i) - velocityAt(run, i == 0 ? 0 : i - 1)).norm() / run.spec.methodSpec.period;
+  return std::min(a, CUT * run.spec.methodSpec.maxAcceleration);
+}
+
+double goalDistance(const vpAvoidanceRun &run, std::size_t i) { return 1000. * run.samples[i].goalDistance; }
+
+double clearance(const vpAvoidanceRun &run, std::size_t i)
+{
+  return 1000. * std::min(0.3, run.samples[i].clearance.distance);
+}
+
+Plot timePlot(const Plan &plan, const Results &results, const std::string &scene, const std::string &title,
+              const std::string &label, const Value &value)
+{
+  Plot plot;
+  plot.title = title;
+  plot.xLabel = "time (s)";
+  plot.yLabel = label;
+  plot.height = 300;
+  for (const std::string &method : plan.methods) {
+    const vpAvoidanceRun *run = results.find(scene, method);
+    if (run == nullptr) {
+      continue;
+    }
+    const MethodInfo info = methodInfo(method);
+    PlotCurve curve;
+    curve.label = info.name;
+    curve.colour = info.colour;
+    curve.width = 1.6;
+    const std::size_t stride = std::max<std::size_t>(1, run->samples.size() / CURVE_POINTS);
+    for (std::size_t i = 0; i < run->samples.size(); i += stride) {
+      double most = value(*run, i); // peaks must not fall between
+      for (std::size_t k = i; k < std::min(i + stride, run->samples.size()); ++k) {
+        most = std::max(most, value(*run, k));
+      }
+      curve.x.push_back(run->samples[i].time);
+      curve.y.push_back(most);
+    }
+    plot.curves.push_back(curve);
+  }
+  return plot;
+}
+
+//! A bound over the whole time.
+void addBound(Plot &plot, double bound, const std::string &label)
+{
+  double end = 0.;
+  for (const PlotCurve &curve : plot.curves) {
+    end = std::max(end, curve.x.empty() ? 0. : curve.x.back());
+  }
+  PlotCurve line;
+  line.label = label;
+  line.colour = "#555555";
+  line.style = PlotStyle::Dashed;
+  line.width = 1.;
+  line.x = {0., end};
+  line.y = {bound, bound};
+  plot.curves.push_back(line);
+}
+
+Figure drawTimes(const Plan &plan, const Results &results, const SceneInfo &scene)
+{
+  const vpAvoidanceMethodSpec limits = results.find(scene.id, plan.methods.front())->spec.methodSpec;
+  std::vector<Plot> panels;
+  panels.push_back(timePlot(plan, results, scene.id, "Speed of the tool", "m/s", speed));
+  addBound(panels.back(), limits.maxVelocity, "bound");
+  panels.push_back(timePlot(plan, results, scene.id, "Acceleration of the tool", "m/s^2", acceleration));
+  addBound(panels.back(), limits.maxAcceleration, "bound");
+  panels.push_back(timePlot(plan, results, scene.id, "Least clearance", "mm", clearance));
+  addBound(panels.back(), 0., "touching");
+  panels.push_back(timePlot(plan, results, scene.id, "Distance from the goal", "mm", goalDistance));
+  Figure figure;
+  figure.scene = scene.id;
+  figure.name = scene.id + "-times";
+  figure.title = scene.id + ": speed, acceleration, clearance and distance from the goal";
+  figure.caption =
+      "The first run of every method. Accelerations above three times the bound are drawn there, clearances "
+      "above 300 mm, too; the clearance is the least of all pairs of parts that must not touch, the arm's own "
+      "among them.";
+  figure.svg = vpApp::renderPanels(panels, vpApp::PlotFormat::Svg);
+  return figure;
+}
+
+Figure drawSelfMotion(const std::vector<SelfMotionRow> &rows)
+{
+  std::vector<Plot> panels;
+  const std::vector<std::pair<std::string, std::string>> shades = {
+      {"attract", "#d62728"}, {"none", "#555555"}, {"repel", "#1f77b4"}};
+  for (const char *index : {"point", "line", "plane"}) {
+    Plot plot;
+    plot.title = std::string("Distance of joint 4 from the ") + index;
+    plot.xLabel = "time (s)";
+    plot.yLabel = "mm";
+    plot.height = 280;
+    for (const SelfMotionRow &row : rows) {
+      if (row.index != index) {
+        continue;
+      }
+      PlotCurve curve;
+      curve.label = row.share > 0. ? row.sense + " " + std::to_string(row.share).substr(0, 3) : "no self-motion";
+      for (const auto &[sense, colour] : shades) {
+        curve.colour = sense == row.sense ? colour : curve.colour;
+      }
+      curve.style = row.share > 0. && row.share < 0.5 ? PlotStyle::Dashed : PlotStyle::Solid;
+      for (std::size_t i = 0; i < row.run.samples.size(); i += 4) {
+        curve.x.push_back(row.run.samples[i].time);
+        curve.y.push_back(1000. * row.run.samples[i].distance);
+      }
+      plot.curves.push_back(curve);
+    }
+    panels.push_back(plot);
+  }
+  Figure figure;
+  figure.scene = "S5";
+  figure.name = "S5-distances";
+  figure.title = "S5: distance of joint 4 from a point, a line and a plane, figures 8.14 to 8.17";
+  figure.caption =
+      "Repulsion raises the distance and attraction lowers it, while the tool goes through the same places.";
+  figure.svg = vpApp::renderPanels(panels, vpApp::PlotFormat::Svg);
+  return figure;
+}
+} // namespace
+
+std::string heroOf(const Plan &plan, const Results &results, const std::string &scene)
+{
+  std::string best = plan.methods.front();
+  int most = -1;
+  double shortest = 0.;
+  for (const std::string &method : plan.methods) {
+    const Cell cell = results.cell(scene, method);
+    const double duration = median(cell.values(&vpAvoidanceMetrics::duration_s, true));
+    if (cell.successes() > most || (cell.successes() == most && duration < shortest)) {
+      best = method;
+      most = cell.successes();
+      shortest = duration;
+    }
+  }
+  return best;
+}
+
+std::vector<Figure> drawFigures(const Plan &plan, const Results &results, const std::vector<SelfMotionRow> &selfMotion,
+                                unsigned int jobs)
+{
+  std::vector<std::function<Figure()>> drafts;
+  for (const SceneInfo &scene : plan.scenes) {
+    drafts.emplace_back([&] { return drawArm(plan, results, scene); });
+    drafts.emplace_back([&] { return animateArm(plan, results, scene); });
+    drafts.emplace_back([&] { return drawTimes(plan, results, scene); });
+  }
+  if (!selfMotion.empty()) {
+    drafts.emplace_back([&] { return drawSelfMotion(selfMotion); });
+  }
+  std::vector<Figure> figures(drafts.size());
+  vpApp::runJobs(drafts.size(), jobs, [&](std::size_t i) { figures[i] = drafts[i](); });
+  return figures;
+}
+} // namespace planCompare

@@ -1,0 +1,225 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "findings.h"
+
+#include "figures.h"
+#include "numberText.h"
+
+#include <algorithm>
+
+namespace planCompare
+{
+namespace
+{
+using vpApp::enumerate;
+using vpApp::fixed;
+using vpApp::number;
+using M = vpAvoidanceMetrics;
+
+constexpr double SIGNIFICANT = 0.05;
+
+std::string nameOf(const std::string &method)
+{
+  const MethodInfo info = methodInfo(method);
+  return info.number.empty() ? info.name : info.number + " " + info.name;
+}
+
+std::string pText(double p) { return p < 0.001 ? "p < 0.001" : "p = " + number(p, 2); }
+
+//! Scenes where no method does significantly better, pair by pair, where it succeeds at all and touches nothing.
+std::vector<std::string> unbeatenScenes(const Plan &plan, const Results &results, const std::string &method)
+{
+  std::vector<std::string> scenes;
+  for (const SceneInfo &scene : plan.scenes) {
+    const Cell cell = results.cell(scene.id, method);
+    bool beaten = cell.successes() == 0 || cell.runsWith(&M::collisions_moving) > 0;
+    for (const std::string &other : plan.methods) {
+      const Pairing p = pairUp(results, scene.id, other, method);
+      beaten = beaten || (p.onlyFirst > p.onlySecond && p.p < SIGNIFICANT);
+    }
+    if (!beaten) {
+      scenes.push_back(scene.id);
+    }
+  }
+  return scenes;
+}
+
+//! Of these, those where its median duration is the least of all methods that are as good there.
+std::vector<std::string> quickestScenes(const Plan &plan, const Results &results, const std::string &method)
+{
+  const auto duration = [&](const std::string &scene, const std::string &m) {
+    return median(results.cell(scene, m).values(&M::duration_s, true));
+  };
+  std::vector<std::string> scenes;
+  for (const std::string &scene : unbeatenScenes(plan, results, method)) {
+    const bool quickest = std::all_of(plan.methods.begin(), plan.methods.end(), [&](const std::string &other) {
+      const std::vector<std::string> good = unbeatenScenes(plan, results, other);
+      return std::find(good.begin(), good.end(), scene) == good.end() ||
+             duration(scene, method) <= duration(scene, other);
+    });
+    if (quickest) {
+      scenes.push_back(scene);
+    }
+  }
+  return scenes;
+}
+
+//! A time in ms; what is too short to tell is said to be so.
+std::string msText(double ms) { return ms < 0.001 ? "less than 0.001" : number(ms, 2); }
+
+//! Of the methods that never touched anything, or of all when there is none.
+std::vector<std::string> safest(const Plan &plan, const Results &results)
+{
+  std::vector<std::string> names;
+  for (const std::string &method : plan.methods) {
+    if (results.all(method).runsWith(&M::collisions_moving) == 0) {
+      names.push_back(nameOf(method));
+    }
+  }
+  return names;
+}
+
+std::string pairSentence(const Results &results, const std::string &scene,
+                         const std::pair<std::string, std::string> &pair, const std::string &where)
+{
+  const Pairing p = pairUp(results, scene, pair.first, pair.second);
+  if (p.onlyFirst + p.onlySecond == 0) {
+    return nameOf(pair.first) + " and " + nameOf(pair.second) + " succeed in the same runs" + where + ".";
+  }
+  const std::string counts = "only " + nameOf(pair.first) + " succeeds in " + std::to_string(p.onlyFirst) + ", only " +
+                             nameOf(pair.second) + " in " + std::to_string(p.onlySecond) + " of " +
+                             std::to_string(p.both + p.onlyFirst + p.onlySecond + p.neither) + " paired runs" + where;
+  return "Pair by pair " + counts + " (McNemar's exact test, " + pText(p.p) + "): " +
+         (p.p >= SIGNIFICANT
+              ? std::string("no significant difference.")
+              : nameOf(p.onlyFirst > p.onlySecond ? pair.first : pair.second) + " does significantly better.");
+}
+} // namespace
+
+std::string countText(int part, std::size_t all) { return std::to_string(part) + " of " + std::to_string(all); }
+
+std::vector<std::string> answerOf(const Plan &plan, const Results &results)
+{
+  std::vector<std::string> answer;
+  if (results.records.empty()) {
+    return answer;
+  }
+  std::vector<std::string> order = plan.methods;
+  std::stable_sort(order.begin(), order.end(), [&](const std::string &a, const std::string &b) {
+    return results.all(a).successes() > results.all(b).successes();
+  });
+  const Cell best = results.all(order.front());
+  const Interval interval = best.interval();
+  answer.push_back("Of " + std::to_string(best.runs.size()) + " scenes " + nameOf(order.front()) +
+                   " masters the most, " + std::to_string(best.successes()) + " (95 % interval " +
+                   fixed(100. * interval.low, 1) + " to " + fixed(100. * interval.high, 1) + " %)" +
+                   (order.size() > 1 ? "; " + nameOf(order.back()) + " the fewest, " +
+                                           std::to_string(results.all(order.back()).successes()) + "."
+                                     : "."));
+  const std::vector<std::string> safe = safest(plan, results);
+  answer.push_back(safe.empty() ? "Every method touched something while it moved in at least one run."
+                                : enumerate(safe) + " never touched anything while moving" +
+                                      (safe.size() == plan.methods.size() ? ", so none did." : "; all others did."));
+  for (const auto &pair : pairsOf(plan)) {
+    answer.push_back(pairSentence(results, "", pair, " over all scenes"));
+  }
+  return answer;
+}
+
+std::string verdictOf(const Plan &plan, const Results &results, const std::string &method)
+{
+  const Cell cell = results.all(method);
+  const std::vector<std::string> good = unbeatenScenes(plan, results, method);
+  const int touched = cell.runsWith(&M::collisions_moving);
+  const int overTool = cell.runsWith(&M::tool_a_violations), overSpeed = cell.runsWith(&M::tool_v_violations);
+  const int overJoints = std::max(cell.runsWith(&M::joint_v_violations), cell.runsWith(&M::joint_a_violations));
+  std::string text = good.empty() ? "Good for none of these scenes: it touches something, or another method does "
+                                    "significantly better. "
+                                  : "Good for " + enumerate(good) +
+                                        ", where it touches nothing and no other method does significantly better. ";
+  const std::vector<std::string> quick = quickestScenes(plan, results, method);
+  text += quick.empty() ? "" : "The quickest of those in " + enumerate(quick) + ". ";
+  text += touched == 0 ? "It touched nothing in " + std::to_string(cell.runs.size()) + " runs. "
+                       : "It touched something while moving in " + countText(touched, cell.runs.size()) + " runs. ";
+  text += overJoints == 0
+              ? "The joints' limits were always kept; "
+              : "The joints' limits were exceeded in " + countText(overJoints, cell.runs.size()) + " runs; ";
+  text += overTool + overSpeed == 0 ? "so were the tool's bounds. "
+                                    : "the tool's bound of speed was exceeded in " + std::to_string(overSpeed) +
+                                          " runs, that of acceleration in " + std::to_string(overTool) + ". ";
+  const std::vector<double> replan = cell.replanTimes();
+  text += "Looking again takes " + msText(percentile(replan, .5)) + " ms (median) and " +
+          msText(percentile(replan, .99)) + " ms (99 %).";
+  const int falseStops = cell.sum(&M::false_stops), stops = cell.sum(&M::stops);
+  if (stops > 0) {
+    text += " " + countText(falseStops, static_cast<std::size_t>(stops)) + " stops were false.";
+  }
+  return text;
+}
+
+std::vector<std::string> findingsOf(const Plan &plan, const Results &results, const SceneInfo &scene)
+{
+  std::vector<std::string> findings;
+  const std::string hero = heroOf(plan, results, scene.id);
+  const Cell best = results.cell(scene.id, hero);
+  if (best.successes() == 0) {
+    findings.push_back("No method masters this scene.");
+    return findings;
+  }
+  findings.push_back(nameOf(hero) + " succeeds in " + countText(best.successes(), best.runs.size()) + " runs, in " +
+                     fixed(median(best.values(&M::duration_s, true)), 2) + " s (median).");
+  std::vector<std::string> touching;
+  for (const std::string &method : plan.methods) {
+    const Cell cell = results.cell(scene.id, method);
+    const int touched = cell.runsWith(&M::collisions_moving);
+    if (touched > 0) {
+      touching.push_back(nameOf(method) + " in " + countText(touched, cell.runs.size()));
+    }
+  }
+  findings.push_back(touching.empty() ? "No arm touched anything while it moved."
+                                      : "Touched something while moving: " + enumerate(touching) + " runs.");
+  for (const auto &pair : pairsOf(plan)) {
+    findings.push_back(pairSentence(results, scene.id, pair, ""));
+  }
+  return findings;
+}
+
+std::string validatorFinding(const std::vector<ValidatorRow> &rows)
+{
+  int certified = 0, sampled = 0, certifiedLies = 0, lies = 0;
+  for (const ValidatorRow &row : rows) {
+    const bool proven = row.validator == "certified";
+    (proven ? certified : sampled) += row.solved;
+    (proven ? certifiedLies : lies) += row.colliding;
+  }
+  if (rows.empty()) {
+    return "";
+  }
+  return "Looked at again at 10,000 places, " + countText(certifiedLies, static_cast<std::size_t>(certified)) +
+         " certified paths and " + countText(lies, static_cast<std::size_t>(sampled)) +
+         " paths checked by samples (a step of 0.05 rad) touch something.";
+}
+
+std::string selfMotionFinding(const std::vector<SelfMotionRow> &rows)
+{
+  if (rows.empty()) {
+    return "";
+  }
+  double drift = 0., most = 0.;
+  std::string where;
+  for (const SelfMotionRow &row : rows) {
+    drift = std::max(drift, row.run.tcp_drift_m);
+    for (const SelfMotionRow &none : rows) {
+      const double change = row.run.mean_distance_m - none.run.mean_distance_m;
+      if (none.sense == "none" && none.index == row.index && std::abs(change) > std::abs(most)) {
+        most = change;
+        where = row.sense + " with the " + row.index + " index";
+      }
+    }
+  }
+  return "The tool never drifts by more than " + number(1e6 * drift, 2) +
+         " um from its way; joint 4 is moved most, by " + fixed(1000. * most, 0) + " mm on average, by " + where + ".";
+}
+} // namespace planCompare

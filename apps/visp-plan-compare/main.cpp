@@ -1,0 +1,89 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// visp-plan-compare: ways to bring an arm to a goal among obstacles on the same scenes, and a report.
+#include "arenaLog.h"
+#include "figures.h"
+#include "options.h"
+#include "plan.h"
+#include "reportPage.h"
+#include "summary.h"
+#include "tables.h"
+
+#include "appMain.h"
+#include "numberText.h"
+#include "outputFolder.h"
+#include "plot.h"
+
+#include <chrono>
+#include <iostream>
+
+namespace
+{
+using namespace planCompare;
+
+void printList()
+{
+  std::cout << "Methods (--method):\n";
+  for (const std::string &id : avoidanceMethodNames()) {
+    const MethodInfo info = methodInfo(id);
+    std::cout << "  " << info.number << " " << id << ": " << info.sentence << "\n";
+  }
+  std::cout << "Scenes (--scene), seeds by default and with --quick:\n";
+  for (const SceneInfo &scene : standardScenes()) {
+    std::cout << "  " << scene.id << " (" << scene.seeds << ", " << scene.quick << "): " << scene.sentence << "\n";
+  }
+  std::cout << "  S5: " << selfMotionSentence() << "\n";
+}
+
+void compare(const Options &options, const std::string &commandLine)
+{
+  const auto start = std::chrono::steady_clock::now();
+  const std::string startedAt = timeText();
+  const Plan plan = makePlan(options);
+  vpApp::requireGnuplot();
+  vpApp::OutputFolder out("visp-plan-compare", options.out);
+
+  const Results results = runAll(plan, options.jobs);
+  Extras extras;
+  extras.validators = compareValidators(plan);
+  extras.selfMotion = runSelfMotion(plan);
+  extras.commandLine = commandLine;
+  out.write("runs.csv", runsCsv(results));
+  for (std::size_t i = 0; i < results.shown.size(); ++i) {
+    out.write(logName(results.shownScenes[i], results.shown[i].spec.method), logCsv(results.shown[i]));
+  }
+  for (const SceneInfo &scene : plan.scenes) {
+    out.write("arena/" + vpApp::fileName(scene.id) + ".log", arenaLog(plan, results, scene, startedAt));
+  }
+  const std::vector<Figure> figures = drawFigures(plan, results, extras.selfMotion, options.jobs);
+  for (const Figure &figure : figures) {
+    if (!figure.svg.empty()) {
+      out.write("figure/" + figure.name + ".svg", figure.svg);
+    }
+  }
+  extras.wallTime = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  out.write("report.html", reportPage(plan, results, extras, figures));
+  out.writeSummary(summaryOf(plan, results, extras));
+  vpApp::throwIfInterrupted();
+  out.commit();
+  std::cout << "Report: " << (out.path() / "report.html").string() << std::endl;
+}
+} // namespace
+
+int main(int argc, char **argv)
+{
+  return vpApp::runMain("visp-plan-compare", [&]() -> int {
+    Options options;
+    if (!readOptions(argc, argv, options)) {
+      return vpApp::ExitOk;
+    }
+    if (options.list) {
+      printList();
+      return vpApp::ExitOk;
+    }
+    compare(options, vpApp::commandLine("visp-plan-compare", argc, argv));
+    return vpApp::ExitOk;
+  });
+}

@@ -1,0 +1,42 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file options.h
+ * \brief The command line of visp-plan-compare.
+ */
+#ifndef planCompare_options_h
+#define planCompare_options_h
+
+#include <string>
+#include <vector>
+
+namespace planCompare
+{
+//! \brief What the user asked for, not yet looked up.
+struct Options {
+  std::vector<std::string> scenes;  //!< Ids or files; empty for all.
+  std::vector<std::string> methods; //!< Names; empty for all.
+  unsigned int seeds = 0;           //!< A scene; 0: each scene's own number.
+  unsigned int firstSeed = 1;
+  bool quick = false;   //!< A few seeds.
+  std::string arm;      //!< JSON file; empty for AMOR.
+  double friction = 0.; //!< Of the joints, relative to the arm's file; 0: ideal drives.
+  std::string out = "out/plan-compare";
+  unsigned int jobs = 1;
+  bool list = false;
+};
+
+/*!
+ * Read the command line.
+ * \return False when `--help` or `--version` was asked for, and printed.
+ * \throw vpApp::UsageError naming the option.
+ */
+[[nodiscard]] bool readOptions(int argc, const char *const *argv, Options &options);
+
+//! Version of visp-direct and of ViSP.
+[[nodiscard]] std::string versionText();
+} // namespace planCompare
+
+#endif

@@ -1,0 +1,204 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "plan.h"
+
+#include "appMain.h"
+#include "dataFile.h"
+#include "numberText.h"
+
+#include <visp3/manipulator/vpArmJson.h>
+
+#include <algorithm>
+
+namespace planCompare
+{
+namespace
+{
+constexpr unsigned int OWN_SEEDS = 5; // of a scene of the user's
+
+bool endsWith(const std::string &text, const std::string &end)
+{
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+std::vector<std::string> chooseMethods(const std::vector<std::string> &asked)
+{
+  const std::vector<std::string> &known = avoidanceMethodNames();
+  for (const std::string &name : asked) {
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      throw vpApp::UsageError("--method: unknown method \"" + name + "\"; known are " + vpApp::enumerate(known));
+    }
+  }
+  std::vector<std::string> methods;
+  for (const std::string &name : known) {
+    if (asked.empty() || std::find(asked.begin(), asked.end(), name) != asked.end()) {
+      methods.push_back(name);
+    }
+  }
+  return methods;
+}
+
+//! How many seeds of a scene.
+unsigned int seedsOf(const Options &options, const SceneInfo &scene)
+{
+  return options.seeds > 0 ? options.seeds : options.quick ? scene.quick : scene.seeds;
+}
+
+//! Adds the problems of a scene one by one.
+class Adder
+{
+public:
+  Adder(Plan &plan, const Options &options) : m_plan(&plan), m_options(&options) {}
+
+  using Make = std::function<vpAvoidanceScenario(const std::shared_ptr<const vpArmModel> &, unsigned int)>;
+
+  void add(const SceneInfo &scene, unsigned int seed, const std::string &variant, const Make &make)
+  {
+    Problem problem;
+    problem.scene = scene.id;
+    problem.variant = variant;
+    problem.seed = seed;
+    problem.shown = m_plan->problems.empty() || m_plan->problems.back().scene != scene.id;
+    problem.make = [make, seed, arm = m_plan->arm, friction = m_options->friction] {
+      vpAvoidanceScenario scenario = make(arm, seed);
+      if (friction > 0.) {
+        scenario.run.drives.ideal = false;
+        scenario.run.drives.frictionScale = friction;
+        scenario.run.drives.compensateFriction = true;
+        scenario.run.goalTolerance = 0.01; // drives by PD alone do not hold the millimetre
+      }
+      return scenario;
+    };
+    m_plan->problems.push_back(problem);
+  }
+
+  void addSeeds(const SceneInfo &scene, const Make &make)
+  {
+    for (unsigned int i = 0; i < seedsOf(*m_options, scene); ++i) {
+      add(scene, m_options->firstSeed + i, "", make);
+    }
+  }
+
+  void addCrossing(const SceneInfo &scene)
+  {
+    constexpr double speeds[] = {0.3, 0.1, 0.2, 0.4, 0.5}, rates[] = {30., 10.};
+    for (unsigned int i = 0; i < seedsOf(*m_options, scene); ++i) {
+      vpCrossingSpec spec;
+      spec.speed = speeds[i % 5];
+      spec.visionRate = rates[i / 5 % 2];
+      add(scene, m_options->firstSeed + i,
+          vpApp::number(spec.speed, 2) + " m/s at " + vpApp::number(spec.visionRate, 3) + " Hz",
+          [spec](const auto &arm, unsigned int seed) { return vpAvoidanceScenes::crossing(arm, seed, spec); });
+    }
+  }
+
+  void addFile(const SceneInfo &scene, const vpCollisionSceneFile &file)
+  {
+    for (std::size_t task = 0; task < file.tasks.size(); ++task) {
+      for (unsigned int i = 0; i < seedsOf(*m_options, scene); ++i) {
+        add(scene, m_options->firstSeed + i, file.tasks[task].name, [file, task](const auto &arm, unsigned int seed) {
+          return vpAvoidanceScenes::fromTask(arm, file, task, seed);
+        });
+      }
+    }
+  }
+
+private:
+  Plan *m_plan;
+  const Options *m_options;
+};
+
+void addScene(Plan &plan, Adder &adder, const SceneInfo &scene)
+{
+  plan.scenes.push_back(scene);
+  if (scene.id == "S1") {
+    adder.addSeeds(scene, vpAvoidanceScenes::figure88);
+  }
+  else if (scene.id == "S2") {
+    adder.addSeeds(scene, vpAvoidanceScenes::randomStatic);
+  }
+  else if (scene.id == "S3") {
+    adder.addCrossing(scene);
+  }
+  else if (scene.id == "S7") {
+    adder.addSeeds(scene, vpAvoidanceScenes::movingGoal);
+  }
+  else {
+    const std::string name = scene.id == "S4a" ? "s4a-pillar" : scene.id == "S4b" ? "s4b-shelf" : "s6-trap";
+    const vpCollisionSceneFile file = vpLoadCollisionScene(vpApp::dataFile("scene/" + name + ".json"));
+    adder.addFile(scene, file);
+    if (scene.id != "S6") {
+      plan.planned.push_back(file);
+    }
+  }
+}
+
+void addOwnScene(Plan &plan, Adder &adder, const std::string &name)
+{
+  const vpCollisionSceneFile file = vpLoadCollisionScene(name);
+  if (file.tasks.empty()) {
+    throw std::runtime_error(name + ": tasks is empty, there is nothing to compare");
+  }
+  const SceneInfo scene{file.name, file.name, "The scene of " + name + ".", OWN_SEEDS, 1};
+  const bool twice =
+      std::any_of(plan.scenes.begin(), plan.scenes.end(), [&](const SceneInfo &other) { return other.id == scene.id; });
+  if (twice) {
+    throw vpApp::UsageError("--scene: there are two scenes of the name \"" + scene.id + "\"");
+  }
+  plan.scenes.push_back(scene);
+  adder.addFile(scene, file);
+}
+
+//! "S4" stands for S4a and S4b.
+bool isAsked(const std::vector<std::string> &asked, const std::string &id)
+{
+  return std::any_of(asked.begin(), asked.end(),
+                     [&](const std::string &name) { return name == "all" || name == id || name + id.back() == id; });
+}
+
+void requireKnown(const std::string &name)
+{
+  bool known = name == "all" || name == "S5";
+  for (const SceneInfo &scene : standardScenes()) {
+    known = known || isAsked({name}, scene.id);
+  }
+  if (!known) {
+    throw vpApp::UsageError("--scene: unknown scene \"" + name +
+                            "\"; known are S1, S2, S3, S4 (S4a, S4b), S5, S6, S7, all, and files that end in .json");
+  }
+}
+} // namespace
+
+Plan makePlan(const Options &options)
+{
+  Plan plan;
+  plan.quick = options.quick;
+  plan.methods = chooseMethods(options.methods);
+  plan.arm = std::make_shared<const vpArmModel>(
+      vpLoadArmJson(options.arm.empty() ? vpApp::dataFile("robot/amor.json") : options.arm));
+  Adder adder(plan, options);
+  std::vector<std::string> asked, files;
+  for (const std::string &name : options.scenes) {
+    const bool isFile = endsWith(name, ".json");
+    if (!isFile) {
+      requireKnown(name);
+    }
+    (isFile ? files : asked).push_back(name);
+  }
+  if (asked.empty() && files.empty()) {
+    asked.emplace_back("all");
+  }
+  for (const SceneInfo &scene : standardScenes()) {
+    if (isAsked(asked, scene.id)) {
+      addScene(plan, adder, scene);
+    }
+  }
+  for (const std::string &file : files) {
+    addOwnScene(plan, adder, file);
+  }
+  plan.selfMotion = isAsked(asked, "S5");
+  return plan;
+}
+} // namespace planCompare

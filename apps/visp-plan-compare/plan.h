@@ -1,0 +1,49 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file plan.h
+ * \brief From what the user asked for to the list of scenes.
+ */
+#ifndef planCompare_plan_h
+#define planCompare_plan_h
+
+#include "catalogue.h"
+#include "options.h"
+
+#include <visp3/simulation/vpAvoidanceScenes.h>
+
+#include <functional>
+
+namespace planCompare
+{
+//! \brief One scene with one seed; all methods run on it.
+struct Problem {
+  std::string scene;   //!< Id.
+  std::string variant; //!< What differs among the problems of a scene besides the seed: "0.3 m/s at 30 Hz"; or empty.
+  unsigned int seed = 1;
+  bool shown = false;                        //!< The first of its scene: its logs are kept.
+  std::function<vpAvoidanceScenario()> make; //!< Safe from several threads.
+};
+
+//! \brief All that will be run, checked.
+struct Plan {
+  std::shared_ptr<const vpArmModel> arm;
+  std::vector<std::string> methods;
+  std::vector<SceneInfo> scenes;
+  std::vector<Problem> problems;             //!< Scene by scene.
+  std::vector<vpCollisionSceneFile> planned; //!< S4: scenes for the table of validators.
+  bool selfMotion = false;                   //!< S5.
+  bool quick = false;
+};
+
+/*!
+ * Look up and check what the user asked for.
+ * \throw vpApp::UsageError for an unknown scene or method, naming the known ones; std::runtime_error or vpException
+ * naming the file for a bad scene or arm.
+ */
+[[nodiscard]] Plan makePlan(const Options &options);
+} // namespace planCompare
+
+#endif

@@ -1,0 +1,163 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "results.h"
+
+#include "appMain.h"
+#include "jobs.h"
+#include "progress.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace planCompare
+{
+int Cell::successes() const
+{
+  return static_cast<int>(std::count_if(runs.begin(), runs.end(), [](const Record *r) { return r->metrics.success; }));
+}
+
+std::vector<double> Cell::values(Metric metric, bool successesOnly) const
+{
+  std::vector<double> list;
+  for (const Record *r : runs) {
+    if (r->metrics.success || !successesOnly) {
+      list.push_back(r->metrics.*metric);
+    }
+  }
+  return list;
+}
+
+int Cell::sum(Count count) const
+{
+  int total = 0;
+  for (const Record *r : runs) {
+    total += r->metrics.*count;
+  }
+  return total;
+}
+
+int Cell::runsWith(Count count) const
+{
+  return static_cast<int>(
+      std::count_if(runs.begin(), runs.end(), [count](const Record *r) { return r->metrics.*count > 0; }));
+}
+
+std::vector<double> Cell::replanTimes() const
+{
+  std::vector<double> list;
+  for (const Record *r : runs) {
+    for (const double t : r->lookTimes) {
+      list.push_back(1000. * t);
+    }
+  }
+  return list;
+}
+
+Cell Results::cell(const std::string &scene, const std::string &method) const
+{
+  Cell cell;
+  for (const Record &r : records) {
+    if (r.scene == scene && r.method == method) {
+      cell.runs.push_back(&r);
+    }
+  }
+  return cell;
+}
+
+Cell Results::cell(const std::string &scene, const std::string &method, const std::string &variant) const
+{
+  Cell part = cell(scene, method);
+  part.runs.erase(
+      std::remove_if(part.runs.begin(), part.runs.end(), [&](const Record *r) { return r->variant != variant; }),
+      part.runs.end());
+  return part;
+}
+
+Cell Results::all(const std::string &method) const
+{
+  Cell cell;
+  for (const Record &r : records) {
+    if (r.method == method) {
+      cell.runs.push_back(&r);
+    }
+  }
+  return cell;
+}
+
+std::vector<std::string> Results::variants(const std::string &scene) const
+{
+  std::vector<std::string> list;
+  for (const Record &r : records) {
+    if (r.scene == scene && std::find(list.begin(), list.end(), r.variant) == list.end()) {
+      list.push_back(r.variant);
+    }
+  }
+  if (scene == "S3") {
+    std::sort(list.begin(), list.end());
+  }
+  return list;
+}
+
+const vpAvoidanceRun *Results::find(const std::string &scene, const std::string &method) const
+{
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    if (shownScenes[i] == scene && shown[i].spec.method == method) {
+      return &shown[i];
+    }
+  }
+  return nullptr;
+}
+
+Pairing pairUp(const Results &results, const std::string &scene, const std::string &first, const std::string &second)
+{
+  Pairing pairing;
+  const Cell a = scene.empty() ? results.all(first) : results.cell(scene, first);
+  const Cell b = scene.empty() ? results.all(second) : results.cell(scene, second);
+  for (std::size_t i = 0; i < std::min(a.runs.size(), b.runs.size()); ++i) { // the same problems in the same order
+    const bool x = a.runs[i]->metrics.success, y = b.runs[i]->metrics.success;
+    ++(x ? (y ? pairing.both : pairing.onlyFirst) : (y ? pairing.onlySecond : pairing.neither));
+  }
+  pairing.p = mcNemar(pairing.onlyFirst, pairing.onlySecond);
+  return pairing;
+}
+
+Results runAll(const Plan &plan, unsigned int jobs)
+{
+  const auto start = std::chrono::steady_clock::now();
+  Results results;
+  const std::size_t methods = plan.methods.size();
+  results.records.resize(plan.problems.size() * methods);
+  std::vector<std::size_t> slots; // of the shown problems
+  for (std::size_t i = 0; i < plan.problems.size(); ++i) {
+    slots.push_back(results.shownScenes.size());
+    if (plan.problems[i].shown) {
+      results.shownScenes.insert(results.shownScenes.end(), methods, plan.problems[i].scene);
+    }
+  }
+  results.shown.resize(results.shownScenes.size());
+
+  vpApp::Progress progress("running " + std::to_string(results.records.size()) + " motions",
+                           static_cast<double>(std::max<std::size_t>(1, results.records.size())));
+  vpApp::runJobs(plan.problems.size(), jobs, [&](std::size_t i) {
+    const Problem &problem = plan.problems[i];
+    const vpAvoidanceScenario scenario = problem.make();
+    for (std::size_t m = 0; m < methods; ++m) {
+      vpAvoidanceRunSpec spec = scenario.run;
+      spec.method = plan.methods[m];
+      vpAvoidanceRun run = runAvoidanceExperiment(spec, [](double) { return !vpApp::interrupted(); });
+      vpApp::throwIfInterrupted();
+      Record &record = results.records[i * methods + m];
+      record = {problem.scene, problem.variant, plan.methods[m], problem.seed,
+                run.startTime, run.lookTimes,   run.metrics};
+      if (problem.shown) {
+        results.shown[slots[i] + m] = std::move(run);
+      }
+      progress.add(1.);
+    }
+  });
+  results.wallTime = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return results;
+}
+} // namespace planCompare

@@ -1,0 +1,85 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file results.h
+ * \brief The finished runs, and what can be counted in them.
+ */
+#ifndef planCompare_results_h
+#define planCompare_results_h
+
+#include "plan.h"
+#include "statistics.h"
+
+#include <visp3/simulation/vpAvoidanceExperiment.h>
+
+#include <optional>
+
+namespace planCompare
+{
+//! \brief A run without its log.
+struct Record {
+  std::string scene;
+  std::string variant;
+  std::string method;
+  unsigned int seed = 1;
+  double planTime = 0.;          //!< Wall time of vpAvoidanceMethod::start(), s.
+  std::vector<double> lookTimes; //!< Of vpAvoidanceMethod::look(), s.
+  vpAvoidanceMetrics metrics;
+};
+
+//! A field of vpAvoidanceMetrics.
+using Metric = double vpAvoidanceMetrics::*;
+using Count = int vpAvoidanceMetrics::*;
+
+//! \brief The runs of a method on a scene.
+struct Cell {
+  std::vector<const Record *> runs; //!< By problem.
+  [[nodiscard]] int successes() const;
+  [[nodiscard]] Interval interval() const { return wilson(successes(), static_cast<int>(runs.size())); }
+  //! Of all runs, or of those that succeeded.
+  [[nodiscard]] std::vector<double> values(Metric metric, bool successesOnly) const;
+  [[nodiscard]] int sum(Count count) const;
+  //! Runs in which the count is not 0.
+  [[nodiscard]] int runsWith(Count count) const;
+  //! All look times, ms.
+  [[nodiscard]] std::vector<double> replanTimes() const;
+};
+
+//! \brief All of it, by problem and then by method.
+struct Results {
+  std::vector<Record> records;
+  std::vector<vpAvoidanceRun> shown;    //!< With their logs: of each scene the first problem, by method.
+  std::vector<std::string> shownScenes; //!< Of each of #shown.
+  double wallTime = 0.;                 //!< s
+
+  [[nodiscard]] Cell cell(const std::string &scene, const std::string &method) const;
+  //! The same of one variant.
+  [[nodiscard]] Cell cell(const std::string &scene, const std::string &method, const std::string &variant) const;
+  //! Over all scenes.
+  [[nodiscard]] Cell all(const std::string &method) const;
+  //! The variants of a scene in their order; those of S3 sorted.
+  [[nodiscard]] std::vector<std::string> variants(const std::string &scene) const;
+  //! Run of a scene with its log; null when there is none.
+  [[nodiscard]] const vpAvoidanceRun *find(const std::string &scene, const std::string &method) const;
+};
+
+//! \brief The same problems, two methods.
+struct Pairing {
+  int both = 0, onlyFirst = 0, onlySecond = 0, neither = 0;
+  double p = 1.; //!< McNemar's exact test.
+};
+
+//! \param scene : Empty for all.
+[[nodiscard]] Pairing pairUp(const Results &results, const std::string &scene, const std::string &first,
+                             const std::string &second);
+
+/*!
+ * Run everything, with a progress bar.
+ * \param jobs : Problems at a time.
+ */
+[[nodiscard]] Results runAll(const Plan &plan, unsigned int jobs);
+} // namespace planCompare
+
+#endif

@@ -1,0 +1,30 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file selfMotion.h
+ * \brief S5: the three indices, figures 8.14 to 8.17.
+ */
+#ifndef planCompare_selfMotion_h
+#define planCompare_selfMotion_h
+
+#include "plan.h"
+
+#include <visp3/simulation/vpSelfMotionExperiment.h>
+
+namespace planCompare
+{
+//! \brief One index with one share of self-motion.
+struct SelfMotionRow {
+  std::string index; //!< "point".
+  std::string sense; //!< "attract", "repel"; "none" without self-motion.
+  double share = 0.; //!< |eta|
+  vpSelfMotionRun run;
+};
+
+//! Empty when S5 was not asked for. \throw vpException for an arm with fewer than four joints.
+[[nodiscard]] std::vector<SelfMotionRow> runSelfMotion(const Plan &plan);
+} // namespace planCompare
+
+#endif

@@ -1,0 +1,40 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file statistics.h
+ * \brief What may be concluded from counted successes.
+ */
+#ifndef planCompare_statistics_h
+#define planCompare_statistics_h
+
+#include <vector>
+
+namespace planCompare
+{
+//! \brief An interval of a share, 0..1.
+struct Interval {
+  double low = 0.;
+  double high = 1.;
+};
+
+/*!
+ * Wilson's score interval without continuity correction, 95 %. \cite Wilson 1927, J. Am. Stat. Assoc. 22, 209-212
+ * \param successes : 0..total. \param total : >= 0; nothing is known of 0 trials: [0, 1].
+ */
+[[nodiscard]] Interval wilson(int successes, int total);
+
+/*!
+ * McNemar's exact test, two-sided: the probability of a split as uneven as this one if both do equally well.
+ * \param onlyFirst, onlySecond : Pairs in which only one of the two succeeded; >= 0. \return p, 1 when there are none.
+ */
+[[nodiscard]] double mcNemar(int onlyFirst, int onlySecond);
+
+//! Nearest rank, 0 < share <= 1; 0 of nothing. \param values : In any order.
+[[nodiscard]] double percentile(std::vector<double> values, double share);
+//! Mean of the two in the middle for an even number; 0 of nothing.
+[[nodiscard]] double median(std::vector<double> values);
+} // namespace planCompare
+
+#endif

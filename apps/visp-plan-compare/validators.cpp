@@ -1,0 +1,94 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "validators.h"
+
+#include "appMain.h"
+#include "progress.h"
+#include "statistics.h"
+
+#include <visp3/avoidance/vpPathPlanner.h>
+#include <visp3/core/vpException.h>
+
+namespace planCompare
+{
+namespace
+{
+constexpr int PLACES = 10000;
+constexpr unsigned int SEEDS = 50, QUICK = 5;
+
+struct Validator {
+  const char *name;
+  vpMotionValidation validation;
+};
+constexpr Validator VALIDATORS[] = {{"certified", vpMotionValidation::Certified},
+                                    {"samples, own distances", vpMotionValidation::Discrete},
+                                    {"samples, FCL", vpMotionValidation::DiscreteFcl}};
+
+bool collides(const vpCollisionScene &scene, const vpJointPath &path)
+{
+  vpCollisionData data;
+  for (int i = 0; i <= PLACES; ++i) {
+    scene.place(path.at(static_cast<double>(i) / PLACES), data);
+    if (scene.inCollision(data)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+ValidatorRow compareOn(const vpCollisionScene &scene, const vpCollisionSceneFile &file, const Validator &validator,
+                       unsigned int seeds)
+{
+  ValidatorRow row;
+  row.scene = file.name;
+  row.validator = validator.name;
+  std::vector<double> times;
+  for (unsigned int seed = 1; seed <= seeds; ++seed) {
+    vpPathPlannerSpec spec;
+    spec.validation = validator.validation;
+    spec.seed = seed;
+    spec.margin = 0.; // what is asked is whether it touches
+    vpPathPlanner planner(scene, spec);
+    for (const vpMotionTask &task : file.tasks) {
+      const vpPathResult result = planner.plan(task.start, task.goal);
+      ++row.plans;
+      times.push_back(1000. * result.planningTime);
+      if (result.status == vpPathStatus::Solved) {
+        ++row.solved;
+        row.colliding += collides(scene, result.path) ? 1 : 0;
+      }
+    }
+    vpApp::throwIfInterrupted();
+  }
+  row.p50 = percentile(times, 0.50);
+  row.p95 = percentile(times, 0.95);
+  return row;
+}
+} // namespace
+
+std::vector<ValidatorRow> compareValidators(const Plan &plan)
+{
+  std::vector<ValidatorRow> rows;
+  if (plan.planned.empty()) {
+    return rows;
+  }
+  vpApp::Progress progress("comparing validators", 3. * static_cast<double>(plan.planned.size()));
+  for (const vpCollisionSceneFile &file : plan.planned) {
+    const vpCollisionScene scene(*plan.arm, file.spec);
+    for (const Validator &validator : VALIDATORS) {
+      try {
+        rows.push_back(compareOn(scene, file, validator, plan.quick ? QUICK : SEEDS));
+      }
+      catch (const vpException &e) {
+        if (e.getCode() != vpException::notImplementedError) { // FCL was missing when the module was built
+          throw;
+        }
+      }
+      progress.add(1.);
+    }
+  }
+  return rows;
+}
+} // namespace planCompare
