@@ -3,4 +3,3 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include "vpCatch.h"
-

@@ -94,6 +94,18 @@ vpCertifiedTrajectory::Verdict vpCertifiedTrajectory::look(const vpTrajectoryPla
 vpTrajectoryClearance vpCertifiedTrajectory::check(const vpTrajectoryPlan &plan, double from, double to,
                                                    double age) noexcept
 {
+  return search(plan, from, to, age, true);
+}
+
+vpTrajectoryClearance vpCertifiedTrajectory::verdict(const vpTrajectoryPlan &plan, double from, double to,
+                                                     double age) noexcept
+{
+  return search(plan, from, to, age, false);
+}
+
+vpTrajectoryClearance vpCertifiedTrajectory::search(const vpTrajectoryPlan &plan, double from, double to, double age,
+                                                    bool first) noexcept
+{
   vpTrajectoryClearance result;
   result.least = std::numeric_limits<double>::infinity();
   const int n = m_scene->arm().size();
@@ -118,6 +130,11 @@ vpTrajectoryClearance vpCertifiedTrajectory::check(const vpTrajectoryPlan &plan,
       continue;
     }
     collides = collides || verdict == Verdict::Collision;
+    if (collides && !first) {
+      result.status = vpMotionStatus::Collision;
+      result.time = part.middle;
+      return result;
+    }
     if (m_largest < m_spec.resolution || count + 2 > deepest) {
       result.status = collides ? vpMotionStatus::Collision : vpMotionStatus::Undecided;
       result.time = part.middle - part.half;

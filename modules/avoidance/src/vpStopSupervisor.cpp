@@ -66,31 +66,37 @@ void vpStopSupervisor::reset() noexcept { m_moving = false; }
 bool vpStopSupervisor::admit(const vpJointVector &q, const vpJointVector &velocity, vpClearance &pair) noexcept
 {
   planStop(m_scene->arm(), q, velocity, m_spec.period, m_candidate);
-  m_certificate.setMargin(m_spec.margin);
-  const vpTrajectoryClearance verdict = m_certificate.check(m_candidate, 0., m_candidate.duration(), m_spec.latency);
-  if (verdict.isFree()) {
-    return true;
-  }
-  pair = verdict.pair;
-  m_scene->place(q, m_data);
-  const vpClearance now = m_scene->clearance(m_data, m_spec.margin + slack, m_spec.latency);
-  return now.distance < m_spec.margin + slack && isRetreat(now);
-}
-
-// An arm at or within its margin may move where it ends no nearer than it is and comes hardly nearer on the way.
-bool vpStopSupervisor::isRetreat(const vpClearance &now) noexcept
-{
-  const double margin = now.distance - slack, end = m_candidate.duration();
-  m_certificate.setMargin(margin);
-  if (margin < 0. || !m_certificate.check(m_candidate, 0., end, m_spec.latency).isFree()) {
-    return false;
-  }
-  vpJointVector rest(m_scene->arm().size());
+  // Where it would come to rest is most often what is wrong, and quickly told.
+  const double end = m_candidate.duration();
+  vpJointVector rest(q.size());
   for (int j = 0; j < rest.size(); ++j) {
     rest(j) = m_candidate.at(j, end)[0];
   }
   m_scene->place(rest, m_data);
-  return m_scene->clearance(m_data, now.distance, m_spec.latency + end).kind == vpCollisionKind::None;
+  const vpClearance there = m_scene->clearance(m_data, m_spec.margin, m_spec.latency + end);
+  if (there.kind == vpCollisionKind::None) {
+    m_certificate.setMargin(m_spec.margin);
+    const vpTrajectoryClearance verdict = m_certificate.verdict(m_candidate, 0., end, m_spec.latency);
+    if (verdict.isFree()) {
+      return true;
+    }
+    pair = verdict.pair;
+  }
+  else {
+    pair = there;
+  }
+  m_scene->place(q, m_data);
+  const vpClearance now = m_scene->clearance(m_data, m_spec.margin + slack, m_spec.latency);
+  return now.distance < m_spec.margin + slack && isRetreat(now, there.distance);
+}
+
+// An arm at or within its margin may move where it ends no nearer than it is and comes hardly nearer on the way.
+bool vpStopSupervisor::isRetreat(const vpClearance &now, double there) noexcept
+{
+  const double margin = now.distance - slack;
+  m_certificate.setMargin(margin);
+  return there >= now.distance && margin >= 0. &&
+         m_certificate.verdict(m_candidate, 0., m_candidate.duration(), m_spec.latency).isFree();
 }
 
 void vpStopSupervisor::step(const vpJointVector &q, const vpJointVector &wish, vpSupervisedVelocity &output) noexcept
@@ -124,7 +130,7 @@ void vpStopSupervisor::step(const vpJointVector &q, const vpJointVector &wish, v
     output.status = m_moving ? vpSupervision::Stopping : vpSupervision::Standing;
     if (m_moving) { // is it still free, with the objects where they are now?
       m_certificate.setMargin(0.);
-      const vpTrajectoryClearance rest = m_certificate.check(m_stop, m_time, m_stop.duration(), m_spec.latency);
+      const vpTrajectoryClearance rest = m_certificate.verdict(m_stop, m_time, m_stop.duration(), m_spec.latency);
       output.status = rest.isFree() ? output.status : vpSupervision::Unsafe;
       output.pair = rest.isFree() ? output.pair : rest.pair;
     }

@@ -294,6 +294,124 @@ TEST_CASE("Parts behind a rest meet obstacles where they are by then", "[path]")
   CHECK(withRests > 5);
 }
 
+TEST_CASE("A path is taken up from a moving state, smoothly and within the limits", "[path]")
+{
+  auto rng = vpTestSupport::generator(915);
+  CAPTURE(vpTestSupport::seed());
+  int free = 0;
+  for (int problem = 0; problem < 200; ++problem) {
+    const vpCollisionSceneSpec spec = randomScene(rng, problem % 2 == 0);
+    const vpCollisionScene scene(amor(), spec);
+    vpJointPath path;
+    path.points = {configuration(amor(), rng, 0.1)};
+    for (int k = 0; k < 2; ++k) {
+      path.points.push_back(path.points.back() + 0.4 * (configuration(amor(), rng, 0.1) - path.points.back()));
+    }
+    vpTimedPathSpec timing;
+    timing.startVelocity = 0.5 * amor().velocity().cwiseProduct(vpTestArms::randomVector(7, rng));
+    timing.startAcceleration = 0.3 * amor().acceleration().cwiseProduct(vpTestArms::randomVector(7, rng));
+    vpCertifiedTrajectory certificate(scene);
+    const vpTimedPath timed(scene, path, timing, certificate);
+    if (!timed.isFree()) {
+      continue;
+    }
+    ++free;
+    CAPTURE(problem);
+    for (int j = 0; j < 7; ++j) {
+      REQUIRE(timed.at(j, 0.)[0] == Approx(path.points[0](j)));
+      REQUIRE(timed.at(j, 0.)[1] == Approx(timing.startVelocity(j)).margin(1e-9));
+      REQUIRE(timed.at(j, timed.duration())[0] == Approx(path.points[2](j)).margin(1e-9));
+      double before = timing.startVelocity(j);
+      for (int i = 1; i <= 400; ++i) {
+        const vpAxisState x = timed.at(j, timed.duration() * i / 400.);
+        REQUIRE(std::fabs(x[1]) <= amor().velocity()(j) * (1. + 1e-9));
+        REQUIRE(std::fabs(x[2]) <= amor().acceleration()(j) * (1. + 1e-9));
+        REQUIRE(std::fabs(x[1] - before) <= amor().acceleration()(j) * timed.duration() / 400. * (1. + 1e-6) + 1e-9);
+        before = x[1];
+      }
+    }
+    for (int i = 0; i <= 200; ++i) {
+      const double t = timed.duration() * i / 200.;
+      vpJointVector q(7);
+      for (int j = 0; j < 7; ++j) {
+        q(j) = timed.at(j, t)[0];
+      }
+      const vpCollisionSceneSpec then = at(spec, t);
+      REQUIRE(IndependentClearance(amor(), then).clearance(q, scene.selfPairs(), 0.01) >= -1e-9);
+    }
+  }
+  std::cout << free << " of 200 paths are free from a moving state\n";
+  CHECK(free > 50);
+}
+
+TEST_CASE("The tool keeps its bounds along a timed path", "[path]")
+{
+  auto rng = vpTestSupport::generator(916);
+  CAPTURE(vpTestSupport::seed());
+  const vpCollisionScene scene(amor());
+  vpTimedPathSpec timing;
+  timing.toolVelocity = 0.5;
+  timing.toolAcceleration = 1.;
+  int bound = 0;
+  for (int problem = 0; problem < 60; ++problem) {
+    vpJointPath path;
+    path.points = {configuration(amor(), rng, 0.1), configuration(amor(), rng, 0.1), configuration(amor(), rng, 0.1)};
+    const vpTimedPath kept(scene, path, timing), quick(scene, path);
+    if (!kept.isFree() || !quick.isFree()) {
+      continue;
+    }
+    const auto place = [&](double t) {
+      vpJointVector q(7);
+      for (int j = 0; j < 7; ++j) {
+        q(j) = kept.at(j, t)[0];
+      }
+      vpArmData data;
+      vpArmKinematics::forward(amor(), q, data);
+      return data.tool.p;
+    };
+    constexpr double dt = 1e-3;
+    double v = 0., a = 0.;
+    for (double t = dt; t < kept.duration(); t += dt) {
+      v = std::max(v, (place(t + 0.5 * dt) - place(t - 0.5 * dt)).norm() / dt);
+      a = std::max(a, (place(t + dt) - 2. * place(t) + place(t - dt)).norm() / (dt * dt));
+    }
+    CAPTURE(problem, kept.duration(), quick.duration());
+    CHECK(v <= 0.5 * 1.001);
+    CHECK(a <= 1. * 1.01);
+    CHECK(kept.duration() >= quick.duration() - 1e-9);
+    bound += v > 0.48 || a > 0.95 ? 1 : 0; // not slower than it must be
+  }
+  CHECK(bound > 10);
+  timing.toolVelocity = 0.;
+  vpJointPath still;
+  still.points = {amor().home()};
+  CHECK_THROWS_WITH(vpTimedPath(scene, still, timing), Catch::Contains("toolVelocity of the timed path is 0"));
+  timing = {};
+  timing.startVelocity = vpJointVector::Zero(2);
+  CHECK_THROWS_WITH(vpTimedPath(scene, still, timing),
+                    Catch::Contains("velocity at the start of the timed path has 2"));
+}
+
+TEST_CASE("The quick verdict is that of the whole check", "[trajectory]")
+{
+  auto rng = vpTestSupport::generator(917);
+  CAPTURE(vpTestSupport::seed());
+  int free = 0;
+  for (int problem = 0; problem < 300; ++problem) {
+    const vpCollisionScene scene(amor(), randomScene(rng, problem % 2 == 0));
+    vpCertifiedTrajectory certificate(scene);
+    const vpTrajectoryPlan plan = randomPlan(rng);
+    const vpTrajectoryClearance whole = certificate.check(plan);
+    const vpTrajectoryClearance quick = certificate.verdict(plan, 0., plan.duration());
+    REQUIRE(whole.isFree() == quick.isFree());
+    REQUIRE(quick.evaluated <= whole.evaluated);
+    REQUIRE((quick.isFree() || quick.time >= whole.time - 1e-9));
+    free += whole.isFree() ? 1 : 0;
+  }
+  CHECK(free > 30);
+  CHECK(free < 270);
+}
+
 TEST_CASE("The check of a trajectory does not allocate and refuses nonsense", "[trajectory]")
 {
   auto rng = vpTestSupport::generator(913);

@@ -65,10 +65,19 @@ public:
     return check(plan, 0., plan.duration());
   }
 
+  /*!
+   * The same for whom only the verdict matters, in less time: the time of a collision is one when something is too near,
+   * not the first one.
+   */
+  [[nodiscard]] vpTrajectoryClearance verdict(const vpTrajectoryPlan &plan, double from, double to,
+                                              double age = 0.) noexcept;
+
   //! Changes the margin, m; values that are not >= 0 and finite count as 0. No exception.
   void setMargin(double margin) noexcept;
 
 private:
+  [[nodiscard]] vpTrajectoryClearance search(const vpTrajectoryPlan &plan, double from, double to, double age,
+                                             bool first) noexcept;
   enum class Verdict { Free, Collision, Split };
   Verdict look(const vpTrajectoryPlan &plan, double middle, double half, double objectTime,
                vpTrajectoryClearance &result) noexcept;

@@ -84,7 +84,7 @@ public:
 
 private:
   bool admit(const vpJointVector &q, const vpJointVector &velocity, vpClearance &pair) noexcept;
-  [[nodiscard]] bool isRetreat(const vpClearance &now) noexcept;
+  [[nodiscard]] bool isRetreat(const vpClearance &now, double there) noexcept;
 
   const vpCollisionScene *m_scene;
   vpStopSupervisorSpec m_spec;
