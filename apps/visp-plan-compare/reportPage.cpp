@@ -278,8 +278,11 @@ void writeHow(HtmlReport &page, const Plan &plan, const Results &results, const 
        "Success: the tool within " +
            std::string(results.shown.empty() ? "2" : number(1000. * results.shown.front().spec.goalTolerance, 2)) +
            " mm of the goal, at rest, in time, and nothing touched while the arm moved.",
-       "A stop is false when, had the joints kept their velocities for another second, nothing would have come nearer "
-       "than the margin and 20 mm.",
+       "A stop is false when nothing truly was in the way: neither with the joints at the velocities before it for "
+       "another "
+       "second, nor with joints or tool going straight to the goal, nothing would have come nearer than the margin and "
+       "20 mm. "
+       "Stops for obstacles on other ways count as false.",
        "Intervals are Wilson's, 95 %; pairs are compared by McNemar's exact test.",
        "Planners that search have limits of time: on a slower machine their results may differ. All else repeats."});
   page.facts({{"Arm", plan.arm->label()},
