@@ -72,6 +72,13 @@ std::vector<Vector3d> placesBeside(const vpCollisionScene &scene, const vpForeca
   const Vector3d way = to - from;
   Vector3d level, up;
   across(way.norm() > 1e-6 ? Vector3d(way.normalized()) : Vector3d::UnitX(), level, up);
+  if (pair.kind == vpCollisionKind::None) { // the arm itself does not come along there
+    for (int k = 0; k < sides; ++k) {
+      const double angle = 2. * M_PI * k / sides;
+      places.push_back(conflict.tool + 0.15 * (std::cos(angle) * level + std::sin(angle) * up));
+    }
+    return places;
+  }
   // Away from what was touched, wherever on the arm that was.
   for (const double shift : {0.1, 0.2}) {
     places.push_back(conflict.tool + shift * pair.normal);

@@ -18,7 +18,8 @@ BEGIN_VISP_NAMESPACE
 
 /*!
  * Places beside what is in the way of a tool that goes from \e from to \e to: on every side of the obstacle, by its
- * extent there and a clearance; where the tool is not what would touch, also further out.
+ * extent there and a clearance; where the tool is not what would touch, also further out. When nothing is in the way but
+ * the arm does not come along, places about the one where it stays behind.
  * \param conflict : Foreseen. \param clearance : Of the tool's origin from the extent, m. \param sides : How many, >= 2.
  */
 [[nodiscard]] std::vector<Eigen::Vector3d> placesBeside(const vpCollisionScene &scene, const vpForecast &conflict,

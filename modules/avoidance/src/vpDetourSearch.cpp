@@ -64,6 +64,15 @@ vpForecast vpDetourSearch::foresee(const vpDetourStart &start, vpToolTask &task,
   return result;
 }
 
+std::optional<vpJointVector> vpDetourSearch::endOf(const vpDetourStart &start, const Vector3d &goal)
+{
+  constexpr double nothing = -1e3; // m: a margin that nothing comes nearer than
+  vpToolTask task;
+  task.goal = goal;
+  const vpForecast forecast = foresee(start, task, nothing);
+  return forecast.status == vpForecastStatus::Free ? std::optional<vpJointVector>(forecast.end) : std::nullopt;
+}
+
 void vpDetourSearch::expand(const vpDetourStart &start, const Node &node, const vpForecast &conflict)
 {
   if (node.task.viaCount == vpToolTask::maxVias) {

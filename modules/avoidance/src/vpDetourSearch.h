@@ -46,6 +46,8 @@ public:
   //! The direct way to the goal or a way round.
   [[nodiscard]] vpDetourResult search(const vpDetourStart &start, const Eigen::Vector3d &goal,
                                       const Eigen::Vector3d &goalVelocity);
+  //! Where the direct way would end if nothing were in the way; none: the arm does not get there.
+  [[nodiscard]] std::optional<vpJointVector> endOf(const vpDetourStart &start, const Eigen::Vector3d &goal);
 
 private:
   struct Node {

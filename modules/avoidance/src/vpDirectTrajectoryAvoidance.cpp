@@ -17,10 +17,12 @@ BEGIN_VISP_NAMESPACE
 namespace
 {
 using Eigen::Vector3d;
-constexpr double offPlan = 2e-4; // m: a tool farther from its plan than this has left it
-constexpr double atGoal = 1e-4;  // m
-constexpr double atRest = 1e-3;  // m/s
-constexpr double quicker = 0.9;  // of the rest of a detour: the direct way is worth changing to
+constexpr double offPlan = 1e-3;   // m: a tool farther from its plan than this has left it
+constexpr double correction = 10.; // 1/s, of what the steps leave of second order: gentle, so that it bends no bound
+constexpr double atGoal = 1e-4;    // m
+constexpr double atRest = 1e-3;    // m/s
+constexpr double ending = 0.5;     // s: the last part of a motion is left as it is, or its smooth end would be lost
+constexpr double quicker = 0.9;    // of the rest of a detour: the direct way is worth changing to
 
 void requireGood(const char *field, double value, bool good, const char *range)
 {
@@ -90,7 +92,9 @@ public:
         if (toGoal && task.viaCount == 0) {
           return;
         }
-        shorten(here);
+        if (!toGoal || plan.duration() - clock > ending) {
+          shorten(here);
+        }
         return;
       }
     }
@@ -103,9 +107,7 @@ public:
       take(*found.task);
       return;
     }
-    status = found.direct.status != vpForecastStatus::Conflict   ? vpAvoidanceStatus::Unreachable
-             : (found.direct.tool - goal.position).norm() < 0.01 ? vpAvoidanceStatus::GoalInCollision
-                                                                 : vpAvoidanceStatus::Waiting;
+    status = whyNot(here, found.direct.status);
     brake();
   }
 
@@ -119,13 +121,15 @@ public:
         plan.clear();
       }
     }
+    const Vector3d here = vpToolPath::at(plan, clock).x;
     clock = std::min(clock + period, plan.duration());
     const vpToolState next = vpToolPath::at(plan, clock);
     scene->place(q, data);
     const Vector3d x = data.arm.tool.p;
     scene->place(q + 0.5 * period * velocity, data); // half a period on the Jacobian is that of the mean
     scene->near(data, motion.spec().repelRange, near);
-    motion.step(data, near, (next.x - x) / period, leaning, orientation, velocity, solved);
+    const Vector3d wish = (next.x - here) / period + correction * (here - x);
+    motion.step(data, near, wish, leaning, orientation, velocity, solved, !stands());
     supervisor.step(q, solved.velocity, supervised);
     finish(q, next, output);
   }
@@ -168,6 +172,33 @@ private:
   //! Under way on a motion that look() took.
   [[nodiscard]] bool following() const noexcept { return !stopped && !rebase && clock < plan.duration(); }
   [[nodiscard]] vpJointVector posture() const { return spec.usePosture ? goal.q : vpJointVector(); }
+
+  //! At the goal, or where it has to wait: the arm stands, all of it.
+  [[nodiscard]] bool stands() const noexcept { return tool.v.norm() < atRest && (stopped || (toGoal && isArrived())); }
+
+  vpAvoidanceStatus whyNot(const vpDetourStart &here, vpForecastStatus direct)
+  {
+    scene->place(here.q, data);
+    const vpClearance now = scene->clearance(data, spec.common.margin);
+    if (now.distance < 0.) {
+      pair = now;
+      return vpAvoidanceStatus::StartInCollision;
+    }
+    if (direct != vpForecastStatus::Conflict) {
+      return vpAvoidanceStatus::Unreachable;
+    }
+    const std::optional<vpJointVector> end = search.endOf(here, goal.position);
+    if (!end) {
+      return vpAvoidanceStatus::Waiting;
+    }
+    scene->place(*end, data);
+    const vpClearance there = scene->clearance(data, spec.common.margin);
+    if (there.kind == vpCollisionKind::None) {
+      return vpAvoidanceStatus::Waiting;
+    }
+    pair = there;
+    return vpAvoidanceStatus::GoalInCollision;
+  }
 
   void take(const vpToolTask &wish)
   {

@@ -17,9 +17,9 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-constexpr double sampleTime = 0.005; // s, for the speed of the tool along a motion
-constexpr double reserve = 0.99;     // of the tool's bounds, for what is between the samples
-constexpr double slack = 1e-4;       // m: the rest of a motion is proven again with so much less margin
+constexpr double ending = 0.5;  // s: the last part of a motion is left as it is, or its smooth end would be lost
+constexpr double quicker = 0.9; // of what is left: a new motion is worth changing to
+constexpr double slack = 1e-4;  // m: the rest of a motion is proven again with so much less margin
 
 void requireGood(const char *field, double value, bool good, const char *range)
 {
@@ -164,6 +164,9 @@ void vpPlannedMotion::look()
     return;
   }
   if (m_toGoal && (isAtRest() || restIsFree())) {
+    if (m_duration - m_clock > ending && m_spec.replanning == vpReplanning::OnTheFly) {
+      hasten();
+    }
     return;
   }
   if (isAtRest()) {
@@ -230,61 +233,26 @@ vpPathResult vpPlannedMotion::findPath(const vpJointVector &from, double time)
   return result;
 }
 
-// By how much the tool is within its bounds of velocity and acceleration; below 1: it is not.
-vpPlannedMotion::Shares vpPlannedMotion::toolShares(const vpTimedPath &path) const
-{
-  const int n = m_scene->arm().size();
-  vpArmData data;
-  vpJointVector q(n), v(n);
-  Shares share;
-  Eigen::Vector3d before = Eigen::Vector3d::Zero();
-  for (double t = 0.; t <= path.duration(); t += sampleTime) {
-    for (int j = 0; j < n; ++j) {
-      const vpAxisState x = path.at(j, t);
-      q(j) = x[0];
-      v(j) = x[1];
-    }
-    vpArmKinematics::update(m_scene->arm(), q, data);
-    const Eigen::Vector3d velocity = data.J.topRows<3>() * v;
-    share.velocity = std::min(share.velocity, reserve * m_spec.common.maxVelocity / std::max(1e-9, velocity.norm()));
-    if (t > 0.) {
-      const double acceleration = (velocity - before).norm() / sampleTime;
-      share.acceleration =
-          std::min(share.acceleration, reserve * m_spec.common.maxAcceleration / std::max(1e-9, acceleration));
-    }
-    before = velocity;
-  }
-  return share;
-}
-
 std::optional<vpPlannedMotion::Parts> vpPlannedMotion::timed(const vpJointPath &path, const State &from, double begin,
-                                                             double speed, double acceleration)
+                                                             double speed)
 {
   vpTimedPathSpec spec;
   spec.margin = m_spec.common.margin;
   spec.startVelocity = from.v;
   spec.startAcceleration = from.a;
   predict(begin);
-  // Slower until the tool keeps its bounds; what it has at the start is not asked of it again.
-  for (int attempt = 0; attempt < 6; ++attempt) {
-    spec.speed = speed;
-    spec.acceleration = acceleration;
-    const vpTimedPath motion(m_view, path, spec, m_later);
-    if (!motion.isFree()) {
-      return std::nullopt;
-    }
-    const Shares tool = toolShares(motion);
-    if (tool.velocity >= 1. && tool.acceleration >= 1.) {
-      Parts parts = motion.parts();
-      for (vpTimedPath::Part &part : parts) {
-        part.begin += begin;
-      }
-      return parts;
-    }
-    speed = std::max(0.01, speed * std::min(1., 0.999 * tool.velocity));
-    acceleration = std::max(0.01, acceleration * std::min(1., 0.999 * tool.acceleration));
+  spec.toolVelocity = m_spec.common.maxVelocity;
+  spec.toolAcceleration = m_spec.common.maxAcceleration;
+  spec.speed = speed;
+  const vpTimedPath motion(m_view, path, spec, m_later);
+  if (!motion.isFree()) {
+    return std::nullopt;
   }
-  return std::nullopt;
+  Parts parts = motion.parts();
+  for (vpTimedPath::Part &part : parts) {
+    part.begin += begin;
+  }
+  return parts;
 }
 
 void vpPlannedMotion::follow(Parts parts, bool toGoal, vpAvoidanceStatus status)
@@ -315,7 +283,7 @@ void vpPlannedMotion::planFromRest()
       continue;
     }
     for (const double share : {1., 0.4}) {
-      if (auto parts = timed(found.path, here, 0., share, share * share)) {
+      if (auto parts = timed(found.path, here, 0., share)) {
         follow(std::move(*parts), true,
                found.path.points.size() > 2 ? vpAvoidanceStatus::Detouring : vpAvoidanceStatus::Moving);
         return;
@@ -346,7 +314,7 @@ bool vpPlannedMotion::planOnTheFly()
   const State here = state(m_clock);
   const auto take = [&](const vpJointPath &path, std::initializer_list<double> speeds) {
     for (const double speed : speeds) {
-      if (auto parts = timed(path, here, 0., speed, 1.)) {
+      if (auto parts = timed(path, here, 0., speed)) {
         follow(std::move(*parts), true, vpAvoidanceStatus::Detouring);
         return true;
       }
@@ -368,6 +336,24 @@ bool vpPlannedMotion::planOnTheFly()
   return stopAndPlan();
 }
 
+// What was in the way may be gone: the rest of the path sooner, or straight to the goal.
+void vpPlannedMotion::hasten()
+{
+  const State here = state(m_clock);
+  vpJointPath straight;
+  straight.points = {here.q, m_goal.q};
+  for (const vpJointPath &path : {straight, restOfPath()}) {
+    if (auto parts = timed(path, here, 0., 1.)) {
+      const double duration = parts->back().begin + parts->back().plan.duration();
+      if (duration < quicker * (m_duration - m_clock)) {
+        follow(std::move(*parts), true,
+               path.points.size() > 2 ? vpAvoidanceStatus::Detouring : vpAvoidanceStatus::Moving);
+        return;
+      }
+    }
+  }
+}
+
 // A stop that is free, and a path that is free behind it.
 bool vpPlannedMotion::stopAndPlan()
 {
@@ -385,7 +371,7 @@ bool vpPlannedMotion::stopAndPlan()
     if (found.status != vpPathStatus::Solved) {
       continue;
     }
-    if (auto parts = timed(found.path, rest, duration, 1., 1.)) {
+    if (auto parts = timed(found.path, rest, duration, 1.)) {
       parts->insert(parts->begin(), {0., stop});
       follow(std::move(*parts), true, vpAvoidanceStatus::Detouring);
       m_stopping = duration;

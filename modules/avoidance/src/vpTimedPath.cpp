@@ -16,6 +16,8 @@ BEGIN_VISP_NAMESPACE
 namespace
 {
 using Input = vpTrajectoryInput<Eigen::Dynamic>;
+constexpr double sampleTime = 0.005; // s, for the bounds of the tool
+constexpr double reserve = 0.99;     // of these bounds
 
 void requireShare(const char *field, double value)
 {
@@ -33,7 +35,69 @@ void requireSize(const char *field, const vpJointVector &value, int n)
   }
 }
 
+void requireBound(const char *field, double value)
+{
+  if (!(value > 0.)) {
+    throw vpException(vpException::badValue, "%s of the timed path is %g, must be > 0", field, value);
+  }
+}
+
 bool isMoving(const vpJointVector &rate) { return rate.size() != 0 && rate.cwiseAbs().maxCoeff() > 0.; }
+
+//! By what time has to be stretched for the tool to keep its bounds; at most 1: they are kept.
+double stretchForTool(const vpArmModel &arm, const vpTrajectoryPlan &plan, const vpTimedPathSpec &spec)
+{
+  vpArmData data;
+  vpJointVector q(arm.size()), v(arm.size());
+  Eigen::Vector3d before = Eigen::Vector3d::Zero();
+  double stretch = 0.;
+  for (double t = 0.; t <= plan.duration(); t += sampleTime) {
+    for (int j = 0; j < arm.size(); ++j) {
+      const vpAxisState x = plan.at(j, t);
+      q(j) = x[0];
+      v(j) = x[1];
+    }
+    vpArmKinematics::update(arm, q, data);
+    const Eigen::Vector3d velocity = data.J.topRows<3>() * v;
+    stretch = std::max(stretch, velocity.norm() / (reserve * spec.toolVelocity));
+    if (t > 0.) {
+      const double acceleration = (velocity - before).norm() / sampleTime;
+      stretch = std::max(stretch, std::sqrt(acceleration / (reserve * spec.toolAcceleration)));
+    }
+    before = velocity;
+  }
+  return stretch;
+}
+
+//! The shortest motion that keeps the tool's bounds. False: there is none, or none was found.
+vpTrajectoryStatus planWithinBounds(const vpArmModel &arm, Input &input, const vpTimedPathSpec &spec,
+                                    vpTrajectoryPlan &plan)
+{
+  constexpr int attempts = 6; // from rest the second one does; a start that moves does not stretch in proportion
+  vpTrajectoryStatus status = vpDirectTrajectory<Eigen::Dynamic>::calculate(input, plan);
+  if (std::isinf(spec.toolVelocity) && std::isinf(spec.toolAcceleration)) {
+    return status;
+  }
+  for (int attempt = 0; status.isGood(); ++attempt) {
+    const double stretch = stretchForTool(arm, plan, spec);
+    if (stretch <= 1.) {
+      return status;
+    }
+    if (attempt == attempts) {
+      status.result = vpTrajectoryResult::NoFeasibleDuration;
+      return status;
+    }
+    if (isMoving(input.start.v) || isMoving(input.start.a)) {
+      input.maxVelocity /= 1.001 * stretch;
+      input.maxAcceleration /= 1.001 * stretch * stretch;
+    }
+    else {
+      input.options.minimumDuration = 1.001 * stretch * plan.duration();
+    }
+    status = vpDirectTrajectory<Eigen::Dynamic>::calculate(input, plan);
+  }
+  return status;
+}
 
 //! Points first..last of a path as one motion to rest, from rest except at the path's start.
 Input inputOf(const vpArmModel &arm, const vpJointPath &path, std::size_t first, std::size_t last,
@@ -99,6 +163,8 @@ void vpTimedPath::build(const vpCollisionScene &scene, const vpJointPath &path, 
   const vpArmModel &arm = scene.arm();
   requireShare("speed", spec.speed);
   requireShare("acceleration", spec.acceleration);
+  requireBound("toolVelocity", spec.toolVelocity);
+  requireBound("toolAcceleration", spec.toolAcceleration);
   requireSize("velocity", spec.startVelocity, arm.size());
   requireSize("acceleration", spec.startAcceleration, arm.size());
   arm.requireMotionLimits("a timed path");
@@ -124,9 +190,9 @@ void vpTimedPath::build(const vpCollisionScene &scene, const vpJointPath &path, 
   while (!open.empty()) {
     const auto [first, last] = open.back();
     open.pop_back();
-    const Input input = inputOf(arm, way, first, last, spec);
+    Input input = inputOf(arm, way, first, last, spec);
     vpTrajectoryPlan plan(arm.size());
-    const vpTrajectoryStatus status = vpDirectTrajectory<Eigen::Dynamic>::calculate(input, plan);
+    const vpTrajectoryStatus status = planWithinBounds(arm, input, spec, plan);
     const bool single = last <= first + 1;
     if (!status.isGood() && single && moving && first == 0) {
       m_worst = vpTrajectoryClearance();

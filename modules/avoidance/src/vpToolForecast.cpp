@@ -68,7 +68,7 @@ vpForecast vpToolForecast::run(const vpJointVector &q, const vpJointVector &velo
     result.tool = m_data.arm.tool.p;
     const vpClearance nearest = leastOf(m_near);
     if (t == 0.) { // an arm that is nearer already may stay hardly nearer
-      margin = std::max(1e-3, std::min(margin, nearest.distance - 1e-3));
+      margin = std::min(margin, std::max(1e-3, nearest.distance - 1e-3));
     }
     else if (nearest.distance < margin + 0.5 * way) {
       result.pair = nearest;

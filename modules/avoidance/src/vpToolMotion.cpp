@@ -19,6 +19,7 @@ vpRedundancySpec solverSpec(double period)
   vpRedundancySpec spec;
   spec.period = period;
   spec.policy = vpLimitPolicy::StopJoints;
+  spec.selfAcceleration = 0.4;
   return spec;
 }
 } // namespace
@@ -65,7 +66,7 @@ void vpToolMotion::repel(const vpCollisionData &data, const vpNearPairs &near) n
 
 void vpToolMotion::step(vpCollisionData &data, const vpNearPairs &near, const Eigen::Vector3d &velocity,
                         const vpJointVector &posture, const Eigen::Matrix3d &orientation, const vpJointVector &previous,
-                        vpRedundancyOutput &output) noexcept
+                        vpRedundancyOutput &output, bool selfMotion) noexcept
 {
   vpArmKinematics::jacobian(*m_model, data.arm);
   m_input.twist = vpTwist(velocity.x(), velocity.y(), velocity.z(), 0., 0., 0.);
@@ -74,6 +75,7 @@ void vpToolMotion::step(vpCollisionData &data, const vpNearPairs &near, const Ei
     m_input.twist = vpTwist(velocity.x(), velocity.y(), velocity.z(), turn.x(), turn.y(), turn.z());
   }
   m_input.previous = previous;
+  m_input.selfMotionShare = selfMotion ? 1. : 0.;
   m_input.indexCount = 0;
   m_input.indices[static_cast<std::size_t>(m_input.indexCount++)] = vpSelfMotionIndex::jointLimits(m_spec.limitGain);
   if (posture.size() == m_model->size()) {

@@ -36,10 +36,11 @@ public:
    * \param data : After vpCollisionScene::place(); the Jacobian is added. \param near : Pairs of that configuration.
    * \param velocity : Of the tool's origin, base frame, m/s. \param posture : Configuration to lean to; may be empty.
    * \param orientation : Kept, if the spec says so. \param previous : Joint velocities of the last period.
+   * \param selfMotion : False: the joints move for the task alone.
    */
   void step(vpCollisionData &data, const vpNearPairs &near, const Eigen::Vector3d &velocity,
             const vpJointVector &posture, const Eigen::Matrix3d &orientation, const vpJointVector &previous,
-            vpRedundancyOutput &output) noexcept;
+            vpRedundancyOutput &output, bool selfMotion = true) noexcept;
 
   [[nodiscard]] const vpToolMotionSpec &spec() const noexcept { return m_spec; }
 

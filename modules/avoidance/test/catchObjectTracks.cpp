@@ -282,7 +282,7 @@ TEST_CASE("What rests has velocity 0 and stands still; what creeps, swings or st
   }
   CHECK(moving < 0.02 * frames);
   CHECK(turning < 0.02 * frames);
-  CHECK(uncertain < 0.1 * frames);
+  CHECK(uncertain < 0.2 * frames);
   CHECK(creeping < 0.02 * late);
   CHECK(swinging < 0.05 * late); // where it turns
 }

@@ -92,6 +92,7 @@ void vpRedundancySpec::validate(const vpArmModel &model) const
   notNegative("escapeSpeed", escapeSpeed);
   notNegative("minSelfMotion", minSelfMotion);
   notNegative("positionMargin", positionMargin);
+  check(model, selfAcceleration >= 0. && selfAcceleration <= 1., "selfAcceleration", selfAcceleration, "in [0, 1]");
   check(model, selfMotion >= 0. && selfMotion <= 1., "selfMotion", selfMotion, "in [0, 1]");
   check(model, weights.size() == 0 || weights.size() == model.size(), "number of weights",
         static_cast<double>(weights.size()), "0 or the number of joints");
@@ -322,6 +323,23 @@ double scaleWithin(const vpArmModel &model, const Work &work, const vpRedundancy
   return scale;
 }
 
+// The self-motion of the last period, led to the new one with a part of the accelerations, so that the task has the rest.
+Joints slowlyChanged(const vpArmModel &model, const vpRedundancyInput &input, const vpRedundancySpec &spec,
+                     const Joints &scale, const Work &work, const Joints &wanted)
+{
+  Joints before = Joints::Zero();
+  for (int i = 0; i < model.size(); ++i) {
+    before(i) = isStopped(work, i) ? 0. : input.previous(i) / scale(i);
+  }
+  before = scale.cwiseProduct(work.basis.free(before));
+  double share = 1.;
+  for (int i = 0; i < model.size(); ++i) {
+    const double change = std::fabs(wanted(i) - before(i));
+    share = std::min(share, spec.selfAcceleration * model.acceleration()(i) * spec.period / std::max(1e-12, change));
+  }
+  return before + share * (wanted - before);
+}
+
 // Self-motion in joint velocities: gradient, projection, k0, and as much of it as the bounds leave.
 Joints selfMotion(const vpArmModel &model, const vpArmData &data, const vpRedundancyInput &input,
                   const vpRedundancySpec &spec, const Joints &scale, const Work &work)
@@ -347,6 +365,9 @@ Joints selfMotion(const vpArmModel &model, const vpArmData &data, const vpRedund
   }
   motion *= input.selfMotionShare * spec.selfMotion * std::max(work.motion.norm(), spec.minSelfMotion) /
             std::max(length, spec.softGradient);
+  if (spec.selfAcceleration > 0.) {
+    motion = slowlyChanged(model, input, spec, scale, work, motion);
+  }
   double room = 1.;
   for (int i = 0; i < n; ++i) {
     const double bound = motion(i) > 0. ? work.bounds.upper(i) - work.motion(i) : work.motion(i) - work.bounds.lower(i);

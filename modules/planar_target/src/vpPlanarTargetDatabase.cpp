@@ -9,6 +9,7 @@
 
 #include <visp3/core/vpException.h>
 
+#include <cmath>
 #include <utility>
 
 BEGIN_VISP_NAMESPACE
@@ -46,7 +47,7 @@ vpPlanarTargetDatabase vpPlanarTargetDatabase::fromFolder(const std::string &fol
     readReference(entry.file, reference);
     const double height = entry.height.value_or(entry.width * reference.getHeight() / reference.getWidth());
     try {
-      database.add(entry.name, reference, entry.width, height);
+      database.add(entry.name, reference, entry.width, height, entry.depth);
     }
     catch (const vpException &error) {
       throw vpException(error.getCode(), entry.file + ": " + error.getStringMessage());
@@ -56,10 +57,13 @@ vpPlanarTargetDatabase vpPlanarTargetDatabase::fromFolder(const std::string &fol
 }
 
 void vpPlanarTargetDatabase::add(const std::string &name, const vpImage<unsigned char> &reference, double width,
-                                 double height)
+                                 double height, double depth)
 {
   if (name.empty()) {
     throw vpException(vpException::badValue, "a target of the database has an empty name");
+  }
+  if (!(depth >= 0.) || !std::isfinite(depth)) {
+    throw vpException(vpException::badValue, "target '%s': depth is %g m, must be >= 0", name.c_str(), depth);
   }
   for (const vpPlanarTargetSighting &other : m_store->m_sightings) {
     if (other.name == name) {
@@ -73,7 +77,7 @@ void vpPlanarTargetDatabase::add(const std::string &name, const vpImage<unsigned
   catch (const vpException &error) {
     throw vpException(error.getCode(), "target '" + name + "': " + error.getStringMessage());
   }
-  m_store->m_sightings.push_back({name, width, height, {}});
+  m_store->m_sightings.push_back({name, width, height, depth, {}});
 }
 
 std::size_t vpPlanarTargetDatabase::size() const { return m_store->m_targets.size(); }
@@ -96,6 +100,19 @@ const std::vector<vpPlanarTargetSighting> &vpPlanarTargetDatabase::process(const
 }
 
 const std::vector<vpPlanarTargetSighting> &vpPlanarTargetDatabase::sightings() const { return m_store->m_sightings; }
+
+void vpPlanarTargetDatabase::predict(std::size_t i, const vpHomogeneousMatrix &cMo)
+{
+  for (unsigned int k = 0; k < 12; ++k) {
+    if (!std::isfinite(cMo.data[k])) {
+      return;
+    }
+  }
+  // The results of the last frame stay as they were given; the pose to track from is the target's own.
+  if (i < m_store->m_targets.size() && m_store->m_targets[i]->m_known) {
+    m_store->m_targets[i]->m_result.cMo = cMo;
+  }
+}
 
 void vpPlanarTargetDatabase::reset()
 {

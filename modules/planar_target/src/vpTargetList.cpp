@@ -101,17 +101,21 @@ std::vector<vpTargetListEntry> readTargetList(const std::string &folder)
       fail(file, place + " is " + entry.dump() + ", must be an object");
     }
     for (const auto &item : entry.items()) {
-      if (item.key() != "name" && item.key() != "image" && item.key() != "width_m" && item.key() != "height_m") {
-        fail(file, "unknown field " + place + "." + item.key() + "; known are name, image, width_m, height_m");
+      static const std::set<std::string> known = {"name", "image", "width_m", "height_m", "depth_m"};
+      if (known.count(item.key()) == 0) {
+        fail(file, "unknown field " + place + "." + item.key() + "; known are name, image, width_m, height_m, depth_m");
       }
     }
     if (!entry.contains("width_m")) {
       fail(file, place + ".width_m is missing");
     }
     vpTargetListEntry target{text(entry, "name", place, file), folder + "/" + text(entry, "image", place, file),
-                             length(entry, "width_m", place, file), std::nullopt};
+                             length(entry, "width_m", place, file), std::nullopt, 0.};
     if (entry.contains("height_m")) {
       target.height = length(entry, "height_m", place, file);
+    }
+    if (entry.contains("depth_m")) {
+      target.depth = length(entry, "depth_m", place, file);
     }
     entries.push_back(target);
   }

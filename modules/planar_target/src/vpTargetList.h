@@ -24,6 +24,7 @@ struct vpTargetListEntry {
   std::string file; //!< with the folder
   double width;     //!< m
   std::optional<double> height;
+  double depth = 0.; //!< m; 0: not given
 };
 
 //! \throw vpException (ioError, badValue) naming the file, the field and its value; a photograph that is not listed too.

@@ -118,4 +118,44 @@ TEST_CASE("what is wrong with a folder of targets is said in a sentence", "[data
   CHECK_THROWS_WITH(load(), Contains("has a target 'b' already"));
   list(R"({ "name": "b", "image": "b.png", "width_m": 0.324 })");
   CHECK(load().sightings()[0].height == Approx(0.223)); // from the aspect ratio of 324 x 223 px
+  CHECK(load().sightings()[0].depth == 0.);
+  list(R"({ "name": "b", "image": "b.png", "width_m": 0.1, "depth_m": 0 })");
+  CHECK_THROWS_WITH(load(), Contains("targets[0].depth_m is 0, must be a number > 0"));
+  list(R"({ "name": "b", "image": "b.png", "width_m": 0.1, "depth_m": 0.07 })");
+  vpPlanarTargetDatabase database = load();
+  CHECK(database.sightings()[0].depth == 0.07);
+  CHECK_THROWS_WITH(database.add("c", vpPlanarScene::photo("box.png"), 0.1, 0.1, -1.),
+                    Contains("target 'c': depth is -1 m, must be >= 0"));
+}
+
+TEST_CASE("a target is followed through large motions of the camera when these are told", "[database]")
+{
+  auto rng = vpTestSupport::generator(12);
+  CAPTURE(vpTestSupport::seed());
+  vpPlanarTargetDatabase told(vpPlanarScene::camera()), untold(vpPlanarScene::camera());
+  const vpPlanarScene::Target klimt = vpPlanarScene::klimt();
+  told.add("klimt", klimt.image, klimt.width, klimt.height);
+  untold.add("klimt", klimt.image, klimt.width, klimt.height);
+  vpHomogeneousMatrix cMo = vpPlanarScene::pose(-0.05, 0.02, 0.6, 0.1, 0.2, -0.1);
+  int followed = 0;
+  for (int frame = 0; frame < 4; ++frame) {
+    const vpHomogeneousMatrix moved = vpPlanarScene::pose(frame % 2 == 0 ? 0.06 : -0.06, 0.03 * (frame - 1.5), 0.02,
+                                                          frame % 2 == 0 ? 0.25 : -0.25, 0., 0.05);
+    if (frame > 0) {
+      cMo = moved * cMo;
+      told.predict(0, moved * told.sightings()[0].result.cMo);
+      vpHomogeneousMatrix broken = moved;
+      broken[0][3] = std::nan("");
+      told.predict(0, broken); // ignored
+      told.predict(1, moved);  // there is none
+    }
+    vpPlanarScene::Image I = vpPlanarScene::background(rng);
+    vpPlanarScene::draw(I, klimt, vpPlanarScene::camera(), cMo);
+    const vpPlanarTargetResult seen = told.process(I)[0].result;
+    CAPTURE(frame, seen.message);
+    REQUIRE(seen.status == (frame == 0 ? vpPlanarTargetStatus::Acquired : vpPlanarTargetStatus::Tracked));
+    CHECK(vpPlanarScene::positionError(cMo, seen.cMo) < 2e-3);
+    followed += untold.process(I)[0].result.status == vpPlanarTargetStatus::Tracked ? 1 : 0;
+  }
+  CHECK(followed < 3); // without being told it is lost and must be acquired anew
 }

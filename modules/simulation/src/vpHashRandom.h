@@ -22,7 +22,7 @@ class vpHashRandom
 {
 public:
   //! What the numbers are for; streams of different purposes are independent.
-  enum class Purpose : std::uint64_t { Cell = 1, Flex, Dust, Crack, Noise, Scene };
+  enum class Purpose : std::uint64_t { Cell = 1, Flex, Dust, Crack, Noise, Scene, CameraPose };
 
   vpHashRandom(unsigned int seed, Purpose purpose, std::int64_t a, std::int64_t b)
     : m_state(mix(mix(mix(static_cast<std::uint64_t>(purpose) << 32 | seed) ^ static_cast<std::uint64_t>(a)) ^

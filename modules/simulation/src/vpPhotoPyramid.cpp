@@ -4,7 +4,9 @@
  */
 #include "vpPhotoPyramid.h"
 
-#include <visp3/core/vpImageTools.h>
+#include <visp3/core/vpMatrix.h>
+
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -41,6 +43,31 @@ vpImage<unsigned char> withMargin(const vpImage<unsigned char> &image)
   }
   return wide;
 }
+
+// What vpImageTools::warpImage() does with linear interpolation and not in fixed point (whose 16 bits leave the perspective
+// terms two digits), the same to the bit and in less time. H takes pixels of the photo to pixels of the image.
+void warp(const vpImage<unsigned char> &photo, const vpMatrix &H, vpImage<unsigned char> &image)
+{
+  const Eigen::Matrix3d A = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(H.data).inverse();
+  const double right = photo.getWidth() - 1., bottom = photo.getHeight() - 1.;
+  const std::size_t pitch = photo.getWidth();
+  for (unsigned int r = 0; r < image.getHeight(); ++r) {
+    const Eigen::Vector3d row = A.col(1) * r + A.col(2);
+    unsigned char *const pixels = image[r];
+    for (unsigned int c = 0; c < image.getWidth(); ++c) {
+      const double scale = 1. / (A(2, 0) * c + row(2));
+      const double x = scale * (A(0, 0) * c + row(0)), y = scale * (A(1, 0) * c + row(1));
+      if (!(x >= 0. && y >= 0. && x < right && y < bottom)) {
+        continue;
+      }
+      const int u = static_cast<int>(x), v = static_cast<int>(y);
+      const double s = x - u, t = y - v;
+      const unsigned char *const p = photo.bitmap + static_cast<std::size_t>(v) * pitch + static_cast<std::size_t>(u);
+      const double upper = p[0] + s * (p[1] - p[0]), lower = p[pitch] + s * (p[pitch + 1] - p[pitch]);
+      pixels[c] = static_cast<unsigned char>(upper + t * (lower - upper) + 0.5);
+    }
+  }
+}
 } // namespace
 
 vpPhotoPyramid::vpPhotoPyramid(const vpImage<unsigned char> &photo, double width, double height)
@@ -74,8 +101,7 @@ void vpPhotoPyramid::draw(const vpHomogeneousMatrix &cMo, const vpCameraParamete
     H[0][c] = camera.get_px() * H[0][c] + camera.get_u0() * H[2][c];
     H[1][c] = camera.get_py() * H[1][c] + camera.get_v0() * H[2][c];
   }
-  // Not in fixed point: its 16 bits leave the perspective terms two digits.
-  vpImageTools::warpImage(m_levels[level], H, image, vpImageTools::INTERPOLATION_LINEAR, false);
+  warp(m_levels[level], H, image);
 }
 
 END_VISP_NAMESPACE

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpPhotoPyramid.h
- * \brief A photograph on a plane at several resolutions, drawn by ViSP's vpImageTools::warpImage().
+ * \brief A photograph on a plane at several resolutions.
  */
 #ifndef vpPhotoPyramid_h
 #define vpPhotoPyramid_h

@@ -8,8 +8,8 @@
 #include <visp3/core/vpUniRand.h>
 
 #include "vpCameraFaultModel.h"
-#include "vpPhotoPyramid.h"
-#include "vpPlaneOutline.h"
+#include "vpFaintWall.h"
+#include "vpPhotoPatch.h"
 
 #include <Eigen/LU>
 
@@ -20,32 +20,6 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-// A wall far behind the object: smooth and faint, so that it neither looks like the object nor offers keypoints.
-vpImage<unsigned char> makeBackground(unsigned int width, unsigned int height)
-{
-  constexpr int waves = 6;
-  constexpr double amplitude = 8., grey = 128.;
-  vpUniRand random(3);
-  double du[waves], dv[waves], phase[waves];
-  for (int k = 0; k < waves; ++k) {
-    const double direction = random.uniform(0., 2. * M_PI), wavelength = random.uniform(80., 250.);
-    du[k] = 2. * M_PI / wavelength * std::cos(direction);
-    dv[k] = 2. * M_PI / wavelength * std::sin(direction);
-    phase[k] = random.uniform(0., 2. * M_PI);
-  }
-  vpImage<unsigned char> image(height, width);
-  for (unsigned int r = 0; r < height; ++r) {
-    for (unsigned int c = 0; c < width; ++c) {
-      double value = grey;
-      for (int k = 0; k < waves; ++k) {
-        value += amplitude * std::sin(du[k] * c + dv[k] * r + phase[k]);
-      }
-      image[r][c] = static_cast<unsigned char>(std::lround(value));
-    }
-  }
-  return image;
-}
-
 // An elliptic patch that sticks to the object. Coordinates are shares of the object's size, the origin its centre.
 struct Occluder {
   double x, y, cosine, sine, stretch, phase;
@@ -81,7 +55,7 @@ public:
   Impl(const vpImage<unsigned char> &photo, double objectWidth, double objectHeight, const vpCameraParameters &camera,
        unsigned int width, unsigned int height)
     : m_photo(photo, objectWidth, objectHeight), m_camera(camera), m_objectWidth(objectWidth),
-      m_objectHeight(objectHeight), m_background(makeBackground(width, height))
+      m_objectHeight(objectHeight), m_background(vpFaintWall(width, height))
   {}
 
   void render(const vpHomogeneousMatrix &cMo, const vpCameraFaults &faults, unsigned int seed,
@@ -89,13 +63,10 @@ public:
   {
     faults.validate();
     image = m_background;
-    const vpPlaneOutline outline(cMo, m_objectWidth, m_objectHeight, m_camera);
-    if (!outline.empty()) {
-      m_covered.clear();
-      drawObject(cMo, outline, image);
-      if (faults.occlusion > 0.) {
-        drawOccluder(cMo, faults, image);
-      }
+    m_covered.clear();
+    drawObject(cMo, image);
+    if (faults.occlusion > 0.) {
+      drawOccluder(cMo, faults, image);
     }
     m_faults.apply(faults, seed, image);
   }
@@ -107,61 +78,14 @@ private:
     double reach; // of the occluder
   };
 
-  // The object, sampled 2x2 times a pixel and averaged over each pixel's area.
-  void drawObject(const vpHomogeneousMatrix &cMo, const vpPlaneOutline &outline, vpImage<unsigned char> &image)
+  void drawObject(const vpHomogeneousMatrix &cMo, vpImage<unsigned char> &image)
   {
-    const int width = static_cast<int>(image.getWidth()), height = static_cast<int>(image.getHeight());
-    double left, top, right, bottom;
-    outline.box(left, top, right, bottom);
-    if (right < -0.5 || bottom < -0.5 || left > width - 0.5 || top > height - 0.5) {
-      return;
-    }
-    // Whole pixels that the object touches.
-    const int c0 = static_cast<int>(std::floor(std::clamp(left, 0., width - 1.)));
-    const int c1 = static_cast<int>(std::ceil(std::clamp(right, 0., width - 1.)));
-    const int r0 = static_cast<int>(std::floor(std::clamp(top, 0., height - 1.)));
-    const int r1 = static_cast<int>(std::ceil(std::clamp(bottom, 0., height - 1.)));
-    m_fine.resize(2 * (r1 - r0 + 1), 2 * (c1 - c0 + 1));
-    // Samples lie at a quarter and three quarters of a pixel: fine = 2 (coarse - first) + 1/2.
-    vpCameraParameters fineCamera;
-    fineCamera.initPersProjWithoutDistortion(2. * m_camera.get_px(), 2. * m_camera.get_py(),
-                                             2. * (m_camera.get_u0() - c0) + 0.5, 2. * (m_camera.get_v0() - r0) + 0.5);
-    m_photo.draw(cMo, fineCamera, 4. * outline.area(), m_fine);
-    for (int r = r0; r <= r1; ++r) {
-      averageRow(outline, r, c0, c1, m_fine[2 * (r - r0)], m_fine[2 * (r - r0) + 1], image);
-    }
-  }
-
-  // One row of the picture from its two rows of samples; samples beside the object are background.
-  void averageRow(const vpPlaneOutline &outline, int r, int c0, int c1, const unsigned char *upper,
-                  const unsigned char *lower, vpImage<unsigned char> &image)
-  {
-    const unsigned char *const rows[2] = {upper, lower};
-    int begin[2] = {0, 0}, end[2] = {0, 0}; // samples on the object
-    for (int k = 0; k < 2; ++k) {
-      double from, to;
-      if (outline.span(r - 0.25 + 0.5 * k, from, to)) {
-        const double last = m_fine.getWidth();
-        begin[k] = static_cast<int>(std::clamp(std::ceil(2. * (from - c0) + 0.5), 0., last));
-        end[k] = static_cast<int>(std::clamp(std::ceil(2. * (to - c0) + 0.5), 0., last));
-      }
-    }
-    for (int c = c0; c <= c1; ++c) {
-      int samples = 0, sum = 0;
-      for (int k = 0; k < 4; ++k) {
-        const int column = 2 * (c - c0) + k % 2;
-        if (column >= begin[k / 2] && column < end[k / 2]) {
-          sum += rows[k / 2][column];
-          ++samples;
-        }
-      }
-      if (samples > 0) {
-        image[r][c] = static_cast<unsigned char>((sum + (4 - samples) * m_background[r][c] + 2) / 4);
-      }
+    m_photo.draw(cMo, m_camera, image.getWidth(), image.getHeight(), [&](int r, int c, int sum, int samples) {
+      image[r][c] = static_cast<unsigned char>((sum + (4 - samples) * m_background[r][c] + 2) / 4);
       if (samples > 1) {
         m_covered.push_back({static_cast<unsigned int>(r), static_cast<unsigned int>(c), 0., 0., 0.});
       }
-    }
+    });
   }
 
   // The patch grows until it hides the share asked for of the pixels that show the object.
@@ -193,12 +117,11 @@ private:
     }
   }
 
-  vpPhotoPyramid m_photo;
+  vpPhotoPatch m_photo;
   vpCameraParameters m_camera;
   double m_objectWidth, m_objectHeight;
   vpImage<unsigned char> m_background;
-  vpImage<unsigned char> m_fine; // the box around the object at twice the resolution
-  std::vector<Pixel> m_covered;  // pixels of which the object covers half or more
+  std::vector<Pixel> m_covered; // pixels of which the object covers half or more
   vpCameraFaultModel m_faults;
 };
 

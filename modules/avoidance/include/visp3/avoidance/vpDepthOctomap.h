@@ -45,6 +45,7 @@ struct VISP_EXPORT vpDepthReport {
   vpDepthStatus status = vpDepthStatus::BadInput; //!< Ok, or why not.
   int used = 0;                                   //!< Points that mark occupied space.
   int body = 0;                                   //!< Left out: the arm itself.
+  int known = 0;                                  //!< Left out: known objects and ground, see vpDepthObstacles.
   int invalid = 0;                                //!< Left out: no depth (not finite or <= 0) or nearer than minRange.
   int beyond = 0;                                 //!< Farther than maxRange: show free space only.
 

@@ -33,8 +33,8 @@ struct VISP_EXPORT vpPathPlannerSpec {
   std::string planner = "RRTConnect";
   vpMotionValidation validation = vpMotionValidation::Certified; //!< Of motions.
   double margin = 0.005;                                         //!< Clearance kept, m, >= 0.
-  double step = 0.05;       //!< Discrete validation: largest change of a joint between samples, rad or m, > 0.
-  double timeLimit = 2.;    //!< For planning, s, > 0.
+  double step = 0.05;    //!< Discrete validation: largest change of a joint between samples, rad or m, > 0.
+  double timeLimit = 2.; //!< For planning, s, > 0.
   //! Planning ends after so many rounds of the planner's loop, too; 0: only with the time. Repeats on any machine.
   unsigned int iterations = 0;
   bool stopAtFirst = true;  //!< RRT* and BIT*: false goes on improving until the time is up.

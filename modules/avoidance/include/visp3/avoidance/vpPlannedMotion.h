@@ -82,9 +82,6 @@ private:
   struct State {
     vpJointVector q, v, a;
   };
-  struct Shares {
-    double velocity = 10., acceleration = 10.;
-  };
   using Parts = std::vector<vpTimedPath::Part>;
 
   [[nodiscard]] State state(double t) const;
@@ -93,11 +90,10 @@ private:
   [[nodiscard]] vpJointPath restOfPath() const;
   void predict(double time);
   [[nodiscard]] vpPathResult findPath(const vpJointVector &from, double time);
-  [[nodiscard]] std::optional<Parts> timed(const vpJointPath &path, const State &from, double begin, double speed,
-                                           double acceleration);
-  [[nodiscard]] Shares toolShares(const vpTimedPath &path) const;
+  [[nodiscard]] std::optional<Parts> timed(const vpJointPath &path, const State &from, double begin, double speed);
   void planFromRest();
   [[nodiscard]] bool planOnTheFly();
+  void hasten();
   [[nodiscard]] bool stopAndPlan();
   void brake();
   [[nodiscard]] std::vector<vpTrajectoryPlan> stops() const;

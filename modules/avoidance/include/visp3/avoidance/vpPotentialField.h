@@ -22,8 +22,8 @@ enum class vpFieldForm {
  * \brief Parameters of (8.2). The unit of #centre and #width is that of the distances: px or m.
  */
 struct VISP_EXPORT vpFieldWeightSpec {
-  double centre = 0.12; //!< d_0: distance at which the weight has fallen by half, > 0.
-  double width = 0.04;  //!< k_s: width of the transition, > 0 (the text calls it a slope).
+  double centre = 0.04; //!< d_0: distance at which the weight has fallen by half, > 0.
+  double width = 0.02;  //!< k_s: width of the transition, > 0 (the text calls it a slope).
   //! w_s: height, > 0. 0.5 is all of the motion as printed; more overshoots, which reverses the task. Corrected: 0.5 only.
   double height = 0.5;
 

@@ -12,6 +12,7 @@
 #include <visp3/avoidance/vpCertifiedTrajectory.h>
 #include <visp3/avoidance/vpJointPath.h>
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -22,10 +23,14 @@ BEGIN_VISP_NAMESPACE
  * \brief Parameters of vpTimedPath.
  */
 struct VISP_EXPORT vpTimedPathSpec {
-  double speed = 1.;               //!< Part of the joints' velocity limits that is used, (0, 1].
-  double acceleration = 1.;        //!< Part of their acceleration limits, (0, 1].
-  double margin = 0.;              //!< Clearance that is proven, m, >= 0; not above that of the path's planner.
-  double resolution = 1e-4;        //!< See vpCertifiedMotionSpec, m, > 0.
+  double speed = 1.;        //!< Part of the joints' velocity limits that is used, (0, 1].
+  double acceleration = 1.; //!< Part of their acceleration limits, (0, 1].
+  double margin = 0.;       //!< Clearance that is proven, m, >= 0; not above that of the path's planner.
+  double resolution = 1e-4; //!< See vpCertifiedMotionSpec, m, > 0.
+  //! Bounds of the end effector's origin, m/s and m/s^2, > 0; infinity: none. Each trajectory is made so much longer that
+  //! it keeps them at samples 5 ms apart, with 1 % to spare for what is between.
+  double toolVelocity = std::numeric_limits<double>::infinity();
+  double toolAcceleration = std::numeric_limits<double>::infinity(); //!< See there.
   vpJointVector startVelocity;     //!< Of the joints at the path's first point, n numbers; empty: at rest.
   vpJointVector startAcceleration; //!< The same for their accelerations.
 };
@@ -66,7 +71,7 @@ public:
               vpCertifiedTrajectory &certificate);
 
   //! True when all of it is proven to be free with the margin. False for a path that is not free itself, or that cannot
-  //! be taken up from the velocity at its start within the limits.
+  //! be taken up from the velocity at its start within the limits and bounds.
   [[nodiscard]] bool isFree() const noexcept { return m_worst.isFree(); }
   //! The first part that is not free, or the last one.
   [[nodiscard]] const vpTrajectoryClearance &clearance() const noexcept { return m_worst; }

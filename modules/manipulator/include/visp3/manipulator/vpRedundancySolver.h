@@ -39,6 +39,9 @@ struct VISP_EXPORT vpRedundancySpec {
   double minSelfMotion = 0.2; //!< v_min of k0, rad/s, >= 0: the self-motion at rest is eta times this.
   //! Smallest denominator of k0, > 0: projected gradients below it move in proportion, without chatter.
   double softGradient = 0.05;
+  //! Share of the joints' acceleration limits with which the self-motion changes, 0..1, so that the task finds the rest
+  //! for itself; 0: the self-motion changes at once, and the whole motion is slowed to its limits then.
+  double selfAcceleration = 0.;
   double positionMargin = 0.;                       //!< Kept from the position limits, rad or m, >= 0.
   vpLimitPolicy policy = vpLimitPolicy::StopJoints; //!< At position limits.
 

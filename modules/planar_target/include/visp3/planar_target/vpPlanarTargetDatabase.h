@@ -22,6 +22,7 @@ struct VISP_EXPORT vpPlanarTargetSighting {
   std::string name;            //!< Name in the database.
   double width = 0.;           //!< Metric size of the target, m.
   double height = 0.;          //!< m.
+  double depth = 0.;           //!< Of the body whose front face the target is, m; 0: not known.
   vpPlanarTargetResult result; //!< Status, and pose if it was found.
 };
 
@@ -33,11 +34,12 @@ struct VISP_EXPORT vpPlanarTargetSighting {
  * A folder holds the reference photographs and a file targets.json that lists them:
  * \code{.json}
  * { "targets": [
- *   { "name": "box", "image": "box.png", "width_m": 0.16, "height_m": 0.11 },
+ *   { "name": "box", "image": "box.png", "width_m": 0.16, "height_m": 0.11, "depth_m": 0.05 },
  *   { "name": "poster", "image": "poster.jpg", "width_m": 0.42 }
  * ] }
  * \endcode
- * Without height_m the height follows from the photograph's aspect ratio. Nothing is left out in silence: a file that
+ * Without height_m the height follows from the photograph's aspect ratio; depth_m is for those who want the body behind the
+ * picture, and 0 when it is not given. Nothing is left out in silence: a file that
  * cannot be used, an unknown field, or a photograph in the folder that targets.json does not list is an error.
  *
  * The frame's pyramid is built once and its keypoints are extracted once for all targets; targets that are being
@@ -61,9 +63,11 @@ public:
   /*!
    * Add a target.
    * \param name : Not empty, each once. \param reference, width, height : As for vpPlanarTarget.
+   * \param depth : For vpPlanarTargetSighting::depth, m, >= 0.
    * \throw vpException (badValue) naming the target and what is wrong with it.
    */
-  void add(const std::string &name, const vpImage<unsigned char> &reference, double width, double height);
+  void add(const std::string &name, const vpImage<unsigned char> &reference, double width, double height,
+           double depth = 0.);
 
   //! Number of targets.
   [[nodiscard]] std::size_t size() const;
@@ -71,6 +75,12 @@ public:
   const std::vector<vpPlanarTargetSighting> &process(const vpImage<unsigned char> &image);
   //! The last result; all NoFrame before the first frame.
   [[nodiscard]] const std::vector<vpPlanarTargetSighting> &sightings() const;
+  /*!
+   * Where a target is expected in the next frame, which saves a moving camera from losing what it tracks. Ignored for a
+   * target that was not found in the last frame.
+   * \param i : 0..size()-1. \param cMo : Its pose in the camera then. Ignored when it is not finite.
+   */
+  void predict(std::size_t i, const vpHomogeneousMatrix &cMo);
   //! Forget where all targets were.
   void reset();
 

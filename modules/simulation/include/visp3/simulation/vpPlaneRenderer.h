@@ -35,7 +35,7 @@ struct VISP_EXPORT vpCameraFaults {
  * \class vpPlaneRenderer
  * \ingroup group_simulation
  * \brief Renders a photograph, taken as a rectangle in the plane z = 0 centred at the object's origin, before a faint
- * background, with ViSP's vpImageTools::warpImage().
+ * background.
  *
  * Convention: the photograph of W x H pixels covers the object edge to edge, the centre of its pixel (u, v) lies at
  * x = ((u + 1/2) / W - 1/2) objectWidth, y likewise. Pixel (0, 0) of the picture is the centre of its top left pixel.

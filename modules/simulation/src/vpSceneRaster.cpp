@@ -1,0 +1,202 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "vpSceneRaster.h"
+
+#include "vpRayCast.h"
+
+#include <limits>
+#include <string>
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+constexpr double nearest = 0.01;             // m; nearer bodies are not seen
+constexpr double darkest = 0.45;             // of the object's tone, where the light comes from the side
+const Eigen::Vector3d light(0.35, 0.5, 0.8); // in the base
+constexpr double groundTone = 118.;
+
+// Different objects differ, the same one looks the same in every run and on every machine.
+double toneOf(const std::string &name)
+{
+  unsigned int hash = 2166136261U; // FNV-1a
+  for (const char c : name) {
+    hash = (hash ^ static_cast<unsigned char>(c)) * 16777619U;
+  }
+  return 90. + hash % 120U;
+}
+
+// Pixels of a sphere along one axis; false when it is beside the picture.
+bool range(double across, double along, double radius, double focal, double centre, int size, int &low, int &high)
+{
+  low = 0;
+  high = size - 1;
+  const double distance = std::hypot(across, along);
+  if (distance <= radius * (1. + 1e-9)) {
+    return true; // around the camera
+  }
+  const double middle = std::atan2(across, along), half = std::asin(radius / distance);
+  constexpr double edge = 1.57; // rad; beyond it there is no picture
+  if (middle - half >= edge || middle + half <= -edge) {
+    return false;
+  }
+  // One pixel more for rounding.
+  if (middle - half > -edge) {
+    low = static_cast<int>(std::clamp(focal * std::tan(middle - half) + centre - 1., 0., static_cast<double>(size)));
+  }
+  if (middle + half < edge) {
+    high = static_cast<int>(std::clamp(focal * std::tan(middle + half) + centre + 1., -1., size - 1.));
+  }
+  return low <= high;
+}
+} // namespace
+
+vpSceneRaster::vpSceneRaster(const vpCameraParameters &camera, unsigned int width, unsigned int height)
+  : m_camera(camera), m_width(static_cast<int>(width)), m_height(static_cast<int>(height)), m_depth(height, width)
+{}
+
+vpSceneRaster::Window vpSceneRaster::window(const Eigen::Vector3d &centre, double radius) const
+{
+  Window w{0, 0, -1, -1};
+  int left, right, top, bottom;
+  if (centre.z() + radius > nearest &&
+      range(centre.x(), centre.z(), radius, m_camera.get_px(), m_camera.get_u0(), m_width, left, right) &&
+      range(centre.y(), centre.z(), radius, m_camera.get_py(), m_camera.get_v0(), m_height, top, bottom)) {
+    w = {left, top, right, bottom};
+  }
+  return w;
+}
+
+// The pixels around a box's corners are far fewer than those of its sphere, when it is all in front of the camera.
+void vpSceneRaster::drawBox(const Eigen::Vector3d &half, const vpRigidTransform &cMo)
+{
+  Window w = window(cMo.p, half.norm());
+  double left = m_width, right = -1., top = m_height, bottom = -1.;
+  bool isInFront = true;
+  for (int i = 0; i < 8; ++i) {
+    const Eigen::Vector3d signs(i % 2 == 0 ? -1. : 1., i / 2 % 2 == 0 ? -1. : 1., i / 4 == 0 ? -1. : 1.);
+    const Eigen::Vector3d corner = cMo.R * half.cwiseProduct(signs) + cMo.p;
+    isInFront = isInFront && corner.z() > nearest;
+    const double u = m_camera.get_px() * corner.x() / corner.z() + m_camera.get_u0();
+    const double v = m_camera.get_py() * corner.y() / corner.z() + m_camera.get_v0();
+    left = std::min(left, u);
+    right = std::max(right, u);
+    top = std::min(top, v);
+    bottom = std::max(bottom, v);
+  }
+  if (isInFront) {
+    w.left = std::max(w.left, static_cast<int>(std::max(left - 1., 0.)));
+    w.right = std::min(w.right, static_cast<int>(std::min(right + 1., m_width - 1.)));
+    w.top = std::max(w.top, static_cast<int>(std::max(top - 1., 0.)));
+    w.bottom = std::min(w.bottom, static_cast<int>(std::min(bottom + 1., m_height - 1.)));
+  }
+  drawIn(w, vpRayCast::Box{half}, cMo);
+}
+
+template <class Body>
+void vpSceneRaster::drawBody(const Body &body, const vpRigidTransform &cMo, const Eigen::Vector3d &centre,
+                             double radius)
+{
+  drawIn(window(centre, radius), body, cMo);
+}
+
+template <class Body> void vpSceneRaster::drawIn(const Window &w, const Body &body, const vpRigidTransform &cMo)
+{
+  const Eigen::Matrix3d oRc = cMo.R.transpose();
+  const Eigen::Vector3d from = -(oRc * cMo.p), lit = oRc * m_light;
+  const Eigen::Vector3d step = m_camera.get_px_inverse() * oRc.col(0);
+  for (int r = w.top; r <= w.bottom; ++r) {
+    float *depth = m_depth[static_cast<unsigned int>(r)];
+    const Eigen::Vector3d first = oRc * ray(0., r);
+    for (int c = w.left; c <= w.right; ++c) {
+      Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
+      const double t = body.hit(from, first + c * step, normal);
+      if (!(t >= nearest) || t >= static_cast<double>(depth[c])) {
+        continue;
+      }
+      depth[c] = static_cast<float>(t);
+      if (m_grey != nullptr) {
+        const double shade = darkest + (1. - darkest) * std::fabs(normal.dot(lit)) / normal.norm();
+        (*m_grey)[static_cast<unsigned int>(r)][c] = static_cast<unsigned char>(m_tone * shade);
+      }
+    }
+  }
+}
+
+void vpSceneRaster::drawObject(const vpCollisionObject &object, const vpRigidTransform &cMf)
+{
+  const vpRigidTransform cMo = cMf * object.pose;
+  const vpCollisionShape &shape = object.shape;
+  const double half = 0.5 * shape.length();
+  m_tone = toneOf(object.name);
+  switch (shape.type()) {
+  case vpShapeType::Sphere:
+    drawBody(vpRayCast::Sphere{shape.radius()}, cMo, cMo.p, shape.radius());
+    return;
+  case vpShapeType::Capsule:
+    drawBody(vpRayCast::Tube{shape.radius(), half, true}, cMo, cMo.p, shape.radius() + half);
+    return;
+  case vpShapeType::Cylinder:
+    drawBody(vpRayCast::Tube{shape.radius(), half, false}, cMo, cMo.p, std::hypot(shape.radius(), half));
+    return;
+  case vpShapeType::Box:
+    drawBox(0.5 * shape.size(), cMo);
+    return;
+  case vpShapeType::Mesh: {
+    const std::vector<Eigen::Vector3d> &vertices = shape.mesh().vertices();
+    for (const std::array<int, 3> &t : shape.mesh().triangles()) {
+      const Eigen::Vector3d &a = vertices[static_cast<std::size_t>(t[0])],
+                            &b = vertices[static_cast<std::size_t>(t[1])],
+                            &c = vertices[static_cast<std::size_t>(t[2])];
+      const Eigen::Vector3d centre = (a + b + c) / 3.;
+      const double radius =
+          std::sqrt(std::max({(a - centre).squaredNorm(), (b - centre).squaredNorm(), (c - centre).squaredNorm()}));
+      drawBody(vpRayCast::Triangle{a, b, c}, cMo, cMo.R * centre + cMo.p, radius);
+    }
+    return;
+  }
+  case vpShapeType::Octree:
+    for (const vpOctreeCell &cell : shape.octree().cells()) {
+      const vpRigidTransform cMcell = cMo * vpRigidTransform{Eigen::Matrix3d::Identity(), cell.centre};
+      drawBox(Eigen::Vector3d::Constant(0.5 * cell.size), cMcell);
+    }
+    return;
+  }
+}
+
+// A camera below the ground does not see it.
+void vpSceneRaster::drawGround(const vpHalfSpace &ground, const vpRigidTransform &fMc)
+{
+  const double height = ground.normal.dot(fMc.p) - ground.offset;
+  const Eigen::Vector3d down = fMc.R.transpose() * ground.normal;
+  for (int r = 0; r < m_height && height > 0.; ++r) {
+    float *depth = m_depth[static_cast<unsigned int>(r)];
+    for (int c = 0; c < m_width; ++c) {
+      const double t = -height / down.dot(ray(c, r));
+      if (t >= nearest && t < static_cast<double>(depth[c])) {
+        depth[c] = static_cast<float>(t);
+        if (m_grey != nullptr) {
+          (*m_grey)[static_cast<unsigned int>(r)][c] = static_cast<unsigned char>(groundTone);
+        }
+      }
+    }
+  }
+}
+
+void vpSceneRaster::draw(const vpCollisionScene &scene, const vpRigidTransform &fMc, vpImage<unsigned char> *grey)
+{
+  m_depth = std::numeric_limits<float>::infinity();
+  m_grey = grey;
+  const vpRigidTransform cMf = fMc.inverse();
+  m_light = cMf.R * light.normalized();
+  for (int i = 0; i < scene.objectCount(); ++i) {
+    drawObject(scene.object(i), cMf);
+  }
+  if (scene.ground()) {
+    drawGround(*scene.ground(), fMc);
+  }
+}
+
+END_VISP_NAMESPACE
