@@ -4,6 +4,9 @@
  */
 #include "vpAvoidanceEvaluation.h"
 
+#include "vpMovingGoal.h"
+#include "vpReachPoint.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -15,6 +18,7 @@ namespace
 constexpr double jointTolerance = 1e-6; // relative
 constexpr double toolTolerance = 0.01;  // relative: v and a are differences
 constexpr double lookAhead = 1.;        // s, of false stops
+constexpr int wayPlaces = 100;          // of the straight ways to the goal
 constexpr double falseStopRoom = 0.02;  // m beyond the margin
 
 Eigen::Vector3d toolAt(const vpArmModel &arm, const vpJointVector &q)
@@ -73,16 +77,60 @@ bool moves(const vpJointVector &velocity)
   return velocity.size() > 0 && velocity.cwiseAbs().maxCoeff() > vpClearanceSearch::movingVelocity;
 }
 
+//! The joints straight to the goal.
+std::vector<vpJointVector> jointWay(const vpJointVector &q, const vpAvoidanceGoal &goal)
+{
+  std::vector<vpJointVector> way;
+  for (int i = 0; i < wayPlaces && goal.q.size() == q.size(); ++i) {
+    way.push_back(q + static_cast<double>(i) / (wayPlaces - 1) * (goal.q - q));
+  }
+  return way;
+}
+
+//! The tool straight to the goal, as far as it comes.
+std::vector<vpJointVector> toolWay(const vpArmModel &arm, const vpJointVector &q, const vpAvoidanceGoal &goal)
+{
+  const Eigen::Vector3d from = toolAt(arm, q), line = goal.position - from;
+  std::vector<vpJointVector> way = {q};
+  for (int i = 1; i < wayPlaces; ++i) {
+    vpJointVector next = way.back();
+    if (!vpReachPoint(arm, from + static_cast<double>(i) / (wayPlaces - 1) * line, next)) {
+      break;
+    }
+    way.push_back(next);
+  }
+  return way;
+}
+
+double wayTime(const vpAvoidanceRun &run, const std::vector<vpJointVector> &way)
+{
+  double length = 0.;
+  for (std::size_t i = 1; i < way.size(); ++i) {
+    length += (toolAt(*run.spec.arm, way[i]) - toolAt(*run.spec.arm, way[i - 1])).norm();
+  }
+  return length / run.spec.methodSpec.maxVelocity;
+}
+
+bool isFalse(const vpAvoidanceRun &run, vpClearanceSearch &search, const vpMovingGoal &goal,
+             const vpAvoidanceSample &now, const vpJointVector &velocity)
+{
+  const double room = run.spec.methodSpec.margin + falseStopRoom;
+  const std::vector<vpJointVector> joints = jointWay(now.q, goal.at(now.time));
+  const std::vector<vpJointVector> tool = toolWay(*run.spec.arm, now.q, goal.at(now.time));
+  return search.isFreeAhead(now.time, now.q, velocity, lookAhead, room) &&
+         search.isFreeAlong(now.time, joints, wayTime(run, joints), room) &&
+         search.isFreeAlong(now.time, tool, wayTime(run, tool), room);
+}
+
 void evaluateStops(const vpAvoidanceRun &run, vpClearanceSearch &search, vpAvoidanceMetrics &m)
 {
+  const vpMovingGoal goal(run.spec);
   for (std::size_t i = 1; i + 1 < run.samples.size(); ++i) {
     const vpAvoidanceSample &now = run.samples[i], &before = run.samples[i - 1];
-    if (!isStop(now) || isStop(before) || !moves(before.command)) {
-      continue;
+    if (isStop(now) && !isStop(before) && moves(before.command)) {
+      ++m.stops;
+      m.false_stops += isFalse(run, search, goal, now, before.command) ? 1 : 0;
     }
-    ++m.stops;
-    const double room = run.spec.methodSpec.margin + falseStopRoom;
-    m.false_stops += search.isFreeAhead(now.time, now.q, before.command, lookAhead, room) ? 1 : 0;
   }
 }
 

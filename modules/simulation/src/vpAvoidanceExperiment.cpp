@@ -19,7 +19,7 @@ namespace
 {
 constexpr double holdTime = 0.2;     // s that the arm must rest at the goal
 constexpr double patience = 1.;      // s that a method may call itself arrived where it is not
-constexpr double stuckTime = 5.;     // s without any motion
+constexpr double stuckTime = 3.;     // s without any motion
 constexpr double longestStep = 1e-3; // s between knots of drives that are not ideal
 
 double secondsSince(std::chrono::steady_clock::time_point start)

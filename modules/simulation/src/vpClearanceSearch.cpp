@@ -103,4 +103,17 @@ bool vpClearanceSearch::isFreeAhead(double time, const vpJointVector &q, const v
   return true;
 }
 
+bool vpClearanceSearch::isFreeAlong(double time, const std::vector<vpJointVector> &way, double duration,
+                                    double distance)
+{
+  m_truth.enter(time);
+  for (std::size_t i = 0; i < way.size(); ++i) {
+    const double share = static_cast<double>(i) / std::max(1., static_cast<double>(way.size()) - 1.);
+    if (at(time + share * duration, way[i]) <= distance) {
+      return false;
+    }
+  }
+  return true;
+}
+
 END_VISP_NAMESPACE

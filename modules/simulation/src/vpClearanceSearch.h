@@ -49,6 +49,8 @@ public:
    */
   [[nodiscard]] bool isFreeAhead(double time, const vpJointVector &q, const vpJointVector &velocity, double duration,
                                  double distance);
+  //! The same for configurations in equal steps of time; looked at in these alone.
+  [[nodiscard]] bool isFreeAlong(double time, const std::vector<vpJointVector> &way, double duration, double distance);
 
 private:
   struct Interval {

@@ -103,7 +103,7 @@ vpAvoidanceScenario vpAvoidanceScenes::randomStatic(const std::shared_ptr<const 
       scenario.name = "S2 number " + std::to_string(seed);
       scenario.run = vpSceneDraw::between(arm, start, goal, seed);
       scenario.run.scene = spec;
-      scenario.run.visionRate = 10.; // nothing moves
+      scenario.run.visionRate = 5.; // nothing moves
       scenario.draws = draw + 1;
       return scenario;
     }

@@ -130,7 +130,7 @@ vpAvoidanceScenario vpAvoidanceScenes::fromTask(const std::shared_ptr<const vpAr
   scenario.name = file.name + ", " + motion.name;
   scenario.run = vpSceneDraw::between(arm, motion.start, motion.goal, seed);
   scenario.run.scene = file.spec;
-  scenario.run.visionRate = 10.;
+  scenario.run.visionRate = 5.;
   return scenario;
 }
 

@@ -62,8 +62,10 @@ struct VISP_EXPORT vpAvoidanceMetrics {
   //! Times that the moving arm was stopped: vpAvoidanceOutput::stopping, Waiting or Unsafe after something else.
   int stops = 0;
   /*!
-   * Stops without a reason: had the joints kept the velocities of the period before, within their position limits, for
-   * another second, and the obstacles done what they truly do, no pair would have come nearer than the margin and 20 mm.
+   * Stops without a reason: nothing would have come nearer than the margin and 20 mm while the obstacles do what they
+   * truly do, neither had the joints kept the velocities of the period before for another second, within their position
+   * limits, nor had the joints, nor had the tool gone straight to the goal, at the tool's largest speed. What a method
+   * had planned is not known here; a way round that is blocked for good reason on no straight way counts as false.
    */
   int false_stops = 0;
   int collisions_moving = 0;   //!< Times that something was touched while a joint moved faster than 0.01 rad/s or m/s.
@@ -91,7 +93,7 @@ struct VISP_EXPORT vpAvoidanceRun {
 /*!
  * Runs one experiment. It ends when the arm is at the goal, at rest (joints commanded no faster than 0.01 rad/s or m/s)
  * for 0.2 s, or the method has called itself arrived for 1 s, and the goal does not move any more; when nothing has moved
- * for 5 s, neither arm nor obstacle nor goal, and nothing is to come; or with vpAvoidanceRunSpec::maxDuration.
+ * for 3 s, neither arm nor obstacle nor goal, and nothing is to come; or with vpAvoidanceRunSpec::maxDuration.
  * \param spec : What to run; validated first.
  * \param progress : If given, called now and then with the share of maxDuration that is done, 0..1; return false to stop
  * early.
