@@ -19,7 +19,9 @@ vpRedundancySpec solverSpec(double period)
   vpRedundancySpec spec;
   spec.period = period;
   spec.policy = vpLimitPolicy::StopJoints;
-  spec.selfAcceleration = 0.4;
+  spec.selfAcceleration = 0.2;
+  spec.selfMotion = 1.;
+  spec.minSelfMotion = 1.;
   return spec;
 }
 } // namespace
