@@ -18,6 +18,7 @@ namespace
 {
 //! What stood still and is out of view is believed to stay: after 5 s it counts as 13 mm thicker (m/s^2).
 constexpr double REST_ACCELERATION = 0.002;
+constexpr double TIME_ROUNDING = 1e-9;     // s
 constexpr double DRIVEN_TOLERANCE = 0.01; // m: drives by PD alone do not hold the millimetre
 
 //! The two that move the tool by trajectories keep the camera's direction, so that it goes on seeing what it looks at.
@@ -73,7 +74,9 @@ vpAvoidanceRunSpec specOf(const PhotoScene &scene, const Options &options, Diary
       Eigen::Vector3d place;
       const bool isThere = truePlace(scene, track.name, time, place);
       diary.tracks.push_back({time, track, isThere ? (track.pose.p - place).norm() : NAN});
-      diary.tracks.back().track.shape = vpCollisionShape::sphere(1.); // not needed, and maps are large
+      if (track.shape.type() == vpShapeType::Octree) {
+        diary.tracks.back().track.shape = vpCollisionShape::sphere(0.001); // maps are too large to keep 200 of a second
+      }
     }
   };
   spec.drives.ideal = options.friction <= 0.;
@@ -84,6 +87,28 @@ vpAvoidanceRunSpec specOf(const PhotoScene &scene, const Options &options, Diary
   spec.seed = options.seed;
   keepLooking(spec);
   return spec;
+}
+
+std::vector<vpCollisionObject> believedAt(const Episode &episode, double time)
+{
+  std::vector<vpCollisionObject> objects;
+  double latest = -1.; // s
+  for (const TrackRow &row : episode.diary.tracks) {
+    if (row.time > time + TIME_ROUNDING) {
+      break;
+    }
+    if (row.time > latest) {
+      objects.clear();
+      latest = row.time;
+    }
+    vpCollisionObject object;
+    object.name = row.track.name;
+    object.shape = row.track.shape;
+    object.pose = row.track.pose;
+    object.inflation = row.track.inflation;
+    objects.push_back(object);
+  }
+  return latest < time - 2. * episode.run.spec.methodSpec.period ? std::vector<vpCollisionObject>() : objects;
 }
 
 Episode play(const PhotoScene &scene, const Options &options)

@@ -26,6 +26,8 @@ struct Episode {
 [[nodiscard]] vpAvoidanceRunSpec specOf(const PhotoScene &scene, const Options &options, Diary &diary);
 //! Runs it. \throw vpApp::Interrupted after Ctrl-C; vpException naming what the spec gets wrong.
 [[nodiscard]] Episode play(const PhotoScene &scene, const Options &options);
+//! The obstacles as the method knew them at a time, with their inflation; maps of depths as a dot.
+[[nodiscard]] std::vector<vpCollisionObject> believedAt(const Episode &episode, double time);
 } // namespace avoidObstacle
 
 #endif
