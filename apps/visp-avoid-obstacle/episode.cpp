@@ -18,6 +18,10 @@ namespace
 {
 //! What stood still and is out of view is believed to stay: after 5 s it counts as 13 mm thicker (m/s^2).
 constexpr double REST_ACCELERATION = 0.002;
+//! Boxes do not begin to turn by themselves, rad/s^2.
+constexpr double ANGULAR_ACCELERATION = 0.2;
+//! Errors of pictures in a row are not independent: a slow drift of them is no motion.
+constexpr double REST_SIGMAS = 5.;
 constexpr double TIME_ROUNDING = 1e-9;     // s
 constexpr double DRIVEN_TOLERANCE = 0.01; // m: drives by PD alone do not hold the millimetre
 
@@ -68,6 +72,8 @@ vpAvoidanceRunSpec specOf(const PhotoScene &scene, const Options &options, Diary
   spec.visionRate = options.visionRate;
   spec.latency = options.latency;
   spec.tracks.restAcceleration = REST_ACCELERATION;
+  spec.tracks.angularAcceleration = ANGULAR_ACCELERATION;
+  spec.tracks.restSigmas = REST_SIGMAS;
   spec.tracks.forget = options.forget > 0. ? options.forget : HUGE_VAL;
   spec.watchTracks = [&scene, &diary](double time, const std::vector<vpObjectTrack> &tracks) {
     for (const vpObjectTrack &track : tracks) {
