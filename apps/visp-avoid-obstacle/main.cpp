@@ -33,7 +33,7 @@ void printList()
   }
   std::cout << "Replicas (--replica):\n";
   for (const std::string &name : replicaNames()) {
-    std::cout << "  " << name << "\n";
+    std::cout << "  " << name << ": " << replicaTitle(name) << "\n";
   }
 }
 
@@ -42,6 +42,31 @@ std::vector<Figure> drawAll(const PhotoScene &scene, const Options &options, con
   const std::string title = scene.name + ", " + options.method;
   return {drawWay(episode.run, title, believedAt(episode, episode.run.samples.back().time)),
           animate(episode.run, title), drawViews(episode), drawTracks(scene, episode), drawTimes(episode.run)};
+}
+
+void repeat(const Options &options, const std::string &commandLine)
+{
+  const auto start = Clock::now();
+  vpApp::requireGnuplot();
+  vpApp::OutputFolder out("visp-avoid-obstacle", options.out);
+  const Replica replica = playReplica(options);
+  for (const auto &[name, content] : replica.tables) {
+    out.write(name, content);
+  }
+  for (const Figure &figure : replica.figures) {
+    if (!figure.svg.empty()) {
+      out.write("figure/" + figure.name + ".svg", figure.svg);
+    }
+  }
+  out.write("report.html", replicaPage(replica, commandLine));
+  const double wallTime = std::chrono::duration<double>(Clock::now() - start).count();
+  out.writeSummary(summaryOf(replica, options, commandLine, wallTime));
+  vpApp::throwIfInterrupted();
+  out.commit();
+  for (const std::string &sentence : replica.story) {
+    std::cout << sentence << "\n";
+  }
+  std::cout << "Report: " << (out.path() / "report.html").string() << std::endl;
 }
 
 void avoid(const Options &options, const std::string &commandLine)
@@ -90,7 +115,8 @@ int main(int argc, char **argv)
       printList();
       return vpApp::ExitOk;
     }
-    avoid(options, vpApp::commandLine("visp-avoid-obstacle", argc, argv));
+    const std::string commandLine = vpApp::commandLine("visp-avoid-obstacle", argc, argv);
+    options.replica.empty() ? avoid(options, commandLine) : repeat(options, commandLine);
     return vpApp::ExitOk;
   });
 }

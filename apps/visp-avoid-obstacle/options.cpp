@@ -103,7 +103,7 @@ void requireKnown(const char *option, const std::string &name, const std::vector
 void requireNothingElse(const CLI::App &app)
 {
   for (const char *other : {"--method", "--scene", "--targets", "--sensor", "--hide", "--vision-rate", "--latency",
-                            "--duration", "--noise", "--forget"}) {
+                            "--duration", "--noise", "--forget", "--record", "--display"}) {
     if (app.get_option(other)->count() > 0) {
       throw vpApp::UsageError(std::string(other) + " cannot be combined with --replica, which has its own");
     }

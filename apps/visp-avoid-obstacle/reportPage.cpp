@@ -157,4 +157,26 @@ std::string reportPage(const PhotoScene &scene, const Options &options, const Ep
   addSettings(page, scene, options, episode.run, commandLine);
   return page.html();
 }
+
+std::string replicaPage(const Replica &replica, const std::string &commandLine)
+{
+  HtmlReport page("Replica of figure " + replica.name.substr(3), replica.title + ".");
+  page.section("What came out");
+  page.highlight(replica.story);
+  HtmlTable table;
+  table.header = {{HtmlCell("", "left"), HtmlCell("thesis", "left"), HtmlCell("here", "left"), HtmlCell("agrees")}};
+  for (const Comparison &c : replica.comparisons) {
+    table.rows.push_back({HtmlCell(c.what, "left"), HtmlCell(c.thesis, "left"), HtmlCell(c.ours, "left"),
+                          HtmlCell(c.agrees ? "yes" : "no", c.agrees ? "" : "worst")});
+  }
+  page.table(table, "The thesis's values beside ours; what it does not tell cannot disagree");
+  for (const Figure &figure : replica.figures) {
+    addFigure(page, figure);
+  }
+  page.section("What was chosen here");
+  page.list(replica.choices);
+  page.section("How it was made");
+  page.facts({{"Command", commandLine}}, "Settings");
+  return page.html();
+}
 } // namespace avoidObstacle

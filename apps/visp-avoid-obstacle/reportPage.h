@@ -10,6 +10,7 @@
 #define avoidObstacle_reportPage_h
 
 #include "figures.h"
+#include "replicas.h"
 #include "story.h"
 
 #include "htmlReport.h"
@@ -28,6 +29,8 @@ void addFigure(vpApp::HtmlReport &page, const Figure &figure);
 [[nodiscard]] std::string reportPage(const PhotoScene &scene, const Options &options, const Episode &episode,
                                      const std::vector<Figure> &figures, const FilmFile &film,
                                      const std::string &commandLine);
+//! The page of a figure that was repeated.
+[[nodiscard]] std::string replicaPage(const Replica &replica, const std::string &commandLine);
 } // namespace avoidObstacle
 
 #endif

@@ -9,6 +9,7 @@
 #ifndef avoidObstacle_summary_h
 #define avoidObstacle_summary_h
 
+#include "replicas.h"
 #include "story.h"
 
 #include <nlohmann/json.hpp>
@@ -19,6 +20,9 @@ namespace avoidObstacle
 [[nodiscard]] nlohmann::ordered_json metricsJson(const vpAvoidanceMetrics &metrics);
 //! Everything about a run, but for what OutputFolder adds.
 [[nodiscard]] nlohmann::ordered_json summaryOf(const PhotoScene &scene, const Options &options, const Episode &episode,
+                                               const std::string &commandLine, double wallTime);
+//! The same about a figure that was repeated.
+[[nodiscard]] nlohmann::ordered_json summaryOf(const Replica &replica, const Options &options,
                                                const std::string &commandLine, double wallTime);
 } // namespace avoidObstacle
 
