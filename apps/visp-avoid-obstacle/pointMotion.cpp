@@ -4,6 +4,7 @@
  */
 #include "pointMotion.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -82,7 +83,8 @@ PointMotion follow(const PointTask &task)
     motion.plans += output.newPlan ? 1 : 0;
     motion.samples.push_back(
         {now + pointPeriod, output.state.q, output.state.v, output.state.a, input.goal.q});
-    const bool rests = result == vpTrajectoryResult::Finished && next == task.events.size();
+    const bool rests = (result == vpTrajectoryResult::Finished || result == vpTrajectoryResult::Holding) &&
+                       next == task.events.size();
     motion.arrival = rests && motion.arrived ? motion.arrival : now + pointPeriod;
     motion.arrived = rests;
     if (rests && now + pointPeriod >= task.duration) {

@@ -4,10 +4,14 @@
  */
 #include "prescribedMotion.h"
 
+#include <algorithm>
+
 namespace avoidObstacle
 {
 namespace
 {
+constexpr double FOLLOWING_GAIN = 10.; // 1/s: what joint limits hold back is made up for so quickly
+
 vpRedundancySpec solverSpec(double period)
 {
   vpRedundancySpec spec;
@@ -58,17 +62,20 @@ void PrescribedMotion::step(const vpJointVector &q, vpAvoidanceOutput &output) n
   for (; m_next < m_events.size() && m_events[m_next].time <= now + 0.5 * m_spec.period; ++m_next) {
     take(m_events[m_next]);
   }
+  const Eigen::Vector3d before = m_cycle == 1 ? m_input.start.q : m_output.state.q; // where the tool should be now
   const vpTrajectoryResult result = m_trajectory.update(m_input, m_output, m_spec.period);
   vpArmKinematics::forward(*m_arm, q, m_data);
   vpArmKinematics::jacobian(*m_arm, m_data);
-  const Eigen::Vector3d v = (m_output.state.q - m_data.tool.p) / m_spec.period;
+  Eigen::Vector3d v = (m_output.state.q - before) / m_spec.period + FOLLOWING_GAIN * (before - m_data.tool.p);
+  v *= std::min(1., m_spec.maxVelocity / std::max(1e-9, v.norm()));
   m_wish.twist = vpTwist(v.x(), v.y(), v.z(), 0., 0., 0.);
   m_solver.step(m_data, m_wish, m_solved);
   m_wish.previous = m_solved.velocity;
   output = vpAvoidanceOutput();
   output.velocity = m_solved.velocity;
   output.wanted = m_output.state.q;
-  const bool rests = result == vpTrajectoryResult::Finished && m_next == m_events.size();
+  const bool rests =
+      (result == vpTrajectoryResult::Finished || result == vpTrajectoryResult::Holding) && m_next == m_events.size();
   output.status = rests         ? vpAvoidanceStatus::Arrived
                   : m_next > 1 ? vpAvoidanceStatus::Detouring
                                : vpAvoidanceStatus::Moving;
