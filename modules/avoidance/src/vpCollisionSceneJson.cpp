@@ -121,6 +121,25 @@ vpCollisionShape shape(vpJsonObject &object, std::vector<std::string> &warnings)
   object.fail(object.place("shape"), "is " + kind + ", must be sphere, capsule, box, cylinder, mesh or octree");
 }
 
+//! The photograph that an object carries; by it the object is recognised, so it is there only once.
+void photo(vpJsonObject &object, const vpCollisionObject &carrier, vpCollisionSceneFile &scene)
+{
+  object.ignore("photo");
+  if (!object.has("photo")) {
+    return;
+  }
+  const std::string target = object.string("photo");
+  if (carrier.shape.type() != vpShapeType::Box) {
+    object.fail(object.place("photo"), "is " + target + ", must be on a box");
+  }
+  for (const vpObjectPhoto &other : scene.photos) {
+    if (other.target == target) {
+      object.fail(object.place("photo"), "is " + target + ", which object " + other.object + " carries already");
+    }
+  }
+  scene.photos.push_back({carrier.name, target});
+}
+
 vpCollisionObject obstacle(vpJsonObject &object, vpCollisionSceneFile &scene)
 {
   vpCollisionObject result;
@@ -129,6 +148,7 @@ vpCollisionObject obstacle(vpJsonObject &object, vpCollisionSceneFile &scene)
   object.optional("pose", [&](vpJsonObject &field) { result.pose = field.transform<vpRigidTransform>(); });
   object.optional("velocity", [&](vpJsonObject &field) { result.velocity = velocity(field); });
   result.inflation = object.number("inflation_m", 0.);
+  photo(object, result, scene);
   object.ignore("allowed_links");
   if (object.has("allowed_links")) {
     for (const double link : object.numbers("allowed_links")) {

@@ -96,6 +96,9 @@ bool vpPerceivedScene::update(double t, const vpTrueScene &truth, const vpJointV
   }
   m_tracks.advance(t);
   static_cast<void>(m_tracks.applyTo(m_scene));
+  if (m_spec->watchTracks) {
+    m_spec->watchTracks(t, m_tracks.tracks());
+  }
   return arrived;
 }
 

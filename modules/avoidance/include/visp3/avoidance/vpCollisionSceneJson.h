@@ -25,11 +25,21 @@ struct VISP_EXPORT vpMotionTask {
 
 /*!
  * \ingroup group_avoidance
+ * \brief A photograph on the front of a box, so that a camera can recognise it.
+ */
+struct VISP_EXPORT vpObjectPhoto {
+  std::string object; //!< Name of the box; the photograph is on its face z = -size.z / 2, x right, y down.
+  std::string target; //!< Name in a database of photographs, see vpPlanarTargetDatabase.
+};
+
+/*!
+ * \ingroup group_avoidance
  * \brief What a scene's file holds.
  */
 struct VISP_EXPORT vpCollisionSceneFile {
   std::string name;                  //!< For reports.
   vpCollisionSceneSpec spec;         //!< For vpCollisionScene; its source is the file.
+  std::vector<vpObjectPhoto> photos; //!< May be empty; each target and each object once.
   std::vector<vpMotionTask> tasks;   //!< May be empty.
   std::vector<std::string> warnings; //!< One sentence each: meshes with holes.
 };

@@ -10,6 +10,7 @@
 #define vpAvoidanceRunSpec_h
 
 #include <visp3/avoidance/vpAvoidanceMethods.h>
+#include <visp3/avoidance/vpObjectTracks.h>
 #include <visp3/simulation/vpArmDrives.h>
 #include <visp3/simulation/vpMovingObstacle.h>
 #include <visp3/simulation/vpPoseSensor.h>
@@ -67,6 +68,11 @@ struct VISP_EXPORT vpAvoidanceRunSpec {
   double latency = 0.05;                          //!< From exposure to result, s, >= 0.
   std::vector<std::pair<double, double>> covered; //!< From when until when nothing is exposed, s.
   vpObjectTrackSpec tracks;                       //!< Track table between sensor and scene.
+  /*!
+   * Is told the track table of every period, s, as the method gets it; empty: not used. For records; it must not change
+   * the run. Not called with vpObstacleSight::Exact, which has no tracks.
+   */
+  std::function<void(double time, const std::vector<vpObjectTrack> &)> watchTracks;
 
   vpArmDriveSpec drives;        //!< Ideal unless told otherwise, see the constructor.
   double maxDuration = 20.;     //!< The run ends then, s, > 0.

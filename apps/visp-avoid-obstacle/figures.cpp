@@ -1,0 +1,224 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "figures.h"
+
+#include "numberText.h"
+#include "plot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace avoidObstacle
+{
+namespace
+{
+using vpApp::Plot;
+using vpApp::PlotCurve;
+using vpApp::PlotStyle;
+
+constexpr std::size_t CURVE_POINTS = 800; // more does not show
+constexpr double CUT = 3.;                // of the bound of a: what is above is drawn there
+constexpr double FAR = 300.;              // mm of clearance: what is above is drawn there
+const char *const COLOURS[] = {"#1f77b4", "#d62728", "#2ca02c", "#ff7f0e", "#9467bd", "#8c564b", "#17becf", "#7f7f7f"};
+
+Plot panel(const std::string &title, const std::string &yLabel)
+{
+  Plot plot;
+  plot.title = title;
+  plot.xLabel = "time (s)";
+  plot.yLabel = yLabel;
+  plot.height = 260;
+  return plot;
+}
+
+PlotCurve curveOf(const std::string &label, const std::string &colour)
+{
+  PlotCurve curve;
+  curve.label = label;
+  curve.colour = colour;
+  curve.width = 1.6;
+  return curve;
+}
+
+//! Values over the samples' times; of neighbours that fall together the largest (or least) shows.
+PlotCurve overTime(const vpAvoidanceRun &run, const std::string &label, const std::string &colour,
+                   const std::function<double(std::size_t)> &value, bool least = false)
+{
+  PlotCurve curve = curveOf(label, colour);
+  const std::size_t count = run.samples.size(), stride = std::max<std::size_t>(1, count / CURVE_POINTS);
+  for (std::size_t i = 0; i < count; i += stride) {
+    double shown = value(i);
+    for (std::size_t k = i; k < std::min(i + stride, count); ++k) {
+      shown = least ? std::min(shown, value(k)) : std::max(shown, value(k));
+    }
+    curve.x.push_back(run.samples[i].time);
+    curve.y.push_back(shown);
+  }
+  return curve;
+}
+
+void addBound(Plot &plot, double end, double bound, const std::string &label)
+{
+  PlotCurve line = curveOf(label, "#555555");
+  line.style = PlotStyle::Dashed;
+  line.width = 1.;
+  line.x = {0., end};
+  line.y = {bound, bound};
+  plot.curves.push_back(line);
+}
+
+Plot jointSpeeds(const vpAvoidanceRun &run)
+{
+  Plot plot = panel("Joint speeds as parts of their limits", "share");
+  const auto &joints = run.spec.arm->spec().joints;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    plot.curves.push_back(overTime(run, joints[j].name, COLOURS[j % 8], [&](std::size_t i) {
+      return std::fabs(run.samples[i].command(static_cast<Eigen::Index>(j))) / joints[j].velocity;
+    }));
+  }
+  addBound(plot, run.samples.back().time, 1., "limit");
+  return plot;
+}
+
+//! Columns of the track table over time, thinned out.
+PlotCurve ofTrack(const Diary &diary, const std::string &object, const std::string &label, const std::string &colour,
+                  const std::function<double(const TrackRow &)> &value)
+{
+  PlotCurve curve = curveOf(label, colour);
+  const std::size_t stride = std::max<std::size_t>(1, diary.tracks.size() / CURVE_POINTS);
+  std::size_t count = 0;
+  for (const TrackRow &row : diary.tracks) {
+    if (row.track.name == object && count++ % stride == 0) {
+      curve.x.push_back(row.time);
+      curve.y.push_back(value(row));
+    }
+  }
+  return curve;
+}
+
+PlotCurve sightErrors(const Diary &diary, const std::string &object, const std::string &colour)
+{
+  PlotCurve curve = curveOf(object + ", error of sightings", colour);
+  curve.style = PlotStyle::Points;
+  for (const Frame &frame : diary.frames) {
+    for (const Sight &sight : frame.sights) {
+      if (sight.object == object && sight.seen) {
+        curve.x.push_back(frame.time);
+        curve.y.push_back(1000. * sight.error);
+      }
+    }
+  }
+  return curve;
+}
+
+//! Every name that the track table ever had.
+std::vector<std::string> namesOf(const PhotoScene &scene, const Diary &diary)
+{
+  std::vector<std::string> names;
+  for (const vpMovingObstacle &obstacle : scene.obstacles) {
+    names.push_back(obstacle.object.name);
+  }
+  for (const TrackRow &row : diary.tracks) {
+    if (std::find(names.begin(), names.end(), row.track.name) == names.end()) {
+      names.push_back(row.track.name);
+    }
+  }
+  return names;
+}
+} // namespace
+
+Rates ratesOf(const std::vector<Eigen::Vector3d> &places, double period)
+{
+  Rates rates;
+  Eigen::Vector3d before = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Eigen::Vector3d v = i == 0 ? before : (places[i] - places[i - 1]) / period;
+    rates.speed.push_back(v.norm());
+    rates.acceleration.push_back((v - before).norm() / period);
+    before = v;
+  }
+  return rates;
+}
+
+std::vector<Eigen::Vector3d> commandedWay(const vpAvoidanceRun &run)
+{
+  std::vector<Eigen::Vector3d> way;
+  vpArmData data;
+  for (const vpAvoidanceSample &s : run.samples) {
+    vpArmKinematics::forward(*run.spec.arm, s.commanded, data);
+    way.push_back(data.tool.p);
+  }
+  return way;
+}
+
+Figure drawTimes(const vpAvoidanceRun &run)
+{
+  const vpAvoidanceMethodSpec &limits = run.spec.methodSpec;
+  const double end = run.samples.back().time;
+  const Rates rates = ratesOf(commandedWay(run), limits.period);
+  std::vector<Plot> panels;
+  panels.push_back(panel("Speed of the commanded tool", "m/s"));
+  panels.back().curves.push_back(overTime(run, "speed", COLOURS[0], [&](std::size_t i) { return rates.speed[i]; }));
+  addBound(panels.back(), end, limits.maxVelocity, "bound");
+  panels.push_back(panel("Acceleration of the commanded tool", "m/s^2"));
+  panels.back().curves.push_back(overTime(run, "acceleration", COLOURS[0], [&](std::size_t i) {
+    return std::min(rates.acceleration[i], CUT * limits.maxAcceleration);
+  }));
+  addBound(panels.back(), end, limits.maxAcceleration, "bound");
+  panels.push_back(jointSpeeds(run));
+  panels.push_back(panel("Least clearance of the whole arm, true scene", "mm"));
+  panels.back().curves.push_back(overTime(
+      run, "clearance", COLOURS[0],
+      [&](std::size_t i) { return std::min(FAR, 1000. * run.samples[i].clearance.distance); }, true));
+  addBound(panels.back(), end, 0., "touching");
+  panels.push_back(panel("Distance of the tool from the goal", "mm"));
+  panels.back().curves.push_back(
+      overTime(run, "distance", COLOURS[0], [&](std::size_t i) { return 1000. * run.samples[i].goalDistance; }));
+  Figure figure;
+  figure.name = "times";
+  figure.title = "Tool, joints and clearance over time";
+  figure.caption = "Accelerations above three times the bound are drawn there, clearances above 300 mm, too. The "
+                   "clearance is the least of all pairs of parts that must not touch, the arm's own among them.";
+  figure.svg = vpApp::renderPanels(panels, vpApp::PlotFormat::Svg);
+  return figure;
+}
+
+Figure drawTracks(const PhotoScene &scene, const Episode &episode)
+{
+  std::vector<Plot> panels = {panel("Errors of place, and what the track table adds to the obstacle for them", "mm"),
+                              panel("Speed in the track table", "m/s"), panel("Confidence in the track table", "0..1")};
+  const Diary &diary = episode.diary;
+  const std::vector<std::string> names = namesOf(scene, diary);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string &name = names[i], colour = COLOURS[i % 8];
+    panels[0].curves.push_back(sightErrors(diary, name, colour));
+    panels[0].curves.push_back(
+        ofTrack(diary, name, name + ", error of track", colour, [](const TrackRow &r) { return 1000. * r.error; }));
+    panels[0].curves.push_back(ofTrack(diary, name, name + ", inflation", colour,
+                                       [](const TrackRow &r) { return 1000. * r.track.inflation; }));
+    panels[0].curves.back().style = PlotStyle::Dashed;
+    panels[1].curves.push_back(
+        ofTrack(diary, name, name, colour, [](const TrackRow &r) { return r.track.velocity.linearNorm(); }));
+    panels[2].curves.push_back(
+        ofTrack(diary, name, name, colour, [](const TrackRow &r) { return r.track.confidence; }));
+  }
+  for (Plot &plot : panels) {
+    plot.curves.erase(std::remove_if(plot.curves.begin(), plot.curves.end(), [](const auto &c) { return c.x.empty(); }),
+                      plot.curves.end());
+    plot.fromZero = true;
+    if (plot.curves.empty()) {
+      addBound(plot, episode.run.samples.back().time, 0., "nothing was ever seen");
+    }
+  }
+  Figure figure;
+  figure.name = "tracks";
+  figure.title = "The track table over time";
+  figure.caption = "Points: sightings. The method takes each obstacle for thicker by its inflation (dashed), which must "
+                   "stay above the error of the track; it grows while the obstacle is out of view.";
+  figure.svg = vpApp::renderPanels(panels, vpApp::PlotFormat::Svg);
+  return figure;
+}
+} // namespace avoidObstacle

@@ -1,0 +1,122 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// visp-avoid-obstacle: an arm goes past what the camera in its hand sees, from image to joints, and a report.
+#include "film.h"
+#include "options.h"
+#include "replicas.h"
+#include "reportPage.h"
+#include "summary.h"
+#include "tables.h"
+
+#include "appMain.h"
+#include "outputFolder.h"
+#include "plot.h"
+
+#include <visp3/avoidance/vpAvoidanceMethods.h>
+
+#include <chrono>
+#include <iostream>
+#include <memory>
+
+namespace
+{
+using namespace avoidObstacle;
+using Clock = std::chrono::steady_clock;
+
+void printList()
+{
+  std::cout << "Methods (--method):\n";
+  for (const std::string &name : avoidanceMethodNames()) {
+    std::cout << "  " << name << "\n";
+  }
+  std::cout << "Replicas (--replica):\n";
+  for (const std::string &name : replicaNames()) {
+    std::cout << "  " << name << ": " << replicaTitle(name) << "\n";
+  }
+}
+
+std::vector<Figure> drawAll(const PhotoScene &scene, const Options &options, const Episode &episode)
+{
+  const std::string title = scene.name + ", " + options.method;
+  return {drawWay(episode.run, title, believedAt(episode, episode.run.samples.back().time)),
+          animate(episode.run, title), drawViews(episode), drawTracks(scene, episode), drawTimes(episode.run)};
+}
+
+void repeat(const Options &options, const std::string &commandLine)
+{
+  const auto start = Clock::now();
+  vpApp::requireGnuplot();
+  vpApp::OutputFolder out("visp-avoid-obstacle", options.out);
+  const Replica replica = playReplica(options);
+  for (const auto &[name, content] : replica.tables) {
+    out.write(name, content);
+  }
+  for (const Figure &figure : replica.figures) {
+    if (!figure.svg.empty()) {
+      out.write("figure/" + figure.name + ".svg", figure.svg);
+    }
+  }
+  out.write("report.html", replicaPage(replica, commandLine));
+  const double wallTime = std::chrono::duration<double>(Clock::now() - start).count();
+  out.writeSummary(summaryOf(replica, options, commandLine, wallTime));
+  vpApp::throwIfInterrupted();
+  out.commit();
+  for (const std::string &sentence : replica.story) {
+    std::cout << sentence << "\n";
+  }
+  std::cout << "Report: " << (out.path() / "report.html").string() << std::endl;
+}
+
+void avoid(const Options &options, const std::string &commandLine)
+{
+  const auto start = Clock::now();
+  const PhotoScene scene = loadPhotoScene(options);
+  vpApp::requireGnuplot();
+  const auto window = options.display ? std::make_unique<vpApp::PictureWindow>("visp-avoid-obstacle") : nullptr;
+  vpApp::OutputFolder out("visp-avoid-obstacle", options.out);
+
+  const Episode episode = play(scene, options);
+  out.write("samples.csv", samplesCsv(episode.run));
+  out.write("tracks.csv", tracksCsv(episode.diary));
+  out.write("frames.csv", framesCsv(episode.diary));
+  FilmFile film;
+  if (options.record || window) {
+    film.name = options.record ? "video.mp4" : "";
+    film.forBrowsers = makeFilm(episode, options.record ? out.file(film.name) : "", window.get());
+  }
+  const std::vector<Figure> figures = drawAll(scene, options, episode);
+  for (const Figure &figure : figures) {
+    if (!figure.svg.empty()) {
+      out.write("figure/" + figure.name + ".svg", figure.svg);
+    }
+  }
+  out.write("report.html", reportPage(scene, options, episode, figures, film, commandLine));
+  const double wallTime = std::chrono::duration<double>(Clock::now() - start).count();
+  out.writeSummary(summaryOf(scene, options, episode, commandLine, wallTime));
+  vpApp::throwIfInterrupted();
+  out.commit();
+  for (const std::string &sentence : storyOf(scene, options, episode)) {
+    std::cout << sentence << "\n";
+  }
+  std::cout << "Report: " << (out.path() / "report.html").string() << std::endl;
+}
+} // namespace
+
+int main(int argc, char **argv)
+{
+  return vpApp::runMain("visp-avoid-obstacle", [&]() -> int {
+    Options options;
+    if (!readOptions(argc, argv, options)) {
+      return vpApp::ExitOk;
+    }
+    if (options.list) {
+      printList();
+      return vpApp::ExitOk;
+    }
+    const std::string commandLine = vpApp::commandLine("visp-avoid-obstacle", argc, argv);
+    options.replica.empty() ? avoid(options, commandLine) : repeat(options, commandLine);
+    return vpApp::ExitOk;
+  });
+}

@@ -1,0 +1,36 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file planePlots.h
+ * \brief Plots of motions in the plane, as in the figures of chapter 8.
+ */
+#ifndef avoidObstacle_planePlots_h
+#define avoidObstacle_planePlots_h
+
+#include "figures.h"
+
+#include "plot.h"
+
+namespace avoidObstacle
+{
+//! A curve of places. \param thin : Every so many of them.
+[[nodiscard]] vpApp::PlotCurve wayCurve(const std::string &label, const std::string &colour,
+                                        const std::vector<Eigen::Vector2d> &way, std::size_t thin = 1);
+//! Single places as points.
+[[nodiscard]] vpApp::PlotCurve placeCurve(const std::string &label, const std::string &colour,
+                                          const std::vector<Eigen::Vector2d> &places);
+//! A map: x to the right, y up, to scale.
+[[nodiscard]] vpApp::Plot wayPlot(const std::string &title);
+//! Something over time.
+[[nodiscard]] vpApp::Plot timePlot(const std::string &title, const std::string &unit);
+//! Values over times. \param thin : Every so many of them.
+[[nodiscard]] vpApp::PlotCurve timeCurve(const std::string &label, const std::string &colour,
+                                         const std::vector<double> &times, const std::vector<double> &values,
+                                         std::size_t thin = 1);
+//! A dashed level over the time of a plot's curves.
+void addLevel(vpApp::Plot &plot, double level, const std::string &label);
+} // namespace avoidObstacle
+
+#endif

@@ -1,0 +1,182 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "story.h"
+
+#include "numberText.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace avoidObstacle
+{
+namespace
+{
+using vpApp::fixed;
+using vpApp::number;
+
+constexpr double SHORTEST_TURN = 0.05; // s
+
+double median(std::vector<double> values)
+{
+  if (values.empty()) {
+    return 0.;
+  }
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+void addFrames(const Diary &diary, Acquaintance &a)
+{
+  std::vector<double> errors, sigmas;
+  for (const Frame &frame : diary.frames) {
+    for (const Sight &sight : frame.sights) {
+      if (sight.object != a.object) {
+        continue;
+      }
+      ++a.frames;
+      if (!sight.seen) {
+        a.lost = a.lastSeen && !a.lost ? frame.time : a.lost;
+        continue;
+      }
+      ++a.seen;
+      a.gap = a.lastSeen ? std::max(a.gap, frame.time - *a.lastSeen) : 0.;
+      a.firstSeen = a.firstSeen.value_or(frame.time);
+      a.lastSeen = frame.time;
+      a.lost.reset();
+      errors.push_back(sight.error);
+      sigmas.push_back(sight.sigma);
+      a.worstError = std::max(a.worstError, sight.error);
+    }
+  }
+  a.medianError = median(errors);
+  a.medianSigma = median(sigmas);
+}
+
+void addTracks(const Diary &diary, Acquaintance &a)
+{
+  for (const TrackRow &row : diary.tracks) {
+    if (row.track.name != a.object) {
+      continue;
+    }
+    const double margin = row.track.inflation - row.error;
+    a.leastMargin = a.known ? std::min(a.leastMargin, margin) : margin;
+    a.known = a.known.value_or(row.time);
+    a.worstTrackError = std::max(a.worstTrackError, row.error);
+  }
+}
+
+std::string ms(double seconds) { return number(1000. * seconds, 3) + " ms"; }
+std::string mm(double metres) { return fixed(1000. * metres, 1) + " mm"; }
+
+std::string ending(const vpAvoidanceRun &run)
+{
+  const vpAvoidanceMetrics &m = run.metrics;
+  if (m.success) {
+    return "The tool arrived after " + fixed(m.duration_s, 2) + " s, " + mm(m.goal_error_m) +
+           " from the goal, and touched nothing on the way.";
+  }
+  if (m.collisions_moving > 0) {
+    return "The arm " + m.status + ". In the end the tool was " + mm(m.goal_error_m) + " from the goal.";
+  }
+  return "The tool did not arrive: after " + fixed(run.samples.back().time, 2) + " s it was " + mm(m.goal_error_m) +
+         " from the goal, and touched nothing. " + sentence(run.samples.back().status);
+}
+
+std::string seeing(const Acquaintance &a, const vpAvoidanceRun &run)
+{
+  if (!a.firstSeen) {
+    return "Obstacle " + a.object + " was never seen, so the method never knew of it.";
+  }
+  std::string text = "Obstacle " + a.object + " was first seen in the picture of " + fixed(*a.firstSeen, 3) + " s and " +
+                     (a.known ? "known to the method at " + fixed(*a.known, 3) + " s" : "never known to the method") +
+                     "; it was seen in " + std::to_string(a.seen) + " of " + std::to_string(a.frames) +
+                     " pictures, with errors of " + mm(a.medianError) + " (median) and " + mm(a.worstError) +
+                     " (worst) where the sightings told deviations of " + mm(a.medianSigma) + ".";
+  if (a.lost) {
+    text += " From " + fixed(*a.lost, 3) + " s on it was not seen any more";
+    text += run.samples.back().time > *a.lost ? ", and kept in mind by the track table alone." : ".";
+  }
+  if (a.gap > 2.5 / run.spec.visionRate) {
+    text += " The longest gap in between was " + fixed(a.gap, 2) + " s.";
+  }
+  text += a.leastMargin >= 0.
+              ? " Its true place never left the uncertainty that the track table told."
+              : " Its true place was up to " + mm(-a.leastMargin) + " outside of what the track table told.";
+  return text;
+}
+} // namespace
+
+std::vector<Acquaintance> acquaintances(const PhotoScene &scene, const Episode &episode)
+{
+  std::vector<Acquaintance> all;
+  for (const vpMovingObstacle &obstacle : scene.obstacles) {
+    Acquaintance a;
+    a.object = obstacle.object.name;
+    addFrames(episode.diary, a);
+    addTracks(episode.diary, a);
+    all.push_back(a);
+  }
+  return all;
+}
+
+std::vector<Turn> turnsOf(const vpAvoidanceRun &run)
+{
+  std::vector<Turn> turns;
+  for (const vpAvoidanceSample &s : run.samples) {
+    if (turns.empty() || turns.back().status != s.status || turns.back().stopping != s.stopping) {
+      if (turns.size() > 1 && s.time - turns.back().time < SHORTEST_TURN) {
+        turns.pop_back();
+      }
+      if (turns.empty() || turns.back().status != s.status || turns.back().stopping != s.stopping) {
+        turns.push_back({s.time, s.status, s.stopping});
+      }
+    }
+  }
+  return turns;
+}
+
+JointUse jointUseOf(const vpAvoidanceRun &run)
+{
+  JointUse use;
+  const vpArmModel &arm = *run.spec.arm;
+  vpJointVector before = vpJointVector::Zero(arm.size());
+  for (const vpAvoidanceSample &s : run.samples) {
+    for (int i = 0; i < arm.size(); ++i) {
+      const vpArmJointSpec &joint = arm.spec().joints[static_cast<std::size_t>(i)];
+      use.velocity = std::max(use.velocity, std::fabs(s.command(i)) / joint.velocity);
+      const double a = std::fabs(s.command(i) - before(i)) / run.spec.methodSpec.period;
+      use.acceleration = std::max(use.acceleration, a / joint.acceleration);
+    }
+    before = s.command;
+  }
+  return use;
+}
+
+std::vector<std::string> storyOf(const PhotoScene &scene, const Options &options, const Episode &episode)
+{
+  const vpAvoidanceRun &run = episode.run;
+  const vpAvoidanceMetrics &m = run.metrics;
+  std::vector<std::string> story = {ending(run)};
+  story.push_back("The least true clearance of the whole arm was " + mm(m.min_clearance_m) + " (the method keeps " +
+                  mm(run.spec.methodSpec.margin) + " from what it knows); the arm was stopped " +
+                  std::to_string(m.stops) + " times for safety.");
+  for (const Acquaintance &a : acquaintances(scene, episode)) {
+    if (options.sensor == SensorKind::Depth) {
+      continue;
+    }
+    story.push_back(seeing(a, run));
+  }
+  if (options.sensor == SensorKind::Depth) {
+    story.push_back("Depth images know no single objects: all that they show is one map of cubes, at rest.");
+  }
+  story.push_back("The commanded tool went at up to " + number(m.peak_v, 3) + " m/s (bound " +
+                  number(run.spec.methodSpec.maxVelocity, 3) + ") and " + number(m.peak_a, 3) + " m/s^2 (bound " +
+                  number(run.spec.methodSpec.maxAcceleration, 3) + "); a look at a new picture took the method " +
+                  ms(1e-3 * m.replan_ms_p50) + " (median) and " + ms(1e-3 * m.replan_ms_p99) + " (99 %).");
+  story.insert(story.end(), scene.remarks.begin(), scene.remarks.end());
+  return story;
+}
+} // namespace avoidObstacle
