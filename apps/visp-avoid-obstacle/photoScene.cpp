@@ -138,6 +138,10 @@ PhotoScene loadPhotoScene(const Options &options)
     const auto photo = std::find_if(content.photos.begin(), content.photos.end(),
                                     [&](const vpObjectPhoto &p) { return p.object == object.name; });
     if (photo == content.photos.end()) {
+      if (object.velocity.linearNorm() > 0. || object.velocity.angularNorm() > 0.) {
+        throw std::runtime_error(file + ": object " + object.name +
+                                 " moves but has no photo, only what is seen may move");
+      }
       scene.known.objects.push_back(object);
     }
     else {

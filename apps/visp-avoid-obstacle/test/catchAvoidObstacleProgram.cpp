@@ -2,4 +2,207 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
+// The program itself: good and bad input, and runs from image to joints.
 #include "vpCatch.h"
+
+#include "jsonReader.h"
+#include "programRun.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace
+{
+constexpr int DATA = 1;
+constexpr int USAGE = 2;
+
+//! The default scene, with one piece replaced.
+std::string scene(const std::string &piece = "", const std::string &replacement = "")
+{
+  std::string text = vpApp::readFile(std::string(VISP_DIRECT_DATA_DIR) + "/scene/photo-box.json");
+  if (!piece.empty()) {
+    REQUIRE(text.find(piece) != std::string::npos);
+    text.replace(text.find(piece), piece.size(), replacement);
+  }
+  return text;
+}
+
+void check(ProgramRun &run, const std::string &arguments, int status, const std::string &sentence)
+{
+  std::vector<std::string> before = run.entries();
+  const int answer = run(arguments + " --out result");
+  CAPTURE(arguments, run.err(), run.out());
+  CHECK(answer == status);
+  CHECK(run.err().find("visp-avoid-obstacle: ") == 0);
+  CHECK(run.err().find(sentence) != std::string::npos);
+  CHECK(std::count(run.err().begin(), run.err().end(), '\n') == 1);
+  CHECK(run.out().empty());
+  std::vector<std::string> after = run.entries();
+  std::sort(before.begin(), before.end());
+  std::sort(after.begin(), after.end());
+  CHECK(before == after);
+}
+
+nlohmann::json summaryOf(ProgramRun &run, const std::string &arguments)
+{
+  const int status = run(arguments + " --out result");
+  CAPTURE(arguments, run.err());
+  REQUIRE(status == 0);
+  return vpApp::readJsonFile(run.path("result/summary.json").string());
+}
+
+std::size_t linesOf(const std::string &text) { return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')); }
+} // namespace
+
+TEST_CASE("A wrong command line ends with status 2", "[visp-avoid-obstacle]")
+{
+  ProgramRun run(AVOID_OBSTACLE);
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"--nonsense", "--nonsense"},
+      {"--method luck", "--method: unknown \"luck\"; known are "},
+      {"--replica fig8.5", "--replica: unknown \"fig8.5\"; known are fig8.6, "},
+      {"--replica fig8.7 --method dtg", "--method cannot be combined with --replica"},
+      {"--replica fig8.7 --record", "--record cannot be combined with --replica"},
+      {"--sensor nose", "--sensor is nose, must be image, depth or poses"},
+      {"--hide 1", "--hide is 1, must be FROM:UNTIL in s"},
+      {"--hide 2:1", "--hide is 2:1, must end after it begins"},
+      {"--hide x:1", "--hide is x, must be a number"},
+      {"--vision-rate 0", "--vision-rate is 0, must be a number > 0"},
+      {"--vision-rate nan", "--vision-rate is nan, must be a number"},
+      {"--latency -1", "--latency is -1, must be a number >= 0"},
+      {"--duration 0", "--duration is 0, must be a number > 0"},
+      {"--noise 101", "--noise is 101, must be a number >= 0 and <= 100"},
+      {"--friction many", "--friction is many, must be a number"},
+      {"--forget -2", "--forget is -2, must be a number"},
+      {"--seed 0", "--seed is 0, must be a number >= 1"},
+      {"--seed 1.5", "--seed is 1.5, must be a whole number"},
+      {"--scene none.json", "none.json"},
+      {"--arm none.json", "none.json"},
+      {"--targets none", "none"}};
+  for (const auto &[arguments, sentence] : cases) {
+    check(run, arguments, USAGE, sentence);
+  }
+}
+
+TEST_CASE("A bad scene ends with a sentence that names file and element", "[visp-avoid-obstacle]")
+{
+  ProgramRun run(AVOID_OBSTACLE);
+  const auto bad = [&](const std::string &piece, const std::string &replacement, const std::string &sentence) {
+    run.write("bad.json", scene(piece, replacement));
+    check(run, "--scene bad.json", DATA, "bad.json: " + sentence);
+  };
+  bad("\"photo\": \"box\"", "\"photo\": \"mona-lisa\"", "photo of object parcel is mona-lisa, must be a target of ");
+  bad(", \"photo\": \"box\"", "", "no object has a photo, there is nothing to see");
+  bad("[0.16, 0.11012, 0.06]", "[0.2, 0.11012, 0.06]", "size_m of object parcel is 0.2 x 0.1101, its photo box is 0.16");
+  bad("\"shape\": \"box\", \"size_m\": [0.16, 0.11012, 0.06]", "\"shape\": \"sphere\", \"radius_m\": 0.1",
+      "objects[0].photo is box, must be on a box");
+  bad("\"tasks\": [", "\"errands\": [", "errands is not a known field");
+  bad("0.127099, ", "", "tasks[0].goal_rad must have as many numbers as start_rad");
+  bad("\"objects\": [",
+      "\"objects\": [{\"name\": \"fly\", \"shape\": \"sphere\", \"radius_m\": 0.01, \"velocity\": {\"linear_m_s\": [1, 0, 0]}},",
+      "object fly moves but has no photo");
+  run.write("bad.json", R"({"name": "s", "objects": []})");
+  check(run, "--scene bad.json", DATA, "bad.json: tasks is empty, there is nowhere to go");
+  run.write("bad.json", R"({"name": "s", "objects": [], "tasks": [{"name": "t", "start_rad": [0], "goal_rad": [1]}]})");
+  check(run, "--scene bad.json", DATA, "task t is for 1 joints, arm ");
+  run.write("bad.json", "{");
+  check(run, "--scene bad.json", DATA, "bad.json: parse error");
+}
+
+TEST_CASE("From image to joints: round what is seen, into what is not", "[visp-avoid-obstacle]")
+{
+  ProgramRun run(AVOID_OBSTACLE);
+  // The same scene twice. With the camera covered all the time nobody knows of the box, and the tool runs into it: so
+  // it is the pictures that make the difference.
+  const nlohmann::json blind = summaryOf(run, "--hide 0:100");
+  CHECK_FALSE(blind.at("metrics").at("success").get<bool>());
+  CHECK(blind.at("metrics").at("collisions_moving").get<int>() > 0);
+  CHECK(blind.at("metrics").at("min_clearance_m").get<double>() < 0.);
+  CHECK(blind.at("obstacles")[0].at("seen").get<int>() == 0);
+  CHECK(blind.at("obstacles")[0].at("first_seen_s").is_null());
+  CHECK(run.out().find("never seen") != std::string::npos);
+
+  const nlohmann::json seeing = summaryOf(run, "--hide 0.2:0.4 --record --latency 0.06");
+  const nlohmann::json &metrics = seeing.at("metrics"), &box = seeing.at("obstacles")[0];
+  CHECK(metrics.at("success").get<bool>());
+  CHECK(metrics.at("min_clearance_m").get<double>() > 0.01);
+  CHECK(metrics.at("tool_v_violations").get<int>() == 0);
+  CHECK(metrics.at("tool_a_violations").get<int>() == 0);
+  CHECK(metrics.at("joint_v_violations").get<int>() == 0);
+  CHECK(metrics.at("joint_a_violations").get<int>() == 0);
+  CHECK(box.at("first_seen_s").get<double>() == 0.);
+  CHECK(box.at("known_s").get<double>() == Approx(0.06).margin(1e-9)); // by then the first picture is through
+  CHECK(box.at("longest_gap_s").get<double>() >= 0.2);
+  CHECK(box.at("worst_error_m").get<double>() < 0.01);
+  CHECK(box.at("least_inflation_less_error_m").get<double>() >= 0.);
+
+  const std::string samples = vpApp::readFile(run.path("result/samples.csv"));
+  const std::string frames = vpApp::readFile(run.path("result/frames.csv"));
+  CHECK(samples.find("time_s,q_q1,") == 0);
+  CHECK(linesOf(frames) == box.at("pictures").get<std::size_t>() + 1);
+  CHECK(linesOf(samples) > 6 * linesOf(frames)); // 200 Hz and 30 Hz
+  std::istringstream rows(frames);
+  std::string row;
+  std::getline(rows, row);
+  int covered = 0;
+  while (std::getline(rows, row)) {
+    const double time = std::stod(row);
+    const bool dark = time >= 0.2 - 1e-9 && time < 0.4 - 1e-9;
+    CHECK((row.find(",1,\"parcel\",0") != std::string::npos) == dark); // covered, so not seen
+    covered += dark ? 1 : 0;
+  }
+  CHECK(covered == 6);
+  for (const char *file : {"report.html", "tracks.csv", "figure/way.svg", "figure/times.svg", "figure/tracks.svg",
+                           "video.mp4"}) {
+    CAPTURE(file);
+    CHECK(std::filesystem::file_size(run.path(std::string("result/") + file)) > 1000);
+  }
+  const std::string report = vpApp::readFile(run.path("result/report.html"));
+  CHECK(report.find("The tool arrived after") != std::string::npos);
+  CHECK(report.find("data:image/jpeg") != std::string::npos);
+}
+
+TEST_CASE("The same run twice is the same, another seed is another noise", "[visp-avoid-obstacle]")
+{
+  ProgramRun run(AVOID_OBSTACLE);
+  const auto framesOf = [&](const std::string &arguments) {
+    static_cast<void>(summaryOf(run, arguments + " --duration 0.4"));
+    return vpApp::readFile(run.path("result/frames.csv"));
+  };
+  const std::string first = framesOf("--seed 3");
+  CHECK(first == framesOf("--seed 3"));
+  CHECK(first != framesOf("--seed 4"));
+}
+
+TEST_CASE("An arm that waits has done its work, too", "[visp-avoid-obstacle]")
+{
+  ProgramRun run(AVOID_OBSTACLE);
+  const nlohmann::json summary = summaryOf(run, "--method potential-corrected --duration 6");
+  CHECK_FALSE(summary.at("metrics").at("success").get<bool>());
+  CHECK(summary.at("metrics").at("collisions_moving").get<int>() == 0);
+  CHECK(run.out().find("The tool did not arrive") == 0);
+}
+
+TEST_CASE("Depth images and poses lead round the box, too", "[visp-avoid-obstacle]")
+{
+  ProgramRun run(AVOID_OBSTACLE);
+  for (const char *sensor : {"depth", "poses"}) {
+    const nlohmann::json summary = summaryOf(run, std::string("--sensor ") + sensor);
+    CAPTURE(sensor);
+    CHECK(summary.at("metrics").at("success").get<bool>());
+    CHECK(summary.at("metrics").at("min_clearance_m").get<double>() > 0.);
+  }
+}
+
+TEST_CASE("A replica leaves its report", "[visp-avoid-obstacle]")
+{
+  ProgramRun run(AVOID_OBSTACLE);
+  const nlohmann::json summary = summaryOf(run, "--replica fig8.12");
+  CHECK(summary.at("replica") == "fig8.12");
+  CHECK(std::filesystem::exists(run.path("result/figure/snapshot-6.svg")));
+  CHECK(vpApp::readFile(run.path("result/report.html")).find("Replica of figure 8.12") != std::string::npos);
+  REQUIRE(run("--list") == 0);
+  for (const char *name : {"dtg-via", "planner-dtg", "fig8.6", "fig8.13"}) {
+    CHECK(run.out().find(name) != std::string::npos);
+  }
+}

@@ -149,7 +149,7 @@ TEST_CASE("A scene with everything arrives", "[files]")
       {"name": "a", "shape": "sphere", "radius_m": 0.1, "inflation_m": 0.02,
        "velocity": {"linear_m_s": [0.1, 0, 0], "angular_rad_s": [0, 0, 1]}},
       {"name": "b", "shape": "capsule", "radius_m": 0.1, "length_m": 0.2, "pose": {"translation_m": [0, 1, 0]}},
-      {"name": "c", "shape": "box", "size_m": [0.1, 0.2, 0.3],
+      {"name": "c", "shape": "box", "size_m": [0.1, 0.2, 0.3], "photo": "klimt",
        "pose": {"translation_m": [0, 0, 1], "rotation_deg": [0, 0, 90]}},
       {"name": "d", "shape": "cylinder", "radius_m": 0.1, "length_m": 0.2, "allowed_links": [5, 7]},
       {"name": "e", "shape": "mesh", "file": "catchCollisionFiles-all.obj", "scale": 0.1},
@@ -166,6 +166,9 @@ TEST_CASE("A scene with everything arrives", "[files]")
   REQUIRE(all.warnings.size() == 1);
   CHECK(all.warnings[0].find(file.name() + ": objects[5]: mesh: the surface has holes") == 0);
   CHECK(all.tasks[0].goal(0) == 1.);
+  REQUIRE(all.photos.size() == 1);
+  CHECK(all.photos[0].object == "c");
+  CHECK(all.photos[0].target == "klimt");
   const vpCollisionScene scene(amor(), all.spec);
   CHECK(scene.selfPairs().size() == 2);
   CHECK(scene.ground()->normal.z() == 1.);
@@ -213,6 +216,12 @@ TEST_CASE("Errors in scenes name the file and the element", "[files]")
         file + "objects[0]: octree: cell 0 has the size -1 m, must be > 0, and all finite");
   CHECK(objectError("\"shape\": \"octree\", \"file\": \"nowhere.bt\"") ==
         file + "objects[0]: nowhere.bt: cannot be read");
+  CHECK(objectError("\"shape\": \"sphere\", \"radius_m\": 1, \"photo\": \"klimt\"") ==
+        file + "objects[0].photo is klimt, must be on a box");
+  const std::string box = "\"shape\": \"box\", \"size_m\": [1, 1, 1], \"photo\": ";
+  CHECK(objectError(box + "3").find(file + "objects[0].photo") == 0);
+  CHECK(objectError(box + "\"klimt\"}, {\"name\": \"p\", " + box + "\"klimt\"") ==
+        file + "objects[1].photo is klimt, which object o carries already");
   CHECK(errorOf([] { return vpLoadCollisionScene("nowhere.json"); }) == "nowhere.json: cannot be read");
 }
 

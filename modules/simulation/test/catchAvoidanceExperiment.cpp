@@ -143,6 +143,46 @@ TEST_CASE("What runs into an arm at rest is counted apart", "[avoidance-experime
   CHECK(moving.status.find("touched something while it moved, 1 times, by ") == 0);
 }
 
+TEST_CASE("Who watches the track table gets what the method gets, and changes nothing", "[avoidance-experiment]")
+{
+  vpAvoidanceRunSpec spec = sledgeRun(0., 0.5, {});
+  spec.obstacles.push_back(movingBall({0.25, 0.6, 0.}, {0.1, 0., 0.}));
+  spec.sight = vpObstacleSight::Poses;
+  spec.visionRate = 20.;
+  spec.latency = 0.03;
+  const vpAvoidanceRun unwatched = runAvoidanceExperiment(spec);
+  std::vector<double> times;
+  double known = -1., worst = 0.;
+  spec.watchTracks = [&](double time, const std::vector<vpObjectTrack> &tracks) {
+    times.push_back(time);
+    if (tracks.empty()) {
+      return;
+    }
+    known = known < 0. ? time : known;
+    REQUIRE(tracks.size() == 1);
+    CHECK(tracks[0].name == "ball");
+    if (time > 0.5) {
+      worst = std::max(worst, (tracks[0].pose.p - Vector3d(0.25 + 0.1 * time, 0.6, 0.)).norm());
+    }
+  };
+  const vpAvoidanceRun watched = runAvoidanceExperiment(spec);
+  CHECK(known == Approx(0.03).margin(1e-9)); // first exposure at 0, then the latency
+  CHECK(worst > 0.);
+  CHECK(worst < 0.01); // noise of 2 mm
+  REQUIRE(times.size() >= watched.samples.size() - 1); // the last row commands nothing
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    CHECK(times[i] == Approx(0.005 * static_cast<double>(i)).margin(1e-9));
+  }
+  REQUIRE(watched.samples.size() == unwatched.samples.size());
+  for (std::size_t i = 0; i < watched.samples.size(); ++i) {
+    CHECK(watched.samples[i].q == unwatched.samples[i].q);
+  }
+  spec.sight = vpObstacleSight::Exact;
+  times.clear();
+  static_cast<void>(runAvoidanceExperiment(spec));
+  CHECK(times.empty());
+}
+
 TEST_CASE("A stop without a reason is a false one", "[avoidance-experiment]")
 {
   // At 0.5 s the sledge moves at 0.4 m/s and would be 0.4 m farther on a second later.
