@@ -81,8 +81,7 @@ Figure drawWay(const vpAvoidanceRun &run, const std::string &title, const std::v
   for (int i = 0; i < GHOSTS; ++i) {
     const bool first = i == 0, last = i == GHOSTS - 1;
     const vpAvoidanceSample &s = first ? run.samples.front() : sampleAt(run, i / (GHOSTS - 1.));
-    picture.ghosts.push_back(
-        {s.q, first ? "#8d99ae" : last ? "#1d3557" : "#5c7c9c", first || last ? 0.55 : 0.16});
+    picture.ghosts.push_back({s.q, first ? "#8d99ae" : last ? "#1d3557" : "#5c7c9c", first || last ? 0.55 : 0.16});
   }
   picture.traces = {traceOf(run)};
   picture.traces.push_back({{run.samples.front().tool, run.samples.back().goal}, "#777777", true, "straight"});
@@ -92,8 +91,9 @@ Figure drawWay(const vpAvoidanceRun &run, const std::string &title, const std::v
   figure.title = "The way of the tool from above and from the side";
   figure.caption = "The arm at the start (grey), at the end (dark) and in between (faint); obstacles where they truly "
                    "are when the tool is half way" +
-                   std::string(believed.empty() ? "." : ", dashed as the track table had them in the end, with their "
-                                                        "uncertainty.");
+                   std::string(believed.empty() ? "."
+                                                : ", dashed as the track table had them in the end, with their "
+                                                  "uncertainty.");
   figure.svg = vpApp::armPictureSvg(*run.spec.arm, picture);
   return figure;
 }
@@ -133,14 +133,37 @@ Figure animate(const vpAvoidanceRun &run, const std::string &title)
   return figure;
 }
 
+namespace
+{
+//! Most of the pictures from the time when something was seen, and the last one.
+std::vector<std::size_t> shownFrames(const std::vector<Frame> &frames)
+{
+  std::size_t last = frames.size() - 1;
+  const auto isEmpty = [](const Frame &frame) {
+    return std::none_of(frame.sights.begin(), frame.sights.end(), [](const Sight &sight) { return sight.seen; });
+  };
+  while (last > 0 && isEmpty(frames[last])) {
+    --last;
+  }
+  last = last > 0 ? last : frames.size() - 1;
+  std::vector<std::size_t> shown;
+  for (std::size_t i = 0; i + 1 < VIEWS; ++i) {
+    shown.push_back(last * i / (VIEWS - 2));
+  }
+  shown.push_back(frames.size() - 1);
+  return shown;
+}
+} // namespace
+
 Figure drawViews(const Episode &episode)
 {
   const std::vector<Frame> &frames = episode.diary.frames;
+  const std::vector<std::size_t> shown = frames.empty() ? std::vector<std::size_t>() : shownFrames(frames);
   cv::Mat sheet;
   for (int row = 0; row < VIEWS / VIEW_COLUMNS && !frames.empty(); ++row) {
     cv::Mat line;
     for (int column = 0; column < VIEW_COLUMNS; ++column) {
-      const std::size_t i = (frames.size() - 1) * static_cast<std::size_t>(row * VIEW_COLUMNS + column) / (VIEWS - 1);
+      const std::size_t i = shown[static_cast<std::size_t>(row * VIEW_COLUMNS + column)];
       cv::Mat view = cameraPicture(frames[i]), tile;
       cv::resize(view, tile, cv::Size(VIEW_WIDTH, VIEW_WIDTH * view.rows / view.cols), 0., 0., cv::INTER_AREA);
       cv::copyMakeBorder(tile, tile, 2, 2, 2, 2, cv::BORDER_CONSTANT, cv::Scalar::all(255));
@@ -151,7 +174,8 @@ Figure drawViews(const Episode &episode)
   Figure figure;
   figure.name = "views";
   figure.title = "What the camera in the hand saw";
-  figure.caption = "From the first picture to the last one, evenly in time; what was found is outlined.";
+  figure.caption = "From the first picture to the last one in which something was seen, and the last of all; what was "
+                   "found is outlined.";
   std::vector<unsigned char> bytes;
   cv::imencode(".jpg", sheet, bytes, {cv::IMWRITE_JPEG_QUALITY, 88});
   figure.jpeg.assign(bytes.begin(), bytes.end());

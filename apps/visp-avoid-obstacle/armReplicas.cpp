@@ -27,11 +27,11 @@ using Eigen::Vector3d;
 using vpApp::fixed;
 using vpApp::number;
 
-constexpr double MOTION_BEGINS = 0.4; // s
+constexpr double MOTION_BEGINS = 0.4;    // s
 constexpr double MOST_ACCELERATION = 2.; // m/s^2
-constexpr double SETTLED = 0.008;     // m: table 8.1 has 3.0, 5.6 and 5.2 mm rms, 8.2 mm together
-constexpr double HEIGHT = 0.35;       // m
-constexpr double ROUNDING = 1e-6;     // relative: a bound counts as kept
+constexpr double SETTLED = 0.008;        // m: table 8.1 has 3.0, 5.6 and 5.2 mm rms, 8.2 mm together
+constexpr double HEIGHT = 0.35;          // m
+constexpr double ROUNDING = 1e-6;        // relative: a bound counts as kept
 constexpr int SNAPSHOTS = 6;
 
 Vector3d place(double x, double y) { return {x, y, HEIGHT}; }
@@ -112,11 +112,11 @@ Figure draw(const vpAvoidanceRun &run, const Script &script)
   const Rates rates = ratesOf(commandedWay(run), run.spec.methodSpec.period);
   vpApp::Plot way = wayPlot("The way of the tool"), speed = timePlot("Speed of the commanded tool", "m/s"),
               acceleration = timePlot("Acceleration of the commanded tool", "m/s^2");
-  way.curves = {wayCurve("true", "#d62728", true_), wayCurve("planned", "#1f77b4", wanted),
-                wayCurve("straight on", "#999999",
-                         {true_.front(), Eigen::Vector2d(script.events.front().goal.head<2>())}),
-                placeCurve("where it changed", "#2ca02c", changes),
-                placeCurve("goal", "#000000", {Eigen::Vector2d(script.events.back().goal.head<2>())})};
+  way.curves = {
+      wayCurve("true", "#d62728", true_), wayCurve("planned", "#1f77b4", wanted),
+      wayCurve("straight on", "#999999", {true_.front(), Eigen::Vector2d(script.events.front().goal.head<2>())}),
+      placeCurve("where it changed", "#2ca02c", changes),
+      placeCurve("goal", "#000000", {Eigen::Vector2d(script.events.back().goal.head<2>())})};
   way.curves[1].style = way.curves[2].style = vpApp::PlotStyle::Dashed;
   if (!vias.empty()) {
     way.curves.push_back(placeCurve("via", "#ff7f0e", vias));
@@ -143,8 +143,8 @@ void addSnapshots(const vpAvoidanceRun &run, Replica &replica)
     vpApp::ArmPicture picture;
     picture.title = "t = " + fixed(s.time, 2) + " s";
     picture.ground = run.spec.scene.ground.has_value();
-    picture.ghosts = {{run.samples.front().q, "#8d99ae", 0.15}, {run.samples.back().q, "#8d99ae", 0.15},
-                      {s.q, "#1d3557", 0.7}};
+    picture.ghosts = {
+        {run.samples.front().q, "#8d99ae", 0.15}, {run.samples.back().q, "#8d99ae", 0.15}, {s.q, "#1d3557", 0.7}};
     vpApp::ArmTrace trace;
     trace.colour = "#d62728";
     for (const vpAvoidanceSample &before : run.samples) {
@@ -175,7 +175,8 @@ void compare(const vpAvoidanceRun &run, const Script &script, Replica &replica)
       {"ends at", text(goal), text(end) + ", off by " + number(1000. * m.goal_error_m, 2) + " mm", m.success},
       {"speed", "at most 0.5 m/s, not violated", "at most " + number(m.peak_v, 6) + " m/s (commanded)", kept},
       {"acceleration", "no bound told", "up to " + number(m.peak_a, 3) + " m/s^2 (commanded)"},
-      {"duration", "not told", fixed(m.duration_s, 2) + " s, of them " + number(MOTION_BEGINS, 2) + " s before it moves"},
+      {"duration", "not told",
+       fixed(m.duration_s, 2) + " s, of them " + number(MOTION_BEGINS, 2) + " s before it moves"},
       {"clearance", "not told", fixed(1000. * m.min_clearance_m, 0) + " mm of the arm from itself and the ground"}};
   if (script.events.back().via) {
     const double missed = passes(run, *script.events.back().via);
@@ -209,9 +210,9 @@ Replica playArmReplica(const Options &options)
       "A bound on the acceleration is not told; here it is 2 m/s^2, which the joints can follow.",
       "Drives by torques with the friction of the arm's file: see --friction."};
   if (multiPoint) {
-    replica.choices.emplace_back(
-        "Two arrows, two changes: the via comes at 0.95 s, the final goal at 1.15 s. When to be at the via is not told; "
-        "it is half way in time from its event on.");
+    replica.choices.emplace_back("Two arrows, two changes: the via comes at 0.95 s, the final goal at 1.15 s. When to "
+                                 "be at the via is not told; "
+                                 "it is half way in time from its event on.");
   }
   if (snapshots) {
     addSnapshots(run, replica);

@@ -22,7 +22,7 @@ constexpr double REST_ACCELERATION = 0.002;
 constexpr double ANGULAR_ACCELERATION = 0.2;
 //! Errors of pictures in a row are not independent: a slow drift of them is no motion.
 constexpr double REST_SIGMAS = 5.;
-constexpr double TIME_ROUNDING = 1e-9;     // s
+constexpr double TIME_ROUNDING = 1e-9;    // s
 constexpr double DRIVEN_TOLERANCE = 0.01; // m: drives by PD alone do not hold the millimetre
 
 //! The two that move the tool by trajectories keep the camera's direction, so that it goes on seeing what it looks at.

@@ -190,9 +190,9 @@ protected:
     for (Sight &sight : frame.sights) {
       sight.sentence = "depths go into the map, objects are not told apart";
     }
-    result.erase(std::remove_if(result.begin(), result.end(),
-                                [](const auto &s) { return s.shape.octree().cells().empty(); }),
-                 result.end());
+    result.erase(
+        std::remove_if(result.begin(), result.end(), [](const auto &s) { return s.shape.octree().cells().empty(); }),
+        result.end());
   }
 
 private:

@@ -21,22 +21,22 @@ namespace avoidObstacle
  */
 struct FieldTask {
   std::vector<Eigen::Vector2d> places = {{0.05, 0.15}, {0.05, 0.3}, {0., 0.45}}; //!< From (0, 0), m.
-  double slot = 2.5;                          //!< For each place, s, and twice as long for the last one.
-  Eigen::Vector2d obstacle = {-0.12, 0.4};    //!< m.
-  double sight = 0.2;      //!< Farther along y the camera does not see it, m.
-  double gain = 2.;        //!< x'_t = gain (place - x), 1/s.
-  double avoidSpeed = 0.25; //!< x'_oa, m/s.
-  double period = 0.005;   //!< s.
+  double slot = 2.5;                       //!< For each place, s, and twice as long for the last one.
+  Eigen::Vector2d obstacle = {-0.12, 0.4}; //!< m.
+  double sight = 0.2;                      //!< Farther along y the camera does not see it, m.
+  double gain = 2.;                        //!< x'_t = gain (place - x), 1/s.
+  double avoidSpeed = 0.25;                //!< x'_oa, m/s.
+  double period = 0.005;                   //!< s.
 };
 
 //! \brief What became of it.
 struct FieldMotion {
   vpFieldWeightSpec weight;
-  std::vector<double> times;             //!< s.
-  std::vector<Eigen::Vector2d> way;      //!< m.
-  std::vector<double> weights;           //!< w_u.
-  std::vector<double> missed;            //!< Distance from each place at the end of its slot, m.
-  double peakSpeed = 0.;                 //!< m/s.
+  std::vector<double> times;        //!< s.
+  std::vector<Eigen::Vector2d> way; //!< m.
+  std::vector<double> weights;      //!< w_u.
+  std::vector<double> missed;       //!< Distance from each place at the end of its slot, m.
+  double peakSpeed = 0.;            //!< m/s.
 };
 
 //! Without an obstacle's weight \e withObstacle is false.

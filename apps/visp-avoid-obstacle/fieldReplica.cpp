@@ -83,25 +83,27 @@ Replica playFieldReplica(const Options &options)
   const FieldMotion strict = followField(task, strictField()), mild = followField(task, mildField()),
                     undisturbed = followField(task, mildField(), false);
   const bool strictFails = strict.missed.back() >= REACHED, mildReaches = mild.missed.back() < REACHED;
-  replica.story = {
-      "With the strict parameters the point ends " + number(1000. * strict.missed.back(), 3) + " mm from its end and " +
-          (strictFails ? "does not reach it" : "reaches it") + ", with the mild ones " +
-          number(1000. * mild.missed.back(), 3) + " mm from it, which counts as " + (mildReaches ? "reached." : "missed."),
-      "Nothing is known of speeds beforehand: they go up to " + number(strict.peakSpeed, 3) + " and " +
-          number(mild.peakSpeed, 3) + " m/s and jump where a new place is told or the obstacle comes into view."};
-  replica.comparisons = {
-      {"strict (upper): end reached", "no", strictFails ? "no" : "yes", strictFails},
-      {"mild (lower): end reached", "yes", mildReaches ? "yes" : "no", mildReaches},
-      {"strict: vias reached", "no", "missed by " + missedText(strict) + " (the end last)",
-       strict.missed[1] >= REACHED},
-      {"mild stays closer to the way without obstacle", "yes",
-       "missed by " + missedText(mild) + " (the end last)", mild.missed[1] < strict.missed[1]},
-      {"bounds on speed and acceleration", "none", "none"},
-      {"clearance", "not told",
-       number(1000. * (strict.way.back() - task.obstacle).norm(), 3) + " and " +
-           number(1000. * (mild.way.back() - task.obstacle).norm(), 3) + " mm from the obstacle's centre in the end"}};
+  replica.story = {"With the strict parameters the point ends " + number(1000. * strict.missed.back(), 3) +
+                       " mm from its end and " + (strictFails ? "does not reach it" : "reaches it") +
+                       ", with the mild ones " + number(1000. * mild.missed.back(), 3) +
+                       " mm from it, which counts as " + (mildReaches ? "reached." : "missed."),
+                   "Nothing is known of speeds beforehand: they go up to " + number(strict.peakSpeed, 3) + " and " +
+                       number(mild.peakSpeed, 3) +
+                       " m/s and jump where a new place is told or the obstacle comes into view."};
+  replica.comparisons = {{"strict (upper): end reached", "no", strictFails ? "no" : "yes", strictFails},
+                         {"mild (lower): end reached", "yes", mildReaches ? "yes" : "no", mildReaches},
+                         {"strict: vias reached", "no", "missed by " + missedText(strict) + " (the end last)",
+                          strict.missed[1] >= REACHED},
+                         {"mild stays closer to the way without obstacle", "yes",
+                          "missed by " + missedText(mild) + " (the end last)", mild.missed[1] < strict.missed[1]},
+                         {"bounds on speed and acceleration", "none", "none"},
+                         {"clearance", "not told",
+                          number(1000. * (strict.way.back() - task.obstacle).norm(), 3) + " and " +
+                              number(1000. * (mild.way.back() - task.obstacle).norm(), 3) +
+                              " mm from the obstacle's centre in the end"}};
   replica.choices = {
-      "The thesis gives no numbers: places, obstacle, d_0 = 0.12 and 0.06 m, k_s = 0.06 and 0.03 m, w_s = 0.5, gain 2 /s "
+      "The thesis gives no numbers: places, obstacle, d_0 = 0.12 and 0.06 m, k_s = 0.06 and 0.03 m, w_s = 0.5, gain 2 "
+      "/s "
       "and x'_oa = 0.25 m/s are ours. Distances are in m instead of px, which is a matter of scale.",
       "As in the text only x is affected by the obstacle; the camera sees it while it is within 0.2 m along y."};
   add("strict", strict, replica);
@@ -113,9 +115,9 @@ Replica playFieldReplica(const Options &options)
   figure.name = "motion";
   figure.title = "The ways with strict (top) and mild (middle) parameters, and the weights";
   figure.caption = "The circle is where the weight has fallen by half.";
-  figure.svg = vpApp::renderPanels({draw(task, strict, undisturbed, "Strict parameters"),
-                                    draw(task, mild, undisturbed, "Mild parameters"), weights},
-                                   vpApp::PlotFormat::Svg);
+  figure.svg = vpApp::renderPanels(
+      {draw(task, strict, undisturbed, "Strict parameters"), draw(task, mild, undisturbed, "Mild parameters"), weights},
+      vpApp::PlotFormat::Svg);
   replica.figures = {figure};
   return replica;
 }

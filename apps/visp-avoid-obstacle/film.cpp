@@ -112,8 +112,8 @@ private:
   {
     for (const vpPlacedCapsule &capsule : vpApp::placeArm(*m_run->spec.arm, now.q).capsules) {
       const int width = std::max(1, cvRound(2. * capsule.radius * m_scale));
-      cv::line(picture, pixel(vpApp::project(capsule.from, m_view)), pixel(vpApp::project(capsule.to, m_view)), ARM, width,
-               cv::LINE_AA, SUBPIXEL);
+      cv::line(picture, pixel(vpApp::project(capsule.from, m_view)), pixel(vpApp::project(capsule.to, m_view)), ARM,
+               width, cv::LINE_AA, SUBPIXEL);
     }
     std::vector<cv::Point> way;
     for (const vpAvoidanceSample &s : m_run->samples) {

@@ -85,6 +85,7 @@ void avoid(const Options &options, const std::string &commandLine)
   if (options.record || window) {
     film.name = options.record ? "video.mp4" : "";
     film.forBrowsers = makeFilm(episode, options.record ? out.file(film.name) : "", window.get());
+    film.bytes = options.record ? vpApp::readFile(out.file(film.name)) : "";
   }
   const std::vector<Figure> figures = drawAll(scene, options, episode);
   for (const Figure &figure : figures) {

@@ -112,15 +112,16 @@ void requireNothingElse(const CLI::App &app)
 
 //! What is read as text, so that messages can name it.
 struct Texts {
-  std::string visionRate = "30", latency = "0.05", duration = "20", noise = "2", forget = "0", friction = "1", seed = "1";
+  std::string visionRate = "30", latency = "0.05", duration = "20", noise = "2", forget = "0", friction = "1",
+              seed = "1";
   std::string sensor = "image";
   std::vector<std::string> hidden;
 };
 
 void addOptions(CLI::App &app, Options &options, Texts &texts)
 {
-  app.add_option("--method", options.method, "How to avoid: " + vpApp::enumerate(avoidanceMethodNames()) +
-                                                 " (default: dtg-via)")
+  app.add_option("--method", options.method,
+                 "How to avoid: " + vpApp::enumerate(avoidanceMethodNames()) + " (default: dtg-via)")
       ->option_text("NAME");
   app.add_option("--scene", options.scene, "Obstacles and motion (default: data/scene/photo-box.json)")
       ->check(CLI::ExistingFile)

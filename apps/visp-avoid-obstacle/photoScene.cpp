@@ -123,10 +123,9 @@ PhotoScene loadPhotoScene(const Options &options)
   scene.known = content.spec;
   scene.carriers = content.photos;
   scene.remarks = content.warnings;
-  scene.targets =
-      options.targets.empty()
-          ? std::filesystem::path(vpApp::dataFile("target/targets.json")).parent_path().string()
-          : options.targets;
+  scene.targets = options.targets.empty()
+                      ? std::filesystem::path(vpApp::dataFile("target/targets.json")).parent_path().string()
+                      : options.targets;
   requireTask(scene, content);
   scene.task = content.tasks.front();
   if (scene.carriers.empty()) {

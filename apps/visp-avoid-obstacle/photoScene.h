@@ -24,13 +24,13 @@ namespace avoidObstacle
 struct PhotoScene {
   std::shared_ptr<const vpArmModel> arm;
   std::string name;
-  vpCollisionSceneSpec known;                  //!< Objects without a photograph, and the ground.
-  std::vector<vpMovingObstacle> obstacles;     //!< Those with one: have to be seen.
-  std::vector<vpObjectPhoto> carriers;         //!< Which obstacle carries which target.
-  vpSceneCameraSpec camera;                    //!< With the photographs.
-  std::string targets;                         //!< Folder of all photographs that are known.
-  vpMotionTask task;                           //!< The first one of the file.
-  std::vector<std::string> remarks;            //!< A sentence each.
+  vpCollisionSceneSpec known;              //!< Objects without a photograph, and the ground.
+  std::vector<vpMovingObstacle> obstacles; //!< Those with one: have to be seen.
+  std::vector<vpObjectPhoto> carriers;     //!< Which obstacle carries which target.
+  vpSceneCameraSpec camera;                //!< With the photographs.
+  std::string targets;                     //!< Folder of all photographs that are known.
+  vpMotionTask task;                       //!< The first one of the file.
+  std::vector<std::string> remarks;        //!< A sentence each.
 
   //! Name of the obstacle that carries a target; the target's own name when none does.
   [[nodiscard]] std::string carrierOf(const std::string &target) const;

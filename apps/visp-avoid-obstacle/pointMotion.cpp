@@ -12,8 +12,8 @@ namespace avoidObstacle
 {
 namespace
 {
-constexpr int DENSE = 10;        // looks a period
-constexpr double LONGEST = 30.;  // s
+constexpr int DENSE = 10;       // looks a period
+constexpr double LONGEST = 30.; // s
 
 double norm(const vpTrajectoryPlan &plan, double t, int order)
 {
@@ -81,10 +81,9 @@ PointMotion follow(const PointTask &task)
     look(trajectory, output, motion);
     motion.jump = std::max(motion.jump, (output.state.a - motion.samples.back().acceleration).norm());
     motion.plans += output.newPlan ? 1 : 0;
-    motion.samples.push_back(
-        {now + pointPeriod, output.state.q, output.state.v, output.state.a, input.goal.q});
-    const bool rests = (result == vpTrajectoryResult::Finished || result == vpTrajectoryResult::Holding) &&
-                       next == task.events.size();
+    motion.samples.push_back({now + pointPeriod, output.state.q, output.state.v, output.state.a, input.goal.q});
+    const bool rests =
+        (result == vpTrajectoryResult::Finished || result == vpTrajectoryResult::Holding) && next == task.events.size();
     motion.arrival = rests && motion.arrived ? motion.arrival : now + pointPeriod;
     motion.arrived = rests;
     if (rests && now + pointPeriod >= task.duration) {

@@ -20,29 +20,29 @@ namespace avoidObstacle
 {
 //! \brief At some time the point is told to go elsewhere.
 struct PointEvent {
-  double time = 0.;                                //!< s.
-  Eigen::Vector2d goal = Eigen::Vector2d::Zero();  //!< m.
-  std::optional<Eigen::Vector2d> via;              //!< On the way there, m.
+  double time = 0.;                               //!< s.
+  Eigen::Vector2d goal = Eigen::Vector2d::Zero(); //!< m.
+  std::optional<Eigen::Vector2d> via;             //!< On the way there, m.
 };
 
 //! \brief What a point is to do, from rest.
 struct PointTask {
-  Eigen::Vector2d start = Eigen::Vector2d::Zero();                 //!< m.
-  Eigen::Vector2d goal = Eigen::Vector2d::Zero();                  //!< m.
-  double maxSpeed = std::numeric_limits<double>::infinity();       //!< Norm, m/s.
+  Eigen::Vector2d start = Eigen::Vector2d::Zero();                  //!< m.
+  Eigen::Vector2d goal = Eigen::Vector2d::Zero();                   //!< m.
+  double maxSpeed = std::numeric_limits<double>::infinity();        //!< Norm, m/s.
   double maxAcceleration = std::numeric_limits<double>::infinity(); //!< Norm, m/s^2.
   double viaShare = 0.5;          //!< Time of a via as a part of the move from its event on.
   std::vector<PointEvent> events; //!< In the order of time.
   //! Goals that are told again and again, s to m; empty: none. Then the time of arrival is kept.
   std::function<Eigen::Vector2d(double)> told;
-  double toldEvery = 0.02;  //!< s.
-  double floor = 0.;        //!< No plan is shorter, s.
-  double duration = 3.;     //!< At least, s; it goes on until the point is at rest.
+  double toldEvery = 0.02; //!< s.
+  double floor = 0.;       //!< No plan is shorter, s.
+  double duration = 3.;    //!< At least, s; it goes on until the point is at rest.
 };
 
 //! \brief One millisecond of it.
 struct PointSample {
-  double time = 0.; //!< s.
+  double time = 0.;                                    //!< s.
   Eigen::Vector2d place, velocity, acceleration, goal; //!< m; goal as it was told.
 };
 
@@ -50,11 +50,11 @@ struct PointSample {
 struct PointMotion {
   std::vector<PointSample> samples;
   bool arrived = false;
-  double arrival = 0.;            //!< s.
-  double peakSpeed = 0.;          //!< Norm, between the samples, too: ten times as dense.
-  double peakAcceleration = 0.;   //!< The same.
-  double jump = 0.;               //!< Largest change of the acceleration from one sample to the next, m/s^2.
-  int plans = 0;                  //!< That were made.
+  double arrival = 0.;          //!< s.
+  double peakSpeed = 0.;        //!< Norm, between the samples, too: ten times as dense.
+  double peakAcceleration = 0.; //!< The same.
+  double jump = 0.;             //!< Largest change of the acceleration from one sample to the next, m/s^2.
+  int plans = 0;                //!< That were made.
 };
 
 constexpr double pointPeriod = 1e-3; //!< s, thesis 8.3.1: local control at 1 kHz.

@@ -22,7 +22,7 @@ using Eigen::Vector2d;
 using vpApp::fixed;
 using vpApp::number;
 
-constexpr double ROUNDING = 1e-9; // relative: a bound counts as kept
+constexpr double ROUNDING = 1e-9;   // relative: a bound counts as kept
 constexpr double GOAL_NOISE = 0.01; // m
 constexpr std::size_t THIN = 4;
 
@@ -118,15 +118,10 @@ void finish(const PointTask &task, const PointMotion &motion, Replica &replica)
   replica.comparisons.push_back({"clearance", "not told", "not known: the thesis does not say where the obstacle was"});
   replica.figures.push_back(draw(task, motion));
   replica.tables.emplace_back("samples.csv", csvOf(motion));
-  replica.numbers = {{"arrived", motion.arrived},
-                     {"arrival_s", motion.arrival},
-                     {"peak_v", motion.peakSpeed},
-                     {"peak_a", motion.peakAcceleration},
-                     {"largest_step_of_a", motion.jump},
-                     {"plans", motion.plans},
-                     {"end_m", {end.x(), end.y()}},
-                     {"goal_m", {goal.x(), goal.y()}},
-                     {"clearance_m", nullptr}};
+  replica.numbers = {
+      {"arrived", motion.arrived},         {"arrival_s", motion.arrival},      {"peak_v", motion.peakSpeed},
+      {"peak_a", motion.peakAcceleration}, {"largest_step_of_a", motion.jump}, {"plans", motion.plans},
+      {"end_m", {end.x(), end.y()}},       {"goal_m", {goal.x(), goal.y()}},   {"clearance_m", nullptr}};
 }
 
 void compareSpeed(const PointTask &task, const PointMotion &motion, Replica &replica)
@@ -198,16 +193,15 @@ void compareFollowing(const PointTask &task, const PointMotion &motion, Replica 
   replica.comparisons.push_back({"acceleration", "at most 1 m/s^2, guaranteed",
                                  "at most " + number(motion.peakAcceleration, 6) + " m/s^2, looked at every 0.1 ms",
                                  kept});
-  replica.comparisons.push_back({"goal", "50 Hz of a 1 kHz loop, noise \"50 % standard deviation\"",
-                                 "50 Hz of a 1 kHz loop, noise of " + number(1000. * GOAL_NOISE, 3) +
-                                     " mm (standard deviation of each axis)"});
+  replica.comparisons.push_back(
+      {"goal", "50 Hz of a 1 kHz loop, noise \"50 % standard deviation\"",
+       "50 Hz of a 1 kHz loop, noise of " + number(1000. * GOAL_NOISE, 3) + " mm (standard deviation of each axis)"});
   replica.comparisons.push_back({"continuity", "place and acceleration continuous",
                                  "acceleration changes by at most " + number(motion.jump, 3) + " m/s^2 in 1 ms"});
   replica.story.push_back("The point followed the object with no more than " + number(motion.peakAcceleration, 6) +
-                          " m/s^2 where " + number(task.maxAcceleration, 3) +
-                          " m/s^2 are allowed; it was off by " + number(1000. * rms, 3) +
-                          " mm (rms over all of it, setting out included) and by " + number(1000. * after, 3) +
-                          " mm when the object moved for the second time.");
+                          " m/s^2 where " + number(task.maxAcceleration, 3) + " m/s^2 are allowed; it was off by " +
+                          number(1000. * rms, 3) + " mm (rms over all of it, setting out included) and by " +
+                          number(1000. * after, 3) + " mm when the object moved for the second time.");
   replica.numbers["goal_noise_m"] = GOAL_NOISE;
   replica.numbers["rms_distance_m"] = rms;
 }
@@ -225,8 +219,9 @@ Replica playPointReplica(const Options &options)
   finish(task, motion, replica);
   if (options.replica == "fig8.13") {
     compareFollowing(task, motion, replica);
-    replica.choices = {"\"50 % standard deviation\" has no unit; the noise here is 10 mm until the object rests at 1.9 s.",
-                       "The time of arrival is kept from one goal to the next (KeepArrival), at least 0.4 s ahead."};
+    replica.choices = {
+        "\"50 % standard deviation\" has no unit; the noise here is 10 mm until the object rests at 1.9 s.",
+        "The time of arrival is kept from one goal to the next (KeepArrival), at least 0.4 s ahead."};
     return replica;
   }
   compareSpeed(task, motion, replica);
@@ -237,8 +232,8 @@ Replica playPointReplica(const Options &options)
                      "No bound on the acceleration is told, so there is none here."};
   if (event.via) {
     const double missed = distanceFrom(motion, *event.via);
-    replica.comparisons.push_back({"goes through", text(*event.via), "passes it at " + number(1000. * missed, 2) + " mm",
-                                   missed < 1e-3});
+    replica.comparisons.push_back(
+        {"goes through", text(*event.via), "passes it at " + number(1000. * missed, 2) + " mm", missed < 1e-3});
     replica.numbers["via_distance_m"] = missed;
     replica.choices.emplace_back("When to be at the via is not told; it is half way in time from the event on.");
   }

@@ -76,7 +76,7 @@ void PrescribedMotion::step(const vpJointVector &q, vpAvoidanceOutput &output) n
   output.wanted = m_output.state.q;
   const bool rests =
       (result == vpTrajectoryResult::Finished || result == vpTrajectoryResult::Holding) && m_next == m_events.size();
-  output.status = rests         ? vpAvoidanceStatus::Arrived
+  output.status = rests        ? vpAvoidanceStatus::Arrived
                   : m_next > 1 ? vpAvoidanceStatus::Detouring
                                : vpAvoidanceStatus::Moving;
 }

@@ -29,14 +29,14 @@ struct Comparison {
 
 //! \brief A figure that was repeated.
 struct Replica {
-  std::string name;                                          //!< "fig8.7"
-  std::string title;                                         //!< What the figure shows.
-  std::vector<std::string> story;                            //!< What came out; the first sentence answers.
-  std::vector<std::string> choices;                          //!< What the thesis leaves open, and what we took.
+  std::string name;                 //!< "fig8.7"
+  std::string title;                //!< What the figure shows.
+  std::vector<std::string> story;   //!< What came out; the first sentence answers.
+  std::vector<std::string> choices; //!< What the thesis leaves open, and what we took.
   std::vector<Comparison> comparisons;
   std::vector<Figure> figures;
-  std::vector<std::pair<std::string, std::string>> tables;   //!< Names of CSV files and their content.
-  nlohmann::ordered_json numbers;                            //!< For summary.json.
+  std::vector<std::pair<std::string, std::string>> tables; //!< Names of CSV files and their content.
+  nlohmann::ordered_json numbers;                          //!< For summary.json.
 };
 
 //! Names for --replica: "fig8.6" to "fig8.13".

@@ -30,22 +30,22 @@ void addNumbers(HtmlReport &page, const vpAvoidanceRun &run)
   const vpAvoidanceMetrics &m = run.metrics;
   const vpAvoidanceMethodSpec &limits = run.spec.methodSpec;
   const JointUse use = jointUseOf(run);
-  page.facts({{"Ended", m.status},
-              {"Duration", fixed(m.duration_s, 2) + " s"},
-              {"Distance from the goal in the end", mm(m.goal_error_m) + " mm"},
-              {"Least clearance of the whole arm, true scene, at every instant", mm(m.min_clearance_m) + " mm"},
-              {"Commanded tool, speed", bounded(m.peak_v, limits.maxVelocity, "m/s")},
-              {"Commanded tool, acceleration", bounded(m.peak_a, limits.maxAcceleration, "m/s^2")},
-              {"Periods over these bounds without a protective stop", std::to_string(m.tool_v_violations) + " and " +
-                                                                          std::to_string(m.tool_a_violations)},
-              {"Joints, part of their velocity limits", fixed(100. * use.velocity, 0) + " %"},
-              {"Joints, part of their acceleration limits", fixed(100. * use.acceleration, 0) + " %"},
-              {"Protective stops, of them without a reason",
-               std::to_string(m.stops) + ", " + std::to_string(m.false_stops)},
-              {"Way of the tool", fixed(m.path_length, 3) + " m"},
-              {"Time of a look at a new picture, median / 99 %",
-               number(m.replan_ms_p50, 2) + " / " + number(m.replan_ms_p99, 2) + " ms"}},
-             "The run in numbers");
+  page.facts(
+      {{"Ended", m.status},
+       {"Duration", fixed(m.duration_s, 2) + " s"},
+       {"Distance from the goal in the end", mm(m.goal_error_m) + " mm"},
+       {"Least clearance of the whole arm, true scene, at every instant", mm(m.min_clearance_m) + " mm"},
+       {"Commanded tool, speed", bounded(m.peak_v, limits.maxVelocity, "m/s")},
+       {"Commanded tool, acceleration", bounded(m.peak_a, limits.maxAcceleration, "m/s^2")},
+       {"Periods over these bounds without a protective stop",
+        std::to_string(m.tool_v_violations) + " and " + std::to_string(m.tool_a_violations)},
+       {"Joints, part of their velocity limits", fixed(100. * use.velocity, 0) + " %"},
+       {"Joints, part of their acceleration limits", fixed(100. * use.acceleration, 0) + " %"},
+       {"Protective stops, of them without a reason", std::to_string(m.stops) + ", " + std::to_string(m.false_stops)},
+       {"Way of the tool", fixed(m.path_length, 3) + " m"},
+       {"Time of a look at a new picture, median / 99 %",
+        number(m.replan_ms_p50, 2) + " / " + number(m.replan_ms_p99, 2) + " ms"}},
+      "The run in numbers");
 }
 
 void addTurns(HtmlReport &page, const vpAvoidanceRun &run)
@@ -53,10 +53,10 @@ void addTurns(HtmlReport &page, const vpAvoidanceRun &run)
   HtmlTable table;
   table.header = {{HtmlCell("from s"), HtmlCell("status", "left"), HtmlCell("what it means", "left")}};
   for (const Turn &turn : turnsOf(run)) {
-    table.rows.push_back({HtmlCell(fixed(turn.time, 2)),
-                          HtmlCell(std::string(toString(turn.status)) + (turn.stopping ? ", protective stop" : ""),
-                                   "left"),
-                          HtmlCell(sentence(turn.status), "left")});
+    table.rows.push_back(
+        {HtmlCell(fixed(turn.time, 2)),
+         HtmlCell(std::string(toString(turn.status)) + (turn.stopping ? ", protective stop" : ""), "left"),
+         HtmlCell(sentence(turn.status), "left")});
   }
   page.table(table, "What the method did; changes shorter than 50 ms are left out");
 }
@@ -93,22 +93,23 @@ std::string hiddenText(const Options &options)
 void addSettings(HtmlReport &page, const PhotoScene &scene, const Options &options, const vpAvoidanceRun &run,
                  const std::string &commandLine)
 {
-  page.facts({{"Command", commandLine},
-              {"Arm", scene.arm->label()},
-              {"Scene, motion", scene.name + ", " + scene.task.name},
-              {"Method", options.method},
-              {"Control", number(1. / run.spec.methodSpec.period, 4) + " Hz"},
-              {"Sensor", std::string(nameOf(options.sensor)) + " at " + number(options.visionRate, 4) + " Hz, " +
-                             number(1000. * options.latency, 4) + " ms from exposure to result"},
-              {"Camera covered", hiddenText(options)},
-              {"Noise of pictures", number(options.noise, 3) + " grey values"},
-              {"Drives", run.spec.drives.ideal ? "ideal"
-                                               : "PD with gravity and friction compensation, torques at 1 kHz against " +
-                                                     number(options.friction, 3) + " times the friction of the file"},
-              {"What is out of view", options.forget > 0. ? "is forgotten after " + number(options.forget, 4) + " s"
-                                                          : std::string("stays where it was, and its uncertainty grows")},
-              {"Seed", std::to_string(options.seed)}},
-             "Settings");
+  page.facts(
+      {{"Command", commandLine},
+       {"Arm", scene.arm->label()},
+       {"Scene, motion", scene.name + ", " + scene.task.name},
+       {"Method", options.method},
+       {"Control", number(1. / run.spec.methodSpec.period, 4) + " Hz"},
+       {"Sensor", std::string(nameOf(options.sensor)) + " at " + number(options.visionRate, 4) + " Hz, " +
+                      number(1000. * options.latency, 4) + " ms from exposure to result"},
+       {"Camera covered", hiddenText(options)},
+       {"Noise of pictures", number(options.noise, 3) + " grey values"},
+       {"Drives", run.spec.drives.ideal ? "ideal"
+                                        : "PD with gravity and friction compensation, torques at 1 kHz against " +
+                                              number(options.friction, 3) + " times the friction of the file"},
+       {"What is out of view", options.forget > 0. ? "is forgotten after " + number(options.forget, 4) + " s"
+                                                   : std::string("stays where it was, and its uncertainty grows")},
+       {"Seed", std::to_string(options.seed)}},
+      "Settings");
 }
 } // namespace
 
@@ -143,8 +144,11 @@ std::string reportPage(const PhotoScene &scene, const Options &options, const Ep
   add("way");
   addTurns(page, episode.run);
   add("animation");
-  if (!film.name.empty()) {
-    page.paragraph("Video: " + film.name + (film.forBrowsers ? "." : " (for players, browsers do not play it)."));
+  if (!film.name.empty() && film.forBrowsers) {
+    page.videos({{vpApp::dataUri("video/mp4", film.bytes), "Camera and arm, " + film.name + "."}});
+  }
+  else if (!film.name.empty()) {
+    page.paragraph("Video: " + film.name + ", for players; browsers do not play it.");
   }
   page.section("What was seen");
   add("views");

@@ -21,6 +21,7 @@ namespace avoidObstacle
 struct FilmFile {
   std::string name; //!< In the result folder; empty: there is none.
   bool forBrowsers = true;
+  std::string bytes; //!< Its content.
 };
 
 //! Adds a figure to a page.

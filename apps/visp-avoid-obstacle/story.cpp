@@ -90,7 +90,8 @@ std::string seeing(const Acquaintance &a, const vpAvoidanceRun &run)
   if (!a.firstSeen) {
     return "Obstacle " + a.object + " was never seen, so the method never knew of it.";
   }
-  std::string text = "Obstacle " + a.object + " was first seen in the picture of " + fixed(*a.firstSeen, 3) + " s and " +
+  std::string text = "Obstacle " + a.object + " was first seen in the picture of " + fixed(*a.firstSeen, 3) +
+                     " s and " +
                      (a.known ? "known to the method at " + fixed(*a.known, 3) + " s" : "never known to the method") +
                      "; it was seen in " + std::to_string(a.seen) + " of " + std::to_string(a.frames) +
                      " pictures, with errors of " + mm(a.medianError) + " (median) and " + mm(a.worstError) +

@@ -18,18 +18,18 @@ namespace avoidObstacle
 //! \brief How one obstacle was seen.
 struct Acquaintance {
   std::string object;
-  std::size_t frames = 0;             //!< In which it was there.
-  std::size_t seen = 0;               //!< Of them.
-  std::optional<double> firstSeen;    //!< Exposure, s.
-  std::optional<double> known;        //!< First time that the method knew of it, s.
-  std::optional<double> lastSeen;     //!< Exposure, s.
-  std::optional<double> lost;         //!< First exposure after #lastSeen, s; none: seen to the end.
-  double gap = 0.;                    //!< Longest time between two exposures in which it was seen, s.
-  double medianError = 0.;            //!< Of the seen place, m.
-  double worstError = 0.;             //!< m.
-  double medianSigma = 0.;            //!< That the sightings told, m.
-  double worstTrackError = 0.;        //!< Of the place in the track table, m.
-  double leastMargin = 0.;            //!< Least inflation less error of the track while there was one, m.
+  std::size_t frames = 0;          //!< In which it was there.
+  std::size_t seen = 0;            //!< Of them.
+  std::optional<double> firstSeen; //!< Exposure, s.
+  std::optional<double> known;     //!< First time that the method knew of it, s.
+  std::optional<double> lastSeen;  //!< Exposure, s.
+  std::optional<double> lost;      //!< First exposure after #lastSeen, s; none: seen to the end.
+  double gap = 0.;                 //!< Longest time between two exposures in which it was seen, s.
+  double medianError = 0.;         //!< Of the seen place, m.
+  double worstError = 0.;          //!< m.
+  double medianSigma = 0.;         //!< That the sightings told, m.
+  double worstTrackError = 0.;     //!< Of the place in the track table, m.
+  double leastMargin = 0.;         //!< Least inflation less error of the track while there was one, m.
 };
 
 //! One for each obstacle, in the order of the scene.

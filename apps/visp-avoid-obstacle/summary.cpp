@@ -114,16 +114,9 @@ Json summaryOf(const Replica &replica, const Options &options, const std::string
   for (const Comparison &c : replica.comparisons) {
     comparisons.push_back({{"what", c.what}, {"thesis", c.thesis}, {"here", c.ours}, {"agrees", c.agrees}});
   }
-  return {{"program", "visp-avoid-obstacle"},
-          {"version", versionText()},
-          {"command_line", commandLine},
-          {"wall_time_s", wallTime},
-          {"data", "simulated"},
-          {"replica", replica.name},
-          {"title", replica.title},
-          {"seed", options.seed},
-          {"comparisons", comparisons},
-          {"choices", replica.choices},
-          {"numbers", replica.numbers}};
+  return {{"program", "visp-avoid-obstacle"}, {"version", versionText()},  {"command_line", commandLine},
+          {"wall_time_s", wallTime},          {"data", "simulated"},       {"replica", replica.name},
+          {"title", replica.title},           {"seed", options.seed},      {"comparisons", comparisons},
+          {"choices", replica.choices},       {"numbers", replica.numbers}};
 }
 } // namespace avoidObstacle

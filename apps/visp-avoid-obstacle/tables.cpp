@@ -18,10 +18,7 @@ constexpr int DIGITS = 7;
 class Row
 {
 public:
-  Row &operator<<(double value)
-  {
-    return add(std::isfinite(value) ? vpApp::number(value, DIGITS) : "");
-  }
+  Row &operator<<(double value) { return add(std::isfinite(value) ? vpApp::number(value, DIGITS) : ""); }
   Row &operator<<(const Eigen::Vector3d &p) { return *this << p.x() << p.y() << p.z(); }
   Row &operator<<(const vpJointVector &q)
   {

@@ -132,8 +132,8 @@ TEST_CASE("Figure 8.6: where it comes to rest is where both velocities cancel", 
     double low = 0., high = 0.3;
     for (int i = 0; i < 80; ++i) {
       const double e = 0.5 * (low + high), d = 0.12 + e;
-      const double w = field.height * (std::tanh((d + field.centre) / field.width) -
-                                       std::tanh((d - field.centre) / field.width));
+      const double w =
+          field.height * (std::tanh((d + field.centre) / field.width) - std::tanh((d - field.centre) / field.width));
       ((1. - w) * task.gain * e < w * task.avoidSpeed ? low : high) = e;
     }
     CHECK(motion.way.back().x() == Approx(low).margin(1e-4));

@@ -168,7 +168,7 @@ TEST_CASE("Who watches the track table gets what the method gets, and changes no
   const vpAvoidanceRun watched = runAvoidanceExperiment(spec);
   CHECK(known == Approx(0.03).margin(1e-9)); // first exposure at 0, then the latency
   CHECK(worst > 0.);
-  CHECK(worst < 0.01); // noise of 2 mm
+  CHECK(worst < 0.01);                                 // noise of 2 mm
   REQUIRE(times.size() >= watched.samples.size() - 1); // the last row commands nothing
   for (std::size_t i = 0; i < times.size(); ++i) {
     CHECK(times[i] == Approx(0.005 * static_cast<double>(i)).margin(1e-9));
