@@ -118,7 +118,7 @@ public:
       rebase = false;
       clock = 0.;
       if (!path.plan(tool, task, plan) && !path.stop(tool, plan)) {
-        plan.clear();
+        vpToolPath::hold(tool.x, plan);
       }
     }
     const Vector3d here = vpToolPath::at(plan, clock).x;

@@ -61,6 +61,15 @@ bool vpToolPath::stop(const vpToolState &from, vpTrajectoryPlan &plan) noexcept
   return this->plan(from, task, plan);
 }
 
+void vpToolPath::hold(const Eigen::Vector3d &x, vpTrajectoryPlan &plan) noexcept
+{
+  plan.clear();
+  for (int i = 0; i < 3; ++i) {
+    plan.begin(i, x(i), vpTrajectoryForm::Hold);
+    plan.finish(i, {x(i), 0., 0., 0.}, 0.);
+  }
+}
+
 vpToolState vpToolPath::at(const vpTrajectoryPlan &plan, double t) noexcept
 {
   vpToolState state;

@@ -46,6 +46,8 @@ public:
   //! Brakes straight on. False as above.
   bool stop(const vpToolState &from, vpTrajectoryPlan &plan) noexcept;
 
+  //! Stays at a place.
+  static void hold(const Eigen::Vector3d &x, vpTrajectoryPlan &plan) noexcept;
   //! State on a plan, s from its start.
   [[nodiscard]] static vpToolState at(const vpTrajectoryPlan &plan, double t) noexcept;
   //! An empty plan with room for any of these motions.
