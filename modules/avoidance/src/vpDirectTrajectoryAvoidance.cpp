@@ -19,6 +19,7 @@ namespace
 using Eigen::Vector3d;
 constexpr double offPlan = 1e-3;   // m: a tool farther from its plan than this has left it
 constexpr double correction = 10.; // 1/s, of what the steps leave of second order: gentle, so that it bends no bound
+constexpr double reserve = 0.995;  // of the bound of acceleration, for what the Jacobian leaves out
 constexpr double atGoal = 1e-4;    // m
 constexpr double atRest = 1e-3;    // m/s
 constexpr double ending = 0.5;     // s: the last part of a motion is left as it is, or its smooth end would be lost
@@ -30,6 +31,17 @@ void requireGood(const char *field, double value, bool good, const char *range)
     throw vpException(vpException::badValue, "%s of the direct trajectory avoidance is %g, must be %s", field, value,
                       range);
   }
+}
+
+//! Largest part of a change for which |present + part * change| keeps a bound; the best one where none does. 0..1.
+double partWithin(const Vector3d &present, const Vector3d &change, double bound)
+{
+  const double a = change.squaredNorm(), b = present.dot(change), c = present.squaredNorm() - bound * bound;
+  if ((present + change).norm() <= bound || a == 0.) {
+    return 1.;
+  }
+  const double part = c > 0. ? -b / a : (-b + std::sqrt(std::max(0., b * b - a * c))) / a;
+  return std::clamp(part, 0., 1.);
 }
 } // namespace
 
@@ -64,6 +76,7 @@ public:
     orientation = data.arm.tool.R;
     tool = vpToolState();
     tool.x = data.arm.tool.p;
+    toolVelocity.setZero();
     task = vpToolTask();
     task.goal = tool.x;
     toGoal = false;
@@ -130,6 +143,7 @@ public:
     scene->near(data, motion.spec().repelRange, near);
     const Vector3d wish = (next.x - here) / period + correction * (here - x);
     motion.step(data, near, wish, leaning, orientation, velocity, solved, !stands());
+    keepAcceleration();
     supervisor.step(q, solved.velocity, supervised);
     finish(q, next, output);
   }
@@ -235,6 +249,15 @@ private:
     toGoal = false;
   }
 
+  //! Joints at their limits may bend the way of the tool, but not harder than its bound allows.
+  void keepAcceleration() noexcept
+  {
+    const auto J = data.arm.J.topRows<3>();
+    const Vector3d present = J * velocity - toolVelocity, change = J * (solved.velocity - velocity);
+    const double bound = reserve * spec.common.maxAcceleration * spec.common.period;
+    solved.velocity = velocity + partWithin(present, change, bound) * (solved.velocity - velocity);
+  }
+
   //! What was commanded, where that leads, and whether the plan still holds.
   void finish(const vpJointVector &q, const vpToolState &next, vpAvoidanceOutput &output) noexcept
   {
@@ -244,13 +267,15 @@ private:
     configuration = q + period * supervised.velocity;
     vpArmKinematics::forward(scene->arm(), configuration, data.arm);
     const Vector3d reached = data.arm.tool.p;
+    vpArmKinematics::forward(scene->arm(), q, data.arm);
+    toolVelocity = (reached - data.arm.tool.p) / period;
     velocity = supervised.velocity;
     const bool passed = supervised.status == vpSupervision::Passed;
     if (passed && (reached - next.x).norm() < offPlan) {
       tool = next;
     }
     else {
-      leave(reached, q);
+      leave(reached);
     }
     output.stopping = supervised.status == vpSupervision::Stopping || supervised.status == vpSupervision::Slowed ||
                       supervised.status == vpSupervision::Unsafe;
@@ -263,13 +288,12 @@ private:
   }
 
   //! The next motion starts from what was allowed.
-  void leave(const Vector3d &reached, const vpJointVector &q) noexcept
+  void leave(const Vector3d &reached) noexcept
   {
     const Vector3d before = tool.v;
-    scene->place(q, data);
     vpToolState now;
     now.x = reached;
-    now.v = (reached - data.arm.tool.p) / spec.common.period;
+    now.v = toolVelocity;
     now.a = (now.v - before) / spec.common.period;
     const double fast = spec.common.maxVelocity / std::max(1e-9, now.v.norm());
     const double hard = spec.common.maxAcceleration / std::max(1e-9, now.a.norm());
@@ -295,7 +319,8 @@ private:
   vpToolPath path;
   vpTrajectoryPlan plan;
   vpStopSupervisor supervisor;
-  vpToolState tool; // commanded, at the end of the last period
+  vpToolState tool;                         // commanded, at the end of the last period
+  Vector3d toolVelocity = Vector3d::Zero(); // that it had in the last period, m/s
   Eigen::Matrix3d orientation = Eigen::Matrix3d::Identity();
   vpJointVector leaning;
   double clock = 0.;

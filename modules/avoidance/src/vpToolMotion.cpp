@@ -20,6 +20,7 @@ vpRedundancySpec solverSpec(double period)
   spec.period = period;
   spec.policy = vpLimitPolicy::StopJoints;
   spec.selfAcceleration = 0.2;
+  spec.positionMargin = 0.005; // room for a tool that must not be braked harder
   spec.selfMotion = 1.;
   spec.minSelfMotion = 1.;
   return spec;

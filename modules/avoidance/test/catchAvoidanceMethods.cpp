@@ -30,6 +30,7 @@ struct Drive {
   double worstVelocity = 0.; // largest share of a joint's limit
   double worstAcceleration = 0.;
   double toolSpeed = 0.;
+  double toolAcceleration = 0.; // beside protective stops
   bool unsafe = false;
 };
 
@@ -41,6 +42,8 @@ Drive drive(vpCollisionScene &scene, vpAvoidanceMethod &method, const vpJointVec
   vpJointVector command = vpJointVector::Zero(start.size());
   vpArmData data;
   vpArmKinematics::forward(scene.arm(), start, data);
+  Vector3d toolVelocity = Vector3d::Zero();
+  bool stopped = false;
   for (int k = 0; result.time < duration; ++k) {
     if (k % 7 == 0 && k > 0) {
       method.look();
@@ -58,7 +61,13 @@ Drive drive(vpCollisionScene &scene, vpAvoidanceMethod &method, const vpJointVec
     const Vector3d before = data.tool.p;
     result.q += period * velocity;
     vpArmKinematics::forward(scene.arm(), result.q, data);
-    result.toolSpeed = std::max(result.toolSpeed, (data.tool.p - before).norm() / period);
+    const Vector3d moved = (data.tool.p - before) / period;
+    result.toolSpeed = std::max(result.toolSpeed, moved.norm());
+    if (!result.last.stopping && !stopped) {
+      result.toolAcceleration = std::max(result.toolAcceleration, (moved - toolVelocity).norm() / period);
+    }
+    stopped = result.last.stopping;
+    toolVelocity = moved;
     scene.advance(period);
     result.time += period;
     result.unsafe = result.unsafe || result.last.status == vpAvoidanceStatus::Unsafe;
@@ -181,6 +190,8 @@ TEST_CASE("Among obstacles that stand, methods that foresee keep the margin and 
       CHECK_FALSE(run.unsafe);
       CHECK(run.worstVelocity <= 1. + 1e-9);
       CHECK(run.worstAcceleration <= 1. + 1e-6);
+      CHECK(run.toolSpeed <= 0.5 * 1.01);
+      CHECK(run.toolAcceleration <= 1. * 1.02);
       arrived += run.last.status == vpAvoidanceStatus::Arrived ? 1 : 0;
       if (run.last.status != vpAvoidanceStatus::Arrived) {
         CHECK(run.last.velocity.norm() < 1e-3); // at rest, not wandering
