@@ -257,9 +257,17 @@ TEST_CASE("A goal that is taken, then free: the arm waits, says so, and goes", "
       continue;
     }
     vpCollisionScene scene(amor());
-    const vpJointVector goal = goalNear(rng, scene);
-    const vpAvoidanceGoal wish = vpAvoidanceGoal::at(amor(), goal);
-    const int index = scene.add(ball("guest", wish.position, 0.05));
+    vpAvoidanceGoal wish;
+    int index = -1;
+    vpCollisionData data;
+    do { // a guest that leaves the arm at home alone
+      if (index >= 0) {
+        scene.remove(index);
+      }
+      wish = vpAvoidanceGoal::at(amor(), goalNear(rng, scene));
+      index = scene.add(ball("guest", wish.position, 0.05));
+      scene.place(home(), data);
+    } while (scene.inCollision(data, 0.03));
     const auto method = makeAvoidanceMethod(name, scene);
     CAPTURE(name);
     CHECK(method->start(home(), wish) == vpAvoidanceStatus::GoalInCollision);
