@@ -12,7 +12,7 @@ const std::vector<Part> &catalogue()
 {
   static const std::vector<Part> all = [] {
     std::vector<Part> parts;
-    for (const auto make : {trajectoryParts, minimumJerkParts}) {
+    for (const auto make : {keypointParts, trajectoryParts, patternParts, minimumJerkParts}) {
       for (Part &part : make()) {
         parts.push_back(std::move(part));
       }
