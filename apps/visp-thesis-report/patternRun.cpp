@@ -4,8 +4,9 @@
  */
 #include "patternRun.h"
 
+#include "coreTime.h"
+
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace thesisReport
@@ -85,16 +86,15 @@ std::vector<vpImage<unsigned char>> roundTrip(const vpProductPatternSpec &spec, 
 TrackingTime timeTracking(const std::vector<vpImage<unsigned char>> &images, const vpPatternOptions &options,
                           std::size_t least)
 {
-  using Clock = std::chrono::steady_clock;
   vpPatternTracker tracker(images.front().getWidth(), images.front().getHeight(), options);
   const std::size_t rounds = WARM_UP + (least + images.size() - 1) / images.size();
   TrackingTime time;
   for (std::size_t k = 0; k < rounds * images.size(); ++k) {
-    const auto begin = Clock::now();
+    const double begin = coreSeconds();
     const vpPatternFrame &frame = tracker.track(images[k % images.size()]);
-    const auto end = Clock::now();
+    const double end = coreSeconds();
     if (k >= WARM_UP * images.size()) {
-      time.us.add(std::chrono::duration<double, std::micro>(end - begin).count());
+      time.us.add(1e6 * (end - begin));
       time.locked += frame.status == vpPatternStatus::Tracking ? 1. : 0.;
       time.cells += frame.validCells;
     }

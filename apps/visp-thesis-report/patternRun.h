@@ -47,7 +47,7 @@ struct CentreErrors {
 
 //! \brief How long an image takes.
 struct TrackingTime {
-  Spread us;          //!< Of each image, us.
+  Spread us;          //!< Of each image, us, see coreSeconds().
   double locked = 0.; //!< Share of the images with status Tracking; baselines without a template too.
   double cells = 0.;  //!< Valid cells of an image, mean.
   double pitchX = 0.; //!< Distance of neighbouring cells along the row, from the tracker's lattice, px.
@@ -55,7 +55,7 @@ struct TrackingTime {
   [[nodiscard]] double sustainedRate() const { return 1e6 / us.quantile(0.99); }
 };
 
-//! Time vpPatternTracker::track() alone, on one core, once the template is learned.
+//! Time of vpPatternTracker::track() alone, once the template is learned.
 [[nodiscard]] TrackingTime timeTracking(const std::vector<vpImage<unsigned char>> &images,
                                         const vpPatternOptions &options, std::size_t least);
 } // namespace thesisReport
