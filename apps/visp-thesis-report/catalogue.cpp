@@ -12,7 +12,8 @@ const std::vector<Part> &catalogue()
 {
   static const std::vector<Part> all = [] {
     std::vector<Part> parts;
-    for (const auto make : {trajectoryParts, minimumJerkParts}) {
+    for (const auto make : {servoParts, trajectoryParts, printingParts, avoidanceParts, armTrackingParts,
+                            selfMotionParts, minimumJerkParts}) {
       for (Part &part : make()) {
         parts.push_back(std::move(part));
       }
