@@ -208,7 +208,7 @@ Replica playArmReplica(const Options &options)
       "together when that is 0.4 s, which is our choice. Without it the motion were almost over at 0.95 s.",
       "The motion is in a plane 0.35 m above the ground, which is not told, and the orientation of the tool is free.",
       "A bound on the acceleration is not told; here it is 2 m/s^2, which the joints can follow.",
-      "Drives by torques with the friction of the arm's file: see --friction."};
+      "Drives by torques with the friction of the arm's file: see option --friction of visp-avoid-obstacle."};
   if (multiPoint) {
     replica.choices.emplace_back("Two arrows, two changes: the via comes at 0.95 s, the final goal at 1.15 s. When to "
                                  "be at the via is not told; "

@@ -79,8 +79,8 @@ Figure draw(const PointTask &task, const PointMotion &motion)
   vpApp::Plot place = vpApp::timePlot("Place", "m"), rate = vpApp::timePlot("Speed", "m/s"),
               change = vpApp::timePlot("Acceleration", "m/s^2");
   place.curves = {vpApp::timeCurve("x", "#1f77b4", times, x), vpApp::timeCurve("y", "#d62728", times, y),
-                  vpApp::timeCurve("x of the goal as told", "#9ecae1", times, goalX),
-                  vpApp::timeCurve("y of the goal as told", "#fcae91", times, goalY)};
+                  vpApp::timeCurve("goal x as told", "#9ecae1", times, goalX),
+                  vpApp::timeCurve("goal y as told", "#fcae91", times, goalY)};
   rate.curves = {vpApp::timeCurve("speed", "#1f77b4", times, speed)};
   change.curves = {vpApp::timeCurve("acceleration", "#1f77b4", times, acceleration)};
   if (std::isfinite(task.maxSpeed)) {

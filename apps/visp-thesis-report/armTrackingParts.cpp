@@ -136,7 +136,7 @@ std::vector<Item> play(const Setting &setting)
                      {"motion", "0.8 of the way of figure 8.8, there and back in 10 s, least jerk"},
                      {"friction", "viscous, Coulomb and static, of the arm's file"}};
   addPlot(item, "errors", "Errors of joints and tool without friction compensation",
-          "Steps are joints that stick and break loose.", {joints, tool});
+          "Friction holds every joint some mrad back, against its direction of motion.", {joints, tool});
   return {item};
 }
 } // namespace

@@ -118,7 +118,8 @@ Item point(const char *id, const Eigen::Vector3d &place, const std::string &name
                      meanRatio(runs, -STRONG, -WEAK, true),
                      {"least of the distance with k_0 = -0.6 minus that with 0", "m", std::nullopt,
                       leastDifference(runs.with(-STRONG), runs.with(0.)), Tolerance::factor(1.1), Good::Neither, "",
-                      "Below 0: for a time the joint is nearer, as in figure 8.14, for the sake of the rest."},
+                      "Below 0 the joint would be nearer for a time, for the sake of the rest, as the thesis sees in "
+                      "figure 8.14; that hangs on the way of the tool."},
                      toolKept(runs)};
   illustrate(runs, name, item);
   item.parameters.emplace_back("point", "[" + vpApp::number(place.x(), 3) + ", " + vpApp::number(place.y(), 3) + ", " +
