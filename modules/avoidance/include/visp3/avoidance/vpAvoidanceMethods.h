@@ -13,10 +13,12 @@
 
 BEGIN_VISP_NAMESPACE
 
+//! \ingroup group_avoidance
 //! Names for makeAvoidanceMethod().
 [[nodiscard]] VISP_EXPORT const std::vector<std::string> &avoidanceMethodNames();
 
 /*!
+ * \ingroup group_avoidance
  * A method by name, with its own parameters at their defaults.
  * \param scene : Must outlive the method.
  * \throw vpException (badValue) naming an unknown method with the known ones, or a field out of range;

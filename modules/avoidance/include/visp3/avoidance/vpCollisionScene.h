@@ -84,10 +84,10 @@ public:
    * negative, a ground without normal, links or objects that do not exist.
    */
   explicit vpCollisionScene(const vpArmModel &arm, const vpCollisionSceneSpec &spec = {});
-  vpCollisionScene(const vpCollisionScene &other);
-  vpCollisionScene(vpCollisionScene &&other) noexcept;
-  vpCollisionScene &operator=(const vpCollisionScene &other);
-  vpCollisionScene &operator=(vpCollisionScene &&other) noexcept;
+  vpCollisionScene(const vpCollisionScene &other);                //!< Copies.
+  vpCollisionScene(vpCollisionScene &&other) noexcept;            //!< Moves.
+  vpCollisionScene &operator=(const vpCollisionScene &other);     //!< Copies.
+  vpCollisionScene &operator=(vpCollisionScene &&other) noexcept; //!< Moves.
   ~vpCollisionScene();
 
   //! The arm.

@@ -11,6 +11,7 @@
 
 BEGIN_VISP_NAMESPACE
 
+//! \ingroup group_avoidance
 //! \brief Which reading of (8.1)-(8.2).
 enum class vpFieldForm {
   Thesis,   //!< As printed: a weight for each image axis by itself, not normalised; may exceed 1.

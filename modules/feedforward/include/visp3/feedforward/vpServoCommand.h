@@ -13,6 +13,7 @@
 
 BEGIN_VISP_NAMESPACE
 
+//! \ingroup group_feedforward
 //! How the servo step went. The motion is safe to execute in every case.
 enum class vpServoStatus {
   Servoing,    //!< The law's own twist.
@@ -26,11 +27,14 @@ enum class vpServoStatus {
   Degenerate    //!< The law has no answer here (too few points, singular interaction matrix); zero twist.
 };
 
+//! \ingroup group_feedforward
 //! The status as a sentence for a person, static text.
 [[nodiscard]] VISP_EXPORT const char *message(vpServoStatus status);
+//! \ingroup group_feedforward
 //! The status as a word ("Servoing"), for files; static text.
 [[nodiscard]] VISP_EXPORT const char *toString(vpServoStatus status);
 
+//! \ingroup group_feedforward
 //! \brief Result of one servo step.
 struct VISP_EXPORT vpServoCommand {
   vpTwist v;                                    //!< Camera twist in the current camera frame, m/s and rad/s.

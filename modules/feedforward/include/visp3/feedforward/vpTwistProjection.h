@@ -27,7 +27,7 @@ BEGIN_VISP_NAMESPACE
 class VISP_EXPORT vpTwistProjection
 {
 public:
-  using Vector = Eigen::Matrix<double, 6, 1>;
+  using Vector = Eigen::Matrix<double, 6, 1>; //!< A twist as six numbers, linear part first.
 
   static constexpr int capacity = 64; //!< Largest number of rows.
 

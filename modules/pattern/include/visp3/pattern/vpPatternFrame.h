@@ -19,6 +19,7 @@
 
 BEGIN_VISP_NAMESPACE
 
+//! \ingroup group_pattern
 //! How far the result can be relied upon.
 enum class vpPatternStatus {
   Acquiring, //!< Looking for the pattern, or learning its template; cells that are valid are measured by their edges.
@@ -27,6 +28,7 @@ enum class vpPatternStatus {
   Lost       //!< No lock in this image; nothing in it is valid.
 };
 
+//! \ingroup group_pattern
 //! Why the status is not Tracking.
 enum class vpPatternReason {
   None,            //!< Nothing to say.
@@ -44,6 +46,7 @@ enum class vpPatternReason {
   NoMatch          //!< The image does not show the pattern where it can be.
 };
 
+//! \ingroup group_pattern
 //! One cell of the pattern.
 struct VISP_EXPORT vpPatternCell {
   int row = 0;    //!< Row, counted downwards; stays with the cell while it moves, within one epoch.
@@ -58,6 +61,7 @@ struct VISP_EXPORT vpPatternCell {
   bool valid = false;     //!< The centre was measured in this image.
 };
 
+//! \ingroup group_pattern
 //! The regular lattice: cell (row, column) is near origin + column * columnPitch + row * rowPitch.
 struct VISP_EXPORT vpPatternLattice {
   double originX = 0.;      //!< Where cell (0, 0) of the lattice would be, px. May be far outside the image.
@@ -76,6 +80,7 @@ struct VISP_EXPORT vpPatternLattice {
 };
 
 /*!
+ * \ingroup group_pattern
  * \brief Everything about one image. The storage belongs to the tracker and is used again for the next image.
  */
 struct VISP_EXPORT vpPatternFrame {
@@ -98,6 +103,7 @@ struct VISP_EXPORT vpPatternFrame {
   [[nodiscard]] const char *message() const;
 };
 
+//! \ingroup group_pattern
 //! The status as a word ("Tracking"), for files; static text.
 [[nodiscard]] VISP_EXPORT const char *toString(vpPatternStatus status);
 

@@ -13,6 +13,7 @@
 
 BEGIN_VISP_NAMESPACE
 
+//! \ingroup group_pattern
 //! How the centre of a cell is measured.
 enum class vpPatternMethod {
   GaussNewton,         //!< Learned template, aligned with the image; the others are baselines to compare with.
@@ -21,6 +22,7 @@ enum class vpPatternMethod {
   ThesisAlgorithmFixed //!< Algorithm 7.4 with (7.12) corrected and sub-pixel edges on all four sides.
 };
 
+//! \ingroup group_pattern
 //! Derivative of table 7.2, for the two variants of Algorithm 7.4.
 enum class vpPatternDerivative {
   Symmetric, //!< 3 x 1, I(y + 1) - I(y - 1).
@@ -29,6 +31,7 @@ enum class vpPatternDerivative {
   Sobel      //!< 3 x 3, weights 1 2 1.
 };
 
+//! \ingroup group_pattern
 //! Which of the two grey classes is the cell.
 enum class vpPatternPolarity {
   Automatic, //!< The one that makes a lattice of equal spots; bright is tried first.
@@ -37,6 +40,7 @@ enum class vpPatternPolarity {
 };
 
 /*!
+ * \ingroup group_pattern
  * \brief Options of vpPatternTracker. The defaults suit every pattern that shows two periods each way.
  */
 struct VISP_EXPORT vpPatternOptions {
@@ -60,8 +64,10 @@ struct VISP_EXPORT vpPatternOptions {
   void check() const;
 };
 
+//! \ingroup group_pattern
 //! The method as a word ("GaussNewton"), for files; static text.
 [[nodiscard]] VISP_EXPORT const char *toString(vpPatternMethod method);
+//! \ingroup group_pattern
 //! The derivative as a word ("Symmetric"), for files; static text.
 [[nodiscard]] VISP_EXPORT const char *toString(vpPatternDerivative derivative);
 

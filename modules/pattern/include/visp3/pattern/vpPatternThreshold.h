@@ -18,6 +18,7 @@
 
 BEGIN_VISP_NAMESPACE
 
+//! \ingroup group_pattern
 //! How the image is divided into bright and dark.
 enum class vpPatternThreshold {
   Otsu,        //!< Greatest variance between the classes (Otsu 1979).
@@ -25,9 +26,11 @@ enum class vpPatternThreshold {
   MinimumError //!< Two normal distributions of least classification error (Kittler and Illingworth 1986).
 };
 
+//! \ingroup group_pattern
 //! Number of pixels of each grey value.
 using vpPatternHistogram = std::array<std::uint32_t, 256>;
 
+//! \ingroup group_pattern
 //! A threshold and how well it divides.
 struct VISP_EXPORT vpPatternThresholdResult {
   int threshold = -1; //!< Values above it are bright; 0 to 254. -1: all pixels have the same value, there is none.
@@ -37,11 +40,13 @@ struct VISP_EXPORT vpPatternThresholdResult {
 };
 
 /*!
+ * \ingroup group_pattern
  * \brief Threshold of a histogram, thesis table 7.1. Allocates nothing; an empty histogram has the threshold -1.
  */
 [[nodiscard]] VISP_EXPORT vpPatternThresholdResult vpFindThreshold(const vpPatternHistogram &histogram,
                                                                    vpPatternThreshold method);
 
+//! \ingroup group_pattern
 //! The method as a word ("Otsu"), for files; static text.
 [[nodiscard]] VISP_EXPORT const char *toString(vpPatternThreshold method);
 

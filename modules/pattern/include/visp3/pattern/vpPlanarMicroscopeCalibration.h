@@ -19,6 +19,7 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
+ * \ingroup group_pattern
  * \brief What vpPlanarMicroscopeCalibration shall find and what it is told.
  */
 struct VISP_EXPORT vpMicroscopeCalibrationOptions {
@@ -36,6 +37,7 @@ struct VISP_EXPORT vpMicroscopeCalibrationOptions {
   void check() const;
 };
 
+//! \ingroup group_pattern
 //! What became of kappa1.
 enum class vpKappa1Status {
   Estimated,    //!< Found; its standard deviation is in the covariance.
@@ -43,6 +45,7 @@ enum class vpKappa1Status {
   NotAsked      //!< vpMicroscopeCalibrationOptions::estimateKappa1 was false: it is 0.
 };
 
+//! \ingroup group_pattern
 //! Where the product lay in one view.
 struct VISP_EXPORT vpMicroscopePlacement {
   double rotation = 0.;       //!< As vpMicroscopeCalibration::rotation, rad.
@@ -51,6 +54,7 @@ struct VISP_EXPORT vpMicroscopePlacement {
   Eigen::Matrix3d covariance; //!< Of (rotation, tx, ty): rad, m, m.
 };
 
+//! \ingroup group_pattern
 //! Numbers of the parameters in vpMicroscopeCalibrationResult::covariance.
 enum vpMicroscopeParameter : int {
   vpMicroscopeScaleX,
@@ -65,6 +69,7 @@ enum vpMicroscopeParameter : int {
 };
 
 /*!
+ * \ingroup group_pattern
  * \brief The calibration with all that tells how good it is.
  */
 struct VISP_EXPORT vpMicroscopeCalibrationResult {
@@ -125,6 +130,7 @@ class VISP_EXPORT vpPlanarMicroscopeCalibration
 public:
   /*!
    * \param width, height : Size of the images, px, each in [8, 65536].
+   * \param options : What to find and how.
    * \throw vpException (badValue) naming what is out of range.
    */
   vpPlanarMicroscopeCalibration(unsigned int width, unsigned int height,
@@ -148,6 +154,7 @@ private:
   std::vector<std::vector<vpCalibrationPoint>> m_views;
 };
 
+//! \ingroup group_pattern
 //! The status as a word ("Estimated"), for files; static text.
 [[nodiscard]] VISP_EXPORT const char *toString(vpKappa1Status status);
 

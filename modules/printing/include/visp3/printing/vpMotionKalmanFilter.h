@@ -17,6 +17,7 @@
 
 BEGIN_VISP_NAMESPACE
 
+//! \ingroup group_printing
 //! What is taken to be random about the motion.
 enum class vpMotionModel {
   ConstantVelocity,    //!< The acceleration is white noise; states are position and velocity.
@@ -24,6 +25,7 @@ enum class vpMotionModel {
 };
 
 /*!
+ * \ingroup group_printing
  * \brief Parameters of a vpMotionKalmanFilter, in a length L (px) and a time T (frame).
  */
 struct VISP_EXPORT vpMotionKalmanSpec {
@@ -44,6 +46,7 @@ struct VISP_EXPORT vpMotionKalmanSpec {
   void validate() const;
 };
 
+//! \ingroup group_printing
 //! Kind of a vpMotionReading.
 enum class vpMotionReadingKind {
   Position,     //!< Position itself, such as a cell whose identity is known.
@@ -52,6 +55,7 @@ enum class vpMotionReadingKind {
   Encoder       //!< p (1 + scale) + offset.
 };
 
+//! \ingroup group_printing
 //! \brief One measurement.
 struct VISP_EXPORT vpMotionReading {
   vpMotionReadingKind kind = vpMotionReadingKind::Position; //!< What was measured.
@@ -60,6 +64,7 @@ struct VISP_EXPORT vpMotionReading {
   double sigma = 1.;                                        //!< Its standard deviation, L, > 0.
 };
 
+//! \ingroup group_printing
 //! What became of a reading.
 enum class vpMotionReadingResult {
   Used,    //!< It counts.
@@ -69,6 +74,7 @@ enum class vpMotionReadingResult {
   NoMark   //!< A displacement before any Mark: it counts as a Mark.
 };
 
+//! \ingroup group_printing
 //! \brief State of the motion at an instant.
 struct VISP_EXPORT vpMotionEstimate {
   double time = 0.;              //!< T.

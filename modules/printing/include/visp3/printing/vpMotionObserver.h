@@ -18,6 +18,7 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
+ * \ingroup group_printing
  * \brief Parameters of a vpMotionObserver: length L (px), time T (frame), force F.
  */
 struct VISP_EXPORT vpMotionObserverSpec {
@@ -37,6 +38,7 @@ struct VISP_EXPORT vpMotionObserverSpec {
   void validate() const;
 };
 
+//! \ingroup group_printing
 //! \brief State of the axis at an instant.
 struct VISP_EXPORT vpObservedMotion {
   double time = 0.;          //!< T.

@@ -18,12 +18,14 @@
 
 BEGIN_VISP_NAMESPACE
 
+//! \ingroup group_printing
 //! How the instant is found.
 enum class vpPrintTriggerMethod {
   Horizon,        //!< Each cell has an identity and a latch and is scheduled ahead.
   ThesisAlgorithm //!< Algorithm 7.5 as printed, for comparison: no memory, no delay of the camera; misses and doubles cells.
 };
 
+//! \ingroup group_printing
 //! Axis of the image along which the cells come to the nozzle.
 enum class vpPrintAxis {
   X, //!< To the right or left.
@@ -31,6 +33,7 @@ enum class vpPrintAxis {
 };
 
 /*!
+ * \ingroup group_printing
  * \brief Parameters of a vpPrintTrigger. Lengths in px, times in frames, both from the top left pixel's centre and from
  * any common zero. "Along" is the axis of motion, "across" the other one.
  */
@@ -57,6 +60,7 @@ struct VISP_EXPORT vpPrintTriggerSpec {
   void validate() const;
 };
 
+//! \ingroup group_printing
 //! \brief What a trigger is told in each step.
 struct VISP_EXPORT vpPrintTriggerInput {
   double time = 0.;        //!< Now, frame.
@@ -72,6 +76,7 @@ struct VISP_EXPORT vpPrintTriggerInput {
   vpMotionForecast across;   //!< Displacement across; at rest unless given.
 };
 
+//! \ingroup group_printing
 //! \brief A cell that is fired at, was missed, or is planned.
 struct VISP_EXPORT vpPrintShot {
   int row = 0;            //!< Of the cell.
@@ -84,6 +89,7 @@ struct VISP_EXPORT vpPrintShot {
   bool late = false;      //!< It should have been fired before now.
 };
 
+//! \ingroup group_printing
 //! \brief What a trigger answers. Fixed room.
 struct VISP_EXPORT vpPrintTriggerOutput {
   static constexpr int capacity = 32;          //!< Of each list; what does not fit waits for the next step.

@@ -15,6 +15,7 @@
 
 BEGIN_VISP_NAMESPACE
 
+//! \ingroup group_trajectory
 //! Limits of one axis. Infinity means no limit.
 struct VISP_EXPORT vpAxisLimits {
   double velocity = std::numeric_limits<double>::infinity();     //!< |v| <= velocity, unit/s, > 0.
@@ -24,12 +25,14 @@ struct VISP_EXPORT vpAxisLimits {
   double maxPosition = std::numeric_limits<double>::infinity();  //!< Highest place, relative to the motion's start.
 };
 
+//! \ingroup group_trajectory
 //! Limits on the Euclidean norm over several axes, such as Cartesian speed. Infinity means no limit.
 struct VISP_EXPORT vpNormLimits {
   double velocity = std::numeric_limits<double>::infinity();     //!< Norm of the velocities, unit/s, > 0.
   double acceleration = std::numeric_limits<double>::infinity(); //!< Norm of the accelerations, unit/s^2, > 0.
 };
 
+//! \ingroup group_trajectory
 //! Answer of a search for a duration.
 struct VISP_EXPORT vpDurationAnswer {
   //! How the search ended.

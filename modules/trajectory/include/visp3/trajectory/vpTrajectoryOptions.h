@@ -18,6 +18,7 @@
 
 BEGIN_VISP_NAMESPACE
 
+//! \ingroup group_trajectory
 //! Highest derivative that is continuous across replans (6.2, "trajectory type").
 enum class vpTrajectoryContinuity {
   C1, //!< Cubic: position and velocity. The acceleration jumps.
@@ -25,6 +26,7 @@ enum class vpTrajectoryContinuity {
   C3  //!< Septic: and jerk.
 };
 
+//! \ingroup group_trajectory
 //! What happens to the time of arrival when the goal or the limits change.
 enum class vpReplanPolicy {
   EventMinTime, //!< Smallest duration, found anew at events only: never shortened in between, which would spoil the ending.
@@ -32,6 +34,7 @@ enum class vpReplanPolicy {
   FixedArrival //!< The time of arrival is given: vpTrajectoryOptions::arrivalTime.
 };
 
+//! \ingroup group_trajectory
 //! How the axes go together.
 enum class vpSynchronisation {
   Time,     //!< All axes arrive at the same time.
@@ -39,18 +42,21 @@ enum class vpSynchronisation {
   None      //!< Each axis arrives as early as it can.
 };
 
+//! \ingroup group_trajectory
 //! How the duration is found.
 enum class vpDurationMethod {
   Exact,          //!< vpMinimumDuration, with safe fallback forms when a single polynomial cannot keep the limits.
   ThesisIteration //!< vpThesisDuration, (6.6): a baseline for comparison. May exceed limits; see its documentation.
 };
 
+//! \ingroup group_trajectory
 //! What a FixedArrival plan does when the limits do not allow the given time. The result is ArrivalInfeasible in both cases.
 enum class vpLateArrival {
   Extend,      //!< Keep the limits and arrive at the earliest feasible time.
   ExceedLimits //!< Keep the time with a single polynomial and exceed the limits (printing; figure 6.5).
 };
 
+//! \ingroup group_trajectory
 //! Limit on the Euclidean norm over some axes, such as the Cartesian speed of three of them.
 struct VISP_EXPORT vpAxisGroup {
   std::uint64_t axes = 0;                                           //!< Bit i set: axis i belongs to the group.
@@ -70,6 +76,7 @@ struct VISP_EXPORT vpAxisGroup {
   [[nodiscard]] bool contains(int axis) const { return axis < 64 && (axes >> axis & 1) != 0; } //!< Membership.
 };
 
+//! \ingroup group_trajectory
 //! \brief Everything about a trajectory that is not one number per axis.
 struct VISP_EXPORT vpTrajectoryOptions {
   static constexpr int maxGroups = 4; //!< Largest number of groups.
@@ -91,8 +98,10 @@ struct VISP_EXPORT vpTrajectoryOptions {
   std::array<vpAxisGroup, maxGroups> groups{}; //!< Limits on norms; a group without axes is not used.
 };
 
+//! \ingroup group_trajectory
 //! True when both describe the same choices.
 [[nodiscard]] VISP_EXPORT bool operator==(const vpTrajectoryOptions &a, const vpTrajectoryOptions &b);
+//! \ingroup group_trajectory
 //! True when a choice differs.
 [[nodiscard]] inline bool operator!=(const vpTrajectoryOptions &a, const vpTrajectoryOptions &b) { return !(a == b); }
 

@@ -15,6 +15,7 @@
 
 BEGIN_VISP_NAMESPACE
 
+//! \ingroup group_trajectory
 //! The shape that an axis was given.
 enum class vpTrajectoryForm {
   Hold,   //!< Start and goal are the same.
@@ -25,9 +26,11 @@ enum class vpTrajectoryForm {
   Vias //!< From via to via, because no single duration keeps the limits over all of them.
 };
 
+//! \ingroup group_trajectory
 //! The form as a word ("Direct"), for files; static text.
 [[nodiscard]] VISP_EXPORT const char *toString(vpTrajectoryForm form);
 
+//! \ingroup group_trajectory
 //! A polynomial on its own clock: q(t) = p((t - begin)/duration).
 struct VISP_EXPORT vpTrajectorySegment {
   double begin = 0.;    //!< s from the start of the plan.
@@ -35,6 +38,7 @@ struct VISP_EXPORT vpTrajectorySegment {
   vpPolynomial p;       //!< Position in s = (t - begin)/duration; the constant is the place itself.
 };
 
+//! \ingroup group_trajectory
 //! Exact extremes of one axis over a plan.
 struct VISP_EXPORT vpTrajectoryPeaks {
   double minPosition = 0.;  //!< Lowest place.
@@ -45,6 +49,7 @@ struct VISP_EXPORT vpTrajectoryPeaks {
   double squaredJerk = 0.;  //!< Integral of j^2, unit^2/s^5.
 };
 
+//! \ingroup group_trajectory
 //! An interval in which every axis is one polynomial in t - begin, for reports.
 struct VISP_EXPORT vpTrajectoryPiece {
   double begin = 0.;                             //!< s from the start of the plan.

@@ -15,6 +15,7 @@
 
 BEGIN_VISP_NAMESPACE
 
+//! \ingroup group_trajectory
 //! How the step went. The motion is safe to execute in every case (with the exceptions that the user asked for by name).
 enum class vpTrajectoryResult {
   Working,            //!< On the way, within the limits.
@@ -26,6 +27,7 @@ enum class vpTrajectoryResult {
   ArrivalInfeasible   //!< The given arrival time cannot be kept within the limits.
 };
 
+//! \ingroup group_trajectory
 //! What the matter is, in detail.
 enum class vpTrajectoryFault {
   None,                    //!< Nothing.
@@ -62,6 +64,7 @@ enum class vpTrajectoryFault {
 };
 
 /*!
+ * \ingroup group_trajectory
  * \brief Result with its reason: which axis, which value.
  */
 struct VISP_EXPORT vpTrajectoryStatus {
@@ -80,6 +83,7 @@ struct VISP_EXPORT vpTrajectoryStatus {
   [[nodiscard]] std::string message() const;
 };
 
+//! \ingroup group_trajectory
 //! The result as a word ("Working"), for files; static text.
 [[nodiscard]] VISP_EXPORT const char *toString(vpTrajectoryResult result);
 
