@@ -38,10 +38,10 @@ enum class vpAvoidanceStatus {
 };
 
 //! \ingroup group_avoidance
-//! The status as a word ("Moving"), for files; static text.
+//! \brief The status as a word ("Moving"), for files; static text.
 [[nodiscard]] VISP_EXPORT const char *toString(vpAvoidanceStatus status);
 //! \ingroup group_avoidance
-//! The status as a sentence for a person; static text.
+//! \brief The status as a sentence for a person; static text.
 [[nodiscard]] VISP_EXPORT const char *sentence(vpAvoidanceStatus status);
 
 /*!

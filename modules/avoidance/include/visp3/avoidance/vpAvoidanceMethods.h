@@ -14,13 +14,15 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_avoidance
-//! Names for makeAvoidanceMethod().
+//! \brief Names for makeAvoidanceMethod().
 [[nodiscard]] VISP_EXPORT const std::vector<std::string> &avoidanceMethodNames();
 
 /*!
  * \ingroup group_avoidance
  * A method by name, with its own parameters at their defaults.
+ * \param name : One of avoidanceMethodNames().
  * \param scene : Must outlive the method.
+ * \param spec : What all methods have in common.
  * \throw vpException (badValue) naming an unknown method with the known ones, or a field out of range;
  * (notImplementedError) for the planners where OMPL was missing.
  */

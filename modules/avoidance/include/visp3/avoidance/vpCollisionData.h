@@ -17,7 +17,7 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_avoidance
-//! Most capsules that an arm in a vpCollisionScene may have.
+//! \brief Most capsules that an arm in a vpCollisionScene may have.
 constexpr int vpArmMaxCapsules = 32;
 
 /*!

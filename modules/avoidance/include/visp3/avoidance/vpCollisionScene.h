@@ -22,7 +22,7 @@ struct vpCollisionCore;
 
 /*!
  * \ingroup group_avoidance
- * \brief The ground: the side normal . x < offset is forbidden. In the base frame.
+ * \brief The ground: the side normal^T x < offset is forbidden. In the base frame.
  */
 struct VISP_EXPORT vpHalfSpace {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ(); //!< Points to the free side; of any length but 0.

@@ -57,7 +57,7 @@ struct VISP_EXPORT vpDepthReport {
 /*!
  * \class vpDepthOctomap
  * \ingroup group_avoidance
- * \brief Map of occupied space in the base frame, by octomap, fed with depth images. Not for two threads at once.
+ * \brief Map of occupied space in the base frame, by octomap \cite Hornung13, fed with depth images. Not for two threads at once.
  */
 class VISP_EXPORT vpDepthOctomap
 {

@@ -71,7 +71,7 @@ enum class vpTrackStatus {
 };
 
 //! \ingroup group_avoidance
-//! The status as a word ("Tracked"), for files; static text.
+//! \brief The status as a word ("Tracked"), for files; static text.
 [[nodiscard]] VISP_EXPORT const char *toString(vpTrackStatus status);
 
 /*!

@@ -77,7 +77,7 @@ struct VISP_EXPORT vpPathResult {
 /*!
  * \class vpPathPlanner
  * \ingroup group_avoidance
- * \brief Plans in the joint space of a scene's arm. Objects count where they stand when plan() is called.
+ * \brief Plans in the joint space of a scene's arm, by OMPL \cite Sucan12. Objects count where they stand when plan() is called.
  *
  * Continuous joints take the short way round to the goal's angle; the path never crosses position limits. A path found
  * with certified validation is free with the margin at every point of it, thesis (3.46), (3.48); with the discrete ones

@@ -14,7 +14,7 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_feedforward
-//! How the servo step went. The motion is safe to execute in every case.
+//! \brief How the servo step went. The motion is safe to execute in every case.
 enum class vpServoStatus {
   Servoing,    //!< The law's own twist.
   ViewLimited, //!< The twist was changed to keep the target in the view or within the velocity rows.
@@ -28,10 +28,10 @@ enum class vpServoStatus {
 };
 
 //! \ingroup group_feedforward
-//! The status as a sentence for a person, static text.
+//! \brief The status as a sentence for a person, static text.
 [[nodiscard]] VISP_EXPORT const char *message(vpServoStatus status);
 //! \ingroup group_feedforward
-//! The status as a word ("Servoing"), for files; static text.
+//! \brief The status as a word ("Servoing"), for files; static text.
 [[nodiscard]] VISP_EXPORT const char *toString(vpServoStatus status);
 
 //! \ingroup group_feedforward

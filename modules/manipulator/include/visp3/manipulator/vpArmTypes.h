@@ -17,17 +17,17 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_manipulator
-//! Most joints that an arm may have.
+//! \brief Most joints that an arm may have.
 constexpr int vpArmMaxJoints = 8;
 
 //! \ingroup group_manipulator
-//! One number a joint: rad, rad/s, Nm, ... for a revolute joint, m, m/s, N, ... for a prismatic one. Size n <= 8.
+//! \brief One number a joint: rad, rad/s, Nm, ... for a revolute joint, m, m/s, N, ... for a prismatic one. Size n <= 8.
 using vpJointVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, vpArmMaxJoints, 1>;
 //! \ingroup group_manipulator
-//! 6 x n, linear part (rows 0-2) first, then angular.
+//! \brief 6 x n, linear part (rows 0-2) first, then angular.
 using vpArmJacobian = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, vpArmMaxJoints>;
 //! \ingroup group_manipulator
-//! n x n.
+//! \brief n x n.
 using vpJointMatrix =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, vpArmMaxJoints, vpArmMaxJoints>;
 

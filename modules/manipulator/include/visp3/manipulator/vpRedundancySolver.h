@@ -67,10 +67,10 @@ struct VISP_EXPORT vpArmTask {
 };
 
 //! \ingroup group_manipulator
-//! Most tasks below the main one.
+//! \brief Most tasks below the main one.
 constexpr int vpMaxArmTasks = 3;
 //! \ingroup group_manipulator
-//! Most indices at a time.
+//! \brief Most indices at a time.
 constexpr int vpMaxArmIndices = 8;
 
 /*!

@@ -23,7 +23,7 @@ enum class vpIndexSense {
 //! \ingroup group_manipulator
 //! \brief What an index looks at.
 enum class vpIndexKind {
-  Manipulability, //!< (3.25), (3.27): distance from singularities.
+  Manipulability, //!< (3.25), (3.27): distance from singularities \cite Yoshikawa85.
   PointDistance,  //!< (3.29): of a joint from a point.
   LineDistance,   //!< (3.35): of a joint from the segment between base and tool.
   PlaneDistance,  //!< (3.41): of a joint from a plane, with sign.

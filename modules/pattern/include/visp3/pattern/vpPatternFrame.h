@@ -20,7 +20,7 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_pattern
-//! How far the result can be relied upon.
+//! \brief How far the result can be relied upon.
 enum class vpPatternStatus {
   Acquiring, //!< Looking for the pattern, or learning its template; cells that are valid are measured by their edges.
   Tracking,  //!< Locked: identities, centres and displacement hold.
@@ -29,7 +29,7 @@ enum class vpPatternStatus {
 };
 
 //! \ingroup group_pattern
-//! Why the status is not Tracking.
+//! \brief Why the status is not Tracking.
 enum class vpPatternReason {
   None,            //!< Nothing to say.
   WrongSize,       //!< The image has not the size that the tracker was made for.
@@ -47,7 +47,7 @@ enum class vpPatternReason {
 };
 
 //! \ingroup group_pattern
-//! One cell of the pattern.
+//! \brief One cell of the pattern.
 struct VISP_EXPORT vpPatternCell {
   int row = 0;    //!< Row, counted downwards; stays with the cell while it moves, within one epoch.
   int column = 0; //!< Column, counted to the right; as row.
@@ -62,7 +62,7 @@ struct VISP_EXPORT vpPatternCell {
 };
 
 //! \ingroup group_pattern
-//! The regular lattice: cell (row, column) is near origin + column * columnPitch + row * rowPitch.
+//! \brief The regular lattice: cell (row, column) is near origin + column * columnPitch + row * rowPitch.
 struct VISP_EXPORT vpPatternLattice {
   double originX = 0.;      //!< Where cell (0, 0) of the lattice would be, px. May be far outside the image.
   double originY = 0.;      //!< As originX.
@@ -104,7 +104,7 @@ struct VISP_EXPORT vpPatternFrame {
 };
 
 //! \ingroup group_pattern
-//! The status as a word ("Tracking"), for files; static text.
+//! \brief The status as a word ("Tracking"), for files; static text.
 [[nodiscard]] VISP_EXPORT const char *toString(vpPatternStatus status);
 
 END_VISP_NAMESPACE

@@ -14,7 +14,7 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_pattern
-//! How the centre of a cell is measured.
+//! \brief How the centre of a cell is measured.
 enum class vpPatternMethod {
   GaussNewton,         //!< Learned template, aligned with the image; the others are baselines to compare with.
   HalfMaximumEdges,    //!< Where the grey value crosses the threshold, on all four sides.
@@ -23,7 +23,7 @@ enum class vpPatternMethod {
 };
 
 //! \ingroup group_pattern
-//! Derivative of table 7.2, for the two variants of Algorithm 7.4.
+//! \brief Derivative of table 7.2, for the two variants of Algorithm 7.4.
 enum class vpPatternDerivative {
   Symmetric, //!< 3 x 1, I(y + 1) - I(y - 1).
   Roberts,   //!< 2 x 1, I(y + 1) - I(y); taken at y + 0.5.
@@ -32,7 +32,7 @@ enum class vpPatternDerivative {
 };
 
 //! \ingroup group_pattern
-//! Which of the two grey classes is the cell.
+//! \brief Which of the two grey classes is the cell.
 enum class vpPatternPolarity {
   Automatic, //!< The one that makes a lattice of equal spots; bright is tried first.
   Bright,    //!< Bright cells on a dark ground.
@@ -65,10 +65,10 @@ struct VISP_EXPORT vpPatternOptions {
 };
 
 //! \ingroup group_pattern
-//! The method as a word ("GaussNewton"), for files; static text.
+//! \brief The method as a word ("GaussNewton"), for files; static text.
 [[nodiscard]] VISP_EXPORT const char *toString(vpPatternMethod method);
 //! \ingroup group_pattern
-//! The derivative as a word ("Symmetric"), for files; static text.
+//! \brief The derivative as a word ("Symmetric"), for files; static text.
 [[nodiscard]] VISP_EXPORT const char *toString(vpPatternDerivative derivative);
 
 END_VISP_NAMESPACE

@@ -19,19 +19,19 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_pattern
-//! How the image is divided into bright and dark.
+//! \brief How the image is divided into bright and dark.
 enum class vpPatternThreshold {
-  Otsu,        //!< Greatest variance between the classes (Otsu 1979).
-  Isodata,     //!< Mean of the class means, iterated (Ridler and Calvard 1978).
-  MinimumError //!< Two normal distributions of least classification error (Kittler and Illingworth 1986).
+  Otsu,        //!< Greatest variance between the classes \cite Otsu79.
+  Isodata,     //!< Mean of the class means, iterated \cite Ridler78.
+  MinimumError //!< Two normal distributions of least classification error \cite Kittler86.
 };
 
 //! \ingroup group_pattern
-//! Number of pixels of each grey value.
+//! \brief Number of pixels of each grey value.
 using vpPatternHistogram = std::array<std::uint32_t, 256>;
 
 //! \ingroup group_pattern
-//! A threshold and how well it divides.
+//! \brief A threshold and how well it divides.
 struct VISP_EXPORT vpPatternThresholdResult {
   int threshold = -1; //!< Values above it are bright; 0 to 254. -1: all pixels have the same value, there is none.
   double separability = 0.; //!< Variance between the classes over the total variance, 0 to 1 (noise alone: about 0.64).
@@ -47,7 +47,7 @@ struct VISP_EXPORT vpPatternThresholdResult {
                                                                    vpPatternThreshold method);
 
 //! \ingroup group_pattern
-//! The method as a word ("Otsu"), for files; static text.
+//! \brief The method as a word ("Otsu"), for files; static text.
 [[nodiscard]] VISP_EXPORT const char *toString(vpPatternThreshold method);
 
 END_VISP_NAMESPACE

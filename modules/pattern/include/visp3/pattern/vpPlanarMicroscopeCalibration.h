@@ -38,7 +38,7 @@ struct VISP_EXPORT vpMicroscopeCalibrationOptions {
 };
 
 //! \ingroup group_pattern
-//! What became of kappa1.
+//! \brief What became of kappa1.
 enum class vpKappa1Status {
   Estimated,    //!< Found; its standard deviation is in the covariance.
   Unobservable, //!< These points cannot tell it from zero, or it changes nothing: it is 0, see the sentence.
@@ -46,7 +46,7 @@ enum class vpKappa1Status {
 };
 
 //! \ingroup group_pattern
-//! Where the product lay in one view.
+//! \brief Where the product lay in one view.
 struct VISP_EXPORT vpMicroscopePlacement {
   double rotation = 0.;       //!< As vpMicroscopeCalibration::rotation, rad.
   double tx = 0.;             //!< As vpMicroscopeCalibration::tx, m.
@@ -55,7 +55,7 @@ struct VISP_EXPORT vpMicroscopePlacement {
 };
 
 //! \ingroup group_pattern
-//! Numbers of the parameters in vpMicroscopeCalibrationResult::covariance.
+//! \brief Numbers of the parameters in vpMicroscopeCalibrationResult::covariance.
 enum vpMicroscopeParameter : int {
   vpMicroscopeScaleX,
   vpMicroscopeScaleY,
@@ -155,7 +155,7 @@ private:
 };
 
 //! \ingroup group_pattern
-//! The status as a word ("Estimated"), for files; static text.
+//! \brief The status as a word ("Estimated"), for files; static text.
 [[nodiscard]] VISP_EXPORT const char *toString(vpKappa1Status status);
 
 END_VISP_NAMESPACE

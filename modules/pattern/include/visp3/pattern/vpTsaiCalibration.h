@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpTsaiCalibration.h
- * \brief Tsai's camera calibration with one radial distortion (thesis section 4.2.1).
+ * \brief Tsai's camera calibration \cite Tsai87 with one radial distortion (thesis section 4.2.1).
  */
 #ifndef vpTsaiCalibration_h
 #define vpTsaiCalibration_h
@@ -39,7 +39,7 @@ struct VISP_EXPORT vpTsaiCalibrationOptions {
 };
 
 //! \ingroup group_pattern
-//! Numbers of the parameters in vpTsaiCalibrationResult::covariance.
+//! \brief Numbers of the parameters in vpTsaiCalibrationResult::covariance.
 enum vpTsaiParameter : int { vpTsaiPx, vpTsaiPy, vpTsaiKappa1, vpTsaiU0, vpTsaiV0, vpTsaiParameterCount };
 
 /*!

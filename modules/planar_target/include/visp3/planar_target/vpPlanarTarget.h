@@ -19,7 +19,7 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_planar_target
-//! Keypoint detector with its descriptor.
+//! \brief Keypoint detector with its descriptor.
 enum class vpKeypointType {
   ORB,   //!< OpenCV; fast, the default.
   SIFT,  //!< OpenCV; most precise before refinement, slow.
@@ -30,7 +30,7 @@ enum class vpKeypointType {
 };
 
 //! \ingroup group_planar_target
-//! Name of the detector ("ORB"), static text.
+//! \brief Name of the detector ("ORB"), static text.
 [[nodiscard]] VISP_EXPORT const char *toString(vpKeypointType type);
 //! \ingroup group_planar_target
 //! \throw vpException (badValue) naming an unknown detector and the known ones.

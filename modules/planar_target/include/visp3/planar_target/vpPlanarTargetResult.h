@@ -19,7 +19,7 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_planar_target
-//! How a frame went. Only Acquired and Tracked carry a pose.
+//! \brief How a frame went. Only Acquired and Tracked carry a pose.
 enum class vpPlanarTargetStatus {
   Acquired,       //!< Found by keypoints, refined on the grey values.
   Tracked,        //!< Followed from the frame before by its grey values.
@@ -31,7 +31,7 @@ enum class vpPlanarTargetStatus {
 };
 
 //! \ingroup group_planar_target
-//! The status as a word ("Tracked"), static text.
+//! \brief The status as a word ("Tracked"), static text.
 [[nodiscard]] VISP_EXPORT const char *toString(vpPlanarTargetStatus status);
 
 //! \ingroup group_planar_target

@@ -22,7 +22,7 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_planar_target
-//! How a decomposition went. Only Unique carries a motion.
+//! \brief How a decomposition went. Only Unique carries a motion.
 enum class vpTwoViewStatus {
   Unique,       //!< One motion, see vpTwoViewResult::best.
   Ambiguous,    //!< Two motions fit and nothing tells them apart yet: move on, or give a normal prior.
@@ -31,7 +31,7 @@ enum class vpTwoViewStatus {
 };
 
 //! \ingroup group_planar_target
-//! The status as a word ("Unique"), static text.
+//! \brief The status as a word ("Unique"), static text.
 [[nodiscard]] VISP_EXPORT const char *toString(vpTwoViewStatus status);
 
 //! \ingroup group_planar_target

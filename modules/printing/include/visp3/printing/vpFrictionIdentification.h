@@ -36,7 +36,7 @@ struct VISP_EXPORT vpFrictionIdentificationSpec {
 };
 
 //! \ingroup group_printing
-//! How an identification ended.
+//! \brief How an identification ended.
 enum class vpFrictionStatus {
   Good,          //!< All parameters hold.
   TooFewSamples, //!< Less than ten samples for each parameter.

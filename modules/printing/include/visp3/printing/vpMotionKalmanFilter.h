@@ -18,7 +18,7 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_printing
-//! What is taken to be random about the motion.
+//! \brief What is taken to be random about the motion.
 enum class vpMotionModel {
   ConstantVelocity,    //!< The acceleration is white noise; states are position and velocity.
   ConstantAcceleration //!< The jerk is white noise; position, velocity and acceleration.
@@ -47,7 +47,7 @@ struct VISP_EXPORT vpMotionKalmanSpec {
 };
 
 //! \ingroup group_printing
-//! Kind of a vpMotionReading.
+//! \brief Kind of a vpMotionReading.
 enum class vpMotionReadingKind {
   Position,     //!< Position itself, such as a cell whose identity is known.
   Displacement, //!< Since the time of the last Displacement or Mark, such as vpPatternFrame::dx.
@@ -65,7 +65,7 @@ struct VISP_EXPORT vpMotionReading {
 };
 
 //! \ingroup group_printing
-//! What became of a reading.
+//! \brief What became of a reading.
 enum class vpMotionReadingResult {
   Used,    //!< It counts.
   Outlier, //!< Beyond the gate.

@@ -17,7 +17,7 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_printing
-//! What fixes the time from cell to cell.
+//! \brief What fixes the time from cell to cell.
 enum class vpPrintReferenceMode {
   CellVelocity,    //!< Velocity v and acceleration 0 at the centres, a given mean velocity in between.
   FixedArrival,    //!< The time from centre to centre is given, (7.18).

@@ -19,14 +19,14 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_printing
-//! How the instant is found.
+//! \brief How the instant is found.
 enum class vpPrintTriggerMethod {
   Horizon,        //!< Each cell has an identity and a latch and is scheduled ahead.
   ThesisAlgorithm //!< Algorithm 7.5 as printed, for comparison: no memory, no delay of the camera; misses and doubles cells.
 };
 
 //! \ingroup group_printing
-//! Axis of the image along which the cells come to the nozzle.
+//! \brief Axis of the image along which the cells come to the nozzle.
 enum class vpPrintAxis {
   X, //!< To the right or left.
   Y  //!< Down or up.

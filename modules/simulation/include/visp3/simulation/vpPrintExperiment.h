@@ -25,7 +25,7 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_simulation
-//! What drives the axis of printing.
+//! \brief What drives the axis of printing.
 enum class vpPrintController {
   Pid,            //!< Velocity PID, figure 7.13.
   PidFeedforward, //!< Velocity PID with mass and friction feedforward, figure 7.14.
@@ -33,7 +33,7 @@ enum class vpPrintController {
 };
 
 //! \ingroup group_simulation
-//! Where the cells are measured.
+//! \brief Where the cells are measured.
 enum class vpPrintSensor {
   Model, //!< True places plus normal errors: fast.
   Image  //!< Rendered pictures through vpPatternTracker.

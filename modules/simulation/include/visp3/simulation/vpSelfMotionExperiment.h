@@ -60,7 +60,7 @@ struct VISP_EXPORT vpSelfMotionRun {
 };
 
 //! \ingroup group_simulation
-//! Runs one experiment with ideal drives at 200 Hz. \throw vpException (badValue) naming what is wrong with the spec.
+//! \brief Runs one experiment with ideal drives at 200 Hz. \throw vpException (badValue) naming what is wrong with the spec.
 [[nodiscard]] VISP_EXPORT vpSelfMotionRun runSelfMotionExperiment(const vpSelfMotionRunSpec &spec);
 
 END_VISP_NAMESPACE

@@ -65,7 +65,7 @@ struct VISP_EXPORT vpArmMetrics {
 };
 
 //! \ingroup group_simulation
-//! The figures of a log. \param model : The arm. \param samples : The log. \param cycle : Between the samples, s.
+//! \brief The figures of a log. \param model : The arm. \param samples : The log. \param cycle : Between the samples, s.
 [[nodiscard]] VISP_EXPORT vpArmMetrics evaluateArmRun(const vpArmModel &model, const std::vector<vpArmSample> &samples,
                                                       double cycle);
 

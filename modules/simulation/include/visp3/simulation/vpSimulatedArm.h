@@ -190,7 +190,7 @@ private:
 };
 
 //! \ingroup group_simulation
-//! The status in a word, for tables.
+//! \brief The status in a word, for tables.
 [[nodiscard]] VISP_EXPORT const char *toString(vpSimulatedArmStatus status);
 
 END_VISP_NAMESPACE

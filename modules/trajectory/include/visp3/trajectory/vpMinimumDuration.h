@@ -16,7 +16,7 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_trajectory
-//! Limits of one axis. Infinity means no limit.
+//! \brief Limits of one axis. Infinity means no limit.
 struct VISP_EXPORT vpAxisLimits {
   double velocity = std::numeric_limits<double>::infinity();     //!< |v| <= velocity, unit/s, > 0.
   double acceleration = std::numeric_limits<double>::infinity(); //!< |a| <= acceleration, unit/s^2, > 0.
@@ -26,14 +26,14 @@ struct VISP_EXPORT vpAxisLimits {
 };
 
 //! \ingroup group_trajectory
-//! Limits on the Euclidean norm over several axes, such as Cartesian speed. Infinity means no limit.
+//! \brief Limits on the Euclidean norm over several axes, such as Cartesian speed. Infinity means no limit.
 struct VISP_EXPORT vpNormLimits {
   double velocity = std::numeric_limits<double>::infinity();     //!< Norm of the velocities, unit/s, > 0.
   double acceleration = std::numeric_limits<double>::infinity(); //!< Norm of the accelerations, unit/s^2, > 0.
 };
 
 //! \ingroup group_trajectory
-//! Answer of a search for a duration.
+//! \brief Answer of a search for a duration.
 struct VISP_EXPORT vpDurationAnswer {
   //! How the search ended.
   enum class Kind {

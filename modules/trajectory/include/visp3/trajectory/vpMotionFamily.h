@@ -16,7 +16,7 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_trajectory
-//! Position and its derivatives at one instant of one axis: q, v, a, j in unit, unit/s, unit/s^2, unit/s^3.
+//! \brief Position and its derivatives at one instant of one axis: q, v, a, j in unit, unit/s, unit/s^2, unit/s^3.
 using vpAxisState = std::array<double, 4>;
 
 /*!

@@ -18,7 +18,7 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_trajectory
-//! How the rotation is planned. Both follow the geodesic whenever the present turning lies on it (at rest it does).
+//! \brief How the rotation is planned. Both follow the geodesic whenever the present turning lies on it (at rest it does).
 enum class vpRotationPath {
   Geodesic,      //!< Limits bound the angle's rates: the norm over the rotation vector. Straight line also in position.
   RotationVector //!< Limits bound each component of the rotation vector's rates.

@@ -20,11 +20,11 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_trajectory
-//! One number per axis; \e N is the number of axes or Eigen::Dynamic.
+//! \brief One number per axis; \e N is the number of axes or Eigen::Dynamic.
 template <int N> using vpAxisVector = Eigen::Matrix<double, N, 1>;
 
 //! \ingroup group_trajectory
-//! Position (unit), velocity, acceleration and jerk of all axes.
+//! \brief Position (unit), velocity, acceleration and jerk of all axes.
 template <int N> struct vpTrajectoryState {
   vpAxisVector<N> q; //!< Position.
   vpAxisVector<N> v; //!< Velocity.
@@ -37,7 +37,7 @@ template <int N> struct vpTrajectoryState {
 };
 
 //! \ingroup group_trajectory
-//! A place to go through at the fraction \e tau of the move.
+//! \brief A place to go through at the fraction \e tau of the move.
 template <int N> struct vpTrajectoryVia {
   double tau = 0.5;             //!< Time as a fraction of the whole move, in (0, 1), ascending.
   vpAxisVector<N> q;            //!< Place.
@@ -82,7 +82,7 @@ template <int N> struct vpTrajectoryInput {
 };
 
 //! \ingroup group_trajectory
-//! What one cycle answers.
+//! \brief What one cycle answers.
 template <int N> struct vpTrajectoryOutput {
   vpTrajectoryState<N> state; //!< Commanded state.
   vpTrajectoryStatus status;  //!< How the step went; status.message() is a sentence.

@@ -19,7 +19,7 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_trajectory
-//! Highest derivative that is continuous across replans (6.2, "trajectory type").
+//! \brief Highest derivative that is continuous across replans (6.2, "trajectory type").
 enum class vpTrajectoryContinuity {
   C1, //!< Cubic: position and velocity. The acceleration jumps.
   C2, //!< Quintic: and acceleration; the minimum-jerk motion.
@@ -27,7 +27,7 @@ enum class vpTrajectoryContinuity {
 };
 
 //! \ingroup group_trajectory
-//! What happens to the time of arrival when the goal or the limits change.
+//! \brief What happens to the time of arrival when the goal or the limits change.
 enum class vpReplanPolicy {
   EventMinTime, //!< Smallest duration, found anew at events only: never shortened in between, which would spoil the ending.
   KeepArrival, //!< The time of arrival stays; it is put off only when the limits need it. For goals measured with noise.
@@ -35,7 +35,7 @@ enum class vpReplanPolicy {
 };
 
 //! \ingroup group_trajectory
-//! How the axes go together.
+//! \brief How the axes go together.
 enum class vpSynchronisation {
   Time,     //!< All axes arrive at the same time.
   Straight, //!< All axes stay on the straight line to the goal when start and goal velocities lie on it, otherwise Time.
@@ -43,21 +43,21 @@ enum class vpSynchronisation {
 };
 
 //! \ingroup group_trajectory
-//! How the duration is found.
+//! \brief How the duration is found.
 enum class vpDurationMethod {
   Exact,          //!< vpMinimumDuration, with safe fallback forms when a single polynomial cannot keep the limits.
   ThesisIteration //!< vpThesisDuration, (6.6): a baseline for comparison. May exceed limits; see its documentation.
 };
 
 //! \ingroup group_trajectory
-//! What a FixedArrival plan does when the limits do not allow the given time. The result is ArrivalInfeasible in both cases.
+//! \brief What a FixedArrival plan does when the limits do not allow the given time. The result is ArrivalInfeasible in both cases.
 enum class vpLateArrival {
   Extend,      //!< Keep the limits and arrive at the earliest feasible time.
   ExceedLimits //!< Keep the time with a single polynomial and exceed the limits (printing; figure 6.5).
 };
 
 //! \ingroup group_trajectory
-//! Limit on the Euclidean norm over some axes, such as the Cartesian speed of three of them.
+//! \brief Limit on the Euclidean norm over some axes, such as the Cartesian speed of three of them.
 struct VISP_EXPORT vpAxisGroup {
   std::uint64_t axes = 0;                                           //!< Bit i set: axis i belongs to the group.
   double maxSpeed = std::numeric_limits<double>::infinity();        //!< unit/s, > 0.
@@ -99,10 +99,10 @@ struct VISP_EXPORT vpTrajectoryOptions {
 };
 
 //! \ingroup group_trajectory
-//! True when both describe the same choices.
+//! \brief True when both describe the same choices.
 [[nodiscard]] VISP_EXPORT bool operator==(const vpTrajectoryOptions &a, const vpTrajectoryOptions &b);
 //! \ingroup group_trajectory
-//! True when a choice differs.
+//! \brief True when a choice differs.
 [[nodiscard]] inline bool operator!=(const vpTrajectoryOptions &a, const vpTrajectoryOptions &b) { return !(a == b); }
 
 END_VISP_NAMESPACE

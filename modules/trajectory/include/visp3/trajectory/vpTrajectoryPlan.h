@@ -16,7 +16,7 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_trajectory
-//! The shape that an axis was given.
+//! \brief The shape that an axis was given.
 enum class vpTrajectoryForm {
   Hold,   //!< Start and goal are the same.
   Direct, //!< One polynomial (or one per via), the minimum-jerk motion.
@@ -27,11 +27,11 @@ enum class vpTrajectoryForm {
 };
 
 //! \ingroup group_trajectory
-//! The form as a word ("Direct"), for files; static text.
+//! \brief The form as a word ("Direct"), for files; static text.
 [[nodiscard]] VISP_EXPORT const char *toString(vpTrajectoryForm form);
 
 //! \ingroup group_trajectory
-//! A polynomial on its own clock: q(t) = p((t - begin)/duration).
+//! \brief A polynomial on its own clock: q(t) = p((t - begin)/duration).
 struct VISP_EXPORT vpTrajectorySegment {
   double begin = 0.;    //!< s from the start of the plan.
   double duration = 0.; //!< s, > 0.
@@ -39,7 +39,7 @@ struct VISP_EXPORT vpTrajectorySegment {
 };
 
 //! \ingroup group_trajectory
-//! Exact extremes of one axis over a plan.
+//! \brief Exact extremes of one axis over a plan.
 struct VISP_EXPORT vpTrajectoryPeaks {
   double minPosition = 0.;  //!< Lowest place.
   double maxPosition = 0.;  //!< Highest place.
@@ -50,7 +50,7 @@ struct VISP_EXPORT vpTrajectoryPeaks {
 };
 
 //! \ingroup group_trajectory
-//! An interval in which every axis is one polynomial in t - begin, for reports.
+//! \brief An interval in which every axis is one polynomial in t - begin, for reports.
 struct VISP_EXPORT vpTrajectoryPiece {
   double begin = 0.;                             //!< s from the start of the plan.
   double end = 0.;                               //!< s from the start of the plan.

@@ -16,7 +16,7 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_trajectory
-//! How the step went. The motion is safe to execute in every case (with the exceptions that the user asked for by name).
+//! \brief How the step went. The motion is safe to execute in every case (with the exceptions that the user asked for by name).
 enum class vpTrajectoryResult {
   Working,            //!< On the way, within the limits.
   Finished,           //!< The goal was reached in this cycle.
@@ -28,7 +28,7 @@ enum class vpTrajectoryResult {
 };
 
 //! \ingroup group_trajectory
-//! What the matter is, in detail.
+//! \brief What the matter is, in detail.
 enum class vpTrajectoryFault {
   None,                    //!< Nothing.
   StartNotFinite,          //!< A number of the start state is NaN or infinite.
@@ -84,7 +84,7 @@ struct VISP_EXPORT vpTrajectoryStatus {
 };
 
 //! \ingroup group_trajectory
-//! The result as a word ("Working"), for files; static text.
+//! \brief The result as a word ("Working"), for files; static text.
 [[nodiscard]] VISP_EXPORT const char *toString(vpTrajectoryResult result);
 
 END_VISP_NAMESPACE
