@@ -168,3 +168,36 @@ TEST_CASE("(3.24): k0 does not grow without bound where nothing is spare, and do
   CHECK(largest > 1e9);
   CHECK(moved > 250);
 }
+
+TEST_CASE("Table B.1: upright at 0 by the offset of joint 2, 1.03 m of reach, 1.1 m with the tool", "[errata]")
+{
+  auto rng = vpTestSupport::generator(56);
+  CAPTURE(vpTestSupport::seed());
+  CHECK(at(amor(), vpJointVector::Zero(7)).joint[3].p(2) > 0.5);
+  vpArmSpec raw = amor().spec();
+  raw.joints[1].offset = 0.;
+  raw.tool = {};
+  const vpArmModel table(raw);
+  CHECK(at(table, vpJointVector::Zero(7)).joint[3].p(2) < 0.);
+  // The farthest the tool gets, by going from random configurations joint by joint to where it is farther.
+  const auto farthest = [&](const vpArmModel &model, int axes) {
+    const auto length = [&](const vpJointVector &q) { return at(model, q).tool.p.head(axes).norm(); };
+    double most = 0.;
+    for (int start = 0; start < 20; ++start) {
+      vpJointVector q = configuration(model, rng);
+      for (double step = 0.5; step > 1e-4; step *= 0.8) {
+        for (int i = 0; i < 7; ++i) {
+          for (const double by : {step, -step}) {
+            vpJointVector moved = q;
+            moved(i) += by;
+            q = length(moved) > length(q) ? moved : q;
+          }
+        }
+      }
+      most = std::max(most, length(q));
+    }
+    return most;
+  };
+  CHECK(farthest(table, 3) == Approx(1.03).margin(0.005));
+  CHECK(farthest(amor(), 2) == Approx(1.1).margin(0.005));
+}

@@ -63,7 +63,7 @@ TEST_CASE("(3.66): the acceleration peaks at T (1/2 +- sqrt(3)/6), whatever T is
   }
 }
 
-TEST_CASE("(6.9) holds from rest to rest only, and for |h|", "[errata]")
+TEST_CASE("(6.9) holds from rest to rest only, and for the length of h", "[errata]")
 {
   auto rng = vpTestSupport::generator(91);
   CAPTURE(vpTestSupport::seed());
