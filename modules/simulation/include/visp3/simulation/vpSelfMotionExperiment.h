@@ -60,16 +60,17 @@ struct VISP_EXPORT vpSelfMotionSample {
  * \brief The log and its figures; the same names as in summary.json.
  */
 struct VISP_EXPORT vpSelfMotionRun {
-  std::vector<vpSelfMotionSample> samples;
-  double tcp_drift_m = 0.;      //!< Largest drift.
-  double tcp_drift_rad = 0.;    //!< Largest turn.
-  double start_distance_m = 0.; //!< Distance at the start.
-  double mean_distance_m = 0.;  //!< Mean over time.
-  double end_distance_m = 0.;   //!< Distance in the end.
-  double joint_travel_rad = 0.; //!< Sum of the ways of all joints, d_total of figure 8.16.
+  std::vector<vpSelfMotionSample> samples; //!< One a period.
+  double tcp_drift_m = 0.;                 //!< Largest drift.
+  double tcp_drift_rad = 0.;               //!< Largest turn.
+  double start_distance_m = 0.;            //!< Distance at the start.
+  double mean_distance_m = 0.;             //!< Mean over time.
+  double end_distance_m = 0.;              //!< Distance in the end.
+  double joint_travel_rad = 0.;            //!< Sum of the ways of all joints, d_total of figure 8.16.
 };
 
-//! Runs one experiment with ideal drives at 200 Hz. \throw vpException (badValue) naming what is wrong with the spec.
+//! \ingroup group_simulation
+//! \brief Runs one experiment with ideal drives at 200 Hz. \throw vpException (badValue) naming what is wrong with the spec.
 [[nodiscard]] VISP_EXPORT vpSelfMotionRun runSelfMotionExperiment(const vpSelfMotionRunSpec &spec);
 
 END_VISP_NAMESPACE
