@@ -24,7 +24,7 @@ struct Figure {
   std::string name;    //!< Within its item: "velocity".
   std::string title;   //!< For those who cannot see it.
   std::string caption; //!< What to see.
-  std::string picture; //!< SVG or PNG, the bytes.
+  std::string picture; //!< SVG, PNG or JPEG, the bytes.
   std::string mime = "image/svg+xml";
 };
 

@@ -33,6 +33,11 @@ void printList()
   }
 }
 
+std::string suffixOf(const std::string &mime)
+{
+  return mime == "image/png" ? ".png" : mime == "image/jpeg" ? ".jpg" : ".svg";
+}
+
 void report(const Options &options, const std::string &commandLine)
 {
   const auto start = std::chrono::steady_clock::now();
@@ -42,8 +47,7 @@ void report(const Options &options, const std::string &commandLine)
   for (const Played &played : all) {
     for (const Item &item : played.items) {
       for (const Figure &figure : item.figures) {
-        out.write("figure/" + item.id + "-" + figure.name + (figure.mime == "image/png" ? ".png" : ".svg"),
-                  figure.picture);
+        out.write("figure/" + item.id + "-" + figure.name + suffixOf(figure.mime), figure.picture);
       }
       for (const DataFile &file : item.data) {
         out.write("data/" + item.id + "-" + file.name, file.content);

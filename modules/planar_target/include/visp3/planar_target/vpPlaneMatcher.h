@@ -21,6 +21,7 @@
 
 BEGIN_VISP_NAMESPACE
 
+//! \ingroup group_planar_target
 //! \brief What two views have in common.
 struct VISP_EXPORT vpPlaneMatch {
   //! Acquired; NoTexture or TooFewInliers when there is no homography; NoFrame before the first frame.
@@ -61,8 +62,8 @@ public:
    */
   explicit vpPlaneMatcher(const vpImage<unsigned char> &reference, const vpPlanarTargetConfig &config = {});
   ~vpPlaneMatcher();
-  vpPlaneMatcher(vpPlaneMatcher &&) noexcept;
-  vpPlaneMatcher &operator=(vpPlaneMatcher &&) noexcept;
+  vpPlaneMatcher(vpPlaneMatcher &&) noexcept;            //!< Moves.
+  vpPlaneMatcher &operator=(vpPlaneMatcher &&) noexcept; //!< Moves.
 
   //! Compare a frame with the reference view.
   const vpPlaneMatch &match(const vpImage<unsigned char> &image);
