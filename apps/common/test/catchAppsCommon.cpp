@@ -12,6 +12,7 @@
 #include "jsonReader.h"
 #include "outputFolder.h"
 #include "plot.h"
+#include "timePlot.h"
 #include "progress.h"
 #include "videoFile.h"
 
@@ -346,4 +347,32 @@ TEST_CASE("A video file can be read back", "[apps]")
   REQUIRE(capture.isOpened());
   CHECK(capture.get(cv::CAP_PROP_FRAME_COUNT) == 12.);
   CHECK(complaint([] { vpApp::VideoFile("/nowhere/a.mp4", 160, 120, 10.); }).find("/nowhere/a.mp4") == 0);
+}
+
+TEST_CASE("A thinned curve keeps its peaks or its valleys", "[plot]")
+{
+  std::vector<double> times, values;
+  for (int i = 0; i < 10000; ++i) {
+    times.push_back(0.001 * i);
+    values.push_back(i == 4321 ? 7. : i == 1234 ? -7. : 0.);
+  }
+  const vpApp::PlotCurve peaks = vpApp::timeCurve("c", "#000000", times, values);
+  const vpApp::PlotCurve valleys = vpApp::timeCurve("c", "#000000", times, values, vpApp::Keep::Least);
+  CHECK(peaks.x.size() < 1000);
+  CHECK(peaks.x.size() == peaks.y.size());
+  CHECK(*std::max_element(peaks.y.begin(), peaks.y.end()) == 7.);
+  CHECK(*std::min_element(peaks.y.begin(), peaks.y.end()) == 0.);
+  CHECK(*std::min_element(valleys.y.begin(), valleys.y.end()) == -7.);
+  CHECK(*std::max_element(valleys.y.begin(), valleys.y.end()) == 0.);
+
+  vpApp::Plot plot = vpApp::timePlot("t", "m");
+  vpApp::addLevel(plot, 1., "nothing yet");
+  CHECK(plot.curves.back().x == std::vector<double>{0., 0.});
+  plot.xRange = {0., 5.};
+  vpApp::addLevel(plot, 1., "over the range");
+  CHECK(plot.curves.back().x == std::vector<double>{0., 5.});
+  plot.curves.push_back(peaks);
+  vpApp::addLevel(plot, 2., "over the curves");
+  CHECK(plot.curves.back().x.back() == peaks.x.back());
+  CHECK(plot.curves.back().y == std::vector<double>{2., 2.});
 }
