@@ -12,8 +12,8 @@ const std::vector<Part> &catalogue()
 {
   static const std::vector<Part> all = [] {
     std::vector<Part> parts;
-    for (const auto make : {servoParts, trajectoryParts, printingParts, avoidanceParts, armTrackingParts,
-                            selfMotionParts, minimumJerkParts}) {
+    for (const auto make : {keypointParts, servoParts, trajectoryParts, patternParts, printingParts, avoidanceParts,
+                            armTrackingParts, selfMotionParts, minimumJerkParts}) {
       for (Part &part : make()) {
         parts.push_back(std::move(part));
       }

@@ -22,6 +22,7 @@
 #include <atomic>
 #include <cmath>
 #include <fstream>
+#include <regex>
 #include <sstream>
 
 #include <unistd.h>
@@ -332,6 +333,32 @@ TEST_CASE("gnuplot draws a plot with awkward labels and gaps", "[apps]")
   CHECK(complaint([] { vpApp::requireGnuplot(); }).find("install it") != std::string::npos);
   setenv("PATH", path.c_str(), 1);
   vpApp::requireGnuplot();
+}
+
+TEST_CASE("On logarithmic axes powers of ten are equally far apart", "[apps]")
+{
+  // Where the three points of a curve were drawn, from the SVG's point symbols.
+  const auto placesOf = [](bool logX, bool logY) {
+    vpApp::Plot plot;
+    plot.logX = logX;
+    plot.logY = logY;
+    plot.curves = {{"", "#d62728", vpApp::PlotStyle::Points, 8., {10., 100., 1000.}, {1., 10., 100.}}};
+    const std::string svg = vpApp::renderSvg(plot);
+    const std::regex point("<use xlink:href='#gpPt6' transform='translate\\(([0-9.]+),([0-9.]+)\\)");
+    std::vector<std::pair<double, double>> places;
+    for (std::sregex_iterator match(svg.begin(), svg.end(), point), end; match != end; ++match) {
+      places.emplace_back(std::stod((*match)[1]), std::stod((*match)[2]));
+    }
+    REQUIRE(places.size() == 3);
+    return places;
+  };
+  for (const auto &axes : {std::make_pair(false, false), std::make_pair(true, false), std::make_pair(false, true)}) {
+    const auto p = placesOf(axes.first, axes.second);
+    const double x = (p[1].first - p[0].first) / (p[2].first - p[0].first);
+    const double y = (p[1].second - p[0].second) / (p[2].second - p[0].second);
+    CHECK(x == Approx(axes.first ? 0.5 : 1. / 11.).margin(0.005));
+    CHECK(y == Approx(axes.second ? 0.5 : 1. / 11.).margin(0.005));
+  }
 }
 
 TEST_CASE("A video file can be read back", "[apps]")
