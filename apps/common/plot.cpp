@@ -147,8 +147,13 @@ void draw(const Plot &plot, std::size_t id, std::ostream &script)
     script << "set size ratio -1\nset offsets graph 0.08, graph 0.08, graph 0.04, graph 0.04\n"
            << "set xtics " << ticStep(plot) << "\nset ytics " << ticStep(plot) << "\n";
   }
-  else { // room for the texts of the marks
+  else if (!plot.logY) { // room for the texts of the marks
     script << "set offsets 0, 0, graph 0.12, graph 0.04\n";
+  }
+  for (const char *axis : {plot.logX ? "x" : "", plot.logY ? "y" : ""}) {
+    if (*axis != '\0') { // 1k, 10k, 100k
+      script << "set logscale " << axis << " 10\nset format " << axis << " '%.0s%c'\n";
+    }
   }
   if (plot.fromZero) {
     script << "set yrange [0:*]\n";

@@ -45,6 +45,8 @@ struct Plot {
   std::pair<double, double> xRange{0., 0.};
   bool fromZero = false;  //!< y begins at 0.
   bool equalAxes = false; //!< One unit is as long on x as on y: maps.
+  bool logX = false;      //!< Powers of ten are equally far apart on x (1k, 10k, ...); points at x <= 0 are left out.
+  bool logY = false;      //!< The same on y. Not with #fromZero.
   unsigned int width = 960;
   unsigned int height = 440;
 };

@@ -4,9 +4,9 @@
  */
 #include "figures.h"
 
-#include "armPicture.h"
 #include "film.h"
 #include "numberText.h"
+#include "runPicture.h"
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -18,74 +18,16 @@ namespace avoidObstacle
 {
 namespace
 {
-constexpr int GHOSTS = 5;
-constexpr std::size_t TRACE_POINTS = 300;
-constexpr double FRAME = 0.05;  // s of an animation
-constexpr double LONGEST = 20.; // s
+constexpr const char *TOOL_COLOUR = "#d62728";
 constexpr int VIEWS = 6, VIEW_COLUMNS = 3, VIEW_WIDTH = 320;
-
-vpCollisionObject objectAt(const vpMovingObstacle &obstacle, double t)
-{
-  vpCollisionObject object = obstacle.object;
-  obstacle.stateAt(t, object.pose, object.velocity);
-  return object;
-}
-
-//! When the tool has gone so much of its way.
-const vpAvoidanceSample &sampleAt(const vpAvoidanceRun &run, double share)
-{
-  const auto step = [&](std::size_t i) { return (run.samples[i].tool - run.samples[i - 1].tool).norm(); };
-  double length = 0., gone = 0.;
-  for (std::size_t i = 1; i < run.samples.size(); ++i) {
-    length += step(i);
-  }
-  for (std::size_t i = 1; i < run.samples.size(); ++i) {
-    gone += step(i);
-    if (gone >= share * length) {
-      return run.samples[i];
-    }
-  }
-  return run.samples.back();
-}
-
-vpApp::ArmTrace traceOf(const vpAvoidanceRun &run)
-{
-  vpApp::ArmTrace trace;
-  trace.label = "tool";
-  trace.colour = "#d62728";
-  const std::size_t stride = std::max<std::size_t>(1, run.samples.size() / TRACE_POINTS);
-  for (std::size_t i = 0; i < run.samples.size(); i += stride) {
-    trace.points.push_back(run.samples[i].tool);
-  }
-  trace.points.push_back(run.samples.back().tool);
-  return trace;
-}
-
-std::vector<vpApp::ArmMark> marksOf(const vpAvoidanceRun &run)
-{
-  return {{run.samples.front().tool, "start"}, {run.samples.back().goal, "goal"}};
-}
 } // namespace
 
 Figure drawWay(const vpAvoidanceRun &run, const std::string &title, const std::vector<vpCollisionObject> &believed)
 {
-  vpApp::ArmPicture picture;
-  picture.title = title;
-  picture.ground = run.spec.scene.ground.has_value();
-  picture.objects = run.spec.scene.objects;
-  const double middle = sampleAt(run, 0.5).time;
-  for (const vpMovingObstacle &obstacle : run.spec.obstacles) {
-    picture.objects.push_back(objectAt(obstacle, std::max(middle, obstacle.appears)));
-  }
+  vpApp::ArmPicture picture = vpApp::runPicture(run, title);
   picture.faint = believed;
-  for (int i = 0; i < GHOSTS; ++i) {
-    const bool first = i == 0, last = i == GHOSTS - 1;
-    const vpAvoidanceSample &s = first ? run.samples.front() : sampleAt(run, i / (GHOSTS - 1.));
-    picture.ghosts.push_back({s.q, first ? "#8d99ae" : last ? "#1d3557" : "#5c7c9c", first || last ? 0.55 : 0.16});
-  }
-  picture.traces = {traceOf(run)};
+  picture.traces = {vpApp::toolTrace(run, "tool", TOOL_COLOUR)};
   picture.traces.push_back({{run.samples.front().tool, run.samples.back().goal}, "#777777", true, "straight"});
-  picture.marks = marksOf(run);
   Figure figure;
   figure.name = "way";
   figure.title = "The way of the tool from above and from the side";
@@ -100,31 +42,8 @@ Figure drawWay(const vpAvoidanceRun &run, const std::string &title, const std::v
 
 Figure animate(const vpAvoidanceRun &run, const std::string &title)
 {
-  vpApp::ArmAnimation animation;
-  animation.title = title;
-  animation.ground = run.spec.scene.ground.has_value();
-  animation.still = run.spec.scene.objects;
-  for (const vpMovingObstacle &obstacle : run.spec.obstacles) {
-    animation.objects.push_back(obstacle.object);
-  }
-  animation.traces = {traceOf(run)};
-  animation.marks = marksOf(run);
-  double next = 0.;
-  for (const vpAvoidanceSample &s : run.samples) {
-    if (s.time < next - 1e-9 || s.time > LONGEST) {
-      continue;
-    }
-    next = s.time + FRAME;
-    vpApp::ArmFrame frame;
-    frame.time = s.time;
-    frame.q = s.q;
-    for (const vpMovingObstacle &obstacle : run.spec.obstacles) {
-      frame.objects.push_back(objectAt(obstacle, s.time).pose);
-      frame.visible.push_back(obstacle.isThere(s.time));
-    }
-    frame.caption = std::string(s.stopping ? "protective stop, " : "") + toString(s.status);
-    animation.frames.push_back(frame);
-  }
+  vpApp::ArmAnimation animation = vpApp::runAnimation(run, title);
+  animation.traces = {vpApp::toolTrace(run, "tool", TOOL_COLOUR)};
   Figure figure;
   figure.name = "animation";
   figure.title = "The same as an animation";

@@ -110,8 +110,8 @@ Figure draw(const vpAvoidanceRun &run, const Script &script)
   }
   changes.erase(changes.begin()); // the motion's own beginning
   const Rates rates = ratesOf(commandedWay(run), run.spec.methodSpec.period);
-  vpApp::Plot way = wayPlot("The way of the tool"), speed = timePlot("Speed of the commanded tool", "m/s"),
-              acceleration = timePlot("Acceleration of the commanded tool", "m/s^2");
+  vpApp::Plot way = wayPlot("The way of the tool"), speed = vpApp::timePlot("Speed of the commanded tool", "m/s"),
+              acceleration = vpApp::timePlot("Acceleration of the commanded tool", "m/s^2");
   way.curves = {
       wayCurve("true", "#d62728", true_), wayCurve("planned", "#1f77b4", wanted),
       wayCurve("straight on", "#999999", {true_.front(), Eigen::Vector2d(script.events.front().goal.head<2>())}),
@@ -121,9 +121,9 @@ Figure draw(const vpAvoidanceRun &run, const Script &script)
   if (!vias.empty()) {
     way.curves.push_back(placeCurve("via", "#ff7f0e", vias));
   }
-  speed.curves = {timeCurve("speed", "#1f77b4", times, rates.speed)};
-  addLevel(speed, run.spec.methodSpec.maxVelocity, "bound");
-  acceleration.curves = {timeCurve("acceleration", "#1f77b4", times, rates.acceleration)};
+  speed.curves = {vpApp::timeCurve("speed", "#1f77b4", times, rates.speed)};
+  vpApp::addLevel(speed, run.spec.methodSpec.maxVelocity, "bound");
+  acceleration.curves = {vpApp::timeCurve("acceleration", "#1f77b4", times, rates.acceleration)};
   Figure figure;
   figure.name = "motion";
   figure.title = "Way, speed and acceleration of the tool";
@@ -208,7 +208,7 @@ Replica playArmReplica(const Options &options)
       "together when that is 0.4 s, which is our choice. Without it the motion were almost over at 0.95 s.",
       "The motion is in a plane 0.35 m above the ground, which is not told, and the orientation of the tool is free.",
       "A bound on the acceleration is not told; here it is 2 m/s^2, which the joints can follow.",
-      "Drives by torques with the friction of the arm's file: see --friction."};
+      "Drives by torques with the friction of the arm's file: see option --friction of visp-avoid-obstacle."};
   if (multiPoint) {
     replica.choices.emplace_back("Two arrows, two changes: the via comes at 0.95 s, the final goal at 1.15 s. When to "
                                  "be at the via is not told; "

@@ -108,9 +108,9 @@ Replica playFieldReplica(const Options &options)
       "As in the text only x is affected by the obstacle; the camera sees it while it is within 0.2 m along y."};
   add("strict", strict, replica);
   add("mild", mild, replica);
-  vpApp::Plot weights = timePlot("Weight of avoidance", "0..1");
-  weights.curves = {timeCurve("strict", "#d62728", strict.times, strict.weights, 4),
-                    timeCurve("mild", "#1f77b4", mild.times, mild.weights, 4)};
+  vpApp::Plot weights = vpApp::timePlot("Weight of avoidance", "0..1");
+  weights.curves = {vpApp::timeCurve("strict", "#d62728", strict.times, strict.weights),
+                    vpApp::timeCurve("mild", "#1f77b4", mild.times, mild.weights)};
   Figure figure;
   figure.name = "motion";
   figure.title = "The ways with strict (top) and mild (middle) parameters, and the weights";

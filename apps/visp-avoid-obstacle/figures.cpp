@@ -5,7 +5,7 @@
 #include "figures.h"
 
 #include "numberText.h"
-#include "plot.h"
+#include "timePlot.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,16 +24,6 @@ constexpr double CUT = 3.;                // of the bound of a: what is above is
 constexpr double FAR = 300.;              // mm of clearance: what is above is drawn there
 const char *const COLOURS[] = {"#1f77b4", "#d62728", "#2ca02c", "#ff7f0e", "#9467bd", "#8c564b", "#17becf", "#7f7f7f"};
 
-Plot panel(const std::string &title, const std::string &yLabel)
-{
-  Plot plot;
-  plot.title = title;
-  plot.xLabel = "time (s)";
-  plot.yLabel = yLabel;
-  plot.height = 260;
-  return plot;
-}
-
 PlotCurve curveOf(const std::string &label, const std::string &colour)
 {
   PlotCurve curve;
@@ -43,43 +33,23 @@ PlotCurve curveOf(const std::string &label, const std::string &colour)
   return curve;
 }
 
-//! Values over the samples' times; of neighbours that fall together the largest (or least) shows.
 PlotCurve overTime(const vpAvoidanceRun &run, const std::string &label, const std::string &colour,
-                   const std::function<double(std::size_t)> &value, bool least = false)
+                   const std::function<double(std::size_t)> &value, vpApp::Keep keep = vpApp::Keep::Largest)
 {
-  PlotCurve curve = curveOf(label, colour);
-  const std::size_t count = run.samples.size(), stride = std::max<std::size_t>(1, count / CURVE_POINTS);
-  for (std::size_t i = 0; i < count; i += stride) {
-    double shown = value(i);
-    for (std::size_t k = i; k < std::min(i + stride, count); ++k) {
-      shown = least ? std::min(shown, value(k)) : std::max(shown, value(k));
-    }
-    curve.x.push_back(run.samples[i].time);
-    curve.y.push_back(shown);
-  }
-  return curve;
-}
-
-void addBound(Plot &plot, double end, double bound, const std::string &label)
-{
-  PlotCurve line = curveOf(label, "#555555");
-  line.style = PlotStyle::Dashed;
-  line.width = 1.;
-  line.x = {0., end};
-  line.y = {bound, bound};
-  plot.curves.push_back(line);
+  return vpApp::timeCurve(
+      label, colour, run.samples.size(), [&](std::size_t i) { return run.samples[i].time; }, value, keep);
 }
 
 Plot jointSpeeds(const vpAvoidanceRun &run)
 {
-  Plot plot = panel("Joint speeds as parts of their limits", "share");
+  Plot plot = vpApp::timePlot("Joint speeds as parts of their limits", "share");
   const auto &joints = run.spec.arm->spec().joints;
   for (std::size_t j = 0; j < joints.size(); ++j) {
     plot.curves.push_back(overTime(run, joints[j].name, COLOURS[j % 8], [&](std::size_t i) {
       return std::fabs(run.samples[i].command(static_cast<Eigen::Index>(j))) / joints[j].velocity;
     }));
   }
-  addBound(plot, run.samples.back().time, 1., "limit");
+  vpApp::addLevel(plot, 1., "limit");
   return plot;
 }
 
@@ -157,24 +127,23 @@ std::vector<Eigen::Vector3d> commandedWay(const vpAvoidanceRun &run)
 Figure drawTimes(const vpAvoidanceRun &run)
 {
   const vpAvoidanceMethodSpec &limits = run.spec.methodSpec;
-  const double end = run.samples.back().time;
   const Rates rates = ratesOf(commandedWay(run), limits.period);
   std::vector<Plot> panels;
-  panels.push_back(panel("Speed of the commanded tool", "m/s"));
+  panels.push_back(vpApp::timePlot("Speed of the commanded tool", "m/s"));
   panels.back().curves.push_back(overTime(run, "speed", COLOURS[0], [&](std::size_t i) { return rates.speed[i]; }));
-  addBound(panels.back(), end, limits.maxVelocity, "bound");
-  panels.push_back(panel("Acceleration of the commanded tool", "m/s^2"));
+  vpApp::addLevel(panels.back(), limits.maxVelocity, "bound");
+  panels.push_back(vpApp::timePlot("Acceleration of the commanded tool", "m/s^2"));
   panels.back().curves.push_back(overTime(run, "acceleration", COLOURS[0], [&](std::size_t i) {
     return std::min(rates.acceleration[i], CUT * limits.maxAcceleration);
   }));
-  addBound(panels.back(), end, limits.maxAcceleration, "bound");
+  vpApp::addLevel(panels.back(), limits.maxAcceleration, "bound");
   panels.push_back(jointSpeeds(run));
-  panels.push_back(panel("Least clearance of the whole arm, true scene", "mm"));
+  panels.push_back(vpApp::timePlot("Least clearance of the whole arm, true scene", "mm"));
   panels.back().curves.push_back(overTime(
       run, "clearance", COLOURS[0],
-      [&](std::size_t i) { return std::min(FAR, 1000. * run.samples[i].clearance.distance); }, true));
-  addBound(panels.back(), end, 0., "touching");
-  panels.push_back(panel("Distance of the tool from the goal", "mm"));
+      [&](std::size_t i) { return std::min(FAR, 1000. * run.samples[i].clearance.distance); }, vpApp::Keep::Least));
+  vpApp::addLevel(panels.back(), 0., "touching");
+  panels.push_back(vpApp::timePlot("Distance of the tool from the goal", "mm"));
   panels.back().curves.push_back(
       overTime(run, "distance", COLOURS[0], [&](std::size_t i) { return 1000. * run.samples[i].goalDistance; }));
   Figure figure;
@@ -188,8 +157,9 @@ Figure drawTimes(const vpAvoidanceRun &run)
 
 Figure drawTracks(const PhotoScene &scene, const Episode &episode)
 {
-  std::vector<Plot> panels = {panel("Errors of place, and what the track table adds to the obstacle for them", "mm"),
-                              panel("Speed in the track table", "m/s"), panel("Confidence in the track table", "0..1")};
+  std::vector<Plot> panels = {
+      vpApp::timePlot("Errors of place, and what the track table adds to the obstacle for them", "mm"),
+      vpApp::timePlot("Speed in the track table", "m/s"), vpApp::timePlot("Confidence in the track table", "0..1")};
   const Diary &diary = episode.diary;
   const std::vector<std::string> names = namesOf(scene, diary);
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -210,7 +180,8 @@ Figure drawTracks(const PhotoScene &scene, const Episode &episode)
                       plot.curves.end());
     plot.fromZero = true;
     if (plot.curves.empty()) {
-      addBound(plot, episode.run.samples.back().time, 0., "nothing was ever seen");
+      plot.xRange = {0., episode.run.samples.back().time};
+      vpApp::addLevel(plot, 0., "nothing was ever seen");
     }
   }
   Figure figure;

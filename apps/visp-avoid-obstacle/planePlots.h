@@ -11,7 +11,7 @@
 
 #include "figures.h"
 
-#include "plot.h"
+#include "timePlot.h"
 
 namespace avoidObstacle
 {
@@ -23,14 +23,6 @@ namespace avoidObstacle
                                           const std::vector<Eigen::Vector2d> &places);
 //! A map: x to the right, y up, to scale.
 [[nodiscard]] vpApp::Plot wayPlot(const std::string &title);
-//! Something over time.
-[[nodiscard]] vpApp::Plot timePlot(const std::string &title, const std::string &unit);
-//! Values over times. \param thin : Every so many of them.
-[[nodiscard]] vpApp::PlotCurve timeCurve(const std::string &label, const std::string &colour,
-                                         const std::vector<double> &times, const std::vector<double> &values,
-                                         std::size_t thin = 1);
-//! A dashed level over the time of a plot's curves.
-void addLevel(vpApp::Plot &plot, double level, const std::string &label);
 } // namespace avoidObstacle
 
 #endif

@@ -76,18 +76,18 @@ Figure draw(const PointTask &task, const PointMotion &motion)
   if (!vias.empty()) {
     way.curves.push_back(placeCurve("via", "#ff7f0e", vias));
   }
-  vpApp::Plot place = timePlot("Place", "m"), rate = timePlot("Speed", "m/s"),
-              change = timePlot("Acceleration", "m/s^2");
-  place.curves = {timeCurve("x", "#1f77b4", times, x, THIN), timeCurve("y", "#d62728", times, y, THIN),
-                  timeCurve("x of the goal as told", "#9ecae1", times, goalX, THIN),
-                  timeCurve("y of the goal as told", "#fcae91", times, goalY, THIN)};
-  rate.curves = {timeCurve("speed", "#1f77b4", times, speed, THIN)};
-  change.curves = {timeCurve("acceleration", "#1f77b4", times, acceleration, THIN)};
+  vpApp::Plot place = vpApp::timePlot("Place", "m"), rate = vpApp::timePlot("Speed", "m/s"),
+              change = vpApp::timePlot("Acceleration", "m/s^2");
+  place.curves = {vpApp::timeCurve("x", "#1f77b4", times, x), vpApp::timeCurve("y", "#d62728", times, y),
+                  vpApp::timeCurve("goal x as told", "#9ecae1", times, goalX),
+                  vpApp::timeCurve("goal y as told", "#fcae91", times, goalY)};
+  rate.curves = {vpApp::timeCurve("speed", "#1f77b4", times, speed)};
+  change.curves = {vpApp::timeCurve("acceleration", "#1f77b4", times, acceleration)};
   if (std::isfinite(task.maxSpeed)) {
-    addLevel(rate, task.maxSpeed, "bound");
+    vpApp::addLevel(rate, task.maxSpeed, "bound");
   }
   if (std::isfinite(task.maxAcceleration)) {
-    addLevel(change, task.maxAcceleration, "bound");
+    vpApp::addLevel(change, task.maxAcceleration, "bound");
   }
   Figure figure;
   figure.name = "motion";

@@ -6,7 +6,7 @@
 
 #include "armFigures.h"
 #include "jobs.h"
-#include "plot.h"
+#include "timePlot.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,8 +19,7 @@ using vpApp::Plot;
 using vpApp::PlotCurve;
 using vpApp::PlotStyle;
 
-constexpr std::size_t CURVE_POINTS = 800; // more does not show
-constexpr double CUT = 3.;                // of the bound of a: what is above is drawn there
+constexpr double CUT = 3.; // of the bound of a: what is above is drawn there
 
 using Value = std::function<double(const vpAvoidanceRun &, std::size_t)>;
 
@@ -48,66 +47,33 @@ double clearance(const vpAvoidanceRun &run, std::size_t i)
   return 1000. * std::min(0.3, run.samples[i].clearance.distance);
 }
 
-Plot timePlot(const Plan &plan, const Results &results, const std::string &scene, const std::string &title,
-              const std::string &label, const Value &value)
+//! A value over time, a curve for each method.
+Plot methodsOverTime(const Plan &plan, const Results &results, const std::string &scene, const std::string &title,
+                     const std::string &label, const Value &value, vpApp::Keep keep = vpApp::Keep::Largest)
 {
-  Plot plot;
-  plot.title = title;
-  plot.xLabel = "time (s)";
-  plot.yLabel = label;
-  plot.height = 300;
+  Plot plot = vpApp::timePlot(title, label, 300);
   for (const std::string &method : plan.methods) {
-    const vpAvoidanceRun *run = results.find(scene, method);
-    if (run == nullptr) {
-      continue;
+    if (const vpAvoidanceRun *run = results.find(scene, method)) {
+      const MethodInfo info = methodInfo(method);
+      plot.curves.push_back(vpApp::timeCurve(
+          info.name, info.colour, run->samples.size(), [&](std::size_t i) { return run->samples[i].time; },
+          [&](std::size_t i) { return value(*run, i); }, keep));
     }
-    const MethodInfo info = methodInfo(method);
-    PlotCurve curve;
-    curve.label = info.name;
-    curve.colour = info.colour;
-    curve.width = 1.6;
-    const std::size_t stride = std::max<std::size_t>(1, run->samples.size() / CURVE_POINTS);
-    for (std::size_t i = 0; i < run->samples.size(); i += stride) {
-      double most = value(*run, i); // peaks must not fall between
-      for (std::size_t k = i; k < std::min(i + stride, run->samples.size()); ++k) {
-        most = std::max(most, value(*run, k));
-      }
-      curve.x.push_back(run->samples[i].time);
-      curve.y.push_back(most);
-    }
-    plot.curves.push_back(curve);
   }
   return plot;
-}
-
-//! A bound over the whole time.
-void addBound(Plot &plot, double bound, const std::string &label)
-{
-  double end = 0.;
-  for (const PlotCurve &curve : plot.curves) {
-    end = std::max(end, curve.x.empty() ? 0. : curve.x.back());
-  }
-  PlotCurve line;
-  line.label = label;
-  line.colour = "#555555";
-  line.style = PlotStyle::Dashed;
-  line.width = 1.;
-  line.x = {0., end};
-  line.y = {bound, bound};
-  plot.curves.push_back(line);
 }
 
 Figure drawTimes(const Plan &plan, const Results &results, const SceneInfo &scene)
 {
   const vpAvoidanceMethodSpec limits = results.find(scene.id, plan.methods.front())->spec.methodSpec;
   std::vector<Plot> panels;
-  panels.push_back(timePlot(plan, results, scene.id, "Speed of the tool", "m/s", speed));
-  addBound(panels.back(), limits.maxVelocity, "bound");
-  panels.push_back(timePlot(plan, results, scene.id, "Acceleration of the tool", "m/s^2", acceleration));
-  addBound(panels.back(), limits.maxAcceleration, "bound");
-  panels.push_back(timePlot(plan, results, scene.id, "Least clearance", "mm", clearance));
-  addBound(panels.back(), 0., "touching");
-  panels.push_back(timePlot(plan, results, scene.id, "Distance from the goal", "mm", goalDistance));
+  panels.push_back(methodsOverTime(plan, results, scene.id, "Speed of the tool", "m/s", speed));
+  vpApp::addLevel(panels.back(), limits.maxVelocity, "bound");
+  panels.push_back(methodsOverTime(plan, results, scene.id, "Acceleration of the tool", "m/s^2", acceleration));
+  vpApp::addLevel(panels.back(), limits.maxAcceleration, "bound");
+  panels.push_back(methodsOverTime(plan, results, scene.id, "Least clearance", "mm", clearance, vpApp::Keep::Least));
+  vpApp::addLevel(panels.back(), 0., "touching");
+  panels.push_back(methodsOverTime(plan, results, scene.id, "Distance from the goal", "mm", goalDistance));
   Figure figure;
   figure.scene = scene.id;
   figure.name = scene.id + "-times";
@@ -126,11 +92,7 @@ Figure drawSelfMotion(const std::vector<SelfMotionRow> &rows)
   const std::vector<std::pair<std::string, std::string>> shades = {
       {"attract", "#d62728"}, {"none", "#555555"}, {"repel", "#1f77b4"}};
   for (const char *index : {"point", "line", "plane"}) {
-    Plot plot;
-    plot.title = std::string("Distance of joint 4 from the ") + index;
-    plot.xLabel = "time (s)";
-    plot.yLabel = "mm";
-    plot.height = 280;
+    Plot plot = vpApp::timePlot(std::string("Distance of joint 4 from the ") + index, "mm", 280);
     for (const SelfMotionRow &row : rows) {
       if (row.index != index) {
         continue;

@@ -6,6 +6,7 @@
 
 #include "appMain.h"
 #include "jobs.h"
+#include "numberText.h"
 
 #include <visp3/core/vpConfig.h>
 
@@ -102,7 +103,7 @@ bool readOptions(int argc, const char *const *argv, Options &options)
     throw vpApp::UsageError("--quick has its own number of seeds, it cannot be combined with --seeds");
   }
   if (!std::isfinite(options.friction) || options.friction < 0.) {
-    throw vpApp::UsageError("--friction must be >= 0 and finite");
+    throw vpApp::UsageError("--friction is " + vpApp::number(options.friction, 6) + ", must be >= 0 and finite");
   }
   if (options.out.empty()) {
     throw vpApp::UsageError("--out is empty, must name a folder");

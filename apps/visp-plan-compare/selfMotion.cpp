@@ -4,8 +4,6 @@
  */
 #include "selfMotion.h"
 
-#include <Eigen/Geometry>
-
 namespace planCompare
 {
 namespace
@@ -18,13 +16,12 @@ struct Index {
 };
 
 //! The things of section 8.3.5: a point beside joint 4, the line from base to tool, the plane through three points.
-std::vector<Index> indices()
+std::vector<Index> indices(const vpArmModel &arm)
 {
-  const Eigen::Vector3d point(0.45, 0.1, 0.4), base(0., 0., 0.), above(0., 0., 1.), third(1., 1., 0.5);
-  const Eigen::Vector3d normal = (above - base).cross(third - base);
+  const Eigen::Vector3d point(0.45, 0.1, 0.4);
   return {{"point", [=](vpIndexSense s) { return vpSelfMotionIndex::pointDistance(JOINT_4, point, s); }},
           {"line", [=](vpIndexSense s) { return vpSelfMotionIndex::lineDistance(JOINT_4, s); }},
-          {"plane", [=](vpIndexSense s) { return vpSelfMotionIndex::planeDistance(JOINT_4, base, normal, s); }}};
+          {"plane", [&arm](vpIndexSense s) { return vpSelfMotionRunSpec::thesisPlane(arm, s); }}};
 }
 } // namespace
 
@@ -34,16 +31,8 @@ std::vector<SelfMotionRow> runSelfMotion(const Plan &plan)
   if (!plan.selfMotion) {
     return rows;
   }
-  vpSelfMotionRunSpec spec;
-  spec.arm = plan.arm;
-  spec.start = plan.arm->home();
-  vpArmData data;
-  vpArmKinematics::forward(*plan.arm, spec.start, data);
-  for (const Eigen::Vector3d &way :
-       {Eigen::Vector3d(0.05, 0.07, 0.), Eigen::Vector3d(-0.05, 0.12, 0.), Eigen::Vector3d(0., 0.17, 0.)}) {
-    spec.places.push_back(data.tool.p + way); // two vias and a final point, as in 8.3.3
-  }
-  for (const Index &index : indices()) {
+  vpSelfMotionRunSpec spec = vpSelfMotionRunSpec::thesis(plan.arm);
+  for (const Index &index : indices(*plan.arm)) {
     for (const double share : {-0.6, -0.3, 0., 0.3, 0.6}) {
       const vpIndexSense sense = share < 0. ? vpIndexSense::Attract : vpIndexSense::Repel;
       spec.index = index.make(sense);

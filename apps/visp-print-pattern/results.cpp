@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include "results.h"
+#include "thesisReplicas.h"
 
 #include "appMain.h"
 #include "jobs.h"
@@ -16,48 +17,6 @@ namespace printPattern
 {
 namespace
 {
-constexpr int REPLICA_SEEDS = 8; // as many as the figures of the design were found with
-
-//! Figure 7.12: a step of the velocity, PID.
-vpPrintExperimentSpec stepResponse()
-{
-  vpPrintExperimentSpec spec = vpPrintExperimentSpec::thesisPid();
-  spec.reference.mode = vpPrintReferenceMode::ConstantVelocity;
-  spec.cellsPerRow = 60;
-  spec.frames = 480; // 0.3 s
-  return spec;
-}
-
-vpPrintExperimentSpec observerOn(const vpPrintSensorModel &sensor)
-{
-  vpPrintExperimentSpec spec = vpPrintExperimentSpec::withObserver(sensor);
-  spec.product.jitter = 0.3; // as in the thesis's experiments
-  spec.cellsPerRow = 40;
-  spec.frames = 120;
-  return spec;
-}
-
-std::vector<Replica> replicasOfThesis()
-{
-  const auto make = [](const char *figure, const char *name, double thesis, const vpPrintExperimentSpec &spec) {
-    Replica replica;
-    replica.figure = figure;
-    replica.name = name;
-    replica.thesis = thesis;
-    replica.runs.resize(REPLICA_SEEDS);
-    for (vpPrintRun &run : replica.runs) {
-      run.spec = spec;
-    }
-    return replica;
-  };
-  return {make("7.12", "PID, step of the velocity", 0., stepResponse()),
-          make("7.13", "PID", 0.57, vpPrintExperimentSpec::thesisPid()),
-          make("7.14", "PID and feedforward", 0.40, vpPrintExperimentSpec::thesisFeedforward()),
-          make("7.15", "PID, poorly tuned filter", 0.64, vpPrintExperimentSpec::thesisPoorFilter()),
-          make("", "Observer, the thesis's sensor", 0., observerOn(vpPrintSensorModel::thesis())),
-          make("", "Observer, our tracker", 0., observerOn(vpPrintSensorModel::tracker()))};
-}
-
 double percentile(const std::vector<double> &ascending, double share)
 {
   const auto last = static_cast<double>(ascending.size() - 1);
@@ -125,15 +84,14 @@ Results runAll(const Options &options)
     results.runs[i].spec.seed += static_cast<unsigned int>(i);
     results.runs[i].spec.product.seed += static_cast<unsigned int>(i);
   }
-  std::vector<Replica> replicas = options.replicas ? replicasOfThesis() : std::vector<Replica>();
+  std::vector<Replica> replicas = options.replicas ? thesisReplicas() : std::vector<Replica>();
   std::vector<vpPrintRun *> jobs;
   for (vpPrintRun &run : results.runs) {
     jobs.push_back(&run);
   }
   for (Replica &replica : replicas) {
-    for (std::size_t i = 0; i < replica.runs.size(); ++i) {
-      replica.runs[i].spec.seed = replica.runs[i].spec.product.seed = static_cast<unsigned int>(i + 1);
-      jobs.push_back(&replica.runs[i]);
+    for (vpPrintRun &run : replica.runs) {
+      jobs.push_back(&run);
     }
   }
   {
@@ -151,8 +109,7 @@ Results runAll(const Options &options)
   vpApp::throwIfInterrupted();
   results.landing = landingOf(results.runs);
   for (Replica &replica : replicas) {
-    replica.rms_velocity_error = rmsOf(replica.runs, &vpPrintMetrics::rms_velocity_error);
-    replica.centre_velocity_error = rmsOf(replica.runs, &vpPrintMetrics::centre_velocity_error);
+    summarise(replica);
     (replica.figure.empty() ? results.observers : results.replicas).push_back(std::move(replica));
   }
   return results;

@@ -12,6 +12,7 @@
 #include "jsonReader.h"
 #include "outputFolder.h"
 #include "plot.h"
+#include "timePlot.h"
 #include "progress.h"
 #include "videoFile.h"
 
@@ -21,6 +22,7 @@
 #include <atomic>
 #include <cmath>
 #include <fstream>
+#include <regex>
 #include <sstream>
 
 #include <unistd.h>
@@ -333,6 +335,32 @@ TEST_CASE("gnuplot draws a plot with awkward labels and gaps", "[apps]")
   vpApp::requireGnuplot();
 }
 
+TEST_CASE("On logarithmic axes powers of ten are equally far apart", "[apps]")
+{
+  // Where the three points of a curve were drawn, from the SVG's point symbols.
+  const auto placesOf = [](bool logX, bool logY) {
+    vpApp::Plot plot;
+    plot.logX = logX;
+    plot.logY = logY;
+    plot.curves = {{"", "#d62728", vpApp::PlotStyle::Points, 8., {10., 100., 1000.}, {1., 10., 100.}}};
+    const std::string svg = vpApp::renderSvg(plot);
+    const std::regex point("<use xlink:href='#gpPt6' transform='translate\\(([0-9.]+),([0-9.]+)\\)");
+    std::vector<std::pair<double, double>> places;
+    for (std::sregex_iterator match(svg.begin(), svg.end(), point), end; match != end; ++match) {
+      places.emplace_back(std::stod((*match)[1]), std::stod((*match)[2]));
+    }
+    REQUIRE(places.size() == 3);
+    return places;
+  };
+  for (const auto &axes : {std::make_pair(false, false), std::make_pair(true, false), std::make_pair(false, true)}) {
+    const auto p = placesOf(axes.first, axes.second);
+    const double x = (p[1].first - p[0].first) / (p[2].first - p[0].first);
+    const double y = (p[1].second - p[0].second) / (p[2].second - p[0].second);
+    CHECK(x == Approx(axes.first ? 0.5 : 1. / 11.).margin(0.005));
+    CHECK(y == Approx(axes.second ? 0.5 : 1. / 11.).margin(0.005));
+  }
+}
+
 TEST_CASE("A video file can be read back", "[apps]")
 {
   const TestFolder folder;
@@ -346,4 +374,32 @@ TEST_CASE("A video file can be read back", "[apps]")
   REQUIRE(capture.isOpened());
   CHECK(capture.get(cv::CAP_PROP_FRAME_COUNT) == 12.);
   CHECK(complaint([] { vpApp::VideoFile("/nowhere/a.mp4", 160, 120, 10.); }).find("/nowhere/a.mp4") == 0);
+}
+
+TEST_CASE("A thinned curve keeps its peaks or its valleys", "[plot]")
+{
+  std::vector<double> times, values;
+  for (int i = 0; i < 10000; ++i) {
+    times.push_back(0.001 * i);
+    values.push_back(i == 4321 ? 7. : i == 1234 ? -7. : 0.);
+  }
+  const vpApp::PlotCurve peaks = vpApp::timeCurve("c", "#000000", times, values);
+  const vpApp::PlotCurve valleys = vpApp::timeCurve("c", "#000000", times, values, vpApp::Keep::Least);
+  CHECK(peaks.x.size() < 1000);
+  CHECK(peaks.x.size() == peaks.y.size());
+  CHECK(*std::max_element(peaks.y.begin(), peaks.y.end()) == 7.);
+  CHECK(*std::min_element(peaks.y.begin(), peaks.y.end()) == 0.);
+  CHECK(*std::min_element(valleys.y.begin(), valleys.y.end()) == -7.);
+  CHECK(*std::max_element(valleys.y.begin(), valleys.y.end()) == 0.);
+
+  vpApp::Plot plot = vpApp::timePlot("t", "m");
+  vpApp::addLevel(plot, 1., "nothing yet");
+  CHECK(plot.curves.back().x == std::vector<double>{0., 0.});
+  plot.xRange = {0., 5.};
+  vpApp::addLevel(plot, 1., "over the range");
+  CHECK(plot.curves.back().x == std::vector<double>{0., 5.});
+  plot.curves.push_back(peaks);
+  vpApp::addLevel(plot, 2., "over the curves");
+  CHECK(plot.curves.back().x.back() == peaks.x.back());
+  CHECK(plot.curves.back().y == std::vector<double>{2., 2.});
 }

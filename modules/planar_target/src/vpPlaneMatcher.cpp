@@ -43,17 +43,20 @@ public:
           vpException::badValue, "reference image has too little texture: %u %s keypoints, at least %u are needed",
           static_cast<unsigned int>(m_reference.points.size()), toString(config.keypoints), config.minInliers);
     }
+    m_result.referenceKeypoints = m_reference.points.size();
   }
 
   void match(const vpImage<unsigned char> &image)
   {
     m_result = vpPlaneMatch();
+    m_result.referenceKeypoints = m_reference.points.size();
     if (image.getWidth() < smallestImage || image.getHeight() < smallestImage) {
       fail(vpPlanarTargetStatus::NoTexture, "The image is " + std::to_string(image.getWidth()) + "x" +
                                                 std::to_string(image.getHeight()) + " px, at least 32x32 are needed.");
       return;
     }
     m_extractor->extract(view(image), m_current);
+    m_result.frameKeypoints = m_current.points.size();
     if (m_current.points.size() < m_config.minInliers) {
       fail(vpPlanarTargetStatus::NoTexture, "The image has " + std::to_string(m_current.points.size()) +
                                                 " keypoints, at least " + std::to_string(m_config.minInliers) +
@@ -65,6 +68,7 @@ public:
       from.push_back(m_reference.points[static_cast<std::size_t>(pair.first)]);
       to.push_back(m_current.points[static_cast<std::size_t>(pair.second)]);
     }
+    m_result.matches = from.size();
     std::vector<unsigned char> mask;
     cv::Mat H;
     if (from.size() >= m_config.minInliers) {

@@ -169,6 +169,37 @@ TEST_CASE("two photographs of one plane to motion up to scale", "[planar_target]
   CHECK_FALSE(matcher.match(Image(480, 640, 7)).found());
 }
 
+TEST_CASE("a match says how many keypoints and pairs it came from", "[planar_target][two-view]")
+{
+  const vpHomogeneousMatrix c1Mo = vpPlanarScene::pose(0., 0., 0.5, 0., 0., 0.);
+  const Image first = viewOf(c1Mo), second = viewOf(vpPlanarScene::pose(0.02, 0., 0.5, 0.1, 0., 0.));
+  vpPlanarTargetConfig config;
+  for (const unsigned int budget : {100U, 400U}) { // SIFT keeps as many when there are more, and equals of the last
+    config.keypoints = vpKeypointType::SIFT;
+    config.maxKeypoints = budget;
+    vpPlaneMatcher matcher(first, config);
+    const std::size_t ofReference = matcher.result().referenceKeypoints;
+    CHECK(matcher.result().frameKeypoints == 0);
+    const vpPlaneMatch &match = matcher.match(second);
+    REQUIRE(match.found());
+    CHECK(match.referenceKeypoints == ofReference);
+    CHECK(ofReference >= budget);
+    CHECK(ofReference <= budget + 5);
+    CHECK(match.frameKeypoints >= budget);
+    CHECK(match.frameKeypoints <= budget + 5);
+    CHECK(match.matches >= match.inliers.size());
+    CHECK(match.matches < budget);
+    CHECK(match.message ==
+          std::to_string(match.inliers.size()) + " of " + std::to_string(match.matches) + " matches agree.");
+    // The same picture: nearly every keypoint finds itself, but those in one place with two directions.
+    CHECK(matcher.match(first).matches > 3 * budget / 4);
+    // Nothing to see, then nothing to look at: what is not known is 0 again.
+    CHECK(matcher.match(Image(480, 640, 7)).frameKeypoints == 0);
+    CHECK(matcher.result().referenceKeypoints == ofReference);
+    CHECK(matcher.match(Image(8, 8, 7)).matches == 0);
+  }
+}
+
 TEST_CASE("set-up errors name the thing and its value", "[planar_target][errors]")
 {
   using Catch::Contains;

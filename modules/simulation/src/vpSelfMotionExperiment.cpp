@@ -7,6 +7,8 @@
 #include <visp3/core/vpException.h>
 #include <visp3/direct_core/vpSO3.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 
@@ -53,6 +55,31 @@ void evaluate(vpSelfMotionRun &run)
   }
 }
 } // namespace
+
+vpSelfMotionRunSpec vpSelfMotionRunSpec::thesis(const std::shared_ptr<const vpArmModel> &arm)
+{
+  vpSelfMotionRunSpec spec;
+  spec.arm = arm;
+  spec.start = arm->home();
+  vpArmData data;
+  vpArmKinematics::forward(*arm, spec.start, data);
+  for (const Eigen::Vector3d &way :
+       {Eigen::Vector3d(0.05, 0.07, 0.), Eigen::Vector3d(-0.05, 0.12, 0.), Eigen::Vector3d(0., 0.17, 0.)}) {
+    spec.places.push_back(data.tool.p + way);
+  }
+  return spec;
+}
+
+vpSelfMotionIndex vpSelfMotionRunSpec::thesisPlane(const vpArmModel &arm, vpIndexSense sense)
+{
+  constexpr int joint = 3;
+  const Eigen::Vector3d base(0., 0., 0.), above(0., 0., 1.), third(1., 1., 0.5);
+  const Eigen::Vector3d normal = (above - base).cross(third - base);
+  vpArmData data;
+  vpArmKinematics::forward(arm, arm.home(), data);
+  const double side = normal.dot(data.joint[joint].p - base) < 0. ? -1. : 1.;
+  return vpSelfMotionIndex::planeDistance(joint, base, side * normal, sense);
+}
 
 void vpSelfMotionRunSpec::validate() const
 {

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The reference values of shared/design/trajectory.md and the cycle by cycle use.
+// Reference values, derived independently of the code, and the cycle by cycle use.
 #include "vpTrajectoryTestKit.h"
 
 VISP_DIRECT_USING_NAMESPACE

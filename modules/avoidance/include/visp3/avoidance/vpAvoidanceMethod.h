@@ -22,6 +22,7 @@ struct VISP_EXPORT vpAvoidanceGoal {
   [[nodiscard]] static vpAvoidanceGoal at(const vpArmModel &model, const vpJointVector &q);
 };
 
+//! \ingroup group_avoidance
 //! \brief How the motion stands.
 enum class vpAvoidanceStatus {
   Moving,           //!< On the direct way to the goal.
@@ -36,9 +37,11 @@ enum class vpAvoidanceStatus {
   InvalidInput      //!< A number is not finite or a vector has a wrong size; brakes.
 };
 
-//! The status as a word ("Moving"), for files; static text.
+//! \ingroup group_avoidance
+//! \brief The status as a word ("Moving"), for files; static text.
 [[nodiscard]] VISP_EXPORT const char *toString(vpAvoidanceStatus status);
-//! The status as a sentence for a person; static text.
+//! \ingroup group_avoidance
+//! \brief The status as a sentence for a person; static text.
 [[nodiscard]] VISP_EXPORT const char *sentence(vpAvoidanceStatus status);
 
 /*!
@@ -107,6 +110,7 @@ public:
   /*!
    * One period; no allocation, no exception, no lock.
    * \param q : Commanded configuration now, rad or m.
+   * \param output : Receives what to command until the next period, and how the motion stands.
    */
   virtual void step(const vpJointVector &q, vpAvoidanceOutput &output) noexcept = 0;
 };

@@ -13,12 +13,16 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! Names for makeAvoidanceMethod().
+//! \ingroup group_avoidance
+//! \brief Names for makeAvoidanceMethod().
 [[nodiscard]] VISP_EXPORT const std::vector<std::string> &avoidanceMethodNames();
 
 /*!
+ * \ingroup group_avoidance
  * A method by name, with its own parameters at their defaults.
+ * \param name : One of avoidanceMethodNames().
  * \param scene : Must outlive the method.
+ * \param spec : What all methods have in common.
  * \throw vpException (badValue) naming an unknown method with the known ones, or a field out of range;
  * (notImplementedError) for the planners where OMPL was missing.
  */

@@ -36,8 +36,8 @@ class VISP_EXPORT vpMotionScratch
 public:
   vpMotionScratch();
   ~vpMotionScratch();
-  vpMotionScratch(vpMotionScratch &&other) noexcept;
-  vpMotionScratch &operator=(vpMotionScratch &&other) noexcept;
+  vpMotionScratch(vpMotionScratch &&other) noexcept;            //!< Moves.
+  vpMotionScratch &operator=(vpMotionScratch &&other) noexcept; //!< Moves.
 
 private:
   friend class vpCertifiedMotion;
@@ -65,6 +65,7 @@ public:
   /*!
    * \param scene : Must outlive this. Objects may be moved, added and removed, but not during check(); velocities play
    * no part.
+   * \param spec : Margin and resolution.
    * \throw vpException (badValue) naming margin or resolution and its value.
    */
   explicit vpCertifiedMotion(const vpCollisionScene &scene, const vpCertifiedMotionSpec &spec = {});

@@ -16,7 +16,8 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! Most capsules that an arm in a vpCollisionScene may have.
+//! \ingroup group_avoidance
+//! \brief Most capsules that an arm in a vpCollisionScene may have.
 constexpr int vpArmMaxCapsules = 32;
 
 /*!
@@ -40,6 +41,7 @@ struct VISP_EXPORT vpCollisionData {
   std::array<vpPlacedCapsule, vpArmMaxCapsules> capsules; //!< As many as the arm has, in its order.
 };
 
+//! \ingroup group_avoidance
 //! \brief What came near the arm's capsule.
 enum class vpCollisionKind {
   None,   //!< Nothing within the cutoff.

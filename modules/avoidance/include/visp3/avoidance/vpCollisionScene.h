@@ -22,7 +22,7 @@ struct vpCollisionCore;
 
 /*!
  * \ingroup group_avoidance
- * \brief The ground: the side normal . x < offset is forbidden. In the base frame.
+ * \brief The ground: the side normal^T x < offset is forbidden. In the base frame.
  */
 struct VISP_EXPORT vpHalfSpace {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ(); //!< Points to the free side; of any length but 0.
@@ -84,10 +84,10 @@ public:
    * negative, a ground without normal, links or objects that do not exist.
    */
   explicit vpCollisionScene(const vpArmModel &arm, const vpCollisionSceneSpec &spec = {});
-  vpCollisionScene(const vpCollisionScene &other);
-  vpCollisionScene(vpCollisionScene &&other) noexcept;
-  vpCollisionScene &operator=(const vpCollisionScene &other);
-  vpCollisionScene &operator=(vpCollisionScene &&other) noexcept;
+  vpCollisionScene(const vpCollisionScene &other);                //!< Copies.
+  vpCollisionScene(vpCollisionScene &&other) noexcept;            //!< Moves.
+  vpCollisionScene &operator=(const vpCollisionScene &other);     //!< Copies.
+  vpCollisionScene &operator=(vpCollisionScene &&other) noexcept; //!< Moves.
   ~vpCollisionScene();
 
   //! The arm.

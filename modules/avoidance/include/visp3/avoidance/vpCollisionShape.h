@@ -16,6 +16,7 @@
 
 BEGIN_VISP_NAMESPACE
 
+//! \ingroup group_avoidance
 //! \brief Kind of a shape.
 enum class vpShapeType {
   Sphere,   //!< About the origin.
@@ -37,6 +38,7 @@ public:
   //! \throw vpException (badValue) naming the radius unless it is > 0 and finite.
   [[nodiscard]] static vpCollisionShape sphere(double radius);
   /*!
+   * \param radius : Of tube and caps, > 0.
    * \param length : Between the centres of the two caps, >= 0.
    * \throw vpException (badValue) naming the number: radius not > 0, length not >= 0, or not finite.
    */

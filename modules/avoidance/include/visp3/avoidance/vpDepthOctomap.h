@@ -30,6 +30,7 @@ struct VISP_EXPORT vpDepthOctomapSpec {
   double bodyInflation = 0.02; //!< Points that near to the arm's own capsules are the arm, m, >= 0.
 };
 
+//! \ingroup group_avoidance
 //! \brief How the use of a depth image went.
 enum class vpDepthStatus {
   Ok,      //!< Points were used.
@@ -56,7 +57,7 @@ struct VISP_EXPORT vpDepthReport {
 /*!
  * \class vpDepthOctomap
  * \ingroup group_avoidance
- * \brief Map of occupied space in the base frame, by octomap, fed with depth images. Not for two threads at once.
+ * \brief Map of occupied space in the base frame, by octomap \cite Hornung13, fed with depth images. Not for two threads at once.
  */
 class VISP_EXPORT vpDepthOctomap
 {
@@ -64,8 +65,8 @@ public:
   //! \throw vpException (badValue) naming the parameter and its value.
   explicit vpDepthOctomap(const vpDepthOctomapSpec &spec = {});
   ~vpDepthOctomap();
-  vpDepthOctomap(vpDepthOctomap &&other) noexcept;
-  vpDepthOctomap &operator=(vpDepthOctomap &&other) noexcept;
+  vpDepthOctomap(vpDepthOctomap &&other) noexcept;            //!< Moves.
+  vpDepthOctomap &operator=(vpDepthOctomap &&other) noexcept; //!< Moves.
 
   /*!
    * Adds an image. Allocates.
@@ -76,6 +77,7 @@ public:
   vpDepthReport insert(const vpImage<float> &depth, const vpCameraParameters &camera, const vpRigidTransform &fMc);
   /*!
    * The same without the points on the arm.
+   * \param depth, camera, fMc : As above.
    * \param scene : For the arm's capsules.
    * \param placed : Of the configuration when the image was taken, by vpCollisionScene::place().
    */

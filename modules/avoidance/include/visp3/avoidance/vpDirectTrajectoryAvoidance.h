@@ -12,6 +12,7 @@
 
 BEGIN_VISP_NAMESPACE
 
+//! \ingroup group_avoidance
 //! \brief What the trajectory is changed by.
 enum class vpDetourKind {
   Final, //!< Point to point, (8.3)-(8.5): another final position beside the obstacle until the way to the goal is free.
@@ -23,7 +24,7 @@ enum class vpDetourKind {
  * \brief Parameters of vpDirectTrajectoryAvoidance.
  */
 struct VISP_EXPORT vpDirectTrajectoryAvoidanceSpec {
-  vpAvoidanceMethodSpec common;
+  vpAvoidanceMethodSpec common;            //!< What all methods have.
   vpDetourKind detour = vpDetourKind::Via; //!< See there.
   double clearance = 0.015;                //!< That a new motion keeps beyond the margin, m, >= 0.
   double toolClearance = 0.08;  //!< Of the end effector's origin from an obstacle's extent at a detour, m, >= 0.
@@ -59,6 +60,7 @@ class VISP_EXPORT vpDirectTrajectoryAvoidance : public vpAvoidanceMethod
 public:
   /*!
    * \param scene : Must outlive this.
+   * \param spec : Parameters; copied.
    * \throw vpException (badValue), see vpDirectTrajectoryAvoidanceSpec::validate(); naming a joint without motion limits.
    */
   explicit vpDirectTrajectoryAvoidance(const vpCollisionScene &scene, const vpDirectTrajectoryAvoidanceSpec &spec = {});

@@ -18,7 +18,7 @@ BEGIN_VISP_NAMESPACE
 /*!
  * \class vpFclChecker
  * \ingroup group_avoidance
- * \brief All pairs of a scene by FCL 0.7: an independent implementation, slower and less exact than the fast path.
+ * \brief All pairs of a scene by FCL 0.7 \cite Pan12 : an independent implementation, slower and less exact than the fast path.
  *
  * Distances of capsules from boxes err by up to a millimetre there; meshes are surfaces without inside; penetrating
  * pairs have the distance 0 (so do those whose axis is deeper than the inflation). Boolean checks use FCL's collide()

@@ -17,6 +17,7 @@ BEGIN_VISP_NAMESPACE
  *
  * Closed-loop inverse kinematics (vpClosedLoopKinematics) from \e from and, if that leads to no free configuration, from
  * random ones. Takes milliseconds; allocates.
+ * \param scene : Arm and obstacles.
  * \param from : n numbers, rad or m: the answer is the first one found, so near here when the straight way leads there.
  * \param position : In the base, m. \param margin : Clearance wanted, m, >= 0.
  * \param attempts : Starts that are tried, >= 1. \param seed : Of the random ones, >= 1.

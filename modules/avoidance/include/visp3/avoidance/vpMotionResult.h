@@ -13,6 +13,7 @@
 
 BEGIN_VISP_NAMESPACE
 
+//! \ingroup group_avoidance
 //! \brief Verdict on a motion.
 enum class vpMotionStatus {
   Free,      //!< vpCertifiedMotion: proven; vpDiscreteMotion: no sample collides.

@@ -61,6 +61,7 @@ struct VISP_EXPORT vpObjectTrackSpec {
   void validate() const;
 };
 
+//! \ingroup group_avoidance
 //! \brief What is known of an object.
 enum class vpTrackStatus {
   New,      //!< Seen once: no velocity yet.
@@ -69,7 +70,8 @@ enum class vpTrackStatus {
   Lost      //!< Not seen for longer than vpObjectTrackSpec::coast; stays where it was thought to be.
 };
 
-//! The status as a word ("Tracked"), for files; static text.
+//! \ingroup group_avoidance
+//! \brief The status as a word ("Tracked"), for files; static text.
 [[nodiscard]] VISP_EXPORT const char *toString(vpTrackStatus status);
 
 /*!
@@ -114,10 +116,10 @@ class VISP_EXPORT vpObjectTracks
 public:
   //! \throw vpException (badValue), see vpObjectTrackSpec::validate().
   explicit vpObjectTracks(const vpObjectTrackSpec &spec = {});
-  vpObjectTracks(const vpObjectTracks &other);
-  vpObjectTracks(vpObjectTracks &&other) noexcept;
-  vpObjectTracks &operator=(const vpObjectTracks &other);
-  vpObjectTracks &operator=(vpObjectTracks &&other) noexcept;
+  vpObjectTracks(const vpObjectTracks &other);                //!< Copies.
+  vpObjectTracks(vpObjectTracks &&other) noexcept;            //!< Moves.
+  vpObjectTracks &operator=(const vpObjectTracks &other);     //!< Copies.
+  vpObjectTracks &operator=(vpObjectTracks &&other) noexcept; //!< Moves.
   ~vpObjectTracks();
 
   /*!

@@ -72,6 +72,7 @@ public:
   [[nodiscard]] static vpPlanarTargetConfig fastTargets();
   /*!
    * \param targets : The photographs; made for \e camera. \param camera : Of the pictures.
+   * \param spec : Parameters; copied.
    * \throw vpException (badValue), see vpObstacleDetectorSpec::validate(), or naming the database when it is empty.
    */
   vpObstacleDetector(vpPlanarTargetDatabase targets, const vpCameraParameters &camera,

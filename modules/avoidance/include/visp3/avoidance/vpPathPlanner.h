@@ -17,6 +17,7 @@
 
 BEGIN_VISP_NAMESPACE
 
+//! \ingroup group_avoidance
 //! \brief How a planner looks at the motion between two configurations.
 enum class vpMotionValidation {
   Certified,  //!< vpCertifiedMotion: what counts as free is proven free. The default.
@@ -49,6 +50,7 @@ struct VISP_EXPORT vpPathPlannerSpec {
   void validate() const;
 };
 
+//! \ingroup group_avoidance
 //! \brief How planning ended.
 enum class vpPathStatus {
   Solved,           //!< There is a path.
@@ -75,7 +77,7 @@ struct VISP_EXPORT vpPathResult {
 /*!
  * \class vpPathPlanner
  * \ingroup group_avoidance
- * \brief Plans in the joint space of a scene's arm. Objects count where they stand when plan() is called.
+ * \brief Plans in the joint space of a scene's arm, by OMPL \cite Sucan12. Objects count where they stand when plan() is called.
  *
  * Continuous joints take the short way round to the goal's angle; the path never crosses position limits. A path found
  * with certified validation is free with the margin at every point of it, thesis (3.46), (3.48); with the discrete ones
@@ -89,13 +91,14 @@ public:
 
   /*!
    * \param scene : Must outlive the planner.
+   * \param spec : Parameters; copied.
    * \throw vpException (badValue), see vpPathPlannerSpec::validate(); (notImplementedError) naming FCL when it was
    * missing.
    */
   explicit vpPathPlanner(const vpCollisionScene &scene, const vpPathPlannerSpec &spec = {});
   ~vpPathPlanner();
-  vpPathPlanner(vpPathPlanner &&) noexcept;
-  vpPathPlanner &operator=(vpPathPlanner &&) noexcept;
+  vpPathPlanner(vpPathPlanner &&) noexcept;            //!< Moves.
+  vpPathPlanner &operator=(vpPathPlanner &&) noexcept; //!< Moves.
   vpPathPlanner(const vpPathPlanner &) = delete;
   vpPathPlanner &operator=(const vpPathPlanner &) = delete;
 

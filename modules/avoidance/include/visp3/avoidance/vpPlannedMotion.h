@@ -14,6 +14,7 @@
 
 BEGIN_VISP_NAMESPACE
 
+//! \ingroup group_avoidance
 //! \brief What a planned motion does when something comes into its way.
 enum class vpReplanning {
   FromRest, //!< Brakes, plans anew when it stands, and goes on: how planners are used as a rule.
@@ -58,6 +59,7 @@ class VISP_EXPORT vpPlannedMotion : public vpAvoidanceMethod
 public:
   /*!
    * \param scene : Must outlive this.
+   * \param spec : Parameters; copied.
    * \throw vpException (badValue), see vpPlannedMotionSpec::validate(); naming a joint without motion limits.
    */
   explicit vpPlannedMotion(const vpCollisionScene &scene, const vpPlannedMotionSpec &spec = {});

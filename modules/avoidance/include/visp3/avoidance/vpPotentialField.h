@@ -11,6 +11,7 @@
 
 BEGIN_VISP_NAMESPACE
 
+//! \ingroup group_avoidance
 //! \brief Which reading of (8.1)-(8.2).
 enum class vpFieldForm {
   Thesis,   //!< As printed: a weight for each image axis by itself, not normalised; may exceed 1.
@@ -37,6 +38,7 @@ struct VISP_EXPORT vpFieldWeightSpec {
  *
  * As printed w(0) = 2 w_s tanh(d_0/k_s): 0.76 for d_0 = k_s and w_s = 0.5, so that an arm in contact still goes on
  * towards the obstacle. Corrected it is divided by tanh(d_0/k_s) and never above 1.
+ * \param spec : Shape. \param form : Which reading.
  * \param distance : In the unit of the spec; as printed signed, else negative counts as 0.
  */
 [[nodiscard]] VISP_EXPORT double fieldWeight(const vpFieldWeightSpec &spec, vpFieldForm form, double distance) noexcept;
@@ -44,6 +46,7 @@ struct VISP_EXPORT vpFieldWeightSpec {
 /*!
  * \ingroup group_avoidance
  * \brief (8.1) as printed, on two image axes: x' = w x'_oa + (I - w) x'_t with w = diag(w_u, w_v, 0) in the camera.
+ * \param spec : Of both weights, px.
  * \param offset : Of the obstacle from the image's centre, px. \param avoid : x'_oa. \param task : x'_t; both of the
  * tool in the axes of the camera, m/s.
  */
@@ -55,6 +58,7 @@ struct VISP_EXPORT vpFieldWeightSpec {
  * \ingroup group_avoidance
  * \brief (8.1) as corrected: the part of the task's velocity along the normal is blended into one away from the obstacle;
  * what leads along the obstacle or away from it stays.
+ * \param spec : Of the weight, m.
  * \param distance : From the obstacle's surface, m. \param normal : Unit vector from obstacle to tool.
  * \param speed : Of x'_oa, m/s, >= 0. \param task : x'_t, m/s, in the axes of the normal.
  */

@@ -17,7 +17,7 @@ BEGIN_VISP_NAMESPACE
  * \brief Parameters of vpPotentialFieldAvoidance.
  */
 struct VISP_EXPORT vpPotentialFieldAvoidanceSpec {
-  vpAvoidanceMethodSpec common;
+  vpAvoidanceMethodSpec common;              //!< What all methods have.
   vpFieldForm form = vpFieldForm::Corrected; //!< See there.
   vpFieldWeightSpec metres;                  //!< Corrected: (8.2) over the distance from the surface, m.
   vpFieldWeightSpec pixels{120., 60., 0.5};  //!< Thesis: (8.2) over the place in the image, px.
@@ -53,6 +53,7 @@ class VISP_EXPORT vpPotentialFieldAvoidance : public vpAvoidanceMethod
 public:
   /*!
    * \param scene : Must outlive this.
+   * \param spec : Parameters; copied.
    * \throw vpException (badValue), see vpPotentialFieldAvoidanceSpec::validate(); naming a joint without motion limits.
    */
   explicit vpPotentialFieldAvoidance(const vpCollisionScene &scene, const vpPotentialFieldAvoidanceSpec &spec = {});

@@ -25,8 +25,8 @@ BEGIN_VISP_NAMESPACE
  *
  * The places that a capsule can take seen from joint j form a body; its convex hull is carried from the capsule inwards
  * through the joints by its support function, taken as a body of revolution about every revolute axis: position
- * limits of revolute joints are left out, those of prismatic joints count, so the bounds hold for any angle. Between samples the support function is bounded from
- * above by its sublinearity. About 0.1 % above the true maximum without limits.
+ * limits of revolute joints are left out, those of prismatic joints count, so the bounds hold for any angle. Between
+ * samples the support function is bounded from above by its sublinearity. About 0.1 % above the true maximum without limits.
  */
 class VISP_EXPORT vpReachBounds
 {

@@ -32,6 +32,7 @@ struct VISP_EXPORT vpSelfPairStatistics {
 /*!
  * \ingroup group_avoidance
  * \brief Statistics of all self pairs of a scene; with allowAdjacent = false, of all pairs on different links.
+ * \param scene : Its arm, capsules and allowed contacts; its objects play no part.
  * \param samples : Number of configurations, > 0.
  * \param seed : The same seed gives the same configurations.
  * \throw vpException (badValue) naming samples and its value.

@@ -28,6 +28,7 @@ struct VISP_EXPORT vpStopSupervisorSpec {
   void validate() const;
 };
 
+//! \ingroup group_avoidance
 //! \brief What became of a wish.
 enum class vpSupervision {
   Passed,      //!< As wished.
@@ -43,10 +44,10 @@ enum class vpSupervision {
  * \brief Velocity to command, and why.
  */
 struct VISP_EXPORT vpSupervisedVelocity {
-  vpJointVector velocity; //!< rad/s or m/s.
-  vpSupervision status = vpSupervision::InvalidInput;
-  double share = 0.; //!< Of the wish, 0..1.
-  vpClearance pair;  //!< What is in the way, unless Passed.
+  vpJointVector velocity;                             //!< rad/s or m/s.
+  vpSupervision status = vpSupervision::InvalidInput; //!< What became of the wish.
+  double share = 0.;                                  //!< Of the wish, 0..1.
+  vpClearance pair;                                   //!< What is in the way, unless Passed.
 
   //! The status as a sentence for a person.
   [[nodiscard]] const char *sentence() const noexcept;
@@ -69,6 +70,7 @@ class VISP_EXPORT vpStopSupervisor
 public:
   /*!
    * \param scene : Must outlive this; objects may be moved between the steps.
+   * \param spec : Parameters; copied.
    * \throw vpException (badValue), see vpStopSupervisorSpec::validate(); naming a joint without acceleration limit.
    */
   explicit vpStopSupervisor(const vpCollisionScene &scene, const vpStopSupervisorSpec &spec = {});
@@ -77,6 +79,7 @@ public:
    * One period; no allocation, no exception.
    * \param q : Commanded configuration now, rad or m. \param wish : Velocities wished for the next period, within the
    * acceleration limits seen from the last command.
+   * \param output : Receives the velocity to command.
    */
   void step(const vpJointVector &q, const vpJointVector &wish, vpSupervisedVelocity &output) noexcept;
   //! Forgets the last stop: the arm stands.

@@ -58,12 +58,15 @@ public:
   };
 
   /*!
-   * \param scene : Objects where they are when the motion starts; they move on by their velocities. \param path : At least one point, within the position limits.
+   * \param scene : Objects where they are when the motion starts; they move on by their velocities.
+   * \param path : At least one point, within the position limits.
+   * \param spec : Margin, limits and the state at the start.
    * \throw vpException (badValue) naming a parameter, a joint without velocity or acceleration limit, or an empty path.
    */
   vpTimedPath(const vpCollisionScene &scene, const vpJointPath &path, const vpTimedPathSpec &spec = {});
   /*!
    * \overload
+   * \param scene, path, spec : As above.
    * \param certificate : For the same scene; saves the 10 ms of making one. Its margin becomes that of the spec, its
    * resolution stays.
    */

@@ -20,6 +20,10 @@
 
 BEGIN_VISP_NAMESPACE
 
+/*!
+ * \ingroup group_direct_core
+ * \brief Functions on rotations that neither allocate nor throw.
+ */
 namespace vpSO3
 {
 //! Skew matrix: skew(a) b = a x b.

@@ -68,6 +68,7 @@ private:
 };
 
 /*!
+ * \ingroup group_direct_core
  * Scale the whole twist by one factor so that its linear and angular norms stay within the limits. Direction is kept:
  * clipping component by component would bend the path and break the view constraint.
  * \param twist : Twist to limit.

@@ -14,6 +14,7 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
+ * \ingroup group_feedforward
  * Stability margin of the rotation under `ff-sum`, the object at a bearing and the camera turned away from the goal.
  *
  * The law is a cascade: the translation error decays by itself, and with it the disturbance B v of the rotation. What

@@ -13,7 +13,8 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! How the servo step went. The motion is safe to execute in every case.
+//! \ingroup group_feedforward
+//! \brief How the servo step went. The motion is safe to execute in every case.
 enum class vpServoStatus {
   Servoing,    //!< The law's own twist.
   ViewLimited, //!< The twist was changed to keep the target in the view or within the velocity rows.
@@ -26,11 +27,14 @@ enum class vpServoStatus {
   Degenerate    //!< The law has no answer here (too few points, singular interaction matrix); zero twist.
 };
 
-//! The status as a sentence for a person, static text.
+//! \ingroup group_feedforward
+//! \brief The status as a sentence for a person, static text.
 [[nodiscard]] VISP_EXPORT const char *message(vpServoStatus status);
-//! The status as a word ("Servoing"), for files; static text.
+//! \ingroup group_feedforward
+//! \brief The status as a word ("Servoing"), for files; static text.
 [[nodiscard]] VISP_EXPORT const char *toString(vpServoStatus status);
 
+//! \ingroup group_feedforward
 //! \brief Result of one servo step.
 struct VISP_EXPORT vpServoCommand {
   vpTwist v;                                    //!< Camera twist in the current camera frame, m/s and rad/s.

@@ -22,6 +22,7 @@
 
 BEGIN_VISP_NAMESPACE
 
+//! \ingroup group_feedforward
 //! \brief Parameters of all parts of a vpServoController.
 struct VISP_EXPORT vpServoControllerConfig {
   vpServoGains gains;          //!< Of the law.

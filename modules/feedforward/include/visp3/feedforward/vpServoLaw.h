@@ -19,6 +19,7 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
+ * \ingroup group_feedforward
  * \brief Gains of the laws. One set serves all of them, so that a comparison tunes none alone.
  */
 struct VISP_EXPORT vpServoGains {
@@ -103,6 +104,7 @@ public:
   [[nodiscard]] vpServoCommand update(const vpServoMeasurement &measurement, double dt) noexcept;
 
 protected:
+  //! \param id : Of the law. \param gains : Validated here.
   //! \param rotationFactor : Fixed factor of this law on top of vpServoGains::rotation; 2 for the ids with `-rot2`.
   vpServoLaw(std::string id, const vpServoGains &gains, double rotationFactor = 1.);
   //! Called by setGoal() after validation: precompute what depends on the goal.
@@ -112,11 +114,11 @@ protected:
   //! The law itself. The measurement is valid, finite, and has the goal's number of points. Must not throw or allocate.
   virtual vpServoCommand step(const vpServoMeasurement &measurement, double dt) noexcept = 0;
 
-  std::string m_id;
-  vpServoGains m_gains;
-  double m_rotationFactor;
-  vpServoGoal m_goal;
-  bool m_hasGoal = false;
+  std::string m_id;        //!< The id the law was made from.
+  vpServoGains m_gains;    //!< Valid.
+  double m_rotationFactor; //!< Fixed factor of this law on the gain of the rotation.
+  vpServoGoal m_goal;      //!< Valid when there is one.
+  bool m_hasGoal = false;  //!< A goal was set.
 };
 
 END_VISP_NAMESPACE

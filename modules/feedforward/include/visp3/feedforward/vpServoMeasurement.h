@@ -17,6 +17,7 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
+ * \ingroup group_feedforward
  * \brief One image point in normalised coordinates with its depth.
  *
  * Normalised: x = X/Z, y = Y/Z in the camera frame, no pixels, no distortion.
@@ -29,6 +30,7 @@ struct VISP_EXPORT vpServoPoint {
 };
 
 /*!
+ * \ingroup group_feedforward
  * \brief Where to go: the pose of the object in the camera when the task is done, and the image that belongs to it.
  */
 struct VISP_EXPORT vpServoGoal {
@@ -42,6 +44,7 @@ struct VISP_EXPORT vpServoGoal {
 };
 
 /*!
+ * \ingroup group_feedforward
  * \brief What was seen, this cycle. Reuse one object: assigning to its members then allocates nothing.
  */
 struct VISP_EXPORT vpServoMeasurement {

@@ -16,6 +16,7 @@
 
 BEGIN_VISP_NAMESPACE
 
+//! \ingroup group_feedforward
 //! \brief Parameters of vpTargetLossRecovery.
 struct VISP_EXPORT vpTargetLossConfig {
   double holdTime = 0.5;   //!< Time to stand still first, s, >= 0.

@@ -18,16 +18,16 @@ BEGIN_VISP_NAMESPACE
 /*!
  * \class vpTwistProjection
  * \ingroup group_feedforward
- * \brief Solves min |x - x0|^2 subject to a_i . x >= b_i, for 6 unknowns and a bounded number of rows, exactly.
+ * \brief Solves min |x - x0|^2 subject to a_i^T x >= b_i, for 6 unknowns and a bounded number of rows, exactly.
  *
- * The dual active-set method of Goldfarb and Idnani (Mathematical Programming 27, 1983) for a unit Hessian: it starts
+ * The dual active-set method of Goldfarb and Idnani \cite Goldfarb83 for a unit Hessian: it starts
  * from x0, which satisfies everything else, and adds the most violated row until none is left. No allocation, no
  * exception; a few microseconds. ViSP's vpQuadProg solves the general problem on the heap.
  */
 class VISP_EXPORT vpTwistProjection
 {
 public:
-  using Vector = Eigen::Matrix<double, 6, 1>;
+  using Vector = Eigen::Matrix<double, 6, 1>; //!< A twist as six numbers, linear part first.
 
   static constexpr int capacity = 64; //!< Largest number of rows.
 

@@ -16,6 +16,7 @@
 
 BEGIN_VISP_NAMESPACE
 
+//! \ingroup group_feedforward
 //! \brief Parameters of vpViewConstraintFilter. The default view is 640x480 px with f = 800 px.
 struct VISP_EXPORT vpViewConstraintConfig {
   double left = -0.4;      //!< Left border of the image, normalised (x = X/Z), < 0.

@@ -27,13 +27,14 @@ class VISP_EXPORT vpArmDynamics
 {
 public:
   /*!
+   * \param model : The arm, with masses; copied.
    * \param gravity : Acceleration of free fall in the base frame, m/s^2.
    * \throw vpException (badValue) naming the first link that has no mass.
    */
   explicit vpArmDynamics(const vpArmModel &model, const Eigen::Vector3d &gravity = Eigen::Vector3d(0., 0., -9.81));
   ~vpArmDynamics();
-  vpArmDynamics(vpArmDynamics &&) noexcept;
-  vpArmDynamics &operator=(vpArmDynamics &&) noexcept;
+  vpArmDynamics(vpArmDynamics &&) noexcept;            //!< Moves.
+  vpArmDynamics &operator=(vpArmDynamics &&) noexcept; //!< Moves.
   vpArmDynamics(const vpArmDynamics &) = delete;
   vpArmDynamics &operator=(const vpArmDynamics &) = delete;
 

@@ -15,6 +15,7 @@
 
 BEGIN_VISP_NAMESPACE
 
+//! \ingroup group_manipulator
 //! \brief Frame in which a velocity of the arm is expressed, and the point whose linear velocity it has.
 enum class vpArmFrame {
   Base,        //!< Origin of the end effector, axes of the base (fJe of ViSP).
@@ -46,7 +47,9 @@ namespace vpArmKinematics
 {
 /*!
  * Frames of all joints and of the end effector, (3.8), and the configuration itself.
+ * \param model : The arm.
  * \param q : n numbers; must be of the arm's size.
+ * \param data : Receives them.
  */
 VISP_EXPORT void forward(const vpArmModel &model, const vpJointVector &q, vpArmData &data) noexcept;
 //! Geometric Jacobian in the base frame; after forward().

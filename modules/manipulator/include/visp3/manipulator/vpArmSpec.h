@@ -17,6 +17,7 @@
 
 BEGIN_VISP_NAMESPACE
 
+//! \ingroup group_manipulator
 //! \brief Kind of a joint.
 enum class vpJointType {
   Revolute,   //!< Turns about its axis between two limits.

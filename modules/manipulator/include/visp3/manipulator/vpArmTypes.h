@@ -16,14 +16,18 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! Most joints that an arm may have.
+//! \ingroup group_manipulator
+//! \brief Most joints that an arm may have.
 constexpr int vpArmMaxJoints = 8;
 
-//! One number a joint: rad, rad/s, Nm, ... for a revolute joint, m, m/s, N, ... for a prismatic one. Size n <= 8.
+//! \ingroup group_manipulator
+//! \brief One number a joint: rad, rad/s, Nm, ... for a revolute joint, m, m/s, N, ... for a prismatic one. Size n <= 8.
 using vpJointVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, vpArmMaxJoints, 1>;
-//! 6 x n, linear part (rows 0-2) first, then angular.
+//! \ingroup group_manipulator
+//! \brief 6 x n, linear part (rows 0-2) first, then angular.
 using vpArmJacobian = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, vpArmMaxJoints>;
-//! n x n.
+//! \ingroup group_manipulator
+//! \brief n x n.
 using vpJointMatrix =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, vpArmMaxJoints, vpArmMaxJoints>;
 

@@ -34,6 +34,7 @@ struct VISP_EXPORT vpClosedLoopSpec {
   void validate(double period) const;
 };
 
+//! \ingroup group_manipulator
 //! \brief Where the motion to the goal stands.
 enum class vpClosedLoopStatus {
   Moving,               //!< On the way.
@@ -100,6 +101,8 @@ class VISP_EXPORT vpClosedLoopKinematics
 public:
   /*!
    * \param model : Is referred to; must outlive the object.
+   * \param redundancy : Of the solver within.
+   * \param spec : Of the motion to the goal.
    * \throw vpException (badValue) naming the field or joint that does not do.
    */
   explicit vpClosedLoopKinematics(const vpArmModel &model, const vpRedundancySpec &redundancy = {},

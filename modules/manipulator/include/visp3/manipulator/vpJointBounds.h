@@ -33,6 +33,7 @@ struct VISP_EXPORT vpJointBounds {
 
   /*!
    * No allocation, no exception.
+   * \param model : The arm.
    * \param q : Present configuration.
    * \param previous : Velocity commanded in the last period.
    * \param period : s, > 0.

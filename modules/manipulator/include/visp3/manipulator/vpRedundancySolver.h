@@ -16,6 +16,7 @@
 
 BEGIN_VISP_NAMESPACE
 
+//! \ingroup group_manipulator
 //! \brief What happens when a joint comes to its position limit.
 enum class vpLimitPolicy {
   StopJoints, //!< Only that joint is stopped; the others do its share as far as they can.
@@ -65,9 +66,11 @@ struct VISP_EXPORT vpArmTask {
                                                const Eigen::Vector3d &velocity) noexcept;
 };
 
-//! Most tasks below the main one.
+//! \ingroup group_manipulator
+//! \brief Most tasks below the main one.
 constexpr int vpMaxArmTasks = 3;
-//! Most indices at a time.
+//! \ingroup group_manipulator
+//! \brief Most indices at a time.
 constexpr int vpMaxArmIndices = 8;
 
 /*!
@@ -87,6 +90,7 @@ struct VISP_EXPORT vpRedundancyInput {
   vpJointVector previous;      //!< Velocities of the last period; n numbers.
 };
 
+//! \ingroup group_manipulator
 //! \brief How the wish and the answer differ; the gravest holds.
 enum class vpRedundancyStatus {
   Exact,           //!< As wanted.
@@ -135,6 +139,7 @@ class VISP_EXPORT vpRedundancySolver
 public:
   /*!
    * \param model : Is referred to; must outlive the solver.
+   * \param spec : Parameters; copied.
    * \throw vpException (badValue) naming a joint without velocity or acceleration limit, or a field that is out of
    * range.
    */
@@ -143,6 +148,8 @@ public:
   /*!
    * One cycle.
    * \param data : Present configuration, after vpArmKinematics::jacobian().
+   * \param input : What is wanted.
+   * \param output : Receives the joint velocities and how they differ from the wish.
    */
   void step(const vpArmData &data, const vpRedundancyInput &input, vpRedundancyOutput &output) const noexcept;
 

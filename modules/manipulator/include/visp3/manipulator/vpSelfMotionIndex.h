@@ -13,15 +13,17 @@
 
 BEGIN_VISP_NAMESPACE
 
+//! \ingroup group_manipulator
 //! \brief Towards a thing or away from it.
 enum class vpIndexSense {
   Attract, //!< The distance shall become smaller.
   Repel    //!< The distance shall become larger.
 };
 
+//! \ingroup group_manipulator
 //! \brief What an index looks at.
 enum class vpIndexKind {
-  Manipulability, //!< (3.25), (3.27): distance from singularities.
+  Manipulability, //!< (3.25), (3.27): distance from singularities \cite Yoshikawa85.
   PointDistance,  //!< (3.29): of a joint from a point.
   LineDistance,   //!< (3.35): of a joint from the segment between base and tool.
   PlaneDistance,  //!< (3.41): of a joint from a plane, with sign.
@@ -93,7 +95,10 @@ struct VISP_EXPORT vpIndexValue {
 /*!
  * \ingroup group_manipulator
  * \brief Index and exact gradient, (3.26) per component: dM/dq_k = M tr(dJ/dq_k J^+). No allocation, no exception.
+ * \param model : The arm.
  * \param data : After vpArmKinematics::jacobian().
+ * \param index : What is climbed.
+ * \param result : Receives value, distance and gradient.
  * \return False where there is no gradient (singular pose, joint in the point or on the line, index that does not fit
  * the arm); the gradient is zero then.
  */

@@ -18,6 +18,7 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
+ * \ingroup group_pattern
  * \brief A point that is known on the product or on a calibration grid, and was measured in an image.
  *
  * Pixels: u to the right, v down, (0, 0) is the centre of the top left pixel. Object coordinates are metres.
@@ -33,6 +34,7 @@ struct VISP_EXPORT vpCalibrationPoint {
   double sigmaPlane = 0.; //!< Standard deviation of x and of y (a product is not made exactly), m, >= 0.
 };
 
+//! \ingroup group_pattern
 //! \brief The product or the grid as a ruler: how far its cells are from each other.
 struct VISP_EXPORT vpCalibrationPitch {
   double columns = 0.;    //!< From a cell to its neighbour in the next column, m, > 0.
@@ -44,22 +46,25 @@ struct VISP_EXPORT vpCalibrationPitch {
 };
 
 /*!
+ * \ingroup group_pattern
  * The valid cells of a frame as points of the lattice: x = column * columns, y = row * rows, z = 0.
  *
  * The columns are those that vpPatternTracker counts to the right in the image and the rows those that it counts
  * downwards, so that a product that lies across shows its pitches exchanged. The standard deviations are the cells'
- * own; 0.1 px where
- * the tracker does not know them, as in its first image: then set vpMicroscopeCalibrationOptions::sigmaFromResiduals.
+ * own; 0.1 px where the tracker does not know them, as in its first image: then set
+ * vpMicroscopeCalibrationOptions::sigmaFromResiduals.
  * \throw vpException (badValue) naming a pitch that is not > 0.
  */
 [[nodiscard]] VISP_EXPORT std::vector<vpCalibrationPoint> vpCalibrationPoints(const vpPatternFrame &frame,
                                                                               const vpCalibrationPitch &pitch);
 
 /*!
+ * \ingroup group_pattern
  * The dots of one image of a calibration grid, of either polarity, as points of the lattice. Their centres are found by
  * half-maximum edges (vpPatternMethod::HalfMaximumEdges).
  * \param image : 8 bit, at least 16 x 16 px; two periods each way must be in view, and the view must be straight:
  * rows and columns are a lattice, which they are not under a strong perspective.
+ * \param pitch : Of the grid.
  * \throw vpException (badValue) naming a pitch that is not > 0; (fatalError) with the tracker's sentence when it finds
  * no lattice.
  */

@@ -20,13 +20,15 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
+ * \ingroup group_pattern
  * \brief A camera that looks straight at a plane of fixed depth (thesis section 7.2.1, equation (7.7)).
  *
  * With the pixel relative to the principal point, d = (u - u0, (v - v0) scaleX / scaleY), and a point p of the plane,
- * \f[ d \, (1 + \kappa_1 |d|^2) = s_x \left( R(\theta) \, F p + t \right) \f]
+ * \verbatim
+   d (1 + kappa1 |d|^2) = scaleX (R(theta) F p + t)
+   \endverbatim
  * where F mirrors y when #mirrored is set. scaleX is the magnification M_o = f / t_z of (7.7) in px per metre of
- * product;
- * with square pixels scaleY is the same.
+ * product; with square pixels scaleY is the same.
  */
 struct VISP_EXPORT vpMicroscopeCalibration {
   unsigned int width = 0;  //!< Columns of the images, px.
@@ -69,6 +71,7 @@ struct VISP_EXPORT vpMicroscopeCalibration {
   void saveXml(const std::string &file, const std::string &name = "microscope") const;
   /*!
    * Read a camera with distortion from ViSP's camera file. For one thread, as saveXml().
+   * \param file : ViSP's camera file. \param name : Of the camera in it.
    * \param width, height : Size of the images, px.
    * \throw vpException (ioError) naming the file and the camera when it is not in there for this size.
    */

@@ -19,7 +19,8 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! How far the result can be relied upon.
+//! \ingroup group_pattern
+//! \brief How far the result can be relied upon.
 enum class vpPatternStatus {
   Acquiring, //!< Looking for the pattern, or learning its template; cells that are valid are measured by their edges.
   Tracking,  //!< Locked: identities, centres and displacement hold.
@@ -27,7 +28,8 @@ enum class vpPatternStatus {
   Lost       //!< No lock in this image; nothing in it is valid.
 };
 
-//! Why the status is not Tracking.
+//! \ingroup group_pattern
+//! \brief Why the status is not Tracking.
 enum class vpPatternReason {
   None,            //!< Nothing to say.
   WrongSize,       //!< The image has not the size that the tracker was made for.
@@ -44,7 +46,8 @@ enum class vpPatternReason {
   NoMatch          //!< The image does not show the pattern where it can be.
 };
 
-//! One cell of the pattern.
+//! \ingroup group_pattern
+//! \brief One cell of the pattern.
 struct VISP_EXPORT vpPatternCell {
   int row = 0;    //!< Row, counted downwards; stays with the cell while it moves, within one epoch.
   int column = 0; //!< Column, counted to the right; as row.
@@ -58,7 +61,8 @@ struct VISP_EXPORT vpPatternCell {
   bool valid = false;     //!< The centre was measured in this image.
 };
 
-//! The regular lattice: cell (row, column) is near origin + column * columnPitch + row * rowPitch.
+//! \ingroup group_pattern
+//! \brief The regular lattice: cell (row, column) is near origin + column * columnPitch + row * rowPitch.
 struct VISP_EXPORT vpPatternLattice {
   double originX = 0.;      //!< Where cell (0, 0) of the lattice would be, px. May be far outside the image.
   double originY = 0.;      //!< As originX.
@@ -76,6 +80,7 @@ struct VISP_EXPORT vpPatternLattice {
 };
 
 /*!
+ * \ingroup group_pattern
  * \brief Everything about one image. The storage belongs to the tracker and is used again for the next image.
  */
 struct VISP_EXPORT vpPatternFrame {
@@ -98,7 +103,8 @@ struct VISP_EXPORT vpPatternFrame {
   [[nodiscard]] const char *message() const;
 };
 
-//! The status as a word ("Tracking"), for files; static text.
+//! \ingroup group_pattern
+//! \brief The status as a word ("Tracking"), for files; static text.
 [[nodiscard]] VISP_EXPORT const char *toString(vpPatternStatus status);
 
 END_VISP_NAMESPACE

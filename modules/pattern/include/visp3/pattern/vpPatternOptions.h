@@ -13,7 +13,8 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! How the centre of a cell is measured.
+//! \ingroup group_pattern
+//! \brief How the centre of a cell is measured.
 enum class vpPatternMethod {
   GaussNewton,         //!< Learned template, aligned with the image; the others are baselines to compare with.
   HalfMaximumEdges,    //!< Where the grey value crosses the threshold, on all four sides.
@@ -21,7 +22,8 @@ enum class vpPatternMethod {
   ThesisAlgorithmFixed //!< Algorithm 7.4 with (7.12) corrected and sub-pixel edges on all four sides.
 };
 
-//! Derivative of table 7.2, for the two variants of Algorithm 7.4.
+//! \ingroup group_pattern
+//! \brief Derivative of table 7.2, for the two variants of Algorithm 7.4.
 enum class vpPatternDerivative {
   Symmetric, //!< 3 x 1, I(y + 1) - I(y - 1).
   Roberts,   //!< 2 x 1, I(y + 1) - I(y); taken at y + 0.5.
@@ -29,7 +31,8 @@ enum class vpPatternDerivative {
   Sobel      //!< 3 x 3, weights 1 2 1.
 };
 
-//! Which of the two grey classes is the cell.
+//! \ingroup group_pattern
+//! \brief Which of the two grey classes is the cell.
 enum class vpPatternPolarity {
   Automatic, //!< The one that makes a lattice of equal spots; bright is tried first.
   Bright,    //!< Bright cells on a dark ground.
@@ -37,6 +40,7 @@ enum class vpPatternPolarity {
 };
 
 /*!
+ * \ingroup group_pattern
  * \brief Options of vpPatternTracker. The defaults suit every pattern that shows two periods each way.
  */
 struct VISP_EXPORT vpPatternOptions {
@@ -60,9 +64,11 @@ struct VISP_EXPORT vpPatternOptions {
   void check() const;
 };
 
-//! The method as a word ("GaussNewton"), for files; static text.
+//! \ingroup group_pattern
+//! \brief The method as a word ("GaussNewton"), for files; static text.
 [[nodiscard]] VISP_EXPORT const char *toString(vpPatternMethod method);
-//! The derivative as a word ("Symmetric"), for files; static text.
+//! \ingroup group_pattern
+//! \brief The derivative as a word ("Symmetric"), for files; static text.
 [[nodiscard]] VISP_EXPORT const char *toString(vpPatternDerivative derivative);
 
 END_VISP_NAMESPACE

@@ -18,17 +18,20 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! How the image is divided into bright and dark.
+//! \ingroup group_pattern
+//! \brief How the image is divided into bright and dark.
 enum class vpPatternThreshold {
-  Otsu,        //!< Greatest variance between the classes (Otsu 1979).
-  Isodata,     //!< Mean of the class means, iterated (Ridler and Calvard 1978).
-  MinimumError //!< Two normal distributions of least classification error (Kittler and Illingworth 1986).
+  Otsu,        //!< Greatest variance between the classes \cite Otsu79.
+  Isodata,     //!< Mean of the class means, iterated \cite Ridler78.
+  MinimumError //!< Two normal distributions of least classification error \cite Kittler86.
 };
 
-//! Number of pixels of each grey value.
+//! \ingroup group_pattern
+//! \brief Number of pixels of each grey value.
 using vpPatternHistogram = std::array<std::uint32_t, 256>;
 
-//! A threshold and how well it divides.
+//! \ingroup group_pattern
+//! \brief A threshold and how well it divides.
 struct VISP_EXPORT vpPatternThresholdResult {
   int threshold = -1; //!< Values above it are bright; 0 to 254. -1: all pixels have the same value, there is none.
   double separability = 0.; //!< Variance between the classes over the total variance, 0 to 1 (noise alone: about 0.64).
@@ -37,12 +40,14 @@ struct VISP_EXPORT vpPatternThresholdResult {
 };
 
 /*!
+ * \ingroup group_pattern
  * \brief Threshold of a histogram, thesis table 7.1. Allocates nothing; an empty histogram has the threshold -1.
  */
 [[nodiscard]] VISP_EXPORT vpPatternThresholdResult vpFindThreshold(const vpPatternHistogram &histogram,
                                                                    vpPatternThreshold method);
 
-//! The method as a word ("Otsu"), for files; static text.
+//! \ingroup group_pattern
+//! \brief The method as a word ("Otsu"), for files; static text.
 [[nodiscard]] VISP_EXPORT const char *toString(vpPatternThreshold method);
 
 END_VISP_NAMESPACE

@@ -19,6 +19,7 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
+ * \ingroup group_pattern
  * \brief Tracks rectangular, rounded or dot cells that repeat on a lattice (thesis section 7.2.2, with another method).
  *
  * Acquisition: threshold, run-length labels, sub-pixel edges, robust lattice. Then a template is learned from the images

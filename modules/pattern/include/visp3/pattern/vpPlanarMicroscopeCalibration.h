@@ -19,6 +19,7 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
+ * \ingroup group_pattern
  * \brief What vpPlanarMicroscopeCalibration shall find and what it is told.
  */
 struct VISP_EXPORT vpMicroscopeCalibrationOptions {
@@ -36,14 +37,16 @@ struct VISP_EXPORT vpMicroscopeCalibrationOptions {
   void check() const;
 };
 
-//! What became of kappa1.
+//! \ingroup group_pattern
+//! \brief What became of kappa1.
 enum class vpKappa1Status {
   Estimated,    //!< Found; its standard deviation is in the covariance.
   Unobservable, //!< These points cannot tell it from zero, or it changes nothing: it is 0, see the sentence.
   NotAsked      //!< vpMicroscopeCalibrationOptions::estimateKappa1 was false: it is 0.
 };
 
-//! Where the product lay in one view.
+//! \ingroup group_pattern
+//! \brief Where the product lay in one view.
 struct VISP_EXPORT vpMicroscopePlacement {
   double rotation = 0.;       //!< As vpMicroscopeCalibration::rotation, rad.
   double tx = 0.;             //!< As vpMicroscopeCalibration::tx, m.
@@ -51,7 +54,8 @@ struct VISP_EXPORT vpMicroscopePlacement {
   Eigen::Matrix3d covariance; //!< Of (rotation, tx, ty): rad, m, m.
 };
 
-//! Numbers of the parameters in vpMicroscopeCalibrationResult::covariance.
+//! \ingroup group_pattern
+//! \brief Numbers of the parameters in vpMicroscopeCalibrationResult::covariance.
 enum vpMicroscopeParameter : int {
   vpMicroscopeScaleX,
   vpMicroscopeScaleY,
@@ -65,6 +69,7 @@ enum vpMicroscopeParameter : int {
 };
 
 /*!
+ * \ingroup group_pattern
  * \brief The calibration with all that tells how good it is.
  */
 struct VISP_EXPORT vpMicroscopeCalibrationResult {
@@ -125,6 +130,7 @@ class VISP_EXPORT vpPlanarMicroscopeCalibration
 public:
   /*!
    * \param width, height : Size of the images, px, each in [8, 65536].
+   * \param options : What to find and how.
    * \throw vpException (badValue) naming what is out of range.
    */
   vpPlanarMicroscopeCalibration(unsigned int width, unsigned int height,
@@ -148,7 +154,8 @@ private:
   std::vector<std::vector<vpCalibrationPoint>> m_views;
 };
 
-//! The status as a word ("Estimated"), for files; static text.
+//! \ingroup group_pattern
+//! \brief The status as a word ("Estimated"), for files; static text.
 [[nodiscard]] VISP_EXPORT const char *toString(vpKappa1Status status);
 
 END_VISP_NAMESPACE

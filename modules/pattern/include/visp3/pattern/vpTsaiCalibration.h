@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpTsaiCalibration.h
- * \brief Tsai's camera calibration with one radial distortion (thesis section 4.2.1).
+ * \brief Tsai's camera calibration \cite Tsai87 with one radial distortion (thesis section 4.2.1).
  */
 #ifndef vpTsaiCalibration_h
 #define vpTsaiCalibration_h
@@ -23,6 +23,7 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
+ * \ingroup group_pattern
  * \brief What vpTsaiCalibration shall find and what it is told.
  */
 struct VISP_EXPORT vpTsaiCalibrationOptions {
@@ -37,10 +38,12 @@ struct VISP_EXPORT vpTsaiCalibrationOptions {
   void check() const;
 };
 
-//! Numbers of the parameters in vpTsaiCalibrationResult::covariance.
+//! \ingroup group_pattern
+//! \brief Numbers of the parameters in vpTsaiCalibrationResult::covariance.
 enum vpTsaiParameter : int { vpTsaiPx, vpTsaiPy, vpTsaiKappa1, vpTsaiU0, vpTsaiV0, vpTsaiParameterCount };
 
 /*!
+ * \ingroup group_pattern
  * \brief The camera with all that tells how good it is.
  */
 struct VISP_EXPORT vpTsaiCalibrationResult {
@@ -87,6 +90,7 @@ class VISP_EXPORT vpTsaiCalibration
 public:
   /*!
    * \param width, height : Size of the images, px, each in [8, 65536].
+   * \param options : What to find and how.
    * \throw vpException (badValue) naming what is out of range.
    */
   vpTsaiCalibration(unsigned int width, unsigned int height,

@@ -18,7 +18,8 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! Keypoint detector with its descriptor.
+//! \ingroup group_planar_target
+//! \brief Keypoint detector with its descriptor.
 enum class vpKeypointType {
   ORB,   //!< OpenCV; fast, the default.
   SIFT,  //!< OpenCV; most precise before refinement, slow.
@@ -28,11 +29,14 @@ enum class vpKeypointType {
   SURF   //!< dlib (Debian's OpenCV has none).
 };
 
-//! Name of the detector ("ORB"), static text.
+//! \ingroup group_planar_target
+//! \brief Name of the detector ("ORB"), static text.
 [[nodiscard]] VISP_EXPORT const char *toString(vpKeypointType type);
+//! \ingroup group_planar_target
 //! \throw vpException (badValue) naming an unknown detector and the known ones.
 [[nodiscard]] VISP_EXPORT vpKeypointType keypointTypeFromString(const std::string &name);
 
+//! \ingroup group_planar_target
 //! \brief Settings of a target. The defaults serve 640x480 images of a target that fills a third of the view or more.
 struct VISP_EXPORT vpPlanarTargetConfig {
   vpKeypointType keypoints = vpKeypointType::ORB; //!< Detector for acquisition.
@@ -73,23 +77,25 @@ public:
   vpPlanarTarget(const vpImage<unsigned char> &reference, double width, double height, const vpCameraParameters &camera,
                  const vpPlanarTargetConfig &config = {});
   ~vpPlanarTarget();
-  vpPlanarTarget(vpPlanarTarget &&) noexcept;
-  vpPlanarTarget &operator=(vpPlanarTarget &&) noexcept;
+  vpPlanarTarget(vpPlanarTarget &&) noexcept;            //!< Moves.
+  vpPlanarTarget &operator=(vpPlanarTarget &&) noexcept; //!< Moves.
 
   //! Track, or acquire when that fails. \param image : Frame of any size of at least 32x32 px.
   const vpPlanarTargetResult &process(const vpImage<unsigned char> &image);
   //! Acquire by keypoints, whatever was known before.
   const vpPlanarTargetResult &acquire(const vpImage<unsigned char> &image);
-  //! Track only, from the last pose or from \e cMoGuess.
+  //! Track only, from the last pose.
   const vpPlanarTargetResult &track(const vpImage<unsigned char> &image);
+  //! Track only, from \e cMoGuess.
   const vpPlanarTargetResult &track(const vpImage<unsigned char> &image, const vpHomogeneousMatrix &cMoGuess);
   //! Forget where the target was.
   void reset();
 
   //! The last result.
   [[nodiscard]] const vpPlanarTargetResult &result() const;
-  //! Metric size of the target, m.
+  //! Width of the target, m.
   [[nodiscard]] double width() const;
+  //! Height of the target, m.
   [[nodiscard]] double height() const;
 
 private:

@@ -17,6 +17,7 @@
 
 BEGIN_VISP_NAMESPACE
 
+//! \ingroup group_planar_target
 //! \brief One target of the database, as it was seen in the last frame.
 struct VISP_EXPORT vpPlanarTargetSighting {
   std::string name;            //!< Name in the database.
@@ -51,8 +52,8 @@ public:
   //! An empty database. \param camera : As for vpPlanarTarget. \param config : Settings of every target.
   explicit vpPlanarTargetDatabase(const vpCameraParameters &camera, const vpPlanarTargetConfig &config = {});
   ~vpPlanarTargetDatabase();
-  vpPlanarTargetDatabase(vpPlanarTargetDatabase &&) noexcept;
-  vpPlanarTargetDatabase &operator=(vpPlanarTargetDatabase &&) noexcept;
+  vpPlanarTargetDatabase(vpPlanarTargetDatabase &&) noexcept;            //!< Moves.
+  vpPlanarTargetDatabase &operator=(vpPlanarTargetDatabase &&) noexcept; //!< Moves.
 
   /*!
    * All targets of a folder, in the order of its targets.json.

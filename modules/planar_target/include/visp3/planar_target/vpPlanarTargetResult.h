@@ -18,7 +18,8 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! How a frame went. Only Acquired and Tracked carry a pose.
+//! \ingroup group_planar_target
+//! \brief How a frame went. Only Acquired and Tracked carry a pose.
 enum class vpPlanarTargetStatus {
   Acquired,       //!< Found by keypoints, refined on the grey values.
   Tracked,        //!< Followed from the frame before by its grey values.
@@ -29,12 +30,14 @@ enum class vpPlanarTargetStatus {
   NoFrame         //!< No image was given yet.
 };
 
-//! The status as a word ("Tracked"), static text.
+//! \ingroup group_planar_target
+//! \brief The status as a word ("Tracked"), static text.
 [[nodiscard]] VISP_EXPORT const char *toString(vpPlanarTargetStatus status);
 
+//! \ingroup group_planar_target
 //! \brief Result for one target in one frame.
 struct VISP_EXPORT vpPlanarTargetResult {
-  vpPlanarTargetStatus status = vpPlanarTargetStatus::NoFrame;
+  vpPlanarTargetStatus status = vpPlanarTargetStatus::NoFrame; //!< How the frame went.
   std::string message;     //!< One sentence for a person, with the numbers that matter.
   vpHomogeneousMatrix cMo; //!< Pose of the target in the camera, m; the target's plane is z = 0, x right, y down.
   std::array<double, 9> homography{}; //!< Row by row: pixels of the reference image to pixels of the frame, H(2,2) = 1.

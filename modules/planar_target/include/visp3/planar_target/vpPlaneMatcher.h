@@ -13,6 +13,7 @@
 #include <visp3/vision/vpHomography.h>
 
 #include <array>
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <utility>
@@ -20,6 +21,7 @@
 
 BEGIN_VISP_NAMESPACE
 
+//! \ingroup group_planar_target
 //! \brief What two views have in common.
 struct VISP_EXPORT vpPlaneMatch {
   //! Acquired; NoTexture or TooFewInliers when there is no homography; NoFrame before the first frame.
@@ -27,6 +29,9 @@ struct VISP_EXPORT vpPlaneMatch {
   std::string message;                //!< One sentence for a person.
   std::array<double, 9> homography{}; //!< Row by row: pixels of the reference to pixels of the frame, H(2,2) = 1.
   std::vector<std::pair<vpImagePoint, vpImagePoint>> inliers; //!< Agreeing matches: in the reference, in the frame; px.
+  std::size_t referenceKeypoints = 0; //!< Found in the reference view; known before the first frame.
+  std::size_t frameKeypoints = 0;     //!< Found in the frame; 0 when it is too small to look.
+  std::size_t matches = 0;            //!< Mutual best pairs before the homography; the inliers are among them.
 
   //! True if there is a homography.
   [[nodiscard]] bool found() const { return status == vpPlanarTargetStatus::Acquired; }
@@ -57,8 +62,8 @@ public:
    */
   explicit vpPlaneMatcher(const vpImage<unsigned char> &reference, const vpPlanarTargetConfig &config = {});
   ~vpPlaneMatcher();
-  vpPlaneMatcher(vpPlaneMatcher &&) noexcept;
-  vpPlaneMatcher &operator=(vpPlaneMatcher &&) noexcept;
+  vpPlaneMatcher(vpPlaneMatcher &&) noexcept;            //!< Moves.
+  vpPlaneMatcher &operator=(vpPlaneMatcher &&) noexcept; //!< Moves.
 
   //! Compare a frame with the reference view.
   const vpPlaneMatch &match(const vpImage<unsigned char> &image);

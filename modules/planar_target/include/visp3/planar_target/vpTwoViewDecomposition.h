@@ -21,7 +21,8 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! How a decomposition went. Only Unique carries a motion.
+//! \ingroup group_planar_target
+//! \brief How a decomposition went. Only Unique carries a motion.
 enum class vpTwoViewStatus {
   Unique,       //!< One motion, see vpTwoViewResult::best.
   Ambiguous,    //!< Two motions fit and nothing tells them apart yet: move on, or give a normal prior.
@@ -29,9 +30,11 @@ enum class vpTwoViewStatus {
   Invalid       //!< The homography is not finite or singular, or no motion sees all points in front of both cameras.
 };
 
-//! The status as a word ("Unique"), static text.
+//! \ingroup group_planar_target
+//! \brief The status as a word ("Unique"), static text.
 [[nodiscard]] VISP_EXPORT const char *toString(vpTwoViewStatus status);
 
+//! \ingroup group_planar_target
 //! \brief One physically possible motion.
 struct VISP_EXPORT vpTwoViewMotion {
   vpRotationMatrix c2Rc1;               //!< Orientation of the reference camera in the current one.
@@ -39,14 +42,16 @@ struct VISP_EXPORT vpTwoViewMotion {
   vpColVector normal;                   //!< Unit normal of the plane in the reference camera, pointing away from it.
 };
 
+//! \ingroup group_planar_target
 //! \brief Result of one frame.
 struct VISP_EXPORT vpTwoViewResult {
-  vpTwoViewStatus status = vpTwoViewStatus::Invalid;
-  std::string message;                     //!< One sentence for a person.
-  vpTwoViewMotion best;                    //!< The motion; meaningful when #status is Unique.
-  std::vector<vpTwoViewMotion> candidates; //!< What positive depth leaves: none, one or two.
+  vpTwoViewStatus status = vpTwoViewStatus::Invalid; //!< How it went.
+  std::string message;                               //!< One sentence for a person.
+  vpTwoViewMotion best;                              //!< The motion; meaningful when \e status is Unique.
+  std::vector<vpTwoViewMotion> candidates;           //!< What positive depth leaves: none, one or two.
 };
 
+//! \ingroup group_planar_target
 //! \brief Settings of vpTwoViewDecomposition.
 struct VISP_EXPORT vpTwoViewConfig {
   double minTranslation = 0.02; //!< Shorter motions, as a share of the plane's distance, are PureRotation, > 0.

@@ -14,6 +14,7 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
+ * \ingroup group_printing
  * \brief Gains of a vpAlphaBetaFilter. Stable exactly for alpha > 0 and 0 < beta < 4 - 2 alpha.
  */
 struct VISP_EXPORT vpAlphaBetaGains {
@@ -51,7 +52,9 @@ struct VISP_EXPORT vpAlphaBetaGains {
  * \brief Alpha-beta filter, thesis (7.23) (missing there) and (7.24).
  *
  * With the period T and the residual r:
- * \f[ x^- = x + T v + \tfrac{1}{2} T^2 u, \; v^- = v + T u, \; r = z - x^-, \; x = x^- + \alpha r, \; v = v^- + \beta r / T \f]
+ * \verbatim
+   x- = x + T v + T^2 u / 2,   v- = v + T u,   r = z - x-,   x = x- + alpha r,   v = v- + beta r / T
+   \endverbatim
  * where u is the known acceleration of the value, 0 unless given. The value may be a position (the rate is the velocity)
  * or a measured velocity (the rate is the acceleration). With velocities in px/frame the period is 1.
  *

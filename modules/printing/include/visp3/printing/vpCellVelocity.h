@@ -15,6 +15,7 @@
 
 BEGIN_VISP_NAMESPACE
 
+//! \ingroup group_printing
 //! \brief Velocity of the product between two frames.
 struct VISP_EXPORT vpCellVelocity {
   int cells = 0;      //!< Cells that were measured in both frames; 0: nothing below holds.

@@ -15,6 +15,7 @@
 
 BEGIN_VISP_NAMESPACE
 
+//! \ingroup group_printing
 //! \brief One row of the log.
 struct VISP_EXPORT vpFrictionSample {
   double force = 0.;        //!< That acted, F.
@@ -22,6 +23,7 @@ struct VISP_EXPORT vpFrictionSample {
   double acceleration = 0.; //!< L/T^2.
 };
 
+//! \ingroup group_printing
 //! \brief What the identification may be told.
 struct VISP_EXPORT vpFrictionIdentificationSpec {
   bool stribeck = true;      //!< Also stiction and Stribeck velocity; otherwise stiction = Coulomb.
@@ -33,7 +35,8 @@ struct VISP_EXPORT vpFrictionIdentificationSpec {
   void validate() const;
 };
 
-//! How an identification ended.
+//! \ingroup group_printing
+//! \brief How an identification ended.
 enum class vpFrictionStatus {
   Good,          //!< All parameters hold.
   TooFewSamples, //!< Less than ten samples for each parameter.
@@ -42,6 +45,7 @@ enum class vpFrictionStatus {
   NotFinite      //!< A sample is not finite; nothing holds.
 };
 
+//! \ingroup group_printing
 //! \brief Parameters with their standard deviations.
 struct VISP_EXPORT vpFrictionIdentification {
   vpFrictionStatus status = vpFrictionStatus::TooFewSamples; //!< How far to rely on the rest.

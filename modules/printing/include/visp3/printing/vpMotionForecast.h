@@ -21,8 +21,8 @@ BEGIN_VISP_NAMESPACE
  * while and then at constant velocity.
  *
  * With a plan r(t) and the state (p, v) at the time t0, the motion is
- * \f$ p + r(t) - r(t_0) + (v - \dot r(t_0)) \, \tau (1 - e^{-(t - t_0) / \tau}) \f$: the velocity error dies out as the controller
- * makes it.
+ * p + r(t) - r(t0) + (v - r'(t0)) tau (1 - exp(-(t - t0) / tau)): the velocity error dies out as the controller makes
+ * it.
  */
 struct VISP_EXPORT vpMotionForecast {
   static constexpr int maxPieces = 4; //!< Of a plan.

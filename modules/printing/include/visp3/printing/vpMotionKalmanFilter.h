@@ -17,13 +17,15 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! What is taken to be random about the motion.
+//! \ingroup group_printing
+//! \brief What is taken to be random about the motion.
 enum class vpMotionModel {
   ConstantVelocity,    //!< The acceleration is white noise; states are position and velocity.
   ConstantAcceleration //!< The jerk is white noise; position, velocity and acceleration.
 };
 
 /*!
+ * \ingroup group_printing
  * \brief Parameters of a vpMotionKalmanFilter, in a length L (px) and a time T (frame).
  */
 struct VISP_EXPORT vpMotionKalmanSpec {
@@ -44,7 +46,8 @@ struct VISP_EXPORT vpMotionKalmanSpec {
   void validate() const;
 };
 
-//! Kind of a vpMotionReading.
+//! \ingroup group_printing
+//! \brief Kind of a vpMotionReading.
 enum class vpMotionReadingKind {
   Position,     //!< Position itself, such as a cell whose identity is known.
   Displacement, //!< Since the time of the last Displacement or Mark, such as vpPatternFrame::dx.
@@ -52,6 +55,7 @@ enum class vpMotionReadingKind {
   Encoder       //!< p (1 + scale) + offset.
 };
 
+//! \ingroup group_printing
 //! \brief One measurement.
 struct VISP_EXPORT vpMotionReading {
   vpMotionReadingKind kind = vpMotionReadingKind::Position; //!< What was measured.
@@ -60,7 +64,8 @@ struct VISP_EXPORT vpMotionReading {
   double sigma = 1.;                                        //!< Its standard deviation, L, > 0.
 };
 
-//! What became of a reading.
+//! \ingroup group_printing
+//! \brief What became of a reading.
 enum class vpMotionReadingResult {
   Used,    //!< It counts.
   Outlier, //!< Beyond the gate.
@@ -69,6 +74,7 @@ enum class vpMotionReadingResult {
   NoMark   //!< A displacement before any Mark: it counts as a Mark.
 };
 
+//! \ingroup group_printing
 //! \brief State of the motion at an instant.
 struct VISP_EXPORT vpMotionEstimate {
   double time = 0.;              //!< T.

@@ -18,6 +18,7 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
+ * \ingroup group_printing
  * \brief Parameters of a vpMotionObserver: length L (px), time T (frame), force F.
  */
 struct VISP_EXPORT vpMotionObserverSpec {
@@ -37,6 +38,7 @@ struct VISP_EXPORT vpMotionObserverSpec {
   void validate() const;
 };
 
+//! \ingroup group_printing
 //! \brief State of the axis at an instant.
 struct VISP_EXPORT vpObservedMotion {
   double time = 0.;          //!< T.
@@ -61,7 +63,7 @@ struct VISP_EXPORT vpObservedMotion {
  * Friction that changes at once is found late by a filter that is quiet enough for a coarse sensor. With a changeRate, each
  * of the last measurements carries the hypothesis that it changed there; what the innovations since say for each of them,
  * with the rate and the size as priors, moves the state at once, and for good when the odds are 50 to 1 (generalised
- * likelihood ratio with priors, after Willsky and Jones 1976). This takes any error of the model for a change that the sensor can
+ * likelihood ratio with priors, after \cite Willsky76). This takes any error of the model for a change that the sensor can
  * resolve: leave it out with a sensor that sees the errors of the model.
  *
  * The third measurement in a row beyond the gate is taken to be right and the belief to be wrong.

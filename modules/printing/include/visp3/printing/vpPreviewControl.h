@@ -17,6 +17,7 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
+ * \ingroup group_printing
  * \brief Parameters of a vpPreviewControl: length L (px), time T (frame), force F.
  */
 struct VISP_EXPORT vpPreviewControlSpec {

@@ -16,7 +16,8 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! What fixes the time from cell to cell.
+//! \ingroup group_printing
+//! \brief What fixes the time from cell to cell.
 enum class vpPrintReferenceMode {
   CellVelocity,    //!< Velocity v and acceleration 0 at the centres, a given mean velocity in between.
   FixedArrival,    //!< The time from centre to centre is given, (7.18).
@@ -25,6 +26,7 @@ enum class vpPrintReferenceMode {
 };
 
 /*!
+ * \ingroup group_printing
  * \brief Parameters of a vpPrintReference, px and frame. The sign of the motion comes from the targets.
  */
 struct VISP_EXPORT vpPrintReferenceSpec {
@@ -40,6 +42,7 @@ struct VISP_EXPORT vpPrintReferenceSpec {
   void validate() const;
 };
 
+//! \ingroup group_printing
 //! \brief A place to pass or to stop at.
 struct VISP_EXPORT vpPrintTarget {
   long key = 0;         //!< Ascending in the order of arrival; stays with the target.

@@ -18,19 +18,22 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! How the instant is found.
+//! \ingroup group_printing
+//! \brief How the instant is found.
 enum class vpPrintTriggerMethod {
   Horizon,        //!< Each cell has an identity and a latch and is scheduled ahead.
   ThesisAlgorithm //!< Algorithm 7.5 as printed, for comparison: no memory, no delay of the camera; misses and doubles cells.
 };
 
-//! Axis of the image along which the cells come to the nozzle.
+//! \ingroup group_printing
+//! \brief Axis of the image along which the cells come to the nozzle.
 enum class vpPrintAxis {
   X, //!< To the right or left.
   Y  //!< Down or up.
 };
 
 /*!
+ * \ingroup group_printing
  * \brief Parameters of a vpPrintTrigger. Lengths in px, times in frames, both from the top left pixel's centre and from
  * any common zero. "Along" is the axis of motion, "across" the other one.
  */
@@ -57,6 +60,7 @@ struct VISP_EXPORT vpPrintTriggerSpec {
   void validate() const;
 };
 
+//! \ingroup group_printing
 //! \brief What a trigger is told in each step.
 struct VISP_EXPORT vpPrintTriggerInput {
   double time = 0.;        //!< Now, frame.
@@ -72,6 +76,7 @@ struct VISP_EXPORT vpPrintTriggerInput {
   vpMotionForecast across;   //!< Displacement across; at rest unless given.
 };
 
+//! \ingroup group_printing
 //! \brief A cell that is fired at, was missed, or is planned.
 struct VISP_EXPORT vpPrintShot {
   int row = 0;            //!< Of the cell.
@@ -84,6 +89,7 @@ struct VISP_EXPORT vpPrintShot {
   bool late = false;      //!< It should have been fired before now.
 };
 
+//! \ingroup group_printing
 //! \brief What a trigger answers. Fixed room.
 struct VISP_EXPORT vpPrintTriggerOutput {
   static constexpr int capacity = 32;          //!< Of each list; what does not fit waits for the next step.

@@ -16,6 +16,7 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
+ * \ingroup group_printing
  * \brief Parameters of a vpPrintVelocityControl; units as in vpFrictionModel, gains per period.
  */
 struct VISP_EXPORT vpPrintVelocityControlSpec {

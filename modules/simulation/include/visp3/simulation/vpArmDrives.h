@@ -18,6 +18,7 @@
 
 BEGIN_VISP_NAMESPACE
 
+//! \ingroup group_simulation
 //! \brief How good an arm's drives are.
 struct VISP_EXPORT vpArmDriveSpec {
   bool ideal = false;              //!< True: the arm is where it is commanded to be; nothing below counts.
@@ -27,8 +28,9 @@ struct VISP_EXPORT vpArmDriveSpec {
   double encoderNoise =
       0.; //!< Standard deviation of measured positions, rad or m, >= 0; with it velocities are estimated.
   unsigned int seed = 1; //!< Of the noise.
-  //! Gains of (3.19), n numbers each; empty: those of the arm's file, made from its inertia where it has none.
-  vpJointVector kp, kd;
+  //! Gain on the position in (3.19), n numbers; empty: those of the arm's file, made from its inertia where it has none.
+  vpJointVector kp;
+  vpJointVector kd; //!< The same on the velocity.
 
   //! \throw vpException (badValue) naming the field that is out of range, and its value.
   void validate(const vpArmModel &model) const;
@@ -49,6 +51,7 @@ class VISP_EXPORT vpArmDrives
 public:
   /*!
    * \param model : Is referred to; must outlive the drives.
+   * \param spec : How good the drives are.
    * \throw vpException (badValue), see vpArmDriveSpec::validate(); naming the first link without mass unless ideal.
    */
   explicit vpArmDrives(const vpArmModel &model, const vpArmDriveSpec &spec = {});

@@ -30,7 +30,7 @@ struct VISP_EXPORT vpAvoidanceSample {
   bool newImage = false;    //!< A result of the sensor arrived, or the goal was told anew.
   double lookTime = 0.;     //!< Wall time that vpAvoidanceMethod::look() took then, s; plays no part in the run.
   double goalDistance = 0.; //!< Of the true tool, m.
-  vpClearance clearance;    //!< True nearest pair now, within 1 m; other is an index of #objects.
+  vpClearance clearance;    //!< True nearest pair now, within 1 m; other is an index of \e objects.
   //! Names of the true objects of #clearance when its kind is Object, else empty.
   std::string nearest;
 };
@@ -82,15 +82,16 @@ struct VISP_EXPORT vpAvoidanceMetrics {
  * \brief A finished run.
  */
 struct VISP_EXPORT vpAvoidanceRun {
-  vpAvoidanceRunSpec spec;
+  vpAvoidanceRunSpec spec;                             //!< What was run.
   std::vector<vpAvoidanceSample> samples;              //!< The last one is the end: nothing is commanded any more.
   std::vector<double> lookTimes;                       //!< Of all calls of vpAvoidanceMethod::look(), s.
   vpAvoidanceStatus start = vpAvoidanceStatus::Moving; //!< What vpAvoidanceMethod::start() said.
   double startTime = 0.;                               //!< Wall time that it took, s.
-  vpAvoidanceMetrics metrics;
+  vpAvoidanceMetrics metrics;                          //!< The figures.
 };
 
 /*!
+ * \ingroup group_simulation
  * Runs one experiment. It ends when the arm is at the goal, at rest (joints commanded no faster than 0.01 rad/s or m/s)
  * for 0.2 s, or the method has called itself arrived for 1 s, and the goal does not move any more; when nothing has moved
  * for 3 s, neither arm nor obstacle nor goal, and nothing is to come; or with vpAvoidanceRunSpec::maxDuration.

@@ -33,6 +33,7 @@ struct VISP_EXPORT vpGoalMove {
   vpAvoidanceGoal to; //!< Where it comes to rest.
 };
 
+//! \ingroup group_simulation
 //! \brief How obstacles become known to the method.
 enum class vpObstacleSight {
   Exact, //!< Place and velocity as they are, with every frame and without latency.

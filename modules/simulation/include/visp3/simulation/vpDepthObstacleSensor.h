@@ -43,7 +43,11 @@ struct VISP_EXPORT vpDepthObstacleSensorSpec {
 class VISP_EXPORT vpDepthObstacleSensor : public vpObstacleSensor
 {
 public:
-  //! \param camera : Its photographs are not used. \throw vpException (badValue) naming the field and its value.
+  /*!
+   * \param camera : Its photographs are not used.
+   * \param spec : Of map and images.
+   * \throw vpException (badValue) naming the field and its value.
+   */
   vpDepthObstacleSensor(vpSceneCamera camera, const vpDepthObstacleSensorSpec &spec = {});
 
   void look(const vpCollisionScene &truth, const vpCollisionData &arm, double time,

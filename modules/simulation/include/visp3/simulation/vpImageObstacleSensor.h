@@ -39,6 +39,7 @@ class VISP_EXPORT vpImageObstacleSensor : public vpObstacleSensor
 public:
   /*!
    * \param camera : Draws the pictures. \param detector : Made for the same intrinsics.
+   * \param spec : Of the pictures.
    * \throw vpException (badValue), see vpImageObstacleSensorSpec::validate().
    */
   vpImageObstacleSensor(vpSceneCamera camera, vpObstacleDetector detector, const vpImageObstacleSensorSpec &spec = {});

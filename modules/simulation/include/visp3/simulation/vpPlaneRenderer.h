@@ -18,6 +18,7 @@
 
 BEGIN_VISP_NAMESPACE
 
+//! \ingroup group_simulation
 //! \brief What a real camera adds to an ideal picture. The defaults change nothing.
 struct VISP_EXPORT vpCameraFaults {
   double noise = 0.;         //!< Standard deviation of the grey value, 0..255 scale, >= 0.
@@ -53,8 +54,8 @@ public:
   vpPlaneRenderer(const vpImage<unsigned char> &photo, double objectWidth, double objectHeight,
                   const vpCameraParameters &camera, unsigned int width, unsigned int height);
   ~vpPlaneRenderer();
-  vpPlaneRenderer(vpPlaneRenderer &&) noexcept;
-  vpPlaneRenderer &operator=(vpPlaneRenderer &&) noexcept;
+  vpPlaneRenderer(vpPlaneRenderer &&) noexcept;            //!< Moves.
+  vpPlaneRenderer &operator=(vpPlaneRenderer &&) noexcept; //!< Moves.
 
   /*!
    * Render the view from \e cMo.

@@ -39,6 +39,7 @@ public:
   /*!
    * \param names : Objects that can be seen; all others are taken for known. \param seed : Of noise and failures. Each
    * object has its own stream, one draw an exposure, whether it is seen or not.
+   * \param spec : Range, noise and failures.
    * \throw vpException (badValue), see vpPoseSensorSpec::validate().
    */
   vpPoseSensor(const std::vector<std::string> &names, const vpPoseSensorSpec &spec, unsigned int seed);

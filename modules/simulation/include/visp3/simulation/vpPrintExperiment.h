@@ -24,20 +24,23 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! What drives the axis of printing.
+//! \ingroup group_simulation
+//! \brief What drives the axis of printing.
 enum class vpPrintController {
   Pid,            //!< Velocity PID, figure 7.13.
   PidFeedforward, //!< Velocity PID with mass and friction feedforward, figure 7.14.
   Observer        //!< vpMotionObserver with vpPreviewControl.
 };
 
-//! Where the cells are measured.
+//! \ingroup group_simulation
+//! \brief Where the cells are measured.
 enum class vpPrintSensor {
   Model, //!< True places plus normal errors: fast.
   Image  //!< Rendered pictures through vpPatternTracker.
 };
 
 /*!
+ * \ingroup group_simulation
  * \brief Errors of a sensor in px. Errors of the cells of a frame have a part in common: the mean over all cells has the
  * standard deviation sigma / sqrt(effectiveCells).
  */
@@ -51,6 +54,7 @@ struct VISP_EXPORT vpPrintSensorModel {
 };
 
 /*!
+ * \ingroup group_simulation
  * \brief What to run; all fields with the seed determine the result. Lengths px, times frames unless said.
  */
 struct VISP_EXPORT vpPrintExperimentSpec {
@@ -100,11 +104,14 @@ struct VISP_EXPORT vpPrintExperimentSpec {
   void validate() const;
 };
 
+//! \ingroup group_simulation
 //! \brief A row of the log: what is true and known at a control step.
 struct VISP_EXPORT vpPrintSample {
   int frame = 0;                 //!< Number of the step; its time in frames.
-  double x = 0., y = 0.;         //!< True displacement of the product, px.
-  double vx = 0., vy = 0.;       //!< True velocity, px/frame.
+  double x = 0.;                 //!< True displacement of the product, px to the right.
+  double y = 0.;                 //!< True displacement, px down.
+  double vx = 0.;                //!< True velocity, px/frame to the right.
+  double vy = 0.;                //!< True velocity, px/frame down.
   double referencePosition = 0.; //!< Along x, px.
   double referenceVelocity = 0.; //!< Along x, px/frame.
   double measuredVelocity = 0.;  //!< (7.27), before any filter, along x, px/frame; late by the camera's delay.
@@ -115,6 +122,7 @@ struct VISP_EXPORT vpPrintSample {
   bool dropped = false;          //!< No frame arrived.
 };
 
+//! \ingroup group_simulation
 //! \brief A drop and where it landed.
 struct VISP_EXPORT vpPrintDrop {
   int row = 0;          //!< Of the cell that it was meant for.
@@ -127,6 +135,7 @@ struct VISP_EXPORT vpPrintDrop {
   bool late = false;    //!< See vpPrintShot::late.
 };
 
+//! \ingroup group_simulation
 //! \brief The figures of a run.
 struct VISP_EXPORT vpPrintMetrics {
   //! Measured velocity (before the filter, as the thesis plots it) minus the reference of the step before, rms, px/frame.
@@ -148,12 +157,13 @@ struct VISP_EXPORT vpPrintMetrics {
   bool complete = false; //!< All cells passed the nozzle.
 };
 
+//! \ingroup group_simulation
 //! \brief A finished run.
 struct VISP_EXPORT vpPrintRun {
-  vpPrintExperimentSpec spec;
+  vpPrintExperimentSpec spec;         //!< What was run.
   std::vector<vpPrintSample> samples; //!< One for each frame.
   std::vector<vpPrintDrop> drops;     //!< In the order of landing.
-  vpPrintMetrics metrics;
+  vpPrintMetrics metrics;             //!< The figures.
 };
 
 /*!

@@ -17,6 +17,7 @@
 
 BEGIN_VISP_NAMESPACE
 
+//! \ingroup group_simulation
 //! \brief Where a cell of the product truly is in the image.
 struct VISP_EXPORT vpPatternTruthCell {
   int row = 0;            //!< Number of its row on the product, any sign.
@@ -34,9 +35,11 @@ struct VISP_EXPORT vpPatternTruthCell {
  *
  * Cell (0, 0) lies at the centre of the image when the product is at (0, 0), up to its jitter and the flexible pitch.
  * The centre of cell (row, column) is at
- * \f[ p = c + R(\theta) \, (\mathrm{column} \, P_x + f_x + j_x, \; \mathrm{row} \, P_y + f_y + j_y) + (x, y) \f]
+ * \verbatim
+   p = c + R(theta) (column Px + fx + jx, row Py + fy + jy) + (x, y)
+   \endverbatim
  * with the image's centre c = ((width - 1) / 2, (height - 1) / 2), the flexible pitch
- * \f$ f_x = A_x \sin(2 \pi \, \mathrm{column} / N_x + \varphi_x) \f$, its phase from the seed, and the jitter j. Jitter and
+ * fx = Ax sin(2 pi column / Nx + phase), its phase from the seed, and the jitter j. Jitter and
  * defects come from a hash of (seed, row, column): the product needs no memory and looks the same whenever it comes by.
  *
  * The grey value of a pixel is the mean over its area and over the exposure of: dark or bright by the opening's exact

@@ -39,6 +39,7 @@ struct VISP_EXPORT vpSceneCameraSpec {
   std::vector<vpScenePhoto> photos;                                         //!< At most one an object.
 };
 
+//! \ingroup group_simulation
 //! \brief What a real depth camera adds to ideal depths. The defaults change nothing.
 struct VISP_EXPORT vpDepthFaults {
   double noise = 0.;    //!< Standard deviation at a depth of 1 m, m; it grows with the square of the depth. >= 0.
@@ -68,8 +69,8 @@ public:
    */
   explicit vpSceneCamera(const vpSceneCameraSpec &spec);
   ~vpSceneCamera();
-  vpSceneCamera(vpSceneCamera &&) noexcept;
-  vpSceneCamera &operator=(vpSceneCamera &&) noexcept;
+  vpSceneCamera(vpSceneCamera &&) noexcept;            //!< Moves.
+  vpSceneCamera &operator=(vpSceneCamera &&) noexcept; //!< Moves.
 
   //! What it was made from.
   [[nodiscard]] const vpSceneCameraSpec &spec() const noexcept;

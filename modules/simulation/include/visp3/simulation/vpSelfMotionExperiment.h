@@ -29,6 +29,16 @@ struct VISP_EXPORT vpSelfMotionRunSpec {
   vpSelfMotionIndex index;               //!< What the spare joints climb.
   double share = 0.5;                    //!< |eta|, 0..1: see vpRedundancySpec::selfMotion; 0: no self-motion.
 
+  /*!
+   * The motion of section 8.3.3 from the arm's home: two vias and a final place, 2 s each. The thesis tells no places;
+   * these lie 0.05 to 0.17 m before and beside the start, at its height.
+   */
+  [[nodiscard]] static vpSelfMotionRunSpec thesis(const std::shared_ptr<const vpArmModel> &arm);
+  /*!
+   * The boundary of figure 8.17: the plane through the base, [0, 0, 1] and [1, 1, 0.5] m for joint 4. The allowed side is
+   * the one on which the joint is at the arm's home.
+   */
+  [[nodiscard]] static vpSelfMotionIndex thesisPlane(const vpArmModel &arm, vpIndexSense sense);
   //! \throw vpException (badValue) naming the field that is out of range, and its value.
   void validate() const;
 };
@@ -50,16 +60,17 @@ struct VISP_EXPORT vpSelfMotionSample {
  * \brief The log and its figures; the same names as in summary.json.
  */
 struct VISP_EXPORT vpSelfMotionRun {
-  std::vector<vpSelfMotionSample> samples;
-  double tcp_drift_m = 0.;      //!< Largest drift.
-  double tcp_drift_rad = 0.;    //!< Largest turn.
-  double start_distance_m = 0.; //!< Distance at the start.
-  double mean_distance_m = 0.;  //!< Mean over time.
-  double end_distance_m = 0.;   //!< Distance in the end.
-  double joint_travel_rad = 0.; //!< Sum of the ways of all joints, d_total of figure 8.16.
+  std::vector<vpSelfMotionSample> samples; //!< One a period.
+  double tcp_drift_m = 0.;                 //!< Largest drift.
+  double tcp_drift_rad = 0.;               //!< Largest turn.
+  double start_distance_m = 0.;            //!< Distance at the start.
+  double mean_distance_m = 0.;             //!< Mean over time.
+  double end_distance_m = 0.;              //!< Distance in the end.
+  double joint_travel_rad = 0.;            //!< Sum of the ways of all joints, d_total of figure 8.16.
 };
 
-//! Runs one experiment with ideal drives at 200 Hz. \throw vpException (badValue) naming what is wrong with the spec.
+//! \ingroup group_simulation
+//! \brief Runs one experiment with ideal drives at 200 Hz. \throw vpException (badValue) naming what is wrong with the spec.
 [[nodiscard]] VISP_EXPORT vpSelfMotionRun runSelfMotionExperiment(const vpSelfMotionRunSpec &spec);
 
 END_VISP_NAMESPACE

@@ -15,6 +15,7 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
+ * \ingroup group_simulation
  * \brief An arm for vpServoRunSpec::arm.
  *
  * A vpServoPlant tells how good it is. Without lag and deadband the drives are ideal. With either the arm is driven by
@@ -32,6 +33,7 @@ struct VISP_EXPORT vpServoArm {
   [[nodiscard]] vpSimulatedArmSpec forPlant(const vpServoPlant &plant) const;
 };
 
+//! \ingroup group_simulation
 //! \brief The arm at the time of a vpServoSample.
 struct VISP_EXPORT vpArmSample {
   vpJointVector q;                //!< True configuration, rad or m.
@@ -43,10 +45,11 @@ struct VISP_EXPORT vpArmSample {
   double manipulability = 0.;     //!< sqrt(det(J J^T)).
   double selfMotion = 0.;         //!< Length of the joint velocity that the indices wanted, rad/s.
   unsigned int stoppedJoints = 0; //!< Bit i: joint i is held at a position limit.
-  vpSimulatedArmStatus status = vpSimulatedArmStatus::Stopped;
-  vpRedundancyStatus solver = vpRedundancyStatus::Exact; //!< What the twist meets.
+  vpSimulatedArmStatus status = vpSimulatedArmStatus::Stopped; //!< How the arm is doing.
+  vpRedundancyStatus solver = vpRedundancyStatus::Exact;       //!< What the twist meets.
 };
 
+//! \ingroup group_simulation
 //! \brief The figures of the arm over a run; the same names as in summary.json.
 struct VISP_EXPORT vpArmMetrics {
   vpJointVector joint_rms;         //!< Root mean square of commanded minus true position, rad or m, a number a joint.
@@ -54,14 +57,15 @@ struct VISP_EXPORT vpArmMetrics {
   int least_margin_joint = -1;     //!< Joint that it belongs to, from 0; -1: none.
   double peak_velocity_share = 0.; //!< Largest commanded joint velocity over its limit, 0..1.
   double peak_acceleration_share = 0.; //!< Largest change of a commanded velocity in a cycle over its limit, 0..1.
-  double least_manipulability = 0.;
+  double least_manipulability = 0.;    //!< Least sqrt(det(J J^T)).
   double self_motion_rad = 0.; //!< Way that the joints made for the indices: integral of vpArmSample::selfMotion.
   double limited_s = 0.;       //!< Time with vpSimulatedArmStatus::Limited.
   double blocked_s = 0.;       //!< Time with vpSimulatedArmStatus::Blocked.
   std::string status;          //!< "ok", or a sentence on what hindered the arm.
 };
 
-//! The figures of a log. \param cycle : Between the samples, s.
+//! \ingroup group_simulation
+//! \brief The figures of a log. \param model : The arm. \param samples : The log. \param cycle : Between the samples, s.
 [[nodiscard]] VISP_EXPORT vpArmMetrics evaluateArmRun(const vpArmModel &model, const std::vector<vpArmSample> &samples,
                                                       double cycle);
 

@@ -26,6 +26,7 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
+ * \ingroup group_simulation
  * \brief One row of the log, taken each cycle of the inner loop: what is true at #time, and the motion from then until
  * the next row. Angles in rad, all else in SI units and px.
  *
@@ -42,26 +43,28 @@ struct VISP_EXPORT vpServoSample {
   double goalYaw = 0.;     //!< The same of the goal.
   //! Where the law wants to turn to: yaw of R exp(w / gain) with vpServoLaw::rotationGain(); figures 5.6 and 5.8.
   double referenceYaw = 0.;
-  double rotationError = 0.;    //!< Angle of the true cdMc, rad.
-  double translationError = 0.; //!< Length of the true cdMc, m.
-  double u = 0., v = 0.;        //!< True, noise-free image of the object's centre, px.
-  double imageErrorU = 0.;      //!< u minus the goal's u, px.
-  double imageErrorV = 0.;      //!< v minus the goal's v, px.
-  bool inView = true;           //!< All of the object's corners lie in the image (true pose).
-  bool measured = false;        //!< The measurement in use was valid.
-  bool newFrame = false;        //!< A vision result arrived in this cycle.
-  vpServoStatus status = vpServoStatus::NoGoal;
+  double rotationError = 0.;                    //!< Angle of the true cdMc, rad.
+  double translationError = 0.;                 //!< Length of the true cdMc, m.
+  double u = 0.;                                //!< True, noise-free image of the object's centre, px to the right.
+  double v = 0.;                                //!< The same, px down.
+  double imageErrorU = 0.;                      //!< u minus the goal's u, px.
+  double imageErrorV = 0.;                      //!< v minus the goal's v, px.
+  bool inView = true;                           //!< All of the object's corners lie in the image (true pose).
+  bool measured = false;                        //!< The measurement in use was valid.
+  bool newFrame = false;                        //!< A vision result arrived in this cycle.
+  vpServoStatus status = vpServoStatus::NoGoal; //!< Of the controller.
 };
 
+//! \ingroup group_simulation
 //! \brief What to run. All fields together with the seed determine the result.
 struct VISP_EXPORT vpServoRunSpec {
-  std::string law = "ff-lookat-pi"; //!< Id of the law, optionally followed by `+cbf`.
-  std::string measure = "points";   //!< "points" (vpServoSensor::points) or "image" (vpServoSensor::image).
-  vpServoGains gains;               //!< The same for every law.
-  vpServoPlant plant;
-  vpServoTask task = vpServoTask::thesis();
-  unsigned int seed = 1; //!< Of all noise.
-  std::string target;    //!< Image file of the object for measure "image".
+  std::string law = "ff-lookat-pi";         //!< Id of the law, optionally followed by `+cbf`.
+  std::string measure = "points";           //!< "points" (vpServoSensor::points) or "image" (vpServoSensor::image).
+  vpServoGains gains;                       //!< The same for every law.
+  vpServoPlant plant;                       //!< What moves the camera.
+  vpServoTask task = vpServoTask::thesis(); //!< Where to.
+  unsigned int seed = 1;                    //!< Of all noise.
+  std::string target;                       //!< Image file of the object for measure "image".
   vpCameraFaults faults; //!< Of the pictures for measure "image", in the place of vpServoPlant::pixelNoise.
   /*!
    * Limits of a vpTwistShaper between controller and plant; without them the plant gets the controller's twist as it
@@ -72,10 +75,11 @@ struct VISP_EXPORT vpServoRunSpec {
   std::shared_ptr<const vpServoArm> arm;
 };
 
+//! \ingroup group_simulation
 //! \brief The figures of a run; the same names as in summary.json.
 struct VISP_EXPORT vpServoMetrics {
-  double max_image_error_px = 0.; //!< Largest distance of the object's centre from where it shall be seen.
-  double rms_image_error_px = 0.;
+  double max_image_error_px = 0.;  //!< Largest distance of the object's centre from where it shall be seen.
+  double rms_image_error_px = 0.;  //!< Root mean square of that distance.
   double end_rotation_deg = 0.;    //!< Largest rotation error at the end of a segment.
   double end_translation_mm = 0.;  //!< Largest translation error at the end of a segment.
   double yaw_range_deg = 0.;       //!< Largest minus smallest yaw.
@@ -83,9 +87,9 @@ struct VISP_EXPORT vpServoMetrics {
   double out_of_view_s = 0.;       //!< Time during which a corner of the object is out of the image.
   //! Time until the error stays below 2 deg and 5 mm, the segment's duration if it never does; mean over the segments.
   double settle_s = 0.;
-  double path_length_m = 0.;
-  double peak_linear_mps = 0.; //!< Of the executed motion.
-  double peak_angular_radps = 0.;
+  double path_length_m = 0.;      //!< Of the camera's way.
+  double peak_linear_mps = 0.;    //!< Of the executed motion.
+  double peak_angular_radps = 0.; //!< The same of the angular part.
   /*!
    * Largest linear part of the change of vpServoSample::commanded, within the plant's speed limits, from one cycle to
    * the next, divided by the cycle. The first change is that from rest, so a step at t = 0 shows here: as a number that
@@ -97,16 +101,18 @@ struct VISP_EXPORT vpServoMetrics {
   std::string status; //!< "ok", or a sentence on how the run ended otherwise (target lost, deadlock).
 };
 
+//! \ingroup group_simulation
 //! \brief A finished run.
 struct VISP_EXPORT vpServoRun {
-  vpServoRunSpec spec;
-  std::vector<vpServoSample> samples;
-  vpServoMetrics metrics;
+  vpServoRunSpec spec;                    //!< What was run.
+  std::vector<vpServoSample> samples;     //!< One a cycle of the loop.
+  vpServoMetrics metrics;                 //!< The figures.
   std::vector<vpArmSample> arm;           //!< As many as samples, at the end of each cycle; none without an arm.
   std::optional<vpArmMetrics> armMetrics; //!< Given when there is an arm.
 };
 
 /*!
+ * \ingroup group_simulation
  * Run one experiment.
  * \param spec : What to run; validated first.
  * \param progress : If given, called now and then with the share done, 0..1; return false to stop early.
@@ -117,6 +123,7 @@ struct VISP_EXPORT vpServoRun {
                                                         const std::function<bool(double)> &progress = {});
 
 /*!
+ * \ingroup group_simulation
  * The figures of a log.
  */
 [[nodiscard]] VISP_EXPORT vpServoMetrics evaluateServoRun(const vpServoRunSpec &spec,

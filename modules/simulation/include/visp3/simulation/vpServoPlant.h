@@ -16,6 +16,7 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
+ * \ingroup group_simulation
  * \brief Parameters of a plant. The limits are the same for every law that is compared.
  */
 struct VISP_EXPORT vpServoPlant {

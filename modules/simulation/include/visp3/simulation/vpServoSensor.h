@@ -69,8 +69,10 @@ public:
 protected:
   //! A point of the object, in its plane z = 0, m.
   struct ObjectPoint {
-    double x, y;
+    double x; //!< To the right.
+    double y; //!< Down.
   };
+  //! \param task : Camera and object. \param points : The features.
   vpServoSensor(const vpServoTask &task, std::vector<ObjectPoint> points);
   //! Fill pose and points and say whether the object was found. Time, outline and validity are set by measure().
   virtual bool look(const vpHomogeneousMatrix &cMo, vpServoMeasurement &result) = 0;
@@ -80,7 +82,7 @@ protected:
   //! True if the normalised point lies between the centres of the border pixels.
   [[nodiscard]] bool inPicture(double x, double y) const;
 
-  vpServoTask m_task;
+  vpServoTask m_task;                 //!< Camera and object.
   std::vector<ObjectPoint> m_points;  //!< The features.
   std::vector<ObjectPoint> m_corners; //!< The outline.
 };

@@ -18,6 +18,7 @@
 
 BEGIN_VISP_NAMESPACE
 
+//! \ingroup group_simulation
 //! \brief One leg of the task: the pose to reach and the time given for it.
 struct VISP_EXPORT vpServoSegment {
   std::string name;         //!< For reports ("2").
@@ -26,6 +27,7 @@ struct VISP_EXPORT vpServoSegment {
 };
 
 /*!
+ * \ingroup group_simulation
  * \brief Camera, object and the sequence of goals of section 5.4.2 of the thesis, or the user's own.
  *
  * The object is a rectangle in the plane z = 0 of its frame, centred at the origin, x to the right and y down as seen

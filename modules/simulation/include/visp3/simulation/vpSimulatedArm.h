@@ -20,12 +20,14 @@
 
 BEGIN_VISP_NAMESPACE
 
+//! \ingroup group_simulation
 //! \brief What makes the arm's time pass.
 enum class vpArmClock {
   Stepped, //!< Each setVelocity() lets getSamplingTime() pass, setPosition() as long as it takes: fast and repeatable.
   RealTime //!< The clock on the wall, in a thread of its own: for programs that wait between commands.
 };
 
+//! \ingroup group_simulation
 //! \brief How the arm is doing.
 enum class vpSimulatedArmStatus {
   Stopped,     //!< At rest, nothing is asked of it.
@@ -36,6 +38,7 @@ enum class vpSimulatedArmStatus {
   NotFollowing //!< The joints did not follow their commands; it holds until it is stopped (vpRobot::STATE_STOP).
 };
 
+//! \ingroup group_simulation
 //! \brief Parameters of vpSimulatedArm.
 struct VISP_EXPORT vpSimulatedArmSpec {
   vpJointVector start;                    //!< Configuration at the start, rad or m; empty: vpArmModel::home().
@@ -55,6 +58,7 @@ struct VISP_EXPORT vpSimulatedArmSpec {
   void validate(const vpArmModel &model) const;
 };
 
+//! \ingroup group_simulation
 //! \brief The arm at one time.
 struct VISP_EXPORT vpSimulatedArmState {
   double time = 0.;                                            //!< Since the start, s.
@@ -95,6 +99,7 @@ class VISP_EXPORT vpSimulatedArm : public vpRobotSimulator
 public:
   /*!
    * \param model : The arm; copied.
+   * \param spec : Drives, control and start; copied.
    * \throw vpException (badValue) naming the joint, link or field that does not do: no velocity or acceleration limit,
    * no mass (unless the drives are ideal), a start outside the limits.
    */
@@ -122,6 +127,7 @@ public:
    * (vpDirectTrajectory); poses are approached by vpClosedLoopKinematics.
    * \param frame : JOINT_STATE; END_EFFECTOR_FRAME, CAMERA_FRAME: pose of that frame in the base as (m, theta u);
    *   REFERENCE_FRAME: pose of the camera in the base as (m, Rxyz), as on ViSP's Viper robots.
+   * \param q : n rows for JOINT_STATE, rad or m; else 6, m and rad.
    * \throw vpException (dimensionError), (badValue); vpRobotException (positionOutOfRangeError) naming the joint that
    * would leave its limits, (wrongStateError) for MIXT_FRAME, (lowLevelError) with a sentence when the arm cannot reach
    * the pose; it holds where it came to.
@@ -183,7 +189,8 @@ private:
   std::unique_ptr<Impl> m_impl;
 };
 
-//! The status in a word, for tables.
+//! \ingroup group_simulation
+//! \brief The status in a word, for tables.
 [[nodiscard]] VISP_EXPORT const char *toString(vpSimulatedArmStatus status);
 
 END_VISP_NAMESPACE

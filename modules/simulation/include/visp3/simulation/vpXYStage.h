@@ -18,6 +18,7 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
+ * \ingroup group_simulation
  * \brief One axis of a vpXYStage. The units are yours: a length L (px, m), a time T (frame, s) and a force F. With mass 1,
  * forces are accelerations, L/T^2.
  */
@@ -42,6 +43,7 @@ struct VISP_EXPORT vpXYStageAxis {
   void validate(const char *name) const;
 };
 
+//! \ingroup group_simulation
 //! \brief Both axes of a vpXYStage.
 struct VISP_EXPORT vpXYStageSpec {
   vpXYStageAxis x; //!< Along the rows of the image.
@@ -64,8 +66,9 @@ struct VISP_EXPORT vpXYStageSpec {
  * \brief A stage with two independent axes that is driven by forces; with mass 1, by accelerations.
  *
  * Per axis, with the command u held constant in each step:
- * \f[ \tau \dot f = u(t - d) - f, \qquad m \dot v = f - \mathrm{sgn}(v) \left( F_c + (F_s - F_c) e^{-(v / v_s)^2} + F_v |v|
- * \right) \f]
+ * \verbatim
+   tau f' = u(t - d) - f,   m v' = f - sgn(v) (Fc + (Fs - Fc) exp(-(v / vs)^2) + Fv |v|)
+   \endverbatim
  * A resting axis stays at rest while |f| <= Fs, and a moving one comes to rest when its velocity passes through 0. A
  * step is cut where a delayed command changes and integrated in at least 32 parts: the lag exactly, the friction by the
  * midpoint rule; see catchXYStage for the errors. The same commands give the same motion, bit for bit.

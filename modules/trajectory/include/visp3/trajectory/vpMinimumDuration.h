@@ -15,7 +15,8 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! Limits of one axis. Infinity means no limit.
+//! \ingroup group_trajectory
+//! \brief Limits of one axis. Infinity means no limit.
 struct VISP_EXPORT vpAxisLimits {
   double velocity = std::numeric_limits<double>::infinity();     //!< |v| <= velocity, unit/s, > 0.
   double acceleration = std::numeric_limits<double>::infinity(); //!< |a| <= acceleration, unit/s^2, > 0.
@@ -24,13 +25,15 @@ struct VISP_EXPORT vpAxisLimits {
   double maxPosition = std::numeric_limits<double>::infinity();  //!< Highest place, relative to the motion's start.
 };
 
-//! Limits on the Euclidean norm over several axes, such as Cartesian speed. Infinity means no limit.
+//! \ingroup group_trajectory
+//! \brief Limits on the Euclidean norm over several axes, such as Cartesian speed. Infinity means no limit.
 struct VISP_EXPORT vpNormLimits {
   double velocity = std::numeric_limits<double>::infinity();     //!< Norm of the velocities, unit/s, > 0.
   double acceleration = std::numeric_limits<double>::infinity(); //!< Norm of the accelerations, unit/s^2, > 0.
 };
 
-//! Answer of a search for a duration.
+//! \ingroup group_trajectory
+//! \brief Answer of a search for a duration.
 struct VISP_EXPORT vpDurationAnswer {
   //! How the search ended.
   enum class Kind {

@@ -15,7 +15,8 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! Position and its derivatives at one instant of one axis: q, v, a, j in unit, unit/s, unit/s^2, unit/s^3.
+//! \ingroup group_trajectory
+//! \brief Position and its derivatives at one instant of one axis: q, v, a, j in unit, unit/s, unit/s^2, unit/s^3.
 using vpAxisState = std::array<double, 4>;
 
 /*!
@@ -53,6 +54,7 @@ public:
 
   /*!
    * One via position: the quintic plus one term s^3 (1 - s)^3, degree 6 (thesis (8.7), one T for the whole move).
+   * \param from, to : State at the ends.
    * \param via : Place of the via, same origin as \e from.
    * \param tau : When, as a fraction of T, 0 < tau < 1.
    */

@@ -34,10 +34,10 @@ public:
 
   //! Points of [0, 1] in ascending order.
   struct Points {
-    std::array<double, maxDegree> s{}; //!< The points; the first #count are valid.
-    int count = 0;                     //!< Number of points.
-    [[nodiscard]] const double *begin() const { return s.data(); }
-    [[nodiscard]] const double *end() const { return s.data() + count; }
+    std::array<double, maxDegree> s{};                                   //!< The points; the first #count are valid.
+    int count = 0;                                                       //!< Number of points.
+    [[nodiscard]] const double *begin() const { return s.data(); }       //!< First point.
+    [[nodiscard]] const double *end() const { return s.data() + count; } //!< Behind the last.
   };
 
   //! Smallest and largest value on an interval and where they are taken.

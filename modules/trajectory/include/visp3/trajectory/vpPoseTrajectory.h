@@ -17,12 +17,14 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! How the rotation is planned. Both follow the geodesic whenever the present turning lies on it (at rest it does).
+//! \ingroup group_trajectory
+//! \brief How the rotation is planned. Both follow the geodesic whenever the present turning lies on it (at rest it does).
 enum class vpRotationPath {
   Geodesic,      //!< Limits bound the angle's rates: the norm over the rotation vector. Straight line also in position.
   RotationVector //!< Limits bound each component of the rotation vector's rates.
 };
 
+//! \ingroup group_trajectory
 //! \brief Limits and choices of vpPoseTrajectory.
 struct VISP_EXPORT vpPoseTrajectoryOptions {
   double linearVelocity = 0.25;    //!< Bound on |v_c|, m/s, > 0.
@@ -48,6 +50,7 @@ struct VISP_EXPORT vpPoseTrajectoryOptions {
 };
 
 /*!
+ * \ingroup group_trajectory
  * \brief Pose of the camera and how it moves, f being the fixed reference frame of the caller.
  */
 struct VISP_EXPORT vpCameraState {

@@ -19,22 +19,30 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! One number per axis; \e N is the number of axes or Eigen::Dynamic.
+//! \ingroup group_trajectory
+//! \brief One number per axis; \e N is the number of axes or Eigen::Dynamic.
 template <int N> using vpAxisVector = Eigen::Matrix<double, N, 1>;
 
-//! Position (unit), velocity, acceleration and jerk of all axes.
+//! \ingroup group_trajectory
+//! \brief Position (unit), velocity, acceleration and jerk of all axes.
 template <int N> struct vpTrajectoryState {
-  vpAxisVector<N> q, v, a, j;
+  vpAxisVector<N> q; //!< Position.
+  vpAxisVector<N> v; //!< Velocity.
+  vpAxisVector<N> a; //!< Acceleration.
+  vpAxisVector<N> j; //!< Jerk.
 
   //! All zero.
   explicit vpTrajectoryState(int axes = N == Eigen::Dynamic ? 0 : N) : q(vpAxisVector<N>::Zero(axes)), v(q), a(q), j(q)
   {}
 };
 
-//! A place to go through at the fraction \e tau of the move.
+//! \ingroup group_trajectory
+//! \brief A place to go through at the fraction \e tau of the move.
 template <int N> struct vpTrajectoryVia {
   double tau = 0.5;             //!< Time as a fraction of the whole move, in (0, 1), ascending.
-  vpAxisVector<N> q, v, a;      //!< Place, velocity, acceleration.
+  vpAxisVector<N> q;            //!< Place.
+  vpAxisVector<N> v;            //!< Velocity there, if given.
+  vpAxisVector<N> a;            //!< Acceleration there, if given.
   bool hasVelocity = false;     //!< \e v is given; otherwise it is chosen for least jerk.
   bool hasAcceleration = false; //!< \e a is given too; needs \e hasVelocity.
 
@@ -43,6 +51,7 @@ template <int N> struct vpTrajectoryVia {
 };
 
 /*!
+ * \ingroup group_trajectory
  * \brief Start, goal, limits, vias and options: everything that vpDirectTrajectory reads, each cycle.
  *
  * Change any member at any cycle; that is an event. \e start is read in the first cycle and after reset() only.
@@ -72,7 +81,8 @@ template <int N> struct vpTrajectoryInput {
   vpTrajectoryStatus copyTo(vpTrajectoryProblem &problem) const noexcept;
 };
 
-//! What one cycle answers.
+//! \ingroup group_trajectory
+//! \brief What one cycle answers.
 template <int N> struct vpTrajectoryOutput {
   vpTrajectoryState<N> state; //!< Commanded state.
   vpTrajectoryStatus status;  //!< How the step went; status.message() is a sentence.

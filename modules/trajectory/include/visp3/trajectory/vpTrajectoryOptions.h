@@ -18,40 +18,46 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! Highest derivative that is continuous across replans (6.2, "trajectory type").
+//! \ingroup group_trajectory
+//! \brief Highest derivative that is continuous across replans (6.2, "trajectory type").
 enum class vpTrajectoryContinuity {
   C1, //!< Cubic: position and velocity. The acceleration jumps.
   C2, //!< Quintic: and acceleration; the minimum-jerk motion.
   C3  //!< Septic: and jerk.
 };
 
-//! What happens to the time of arrival when the goal or the limits change.
+//! \ingroup group_trajectory
+//! \brief What happens to the time of arrival when the goal or the limits change.
 enum class vpReplanPolicy {
   EventMinTime, //!< Smallest duration, found anew at events only: never shortened in between, which would spoil the ending.
   KeepArrival, //!< The time of arrival stays; it is put off only when the limits need it. For goals measured with noise.
   FixedArrival //!< The time of arrival is given: vpTrajectoryOptions::arrivalTime.
 };
 
-//! How the axes go together.
+//! \ingroup group_trajectory
+//! \brief How the axes go together.
 enum class vpSynchronisation {
   Time,     //!< All axes arrive at the same time.
   Straight, //!< All axes stay on the straight line to the goal when start and goal velocities lie on it, otherwise Time.
   None      //!< Each axis arrives as early as it can.
 };
 
-//! How the duration is found.
+//! \ingroup group_trajectory
+//! \brief How the duration is found.
 enum class vpDurationMethod {
   Exact,          //!< vpMinimumDuration, with safe fallback forms when a single polynomial cannot keep the limits.
   ThesisIteration //!< vpThesisDuration, (6.6): a baseline for comparison. May exceed limits; see its documentation.
 };
 
-//! What a FixedArrival plan does when the limits do not allow the given time. The result is ArrivalInfeasible in both cases.
+//! \ingroup group_trajectory
+//! \brief What a FixedArrival plan does when the limits do not allow the given time. The result is ArrivalInfeasible in both cases.
 enum class vpLateArrival {
   Extend,      //!< Keep the limits and arrive at the earliest feasible time.
   ExceedLimits //!< Keep the time with a single polynomial and exceed the limits (printing; figure 6.5).
 };
 
-//! Limit on the Euclidean norm over some axes, such as the Cartesian speed of three of them.
+//! \ingroup group_trajectory
+//! \brief Limit on the Euclidean norm over some axes, such as the Cartesian speed of three of them.
 struct VISP_EXPORT vpAxisGroup {
   std::uint64_t axes = 0;                                           //!< Bit i set: axis i belongs to the group.
   double maxSpeed = std::numeric_limits<double>::infinity();        //!< unit/s, > 0.
@@ -70,6 +76,7 @@ struct VISP_EXPORT vpAxisGroup {
   [[nodiscard]] bool contains(int axis) const { return axis < 64 && (axes >> axis & 1) != 0; } //!< Membership.
 };
 
+//! \ingroup group_trajectory
 //! \brief Everything about a trajectory that is not one number per axis.
 struct VISP_EXPORT vpTrajectoryOptions {
   static constexpr int maxGroups = 4; //!< Largest number of groups.
@@ -91,9 +98,11 @@ struct VISP_EXPORT vpTrajectoryOptions {
   std::array<vpAxisGroup, maxGroups> groups{}; //!< Limits on norms; a group without axes is not used.
 };
 
-//! True when both describe the same choices.
+//! \ingroup group_trajectory
+//! \brief True when both describe the same choices.
 [[nodiscard]] VISP_EXPORT bool operator==(const vpTrajectoryOptions &a, const vpTrajectoryOptions &b);
-//! True when a choice differs.
+//! \ingroup group_trajectory
+//! \brief True when a choice differs.
 [[nodiscard]] inline bool operator!=(const vpTrajectoryOptions &a, const vpTrajectoryOptions &b) { return !(a == b); }
 
 END_VISP_NAMESPACE

@@ -15,7 +15,8 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! The shape that an axis was given.
+//! \ingroup group_trajectory
+//! \brief The shape that an axis was given.
 enum class vpTrajectoryForm {
   Hold,   //!< Start and goal are the same.
   Direct, //!< One polynomial (or one per via), the minimum-jerk motion.
@@ -25,17 +26,20 @@ enum class vpTrajectoryForm {
   Vias //!< From via to via, because no single duration keeps the limits over all of them.
 };
 
-//! The form as a word ("Direct"), for files; static text.
+//! \ingroup group_trajectory
+//! \brief The form as a word ("Direct"), for files; static text.
 [[nodiscard]] VISP_EXPORT const char *toString(vpTrajectoryForm form);
 
-//! A polynomial on its own clock: q(t) = p((t - begin)/duration).
+//! \ingroup group_trajectory
+//! \brief A polynomial on its own clock: q(t) = p((t - begin)/duration).
 struct VISP_EXPORT vpTrajectorySegment {
   double begin = 0.;    //!< s from the start of the plan.
   double duration = 0.; //!< s, > 0.
   vpPolynomial p;       //!< Position in s = (t - begin)/duration; the constant is the place itself.
 };
 
-//! Exact extremes of one axis over a plan.
+//! \ingroup group_trajectory
+//! \brief Exact extremes of one axis over a plan.
 struct VISP_EXPORT vpTrajectoryPeaks {
   double minPosition = 0.;  //!< Lowest place.
   double maxPosition = 0.;  //!< Highest place.
@@ -45,7 +49,8 @@ struct VISP_EXPORT vpTrajectoryPeaks {
   double squaredJerk = 0.;  //!< Integral of j^2, unit^2/s^5.
 };
 
-//! An interval in which every axis is one polynomial in t - begin, for reports.
+//! \ingroup group_trajectory
+//! \brief An interval in which every axis is one polynomial in t - begin, for reports.
 struct VISP_EXPORT vpTrajectoryPiece {
   double begin = 0.;                             //!< s from the start of the plan.
   double end = 0.;                               //!< s from the start of the plan.

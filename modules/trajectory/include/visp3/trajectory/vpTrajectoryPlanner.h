@@ -36,10 +36,10 @@ public:
    */
   explicit vpTrajectoryPlanner(int axes, int maxVias = 0);
   ~vpTrajectoryPlanner();
-  vpTrajectoryPlanner(const vpTrajectoryPlanner &other);
-  vpTrajectoryPlanner &operator=(const vpTrajectoryPlanner &other);
-  vpTrajectoryPlanner(vpTrajectoryPlanner &&) noexcept;
-  vpTrajectoryPlanner &operator=(vpTrajectoryPlanner &&) noexcept;
+  vpTrajectoryPlanner(const vpTrajectoryPlanner &other);            //!< Copies.
+  vpTrajectoryPlanner &operator=(const vpTrajectoryPlanner &other); //!< Copies.
+  vpTrajectoryPlanner(vpTrajectoryPlanner &&) noexcept;             //!< Moves.
+  vpTrajectoryPlanner &operator=(vpTrajectoryPlanner &&) noexcept;  //!< Moves.
 
   /*!
    * Plan. Never throws, never allocates.

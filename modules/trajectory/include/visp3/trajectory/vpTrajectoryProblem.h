@@ -64,7 +64,8 @@ public:
   //! Use \e count vias; above maxVias() the problem becomes invalid (TooManyVias).
   void setViaCount(int count) { m_vias = count; }
   /*!
-   * Via \e k, 0 <= k < maxVias().
+   * Sets a via.
+   * \param k : Which one, 0 <= k < maxVias().
    * \param tau : Time as a fraction of the whole move.
    * \param q, v, a : axes() numbers each; \e v, \e a may be null: left free.
    */

@@ -15,7 +15,8 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! How the step went. The motion is safe to execute in every case (with the exceptions that the user asked for by name).
+//! \ingroup group_trajectory
+//! \brief How the step went. The motion is safe to execute in every case (with the exceptions that the user asked for by name).
 enum class vpTrajectoryResult {
   Working,            //!< On the way, within the limits.
   Finished,           //!< The goal was reached in this cycle.
@@ -26,7 +27,8 @@ enum class vpTrajectoryResult {
   ArrivalInfeasible   //!< The given arrival time cannot be kept within the limits.
 };
 
-//! What the matter is, in detail.
+//! \ingroup group_trajectory
+//! \brief What the matter is, in detail.
 enum class vpTrajectoryFault {
   None,                    //!< Nothing.
   StartNotFinite,          //!< A number of the start state is NaN or infinite.
@@ -62,6 +64,7 @@ enum class vpTrajectoryFault {
 };
 
 /*!
+ * \ingroup group_trajectory
  * \brief Result with its reason: which axis, which value.
  */
 struct VISP_EXPORT vpTrajectoryStatus {
@@ -80,7 +83,8 @@ struct VISP_EXPORT vpTrajectoryStatus {
   [[nodiscard]] std::string message() const;
 };
 
-//! The result as a word ("Working"), for files; static text.
+//! \ingroup group_trajectory
+//! \brief The result as a word ("Working"), for files; static text.
 [[nodiscard]] VISP_EXPORT const char *toString(vpTrajectoryResult result);
 
 END_VISP_NAMESPACE

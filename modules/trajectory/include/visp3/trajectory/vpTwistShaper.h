@@ -13,6 +13,7 @@
 
 BEGIN_VISP_NAMESPACE
 
+//! \ingroup group_trajectory
 //! \brief Limits of vpTwistShaper, for the linear and the angular part.
 struct VISP_EXPORT vpTwistShaperLimits {
   double linearAcceleration = 1.;  //!< m/s^2, > 0.

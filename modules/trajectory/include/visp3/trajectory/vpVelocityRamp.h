@@ -25,7 +25,7 @@ BEGIN_VISP_NAMESPACE
 class VISP_EXPORT vpVelocityRamp
 {
 public:
-  static constexpr int maxPieces = 4;
+  static constexpr int maxPieces = 4; //!< Most stretches of a ramp.
 
   //! A stretch of constant jerk.
   struct Piece {

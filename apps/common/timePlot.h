@@ -1,0 +1,40 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file timePlot.h
+ * \brief Plots of something over time.
+ */
+#ifndef vpApp_timePlot_h
+#define vpApp_timePlot_h
+
+#include "plot.h"
+
+#include <cstddef>
+#include <functional>
+
+namespace vpApp
+{
+//! An empty plot against time in s. \param yLabel : With unit.
+[[nodiscard]] Plot timePlot(const std::string &title, const std::string &yLabel, unsigned int height = 260);
+
+//! A dashed level over the time of the curves so far, or over Plot::xRange when that is set.
+void addLevel(Plot &plot, double level, const std::string &label);
+
+//! What is shown of neighbours that fall together: peaks and valleys must not get lost.
+enum class Keep { Largest, Least };
+
+/*!
+ * A curve of at most some 800 points.
+ * \param count : Number of values. \param time, value : Of index 0 ... count - 1.
+ */
+[[nodiscard]] PlotCurve timeCurve(const std::string &label, const std::string &colour, std::size_t count,
+                                  const std::function<double(std::size_t)> &time,
+                                  const std::function<double(std::size_t)> &value, Keep keep = Keep::Largest);
+//! The same of values that are there.
+[[nodiscard]] PlotCurve timeCurve(const std::string &label, const std::string &colour, const std::vector<double> &times,
+                                  const std::vector<double> &values, Keep keep = Keep::Largest);
+} // namespace vpApp
+
+#endif

@@ -1,0 +1,143 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// Figures 8.6 to 8.10 and 8.13: detours, by the replicas of visp-avoid-obstacle.
+#include "part.h"
+
+#include "visp-avoid-obstacle/replicas.h"
+
+namespace thesisReport
+{
+namespace
+{
+using avoidObstacle::Replica;
+
+constexpr double MAX_SPEED = 0.5, MAX_ACCELERATION = 1.; // m/s, m/s^2
+constexpr double KEPT = 1e-9;                            // m/s: rounding
+
+Quantity speedKept(double peak)
+{
+  return {"largest speed",         "m/s",         MAX_SPEED, peak,
+          Tolerance::atMost(KEPT), Good::Smaller, "",        "The thesis: not violated."};
+}
+
+Quantity arrived(double distance, double tolerance, const std::string &reason = "")
+{
+  return {"distance from the final point", "m",           0.,     distance,
+          Tolerance::distance(tolerance),  Good::Neither, reason, ""};
+}
+
+Quantity throughVia(double distance, double tolerance)
+{
+  return {"distance at which the via is passed", "m",           0., distance,
+          Tolerance::distance(tolerance),        Good::Neither, "", ""};
+}
+
+double distanceOf(const nlohmann::ordered_json &a, const nlohmann::ordered_json &b)
+{
+  return std::hypot(a[0].get<double>() - b[0].get<double>(), a[1].get<double>() - b[1].get<double>());
+}
+
+std::vector<Quantity> fieldQuantities(const nlohmann::ordered_json &numbers)
+{
+  const auto &strict = numbers.at("strict"), &mild = numbers.at("mild");
+  const auto reached = [](const char *name, double thesis, const nlohmann::ordered_json &motion) {
+    return Quantity{std::string(name) + ": end point reached (1 yes, 0 no)",
+                    "1",
+                    thesis,
+                    motion.at("end_reached").get<bool>() ? 1. : 0.,
+                    Tolerance::distance(0.),
+                    Good::Neither,
+                    "",
+                    "Reached: within 5 mm."};
+  };
+  const auto missed = [](const nlohmann::ordered_json &motion, std::size_t i) {
+    return motion.at("missed_m").at(i).get<double>();
+  };
+  return {reached("strict parameters", 0., strict),
+          reached("mild parameters", 1., mild),
+          {"strict parameters: distance at which the second via is missed", "m", 0., missed(strict, 1),
+           Tolerance::atLeast(), Good::Neither, "", "The thesis: vias are not reached."},
+          {"the same, mild over strict", "1", 1., missed(mild, 1) / missed(strict, 1), Tolerance::atMost(),
+           Good::Smaller, "", "The thesis: with less strict parameters the path stays closer to the wanted one."}};
+}
+
+std::vector<Quantity> pointQuantities(const nlohmann::ordered_json &numbers)
+{
+  std::vector<Quantity> quantities = {speedKept(numbers.at("peak_v")),
+                                      arrived(distanceOf(numbers.at("end_m"), numbers.at("goal_m")), 1e-6)};
+  if (numbers.contains("via_distance_m")) {
+    quantities.push_back(throughVia(numbers.at("via_distance_m"), 1e-3));
+  }
+  quantities.push_back({"time of arrival", "s", std::nullopt, numbers.at("arrival_s"), Tolerance::factor(1.1),
+                        Good::Neither, "", "Only drawn in the thesis."});
+  return quantities;
+}
+
+std::vector<Quantity> armQuantities(const nlohmann::ordered_json &numbers)
+{
+  const auto &metrics = numbers.at("metrics");
+  std::vector<Quantity> quantities = {speedKept(metrics.at("peak_v")),
+                                      arrived(metrics.at("goal_error_m"), 0.005,
+                                              "The joints come to rest some mrad off, where their friction holds them: "
+                                              "the drives here do not compensate it (table 8.1).")};
+  quantities.front().note += " The commanded tool; the joints follow with the errors of their drives.";
+  if (numbers.contains("via_distance_m")) {
+    quantities.push_back(throughVia(numbers.at("via_distance_m"), 0.01));
+  }
+  return quantities;
+}
+
+std::vector<Quantity> followingQuantities(const nlohmann::ordered_json &numbers)
+{
+  return {{"largest acceleration", "m/s^2", MAX_ACCELERATION, numbers.at("peak_a"), Tolerance::atMost(KEPT),
+           Good::Smaller, "", "The thesis: guaranteed. Norm over both axes."},
+          {"largest change of the acceleration within 1 ms", "m/s^2", 0., numbers.at("largest_step_of_a"),
+           Tolerance::distance(0.1), Good::Neither, "", "The thesis: continuous."},
+          arrived(distanceOf(numbers.at("end_m"), numbers.at("goal_m")), 1e-6),
+          {"distance from the object, rms", "m", std::nullopt, numbers.at("rms_distance_m"), Tolerance::factor(1.1),
+           Good::Neither, "", "Setting out included."}};
+}
+
+Item itemOf(const std::string &id, const Setting &setting,
+            std::vector<Quantity> (*quantities)(const nlohmann::ordered_json &))
+{
+  avoidObstacle::Options options;
+  options.replica = id;
+  options.seed = setting.seed;
+  const Replica replica = avoidObstacle::playReplica(options);
+  Item item;
+  item.id = id;
+  item.quantities = quantities(replica.numbers);
+  item.remarks = replica.story;
+  for (const std::string &choice : replica.choices) {
+    item.parameters.emplace_back("our choice", choice);
+  }
+  for (const avoidObstacle::Figure &figure : replica.figures) {
+    if (!figure.svg.empty()) {
+      item.figures.push_back({figure.name, figure.title, figure.caption, figure.svg});
+    }
+  }
+  for (const auto &table : replica.tables) {
+    item.data.push_back({table.first, table.second});
+  }
+  return item;
+}
+} // namespace
+
+std::vector<Part> avoidanceParts()
+{
+  const auto part = [](const char *id, double cost,
+                       std::vector<Quantity> (*quantities)(const nlohmann::ordered_json &)) {
+    return Part{
+        "Chapter 8: obstacle avoidance",
+        {{id, avoidObstacle::replicaTitle(id)}},
+        cost,
+        [id, quantities](const Setting &setting) { return std::vector<Item>{itemOf(id, setting, quantities)}; }};
+  };
+  return {part("fig8.6", 1., fieldQuantities), part("fig8.7", 1., pointQuantities),
+          part("fig8.8", 5., armQuantities),   part("fig8.9", 1., pointQuantities),
+          part("fig8.10", 5., armQuantities),  part("fig8.13", 1., followingQuantities)};
+}
+} // namespace thesisReport

@@ -1,0 +1,266 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// Figure 7.1 and (7.2): frame rate against image size, of others and of vpPatternTracker.
+#include "curves.h"
+#include "patternItems.h"
+#include "patternRun.h"
+
+#include "numberText.h"
+
+#include <cmath>
+
+namespace thesisReport
+{
+namespace
+{
+using vpApp::number;
+
+constexpr double SWING = 40.;            // px, of the product
+constexpr std::size_t SMALL_RUN = 3000;  // images timed at the sizes of others
+constexpr std::size_t LARGE_RUN = 600;   // and at the sizes of (7.2)
+constexpr unsigned int FEW_PIXELS = 100; // narrower images see the product at half the magnification
+
+//! \brief A vision system of figure 7.1.
+struct System {
+  const char *name;
+  unsigned int width, height; // px
+  double rate;                // Hz
+};
+
+const std::vector<System> &systems()
+{
+  static const std::vector<System> all = {
+      {"the thesis's own camera", 160, 100, 1600.}, {"Komuro et al.", 320, 240, 1000.},
+      {"Nakabo et al.", 128, 128, 1000.},           {"Graetzel et al.", 60, 60, 6000.},
+      {"Ginhoux et al.", 256, 256, 500.},           {"de Best et al.", 90, 90, 1000.}};
+  return all;
+}
+
+//! \brief What an interface carries, without what its protocol takes.
+struct Interface {
+  const char *name;
+  double bytes; // per second
+};
+
+const std::vector<Interface> &interfaces()
+{
+  static const std::vector<Interface> all = {
+      {"IEEE 1394b, 98.3 MB/s", 98.304e6}, {"GigE Vision, 125 MB/s", 125e6},     {"Camera Link Base, 255 MB/s", 255e6},
+      {"USB3 Vision, 500 MB/s", 500e6},    {"CoaXPress CXP-6, 625 MB/s", 625e6}, {"Camera Link Full, 680 MB/s", 680e6}};
+  return all;
+}
+
+vpProductPatternSpec productAt(unsigned int width, unsigned int height, unsigned int seed)
+{
+  vpProductPatternSpec spec = thesisProduct(seed);
+  spec.width = width;
+  spec.height = height;
+  if (width < FEW_PIXELS) { // two periods each way must be in view
+    for (double *length : {&spec.pitchX, &spec.pitchY, &spec.openingX, &spec.openingY, &spec.cornerRadius}) {
+      *length *= 0.5;
+    }
+    spec.pixelSize *= 2.;
+  }
+  return spec;
+}
+
+TrackingTime timeAt(unsigned int width, unsigned int height, unsigned int seed, const vpPatternOptions &options,
+                    std::size_t least)
+{
+  const double amplitude = width < FEW_PIXELS ? 0.5 * SWING : SWING;
+  return timeTracking(roundTrip(productAt(width, height, seed), amplitude), options, least);
+}
+
+std::string sizeText(unsigned int width, unsigned int height)
+{
+  return std::to_string(width) + " x " + std::to_string(height) + " px";
+}
+
+const char *const HOW = "1 over the 99 % quantile of the time of an image, time that the core "
+                        "worked for it.";
+
+void compareRates(Item &item, vpApp::Plot &plot, const Setting &setting)
+{
+  for (const System &system : systems()) {
+    const TrackingTime time = timeAt(system.width, system.height, setting.seed, vpPatternOptions(), SMALL_RUN);
+    item.quantities.push_back({"frame rate that the tracker sustains at " + sizeText(system.width, system.height), "Hz",
+                               system.rate, time.sustainedRate(), Tolerance::atLeast(), Good::Larger,
+                               "This machine is slower than those that it was tried on.",
+                               std::string(HOW) + " The thesis: " + system.name + ". Cells in view: " +
+                                   number(time.cells, 3) + ", locked in " + number(100. * time.locked, 4) + " %."});
+    plot.curves.push_back({system.name + std::string(", ") + sizeText(system.width, system.height),
+                           colour(plot.curves.size()),
+                           vpApp::PlotStyle::Points,
+                           5.,
+                           {1. * system.width * system.height},
+                           {system.rate}});
+  }
+}
+
+void addInterfaces(vpApp::Plot &plot)
+{
+  const std::vector<double> pixels = {2e3, 2e6};
+  static const std::vector<std::string> greys = {"#c8c8c8", "#a8a8a8", "#888888", "#686868", "#484848", "#282828"};
+  for (std::size_t i = 0; i < interfaces().size(); ++i) {
+    const Interface &link = interfaces()[i];
+    plot.curves.push_back(
+        {link.name, greys[i], vpApp::PlotStyle::Dashed, 1.4, pixels, {link.bytes / pixels[0], link.bytes / pixels[1]}});
+  }
+}
+
+//! \brief Times against size.
+struct Scaling {
+  std::vector<double> pixels, cells, median, p99; // cells of an image; us
+  void add(std::size_t size, const TrackingTime &time)
+  {
+    pixels.push_back(static_cast<double>(size));
+    cells.push_back(time.cells);
+    median.push_back(time.us.median());
+    p99.push_back(time.us.quantile(0.99));
+  }
+};
+
+//! Both methods on the same images.
+void scale(const Setting &setting, Scaling &tracker, Scaling &thesis)
+{
+  vpPatternOptions literal;
+  literal.method = vpPatternMethod::ThesisAlgorithm;
+  for (const unsigned int unit : {2U, 3U, 4U, 6U, 8U, 12U, 16U}) {
+    const unsigned int width = 80 * unit, height = 50 * unit;
+    const auto images = roundTrip(productAt(width, height, setting.seed), SWING);
+    tracker.add(images.front().getSize(), timeTracking(images, vpPatternOptions(), LARGE_RUN));
+    if (setting.wants("eq7.2")) {
+      thesis.add(images.front().getSize(), timeTracking(images, literal, LARGE_RUN));
+    }
+    setting.progress(0.04 * unit);
+  }
+}
+
+//! Slope of the least-squares line through the logarithms.
+double exponentOf(const std::vector<double> &x, const std::vector<double> &y)
+{
+  Spread logX, logY, product, square;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    logX.add(std::log(x[i]));
+    logY.add(std::log(y[i]));
+  }
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    product.add((std::log(x[i]) - logX.mean()) * (std::log(y[i]) - logY.mean()));
+    square.add(std::pow(std::log(x[i]) - logX.mean(), 2));
+  }
+  return product.mean() / square.mean();
+}
+
+vpApp::Plot logarithmic(const std::string &title, const std::string &y)
+{
+  vpApp::Plot plot;
+  plot.title = title;
+  plot.xLabel = "pixels of an image";
+  plot.yLabel = y;
+  plot.logX = plot.logY = true;
+  plot.width = 1100;
+  plot.height = 560;
+  return plot;
+}
+
+Item systemsItem(const Scaling &scaling, const Setting &setting)
+{
+  Item item;
+  item.id = "fig7.1";
+  vpApp::Plot plot = logarithmic("Frame rate against image size", "frame rate (Hz)");
+  compareRates(item, plot, setting);
+  std::vector<double> rates;
+  Spread load; // MB/s
+  for (std::size_t i = 0; i < scaling.p99.size(); ++i) {
+    rates.push_back(1e6 / scaling.p99[i]);
+    load.add(1e-6 * rates.back() * scaling.pixels[i]);
+  }
+  plot.curves.push_back(
+      {"vpPatternTracker, processing alone", "#000000", vpApp::PlotStyle::Solid, 3.5, scaling.pixels, rates});
+  addInterfaces(plot);
+  const System &thesis = systems().front();
+  item.quantities.push_back({"data of the thesis's camera at 8 bit", "MB/s", 26.,
+                             thesis.width * thesis.height * thesis.rate * 1e-6, Tolerance::factor(1.05), Good::Neither,
+                             "", "Arithmetic: pixels times frame rate."});
+  item.remarks = {
+      "The coordinates of the other systems are those of the text of section 7.1.1; they solved other tasks than "
+      "following a product, so their rates are compared and not their results.",
+      "Ours is the processing alone: nothing is exposed, read out or carried over an interface. From 160 x 100 to 1280 "
+      "x "
+      "800 px it takes " +
+          number(load.quantile(0.), 3) + " to " + number(load.largest(), 3) + " MB/s of images.",
+      "Which interfaces the thesis drew is not in its text. Here they are the line rates after line coding, without "
+      "the "
+      "protocol: IEEE 1394b S800, gigabit Ethernet, Camera Link Base (24 bit at 85 MHz) and Full (64 bit at 85 MHz), "
+      "USB "
+      "3.0 at 5 Gbit/s with 8b/10b, CoaXPress at 6.25 Gbit/s with 8b/10b."};
+  item.parameters = {{"product",
+                      "220 x 80 um cells at 4.5 um a pixel, noise 4; at 9 um a pixel in images of less than 100 "
+                      "px width, which otherwise show less than two periods"},
+                     {"timed", std::to_string(SMALL_RUN) + " images of each size after learning"},
+                     {"gradation", "8 bit a pixel"}};
+  addPlot(
+      item, "systems", "High-speed vision systems",
+      "Dots: systems with camera, as told in the thesis. Solid line: images a second that vpPatternTracker sustains on "
+      "one core. Dashed: what interfaces carry at 8 bit a pixel.",
+      {plot});
+  return item;
+}
+
+Item scalingItem(const Scaling &tracker, const Scaling &thesis)
+{
+  Item item;
+  item.id = "eq7.2";
+  const char *const reason =
+      "Cells that the edge of the image cuts are not measured, and small images have more of them, which raises the "
+      "exponent, as do large images that do not stay in the caches. Work that does not grow with the image lowers it.";
+  item.quantities = {
+      {"exponent of the time against the pixels, vpPatternTracker", "1", 1., exponentOf(tracker.pixels, tracker.median),
+       Tolerance::distance(0.15), Good::Neither, reason, "Least squares through the logarithms of the median times."},
+      {"exponent of the time against the pixels, Algorithm 7.4", "1", 1., exponentOf(thesis.pixels, thesis.median),
+       Tolerance::distance(0.15), Good::Neither, reason, "As above; this one looks at every pixel."},
+      {"exponent of the time against the cells, vpPatternTracker", "1", std::nullopt,
+       exponentOf(tracker.cells, tracker.median), Tolerance::distance(0.15), Good::Neither, "",
+       "From " + number(tracker.cells.front(), 3) + " cells of an image to " + number(tracker.cells.back(), 4) + "."},
+      {"time of a pixel at the largest size, vpPatternTracker", "ns", std::nullopt,
+       1e3 * tracker.median.back() / tracker.pixels.back(), Tolerance::factor(2.), Good::Neither, "", ""},
+      {"time of a pixel at the largest size, Algorithm 7.4", "ns", std::nullopt,
+       1e3 * thesis.median.back() / thesis.pixels.back(), Tolerance::factor(2.), Good::Neither, "", ""}};
+  item.remarks = {
+      "(7.2) says that the time of an image is proportional to its pixels: exponent 1. Times are those of the core "
+      "and differ from run to run."};
+  item.parameters = {{"images", "160 x 100 to 1280 x 800 px, in the same magnification: more pixels are more cells"},
+                     {"timed", std::to_string(LARGE_RUN) + " images of each size, median"}};
+  vpApp::Plot plot = logarithmic("Time of an image against its size", "time of an image (us)");
+  addCurve(plot, "vpPatternTracker", tracker.pixels, tracker.median);
+  addCurve(plot, "vpPatternTracker, 99 %", tracker.pixels, tracker.p99, vpApp::PlotStyle::Dotted);
+  addCurve(plot, "Algorithm 7.4", thesis.pixels, thesis.median);
+  plot.curves.push_back(
+      {"proportional",
+       "#888888",
+       vpApp::PlotStyle::Dashed,
+       1.2,
+       {tracker.pixels.front(), tracker.pixels.back()},
+       {tracker.median.back() * tracker.pixels.front() / tracker.pixels.back(), tracker.median.back()}});
+  addPlot(item, "time", "Time of an image against its size", "Median over the images unless the legend says otherwise.",
+          {plot});
+  return item;
+}
+} // namespace
+
+std::vector<Item> frameRates(const Setting &setting)
+{
+  Scaling tracker, thesis;
+  scale(setting, tracker, thesis);
+  std::vector<Item> items;
+  if (setting.wants("fig7.1")) {
+    items.push_back(systemsItem(tracker, setting));
+  }
+  if (setting.wants("eq7.2")) {
+    items.push_back(scalingItem(tracker, thesis));
+  }
+  return items;
+}
+} // namespace thesisReport

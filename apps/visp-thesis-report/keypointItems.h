@@ -1,0 +1,68 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file keypointItems.h
+ * \brief What keypointParts() is made of, and the views that both tables look at.
+ */
+#ifndef thesisReport_keypointItems_h
+#define thesisReport_keypointItems_h
+
+#include "part.h"
+
+#include <visp3/core/vpCameraParameters.h>
+#include <visp3/core/vpHomogeneousMatrix.h>
+#include <visp3/core/vpImage.h>
+#include <visp3/planar_target/vpPlaneMatcher.h>
+#include <visp3/simulation/vpPlaneRenderer.h>
+
+namespace thesisReport
+{
+VISP_DIRECT_USING_NAMESPACE
+
+[[nodiscard]] std::vector<Item> keypointTable(const Setting &setting); //!< Table 4.2.
+[[nodiscard]] std::vector<Item> poseTable(const Setting &setting);     //!< Table 4.3.
+
+//! Camera of both tables: 640 x 480 px, focal length 800 px.
+[[nodiscard]] vpCameraParameters keypointCamera();
+
+//! Pose from a place (m) and angles about the camera's axes (rad): roll about z, pitch about x, yaw about y.
+[[nodiscard]] vpHomogeneousMatrix poseOf(double x, double y, double z, double roll, double pitch, double yaw);
+
+/*!
+ * A matcher whose reference has a number of keypoints, as nearly as the detector lets one choose it: dlib's SURF leaves out
+ * some of those that it is asked for.
+ */
+[[nodiscard]] vpPlaneMatcher matcherWith(const vpImage<unsigned char> &reference, vpKeypointType type,
+                                         unsigned int keypoints);
+
+/*!
+ * \brief A real photograph (data/target/klimt.jpg, 0.2 m wide) before another one (starry-night.jpg), as a camera sees it.
+ */
+class KeypointScene
+{
+public:
+  KeypointScene();
+  //! The photograph itself.
+  [[nodiscard]] const vpImage<unsigned char> &photograph() const { return m_photo; }
+  [[nodiscard]] double width() const { return m_width; }   //!< m.
+  [[nodiscard]] double height() const { return m_height; } //!< m.
+  //! The photograph alone, before the renderer's faint background: a reference view. Parameters as for render().
+  void renderAlone(const vpHomogeneousMatrix &cMo, const vpCameraFaults &faults, unsigned int seed,
+                   vpImage<unsigned char> &image);
+  /*!
+   * \param cMo : Photograph in the camera. \param faults : Noise reaches both photographs, an occluder the first.
+   * \param seed : Of the noise.
+   */
+  void render(const vpHomogeneousMatrix &cMo, const vpCameraFaults &faults, unsigned int seed,
+              vpImage<unsigned char> &image);
+
+private:
+  vpImage<unsigned char> m_photo;
+  double m_width, m_height;
+  vpPlaneRenderer m_target, m_background;
+};
+} // namespace thesisReport
+
+#endif

@@ -1,0 +1,34 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file options.h
+ * \brief The command line of visp-thesis-report.
+ */
+#ifndef thesisReport_options_h
+#define thesisReport_options_h
+
+#include <string>
+#include <vector>
+
+namespace thesisReport
+{
+//! \brief What the user asked for.
+struct Options {
+  std::vector<std::string> only; //!< Ids; all of them when nothing was asked for.
+  std::string out = "out/thesis-report";
+  unsigned int jobs = 1; //!< Parts at a time.
+  unsigned int seed = 1;
+  bool list = false;
+};
+
+/*!
+ * Read the command line.
+ * \return False when `--help` or `--version` was asked for, and printed.
+ * \throw vpApp::UsageError naming the option and its value.
+ */
+[[nodiscard]] bool readOptions(int argc, const char *const *argv, Options &options);
+} // namespace thesisReport
+
+#endif

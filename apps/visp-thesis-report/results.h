@@ -1,0 +1,29 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file results.h
+ * \brief results.json and the summary.
+ */
+#ifndef thesisReport_results_h
+#define thesisReport_results_h
+
+#include "run.h"
+
+#include <nlohmann/json.hpp>
+
+#include <map>
+
+namespace thesisReport
+{
+//! A row for each quantity: id, quantity, unit, thesis, ours, ratio, tolerance, verdict, note; null where there is none.
+[[nodiscard]] nlohmann::ordered_json resultsJson(const std::vector<Played> &all);
+//! The verdict of each item, how many there are of each, and what it took.
+[[nodiscard]] nlohmann::ordered_json summaryJson(const std::vector<Played> &all, const Options &options,
+                                                 const std::string &commandLine, double wallTime);
+//! How many items have each verdict.
+[[nodiscard]] std::map<Verdict, int> countVerdicts(const std::vector<Played> &all);
+} // namespace thesisReport
+
+#endif

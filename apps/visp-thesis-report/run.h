@@ -1,0 +1,32 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file run.h
+ * \brief Parts in, items out.
+ */
+#ifndef thesisReport_run_h
+#define thesisReport_run_h
+
+#include "options.h"
+#include "part.h"
+
+namespace thesisReport
+{
+//! \brief A part that was played.
+struct Played {
+  const Part *part = nullptr; //!< In the catalogue.
+  std::vector<Item> items;    //!< Those that were asked for, in the order of the part's entries.
+  double seconds = 0.;        //!< That it took.
+};
+
+/*!
+ * Play the parts that are needed, the long ones first, with a progress bar.
+ * \return In the order of the catalogue.
+ * \throw std::runtime_error naming the id when a part fails or leaves out an item; vpApp::Interrupted.
+ */
+[[nodiscard]] std::vector<Played> playAll(const Options &options);
+} // namespace thesisReport
+
+#endif

@@ -1,0 +1,36 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file spread.h
+ * \brief Mean, standard deviation and quantiles of what was measured.
+ */
+#ifndef thesisReport_spread_h
+#define thesisReport_spread_h
+
+#include <vector>
+
+namespace thesisReport
+{
+//! \brief Collects values. All figures of no value are 0.
+class Spread
+{
+public:
+  void add(double value) { m_values.push_back(value); }
+  [[nodiscard]] std::size_t count() const { return m_values.size(); }
+  [[nodiscard]] double mean() const;
+  //! Standard deviation about the mean, of a sample (n - 1); 0 for a single value.
+  [[nodiscard]] double sigma() const;
+  [[nodiscard]] double rms() const; //!< About 0.
+  [[nodiscard]] double largest() const;
+  //! The value that \e share of all do not exceed. \param share : 0..1.
+  [[nodiscard]] double quantile(double share) const;
+  [[nodiscard]] double median() const { return quantile(0.5); }
+
+private:
+  std::vector<double> m_values;
+};
+} // namespace thesisReport
+
+#endif

@@ -1,0 +1,108 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// visp-thesis-report as a user runs it.
+#include "programRun.h"
+
+#include "vpCatch.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+using Json = nlohmann::json;
+
+TEST_CASE("Two figures: rows, data, page, and nothing else", "[program]")
+{
+  ProgramRun run(THESIS_REPORT);
+  REQUIRE(run("--only fig6.3,tableA.1,fig6.3 --out out --jobs 2") == 0);
+  CHECK(run.out().find("out/report.html") != std::string::npos);
+  const Json rows = Json::parse(vpApp::readFile(run.path("out/results.json")));
+  int velocity = 0;
+  for (const Json &row : rows) {
+    CHECK((row["id"] == "fig6.3" || row["id"] == "tableA.1"));
+    CHECK(row["note"].get<std::string>().find("Not explained") == std::string::npos);
+    if (row["id"] == "fig6.3" && row["quantity"] == "largest velocity") {
+      ++velocity;
+      CHECK(row["ours"].get<double>() == Approx(0.5).margin(1e-6));
+      CHECK(row["verdict"] == "agrees");
+    }
+    if (row["id"] == "fig6.3" && row["quantity"] == "final time after the change") {
+      CHECK(row["ours"].get<double>() == Approx(2.442439077777).margin(1e-6)); // derived independently
+      CHECK(row["thesis"].is_null());
+    }
+  }
+  CHECK(velocity == 1);
+  const Json summary = Json::parse(vpApp::readFile(run.path("out/summary.json")));
+  CHECK(summary["verdicts"].size() == 2);
+  CHECK(std::filesystem::exists(run.path("out/data/fig6.3-motion.csv")));
+  CHECK(std::filesystem::exists(run.path("out/figure/tableA.1-velocity.svg")));
+  const std::string page = vpApp::readFile(run.path("out/report.html"));
+  CHECK(page.find("Figure 6.3") != std::string::npos);
+  CHECK(page.find("Figure 6.4") == std::string::npos);
+
+  REQUIRE(run("--only fig6.3,tableA.1 --out again --jobs 1") == 0);
+  CHECK(Json::parse(vpApp::readFile(run.path("again/results.json"))) == rows);
+}
+
+TEST_CASE("Chapter 7 up to figure 7.11: what is arithmetic, and what follows from it", "[program]")
+{
+  ProgramRun run(THESIS_REPORT);
+  REQUIRE(run("--only table7.3,fig7.10,table7.4 --out out --jobs 2") == 0);
+  const auto valueOf = [](const Json &rows, const std::string &id, const std::string &quantity) {
+    for (const Json &row : rows) {
+      if (row["id"] == id && row["quantity"] == quantity) {
+        return row["ours"].get<double>();
+      }
+    }
+    FAIL("there is no row " << quantity << " of " << id);
+    return 0.;
+  };
+  const Json rows = Json::parse(vpApp::readFile(run.path("out/results.json")));
+  for (const Json &row : rows) {
+    CAPTURE(row.dump());
+    CHECK(row["note"].get<std::string>().find("Not explained") == std::string::npos);
+  }
+  // kappa1 of table 7.4 at 80 px of 4.5 um, by hand: 3.84e-10 * 360^3 um.
+  CHECK(valueOf(rows, "fig7.10", "mismatch of the thesis's lens at 80 px") == Approx(0.01791590).epsilon(1e-5));
+  CHECK(valueOf(rows, "fig7.10", "mismatch of 0.1 % distortion at 200 px") == Approx(0.2));
+  // The delay is the thesis's exposure and readout, and what was measured in the same run.
+  CHECK(valueOf(rows, "table7.3", "start-to-end delay") ==
+        Approx(550. + valueOf(rows, "table7.3", "visual processing")));
+  CHECK(valueOf(rows, "table7.4", "kappa1, product, edges at half height") == Approx(-6.72e-10).epsilon(0.1));
+  CHECK(valueOf(rows, "table7.4", "kappa1, industrial grid, edges at half height") == Approx(-3.84e-10).epsilon(0.1));
+  CHECK(valueOf(rows, "table7.4", "magnification, product, Algorithm 7.4") == Approx(4.26).epsilon(0.002));
+  CHECK(std::filesystem::exists(run.path("out/data/table7.4-distortion.csv")));
+
+  REQUIRE(run("--only table7.4 --out again --jobs 1") == 0); // times aside, what runs beside it changes nothing
+  const Json again = Json::parse(vpApp::readFile(run.path("again/results.json")));
+  REQUIRE_FALSE(again.empty());
+  CHECK(std::all_of(again.begin(), again.end(),
+                    [&](const Json &row) { return std::find(rows.begin(), rows.end(), row) != rows.end(); }));
+}
+
+TEST_CASE("Help, list, and what is wrong", "[program]")
+{
+  ProgramRun run(THESIS_REPORT);
+  CHECK(run("--help") == 0);
+  CHECK(run.out().find("--only") != std::string::npos);
+  CHECK(run("--list") == 0);
+  CHECK(run.out().find("fig8.13") != std::string::npos);
+  const std::vector<std::pair<std::string, std::string>> wrong = {{"--only fig9.9", "--only: there is no fig9.9"},
+                                                                  {"--jobs 0", "--jobs is 0"},
+                                                                  {"--out ''", "--out is empty"},
+                                                                  {"--seed x", "--seed"},
+                                                                  {"--frobnicate", "--frobnicate"},
+                                                                  {"surplus", "surplus"}};
+  for (const auto &bad : wrong) {
+    CAPTURE(bad.first);
+    CHECK(run(bad.first) == 2);
+    CHECK(run.err().find(bad.second) != std::string::npos);
+    CHECK(std::count(run.err().begin(), run.err().end(), '\n') == 1);
+  }
+  CHECK(run.entries().empty());
+  run.write("file", "mine");
+  CHECK(run("--only fig6.3 --out file") == 1);
+  CHECK(vpApp::readFile(run.path("file")) == "mine");
+}

@@ -1,0 +1,30 @@
+# The documentation: target `doc`, into doc/html of the build folder, and the test `documentation`, which builds it and fails
+# on any warning, any class without a group and any dead link.
+find_package(Doxygen QUIET)
+find_program(VISP_DIRECT_BIBTEX bibtex)
+mark_as_advanced(VISP_DIRECT_BIBTEX)
+if(NOT DOXYGEN_FOUND OR NOT VISP_DIRECT_BIBTEX)
+  message(STATUS "visp-direct: the documentation is not built, doxygen or bibtex (texlive-binaries) is missing")
+  return()
+endif()
+
+# vispdirect_quoted(OUT FILE...): a list in the form of a Doxyfile.
+function(vispdirect_quoted out)
+  list(TRANSFORM ARGN REPLACE "(.+)" "\"\\1\"")
+  list(JOIN ARGN " " quoted)
+  set(${out} "${quoted}" PARENT_SCOPE)
+endfunction()
+
+set(PROJECT_NAME_SHOWN visp-direct)
+set(DOC_OUTPUT "${PROJECT_BINARY_DIR}/doc")
+file(GLOB folders CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/modules/*/include")
+vispdirect_quoted(DOC_INCLUDE_FOLDERS ${folders})
+configure_file("${PROJECT_SOURCE_DIR}/doc/Doxyfile.in" "${DOC_OUTPUT}/Doxyfile" @ONLY)
+
+set(command ${CMAKE_COMMAND} "-DDOXYGEN=${DOXYGEN_EXECUTABLE}" "-DSOURCE_DIR=${PROJECT_SOURCE_DIR}" "-DDOC_DIR=${DOC_OUTPUT}"
+            -P "${PROJECT_SOURCE_DIR}/doc/build.cmake")
+add_custom_target(doc COMMAND ${command} USES_TERMINAL VERBATIM)
+if(BUILD_TESTS)
+  add_test(NAME documentation COMMAND ${command})
+  set_tests_properties(documentation PROPERTIES LABELS doc)
+endif()
