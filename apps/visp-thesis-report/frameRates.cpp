@@ -31,10 +31,9 @@ struct System {
 
 const std::vector<System> &systems()
 {
-  static const std::vector<System> all = {
-      {"the thesis's own camera", 160, 100, 1600.}, {"Komuro et al.", 320, 240, 1000.},
-      {"Nakabo et al.", 128, 128, 1000.},           {"Graetzel et al.", 60, 60, 6000.},
-      {"Ginhoux et al.", 256, 256, 500.},           {"de Best et al.", 90, 90, 1000.}};
+  static const std::vector<System> all = {{"the thesis", 160, 100, 1600.},    {"Komuro et al.", 320, 240, 1000.},
+                                          {"Nakabo et al.", 128, 128, 1000.}, {"Graetzel et al.", 60, 60, 6000.},
+                                          {"Ginhoux et al.", 256, 256, 500.}, {"de Best et al.", 90, 90, 1000.}};
   return all;
 }
 
@@ -88,7 +87,7 @@ void compareRates(Item &item, vpApp::Plot &plot, const Setting &setting)
     item.quantities.push_back({"frame rate that the tracker sustains at " + sizeText(system.width, system.height), "Hz",
                                system.rate, time.sustainedRate(), Tolerance::atLeast(), Good::Larger,
                                "This machine is slower than those that it was tried on.",
-                               std::string(HOW) + " The thesis: " + system.name + ". Cells in view: " +
+                               std::string(HOW) + " The other: " + system.name + "; cells in view here: " +
                                    number(time.cells, 3) + ", locked in " + number(100. * time.locked, 4) + " %."});
     plot.curves.push_back({system.name + std::string(", ") + sizeText(system.width, system.height),
                            colour(plot.curves.size()),

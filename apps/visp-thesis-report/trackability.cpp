@@ -110,7 +110,7 @@ Item play(const Setting &setting)
   plot.curves.push_back({"mean velocity, observer",
                          colour(4),
                          vpApp::PlotStyle::Points,
-                         8.,
+                         5.,
                          {1e3 * observer.mean},
                          {indexOf(RATE, observer.mean, pitch)}});
   addBound(plot, 20., false, "Ogawa et al.");
