@@ -19,8 +19,6 @@ set(PROJECT_NAME_SHOWN visp-direct)
 set(DOC_OUTPUT "${PROJECT_BINARY_DIR}/doc")
 file(GLOB folders CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/modules/*/include")
 vispdirect_quoted(DOC_INCLUDE_FOLDERS ${folders})
-file(GLOB folders CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/tutorial/*")
-vispdirect_quoted(DOC_TUTORIAL_FOLDERS ${folders})
 configure_file("${PROJECT_SOURCE_DIR}/doc/Doxyfile.in" "${DOC_OUTPUT}/Doxyfile" @ONLY)
 
 set(command ${CMAKE_COMMAND} "-DDOXYGEN=${DOXYGEN_EXECUTABLE}" "-DSOURCE_DIR=${PROJECT_SOURCE_DIR}" "-DDOC_DIR=${DOC_OUTPUT}"

@@ -1,16 +1,19 @@
 # The checks that doc/errata.md names exist: cmake -DPAGE=errata.md -DBIN_DIR=... -P checkErrata.cmake
-# A check is written as `program`, "name of a test case"; an entry of the first two tables must have one.
+# A check is written as `program`, "name of a test case"; each row above the last section must have one.
 cmake_minimum_required(VERSION 3.18)
 file(READ "${PAGE}" page)
-string(REPLACE ";" "," page "${page}")
+# Lists of CMake bear neither semicolons nor brackets.
+macro(plain text)
+  string(REPLACE ";" "," ${text} "${${text}}")
+  string(REPLACE "[" "(" ${text} "${${text}}")
+  string(REPLACE "]" ")" ${text} "${${text}}")
+endmacro()
+plain(page)
 string(REGEX REPLACE "\n## Corrections that nothing here uses.*" "" checked "${page}")
 if(checked STREQUAL page)
   message(FATAL_ERROR "${PAGE} has no section \"Corrections that nothing here uses\"")
 endif()
 
-# Lists of CMake do not bear brackets.
-string(REPLACE "[" "(" checked "${checked}")
-string(REPLACE "]" ")" checked "${checked}")
 set(faults "")
 set(checks 0)
 string(REGEX MATCHALL "`catch[A-Za-z0-9]+`, \"[^\"\n]+\"" named "${checked}")
@@ -24,8 +27,7 @@ foreach(check ${named})
   endif()
   if(NOT DEFINED cases_${program})
     execute_process(COMMAND "${BIN_DIR}/${program}" --list-test-names-only OUTPUT_VARIABLE cases_${program} ERROR_QUIET)
-    string(REPLACE "[" "(" cases_${program} "${cases_${program}}")
-    string(REPLACE "]" ")" cases_${program} "${cases_${program}}")
+    plain(cases_${program})
   endif()
   string(FIND "\n${cases_${program}}\n" "\n${case}\n" place)
   if(place EQUAL -1)

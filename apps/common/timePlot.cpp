@@ -25,11 +25,16 @@ Plot timePlot(const std::string &title, const std::string &yLabel, unsigned int 
 
 void addLevel(Plot &plot, double level, const std::string &label)
 {
-  double end = plot.xRange.second;
+  std::pair<double, double> range = plot.xRange;
   for (const PlotCurve &curve : plot.curves) {
-    end = std::max(end, curve.x.empty() ? 0. : curve.x.back());
+    if (!curve.x.empty()) {
+      const auto ends = std::minmax_element(curve.x.begin(), curve.x.end());
+      range = range.first < range.second
+                  ? std::make_pair(std::min(range.first, *ends.first), std::max(range.second, *ends.second))
+                  : std::make_pair(*ends.first, *ends.second);
+    }
   }
-  plot.curves.push_back({label, "#555555", PlotStyle::Dashed, 1., {0., end}, {level, level}});
+  plot.curves.push_back({label, "#555555", PlotStyle::Dashed, 1., {range.first, range.second}, {level, level}});
 }
 
 PlotCurve timeCurve(const std::string &label, const std::string &colour, std::size_t count,

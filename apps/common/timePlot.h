@@ -19,7 +19,7 @@ namespace vpApp
 //! An empty plot against time in s. \param yLabel : With unit.
 [[nodiscard]] Plot timePlot(const std::string &title, const std::string &yLabel, unsigned int height = 260);
 
-//! A dashed level over the time of the curves so far, or over Plot::xRange when that is set.
+//! A dashed level over the width of the curves so far, and over Plot::xRange when that is set.
 void addLevel(Plot &plot, double level, const std::string &label);
 
 //! What is shown of neighbours that fall together: peaks and valleys must not get lost.

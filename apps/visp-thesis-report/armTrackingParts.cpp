@@ -117,8 +117,8 @@ std::vector<Item> play(const Setting &setting)
     csv += name + "," + unit + "," + vpApp::number(thesis, 6) + "," + vpApp::number(rms(ours), 6) + "," +
            vpApp::number(rms(better), 6) + "\n";
   };
-  vpApp::Plot joints = overTime("Errors of the joints", "wanted - true (rad)"),
-              tool = overTime("Errors of the tool", "wanted - true (m)");
+  vpApp::Plot joints = vpApp::timePlot("Errors of the joints", "wanted - true (rad)"),
+              tool = vpApp::timePlot("Errors of the tool", "wanted - true (m)");
   for (std::size_t i = 0; i < JOINTS; ++i) {
     const std::string name = "q" + std::to_string(i + 1);
     add(name, "rad", thesisJoints[i], plain.joints[i], compensated.joints[i]);

@@ -4,9 +4,7 @@
  */
 #include "curves.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace thesisReport
 {
@@ -17,16 +15,6 @@ const std::string &colour(std::size_t i)
   return colours[i % colours.size()];
 }
 
-vpApp::Plot overTime(const std::string &title, const std::string &quantity)
-{
-  vpApp::Plot plot;
-  plot.title = title;
-  plot.xLabel = "time (s)";
-  plot.yLabel = quantity;
-  plot.height = 260;
-  return plot;
-}
-
 void addCurve(vpApp::Plot &plot, const std::string &label, std::vector<double> x, std::vector<double> y,
               vpApp::PlotStyle style)
 {
@@ -35,16 +23,9 @@ void addCurve(vpApp::Plot &plot, const std::string &label, std::vector<double> x
 
 void addBound(vpApp::Plot &plot, double value, bool both, const std::string &label)
 {
-  double begin = HUGE_VAL, end = -HUGE_VAL;
-  for (const vpApp::PlotCurve &curve : plot.curves) {
-    for (const double x : curve.x) {
-      begin = std::min(begin, x);
-      end = std::max(end, x);
-    }
-  }
-  for (const double side : both ? std::vector<double>{value, -value} : std::vector<double>{value}) {
-    plot.curves.push_back(
-        {side == value ? label : "", "#555555", vpApp::PlotStyle::Dashed, 1., {begin, end}, {side, side}});
+  vpApp::addLevel(plot, value, label);
+  if (both) {
+    vpApp::addLevel(plot, -value, "");
   }
 }
 } // namespace thesisReport

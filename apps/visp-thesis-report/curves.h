@@ -4,12 +4,12 @@
  */
 /*!
  * \file curves.h
- * \brief Plots against time, in a line each.
+ * \brief Curves of plots, in a line each.
  */
 #ifndef thesisReport_curves_h
 #define thesisReport_curves_h
 
-#include "plot.h"
+#include "timePlot.h"
 
 #include <string>
 #include <vector>
@@ -18,9 +18,6 @@ namespace thesisReport
 {
 //! Colours that are told apart by all eyes, in the order of use.
 [[nodiscard]] const std::string &colour(std::size_t i);
-
-//! An empty plot against time in s. \param quantity : With unit: "velocity (rad/s)".
-[[nodiscard]] vpApp::Plot overTime(const std::string &title, const std::string &quantity);
 
 //! Add a curve in the next colour.
 void addCurve(vpApp::Plot &plot, const std::string &label, std::vector<double> x, std::vector<double> y,

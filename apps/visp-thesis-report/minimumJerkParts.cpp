@@ -69,7 +69,7 @@ Item play()
   const std::vector<std::string> names = {"acceleration", "jerk", "snap"};
   const std::vector<vpTrajectoryContinuity> continuities = {vpTrajectoryContinuity::C1, vpTrajectoryContinuity::C2,
                                                             vpTrajectoryContinuity::C3};
-  vpApp::Plot velocity = overTime("Velocity of the smoothest motions", "velocity over mean velocity");
+  vpApp::Plot velocity = vpApp::timePlot("Velocity of the smoothest motions", "velocity over mean velocity");
   velocity.xLabel = "time over duration";
   velocity.height = 380;
   for (std::size_t i = 0; i < names.size(); ++i) {

@@ -88,7 +88,7 @@ Quantity toolKept(const Runs &runs)
 
 void illustrate(const Runs &runs, const std::string &distance, Item &item)
 {
-  vpApp::Plot plot = overTime("Distance of joint q_4 from " + distance, "distance (m)");
+  vpApp::Plot plot = vpApp::timePlot("Distance of joint q_4 from " + distance, "distance (m)");
   plot.height = 420;
   for (const auto &run : runs.runs) {
     std::vector<double> t, d;

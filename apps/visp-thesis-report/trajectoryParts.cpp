@@ -109,9 +109,10 @@ Motion follow(const Case &task)
 
 void draw(Item &item, const Motion &motion, const std::string &title, const std::string &caption)
 {
-  vpApp::Plot place = overTime("Position", "position (rad)"), velocity = overTime("Velocity", "velocity (rad/s)"),
-              acceleration = overTime("Acceleration", "acceleration (rad/s^2)"),
-              end = overTime("Final time as planned", "t_f (s)");
+  vpApp::Plot place = vpApp::timePlot("Position", "position (rad)"),
+              velocity = vpApp::timePlot("Velocity", "velocity (rad/s)"),
+              acceleration = vpApp::timePlot("Acceleration", "acceleration (rad/s^2)"),
+              end = vpApp::timePlot("Final time as planned", "t_f (s)");
   addCurve(place, "q", motion.t, motion.q);
   addCurve(velocity, "velocity", motion.t, motion.v);
   addCurve(acceleration, "acceleration", motion.t, motion.a);
@@ -247,7 +248,8 @@ Item iterations()
        Tolerance::atMost(), Good::Smaller, "", "The thesis: in one iteration for a quintic."}};
   item.parameters = parameters("velocity 0.5 rad/s");
   item.parameters.emplace_back("gain of (6.6)", "d_v = " + number(ITERATION_GAIN, 2) + " s/(rad/s)");
-  vpApp::Plot end = overTime("Final time as planned", "t_f (s)"), velocity = overTime("Velocity", "velocity (rad/s)");
+  vpApp::Plot end = vpApp::timePlot("Final time as planned", "t_f (s)"),
+              velocity = vpApp::timePlot("Velocity", "velocity (rad/s)");
   for (const auto &motion : {std::make_pair("exact", &byExact), std::make_pair("(6.6) at once", &byWhole),
                              std::make_pair("(6.6), a step each cycle", &bySpread)}) {
     const Motion &m = *motion.second;

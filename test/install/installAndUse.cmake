@@ -20,6 +20,7 @@ function(use prefix build)
     message(FATAL_ERROR "the consumer said: ${output}")
   endif()
   message(STATUS "from ${prefix}: ${output}")
+  run("${build}/own-law" WORKING_DIRECTORY "${build}")
 endfunction()
 
 file(REMOVE_RECURSE "${WORK_DIR}")

@@ -1,8 +1,9 @@
 /*! \example tutorial-ibvs-on-arm.cpp
- * Image-based visual servoing of four points, as in ViSP's tutorial-ibvs-4pts.cpp, with an arm in the place of the free
- * camera. Usage: tutorial-ibvs-on-arm [ARM.json | ARM.urdf TIP CAMERA]
+ * Your robot by URDF: image-based visual servoing of four points, as in ViSP's tutorial-ibvs-4pts.cpp, on any arm.
+ * Usage: tutorial-ibvs-on-arm [ARM.urdf TIP CAMERA | ARM.json]
+ * SPDX-License-Identifier: GPL-2.0-or-later
  */
-#include <visp3/core/vpCameraParameters.h>
+#include <visp3/core/vpFont.h>
 #include <visp3/core/vpImageDraw.h>
 #include <visp3/core/vpMeterPixelConversion.h>
 #include <visp3/core/vpPoint.h>
@@ -20,16 +21,24 @@ VISP_DIRECT_USING_NAMESPACE
 
 namespace
 {
+//! [Load]
 vpArmModel loadArm(int argc, char **argv)
 {
-  if (argc == 4) { // a URDF names neither the camera nor accelerations
-    vpArmUrdfOptions options;
-    options.tip = argv[2];
-    options.camera = argv[3];
-    options.acceleration = 10.;
-    return vpLoadArmUrdf(argv[1], options);
+  if (argc == 2) { // a DH table, with all that a URDF leaves open
+    return vpLoadArmJson(argv[1]);
   }
-  return vpLoadArmJson(argc > 1 ? argv[1] : VISP_DIRECT_DATA_DIR "/robot/amor.json");
+  vpArmUrdfOptions options;
+  options.tip = argc == 4 ? argv[2] : "tool";      // link that is the end effector
+  options.camera = argc == 4 ? argv[3] : "camera"; // link that is the camera, z along the optical axis
+  options.acceleration = 10.;                      // rad/s^2, of all joints: URDF has none
+  return vpLoadArmUrdf(argc == 4 ? argv[1] : VISP_DIRECT_DATA_DIR "/robot/generic-6r.urdf", options);
+}
+//! [Load]
+void draw(vpImage<vpRGBa> &picture, const vpFeaturePoint &p, const vpColor &color, bool isGoal)
+{
+  vpImagePoint ip;
+  vpMeterPixelConversion::convertPoint(vpCameraParameters(840, 840, 320, 240), p.get_x(), p.get_y(), ip);
+  isGoal ? vpImageDraw::drawCross(picture, ip, 15, color, 2) : vpImageDraw::drawPoint(picture, ip, color, 3);
 }
 } // namespace
 
@@ -38,17 +47,14 @@ int main(int argc, char **argv)
   try {
     //! [Robot]
     vpSimulatedArmSpec spec; // torques, friction that sticks, 5 ms control; spec.drives.ideal = true for a perfect arm
-    spec.indices = {vpSelfMotionIndex::jointLimits(), vpSelfMotionIndex::manipulability()};
+    spec.indices = {vpSelfMotionIndex::jointLimits(), vpSelfMotionIndex::manipulability()}; // for joints to spare
     vpSimulatedArm robot(loadArm(argc, argv), spec);
     robot.setSamplingTime(0.040);
     robot.setRobotState(vpRobot::STATE_VELOCITY_CONTROL);
     //! [Robot]
-
     //! [Task]
-    const vpHomogeneousMatrix cdMo(0, 0, 0.35, 0, 0, 0);
-    const vpHomogeneousMatrix cMo(0.07, 0.05, 0.45, vpMath::rad(10), vpMath::rad(-10), vpMath::rad(25));
-    vpPoint point[4] = {vpPoint(-0.05, -0.05, 0), vpPoint(0.05, -0.05, 0), vpPoint(0.05, 0.05, 0),
-                        vpPoint(-0.05, 0.05, 0)};
+    const vpHomogeneousMatrix cdMo(0, 0, 0.35, 0, 0, 0), cMo(0.07, 0.05, 0.45, 0.17, -0.17, 0.44);
+    vpPoint point[4] = {{-0.05, -0.05, 0}, {0.05, -0.05, 0}, {0.05, 0.05, 0}, {-0.05, 0.05, 0}};
     vpServo task;
     task.setServo(vpServo::EYEINHAND_CAMERA);
     task.setInteractionMatrixType(vpServo::CURRENT);
@@ -57,14 +63,10 @@ int main(int argc, char **argv)
     for (unsigned int i = 0; i < 4; ++i) {
       point[i].track(cdMo);
       vpFeatureBuilder::create(pd[i], point[i]);
-      point[i].track(cMo);
-      vpFeatureBuilder::create(p[i], point[i]);
       task.addFeature(p[i], pd[i]);
     }
     //! [Task]
-
     //! [Loop]
-    const vpCameraParameters cam(840, 840, 320, 240);
     vpImage<vpRGBa> picture(480, 640, vpRGBa(255, 255, 255));
     const vpHomogeneousMatrix fMo = robot.get_fMc() * cMo; // the object stands still
     for (unsigned int iter = 0; iter < 250; ++iter) {
@@ -72,28 +74,27 @@ int main(int argc, char **argv)
       for (unsigned int i = 0; i < 4; ++i) {
         point[i].track(cMoNow);
         vpFeatureBuilder::create(p[i], point[i]);
-        vpImagePoint ip;
-        vpMeterPixelConversion::convertPoint(cam, p[i].get_x(), p[i].get_y(), ip);
-        vpImageDraw::drawPoint(picture, ip, vpColor::getColor(i), 3);
+        draw(picture, p[i], vpColor::getColor(i), false);
       }
       robot.setVelocity(vpRobot::CAMERA_FRAME, task.computeControlLaw()); // 40 ms pass
     }
     //! [Loop]
     for (unsigned int i = 0; i < 4; ++i) {
-      vpImagePoint ip;
-      vpMeterPixelConversion::convertPoint(cam, pd[i].get_x(), pd[i].get_y(), ip);
-      vpImageDraw::drawCross(picture, ip, 15, vpColor::black, 2);
+      draw(picture, pd[i], vpColor::black, true);
     }
+    vpFont(20).drawText(picture, "Way of the four points to their goals (crosses), 10 s", {10, 10}, vpColor::black);
     vpImageIo::write(picture, "tutorial-ibvs-on-arm.png");
-
+    const vpArmModel &arm = robot.getModel();
+    for (int j = 0; j < arm.size(); ++j) {
+      std::cout << arm.spec().joints[j].name << ": " << vpMath::deg(robot.getState().q(j)) << " deg, limits "
+                << vpMath::deg(arm.lower()(j)) << " to " << vpMath::deg(arm.upper()(j)) << "\n";
+    }
     const double pixels = 840. * std::sqrt(task.getError().sumSquare() / 4.);
-    const vpSimulatedArmState state = robot.getState();
-    std::cout << "Points " << pixels << " px from their goals after " << state.time << " s; " << robot.getSentence()
-              << "\nJoints (deg): " << (state.q * 180. / M_PI).transpose() << std::endl;
+    std::cout << "Points " << pixels << " px from their goals; " << robot.getSentence() << std::endl;
     return pixels < 2. ? EXIT_SUCCESS : EXIT_FAILURE;
   }
   catch (const vpException &e) {
     std::cerr << "tutorial-ibvs-on-arm: " << e.getStringMessage() << std::endl;
-    return EXIT_FAILURE;
   }
+  return EXIT_FAILURE;
 }

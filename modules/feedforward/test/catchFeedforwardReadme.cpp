@@ -90,7 +90,7 @@ const vpColVector v = task.computeControlLaw();
 TEST_CASE("the README has the examples as they are compiled here", "[readme]")
 {
   const std::string readme = read(std::string(VISP_DIRECT_DATA_DIR) + "/../modules/feedforward/README.md");
-  const std::string here = read(__FILE__);
+  const std::string here = read(VISP_DIRECT_DATA_DIR "/../modules/feedforward/test/catchFeedforwardReadme.cpp");
   int blocks = 0;
   for (std::size_t at = readme.find("```cpp\n"); at != std::string::npos; at = readme.find("```cpp\n", at + 7)) {
     const std::string block = readme.substr(at + 7, readme.find("```", at + 7) - at - 7);

@@ -84,7 +84,7 @@ std::string specError(const vpArmSpec &spec)
 }
 } // namespace
 
-TEST_CASE("AMOR's file holds the note's ranges", "[files]")
+TEST_CASE("AMOR's file holds the ranges that data/robot says", "[files]")
 {
   const vpArmModel &model = amor();
   CHECK(model.size() == 7);

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Forward kinematics and Jacobians against KDL, the note's reference poses and finite differences.
+// Forward kinematics and Jacobians against KDL, reference poses and finite differences.
 #include "vpArmTestKit.h"
 #include "vpCatch.h"
 
@@ -70,7 +70,7 @@ vpRigidTransform poseOf(const vpArmModel &model, const vpArmData &data, vpArmFra
 TEST_CASE("AMOR is KDL's", "[kinematics]") { compareWithKDL(amor(), kdlAmor(), 1); }
 TEST_CASE("The six axes are KDL's", "[kinematics]") { compareWithKDL(sixAxes(), kdlSixAxes(), 2); }
 
-TEST_CASE("AMOR stands where the note says", "[kinematics]")
+TEST_CASE("AMOR stands at its reference poses", "[kinematics]")
 {
   // The raw table: no offset of joint 2, no tool.
   vpArmSpec raw = amor().spec();

@@ -1,0 +1,100 @@
+/*! \example tutorial-first-law.cpp
+ * From pixels to a servo law: a camera finds a photograph in its images and goes to where it shall be.
+ * Usage: tutorial-first-law [LAW], one of those that vpServoLaw::ids() lists
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include <visp3/core/vpFont.h>
+#include <visp3/core/vpImageConvert.h>
+#include <visp3/core/vpImageDraw.h>
+#include <visp3/core/vpMeterPixelConversion.h>
+#include <visp3/core/vpPoint.h>
+#include <visp3/feedforward/vpServoLaw.h>
+#include <visp3/io/vpImageIo.h>
+#include <visp3/planar_target/vpPlanarTarget.h>
+#include <visp3/robot/vpSimulatorCamera.h>
+#include <visp3/simulation/vpPlaneRenderer.h>
+
+#include <iostream>
+
+VISP_DIRECT_USING_NAMESPACE
+
+namespace
+{
+const vpCameraParameters camera(800., 800., 319.5, 239.5); // of images with 640 x 480 pixels
+
+// The corners of the photograph as the camera sees them, which laws use beside the pose.
+std::vector<vpServoPoint> cornersAt(const vpHomogeneousMatrix &cMo, double width, double height)
+{
+  const double x = 0.5 * width, y = 0.5 * height;
+  std::vector<vpServoPoint> corners;
+  for (vpPoint corner : {vpPoint(-x, -y, 0), vpPoint(x, -y, 0), vpPoint(x, y, 0), vpPoint(-x, y, 0)}) {
+    corner.track(cMo);
+    corners.push_back({corner.get_x(), corner.get_y(), corner.get_Z()});
+  }
+  return corners;
+}
+
+void drawOutline(vpImage<vpRGBa> &picture, const std::vector<vpServoPoint> &corners, const vpColor &color,
+                 unsigned int wide)
+{
+  std::vector<vpImagePoint> pixels(corners.size());
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    vpMeterPixelConversion::convertPoint(camera, corners[i].x, corners[i].y, pixels[i]);
+  }
+  vpImageDraw::drawPolygon(picture, pixels, color, wide);
+}
+} // namespace
+
+int main(int argc, char **argv)
+{
+  try {
+    //! [Target]
+    vpImage<unsigned char> photo, image;
+    vpImageIo::read(photo, VISP_DIRECT_DATA_DIR "/target/klimt.jpg");
+    const double width = 0.16, height = width * photo.getHeight() / photo.getWidth(); // m, from edge to edge
+    vpPlanarTarget target(photo, width, height, camera);
+    //! [Target]
+
+    //! [Law]
+    vpServoGoal goal;
+    goal.cdMo = vpHomogeneousMatrix(0., 0., 0.4, 0., 0., 0.); // the photograph straight ahead, 0.4 m away
+    goal.points = cornersAt(goal.cdMo, width, height);
+    const auto law = vpServoLaw::create(argc > 1 ? argv[1] : "ff-lookat");
+    law->setGoal(goal);
+    //! [Law]
+    //! [Robot]
+    vpSimulatorCamera robot; // the world is the photograph, so wMc is the inverse of cMo
+    robot.setPosition(vpHomogeneousMatrix(0.12, -0.05, 0.7, 0.35, -0.45, 0.5).inverse());
+    robot.setSamplingTime(0.05); // s
+    robot.setRobotState(vpRobot::STATE_VELOCITY_CONTROL);
+    vpPlaneRenderer view(photo, width, height, camera, 640, 480); // in the place of a real camera
+    //! [Robot]
+
+    //! [Loop]
+    vpImage<vpRGBa> panel, picture(480, 1280); // the first image beside the last one
+    for (int frame = 0; frame < 160; ++frame) {
+      view.render(robot.getPosition().inverse(), {}, 1, image);
+      const vpPlanarTargetResult &found = target.process(image);
+      const vpServoMeasurement seen{found.found(), 0.05 * frame, found.cMo, cornersAt(found.cMo, width, height), {}};
+      const vpTwist v = law->update(seen, 0.05).v; // zero when the photograph was not found
+      robot.setVelocity(vpRobot::CAMERA_FRAME, limitTwist(v, 0.2, 0.7).toColVector()); // m/s, rad/s
+      //! [Loop]
+      vpImageConvert::convert(image, panel);
+      drawOutline(panel, goal.points, vpColor::blue, 6);
+      drawOutline(panel, seen.points, vpColor::yellow, 2);
+      picture.insert(panel, vpImagePoint(0, frame == 0 ? 0 : 640));
+    }
+    vpFont(24).drawText(picture, "First image: yellow found, blue goal", vpImagePoint(8, 8), vpColor::black);
+    vpFont(24).drawText(picture, "Last image, 8 s later", vpImagePoint(8, 648), vpColor::black);
+    vpImageIo::write(picture, "tutorial-first-law.png");
+    const vpHomogeneousMatrix cdMc = goal.cdMo * robot.getPosition();
+    const double mm = 1000. * cdMc.getTranslationVector().frobeniusNorm();
+    const double degrees = vpMath::deg(cdMc.getThetaUVector().getTheta());
+    std::cout << law->id() << ": " << mm << " mm and " << degrees << " deg from the goal" << std::endl;
+    return mm < 1. && degrees < 0.1 ? EXIT_SUCCESS : EXIT_FAILURE;
+  }
+  catch (const vpException &e) {
+    std::cerr << "tutorial-first-law: " << e.getStringMessage() << std::endl;
+  }
+  return EXIT_FAILURE;
+}

@@ -1,0 +1,98 @@
+/*! \example tutorial-own-law.cpp
+ * Write your own servo law, check what it promises, and run it: a camera on four axes (a gantry, a drone) that can
+ * go anywhere and turn about the vertical, but neither tilt nor roll.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include <visp3/core/vpExponentialMap.h>
+#include <visp3/core/vpUniRand.h>
+#include <visp3/feedforward/vpServoLaw.h>
+
+#include <Eigen/Core>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+
+VISP_DIRECT_USING_NAMESPACE
+
+namespace
+{
+//! [Error]
+// What the law takes to zero: place of the camera in the desired camera frame (m), and its yaw about the y axis (rad).
+Eigen::Vector4d errorOf(const vpHomogeneousMatrix &cMo, const vpHomogeneousMatrix &cdMo)
+{
+  using Pose = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>; // ViSP's own products would allocate
+  const Pose o(cMo.data), d(cdMo.data);
+  const Eigen::Matrix3d cdRc = d.topLeftCorner<3, 3>() * o.topLeftCorner<3, 3>().transpose();
+  const Eigen::Vector3d cdtc = d.topRightCorner<3, 1>() - cdRc * o.topRightCorner<3, 1>();
+  return {cdtc.x(), cdtc.y(), cdtc.z(), std::atan2(cdRc(0, 2), cdRc(2, 2))};
+}
+//! [Error]
+//! [Law]
+class LevelLaw : public vpServoLaw
+{
+public:
+  explicit LevelLaw(const vpServoGains &gains = {}) : vpServoLaw("level", gains) {}
+
+protected:
+  // The base class has checked the measurement: valid, finite, fits the goal. Do not throw or allocate here.
+  vpServoCommand step(const vpServoMeasurement &seen, double /*dt*/) noexcept override
+  {
+    const Eigen::Vector4d e = errorOf(seen.cMo, m_goal.cdMo);
+    const Eigen::Vector3d v = -m_gains.lambda * e.head<3>(); // along the axes of the desired camera,
+    const double c = std::cos(e(3)), s = std::sin(e(3));     // which the present one has turned away from
+    const double wy = -m_gains.lambda * m_gains.rotation * e(3);
+    return {vpTwist(c * v.x() - s * v.z(), v.y(), s * v.x() + c * v.z(), 0., wy, 0.), vpServoStatus::Servoing};
+  }
+};
+//! [Law]
+} // namespace
+
+int main()
+{
+  vpServoGoal goal;
+  goal.cdMo = vpHomogeneousMatrix(0., 0., 0.5, 0., 0., 0.);
+  goal.points = {{0., 0., 0.5}}; // at least one; this law reads the pose alone
+  vpServoGains gains;
+  gains.rotation = 2.; // yaw twice as fast as the rest
+  LevelLaw law(gains);
+  law.setGoal(goal);
+  const Eigen::Vector4d k(gains.lambda, gains.lambda, gains.lambda, gains.lambda * gains.rotation);
+
+  //! [Check]
+  vpUniRand random(1); // the promise e' = -k e, by central differences at random places of a level camera
+  double worst = 0.;
+  vpServoMeasurement seen;
+  seen.valid = true;
+  seen.points = goal.points;
+  for (int i = 0; i < 1000; ++i) {
+    seen.cMo = vpHomogeneousMatrix(random.uniform(-1., 1.), random.uniform(-1., 1.), random.uniform(0.2, 2.), 0.,
+                                   random.uniform(-3., 3.), 0.);
+    const vpColVector v = law.update(seen, 0.01).v.toColVector();
+    const auto at = [&](double t) { return errorOf(vpExponentialMap::direct(v, t).inverse() * seen.cMo, goal.cdMo); };
+    const Eigen::Vector4d derivative = (at(1e-5) - at(-1e-5)) / 2e-5;
+    worst = std::max(worst, (derivative + k.cwiseProduct(errorOf(seen.cMo, goal.cdMo))).cwiseAbs().maxCoeff());
+  }
+  std::cout << "e' = -k e, worst difference at 1000 places: " << worst << std::endl;
+  //! [Check]
+  //! [Run]
+  std::ofstream plot("tutorial-own-law.gp"); // time, the four errors, the four promised ones; then what to draw
+  plot << "$log << end\n";
+  seen.cMo = vpHomogeneousMatrix(0.3, 0.1, 0.9, 0., 0.8, 0.);
+  const Eigen::Vector4d start = errorOf(seen.cMo, goal.cdMo);
+  for (double t = 0.; t < 5.; t += 0.02) {
+    const Eigen::Vector4d promised = start.array() * (-t * k.array()).exp();
+    plot << t << ' ' << errorOf(seen.cMo, goal.cdMo).transpose() << ' ' << promised.transpose() << '\n';
+    seen.cMo = vpExponentialMap::direct(law.update(seen, 0.02).v.toColVector(), 0.02).inverse() * seen.cMo;
+  }
+  //! [Run]
+  plot << "end\nset terminal pngcairo size 800,480; set output 'tutorial-own-law.png'\n"
+          "set xlabel 'time (s)'; set ylabel 'error (m, rad)'; set grid\n"
+          "names = 'x y z yaw'; set title 'Own law (lines) and its promise e(0) exp(-k t) (dots)'\n"
+          "plot for [i=1:4] $log using 1:(column(i + 1)) with lines lw 2 lc i title word(names, i), "
+          "for [i=1:4] $log using 1:(column(i + 5)) every 10 with points pt 7 lc i notitle\n";
+  plot.close();
+  const bool isDrawn = std::system("gnuplot tutorial-own-law.gp") == 0; // Debian's gnuplot-nox
+  const double left = errorOf(seen.cMo, goal.cdMo).norm();
+  std::cout << "Error " << start.norm() << " at the start, " << left << " after 5 s" << std::endl;
+  return isDrawn && worst < 1e-6 && left < 0.01 * start.norm() ? EXIT_SUCCESS : EXIT_FAILURE;
+}

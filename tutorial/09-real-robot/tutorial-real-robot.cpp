@@ -1,0 +1,100 @@
+/*! \example tutorial-real-robot.cpp
+ * One loop for a simulated arm and a real one, with limits, a watchdog, and a way out when the target is lost.
+ * Usage: tutorial-real-robot [/dev/video0], a dry run with a live camera: the arm that follows is simulated
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include <visp3/core/vpTime.h>
+#include <visp3/feedforward/vpServoController.h>
+#include <visp3/io/vpImageIo.h>
+#include <visp3/manipulator/vpArmJson.h>
+#include <visp3/planar_target/vpPlanarTarget.h>
+#include <visp3/sensor/vpV4l2Grabber.h>
+#include <visp3/simulation/vpPlaneRenderer.h>
+#include <visp3/simulation/vpSimulatedArm.h>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <iostream>
+
+VISP_DIRECT_USING_NAMESPACE
+namespace
+{
+const vpCameraParameters camera(400., 400., 159.5, 119.5); // of 320 x 240 px; yours comes from its calibration
+const vpHomogeneousMatrix cdMo(0., 0., 0.35, 0., 0., 0.);  // the goal
+using Grab = std::function<void(vpImage<unsigned char> &)>;
+//! [Servo]
+// All that moves a robot; nothing in here knows whether it is simulated. True if the target was lost on the way.
+bool servo(vpRobot &robot, const Grab &grab, vpPlanarTarget &target, std::ostream &log)
+{
+  vpServoControllerConfig config;
+  config.gains.lambda = 2.;                                           // 1/s
+  config.view = vpViewConstraintConfig::fromCamera(camera, 320, 240); // "+cbf" keeps the target's centre in there
+  config.view.maxLinear = 0.1;           // m/s; a fifth of it for the first run of a real robot
+  config.view.maxAngular = 0.3;          // rad/s
+  config.recovery = {0.3, 2., 0.1, 0.3}; // target lost: wait 0.3 s, then undo the last 2 s; m/s, rad/s
+  vpServoController controller = vpServoController::create("ff-lookat+cbf", config);
+  controller.setGoal({cdMo, {{0., 0., cdMo[2][3]}}});
+  robot.setMaxTranslationVelocity(0.11); // the robot's own limits stand behind those of the controller
+  robot.setMaxRotationVelocity(0.33);
+  robot.setRobotState(vpRobot::STATE_VELOCITY_CONTROL);
+  vpImage<unsigned char> image;
+  bool wasLost = false;
+  for (int cycle = 0; cycle < 150; ++cycle) {
+    const double before = vpTime::measureTimeMs();
+    grab(image);
+    const bool isFresh = vpTime::measureTimeMs() - before < 200.; // watchdog: a camera that stalls sees nothing
+    const vpPlanarTargetResult &found = target.process(image);
+    const double Z = found.cMo[2][3];
+    const vpServoPoint centre{found.cMo[0][3] / Z, found.cMo[1][3] / Z, Z};
+    const vpServoMeasurement seen{isFresh && found.found(), 0.04 * cycle, found.cMo, {centre}, {centre}};
+    const auto [v, status] = controller.update(seen, 0.04);
+    robot.setVelocity(vpRobot::CAMERA_FRAME, v.toColVector());
+    wasLost = wasLost || status == vpServoStatus::Retreating;
+    log << 0.04 * cycle << ' ' << v.linearNorm() << ' ' << v.angularNorm() << ' ' << toString(status) << std::endl;
+  }
+  robot.setRobotState(vpRobot::STATE_STOP);
+  return wasLost;
+}
+//! [Servo]
+} // namespace
+int main(int argc, char **argv)
+{
+  try {
+    //! [Parts]
+    vpImage<unsigned char> photo;
+    vpImageIo::read(photo, VISP_DIRECT_DATA_DIR "/target/klimt.jpg");
+    vpPlanarTargetConfig fast;
+    fast.refinementSize = 120;                                                    // px: for the rate of a camera
+    vpPlanarTarget target(photo, 0.12, 0.12, camera, fast);                       // m
+    vpSimulatedArm robot(vpLoadArmJson(VISP_DIRECT_DATA_DIR "/robot/amor.json")); // 40 ms a cycle; yours: any vpRobot
+    const vpHomogeneousMatrix fMo = robot.get_fMc() * vpHomogeneousMatrix(0.06, 0.04, 0.45, 0.2, -0.3, 0.4);
+    vpPlaneRenderer view(photo, 0.12, 0.12, camera, 320, 240);
+    Grab grab = [&](vpImage<unsigned char> &image) {
+      view.render(robot.get_fMc().inverse() * fMo, {}, 1, image);
+      image = std::floor(robot.getState().time) == 1. ? vpImage<unsigned char>(240, 320, 0) : image; // covered
+    };
+#ifdef VISP_HAVE_V4L2
+    vpV4l2Grabber live(0, 2); // input 0, half of 640 x 480 px
+    if (argc > 1) {
+      live.setDevice(argv[1]);
+      grab = [&live](vpImage<unsigned char> &image) { live.acquire(image); };
+    }
+#endif
+    //! [Parts]
+    std::ofstream log("tutorial-real-robot.txt");
+    const bool wasLost = servo(robot, grab, target, log);
+    const char *const plot = R"(gnuplot << 'end'
+set terminal pngcairo size 900,400; set output 'tutorial-real-robot.png'
+set xlabel 'time (s)'; set ylabel 'commanded speed'; set style fill solid noborder; f = 'tutorial-real-robot.txt'
+plot [0:6] [0:0.4] f using 1:(0.4 * (strcol(4) eq 'Holding')) with boxes lc 'salmon' title 'target lost: holding', \
+  f using 1:(0.4 * (strcol(4) eq 'Retreating')) with boxes lc 'khaki' title 'going back', \
+  f using 1:2 with lines lw 2 lc 'blue' title 'm/s', f using 1:3 with lines lw 2 lc 'black' title 'rad/s')";
+    const double mm = 1000. * (cdMo * fMo.inverse() * robot.get_fMc()).getTranslationVector().frobeniusNorm();
+    std::cout << mm << " mm from the goal; " << robot.getSentence() << std::endl;
+    return std::system(plot) == 0 && (argc > 1 || (wasLost && mm < 2.)) ? EXIT_SUCCESS : EXIT_FAILURE;
+  }
+  catch (const vpException &e) {
+    std::cerr << "tutorial-real-robot: " << e.getStringMessage() << std::endl;
+  }
+  return EXIT_FAILURE;
+}

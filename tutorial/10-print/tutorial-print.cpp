@@ -1,0 +1,100 @@
+/*! \example tutorial-print.cpp
+ * Print on the fly on a flexible product: a drop into the centre of each cell, the camera is the only encoder.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include <visp3/pattern/vpPatternTracker.h>
+#include <visp3/printing/vpMotionObserver.h>
+#include <visp3/printing/vpPreviewControl.h>
+#include <visp3/printing/vpPrintReference.h>
+#include <visp3/printing/vpPrintTrigger.h>
+#include <visp3/printing/vpProductOdometer.h>
+#include <visp3/simulation/vpProductPattern.h>
+#include <visp3/simulation/vpXYStage.h>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+
+VISP_DIRECT_USING_NAMESPACE
+
+int main()
+{
+  //! [Machine]
+  vpProductPatternSpec spec; // the display of the thesis, 160 x 100 px of 4.5 um; all in px and frames
+  spec.flexAmplitudeX = 2.;  // cells lie up to 2 px off a regular pitch
+  const vpProductPattern product(spec);
+  vpXYStage stage(vpXYStageSpec::thesis());                  // friction that sticks, and rises by 30 % on the way
+  const vpFrictionModel friction{1., 0.02, 0.08, 0.12, 0.3}; // what vpIdentifyFriction() would know of it
+  const vpPreviewControl control({friction, 0.03, 0.7, 0.3, 0., 0.25}); // gains, lag, delay, four commands a frame
+  vpMotionObserver observer(vpMotionObserverSpec{friction});
+  vpProductOdometer odometer;
+  vpPrintReference reference; // 4 px/frame at the centres of the cells, 5 in the mean
+  vpPrintTrigger trigger({vpPrintTriggerMethod::Horizon, vpPrintAxis::X, 79.5, 49.5, 7.}); // nozzle, height of its row
+  vpImage<unsigned char> image;
+  vpPatternTracker tracker(spec.width, spec.height);
+  vpPatternCell first;              // under the nozzle at the start; printing begins behind it
+  for (int i = -100; i <= 0; ++i) { // in slow motion the tracker learns what the cells look like
+    product.render(0.5 * i, 0., 0.5, 0., 100 + i, image);
+    for (const vpPatternCell &cell : tracker.track(image).cells) {
+      first = std::hypot(cell.x - 79.5, cell.y - 49.5) < 8. ? cell : first;
+    }
+  }
+  reference.reset(0., 0., -first.column);
+  //! [Machine]
+  std::vector<vpPrintShot> shots;
+  std::vector<vpXYStage::State> log(5, stage.state()); // the truth, each quarter of a frame
+  for (double now = 0.; now < 320.; ++now) {
+    //! [Loop]
+    const vpXYStage::State seen = log[log.size() - 5]; // the camera is a frame late
+    product.render(seen.position[0], 0., seen.velocity[0], 0., static_cast<unsigned int>(now), image);
+    const vpPatternFrame &frame = tracker.track(image);
+    odometer.step(frame.cells.data(), frame.cells.size(), frame.epoch);
+    observer.measure(now - 1., odometer.output().x, 0.01); // px, its standard deviation
+    std::vector<vpPrintTarget> targets; // the product moves to the right: columns come in falling order
+    for (auto cell = frame.cells.rbegin(); cell != frame.cells.rend(); ++cell) {
+      double along = 0., across = 0.; // of the cell on the product, as the trigger remembers it
+      if (cell->row == first.row && trigger.find(cell->row, cell->column, frame.epoch, along, across)) {
+        targets.push_back({-cell->column, 79.5 - along, 4., 0.});
+      }
+    }
+    reference.step(now, targets.data(), targets.size());
+    const vpObservedMotion here = observer.at(now);
+    vpPrintTriggerInput input;
+    input.time = now;
+    input.captureTime = now - 1.;
+    input.cells = frame.cells.data();
+    input.cellCount = frame.cells.size();
+    input.epoch = frame.epoch;
+    input.captureAlong = odometer.output().x;
+    input.along = {now, here.position, here.velocity, 0., 0., 3., reference.pieceCount(), reference.pieces()};
+    const vpPrintTriggerOutput &out = trigger.step(input); // the shots that are due before the next image
+    shots.insert(shots.end(), out.shots.begin(), out.shots.begin() + out.shotCount);
+    for (double t = now; t < now + 1.; t += 0.25) {
+      const vpObservedMotion then = observer.at(control.feedbackAt(t)); // where it will be when the command acts
+      const vpAxisState wish = reference.at(control.actsAt(t)), goal = reference.at(control.feedbackAt(t));
+      const double force = control.force({wish, goal, then.position, then.velocity, then.disturbance});
+      observer.command(t, force);
+      log.push_back(stage.step(0.25, {{force, 0.}}));
+    }
+    //! [Loop]
+  }
+  double worst = 0.; // um
+  std::ofstream plot("tutorial-print.gp");
+  plot << "set terminal pngcairo size 900,400; set output 'tutorial-print.png'; set grid; set yrange [-0.5:0.5]\n"
+          "set xlabel 'time (frames)'; set ylabel 'landing place minus centre of the cell (um)'\n"
+          "plot '-' with impulses lw 3 title 'drops; a pixel is 4.5 um, a cell comes every 10 frames'\n";
+  for (const vpPrintShot &shot : shots) {
+    const vpXYStage::State &at = log[std::min(log.size() - 1, static_cast<std::size_t>(4. + 4. * shot.landTime))];
+    const double x = at.position[0] + at.velocity[0] * (shot.landTime - at.time); // of the product, at the landing
+    for (const vpPatternTruthCell &cell : product.cells(x, 0.)) {
+      if (cell.row == 0 && cell.column == shot.column - first.column) {
+        plot << shot.landTime << ' ' << (79.5 - cell.x) * spec.pixelSize << '\n';
+        worst = std::max(worst, std::fabs(79.5 - cell.x) * spec.pixelSize);
+      }
+    }
+  }
+  plot.close();
+  std::cout << shots.size() << " drops, the worst " << worst << " um beside the centre of its cell" << std::endl;
+  return std::system("gnuplot tutorial-print.gp") == 0 && shots.size() >= 30 && worst < 1. ? EXIT_SUCCESS
+                                                                                           : EXIT_FAILURE;
+}
