@@ -4,7 +4,8 @@
  */
 /*!
  * \file coreTime.h
- * \brief How long a core has worked for this thread: parts of the report run beside each other, and others on the machine.
+ * \brief How long a core has worked for this thread: parts of the report run beside each other, and so do other
+ * programs of the machine.
  */
 #ifndef thesisReport_coreTime_h
 #define thesisReport_coreTime_h

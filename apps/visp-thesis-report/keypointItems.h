@@ -31,14 +31,15 @@ VISP_DIRECT_USING_NAMESPACE
 [[nodiscard]] vpHomogeneousMatrix poseOf(double x, double y, double z, double roll, double pitch, double yaw);
 
 /*!
- * A matcher whose reference has a number of keypoints, as nearly as the detector lets one choose it: dlib's SURF leaves out
- * some of those that it is asked for.
+ * A matcher whose reference has a number of keypoints, as nearly as the detector lets one choose it: dlib's SURF leaves
+ * out some of those that it is asked for.
  */
 [[nodiscard]] vpPlaneMatcher matcherWith(const vpImage<unsigned char> &reference, vpKeypointType type,
                                          unsigned int keypoints);
 
 /*!
- * \brief A real photograph (data/target/klimt.jpg, 0.2 m wide) before another one (starry-night.jpg), as a camera sees it.
+ * \brief A real photograph (data/target/klimt.jpg, 0.2 m wide) before another one (starry-night.jpg), as a camera sees
+ * it.
  */
 class KeypointScene
 {

@@ -10,7 +10,7 @@ namespace thesisReport
 std::vector<Part> keypointParts()
 {
   const std::string chapter = "Chapter 4: 3D vision";
-  return {{chapter, {{"table4.2", "SIFT and SURF: keypoints, matches and time"}}, 25., keypointTable},
-          {chapter, {{"table4.3", "accuracy of the homography's decomposition with SURF"}}, 110., poseTable}};
+  return {{chapter, {{"table4.2", "SIFT and SURF: keypoints, matches and time"}}, 28., keypointTable},
+          {chapter, {{"table4.3", "accuracy of the homography's decomposition with SURF"}}, 65., poseTable}};
 }
 } // namespace thesisReport
