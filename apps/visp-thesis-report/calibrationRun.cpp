@@ -114,7 +114,7 @@ CalibrationPattern squareGrid(unsigned int seed)
 
 CalibrationPattern dotGrid(unsigned int seed)
 {
-  return grid("grid of round dots", vpProductShape::Dot, vpPatternMethod::ThesisAlgorithmFixed, seed);
+  return grid("grid of round dots", vpProductShape::Dot, vpPatternMethod::ThesisAlgorithm, seed);
 }
 
 CalibrationPattern displayPattern(unsigned int seed)
