@@ -79,8 +79,8 @@ int main(int argc, char **argv)
       robot.setVelocity(vpRobot::CAMERA_FRAME, task.computeControlLaw()); // 40 ms pass
     }
     //! [Loop]
-    for (unsigned int i = 0; i < 4; ++i) {
-      draw(picture, pd[i], vpColor::black, true);
+    for (const vpFeaturePoint &goal : pd) {
+      draw(picture, goal, vpColor::black, true);
     }
     vpFont(20).drawText(picture, "Way of the four points to their goals (crosses), 10 s", {10, 10}, vpColor::black);
     vpImageIo::write(picture, "tutorial-ibvs-on-arm.png");

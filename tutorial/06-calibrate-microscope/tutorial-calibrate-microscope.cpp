@@ -10,7 +10,6 @@
 #include <visp3/io/vpImageIo.h>
 #include <visp3/pattern/vpPlanarMicroscopeCalibration.h>
 #include <visp3/simulation/vpProductPattern.h>
-
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
@@ -34,13 +33,15 @@ vpImage<unsigned char> throughTheLens()
   vpImage<unsigned char> straight, image(480, 640);
   vpProductPattern(spec).render(0., 0., 0., 0., 0, straight);
   for (unsigned int i = 0; i < image.getSize(); ++i) {
+    const unsigned int row = i / 640, column = i % 640;
     double sum = 0.;
-    for (int k = 0; k < 9; ++k) {
-      const double u = i % 640 - 319.5 + (k % 3 - 1) / 3., v = i / 640 - 239.5 + (k / 3 - 1) / 3.;
-      const double factor = 3. * (1. + kappa1 * (u * u + v * v));
-      sum += straight.getValue(767.5 + factor * v, 1007.5 + factor * u);
+    for (const double dv : {-1. / 3., 0., 1. / 3.}) {
+      for (const double du : {-1. / 3., 0., 1. / 3.}) {
+        const double u = column - 319.5 + du, v = row - 239.5 + dv, factor = 3. * (1. + kappa1 * (u * u + v * v));
+        sum += straight.getValue(767.5 + factor * v, 1007.5 + factor * u);
+      }
     }
-    image.bitmap[i] = static_cast<unsigned char>(sum / 9. + 0.5);
+    image.bitmap[i] = static_cast<unsigned char>(vpMath::round(sum / 9.));
   }
   return image;
 }
@@ -72,7 +73,6 @@ void draw(const vpImage<unsigned char> &image, const vpCalibrationPitch &pitch, 
   vpImageIo::write(picture, "tutorial-calibrate-microscope.png");
 }
 } // namespace
-
 int main(int argc, char **argv)
 {
   try {
