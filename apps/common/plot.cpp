@@ -119,8 +119,9 @@ double ticStep(const Plot &plot)
 std::string lineStyle(const PlotCurve &curve)
 {
   const std::string colour = " linecolor rgb " + quoted(curve.colour);
-  if (curve.style == PlotStyle::Points) {
-    return "points pointtype 7 pointsize " + std::to_string(0.25 * curve.width) + colour;
+  if (curve.style == PlotStyle::Points || curve.style == PlotStyle::Rings) {
+    const std::string type = curve.style == PlotStyle::Points ? "7" : "6 linewidth 1.5";
+    return "points pointtype " + type + " pointsize " + std::to_string(0.25 * curve.width) + colour;
   }
   std::string dash;
   if (curve.style == PlotStyle::Dashed) {
@@ -148,10 +149,13 @@ void draw(const Plot &plot, std::size_t id, std::ostream &script)
            << "set xtics " << ticStep(plot) << "\nset ytics " << ticStep(plot) << "\n";
   }
   else { // room for the texts of the marks
-    script << "set offsets 0, 0, graph 0.12, graph 0.04\n";
+    script << (plot.logY ? "set offsets 0, 0, 0, 0\n" : "set offsets 0, 0, graph 0.12, graph 0.04\n");
   }
   if (plot.fromZero) {
     script << "set yrange [0:*]\n";
+  }
+  if (plot.logX || plot.logY) {
+    script << "set logscale " << (plot.logX ? "x" : "") << (plot.logY ? "y" : "") << "\n";
   }
   if (!plot.categories.empty()) {
     script << "set xtics rotate by -35 (";

@@ -16,7 +16,7 @@
 namespace vpApp
 {
 //! How a curve is drawn.
-enum class PlotStyle { Solid, Dashed, Dotted, Points };
+enum class PlotStyle { Solid, Dashed, Dotted, Points, Rings };
 
 //! \brief One curve. A point that is not finite interrupts the line.
 struct PlotCurve {
@@ -44,6 +44,8 @@ struct Plot {
   std::vector<std::string> categories; //!< Names for x = 0, 1, 2 ... instead of numbers.
   std::pair<double, double> xRange{0., 0.};
   bool fromZero = false;  //!< y begins at 0.
+  bool logX = false;      //!< x on a logarithmic scale; all x > 0.
+  bool logY = false;      //!< y on a logarithmic scale; all y > 0.
   bool equalAxes = false; //!< One unit is as long on x as on y: maps.
   unsigned int width = 960;
   unsigned int height = 440;
