@@ -38,8 +38,7 @@ struct Design {
 
 //! \brief The product, and how much of it is printed to judge a design.
 struct Task {
-  int rows = 1;            //!< Printed one after another, to and fro.
-  int cells = 40;          //!< In a row.
+  int cells = 40;          //!< Of one row.
   int runs = 2;            //!< With other noise and another product each.
   double jitter = 0.;      //!< Standard deviation of a cell's place, um.
   double flex = 0.;        //!< Flexible pitch: cells lie up to this far off, um.
@@ -94,8 +93,8 @@ struct Setup {
   double maxAcceleration = 50.; //!< Of the stage's drives, m/s^2, > 0.
   int minCells = 4;             //!< Whole cells that must be in view at any time.
   unsigned int seed = 1;        //!< Of samples, noise and product.
-  std::vector<std::string> objectives{"landing_p95_um", "throughput_cells_per_s", "load"}; //!< Of the front.
-  std::vector<Requirement> requirements;                                                   //!< What a design must keep.
+  std::vector<std::string> objectives{"landing_worst_um", "throughput_cells_per_s", "load"}; //!< Of the front.
+  std::vector<Requirement> requirements; //!< What a design must keep.
 };
 
 //! Name on the command line and in files: "pid", "pid-ff", "observer".

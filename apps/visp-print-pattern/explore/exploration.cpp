@@ -25,8 +25,7 @@ double effortOf(const Design &design, const Setup &setup)
   if (!checkTiming(design, setup, timing).feasible()) {
     return 1.;
   }
-  const double time =
-      setup.task.rows * setup.task.cells * Lengths::pitchX * 1e-3 / (design.dropVelocity * design.speedUp);
+  const double time = setup.task.cells * Lengths::pitchX * 1e-3 / (design.dropVelocity * design.speedUp);
   const double frames = time * design.frameRate + 120.;
   return 1. + (setup.task.runs + 0.4) * frames * (design.pixels() + 2000.);
 }

@@ -116,9 +116,7 @@ void writeFeasibility(HtmlReport &page, const Exploration &result)
   for (const auto &[kind, count] : reasonsOf(result)) {
     const auto example = std::find_if(result.outcomes.begin(), result.outcomes.end(),
                                       [&, k = kind](const Outcome &o) { return o.verdict.kind == k; });
-    table.rows.push_back({kind,
-                          std::to_string(count),
-                          vpApp::HtmlCell(meaningOf(kind), "left"),
+    table.rows.push_back({kind, std::to_string(count), vpApp::HtmlCell(meaningOf(kind), "left"),
                           vpApp::HtmlCell(textOf(example->design) + ": " + example->verdict.sentence, "left")});
   }
   table.rows.push_back({std::string("none: they work"), std::to_string(result.feasible), std::string(), std::string()});
@@ -140,9 +138,8 @@ void writeSetup(HtmlReport &page, const Setup &setup, const std::string &command
   page.facts(
       {{"designs",
         std::to_string(setup.designs.size()) + (setup.sampled ? ", samples of a sequence" : ", a full grid")},
-       {"printed for each", std::to_string(task.runs) + " runs of " + std::to_string(task.rows) + " x " +
-                                std::to_string(task.cells) + " cells, jitter " + number(task.jitter, 3) +
-                                " um, flexible pitch " + number(task.flex, 3) + " um"},
+       {"printed for each", std::to_string(task.runs) + " runs of " + std::to_string(task.cells) + " cells, jitter " +
+                                number(task.jitter, 3) + " um, flexible pitch " + number(task.flex, 3) + " um"},
        {"camera", number(camera.pixelRate, 4) + " Mpx/s readout, link " + number(camera.link, 4) + " MB/s, " +
                       (camera.overlap ? "exposes while it reads out" : "exposes, then reads out") + ", " +
                       number(camera.interfaceTime, 4) + " us for grabber and output"},

@@ -140,6 +140,10 @@ Plotted cameraPlot(const Setup &setup, const Exploration &result)
     curve.x.push_back(d.frameRate);
     curve.y.push_back(d.pixels());
   }
+  PlotCurve thesis = points("thesis's camera", RED, 8., PlotStyle::Rings);
+  const Design ofThesis = Design::thesis(vpPrintController::Observer);
+  thesis.x.push_back(ofThesis.frameRate);
+  thesis.y.push_back(ofThesis.pixels());
   PlotCurve readout{"readout, exposure of " + vpApp::number(shortest, 3) + " us", RED, PlotStyle::Solid, 2., {}, {}};
   PlotCurve link{"link", "#2ca02c", PlotStyle::Dashed, 2., {}, {}};
   constexpr int steps = 100;
@@ -159,7 +163,7 @@ Plotted cameraPlot(const Setup &setup, const Exploration &result)
   plot.yLabel = "image size (px)";
   plot.logX = plot.logY = true;
   plot.width = 1060;
-  plot.curves = {fails, works, readout, link};
+  plot.curves = {fails, works, thesis, readout, link};
   return {
       "cameras", "Image size against frame rate with the limits of camera and link",
       "Above the red line the camera cannot read out an image before the next one, above the green one the link cannot "

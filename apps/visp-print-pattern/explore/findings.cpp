@@ -69,7 +69,7 @@ std::string meaningOf(const std::string &kind)
       {"view", "too few whole cells in view"},
       {"delay", "the camera is too many frames late to be simulated"},
       {"tracker", "the tracker does not find or hold the product"},
-      {"cells", "cells are missed, printed twice or not reached"},
+      {"cells", "cells get no drop in time, or more than one"},
       {"model", "a length or gain is out of the range of the modules"}};
   const auto found = meanings.find(kind);
   return found == meanings.end() ? kind : found->second;
@@ -107,9 +107,10 @@ std::vector<std::string> findingsOf(const Setup &setup, const Exploration &resul
       continue;
     }
     const std::size_t better = betterThan(setup, result, outcome);
-    sentences.push_back(
-        camera + ": " + figuresText(outcome) + "; " +
-        (better == 0 ? "on the front." : plural(better, "design") + " better in every objective or equal."));
+    sentences.push_back(camera + ": " + figuresText(outcome) + "; " +
+                        (better == 0
+                             ? "on the front."
+                             : plural(better, "design") + " at least as good in every objective and better in one."));
   }
   return sentences;
 }

@@ -16,6 +16,8 @@ namespace
 constexpr double basePixel = 4.5, baseRate = 1600.; // um, Hz: units in which the machine is described
 constexpr double baseVelocity = 4.;                 // px/frame, to which the reference's constants belong
 constexpr double baseDelay = 1.28, hold = 0.5;      // frames of the thesis's loop; what a held command adds
+constexpr int runOut = 8;                           // cells behind the last one that counts
+constexpr int runUp = 3;                            // times of a cell, to get into motion
 constexpr double mostCommands = 56.;                // that the observer remembers beyond the camera's delay
 
 double pxPerFrame(double mmPerSecond) { return mmPerSecond * 1e3 / basePixel / baseRate; }
@@ -93,8 +95,10 @@ vpPrintExperimentSpec experimentOf(const Design &design, const Setup &setup, con
   spec.product = productOf(design, setup, timing);
   spec.sensor = vpPrintSensor::Image;
   spec.visionDelay = timing.delayFrames;
-  spec.rows = setup.task.rows;
-  spec.cellsPerRow = setup.task.cells;
+  // A control of velocities stops short of the last cell; and who is a fourth too slow has failed.
+  spec.cellsPerRow = setup.task.cells + setup.task.cells / 4 + runOut;
+  const double cellTime = Lengths::pitchX * 1e-3 / (design.dropVelocity * design.speedUp); // s
+  spec.frames = static_cast<int>(std::ceil(1.25 * (setup.task.cells + runUp) * cellTime * design.frameRate));
   while (spec.commandsPerFrame > 1 && spec.commandsPerFrame * (spec.visionDelay + 1.) > mostCommands) {
     spec.commandsPerFrame /= 2;
   }

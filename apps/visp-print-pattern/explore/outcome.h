@@ -24,8 +24,7 @@ struct Outcome {
   double landing95 = 0.;    //!< 95 % are nearer, um.
   double landingWorst = 0.; //!< The largest, um.
   int cells = 0;            //!< That were to be printed in all runs.
-  int printed = 0;          //!< With at least one drop.
-  int missed = 0;           //!< Passed the nozzle without a drop.
+  int missed = 0;           //!< Without a drop: passed over, or not reached in 1.25 times the time it should take.
   int doubled = 0;          //!< With more than one.
   double throughput = 0.;   //!< Cells a second, mean of the runs.
   bool thesis = false;      //!< The camera and velocity of the thesis.

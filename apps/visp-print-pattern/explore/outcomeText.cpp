@@ -49,7 +49,6 @@ const std::vector<Column> &columns()
       {"landing_p95_um", [](const Outcome &o) -> Json { return o.landing95; }},
       {"landing_worst_um", [](const Outcome &o) -> Json { return o.landingWorst; }},
       {"cells", [](const Outcome &o) -> Json { return o.cells; }},
-      {"printed", [](const Outcome &o) -> Json { return o.printed; }},
       {"missed", [](const Outcome &o) -> Json { return o.missed; }},
       {"doubled", [](const Outcome &o) -> Json { return o.doubled; }},
       {"throughput_cells_per_s", [](const Outcome &o) -> Json { return o.throughput; }},
@@ -80,8 +79,8 @@ std::string packed(const std::vector<Outcome> &outcomes)
 {
   Json list = Json::array();
   for (const Outcome &o : outcomes) {
-    list.push_back({o.sensorX, o.sensorY, o.landingRms, o.landing95, o.landingWorst, o.throughput, o.cells, o.printed,
-                    o.missed, o.doubled, o.verdict.kind, o.verdict.sentence});
+    list.push_back({o.sensorX, o.sensorY, o.landingRms, o.landing95, o.landingWorst, o.throughput, o.cells, o.missed,
+                    o.doubled, o.verdict.kind, o.verdict.sentence});
   }
   return list.dump(); // shortest digits that are read back to the same number
 }
@@ -104,7 +103,7 @@ std::vector<Outcome> unpacked(const std::string &text, const std::vector<std::si
     for (double *value : {&o.sensorX, &o.sensorY, &o.landingRms, &o.landing95, &o.landingWorst, &o.throughput}) {
       *value = from[i++].get<double>();
     }
-    for (int *value : {&o.cells, &o.printed, &o.missed, &o.doubled}) {
+    for (int *value : {&o.cells, &o.missed, &o.doubled}) {
       *value = from[i++].get<int>();
     }
     o.verdict = {from[i].get<std::string>(), from[i + 1].get<std::string>()};

@@ -150,7 +150,6 @@ DesignSpace spaceOf(JsonObject object)
 
 void readTask(JsonObject object, Task &task)
 {
-  take(object, "rows", {1., 100.}, task.rows);
   take(object, "cells", {2., 10000.}, task.cells);
   take(object, "runs", {1., 60.}, task.runs);
   take(object, "jitter_um", {0., 5.}, task.jitter);
