@@ -1,6 +1,6 @@
-# shellcheck shell=bash disable=SC2034
-# Sourced by demo.sh, test.sh and scripts/lint.sh: from a fresh Debian 12 to a configured and built tree.
-# Every step is one line for the reader; what the tools print goes to build/*.log and is shown when a step fails.
+#shellcheck shell = bash disable = SC2034
+#Sourced by demo.sh, test.sh and scripts / lint.sh : from a fresh Debian 12 to a configured and built tree.
+#Every step is one line for the reader; what the tools print goes to build/*.log and is shown when a step fails.
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$root/build/release
@@ -11,8 +11,9 @@ mkdir -p "$logs"
 packages=(g++ cmake ninja-build libvisp-dev libopencv-dev libeigen3-dev libdlib-dev catch2 libbenchmark-dev
   libcli11-dev nlohmann-json3-dev liborocos-kdl-dev liburdfdom-dev libfcl-dev liboctomap-dev
   libompl-dev gnuplot-nox)
-# Real images that some tests check against; those are skipped where the images are missing.
-test_packages=(visp-images-data opencv-doc)
+# Real images that some tests check against, and Open MPI for one program's runs on many processes; what needs them is
+# skipped where they are missing.
+test_packages=(visp-images-data opencv-doc libopenmpi-dev openmpi-bin)
 
 # run LOG SENTENCE COMMAND...
 run() {

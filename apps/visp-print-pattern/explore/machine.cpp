@@ -57,6 +57,7 @@ void retune(vpPrintExperimentSpec &spec, const vpPrintUnits &units, double delay
   spec.pid.maxForce = bound; // of the drives, not of the tuning
   spec.pid.model = model;
   spec.filter = vpInUnits(spec.filter, units, slower);
+  spec.filterAhead *= frames / thesis;
 }
 } // namespace
 

@@ -18,7 +18,7 @@ namespace printExplore
  * the units of the design's camera (vpInUnits()); what the camera sees by its light, exposure and blur.
  *
  * Gains of the observer's control stay as they are in seconds: it knows the delay, what bounds it is the lag of the drives.
- * Those of the PIDs and the poles of their filter are slowed down as the loop's delay (camera, half a frame, lag) is longer than
+ * Those of the PIDs, the poles of their filter and its prediction are slowed down as the loop's delay (camera, half a frame, lag) is longer than
  * that of the thesis's, and the other way round: kp x delay is always the thesis's.
  * \param sensor : Errors that the estimators expect, px of this camera.
  * \throw vpException naming a field that the experiment does not allow.

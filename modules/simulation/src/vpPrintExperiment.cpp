@@ -261,7 +261,7 @@ private:
     vpPrintVelocityControl::Input input;
     input.velocity = r[1];
     input.acceleration = r[2];
-    input.measured = m_alphaBeta.predict(1.);
+    input.measured = m_alphaBeta.predict(m_spec.filterAhead);
     sample.estimatedVelocity = input.measured;
     return m_pid.step(input).force;
   }

@@ -124,6 +124,7 @@ void vpPrintExperimentSpec::validate() const
   require(sensorModel.sigmaY > 0. && std::isfinite(sensorModel.sigmaY), "sigmaY", sensorModel.sigmaY, "> 0");
   require(sensorModel.effectiveCells >= 1., "effectiveCells", sensorModel.effectiveCells, ">= 1");
   require(dropVelocity > 0. && std::isfinite(dropVelocity), "dropVelocity", dropVelocity, "> 0");
+  require(filterAhead >= 0. && filterAhead <= 64., "filterAhead", filterAhead, "in [0, 64]");
   require(rowStepTime > 0. && std::isfinite(rowStepTime), "rowStepTime", rowStepTime, "> 0");
   require(followTime > 0. && std::isfinite(followTime), "followTime", followTime, "> 0");
   require(cellDrift >= 0. && std::isfinite(cellDrift), "cellDrift", cellDrift, ">= 0");

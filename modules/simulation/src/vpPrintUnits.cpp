@@ -198,7 +198,7 @@ vpPrintExperimentSpec vpInUnits(const vpPrintExperimentSpec &spec, const vpPrint
   by(changed.cellDrift, 2, -1);
   by(changed.nozzleOffset, 1, 0);
   for (double *time : {&changed.visionDelay, &changed.captureJitter, &changed.travelTime, &changed.electronicsDelay,
-                       &changed.rowStepTime, &changed.followTime}) {
+                       &changed.rowStepTime, &changed.followTime, &changed.filterAhead}) {
     by(*time, 0, 1);
   }
   by(changed.frames);

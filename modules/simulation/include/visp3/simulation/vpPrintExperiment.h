@@ -62,6 +62,7 @@ struct VISP_EXPORT vpPrintExperimentSpec {
   vpProductPatternSpec product;                                   //!< The product and, for Image, how it looks.
 
   vpAlphaBetaGains filter{0.37, 0.045};            //!< Of the velocity, for the two PID controllers.
+  double filterAhead = 1.;                         //!< How far they predict it, frame, in [0, 64].
   vpPrintVelocityControlSpec pid;                  //!< For the two PID controllers; its field feedforward must fit.
   vpMotionKalmanSpec forecast = defaultForecast(); //!< Motion that the trigger expects, for the two PID controllers.
   vpMotionObserverSpec observer;                   //!< For Observer, and for the axis across always.
