@@ -93,31 +93,26 @@ std::vector<std::vector<std::size_t>> shareOut(const Setup &setup, int ranks)
 Exploration judge(const Setup &setup, std::vector<Outcome> outcomes)
 {
   Exploration result;
-  std::vector<std::size_t> working;
-  std::vector<Costs> costs;
+  std::vector<std::size_t> eligible;
+  std::vector<Costs> costs, choice;
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     Outcome &outcome = outcomes[i];
-    outcome.front = outcome.required = false;
-    if (outcome.verdict.feasible()) {
-      working.push_back(i);
+    outcome.front = false;
+    outcome.required = outcome.verdict.feasible() && keeps(outcome, setup.requirements);
+    result.feasible += outcome.verdict.feasible() ? 1 : 0;
+    if (outcome.required) {
+      eligible.push_back(i);
       costs.push_back(costsOf(outcome, setup.objectives));
-      outcome.required = keeps(outcome, setup.requirements);
-      result.required += outcome.required ? 1 : 0;
     }
   }
-  result.feasible = working.size();
-  std::vector<std::size_t> eligible;
-  std::vector<Costs> choice;
+  result.required = eligible.size();
   for (const std::size_t k : paretoFront(costs)) {
-    result.front.push_back(working[k]);
-    outcomes[working[k]].front = true;
-    if (outcomes[working[k]].required) {
-      eligible.push_back(working[k]);
-      choice.push_back(costs[k]);
-    }
+    result.front.push_back(eligible[k]);
+    outcomes[eligible[k]].front = true;
+    choice.push_back(costs[k]);
   }
-  if (!eligible.empty()) {
-    result.best = static_cast<std::ptrdiff_t>(eligible[compromise(choice)]);
+  if (!choice.empty()) {
+    result.best = static_cast<std::ptrdiff_t>(result.front[compromise(choice)]);
   }
   result.outcomes = std::move(outcomes);
   return result;

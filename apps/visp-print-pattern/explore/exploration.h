@@ -20,8 +20,8 @@ namespace printExplore
 //! \brief What an exploration found.
 struct Exploration {
   std::vector<Outcome> outcomes;  //!< By the order of the setup's designs.
-  std::vector<std::size_t> front; //!< Indices of the Pareto front, ascending; of designs that work.
-  std::ptrdiff_t best = -1;       //!< The compromise among those of the front that keep what is required; -1: none.
+  std::vector<std::size_t> front; //!< Indices of the Pareto front, ascending; of designs that keep what is required.
+  std::ptrdiff_t best = -1;       //!< The compromise among these; -1: none.
   std::size_t feasible = 0;       //!< Designs that work.
   std::size_t required = 0;       //!< Of these, those that keep what is required.
 };

@@ -83,7 +83,8 @@ void writeFront(HtmlReport &page, const Setup &setup, const Exploration &result)
     const bool best = static_cast<std::ptrdiff_t>(front[i]) == result.best;
     table.rows.push_back(rowOf(result.outcomes[front[i]], front[i], best));
   }
-  std::string caption = "Designs that no other one beats in one of " + vpApp::enumerate(setup.objectives) +
+  std::string caption = "Designs that keep what is required and that no other such one beats in one of " +
+                        vpApp::enumerate(setup.objectives) +
                         " and equals in the others. Marked: the best compromise, nearest to the best of each objective "
                         "with each scaled to its range over the front.";
   if (front.size() > mostRows) {

@@ -176,11 +176,11 @@ std::vector<Plotted> explorationPlots(const Setup &setup, const Exploration &res
 {
   std::vector<Plotted> plots;
   if (result.feasible > 0) {
-    plots.push_back(
-        {"front-controller", "Designs that work, by controller, with the Pareto front",
-         "Each point is a design that works. Rings: no other design is better in one objective and as good in all "
-         "others; where a ring lies behind others in this plane, it needs less of another objective.",
-         vpApp::renderSvg(frontPlot(setup, result, byController(), "Designs by controller"))});
+    plots.push_back({"front-controller", "Designs that work, by controller, with the Pareto front",
+                     "Each point is a design that works. Rings: it keeps what is required, and no other such design is "
+                     "better in one objective and as good in all "
+                     "others; where a ring lies behind others in this plane, it needs less of another objective.",
+                     vpApp::renderSvg(frontPlot(setup, result, byController(), "Designs by controller"))});
     plots.push_back({"front-load", "The same designs, by computing load", "The same, darker for more computing.",
                      vpApp::renderSvg(frontPlot(setup, result, byLoad(result), "Designs by computing load"))});
     plots.push_back(influencePlot(setup, result));

@@ -16,7 +16,7 @@ namespace
 using vpApp::fixed;
 using vpApp::number;
 
-//! Designs that are at least as good in all objectives and better in one.
+//! Designs that keep what is required, are at least as good in all objectives and better in one.
 std::size_t betterThan(const Setup &setup, const Exploration &result, const Outcome &one)
 {
   const auto costs = [&](const Outcome &outcome) {
@@ -28,9 +28,8 @@ std::size_t betterThan(const Setup &setup, const Exploration &result, const Outc
     return all;
   };
   return static_cast<std::size_t>(
-      std::count_if(result.outcomes.begin(), result.outcomes.end(), [&](const Outcome &other) {
-        return other.verdict.feasible() && dominates(costs(other), costs(one));
-      }));
+      std::count_if(result.outcomes.begin(), result.outcomes.end(),
+                    [&](const Outcome &other) { return other.required && dominates(costs(other), costs(one)); }));
 }
 
 std::string requirementsText(const Setup &setup)
@@ -84,18 +83,20 @@ std::string figuresText(const Outcome &outcome)
 
 std::vector<std::string> findingsOf(const Setup &setup, const Exploration &result)
 {
-  std::vector<std::string> sentences = {"Of " + plural(result.outcomes.size(), "design") + " " +
-                                        std::to_string(result.feasible) + " work, and " +
-                                        std::to_string(result.front.size()) + " of these are on the Pareto front."};
   const std::string required = requirementsText(setup);
+  const std::string kept =
+      required.empty() ? ""
+                       : ", " + std::to_string(result.required) + " of these keep what is required (" + required + ")";
+  std::vector<std::string> sentences = {"Of " + plural(result.outcomes.size(), "design") + " " +
+                                        std::to_string(result.feasible) + " work" + kept + ", and " +
+                                        std::to_string(result.front.size()) + " are on the Pareto front."};
   if (result.best >= 0) {
     const Outcome &best = result.outcomes[static_cast<std::size_t>(result.best)];
-    sentences.push_back("The best compromise" + (required.empty() ? "" : " with " + required) + " is " +
-                        textOf(best.design) + ": " + figuresText(best) + ".");
+    sentences.push_back("The best compromise is " + textOf(best.design) + ": " + figuresText(best) + ".");
   }
   else {
     sentences.push_back(required.empty() ? "None works, so there is nothing to choose."
-                                         : "No design of the front keeps what is required: " + required + ".");
+                                         : "No design that works keeps what is required.");
   }
   for (const Outcome &outcome : result.outcomes) {
     if (!outcome.thesis) {
@@ -106,11 +107,15 @@ std::vector<std::string> findingsOf(const Setup &setup, const Exploration &resul
       sentences.push_back(camera + " do not work here: " + outcome.verdict.sentence + ".");
       continue;
     }
-    const std::size_t better = betterThan(setup, result, outcome);
-    sentences.push_back(camera + ": " + figuresText(outcome) + "; " +
-                        (better == 0
-                             ? "on the front."
-                             : plural(better, "design") + " at least as good in every objective and better in one."));
+    std::string place = "on the front";
+    if (!outcome.required) {
+      place = "not what is required";
+    }
+    else if (!outcome.front) {
+      place = plural(betterThan(setup, result, outcome), "design") +
+              " at least as good in every objective and better in one";
+    }
+    sentences.push_back(camera + ": " + figuresText(outcome) + "; " + place + ".");
   }
   return sentences;
 }

@@ -28,7 +28,7 @@ struct Outcome {
   int doubled = 0;          //!< With more than one.
   double throughput = 0.;   //!< Cells a second, mean of the runs.
   bool thesis = false;      //!< The camera and velocity of the thesis.
-  bool front = false;       //!< No other design is better in one objective and as good in all others.
+  bool front = false;       //!< #required, and no such design is better in one objective and as good in all others.
   bool required = false;    //!< Keeps what is required, and works.
 };
 
