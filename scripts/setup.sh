@@ -11,9 +11,9 @@ mkdir -p "$logs"
 packages=(g++ cmake ninja-build libvisp-dev libopencv-dev libeigen3-dev libdlib-dev catch2 libbenchmark-dev
   libcli11-dev nlohmann-json3-dev liborocos-kdl-dev liburdfdom-dev libfcl-dev liboctomap-dev
   libompl-dev gnuplot-nox)
-# Real images that some tests check against; those are skipped where the images are missing. And what makes the documentation,
-# which is a test, too: doxygen, and bibtex for the bibliography.
-test_packages=(visp-images-data opencv-doc doxygen texlive-binaries)
+# Real images that some tests check against; those are skipped where the images are missing. What makes the documentation,
+# which is a test, too: doxygen, and bibtex for the bibliography. Open MPI, under which one program can spread over processes.
+test_packages=(visp-images-data opencv-doc doxygen texlive-binaries libopenmpi-dev openmpi-bin)
 
 # run LOG SENTENCE COMMAND...
 run() {

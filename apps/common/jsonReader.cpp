@@ -91,9 +91,10 @@ std::string shortDump(const json &value)
 }
 } // namespace
 
-json readJsonFile(const std::string &file)
+json readJsonFile(const std::string &file) { return parseJson(readFile(file), file); }
+
+json parseJson(const std::string &text, const std::string &file)
 {
-  const std::string text = readFile(file);
   return parse(text, file, [&text](std::size_t byte) { return lineAndColumn(text, byte); });
 }
 

@@ -23,6 +23,12 @@ namespace vpApp
  */
 [[nodiscard]] nlohmann::json readJsonFile(const std::string &file);
 /*!
+ * Parse the content of a JSON file that was read already, as strictly as readJsonFile().
+ * \param text : The content. \param file : Begins every message.
+ * \throw std::runtime_error naming the file, and the line and column of a syntax error.
+ */
+[[nodiscard]] nlohmann::json parseJson(const std::string &text, const std::string &file);
+/*!
  * Parse one line of a file of JSON lines, as strictly as readJsonFile().
  * \param line : The text. \param place : Begins every message ("problems.jsonl:3").
  * \throw std::runtime_error naming the place, and the column of a syntax error.

@@ -119,8 +119,9 @@ double ticStep(const Plot &plot)
 std::string lineStyle(const PlotCurve &curve)
 {
   const std::string colour = " linecolor rgb " + quoted(curve.colour);
-  if (curve.style == PlotStyle::Points) {
-    return "points pointtype 7 pointsize " + std::to_string(0.25 * curve.width) + colour;
+  if (curve.style == PlotStyle::Points || curve.style == PlotStyle::Rings) {
+    const std::string type = curve.style == PlotStyle::Points ? "7" : "6 linewidth 1.5";
+    return "points pointtype " + type + " pointsize " + std::to_string(0.25 * curve.width) + colour;
   }
   std::string dash;
   if (curve.style == PlotStyle::Dashed) {
@@ -133,6 +134,18 @@ std::string lineStyle(const PlotCurve &curve)
   width.imbue(std::locale::classic());
   width << curve.width;
   return "lines linewidth " + width.str() + dash + colour;
+}
+
+// Large numbers are written 1k, 10k, 100k.
+void setLogarithmic(const Plot &plot, const char *axis, std::vector<double> PlotCurve::*values, std::ostream &script)
+{
+  double least = HUGE_VAL;
+  for (const PlotCurve &curve : plot.curves) {
+    for (const double value : curve.*values) {
+      least = value > 0. ? std::min(least, value) : least;
+    }
+  }
+  script << "set logscale " << axis << " 10\nset format " << axis << (least >= 10. ? " '%.0s%c'\n" : " '%g'\n");
 }
 
 //! The commands that draw one plot. \param id : Of the plot in the picture.
@@ -150,10 +163,11 @@ void draw(const Plot &plot, std::size_t id, std::ostream &script)
   else if (!plot.logY) { // room for the texts of the marks
     script << "set offsets 0, 0, graph 0.12, graph 0.04\n";
   }
-  for (const char *axis : {plot.logX ? "x" : "", plot.logY ? "y" : ""}) {
-    if (*axis != '\0') { // 1k, 10k, 100k
-      script << "set logscale " << axis << " 10\nset format " << axis << " '%.0s%c'\n";
-    }
+  if (plot.logX) {
+    setLogarithmic(plot, "x", &PlotCurve::x, script);
+  }
+  if (plot.logY) {
+    setLogarithmic(plot, "y", &PlotCurve::y, script);
   }
   if (plot.fromZero) {
     script << "set yrange [0:*]\n";

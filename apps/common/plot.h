@@ -16,7 +16,7 @@
 namespace vpApp
 {
 //! How a curve is drawn.
-enum class PlotStyle { Solid, Dashed, Dotted, Points };
+enum class PlotStyle { Solid, Dashed, Dotted, Points, Rings };
 
 //! \brief One curve. A point that is not finite interrupts the line.
 struct PlotCurve {

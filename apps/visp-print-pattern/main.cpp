@@ -3,6 +3,8 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 // visp-print-pattern: drops on a moving, flexible product, in a closed loop through the camera.
+#include "explore/explorationProgram.h"
+#include "explore/ranks.h"
 #include "options.h"
 #include "pictures.h"
 #include "reportPage.h"
@@ -63,11 +65,20 @@ void print(const Options &options, const std::string &commandLine)
 
 int main(int argc, char **argv)
 {
-  return vpApp::runMain("visp-print-pattern", [&]() -> int {
+  return printExplore::runRanks("visp-print-pattern", [&](const printExplore::Ranks &ranks) {
     Options options;
-    if (readOptions(argc, argv, options)) {
-      print(options, vpApp::commandLine("visp-print-pattern", argc, argv));
+    const std::string command = vpApp::commandLine("visp-print-pattern", argc, argv);
+    if (!printExplore::readOnFirst(ranks, [&] { return readOptions(argc, argv, options); })) {
+      return;
     }
-    return vpApp::ExitOk;
+    if (options.explore.empty()) {
+      if (ranks.size() > 1) {
+        throw vpApp::UsageError("mpirun started " + std::to_string(ranks.size()) +
+                                " processes, which only --explore can use");
+      }
+      print(options, command);
+      return;
+    }
+    printExplore::exploreFile(options.explore, options.out, options.jobs, command, ranks);
   });
 }

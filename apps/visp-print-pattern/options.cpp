@@ -30,8 +30,12 @@ constexpr const char *EXAMPLES =
       the thesis's own way, 50 times
   visp-print-pattern --reference constant --no-thesis
       constant velocity, for the throughput to compare with
+  visp-print-pattern --explore data/explore/camera.json
+      cameras, controllers and velocities against each other; out/print-explore/report.html
+  mpirun -n 8 visp-print-pattern --explore data/explore/wide.json
+      the same on 8 processes, on a cluster too, with the same result
 
-Exit status: 0 done, 1 the machine or the disk does not allow it, 2 the command line is wrong.)";
+Exit status: 0 done, 1 a file, the machine or the disk does not allow it, 2 the command line is wrong.)";
 
 constexpr std::size_t NAME_COLUMN = 34; // width, characters
 
@@ -132,6 +136,21 @@ void addWorld(CLI::App &app, Words &words)
       ->group(group);
 }
 
+//! With --explore the file says what is run: other options would go unheard.
+void checkExploration(const CLI::App &app, Options &options)
+{
+  if (options.explore.empty()) {
+    throw vpApp::UsageError("--explore is empty, must name a file");
+  }
+  for (const CLI::Option *option : app.get_options()) {
+    const std::string name = option->get_name();
+    if (option->count() > 0 && name != "--explore" && name != "--out" && name != "--jobs") {
+      throw vpApp::UsageError(name + " is given beside --explore, which takes --out and --jobs only");
+    }
+  }
+  options.out = app.get_option("--out")->count() > 0 ? options.out : "out/print-explore";
+}
+
 vpPrintExperimentSpec specOf(const Words &words, const Options &options)
 {
   const auto controller = valueOf<vpPrintController>("--controller", words.controller,
@@ -197,6 +216,10 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   app.set_version_flag("--version", std::string("visp-print-pattern ") + VISP_DIRECT_VERSION);
   Words words;
   app.add_option("--out", options.out, "Folder for the result (out/print-pattern)")->option_text("DIR");
+  app.add_option("--explore", options.explore,
+                 "Explore the design space of a file (data/explore/README.md) instead: which frame rate, image, "
+                 "magnification, exposure, controller and velocity; also under mpirun")
+      ->option_text("FILE.json");
   app.add_option("--runs", options.runs, "Repeat with other seeds, 1..10000")->option_text("N (1)");
   app.add_option("--seed", words.seed, "Of everything random")->option_text("N (1)");
   app.add_option("--jobs", options.jobs, "Runs at a time")->option_text("N (cores)");
@@ -207,6 +230,9 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   addWorld(app, words);
   if (!vpApp::parseCommandLine(app, argc, argv)) {
     return false;
+  }
+  if (app.get_option("--explore")->count() > 0) {
+    checkExploration(app, options);
   }
   if (options.out.empty()) {
     throw vpApp::UsageError("--out is empty, must name a folder");

@@ -27,6 +27,7 @@ struct Options {
   bool video = false;                    //!< Write camera.mp4.
   unsigned int jobs = 0;                 //!< Runs at a time, 0: one per core.
   std::string out = "out/print-pattern"; //!< Result folder.
+  std::string explore;                   //!< File of an exploration; all else but #jobs and #out plays no part then.
 };
 
 /*!

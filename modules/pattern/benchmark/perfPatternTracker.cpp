@@ -32,10 +32,11 @@ struct Sequence {
   std::vector<double> x, y; // of cell (0, 0)
 };
 
-Sequence sequence(unsigned int width, unsigned int height, double amplitude = 40.)
+Sequence sequence(unsigned int width, unsigned int height, double amplitude = 40., const Pattern &pattern = Pattern())
 {
   std::mt19937_64 rng(1);
   Sequence s;
+  s.pattern = pattern;
   s.images.resize(frames);
   s.pattern.width = width;
   s.pattern.height = height;
@@ -201,6 +202,19 @@ void scaling(benchmark::State &state)
   track(state, sequence(size, size, 4.), vpPatternOptions());
 }
 
+// The same view of the product with larger or smaller pixels, in percent of 160 x 100.
+void magnified(benchmark::State &state)
+{
+  const double scale = 0.01 * static_cast<double>(state.range(0));
+  Pattern pattern;
+  for (double *length :
+       {&pattern.pitchX, &pattern.pitchY, &pattern.cellX, &pattern.cellY, &pattern.blur, &pattern.x, &pattern.y}) {
+    *length *= scale;
+  }
+  const auto width = static_cast<unsigned int>(160. * scale), height = static_cast<unsigned int>(100. * scale);
+  track(state, sequence(width, height, 40. * std::min(1., scale), pattern), vpPatternOptions());
+}
+
 // The first image after a reset: threshold, labels, edges, lattice, names.
 void coldAcquisition(benchmark::State &state)
 {
@@ -353,5 +367,6 @@ BENCHMARK(opencvComponents)->Unit(benchmark::kMicrosecond);
 BENCHMARK(opencvMatchTemplate)->Unit(benchmark::kMicrosecond);
 BENCHMARK(vispDot2)->Unit(benchmark::kMicrosecond);
 BENCHMARK(scaling)->RangeMultiplier(2)->Range(128, 2048)->Unit(benchmark::kMicrosecond)->Iterations(200);
+BENCHMARK(magnified)->Arg(50)->Arg(70)->Arg(100)->Arg(140)->Arg(200)->Arg(300)->Unit(benchmark::kMicrosecond);
 
 BENCHMARK_MAIN();

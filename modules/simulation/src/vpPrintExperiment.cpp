@@ -19,9 +19,9 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-constexpr double rowStepTime = 30.; // frame
-constexpr double followTime = 12.;  // frame, to where the cells of a row are measured
-constexpr int longestTurn = 400;    // frames that a row may take beyond its cells
+constexpr double longestTurn = 0.25;  // s that a row may take beyond its cells
+constexpr double landedWithin = 10.;  // um: a late drop is still fired if it lands so close
+constexpr double rowOfNozzle = 0.225; // pitches across: a row passes the nozzle if it is nearer
 
 //! \brief A run in progress.
 class Experiment
@@ -33,7 +33,7 @@ public:
       m_nozzle(m_centreX + spec.nozzleOffset), m_trigger(triggerSpec()), m_reference(spec.reference),
       m_referenceY(vpPrintReferenceSpec()), m_pid(spec.pid), m_preview(within(spec.preview)),
       m_previewAcross(within(spec.previewAcross)), m_observer(spec.observer), m_observerY(spec.observer),
-      m_alphaBeta(spec.filter), m_kalman(kalmanSpec())
+      m_alphaBeta(spec.filter), m_kalman(spec.forecast)
   {
     start();
   }
@@ -42,8 +42,8 @@ public:
   {
     const int total = m_spec.rows * m_spec.cellsPerRow;
     const double slowest = m_spec.product.pitchX / m_spec.dropVelocity;
-    const int limit =
-        m_spec.frames > 0 ? m_spec.frames : static_cast<int>(1.5 * total * slowest) + longestTurn * (m_spec.rows + 1);
+    const double most = 1.5 * total * slowest + longestTurn * m_spec.frameRate * (m_spec.rows + 1);
+    const int limit = m_spec.frames > 0 ? m_spec.frames : static_cast<int>(most);
     for (int frame = 0; frame < limit; ++frame) {
       step(frame);
       if (m_spec.frames == 0 && done()) {
@@ -85,19 +85,10 @@ private:
     trigger.rowTolerance = 0.4 * m_spec.product.pitchY;
     trigger.travelTime = m_spec.travelTime;
     trigger.electronicsDelay = m_spec.electronicsDelay;
+    trigger.tolerance = landedWithin / m_spec.product.pixelSize;
+    trigger.drift = m_spec.cellDrift;
     trigger.match = 0.4 * std::min(m_spec.product.pitchX, m_spec.product.pitchY);
     return trigger;
-  }
-
-  [[nodiscard]] vpMotionKalmanSpec kalmanSpec() const
-  {
-    vpMotionKalmanSpec kalman;
-    kalman.processNoise = 0.05; // the reference's jerk, about 0.3 px/frame^3 rms, and more at the start
-    kalman.sigmaPosition = 1.;
-    kalman.sigmaVelocity = 0.01;
-    kalman.sigmaAcceleration = 0.01;
-    kalman.maxDelay = 0.;
-    return kalman;
   }
 
   [[nodiscard]] int direction(int row) const { return row % 2 == 0 ? 1 : -1; }
@@ -187,9 +178,9 @@ private:
     m_targetY.key = m_present + 1;
     m_targetY.position = regular + m_acrossOffset;
     m_targetY.velocity = 0.;
-    m_stepArrival = turning && !m_turning ? now + rowStepTime : m_stepArrival;
+    m_stepArrival = turning && !m_turning ? now + m_spec.rowStepTime : m_stepArrival;
     m_turning = turning;
-    m_targetY.duration = std::max(m_stepArrival - now, followTime);
+    m_targetY.duration = std::max(m_stepArrival - now, m_spec.followTime);
   }
 
   void step(int frame)
@@ -270,7 +261,7 @@ private:
     vpPrintVelocityControl::Input input;
     input.velocity = r[1];
     input.acceleration = r[2];
-    input.measured = m_alphaBeta.predict(1.);
+    input.measured = m_alphaBeta.predict(m_spec.filterAhead);
     sample.estimatedVelocity = input.measured;
     return m_pid.step(input).force;
   }
@@ -378,7 +369,8 @@ private:
       const int column = columnOf(row, static_cast<int>(m_passing % m_spec.cellsPerRow));
       const vpPatternTruthCell cell = truthOf(row, column);
       const double place = m_nozzle - cell.x;
-      if (direction(row) * (after.x - place) < 0. || std::fabs(before.y + cell.y - m_centreY) > 4.) {
+      if (direction(row) * (after.x - place) < 0. ||
+          std::fabs(before.y + cell.y - m_centreY) > rowOfNozzle * m_spec.product.pitchY) {
         break;
       }
       double low = before.t, high = after.t; // bisection

@@ -45,6 +45,17 @@ vpPrintSensorModel vpPrintSensorModel::tracker()
   return sensor;
 }
 
+vpMotionKalmanSpec vpPrintExperimentSpec::defaultForecast()
+{
+  vpMotionKalmanSpec forecast;
+  forecast.processNoise = 0.05;
+  forecast.sigmaPosition = 1.;
+  forecast.sigmaVelocity = 0.01;
+  forecast.sigmaAcceleration = 0.01;
+  forecast.maxDelay = 0.;
+  return forecast;
+}
+
 vpPrintExperimentSpec vpPrintExperimentSpec::thesisPid()
 {
   vpPrintExperimentSpec spec = thesisRun();
@@ -101,6 +112,7 @@ void vpPrintExperimentSpec::validate() const
   product.validate();
   filter.validate();
   pid.validate();
+  forecast.validate();
   observer.validate();
   preview.validate();
   previewAcross.validate();
@@ -112,6 +124,10 @@ void vpPrintExperimentSpec::validate() const
   require(sensorModel.sigmaY > 0. && std::isfinite(sensorModel.sigmaY), "sigmaY", sensorModel.sigmaY, "> 0");
   require(sensorModel.effectiveCells >= 1., "effectiveCells", sensorModel.effectiveCells, ">= 1");
   require(dropVelocity > 0. && std::isfinite(dropVelocity), "dropVelocity", dropVelocity, "> 0");
+  require(filterAhead >= 0. && filterAhead <= 64., "filterAhead", filterAhead, "in [0, 64]");
+  require(rowStepTime > 0. && std::isfinite(rowStepTime), "rowStepTime", rowStepTime, "> 0");
+  require(followTime > 0. && std::isfinite(followTime), "followTime", followTime, "> 0");
+  require(cellDrift >= 0. && std::isfinite(cellDrift), "cellDrift", cellDrift, ">= 0");
   require(visionDelay >= 0. && visionDelay <= 8., "visionDelay", visionDelay, "in [0, 8]");
   require(captureJitter >= 0. && captureJitter <= 2., "captureJitter", captureJitter, "in [0, 2]");
   require(dropped >= 0. && dropped <= 0.5, "dropped", dropped, "in [0, 0.5]");

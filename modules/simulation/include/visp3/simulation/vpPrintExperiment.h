@@ -10,6 +10,7 @@
 #define vpPrintExperiment_h
 
 #include <visp3/printing/vpAlphaBetaFilter.h>
+#include <visp3/printing/vpMotionKalmanFilter.h>
 #include <visp3/printing/vpMotionObserver.h>
 #include <visp3/printing/vpPreviewControl.h>
 #include <visp3/printing/vpPrintReference.h>
@@ -64,15 +65,19 @@ struct VISP_EXPORT vpPrintExperimentSpec {
   vpXYStageSpec stage = vpXYStageSpec::thesis();                  //!< The plant.
   vpProductPatternSpec product;                                   //!< The product and, for Image, how it looks.
 
-  vpAlphaBetaGains filter{0.37, 0.045}; //!< Of the velocity, for the two PID controllers.
-  vpPrintVelocityControlSpec pid;       //!< For the two PID controllers; its field feedforward must fit.
-  vpMotionObserverSpec observer;        //!< For Observer, and for the axis across always.
-  vpPreviewControlSpec preview;         //!< For Observer.
-  vpPreviewControlSpec previewAcross;   //!< For the axis across.
+  vpAlphaBetaGains filter{0.37, 0.045};            //!< Of the velocity, for the two PID controllers.
+  double filterAhead = 1.;                         //!< How far they predict it, frame, in [0, 64].
+  vpPrintVelocityControlSpec pid;                  //!< For the two PID controllers; its field feedforward must fit.
+  vpMotionKalmanSpec forecast = defaultForecast(); //!< Motion that the trigger expects, for the two PID controllers.
+  vpMotionObserverSpec observer;                   //!< For Observer, and for the axis across always.
+  vpPreviewControlSpec preview;                    //!< For Observer.
+  vpPreviewControlSpec previewAcross;              //!< For the axis across.
   //! Commands of the preview control in a frame: 1, 2, 4, 8 or 16; its period follows from it.
   int commandsPerFrame = 1;
   vpPrintReferenceSpec reference; //!< Motion from cell to cell.
   double dropVelocity = 4.;       //!< At the centres, px/frame, > 0.
+  double rowStepTime = 30.;       //!< Of the step from row to row, frame, > 0.
+  double followTime = 12.;        //!< In which the axis across goes to where the cells are measured, frame, > 0.
 
   double visionDelay = 1.28;    //!< From the middle of the exposure to the control step that uses it, frame, 0..8.
   double captureJitter = 0.;    //!< Standard deviation of the instant of exposure; nobody is told, frame, >= 0.
@@ -81,12 +86,13 @@ struct VISP_EXPORT vpPrintExperimentSpec {
   double travelTime = 0.32;     //!< Of a drop, frame, >= 0.
   double electronicsDelay = 0.; //!< From trigger to drop, frame, >= 0.
   vpPrintTriggerMethod trigger = vpPrintTriggerMethod::Horizon; //!< How the instants are found.
+  double cellDrift = 1e-5; //!< vpPrintTriggerSpec::drift: a cell wanders against the motion, px^2/frame, >= 0.
 
   int rows = 1;             //!< Rows that are printed one after another, to and fro; 1..1000.
   int cellsPerRow = 20;     //!< 1..10000.
   int frames = 0;           //!< Stop after so many; 0: when all cells are printed.
   int evaluateFrom = 60;    //!< Velocity errors count from this frame on, >= 0.
-  double frameRate = 1600.; //!< Hz, > 0; for figures per second only.
+  double frameRate = 1600.; //!< Hz, > 0: what a frame is in seconds.
   unsigned int seed = 1;    //!< Of the errors of the sensor. The product has its own.
 
   //! Figure 7.13: PID without feedforward, thesis's sensor, time from cell to cell 10.8 frames, 120 frames.
@@ -100,6 +106,8 @@ struct VISP_EXPORT vpPrintExperimentSpec {
    * \param sensor : Errors of the sensor; the observer is tuned to them.
    */
   [[nodiscard]] static vpPrintExperimentSpec withObserver(const vpPrintSensorModel &sensor);
+  //! Jerk of the reference, about 0.3 px/frame^3 rms and more at the start, as noise; from rest at a known place.
+  [[nodiscard]] static vpMotionKalmanSpec defaultForecast();
   //! \throw vpException (badValue) naming the field that is out of range, and its value.
   void validate() const;
 };

@@ -1,0 +1,109 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "machine.h"
+
+#include <visp3/simulation/vpPrintUnits.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace printExplore
+{
+namespace
+{
+constexpr double basePixel = 4.5, baseRate = 1600.; // um, Hz: units in which the machine is described
+constexpr double baseVelocity = 4.;                 // px/frame, to which the reference's constants belong
+constexpr double baseDelay = 1.28, hold = 0.5;      // frames of the thesis's loop; what a held command adds
+constexpr int runOut = 8;                           // cells behind the last one that counts
+constexpr int runUp = 3;                            // times of a cell, to get into motion
+constexpr double mostCommands = 56.;                // that the observer remembers beyond the camera's delay
+
+double pxPerFrame(double mmPerSecond) { return mmPerSecond * 1e3 / basePixel / baseRate; }
+
+//! The machine in units of 4.5 um and 1/1600 s.
+vpPrintExperimentSpec machineOf(const Design &design, const Setup &setup, const vpPrintSensorModel &sensor)
+{
+  vpPrintExperimentSpec spec = vpPrintExperimentSpec::withObserver(sensor);
+  if (design.controller != vpPrintController::Observer) {
+    const vpPrintExperimentSpec pid = design.controller == vpPrintController::Pid
+                                          ? vpPrintExperimentSpec::thesisPid()
+                                          : vpPrintExperimentSpec::thesisFeedforward();
+    spec.controller = design.controller;
+    spec.pid = pid.pid;
+    spec.filter = pid.filter;
+  }
+  spec.dropVelocity = pxPerFrame(design.dropVelocity);
+  spec.reference.meanVelocity = design.speedUp * spec.dropVelocity;
+  const double faster = spec.dropVelocity / baseVelocity;
+  spec.reference.freeze /= faster; // share of the time from cell to cell
+  // Jerk grows with the cube of the velocity and lasts as long as a cell.
+  spec.forecast.processNoise *= std::pow(faster, 5);
+  const double bound = setup.maxAcceleration * 1e6 / basePixel / (baseRate * baseRate);
+  spec.preview.maxForce = spec.previewAcross.maxForce = spec.pid.maxForce = bound;
+  return spec;
+}
+
+void retune(vpPrintExperimentSpec &spec, const vpPrintUnits &units, double delay)
+{
+  const double lag = spec.preview.lag; // frames of the camera
+  const double frames = delay + hold + lag;
+  const double thesis = (baseDelay + hold) * units.frameRate / baseRate + lag;
+  const vpPrintUnits slower{units.pixelSize, units.frameRate * frames / thesis};
+  const double bound = spec.pid.maxForce;
+  const vpFrictionModel model = spec.pid.model;
+  spec.pid = vpInUnits(spec.pid, units, slower);
+  spec.pid.maxForce = bound; // of the drives, not of the tuning
+  spec.pid.model = model;
+  spec.filter = vpInUnits(spec.filter, units, slower);
+  spec.filterAhead *= frames / thesis;
+}
+} // namespace
+
+vpProductPatternSpec productOf(const Design &design, const Setup &setup, const Timing &timing)
+{
+  const Camera &camera = setup.camera;
+  const double px = 1. / design.pixelSize;
+  vpProductPatternSpec product;
+  product.width = design.width;
+  product.height = design.height;
+  product.pixelSize = design.pixelSize;
+  product.pitchX = Lengths::pitchX * px;
+  product.pitchY = Lengths::pitchY * px;
+  product.openingX = Lengths::openingX * px;
+  product.openingY = Lengths::openingY * px;
+  product.cornerRadius = 20. * px;
+  product.jitter = setup.task.jitter * px;
+  product.flexAmplitudeX = product.flexAmplitudeY = setup.task.flex * px;
+  product.flexPeriodX = product.flexPeriodY = setup.task.flexPeriod;
+  product.psf = camera.blur * px;
+  product.dark = camera.dark * timing.light;
+  product.bright = camera.bright * timing.light;
+  product.noise = camera.noise;
+  product.exposure = design.exposure / timing.period;
+  return product;
+}
+
+vpPrintExperimentSpec experimentOf(const Design &design, const Setup &setup, const Timing &timing,
+                                   const vpPrintSensorModel &sensor)
+{
+  vpPrintSensorModel inBase = sensor;
+  inBase.sigmaX *= design.pixelSize / basePixel;
+  inBase.sigmaY *= design.pixelSize / basePixel;
+  const vpPrintUnits units{design.pixelSize, design.frameRate};
+  vpPrintExperimentSpec spec = vpInUnits(machineOf(design, setup, inBase), units);
+  spec.product = productOf(design, setup, timing);
+  spec.sensor = vpPrintSensor::Image;
+  spec.visionDelay = timing.delayFrames;
+  // A control of velocities stops short of the last cell; and who is a fourth too slow has failed.
+  spec.cellsPerRow = setup.task.cells + setup.task.cells / 4 + runOut;
+  const double cellTime = Lengths::pitchX * 1e-3 / (design.dropVelocity * design.speedUp); // s
+  spec.frames = static_cast<int>(std::ceil(1.25 * (setup.task.cells + runUp) * cellTime * design.frameRate));
+  while (spec.commandsPerFrame > 1 && spec.commandsPerFrame * (spec.visionDelay + 1.) > mostCommands) {
+    spec.commandsPerFrame /= 2;
+  }
+  retune(spec, units, timing.delayFrames);
+  return spec;
+}
+} // namespace printExplore

@@ -1,0 +1,180 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "outcomeText.h"
+
+#include "findings.h"
+
+#include <locale>
+#include <sstream>
+#include <stdexcept>
+
+namespace printExplore
+{
+namespace
+{
+using Json = nlohmann::ordered_json;
+
+//! \brief A column of the CSV: its name and value. Texts in quotes.
+struct Column {
+  const char *name;
+  Json (*of)(const Outcome &);
+};
+
+const std::vector<Column> &columns()
+{
+  static const std::vector<Column> all = {
+      {"frame_rate_hz", [](const Outcome &o) -> Json { return o.design.frameRate; }},
+      {"width_px", [](const Outcome &o) -> Json { return o.design.width; }},
+      {"height_px", [](const Outcome &o) -> Json { return o.design.height; }},
+      {"um_per_px", [](const Outcome &o) -> Json { return o.design.pixelSize; }},
+      {"exposure_us", [](const Outcome &o) -> Json { return o.design.exposure; }},
+      {"controller", [](const Outcome &o) -> Json { return nameOf(o.design.controller); }},
+      {"drop_velocity_mm_s", [](const Outcome &o) -> Json { return o.design.dropVelocity; }},
+      {"speed_up", [](const Outcome &o) -> Json { return o.design.speedUp; }},
+      {"readout_us", [](const Outcome &o) -> Json { return o.timing.readout; }},
+      {"computing_us", [](const Outcome &o) -> Json { return o.timing.computing; }},
+      {"delay_us", [](const Outcome &o) -> Json { return o.timing.delay; }},
+      {"delay_frames", [](const Outcome &o) -> Json { return o.timing.delayFrames; }},
+      {"data_rate_mb_s", [](const Outcome &o) -> Json { return o.timing.dataRate; }},
+      {"cells_in_view", [](const Outcome &o) -> Json { return o.timing.cells; }},
+      {"least_cells_in_view", [](const Outcome &o) -> Json { return o.timing.leastCells; }},
+      {"nf_m", [](const Outcome &o) -> Json { return o.timing.tracking; }},
+      {"light", [](const Outcome &o) -> Json { return o.timing.light; }},
+      {"load", [](const Outcome &o) -> Json { return o.timing.load; }},
+      {"sensor_x_um", [](const Outcome &o) -> Json { return o.sensorX; }},
+      {"sensor_y_um", [](const Outcome &o) -> Json { return o.sensorY; }},
+      {"landing_rms_um", [](const Outcome &o) -> Json { return o.landingRms; }},
+      {"landing_p95_um", [](const Outcome &o) -> Json { return o.landing95; }},
+      {"landing_worst_um", [](const Outcome &o) -> Json { return o.landingWorst; }},
+      {"cells", [](const Outcome &o) -> Json { return o.cells; }},
+      {"missed", [](const Outcome &o) -> Json { return o.missed; }},
+      {"doubled", [](const Outcome &o) -> Json { return o.doubled; }},
+      {"throughput_cells_per_s", [](const Outcome &o) -> Json { return o.throughput; }},
+      {"feasible", [](const Outcome &o) -> Json { return o.verdict.feasible() ? 1 : 0; }},
+      {"required", [](const Outcome &o) -> Json { return o.required ? 1 : 0; }},
+      {"front", [](const Outcome &o) -> Json { return o.front ? 1 : 0; }},
+      {"thesis", [](const Outcome &o) -> Json { return o.thesis ? 1 : 0; }},
+      {"reason", [](const Outcome &o) -> Json { return o.verdict.kind; }},
+      {"sentence", [](const Outcome &o) -> Json { return o.verdict.sentence; }}};
+  return all;
+}
+
+std::string field(const Json &value)
+{
+  if (!value.is_string()) {
+    std::ostringstream text;
+    text.imbue(std::locale::classic());
+    text.precision(10);
+    text << value.get<double>();
+    return text.str();
+  }
+  const std::string content = value.get<std::string>();
+  return content.find(',') == std::string::npos ? content : '"' + content + '"'; // our sentences have no quotes
+}
+} // namespace
+
+std::string packed(const std::vector<Outcome> &outcomes)
+{
+  Json list = Json::array();
+  for (const Outcome &o : outcomes) {
+    list.push_back({o.sensorX, o.sensorY, o.landingRms, o.landing95, o.landingWorst, o.throughput, o.cells, o.missed,
+                    o.doubled, o.verdict.kind, o.verdict.sentence});
+  }
+  return list.dump(); // shortest digits that are read back to the same number
+}
+
+std::vector<Outcome> unpacked(const std::string &text, const std::vector<std::size_t> &share, const Setup &setup)
+{
+  const Json list = Json::parse(text);
+  if (list.size() != share.size()) {
+    throw std::runtime_error("a rank answered for " + std::to_string(list.size()) + " designs, must be " +
+                             std::to_string(share.size()));
+  }
+  std::vector<Outcome> outcomes(share.size());
+  for (std::size_t k = 0; k < share.size(); ++k) {
+    const Json &from = list[k];
+    Outcome &o = outcomes[k];
+    o.design = setup.designs[share[k]];
+    o.thesis = o.design == Design::thesis(o.design.controller);
+    o.timing = timingOf(o.design, setup);
+    std::size_t i = 0;
+    for (double *value : {&o.sensorX, &o.sensorY, &o.landingRms, &o.landing95, &o.landingWorst, &o.throughput}) {
+      *value = from[i++].get<double>();
+    }
+    for (int *value : {&o.cells, &o.missed, &o.doubled}) {
+      *value = from[i++].get<int>();
+    }
+    o.verdict = {from[i].get<std::string>(), from[i + 1].get<std::string>()};
+  }
+  return outcomes;
+}
+
+std::string exploreCsv(const Exploration &result, bool frontOnly)
+{
+  std::string text = "design";
+  for (const Column &column : columns()) {
+    text += std::string(",") + column.name;
+  }
+  text += "\n";
+  for (std::size_t i = 0; i < result.outcomes.size(); ++i) {
+    const Outcome &outcome = result.outcomes[i];
+    if (frontOnly && !outcome.front) {
+      continue;
+    }
+    text += std::to_string(i);
+    for (const Column &column : columns()) {
+      text += "," + field(column.of(outcome));
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+Json jsonOf(const Outcome &outcome)
+{
+  Json json;
+  for (const Column &column : columns()) {
+    json[column.name] = column.of(outcome);
+  }
+  return json;
+}
+
+Json summaryOf(const Setup &setup, const Exploration &result, const std::string &commandLine, double wallTime)
+{
+  Json reasons = Json::object(), front = Json::array(), thesis = Json::array(), required = Json::object();
+  for (const auto &[kind, count] : reasonsOf(result)) {
+    reasons[kind] = count;
+  }
+  for (const std::size_t index : result.front) {
+    front.push_back(index);
+  }
+  for (std::size_t i = 0; i < result.outcomes.size(); ++i) {
+    if (result.outcomes[i].thesis) {
+      thesis.push_back({{"design", i}, {"figures", jsonOf(result.outcomes[i])}});
+    }
+  }
+  for (const Requirement &requirement : setup.requirements) {
+    required[requirement.figure] = requirement.bound;
+  }
+  Json summary = {{"version", VISP_DIRECT_VERSION},
+                  {"command", commandLine},
+                  {"name", setup.name},
+                  {"designs", result.outcomes.size()},
+                  {"feasible", result.feasible},
+                  {"infeasible", reasons},
+                  {"require", required},
+                  {"keep_what_is_required", result.required},
+                  {"objectives", setup.objectives},
+                  {"front", front},
+                  {"findings", findingsOf(setup, result)},
+                  {"thesis", thesis}};
+  if (result.best >= 0) {
+    summary["best"] = {{"design", result.best},
+                       {"figures", jsonOf(result.outcomes[static_cast<std::size_t>(result.best)])}};
+  }
+  summary["wall_time_s"] = wallTime;
+  return summary;
+}
+} // namespace printExplore

@@ -1,0 +1,36 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file outcomeText.h
+ * \brief Outcomes as text: between ranks, and as files.
+ */
+#ifndef printExplore_outcomeText_h
+#define printExplore_outcomeText_h
+
+#include "exploration.h"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace printExplore
+{
+//! What the closed loop found, exactly; for unpacked().
+[[nodiscard]] std::string packed(const std::vector<Outcome> &outcomes);
+//! \param share : Indices of the designs that were packed. \throw std::runtime_error if the text has others.
+[[nodiscard]] std::vector<Outcome> unpacked(const std::string &text, const std::vector<std::size_t> &share,
+                                            const Setup &setup);
+
+//! explore.csv: all designs; front.csv: those of the front.
+[[nodiscard]] std::string exploreCsv(const Exploration &result, bool frontOnly);
+//! summary.json without the fields that OutputFolder adds.
+[[nodiscard]] nlohmann::ordered_json summaryOf(const Setup &setup, const Exploration &result,
+                                               const std::string &commandLine, double wallTime);
+//! A design with all its figures, by the names of the CSV's columns.
+[[nodiscard]] nlohmann::ordered_json jsonOf(const Outcome &outcome);
+} // namespace printExplore
+
+#endif

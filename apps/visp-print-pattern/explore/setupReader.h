@@ -1,0 +1,25 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file setupReader.h
+ * \brief An exploration from its JSON file; data/explore/README.md describes the format.
+ */
+#ifndef printExplore_setupReader_h
+#define printExplore_setupReader_h
+
+#include "design.h"
+
+#include <string>
+
+namespace printExplore
+{
+/*!
+ * \param text : The file's content. \param file : Its name, which begins every message.
+ * \throw std::runtime_error naming the file, the field and the value.
+ */
+[[nodiscard]] Setup readSetup(const std::string &text, const std::string &file);
+} // namespace printExplore
+
+#endif
