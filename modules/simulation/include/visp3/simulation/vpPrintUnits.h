@@ -14,6 +14,7 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
+ * \ingroup group_simulation
  * \brief Units of length and time of a camera: a pixel on the product and a frame.
  *
  * Everything of an experiment is in px and frames. Under a camera with pixels of p' um instead of p and f' frames a second
@@ -45,14 +46,16 @@ struct VISP_EXPORT vpPrintUnits {
 };
 
 /*!
+ * \ingroup group_simulation
  * The same stage in other units.
- * \param spec : In units \e from.
+ * \param spec : In units \e from. \param from : Its units. \param to : Those of the result.
  * \throw vpException (badValue) naming a unit that is out of range, and its value.
  */
 [[nodiscard]] VISP_EXPORT vpXYStageSpec vpInUnits(const vpXYStageSpec &spec, const vpPrintUnits &from,
                                                   const vpPrintUnits &to);
 
 /*!
+ * \ingroup group_simulation
  * Gains with the same law in seconds: kp / t, ki / t^2, kd, and the force bound; friction of the feedforward likewise.
  * \throw vpException (badValue) naming a unit that is out of range, and its value.
  */
@@ -60,6 +63,7 @@ struct VISP_EXPORT vpPrintUnits {
                                                                const vpPrintUnits &from, const vpPrintUnits &to);
 
 /*!
+ * \ingroup group_simulation
  * A filter with the same poles in seconds: a pole z of the filter, a root of z^2 + (alpha + beta - 2) z + 1 - alpha, becomes
  * z^(1/t). Angles that would pass half a turn a frame stay there. Stable gains stay stable.
  * \throw vpException (badValue) naming a unit or gain that is out of range, and its value.
@@ -68,6 +72,7 @@ struct VISP_EXPORT vpPrintUnits {
                                                      const vpPrintUnits &to);
 
 /*!
+ * \ingroup group_simulation
  * The same machine, product, estimators, controllers and print head under a camera with other pixels and another frame rate. Of
  * the camera, delay and exposure stay the same in seconds; size of the image, noise and grey values stay as they are, the
  * optics' blur stays the same on the product. Dust and cracks stay as many on the product, but their size is in px.
