@@ -1,6 +1,6 @@
-#shellcheck shell = bash disable = SC2034
-#Sourced by demo.sh, test.sh and scripts / lint.sh : from a fresh Debian 12 to a configured and built tree.
-#Every step is one line for the reader; what the tools print goes to build/*.log and is shown when a step fails.
+# shellcheck shell=bash disable=SC2034
+# Sourced by demo.sh, test.sh and scripts/lint.sh: from a fresh Debian 12 to a configured and built tree.
+# Every step is one line for the reader; what the tools print goes to build/*.log and is shown when a step fails.
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$root/build/release
