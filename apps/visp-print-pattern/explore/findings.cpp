@@ -109,7 +109,7 @@ std::vector<std::string> findingsOf(const Setup &setup, const Exploration &resul
     }
     std::string place = "on the front";
     if (!outcome.required) {
-      place = "not what is required";
+      place = "this does not keep what is required";
     }
     else if (!outcome.front) {
       place = plural(betterThan(setup, result, outcome), "design") +
