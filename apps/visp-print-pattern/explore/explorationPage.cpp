@@ -34,7 +34,7 @@ HtmlTable::Row rowOf(const Outcome &o, std::size_t index, bool best)
 {
   const Design &d = o.design;
   HtmlTable::Row row = {std::to_string(index),
-                        number(d.frameRate, 4),
+                        fixed(d.frameRate, 0),
                         std::to_string(d.width) + " x " + std::to_string(d.height),
                         number(d.pixelSize, 3),
                         number(d.exposure, 3),

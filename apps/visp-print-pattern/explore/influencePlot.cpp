@@ -32,7 +32,7 @@ const std::vector<Variable> &variables()
   using vpApp::number;
   static const std::vector<Variable> all = {
       {"frame rate (Hz)", [](const Design &d) { return d.frameRate; },
-       [](const Design &d) { return number(d.frameRate, 4); }},
+       [](const Design &d) { return vpApp::fixed(d.frameRate, 0); }},
       {"image (px)", [](const Design &d) { return d.pixels() + 1e-6 * d.width; },
        [](const Design &d) { return std::to_string(d.width) + " x " + std::to_string(d.height); }},
       {"magnification (um/px)", [](const Design &d) { return d.pixelSize; },
@@ -43,7 +43,7 @@ const std::vector<Variable> &variables()
        [](const Design &d) { return nameOf(d.controller); }},
       {"velocity at the drops (mm/s)", [](const Design &d) { return d.dropVelocity; },
        [](const Design &d) { return number(d.dropVelocity, 4); }},
-      {"mean velocity over it", [](const Design &d) { return d.speedUp; },
+      {"mean velocity over that at the drops", [](const Design &d) { return d.speedUp; },
        [](const Design &d) { return number(d.speedUp, 3); }}};
   return all;
 }
