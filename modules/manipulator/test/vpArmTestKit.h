@@ -74,7 +74,7 @@ inline vpJointVector vector(std::initializer_list<double> values)
 //! The note's home of AMOR.
 inline vpJointVector home() { return vector({.246, .868, -1.237, -2.390, -2.591, -1.099, .324}); }
 
-//! AMOR from the printed table by KDL's own DH frames, with the note's offset, tool and masses.
+//! AMOR from the printed table by KDL's own DH frames, with the offset, tool and masses of data/robot.
 inline KDL::Chain kdlAmor(bool withTool = true, double offset2 = pi)
 {
   const double a[] = {0.0623, 0., 0.097, 0., 0.0502, 0., 0.}, d[] = {0.155, 0., 0.41946, 0., 0.3582, 0., 0.07};
