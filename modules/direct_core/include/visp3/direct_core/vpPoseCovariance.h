@@ -1,0 +1,43 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpPoseCovariance.h
+ * \brief How well a measured pose is known.
+ */
+#ifndef vpPoseCovariance_h
+#define vpPoseCovariance_h
+
+#include <visp3/direct_core/vpDirectCompat.h>
+
+#include <array>
+#include <cstddef>
+
+BEGIN_VISP_NAMESPACE
+
+/*!
+ * \class vpPoseCovariance
+ * \ingroup group_direct_core
+ * \brief Covariance of the error (v, w) of a measured pose cMo = (R, t), in the camera frame: the true pose is
+ * (exp([w]x) R, t + v), v in m, w in rad.
+ *
+ * `known` is false until somebody has a reason for the numbers; what is unknown is not zero, so nothing may be concluded
+ * from the numbers then.
+ */
+struct VISP_EXPORT vpPoseCovariance {
+  bool known = false;
+  std::array<double, 36> C{}; //!< Row-major 6 x 6, (v, w): m^2, m rad, rad^2.
+
+  //! Element of row \e i and column \e j, 0 to 5.
+  [[nodiscard]] constexpr double operator()(std::size_t i, std::size_t j) const { return C[6 * i + j]; }
+  //! Element of row \e i and column \e j, writable.
+  [[nodiscard]] constexpr double &operator()(std::size_t i, std::size_t j) { return C[6 * i + j]; }
+  //! Standard deviation of the position, m: root of the trace of the block of v. Infinite when not known.
+  [[nodiscard]] double positionDeviation() const;
+  //! Standard deviation of the orientation, rad: root of the trace of the block of w. Infinite when not known.
+  [[nodiscard]] double rotationDeviation() const;
+};
+
+END_VISP_NAMESPACE
+#endif
