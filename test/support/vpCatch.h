@@ -16,6 +16,12 @@
 #if __has_include(<catch2/catch_all.hpp>)
 #include <catch2/catch_all.hpp>
 using Catch::Approx;
+namespace Catch // names that moved since version 2
+{
+using Matchers::EndsWith;
+using Matchers::StartsWith;
+inline auto Contains(const std::string &text) { return Matchers::ContainsSubstring(text); }
+} // namespace Catch
 #elif __has_include(<catch2/catch.hpp>)
 #include <catch2/catch.hpp>
 #else
