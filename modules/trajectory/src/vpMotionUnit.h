@@ -20,13 +20,20 @@ BEGIN_VISP_NAMESPACE
 //! One axis with all forms it may take.
 struct vpMotionAxis {
   vpAxisTask task;
-  vpFramedMotion direct, ramped, stopping;
+  vpFramedMotion direct, ramped, soft, hard, free;
+  double freeLow = 0., freeHigh = 0.;
   vpCruiseMotion cruise;
 };
 
 /*!
  * Finds, for its axes together, the smallest feasible duration that is not below a given one. The single polynomial is
- * preferred; the other forms are built when it has no feasible duration.
+ * preferred; the other forms are tried when it has no feasible duration: acceleration ramps around it, a smooth stop and
+ * a polynomial from there, and last a stop as hard as is needed.
+ *
+ * That last form has an answer for every duration above its own smallest, because a polynomial from rest to rest keeps
+ * its limits however slow it is, and it leaves the span of start and goal by the braking distance only. How far it goes
+ * is what all forms are allowed: so no axis makes a detour while it waits for the others, and a position limit that
+ * cannot be kept is exceeded as little as can be.
  */
 class vpMotionUnit
 {
@@ -54,32 +61,39 @@ public:
   {
     return m_members[static_cast<std::size_t>(i)];
   }                                                                  //!< A member.
+  [[nodiscard]] bool hasNorm() const { return m_hasNorm; }           //!< It is a group.
   [[nodiscard]] double brakingDuration() const { return m_braking; } //!< s; 0: the start is inside the limits.
   [[nodiscard]] vpTrajectoryForm form() const { return m_form; }     //!< Form of the last next().
   [[nodiscard]] int iterations() const { return m_iterations; }      //!< Most looks of one search since prepare().
-  [[nodiscard]] bool hasDroppedPosition() const { return m_droppedPosition; } //!< Position limits cannot be kept.
-  [[nodiscard]] bool hasDroppedGoalAcceleration() const
-  {
-    return m_droppedGoal;
-  } //!< The goal's acceleration cannot be.
+  [[nodiscard]] bool hasDroppedGoalAcceleration() const { return m_droppedGoal; } //!< It cannot be reached.
   //! Append the motion of \e member (its number here) to the track of an axis.
   void emit(vpTrajectoryPlan &plan, int member, int axis, double factor, double T) const noexcept;
 
 private:
   using Form = vpFramedMotion vpMotionAxis::*;
+  [[nodiscard]] vpMotionAxis &at(int i) const { return *m_members[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] bool isSingle() const { return m_count == 1 && !m_hasNorm; }
+  [[nodiscard]] int order() const { return at(0).task.order; }
   [[nodiscard]] double search(Form form, double T) noexcept;
-  [[nodiscard]] double cruiseNext(double T) const noexcept;
-  [[nodiscard]] double fallbackNext(double T) noexcept;
-  [[nodiscard]] double stoppingNext(double T) noexcept;
+  [[nodiscard]] double searchFallback(double T) noexcept;
+  [[nodiscard]] double searchFree(double T) noexcept;
+  [[nodiscard]] double searchLast(double T) noexcept;
   [[nodiscard]] bool isAtGoal(bool atRest) const noexcept;
   [[nodiscard]] bool breaksNorm() const noexcept;
+  [[nodiscard]] bool keepsPositions(Form form) const noexcept;
+  [[nodiscard]] bool isOutside() const noexcept;
   [[nodiscard]] double commonRamp(bool head) noexcept;
   [[nodiscard]] double commonStop(bool head) noexcept;
+  [[nodiscard]] double commonDuration(double T) noexcept;
+  void dropGoalAcceleration() noexcept;
   void brake() noexcept;
-  void buildDirect() noexcept;
-  void buildFallback() noexcept;
-  void buildStopping() noexcept;
-  void stopHard() noexcept;
+  void buildRamped() noexcept;
+  void buildSoft() noexcept;
+  void buildHard(double hardness) noexcept;
+  void buildLast() noexcept;
+  void comeBack() noexcept;
+  void boundPositions() noexcept;
+  void close(Form form) noexcept;
   [[nodiscard]] double normNext(const vpMotionFamily *families, double T) noexcept;
 
   std::vector<vpMotionAxis *> m_members;
@@ -87,10 +101,12 @@ private:
   std::vector<const vpMotionFamily *> m_families;
   int m_count = 0;
   vpNormLimits m_norm;
-  bool m_hasNorm = false, m_allowCruise = false;
-  bool m_fallbackReady = false, m_stoppingReady = false, m_stoppingUsable = false; // built when first needed
-  bool m_droppedPosition = false, m_droppedGoal = false;
-  double m_braking = 0.;
+  bool m_hasNorm = false, m_allowCruise = false, m_droppedGoal = false;
+  bool m_rampedReady = false, m_softReady = false, m_lastBuilt = false, m_lastReady = false, m_freeReady = false;
+  Form m_last = &vpMotionAxis::hard; // has an answer for every duration
+  Form m_used = &vpMotionAxis::direct;
+  double m_braking = 0., m_headRamp = 0., m_tailRamp = 0.;
+  double m_own = 0.; // longer than this, a start outside its position limits comes back before anything else
   int m_iterations = 0;
   vpTrajectoryForm m_form = vpTrajectoryForm::Direct;
 };

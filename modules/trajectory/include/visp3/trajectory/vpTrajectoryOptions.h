@@ -23,7 +23,7 @@ BEGIN_VISP_NAMESPACE
 enum class vpTrajectoryContinuity {
   C1, //!< Cubic: position and velocity. The acceleration jumps.
   C2, //!< Quintic: and acceleration; the minimum-jerk motion.
-  C3  //!< Septic: and jerk.
+  C3  //!< Septic: and jerk, except where an axis has to brake hard to stay inside its limits.
 };
 
 //! \ingroup group_trajectory
