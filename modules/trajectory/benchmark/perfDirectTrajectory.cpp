@@ -198,10 +198,10 @@ void shaperStep(benchmark::State &state)
 
 BENCHMARK_CAPTURE(planning1, retarget, vpTrajectoryForm::Hold)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(planning1, retarget_direct, vpTrajectoryForm::Direct)->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(planning1, retarget_fallback, vpTrajectoryForm::Ramped)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(planning1, retarget_fallback, vpTrajectoryForm::StopAndGo)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(planning7, retarget, vpTrajectoryForm::Hold, false)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(planning7, retarget_direct, vpTrajectoryForm::Direct, false)->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(planning7, retarget_fallback, vpTrajectoryForm::Ramped, false)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(planning7, retarget_fallback, vpTrajectoryForm::StopAndGo, false)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(planning7, retarget_jerk_limits, vpTrajectoryForm::Hold, true)->Unit(benchmark::kMicrosecond);
 BENCHMARK(sixthOrder)->Unit(benchmark::kMicrosecond);
 BENCHMARK(cycle<1>)->Unit(benchmark::kMicrosecond);

@@ -4,6 +4,8 @@
  */
 #include "vpAxisForms.h"
 
+#include "vpRootKernel.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -52,13 +54,13 @@ double vpAxisTask::brakeAcceleration() const
   return needed > 0. ? needed : 1.;
 }
 
-double vpAxisTask::brakeJerk(const vpAxisState &x) const
+double vpAxisTask::brakeJerk(const vpAxisState &x, double hardness) const
 {
   // While the acceleration is taken back, it adds a^2/(2 j) to the velocity.
   const double room = limits.velocity - std::copysign(1., x[2]) * x[1];
   const double needed =
       order > 2 && room > 0. && std::isfinite(room) ? x[2] * x[2] / (2. * std::max(room, 1e-6 * limits.velocity)) : 0.;
-  return std::min(limits.jerk, std::max(brakeAcceleration() / rampUnit(), needed));
+  return std::min(limits.jerk, std::max(hardness * brakeAcceleration() / rampUnit(), needed));
 }
 
 bool vpAxisTask::isMoving() const
@@ -297,6 +299,24 @@ void vpFramedMotion::hull(double &low, double &high) const noexcept
   }
 }
 
+bool vpFramedMotion::staysWithin(double low, double high, double T) const noexcept
+{
+  double a = 0., b = 0.;
+  if (hasFixedPieces()) {
+    hull(a, b);
+    if (a < low || b > high) {
+      return false;
+    }
+  }
+  const vpPolynomial p = m_middle.at(T - fixedDuration());
+  vpRootKernel::enclose(p.data(), p.degree(), a, b);
+  if (m_head[0] + a >= low && m_head[0] + b <= high) {
+    return true;
+  }
+  const auto range = p.range();
+  return m_head[0] + range.min >= low && m_head[0] + range.max <= high;
+}
+
 double vpFramedMotion::next(double T) const noexcept
 {
   if (m_blocked) {
@@ -391,6 +411,16 @@ double vpCruiseMotion::next(double T) const noexcept
   T = std::max(T, m_shortest);
   vpPolynomial up, down;
   return ramps(cruiseAt(T), up, down) ? T : infinity;
+}
+
+bool vpCruiseMotion::staysWithin(double low, double high, double T) const noexcept
+{
+  vpPolynomial up, down;
+  static_cast<void>(ramps(cruiseAt(T), up, down));
+  vpAxisLimits places;
+  places.minPosition = low;
+  places.maxPosition = high;
+  return within(up, m_from[0], places) && within(down, m_to[0] - down.value(1.), places);
 }
 
 void vpCruiseMotion::emit(vpTrajectoryPlan &plan, int axis, double factor, double T) const noexcept

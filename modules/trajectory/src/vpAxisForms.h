@@ -31,8 +31,8 @@ struct vpAxisTask {
   [[nodiscard]] double rampUnit() const;
   //! Acceleration to brake with.
   [[nodiscard]] double brakeAcceleration() const;
-  //! Jerk to brake with from a state: gentle, unless the velocity limit leaves no room for that.
-  [[nodiscard]] double brakeJerk(const vpAxisState &x) const;
+  //! Jerk to brake with from a state: gentle, unless the velocity limit leaves no room for that, or times \e hardness.
+  [[nodiscard]] double brakeJerk(const vpAxisState &x, double hardness = 1.) const;
   //! The limits without those on the position.
   [[nodiscard]] vpAxisLimits withoutPosition() const;
   //! Start or goal has a velocity (or what of higher derivatives matters): the axis needs room to brake or to launch.
@@ -94,6 +94,8 @@ public:
   }
   [[nodiscard]] bool hasFixedPieces() const { return m_heads + m_tails > 0; } //!< It is more than one polynomial.
   [[nodiscard]] bool isBlocked() const { return m_blocked; } //!< The fixed pieces leave the position limits.
+  //! The motion of total duration \e T stays between these places.
+  [[nodiscard]] bool staysWithin(double low, double high, double T) const noexcept;
   //! One look: the total duration \e T itself if the limits are kept, else the next candidate; see vpMinimumDuration.
   [[nodiscard]] double next(double T) const noexcept;
   //! Append the motion of total duration \e T to a plan, times \e factor.
@@ -132,6 +134,8 @@ public:
   void open(const vpAxisTask &task, const vpFramedMotion &framed) noexcept;
   //! Smallest feasible duration >= T of this form, or infinity.
   [[nodiscard]] double next(double T) const noexcept;
+  //! The motion of total duration \e T stays between these places.
+  [[nodiscard]] bool staysWithin(double low, double high, double T) const noexcept;
   //! Append the motion of total duration \e T to a plan, times \e factor, without the head of \e framed.
   void emit(vpTrajectoryPlan &plan, int axis, double factor, double T) const noexcept;
 

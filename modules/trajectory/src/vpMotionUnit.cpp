@@ -30,12 +30,12 @@ void vpMotionUnit::clear() noexcept
 void vpMotionUnit::prepare(bool allowCruise) noexcept
 {
   m_allowCruise = allowCruise && isSingle();
-  m_droppedGoal = m_rampedReady = m_softReady = m_lastBuilt = m_lastReady = m_freeReady = false;
+  m_droppedGoal = m_rampedReady = m_softReady = m_lastBuilt = m_lastReady = false;
   m_iterations = 0;
   m_braking = 0.;
   bool outside = m_hasNorm && breaksNorm();
   for (int i = 0; i < m_count; ++i) {
-    at(i).direct.open(at(i).task);
+    at(i)[vpMotionAxis::Direct].open(at(i).task);
     outside = outside || needsBraking(at(i).task);
   }
   m_tailRamp = commonRamp(false);
@@ -48,13 +48,13 @@ void vpMotionUnit::prepare(bool allowCruise) noexcept
     m_headRamp = 0.; // braking ends with zero acceleration
   }
   boundPositions();
-  close(&vpMotionAxis::direct);
+  close(vpMotionAxis::Direct);
   if (m_allowCruise) {
-    at(0).cruise.open(at(0).task, at(0).direct);
+    at(0).cruise.open(at(0).task, at(0)[vpMotionAxis::Direct]);
   }
   m_own = infinity;
   if (isOutside()) {
-    const double own = search(&vpMotionAxis::direct, 0.);
+    const double own = search(vpMotionAxis::Direct, 0.);
     m_own = own < infinity ? own * (1. + 1e-9) : 0.;
   }
 }
@@ -66,14 +66,15 @@ void vpMotionUnit::dropGoalAcceleration() noexcept
   for (int i = 0; i < m_count; ++i) {
     vpAxisTask &task = at(i).task;
     task.to[2] = task.to[3] = 0.;
-    at(i).direct.open(task);
+    at(i)[vpMotionAxis::Direct].open(task);
   }
 }
 
 void vpMotionUnit::close(Form form) noexcept
 {
   for (int i = 0; i < m_count; ++i) {
-    (at(i).*form).close(at(i).task);
+    at(i)[form].close(at(i).task);
+    m_none[static_cast<std::size_t>(form)] = infinity;
   }
 }
 
@@ -92,21 +93,21 @@ void vpMotionUnit::boundPositions() noexcept
     vpAxisTask &task = at(i).task;
     double &low = task.limits.minPosition, &high = task.limits.maxPosition;
     if (monotone) {
-      low = -infinity;
-      high = infinity;
+      at(i).low = low = -infinity;
+      at(i).high = high = infinity;
       continue;
     }
     double lastLow = 0., lastHigh = 0.;
-    const double distance = task.hasBrakingDistance() ? (at(i).*m_last).brakingDistance(task.to[0]) : infinity;
-    (at(i).*m_last).hull(lastLow, lastHigh);
-    at(i).freeLow = std::min(lastLow, task.minPosition);
-    at(i).freeHigh = std::max(lastHigh, task.maxPosition);
-    low = std::min(lastLow, std::max(task.minPosition, std::min(0., task.to[0]) - distance));
-    high = std::max(lastHigh, std::min(task.maxPosition, std::max(0., task.to[0]) + distance));
+    at(i)[m_last].hull(lastLow, lastHigh);
+    const double distance = task.hasBrakingDistance() ? at(i)[m_last].brakingDistance(task.to[0]) : infinity;
+    at(i).low = std::min(lastLow, std::min(0., task.to[0]) - distance);
+    at(i).high = std::max(lastHigh, std::max(0., task.to[0]) + distance);
+    low = std::min(lastLow, task.minPosition);
+    high = std::max(lastHigh, task.maxPosition);
   }
   if (m_rampedReady) { // built on the way, within other bounds
-    close(&vpMotionAxis::ramped);
-    close(&vpMotionAxis::soft);
+    close(vpMotionAxis::Ramped);
+    close(vpMotionAxis::Soft);
   }
 }
 
@@ -126,7 +127,7 @@ bool vpMotionUnit::keepsPositions(Form form) const noexcept
   for (int i = 0; i < m_count; ++i) {
     const vpAxisTask &task = at(i).task;
     double low = 0., high = 0.;
-    (at(i).*form).hull(low, high);
+    at(i)[form].hull(low, high);
     if (low < std::min({task.minPosition, 0., task.to[0]}) || high > std::max({task.maxPosition, 0., task.to[0]})) {
       return false;
     }
@@ -168,8 +169,8 @@ void vpMotionUnit::brake() noexcept
   }
   for (int i = 0; i < m_count; ++i) {
     vpMotionAxis &axis = *m_members[static_cast<std::size_t>(i)];
-    axis.direct.open(axis.task);
-    axis.direct.brake(axis.task, shrink * naturalTarget(axis.task), m_braking, axis.task.brakeJerk(axis.task.from));
+    axis[vpMotionAxis::Direct].open(axis.task);
+    axis[vpMotionAxis::Direct].brake(axis.task, shrink * naturalTarget(axis.task), m_braking, axis.task.brakeJerk(axis.task.from));
   }
 }
 
@@ -183,27 +184,35 @@ double vpMotionUnit::normNext(const vpMotionFamily *families, double T) noexcept
 
 double vpMotionUnit::search(Form form, double T) noexcept
 {
+  double &none = m_none[static_cast<std::size_t>(form)];
+  if (T >= none) {
+    return infinity;
+  }
+  none = infinity;
   int looks = 0;
+  const double from = T;
   for (; looks < vpMinimumDuration::maxIterations; ++looks) {
     double candidate = T;
     for (int i = 0; i < m_count && candidate < infinity; ++i) {
-      candidate = std::max(candidate, (m_members[static_cast<std::size_t>(i)]->*form).next(T));
+      candidate = std::max(candidate, at(i)[form].next(T));
     }
     if (m_hasNorm && candidate == T) {
-      const double fixed = (m_members[0]->*form).fixedDuration();
+      const double fixed = at(0)[form].fixedDuration();
       for (int i = 0; i < m_count; ++i) {
-        m_families[static_cast<std::size_t>(i)] = &(m_members[static_cast<std::size_t>(i)]->*form).middle();
+        m_families[static_cast<std::size_t>(i)] = &at(i)[form].middle();
       }
       const double next = vpMinimumDuration::nextCandidate(m_families.data(), m_count, m_norm, T - fixed);
       candidate = next == T - fixed ? T : std::max(fixed + next, T * (1. + 4e-16));
     }
     if (candidate == T || candidate == infinity) {
       m_iterations = std::max(m_iterations, looks + 1);
+      none = candidate == infinity ? from : none;
       return candidate;
     }
     T = candidate;
   }
   m_iterations = std::max(m_iterations, looks);
+  none = from;
   return infinity; // undecided: another form answers
 }
 
@@ -223,70 +232,69 @@ bool vpMotionUnit::isAtGoal(bool atRest) const noexcept
 double vpMotionUnit::next(double T) noexcept
 {
   m_form = vpTrajectoryForm::Direct;
-  m_used = &vpMotionAxis::direct;
+  m_used = vpMotionAxis::Direct;
   if (isAtGoal(T > 0.)) {
     m_form = vpTrajectoryForm::Hold;
     return T;
   }
-  double best = T > m_own ? infinity : search(m_used, T);
-  if (m_allowCruise && T <= m_own) {
+  if (T > m_own) { // comes back inside before anything else
+    return searchStops(T, infinity);
+  }
+  double best = search(vpMotionAxis::Direct, T);
+  if (m_allowCruise) {
     const double cruise = at(0).cruise.next(T);
     if (cruise < best) {
-      best = cruise;
       m_form = vpTrajectoryForm::Cruise;
+      best = cruise;
     }
   }
-  if (best < infinity) {
-    return best;
+  if (!(best < infinity)) {
+    best = searchRamped(T);
   }
-  const double fallback = searchFallback(T);
-  // A single polynomial that is quicker than a hard stop does not wait for anything.
-  const double free = T <= m_own ? searchFree(T) : infinity;
-  if (free < fallback && (m_used == m_last || free < searchLast(T))) {
-    m_form = vpTrajectoryForm::Direct;
-    m_used = &vpMotionAxis::free;
-    return free;
-  }
-  return fallback;
+  // A detour only where that is quicker than to stop first.
+  const bool stops = !(best < infinity) || (makesDetour(best) && !(best < searchLast(T)));
+  return stops ? searchStops(T, best) : best;
 }
 
-double vpMotionUnit::searchFree(double T) noexcept
+bool vpMotionUnit::makesDetour(double T) const noexcept
 {
-  if (!m_freeReady) {
-    m_freeReady = true;
-    for (int i = 0; i < m_count; ++i) {
-      vpMotionAxis &axis = at(i);
-      vpAxisTask task = axis.task;
-      task.limits.minPosition = axis.freeLow;
-      task.limits.maxPosition = axis.freeHigh;
-      axis.free = axis.direct;
-      axis.free.close(task);
+  for (int i = 0; i < m_count; ++i) {
+    const vpMotionAxis &axis = at(i);
+    const bool bounded = axis.low > -infinity || axis.high < infinity;
+    if (bounded && !(m_form == vpTrajectoryForm::Cruise ? axis.cruise.staysWithin(axis.low, axis.high, T)
+                                                        : axis[m_used].staysWithin(axis.low, axis.high, T))) {
+      return true;
     }
   }
-  return search(&vpMotionAxis::free, T);
+  return false;
 }
 
-double vpMotionUnit::searchFallback(double T) noexcept
+double vpMotionUnit::searchRamped(double T) noexcept
 {
   m_form = vpTrajectoryForm::Ramped;
-  m_used = &vpMotionAxis::ramped;
+  m_used = vpMotionAxis::Ramped;
   if (!m_rampedReady) {
     buildRamped();
   }
-  double best = T > m_own || !at(0).ramped.hasFixedPieces() ? infinity : search(m_used, T);
-  m_form = best < infinity ? m_form : vpTrajectoryForm::StopAndGo;
-  if (!(best < infinity) && T <= m_own) {
+  return at(0)[m_used].hasFixedPieces() ? search(m_used, T) : infinity;
+}
+
+// The gentle stop, unless it needs more time than another form would.
+double vpMotionUnit::searchStops(double T, double instead) noexcept
+{
+  m_form = vpTrajectoryForm::StopAndGo;
+  if (T <= m_own) {
     if (!m_softReady) {
       buildSoft();
     }
-    m_used = &vpMotionAxis::soft;
-    best = search(m_used, T);
+    m_used = vpMotionAxis::Soft;
+    const double soft = search(m_used, T);
+    if (soft < infinity && soft <= std::max(T, instead) && !makesDetour(soft)) {
+      return soft;
+    }
   }
-  if (!(best < infinity)) {
-    best = searchLast(T);
-    m_used = m_last;
-  }
-  return best;
+  m_used = m_last;
+  return searchLast(T);
 }
 
 double vpMotionUnit::searchLast(double T) noexcept
@@ -306,28 +314,39 @@ void vpMotionUnit::buildRamped() noexcept
   m_rampedReady = true;
   for (int i = 0; i < m_count; ++i) {
     vpMotionAxis &axis = at(i);
-    axis.ramped = axis.direct;
-    axis.ramped.rampHead(m_headRamp);
-    axis.ramped.rampTail(m_tailRamp);
+    axis[vpMotionAxis::Ramped] = axis[vpMotionAxis::Direct];
+    axis[vpMotionAxis::Ramped].rampHead(m_headRamp);
+    axis[vpMotionAxis::Ramped].rampTail(m_tailRamp);
   }
-  close(&vpMotionAxis::ramped);
+  close(vpMotionAxis::Ramped);
 }
 
-// A smooth stop, from the ramped form.
 void vpMotionUnit::buildSoft() noexcept
 {
+  constexpr double gentle = 0.25; // a quarter of the usual jerk, about that of a smooth polynomial
+  if (order() == 4) {
+    buildSmooth();
+  }
+  else {
+    buildStop(vpMotionAxis::Soft, gentle);
+  }
   m_softReady = true;
+  close(vpMotionAxis::Soft);
+}
+
+// A stop with continuous jerk, from the ramped form.
+void vpMotionUnit::buildSmooth() noexcept
+{
   if (!m_rampedReady) {
     buildRamped();
   }
   const double stopHead = commonStop(true), stopTail = commonStop(false);
   for (int i = 0; i < m_count; ++i) {
-    vpMotionAxis &axis = at(i);
-    axis.soft = axis.ramped;
-    axis.soft.stopHead(stopHead);
-    axis.soft.stopTail(stopTail);
+    vpFramedMotion &soft = at(i)[vpMotionAxis::Soft];
+    soft = at(i)[vpMotionAxis::Ramped];
+    soft.stopHead(stopHead);
+    soft.stopTail(stopTail);
   }
-  close(&vpMotionAxis::soft);
 }
 
 namespace
@@ -341,15 +360,11 @@ vpAxisTask harder(vpAxisTask task, double share, double normAcceleration, double
   return task;
 }
 
-double hardJerk(const vpAxisTask &task, const vpAxisState &x, double hardness)
-{
-  return std::min(task.limits.jerk, hardness * task.brakeJerk(x));
-}
 } // namespace
 
 // Members of a norm first lose their acceleration, then they slow down with accelerations in proportion to their
 // velocities, so that the norms keep their limits.
-void vpMotionUnit::buildHard(double hardness) noexcept
+void vpMotionUnit::buildStop(Form form, double hardness) noexcept
 {
   double head2 = 0., tail2 = 0., shortest[2] = {0., 0.};
   for (int i = 0; i < m_count; ++i) {
@@ -359,32 +374,34 @@ void vpMotionUnit::buildHard(double hardness) noexcept
   }
   for (int i = 0; i < m_count; ++i) {
     vpMotionAxis &axis = at(i);
-    axis.hard.open(axis.task);
+    vpFramedMotion &motion = axis[form];
+    motion.open(axis.task);
     if (!isSingle()) {
-      axis.hard = axis.direct; // with its braking
-      axis.hard.rampHead(m_headRamp > 0. ? std::max(m_headRamp / hardness, shortest[0]) : 0.);
-      axis.hard.rampTail(m_tailRamp > 0. ? std::max(m_tailRamp / hardness, shortest[1]) : 0.);
+      motion = axis[vpMotionAxis::Direct]; // with its braking
+      motion.rampHead(m_headRamp > 0. ? std::max(m_headRamp / std::max(hardness, 1.), shortest[0]) : 0.);
+      motion.rampTail(m_tailRamp > 0. ? std::max(m_tailRamp / std::max(hardness, 1.), shortest[1]) : 0.);
     }
-    head2 += axis.hard.head()[1] * axis.hard.head()[1];
-    tail2 += axis.hard.tail()[1] * axis.hard.tail()[1];
+    head2 += motion.head()[1] * motion.head()[1];
+    tail2 += motion.tail()[1] * motion.tail()[1];
   }
   const double norm = m_hasNorm ? m_norm.acceleration : infinity;
   double head = 0., tail = 0.;
   for (int i = 0; i < m_count; ++i) {
     vpMotionAxis &axis = at(i);
-    const vpAxisState from = axis.hard.head(), to = axis.hard.tail();
+    vpFramedMotion &motion = axis[form];
+    const vpAxisState from = motion.head(), to = motion.tail();
     const double headShare = from[1] != 0. ? std::abs(from[1]) / std::sqrt(head2) : 1.;
     const double tailShare = to[1] != 0. ? std::abs(to[1]) / std::sqrt(tail2) : 1.;
     const vpAxisTask stop = harder(axis.task, headShare, norm, hardness);
     const vpAxisTask start = harder(axis.task, tailShare, norm, hardness);
-    axis.hard.brake(stop, 0., 0., hardJerk(stop, from, hardness));
-    axis.hard.launch(start, hardJerk(start, {to[0], -to[1], to[2], 0.}, hardness));
-    head = std::max(head, axis.hard.headDuration());
-    tail = std::max(tail, axis.hard.tailDuration());
+    motion.brake(stop, 0., 0., stop.brakeJerk(from, hardness));
+    motion.launch(start, start.brakeJerk({to[0], -to[1], to[2], 0.}, hardness));
+    head = std::max(head, motion.headDuration());
+    tail = std::max(tail, motion.tailDuration());
   }
   for (int i = 0; i < m_count && !isSingle(); ++i) {
-    at(i).hard.padHead(head);
-    at(i).hard.padTail(tail);
+    at(i)[form].padHead(head);
+    at(i)[form].padTail(tail);
   }
 }
 
@@ -394,17 +411,17 @@ void vpMotionUnit::buildLast() noexcept
 {
   constexpr double hardest = 1e4;
   m_lastBuilt = true;
-  m_last = &vpMotionAxis::soft;
+  m_last = vpMotionAxis::Soft;
   if (order() == 4) {
     buildSoft();
   }
   if (order() != 4 || !keepsPositions(m_last)) {
-    m_last = &vpMotionAxis::hard;
+    m_last = vpMotionAxis::Hard;
     double hardness = 1.;
-    buildHard(hardness);
+    buildStop(m_last, hardness);
     while (hardness < hardest && !keepsPositions(m_last)) {
       hardness *= 10.;
-      buildHard(hardness);
+      buildStop(m_last, hardness);
     }
   }
   if (isOutside()) {
@@ -421,7 +438,7 @@ void vpMotionUnit::comeBack() noexcept
   double T = 0.;
   for (int i = 0; i < m_count; ++i) {
     vpMotionAxis &axis = at(i);
-    const vpAxisState x = (axis.*m_last).head(), goal{inside(axis, x[0]), 0., 0., 0.};
+    const vpAxisState x = axis[m_last].head(), goal{inside(axis, x[0]), 0., 0., 0.};
     vpMotionFamily &way = m_steps[static_cast<std::size_t>(i)];
     way = vpMotionFamily::pointToPoint(x, goal, axis.task.order);
     const vpAxisLimits limits = axis.task.withoutPosition();
@@ -431,7 +448,7 @@ void vpMotionUnit::comeBack() noexcept
   }
   T = commonDuration(T);
   for (int i = 0; i < m_count && T > 0.; ++i) {
-    (at(i).*m_last).go(inside(at(i), (at(i).*m_last).head()[0]), T);
+    at(i)[m_last].go(inside(at(i), at(i)[m_last].head()[0]), T);
   }
 }
 
@@ -456,8 +473,8 @@ double vpMotionUnit::commonRamp(bool head) noexcept
   for (int i = 0; i < m_count; ++i) {
     const vpMotionAxis &axis = at(i);
     // At the tail, time runs backwards: velocities and jerks change sign.
-    const vpAxisState &tail = axis.direct.tail();
-    const vpAxisState x = head ? axis.direct.head() : vpAxisState{tail[0], -tail[1], tail[2], -tail[3]};
+    const vpAxisState &tail = axis[vpMotionAxis::Direct].tail();
+    const vpAxisState x = head ? axis[vpMotionAxis::Direct].head() : vpAxisState{tail[0], -tail[1], tail[2], -tail[3]};
     const double r = rampDuration(x, axis.task);
     if (r != 0.) {
       common = std::min(common, r);
@@ -486,7 +503,7 @@ double vpMotionUnit::commonStop(bool head) noexcept
   double T = 0.;
   for (int i = 0; i < m_count; ++i) {
     const vpMotionAxis &axis = at(i);
-    const vpAxisState x = head ? axis.ramped.head() : axis.ramped.tail();
+    const vpAxisState x = head ? axis[vpMotionAxis::Ramped].head() : axis[vpMotionAxis::Ramped].tail();
     const vpAxisState rest{x[0], 0., 0., 0.};
     m_steps[static_cast<std::size_t>(i)] = head ? vpMotionFamily::velocityStep(x, rest, axis.task.order - 1)
                                                 : vpMotionFamily::velocityStep(rest, x, axis.task.order - 1);
@@ -506,11 +523,11 @@ void vpMotionUnit::emit(vpTrajectoryPlan &plan, int member, int axis, double fac
 {
   const vpMotionAxis &m = at(member);
   if (m_form == vpTrajectoryForm::Cruise) {
-    m.direct.emitHead(plan, axis, factor);
+    m[vpMotionAxis::Direct].emitHead(plan, axis, factor);
     m.cruise.emit(plan, axis, factor, T);
   }
   else {
-    (m.*m_used).emit(plan, axis, factor, T);
+    m[m_used].emit(plan, axis, factor, T);
   }
 }
 

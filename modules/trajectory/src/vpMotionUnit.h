@@ -19,21 +19,33 @@ BEGIN_VISP_NAMESPACE
 
 //! One axis with all forms it may take.
 struct vpMotionAxis {
+  //! The forms that have one free polynomial.
+  enum Form {
+    Direct, // nothing but the polynomial
+    Ramped, // acceleration ramps around it
+    Soft,   // a gentle stop, a polynomial from rest to rest, a gentle launch
+    Hard,   // the same as hard as is needed
+    FormCount
+  };
+  [[nodiscard]] vpFramedMotion &operator[](Form form) { return forms[static_cast<std::size_t>(form)]; }
+  [[nodiscard]] const vpFramedMotion &operator[](Form form) const { return forms[static_cast<std::size_t>(form)]; }
+
   vpAxisTask task;
-  vpFramedMotion direct, ramped, soft, hard, free;
-  double freeLow = 0., freeHigh = 0.;
+  std::array<vpFramedMotion, FormCount> forms;
   vpCruiseMotion cruise;
+  double low = 0., high = 0.; // where it may go while it waits
 };
 
 /*!
  * Finds, for its axes together, the smallest feasible duration that is not below a given one. The single polynomial is
- * preferred; the other forms are tried when it has no feasible duration: acceleration ramps around it, a smooth stop and
- * a polynomial from there, and last a stop as hard as is needed.
+ * preferred; the other forms are tried when it has no feasible duration, or makes a detour: acceleration ramps around it,
+ * a gentle stop and a polynomial from there, and last a stop as hard as is needed.
  *
  * That last form has an answer for every duration above its own smallest, because a polynomial from rest to rest keeps
- * its limits however slow it is, and it leaves the span of start and goal by the braking distance only. How far it goes
- * is what all forms are allowed: so no axis makes a detour while it waits for the others, and a position limit that
- * cannot be kept is exceeded as little as can be.
+ * its limits however slow it is, and it leaves the span of start and goal by the braking distance only. No other form may
+ * go beyond the position limits if it does not: so a limit that cannot be kept is exceeded as little as can be. And none
+ * may leave the span by more than the braking distance unless it is quicker than to stop first: so no axis makes a detour
+ * while it waits for the others.
  */
 class vpMotionUnit
 {
@@ -70,14 +82,15 @@ public:
   void emit(vpTrajectoryPlan &plan, int member, int axis, double factor, double T) const noexcept;
 
 private:
-  using Form = vpFramedMotion vpMotionAxis::*;
+  using Form = vpMotionAxis::Form;
   [[nodiscard]] vpMotionAxis &at(int i) const { return *m_members[static_cast<std::size_t>(i)]; }
   [[nodiscard]] bool isSingle() const { return m_count == 1 && !m_hasNorm; }
   [[nodiscard]] int order() const { return at(0).task.order; }
   [[nodiscard]] double search(Form form, double T) noexcept;
-  [[nodiscard]] double searchFallback(double T) noexcept;
-  [[nodiscard]] double searchFree(double T) noexcept;
+  [[nodiscard]] double searchRamped(double T) noexcept;
+  [[nodiscard]] double searchStops(double T, double instead) noexcept;
   [[nodiscard]] double searchLast(double T) noexcept;
+  [[nodiscard]] bool makesDetour(double T) const noexcept;
   [[nodiscard]] bool isAtGoal(bool atRest) const noexcept;
   [[nodiscard]] bool breaksNorm() const noexcept;
   [[nodiscard]] bool keepsPositions(Form form) const noexcept;
@@ -89,7 +102,8 @@ private:
   void brake() noexcept;
   void buildRamped() noexcept;
   void buildSoft() noexcept;
-  void buildHard(double hardness) noexcept;
+  void buildSmooth() noexcept;
+  void buildStop(Form form, double hardness) noexcept;
   void buildLast() noexcept;
   void comeBack() noexcept;
   void boundPositions() noexcept;
@@ -102,9 +116,10 @@ private:
   int m_count = 0;
   vpNormLimits m_norm;
   bool m_hasNorm = false, m_allowCruise = false, m_droppedGoal = false;
-  bool m_rampedReady = false, m_softReady = false, m_lastBuilt = false, m_lastReady = false, m_freeReady = false;
-  Form m_last = &vpMotionAxis::hard; // has an answer for every duration
-  Form m_used = &vpMotionAxis::direct;
+  bool m_rampedReady = false, m_softReady = false, m_lastBuilt = false, m_lastReady = false;
+  Form m_last = vpMotionAxis::Hard; // has an answer for every duration
+  Form m_used = vpMotionAxis::Direct;
+  std::array<double, vpMotionAxis::FormCount> m_none{}; // from here on a form is known to be infeasible
   double m_braking = 0., m_headRamp = 0., m_tailRamp = 0.;
   double m_own = 0.; // longer than this, a start outside its position limits comes back before anything else
   int m_iterations = 0;
