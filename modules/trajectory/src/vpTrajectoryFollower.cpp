@@ -11,8 +11,9 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-constexpr double longestStep = 1e9; // s
-}
+constexpr double longestStep = 1e9;                           // s
+constexpr double shortestThesis = 1e-9, longestThesis = 1e12; // s
+} // namespace
 
 vpTrajectoryFollower::vpTrajectoryFollower(int axes, int maxVias)
   : m_task(axes, maxVias), m_rest(axes, maxVias), m_planner(axes, maxVias), m_plan(axes, maxVias)
@@ -183,7 +184,8 @@ void vpTrajectoryFollower::iterateThesis() noexcept
       const vpMotionFamily motion = vpMotionFamily::pointToPoint(m_rest.start(i), m_rest.goal(i), order);
       extra = std::max(extra, vpThesisDuration::extraTime(motion, m_rest.limits(i), gains, m_thesisT));
     }
-    m_thesisT += extra;
+    // Where the iteration runs away, the time stays one that can be computed with; NaN becomes the shortest.
+    m_thesisT = std::min(longestThesis, std::max(shortestThesis, m_thesisT + extra));
     converged = std::abs(extra) < 1e-10 * m_thesisT;
   }
   m_thesisBusy = !converged && m_thesisT > options.freeze;

@@ -304,7 +304,7 @@ std::vector<vpTrajectoryPiece> vpTrajectoryPlan::pieces(double until) const
       double power = 1.;
       for (double &x : c) {
         x /= power;
-        power *= piece.end - t;
+        power *= duration; // not the difference of two rounded times
       }
       piece.coefficients.push_back(std::move(c));
     }

@@ -413,7 +413,7 @@ vpTrajectoryStatus vpTrajectoryPlanner::planDirect(const vpTrajectoryProblem &pr
   plan.clear();
   d.begin();
   d.makeChain(problem);
-  d.emitChain(problem, std::max(T, 1e-9), plan);
+  d.emitChain(problem, std::min(1e12, std::max(1e-9, T)), plan);
   d.finish(problem, plan);
   return d.judge(problem, plan);
 }

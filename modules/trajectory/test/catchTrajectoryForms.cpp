@@ -155,6 +155,7 @@ TEST_CASE("cruise brings long moves close to the trapezoid", "[forms]")
   vpTrajectoryInput<1> input;
   input.goal.q[0] = 10.;
   const double trapezoid = 10. + 1.; // h/v + v/a
+  input.options.cruise = false;
   vpTrajectoryPlan plan(1);
   REQUIRE(vpDirectTrajectory<1>::calculate(input, plan).isGood());
   const double direct = plan.duration();

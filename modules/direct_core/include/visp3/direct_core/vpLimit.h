@@ -11,7 +11,6 @@
 
 #include <visp3/direct_core/vpDirectCompat.h>
 
-#include <algorithm>
 #include <cmath>
 
 BEGIN_VISP_NAMESPACE
@@ -26,12 +25,12 @@ BEGIN_VISP_NAMESPACE
 namespace vpLimit
 {
 constexpr double tolerance = 1e-6; //!< Relative to the limit; some steps of a float, which are up to 1.2e-7.
-constexpr double smallest = 1e-12; //!< The same for a limit of zero, in its unit.
+constexpr double smallest = 1e-12; //!< For a limit of zero, in its unit.
 
 //! What counts as being on a limit: its tolerance, 0 for an infinite limit.
 [[nodiscard]] inline double slack(double limit)
 {
-  return std::isfinite(limit) ? std::max(tolerance * std::abs(limit), smallest) : 0.;
+  return std::isfinite(limit) ? (limit != 0. ? tolerance * std::abs(limit) : smallest) : 0.;
 }
 
 //! True when value <= limit, or above it within the tolerance.

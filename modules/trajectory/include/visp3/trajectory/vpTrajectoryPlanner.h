@@ -53,7 +53,7 @@ public:
   vpTrajectoryStatus plan(const vpTrajectoryProblem &problem, double floor, vpTrajectoryPlan &plan) noexcept;
 
   /*!
-   * A single polynomial per axis of this duration (at least 1e-9 s), whatever the limits (figure 6.5, and the thesis's
+   * A single polynomial per axis of this duration (clamped to 1e-9 ... 1e12 s), whatever the limits (figure 6.5, and the thesis's
    * iteration). The status tells what they have to say to it.
    */
   vpTrajectoryStatus planDirect(const vpTrajectoryProblem &problem, double T, vpTrajectoryPlan &plan) noexcept;
