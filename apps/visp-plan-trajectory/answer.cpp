@@ -59,6 +59,13 @@ std::string answerLine(const Problem &problem, const Motion &motion)
   answer["peak_acceleration"] = acceleration;
   answer["peak_jerk"] = jerk;
   answer["form"] = toString(motion.form);
+  if (motion.excess.limit != vpTrajectoryLimit::None) {
+    answer["excess"] = {{"limit", toString(motion.excess.limit)},
+                        {"index", motion.excess.index},
+                        {"value", motion.excess.value},
+                        {"bound", motion.excess.bound},
+                        {"amount", motion.excess.amount()}};
+  }
   if (motion.plans.size() > 1) {
     answer["plans"] = plansOf(motion);
   }

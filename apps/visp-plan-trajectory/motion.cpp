@@ -30,43 +30,13 @@ std::string nameOf(const Problem &problem, std::size_t event)
   return name.str();
 }
 
-//! Position, velocity, acceleration, jerk as a polynomial in time.
-std::vector<double> taylor(const vpAxisState &x) { return {x[0], x[1], x[2] / 2., x[3] / 6.}; }
-
-//! What a plan does after its arrival: a goal acceleration is ramped down, then a goal velocity is kept.
-void appendCoasting(const PlanInForce &plan, std::vector<vpTrajectoryPiece> &pieces)
-{
-  const int axes = plan.plan.axes();
-  const double limit = plan.end - plan.begin;
-  for (double from = plan.plan.duration(); from < limit;) {
-    const double just = std::nextafter(from, limit);
-    double to = limit;
-    for (int i = 0; i < axes; ++i) {
-      const vpAxisState x = plan.plan.at(i, just);
-      const double ramp = x[3] != 0. ? -x[2] / x[3] : 0.;
-      to = ramp > 1e-12 * limit ? std::min(to, from + ramp) : to;
-    }
-    vpTrajectoryPiece piece;
-    piece.begin = plan.begin + from;
-    piece.end = plan.begin + to;
-    for (int i = 0; i < axes; ++i) {
-      piece.coefficients.push_back(taylor(plan.plan.at(i, just)));
-    }
-    pieces.push_back(std::move(piece));
-    from = to;
-  }
-}
-
 void appendPieces(const PlanInForce &plan, std::vector<vpTrajectoryPiece> &pieces)
 {
-  for (vpTrajectoryPiece &piece : plan.plan.pieces()) {
+  for (vpTrajectoryPiece &piece : plan.plan.pieces(plan.end - plan.begin)) {
     piece.begin += plan.begin;
-    piece.end = std::min(piece.end + plan.begin, plan.end);
-    if (piece.end > piece.begin) {
-      pieces.push_back(std::move(piece));
-    }
+    piece.end += plan.begin;
+    pieces.push_back(std::move(piece));
   }
-  appendCoasting(plan, pieces);
 }
 
 //! The piece on its own clock 0 ... 1.
@@ -191,7 +161,7 @@ std::string reached(const Problem &problem)
 {
   return problem.input.options.method == vpDurationMethod::Exact
              ? "the goal is reached within the limits"
-             : "the goal is reached; the thesis's iteration does not guarantee the limits";
+             : "the goal is reached within the limits, which the thesis's iteration does not guarantee";
 }
 } // namespace
 
@@ -219,7 +189,13 @@ Motion execute(const Problem &problem)
     }
   }
   motion.result = worst != nullptr ? worst->status.result : vpTrajectoryResult::Finished;
+  motion.excess = worst != nullptr ? worst->status.excess : vpLimitExcess();
   motion.message = worst != nullptr ? sentenceOf(*worst) : reached(problem);
+  for (const PlanInForce &plan : motion.plans) {
+    if (&plan != worst && plan.status.fault == vpTrajectoryFault::NotStraight) {
+      motion.message += "; " + sentenceOf(plan);
+    }
+  }
   for (int i = 0; i < problem.axes(); ++i) {
     motion.peaks.push_back(peaksOf(motion.pieces, static_cast<std::size_t>(i), motion.at(i, 0.)));
   }

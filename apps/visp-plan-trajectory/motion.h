@@ -33,6 +33,7 @@ struct Motion {
   std::vector<vpTrajectoryPeaks> peaks;                     //!< Per axis, exact, over #pieces.
   vpTrajectoryForm form = vpTrajectoryForm::Hold;           //!< The worst of all plans.
   vpTrajectoryResult result = vpTrajectoryResult::Finished; //!< The worst of all plans; Working counts as Finished.
+  vpLimitExcess excess;                                     //!< Of the plan that #result is of.
   std::string message;                                      //!< A sentence.
 
   [[nodiscard]] double duration() const { return plans.back().end; } //!< s.

@@ -7,6 +7,7 @@
 #include "vpMotionCheck.h"
 
 #include <visp3/core/vpException.h>
+#include <visp3/direct_core/vpLimit.h>
 
 #include <ompl/base/MotionValidator.h>
 #include <ompl/base/objectives/PathLengthOptimizationObjective.h>
@@ -214,7 +215,7 @@ public:
       return vpPathStatus::BadInput;
     }
     for (int i = 0; i < arm.size(); ++i) {
-      if (q(i) < arm.lower()(i) || q(i) > arm.upper()(i)) {
+      if (!vpLimit::isBetween(arm.lower()(i), q(i), arm.upper()(i))) {
         sentence = "Joint " + arm.spec().joints[static_cast<std::size_t>(i)].name + " of the " + end + " is at " +
                    std::to_string(q(i)) + ", outside its limits.";
         return vpPathStatus::OutsideLimits;

@@ -23,7 +23,7 @@ void planStop(const vpArmModel &arm, const vpJointVector &q, const vpJointVector
     plan.begin(j, q(j), vpTrajectoryForm::Direct);
     plan.append(j, {0., v * keep}, keep);
     plan.append(j, {0., v * braking, -0.5 * v * braking}, braking);
-    plan.finish(j, {q(j) + v * (keep + 0.5 * braking), 0., 0., 0.}, 0.);
+    plan.finish(j, {q(j) + v * (keep + 0.5 * braking), 0., 0., 0.});
   }
 }
 

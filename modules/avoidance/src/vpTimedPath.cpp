@@ -110,6 +110,7 @@ Input inputOf(const vpArmModel &arm, const vpJointPath &path, std::size_t first,
   input.maxAcceleration = spec.acceleration * arm.acceleration();
   input.minPosition = arm.lower();
   input.maxPosition = arm.upper();
+  input.options.cruise = false; // one shape for every duration, so that stretching it stretches the tool's motion
   input.options.synchronisation = last <= first + 1 ? vpSynchronisation::Straight : vpSynchronisation::Time;
   if (first == 0 && spec.startVelocity.size() != 0) {
     input.start.v = spec.startVelocity;

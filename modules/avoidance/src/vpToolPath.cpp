@@ -66,7 +66,7 @@ void vpToolPath::hold(const Eigen::Vector3d &x, vpTrajectoryPlan &plan) noexcept
   plan.clear();
   for (int i = 0; i < 3; ++i) {
     plan.begin(i, x(i), vpTrajectoryForm::Hold);
-    plan.finish(i, {x(i), 0., 0., 0.}, 0.);
+    plan.finish(i, {x(i), 0., 0., 0.});
   }
 }
 

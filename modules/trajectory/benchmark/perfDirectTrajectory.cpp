@@ -87,6 +87,61 @@ template <typename Call> void measure(benchmark::State &state, std::size_t count
   state.counters["max_us"] = 1e-3 * ns.back();
 }
 
+// No motion from (q, v) to rest is faster: constant acceleration, full speed, constant deceleration, without a jerk limit.
+double leastTime(double q, double v, double goal, double maxVelocity, double maxAcceleration)
+{
+  const double stop = q + 0.5 * v * std::abs(v) / maxAcceleration, side = goal < stop ? -1. : 1.;
+  const double h = side * (goal - q), u = side * v;
+  const double top = std::min(maxVelocity, std::sqrt(std::max(maxAcceleration * h + 0.5 * u * u, 0.)));
+  const double ends = (2. * top * top - u * u) / (2. * maxAcceleration);
+  return (2. * top - u) / maxAcceleration + std::max(h - ends, 0.) / top;
+}
+
+// Retargets of 7 axes over moves of every length: what the cruise form gains in time and costs in smoothness.
+void forms(benchmark::State &state, bool cruise)
+{
+  std::mt19937_64 rng(6);
+  std::vector<vpTrajectoryProblem> problems;
+  std::vector<double> times, jerks;
+  vpTrajectoryPlanner planner(7);
+  vpTrajectoryPlan plan(7);
+  for (int k = 0; k < 5000; ++k) {
+    vpTrajectoryInput<7> input;
+    const double length = std::pow(10., uniform(rng, -2., 1.));
+    for (int i = 0; i < 7; ++i) {
+      input.maxVelocity[i] = uniform(rng, 0.5, 2.);
+      input.maxAcceleration[i] = uniform(rng, 1., 5.);
+      input.start.q[i] = length * uniform(rng, -1., 1.);
+      input.start.v[i] = 0.9 * input.maxVelocity[i] * uniform(rng, -1., 1.) * std::min(1., length);
+      input.goal.q[i] = length * uniform(rng, -1., 1.);
+    }
+    input.options.cruise = cruise;
+    vpTrajectoryProblem problem(7);
+    static_cast<void>(input.copyTo(problem));
+    static_cast<void>(planner.plan(problem, 0., plan));
+    double least = 0., jerk = 0., unit = 0.;
+    for (int i = 0; i < 7; ++i) {
+      least = std::max(least, leastTime(input.start.q[i], input.start.v[i], input.goal.q[i], input.maxVelocity[i],
+                                        input.maxAcceleration[i]));
+      jerk += plan.peaks(i).squaredJerk;
+      unit += std::pow(input.maxAcceleration[i], 3) / input.maxVelocity[i];
+    }
+    times.push_back(plan.duration() / least);
+    jerks.push_back(jerk / unit);
+    problems.push_back(problem);
+  }
+  measure(state, problems.size(),
+          [&](std::size_t k) { benchmark::DoNotOptimize(planner.plan(problems[k], 0., plan)); });
+  const auto quantile = [](std::vector<double> &x, double p) {
+    std::sort(x.begin(), x.end());
+    return x[static_cast<std::size_t>(p * static_cast<double>(x.size() - 1))];
+  };
+  for (const auto &p : {std::pair<const char *, double>{"50", 0.5}, {"95", 0.95}, {"100", 1.}}) {
+    state.counters[std::string("time_p") + p.first] = quantile(times, p.second);
+    state.counters[std::string("jerk_p") + p.first] = quantile(jerks, p.second);
+  }
+}
+
 template <int N> void planning(benchmark::State &state, vpTrajectoryForm form, bool jerk = false)
 {
   const auto problems = retargets<N>(5000, form, jerk);
@@ -198,11 +253,13 @@ void shaperStep(benchmark::State &state)
 
 BENCHMARK_CAPTURE(planning1, retarget, vpTrajectoryForm::Hold)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(planning1, retarget_direct, vpTrajectoryForm::Direct)->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(planning1, retarget_fallback, vpTrajectoryForm::Ramped)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(planning1, retarget_fallback, vpTrajectoryForm::StopAndGo)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(planning7, retarget, vpTrajectoryForm::Hold, false)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(planning7, retarget_direct, vpTrajectoryForm::Direct, false)->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(planning7, retarget_fallback, vpTrajectoryForm::Ramped, false)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(planning7, retarget_fallback, vpTrajectoryForm::StopAndGo, false)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(planning7, retarget_jerk_limits, vpTrajectoryForm::Hold, true)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(forms, single_polynomial, false)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(forms, cruise, true)->Unit(benchmark::kMicrosecond);
 BENCHMARK(sixthOrder)->Unit(benchmark::kMicrosecond);
 BENCHMARK(cycle<1>)->Unit(benchmark::kMicrosecond);
 BENCHMARK(cycle<7>)->Unit(benchmark::kMicrosecond);

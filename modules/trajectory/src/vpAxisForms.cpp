@@ -4,6 +4,8 @@
  */
 #include "vpAxisForms.h"
 
+#include "vpRootKernel.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -37,18 +39,39 @@ bool isBounded(const vpAxisLimits &limits)
 double vpAxisTask::rampUnit() const
 {
   const double scale = limits.velocity / limits.acceleration;
-  return std::isfinite(scale) && scale > 0. ? 0.1 * scale : 0.05;
+  return std::isfinite(scale) && scale > 0. ? 0.1 * scale : timeUnit;
 }
 
 double vpAxisTask::brakeAcceleration() const
 {
+  if (std::isfinite(limits.acceleration)) {
+    return limits.acceleration;
+  }
   // Without a limit: stop within the ramp unit.
-  return std::isfinite(limits.acceleration)
-             ? limits.acceleration
-             : std::max({std::abs(from[2]), std::abs(from[1]) / rampUnit(), limits.velocity / rampUnit()});
+  const double fast = std::isfinite(limits.velocity) ? limits.velocity : std::max(std::abs(from[1]), std::abs(to[1]));
+  const double needed =
+      std::max({std::abs(from[2]), std::abs(to[2]), std::abs(from[1]) / rampUnit(), fast / rampUnit()});
+  return needed > 0. ? needed : 1.;
 }
 
-double vpAxisTask::brakeJerk() const { return std::min(limits.jerk, brakeAcceleration() / rampUnit()); }
+double vpAxisTask::brakeJerk(const vpAxisState &x, double hardness) const
+{
+  // While the acceleration is taken back, it adds a^2/(2 j) to the velocity.
+  const double room = limits.velocity - std::copysign(1., x[2]) * x[1];
+  const double needed =
+      order > 2 && room > 0. && std::isfinite(room) ? x[2] * x[2] / (2. * std::max(room, 1e-6 * limits.velocity)) : 0.;
+  return std::min(limits.jerk, std::max(hardness * brakeAcceleration() / rampUnit(), needed));
+}
+
+bool vpAxisTask::isMoving() const
+{
+  for (std::size_t k = 1; k < static_cast<std::size_t>(order); ++k) {
+    if (from[k] != 0. || to[k] != 0.) {
+      return true;
+    }
+  }
+  return false;
+}
 
 vpAxisLimits vpAxisTask::withoutPosition() const
 {
@@ -78,7 +101,7 @@ double rampDuration(const vpAxisState &x, const vpAxisTask &task) noexcept
   const double room = task.limits.velocity - std::copysign(1., x[2]) * x[1];
   // Without an acceleration limit to compare with: change the velocity by a tenth of its limit.
   const double gentle = std::isfinite(task.limits.acceleration)
-                            ? a / task.brakeJerk()
+                            ? a / std::min(task.limits.jerk, task.brakeAcceleration() / task.rampUnit())
                             : std::max(0.2 * task.limits.velocity / a, a / task.limits.jerk);
   const double r = std::min(gentle, 2. * room / a);
   const bool tooHard = r < a / task.limits.jerk * (1. - 1e-9);
@@ -88,7 +111,8 @@ double rampDuration(const vpAxisState &x, const vpAxisTask &task) noexcept
 bool needsBraking(const vpAxisTask &task) noexcept
 {
   const double slack = 1. + 1e-12;
-  if (std::abs(task.from[1]) > task.limits.velocity * slack) {
+  if (std::abs(task.from[1]) > task.limits.velocity * slack ||
+      (task.order == 4 && std::abs(task.from[3]) > task.limits.jerk * slack)) {
     return true;
   }
   vpAxisTask quintic = task;
@@ -100,7 +124,7 @@ bool needsBraking(const vpAxisTask &task) noexcept
 void vpFramedMotion::open(const vpAxisTask &task) noexcept
 {
   m_heads = m_tails = 0;
-  m_fixed = 0.;
+  m_headTime = m_tailTime = 0.;
   m_order = task.order;
   m_head = task.from;
   m_tail = task.to;
@@ -109,21 +133,37 @@ void vpFramedMotion::open(const vpAxisTask &task) noexcept
 void vpFramedMotion::addHead(const vpPolynomial &p, double duration) noexcept
 {
   m_headPieces[static_cast<std::size_t>(m_heads++)] = {p, duration};
-  m_fixed += duration;
+  m_headTime += duration;
+}
+
+void vpFramedMotion::addTail(const vpPolynomial &p, double duration) noexcept
+{
+  m_tailPieces[static_cast<std::size_t>(m_tails++)] = {p, duration};
+  m_tailTime += duration;
 }
 
 void vpFramedMotion::brake(const vpAxisTask &task, double target, double duration, double jerk) noexcept
 {
-  const double a = m_order > 2 ? m_head[2] : 0.;
-  const vpVelocityRamp ramp(m_head[1], a, target, task.brakeAcceleration(), jerk);
-  vpAxisState x{m_head[0], m_head[1], a, 0.};
   double t = 0.;
-  for (int i = 0; i < ramp.count(); ++i) {
-    const auto &piece = ramp.piece(i);
-    const double d = piece.duration;
-    addHead({0., x[1] * d, x[2] * d * d / 2., piece.jerk * d * d * d / 6.}, d);
-    t += d;
-    x = ramp.at(m_head[0], t);
+  vpAxisState x{m_head[0], m_head[1], m_order > 2 ? m_head[2] : 0., 0.};
+  if (m_order == 2) { // the acceleration may jump
+    t = std::abs(target - x[1]) / task.brakeAcceleration();
+    if (t > 0.) {
+      addHead({0., x[1] * t, 0.5 * (target - x[1]) * t}, t);
+      x = {x[0] + 0.5 * (x[1] + target) * t, target, 0., 0.};
+    }
+  }
+  else {
+    const vpVelocityRamp ramp(x[1], x[2], target, task.brakeAcceleration(), jerk);
+    for (int i = 0; i < ramp.count(); ++i) {
+      const auto &piece = ramp.piece(i);
+      const double d = piece.duration;
+      addHead({0., x[1] * d, x[2] * d * d / 2., piece.jerk * d * d * d / 6.}, d);
+      t += d;
+      x[0] += d * (x[1] + d * (x[2] / 2. + d * piece.jerk / 6.));
+      x[1] += d * (x[2] + d * piece.jerk / 2.);
+      x[2] += d * piece.jerk;
+    }
   }
   const double rest = duration - t;
   if (rest > 0.) {
@@ -132,25 +172,45 @@ void vpFramedMotion::brake(const vpAxisTask &task, double target, double duratio
   m_head = {x[0] + std::max(rest, 0.) * target, target, 0., 0.};
 }
 
+void vpFramedMotion::go(double place, double duration) noexcept
+{
+  const vpAxisState goal{place, 0., 0., 0.};
+  addHead(vpMotionFamily::pointToPoint(m_head, goal, m_order).at(duration), duration);
+  m_head = goal;
+}
+
+void vpFramedMotion::padHead(double duration) noexcept
+{
+  if (duration > m_headTime) {
+    addHead({}, duration - m_headTime);
+  }
+}
+
+void vpFramedMotion::padTail(double duration) noexcept
+{
+  if (duration > m_tailTime) {
+    addTail({}, duration - m_tailTime);
+  }
+}
+
 void vpFramedMotion::launch(const vpAxisTask &task, double jerk) noexcept
 {
-  // Time runs backwards from the goal: braking from (-v, a).
-  const double a = m_order > 2 ? m_tail[2] : 0.;
-  const vpVelocityRamp ramp(-m_tail[1], a, 0., task.brakeAcceleration(), jerk);
-  vpAxisState x{m_tail[0], -m_tail[1], a, 0.};
-  double t = 0.;
-  for (int i = 0; i < ramp.count() && m_tails < maxTail; ++i) {
-    const auto &piece = ramp.piece(i);
-    const double d = piece.duration;
-    const vpPolynomial backwards{0., x[1] * d, x[2] * d * d / 2., piece.jerk * d * d * d / 6.};
-    vpPolynomial p = backwards.composed(1., -1.);
-    p[0] = 0.;
-    m_tailPieces[static_cast<std::size_t>(m_tails++)] = {p, d};
-    m_fixed += d;
-    t += d;
-    x = ramp.at(m_tail[0], t);
+  if (m_tail[1] == 0. && (m_order == 2 || m_tail[2] == 0.)) {
+    m_tail[2] = m_tail[3] = 0.;
+    return;
   }
-  m_tail = {x[0], 0., 0., 0.};
+  // Time runs backwards from the goal: braking from (-v, a).
+  vpFramedMotion backwards;
+  backwards.m_order = m_order;
+  backwards.m_head = {m_tail[0], -m_tail[1], m_order > 2 ? m_tail[2] : 0., 0.};
+  backwards.brake(task, 0., 0., jerk);
+  for (int i = 0; i < backwards.m_heads; ++i) {
+    const Piece &piece = backwards.m_headPieces[static_cast<std::size_t>(i)];
+    vpPolynomial p = piece.p.composed(1., -1.);
+    p[0] = 0.;
+    addTail(p, piece.duration);
+  }
+  m_tail = backwards.m_head;
 }
 
 void vpFramedMotion::rampHead(double r) noexcept
@@ -172,8 +232,7 @@ void vpFramedMotion::rampTail(double r) noexcept
   const double j = m_order == 4 ? m_tail[3] : 0.;
   const double v = m_tail[1] - r * (m_tail[2] / 2. - r * j / 12.);
   const vpPolynomial p = vpMotionFamily::accelerationStep({0., v, 0., 0.}, m_tail, m_order - 2).at(r);
-  m_tailPieces[static_cast<std::size_t>(m_tails++)] = {p, r};
-  m_fixed += r;
+  addTail(p, r);
   m_tail = {m_tail[0] - p.value(1.), v, 0., 0.};
 }
 
@@ -193,8 +252,7 @@ void vpFramedMotion::stopTail(double T) noexcept
     return;
   }
   const vpPolynomial p = vpMotionFamily::velocityStep({}, m_tail, m_order - 1).at(T);
-  m_tailPieces[static_cast<std::size_t>(m_tails++)] = {p, T};
-  m_fixed += T;
+  addTail(p, T);
   m_tail = {m_tail[0] - p.value(1.), 0., 0., 0.};
 }
 
@@ -204,43 +262,73 @@ void vpFramedMotion::close(const vpAxisTask &task) noexcept
   m_middleLimits = task.limits;
   m_middleLimits.minPosition -= m_head[0];
   m_middleLimits.maxPosition -= m_head[0];
+  m_blocked = false;
+  if (hasFixedPieces() && isBounded(task.limits)) {
+    double low = 0., high = 0.;
+    hull(low, high);
+    const double slack = vpMinimumDuration::tolerance * (high - low);
+    m_blocked = !(low >= task.limits.minPosition - slack && high <= task.limits.maxPosition + slack);
+  }
+  if (m_blocked) {
+    return;
+  }
   m_lower = vpMinimumDuration::raiseLowerBound(m_middle, m_middleLimits,
                                                vpMinimumDuration::lowerBound(m_head, m_tail, m_middleLimits));
 }
 
-bool vpFramedMotion::fixedKeepPosition(const vpAxisLimits &limits) const noexcept
+void vpFramedMotion::hull(double &low, double &high) const noexcept
 {
-  if (!isBounded(limits)) {
-    return true;
-  }
+  low = high = 0.;
+  const auto include = [&low, &high](const vpPolynomial &p, double place) {
+    const auto range = p.range();
+    low = std::min(low, place + range.min);
+    high = std::max(high, place + range.max);
+  };
   double place = 0.;
   for (int i = 0; i < m_heads; ++i) {
     const vpPolynomial &p = m_headPieces[static_cast<std::size_t>(i)].p;
-    if (!within(p, place, limits)) {
-      return false;
-    }
+    include(p, place);
     place += p.value(1.);
   }
   place = m_tail[0];
+  include(vpPolynomial{}, place);
   for (int i = m_tails; i > 0; --i) {
     const vpPolynomial &p = m_tailPieces[static_cast<std::size_t>(i - 1)].p;
-    if (!within(p, place, limits)) {
-      return false;
-    }
+    include(p, place);
     place += p.value(1.);
   }
-  return true;
+}
+
+bool vpFramedMotion::staysWithin(double low, double high, double T) const noexcept
+{
+  double a = 0., b = 0.;
+  if (hasFixedPieces()) {
+    hull(a, b);
+    if (a < low || b > high) {
+      return false;
+    }
+  }
+  const vpPolynomial p = m_middle.at(T - fixedDuration());
+  vpRootKernel::enclose(p.data(), p.degree(), a, b);
+  if (m_head[0] + a >= low && m_head[0] + b <= high) {
+    return true;
+  }
+  const auto range = p.range();
+  return m_head[0] + range.min >= low && m_head[0] + range.max <= high;
 }
 
 double vpFramedMotion::next(double T) const noexcept
 {
-  const double free = T - m_fixed;
-  if (free < m_lower && m_fixed + m_lower > T) {
-    return m_fixed + m_lower;
+  if (m_blocked) {
+    return infinity;
+  }
+  const double fixed = fixedDuration(), free = T - fixed;
+  if (free < m_lower && fixed + m_lower > T) {
+    return fixed + m_lower;
   }
   const double now = std::max(free, m_lower);
   const double candidate = vpMinimumDuration::nextCandidate(m_middle, m_middleLimits, now);
-  return candidate == now ? T : std::max(m_fixed + candidate, T * (1. + 4e-16));
+  return candidate == now ? T : std::max(fixed + candidate, T * (1. + 4e-16));
 }
 
 void vpFramedMotion::emitHead(vpTrajectoryPlan &plan, int axis, double factor) const noexcept
@@ -254,7 +342,7 @@ void vpFramedMotion::emitHead(vpTrajectoryPlan &plan, int axis, double factor) c
 void vpFramedMotion::emit(vpTrajectoryPlan &plan, int axis, double factor, double T) const noexcept
 {
   emitHead(plan, axis, factor);
-  const double free = T - m_fixed;
+  const double free = T - fixedDuration();
   plan.append(axis, scaled(m_middle.at(free), factor), free);
   for (int i = m_tails; i > 0; --i) {
     const Piece &piece = m_tailPieces[static_cast<std::size_t>(i - 1)];
@@ -270,7 +358,8 @@ void vpCruiseMotion::open(const vpAxisTask &task, const vpFramedMotion &framed) 
   m_braked = framed.fixedDuration();
   m_limits = task.limits;
   const double h = m_to[0] - m_from[0];
-  if (task.order != 3 || h == 0. || !std::isfinite(task.limits.velocity) || !std::isfinite(task.limits.acceleration)) {
+  if (framed.isBlocked() || task.order != 3 || h == 0. || !std::isfinite(task.limits.velocity) ||
+      !std::isfinite(task.limits.acceleration)) {
     return;
   }
   const double full = std::copysign(task.limits.velocity, h);
@@ -322,6 +411,16 @@ double vpCruiseMotion::next(double T) const noexcept
   T = std::max(T, m_shortest);
   vpPolynomial up, down;
   return ramps(cruiseAt(T), up, down) ? T : infinity;
+}
+
+bool vpCruiseMotion::staysWithin(double low, double high, double T) const noexcept
+{
+  vpPolynomial up, down;
+  static_cast<void>(ramps(cruiseAt(T), up, down));
+  vpAxisLimits places;
+  places.minPosition = low;
+  places.maxPosition = high;
+  return within(up, m_from[0], places) && within(down, m_to[0] - down.value(1.), places);
 }
 
 void vpCruiseMotion::emit(vpTrajectoryPlan &plan, int axis, double factor, double T) const noexcept

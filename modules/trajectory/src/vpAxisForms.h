@@ -13,22 +13,35 @@
 #include <visp3/trajectory/vpTrajectoryPlan.h>
 #include <visp3/trajectory/vpVelocityRamp.h>
 
+#include <algorithm>
+#include <cmath>
+
 BEGIN_VISP_NAMESPACE
 
 //! One axis on its way from a state to a state; places are relative to the start, so from[0] is 0.
 struct vpAxisTask {
   vpAxisState from{};
   vpAxisState to{};
-  vpAxisLimits limits;
-  int order = 3; // conditions at each end: 2 cubic, 3 quintic, 4 septic
+  vpAxisLimits limits;                       // positions: those that the forms have to keep
+  double minPosition = 0., maxPosition = 0.; // as the user limits them
+  int order = 3;                             // conditions at each end: 2 cubic, 3 quintic, 4 septic
+  double timeUnit = 0.05;                    // s, where the limits define none
 
   //! Duration of an acceleration ramp over the full range when no jerk limit sets it: a tenth of v_max/a_max.
   [[nodiscard]] double rampUnit() const;
-  //! Acceleration and jerk to brake with.
+  //! Acceleration to brake with.
   [[nodiscard]] double brakeAcceleration() const;
-  [[nodiscard]] double brakeJerk() const;
+  //! Jerk to brake with from a state: gentle, unless the velocity limit leaves no room for that, or times \e hardness.
+  [[nodiscard]] double brakeJerk(const vpAxisState &x, double hardness = 1.) const;
   //! The limits without those on the position.
   [[nodiscard]] vpAxisLimits withoutPosition() const;
+  //! Start or goal has a velocity (or what of higher derivatives matters): the axis needs room to brake or to launch.
+  [[nodiscard]] bool isMoving() const;
+  //! How far a stop takes it is defined.
+  [[nodiscard]] bool hasBrakingDistance() const
+  {
+    return std::isfinite(limits.acceleration) || std::isfinite(limits.jerk);
+  }
 };
 
 /*!
@@ -52,6 +65,11 @@ public:
   void brake(const vpAxisTask &task, double target, double duration, double jerk) noexcept;
   //! Fixed pieces at the tail: as fast as the limits allow from rest to the velocity before the tail.
   void launch(const vpAxisTask &task, double jerk) noexcept;
+  //! Fixed piece at the head: from rest to rest at \e place.
+  void go(double place, double duration) noexcept;
+  //! Rest until the head, or the tail, lasts that long; both are at rest.
+  void padHead(double duration) noexcept;
+  void padTail(double duration) noexcept;
   //! Fixed pieces: the acceleration ramps, at the head from the present state, at the tail up to the goal.
   void rampHead(double r) noexcept;
   void rampTail(double r) noexcept;
@@ -63,10 +81,21 @@ public:
 
   [[nodiscard]] const vpAxisState &head() const { return m_head; } //!< State in which the free polynomial begins.
   [[nodiscard]] const vpAxisState &tail() const { return m_tail; } //!< State in which it ends.
-  [[nodiscard]] double fixedDuration() const { return m_fixed; }   //!< Of all fixed pieces, s.
-  [[nodiscard]] const vpMotionFamily &middle() const { return m_middle; } //!< The free polynomial.
-  //! The fixed pieces stay within the position limits.
-  [[nodiscard]] bool fixedKeepPosition(const vpAxisLimits &limits) const noexcept;
+  [[nodiscard]] double headDuration() const { return m_headTime; } //!< Of the fixed pieces at the head, s.
+  [[nodiscard]] double tailDuration() const { return m_tailTime; } //!< Of those at the tail, s.
+  [[nodiscard]] double fixedDuration() const { return m_headTime + m_tailTime; } //!< Of all fixed pieces, s.
+  [[nodiscard]] const vpMotionFamily &middle() const { return m_middle; }        //!< The free polynomial.
+  //! Lowest and highest place of the fixed pieces and of both ends.
+  void hull(double &low, double &high) const noexcept;
+  //! The longer of the ways that a stop takes from the start and a launch takes to the goal.
+  [[nodiscard]] double brakingDistance(double goal) const noexcept
+  {
+    return std::max(std::abs(m_head[0]), std::abs(goal - m_tail[0]));
+  }
+  [[nodiscard]] bool hasFixedPieces() const { return m_heads + m_tails > 0; } //!< It is more than one polynomial.
+  [[nodiscard]] bool isBlocked() const { return m_blocked; } //!< The fixed pieces leave the position limits.
+  //! The motion of total duration \e T stays between these places.
+  [[nodiscard]] bool staysWithin(double low, double high, double T) const noexcept;
   //! One look: the total duration \e T itself if the limits are kept, else the next candidate; see vpMinimumDuration.
   [[nodiscard]] double next(double T) const noexcept;
   //! Append the motion of total duration \e T to a plan, times \e factor.
@@ -79,15 +108,17 @@ private:
     vpPolynomial p;
     double duration = 0.;
   };
-  static constexpr int maxHead = 7; // braking 4, padding, ramp, stop
-  static constexpr int maxTail = 4; // ramp, stop, or a launch of three; the last one first
+  static constexpr int maxHead = 8; // braking 4, padding, ramp, stop, the way back inside
+  static constexpr int maxTail = 6; // ramp, stop or a launch of four, padding; the last one first
 
   void addHead(const vpPolynomial &p, double duration) noexcept;
+  void addTail(const vpPolynomial &p, double duration) noexcept;
 
   std::array<Piece, maxHead> m_headPieces{};
   std::array<Piece, maxTail> m_tailPieces{};
   int m_heads = 0, m_tails = 0, m_order = 3;
-  double m_fixed = 0., m_lower = 0.;
+  double m_headTime = 0., m_tailTime = 0., m_lower = 0.;
+  bool m_blocked = false; // the fixed pieces leave the position limits
   vpAxisState m_head{}, m_tail{};
   vpMotionFamily m_middle;
   vpAxisLimits m_middleLimits;
@@ -103,6 +134,8 @@ public:
   void open(const vpAxisTask &task, const vpFramedMotion &framed) noexcept;
   //! Smallest feasible duration >= T of this form, or infinity.
   [[nodiscard]] double next(double T) const noexcept;
+  //! The motion of total duration \e T stays between these places.
+  [[nodiscard]] bool staysWithin(double low, double high, double T) const noexcept;
   //! Append the motion of total duration \e T to a plan, times \e factor, without the head of \e framed.
   void emit(vpTrajectoryPlan &plan, int axis, double factor, double T) const noexcept;
 

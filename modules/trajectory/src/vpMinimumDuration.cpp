@@ -261,7 +261,7 @@ double nextCandidate(const vpMotionFamily &motion, const vpAxisLimits &limits, d
   if (velocity) {
     look.boundAbsolute(level[1], level[2], 1, limits.velocity);
   }
-  if (position) {
+  if (position && look.next() == T) { // the dearest last, and only where the others are content
     level[1].findRoots(&level[2]);
     look.boundPosition(level[0], level[1], limits.minPosition, limits.maxPosition);
   }

@@ -12,7 +12,8 @@ BEGIN_VISP_NAMESPACE
 namespace
 {
 constexpr double infinity = std::numeric_limits<double>::infinity();
-}
+constexpr double worthwhile = 0.8; // the cruise form replaces the polynomial of least jerk where it saves a fifth
+} // namespace
 
 void vpMotionUnit::reserve(int axes)
 {
@@ -29,34 +30,110 @@ void vpMotionUnit::clear() noexcept
 
 void vpMotionUnit::prepare(bool allowCruise) noexcept
 {
-  m_allowCruise = allowCruise && m_count == 1;
-  m_droppedPosition = m_droppedGoal = false;
+  m_allowCruise = allowCruise && isSingle();
+  m_droppedGoal = m_rampedReady = m_softReady = m_lastBuilt = m_lastReady = false;
   m_iterations = 0;
   m_braking = 0.;
   bool outside = m_hasNorm && breaksNorm();
   for (int i = 0; i < m_count; ++i) {
-    outside = outside || needsBraking(m_members[static_cast<std::size_t>(i)]->task);
+    at(i)[vpMotionAxis::Direct].open(at(i).task);
+    outside = outside || needsBraking(at(i).task);
   }
-  if (outside) {
+  m_tailRamp = commonRamp(false);
+  if (m_tailRamp < 0.) {
+    dropGoalAcceleration();
+  }
+  m_headRamp = outside ? 0. : commonRamp(true);
+  if (outside || m_headRamp < 0.) {
     brake();
+    m_headRamp = 0.; // braking ends with zero acceleration
   }
-  buildDirect();
+  boundPositions();
+  close(vpMotionAxis::Direct);
+  if (m_allowCruise) {
+    at(0).cruise.open(at(0).task, at(0)[vpMotionAxis::Direct]);
+  }
+  m_own = infinity;
+  if (isOutside()) {
+    const double own = search(vpMotionAxis::Direct, 0.);
+    m_own = own < infinity ? own * (1. + 1e-9) : 0.;
+  }
 }
 
-// The forms that start in the present head of `direct`.
-void vpMotionUnit::buildDirect() noexcept
+void vpMotionUnit::dropGoalAcceleration() noexcept
 {
-  m_fallbackReady = m_stoppingReady = false;
+  m_droppedGoal = true;
+  m_tailRamp = 0.;
   for (int i = 0; i < m_count; ++i) {
-    vpMotionAxis &axis = *m_members[static_cast<std::size_t>(i)];
-    if (m_braking == 0.) {
-      axis.direct.open(axis.task);
+    vpAxisTask &task = at(i).task;
+    task.to[2] = task.to[3] = 0.;
+    at(i)[vpMotionAxis::Direct].open(task);
+  }
+}
+
+void vpMotionUnit::close(Form form) noexcept
+{
+  for (int i = 0; i < m_count; ++i) {
+    at(i)[form].close(at(i).task);
+    m_none[static_cast<std::size_t>(form)] = infinity;
+  }
+}
+
+// No form leaves the span of start and goal by more than the braking distance, nor goes beyond the position limits
+// unless the last resort has to.
+void vpMotionUnit::boundPositions() noexcept
+{
+  bool monotone = m_braking == 0. && !isOutside();
+  for (int i = 0; i < m_count; ++i) {
+    monotone = monotone && !at(i).task.isMoving();
+  }
+  if (!monotone) {
+    buildLast();
+  }
+  for (int i = 0; i < m_count; ++i) {
+    vpAxisTask &task = at(i).task;
+    double &low = task.limits.minPosition, &high = task.limits.maxPosition;
+    if (monotone) {
+      at(i).low = low = -infinity;
+      at(i).high = high = infinity;
+      continue;
     }
-    axis.direct.close(axis.task);
-    if (m_allowCruise) {
-      axis.cruise.open(axis.task, axis.direct);
+    double lastLow = 0., lastHigh = 0.;
+    at(i)[m_last].hull(lastLow, lastHigh);
+    const double distance = task.hasBrakingDistance() ? at(i)[m_last].brakingDistance(task.to[0]) : infinity;
+    at(i).low = std::min(lastLow, std::min(0., task.to[0]) - distance);
+    at(i).high = std::max(lastHigh, std::max(0., task.to[0]) + distance);
+    low = std::min(lastLow, task.minPosition);
+    high = std::max(lastHigh, task.maxPosition);
+  }
+  if (m_rampedReady) { // built on the way, within other bounds
+    close(vpMotionAxis::Ramped);
+    close(vpMotionAxis::Soft);
+  }
+}
+
+bool vpMotionUnit::isOutside() const noexcept
+{
+  for (int i = 0; i < m_count; ++i) {
+    if (at(i).task.minPosition > 0. || at(i).task.maxPosition < 0.) {
+      return true;
     }
   }
+  return false;
+}
+
+// As far as start and goal do.
+bool vpMotionUnit::keepsPositions(Form form) const noexcept
+{
+  for (int i = 0; i < m_count; ++i) {
+    const vpAxisTask &task = at(i).task;
+    double low = 0., high = 0.;
+    at(i)[form].hull(low, high);
+    if (low < std::min({task.minPosition, 0., task.to[0]}) || high > std::max({task.maxPosition, 0., task.to[0]})) {
+      return false;
+    }
+  }
+  return true;
 }
 
 bool vpMotionUnit::breaksNorm() const noexcept
@@ -76,7 +153,7 @@ void vpMotionUnit::brake() noexcept
 {
   const auto naturalTarget = [](const vpAxisTask &task) {
     const double a = task.order > 2 ? task.from[2] : 0.;
-    const double end = task.from[1] + a * std::abs(a) / (2. * task.brakeJerk());
+    const double end = task.from[1] + a * std::abs(a) / (2. * task.brakeJerk(task.from));
     return std::clamp(end, -task.limits.velocity, task.limits.velocity);
   };
   double norm2 = 0.;
@@ -88,13 +165,14 @@ void vpMotionUnit::brake() noexcept
   for (int i = 0; i < m_count; ++i) {
     const vpAxisTask &task = m_members[static_cast<std::size_t>(i)]->task;
     const vpVelocityRamp ramp(task.from[1], task.order > 2 ? task.from[2] : 0., shrink * naturalTarget(task),
-                              task.brakeAcceleration(), task.brakeJerk());
+                              task.brakeAcceleration(), task.brakeJerk(task.from));
     m_braking = std::max(m_braking, ramp.duration());
   }
   for (int i = 0; i < m_count; ++i) {
     vpMotionAxis &axis = *m_members[static_cast<std::size_t>(i)];
-    axis.direct.open(axis.task);
-    axis.direct.brake(axis.task, shrink * naturalTarget(axis.task), m_braking, axis.task.brakeJerk());
+    axis[vpMotionAxis::Direct].open(axis.task);
+    axis[vpMotionAxis::Direct].brake(axis.task, shrink * naturalTarget(axis.task), m_braking,
+                                     axis.task.brakeJerk(axis.task.from));
   }
 }
 
@@ -108,27 +186,35 @@ double vpMotionUnit::normNext(const vpMotionFamily *families, double T) noexcept
 
 double vpMotionUnit::search(Form form, double T) noexcept
 {
+  double &none = m_none[static_cast<std::size_t>(form)];
+  if (T >= none) {
+    return infinity;
+  }
+  none = infinity;
   int looks = 0;
+  const double from = T;
   for (; looks < vpMinimumDuration::maxIterations; ++looks) {
     double candidate = T;
     for (int i = 0; i < m_count && candidate < infinity; ++i) {
-      candidate = std::max(candidate, (m_members[static_cast<std::size_t>(i)]->*form).next(T));
+      candidate = std::max(candidate, at(i)[form].next(T));
     }
     if (m_hasNorm && candidate == T) {
-      const double fixed = (m_members[0]->*form).fixedDuration();
+      const double fixed = at(0)[form].fixedDuration();
       for (int i = 0; i < m_count; ++i) {
-        m_families[static_cast<std::size_t>(i)] = &(m_members[static_cast<std::size_t>(i)]->*form).middle();
+        m_families[static_cast<std::size_t>(i)] = &at(i)[form].middle();
       }
       const double next = vpMinimumDuration::nextCandidate(m_families.data(), m_count, m_norm, T - fixed);
       candidate = next == T - fixed ? T : std::max(fixed + next, T * (1. + 4e-16));
     }
     if (candidate == T || candidate == infinity) {
       m_iterations = std::max(m_iterations, looks + 1);
+      none = candidate == infinity ? from : none;
       return candidate;
     }
     T = candidate;
   }
   m_iterations = std::max(m_iterations, looks);
+  none = from;
   return infinity; // undecided: another form answers
 }
 
@@ -145,189 +231,232 @@ bool vpMotionUnit::isAtGoal(bool atRest) const noexcept
   return true;
 }
 
-double vpMotionUnit::cruiseNext(double T) const noexcept
-{
-  return m_count == 1 && !m_hasNorm ? m_members[0]->cruise.next(T) : infinity;
-}
-
 double vpMotionUnit::next(double T) noexcept
 {
   m_form = vpTrajectoryForm::Direct;
+  m_used = vpMotionAxis::Direct;
   if (isAtGoal(T > 0.)) {
     m_form = vpTrajectoryForm::Hold;
     return T;
   }
-  double best = search(&vpMotionAxis::direct, T);
+  if (T > m_own) { // comes back inside before anything else
+    return searchStops(T, infinity);
+  }
+  double best = search(vpMotionAxis::Direct, T);
   if (m_allowCruise) {
-    const double cruise = cruiseNext(T);
-    if (cruise < best) {
-      best = cruise;
+    const double cruise = at(0).cruise.next(T);
+    if (cruise < worthwhile * best || (cruise == T && T < best)) { // much sooner, or in time
       m_form = vpTrajectoryForm::Cruise;
-    }
-  }
-  return best < infinity ? best : fallbackNext(T);
-}
-
-double vpMotionUnit::fallbackNext(double T) noexcept
-{
-  for (int attempt = 0; attempt < 2; ++attempt) {
-    if (!m_fallbackReady) {
-      buildFallback();
-    }
-    double best = search(&vpMotionAxis::ramped, T);
-    m_form = vpTrajectoryForm::Ramped;
-    const double cruise = cruiseNext(T);
-    if (cruise < best) {
       best = cruise;
-      m_form = vpTrajectoryForm::Cruise;
     }
-    if (!(best < infinity)) {
-      best = stoppingNext(T);
-      m_form = vpTrajectoryForm::StopAndGo;
-    }
-    if (best < infinity) {
-      return best;
-    }
-    // Only position limits can be in the way now: even stopping at once leaves them.
-    m_droppedPosition = true;
-    for (int i = 0; i < m_count; ++i) {
-      vpAxisTask &task = m_members[static_cast<std::size_t>(i)]->task;
-      task.limits = task.withoutPosition();
-    }
-    buildDirect();
   }
-  return infinity;
+  if (!(best < infinity)) {
+    best = searchRamped(T);
+  }
+  // A detour only where that is quicker than to stop first.
+  const bool stops = !(best < infinity) || (makesDetour(best) && !(best < searchLast(T)));
+  return stops ? searchStops(T, best) : best;
 }
 
-double vpMotionUnit::stoppingNext(double T) noexcept
+bool vpMotionUnit::makesDetour(double T) const noexcept
 {
-  if (!m_stoppingReady) {
-    buildStopping();
-  }
-  return m_stoppingUsable ? search(&vpMotionAxis::stopping, T) : infinity;
-}
-
-void vpMotionUnit::buildFallback() noexcept
-{
-  m_fallbackReady = true;
-  double head = commonRamp(true), tail = commonRamp(false);
-  if (head < 0. && m_braking == 0.) {
-    brake();
-    buildDirect();
-    m_fallbackReady = true;
-    head = 0.; // braking ends with zero acceleration
-  }
-  if (tail < 0.) {
-    m_droppedGoal = true;
-    tail = 0.;
-    for (int i = 0; i < m_count; ++i) {
-      vpAxisTask &task = m_members[static_cast<std::size_t>(i)]->task;
-      task.to[2] = task.to[3] = 0.;
-    }
-    if (m_braking > 0.) {
-      brake();
-    }
-    buildDirect();
-    m_fallbackReady = true;
-  }
   for (int i = 0; i < m_count; ++i) {
-    vpMotionAxis &axis = *m_members[static_cast<std::size_t>(i)];
-    axis.ramped = axis.direct;
-    axis.ramped.rampHead(head);
-    axis.ramped.rampTail(tail);
-    axis.ramped.close(axis.task);
-    if (m_count == 1 && !m_hasNorm) {
-      axis.cruise.open(axis.task, axis.direct);
+    const vpMotionAxis &axis = at(i);
+    const bool bounded = axis.low > -infinity || axis.high < infinity;
+    if (bounded && !(m_form == vpTrajectoryForm::Cruise ? axis.cruise.staysWithin(axis.low, axis.high, T)
+                                                        : axis[m_used].staysWithin(axis.low, axis.high, T))) {
+      return true;
     }
   }
+  return false;
 }
 
-// From the ramped form.
-void vpMotionUnit::buildStopping() noexcept
+double vpMotionUnit::searchRamped(double T) noexcept
 {
-  m_stoppingReady = true;
+  m_form = vpTrajectoryForm::Ramped;
+  m_used = vpMotionAxis::Ramped;
+  if (!m_rampedReady) {
+    buildRamped();
+  }
+  return at(0)[m_used].hasFixedPieces() ? search(m_used, T) : infinity;
+}
+
+// The gentle stop, unless it needs more time than another form would.
+double vpMotionUnit::searchStops(double T, double instead) noexcept
+{
+  m_form = vpTrajectoryForm::StopAndGo;
+  if (T <= m_own) {
+    if (!m_softReady) {
+      buildSoft();
+    }
+    m_used = vpMotionAxis::Soft;
+    const double soft = search(m_used, T);
+    if (soft < infinity && soft <= std::max(T, instead) && !makesDetour(soft)) {
+      return soft;
+    }
+  }
+  m_used = m_last;
+  return searchLast(T);
+}
+
+double vpMotionUnit::searchLast(double T) noexcept
+{
+  if (!m_lastBuilt) {
+    buildLast();
+  }
+  if (!m_lastReady) {
+    close(m_last);
+    m_lastReady = true;
+  }
+  return search(m_last, T);
+}
+
+void vpMotionUnit::buildRamped() noexcept
+{
+  m_rampedReady = true;
+  for (int i = 0; i < m_count; ++i) {
+    vpMotionAxis &axis = at(i);
+    axis[vpMotionAxis::Ramped] = axis[vpMotionAxis::Direct];
+    axis[vpMotionAxis::Ramped].rampHead(m_headRamp);
+    axis[vpMotionAxis::Ramped].rampTail(m_tailRamp);
+  }
+  close(vpMotionAxis::Ramped);
+}
+
+void vpMotionUnit::buildSoft() noexcept
+{
+  constexpr double gentle = 0.25; // a quarter of the usual jerk, about that of a smooth polynomial
+  if (order() == 4) {
+    buildSmooth();
+  }
+  else {
+    buildStop(vpMotionAxis::Soft, gentle);
+  }
+  m_softReady = true;
+  close(vpMotionAxis::Soft);
+}
+
+// A stop with continuous jerk, from the ramped form.
+void vpMotionUnit::buildSmooth() noexcept
+{
+  if (!m_rampedReady) {
+    buildRamped();
+  }
   const double stopHead = commonStop(true), stopTail = commonStop(false);
-  m_stoppingUsable = true;
   for (int i = 0; i < m_count; ++i) {
-    vpMotionAxis &axis = *m_members[static_cast<std::size_t>(i)];
-    axis.stopping = axis.ramped;
-    axis.stopping.stopHead(stopHead);
-    axis.stopping.stopTail(stopTail);
-    axis.stopping.close(axis.task);
-    m_stoppingUsable = m_stoppingUsable && axis.stopping.fixedKeepPosition(axis.task.limits);
-  }
-  if (!m_stoppingUsable && m_count == 1 && !m_hasNorm) {
-    stopHard();
+    vpFramedMotion &soft = at(i)[vpMotionAxis::Soft];
+    soft = at(i)[vpMotionAxis::Ramped];
+    soft.stopHead(stopHead);
+    soft.stopTail(stopTail);
   }
 }
 
-// When the smooth stop is too long for the position limits: stop and launch as hard as the other limits allow, with more
-// jerk than elsewhere where the jerk is free.
-void vpMotionUnit::stopHard() noexcept
+namespace
 {
-  vpMotionAxis &axis = *m_members[0];
-  double jerk = axis.task.brakeJerk();
-  for (int k = 0; k < 4 && !m_stoppingUsable; ++k, jerk = std::min(10. * jerk, axis.task.limits.jerk)) {
-    axis.stopping = axis.direct;
-    if (m_braking == 0.) {
-      axis.stopping.brake(axis.task, 0., 0., jerk);
-    }
-    else {
-      axis.stopping.stopHead(commonStop(true));
-    }
-    axis.stopping.launch(axis.task, jerk);
-    axis.stopping.close(axis.task);
-    m_stoppingUsable = axis.stopping.fixedKeepPosition(axis.task.limits);
-  }
+// The task with the acceleration that it may brake with.
+vpAxisTask harder(vpAxisTask task, double share, double normAcceleration, double hardness)
+{
+  double &a = task.limits.acceleration;
+  a = std::isfinite(a) ? a : task.brakeAcceleration() * std::sqrt(hardness);
+  a = std::isfinite(normAcceleration) ? std::min(a, share * normAcceleration) : a;
+  return task;
 }
 
-// Members of a norm share their ramps, shortened until the norm keeps its limit at the end of the ramp.
-double vpMotionUnit::commonRamp(bool head) noexcept
+} // namespace
+
+// Members of a norm first lose their acceleration, then they slow down with accelerations in proportion to their
+// velocities, so that the norms keep their limits.
+void vpMotionUnit::buildStop(Form form, double hardness) noexcept
 {
-  double common = infinity;
-  bool any = false;
+  double head2 = 0., tail2 = 0., shortest[2] = {0., 0.};
   for (int i = 0; i < m_count; ++i) {
-    const vpMotionAxis &axis = *m_members[static_cast<std::size_t>(i)];
-    // At the tail, time runs backwards: velocities and jerks change sign.
-    const vpAxisState &tail = axis.direct.tail();
-    const vpAxisState x = head ? axis.direct.head() : vpAxisState{tail[0], -tail[1], tail[2], -tail[3]};
-    const double r = rampDuration(x, axis.task);
-    if (r != 0.) {
-      common = std::min(common, r);
-      any = true;
+    const vpAxisTask &task = at(i).task;
+    shortest[0] = std::max(shortest[0], std::abs(task.from[2]) / task.limits.jerk);
+    shortest[1] = std::max(shortest[1], std::abs(task.to[2]) / task.limits.jerk);
+  }
+  for (int i = 0; i < m_count; ++i) {
+    vpMotionAxis &axis = at(i);
+    vpFramedMotion &motion = axis[form];
+    motion.open(axis.task);
+    if (!isSingle()) {
+      motion = axis[vpMotionAxis::Direct]; // with its braking
+      motion.rampHead(m_headRamp > 0. ? std::max(m_headRamp / std::max(hardness, 1.), shortest[0]) : 0.);
+      motion.rampTail(m_tailRamp > 0. ? std::max(m_tailRamp / std::max(hardness, 1.), shortest[1]) : 0.);
     }
-    m_steps[static_cast<std::size_t>(i)] =
-        vpMotionFamily::accelerationStep(x, {x[0], x[1], 0., 0.}, std::max(axis.task.order - 2, 1));
+    head2 += motion.head()[1] * motion.head()[1];
+    tail2 += motion.tail()[1] * motion.tail()[1];
   }
-  if (!any) {
-    return 0.;
+  const double norm = m_hasNorm ? m_norm.acceleration : infinity;
+  double head = 0., tail = 0.;
+  for (int i = 0; i < m_count; ++i) {
+    vpMotionAxis &axis = at(i);
+    vpFramedMotion &motion = axis[form];
+    const vpAxisState from = motion.head(), to = motion.tail();
+    const double headShare = from[1] != 0. ? std::abs(from[1]) / std::sqrt(head2) : 1.;
+    const double tailShare = to[1] != 0. ? std::abs(to[1]) / std::sqrt(tail2) : 1.;
+    const vpAxisTask stop = harder(axis.task, headShare, norm, hardness);
+    const vpAxisTask start = harder(axis.task, tailShare, norm, hardness);
+    motion.brake(stop, 0., 0., stop.brakeJerk(from, hardness));
+    motion.launch(start, start.brakeJerk({to[0], -to[1], to[2], 0.}, hardness));
+    head = std::max(head, motion.headDuration());
+    tail = std::max(tail, motion.tailDuration());
   }
-  for (int k = 0; m_hasNorm && k < 40 && common > 0.; ++k) {
-    if (normNext(m_steps.data(), common) == common) {
-      return common;
-    }
-    common *= 0.5;
+  for (int i = 0; i < m_count && !isSingle(); ++i) {
+    at(i)[form].padHead(head);
+    at(i)[form].padTail(tail);
   }
-  return m_hasNorm ? -1. : common;
 }
 
-double vpMotionUnit::commonStop(bool head) noexcept
+// What always has an answer. It keeps the position limits if it can be hard enough; where the jerk is not limited, up to
+// ten thousand times harder than usual, which is within 1e-4 of what no jerk could better.
+void vpMotionUnit::buildLast() noexcept
 {
+  constexpr double hardest = 1e4;
+  m_lastBuilt = true;
+  m_last = vpMotionAxis::Soft;
+  if (order() == 4) {
+    buildSoft();
+  }
+  if (order() != 4 || !keepsPositions(m_last)) {
+    m_last = vpMotionAxis::Hard;
+    double hardness = 1.;
+    buildStop(m_last, hardness);
+    while (hardness < hardest && !keepsPositions(m_last)) {
+      hardness *= 10.;
+      buildStop(m_last, hardness);
+    }
+  }
+  if (isOutside()) {
+    comeBack();
+  }
+}
+
+// From where the last resort comes to rest to the nearest place inside.
+void vpMotionUnit::comeBack() noexcept
+{
+  const auto inside = [](const vpMotionAxis &axis, double place) {
+    return std::clamp(place, axis.task.minPosition, axis.task.maxPosition);
+  };
   double T = 0.;
   for (int i = 0; i < m_count; ++i) {
-    const vpMotionAxis &axis = *m_members[static_cast<std::size_t>(i)];
-    const vpAxisState x = head ? axis.ramped.head() : axis.ramped.tail();
-    const vpAxisState rest{x[0], 0., 0., 0.};
-    m_steps[static_cast<std::size_t>(i)] = head ? vpMotionFamily::velocityStep(x, rest, axis.task.order - 1)
-                                                : vpMotionFamily::velocityStep(rest, x, axis.task.order - 1);
-    if (x[1] == 0.) {
-      continue;
-    }
+    vpMotionAxis &axis = at(i);
+    const vpAxisState x = axis[m_last].head(), goal{inside(axis, x[0]), 0., 0., 0.};
+    vpMotionFamily &way = m_steps[static_cast<std::size_t>(i)];
+    way = vpMotionFamily::pointToPoint(x, goal, axis.task.order);
     const vpAxisLimits limits = axis.task.withoutPosition();
-    const double lower =
-        std::isfinite(limits.acceleration) ? vpMinimumDuration::lowerBound(x, rest, limits) : axis.task.rampUnit();
-    T = std::max(T, vpMinimumDuration::solve(m_steps[static_cast<std::size_t>(i)], limits, lower).T);
+    T = x[0] == goal[0]
+            ? T
+            : std::max(T, vpMinimumDuration::solve(way, limits, vpMinimumDuration::lowerBound(x, goal, limits)).T);
   }
+  T = commonDuration(T);
+  for (int i = 0; i < m_count && T > 0.; ++i) {
+    at(i)[m_last].go(inside(at(i), at(i)[m_last].head()[0]), T);
+  }
+}
+
+// The smallest duration >= T for which the motions in m_steps keep the norm.
+double vpMotionUnit::commonDuration(double T) noexcept
+{
   for (int k = 0; m_hasNorm && T > 0. && k < vpMinimumDuration::maxIterations; ++k) {
     const double next = normNext(m_steps.data(), T);
     if (next == T || next == infinity) {
@@ -338,19 +467,69 @@ double vpMotionUnit::commonStop(bool head) noexcept
   return T;
 }
 
+// Members of a norm share their ramps, shortened until the norm keeps its limit at the end of the ramp.
+double vpMotionUnit::commonRamp(bool head) noexcept
+{
+  double common = infinity, shortest = 0.;
+  bool any = false;
+  for (int i = 0; i < m_count; ++i) {
+    const vpMotionAxis &axis = at(i);
+    // At the tail, time runs backwards: velocities and jerks change sign.
+    const vpAxisState &tail = axis[vpMotionAxis::Direct].tail();
+    const vpAxisState x = head ? axis[vpMotionAxis::Direct].head() : vpAxisState{tail[0], -tail[1], tail[2], -tail[3]};
+    const double r = rampDuration(x, axis.task);
+    if (r != 0.) {
+      common = std::min(common, r);
+      shortest = std::max(shortest, axis.task.order == 3 ? std::abs(x[2]) / axis.task.limits.jerk : 0.);
+      any = true;
+    }
+    if (m_hasNorm) {
+      m_steps[static_cast<std::size_t>(i)] =
+          vpMotionFamily::accelerationStep(x, {x[0], x[1], 0., 0.}, std::max(axis.task.order - 2, 1));
+    }
+  }
+  if (!any) {
+    return 0.;
+  }
+  for (int k = 0; m_hasNorm && k < 40 && common > 0.; ++k) {
+    if (normNext(m_steps.data(), common) == common) {
+      break;
+    }
+    common = k < 39 ? 0.5 * common : -1.;
+  }
+  return common < shortest * (1. - 1e-9) ? -1. : common;
+}
+
+double vpMotionUnit::commonStop(bool head) noexcept
+{
+  double T = 0.;
+  for (int i = 0; i < m_count; ++i) {
+    const vpMotionAxis &axis = at(i);
+    const vpAxisState x = head ? axis[vpMotionAxis::Ramped].head() : axis[vpMotionAxis::Ramped].tail();
+    const vpAxisState rest{x[0], 0., 0., 0.};
+    m_steps[static_cast<std::size_t>(i)] = head ? vpMotionFamily::velocityStep(x, rest, axis.task.order - 1)
+                                                : vpMotionFamily::velocityStep(rest, x, axis.task.order - 1);
+    if (x[1] == 0.) {
+      continue;
+    }
+    vpAxisLimits limits = axis.task.withoutPosition();
+    limits.jerk = axis.task.brakeJerk(x); // a short stop is no harder than a long one
+    const double lower =
+        std::isfinite(limits.acceleration) ? vpMinimumDuration::lowerBound(x, rest, limits) : axis.task.rampUnit();
+    T = std::max(T, vpMinimumDuration::solve(m_steps[static_cast<std::size_t>(i)], limits, lower).T);
+  }
+  return commonDuration(T);
+}
+
 void vpMotionUnit::emit(vpTrajectoryPlan &plan, int member, int axis, double factor, double T) const noexcept
 {
-  const vpMotionAxis &m = *m_members[static_cast<std::size_t>(member)];
-  switch (m_form) {
-  case vpTrajectoryForm::Cruise:
-    m.direct.emitHead(plan, axis, factor);
-    return m.cruise.emit(plan, axis, factor, T);
-  case vpTrajectoryForm::Ramped:
-    return m.ramped.emit(plan, axis, factor, T);
-  case vpTrajectoryForm::StopAndGo:
-    return m.stopping.emit(plan, axis, factor, T);
-  default:
-    return m.direct.emit(plan, axis, factor, T);
+  const vpMotionAxis &m = at(member);
+  if (m_form == vpTrajectoryForm::Cruise) {
+    m[vpMotionAxis::Direct].emitHead(plan, axis, factor);
+    m.cruise.emit(plan, axis, factor, T);
+  }
+  else {
+    m[m_used].emit(plan, axis, factor, T);
   }
 }
 

@@ -19,14 +19,33 @@ BEGIN_VISP_NAMESPACE
 
 //! One axis with all forms it may take.
 struct vpMotionAxis {
+  //! The forms that have one free polynomial.
+  enum Form {
+    Direct, // nothing but the polynomial
+    Ramped, // acceleration ramps around it
+    Soft,   // a gentle stop, a polynomial from rest to rest, a gentle launch
+    Hard,   // the same as hard as is needed
+    FormCount
+  };
+  [[nodiscard]] vpFramedMotion &operator[](Form form) { return forms[static_cast<std::size_t>(form)]; }
+  [[nodiscard]] const vpFramedMotion &operator[](Form form) const { return forms[static_cast<std::size_t>(form)]; }
+
   vpAxisTask task;
-  vpFramedMotion direct, ramped, stopping;
+  std::array<vpFramedMotion, FormCount> forms;
   vpCruiseMotion cruise;
+  double low = 0., high = 0.; // where it may go while it waits
 };
 
 /*!
  * Finds, for its axes together, the smallest feasible duration that is not below a given one. The single polynomial is
- * preferred; the other forms are built when it has no feasible duration.
+ * preferred; the other forms are tried when it has no feasible duration, or makes a detour: acceleration ramps around it,
+ * a gentle stop and a polynomial from there, and last a stop as hard as is needed.
+ *
+ * That last form has an answer for every duration above its own smallest, because a polynomial from rest to rest keeps
+ * its limits however slow it is, and it leaves the span of start and goal by the braking distance only. No other form may
+ * go beyond the position limits if it does not: so a limit that cannot be kept is exceeded as little as can be. And none
+ * may leave the span by more than the braking distance unless it is quicker than to stop first: so no axis makes a detour
+ * while it waits for the others.
  */
 class vpMotionUnit
 {
@@ -54,32 +73,41 @@ public:
   {
     return m_members[static_cast<std::size_t>(i)];
   }                                                                  //!< A member.
+  [[nodiscard]] bool hasNorm() const { return m_hasNorm; }           //!< It is a group.
   [[nodiscard]] double brakingDuration() const { return m_braking; } //!< s; 0: the start is inside the limits.
   [[nodiscard]] vpTrajectoryForm form() const { return m_form; }     //!< Form of the last next().
   [[nodiscard]] int iterations() const { return m_iterations; }      //!< Most looks of one search since prepare().
-  [[nodiscard]] bool hasDroppedPosition() const { return m_droppedPosition; } //!< Position limits cannot be kept.
-  [[nodiscard]] bool hasDroppedGoalAcceleration() const
-  {
-    return m_droppedGoal;
-  } //!< The goal's acceleration cannot be.
+  [[nodiscard]] bool hasDroppedGoalAcceleration() const { return m_droppedGoal; } //!< It cannot be reached.
   //! Append the motion of \e member (its number here) to the track of an axis.
   void emit(vpTrajectoryPlan &plan, int member, int axis, double factor, double T) const noexcept;
 
 private:
-  using Form = vpFramedMotion vpMotionAxis::*;
+  using Form = vpMotionAxis::Form;
+  [[nodiscard]] vpMotionAxis &at(int i) const { return *m_members[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] bool isSingle() const { return m_count == 1 && !m_hasNorm; }
+  [[nodiscard]] int order() const { return at(0).task.order; }
   [[nodiscard]] double search(Form form, double T) noexcept;
-  [[nodiscard]] double cruiseNext(double T) const noexcept;
-  [[nodiscard]] double fallbackNext(double T) noexcept;
-  [[nodiscard]] double stoppingNext(double T) noexcept;
+  [[nodiscard]] double searchRamped(double T) noexcept;
+  [[nodiscard]] double searchStops(double T, double instead) noexcept;
+  [[nodiscard]] double searchLast(double T) noexcept;
+  [[nodiscard]] bool makesDetour(double T) const noexcept;
   [[nodiscard]] bool isAtGoal(bool atRest) const noexcept;
   [[nodiscard]] bool breaksNorm() const noexcept;
+  [[nodiscard]] bool keepsPositions(Form form) const noexcept;
+  [[nodiscard]] bool isOutside() const noexcept;
   [[nodiscard]] double commonRamp(bool head) noexcept;
   [[nodiscard]] double commonStop(bool head) noexcept;
+  [[nodiscard]] double commonDuration(double T) noexcept;
+  void dropGoalAcceleration() noexcept;
   void brake() noexcept;
-  void buildDirect() noexcept;
-  void buildFallback() noexcept;
-  void buildStopping() noexcept;
-  void stopHard() noexcept;
+  void buildRamped() noexcept;
+  void buildSoft() noexcept;
+  void buildSmooth() noexcept;
+  void buildStop(Form form, double hardness) noexcept;
+  void buildLast() noexcept;
+  void comeBack() noexcept;
+  void boundPositions() noexcept;
+  void close(Form form) noexcept;
   [[nodiscard]] double normNext(const vpMotionFamily *families, double T) noexcept;
 
   std::vector<vpMotionAxis *> m_members;
@@ -87,10 +115,13 @@ private:
   std::vector<const vpMotionFamily *> m_families;
   int m_count = 0;
   vpNormLimits m_norm;
-  bool m_hasNorm = false, m_allowCruise = false;
-  bool m_fallbackReady = false, m_stoppingReady = false, m_stoppingUsable = false; // built when first needed
-  bool m_droppedPosition = false, m_droppedGoal = false;
-  double m_braking = 0.;
+  bool m_hasNorm = false, m_allowCruise = false, m_droppedGoal = false;
+  bool m_rampedReady = false, m_softReady = false, m_lastBuilt = false, m_lastReady = false;
+  Form m_last = vpMotionAxis::Hard; // has an answer for every duration
+  Form m_used = vpMotionAxis::Direct;
+  std::array<double, vpMotionAxis::FormCount> m_none{}; // from here on a form is known to be infeasible
+  double m_braking = 0., m_headRamp = 0., m_tailRamp = 0.;
+  double m_own = 0.; // longer than this, a start outside its position limits comes back before anything else
   int m_iterations = 0;
   vpTrajectoryForm m_form = vpTrajectoryForm::Direct;
 };

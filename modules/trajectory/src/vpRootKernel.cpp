@@ -136,9 +136,9 @@ int rootsBetween(const double *c, int degree, const double *critical, int critic
   return count;
 }
 
-bool isSurelyWithin(const double *c, int degree, double bound) noexcept
+void enclose(const double *c, int degree, double &low, double &high) noexcept
 {
-  double b[9];
+  double b[9] = {};
   for (int k = 0; k <= degree; ++k) {
     b[k] = c[k] * inverseBinomial[degree][k];
   }
@@ -147,12 +147,18 @@ bool isSurelyWithin(const double *c, int degree, double bound) noexcept
       b[k] += b[k - 1];
     }
   }
-  for (int k = 0; k <= degree; ++k) {
-    if (!(std::abs(b[k]) <= bound)) {
-      return false;
-    }
+  low = high = b[0];
+  for (int k = 1; k <= degree; ++k) {
+    low = std::min(low, b[k]);
+    high = std::max(high, b[k]);
   }
-  return true;
+}
+
+bool isSurelyWithin(const double *c, int degree, double bound) noexcept
+{
+  double low = 0., high = 0.;
+  enclose(c, degree, low, high);
+  return low >= -bound && high <= bound;
 }
 
 int allRoots(const double *c, int degree, double *out) noexcept

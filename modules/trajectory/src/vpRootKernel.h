@@ -48,10 +48,10 @@ enum class Wanted {
 int rootsBetween(const double *c, int degree, const double *critical, int criticalCount, Wanted wanted,
                  double *out) noexcept;
 
-/*!
- * True when |polynomial| <= bound on [0, 1] is certain from its Bernstein coefficients, which enclose it. False says
- * nothing. Degree <= 8.
- */
+//! Bounds of the polynomial on [0, 1]: the extremes of its Bernstein coefficients, which enclose it. Degree <= 8.
+void enclose(const double *c, int degree, double &low, double &high) noexcept;
+
+//! True when |polynomial| <= bound on [0, 1] is certain from enclose(). False says nothing.
 bool isSurelyWithin(const double *c, int degree, double bound) noexcept;
 
 //! All roots in [0, 1], touching ones included; \e out has room for \e degree numbers.

@@ -9,6 +9,12 @@
 
 BEGIN_VISP_NAMESPACE
 
+namespace
+{
+constexpr double longestStep = 1e9;                           // s
+constexpr double shortestThesis = 1e-9, longestThesis = 1e12; // s
+} // namespace
+
 vpTrajectoryFollower::vpTrajectoryFollower(int axes, int maxVias)
   : m_task(axes, maxVias), m_rest(axes, maxVias), m_planner(axes, maxVias), m_plan(axes, maxVias)
 {}
@@ -20,7 +26,7 @@ vpTrajectoryStatus vpTrajectoryFollower::update(const vpTrajectoryProblem &probl
     return advance({vpTrajectoryResult::InvalidInput, vpTrajectoryFault::AxisCount, m_plan.axes(), 1. * problem.axes()},
                    dt);
   }
-  if (!(dt > 0.) || !std::isfinite(dt)) {
+  if (!(dt > 0. && dt <= longestStep)) {
     return m_status = {vpTrajectoryResult::InvalidInput, vpTrajectoryFault::TimeStep, -1, dt};
   }
   const Event event = detect(problem);
@@ -45,7 +51,7 @@ vpTrajectoryStatus vpTrajectoryFollower::update(const vpTrajectoryProblem &probl
 vpTrajectoryStatus vpTrajectoryFollower::advance(const vpTrajectoryStatus &fault, double dt) noexcept
 {
   m_newPlan = false;
-  if (m_started && dt > 0. && std::isfinite(dt)) {
+  if (m_started && dt > 0. && dt <= longestStep) {
     tick(dt);
   }
   return m_status = fault;
@@ -123,6 +129,15 @@ double vpTrajectoryFollower::floorOf(const vpTrajectoryProblem &problem, Event e
   return std::max(options.minimumDuration, keep && m_started ? remaining() : 0.);
 }
 
+bool vpTrajectoryFollower::isSinglePolynomial() const noexcept
+{
+  bool single = m_plan.form() == vpTrajectoryForm::Direct;
+  for (int i = 0; i < m_plan.axes(); ++i) {
+    single = single && m_plan.segments(i) == 1;
+  }
+  return single;
+}
+
 void vpTrajectoryFollower::replan(const vpTrajectoryProblem &problem, Event event) noexcept
 {
   const double left = m_started ? remaining() : 0.;
@@ -146,7 +161,9 @@ void vpTrajectoryFollower::replan(const vpTrajectoryProblem &problem, Event even
     iterateThesis();
     return;
   }
-  m_planStatus = m_planner.plan(m_rest, floor, m_plan);
+  // Without an event, a single polynomial is planned again as it is.
+  m_planStatus = event == Event::Rate && isSinglePolynomial() ? m_planner.planDirect(m_rest, floor, m_plan)
+                                                              : m_planner.plan(m_rest, floor, m_plan);
 }
 
 // Some steps of (6.6), from the commanded state, until no axis asks for a change.
@@ -167,20 +184,21 @@ void vpTrajectoryFollower::iterateThesis() noexcept
       const vpMotionFamily motion = vpMotionFamily::pointToPoint(m_rest.start(i), m_rest.goal(i), order);
       extra = std::max(extra, vpThesisDuration::extraTime(motion, m_rest.limits(i), gains, m_thesisT));
     }
-    m_thesisT += extra;
+    // Where the iteration runs away, the time stays one that can be computed with; NaN becomes the shortest.
+    m_thesisT = std::min(longestThesis, std::max(shortestThesis, m_thesisT + extra));
     converged = std::abs(extra) < 1e-10 * m_thesisT;
   }
   m_thesisBusy = !converged && m_thesisT > options.freeze;
   m_newPlan = true;
-  m_planner.planDirect(m_rest, m_thesisT, m_plan);
-  m_planStatus = {vpTrajectoryResult::Working, vpTrajectoryFault::None, -1, 0.};
+  m_planStatus = m_planner.planDirect(m_rest, m_thesisT, m_plan);
 }
 
 vpTrajectoryStatus vpTrajectoryFollower::currentStatus(bool arrivedBefore) const noexcept
 {
   if (m_clock >= m_plan.duration()) {
-    return {arrivedBefore ? vpTrajectoryResult::Holding : vpTrajectoryResult::Finished, vpTrajectoryFault::None, -1,
-            0.};
+    // A plan that cannot keep its limits may exceed them after the arrival too.
+    return {arrivedBefore ? vpTrajectoryResult::Holding : vpTrajectoryResult::Finished, vpTrajectoryFault::None, -1, 0.,
+            m_planStatus.isGood() ? vpLimitExcess() : m_planStatus.excess};
   }
   if (m_planStatus.result == vpTrajectoryResult::Braking && m_clock >= m_plan.brakingEnd()) {
     return {vpTrajectoryResult::Working, vpTrajectoryFault::None, -1, 0.};

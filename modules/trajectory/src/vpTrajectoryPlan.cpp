@@ -14,8 +14,13 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-// At most: braking (4) and its padding, a stop, one polynomial, a launch (4).
-constexpr int segmentsPerLeg = 12;
+// At most: braking (4) and its padding, a ramp, a stop, a way back inside, one polynomial, a launch (4).
+constexpr int segmentsPerLeg = 13;
+// After the arrival: a ramp, constant velocity, braking (4).
+constexpr int segmentsAfter = 6;
+
+// What times differ by when they are sums of different durations that are equal in theory.
+double rounding(double t) { return 1e-14 * t; }
 
 vpAxisState jetInTime(const vpPolynomial &p, double s, double duration)
 {
@@ -44,7 +49,8 @@ const char *toString(vpTrajectoryForm form)
   return "";
 }
 
-vpTrajectoryPlan::vpTrajectoryPlan(int axes, int maxVias) : m_axes(axes), m_capacity(segmentsPerLeg * (maxVias + 1))
+vpTrajectoryPlan::vpTrajectoryPlan(int axes, int maxVias)
+  : m_axes(axes), m_capacity(segmentsPerLeg * (maxVias + 1) + segmentsAfter)
 {
   if (axes < 1) {
     throw vpException(vpException::badValue, "a plan has %d axes, must be >= 1", axes);
@@ -75,25 +81,63 @@ void vpTrajectoryPlan::begin(int axis, double q, vpTrajectoryForm form) noexcept
 void vpTrajectoryPlan::append(int axis, const vpPolynomial &relative, double duration) noexcept
 {
   Track &track = m_tracks[static_cast<std::size_t>(axis)];
-  if (!(duration > 0.) || track.count >= m_capacity) {
+  const int used = track.count + track.coasting;
+  if (!(duration > 0.) || used >= m_capacity) {
     return;
   }
-  vpTrajectorySegment &segment = m_segments[index(axis, track.count)];
-  ++track.count;
-  segment.begin = track.duration;
+  vpTrajectorySegment &segment = m_segments[index(axis, used)];
+  ++(track.finished ? track.coasting : track.count);
+  segment.begin = track.end;
   segment.duration = duration;
   segment.p = relative;
   segment.p[0] += track.place;
   track.place += relative.value(1.) - relative[0];
-  track.duration += duration;
+  track.end += duration;
+  track.coast = segment.p.jet(1.)[1] / duration;
 }
 
-void vpTrajectoryPlan::finish(int axis, const vpAxisState &goal, double rampTime) noexcept
+void vpTrajectoryPlan::appendRamp(int axis, const vpVelocityRamp &ramp, const vpAxisState &x) noexcept
+{
+  double v = x[1], a = x[2];
+  for (int i = 0; i < ramp.count(); ++i) {
+    const double d = ramp.piece(i).duration, j = ramp.piece(i).jerk;
+    append(axis, {0., v * d, a * d * d / 2., j * d * d * d / 6.}, d);
+    v += d * (a + d * j / 2.);
+    a += d * j;
+  }
+}
+
+void vpTrajectoryPlan::endLeg(int axis, double t) noexcept { m_tracks[static_cast<std::size_t>(axis)].end = t; }
+
+void vpTrajectoryPlan::finish(int axis, const vpAxisState &goal) noexcept
 {
   Track &track = m_tracks[static_cast<std::size_t>(axis)];
+  track.finished = true;
   track.goal = goal;
-  track.rampTime = rampTime;
+  track.place = goal[0];
+  track.coast = goal[1];
+  track.duration = track.end;
   m_duration = std::max(m_duration, track.duration);
+}
+
+bool vpTrajectoryPlan::isFinite() const noexcept
+{
+  for (int axis = 0; axis < m_axes; ++axis) {
+    const Track &track = m_tracks[static_cast<std::size_t>(axis)];
+    double sum = track.end + track.place + track.coast;
+    for (int i = 0; i < track.count + track.coasting; ++i) {
+      const vpTrajectorySegment &s = segment(axis, i);
+      const double r = 1. / s.duration;
+      sum += r * r * r; // what jets are multiplied by
+      for (int k = 0; k <= s.p.degree(); ++k) {
+        sum += std::abs(s.p[k]) * r * r * r;
+      }
+    }
+    if (!std::isfinite(sum)) {
+      return false;
+    }
+  }
+  return true;
 }
 
 void vpTrajectoryPlan::addVia(double t) noexcept
@@ -115,22 +159,17 @@ vpTrajectoryForm vpTrajectoryPlan::form() const
 vpAxisState vpTrajectoryPlan::at(int axis, double t) const noexcept
 {
   const Track &track = m_tracks[static_cast<std::size_t>(axis)];
-  if (t >= track.duration) {
-    // After the arrival: the acceleration goes down linearly, then the velocity stays.
-    const double after = t - track.duration, r = track.rampTime;
-    const double ramp = std::min(after, r);
-    const double slope = r > 0. ? -track.goal[2] / r : 0.;
-    const double a = r > 0. ? track.goal[2] : 0.;
+  const int last = track.count + track.coasting - 1;
+  if (t == track.duration || last < 0) {
     vpAxisState x = track.goal;
-    x[0] += ramp * (track.goal[1] + ramp * (a / 2. + ramp * slope / 6.));
-    x[1] += ramp * (a + ramp * slope / 2.);
-    x[2] = after == 0. ? track.goal[2] : a + ramp * slope;
-    x[3] = after == 0. ? track.goal[3] : (after < r ? slope : 0.);
-    x[0] += (after - ramp) * x[1];
+    x[0] += std::max(t - track.duration, 0.) * track.coast;
     return x;
   }
-  int i = 0;
-  while (i + 1 < track.count && t >= segment(axis, i + 1).begin) {
+  if (t >= track.end) {
+    return {track.place + (t - track.end) * track.coast, track.coast, 0., 0.};
+  }
+  int i = t > track.duration ? track.count : 0;
+  while (i < last && t >= segment(axis, i + 1).begin) {
     ++i;
   }
   const vpTrajectorySegment &s = segment(axis, i);
@@ -161,49 +200,74 @@ vpTrajectoryPeaks vpTrajectoryPlan::peaks(int axis) const noexcept
   return peaks;
 }
 
-double vpTrajectoryPlan::nextBreak(double t) const noexcept
+double vpTrajectoryPlan::endOf(int axis, int i) const noexcept
+{
+  const Track &track = m_tracks[static_cast<std::size_t>(axis)];
+  if (i + 1 == track.count) {
+    return track.duration;
+  }
+  return i + 1 < track.count + track.coasting ? segment(axis, i + 1).begin : track.end;
+}
+
+double vpTrajectoryPlan::nextBreak(double t, double until) const noexcept
 {
   // Axes add up their segments on their own; what differs by rounding only is one break.
-  const double later = t + 1e-12 * m_duration;
-  double next = m_duration;
+  const double later = t + rounding(until);
+  double next = until;
   for (int axis = 0; axis < m_axes; ++axis) {
-    for (int i = 0; i < segments(axis); ++i) {
-      const double end = segment(axis, i).begin + segment(axis, i).duration;
+    const int count = segments(axis) + coasting(axis);
+    for (int i = 0; i < count; ++i) {
+      const double end = endOf(axis, i);
       if (end > later) {
         next = std::min(next, end);
         break;
       }
     }
   }
-  return next;
+  return until - next > rounding(until) ? next : until;
 }
 
-vpPolynomial vpTrajectoryPlan::between(int axis, double from, double to) const noexcept
+vpPolynomial vpTrajectoryPlan::between(int axis, double from, double to, double &duration) const noexcept
 {
-  const double middle = 0.5 * (from + to);
-  for (int i = 0; i < segments(axis); ++i) {
+  const double middle = 0.5 * (from + to), same = rounding(to);
+  const int count = segments(axis) + coasting(axis);
+  duration = to - from;
+  for (int i = 0; i < count; ++i) {
     const vpTrajectorySegment &s = segment(axis, i);
-    if (middle < s.begin + s.duration) {
-      return s.p.composed((from - s.begin) / s.duration, (to - from) / s.duration);
+    const double end = endOf(axis, i);
+    if (middle < end) {
+      // From end to end where the times agree to rounding, so that the ends are met whatever the times are rounded to.
+      const double first = std::abs(from - s.begin) <= same ? 0. : (from - s.begin) / s.duration;
+      const double last = std::abs(to - end) <= same ? 1. : (to - s.begin) / s.duration;
+      duration = (last - first) * s.duration;
+      return s.p.composed(first, last - first);
     }
   }
   // Arrived before the others (independent axes); a goal velocity is kept.
   return vpPolynomial{at(axis, from)[0], at(axis, middle)[1] * (to - from)};
 }
 
-double vpTrajectoryPlan::peakNorm(unsigned long long axes, int order) const noexcept
+double vpTrajectoryPlan::peakNorm(unsigned long long axes, int order, double begin) const noexcept
 {
+  // The derivative in time, on the clock of the interval.
   const auto part = [order, this](int axis, double from, double to) {
-    vpPolynomial x = between(axis, from, to);
+    double duration = 0.;
+    vpPolynomial x = between(axis, from, to, duration);
     for (int k = 0; k < order; ++k) {
       x = x.derivative();
+      for (int i = 0; i <= x.degree(); ++i) {
+        x[i] /= duration;
+      }
     }
     return x;
   };
   const auto isMember = [axes](int axis) { return axis < 64 && (axes >> axis & 1) != 0; };
-  double peak = 0.;
-  for (double t = 0.; t < m_duration;) {
-    const double end = nextBreak(t);
+  double peak = 0., until = m_duration;
+  for (const Track &track : m_tracks) {
+    until = std::max(until, track.end);
+  }
+  for (double t = begin; t < until;) {
+    const double end = nextBreak(t, until);
     vpPolynomial squared;
     for (int axis = 0; axis < m_axes; ++axis) {
       if (isMember(axis)) {
@@ -220,26 +284,27 @@ double vpTrajectoryPlan::peakNorm(unsigned long long axes, int order) const noex
     for (int axis = 0; axis < m_axes; ++axis) {
       norm = isMember(axis) ? std::hypot(norm, part(axis, t, end).value(s)) : norm;
     }
-    peak = std::max(peak, norm / std::pow(end - t, order));
+    peak = std::max(peak, norm);
     t = end;
   }
   return peak;
 }
 
-std::vector<vpTrajectoryPiece> vpTrajectoryPlan::pieces() const
+std::vector<vpTrajectoryPiece> vpTrajectoryPlan::pieces(double until) const
 {
   std::vector<vpTrajectoryPiece> pieces;
-  for (double t = 0.; t < m_duration;) {
+  for (double t = 0.; t < until;) {
     vpTrajectoryPiece piece;
     piece.begin = t;
-    piece.end = nextBreak(t);
+    piece.end = nextBreak(t, until);
     for (int axis = 0; axis < m_axes; ++axis) {
-      const vpPolynomial p = between(axis, t, piece.end);
+      double duration = 0.;
+      const vpPolynomial p = between(axis, t, piece.end, duration);
       std::vector<double> c(p.data(), p.data() + p.degree() + 1);
       double power = 1.;
       for (double &x : c) {
         x /= power;
-        power *= piece.end - t;
+        power *= duration; // not the difference of two rounded times
       }
       piece.coefficients.push_back(std::move(c));
     }

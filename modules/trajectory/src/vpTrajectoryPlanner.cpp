@@ -4,6 +4,8 @@
  */
 #include "vpTrajectoryPlannerImpl.h"
 
+#include "vpLimitCheck.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -36,36 +38,39 @@ void vpTrajectoryPlanner::Impl::setTasks(const vpTrajectoryProblem &problem)
     task.order = orderOf(problem.options.continuity);
     task.limits = problem.limits(i);
     // Places count from the start of the leg: differences of near numbers are exact, and the digits stay.
-    const double shift = problem.start(i)[0] - from[k][0];
-    task.limits.minPosition = std::min(task.limits.minPosition + shift, 0.); // a start outside may come back
-    task.limits.maxPosition = std::max(task.limits.maxPosition + shift, 0.);
+    task.minPosition = task.limits.minPosition -= from[k][0];
+    task.maxPosition = task.limits.maxPosition -= from[k][0];
     if (problem.options.continuity == vpTrajectoryContinuity::C1) {
       task.limits.jerk = infinity; // the acceleration jumps anyway
+    }
+    if (problem.options.policy == vpReplanPolicy::FixedArrival) {
+      task.timeUnit = std::min(0.05, 0.1 * problem.options.arrivalTime);
     }
     task.from = from[k];
     task.to = to[k];
     task.to[0] -= from[k][0];
     task.from[0] = 0.;
   }
-  makeUnits(problem.options);
+  makeUnits(problem);
 }
 
 // One unit for every axis or group of axes under a norm.
-void vpTrajectoryPlanner::Impl::makeUnits(const vpTrajectoryOptions &options)
+void vpTrajectoryPlanner::Impl::makeUnits(const vpTrajectoryProblem &problem)
 {
-  straight = options.synchronisation == vpSynchronisation::Straight && makeStraight(options);
+  straight = problem.options.synchronisation == vpSynchronisation::Straight && makeStraight(problem);
   if (straight) {
     return;
   }
   unitCount = 0;
   std::uint64_t grouped = 0;
-  for (const vpAxisGroup &group : options.groups) {
+  for (int g = 0; g < vpTrajectoryOptions::maxGroups; ++g) {
+    const vpAxisGroup &group = problem.options.groups[static_cast<std::size_t>(g)];
     if (group.axes == 0) {
       continue;
     }
     vpMotionUnit &unit = units[static_cast<std::size_t>(unitCount++)];
     unit.clear();
-    unit.setNorm({group.maxSpeed, group.maxAcceleration});
+    unit.setNorm(problem.groupLimits(g));
     for (int i = 0; i < n; ++i) {
       if (group.contains(i)) {
         unit.add(&axis(i));
@@ -84,21 +89,21 @@ void vpTrajectoryPlanner::Impl::makeUnits(const vpTrajectoryOptions &options)
 
 // All axes as one: the way along the straight line, with the tightest of their limits. Possible when the line is defined
 // and every given derivative lies on it.
-bool vpTrajectoryPlanner::Impl::makeStraight(const vpTrajectoryOptions &options)
+bool vpTrajectoryPlanner::Impl::makeStraight(const vpTrajectoryProblem &problem)
 {
   double length = 0.;
   for (int i = 0; i < n; ++i) {
     length = std::hypot(length, axis(i).task.to[0]);
   }
-  if (length == 0.) {
-    return false;
-  }
   vpAxisTask line;
   line.order = axis(0).task.order;
+  line.timeUnit = axis(0).task.timeUnit;
   line.to[0] = length;
+  line.minPosition = -infinity;
+  line.maxPosition = infinity;
   for (int i = 0; i < n; ++i) {
     const vpAxisTask &task = axis(i).task;
-    const double u = direction[static_cast<std::size_t>(i)] = task.to[0] / length;
+    const double u = direction[static_cast<std::size_t>(i)] = length > 0. ? task.to[0] / length : 0.;
     for (std::size_t k = 1; k < 4; ++k) {
       line.from[k] += u * task.from[k];
       line.to[k] += u * task.to[k];
@@ -109,28 +114,28 @@ bool vpTrajectoryPlanner::Impl::makeStraight(const vpTrajectoryOptions &options)
     line.limits.velocity = std::min(line.limits.velocity, task.limits.velocity / std::abs(u));
     line.limits.acceleration = std::min(line.limits.acceleration, task.limits.acceleration / std::abs(u));
     line.limits.jerk = std::min(line.limits.jerk, task.limits.jerk / std::abs(u));
-    const double a = task.limits.minPosition / u, b = task.limits.maxPosition / u;
-    line.limits.minPosition = std::max(line.limits.minPosition, std::min(a, b));
-    line.limits.maxPosition = std::min(line.limits.maxPosition, std::max(a, b));
+    const double a = task.minPosition / u, b = task.maxPosition / u;
+    line.minPosition = std::max(line.minPosition, std::min(a, b));
+    line.maxPosition = std::min(line.maxPosition, std::max(a, b));
   }
-  for (std::size_t k = 1; k < 4; ++k) {
-    for (int i = 0; i < n; ++i) {
-      const vpAxisTask &task = axis(i).task;
-      const double u = direction[static_cast<std::size_t>(i)];
-      const double slack = 1e-9 * (std::abs(line.from[k]) + std::abs(line.to[k]));
-      if (std::abs(task.from[k] - u * line.from[k]) > slack || std::abs(task.to[k] - u * line.to[k]) > slack) {
-        return false;
-      }
-    }
+  bool onLine = true;
+  for (int i = 0; i < n; ++i) {
+    onLine = onLine && !isAcross(axis(i).task, line, i);
   }
-  for (const vpAxisGroup &group : options.groups) {
+  if (!onLine || length == 0.) {
+    return false;
+  }
+  for (int g = 0; g < vpTrajectoryOptions::maxGroups; ++g) {
+    const vpNormLimits limits = problem.groupLimits(g);
     double share = 0.;
     for (int i = 0; i < n; ++i) {
-      share = group.contains(i) ? std::hypot(share, direction[static_cast<std::size_t>(i)]) : share;
+      share = problem.options.groups[static_cast<std::size_t>(g)].contains(i)
+                  ? std::hypot(share, direction[static_cast<std::size_t>(i)])
+                  : share;
     }
     if (share > 0.) {
-      line.limits.velocity = std::min(line.limits.velocity, group.maxSpeed / share);
-      line.limits.acceleration = std::min(line.limits.acceleration, group.maxAcceleration / share);
+      line.limits.velocity = std::min(line.limits.velocity, limits.velocity / share);
+      line.limits.acceleration = std::min(line.limits.acceleration, limits.acceleration / share);
     }
   }
   axis(n).task = line;
@@ -138,6 +143,29 @@ bool vpTrajectoryPlanner::Impl::makeStraight(const vpTrajectoryOptions &options)
   units[0].clear();
   units[0].add(&axis(n));
   return true;
+}
+
+// The axis has a derivative that is not its share of that along the line; noted as a fault.
+bool vpTrajectoryPlanner::Impl::isAcross(const vpAxisTask &task, const vpAxisTask &line, int i)
+{
+  const auto a = static_cast<std::size_t>(i);
+  const double u = direction[a];
+  // The direction is a difference of places, which are rounded.
+  const double rounded = 4. * std::numeric_limits<double>::epsilon() * (std::abs(from[a][0]) + std::abs(to[a][0]));
+  for (std::size_t k = 1; k < static_cast<std::size_t>(task.order); ++k) {
+    const double pairs[2][2] = {{task.from[k], line.from[k]}, {task.to[k], line.to[k]}};
+    for (const auto &x : pairs) {
+      const double across = x[0] - u * x[1];
+      const double slack = 1e-10 * std::abs(x[0]) + (line.to[0] > 0. ? rounded / line.to[0] * std::abs(x[1]) : 0.);
+      if (!(std::abs(across) <= slack)) {
+        fault.fault = vpTrajectoryFault::NotStraight;
+        fault.index = i;
+        fault.value = across;
+        return true;
+      }
+    }
+  }
+  return false;
 }
 
 double vpTrajectoryPlanner::Impl::searchLeg(const vpTrajectoryOptions &options, double floor, bool independent)
@@ -155,6 +183,7 @@ double vpTrajectoryPlanner::Impl::searchLeg(const vpTrajectoryOptions &options, 
   }
   else {
     // To a fixed point from below: a longer duration may be infeasible for an axis that was content with a shorter one.
+    // Each time an axis takes another form, of which it has few, so this ends.
     int content = 0;
     for (int i = 0; content < unitCount && i < 100 * unitCount; ++i) {
       const double next = units[static_cast<std::size_t>(i % unitCount)].next(T);
@@ -172,18 +201,26 @@ void vpTrajectoryPlanner::Impl::noteFaults()
   for (int u = 0; u < unitCount; ++u) {
     const vpMotionUnit &unit = units[static_cast<std::size_t>(u)];
     iterations = std::max(iterations, unit.iterations());
-    if (unit.hasDroppedPosition() || unit.hasDroppedGoalAcceleration()) {
+    if (unit.hasDroppedGoalAcceleration()) {
       const int i = straight ? 0 : static_cast<int>(unit.member(0) - axes.data());
-      const bool position = unit.hasDroppedPosition();
-      fault = {vpTrajectoryResult::NoFeasibleDuration,
-               position ? vpTrajectoryFault::PositionUnreachable : vpTrajectoryFault::GoalContradiction, i,
-               position ? from[static_cast<std::size_t>(i)][0] : to[static_cast<std::size_t>(i)][2]};
+      fault = {vpTrajectoryResult::NoFeasibleDuration, vpTrajectoryFault::GoalContradiction, i,
+               to[static_cast<std::size_t>(i)][2]};
     }
   }
 }
 
+double vpTrajectoryPlanner::Impl::groupBraking() const
+{
+  double longest = 0.;
+  for (int u = 0; u < unitCount; ++u) {
+    const vpMotionUnit &unit = units[static_cast<std::size_t>(u)];
+    longest = unit.hasNorm() ? std::max(longest, unit.brakingDuration()) : longest;
+  }
+  return longest;
+}
+
 // Append the present leg to the tracks.
-void vpTrajectoryPlanner::Impl::emitLeg(vpTrajectoryPlan &plan, bool viaLeg)
+void vpTrajectoryPlanner::Impl::emitLeg(vpTrajectoryPlan &plan, double begin, bool viaLeg)
 {
   for (int u = 0; u < unitCount; ++u) {
     const vpMotionUnit &unit = units[static_cast<std::size_t>(u)];
@@ -194,6 +231,7 @@ void vpTrajectoryPlanner::Impl::emitLeg(vpTrajectoryPlan &plan, bool viaLeg)
         plan.begin(i, from[static_cast<std::size_t>(i)][0], unit.form());
       }
       unit.emit(plan, straight ? 0 : m, i, straight ? direction[static_cast<std::size_t>(i)] : 1., T);
+      plan.endLeg(i, begin + T);
     }
   }
 }
@@ -202,15 +240,115 @@ void vpTrajectoryPlanner::Impl::finish(const vpTrajectoryProblem &problem, vpTra
 {
   for (int i = 0; i < n; ++i) {
     vpAxisState goal = problem.goal(i);
-    if (fault.fault == vpTrajectoryFault::GoalContradiction && axis(i).task.to[2] == 0.) {
-      goal[2] = goal[3] = 0.;
+    const vpAxisState &planned = axis(straight ? n : i).task.to;
+    const int given = 2 + static_cast<int>(problem.options.continuity);
+    for (int k = 2; k < 4; ++k) { // what the continuity does not reach, and what had to be dropped
+      double &x = goal[static_cast<std::size_t>(k)];
+      x = k >= given || planned[static_cast<std::size_t>(k)] == 0. ? 0. : x;
     }
-    if (problem.options.continuity == vpTrajectoryContinuity::C1) {
-      goal[2] = goal[3] = 0.;
-    }
-    plan.finish(i, goal, std::max(rampDuration(goal, axis(i).task), 0.));
+    plan.finish(i, goal);
+    coast(i, goal, coastingRamp(problem, i), plan);
   }
   plan.setIterations(iterations);
+}
+
+// The axis's own ramp, or the one that its group has in common: at the end of it |v + a r/2| is the limit at most.
+double vpTrajectoryPlanner::Impl::coastingRamp(const vpTrajectoryProblem &problem, int i) const
+{
+  const auto own = [&](int m) {
+    vpAxisTask task = axes[static_cast<std::size_t>(m)].task;
+    task.order = std::min(task.order, 3);
+    const vpAxisState goal = problem.goal(m);
+    return goal[2] != 0. ? std::max(rampDuration(goal, task), 0.) : infinity;
+  };
+  double longest = own(i);
+  for (int g = 0; g < vpTrajectoryOptions::maxGroups; ++g) {
+    const double limit = problem.groupLimits(g).velocity;
+    if (!problem.options.groups[static_cast<std::size_t>(g)].contains(i) || !std::isfinite(limit)) {
+      continue;
+    }
+    double vv = 0., va = 0., aa = 0.;
+    for (int m = 0; m < n; ++m) {
+      const vpAxisState x = problem.goal(m);
+      if (problem.options.groups[static_cast<std::size_t>(g)].contains(m)) {
+        vv += x[1] * x[1];
+        va += x[1] * x[2];
+        aa += x[2] * x[2];
+        longest = std::min(longest, own(m));
+      }
+    }
+    const double room = std::max(limit * limit - vv, 0.), root = std::sqrt(va * va + aa * room);
+    longest = aa > 0. ? std::min(longest, va > 0. ? 2. * room / (root + va) : 2. * (root - va) / aa) : longest;
+  }
+  return longest;
+}
+
+// After the arrival: the acceleration goes down linearly, the velocity stays, and the axis brakes where it would leave
+// its position limits otherwise.
+void vpTrajectoryPlanner::Impl::coast(int i, const vpAxisState &goal, double ramp, vpTrajectoryPlan &plan)
+{
+  const vpAxisTask &task = axis(i).task;
+  const double r = goal[2] != 0. ? ramp : 0.;
+  vpAxisState x{goal[0], goal[1] + 0.5 * r * goal[2], 0., 0.};
+  x[0] += r * (goal[1] + r * goal[2] / 3.);
+  const double wall = from[static_cast<std::size_t>(i)][0] + (x[1] > 0. ? task.maxPosition : task.minPosition);
+  const auto brakeFrom = [&](const vpAxisState &y) {
+    return vpVelocityRamp(y[1], y[2], 0., task.brakeAcceleration(), task.brakeJerk(y));
+  };
+  vpVelocityRamp stop;
+  double constant = infinity;
+  if (x[1] != 0. && std::isfinite(wall)) {
+    stop = brakeFrom(x);
+    constant = (wall - stop.at(x[0], stop.duration())[0]) / x[1];
+  }
+  if (constant >= 0.) {
+    plan.append(i, {0., goal[1] * r, goal[2] * r * r / 2., -goal[2] * r * r / 6.}, r);
+  }
+  else {
+    x = goal;
+    stop = brakeFrom(x);
+  }
+  if (std::isfinite(constant)) {
+    plan.append(i, {0., x[1] * constant}, constant);
+    x[0] += std::max(constant, 0.) * x[1];
+    plan.appendRamp(i, stop, x);
+    plan.rest(i);
+  }
+}
+
+// When all else fails: to rest, as fast as the limits allow.
+void vpTrajectoryPlanner::Impl::stopAll(const vpTrajectoryProblem &problem, vpTrajectoryPlan &plan)
+{
+  plan.clear();
+  fault = {vpTrajectoryResult::NoFeasibleDuration, vpTrajectoryFault::NoMotion, -1, 0.};
+  for (int i = 0; i < n; ++i) {
+    vpAxisTask task;
+    task.limits = problem.limits(i);
+    task.order = orderOf(problem.options.continuity);
+    task.from = problem.start(i);
+    plan.begin(i, task.from[0], vpTrajectoryForm::StopAndGo);
+    const vpVelocityRamp stop(task.from[1], task.from[2], 0., task.brakeAcceleration(), task.brakeJerk(task.from));
+    plan.appendRamp(i, stop, task.from);
+    plan.finish(i, {stop.at(task.from[0], stop.duration())[0], 0., 0., 0.});
+  }
+}
+
+vpTrajectoryStatus vpTrajectoryPlanner::Impl::judge(const vpTrajectoryProblem &problem, vpTrajectoryPlan &plan)
+{
+  if (!plan.isFinite()) {
+    stopAll(problem, plan);
+  }
+  double brakingEnd = 0.;
+  vpTrajectoryStatus status = vpLimitCheck(problem, plan).judge(braking, brakingEnd);
+  plan.setBrakingEnd(brakingEnd);
+  const bool worse = fault.result == vpTrajectoryResult::NoFeasibleDuration;
+  if (worse || (status.fault == vpTrajectoryFault::None && fault.fault != vpTrajectoryFault::None)) {
+    status.result = worse ? fault.result : status.result;
+    status.fault = fault.fault;
+    status.index = fault.index;
+    status.value = fault.value;
+  }
+  return status;
 }
 
 double vpTrajectoryPlanner::Impl::planPointToPoint(const vpTrajectoryProblem &problem, double floor,
@@ -222,12 +360,8 @@ double vpTrajectoryPlanner::Impl::planPointToPoint(const vpTrajectoryProblem &pr
   }
   setTasks(problem);
   const double T = searchLeg(problem.options, floor, problem.options.synchronisation == vpSynchronisation::None);
-  emitLeg(plan, false);
-  double braking = 0.;
-  for (int u = 0; u < unitCount; ++u) {
-    braking = std::max(braking, units[static_cast<std::size_t>(u)].brakingDuration());
-  }
-  plan.setBrakingEnd(braking);
+  emitLeg(plan, 0., false);
+  braking = groupBraking();
   return T;
 }
 
@@ -257,30 +391,31 @@ vpTrajectoryStatus vpTrajectoryPlanner::plan(const vpTrajectoryProblem &problem,
 {
   Impl &d = *m_impl;
   plan.clear();
-  d.fault = {vpTrajectoryResult::Working, vpTrajectoryFault::None, -1, 0.};
-  d.iterations = 0;
+  d.begin();
   const double T = problem.vias() > 0 ? d.planVias(problem, floor, plan) : d.planPointToPoint(problem, floor, plan);
   d.finish(problem, plan);
   if (problem.options.policy == vpReplanPolicy::FixedArrival && T > floor * (1. + 1e-9)) {
-    if (problem.options.lateArrival == vpLateArrival::ExceedLimits) {
-      planDirect(problem, floor, plan);
+    vpTrajectoryStatus status = problem.options.lateArrival == vpLateArrival::ExceedLimits
+                                    ? planDirect(problem, floor, plan)
+                                    : d.judge(problem, plan);
+    if (d.fault.isGood()) { // a goal that cannot be reached is worse
+      status = {vpTrajectoryResult::ArrivalInfeasible, vpTrajectoryFault::ArrivalTooEarly, -1, T, status.excess};
     }
-    return {vpTrajectoryResult::ArrivalInfeasible, vpTrajectoryFault::ArrivalTooEarly, -1, T};
+    return status;
   }
-  if (d.fault.isGood() && plan.brakingEnd() > 0.) {
-    d.fault.result = vpTrajectoryResult::Braking;
-  }
-  return d.fault;
+  return d.judge(problem, plan);
 }
 
-void vpTrajectoryPlanner::planDirect(const vpTrajectoryProblem &problem, double T, vpTrajectoryPlan &plan) noexcept
+vpTrajectoryStatus vpTrajectoryPlanner::planDirect(const vpTrajectoryProblem &problem, double T,
+                                                   vpTrajectoryPlan &plan) noexcept
 {
   Impl &d = *m_impl;
   plan.clear();
-  d.fault = {vpTrajectoryResult::Working, vpTrajectoryFault::None, -1, 0.};
+  d.begin();
   d.makeChain(problem);
-  d.emitChain(problem, T, plan);
+  d.emitChain(problem, std::min(1e12, std::max(1e-9, T)), plan);
   d.finish(problem, plan);
+  return d.judge(problem, plan);
 }
 
 END_VISP_NAMESPACE

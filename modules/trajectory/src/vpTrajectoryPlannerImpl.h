@@ -20,14 +20,27 @@ struct vpTrajectoryPlanner::Impl {
   Impl(int count, int maxVias);
   [[nodiscard]] vpMotionAxis &axis(int i) { return axes[static_cast<std::size_t>(i)]; }
 
+  void begin()
+  {
+    fault = {vpTrajectoryResult::Working, vpTrajectoryFault::None, -1, 0.};
+    iterations = 0;
+    braking = 0.;
+  }
+
   // A leg: all axes from `from` to `to`.
   void setTasks(const vpTrajectoryProblem &problem);
-  void makeUnits(const vpTrajectoryOptions &options);
-  bool makeStraight(const vpTrajectoryOptions &options);
+  void makeUnits(const vpTrajectoryProblem &problem);
+  bool makeStraight(const vpTrajectoryProblem &problem);
+  [[nodiscard]] bool isAcross(const vpAxisTask &task, const vpAxisTask &line, int i);
   double searchLeg(const vpTrajectoryOptions &options, double floor, bool independent);
-  void emitLeg(vpTrajectoryPlan &plan, bool viaLeg);
+  void emitLeg(vpTrajectoryPlan &plan, double begin, bool viaLeg);
   void noteFaults();
+  [[nodiscard]] double groupBraking() const;
   void finish(const vpTrajectoryProblem &problem, vpTrajectoryPlan &plan);
+  [[nodiscard]] double coastingRamp(const vpTrajectoryProblem &problem, int i) const;
+  void coast(int i, const vpAxisState &goal, double ramp, vpTrajectoryPlan &plan);
+  void stopAll(const vpTrajectoryProblem &problem, vpTrajectoryPlan &plan);
+  vpTrajectoryStatus judge(const vpTrajectoryProblem &problem, vpTrajectoryPlan &plan);
   double planPointToPoint(const vpTrajectoryProblem &problem, double floor, vpTrajectoryPlan &plan);
 
   // Vias: one T over all of them, or leg by leg.
@@ -55,7 +68,8 @@ struct vpTrajectoryPlanner::Impl {
   std::vector<const vpMotionFamily *> column;
   std::vector<double> legs; // durations
   int iterations = 0;
-  vpTrajectoryStatus fault; // what had to be dropped
+  double braking = 0.;      // of groups, in the first leg
+  vpTrajectoryStatus fault; // what is wrong apart from limits
 };
 
 END_VISP_NAMESPACE

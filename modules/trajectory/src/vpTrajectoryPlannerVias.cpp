@@ -102,6 +102,7 @@ void vpTrajectoryPlanner::Impl::emitChain(const vpTrajectoryProblem &problem, do
     for (int k = 0; k < count; ++k) {
       plan.append(i, segment(k, i).at(T), segment(k, i).share() * T);
     }
+    plan.endLeg(i, T);
   }
   for (int k = 0; k < problem.vias(); ++k) {
     plan.addVia(problem.viaTime(k) * T);
@@ -111,7 +112,7 @@ void vpTrajectoryPlanner::Impl::emitChain(const vpTrajectoryProblem &problem, do
 // From via to via with the velocity that a via gives, or rest: this always has an answer.
 double vpTrajectoryPlanner::Impl::planLegs(const vpTrajectoryProblem &problem, bool withFloors, vpTrajectoryPlan &plan)
 {
-  double total = 0., braking = 0.;
+  double total = 0.;
   plan.clear();
   for (int i = 0; i < n; ++i) {
     plan.begin(i, problem.start(i)[0], vpTrajectoryForm::Vias);
@@ -124,17 +125,14 @@ double vpTrajectoryPlanner::Impl::planLegs(const vpTrajectoryProblem &problem, b
     setTasks(problem);
     double &leg = legs[static_cast<std::size_t>(k)];
     leg = searchLeg(problem.options, withFloors ? leg : 0., false);
-    emitLeg(plan, true);
-    for (int u = 0; k == 0 && u < unitCount; ++u) {
-      braking = std::max(braking, units[static_cast<std::size_t>(u)].brakingDuration());
-    }
+    emitLeg(plan, total, true);
+    braking = k == 0 ? groupBraking() : braking;
     total += leg;
     if (k < problem.vias()) {
       plan.addVia(total);
     }
     from = to;
   }
-  plan.setBrakingEnd(braking);
   return total;
 }
 

@@ -5,6 +5,7 @@
 #include <visp3/trajectory/vpTrajectoryProblem.h>
 
 #include <visp3/core/vpException.h>
+#include <visp3/direct_core/vpLimit.h>
 
 #include <algorithm>
 #include <cmath>
@@ -106,19 +107,57 @@ vpAxisState vpTrajectoryProblem::goal(int axis) const
 
 vpAxisLimits vpTrajectoryProblem::limits(int axis) const
 {
-  const double q = at(StartQ, axis);
-  return {at(MaxVelocity, axis), at(MaxAcceleration, axis), at(MaxJerk, axis), at(MinPosition, axis) - q,
-          at(MaxPosition, axis) - q};
+  vpAxisLimits limits{at(MaxVelocity, axis), at(MaxAcceleration, axis), at(MaxJerk, axis), at(MinPosition, axis),
+                      at(MaxPosition, axis)};
+  const auto include = [&limits](const vpAxisState &x) {
+    const auto widen = [](double &limit, double value) {
+      if (value > limit && vpLimit::isBelow(value, limit)) {
+        limit = value;
+      }
+    };
+    widen(limits.velocity, std::abs(x[1]));
+    widen(limits.acceleration, std::abs(x[2]));
+    widen(limits.jerk, std::abs(x[3]));
+    widen(limits.maxPosition, x[0]);
+    limits.minPosition *= -1.;
+    widen(limits.minPosition, -x[0]);
+    limits.minPosition *= -1.;
+  };
+  include(start(axis));
+  include(goal(axis));
+  for (int k = 0; k < std::min(m_vias, m_maxVias); ++k) {
+    include(viaState(k, axis));
+  }
+  return limits;
+}
+
+vpNormLimits vpTrajectoryProblem::groupLimits(int g) const
+{
+  const vpAxisGroup &group = options.groups[static_cast<std::size_t>(g)];
+  vpNormLimits limits{group.maxSpeed, group.maxAcceleration};
+  double norms[4] = {0., 0., 0., 0.};
+  constexpr Field fields[4] = {StartV, GoalV, StartA, GoalA};
+  for (int i = 0; i < m_axes; ++i) {
+    for (int k = 0; k < 4 && group.contains(i); ++k) {
+      norms[k] = std::hypot(norms[k], at(fields[k], i));
+    }
+  }
+  for (int k = 0; k < 4; ++k) {
+    double &limit = k < 2 ? limits.velocity : limits.acceleration;
+    limit = norms[k] > limit && vpLimit::isBelow(norms[k], limit) ? norms[k] : limit;
+  }
+  return limits;
 }
 
 bool vpTrajectoryProblem::sameVias(const vpTrajectoryProblem &other) const
 {
-  const auto values = static_cast<std::size_t>(std::min(m_vias, m_maxVias)) * 3 * static_cast<std::size_t>(m_axes);
+  const auto bytes =
+      static_cast<std::size_t>(std::min(m_vias, m_maxVias)) * 3 * static_cast<std::size_t>(m_axes) * sizeof(double);
   const auto count = static_cast<std::ptrdiff_t>(std::min(m_vias, m_maxVias));
   return m_axes == other.m_axes && m_vias == other.m_vias &&
          std::equal(m_viaTimes.begin(), m_viaTimes.begin() + count, other.m_viaTimes.begin()) &&
          std::equal(m_viaOrders.begin(), m_viaOrders.begin() + count, other.m_viaOrders.begin()) &&
-         std::memcmp(m_viaValues.data(), other.m_viaValues.data(), values * sizeof(double)) == 0;
+         (bytes == 0 || std::memcmp(m_viaValues.data(), other.m_viaValues.data(), bytes) == 0);
 }
 
 bool vpTrajectoryProblem::sameTask(const vpTrajectoryProblem &other) const

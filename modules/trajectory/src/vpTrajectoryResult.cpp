@@ -5,81 +5,110 @@
 #include <visp3/trajectory/vpTrajectoryResult.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 
 BEGIN_VISP_NAMESPACE
 
 namespace
 {
-// Sentence of a fault; %d is the index, %g the value, in this order.
+// Sentence of a fault; %d is the index, %s the value, in this order.
 const char *sentence(vpTrajectoryFault fault)
 {
   switch (fault) {
   case vpTrajectoryFault::None:
     return "";
   case vpTrajectoryFault::StartNotFinite:
-    return "start state of axis %d has the value %g, must be finite";
+    return "start state of axis %d has the value %s, must be finite";
   case vpTrajectoryFault::GoalNotFinite:
-    return "goal state of axis %d has the value %g, must be finite";
+    return "goal state of axis %d has the value %s, must be finite";
   case vpTrajectoryFault::OutOfRange:
-    return "axis %d has the value %g, numbers must be at most 1e12 and limits at least 1e-12";
+    return "axis %d has the value %s, numbers must be at most 1e12 and limits at least 1e-12";
   case vpTrajectoryFault::VelocityLimit:
-    return "velocity limit of axis %d is %g, must be > 0";
+    return "velocity limit of axis %d is %s, must be > 0";
   case vpTrajectoryFault::AccelerationLimit:
-    return "acceleration limit of axis %d is %g, must be > 0";
+    return "acceleration limit of axis %d is %s, must be > 0";
   case vpTrajectoryFault::JerkLimit:
-    return "jerk limit of axis %d is %g, must be > 0";
+    return "jerk limit of axis %d is %s, must be > 0";
   case vpTrajectoryFault::NoLimit:
-    return "axis %d has neither a velocity nor an acceleration limit (both are %g), one must be finite";
+    return "axis %d has neither a velocity nor an acceleration limit (both are %s), one must be finite";
   case vpTrajectoryFault::PositionLimits:
-    return "position limits of axis %d are in the wrong order, the upper one is %g";
+    return "position limits of axis %d are in the wrong order, the upper one is %s";
   case vpTrajectoryFault::GoalOutsidePosition:
-    return "goal position of axis %d is %g, outside its position limits";
+    return "goal position of axis %d is %s, outside its position limits";
   case vpTrajectoryFault::GoalOutsideVelocity:
-    return "goal velocity of axis %d is %g, above its velocity limit";
+    return "goal velocity of axis %d is %s, above its velocity limit";
   case vpTrajectoryFault::GoalOutsideAcceleration:
-    return "goal acceleration of axis %d is %g, above its acceleration limit";
+    return "goal acceleration of axis %d is %s, above its acceleration limit";
+  case vpTrajectoryFault::GoalOutsideJerk:
+    return "goal jerk of axis %d is %s, above its jerk limit";
   case vpTrajectoryFault::GoalOutsideGroup:
-    return "goal velocity or acceleration of axis group %d has the norm %g, above the limit of the group";
+    return "goal velocity or acceleration of axis group %d has the norm %s, above the limit of the group";
   case vpTrajectoryFault::GroupLimit:
-    return "limit of axis group %d is %g, must be > 0";
+    return "limit of axis group %d is %s, must be > 0: from 1e-12 to 1e12, or infinite";
   case vpTrajectoryFault::GroupAxis:
-    return "axis group %d names axis %g, which does not exist or is in another group already";
+    return "axis group %d names axis %s, which does not exist or is in another group already";
   case vpTrajectoryFault::ViaNotFinite:
-    return "via %d has the value %g, must be finite";
+    return "via %d has the value %s, must be finite";
   case vpTrajectoryFault::ViaTime:
-    return "tau of via %d is %g, must be in (0, 1)";
+    return "tau of via %d is %s, must be in (0, 1)";
   case vpTrajectoryFault::ViaOrder:
-    return "tau of via %d is %g, must be above that of the via before";
+    return "tau of via %d is %s, must be above that of the via before";
   case vpTrajectoryFault::ViaOutsideLimits:
-    return "via %d has the value %g, outside the limits of its axis";
+    return "via %d has the value %s, outside the limits of its axis";
   case vpTrajectoryFault::TooManyVias:
-    return "room was made for %d vias, got %g";
+    return "room was made for %d vias, got %s";
   case vpTrajectoryFault::ViaContinuity:
-    return "vias need continuity C2; there are vias (up to via %d) with continuity C%g";
+    return "vias need continuity C2; there are vias (up to via %d) with continuity C%s";
   case vpTrajectoryFault::AxisCount:
-    return "a vector must have %d numbers, one per axis, got %g";
+    return "a vector must have %d numbers, one per axis, got %s";
   case vpTrajectoryFault::ArrivalTime:
-    return "arrival time is %g s, must be > 0 and finite";
+    return "arrival time is %s s, must be > 0: from 1e-9 to 1e12";
   case vpTrajectoryFault::Duration:
-    return "minimum duration, freeze time or replan period is %g s, must be >= 0 and finite";
+    return "minimum duration, freeze time or replan period is %s s, must be >= 0 and at most 1e12";
   case vpTrajectoryFault::ThesisGain:
-    return "gain of the thesis's iteration is %g, must be > 0 and finite";
+    return "gain of the thesis's iteration is %s, must be > 0: from 1e-12 to 1e12";
   case vpTrajectoryFault::ThesisSteps:
-    return "steps per cycle of the thesis's iteration are %g, must be >= 1";
+    return "steps per cycle of the thesis's iteration are %s, must be >= 1";
   case vpTrajectoryFault::NotARotation:
-    return "the rotation of the pose differs from an orthonormal one by %g";
+    return "the rotation of the pose differs from an orthonormal one by %s";
   case vpTrajectoryFault::TimeStep:
-    return "dt is %g s, must be > 0 and finite";
+    return "dt is %s s, must be > 0 and finite: at most 1e9";
   case vpTrajectoryFault::GoalContradiction:
-    return "the goal acceleration of axis %d (%g) cannot be reached within its velocity and jerk limits; it was "
+    return "the goal acceleration of axis %d (%s) cannot be reached within its velocity and jerk limits; it was "
            "dropped";
-  case vpTrajectoryFault::PositionUnreachable:
-    return "axis %d at %g moves too fast to stay within its position limits; they are not kept";
+  case vpTrajectoryFault::LimitExceeded:
+    return "not all limits can be kept";
+  case vpTrajectoryFault::StartOutsideLimits:
+    return "the start is outside the limits, coming back inside";
+  case vpTrajectoryFault::NotStraight:
+    return "the axes arrive together, but not on the straight line: start or goal of axis %d has a derivative of %s "
+           "across it";
+  case vpTrajectoryFault::NoMotion:
+    return "no motion to the goal could be computed; the axes come to rest";
   case vpTrajectoryFault::ArrivalTooEarly:
-    return "the arrival time cannot be kept within the limits; the earliest feasible arrival is in %g s";
+    return "the arrival time cannot be kept within the limits; the earliest feasible arrival is in %s s";
   }
   return "";
+}
+
+// The fewest digits that give this number and no other.
+struct Digits {
+  char text[32];
+  explicit Digits(double value)
+  {
+    for (int digits = 6; digits <= 17; ++digits) {
+      std::snprintf(text, sizeof(text), "%.*g", digits, value);
+      if (std::strtod(text, nullptr) == value) {
+        break;
+      }
+    }
+  }
+};
+
+bool isOfGroup(vpTrajectoryLimit limit)
+{
+  return limit == vpTrajectoryLimit::GroupSpeed || limit == vpTrajectoryLimit::GroupAcceleration;
 }
 
 const char *sentence(vpTrajectoryResult result)
@@ -96,7 +125,7 @@ const char *sentence(vpTrajectoryResult result)
   case vpTrajectoryResult::InvalidInput:
     return "the input is invalid";
   case vpTrajectoryResult::NoFeasibleDuration:
-    return "the limits contradict each other";
+    return "not all limits can be kept";
   case vpTrajectoryResult::ArrivalInfeasible:
     return "the arrival time cannot be kept within the limits";
   }
@@ -106,16 +135,25 @@ const char *sentence(vpTrajectoryResult result)
 
 std::string vpTrajectoryStatus::message() const
 {
-  if (fault == vpTrajectoryFault::None) {
-    return sentence(result);
+  std::string text = sentence(result);
+  if (fault != vpTrajectoryFault::None) {
+    char buffer[256];
+    const char *form = sentence(fault);
+    const Digits digits(value);
+    if (std::strstr(form, "%d") != nullptr) {
+      std::snprintf(buffer, sizeof(buffer), form, index, digits.text);
+    }
+    else {
+      std::snprintf(buffer, sizeof(buffer), form, digits.text);
+    }
+    text = buffer;
   }
-  char text[200];
-  const char *form = sentence(fault);
-  if (std::strstr(form, "%d") != nullptr) {
-    std::snprintf(text, sizeof(text), form, index, value);
-  }
-  else {
-    std::snprintf(text, sizeof(text), form, value);
+  if (excess.limit != vpTrajectoryLimit::None) {
+    char amount[32];
+    std::snprintf(amount, sizeof(amount), "%.3g", excess.amount());
+    text += std::string(": the ") + toString(excess.limit) + " of " + (isOfGroup(excess.limit) ? "group " : "axis ") +
+            std::to_string(excess.index) + " is " + Digits(excess.value).text + ", its limit " +
+            Digits(excess.bound).text + ", exceeded by " + amount;
   }
   return text;
 }
@@ -137,6 +175,29 @@ const char *toString(vpTrajectoryResult result)
     return "NoFeasibleDuration";
   case vpTrajectoryResult::ArrivalInfeasible:
     return "ArrivalInfeasible";
+  }
+  return "";
+}
+
+const char *toString(vpTrajectoryLimit limit)
+{
+  switch (limit) {
+  case vpTrajectoryLimit::None:
+    return "nothing";
+  case vpTrajectoryLimit::MinPosition:
+    return "lowest position";
+  case vpTrajectoryLimit::MaxPosition:
+    return "highest position";
+  case vpTrajectoryLimit::Velocity:
+    return "velocity";
+  case vpTrajectoryLimit::Acceleration:
+    return "acceleration";
+  case vpTrajectoryLimit::Jerk:
+    return "jerk";
+  case vpTrajectoryLimit::GroupSpeed:
+    return "speed";
+  case vpTrajectoryLimit::GroupAcceleration:
+    return "norm of the accelerations";
   }
   return "";
 }

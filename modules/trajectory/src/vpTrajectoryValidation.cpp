@@ -5,24 +5,34 @@
 // What may be wrong with a problem, checked in one place so that planning can rely on it.
 #include <visp3/trajectory/vpTrajectoryProblem.h>
 
+#include <visp3/direct_core/vpLimit.h>
+
 #include <cmath>
 
 BEGIN_VISP_NAMESPACE
 
 namespace
 {
-constexpr double slack = 1. + 1e-9; // a goal on its limit is not above it
-
 vpTrajectoryStatus fault(vpTrajectoryFault what, int index, double value)
 {
   return {vpTrajectoryResult::InvalidInput, what, index, value};
 }
 
+vpTrajectoryStatus outside(vpTrajectoryFault what, double value, const vpLimitExcess &excess)
+{
+  return {vpTrajectoryResult::InvalidInput, what, excess.index, value, excess};
+}
+
+constexpr vpTrajectoryStatus good{vpTrajectoryResult::Working, vpTrajectoryFault::None, -1, 0.};
+
 // Beyond these, powers of a duration leave the range of a double.
 constexpr double largest = 1e12;
 constexpr double smallestLimit = 1e-12;
+constexpr double shortestArrival = 1e-9;
 
-bool isDuration(double t) { return t >= 0. && std::isfinite(t); }
+bool isDuration(double t) { return t >= 0. && t <= largest; }
+bool isLimit(double limit) { return limit >= smallestLimit && (limit <= largest || std::isinf(limit)); }
+bool isPositionLimit(double limit) { return std::abs(limit) <= largest || std::isinf(limit); }
 } // namespace
 
 vpTrajectoryStatus vpTrajectoryProblem::validate(bool startToo) const noexcept
@@ -49,7 +59,7 @@ vpTrajectoryStatus vpTrajectoryProblem::validate(bool startToo) const noexcept
       return status;
     }
   }
-  return {vpTrajectoryResult::Working, vpTrajectoryFault::None, -1, 0.};
+  return good;
 }
 
 vpTrajectoryStatus vpTrajectoryProblem::validateAxis(int i) const noexcept
@@ -74,7 +84,7 @@ vpTrajectoryStatus vpTrajectoryProblem::validateAxis(int i) const noexcept
     return fault(vpTrajectoryFault::JerkLimit, i, j);
   }
   for (double limit : {v, a, j}) {
-    if (limit < smallestLimit || (limit > largest && std::isfinite(limit))) {
+    if (!isLimit(limit)) {
       return fault(vpTrajectoryFault::OutOfRange, i, limit);
     }
   }
@@ -85,16 +95,28 @@ vpTrajectoryStatus vpTrajectoryProblem::validateAxis(int i) const noexcept
   if (!(low < high)) {
     return fault(vpTrajectoryFault::PositionLimits, i, high);
   }
-  if (to[0] < low || to[0] > high) {
-    return fault(vpTrajectoryFault::GoalOutsidePosition, i, to[0]);
+  for (double limit : {low, high}) {
+    if (!isPositionLimit(limit)) {
+      return fault(vpTrajectoryFault::OutOfRange, i, limit);
+    }
   }
-  if (std::abs(to[1]) > v * slack) {
-    return fault(vpTrajectoryFault::GoalOutsideVelocity, i, to[1]);
+  if (!vpLimit::isBelow(to[0], high)) {
+    return outside(vpTrajectoryFault::GoalOutsidePosition, to[0], {vpTrajectoryLimit::MaxPosition, i, to[0], high});
   }
-  if (options.continuity != vpTrajectoryContinuity::C1 && std::abs(to[2]) > a * slack) {
-    return fault(vpTrajectoryFault::GoalOutsideAcceleration, i, to[2]);
+  if (!vpLimit::isBelow(-to[0], -low)) {
+    return outside(vpTrajectoryFault::GoalOutsidePosition, to[0], {vpTrajectoryLimit::MinPosition, i, to[0], low});
   }
-  return {vpTrajectoryResult::Working, vpTrajectoryFault::None, -1, 0.};
+  if (!vpLimit::isBelow(std::abs(to[1]), v)) {
+    return outside(vpTrajectoryFault::GoalOutsideVelocity, to[1], {vpTrajectoryLimit::Velocity, i, std::abs(to[1]), v});
+  }
+  if (options.continuity != vpTrajectoryContinuity::C1 && !vpLimit::isBelow(std::abs(to[2]), a)) {
+    return outside(vpTrajectoryFault::GoalOutsideAcceleration, to[2],
+                   {vpTrajectoryLimit::Acceleration, i, std::abs(to[2]), a});
+  }
+  if (options.continuity == vpTrajectoryContinuity::C3 && !vpLimit::isBelow(std::abs(to[3]), j)) {
+    return outside(vpTrajectoryFault::GoalOutsideJerk, to[3], {vpTrajectoryLimit::Jerk, i, std::abs(to[3]), j});
+  }
+  return good;
 }
 
 vpTrajectoryStatus vpTrajectoryProblem::validateGroups() const noexcept
@@ -108,6 +130,9 @@ vpTrajectoryStatus vpTrajectoryProblem::validateGroups() const noexcept
     if (!(group.maxSpeed > 0.) || !(group.maxAcceleration > 0.)) {
       return fault(vpTrajectoryFault::GroupLimit, g, !(group.maxSpeed > 0.) ? group.maxSpeed : group.maxAcceleration);
     }
+    if (!isLimit(group.maxSpeed) || !isLimit(group.maxAcceleration)) {
+      return fault(vpTrajectoryFault::GroupLimit, g, !isLimit(group.maxSpeed) ? group.maxSpeed : group.maxAcceleration);
+    }
     double v2 = 0., a2 = 0.;
     for (int i = 0; i < 64; ++i) {
       if (!group.contains(i)) {
@@ -120,12 +145,16 @@ vpTrajectoryStatus vpTrajectoryProblem::validateGroups() const noexcept
       v2 += at(GoalV, i) * at(GoalV, i);
       a2 += at(GoalA, i) * at(GoalA, i);
     }
-    if (std::sqrt(v2) > group.maxSpeed * slack || std::sqrt(a2) > group.maxAcceleration * slack) {
-      return fault(vpTrajectoryFault::GoalOutsideGroup, g,
-                   std::sqrt(v2) > group.maxSpeed * slack ? std::sqrt(v2) : std::sqrt(a2));
+    if (!vpLimit::isBelow(std::sqrt(v2), group.maxSpeed)) {
+      return outside(vpTrajectoryFault::GoalOutsideGroup, std::sqrt(v2),
+                     {vpTrajectoryLimit::GroupSpeed, g, std::sqrt(v2), group.maxSpeed});
+    }
+    if (!vpLimit::isBelow(std::sqrt(a2), group.maxAcceleration)) {
+      return outside(vpTrajectoryFault::GoalOutsideGroup, std::sqrt(a2),
+                     {vpTrajectoryLimit::GroupAcceleration, g, std::sqrt(a2), group.maxAcceleration});
     }
   }
-  return {vpTrajectoryResult::Working, vpTrajectoryFault::None, -1, 0.};
+  return good;
 }
 
 vpTrajectoryStatus vpTrajectoryProblem::validateVias() const noexcept
@@ -153,25 +182,28 @@ vpTrajectoryStatus vpTrajectoryProblem::validateVias() const noexcept
         if (!std::isfinite(value)) {
           return fault(vpTrajectoryFault::ViaNotFinite, k, value);
         }
+        if (std::abs(value) > largest) {
+          return fault(vpTrajectoryFault::ViaOutsideLimits, k, value);
+        }
       }
-      if (x[0] < at(MinPosition, i) || x[0] > at(MaxPosition, i)) {
+      if (!vpLimit::isBetween(at(MinPosition, i), x[0], at(MaxPosition, i))) {
         return fault(vpTrajectoryFault::ViaOutsideLimits, k, x[0]);
       }
-      if (std::abs(x[1]) > at(MaxVelocity, i) * slack) {
+      if (!vpLimit::isBelow(std::abs(x[1]), at(MaxVelocity, i))) {
         return fault(vpTrajectoryFault::ViaOutsideLimits, k, x[1]);
       }
-      if (std::abs(x[2]) > at(MaxAcceleration, i) * slack) {
+      if (!vpLimit::isBelow(std::abs(x[2]), at(MaxAcceleration, i))) {
         return fault(vpTrajectoryFault::ViaOutsideLimits, k, x[2]);
       }
     }
   }
-  return {vpTrajectoryResult::Working, vpTrajectoryFault::None, -1, 0.};
+  return good;
 }
 
 vpTrajectoryStatus vpTrajectoryProblem::validateOptions() const noexcept
 {
   const vpTrajectoryOptions &o = options;
-  if (o.policy == vpReplanPolicy::FixedArrival && !(o.arrivalTime > 0. && std::isfinite(o.arrivalTime))) {
+  if (o.policy == vpReplanPolicy::FixedArrival && !(o.arrivalTime >= shortestArrival && o.arrivalTime <= largest)) {
     return fault(vpTrajectoryFault::ArrivalTime, -1, o.arrivalTime);
   }
   for (double t : {o.minimumDuration, o.freeze, o.replanPeriod}) {
@@ -180,14 +212,14 @@ vpTrajectoryStatus vpTrajectoryProblem::validateOptions() const noexcept
     }
   }
   for (double gain : {o.thesisVelocityGain, o.thesisAccelerationGain}) {
-    if (!(gain > 0.) || !std::isfinite(gain)) {
+    if (!isLimit(gain) || std::isinf(gain)) {
       return fault(vpTrajectoryFault::ThesisGain, -1, gain);
     }
   }
   if (o.thesisStepsPerCycle < 1) {
     return fault(vpTrajectoryFault::ThesisSteps, -1, o.thesisStepsPerCycle);
   }
-  return {vpTrajectoryResult::Working, vpTrajectoryFault::None, -1, 0.};
+  return good;
 }
 
 END_VISP_NAMESPACE

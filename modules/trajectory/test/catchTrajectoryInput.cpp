@@ -73,7 +73,7 @@ const std::vector<Case> cases = {
        i.goal.v.setConstant(0.9);
        i.options.groups[0] = vpAxisGroup({0, 1, 2}, 1.);
      },
-     "axis group 0 has the norm 1.55885, above the limit"},
+     "axis group 0 has the norm 1.5588457268119895, above the limit"},
     {[](Input &i) { i.options.policy = vpReplanPolicy::FixedArrival; }, "arrival time is 0 s, must be > 0"},
     {[](Input &i) { i.options.freeze = -1.; }, "is -1 s, must be >= 0"},
     {[](Input &i) { i.options.minimumDuration = NAN; }, "is nan s, must be >= 0"},

@@ -52,6 +52,7 @@ private:
   [[nodiscard]] Event detect(const vpTrajectoryProblem &problem) const noexcept;
   void takeRest(const vpTrajectoryProblem &problem) noexcept;
   [[nodiscard]] double floorOf(const vpTrajectoryProblem &problem, Event event) noexcept;
+  [[nodiscard]] bool isSinglePolynomial() const noexcept;
   void replan(const vpTrajectoryProblem &problem, Event event) noexcept;
   void iterateThesis() noexcept;
   void tick(double dt) noexcept;

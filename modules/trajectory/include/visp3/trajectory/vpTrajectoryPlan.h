@@ -10,6 +10,7 @@
 #define vpTrajectoryPlan_h
 
 #include <visp3/trajectory/vpMotionFamily.h>
+#include <visp3/trajectory/vpVelocityRamp.h>
 
 #include <vector>
 
@@ -88,13 +89,16 @@ public:
   [[nodiscard]] int iterations() const { return m_iterations; } //!< Most looks that one search of this plan took.
 
   /*!
-   * State of an axis at time \e t (s from the start of the plan), any finite t. Before the start: the start. After the
-   * end a goal acceleration is ramped down and a goal velocity is kept.
+   * State of an axis at time \e t (s from the start of the plan), any finite t. Before the start: the start. At the end
+   * exactly the goal. After it a goal acceleration is ramped down and a goal velocity is kept, until the axis has to
+   * brake for a position limit.
    */
   [[nodiscard]] vpAxisState at(int axis, double t) const noexcept;
   //! Number of segments of an axis.
   [[nodiscard]] int segments(int axis) const { return m_tracks[static_cast<std::size_t>(axis)].count; }
-  //! Segment \e i of an axis, 0 <= i < segments(axis).
+  //! Number of segments that follow the arrival, until the velocity stays; 0 when the goal is at rest.
+  [[nodiscard]] int coasting(int axis) const { return m_tracks[static_cast<std::size_t>(axis)].coasting; }
+  //! Segment \e i of an axis, 0 <= i < segments(axis) + coasting(axis).
   [[nodiscard]] const vpTrajectorySegment &segment(int axis, int i) const { return m_segments[index(axis, i)]; }
   //! Number of vias that the plan goes through.
   [[nodiscard]] int vias() const { return m_vias; }
@@ -104,11 +108,13 @@ public:
   [[nodiscard]] vpTrajectoryPeaks peaks(int axis) const noexcept;
   /*!
    * Exact peak of the Euclidean norm of the velocities (order 1) or accelerations (order 2) over the axes whose bit is
-   * set in \e axes.
+   * set in \e axes, from the time \e from on, what follows the arrival included.
    */
-  [[nodiscard]] double peakNorm(unsigned long long axes, int order) const noexcept;
+  [[nodiscard]] double peakNorm(unsigned long long axes, int order, double from = 0.) const noexcept;
   //! The plan cut at every change of polynomial of any axis. Allocates.
-  [[nodiscard]] std::vector<vpTrajectoryPiece> pieces() const;
+  [[nodiscard]] std::vector<vpTrajectoryPiece> pieces() const { return pieces(m_duration); }
+  //! The same until another time than the arrival, s > 0. Allocates.
+  [[nodiscard]] std::vector<vpTrajectoryPiece> pieces(double until) const;
 
   /*! \name For planners */
   //! @{
@@ -116,8 +122,15 @@ public:
   void begin(int axis, double q, vpTrajectoryForm form) noexcept; //!< Start the track of an axis at place \e q.
   //! Append a motion relative to where the track ends now. Ignored when \e duration is not > 0 or the room is used up.
   void append(int axis, const vpPolynomial &relative, double duration) noexcept;
-  //! Close a track: the exact goal and the time of the ramp that takes its acceleration down afterwards.
-  void finish(int axis, const vpAxisState &goal, double rampTime) noexcept;
+  //! Append a change of velocity from the state \e x.
+  void appendRamp(int axis, const vpVelocityRamp &ramp, const vpAxisState &x) noexcept;
+  //! The leg ends at this very time, s from the start of the plan: what its segments add up to, without their rounding.
+  void endLeg(int axis, double t) noexcept;
+  //! Close a track with the exact goal; what is appended from now on follows the arrival.
+  void finish(int axis, const vpAxisState &goal) noexcept;
+  void rest(int axis) noexcept { m_tracks[static_cast<std::size_t>(axis)].coast = 0.; } //!< The track ends at rest.
+  //! All numbers that can be asked for are finite.
+  [[nodiscard]] bool isFinite() const noexcept;
   void setBrakingEnd(double t) { m_brakingEnd = t; } //!< See brakingEnd().
   void setIterations(int n) { m_iterations = n; }    //!< See iterations().
   void addVia(double t) noexcept; //!< The next via is passed at \e t. Ignored when the room is used up.
@@ -125,10 +138,13 @@ public:
 
 private:
   struct Track {
-    int count = 0;
-    double duration = 0.;
-    double place = 0.; // where the track ends
-    double rampTime = 0.;
+    int count = 0;    // segments until the arrival
+    int coasting = 0; // and after it
+    bool finished = false;
+    double duration = 0.; // until the arrival
+    double end = 0.;      // of the last segment
+    double place = 0.;    // where that is
+    double coast = 0.;    // velocity from then on
     vpAxisState goal{};
     vpTrajectoryForm form = vpTrajectoryForm::Hold;
   };
@@ -136,8 +152,9 @@ private:
   {
     return static_cast<std::size_t>(axis) * static_cast<std::size_t>(m_capacity) + static_cast<std::size_t>(i);
   }
-  [[nodiscard]] double nextBreak(double t) const noexcept;
-  [[nodiscard]] vpPolynomial between(int axis, double from, double to) const noexcept;
+  [[nodiscard]] double endOf(int axis, int i) const noexcept;
+  [[nodiscard]] double nextBreak(double t, double until) const noexcept;
+  [[nodiscard]] vpPolynomial between(int axis, double from, double to, double &duration) const noexcept;
 
   int m_axes;
   int m_capacity; // segments per axis

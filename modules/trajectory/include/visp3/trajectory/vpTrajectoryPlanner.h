@@ -46,13 +46,17 @@ public:
    * \param problem : Valid, see vpTrajectoryProblem::validate().
    * \param floor : No plan is shorter than this, s.
    * \param plan : Receives the motion.
-   * \return Working, Braking, NoFeasibleDuration or ArrivalInfeasible (the value is then the earliest feasible arrival).
+   * \return Working, Braking, NoFeasibleDuration or ArrivalInfeasible (the value is then the earliest feasible arrival),
+   *   decided by one exact check of all limits on the finished motion; the status tells the largest excess.
    *   With FixedArrival the floor is the arrival time.
    */
   vpTrajectoryStatus plan(const vpTrajectoryProblem &problem, double floor, vpTrajectoryPlan &plan) noexcept;
 
-  //! A single polynomial per axis of exactly this duration, whatever the limits (figure 6.5, and the thesis's iteration).
-  void planDirect(const vpTrajectoryProblem &problem, double T, vpTrajectoryPlan &plan) noexcept;
+  /*!
+   * A single polynomial per axis of this duration (clamped to 1e-9 ... 1e12 s), whatever the limits (figure 6.5, and the thesis's
+   * iteration). The status tells what they have to say to it.
+   */
+  vpTrajectoryStatus planDirect(const vpTrajectoryProblem &problem, double T, vpTrajectoryPlan &plan) noexcept;
 
 private:
   struct Impl;

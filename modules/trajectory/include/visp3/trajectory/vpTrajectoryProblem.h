@@ -86,8 +86,13 @@ public:
   void setStart(int axis, const vpAxisState &x);   //!< Set the start state of an axis.
   [[nodiscard]] vpAxisState start(int axis) const; //!< Start state of an axis.
   [[nodiscard]] vpAxisState goal(int axis) const;  //!< Goal state of an axis.
-  //! Limits of an axis; positions relative to its start.
+  /*!
+   * Limits of an axis, positions as given. States of start, goal and vias that are beyond a limit within
+   * vpLimit::tolerance are on it: the limit is moved to them.
+   */
   [[nodiscard]] vpAxisLimits limits(int axis) const;
+  //! Limits on the norms of group \e g, moved to those of start and goal in the same way.
+  [[nodiscard]] vpNormLimits groupLimits(int g) const;
 
   //! Goal, limits, vias and options are the same (the start is not compared).
   [[nodiscard]] bool sameTask(const vpTrajectoryProblem &other) const;

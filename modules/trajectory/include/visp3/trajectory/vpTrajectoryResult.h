@@ -23,7 +23,7 @@ enum class vpTrajectoryResult {
   Holding,            //!< The goal was reached before; nothing changed.
   Braking,            //!< The start was outside the limits: coming back inside as fast as the limits allow.
   InvalidInput,       //!< The input has a bad value; the motion goes on as planned before.
-  NoFeasibleDuration, //!< The limits contradict each other or the goal; the motion keeps those that can be kept.
+  NoFeasibleDuration, //!< Not all limits can be kept: the motion keeps the others, and exceeds these as little as it can.
   ArrivalInfeasible   //!< The given arrival time cannot be kept within the limits.
 };
 
@@ -42,8 +42,9 @@ enum class vpTrajectoryFault {
   GoalOutsidePosition,     //!< The goal is outside its position limits.
   GoalOutsideVelocity,     //!< The goal velocity is above its limit.
   GoalOutsideAcceleration, //!< The goal acceleration is above its limit.
+  GoalOutsideJerk,         //!< The goal jerk is above its limit (continuity C3).
   GoalOutsideGroup,        //!< The goal velocity of a group is above its limit.
-  GroupLimit,              //!< A limit of a group is not > 0.
+  GroupLimit,              //!< A limit of a group is not > 0, or beyond 1e-12 to 1e12.
   GroupAxis,               //!< A group names an axis that does not exist, or an axis of another group.
   ViaNotFinite,            //!< A number of a via is NaN or infinite.
   ViaTime,                 //!< tau of a via is not in (0, 1).
@@ -52,15 +53,48 @@ enum class vpTrajectoryFault {
   TooManyVias,             //!< More vias than were set up.
   ViaContinuity,           //!< Vias need continuity C2.
   AxisCount,               //!< A vector has not one number per axis.
-  ArrivalTime,             //!< The arrival time of FixedArrival is not > 0 and finite.
-  Duration,                //!< minimumDuration, freeze or replanPeriod is negative or not finite.
-  ThesisGain,              //!< A gain of (6.6) is not > 0.
+  ArrivalTime,             //!< The arrival time of FixedArrival is not within 1e-9 to 1e12 s.
+  Duration,                //!< minimumDuration, freeze or replanPeriod is not within 0 to 1e12 s.
+  ThesisGain,              //!< A gain of (6.6) is not within 1e-12 to 1e12.
   ThesisSteps,             //!< The number of steps per cycle is not >= 1.
   NotARotation,            //!< The rotation of a pose is not orthonormal to 1e-6.
-  TimeStep,                //!< dt is not finite and > 0.
+  TimeStep,                //!< dt is not > 0 and at most 1e9 s.
   GoalContradiction,       //!< The goal cannot be approached within the limits (such as v = v_max with a < 0).
-  PositionUnreachable,     //!< The position limits cannot be kept from this state; they were dropped.
-  ArrivalTooEarly          //!< The given arrival time needs more than the limits allow.
+  LimitExceeded,           //!< A limit cannot be kept; vpTrajectoryStatus::excess tells which and by how much.
+  StartOutsideLimits, //!< The start is outside a limit; vpTrajectoryStatus::excess tells how far the motion is at most.
+  NotStraight,        //!< The axes arrive together, but not on the straight line that was asked for.
+  NoMotion,           //!< No motion could be computed; the axes come to rest.
+  ArrivalTooEarly     //!< The given arrival time needs more than the limits allow.
+};
+
+//! \ingroup group_trajectory
+//! \brief Which limit is meant.
+enum class vpTrajectoryLimit {
+  None,             //!< None is exceeded.
+  MinPosition,      //!< Lowest position of an axis.
+  MaxPosition,      //!< Highest position of an axis.
+  Velocity,         //!< Velocity of an axis.
+  Acceleration,     //!< Acceleration of an axis.
+  Jerk,             //!< Jerk of an axis.
+  GroupSpeed,       //!< Norm of the velocities of a group.
+  GroupAcceleration //!< Norm of the accelerations of a group.
+};
+
+/*!
+ * \ingroup group_trajectory
+ * \brief A limit and how far a motion goes beyond it, at its exact extremum.
+ */
+struct VISP_EXPORT vpLimitExcess {
+  vpTrajectoryLimit limit = vpTrajectoryLimit::None; //!< Which limit.
+  int index = -1;                                    //!< Axis or group, from 0.
+  double value = 0.;                                 //!< Largest value; the lowest position for MinPosition.
+  double bound = 0.;                                 //!< What is allowed.
+
+  //! By how much, >= 0, in the unit of the limit.
+  [[nodiscard]] double amount() const
+  {
+    return limit == vpTrajectoryLimit::MinPosition ? bound - value : value - bound;
+  }
 };
 
 /*!
@@ -71,9 +105,18 @@ struct VISP_EXPORT vpTrajectoryStatus {
   vpTrajectoryResult result = vpTrajectoryResult::Holding; //!< How the step went.
   vpTrajectoryFault fault = vpTrajectoryFault::None;       //!< Why, when something is wrong.
   int index = -1;                                          //!< Axis (from 0), via or group that is meant; -1: none.
-  double value = 0.; //!< The value that is wrong, or the earliest feasible arrival in s.
+  double value = 0.;    //!< The value that is wrong, or the earliest feasible arrival in s.
+  vpLimitExcess excess; //!< The limit that the motion exceeds most, relative to it; None: all are kept, to 1e-9.
 
-  //! True unless the input is invalid or limits had to be dropped.
+  //! Holding, without a fault.
+  constexpr vpTrajectoryStatus() = default;
+  //! From its parts.
+  constexpr vpTrajectoryStatus(vpTrajectoryResult theResult, vpTrajectoryFault theFault, int theIndex, double theValue,
+                               const vpLimitExcess &theExcess = {})
+    : result(theResult), fault(theFault), index(theIndex), value(theValue), excess(theExcess)
+  {}
+
+  //! True unless the input is invalid or limits cannot be kept.
   [[nodiscard]] bool isGood() const
   {
     return result != vpTrajectoryResult::InvalidInput && result != vpTrajectoryResult::NoFeasibleDuration &&
@@ -86,6 +129,9 @@ struct VISP_EXPORT vpTrajectoryStatus {
 //! \ingroup group_trajectory
 //! \brief The result as a word ("Working"), for files; static text.
 [[nodiscard]] VISP_EXPORT const char *toString(vpTrajectoryResult result);
+//! \ingroup group_trajectory
+//! \brief The limit as words ("velocity"), for messages; static text.
+[[nodiscard]] VISP_EXPORT const char *toString(vpTrajectoryLimit limit);
 
 END_VISP_NAMESPACE
 #endif

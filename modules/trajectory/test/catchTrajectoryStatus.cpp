@@ -1,0 +1,198 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// Problems that were answered wrongly once, and what a status says about limits.
+#include "vpTrajectoryTestKit.h"
+
+VISP_DIRECT_USING_NAMESPACE
+using namespace vpTrajectoryTest;
+
+namespace
+{
+vpTrajectoryInput<1> wall(double q0)
+{
+  vpTrajectoryInput<1> input;
+  input.start.q[0] = q0;
+  input.start.v[0] = 1.;
+  input.goal.q[0] = 0.5;
+  input.minPosition[0] = -1.;
+  input.maxPosition[0] = 1.;
+  return input;
+}
+} // namespace
+
+TEST_CASE("a limit that cannot be kept is named with its excess", "[status]")
+{
+  vpTrajectoryInput<1> input;
+  input.start.q[0] = 0.783;
+  input.start.v[0] = 1.566;
+  input.start.a[0] = -2.193;
+  input.goal.q[0] = 0.4636;
+  input.maxVelocity[0] = 1.83;
+  input.maxAcceleration[0] = 2.975;
+  input.maxJerk[0] = 1.325;
+  input.minPosition[0] = 0.1417;
+  input.maxPosition[0] = 0.8265;
+  vpTrajectoryPlan plan(1);
+  const vpTrajectoryStatus status = vpDirectTrajectory<1>::calculate(input, plan);
+  CHECK(status.result == vpTrajectoryResult::NoFeasibleDuration);
+  CHECK(status.fault == vpTrajectoryFault::LimitExceeded);
+  CHECK(status.excess.index == 0);
+  CHECK(status.excess.amount() > 0.);
+  CHECK_THAT(status.message(), Catch::Contains("position of axis 0 is") && Catch::Contains("exceeded by"));
+  const vpTrajectoryPeaks peaks = plan.peaks(0);
+  CHECK(status.excess.value ==
+        (status.excess.limit == vpTrajectoryLimit::MaxPosition ? peaks.maxPosition : peaks.minPosition));
+}
+
+TEST_CASE("a position limit is exceeded by no more than the hardest stop needs", "[status]")
+{
+  // From q0 with v = a = 1 the least is q0 + 1/2; with a jerk limit v a/(2 j) more.
+  for (const double jerk : {none, 1000.}) {
+    for (int k = 0; k <= 100; ++k) {
+      vpTrajectoryInput<1> input = wall(0.4 + 0.005 * k);
+      input.maxJerk[0] = jerk;
+      vpTrajectoryPlan plan(1);
+      const vpTrajectoryStatus status = vpDirectTrajectory<1>::calculate(input, plan);
+      const double least = input.start.q[0] + 0.5 + 0.5 / jerk, highest = plan.peaks(0).maxPosition;
+      CAPTURE(jerk, input.start.q[0], highest, status.message());
+      CHECK(highest <= std::max(least, 1.) + 1e-4);
+      CHECK((status.result == vpTrajectoryResult::NoFeasibleDuration) == (highest > 1. + 1e-9));
+      if (!status.isGood()) {
+        CHECK(status.excess.limit == vpTrajectoryLimit::MaxPosition);
+        CHECK(status.excess.value == highest);
+        CHECK(status.excess.bound == 1.);
+      }
+    }
+  }
+}
+
+TEST_CASE("a start outside its position limits comes back, and says so", "[status]")
+{
+  vpTrajectoryInput<2> input;
+  input.start.q << -147.964, 0.;
+  input.goal.q << -147.7, 300.; // the second axis takes its time
+  input.minPosition[0] = -147.823;
+  input.options.cruise = false;
+  vpDirectTrajectory<2> trajectory;
+  vpTrajectoryOutput<2> output;
+  CHECK(trajectory.update(input, output, 1e-3) == vpTrajectoryResult::Braking);
+  CHECK_THAT(output.status.message(),
+             Catch::Contains("the start is outside the limits, coming back inside: the lowest position of axis 0"));
+  const double end = trajectory.plan().brakingEnd();
+  CHECK(trajectory.plan().at(0, end)[0] == Approx(-147.823).margin(1e-9));
+  CHECK(end < 1.2); // 0.141 from rest to rest take 0.9 s
+  int cycles = 1;
+  while (trajectory.update(input, output, 1e-3) == vpTrajectoryResult::Braking) {
+    REQUIRE(output.state.q[0] < -147.823 + 1e-6);
+    ++cycles;
+  }
+  CHECK(output.status.result == vpTrajectoryResult::Working);
+  CHECK(cycles == Approx(end / 1e-3).margin(1.));
+  CHECK(output.state.q[0] >= -147.823);
+}
+
+TEST_CASE("the last piece of a plan is no rounding error", "[status]")
+{
+  vpTrajectoryInput<3> input;
+  input.start.q << -5.507461831940547, 0.090188069891913, 0.04617373710735508;
+  input.start.v << -0.11716267431184355, 4.391641615583794, -0.4552961730027809;
+  input.start.a << 0.39762488987877354, 2.2693835681552064, -1.9885187967354512;
+  input.goal.q << -1.6252744946047553, 0.24631570216332152, 1.380833462741939;
+  input.goal.v << -2.2108827611642003, -1.0081805395451326, -1.473084206897115;
+  input.goal.a << -0.35303730473362666, 3.398336127920785, -0.6691570210756009;
+  input.maxVelocity << 8.833994781931795, 5.861418263405559, 4.690316756528659;
+  input.maxAcceleration << 0.42797309356708135, 8.242317315003744, 8.87720286867762;
+  vpTrajectoryPlan plan(3);
+  REQUIRE(vpDirectTrajectory<3>::calculate(input, plan).isGood());
+  const auto pieces = plan.pieces();
+  for (const vpTrajectoryPiece &piece : pieces) {
+    CHECK(piece.end - piece.begin > 1e-9 * plan.duration());
+  }
+  const vpTrajectoryPiece &last = pieces.back();
+  const double t = last.end - last.begin;
+  CHECK(last.end == plan.duration());
+  for (std::size_t i = 0; i < 3; ++i) {
+    double a = 0., power = 1.;
+    for (std::size_t k = 2; k < last.coefficients[i].size(); ++k, power *= t) {
+      a += static_cast<double>(k * (k - 1)) * last.coefficients[i][k] * power;
+    }
+    const int axis = static_cast<int>(i);
+    CHECK(std::abs(a - input.goal.a[axis]) < 1e-9);
+    CHECK(plan.at(axis, plan.duration())[2] == input.goal.a[axis]);
+  }
+}
+
+TEST_CASE("an axis that waits for another makes no detour", "[status]")
+{
+  for (const bool cruise : {false, true}) {
+    vpTrajectoryInput<2> input;
+    input.start.v << 0.5, 0.;
+    input.goal.q << 0.1, 10.;
+    input.options.cruise = cruise;
+    vpTrajectoryPlan plan(2);
+    const vpTrajectoryStatus status = vpDirectTrajectory<2>::calculate(input, plan);
+    CHECK(status.result == vpTrajectoryResult::Working);
+    CHECK(plan.peaks(0).maxPosition <= 0.1 + 0.5 * 0.5 / 2. + 0.5 * 0.1 / 2. + 1e-9); // v^2/(2 a) + v a/(2 j)
+    CHECK(plan.peaks(0).minPosition >= 0.);
+  }
+}
+
+TEST_CASE("Straight that cannot be straight says so", "[status]")
+{
+  vpTrajectoryInput<2> input;
+  input.goal.q << 1., 1.;
+  input.options.synchronisation = vpSynchronisation::Straight;
+  vpTrajectoryPlan plan(2);
+  CHECK(vpDirectTrajectory<2>::calculate(input, plan).fault == vpTrajectoryFault::None);
+  input.start.v << 0.1, -0.1;
+  const vpTrajectoryStatus status = vpDirectTrajectory<2>::calculate(input, plan);
+  CHECK(status.result == vpTrajectoryResult::Working);
+  CHECK(status.fault == vpTrajectoryFault::NotStraight);
+  CHECK_THAT(status.message(), Catch::Contains("not on the straight line") && Catch::Contains("axis 0"));
+}
+
+TEST_CASE("a goal one step of a float beyond its limit is on it", "[status]")
+{
+  const double pi = 3.14159265358979312;
+  for (const double goal : {std::nextafter(pi, 4.), static_cast<double>(std::nextafter(static_cast<float>(pi), 4.f))}) {
+    vpTrajectoryInput<1> input;
+    input.goal.q[0] = goal;
+    input.maxPosition[0] = pi;
+    vpTrajectoryPlan plan(1);
+    CHECK(vpDirectTrajectory<1>::calculate(input, plan).result == vpTrajectoryResult::Working);
+    CHECK(plan.at(0, plan.duration())[0] == goal);
+  }
+  vpTrajectoryInput<1> input;
+  input.goal.q[0] = pi + 1e-5;
+  input.maxPosition[0] = pi;
+  vpTrajectoryPlan plan(1);
+  CHECK(vpDirectTrajectory<1>::calculate(input, plan).message() ==
+        "goal position of axis 0 is 3.141602653589793, outside its position limits: the highest position of axis 0 is "
+        "3.141602653589793, its limit 3.141592653589793, exceeded by 1e-05");
+}
+
+TEST_CASE("a goal velocity does not lead out of the position limits after the arrival", "[status]")
+{
+  vpTrajectoryInput<1> input;
+  input.goal.q[0] = 0.5;
+  input.goal.v[0] = 0.5;
+  input.maxPosition[0] = 1.;
+  vpDirectTrajectory<1> trajectory;
+  vpTrajectoryOutput<1> output;
+  double highest = 0.;
+  for (int k = 0; k < 10000; ++k) {
+    static_cast<void>(trajectory.update(input, output, 1e-3));
+    highest = std::max(highest, output.state.q[0]);
+  }
+  CHECK(highest <= 1. + 1e-12);
+  CHECK(highest > 1. - 1e-9);
+  CHECK(output.state.v[0] == 0.);
+  CHECK(output.status.result == vpTrajectoryResult::Holding);
+  input.maxPosition[0] = 0.55; // no room to stop in: that is said
+  vpTrajectoryPlan plan(1);
+  const vpTrajectoryStatus status = vpDirectTrajectory<1>::calculate(input, plan);
+  CHECK(status.fault == vpTrajectoryFault::LimitExceeded);
+  CHECK(status.excess.limit == vpTrajectoryLimit::MaxPosition);
+}
