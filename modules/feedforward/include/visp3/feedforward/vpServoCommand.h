@@ -27,6 +27,20 @@ enum class vpServoStatus {
   Degenerate    //!< The law has no answer here (too few points, singular interaction matrix); zero twist.
 };
 
+/*!
+ * \ingroup group_feedforward
+ * \brief The condition of a loop of steps: true while the camera is on its way or may get there by going on (Servoing,
+ * ViewLimited, Holding, Retreating).
+ *
+ * False ends the loop: message() tells why. The twist is zero then, or near zero (Deadlock). That the goal is reached no
+ * status tells, for a law does not know how near is near enough: that is the other half of the condition.
+ */
+[[nodiscard]] constexpr bool isWorking(vpServoStatus status)
+{
+  return status == vpServoStatus::Servoing || status == vpServoStatus::ViewLimited ||
+         status == vpServoStatus::Holding || status == vpServoStatus::Retreating;
+}
+
 //! \ingroup group_feedforward
 //! \brief The status as a sentence for a person, static text.
 [[nodiscard]] VISP_EXPORT const char *message(vpServoStatus status);

@@ -43,10 +43,11 @@ struct VISP_EXPORT vpServoControllerConfig {
  * config.view = vpViewConstraintConfig::fromCamera(camera, 640, 480);
  * vpServoController servo = vpServoController::create("ff-lookat-pi+cbf", config);
  * servo.setGoal(goal);
- * for (;;) {
- *   vpServoCommand command = servo.update(measurement, dt); // measurement.valid = false when the target is not seen
+ * vpServoCommand command;
+ * do {
+ *   command = servo.update(measurement, dt); // measurement.valid = false when the target is not seen
  *   robot.setVelocity(vpRobot::CAMERA_FRAME, command.v.toColVector());
- * }
+ * } while (isWorking(command.status) && !closeEnough(measurement));
  * \endcode
  */
 class VISP_EXPORT vpServoController

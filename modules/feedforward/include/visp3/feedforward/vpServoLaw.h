@@ -47,10 +47,11 @@ struct VISP_EXPORT vpServoGains {
  * \code
  * auto law = vpServoLaw::create("ff-lookat-pi", vpServoGains());
  * law->setGoal(goal);
- * for (;;) {
- *   vpServoCommand command = law->update(measurement, dt);
+ * vpServoCommand command;
+ * do {
+ *   command = law->update(measurement, dt);
  *   robot.setVelocity(vpRobot::CAMERA_FRAME, command.v.toColVector());
- * }
+ * } while (isWorking(command.status) && !closeEnough(measurement));
  * \endcode
  */
 class VISP_EXPORT vpServoLaw

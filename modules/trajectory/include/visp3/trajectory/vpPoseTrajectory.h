@@ -77,9 +77,11 @@ struct VISP_EXPORT vpCameraState {
  * vpPoseTrajectory trajectory(options);
  * trajectory.reset(fMc);
  * trajectory.setGoal(fMcd);                       // again at every image, if it moves
- * while (trajectory.update(dt).result != vpTrajectoryResult::Finished) {
+ * vpTrajectoryStatus status = trajectory.update(dt);
+ * for (; isWorking(status.result); status = trajectory.update(dt)) {
  *   robot.setVelocity(vpRobot::CAMERA_FRAME, trajectory.state().v.toColVector());
  * }
+ * robot.setVelocity(vpRobot::CAMERA_FRAME, vpColVector(6)); // at the goal, or status.message() tells the error
  * \endcode
  */
 class VISP_EXPORT vpPoseTrajectory

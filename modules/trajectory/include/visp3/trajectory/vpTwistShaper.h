@@ -43,7 +43,7 @@ struct VISP_EXPORT vpTwistShaperLimits {
  *
  * \code
  * vpTwistShaper shaper(limits);
- * for (;;) {
+ * while (task.getError().sumSquare() > small) {
  *   v = shaper.update(vpTwist::fromColVector(task.computeControlLaw()), dt);
  * }
  * \endcode
