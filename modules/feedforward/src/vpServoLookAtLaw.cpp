@@ -12,14 +12,21 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
+// How quickly a wrong integral is let go, s.
+constexpr double unwindTime = 0.3;
+// An error as large as so many deviations, or so many rad when nobody knows its deviation, tells that the integral is wrong.
+constexpr double unwindDeviations = 2., unwindUnknown = 0.01;
+
 // Where the camera is, seen from a goal.
 struct Gaze {
   vpServoPose::Error error;
   vpLookAt lookAt;
   Eigen::Vector3d e = Eigen::Vector3d::Zero(); // log(R_la^T R), rad, where R_la is defined
+  double distance;                             // of the object's origin, m
 
   Gaze(const vpHomogeneousMatrix &cdMo, const vpHomogeneousMatrix &cMo)
-    : error(vpServoPose::error(cdMo, cMo)), lookAt(vpServoPose::translation(cdMo), error.t)
+    : error(vpServoPose::error(cdMo, cMo)), lookAt(vpServoPose::translation(cdMo), error.t),
+      distance((vpServoPose::translation(cdMo) - error.t).norm())
   {
     if (lookAt.defined) {
       e = vpSO3::log(lookAt.rotation.transpose() * error.R);
@@ -52,12 +59,12 @@ protected:
     // d' = -t' = lambda t.
     const Eigen::Vector3d feedforward = toCamera * (gaze.lookAt.rate * (m_gains.lambda * gaze.error.t));
     const Eigen::Vector3d w = -rotationGain() * gaze.e + feedforward;
-    return {vpServoPose::twist(v, w - integral(measurement, gaze.e, w, dt)), vpServoStatus::Servoing};
+    return {vpServoPose::twist(v, w - integral(measurement, gaze, w, dt)), vpServoStatus::Servoing};
   }
 
   //! Angular velocity to take off the wanted one \e w, camera frame, rad/s; zero in this law.
-  virtual Eigen::Vector3d integral(const vpServoMeasurement &, const Eigen::Vector3d & /*e*/,
-                                   const Eigen::Vector3d & /*w*/, double) noexcept
+  virtual Eigen::Vector3d integral(const vpServoMeasurement &, const Gaze &, const Eigen::Vector3d & /*w*/,
+                                   double) noexcept
   {
     return Eigen::Vector3d::Zero();
   }
@@ -69,6 +76,10 @@ protected:
  * So the way to a far goal, which is no disturbance, leaves the integral at zero and causes no overshoot. Anti-windup:
  * - bounded norm;
  * - no integration over a step whose predecessor was not executed as asked (e_m starts again);
+ * - what is within the noise is not integrated: e - e_m counts as far as it is longer than its standard deviation, from the
+ *   covariance of the pose (the turn, and the shift over the distance). An unknown covariance takes nothing off;
+ * - an integral that was wrong (a spell of biased measurements) is let go quickly: on an axis where e - e_m is clearly, by
+ *   two deviations, on the other side of it, it fades with a time constant of 0.3 s;
  * - friction turns round with the motion: when the law asks an axis to go against the integral and faster than it, the
  *   integral of this axis starts again from zero. Kept, it would double the disturbance after each reversal.
  */
@@ -97,9 +108,10 @@ protected:
     m_integral.setZero();
   }
 
-  Eigen::Vector3d integral(const vpServoMeasurement &measurement, const Eigen::Vector3d &e, const Eigen::Vector3d &w,
+  Eigen::Vector3d integral(const vpServoMeasurement &measurement, const Gaze &gaze, const Eigen::Vector3d &w,
                            double dt) noexcept VP_OVERRIDE
   {
+    const Eigen::Vector3d &e = gaze.e;
     if (m_goalMoved && !m_restart) {
       const Gaze before(m_modelGoal, measurement.cMo);
       m_restart = !before.lookAt.defined;
@@ -116,7 +128,21 @@ protected:
         m_integral[axis] = 0.;
       }
     }
-    m_integral += m_gains.integral * dt * (e - m_model);
+    const bool known = measurement.covariance.known;
+    const double noise = known ? std::hypot(measurement.covariance.rotationDeviation(),
+                                            measurement.covariance.positionDeviation() / gaze.distance)
+                               : 0.;
+    const double clear = known ? unwindDeviations * noise : unwindUnknown;
+    const Eigen::Vector3d x = e - m_model;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (x[axis] * m_integral[axis] < 0. && std::abs(x[axis]) > clear) {
+        m_integral[axis] *= std::exp(-dt / unwindTime);
+      }
+    }
+    const double size = x.norm();
+    if (size > noise) {
+      m_integral += m_gains.integral * dt * (1. - noise / size) * x;
+    }
     const double norm = m_integral.norm();
     if (norm > m_gains.integralLimit) {
       m_integral *= m_gains.integralLimit / norm;

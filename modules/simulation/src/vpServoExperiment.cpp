@@ -21,7 +21,8 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-constexpr double mostCycles = 1e7; // the log must fit into memory
+constexpr double mostCycles = 1e7;  // the log must fit into memory
+constexpr double framesMissed = 5.; // after so many, odometry alone is not believed any more
 
 std::unique_ptr<vpServoSensor> makeSensor(const vpServoRunSpec &spec)
 {
@@ -140,7 +141,7 @@ vpServoRun runServoExperiment(const vpServoRunSpec &spec, const std::function<bo
     shaper.emplace(*spec.shape);
   }
   vpVisionChannel vision(spec.plant.visionRate, spec.plant.latency);
-  vpOdometryBridge odometry;
+  vpOdometryBridge odometry(spec.plant.latency + framesMissed / spec.plant.visionRate, spec.plant.loopRate);
   vpServoMeasurement frame, result, measurement;
 
   vpServoRun run;
@@ -164,8 +165,7 @@ vpServoRun runServoExperiment(const vpServoRunSpec &spec, const std::function<bo
       vision.push(frame);
     }
     while (vision.pop(s.time, result)) {
-      odometry.correct(result);
-      s.newFrame = true;
+      s.newFrame = odometry.correct(result);
     }
     odometry.predict(measurement);
     const vpServoCommand command = servo.update(measurement, dt);

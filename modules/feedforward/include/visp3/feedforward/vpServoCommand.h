@@ -24,7 +24,8 @@ enum class vpServoStatus {
   Lost,   //!< The target is lost and the way back is used up: standing still until it is seen or reset() is called.
   NoGoal, //!< No goal was set yet; zero twist.
   InvalidInput, //!< The measurement is not finite, has a depth <= 0 or not the goal's points; zero twist.
-  Degenerate    //!< The law has no answer here (too few points, singular interaction matrix); zero twist.
+  Degenerate,   //!< The law has no answer here (too few points, singular interaction matrix); zero twist.
+  Diverging     //!< The law goes away from the target without end (`ibvs` after a roll of half a turn); zero twist.
 };
 
 /*!

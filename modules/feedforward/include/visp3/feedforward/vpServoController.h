@@ -90,7 +90,7 @@ public:
    * R exp(w / rotationGain). For `pbvs1` this is the goal (the identity); what `ff-*` adds to it is the reference of
    * the figures 5.6 and 5.8 of the thesis.
    * \param measurement : The valid measurement that the command answers. \param command : Answer of update().
-   * \return Orientation in the desired camera frame. The identity when no goal is set.
+   * \return Orientation in the desired camera frame. The identity when no goal is set, or the measurement is not finite.
    */
   [[nodiscard]] Eigen::Matrix3d referenceRotation(const vpServoMeasurement &measurement,
                                                   const vpServoCommand &command) const noexcept;
