@@ -12,10 +12,10 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-// How quickly a wrong integral is let go, s.
-constexpr double unwindTime = 0.3;
+// What is left of an integral, turned round, when the error tells that it is wrong.
+constexpr double turned = 0.8;
 // An error as large as so many deviations, or so many rad when nobody knows its deviation, tells that the integral is wrong.
-constexpr double unwindDeviations = 2., unwindUnknown = 0.01;
+constexpr double unwindDeviations = 2., unwindUnknown = 0.004;
 
 // Where the camera is, seen from a goal.
 struct Gaze {
@@ -78,8 +78,9 @@ protected:
  * - no integration over a step whose predecessor was not executed as asked (e_m starts again);
  * - what is within the noise is not integrated: e - e_m counts as far as it is longer than its standard deviation, from the
  *   covariance of the pose (the turn, and the shift over the distance). An unknown covariance takes nothing off;
- * - an integral that was wrong (a spell of biased measurements) is let go quickly: on an axis where e - e_m is clearly, by
- *   two deviations, on the other side of it, it fades with a time constant of 0.3 s;
+ * - an integral that was wrong (a spell of biased measurements) does not stay: on an axis where e - e_m is clearly, by two
+ *   deviations, on the other side of it, friction is against the other direction now, and the integral changes its sign. Not
+ *   all of it: what was no friction is gone after a few turns;
  * - friction turns round with the motion: when the law asks an axis to go against the integral and faster than it, the
  *   integral of this axis starts again from zero. Kept, it would double the disturbance after each reversal.
  */
@@ -136,7 +137,7 @@ protected:
     const Eigen::Vector3d x = e - m_model;
     for (int axis = 0; axis < 3; ++axis) {
       if (x[axis] * m_integral[axis] < 0. && std::abs(x[axis]) > clear) {
-        m_integral[axis] *= std::exp(-dt / unwindTime);
+        m_integral[axis] *= -turned;
       }
     }
     const double size = x.norm();
