@@ -18,6 +18,8 @@ namespace
 {
 using P = vpTrajectoryProblem;
 
+constexpr double longestStep = 1e6; // s; a clock that says more is wrong
+
 // J_r'(e, e') e': what the change of the right Jacobian adds to the angular acceleration.
 Eigen::Vector3d jacobianRateTerm(const Eigen::Vector3d &e, const Eigen::Vector3d &rate)
 {
@@ -60,7 +62,7 @@ vpTrajectoryStatus read(const vpHomogeneousMatrix &M, bool start, Eigen::Matrix3
     }
   }
   const double error = (raw.transpose() * raw - Eigen::Matrix3d::Identity()).norm();
-  if (error > 1e-6 || raw.determinant() < 0.) {
+  if (!(error <= 1e-6) || raw.determinant() < 0.) {
     return {vpTrajectoryResult::InvalidInput, vpTrajectoryFault::NotARotation, -1, raw.determinant() < 0. ? 2. : error};
   }
   R = Eigen::Quaterniond(raw).normalized().toRotationMatrix();
@@ -102,7 +104,8 @@ void vpCameraState::copyTo(vpHomogeneousMatrix &pose) const
   }
 }
 
-vpPoseTrajectory::vpPoseTrajectory(const vpPoseTrajectoryOptions &options) : m_problem(6), m_planner(6), m_plan(6)
+vpPoseTrajectory::vpPoseTrajectory(const vpPoseTrajectoryOptions &options)
+  : m_problem(6), m_planner(6), m_plan(6), m_jitter(6)
 {
   setOptions(options);
   static_cast<void>(reset(vpHomogeneousMatrix()));
@@ -159,6 +162,9 @@ vpTrajectoryStatus vpPoseTrajectory::reset(const vpHomogeneousMatrix &fMc, const
   m_fRd = x.fRc;
   m_ftd = x.ftc;
   m_goalTwist = vpTwist();
+  m_goals = 0;
+  m_goalAge = m_goalInterval = 0.;
+  m_jitter.reset();
   m_plan.clear();
   m_clock = 0.;
   m_arrival = -1.;
@@ -181,10 +187,13 @@ vpTrajectoryStatus vpPoseTrajectory::setGoal(const vpHomogeneousMatrix &fMcd, co
     }
     same = same && goalTwist[i] == m_goalTwist[i];
   }
-  if (goalTwist.linearNorm() > m_options.linearVelocity || goalTwist.angularNorm() > m_options.angularVelocity) {
-    const bool position = goalTwist.linearNorm() > m_options.linearVelocity;
+  if (!(goalTwist.linearNorm() <= m_options.linearVelocity && goalTwist.angularNorm() <= m_options.angularVelocity)) {
+    const bool position = !(goalTwist.linearNorm() <= m_options.linearVelocity);
     return {vpTrajectoryResult::InvalidInput, vpTrajectoryFault::GoalOutsideGroup, position ? 0 : 1,
             position ? goalTwist.linearNorm() : goalTwist.angularNorm()};
+  }
+  if (!same) {
+    noteGoal(R, t);
   }
   m_event = m_event || !same;
   m_fRd = R;
@@ -193,39 +202,81 @@ vpTrajectoryStatus vpPoseTrajectory::setGoal(const vpHomogeneousMatrix &fMcd, co
   return status;
 }
 
+// Where the goal is \e ahead seconds after it was given, going on with its twist.
+void vpPoseTrajectory::goalAt(double ahead, Eigen::Matrix3d &R, Eigen::Vector3d &t) const noexcept
+{
+  const Eigen::Vector3d turn = ahead * angular(m_goalTwist);
+  R = m_fRd * vpSO3::exp(turn);
+  t = m_ftd + m_fRd * (vpSO3::rightJacobian(-turn) * (ahead * linear(m_goalTwist)));
+}
+
+// How the goal moves, from what is new about it.
+void vpPoseTrajectory::noteGoal(const Eigen::Matrix3d &R, const Eigen::Vector3d &t) noexcept
+{
+  m_goalInterval = 0.;
+  if (m_goals > 0) {
+    Eigen::Matrix3d expectedR;
+    Eigen::Vector3d expected;
+    goalAt(m_goalAge, expectedR, expected);
+    const Eigen::Vector3d shift = t - expected, turn = vpSO3::log(expectedR.transpose() * R);
+    for (int i = 0; i < 3; ++i) {
+      m_jitter.see(i, shift[i]);
+      m_jitter.see(i + 3, turn[i]);
+    }
+    m_goalInterval = m_goalAge;
+  }
+  m_goals = std::min(m_goals + 1, 2);
+  m_goalAge = 0.;
+}
+
+// The floor of KeepArrival, and where its goal will be; see vpTrajectoryFollower.
+double vpPoseTrajectory::meet(double floor, Eigen::Matrix3d &R, Eigen::Vector3d &t) noexcept
+{
+  floor = std::max(floor, m_jitter.floor(m_problem));
+  double left = remaining();
+  if (m_goals > 1 && (m_goalTwist.linearNorm() > 0. || m_goalTwist.angularNorm() > 0.)) {
+    goalAt(m_goalAge + floor, R, t);
+    left = std::max(left - vpGoalJitter::hurry * m_goalInterval, 0.);
+  }
+  m_goalInterval = 0.;
+  return std::max(floor, left);
+}
+
 void vpPoseTrajectory::replan() noexcept
 {
-  const vpCameraState &x = m_state;
-  m_fR0 = Eigen::Quaterniond(x.fRc).normalized().toRotationMatrix();
-  // At e = 0 the right Jacobian is the identity and its rate adds nothing: e' = w, e'' = w'.
-  const Eigen::Vector3d p1 = x.fRc * linear(x.v), p2 = x.fRc * linear(x.a), e1 = angular(x.v), e2 = angular(x.a);
-  const Eigen::Vector3d w = angular(m_goalTwist), goal = vpSO3::log(m_fR0.transpose() * m_fRd);
-  const Eigen::Matrix3d inverse = vpSO3::rightJacobianInverse(goal);
-  Eigen::Vector3d goal1 = inverse * w;
-  // Near pi the rates of the rotation vector exceed those of the rotation; the limits are on the former.
-  goal1 *= std::min(1., m_options.angularVelocity / std::max(goal1.norm(), 1e-300));
-  Eigen::Vector3d goal2 = -inverse * jacobianRateTerm(goal, goal1);
-  goal2 *= std::min(1., m_options.angularAcceleration / std::max(goal2.norm(), 1e-300));
-  const Eigen::Vector3d goalP1 = m_fRd * linear(m_goalTwist);
-  Eigen::Vector3d goalP2 = m_fRd * w.cross(linear(m_goalTwist));
-  goalP2 *= std::min(1., m_options.linearAcceleration / std::max(goalP2.norm(), 1e-300));
-  for (int i = 0; i < 3; ++i) {
-    m_problem.setStart(i, {x.ftc[i], p1[i], p2[i], 0.});
-    m_problem.setStart(i + 3, {0., e1[i], e2[i], 0.});
-    const double values[2][3] = {{m_ftd[i], goalP1[i], goalP2[i]}, {goal[i], goal1[i], goal2[i]}};
-    for (int k = 0; k < 2; ++k) {
-      m_problem.field(P::GoalQ)[i + 3 * k] = values[k][0];
-      m_problem.field(P::GoalV)[i + 3 * k] = values[k][1];
-      m_problem.field(P::GoalA)[i + 3 * k] = values[k][2];
-    }
-  }
+  Eigen::Matrix3d fRd = m_fRd;
+  Eigen::Vector3d ftd = m_ftd;
   double floor = m_options.minimumDuration;
   if (m_options.policy == vpReplanPolicy::FixedArrival) {
     m_arrival = m_arrival >= 0. && remaining() > 0. ? std::max(m_arrival - m_clock, 0.) : m_options.arrivalTime;
     floor = m_arrival;
   }
   else if (m_options.policy == vpReplanPolicy::KeepArrival) {
-    floor = std::max(floor, remaining());
+    floor = meet(floor, fRd, ftd);
+  }
+  const vpCameraState &x = m_state;
+  m_fR0 = Eigen::Quaterniond(x.fRc).normalized().toRotationMatrix();
+  // At e = 0 the right Jacobian is the identity and its rate adds nothing: e' = w, e'' = w'.
+  const Eigen::Vector3d p1 = x.fRc * linear(x.v), p2 = x.fRc * linear(x.a), e1 = angular(x.v), e2 = angular(x.a);
+  const Eigen::Vector3d w = angular(m_goalTwist), goal = vpSO3::log(m_fR0.transpose() * fRd);
+  const Eigen::Matrix3d inverse = vpSO3::rightJacobianInverse(goal);
+  Eigen::Vector3d goal1 = inverse * w;
+  // Near pi the rates of the rotation vector exceed those of the rotation; the limits are on the former.
+  goal1 *= std::min(1., m_options.angularVelocity / std::max(goal1.norm(), 1e-300));
+  Eigen::Vector3d goal2 = -inverse * jacobianRateTerm(goal, goal1);
+  goal2 *= std::min(1., m_options.angularAcceleration / std::max(goal2.norm(), 1e-300));
+  const Eigen::Vector3d goalP1 = fRd * linear(m_goalTwist);
+  Eigen::Vector3d goalP2 = fRd * w.cross(linear(m_goalTwist));
+  goalP2 *= std::min(1., m_options.linearAcceleration / std::max(goalP2.norm(), 1e-300));
+  for (int i = 0; i < 3; ++i) {
+    m_problem.setStart(i, {x.ftc[i], p1[i], p2[i], 0.});
+    m_problem.setStart(i + 3, {0., e1[i], e2[i], 0.});
+    const double values[2][3] = {{ftd[i], goalP1[i], goalP2[i]}, {goal[i], goal1[i], goal2[i]}};
+    for (int k = 0; k < 2; ++k) {
+      m_problem.field(P::GoalQ)[i + 3 * k] = values[k][0];
+      m_problem.field(P::GoalV)[i + 3 * k] = values[k][1];
+      m_problem.field(P::GoalA)[i + 3 * k] = values[k][2];
+    }
   }
   m_planStatus = m_planner.plan(m_problem, floor, m_plan);
   m_clock = 0.;
@@ -233,7 +284,7 @@ void vpPoseTrajectory::replan() noexcept
 
 vpTrajectoryStatus vpPoseTrajectory::update(double dt) noexcept
 {
-  if (!(dt > 0.) || !std::isfinite(dt)) {
+  if (!(dt > 0. && dt <= longestStep)) {
     return {vpTrajectoryResult::InvalidInput, vpTrajectoryFault::TimeStep, -1, dt};
   }
   const bool event = m_event;
@@ -243,6 +294,8 @@ vpTrajectoryStatus vpPoseTrajectory::update(double dt) noexcept
   }
   const bool arrivedBefore = !event && m_clock >= duration();
   m_clock += dt;
+  m_goalAge += dt;
+  m_jitter.pass(dt);
   if (std::abs(m_clock - duration()) < 1e-8 * dt) {
     m_clock = duration(); // sums of dt differ from the duration by rounding
   }

@@ -11,9 +11,7 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-// KeepArrival: while a goal is on its way, the time left comes down so many times as fast as time goes by, besides by itself.
-// Otherwise the date of a plan that was long for once would keep the next ones long.
-constexpr double hurry = 5.;
+constexpr double longestStep = 1e6; // s; a clock that says more is wrong
 } // namespace
 
 vpTrajectoryFollower::vpTrajectoryFollower(int axes, int maxVias)
@@ -27,7 +25,7 @@ vpTrajectoryStatus vpTrajectoryFollower::update(const vpTrajectoryProblem &probl
     return advance({vpTrajectoryResult::InvalidInput, vpTrajectoryFault::AxisCount, m_plan.axes(), 1. * problem.axes()},
                    dt);
   }
-  if (!(dt > 0.) || !std::isfinite(dt)) {
+  if (!(dt > 0. && dt <= longestStep)) {
     return m_status = {vpTrajectoryResult::InvalidInput, vpTrajectoryFault::TimeStep, -1, dt};
   }
   const Event event = detect(problem);
@@ -52,7 +50,7 @@ vpTrajectoryStatus vpTrajectoryFollower::update(const vpTrajectoryProblem &probl
 vpTrajectoryStatus vpTrajectoryFollower::advance(const vpTrajectoryStatus &fault, double dt) noexcept
 {
   m_newPlan = false;
-  if (m_started && dt > 0. && std::isfinite(dt)) {
+  if (m_started && dt > 0. && dt <= longestStep) {
     tick(dt);
   }
   return m_status = fault;
@@ -157,7 +155,7 @@ double vpTrajectoryFollower::floorOf(const vpTrajectoryProblem &problem, Event e
     return std::max(options.minimumDuration, event == Event::Rate ? left : 0.);
   }
   if (m_goalMoves) {
-    left = std::max(left - hurry * m_goalInterval, 0.);
+    left = std::max(left - vpGoalJitter::hurry * m_goalInterval, 0.);
   }
   return std::max({options.minimumDuration, left, m_jitter.floor(problem)});
 }

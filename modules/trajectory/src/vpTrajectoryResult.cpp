@@ -70,7 +70,7 @@ const char *sentence(vpTrajectoryFault fault)
   case vpTrajectoryFault::NotARotation:
     return "the rotation of the pose differs from an orthonormal one by %g";
   case vpTrajectoryFault::TimeStep:
-    return "dt is %g s, must be > 0 and finite";
+    return "dt is %g s, must be > 0 and finite, at most 1e6 s";
   case vpTrajectoryFault::GoalContradiction:
     return "the goal acceleration of axis %d (%g) cannot be reached within its velocity and jerk limits; it was "
            "dropped";

@@ -33,6 +33,12 @@ public:
   static constexpr double memory = 1.; //!< s.
   static constexpr double ease = 2.;   //!< A correction takes 1 / ease^2 of the acceleration limit.
 
+  /*!
+   * While a goal is on its way, the time left of KeepArrival comes down so many times as fast as time goes by, besides by
+   * itself: the date of a plan that was long for once must not keep the next ones long.
+   */
+  static constexpr double hurry = 5.;
+
   //! \param axes : Number of axes, >= 1.
   explicit vpGoalJitter(int axes);
 

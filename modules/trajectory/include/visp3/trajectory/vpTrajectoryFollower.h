@@ -37,7 +37,7 @@ public:
    */
   explicit vpTrajectoryFollower(int axes, int maxVias = 0);
 
-  //! One cycle of \e dt seconds. Never throws, never allocates.
+  //! One cycle of \e dt seconds, at most 1e6. Never throws, never allocates.
   vpTrajectoryStatus update(const vpTrajectoryProblem &problem, double dt) noexcept;
   //! One cycle with an input that could not even be read: the motion goes on, the answer is \e fault.
   vpTrajectoryStatus advance(const vpTrajectoryStatus &fault, double dt) noexcept;

@@ -70,7 +70,7 @@ enum class vpTrajectoryFault {
   ThesisGain,              //!< A gain of (6.6) is not > 0.
   ThesisSteps,             //!< The number of steps per cycle is not >= 1.
   NotARotation,            //!< The rotation of a pose is not orthonormal to 1e-6.
-  TimeStep,                //!< dt is not finite and > 0.
+  TimeStep,                //!< dt is not > 0 and at most 1e6 s.
   GoalContradiction,       //!< The goal cannot be approached within the limits (such as v = v_max with a < 0).
   PositionUnreachable,     //!< The position limits cannot be kept from this state; they were dropped.
   ArrivalTooEarly          //!< The given arrival time needs more than the limits allow.
