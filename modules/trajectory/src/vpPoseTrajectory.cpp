@@ -47,16 +47,26 @@ Eigen::Vector3d angular(const vpTwist &v) { return {v[3], v[4], v[5]}; }
 
 vpTwist twist(const Eigen::Vector3d &v, const Eigen::Vector3d &w) { return {v.x(), v.y(), v.z(), w.x(), w.y(), w.z()}; }
 
+// As in vpTrajectoryProblem: beyond this nothing can be computed reliably.
+constexpr double largest = 1e12;
+
+vpTrajectoryFault faultOf(double x, bool start)
+{
+  if (!std::isfinite(x)) {
+    return start ? vpTrajectoryFault::StartNotFinite : vpTrajectoryFault::GoalNotFinite;
+  }
+  return std::abs(x) <= largest ? vpTrajectoryFault::None : vpTrajectoryFault::OutOfRange;
+}
+
 // Read a pose and make its rotation orthonormal to the last digit.
 vpTrajectoryStatus read(const vpHomogeneousMatrix &M, bool start, Eigen::Matrix3d &R, Eigen::Vector3d &t)
 {
   Eigen::Matrix3d raw;
   for (unsigned int r = 0; r < 3; ++r) {
     for (unsigned int c = 0; c < 4; ++c) {
-      if (!std::isfinite(M[r][c])) {
-        return {vpTrajectoryResult::InvalidInput,
-                start ? vpTrajectoryFault::StartNotFinite : vpTrajectoryFault::GoalNotFinite, static_cast<int>(r),
-                M[r][c]};
+      const vpTrajectoryFault fault = faultOf(M[r][c], start);
+      if (fault != vpTrajectoryFault::None) {
+        return {vpTrajectoryResult::InvalidInput, fault, static_cast<int>(r), M[r][c]};
       }
       (c < 3 ? raw(r, c) : t(r)) = M[r][c];
     }
@@ -71,8 +81,10 @@ vpTrajectoryStatus read(const vpHomogeneousMatrix &M, bool start, Eigen::Matrix3
 
 void requirePositive(const char *name, double value, const char *unit)
 {
-  if (!(value > 0.)) {
-    throw vpException(vpException::badValue, "%s of the pose trajectory is %g %s, must be > 0", name, value, unit);
+  if (!(value >= 1. / largest && (value <= largest || std::isinf(value)))) {
+    throw vpException(vpException::badValue,
+                      "%s of the pose trajectory is %g %s, must be > 0 (1e-12 to 1e12, or infinity)", name, value,
+                      unit);
   }
 }
 } // namespace
@@ -88,7 +100,7 @@ void vpPoseTrajectoryOptions::validate() const
   if (policy == vpReplanPolicy::FixedArrival) {
     requirePositive("arrival time", std::isfinite(arrivalTime) ? arrivalTime : -1., "s");
   }
-  if (!(minimumDuration >= 0.) || !std::isfinite(minimumDuration)) {
+  if (!(minimumDuration >= 0. && minimumDuration <= largest)) {
     throw vpException(vpException::badValue, "minimum duration of the pose trajectory is %g s, must be >= 0",
                       minimumDuration);
   }
@@ -151,9 +163,10 @@ vpTrajectoryStatus vpPoseTrajectory::reset(const vpHomogeneousMatrix &fMc, const
     return status;
   }
   for (std::size_t i = 0; i < 6; ++i) {
-    if (!std::isfinite(v[i]) || !std::isfinite(a[i])) {
-      return {vpTrajectoryResult::InvalidInput, vpTrajectoryFault::StartNotFinite, static_cast<int>(i),
-              std::isfinite(v[i]) ? a[i] : v[i]};
+    for (const double rate : {v[i], a[i]}) {
+      if (faultOf(rate, true) != vpTrajectoryFault::None) {
+        return {vpTrajectoryResult::InvalidInput, faultOf(rate, true), static_cast<int>(i), rate};
+      }
     }
   }
   x.v = v;
@@ -182,8 +195,8 @@ vpTrajectoryStatus vpPoseTrajectory::setGoal(const vpHomogeneousMatrix &fMcd, co
   }
   bool same = R == m_fRd && t == m_ftd;
   for (std::size_t i = 0; i < 6; ++i) {
-    if (!std::isfinite(goalTwist[i])) {
-      return {vpTrajectoryResult::InvalidInput, vpTrajectoryFault::GoalNotFinite, static_cast<int>(i), goalTwist[i]};
+    if (faultOf(goalTwist[i], false) != vpTrajectoryFault::None) {
+      return {vpTrajectoryResult::InvalidInput, faultOf(goalTwist[i], false), static_cast<int>(i), goalTwist[i]};
     }
     same = same && goalTwist[i] == m_goalTwist[i];
   }
