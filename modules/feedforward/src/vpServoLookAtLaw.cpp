@@ -12,9 +12,11 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
+// Time over which measurements are averaged, s, and what share of the deviation of one the mean is taken to have.
+constexpr double meanTime = 1., meanShare = 1. / 3.;
 // What is left of an integral, turned round, when the error tells that it is wrong.
 constexpr double turned = 0.8;
-// An error as large as so many deviations, or so many rad when nobody knows its deviation, tells that the integral is wrong.
+// A mean as large as so many times its noise, or so many rad when nobody knows that, tells that the integral is wrong.
 constexpr double unwindDeviations = 2., unwindUnknown = 0.004;
 
 // Where the camera is, seen from a goal.
@@ -76,10 +78,12 @@ protected:
  * So the way to a far goal, which is no disturbance, leaves the integral at zero and causes no overshoot. Anti-windup:
  * - bounded norm;
  * - no integration over a step whose predecessor was not executed as asked (e_m starts again);
- * - what is within the noise is not integrated: e - e_m counts as far as it is longer than its standard deviation, from the
- *   covariance of the pose (the turn, and the shift over the distance). An unknown covariance takes nothing off;
- * - an integral that was wrong (a spell of biased measurements) does not stay: on an axis where e - e_m is clearly, by two
- *   deviations, on the other side of it, friction is against the other direction now, and the integral changes its sign. Not
+ * - what is within the noise is not integrated. The noise is that of the mean of e - e_m over the last second, a third of the
+ *   deviation of one measurement (at ten independent ones a second it is 0.22 of it), which comes from the covariance of the
+ *   pose: the turn, and the shift over the distance. The mean counts as far as it is beyond. Nothing is taken off when the
+ *   covariance is not known;
+ * - an integral that was wrong (a spell of biased measurements) does not stay: on an axis where that mean is clearly, by twice its
+ *   noise, on the other side of it, friction is against the other direction now, and the integral changes its sign. Not
  *   all of it: what was no friction is gone after a few turns;
  * - friction turns round with the motion: when the law asks an axis to go against the integral and faster than it, the
  *   integral of this axis starts again from zero. Kept, it would double the disturbance after each reversal.
@@ -120,6 +124,7 @@ protected:
     }
     if (m_restart) {
       m_model = e;
+      m_mean.setZero();
     }
     m_goalMoved = m_restart = false;
 
@@ -130,17 +135,18 @@ protected:
       }
     }
     const bool known = measurement.covariance.known;
-    const double noise = known ? std::hypot(measurement.covariance.rotationDeviation(),
-                                            measurement.covariance.positionDeviation() / gaze.distance)
+    const double noise = known ? meanShare * std::hypot(measurement.covariance.rotationDeviation(),
+                                                        measurement.covariance.positionDeviation() / gaze.distance)
                                : 0.;
     const double clear = known ? unwindDeviations * noise : unwindUnknown;
     const Eigen::Vector3d x = e - m_model;
+    m_mean += (1. - std::exp(-dt / meanTime)) * (x - m_mean);
     for (int axis = 0; axis < 3; ++axis) {
-      if (x[axis] * m_integral[axis] < 0. && std::abs(x[axis]) > clear) {
+      if (x[axis] * m_integral[axis] < 0. && m_mean[axis] * m_integral[axis] < 0. && std::abs(m_mean[axis]) > clear) {
         m_integral[axis] *= -turned;
       }
     }
-    const double size = x.norm();
+    const double size = known ? m_mean.norm() : 1.;
     if (size > noise) {
       m_integral += m_gains.integral * dt * (1. - noise / size) * x;
     }
@@ -158,6 +164,7 @@ private:
   vpHomogeneousMatrix m_lastGoal;  // cdMo in force
   vpHomogeneousMatrix m_modelGoal; // cdMo that m_model belongs to, when the goal has moved since
   Eigen::Vector3d m_model = Eigen::Vector3d::Zero();
+  Eigen::Vector3d m_mean = Eigen::Vector3d::Zero(); // of e - e_m
   Eigen::Vector3d m_integral = Eigen::Vector3d::Zero();
 };
 } // namespace

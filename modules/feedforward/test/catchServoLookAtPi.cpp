@@ -59,7 +59,7 @@ TEST_CASE("an error within the noise is not integrated, one beyond it is", "[int
   // A camera that friction holds at the same small error for a minute: a fixed point of the vision, say.
   vpServoMeasurement seen;
   for (const bool isKnown : {false, true}) {
-    for (const double degrees : {0.3, 0.8}) {
+    for (const double degrees : {0.15, 0.3}) {
       Difference added(goal(cdMo, points));
       measure(cdMo, points, seen); // the model of the law's own way starts at zero
       seen.covariance = isKnown ? covariance(1e-4, 0.5 * degree) : vpPoseCovariance();
@@ -72,8 +72,9 @@ TEST_CASE("an error within the noise is not integrated, one beyond it is", "[int
       CAPTURE(isKnown, degrees, last.transpose());
       // Not known: as ever, up to the limit of 0.5 rad/s or 1 / s^2 times the error times a minute.
       const double all = std::min(0.5, degrees * degree * 60.);
-      const double beyond = std::min(0.5, std::max(degrees - 0.5, 0.) * degree * 60.);
-      CHECK(last.norm() == Approx(isKnown ? beyond : all).epsilon(0.02).margin(1e-12));
+      const double beyond = std::min(0.5, std::max(degrees - 0.5 / 3., 0.) * degree * 60.); // of the mean
+      CHECK(last.norm() ==
+            Approx(isKnown ? beyond : all).epsilon(0.05).margin(1e-12)); // the mean comes in within a second or two
     }
   }
 }
@@ -101,10 +102,10 @@ TEST_CASE("noise alone does not wind the integral up", "[integral][covariance]")
     }
   }
   CAPTURE(most[0], most[1]);
-  // A random walk of steps of at most (|e| - noise) 0.1 s / s^2. For a normal |e| / noise the excess has the variance 0.075
-  // noise^2 a frame; five deviations of the sum.
-  CHECK(most[1] < 5. * std::sqrt(0.075 * frames) * 0.1 * noise);
-  CHECK(most[1] < 0.6 * most[0]);
+  // A random walk of one step of e 0.1 s / s^2 a frame, of which the covariance leaves the few beyond the noise of the mean.
+  CHECK(most[0] < 5. * std::sqrt(frames) * 0.1 * noise);
+  CHECK(most[1] < 2.5 * std::sqrt(frames) * 0.1 * noise);
+  CHECK(most[1] < 0.8 * most[0]);
 }
 
 TEST_CASE("a wrong integral of a biased spell is gone in seconds", "[integral][covariance]")
@@ -132,9 +133,9 @@ TEST_CASE("a wrong integral of a biased spell is gone in seconds", "[integral][c
         CHECK(run(8., 0.) < 0.25);
         CHECK(run(6., biasDegrees) > 0.5 * std::abs(biasDegrees)); // believed, for nothing tells otherwise
         // Turned round, a fifth of the friction is missing: with the gains of 2 / s and 1 / s^2 an error of 0.1 deadband, which
-        // fades within 2 s, and what the noise of 0.06 deg hides.
-        CHECK(run(5., 0.) < 0.4);
-        CHECK(run(5., 0.) < 0.25);
+        // fades within 2 s; and what is too small to tell that the integral is wrong: without a covariance 0.23 deg an axis.
+        CHECK(run(5., 0.) < 0.5);
+        CHECK(run(5., 0.) < (isKnown ? 0.25 : 0.4));
       }
     }
   }

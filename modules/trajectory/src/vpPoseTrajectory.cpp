@@ -58,6 +58,11 @@ vpTrajectoryFault faultOf(double x, bool start)
   return std::abs(x) <= largest ? vpTrajectoryFault::None : vpTrajectoryFault::OutOfRange;
 }
 
+bool isFinite(const vpCameraState &x)
+{
+  return x.fRc.allFinite() && x.ftc.allFinite() && x.v.isFinite() && x.a.isFinite();
+}
+
 // Read a pose and make its rotation orthonormal to the last digit.
 vpTrajectoryStatus read(const vpHomogeneousMatrix &M, bool start, Eigen::Matrix3d &R, Eigen::Vector3d &t)
 {
@@ -312,7 +317,15 @@ vpTrajectoryStatus vpPoseTrajectory::update(double dt) noexcept
   if (std::abs(m_clock - duration()) < 1e-8 * dt) {
     m_clock = duration(); // sums of dt differ from the duration by rounding
   }
-  m_state = at(m_clock);
+  const vpCameraState next = at(m_clock);
+  if (!isFinite(next)) { // numbers that only together are too large: stand still, safely
+    m_plan.clear();
+    m_clock = 0.;
+    m_event = true; // the next cycle plans anew from here
+    m_state.v = m_state.a = vpTwist();
+    return {vpTrajectoryResult::InvalidInput, vpTrajectoryFault::OutOfRange, -1, dt};
+  }
+  m_state = next;
   if (m_clock >= duration()) {
     return {arrivedBefore ? vpTrajectoryResult::Holding : vpTrajectoryResult::Finished, vpTrajectoryFault::None, -1,
             0.};
