@@ -32,6 +32,8 @@ const std::vector<Column> MAIN = {
     {"rms px", &vpServoMetrics::rms_image_error_px, 1, Column::LessIsBetter, "Root mean square of that distance"},
     {"end deg", &vpServoMetrics::end_rotation_deg, 2, Column::LessIsBetter,
      "Largest rotation error at the end of a segment"},
+    {"expected", &vpServoMetrics::expected_end_rotation_deg, 2, Column::Neutral,
+     "Standard deviation, in deg, that the measurement there gives itself; \"unknown\" when it does not tell"},
     {"yaw deg", &vpServoMetrics::yaw_range_deg, 1, Column::MoreIsBetter, "Range of yaw covered, up to the ideal"},
     {"out s", &vpServoMetrics::out_of_view_s, 1, Column::LessIsBetter,
      "Time with a corner of the object out of the image"},
@@ -42,6 +44,8 @@ const std::vector<Column> FURTHER = {
      "Mean time until the error stays below 2 deg and 5 mm; the segment's duration if never"},
     {"end mm", &vpServoMetrics::end_translation_mm, 2, Column::LessIsBetter,
      "Largest translation error at the end of a segment"},
+    {"expected", &vpServoMetrics::expected_end_translation_mm, 2, Column::Neutral,
+     "Standard deviation, in mm, that the measurement there gives itself; \"unknown\" when it does not tell"},
     {"path m", &vpServoMetrics::path_length_m, 3, Column::Neutral, "Length of the camera's path"},
     {"peak m/s", &vpServoMetrics::peak_linear_mps, 3, Column::Neutral, "Largest linear speed executed"},
     {"peak rad/s", &vpServoMetrics::peak_angular_radps, 3, Column::Neutral, "Largest angular speed executed"},
@@ -91,6 +95,9 @@ private:
 
 HtmlCell cellOf(const Column &column, const Spread &spread, const Marks &marks, bool first)
 {
+  if (!std::isfinite(spread.largest)) {
+    return HtmlCell("unknown", first ? "start" : "");
+  }
   HtmlCell cell(fixed(spread.median, column.decimals), marks.styleOf(spread.median));
   cell.style += first ? " start" : "";
   if (spread.least != spread.largest) {

@@ -125,6 +125,8 @@ Json jsonOf(const Plan &plan, const vpServoRun &run)
                {"rms_image_error_px", m.rms_image_error_px},
                {"end_rotation_deg", m.end_rotation_deg},
                {"end_translation_mm", m.end_translation_mm},
+               {"expected_end_rotation_deg", m.expected_end_rotation_deg},
+               {"expected_end_translation_mm", m.expected_end_translation_mm},
                {"yaw_range_deg", m.yaw_range_deg},
                {"ideal_yaw_range_deg", m.ideal_yaw_range_deg},
                {"out_of_view_s", m.out_of_view_s},

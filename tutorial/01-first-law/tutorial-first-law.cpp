@@ -69,15 +69,15 @@ int main(int argc, char **argv)
     robot.setRobotState(vpRobot::STATE_VELOCITY_CONTROL);
     vpPlaneRenderer view(photo, width, height, camera, 640, 480); // in the place of a real camera
     //! [Robot]
-
     //! [Loop]
     vpImage<vpRGBa> panel, picture(480, 1280); // the first image beside the last one
-    for (int frame = 0; frame < 160; ++frame) {
+    vpServoCommand command{vpTwist(), vpServoStatus::Holding};
+    for (int frame = 0; frame < 160 && isWorking(command.status); ++frame) { // an error ends the loop
       view.render(robot.getPosition().inverse(), {}, 1, image);
       const vpPlanarTargetResult &found = target.process(image);
       const vpServoMeasurement seen{found.found(), 0.05 * frame, found.cMo, cornersAt(found.cMo, width, height), {}};
-      const vpTwist v = law->update(seen, 0.05).v; // zero when the photograph was not found
-      robot.setVelocity(vpRobot::CAMERA_FRAME, limitTwist(v, 0.2, 0.7).toColVector()); // m/s, rad/s
+      command = law->update(seen, 0.05); // zero twist and Holding when the photograph was not found
+      robot.setVelocity(vpRobot::CAMERA_FRAME, limitTwist(command.v, 0.2, 0.7).toColVector()); // m/s, rad/s
       //! [Loop]
       vpImageConvert::convert(image, panel);
       drawOutline(panel, goal.points, vpColor::blue, 6);

@@ -15,7 +15,6 @@
 #include <fstream>
 #include <functional>
 #include <iostream>
-
 VISP_DIRECT_USING_NAMESPACE
 namespace
 {
@@ -38,8 +37,8 @@ bool servo(vpRobot &robot, const Grab &grab, vpPlanarTarget &target, std::ostrea
   robot.setMaxRotationVelocity(0.33);
   robot.setRobotState(vpRobot::STATE_VELOCITY_CONTROL);
   vpImage<unsigned char> image;
-  bool wasLost = false;
-  for (int cycle = 0; cycle < 150; ++cycle) {
+  bool wasLost = false, isGoing = true;
+  for (int cycle = 0; cycle < 150 && isGoing; ++cycle) {
     const double before = vpTime::measureTimeMs();
     grab(image);
     const bool isFresh = vpTime::measureTimeMs() - before < 200.; // watchdog: a camera that stalls sees nothing
@@ -50,6 +49,7 @@ bool servo(vpRobot &robot, const Grab &grab, vpPlanarTarget &target, std::ostrea
     const auto [v, status] = controller.update(seen, 0.04);
     robot.setVelocity(vpRobot::CAMERA_FRAME, v.toColVector());
     wasLost = wasLost || status == vpServoStatus::Retreating;
+    isGoing = isWorking(status); // an error, or a target that stays lost, ends the loop: the robot stops
     log << 0.04 * cycle << ' ' << v.linearNorm() << ' ' << v.angularNorm() << ' ' << toString(status) << std::endl;
   }
   robot.setRobotState(vpRobot::STATE_STOP);

@@ -12,6 +12,9 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
+// Slower than this, rad/s or m/s, an arm that brakes stands.
+constexpr double standing = 1e-3;
+
 void requireGood(const char *field, double value, bool good, const char *range)
 {
   if (!good || !std::isfinite(value)) {
@@ -41,6 +44,23 @@ vpAvoidanceGoal vpAvoidanceGoal::at(const vpArmModel &model, const vpJointVector
   goal.q = q;
   goal.position = data.tool.p;
   return goal;
+}
+
+bool isWorking(const vpAvoidanceOutput &output) noexcept
+{
+  switch (output.status) {
+  case vpAvoidanceStatus::Moving:
+  case vpAvoidanceStatus::Detouring:
+  case vpAvoidanceStatus::Slowed:
+  case vpAvoidanceStatus::Waiting:
+  case vpAvoidanceStatus::Unsafe:
+    return true;
+  case vpAvoidanceStatus::Arrived:
+    return false;
+  default: // brakes; a velocity that is no number ends the loop
+    return output.velocity.size() > 0 && output.velocity.allFinite() &&
+           output.velocity.cwiseAbs().maxCoeff() > standing;
+  }
 }
 
 const char *toString(vpAvoidanceStatus status)

@@ -44,6 +44,20 @@ double angleMinusSinOverAngle3(double a2)
   const double a = std::sqrt(a2);
   return (a - std::sin(a)) / (a2 * a);
 }
+
+// Of any length; NaN for a vector of zeros or one that is not finite.
+Eigen::Vector3d unit(const Eigen::Vector3d &a)
+{
+  const Eigen::Vector3d scaled = a / a.cwiseAbs().maxCoeff(); // squares neither overflow nor vanish
+  return scaled / scaled.norm();
+}
+
+// The minimal rotation between unit vectors at an angle of at most 90 deg.
+Eigen::Matrix3d acuteRotation(const Eigen::Vector3d &a, const Eigen::Vector3d &b, double cosine)
+{
+  const Eigen::Matrix3d k = skew(a.cross(b));
+  return Eigen::Matrix3d::Identity() + k + k * k / (1. + cosine);
+}
 } // namespace
 
 Eigen::Matrix3d skew(const Eigen::Vector3d &a)
@@ -96,7 +110,21 @@ Eigen::Matrix3d rightJacobianInverse(const Eigen::Vector3d &e)
 
 Eigen::Matrix3d minimalRotation(const Eigen::Vector3d &from, const Eigen::Vector3d &to)
 {
-  return Eigen::Quaterniond::FromTwoVectors(from, to).toRotationMatrix();
+  const Eigen::Vector3d a = unit(from), b = unit(to);
+  const double cosine = a.dot(b);
+  if (!(cosine < 0.)) {
+    return acuteRotation(a, b, cosine);
+  }
+  // The quotient above loses digits towards opposite directions. So a half turn to -a first, about an axis that is exactly
+  // perpendicular to a, then the acute rotation from there. a + b is exact where it is small, hence so is the axis.
+  Eigen::Vector3d axis = unit(a.cross(a + b));
+  axis -= a.dot(axis) * a;
+  if (!(axis.squaredNorm() > 0.5)) { // opposite to the last digit
+    axis = a.unitOrthogonal();
+  }
+  axis.normalize();
+  const Eigen::Matrix3d halfTurn = 2. * axis * axis.transpose() - Eigen::Matrix3d::Identity();
+  return acuteRotation(-a, b, -cosine) * halfTurn;
 }
 } // namespace vpSO3
 

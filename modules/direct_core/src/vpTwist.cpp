@@ -6,9 +6,17 @@
 
 #include <visp3/core/vpException.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 BEGIN_VISP_NAMESPACE
+
+namespace
+{
+// Squares overflow from 1e154 on. (std::hypot of three numbers loses a NaN in the middle of zeros.)
+double norm(double x, double y, double z) { return std::hypot(std::hypot(x, y), z); }
+} // namespace
 
 vpTwist vpTwist::fromColVector(const vpColVector &v)
 {
@@ -33,15 +41,9 @@ void vpTwist::copyTo(vpColVector &v) const
   }
 }
 
-double vpTwist::linearNorm() const
-{
-  return std::sqrt(m_data[0] * m_data[0] + m_data[1] * m_data[1] + m_data[2] * m_data[2]);
-}
+double vpTwist::linearNorm() const { return norm(m_data[0], m_data[1], m_data[2]); }
 
-double vpTwist::angularNorm() const
-{
-  return std::sqrt(m_data[3] * m_data[3] + m_data[4] * m_data[4] + m_data[5] * m_data[5]);
-}
+double vpTwist::angularNorm() const { return norm(m_data[3], m_data[4], m_data[5]); }
 
 bool vpTwist::isFinite() const
 {
@@ -64,7 +66,15 @@ vpTwist vpTwist::scaled(double factor) const
 
 vpTwist limitTwist(const vpTwist &twist, double maxLinear, double maxAngular)
 {
-  const double excess = std::max(twist.linearNorm() / maxLinear, twist.angularNorm() / maxAngular);
+  if (!twist.isFinite() || !(maxLinear > 0.) || !(maxAngular > 0.)) {
+    return {};
+  }
+  double excess = 1.;
+  for (const auto &[length, limit] : {std::pair(twist.linearNorm(), maxLinear), {twist.angularNorm(), maxAngular}}) {
+    if (length > limit) { // both may be infinite, and their quotient NaN
+      excess = std::max(excess, length / limit);
+    }
+  }
   return excess > 1. ? twist.scaled(1. / excess) : twist;
 }
 

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include "vpCatch.h"
+#include "vpWildNumbers.h"
 
 #include <visp3/core/vpThetaUVector.h>
 #include <visp3/direct_core/vpSO3.h>
@@ -85,13 +86,56 @@ TEST_CASE("minimal rotation takes one direction to the other about their common 
 {
   auto rng = vpTestSupport::generator(4);
   CAPTURE(vpTestSupport::seed());
-  for (int i = 0; i < 2000; ++i) {
-    const Eigen::Vector3d a = randomDirection(rng),
-                          b = i == 0 ? Eigen::Vector3d(-a) : (i == 1 ? a : randomDirection(rng));
-    const Eigen::Matrix3d R = vpSO3::minimalRotation(2. * a, 0.3 * b);
-    REQUIRE((R * a - b).norm() < 1e-12);
-    REQUIRE(std::abs(vpSO3::log(R).norm() - std::atan2(a.cross(b).norm(), a.dot(b))) < 1e-7);
+  std::uniform_real_distribution<double> exponent(-17., 0.5), length(-300., 300.);
+  for (int i = 0; i < 6000; ++i) {
+    // A third each: any angle, nearly the same, nearly opposite (down to the last digit, and exactly).
+    const Eigen::Vector3d a = randomDirection(rng);
+    const double sign = i % 3 == 1 ? 1. : -1., apart = i % 300 < 3 ? 0. : std::pow(10., exponent(rng));
+    const Eigen::Vector3d near = (sign * a + apart * a.unitOrthogonal()).normalized();
+    const Eigen::Vector3d b = i % 3 == 0 ? randomDirection(rng) : near;
+    const Eigen::Matrix3d R = vpSO3::minimalRotation(std::pow(10., length(rng)) * a, std::pow(10., length(rng)) * b);
+    CAPTURE(i, a.transpose(), b.transpose());
+    // A rotation and at b, to some roundings of products of numbers up to 1.
+    REQUIRE((R * R.transpose() - Eigen::Matrix3d::Identity()).norm() < 4e-15);
+    REQUIRE(R.determinant() > 0.);
+    REQUIRE((R * a - b).norm() < 4e-15);
+    // Minimal: its angle is the one between them. atan2 and log() lose no digits at either end.
+    REQUIRE(std::abs(vpSO3::log(R).norm() - std::atan2(a.cross(b).norm(), a.dot(b))) < 4e-15);
   }
+  for (const double bad : {0., -0., static_cast<double>(NAN), static_cast<double>(INFINITY)}) {
+    CHECK_FALSE(vpSO3::minimalRotation({bad, 0., 0.}, {0., 0., 1.}).allFinite()); // no direction, and no answer
+    CHECK_FALSE(vpSO3::minimalRotation({0., 0., 1.}, {0., bad, 0.}).allFinite());
+  }
+}
+
+TEST_CASE("the length and the limit of a twist hold for every number", "[twist][wild]")
+{
+  auto rng = vpTestSupport::generator(5);
+  CAPTURE(vpTestSupport::seed());
+  std::normal_distribution<double> gauss;
+  for (int i = 0; i < 20000; ++i) {
+    std::array<double, 8> x;
+    for (double &number : x) {
+      number = vpWildNumbers::mixed(rng, gauss(rng), 0.3);
+    }
+    CAPTURE(i, x[0], x[1], x[2], x[3], x[4], x[5], x[6], x[7]);
+    const vpTwist v(x[0], x[1], x[2], x[3], x[4], x[5]);
+    if (v.isFinite()) {
+      const long double length =
+          std::sqrt(static_cast<long double>(x[0]) * x[0] + static_cast<long double>(x[1]) * x[1] +
+                    static_cast<long double>(x[2]) * x[2]); // does not overflow
+      REQUIRE((v.linearNorm() == Approx(static_cast<double>(length)).epsilon(1e-15).margin(1e-323) ||
+               v.linearNorm() == static_cast<double>(length)));
+    }
+    const vpTwist limited = limitTwist(v, x[6], x[7]);
+    REQUIRE(limited.isFinite());
+    // Denormals have fewer digits: three components that are one unit off.
+    const double least = 3. * std::numeric_limits<double>::denorm_min();
+    REQUIRE((limited.linearNorm() <= least || vpWildNumbers::atMost(limited.linearNorm(), x[6], 3e-15)));
+    REQUIRE((limited.angularNorm() <= least || vpWildNumbers::atMost(limited.angularNorm(), x[7], 3e-15)));
+  }
+  CHECK(std::isnan(vpTwist(0., NAN, 0., 0., 0., 0.).linearNorm()));
+  CHECK(vpTwist(0., 0., 0., 1e200, 1e200, 0.).angularNorm() == Approx(std::sqrt(2.) * 1e200));
 }
 
 TEST_CASE("twist converts, limits uniformly and rejects wrong sizes", "[twist]")

@@ -6,7 +6,7 @@
 
 #include "vpBearing.h"
 #include "vpFeatureRows.h"
-#include "vpServoPose.h"
+#include "vpServoCheck.h"
 
 #include <visp3/core/vpException.h>
 #include <visp3/direct_core/vpSO3.h>
@@ -40,10 +40,12 @@ void vpFeatureFeedforwardSum::buildFrom(const vpHomogeneousMatrix &cdMc, const v
                                         const vpServoPoint &goal)
 {
   const Eigen::Vector2d p(point.x, point.y), pGoal(goal.x, goal.y);
-  if (!p.allFinite() || !pGoal.allFinite() || !(std::isfinite(point.Z) && point.Z > 0.)) {
-    throw vpException(vpException::badValue,
-                      "point of the feedforward-sum feature is x = %g, y = %g, Z = %g m, must be finite with Z > 0",
-                      point.x, point.y, point.Z);
+  if (!vpServoCheck::isPoint(point) || !vpServoCheck::isPoint({goal.x, goal.y, 1., true}) ||
+      !vpServoCheck::isPose(cdMc)) {
+    throw vpException(
+        vpException::badValue,
+        "point of the feedforward-sum feature is x = %g, y = %g, Z = %g m, must be finite with Z > 0, and cdMc a pose",
+        point.x, point.y, point.Z);
   }
   const Eigen::Vector3d thetaU = vpSO3::log(vpServoPose::rotation(cdMc));
   const Eigen::Vector3d D = vpBearing::angle(p) - vpBearing::angle(pGoal);

@@ -6,7 +6,7 @@
 
 #include "vpFeatureRows.h"
 #include "vpLookAt.h"
-#include "vpServoPose.h"
+#include "vpServoCheck.h"
 
 #include <visp3/core/vpException.h>
 
@@ -29,7 +29,7 @@ void vpFeatureLookAt::buildFrom(const vpHomogeneousMatrix &cdMc, const vpHomogen
   const Eigen::Matrix3d R = vpServoPose::rotation(cdMc);
   const Eigen::Vector3d t = vpServoPose::translation(cdMc), origin = vpServoPose::translation(cdMo);
   const vpLookAt lookAt(origin, t);
-  if (!lookAt.defined) {
+  if (!lookAt.defined || !vpServoCheck::isPose(cdMc) || !vpServoCheck::isPose(cdMo)) {
     throw vpException(vpException::badValue,
                       "look-at feature is undefined: camera at (%g, %g, %g) m, object at (%g, %g, %g) m", t.x(), t.y(),
                       t.z(), origin.x(), origin.y(), origin.z());

@@ -42,7 +42,7 @@ double feedforwardSumStabilityMargin(double bearing, double rotation, double kap
 {
   require(bearing >= 0. && bearing < M_PI / 2., "bearing", bearing, "in [0, pi/2) rad");
   require(rotation >= 0. && rotation <= M_PI, "rotation", rotation, "in [0, pi] rad");
-  require(std::isfinite(kappa) && kappa >= 0., "kappa", kappa, "finite and >= 0");
+  require(kappa >= 0. && kappa <= 1e6, "kappa", kappa, "finite and >= 0, at most 1e6");
   require(samples >= 1, "samples", samples, ">= 1");
 
   double least = std::numeric_limits<double>::infinity();
@@ -59,7 +59,9 @@ double feedforwardSumStabilityMargin(double bearing, double rotation, double kap
         const Eigen::Vector3d S(corner & 1, corner >> 1, 0.);
         const Eigen::Matrix3d A = L + kappa * S.asDiagonal() * M;
         solver.computeDirect(0.5 * (A + A.transpose()), Eigen::EigenvaluesOnly);
-        least = std::min(least, solver.eigenvalues()[0]);
+        if (!(solver.eigenvalues()[0] >= least)) { // NaN is no margin
+          least = solver.eigenvalues()[0];
+        }
       }
     }
   }

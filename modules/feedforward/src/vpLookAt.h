@@ -21,7 +21,8 @@ BEGIN_VISP_NAMESPACE
  * sees the object in the direction d*, as the desired camera does.
  */
 struct vpLookAt {
-  bool defined;             //!< False when the camera is at the object's origin or looks from the opposite side.
+  bool
+      defined; //!< False when the camera is at the object's origin or looks from the opposite side, or a number is wild.
   Eigen::Matrix3d rotation; //!< R_la, in the desired camera frame.
   /*!
    * Spatial angular velocity of R_la, in the desired camera frame, per d'. Of all rates with n' = rate x n, with n = d
@@ -34,12 +35,13 @@ struct vpLookAt {
   vpLookAt(const Eigen::Vector3d &origin, const Eigen::Vector3d &t) : defined(false)
   {
     const Eigen::Vector3d d = origin - t;
-    const double length = d.norm();
-    // Nearer than a tenth of a millimetre, or within 0.1 deg of the opposite side, the direction is noise.
-    if (!(length > 1e-4)) {
+    const double length = d.norm(), goalLength = origin.norm();
+    // Nearer than a tenth of a millimetre, or within 0.1 deg of the opposite side, the direction is noise. Comparisons are
+    // written so that NaN, and what overflows, fails them.
+    if (!(length > 1e-4 && goalLength > 1e-4 && length < 1e9 && goalLength < 1e9)) {
       return;
     }
-    const Eigen::Vector3d n = d / length, goal = origin.normalized();
+    const Eigen::Vector3d n = d / length, goal = origin / goalLength;
     const double onePlusCos = 1. + n.dot(goal);
     if (!(onePlusCos > 1e-6)) {
       return;

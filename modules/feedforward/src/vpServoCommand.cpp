@@ -27,6 +27,8 @@ const char *message(vpServoStatus status)
     return "The measurement is not usable: not finite, a depth that is not positive, or not the goal's points.";
   case vpServoStatus::Degenerate:
     return "The law has no answer here: too few points or a singular interaction matrix.";
+  case vpServoStatus::Diverging:
+    return "The law runs away from the target: this way does not lead to the goal.";
   }
   return "Unknown status.";
 }
@@ -52,6 +54,8 @@ const char *toString(vpServoStatus status)
     return "InvalidInput";
   case vpServoStatus::Degenerate:
     return "Degenerate";
+  case vpServoStatus::Diverging:
+    return "Diverging";
   }
   return "Unknown";
 }

@@ -69,7 +69,8 @@ Eigen::Matrix3d vpServoController::referenceRotation(const vpServoMeasurement &m
   }
   const vpServoPose::Error error = vpServoPose::error(m_law->goal().cdMo, measurement.cMo);
   const Eigen::Vector3d w(command.v[3], command.v[4], command.v[5]);
-  return error.R * vpSO3::exp(w / m_law->rotationGain());
+  const Eigen::Matrix3d reference = error.R * vpSO3::exp(w / m_law->rotationGain());
+  return reference.allFinite() ? reference : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
 }
 
 END_VISP_NAMESPACE

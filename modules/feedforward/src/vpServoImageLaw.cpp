@@ -2,9 +2,12 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
+#include "vpMeanPoint.h"
 #include "vpServoLaws.h"
 
 #include <Eigen/Eigenvalues>
+
+#include <algorithm>
 
 BEGIN_VISP_NAMESPACE
 
@@ -17,6 +20,9 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 // more; fewer than three points, or points in a line, have 4e-16. The pivots of a Cholesky factor do not tell these
 // apart: there the line has up to 1e-8.
 constexpr double smallestEigenvalue = 1e-13;
+
+// A roll by theta is done on a way back to 1 / cos(theta / 2) of the depth: five times at 157 deg, without end at 180.
+constexpr double farthest = 5.;
 
 // Thesis (5.4) with the points' interaction matrix at the current image and depth, in normalised coordinates and with
 // the sign of (5.21): v = -lambda L^+ e. The pseudo-inverse of any number of points is solved as 6x6 normal equations.
@@ -31,6 +37,14 @@ public:
 protected:
   vpServoCommand step(const vpServoMeasurement &measurement, double) noexcept VP_OVERRIDE
   {
+    const vpMeanPoint mean(measurement.points, m_goal.points);
+    if (mean.count == 0) {
+      return {vpTwist(), vpServoStatus::Degenerate};
+    }
+    m_depth = m_depth > 0. ? m_depth : std::max(mean.Z, mean.goalZ);
+    if (!(mean.Z <= farthest * m_depth)) {
+      return {vpTwist(), vpServoStatus::Diverging};
+    }
     Matrix6 normal = Matrix6::Zero();
     Vector6 right = Vector6::Zero();
     for (std::size_t i = 0; i < measurement.points.size(); ++i) {
@@ -54,6 +68,11 @@ protected:
     const Vector6 v = -m_gains.lambda * (solver.eigenvectors() * modes);
     return {vpTwist(v[0], v[1], v[2], v[3], v[4], v[5]), vpServoStatus::Servoing};
   }
+
+  void goalChanged() VP_OVERRIDE { m_depth = 0.; }
+
+private:
+  double m_depth = 0.; // the larger one of those at the goal and at the first measurement for it, m; 0: not seen yet
 };
 } // namespace
 

@@ -5,12 +5,11 @@
 #include <visp3/feedforward/vpServoLaw.h>
 
 #include "vpServoLaws.h"
-#include "vpServoPose.h"
+#include "vpServoCheck.h"
 
 #include <visp3/core/vpException.h>
 
-#include <Eigen/LU>
-
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -33,26 +32,17 @@ const Entry entries[] = {
     {"ff-lookat-pi", vpServoLaws::makeLookAtPi, 2.},
 };
 
-bool isFinite(const vpServoPoint &point)
-{
-  return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.Z);
-}
-
-bool isPose(const vpHomogeneousMatrix &M)
-{
-  // NaN and infinity fail the comparisons too.
-  const Eigen::Matrix3d R = vpServoPose::rotation(M);
-  return (R * R.transpose() - Eigen::Matrix3d::Identity()).squaredNorm() < 1e-6 && R.determinant() > 0. &&
-         vpServoPose::translation(M).allFinite();
-}
+constexpr double largestGain = 1e6;
+// An integral takes no step longer than this, s: after a pause, or with a wrong clock, it would jump to its limit.
+constexpr double longestStep = 0.5;
 
 bool isUsable(const vpServoMeasurement &measurement, const vpServoGoal &goal)
 {
-  if (measurement.points.size() != goal.points.size() || !isPose(measurement.cMo)) {
+  if (measurement.points.size() != goal.points.size() || !vpServoCheck::isPose(measurement.cMo)) {
     return false;
   }
   for (const vpServoPoint &point : measurement.points) {
-    if (point.visible && (!isFinite(point) || point.Z <= 0.)) {
+    if (point.visible && !vpServoCheck::isPoint(point)) {
       return false;
     }
   }
@@ -69,14 +59,14 @@ void requireGain(bool ok, const char *name, double value, const char *unit, cons
 
 void vpServoGains::validate() const
 {
-  const auto positive = [](double value) { return std::isfinite(value) && value > 0.; };
-  const auto notNegative = [](double value) { return std::isfinite(value) && value >= 0.; };
-  requireGain(positive(lambda), "lambda", lambda, " 1/s", "finite and > 0");
-  requireGain(positive(rotation), "rotation", rotation, "", "finite and > 0");
-  requireGain(notNegative(kappa), "kappa", kappa, "", "finite and >= 0");
-  requireGain(positive(saturation), "saturation", saturation, " rad", "finite and > 0");
-  requireGain(notNegative(integral), "integral", integral, " 1/s^2", "finite and >= 0");
-  requireGain(positive(integralLimit), "integralLimit", integralLimit, " rad/s", "finite and > 0");
+  const auto notNegative = [](double value) { return value >= 0. && value <= largestGain; };
+  const auto positive = [&](double value) { return notNegative(value) && value > 0.; };
+  requireGain(positive(lambda), "lambda", lambda, " 1/s", "finite and > 0, at most 1e6");
+  requireGain(positive(rotation), "rotation", rotation, "", "finite and > 0, at most 1e6");
+  requireGain(notNegative(kappa), "kappa", kappa, "", "finite and >= 0, at most 1e6");
+  requireGain(positive(saturation), "saturation", saturation, " rad", "finite and > 0, at most 1e6");
+  requireGain(notNegative(integral), "integral", integral, " 1/s^2", "finite and >= 0, at most 1e6");
+  requireGain(positive(integralLimit), "integralLimit", integralLimit, " rad/s", "finite and > 0, at most 1e6");
 }
 
 vpServoLaw::vpServoLaw(std::string id, const vpServoGains &gains, double rotationFactor)
@@ -116,7 +106,7 @@ void vpServoLaw::setGoal(const vpServoGoal &goal)
   if (goal.points.empty()) {
     throw vpException(vpException::badValue, "the servo goal has 0 points, needs at least 1");
   }
-  if (!isPose(goal.cdMo)) {
+  if (!vpServoCheck::isPose(goal.cdMo)) {
     throw vpException(vpException::badValue,
                       "the servo goal's cdMo is not a finite rigid motion, its translation is (%g, %g, %g) m",
                       goal.cdMo[0][3], goal.cdMo[1][3], goal.cdMo[2][3]);
@@ -128,10 +118,11 @@ void vpServoLaw::setGoal(const vpServoGoal &goal)
   }
   for (std::size_t i = 0; i < goal.points.size(); ++i) {
     const vpServoPoint &point = goal.points[i];
-    if (!isFinite(point) || point.Z <= 0.) {
-      throw vpException(vpException::badValue,
-                        "point %u of the servo goal is x = %g, y = %g, Z = %g m, must be finite with Z > 0",
-                        static_cast<unsigned int>(i), point.x, point.y, point.Z);
+    if (!vpServoCheck::isPoint(point)) {
+      throw vpException(
+          vpException::badValue,
+          "point %u of the servo goal is x = %g, y = %g, Z = %g m, must be finite with Z > 0, and at most 1e6",
+          static_cast<unsigned int>(i), point.x, point.y, point.Z);
     }
   }
   m_goal = goal;
@@ -162,7 +153,7 @@ vpServoCommand vpServoLaw::update(const vpServoMeasurement &measurement, double 
     command.status = vpServoStatus::InvalidInput;
   }
   else {
-    command = step(measurement, dt);
+    command = step(measurement, std::min(dt, longestStep));
     if (!command.v.isFinite()) {
       command = {vpTwist(), vpServoStatus::Degenerate};
     }

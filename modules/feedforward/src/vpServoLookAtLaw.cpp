@@ -12,14 +12,23 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
+// Time over which measurements are averaged, s, and what share of the deviation of one the mean is taken to have.
+constexpr double meanTime = 1., meanShare = 1. / 3.;
+// What is left of an integral, turned round, when the error tells that it is wrong.
+constexpr double turned = 0.8;
+// A mean as large as so many times its noise, or so many rad when nobody knows that, tells that the integral is wrong.
+constexpr double unwindDeviations = 2., unwindUnknown = 0.004;
+
 // Where the camera is, seen from a goal.
 struct Gaze {
   vpServoPose::Error error;
   vpLookAt lookAt;
   Eigen::Vector3d e = Eigen::Vector3d::Zero(); // log(R_la^T R), rad, where R_la is defined
+  double distance;                             // of the object's origin, m
 
   Gaze(const vpHomogeneousMatrix &cdMo, const vpHomogeneousMatrix &cMo)
-    : error(vpServoPose::error(cdMo, cMo)), lookAt(vpServoPose::translation(cdMo), error.t)
+    : error(vpServoPose::error(cdMo, cMo)), lookAt(vpServoPose::translation(cdMo), error.t),
+      distance((vpServoPose::translation(cdMo) - error.t).norm())
   {
     if (lookAt.defined) {
       e = vpSO3::log(lookAt.rotation.transpose() * error.R);
@@ -52,12 +61,12 @@ protected:
     // d' = -t' = lambda t.
     const Eigen::Vector3d feedforward = toCamera * (gaze.lookAt.rate * (m_gains.lambda * gaze.error.t));
     const Eigen::Vector3d w = -rotationGain() * gaze.e + feedforward;
-    return {vpServoPose::twist(v, w - integral(measurement, gaze.e, w, dt)), vpServoStatus::Servoing};
+    return {vpServoPose::twist(v, w - integral(measurement, gaze, w, dt)), vpServoStatus::Servoing};
   }
 
   //! Angular velocity to take off the wanted one \e w, camera frame, rad/s; zero in this law.
-  virtual Eigen::Vector3d integral(const vpServoMeasurement &, const Eigen::Vector3d & /*e*/,
-                                   const Eigen::Vector3d & /*w*/, double) noexcept
+  virtual Eigen::Vector3d integral(const vpServoMeasurement &, const Gaze &, const Eigen::Vector3d & /*w*/,
+                                   double) noexcept
   {
     return Eigen::Vector3d::Zero();
   }
@@ -69,6 +78,13 @@ protected:
  * So the way to a far goal, which is no disturbance, leaves the integral at zero and causes no overshoot. Anti-windup:
  * - bounded norm;
  * - no integration over a step whose predecessor was not executed as asked (e_m starts again);
+ * - what is within the noise is not integrated. The noise is that of the mean of e - e_m over the last second, a third of the
+ *   deviation of one measurement (at ten independent ones a second it is 0.22 of it), which comes from the covariance of the
+ *   pose: the turn, and the shift over the distance. The mean counts as far as it is beyond. Nothing is taken off when the
+ *   covariance is not known;
+ * - an integral that was wrong (a spell of biased measurements) does not stay: on an axis where that mean is clearly, by twice its
+ *   noise, on the other side of it, friction is against the other direction now, and the integral changes its sign. Not
+ *   all of it: what was no friction is gone after a few turns;
  * - friction turns round with the motion: when the law asks an axis to go against the integral and faster than it, the
  *   integral of this axis starts again from zero. Kept, it would double the disturbance after each reversal.
  */
@@ -97,9 +113,10 @@ protected:
     m_integral.setZero();
   }
 
-  Eigen::Vector3d integral(const vpServoMeasurement &measurement, const Eigen::Vector3d &e, const Eigen::Vector3d &w,
+  Eigen::Vector3d integral(const vpServoMeasurement &measurement, const Gaze &gaze, const Eigen::Vector3d &w,
                            double dt) noexcept VP_OVERRIDE
   {
+    const Eigen::Vector3d &e = gaze.e;
     if (m_goalMoved && !m_restart) {
       const Gaze before(m_modelGoal, measurement.cMo);
       m_restart = !before.lookAt.defined;
@@ -107,6 +124,7 @@ protected:
     }
     if (m_restart) {
       m_model = e;
+      m_mean.setZero();
     }
     m_goalMoved = m_restart = false;
 
@@ -116,7 +134,22 @@ protected:
         m_integral[axis] = 0.;
       }
     }
-    m_integral += m_gains.integral * dt * (e - m_model);
+    const bool known = measurement.covariance.known;
+    const double noise = known ? meanShare * std::hypot(measurement.covariance.rotationDeviation(),
+                                                        measurement.covariance.positionDeviation() / gaze.distance)
+                               : 0.;
+    const double clear = known ? unwindDeviations * noise : unwindUnknown;
+    const Eigen::Vector3d x = e - m_model;
+    m_mean += (1. - std::exp(-dt / meanTime)) * (x - m_mean);
+    for (int axis = 0; axis < 3; ++axis) {
+      if (x[axis] * m_integral[axis] < 0. && m_mean[axis] * m_integral[axis] < 0. && std::abs(m_mean[axis]) > clear) {
+        m_integral[axis] *= -turned;
+      }
+    }
+    const double size = known ? m_mean.norm() : 1.;
+    if (size > noise) {
+      m_integral += m_gains.integral * dt * (1. - noise / size) * x;
+    }
     const double norm = m_integral.norm();
     if (norm > m_gains.integralLimit) {
       m_integral *= m_gains.integralLimit / norm;
@@ -131,6 +164,7 @@ private:
   vpHomogeneousMatrix m_lastGoal;  // cdMo in force
   vpHomogeneousMatrix m_modelGoal; // cdMo that m_model belongs to, when the goal has moved since
   Eigen::Vector3d m_model = Eigen::Vector3d::Zero();
+  Eigen::Vector3d m_mean = Eigen::Vector3d::Zero(); // of e - e_m
   Eigen::Vector3d m_integral = Eigen::Vector3d::Zero();
 };
 } // namespace

@@ -15,6 +15,8 @@ namespace
 {
 // Slower than this, m/s and rad/s, is standing still: not worth a place in the memory.
 constexpr double slowest = 1e-6;
+// No robot did that; to undo it within the limits would take for ever.
+constexpr double fastest = 1e3;
 // Rounding of sums of cycle times must not add a cycle.
 constexpr double timeTolerance = 1e-9;
 
@@ -49,7 +51,8 @@ void vpTargetLossRecovery::reset() noexcept
 
 void vpTargetLossRecovery::remember(const vpTwist &v, double duration) noexcept
 {
-  if (v.linearNorm() < slowest && v.angularNorm() < slowest) {
+  const double linear = v.linearNorm(), angular = v.angularNorm();
+  if ((linear < slowest && angular < slowest) || !(linear < fastest && angular < fastest)) {
     return;
   }
   m_samples[m_next].v = v;
@@ -88,14 +91,12 @@ vpServoCommand vpTargetLossRecovery::retreat(double dt) noexcept
 
 vpServoCommand vpTargetLossRecovery::update(const vpServoCommand &command, double dt) noexcept
 {
-  if (!(std::isfinite(dt) && dt > 0.)) {
+  if (!(std::isfinite(dt) && dt > 0.) || !command.v.isFinite()) {
     return {vpTwist(), vpServoStatus::InvalidInput};
   }
   if (command.status != vpServoStatus::Holding) {
     m_lostFor = m_undone = 0.;
-    if (command.v.isFinite()) {
-      remember(command.v, dt);
-    }
+    remember(command.v, dt);
     return command;
   }
   const bool holding = m_lostFor < m_config.holdTime - timeTolerance;

@@ -95,6 +95,9 @@ vpTwistProjection::Result vpTwistProjection::solve(const Vector &x0) noexcept
 {
   m_x = x0;
   m_activeCount = 0;
+  if (!x0.allFinite()) {
+    return Result::NotConverged;
+  }
   m_J.setIdentity();
   m_R.setZero();
 
@@ -102,7 +105,7 @@ vpTwistProjection::Result vpTwistProjection::solve(const Vector &x0) noexcept
   double multiplier = 0.; // of the row being added
   for (int pass = 0; pass < maxPasses; ++pass) {
     if (row < 0) {
-      return Result::Solved;
+      return m_x.allFinite() ? Result::Solved : Result::NotConverged;
     }
     // Primal direction z: the row's part outside the span of the active rows. Dual direction r: how the active
     // multipliers change with the new one.

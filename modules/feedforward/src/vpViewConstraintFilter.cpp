@@ -17,6 +17,8 @@ namespace
 constexpr double deadlockShare = 0.02;
 // Wanted speeds below this, in units of the limits, are standing still, not deadlock.
 constexpr double standstill = 1e-6;
+// Most that the camera may move in one period, in depths of the nearest point and, times rho1, in rad.
+constexpr double mostPerPeriod = 0.125;
 // Least factor of the scaling to the wanted speed for which the margin is derived.
 constexpr double smallestScale = 0.5;
 
@@ -27,9 +29,9 @@ void require(bool ok, const char *name, double value, const char *range)
   }
 }
 
-double speed(const vpTwist &twist, const vpViewConstraintConfig &config)
+double speed(const vpTwist &twist, double maxLinear, double maxAngular)
 {
-  return std::max(twist.linearNorm() / config.maxLinear, twist.angularNorm() / config.maxAngular);
+  return std::max(twist.linearNorm() / maxLinear, twist.angularNorm() / maxAngular);
 }
 } // namespace
 
@@ -70,22 +72,31 @@ vpViewConstraintFilter::vpViewConstraintFilter(const vpViewConstraintConfig &con
   m_radius = std::hypot(std::max(-config.left, config.right), std::max(-config.top, config.bottom));
 }
 
-double vpViewConstraintFilter::margin(double Z, double linear, double angular, double period) const noexcept
+vpViewConstraintFilter::Bounds vpViewConstraintFilter::bounds(double Z, const Speeds &speeds,
+                                                              double period) const noexcept
 {
-  // Z' >= -V - W rho Z bounds the least depth within the period.
+  // The names of the proof in the header.
+  const double T = period, V = speeds.linear, W = speeds.angular, u = m_config.imageUncertainty;
   const double nearest = Z * (1. - m_config.depthUncertainty);
-  const double zeta = (nearest - linear * period) * std::exp(-angular * m_radius * period);
+  const double zeta = (nearest - V * T) * std::exp(-W * m_radius * T);
   const double rho1 = std::hypot(1., m_radius);
-  const double C = rho1 * angular * (linear / zeta + angular * rho1);
-  const double kappa = linear / zeta + angular * m_radius;
-  const double gamma = std::min(m_config.gamma, 0.5 / period);
-  return C * period * std::exp(4. * kappa * period) / gamma;
+  const double C = rho1 * W * (V / zeta + W * rho1);
+  const double kappa = V / zeta + W * m_radius;
+  const double D = u * (V / nearest + W * (1. + 3. * m_radius + 2. * u));
+  const double gamma = std::min(m_config.gamma, 0.5 * std::exp(-2. * kappa * T) / T);
+  return {gamma, std::exp(4. * kappa * T) * (C * T + 2. * D) / gamma};
 }
 
-bool vpViewConstraintFilter::addRows(const vpServoPoint &point, double linear, double angular, double period) noexcept
+double vpViewConstraintFilter::margin(double Z, double linear, double angular, double period) const noexcept
 {
-  const double gamma = std::min(m_config.gamma, 0.5 / period);
-  const double inset = margin(point.Z, linear, angular, period) + m_config.imageUncertainty;
+  return bounds(Z, {linear, angular}, period).margin;
+}
+
+bool vpViewConstraintFilter::addRows(const vpServoPoint &point, const Speeds &limits, double share,
+                                     double period) noexcept
+{
+  const Bounds bound = bounds(point.Z, {share * limits.linear, share * limits.angular}, period);
+  const double inset = bound.margin + m_config.imageUncertainty;
   const double x = point.x, y = point.y;
   const double distance[4] = {x - m_config.left, m_config.right - x, y - m_config.top, m_config.bottom - y};
   for (double b : distance) {
@@ -97,11 +108,11 @@ bool vpViewConstraintFilter::addRows(const vpServoPoint &point, double linear, d
     Eigen::Matrix<double, 2, 6> L;
     L << -inverseZ, 0., x * inverseZ, x * y, -1. - x * x, y, //
         0., -inverseZ, y * inverseZ, 1. + y * y, -x * y, -x;
-    L.leftCols<3>() *= m_config.maxLinear;
-    L.rightCols<3>() *= m_config.maxAngular;
+    L.leftCols<3>() *= limits.linear;
+    L.rightCols<3>() *= limits.angular;
     for (int border = 0; border < 4; ++border) {
       const double inwards = border % 2 == 0 ? 1. : -1.;
-      if (!m_projection.addRow(inwards * L.row(border / 2).transpose(), -gamma * (distance[border] - inset))) {
+      if (!m_projection.addRow(inwards * L.row(border / 2).transpose(), -bound.gamma * (distance[border] - inset))) {
         return false;
       }
     }
@@ -120,35 +131,37 @@ vpServoCommand vpViewConstraintFilter::filter(const vpServoCommand &wanted, cons
     return invalid;
   }
   int visible = 0;
-  double period = std::max(dt, m_config.period), maxLinear = m_config.maxLinear;
+  const double period = std::max(dt, m_config.period);
+  Speeds limits{m_config.maxLinear, m_config.maxAngular};
   for (const vpServoPoint &point : outline) {
     if (!point.visible) {
       continue;
     }
     ++visible;
-    if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.Z) || point.Z <= 0.) {
+    if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.Z) || !(point.Z > 0.)) {
       return invalid;
     }
-    // The margin needs a camera that cannot come near the point within one period.
-    maxLinear = std::min(maxLinear, 0.5 * point.Z * (1. - m_config.depthUncertainty) / period);
+    // The margin needs a camera that neither comes near the point nor turns far within one period.
+    limits.linear = std::min(limits.linear, mostPerPeriod * point.Z * (1. - m_config.depthUncertainty) / period);
+    limits.angular = std::min(limits.angular, mostPerPeriod / (std::hypot(1., m_radius) * period));
   }
   if (visible > maxPoints) {
     return invalid;
   }
 
-  const vpTwist start = limitTwist(wanted.v, maxLinear, m_config.maxAngular);
-  const double startSpeed = speed(start, m_config);
+  const vpTwist start = limitTwist(wanted.v, limits.linear, limits.angular);
+  const double startSpeed = speed(start, limits.linear, limits.angular);
   m_projection.clear();
   m_inside = true;
   for (const vpServoPoint &point : outline) {
-    if (point.visible && !addRows(point, startSpeed * m_config.maxLinear, startSpeed * m_config.maxAngular, period)) {
+    if (point.visible && !addRows(point, limits, startSpeed, period)) {
       return invalid;
     }
   }
 
   vpTwistProjection::Vector x;
   for (int i = 0; i < 6; ++i) {
-    x[i] = start[i] / (i < 3 ? m_config.maxLinear : m_config.maxAngular);
+    x[i] = start[i] / (i < 3 ? limits.linear : limits.angular);
   }
   vpServoCommand command{vpTwist(), vpServoStatus::Deadlock};
   if (m_projection.solve(x) == vpTwistProjection::Result::Solved) {
@@ -158,11 +171,14 @@ vpServoCommand vpViewConstraintFilter::filter(const vpServoCommand &wanted, cons
     // Points outside the image have to come back at whatever speed; a guarantee for the border does not exist there.
     if (scale >= smallestScale || !m_inside) {
       for (int i = 0; i < 6; ++i) {
-        command.v[i] = scale * x[i] * (i < 3 ? m_config.maxLinear : m_config.maxAngular);
+        command.v[i] = scale * x[i] * (i < 3 ? limits.linear : limits.angular);
       }
     }
   }
-  if (startSpeed <= standstill || speed(command.v, m_config) > deadlockShare * startSpeed) {
+  if (!command.v.isFinite()) {
+    return invalid;
+  }
+  if (startSpeed <= standstill || speed(command.v, limits.linear, limits.angular) > deadlockShare * startSpeed) {
     double change = 0.;
     for (int i = 0; i < 6; ++i) {
       change = std::max(change, std::abs(command.v[i] - wanted.v[i]));

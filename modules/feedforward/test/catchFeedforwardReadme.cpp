@@ -50,19 +50,22 @@ TEST_CASE("the controller example of the README reaches its goal", "[readme]")
   const auto closeEnough = [&](const vpServoMeasurement &seen) {
     return translationError(goal.cdMo, seen.cMo) < 1e-3 || ++cycles > 2000;
   };
-  vpServoMeasurement seen = look();
+  vpServoMeasurement seen;
   // clang-format off
 vpServoControllerConfig config;
 config.view = vpViewConstraintConfig::fromCamera(camera, 640, 480);
 vpServoController servo = vpServoController::create("ff-lookat-pi+cbf", config);
-servo.setGoal(goal);         // cdMo and the object's points as the desired camera sees them
-while (!closeEnough(seen)) { // seen.valid = false when the target was not found
-  const vpServoCommand command = servo.update(seen, 0.01);
+servo.setGoal(goal);       // cdMo and the object's points as the desired camera sees them
+vpServoCommand command;
+do {
+  seen = look();           // seen.valid = false when the target was not found
+  command = servo.update(seen, 0.01);
   robot.setVelocity(vpRobot::CAMERA_FRAME, command.v.toColVector());
-  seen = look();
-}
+} while (isWorking(command.status) && !closeEnough(seen)); // message(command.status) tells what else ended it
+robot.setVelocity(vpRobot::CAMERA_FRAME, vpColVector(6));
   // clang-format on
   CHECK(cycles < 2000);
+  CHECK(command.status == vpServoStatus::Servoing);
 }
 
 TEST_CASE("the vpServo example of the README moves like the law", "[readme]")

@@ -8,9 +8,11 @@
 #include <visp3/core/vpGaussRand.h>
 #include <visp3/core/vpPoint.h>
 #include <visp3/core/vpUniRand.h>
+#include <visp3/direct_core/vpSO3.h>
 #include <visp3/vision/vpHomography.h>
 #include <visp3/vision/vpPose.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
 
@@ -79,7 +81,11 @@ protected:
       p.y += dv / m_task.camera.get_py();
       p.visible = p.visible && inPicture(p.x, p.y);
     }
-    return estimatePose(result) && takeDepths(result);
+    if (!estimatePose(result) || !takeDepths(result)) {
+      return false;
+    }
+    takeCovariance(result);
+    return true;
   }
 
 private:
@@ -141,6 +147,31 @@ private:
       }
     }
     return true;
+  }
+
+  // Of the least-squares pose: (sum J^T J / sigma^2)^-1, J the derivatives of the visible points' images by (v, w), with which
+  // a point P of the object moves by v + w x (P - t).
+  void takeCovariance(vpServoMeasurement &result) const
+  {
+    using Matrix6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
+    const Eigen::Vector3d t(result.cMo[0][3], result.cMo[1][3], result.cMo[2][3]);
+    Matrix6 information = Matrix6::Zero();
+    for (const vpServoPoint &p : result.points) {
+      if (!p.visible) {
+        continue;
+      }
+      Eigen::Matrix<double, 2, 3> image;
+      image << m_task.camera.get_px(), 0., -m_task.camera.get_px() * p.x, //
+          0., m_task.camera.get_py(), -m_task.camera.get_py() * p.y;
+      Eigen::Matrix<double, 2, 6> J;
+      J << image / p.Z, -(image / p.Z) * vpSO3::skew(p.Z * Eigen::Vector3d(p.x, p.y, 1.) - t);
+      information += J.transpose() * J;
+    }
+    const Eigen::LDLT<Matrix6> solver(information);
+    if (solver.info() == Eigen::Success && solver.isPositive() && solver.rcond() > 1e-12) {
+      Eigen::Map<Matrix6>(result.covariance.C.data()) = m_pixelNoise * m_pixelNoise * solver.solve(Matrix6::Identity());
+      result.covariance.known = true;
+    }
   }
 
   double m_pixelNoise;

@@ -21,7 +21,8 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-constexpr double mostCycles = 1e7; // the log must fit into memory
+constexpr double mostCycles = 1e7;  // the log must fit into memory
+constexpr double framesMissed = 5.; // after so many, odometry alone is not believed any more
 
 std::unique_ptr<vpServoSensor> makeSensor(const vpServoRunSpec &spec)
 {
@@ -115,6 +116,23 @@ void fillTruth(const vpServoTask &task, const vpServoSegment &segment, vpServoSa
   s.inView = allCornersInImage(task, s.cMo);
 }
 
+// What the measurement's own covariance says about cdMc. With errors (v, w) of cMo = (R, t) the rotation of cdMc errs by w, and
+// the camera's place, -R^T t in the object's frame, by v + t x w.
+void fillDeviations(const vpServoMeasurement &measurement, vpServoSample &s)
+{
+  if (!measurement.valid || !measurement.covariance.known) {
+    return;
+  }
+  using Matrix6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
+  const Matrix6 C = Eigen::Map<const Matrix6>(measurement.covariance.C.data());
+  const vpHomogeneousMatrix &cMo = measurement.cMo;
+  Eigen::Matrix<double, 3, 6> G;
+  G << Eigen::Matrix3d::Identity(), vpSO3::skew({cMo[0][3], cMo[1][3], cMo[2][3]});
+  const double variance = (G * C * G.transpose()).trace();
+  s.rotationDeviation = measurement.covariance.rotationDeviation();
+  s.translationDeviation = variance >= 0. ? std::sqrt(variance) : s.translationDeviation;
+}
+
 // Where the rotation would end if this angular velocity decayed as the law's own rotation error does.
 double referenceYaw(const vpHomogeneousMatrix &wMc, const vpTwist &command, double rotationGain)
 {
@@ -140,7 +158,7 @@ vpServoRun runServoExperiment(const vpServoRunSpec &spec, const std::function<bo
     shaper.emplace(*spec.shape);
   }
   vpVisionChannel vision(spec.plant.visionRate, spec.plant.latency);
-  vpOdometryBridge odometry;
+  vpOdometryBridge odometry(spec.plant.latency + framesMissed / spec.plant.visionRate, spec.plant.loopRate);
   vpServoMeasurement frame, result, measurement;
 
   vpServoRun run;
@@ -164,8 +182,7 @@ vpServoRun runServoExperiment(const vpServoRunSpec &spec, const std::function<bo
       vision.push(frame);
     }
     while (vision.pop(s.time, result)) {
-      odometry.correct(result);
-      s.newFrame = true;
+      s.newFrame = odometry.correct(result);
     }
     odometry.predict(measurement);
     const vpServoCommand command = servo.update(measurement, dt);
@@ -181,6 +198,7 @@ vpServoRun runServoExperiment(const vpServoRunSpec &spec, const std::function<bo
     s.actual = robot->actual();
     s.referenceYaw = referenceYaw(s.wMc, command.v, servo.law().rotationGain());
     s.measured = measurement.valid;
+    fillDeviations(measurement, s);
     s.status = command.status;
     run.samples.push_back(s);
     vpArmSample joints;

@@ -20,6 +20,7 @@ vpServoSensor::vpServoSensor(const vpServoTask &task, std::vector<ObjectPoint> p
 void vpServoSensor::measure(const vpHomogeneousMatrix &cMo, double time, vpServoMeasurement &result)
 {
   result.time = time;
+  result.covariance = vpPoseCovariance();
   result.valid = look(cMo, result);
   if (result.valid) {
     project(m_corners, result.cMo, result.outline);

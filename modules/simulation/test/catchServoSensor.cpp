@@ -8,6 +8,7 @@
 #include <visp3/direct_core/vpSO3.h>
 #include <visp3/simulation/vpServoSensor.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -148,6 +149,38 @@ TEST_CASE("points outside the picture are not visible, and too few give no pose"
   strip->measure(cMo, 0., m);
   CHECK(std::count_if(m.points.begin(), m.points.end(), [](const vpServoPoint &p) { return p.visible; }) > 10);
   CHECK_FALSE(m.valid);
+}
+
+TEST_CASE("the covariance of the points' pose is that of its errors", "[sensor][covariance]")
+{
+  auto rng = vpTestSupport::generator(5);
+  CAPTURE(vpTestSupport::seed());
+  const vpServoTask task = vpServoTask::thesis();
+  const auto sensor = vpServoSensor::points(task, 0.5, vpTestSupport::seed());
+  vpServoMeasurement m;
+  double sum = 0.;
+  const int views = 2000;
+  for (int i = 0; i < views; ++i) {
+    const vpHomogeneousMatrix cMo = randomView(rng);
+    sensor->measure(cMo, 0., m);
+    REQUIRE(m.valid);
+    REQUIRE(m.covariance.known);
+    Eigen::Matrix3d truth, measured;
+    Eigen::Matrix<double, 6, 1> e;
+    for (unsigned int r = 0; r < 3; ++r) {
+      e[r] = cMo[r][3] - m.cMo[r][3];
+      for (unsigned int c = 0; c < 3; ++c) {
+        truth(r, c) = cMo[r][c];
+        measured(r, c) = m.cMo[r][c];
+      }
+    }
+    e.tail<3>() = vpSO3::log(truth * measured.transpose());
+    const Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>> C(m.covariance.C.data());
+    sum += e.dot(C.ldlt().solve(e));
+  }
+  // Chi squared with 6 degrees: mean 6, variance 12; five deviations of the mean of so many.
+  CHECK(std::abs(sum / views - 6.) < 5. * std::sqrt(12. / views));
+  CHECK_FALSE(vpServoMeasurement().covariance.known);
 }
 
 TEST_CASE("the object is the same for every seed, the noise is not", "[sensor]")

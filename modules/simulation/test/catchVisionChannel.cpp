@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include "vpCatch.h"
+#include "vpWildNumbers.h"
 
 #include <visp3/core/vpExponentialMap.h>
 #include <visp3/simulation/vpOdometryBridge.h>
@@ -106,7 +107,7 @@ TEST_CASE("odometry carries a late measurement to now exactly", "[bridge]")
       }
       vpServoMeasurement result, predicted;
       while (channel.pop(now, result)) {
-        bridge.correct(result);
+        REQUIRE(bridge.correct(result));
       }
       bridge.predict(predicted);
       REQUIRE(predicted.valid == (k >= delay));
@@ -125,7 +126,7 @@ TEST_CASE("odometry carries a late measurement to now exactly", "[bridge]")
       }
       const vpTwist v(0.2 * unit(rng), 0.2 * unit(rng), 0.2 * unit(rng), 0.4 * unit(rng), 0.4 * unit(rng), unit(rng));
       wMc = wMc * vpExponentialMap::direct(v.toColVector(), 0.01);
-      bridge.move(v, (k + 1) * 0.01);
+      REQUIRE(bridge.move(v, (k + 1) * 0.01));
     }
   }
 }
@@ -140,25 +141,98 @@ TEST_CASE("the bridge passes on what was not seen and refuses the future", "[bri
 
   vpServoMeasurement seen = look(vpHomogeneousMatrix(0., 0., 0.5, 0., 0., 0.), 0.);
   seen.points[1].visible = false;
-  bridge.correct(seen);
-  bridge.move(vpTwist(0., 0., 1., 0., 0., 0.), 0.4);
+  CHECK(bridge.correct(seen));
+  CHECK(bridge.move(vpTwist(0., 0., 1., 0., 0., 0.), 0.4));
   bridge.predict(now);
   CHECK(now.valid);
   CHECK(now.cMo[2][3] == Approx(0.1));
   CHECK(now.points[0].visible);
   CHECK_FALSE(now.points[1].visible);
 
-  bridge.move(vpTwist(0., 0., 1., 0., 0., 0.), 0.6); // now behind the camera
+  CHECK(bridge.move(vpTwist(0., 0., 1., 0., 0., 0.), 0.6)); // now behind the camera
   bridge.predict(now);
   CHECK_FALSE(now.valid);
   CHECK_FALSE(now.points[0].visible);
 
   seen.time = 0.7;
-  CHECK_THROWS_WITH(bridge.correct(seen), Catch::Contains("captured at 0.7 s, later than the odometry at 0.6 s"));
+  CHECK_FALSE(bridge.correct(seen)); // of the future
   seen.time = 0.6;
   seen.valid = false;
-  bridge.correct(seen);
+  CHECK(bridge.correct(seen));
   bridge.predict(now);
   CHECK_FALSE(now.valid); // a frame without the object replaces the one that had it
   CHECK(now.time == 0.6);
+}
+
+TEST_CASE("an hour without a frame: the bridge neither grows nor allocates, and what was seen expires",
+          "[bridge][realtime]")
+{
+  vpOdometryBridge bridge(0.8, 100.);
+  vpServoMeasurement seen = look(vpHomogeneousMatrix(0., 0., 0.5, 0., 0., 0.), 0.), now;
+  REQUIRE(bridge.correct(seen));
+  bridge.predict(now); // the vectors take their sizes
+  const unsigned long before = vpTestSupport::allocationCount();
+  long lastValid = -1, moved = 0;
+  for (long k = 0; k < 360000; ++k) {
+    moved += bridge.move(vpTwist(0.01, 0., 0., 0., 0.02, 0.), 0.01 * (k + 1)) ? 1 : 0;
+    bridge.predict(now);
+    lastValid = now.valid ? k : lastValid;
+  }
+  const unsigned long after = vpTestSupport::allocationCount();
+  CHECK(moved == 360000);
+  CHECK(lastValid == 79); // 0.8 s
+  CHECK(std::isinf(vpOdometryBridge().age()));
+  if (vpTestSupport::canCountAllocations()) {
+    CHECK(after == before);
+  }
+  seen.time = 3600. - 0.5; // a late frame is carried on exactly, also from between two instants
+  REQUIRE(bridge.correct(seen));
+  bridge.predict(now);
+  REQUIRE(now.valid);
+  const vpHomogeneousMatrix nMc =
+      vpExponentialMap::direct(vpTwist(0.01, 0., 0., 0., 0.02, 0.).toColVector(), 0.5).inverse();
+  const vpHomogeneousMatrix expected = nMc * seen.cMo;
+  for (unsigned int i = 0; i < 16; ++i) {
+    CHECK(now.cMo.data[i] == Approx(expected.data[i]).margin(1e-12));
+  }
+  seen.time = 3600. - 0.8 - 0.05;
+  CHECK_FALSE(bridge.correct(seen)); // too late for the path
+  CHECK_THROWS_WITH(vpOdometryBridge(0.), Catch::Contains("greatest age of the odometry bridge is 0 s"));
+  CHECK_THROWS_WITH(vpOdometryBridge(1., NAN), Catch::Contains("rate of the odometry bridge is nan Hz"));
+}
+
+TEST_CASE("wild clocks and twists never leave a valid measurement that is not finite", "[bridge][wild]")
+{
+  auto rng = vpTestSupport::generator(4);
+  CAPTURE(vpTestSupport::seed());
+  int valid = 0;
+  for (int run = 0; run < 100; ++run) {
+    vpOdometryBridge bridge(0.5, 100.);
+    vpWildNumbers::Clock clock(0.01);
+    vpServoMeasurement now;
+    for (int k = 0; k < 400; ++k) {
+      std::array<double, 6> v{0.01, 0.02, -0.01, 0.1, 0., 0.2};
+      vpWildNumbers::mix(rng, v, 0.01);
+      const double time = clock.next(rng, 0.05);
+      static_cast<void>(bridge.move(vpTwist(v[0], v[1], v[2], v[3], v[4], v[5]), time));
+      if (k % 10 == 0) {
+        static_cast<void>(
+            bridge.correct(look(vpHomogeneousMatrix(0., 0., 0.5, 0., 0., 0.), vpWildNumbers::mixed(rng, time, 0.1))));
+      }
+      bridge.predict(now);
+      if (!now.valid) {
+        continue;
+      }
+      ++valid;
+      REQUIRE(bridge.age() >= -1e-6);
+      REQUIRE(bridge.age() <= 0.5 + 1e-6);
+      for (unsigned int i = 0; i < 16; ++i) {
+        REQUIRE(std::isfinite(now.cMo.data[i]));
+      }
+      for (const vpServoPoint &p : now.points) {
+        REQUIRE((!p.visible || (std::isfinite(p.x) && std::isfinite(p.y) && p.Z > 0.)));
+      }
+    }
+  }
+  CHECK(valid > 10000); // it goes on after every one of them
 }

@@ -18,6 +18,8 @@ namespace
 {
 using P = vpTrajectoryProblem;
 
+constexpr double longestStep = 1e6; // s; a clock that says more is wrong
+
 // J_r'(e, e') e': what the change of the right Jacobian adds to the angular acceleration.
 Eigen::Vector3d jacobianRateTerm(const Eigen::Vector3d &e, const Eigen::Vector3d &rate)
 {
@@ -45,22 +47,37 @@ Eigen::Vector3d angular(const vpTwist &v) { return {v[3], v[4], v[5]}; }
 
 vpTwist twist(const Eigen::Vector3d &v, const Eigen::Vector3d &w) { return {v.x(), v.y(), v.z(), w.x(), w.y(), w.z()}; }
 
+// As in vpTrajectoryProblem: beyond this nothing can be computed reliably.
+constexpr double largest = 1e12;
+
+vpTrajectoryFault faultOf(double x, bool start)
+{
+  if (!std::isfinite(x)) {
+    return start ? vpTrajectoryFault::StartNotFinite : vpTrajectoryFault::GoalNotFinite;
+  }
+  return std::abs(x) <= largest ? vpTrajectoryFault::None : vpTrajectoryFault::OutOfRange;
+}
+
+bool isFinite(const vpCameraState &x)
+{
+  return x.fRc.allFinite() && x.ftc.allFinite() && x.v.isFinite() && x.a.isFinite();
+}
+
 // Read a pose and make its rotation orthonormal to the last digit.
 vpTrajectoryStatus read(const vpHomogeneousMatrix &M, bool start, Eigen::Matrix3d &R, Eigen::Vector3d &t)
 {
   Eigen::Matrix3d raw;
   for (unsigned int r = 0; r < 3; ++r) {
     for (unsigned int c = 0; c < 4; ++c) {
-      if (!std::isfinite(M[r][c])) {
-        return {vpTrajectoryResult::InvalidInput,
-                start ? vpTrajectoryFault::StartNotFinite : vpTrajectoryFault::GoalNotFinite, static_cast<int>(r),
-                M[r][c]};
+      const vpTrajectoryFault fault = faultOf(M[r][c], start);
+      if (fault != vpTrajectoryFault::None) {
+        return {vpTrajectoryResult::InvalidInput, fault, static_cast<int>(r), M[r][c]};
       }
       (c < 3 ? raw(r, c) : t(r)) = M[r][c];
     }
   }
   const double error = (raw.transpose() * raw - Eigen::Matrix3d::Identity()).norm();
-  if (error > 1e-6 || raw.determinant() < 0.) {
+  if (!(error <= 1e-6) || raw.determinant() < 0.) {
     return {vpTrajectoryResult::InvalidInput, vpTrajectoryFault::NotARotation, -1, raw.determinant() < 0. ? 2. : error};
   }
   R = Eigen::Quaterniond(raw).normalized().toRotationMatrix();
@@ -69,8 +86,10 @@ vpTrajectoryStatus read(const vpHomogeneousMatrix &M, bool start, Eigen::Matrix3
 
 void requirePositive(const char *name, double value, const char *unit)
 {
-  if (!(value > 0.)) {
-    throw vpException(vpException::badValue, "%s of the pose trajectory is %g %s, must be > 0", name, value, unit);
+  if (!(value >= 1. / largest && (value <= largest || std::isinf(value)))) {
+    throw vpException(vpException::badValue,
+                      "%s of the pose trajectory is %g %s, must be > 0 (1e-12 to 1e12, or infinity)", name, value,
+                      unit);
   }
 }
 } // namespace
@@ -86,7 +105,7 @@ void vpPoseTrajectoryOptions::validate() const
   if (policy == vpReplanPolicy::FixedArrival) {
     requirePositive("arrival time", std::isfinite(arrivalTime) ? arrivalTime : -1., "s");
   }
-  if (!(minimumDuration >= 0.) || !std::isfinite(minimumDuration)) {
+  if (!(minimumDuration >= 0. && minimumDuration <= largest)) {
     throw vpException(vpException::badValue, "minimum duration of the pose trajectory is %g s, must be >= 0",
                       minimumDuration);
   }
@@ -102,7 +121,8 @@ void vpCameraState::copyTo(vpHomogeneousMatrix &pose) const
   }
 }
 
-vpPoseTrajectory::vpPoseTrajectory(const vpPoseTrajectoryOptions &options) : m_problem(6), m_planner(6), m_plan(6)
+vpPoseTrajectory::vpPoseTrajectory(const vpPoseTrajectoryOptions &options)
+  : m_problem(6), m_planner(6), m_plan(6), m_jitter(6)
 {
   setOptions(options);
   static_cast<void>(reset(vpHomogeneousMatrix()));
@@ -148,9 +168,10 @@ vpTrajectoryStatus vpPoseTrajectory::reset(const vpHomogeneousMatrix &fMc, const
     return status;
   }
   for (std::size_t i = 0; i < 6; ++i) {
-    if (!std::isfinite(v[i]) || !std::isfinite(a[i])) {
-      return {vpTrajectoryResult::InvalidInput, vpTrajectoryFault::StartNotFinite, static_cast<int>(i),
-              std::isfinite(v[i]) ? a[i] : v[i]};
+    for (const double rate : {v[i], a[i]}) {
+      if (faultOf(rate, true) != vpTrajectoryFault::None) {
+        return {vpTrajectoryResult::InvalidInput, faultOf(rate, true), static_cast<int>(i), rate};
+      }
     }
   }
   x.v = v;
@@ -159,6 +180,9 @@ vpTrajectoryStatus vpPoseTrajectory::reset(const vpHomogeneousMatrix &fMc, const
   m_fRd = x.fRc;
   m_ftd = x.ftc;
   m_goalTwist = vpTwist();
+  m_goals = 0;
+  m_goalAge = m_goalInterval = 0.;
+  m_jitter.reset();
   m_plan.clear();
   m_clock = 0.;
   m_arrival = -1.;
@@ -176,15 +200,18 @@ vpTrajectoryStatus vpPoseTrajectory::setGoal(const vpHomogeneousMatrix &fMcd, co
   }
   bool same = R == m_fRd && t == m_ftd;
   for (std::size_t i = 0; i < 6; ++i) {
-    if (!std::isfinite(goalTwist[i])) {
-      return {vpTrajectoryResult::InvalidInput, vpTrajectoryFault::GoalNotFinite, static_cast<int>(i), goalTwist[i]};
+    if (faultOf(goalTwist[i], false) != vpTrajectoryFault::None) {
+      return {vpTrajectoryResult::InvalidInput, faultOf(goalTwist[i], false), static_cast<int>(i), goalTwist[i]};
     }
     same = same && goalTwist[i] == m_goalTwist[i];
   }
-  if (goalTwist.linearNorm() > m_options.linearVelocity || goalTwist.angularNorm() > m_options.angularVelocity) {
-    const bool position = goalTwist.linearNorm() > m_options.linearVelocity;
+  if (!(goalTwist.linearNorm() <= m_options.linearVelocity && goalTwist.angularNorm() <= m_options.angularVelocity)) {
+    const bool position = !(goalTwist.linearNorm() <= m_options.linearVelocity);
     return {vpTrajectoryResult::InvalidInput, vpTrajectoryFault::GoalOutsideGroup, position ? 0 : 1,
             position ? goalTwist.linearNorm() : goalTwist.angularNorm()};
+  }
+  if (!same) {
+    noteGoal(R, t);
   }
   m_event = m_event || !same;
   m_fRd = R;
@@ -193,39 +220,81 @@ vpTrajectoryStatus vpPoseTrajectory::setGoal(const vpHomogeneousMatrix &fMcd, co
   return status;
 }
 
+// Where the goal is \e ahead seconds after it was given, going on with its twist.
+void vpPoseTrajectory::goalAt(double ahead, Eigen::Matrix3d &R, Eigen::Vector3d &t) const noexcept
+{
+  const Eigen::Vector3d turn = ahead * angular(m_goalTwist);
+  R = m_fRd * vpSO3::exp(turn);
+  t = m_ftd + m_fRd * (vpSO3::rightJacobian(-turn) * (ahead * linear(m_goalTwist)));
+}
+
+// How the goal moves, from what is new about it.
+void vpPoseTrajectory::noteGoal(const Eigen::Matrix3d &R, const Eigen::Vector3d &t) noexcept
+{
+  m_goalInterval = 0.;
+  if (m_goals > 0) {
+    Eigen::Matrix3d expectedR;
+    Eigen::Vector3d expected;
+    goalAt(m_goalAge, expectedR, expected);
+    const Eigen::Vector3d shift = t - expected, turn = vpSO3::log(expectedR.transpose() * R);
+    for (int i = 0; i < 3; ++i) {
+      m_jitter.see(i, shift[i]);
+      m_jitter.see(i + 3, turn[i]);
+    }
+    m_goalInterval = m_goalAge;
+  }
+  m_goals = std::min(m_goals + 1, 2);
+  m_goalAge = 0.;
+}
+
+// The floor of KeepArrival, and where its goal will be; see vpTrajectoryFollower.
+double vpPoseTrajectory::meet(double floor, Eigen::Matrix3d &R, Eigen::Vector3d &t) noexcept
+{
+  floor = std::max(floor, m_jitter.floor(m_problem));
+  double left = remaining();
+  if (m_goals > 1 && (m_goalTwist.linearNorm() > 0. || m_goalTwist.angularNorm() > 0.)) {
+    goalAt(m_goalAge + floor, R, t);
+    left = std::max(left - vpGoalJitter::hurry * m_goalInterval, 0.);
+  }
+  m_goalInterval = 0.;
+  return std::max(floor, left);
+}
+
 void vpPoseTrajectory::replan() noexcept
 {
-  const vpCameraState &x = m_state;
-  m_fR0 = Eigen::Quaterniond(x.fRc).normalized().toRotationMatrix();
-  // At e = 0 the right Jacobian is the identity and its rate adds nothing: e' = w, e'' = w'.
-  const Eigen::Vector3d p1 = x.fRc * linear(x.v), p2 = x.fRc * linear(x.a), e1 = angular(x.v), e2 = angular(x.a);
-  const Eigen::Vector3d w = angular(m_goalTwist), goal = vpSO3::log(m_fR0.transpose() * m_fRd);
-  const Eigen::Matrix3d inverse = vpSO3::rightJacobianInverse(goal);
-  Eigen::Vector3d goal1 = inverse * w;
-  // Near pi the rates of the rotation vector exceed those of the rotation; the limits are on the former.
-  goal1 *= std::min(1., m_options.angularVelocity / std::max(goal1.norm(), 1e-300));
-  Eigen::Vector3d goal2 = -inverse * jacobianRateTerm(goal, goal1);
-  goal2 *= std::min(1., m_options.angularAcceleration / std::max(goal2.norm(), 1e-300));
-  const Eigen::Vector3d goalP1 = m_fRd * linear(m_goalTwist);
-  Eigen::Vector3d goalP2 = m_fRd * w.cross(linear(m_goalTwist));
-  goalP2 *= std::min(1., m_options.linearAcceleration / std::max(goalP2.norm(), 1e-300));
-  for (int i = 0; i < 3; ++i) {
-    m_problem.setStart(i, {x.ftc[i], p1[i], p2[i], 0.});
-    m_problem.setStart(i + 3, {0., e1[i], e2[i], 0.});
-    const double values[2][3] = {{m_ftd[i], goalP1[i], goalP2[i]}, {goal[i], goal1[i], goal2[i]}};
-    for (int k = 0; k < 2; ++k) {
-      m_problem.field(P::GoalQ)[i + 3 * k] = values[k][0];
-      m_problem.field(P::GoalV)[i + 3 * k] = values[k][1];
-      m_problem.field(P::GoalA)[i + 3 * k] = values[k][2];
-    }
-  }
+  Eigen::Matrix3d fRd = m_fRd;
+  Eigen::Vector3d ftd = m_ftd;
   double floor = m_options.minimumDuration;
   if (m_options.policy == vpReplanPolicy::FixedArrival) {
     m_arrival = m_arrival >= 0. && remaining() > 0. ? std::max(m_arrival - m_clock, 0.) : m_options.arrivalTime;
     floor = m_arrival;
   }
   else if (m_options.policy == vpReplanPolicy::KeepArrival) {
-    floor = std::max(floor, remaining());
+    floor = meet(floor, fRd, ftd);
+  }
+  const vpCameraState &x = m_state;
+  m_fR0 = Eigen::Quaterniond(x.fRc).normalized().toRotationMatrix();
+  // At e = 0 the right Jacobian is the identity and its rate adds nothing: e' = w, e'' = w'.
+  const Eigen::Vector3d p1 = x.fRc * linear(x.v), p2 = x.fRc * linear(x.a), e1 = angular(x.v), e2 = angular(x.a);
+  const Eigen::Vector3d w = angular(m_goalTwist), goal = vpSO3::log(m_fR0.transpose() * fRd);
+  const Eigen::Matrix3d inverse = vpSO3::rightJacobianInverse(goal);
+  Eigen::Vector3d goal1 = inverse * w;
+  // Near pi the rates of the rotation vector exceed those of the rotation; the limits are on the former.
+  goal1 *= std::min(1., m_options.angularVelocity / std::max(goal1.norm(), 1e-300));
+  Eigen::Vector3d goal2 = -inverse * jacobianRateTerm(goal, goal1);
+  goal2 *= std::min(1., m_options.angularAcceleration / std::max(goal2.norm(), 1e-300));
+  const Eigen::Vector3d goalP1 = fRd * linear(m_goalTwist);
+  Eigen::Vector3d goalP2 = fRd * w.cross(linear(m_goalTwist));
+  goalP2 *= std::min(1., m_options.linearAcceleration / std::max(goalP2.norm(), 1e-300));
+  for (int i = 0; i < 3; ++i) {
+    m_problem.setStart(i, {x.ftc[i], p1[i], p2[i], 0.});
+    m_problem.setStart(i + 3, {0., e1[i], e2[i], 0.});
+    const double values[2][3] = {{ftd[i], goalP1[i], goalP2[i]}, {goal[i], goal1[i], goal2[i]}};
+    for (int k = 0; k < 2; ++k) {
+      m_problem.field(P::GoalQ)[i + 3 * k] = values[k][0];
+      m_problem.field(P::GoalV)[i + 3 * k] = values[k][1];
+      m_problem.field(P::GoalA)[i + 3 * k] = values[k][2];
+    }
   }
   m_planStatus = m_planner.plan(m_problem, floor, m_plan);
   m_clock = 0.;
@@ -233,7 +302,7 @@ void vpPoseTrajectory::replan() noexcept
 
 vpTrajectoryStatus vpPoseTrajectory::update(double dt) noexcept
 {
-  if (!(dt > 0.) || !std::isfinite(dt)) {
+  if (!(dt > 0. && dt <= longestStep)) {
     return {vpTrajectoryResult::InvalidInput, vpTrajectoryFault::TimeStep, -1, dt};
   }
   const bool event = m_event;
@@ -243,10 +312,20 @@ vpTrajectoryStatus vpPoseTrajectory::update(double dt) noexcept
   }
   const bool arrivedBefore = !event && m_clock >= duration();
   m_clock += dt;
+  m_goalAge += dt;
+  m_jitter.pass(dt);
   if (std::abs(m_clock - duration()) < 1e-8 * dt) {
     m_clock = duration(); // sums of dt differ from the duration by rounding
   }
-  m_state = at(m_clock);
+  const vpCameraState next = at(m_clock);
+  if (!isFinite(next)) { // numbers that only together are too large: stand still, safely
+    m_plan.clear();
+    m_clock = 0.;
+    m_event = true; // the next cycle plans anew from here
+    m_state.v = m_state.a = vpTwist();
+    return {vpTrajectoryResult::InvalidInput, vpTrajectoryFault::OutOfRange, -1, dt};
+  }
+  m_state = next;
   if (m_clock >= duration()) {
     return {arrivedBefore ? vpTrajectoryResult::Holding : vpTrajectoryResult::Finished, vpTrajectoryFault::None, -1,
             0.};

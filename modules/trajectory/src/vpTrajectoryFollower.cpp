@@ -16,7 +16,7 @@ constexpr double shortestThesis = 1e-9, longestThesis = 1e12; // s
 } // namespace
 
 vpTrajectoryFollower::vpTrajectoryFollower(int axes, int maxVias)
-  : m_task(axes, maxVias), m_rest(axes, maxVias), m_planner(axes, maxVias), m_plan(axes, maxVias)
+  : m_task(axes, maxVias), m_rest(axes, maxVias), m_planner(axes, maxVias), m_plan(axes, maxVias), m_jitter(axes)
 {}
 
 vpTrajectoryStatus vpTrajectoryFollower::update(const vpTrajectoryProblem &problem, double dt) noexcept
@@ -61,6 +61,8 @@ void vpTrajectoryFollower::tick(double dt) noexcept
 {
   m_clock += dt;
   m_sinceReplan += dt;
+  m_goalAge += dt;
+  m_jitter.pass(dt);
   // Sums of dt differ from the duration by rounding; that must not cost a cycle.
   if (std::abs(m_clock - m_plan.duration()) < 1e-8 * dt) {
     m_clock = m_plan.duration();
@@ -115,6 +117,30 @@ void vpTrajectoryFollower::takeRest(const vpTrajectoryProblem &problem) noexcept
   }
 }
 
+// How the goal moves, from what is new about it.
+void vpTrajectoryFollower::noteGoal(const vpTrajectoryProblem &problem) noexcept
+{
+  using P = vpTrajectoryProblem;
+  if (!m_started) {
+    m_jitter.reset();
+    m_goalAge = m_goalInterval = 0.;
+    m_goalMoves = false;
+    return;
+  }
+  m_goalInterval = 0.;
+  const double *q = problem.field(P::GoalQ), *v = problem.field(P::GoalV);
+  const double *before = m_task.field(P::GoalQ), *rate = m_task.field(P::GoalV);
+  if (std::equal(q, q + problem.axes(), before) && std::equal(v, v + problem.axes(), rate)) {
+    return;
+  }
+  for (int i = 0; i < problem.axes(); ++i) {
+    m_jitter.see(i, q[i] - before[i] - rate[i] * m_goalAge);
+  }
+  m_goalInterval = m_goalAge;
+  m_goalAge = 0.;
+  m_goalMoves = std::any_of(v, v + problem.axes(), [](double speed) { return speed != 0.; });
+}
+
 double vpTrajectoryFollower::floorOf(const vpTrajectoryProblem &problem, Event event) noexcept
 {
   const vpTrajectoryOptions &options = problem.options;
@@ -125,8 +151,25 @@ double vpTrajectoryFollower::floorOf(const vpTrajectoryProblem &problem, Event e
     m_arrival = goesOn ? std::max(m_arrival - m_clock, 0.) : options.arrivalTime;
     return m_arrival;
   }
-  const bool keep = event == Event::Rate || options.policy == vpReplanPolicy::KeepArrival;
-  return std::max(options.minimumDuration, keep && m_started ? remaining() : 0.);
+  double left = m_started ? remaining() : 0.;
+  if (options.policy != vpReplanPolicy::KeepArrival) {
+    return std::max(options.minimumDuration, event == Event::Rate ? left : 0.);
+  }
+  if (m_goalMoves) {
+    left = std::max(left - vpGoalJitter::hurry * m_goalInterval, 0.);
+  }
+  return std::max({options.minimumDuration, left, m_jitter.floor(problem)});
+}
+
+// Where a goal that moves will be when the plan may end, within the position limits.
+void vpTrajectoryFollower::aim() noexcept
+{
+  using P = vpTrajectoryProblem;
+  const double ahead = m_goalAge + std::max(m_task.options.minimumDuration, m_jitter.floor(m_task));
+  for (int i = 0; i < m_rest.axes(); ++i) {
+    const double there = m_task.field(P::GoalQ)[i] + m_task.field(P::GoalV)[i] * ahead;
+    m_rest.field(P::GoalQ)[i] = std::clamp(there, m_task.field(P::MinPosition)[i], m_task.field(P::MaxPosition)[i]);
+  }
 }
 
 bool vpTrajectoryFollower::isSinglePolynomial() const noexcept
@@ -141,6 +184,7 @@ bool vpTrajectoryFollower::isSinglePolynomial() const noexcept
 void vpTrajectoryFollower::replan(const vpTrajectoryProblem &problem, Event event) noexcept
 {
   const double left = m_started ? remaining() : 0.;
+  noteGoal(problem);
   const double floor = floorOf(problem, event);
   takeRest(problem);
   m_task = problem;
@@ -160,6 +204,9 @@ void vpTrajectoryFollower::replan(const vpTrajectoryProblem &problem, Event even
     }
     iterateThesis();
     return;
+  }
+  if (problem.options.policy == vpReplanPolicy::KeepArrival && m_goalMoves) {
+    aim();
   }
   // Without an event, a single polynomial is planned again as it is.
   m_planStatus = event == Event::Rate && isSinglePolynomial() ? m_planner.planDirect(m_rest, floor, m_plan)

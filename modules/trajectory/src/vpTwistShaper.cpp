@@ -7,59 +7,141 @@
 
 #include <visp3/core/vpException.h>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 BEGIN_VISP_NAMESPACE
 
 namespace
 {
-void requirePositive(const char *name, double value, const char *unit)
+using Eigen::Vector3d;
+
+// Rounding must not keep a ramp from arriving at the bound.
+constexpr double rounding = 1e-12;
+
+void requireRange(const char *name, double value, double largest, const char *unit)
 {
-  if (!(value > 0.)) {
-    throw vpException(vpException::badValue, "%s of the twist shaper is %g %s, must be > 0", name, value, unit);
+  if (!(value >= 1e-6 && value <= largest)) {
+    throw vpException(vpException::badValue, "%s of the twist shaper is %g %s, must be > 0, from 1e-06 to %g", name,
+                      value, unit, largest);
   }
 }
 
+void requireJerk(const char *name, double value, const char *unit)
+{
+  if (!std::isinf(value) || value < 0.) {
+    requireRange(name, value, 1e12, unit);
+  }
+}
+
+// Finite and within what a machine can do.
+bool isPlausible(const vpTwist &twist)
+{
+  for (std::size_t i = 0; i < 6; ++i) {
+    if (!(std::abs(twist[i]) <= vpTwistShaper::implausible)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+// The linear or the angular part.
+struct Motion {
+  Vector3d v, a;
+};
+
+struct Bounds {
+  double acceleration, jerk;
+  bool norm;
+
+  double size(const Vector3d &a) const { return norm ? a.norm() : a.cwiseAbs().maxCoeff(); }
+};
+
 // Shares of a norm limit for the components: in the direction of the wished change as far as the accelerations in
 // progress leave room, w_i = max(|b_i|, lambda d_i) with the largest lambda that keeps the norm of w at 1.
-void shareLimit(const double (&busy)[3], const double (&wish)[3], double (&w)[3])
+Vector3d shareLimit(const Vector3d &busy, const Vector3d &wish)
 {
-  double low = 0., high = 1.;
-  const auto norm2 = [&](double lambda) {
-    double sum = 0.;
-    for (int i = 0; i < 3; ++i) {
-      w[i] = std::max(busy[i], lambda * wish[i]);
-      sum += w[i] * w[i];
-    }
-    return sum;
-  };
-  if (norm2(high) <= 1.) {
-    return;
+  const auto share = [&](double lambda) { return Vector3d(busy.cwiseMax(lambda * wish)); };
+  if (share(1.).squaredNorm() <= 1.) {
+    return share(1.);
   }
+  double low = 0., high = 1.;
   for (int i = 0; i < 50; ++i) {
     const double middle = 0.5 * (low + high);
-    (norm2(middle) <= 1. ? low : high) = middle;
+    (share(middle).squaredNorm() <= 1. ? low : high) = middle;
   }
-  static_cast<void>(norm2(low));
+  return share(low);
+}
+
+// Time-optimal ramps of the components, after dt.
+Motion rampTo(const Vector3d &target, const Motion &now, const Bounds &bounds, double dt)
+{
+  Vector3d share = Vector3d::Ones(), jerkShare = share;
+  if (bounds.norm) {
+    const Vector3d change = (target - now.v).cwiseAbs(), busy = now.a.cwiseAbs() / bounds.acceleration;
+    const double length = change.norm(), most = busy.norm();
+    if (length == 0. && most == 0.) {
+      return now;
+    }
+    share = shareLimit(busy / std::max(1., most), length > 0. ? Vector3d(change / length) : Vector3d(change));
+    jerkShare = share / share.norm();
+  }
+  Motion next = now;
+  for (int i = 0; i < 3; ++i) {
+    if (share[i] <= 0.) {
+      continue; // at its target and at rest
+    }
+    const double limit = share[i] * bounds.acceleration, missing = target[i] - now.v[i];
+    if (std::isfinite(bounds.jerk)) {
+      const vpAxisState state =
+          vpVelocityRamp(now.v[i], now.a[i], target[i], limit, jerkShare[i] * bounds.jerk).at(0., dt);
+      next.v[i] = state[1];
+      next.a[i] = state[2];
+    }
+    else {
+      next.a[i] = std::clamp(missing / dt, -limit, limit);
+      next.v[i] = std::abs(missing) <= limit * dt ? target[i] : now.v[i] + dt * next.a[i];
+    }
+  }
+  return next;
+}
+
+// Full jerk against the acceleration until it is zero, after dt: the velocity goes straight to where() it ends.
+Motion brake(const Motion &now, const Bounds &bounds, double dt)
+{
+  const double time = std::isfinite(bounds.jerk) ? bounds.size(now.a) / bounds.jerk : 0.;
+  if (time <= dt) {
+    return {now.v + 0.5 * time * now.a, Vector3d::Zero()};
+  }
+  const double left = 1. - dt / time;
+  return {now.v + 0.5 * dt * (1. + left) * now.a, left * now.a};
+}
+
+// The largest speed now and while braking.
+double peak(const Motion &motion, const Bounds &bounds)
+{
+  const double time = std::isfinite(bounds.jerk) ? bounds.size(motion.a) / bounds.jerk : 0.;
+  return std::max(motion.v.norm(), (motion.v + 0.5 * time * motion.a).norm());
 }
 } // namespace
 
 void vpTwistShaperLimits::validate() const
 {
-  requirePositive("linear acceleration limit", linearAcceleration, "m/s^2");
-  requirePositive("linear jerk limit", linearJerk, "m/s^3");
-  requirePositive("angular acceleration limit", angularAcceleration, "rad/s^2");
-  requirePositive("angular jerk limit", angularJerk, "rad/s^3");
+  requireRange("linear acceleration limit", linearAcceleration, 1e9, "m/s^2");
+  requireJerk("linear jerk limit", linearJerk, "m/s^3");
+  requireRange("angular acceleration limit", angularAcceleration, 1e9, "rad/s^2");
+  requireJerk("angular jerk limit", angularJerk, "rad/s^3");
 }
 
 vpTwistShaper::vpTwistShaper(const vpTwistShaperLimits &limits) { setLimits(limits); }
 
 void vpTwistShaper::reset(const vpTwist &twist, const vpTwist &acceleration)
 {
-  m_twist = twist;
-  m_acceleration = acceleration;
+  const bool usable = isPlausible(twist) && isPlausible(acceleration);
+  m_twist = usable ? twist : vpTwist();
+  m_acceleration = usable ? acceleration : vpTwist();
 }
 
 void vpTwistShaper::setLimits(const vpTwistShaperLimits &limits)
@@ -73,55 +155,43 @@ vpTwist vpTwistShaper::update(const vpTwist &raw, double dt) noexcept
   if (!(dt > 0.) || !std::isfinite(dt)) {
     return m_twist;
   }
-  const vpTwist wished = raw.isFinite() ? raw : vpTwist();
-  updatePart(0, wished, m_limits.linearAcceleration, m_limits.linearJerk, dt);
-  updatePart(3, wished, m_limits.angularAcceleration, m_limits.angularJerk, dt);
+  const vpTwist wished = isPlausible(raw) ? raw : vpTwist();
+  const double step = std::min(dt, longestStep);
+  updatePart(0, wished, m_limits.linearAcceleration, m_limits.linearJerk, step);
+  updatePart(3, wished, m_limits.angularAcceleration, m_limits.angularJerk, step);
   return m_twist;
 }
 
-void vpTwistShaper::updatePart(int first, const vpTwist &raw, double maxAcceleration, double maxJerk,
+void vpTwistShaper::updatePart(std::size_t first, const vpTwist &raw, double maxAcceleration, double maxJerk,
                                double dt) noexcept
 {
-  const auto part = [first](int i) { return static_cast<std::size_t>(first + i); };
-  double share[3] = {1., 1., 1.}, jerkShare[3] = {1., 1., 1.};
-  if (m_limits.norm) {
-    double busy[3], wish[3], length2 = 0., busy2 = 0.;
-    for (int i = 0; i < 3; ++i) {
-      wish[i] = std::abs(raw[part(i)] - m_twist[part(i)]);
-      busy[i] = std::abs(m_acceleration[part(i)]) / maxAcceleration;
-      length2 += wish[i] * wish[i];
-      busy2 += busy[i] * busy[i];
+  const Bounds bounds{maxAcceleration, maxJerk, m_limits.norm};
+  const Motion now{Eigen::Map<const Vector3d>(m_twist.data() + first),
+                   Eigen::Map<const Vector3d>(m_acceleration.data() + first)};
+  const Vector3d target = Eigen::Map<const Vector3d>(raw.data() + first);
+  Motion next = rampTo(target, now, bounds, dt);
+  const double most = std::max(target.norm(), peak(now, bounds)) * (1. + rounding);
+  if (!(peak(next, bounds) <= most)) {
+    // Straight towards the wish, which from rest never leaves the ball: ramps with limits of their own, one a component,
+    // might, and nothing of them would be left.
+    const Motion ramp = m_limits.norm ? next : rampTo(target, now, {maxAcceleration, maxJerk, true}, dt);
+    const Motion slow = brake(now, bounds, dt);
+    const auto mixed = [&](double share) {
+      return Motion{slow.v + share * (ramp.v - slow.v), slow.a + share * (ramp.a - slow.a)};
+    };
+    double low = 0., high = 1.;
+    for (int i = 0; i < 30; ++i) {
+      const double middle = 0.5 * (low + high);
+      (peak(mixed(middle), bounds) <= most ? low : high) = middle;
     }
-    if (length2 == 0. && busy2 == 0.) {
-      return;
-    }
-    const double fit = busy2 > 1. ? 1. / std::sqrt(busy2) : 1.; // limits lowered on the fly
-    for (int i = 0; i < 3; ++i) {
-      wish[i] = length2 > 0. ? wish[i] / std::sqrt(length2) : 0.;
-      busy[i] *= fit;
-    }
-    shareLimit(busy, wish, share);
-    const double norm = std::sqrt(share[0] * share[0] + share[1] * share[1] + share[2] * share[2]);
-    for (int i = 0; i < 3; ++i) {
-      jerkShare[i] = share[i] / norm;
+    next = mixed(low);
+    if (std::isinf(maxJerk)) {
+      next.a = (next.v - now.v) / dt;
     }
   }
   for (int i = 0; i < 3; ++i) {
-    const double v = m_twist[part(i)], a = m_acceleration[part(i)], target = raw[part(i)];
-    if (share[i] <= 0.) {
-      continue; // at its target and at rest
-    }
-    if (std::isfinite(maxJerk)) {
-      const vpVelocityRamp ramp(v, a, target, share[i] * maxAcceleration, jerkShare[i] * maxJerk);
-      const vpAxisState next = ramp.at(0., dt);
-      m_twist[part(i)] = next[1];
-      m_acceleration[part(i)] = next[2];
-    }
-    else {
-      const double limit = share[i] * maxAcceleration;
-      m_acceleration[part(i)] = std::clamp((target - v) / dt, -limit, limit);
-      m_twist[part(i)] = std::abs(target - v) <= limit * dt ? target : v + dt * m_acceleration[part(i)];
-    }
+    m_twist[first + static_cast<std::size_t>(i)] = next.v[i];
+    m_acceleration[first + static_cast<std::size_t>(i)] = next.a[i];
   }
 }
 

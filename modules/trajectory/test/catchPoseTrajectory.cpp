@@ -4,6 +4,7 @@
  */
 // Motions on SE(3): the twist against finite differences of the pose, hand-over, limits, turns up to pi.
 #include "vpCatch.h"
+#include "vpWildNumbers.h"
 
 #include <visp3/core/vpException.h>
 #include <visp3/direct_core/vpSO3.h>
@@ -218,4 +219,92 @@ TEST_CASE("finished, holding, fixed arrival and bad poses", "[pose]")
   options.angularVelocity = -1.;
   CHECK_THROWS_WITH(trajectory.setOptions(options),
                     Catch::Contains("angular velocity limit of the pose trajectory is -1 rad/s, must be > 0"));
+}
+
+TEST_CASE("KeepArrival of a pose meets an object on its way that is measured with noise", "[pose][policy]")
+{
+  auto rng = vpTestSupport::generator(64);
+  CAPTURE(vpTestSupport::seed());
+  std::normal_distribution<double> gauss;
+  // The goal goes round in a circle of 0.2 m in 8 s, turning as it goes; measured at 100 Hz with 0.5 mm and 0.5 mrad.
+  const double w = 2. * M_PI / 8.;
+  const vpTwist twist(0.2 * w, 0., 0., 0., 0., w); // in its own frame
+  double rms[2] = {0., 0.}, jerk[2] = {0., 0.};
+  for (const bool keep : {false, true}) {
+    vpPoseTrajectoryOptions options;
+    options.linearVelocity = 1.;
+    options.linearAcceleration = 3.;
+    options.angularVelocity = 2.;
+    options.angularAcceleration = 6.;
+    options.policy = keep ? vpReplanPolicy::KeepArrival : vpReplanPolicy::EventMinTime;
+    vpPoseTrajectory trajectory(options);
+    const auto poseAt = [&](double t, double noise) {
+      const Eigen::Vector3d e(noise * gauss(rng), noise * gauss(rng), w * t + noise * gauss(rng));
+      return vpHomogeneousMatrix(0.2 * std::sin(w * t) + noise * gauss(rng),
+                                 0.2 - 0.2 * std::cos(w * t) + noise * gauss(rng), noise * gauss(rng), e.x(), e.y(),
+                                 e.z());
+    };
+    REQUIRE(trajectory.reset(poseAt(0., 0.)).isGood());
+    Eigen::Vector3d before = Eigen::Vector3d::Zero();
+    int counted = 0;
+    for (int k = 0; k < 350; ++k) {
+      const double t = 0.01 * k;
+      REQUIRE(trajectory.setGoal(poseAt(t, 5e-4), twist).isGood());
+      static_cast<void>(trajectory.update(0.01));
+      const vpHomogeneousMatrix truth = poseAt(t + 0.01, 0.);
+      const Eigen::Vector3d a(trajectory.state().a[0], trajectory.state().a[1], trajectory.state().a[2]);
+      if (k > 150) {
+        rms[keep] += (trajectory.state().ftc - Eigen::Vector3d(truth[0][3], truth[1][3], truth[2][3])).squaredNorm();
+        jerk[keep] = std::max(jerk[keep], (a - before).norm() / 0.01);
+        ++counted;
+      }
+      before = a;
+    }
+    rms[keep] = std::sqrt(rms[keep] / counted);
+  }
+  WARN("circle of 0.2 m in 8 s, 0.5 mm noise at 100 Hz. rms error (mm), peak jerk (m/s^3): KeepArrival "
+       << 1e3 * rms[1] << ", " << jerk[1] << "; EventMinTime " << 1e3 * rms[0] << ", " << jerk[0]);
+  CHECK(rms[1] <= rms[0]);
+  CHECK(3. * jerk[1] <= jerk[0]);
+}
+
+TEST_CASE("no wild number gets through a pose trajectory", "[pose][wild]")
+{
+  auto rng = vpTestSupport::generator(65);
+  CAPTURE(vpTestSupport::seed());
+  const auto isSafe = [](const vpCameraState &x) {
+    return x.fRc.allFinite() && x.ftc.allFinite() && x.v.isFinite() && x.a.isFinite();
+  };
+  const auto twistOf = [](const double *x) { return vpTwist(x[0], x[1], x[2], x[3], x[4], x[5]); };
+  // A goal pose (12), its twist (6), start twist and acceleration (12), dt.
+  std::array<double, 31> ordinary{1., 0., 0., 0.1, 0., 1., 0., -0.1, 0., 0., 1., 0.2, 0.01, 0., 0., 0., 0.02};
+  ordinary[30] = 0.01;
+  const auto run = [&](const std::array<double, 31> &x, vpReplanPolicy policy) {
+    vpPoseTrajectoryOptions options;
+    options.policy = policy;
+    options.arrivalTime = 5.;
+    vpPoseTrajectory trajectory(options);
+    static_cast<void>(trajectory.reset(vpHomogeneousMatrix(), twistOf(&x[18]), twistOf(&x[24])));
+    for (int k = 0; k < 6; ++k) {
+      vpHomogeneousMatrix goal;
+      for (unsigned int i = 0; i < 12; ++i) {
+        goal.data[i] = k % 2 == 0 ? x[i] : ordinary[i];
+      }
+      static_cast<void>(trajectory.setGoal(goal, twistOf(&x[12])));
+      static_cast<void>(trajectory.update(k % 3 == 2 ? 0.01 : x[30]));
+      REQUIRE(isSafe(trajectory.state()));
+    }
+  };
+  for (const auto policy : {vpReplanPolicy::EventMinTime, vpReplanPolicy::KeepArrival, vpReplanPolicy::FixedArrival}) {
+    vpWildNumbers::everyPlace(ordinary, [&](const auto &x, std::size_t place, std::size_t value) {
+      CAPTURE(static_cast<int>(policy), place, value);
+      run(x, policy);
+    });
+    for (int k = 0; k < 500; ++k) {
+      std::array<double, 31> x = ordinary;
+      vpWildNumbers::mix(rng, x, 0.1);
+      CAPTURE(static_cast<int>(policy), k);
+      run(x, policy);
+    }
+  }
 }

@@ -5,6 +5,7 @@
 // Replanning policies: noisy goals (figure 8.13), the ending, fixed arrival, the thesis's iteration.
 #include "vpTrajectoryTestKit.h"
 
+#include <visp3/trajectory/vpGoalJitter.h>
 #include <visp3/trajectory/vpThesisDuration.h>
 
 VISP_DIRECT_USING_NAMESPACE
@@ -13,7 +14,7 @@ using namespace vpTrajectoryTest;
 namespace
 {
 struct Scene {
-  double peakAcceleration = 0., peakJerk = 0., rmsError = 0.;
+  double peakAcceleration = 0., peakJerk = 0., rmsJerk = 0., rmsError = 0.;
 };
 
 // Figure 8.13: the object waits at [0.1, 0.3], goes to [0.23, 0.13] from 0.5 to 0.9 s and to [0.14, 0.04] from 1.7 to
@@ -79,6 +80,113 @@ TEST_CASE("figure 8.13: a moving object measured with noise", "[policy]")
     CHECK((goalNoise < 5e-4 ? 20. : 10.) * keep.peakJerk <= each.peakJerk);
     CHECK(keep.rmsError < 1.02 * event.rmsError); // and it follows as closely
   }
+}
+
+namespace
+{
+// An object that swings by 0.3 m at 0.5 Hz or moves at 0.1 m/s, measured with noise; its velocity is known.
+struct Object {
+  bool swings;
+  double q(double t) const { return swings ? 0.3 * std::sin(M_PI * t) : 0.1 * t; }
+  double v(double t) const { return swings ? 0.3 * M_PI * std::cos(M_PI * t) : 0.1; }
+};
+
+Scene track(const Object &object, double maxVelocity, double maxAcceleration, int cyclesPerImage, vpReplanPolicy policy,
+            bool reminimiseEachCycle)
+{
+  constexpr int cycles = 10000, settled = 2000;
+  auto rng = vpTestSupport::generator(74);
+  std::normal_distribution<double> gauss(0., 1e-3);
+  vpTrajectoryInput<1> input;
+  input.maxVelocity[0] = maxVelocity;
+  input.maxAcceleration[0] = maxAcceleration;
+  input.options.policy = policy;
+  vpDirectTrajectory<1> trajectory;
+  vpTrajectoryOutput<1> output;
+  Scene scene;
+  double before = 0.;
+  for (int k = 0; k < cycles; ++k) {
+    if (k % cyclesPerImage == 0) {
+      input.goal.q[0] = object.q(1e-3 * k) + gauss(rng);
+      input.goal.v[0] = object.v(1e-3 * k);
+    }
+    if (reminimiseEachCycle) {
+      input.start = output.state;
+      trajectory.reset();
+    }
+    REQUIRE(isWorking(trajectory.update(input, output, 1e-3)) + output.status.isGood() >= 1);
+    scene.peakAcceleration = std::max(scene.peakAcceleration, std::abs(output.state.a[0]));
+    if (k >= settled) {
+      const double jerk = std::abs(output.state.a[0] - before) / 1e-3;
+      scene.peakJerk = std::max(scene.peakJerk, jerk);
+      scene.rmsJerk += jerk * jerk / (cycles - settled);
+      scene.rmsError += std::pow(output.state.q[0] - object.q(1e-3 * (k + 1)), 2.) / (cycles - settled);
+    }
+    before = output.state.a[0];
+  }
+  scene.rmsError = std::sqrt(scene.rmsError);
+  scene.rmsJerk = std::sqrt(scene.rmsJerk);
+  return scene;
+}
+} // namespace
+
+TEST_CASE("KeepArrival tracks a moving goal with noise better than EventMinTime, at a fraction of its jerk", "[policy]")
+{
+  CAPTURE(vpTestSupport::seed());
+  for (const bool swings : {true, false}) {
+    for (const int cyclesPerImage : {1, 20}) {
+      for (const auto &[v, a] : {std::pair(1., 5.), {1.5, 5.}, {2., 10.}, {2., 20.}}) {
+        const auto with = [&, maxV = v, maxA = a](vpReplanPolicy policy, bool each) {
+          return track({swings}, maxV, maxA, cyclesPerImage, policy, each);
+        };
+        const Scene keep = with(vpReplanPolicy::KeepArrival, false), event = with(vpReplanPolicy::EventMinTime, false),
+                    each = with(vpReplanPolicy::EventMinTime, true);
+        const auto figures = [](const Scene &s) {
+          std::ostringstream text;
+          text << 1e3 * s.rmsError << ", " << s.peakJerk << ", " << s.rmsJerk;
+          return text.str();
+        };
+        WARN((swings ? "sine 0.3 m, 0.5 Hz" : "ramp 0.1 m/s")
+             << ", 1 mm noise at " << 1000 / cyclesPerImage << " Hz, limits " << v << " m/s, " << a
+             << " m/s^2. rms error (mm), peak and rms jerk (m/s^3): KeepArrival " << figures(keep) << "; EventMinTime "
+             << figures(event) << "; re-minimised each cycle " << figures(each));
+        CHECK(keep.peakAcceleration <= a * (1. + 1e-12));
+        CHECK(keep.rmsError <= event.rmsError);
+        CHECK(keep.rmsError <= each.rmsError);
+        CHECK((cyclesPerImage == 1 ? 10. : 1.) * keep.peakJerk <= std::min(event.peakJerk, each.peakJerk));
+        CHECK((cyclesPerImage == 1 ? 10. : 4.) * keep.rmsJerk <= std::min(event.rmsJerk, each.rmsJerk));
+      }
+    }
+  }
+}
+
+TEST_CASE("the jitter of a goal is its noise, not its motion nor a jump, and fades", "[policy]")
+{
+  auto rng = vpTestSupport::generator(75);
+  CAPTURE(vpTestSupport::seed());
+  vpGoalJitter jitter(1);
+  for (int k = 0; k < 1000; ++k) { // a goal whose velocity is not known: the same surprise again and again
+    jitter.see(0, 0.01);
+    jitter.pass(0.02);
+  }
+  CHECK(jitter.level(0) == 0.);
+  jitter.see(0, 0.5);
+  CHECK(jitter.level(0) == 0.);
+  double before = 0.;
+  for (int k = 0; k < 2000; ++k) {
+    const double noise = uniform(rng, -1e-3, 1e-3);
+    jitter.see(0, noise - before);
+    jitter.pass(1e-3);
+    before = noise;
+  }
+  CHECK(jitter.level(0) > 0.5e-3);
+  CHECK(jitter.level(0) <= 2e-3);
+  const double level = jitter.level(0);
+  jitter.pass(3. * vpGoalJitter::memory);
+  CHECK(jitter.level(0) == Approx(level * std::exp(-3.)));
+  jitter.see(0, NAN);
+  jitter.see(0, none);
+  CHECK(std::isfinite(jitter.level(0)));
 }
 
 TEST_CASE("no policy lets the acceleration jump at the end", "[policy]")

@@ -58,6 +58,17 @@ struct VISP_EXPORT vpAvoidanceOutput {
 
 /*!
  * \ingroup group_avoidance
+ * \brief The condition of a loop of steps: true while the arm moves, or may come to its goal by itself (Moving, Detouring,
+ * Slowed, Waiting, Unsafe).
+ *
+ * False ends the loop, after the arm has braked: it has arrived, or something is wrong that more of the same steps do not
+ * mend (GoalInCollision, StartInCollision, Unreachable, InvalidInput). Whoever wants to wait until a goal becomes free goes on
+ * at GoalInCollision. The two potential fields do not know what is out of reach: there they are Moving or Waiting for ever.
+ */
+[[nodiscard]] VISP_EXPORT bool isWorking(const vpAvoidanceOutput &output) noexcept;
+
+/*!
+ * \ingroup group_avoidance
  * \brief What all methods have in common, so that they are compared on equal terms.
  */
 struct VISP_EXPORT vpAvoidanceMethodSpec {
@@ -80,14 +91,14 @@ struct VISP_EXPORT vpAvoidanceMethodSpec {
  * now, with their velocities, between the calls:
  * \code
  * method.start(q, goal);
- * while (output.status != vpAvoidanceStatus::Arrived) {
+ * do {
  *   if (newImage) {
  *     tracks.applyTo(scene);        // objects may come and go here
  *     method.look();
  *   }
  *   method.step(q, output);
  *   q += period * output.velocity;  // or what the drives were told
- * }
+ * } while (isWorking(output));
  * \endcode
  */
 class VISP_EXPORT vpAvoidanceMethod

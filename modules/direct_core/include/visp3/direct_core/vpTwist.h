@@ -54,9 +54,9 @@ public:
   //! The six numbers, linear part first, writable.
   [[nodiscard]] double *data() { return m_data.data(); }
 
-  //! Euclidean norm of the linear part, m/s.
+  //! Euclidean norm of the linear part, m/s. Squares do not overflow in it; NaN if a component is NaN.
   [[nodiscard]] double linearNorm() const;
-  //! Euclidean norm of the angular part, rad/s.
+  //! Euclidean norm of the angular part, rad/s, likewise.
   [[nodiscard]] double angularNorm() const;
   //! True if no component is infinite or NaN.
   [[nodiscard]] bool isFinite() const;
@@ -74,7 +74,8 @@ private:
  * \param twist : Twist to limit.
  * \param maxLinear : Largest linear norm, m/s, > 0.
  * \param maxAngular : Largest angular norm, rad/s, > 0.
- * \return The scaled twist; the input itself when it is within both limits.
+ * \return The scaled twist; the input itself when it is within both limits; zero, standing still, when a component is
+ *   not finite or a limit is not > 0.
  */
 [[nodiscard]] VISP_EXPORT vpTwist limitTwist(const vpTwist &twist, double maxLinear, double maxAngular);
 

@@ -40,7 +40,7 @@ public:
   /*!
    * \param cdMc : Pose of the current camera in the desired camera frame, m.
    * \param point : The object as seen now. \param goal : The same as the desired camera sees it.
-   * \throw vpException (badValue) when the depth of \e point is not positive or a coordinate is not finite.
+   * \throw vpException (badValue) when the depth of \e point is not positive, a number not finite or above 1e6, or \e cdMc no pose.
    */
   void buildFrom(const vpHomogeneousMatrix &cdMc, const vpServoPoint &point, const vpServoPoint &goal);
 

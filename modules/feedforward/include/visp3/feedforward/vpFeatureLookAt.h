@@ -53,7 +53,7 @@ public:
   /*!
    * \param cdMc : Pose of the current camera in the desired camera frame, m.
    * \param cdMo : Pose of the object in the desired camera frame, m.
-   * \throw vpException (badValue) when the camera is at the object's origin or on its opposite side.
+   * \throw vpException (badValue) when the camera is at the object's origin or on its opposite side, or a pose is none.
    */
   void buildFrom(const vpHomogeneousMatrix &cdMc, const vpHomogeneousMatrix &cdMo);
 

@@ -24,8 +24,23 @@ enum class vpServoStatus {
   Lost,   //!< The target is lost and the way back is used up: standing still until it is seen or reset() is called.
   NoGoal, //!< No goal was set yet; zero twist.
   InvalidInput, //!< The measurement is not finite, has a depth <= 0 or not the goal's points; zero twist.
-  Degenerate    //!< The law has no answer here (too few points, singular interaction matrix); zero twist.
+  Degenerate,   //!< The law has no answer here (too few points, singular interaction matrix); zero twist.
+  Diverging     //!< The law goes away from the target without end (`ibvs` after a roll of half a turn); zero twist.
 };
+
+/*!
+ * \ingroup group_feedforward
+ * \brief The condition of a loop of steps: true while the camera is on its way or may get there by going on (Servoing,
+ * ViewLimited, Holding, Retreating).
+ *
+ * False ends the loop: message() tells why. The twist is zero then, or near zero (Deadlock). That the goal is reached no
+ * status tells, for a law does not know how near is near enough: that is the other half of the condition.
+ */
+[[nodiscard]] constexpr bool isWorking(vpServoStatus status)
+{
+  return status == vpServoStatus::Servoing || status == vpServoStatus::ViewLimited ||
+         status == vpServoStatus::Holding || status == vpServoStatus::Retreating;
+}
 
 //! \ingroup group_feedforward
 //! \brief The status as a sentence for a person, static text.

@@ -43,10 +43,11 @@ struct VISP_EXPORT vpServoControllerConfig {
  * config.view = vpViewConstraintConfig::fromCamera(camera, 640, 480);
  * vpServoController servo = vpServoController::create("ff-lookat-pi+cbf", config);
  * servo.setGoal(goal);
- * for (;;) {
- *   vpServoCommand command = servo.update(measurement, dt); // measurement.valid = false when the target is not seen
+ * vpServoCommand command;
+ * do {
+ *   command = servo.update(measurement, dt); // measurement.valid = false when the target is not seen
  *   robot.setVelocity(vpRobot::CAMERA_FRAME, command.v.toColVector());
- * }
+ * } while (isWorking(command.status) && !closeEnough(measurement));
  * \endcode
  */
 class VISP_EXPORT vpServoController
@@ -89,7 +90,7 @@ public:
    * R exp(w / rotationGain). For `pbvs1` this is the goal (the identity); what `ff-*` adds to it is the reference of
    * the figures 5.6 and 5.8 of the thesis.
    * \param measurement : The valid measurement that the command answers. \param command : Answer of update().
-   * \return Orientation in the desired camera frame. The identity when no goal is set.
+   * \return Orientation in the desired camera frame. The identity when no goal is set, or the measurement is not finite.
    */
   [[nodiscard]] Eigen::Matrix3d referenceRotation(const vpServoMeasurement &measurement,
                                                   const vpServoCommand &command) const noexcept;

@@ -20,7 +20,7 @@ BEGIN_VISP_NAMESPACE
 
 /*!
  * \ingroup group_feedforward
- * \brief Gains of the laws. One set serves all of them, so that a comparison tunes none alone.
+ * \brief Gains of the laws. One set serves all of them, so that a comparison tunes none alone. None may be above 1e6.
  */
 struct VISP_EXPORT vpServoGains {
   double lambda = 1.;      //!< Gain on the translation and on image errors, 1/s, > 0.
@@ -47,10 +47,11 @@ struct VISP_EXPORT vpServoGains {
  * \code
  * auto law = vpServoLaw::create("ff-lookat-pi", vpServoGains());
  * law->setGoal(goal);
- * for (;;) {
- *   vpServoCommand command = law->update(measurement, dt);
+ * vpServoCommand command;
+ * do {
+ *   command = law->update(measurement, dt);
  *   robot.setVelocity(vpRobot::CAMERA_FRAME, command.v.toColVector());
- * }
+ * } while (isWorking(command.status) && !closeEnough(measurement));
  * \endcode
  */
 class VISP_EXPORT vpServoLaw
@@ -99,7 +100,8 @@ public:
    * One cycle.
    * \param measurement : What was seen. An invalid one gives zero twist and vpServoStatus::Holding; what to do about a
    *   lost target is decided by vpTargetLossRecovery.
-   * \param dt : Time since the last call, s, > 0; used by integrals only.
+   *   Numbers beyond 1e6 (m; x and y of points) count as not finite.
+   * \param dt : Time since the last call, s, > 0; used by integrals only, which take 0.5 s at most at a time.
    */
   [[nodiscard]] vpServoCommand update(const vpServoMeasurement &measurement, double dt) noexcept;
 

@@ -10,7 +10,7 @@
 #define vpServoMeasurement_h
 
 #include <visp3/core/vpHomogeneousMatrix.h>
-#include <visp3/direct_core/vpDirectCompat.h>
+#include <visp3/direct_core/vpPoseCovariance.h>
 
 #include <vector>
 
@@ -48,11 +48,16 @@ struct VISP_EXPORT vpServoGoal {
  * \brief What was seen, this cycle. Reuse one object: assigning to its members then allocates nothing.
  */
 struct VISP_EXPORT vpServoMeasurement {
-  bool valid = false;                //!< False when the target was not found; nothing else is read then, except #time.
-  double time = 0.;                  //!< Time of capture, s, on the clock of the caller.
+  bool valid = false; //!< False when the target was not found; nothing else is read then, except #time.
+  /*!
+   * Time of capture, s, on the clock of the caller. **No law reads it**: a measurement counts as seen now, and latency is not
+   * compensated by telling the time. vpOdometryBridge reads it; it carries a late measurement to now, to be given to the law.
+   */
+  double time = 0.;
   vpHomogeneousMatrix cMo;           //!< Pose of the object in the current camera frame, m.
   std::vector<vpServoPoint> points;  //!< The goal's points in the same order as seen now; see vpServoPoint::visible.
   std::vector<vpServoPoint> outline; //!< Points that must stay in the view (usually the target's corners), for `+cbf`.
+  vpPoseCovariance covariance; //!< Of #cMo; not known by default. `ff-lookat-pi` does not integrate what is within it.
 };
 
 END_VISP_NAMESPACE

@@ -54,7 +54,8 @@ public:
    * One cycle. Allocates nothing.
    * \param command : Answer of the law and its filter. Holding means that the target is not seen; every other status
    *   passes through.
-   * \param dt : Time for which the twist will be executed, s, > 0; InvalidInput with zero twist otherwise.
+   * \param dt : Time for which the twist will be executed, s, > 0; InvalidInput with zero twist otherwise,
+   *   and when the command is not finite.
    * \return The command itself; or, while the target is lost, Holding (zero twist), Retreating, and Lost (zero twist).
    */
   [[nodiscard]] vpServoCommand update(const vpServoCommand &command, double dt) noexcept;

@@ -35,7 +35,7 @@ public:
   enum class Result {
     Solved,      //!< solution() is the optimum.
     Infeasible,  //!< No x satisfies all rows; solution() is not meaningful.
-    NotConverged //!< Rounding kept it from ending; solution() is not meaningful. Not observed on finite input.
+    NotConverged //!< x0 is not finite, or rounding kept it from ending (huge x0); solution() is not meaningful.
   };
 
   //! Forget all rows.

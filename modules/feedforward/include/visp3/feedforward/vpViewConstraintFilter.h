@@ -51,20 +51,32 @@ struct VISP_EXPORT vpViewConstraintConfig {
  * barrier function: near the border the point slows down exponentially) and solves
  * min |v - v0|^2, speeds in units of #vpViewConstraintConfig::maxLinear and #vpViewConstraintConfig::maxAngular.
  *
- * **Limits.** v0 is first scaled, as a whole, to the speed limits, and the solution is scaled back to the speed of v0,
- * s = max(|v| / maxLinear, |w| / maxAngular). One factor for all six components: a twist that satisfies L v >= -gamma h
- * with h >= 0 does so at every smaller speed too, while clipping by axis would break it.
+ * **Limits.** v0 is first scaled, as a whole, to the speed limits V0 and W0, and the solution is scaled back to the share of
+ * them that v0 took, s0 = max(|v0| / V0, |w0| / W0). One factor for all six components: a twist that satisfies
+ * L v >= -gamma h with h >= 0 does so at every smaller speed too, while clipping by axis would break it. V0 and W0 are
+ * #vpViewConstraintConfig::maxLinear and #vpViewConstraintConfig::maxAngular, and while a point is visible at most an eighth
+ * of the least depth, and 1 / (8 rho1) rad, in a period T.
  *
- * **The margin** makes up for the discrete time. During one period T a constant twist (v, w), a point at
- * m = (x, y, 1) and depth Z has, with q = P'/Z = -v/Z - w x m, x'' = (1, 0, -x) . (-w x q) - 2 q_z x'. With speeds
- * |v| <= V, |w| <= W, view radius rho, rho1 = sqrt(1 + rho^2), and zeta the least depth within the period, this gives
- * |x'' + 2 q_z x'| <= C = rho1 W (V/zeta + W rho1) and |q_z| <= kappa = V/zeta + W rho, hence for t <= T
- * b(t) >= b - x'(0) t - C t^2 exp(2 kappa T) / 2 with x'(0) the outward speed, up to exp(+-2 kappa T).
- * With m = C T exp(4 kappa T) / gamma, b >= 0 gives b(t) >= 0 in both cases: h >= 0, where x'(0) <= gamma h; and h < 0,
- * where the point must move inwards with at least gamma |h| times the factor of the scaling above, if that is 1/2 or
- * more. If it is less, the filter stands still. So the *true border is never crossed* by an ideal camera, whatever the
- * wanted twist. V and W are the speeds asked for in this very step, so the margin vanishes (with the square of the
- * speed) towards the goal and takes nothing of the view from it.
+ * **The promise.** T is the longer one of \e dt and #vpViewConstraintConfig::period; a longer dt makes the motion slower, not
+ * unsafe. If every visible point is inside the view at the beginning (by imageUncertainty), and the camera moves as told, with
+ * the constant twist of the answer, then no point is outside at any time from 0 to T.
+ *
+ * **The proof.** Under a constant twist (v, w) a point at m = (x, y, 1) and depth Z has, with q = P'/Z = -v/Z - w x m,
+ * x' = q_x - x q_z, q' = -w x q - q_z q, and so x'' + 2 q_z x' = (1, 0, -x) . (-w x q). All twists of a step, v0 as well as
+ * the answer, have |v| <= V = s0 V0 and |w| <= W = s0 W0. With the view radius rho, rho1 = sqrt(1 + rho^2), and n the least
+ * depth that the uncertainty allows, Z' >= -V - W rho Z gives Z >= zeta = (n - V T) exp(-W rho T) > 0 while the point is in the
+ * view, hence |x'' + 2 q_z x'| <= C = rho1 W (V/zeta + W rho1) and |q_z| <= kappa = V/zeta + W rho. Solved by the integrating
+ * factor exp(2 int q_z), which stays in exp(+-2 kappa T): with b the distance to a border and r the outward speed at t = 0,
+ * b(t) >= b - r t f - C t^2 exp(2 kappa T) / 2 with some f in exp(+-2 kappa T). The rows see the point up to imageUncertainty
+ * u from where it is, which changes r by D = u (V/n + W (1 + 3 rho + 2 u)) at most. Take the smaller one of gamma and
+ * exp(-2 kappa T) / (2 T) for gamma, and the margin m = exp(4 kappa T) (C T + 2 D) / gamma.
+ * - h >= 0, r <= gamma h + D: b(t) >= b (1 - gamma T exp(2 kappa T)) + exp(2 kappa T) T (gamma m - D - C T / 2) >= 0, for the
+ *   first bracket is 1/2 at least and gamma m >= C T + 2 D.
+ * - h < 0, r <= D - s gamma (m - b) with s the factor of the scaling, 1/2 at least (with less the filter stands still), hence
+ *   b(t) >= b (1 - s gamma t f) + t f (s gamma m - D) - C t^2 exp(2 kappa T) / 2 >= 0, since
+ *   s gamma m - D >= exp(4 kappa T) C T / 2.
+ * The margin vanishes with the square of the speed towards the goal (but for u) and takes nothing of the view from it.
+ * `bin/catchViewConstraintProof` attacks the promise.
  *
  * **Zero twist** is feasible while all h >= 0. A point with h < 0, in the margin or outside the image, has to move
  * inwards (backing away does it for all points, the principal point being in the view); scaled to the speed of v0, so
@@ -92,7 +104,7 @@ public:
    * \param wanted : The law's answer. Any status but Servoing passes through unchanged.
    * \param outline : Points to keep in the view, as seen now; those not visible are left out. None: only the speed
    *   limits apply.
-   * \param dt : Time for which the twist will be executed, s; the period of the configuration is used when longer.
+   * \param dt : Time for which the twist will be executed, s; the period of the configuration counts when it is longer.
    * \return Servoing with the same twist, ViewLimited with a changed one, Deadlock, or InvalidInput with zero twist
    *   when a visible point is not finite, has a depth <= 0, or more than #maxPoints are visible.
    */
@@ -106,7 +118,16 @@ public:
   [[nodiscard]] double margin(double Z, double linear, double angular, double period) const noexcept;
 
 private:
-  bool addRows(const vpServoPoint &point, double linear, double angular, double period) noexcept;
+  // Bounds of |v| and |w|, m/s and rad/s.
+  struct Speeds {
+    double linear, angular;
+  };
+  // gamma and margin of a point.
+  struct Bounds {
+    double gamma, margin;
+  };
+  [[nodiscard]] Bounds bounds(double Z, const Speeds &speeds, double period) const noexcept;
+  bool addRows(const vpServoPoint &point, const Speeds &limits, double share, double period) noexcept;
 
   vpViewConstraintConfig m_config;
   double m_radius; // of the view's farthest corner, normalised

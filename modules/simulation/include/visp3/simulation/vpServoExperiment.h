@@ -18,6 +18,7 @@
 
 #include <atomic>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -43,8 +44,14 @@ struct VISP_EXPORT vpServoSample {
   double goalYaw = 0.;     //!< The same of the goal.
   //! Where the law wants to turn to: yaw of R exp(w / gain) with vpServoLaw::rotationGain(); figures 5.6 and 5.8.
   double referenceYaw = 0.;
-  double rotationError = 0.;                    //!< Angle of the true cdMc, rad.
-  double translationError = 0.;                 //!< Length of the true cdMc, m.
+  double rotationError = 0.;    //!< Angle of the true cdMc, rad.
+  double translationError = 0.; //!< Length of the true cdMc, m.
+  /*!
+   * Standard deviations of the rotation (rad) and translation (m) of cdMc that the covariance of the measurement in use gives
+   * it; infinite when that is not known or nothing was measured.
+   */
+  double rotationDeviation = std::numeric_limits<double>::infinity();
+  double translationDeviation = std::numeric_limits<double>::infinity(); //!< See #rotationDeviation.
   double u = 0.;                                //!< True, noise-free image of the object's centre, px to the right.
   double v = 0.;                                //!< The same, px down.
   double imageErrorU = 0.;                      //!< u minus the goal's u, px.
@@ -78,13 +85,19 @@ struct VISP_EXPORT vpServoRunSpec {
 //! \ingroup group_simulation
 //! \brief The figures of a run; the same names as in summary.json.
 struct VISP_EXPORT vpServoMetrics {
-  double max_image_error_px = 0.;  //!< Largest distance of the object's centre from where it shall be seen.
-  double rms_image_error_px = 0.;  //!< Root mean square of that distance.
-  double end_rotation_deg = 0.;    //!< Largest rotation error at the end of a segment.
-  double end_translation_mm = 0.;  //!< Largest translation error at the end of a segment.
-  double yaw_range_deg = 0.;       //!< Largest minus smallest yaw.
-  double ideal_yaw_range_deg = 0.; //!< The same of the goals (and the start).
-  double out_of_view_s = 0.;       //!< Time during which a corner of the object is out of the image.
+  double max_image_error_px = 0.; //!< Largest distance of the object's centre from where it shall be seen.
+  double rms_image_error_px = 0.; //!< Root mean square of that distance.
+  double end_rotation_deg = 0.;   //!< Largest rotation error at the end of a segment.
+  double end_translation_mm = 0.; //!< Largest translation error at the end of a segment.
+  /*!
+   * What the measurements' own covariance lets expect at the end of a segment: the largest standard deviation of the rotation
+   * error there. A law that ends beyond three of them has an error of its own. Infinite when it is not known.
+   */
+  double expected_end_rotation_deg = 0.;
+  double expected_end_translation_mm = 0.; //!< The same of the translation error.
+  double yaw_range_deg = 0.;               //!< Largest minus smallest yaw.
+  double ideal_yaw_range_deg = 0.;         //!< The same of the goals (and the start).
+  double out_of_view_s = 0.;               //!< Time during which a corner of the object is out of the image.
   //! Time until the error stays below 2 deg and 5 mm, the segment's duration if it never does; mean over the segments.
   double settle_s = 0.;
   double path_length_m = 0.;      //!< Of the camera's way.

@@ -29,8 +29,14 @@ BEGIN_VISP_NAMESPACE
  * vpTrajectoryOutput<3> output;
  * input.goal.q << 0.5, 0.2, -0.1;
  * input.maxVelocity.setConstant(0.5);
- * while (trajectory.update(input, output, 0.001) != vpTrajectoryResult::Finished) {
+ * while (isWorking(trajectory.update(input, output, 0.001))) {
  *   robot.setPosition(output.state.q);   // input.goal or the limits may change here, at any cycle
+ * }
+ * if (output.status.result == vpTrajectoryResult::Finished) {
+ *   robot.setPosition(output.state.q);   // the goal itself
+ * }
+ * else {
+ *   std::cerr << output.status.message(); // an error ends the loop too
  * }
  * \endcode
  *

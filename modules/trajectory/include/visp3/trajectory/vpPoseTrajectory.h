@@ -11,6 +11,7 @@
 
 #include <visp3/core/vpHomogeneousMatrix.h>
 #include <visp3/direct_core/vpTwist.h>
+#include <visp3/trajectory/vpGoalJitter.h>
 #include <visp3/trajectory/vpTrajectoryPlanner.h>
 
 #include <Eigen/Core>
@@ -38,7 +39,7 @@ struct VISP_EXPORT vpPoseTrajectoryOptions {
   double angularAcceleration = 1.;
   double angularJerk = std::numeric_limits<double>::infinity(); //!< Per component, rad/s^3, > 0.
   vpRotationPath rotation = vpRotationPath::Geodesic;           //!< How the rotation is planned.
-  vpReplanPolicy policy = vpReplanPolicy::EventMinTime;         //!< Replanning policy.
+  vpReplanPolicy policy = vpReplanPolicy::EventMinTime; //!< Replanning policy; KeepArrival as in vpTrajectoryFollower.
   double arrivalTime = 0.;     //!< FixedArrival: s from reset() or from the arrival before, > 0.
   double minimumDuration = 0.; //!< No plan is shorter, s, >= 0; the floor of KeepArrival.
   bool cruise = false;         //!< Allow ramp, constant velocity, ramp on long moves.
@@ -77,9 +78,11 @@ struct VISP_EXPORT vpCameraState {
  * vpPoseTrajectory trajectory(options);
  * trajectory.reset(fMc);
  * trajectory.setGoal(fMcd);                       // again at every image, if it moves
- * while (trajectory.update(dt).result != vpTrajectoryResult::Finished) {
+ * vpTrajectoryStatus status = trajectory.update(dt);
+ * for (; isWorking(status.result); status = trajectory.update(dt)) {
  *   robot.setVelocity(vpRobot::CAMERA_FRAME, trajectory.state().v.toColVector());
  * }
+ * robot.setVelocity(vpRobot::CAMERA_FRAME, vpColVector(6)); // at the goal, or status.message() tells the error
  * \endcode
  */
 class VISP_EXPORT vpPoseTrajectory
@@ -110,7 +113,7 @@ public:
    * \return InvalidInput (and the old goal stays) when a number is not finite or the rotation is not one.
    */
   vpTrajectoryStatus setGoal(const vpHomogeneousMatrix &fMcd, const vpTwist &twist = {}) noexcept;
-  //! One cycle of \e dt seconds. Never throws, never allocates.
+  //! One cycle of \e dt seconds, at most 1e6. Never throws, never allocates.
   vpTrajectoryStatus update(double dt) noexcept;
 
   [[nodiscard]] const vpCameraState &state() const { return m_state; } //!< Commanded state.
@@ -126,12 +129,16 @@ public:
 
 private:
   void fillLimits() noexcept;
+  void goalAt(double ahead, Eigen::Matrix3d &R, Eigen::Vector3d &t) const noexcept;
+  void noteGoal(const Eigen::Matrix3d &R, const Eigen::Vector3d &t) noexcept;
+  [[nodiscard]] double meet(double floor, Eigen::Matrix3d &R, Eigen::Vector3d &t) noexcept;
   void replan() noexcept;
 
   vpPoseTrajectoryOptions m_options;
   vpTrajectoryProblem m_problem;
   vpTrajectoryPlanner m_planner;
   vpTrajectoryPlan m_plan;
+  vpGoalJitter m_jitter;
   vpTrajectoryStatus m_planStatus;
   Eigen::Matrix3d m_fR0 = Eigen::Matrix3d::Identity(); // where the rotation vector counts from
   Eigen::Matrix3d m_fRd = Eigen::Matrix3d::Identity();
@@ -139,7 +146,10 @@ private:
   vpTwist m_goalTwist;
   vpCameraState m_state;
   double m_clock = 0.;
-  double m_arrival = -1.; // FixedArrival: on m_clock; negative: counts from the next plan
+  double m_goalAge = 0.;      // since the goal was given
+  double m_goalInterval = 0.; // between the last two goals, until the next plan
+  int m_goals = 0;            // since reset(); 2: or more
+  double m_arrival = -1.;     // FixedArrival: on m_clock; negative: counts from the next plan
   bool m_event = false;
 };
 

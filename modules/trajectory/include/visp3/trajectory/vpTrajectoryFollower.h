@@ -9,6 +9,7 @@
 #ifndef vpTrajectoryFollower_h
 #define vpTrajectoryFollower_h
 
+#include <visp3/trajectory/vpGoalJitter.h>
 #include <visp3/trajectory/vpThesisDuration.h>
 #include <visp3/trajectory/vpTrajectoryPlanner.h>
 
@@ -21,6 +22,12 @@ BEGIN_VISP_NAMESPACE
  *
  * vpDirectTrajectory is the typed form that users write. An event is any change of goal, limits, vias or options; the
  * new plan starts at the commanded state of the last cycle, never at a measured one, so the motion is C2 across events.
+ *
+ * **KeepArrival** is for goals that are measured, with noise, again and again. The time of arrival stays; a plan lasts at least
+ * vpGoalJitter::floor(), which grows and fades with the noise that is seen. A goal that has changed since the motion began, and
+ * has a velocity, is an object on its way: there the time left comes down again quickly, to that floor, and the plan aims at
+ * where the object will be then, q + v floor, within the position limits. (Aimed at q, the motion would lag behind by the
+ * duration of its plans for ever.) The plan of the first goal ends at the goal as it was given, as with the other policies.
  */
 class VISP_EXPORT vpTrajectoryFollower
 {
@@ -30,7 +37,7 @@ public:
    */
   explicit vpTrajectoryFollower(int axes, int maxVias = 0);
 
-  //! One cycle of \e dt seconds. Never throws, never allocates.
+  //! One cycle of \e dt seconds, at most 1e9. Never throws, never allocates.
   vpTrajectoryStatus update(const vpTrajectoryProblem &problem, double dt) noexcept;
   //! One cycle with an input that could not even be read: the motion goes on, the answer is \e fault.
   vpTrajectoryStatus advance(const vpTrajectoryStatus &fault, double dt) noexcept;
@@ -51,7 +58,9 @@ private:
   enum class Event { None, Task, Rate };
   [[nodiscard]] Event detect(const vpTrajectoryProblem &problem) const noexcept;
   void takeRest(const vpTrajectoryProblem &problem) noexcept;
+  void noteGoal(const vpTrajectoryProblem &problem) noexcept;
   [[nodiscard]] double floorOf(const vpTrajectoryProblem &problem, Event event) noexcept;
+  void aim() noexcept;
   [[nodiscard]] bool isSinglePolynomial() const noexcept;
   void replan(const vpTrajectoryProblem &problem, Event event) noexcept;
   void iterateThesis() noexcept;
@@ -62,12 +71,16 @@ private:
   vpTrajectoryProblem m_rest; // what was left of it when the plan began, from the commanded state
   vpTrajectoryPlanner m_planner;
   vpTrajectoryPlan m_plan;
+  vpGoalJitter m_jitter;
   vpTrajectoryStatus m_status;
   vpTrajectoryStatus m_planStatus;
   double m_clock = 0.;       // since the plan began
   double m_sinceReplan = 0.; // for the rate-based use
   double m_arrival = 0.;     // FixedArrival: on m_clock
+  double m_goalAge = 0.;     // since the goal was given
   double m_thesisT = 0.;
+  double m_goalInterval = 0.; // between the last two goals, if this event brought one
+  bool m_goalMoves = false;   // it has changed since the motion began, and has a velocity
   bool m_thesisBusy = false;
   bool m_started = false;
   bool m_newPlan = false;

@@ -30,7 +30,7 @@ enum class vpTrajectoryContinuity {
 //! \brief What happens to the time of arrival when the goal or the limits change.
 enum class vpReplanPolicy {
   EventMinTime, //!< Smallest duration, found anew at events only: never shortened in between, which would spoil the ending.
-  KeepArrival, //!< The time of arrival stays; it is put off only when the limits need it. For goals measured with noise.
+  KeepArrival, //!< The time of arrival stays; it is put off when the limits or the goal's noise need it. For measured goals: vpTrajectoryFollower.
   FixedArrival //!< The time of arrival is given: vpTrajectoryOptions::arrivalTime.
 };
 

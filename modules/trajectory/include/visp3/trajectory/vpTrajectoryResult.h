@@ -27,6 +27,19 @@ enum class vpTrajectoryResult {
   ArrivalInfeasible   //!< The given arrival time cannot be kept within the limits.
 };
 
+/*!
+ * \ingroup group_trajectory
+ * \brief The condition of a loop of steps: true while the motion goes to its goal within the limits (Working, Braking).
+ *
+ * False ends the loop: at the goal (Finished, Holding), or at an error that more cycles with the same input do not mend
+ * (InvalidInput, NoFeasibleDuration, ArrivalInfeasible); vpTrajectoryStatus::message() names it. An error does not stop the
+ * motion: further cycles lead on along the plan in force, so a program may also mend the input, or brake, and go on.
+ */
+[[nodiscard]] constexpr bool isWorking(vpTrajectoryResult result)
+{
+  return result == vpTrajectoryResult::Working || result == vpTrajectoryResult::Braking;
+}
+
 //! \ingroup group_trajectory
 //! \brief What the matter is, in detail.
 enum class vpTrajectoryFault {

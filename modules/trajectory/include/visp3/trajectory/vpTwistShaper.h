@@ -16,10 +16,10 @@ BEGIN_VISP_NAMESPACE
 //! \ingroup group_trajectory
 //! \brief Limits of vpTwistShaper, for the linear and the angular part.
 struct VISP_EXPORT vpTwistShaperLimits {
-  double linearAcceleration = 1.;  //!< m/s^2, > 0.
-  double linearJerk = 10.;         //!< m/s^3, > 0; infinity switches the jerk limit off.
-  double angularAcceleration = 1.; //!< rad/s^2, > 0.
-  double angularJerk = 10.;        //!< rad/s^3, > 0; infinity switches the jerk limit off.
+  double linearAcceleration = 1.;  //!< m/s^2, 1e-6 to 1e9.
+  double linearJerk = 10.;         //!< m/s^3, 1e-6 to 1e12; infinity switches the jerk limit off.
+  double angularAcceleration = 1.; //!< rad/s^2, 1e-6 to 1e9.
+  double angularJerk = 10.;        //!< rad/s^3, 1e-6 to 1e12; infinity switches the jerk limit off.
   /*!
    * True: the limits bound the Euclidean norm of the linear and of the angular part, and a change from rest keeps its
    * direction. False: they bound each of the six components.
@@ -27,7 +27,7 @@ struct VISP_EXPORT vpTwistShaperLimits {
   bool norm = true;
 
   /*!
-   * \throw vpException (badValue) naming the limit and its value when one is not > 0.
+   * \throw vpException (badValue) naming the limit and its value when one is out of its range.
    */
   void validate() const;
 };
@@ -41,9 +41,17 @@ struct VISP_EXPORT vpTwistShaperLimits {
  * (thesis, 6.1.1, figure 6.1). The shaper follows the raw twist along the time-optimal ramps of vpVelocityRamp, planned
  * anew each cycle from its own commanded twist and acceleration. With constant input it arrives exactly, in finite time.
  *
+ * **Speed.** It is never faster than the fastest wish so far (norms of the linear and of the angular part, each for itself; the
+ * twist given to reset() counts as a wish), however the wishes turn: wishes behind limitTwist() come out within its limits. The
+ * ramps of the components alone do not promise that: together they cut the corners of a turning wish on the outside. Proof:
+ * from velocity v and acceleration a, braking with the full jerk J against a leads straight to p = v + a |a| / (2 J). So long as
+ * |v| and |p| are at most V, a ball being convex, braking never leaves the ball of V, and neither v nor p of the next cycle
+ * does. Where the ramps would lead out of V = max(|wish|, |v|, |p|), the cycle is the mixture of ramps and braking, as much of
+ * the ramps as V allows; velocity, acceleration and jerk of a mixture are within the bounds of its parts.
+ *
  * \code
  * vpTwistShaper shaper(limits);
- * for (;;) {
+ * while (task.getError().sumSquare() > small) {
  *   v = shaper.update(vpTwist::fromColVector(task.computeControlLaw()), dt);
  * }
  * \endcode
@@ -53,23 +61,30 @@ class VISP_EXPORT vpTwistShaper
 public:
   /*!
    * Starts at rest.
-   * \throw vpException (badValue) when a limit is not > 0.
+   * \throw vpException (badValue) naming a limit that is out of its range.
    */
   explicit vpTwistShaper(const vpTwistShaperLimits &limits = {});
 
-  //! Start anew from this twist and this rate of change (m/s^2, rad/s^2), for example those of a moving robot.
+  static constexpr double implausible = 1e6; //!< No velocity (m/s, rad/s) or acceleration is that large.
+  static constexpr double longestStep = 1.;  //!< s.
+
+  /*!
+   * Start anew from this twist and this rate of change (m/s^2, rad/s^2), for example those of a moving robot; from rest when a
+   * number is not finite or above #implausible.
+   */
   void reset(const vpTwist &twist = {}, const vpTwist &acceleration = {});
   /*!
    * Change the limits; they hold from the next cycle on. An acceleration above a lowered limit comes down at full jerk.
-   * \throw vpException (badValue) when a limit is not > 0.
+   * \throw vpException (badValue) naming a limit that is out of its range.
    */
   void setLimits(const vpTwistShaperLimits &limits);
 
   /*!
    * One cycle. Never throws, never allocates.
-   * \param raw : The wished twist, in any fixed component meaning (usually the camera frame). When it is not finite the
-   *   shaper brakes towards zero instead.
-   * \param dt : Time since the last call, s. When it is not finite and > 0 the twist stays as it is.
+   * \param raw : The wished twist, in any fixed component meaning (usually the camera frame). When a number is not finite or
+   *   above #implausible the shaper brakes towards zero instead.
+   * \param dt : Time since the last call, s. When it is not finite and > 0 the twist stays as it is; more than #longestStep
+   *   counts as that, so that after a pause, or with a wrong clock, the twist does not step.
    * \return The twist to command.
    */
   [[nodiscard]] vpTwist update(const vpTwist &raw, double dt) noexcept;
@@ -80,7 +95,7 @@ public:
   [[nodiscard]] const vpTwist &acceleration() const { return m_acceleration; }
 
 private:
-  void updatePart(int first, const vpTwist &raw, double maxAcceleration, double maxJerk, double dt) noexcept;
+  void updatePart(std::size_t first, const vpTwist &raw, double maxAcceleration, double maxJerk, double dt) noexcept;
 
   vpTwistShaperLimits m_limits;
   vpTwist m_twist;
