@@ -270,7 +270,7 @@ private:
     vpArmKinematics::forward(scene->arm(), q, data.arm);
     toolVelocity = (reached - data.arm.tool.p) / period;
     velocity = supervised.velocity;
-    const bool passed = supervised.status == vpSupervision::Passed;
+    const bool passed = supervised.status == vpSupervision::Passed || supervised.status == vpSupervision::Limited;
     if (passed && (reached - next.x).norm() < offPlan) {
       tool = next;
     }

@@ -39,7 +39,7 @@ vpNearestPoints vpOctreeData::nearest(const Eigen::Vector3d &from, const Eigen::
   const auto exact = [&](int i) {
     const vpOctreeCell &cell = cells[static_cast<std::size_t>(i)];
     vpNearestPoints near =
-        vpSegmentDistance::box(from - cell.centre, to - cell.centre, Eigen::Vector3d::Constant(0.5 * cell.size));
+        vpSegmentNearest::box(from - cell.centre, to - cell.centre, Eigen::Vector3d::Constant(0.5 * cell.size));
     near.onSegment += cell.centre;
     near.onOther += cell.centre;
     return near;

@@ -131,9 +131,9 @@ vpNearestPoints vpTriangleMeshData::nearest(const Eigen::Vector3d &from, const E
   int index = -1;
   const auto exact = [&](int i) {
     const auto &t = triangles[static_cast<std::size_t>(i)];
-    return vpSegmentDistance::triangle(from, to, vertices[static_cast<std::size_t>(t[0])],
-                                       vertices[static_cast<std::size_t>(t[1])],
-                                       vertices[static_cast<std::size_t>(t[2])]);
+    return vpSegmentNearest::triangle(from, to, vertices[static_cast<std::size_t>(t[0])],
+                                      vertices[static_cast<std::size_t>(t[1])],
+                                      vertices[static_cast<std::size_t>(t[2])]);
   };
   // A segment inside a solid may be far from its surface: then the cutoff must not hide it.
   const bool mayBeInside = watertight && tree.contains(from);

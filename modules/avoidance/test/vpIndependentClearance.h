@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Clearance of AMOR from solids by other code than the scene's, for rechecking what was called free.
+// Clearance of an arm from solids and the ground by other code than the scene's, for rechecking what was called free.
 #ifndef vpIndependentClearance_h
 #define vpIndependentClearance_h
 
@@ -32,6 +32,11 @@ public:
     for (const vpPlacedCapsule &c : capsules) {
       if (c.halfLength < 0.) {
         continue; // Of the base.
+      }
+      if (m_spec->ground) { // of a unit normal, for all moving links
+        const vpHalfSpace &ground = *m_spec->ground;
+        least = std::min({least, ground.normal.dot(c.from) - ground.offset - c.radius,
+                          ground.normal.dot(c.to) - ground.offset - c.radius});
       }
       for (const vpCollisionObject &object : m_spec->objects) {
         const vpRigidTransform oMf = object.pose.inverse();
