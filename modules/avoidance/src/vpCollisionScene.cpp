@@ -3,11 +3,10 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include "vpCollisionCore.h"
+#include "vpPlausible.h"
 
 #include <visp3/avoidance/vpCollisionScene.h>
 #include <visp3/core/vpException.h>
-
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <atomic>
@@ -39,12 +38,6 @@ std::string text(double value)
   return out.str();
 }
 
-bool isRigid(const vpRigidTransform &T)
-{
-  return T.p.allFinite() && T.R.allFinite() &&
-         (T.R * T.R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < 1e-6 && T.R.determinant() > 0.;
-}
-
 constexpr double fastest = 1e3; // m/s or rad/s: nothing that an arm is to keep from is faster
 constexpr double longest = 1e6; // s: nobody foresees more
 
@@ -54,11 +47,6 @@ bool isPlausible(const vpTwist &velocity)
   return std::all_of(velocity.data(), velocity.data() + 6, [](double v) { return std::fabs(v) <= fastest; });
 }
 
-bool isPlausible(const vpRigidTransform &pose)
-{
-  return isRigid(pose) && (pose.p.cwiseAbs().array() <= vpLargestLength).all();
-}
-
 bool isLength(double value) { return value >= 0. && value <= vpLargestLength; }
 
 void checkObject(const std::string &source, const vpCollisionObject &object)
@@ -66,10 +54,10 @@ void checkObject(const std::string &source, const vpCollisionObject &object)
   if (object.name.empty()) {
     fail(source, "an object has no name");
   }
-  if (!isRigid(object.pose)) {
+  if (!vpIsRigid(object.pose)) {
     fail(source, "pose of object " + object.name + " is not a rotation and a finite translation");
   }
-  if (!isPlausible(object.pose)) {
+  if (!vpIsPlace(object.pose)) {
     fail(source, "object " + object.name + " stands " + text(object.pose.p.cwiseAbs().maxCoeff()) +
                      " m away, must be within " + text(vpLargestLength) + " m");
   }
@@ -253,9 +241,12 @@ vpCollisionScene::vpCollisionScene(const vpArmModel &arm, const vpCollisionScene
   if (spec.ground) {
     m_ground = spec.ground;
     const double length = m_ground->normal.norm();
-    if (!std::isfinite(length) || !(length > 0.) || !(std::fabs(m_ground->offset) <= vpLargestLength)) {
-      fail(m_source, "ground has no normal, or an offset of " + text(m_ground->offset) + " m, must be within " +
-                         text(vpLargestLength) + " m");
+    if (!std::isfinite(length) || !(length > 0.)) {
+      fail(m_source, "ground has no normal");
+    }
+    if (!(std::fabs(m_ground->offset) <= vpLargestLength)) {
+      fail(m_source,
+           "offset of the ground is " + text(m_ground->offset) + " m, must be within " + text(vpLargestLength) + " m");
     }
     m_ground->normal /= length;
   }
@@ -301,7 +292,7 @@ int vpCollisionScene::add(const vpCollisionObject &object)
 {
   checkObject(m_source, object);
   if (find(object.name) >= 0) {
-    fail(m_source, "object " + object.name + " stands twice");
+    fail(m_source, "object " + object.name + ": duplicate name");
   }
   std::uint32_t checked = 0;
   for (std::size_t i = 0; i < m_capsules.size(); ++i) {
@@ -332,7 +323,7 @@ void vpCollisionScene::remove(int i)
 
 bool vpCollisionScene::moveObject(int i, const vpRigidTransform &pose) noexcept
 {
-  if (i < 0 || i >= objectCount() || !isPlausible(pose)) {
+  if (i < 0 || i >= objectCount() || !vpIsPlace(pose)) {
     return false;
   }
   m_objects[at(i)].pose = pose;

@@ -16,6 +16,15 @@ double roomAhead(const vpArmModel &arm, int joint, double q, double velocity) no
   return std::isfinite(limit) ? room + 1e-9 * std::max(1., std::fabs(limit)) : room;
 }
 
+vpJointVector brakeOnce(const vpArmModel &arm, const vpJointVector &velocity, double period) noexcept
+{
+  vpJointVector next(velocity.size());
+  for (int j = 0; j < next.size(); ++j) {
+    next(j) = std::copysign(std::max(0., std::fabs(velocity(j)) - period * arm.acceleration()(j)), velocity(j));
+  }
+  return next;
+}
+
 bool planStop(const vpArmModel &arm, const vpJointVector &q, const vpJointVector &velocity, double keep,
               vpTrajectoryPlan &plan) noexcept
 {

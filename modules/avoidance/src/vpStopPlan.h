@@ -19,6 +19,9 @@ BEGIN_VISP_NAMESPACE
 bool planStop(const vpArmModel &arm, const vpJointVector &q, const vpJointVector &velocity, double keep,
               vpTrajectoryPlan &plan) noexcept;
 
+//! The velocities of the next period of braking at the acceleration limits, each joint for itself.
+vpJointVector brakeOnce(const vpArmModel &arm, const vpJointVector &velocity, double period) noexcept;
+
 //! How far a joint may go in the sense of \e velocity, rad or m: to its limit and 1e-9 of it (at least 1e-9) beyond.
 double roomAhead(const vpArmModel &arm, int joint, double q, double velocity) noexcept;
 

@@ -325,8 +325,49 @@ TEST_CASE("Goals out of reach, an arm that touches, nonsense: a status, and the 
       const Drive run = drive(tight, *held, home(), 0.5);
       CHECK((run.q - home()).norm() < 1e-6);
       CHECK(run.last.status == vpAvoidanceStatus::StartInCollision);
+      CHECK(sentence(run.last, tight, 0.01) == "The arm stands: link 7 and object cuff touch.");
+      CHECK_FALSE(isWorking(run.last)); // a loop ends
     }
   }
+}
+
+TEST_CASE("A loop ends at the goal and after errors, when the arm stands, and a sentence says why", "[methods]")
+{
+  vpAvoidanceOutput output;
+  output.velocity = vpJointVector::Zero(7);
+  for (const auto status :
+       {vpAvoidanceStatus::Moving, vpAvoidanceStatus::Detouring, vpAvoidanceStatus::Slowed, vpAvoidanceStatus::Waiting,
+        vpAvoidanceStatus::GoalInCollision, vpAvoidanceStatus::Unsafe}) {
+    output.status = status;
+    CHECK(isWorking(status));
+    CHECK(isWorking(output));
+  }
+  for (const auto status : {vpAvoidanceStatus::Arrived, vpAvoidanceStatus::StartInCollision,
+                            vpAvoidanceStatus::Unreachable, vpAvoidanceStatus::InvalidInput}) {
+    output.status = status;
+    CHECK_FALSE(isWorking(status));
+    CHECK_FALSE(isWorking(output));
+    output.velocity(3) = -1e-3; // it brakes
+    CHECK(isWorking(output));
+    output.velocity(3) = 0.;
+  }
+  // 9.85 mm from a ball with a margin of 10: it does not touch it, and is told so.
+  vpCollisionScene scene(amor());
+  vpCollisionData placed;
+  scene.place(home(), placed);
+  const vpPlacedCapsule &hand = placed.capsules[3];
+  scene.add(ball("ball", hand.to + (hand.radius + 0.05 + 0.00985) * (hand.to - hand.from).normalized(), 0.05));
+  const auto method = makeAvoidanceMethod("planner", scene);
+  vpJointVector there = home();
+  there(0) += 0.5;
+  CHECK(method->start(home(), vpAvoidanceGoal::at(amor(), there)) == vpAvoidanceStatus::StartInCollision);
+  method->step(home(), output);
+  CHECK(sentence(output, scene, 0.01) ==
+        "The arm stands: link 7 and object ball are 9.85 mm apart, the margin is 10 mm.");
+  CHECK(method->start(there, vpAvoidanceGoal::at(amor(), home())) == vpAvoidanceStatus::GoalInCollision);
+  method->step(there, output);
+  CHECK(sentence(output, scene, 0.01) ==
+        "The arm waits: at the goal link 7 and object ball are 9.85 mm apart, the margin is 10 mm.");
 }
 
 TEST_CASE("The step of no method allocates", "[methods]")

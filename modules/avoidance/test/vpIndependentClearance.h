@@ -29,11 +29,12 @@ public:
   {
     const std::vector<vpPlacedCapsule> capsules = place(q);
     double least = limit;
-    for (const vpPlacedCapsule &c : capsules) {
+    for (std::size_t i = 0; i < capsules.size(); ++i) {
+      const vpPlacedCapsule &c = capsules[i];
       if (c.halfLength < 0.) {
         continue; // Of the base.
       }
-      if (m_spec->ground) { // of a unit normal, for all moving links
+      if (m_spec->ground && m_arm->spec().capsules[i].link >= m_spec->ground->firstLink) { // of a unit normal
         const vpHalfSpace &ground = *m_spec->ground;
         least = std::min({least, ground.normal.dot(c.from) - ground.offset - c.radius,
                           ground.normal.dot(c.to) - ground.offset - c.radius});

@@ -20,6 +20,9 @@ struct VISP_EXPORT vpAvoidanceGoal {
 
   //! A configuration and where it brings the end effector. \throw vpException (badValue) when it does not fit the arm.
   [[nodiscard]] static vpAvoidanceGoal at(const vpArmModel &model, const vpJointVector &q);
+  //! True when #q is empty or of the arm's size and all is finite and within vpLargestCoordinate, vpLargestLength and
+  //! 1000 m/s.
+  [[nodiscard]] bool fits(const vpArmModel &model) const noexcept;
 };
 
 //! \ingroup group_avoidance
@@ -31,11 +34,20 @@ enum class vpAvoidanceStatus {
   Waiting,          //!< There is no free way now: brakes or stands, and goes on when there is one.
   Arrived,          //!< At the goal, at rest.
   GoalInCollision,  //!< The goal is not free: brakes or stands, and goes on when it is.
-  StartInCollision, //!< The arm touches something already: stands.
+  StartInCollision, //!< Something is nearer to the arm than the margin already: stands.
   Unreachable,      //!< The arm cannot get to the goal whether there are obstacles or not: brakes or stands.
   Unsafe,           //!< Brakes, but something has come so that it may not end in time.
-  InvalidInput      //!< A number is not finite or a vector has a wrong size; brakes.
+  InvalidInput      //!< A number is not finite or out of range, or a vector has a wrong size; brakes.
 };
+
+//! \ingroup group_avoidance
+//! True while step() is worth another call because the arm is under way, or waits for what may change. False at the goal and
+//! where nothing will change by itself: StartInCollision, Unreachable, InvalidInput.
+[[nodiscard]] constexpr bool isWorking(vpAvoidanceStatus status)
+{
+  return status != vpAvoidanceStatus::Arrived && status != vpAvoidanceStatus::StartInCollision &&
+         status != vpAvoidanceStatus::Unreachable && status != vpAvoidanceStatus::InvalidInput;
+}
 
 //! \ingroup group_avoidance
 //! \brief The status as a word ("Moving"), for files; static text.
@@ -55,6 +67,19 @@ struct VISP_EXPORT vpAvoidanceOutput {
   Eigen::Vector3d wanted = Eigen::Vector3d::Zero(); //!< Where the end effector is planned to be after the period, m.
   bool stopping = false; //!< A protective stop acts: the plan's own bounds gave way to those of the joints.
 };
+
+//! \ingroup group_avoidance
+//! Condition of a control loop: the status is one that works, or the arm still moves, as it does while it brakes.
+[[nodiscard]] VISP_EXPORT bool isWorking(const vpAvoidanceOutput &output) noexcept;
+
+/*!
+ * \ingroup group_avoidance
+ * The status as a sentence with what it is about, as "The arm stands: link 5 and object pillar are 9.85 mm apart, the margin
+ * is 10 mm." Allocates.
+ * \param output : Of a step. \param scene : The one that its method has. \param margin : Of that method, m.
+ */
+[[nodiscard]] VISP_EXPORT std::string sentence(const vpAvoidanceOutput &output, const vpCollisionScene &scene,
+                                               double margin);
 
 /*!
  * \ingroup group_avoidance
@@ -80,14 +105,14 @@ struct VISP_EXPORT vpAvoidanceMethodSpec {
  * now, with their velocities, between the calls:
  * \code
  * method.start(q, goal);
- * while (output.status != vpAvoidanceStatus::Arrived) {
+ * do {
  *   if (newImage) {
  *     tracks.applyTo(scene);        // objects may come and go here
  *     method.look();
  *   }
  *   method.step(q, output);
  *   q += period * output.velocity;  // or what the drives were told
- * }
+ * } while (isWorking(output) && clock.time() < deadline); // it may wait for ever for a way to become free
  * \endcode
  */
 class VISP_EXPORT vpAvoidanceMethod

@@ -80,7 +80,7 @@ class VISP_EXPORT vpCollisionScene
 public:
   /*!
    * \throw vpException (badValue) naming the source, the element and the value: an arm without capsules or with more
-   * than 32, an object without a name or whose name stands twice, a pose that is none, lengths that are not finite,
+   * than 32, an object without a name or with a duplicate name, a pose that is none, lengths that are not finite,
    * negative or above vpLargestLength, velocities above 1000 m/s or rad/s, a ground without normal, links or objects that
    * do not exist.
    */
