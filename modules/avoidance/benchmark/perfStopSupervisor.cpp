@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 // A whole control cycle with whole-arm avoidance: kinematics, redundancy with two indices and limits, and the supervisor
-// among ten obstacles; and the parts. Every cycle is timed on its own for the quantiles.
+// among ten obstacles and among a thousand; and without it. Every cycle is timed on its own for the quantiles.
 #include <visp3/avoidance/vpStopSupervisor.h>
 #include <visp3/direct_core/vpQuantile.h>
 #include <visp3/manipulator/vpArmJson.h>
@@ -11,6 +11,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <ctime>
 #include <random>
 
@@ -32,15 +33,18 @@ const vpArmModel &amor()
   return arm;
 }
 
-vpCollisionSceneSpec obstacles(double speed)
+//! Ten of some size, or many small ones.
+vpCollisionSceneSpec obstacles(double speed, int count)
 {
   std::mt19937_64 rng(7);
   std::uniform_real_distribution<double> unit(-1., 1.);
   vpCollisionSceneSpec spec;
-  for (int k = 0; k < 10; ++k) {
+  const double scale = count > 10 ? 0.2 : 1.;
+  for (int k = 0; k < count; ++k) {
     vpCollisionObject object;
     object.name = "object " + std::to_string(k);
-    object.shape = k % 2 == 0 ? vpCollisionShape::sphere(0.08) : vpCollisionShape::box({0.2, 0.1, 0.1});
+    object.shape = k % 2 == 0 ? vpCollisionShape::sphere(scale * 0.08)
+                              : vpCollisionShape::box(scale * Eigen::Vector3d(0.2, 0.1, 0.1));
     object.pose.p = Eigen::Vector3d(unit(rng), unit(rng), unit(rng)).normalized() * (0.8 + 0.3 * unit(rng));
     object.velocity = vpTwist(speed * unit(rng), speed * unit(rng), speed * unit(rng), 0., 0., 0.);
     spec.objects.push_back(object);
@@ -48,9 +52,9 @@ vpCollisionSceneSpec obstacles(double speed)
   return spec;
 }
 
-void cycle(benchmark::State &state, double speed, bool supervised)
+void cycle(benchmark::State &state, double speed, bool supervised, int count = 10)
 {
-  const vpCollisionScene start(amor(), obstacles(speed));
+  const vpCollisionScene start(amor(), obstacles(speed, count));
   vpCollisionScene scene = start;
   vpStopSupervisor supervisor(scene);
   const vpRedundancySolver solver(amor());
@@ -94,6 +98,7 @@ void cycle(benchmark::State &state, double speed, bool supervised)
   }
   state.counters["us_p50"] = vpQuantileInPlace(times.data(), times.data() + times.size(), 0.5);
   state.counters["us_p99"] = vpQuantileInPlace(times.data(), times.data() + times.size(), 0.99);
+  state.counters["us_most"] = *std::max_element(times.begin(), times.end());
   state.counters["us_p99_9"] = vpQuantileInPlace(times.data(), times.data() + times.size(), 0.999);
 }
 } // namespace
@@ -101,5 +106,6 @@ void cycle(benchmark::State &state, double speed, bool supervised)
 BENCHMARK_CAPTURE(cycle, without_avoidance, 0., false)->Iterations(20000);
 BENCHMARK_CAPTURE(cycle, supervised_static, 0., true)->Iterations(20000);
 BENCHMARK_CAPTURE(cycle, supervised_moving, 0.2, true)->Iterations(20000);
+BENCHMARK_CAPTURE(cycle, supervised_among_1000, 0., true, 1000)->Iterations(4000);
 
 BENCHMARK_MAIN();

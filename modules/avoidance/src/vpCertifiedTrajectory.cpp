@@ -172,6 +172,11 @@ vpTrajectoryClearance vpCertifiedTrajectory::search(const vpTrajectoryPlan &plan
   bool collides = false;
   while (count > 0) {
     const Part part = open[static_cast<std::size_t>(--count)];
+    if (result.evaluated >= looks) {
+      result.status = collides ? vpMotionStatus::Collision : vpMotionStatus::Undecided;
+      result.time = part.middle - part.half;
+      return result;
+    }
     const Verdict verdict = look(plan, part.middle, part.half, part.middle - from + age, result);
     if (verdict == Verdict::Free) {
       continue;
@@ -187,7 +192,7 @@ vpTrajectoryClearance vpCertifiedTrajectory::search(const vpTrajectoryPlan &plan
       result.time = part.middle;
       return result;
     }
-    if (m_largest < m_spec.resolution || count + 2 > deepest || result.evaluated >= looks) {
+    if (m_largest < m_spec.resolution || count + 2 > deepest) {
       result.status = collides ? vpMotionStatus::Collision : vpMotionStatus::Undecided;
       result.time = part.middle - part.half;
       return result;

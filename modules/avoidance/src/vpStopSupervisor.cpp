@@ -15,7 +15,8 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-constexpr double slack = 1e-4; // m: so much nearer an arm at its margin may come between periods on its way away
+constexpr double sameTime = 1e-9; // of a period
+constexpr double slack = 1e-4;    // m: so much nearer an arm at its margin may come between periods on its way away
 
 void requireGood(const char *field, double value, bool good, const char *range)
 {
@@ -27,7 +28,7 @@ void requireGood(const char *field, double value, bool good, const char *range)
 
 void vpStopSupervisorSpec::validate() const
 {
-  requireGood("period", period, period > 0., "> 0 s");
+  requireGood("period", period, period > 0. && period <= 1., "> 0 and at most 1 s");
   requireGood("margin", margin, margin >= 0., ">= 0 m");
   requireGood("latency", latency, latency >= 0., ">= 0 s");
   requireGood("resolution", resolution, resolution > 0., "> 0 m");
@@ -104,7 +105,7 @@ vpJointVector vpStopSupervisor::limited(const vpJointVector &q, const vpJointVec
 // When the arm stands that is commanded a plan: at the end of the period in which the plan ends.
 double vpStopSupervisor::standing(const vpTrajectoryPlan &plan) const noexcept
 {
-  return std::ceil(plan.duration() / m_spec.period - 1e-9) * m_spec.period;
+  return std::ceil(plan.duration() / m_spec.period - sameTime) * m_spec.period;
 }
 
 // By how much a clearance of the arm on the chords of a plan may be less than on the plan: 2 e of the proof.
@@ -178,6 +179,7 @@ bool vpStopSupervisor::admit(const vpJointVector &q, const vpJointVector &veloci
 // An arm at or within its margin may move where it is no nearer at the end of any period, and hardly nearer in between.
 bool vpStopSupervisor::isRetreat(const vpJointVector &q, double off) noexcept
 {
+  --m_looks;
   m_scene->place(q, m_data);
   const double near = m_spec.margin + off + slack;
   double last = m_scene->clearance(m_data, near, m_spec.latency).distance;
@@ -247,10 +249,13 @@ void vpStopSupervisor::step(const vpJointVector &q, const vpJointVector &wish, v
   const int n = m_scene->arm().size(), reserve = 2 * looksOfProof();
   output = vpSupervisedVelocity();
   output.velocity = braking();
-  m_looks = m_spec.looks - reserve;
+  const int mine = m_spec.looks - reserve - 2; // a try may look twice more than is left
+  m_looks = mine;
   const bool placed = m_certificate.reach().holds(q);
   if (placed && wish.size() == n && wish.allFinite()) {
-    if (tryWish(q, wish, vpJointVector(output.velocity), output)) {
+    const bool passed = tryWish(q, wish, vpJointVector(output.velocity), output);
+    output.looks = mine - m_looks;
+    if (passed) {
       m_command = output.velocity;
       return;
     }
@@ -260,6 +265,7 @@ void vpStopSupervisor::step(const vpJointVector &q, const vpJointVector &wish, v
     startStopAt(q);
     m_looks = reserve;
     const vpTrajectoryClearance rest = prove(m_stop, m_time, offPlan(m_stop), reserve);
+    output.looks += rest.evaluated;
     if (!rest.isFree() && output.status != vpSupervision::InvalidInput) {
       output.status = vpSupervision::Unsafe;
       output.pair = rest.pair;
@@ -267,7 +273,7 @@ void vpStopSupervisor::step(const vpJointVector &q, const vpJointVector &wish, v
   }
   m_command = output.velocity;
   m_time += m_spec.period;
-  m_moving = m_moving && m_time < m_stop.duration();
+  m_moving = m_moving && m_time < m_stop.duration() - sameTime * m_spec.period;
 }
 
 END_VISP_NAMESPACE

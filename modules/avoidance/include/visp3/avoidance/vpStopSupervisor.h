@@ -18,7 +18,7 @@ BEGIN_VISP_NAMESPACE
  * \brief Parameters of vpStopSupervisor.
  */
 struct VISP_EXPORT vpStopSupervisorSpec {
-  double period = 0.005;    //!< Of the calls, s, > 0.
+  double period = 0.005;    //!< Of the calls, s, > 0, at most 1.
   double margin = 0.01;     //!< Clearance kept, m, >= 0.
   double latency = 0.;      //!< Age of what the scene says of its objects, s, >= 0: they count as moved on by it.
   double resolution = 1e-4; //!< See vpCertifiedMotionSpec, m, > 0.
@@ -50,6 +50,7 @@ struct VISP_EXPORT vpSupervisedVelocity {
   vpSupervision status = vpSupervision::InvalidInput; //!< What became of the wish.
   double share = 0.;                                  //!< Of the wish as the joints' limits allow it, 0..1.
   vpClearance pair;                                   //!< What is in the way, unless Passed or Limited.
+  int looks = 0;                                      //!< Configurations that the step looked at.
 
   //! The status as a sentence for a person.
   [[nodiscard]] const char *sentence() const noexcept;
@@ -74,10 +75,11 @@ struct VISP_EXPORT vpSupervisedVelocity {
  * the deceleration of joint j, so it is never farther from q_j(t) than min(d_j T / 8, |v_j|) T, and a point of capsule i by no
  * more than e = sum_j R_ij of that (vpReachBounds). That holds to the end of the last period, in which the plan comes to rest
  * before the arm does. So the plan is proven from its start to the end of the period in which it ends, with the margin
- * enlarged by 2 e (two capsules may both be off) and the resolution, and the arm keeps the margin at every instant until it stands. Two means
- * that follow each other differ by no more than d_j T, which keeps the limit of acceleration. An arm within the margin, at a
- * clearance c, may go where it is no nearer at the end of any period, and keeps c - 0.1 mm - 2 e in between, which
- * therefore is not lost again and again.
+ * enlarged by 2 e (two capsules may both be off) and the resolution, and the arm keeps the margin at every instant until
+ * it stands. Two means that follow each other differ by no more than d_j T, which keeps the limit of acceleration. An arm
+ * within the margin, at a clearance c, may go where it is no nearer at the end of any period, and keeps c - 0.1 mm - 2 e in
+ * between, which therefore is not lost again and again; an arm that is nearer to its margin than 2 e and the resolution
+ * counts as within it.
  *
  * What is beyond it: an object that comes faster than was told or appears (Unsafe says so), what runs into an arm that
  * stands, and drives that do not follow. An arm nearer to something than 0.1 mm, 2 e and the resolution together has no
