@@ -33,21 +33,27 @@ const vpArmModel &amor()
   return arm;
 }
 
-//! Ten of some size, or many small ones.
+//! Ten of some size, or many small ones, none of them in the arm's way at first.
 vpCollisionSceneSpec obstacles(double speed, int count)
 {
   std::mt19937_64 rng(7);
   std::uniform_real_distribution<double> unit(-1., 1.);
   vpCollisionSceneSpec spec;
   const double scale = count > 10 ? 0.2 : 1.;
-  for (int k = 0; k < count; ++k) {
+  while (static_cast<int>(spec.objects.size()) < count) {
     vpCollisionObject object;
-    object.name = "object " + std::to_string(k);
-    object.shape = k % 2 == 0 ? vpCollisionShape::sphere(scale * 0.08)
-                              : vpCollisionShape::box(scale * Eigen::Vector3d(0.2, 0.1, 0.1));
+    object.name = "object " + std::to_string(spec.objects.size());
+    object.shape = spec.objects.size() % 2 == 0 ? vpCollisionShape::sphere(scale * 0.08)
+                                                : vpCollisionShape::box(scale * Eigen::Vector3d(0.2, 0.1, 0.1));
     object.pose.p = Eigen::Vector3d(unit(rng), unit(rng), unit(rng)).normalized() * (0.8 + 0.3 * unit(rng));
     object.velocity = vpTwist(speed * unit(rng), speed * unit(rng), speed * unit(rng), 0., 0., 0.);
-    spec.objects.push_back(object);
+    vpCollisionScene alone(amor());
+    alone.add(object);
+    vpCollisionData data;
+    alone.place(amor().home(), data);
+    if (count <= 10 || alone.clearance(data, 0.05).kind != vpCollisionKind::Object) {
+      spec.objects.push_back(object);
+    }
   }
   return spec;
 }

@@ -186,7 +186,7 @@ bool vpObjectTracks::advance(double now)
   if (!isTime(now) || now < m_now) {
     return false;
   }
-  const bool agrees = now >= m_doubted && now <= m_doubted + farAhead;
+  const bool agrees = now > m_doubted && now <= m_doubted + farAhead; // not a clock that stands
   if (std::isfinite(m_now) && now > m_now + farAhead && !agrees) {
     m_doubted = now;
     return false;

@@ -132,7 +132,7 @@ public:
   /*!
    * Predicts every track to \e now, s, and drops the forgotten ones. No allocation.
    * \return False, and nothing changes, for a time that is not finite, goes back, or is a minute ahead of the last one, until
-   * a second one in a row agrees with that.
+   * the next one goes on from there.
    */
   bool advance(double now);
   //! All tracks, at the time of the last advance().

@@ -23,7 +23,7 @@ struct VISP_EXPORT vpStopSupervisorSpec {
   double latency = 0.;      //!< Age of what the scene says of its objects, s, >= 0: they count as moved on by it.
   double resolution = 1e-4; //!< See vpCertifiedMotionSpec, m, > 0.
   int attempts = 4;         //!< Velocities between the wish and braking that are tried, 1..16: each halves the wish.
-  int looks = 600; //!< Configurations that a step looks at, at most; >= 60. What needs more counts as not free.
+  int looks = 300; //!< Configurations that a step looks at, at most; >= 60. What needs more counts as not free.
 
   //! \throw vpException (badValue) naming the field that is out of range, and its value.
   void validate() const;
