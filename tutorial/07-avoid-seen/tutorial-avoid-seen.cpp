@@ -50,7 +50,7 @@ double drive(bool isCovered, vpImage<vpRGBa> &picture)
   vpAvoidanceOutput output;
   vpCollisionData data;
   vpImage<unsigned char> image;
-  for (int cycle = 0; cycle < 1000 && isWorking(output); ++cycle) {
+  for (int cycle = 0; cycle < 1000 && (cycle == 0 || isWorking(output)); ++cycle) {
     truth.place(q, data);
     least = std::min(least, truth.clearance(data).distance);
     const vpImagePoint tool = fromAbove(data.arm.tool.p.x(), data.arm.tool.p.y());

@@ -14,6 +14,9 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
+// Slower than this, rad/s or m/s, an arm that brakes stands.
+constexpr double standing = 1e-3;
+
 void requireGood(const char *field, double value, bool good, const char *range)
 {
   if (!good || !std::isfinite(value)) {
@@ -38,25 +41,6 @@ bool vpAvoidanceGoal::fits(const vpArmModel &model) const noexcept
          (position.cwiseAbs().array() <= vpLargestLength).all() && (velocity.cwiseAbs().array() <= fastest).all();
 }
 
-bool isWorking(const vpAvoidanceOutput &output) noexcept
-{
-  const bool stands = (output.velocity.array() == 0.).all();
-  return isWorking(output.status) || !stands;
-}
-
-std::string sentence(const vpAvoidanceOutput &output, const vpCollisionScene &scene, double margin)
-{
-  const std::string plain = sentence(output.status);
-  const std::size_t colon = plain.find(':');
-  const bool aboutPair =
-      output.status == vpAvoidanceStatus::StartInCollision || output.status == vpAvoidanceStatus::GoalInCollision;
-  if (!aboutPair || output.pair.kind == vpCollisionKind::None || colon == std::string::npos) {
-    return plain;
-  }
-  const std::string where = output.status == vpAvoidanceStatus::GoalInCollision ? " at the goal " : " ";
-  return plain.substr(0, colon + 1) + where + vpPairText(scene, output.pair, margin) + ".";
-}
-
 vpAvoidanceGoal vpAvoidanceGoal::at(const vpArmModel &model, const vpJointVector &q)
 {
   if (q.size() != model.size() || !q.allFinite()) {
@@ -69,6 +53,23 @@ vpAvoidanceGoal vpAvoidanceGoal::at(const vpArmModel &model, const vpJointVector
   goal.q = q;
   goal.position = data.tool.p;
   return goal;
+}
+
+bool isWorking(const vpAvoidanceOutput &output) noexcept
+{
+  switch (output.status) {
+  case vpAvoidanceStatus::Moving:
+  case vpAvoidanceStatus::Detouring:
+  case vpAvoidanceStatus::Slowed:
+  case vpAvoidanceStatus::Waiting:
+  case vpAvoidanceStatus::Unsafe:
+    return true;
+  case vpAvoidanceStatus::Arrived:
+    return false;
+  default: // brakes; a velocity that is no number ends the loop
+    return output.velocity.size() > 0 && output.velocity.allFinite() &&
+           output.velocity.cwiseAbs().maxCoeff() > standing;
+  }
 }
 
 const char *toString(vpAvoidanceStatus status)
@@ -123,6 +124,19 @@ const char *sentence(vpAvoidanceStatus status)
     break;
   }
   return "The configuration or the goal is not finite, out of range or of a wrong size; the arm brakes.";
+}
+
+std::string sentence(const vpAvoidanceOutput &output, const vpCollisionScene &scene, double margin)
+{
+  const std::string plain = sentence(output.status);
+  const std::size_t colon = plain.find(':');
+  const bool aboutPair =
+      output.status == vpAvoidanceStatus::StartInCollision || output.status == vpAvoidanceStatus::GoalInCollision;
+  if (!aboutPair || output.pair.kind == vpCollisionKind::None || colon == std::string::npos) {
+    return plain;
+  }
+  const std::string where = output.status == vpAvoidanceStatus::GoalInCollision ? " at the goal " : " ";
+  return plain.substr(0, colon + 1) + where + vpPairText(scene, output.pair, margin) + ".";
 }
 
 END_VISP_NAMESPACE

@@ -331,26 +331,9 @@ TEST_CASE("Goals out of reach, an arm that touches, nonsense: a status, and the 
   }
 }
 
-TEST_CASE("A loop ends at the goal and after errors, when the arm stands, and a sentence says why", "[methods]")
+TEST_CASE("An arm within the margin is told the pair, the clearance and the margin", "[methods]")
 {
   vpAvoidanceOutput output;
-  output.velocity = vpJointVector::Zero(7);
-  for (const auto status :
-       {vpAvoidanceStatus::Moving, vpAvoidanceStatus::Detouring, vpAvoidanceStatus::Slowed, vpAvoidanceStatus::Waiting,
-        vpAvoidanceStatus::GoalInCollision, vpAvoidanceStatus::Unsafe}) {
-    output.status = status;
-    CHECK(isWorking(status));
-    CHECK(isWorking(output));
-  }
-  for (const auto status : {vpAvoidanceStatus::Arrived, vpAvoidanceStatus::StartInCollision,
-                            vpAvoidanceStatus::Unreachable, vpAvoidanceStatus::InvalidInput}) {
-    output.status = status;
-    CHECK_FALSE(isWorking(status));
-    CHECK_FALSE(isWorking(output));
-    output.velocity(3) = -1e-3; // it brakes
-    CHECK(isWorking(output));
-    output.velocity(3) = 0.;
-  }
   // 9.85 mm from a ball with a margin of 10: it does not touch it, and is told so.
   vpCollisionScene scene(amor());
   vpCollisionData placed;

@@ -263,28 +263,3 @@ TEST_CASE("Planners and paths refuse wild configurations in a sentence", "[numbe
     CHECK(std::isfinite(timed.at(0, s)[0]));
   }
 }
-
-TEST_CASE("An arm of a size that no arm has is refused in a sentence", "[numbers]")
-{
-  const auto errorOf = [](const std::function<void(vpArmSpec &)> &change) {
-    vpArmSpec spec = amor().spec();
-    spec.source = "amor.json";
-    change(spec);
-    try {
-      static_cast<void>(vpArmModel(spec));
-    }
-    catch (const vpException &e) {
-      return std::string(e.getMessage());
-    }
-    return std::string();
-  };
-  CHECK(errorOf([](vpArmSpec &) {}).empty());
-  CHECK(errorOf([](vpArmSpec &spec) { spec.joints[2].after.p.x() = 2147483648.; }) ==
-        "amor.json: translation of the frame after of joint q3 is 2.14748e+09 m, must be within 10000 m");
-  CHECK(errorOf([](vpArmSpec &spec) { spec.capsules[1].radius = 1e19; }) ==
-        "amor.json: radius of a capsule of link 3 is 1e+19 m, must be within 10000 m");
-  CHECK(errorOf([](vpArmSpec &spec) { spec.capsules[1].to.z() = -1e155; }) ==
-        "amor.json: end of a capsule of link 3 is -1e+155 m, must be within 10000 m");
-  CHECK(errorOf([](vpArmSpec &spec) { spec.joints[1].upper = 1e9; }) ==
-        "amor.json: limits of joint q2 are -0.261799 and 1e+09, must be within 1e+06");
-}

@@ -9,7 +9,6 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
-#include <algorithm>
 #include <cmath>
 #include <set>
 #include <sstream>
@@ -48,31 +47,13 @@ void notNegative(const vpArmSpec &spec, const std::string &what, double value)
   }
 }
 
-// NaN is refused too.
-void length(const vpArmSpec &spec, const std::string &what, double value)
-{
-  if (!(std::fabs(value) <= vpLargestLength)) {
-    fail(spec, what + " is " + text(value) + " m, must be within " + text(vpLargestLength) + " m");
-  }
-}
-
-void lengths(const vpArmSpec &spec, const std::string &what, const Eigen::Vector3d &p)
-{
-  for (int k = 0; k < 3; ++k) {
-    length(spec, what, p(k));
-  }
-}
-
 void rigid(const vpArmSpec &spec, const std::string &what, const vpRigidTransform &T)
 {
   if (!T.p.allFinite() || !T.R.allFinite() ||
       (T.R * T.R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() > 1e-9 || T.R.determinant() < 0.) {
     fail(spec, what + " is not a rotation and a finite translation");
   }
-  lengths(spec, "translation of the " + what, T.p);
 }
-
-double largestLimit(vpJointType type) { return type == vpJointType::Prismatic ? vpLargestLength : vpLargestCoordinate; }
 
 void checkJoint(const vpArmSpec &spec, const vpArmJointSpec &joint, std::set<std::string> &names)
 {
@@ -92,11 +73,6 @@ void checkJoint(const vpArmSpec &spec, const vpArmJointSpec &joint, std::set<std
       (!std::isfinite(joint.lower) || !std::isfinite(joint.upper) || !(joint.lower < joint.upper))) {
     fail(spec, "limits" + of + " are " + text(joint.lower) + " and " + text(joint.upper) +
                    ", must be finite and lower < upper");
-  }
-  if (joint.type != vpJointType::Continuous &&
-      std::max(std::fabs(joint.lower), std::fabs(joint.upper)) > largestLimit(joint.type)) {
-    fail(spec, "limits" + of + " are " + text(joint.lower) + " and " + text(joint.upper) + ", must be within " +
-                   text(largestLimit(joint.type)));
   }
   positive(spec, "velocity limit" + of, joint.velocity);
   positive(spec, "acceleration limit" + of, joint.acceleration);
@@ -184,10 +160,6 @@ vpArmModel::vpArmModel(const vpArmSpec &spec) : m_spec(spec), m_size(static_cast
     if (!capsule.from.allFinite() || !capsule.to.allFinite() || !std::isfinite(capsule.radius)) {
       fail(spec, "a capsule of link " + std::to_string(capsule.link) + " is not finite");
     }
-    const std::string of = " of a capsule of link " + std::to_string(capsule.link);
-    length(spec, "radius" + of, capsule.radius);
-    lengths(spec, "end" + of, capsule.from);
-    lengths(spec, "end" + of, capsule.to);
   }
 
   for (vpJointVector *vector : {&m_lower, &m_upper, &m_velocity, &m_acceleration, &m_torque}) {

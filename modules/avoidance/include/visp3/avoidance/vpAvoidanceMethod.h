@@ -41,15 +41,6 @@ enum class vpAvoidanceStatus {
 };
 
 //! \ingroup group_avoidance
-//! True while step() is worth another call because the arm is under way, or waits for what may change. False at the goal and
-//! where nothing will change by itself: StartInCollision, Unreachable, InvalidInput.
-[[nodiscard]] constexpr bool isWorking(vpAvoidanceStatus status)
-{
-  return status != vpAvoidanceStatus::Arrived && status != vpAvoidanceStatus::StartInCollision &&
-         status != vpAvoidanceStatus::Unreachable && status != vpAvoidanceStatus::InvalidInput;
-}
-
-//! \ingroup group_avoidance
 //! \brief The status as a word ("Moving"), for files; static text.
 [[nodiscard]] VISP_EXPORT const char *toString(vpAvoidanceStatus status);
 //! \ingroup group_avoidance
@@ -68,18 +59,16 @@ struct VISP_EXPORT vpAvoidanceOutput {
   bool stopping = false; //!< A protective stop acts: the plan's own bounds gave way to those of the joints.
 };
 
-//! \ingroup group_avoidance
-//! Condition of a control loop: the status is one that works, or the arm still moves, as it does while it brakes.
-[[nodiscard]] VISP_EXPORT bool isWorking(const vpAvoidanceOutput &output) noexcept;
-
 /*!
  * \ingroup group_avoidance
- * The status as a sentence with what it is about, as "The arm stands: link 5 and object pillar are 9.85 mm apart, the margin
- * is 10 mm." Allocates.
- * \param output : Of a step. \param scene : The one that its method has. \param margin : Of that method, m.
+ * \brief The condition of a loop of steps: true while the arm moves, or may come to its goal by itself (Moving, Detouring,
+ * Slowed, Waiting, Unsafe).
+ *
+ * False ends the loop, after the arm has braked: it has arrived, or something is wrong that more of the same steps do not
+ * mend (GoalInCollision, StartInCollision, Unreachable, InvalidInput). Whoever wants to wait until a goal becomes free goes on
+ * at GoalInCollision. The two potential fields do not know what is out of reach: there they are Moving or Waiting for ever.
  */
-[[nodiscard]] VISP_EXPORT std::string sentence(const vpAvoidanceOutput &output, const vpCollisionScene &scene,
-                                               double margin);
+[[nodiscard]] VISP_EXPORT bool isWorking(const vpAvoidanceOutput &output) noexcept;
 
 /*!
  * \ingroup group_avoidance
@@ -112,7 +101,7 @@ struct VISP_EXPORT vpAvoidanceMethodSpec {
  *   }
  *   method.step(q, output);
  *   q += period * output.velocity;  // or what the drives were told
- * } while (isWorking(output) && clock.time() < deadline); // it may wait for ever for a way to become free
+ * } while (isWorking(output));
  * \endcode
  */
 class VISP_EXPORT vpAvoidanceMethod
@@ -139,6 +128,15 @@ public:
    */
   virtual void step(const vpJointVector &q, vpAvoidanceOutput &output) noexcept = 0;
 };
+
+/*!
+ * \ingroup group_avoidance
+ * The status as a sentence with what it is about, as "The arm stands: link 5 and object pillar are 9.85 mm apart, the margin
+ * is 10 mm." Allocates.
+ * \param output : Of a step. \param scene : The one that its method has. \param margin : Of that method, m.
+ */
+[[nodiscard]] VISP_EXPORT std::string sentence(const vpAvoidanceOutput &output, const vpCollisionScene &scene,
+                                               double margin);
 
 END_VISP_NAMESPACE
 #endif
