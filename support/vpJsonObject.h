@@ -87,6 +87,17 @@ public:
     m_known.insert(field);
     return has(field) ? number(field) : otherwise;
   }
+  bool flag(const char *field, bool otherwise)
+  {
+    m_known.insert(field);
+    if (!has(field)) {
+      return otherwise;
+    }
+    if (!get(field).is_boolean()) {
+      fail(place(field), "must be true or false");
+    }
+    return get(field).get<bool>();
+  }
   std::string string(const char *field)
   {
     const nlohmann::json &value = get(field);

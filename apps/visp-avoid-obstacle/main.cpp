@@ -29,7 +29,7 @@ void printList()
 {
   std::cout << "Methods (--method):\n";
   for (const std::string &name : avoidanceMethodNames()) {
-    std::cout << "  " << name << "\n";
+    std::cout << "  " << name << ": " << avoidanceMethodSentence(name) << "\n";
   }
   std::cout << "Replicas (--replica):\n";
   for (const std::string &name : replicaNames()) {
@@ -69,7 +69,8 @@ void repeat(const Options &options, const std::string &commandLine)
   std::cout << "Report: " << (out.path() / "report.html").string() << std::endl;
 }
 
-void avoid(const Options &options, const std::string &commandLine)
+//! \return False when the moving arm hit something.
+bool avoid(const Options &options, const std::string &commandLine)
 {
   const auto start = Clock::now();
   const PhotoScene scene = loadPhotoScene(options);
@@ -102,6 +103,7 @@ void avoid(const Options &options, const std::string &commandLine)
     std::cout << sentence << "\n";
   }
   std::cout << "Report: " << (out.path() / "report.html").string() << std::endl;
+  return episode.run.metrics.collisions_moving == 0;
 }
 } // namespace
 
@@ -117,7 +119,10 @@ int main(int argc, char **argv)
       return vpApp::ExitOk;
     }
     const std::string commandLine = vpApp::commandLine("visp-avoid-obstacle", argc, argv);
-    options.replica.empty() ? avoid(options, commandLine) : repeat(options, commandLine);
-    return vpApp::ExitOk;
+    if (!options.replica.empty()) {
+      repeat(options, commandLine);
+      return vpApp::ExitOk;
+    }
+    return avoid(options, commandLine) ? vpApp::ExitOk : ExitHit;
   });
 }

@@ -30,12 +30,12 @@ constexpr const char *EXAMPLES = R"(Examples:
   visp-avoid-obstacle --method planner-dtg --hide 0.5:1.2 --record
       another method, the camera covered for a while, with a video
   visp-avoid-obstacle --scene my-scene.json --sensor depth
-      your own scene: data/scene/README.md has the fields
+      your own scene: data/scene/README.md has the fields; depth and poses need no photographs
   visp-avoid-obstacle --replica fig8.7
       a figure of the thesis; --list names them
 
-Exit status: 0 done (also when the arm had to wait), 1 the data do not allow it, 2 the command line is wrong. Nothing is
-written unless all succeeded.)";
+Exit status: 0 done (also when the arm had to wait), 1 the data do not allow it, 2 the command line is wrong, 3 done, and the
+moving arm hit something.)";
 
 constexpr std::size_t NAME_COLUMN = 22; // width, characters
 

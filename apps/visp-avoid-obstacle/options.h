@@ -54,6 +54,9 @@ struct Options {
  */
 [[nodiscard]] bool readOptions(int argc, const char *const *argv, Options &options);
 
+//! Exit status beside those of vpApp::ExitStatus: there is a report, and in it the moving arm hits something.
+constexpr int ExitHit = 3;
+
 //! Version of visp-direct and of ViSP.
 [[nodiscard]] std::string versionText();
 } // namespace avoidObstacle

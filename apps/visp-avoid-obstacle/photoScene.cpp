@@ -62,6 +62,13 @@ void requireSize(const PhotoScene &scene, const vpObjectPhoto &photo, const Eige
   }
 }
 
+void addObstacle(PhotoScene &scene, const vpCollisionObject &object)
+{
+  vpMovingObstacle obstacle;
+  obstacle.object = object;
+  scene.obstacles.push_back(obstacle);
+}
+
 void dress(PhotoScene &scene, const vpObjectPhoto &photo, const vpCollisionObject &box,
            const std::vector<vpPlanarTargetSighting> &targets)
 {
@@ -79,9 +86,21 @@ void dress(PhotoScene &scene, const vpObjectPhoto &photo, const vpCollisionObjec
   dressed.size = size.head<2>();
   vpImageIo::read(dressed.image, imageOf(scene.targets, photo.target));
   scene.camera.photos.push_back(dressed);
-  vpMovingObstacle obstacle;
-  obstacle.object = box;
-  scene.obstacles.push_back(obstacle);
+  addObstacle(scene, box);
+}
+
+/*
+ * Of an object without a photograph. Sensors that need none see all objects of a scene in which none has one; where some
+ * have, the others are known from the start, unless they move.
+ */
+bool mustBeSeen(const PhotoScene &scene, SensorKind sensor, const vpCollisionObject &object)
+{
+  const bool moves = object.velocity.linearNorm() > 0. || object.velocity.angularNorm() > 0.;
+  if (sensor == SensorKind::Image && moves) {
+    throw std::runtime_error(scene.known.source + ": object " + object.name +
+                             " moves but has no photo, only what is seen may move");
+  }
+  return sensor != SensorKind::Image && (moves || scene.carriers.empty());
 }
 
 void requireTask(const PhotoScene &scene, const vpCollisionSceneFile &file)
@@ -128,23 +147,26 @@ PhotoScene loadPhotoScene(const Options &options)
                       : options.targets;
   requireTask(scene, content);
   scene.task = content.tasks.front();
-  if (scene.carriers.empty()) {
-    throw std::runtime_error(file + ": no object has a photo, there is nothing to see");
+  if (content.spec.objects.empty()) {
+    throw std::runtime_error(file + ": objects is empty, there is nothing to see");
   }
-  const vpPlanarTargetDatabase targets = loadTargets(scene);
+  if (options.sensor == SensorKind::Image && scene.carriers.empty()) {
+    throw std::runtime_error(file + ": no object has a photo, --sensor image sees nothing; depth and poses need none");
+  }
+  const std::vector<vpPlanarTargetSighting> targets =
+      scene.carriers.empty() ? std::vector<vpPlanarTargetSighting>() : loadTargets(scene).sightings();
   scene.known.objects.clear();
   for (const vpCollisionObject &object : content.spec.objects) {
     const auto photo = std::find_if(content.photos.begin(), content.photos.end(),
                                     [&](const vpObjectPhoto &p) { return p.object == object.name; });
-    if (photo == content.photos.end()) {
-      if (object.velocity.linearNorm() > 0. || object.velocity.angularNorm() > 0.) {
-        throw std::runtime_error(file + ": object " + object.name +
-                                 " moves but has no photo, only what is seen may move");
-      }
-      scene.known.objects.push_back(object);
+    if (photo != content.photos.end()) {
+      dress(scene, *photo, object, targets);
+    }
+    else if (mustBeSeen(scene, options.sensor, object)) {
+      addObstacle(scene, object);
     }
     else {
-      dress(scene, *photo, object, targets.sightings());
+      scene.known.objects.push_back(object);
     }
   }
   return scene;

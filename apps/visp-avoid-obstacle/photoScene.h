@@ -4,7 +4,7 @@
  */
 /*!
  * \file photoScene.h
- * \brief A scene whose boxes carry photographs: what is known from the start, and what has to be seen.
+ * \brief A scene: what is known from the start, and what has to be seen, by the photographs that boxes carry or without.
  */
 #ifndef avoidObstacle_photoScene_h
 #define avoidObstacle_photoScene_h
@@ -24,8 +24,8 @@ namespace avoidObstacle
 struct PhotoScene {
   std::shared_ptr<const vpArmModel> arm;
   std::string name;
-  vpCollisionSceneSpec known;              //!< Objects without a photograph, and the ground.
-  std::vector<vpMovingObstacle> obstacles; //!< Those with one: have to be seen.
+  vpCollisionSceneSpec known;              //!< Objects that need not be seen, and the ground.
+  std::vector<vpMovingObstacle> obstacles; //!< Those that have to be.
   std::vector<vpObjectPhoto> carriers;     //!< Which obstacle carries which target.
   vpSceneCameraSpec camera;                //!< With the photographs.
   std::string targets;                     //!< Folder of all photographs that are known.
@@ -38,8 +38,8 @@ struct PhotoScene {
 
 /*!
  * Read what the options name.
- * \throw std::runtime_error or vpException naming the file and the element: no task, a task for another arm, no obstacle
- * with a photograph, a target that is not in the folder, a box that has not its target's size.
+ * \throw std::runtime_error or vpException naming the file and the element: no task, a task for another arm, nothing
+ * to see with the sensor, a target that is not in the folder, a box that has not its target's size.
  */
 [[nodiscard]] PhotoScene loadPhotoScene(const Options &options);
 //! The database of photographs with settings for a control loop.

@@ -6,6 +6,8 @@
 
 #include "numberText.h"
 
+#include <visp3/direct_core/vpQuantile.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -17,16 +19,6 @@ using vpApp::fixed;
 using vpApp::number;
 
 constexpr double SHORTEST_TURN = 0.05; // s
-
-double median(std::vector<double> values)
-{
-  if (values.empty()) {
-    return 0.;
-  }
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 void addFrames(const Diary &diary, Acquaintance &a)
 {
@@ -51,8 +43,8 @@ void addFrames(const Diary &diary, Acquaintance &a)
       a.worstError = std::max(a.worstError, sight.error);
     }
   }
-  a.medianError = median(errors);
-  a.medianSigma = median(sigmas);
+  a.medianError = vpMedian(errors);
+  a.medianSigma = vpMedian(sigmas);
 }
 
 void addTracks(const Diary &diary, Acquaintance &a)
@@ -82,7 +74,7 @@ std::string ending(const vpAvoidanceRun &run)
     return "The arm " + m.status + ". In the end the tool was " + mm(m.goal_error_m) + " from the goal.";
   }
   return "The tool did not arrive: after " + fixed(run.samples.back().time, 2) + " s it was " + mm(m.goal_error_m) +
-         " from the goal, and touched nothing. " + sentence(run.samples.back().status);
+         " from the goal, and touched nothing. " + run.sentence;
 }
 
 std::string seeing(const Acquaintance &a, const vpAvoidanceRun &run)

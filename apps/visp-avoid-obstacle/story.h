@@ -25,9 +25,9 @@ struct Acquaintance {
   std::optional<double> lastSeen;  //!< Exposure, s.
   std::optional<double> lost;      //!< First exposure after #lastSeen, s; none: seen to the end.
   double gap = 0.;                 //!< Longest time between two exposures in which it was seen, s.
-  double medianError = 0.;         //!< Of the seen place, m.
+  double medianError = 0.;         //!< Of the seen place, m; NaN: never seen.
   double worstError = 0.;          //!< m.
-  double medianSigma = 0.;         //!< That the sightings told, m.
+  double medianSigma = 0.;         //!< That the sightings told, m; NaN: never seen.
   double worstTrackError = 0.;     //!< Of the place in the track table, m.
   double leastMargin = 0.;         //!< Least inflation less error of the track while there was one, m.
 };

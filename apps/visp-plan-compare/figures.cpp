@@ -8,6 +8,8 @@
 #include "jobs.h"
 #include "timePlot.h"
 
+#include <visp3/direct_core/vpQuantile.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -129,7 +131,7 @@ std::string heroOf(const Plan &plan, const Results &results, const std::string &
   double shortest = 0.;
   for (const std::string &method : plan.methods) {
     const Cell cell = results.cell(scene, method);
-    const double duration = median(cell.values(&vpAvoidanceMetrics::duration_s, true));
+    const double duration = vpMedian(cell.values(&vpAvoidanceMetrics::duration_s, true));
     if (cell.successes() > most || (cell.successes() == most && duration < shortest)) {
       best = method;
       most = cell.successes();

@@ -7,6 +7,8 @@
 #include "figures.h"
 #include "numberText.h"
 
+#include <visp3/direct_core/vpQuantile.h>
+
 #include <algorithm>
 
 namespace planCompare
@@ -50,7 +52,7 @@ std::vector<std::string> unbeatenScenes(const Plan &plan, const Results &results
 std::vector<std::string> quickestScenes(const Plan &plan, const Results &results, const std::string &method)
 {
   const auto duration = [&](const std::string &scene, const std::string &m) {
-    return median(results.cell(scene, m).values(&M::duration_s, true));
+    return vpMedian(results.cell(scene, m).values(&M::duration_s, true));
   };
   std::vector<std::string> scenes;
   for (const std::string &scene : unbeatenScenes(plan, results, method)) {
@@ -150,8 +152,9 @@ std::string verdictOf(const Plan &plan, const Results &results, const std::strin
                                     : "the tool's bound of speed was exceeded in " + std::to_string(overSpeed) +
                                           " runs, that of acceleration in " + std::to_string(overTool) + ". ";
   const std::vector<double> replan = cell.replanTimes();
-  text += "Looking again takes " + msText(percentile(replan, .5)) + " ms (median) and " +
-          msText(percentile(replan, .99)) + " ms (99 %).";
+  text += replan.empty() ? ""
+                         : "Looking again takes " + msText(vpMedian(replan)) + " ms (median) and " +
+                               msText(vpQuantile(replan, .99)) + " ms (99 %).";
   const int falseStops = cell.sum(&M::false_stops), stops = cell.sum(&M::stops);
   if (stops > 0) {
     text += " " + countText(falseStops, static_cast<std::size_t>(stops)) + " stops were false.";
@@ -169,7 +172,7 @@ std::vector<std::string> findingsOf(const Plan &plan, const Results &results, co
     return findings;
   }
   findings.push_back(nameOf(hero) + " succeeds in " + countText(best.successes(), best.runs.size()) + " runs, in " +
-                     fixed(median(best.values(&M::duration_s, true)), 2) + " s (median).");
+                     fixed(vpMedian(best.values(&M::duration_s, true)), 2) + " s (median).");
   std::vector<std::string> touching;
   for (const std::string &method : plan.methods) {
     const Cell cell = results.cell(scene.id, method);

@@ -7,6 +7,8 @@
 #include "findings.h"
 #include "numberText.h"
 
+#include <visp3/direct_core/vpQuantile.h>
+
 #include <algorithm>
 
 namespace planCompare
@@ -65,19 +67,21 @@ const std::vector<Column> &columns()
          const std::vector<double> v = c.values(&M::min_clearance_m, false);
          return v.empty() ? std::string("-") : fixed(1000. * *std::min_element(v.begin(), v.end()), 1);
        }},
-      {"goal mm", [](const Cell &c) { return mmText(median(c.values(&M::goal_error_m, false))); }},
-      {"s", [](const Cell &c) { return c.successes() > 0 ? fixed(median(c.values(&M::duration_s, true)), 2) : "-"; }},
+      {"goal mm", [](const Cell &c) { return mmText(vpMedian(c.values(&M::goal_error_m, false))); }},
+      {"s", [](const Cell &c) { return c.successes() > 0 ? fixed(vpMedian(c.values(&M::duration_s, true)), 2) : "-"; }},
       {"path m",
-       [](const Cell &c) { return c.successes() > 0 ? fixed(median(c.values(&M::path_length, true)), 2) : "-"; }},
-      {"v", [](const Cell &c) { return number(percentile(c.values(&M::peak_v, false), 1.), 3); }},
-      {"a", [](const Cell &c) { return number(percentile(c.values(&M::peak_a, false), 1.), 3); }},
-      {"jerk", [](const Cell &c) { return number(percentile(c.values(&M::peak_jerk, false), 1.), 3); }},
+       [](const Cell &c) { return c.successes() > 0 ? fixed(vpMedian(c.values(&M::path_length, true)), 2) : "-"; }},
+      {"v", [](const Cell &c) { return number(vpQuantile(c.values(&M::peak_v, false), 1.), 3); }},
+      {"a", [](const Cell &c) { return number(vpQuantile(c.values(&M::peak_a, false), 1.), 3); }},
+      {"jerk", [](const Cell &c) { return number(vpQuantile(c.values(&M::peak_jerk, false), 1.), 3); }},
       {"jerk^2",
-       [](const Cell &c) { return c.successes() > 0 ? number(median(c.values(&M::jerk_integral, true)), 3) : "-"; }},
+       [](const Cell &c) { return c.successes() > 0 ? number(vpMedian(c.values(&M::jerk_integral, true)), 3) : "-"; }},
       {"replan ms",
        [](const Cell &c) {
          const std::vector<double> t = c.replanTimes();
-         return msText(percentile(t, .5)) + " / " + msText(percentile(t, .95)) + " / " + msText(percentile(t, .99));
+         return t.empty()
+                    ? std::string("-")
+                    : msText(vpMedian(t)) + " / " + msText(vpQuantile(t, .95)) + " / " + msText(vpQuantile(t, .99));
        }},
       {"false stops",
        [](const Cell &c) {
@@ -124,7 +128,7 @@ HtmlTable mainTable(const Plan &plan, const Results &results)
       success.hint =
           intervalText(cell) + "; " + std::to_string(cell.runsWith(&M::collisions_moving)) + " runs touched something";
       row.push_back(success);
-      row.emplace_back(cell.successes() > 0 ? fixed(median(cell.values(&M::duration_s, true)), 1) : "-");
+      row.emplace_back(cell.successes() > 0 ? fixed(vpMedian(cell.values(&M::duration_s, true)), 1) : "-");
     }
     table.rows.push_back(row);
   }

@@ -30,24 +30,4 @@ double mcNemar(int onlyFirst, int onlySecond)
   }
   return std::min(1., 2. * p);
 }
-
-double percentile(std::vector<double> values, double share)
-{
-  if (values.empty()) {
-    return 0.;
-  }
-  std::sort(values.begin(), values.end());
-  const double rank = std::ceil(share * static_cast<double>(values.size()) - 1e-9);
-  return values[static_cast<std::size_t>(std::max(1., rank)) - 1];
-}
-
-double median(std::vector<double> values)
-{
-  if (values.empty()) {
-    return 0.;
-  }
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-}
 } // namespace planCompare

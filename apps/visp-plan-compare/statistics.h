@@ -30,11 +30,6 @@ struct Interval {
  * \param onlyFirst, onlySecond : Pairs in which only one of the two succeeded; >= 0. \return p, 1 when there are none.
  */
 [[nodiscard]] double mcNemar(int onlyFirst, int onlySecond);
-
-//! Nearest rank, 0 < share <= 1; 0 of nothing. \param values : In any order.
-[[nodiscard]] double percentile(std::vector<double> values, double share);
-//! Mean of the two in the middle for an even number; 0 of nothing.
-[[nodiscard]] double median(std::vector<double> values);
 } // namespace planCompare
 
 #endif

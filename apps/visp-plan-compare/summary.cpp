@@ -6,6 +6,8 @@
 
 #include "options.h"
 
+#include <visp3/direct_core/vpQuantile.h>
+
 #include <algorithm>
 
 namespace planCompare
@@ -17,7 +19,7 @@ using Json = nlohmann::ordered_json;
 //! Median, and what 5 and 95 % of the runs stay below.
 Json spread(const std::vector<double> &values)
 {
-  return {{"median", median(values)}, {"p5", percentile(values, 0.05)}, {"p95", percentile(values, 0.95)}};
+  return {{"median", vpMedian(values)}, {"p5", vpQuantile(values, 0.05)}, {"p95", vpQuantile(values, 0.95)}};
 }
 
 Json cellJson(const SceneInfo &scene, const std::string &method, const Cell &cell)
@@ -44,9 +46,9 @@ Json cellJson(const SceneInfo &scene, const std::string &method, const Cell &cel
           {"peak_jerk", spread(cell.values(&M::peak_jerk, false))},
           {"jerk_integral", spread(cell.values(&M::jerk_integral, true))},
           {"path_length", spread(cell.values(&M::path_length, true))},
-          {"plan_ms", {{"p50", percentile(plan, .5)}, {"p95", percentile(plan, .95)}, {"p99", percentile(plan, .99)}}},
+          {"plan_ms", {{"p50", vpQuantile(plan, .5)}, {"p95", vpQuantile(plan, .95)}, {"p99", vpQuantile(plan, .99)}}},
           {"replan_ms",
-           {{"p50", percentile(replan, .5)}, {"p95", percentile(replan, .95)}, {"p99", percentile(replan, .99)}}},
+           {{"p50", vpQuantile(replan, .5)}, {"p95", vpQuantile(replan, .95)}, {"p99", vpQuantile(replan, .99)}}},
           {"stops", cell.sum(&M::stops)},
           {"false_stops", cell.sum(&M::false_stops)},
           {"runs_with_collision_moving", cell.runsWith(&M::collisions_moving)},

@@ -10,6 +10,7 @@
 
 #include <visp3/avoidance/vpPathPlanner.h>
 #include <visp3/core/vpException.h>
+#include <visp3/direct_core/vpQuantile.h>
 
 namespace planCompare
 {
@@ -62,8 +63,8 @@ ValidatorRow compareOn(const vpCollisionScene &scene, const vpCollisionSceneFile
     }
     vpApp::throwIfInterrupted();
   }
-  row.p50 = percentile(times, 0.50);
-  row.p95 = percentile(times, 0.95);
+  row.p50 = vpQuantile(times, 0.50);
+  row.p95 = vpQuantile(times, 0.95);
   return row;
 }
 } // namespace

@@ -15,6 +15,7 @@ namespace
 {
 constexpr int DATA = 1;
 constexpr int USAGE = 2;
+constexpr int HIT = 3;
 
 //! The default scene, with one piece replaced.
 std::string scene(const std::string &piece = "", const std::string &replacement = "")
@@ -43,11 +44,11 @@ void check(ProgramRun &run, const std::string &arguments, int status, const std:
   CHECK(before == after);
 }
 
-nlohmann::json summaryOf(ProgramRun &run, const std::string &arguments)
+nlohmann::json summaryOf(ProgramRun &run, const std::string &arguments, int expected = 0)
 {
   const int status = run(arguments + " --out result");
   CAPTURE(arguments, run.err());
-  REQUIRE(status == 0);
+  REQUIRE(status == expected);
   return vpApp::readJsonFile(run.path("result/summary.json").string());
 }
 
@@ -106,7 +107,7 @@ TEST_CASE("A bad scene ends with a sentence that names file and element", "[visp
     check(run, "--scene bad.json", DATA, "bad.json: " + sentence);
   };
   bad("\"photo\": \"box\"", "\"photo\": \"mona-lisa\"", "photo of object parcel is mona-lisa, must be a target of ");
-  bad(", \"photo\": \"box\"", "", "no object has a photo, there is nothing to see");
+  bad(", \"photo\": \"box\"", "", "no object has a photo, --sensor image sees nothing; depth and poses need none");
   bad("[0.16, 0.11012, 0.06]", "[0.2, 0.11012, 0.06]",
       "size_m of object parcel is 0.2 x 0.1101, its photo box is 0.16");
   bad("\"shape\": \"box\", \"size_m\": [0.16, 0.11012, 0.06]", "\"shape\": \"sphere\", \"radius_m\": 0.1",
@@ -130,7 +131,7 @@ TEST_CASE("From image to joints: round what is seen, into what is not", "[visp-a
   ProgramRun run(AVOID_OBSTACLE);
   // The same scene twice. With the camera covered all the time nobody knows of the box, and the tool runs into it: so
   // it is the pictures that make the difference.
-  const nlohmann::json blind = summaryOf(run, "--hide 0:100" + onlyBox(run));
+  const nlohmann::json blind = summaryOf(run, "--hide 0:100" + onlyBox(run), HIT);
   CHECK_FALSE(blind.at("metrics").at("success").get<bool>());
   CHECK(blind.at("metrics").at("collisions_moving").get<int>() > 0);
   CHECK(blind.at("metrics").at("min_clearance_m").get<double>() < 0.);
@@ -210,6 +211,30 @@ TEST_CASE("Depth images and poses lead round the box, too", "[visp-avoid-obstacl
   }
 }
 
+TEST_CASE("Depth images and poses need no photograph", "[visp-avoid-obstacle]")
+{
+  ProgramRun run(AVOID_OBSTACLE);
+  run.write("my-scene.json", scene(", \"photo\": \"box\"", ""));
+  for (const char *sensor : {"depth", "poses"}) {
+    CAPTURE(sensor);
+    const nlohmann::json seeing = summaryOf(run, std::string("--scene my-scene.json --sensor ") + sensor);
+    CHECK(seeing.at("metrics").at("success").get<bool>());
+    CHECK(seeing.at("metrics").at("min_clearance_m").get<double>() > 0.);
+    // It is what is seen that makes the difference: in the dark it runs into the box, and the status says so.
+    const nlohmann::json blind =
+        summaryOf(run, std::string("--scene my-scene.json --hide 0:100 --sensor ") + sensor, HIT);
+    CHECK(blind.at("metrics").at("collisions_moving").get<int>() > 0);
+  }
+  // A ball, which carries no photograph, and moves.
+  run.write("ball.json", scene("\"shape\": \"box\", \"size_m\": [0.16, 0.11012, 0.06], \"photo\": \"box\"",
+                               "\"shape\": \"sphere\", \"radius_m\": 0.06, \"velocity\": {\"linear_m_s\": [0, 0, "
+                               "0.01]}"));
+  CHECK(summaryOf(run, "--scene ball.json --sensor poses").at("metrics").at("success").get<bool>());
+  run.write("none.json", R"({"name": "s", "objects": [], "tasks": [{"name": "t", "start_rad": [0, 0, 0, 0, 0, 0, 0],
+                            "goal_rad": [1, 0, 0, 0, 0, 0, 0]}]})");
+  check(run, "--scene none.json --sensor depth", DATA, "none.json: objects is empty, there is nothing to see");
+}
+
 TEST_CASE("A replica leaves its report", "[visp-avoid-obstacle]")
 {
   ProgramRun run(AVOID_OBSTACLE);
@@ -218,7 +243,16 @@ TEST_CASE("A replica leaves its report", "[visp-avoid-obstacle]")
   CHECK(std::filesystem::exists(run.path("result/figure/snapshot-6.svg")));
   CHECK(vpApp::readFile(run.path("result/report.html")).find("Replica of figure 8.12") != std::string::npos);
   REQUIRE(run("--list") == 0);
-  for (const char *name : {"dtg-via", "planner-dtg", "fig8.6", "fig8.13"}) {
+  std::istringstream list(run.out());
+  std::string line;
+  int named = 0;
+  while (std::getline(list, line)) { // a name and a sentence each, but for the two headings
+    CAPTURE(line);
+    CHECK((line.find("  ") != 0 || line.size() > line.find(": ") + 20));
+    named += line.find("  ") == 0 ? 1 : 0;
+  }
+  CHECK(named == 6 + 8);
+  for (const char *name : {"  dtg-via: ", "  planner-dtg: ", "  fig8.6: ", "  fig8.13: "}) {
     CHECK(run.out().find(name) != std::string::npos);
   }
 }

@@ -96,17 +96,6 @@ TEST_CASE("McNemar's exact test is a sign test", "[statistics]")
   CHECK(mcNemar(300, 900) < 1e-60); // factorials of 1200 would overflow
 }
 
-TEST_CASE("Percentiles by nearest rank", "[statistics]")
-{
-  CHECK(percentile({}, 0.5) == 0.);
-  CHECK(percentile({3., 1., 2.}, 0.5) == 2.);
-  CHECK(percentile({4., 3., 1., 2.}, 0.95) == 4.);
-  CHECK(percentile({5., 4., 3., 2., 1.}, 0.2) == 1.);
-  CHECK(percentile({5., 4., 3., 2., 1.}, 0.21) == 2.);
-  CHECK(median({4., 1., 3., 2.}) == 2.5);
-  CHECK(median({}) == 0.);
-}
-
 TEST_CASE("Sentences follow the numbers", "[findings]")
 {
   const auto joined = [](const std::vector<std::string> &sentences) {

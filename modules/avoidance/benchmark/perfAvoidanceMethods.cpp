@@ -6,11 +6,11 @@
 // planners are the peers: their start is OMPL's RRTConnect on certified motions, with path and timing.
 #include <visp3/avoidance/vpAvoidanceMethods.h>
 #include <visp3/avoidance/vpCollisionSceneJson.h>
+#include <visp3/direct_core/vpQuantile.h>
 #include <visp3/manipulator/vpArmJson.h>
 
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
 #include <chrono>
 #include <vector>
 
@@ -22,12 +22,6 @@ using Clock = std::chrono::steady_clock;
 constexpr double period = 0.005;
 
 double since(Clock::time_point begin) { return 1e6 * std::chrono::duration<double>(Clock::now() - begin).count(); }
-
-double quantile(std::vector<double> &values, double share)
-{
-  std::sort(values.begin(), values.end());
-  return values.empty() ? 0. : values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-}
 
 void motions(benchmark::State &state, const char *name)
 {
@@ -46,7 +40,7 @@ void motions(benchmark::State &state, const char *name)
     static_cast<void>(method->start(q, goal));
     starts.push_back(since(begin));
     output.status = vpAvoidanceStatus::Moving;
-    for (int k = 1; k < 3000 && output.status != vpAvoidanceStatus::Arrived; ++k) {
+    for (int k = 1; k < 3000 && isWorking(output); ++k) {
       if (k % 7 == 0) {
         begin = Clock::now();
         method->look();
@@ -58,11 +52,11 @@ void motions(benchmark::State &state, const char *name)
       q += period * output.velocity;
     }
   }
-  state.counters["start_us_p50"] = quantile(starts, 0.5);
-  state.counters["look_us_p50"] = quantile(looks, 0.5);
-  state.counters["look_us_p95"] = quantile(looks, 0.95);
-  state.counters["step_us_p50"] = quantile(steps, 0.5);
-  state.counters["step_us_p99"] = quantile(steps, 0.99);
+  state.counters["start_us_p50"] = vpQuantile(starts, 0.5);
+  state.counters["look_us_p50"] = vpQuantile(looks, 0.5);
+  state.counters["look_us_p95"] = vpQuantile(looks, 0.95);
+  state.counters["step_us_p50"] = vpQuantile(steps, 0.5);
+  state.counters["step_us_p99"] = vpQuantile(steps, 0.99);
 }
 } // namespace
 

@@ -6,11 +6,11 @@
 // side, and the other planners. first_ms is the planner's own time without shortening.
 #include <visp3/avoidance/vpCollisionSceneJson.h>
 #include <visp3/avoidance/vpPathPlanner.h>
+#include <visp3/direct_core/vpQuantile.h>
 #include <visp3/manipulator/vpArmJson.h>
 
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
 #include <string>
 
 VISP_DIRECT_USING_NAMESPACE
@@ -18,12 +18,6 @@ VISP_DIRECT_USING_NAMESPACE
 namespace
 {
 std::string dataFile(const std::string &name) { return std::string(VISP_DIRECT_DATA_DIR) + "/" + name; }
-
-double quantile(std::vector<double> sorted, double share)
-{
-  std::sort(sorted.begin(), sorted.end());
-  return sorted.empty() ? 0. : sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1) + 0.5)];
-}
 
 void plan(benchmark::State &state, const std::string &file, const std::string &planner, vpMotionValidation validation)
 {
@@ -50,8 +44,8 @@ void plan(benchmark::State &state, const std::string &file, const std::string &p
   }
   const double runs = static_cast<double>(times.size());
   state.counters["solved_%"] = 100. * solved / runs;
-  state.counters["first_ms_p50"] = quantile(times, 0.5);
-  state.counters["first_ms_p95"] = quantile(times, 0.95);
+  state.counters["first_ms_p50"] = vpQuantile(times, 0.5);
+  state.counters["first_ms_p95"] = vpQuantile(times, 0.95);
   state.counters["motions"] = static_cast<double>(motions) / runs;
 }
 

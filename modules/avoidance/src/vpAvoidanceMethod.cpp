@@ -4,6 +4,8 @@
  */
 #include <visp3/avoidance/vpAvoidanceMethod.h>
 
+#include "vpPairText.h"
+
 #include <visp3/core/vpException.h>
 
 #include <cmath>
@@ -25,11 +27,18 @@ void requireGood(const char *field, double value, bool good, const char *range)
 
 void vpAvoidanceMethodSpec::validate() const
 {
-  requireGood("period", period, period > 0., "> 0 s");
+  requireGood("period", period, period > 0. && period <= 1., "> 0 s and at most 1 s");
   requireGood("maxVelocity", maxVelocity, maxVelocity > 0., "> 0 m/s");
   requireGood("maxAcceleration", maxAcceleration, maxAcceleration > 0., "> 0 m/s^2");
   requireGood("margin", margin, margin >= 0., ">= 0 m");
   requireGood("seed", seed, seed >= 1, ">= 1");
+}
+
+bool vpAvoidanceGoal::fits(const vpArmModel &model) const noexcept
+{
+  constexpr double fastest = 1e3; // m/s
+  return (q.size() == 0 || (q.size() == model.size() && (q.cwiseAbs().array() <= vpLargestCoordinate).all())) &&
+         (position.cwiseAbs().array() <= vpLargestLength).all() && (velocity.cwiseAbs().array() <= fastest).all();
 }
 
 vpAvoidanceGoal vpAvoidanceGoal::at(const vpArmModel &model, const vpJointVector &q)
@@ -104,9 +113,9 @@ const char *sentence(vpAvoidanceStatus status)
   case vpAvoidanceStatus::Arrived:
     return "The arm is at the goal.";
   case vpAvoidanceStatus::GoalInCollision:
-    return "The arm waits: at the goal it would touch something.";
+    return "The arm waits: at the goal something would be nearer than the margin.";
   case vpAvoidanceStatus::StartInCollision:
-    return "The arm stands: it touches something already.";
+    return "The arm stands: something is nearer to it than the margin.";
   case vpAvoidanceStatus::Unreachable:
     return "The arm stands: it cannot get to the goal, obstacles or not.";
   case vpAvoidanceStatus::Unsafe:
@@ -114,7 +123,20 @@ const char *sentence(vpAvoidanceStatus status)
   case vpAvoidanceStatus::InvalidInput:
     break;
   }
-  return "The configuration or the goal is not finite or of a wrong size; the arm brakes.";
+  return "The configuration or the goal is not finite, out of range or of a wrong size; the arm brakes.";
+}
+
+std::string sentence(const vpAvoidanceOutput &output, const vpCollisionScene &scene, double margin)
+{
+  const std::string plain = sentence(output.status);
+  const std::size_t colon = plain.find(':');
+  const bool aboutPair =
+      output.status == vpAvoidanceStatus::StartInCollision || output.status == vpAvoidanceStatus::GoalInCollision;
+  if (!aboutPair || output.pair.kind == vpCollisionKind::None || colon == std::string::npos) {
+    return plain;
+  }
+  const std::string where = output.status == vpAvoidanceStatus::GoalInCollision ? " at the goal " : " ";
+  return plain.substr(0, colon + 1) + where + vpPairText(scene, output.pair, margin) + ".";
 }
 
 END_VISP_NAMESPACE

@@ -10,13 +10,41 @@
 #include <visp3/avoidance/vpPotentialFieldAvoidance.h>
 #include <visp3/core/vpException.h>
 
+#include <algorithm>
+#include <array>
+
 BEGIN_VISP_NAMESPACE
+
+namespace
+{
+struct Known {
+  const char *name, *sentence;
+};
+constexpr std::array<Known, 6> known{
+    {{"potential", "is pushed aside in the image, as the thesis prints it (8.1)-(8.2): touches and overshoots"},
+     {"potential-corrected", "is pushed away from the obstacle, within bounds of speed and joints"},
+     {"dtg", "takes another final position beside the obstacle until the way to the goal is free"},
+     {"dtg-via", "takes via positions round the obstacle, the shortest way first"},
+     {"planner", "brakes, and plans anew when it stands"},
+     {"planner-dtg", "plans anew from the moving state, and brakes only if there is no way"}}};
+} // namespace
 
 const std::vector<std::string> &avoidanceMethodNames()
 {
-  static const std::vector<std::string> names{"potential", "potential-corrected", "dtg", "dtg-via",
-                                              "planner",   "planner-dtg"};
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const Known &method : known) {
+      all.emplace_back(method.name);
+    }
+    return all;
+  }();
   return names;
+}
+
+const char *avoidanceMethodSentence(const std::string &name) noexcept
+{
+  const auto found = std::find_if(known.begin(), known.end(), [&name](const Known &m) { return name == m.name; });
+  return found == known.end() ? "" : found->sentence;
 }
 
 std::unique_ptr<vpAvoidanceMethod> makeAvoidanceMethod(const std::string &name, const vpCollisionScene &scene,
@@ -37,11 +65,11 @@ std::unique_ptr<vpAvoidanceMethod> makeAvoidanceMethod(const std::string &name, 
     full.detour = name == "dtg" ? vpDetourKind::Final : vpDetourKind::Via;
     return std::make_unique<vpDirectTrajectoryAvoidance>(scene, full);
   }
-  std::string known;
+  std::string names;
   for (const std::string &other : avoidanceMethodNames()) {
-    known += (known.empty() ? "" : ", ") + other;
+    names += (names.empty() ? "" : ", ") + other;
   }
-  throw vpException(vpException::badValue, "unknown avoidance method '%s', known are %s", name.c_str(), known.c_str());
+  throw vpException(vpException::badValue, "unknown avoidance method '%s', known are %s", name.c_str(), names.c_str());
 }
 
 END_VISP_NAMESPACE

@@ -6,7 +6,7 @@
 #ifndef vpBoxTree_h
 #define vpBoxTree_h
 
-#include <visp3/avoidance/vpSegmentDistance.h>
+#include "vpSegmentNearest.h"
 
 #include <limits>
 #include <vector>
@@ -93,7 +93,7 @@ private:
   [[nodiscard]] double bound(int i, const Eigen::Vector3d &from, const Eigen::Vector3d &to) const noexcept
   {
     const vpBoxTreeNode &node = m_nodes[static_cast<std::size_t>(i)];
-    return vpSegmentDistance::box(from - node.centre, to - node.centre, node.half).distance;
+    return vpSegmentNearest::box(from - node.centre, to - node.centre, node.half).distance;
   }
   void split(std::size_t node, int first, int count, const std::vector<Item> &items);
 

@@ -18,6 +18,7 @@ namespace
 {
 // 8^-14 of the motion: below any resolution that doubles can show.
 constexpr int maxDepth = 14;
+constexpr int mostLooks = 8000000; // a motion that needs more is undecided
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -161,7 +162,7 @@ struct vpMotionScratch::Memory {
         if ((open[k] >> lane & 1) == 0) {
           continue;
         }
-        if (!next || 0.5 * piece * fastest < resolution) {
+        if (!next || !(0.5 * piece * fastest >= resolution) || result.evaluated >= mostLooks) {
           stop(vpMotionStatus::Undecided, pairs[list[k]], start + (lane + 0.5) * piece);
           return false;
         }
@@ -198,7 +199,7 @@ vpMotionResult vpCertifiedMotion::check(const vpJointVector &from, const vpJoint
 {
   vpMotionScratch::Memory &memory = *scratch.m_memory;
   memory.result = vpMotionResult();
-  if (from.size() != m_scene->arm().size() || to.size() != from.size() || !from.allFinite() || !to.allFinite()) {
+  if (!m_reach.holds(from) || !m_reach.holds(to)) {
     return memory.result;
   }
   memory.fit(*m_scene);

@@ -15,7 +15,10 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-constexpr int deepest = 40; // halvings; the resolution ends it long before
+constexpr int deepest = 40;        // halvings; the resolution ends it long before
+constexpr double rounding = 1e-9;  // m, of distances
+constexpr double longest = 1e6;    // s: no time of a plan is beyond
+constexpr double largestWay = 1e9; // rad or m, of a joint in an interval: no motion of an arm
 
 // What an object moves by within h, at most.
 double motionOf(const vpCollisionScene &scene, int object, double h)
@@ -38,11 +41,53 @@ vpCertifiedTrajectory::vpCertifiedTrajectory(const vpCollisionScene &scene, cons
                       spec.resolution);
   }
   m_acceleration.setZero(scene.arm().size());
+  m_speed = m_kink = m_jump = m_acceleration;
 }
 
 void vpCertifiedTrajectory::setMargin(double margin) noexcept
 {
   m_spec.margin = margin >= 0. && std::isfinite(margin) ? margin : 0.;
+}
+
+// What bounds the motion between looks; false when a number is not finite.
+bool vpCertifiedTrajectory::study(const vpTrajectoryPlan &plan) noexcept
+{
+  for (int j = 0; j < plan.axes(); ++j) {
+    const vpAxisState goal = plan.at(j, plan.duration(j));
+    m_acceleration(j) = std::fabs(goal[2]);
+    m_speed(j) = std::max(std::fabs(goal[1]), std::fabs(plan.at(j, 2. * longest)[1]));
+    m_kink(j) = m_jump(j) = 0.;
+    double next = goal[1], x = goal[0]; // velocity and place where the segment behind begins
+    for (int i = plan.segments(j) - 1; i >= 0; --i) {
+      const vpTrajectorySegment &s = plan.segment(j, i);
+      double sum = s.begin + s.duration; // one NaN or infinity makes it one
+      for (int k = 0; k <= s.p.degree(); ++k) {
+        sum += std::fabs(s.p[k]);
+      }
+      if (!std::isfinite(sum) || !(s.duration > 0.)) {
+        return false;
+      }
+      const auto begin = s.p.jet(0.), end = s.p.jet(1.);
+      const double rate = 1. / s.duration;
+      if (s.p.degree() <= 2) { // both are largest at an end
+        m_speed(j) = std::max({m_speed(j), rate * std::fabs(begin[1]), rate * std::fabs(end[1])});
+        m_acceleration(j) = std::max(m_acceleration(j), rate * rate * std::fabs(end[2]));
+      }
+      else {
+        const vpPolynomial v = s.p.derivative();
+        m_speed(j) = std::max(m_speed(j), rate * v.range().peak());
+        m_acceleration(j) = std::max(m_acceleration(j), rate * rate * v.derivative().range().peak());
+      }
+      m_kink(j) += std::fabs(next - end[1] * rate);
+      m_jump(j) += std::fabs(x - end[0]);
+      next = begin[1] * rate;
+      x = begin[0];
+    }
+    if (!std::isfinite(m_acceleration(j) + m_speed(j) + m_kink(j) + m_jump(j) + std::fabs(goal[0]))) {
+      return false;
+    }
+  }
+  return true;
 }
 
 vpCertifiedTrajectory::Verdict vpCertifiedTrajectory::look(const vpTrajectoryPlan &plan, double middle, double half,
@@ -53,7 +98,12 @@ vpCertifiedTrajectory::Verdict vpCertifiedTrajectory::look(const vpTrajectoryPla
   for (int j = 0; j < n; ++j) {
     const vpAxisState x = plan.at(j, middle);
     q(j) = x[0];
-    way(j) = std::fabs(x[1]) * half + 0.5 * m_acceleration(j) * half * half;
+    const double braked = std::fabs(x[1]) + m_kink(j) + 0.5 * m_acceleration(j) * half;
+    way(j) = std::min(braked, m_speed(j)) * half + m_jump(j);
+  }
+  const bool inRange = m_reach.holds(q, way);
+  if ((!inRange && !m_reach.holds(q)) || !(way.array() <= largestWay).all()) {
+    return Verdict::Bad;
   }
   double farthest = 0., objects = 0.;
   for (int i = 0; i < capsules; ++i) {
@@ -69,9 +119,9 @@ vpCertifiedTrajectory::Verdict vpCertifiedTrajectory::look(const vpTrajectoryPla
   }
   m_largest = farthest + std::max(farthest, objects);
   m_scene->place(q, m_data);
-  m_scene->near(m_data, m_spec.margin + m_largest, m_near, objectTime);
+  m_scene->near(m_data, m_spec.margin + m_largest + 2. * rounding, m_near, objectTime);
   ++result.evaluated;
-  Verdict verdict = m_near.dropped ? Verdict::Split : Verdict::Free;
+  Verdict verdict = m_near.dropped || !inRange ? Verdict::Split : Verdict::Free;
   for (int k = 0; k < m_near.count; ++k) {
     const vpClearance &pair = m_near.pairs[static_cast<std::size_t>(k)];
     double moves = m_motion[static_cast<std::size_t>(pair.capsule)];
@@ -79,11 +129,11 @@ vpCertifiedTrajectory::Verdict vpCertifiedTrajectory::look(const vpTrajectoryPla
              : pair.kind == vpCollisionKind::Object ? motionOf(*m_scene, pair.other, half)
                                                     : 0.;
     result.least = std::min(result.least, pair.distance);
-    if (pair.distance <= m_spec.margin) {
+    if (!(pair.distance > m_spec.margin)) {
       result.pair = pair;
       return Verdict::Collision;
     }
-    if (pair.distance <= m_spec.margin + moves) {
+    if (!(pair.distance > m_spec.margin + moves + rounding)) {
       result.pair = pair;
       verdict = Verdict::Split;
     }
@@ -94,26 +144,23 @@ vpCertifiedTrajectory::Verdict vpCertifiedTrajectory::look(const vpTrajectoryPla
 vpTrajectoryClearance vpCertifiedTrajectory::check(const vpTrajectoryPlan &plan, double from, double to,
                                                    double age) noexcept
 {
-  return search(plan, from, to, age, true);
+  return search(plan, from, to, age, true, mostLooks);
 }
 
-vpTrajectoryClearance vpCertifiedTrajectory::verdict(const vpTrajectoryPlan &plan, double from, double to,
-                                                     double age) noexcept
+vpTrajectoryClearance vpCertifiedTrajectory::verdict(const vpTrajectoryPlan &plan, double from, double to, double age,
+                                                     int looks) noexcept
 {
-  return search(plan, from, to, age, false);
+  return search(plan, from, to, age, false, looks);
 }
 
 vpTrajectoryClearance vpCertifiedTrajectory::search(const vpTrajectoryPlan &plan, double from, double to, double age,
-                                                    bool first) noexcept
+                                                    bool first, int looks) noexcept
 {
   vpTrajectoryClearance result;
   result.least = std::numeric_limits<double>::infinity();
-  const int n = m_scene->arm().size();
-  if (plan.axes() != n || !std::isfinite(from) || !std::isfinite(to) || !std::isfinite(age) || from > to) {
+  if (plan.axes() != m_scene->arm().size() || !(std::fabs(from) <= longest) || !(std::fabs(to) <= longest) ||
+      !(std::fabs(age) <= longest) || from > to || !study(plan)) {
     return result;
-  }
-  for (int j = 0; j < n; ++j) {
-    m_acceleration(j) = plan.peaks(j).acceleration;
   }
   // Depth first and from the start on: all before the place that is told is proven to be free.
   struct Part {
@@ -125,9 +172,19 @@ vpTrajectoryClearance vpCertifiedTrajectory::search(const vpTrajectoryPlan &plan
   bool collides = false;
   while (count > 0) {
     const Part part = open[static_cast<std::size_t>(--count)];
+    if (result.evaluated >= looks) {
+      result.status = collides ? vpMotionStatus::Collision : vpMotionStatus::Undecided;
+      result.time = part.middle - part.half;
+      return result;
+    }
     const Verdict verdict = look(plan, part.middle, part.half, part.middle - from + age, result);
     if (verdict == Verdict::Free) {
       continue;
+    }
+    if (verdict == Verdict::Bad) {
+      result.status = vpMotionStatus::BadInput;
+      result.time = part.middle;
+      return result;
     }
     collides = collides || verdict == Verdict::Collision;
     if (collides && !first) {

@@ -4,6 +4,8 @@
  */
 #include "vpCollisionCore.h"
 
+#include <cmath>
+
 BEGIN_VISP_NAMESPACE
 
 vpCollisionCore::vpCollisionCore(const vpCollisionObject &object) : type(object.shape.type()), radius(object.inflation)
@@ -42,19 +44,19 @@ vpNearestPoints vpCollisionCore::nearest(const Eigen::Vector3d &from, const Eige
                                          double cutoff) const noexcept
 {
   if (type == vpShapeType::Sphere) {
-    return vpSegmentDistance::point(from, to, pose.p);
+    return vpSegmentNearest::point(from, to, pose.p);
   }
   if (type == vpShapeType::Capsule) {
-    return vpSegmentDistance::segment(from, to, end(-1.), end(1.));
+    return vpSegmentNearest::segment(from, to, end(-1.), end(1.));
   }
   const Eigen::Vector3d a = pose.R.transpose() * (from - pose.p), b = pose.R.transpose() * (to - pose.p);
   vpNearestPoints near;
   switch (type) {
   case vpShapeType::Box:
-    near = vpSegmentDistance::box(a, b, half);
+    near = vpSegmentNearest::box(a, b, half);
     break;
   case vpShapeType::Cylinder:
-    near = vpSegmentDistance::cylinder(a, b, half.x(), half.z());
+    near = vpSegmentNearest::cylinder(a, b, half.x(), half.z());
     break;
   case vpShapeType::Mesh:
     near = mesh->nearest(a, b, cutoff);
@@ -81,7 +83,8 @@ vpClearance vpRounded(const vpNearestPoints &cores, double radius, double otherR
     away = cores.onSegment - otherCentre;
   }
   const double length = away.norm();
-  clearance.normal = length > 1e-12 ? Eigen::Vector3d(away / length) : Eigen::Vector3d::UnitZ();
+  clearance.normal =
+      length > 1e-12 && std::isfinite(length) ? Eigen::Vector3d(away / length) : Eigen::Vector3d::UnitZ();
   clearance.onArm = cores.onSegment - radius * clearance.normal;
   clearance.onOther = cores.onOther + otherRadius * clearance.normal;
   return clearance;

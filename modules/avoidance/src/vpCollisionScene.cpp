@@ -3,11 +3,10 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include "vpCollisionCore.h"
+#include "vpPlausible.h"
 
 #include <visp3/avoidance/vpCollisionScene.h>
 #include <visp3/core/vpException.h>
-
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <atomic>
@@ -32,34 +31,42 @@ unsigned long nextRevision()
   throw vpException(vpException::badValue, "%s: %s", source.empty() ? "scene" : source.c_str(), sentence.c_str());
 }
 
-bool isRigid(const vpRigidTransform &T)
+std::string text(double value)
 {
-  return T.p.allFinite() && T.R.allFinite() &&
-         (T.R * T.R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < 1e-6 && T.R.determinant() > 0.;
+  std::ostringstream out;
+  out << value;
+  return out.str();
 }
 
-bool isFinite(const vpTwist &velocity)
+constexpr double fastest = 1e3; // m/s or rad/s: nothing that an arm is to keep from is faster
+constexpr double longest = 1e6; // s: nobody foresees more
+
+// In this sense, here and below, so that NaN is refused.
+bool isPlausible(const vpTwist &velocity)
 {
-  return std::all_of(velocity.data(), velocity.data() + 6, [](double v) { return std::isfinite(v); });
+  return std::all_of(velocity.data(), velocity.data() + 6, [](double v) { return std::fabs(v) <= fastest; });
 }
 
-bool isLength(double value) { return std::isfinite(value) && value >= 0.; }
+bool isLength(double value) { return value >= 0. && value <= vpLargestLength; }
 
 void checkObject(const std::string &source, const vpCollisionObject &object)
 {
   if (object.name.empty()) {
     fail(source, "an object has no name");
   }
-  if (!isRigid(object.pose)) {
+  if (!vpIsRigid(object.pose)) {
     fail(source, "pose of object " + object.name + " is not a rotation and a finite translation");
   }
-  if (!isFinite(object.velocity)) {
-    fail(source, "velocity of object " + object.name + " is not finite");
+  if (!vpIsPlace(object.pose)) {
+    fail(source, "object " + object.name + " stands " + text(object.pose.p.cwiseAbs().maxCoeff()) +
+                     " m away, must be within " + text(vpLargestLength) + " m");
+  }
+  if (!isPlausible(object.velocity)) {
+    fail(source, "velocity of object " + object.name + " is not finite or above " + text(fastest) + " m/s or rad/s");
   }
   if (!isLength(object.inflation)) {
-    std::ostringstream value;
-    value << object.inflation;
-    fail(source, "inflation of object " + object.name + " is " + value.str() + " m, must be >= 0 and finite");
+    fail(source, "inflation of object " + object.name + " is " + text(object.inflation) + " m, must be 0 to " +
+                     text(vpLargestLength));
   }
 }
 
@@ -126,7 +133,7 @@ void checkLinks(const vpArmModel &arm, const vpCollisionSceneSpec &spec)
 
 vpClearance capsulePair(const vpPlacedCapsule &a, const vpPlacedCapsule &b) noexcept
 {
-  return vpRounded(vpSegmentDistance::segment(a.from, a.to, b.from, b.to), a.radius, b.radius, b.centre);
+  return vpRounded(vpSegmentNearest::segment(a.from, a.to, b.from, b.to), a.radius, b.radius, b.centre);
 }
 
 vpClearance groundClearance(const vpHalfSpace &ground, const vpPlacedCapsule &c) noexcept
@@ -150,6 +157,20 @@ vpClearance objectClearance(const vpCollisionCore &core, const vpPlacedCapsule &
   return clearance;
 }
 
+vpClearance unknownClearance() noexcept
+{
+  vpClearance clearance;
+  clearance.distance = -std::numeric_limits<double>::infinity();
+  clearance.kind = vpCollisionKind::Unknown;
+  return clearance;
+}
+
+// Can anything be said? Otherwise every query says: in collision.
+bool isKnown(const vpCollisionData &data, double cutoff, double time) noexcept
+{
+  return data.placed && std::fabs(time) <= longest && cutoff == cutoff;
+}
+
 // |a - b| - radii > cutoff, without a square root.
 bool areApart(const Eigen::Vector3d &a, const Eigen::Vector3d &b, double radii, double cutoff) noexcept
 {
@@ -165,7 +186,7 @@ struct Any {
   [[nodiscard]] double cutoff() const noexcept { return margin + 1e-12; }
   bool take(const vpClearance &pair) noexcept
   {
-    found = pair.distance <= margin;
+    found = !(pair.distance > margin);
     return found;
   }
 };
@@ -188,7 +209,7 @@ struct All {
   [[nodiscard]] double cutoff() const noexcept { return limit; }
   bool take(const vpClearance &pair) noexcept
   {
-    if (!(pair.distance < limit)) {
+    if (pair.distance >= limit) {
       return false;
     }
     if (list.count < vpNearPairs::capacity) {
@@ -220,8 +241,12 @@ vpCollisionScene::vpCollisionScene(const vpArmModel &arm, const vpCollisionScene
   if (spec.ground) {
     m_ground = spec.ground;
     const double length = m_ground->normal.norm();
-    if (!std::isfinite(length) || !(length > 0.) || !std::isfinite(m_ground->offset)) {
-      fail(m_source, "ground has no normal or a number that is not finite");
+    if (!std::isfinite(length) || !(length > 0.)) {
+      fail(m_source, "ground has no normal");
+    }
+    if (!(std::fabs(m_ground->offset) <= vpLargestLength)) {
+      fail(m_source,
+           "offset of the ground is " + text(m_ground->offset) + " m, must be within " + text(vpLargestLength) + " m");
     }
     m_ground->normal /= length;
   }
@@ -267,7 +292,7 @@ int vpCollisionScene::add(const vpCollisionObject &object)
 {
   checkObject(m_source, object);
   if (find(object.name) >= 0) {
-    fail(m_source, "object " + object.name + " stands twice");
+    fail(m_source, "object " + object.name + ": duplicate name");
   }
   std::uint32_t checked = 0;
   for (std::size_t i = 0; i < m_capsules.size(); ++i) {
@@ -298,7 +323,7 @@ void vpCollisionScene::remove(int i)
 
 bool vpCollisionScene::moveObject(int i, const vpRigidTransform &pose) noexcept
 {
-  if (i < 0 || i >= objectCount() || !isRigid(pose)) {
+  if (i < 0 || i >= objectCount() || !vpIsPlace(pose)) {
     return false;
   }
   m_objects[at(i)].pose = pose;
@@ -308,7 +333,7 @@ bool vpCollisionScene::moveObject(int i, const vpRigidTransform &pose) noexcept
 
 bool vpCollisionScene::setVelocity(int i, const vpTwist &velocity) noexcept
 {
-  if (i < 0 || i >= objectCount() || !isFinite(velocity)) {
+  if (i < 0 || i >= objectCount() || !isPlausible(velocity)) {
     return false;
   }
   m_objects[at(i)].velocity = velocity;
@@ -325,15 +350,21 @@ bool vpCollisionScene::setInflation(int i, double inflation) noexcept
   return true;
 }
 
-void vpCollisionScene::advance(double dt) noexcept
+bool vpCollisionScene::advance(double dt) noexcept
 {
+  bool all = true;
   for (int i = 0; i < objectCount(); ++i) {
-    static_cast<void>(moveObject(i, m_objects[at(i)].poseAt(dt)));
+    all = moveObject(i, m_objects[at(i)].poseAt(dt)) && all;
   }
+  return all;
 }
 
 void vpCollisionScene::place(const vpJointVector &q, vpCollisionData &data) const noexcept
 {
+  data.placed = q.size() == m_arm.size() && (q.cwiseAbs().array() <= vpLargestCoordinate).all();
+  if (!data.placed) {
+    return;
+  }
   vpArmKinematics::forward(m_arm, q, data.arm);
   for (std::size_t i = 0; i < m_capsules.size(); ++i) {
     const vpArmCapsule &from = m_capsules[i];
@@ -405,6 +436,9 @@ bool vpCollisionScene::visitObject(const vpCollisionData &data, int j, const vpC
 
 bool vpCollisionScene::inCollision(const vpCollisionData &data, double margin, double time) const noexcept
 {
+  if (!isKnown(data, margin, time)) {
+    return true;
+  }
   Any any{margin};
   visit(data, time, any);
   return any.found;
@@ -412,6 +446,9 @@ bool vpCollisionScene::inCollision(const vpCollisionData &data, double margin, d
 
 vpClearance vpCollisionScene::clearance(const vpCollisionData &data, double cutoff, double time) const noexcept
 {
+  if (!isKnown(data, cutoff, time)) {
+    return unknownClearance();
+  }
   Least least;
   least.best.distance = cutoff;
   visit(data, time, least);
@@ -424,13 +461,19 @@ vpClearance vpCollisionScene::clearance(const vpCollisionData &data, double cuto
 void vpCollisionScene::near(const vpCollisionData &data, double cutoff, vpNearPairs &result, double time) const noexcept
 {
   result.count = 0;
-  result.dropped = false;
+  result.dropped = !isKnown(data, cutoff, time);
+  if (result.dropped) {
+    return;
+  }
   All all{result, cutoff};
   visit(data, time, all);
 }
 
 vpClearance vpCollisionScene::pair(const vpCollisionData &data, int capsule, int object, double time) const noexcept
 {
+  if (!isKnown(data, 0., time)) {
+    return unknownClearance();
+  }
   vpCollisionCore core = m_cores[at(object)];
   core.move(m_objects[at(object)].poseAt(time));
   vpClearance clearance = objectClearance(core, data.capsules[at(capsule)], std::numeric_limits<double>::infinity());
@@ -441,6 +484,9 @@ vpClearance vpCollisionScene::pair(const vpCollisionData &data, int capsule, int
 
 vpClearance vpCollisionScene::selfPair(const vpCollisionData &data, int first, int second) const noexcept
 {
+  if (!data.placed) {
+    return unknownClearance();
+  }
   vpClearance clearance = capsulePair(data.capsules[at(first)], data.capsules[at(second)]);
   clearance.kind = vpCollisionKind::Self;
   clearance.capsule = first;
@@ -450,6 +496,9 @@ vpClearance vpCollisionScene::selfPair(const vpCollisionData &data, int first, i
 
 vpClearance vpCollisionScene::groundPair(const vpCollisionData &data, int capsule) const noexcept
 {
+  if (!data.placed) {
+    return unknownClearance();
+  }
   vpClearance clearance = groundClearance(*m_ground, data.capsules[at(capsule)]);
   clearance.capsule = capsule;
   return clearance;
@@ -459,6 +508,9 @@ std::string vpCollisionScene::describe(const vpClearance &pair) const
 {
   if (pair.kind == vpCollisionKind::None) {
     return "nothing near";
+  }
+  if (pair.kind == vpCollisionKind::Unknown) {
+    return "numbers that are not finite or out of all range";
   }
   const auto link = [this](int capsule) { return "link " + std::to_string(m_capsules[at(capsule)].link); };
   const std::string first = link(pair.capsule) + " and ";

@@ -109,11 +109,13 @@ vpCollisionShape shape(vpJsonObject &object, std::vector<std::string> &warnings)
     return located(object, [&] { return vpCollisionShape::box(size); });
   }
   if (kind == "mesh") {
+    const bool sheet = object.flag("surface", false);
     const vpTriangleMesh surface = mesh(object);
-    if (!surface.sentence().empty()) {
+    if (sheet && !surface.sentence().empty()) {
       warnings.push_back(object.file() + ": " + object.where() + ": " + surface.sentence());
     }
-    return vpCollisionShape::mesh(surface);
+    return located(object,
+                   [&] { return vpCollisionShape::mesh(surface, sheet ? vpMeshUse::Surface : vpMeshUse::Solid); });
   }
   if (kind == "octree") {
     return vpCollisionShape::octree(octree(object));

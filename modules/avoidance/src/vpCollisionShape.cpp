@@ -14,9 +14,9 @@ namespace
 {
 double checked(const char *what, double value, bool zeroAllowed = false)
 {
-  if (!std::isfinite(value) || !(zeroAllowed ? value >= 0. : value > 0.)) {
-    throw vpException(vpException::badValue, "%s is %g m, must be %s 0 and finite", what, value,
-                      zeroAllowed ? ">=" : ">");
+  if (!(value <= vpLargestLength) || !(zeroAllowed ? value >= 0. : value > 0.)) {
+    throw vpException(vpException::badValue, "%s is %g m, must be %s 0 and at most %g m", what, value,
+                      zeroAllowed ? ">=" : ">", vpLargestLength);
   }
   return value;
 }
@@ -59,8 +59,14 @@ vpCollisionShape vpCollisionShape::cylinder(double radius, double length)
   return shape;
 }
 
-vpCollisionShape vpCollisionShape::mesh(const vpTriangleMesh &mesh)
+vpCollisionShape vpCollisionShape::mesh(const vpTriangleMesh &mesh, vpMeshUse use)
 {
+  if (use == vpMeshUse::Solid && !mesh.isWatertight()) {
+    throw vpException(
+        vpException::badValue,
+        "%s; close it, or say that a surface is enough (\"surface\": true in a scene, vpMeshUse::Surface)",
+        mesh.sentence().c_str());
+  }
   vpCollisionShape shape;
   shape.m_type = vpShapeType::Mesh;
   shape.m_mesh = mesh;

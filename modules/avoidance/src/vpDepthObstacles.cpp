@@ -5,6 +5,7 @@
 #include <visp3/avoidance/vpDepthObstacles.h>
 
 #include "vpCollisionCore.h"
+#include "vpPlausible.h"
 
 #include <visp3/core/vpException.h>
 #include <visp3/core/vpPixelMeterConversion.h>
@@ -75,7 +76,7 @@ vpDepthReport vpDepthObstacles::insert(const vpImage<float> &depth, const vpCame
                                        const vpRigidTransform &fMc, const vpCollisionScene &scene,
                                        const vpCollisionData &placed)
 {
-  if (!fMc.p.allFinite() || !fMc.R.allFinite() || !(camera.get_px() != 0.) || !(camera.get_py() != 0.)) {
+  if (!vpIsPlace(fMc) || !(camera.get_px() != 0.) || !(camera.get_py() != 0.)) {
     return {};
   }
   m_unknown = depth;

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include "vpOctomapCells.h"
+#include "vpPlausible.h"
 
 #include <visp3/avoidance/vpDepthOctomap.h>
 #include <visp3/avoidance/vpSegmentDistance.h>
@@ -46,7 +47,7 @@ const char *vpDepthReport::sentence() const noexcept
   case vpDepthStatus::NoPoint:
     return "the depth image has no depth in range that is not the arm";
   default:
-    return "the camera's pose is not finite or its focal lengths are 0";
+    return "the camera's pose is no rotation and place in range, or its focal lengths are 0";
   }
 }
 
@@ -54,7 +55,8 @@ vpDepthOctomap::vpDepthOctomap(const vpDepthOctomapSpec &spec) : m_spec(spec)
 {
   check("resolution", spec.resolution, spec.resolution > 0., "> 0 m");
   check("minRange", spec.minRange, spec.minRange >= 0., ">= 0 m");
-  check("maxRange", spec.maxRange, spec.maxRange > spec.minRange, "> minRange");
+  check("maxRange", spec.maxRange, spec.maxRange > spec.minRange && spec.maxRange <= vpLargestLength,
+        "> minRange and at most 10 km");
   check("stride", spec.stride, spec.stride >= 1, ">= 1");
   check("bodyInflation", spec.bodyInflation, spec.bodyInflation >= 0., ">= 0 m");
   m_map = std::make_unique<Map>(spec.resolution);
@@ -81,7 +83,7 @@ vpDepthReport vpDepthOctomap::insert(const vpImage<float> &depth, const vpCamera
                                      const vpRigidTransform &fMc, const vpPlacedCapsule *capsules, int count)
 {
   vpDepthReport report;
-  if (!fMc.p.allFinite() || !fMc.R.allFinite() || !(camera.get_px() != 0.) || !(camera.get_py() != 0.)) {
+  if (!vpIsPlace(fMc) || !(camera.get_px() != 0.) || !(camera.get_py() != 0.)) {
     return report;
   }
   octomap::Pointcloud cloud;
@@ -97,7 +99,8 @@ vpDepthReport vpDepthOctomap::insert(const vpImage<float> &depth, const vpCamera
         ++report.invalid;
         continue;
       }
-      const Eigen::Vector3d point = fMc.R * ray + fMc.p;
+      // octomap computes in float: what is beyond only tells a direction.
+      const Eigen::Vector3d point = fMc.R * ray * std::min(1., 2. * m_spec.maxRange / range) + fMc.p;
       if (range > m_spec.maxRange) {
         ++report.beyond;
         if (!m_spec.carve) {

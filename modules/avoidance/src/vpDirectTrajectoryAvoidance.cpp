@@ -64,15 +64,14 @@ public:
 
   bool begin(const vpJointVector &q, const vpAvoidanceGoal &wish)
   {
-    const int n = scene->arm().size();
-    started = q.size() == n && q.allFinite() && fits(wish);
+    scene->place(q, data);
+    started = data.placed && wish.fits(scene->arm());
     if (!started) {
       return false;
     }
     goal = wished = wish;
     configuration = q;
-    velocity = vpJointVector::Zero(n);
-    scene->place(q, data);
+    velocity = vpJointVector::Zero(q.size());
     orientation = data.arm.tool.R;
     tool = vpToolState();
     tool.x = data.arm.tool.p;
@@ -84,13 +83,6 @@ public:
     status = vpAvoidanceStatus::Waiting;
     supervisor.reset();
     return true;
-  }
-
-  bool fits(const vpAvoidanceGoal &g) const noexcept
-  {
-    const int n = scene->arm().size();
-    return g.position.allFinite() && g.velocity.allFinite() &&
-           (g.q.size() == 0 || (g.q.size() == n && g.q.allFinite()));
   }
 
   void look()
@@ -148,6 +140,17 @@ public:
     finish(q, next, output);
   }
 
+  //! It is not known where the arm is: on the stop that was proven last.
+  void stop(const vpJointVector &q, vpAvoidanceOutput &output) noexcept
+  {
+    supervisor.step(q, velocity, supervised);
+    output.velocity = velocity = supervised.velocity;
+    output.stopping = true;
+    configuration += spec.common.period * velocity;
+    vpArmKinematics::forward(scene->arm(), configuration, data.arm);
+    leave(data.arm.tool.p);
+  }
+
   [[nodiscard]] bool isArrived() const noexcept
   {
     return (tool.x - goal.position).norm() < atGoal && tool.v.norm() < atRest;
@@ -161,6 +164,7 @@ public:
   vpAvoidanceStatus status = vpAvoidanceStatus::InvalidInput;
   vpToolTask task;
   bool toGoal = false; // the task ends at the goal, not at a place beside an obstacle or a stop
+  vpCollisionData data;
 
 private:
   static const vpDirectTrajectoryAvoidanceSpec &checked(const vpDirectTrajectoryAvoidanceSpec &spec)
@@ -270,7 +274,7 @@ private:
     vpArmKinematics::forward(scene->arm(), q, data.arm);
     toolVelocity = (reached - data.arm.tool.p) / period;
     velocity = supervised.velocity;
-    const bool passed = supervised.status == vpSupervision::Passed;
+    const bool passed = supervised.status == vpSupervision::Passed || supervised.status == vpSupervision::Limited;
     if (passed && (reached - next.x).norm() < offPlan) {
       tool = next;
     }
@@ -327,7 +331,6 @@ private:
   bool rebase = true;  // the next step plans from #tool
   bool stopped = true; // braking or standing, because nothing is free
   vpClearance pair;
-  vpCollisionData data;
   vpNearPairs near;
   vpRedundancyOutput solved;
   vpSupervisedVelocity supervised;
@@ -350,7 +353,7 @@ vpAvoidanceStatus vpDirectTrajectoryAvoidance::start(const vpJointVector &q, con
 
 void vpDirectTrajectoryAvoidance::setGoal(const vpAvoidanceGoal &goal) noexcept
 {
-  if (m_impl->started && m_impl->fits(goal)) {
+  if (m_impl->started && goal.fits(m_impl->scene->arm())) {
     m_impl->wished = goal;
   }
 }
@@ -366,8 +369,9 @@ void vpDirectTrajectoryAvoidance::step(const vpJointVector &q, vpAvoidanceOutput
 {
   output = vpAvoidanceOutput();
   output.velocity = vpJointVector::Zero(m_impl->scene->arm().size());
-  if (m_impl->started && q.size() == output.velocity.size() && q.allFinite()) {
-    m_impl->step(q, output);
+  if (m_impl->started) {
+    m_impl->scene->place(q, m_impl->data);
+    m_impl->data.placed ? m_impl->step(q, output) : m_impl->stop(q, output);
   }
 }
 

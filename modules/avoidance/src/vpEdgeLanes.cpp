@@ -7,6 +7,7 @@
 
 #include "vpEdgeLanes.h"
 
+#include <atomic>
 #include <cmath>
 
 // One entry for every generation of the processor, chosen at run time: the build needs no -march, and no type whose layout
@@ -92,14 +93,21 @@ Entry chooseEntry()
   return evaluateBaseline;
 }
 
-const Entry chosen = chooseEntry();
+// Chosen at the first call, not by an initialiser: those of other files may call it before this file's have run. No lock:
+// whoever chooses, chooses the same.
+std::atomic<Entry> chosen{nullptr};
 } // namespace
 
 void vpEvaluateEdge(const vpEdgeMotion &motion, const vpEdgePair *pairs, const std::uint32_t *list, int count,
                     double start, double width, std::uint8_t *unproven, vpEdgeBatch &batch) noexcept
 {
   batch.hitPair = -1;
-  chosen(motion, pairs, list, count, start, width / 8., unproven, batch);
+  Entry entry = chosen.load(std::memory_order_relaxed);
+  if (!entry) {
+    entry = chooseEntry();
+    chosen.store(entry, std::memory_order_relaxed);
+  }
+  entry(motion, pairs, list, count, start, width / 8., unproven, batch);
 }
 
 END_VISP_NAMESPACE

@@ -8,6 +8,8 @@
 
 #include <fcl/fcl.h>
 
+#include <cmath>
+
 BEGIN_VISP_NAMESPACE
 
 namespace
@@ -168,16 +170,19 @@ vpFclChecker::~vpFclChecker() = default;
 bool vpFclChecker::inCollision(const vpJointVector &q, double margin)
 {
   m_scene->place(q, m_data);
+  if (!m_data.placed || std::isnan(margin)) {
+    return true;
+  }
   m_bodies->place(*m_scene, m_data);
   bool found = false;
   m_bodies->each(*m_scene, [&](const Geometry &a, const fcl::Transform3d &atA, const Geometry &b,
                                const fcl::Transform3d &atB, double inflation, vpClearance &pair) {
-    found = inflation + margin > 0. ? Bodies::distance(a, atA, b, atB, pair) <= inflation + margin
+    found = inflation + margin > 0. ? !(Bodies::distance(a, atA, b, atB, pair) > inflation + margin)
                                     : Bodies::touch(a, atA, b, atB);
     return found;
   });
   for (int i = 0; i < m_scene->capsuleCount() && !found; ++i) {
-    found = m_scene->isCheckedWithGround(i) && m_scene->groundPair(m_data, i).distance <= margin;
+    found = m_scene->isCheckedWithGround(i) && !(m_scene->groundPair(m_data, i).distance > margin);
   }
   return found;
 }
@@ -185,6 +190,9 @@ bool vpFclChecker::inCollision(const vpJointVector &q, double margin)
 vpClearance vpFclChecker::clearance(const vpJointVector &q, double cutoff)
 {
   m_scene->place(q, m_data);
+  if (!m_data.placed || std::isnan(cutoff)) {
+    return m_scene->clearance(m_data, cutoff); // says what is wrong
+  }
   m_bodies->place(*m_scene, m_data);
   vpClearance best;
   m_bodies->each(*m_scene, [&](const Geometry &a, const fcl::Transform3d &atA, const Geometry &b,

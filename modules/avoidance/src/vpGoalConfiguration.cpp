@@ -55,10 +55,12 @@ std::optional<vpJointVector> goalConfiguration(const vpCollisionScene &scene, co
                                                unsigned int seed)
 {
   const vpArmModel &arm = scene.arm();
-  if (from.size() != arm.size() || !from.allFinite() || !position.allFinite()) {
-    throw vpException(vpException::badValue,
-                      "a goal configuration is sought from %d numbers, arm %s has %d joints; all must be finite",
-                      static_cast<int>(from.size()), arm.label().c_str(), arm.size());
+  if (from.size() != arm.size() || !(from.cwiseAbs().array() <= vpLargestCoordinate).all() ||
+      !(position.cwiseAbs().array() <= vpLargestLength).all()) {
+    throw vpException(
+        vpException::badValue,
+        "a goal configuration is sought from %d numbers, arm %s has %d joints; all must be finite and in range",
+        static_cast<int>(from.size()), arm.label().c_str(), arm.size());
   }
   vpRedundancySpec redundancy;
   redundancy.period = period;

@@ -19,6 +19,9 @@ double vpJointPath::length() const noexcept
 
 vpJointVector vpJointPath::at(double s) const noexcept
 {
+  if (points.empty()) {
+    return {};
+  }
   double left = std::min(1., std::max(0., s)) * length();
   for (std::size_t i = 1; i < points.size(); ++i) {
     const double way = (points[i] - points[i - 1]).norm();

@@ -16,7 +16,7 @@ const char *vpMotionResult::sentence() const noexcept
   case vpMotionStatus::Undecided:
     return "the motion comes so near to the margin that it cannot be decided";
   default:
-    return "a configuration has the wrong size or is not finite";
+    return "a configuration has the wrong size, is not finite or is out of all range";
   }
 }
 

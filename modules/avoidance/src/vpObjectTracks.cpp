@@ -4,11 +4,10 @@
  */
 #include <visp3/avoidance/vpObjectTracks.h>
 
+#include "vpPlausible.h"
 #include "vpTrackFilter.h"
 
 #include <visp3/core/vpException.h>
-
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -17,17 +16,17 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-// A sensor's numbers are rounded; vpCollisionScene wants 1e-6.
-constexpr double rotationTolerance = 1e-6;
+constexpr double farAhead = 60.;  // s: nobody waits so long for the next picture
+constexpr double eternity = 1e11; // s: no clock shows more
 
 bool isPositive(double value) { return std::isfinite(value) && value > 0.; }
+bool isTime(double value) { return std::fabs(value) <= eternity; }   // false for NaN
+bool isSigma(double value) { return value >= 1e-9 && value <= 1e3; } // its square and the inverse of that are of use
 
 bool isGood(const vpObjectSighting &sighting)
 {
-  const Eigen::Matrix3d &R = sighting.pose.R;
-  return !sighting.name.empty() && std::isfinite(sighting.time) && sighting.pose.p.allFinite() && R.allFinite() &&
-         (R * R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < rotationTolerance &&
-         R.determinant() > 0. && isPositive(sighting.positionSigma) && isPositive(sighting.angleSigma);
+  return !sighting.name.empty() && isTime(sighting.time) && vpIsPlace(sighting.pose) &&
+         isSigma(sighting.positionSigma) && isSigma(sighting.angleSigma);
 }
 
 bool isSame(const vpCollisionShape &a, const vpCollisionShape &b)
@@ -141,7 +140,7 @@ const vpObjectTrack *vpObjectTracks::find(const std::string &name) const noexcep
 
 bool vpObjectTracks::add(const vpObjectSighting &sighting)
 {
-  if (!isGood(sighting)) {
+  if (!isGood(sighting) || (std::isfinite(m_now) && sighting.time > m_now + farAhead)) {
     return false;
   }
   const vpObjectTrack *const known = find(sighting.name);
@@ -153,6 +152,11 @@ bool vpObjectTracks::add(const vpObjectSighting &sighting)
   }
   else {
     i = static_cast<std::size_t>(known - m_tracks.data());
+    if (std::isfinite(m_now) &&
+        m_filters[i].time() > m_now + farAhead) { // seen before the clock was known, by a wrong one
+      m_filters[i] = vpTrackFilter(sighting, m_spec);
+      m_filters[i].setReach(reach(m_tracks[i].shape));
+    }
     if (sighting.time < m_filters[i].time()) {
       return false;
     }
@@ -177,11 +181,17 @@ void vpObjectTracks::refresh(std::size_t i) noexcept
   track.inflation = std::min(m_spec.inflationSigmas * sigma, m_spec.maxInflation);
 }
 
-void vpObjectTracks::advance(double now)
+bool vpObjectTracks::advance(double now)
 {
-  if (!std::isfinite(now) || now < m_now) {
-    return;
+  if (!isTime(now) || now < m_now) {
+    return false;
   }
+  const bool agrees = now > m_doubted && now <= m_doubted + farAhead; // not a clock that stands
+  if (std::isfinite(m_now) && now > m_now + farAhead && !agrees) {
+    m_doubted = now;
+    return false;
+  }
+  m_doubted = std::numeric_limits<double>::quiet_NaN();
   m_now = now;
   for (std::size_t i = m_tracks.size(); i-- > 0;) {
     if (m_now - m_filters[i].time() > m_spec.forget) {
@@ -192,6 +202,7 @@ void vpObjectTracks::advance(double now)
       refresh(i);
     }
   }
+  return true;
 }
 
 // Returns true when the list of objects changed.

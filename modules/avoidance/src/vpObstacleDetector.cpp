@@ -4,6 +4,8 @@
  */
 #include <visp3/avoidance/vpObstacleDetector.h>
 
+#include "vpPlausible.h"
+
 #include <visp3/core/vpException.h>
 #include <visp3/direct_core/vpSO3.h>
 
@@ -21,6 +23,7 @@ namespace
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 constexpr double longestMotion = 0.2; // s; over a longer time a velocity says little
+constexpr double eternity = 1e11;     // s: no clock shows more
 
 double square(double x) { return x * x; }
 
@@ -121,7 +124,7 @@ void vpObstacleDetector::reset()
 const std::vector<vpObstacleDetection> &vpObstacleDetector::process(const vpImage<unsigned char> &image,
                                                                     const vpRigidTransform &fMc, double time)
 {
-  const bool known = fMc.p.allFinite() && fMc.R.allFinite() && std::isfinite(time);
+  const bool known = vpIsPlace(fMc) && std::fabs(time) <= eternity;
   if (known) {
     predict(fMc, time);
   }
@@ -138,7 +141,7 @@ const std::vector<vpObstacleDetection> &vpObstacleDetector::process(const vpImag
       continue;
     }
     if (!known) {
-      detection.sentence = "Where the camera was, or when, is not finite.";
+      detection.sentence = "Where the camera was, or when, is not finite or out of range.";
       continue;
     }
     remember(fMc * vpRigidTransform::fromHomogeneous(targets[i].result.cMo), time, m_memory[i]);

@@ -5,8 +5,7 @@
 #include "vpOctreeData.h"
 
 #include <visp3/core/vpException.h>
-
-#include <cmath>
+#include <visp3/manipulator/vpArmTypes.h>
 
 BEGIN_VISP_NAMESPACE
 
@@ -18,9 +17,10 @@ vpOctree::vpOctree(const std::vector<vpOctreeCell> &cells, const std::string &la
   std::vector<vpBoxTree::Item> items;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const vpOctreeCell &cell = cells[i];
-    if (!cell.centre.allFinite() || !std::isfinite(cell.size) || !(cell.size > 0.)) {
-      throw vpException(vpException::badValue, "%s: cell %lu has the size %g m, must be > 0, and all finite",
-                        label.c_str(), static_cast<unsigned long>(i), cell.size);
+    if (!(cell.centre.cwiseAbs().array() <= vpLargestLength).all() || !(cell.size <= vpLargestLength) ||
+        !(cell.size > 0.)) {
+      throw vpException(vpException::badValue, "%s: cell %lu has the size %g m, must be > 0, and all within %g m",
+                        label.c_str(), static_cast<unsigned long>(i), cell.size, vpLargestLength);
     }
     const Eigen::Vector3d half = Eigen::Vector3d::Constant(0.5 * cell.size);
     items.push_back({cell.centre - half, cell.centre + half});
@@ -39,7 +39,7 @@ vpNearestPoints vpOctreeData::nearest(const Eigen::Vector3d &from, const Eigen::
   const auto exact = [&](int i) {
     const vpOctreeCell &cell = cells[static_cast<std::size_t>(i)];
     vpNearestPoints near =
-        vpSegmentDistance::box(from - cell.centre, to - cell.centre, Eigen::Vector3d::Constant(0.5 * cell.size));
+        vpSegmentNearest::box(from - cell.centre, to - cell.centre, Eigen::Vector3d::Constant(0.5 * cell.size));
     near.onSegment += cell.centre;
     near.onOther += cell.centre;
     return near;

@@ -5,6 +5,7 @@
 #include <visp3/avoidance/vpPathPlanner.h>
 
 #include "vpMotionCheck.h"
+#include "vpPairText.h"
 
 #include <visp3/core/vpException.h>
 #include <visp3/direct_core/vpLimit.h>
@@ -26,6 +27,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <mutex>
 
 namespace ob = ompl::base;
@@ -150,6 +152,19 @@ void requireGood(const char *field, double value, bool good, const char *range)
 }
 
 // The goal's angles of continuous joints, by the short way from the start.
+vpJointVector withinLimits(const vpArmModel &arm, const vpJointVector &q)
+{
+  return q.cwiseMax(arm.lower()).cwiseMin(arm.upper());
+}
+
+//! With all digits, so that two numbers that differ look so.
+std::string exactly(double value)
+{
+  char text[40];
+  std::snprintf(text, sizeof(text), "%.17g", value);
+  return text;
+}
+
 vpJointVector nearGoal(const vpArmModel &arm, const vpJointVector &start, const vpJointVector &goal)
 {
   vpJointVector near = goal;
@@ -209,22 +224,24 @@ public:
   {
     const vpArmModel &arm = scene->arm();
     const std::string end = isStart ? "start" : "goal";
-    if (q.size() != arm.size() || !q.allFinite()) {
+    if (q.size() != arm.size() || !(q.cwiseAbs().array() <= vpLargestCoordinate).all()) {
       sentence = "The " + end + " has " + std::to_string(q.size()) + " numbers, must have " +
                  std::to_string(arm.size()) + " finite ones.";
       return vpPathStatus::BadInput;
     }
+    const vpJointVector inside = withinLimits(arm, q);
     for (int i = 0; i < arm.size(); ++i) {
       if (!vpLimit::isBetween(arm.lower()(i), q(i), arm.upper()(i))) {
+        const double limit = q(i) < 0.5 * (arm.lower()(i) + arm.upper()(i)) ? arm.lower()(i) : arm.upper()(i);
         sentence = "Joint " + arm.spec().joints[static_cast<std::size_t>(i)].name + " of the " + end + " is at " +
-                   std::to_string(q(i)) + ", outside its limits.";
+                   exactly(q(i)) + ", beyond its limit " + exactly(limit) + ".";
         return vpPathStatus::OutsideLimits;
       }
     }
-    scene->place(q, data);
+    scene->place(inside, data);
     const vpClearance pair = scene->clearance(data, spec.margin + 1e-12);
-    if (pair.kind != vpCollisionKind::None || check->inCollision(q)) {
-      sentence = "In the " + end + " the arm is nearer than the margin: " + scene->describe(pair) + ".";
+    if (pair.kind != vpCollisionKind::None || check->inCollision(inside)) {
+      sentence = "In the " + end + " the arm is nearer than the margin: " + vpPairText(*scene, pair, spec.margin) + ".";
       return isStart ? vpPathStatus::StartInCollision : vpPathStatus::GoalInCollision;
     }
     return vpPathStatus::Solved;
@@ -346,15 +363,16 @@ vpPathResult vpPathPlanner::plan(const vpJointVector &start, const vpJointVector
     return result;
   }
   const auto begin = Clock::now();
-  const vpJointVector end = nearGoal(m_impl->scene->arm(), start, goal);
-  if (m_impl->check->motion(start, end).isFree()) {
-    result.path.points = {start, end};
+  const vpArmModel &arm = m_impl->scene->arm();
+  const vpJointVector from = withinLimits(arm, start), to = nearGoal(arm, from, withinLimits(arm, goal));
+  if (m_impl->check->motion(from, to).isFree()) {
+    result.path.points = {from, to};
     result.motions = 1;
     result.planningTime = since(begin);
     result.sentence = "The straight motion is free.";
     return result;
   }
-  m_impl->search(start, end, result);
+  m_impl->search(from, to, result);
   result.sentence =
       result.status == vpPathStatus::Solved
           ? "A path was found."

@@ -116,8 +116,10 @@ vpAvoidanceStatus vpPlannedMotion::start(const vpJointVector &q, const vpAvoidan
   m_toGoal = false;
   m_hold = q;
   m_status = vpAvoidanceStatus::InvalidInput;
-  if (q.size() != m_scene->arm().size() || !q.allFinite() || !goal.position.allFinite() ||
-      (goal.q.size() != 0 && (goal.q.size() != q.size() || !goal.q.allFinite()))) {
+  m_command = vpJointVector::Zero(m_scene->arm().size());
+  vpCollisionData placed;
+  m_scene->place(q, placed);
+  if (!placed.placed || !goal.fits(m_scene->arm())) {
     return m_status;
   }
   m_wish = m_goal = goal;
@@ -132,8 +134,7 @@ vpAvoidanceStatus vpPlannedMotion::start(const vpJointVector &q, const vpAvoidan
 
 void vpPlannedMotion::setGoal(const vpAvoidanceGoal &goal) noexcept
 {
-  const bool fits = goal.q.size() == 0 || (goal.q.size() == m_scene->arm().size() && goal.q.allFinite());
-  if (!fits || !goal.position.allFinite() || m_hold.size() == 0) {
+  if (!goal.fits(m_scene->arm()) || m_status == vpAvoidanceStatus::InvalidInput) {
     return;
   }
   const bool same = goal.q.size() == m_wish.q.size() && (goal.q.size() == 0 || goal.q == m_wish.q) &&
@@ -435,7 +436,12 @@ void vpPlannedMotion::step(const vpJointVector &q, vpAvoidanceOutput &output) no
   output.status = vpAvoidanceStatus::InvalidInput;
   output.pair = m_pair;
   output.stopping = false;
-  if (m_hold.size() != n || q.size() != n || !q.allFinite()) {
+  if (m_status == vpAvoidanceStatus::InvalidInput) {
+    return;
+  }
+  if (q.size() != n || !(q.cwiseAbs().array() <= vpLargestCoordinate).all()) {
+    output.velocity = m_command = brakeOnce(arm, m_command, m_spec.common.period);
+    output.stopping = true;
     return;
   }
   output.stopping = m_clock < m_stopping;
@@ -448,6 +454,7 @@ void vpPlannedMotion::step(const vpJointVector &q, vpAvoidanceOutput &output) no
     scale = std::max(scale, std::fabs(output.velocity(j)) / arm.velocity()(j));
   }
   output.velocity /= scale;
+  m_command = output.velocity;
   vpArmKinematics::forward(arm, wanted, m_data);
   output.wanted = m_data.tool.p;
   output.status = m_toGoal && isAtRest() ? vpAvoidanceStatus::Arrived : m_status;

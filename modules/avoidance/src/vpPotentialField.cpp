@@ -31,6 +31,9 @@ void vpFieldWeightSpec::validate(vpFieldForm form) const
 
 double fieldWeight(const vpFieldWeightSpec &spec, vpFieldForm form, double distance) noexcept
 {
+  if (std::isnan(distance)) { // as in contact
+    return fieldWeight(spec, form, 0.);
+  }
   const double d = form == vpFieldForm::Thesis ? distance : std::max(0., distance);
   const double w =
       spec.height * (std::tanh((d + spec.centre) / spec.width) - std::tanh((d - spec.centre) / spec.width));

@@ -4,6 +4,7 @@
  */
 #include <visp3/avoidance/vpPotentialFieldAvoidance.h>
 
+#include "vpStopPlan.h"
 #include "vpToolMotion.h"
 
 #include <visp3/core/vpException.h>
@@ -67,9 +68,9 @@ public:
     }
   }
 
-  void step(const vpJointVector &q, vpAvoidanceOutput &output) noexcept
+  //! In the configuration that was placed.
+  void step(vpAvoidanceOutput &output) noexcept
   {
-    scene->place(q, data);
     scene->near(data, cutoff(), near);
     const Vector3d x = data.arm.tool.p;
     const Vector3d error = goal.position - x;
@@ -164,8 +165,8 @@ vpPotentialFieldAvoidance::~vpPotentialFieldAvoidance() = default;
 vpAvoidanceStatus vpPotentialFieldAvoidance::start(const vpJointVector &q, const vpAvoidanceGoal &goal)
 {
   const int n = m_impl->arm.size();
-  m_impl->valid = q.size() == n && q.allFinite() && goal.position.allFinite() &&
-                  (goal.q.size() == 0 || (goal.q.size() == n && goal.q.allFinite()));
+  m_impl->scene->place(q, m_impl->data);
+  m_impl->valid = m_impl->data.placed && goal.fits(m_impl->arm);
   m_impl->previous = vpJointVector::Zero(n);
   m_impl->starting = true;
   m_impl->goal = goal;
@@ -174,8 +175,7 @@ vpAvoidanceStatus vpPotentialFieldAvoidance::start(const vpJointVector &q, const
 
 void vpPotentialFieldAvoidance::setGoal(const vpAvoidanceGoal &goal) noexcept
 {
-  const int n = m_impl->arm.size();
-  if (goal.position.allFinite() && (goal.q.size() == 0 || (goal.q.size() == n && goal.q.allFinite()))) {
+  if (goal.fits(m_impl->arm)) {
     m_impl->goal = goal;
   }
 }
@@ -185,8 +185,15 @@ void vpPotentialFieldAvoidance::step(const vpJointVector &q, vpAvoidanceOutput &
   const int n = m_impl->arm.size();
   output = vpAvoidanceOutput();
   output.velocity = vpJointVector::Zero(n);
-  if (m_impl->valid && q.size() == n && q.allFinite()) {
-    m_impl->step(q, output);
+  if (!m_impl->valid) {
+    return;
+  }
+  m_impl->scene->place(q, m_impl->data);
+  if (m_impl->data.placed) {
+    m_impl->step(output);
+  }
+  else {
+    output.velocity = m_impl->previous = brakeOnce(m_impl->arm, m_impl->previous, m_impl->spec.common.period);
   }
 }
 

@@ -19,6 +19,7 @@ using Eigen::Vector3d;
 constexpr int elevations = 180; // Steps of the support function from -pi/2 to pi/2.
 constexpr int turns = 180;      // Steps of half a turn about z.
 constexpr double pi = 3.14159265358979323846;
+constexpr double beyond = 0.05; // of a prismatic joint's range: so far outside it may be found, and brought back
 
 /*
  * Support function of a body of revolution about z: h(phi) = max over the body of x cos(phi) + z sin(phi), at samples.
@@ -152,6 +153,15 @@ void turn(Reach &reach)
 vpReachBounds::vpReachBounds(const vpArmModel &arm)
   : m_joints(arm.size()), m_bounds(arm.spec().capsules.size() * static_cast<std::size_t>(arm.size()), 0.)
 {
+  m_low.setConstant(m_joints, -vpLargestCoordinate);
+  m_high.setConstant(m_joints, vpLargestCoordinate);
+  for (int j = 0; j < m_joints; ++j) {
+    if (arm.isPrismatic(j)) {
+      const double more = beyond * (arm.upper()(j) - arm.lower()(j));
+      m_low(j) = arm.lower()(j) - more;
+      m_high(j) = arm.upper()(j) + more;
+    }
+  }
   for (std::size_t i = 0; i < arm.spec().capsules.size(); ++i) {
     const vpArmCapsule &capsule = arm.spec().capsules[i];
     if (capsule.link == 0) {
@@ -168,7 +178,7 @@ vpReachBounds::vpReachBounds(const vpArmModel &arm)
       double &bound = m_bounds[i * static_cast<std::size_t>(m_joints) + static_cast<std::size_t>(j)];
       if (arm.isPrismatic(j)) {
         bound = 1.;
-        slide(arm.lower()(j) + arm.offset(j), arm.upper()(j) + arm.offset(j), reach);
+        slide(m_low(j) + arm.offset(j), m_high(j) + arm.offset(j), reach);
       }
       else {
         turn(reach);
@@ -177,6 +187,12 @@ vpReachBounds::vpReachBounds(const vpArmModel &arm)
       }
     }
   }
+}
+
+bool vpReachBounds::holds(const vpJointVector &q, const vpJointVector &way) const noexcept
+{
+  return q.size() == m_joints && way.size() == m_joints && ((q - way).array() >= m_low.array()).all() &&
+         ((q + way).array() <= m_high.array()).all();
 }
 
 END_VISP_NAMESPACE

@@ -4,9 +4,13 @@
  */
 #include "vpSegmentKernel.h"
 
-#include <visp3/avoidance/vpSegmentDistance.h>
+#include "vpSegmentNearest.h"
+
+#include <visp3/manipulator/vpArmTypes.h>
 
 #include <Eigen/Geometry>
+
+#include <limits>
 
 BEGIN_VISP_NAMESPACE
 
@@ -14,6 +18,18 @@ namespace
 {
 namespace kernel = vpSegmentKernel;
 using V3 = kernel::V3<double>;
+
+// No number of theirs is NaN or so large that squares or products of squares overflow.
+template <class... Vectors> bool arePlausible(const Vectors &...vectors)
+{
+  constexpr double largest = 100. * vpLargestLength;
+  return (... && (vectors.cwiseAbs().array() <= largest).all());
+}
+
+vpNearestPoints unknown()
+{
+  return {-std::numeric_limits<double>::infinity(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+}
 
 V3 in(const Eigen::Vector3d &v) { return {v.x(), v.y(), v.z()}; }
 
@@ -45,7 +61,7 @@ void offerFace(const Eigen::Vector3d &p, const Eigen::Vector3d &a, const Eigen::
 }
 } // namespace
 
-namespace vpSegmentDistance
+namespace vpSegmentNearest
 {
 vpNearestPoints point(const Eigen::Vector3d &from, const Eigen::Vector3d &to, const Eigen::Vector3d &other) noexcept
 {
@@ -83,6 +99,38 @@ vpNearestPoints triangle(const Eigen::Vector3d &from, const Eigen::Vector3d &to,
     offerFace(from + before / (before - after) * (to - from), a, b, c, n, best);
   }
   return best;
+}
+} // namespace vpSegmentNearest
+
+namespace vpSegmentDistance
+{
+vpNearestPoints point(const Eigen::Vector3d &from, const Eigen::Vector3d &to, const Eigen::Vector3d &other) noexcept
+{
+  return arePlausible(from, to, other) ? vpSegmentNearest::point(from, to, other) : unknown();
+}
+
+vpNearestPoints segment(const Eigen::Vector3d &from, const Eigen::Vector3d &to, const Eigen::Vector3d &otherFrom,
+                        const Eigen::Vector3d &otherTo) noexcept
+{
+  return arePlausible(from, to, otherFrom, otherTo) ? vpSegmentNearest::segment(from, to, otherFrom, otherTo)
+                                                    : unknown();
+}
+
+vpNearestPoints box(const Eigen::Vector3d &from, const Eigen::Vector3d &to, const Eigen::Vector3d &half) noexcept
+{
+  return arePlausible(from, to, half) ? vpSegmentNearest::box(from, to, half) : unknown();
+}
+
+vpNearestPoints cylinder(const Eigen::Vector3d &from, const Eigen::Vector3d &to, double radius, double half) noexcept
+{
+  return arePlausible(from, to, Eigen::Vector2d(radius, half)) ? vpSegmentNearest::cylinder(from, to, radius, half)
+                                                               : unknown();
+}
+
+vpNearestPoints triangle(const Eigen::Vector3d &from, const Eigen::Vector3d &to, const Eigen::Vector3d &a,
+                         const Eigen::Vector3d &b, const Eigen::Vector3d &c) noexcept
+{
+  return arePlausible(from, to, a, b, c) ? vpSegmentNearest::triangle(from, to, a, b, c) : unknown();
 }
 } // namespace vpSegmentDistance
 

@@ -15,7 +15,8 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-constexpr double slack = 1e-4; // m: so much nearer an arm at its margin may come on its way away
+constexpr double sameTime = 1e-9; // of a period
+constexpr double slack = 1e-4;    // m: so much nearer an arm at its margin may come between periods on its way away
 
 void requireGood(const char *field, double value, bool good, const char *range)
 {
@@ -27,11 +28,12 @@ void requireGood(const char *field, double value, bool good, const char *range)
 
 void vpStopSupervisorSpec::validate() const
 {
-  requireGood("period", period, period > 0., "> 0 s");
+  requireGood("period", period, period > 0. && period <= 1., "> 0 and at most 1 s");
   requireGood("margin", margin, margin >= 0., ">= 0 m");
   requireGood("latency", latency, latency >= 0., ">= 0 s");
   requireGood("resolution", resolution, resolution > 0., "> 0 m");
   requireGood("attempts", attempts, attempts >= 1 && attempts <= 16, "1 to 16");
+  requireGood("looks", looks, looks >= 60, ">= 60");
 }
 
 const char *vpSupervisedVelocity::sentence() const noexcept
@@ -39,6 +41,8 @@ const char *vpSupervisedVelocity::sentence() const noexcept
   switch (status) {
   case vpSupervision::Passed:
     return "The arm moves as wished.";
+  case vpSupervision::Limited:
+    return "The arm moves as wished, within the limits of its joints.";
   case vpSupervision::Slowed:
     return "The arm moves slower than wished, so that it can stop in time.";
   case vpSupervision::Stopping:
@@ -50,7 +54,7 @@ const char *vpSupervisedVelocity::sentence() const noexcept
   case vpSupervision::InvalidInput:
     break;
   }
-  return "The configuration or the wish is not finite or of a wrong size; the arm brakes.";
+  return "The configuration or the wish is not finite, out of range or of a wrong size; the arm brakes.";
 }
 
 vpStopSupervisor::vpStopSupervisor(const vpCollisionScene &scene, const vpStopSupervisorSpec &spec)
@@ -59,24 +63,108 @@ vpStopSupervisor::vpStopSupervisor(const vpCollisionScene &scene, const vpStopSu
 {
   spec.validate();
   scene.arm().requireMotionLimits("a stop supervisor");
+  reset();
 }
 
-void vpStopSupervisor::reset() noexcept { m_moving = false; }
+void vpStopSupervisor::reset() noexcept
+{
+  m_moving = false;
+  m_command = vpJointVector::Zero(m_scene->arm().size());
+}
+
+// The stop of the last period, one period on: the mean of its ramp.
+vpJointVector vpStopSupervisor::braking() const noexcept
+{
+  vpJointVector velocity = vpJointVector::Zero(m_scene->arm().size());
+  for (int j = 0; j < velocity.size() && m_moving; ++j) {
+    velocity(j) = (m_stop.at(j, m_time + m_spec.period)[0] - m_stop.at(j, m_time)[0]) / m_spec.period;
+  }
+  return velocity;
+}
+
+// The velocity nearest to the wish that the limits of each joint allow.
+vpJointVector vpStopSupervisor::limited(const vpJointVector &q, const vpJointVector &wish) const noexcept
+{
+  const vpArmModel &arm = m_scene->arm();
+  const double period = m_spec.period;
+  vpJointVector velocity(q.size());
+  for (int j = 0; j < velocity.size(); ++j) {
+    const double fastest = arm.velocity()(j), a = arm.acceleration()(j), last = m_command(j);
+    const double low = std::max(-fastest, last - period * a), high = std::min(fastest, last + period * a);
+    // v T + v^2 / (2 a) <= room, so that it can brake before its position limit; beyond it, no farther.
+    const auto towards = [&](double sense) {
+      const double room = std::max(0., roomAhead(arm, j, q(j), sense));
+      return room < HUGE_VAL ? 2. * room / (period + std::sqrt(period * period + 2. * room / a)) : fastest;
+    };
+    const double above = std::max(low, towards(1.)), below = std::min(high, -towards(-1.));
+    velocity(j) = std::clamp(std::clamp(wish(j), std::min(below, above), above), low, high);
+  }
+  return velocity;
+}
+
+// When the arm stands that is commanded a plan: at the end of the period in which the plan ends.
+double vpStopSupervisor::standing(const vpTrajectoryPlan &plan) const noexcept
+{
+  return std::ceil(plan.duration() / m_spec.period - sameTime) * m_spec.period;
+}
+
+// By how much a clearance of the arm on the chords of a plan may be less than on the plan: 2 e of the proof.
+double vpStopSupervisor::offPlan(const vpTrajectoryPlan &plan) const noexcept
+{
+  const int n = m_scene->arm().size();
+  vpJointVector off(n);
+  for (int j = 0; j < n; ++j) {
+    const int last = plan.segments(j) - 1; // the ramp down to rest
+    const double v = std::fabs(plan.at(j, 0.)[1]), braking = last < 0 ? HUGE_VAL : plan.segment(j, last).duration;
+    off(j) = m_spec.period * v * std::min(1., 0.125 * m_spec.period / braking);
+  }
+  double most = 0.;
+  for (int i = 0; i < m_scene->capsuleCount(); ++i) {
+    double sum = 0.;
+    for (int j = 0; j < n; ++j) {
+      sum += m_certificate.reach()(i, j) * off(j);
+    }
+    most = std::max(most, sum);
+  }
+  return 2. * most;
+}
+
+vpClearance vpStopSupervisor::clearanceAt(const vpTrajectoryPlan &plan, double time, double cutoff) noexcept
+{
+  vpJointVector q(m_scene->arm().size());
+  for (int j = 0; j < q.size(); ++j) {
+    q(j) = plan.at(j, time)[0];
+  }
+  --m_looks;
+  m_scene->place(q, m_data);
+  return m_scene->clearance(m_data, cutoff, m_spec.latency + time);
+}
+
+// One of so many equal parts of the looks for a proof, so that one that is hard to find does not use up all of them; two
+// are kept for the last one.
+int vpStopSupervisor::looksOfProof() const noexcept { return m_spec.looks / (m_spec.attempts + 3); }
+
+vpTrajectoryClearance vpStopSupervisor::prove(const vpTrajectoryPlan &plan, double from, double margin,
+                                              int looks) noexcept
+{
+  m_certificate.setMargin(margin);
+  const vpTrajectoryClearance result = m_certificate.verdict(plan, from, std::max(from, standing(plan)), m_spec.latency,
+                                                             std::max(1, std::min(m_looks, looks)));
+  m_looks -= result.evaluated;
+  return result;
+}
 
 bool vpStopSupervisor::admit(const vpJointVector &q, const vpJointVector &velocity, vpClearance &pair) noexcept
 {
-  planStop(m_scene->arm(), q, velocity, m_spec.period, m_candidate);
-  // Where it would come to rest is most often what is wrong, and quickly told.
-  const double end = m_candidate.duration();
-  vpJointVector rest(q.size());
-  for (int j = 0; j < rest.size(); ++j) {
-    rest(j) = m_candidate.at(j, end)[0];
+  if (!planStop(m_scene->arm(), q, velocity, m_spec.period, m_candidate)) {
+    return false;
   }
-  m_scene->place(rest, m_data);
-  const vpClearance there = m_scene->clearance(m_data, m_spec.margin, m_spec.latency + end);
+  // With the resolution in hand, so that what is proven now can be proven again in any later period.
+  const double off = offPlan(m_candidate) + m_spec.resolution, margin = m_spec.margin + off;
+  // Where it would come to rest is most often what is wrong, and quickly told.
+  const vpClearance there = clearanceAt(m_candidate, standing(m_candidate), margin);
   if (there.kind == vpCollisionKind::None) {
-    m_certificate.setMargin(m_spec.margin);
-    const vpTrajectoryClearance verdict = m_certificate.verdict(m_candidate, 0., end, m_spec.latency);
+    const vpTrajectoryClearance verdict = prove(m_candidate, 0., margin, looksOfProof());
     if (verdict.isFree()) {
       return true;
     }
@@ -85,59 +173,107 @@ bool vpStopSupervisor::admit(const vpJointVector &q, const vpJointVector &veloci
   else {
     pair = there;
   }
-  m_scene->place(q, m_data);
-  const vpClearance now = m_scene->clearance(m_data, m_spec.margin + slack, m_spec.latency);
-  return now.distance < m_spec.margin + slack && isRetreat(now, there.distance);
+  return isRetreat(q, off);
 }
 
-// An arm at or within its margin may move where it ends no nearer than it is and comes hardly nearer on the way.
-bool vpStopSupervisor::isRetreat(const vpClearance &now, double there) noexcept
+// An arm at or within its margin may move where it is no nearer at the end of any period, and hardly nearer in between.
+bool vpStopSupervisor::isRetreat(const vpJointVector &q, double off) noexcept
 {
-  const double margin = now.distance - slack;
-  m_certificate.setMargin(margin);
-  return there >= now.distance && margin >= 0. &&
-         m_certificate.verdict(m_candidate, 0., m_candidate.duration(), m_spec.latency).isFree();
+  --m_looks;
+  m_scene->place(q, m_data);
+  const double near = m_spec.margin + off + slack;
+  double last = m_scene->clearance(m_data, near, m_spec.latency).distance;
+  const double margin = last - slack;
+  if (!(last < near) || !(margin >= off)) {
+    return false;
+  }
+  const double periods = std::round(standing(m_candidate) / m_spec.period);
+  if (!(periods < m_looks)) {
+    return false;
+  }
+  for (int k = 1; k <= static_cast<int>(periods); ++k) {
+    const double now = clearanceAt(m_candidate, k * m_spec.period, near).distance;
+    if (!(now >= std::min(last, near))) {
+      return false;
+    }
+    last = now;
+  }
+  return prove(m_candidate, 0., margin, looksOfProof()).isFree();
+}
+
+bool vpStopSupervisor::tryWish(const vpJointVector &q, const vpJointVector &wish, const vpJointVector &brake,
+                               vpSupervisedVelocity &output) noexcept
+{
+  const vpJointVector most = limited(q, wish);
+  const bool asWished = ((most - wish).array().abs() <= 1e-9 * wish.array().abs().max(1.)).all();
+  double share = 1.;
+  for (int attempt = 0; attempt < m_spec.attempts && m_looks > 0; ++attempt, share *= 0.5) {
+    const vpJointVector velocity = brake + share * (most - brake);
+    if (admit(q, velocity, output.pair)) {
+      std::swap(m_stop, m_candidate);
+      m_time = m_spec.period;
+      m_moving = velocity.cwiseAbs().maxCoeff() > 0.;
+      output.velocity = velocity;
+      output.share = share;
+      output.status = attempt > 0 ? vpSupervision::Slowed : asWished ? vpSupervision::Passed : vpSupervision::Limited;
+      output.pair = attempt > 0 ? output.pair : vpClearance();
+      return true;
+    }
+  }
+  return false;
+}
+
+// The rest of the stop from where the arm is, if that is not where the stop has it.
+void vpStopSupervisor::startStopAt(const vpJointVector &q) noexcept
+{
+  double off = 0.;
+  for (int j = 0; j < q.size(); ++j) {
+    off = std::max(off, std::fabs(m_stop.at(j, m_time)[0] - q(j)));
+  }
+  if (off <= 1e-9) {
+    return;
+  }
+  m_candidate.clear();
+  for (int j = 0; j < q.size(); ++j) {
+    const double v = m_stop.at(j, m_time)[1], left = m_stop.duration(j) - m_time, way = left > 0. ? v * left : 0.;
+    m_candidate.begin(j, q(j), vpTrajectoryForm::Direct);
+    m_candidate.append(j, {0., way, -0.5 * way}, left);
+    m_candidate.finish(j, {q(j) + 0.5 * way, 0., 0., 0.}, 0.);
+  }
+  std::swap(m_stop, m_candidate);
+  m_time = 0.;
 }
 
 void vpStopSupervisor::step(const vpJointVector &q, const vpJointVector &wish, vpSupervisedVelocity &output) noexcept
 {
-  const int n = m_scene->arm().size();
-  // The stop of the last period, one period on: the mean of its ramp.
-  vpJointVector braking = vpJointVector::Zero(n);
-  for (int j = 0; j < n && m_moving; ++j) {
-    braking(j) = (m_stop.at(j, m_time + m_spec.period)[0] - m_stop.at(j, m_time)[0]) / m_spec.period;
-  }
-  output.pair = vpClearance();
-  output.share = 0.;
-  output.status = vpSupervision::InvalidInput;
-  if (q.size() == n && wish.size() == n && q.allFinite() && wish.allFinite()) {
-    double share = 1.;
-    vpClearance pair;
-    for (int attempt = 0; attempt < m_spec.attempts; ++attempt, share *= 0.5) {
-      const vpJointVector velocity = braking + share * (wish - braking);
-      if (admit(q, velocity, pair)) {
-        std::swap(m_stop, m_candidate);
-        m_time = m_spec.period;
-        m_moving = velocity.cwiseAbs().maxCoeff() > 0.;
-        output.velocity = velocity;
-        output.share = share;
-        output.status = attempt == 0 ? vpSupervision::Passed : vpSupervision::Slowed;
-        output.pair = attempt == 0 ? vpClearance() : pair;
-        return;
-      }
+  const int n = m_scene->arm().size(), reserve = 2 * looksOfProof();
+  output = vpSupervisedVelocity();
+  output.velocity = braking();
+  const int mine = m_spec.looks - reserve - 2; // a try may look twice more than is left
+  m_looks = mine;
+  const bool placed = m_certificate.reach().holds(q);
+  if (placed && wish.size() == n && wish.allFinite()) {
+    const bool passed = tryWish(q, wish, vpJointVector(output.velocity), output);
+    output.looks = mine - m_looks;
+    if (passed) {
+      m_command = output.velocity;
+      return;
     }
-    output.pair = pair;
     output.status = m_moving ? vpSupervision::Stopping : vpSupervision::Standing;
-    if (m_moving) { // is it still free, with the objects where they are now?
-      m_certificate.setMargin(0.);
-      const vpTrajectoryClearance rest = m_certificate.verdict(m_stop, m_time, m_stop.duration(), m_spec.latency);
-      output.status = rest.isFree() ? output.status : vpSupervision::Unsafe;
-      output.pair = rest.isFree() ? output.pair : rest.pair;
+  }
+  if (m_moving && placed) { // is the stop still free, from where the arm is, with the objects where they are now?
+    startStopAt(q);
+    m_looks = reserve;
+    const vpTrajectoryClearance rest = prove(m_stop, m_time, offPlan(m_stop), reserve);
+    output.looks += rest.evaluated;
+    if (!rest.isFree() && output.status != vpSupervision::InvalidInput) {
+      output.status = vpSupervision::Unsafe;
+      output.pair = rest.pair;
     }
   }
-  output.velocity = braking;
+  m_command = output.velocity;
   m_time += m_spec.period;
-  m_moving = m_moving && m_time < m_stop.duration();
+  m_moving = m_moving && m_time < m_stop.duration() - sameTime * m_spec.period;
 }
 
 END_VISP_NAMESPACE

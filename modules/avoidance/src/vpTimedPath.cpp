@@ -173,7 +173,7 @@ void vpTimedPath::build(const vpCollisionScene &scene, const vpJointPath &path, 
     throw vpException(vpException::badValue, "the path to be timed has no points");
   }
   for (const vpJointVector &q : path.points) {
-    if (q.size() != arm.size() || !q.allFinite()) {
+    if (q.size() != arm.size() || !(q.cwiseAbs().array() <= vpLargestCoordinate).all()) {
       throw vpException(vpException::badValue,
                         "a point of the path to be timed has %d numbers, must have %d finite ones",
                         static_cast<int>(q.size()), arm.size());
@@ -226,6 +226,7 @@ void vpTimedPath::append(const vpTrajectoryPlan &plan, const vpTrajectoryClearan
 
 vpAxisState vpTimedPath::at(int joint, double t) const noexcept
 {
+  t = t > 0. ? std::min(t, m_duration) : 0.; // NaN: the start
   const auto next = std::upper_bound(m_parts.begin(), m_parts.end(), t,
                                      [](double time, const Part &part) { return time < part.begin; });
   if (m_parts.empty()) {

@@ -66,6 +66,9 @@ vpForecast vpToolForecast::run(const vpJointVector &q, const vpJointVector &velo
     before = m_data.capsules;
     result.time = t;
     result.tool = m_data.arm.tool.p;
+    if (!m_data.placed) {
+      return result; // stuck: where the arm would be is no number
+    }
     const vpClearance nearest = leastOf(m_near);
     if (t == 0.) { // an arm that is nearer already may stay hardly nearer
       margin = std::min(margin, std::max(1e-3, nearest.distance - 1e-3));

@@ -2,9 +2,11 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
+#include "vpMeshTopology.h"
 #include "vpTriangleMeshData.h"
 
 #include <visp3/core/vpException.h>
+#include <visp3/manipulator/vpArmTypes.h>
 
 #include <Eigen/Geometry>
 
@@ -17,27 +19,46 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-using Edge = std::pair<int, int>;
-
-Edge sorted(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
-
 double angleAt(const Eigen::Vector3d &corner, const Eigen::Vector3d &a, const Eigen::Vector3d &b)
 {
   return std::atan2((a - corner).cross(b - corner).norm(), (a - corner).dot(b - corner));
 }
 
-void takeTriangles(const std::vector<std::array<int, 3>> &triangles, vpTriangleMeshData &data)
+// Formats repeat a vertex in every triangle, or where a texture has a seam: equal ones are one, or every edge were a hole.
+std::vector<int> joinVertices(const std::vector<Eigen::Vector3d> &vertices, vpTriangleMeshData &data)
 {
-  const int n = static_cast<int>(data.vertices.size());
+  std::map<std::array<double, 3>, int> known;
+  std::vector<int> index;
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const Eigen::Vector3d &v = vertices[i];
+    if (!(v.cwiseAbs().array() <= vpLargestLength).all()) {
+      throw vpException(vpException::badValue, "%s: vertex %lu is not within %g m", data.label.c_str(),
+                        static_cast<unsigned long>(i), vpLargestLength);
+    }
+    const auto found = known.emplace(std::array<double, 3>{v.x(), v.y(), v.z()}, static_cast<int>(known.size()));
+    if (found.second) {
+      data.vertices.push_back(v);
+    }
+    index.push_back(found.first->second);
+  }
+  return index;
+}
+
+void takeTriangles(const std::vector<std::array<int, 3>> &triangles, const std::vector<int> &joined,
+                   vpTriangleMeshData &data)
+{
+  const int n = static_cast<int>(joined.size());
   for (std::size_t i = 0; i < triangles.size(); ++i) {
-    for (const int index : triangles[i]) {
+    std::array<int, 3> t{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int index = triangles[i][k];
       if (index < 0 || index >= n) {
         throw vpException(vpException::badValue, "%s: triangle %lu uses vertex %d of %d", data.label.c_str(),
                           static_cast<unsigned long>(i), index, n);
       }
+      t[k] = joined[static_cast<std::size_t>(index)];
     }
     const auto &v = data.vertices;
-    const auto &t = triangles[i];
     const Eigen::Vector3d a = v[static_cast<std::size_t>(t[0])], b = v[static_cast<std::size_t>(t[1])],
                           c = v[static_cast<std::size_t>(t[2])];
     if ((b - a).cross(c - a).norm() > 1e-30) {
@@ -49,32 +70,23 @@ void takeTriangles(const std::vector<std::array<int, 3>> &triangles, vpTriangleM
   }
 }
 
-// Watertight: every edge once in each sense.
 void judge(vpTriangleMeshData &data)
 {
-  std::map<Edge, std::pair<int, int>> uses;
-  for (const auto &t : data.triangles) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const int a = t[k], b = t[(k + 1) % 3];
-      ++(a < b ? uses[sorted(a, b)].first : uses[sorted(a, b)].second);
-    }
-  }
-  int open = 0, other = 0;
-  for (const auto &use : uses) {
-    const int n = use.second.first + use.second.second;
-    open += n == 1 ? 1 : 0;
-    other += n != 1 && (use.second.first != 1 || use.second.second != 1) ? 1 : 0;
-  }
-  data.watertight = open == 0 && other == 0;
-  if (open > 0) {
-    data.sentence = data.label + ": the surface has holes (" + std::to_string(open) +
+  const vpMeshTopology topology = vpOrientMesh(data.vertices, data.triangles);
+  data.watertight = topology.openEdges == 0 && topology.otherEdges == 0;
+  if (topology.openEdges > 0) {
+    data.sentence = data.label + ": the surface has holes (" + std::to_string(topology.openEdges) +
                     " edges with one triangle), it counts as a sheet without inside";
   }
-  else if (other > 0) {
-    data.sentence = data.label + ": " + std::to_string(other) +
-                    " edges join triangles of opposite sense or more than two, it counts as a sheet without inside";
+  else if (topology.otherEdges > 0) {
+    data.sentence = data.label + ": " + std::to_string(topology.otherEdges) +
+                    " edges have more than two triangles or no two sides, it counts as a sheet without inside";
   }
 }
+
+using Edge = std::pair<int, int>;
+
+Edge sorted(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
 void addNormals(vpTriangleMeshData &data)
 {
@@ -131,9 +143,9 @@ vpNearestPoints vpTriangleMeshData::nearest(const Eigen::Vector3d &from, const E
   int index = -1;
   const auto exact = [&](int i) {
     const auto &t = triangles[static_cast<std::size_t>(i)];
-    return vpSegmentDistance::triangle(from, to, vertices[static_cast<std::size_t>(t[0])],
-                                       vertices[static_cast<std::size_t>(t[1])],
-                                       vertices[static_cast<std::size_t>(t[2])]);
+    return vpSegmentNearest::triangle(from, to, vertices[static_cast<std::size_t>(t[0])],
+                                      vertices[static_cast<std::size_t>(t[1])],
+                                      vertices[static_cast<std::size_t>(t[2])]);
   };
   // A segment inside a solid may be far from its surface: then the cutoff must not hide it.
   const bool mayBeInside = watertight && tree.contains(from);
@@ -154,20 +166,14 @@ vpTriangleMesh::vpTriangleMesh(const std::vector<Eigen::Vector3d> &vertices,
 {
   auto data = std::make_shared<vpTriangleMeshData>();
   data->label = label;
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    if (!vertices[i].allFinite()) {
-      throw vpException(vpException::badValue, "%s: vertex %lu is not finite", label.c_str(),
-                        static_cast<unsigned long>(i));
-    }
-  }
-  data->vertices = vertices;
-  takeTriangles(triangles, *data);
+  takeTriangles(triangles, joinVertices(vertices, *data), *data);
   judge(*data);
   addNormals(*data);
   std::vector<vpBoxTree::Item> items;
   for (const auto &t : data->triangles) {
-    const Eigen::Vector3d &a = vertices[static_cast<std::size_t>(t[0])], &b = vertices[static_cast<std::size_t>(t[1])],
-                          &c = vertices[static_cast<std::size_t>(t[2])];
+    const Eigen::Vector3d &a = data->vertices[static_cast<std::size_t>(t[0])],
+                          &b = data->vertices[static_cast<std::size_t>(t[1])],
+                          &c = data->vertices[static_cast<std::size_t>(t[2])];
     items.push_back({a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)});
   }
   data->tree = vpBoxTree(items);

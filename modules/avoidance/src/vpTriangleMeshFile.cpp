@@ -10,7 +10,6 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
-#include <map>
 #include <sstream>
 
 BEGIN_VISP_NAMESPACE
@@ -75,32 +74,16 @@ Soup readObj(const std::string &text, const std::string &file)
   return soup;
 }
 
-// STL repeats every vertex in every triangle: equal ones are joined, or every edge would be a hole.
-class StlJoiner
+void addTriangle(const std::array<Eigen::Vector3d, 3> &corners, Soup &soup)
 {
-public:
-  void add(const std::array<Eigen::Vector3d, 3> &corners)
-  {
-    std::array<int, 3> triangle{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::array<double, 3> key = {corners[k].x(), corners[k].y(), corners[k].z()};
-      const auto found = m_index.emplace(key, static_cast<int>(soup.vertices.size()));
-      if (found.second) {
-        soup.vertices.push_back(corners[k]);
-      }
-      triangle[k] = found.first->second;
-    }
-    soup.triangles.push_back(triangle);
-  }
-  Soup soup;
-
-private:
-  std::map<std::array<double, 3>, int> m_index;
-};
+  const int first = static_cast<int>(soup.vertices.size());
+  soup.vertices.insert(soup.vertices.end(), corners.begin(), corners.end());
+  soup.triangles.push_back({first, first + 1, first + 2});
+}
 
 Soup readTextStl(const std::string &text, const std::string &file)
 {
-  StlJoiner joiner;
+  Soup soup;
   std::istringstream in(text);
   std::string word;
   std::array<Eigen::Vector3d, 3> corners;
@@ -108,18 +91,18 @@ Soup readTextStl(const std::string &text, const std::string &file)
   while (in >> word) {
     if (word == "vertex") {
       if (!(in >> corners[corner].x() >> corners[corner].y() >> corners[corner].z())) {
-        fail(file, "triangle " + std::to_string(joiner.soup.triangles.size()) + ": a vertex needs three numbers");
+        fail(file, "triangle " + std::to_string(soup.triangles.size()) + ": a vertex needs three numbers");
       }
       if (++corner == 3) {
-        joiner.add(corners);
+        addTriangle(corners, soup);
         corner = 0;
       }
     }
   }
   if (corner != 0) {
-    fail(file, "triangle " + std::to_string(joiner.soup.triangles.size()) + " is cut off");
+    fail(file, "triangle " + std::to_string(soup.triangles.size()) + " is cut off");
   }
-  return joiner.soup;
+  return soup;
 }
 
 constexpr std::size_t stlHeader = 84, stlTriangle = 50;
@@ -141,7 +124,7 @@ Soup readBinaryStl(const std::string &bytes, const std::string &file)
     fail(file, "says " + std::to_string(count) + " triangles and ends in triangle " +
                    std::to_string((bytes.size() - stlHeader) / stlTriangle));
   }
-  StlJoiner joiner;
+  Soup soup;
   for (std::size_t i = 0; i < count; ++i) {
     float numbers[12];
     std::memcpy(numbers, bytes.data() + stlHeader + i * stlTriangle, sizeof(numbers));
@@ -149,9 +132,9 @@ Soup readBinaryStl(const std::string &bytes, const std::string &file)
     for (std::size_t k = 0; k < 3; ++k) {
       corners[k] << numbers[3 + 3 * k], numbers[4 + 3 * k], numbers[5 + 3 * k];
     }
-    joiner.add(corners);
+    addTriangle(corners, soup);
   }
-  return joiner.soup;
+  return soup;
 }
 
 Soup readStl(const std::string &bytes, const std::string &file)

@@ -325,8 +325,32 @@ TEST_CASE("Goals out of reach, an arm that touches, nonsense: a status, and the 
       const Drive run = drive(tight, *held, home(), 0.5);
       CHECK((run.q - home()).norm() < 1e-6);
       CHECK(run.last.status == vpAvoidanceStatus::StartInCollision);
+      CHECK(sentence(run.last, tight, 0.01) == "The arm stands: link 7 and object cuff touch.");
+      CHECK_FALSE(isWorking(run.last)); // a loop ends
     }
   }
+}
+
+TEST_CASE("An arm within the margin is told the pair, the clearance and the margin", "[methods]")
+{
+  vpAvoidanceOutput output;
+  // 9.85 mm from a ball with a margin of 10: it does not touch it, and is told so.
+  vpCollisionScene scene(amor());
+  vpCollisionData placed;
+  scene.place(home(), placed);
+  const vpPlacedCapsule &hand = placed.capsules[3];
+  scene.add(ball("ball", hand.to + (hand.radius + 0.05 + 0.00985) * (hand.to - hand.from).normalized(), 0.05));
+  const auto method = makeAvoidanceMethod("planner", scene);
+  vpJointVector there = home();
+  there(0) += 0.5;
+  CHECK(method->start(home(), vpAvoidanceGoal::at(amor(), there)) == vpAvoidanceStatus::StartInCollision);
+  method->step(home(), output);
+  CHECK(sentence(output, scene, 0.01) ==
+        "The arm stands: link 7 and object ball are 9.85 mm apart, the margin is 10 mm.");
+  CHECK(method->start(there, vpAvoidanceGoal::at(amor(), home())) == vpAvoidanceStatus::GoalInCollision);
+  method->step(there, output);
+  CHECK(sentence(output, scene, 0.01) ==
+        "The arm waits: at the goal link 7 and object ball are 9.85 mm apart, the margin is 10 mm.");
 }
 
 TEST_CASE("The step of no method allocates", "[methods]")

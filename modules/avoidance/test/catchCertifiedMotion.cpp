@@ -272,7 +272,7 @@ TEST_CASE("Bad inputs, empty scenes, motions of length zero, scenes that change"
   CHECK(certified.check(home, broken, scratch).status == vpMotionStatus::BadInput);
   CHECK(certified.check(home, vpJointVector::Zero(6), scratch).status == vpMotionStatus::BadInput);
   CHECK(std::string(certified.check(home, broken, scratch).sentence()) ==
-        "a configuration has the wrong size or is not finite");
+        "a configuration has the wrong size, is not finite or is out of all range");
   vpJointVector away = home;
   away(0) += 1.;
   const bool before = certified.check(home, away, scratch).isFree();

@@ -4,6 +4,7 @@
  */
 // What is in the files arrives, and what is wrong with them is said in one sentence with the file and the element.
 #include "vpAvoidanceTestKit.h"
+#include "vpCaseFile.h"
 #include "vpCatch.h"
 
 #include <visp3/avoidance/vpCertifiedMotion.h>
@@ -14,6 +15,7 @@
 #include <cstdio>
 #include <fstream>
 #include <iostream>
+#include <sstream>
 
 using namespace vpAvoidanceTestKit;
 
@@ -113,6 +115,164 @@ TEST_CASE("Meshes from files", "[files]")
                                         "without inside");
 }
 
+TEST_CASE("A closed mesh is a solid, however its file repeats corners and turns triangles", "[files]")
+{
+  // A box of six faces with corners of their own, as textured models have them.
+  std::string vertices, faces, turned;
+  for (int face = 0; face < 6; ++face) {
+    for (int corner = 0; corner < 4; ++corner) {
+      const int axis = face / 2, u = corner == 1 || corner == 2 ? 1 : 0, v = corner / 2;
+      int p[3];
+      p[axis] = face % 2;
+      p[(axis + 1) % 3] = face % 2 == 1 ? u : v;
+      p[(axis + 2) % 3] = face % 2 == 1 ? v : u;
+      vertices += "v " + std::to_string(p[0]) + " " + std::to_string(p[1]) + " " + (p[2] == 0 && face > 3 ? "-" : "") +
+                  std::to_string(p[2]) + "\n"; // -0 is 0
+    }
+    const auto index = [face](int k) { return " " + std::to_string(4 * face + k); };
+    faces += "f" + index(1) + index(2) + index(3) + index(4) + "\n";
+    turned += face == 2 ? "f" + index(4) + index(3) + index(2) + index(1) + "\n"
+                        : "f" + index(1) + index(2) + index(3) + index(4) + "\n";
+  }
+  std::string inwards = faces;
+  for (std::size_t i = 0; (i = inwards.find("f ", i)) != std::string::npos; ++i) {
+    std::istringstream line(inwards.substr(i + 1, inwards.find('\n', i) - i));
+    std::string a, b, c, d;
+    line >> a >> b >> c >> d;
+    inwards.replace(i, inwards.find('\n', i) - i, "f " + d + " " + c + " " + b + " " + a);
+  }
+  for (const std::string &surface : {faces, turned, inwards}) {
+    CAPTURE(surface);
+    const File file("split.obj", vertices + surface);
+    const vpTriangleMesh mesh = vpTriangleMesh::load(file.name());
+    CHECK(mesh.vertices().size() == 8);
+    REQUIRE(mesh.isWatertight());
+    // The arm within it collides, beside it not.
+    vpCollisionSceneSpec spec;
+    vpCollisionObject box;
+    box.name = "box";
+    box.shape = vpCollisionShape::mesh(vpTriangleMesh::load(file.name(), 4.));
+    box.pose.p << -2., -2., -2.;
+    spec.objects.push_back(box);
+    vpCollisionScene scene(amor(), spec);
+    vpCollisionData data;
+    scene.place(amor().home(), data);
+    CHECK(scene.inCollision(data));
+    CHECK(scene.clearance(data).distance < -0.8);
+    box.pose.p.x() = 1.5;
+    REQUIRE(scene.moveObject(0, box.pose));
+    CHECK_FALSE(scene.inCollision(data));
+  }
+  // A shell within a shell that is turned inwards is a cavity: what is in there is free.
+  std::string cavity = vertices + faces;
+  std::istringstream lines(vertices);
+  std::string v;
+  double x, y, z;
+  while (lines >> v >> x >> y >> z) {
+    cavity += "v " + std::to_string(0.25 + 0.5 * x) + " " + std::to_string(0.25 + 0.5 * y) + " " +
+              std::to_string(0.25 + 0.5 * z) + "\n";
+  }
+  std::istringstream quads(inwards);
+  int i, j, k, l;
+  while (quads >> v >> i >> j >> k >> l) {
+    cavity += "f " + std::to_string(i + 24) + " " + std::to_string(j + 24) + " " + std::to_string(k + 24) + " " +
+              std::to_string(l + 24) + "\n";
+  }
+  const File file("cavity.obj", cavity);
+  const vpTriangleMesh hollow = vpTriangleMesh::load(file.name());
+  REQUIRE(hollow.isWatertight());
+  const auto depth = [&hollow](double at) {
+    const Vector3d p(at, 0.5, 0.5);
+    vpArmSpec arm;
+    vpArmJointSpec joint;
+    joint.name = "j";
+    joint.type = vpJointType::Continuous;
+    arm.name = "point";
+    arm.joints = {joint};
+    arm.capsules = {{1, p, p, 1e-3}};
+    vpCollisionSceneSpec spec;
+    spec.objects.push_back({"hollow", vpCollisionShape::mesh(hollow), {}, {}, 0.});
+    const vpCollisionScene scene((vpArmModel(arm)), spec);
+    vpCollisionData data;
+    scene.place(vpJointVector::Zero(1), data);
+    return scene.clearance(data).distance;
+  };
+  CHECK(depth(0.5) == Approx(0.249));
+  CHECK(depth(0.1) == Approx(-0.101));
+  CHECK(depth(-0.1) == Approx(0.099));
+}
+
+TEST_CASE("A mesh that stays open is refused as a solid, by name, unless a surface is enough", "[files]")
+{
+  std::string open = cube;
+  open.resize(open.rfind("f "));
+  const File obj("open.obj", open);
+  const vpTriangleMesh mesh = vpTriangleMesh::load(obj.name());
+  CHECK_FALSE(mesh.isWatertight());
+  CHECK_THROWS_WITH(vpCollisionShape::mesh(mesh),
+                    obj.name() + ": the surface has holes (4 edges with one triangle), it counts as a sheet without "
+                                 "inside; close it, or say that a surface is enough (\"surface\": true in a scene, "
+                                 "vpMeshUse::Surface)");
+  CHECK(vpCollisionShape::mesh(mesh, vpMeshUse::Surface).type() == vpShapeType::Mesh);
+  const auto scene = [](const std::string &more) {
+    return R"({"name": "s", "objects": [{"name": "a", "shape": "mesh", "file": "catchCollisionFiles-open.obj")" + more +
+           "}]}";
+  };
+  const File solid("open.json", scene("")), surface("surface.json", scene(", \"surface\": true")),
+      wrong("wrong.json", scene(", \"surface\": 1"));
+  CHECK(errorOf([&] {
+          return vpLoadCollisionScene(solid.name());
+        }).find(solid.name() + ": objects[0]: " + obj.name() + ": the surface has holes (4 edges with one triangle)") ==
+        0);
+  CHECK(vpLoadCollisionScene(surface.name()).warnings.size() == 1);
+  CHECK(errorOf([&] { return vpLoadCollisionScene(wrong.name()); }).find("surface") != std::string::npos);
+}
+
+TEST_CASE("The public case of a block round the arm collides", "[files]")
+{
+  for (const char *name : {"jenga.obj", "cube.obj"}) {
+    const std::string file = vpTestSupport::caseFile(std::string("meshes/") + name);
+    if (file.empty()) {
+      return;
+    }
+    CAPTURE(file);
+    vpCollisionObject block;
+    block.name = "block";
+    block.shape = vpCollisionShape::mesh(vpTriangleMesh::load(file, 3.));
+    block.pose.p << 0., 0., 0.4;
+    vpCollisionSceneSpec spec;
+    spec.objects.push_back(block);
+    const vpCollisionScene scene(amor(), spec);
+    vpJointVector goal = amor().home();
+    goal(0) = 0.9;
+    vpMotionScratch scratch;
+    CHECK(vpCertifiedMotion(scene).check(amor().home(), goal, scratch).status == vpMotionStatus::Collision);
+  }
+}
+
+TEST_CASE("Magnitudes that no workplace has are refused in a sentence", "[files]")
+{
+  const auto sceneError = [](const std::string &object) {
+    const File file("large.json", R"({"name": "s", "objects": [{"name": "a", )" + object + "}]}");
+    return errorOf([&] { return vpCollisionScene(amor(), vpLoadCollisionScene(file.name()).spec); });
+  };
+  CHECK(sceneError(R"("shape": "capsule", "radius_m": 1e19, "length_m": 1)").find("radius of the capsule is 1e+19 m") !=
+        std::string::npos);
+  CHECK(
+      sceneError(R"("shape": "box", "size_m": [1, 2147483648, 1])").find("size of the box along y is 2.14748e+09 m") !=
+      std::string::npos);
+  CHECK(sceneError(R"("shape": "sphere", "radius_m": 0.1, "pose": {"translation_m": [0, 0, 1e155]})")
+            .find("object a stands 1e+155 m away, must be within 10000 m") != std::string::npos);
+  CHECK(sceneError(R"("shape": "sphere", "radius_m": 0.1, "inflation_m": 1e9)")
+            .find("inflation of object a is 1e+09 m, must be 0 to 10000") != std::string::npos);
+  CHECK(sceneError(R"("shape": "sphere", "radius_m": 0.1, "velocity": {"linear_m_s": [0, 1e9, 0]})")
+            .find("velocity of object a is not finite or above 1000 m/s or rad/s") != std::string::npos);
+  CHECK(sceneError(R"("shape": "octree", "cells_m": [[0, 0, 0, 1e200]])").find("cell 0 has the size 1e+200 m") !=
+        std::string::npos);
+  CHECK(meshError(".obj", "v 0 0 0\nv 1e9 0 0\nv 0 1 0\nf 1 2 3\n").find("vertex 1 is not within 10000 m") !=
+        std::string::npos);
+}
+
 TEST_CASE("Errors in meshes name the file and the place", "[files]")
 {
   const std::string obj = "catchCollisionFiles-mesh.obj: ", stl = "catchCollisionFiles-mesh.stl: ";
@@ -153,7 +313,8 @@ TEST_CASE("A scene with everything arrives", "[files]")
        "pose": {"translation_m": [0, 0, 1], "rotation_deg": [0, 0, 90]}},
       {"name": "d", "shape": "cylinder", "radius_m": 0.1, "length_m": 0.2, "allowed_links": [5, 7]},
       {"name": "e", "shape": "mesh", "file": "catchCollisionFiles-all.obj", "scale": 0.1},
-      {"name": "f", "shape": "mesh", "vertices_m": [[0,0,0],[1,0,0],[0,1,0]], "triangles": [[0,1,2]]},
+      {"name": "f", "shape": "mesh", "surface": true,
+       "vertices_m": [[0,0,0],[1,0,0],[0,1,0]], "triangles": [[0,1,2]]},
       {"name": "g", "shape": "octree", "cells_m": [[0, 0, 0, 0.1]]}],
     "tasks": [{"name": "t", "start_rad": [0,0,0,0,0,0,0], "goal_rad": [1,0,0,0,0,0,0]}]})");
   const vpCollisionSceneFile all = vpLoadCollisionScene(file.name());
@@ -195,7 +356,7 @@ TEST_CASE("Errors in scenes name the file and the element", "[files]")
         file + "objects[0].shape is cone, must be sphere, capsule, box, cylinder, mesh or octree");
   CHECK(objectError("\"shape\": \"sphere\"") == file + "objects[0].radius_m is missing");
   CHECK(objectError("\"shape\": \"sphere\", \"radius_m\": -1") ==
-        file + "objects[0]: radius of the sphere is -1 m, must be > 0 and finite");
+        file + "objects[0]: radius of the sphere is -1 m, must be > 0 and at most 10000 m");
   CHECK(objectError("\"shape\": \"sphere\", \"radius_m\": \"big\"") == file + "objects[0].radius_m must be a number");
   CHECK(objectError("\"shape\": \"sphere\", \"radius_m\": NaN").find(file + "parse error") == 0);
   CHECK(objectError("\"shape\": \"sphere\", \"radius_m\": 1, \"size_m\": 3") ==
@@ -203,7 +364,7 @@ TEST_CASE("Errors in scenes name the file and the element", "[files]")
   CHECK(objectError("\"shape\": \"box\", \"size_m\": [1, 2]") ==
         file + "objects[0].size_m must be a list of 3 numbers");
   CHECK(objectError("\"shape\": \"box\", \"size_m\": [1, 2, 0]") ==
-        file + "objects[0]: size of the box along z is 0 m, must be > 0 and finite");
+        file + "objects[0]: size of the box along z is 0 m, must be > 0 and at most 10000 m");
   CHECK(objectError("\"shape\": \"sphere\", \"radius_m\": 1, \"pose\": {}") ==
         file + "objects[0].pose.translation_m is missing");
   CHECK(objectError("\"shape\": \"mesh\", \"file\": \"nowhere.stl\"") ==
@@ -213,7 +374,7 @@ TEST_CASE("Errors in scenes name the file and the element", "[files]")
   CHECK(objectError("\"shape\": \"mesh\", \"vertices_m\": [[0, 0, 0]], \"triangles\": [[0, 0, 4]]") ==
         file + "objects[0]: mesh: triangle 0 uses vertex 4 of 1");
   CHECK(objectError("\"shape\": \"octree\", \"cells_m\": [[0, 0, 0, -1]]") ==
-        file + "objects[0]: octree: cell 0 has the size -1 m, must be > 0, and all finite");
+        file + "objects[0]: octree: cell 0 has the size -1 m, must be > 0, and all within 10000 m");
   CHECK(objectError("\"shape\": \"octree\", \"file\": \"nowhere.bt\"") ==
         file + "objects[0]: nowhere.bt: cannot be read");
   CHECK(objectError("\"shape\": \"sphere\", \"radius_m\": 1, \"photo\": \"klimt\"") ==

@@ -171,7 +171,7 @@ TEST_CASE("What is not seen has a sentence that says why", "[detector]")
   nowhere.p.x() = std::nan("");
   eye.process(I, nowhere, 0.1);
   CHECK_FALSE(seen[0].seen);
-  CHECK(seen[0].sentence == "Where the camera was, or when, is not finite.");
+  CHECK(seen[0].sentence == "Where the camera was, or when, is not finite or out of range.");
   eye.process(I, vpRigidTransform(), 0.2);
   CHECK(seen[0].seen);
   eye.process(vpPlanarScene::Image(8, 8), vpRigidTransform(), 0.3);

@@ -193,7 +193,23 @@ TEST_CASE("What cannot be planned is said", "[planner]")
   beyond(1) = 3.;
   vpPathResult result = planner.plan(start, beyond);
   CHECK(result.status == vpPathStatus::OutsideLimits);
-  CHECK(result.sentence == "Joint q2 of the goal is at 3.000000, outside its limits.");
+  CHECK(result.sentence == "Joint q2 of the goal is at 3, beyond its limit 2.3561944901923448.");
+  // A limit that was rounded on its way through a file is the limit; a little more is not, and looks so.
+  const vpCollisionScene nothing(amor());
+  vpPathPlanner free(nothing, spec);
+  const double limit = amor().upper()(5);
+  beyond = amor().home();
+  beyond(5) = std::nextafter(limit, 10.);
+  result = free.plan(amor().home(), beyond);
+  CAPTURE(result.sentence);
+  REQUIRE(result.status == vpPathStatus::Solved);
+  CHECK(result.path.points.back()(5) == limit);
+  CHECK(free.plan(beyond, amor().home()).status == vpPathStatus::Solved);
+  beyond(5) = limit + 5e-8;
+  result = free.plan(amor().home(), beyond);
+  CHECK(result.status == vpPathStatus::OutsideLimits);
+  const std::size_t at = result.sentence.find("is at 1.5271631"), than = result.sentence.find("limit 1.5271630");
+  CHECK((at != std::string::npos && than != std::string::npos));
   CHECK(planner.plan(vpJointVector::Zero(3), goal).status == vpPathStatus::BadInput);
   CHECK(planner.plan(start, vpJointVector::Constant(7, NAN)).status == vpPathStatus::BadInput);
 
@@ -210,8 +226,22 @@ TEST_CASE("What cannot be planned is said", "[planner]")
   const int index = scene.add(ball);
   result = planner.plan(start, goal);
   CHECK(result.status == vpPathStatus::GoalInCollision);
-  CHECK(result.sentence.find("ball") != std::string::npos);
+  CHECK(result.sentence == "In the goal the arm is nearer than the margin: link 7 and object ball touch.");
   CHECK(planner.plan(goal, start).status == vpPathStatus::StartInCollision);
+  // Beside it, within the margin.
+  vpCollisionData placed;
+  scene.place(goal, placed);
+  const vpPlacedCapsule &hand = placed.capsules[3];
+  vpRigidTransform beside;
+  beside.p = hand.to + (hand.radius + 0.05 + 0.00985) * (hand.to - hand.from).normalized();
+  REQUIRE(scene.moveObject(index, beside));
+  spec.margin = 0.01;
+  CHECK(
+      vpPathPlanner(scene, spec).plan(goal, start).sentence ==
+      "In the start the arm is nearer than the margin: link 7 and object ball are 9.85 mm apart, the margin is 10 mm.");
+  beside.p = hand.to + (hand.radius + 0.05 + 0.0099999999) * (hand.to - hand.from).normalized();
+  REQUIRE(scene.moveObject(index, beside));
+  CHECK(vpPathPlanner(scene, spec).plan(goal, start).sentence.find("are 9.9999999") != std::string::npos);
   scene.remove(index);
   for (int side = 0; side < 6; ++side) {
     vpCollisionObject wall;

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Clearance of AMOR from solids by other code than the scene's, for rechecking what was called free.
+// Clearance of an arm from solids and the ground by other code than the scene's, for rechecking what was called free.
 #ifndef vpIndependentClearance_h
 #define vpIndependentClearance_h
 
@@ -29,9 +29,15 @@ public:
   {
     const std::vector<vpPlacedCapsule> capsules = place(q);
     double least = limit;
-    for (const vpPlacedCapsule &c : capsules) {
+    for (std::size_t i = 0; i < capsules.size(); ++i) {
+      const vpPlacedCapsule &c = capsules[i];
       if (c.halfLength < 0.) {
         continue; // Of the base.
+      }
+      if (m_spec->ground && m_arm->spec().capsules[i].link >= m_spec->ground->firstLink) { // of a unit normal
+        const vpHalfSpace &ground = *m_spec->ground;
+        least = std::min({least, ground.normal.dot(c.from) - ground.offset - c.radius,
+                          ground.normal.dot(c.to) - ground.offset - c.radius});
       }
       for (const vpCollisionObject &object : m_spec->objects) {
         const vpRigidTransform oMf = object.pose.inverse();

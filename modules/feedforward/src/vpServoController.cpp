@@ -8,14 +8,16 @@
 
 #include <visp3/direct_core/vpSO3.h>
 
+#include <string_view>
 #include <utility>
 
 BEGIN_VISP_NAMESPACE
 
 namespace
 {
-const std::string filterSuffix = "+cbf";
-}
+// No std::string: a static object elsewhere may make a controller before it were built.
+constexpr std::string_view filterSuffix = "+cbf";
+} // namespace
 
 void vpServoControllerConfig::validate() const
 {

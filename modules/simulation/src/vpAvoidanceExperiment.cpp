@@ -95,6 +95,7 @@ public:
   //! The last row: where everything is at the end.
   void finish(double t)
   {
+    m_run->sentence = sentence(m_output, m_perceived.scene(), m_spec->methodSpec.margin);
     if (!m_run->samples.empty() && m_run->samples.back().time == t) {
       m_run->samples.back().command.setZero();
       return;

@@ -18,7 +18,7 @@ namespace
 {
 using P = vpTrajectoryProblem;
 
-constexpr double longestStep = 1e6; // s; a clock that says more is wrong
+constexpr double longestStep = 1e9; // s; a clock that says more is wrong
 
 // J_r'(e, e') e': what the change of the right Jacobian adds to the angular acceleration.
 Eigen::Vector3d jacobianRateTerm(const Eigen::Vector3d &e, const Eigen::Vector3d &rate)

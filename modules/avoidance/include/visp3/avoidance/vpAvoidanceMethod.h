@@ -20,6 +20,9 @@ struct VISP_EXPORT vpAvoidanceGoal {
 
   //! A configuration and where it brings the end effector. \throw vpException (badValue) when it does not fit the arm.
   [[nodiscard]] static vpAvoidanceGoal at(const vpArmModel &model, const vpJointVector &q);
+  //! True when #q is empty or of the arm's size and all is finite and within vpLargestCoordinate, vpLargestLength and
+  //! 1000 m/s.
+  [[nodiscard]] bool fits(const vpArmModel &model) const noexcept;
 };
 
 //! \ingroup group_avoidance
@@ -31,10 +34,10 @@ enum class vpAvoidanceStatus {
   Waiting,          //!< There is no free way now: brakes or stands, and goes on when there is one.
   Arrived,          //!< At the goal, at rest.
   GoalInCollision,  //!< The goal is not free: brakes or stands, and goes on when it is.
-  StartInCollision, //!< The arm touches something already: stands.
+  StartInCollision, //!< Something is nearer to the arm than the margin already: stands.
   Unreachable,      //!< The arm cannot get to the goal whether there are obstacles or not: brakes or stands.
   Unsafe,           //!< Brakes, but something has come so that it may not end in time.
-  InvalidInput      //!< A number is not finite or a vector has a wrong size; brakes.
+  InvalidInput      //!< A number is not finite or out of range, or a vector has a wrong size; brakes.
 };
 
 //! \ingroup group_avoidance
@@ -125,6 +128,15 @@ public:
    */
   virtual void step(const vpJointVector &q, vpAvoidanceOutput &output) noexcept = 0;
 };
+
+/*!
+ * \ingroup group_avoidance
+ * The status as a sentence with what it is about, as "The arm stands: link 5 and object pillar are 9.85 mm apart, the margin
+ * is 10 mm." Allocates.
+ * \param output : Of a step. \param scene : The one that its method has. \param margin : Of that method, m.
+ */
+[[nodiscard]] VISP_EXPORT std::string sentence(const vpAvoidanceOutput &output, const vpCollisionScene &scene,
+                                               double margin);
 
 END_VISP_NAMESPACE
 #endif

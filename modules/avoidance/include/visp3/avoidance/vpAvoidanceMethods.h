@@ -16,6 +16,9 @@ BEGIN_VISP_NAMESPACE
 //! \ingroup group_avoidance
 //! \brief Names for makeAvoidanceMethod().
 [[nodiscard]] VISP_EXPORT const std::vector<std::string> &avoidanceMethodNames();
+//! \ingroup group_avoidance
+//! What a method of that name does when something is in the way, for a list of them; static text, empty when there is none.
+[[nodiscard]] VISP_EXPORT const char *avoidanceMethodSentence(const std::string &name) noexcept;
 
 /*!
  * \ingroup group_avoidance

@@ -39,6 +39,9 @@ struct VISP_EXPORT vpPlacedCapsule {
 struct VISP_EXPORT vpCollisionData {
   vpArmData arm;                                          //!< Kinematics of the configuration.
   std::array<vpPlacedCapsule, vpArmMaxCapsules> capsules; //!< As many as the arm has, in its order.
+  //! The last place() had a configuration of the arm's size with coordinates within vpLargestCoordinate. Otherwise, as
+  //! before the first one, nothing is known, and every query says so: in collision.
+  bool placed = false;
 };
 
 //! \ingroup group_avoidance
@@ -47,7 +50,8 @@ enum class vpCollisionKind {
   None,   //!< Nothing within the cutoff.
   Object, //!< An object of the scene.
   Self,   //!< Another capsule of the arm.
-  Ground  //!< The ground plane.
+  Ground, //!< The ground plane.
+  Unknown //!< Configuration or time is not finite or out of all range: nothing is known, the distance is -infinity.
 };
 
 /*!
@@ -62,10 +66,11 @@ enum class vpCollisionKind {
  * move.
  */
 struct VISP_EXPORT vpClearance {
-  double distance = std::numeric_limits<double>::infinity(); //!< m; infinity: no pair within the cutoff.
-  vpCollisionKind kind = vpCollisionKind::None;              //!< What the other is.
-  int capsule = -1; //!< Capsule of the arm, 0..m-1 in the order of vpArmSpec::capsules.
-  int other = -1;   //!< Object's index, or the other capsule (> capsule); -1 for the ground.
+  //! m; infinity: no pair within the cutoff; -infinity: not known (numbers out of all range).
+  double distance = std::numeric_limits<double>::infinity();
+  vpCollisionKind kind = vpCollisionKind::None; //!< What the other is.
+  int capsule = -1;                             //!< Capsule of the arm, 0..m-1 in the order of vpArmSpec::capsules.
+  int other = -1; //!< Object's index, or the other capsule (> capsule); -1 for the ground.
   Eigen::Vector3d onArm = Eigen::Vector3d::Zero();   //!< Nearest point of the capsule's surface.
   Eigen::Vector3d onOther = Eigen::Vector3d::Zero(); //!< Nearest point of the other, inflation included.
   //! Unit vector from the other to the capsule, the way out: onArm = onOther + distance * normal. Arbitrary when the

@@ -80,8 +80,9 @@ class VISP_EXPORT vpCollisionScene
 public:
   /*!
    * \throw vpException (badValue) naming the source, the element and the value: an arm without capsules or with more
-   * than 32, an object without a name or whose name stands twice, a pose that is none, numbers that are not finite or
-   * negative, a ground without normal, links or objects that do not exist.
+   * than 32, an object without a name or with a duplicate name, a pose that is none, lengths that are not finite,
+   * negative or above vpLargestLength, velocities above 1000 m/s or rad/s, a ground without normal, links or objects that
+   * do not exist.
    */
   explicit vpCollisionScene(const vpArmModel &arm, const vpCollisionSceneSpec &spec = {});
   vpCollisionScene(const vpCollisionScene &other);                //!< Copies.
@@ -121,33 +122,37 @@ public:
 
   /*!
    * Puts object \e i to a new place. Does not allocate.
-   * \return False, and nothing changes, when there is no such object or the pose is no finite rigid transform.
+   * \return False, and nothing changes, when there is no such object, or the pose is no rigid transform within
+   * vpLargestLength.
    */
   bool moveObject(int i, const vpRigidTransform &pose) noexcept;
   //! Sets the velocity of object \e i (axes of the base). False, and nothing changes, for a bad index or number.
   bool setVelocity(int i, const vpTwist &velocity) noexcept;
   //! Sets the inflation of object \e i, m, >= 0. False, and nothing changes, for a bad index or number.
   bool setInflation(int i, double inflation) noexcept;
-  //! Moves every object on by its velocity for \e dt seconds. Does not allocate.
-  void advance(double dt) noexcept;
+  //! Moves every object on by its velocity for \e dt seconds. Does not allocate. False when one had to stay where it is,
+  //! see moveObject().
+  bool advance(double dt) noexcept;
 
-  //! Places the arm in configuration \e q (of the arm's size) for the queries below.
+  //! Places the arm in configuration \e q for the queries below. A configuration of another size, not finite or beyond
+  //! vpLargestCoordinate is none (vpCollisionData::placed): then every query says that the arm is in collision.
   void place(const vpJointVector &q, vpCollisionData &data) const noexcept;
   /*!
    * True when a pair that must not touch has a clearance <= margin. Stops at the first.
    * \param data : After place().
    * \param margin : m, added to every pair.
-   * \param time : s from now; objects count as moved on by their velocities.
+   * \param time : s from now; objects count as moved on by their velocities. NaN, or beyond 1e6 s: in collision.
    */
   [[nodiscard]] bool inCollision(const vpCollisionData &data, double margin = 0., double time = 0.) const noexcept;
   /*!
    * The pair with the least clearance below \e cutoff (m); kind None and an infinite distance when there is none. A small
-   * cutoff saves time. Parameters as inCollision().
+   * cutoff saves time. Parameters as inCollision(); what cannot be told is kind Unknown at -infinity.
    */
   [[nodiscard]] vpClearance clearance(const vpCollisionData &data,
                                       double cutoff = std::numeric_limits<double>::infinity(),
                                       double time = 0.) const noexcept;
-  //! All pairs with a clearance below \e cutoff (m). Parameters as inCollision().
+  //! All pairs with a clearance below \e cutoff (m). Parameters as inCollision(); what cannot be told is an empty list
+  //! with \e dropped set.
   void near(const vpCollisionData &data, double cutoff, vpNearPairs &result, double time = 0.) const noexcept;
   //! Clearance of capsule \e capsule from object \e object, whether they may touch or not. After place().
   [[nodiscard]] vpClearance pair(const vpCollisionData &data, int capsule, int object, double time = 0.) const noexcept;

@@ -41,7 +41,7 @@ struct VISP_EXPORT vpCollisionSceneFile {
   vpCollisionSceneSpec spec;         //!< For vpCollisionScene; its source is the file.
   std::vector<vpObjectPhoto> photos; //!< May be empty; each target and each object once.
   std::vector<vpMotionTask> tasks;   //!< May be empty.
-  std::vector<std::string> warnings; //!< One sentence each: meshes with holes.
+  std::vector<std::string> warnings; //!< One sentence each: meshes with holes that are taken as surfaces.
 };
 
 /*!

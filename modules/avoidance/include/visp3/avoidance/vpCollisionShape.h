@@ -27,6 +27,13 @@ enum class vpShapeType {
   Octree    //!< vpOctree.
 };
 
+//! \ingroup group_avoidance
+//! \brief What a mesh has to be.
+enum class vpMeshUse {
+  Solid,  //!< Closed: what is inside collides.
+  Surface //!< Open ones, too, as sheets that have no inside. A closed one is a solid all the same.
+};
+
 /*!
  * \class vpCollisionShape
  * \ingroup group_avoidance
@@ -35,20 +42,24 @@ enum class vpShapeType {
 class VISP_EXPORT vpCollisionShape
 {
 public:
-  //! \throw vpException (badValue) naming the radius unless it is > 0 and finite.
+  //! \throw vpException (badValue) naming the radius unless it is > 0 and at most vpLargestLength, as below.
   [[nodiscard]] static vpCollisionShape sphere(double radius);
   /*!
    * \param radius : Of tube and caps, > 0.
    * \param length : Between the centres of the two caps, >= 0.
-   * \throw vpException (badValue) naming the number: radius not > 0, length not >= 0, or not finite.
+   * \throw vpException (badValue) naming the number: radius not > 0, length not >= 0, or out of range.
    */
   [[nodiscard]] static vpCollisionShape capsule(double radius, double length);
-  //! \param size : Lengths of the edges. \throw vpException (badValue) naming the one that is not > 0 and finite.
+  //! \param size : Lengths of the edges. \throw vpException (badValue) naming the one that is out of range.
   [[nodiscard]] static vpCollisionShape box(const Eigen::Vector3d &size);
-  //! \throw vpException (badValue) naming radius or length unless they are > 0 and finite.
+  //! \throw vpException (badValue) naming radius or length when out of range.
   [[nodiscard]] static vpCollisionShape cylinder(double radius, double length);
-  //! A surface of triangles.
-  [[nodiscard]] static vpCollisionShape mesh(const vpTriangleMesh &mesh);
+  /*!
+   * Triangles.
+   * \throw vpException (badValue) naming the mesh: it has holes or edges of more than two triangles, so that nothing is
+   * inside, and a solid was asked for.
+   */
+  [[nodiscard]] static vpCollisionShape mesh(const vpTriangleMesh &mesh, vpMeshUse use = vpMeshUse::Solid);
   //! Occupied cubes.
   [[nodiscard]] static vpCollisionShape octree(const vpOctree &octree);
 

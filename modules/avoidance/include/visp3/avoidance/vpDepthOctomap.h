@@ -35,7 +35,7 @@ struct VISP_EXPORT vpDepthOctomapSpec {
 enum class vpDepthStatus {
   Ok,      //!< Points were used.
   NoPoint, //!< The image is empty, or no pixel has a depth in range that is not the arm.
-  BadInput //!< The camera's pose is not finite or its focal lengths are 0.
+  BadInput //!< The camera's pose is no rotation and place within vpLargestLength, or its focal lengths are 0.
 };
 
 /*!

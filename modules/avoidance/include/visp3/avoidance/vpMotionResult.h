@@ -19,7 +19,7 @@ enum class vpMotionStatus {
   Free,      //!< vpCertifiedMotion: proven; vpDiscreteMotion: no sample collides.
   Collision, //!< A configuration with a clearance <= the margin was found.
   Undecided, //!< vpCertifiedMotion only: nearer to the margin than the resolution. Not free.
-  BadInput   //!< A configuration of the wrong size or not finite.
+  BadInput   //!< A configuration of the wrong size, not finite, or out of range (vpReachBounds::holds()).
 };
 
 /*!

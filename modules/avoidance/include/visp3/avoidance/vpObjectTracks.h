@@ -123,14 +123,18 @@ public:
   ~vpObjectTracks();
 
   /*!
-   * A sensor saw an object. Left out are sightings older than the last one of their track, doubted ones, and broken
-   * ones: without a name, with a number that is not finite or a standard deviation that is not > 0. Allocates for a new
-   * name. Call advance() when all sightings of the moment are in.
+   * A sensor saw an object. Left out are sightings older than the last one of their track, a minute ahead of the last
+   * advance(), doubted ones, and broken ones: without a name, with a number that is not finite, a place beyond
+   * vpLargestLength or a standard deviation that is not within 1e-9 and 1e3 m or rad. Allocates for a new name. Call advance() when all sightings of the moment are in.
    * \return True when it was used.
    */
   bool add(const vpObjectSighting &sighting);
-  //! Predicts every track to \e now, s, and drops the forgotten ones. Times that go back are left out. No allocation.
-  void advance(double now);
+  /*!
+   * Predicts every track to \e now, s, and drops the forgotten ones. No allocation.
+   * \return False, and nothing changes, for a time that is not finite, goes back, or is a minute ahead of the last one, until
+   * the next one goes on from there.
+   */
+  bool advance(double now);
   //! All tracks, at the time of the last advance().
   [[nodiscard]] const std::vector<vpObjectTrack> &tracks() const noexcept { return m_tracks; }
   //! Track of that name; null when there is none.
@@ -159,6 +163,7 @@ private:
   std::vector<vpTrackFilter> m_filters; // one for each track
   std::vector<Applied> m_applied;
   double m_now = -std::numeric_limits<double>::infinity();
+  double m_doubted = std::numeric_limits<double>::quiet_NaN(); // time that was too far ahead
 };
 
 END_VISP_NAMESPACE

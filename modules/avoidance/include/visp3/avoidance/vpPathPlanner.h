@@ -102,7 +102,8 @@ public:
   vpPathPlanner(const vpPathPlanner &) = delete;
   vpPathPlanner &operator=(const vpPathPlanner &) = delete;
 
-  //! Plans from \e start to \e goal (n numbers each, rad or m). Allocates.
+  //! Plans from \e start to \e goal (n numbers each, rad or m). What is beyond a position limit L by no more than
+  //! 1e-9 max(1, |L|) counts as at it. Allocates.
   [[nodiscard]] vpPathResult plan(const vpJointVector &start, const vpJointVector &goal);
   //! Changes the longest time for planning, s; values that are not > 0 are left out.
   void setTimeLimit(double seconds) noexcept;

@@ -113,8 +113,9 @@ private:
   bool m_toGoal = false; // the motion in force ends there
   Parts m_parts;
   double m_duration = 0., m_clock = 0.;
-  double m_stopping = 0.; // until then the motion is a stop
-  vpJointVector m_hold;   // where it stands while there are no parts
+  double m_stopping = 0.;  // until then the motion is a stop
+  vpJointVector m_command; // of the last period
+  vpJointVector m_hold;    // where it stands while there are no parts
   vpAvoidanceStatus m_status = vpAvoidanceStatus::InvalidInput;
   vpClearance m_pair;
   vpArmData m_data;

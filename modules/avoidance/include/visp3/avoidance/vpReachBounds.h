@@ -25,8 +25,8 @@ BEGIN_VISP_NAMESPACE
  *
  * The places that a capsule can take seen from joint j form a body; its convex hull is carried from the capsule inwards
  * through the joints by its support function, taken as a body of revolution about every revolute axis: position
- * limits of revolute joints are left out, those of prismatic joints count, so the bounds hold for any angle. Between
- * samples the support function is bounded from above by its sublinearity. About 0.1 % above the true maximum without limits.
+ * limits of revolute joints are left out, those of prismatic joints count, a little widened, so the bounds hold for any
+ * angle and wherever holds() says so. Between samples the support function is bounded from above by its sublinearity. About 0.1 % above the true maximum without limits.
  */
 class VISP_EXPORT vpReachBounds
 {
@@ -40,8 +40,15 @@ public:
     return m_bounds[static_cast<std::size_t>(capsule * m_joints + joint)];
   }
 
+  //! True when the bounds hold for configuration \e q (of the arm's size) and \e way (rad or m, >= 0) about it: finite, and
+  //! every prismatic joint within its position limits, or beyond them by no more than a twentieth of its range.
+  [[nodiscard]] bool holds(const vpJointVector &q, const vpJointVector &way) const noexcept;
+  //! The same for \e q alone.
+  [[nodiscard]] bool holds(const vpJointVector &q) const noexcept { return holds(q, vpJointVector::Zero(q.size())); }
+
 private:
   int m_joints = 0;
+  vpJointVector m_low, m_high; // within which they hold
   std::vector<double> m_bounds;
 };
 

@@ -20,7 +20,7 @@ BEGIN_VISP_NAMESPACE
  * \brief Two nearest points. All lengths in m, all points in one frame.
  */
 struct VISP_EXPORT vpNearestPoints {
-  double distance = 0.;                                //!< |onSegment - onOther|, m, >= 0; 0 when they touch.
+  double distance = 0.; //!< |onSegment - onOther|, m, >= 0; 0 when they touch; -infinity: not known, points are 0.
   Eigen::Vector3d onSegment = Eigen::Vector3d::Zero(); //!< On the segment.
   Eigen::Vector3d onOther = Eigen::Vector3d::Zero();   //!< On or in the other thing.
 };
@@ -29,7 +29,8 @@ struct VISP_EXPORT vpNearestPoints {
  * \ingroup group_avoidance
  * \brief Kernels of the fast path; none of them allocates, throws or locks. Solids count as filled: the distance is 0
  * for a segment inside. A segment whose ends agree is a point. Accuracy about 1e-15 of the size of the numbers, for the
- * cylinder 1e-12 m; tests against an independent search hold them to 1e-9 m.
+ * cylinder 1e-12 m; tests against an independent search hold them to 1e-9 m. Where a number is not finite or beyond
+ * 100 vpLargestLength the distance is -infinity, so that every comparison says: near.
  */
 namespace vpSegmentDistance
 {

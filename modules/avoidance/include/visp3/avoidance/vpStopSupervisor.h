@@ -18,11 +18,12 @@ BEGIN_VISP_NAMESPACE
  * \brief Parameters of vpStopSupervisor.
  */
 struct VISP_EXPORT vpStopSupervisorSpec {
-  double period = 0.005;    //!< Of the calls, s, > 0.
+  double period = 0.005;    //!< Of the calls, s, > 0, at most 1.
   double margin = 0.01;     //!< Clearance kept, m, >= 0.
   double latency = 0.;      //!< Age of what the scene says of its objects, s, >= 0: they count as moved on by it.
   double resolution = 1e-4; //!< See vpCertifiedMotionSpec, m, > 0.
   int attempts = 4;         //!< Velocities between the wish and braking that are tried, 1..16: each halves the wish.
+  int looks = 300; //!< Configurations that a step looks at, at most; >= 60. What needs more counts as not free.
 
   //! \throw vpException (badValue) naming the field that is out of range, and its value.
   void validate() const;
@@ -32,11 +33,12 @@ struct VISP_EXPORT vpStopSupervisorSpec {
 //! \brief What became of a wish.
 enum class vpSupervision {
   Passed,      //!< As wished.
+  Limited,     //!< As wished as far as the joints' limits of velocity, acceleration and position go.
   Slowed,      //!< Slower, so that the arm can still stop.
   Stopping,    //!< On the stop that was proven free before.
   Standing,    //!< At rest: any motion that was tried towards the wish cannot be stopped in time.
   Unsafe,      //!< Brakes, but something came in the way since that stop was proven: it may not end in time.
-  InvalidInput //!< Something was not finite or of a wrong size; brakes.
+  InvalidInput //!< Something was not finite, out of range or of a wrong size; brakes.
 };
 
 /*!
@@ -46,8 +48,9 @@ enum class vpSupervision {
 struct VISP_EXPORT vpSupervisedVelocity {
   vpJointVector velocity;                             //!< rad/s or m/s.
   vpSupervision status = vpSupervision::InvalidInput; //!< What became of the wish.
-  double share = 0.;                                  //!< Of the wish, 0..1.
-  vpClearance pair;                                   //!< What is in the way, unless Passed.
+  double share = 0.;                                  //!< Of the wish as the joints' limits allow it, 0..1.
+  vpClearance pair;                                   //!< What is in the way, unless Passed or Limited.
+  int looks = 0;                                      //!< Configurations that the step looked at.
 
   //! The status as a sentence for a person.
   [[nodiscard]] const char *sentence() const noexcept;
@@ -58,12 +61,29 @@ struct VISP_EXPORT vpSupervisedVelocity {
  * \ingroup group_avoidance
  * \brief Behind whatever makes joint velocities: a servo law, a joystick, a planner.
  *
- * A velocity passes when one period of it, and then braking to rest within the acceleration limits, is proven free for the
- * whole arm (vpCertifiedTrajectory), with objects moving on at their velocities until it stands. Otherwise velocities
- * between the wish and braking are tried; if none does, the stop of the last period, which was proven then, goes on. So,
- * while objects keep their velocities, the arm never touches anything while it moves; what runs into it when it stands is
- * beyond its power. Nearness alone slows nothing: a way along an obstacle or away from it is free at full speed, and an arm
- * within the margin may go wherever it ends no nearer.
+ * The wish is first brought within the arm's limits: of velocity, of acceleration from the last command, of position as far
+ * as braking allows. It passes when one period of it, and then braking to rest within the limits, is proven free for the
+ * whole arm (vpCertifiedTrajectory), with objects moving on at their velocities. Otherwise velocities between it and braking
+ * are tried; if none passes, the stop of the last period, which was proven then, goes on. Nearness alone slows nothing: a
+ * way along an obstacle or away from it is free at full speed, and an arm within the margin may go wherever it comes no
+ * nearer.
+ *
+ * Proof. Let the arm be where its commands took it, and the objects keep their velocities. By induction over the periods
+ * every command is the first period, or the next one, of a plan q(t) that was proven: constant velocity for a period T, then
+ * constant deceleration, then rest. A command holds one velocity for T, the mean of the plan's over that period, so at the
+ * ends of periods the arm is where the plan is. In between it goes on the chord: |q''_j| <= d_j almost everywhere, with d_j
+ * the deceleration of joint j, so it is never farther from q_j(t) than min(d_j T / 8, |v_j|) T, and a point of capsule i by no
+ * more than e = sum_j R_ij of that (vpReachBounds). That holds to the end of the last period, in which the plan comes to rest
+ * before the arm does. So the plan is proven from its start to the end of the period in which it ends, with the margin
+ * enlarged by 2 e (two capsules may both be off) and the resolution, and the arm keeps the margin at every instant until
+ * it stands. Two means that follow each other differ by no more than d_j T, which keeps the limit of acceleration. An arm
+ * within the margin, at a clearance c, may go where it is no nearer at the end of any period, and keeps c - 0.1 mm - 2 e in
+ * between, which therefore is not lost again and again; an arm that is nearer to its margin than 2 e and the resolution
+ * counts as within it.
+ *
+ * What is beyond it: an object that comes faster than was told or appears (Unsafe says so), what runs into an arm that
+ * stands, and drives that do not follow. An arm nearer to something than 0.1 mm, 2 e and the resolution together has no
+ * way that could be proven, and stands.
  */
 class VISP_EXPORT vpStopSupervisor
 {
@@ -76,9 +96,10 @@ public:
   explicit vpStopSupervisor(const vpCollisionScene &scene, const vpStopSupervisorSpec &spec = {});
 
   /*!
-   * One period; no allocation, no exception.
-   * \param q : Commanded configuration now, rad or m. \param wish : Velocities wished for the next period, within the
-   * acceleration limits seen from the last command.
+   * One period; no allocation, no exception, and no more than vpStopSupervisorSpec::looks, whatever comes in.
+   * \param q : Commanded configuration now, rad or m. Where it is not where the last command led, its way to rest is proven
+   * anew; Unsafe when that fails.
+   * \param wish : Velocities wished for the next period, rad/s or m/s; any finite numbers.
    * \param output : Receives the velocity to command.
    */
   void step(const vpJointVector &q, const vpJointVector &wish, vpSupervisedVelocity &output) noexcept;
@@ -86,8 +107,19 @@ public:
   void reset() noexcept;
 
 private:
-  bool admit(const vpJointVector &q, const vpJointVector &velocity, vpClearance &pair) noexcept;
-  [[nodiscard]] bool isRetreat(const vpClearance &now, double there) noexcept;
+  [[nodiscard]] vpJointVector braking() const noexcept;
+  [[nodiscard]] vpJointVector limited(const vpJointVector &q, const vpJointVector &wish) const noexcept;
+  [[nodiscard]] bool tryWish(const vpJointVector &q, const vpJointVector &wish, const vpJointVector &braking,
+                             vpSupervisedVelocity &output) noexcept;
+  [[nodiscard]] bool admit(const vpJointVector &q, const vpJointVector &velocity, vpClearance &pair) noexcept;
+  [[nodiscard]] bool isRetreat(const vpJointVector &q, double offPlan) noexcept;
+  void startStopAt(const vpJointVector &q) noexcept;
+  [[nodiscard]] double offPlan(const vpTrajectoryPlan &plan) const noexcept;
+  [[nodiscard]] double standing(const vpTrajectoryPlan &plan) const noexcept;
+  [[nodiscard]] vpClearance clearanceAt(const vpTrajectoryPlan &plan, double time, double cutoff) noexcept;
+  [[nodiscard]] vpTrajectoryClearance prove(const vpTrajectoryPlan &plan, double from, double margin,
+                                            int looks) noexcept;
+  [[nodiscard]] int looksOfProof() const noexcept;
 
   const vpCollisionScene *m_scene;
   vpStopSupervisorSpec m_spec;
@@ -95,6 +127,8 @@ private:
   vpTrajectoryPlan m_candidate, m_stop; // in force: m_stop from m_time on
   double m_time = 0.;
   bool m_moving = false;
+  int m_looks = 0;         // left in this step
+  vpJointVector m_command; // of the last period
   vpCollisionData m_data;
 };
 

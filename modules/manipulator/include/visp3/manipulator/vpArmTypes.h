@@ -20,6 +20,16 @@ BEGIN_VISP_NAMESPACE
 //! \brief Most joints that an arm may have.
 constexpr int vpArmMaxJoints = 8;
 
+/*!
+ * \ingroup group_manipulator
+ * \brief Largest length that is taken for real, m: of links, capsules, obstacles, and of their places. Up to it distances
+ * are rounded by less than the 1e-9 m that certificates allow for.
+ */
+constexpr double vpLargestLength = 1e4;
+//! \ingroup group_manipulator
+//! \brief Largest joint coordinate that is taken for real, rad or m: up to it rounding turns a joint by less than 1e-10.
+constexpr double vpLargestCoordinate = 1e6;
+
 //! \ingroup group_manipulator
 //! \brief One number a joint: rad, rad/s, Nm, ... for a revolute joint, m, m/s, N, ... for a prismatic one. Size n <= 8.
 using vpJointVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, vpArmMaxJoints, 1>;

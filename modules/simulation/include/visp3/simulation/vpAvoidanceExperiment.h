@@ -56,7 +56,7 @@ struct VISP_EXPORT vpAvoidanceMetrics {
   double peak_jerk = 0.;       //!< m/s^3.
   double jerk_integral = 0.;   //!< Of the squared jerk over time, m^2/s^5.
   double path_length = 0.;     //!< Of the true tool, m.
-  double replan_ms_p50 = 0.;   //!< Wall time of vpAvoidanceMethod::look(), ms; nearest rank.
+  double replan_ms_p50 = 0.;   //!< Wall time of vpAvoidanceMethod::look(), ms, see vpQuantile(); 0: none.
   double replan_ms_p95 = 0.;   //!< The same.
   double replan_ms_p99 = 0.;   //!< The same.
   //! Times that the moving arm was stopped: vpAvoidanceOutput::stopping, Waiting or Unsafe after something else.
@@ -87,6 +87,7 @@ struct VISP_EXPORT vpAvoidanceRun {
   std::vector<double> lookTimes;                       //!< Of all calls of vpAvoidanceMethod::look(), s.
   vpAvoidanceStatus start = vpAvoidanceStatus::Moving; //!< What vpAvoidanceMethod::start() said.
   double startTime = 0.;                               //!< Wall time that it took, s.
+  std::string sentence;                                //!< What the method said in the end, with pair and margin.
   vpAvoidanceMetrics metrics;                          //!< The figures.
 };
 

@@ -113,7 +113,7 @@ public:
    * \return InvalidInput (and the old goal stays) when a number is not finite or the rotation is not one.
    */
   vpTrajectoryStatus setGoal(const vpHomogeneousMatrix &fMcd, const vpTwist &twist = {}) noexcept;
-  //! One cycle of \e dt seconds, at most 1e6. Never throws, never allocates.
+  //! One cycle of \e dt seconds, at most 1e9. Never throws, never allocates.
   vpTrajectoryStatus update(double dt) noexcept;
 
   [[nodiscard]] const vpCameraState &state() const { return m_state; } //!< Commanded state.

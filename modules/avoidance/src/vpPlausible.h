@@ -1,0 +1,29 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// Is it what it should be, and of a size that can be true? False for NaN.
+#ifndef vpPlausible_h
+#define vpPlausible_h
+
+#include <visp3/manipulator/vpArmTypes.h>
+
+#include <Eigen/LU>
+
+BEGIN_VISP_NAMESPACE
+
+//! A rotation (to 1e-6) and a translation, of any finite size.
+inline bool vpIsRigid(const vpRigidTransform &T)
+{
+  return T.p.allFinite() && T.R.allFinite() &&
+         (T.R * T.R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < 1e-6 && T.R.determinant() > 0.;
+}
+
+//! A rotation and a place within vpLargestLength.
+inline bool vpIsPlace(const vpRigidTransform &T)
+{
+  return vpIsRigid(T) && (T.p.cwiseAbs().array() <= vpLargestLength).all();
+}
+
+END_VISP_NAMESPACE
+#endif
