@@ -2,8 +2,10 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// What the programs share: exit statuses, progress, jobs, JSON errors, HTML, result folders, plots and videos.
+// What the programs share: exit statuses, progress, jobs, JSON errors, HTML, plots and videos.
 #include "vpCatch.h"
+
+#include "testFolder.h"
 
 #include "appMain.h"
 #include "dataFile.h"
@@ -31,44 +33,6 @@ namespace fs = std::filesystem;
 
 namespace
 {
-//! An empty folder for one test, removed afterwards.
-struct TestFolder {
-  TestFolder()
-  {
-    std::string name = (fs::temp_directory_path() / "visp-direct-test-XXXXXX").string();
-    path = mkdtemp(name.data());
-  }
-  ~TestFolder() { fs::remove_all(path); }
-  std::string write(const std::string &name, const std::string &content) const
-  {
-    fs::create_directories((path / name).parent_path());
-    std::ofstream(path / name, std::ios::binary) << content;
-    return (path / name).string();
-  }
-  [[nodiscard]] std::vector<std::string> entries() const
-  {
-    std::vector<std::string> names;
-    for (const fs::directory_entry &entry : fs::recursive_directory_iterator(path)) {
-      names.push_back(fs::relative(entry.path(), path).string());
-    }
-    std::sort(names.begin(), names.end());
-    return names;
-  }
-  fs::path path;
-};
-
-//! What a call throws, as text.
-template <typename Call> std::string complaint(const Call &call)
-{
-  try {
-    call();
-  }
-  catch (const std::exception &error) {
-    return error.what();
-  }
-  return "no exception";
-}
-
 //! Collects what a piece of code prints on a stream.
 class Captured
 {
@@ -241,68 +205,6 @@ TEST_CASE("HTML is escaped and self-contained", "[apps]")
   CHECK(html.find("<td class=\"left\">a&lt;b</td><td class=\"best\">1</td>") != std::string::npos);
   CHECK(html.find("<td colspan=\"3\">group</td>") != std::string::npos);
   CHECK(html.find("src=\"http") == std::string::npos);
-}
-
-TEST_CASE("A result folder appears whole or not at all", "[apps]")
-{
-  const TestFolder folder;
-  const std::string wanted = (folder.path / "deep" / "out").string();
-
-  SECTION("nothing is left without commit, not even the parent folder")
-  {
-    {
-      vpApp::OutputFolder out("prog", wanted);
-      out.write("video/a.txt", "a");
-      CHECK_FALSE(fs::exists(wanted));
-    }
-    CHECK(folder.entries().empty());
-  }
-  SECTION("commit puts all in place, and the program may replace its own folder")
-  {
-    for (const char *content : {"first", "second"}) {
-      vpApp::OutputFolder out("prog", wanted + "/");
-      out.write("video/a.txt", content);
-      out.writeSummary({{"runs", 1}});
-      out.commit();
-      CHECK(vpApp::readFile(fs::path(wanted) / "video/a.txt") == content);
-    }
-    const nlohmann::json summary = vpApp::readJsonFile(wanted + "/summary.json");
-    CHECK(summary["program"] == "prog");
-    CHECK(summary["files"] == nlohmann::json({"summary.json", "video/a.txt"}));
-
-    folder.write("deep/out/my-notes.txt", "mine");
-    {
-      vpApp::OutputFolder out("prog", wanted);
-      out.write("b.txt", "third");
-      out.writeSummary({});
-      out.commit();
-    }
-    CHECK(folder.entries() == std::vector<std::string>({"deep", "deep/out", "deep/out/b.txt", "deep/out/my-notes.txt",
-                                                        "deep/out/summary.json"}));
-    CHECK(complaint([&] { vpApp::OutputFolder("other", wanted); }).find("not a result of other") != std::string::npos);
-  }
-  SECTION("a folder of somebody else is left alone, an empty one is used")
-  {
-    folder.write("deep/out/thesis.txt", "years of work");
-    CHECK(complaint([&] { vpApp::OutputFolder("prog", wanted); }).find("is left alone") != std::string::npos);
-    folder.write("deep/out/summary.json", "{\"program\": 3");
-    CHECK(complaint([&] { vpApp::OutputFolder("prog", wanted); }).find("is left alone") != std::string::npos);
-    fs::remove_all(wanted);
-    fs::create_directory(wanted);
-    {
-      vpApp::OutputFolder out("prog", wanted);
-      out.writeSummary({});
-      out.commit();
-    }
-    CHECK(fs::exists(fs::path(wanted) / "summary.json"));
-  }
-  SECTION("a place that cannot be written is named")
-  {
-    const std::string file = folder.write("file", "");
-    CHECK(complaint([&] { vpApp::OutputFolder("prog", file); }) == file + ": exists and is not a folder");
-    CHECK(complaint([&] { vpApp::OutputFolder("prog", file + "/out"); }).find(file + "/out: cannot be written") == 0);
-    CHECK(complaint([&] { vpApp::OutputFolder("prog", "/proc/out"); }).find("/proc/out: cannot be written") == 0);
-  }
 }
 
 TEST_CASE("Data files are found, and a missing one is named", "[apps]")
