@@ -165,7 +165,7 @@ TEST_CASE("JSON errors name the file, the place and the value", "[apps]")
   CHECK(reading("{\"camera\"").find("task.json: line 1, column ") == 0);
   CHECK(reading("").find("task.json: line 1, column 1") == 0);
   CHECK(reading("[1, 2]") == "task.json: the content is [1,2], must be an object { }");
-  CHECK(reading(R"({"camera": {"px": 1e999}})") == "task.json: number overflow parsing '1e999'");
+  CHECK(reading(R"({"camera": {"px": 1e999}})") == "task.json: line 1, column 23: number overflow parsing '1e999'");
   CHECK(reading(R"({"camera": {"px": "wide"}})") == "task.json: camera.px is \"wide\", must be a number");
   CHECK(reading(R"({"camera": {}})") == "task.json: camera.px is missing");
   CHECK(reading(R"({"camera": {"px": 1, "fx": 2}})") == "task.json: unknown field camera.fx; known are px, py, width");
@@ -177,8 +177,38 @@ TEST_CASE("JSON errors name the file, the place and the value", "[apps]")
   CHECK(reading(R"({"camera": {"px": 1}, "poses": [{"t": [1, 2, 3]}, {"t": [1, 2]}]})") ==
         "task.json: poses[1].t is [1,2], must be a list of 3 numbers");
   CHECK(reading(R"({"camera": {"px": 1, "px": 2}})") == "task.json: field \"px\" is given twice");
+  CHECK(reading(R"({"camera": {"px": 1}, "poses": [{"t": [1, 2, 3], "t": 0}]})") ==
+        "task.json: field \"t\" is given twice");
+  CHECK(reading("{\"camera\": " + std::string(1000000, '[')) == "task.json: is nested more than 64 deep");
+  CHECK(reading("\xef\xbb\xbf{\"camera\":\r\n {\"px\": 1}}\r\n") == "no exception");
+  CHECK(reading("{\"camera\": {\"px\": \"\\u009b31m\\u0000\"}}") ==
+        "task.json: camera.px is \"\\u009b31m\\u0000\", must be a number");
+  CHECK(complaint([] { (void)vpApp::parseJsonLine("{\"id\": " + std::string(1000000, '['), "a.jsonl:7"); }) ==
+        "a.jsonl:7: is nested more than 64 deep");
+  CHECK(complaint([] { (void)vpApp::parseJsonLine("{\"a\" 1}", "a.jsonl:7"); }).find("a.jsonl:7: column 6: ") == 0);
+  CHECK(complaint([] { (void)vpApp::readJsonFile("/dev/zero"); }) == "/dev/zero: is larger than 64 MB");
   CHECK(complaint([&] { (void)vpApp::readJsonFile(folder.path / "none.json"); }).find("none.json: cannot be read") !=
         std::string::npos);
+}
+
+TEST_CASE("Texts of files are made printable", "[apps]")
+{
+  CHECK(vpPrintable("plain, grüße, 世界, 🤖") == "plain, grüße, 世界, 🤖");
+  CHECK(vpPrintable("  two\nlines\t\r\n and  blanks \n") == "two lines and blanks");
+  CHECK(vpPrintable("\x1b[31m\a\x7f") == "\\u001b[31m\\u0007\\u007f");
+  CHECK(vpPrintable("\xc2\x9b") == "\\u009b"); // steers a terminal too
+  CHECK(vpPrintable("a\xe2\x80\xae"
+                    "b") == "a\\u202eb"); // turns the direction of writing
+  CHECK(vpPrintable("\xf3\xa0\x81\x81") == "\\udb40\\udc41");
+  CHECK(nlohmann::json::parse("\"" + vpPrintable("\xf3\xa0\x81\x81") + "\"") == "\xf3\xa0\x81\x81");
+  // No UTF-8: alone, cut off, overlong, half of a pair, beyond the last character.
+  CHECK(vpPrintable("\xff\xc3") == "\\xff\\xc3");
+  CHECK(vpPrintable("\xc0\xaf") == "\\xc0\\xaf");
+  CHECK(vpPrintable("\xe0\x80\xaf") == "\\xe0\\x80\\xaf");
+  CHECK(vpPrintable("\xed\xa0\x80") == "\\xed\\xa0\\x80");
+  CHECK(vpPrintable("\xf4\x90\x80\x80") == "\\xf4\\x90\\x80\\x80");
+  CHECK(vpPrintable(std::string(2000, 'x'), 10) == "xxxxxxxxxx...");
+  CHECK(vpPrintable("123456789\xc3\xa4zzzzzz", 10) == "123456789...");
 }
 
 TEST_CASE("HTML is escaped and self-contained", "[apps]")
