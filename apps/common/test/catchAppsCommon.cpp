@@ -12,6 +12,8 @@
 #include "htmlReport.h"
 #include "jobs.h"
 #include "jsonReader.h"
+#include "lineReader.h"
+#include "outputFile.h"
 #include "outputFolder.h"
 #include "plot.h"
 #include "timePlot.h"
@@ -26,7 +28,11 @@
 #include <fstream>
 #include <regex>
 #include <sstream>
+#include <thread>
 
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 namespace fs = std::filesystem;
@@ -62,6 +68,40 @@ TEST_CASE("runMain turns exceptions into one sentence and an exit status", "[app
         std::make_pair(2, std::string("prog: --jobs is 0 (see prog --help)\n")));
   CHECK(run([]() -> int { throw vpApp::Interrupted(); }).first == 130);
   CHECK(run([]() -> int { throw std::bad_alloc(); }).second == "prog: out of memory\n");
+  CHECK(run([]() -> int { throw std::runtime_error("\x1b[31mred\xff"); }).second == "prog: \\u001b[31mred\\xff\n");
+}
+
+TEST_CASE("What programs print does not steer the terminal, whoever prints it", "[apps]")
+{
+  const Captured printed(std::cout), complained(std::cerr);
+  CHECK(vpApp::runMain("prog", [] {
+          std::cout << "name: \x1b[2J"
+                    << "gr\xc3" << std::flush << "\xbc\xc3\x9f" << 'e' << '\r' << '\n'
+                    << "\xc3";
+          std::cerr << "\r50 %\a";
+          return 0;
+        }) == 0);
+  CHECK(printed.text() == "name: \\u001b[2Jgr\xc3\xbc\xc3\x9f"
+                          "e\\u000d\n\\xc3");
+  CHECK(complained.text() == "\r50 %\\u0007");
+}
+
+TEST_CASE("A program whose output is not taken says so", "[apps]")
+{
+  std::ofstream full("/dev/full");
+  if (!full) {
+    vpTestSupport::skip("there is no /dev/full");
+    return;
+  }
+  const Captured complained(std::cerr);
+  std::streambuf *before = std::cout.rdbuf(full.rdbuf());
+  const int status = vpApp::runMain("prog", [] {
+    std::cout << "a long help" << std::endl;
+    return 0;
+  });
+  std::cout.rdbuf(before);
+  CHECK(status == 1);
+  CHECK(complained.text() == "prog: standard output: cannot be written\n");
 }
 
 TEST_CASE("parseCommandLine tells help from mistakes", "[apps]")
@@ -78,7 +118,8 @@ TEST_CASE("parseCommandLine tells help from mistakes", "[apps]")
   CHECK_FALSE(parse({"--help"}));
   CHECK(printed.text().find("--number") != std::string::npos);
   CHECK_THROWS_AS(parse({"--nonsense"}), vpApp::UsageError);
-  CHECK(complaint([&] { (void)parse({"--number", "x"}); }).find("--number") != std::string::npos);
+  CHECK(complaint([&] { (void)parse({"--number", "x"}); }) == "--number is x, must be a whole number");
+  CHECK(printed.text().find("--version") != std::string::npos);
 }
 
 TEST_CASE("Progress shows a bar, plain lines or nothing", "[apps]")
@@ -132,6 +173,82 @@ TEST_CASE("runJobs does every piece once and passes on the first error", "[apps]
     CHECK(error == "job 5");
     CHECK(calls < 1000);
   }
+}
+
+TEST_CASE("runJobs does without threads that the system does not give", "[apps]")
+{
+  const pid_t child = fork();
+  if (child == 0) { // in a process of its own: the limit stays
+    const rlimit none{0, 0};
+    std::atomic<int> done{0};
+    try {
+      setrlimit(RLIMIT_NPROC, &none);
+      std::size_t pages = 0; // for root, whom the number does not bind: memory for a few stacks
+      std::ifstream("/proc/self/statm") >> pages;
+      const rlim_t most = pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE)) + (64U << 20U);
+      const rlimit memory{most, most};
+      setrlimit(RLIMIT_AS, &memory);
+      vpApp::runJobs(500, 256, [&](std::size_t) { ++done; });
+    }
+    catch (...) {
+      _exit(2);
+    }
+    _exit(done == 500 ? 0 : 1);
+  }
+  int status = -1;
+  waitpid(child, &status, 0);
+  CHECK(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 0);
+}
+
+TEST_CASE("Lines of files and pipes", "[apps]")
+{
+  const TestFolder folder;
+  const auto linesOf = [](const std::string &file) {
+    vpApp::LineReader reader(file);
+    std::vector<std::string> lines;
+    for (std::string line; reader.next(line);) {
+      lines.push_back(line);
+    }
+    return lines;
+  };
+  CHECK(linesOf(folder.write("a", "")).empty());
+  CHECK(linesOf(folder.write("a", "one\n\nthree")) == std::vector<std::string>{"one", "", "three"});
+  CHECK(linesOf(folder.write("a", "one\n")) == std::vector<std::string>{"one"});
+  const std::string large(100000, 'x');
+  CHECK(linesOf(folder.write("a", large + "\n" + large)) == std::vector<std::string>{large, large});
+  CHECK(complaint([&] { (void)linesOf("none.jsonl"); }) == "none.jsonl: cannot be read");
+  CHECK(complaint([&] { (void)linesOf(folder.path.string()); }) == folder.path.string() + ": cannot be read");
+  CHECK(complaint([&] { (void)linesOf("/dev/zero"); }) == "/dev/zero:1: is longer than 64 MB");
+
+  // A pipe whose other end comes later and writes in pieces.
+  const std::string pipe = (folder.path / "pipe").string();
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  std::thread writer([&pipe] {
+    std::ofstream out(pipe);
+    for (const char *piece : {"o", "ne\ntw", "o\n"}) {
+      out << piece << std::flush;
+      usleep(1000);
+    }
+  });
+  CHECK(linesOf(pipe) == std::vector<std::string>{"one", "two"});
+  writer.join();
+}
+
+TEST_CASE("A file is replaced in one step, with its mode, through its link", "[apps]")
+{
+  const TestFolder folder;
+  const std::string file = folder.write("a.csv", "first"), link = (folder.path / "link.csv").string();
+  fs::create_symlink("a.csv", link);
+  REQUIRE(chmod(file.c_str(), 0640) == 0);
+  folder.write(".a.csv.partial", "what a killed run left, longer than the new content");
+  vpApp::writeWholeFile(link, "second");
+  CHECK(vpApp::readFile(file) == "second");
+  CHECK(fs::is_symlink(link));
+  CHECK(fs::status(file).permissions() == static_cast<fs::perms>(0640));
+  CHECK(folder.entries() == std::vector<std::string>{"a.csv", "link.csv"});
+  CHECK(complaint([&] { vpApp::writeWholeFile("/dev/full", "x"); }) ==
+        "/dev/full: cannot be written (No space left on device)");
 }
 
 TEST_CASE("JSON errors name the file, the place and the value", "[apps]")
@@ -220,6 +337,7 @@ TEST_CASE("HTML is escaped and self-contained", "[apps]")
   CHECK(vpApp::dataUri("text/plain", "Man") == "data:text/plain;base64,TWFu");
   CHECK(vpApp::dataUri("text/plain", std::string("\xff\x00\xfe", 3)) == "data:text/plain;base64,/wD+");
 
+  CHECK(vpApp::escapeHtml("a\n\x1b\xe2\x80\xae") == "a\n\\u001b\\u202e");
   vpApp::HtmlReport report("A <title>", "lead & more");
   report.section("First <section>");
   report.paragraph("<script>");
@@ -265,6 +383,17 @@ TEST_CASE("gnuplot draws a plot with awkward labels and gaps", "[apps]")
   CHECK(complaint([] { vpApp::requireGnuplot(); }).find("install it") != std::string::npos);
   setenv("PATH", path.c_str(), 1);
   vpApp::requireGnuplot();
+
+  const char *temporary = std::getenv("TMPDIR");
+  const std::string before = temporary == nullptr ? "" : temporary;
+  setenv("TMPDIR", "/nowhere", 1);
+  CHECK(complaint([] { vpApp::requireGnuplot(); }) ==
+        "/nowhere: is the folder for temporary files (TMPDIR) and cannot be "
+        "written in (No such file or directory)");
+  temporary == nullptr ? unsetenv("TMPDIR") : setenv("TMPDIR", before.c_str(), 1);
+
+  plot.title = "\x1b[31m";
+  CHECK(vpApp::renderSvg(plot).find("\\u001b[31m") != std::string::npos);
 }
 
 TEST_CASE("On logarithmic axes powers of ten are equally far apart", "[apps]")
