@@ -1,11 +1,15 @@
 #!/usr/bin/env bash
 # Install what is missing, build everything and run all tests. Arguments go to ctest: ./test.sh -R Servo
+# Random tests run twice: at their built-in seed and at one of the day; VISP_DIRECT_SEED=N ./test.sh repeats another day's.
 set -euo pipefail
 # shellcheck source=scripts/setup.sh
 source "$(dirname "${BASH_SOURCE[0]}")/scripts/setup.sh"
 
 install_packages "${packages[@]}" "${test_packages[@]}"
 build_tree all
+
+export VISP_DIRECT_SEED=${VISP_DIRECT_SEED:-$(date +%Y%m%d)}
+echo "Random tests run at seed $VISP_DIRECT_SEED too."
 
 report=$logs/test-results.xml
 rm -f "$report"

@@ -7,7 +7,8 @@
  * \brief Catch2 for every build: 2.13 of Debian, the copy embedded in ViSP 3.5, or 3.x.
  *
  * The main function is in vpTestMain.cpp, linked to all tests. Random tests take their seed from
- * vpTestSupport::seed(), which Catch2's `--rng-seed` sets and every failure prints.
+ * vpTestSupport::seed(), which Catch2's `--rng-seed` sets and every failure prints. Where the environment variable
+ * VISP_DIRECT_SEED holds a number, the tests that asked for the seed run again with that one.
  */
 #ifndef vpCatch_h
 #define vpCatch_h
@@ -15,6 +16,12 @@
 #if __has_include(<catch2/catch_all.hpp>)
 #include <catch2/catch_all.hpp>
 using Catch::Approx;
+namespace Catch // names that moved since version 2
+{
+using Matchers::EndsWith;
+using Matchers::StartsWith;
+inline auto Contains(const std::string &text) { return Matchers::ContainsSubstring(text); }
+} // namespace Catch
 #elif __has_include(<catch2/catch.hpp>)
 #include <catch2/catch.hpp>
 #else

@@ -7,7 +7,10 @@
 #define CATCH_CONFIG_RUNNER
 #include "vpCatch.h"
 
+#include <cstdlib>
 #include <cstring>
+#include <iostream>
+#include <set>
 #include <vector>
 
 namespace
@@ -15,15 +18,40 @@ namespace
 constexpr int skipped = 77; // SKIP_RETURN_CODE of cmake/VispDirectModule.cmake
 unsigned int s_seed = 20240613;
 bool s_skipped = false;
+std::set<std::string> s_random; // names of the tests that asked for the seed
+
+void noteRandomTest() { s_random.insert(Catch::getResultCapture().getCurrentTestName()); }
+
+// Run the tests that are random again, with the seed that the environment names.
+int runAgain(Catch::Session &session, unsigned int seed)
+{
+  Catch::ConfigData config = session.configData();
+  config.testsOrTags.clear();
+  for (const std::string &name : s_random) {
+    std::string quoted;
+    for (const char c : name) {
+      quoted += c == '"' || c == '\\' || c == '[' || c == '*' ? std::string("\\") + c : std::string(1, c);
+    }
+    config.testsOrTags.push_back((config.testsOrTags.empty() ? "\"" : ",\"") + quoted + "\"");
+  }
+  config.rngSeed = s_seed = seed;
+  session.useConfigData(config);
+  std::cout << "The same at seed " << seed << " (VISP_DIRECT_SEED): " << s_random.size() << " random tests\n";
+  return session.run();
+}
 } // namespace
 
 namespace vpTestSupport
 {
-unsigned int seed() { return s_seed; }
+unsigned int seed()
+{
+  noteRandomTest();
+  return s_seed;
+}
 
 std::mt19937_64 generator(unsigned int index)
 {
-  std::seed_seq sequence{s_seed, index};
+  std::seed_seq sequence{seed(), index};
   return std::mt19937_64(sequence);
 }
 
@@ -54,6 +82,10 @@ int main(int argc, char *argv[])
   if (seedGiven) {
     s_seed = session.config().rngSeed();
   }
-  const int failed = session.run();
+  int failed = session.run();
+  const char *again = std::getenv("VISP_DIRECT_SEED");
+  if (failed == 0 && !seedGiven && !s_random.empty() && again != nullptr && *again != '\0') {
+    failed = runAgain(session, static_cast<unsigned int>(std::strtoul(again, nullptr, 10)));
+  }
   return failed == 0 && s_skipped ? skipped : failed;
 }
