@@ -13,6 +13,7 @@
 #include <visp3/manipulator/vpArmUrdf.h>
 #include <visp3/pattern/vpMicroscopeCalibration.h>
 
+#include <array>
 #include <cstring>
 #include <fstream>
 #include <iostream>
@@ -54,54 +55,44 @@ std::string bytesOf(float value)
   return {bytes, 4};
 }
 
-//! A cube of 12 triangles. \param write : Takes three corners.
-void cube(const std::function<void(const std::array<std::array<float, 3>, 3> &)> &write)
+//! The corners of the 12 triangles of a cube.
+std::vector<std::array<float, 3>> cube()
 {
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const float side : {0.F, 1.F}) {
-      for (const float half : {0.F, 1.F}) {
-        std::array<std::array<float, 3>, 3> corners{};
-        const std::array<std::array<float, 2>, 3> uv{{{0.F, 0.F}, {1.F, half}, {half, 1.F}}};
-        for (std::size_t k = 0; k < 3; ++k) {
-          const std::size_t corner = side == half ? k : 2 - k;
-          corners[corner][static_cast<std::size_t>(axis)] = side;
-          corners[corner][static_cast<std::size_t>((axis + 1) % 3)] = k == 0 ? half : uv[k][0];
-          corners[corner][static_cast<std::size_t>((axis + 2) % 3)] = k == 0 ? half : uv[k][1];
-        }
-        write(corners);
-      }
-    }
+  std::vector<std::array<float, 3>> corners;
+  for (const int corner :
+       {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5}) {
+    corners.push_back(
+        {static_cast<float>(corner & 1), static_cast<float>((corner >> 1) & 1), static_cast<float>(corner >> 2)});
   }
+  return corners;
 }
 
 std::string binaryStl()
 {
-  std::string bytes(80, ' ');
-  bytes += std::string("\x0c\0\0\0", 4);
-  cube([&](const auto &corners) {
-    bytes += std::string(12, '\0');
-    for (const auto &corner : corners) {
-      bytes += bytesOf(corner[0]) + bytesOf(corner[1]) + bytesOf(corner[2]);
+  const std::vector<std::array<float, 3>> corners = cube();
+  std::string bytes = std::string(80, ' ') + std::string("\x0c\0\0\0", 4);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    bytes += i % 3 == 0 ? std::string(12, '\0') : ""; // normal
+    for (const float x : corners[i]) {
+      bytes += bytesOf(x);
     }
-    bytes += std::string(2, '\0');
-  });
+    bytes += i % 3 == 2 ? std::string(2, '\0') : "";
+  }
   return bytes;
 }
 
 std::string textStl()
 {
+  const std::vector<std::array<float, 3>> corners = cube();
   std::string text = "solid cube\n";
-  cube([&](const auto &corners) {
-    text += "facet normal 0 0 0\nouter loop\n";
-    for (const auto &corner : corners) {
-      text += "vertex";
-      for (const float x : corner) {
-        text += " " + std::to_string(x);
-      }
-      text += "\n";
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    text += i % 3 == 0 ? "facet normal 0 0 0\nouter loop\n" : "";
+    text += "vertex";
+    for (const float x : corners[i]) {
+      text += " " + std::to_string(x);
     }
-    text += "endloop\nendfacet\n";
-  });
+    text += i % 3 == 2 ? "\nendloop\nendfacet\n" : "\n";
+  }
   return text + "endsolid cube\n";
 }
 
@@ -110,7 +101,8 @@ std::string fullOctree()
 {
   const std::string value = bytesOf(0.85F);
   return "# Octomap OcTree file\nid OcTree\nsize 7\nres 0.05\ndata\n" + value + "\x05" + value + "\x81" + value +
-         std::string(1, '\0') + value + "\x02" + value + std::string(1, '\0') + value + "\x40" + value + std::string(1, '\0');
+         std::string(1, '\0') + value + "\x02" + value + std::string(1, '\0') + value + "\x40" + value +
+         std::string(1, '\0');
 }
 } // namespace
 
@@ -138,17 +130,17 @@ TEST_CASE("Damaged scenes", "[files][mutated]")
       {"name": "e", "shape": "box", "size_m": [1, 2, 3], "photo": "p",
        "pose": {"translation_m": [0, 0, 1], "rotation_deg": [0, 90, 0]}}],
     "tasks": [{"name": "t", "start_rad": [0, 0.1], "goal_rad": [1, 1]}]})");
-  tell("scene.json", readMutated({everything.name(), data + "/scene/photo-box.json", data + "/scene/s4b-shelf.json"},
-                                 ".json", mutationCount(400),
-                                 [](const std::string &file) { static_cast<void>(vpLoadCollisionScene(file)); }));
+  tell("scene.json",
+       readMutated({everything.name(), data + "/scene/photo-box.json", data + "/scene/s4b-shelf.json"}, ".json",
+                   mutationCount(400), [](const std::string &file) { static_cast<void>(vpLoadCollisionScene(file)); }));
 }
 
 TEST_CASE("Damaged meshes", "[files][mutated]")
 {
   const auto load = [](const std::string &file) { static_cast<void>(vpTriangleMesh::load(file)); };
   const File binary("binary.stl", binaryStl()), text("text.stl", textStl());
-  CHECK(vpTriangleMesh::load(binary.name()).triangles().size() == 12);
-  CHECK(vpTriangleMesh::load(text.name()).triangles().size() == 12);
+  CHECK(vpTriangleMesh::load(binary.name()).isWatertight());
+  CHECK(vpTriangleMesh::load(text.name()).isWatertight());
   tell("binary .stl", readMutated({binary.name()}, ".stl", mutationCount(400), load));
   tell("text .stl", readMutated({text.name()}, ".stl", mutationCount(400), load));
   tell(".obj", readMutated({data + "/scene/bracket.obj"}, ".obj", mutationCount(400), load));

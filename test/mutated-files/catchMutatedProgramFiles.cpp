@@ -33,8 +33,8 @@ void tell(const char *format, const MutationCount &count)
 
 TEST_CASE("Damaged lines of problems", "[files][mutated]")
 {
-  tell("problems.jsonl", readMutated({data + "/trajectory/examples.jsonl", data + "/trajectory/figure-6.3.jsonl"}, ".jsonl",
-                                     mutationCount(400), [](const std::string &file) {
+  tell("problems.jsonl", readMutated({data + "/trajectory/examples.jsonl", data + "/trajectory/figure-6.3.jsonl"},
+                                     ".jsonl", mutationCount(400), [](const std::string &file) {
                                        vpApp::LineReader lines(file);
                                        std::size_t number = 0;
                                        for (std::string line; lines.next(line);) {
@@ -47,12 +47,13 @@ TEST_CASE("Damaged lines of problems", "[files][mutated]")
 
 TEST_CASE("Damaged descriptions of products, tasks and explorations", "[files][mutated]")
 {
-  tell("pattern.json", readMutated({data + "/pattern/oled.json"}, ".json", mutationCount(400), [](const std::string &file) {
-         static_cast<void>(generatePattern::readTask(file));
-       }));
-  tell("scenario.json",
-       readMutated({data + "/scenario/thesis-5.4.json", data + "/scenario/inspection.json"}, ".json", mutationCount(400),
-                   [](const std::string &file) { static_cast<void>(servoCompare::readScenario(file)); }));
+  tell("pattern.json",
+       readMutated({data + "/pattern/oled.json"}, ".json", mutationCount(400),
+                   [](const std::string &file) { static_cast<void>(generatePattern::readTask(file)); }));
+  tell("scenario.json", readMutated({data + "/scenario/thesis-5.4.json", data + "/scenario/inspection.json"}, ".json",
+                                    mutationCount(400), [](const std::string &file) {
+                                      static_cast<void>(servoCompare::readScenario(file));
+                                    }));
   tell("explore.json", readMutated({data + "/explore/camera.json", data + "/explore/wide.json"}, ".json",
                                    mutationCount(400), [](const std::string &file) {
                                      static_cast<void>(printExplore::readSetup(vpApp::readFile(file), file));
@@ -65,16 +66,17 @@ TEST_CASE("Damaged calibrations and truth", "[files][mutated]")
   const std::string calibration = folder.write(
       "calibration.json", R"({"comment": "x", "width": 640, "height": 480, "scale_x_px_per_m": 2e5, "rotation_deg": 3,
                               "mirrored": false, "tx_m": 0.1, "kappa1_per_px2": 1e-9, "u0_px": 320, "quality": {"a": [1]}})");
-  tell("calibration.json",
-       readMutated({calibration}, ".json", mutationCount(400), [](const std::string &file) {
+  tell("calibration.json", readMutated({calibration}, ".json", mutationCount(400), [](const std::string &file) {
          static_cast<void>(trackPattern::readCalibration(file, "microscope", 640, 480));
        }));
   const std::string truth = folder.write(
-      "truth.csv", "frame,row,column,x,y,complete,defective\n0,0,0,10.5,11,1,0\n0,0,1,60,11.25,1,0\n1,0,0,15.5,11,1,1\n");
+      "truth.csv",
+      "frame,row,column,x,y,complete,defective\n0,0,0,10.5,11,1,0\n0,0,1,60,11.25,1,0\n1,0,0,15.5,11,1,1\n");
   const TestFolder damaged;
   damaged.write("motion.csv", "frame,x,y,dx,dy\n0,0,0,0,0\n1,5,0,5,0\n");
   tell("truth.csv", readMutated({truth}, ".csv", mutationCount(400), [&](const std::string &file) {
-         std::filesystem::copy_file(file, damaged.path / "truth.csv", std::filesystem::copy_options::overwrite_existing);
+         std::filesystem::copy_file(file, damaged.path / "truth.csv",
+                                    std::filesystem::copy_options::overwrite_existing);
          try {
            static_cast<void>(trackPattern::TruthFiles(damaged.path));
          }

@@ -80,13 +80,41 @@ std::pair<std::size_t, std::size_t> findToken(const std::string &text, Random &r
 
 void replaceNumber(std::string &text, Random &random)
 {
-  static const std::vector<std::string> numbers = {
-      "0", "-0", "-1", "1", "2", "1e999", "-1e999", "1e308", "-1e308", "1e154", "1e-320", "2147483647", "2147483648",
-      "-2147483649", "4294967295", "4294967296", "18446744073709551616", "99999999999999999999999", "nan", "inf", "-inf",
-      "0x10", "1e19", "0.1.2", "1,5", "--1", "%s%n", "null", "true", "\"1\"", "[]", "{}", ""};
-  const auto [at, size] = findToken(text, random, [](char c) {
-    return (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+' || c == 'e';
-  });
+  static const std::vector<std::string> numbers = {"0",
+                                                   "-0",
+                                                   "-1",
+                                                   "1",
+                                                   "2",
+                                                   "1e999",
+                                                   "-1e999",
+                                                   "1e308",
+                                                   "-1e308",
+                                                   "1e154",
+                                                   "1e-320",
+                                                   "2147483647",
+                                                   "2147483648",
+                                                   "-2147483649",
+                                                   "4294967295",
+                                                   "4294967296",
+                                                   "18446744073709551616",
+                                                   "99999999999999999999999",
+                                                   "nan",
+                                                   "inf",
+                                                   "-inf",
+                                                   "0x10",
+                                                   "1e19",
+                                                   "0.1.2",
+                                                   "1,5",
+                                                   "--1",
+                                                   "%s%n",
+                                                   "null",
+                                                   "true",
+                                                   "\"1\"",
+                                                   "[]",
+                                                   "{}",
+                                                   ""};
+  const auto [at, size] = findToken(
+      text, random, [](char c) { return (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+' || c == 'e'; });
   text.replace(at, size, oneOf(random, numbers));
 }
 
@@ -100,18 +128,45 @@ void replaceWord(std::string &text, const std::string &other, Random &random)
 
 void nest(std::string &text, Random &random)
 {
-  static const std::vector<std::string> pieces = {"[", "{\"a\":", "<a>", "<link name=\"a\">", "]", "}", "</a>", "\x03",
-                                                  "f 1 1 1\n", "#", "\"", "(", "-", "[[1,2],"};
+  static const std::vector<std::string> pieces = {
+      "[", "{\"a\":", "<a>",    "<link name=\"a\">", "]", "}", "</a>", "\x03", "f 1 1 1\n", "#", "\"",
+      "(", "-",       "[[1,2],"};
   static const std::vector<std::size_t> counts = {10, 63, 64, 65, 1000, 100000};
   text.insert(below(random, text.size() + 1), repeated(oneOf(random, pieces), oneOf(random, counts)));
 }
 
 void putIn(std::string &text, Random &random)
 {
-  static const std::vector<std::string> pieces = {
-      std::string(1, '\0'), "\x1b[31m", "\x7f", "\xc2\x9b", "\xe2\x80\xae", "\xff", "\xc3", "\xed\xa0\x80", "\r", "\n", "\t",
-      "%", "%s%n", "&#37;", "\xef\xbb\xbf", "\\u0000", "\\ud800", "\"", "\\", "<", ">", "/>", "<!--", "-->", "<![CDATA[",
-      "<?xml ?>", "//", "/*", ",", ":"};
+  static const std::vector<std::string> pieces = {std::string(1, '\0'),
+                                                  "\x1b[31m",
+                                                  "\x7f",
+                                                  "\xc2\x9b",
+                                                  "\xe2\x80\xae",
+                                                  "\xff",
+                                                  "\xc3",
+                                                  "\xed\xa0\x80",
+                                                  "\r",
+                                                  "\n",
+                                                  "\t",
+                                                  "%",
+                                                  "%s%n",
+                                                  "&#37;",
+                                                  "\xef\xbb\xbf",
+                                                  "\\u0000",
+                                                  "\\ud800",
+                                                  "\"",
+                                                  "\\",
+                                                  "<",
+                                                  ">",
+                                                  "/>",
+                                                  "<!--",
+                                                  "-->",
+                                                  "<![CDATA[",
+                                                  "<?xml ?>",
+                                                  "//",
+                                                  "/*",
+                                                  ",",
+                                                  ":"};
   text.insert(below(random, text.size() + 1), repeated(oneOf(random, pieces), 1 + below(random, 3)));
 }
 
@@ -123,18 +178,17 @@ void setBytes(std::string &text, Random &random)
   text.replace(at, size, std::string(size, oneOf(random, bytes)));
 }
 
-bool isPrintableSentence(const std::string &text)
-{
-  return !text.empty() && text == vpPrintable(text, text.size());
-}
+bool isPrintableSentence(const std::string &text) { return !text.empty() && text == vpPrintable(text, text.size()); }
 } // namespace
 
 std::string FileMutator::mutate(Random &random) const
 {
   std::string text = oneOf(random, m_files);
   const std::string other = oneOf(random, m_files);
-  for (std::size_t i = 0, count = 1 + below(random, 4); i < count; ++i) {
-    switch (below(random, 9)) {
+  // Mostly one damage, and mostly one that leaves the form: else hardly a file gets to its meaning.
+  static const std::vector<std::size_t> counts = {1, 1, 1, 1, 2, 2, 3, 5};
+  for (std::size_t i = 0, count = oneOf(random, counts); i < count; ++i) {
+    switch (below(random, 16)) {
     case 0:
       flipBits(text, random);
       break;
@@ -148,16 +202,18 @@ std::string FileMutator::mutate(Random &random) const
       splice(text, other, random);
       break;
     case 4:
-      replaceWord(text, other, random);
-      break;
-    case 5:
       nest(text, random);
       break;
-    case 6:
+    case 5:
       putIn(text, random);
       break;
-    case 7:
+    case 6:
       setBytes(text, random);
+      break;
+    case 7:
+    case 8:
+    case 9:
+      replaceWord(text, other, random);
       break;
     default:
       replaceNumber(text, random);

@@ -13,6 +13,7 @@
 #include "jobs.h"
 #include "jsonReader.h"
 #include "lineReader.h"
+#include "numberText.h"
 #include "outputFile.h"
 #include "outputFolder.h"
 #include "plot.h"
@@ -306,6 +307,27 @@ TEST_CASE("JSON errors name the file, the place and the value", "[apps]")
   CHECK(complaint([] { (void)vpApp::readJsonFile("/dev/zero"); }) == "/dev/zero: is larger than 64 MB");
   CHECK(complaint([&] { (void)vpApp::readJsonFile(folder.path / "none.json"); }).find("none.json: cannot be read") !=
         std::string::npos);
+}
+
+TEST_CASE("Numbers are written as people do", "[apps]")
+{
+  CHECK(vpApp::number(150., 2) == "150");
+  CHECK(vpApp::number(-99.6, 2) == "-100");
+  CHECK(vpApp::number(123456., 3) == "123000");
+  CHECK(vpApp::number(0.20001, 3) == "0.2");
+  CHECK(vpApp::number(57., 4) == "57");
+  CHECK(vpApp::number(0.00123456, 3) == "0.00123");
+  CHECK(vpApp::number(2e-5, 3) == "2e-05");
+  CHECK(vpApp::number(3e12, 3) == "3e+12");
+  CHECK(vpApp::number(INFINITY, 3) == "inf");
+  std::mt19937_64 random = vpTestSupport::generator();
+  for (int i = 0; i < 1000; ++i) { // the digits that are asked for, and no more
+    const int digits = std::uniform_int_distribution<int>(1, 12)(random);
+    const double value = std::pow(10., std::uniform_real_distribution<double>(-6., 9.)(random));
+    const double written = std::stod(vpApp::number(value, digits));
+    CAPTURE(value, digits, written);
+    CHECK(std::fabs(written - value) <= 0.5000001 * std::pow(10., std::floor(std::log10(value)) - digits + 1.));
+  }
 }
 
 TEST_CASE("Texts of files are made printable", "[apps]")
