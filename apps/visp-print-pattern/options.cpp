@@ -251,8 +251,8 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   if (options.runs < 1 || options.runs > 10000) {
     throw vpApp::UsageError("--runs is " + std::to_string(options.runs) + ", must be 1..10000");
   }
-  if (options.jobs > 256) {
-    throw vpApp::UsageError("--jobs is " + std::to_string(options.jobs) + ", must be at most 256");
+  if (app.count("--jobs") > 0 && (options.jobs < 1 || options.jobs > 256)) {
+    throw vpApp::UsageError("--jobs is " + std::to_string(options.jobs) + ", must be 1..256");
   }
   options.replicas = !words.noReplicas;
   options.spec = specOf(words, options);
