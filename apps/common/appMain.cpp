@@ -61,6 +61,12 @@ std::string conversionSentence(const CLI::App &app, const std::string &message)
   const std::string wanted = type == "UINT" ? "a whole number >= 0" : type == "INT" ? "a whole number" : "a number";
   return name + " is " + message.substr(at + middle.size()) + ", must be " + wanted;
 }
+// CLI11 says "--out: 1 required TEXT missing".
+std::string mismatchSentence(const std::string &message)
+{
+  const std::size_t at = message.find(": 1 required ");
+  return at == std::string::npos ? message : message.substr(0, at) + " is given without a value";
+}
 } // namespace
 
 std::string sentenceOf(const std::exception &error)
@@ -110,6 +116,9 @@ bool parseCommandLine(CLI::App &app, int argc, const char *const *argv)
   }
   catch (const CLI::ConversionError &error) {
     throw UsageError(conversionSentence(app, error.what()));
+  }
+  catch (const CLI::ArgumentMismatch &error) {
+    throw UsageError(mismatchSentence(error.what()));
   }
   catch (const CLI::ParseError &error) {
     throw UsageError(error.what());

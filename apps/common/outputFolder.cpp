@@ -5,6 +5,8 @@
 #include "outputFolder.h"
 #include "folderLock.h"
 
+#include "vpStrictJson.h"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -61,13 +63,16 @@ fs::path obstacleOnWay(const fs::path &folder, const fs::path &name)
   return {};
 }
 
+// Null when there is none.
 nlohmann::json readSummary(const fs::path &folder)
 {
-  std::ifstream stream;
-  if (typeOf(folder / SUMMARY) == fs::file_type::regular) {
-    stream.open(folder / SUMMARY);
+  try {
+    const fs::path file = folder / SUMMARY;
+    return typeOf(file) == fs::file_type::regular ? vpReadJson(file.string()) : nlohmann::json();
   }
-  return nlohmann::json::parse(stream, nullptr, false);
+  catch (const vpFileError &) {
+    return {};
+  }
 }
 
 void writeFile(const fs::path &file, const std::string &content, const fs::path &wanted)
@@ -226,7 +231,8 @@ void OutputFolder::writeSummary(nlohmann::ordered_json summary)
   summary["program"] = m_program;
   summary["status"] = summary.value("status", std::string("complete"));
   summary["files"] = files;
-  write(SUMMARY, summary.dump(2) + "\n");
+  // What was typed may be no UTF-8.
+  write(SUMMARY, summary.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
 void OutputFolder::commit()
@@ -255,7 +261,9 @@ void OutputFolder::commit()
 void OutputFolder::removeFormer(const std::vector<std::string> &except) const
 {
   for (const std::string &name : m_formerFiles) {
-    const bool ours = typeOf(m_folder / name) == fs::file_type::regular && obstacleOnWay(m_folder, name).empty();
+    const fs::file_type type = typeOf(m_folder / name);
+    const bool gone = type == fs::file_type::not_found; // a run was killed between file and folder
+    const bool ours = (type == fs::file_type::regular || gone) && obstacleOnWay(m_folder, name).empty();
     if (ours && name != SUMMARY && !std::binary_search(except.begin(), except.end(), name)) {
       std::error_code ignored;
       fs::remove(m_folder / name, ignored);

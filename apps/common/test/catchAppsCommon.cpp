@@ -120,6 +120,7 @@ TEST_CASE("parseCommandLine tells help from mistakes", "[apps]")
   CHECK(printed.text().find("--number") != std::string::npos);
   CHECK_THROWS_AS(parse({"--nonsense"}), vpApp::UsageError);
   CHECK(complaint([&] { (void)parse({"--number", "x"}); }) == "--number is x, must be a whole number");
+  CHECK(complaint([&] { (void)parse({"--number"}); }) == "--number is given without a value");
   CHECK(printed.text().find("--version") != std::string::npos);
 }
 

@@ -123,7 +123,9 @@ TEST_CASE("A result appears with its summary, and the program may replace its ow
     fs::remove(wanted + "/summary.json");
     folder.write("deep/out/thesis.txt", "years of work");
     CHECK(has(complaintOf(wanted), "is left alone"));
-    for (const char *summary : {"{\"program\": 3", "[]", "{}", "{\"program\": [\"prog\"]}"}) {
+    const std::string deep = "{\"program\": " + std::string(1000000, '[') + std::string(1000000, ']') + "}";
+    for (const std::string &summary : {std::string("{\"program\": 3"), std::string("[]"), std::string("{}"),
+                                       std::string("{\"program\": [\"prog\"]}"), deep}) {
       folder.write("deep/out/summary.json", summary);
       CHECK(has(complaintOf(wanted), "is left alone"));
     }
@@ -226,6 +228,18 @@ TEST_CASE("Nothing of the user's in a result folder is touched", "[apps][output]
     REQUIRE(mkfifo((real + "/summary.json").c_str(), 0600) == 0);
     CHECK(has(complaintOf(wanted), "is left alone"));
   }
+}
+
+TEST_CASE("A summary takes what was typed, whatever the bytes", "[apps][output]")
+{
+  const TestFolder folder;
+  const std::string wanted = (folder.path / "out").string();
+  {
+    OutputFolder out("prog", wanted);
+    out.writeSummary({{"command", "prog --scene \xff.json"}});
+    out.commit();
+  }
+  CHECK(vpApp::readJsonFile(wanted + "/summary.json")["command"] == "prog --scene \xef\xbf\xbd.json");
 }
 
 TEST_CASE("Two runs into one folder: the second says so at once", "[apps][output]")
