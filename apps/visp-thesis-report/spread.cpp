@@ -37,8 +37,5 @@ double Spread::rms() const
 
 double Spread::largest() const { return quantile(1.); }
 
-double Spread::quantile(double share) const
-{
-  return m_values.empty() ? 0. : vpQuantile(m_values, share);
-}
+double Spread::quantile(double share) const { return m_values.empty() ? 0. : vpQuantile(m_values, share); }
 } // namespace thesisReport
