@@ -16,6 +16,7 @@ macro(vispdirect_module_settings)
   target_compile_features(${the_module} PUBLIC cxx_std_17)
   set_target_properties(${the_module} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
   target_compile_options(${the_module} PRIVATE "$<$<CXX_COMPILER_ID:GNU,Clang>:-Wall;-Wextra;-Wshadow;-Wnon-virtual-dtor>")
+  target_include_directories(${the_module} PRIVATE "${VISP_DIRECT_ROOT}/support")
   # A library with an undefined symbol shall fail here and not in the first program that uses it.
   if(CMAKE_SYSTEM_NAME STREQUAL "Linux" AND NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
     target_link_options(${the_module} PRIVATE LINKER:-z,defs)

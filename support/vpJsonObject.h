@@ -4,207 +4,240 @@
  */
 /*!
  * \file vpJsonObject.h
- * \brief Reading JSON files strictly, for the modules that have files of their own. Not installed: only their .cpp files
- * include it.
+ * \brief Reading JSON objects strictly, for modules and programs. Not installed: only .cpp files include it.
  */
 #ifndef vpJsonObject_h
 #define vpJsonObject_h
 
-#include <visp3/core/vpException.h>
-#include <visp3/direct_core/vpDirectCompat.h>
+#include "vpStrictJson.h"
 
-#include <nlohmann/json.hpp>
-
-#include <Eigen/Geometry>
-
-#include <cmath>
-#include <fstream>
+#include <limits>
 #include <set>
 #include <string>
 #include <vector>
 
-BEGIN_VISP_NAMESPACE
-
 /*!
- * \throw vpException (ioError) when the file cannot be read, (badValue) with the place when it is no JSON.
- */
-inline nlohmann::json vpParseJsonFile(const std::string &file)
-{
-  std::ifstream in(file);
-  if (!in) {
-    throw vpException(vpException::ioError, "%s: cannot be read", file.c_str());
-  }
-  try {
-    return nlohmann::json::parse(in);
-  }
-  catch (const nlohmann::json::exception &e) {
-    std::string why = e.what();
-    const std::size_t prefix = why.find("] ");
-    why = prefix == std::string::npos ? why : why.substr(prefix + 2);
-    throw vpException(vpException::badValue, "%s: %s", file.c_str(), why.c_str());
-  }
-}
-
-/*!
- * \brief One object of a JSON file, with its place in it for messages. Every field that is asked for is known; done() refuses
- * the others, so that a misspelt one does not go unseen.
+ * \brief One JSON object that is read field by field.
+ *
+ * Ask for every field that the object may have, then call finish(), which complains about all others, so that a misspelt one
+ * does not go unseen. All errors are vpFileError: `task.json: camera.px is "wide", must be a number`.
  */
 class vpJsonObject
 {
 public:
-  static constexpr double degree = M_PI / 180.; //!< rad.
+  using json = nlohmann::json;
 
-  vpJsonObject(const nlohmann::json &value, const std::string &file, const std::string &place)
-    : m_value(value), m_file(file), m_place(place)
+  /*!
+   * \param value : The JSON value, which must be an object and outlive this one. \param file : Begins every message.
+   * \param path : Where the object is in the file ("plants[0]"), empty for the whole file.
+   */
+  vpJsonObject(const json &value, std::string file, std::string path = "")
+    : m_value(&value), m_file(std::move(file)), m_path(std::move(path))
   {
     if (!value.is_object()) {
-      fail(m_place.empty() ? "the file" : m_place, "must be an object");
-    }
-  }
-  vpJsonObject(const vpJsonObject &) = delete;
-  vpJsonObject &operator=(const vpJsonObject &) = delete;
-
-  [[noreturn]] void fail(const std::string &what, const std::string &why) const
-  {
-    throw vpException(vpException::badValue, "%s: %s %s", m_file.c_str(), what.c_str(), why.c_str());
-  }
-  [[nodiscard]] bool has(const char *field) const { return m_value.contains(field); }
-  [[nodiscard]] std::string place(const char *field) const { return m_place.empty() ? field : m_place + "." + field; }
-  [[nodiscard]] const std::string &file() const { return m_file; }
-
-  const nlohmann::json &get(const char *field)
-  {
-    m_known.insert(field);
-    if (!has(field)) {
-      fail(place(field), "is missing");
-    }
-    return m_value[field];
-  }
-  [[nodiscard]] const std::string &where() const { return m_place; }
-  double number(const char *field) { return number(get(field), place(field)); }
-  double number(const char *field, double otherwise)
-  {
-    m_known.insert(field);
-    return has(field) ? number(field) : otherwise;
-  }
-  bool flag(const char *field, bool otherwise)
-  {
-    m_known.insert(field);
-    if (!has(field)) {
-      return otherwise;
-    }
-    if (!get(field).is_boolean()) {
-      fail(place(field), "must be true or false");
-    }
-    return get(field).get<bool>();
-  }
-  std::string string(const char *field)
-  {
-    const nlohmann::json &value = get(field);
-    if (!value.is_string()) {
-      fail(place(field), "must be a text");
-    }
-    return value.get<std::string>();
-  }
-  template <int N> Eigen::Matrix<double, N, 1> vector(const char *field)
-  {
-    const nlohmann::json &value = get(field);
-    if (!value.is_array() || value.size() != static_cast<std::size_t>(N)) {
-      fail(place(field), "must be a list of " + std::to_string(N) + " numbers");
-    }
-    Eigen::Matrix<double, N, 1> v;
-    for (int i = 0; i < N; ++i) {
-      v(i) = number(value[static_cast<std::size_t>(i)], place(field) + "[" + std::to_string(i) + "]");
-    }
-    return v;
-  }
-  std::vector<double> numbers(const char *field) { return numbers(get(field), place(field)); }
-  std::vector<std::vector<double>> rows(const char *field)
-  {
-    std::vector<std::vector<double>> all;
-    const nlohmann::json &list = get(field);
-    if (!list.is_array()) {
-      fail(place(field), "must be a list");
-    }
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      all.push_back(numbers(list[i], place(field) + "[" + std::to_string(i) + "]"));
-    }
-    return all;
-  }
-  // Every element of a list of objects, with its place.
-  template <class Function> void each(const char *field, Function function)
-  {
-    const nlohmann::json &list = get(field);
-    if (!list.is_array()) {
-      fail(place(field), "must be a list");
-    }
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      vpJsonObject object(list[i], m_file, place(field) + "[" + std::to_string(i) + "]");
-      function(object);
-      object.done();
-    }
-  }
-  // A field that is an object and may be left out.
-  template <class Function> void optional(const char *field, Function function)
-  {
-    m_known.insert(field);
-    if (has(field)) {
-      vpJsonObject object(m_value[field], m_file, place(field));
-      function(object);
-      object.done();
-    }
-  }
-  /*!
-   * A pose: `translation_m`, and if wanted `rotation_deg`, a rotation vector.
-   */
-  template <class Transform> Transform transform()
-  {
-    Transform T;
-    T.p = vector<3>("translation_m");
-    m_known.insert("rotation_deg");
-    if (has("rotation_deg")) {
-      const Eigen::Vector3d e = vpJsonObject::degree * vector<3>("rotation_deg");
-      if (e.norm() > 0.) {
-        T.R = Eigen::AngleAxisd(e.norm(), e.normalized()).toRotationMatrix();
-      }
-    }
-    return T;
-  }
-  void ignore(const char *field) { m_known.insert(field); }
-  void done() const
-  {
-    for (const auto &item : m_value.items()) {
-      if (m_known.count(item.key()) == 0) {
-        fail(place(item.key().c_str()), "is not a known field");
-      }
+      throw vpFileError(m_file + ": " + (m_path.empty() ? "the content" : m_path) + " is " + shortDump(value) +
+                        ", must be an object { }");
     }
   }
 
-private:
-  std::vector<double> numbers(const nlohmann::json &value, const std::string &where) const
+  //! True if the field is there; it then counts as known.
+  [[nodiscard]] bool has(const std::string &field)
   {
-    if (!value.is_array()) {
-      fail(where, "must be a list of numbers");
-    }
-    std::vector<double> v;
-    for (std::size_t i = 0; i < value.size(); ++i) {
-      v.push_back(number(value[i], where + "[" + std::to_string(i) + "]"));
-    }
-    return v;
+    m_known.insert(field);
+    return m_value->contains(field);
   }
-  double number(const nlohmann::json &value, const std::string &where) const
+  //! A field that is not read here may be there.
+  void ignore(const std::string &field) { m_known.insert(field); }
+
+  //! A number. \throw vpFileError when missing.
+  [[nodiscard]] double number(const std::string &field)
   {
+    const json &value = this->value(field);
     if (!value.is_number()) {
-      fail(where, "must be a number");
+      throw wrong(field, value, "a number");
     }
     return value.get<double>();
   }
+  //! A number, \e fallback when missing.
+  [[nodiscard]] double number(const std::string &field, double fallback)
+  {
+    return has(field) ? number(field) : fallback;
+  }
+  //! A whole number >= 0, \e fallback when missing.
+  [[nodiscard]] unsigned int count(const std::string &field, unsigned int fallback)
+  {
+    if (!has(field)) {
+      return fallback;
+    }
+    const json &value = this->value(field);
+    if (!value.is_number_unsigned() || value.get<std::uint64_t>() > std::numeric_limits<unsigned int>::max()) {
+      throw wrong(field, value, "a whole number >= 0");
+    }
+    return value.get<unsigned int>();
+  }
+  //! A text. \throw vpFileError when missing.
+  [[nodiscard]] std::string text(const std::string &field)
+  {
+    const json &value = this->value(field);
+    if (!value.is_string()) {
+      throw wrong(field, value, "a text");
+    }
+    return value.get<std::string>();
+  }
+  //! A text, \e fallback when missing.
+  [[nodiscard]] std::string text(const std::string &field, const std::string &fallback)
+  {
+    return has(field) ? text(field) : fallback;
+  }
+  //! True or false, \e fallback when missing.
+  [[nodiscard]] bool flag(const std::string &field, bool fallback)
+  {
+    if (!has(field)) {
+      return fallback;
+    }
+    const json &value = this->value(field);
+    if (!value.is_boolean()) {
+      throw wrong(field, value, "true or false");
+    }
+    return value.get<bool>();
+  }
+  //! Any number of numbers.
+  [[nodiscard]] std::vector<double> numbers(const std::string &field)
+  {
+    const json &value = this->value(field);
+    if (!areNumbers(value)) {
+      throw wrong(field, value, "a list of numbers");
+    }
+    return value.get<std::vector<double>>();
+  }
+  //! Exactly \e size numbers.
+  [[nodiscard]] std::vector<double> numbers(const std::string &field, std::size_t size)
+  {
+    const json &value = this->value(field);
+    if (!areNumbers(value) || value.size() != size) {
+      throw wrong(field, value, "a list of " + std::to_string(size) + " numbers");
+    }
+    return value.get<std::vector<double>>();
+  }
+  //! A list of lists of \e size numbers each.
+  [[nodiscard]] std::vector<std::vector<double>> rows(const std::string &field, std::size_t size)
+  {
+    const json &value = list(field);
+    std::vector<std::vector<double>> all;
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      if (!areNumbers(value[i]) || value[i].size() != size) {
+        throw wrong(field + "[" + std::to_string(i) + "]", value[i], "a list of " + std::to_string(size) + " numbers");
+      }
+      all.push_back(value[i].get<std::vector<double>>());
+    }
+    return all;
+  }
+  //! An object. \throw vpFileError when missing.
+  [[nodiscard]] vpJsonObject object(const std::string &field)
+  {
+    return vpJsonObject(value(field), m_file, pathOf(field));
+  }
+  //! A list of objects, at least one. \throw vpFileError when missing or empty.
+  [[nodiscard]] std::vector<vpJsonObject> objects(const std::string &field)
+  {
+    const json &value = this->value(field);
+    if (!value.is_array() || value.empty()) {
+      throw wrong(field, value, "a list of at least one object");
+    }
+    std::vector<vpJsonObject> all;
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      all.emplace_back(value[i], m_file, pathOf(field) + "[" + std::to_string(i) + "]");
+    }
+    return all;
+  }
+  //! Call \e take with every object of a list, which may be empty, and finish it. \throw vpFileError when missing.
+  template <class Take> void each(const std::string &field, Take take)
+  {
+    if (list(field).empty()) {
+      return;
+    }
+    for (vpJsonObject &item : objects(field)) {
+      take(item);
+      item.finish();
+    }
+  }
+  //! Call \e take with the object \e field if it is there, and finish it.
+  template <class Take> void optional(const std::string &field, Take take)
+  {
+    if (has(field)) {
+      vpJsonObject item = object(field);
+      take(item);
+      item.finish();
+    }
+  }
 
-  const nlohmann::json &m_value;
-  const std::string &m_file;
-  std::string m_place;
+  //! Whatever stands there, for what the other readers do not cover. \throw vpFileError when missing.
+  [[nodiscard]] const json &value(const std::string &field)
+  {
+    if (!has(field)) {
+      throw vpFileError(m_file + ": " + pathOf(field) + " is missing");
+    }
+    return (*m_value)[field];
+  }
+
+  //! \throw vpFileError naming the first field that was not asked for, and those that were.
+  void finish() const
+  {
+    for (const auto &item : m_value->items()) {
+      if (m_known.count(item.key()) == 0) {
+        std::string known;
+        for (const std::string &field : m_known) {
+          known += (known.empty() ? "" : ", ") + field;
+        }
+        throw vpFileError(m_file + ": unknown field " + pathOf(vpPrintable(item.key(), 60)) + "; known are " + known);
+      }
+    }
+  }
+
+  //! An error about this object: "file: path: sentence".
+  [[nodiscard]] vpFileError error(const std::string &sentence) const
+  {
+    return vpFileError(m_file + ": " + (m_path.empty() ? "" : m_path + ": ") + sentence);
+  }
+  //! An error about a value in it: "file: path.field is VALUE, must be EXPECTED".
+  [[nodiscard]] vpFileError wrong(const std::string &field, const json &value, const std::string &expected) const
+  {
+    return vpFileError(m_file + ": " + pathOf(field) + " is " + shortDump(value) + ", must be " + expected);
+  }
+  [[nodiscard]] const std::string &file() const { return m_file; }
+  [[nodiscard]] const std::string &path() const { return m_path; }
+  //! Path of a field of this object ("camera.px").
+  [[nodiscard]] std::string pathOf(const std::string &field) const
+  {
+    return m_path.empty() ? field : m_path + "." + field;
+  }
+
+private:
+  static bool areNumbers(const json &value)
+  {
+    bool good = value.is_array();
+    for (std::size_t i = 0; good && i < value.size(); ++i) {
+      good = value[i].is_number();
+    }
+    return good;
+  }
+  static std::string shortDump(const json &value)
+  {
+    return vpPrintable(value.dump(-1, ' ', false, json::error_handler_t::replace), 60);
+  }
+  const json &list(const std::string &field)
+  {
+    const json &value = this->value(field);
+    if (!value.is_array()) {
+      throw wrong(field, value, "a list");
+    }
+    return value;
+  }
+
+  const json *m_value;
+  std::string m_file;
+  std::string m_path;
   std::set<std::string> m_known;
 };
 
-END_VISP_NAMESPACE
 #endif

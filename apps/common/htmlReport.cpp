@@ -4,6 +4,8 @@
  */
 #include "htmlReport.h"
 
+#include "vpPrintable.h"
+
 namespace vpApp
 {
 namespace
@@ -81,7 +83,7 @@ std::string escapeHtml(const std::string &text)
 {
   std::string html;
   html.reserve(text.size());
-  for (const char c : text) {
+  for (const char c : vpEscapeUnprintable(text, "\n\t")) {
     switch (c) {
     case '&':
       html += "&amp;";

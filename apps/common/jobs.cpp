@@ -11,6 +11,7 @@
 #include <exception>
 #include <limits>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -65,8 +66,13 @@ void runJobs(std::size_t count, unsigned int threads, const std::function<void(s
 
   std::vector<std::thread> pool;
   const std::size_t helpers = std::min<std::size_t>(std::max(threads, 1u), std::max<std::size_t>(count, 1)) - 1;
-  for (std::size_t i = 0; i < helpers; ++i) {
-    pool.emplace_back(worker);
+  pool.reserve(helpers);
+  try {
+    for (std::size_t i = 0; i < helpers; ++i) {
+      pool.emplace_back(worker);
+    }
+  }
+  catch (const std::system_error &) { // the system gives no more threads: those that run do the work
   }
   worker();
   for (std::thread &thread : pool) {

@@ -5,18 +5,29 @@
 #include "numberText.h"
 
 #include <cctype>
+#include <cmath>
 #include <iomanip>
 #include <locale>
 #include <sstream>
 
 namespace vpApp
 {
+namespace
+{
+constexpr double LARGEST_PLAIN = 1e9;
+}
+
 std::string number(double value, int digits)
 {
   std::ostringstream text;
   text.imbue(std::locale::classic());
   text << std::setprecision(digits) << value;
-  return text.str();
+  // "1.5e+02" is 150 to everybody.
+  if (text.str().find("e+") == std::string::npos || std::fabs(value) >= LARGEST_PLAIN) {
+    return text.str();
+  }
+  const double unit = std::pow(10., std::floor(std::log10(std::fabs(value))) - digits + 1.);
+  return fixed(unit * std::round(value / unit), 0);
 }
 
 std::string fixed(double value, int decimals)

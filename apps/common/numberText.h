@@ -14,7 +14,7 @@
 
 namespace vpApp
 {
-//! \e value with \e digits significant digits, "0.2" or "57".
+//! \e value with \e digits significant digits: "0.2", "57", "150"; with an exponent from 1e9 on and below 1e-4.
 [[nodiscard]] std::string number(double value, int digits);
 //! \e value with \e decimals digits after the point, "0.20".
 [[nodiscard]] std::string fixed(double value, int decimals);

@@ -5,7 +5,10 @@
 #include "plot.h"
 #include "outputFolder.h"
 
+#include "vpPrintable.h"
+
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -13,6 +16,7 @@
 #include <locale>
 #include <sstream>
 #include <stdexcept>
+#include <system_error>
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -31,9 +35,12 @@ class ScratchFolder
 public:
   ScratchFolder()
   {
-    std::string name = (fs::temp_directory_path() / "visp-direct-plot-XXXXXX").string();
+    const char *wanted = std::getenv("TMPDIR");
+    const std::string folder = wanted != nullptr && *wanted != '\0' ? wanted : "/tmp";
+    std::string name = (fs::path(folder) / "visp-direct-plot-XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr) {
-      throw std::runtime_error(name + ": a temporary folder cannot be made");
+      throw std::runtime_error(folder + ": is the folder for temporary files (TMPDIR) and cannot be written in (" +
+                               std::generic_category().message(errno) + ")");
     }
     m_path = name;
   }
@@ -80,6 +87,9 @@ std::string quoted(const std::string &text)
   }
   return result + "'";
 }
+
+// What stands in the picture may come from files.
+std::string quotedText(const std::string &text) { return quoted(vpEscapeUnprintable(text, "\n")); }
 
 std::string range(const std::pair<double, double> &limits)
 {
@@ -152,8 +162,8 @@ void setLogarithmic(const Plot &plot, const char *axis, std::vector<double> Plot
 void draw(const Plot &plot, std::size_t id, std::ostream &script)
 {
   const std::string data = "$curve" + std::to_string(id) + "_";
-  script << "set title " << quoted(plot.title) << "\n"
-         << "set xlabel " << quoted(plot.xLabel) << "\nset ylabel " << quoted(plot.yLabel) << "\n"
+  script << "set title " << quotedText(plot.title) << "\n"
+         << "set xlabel " << quotedText(plot.xLabel) << "\nset ylabel " << quotedText(plot.yLabel) << "\n"
          << "set grid linecolor rgb '#dfe3e8'\nset border linecolor rgb '#555555'\n"
          << "set key outside right top vertical Left reverse samplen 2\n";
   if (plot.equalAxes) {
@@ -175,14 +185,14 @@ void draw(const Plot &plot, std::size_t id, std::ostream &script)
   if (!plot.categories.empty()) {
     script << "set xtics rotate by -35 (";
     for (std::size_t i = 0; i < plot.categories.size(); ++i) {
-      script << (i == 0 ? "" : ", ") << quoted(plot.categories[i]) << " " << i;
+      script << (i == 0 ? "" : ", ") << quotedText(plot.categories[i]) << " " << i;
     }
     script << ")\n";
   }
   for (const PlotMark &mark : plot.marks) {
     script << "set arrow from " << mark.x << ", graph 0 to " << mark.x << ", graph 1 nohead back "
            << "linecolor rgb '#999999' dashtype (3,3)\n"
-           << "set label " << quoted(mark.label) << " at " << mark.x << ", graph 0.96 offset 0.6,0 front "
+           << "set label " << quotedText(mark.label) << " at " << mark.x << ", graph 0.96 offset 0.6,0 front "
            << "textcolor rgb '#666666'\n";
   }
   for (std::size_t i = 0; i < plot.curves.size(); ++i) {
@@ -205,7 +215,7 @@ void draw(const Plot &plot, std::size_t id, std::ostream &script)
   for (std::size_t i = 0; i < plot.curves.size(); ++i) {
     const PlotCurve &curve = plot.curves[i];
     script << (i == 0 ? " " : ", \\\n  ") << data << i << " using 1:2 with " << lineStyle(curve)
-           << (curve.label.empty() ? " notitle" : " title " + quoted(curve.label));
+           << (curve.label.empty() ? " notitle" : " title " + quotedText(curve.label));
   }
   script << "\n";
 }
@@ -244,7 +254,12 @@ std::string render(const std::vector<Plot> &panels, PlotFormat format)
 {
   const ScratchFolder scratch;
   const std::string script = scratch.file("plot.gp");
-  std::ofstream(script) << scriptOf(panels, format, scratch.file("plot"));
+  std::ofstream stream(script);
+  stream << scriptOf(panels, format, scratch.file("plot"));
+  stream.close();
+  if (!stream) {
+    throw std::runtime_error(script + ": cannot be written");
+  }
   if (runGnuplot(script, scratch.file("log")) != 0) {
     throw std::runtime_error("gnuplot failed on the plot \"" + panels.front().title +
                              "\": " + readFile(scratch.file("log")));

@@ -9,7 +9,6 @@
 #include "replicas.h"
 
 #include <visp3/avoidance/vpAvoidanceMethods.h>
-#include <visp3/core/vpConfig.h>
 
 #include <algorithm>
 #include <cmath>
@@ -159,18 +158,11 @@ const char *nameOf(SensorKind kind)
   return kind == SensorKind::Image ? "image" : kind == SensorKind::Depth ? "depth" : "poses";
 }
 
-std::string versionText()
-{
-  return std::string(VISP_DIRECT_VERSION) + " (ViSP " + std::to_string(VISP_VERSION_MAJOR) + "." +
-         std::to_string(VISP_VERSION_MINOR) + "." + std::to_string(VISP_VERSION_PATCH) + ")";
-}
-
 bool readOptions(int argc, const char *const *argv, Options &options)
 {
   CLI::App app(ABOUT, "visp-avoid-obstacle");
   app.get_formatter()->column_width(NAME_COLUMN);
   app.footer(EXAMPLES);
-  app.set_version_flag("--version", "visp-avoid-obstacle " + versionText());
   Texts texts;
   addOptions(app, options, texts);
   if (!vpApp::parseCommandLine(app, argc, argv)) {

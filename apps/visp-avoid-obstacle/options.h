@@ -57,8 +57,6 @@ struct Options {
 //! Exit status beside those of vpApp::ExitStatus: there is a report, and in it the moving arm hits something.
 constexpr int ExitHit = 3;
 
-//! Version of visp-direct and of ViSP.
-[[nodiscard]] std::string versionText();
 } // namespace avoidObstacle
 
 #endif

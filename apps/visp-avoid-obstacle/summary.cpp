@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include "summary.h"
+#include "appMain.h"
 
 namespace avoidObstacle
 {
@@ -90,7 +91,7 @@ Json summaryOf(const PhotoScene &scene, const Options &options, const Episode &e
   }
   const JointUse use = jointUseOf(episode.run);
   return {{"program", "visp-avoid-obstacle"},
-          {"version", versionText()},
+          {"version", vpApp::versionText()},
           {"command_line", commandLine},
           {"wall_time_s", wallTime},
           {"data", "simulated arm and camera; the obstacles' photographs are real, their views are rendered"},
@@ -114,9 +115,16 @@ Json summaryOf(const Replica &replica, const Options &options, const std::string
   for (const Comparison &c : replica.comparisons) {
     comparisons.push_back({{"what", c.what}, {"thesis", c.thesis}, {"here", c.ours}, {"agrees", c.agrees}});
   }
-  return {{"program", "visp-avoid-obstacle"}, {"version", versionText()},  {"command_line", commandLine},
-          {"wall_time_s", wallTime},          {"data", "simulated"},       {"replica", replica.name},
-          {"title", replica.title},           {"seed", options.seed},      {"comparisons", comparisons},
-          {"choices", replica.choices},       {"numbers", replica.numbers}};
+  return {{"program", "visp-avoid-obstacle"},
+          {"version", vpApp::versionText()},
+          {"command_line", commandLine},
+          {"wall_time_s", wallTime},
+          {"data", "simulated"},
+          {"replica", replica.name},
+          {"title", replica.title},
+          {"seed", options.seed},
+          {"comparisons", comparisons},
+          {"choices", replica.choices},
+          {"numbers", replica.numbers}};
 }
 } // namespace avoidObstacle

@@ -50,7 +50,8 @@ using Changes = std::vector<std::function<void(Task &)>>;
 
 void addField(CLI::App &app, const Field &field, Changes &changes)
 {
-  const std::string text = std::string(field.unit) + " (" + field.valueOf(vpProductPatternSpec()) + ")";
+  const std::string sentence =
+      std::string(field.sentence) + " (default: " + field.valueOf(vpProductPatternSpec()) + ")";
   std::visit(
       [&](auto pointer) {
         using Number = std::remove_reference_t<decltype(std::declval<vpProductPatternSpec>().*pointer)>;
@@ -59,8 +60,8 @@ void addField(CLI::App &app, const Field &field, Changes &changes)
                [&changes, pointer](const Number &value) {
                  changes.emplace_back([pointer, value](Task &task) { task.product.*pointer = value; });
                },
-               field.sentence)
-            ->option_text(text)
+               sentence)
+            ->option_text(field.unit)
             ->group(headingOf(field.group));
       },
       field.member);
@@ -94,16 +95,16 @@ void addShape(CLI::App &app, Changes &changes)
              }
            });
          },
-         "rectangle, rounded or dot")
-      ->option_text("NAME (rounded)")
+         "rectangle, rounded or dot (default: rounded)")
+      ->option_text("NAME")
       ->group(headingOf("cells"));
   app.add_option_function<double>(
          "--rotation",
          [&changes](const double &degrees) {
            changes.emplace_back([degrees](Task &task) { task.product.rotation = vpMath::rad(degrees); });
          },
-         "Of the product in the image, clockwise")
-      ->option_text("DEGREES (0)")
+         "Of the product in the image, clockwise (default: 0)")
+      ->option_text("DEGREES")
       ->group(headingOf("cells"));
 }
 
@@ -114,20 +115,20 @@ void addMotion(CLI::App &app, Changes &changes)
          [&changes](const unsigned int &frames) {
            changes.emplace_back([frames](Task &task) { task.frames = frames; });
          },
-         "Length of the sequence")
-      ->option_text("N (100)")
+         "Length of the sequence (default: 100)")
+      ->option_text("N")
       ->group("Motion");
-  addPair(app, "--motion", &Motion::velocity, "VX VY (5 0)", "Velocity of the product, px/frame", changes);
-  addPair(app, "--swing", &Motion::swing, "AX AY (0 0)", "Amplitude of a sine that is added, px", changes);
+  addPair(app, "--motion", &Motion::velocity, "VX VY", "Velocity of the product, px/frame (default: 5 0)", changes);
+  addPair(app, "--swing", &Motion::swing, "AX AY", "Amplitude of a sine that is added, px (default: 0 0)", changes);
   app.add_option_function<double>(
          "--swing-period",
          [&changes](const double &period) {
            changes.emplace_back([period](Task &task) { task.motion.period = period; });
          },
-         "Its period")
-      ->option_text("FRAMES (50)")
+         "Its period (default: 50)")
+      ->option_text("FRAMES")
       ->group("Motion");
-  addPair(app, "--start", &Motion::start, "X Y (0 0)", "Displacement in frame 0, px", changes);
+  addPair(app, "--start", &Motion::start, "X Y", "Displacement in frame 0, px (default: 0 0)", changes);
 }
 } // namespace
 
@@ -136,14 +137,13 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   CLI::App app(ABOUT, "visp-generate-pattern");
   app.get_formatter()->column_width(NAME_COLUMN);
   app.footer(EXAMPLES);
-  app.set_version_flag("--version", std::string("visp-generate-pattern ") + VISP_DIRECT_VERSION);
   std::string config;
   app.add_option("--config", config, "Read the sequence from a file; other options go before it")
       ->option_text("FILE.json");
-  app.add_option("--out", options.out, "Folder for the result (out/generate-pattern)")->option_text("DIR");
-  app.add_option("--format", options.format, "Of the frames: png or pgm")->option_text("NAME (png)");
+  app.add_option("--out", options.out, "Folder for the result (default: out/generate-pattern)")->option_text("DIR");
+  app.add_option("--format", options.format, "Of the frames: png or pgm (default: png)")->option_text("NAME");
   app.add_flag("--video", options.video, "Write video.mp4 too");
-  app.add_option("--video-rate", options.videoRate, "Frames per second of the video")->option_text("HZ (25)");
+  app.add_option("--video-rate", options.videoRate, "Frames per second of the video (default: 25)")->option_text("HZ");
   Changes changes;
   addMotion(app, changes);
   addShape(app, changes);
@@ -157,7 +157,7 @@ bool readOptions(int argc, const char *const *argv, Options &options)
     throw vpApp::UsageError("--format is " + options.format + ", must be png or pgm");
   }
   if (!(options.videoRate >= 1. && options.videoRate <= 240.)) {
-    throw vpApp::UsageError("--video-rate is " + std::to_string(options.videoRate) + ", must be 1..240");
+    throw vpApp::UsageError("--video-rate is " + shortNumber(options.videoRate) + ", must be 1..240");
   }
   if (options.out.empty()) {
     throw vpApp::UsageError("--out is empty, must name a folder");

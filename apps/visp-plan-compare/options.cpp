@@ -8,8 +8,6 @@
 #include "jobs.h"
 #include "numberText.h"
 
-#include <visp3/core/vpConfig.h>
-
 #include <cmath>
 
 namespace planCompare
@@ -58,18 +56,11 @@ unsigned int atLeastOne(const char *option, const std::string &text)
 }
 } // namespace
 
-std::string versionText()
-{
-  return std::string(VISP_DIRECT_VERSION) + " (ViSP " + std::to_string(VISP_VERSION_MAJOR) + "." +
-         std::to_string(VISP_VERSION_MINOR) + "." + std::to_string(VISP_VERSION_PATCH) + ")";
-}
-
 bool readOptions(int argc, const char *const *argv, Options &options)
 {
   CLI::App app(ABOUT, "visp-plan-compare");
   app.get_formatter()->column_width(NAME_COLUMN);
   app.footer(EXAMPLES);
-  app.set_version_flag("--version", "visp-plan-compare " + versionText());
 
   std::string seeds, first = "1", jobs = std::to_string(vpApp::coreCount());
   app.add_option("--scene", options.scenes, "Scenes to run, S1 to S7 or files (default: all)")

@@ -34,9 +34,6 @@ struct Options {
  * \throw vpApp::UsageError naming the option.
  */
 [[nodiscard]] bool readOptions(int argc, const char *const *argv, Options &options);
-
-//! Version of visp-direct and of ViSP.
-[[nodiscard]] std::string versionText();
 } // namespace planCompare
 
 #endif

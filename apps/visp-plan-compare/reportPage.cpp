@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include "reportPage.h"
+#include "appMain.h"
 
 #include "findings.h"
 #include "htmlReport.h"
@@ -127,7 +128,7 @@ void writeHow(HtmlReport &page, const Plan &plan, const Results &results, const 
        "Planners that search have limits of time: on a slower machine their results may differ. All else repeats."});
   page.facts({{"Arm", plan.arm->label()},
               {"Runs", std::to_string(results.records.size())},
-              {"Program", "visp-plan-compare " + versionText()},
+              {"Program", "visp-plan-compare " + vpApp::versionText()},
               {"Command line", extras.commandLine},
               {"Wall time", fixed(extras.wallTime, 0) + " s"}},
              "summary.json and runs.csv have all numbers, arena/ has logs for Planner Arena.");

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include "summary.h"
+#include "appMain.h"
 
 #include "options.h"
 
@@ -126,7 +127,7 @@ Json summaryOf(const Plan &plan, const Results &results, const Extras &extras)
                           {"joint_travel_rad", row.run.joint_travel_rad}});
   }
   return {{"program", "visp-plan-compare"},
-          {"version", versionText()},
+          {"version", vpApp::versionText()},
           {"command_line", extras.commandLine},
           {"wall_time_s", extras.wallTime},
           {"data", "simulated arm, sensors and obstacles"},

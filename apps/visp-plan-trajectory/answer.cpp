@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <locale>
 #include <sstream>
 #include <stdexcept>
@@ -97,7 +98,7 @@ std::string csvOf(const Problem &problem, const Motion &motion)
     csv << ",q" << i << ",v" << i << ",a" << i << ",j" << i;
   }
   csv << '\n';
-  csv.precision(15);
+  csv.precision(std::numeric_limits<double>::max_digits10);
   const auto row = [&](double t) {
     csv << t;
     for (int i = 0; i < problem.axes(); ++i) {

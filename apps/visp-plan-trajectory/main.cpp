@@ -9,9 +9,9 @@
 
 #include "appMain.h"
 #include "dataFile.h"
+#include "lineReader.h"
 #include "outputFile.h"
 
-#include <fstream>
 #include <iostream>
 
 namespace
@@ -60,19 +60,24 @@ void answer(const std::string &text, const std::string &name, std::size_t line, 
   }
 }
 
-Count answerAll(std::istream &stream, const std::string &name, std::vector<Planned> *planned)
+//! What was answered before stays answered.
+void requireTime()
+{
+  if (vpApp::interrupted()) {
+    throw vpApp::Interrupted("interrupted");
+  }
+}
+
+Count answerAll(vpApp::LineReader &lines, std::vector<Planned> *planned)
 {
   Count count;
   std::size_t line = 0;
-  for (std::string text; std::getline(stream, text);) {
-    vpApp::throwIfInterrupted();
+  for (std::string text; lines.next(text);) {
+    requireTime();
     ++line;
     if (!isBlank(text)) {
-      answer(text, name, line, count, planned);
+      answer(text, lines.name(), line, count, planned);
     }
-  }
-  if (stream.bad()) {
-    throw std::runtime_error(name + ": cannot be read");
   }
   return count;
 }
@@ -97,7 +102,7 @@ std::string titleOf(const Problem &problem)
 void writeFiles(const Options &options, const std::vector<Planned> &planned, bool several)
 {
   for (const Planned &p : planned) {
-    vpApp::throwIfInterrupted();
+    requireTime();
     if (!options.csv.empty()) {
       vpApp::writeWholeFile(nameFor(options.csv, p.problem, several), csvOf(p.problem, p.motion));
     }
@@ -110,8 +115,6 @@ void writeFiles(const Options &options, const std::vector<Planned> &planned, boo
 
 int plan(Options options)
 {
-  std::ifstream file;
-  const bool fromStandardInput = options.file == "-";
   if (options.file.empty()) {
     options.file = vpApp::dataFile("trajectory/figure-6.3.jsonl");
     if (options.plot.empty()) {
@@ -121,12 +124,7 @@ int plan(Options options)
     std::cerr << "visp-plan-trajectory: no problems given, so this is figure 6.3 of the thesis (" << options.file
               << "), drawn in " << options.plot << "; --help shows more" << std::endl;
   }
-  if (!fromStandardInput) {
-    file.open(options.file);
-    if (!file || fs::is_directory(options.file)) {
-      throw std::runtime_error(options.file + ": cannot be read");
-    }
-  }
+  vpApp::LineReader lines(options.file);
   for (const std::string &output : {options.csv, options.plot}) {
     if (!output.empty()) {
       vpApp::requireWritable(output);
@@ -137,10 +135,9 @@ int plan(Options options)
   }
   const bool keep = !options.csv.empty() || !options.plot.empty();
   std::vector<Planned> planned;
-  const Count count = answerAll(fromStandardInput ? std::cin : file,
-                                fromStandardInput ? "standard input" : options.file, keep ? &planned : nullptr);
+  const Count count = answerAll(lines, keep ? &planned : nullptr);
   if (count.all == 0) {
-    throw std::runtime_error(options.file + ": has no problem, must have one JSON object a line");
+    throw std::runtime_error(lines.name() + ": has no problem, must have one JSON object a line");
   }
   writeFiles(options, planned, count.all > 1);
   if (count.refused > 0) {

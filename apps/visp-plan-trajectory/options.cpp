@@ -46,7 +46,6 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   CLI::App app(ABOUT, "visp-plan-trajectory");
   app.get_formatter()->column_width(NAME_COLUMN);
   app.footer(EXAMPLES);
-  app.set_version_flag("--version", std::string("visp-plan-trajectory ") + VISP_DIRECT_VERSION);
   app.add_option("FILE", options.file, "Problems, one JSON object a line; - for standard input")->option_text(" ");
   app.add_option("--csv", options.csv, "Write t, q, v, a, j of every control cycle")->option_text("FILE");
   app.add_option("--plot", options.plot, "Draw position, velocity, acceleration, jerk, with limits and events")

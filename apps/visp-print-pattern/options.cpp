@@ -68,8 +68,9 @@ struct Words {
 void addControl(CLI::App &app, Words &words, Options &options)
 {
   const char *group = "Control";
-  app.add_option("--controller", words.controller, "observer, pid or pid-ff (with mass and friction feedforward)")
-      ->option_text("NAME (observer)")
+  app.add_option("--controller", words.controller,
+                 "observer, pid or pid-ff (with mass and friction feedforward) (default: observer)")
+      ->option_text("NAME")
       ->group(group);
   app.add_option("--filter", words.filter, "Gains of the alpha-beta filter, for pid and pid-ff")
       ->expected(2)
@@ -78,14 +79,15 @@ void addControl(CLI::App &app, Words &words, Options &options)
   app.add_option(
          "--sensor", options.sensor,
          "image: rendered pictures through vpPatternTracker; tracker, thesis: true places with the errors of that "
-         "tracker, or of the thesis's detection")
-      ->option_text("NAME (image)")
+         "tracker, or of the thesis's detection (default: image)")
+      ->option_text("NAME")
       ->group(group);
   app.add_flag("--identify", options.identify,
                "First find mass and friction of the stage from a ramp that the camera watches, and use them")
       ->group(group);
-  app.add_option("--trigger", words.trigger, "horizon: each cell exactly once; thesis: algorithm 7.5")
-      ->option_text("NAME (horizon)")
+  app.add_option("--trigger", words.trigger,
+                 "horizon: each cell exactly once; thesis: algorithm 7.5 (default: horizon)")
+      ->option_text("NAME")
       ->group(group);
 }
 
@@ -94,20 +96,26 @@ void addMotion(CLI::App &app, Words &words)
   const char *group = "Motion";
   app.add_option("--reference", words.reference,
                  "centres: drop velocity at the centres and faster between; arrival: a fixed time from cell to cell; "
-                 "limited: as fast as a limit allows; constant: drop velocity all the way")
-      ->option_text("NAME (centres)")
+                 "limited: as fast as a limit allows; constant: drop velocity all the way (default: centres)")
+      ->option_text("NAME")
       ->group(group);
-  app.add_option("--drop-velocity", words.dropVelocity, "At the centres")->option_text("PX/FRAME (4)")->group(group);
-  app.add_option("--mean-velocity", words.meanVelocity, "For centres")->option_text("PX/FRAME (5)")->group(group);
-  app.add_option("--drop-time", words.dropTime, "For arrival")->option_text("FRAMES (10.8)")->group(group);
-  app.add_option("--max-velocity", words.maxVelocity, "For limited")->option_text("PX/FRAME (6)")->group(group);
-  app.add_option("--axis", words.axis, "x: one row; xy: rows one after another, to and fro")
-      ->option_text("NAME (x)")
+  app.add_option("--drop-velocity", words.dropVelocity, "At the centres (default: 4)")
+      ->option_text("PX/FRAME")
       ->group(group);
-  app.add_option("--rows", words.rows, "With --axis xy")->option_text("N (3)")->group(group);
-  app.add_option("--cells", words.cells, "In a row")->option_text("N (40)")->group(group);
-  app.add_option("--frames", words.frames, "Stop after so many; 0: when all cells are printed")
-      ->option_text("N (0)")
+  app.add_option("--mean-velocity", words.meanVelocity, "For centres (default: 5)")
+      ->option_text("PX/FRAME")
+      ->group(group);
+  app.add_option("--drop-time", words.dropTime, "For arrival (default: 10.8)")->option_text("FRAMES")->group(group);
+  app.add_option("--max-velocity", words.maxVelocity, "For limited (default: 6)")
+      ->option_text("PX/FRAME")
+      ->group(group);
+  app.add_option("--axis", words.axis, "x: one row; xy: rows one after another, to and fro (default: x)")
+      ->option_text("NAME")
+      ->group(group);
+  app.add_option("--rows", words.rows, "With --axis xy (default: 3)")->option_text("N")->group(group);
+  app.add_option("--cells", words.cells, "In a row (default: 40)")->option_text("N")->group(group);
+  app.add_option("--frames", words.frames, "Stop after so many; 0: when all cells are printed (default: 0)")
+      ->option_text("N")
       ->group(group);
 }
 
@@ -115,24 +123,28 @@ void addWorld(CLI::App &app, Words &words)
 {
   const char *group = "Product, camera and head";
   app.add_option("--flex", words.flex,
-                 "Flexible pitch: cells lie up to this far before or behind their place, in x and y")
-      ->option_text("PX (0)")
+                 "Flexible pitch: cells lie up to this far before or behind their place, in x and y (default: 0)")
+      ->option_text("PX")
       ->group(group);
-  app.add_option("--flex-period", words.flexPeriod, "Over so many cells")->option_text("CELLS (20)")->group(group);
-  app.add_option("--jitter", words.jitter, "Standard deviation of a cell's place")->option_text("PX (0)")->group(group);
+  app.add_option("--flex-period", words.flexPeriod, "Over so many cells (default: 20)")
+      ->option_text("CELLS")
+      ->group(group);
+  app.add_option("--jitter", words.jitter, "Standard deviation of a cell's place (default: 0)")
+      ->option_text("PX")
+      ->group(group);
   app.add_flag("--defects", words.defects, "Dust and cracks: 12 and 3 in view")->group(group);
-  app.add_option("--noise", words.noise, "Of the camera, see visp-generate-pattern")
-      ->option_text("NS (4)")
+  app.add_option("--noise", words.noise, "Of the camera, see visp-generate-pattern (default: 4)")
+      ->option_text("NS")
       ->group(group);
-  app.add_option("--vision-delay", words.visionDelay, "From exposure to control")
-      ->option_text("FRAMES (1.28)")
+  app.add_option("--vision-delay", words.visionDelay, "From exposure to control (default: 1.28)")
+      ->option_text("FRAMES")
       ->group(group);
-  app.add_option("--dropped", words.dropped, "Share of frames that never arrive")
-      ->option_text("SHARE (0)")
+  app.add_option("--dropped", words.dropped, "Share of frames that never arrive (default: 0)")
+      ->option_text("SHARE")
       ->group(group);
-  app.add_option("--travel-time", words.travelTime, "Of a drop")->option_text("FRAMES (0.32)")->group(group);
-  app.add_option("--nozzle", words.nozzle, "Place of the nozzle from the middle of the image")
-      ->option_text("PX (0)")
+  app.add_option("--travel-time", words.travelTime, "Of a drop (default: 0.32)")->option_text("FRAMES")->group(group);
+  app.add_option("--nozzle", words.nozzle, "Place of the nozzle from the middle of the image (default: 0)")
+      ->option_text("PX")
       ->group(group);
 }
 
@@ -213,16 +225,15 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   CLI::App app(ABOUT, "visp-print-pattern");
   app.get_formatter()->column_width(NAME_COLUMN);
   app.footer(EXAMPLES);
-  app.set_version_flag("--version", std::string("visp-print-pattern ") + VISP_DIRECT_VERSION);
   Words words;
-  app.add_option("--out", options.out, "Folder for the result (out/print-pattern)")->option_text("DIR");
+  app.add_option("--out", options.out, "Folder for the result (default: out/print-pattern)")->option_text("DIR");
   app.add_option("--explore", options.explore,
                  "Explore the design space of a file (data/explore/README.md) instead: which frame rate, image, "
                  "magnification, exposure, controller and velocity; also under mpirun")
       ->option_text("FILE.json");
-  app.add_option("--runs", options.runs, "Repeat with other seeds, 1..10000")->option_text("N (1)");
-  app.add_option("--seed", words.seed, "Of everything random")->option_text("N (1)");
-  app.add_option("--jobs", options.jobs, "Runs at a time")->option_text("N (cores)");
+  app.add_option("--runs", options.runs, "Repeat with other seeds, 1..10000 (default: 1)")->option_text("N");
+  app.add_option("--seed", words.seed, "Of everything random (default: 1)")->option_text("N");
+  app.add_option("--jobs", options.jobs, "Runs at a time (default: one for each core)")->option_text("N");
   app.add_flag("--no-thesis", words.noReplicas, "Leave out the experiments of the thesis");
   app.add_flag("--video", options.video, "Write camera.mp4: what the camera sees, and the drops");
   addControl(app, words, options);
@@ -240,8 +251,8 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   if (options.runs < 1 || options.runs > 10000) {
     throw vpApp::UsageError("--runs is " + std::to_string(options.runs) + ", must be 1..10000");
   }
-  if (options.jobs > 256) {
-    throw vpApp::UsageError("--jobs is " + std::to_string(options.jobs) + ", must be at most 256");
+  if (app.count("--jobs") > 0 && (options.jobs < 1 || options.jobs > 256)) {
+    throw vpApp::UsageError("--jobs is " + std::to_string(options.jobs) + ", must be 1..256");
   }
   options.replicas = !words.noReplicas;
   options.spec = specOf(words, options);

@@ -9,21 +9,14 @@
 #include "jobs.h"
 #include "progress.h"
 
+#include <visp3/direct_core/vpQuantile.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
 
 namespace printPattern
 {
-namespace
-{
-double percentile(const std::vector<double> &ascending, double share)
-{
-  const auto last = static_cast<double>(ascending.size() - 1);
-  return ascending[static_cast<std::size_t>(std::ceil(share * last))];
-}
-} // namespace
-
 Landing landingOf(const std::vector<vpPrintRun> &runs)
 {
   Landing landing;
@@ -34,8 +27,8 @@ Landing landingOf(const std::vector<vpPrintRun> &runs)
   }
   std::sort(landing.errors.begin(), landing.errors.end());
   if (!landing.errors.empty()) {
-    landing.p50 = percentile(landing.errors, 0.5);
-    landing.p99 = percentile(landing.errors, 0.99);
+    landing.p50 = vpMedian(landing.errors);
+    landing.p99 = vpQuantile(landing.errors, 0.99);
     landing.max = landing.errors.back();
     const auto end = std::upper_bound(landing.errors.begin(), landing.errors.end(), Landing::tolerance);
     landing.within = static_cast<double>(end - landing.errors.begin()) / static_cast<double>(landing.errors.size());

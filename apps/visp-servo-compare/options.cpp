@@ -9,8 +9,6 @@
 #include "jobs.h"
 #include "scenario.h"
 
-#include <visp3/core/vpConfig.h>
-
 #include <sstream>
 
 namespace servoCompare
@@ -99,18 +97,11 @@ void requireAtLeastOne(const char *option, const std::string &text, unsigned int
 }
 } // namespace
 
-std::string versionText()
-{
-  return std::string(VISP_DIRECT_VERSION) + " (ViSP " + std::to_string(VISP_VERSION_MAJOR) + "." +
-         std::to_string(VISP_VERSION_MINOR) + "." + std::to_string(VISP_VERSION_PATCH) + ")";
-}
-
 bool readOptions(int argc, const char *const *argv, Options &options)
 {
   CLI::App app(ABOUT, "visp-servo-compare");
   app.formatter(std::make_shared<HelpFormatter>());
   app.footer(EXAMPLES);
-  app.set_version_flag("--version", "visp-servo-compare " + versionText());
 
   app.add_option("--law", options.laws,
                  "Laws to compare, as LAW,LAW,...; append +cbf for the view filter (default: all)")
@@ -120,8 +111,8 @@ bool readOptions(int argc, const char *const *argv, Options &options)
       ->delimiter(',')
       ->option_text("NAME,...");
   app.add_option("--measure", options.measures,
-                 "points: noisy feature points; image: rendered views through the vision. Default: all by points, and "
-                 "pbvs1, kyrki, ff-lookat-pi also by image where there is friction")
+                 "points: noisy feature points; image: rendered views through the vision (default: all by points, and "
+                 "pbvs1, kyrki, ff-lookat-pi also by image where there is friction)")
       ->delimiter(',')
       ->option_text("KIND,...");
   app.add_flag("--full", options.full, "Everything: all laws, all plants, points and image (takes long)");

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include "reportPage.h"
+#include "appMain.h"
 
 #include "armFigures.h"
 #include "armTable.h"
@@ -281,7 +282,7 @@ void writeParameters(HtmlReport &page, const Plan &plan, const ReportParts &part
                    ? std::to_string(plan.seed)
                    : std::to_string(plan.seed) + " to " + std::to_string(plan.seed + plan.repetitions - 1) +
                          "; figures, videos and logs show the first, any other is repeated with --seed"},
-      {"Program", "visp-servo-compare " + versionText()},
+      {"Program", "visp-servo-compare " + vpApp::versionText()},
       {"Command line", parts.commandLine},
       {"Wall time", fixed(parts.wallTime, 0) + " s"},
   };
@@ -314,7 +315,7 @@ void writeParameters(HtmlReport &page, const Plan &plan, const ReportParts &part
 
 std::string reportPage(const Plan &plan, const Results &results, const ReportParts &parts, vpApp::OutputFolder &out)
 {
-  HtmlReport page("Visual servoing laws compared", "visp-servo-compare " + versionText() + ": " +
+  HtmlReport page("Visual servoing laws compared", "visp-servo-compare " + vpApp::versionText() + ": " +
                                                        plural(plan.laws.size(), "law") + " on task " +
                                                        plan.scenario.task.name);
   writeAnswer(page, plan, results);

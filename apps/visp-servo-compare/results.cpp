@@ -8,6 +8,8 @@
 #include "jobs.h"
 #include "progress.h"
 
+#include <visp3/direct_core/vpQuantile.h>
+
 #include <algorithm>
 #include <numeric>
 
@@ -41,14 +43,11 @@ std::vector<double> Results::values(const std::string &law, const std::string &p
 std::optional<Spread> Results::spread(const std::string &law, const std::string &plant, const std::string &measure,
                                       Metric metric, Command command) const
 {
-  std::vector<double> list = values(law, plant, measure, metric, command);
+  const std::vector<double> list = values(law, plant, measure, metric, command);
   if (list.empty()) {
     return std::nullopt;
   }
-  std::sort(list.begin(), list.end());
-  const std::size_t half = list.size() / 2;
-  const double median = list.size() % 2 == 1 ? list[half] : (list[half - 1] + list[half]) / 2.;
-  return Spread{median, list.front(), list.back()};
+  return Spread{vpMedian(list), vpQuantile(list, 0.), vpQuantile(list, 1.)};
 }
 
 const vpServoRun *Results::find(const std::string &law, const std::string &plant, const std::string &measure,

@@ -64,7 +64,6 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   CLI::App app(ABOUT, "visp-thesis-report");
   app.get_formatter()->column_width(NAME_COLUMN);
   app.footer(EXAMPLES);
-  app.set_version_flag("--version", std::string("visp-thesis-report ") + VISP_DIRECT_VERSION);
   std::vector<std::string> only;
   options.jobs = vpApp::coreCount();
   app.add_option("--only", only, "Only these figures, tables and chapters (default: all)")

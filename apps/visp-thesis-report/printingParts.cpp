@@ -9,6 +9,8 @@
 #include "visp-print-pattern/tables.h"
 #include "visp-print-pattern/thesisReplicas.h"
 
+#include <visp3/direct_core/vpQuantile.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -102,8 +104,7 @@ double framesAtRest(const Replica &replica)
                                     [](const vpPrintSample &s) { return std::fabs(s.vx) > 1e-6; });
     frames.push_back(static_cast<double>(moves - run.samples.begin()));
   }
-  std::sort(frames.begin(), frames.end());
-  return frames[frames.size() / 2];
+  return vpMedian(frames);
 }
 
 double millimetresPerSecond(double pxPerFrame) { return pxPerFrame * 4.5e-3 * 1600.; }

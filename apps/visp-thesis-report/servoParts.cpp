@@ -10,6 +10,7 @@
 #include "visp-servo-compare/runLog.h"
 
 #include <visp3/core/vpMath.h>
+#include <visp3/direct_core/vpQuantile.h>
 
 #include <algorithm>
 #include <cmath>
@@ -61,8 +62,7 @@ public:
         values.push_back(value(run));
       }
     }
-    std::sort(values.begin(), values.end());
-    return values.at(values.size() / 2);
+    return vpMedian(values);
   }
   //! The same of one law over that of another.
   [[nodiscard]] double ratio(const std::string &law, const std::string &other, const std::string &plant,

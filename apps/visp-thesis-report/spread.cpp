@@ -4,7 +4,8 @@
  */
 #include "spread.h"
 
-#include <algorithm>
+#include <visp3/direct_core/vpQuantile.h>
+
 #include <cmath>
 #include <numeric>
 
@@ -36,15 +37,5 @@ double Spread::rms() const
 
 double Spread::largest() const { return quantile(1.); }
 
-double Spread::quantile(double share) const
-{
-  if (m_values.empty()) {
-    return 0.;
-  }
-  std::vector<double> sorted = m_values;
-  const auto wanted = sorted.begin() + static_cast<std::ptrdiff_t>(
-                                           std::ceil(std::clamp(share, 0., 1.) * static_cast<double>(count() - 1)));
-  std::nth_element(sorted.begin(), wanted, sorted.end());
-  return *wanted;
-}
+double Spread::quantile(double share) const { return m_values.empty() ? 0. : vpQuantile(m_values, share); }
 } // namespace thesisReport

@@ -88,8 +88,8 @@ void addChoice(CLI::App &app, const std::string &name, const std::map<std::strin
            }
            target = found->second;
          },
-         sentence + ": " + namesOf(table))
-      ->option_text("NAME (" + preset + ")")
+         sentence + ": " + namesOf(table) + " (default: " + preset + ")")
+      ->option_text("NAME")
       ->group(group);
 }
 
@@ -117,23 +117,23 @@ void addInput(CLI::App &app, Options &options, std::string &roi)
                  "Folder, image files, pattern, video file, or /dev/videoN (none: a sequence "
                  "of its own)");
   app.add_option("--camera", options.camera, "Read from the camera /dev/videoN")->option_text("N")->group("Input");
-  app.add_option("--frames", options.frames, "Read so many at most (all; 200 of its own, 300 of a camera)")
+  app.add_option("--frames", options.frames, "Read so many at most (default: all; 200 of its own, 300 of a camera)")
       ->option_text("N")
       ->group("Input");
   app.add_option("--roi", roi, "Look only here; places are still those in the whole image")
       ->option_text("X,Y,W,H")
       ->group("Input");
-  app.add_option("--seed", options.seed, "Of its own sequence")->option_text("N (1)")->group("Input");
+  app.add_option("--seed", options.seed, "Of its own sequence (default: 1)")->option_text("N")->group("Input");
 }
 
 void addOutput(CLI::App &app, Options &options)
 {
-  app.add_option("--out", options.out, "Folder for the result (out/track-pattern)")
+  app.add_option("--out", options.out, "Folder for the result (default: out/track-pattern)")
       ->option_text("DIR")
       ->group("Output");
   addChoice(app, "--overlay", OVERLAYS, options.overlay, "Pictures of what was found", "mp4", "Output");
-  app.add_option("--video-rate", options.videoRate, "Frames per second of the overlay video")
-      ->option_text("HZ (25)")
+  app.add_option("--video-rate", options.videoRate, "Frames per second of the overlay video (default: 25)")
+      ->option_text("HZ")
       ->group("Output");
   app.add_flag("--display", options.display, "Show the overlay in a window; a click ends the run")->group("Output");
 }
@@ -158,8 +158,8 @@ void addScale(CLI::App &app, Options &options, std::vector<double> &pitch, doubl
                  "of ViSP")
       ->option_text("FILE")
       ->group(group);
-  app.add_option("--camera-name", options.cameraName, "Of the camera in that .xml file")
-      ->option_text("NAME (microscope)")
+  app.add_option("--camera-name", options.cameraName, "Of the camera in that .xml file (default: microscope)")
+      ->option_text("NAME")
       ->group(group);
   app.add_flag("--calibrate", options.calibrate, "Write calibration.json and .xml; the product is the ruler")
       ->group(group);
@@ -169,8 +169,9 @@ void addScale(CLI::App &app, Options &options, std::vector<double> &pitch, doubl
       ->expected(2)
       ->option_text("X Y")
       ->group(group);
-  app.add_option("--pitch-sigma-um", sigma, "For --calibrate: standard deviation of a cell's place on the product")
-      ->option_text("S (0)")
+  app.add_option("--pitch-sigma-um", sigma,
+                 "For --calibrate: standard deviation of a cell's place on the product (default: 0)")
+      ->option_text("S")
       ->group(group);
 }
 
@@ -229,7 +230,6 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   CLI::App app(ABOUT, "visp-track-pattern");
   app.get_formatter()->column_width(NAME_COLUMN);
   app.footer(EXAMPLES);
-  app.set_version_flag("--version", std::string("visp-track-pattern ") + VISP_DIRECT_VERSION);
   std::string roi;
   std::vector<double> pitch;
   double sigma = 0.;

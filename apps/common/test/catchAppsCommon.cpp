@@ -2,14 +2,19 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// What the programs share: exit statuses, progress, jobs, JSON errors, HTML, result folders, plots and videos.
+// What the programs share: exit statuses, progress, jobs, JSON errors, HTML, plots and videos.
 #include "vpCatch.h"
+
+#include "testFolder.h"
 
 #include "appMain.h"
 #include "dataFile.h"
 #include "htmlReport.h"
 #include "jobs.h"
 #include "jsonReader.h"
+#include "lineReader.h"
+#include "numberText.h"
+#include "outputFile.h"
 #include "outputFolder.h"
 #include "plot.h"
 #include "timePlot.h"
@@ -24,51 +29,17 @@
 #include <fstream>
 #include <regex>
 #include <sstream>
+#include <thread>
 
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 namespace fs = std::filesystem;
 
 namespace
 {
-//! An empty folder for one test, removed afterwards.
-struct TestFolder {
-  TestFolder()
-  {
-    std::string name = (fs::temp_directory_path() / "visp-direct-test-XXXXXX").string();
-    path = mkdtemp(name.data());
-  }
-  ~TestFolder() { fs::remove_all(path); }
-  std::string write(const std::string &name, const std::string &content) const
-  {
-    fs::create_directories((path / name).parent_path());
-    std::ofstream(path / name, std::ios::binary) << content;
-    return (path / name).string();
-  }
-  [[nodiscard]] std::vector<std::string> entries() const
-  {
-    std::vector<std::string> names;
-    for (const fs::directory_entry &entry : fs::recursive_directory_iterator(path)) {
-      names.push_back(fs::relative(entry.path(), path).string());
-    }
-    std::sort(names.begin(), names.end());
-    return names;
-  }
-  fs::path path;
-};
-
-//! What a call throws, as text.
-template <typename Call> std::string complaint(const Call &call)
-{
-  try {
-    call();
-  }
-  catch (const std::exception &error) {
-    return error.what();
-  }
-  return "no exception";
-}
-
 //! Collects what a piece of code prints on a stream.
 class Captured
 {
@@ -98,6 +69,40 @@ TEST_CASE("runMain turns exceptions into one sentence and an exit status", "[app
         std::make_pair(2, std::string("prog: --jobs is 0 (see prog --help)\n")));
   CHECK(run([]() -> int { throw vpApp::Interrupted(); }).first == 130);
   CHECK(run([]() -> int { throw std::bad_alloc(); }).second == "prog: out of memory\n");
+  CHECK(run([]() -> int { throw std::runtime_error("\x1b[31mred\xff"); }).second == "prog: \\u001b[31mred\\xff\n");
+}
+
+TEST_CASE("What programs print does not steer the terminal, whoever prints it", "[apps]")
+{
+  const Captured printed(std::cout), complained(std::cerr);
+  CHECK(vpApp::runMain("prog", [] {
+          std::cout << "name: \x1b[2J"
+                    << "gr\xc3" << std::flush << "\xbc\xc3\x9f" << 'e' << '\r' << '\n'
+                    << "\xc3";
+          std::cerr << "\r50 %\a";
+          return 0;
+        }) == 0);
+  CHECK(printed.text() == "name: \\u001b[2Jgr\xc3\xbc\xc3\x9f"
+                          "e\\u000d\n\\xc3");
+  CHECK(complained.text() == "\r50 %\\u0007");
+}
+
+TEST_CASE("A program whose output is not taken says so", "[apps]")
+{
+  std::ofstream full("/dev/full");
+  if (!full) {
+    vpTestSupport::skip("there is no /dev/full");
+    return;
+  }
+  const Captured complained(std::cerr);
+  std::streambuf *before = std::cout.rdbuf(full.rdbuf());
+  const int status = vpApp::runMain("prog", [] {
+    std::cout << "a long help" << std::endl;
+    return 0;
+  });
+  std::cout.rdbuf(before);
+  CHECK(status == 1);
+  CHECK(complained.text() == "prog: standard output: cannot be written\n");
 }
 
 TEST_CASE("parseCommandLine tells help from mistakes", "[apps]")
@@ -114,7 +119,9 @@ TEST_CASE("parseCommandLine tells help from mistakes", "[apps]")
   CHECK_FALSE(parse({"--help"}));
   CHECK(printed.text().find("--number") != std::string::npos);
   CHECK_THROWS_AS(parse({"--nonsense"}), vpApp::UsageError);
-  CHECK(complaint([&] { (void)parse({"--number", "x"}); }).find("--number") != std::string::npos);
+  CHECK(complaint([&] { (void)parse({"--number", "x"}); }) == "--number is x, must be a whole number");
+  CHECK(complaint([&] { (void)parse({"--number"}); }) == "--number is given without a value");
+  CHECK(printed.text().find("--version") != std::string::npos);
 }
 
 TEST_CASE("Progress shows a bar, plain lines or nothing", "[apps]")
@@ -170,6 +177,86 @@ TEST_CASE("runJobs does every piece once and passes on the first error", "[apps]
   }
 }
 
+TEST_CASE("runJobs does without threads that the system does not give", "[apps]")
+{
+  if (!vpTestSupport::canCountAllocations()) {
+    vpTestSupport::skip("a sanitizer needs more memory than the limit of this test");
+    return;
+  }
+  const pid_t child = fork();
+  if (child == 0) { // in a process of its own: the limit stays
+    const rlimit none{0, 0};
+    std::atomic<int> done{0};
+    try {
+      setrlimit(RLIMIT_NPROC, &none);
+      std::size_t pages = 0; // for root, whom the number does not bind: memory for a few stacks
+      std::ifstream("/proc/self/statm") >> pages;
+      const rlim_t most = pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE)) + (64U << 20U);
+      const rlimit memory{most, most};
+      setrlimit(RLIMIT_AS, &memory);
+      vpApp::runJobs(500, 256, [&](std::size_t) { ++done; });
+    }
+    catch (...) {
+      _exit(2);
+    }
+    _exit(done == 500 ? 0 : 1);
+  }
+  int status = -1;
+  waitpid(child, &status, 0);
+  CHECK(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 0);
+}
+
+TEST_CASE("Lines of files and pipes", "[apps]")
+{
+  const TestFolder folder;
+  const auto linesOf = [](const std::string &file) {
+    vpApp::LineReader reader(file);
+    std::vector<std::string> lines;
+    for (std::string line; reader.next(line);) {
+      lines.push_back(line);
+    }
+    return lines;
+  };
+  CHECK(linesOf(folder.write("a", "")).empty());
+  CHECK(linesOf(folder.write("a", "one\n\nthree")) == std::vector<std::string>{"one", "", "three"});
+  CHECK(linesOf(folder.write("a", "one\n")) == std::vector<std::string>{"one"});
+  const std::string large(100000, 'x');
+  CHECK(linesOf(folder.write("a", large + "\n" + large)) == std::vector<std::string>{large, large});
+  CHECK(complaint([&] { (void)linesOf("none.jsonl"); }) == "none.jsonl: cannot be read");
+  CHECK(complaint([&] { (void)linesOf(folder.path.string()); }) == folder.path.string() + ": cannot be read");
+  CHECK(complaint([&] { (void)linesOf("/dev/zero"); }) == "/dev/zero:1: is longer than 64 MB");
+
+  // A pipe whose other end comes later and writes in pieces.
+  const std::string pipe = (folder.path / "pipe").string();
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  std::thread writer([&pipe] {
+    std::ofstream out(pipe);
+    for (const char *piece : {"o", "ne\ntw", "o\n"}) {
+      out << piece << std::flush;
+      usleep(1000);
+    }
+  });
+  CHECK(linesOf(pipe) == std::vector<std::string>{"one", "two"});
+  writer.join();
+}
+
+TEST_CASE("A file is replaced in one step, with its mode, through its link", "[apps]")
+{
+  const TestFolder folder;
+  const std::string file = folder.write("a.csv", "first"), link = (folder.path / "link.csv").string();
+  fs::create_symlink("a.csv", link);
+  REQUIRE(chmod(file.c_str(), 0640) == 0);
+  folder.write(".a.csv.partial", "what a killed run left, longer than the new content");
+  vpApp::writeWholeFile(link, "second");
+  CHECK(vpApp::readFile(file) == "second");
+  CHECK(fs::is_symlink(link));
+  CHECK(fs::status(file).permissions() == static_cast<fs::perms>(0640));
+  CHECK(folder.entries() == std::vector<std::string>{"a.csv", "link.csv"});
+  CHECK(complaint([&] { vpApp::writeWholeFile("/dev/full", "x"); }) ==
+        "/dev/full: cannot be written (No space left on device)");
+}
+
 TEST_CASE("JSON errors name the file, the place and the value", "[apps]")
 {
   const TestFolder folder;
@@ -201,7 +288,7 @@ TEST_CASE("JSON errors name the file, the place and the value", "[apps]")
   CHECK(reading("{\"camera\"").find("task.json: line 1, column ") == 0);
   CHECK(reading("").find("task.json: line 1, column 1") == 0);
   CHECK(reading("[1, 2]") == "task.json: the content is [1,2], must be an object { }");
-  CHECK(reading(R"({"camera": {"px": 1e999}})") == "task.json: number overflow parsing '1e999'");
+  CHECK(reading(R"({"camera": {"px": 1e999}})") == "task.json: line 1, column 23: number overflow parsing '1e999'");
   CHECK(reading(R"({"camera": {"px": "wide"}})") == "task.json: camera.px is \"wide\", must be a number");
   CHECK(reading(R"({"camera": {}})") == "task.json: camera.px is missing");
   CHECK(reading(R"({"camera": {"px": 1, "fx": 2}})") == "task.json: unknown field camera.fx; known are px, py, width");
@@ -213,8 +300,59 @@ TEST_CASE("JSON errors name the file, the place and the value", "[apps]")
   CHECK(reading(R"({"camera": {"px": 1}, "poses": [{"t": [1, 2, 3]}, {"t": [1, 2]}]})") ==
         "task.json: poses[1].t is [1,2], must be a list of 3 numbers");
   CHECK(reading(R"({"camera": {"px": 1, "px": 2}})") == "task.json: field \"px\" is given twice");
+  CHECK(reading(R"({"camera": {"px": 1}, "poses": [{"t": [1, 2, 3], "t": 0}]})") ==
+        "task.json: field \"t\" is given twice");
+  CHECK(reading("{\"camera\": " + std::string(1000000, '[')) == "task.json: is nested more than 64 deep");
+  CHECK(reading("\xef\xbb\xbf{\"camera\":\r\n {\"px\": 1}}\r\n") == "no exception");
+  CHECK(reading("{\"camera\": {\"px\": \"\\u009b31m\\u0000\"}}") ==
+        "task.json: camera.px is \"\\u009b31m\\u0000\", must be a number");
+  CHECK(complaint([] { (void)vpApp::parseJsonLine("{\"id\": " + std::string(1000000, '['), "a.jsonl:7"); }) ==
+        "a.jsonl:7: is nested more than 64 deep");
+  CHECK(complaint([] { (void)vpApp::parseJsonLine("{\"a\" 1}", "a.jsonl:7"); }).find("a.jsonl:7: column 6: ") == 0);
+  CHECK(complaint([] { (void)vpApp::readJsonFile("/dev/zero"); }) == "/dev/zero: is larger than 64 MB");
   CHECK(complaint([&] { (void)vpApp::readJsonFile(folder.path / "none.json"); }).find("none.json: cannot be read") !=
         std::string::npos);
+}
+
+TEST_CASE("Numbers are written as people do", "[apps]")
+{
+  CHECK(vpApp::number(150., 2) == "150");
+  CHECK(vpApp::number(-99.6, 2) == "-100");
+  CHECK(vpApp::number(123456., 3) == "123000");
+  CHECK(vpApp::number(0.20001, 3) == "0.2");
+  CHECK(vpApp::number(57., 4) == "57");
+  CHECK(vpApp::number(0.00123456, 3) == "0.00123");
+  CHECK(vpApp::number(2e-5, 3) == "2e-05");
+  CHECK(vpApp::number(3e12, 3) == "3e+12");
+  CHECK(vpApp::number(INFINITY, 3) == "inf");
+  std::mt19937_64 random = vpTestSupport::generator();
+  for (int i = 0; i < 1000; ++i) { // the digits that are asked for, and no more
+    const int digits = std::uniform_int_distribution<int>(1, 12)(random);
+    const double value = std::pow(10., std::uniform_real_distribution<double>(-6., 9.)(random));
+    const double written = std::stod(vpApp::number(value, digits));
+    CAPTURE(value, digits, written);
+    CHECK(std::fabs(written - value) <= 0.5000001 * std::pow(10., std::floor(std::log10(value)) - digits + 1.));
+  }
+}
+
+TEST_CASE("Texts of files are made printable", "[apps]")
+{
+  CHECK(vpPrintable("plain, grüße, 世界, 🤖") == "plain, grüße, 世界, 🤖");
+  CHECK(vpPrintable("  two\nlines\t\r\n and  blanks \n") == "two lines and blanks");
+  CHECK(vpPrintable("\x1b[31m\a\x7f") == "\\u001b[31m\\u0007\\u007f");
+  CHECK(vpPrintable("\xc2\x9b") == "\\u009b"); // steers a terminal too
+  CHECK(vpPrintable("a\xe2\x80\xae"
+                    "b") == "a\\u202eb"); // turns the direction of writing
+  CHECK(vpPrintable("\xf3\xa0\x81\x81") == "\\udb40\\udc41");
+  CHECK(nlohmann::json::parse("\"" + vpPrintable("\xf3\xa0\x81\x81") + "\"") == "\xf3\xa0\x81\x81");
+  // No UTF-8: alone, cut off, overlong, half of a pair, beyond the last character.
+  CHECK(vpPrintable("\xff\xc3") == "\\xff\\xc3");
+  CHECK(vpPrintable("\xc0\xaf") == "\\xc0\\xaf");
+  CHECK(vpPrintable("\xe0\x80\xaf") == "\\xe0\\x80\\xaf");
+  CHECK(vpPrintable("\xed\xa0\x80") == "\\xed\\xa0\\x80");
+  CHECK(vpPrintable("\xf4\x90\x80\x80") == "\\xf4\\x90\\x80\\x80");
+  CHECK(vpPrintable(std::string(2000, 'x'), 10) == "xxxxxxxxxx...");
+  CHECK(vpPrintable("123456789\xc3\xa4zzzzzz", 10) == "123456789...");
 }
 
 TEST_CASE("HTML is escaped and self-contained", "[apps]")
@@ -226,6 +364,7 @@ TEST_CASE("HTML is escaped and self-contained", "[apps]")
   CHECK(vpApp::dataUri("text/plain", "Man") == "data:text/plain;base64,TWFu");
   CHECK(vpApp::dataUri("text/plain", std::string("\xff\x00\xfe", 3)) == "data:text/plain;base64,/wD+");
 
+  CHECK(vpApp::escapeHtml("a\n\x1b\xe2\x80\xae") == "a\n\\u001b\\u202e");
   vpApp::HtmlReport report("A <title>", "lead & more");
   report.section("First <section>");
   report.paragraph("<script>");
@@ -241,68 +380,6 @@ TEST_CASE("HTML is escaped and self-contained", "[apps]")
   CHECK(html.find("<td class=\"left\">a&lt;b</td><td class=\"best\">1</td>") != std::string::npos);
   CHECK(html.find("<td colspan=\"3\">group</td>") != std::string::npos);
   CHECK(html.find("src=\"http") == std::string::npos);
-}
-
-TEST_CASE("A result folder appears whole or not at all", "[apps]")
-{
-  const TestFolder folder;
-  const std::string wanted = (folder.path / "deep" / "out").string();
-
-  SECTION("nothing is left without commit, not even the parent folder")
-  {
-    {
-      vpApp::OutputFolder out("prog", wanted);
-      out.write("video/a.txt", "a");
-      CHECK_FALSE(fs::exists(wanted));
-    }
-    CHECK(folder.entries().empty());
-  }
-  SECTION("commit puts all in place, and the program may replace its own folder")
-  {
-    for (const char *content : {"first", "second"}) {
-      vpApp::OutputFolder out("prog", wanted + "/");
-      out.write("video/a.txt", content);
-      out.writeSummary({{"runs", 1}});
-      out.commit();
-      CHECK(vpApp::readFile(fs::path(wanted) / "video/a.txt") == content);
-    }
-    const nlohmann::json summary = vpApp::readJsonFile(wanted + "/summary.json");
-    CHECK(summary["program"] == "prog");
-    CHECK(summary["files"] == nlohmann::json({"summary.json", "video/a.txt"}));
-
-    folder.write("deep/out/my-notes.txt", "mine");
-    {
-      vpApp::OutputFolder out("prog", wanted);
-      out.write("b.txt", "third");
-      out.writeSummary({});
-      out.commit();
-    }
-    CHECK(folder.entries() == std::vector<std::string>({"deep", "deep/out", "deep/out/b.txt", "deep/out/my-notes.txt",
-                                                        "deep/out/summary.json"}));
-    CHECK(complaint([&] { vpApp::OutputFolder("other", wanted); }).find("not a result of other") != std::string::npos);
-  }
-  SECTION("a folder of somebody else is left alone, an empty one is used")
-  {
-    folder.write("deep/out/thesis.txt", "years of work");
-    CHECK(complaint([&] { vpApp::OutputFolder("prog", wanted); }).find("is left alone") != std::string::npos);
-    folder.write("deep/out/summary.json", "{\"program\": 3");
-    CHECK(complaint([&] { vpApp::OutputFolder("prog", wanted); }).find("is left alone") != std::string::npos);
-    fs::remove_all(wanted);
-    fs::create_directory(wanted);
-    {
-      vpApp::OutputFolder out("prog", wanted);
-      out.writeSummary({});
-      out.commit();
-    }
-    CHECK(fs::exists(fs::path(wanted) / "summary.json"));
-  }
-  SECTION("a place that cannot be written is named")
-  {
-    const std::string file = folder.write("file", "");
-    CHECK(complaint([&] { vpApp::OutputFolder("prog", file); }) == file + ": exists and is not a folder");
-    CHECK(complaint([&] { vpApp::OutputFolder("prog", file + "/out"); }).find(file + "/out: cannot be written") == 0);
-    CHECK(complaint([&] { vpApp::OutputFolder("prog", "/proc/out"); }).find("/proc/out: cannot be written") == 0);
-  }
 }
 
 TEST_CASE("Data files are found, and a missing one is named", "[apps]")
@@ -333,6 +410,17 @@ TEST_CASE("gnuplot draws a plot with awkward labels and gaps", "[apps]")
   CHECK(complaint([] { vpApp::requireGnuplot(); }).find("install it") != std::string::npos);
   setenv("PATH", path.c_str(), 1);
   vpApp::requireGnuplot();
+
+  const char *temporary = std::getenv("TMPDIR");
+  const std::string before = temporary == nullptr ? "" : temporary;
+  setenv("TMPDIR", "/nowhere", 1);
+  CHECK(complaint([] { vpApp::requireGnuplot(); }) ==
+        "/nowhere: is the folder for temporary files (TMPDIR) and cannot be "
+        "written in (No such file or directory)");
+  temporary == nullptr ? unsetenv("TMPDIR") : setenv("TMPDIR", before.c_str(), 1);
+
+  plot.title = "\x1b[31m";
+  CHECK(vpApp::renderSvg(plot).find("\\u001b[31m") != std::string::npos);
 }
 
 TEST_CASE("On logarithmic axes powers of ten are equally far apart", "[apps]")

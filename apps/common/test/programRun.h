@@ -36,12 +36,18 @@ public:
   //! Run with these arguments (shell syntax), optionally after an assignment of environment variables; the exit status.
   int operator()(const std::string &arguments, const std::string &environment = "")
   {
-    const std::string command = "cd '" + m_folder.string() + "' && " + environment + " '" + m_program + "' " +
-                                arguments + " >stdout.txt 2>stderr.txt";
-    const int status = std::system(command.c_str());
+    const int status = call(environment + " '" + m_program + "' " + arguments + " >stdout.txt 2>stderr.txt");
     m_out = take("stdout.txt");
     m_err = take("stderr.txt");
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return status;
+  }
+  //! The same with a standard output that takes nothing.
+  int intoFullDevice(const std::string &arguments)
+  {
+    const int status = call("'" + m_program + "' " + arguments + " >/dev/full 2>stderr.txt");
+    m_out.clear();
+    m_err = take("stderr.txt");
+    return status;
   }
   [[nodiscard]] const std::string &out() const { return m_out; }
   [[nodiscard]] const std::string &err() const { return m_err; }
@@ -62,6 +68,11 @@ public:
   }
 
 private:
+  int call(const std::string &command) const
+  {
+    const int status = std::system(("cd '" + m_folder.string() + "' && " + command).c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
   std::string take(const std::string &name) const
   {
     std::string content = vpApp::readFile(path(name));

@@ -111,9 +111,9 @@ TEST_CASE("A bad scene ends with a sentence that names file and element", "[visp
   bad("[0.16, 0.11012, 0.06]", "[0.2, 0.11012, 0.06]",
       "size_m of object parcel is 0.2 x 0.1101, its photo box is 0.16");
   bad("\"shape\": \"box\", \"size_m\": [0.16, 0.11012, 0.06]", "\"shape\": \"sphere\", \"radius_m\": 0.1",
-      "objects[0].photo is box, must be on a box");
-  bad("\"tasks\": [", "\"errands\": [", "errands is not a known field");
-  bad("0.127099, ", "", "tasks[0].goal_rad must have as many numbers as start_rad");
+      "objects[0].photo is \"box\", must be on a box");
+  bad("\"tasks\": [", "\"errands\": [", "unknown field errands; known are ");
+  bad("0.127099, ", "", "tasks[0].goal_rad is [");
   bad("\"objects\": [",
       "\"objects\": [{\"name\": \"fly\", \"shape\": \"sphere\", \"radius_m\": 0.01, \"velocity\": {\"linear_m_s\": [1, "
       "0, 0]}},",
@@ -123,7 +123,7 @@ TEST_CASE("A bad scene ends with a sentence that names file and element", "[visp
   run.write("bad.json", R"({"name": "s", "objects": [], "tasks": [{"name": "t", "start_rad": [0], "goal_rad": [1]}]})");
   check(run, "--scene bad.json", DATA, "task t is for 1 joints, arm ");
   run.write("bad.json", "{");
-  check(run, "--scene bad.json", DATA, "bad.json: parse error");
+  check(run, "--scene bad.json", DATA, "bad.json: line 1, column 2: syntax error");
 }
 
 TEST_CASE("From image to joints: round what is seen, into what is not", "[visp-avoid-obstacle]")

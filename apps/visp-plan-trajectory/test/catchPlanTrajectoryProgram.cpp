@@ -10,7 +10,12 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <csignal>
 #include <sstream>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 namespace
 {
@@ -109,4 +114,68 @@ TEST_CASE("Bad use ends with a sentence and nothing written", "[visp-plan-trajec
     CHECK(run.err().find("/dev/full: cannot be written") != std::string::npos);
     CHECK(std::filesystem::is_character_file("/dev/full"));
   }
+}
+
+TEST_CASE("Ctrl-C and SIGTERM end the program while it waits for problems", "[visp-plan-trajectory]")
+{
+  ProgramRun run(PLAN_TRAJECTORY);
+  for (const int signal : {SIGINT, SIGTERM}) {
+    for (const bool byName : {false, true}) {
+      CAPTURE(signal, byName);
+      const std::string pipe = run.path("pipe").string();
+      REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+      const std::string out = run.path("out.txt").string(), err = run.path("err.txt").string();
+      const pid_t child = fork();
+      if (child == 0) {
+        // Both ends of the pipe: it never ends.
+        const int both = open(pipe.c_str(), O_RDWR);
+        dup2(both, 0);
+        dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), 1);
+        dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), 2);
+        execl(PLAN_TRAJECTORY, PLAN_TRAJECTORY, byName ? pipe.c_str() : "-", nullptr);
+        _exit(99);
+      }
+      std::ofstream(pipe) << R"({"q1": 1, "v_max": 1})" << std::endl;
+      while (!std::filesystem::exists(out) || std::filesystem::file_size(out) == 0) { // it has answered and waits again
+        usleep(1000);
+      }
+      kill(child, signal);
+      int status = 0;
+      waitpid(child, &status, 0);
+      CHECK(WIFEXITED(status));
+      CHECK(WEXITSTATUS(status) == 130);
+      CHECK(vpApp::readFile(err) == "visp-plan-trajectory: interrupted\n");
+      std::filesystem::remove(pipe);
+      std::filesystem::remove(out);
+    }
+  }
+}
+
+TEST_CASE("What a problem brings does not harm program and terminal", "[visp-plan-trajectory]")
+{
+  ProgramRun run(PLAN_TRAJECTORY);
+  const std::string deep(1000000, '[');
+  run.write("p.jsonl", "{\"id\": " + deep + "\n{\"q1\": " + deep + "\n" +
+                           R"({"id": "\u001b[31m\u009b\u202e", "q1": 1, "v_max": 1})" + "\n" +
+                           R"({"id": 1, "id": 2, "q1": 1, "v_max": 1})" + "\n");
+  CHECK(run("p.jsonl") == DATA);
+  CHECK(run.out().find_first_of("\x1b\x9b") == std::string::npos);
+  const std::vector<json> lines = answers(run.out());
+  REQUIRE(lines.size() == 4);
+  CHECK(lines[0]["message"] == "p.jsonl:1: is nested more than 64 deep");
+  CHECK(lines[1]["message"] == "p.jsonl:2: is nested more than 64 deep");
+  CHECK(lines[2]["id"] == "\x1b[31m\xc2\x9b\xe2\x80\xae");
+  CHECK(lines[3]["message"] == "p.jsonl:4: field \"id\" is given twice");
+}
+
+TEST_CASE("Samples are written with all their digits", "[visp-plan-trajectory]")
+{
+  ProgramRun run(PLAN_TRAJECTORY);
+  run.write("p.jsonl", R"({"q0": 0.1, "q1": 0.30000000000000004, "v_max": 0.7, "a_max": 1.3, "dt": 0.01})");
+  REQUIRE(run("p.jsonl --csv motion.csv") == 0);
+  const std::string csv = vpApp::readFile(run.path("motion.csv"));
+  const std::string last = csv.substr(csv.rfind('\n', csv.size() - 2) + 1);
+  CHECK(std::stod(last.substr(last.find(',') + 1)) == 0.30000000000000004);
+  const json answer = json::parse(run.out());
+  CHECK(std::stod(last) == answer["duration"].get<double>());
 }

@@ -7,6 +7,8 @@
 #include "numberText.h"
 #include "plot.h"
 
+#include <visp3/direct_core/vpQuantile.h>
+
 #include <algorithm>
 #include <map>
 
@@ -92,13 +94,12 @@ Plot panelOf(const Variable &variable, const std::map<double, std::size_t> &clas
   }
   PlotCurve best{"best", "#d62728", PlotStyle::Solid, 2., {}, {}},
       median{"median", "#1f77b4", PlotStyle::Solid, 2., {}, {}};
-  for (auto &[k, values] : figures) {
-    std::sort(values.begin(), values.end());
+  for (const auto &[k, values] : figures) {
     for (PlotCurve *curve : {&best, &median}) {
       curve->x.push_back(static_cast<double>(k));
     }
-    best.y.push_back(figure.more ? values.back() : values.front());
-    median.y.push_back(values[values.size() / 2]);
+    best.y.push_back(vpQuantile(values, figure.more ? 1. : 0.));
+    median.y.push_back(vpMedian(values));
   }
   Plot plot;
   plot.yLabel = figure.text;

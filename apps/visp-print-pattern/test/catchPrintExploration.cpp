@@ -422,7 +422,7 @@ TEST_CASE("What is wrong in a file is told with field and value", "[explore]")
       {R"({"seed": 1, "seed": 2})", R"(spec.json: field "seed" is given twice)"},
       {R"({"design": {"um_per_px": {"from": 1, "to": 9, "steps": 1000}, "exposure_us": {"from": 1, "to": 9, "steps": 1000},
          "frame_rate_hz": [800, 1600]}})",
-       "the grid has 2e+06 designs, must be at most 1000000; use samples"},
+       "the grid has 2000000 designs, must be at most 1000000; use samples"},
       {"{", "spec.json: line 1, column "}};
   for (const auto &[text, sentence] : wrong) {
     CAPTURE(text);

@@ -3,10 +3,10 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include "vpOctomapCells.h"
+#include "vpOctreeOutline.h"
+#include "vpReading.h"
 
-#include <visp3/core/vpException.h>
-
-#include <fstream>
+#include <sstream>
 
 BEGIN_VISP_NAMESPACE
 
@@ -21,25 +21,24 @@ std::vector<vpOctreeCell> vpOctomapCells(const octomap::OcTree &tree)
   return cells;
 }
 
+namespace
+{
+vpOctree read(const std::string &file)
+{
+  const std::string bytes = vpReadFileText(file, vpLargestDataFile);
+  const vpOctreeOutline outline = vpRequireOctree(bytes, file);
+  octomap::OcTree tree(outline.resolution);
+  if (outline.size > 0) {
+    std::istringstream data(bytes.substr(outline.data));
+    outline.binary ? tree.readBinaryData(data) : tree.readData(data);
+  }
+  return vpOctree(vpOctomapCells(tree), file);
+}
+} // namespace
+
 vpOctree vpOctree::load(const std::string &file)
 {
-  if (!std::ifstream(file)) {
-    throw vpException(vpException::ioError, "%s: cannot be read", file.c_str());
-  }
-  const bool binary = file.size() > 3 && file.compare(file.size() - 3, 3, ".bt") == 0;
-  std::unique_ptr<octomap::AbstractOcTree> any;
-  auto tree = std::make_unique<octomap::OcTree>(0.1);
-  if (!binary) {
-    any.reset(octomap::AbstractOcTree::read(file));
-  }
-  octomap::OcTree *read = dynamic_cast<octomap::OcTree *>(any.get());
-  if (binary && tree->readBinary(file)) {
-    read = tree.get();
-  }
-  if (!read) {
-    throw vpException(vpException::ioError, "%s: is no octree of octomap", file.c_str());
-  }
-  return vpOctree(vpOctomapCells(*read), file);
+  return vpReading([&] { return read(file); });
 }
 
 END_VISP_NAMESPACE

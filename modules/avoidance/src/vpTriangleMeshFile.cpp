@@ -2,14 +2,13 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
+#include "vpReading.h"
+
 #include <visp3/avoidance/vpTriangleMesh.h>
-#include <visp3/core/vpException.h>
 
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 
 BEGIN_VISP_NAMESPACE
@@ -21,10 +20,7 @@ struct Soup {
   std::vector<std::array<int, 3>> triangles;
 };
 
-[[noreturn]] void fail(const std::string &file, const std::string &why)
-{
-  throw vpException(vpException::badValue, "%s: %s", file.c_str(), why.c_str());
-}
+[[noreturn]] void fail(const std::string &file, const std::string &why) { throw vpFileError(file + ": " + why); }
 
 // First number of "7", "7/1" or "7//3"; negative ones count from the end.
 int objIndex(const std::string &word, std::size_t vertices, const std::string &file, const std::string &line)
@@ -149,18 +145,13 @@ bool endsWith(const std::string &text, const char *end)
   const std::size_t n = std::strlen(end);
   return text.size() >= n && text.compare(text.size() - n, n, end) == 0;
 }
-} // namespace
 
-vpTriangleMesh vpTriangleMesh::load(const std::string &file, double scale)
+vpTriangleMesh read(const std::string &file, double scale)
 {
   if (!std::isfinite(scale) || !(scale > 0.)) {
     throw vpException(vpException::badValue, "%s: scale is %g, must be > 0 and finite", file.c_str(), scale);
   }
-  std::ifstream in(file, std::ios::binary);
-  if (!in) {
-    throw vpException(vpException::ioError, "%s: cannot be read", file.c_str());
-  }
-  const std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  const std::string bytes = vpReadFileText(file, vpLargestDataFile);
   Soup soup;
   if (endsWith(file, ".obj")) {
     soup = readObj(bytes, file);
@@ -175,6 +166,12 @@ vpTriangleMesh vpTriangleMesh::load(const std::string &file, double scale)
     v *= scale;
   }
   return vpTriangleMesh(soup.vertices, soup.triangles, file);
+}
+} // namespace
+
+vpTriangleMesh vpTriangleMesh::load(const std::string &file, double scale)
+{
+  return vpReading([&] { return read(file, scale); });
 }
 
 END_VISP_NAMESPACE

@@ -299,6 +299,73 @@ TEST_CASE("Errors in meshes name the file and the place", "[files]")
   CHECK(errorOf([&] { return vpOctree::load(tree.name()); }) == tree.name() + ": is no octree of octomap");
 }
 
+TEST_CASE("Octrees that would harm octomap are refused before they get there", "[files][hostile]")
+{
+  const auto treeError = [](const std::string &name, const std::string &bytes) {
+    const File file(name, bytes);
+    return errorOf([&] { return vpOctree::load(file.name()); });
+  };
+  const auto binary = [](const std::string &size, const std::string &nodes) {
+    return "# Octomap OcTree binary file\nid OcTree\nsize " + size + "\nres 0.02\ndata\n" + nodes;
+  };
+  const std::string bt = "catchCollisionFiles-tree.bt: ", ot = "catchCollisionFiles-tree.ot: ";
+  // A root with two occupied leaves and one free.
+  const std::string root("\x1a\x00", 2);
+  CHECK(treeError("tree.bt", binary("4", root)) == "no error");
+  CHECK(treeError("tree.bt", binary("5", root)) == bt + "says 5 nodes and has 4");
+  CHECK(treeError("tree.bt", binary("4", root.substr(0, 1))) == bt + "says 4 nodes and is cut off");
+  // Every node has one child that has children: octomap went as deep as the file is long.
+  std::string chain;
+  for (int i = 0; i < 1000000; ++i) {
+    chain += std::string("\x03\x00", 2);
+  }
+  CHECK(treeError("tree.bt", binary("1000001", chain)) == bt + "has more than 16 levels");
+  std::string deepest = chain.substr(0, 30) + std::string("\x02\x00", 2);
+  CHECK(treeError("tree.bt", binary("17", deepest)) == "no error");
+  deepest = chain.substr(0, 32) + std::string("\x02\x00", 2);
+  CHECK(treeError("tree.bt", binary("18", deepest)) == bt + "has more than 16 levels");
+
+  const auto full = [](const std::string &nodes) {
+    return "# Octomap OcTree file\n# a remark\nid OcTree\nsize 2\nres 0.1\ndata\n" + nodes;
+  };
+  const std::string inner("\x00\x00\x80\x3f\x01", 5), leaf("\x00\x00\x80\x3f\x00", 5), nan("\x00\x00\xc0\x7f\x00", 5);
+  CHECK(treeError("tree.ot", full(inner + leaf)) == "no error");
+  CHECK(treeError("tree.ot", full(inner + nan)) == ot + "has a node whose occupancy is not finite");
+  CHECK(treeError("tree.ot", full(inner)) == ot + "says 2 nodes and is cut off");
+
+  CHECK(treeError("tree.bt", "# Octomap OcTree binary file\nid OcTree\n") == bt + "is cut off in its head");
+  CHECK(treeError("tree.bt", "# Octomap OcTree binary file\nid OcTree\nres nan\ndata\n") ==
+        bt + "its resolution is no number");
+  CHECK(treeError("tree.bt", "# Octomap OcTree binary file\nid OcTree\nres 0\ndata\n") ==
+        bt + "its resolution is 0 m, must be > 0");
+  CHECK(treeError("tree.bt", "# Octomap OcTree binary file\nid ColorOcTree\nres 1\ndata\n") ==
+        bt + "is a tree of the kind ColorOcTree, must be OcTree");
+}
+
+TEST_CASE("Scenes are read as strictly as tasks; the public broken ones", "[files][hostile]")
+{
+  const std::string file = "catchCollisionFiles-scene.json: ";
+  CHECK(sceneError("{\"name\": \"s\", \"objects\": [], \"objects\": []}") == file + "field \"objects\" is given twice");
+  CHECK(sceneError("{\"name\": " + std::string(1000000, '[')) == file + "is nested more than 64 deep");
+  CHECK(sceneError("\xef\xbb\xbf{\"name\": \"s\",\r\n\"objects\": []}\r\n") == "no error");
+  CHECK(objectError("\"shape\": \"\\u001b[2J\"") ==
+        file + "objects[0].shape is \"\\u001b[2J\", must be sphere, capsule, box, cylinder, mesh or octree");
+
+  const auto caseError = [](const std::string &name) {
+    const std::string path = vpTestSupport::caseFile("broken/" + name);
+    return path.empty() ? "" : errorOf([&] { return vpLoadCollisionScene(path); });
+  };
+  if (vpTestSupport::caseFile("broken/bom.json").empty()) {
+    return;
+  }
+  CHECK(caseError("bom.json") == "no error");
+  CHECK(caseError("crlf.json") == "no error");
+  CHECK(caseError("html.json") == "no error");
+  CHECK(caseError("dup.json").find("field \"objects\" is given twice") != std::string::npos);
+  CHECK(caseError("dup-objects.json").find("field \"objects\" is given twice") != std::string::npos);
+  CHECK(caseError("trunc.bt.json").find("trunc.bt: says 4027 nodes and is cut off") != std::string::npos);
+}
+
 TEST_CASE("A scene with everything arrives", "[files]")
 {
   const File obj("all.obj", cube);
@@ -340,29 +407,32 @@ TEST_CASE("A scene with everything arrives", "[files]")
 TEST_CASE("Errors in scenes name the file and the element", "[files]")
 {
   const std::string file = "catchCollisionFiles-scene.json: ";
-  CHECK(sceneError("{\"name\": ").find(file + "parse error at line 1") == 0);
-  CHECK(sceneError("[]") == file + "the file must be an object");
-  CHECK(sceneError("").find(file + "parse error") == 0);
+  CHECK(sceneError("{\"name\": ").find(file + "line 1, column ") == 0);
+  CHECK(sceneError("[]") == file + "the content is [], must be an object { }");
+  CHECK(sceneError("").find(file + "line 1, column 1") == 0);
   CHECK(sceneError("{\"name\": \"s\"}") == file + "objects is missing");
-  CHECK(sceneError("{\"name\": \"s\", \"objects\": [], \"obstacles\": []}") == file + "obstacles is not a known field");
-  CHECK(sceneError("{\"name\": \"s\", \"objects\": {}}") == file + "objects must be a list");
+  CHECK(sceneError("{\"name\": \"s\", \"objects\": [], \"obstacles\": []}") ==
+        file + "unknown field obstacles; known are allowed_link_pairs, comment, ground, name, objects, tasks");
+  CHECK(sceneError("{\"name\": \"s\", \"objects\": {}}") == file + "objects is {}, must be a list");
   CHECK(sceneError("{\"name\": \"s\", \"objects\": [], \"allowed_link_pairs\": [[1]]}") ==
-        file + "allowed_link_pairs must be a list of lists of 2 numbers");
+        file + "allowed_link_pairs[0] is [1], must be a list of 2 numbers");
   CHECK(sceneError("{\"name\": \"s\", \"objects\": [], \"allowed_link_pairs\": [[1, 2.5]]}") ==
-        file + "allowed_link_pairs must hold whole numbers");
+        file + "allowed_link_pairs is 2.5, must be a whole number");
   CHECK(sceneError("{\"name\": \"s\", \"objects\": [], \"tasks\": [{\"name\": \"t\", \"start_rad\": [0], \"goal_rad\": "
-                   "[0, 1]}]}") == file + "tasks[0].goal_rad must have as many numbers as start_rad");
+                   "[0, 1]}]}") == file + "tasks[0].goal_rad is [0,1], must be a list of as many numbers as start_rad");
   CHECK(objectError("\"shape\": \"cone\"") ==
-        file + "objects[0].shape is cone, must be sphere, capsule, box, cylinder, mesh or octree");
+        file + "objects[0].shape is \"cone\", must be sphere, capsule, box, cylinder, mesh or octree");
   CHECK(objectError("\"shape\": \"sphere\"") == file + "objects[0].radius_m is missing");
   CHECK(objectError("\"shape\": \"sphere\", \"radius_m\": -1") ==
         file + "objects[0]: radius of the sphere is -1 m, must be > 0 and at most 10000 m");
-  CHECK(objectError("\"shape\": \"sphere\", \"radius_m\": \"big\"") == file + "objects[0].radius_m must be a number");
-  CHECK(objectError("\"shape\": \"sphere\", \"radius_m\": NaN").find(file + "parse error") == 0);
+  CHECK(objectError("\"shape\": \"sphere\", \"radius_m\": \"big\"") ==
+        file + "objects[0].radius_m is \"big\", must be a number");
+  CHECK(objectError("\"shape\": \"sphere\", \"radius_m\": NaN").find(file + "line 1, column ") == 0);
   CHECK(objectError("\"shape\": \"sphere\", \"radius_m\": 1, \"size_m\": 3") ==
-        file + "objects[0].size_m is not a known field");
+        file + "unknown field objects[0].size_m; known are allowed_links, inflation_m, name, photo, pose, radius_m, "
+               "shape, velocity");
   CHECK(objectError("\"shape\": \"box\", \"size_m\": [1, 2]") ==
-        file + "objects[0].size_m must be a list of 3 numbers");
+        file + "objects[0].size_m is [1,2], must be a list of 3 numbers");
   CHECK(objectError("\"shape\": \"box\", \"size_m\": [1, 2, 0]") ==
         file + "objects[0]: size of the box along z is 0 m, must be > 0 and at most 10000 m");
   CHECK(objectError("\"shape\": \"sphere\", \"radius_m\": 1, \"pose\": {}") ==
@@ -370,7 +440,7 @@ TEST_CASE("Errors in scenes name the file and the element", "[files]")
   CHECK(objectError("\"shape\": \"mesh\", \"file\": \"nowhere.stl\"") ==
         file + "objects[0]: nowhere.stl: cannot be read");
   CHECK(objectError("\"shape\": \"mesh\", \"vertices_m\": [[0, 0]], \"triangles\": []") ==
-        file + "objects[0].vertices_m must be a list of lists of 3 numbers");
+        file + "objects[0].vertices_m[0] is [0,0], must be a list of 3 numbers");
   CHECK(objectError("\"shape\": \"mesh\", \"vertices_m\": [[0, 0, 0]], \"triangles\": [[0, 0, 4]]") ==
         file + "objects[0]: mesh: triangle 0 uses vertex 4 of 1");
   CHECK(objectError("\"shape\": \"octree\", \"cells_m\": [[0, 0, 0, -1]]") ==
@@ -378,11 +448,11 @@ TEST_CASE("Errors in scenes name the file and the element", "[files]")
   CHECK(objectError("\"shape\": \"octree\", \"file\": \"nowhere.bt\"") ==
         file + "objects[0]: nowhere.bt: cannot be read");
   CHECK(objectError("\"shape\": \"sphere\", \"radius_m\": 1, \"photo\": \"klimt\"") ==
-        file + "objects[0].photo is klimt, must be on a box");
+        file + "objects[0].photo is \"klimt\", must be on a box");
   const std::string box = "\"shape\": \"box\", \"size_m\": [1, 1, 1], \"photo\": ";
   CHECK(objectError(box + "3").find(file + "objects[0].photo") == 0);
   CHECK(objectError(box + "\"klimt\"}, {\"name\": \"p\", " + box + "\"klimt\"") ==
-        file + "objects[1].photo is klimt, which object o carries already");
+        file + "objects[1].photo is \"klimt\", must be another one than object o carries");
   CHECK(errorOf([] { return vpLoadCollisionScene("nowhere.json"); }) == "nowhere.json: cannot be read");
 }
 

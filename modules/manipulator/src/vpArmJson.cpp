@@ -4,7 +4,8 @@
  */
 #include <visp3/manipulator/vpArmJson.h>
 
-#include "vpJsonObject.h"
+#include "vpJsonGeometry.h"
+#include "vpReading.h"
 
 #include <cmath>
 
@@ -12,12 +13,12 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-constexpr double degree = vpJsonObject::degree;
+constexpr double degree = M_PI / 180.;
 
 // Limits of turning joints are degrees in the file, those of sliding ones metres.
 vpArmJointSpec joint(vpJsonObject &object)
 {
-  const std::string type = object.string("type");
+  const std::string type = object.text("type");
   const bool slides = type == "prismatic";
   const double unit = slides ? 1. : degree;
   vpArmJointSpec spec = vpArmJointSpec::standardDH(object.number("a_m"), degree * object.number("alpha_deg"),
@@ -29,7 +30,7 @@ vpArmJointSpec joint(vpJsonObject &object)
   else {
     spec.offset = degree * object.number("theta_offset_deg", 0.);
   }
-  spec.name = object.string("name");
+  spec.name = object.text("name");
   if (type == "continuous") {
     spec.type = vpJointType::Continuous;
   }
@@ -39,7 +40,7 @@ vpArmJointSpec joint(vpJsonObject &object)
     spec.upper = unit * object.number(slides ? "upper_m" : "upper_deg");
   }
   else {
-    object.fail(object.place("type"), "is " + type + ", must be revolute, continuous or prismatic");
+    throw object.wrong("type", object.value("type"), "revolute, continuous or prismatic");
   }
   const double infinity = std::numeric_limits<double>::infinity();
   spec.velocity = object.number("velocity", infinity);
@@ -56,13 +57,12 @@ vpArmJointSpec joint(vpJsonObject &object)
 vpArmLinkSpec link(vpJsonObject &object)
 {
   vpArmLinkSpec spec;
-  spec.name = object.string("name");
+  spec.name = object.text("name");
   spec.hasMass = object.has("mass_kg");
-  object.ignore("mass_kg");
   if (spec.hasMass) {
     spec.mass = object.number("mass_kg");
-    spec.com = object.vector<3>("com_m");
-    const Eigen::Matrix<double, 6, 1> I = object.vector<6>("inertia_kg_m2");
+    spec.com = vpJsonVector<3>(object, "com_m");
+    const Eigen::Matrix<double, 6, 1> I = vpJsonVector<6>(object, "inertia_kg_m2");
     spec.inertia << I(0), I(3), I(4), I(3), I(1), I(5), I(4), I(5), I(2);
   }
   return spec;
@@ -73,45 +73,46 @@ vpArmCapsule capsule(vpJsonObject &object)
   vpArmCapsule spec;
   const double link = object.number("link");
   if (link != std::floor(link) || std::fabs(link) > 100.) {
-    object.fail(object.place("link"), "must be a whole number");
+    throw object.wrong("link", object.value("link"), "a whole number");
   }
   spec.link = static_cast<int>(link);
-  spec.from = object.vector<3>("from_m");
-  spec.to = object.vector<3>("to_m");
+  spec.from = vpJsonVector<3>(object, "from_m");
+  spec.to = vpJsonVector<3>(object, "to_m");
   spec.radius = object.number("radius_m");
   return spec;
+}
+vpArmModel load(const std::string &file)
+{
+  const nlohmann::json content = vpReadJson(file);
+  vpJsonObject top(content, file, "");
+  vpArmSpec spec;
+  spec.source = file;
+  spec.name = top.text("name");
+  top.ignore("comment");
+  top.each("joints", [&](vpJsonObject &object) { spec.joints.push_back(joint(object)); });
+  if (top.has("links")) {
+    top.each("links", [&](vpJsonObject &object) { spec.links.push_back(link(object)); });
+  }
+  if (top.has("capsules")) {
+    top.each("capsules", [&](vpJsonObject &object) { spec.capsules.push_back(capsule(object)); });
+  }
+  top.optional("tool", [&](vpJsonObject &object) { spec.tool = vpJsonTransform<vpRigidTransform>(object); });
+  top.optional("camera", [&](vpJsonObject &object) { spec.camera = vpJsonTransform<vpRigidTransform>(object); });
+  if (top.has("home")) {
+    const std::vector<double> home = top.numbers("home");
+    if (home.size() > static_cast<std::size_t>(vpArmMaxJoints)) {
+      throw top.wrong("home", top.value("home"), "a list of at most " + std::to_string(vpArmMaxJoints) + " numbers");
+    }
+    spec.home = Eigen::Map<const Eigen::VectorXd>(home.data(), static_cast<Eigen::Index>(home.size()));
+  }
+  top.finish();
+  return vpArmModel(spec);
 }
 } // namespace
 
 vpArmModel vpLoadArmJson(const std::string &file)
 {
-  const nlohmann::json content = vpParseJsonFile(file);
-  vpJsonObject top(content, file, "");
-  vpArmSpec spec;
-  spec.source = file;
-  spec.name = top.string("name");
-  top.ignore("comment");
-  top.each("joints", [&](vpJsonObject &object) { spec.joints.push_back(joint(object)); });
-  top.ignore("links");
-  if (top.has("links")) {
-    top.each("links", [&](vpJsonObject &object) { spec.links.push_back(link(object)); });
-  }
-  top.ignore("capsules");
-  if (top.has("capsules")) {
-    top.each("capsules", [&](vpJsonObject &object) { spec.capsules.push_back(capsule(object)); });
-  }
-  top.optional("tool", [&](vpJsonObject &object) { spec.tool = object.transform<vpRigidTransform>(); });
-  top.optional("camera", [&](vpJsonObject &object) { spec.camera = object.transform<vpRigidTransform>(); });
-  top.ignore("home");
-  if (top.has("home")) {
-    const std::vector<double> home = top.numbers("home");
-    if (home.size() > static_cast<std::size_t>(vpArmMaxJoints)) {
-      top.fail("home", "must be a list of at most " + std::to_string(vpArmMaxJoints) + " numbers");
-    }
-    spec.home = Eigen::Map<const Eigen::VectorXd>(home.data(), static_cast<Eigen::Index>(home.size()));
-  }
-  top.done();
-  return vpArmModel(spec);
+  return vpReading([&] { return load(file); });
 }
 
 END_VISP_NAMESPACE

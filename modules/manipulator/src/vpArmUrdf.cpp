@@ -2,7 +2,9 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-#include <visp3/core/vpException.h>
+#include "vpReading.h"
+#include "vpXmlOutline.h"
+
 #include <visp3/manipulator/vpArmUrdf.h>
 
 #include <console_bridge/console.h>
@@ -12,9 +14,9 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <fstream>
+#include <map>
 #include <mutex>
-#include <sstream>
+#include <set>
 
 BEGIN_VISP_NAMESPACE
 
@@ -22,7 +24,7 @@ namespace
 {
 [[noreturn]] void fail(const std::string &file, const std::string &sentence)
 {
-  throw vpException(vpException::badValue, "%s: %s", file.c_str(), sentence.c_str());
+  throw vpFileError(file + ": " + sentence);
 }
 
 // urdfdom says what is wrong to a handler of the whole process, and answers with an empty pointer. The first
@@ -38,7 +40,6 @@ public:
   {
     if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR && m_count++ < 2) {
       m_text += (m_text.empty() ? "" : "; ") + text;
-      std::replace(m_text.begin(), m_text.end(), '\n', ' ');
     }
   }
   [[nodiscard]] const std::string &text() const { return m_text; }
@@ -50,18 +51,14 @@ private:
 
 urdf::ModelInterfaceSharedPtr parse(const std::string &file)
 {
-  std::ifstream in(file);
-  if (!in) {
-    throw vpException(vpException::ioError, "%s: cannot be read", file.c_str());
-  }
-  std::stringstream text;
-  text << in.rdbuf();
+  const std::string text = vpReadFileText(file);
+  vpRequireXmlOutline(text, file);
   static std::mutex mutex; // the handler is one for the process
   const std::lock_guard<std::mutex> lock(mutex);
   const Listener listener;
   urdf::ModelInterfaceSharedPtr tree;
   try {
-    tree = urdf::parseURDF(text.str());
+    tree = urdf::parseURDF(text);
   }
   catch (const std::exception &e) {
     fail(file, e.what());
@@ -69,6 +66,50 @@ urdf::ModelInterfaceSharedPtr parse(const std::string &file)
   // A malformed element is reported, and the tree may come all the same, with the element left out.
   if (!tree || !listener.text().empty()) {
     fail(file, listener.text().empty() ? "is no URDF" : listener.text());
+  }
+  return tree;
+}
+
+// urdfdom asks for one root, but takes cycles beside it, and links with two parents.
+void requireTree(const urdf::ModelInterface &tree, const std::string &file)
+{
+  std::map<std::string, std::string> above; // the joint above a link
+  for (const auto &[name, joint] : tree.joints_) {
+    const auto other = above.emplace(joint->child_link_name, name);
+    if (!other.second) {
+      fail(file,
+           "link " + joint->child_link_name + " is the child of two joints, " + other.first->second + " and " + name);
+    }
+  }
+  std::set<std::string> below; // links that are known to be below the root
+  for (const auto &item : tree.links_) {
+    std::set<std::string> way;
+    for (std::string link = item.first; below.count(link) == 0;) {
+      if (!way.insert(link).second) {
+        fail(file, "the joints make a cycle through link " + link);
+      }
+      const auto joint = above.find(link);
+      if (joint == above.end()) {
+        break;
+      }
+      link = tree.getJoint(joint->second)->parent_link_name;
+    }
+    below.insert(way.begin(), way.end());
+  }
+}
+
+// Links own their children, so those of a cycle would keep each other for ever.
+urdf::ModelInterfaceSharedPtr parseTree(const std::string &file)
+{
+  const urdf::ModelInterfaceSharedPtr tree = parse(file);
+  try {
+    requireTree(*tree, file);
+  }
+  catch (...) {
+    for (const auto &item : tree->links_) {
+      item.second->child_links.clear();
+    }
+    throw;
   }
   return tree;
 }
@@ -248,11 +289,9 @@ vpArmJointSpec moving(const urdf::Joint &from, const std::string &file, const vp
   }
   return joint;
 }
-} // namespace
-
-vpArmModel vpLoadArmUrdf(const std::string &file, const vpArmUrdfOptions &options)
+vpArmModel load(const std::string &file, const vpArmUrdfOptions &options)
 {
-  const urdf::ModelInterfaceSharedPtr tree = parse(file);
+  const urdf::ModelInterfaceSharedPtr tree = parseTree(file);
   const std::string base = options.base.empty() ? tree->getRoot()->name : options.base;
   const std::string tip = options.tip.empty() ? onlyLeaf(*tree, file) : options.tip;
   vpArmSpec spec;
@@ -299,6 +338,12 @@ vpArmModel vpLoadArmUrdf(const std::string &file, const vpArmUrdfOptions &option
     spec.camera = toCommon(tip).inverse() * toCommon(options.camera);
   }
   return vpArmModel(spec);
+}
+} // namespace
+
+vpArmModel vpLoadArmUrdf(const std::string &file, const vpArmUrdfOptions &options)
+{
+  return vpReading([&] { return load(file, options); });
 }
 
 END_VISP_NAMESPACE

@@ -4,6 +4,7 @@
  */
 // What is in the files arrives, and what is wrong with them is said in one sentence with the file and the element.
 #include "vpArmTestKit.h"
+#include "vpCaseFile.h"
 #include "vpCatch.h"
 
 #include <visp3/core/vpException.h>
@@ -141,17 +142,18 @@ TEST_CASE("The URDF's chain is read with limits, masses, capsules and camera", "
 TEST_CASE("Errors in JSON name the file and the field", "[files]")
 {
   const std::string file = "catchArmFiles-broken.json: ";
-  CHECK(jsonError("\"joints\": [", "\"joints\": ").find(file + "parse error at line") == 0);
+  CHECK(jsonError("\"joints\": [", "\"joints\": ").find(file + "line ") == 0);
   CHECK(jsonError("\"a_m\": 0.0623, ", "") == file + "joints[0].a_m is missing");
-  CHECK(jsonError("\"a_m\": 0.0623", "\"a_m\": \"long\"") == file + "joints[0].a_m must be a number");
-  CHECK(jsonError("\"a_m\": 0.0623", "\"a_m\": 0.0623, \"colour\": 3") ==
-        file + "joints[0].colour is not a known field");
+  CHECK(jsonError("\"a_m\": 0.0623", "\"a_m\": \"long\"") == file + "joints[0].a_m is \"long\", must be a number");
+  CHECK(jsonError("\"a_m\": 0.0623", "\"a_m\": 0.0623, \"colour\": 3")
+            .find(file + "unknown field joints[0].colour; known are a_m, acceleration, ") == 0);
   CHECK(jsonError("[0.246, ", "[") == file + "home has 6 numbers, must have one for each of 7 joints");
   CHECK(jsonError("0.246, 0.868", "0.246, 2.868") == file + "home of joint q2 is 2.868, must be within its limits");
-  CHECK(jsonError("[0.246, ", "[\"none\", ") == file + "home[0] must be a number");
+  CHECK(jsonError("[0.246, ", "[\"none\", ") ==
+        file + "home is [\"none\",0.868,-1.237,-2.39,-2.591,-1.099,0.324], must be a list of numbers");
   CHECK(jsonError("\"kp\": 400", "\"kp\": -4") == file + "kp of joint q1 is -4, must be >= 0 and finite");
   CHECK(jsonError("\"continuous\"", "\"rolling\"") ==
-        file + "joints[0].type is rolling, must be revolute, continuous or prismatic");
+        file + "joints[0].type is \"rolling\", must be revolute, continuous or prismatic");
   CHECK(jsonError("\"mass_kg\": 2.4", "\"mass_kg\": -2.4") == file + "mass of link link2 is -2.4, must be > 0");
   CHECK(jsonError("\"mass_kg\": 2.4", "\"mass_kg\": 0") == file + "mass of link link2 is 0, must be > 0");
   CHECK(jsonError("\"upper_deg\": 135", "\"upper_deg\": -135")
@@ -161,7 +163,8 @@ TEST_CASE("Errors in JSON name the file and the field", "[files]")
         file + "velocity limit of joint q1 is -1.5, must be > 0");
   CHECK(jsonError("\"name\": \"q2\"", "\"name\": \"q1\"") == file + "joint q1 stands twice");
   CHECK(jsonError("\"link\": 3", "\"link\": 9") == file + "a capsule belongs to link 9, must be 0 to 7");
-  CHECK(jsonError("[0, 0, 0.1755]", "[0, 0.1755]") == file + "tool.translation_m must be a list of 3 numbers");
+  CHECK(jsonError("[0, 0, 0.1755]", "[0, 0.1755]") ==
+        file + "tool.translation_m is [0,0.1755], must be a list of 3 numbers");
   CHECK(jsonError("\"inertia_kg_m2\": [0.013, 0.013, 0.013", "\"inertia_kg_m2\": [0.013, 0.013, 0.13")
             .find(file + "inertia of link link1 has the principal moments") == 0);
   CHECK_THROWS_WITH(vpLoadArmJson("nowhere.json"), Catch::Contains("nowhere.json: cannot be read"));
@@ -176,8 +179,8 @@ TEST_CASE("Errors in URDF name the file and the element", "[files]")
     CHECK(message.find(element) != std::string::npos);
     CHECK(message.find('\n') == std::string::npos);
   };
-  says(urdfError("</robot>", ""), "Error");
-  says(urdfError("<robot name", "<arm name"), "Error");
+  says(urdfError("</robot>", ""), "ends within the element robot");
+  says(urdfError("<robot name", "<arm name"), "</robot does not end element arm");
   says(urdfError("<child link=\"forearm\"/>", "<child link=\"missing\"/>"), "missing");
   says(urdfError("<parent link=\"forearm\"/>", "<parent link=\"nobody\"/>"), "nobody");
   says(urdfError("<limit lower=\"-1.9\" upper=\"2.2\" effort=\"200\" velocity=\"2.4\"/>", ""), "shoulder");
@@ -198,6 +201,134 @@ TEST_CASE("Errors in URDF name the file and the element", "[files]")
   options.tip = "forearm";
   CHECK_THROWS_WITH(vpLoadArmUrdf(dataFile("generic-6r.urdf"), options),
                     Catch::Contains("link forearm is not below link tool"));
+}
+
+namespace
+{
+std::string errorOfUrdf(const std::string &content)
+{
+  const std::string name = "catchArmFiles-own.urdf";
+  std::ofstream(name) << content;
+  std::string error = "no error";
+  try {
+    static_cast<void>(vpLoadArmUrdf(name));
+  }
+  catch (const vpException &e) {
+    error = e.getStringMessage();
+  }
+  std::remove(name.c_str());
+  return error;
+}
+
+std::string repeated(const std::string &piece, int count)
+{
+  std::string text;
+  for (int i = 0; i < count; ++i) {
+    text += piece;
+  }
+  return text;
+}
+} // namespace
+
+TEST_CASE("URDF that would harm its parser is refused before it gets there", "[files][hostile]")
+{
+  const std::string file = "catchArmFiles-own.urdf: ";
+  // Such texts reached printf as a format.
+  CHECK(urdfError("lower=\"-1.9\"", "lower=\"%s%n\"").find("attribute lower is %s%n, must be without %") !=
+        std::string::npos);
+  CHECK(urdfError("lower=\"-1.9\"", "lower=\"&#37;n\"").find("attribute lower is &#37;n, must be without &#") !=
+        std::string::npos);
+  // The parser recurses into elements.
+  CHECK(errorOfUrdf(repeated("<a>", 200000)) == file + "line 1, column 193: is nested more than 64 deep");
+  CHECK(errorOfUrdf("<robot name=\"r\">" + repeated("<a b='/>'>", 64)).find("nested more than 64") !=
+        std::string::npos);
+  CHECK(errorOfUrdf("<robot name=\"r\">" + repeated("<a>", 63) + repeated("</a>", 63) + "</robot>").find("nested") ==
+        std::string::npos);
+  CHECK(errorOfUrdf("<robot><!-- " + repeated("<a>", 200) + " --><link name='%'/></robot>") ==
+        file + "line 1, column 628: attribute name is %, must be without %");
+  // It goes on after some mistakes.
+  for (const auto &[content, sentence] : std::vector<std::pair<std::string, std::string>>{
+           {"", "line 1, column 1: has no element"},
+           {"robot", "line 1, column 1: is no XML, which begins with <"},
+           {std::string("<robot>\0</robot>", 17), "line 1, column 8: has a zero byte"},
+           {"<robot/><robot/>", "line 1, column 9: goes on after the end of its only element"},
+           {"<robot/>\ntext", "line 2, column 1: goes on after the end of its only element"},
+           {"<robot><a></b></robot>", "line 1, column 11: </b does not end element a"},
+           {"</robot>", "line 1, column 1: </robot does not end an element"},
+           {"<robot a=1/>", "line 1, column 10: the value of attribute a is not in quotes"},
+           {"<robot a='1' a='2'/>", "line 1, column 14: attribute a is given twice"},
+           {"<robot a='<'/>", "line 1, column 10: attribute a has a < in its value"},
+           {"<robot a/>", "line 1, column 9: attribute a has no value"},
+           {"<robot /a>", "line 1, column 9: the tag of element robot does not end in >"},
+           {"<>", "line 1, column 2: there is no name where one must be"},
+           {"<robot><!-- </robot>", "line 1, column 8: <!-- has no -->"},
+           {"<robot><?xml version='1.0'?></robot>",
+            "line 1, column 8: has a declaration <? that is not at its beginning"},
+           {"<!DOCTYPE robot [<!ENTITY a 'b'>]><robot/>", "line 1, column 1: has a DOCTYPE with more than a name"}}) {
+    CHECK(errorOfUrdf(content) == file + sentence);
+  }
+  // What real files have is taken.
+  CHECK(errorOfUrdf("\xef\xbb\xbf<?xml version=\"1.0\"?>\r\n<?xml-stylesheet href='a'?><!DOCTYPE robot>\r\n"
+                    "<robot name='r' xmlns:xacro='b'><!-- 100 % --><link name='a'><visual><geometry>"
+                    "<mesh filename='a%20b.stl'/></geometry></visual></link><material>5 %</material></robot>\n")
+            .find("line ") == std::string::npos);
+}
+
+TEST_CASE("Links that are no tree are refused", "[files][hostile]")
+{
+  const std::string file = "catchArmFiles-own.urdf: ";
+  const auto joint = [](const std::string &name, const std::string &parent, const std::string &child) {
+    return "<joint name='" + name + "' type='fixed'><parent link='" + parent + "'/><child link='" + child +
+           "'/></joint>";
+  };
+  const std::string links = "<robot name='r'><link name='base'/><link name='a'/><link name='b'/><link name='c'/>";
+  CHECK(errorOfUrdf(links + joint("1", "a", "b") + joint("2", "b", "c") + joint("3", "c", "a") + "</robot>") ==
+        file + "the joints make a cycle through link a");
+  CHECK(errorOfUrdf(links + joint("1", "base", "a") + joint("2", "base", "b") + joint("3", "b", "c") +
+                    joint("4", "a", "c") + "</robot>") == file + "link c is the child of two joints, 3 and 4");
+  CHECK(errorOfUrdf(links + joint("1", "a", "a") + joint("2", "base", "b") + joint("3", "b", "c") + "</robot>") ==
+        file + "the joints make a cycle through link a");
+}
+
+TEST_CASE("The public broken URDF files are refused in a sentence, the sound ones get to their meaning",
+          "[files][hostile]")
+{
+  const auto errorOf = [](const std::string &name, const std::string &tip) {
+    vpArmUrdfOptions options;
+    options.tip = tip;
+    try {
+      static_cast<void>(vpLoadArmUrdf(name, options));
+    }
+    catch (const vpException &e) {
+      return e.getStringMessage();
+    }
+    return std::string("no error");
+  };
+  const std::string cycle = vpTestSupport::caseFile("broken/cycle.urdf");
+  const std::string format = vpTestSupport::caseFile("broken/format-string.urdf");
+  if (!cycle.empty() && !format.empty()) {
+    CHECK(errorOf(cycle, "").find(": link l1 is the child of two joints, a and c") != std::string::npos);
+    CHECK(errorOf(format, "tool").find(", must be without %") != std::string::npos);
+  }
+  for (const char *name : {"fetch", "fr3", "franka_panda", "iiwa14_primitive_collision", "irb120_3_58", "kinovaGen3",
+                           "kinovaJacoJ2S7S300", "kr6r900sixx", "lrmate200id", "panda", "pr2", "puma560_robot"}) {
+    const std::string robot = vpTestSupport::caseFile(std::string("robots/") + name + ".urdf");
+    if (!robot.empty()) {
+      CAPTURE(name, errorOf(robot, ""));
+      CHECK(errorOf(robot, "").find(".urdf: line ") == std::string::npos);
+    }
+  }
+}
+
+TEST_CASE("JSON of an arm is read as strictly as that of a task", "[files][hostile]")
+{
+  const std::string file = "catchArmFiles-broken.json: ";
+  CHECK(jsonError("\"kp\": 400", "\"kp\": 400, \"kp\": 4") == file + "field \"kp\" is given twice");
+  CHECK(jsonError("\"kp\": 400", "\"kp\": 1e999").find("number overflow parsing '1e999'") != std::string::npos);
+  CHECK(jsonError("\"kp\": 400", "\"kp\": " + repeated("[", 1000000)) == file + "is nested more than 64 deep");
+  CHECK(jsonError("\"kp\": 400", "\"kp\": \"\\u001b[31m\\u202e\"") ==
+        file + "joints[0].kp is \"\\u001b[31m\\u202e\", must be a number");
+  CHECK(jsonError("\"name\": \"q2\"", "\"name\": \"\\u001b]0;q1\\u0007\"").find('\x1b') == std::string::npos);
 }
 
 TEST_CASE("A continuous joint without a limit of velocity is refused where one is needed", "[files]")

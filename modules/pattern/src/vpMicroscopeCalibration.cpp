@@ -4,6 +4,7 @@
  */
 #include "vpCalibrationDistortion.h"
 #include "vpCalibrationInput.h"
+#include "vpPrintable.h"
 
 #include <visp3/pattern/vpMicroscopeCalibration.h>
 
@@ -87,6 +88,13 @@ vpMicroscopeCalibration vpMicroscopeCalibration::fromCamera(const vpCameraParame
   };
   positive("px", camera.get_px());
   positive("py", camera.get_py());
+  for (const auto &[field, value] :
+       {std::pair<const char *, double>{"u0", camera.get_u0()}, std::pair<const char *, double>{"v0", camera.get_v0()},
+        std::pair<const char *, double>{"kdu", camera.get_kdu()}}) {
+    if (!std::isfinite(value)) {
+      throw vpException(vpException::badValue, "%s of the camera is %g, must be finite", field, value);
+    }
+  }
   vpMicroscopeCalibration calibration;
   calibration.width = width;
   calibration.height = height;
@@ -119,20 +127,29 @@ vpMicroscopeCalibration vpMicroscopeCalibration::loadXml(const std::string &file
 {
   vpCheckCalibrationImage(width, height);
   if (!std::ifstream(file).good()) {
-    throw vpException(vpException::ioError, "%s: cannot be read", file.c_str());
+    throw vpException(vpException::ioError, vpPrintable(file) + ": cannot be read");
   }
-  vpCameraParameters camera;
   int status = 0;
-  {
+  const auto named = [&](const auto &call) {
+    try {
+      return call();
+    }
+    catch (const vpException &error) { // names neither file nor camera
+      throw vpException(error.getCode(), vpPrintable(file + ": camera " + name + ": " + error.getStringMessage()));
+    }
+  };
+  const vpCameraParameters camera = named([&] {
     const QuietStreams quiet;
+    vpCameraParameters parsed;
     vpXmlParserCamera parser;
-    status = parser.parse(camera, file, name, vpCameraParameters::perspectiveProjWithDistortion, width, height);
-  }
+    status = parser.parse(parsed, file, name, vpCameraParameters::perspectiveProjWithDistortion, width, height);
+    return parsed;
+  });
   if (status != vpXmlParserCamera::SEQUENCE_OK) {
     throw vpException(vpException::ioError, "%s: has no camera %s with distortion for images of %u x %u px",
-                      file.c_str(), name.c_str(), width, height);
+                      vpPrintable(file).c_str(), vpPrintable(name).c_str(), width, height);
   }
-  return fromCamera(camera, width, height);
+  return named([&] { return fromCamera(camera, width, height); });
 }
 
 END_VISP_NAMESPACE

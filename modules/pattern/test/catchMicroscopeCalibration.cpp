@@ -158,6 +158,21 @@ TEST_CASE("a calibration survives ViSP's camera file", "[calibration]")
                     Catch::Contains("has no camera"));
 }
 
+TEST_CASE("a camera file that holds an impossible camera is named with the camera", "[calibration]")
+{
+  for (const char *px : {"0", "-600", "nan", "inf"}) {
+    CAPTURE(px);
+    const FreeFile file;
+    std::ofstream(file.path())
+        << "<root><camera><name>microscope</name><image_width>640</image_width>"
+           "<image_height>480</image_height><model><type>perspectiveProjWithDistortion</type><px>"
+        << px << "</px><py>600</py><u0>320</u0><v0>240</v0><kud>0</kud><kdu>0</kdu></model>"
+        << "</camera></root>";
+    CHECK_THROWS_WITH(vpMicroscopeCalibration::loadXml(file.path(), "microscope", 640, 480),
+                      Catch::StartsWith(file.path() + ": camera microscope: "));
+  }
+}
+
 TEST_CASE("cameras without a scale are refused", "[calibration]")
 {
   vpCameraParameters camera(-600., 600., 1., 1.);

@@ -4,22 +4,22 @@
  */
 #include "vpTargetList.h"
 
+#include "vpJsonObject.h"
+#include "vpReading.h"
+
 #include <visp3/core/vpException.h>
 
-#include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <set>
 
 BEGIN_VISP_NAMESPACE
 
 namespace
 {
-using nlohmann::json;
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const std::string &file, const std::string &sentence)
@@ -27,36 +27,22 @@ namespace fs = std::filesystem;
   throw vpException(vpException::badValue, file + ": " + sentence);
 }
 
-json parse(const std::string &file)
+double length(vpJsonObject &entry, const char *field)
 {
-  std::ifstream stream(file);
-  if (!stream) {
-    throw vpException(vpException::ioError, file + ": cannot be read");
+  const double value = entry.number(field);
+  if (!(value > 0.)) {
+    throw entry.wrong(field, value, "a number > 0");
   }
-  try {
-    return json::parse(stream);
-  }
-  catch (const json::exception &error) {
-    fail(file, std::string("is not JSON: ") + error.what());
-  }
+  return value;
 }
 
-double length(const json &entry, const char *field, const std::string &place, const std::string &file)
+std::string text(vpJsonObject &entry, const char *field)
 {
-  const json &value = entry[field];
-  if (!value.is_number() || !(value.get<double>() > 0.)) {
-    fail(file, place + "." + field + " is " + value.dump() + ", must be a number > 0");
+  std::string value = entry.text(field);
+  if (value.empty()) {
+    throw entry.wrong(field, value, "a text");
   }
-  return value.get<double>();
-}
-
-std::string text(const json &entry, const char *field, const std::string &place, const std::string &file)
-{
-  if (!entry.contains(field) || !entry[field].is_string() || entry[field].get<std::string>().empty()) {
-    fail(file,
-         place + "." + field + " is " + (entry.contains(field) ? entry[field].dump() : "missing") + ", must be a text");
-  }
-  return entry[field].get<std::string>();
+  return value;
 }
 
 bool isPhotograph(const fs::path &path)
@@ -82,45 +68,37 @@ void requireAllListed(const std::string &folder, const std::vector<vpTargetListE
     }
   }
 }
-} // namespace
-
-std::vector<vpTargetListEntry> readTargetList(const std::string &folder)
+std::vector<vpTargetListEntry> read(const std::string &folder)
 {
   if (!fs::is_directory(folder)) {
     throw vpException(vpException::ioError, folder + ": is not a folder");
   }
   const std::string file = folder + "/targets.json";
-  const json root = parse(file);
-  if (!root.is_object() || !root.contains("targets") || !root["targets"].is_array() || root["targets"].empty()) {
-    fail(file, "must have a list \"targets\" of at least one target");
-  }
+  const nlohmann::json content = vpReadJson(file);
+  vpJsonObject top(content, file);
   std::vector<vpTargetListEntry> entries;
-  for (const json &entry : root["targets"]) {
-    const std::string place = "targets[" + std::to_string(entries.size()) + "]";
-    if (!entry.is_object()) {
-      fail(file, place + " is " + entry.dump() + ", must be an object");
+  for (vpJsonObject &entry : top.objects("targets")) {
+    vpTargetListEntry target{text(entry, "name"), folder + "/" + text(entry, "image"), length(entry, "width_m"),
+                             std::nullopt, 0.};
+    if (entry.has("height_m")) {
+      target.height = length(entry, "height_m");
     }
-    for (const auto &item : entry.items()) {
-      static const std::set<std::string> known = {"name", "image", "width_m", "height_m", "depth_m"};
-      if (known.count(item.key()) == 0) {
-        fail(file, "unknown field " + place + "." + item.key() + "; known are name, image, width_m, height_m, depth_m");
-      }
+    if (entry.has("depth_m")) {
+      target.depth = length(entry, "depth_m");
     }
-    if (!entry.contains("width_m")) {
-      fail(file, place + ".width_m is missing");
-    }
-    vpTargetListEntry target{text(entry, "name", place, file), folder + "/" + text(entry, "image", place, file),
-                             length(entry, "width_m", place, file), std::nullopt, 0.};
-    if (entry.contains("height_m")) {
-      target.height = length(entry, "height_m", place, file);
-    }
-    if (entry.contains("depth_m")) {
-      target.depth = length(entry, "depth_m", place, file);
-    }
+    entry.finish();
     entries.push_back(target);
   }
+  top.ignore("comment");
+  top.finish();
   requireAllListed(folder, entries);
   return entries;
+}
+} // namespace
+
+std::vector<vpTargetListEntry> readTargetList(const std::string &folder)
+{
+  return vpReading([&] { return read(folder); });
 }
 
 void readReference(const std::string &file, vpImage<unsigned char> &reference)

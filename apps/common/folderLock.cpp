@@ -1,0 +1,159 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "folderLock.h"
+
+#include <array>
+#include <cerrno>
+#include <fstream>
+#include <stdexcept>
+#include <system_error>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace fs = std::filesystem;
+
+namespace vpApp
+{
+namespace
+{
+constexpr const char *MARK = ".visp-direct-run";
+constexpr int PATIENCE = 100; // times that another process may remove the folder while we enter it
+
+std::runtime_error refused(const fs::path &path, int reason)
+{
+  return std::runtime_error(path.string() + ": cannot be written (" + std::generic_category().message(reason) + ")");
+}
+
+bool isRealFolder(const fs::path &path)
+{
+  std::error_code ignored;
+  return fs::symlink_status(path, ignored).type() == fs::file_type::directory;
+}
+
+bool isMarked(const fs::path &folder)
+{
+  std::error_code ignored;
+  return isRealFolder(folder) && fs::symlink_status(folder / MARK, ignored).type() == fs::file_type::regular;
+}
+
+std::string ownerOf(const fs::path &folder) // empty when it was killed before it wrote its name
+{
+  std::array<char, 256> line{};
+  std::ifstream(folder / MARK).getline(line.data(), line.size());
+  return line.data();
+}
+
+// False when the mark was removed after it was opened: its owner had ended.
+bool stillThere(int descriptor)
+{
+  struct stat status {
+  };
+  return fstat(descriptor, &status) == 0 && status.st_nlink > 0;
+}
+} // namespace
+
+FolderLock::FolderLock(const fs::path &folder, const std::string &owner) : m_folder(folder)
+{
+  try {
+    lock(owner);
+    clear();
+    writeMark(owner);
+  }
+  catch (...) {
+    if (m_mark >= 0) {
+      close(m_mark);
+    }
+    throw;
+  }
+}
+
+FolderLock::~FolderLock()
+{
+  if (m_mark >= 0) {
+    close(m_mark);
+  }
+}
+
+void FolderLock::lock(const std::string &owner)
+{
+  for (int attempt = 0; attempt < PATIENCE; ++attempt) {
+    const bool made = mkdir(m_folder.c_str(), 0777) == 0;
+    if (!made && errno != EEXIST) {
+      throw refused(m_folder.parent_path(), errno);
+    }
+    if (!made && !isLeftoverOf(owner, m_folder)) {
+      throw std::runtime_error(m_folder.string() + ": is not a leftover of " + owner +
+                               ", so it is left alone; move it away or name another folder");
+    }
+    m_mark = open((m_folder / MARK).c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+    if (m_mark < 0 && errno == ENOENT) {
+      continue;
+    }
+    if (m_mark < 0) {
+      throw refused(m_folder.parent_path(), errno);
+    }
+    if (flock(m_mark, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+      const std::string holder = ownerOf(m_folder);
+      throw std::runtime_error(m_folder.parent_path().string() + ": another run" +
+                               (holder.empty() ? "" : " of " + holder) +
+                               " is writing into it; wait for its end or name another folder");
+    }
+    if (stillThere(m_mark)) { // also on file systems without locks
+      return;
+    }
+    close(m_mark);
+    m_mark = -1;
+  }
+  throw std::runtime_error(m_folder.string() + ": is made and removed by other runs all the time");
+}
+
+void FolderLock::clear() const
+{
+  for (const fs::directory_entry &entry : fs::directory_iterator(m_folder)) {
+    if (!isMark(entry.path())) {
+      fs::remove_all(entry.path());
+    }
+  }
+}
+
+// Enough bytes to find a full disk before anything is computed.
+void FolderLock::writeMark(const std::string &owner) const
+{
+  constexpr std::size_t SIZE = 4096;
+  std::string text = owner + "\nA run that has not ended, or was killed. The next run into this folder removes it.\n";
+  text.resize(SIZE, '\n');
+  const bool written = ftruncate(m_mark, 0) == 0 && pwrite(m_mark, text.data(), SIZE, 0) == SIZE && fsync(m_mark) == 0;
+  if (!written) {
+    const int reason = errno;
+    unlink((m_folder / MARK).c_str());
+    rmdir(m_folder.c_str());
+    throw refused(m_folder.parent_path(), reason != 0 ? reason : ENOSPC);
+  }
+}
+
+void FolderLock::remove()
+{
+  std::error_code ignored;
+  for (const fs::directory_entry &entry : fs::directory_iterator(m_folder, ignored)) {
+    if (!isMark(entry.path())) {
+      fs::remove_all(entry.path(), ignored);
+    }
+  }
+  unlink((m_folder / MARK).c_str());
+  rmdir(m_folder.c_str()); // fails when the next run is in it already
+}
+
+bool FolderLock::isMark(const fs::path &file) { return file.filename() == MARK; }
+
+bool FolderLock::isLeftoverOf(const std::string &owner, const fs::path &folder)
+{
+  std::error_code ignored;
+  return isMarked(folder) ? ownerOf(folder).empty() || ownerOf(folder) == owner
+                          : isRealFolder(folder) && fs::is_empty(folder, ignored);
+}
+} // namespace vpApp

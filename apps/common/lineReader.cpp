@@ -1,0 +1,90 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "lineReader.h"
+#include "appMain.h"
+
+#include <array>
+#include <cerrno>
+#include <stdexcept>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace vpApp
+{
+LineReader::LineReader(const std::string &file) : m_name(file == "-" ? "standard input" : file)
+{
+  if (file != "-") {
+    // Without waiting for the other end of a pipe, which Ctrl-C could not end: next() waits.
+    m_descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    struct stat status {
+    };
+    if (m_descriptor < 0 || fstat(m_descriptor, &status) != 0 || S_ISDIR(status.st_mode)) {
+      throw std::runtime_error(m_name + ": cannot be read");
+    }
+  }
+}
+
+LineReader::~LineReader()
+{
+  if (m_descriptor > 0) {
+    close(m_descriptor);
+  }
+}
+
+bool LineReader::next(std::string &line)
+{
+  ++m_line;
+  for (;;) {
+    const std::size_t end = m_buffer.find('\n', m_searched);
+    if (end != std::string::npos) {
+      line.assign(m_buffer, m_start, end - m_start);
+      m_start = m_searched = end + 1;
+      return true;
+    }
+    m_buffer.erase(0, m_start);
+    m_start = 0;
+    m_searched = m_buffer.size();
+    if (m_buffer.size() > LONGEST) {
+      throw std::runtime_error(m_name + ":" + std::to_string(m_line) + ": is longer than " +
+                               std::to_string(LONGEST >> 20U) + " MB");
+    }
+    if (!readMore()) {
+      line = std::move(m_buffer);
+      m_buffer.clear();
+      m_searched = 0;
+      return !line.empty();
+    }
+  }
+}
+
+bool LineReader::readMore()
+{
+  for (;;) {
+    pollfd waited[2] = {{m_descriptor, POLLIN, 0}, {interruptDescriptor(), POLLIN, 0}};
+    const int count = poll(waited, 2, -1);
+    if (interrupted()) {
+      throw Interrupted("interrupted");
+    }
+    if (count < 0 && errno == EINTR) {
+      continue;
+    }
+    std::array<char, 1U << 16U> block;
+    const ssize_t size = read(m_descriptor, block.data(), block.size());
+    if (size > 0) {
+      m_buffer.append(block.data(), static_cast<std::size_t>(size));
+      return true;
+    }
+    if (size == 0) {
+      return false;
+    }
+    if (errno != EINTR && errno != EAGAIN) {
+      throw std::runtime_error(m_name + ": cannot be read");
+    }
+  }
+}
+} // namespace vpApp

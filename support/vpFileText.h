@@ -1,0 +1,86 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpFileText.h
+ * \brief What all readers of files have in common: their error, their bounds, and how a file is taken into memory. Not
+ * installed.
+ */
+#ifndef vpFileText_h
+#define vpFileText_h
+
+#include "vpPrintable.h"
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+//! Deepest nesting that a reader follows, in elements or brackets; recursion on deeper ones would overflow the stack.
+constexpr int vpDeepestNesting = 64;
+//! Largest text file that a reader takes, bytes. A description of a robot or a scene is a thousand times smaller.
+constexpr std::size_t vpLargestTextFile = 64U << 20U;
+//! Largest file of a mesh or an octree, bytes.
+constexpr std::size_t vpLargestDataFile = 256U << 20U;
+
+/*!
+ * \brief What is wrong with a file, as one printable sentence. Readers inside throw it; vpReading() makes it the vpException
+ * that the modules promise.
+ */
+class vpFileError : public std::runtime_error
+{
+public:
+  enum class Kind {
+    Unreadable, //!< The system does not give the file.
+    Wrong       //!< What is in it.
+  };
+  explicit vpFileError(const std::string &sentence, Kind kind = Kind::Wrong)
+    : std::runtime_error(vpPrintable(sentence)), m_kind(kind)
+  {}
+  [[nodiscard]] Kind kind() const { return m_kind; }
+
+private:
+  Kind m_kind;
+};
+
+/*!
+ * The bytes of a file, or of a pipe.
+ * \throw vpFileError when the file cannot be read or has more than \e most bytes.
+ */
+inline std::string vpReadFileText(const std::string &file, std::size_t most = vpLargestTextFile)
+{
+  std::error_code ignored;
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream || std::filesystem::is_directory(file, ignored)) {
+    throw vpFileError(file + ": cannot be read", vpFileError::Kind::Unreadable);
+  }
+  std::string text;
+  std::array<char, 1U << 16U> block;
+  while (stream.read(block.data(), block.size()) || stream.gcount() > 0) {
+    text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
+    if (text.size() > most) {
+      throw vpFileError(file + ": is larger than " + std::to_string(most >> 20U) + " MB");
+    }
+  }
+  if (stream.bad()) {
+    throw vpFileError(file + ": cannot be read", vpFileError::Kind::Unreadable);
+  }
+  return text;
+}
+
+//! "line 3, column 7" of a byte counted from 0.
+inline std::string vpLineAndColumn(const std::string &text, std::size_t byte)
+{
+  std::size_t line = 1, start = 0;
+  for (std::size_t i = 0; i < byte && i < text.size(); ++i) {
+    if (text[i] == '\n') {
+      ++line;
+      start = i + 1;
+    }
+  }
+  return "line " + std::to_string(line) + ", column " + std::to_string(byte - start + 1);
+}
+
+#endif

@@ -1,0 +1,173 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// Damaged files of every format that the modules read are refused in a sentence, or read, in a bounded time. Best under the
+// address sanitizer: scripts/sanitize.sh files
+#include "vpCatch.h"
+
+#include "fileMutator.h"
+
+#include <visp3/avoidance/vpCollisionSceneJson.h>
+#include <visp3/manipulator/vpArmJson.h>
+#include <visp3/manipulator/vpArmUrdf.h>
+#include <visp3/pattern/vpMicroscopeCalibration.h>
+
+#include <array>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+
+VISP_DIRECT_USING_NAMESPACE
+
+namespace
+{
+const std::string data = VISP_DIRECT_DATA_DIR;
+
+//! A file in the working folder; removed again.
+class File
+{
+public:
+  File(const std::string &name, const std::string &content) : m_name("catchMutatedFiles-" + name)
+  {
+    std::ofstream(m_name, std::ios::binary) << content;
+  }
+  ~File() { std::remove(m_name.c_str()); }
+  File(const File &) = delete;
+  File &operator=(const File &) = delete;
+  [[nodiscard]] const std::string &name() const { return m_name; }
+
+private:
+  std::string m_name;
+};
+
+void tell(const char *format, const MutationCount &count)
+{
+  std::cout << format << ": " << count.accepted << " damaged files accepted, " << count.refused << " refused\n";
+  CHECK(count.accepted > 0);
+  CHECK(count.refused > count.accepted / 10);
+}
+
+std::string bytesOf(float value)
+{
+  char bytes[4];
+  std::memcpy(bytes, &value, 4);
+  return {bytes, 4};
+}
+
+//! The corners of the 12 triangles of a cube.
+std::vector<std::array<float, 3>> cube()
+{
+  std::vector<std::array<float, 3>> corners;
+  for (const int corner :
+       {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5}) {
+    corners.push_back(
+        {static_cast<float>(corner & 1), static_cast<float>((corner >> 1) & 1), static_cast<float>(corner >> 2)});
+  }
+  return corners;
+}
+
+std::string binaryStl()
+{
+  const std::vector<std::array<float, 3>> corners = cube();
+  std::string bytes = std::string(80, ' ') + std::string("\x0c\0\0\0", 4);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    bytes += i % 3 == 0 ? std::string(12, '\0') : ""; // normal
+    for (const float x : corners[i]) {
+      bytes += bytesOf(x);
+    }
+    bytes += i % 3 == 2 ? std::string(2, '\0') : "";
+  }
+  return bytes;
+}
+
+std::string textStl()
+{
+  const std::vector<std::array<float, 3>> corners = cube();
+  std::string text = "solid cube\n";
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    text += i % 3 == 0 ? "facet normal 0 0 0\nouter loop\n" : "";
+    text += "vertex";
+    for (const float x : corners[i]) {
+      text += " " + std::to_string(x);
+    }
+    text += i % 3 == 2 ? "\nendloop\nendfacet\n" : "\n";
+  }
+  return text + "endsolid cube\n";
+}
+
+//! A tree of octomap with its values: some leaves below some inner nodes.
+std::string fullOctree()
+{
+  const std::string value = bytesOf(0.85F);
+  return "# Octomap OcTree file\nid OcTree\nsize 7\nres 0.05\ndata\n" + value + "\x05" + value + "\x81" + value +
+         std::string(1, '\0') + value + "\x02" + value + std::string(1, '\0') + value + "\x40" + value +
+         std::string(1, '\0');
+}
+} // namespace
+
+TEST_CASE("Damaged arms", "[files][mutated]")
+{
+  tell("arm.json", readMutated({data + "/robot/amor.json"}, ".json", mutationCount(400),
+                               [](const std::string &file) { static_cast<void>(vpLoadArmJson(file)); }));
+  vpArmUrdfOptions options;
+  options.tip = "tool";
+  tell("arm.urdf", readMutated({data + "/robot/generic-6r.urdf"}, ".urdf", mutationCount(400),
+                               [&](const std::string &file) { static_cast<void>(vpLoadArmUrdf(file, options)); }));
+}
+
+TEST_CASE("Damaged scenes", "[files][mutated]")
+{
+  const File everything("scene.json", R"({"name": "all", "comment": "x",
+    "ground": {"normal": [0, 0, 2], "offset_m": -0.1, "first_link": 4}, "allowed_link_pairs": [[1, 5]],
+    "objects": [
+      {"name": "a", "shape": "sphere", "radius_m": 0.1, "inflation_m": 0.02,
+       "velocity": {"linear_m_s": [0.1, 0, 0], "angular_rad_s": [0, 0, 1]}},
+      {"name": "b", "shape": "capsule", "radius_m": 0.1, "length_m": 0.2, "allowed_links": [0, 1]},
+      {"name": "c", "shape": "mesh", "vertices_m": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
+       "triangles": [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]},
+      {"name": "d", "shape": "octree", "cells_m": [[0, 0, 0, 0.1]]},
+      {"name": "e", "shape": "box", "size_m": [1, 2, 3], "photo": "p",
+       "pose": {"translation_m": [0, 0, 1], "rotation_deg": [0, 90, 0]}}],
+    "tasks": [{"name": "t", "start_rad": [0, 0.1], "goal_rad": [1, 1]}]})");
+  tell("scene.json",
+       readMutated({everything.name(), data + "/scene/photo-box.json", data + "/scene/s4b-shelf.json"}, ".json",
+                   mutationCount(400), [](const std::string &file) { static_cast<void>(vpLoadCollisionScene(file)); }));
+}
+
+TEST_CASE("Damaged meshes", "[files][mutated]")
+{
+  const auto load = [](const std::string &file) { static_cast<void>(vpTriangleMesh::load(file)); };
+  const File binary("binary.stl", binaryStl()), text("text.stl", textStl());
+  CHECK(vpTriangleMesh::load(binary.name()).isWatertight());
+  CHECK(vpTriangleMesh::load(text.name()).isWatertight());
+  tell("binary .stl", readMutated({binary.name()}, ".stl", mutationCount(400), load));
+  tell("text .stl", readMutated({text.name()}, ".stl", mutationCount(400), load));
+  tell(".obj", readMutated({data + "/scene/bracket.obj"}, ".obj", mutationCount(400), load));
+}
+
+TEST_CASE("Damaged octrees", "[files][mutated]")
+{
+  const auto load = [](const std::string &file) { static_cast<void>(vpOctree::load(file)); };
+  const File full("full.ot", fullOctree());
+  tell(".bt", readMutated({data + "/scene/seen.bt"}, ".bt", mutationCount(400), load));
+  tell(".ot", readMutated({full.name()}, ".ot", mutationCount(400), load));
+}
+
+TEST_CASE("Damaged camera files of ViSP", "[files][mutated]")
+{
+  const std::string name = "catchMutatedFiles-camera.xml";
+  std::remove(name.c_str());
+  vpMicroscopeCalibration calibration;
+  calibration.width = 640;
+  calibration.height = 480;
+  calibration.scaleX = calibration.scaleY = 2e5;
+  calibration.u0 = 320.;
+  calibration.v0 = 240.;
+  calibration.kappa1 = 1e-9;
+  calibration.saveXml(name, "microscope");
+  tell("camera.xml", readMutated({name}, ".xml", mutationCount(400), [](const std::string &file) {
+         static_cast<void>(vpMicroscopeCalibration::loadXml(file, "microscope", 640, 480));
+       }));
+  std::remove(name.c_str());
+}

@@ -1,0 +1,105 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// Damaged files of every format that the programs read are refused in a sentence, or read, in a bounded time.
+#include "vpCatch.h"
+
+#include "fileMutator.h"
+#include "testFolder.h"
+
+#include "appMain.h"
+#include "calibrationFile.h"
+#include "lineReader.h"
+#include "outputFolder.h"
+#include "problemLine.h"
+#include "scenario.h"
+#include "setupReader.h"
+#include "task.h"
+#include "truth.h"
+
+#include <iostream>
+
+namespace
+{
+const std::string data = VISP_DIRECT_DATA_DIR;
+
+void tell(const char *format, const MutationCount &count)
+{
+  std::cout << format << ": " << count.accepted << " damaged files accepted, " << count.refused << " refused\n";
+  CHECK(count.accepted > 0);
+  CHECK(count.refused > count.accepted / 10);
+}
+
+//! The sentence as the programs print it.
+MutationCount readMutatedAsPrinted(const std::vector<std::string> &files, const std::string &extension,
+                                   const std::function<void(const std::string &)> &read)
+{
+  return readMutated(files, extension, mutationCount(400), [&](const std::string &file) {
+    try {
+      read(file);
+    }
+    catch (const std::bad_alloc &) {
+      throw;
+    }
+    catch (const std::exception &error) {
+      throw std::runtime_error(vpApp::sentenceOf(error));
+    }
+  });
+}
+} // namespace
+
+TEST_CASE("Damaged lines of problems", "[files][mutated]")
+{
+  tell("problems.jsonl",
+       readMutatedAsPrinted({data + "/trajectory/examples.jsonl", data + "/trajectory/figure-6.3.jsonl"}, ".jsonl",
+                            [](const std::string &file) {
+                              vpApp::LineReader lines(file);
+                              std::size_t number = 0;
+                              for (std::string line; lines.next(line);) {
+                                ++number;
+                                static_cast<void>(
+                                    planTrajectory::readProblem(line, file + ":" + std::to_string(number), number));
+                              }
+                            }));
+}
+
+TEST_CASE("Damaged descriptions of products, tasks and explorations", "[files][mutated]")
+{
+  tell("pattern.json", readMutatedAsPrinted({data + "/pattern/oled.json"}, ".json", [](const std::string &file) {
+         static_cast<void>(generatePattern::readTask(file));
+       }));
+  tell("scenario.json",
+       readMutatedAsPrinted({data + "/scenario/thesis-5.4.json", data + "/scenario/inspection.json"}, ".json",
+                            [](const std::string &file) { static_cast<void>(servoCompare::readScenario(file)); }));
+  tell("explore.json", readMutatedAsPrinted({data + "/explore/camera.json", data + "/explore/wide.json"}, ".json",
+                                            [](const std::string &file) {
+                                              static_cast<void>(printExplore::readSetup(vpApp::readFile(file), file));
+                                            }));
+}
+
+TEST_CASE("Damaged calibrations and truth", "[files][mutated]")
+{
+  const TestFolder folder;
+  const std::string calibration = folder.write(
+      "calibration.json", R"({"comment": "x", "width": 640, "height": 480, "scale_x_px_per_m": 2e5, "rotation_deg": 3,
+                              "mirrored": false, "tx_m": 0.1, "kappa1_per_px2": 1e-9, "u0_px": 320, "quality": {"a": [1]}})");
+  tell("calibration.json", readMutatedAsPrinted({calibration}, ".json", [](const std::string &file) {
+         static_cast<void>(trackPattern::readCalibration(file, "microscope", 640, 480));
+       }));
+  const std::string truth = folder.write(
+      "truth.csv",
+      "frame,row,column,x,y,complete,defective\n0,0,0,10.5,11,1,0\n0,0,1,60,11.25,1,0\n1,0,0,15.5,11,1,1\n");
+  const TestFolder damaged;
+  damaged.write("motion.csv", "frame,x,y,dx,dy\n0,0,0,0,0\n1,5,0,5,0\n");
+  tell("truth.csv", readMutatedAsPrinted({truth}, ".csv", [&](const std::string &file) {
+         std::filesystem::copy_file(file, damaged.path / "truth.csv",
+                                    std::filesystem::copy_options::overwrite_existing);
+         try {
+           static_cast<void>(trackPattern::TruthFiles(damaged.path));
+         }
+         catch (const std::exception &error) {
+           throw std::runtime_error(file + " as " + error.what());
+         }
+       }));
+}
