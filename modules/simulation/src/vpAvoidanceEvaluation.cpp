@@ -7,6 +7,8 @@
 #include "vpMovingGoal.h"
 #include "vpReachPoint.h"
 
+#include <visp3/direct_core/vpQuantile.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -134,14 +136,10 @@ void evaluateStops(const vpAvoidanceRun &run, vpClearanceSearch &search, vpAvoid
   }
 }
 
-// Nearest rank; 0 of nothing.
-double percentile(const std::vector<double> &sorted, double share)
+// 0 of nothing.
+double percentileMs(const std::vector<double> &seconds, double share)
 {
-  if (sorted.empty()) {
-    return 0.;
-  }
-  const double rank = std::ceil(share * static_cast<double>(sorted.size()));
-  return sorted[static_cast<std::size_t>(std::max(1., rank)) - 1];
+  return seconds.empty() ? 0. : 1000. * vpQuantile(seconds, share);
 }
 
 void evaluateEnd(const vpAvoidanceRun &run, vpAvoidanceMetrics &m)
@@ -188,11 +186,9 @@ vpAvoidanceMetrics vpAvoidanceEvaluation::evaluate(const vpAvoidanceRun &run, co
   evaluateTool(run, m);
   evaluateJoints(run, m);
   evaluateStops(run, search, m);
-  std::vector<double> looks = run.lookTimes;
-  std::sort(looks.begin(), looks.end());
-  m.replan_ms_p50 = 1000. * percentile(looks, 0.50);
-  m.replan_ms_p95 = 1000. * percentile(looks, 0.95);
-  m.replan_ms_p99 = 1000. * percentile(looks, 0.99);
+  m.replan_ms_p50 = percentileMs(run.lookTimes, 0.50);
+  m.replan_ms_p95 = percentileMs(run.lookTimes, 0.95);
+  m.replan_ms_p99 = percentileMs(run.lookTimes, 0.99);
   evaluateEnd(run, m);
   return m;
 }
