@@ -22,9 +22,9 @@ BEGIN_VISP_NAMESPACE
 namespace
 {
 using Clock = std::chrono::steady_clock;
-constexpr double longestLag = 0.1; // s: what a clock that was held up makes up for; beyond it the arm's time lags
-constexpr double resting = 1e-4;   // rad/s or m/s
-constexpr double longestRest = 1.; // s
+constexpr double longestLag = 0.1;  // s: what a clock that was held up makes up for; beyond it the arm's time lags
+constexpr double resting = 1e-4;    // rad/s or m/s
+constexpr double longestRest = 1.;  // s
 constexpr double longestWait = 1e6; // s
 
 vpJointVector jointsOf(const vpColVector &v, int n)
