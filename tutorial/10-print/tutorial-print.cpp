@@ -72,7 +72,7 @@ int main()
     for (double t = now; t < now + 1.; t += 0.25) {
       const vpObservedMotion then = observer.at(control.feedbackAt(t)); // where it will be when the command acts
       const vpAxisState wish = reference.at(control.actsAt(t)), goal = reference.at(control.feedbackAt(t));
-      const double force = control.force({wish, goal, then.position, then.velocity, then.disturbance});
+      const double force = control.command({wish, goal, then.position, then.velocity, then.disturbance}).force;
       observer.command(t, force);
       log.push_back(stage.step(0.25, {{force, 0.}}));
     }

@@ -4,6 +4,7 @@
  */
 // Time of a cycle of the arm, with KDL's kernels beside ours. The percentiles are over single cycles, each measured by
 // itself.
+#include <visp3/direct_core/vpQuantile.h>
 #include <visp3/manipulator/vpArmDynamics.h>
 #include <visp3/manipulator/vpArmJson.h>
 #include <visp3/manipulator/vpArmKinematics.h>
@@ -16,7 +17,6 @@
 
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
 #include <chrono>
 #include <random>
 #include <vector>
@@ -76,14 +76,10 @@ vpRedundancyInput input()
   return in;
 }
 
-void percentiles(benchmark::State &state, std::vector<double> &times)
+void percentiles(benchmark::State &state, const std::vector<double> &times)
 {
-  std::sort(times.begin(), times.end());
-  const auto at = [&times](double share) {
-    return times[static_cast<std::size_t>(share * static_cast<double>(times.size() - 1))];
-  };
-  state.counters["p50_us"] = at(0.5);
-  state.counters["p99_us"] = at(0.99);
+  state.counters["p50_us"] = vpQuantile(times, 0.5);
+  state.counters["p99_us"] = vpQuantile(times, 0.99);
 }
 
 void ourKinematics(benchmark::State &state)

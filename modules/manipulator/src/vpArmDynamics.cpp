@@ -59,7 +59,28 @@ public:
       rotor(i) = model.spec().joints[static_cast<std::size_t>(i)].rotorInertia;
     }
   }
-  void set(const vpJointVector &position) { q.data = position + offset; }
+  [[nodiscard]] bool fits(const vpJointVector &numbers) const
+  {
+    return numbers.size() == n && vpIsPlausibleForArm(numbers);
+  }
+  [[nodiscard]] bool take(const vpJointVector &position)
+  {
+    if (!fits(position)) {
+      return false;
+    }
+    q.data = position + offset;
+    return true;
+  }
+  //! The solver's torque, or zero.
+  bool give(bool good, vpJointVector &to) const
+  {
+    if (!good || !torque.data.allFinite()) {
+      to.setZero(n);
+      return false;
+    }
+    to = torque.data;
+    return true;
+  }
 
   int n;
   vpJointVector offset, rotor;
@@ -88,46 +109,55 @@ vpArmDynamics::~vpArmDynamics() = default;
 vpArmDynamics::vpArmDynamics(vpArmDynamics &&) noexcept = default;
 vpArmDynamics &vpArmDynamics::operator=(vpArmDynamics &&) noexcept = default;
 
-void vpArmDynamics::inertia(const vpJointVector &q, vpJointMatrix &M)
+bool vpArmDynamics::inertia(const vpJointVector &q, vpJointMatrix &M)
 {
-  m_impl->set(q);
-  m_impl->solver.JntToMass(m_impl->q, m_impl->M);
-  M = m_impl->M.data;
-  M.diagonal() += m_impl->rotor;
+  const bool good = m_impl->take(q);
+  if (good) {
+    m_impl->solver.JntToMass(m_impl->q, m_impl->M);
+    M = m_impl->M.data;
+    M.diagonal() += m_impl->rotor;
+  }
+  if (!good || !M.allFinite()) {
+    M.setZero(m_impl->n, m_impl->n);
+    return false;
+  }
+  return true;
 }
 
-void vpArmDynamics::coriolis(const vpJointVector &q, const vpJointVector &velocity, vpJointVector &torque)
+bool vpArmDynamics::coriolis(const vpJointVector &q, const vpJointVector &velocity, vpJointVector &torque)
 {
-  m_impl->set(q);
-  m_impl->v.data = velocity;
-  m_impl->solver.JntToCoriolis(m_impl->q, m_impl->v, m_impl->torque);
-  torque = m_impl->torque.data;
+  const bool good = m_impl->take(q) && m_impl->fits(velocity);
+  if (good) {
+    m_impl->v.data = velocity;
+    m_impl->solver.JntToCoriolis(m_impl->q, m_impl->v, m_impl->torque);
+  }
+  return m_impl->give(good, torque);
 }
 
-void vpArmDynamics::gravity(const vpJointVector &q, vpJointVector &torque)
+bool vpArmDynamics::gravity(const vpJointVector &q, vpJointVector &torque)
 {
-  m_impl->set(q);
-  m_impl->solver.JntToGravity(m_impl->q, m_impl->torque);
-  torque = m_impl->torque.data;
+  const bool good = m_impl->take(q);
+  if (good) {
+    m_impl->solver.JntToGravity(m_impl->q, m_impl->torque);
+  }
+  return m_impl->give(good, torque);
 }
 
 bool vpArmDynamics::acceleration(const vpJointVector &q, const vpJointVector &velocity, const vpJointVector &torque,
                                  vpJointVector &acceleration)
 {
   vpJointMatrix M;
-  inertia(q, M);
-  vpJointVector term;
-  coriolis(q, velocity, term);
-  acceleration = torque - term;
-  gravity(q, term);
-  acceleration -= term;
-  const Eigen::LLT<vpJointMatrix> factor(M);
-  if (factor.info() != Eigen::Success) {
-    acceleration.setZero();
-    return false;
+  vpJointVector bend, weight;
+  if (inertia(q, M) && coriolis(q, velocity, bend) && gravity(q, weight) && m_impl->fits(torque)) {
+    const Eigen::LLT<vpJointMatrix> factor(M);
+    acceleration = torque - bend - weight;
+    factor.solveInPlace(acceleration);
+    if (factor.info() == Eigen::Success && acceleration.allFinite()) {
+      return true;
+    }
   }
-  factor.solveInPlace(acceleration);
-  return true;
+  acceleration.setZero(m_impl->n);
+  return false;
 }
 
 END_VISP_NAMESPACE

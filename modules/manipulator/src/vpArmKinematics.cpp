@@ -32,14 +32,28 @@ void view(const vpArmModel &model, const vpArmData &data, vpArmFrame frame, Eige
     lever = data.tool.R * model.spec().camera.p;
   }
 }
+
+// Of an unknown configuration all is NaN: no comparison takes it for something.
+void forget(vpArmData &data)
+{
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  data.q.setConstant(data.size, unknown);
+  data.tool.R.setConstant(unknown);
+  data.tool.p.setConstant(unknown);
+  data.joint.fill(data.tool);
+}
 } // namespace
 
 namespace vpArmKinematics
 {
-void forward(const vpArmModel &model, const vpJointVector &q, vpArmData &data) noexcept
+bool forward(const vpArmModel &model, const vpJointVector &q, vpArmData &data) noexcept
 {
   const int n = model.size();
   data.size = n;
+  if (q.size() != n || !vpIsPlausibleForArm(q)) {
+    forget(data);
+    return false;
+  }
   data.q = q;
   vpRigidTransform now;
   for (int i = 0; i < n; ++i) {
@@ -57,6 +71,7 @@ void forward(const vpArmModel &model, const vpJointVector &q, vpArmData &data) n
     data.joint[at(i)] = now;
   }
   data.tool = now * model.toolStep();
+  return true;
 }
 
 void jacobian(const vpArmModel &model, vpArmData &data) noexcept
@@ -73,10 +88,11 @@ void jacobian(const vpArmModel &model, vpArmData &data) noexcept
   }
 }
 
-void update(const vpArmModel &model, const vpJointVector &q, vpArmData &data) noexcept
+bool update(const vpArmModel &model, const vpJointVector &q, vpArmData &data) noexcept
 {
-  forward(model, q, data);
+  const bool good = forward(model, q, data);
   jacobian(model, data);
+  return good;
 }
 
 vpRigidTransform link(const vpArmModel &model, const vpArmData &data, int i) noexcept
@@ -179,6 +195,9 @@ vpArmJacobian timeDerivative(const vpArmModel &model, const vpArmData &data, con
                              vpArmFrame frame) noexcept
 {
   vpArmJacobian D = vpArmJacobian::Zero(6, data.size);
+  if (velocity.size() != data.size || !vpIsPlausibleForArm(velocity)) {
+    return D.setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
   for (int k = 0; k < data.size; ++k) {
     D += velocity(k) * derivative(model, data, k, frame);
   }

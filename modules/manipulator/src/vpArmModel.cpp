@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include <visp3/core/vpException.h>
+#include <visp3/direct_core/vpLimit.h>
 #include <visp3/manipulator/vpArmModel.h>
 
 #include <Eigen/Eigenvalues>
@@ -26,11 +27,24 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
   throw vpException(vpException::badValue, "%s: %s", where.c_str(), sentence.c_str());
 }
 
-std::string text(double value)
+std::string text(double value, int digits = 6)
 {
   std::ostringstream out;
+  out.precision(digits);
   out << value;
   return out.str();
+}
+
+//! As many digits as it takes to tell a number from others.
+int digitsOf(double value, std::initializer_list<double> others)
+{
+  int digits = 6;
+  for (const double other : others) {
+    while (digits < 17 && value != other && text(value, digits) == text(other, digits)) {
+      ++digits;
+    }
+  }
+  return digits;
 }
 
 void positive(const vpArmSpec &spec, const std::string &what, double value)
@@ -38,12 +52,26 @@ void positive(const vpArmSpec &spec, const std::string &what, double value)
   if (!(value > 0.)) {
     fail(spec, what + " is " + text(value) + ", must be > 0");
   }
+  if (value < 1e-12 || (value > vpArmLargest && std::isfinite(value))) { // infinite: none
+    fail(spec, what + " is " + text(value) + ", must be from 1e-12 to 1e9");
+  }
 }
 
 void notNegative(const vpArmSpec &spec, const std::string &what, double value)
 {
   if (!(value >= 0.) || !std::isfinite(value)) {
     fail(spec, what + " is " + text(value) + ", must be >= 0 and finite");
+  }
+  if (value > vpArmLargest) {
+    fail(spec, what + " is " + text(value) + ", must be at most 1e9");
+  }
+}
+
+// No arm is 10 km long, and beyond it clearances drown in rounding.
+void notTooFar(const vpArmSpec &spec, const std::string &what, double value)
+{
+  if (!(std::fabs(value) <= 1e4)) {
+    fail(spec, what + " is " + text(value) + ", must be at most 1e4 in magnitude");
   }
 }
 
@@ -53,6 +81,13 @@ void rigid(const vpArmSpec &spec, const std::string &what, const vpRigidTransfor
       (T.R * T.R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() > 1e-9 || T.R.determinant() < 0.) {
     fail(spec, what + " is not a rotation and a finite translation");
   }
+  notTooFar(spec, "translation of the " + what, T.p.cwiseAbs().maxCoeff());
+}
+
+bool isInside(const vpArmJointSpec &joint, double q)
+{
+  return joint.type == vpJointType::Continuous ? std::fabs(q) <= vpArmLargest
+                                               : vpLimit::isBetween(joint.lower, q, joint.upper);
 }
 
 void checkJoint(const vpArmSpec &spec, const vpArmJointSpec &joint, std::set<std::string> &names)
@@ -69,10 +104,15 @@ void checkJoint(const vpArmSpec &spec, const vpArmJointSpec &joint, std::set<std
   if (!std::isfinite(joint.offset)) {
     fail(spec, "offset" + of + " is " + text(joint.offset) + ", must be finite");
   }
+  notTooFar(spec, "offset" + of, joint.offset);
   if (joint.type != vpJointType::Continuous &&
       (!std::isfinite(joint.lower) || !std::isfinite(joint.upper) || !(joint.lower < joint.upper))) {
     fail(spec, "limits" + of + " are " + text(joint.lower) + " and " + text(joint.upper) +
                    ", must be finite and lower < upper");
+  }
+  if (joint.type != vpJointType::Continuous) {
+    notTooFar(spec, "lower limit" + of, joint.lower);
+    notTooFar(spec, "upper limit" + of, joint.upper);
   }
   positive(spec, "velocity limit" + of, joint.velocity);
   positive(spec, "acceleration limit" + of, joint.acceleration);
@@ -96,8 +136,9 @@ void checkHome(const vpArmSpec &spec)
   for (std::size_t i = 0; i < spec.joints.size(); ++i) {
     const vpArmJointSpec &joint = spec.joints[i];
     const double q = spec.home(static_cast<Eigen::Index>(i));
-    if (!std::isfinite(q) || (joint.type != vpJointType::Continuous && (q < joint.lower || q > joint.upper))) {
-      fail(spec, "home of joint " + joint.name + " is " + text(q) + ", must be within its limits");
+    if (!isInside(joint, q)) {
+      fail(spec, "home of joint " + joint.name + " is " + text(q, digitsOf(q, {joint.lower, joint.upper})) +
+                     ", must be within its limits");
     }
   }
 }
@@ -109,8 +150,8 @@ void checkLink(const vpArmSpec &spec, const vpArmLinkSpec &link)
   }
   const std::string of = " of link " + link.name;
   positive(spec, "mass" + of, link.mass);
-  if (!std::isfinite(link.mass) || !link.com.allFinite() || !link.inertia.allFinite()) {
-    fail(spec, "mass, centre of mass or inertia" + of + " is not finite");
+  if (!std::isfinite(link.mass) || !vpIsPlausibleForArm(link.com) || !vpIsPlausibleForArm(link.inertia)) {
+    fail(spec, "mass, centre of mass or inertia" + of + " is not finite or beyond 1e9");
   }
   const Eigen::Vector3d moments = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(link.inertia).eigenvalues();
   const double slack = 1e-9 * (1. + moments.cwiseAbs().maxCoeff());
@@ -160,6 +201,9 @@ vpArmModel::vpArmModel(const vpArmSpec &spec) : m_spec(spec), m_size(static_cast
     if (!capsule.from.allFinite() || !capsule.to.allFinite() || !std::isfinite(capsule.radius)) {
       fail(spec, "a capsule of link " + std::to_string(capsule.link) + " is not finite");
     }
+    const std::string of = " of a capsule of link " + std::to_string(capsule.link);
+    notTooFar(spec, "radius" + of, capsule.radius);
+    notTooFar(spec, "an end" + of, std::max(capsule.from.cwiseAbs().maxCoeff(), capsule.to.cwiseAbs().maxCoeff()));
   }
 
   for (vpJointVector *vector : {&m_lower, &m_upper, &m_velocity, &m_acceleration, &m_torque}) {
@@ -188,6 +232,22 @@ vpArmModel::vpArmModel(const vpArmSpec &spec) : m_spec(spec), m_size(static_cast
       m_home(i) = isContinuous(i) ? 0. : 0.5 * (m_lower(i) + m_upper(i));
     }
   }
+}
+
+std::string vpArmModel::outsideLimits(const vpJointVector &q) const
+{
+  if (q.size() != m_size) {
+    return std::to_string(q.size()) + " joints, the arm has " + std::to_string(m_size);
+  }
+  for (int i = 0; i < m_size; ++i) {
+    const vpArmJointSpec &joint = m_spec.joints[static_cast<std::size_t>(i)];
+    if (!isInside(joint, q(i))) {
+      const int digits = digitsOf(q(i), {m_lower(i), m_upper(i)});
+      return "joint " + joint.name + " at " + text(q(i), digits) + ", outside its limits " + text(m_lower(i), digits) +
+             " and " + text(m_upper(i), digits);
+    }
+  }
+  return "";
 }
 
 void vpArmModel::requireMotionLimits(const char *user) const

@@ -6,6 +6,8 @@
 #include <visp3/direct_core/vpSO3.h>
 #include <visp3/manipulator/vpClosedLoopKinematics.h>
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
 
@@ -17,9 +19,9 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 void positive(const char *field, double value)
 {
-  if (!(value > 0.) || !std::isfinite(value)) {
-    throw vpException(vpException::badValue, "%s of the closed-loop kinematics is %g, must be > 0 and finite", field,
-                      value);
+  if (!(value >= 1e-12 && value <= vpArmLargest)) {
+    throw vpException(vpException::badValue,
+                      "%s of the closed-loop kinematics is %g, must be > 0 and finite (1e-12 to 1e9)", field, value);
   }
 }
 
@@ -74,7 +76,7 @@ const char *vpClosedLoopOutput::sentence() const noexcept
   case vpClosedLoopStatus::Stalled:
     return "The motion stopped before the goal without progress.";
   case vpClosedLoopStatus::InvalidInput:
-    return "An input is not finite or of a wrong size; the arm brakes.";
+    return "An input is not finite, beyond 1e9, no rotation or of a wrong size; the arm brakes.";
   }
   return "";
 }
@@ -163,6 +165,34 @@ void vpClosedLoopKinematics::motion(const vpClosedLoopInput &input, vpClosedLoop
   state.selfMotionShare = share;
 }
 
+bool vpClosedLoopKinematics::usable(const vpClosedLoopInput &input, const vpClosedLoopState &state) const noexcept
+{
+  const int n = m_model->size();
+  const auto plausible = [](double x) { return std::fabs(x) <= vpArmLargest; };
+  bool good = state.q.size() == n && vpIsPlausibleForArm(state.q) && vpIsPlausibleForArm(state.velocity) &&
+              state.selfMotionShare >= 0. && state.selfMotionShare <= 1. && std::isfinite(state.best) &&
+              std::isfinite(state.waiting) && vpIsPlausibleForArm(input.goal.p) && vpIsPlausibleForArm(input.goal.R) &&
+              input.indexCount >= 0 && input.indexCount <= vpMaxArmIndices;
+  good = good && (input.goal.R * input.goal.R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < 1e-6 &&
+         input.goal.R.determinant() > 0.;
+  for (std::size_t i = 0; i < 6; ++i) {
+    good = good && plausible(input.twist[i]);
+  }
+  return good;
+}
+
+void vpClosedLoopKinematics::brake(vpClosedLoopState &state, vpClosedLoopOutput &output) noexcept
+{
+  m_input.previous = state.velocity;
+  m_solver.step(vpArmData(), m_input, output.solver);
+  output.error.setZero();
+  output.status = state.status = vpClosedLoopStatus::InvalidInput;
+  state.velocity = output.solver.velocity;
+  if (state.q.size() == m_model->size()) {
+    state.q += m_solver.spec().period * state.velocity;
+  }
+}
+
 void vpClosedLoopKinematics::step(const vpClosedLoopInput &input, vpClosedLoopState &state,
                                   vpClosedLoopOutput &output) noexcept
 {
@@ -171,15 +201,8 @@ void vpClosedLoopKinematics::step(const vpClosedLoopInput &input, vpClosedLoopSt
   if (state.velocity.size() != n) {
     state.velocity.setZero(n);
   }
-  if (state.q.size() != n || !state.q.allFinite() || !input.goal.p.allFinite() || !input.goal.R.allFinite() ||
-      !input.twist.isFinite() || input.indexCount < 0 || input.indexCount > vpMaxArmIndices) {
-    m_input.previous = state.velocity;
-    m_solver.step(vpArmData(), m_input, output.solver); // brakes
-    output.status = state.status = vpClosedLoopStatus::InvalidInput;
-    state.velocity = output.solver.velocity;
-    if (state.q.size() == n) {
-      state.q += dt * state.velocity;
-    }
+  if (!usable(input, state)) {
+    brake(state, output);
     return;
   }
   vpArmKinematics::update(*m_model, state.q, m_data);
@@ -200,6 +223,10 @@ void vpClosedLoopKinematics::step(const vpClosedLoopInput &input, vpClosedLoopSt
   m_input.indices = input.indices;
   m_input.previous = state.velocity;
   motion(input, state, output);
+  if (output.solver.status == vpRedundancyStatus::InvalidInput) {
+    brake(state, output);
+    return;
+  }
   state.velocity = output.solver.velocity;
   state.q += dt * state.velocity;
 

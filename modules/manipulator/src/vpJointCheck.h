@@ -2,7 +2,8 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Checks of specifications with a number a joint, for the constructors of the joint controllers.
+// Checks of specifications with a number a joint, for the constructors of the joint controllers. Numbers are bounded so that no
+// step overflows.
 #ifndef vpJointCheck_h
 #define vpJointCheck_h
 
@@ -15,10 +16,12 @@ BEGIN_VISP_NAMESPACE
 
 namespace vpJointCheck
 {
+inline bool isUsual(double value) { return value >= 1e-12 && value <= vpArmLargest; }
 inline void positive(const char *field, const char *owner, double value)
 {
-  if (!(value > 0.) || !std::isfinite(value)) {
-    throw vpException(vpException::badValue, "%s of the %s is %g, must be > 0 and finite", field, owner, value);
+  if (!isUsual(value)) {
+    throw vpException(vpException::badValue, "%s of the %s is %g, must be > 0 and finite (1e-12 to 1e9)", field, owner,
+                      value);
   }
 }
 inline void size(const char *field, const char *owner, const vpJointVector &vector, int n)
@@ -32,8 +35,9 @@ inline void notNegative(const char *field, const char *owner, const vpJointVecto
 {
   size(field, owner, vector, n);
   for (int i = 0; i < n; ++i) {
-    if (!(vector(i) >= 0.) || !std::isfinite(vector(i))) {
-      throw vpException(vpException::badValue, "%s of joint %d of the %s is %g, must be >= 0 and finite", field, i + 1,
+    if (vector(i) != 0. && !isUsual(vector(i))) {
+      throw vpException(vpException::badValue,
+                        "%s of joint %d of the %s is %g, must be >= 0 and finite (0, or 1e-12 to 1e9)", field, i + 1,
                         owner, vector(i));
     }
   }
@@ -43,9 +47,9 @@ inline void limit(const char *field, const char *owner, const vpJointVector &vec
 {
   size(field, owner, vector, n);
   for (int i = 0; i < n; ++i) {
-    if (!(vector(i) > 0.)) {
-      throw vpException(vpException::badValue, "%s of joint %d of the %s is %g, must be > 0", field, i + 1, owner,
-                        vector(i));
+    if (!(vector(i) >= 1e-12)) {
+      throw vpException(vpException::badValue, "%s of joint %d of the %s is %g, must be > 0, at least 1e-12", field,
+                        i + 1, owner, vector(i));
     }
   }
 }

@@ -22,12 +22,20 @@ vpJointFriction vpJointFriction::of(const vpArmModel &model)
   return friction;
 }
 
-void vpJointFriction::torque(const vpJointVector &velocity, vpJointVector &result) const noexcept
+bool vpJointFriction::torque(const vpJointVector &velocity, vpJointVector &result) const noexcept
 {
-  result.resize(viscous.size());
+  result.setZero(viscous.size());
+  if (velocity.size() != viscous.size() || !vpIsPlausibleForArm(velocity)) {
+    return false;
+  }
   for (int i = 0; i < viscous.size(); ++i) {
     result(i) = viscous(i) * velocity(i) + coulomb(i) * std::tanh(velocity(i) / smoothing);
   }
+  if (!result.allFinite()) {
+    result.setZero();
+    return false;
+  }
+  return true;
 }
 
 void vpJointFriction::validate(int size) const

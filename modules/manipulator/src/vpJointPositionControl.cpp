@@ -39,13 +39,13 @@ void vpJointPositionControl::step(const Input &input, Output &output) const noex
   output.valid = true;
   for (const vpJointVector *vector :
        {&input.q, &input.velocity, &input.wantedQ, &input.wantedVelocity, &input.feedforward}) {
-    output.valid = output.valid && vector->size() == n && vector->allFinite();
+    output.valid = output.valid && vector->size() == n && vpIsPlausibleForArm(*vector);
   }
   if (!output.valid) {
     return;
   }
   if (m_spec.compensateFriction) {
-    m_spec.friction.torque(input.wantedVelocity, output.torque);
+    output.valid = m_spec.friction.torque(input.wantedVelocity, output.torque);
   }
   output.torque += m_spec.kp.cwiseProduct(input.wantedQ - input.q) +
                    m_spec.kd.cwiseProduct(input.wantedVelocity - input.velocity) + input.feedforward;

@@ -40,13 +40,13 @@ void vpJointVelocityControl::step(const Input &input, Output &output) noexcept
   output.torque.setZero(n);
   output.valid = true;
   for (const vpJointVector *vector : {&input.velocity, &input.wantedVelocity, &input.feedforward}) {
-    output.valid = output.valid && vector->size() == n && vector->allFinite();
+    output.valid = output.valid && vector->size() == n && vpIsPlausibleForArm(*vector);
   }
   if (!output.valid) {
     return;
   }
   if (m_spec.compensateFriction) {
-    m_spec.friction.torque(input.wantedVelocity, output.torque);
+    output.valid = m_spec.friction.torque(input.wantedVelocity, output.torque);
   }
   for (Eigen::Index i = 0; i < n; ++i) {
     const double e = input.wantedVelocity(i) - input.velocity(i), most = m_spec.maxTorque(i);

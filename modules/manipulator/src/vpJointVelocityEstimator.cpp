@@ -26,27 +26,27 @@ vpJointVelocityEstimator::vpJointVelocityEstimator(int size, double period, doub
 
 void vpJointVelocityEstimator::reset() noexcept
 {
-  m_started = false;
+  m_started = m_measured = false;
   m_velocity.setZero();
 }
 
 const vpJointVector &vpJointVelocityEstimator::step(const vpJointVector &q, const vpJointVector &acceleration) noexcept
 {
   const Eigen::Index n = m_position.size();
-  const bool read = q.size() == n && q.allFinite();
+  m_measured = q.size() == n && vpIsPlausibleForArm(q);
   if (!m_started) {
-    if (read) {
+    if (m_measured) {
       m_position = q;
       m_started = true;
     }
     return m_velocity;
   }
-  const bool given = acceleration.size() == n && acceleration.allFinite();
+  const bool given = acceleration.size() == n && vpIsPlausibleForArm(acceleration);
   for (Eigen::Index i = 0; i < n; ++i) {
     const double a = given ? acceleration(i) : 0.;
     m_position(i) += m_period * (m_velocity(i) + 0.5 * m_period * a);
     m_velocity(i) += m_period * a;
-    if (read) {
+    if (m_measured) {
       const double e = q(i) - m_position(i);
       m_position(i) += m_alpha * e;
       m_velocity(i) += m_beta / m_period * e;

@@ -22,7 +22,9 @@ using vpTaskLevel::Rows;
 using vpTaskLevel::Square;
 using vpTaskLevel::Task;
 
-constexpr double slack = 1e-9; // rad/s: what counts as beyond a bound
+constexpr double slack = 1e-9;     // rad/s: what counts as beyond a bound
+constexpr double exactness = 1e-6; // of the wanted velocity, by which an exact answer may be off
+constexpr double least = 1e-3;     // m/s: of a slower wish it may be off by as much as of this one
 
 void check(const vpArmModel &model, bool good, const char *field, double value, const char *range)
 {
@@ -32,19 +34,29 @@ void check(const vpArmModel &model, bool good, const char *field, double value, 
   }
 }
 
+bool isPlausible(const vpTwist &twist)
+{
+  for (std::size_t i = 0; i < 6; ++i) {
+    if (!(std::fabs(twist[i]) <= vpArmLargest)) {
+      return false;
+    }
+  }
+  return true;
+}
+
 bool usable(const vpArmModel &model, const vpArmData &data, const vpRedundancyInput &input)
 {
   const int n = model.size();
-  if (data.size != n || data.J.cols() != n || input.previous.size() != n || !input.previous.allFinite() ||
-      !data.J.allFinite() || !data.q.allFinite() || !input.twist.isFinite() || input.taskCount < 0 ||
-      input.taskCount > vpMaxArmTasks || input.indexCount < 0 || input.indexCount > vpMaxArmIndices ||
-      !(input.selfMotionShare >= 0. && input.selfMotionShare <= 1.)) {
+  if (data.size != n || data.J.cols() != n || data.q.size() != n || input.previous.size() != n ||
+      !vpIsPlausibleForArm(input.previous) || !vpIsPlausibleForArm(data.J) || !vpIsPlausibleForArm(data.q) ||
+      !isPlausible(input.twist) || input.taskCount < 0 || input.taskCount > vpMaxArmTasks || input.indexCount < 0 ||
+      input.indexCount > vpMaxArmIndices || !(input.selfMotionShare >= 0. && input.selfMotionShare <= 1.)) {
     return false;
   }
   for (int t = 0; t < input.taskCount; ++t) {
     const vpArmTask &task = input.tasks[static_cast<std::size_t>(t)];
-    if (task.rows < 0 || task.rows > 6 || task.J.cols() != n || !task.velocity.head(task.rows).allFinite() ||
-        !task.J.topRows(task.rows).allFinite()) {
+    if (task.rows < 0 || task.rows > 6 || task.J.cols() != n || !vpIsPlausibleForArm(task.velocity.head(task.rows)) ||
+        !vpIsPlausibleForArm(task.J.topRows(task.rows))) {
       return false;
     }
   }
@@ -78,10 +90,10 @@ bool isStopped(const Work &work, int i) { return (work.stopped >> i & 1U) != 0U;
 void vpRedundancySpec::validate(const vpArmModel &model) const
 {
   const auto positive = [&model](const char *field, double value) {
-    check(model, value > 0. && std::isfinite(value), field, value, "> 0 and finite");
+    check(model, value >= 1e-12 && value <= vpArmLargest, field, value, "> 0 and finite (1e-12 to 1e9)");
   };
   const auto notNegative = [&model](const char *field, double value) {
-    check(model, value >= 0. && std::isfinite(value), field, value, ">= 0 and finite");
+    check(model, value >= 0. && value <= vpArmLargest, field, value, ">= 0 and finite (at most 1e9)");
   };
   positive("period", period);
   positive("taskLength", taskLength);
@@ -137,7 +149,7 @@ const char *vpRedundancyOutput::sentence() const noexcept
     return "The wanted motion is impossible in this pose: the arm is singular and the motion leads out of its "
            "workspace.";
   case vpRedundancyStatus::InvalidInput:
-    return "An input is not finite or of a wrong size; the arm brakes.";
+    return "An input is not finite, beyond 1e9 or of a wrong size; the arm brakes.";
   }
   return "";
 }
@@ -380,7 +392,14 @@ Joints selfMotion(const vpArmModel &model, const vpArmData &data, const vpRedund
   return work.bounds.together(model, direction, spec.period) * room * motion;
 }
 
-vpRedundancyStatus judge(const Work &work, bool accelerating, bool clamped, const vpRedundancyOutput &output)
+// How the answer lies to the wish.
+struct Likeness {
+  bool exact = false;  // the same
+  bool onPath = false; // the same direction
+};
+
+vpRedundancyStatus judge(const Work &work, bool accelerating, bool clamped, const Likeness &likeness,
+                         const vpRedundancyOutput &output)
 {
   const bool wanted = work.main.r.norm() > 1e-9;
   const bool little = wanted && output.taskShare < 0.01 && !accelerating;
@@ -391,21 +410,36 @@ vpRedundancyStatus judge(const Work &work, bool accelerating, bool clamped, cons
   if (little && work.info.singular && !work.escaping) {
     return vpRedundancyStatus::BlockedBySingularity;
   }
-  if ((work.stopped != 0U && output.taskShare < 1. - 1e-6) || clamped) {
+  if ((work.stopped != 0U && !likeness.exact) || clamped) {
     return vpRedundancyStatus::JointsStopped;
   }
   if (work.escaping) {
     return vpRedundancyStatus::Escaping;
   }
-  if (work.info.singular && output.taskShare < 1. - 1e-6 && output.scale == 1. && !accelerating) {
-    return vpRedundancyStatus::Damped;
-  }
-  if (output.scale < 1.) {
+  if (output.scale < 1. && likeness.onPath) {
     return vpRedundancyStatus::Scaled;
   }
-  return accelerating ? vpRedundancyStatus::Accelerating : vpRedundancyStatus::Exact;
+  if (work.info.singular && !likeness.exact && !accelerating) {
+    return vpRedundancyStatus::Damped;
+  }
+  return likeness.exact && !accelerating ? vpRedundancyStatus::Exact : vpRedundancyStatus::Accelerating;
 }
 } // namespace
+
+// Without looking at what may be broken.
+void vpRedundancySolver::brake(const vpRedundancyInput &input, vpRedundancyOutput &output) const noexcept
+{
+  const int n = m_model->size();
+  output.selfMotion.setZero(n);
+  output.velocity.setZero(n);
+  for (int i = 0; i < n && input.previous.size() == n; ++i) {
+    const double v = input.previous(i), step = m_spec.period * m_model->acceleration()(i);
+    const double speed = std::min(std::fabs(v), m_model->velocity()(i));
+    output.velocity(i) = std::fabs(v) <= vpArmLargest ? std::copysign(std::max(0., speed - step), v) : 0.;
+  }
+  output.scale = 1.;
+  output.status = vpRedundancyStatus::InvalidInput;
+}
 
 void vpRedundancySolver::step(const vpArmData &data, const vpRedundancyInput &input,
                               vpRedundancyOutput &output) const noexcept
@@ -418,14 +452,7 @@ void vpRedundancySolver::step(const vpArmData &data, const vpRedundancyInput &in
   output.scale = 1.;
   output.smallestSingular = 0.;
   if (!usable(model, data, input)) {
-    // Brake, without looking at what may be broken.
-    output.velocity.setZero(n);
-    for (int i = 0; i < n && input.previous.size() == n; ++i) {
-      const double v = input.previous(i), step = m_spec.period * model.acceleration()(i);
-      output.velocity(i) =
-          std::isfinite(v) ? std::copysign(std::max(0., std::min(std::fabs(v), model.velocity()(i)) - step), v) : 0.;
-    }
-    output.status = vpRedundancyStatus::InvalidInput;
+    brake(input, output);
     return;
   }
 
@@ -443,6 +470,10 @@ void vpRedundancySolver::step(const vpArmData &data, const vpRedundancyInput &in
     toVector(self, n, output.selfMotion);
     motion += self;
   }
+  if (!motion.allFinite()) { // what the tasks ask for has no answer in numbers
+    brake(input, output);
+    return;
+  }
 
   // One factor on the change of velocity for all joints, so that a start from rest keeps its direction.
   double blend = 1.;
@@ -458,19 +489,24 @@ void vpRedundancySolver::step(const vpArmData &data, const vpRedundancyInput &in
     clamped = clamped || std::fabs(output.velocity(i) - wanted) > 1e-6;
   }
 
-  double done = 0.;
+  double done = 0., missed = 0.;
   for (int i = 0; i < work.main.rows; ++i) {
     double rate = 0.;
     for (int k = 0; k < n; ++k) {
       rate += work.main.B(k, i) / m_scale(k) * output.velocity(k);
     }
     done += rate * work.main.r(i);
+    missed += (rate - work.main.r(i)) * (rate - work.main.r(i));
   }
   const double wanted = work.main.r.squaredNorm();
   output.taskShare = wanted > 1e-18 ? std::min(1., std::max(0., done / wanted)) : 1.;
   output.smallestSingular = work.info.smallest;
   output.stoppedJoints = work.stopped;
-  output.status = judge(work, blend < 1., clamped, output);
+  const double tolerance = exactness * (std::sqrt(wanted) + least);
+  const double along =
+      wanted > 0. ? (wanted - done) * (wanted - done) / wanted : 0.; // part of it in the wish's direction
+  const Likeness likeness{std::sqrt(missed) <= tolerance, std::sqrt(std::max(0., missed - along)) <= tolerance};
+  output.status = judge(work, blend < 1., clamped, likeness, output);
 }
 
 END_VISP_NAMESPACE

@@ -25,35 +25,39 @@ bool pointwise(vpIndexKind kind)
   return kind == vpIndexKind::PointDistance || kind == vpIndexKind::LineDistance || kind == vpIndexKind::PlaneDistance;
 }
 
+bool isUsual(double value) { return value >= 1e-9 && value <= vpArmLargest; }
+
 // An empty text when all is well; for the loop and for validate().
 const char *complaint(const vpArmModel &model, const vpSelfMotionIndex &index)
 {
-  if (!(index.gain >= 0.) || !std::isfinite(index.gain)) {
-    return "gain must be >= 0 and finite";
+  if (!(index.gain >= 0.) || index.gain > vpArmLargest) {
+    return "gain must be >= 0 and finite, at most 1e9";
   }
   if (pointwise(index.kind)) {
     if (index.joint < 0 || index.joint >= model.size()) {
       return "joint must be 0 to n - 1";
     }
-    if (!(index.range > 0.) || !std::isfinite(index.range)) {
-      return "range must be > 0 and finite";
+    if (!isUsual(index.range)) {
+      return "range must be > 0 and finite, from 1e-9 to 1e9";
     }
-    if (!index.point.allFinite()) {
-      return "point must be finite";
+    if (!vpIsPlausibleForArm(index.point)) {
+      return "point must be finite, at most 1e9";
     }
     if (index.kind == vpIndexKind::PlaneDistance && !(std::fabs(index.normal.norm() - 1.) < 1e-6)) {
       return "normal must have length 1";
     }
   }
-  if (index.kind == vpIndexKind::Posture && (index.reference.size() != model.size() || !index.reference.allFinite())) {
-    return "reference must have a finite number for each joint";
+  if (index.kind == vpIndexKind::Posture &&
+      (index.reference.size() != model.size() || !vpIsPlausibleForArm(index.reference))) {
+    return "reference must have a finite number for each joint, at most 1e9";
   }
   if (index.kind == vpIndexKind::Manipulability) {
-    if (!(index.taskLength > 0.) || !std::isfinite(index.taskLength)) {
-      return "taskLength must be > 0 and finite";
+    if (!isUsual(index.taskLength)) {
+      return "taskLength must be > 0 and finite, from 1e-9 to 1e9";
     }
-    if (index.weights.size() != 0 && (index.weights.size() != model.size() || !(index.weights.minCoeff() > 0.))) {
-      return "weights must have a number > 0 for each joint";
+    if (index.weights.size() != 0 &&
+        (index.weights.size() != model.size() || !std::all_of(index.weights.begin(), index.weights.end(), isUsual))) {
+      return "weights must have a number > 0 for each joint, from 1e-9 to 1e9";
     }
   }
   return "";
@@ -288,14 +292,10 @@ void vpSelfMotionIndex::validate(const vpArmModel &model) const
   }
 }
 
-bool vpEvaluateIndex(const vpArmModel &model, const vpArmData &data, const vpSelfMotionIndex &index,
-                     vpIndexValue &result) noexcept
+namespace
 {
-  result.value = result.distance = 0.;
-  result.gradient.setZero(model.size());
-  if (*complaint(model, index) != '\0') {
-    return false;
-  }
+bool evaluate(const vpArmModel &model, const vpArmData &data, const vpSelfMotionIndex &index, vpIndexValue &result)
+{
   switch (index.kind) {
   case vpIndexKind::Manipulability:
     return manipulability(model, data, index, result);
@@ -306,6 +306,28 @@ bool vpEvaluateIndex(const vpArmModel &model, const vpArmData &data, const vpSel
   default:
     return distance(model, data, index, result);
   }
+}
+
+void clear(const vpArmModel &model, vpIndexValue &result)
+{
+  result.value = result.distance = 0.;
+  result.gradient.setZero(model.size());
+}
+} // namespace
+
+bool vpEvaluateIndex(const vpArmModel &model, const vpArmData &data, const vpSelfMotionIndex &index,
+                     vpIndexValue &result) noexcept
+{
+  clear(model, result);
+  if (data.size != model.size() || data.J.cols() != data.size || *complaint(model, index) != '\0') {
+    return false;
+  }
+  const bool climbs = evaluate(model, data, index, result);
+  if (!std::isfinite(result.value) || !std::isfinite(result.distance) || !result.gradient.allFinite()) {
+    clear(model, result);
+    return false;
+  }
+  return climbs;
 }
 
 END_VISP_NAMESPACE

@@ -163,3 +163,27 @@ TEST_CASE("Joint control says what is wrong and does not allocate", "[control]")
   static_cast<void>(estimator.step(in.q));
   CHECK(estimator.velocity().allFinite());
 }
+
+TEST_CASE("Torques are bounded, and at the bound the integral does not press on", "[control]")
+{
+  auto rng = vpTestSupport::generator(82);
+  CAPTURE(vpTestSupport::seed());
+  int saturated = 0;
+  for (int problem = 0; problem < 200; ++problem) {
+    vpJointVelocityControlSpec spec;
+    spec.kp = spec.ki = vpJointVector::Constant(1, uniform(rng, 0., 50.));
+    spec.maxTorque = vpJointVector::Constant(1, uniform(rng, 0.1, 10.));
+    vpJointVelocityControl control(spec);
+    vpJointVelocityControl::Output out;
+    for (int k = 0; k < 200; ++k) {
+      const double before = control.integral()(0);
+      control.step({randomVector(1, rng), randomVector(1, rng), randomVector(1, rng)}, out);
+      REQUIRE(std::fabs(out.torque(0)) <= spec.maxTorque(0));
+      if (out.saturated != 0U) {
+        ++saturated;
+        REQUIRE((control.integral()(0) - before) * out.torque(0) <= 0.);
+      }
+    }
+  }
+  CHECK(saturated > 1000);
+}

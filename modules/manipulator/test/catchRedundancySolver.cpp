@@ -505,7 +505,7 @@ TEST_CASE("The step takes nonsense and does not allocate", "[solver]")
   broken.indexCount = 100;
   solver.step(data, broken, out);
   CHECK(out.status == vpRedundancyStatus::InvalidInput);
-  CHECK(std::string(out.sentence()) == "An input is not finite or of a wrong size; the arm brakes.");
+  CHECK(std::string(out.sentence()) == "An input is not finite, beyond 1e9 or of a wrong size; the arm brakes.");
 
   const auto says = [](const vpRedundancySpec &spec, const char *sentence) {
     CHECK_THROWS_WITH(vpRedundancySolver(amor(), spec), Catch::Contains(sentence));

@@ -166,7 +166,7 @@ TEST_CASE("An index without a gradient says so", "[index]")
   const auto says = [](const vpSelfMotionIndex &index, const char *sentence) {
     CHECK_THROWS_WITH(index.validate(amor()), Catch::Contains(sentence));
   };
-  says(vpSelfMotionIndex::manipulability(-1.), "gain must be >= 0 and finite (gain -1");
+  says(vpSelfMotionIndex::manipulability(-1.), "gain must be >= 0 and finite, at most 1e9 (gain -1");
   says(vpSelfMotionIndex::pointDistance(7, {}, vpIndexSense::Repel), "joint must be 0 to n - 1");
   says(vpSelfMotionIndex::pointDistance(3, Eigen::Vector3d::Zero(), vpIndexSense::Repel, 1., 0.), "range must be > 0");
   says(vpSelfMotionIndex::planeDistance(3, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), vpIndexSense::Repel),

@@ -131,7 +131,7 @@ void previewControl(benchmark::State &state)
   const vpPreviewControl control;
   const vpPreviewControl::Input input{{{0., 4., 0.1, 0.1}}, {{0., 4., 0.1, 0.1}}, 0., 3.9, 0.01};
   for (auto _ : state) {
-    benchmark::DoNotOptimize(control.force(input));
+    benchmark::DoNotOptimize(control.command(input).force);
   }
 }
 BENCHMARK(previewControl);

@@ -54,14 +54,16 @@ vpAlphaBetaFilter::vpAlphaBetaFilter(const vpAlphaBetaGains &gains, double perio
 
 const vpAlphaBetaFilter::State &vpAlphaBetaFilter::step(double z, double u) noexcept
 {
-  if (!std::isfinite(z)) {
+  if (!vpIsPlausible(z)) {
     return skip(u);
   }
   if (!m_state.started) {
     reset(z, 0.);
+    m_state.measured = true;
     return m_state;
   }
   skip(u);
+  m_state.measured = true;
   m_state.residual = z - m_state.value;
   m_state.value += m_gains.alpha * m_state.residual;
   m_state.rate += m_gains.beta * m_state.residual / m_period;
@@ -71,19 +73,28 @@ const vpAlphaBetaFilter::State &vpAlphaBetaFilter::step(double z, double u) noex
 const vpAlphaBetaFilter::State &vpAlphaBetaFilter::skip(double u) noexcept
 {
   if (m_state.started) {
-    const double known = std::isfinite(u) ? u : 0.;
+    const double known = vpIsPlausible(u) ? u : 0.;
     m_state.value += m_period * (m_state.rate + 0.5 * m_period * known);
     m_state.rate += m_period * known;
   }
   m_state.residual = 0.;
+  m_state.measured = false;
   return m_state;
+}
+
+double vpAlphaBetaFilter::predict(double dt) const noexcept
+{
+  return vpIsPlausible(dt) ? m_state.value + dt * m_state.rate : m_state.value;
 }
 
 void vpAlphaBetaFilter::reset(double value, double rate) noexcept
 {
+  if (!vpIsPlausible(value) || !vpIsPlausible(rate)) {
+    return;
+  }
+  m_state = State();
   m_state.value = value;
   m_state.rate = rate;
-  m_state.residual = 0.;
   m_state.started = true;
 }
 

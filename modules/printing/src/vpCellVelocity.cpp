@@ -4,6 +4,8 @@
  */
 #include <visp3/printing/vpCellVelocity.h>
 
+#include "vpUsableCell.h"
+
 #include <cmath>
 
 BEGIN_VISP_NAMESPACE
@@ -19,22 +21,20 @@ struct Mean {
     weight += 1. / variance;
   }
 };
-
-bool usable(double sigma) { return sigma > 0. && std::isfinite(sigma); }
 } // namespace
 
 vpCellVelocity vpFindCellVelocity(const vpPatternCell *before, std::size_t beforeCount, const vpPatternCell *now,
                                   std::size_t nowCount, double frames) noexcept
 {
   vpCellVelocity result;
-  if (!(frames > 0.) || !std::isfinite(frames)) {
+  if (!vpIsPlausibleDeviation(frames)) { // of the same range
     return result;
   }
   Mean x, y;
   std::size_t hint = 0; // where the search begins: after the last match
   for (std::size_t i = 0; i < nowCount; ++i) {
     const vpPatternCell &b = now[i];
-    if (!b.valid || !usable(b.sigmaX) || !usable(b.sigmaY)) {
+    if (!vpIsUsableCell(b)) {
       continue;
     }
     for (std::size_t k = 0; k < beforeCount; ++k) {
@@ -42,7 +42,7 @@ vpCellVelocity vpFindCellVelocity(const vpPatternCell *before, std::size_t befor
       const vpPatternCell &a = before[index];
       if (a.row == b.row && a.column == b.column) {
         hint = index + 1;
-        if (a.valid && usable(a.sigmaX) && usable(a.sigmaY)) {
+        if (vpIsUsableCell(a)) {
           x.add(b.x - a.x, a.sigmaX * a.sigmaX + b.sigmaX * b.sigmaX);
           y.add(b.y - a.y, a.sigmaY * a.sigmaY + b.sigmaY * b.sigmaY);
           ++result.cells;

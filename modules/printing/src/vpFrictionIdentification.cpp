@@ -2,6 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
+#include <visp3/direct_core/vpQuantile.h>
 #include <visp3/printing/vpFrictionIdentification.h>
 
 #include "vpPrintingCheck.h"
@@ -26,13 +27,8 @@ struct Fit {
 // Median of absolute values times 1.4826: the standard deviation, if half of them are good.
 double robustSigma(const Eigen::VectorXd &r)
 {
-  std::vector<double> a(static_cast<std::size_t>(r.size()));
-  for (Eigen::Index i = 0; i < r.size(); ++i) {
-    a[static_cast<std::size_t>(i)] = std::fabs(r[i]);
-  }
-  const auto middle = a.begin() + static_cast<std::ptrdiff_t>(a.size() / 2);
-  std::nth_element(a.begin(), middle, a.end());
-  return 1.4826 * *middle;
+  const Eigen::VectorXd a = r.cwiseAbs();
+  return 1.4826 * vpMedian({a.data(), a.data() + a.size()});
 }
 
 double conditionOf(const Eigen::MatrixXd &A)
@@ -176,7 +172,7 @@ const char *vpFrictionIdentification::message() const
   case vpFrictionStatus::NoStribeck:
     return "NoStribeck: the slow samples show no Stribeck term; stiction is set to Coulomb friction.";
   default:
-    return "NotFinite: a sample is not finite.";
+    return "NotFinite: a sample is not finite or beyond 1e12.";
   }
 }
 
@@ -188,7 +184,7 @@ vpFrictionIdentification vpIdentifyFriction(const std::vector<vpFrictionSample> 
   std::vector<vpFrictionSample> used;
   double slowest = std::numeric_limits<double>::infinity(), fastest = 0.;
   for (const vpFrictionSample &s : log) {
-    if (!std::isfinite(s.force) || !std::isfinite(s.velocity) || !std::isfinite(s.acceleration)) {
+    if (!vpIsPlausible(s.force) || !vpIsPlausible(s.velocity) || !vpIsPlausible(s.acceleration)) {
       result.status = vpFrictionStatus::NotFinite;
       return result;
     }
@@ -248,6 +244,14 @@ vpFrictionIdentification vpIdentifyFriction(const std::vector<vpFrictionSample> 
     result.sigmaStiction = std::sqrt(fit.covariance(2, 2) + fit.covariance(3, 3) + 2. * fit.covariance(2, 3));
   }
   result.noise = fit.sigma;
+  for (const double x :
+       {result.model.mass, result.model.viscous, result.model.coulomb, result.model.stiction, result.sigmaMass,
+        result.sigmaViscous, result.sigmaCoulomb, result.sigmaStiction, result.noise}) {
+    if (!std::isfinite(x)) {
+      result.status = vpFrictionStatus::NotExcited;
+      return result;
+    }
+  }
   result.outliers = static_cast<int>((fit.weights.array() == 0.).count());
   return result;
 }

@@ -30,10 +30,25 @@ vpAxisState vpEvaluatePieces(const vpTrajectorySegment *pieces, int count, doubl
   return x;
 }
 
-vpAxisState vpMotionForecast::at(double t) const noexcept
+bool vpMotionForecast::isPlausible() const noexcept
 {
-  const double dt = t - time;
-  if (pieces <= 0) {
+  if (!vpIsPlausible(time) || !vpIsPlausible(position) || !vpIsPlausible(velocity) || !vpIsPlausible(acceleration) ||
+      !(accelerationTime >= 0.) || !vpIsPlausible(accelerationTime) || !vpIsPlausibleDeviation(errorTime) ||
+      pieces < 0 || pieces > maxPieces) {
+    return false;
+  }
+  return std::all_of(plan.begin(), plan.begin() + pieces, [](const vpTrajectorySegment &piece) {
+    const double *c = piece.p.data();
+    return vpIsPlausible(piece.begin) && vpIsPlausibleDeviation(piece.duration) &&
+           std::all_of(c, c + piece.p.degree() + 1, vpIsPlausible);
+  });
+}
+
+vpAxisState vpMotionForecast::at(double asked) const noexcept
+{
+  const double dt = std::isnan(asked) ? 0. : std::clamp(asked - time, -longest, longest);
+  const double t = time + dt;
+  if (pieces <= 0 || pieces > maxPieces) {
     const double accelerated = std::clamp(dt, 0., accelerationTime);
     const double gained = acceleration * accelerated;
     const bool still = dt >= 0. && dt < accelerationTime;

@@ -14,8 +14,15 @@ using namespace vpPrintingCheck;
 
 namespace
 {
-enum Index { Place, Velocity, Acceleration, MarkPlace, Offset, Scale };
-constexpr int patience = 3; // so many readings beyond the gate in a row are no outliers
+enum Index { Place, Velocity, Acceleration, Moved, Offset, Scale };
+constexpr int patience = 3;           // so many readings beyond the gate in a row are no outliers
+constexpr double largestState = 1e30; // beyond it a belief is lost: its squares would soon overflow
+// Each element of a covariance is off by a few roundings of what it was made from. As much noise on the diagonal keeps it
+// positive, whatever lies between the deviations of the state and of the readings.
+constexpr double rounding = 1e-14;
+
+// Rounding can leave a variance that is nothing a little below it.
+double deviation(double variance) { return std::sqrt(std::max(0., variance)); }
 } // namespace
 
 void vpMotionKalmanSpec::validate() const
@@ -25,11 +32,12 @@ void vpMotionKalmanSpec::validate() const
   positive("sigmaPosition", owner, sigmaPosition);
   positive("sigmaVelocity", owner, sigmaVelocity);
   positive("sigmaAcceleration", owner, sigmaAcceleration);
-  require(gate > 0., "gate", owner, gate, "> 0");
+  bound("gate", owner, gate);
   notNegative("maxDelay", owner, maxDelay);
   notNegative("encoderScaleSigma", owner, encoderScaleSigma);
   notNegative("encoderOffsetSigma", owner, encoderOffsetSigma);
   notNegative("encoderSlip", owner, encoderSlip);
+  positive("maxGap", owner, maxGap);
 }
 
 vpMotionKalmanFilter::vpMotionKalmanFilter(const vpMotionKalmanSpec &spec) : m_spec(spec)
@@ -40,7 +48,7 @@ vpMotionKalmanFilter::vpMotionKalmanFilter(const vpMotionKalmanSpec &spec) : m_s
 
 void vpMotionKalmanFilter::reset(double time, double position, double velocity) noexcept
 {
-  if (!std::isfinite(time) || !std::isfinite(position) || !std::isfinite(velocity)) {
+  if (!vpIsPlausible(time) || !vpIsPlausible(position) || !vpIsPlausible(velocity)) {
     return;
   }
   m_settled = Belief();
@@ -59,7 +67,7 @@ void vpMotionKalmanFilter::reset(double time, double position, double velocity) 
   m_outliers = 0;
 }
 
-// White acceleration or jerk, integrated exactly.
+// White acceleration or jerk, integrated exactly. What has been moved since the mark goes with the place.
 void vpMotionKalmanFilter::predict(Belief &b, double time) const noexcept
 {
   const double t = time - b.time;
@@ -68,75 +76,112 @@ void vpMotionKalmanFilter::predict(Belief &b, double time) const noexcept
   }
   const bool accelerated = m_spec.model == vpMotionModel::ConstantAcceleration;
   Matrix F = Matrix::Identity();
-  F(Place, Velocity) = t;
-  if (accelerated) {
-    F(Place, Acceleration) = 0.5 * t * t;
-    F(Velocity, Acceleration) = t;
-  }
-  b.x = (F * b.x).eval();
-  b.P = (F * b.P * F.transpose()).eval();
+  Matrix Q = Matrix::Zero();
   const double q = m_spec.processNoise;
   const double t2 = t * t, t3 = t2 * t;
+  for (const Index i : {Place, Moved}) {
+    F(i, Velocity) = t;
+    F(i, Acceleration) = accelerated ? 0.5 * t2 : 0.;
+    Q(i, Velocity) = Q(Velocity, i) = accelerated ? q * t2 * t2 / 8. : q * t2 / 2.;
+    Q(i, Acceleration) = Q(Acceleration, i) = accelerated ? q * t3 / 6. : 0.;
+    for (const Index j : {Place, Moved}) {
+      Q(i, j) = accelerated ? q * t2 * t3 / 20. : q * t3 / 3.;
+    }
+  }
+  Q(Velocity, Velocity) = accelerated ? q * t3 / 3. : q * t;
   if (accelerated) {
-    b.P(Place, Place) += q * t2 * t3 / 20.;
-    b.P(Place, Velocity) += q * t2 * t2 / 8.;
-    b.P(Velocity, Place) += q * t2 * t2 / 8.;
-    b.P(Place, Acceleration) += q * t3 / 6.;
-    b.P(Acceleration, Place) += q * t3 / 6.;
-    b.P(Velocity, Velocity) += q * t3 / 3.;
-    b.P(Velocity, Acceleration) += q * t2 / 2.;
-    b.P(Acceleration, Velocity) += q * t2 / 2.;
-    b.P(Acceleration, Acceleration) += q * t;
+    F(Velocity, Acceleration) = t;
+    Q(Velocity, Acceleration) = Q(Acceleration, Velocity) = q * t2 / 2.;
+    Q(Acceleration, Acceleration) = q * t;
   }
-  else {
-    b.P(Place, Place) += q * t3 / 3.;
-    b.P(Place, Velocity) += q * t2 / 2.;
-    b.P(Velocity, Place) += q * t2 / 2.;
-    b.P(Velocity, Velocity) += q * t;
+  Q(Offset, Offset) = m_spec.encoderSlip * t;
+  Q.diagonal() += rounding * (F.cwiseAbs2() * b.P.diagonal());
+  b.x = (F * b.x).eval();
+  b.P = (F * b.P * F.transpose() + Q).eval();
+  if (!b.marked) {
+    clearMoved(b);
   }
-  b.P(Offset, Offset) += m_spec.encoderSlip * t;
   b.time = time;
 }
 
-// The position is copied, with all its correlations.
+void vpMotionKalmanFilter::clearMoved(Belief &b) noexcept
+{
+  b.x[Moved] = 0.;
+  b.P.row(Moved).setZero();
+  b.P.col(Moved).setZero();
+}
+
 void vpMotionKalmanFilter::mark(Belief &b) noexcept
 {
-  b.x[MarkPlace] = b.x[Place];
-  b.P.row(MarkPlace) = b.P.row(Place).eval();
-  b.P.col(MarkPlace) = b.P.col(Place).eval();
+  clearMoved(b);
   b.marked = true;
 }
 
+// Finite, and a covariance as far as pairs of states tell.
+bool vpMotionKalmanFilter::isSound(const Belief &b) noexcept
+{
+  if (!(b.x.array().abs() <= largestState).all() || !(b.P.array().abs() <= largestState * largestState).all()) {
+    return false;
+  }
+  for (int i = 0; i < states; ++i) {
+    for (int j = 0; j <= i; ++j) {
+      if (!(b.P(i, j) * b.P(i, j) <= (1. + 1e-6) * b.P(i, i) * b.P(j, j)) || !(b.P(i, i) >= 0.)) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+// When rounding spoils the covariance, again without correlations: n diag(P) is never less than P. A reading after which the
+// belief would be lost even so is not used.
 vpMotionReadingResult vpMotionKalmanFilter::correct(Belief &b, const vpMotionReading &reading) const noexcept
+{
+  const Belief before = b;
+  for (const bool correlated : {true, false}) {
+    if (!correlated) {
+      b = before;
+      b.P = (states * before.P.diagonal().cwiseMax(0.)).asDiagonal();
+    }
+    const vpMotionReadingResult result = resultOf(b, reading);
+    if (result != vpMotionReadingResult::Invalid && isSound(b)) {
+      return result;
+    }
+  }
+  b = before;
+  return vpMotionReadingResult::Invalid;
+}
+
+vpMotionReadingResult vpMotionKalmanFilter::resultOf(Belief &b, const vpMotionReading &reading) const noexcept
 {
   predict(b, reading.time);
   if (reading.kind == vpMotionReadingKind::Mark) {
     mark(b);
     return vpMotionReadingResult::Used;
   }
-  Vector H = Vector::Zero(); // a row
-  double expected = 0.;
+  Vector H = Vector::Zero();       // a row
+  double expected = 0., bent = 0.; // variance by the curvature of what is measured
   switch (reading.kind) {
   case vpMotionReadingKind::Displacement:
     if (!b.marked) {
       mark(b);
       return vpMotionReadingResult::NoMark;
     }
-    H[Place] = 1.;
-    H[MarkPlace] = -1.;
-    expected = b.x[Place] - b.x[MarkPlace];
+    H[Moved] = 1.;
+    expected = b.x[Moved];
     break;
-  case vpMotionReadingKind::Encoder: // the product of scale and position is linearised
+  case vpMotionReadingKind::Encoder: // the product of scale and position: mean and variance to second order
     H[Place] = 1. + b.x[Scale];
     H[Offset] = 1.;
     H[Scale] = b.x[Place];
-    expected = b.x[Place] * (1. + b.x[Scale]) + b.x[Offset];
+    expected = b.x[Place] * (1. + b.x[Scale]) + b.P(Place, Scale) + b.x[Offset];
+    bent = b.P(Place, Place) * b.P(Scale, Scale) + b.P(Place, Scale) * b.P(Place, Scale);
     break;
   default:
     H[Place] = 1.;
     expected = b.x[Place];
   }
-  const double variance = reading.sigma * reading.sigma;
+  const double variance = reading.sigma * reading.sigma + std::max(0., bent);
   const double innovation = reading.value - expected;
   Vector PH = b.P * H;
   double S = H.dot(PH) + variance;
@@ -154,13 +199,18 @@ vpMotionReadingResult vpMotionKalmanFilter::correct(Belief &b, const vpMotionRea
     PH = b.P * H;
     S = H.dot(PH) + variance;
   }
+  if (!(S > 0.)) {
+    return vpMotionReadingResult::Invalid;
+  }
   vpMotionReadingResult result = vpMotionReadingResult::Outlier;
   if (innovation * innovation <= m_spec.gate * m_spec.gate * S) {
     const Vector K = PH / S;
     b.x += K * innovation;
     // Joseph's form stays positive definite.
     const Matrix rest = Matrix::Identity() - K * H.transpose();
+    const Vector lost = rounding * b.P.diagonal();
     b.P = (rest * b.P * rest.transpose() + variance * K * K.transpose()).eval();
+    b.P.diagonal() += lost;
     result = vpMotionReadingResult::Used;
   }
   if (reading.kind == vpMotionReadingKind::Displacement) {
@@ -178,37 +228,48 @@ void vpMotionKalmanFilter::settleOldest() noexcept
 
 vpMotionReadingResult vpMotionKalmanFilter::add(const vpMotionReading &reading) noexcept
 {
-  if (!std::isfinite(reading.time) || !std::isfinite(reading.value) || !std::isfinite(reading.sigma) ||
-      !(reading.sigma > 0.)) {
+  if (!vpIsPlausible(reading.time) || !vpIsPlausible(reading.value) || !vpIsPlausibleDeviation(reading.sigma)) {
     return vpMotionReadingResult::Invalid;
   }
-  if (reading.time < m_settled.time || reading.time < m_newest.time - m_spec.maxDelay) {
+  const bool full = m_count == capacity;
+  if (reading.time < m_settled.time || reading.time < m_newest.time - m_spec.maxDelay ||
+      (full && reading.time < m_pending[0].time)) {
     return vpMotionReadingResult::TooLate;
   }
-  if (m_count == capacity) {
-    if (reading.time < m_pending[0].time) {
-      return vpMotionReadingResult::TooLate;
-    }
-    settleOldest();
+  if (reading.time > m_newest.time + m_spec.maxGap) {
+    return vpMotionReadingResult::ImplausibleTime;
   }
   int place = m_count; // behind all that are not later
   while (place > 0 && m_pending[static_cast<std::size_t>(place - 1)].time > reading.time) {
-    m_pending[static_cast<std::size_t>(place)] = m_pending[static_cast<std::size_t>(place - 1)];
     --place;
   }
-  m_pending[static_cast<std::size_t>(place)] = reading;
-  ++m_count;
+  Belief next = m_newest;
   vpMotionReadingResult result = vpMotionReadingResult::Used;
-  if (place == m_count - 1 && m_newest.time <= reading.time) { // the usual case: the newest of all
-    result = correct(m_newest, reading);
+  if (place == m_count && m_newest.time <= reading.time) { // the usual case: the newest of all
+    result = correct(next, reading);
   }
   else {
-    m_newest = m_settled;
-    for (int i = 0; i < m_count; ++i) {
-      const vpMotionReadingResult one = correct(m_newest, m_pending[static_cast<std::size_t>(i)]);
-      result = i == place ? one : result;
+    next = m_settled;
+    for (int i = 0; i <= m_count; ++i) {
+      if (i == place) {
+        result = correct(next, reading);
+      }
+      if (i < m_count) {
+        static_cast<void>(correct(next, m_pending[static_cast<std::size_t>(i)]));
+      }
     }
   }
+  if (result == vpMotionReadingResult::Invalid) {
+    return result;
+  }
+  if (full) {
+    settleOldest();
+    --place;
+  }
+  std::move_backward(m_pending.begin() + place, m_pending.begin() + m_count, m_pending.begin() + m_count + 1);
+  m_pending[static_cast<std::size_t>(place)] = reading;
+  ++m_count;
+  m_newest = next;
   m_outliers += result == vpMotionReadingResult::Outlier ? 1 : 0;
   while (m_count > 0 && m_pending[0].time < m_newest.time - m_spec.maxDelay) {
     settleOldest();
@@ -219,26 +280,28 @@ vpMotionReadingResult vpMotionKalmanFilter::add(const vpMotionReading &reading) 
 vpMotionEstimate vpMotionKalmanFilter::at(double time) const noexcept
 {
   // Between readings that are kept, those before the instant count; after the newest, all.
-  Belief b = time >= m_newest.time ? m_newest : m_settled;
-  if (time < m_newest.time) {
+  const bool earlier = time < m_newest.time; // not so for NaN
+  Belief b = earlier ? m_settled : m_newest;
+  if (earlier) {
     for (int i = 0; i < m_count && m_pending[static_cast<std::size_t>(i)].time <= time; ++i) {
       static_cast<void>(correct(b, m_pending[static_cast<std::size_t>(i)]));
     }
   }
-  predict(b, time);
+  predict(b, std::min(time, m_newest.time + m_spec.maxGap));
   vpMotionEstimate e;
   e.time = b.time;
+  e.asAsked = time >= m_settled.time && time <= m_newest.time + m_spec.maxGap;
   e.position = b.x[Place];
   e.velocity = b.x[Velocity];
   e.acceleration = b.x[Acceleration];
   e.covariance = b.P.topLeftCorner<3, 3>();
-  e.sigmaPosition = std::sqrt(b.P(Place, Place));
-  e.sigmaVelocity = std::sqrt(b.P(Velocity, Velocity));
-  e.sigmaAcceleration = std::sqrt(b.P(Acceleration, Acceleration));
+  e.sigmaPosition = deviation(b.P(Place, Place));
+  e.sigmaVelocity = deviation(b.P(Velocity, Velocity));
+  e.sigmaAcceleration = deviation(b.P(Acceleration, Acceleration));
   e.encoderOffset = b.x[Offset];
   e.encoderScale = b.x[Scale];
-  e.sigmaOffset = std::sqrt(b.P(Offset, Offset));
-  e.sigmaScale = std::sqrt(b.P(Scale, Scale));
+  e.sigmaOffset = deviation(b.P(Offset, Offset));
+  e.sigmaScale = deviation(b.P(Scale, Scale));
   return e;
 }
 

@@ -16,10 +16,11 @@ using namespace vpPrintingCheck;
 namespace
 {
 enum Index { Place, Velocity, Force, Disturbance };
-constexpr double longestPart = 0.25; // of an integration step, T: error of the velocity below 1e-4 px/frame
-constexpr int patience = 3;          // so many measurements beyond the gate in a row are no outliers
-constexpr double longestRun = 1000.; // T; nobody extrapolates farther
-constexpr double certainOdds = 50.;  // of a change of friction: then it has happened
+constexpr double longestPart = 0.25;  // of an integration step, T: error of the velocity below 1e-4 px/frame
+constexpr int patience = 3;           // so many measurements beyond the gate in a row are no outliers
+constexpr double largestState = 1e30; // beyond it a belief is lost: its squares would soon overflow
+constexpr double rounding = 1e-14;    // share of a variance by which its correction is off
+constexpr double certainOdds = 50.;   // of a change of friction: then it has happened
 } // namespace
 
 void vpMotionObserverSpec::validate() const
@@ -31,10 +32,11 @@ void vpMotionObserverSpec::validate() const
   notNegative("velocityNoise", owner, velocityNoise);
   positive("disturbanceNoise", owner, disturbanceNoise);
   require(changeRate >= 0. && changeRate <= 1., "changeRate", owner, changeRate, "in [0, 1]");
-  require(gate > 0., "gate", owner, gate, "> 0");
+  bound("gate", owner, gate);
   positive("sigmaPosition", owner, sigmaPosition);
   positive("sigmaVelocity", owner, sigmaVelocity);
   positive("sigmaDisturbance", owner, sigmaDisturbance);
+  require(maxGap > 0. && maxGap <= 1000., "maxGap", owner, maxGap, "in (0, 1000]");
 }
 
 vpMotionObserver::vpMotionObserver(const vpMotionObserverSpec &spec) : m_spec(spec)
@@ -45,7 +47,7 @@ vpMotionObserver::vpMotionObserver(const vpMotionObserverSpec &spec) : m_spec(sp
 
 void vpMotionObserver::reset(double time, double position) noexcept
 {
-  if (!std::isfinite(time) || !std::isfinite(position)) {
+  if (!vpIsPlausible(time) || !vpIsPlausible(position)) {
     return;
   }
   m_belief = Belief();
@@ -58,11 +60,11 @@ void vpMotionObserver::reset(double time, double position) noexcept
   m_lean.setZero();
 }
 
-void vpMotionObserver::command(double time, double force) noexcept
+bool vpMotionObserver::command(double time, double force) noexcept
 {
-  if (!std::isfinite(time) || !std::isfinite(force) ||
+  if (!vpIsPlausible(time) || !vpIsPlausible(force) || time > m_belief.time + m_spec.maxGap ||
       (m_count > 0 && time < m_commands[static_cast<std::size_t>(m_count - 1)].time)) {
-    return;
+    return false;
   }
   if (m_count == capacity) {
     std::move(m_commands.begin() + 1, m_commands.end(), m_commands.begin());
@@ -70,6 +72,7 @@ void vpMotionObserver::command(double time, double force) noexcept
   }
   m_commands[static_cast<std::size_t>(m_count)] = {time, force};
   ++m_count;
+  return true;
 }
 
 // The command that acts at a time, and until when.
@@ -141,7 +144,7 @@ void vpMotionObserver::part(Belief &b, double command, double h, Eigen::Matrix4d
 
 void vpMotionObserver::advance(Belief &b, double time, Eigen::Matrix4d *transition) const noexcept
 {
-  const double end = std::min(time, b.time + longestRun);
+  const double end = std::min(time, b.time + m_spec.maxGap);
   while (end - b.time > 1e-12) {
     double until = 0.;
     const double command = commandAt(b.time, until);
@@ -154,12 +157,38 @@ void vpMotionObserver::advance(Belief &b, double time, Eigen::Matrix4d *transiti
   b.time = std::max(b.time, end);
 }
 
-bool vpMotionObserver::measure(double time, double position, double sigma) noexcept
+vpMotionReadingResult vpMotionObserver::measure(double time, double position, double sigma) noexcept
 {
-  if (!std::isfinite(time) || !std::isfinite(position) || !(sigma > 0.) || !std::isfinite(sigma) ||
-      time < m_belief.time) {
-    return false;
+  if (!vpIsPlausible(time) || !vpIsPlausible(position) || !vpIsPlausibleDeviation(sigma)) {
+    return vpMotionReadingResult::Invalid;
   }
+  if (time < m_belief.time) {
+    return vpMotionReadingResult::TooLate;
+  }
+  if (time > m_belief.time + m_spec.maxGap) {
+    return vpMotionReadingResult::ImplausibleTime;
+  }
+  const vpMotionObserver before = *this;
+  const vpMotionReadingResult result = take(time, position, sigma);
+  if (!isSound()) { // a measurement after which the belief would be lost is not used
+    *this = before;
+    return vpMotionReadingResult::Invalid;
+  }
+  return result;
+}
+
+bool vpMotionObserver::isSound() const noexcept
+{
+  return (m_belief.x.array().abs() <= largestState).all() && (m_lean.array().abs() <= largestState).all() &&
+         (m_belief.P.array().abs() <= largestState * largestState).all() &&
+         std::all_of(m_changes.begin(), m_changes.begin() + m_changeCount, [](const Change &change) {
+           return (change.response.array().abs() <= largestState).all() && change.information <= largestState &&
+                  std::fabs(change.score) <= largestState;
+         });
+}
+
+vpMotionReadingResult vpMotionObserver::take(double time, double position, double sigma) noexcept
+{
   Eigen::Matrix4d transition = Eigen::Matrix4d::Identity();
   advance(m_belief, time, &transition);
   for (int i = 0; i < m_changeCount; ++i) {
@@ -170,7 +199,7 @@ bool vpMotionObserver::measure(double time, double position, double sigma) noexc
   const double expected2 = m_belief.P(Place, Place) + sigma * sigma;
   if (!(innovation * innovation <= m_spec.gate * m_spec.gate * expected2)) {
     if (++m_refused < patience) {
-      return false;
+      return vpMotionReadingResult::Outlier;
     }
     // Not outliers any more: the model is wrong, such as friction that changed. Doubt the belief instead.
     m_belief.P(Place, Place) += innovation * innovation;
@@ -178,14 +207,16 @@ bool vpMotionObserver::measure(double time, double position, double sigma) noexc
     m_belief.P(Disturbance, Disturbance) += m_spec.sigmaDisturbance * m_spec.sigmaDisturbance;
   }
   m_refused = 0;
-  const double S = m_belief.P(Place, Place) + sigma * sigma;
+  const double S = std::max(0., m_belief.P(Place, Place)) + sigma * sigma;
   const Eigen::Vector4d K = m_belief.P.col(Place) / S;
   m_belief.x += K * innovation;
   Eigen::Matrix4d rest = Eigen::Matrix4d::Identity();
   rest.col(Place) -= K;
+  const Eigen::Vector4d lost = rounding * m_belief.P.diagonal();
   m_belief.P = (rest * m_belief.P * rest.transpose() + sigma * sigma * K * K.transpose()).eval();
+  m_belief.P.diagonal() += lost;
   lookForChange(innovation, S, K);
-  return true;
+  return vpMotionReadingResult::Used;
 }
 
 // Friction may have changed at any of the last measurements. Each of these hypotheses knows what the belief's error would
@@ -240,18 +271,19 @@ vpObservedMotion vpMotionObserver::at(double time) const noexcept
 {
   Belief b = m_belief;
   b.x += m_lean;
-  if (std::isfinite(time)) {
+  if (!std::isnan(time)) {
     advance(b, time);
   }
   vpObservedMotion motion;
   motion.time = b.time;
+  motion.asAsked = time >= m_belief.time && time <= m_belief.time + m_spec.maxGap;
   motion.position = b.x[Place];
   motion.velocity = b.x[Velocity];
   motion.acceleration = acceleration(b.x);
   motion.force = b.x[Force];
   motion.disturbance = b.x[Disturbance];
-  motion.sigmaPosition = std::sqrt(b.P(Place, Place));
-  motion.sigmaVelocity = std::sqrt(b.P(Velocity, Velocity));
+  motion.sigmaPosition = std::sqrt(std::max(0., b.P(Place, Place)));
+  motion.sigmaVelocity = std::sqrt(std::max(0., b.P(Velocity, Velocity)));
   return motion;
 }
 

@@ -21,20 +21,28 @@ void vpPreviewControlSpec::validate() const
   notNegative("lag", owner, lag);
   notNegative("delay", owner, delay);
   positive("period", owner, period);
-  require(maxForce > 0., "maxForce", owner, maxForce, "> 0");
+  bound("maxForce", owner, maxForce);
 }
 
 vpPreviewControl::vpPreviewControl(const vpPreviewControlSpec &spec) : m_spec(spec) { spec.validate(); }
 
-double vpPreviewControl::force(const Input &input) const noexcept
+vpPreviewControl::Output vpPreviewControl::command(const Input &input) const noexcept
 {
+  Output out;
+  const auto plausible = [](const vpAxisState &x) { return std::all_of(x.begin(), x.end(), vpIsPlausible); };
+  out.valid = plausible(input.reference) && plausible(input.referenceFeedback) && vpIsPlausible(input.position) &&
+              vpIsPlausible(input.velocity) && vpIsPlausible(input.disturbance);
+  if (!out.valid) {
+    return out;
+  }
   const double v = input.reference[1], a = input.reference[2], j = input.reference[3];
   const double rate = m_spec.model.mass * j + m_spec.model.viscous * a; // of the force
   const double ahead = m_spec.model.force(v, a) + input.disturbance + m_spec.lag * rate;
   const double back = m_spec.positionGain * (input.referenceFeedback[0] - input.position) +
                       m_spec.velocityGain * (input.referenceFeedback[1] - input.velocity);
-  const double force = ahead + back;
-  return std::isfinite(force) ? std::clamp(force, -m_spec.maxForce, m_spec.maxForce) : 0.;
+  out.force = std::clamp(ahead + back, -m_spec.maxForce, m_spec.maxForce);
+  out.saturated = out.force != ahead + back;
+  return out;
 }
 
 END_VISP_NAMESPACE

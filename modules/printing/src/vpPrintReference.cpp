@@ -17,6 +17,12 @@ namespace
 {
 constexpr double shortest = 0.05; // frame; a target is never nearer in time
 constexpr int quintic = 3;        // conditions at each end
+constexpr double largestState = 1e30;
+
+bool isUsable(const vpPrintTarget &target)
+{
+  return vpIsPlausible(target.position) && vpIsPlausible(target.velocity) && vpIsPlausible(target.duration);
+}
 
 vpAxisState relative(const vpAxisState &x) { return {{0., x[1], x[2], 0.}}; }
 vpAxisState endOf(const vpAxisState &from, const vpPrintTarget &target)
@@ -31,7 +37,7 @@ void vpPrintReferenceSpec::validate() const
   positive("meanVelocity", owner, meanVelocity);
   positive("dropTime", owner, dropTime);
   positive("maxVelocity", owner, maxVelocity);
-  require(maxAcceleration > 0., "maxAcceleration", owner, maxAcceleration, "> 0");
+  bound("maxAcceleration", owner, maxAcceleration);
   notNegative("freeze", owner, freeze);
 }
 
@@ -43,6 +49,10 @@ vpPrintReference::vpPrintReference(const vpPrintReferenceSpec &spec) : m_spec(sp
 
 void vpPrintReference::reset(double now, double position, long passed) noexcept
 {
+  if (!vpIsPlausible(now) || !vpIsPlausible(position)) {
+    return;
+  }
+  m_now = now;
   m_count = 0;
   m_hasTarget = false;
   m_passed = passed;
@@ -84,7 +94,7 @@ double vpPrintReference::durationTo(const vpAxisState &from, const vpPrintTarget
       T = way / std::max(ends, 1e-3);
     }
   }
-  return std::isfinite(T) ? std::max(T, shortest) : shortest;
+  return std::max(std::isfinite(T) ? T : way / std::max(ends, 1e-3), shortest);
 }
 
 void vpPrintReference::plan(vpTrajectorySegment &piece, const vpAxisState &from, const vpPrintTarget &target,
@@ -96,8 +106,9 @@ void vpPrintReference::plan(vpTrajectorySegment &piece, const vpAxisState &from,
   piece.p[0] += from[0];
 }
 
-vpAxisState vpPrintReference::at(double time) const noexcept
+vpAxisState vpPrintReference::at(double asked) const noexcept
 {
+  const double time = std::isnan(asked) ? m_now : std::clamp(asked, m_now - longestGap, m_now + longestGap);
   if (m_count > 0) {
     return vpEvaluatePieces(m_pieces.data(), m_count, time);
   }
@@ -108,13 +119,15 @@ const vpPrintReference::Output &vpPrintReference::step(double now, const vpPrint
                                                        std::size_t count) noexcept
 {
   m_output.newTarget = false;
-  if (!std::isfinite(now)) {
+  m_output.valid = vpIsPlausible(now) && now >= m_now && now <= m_now + longestGap;
+  if (!m_output.valid) {
     return m_output;
   }
+  m_now = now;
   const std::size_t known = targets == nullptr ? 0 : count;
   const auto after = [&](long key) {
     std::size_t i = 0;
-    while (i < known && (targets[i].key <= key || !std::isfinite(targets[i].position))) {
+    while (i < known && (targets[i].key <= key || !isUsable(targets[i]))) {
       ++i;
     }
     return i;
@@ -152,8 +165,7 @@ const vpPrintReference::Output &vpPrintReference::step(double now, const vpPrint
     m_output.frozen = rest < m_spec.freeze;
     for (std::size_t i = 0; i < known; ++i) {
       const vpPrintTarget &seen = targets[i];
-      if (seen.key == m_target.key && std::isfinite(seen.position) && seen.position != m_target.position &&
-          !m_output.frozen) {
+      if (seen.key == m_target.key && isUsable(seen) && seen.position != m_target.position && !m_output.frozen) {
         m_target.position = seen.position;
         plan(piece, at(now), m_target, now, rest);
       }
@@ -162,7 +174,7 @@ const vpPrintReference::Output &vpPrintReference::step(double now, const vpPrint
     m_count = 1;
     vpAxisState from{{m_target.position, m_target.velocity, 0., 0.}};
     for (std::size_t i = after(m_target.key); i < known && m_count < vpMotionForecast::maxPieces; ++i) {
-      if (!std::isfinite(targets[i].position)) {
+      if (!isUsable(targets[i])) {
         continue;
       }
       const vpTrajectorySegment &last = m_pieces[static_cast<std::size_t>(m_count - 1)];
@@ -173,11 +185,19 @@ const vpPrintReference::Output &vpPrintReference::step(double now, const vpPrint
     }
     m_output.arrival = piece.begin + piece.duration;
     const double peak = piece.p.derivative().range().peak() / piece.duration;
-    m_output.exceeded = m_spec.mode == vpPrintReferenceMode::LimitedVelocity && peak > m_spec.maxVelocity * (1. + 1e-9);
+    m_output.exceeded =
+        m_spec.mode == vpPrintReferenceMode::LimitedVelocity && !(peak <= m_spec.maxVelocity * (1. + 1e-9));
   }
   m_output.hasTarget = m_hasTarget;
   m_output.target = m_target.key;
-  m_output.state = at(now);
+  const vpAxisState state = at(now);
+  if (std::all_of(state.begin(), state.end(), [](double x) { return std::fabs(x) <= largestState; })) {
+    m_output.state = state;
+  }
+  else { // targets that are much too far for their time: stay
+    reset(now, m_output.state[0], m_passed);
+    m_output.valid = false;
+  }
   return m_output;
 }
 

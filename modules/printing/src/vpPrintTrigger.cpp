@@ -5,6 +5,7 @@
 #include <visp3/printing/vpPrintTrigger.h>
 
 #include "vpPrintingCheck.h"
+#include "vpUsableCell.h"
 
 #include <algorithm>
 
@@ -44,14 +45,14 @@ void put(std::array<vpPrintShot, vpPrintTriggerOutput::capacity> &list, int &cou
 void vpPrintTriggerSpec::validate() const
 {
   const char *const owner = "print trigger";
-  finite("nozzle", owner, nozzle);
-  finite("nozzleAcross", owner, nozzleAcross);
-  require(rowTolerance > 0., "rowTolerance", owner, rowTolerance, "> 0");
+  place("nozzle", owner, nozzle);
+  place("nozzleAcross", owner, nozzleAcross);
+  bound("rowTolerance", owner, rowTolerance);
   notNegative("travelTime", owner, travelTime);
   notNegative("electronicsDelay", owner, electronicsDelay);
   positive("period", owner, period);
   notNegative("lead", owner, lead);
-  require(horizon >= period + lead && std::isfinite(horizon), "horizon", owner, horizon, ">= period + lead and finite");
+  require(horizon >= period + lead && usual(horizon), "horizon", owner, horizon, ">= period + lead and finite");
   notNegative("tolerance", owner, tolerance);
   notNegative("drift", owner, drift);
   positive("match", owner, match);
@@ -83,20 +84,36 @@ bool vpPrintTrigger::find(int row, int column, unsigned int epoch, double &along
   return false;
 }
 
+vpPrintTriggerStatus vpPrintTrigger::judge(const vpPrintTriggerInput &input) const noexcept
+{
+  if (!vpIsPlausible(input.time) || !input.along.isPlausible() || !input.across.isPlausible() ||
+      std::fabs(input.along.time - input.time) > vpMotionForecast::longest) {
+    return vpPrintTriggerStatus::InputRefused;
+  }
+  const double age = input.time - input.captureTime;
+  const bool good = age >= -m_spec.period && age <= vpMotionForecast::longest && vpIsPlausible(input.captureAlong) &&
+                    vpIsPlausible(input.captureAcross) && (input.cellCount == 0 || input.cells != nullptr);
+  return good || input.cellCount == 0 ? vpPrintTriggerStatus::Good : vpPrintTriggerStatus::FrameRefused;
+}
+
 const vpPrintTriggerOutput &vpPrintTrigger::step(const vpPrintTriggerInput &input) noexcept
 {
   m_output.shotCount = m_output.missedCount = m_output.plannedCount = 0;
   m_output.overflow = false;
-  if (!std::isfinite(input.time) || !std::isfinite(input.captureTime) || !std::isfinite(input.along.position) ||
-      !std::isfinite(input.along.velocity) || !std::isfinite(input.captureAlong) ||
-      !std::isfinite(input.captureAcross) || !std::isfinite(input.across.position)) {
+  m_output.status = judge(input);
+  if (m_output.status == vpPrintTriggerStatus::InputRefused) {
     return m_output;
   }
+  const bool seen = m_output.status == vpPrintTriggerStatus::Good;
   if (m_spec.method == vpPrintTriggerMethod::ThesisAlgorithm) {
-    thesisStep(input);
+    if (seen) {
+      thesisStep(input);
+    }
     return m_output;
   }
-  see(input);
+  if (seen) {
+    see(input);
+  }
   const double earliest = input.time + m_spec.travelTime + m_spec.electronicsDelay;
   const vpAxisState along = input.along.at(earliest);
   const double across = input.across.at(earliest)[0];
@@ -112,22 +129,15 @@ const vpPrintTriggerOutput &vpPrintTrigger::step(const vpPrintTriggerInput &inpu
 // Takes the cells of a frame into the memory.
 void vpPrintTrigger::see(const vpPrintTriggerInput &input) noexcept
 {
-  if (input.cellCount == 0 || input.cells == nullptr) {
-    return;
-  }
   const double movedAlong = input.captureAlong, movedAcross = input.captureAcross;
   for (std::size_t i = 0; i < input.cellCount; ++i) {
     const vpPatternCell &cell = input.cells[i];
-    if (!cell.valid) {
+    if (!vpIsUsableCell(cell)) {
       continue;
     }
     const bool alongX = m_spec.axis == vpPrintAxis::X;
     const double along = (alongX ? cell.x : cell.y) - movedAlong, across = (alongX ? cell.y : cell.x) - movedAcross;
     const double sigmaAlong = alongX ? cell.sigmaX : cell.sigmaY, sigmaAcross = alongX ? cell.sigmaY : cell.sigmaX;
-    if (!std::isfinite(along) || !std::isfinite(across) || !(sigmaAlong > 0.) || !(sigmaAcross > 0.) ||
-        !std::isfinite(sigmaAlong) || !std::isfinite(sigmaAcross)) {
-      continue;
-    }
     Entry *entry = known(cell.row, cell.column, input.epoch, along, across);
     if (entry == nullptr) {
       entry = room(m_spec.nozzle - movedAlong);
@@ -271,7 +281,7 @@ void vpPrintTrigger::thesisStep(const vpPrintTriggerInput &input) noexcept
     const double side = step < 0. ? -1. : 1.;
     const bool wanted = cell.column >= input.firstColumn && cell.column <= input.lastColumn;
     const bool crosses = wanted && side * place < side * m_spec.nozzle && side * (place + step) > side * m_spec.nozzle;
-    if (!cell.valid || !crosses || !(std::fabs(aside) <= m_spec.rowTolerance)) {
+    if (!vpIsUsableCell(cell) || !crosses || !(std::fabs(aside) <= m_spec.rowTolerance)) {
       continue;
     }
     vpPrintShot shot;

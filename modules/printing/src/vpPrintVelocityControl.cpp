@@ -33,7 +33,7 @@ void vpPrintVelocityControlSpec::validate() const
   notNegative("ki", owner, ki);
   notNegative("kd", owner, kd);
   model.validate(owner);
-  require(maxForce > 0., "maxForce", owner, maxForce, "> 0");
+  bound("maxForce", owner, maxForce);
 }
 
 vpPrintVelocityControl::vpPrintVelocityControl(const vpPrintVelocityControlSpec &spec) : m_spec(spec)
@@ -49,15 +49,16 @@ void vpPrintVelocityControl::reset() noexcept
 
 vpPrintVelocityControl::Output vpPrintVelocityControl::step(const Input &input) noexcept
 {
-  const double wanted = input.velocity - input.measured;
-  const double error = std::isfinite(wanted) ? wanted : m_error;
   Output out;
-  const double ahead = m_spec.feedforward ? m_spec.model.force(input.velocity, input.acceleration) : 0.;
-  out.feedforward = std::isfinite(ahead) ? ahead : 0.;
+  const bool wanted = vpIsPlausible(input.velocity) && vpIsPlausible(input.acceleration);
+  const bool known = vpIsPlausible(input.velocity) && vpIsPlausible(input.measured);
+  out.valid = wanted && known;
+  const double error = known ? input.velocity - input.measured : m_error;
+  out.feedforward = m_spec.feedforward && wanted ? m_spec.model.force(input.velocity, input.acceleration) : 0.;
   const auto feedback = [&](double integral) {
     return m_spec.kp * error + m_spec.ki * integral + m_spec.kd * (error - m_error);
   };
-  double integral = m_integral + error;
+  double integral = known ? m_integral + error : m_integral; // an old error is not added again
   out.feedback = feedback(integral);
   double force = out.feedback + out.feedforward;
   if (std::fabs(force) > m_spec.maxForce && force * error > 0.) { // the integral would press on against the bound

@@ -2,11 +2,13 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Checks of specifications, for the constructors of this module.
+// Checks of specifications, for the constructors of this module. What is not zero is of a magnitude from 1e-30 to 1e15, so
+// that no step overflows.
 #ifndef vpPrintingCheck_h
 #define vpPrintingCheck_h
 
 #include <visp3/core/vpException.h>
+#include <visp3/printing/vpPrintingLimits.h>
 
 #include <cmath>
 
@@ -20,17 +22,24 @@ inline void require(bool good, const char *field, const char *owner, double valu
     throw vpException(vpException::badValue, "%s of the %s is %g, must be %s", field, owner, value, range);
   }
 }
+inline bool usual(double value) { return value >= 1e-30 && value <= 1e15; }
+
 inline void positive(const char *field, const char *owner, double value)
 {
-  require(value > 0. && std::isfinite(value), field, owner, value, "> 0 and finite");
+  require(usual(value), field, owner, value, "> 0 and finite (1e-30 to 1e15)");
 }
 inline void notNegative(const char *field, const char *owner, double value)
 {
-  require(value >= 0. && std::isfinite(value), field, owner, value, ">= 0 and finite");
+  require(value == 0. || usual(value), field, owner, value, ">= 0 and finite (0, or 1e-30 to 1e15)");
 }
-inline void finite(const char *field, const char *owner, double value)
+//! Of a bound that may be infinite.
+inline void bound(const char *field, const char *owner, double value)
 {
-  require(std::isfinite(value), field, owner, value, "finite");
+  require(value >= 1e-30, field, owner, value, "> 0, at least 1e-30 or infinite");
+}
+inline void place(const char *field, const char *owner, double value)
+{
+  require(vpIsPlausible(value), field, owner, value, "finite, at most 1e12 in magnitude");
 }
 } // namespace vpPrintingCheck
 

@@ -33,8 +33,10 @@ const vpProductOdometer::Output &vpProductOdometer::step(const vpPatternCell *ce
       m_started && epoch == m_epoch ? vpFindCellVelocity(m_last.data(), m_count, cells, used) : vpCellVelocity();
   m_output.measured = moved.cells > 0;
   m_output.cells = moved.cells;
-  m_output.dx = m_output.measured ? moved.vx : predictedX;
-  m_output.dy = m_output.measured ? moved.vy : predictedY;
+  const bool predicted = vpIsPlausible(predictedX) && vpIsPlausible(predictedY);
+  m_output.lost = m_output.lost || (m_started && !m_output.measured && !predicted);
+  m_output.dx = m_output.measured ? moved.vx : predicted ? predictedX : 0.;
+  m_output.dy = m_output.measured ? moved.vy : predicted ? predictedY : 0.;
   m_output.sigmaX = moved.sigmaX;
   m_output.sigmaY = moved.sigmaY;
   if (m_started) {

@@ -15,12 +15,13 @@ VISP_DIRECT_USING_NAMESPACE
 namespace
 {
 constexpr double pitch = 48.9, width = 160.;
+constexpr int columns = 200; // to the left: 1000 frames at 8 px/frame at most pass 164
 
 // One row of a product at \e x: the cells that lie in the image, from left to right.
 std::vector<vpPatternCell> look(double x)
 {
   std::vector<vpPatternCell> cells;
-  for (int column = -100; column <= 100; ++column) {
+  for (int column = -columns; column <= 4; ++column) {
     vpPatternCell cell;
     cell.column = column;
     cell.x = x + column * pitch;

@@ -109,21 +109,37 @@ TEST_CASE("A measured target is followed until the freeze, and made good afterwa
     auto targets = lattice(60, rng, 0.3);
     const auto truth = targets;
     long last = -1;
+    double place = 0., bound = 0.; // where the target was seen last; of the acceleration on the way there
     for (int k = 0; k < 500; ++k) {
       for (std::size_t i = 0; i < targets.size(); ++i) {
         targets[i].position = truth[i].position + normal(rng);
       }
       const auto &out = reference.step(k, targets.data(), targets.size());
       REQUIRE(out.hasTarget);
-      REQUIRE(std::fabs(reference.at(out.arrival)[0] - truth[static_cast<std::size_t>(out.target)].position) < 1.2);
-      hardest[frozen] = std::max(hardest[frozen], std::fabs(out.state[2]));
+      // Seen with 0.18 px of noise, by which it is off: 5.5 standard deviations in 1000 frames.
+      REQUIRE(std::fabs(reference.at(out.arrival)[0] - truth[static_cast<std::size_t>(out.target)].position) < 1.);
       CHECK(out.frozen == (out.arrival - k < spec.freeze));
+      const vpTrajectorySegment &piece = reference.pieces()[0];
+      const double seen = targets[static_cast<std::size_t>(out.target)].position;
+      if (out.newTarget) {
+        bound = piece.p.derivative().derivative().range().peak() / (piece.duration * piece.duration);
+      }
+      else if (!out.frozen) { // a correction d in the rest r adds a quintic with a peak of 10 / sqrt(3) |d| / r^2
+        bound += 10. / std::sqrt(3.) * std::fabs(seen - place) / (piece.duration * piece.duration);
+      }
+      place = out.frozen && !out.newTarget ? place : seen;
+      for (double t = k; t < std::min(k + 1., out.arrival); t += 0.05) {
+        const double a = std::fabs(reference.at(t)[2]);
+        REQUIRE(a <= bound * (1. + 1e-9));
+        hardest[frozen] = std::max(hardest[frozen], a);
+      }
       last = out.target;
     }
     CHECK(last > 40);
   }
-  CHECK(hardest[1] < 1.);
-  CHECK(hardest[0] > 2. * hardest[1]); // why there is a freeze
+  // Why there is a freeze: of the last corrections without it, half come with less than half a frame to go and ask for more
+  // than 5.8 |d| / 0.25 each.
+  CHECK(hardest[0] > 2. * hardest[1]);
 }
 
 TEST_CASE("A turn stops at the turning point and comes back", "[reference]")

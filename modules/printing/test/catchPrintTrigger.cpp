@@ -136,7 +136,9 @@ Outcome print(long cells, double sigma, vpPrintTriggerMethod method, double offs
       input.along.accelerationTime = 2.;
     }
     const vpPrintTriggerOutput &out = trigger.step(input);
-    outcome.reported += out.missedCount;
+    for (int i = 0; i < out.missedCount; ++i) { // of the cells that are counted below
+      outcome.reported += out.missed[static_cast<std::size_t>(i)].column < cells ? 1 : 0;
+    }
     for (int i = 0; i < out.shotCount; ++i) {
       const vpPrintShot &shot = out.shots[static_cast<std::size_t>(i)];
       // In the half-open interval of this step, on the head's own clock.

@@ -72,9 +72,9 @@ vpJointPositionControlSpec controlOf(const vpArmModel &model, const vpArmDriveSp
 
 void vpArmDriveSpec::validate(const vpArmModel &model) const
 {
-  requireGood("period", period, period > 0., "> 0");
-  requireGood("frictionScale", frictionScale, frictionScale >= 0., ">= 0");
-  requireGood("encoderNoise", encoderNoise, encoderNoise >= 0., ">= 0");
+  requireGood("period", period, period >= 1e-6 && period <= vpArmPlant::longestStep, "> 0, from 1e-6 to 1");
+  requireGood("frictionScale", frictionScale, frictionScale >= 0. && frictionScale <= vpArmLargest, ">= 0");
+  requireGood("encoderNoise", encoderNoise, encoderNoise >= 0. && encoderNoise <= vpArmLargest, ">= 0");
   for (const vpJointVector *gain : {&kp, &kd}) {
     if (gain->size() > 0 && gain->size() != model.size()) {
       throw vpException(vpException::badValue, "%s of the arm's drives has %d numbers, must have %d or none",
@@ -96,7 +96,7 @@ vpArmDrives::vpArmDrives(const vpArmModel &model, const vpArmDriveSpec &spec) : 
 
 void vpArmDrives::reset(const vpJointVector &q)
 {
-  if (q.size() != m_model->size() || !q.allFinite()) {
+  if (q.size() != m_model->size() || !vpIsPlausibleForArm(q)) {
     throw vpException(vpException::badValue,
                       "the configuration of the arm's drives has %d numbers, must have %d finite ones",
                       static_cast<int>(q.size()), m_model->size());
@@ -118,24 +118,33 @@ void vpArmDrives::reset(const vpJointVector &q)
   measure();
 }
 
-void vpArmDrives::move(const vpJointVector &velocity, double duration) noexcept
+bool vpArmDrives::move(const vpJointVector &velocity, double duration) noexcept
 {
-  if (velocity.size() == m_wanted.size() && velocity.allFinite()) {
+  m_saturated = 0;
+  if (!(duration > 0. && duration <= longestMove)) {
+    m_command.setZero();
+    return false;
+  }
+  // As far as the wanted place stays one.
+  const bool good = velocity.size() == m_wanted.size() && vpIsPlausibleForArm(velocity) &&
+                    vpIsPlausibleForArm(m_wanted + duration * velocity);
+  if (good) {
     m_command = velocity;
   }
   else {
     m_command.setZero();
   }
-  m_saturated = 0;
   if (m_spec.ideal) {
     m_wanted += duration * m_command;
     measure();
-    return;
+    return good;
   }
   const int cycles = std::max(1, static_cast<int>(std::ceil(duration / m_spec.period - 1e-9)));
+  bool moved = good;
   for (int i = 0; i < cycles; ++i) {
-    cycle(duration / cycles);
+    moved = cycle(duration / cycles) && moved;
   }
+  return moved;
 }
 
 void vpArmDrives::holdHere() noexcept
@@ -144,16 +153,17 @@ void vpArmDrives::holdHere() noexcept
   m_command.setZero();
 }
 
-void vpArmDrives::cycle(double dt) noexcept
+bool vpArmDrives::cycle(double dt) noexcept
 {
   m_wanted += dt * m_command;
   m_input.wantedQ = m_wanted;
   m_input.wantedVelocity = m_command;
-  m_dynamics->gravity(m_input.q, m_input.feedforward);
+  const bool known = m_dynamics->gravity(m_input.q, m_input.feedforward);
   m_control->step(m_input, m_output);
   m_saturated |= m_output.saturated;
-  m_plant->step(m_output.torque, dt);
+  const bool moved = m_plant->step(m_output.torque, dt);
   measure();
+  return known && m_output.valid && moved;
 }
 
 void vpArmDrives::measure() noexcept

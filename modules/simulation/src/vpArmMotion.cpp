@@ -41,7 +41,7 @@ void vpArmMotion::jointPath(const vpJointVector &goal, const vpJointVector &q, c
   m_finished = m_failed = false;
   m_pathInput.start.q = q;
   m_pathInput.start.v = velocity;
-  m_pathInput.goal.q = goal;
+  m_pathInput.goal.q = goal.cwiseMax(m_model->lower()).cwiseMin(m_model->upper()); // may be beyond by the tolerance
   m_pathInput.maxVelocity = share * m_model->velocity();
   m_path.reset();
 }
@@ -78,7 +78,7 @@ const vpJointVector &vpArmMotion::next(const vpJointVector &q, const vpJointVect
     followTwist(q, velocity);
     break;
   case vpArmTaskKind::JointPath:
-    followPath(q);
+    followPath(q, velocity);
     break;
   case vpArmTaskKind::PosePath:
     followPose();
@@ -139,15 +139,21 @@ void vpArmMotion::followTwist(const vpJointVector &q, const vpJointVector &veloc
   m_velocity = m_closed.solver.velocity;
 }
 
-void vpArmMotion::followPath(const vpJointVector &q) noexcept
+void vpArmMotion::followPath(const vpJointVector &q, const vpJointVector &velocity) noexcept
 {
   const vpTrajectoryResult result = m_path.update(m_pathInput, m_pathOutput, period());
+  m_failed = !m_pathOutput.status.isGood();
+  if (m_failed) { // no state to go to
+    m_finished = true;
+    hold();
+    clamped(q, velocity, vpJointVector::Zero(m_model->size()));
+    return;
+  }
   m_velocity = (m_pathOutput.state.q - q) / period();
   m_closed.solver.status = vpRedundancyStatus::Exact;
   m_closed.solver.stoppedJoints = 0;
   m_closed.solver.selfMotion.setZero(m_model->size());
-  m_failed = !m_pathOutput.status.isGood();
-  if (m_failed || result == vpTrajectoryResult::Finished || result == vpTrajectoryResult::Holding) {
+  if (result == vpTrajectoryResult::Finished || result == vpTrajectoryResult::Holding) {
     m_finished = true;
     hold();
   }

@@ -65,7 +65,7 @@ public:
 private:
   void clamped(const vpJointVector &q, const vpJointVector &velocity, const vpJointVector &wanted) noexcept;
   void followTwist(const vpJointVector &q, const vpJointVector &velocity) noexcept;
-  void followPath(const vpJointVector &q) noexcept;
+  void followPath(const vpJointVector &q, const vpJointVector &velocity) noexcept;
   void followPose() noexcept;
 
   const vpArmModel *m_model;

@@ -36,7 +36,7 @@ vpArmPlant::vpArmPlant(const vpArmModel &model, double frictionScale)
 
 void vpArmPlant::reset(const vpJointVector &q)
 {
-  if (q.size() != m_model->size() || !q.allFinite()) {
+  if (q.size() != m_model->size() || !vpIsPlausibleForArm(q)) {
     throw vpException(vpException::badValue,
                       "the configuration of the arm's plant has %d numbers, must have %d finite ones",
                       static_cast<int>(q.size()), m_model->size());
@@ -47,23 +47,37 @@ void vpArmPlant::reset(const vpJointVector &q)
   m_stop.setZero(q.size());
 }
 
-void vpArmPlant::step(const vpJointVector &torque, double dt) noexcept
+bool vpArmPlant::step(const vpJointVector &torque, double dt) noexcept
+{
+  const vpJointVector q = m_q, velocity = m_velocity, impulse = m_impulse, stop = m_stop;
+  if (move(torque, dt) && vpIsPlausibleForArm(m_q) && vpIsPlausibleForArm(m_velocity) && m_impulse.allFinite() &&
+      m_stop.allFinite()) {
+    return true;
+  }
+  m_q = q;
+  m_velocity = velocity;
+  m_impulse = impulse;
+  m_stop = stop;
+  return false;
+}
+
+bool vpArmPlant::move(const vpJointVector &torque, double dt) noexcept
 {
   const Eigen::Index n = m_q.size();
-  if (torque.size() != n || !torque.allFinite() || !(dt > 0.)) {
-    return;
-  }
   vpJointMatrix M;
   vpJointVector coriolis, gravity;
-  m_dynamics.inertia(m_q, M);
-  m_dynamics.coriolis(m_q, m_velocity, coriolis);
-  m_dynamics.gravity(m_q, gravity);
+  if (torque.size() != n || !vpIsPlausibleForArm(torque) || !(dt >= 1e-9 && dt <= longestStep) ||
+      !m_dynamics.inertia(m_q, M) || !m_dynamics.coriolis(m_q, m_velocity, coriolis) ||
+      !m_dynamics.gravity(m_q, gravity)) {
+    return false;
+  }
   vpJointMatrix damped = M;
   damped.diagonal() += dt * m_friction.viscous;
   const vpJointMatrix compliance = damped.llt().solve(vpJointMatrix::Identity(n, n));
   m_velocity = compliance * (M * m_velocity + dt * (torque - coriolis - gravity));
   holdBack(compliance, dt);
   m_q += dt * m_velocity;
+  return true;
 }
 
 // Friction impulses lie within +-dt Fc, those of a stop push inwards only. Both start from the last step's, which are

@@ -136,6 +136,12 @@ void evaluateStops(const vpAvoidanceRun &run, vpClearanceSearch &search, vpAvoid
   }
 }
 
+// 0 of nothing.
+double percentileMs(const std::vector<double> &seconds, double share)
+{
+  return seconds.empty() ? 0. : 1000. * vpQuantile(seconds, share);
+}
+
 void evaluateEnd(const vpAvoidanceRun &run, vpAvoidanceMetrics &m)
 {
   std::size_t first = run.samples.size(); // from which on it is there
@@ -180,11 +186,9 @@ vpAvoidanceMetrics vpAvoidanceEvaluation::evaluate(const vpAvoidanceRun &run, co
   evaluateTool(run, m);
   evaluateJoints(run, m);
   evaluateStops(run, search, m);
-  if (!run.lookTimes.empty()) {
-    m.replan_ms_p50 = 1000. * vpMedian(run.lookTimes);
-    m.replan_ms_p95 = 1000. * vpQuantile(run.lookTimes, 0.95);
-    m.replan_ms_p99 = 1000. * vpQuantile(run.lookTimes, 0.99);
-  }
+  m.replan_ms_p50 = percentileMs(run.lookTimes, 0.50);
+  m.replan_ms_p95 = percentileMs(run.lookTimes, 0.95);
+  m.replan_ms_p99 = percentileMs(run.lookTimes, 0.99);
   evaluateEnd(run, m);
   return m;
 }

@@ -291,7 +291,7 @@ private:
     input.position = motion.position;
     input.velocity = motion.velocity;
     input.disturbance = motion.velocity == 0. && input.reference[1] == 0. ? 0. : motion.disturbance;
-    return control.force(input);
+    return control.command(input).force;
   }
 
   void fire(double now, double capture, const vpPrintSample &sample)

@@ -76,6 +76,8 @@ void change(vpMotionObserverSpec &observer, const Change &by)
   by(observer.sigmaPosition, 1, 0);
   by(observer.sigmaVelocity, 1, -1);
   by(observer.sigmaDisturbance, 1, -2);
+  by(observer.maxGap, 0, 1);
+  observer.maxGap = std::min(1000., observer.maxGap); // of steps: it bounds the work
 }
 
 void change(vpMotionKalmanSpec &kalman, const Change &by)
@@ -87,6 +89,7 @@ void change(vpMotionKalmanSpec &kalman, const Change &by)
   by(kalman.maxDelay, 0, 1);
   by(kalman.encoderOffsetSigma, 1, 0);
   by(kalman.encoderSlip, 2, -1);
+  by(kalman.maxGap, 0, 1);
 }
 
 void change(vpPreviewControlSpec &preview, const Change &by)

@@ -22,9 +22,10 @@ BEGIN_VISP_NAMESPACE
 namespace
 {
 using Clock = std::chrono::steady_clock;
-constexpr double longestLag = 0.1; // s: what a clock that was held up makes up for; beyond it the arm's time lags
-constexpr double resting = 1e-4;   // rad/s or m/s
-constexpr double longestRest = 1.; // s
+constexpr double longestLag = 0.1;  // s: what a clock that was held up makes up for; beyond it the arm's time lags
+constexpr double resting = 1e-4;    // rad/s or m/s
+constexpr double longestRest = 1.;  // s
+constexpr double longestWait = 1e6; // s
 
 vpJointVector jointsOf(const vpColVector &v, int n)
 {
@@ -92,12 +93,9 @@ vpHomogeneousMatrix poseOf(const vpColVector &v, bool euler)
 
 void requireInside(const vpArmModel &model, const vpJointVector &q)
 {
-  for (int i = 0; i < model.size(); ++i) {
-    if (q(i) < model.lower()(i) || q(i) > model.upper()(i)) {
-      throw vpRobotException(
-          vpRobotException::positionOutOfRangeError, "joint %s would go to %g, outside its limits %g and %g",
-          model.spec().joints[static_cast<std::size_t>(i)].name.c_str(), q(i), model.lower()(i), model.upper()(i));
-    }
+  const std::string wrong = model.outsideLimits(q);
+  if (!wrong.empty()) {
+    throw vpRobotException(vpRobotException::positionOutOfRangeError, "%s", wrong.c_str());
   }
 }
 
@@ -161,6 +159,10 @@ public:
     }
   }
 
+  //! A new order ends the one before it, whichever thread waits for that.
+  long order() { return ++m_orders; }
+  [[nodiscard]] bool ended(long order) const { return order != m_orders; }
+
   mutable std::mutex mutex;
   vpSimulatedArmCore core;
   double positioning = 0.15; // part of the velocity limits
@@ -185,6 +187,7 @@ private:
   }
 
   double m_due = 0.;
+  long m_orders = 0;
   bool m_end = false;
   std::condition_variable m_wake, m_ticked;
   std::thread m_thread;
@@ -232,26 +235,44 @@ vpRobot::vpRobotStateType vpSimulatedArm::setRobotState(const vpRobot::vpRobotSt
   }
   std::unique_lock<std::mutex> lock(m_impl->mutex);
   if (newState == vpRobot::STATE_STOP) {
+    m_impl->order();
     m_impl->core.stop();
     if (m_impl->stepped()) {
       m_impl->waitUntil(lock, [this] { return m_impl->core.atRest(); });
       m_impl->core.tick();
     }
   }
-  else if (getRobotState() != newState) {
+  else if (vpRobot::getRobotState() != newState) {
+    m_impl->order();
     m_impl->core.motion().hold();
   }
   return vpRobot::setRobotState(newState);
 }
 
+vpRobot::vpRobotStateType vpSimulatedArm::getRobotState() const
+{
+  const std::lock_guard<std::mutex> lock(m_impl->mutex);
+  return vpRobot::getRobotState();
+}
+
+void vpSimulatedArm::setSamplingTime(const double &delta_t)
+{
+  if (!(delta_t > 0. && delta_t <= longestWait)) {
+    throw vpException(vpException::badValue, "sampling time of the simulated arm is %g s, must be > 0 and at most %g",
+                      delta_t, longestWait);
+  }
+  const std::lock_guard<std::mutex> lock(m_impl->mutex);
+  vpRobotSimulator::setSamplingTime(delta_t);
+}
+
 void vpSimulatedArm::setVelocity(const vpRobot::vpControlFrameType frame, const vpColVector &v)
 {
-  if (getRobotState() != vpRobot::STATE_VELOCITY_CONTROL) {
+  const std::lock_guard<std::mutex> lock(m_impl->mutex);
+  if (vpRobot::getRobotState() != vpRobot::STATE_VELOCITY_CONTROL) {
     throw vpRobotException(vpRobotException::wrongStateError,
                            "the arm is not in velocity control: call setRobotState(vpRobot::STATE_VELOCITY_CONTROL) "
                            "before setVelocity()");
   }
-  const std::unique_lock<std::mutex> lock(m_impl->mutex);
   vpSimulatedArmCore &core = m_impl->core;
   const bool lost = core.status() == vpSimulatedArmStatus::NotFollowing;
   const double valid = core.spec.watchdog + (m_impl->stepped() ? getSamplingTime() : 0.);
@@ -283,9 +304,11 @@ void vpSimulatedArm::setPosition(const vpRobot::vpControlFrameType frame, const 
   if (frame == vpRobot::MIXT_FRAME) {
     throwNoFrame(frame);
   }
-  setRobotState(vpRobot::STATE_POSITION_CONTROL);
   std::unique_lock<std::mutex> lock(m_impl->mutex);
   vpSimulatedArmCore &core = m_impl->core;
+  const long order = m_impl->order();
+  core.motion().hold();
+  vpRobot::setRobotState(vpRobot::STATE_POSITION_CONTROL);
   const vpJointVector here = core.drives().wanted(), moving = core.drives().command();
   const bool byJoints = frame == vpRobot::JOINT_STATE;
   if (core.status() == vpSimulatedArmStatus::NotFollowing) {
@@ -301,9 +324,13 @@ void vpSimulatedArm::setPosition(const vpRobot::vpControlFrameType frame, const 
     const bool ofTool = frame == vpRobot::END_EFFECTOR_FRAME;
     core.motion().posePath(ofTool ? pose : pose * core.model.spec().camera.inverse(), here, moving);
   }
-  m_impl->waitUntil(lock, [&core] {
-    return (core.motion().finished() && core.atRest()) || core.status() == vpSimulatedArmStatus::NotFollowing;
+  m_impl->waitUntil(lock, [this, &core, order] {
+    return m_impl->ended(order) || (core.motion().finished() && core.atRest()) ||
+           core.status() == vpSimulatedArmStatus::NotFollowing;
   });
+  if (m_impl->ended(order)) {
+    throw vpRobotException(vpRobotException::lowLevelError, "another call ended the motion before its goal");
+  }
   if (core.status() == vpSimulatedArmStatus::NotFollowing) {
     throw vpRobotException(vpRobotException::lowLevelError, "%s", core.sentence().c_str());
   }
@@ -315,8 +342,9 @@ void vpSimulatedArm::setPosition(const vpRobot::vpControlFrameType frame, const 
   }
   // Drives with friction come to rest a little later than their commands.
   const double end = core.time() + longestRest;
-  m_impl->waitUntil(
-      lock, [&core, end] { return core.drives().velocity().cwiseAbs().maxCoeff() < resting || core.time() >= end; });
+  m_impl->waitUntil(lock, [this, &core, order, end] {
+    return m_impl->ended(order) || core.drives().velocity().cwiseAbs().maxCoeff() < resting || core.time() >= end;
+  });
 }
 
 void vpSimulatedArm::getPosition(const vpRobot::vpControlFrameType frame, vpColVector &q)
@@ -452,8 +480,9 @@ void vpSimulatedArm::setPositioningVelocity(double percent)
 
 void vpSimulatedArm::wait(double duration)
 {
-  if (!(duration >= 0.) || !std::isfinite(duration)) {
-    throw vpException(vpException::badValue, "the time to wait is %g s, must be >= 0 and finite", duration);
+  if (!(duration >= 0. && duration <= longestWait)) {
+    throw vpException(vpException::badValue, "the time to wait is %g s, must be >= 0 and at most %g", duration,
+                      longestWait);
   }
   std::unique_lock<std::mutex> lock(m_impl->mutex);
   if (m_impl->stepped()) {

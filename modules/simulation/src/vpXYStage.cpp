@@ -15,6 +15,8 @@ namespace
 {
 constexpr int partsPerStep = 32;
 constexpr double stepsPerDelay = 1000.;
+constexpr double longestStep = 1e6;
+constexpr double largest = 1e12; // force or place
 
 void require(bool good, const char *axis, const char *field, double value, const char *range)
 {
@@ -23,8 +25,9 @@ void require(bool good, const char *axis, const char *field, double value, const
   }
 }
 
-bool positive(double value) { return value > 0. && std::isfinite(value); }
-bool notNegative(double value) { return value >= 0. && std::isfinite(value); }
+// Of a magnitude with which no step overflows.
+bool positive(double value) { return value >= 1e-30 && value <= 1e15; }
+bool notNegative(double value) { return value == 0. || positive(value); }
 } // namespace
 
 double vpXYStageAxis::friction(double velocity, double position) const
@@ -79,8 +82,9 @@ vpXYStage::vpXYStage(const vpXYStageSpec &spec) : m_spec(spec), m_axes{{spec.x, 
 void vpXYStage::reset(const Pair &position)
 {
   for (const double place : position) {
-    if (!std::isfinite(place)) {
-      throw vpException(vpException::badValue, "position of the stage is %g, must be finite", place);
+    if (!(std::fabs(place) <= largest)) {
+      throw vpException(vpException::badValue, "position of the stage is %g, must be finite, at most %g in magnitude",
+                        place, largest);
     }
   }
   m_state = State();
@@ -91,13 +95,15 @@ void vpXYStage::reset(const Pair &position)
 const vpXYStage::State &vpXYStage::step(double dt, const Pair &command)
 {
   const double longest = std::max(m_spec.x.delay, m_spec.y.delay);
-  if (!positive(dt) || dt * stepsPerDelay < longest) {
-    throw vpException(vpException::badValue, "time step of the stage is %g, must be > 0 and at least 1/%g of its delay",
-                      dt, stepsPerDelay);
+  if (!positive(dt) || dt > longestStep || dt * stepsPerDelay < longest) {
+    throw vpException(vpException::badValue,
+                      "time step of the stage is %g, must be > 0, at least 1/%g of its delay and at most %g", dt,
+                      stepsPerDelay, longestStep);
   }
   for (const double force : command) {
-    if (!std::isfinite(force)) {
-      throw vpException(vpException::badValue, "command of the stage is %g, must be finite", force);
+    if (!(std::fabs(force) <= largest)) {
+      throw vpException(vpException::badValue, "command of the stage is %g, must be finite, at most %g in magnitude",
+                        force, largest);
     }
   }
   // Forget commands whose successor acts already on both axes.

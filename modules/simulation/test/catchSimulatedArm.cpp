@@ -379,7 +379,7 @@ TEST_CASE("Wrong use is answered with a sentence and changes nothing", "[arm]")
                     Catch::Contains("a vector of 6 joints was given, the arm has 7"));
   vpColVector far = columnOf(amor().home());
   far[1] = 3.;
-  CHECK_THROWS_WITH(robot.setPosition(vpRobot::JOINT_STATE, far), Catch::Contains("joint q2 would go to 3"));
+  CHECK_THROWS_WITH(robot.setPosition(vpRobot::JOINT_STATE, far), Catch::Contains("joint q2 at 3, outside its limits"));
   CHECK_THROWS_AS(robot.setPosition(vpRobot::MIXT_FRAME, v), vpRobotException);
   CHECK_THROWS_AS(robot.setRobotState(vpRobot::STATE_FORCE_TORQUE_CONTROL), vpRobotException);
   CHECK_THROWS_WITH(robot.setPositioningVelocity(0.),
@@ -395,7 +395,7 @@ TEST_CASE("Wrong use is answered with a sentence and changes nothing", "[arm]")
   CHECK_THROWS_WITH(vpSimulatedArm(amor(), spec), Catch::Contains("watchdog of the simulated arm is 0, must be > 0"));
   spec = ideal();
   spec.start = vpJointVector::Constant(7, 2.9);
-  CHECK_THROWS_WITH(vpSimulatedArm(amor(), spec), Catch::Contains("joint q2 would go to 2.9"));
+  CHECK_THROWS_WITH(vpSimulatedArm(amor(), spec), Catch::Contains("joint q2 at 2.9, outside its limits"));
   vpArmSpec unlimited = amor().spec();
   unlimited.joints[3].acceleration = std::numeric_limits<double>::infinity();
   CHECK_THROWS_WITH(vpSimulatedArm(vpArmModel(unlimited), ideal()), Catch::Contains("acceleration limit of joint q4"));

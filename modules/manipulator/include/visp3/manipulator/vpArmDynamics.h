@@ -21,6 +21,9 @@ BEGIN_VISP_NAMESPACE
  * \brief M(q) q'' + C(q, q') q' + F_f(q') + g(q) = tau, thesis (3.1), without the friction. Rotor inertias are on the
  * diagonal of M.
  *
+ * Each function returns false, and zero in its result, when a vector is of a wrong size, not finite or beyond vpArmLargest, or
+ * the result is not finite.
+ *
  * The recursions are those of Orocos KDL. An object holds scratch: use one in each thread.
  */
 class VISP_EXPORT vpArmDynamics
@@ -39,14 +42,14 @@ public:
   vpArmDynamics &operator=(const vpArmDynamics &) = delete;
 
   //! M(q), kg m^2 (kg for prismatic joints), symmetric and positive definite.
-  void inertia(const vpJointVector &q, vpJointMatrix &M);
+  bool inertia(const vpJointVector &q, vpJointMatrix &M);
   //! C(q, q') q', Nm or N.
-  void coriolis(const vpJointVector &q, const vpJointVector &velocity, vpJointVector &torque);
+  bool coriolis(const vpJointVector &q, const vpJointVector &velocity, vpJointVector &torque);
   //! g(q), Nm or N: what holds the arm still.
-  void gravity(const vpJointVector &q, vpJointVector &torque);
+  bool gravity(const vpJointVector &q, vpJointVector &torque);
   /*!
    * q'' = M^-1 (tau - C q' - g), rad/s^2 or m/s^2. Friction belongs into \e torque.
-   * \return False when M is not positive definite; \e acceleration is zero then.
+   * \return False also when M is not positive definite.
    */
   bool acceleration(const vpJointVector &q, const vpJointVector &velocity, const vpJointVector &torque,
                     vpJointVector &acceleration);

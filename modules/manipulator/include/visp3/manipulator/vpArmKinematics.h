@@ -48,14 +48,16 @@ namespace vpArmKinematics
 /*!
  * Frames of all joints and of the end effector, (3.8), and the configuration itself.
  * \param model : The arm.
- * \param q : n numbers; must be of the arm's size.
+ * \param q : n numbers.
  * \param data : Receives them.
+ * \return False when \e q is of a wrong size, not finite or beyond vpArmLargest: all frames, and what is computed from them,
+ * are NaN then, which no comparison takes for something.
  */
-VISP_EXPORT void forward(const vpArmModel &model, const vpJointVector &q, vpArmData &data) noexcept;
+VISP_EXPORT bool forward(const vpArmModel &model, const vpJointVector &q, vpArmData &data) noexcept;
 //! Geometric Jacobian in the base frame; after forward().
 VISP_EXPORT void jacobian(const vpArmModel &model, vpArmData &data) noexcept;
-//! forward() and jacobian().
-VISP_EXPORT void update(const vpArmModel &model, const vpJointVector &q, vpArmData &data) noexcept;
+//! forward() and jacobian(); returns what forward() does.
+VISP_EXPORT bool update(const vpArmModel &model, const vpJointVector &q, vpArmData &data) noexcept;
 
 //! Frame of link \e i (1..n; 0 is the base) in the base; after forward().
 [[nodiscard]] VISP_EXPORT vpRigidTransform link(const vpArmModel &model, const vpArmData &data, int i) noexcept;
@@ -87,7 +89,7 @@ pointJacobian(const vpArmModel &model, const vpArmData &data, int k) noexcept;
 //! dJ/dq_k in a frame; after jacobian().
 [[nodiscard]] VISP_EXPORT vpArmJacobian derivative(const vpArmModel &model, const vpArmData &data, int k,
                                                    vpArmFrame frame) noexcept;
-//! dJ/dt = sum_k dJ/dq_k q'_k in a frame; after jacobian().
+//! dJ/dt = sum_k dJ/dq_k q'_k in a frame; after jacobian(). NaN for velocities that forward() would not take either.
 [[nodiscard]] VISP_EXPORT vpArmJacobian timeDerivative(const vpArmModel &model, const vpArmData &data,
                                                        const vpJointVector &velocity, vpArmFrame frame) noexcept;
 } // namespace vpArmKinematics

@@ -28,9 +28,9 @@ class VISP_EXPORT vpArmModel
 public:
   /*!
    * \throw vpException (badValue) naming the arm or its file, the joint or link, and the value: no joint or more than
-   * 8, empty or doubled names, limits that are not lower < upper, velocity, acceleration or torque limits not > 0,
+   * 8, empty or duplicate names, limits that are not lower < upper, velocity, acceleration or torque limits not > 0,
    * masses not > 0, inertias that no body can have, rotations that are none, capsules of a link that does not exist or
-   * with a radius not > 0.
+   * with a radius not > 0; places, links and capsules beyond 10 km, other numbers beyond vpArmLargest.
    */
   explicit vpArmModel(const vpArmSpec &spec);
 
@@ -61,6 +61,13 @@ public:
   [[nodiscard]] const vpJointVector &home() const noexcept { return m_home; }
   //! True when every link has a mass.
   [[nodiscard]] bool hasMasses() const noexcept { return m_hasMasses; }
+  /*!
+   * Whether a configuration is within the position limits, by the tolerance that all limits have (vpLimit).
+   * \param q : n numbers, rad or m.
+   * \return Empty when it is; else what is wrong, with enough digits to tell a number from its limit: "joint elbow at 3.2,
+   * outside its limits -3.1 and 3.1". NaN is never within.
+   */
+  [[nodiscard]] std::string outsideLimits(const vpJointVector &q) const;
   /*!
    * \param user : Who needs them, for the message ("the redundancy solver").
    * \throw vpException (badValue) naming the first joint whose velocity or acceleration limit is infinite.

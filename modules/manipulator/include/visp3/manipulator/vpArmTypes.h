@@ -41,6 +41,17 @@ using vpArmJacobian = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 
 using vpJointMatrix =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, vpArmMaxJoints, vpArmMaxJoints>;
 
+//! \ingroup group_manipulator
+//! \brief Largest magnitude of a position, velocity, torque, gain or any other number of an arm, in its unit: beyond it a
+//! number is a broken one, and no square or product of those within it overflows.
+constexpr double vpArmLargest = 1e9;
+//! \ingroup group_manipulator
+//! \brief True when no number is beyond vpArmLargest; false for NaN.
+template <class Derived> [[nodiscard]] bool vpIsPlausibleForArm(const Eigen::MatrixBase<Derived> &numbers) noexcept
+{
+  return (numbers.array().abs() <= vpArmLargest).all();
+}
+
 /*!
  * \ingroup group_manipulator
  * \brief Pose aMb of a frame b in a frame a, as a rotation and a translation (m). ViSP's vpHomogeneousMatrix allocates.

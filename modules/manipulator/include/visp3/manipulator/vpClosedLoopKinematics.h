@@ -42,7 +42,9 @@ enum class vpClosedLoopStatus {
   StoppedByLimits,      //!< Given up: joints at their limits leave no way nearer to the goal.
   StoppedBySingularity, //!< Given up: the goal lies beyond a singularity or outside the workspace.
   Stalled,              //!< Given up without progress for another reason.
-  InvalidInput          //!< Something was not finite or of a wrong size; the arm brakes.
+  //! Something was not finite, beyond vpArmLargest, no rotation or of a wrong size; the arm brakes. When the configuration itself
+  //! is broken it stays so: start with a new one.
+  InvalidInput
 };
 
 /*!
@@ -115,6 +117,8 @@ public:
 
 private:
   void drift(const vpJointVector &velocity, Eigen::Matrix<double, 6, 1> &twist) noexcept;
+  [[nodiscard]] bool usable(const vpClosedLoopInput &input, const vpClosedLoopState &state) const noexcept;
+  void brake(vpClosedLoopState &state, vpClosedLoopOutput &output) noexcept;
   [[nodiscard]] Eigen::Matrix<double, 6, 1> rate(const vpJointVector &velocity) const noexcept;
   void motion(const vpClosedLoopInput &input, vpClosedLoopState &state, vpClosedLoopOutput &output) noexcept;
 

@@ -38,18 +38,21 @@ struct VISP_EXPORT vpJointBounds {
    * \param previous : Velocity commanded in the last period.
    * \param period : s, > 0.
    * \param margin : Kept from the position limits, rad or m, >= 0.
+   * \return False when a number is missing, not finite or beyond vpArmLargest. The bounds then lead to rest: a joint whose
+   * place is not known brakes, one whose velocity is not known counts as resting, and without period or margin all stop.
    */
-  void update(const vpArmModel &model, const vpJointVector &q, const vpJointVector &previous, double period,
+  bool update(const vpArmModel &model, const vpJointVector &q, const vpJointVector &previous, double period,
               double margin) noexcept;
   /*!
    * Largest factor up to 1 with which a motion of all joints along \e direction (rad/s) can be braked before any
-   * position limit without leaving that direction: the joint that brakes worst sets the deceleration of all.
+   * position limit without leaving that direction: the joint that brakes worst sets the deceleration of all. 0 for a
+   * direction that is not finite.
    */
   [[nodiscard]] double together(const vpArmModel &model, const vpJointVector &direction, double period) const noexcept;
   /*!
    * The velocity nearest to \e wanted that is within all limits of joint \e i; the velocity limit goes first, then
    * acceleration, then position (they contradict each other only when a joint was brought to its limit by something
-   * else).
+   * else). NaN counts as 0.
    */
   [[nodiscard]] double clamp(int i, double wanted) const noexcept;
 };

@@ -25,8 +25,9 @@ struct VISP_EXPORT vpJointFriction {
 
   //! That of the arm's file.
   [[nodiscard]] static vpJointFriction of(const vpArmModel &model);
-  //! Friction at these velocities, Nm or N; no allocation. \e velocity has as many numbers as viscous.
-  void torque(const vpJointVector &velocity, vpJointVector &result) const noexcept;
+  //! Friction at these velocities, Nm or N; no allocation. False, and zero, when a velocity is missing, not finite or beyond
+  //! vpArmLargest.
+  bool torque(const vpJointVector &velocity, vpJointVector &result) const noexcept;
   /*!
    * \param size : Number of joints.
    * \throw vpException (badValue) naming the field that is out of range, and its value.

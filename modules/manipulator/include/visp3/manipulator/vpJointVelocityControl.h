@@ -50,7 +50,7 @@ public:
   struct Output {
     vpJointVector torque;       //!< Nm or N, within maxTorque.
     unsigned int saturated = 0; //!< Bit i: joint i is at its torque limit.
-    bool valid = true;          //!< False: an input was not finite or of a wrong size; the torque is zero.
+    bool valid = true; //!< False: an input was not finite, beyond vpArmLargest or of a wrong size; the torque is 0.
   };
 
   //! \throw vpException (badValue), see vpJointVelocityControlSpec::validate().

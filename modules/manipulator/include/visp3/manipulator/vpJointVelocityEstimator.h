@@ -34,20 +34,24 @@ public:
   //! Starts anew at the next reading, at rest.
   void reset() noexcept;
   /*!
-   * One cycle; no allocation, no exception. A reading that is not finite is left out: the model goes on.
-   * \param q : Measured positions, unwrapped, rad or m; of the right size.
-   * \param acceleration : That of the last period if known, rad/s^2 or m/s^2; empty: zero.
+   * One cycle; no allocation, no exception. A reading of a wrong size, not finite or beyond vpArmLargest is left out: the
+   * model goes on, see measured().
+   * \param q : Measured positions, unwrapped, rad or m.
+   * \param acceleration : That of the last period if known, rad/s^2 or m/s^2; empty or such a one: zero.
    * \return Velocities now, rad/s or m/s.
    */
   const vpJointVector &step(const vpJointVector &q, const vpJointVector &acceleration = vpJointVector()) noexcept;
   //! Velocities of the last step.
   [[nodiscard]] const vpJointVector &velocity() const noexcept { return m_velocity; }
+  //! False when the last step had no usable reading.
+  [[nodiscard]] bool measured() const noexcept { return m_measured; }
   //! Smoothed positions of the last step.
   [[nodiscard]] const vpJointVector &position() const noexcept { return m_position; }
 
 private:
   double m_period, m_alpha, m_beta;
   bool m_started = false;
+  bool m_measured = false;
   vpJointVector m_position, m_velocity;
 };
 

@@ -93,15 +93,15 @@ struct VISP_EXPORT vpRedundancyInput {
 //! \ingroup group_manipulator
 //! \brief How the wish and the answer differ; the gravest holds.
 enum class vpRedundancyStatus {
-  Exact,           //!< As wanted.
-  Accelerating,    //!< On the way to what is wanted, at an acceleration limit.
+  Exact,           //!< As wanted: off by a millionth of the wish (of 1 mm/s for slower ones) in scaled units at most.
+  Accelerating,    //!< On the way to what is wanted (or to as much of it as Scaled gives), at an acceleration limit.
   Scaled,          //!< Slower than wanted, on the same path, because of a velocity (ScaleMotion: or position) limit.
   Damped,          //!< Near a singularity: slower than wanted in the direction that is getting lost.
   Escaping,        //!< Near a singularity: self-motion leads out of it.
   JointsStopped,   //!< Joints are held at their position limits; the others do not make up for all of it.
   BlockedByLimits, //!< The wanted motion is impossible because of position limits.
   BlockedBySingularity, //!< The wanted motion is impossible for the arm in this pose (it is stretched out).
-  InvalidInput          //!< Something was not finite or of a wrong size; the arm brakes.
+  InvalidInput          //!< Something was not finite, beyond vpArmLargest or of a wrong size; the arm brakes.
 };
 
 /*!
@@ -157,6 +157,8 @@ public:
   [[nodiscard]] const vpRedundancySpec &spec() const noexcept { return m_spec; }
 
 private:
+  void brake(const vpRedundancyInput &input, vpRedundancyOutput &output) const noexcept;
+
   const vpArmModel *m_model;
   vpRedundancySpec m_spec;
   Eigen::Matrix<double, vpArmMaxJoints, 1> m_scale; // W^-1/2, zero where there is no joint

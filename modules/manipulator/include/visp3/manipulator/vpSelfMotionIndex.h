@@ -100,7 +100,7 @@ struct VISP_EXPORT vpIndexValue {
  * \param index : What is climbed.
  * \param result : Receives value, distance and gradient.
  * \return False where there is no gradient (singular pose, joint in the point or on the line, index that does not fit
- * the arm); the gradient is zero then.
+ * the arm, numbers that are not finite); the gradient is zero then.
  */
 VISP_EXPORT bool vpEvaluateIndex(const vpArmModel &model, const vpArmData &data, const vpSelfMotionIndex &index,
                                  vpIndexValue &result) noexcept;

@@ -65,10 +65,11 @@ class VISP_EXPORT vpAlphaBetaFilter
 public:
   //! \brief What the filter remembers, and its answer.
   struct State {
-    double value = 0.;    //!< Filtered value, unit.
-    double rate = 0.;     //!< Its rate, unit per time.
-    double residual = 0.; //!< Last measurement minus its prediction, unit.
-    bool started = false; //!< A measurement has come.
+    double value = 0.;     //!< Filtered value, unit.
+    double rate = 0.;      //!< Its rate, unit per time.
+    double residual = 0.;  //!< Last measurement minus its prediction, unit.
+    bool started = false;  //!< A measurement has come.
+    bool measured = false; //!< The last step had a measurement; else it predicted.
   };
 
   /*!
@@ -80,15 +81,17 @@ public:
 
   /*!
    * Take a measurement.
-   * \param z : Value; the first one starts the filter there at rate 0. When it is not finite, the filter predicts only.
-   * \param u : Known acceleration of the value since the last step, unit per time squared.
+   * \param z : Value; the first one starts the filter there at rate 0. When it is not finite or beyond vpPrintingLargest, the
+   * filter predicts only.
+   * \param u : Known acceleration of the value since the last step, unit per time squared; the same: taken for 0.
    */
   const State &step(double z, double u = 0.) noexcept;
   //! A period without a measurement.
   const State &skip(double u = 0.) noexcept;
-  //! Value after another \e dt, (7.24) for dt = 1 and 2 periods.
-  [[nodiscard]] double predict(double dt) const noexcept { return m_state.value + dt * m_state.rate; }
-  //! Start from a known value and rate.
+  //! Value after another \e dt, (7.24) for dt = 1 and 2 periods; the value now when \e dt is not finite or beyond
+  //! vpPrintingLargest.
+  [[nodiscard]] double predict(double dt) const noexcept;
+  //! Start from a known value and rate. Numbers that are not finite or beyond vpPrintingLargest change nothing.
   void reset(double value, double rate) noexcept;
   //! Start from the next measurement.
   void reset() noexcept { m_state = State(); }

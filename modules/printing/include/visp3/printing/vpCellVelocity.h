@@ -31,10 +31,12 @@ struct VISP_EXPORT vpCellVelocity {
  * weighted by the variance of its displacement. As printed, the sum runs over the cells of one frame and jumps by a
  * pitch when a cell enters or leaves.
  *
- * \param before, beforeCount : Cells of the earlier frame.
+ * \param before, beforeCount : Cells of the earlier frame. Those with numbers that are not finite, beyond vpPrintingLargest
+ * or, as deviations, not > 0 do not count.
  * \param now, nowCount : Cells of the later frame, of the same epoch.
- * \param frames : Frames between them, > 0; otherwise no cell counts. 2 after a dropped frame.
- * \return See vpCellVelocity. Lists sorted by row and column take linear time, others are allowed. Does not allocate.
+ * \param frames : Frames between them, 1e-12 to 1e12; otherwise no cell counts. 2 after a dropped frame.
+ * \return See vpCellVelocity. In lists sorted alike each common cell takes constant time; a cell without counterpart costs a look
+ * at all earlier ones, so the work is at most that of beforeCount nowCount comparisons. Does not allocate.
  */
 [[nodiscard]] VISP_EXPORT vpCellVelocity vpFindCellVelocity(const vpPatternCell *before, std::size_t beforeCount,
                                                             const vpPatternCell *now, std::size_t nowCount,

@@ -42,7 +42,7 @@ enum class vpFrictionStatus {
   TooFewSamples, //!< Less than ten samples for each parameter.
   NotExcited,    //!< Velocities or accelerations vary too little to tell the parameters apart; nothing holds.
   NoStribeck,    //!< The slow samples do not show a Stribeck term; stiction = Coulomb, the rest holds.
-  NotFinite      //!< A sample is not finite; nothing holds.
+  NotFinite      //!< A sample is not finite or beyond vpPrintingLargest; nothing holds.
 };
 
 //! \ingroup group_printing

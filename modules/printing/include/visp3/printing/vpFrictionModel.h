@@ -25,9 +25,9 @@ struct VISP_EXPORT vpFrictionModel {
   double stiction = 0.;         //!< Fs, F, >= 0; with stiction = coulomb there is no Stribeck term.
   double stribeckVelocity = 1.; //!< vs, L/T, > 0.
 
-  //! Friction at a velocity, F; odd, 0 at rest.
+  //! Friction at a velocity, F; odd, 0 at rest. Finite for a plausible velocity (vpIsPlausible()) and a validated model.
   [[nodiscard]] double friction(double velocity) const noexcept;
-  //! Force that gives an acceleration at a velocity, (7.26), F.
+  //! Force that gives an acceleration at a velocity, (7.26), F. Finite as friction() is.
   [[nodiscard]] double force(double velocity, double acceleration) const noexcept;
   /*!
    * \param owner : Whose model it is, for the message.

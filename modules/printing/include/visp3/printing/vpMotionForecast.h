@@ -9,6 +9,7 @@
 #ifndef vpMotionForecast_h
 #define vpMotionForecast_h
 
+#include <visp3/printing/vpPrintingLimits.h>
 #include <visp3/trajectory/vpTrajectoryPlan.h>
 
 #include <array>
@@ -25,7 +26,8 @@ BEGIN_VISP_NAMESPACE
  * it.
  */
 struct VISP_EXPORT vpMotionForecast {
-  static constexpr int maxPieces = 4; //!< Of a plan.
+  static constexpr int maxPieces = 4;    //!< Of a plan.
+  static constexpr double longest = 1e6; //!< Nobody looks farther from #time, T.
 
   double time = 0.;             //!< t0, of the state below, T.
   double position = 0.;         //!< L.
@@ -36,13 +38,22 @@ struct VISP_EXPORT vpMotionForecast {
   int pieces = 0;               //!< Of the plan in use, 0 to maxPieces.
   std::array<vpTrajectorySegment, maxPieces> plan; //!< One after the other; their begins on the clock of \e time.
 
-  //! Position, velocity, acceleration and jerk at any time. Never throws or allocates.
+  /*!
+   * True when all fields are in their ranges, the numbers and the plan's coefficients are finite and not beyond
+   * vpPrintingLargest, and durations are not below its inverse. Only then the answers of at() are finite.
+   */
+  [[nodiscard]] bool isPlausible() const noexcept;
+  /*!
+   * Position, velocity, acceleration and jerk at any time; farther from #time than #longest: the state there, of NaN: that at
+   * #time. Does not throw or allocate.
+   */
   [[nodiscard]] vpAxisState at(double t) const noexcept;
 };
 
 /*!
  * \ingroup group_printing
- * \brief State of a sequence of polynomials at any time; outside of them it goes on at the velocity of their end.
+ * \brief State of a sequence of polynomials, of durations > 0, at any time; outside of them it goes on at the velocity of
+ * their end.
  */
 [[nodiscard]] VISP_EXPORT vpAxisState vpEvaluatePieces(const vpTrajectorySegment *pieces, int count, double t) noexcept;
 

@@ -9,7 +9,7 @@
 #ifndef vpMotionKalmanFilter_h
 #define vpMotionKalmanFilter_h
 
-#include <visp3/direct_core/vpDirectCompat.h>
+#include <visp3/printing/vpMotionReadingResult.h>
 
 #include <Eigen/Core>
 
@@ -41,6 +41,8 @@ struct VISP_EXPORT vpMotionKalmanSpec {
   double encoderOffsetSigma = 0.; //!< Of the offset at the start, L, >= 0. 0: known.
   //! Slip of the encoder: its offset walks at random with this density, L^2/T, >= 0.
   double encoderSlip = 0.;
+  double maxGap =
+      1e5; //!< Readings farther ahead of the newest one are refused, and nobody extrapolates farther, T, > 0.
 
   //! \throw vpException (badValue) naming the field that is out of range, and its value.
   void validate() const;
@@ -65,18 +67,9 @@ struct VISP_EXPORT vpMotionReading {
 };
 
 //! \ingroup group_printing
-//! \brief What became of a reading.
-enum class vpMotionReadingResult {
-  Used,    //!< It counts.
-  Outlier, //!< Beyond the gate.
-  TooLate, //!< Its time is more than maxDelay ago.
-  Invalid, //!< A value is not finite, or sigma is not > 0.
-  NoMark   //!< A displacement before any Mark: it counts as a Mark.
-};
-
-//! \ingroup group_printing
 //! \brief State of the motion at an instant.
 struct VISP_EXPORT vpMotionEstimate {
+  bool asAsked = true;           //!< False: the time asked for is out of reach; #time tells which state this is.
   double time = 0.;              //!< T.
   double position = 0.;          //!< L.
   double velocity = 0.;          //!< L/T.
@@ -99,14 +92,17 @@ struct VISP_EXPORT vpMotionEstimate {
  *
  * Readings carry the time at which they were true. Those within maxDelay of the newest are kept in order of time and
  * replayed, so the answer is that of a filter that got them in order; older ones are settled. A reading that is missing
- * is simply not given. Displacements are measured against a copy of the position at the last one, which keeps the
- * correlation. Two axes are two filters.
+ * is simply not given. The displacement since the last one is a state of its own, which keeps the correlation. Two axes are two filters.
  *
  * Displacement errors are taken to be independent. Those of successive frames are not quite (the same error of the middle
  * frame is in both, with opposite signs); Position readings of identified cells are better where there are any.
  *
  * The third reading of a kind in a row beyond the gate is taken to be right and the belief to be wrong (for an encoder: it has
  * slipped).
+ *
+ * A reading more than maxGap ahead is refused, for one broken time stamp would make all that follow come too late. After a
+ * longer gap, or when the clock was set anew, reset() to the present. The filter starts at time 0: reset() first when the
+ * clock does not.
  *
  * add() and at() do not allocate, throw, lock or print.
  */
@@ -120,11 +116,14 @@ public:
 
   //! Take a reading.
   vpMotionReadingResult add(const vpMotionReading &reading) noexcept;
-  //! The motion at any time, with all readings that have come. Before the oldest settled time: the state there.
+  /*!
+   * The motion at any time, with all readings that have come. Before the oldest settled time: the state there; more than
+   * maxGap behind the newest: the state that far ahead; of NaN: the newest.
+   */
   [[nodiscard]] vpMotionEstimate at(double time) const noexcept;
   /*!
    * Start anew at a known state, uncertain as the specification says.
-   * \param time, position, velocity : Finite, T, L, L/T; others are ignored.
+   * \param time, position, velocity : T, L, L/T. Numbers that are not finite or beyond vpPrintingLargest change nothing.
    */
   void reset(double time, double position = 0., double velocity = 0.) noexcept;
   //! Readings that the gate has refused since reset().
@@ -133,7 +132,8 @@ public:
   [[nodiscard]] const vpMotionKalmanSpec &spec() const { return m_spec; }
 
 private:
-  static constexpr int states = 6; // position, velocity, acceleration, position at the mark, encoder offset and scale
+  static constexpr int states =
+      6; // position, velocity, acceleration, displacement since the mark, encoder offset, scale
   using Vector = Eigen::Matrix<double, states, 1>;
   using Matrix = Eigen::Matrix<double, states, states>;
   //! \brief Belief at a time.
@@ -147,6 +147,9 @@ private:
   void predict(Belief &belief, double time) const noexcept;
   vpMotionReadingResult correct(Belief &belief, const vpMotionReading &reading) const noexcept;
   static void mark(Belief &belief) noexcept;
+  static void clearMoved(Belief &belief) noexcept;
+  [[nodiscard]] static bool isSound(const Belief &belief) noexcept;
+  [[nodiscard]] vpMotionReadingResult resultOf(Belief &belief, const vpMotionReading &reading) const noexcept;
   void settleOldest() noexcept;
 
   vpMotionKalmanSpec m_spec;

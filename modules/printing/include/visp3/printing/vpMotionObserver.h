@@ -10,6 +10,7 @@
 #define vpMotionObserver_h
 
 #include <visp3/printing/vpFrictionModel.h>
+#include <visp3/printing/vpMotionReadingResult.h>
 
 #include <Eigen/Core>
 
@@ -33,6 +34,9 @@ struct VISP_EXPORT vpMotionObserverSpec {
   double sigmaPosition = 1.;      //!< Standard deviation at the start, L, > 0.
   double sigmaVelocity = 1e-3;    //!< At the start, L/T, > 0; small: at rest.
   double sigmaDisturbance = 0.03; //!< Of the friction error at the start and of its sudden changes, F, > 0.
+  //! Measurements and commands farther ahead of the newest measurement are refused, and nobody extrapolates farther, T, in
+  //! (0, 1000]: the work of a step is bounded by it.
+  double maxGap = 1000.;
 
   //! \throw vpException (badValue) naming the field that is out of range, and its value.
   void validate() const;
@@ -41,6 +45,7 @@ struct VISP_EXPORT vpMotionObserverSpec {
 //! \ingroup group_printing
 //! \brief State of the axis at an instant.
 struct VISP_EXPORT vpObservedMotion {
+  bool asAsked = true;       //!< False: the time asked for is out of reach; #time tells which state this is.
   double time = 0.;          //!< T.
   double position = 0.;      //!< L.
   double velocity = 0.;      //!< L/T.
@@ -68,6 +73,10 @@ struct VISP_EXPORT vpObservedMotion {
  *
  * The third measurement in a row beyond the gate is taken to be right and the belief to be wrong.
  *
+ * Times more than maxGap ahead are refused, for one broken time stamp would make all that follow come too late. After a
+ * longer gap, or when the clock was set anew, reset() to the present. The observer starts at time 0: reset() first when the
+ * clock does not.
+ *
  * Functions of the loop do not allocate, throw, lock or print.
  */
 class VISP_EXPORT vpMotionObserver
@@ -78,17 +87,24 @@ public:
   //! \throw vpException (badValue) naming the field of \e spec that is out of range, and its value.
   explicit vpMotionObserver(const vpMotionObserverSpec &spec = vpMotionObserverSpec());
 
-  //! A command given at a time, held until the next one. Times must not decrease; otherwise it is ignored.
-  void command(double time, double force) noexcept;
+  /*!
+   * A command given at a time, held until the next one.
+   * \param time : T; not before the last command. \param force : F.
+   * \return False when it was ignored: too late, implausible (see the class), not finite or beyond vpPrintingLargest.
+   */
+  bool command(double time, double force) noexcept;
   /*!
    * A position that was true at \e time.
    * \param time : T; not before the last measurement. \param position : L. \param sigma : Its standard deviation, L, > 0.
-   * \return False when it was not used: too late, not finite or beyond the gate.
+   * \return Used, Outlier, TooLate, ImplausibleTime or Invalid.
    */
-  bool measure(double time, double position, double sigma) noexcept;
-  //! The state at a time; before the last measurement: there. Later than the last command: as if it were held.
+  vpMotionReadingResult measure(double time, double position, double sigma) noexcept;
+  /*!
+   * The state at a time. Later than the last command: as if it were held; before the last measurement, or of NaN: there; more
+   * than maxGap behind it: the state that far ahead.
+   */
   [[nodiscard]] vpObservedMotion at(double time) const noexcept;
-  //! Back to rest at a place and time.
+  //! Back to rest at a place and time. Numbers that are not finite or beyond vpPrintingLargest change nothing.
   void reset(double time = 0., double position = 0.) noexcept;
   //! As given.
   [[nodiscard]] const vpMotionObserverSpec &spec() const { return m_spec; }
@@ -110,6 +126,8 @@ private:
     double evidence = 0.;                               // odds of this change to none
   };
   static constexpr int window = 24; // measurements that a change may be back
+  [[nodiscard]] bool isSound() const noexcept;
+  [[nodiscard]] vpMotionReadingResult take(double time, double position, double sigma) noexcept;
   void advance(Belief &belief, double time, Eigen::Matrix4d *transition = nullptr) const noexcept;
   void part(Belief &belief, double command, double h, Eigen::Matrix4d *transition) const noexcept;
   void lookForChange(double innovation, double S, const Eigen::Vector4d &K) noexcept;

@@ -45,13 +45,19 @@ struct VISP_EXPORT vpPreviewControlSpec {
 class VISP_EXPORT vpPreviewControl
 {
 public:
-  //! \brief What is asked in a step.
+  //! \brief What is asked in a step; all plausible by vpIsPlausible().
   struct Input {
     vpAxisState reference{};         //!< Position, velocity, acceleration, jerk at actsAt(now).
     vpAxisState referenceFeedback{}; //!< The same at feedbackAt(now).
     double position = 0.;            //!< Predicted for feedbackAt(now), L.
     double velocity = 0.;            //!< Predicted for feedbackAt(now), L/T.
     double disturbance = 0.;         //!< Friction beyond the model, F.
+  };
+  //! \brief What is answered.
+  struct Output {
+    double force = 0.;      //!< Command, F, within maxForce.
+    bool saturated = false; //!< The bound cut the command.
+    bool valid = false; //!< False: a number of the input is not finite or beyond vpPrintingLargest; the command is 0.
   };
 
   //! \throw vpException (badValue) naming the field of \e spec that is out of range, and its value.
@@ -60,8 +66,8 @@ public:
   [[nodiscard]] double actsAt(double now) const noexcept { return now + m_spec.delay + 0.5 * m_spec.period; }
   //! When it begins to act.
   [[nodiscard]] double feedbackAt(double now) const noexcept { return now + m_spec.delay; }
-  //! The command, F; 0 if the input is not finite. Never throws or allocates.
-  [[nodiscard]] double force(const Input &input) const noexcept;
+  //! The command. Does not throw or allocate.
+  [[nodiscard]] Output command(const Input &input) const noexcept;
   //! As given.
   [[nodiscard]] const vpPreviewControlSpec &spec() const { return m_spec; }
 

@@ -66,6 +66,8 @@ struct VISP_EXPORT vpPrintTarget {
 class VISP_EXPORT vpPrintReference
 {
 public:
+  static constexpr double longestGap = 1e5; //!< Between steps, and as far as at() looks, frame.
+
   //! \brief Answer of a step.
   struct Output {
     vpAxisState state{};    //!< Position, velocity, acceleration, jerk now.
@@ -75,23 +77,31 @@ public:
     bool newTarget = false; //!< The present target was taken up in this step.
     bool frozen = false;    //!< Too late to follow the target.
     bool exceeded = false;  //!< LimitedVelocity: the polynomial breaks the limit (a target moved, or starts beyond it).
+    //! False: the time of the step was before that of the last one, more than #longestGap behind it or not finite; nothing
+    //! has changed, the state is that of the last good step.
+    bool valid = true;
   };
 
   //! \throw vpException (badValue) naming the field of \e spec that is out of range, and its value.
   explicit vpPrintReference(const vpPrintReferenceSpec &spec = vpPrintReferenceSpec());
 
   /*!
-   * \param now : Time, frame; must not decrease.
-   * \param targets, count : Targets that are known, by ascending key; those behind may be left out.
+   * \param now : Time, frame; must not decrease nor jump, see Output::valid. At first: since 0, or the time of reset().
+   * \param targets, count : Targets that are known, by ascending key; those behind may be left out. One with a number that is
+   * not finite or beyond vpPrintingLargest is left out.
    */
   const Output &step(double now, const vpPrintTarget *targets, std::size_t count) noexcept;
-  //! The reference at a time from the last step on, as far as targets were known; then at constant velocity.
+  //! The reference at a time from the last step on, as far as targets were known; then at constant velocity. Farther than
+  //! #longestGap from the last step: the state there; of NaN: that of the last step.
   [[nodiscard]] vpAxisState at(double time) const noexcept;
+  //! Of the last step.
+  [[nodiscard]] const Output &output() const { return m_output; }
   //! The plan, for a vpMotionForecast.
   [[nodiscard]] const std::array<vpTrajectorySegment, vpMotionForecast::maxPieces> &pieces() const { return m_pieces; }
   //! Number of pieces in use.
   [[nodiscard]] int pieceCount() const { return m_count; }
-  //! Start at a time and place, at rest; targets with keys up to \e passed are behind.
+  //! Start at a time and place, at rest; targets with keys up to \e passed are behind. Numbers that are not finite or beyond
+  //! vpPrintingLargest change nothing.
   void reset(double now, double position, long passed) noexcept;
   //! As given.
   [[nodiscard]] const vpPrintReferenceSpec &spec() const { return m_spec; }
@@ -107,7 +117,8 @@ private:
   vpPrintTarget m_target; // of the present piece
   bool m_hasTarget = false;
   long m_passed = 0;     // key of the last target behind
-  double m_since = 0.;   // when the last one was reached
+  double m_now = 0.;     // of the last good step
+  double m_since = 0.;   // when the last target was reached
   vpAxisState m_start{}; // state there
   Output m_output;
 };

@@ -90,11 +90,20 @@ struct VISP_EXPORT vpPrintShot {
 };
 
 //! \ingroup group_printing
+//! \brief Which part of an input a step took.
+enum class vpPrintTriggerStatus {
+  Good,         //!< All.
+  FrameRefused, //!< Not the cells: the time or the displacement of their capture is implausible. The motion went on.
+  InputRefused  //!< Nothing: time or motion is implausible. No shots, nothing has changed.
+};
+
+//! \ingroup group_printing
 //! \brief What a trigger answers. Fixed room.
 struct VISP_EXPORT vpPrintTriggerOutput {
-  static constexpr int capacity = 32;          //!< Of each list; what does not fit waits for the next step.
-  int shotCount = 0;                           //!< Shots to be fired; each cell once.
-  int missedCount = 0;                         //!< Cells that can no longer be hit; each once.
+  static constexpr int capacity = 32; //!< Of each list; what does not fit waits for the next step.
+  vpPrintTriggerStatus status = vpPrintTriggerStatus::Good; //!< What was taken of the input.
+  int shotCount = 0;                                        //!< Shots to be fired; each cell once.
+  int missedCount = 0;                                      //!< Cells that can no longer be hit; each once.
   int plannedCount = 0;                        //!< Shots to come within the horizon; they may still change.
   bool overflow = false;                       //!< A cell found no room in the memory.
   std::array<vpPrintShot, capacity> shots{};   //!< To be fired.
@@ -116,6 +125,10 @@ struct VISP_EXPORT vpPrintTriggerOutput {
  * A cell counts as missed only if it was waiting before the nozzle, in the nozzle's row: those that have passed already when
  * they are seen first are left alone. Cells of a new epoch that lie where known ones do inherit their latch.
  * The motion may reverse; cells of other rows wait for their turn.
+ *
+ * The clocks of an input check each other: #vpPrintTriggerInput::time must be within vpMotionForecast::longest of the time
+ * of the forecast along, the capture as near and not later than the present by more than a period. Cells with numbers that are
+ * not finite, beyond vpPrintingLargest or, as deviations, not > 0 are left out.
  *
  * step() does not allocate, throw, lock or print.
  */
@@ -151,6 +164,7 @@ private:
     Latch latch = Latch::Waiting;
     double side = 0.; // of the nozzle, at the last step: 1 beyond it along the axis, -1 before
   };
+  [[nodiscard]] vpPrintTriggerStatus judge(const vpPrintTriggerInput &input) const noexcept;
   void see(const vpPrintTriggerInput &input) noexcept;
   void schedule(const vpPrintTriggerInput &input, const vpAxisState &now, double across, Entry &entry) noexcept;
   void thesisStep(const vpPrintTriggerInput &input) noexcept;

@@ -51,7 +51,7 @@ public:
   struct Input {
     double velocity = 0.;     //!< Reference, L/T.
     double acceleration = 0.; //!< Reference, L/T^2; for the feedforward.
-    double measured = 0.;     //!< Velocity, filtered or not, L/T. Not finite: the last error stands.
+    double measured = 0.;     //!< Velocity, filtered or not, L/T.
   };
   //! \brief What is answered.
   struct Output {
@@ -59,6 +59,9 @@ public:
     double feedback = 0.;    //!< PID part before the bound, F.
     double feedforward = 0.; //!< (7.26), F.
     bool saturated = false;  //!< The bound cut the command.
+    //! False: a number of the input is not finite or beyond vpPrintingLargest. Without velocities the last error and the
+    //! integral stand; without a reference there is no feedforward.
+    bool valid = true;
   };
 
   //! \throw vpException (badValue) naming the field of \e spec that is out of range, and its value.

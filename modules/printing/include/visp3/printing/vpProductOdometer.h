@@ -18,8 +18,8 @@ BEGIN_VISP_NAMESPACE
 /*!
  * \class vpProductOdometer
  * \ingroup group_printing
- * \brief Adds up vpFindCellVelocity() over the frames. While the same cells are in view the sum telescopes: its error is that
- * of two frames, not of all; it walks slowly as cells leave and enter.
+ * \brief Adds up vpFindCellVelocity() over the frames. While the same cells are in view, with the same deviations, the sum
+ * telescopes: its error is that of two frames, not of all; it walks slowly as cells leave and enter or their weights change.
  *
  * A dropped frame loses nothing as long as the next one has cells in common with the last one seen. After a change of
  * epoch, or without common cells, the displacement in between is taken from a prediction.
@@ -39,6 +39,7 @@ public:
     double sigmaY = 0.;    //!< Of dy, px.
     int cells = 0;         //!< In common with the last frame.
     bool measured = false; //!< dx and dy were measured, not predicted.
+    bool lost = false; //!< A displacement since reset() was neither measured nor predicted: x and y are off since then.
   };
 
   /*!
@@ -50,7 +51,8 @@ public:
   /*!
    * Take a frame. The first one only sets the start.
    * \param cells, count : Its cells. \param epoch : Theirs.
-   * \param predictedX, predictedY : Displacement since the last frame to use when none can be measured, px.
+   * \param predictedX, predictedY : Displacement since the last frame to use when none can be measured, px; plausible by
+   * vpIsPlausible().
    */
   const Output &step(const vpPatternCell *cells, std::size_t count, unsigned int epoch, double predictedX = 0.,
                      double predictedY = 0.) noexcept;

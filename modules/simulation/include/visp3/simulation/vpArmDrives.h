@@ -22,7 +22,7 @@ BEGIN_VISP_NAMESPACE
 //! \brief How good an arm's drives are.
 struct VISP_EXPORT vpArmDriveSpec {
   bool ideal = false;              //!< True: the arm is where it is commanded to be; nothing below counts.
-  double period = 0.001;           //!< Longest cycle of joint control and plant, s, > 0.
+  double period = 0.001;           //!< Longest cycle of joint control and plant, s, 1e-6 to 1.
   double frictionScale = 1.;       //!< Of the plant, relative to the arm's file, >= 0.
   bool compensateFriction = false; //!< The control adds the friction of the arm's file (not scaled).
   double encoderNoise =
@@ -49,6 +49,8 @@ struct VISP_EXPORT vpArmDriveSpec {
 class VISP_EXPORT vpArmDrives
 {
 public:
+  static constexpr double longestMove = 100.; //!< s; the work of a move() is bounded by it.
+
   /*!
    * \param model : Is referred to; must outlive the drives.
    * \param spec : How good the drives are.
@@ -59,11 +61,13 @@ public:
   //! At rest in \e q. \throw vpException (badValue) when it does not fit the arm.
   void reset(const vpJointVector &q);
   /*!
-   * Let time pass; no allocation, no exception. A velocity that is not finite or of a wrong size counts as zero.
-   * \param velocity : Commanded, rad/s or m/s.
-   * \param duration : s, > 0; done in equal cycles of at most vpArmDriveSpec::period.
+   * Let time pass; no allocation, no exception.
+   * \param velocity : Commanded, rad/s or m/s. One of a wrong size, not finite or beyond vpArmLargest counts as zero.
+   * \param duration : s, > 0 and at most #longestMove, otherwise no time passes; done in equal cycles of at most
+   * vpArmDriveSpec::period.
+   * \return False when something was not taken as it was given.
    */
-  void move(const vpJointVector &velocity, double duration) noexcept;
+  bool move(const vpJointVector &velocity, double duration) noexcept;
 
   //! Want to be where the encoders are, at rest.
   void holdHere() noexcept;
@@ -86,7 +90,7 @@ public:
   [[nodiscard]] const vpArmDriveSpec &spec() const noexcept { return m_spec; }
 
 private:
-  void cycle(double dt) noexcept;
+  bool cycle(double dt) noexcept;
   void measure() noexcept;
 
   const vpArmModel *m_model;

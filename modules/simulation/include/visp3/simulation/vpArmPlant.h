@@ -27,6 +27,8 @@ BEGIN_VISP_NAMESPACE
 class VISP_EXPORT vpArmPlant
 {
 public:
+  static constexpr double longestStep = 1.; //!< s.
+
   /*!
    * \param model : Is referred to; must outlive the plant. Friction, masses and limits are its.
    * \param frictionScale : Factor on viscous and Coulomb friction, >= 0.
@@ -37,11 +39,13 @@ public:
   //! At rest in \e q, n numbers.
   void reset(const vpJointVector &q);
   /*!
-   * One step; no allocation, no exception. Nothing moves when \e torque is not finite or of a wrong size.
+   * One step; no allocation, no exception.
    * \param torque : Of the drives, Nm or N, n numbers.
-   * \param dt : s, > 0; 1 ms is what it is made for.
+   * \param dt : s, 1e-9 to #longestStep; 1 ms is what it is made for.
+   * \return False when \e dt is out of its range, a torque is missing, not finite or beyond vpArmLargest, or the motion would
+   * be; nothing has moved then.
    */
-  void step(const vpJointVector &torque, double dt) noexcept;
+  bool step(const vpJointVector &torque, double dt) noexcept;
 
   //! Configuration, rad or m.
   [[nodiscard]] const vpJointVector &q() const noexcept { return m_q; }
@@ -51,6 +55,7 @@ public:
   [[nodiscard]] const vpJointFriction &friction() const noexcept { return m_friction; }
 
 private:
+  bool move(const vpJointVector &torque, double dt) noexcept;
   void holdBack(const vpJointMatrix &compliance, double dt) noexcept;
 
   const vpArmModel *m_model;

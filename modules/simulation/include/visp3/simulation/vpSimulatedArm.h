@@ -92,7 +92,9 @@ struct VISP_EXPORT vpSimulatedArmState {
  * vpHomogeneousMatrix fMc = robot.get_fMc();
  * \endcode
  *
- * With vpArmClock::RealTime all functions may be called while the arm moves; calls from several threads are safe.
+ * With vpArmClock::RealTime all functions may be called while the arm moves; calls of the functions below from several
+ * threads are safe. Those of vpRobot that cannot be overridden have no lock: set the largest velocities before other threads
+ * command, and read the sampling time and the frame from the thread that sets them.
  */
 class VISP_EXPORT vpSimulatedArm : public vpRobotSimulator
 {
@@ -115,6 +117,14 @@ public:
    * \throw vpRobotException (wrongStateError) for states that the arm does not know (acceleration, force).
    */
   vpRobot::vpRobotStateType setRobotState(const vpRobot::vpRobotStateType newState) VP_OVERRIDE;
+  //! State of the control.
+  [[nodiscard]] vpRobot::vpRobotStateType getRobotState() const VP_OVERRIDE;
+  /*!
+   * How long a velocity acts in vpArmClock::Stepped.
+   * \param delta_t : s, > 0 and at most 1e6.
+   * \throw vpException (badValue) with the value.
+   */
+  void setSamplingTime(const double &delta_t) VP_OVERRIDE;
   /*!
    * Move with a velocity.
    * \param frame : See above. \param v : 6 rows (n for JOINT_STATE), m/s and rad/s.
@@ -130,7 +140,7 @@ public:
    * \param q : n rows for JOINT_STATE, rad or m; else 6, m and rad.
    * \throw vpException (dimensionError), (badValue); vpRobotException (positionOutOfRangeError) naming the joint that
    * would leave its limits, (wrongStateError) for MIXT_FRAME, (lowLevelError) with a sentence when the arm cannot reach
-   * the pose; it holds where it came to.
+   * the pose, or when another thread gives it another position, a stop or another state: it does not wait any longer then.
    */
   void setPosition(const vpRobot::vpControlFrameType frame, const vpColVector &q) VP_OVERRIDE;
   using vpRobot::getPosition;
@@ -171,7 +181,8 @@ public:
   void setPositioningVelocity(double percent);
   /*!
    * Let time pass without a command; stepped: at once, real time: waits.
-   * \param duration : s, >= 0.
+   * \param duration : s, 0 to 1e6.
+   * \throw vpException (badValue) with the value.
    */
   void wait(double duration);
 

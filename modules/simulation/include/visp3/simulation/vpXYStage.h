@@ -100,8 +100,8 @@ public:
 
   /*!
    * Move for a while. Does not allocate.
-   * \param dt : Duration, T; > 0 and at least 1/1000 of the longest delay.
-   * \param command : Forces, F, from now until the next call; they act after the delay.
+   * \param dt : Duration, T; > 0, at least 1/1000 of the longest delay and at most 1e6.
+   * \param command : Forces, F, at most 1e12, from now until the next call; they act after the delay.
    * \return state() afterwards.
    * \throw vpException (badValue) naming an argument that is out of its range or not finite; nothing has moved then.
    */
@@ -110,7 +110,7 @@ public:
   [[nodiscard]] const State &state() const { return m_state; }
   //! What it was made from.
   [[nodiscard]] const vpXYStageSpec &spec() const { return m_spec; }
-  //! Back to rest at a position, L, at time 0, with no command on its way. \throw vpException unless it is finite.
+  //! Back to rest at a position, L, at time 0, with no command on its way. \throw vpException unless it is at most 1e12.
   void reset(const Pair &position = {{0., 0.}});
 
 private:
