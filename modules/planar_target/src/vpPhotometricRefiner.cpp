@@ -104,7 +104,8 @@ vpPhotometricRefiner::Design vpPhotometricRefiner::accumulate(const vpPhotometri
 bool vpPhotometricRefiner::iterate(const std::vector<cv::Mat> &pyramid, std::size_t index,
                                    const vpPhotometricLevel &level, vpRigidPose &pose, double &shift, double &sigma)
 {
-  sigma = std::min(sigma, m_photometry.update(level));
+  m_photometry.update(level);
+  sigma = std::min(sigma, m_photometry.textureDeviation(level));
   const Design N = accumulate(level, sigma, shift);
   const double gain = std::max(m_photometry.gain(), vpPhotometry::smallestGain);
   const Eigen::Matrix<double, 10, 8> P = poseToDesign(pose, m_model.unit(), gain);
