@@ -205,7 +205,8 @@ bool vpPhotometricRefiner::matchBlur(std::size_t index)
 {
   const std::size_t before = m_soft;
   const auto misfit = [&](std::size_t soft) {
-    const double sigma = m_photometry.fit(m_model.level(index, soft)), gain = m_photometry.gain();
+    m_photometry.fit(m_model.level(index, soft));
+    const double sigma = m_photometry.textureDeviation(m_model.level(index, soft)), gain = m_photometry.gain();
     return gain > vpPhotometry::smallestGain ? sigma / gain : std::numeric_limits<double>::infinity();
   };
   double best = misfit(m_soft);

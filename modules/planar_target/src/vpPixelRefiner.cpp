@@ -30,10 +30,10 @@ constexpr double startSlope = 0.3, slope = 0.15; // px, see m_slope
 constexpr unsigned int mostRounds = 8, mostSteps = 8;
 constexpr double shortStep = 0.05;                    // deviations
 constexpr double smallShift = 0.1, smallTurn = 0.005; // px, rad: within, a prediction is linear,
-constexpr double smallWay = 3.;                       // deviations; and its gradient, good to 5 %, leads to the place
+constexpr double smallWay = 10.;                      // deviations; and its gradient, good to 1 %, leads to the place
 constexpr double smallBlur = 0.1;                     // change of half the square of the blur, share of blur^2 + 0.1
-constexpr double maskShift = 0.7;                   // px; with more, what does not fit may be misplaced and not hidden
-constexpr double largestShift = 6.;                 // px from the start, in all
+constexpr double maskShift = 0.7;   // px; with more, what does not fit may be misplaced and not hidden
+constexpr double largestShift = 6.; // px of a corner from the start; the other stages are never so far off
 constexpr double usualTurn = 0.1, usualMove = 0.1;  // rad, share of the distance; hold back what is hardly seen
 constexpr int maskWindow = 7, maskGrowth = 7;       // px
 constexpr double misfitCap = 12., misfitLimit = 2.; // squares over variance, of a pixel and on average
@@ -197,14 +197,12 @@ double vpPixelRefiner::scale()
   return m_sample.empty() ? smallestSigma : std::max(smallestSigma, madToSigma * median);
 }
 
-// One step of Gauss and Newton; its length is in deviations of the pose.
-bool vpPixelRefiner::step(double &length)
+// Normal equations of the nine parameters.
+template <vpPixelRefiner::Weight kind> void vpPixelRefiner::assemble(Normal &N, Params &right) const
 {
-  updateResiduals();
-  m_fit.sigma = scale();
-  Normal N = Normal::Zero();
-  Params right = Params::Zero();
-  forBlocks<Weight::Estimate>([&](int, int, const Eigen::Matrix<double, 2, 6> &motion, const Sums &sums) {
+  N.setZero();
+  right.setZero();
+  forBlocks<kind>([&](int, int, const Eigen::Matrix<double, 2, 6> &motion, const Sums &sums) {
     const Eigen::Matrix<double, 6, 2> J = -m_fit.camera.gain * motion.transpose();
     N.topLeftCorner<6, 6>() += J * sums.normal.topLeftCorner<2, 2>() * J.transpose();
     N.topRightCorner<6, 3>() += J * sums.normal.topRightCorner<2, 3>();
@@ -213,9 +211,20 @@ bool vpPixelRefiner::step(double &length)
     right.tail<3>() += sums.right.tail<3>();
   });
   N.bottomLeftCorner<3, 6>() = N.topRightCorner<6, 3>().transpose();
+  // The derivative by the blur has the gain in it.
   N.row(8) *= m_fit.camera.gain;
   N.col(8) *= m_fit.camera.gain;
   right(8) *= m_fit.camera.gain;
+}
+
+// One step of Gauss and Newton; its length is in deviations of the pose.
+bool vpPixelRefiner::step(double &length)
+{
+  updateResiduals();
+  m_fit.sigma = scale();
+  Normal N;
+  Params right;
+  assemble<Weight::Estimate>(N, right);
   Normal held = N;
   const double variance = m_fit.sigma * m_fit.sigma, move = usualMove * m_fit.pose.t.norm();
   held.diagonal().head<3>().array() += variance / (move * move);
@@ -249,8 +258,8 @@ bool vpPixelRefiner::descend()
   return true;
 }
 
-// Whole areas that do not fit; true if they are others than before.
-bool vpPixelRefiner::maskHidden()
+// Whole areas that do not fit.
+void vpPixelRefiner::maskHidden()
 {
   const cv::Rect &area = m_prediction.area();
   clear(m_misfit, area.height, area.width, CV_32F);
@@ -275,23 +284,20 @@ bool vpPixelRefiner::maskHidden()
   cv::scaleAdd(count, -misfitLimit, misfit, misfit);
   cv::compare(misfit, 0., m_bad, cv::CMP_GT);
   cv::dilate(m_bad, m_bad, cv::Mat::ones(maskGrowth, maskGrowth, CV_8U));
-  int changed = 0;
   for (int r = 0; r < area.height; ++r) {
     const vpTargetPrediction::Span span = m_prediction.spans()[static_cast<std::size_t>(r)];
     const unsigned char *const bad = m_bad.ptr<unsigned char>(r);
     unsigned char *const hidden = m_hidden.ptr<unsigned char>(area.y + r) + area.x;
     float *const open = m_open.ptr<float>(r);
     for (int c = span.begin; c < span.end; ++c) {
-      changed += (bad[c] != 0) != (hidden[c] != 0);
       hidden[c] = bad[c];
       open[c] = bad[c] ? 0.f : 1.f;
     }
   }
-  return changed > m_prediction.pixels() / 200;
 }
 
-// Moves the pose by what was found; true if a new prediction would differ from the present one.
-bool vpPixelRefiner::adopt()
+// How far the target has moved in the frame since the prediction, px.
+double vpPixelRefiner::largestMove() const
 {
   const cv::Rect &area = m_prediction.area();
   double shift = 0.;
@@ -301,44 +307,42 @@ bool vpPixelRefiner::adopt()
       shift = std::max(shift, (motion * m_change.head<6>()).norm());
     }
   }
-  const double turn = m_change.segment<3>(3).norm(), blur2 = m_fit.camera.blur * m_fit.camera.blur;
-  m_fit.pose.t += m_change.head<3>();
-  m_fit.pose.R = vpSO3::exp(m_change.segment<3>(3)) * m_fit.pose.R;
-  m_fit.camera.blur = std::clamp(std::sqrt(std::max(0., blur2 + 2. * m_change(8))), vpTargetPrediction::sharpest,
-                                 vpTargetPrediction::softest);
-  m_slope = shift > maskShift ? startSlope : slope;
-  const double blurred = std::abs(m_fit.camera.blur * m_fit.camera.blur - blur2);
-  return m_way > smallWay || shift > smallShift || turn > smallTurn || blurred > 2. * smallBlur * (blur2 + 0.1);
+  return shift;
 }
 
-void vpPixelRefiner::conclude()
+// True if the prediction, linear in the change, holds: a new one would lead nowhere else.
+bool vpPixelRefiner::isLinear() const
 {
-  updateResiduals();
-  m_fit.sigma = scale();
-  const double gain = m_fit.camera.gain;
-  const auto normal = [gain](auto forEach) {
-    Normal N = Normal::Zero();
-    forEach([&](int, int, const Eigen::Matrix<double, 2, 6> &motion, const Sums &sums) {
-      const Eigen::Matrix<double, 6, 2> J = -gain * motion.transpose();
-      N.topLeftCorner<6, 6>() += J * sums.normal.topLeftCorner<2, 2>() * J.transpose();
-      N.topRightCorner<6, 3>() += J * sums.normal.topRightCorner<2, 3>();
-      N.bottomRightCorner<3, 3>() += sums.normal.bottomRightCorner<3, 3>();
-    });
-    N.bottomLeftCorner<3, 6>() = N.topRightCorner<6, 3>().transpose();
-    return N;
-  };
-  const Normal A = normal([this](auto visit) { forBlocks<Weight::Derivative>(visit); });
-  const Normal B = normal([this](auto visit) { forBlocks<Weight::Score>(visit); });
-  // Sums of the score over patches of blocks.
+  const double blur2 = m_fit.camera.blur * m_fit.camera.blur;
+  return m_way < smallWay && largestMove() < smallShift && m_change.segment<3>(3).norm() < smallTurn &&
+         (std::abs(m_change(8)) < smallBlur * (blur2 + 0.1) || blurred(m_change(8)) == m_fit.camera.blur);
+}
+
+double vpPixelRefiner::blurred(double change) const
+{
+  return std::clamp(std::sqrt(std::max(0., m_fit.camera.blur * m_fit.camera.blur + 2. * change)),
+                    vpTargetPrediction::sharpest, vpTargetPrediction::softest);
+}
+
+void vpPixelRefiner::adopt()
+{
+  m_fit.pose.t += m_change.head<3>();
+  m_fit.pose.R = vpSO3::exp(m_change.segment<3>(3)) * m_fit.pose.R;
+  m_fit.camera.blur = blurred(m_change(8));
+}
+
+// Sum of squares of the score of whole patches, which see errors that neighbours share.
+vpPixelRefiner::Normal vpPixelRefiner::patchScores() const
+{
   const cv::Rect &area = m_prediction.area();
+  const double gain = m_fit.camera.gain;
   const int across = area.width / (lanes * patch) + 1, down = area.height / (blockRows * patch) + 1;
   std::vector<Params> scores(static_cast<std::size_t>(across) * static_cast<std::size_t>(down), Params::Zero());
-  double squares = 0., weights = 0.;
   forBlocks<Weight::Estimate>([&](int row, int col, const Eigen::Matrix<double, 2, 6> &motion, const Sums &sums) {
     Params &score = scores[static_cast<std::size_t>(row / (blockRows * patch) * across + col / (lanes * patch))];
     score.head<6>() -= gain * motion.transpose() * sums.right.head<2>();
-    score.tail<3>() += sums.right.tail<3>();
-    weights += sums.normal(3, 3);
+    score.segment<2>(6) += sums.right.segment<2>(2);
+    score(8) += gain * sums.right(4);
   });
   Normal S = Normal::Zero();
   int used = 0;
@@ -346,9 +350,15 @@ void vpPixelRefiner::conclude()
     S += score * score.transpose();
     used += score.squaredNorm() > 0.;
   }
-  S *= used / std::max(1., used - 9.);
+  return used / std::max(1., used - 9.) * S;
+}
+
+// Residual and hidden share of the fit; returns the number of pixels that are not hidden.
+int vpPixelRefiner::judgeResiduals()
+{
+  double squares = 0.;
   int open = 0;
-  for (int r = 0; r < area.height; ++r) {
+  for (int r = 0; r < m_prediction.area().height; ++r) {
     const vpTargetPrediction::Span span = m_prediction.spans()[static_cast<std::size_t>(r)];
     for (int c = span.begin; c < span.end; ++c) {
       if (m_open.at<float>(r, c) > 0.f) {
@@ -360,6 +370,19 @@ void vpPixelRefiner::conclude()
   }
   m_fit.residual = open > 0 ? std::sqrt(squares / open) : 0.;
   m_fit.hidden = 1. - static_cast<double>(open) / m_prediction.pixels();
+  return open;
+}
+
+void vpPixelRefiner::conclude()
+{
+  updateResiduals();
+  m_fit.sigma = scale();
+  Normal A, B;
+  Params unused;
+  assemble<Weight::Derivative>(A, unused);
+  assemble<Weight::Score>(B, unused);
+  const Normal S = patchScores();
+  const int open = judgeResiduals();
   const Eigen::LDLT<Normal> factor(A);
   if (factor.info() != Eigen::Success || !factor.isPositive() || open < vpTargetPrediction::fewestPixels) {
     return;
@@ -386,30 +409,36 @@ const vpPixelFit &vpPixelRefiner::refine(const cv::Mat &image, const vpRigidPose
   m_frameSize = cv::Size(image.cols / m_bin, image.rows / m_bin);
   m_fit.camera.blur = std::clamp(start.blur / k, vpTargetPrediction::sharpest, vpTargetPrediction::softest);
   clear(m_hidden, m_frameSize.height, m_frameSize.width + lanes, CV_8U);
-  m_slope = startSlope;
   for (unsigned int round = 0; round < mostRounds; ++round) {
+    m_slope = startSlope;
     if (!predict(image) || !descend()) {
       return m_fit;
     }
-    const bool masked = m_slope == slope;
-    const bool other = masked && maskHidden();
-    if (masked && other && !descend()) {
-      return m_fit;
+    const double shift = largestMove();
+    if (shift < maskShift) { // what does not fit now is hidden and not misplaced
+      m_slope = slope;
+      maskHidden();
+      if (!descend()) {
+        return m_fit;
+      }
     }
-    const vpPixelFit before = m_fit;
-    const bool moved = adopt();
-    if (!moved && masked) {
-      const vpPixelFit after = m_fit;
-      m_fit = before;
+    const bool settled = shift < maskShift && isLinear();
+    if (settled) {
       conclude();
-      m_fit.pose = after.pose;
-      m_fit.camera = after.camera;
+    }
+    adopt();
+    if (settled) {
       break;
     }
   }
   // Products of rotations drift from orthonormality: nearest rotation by one Newton step.
   m_fit.pose.R = 0.5 * m_fit.pose.R * (3. * Eigen::Matrix3d::Identity() - m_fit.pose.R.transpose() * m_fit.pose.R);
   m_fit.camera.blur *= k;
+  for (const Eigen::Vector2d &corner : m_plane.corners()) {
+    const Eigen::Vector3d P = pose.R.leftCols<2>() * corner + pose.t;
+    const Eigen::Vector2d p = m_camera.project(P.head<2>() / P.z());
+    m_fit.converged &= pixelShift(pose, m_fit.pose, m_camera, p.x(), p.y()).norm() < largestShift * k;
+  }
   return m_fit;
 }
 

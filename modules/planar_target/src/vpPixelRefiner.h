@@ -77,10 +77,16 @@ private:
   double scale();
   template <Weight kind> Sums blockSums(int row, int col) const;
   template <Weight kind, typename Visit> void forBlocks(Visit visit) const;
+  template <Weight kind> void assemble(Normal &N, Params &right) const;
   bool descend();
   bool step(double &length);
-  bool adopt();
-  bool maskHidden();
+  double largestMove() const;
+  bool isLinear() const;
+  double blurred(double change) const;
+  void adopt();
+  void maskHidden();
+  Normal patchScores() const;
+  int judgeResiduals();
   void conclude();
 
   const vpTargetTexture &m_texture;

@@ -67,8 +67,15 @@ bool vpPoseChoice::refineRival(const cv::Mat &image)
   if (turn2(fit, start) < sameTurn2 || (m_memory && m_refiners[0].distance(start) > farDistance)) {
     return false;
   }
-  const vpPixelFit &rival = m_refiners[1].refine(image, start, fit.camera);
-  return rival.converged && turnBetween(rival.pose, fit.pose) > oneTurn * turnBetween(start, fit.pose);
+  const double whole = turnBetween(start, fit.pose);
+  if (!m_refiners[1].refine(image, start, fit.camera).converged) {
+    return false;
+  }
+  // Both anew from where they ended: a prediction that is linear over a longer way fits otherwise, by as much as counts here.
+  const vpPixelFit first = fit, second = m_refiners[1].fit();
+  return m_refiners[0].refine(image, first.pose, first.camera).converged &&
+         m_refiners[1].refine(image, second.pose, first.camera).converged &&
+         turnBetween(m_refiners[1].fit().pose, fit.pose) > oneTurn * whole;
 }
 
 // Evidence of one frame for the first refiner's pose: same pixels, same deviation.
