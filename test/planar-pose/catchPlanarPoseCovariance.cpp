@@ -4,7 +4,7 @@
  */
 // The error of a planar pose: against the bound of the image, and against the covariance that the result states. Renders by
 // vpPlaneRenderer and by the finer vpFineRenderer; the bound is computed from the latter by differences.
-// VISP_DIRECT_LONG_TESTS=250 looks at 2000 views of each photograph.
+// VISP_DIRECT_LONG_TESTS=500 looks at 2000 views of each photograph.
 #include "vpPlanarPoseKit.h"
 
 #include <iostream>
@@ -118,7 +118,7 @@ TEST_CASE("errors of three textures are near the bound of the image, and as larg
     int count = 0;
     for (const Photo &photo : photos()) {
       Scene scene(photo.file);
-      const int n = views(8);
+      const int n = views(4);
       const Tally t = measure(scene, occlusion, n, occlusion > 0. ? 1000000U : 0U);
       CAPTURE(photo.name, occlusion, t.count, t.refused);
       REQUIRE(20 * t.refused <= n);
@@ -146,7 +146,7 @@ TEST_CASE("the covariance holds with blurs of 0.3 to 1.5 px that nobody told", "
   for (const Photo &photo : photos()) {
     Scene scene(photo.file);
     double nees = 0., blurError = 0.;
-    const int n = views(16);
+    const int n = views(8);
     for (int i = 0; i < n; ++i) {
       auto rng = vpTestSupport::generator(2000000U + static_cast<unsigned int>(i));
       const vpHomogeneousMatrix cMo = randomPose(rng);
@@ -179,7 +179,7 @@ TEST_CASE("the covariance holds on renders of another kind: cubic, 4x4 samples, 
   for (const Photo &photo : photos()) {
     Scene scene(photo.file);
     double nees = 0.;
-    const int n = views(6);
+    const int n = views(3);
     for (int i = 0; i < n; ++i) {
       auto rng = vpTestSupport::generator(3000000U + static_cast<unsigned int>(i));
       const vpHomogeneousMatrix cMo = randomPose(rng);
@@ -210,7 +210,7 @@ TEST_CASE("blank ground does not decide which edges are rejected", "[planar_targ
   for (const Photo &photo : photos()) {
     Scene scene(photo.file, config);
     double sum = 0.;
-    const int n = views(20);
+    const int n = views(8);
     for (int i = 0; i < n; ++i) {
       auto rng = vpTestSupport::generator(4000000U + static_cast<unsigned int>(i));
       const vpHomogeneousMatrix cMo = randomPose(rng);

@@ -79,6 +79,11 @@ public:
     const Eigen::Matrix3d toPlane = planeFromPixel(cMo);
     for (int v = 0; v < m_rows; ++v) {
       for (int u = 0; u < m_cols; ++u) {
+        const Eigen::Vector3d centre = toPlane * Eigen::Vector3d(u, v, 1.);
+        if (!contains(centre, 3. * cMo[2][3] / m_focal)) {
+          image[static_cast<std::size_t>(v * m_cols + u)] = background;
+          continue;
+        }
         double sum = 0.;
         for (int k = 0; k < samples * samples; ++k) {
           const double du = (k % samples + 0.5) / samples - 0.5, dv = (k / samples + 0.5) / samples - 0.5;
@@ -98,9 +103,7 @@ public:
   //! True if the pixel lies on the target, \e margin px from its edges or more (measured across the line of sight).
   bool isInside(const vpHomogeneousMatrix &cMo, int u, int v, double margin) const
   {
-    const Eigen::Vector3d q = planeFromPixel(cMo) * Eigen::Vector3d(u, v, 1.);
-    const double m = margin * cMo[2][3] / m_focal;
-    return std::abs(q.x() / q.z()) < 0.5 * m_width - m && std::abs(q.y() / q.z()) < 0.5 * m_height - m;
+    return contains(planeFromPixel(cMo) * Eigen::Vector3d(u, v, 1.), -margin * cMo[2][3] / m_focal);
   }
 
   /*!
@@ -151,6 +154,12 @@ private:
       H.row(r) << cMo[r][0], cMo[r][1], cMo[r][3];
     }
     return (K * H).inverse();
+  }
+
+  //! True if a point of the plane is on the target or at most \e more, m, beside it.
+  bool contains(const Eigen::Vector3d &q, double more) const
+  {
+    return std::abs(q.x() / q.z()) < 0.5 * m_width + more && std::abs(q.y() / q.z()) < 0.5 * m_height + more;
   }
 
   double value(double x, double y, double background) const

@@ -27,9 +27,10 @@ constexpr double madToSigma = 1.4826;  // likewise
 constexpr double smallestSigma = 0.35; // grey levels; rounding to whole ones is 0.29
 constexpr std::size_t enoughForMedian = 8192;
 constexpr double startSlope = 0.3, slope = 0.15; // px, see m_slope
-constexpr unsigned int mostRounds = 8, mostSteps = 8;
+constexpr unsigned int mostRounds = 6, mostSteps = 8;
 constexpr double shortStep = 0.05;                    // deviations
 constexpr double smallShift = 0.1, smallTurn = 0.005; // px, rad: within, a prediction is linear,
+constexpr double tinyShift = 0.005;                   // px; whatever the deviations, as of an image without noise
 constexpr double smallWay = 10.;                      // deviations; and its gradient, good to 1 %, leads to the place
 constexpr double smallBlur = 0.1;                     // change of half the square of the blur, share of blur^2 + 0.1
 constexpr double maskShift = 0.7;   // px; with more, what does not fit may be misplaced and not hidden
@@ -314,7 +315,8 @@ double vpPixelRefiner::largestMove() const
 bool vpPixelRefiner::isLinear() const
 {
   const double blur2 = m_fit.camera.blur * m_fit.camera.blur;
-  return m_way < smallWay && largestMove() < smallShift && m_change.segment<3>(3).norm() < smallTurn &&
+  const double shift = largestMove();
+  return (m_way < smallWay || shift < tinyShift) && shift < smallShift && m_change.segment<3>(3).norm() < smallTurn &&
          (std::abs(m_change(8)) < smallBlur * (blur2 + 0.1) || blurred(m_change(8)) == m_fit.camera.blur);
 }
 
