@@ -89,6 +89,7 @@ vpPlanarTargetConfig vpObstacleDetector::fastTargets()
   vpPlanarTargetConfig config;
   config.fallback = false;
   config.refinementSize = 120;
+  config.exact = false; // this class has its own, wider figures for the errors
   return config;
 }
 

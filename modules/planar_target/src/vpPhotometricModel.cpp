@@ -34,6 +34,11 @@ vpPhotometricLevel makeLevel(const cv::Mat &image, const vpTargetPlane &plane, d
                                static_cast<float>(gv / level.pitchY), static_cast<float>(gu * gu + gv * gv)});
     }
   }
+  double sum = 0.;
+  for (const vpPhotometricSample &s : level.samples) {
+    sum += s.slope2;
+  }
+  level.textured = static_cast<float>(0.25 * sum / static_cast<double>(level.samples.size()));
   return level;
 }
 } // namespace

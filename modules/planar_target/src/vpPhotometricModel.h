@@ -30,6 +30,7 @@ struct vpPhotometricLevel {
   double firstX = 0., firstY = 0.;          //!< first sample in the plane, in units of vpPhotometricModel::unit()
   double pitchX = 0., pitchY = 0.;          //!< between samples, same units
   std::vector<vpPhotometricSample> samples; //!< row by row
+  float textured = 0.f;                     //!< least slope2 of a sample with texture
 };
 
 /*!

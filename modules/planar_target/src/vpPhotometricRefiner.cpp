@@ -104,7 +104,8 @@ vpPhotometricRefiner::Design vpPhotometricRefiner::accumulate(const vpPhotometri
 bool vpPhotometricRefiner::iterate(const std::vector<cv::Mat> &pyramid, std::size_t index,
                                    const vpPhotometricLevel &level, vpRigidPose &pose, double &shift, double &sigma)
 {
-  sigma = std::min(sigma, m_photometry.update(level));
+  m_photometry.update(level);
+  sigma = std::min(sigma, m_photometry.textureDeviation(level));
   const Design N = accumulate(level, sigma, shift);
   const double gain = std::max(m_photometry.gain(), vpPhotometry::smallestGain);
   const Eigen::Matrix<double, 10, 8> P = poseToDesign(pose, m_model.unit(), gain);
@@ -204,7 +205,8 @@ bool vpPhotometricRefiner::matchBlur(std::size_t index)
 {
   const std::size_t before = m_soft;
   const auto misfit = [&](std::size_t soft) {
-    const double sigma = m_photometry.fit(m_model.level(index, soft)), gain = m_photometry.gain();
+    m_photometry.fit(m_model.level(index, soft));
+    const double sigma = m_photometry.textureDeviation(m_model.level(index, soft)), gain = m_photometry.gain();
     return gain > vpPhotometry::smallestGain ? sigma / gain : std::numeric_limits<double>::infinity();
   };
   double best = misfit(m_soft);

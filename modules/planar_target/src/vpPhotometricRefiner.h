@@ -44,6 +44,10 @@ public:
   //! The fit at \e pose on the finest level that the frame resolves.
   vpPhotometricFit verify(const std::vector<cv::Mat> &pyramid, const vpRigidPose &pose);
 
+  //! Of the last frame's pyramid.
+  [[nodiscard]] double gain() const { return m_photometry.gain(); }
+  [[nodiscard]] double bias() const { return m_photometry.bias(); } //!< see gain()
+
 private:
   //! Normal equations: 8 of the homography, gain, bias, and the residual in column 10; filled up to whole registers.
   using Design = Eigen::Matrix<double, 12, 12>;

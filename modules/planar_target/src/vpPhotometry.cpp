@@ -4,6 +4,8 @@
  */
 #include "vpPhotometry.h"
 
+#include <visp3/direct_core/vpQuantile.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -72,15 +74,7 @@ std::size_t vpPhotometry::sample(const std::vector<cv::Mat> &pyramid, std::size_
   return inside;
 }
 
-double vpPhotometry::median()
-{
-  if (m_scratch.empty()) {
-    return 0.;
-  }
-  const auto middle = m_scratch.begin() + static_cast<std::ptrdiff_t>(m_scratch.size() / 2);
-  std::nth_element(m_scratch.begin(), middle, m_scratch.end());
-  return *middle;
-}
+double vpPhotometry::median() { return vpQuantileInPlace(m_scratch.data(), m_scratch.data() + m_scratch.size(), 0.5); }
 
 // Whatever hides a part of the target must not decide on gain and bias: what is wrong with them is taken for misalignment.
 void vpPhotometry::start(const vpPhotometricLevel &level)
@@ -111,19 +105,27 @@ void vpPhotometry::start(const vpPhotometricLevel &level)
 
 double vpPhotometry::update(const vpPhotometricLevel &level)
 {
-  const std::size_t n = level.samples.size(), stride = std::max<std::size_t>(1, n / enoughForMedian);
+  const std::size_t n = level.samples.size();
   const float gain = static_cast<float>(m_gain), bias = static_cast<float>(m_bias);
   m_residuals.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     m_residuals[i] = m_values[i] >= 0.f ? m_values[i] - gain * level.samples[i].value - bias : rejected;
   }
+  return deviation(level, 0.f);
+}
+
+double vpPhotometry::textureDeviation(const vpPhotometricLevel &level) { return deviation(level, level.textured); }
+
+double vpPhotometry::deviation(const vpPhotometricLevel &level, float slope2)
+{
+  const std::size_t n = level.samples.size(), stride = std::max<std::size_t>(1, n / enoughForMedian);
   m_scratch.clear();
   for (std::size_t i = 0; i < n; i += stride) {
-    if (m_residuals[i] != rejected) {
+    if (m_residuals[i] != rejected && level.samples[i].slope2 >= slope2) {
       m_scratch.push_back(std::abs(m_residuals[i]));
     }
   }
-  return std::max(smallestSigma, madToSigma * median());
+  return m_scratch.empty() ? smallestSigma : std::max(smallestSigma, madToSigma * median());
 }
 
 double vpPhotometry::fit(const vpPhotometricLevel &level)

@@ -59,6 +59,11 @@ public:
   double fit(const vpPhotometricLevel &level);
   //! Residuals at the present samples, gain and bias; returns their robust deviation.
   double update(const vpPhotometricLevel &level);
+  /*!
+   * The robust deviation after update() where the reference has texture. Blank ground fits to the noise, whatever the pose
+   * and the softness; its deviation would reject the edges, which do not, and leave a pose that only blank ground confirms.
+   */
+  double textureDeviation(const vpPhotometricLevel &level);
   void addToLight(double gain, double bias);
 
   /*!
@@ -71,18 +76,20 @@ public:
   [[nodiscard]] vpPhotometricFit judge(const vpPhotometricLevel &level, double sigma) const;
 
   [[nodiscard]] double gain() const { return m_gain; }
+  [[nodiscard]] double bias() const { return m_bias; }
   //! Residual of each sample; enormous outside of the image.
   [[nodiscard]] const std::vector<float> &residuals() const { return m_residuals; }
 
 private:
   double median();
+  double deviation(const vpPhotometricLevel &level, float slope2);
 
   const vpPhotometricModel &m_model;
   vpPinhole m_camera;
   double m_gain = 1., m_bias = 0.;
   std::vector<float> m_values; //!< of the frame at each sample, < 0 outside of it
   std::vector<float> m_residuals;
-  std::vector<float> m_scratch;
+  std::vector<double> m_scratch;
 };
 
 END_VISP_NAMESPACE

@@ -56,11 +56,7 @@ const vpPlanarTargetResult &vpPlanarTarget::track(const vpImage<unsigned char> &
   return m_impl->m_result;
 }
 
-void vpPlanarTarget::reset()
-{
-  m_impl->m_known = false;
-  m_impl->m_result = vpPlanarTargetResult();
-}
+void vpPlanarTarget::reset() { m_impl->reset(); }
 
 const vpPlanarTargetResult &vpPlanarTarget::result() const { return m_impl->m_result; }
 double vpPlanarTarget::width() const { return m_impl->m_plane.width; }

@@ -117,8 +117,7 @@ void vpPlanarTargetDatabase::predict(std::size_t i, const vpHomogeneousMatrix &c
 void vpPlanarTargetDatabase::reset()
 {
   for (std::size_t i = 0; i < m_store->m_targets.size(); ++i) {
-    m_store->m_targets[i]->m_known = false;
-    m_store->m_targets[i]->m_result = vpPlanarTargetResult();
+    m_store->m_targets[i]->reset();
     m_store->m_sightings[i].result = vpPlanarTargetResult();
   }
 }

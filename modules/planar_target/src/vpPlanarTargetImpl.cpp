@@ -10,6 +10,8 @@
 #include <visp3/core/vpPixelMeterConversion.h>
 #include <visp3/direct_core/vpSO3.h>
 
+#include <Eigen/LU>
+
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
@@ -44,6 +46,18 @@ cv::Mat view(const vpImage<unsigned char> &image)
   return cv::Mat(static_cast<int>(image.getHeight()), static_cast<int>(image.getWidth()), CV_8UC1, image.bitmap);
 }
 
+vpPoseCovariance covarianceOf(const vpPixelFit &fit)
+{
+  vpPoseCovariance covariance;
+  covariance.known = true;
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) {
+      covariance(static_cast<std::size_t>(i), static_cast<std::size_t>(j)) = fit.covariance(i, j);
+    }
+  }
+  return covariance;
+}
+
 vpTargetPlane makePlane(const vpImage<unsigned char> &reference, double width, double height)
 {
   if (reference.getWidth() < smallestImage || reference.getHeight() < smallestImage) {
@@ -72,6 +86,10 @@ vpPlanarTarget::Impl::Impl(const vpImage<unsigned char> &reference, double width
                       m_model->contrast(), smallestContrast);
   }
   m_refiner = std::make_unique<vpPhotometricRefiner>(*m_model, m_plane, m_camera);
+  if (config.exact && config.refine) {
+    m_texture = std::make_unique<vpTargetTexture>(image, m_plane);
+    m_choice = std::make_unique<vpPoseChoice>(*m_texture, m_plane, m_camera);
+  }
 
   cv::Mat reduced = image;
   const double scale = static_cast<double>(keypointReferenceSize) / std::max(image.cols, image.rows);
@@ -112,12 +130,23 @@ bool vpPlanarTarget::Impl::refuse(const vpImage<unsigned char> &image)
 
 void vpPlanarTarget::Impl::fail(vpPlanarTargetStatus status, const std::string &message)
 {
+  vpPlanarTargetResult failed;
+  failed.status = status;
+  failed.message = message;
+  failed.inliers = m_result.inliers;
+  failed.correlation = m_result.correlation;
+  failed.visible = m_result.visible;
+  reset();
+  m_result = failed;
+}
+
+void vpPlanarTarget::Impl::reset()
+{
   m_known = false;
-  m_result.status = status;
-  m_result.message = message;
-  m_result.cMo = vpHomogeneousMatrix();
-  m_result.homography.fill(0.);
-  m_result.corners.fill(vpImagePoint());
+  m_result = vpPlanarTargetResult();
+  if (m_choice) {
+    m_choice->forget();
+  }
 }
 
 void vpPlanarTarget::Impl::process(vpTargetFrame &frame)
@@ -127,25 +156,24 @@ void vpPlanarTarget::Impl::process(vpTargetFrame &frame)
     return;
   }
   trackLast(frame);
-  if (m_result.found()) {
+  if (m_known) {
     return;
   }
   const vpPlanarTargetResult lost = m_result;
   acquire(frame);
   // Keypoints cannot tell that the target has just left the view; tracking can.
-  if (!m_result.found() && lost.status == vpPlanarTargetStatus::OutOfView) {
+  if (!m_known && lost.status == vpPlanarTargetStatus::OutOfView) {
     m_result = lost;
   }
 }
 
 void vpPlanarTarget::Impl::acquire(vpTargetFrame &frame)
 {
-  m_known = false;
-  m_result = vpPlanarTargetResult();
+  reset();
   for (const Reference &reference : m_references) {
     const vpPlanarTargetResult before = m_result;
     acquireWith(reference, frame);
-    if (m_result.found()) {
+    if (m_known) {
       return;
     }
     // Report the detector that came furthest.
@@ -231,11 +259,16 @@ void vpPlanarTarget::Impl::track(vpTargetFrame &frame, const vpRigidPose &guess)
     fail(vpPlanarTargetStatus::OutOfView, "The pose to track from is not finite.");
     return;
   }
+  if (!(guess.R.transpose() * guess.R).isIdentity(1e-3) || guess.R.determinant() < 0.) {
+    fail(vpPlanarTargetStatus::OutOfView, "The pose to track from has no rotation matrix.");
+    return;
+  }
   if (!checkView(guess)) {
     return;
   }
   // Small motion is the rule, and the fine levels alone stand more occlusion; the coarse ones reach further.
   if (!trackFrom(frame, guess, keypointReach)) {
+    m_result = vpPlanarTargetResult();
     trackFrom(frame, guess, motionReach);
   }
 }
@@ -277,11 +310,26 @@ bool vpPlanarTarget::Impl::checkView(const vpRigidPose &pose)
 }
 
 // Only a pose that the grey values confirm becomes a result.
-bool vpPlanarTarget::Impl::conclude(const vpTargetFrame &frame, const vpRigidPose &pose, vpPlanarTargetStatus success)
+bool vpPlanarTarget::Impl::conclude(const vpTargetFrame &frame, const vpRigidPose &coarse, vpPlanarTargetStatus success)
 {
-  if (!pose.isFinite() || !checkView(pose)) {
+  if (!coarse.isFinite() || !checkView(coarse)) {
     return false;
   }
+  vpPoseDecision decision;
+  if (m_choice) {
+    decision = m_choice->decide(frame.image(), coarse, {m_refiner->gain(), m_refiner->bias(), m_blur});
+  }
+  // Without convergence, as when the pixels are few, there is a pose, but nothing is known of its error.
+  const vpRigidPose pose = decision.best.converged ? decision.best.pose : coarse;
+  if (!checkView(pose) || !confirm(frame, pose)) {
+    return false;
+  }
+  report(pose, decision, decision.certain ? success : vpPlanarTargetStatus::Ambiguous);
+  return true;
+}
+
+bool vpPlanarTarget::Impl::confirm(const vpTargetFrame &frame, const vpRigidPose &pose)
+{
   const vpPhotometricFit fit = m_refiner->verify(frame.pyramid(), pose);
   m_result.correlation = fit.correlation;
   m_result.visible = fit.visible;
@@ -302,6 +350,11 @@ bool vpPlanarTarget::Impl::conclude(const vpTargetFrame &frame, const vpRigidPos
                   m_config.minCorrelation));
     return false;
   }
+  return true;
+}
+
+void vpPlanarTarget::Impl::report(const vpRigidPose &pose, const vpPoseDecision &decision, vpPlanarTargetStatus success)
+{
   m_known = true;
   m_result.status = success;
   pose.copyTo(m_result.cMo);
@@ -315,11 +368,36 @@ bool vpPlanarTarget::Impl::conclude(const vpTargetFrame &frame, const vpRigidPos
     const Eigen::Vector2d p = m_camera.project(P.head<2>() / P.z());
     m_result.corners[i].set_uv(p.x(), p.y());
   }
-  m_result.message = success == vpPlanarTargetStatus::Acquired
-                         ? sentence("Acquired with %u inliers, correlation %.2f, %.0f %% visible.", m_result.inliers,
-                                    fit.correlation, 100. * fit.visible)
-                         : sentence("Tracked, correlation %.2f, %.0f %% visible.", fit.correlation, 100. * fit.visible);
-  return true;
+  if (decision.best.converged) {
+    m_result.covariance = covarianceOf(decision.best);
+    m_result.residual = decision.best.residual;
+    m_result.greySigma = decision.best.sigma;
+    m_result.kappa = decision.best.kappa;
+    m_result.hidden = decision.best.hidden;
+    m_result.blur = m_blur = decision.best.camera.blur;
+    m_result.evidence = decision.evidence;
+  }
+  if (decision.rival) {
+    vpPlanarTargetRival &rival = m_result.rival.emplace();
+    decision.rival->pose.copyTo(rival.cMo);
+    rival.residual = decision.rival->residual;
+    rival.covariance = covarianceOf(*decision.rival);
+  }
+  switch (success) {
+  case vpPlanarTargetStatus::Acquired:
+    m_result.message = sentence("Acquired with %u inliers, correlation %.2f, %.0f %% visible.", m_result.inliers,
+                                m_result.correlation, 100. * m_result.visible);
+    break;
+  case vpPlanarTargetStatus::Ambiguous:
+    m_result.message = sentence("Two poses %.1f deg apart fit, residuals %.2f and %.2f: the odds are e^%.1f, e^9.2 and "
+                                "3 deviations decide.",
+                                vpSO3::log(pose.R * decision.rival->pose.R.transpose()).norm() * 180. / M_PI,
+                                m_result.residual, m_result.rival->residual, m_result.evidence);
+    break;
+  default:
+    m_result.message =
+        sentence("Tracked, correlation %.2f, %.0f %% visible.", m_result.correlation, 100. * m_result.visible);
+  }
 }
 
 END_VISP_NAMESPACE

@@ -10,6 +10,7 @@
 #define vpPlanarTargetImpl_h
 
 #include "vpPhotometricRefiner.h"
+#include "vpPoseChoice.h"
 #include "vpTargetFrame.h"
 
 BEGIN_VISP_NAMESPACE
@@ -25,6 +26,8 @@ public:
   void track(vpTargetFrame &frame, const vpRigidPose &guess);
   //! Track from the last pose; with none, the status stays what the last frame left.
   void trackLast(vpTargetFrame &frame);
+  //! Forget where the target was.
+  void reset();
   //! A frame that is too small to be processed at all.
   bool refuse(const vpImage<unsigned char> &image);
 
@@ -47,12 +50,17 @@ private:
   void acquireWith(const Reference &reference, vpTargetFrame &frame);
   bool trackFrom(const vpTargetFrame &frame, const vpRigidPose &guess, double reach);
   bool checkView(const vpRigidPose &pose);
-  bool conclude(const vpTargetFrame &frame, const vpRigidPose &pose, vpPlanarTargetStatus success);
+  bool conclude(const vpTargetFrame &frame, const vpRigidPose &coarse, vpPlanarTargetStatus success);
+  bool confirm(const vpTargetFrame &frame, const vpRigidPose &pose);
+  void report(const vpRigidPose &pose, const vpPoseDecision &decision, vpPlanarTargetStatus success);
   void fail(vpPlanarTargetStatus status, const std::string &message);
 
   std::vector<Reference> m_references;
   std::unique_ptr<vpPhotometricModel> m_model;
   std::unique_ptr<vpPhotometricRefiner> m_refiner;
+  std::unique_ptr<vpTargetTexture> m_texture;
+  std::unique_ptr<vpPoseChoice> m_choice; //!< none when the last stage is switched off
+  double m_blur = 0.7;                    //!< of the frame before, px
 };
 
 END_VISP_NAMESPACE

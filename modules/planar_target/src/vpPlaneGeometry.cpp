@@ -5,6 +5,7 @@
 #include "vpPlaneGeometry.h"
 
 #include <visp3/core/vpException.h>
+#include <visp3/direct_core/vpQuantile.h>
 
 #include <Eigen/LU>
 
@@ -188,12 +189,7 @@ double medianError(const vpPlaneMatches &matches, const std::vector<std::size_t>
     const Eigen::Vector3d P = pose.R.leftCols<2>() * matches.plane[i] + pose.t;
     errors.push_back((P.head<2>() / P.z() - matches.image[i]).norm());
   }
-  if (errors.empty()) {
-    return 0.;
-  }
-  const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
-  std::nth_element(errors.begin(), middle, errors.end());
-  return *middle;
+  return errors.empty() ? 0. : vpMedian(std::move(errors));
 }
 
 END_VISP_NAMESPACE

@@ -28,6 +28,8 @@ public:
   //! Take a new frame (the pixels are copied) and forget the keypoints of the one before.
   void assign(const vpImage<unsigned char> &image);
 
+  //! The frame as it is.
+  [[nodiscard]] const cv::Mat &image() const { return m_image; }
   [[nodiscard]] const std::vector<cv::Mat> &pyramid() const { return m_pyramid; }
   //! Keypoints of one kind, extracted at the first call.
   const vpKeypointSet &keypoints(vpKeypointType type);

@@ -1,0 +1,466 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "vpPixelRefiner.h"
+
+#include <visp3/direct_core/vpQuantile.h>
+#include <visp3/direct_core/vpSO3.h>
+
+#include <Eigen/Cholesky>
+
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+constexpr int lanes = vpTargetPrediction::lanes, blockRows = 8;
+constexpr int patch = 2;               // blocks each way whose residuals may belong together
+constexpr double mostPixels = 200000.; // of the target; a larger one is binned
+constexpr double tukey = 4.685;        // 95 % efficiency under Gaussian noise
+constexpr double madToSigma = 1.4826;  // likewise
+constexpr double smallestSigma = 0.35; // grey levels; rounding to whole ones is 0.29
+constexpr std::size_t enoughForMedian = 8192;
+constexpr double startSlope = 0.3, slope = 0.15; // px, see m_slope
+constexpr unsigned int mostRounds = 6, mostSteps = 8;
+constexpr double shortStep = 0.05;                    // deviations
+constexpr double smallShift = 0.1, smallTurn = 0.005; // px, rad: within, a prediction is linear,
+constexpr double tinyShift = 0.005;                   // px; whatever the deviations, as of an image without noise
+constexpr double smallWay = 10.;                      // deviations; and its gradient, good to 1 %, leads to the place
+constexpr double smallBlur = 0.1;                     // change of half the square of the blur, share of blur^2 + 0.1
+constexpr double maskShift = 0.7;   // px; with more, what does not fit may be misplaced and not hidden
+constexpr double largestShift = 6.; // px of a corner from the start; the other stages are never so far off
+constexpr double usualTurn = 0.1, usualMove = 0.1;  // rad, share of the distance; hold back what is hardly seen
+constexpr int maskWindow = 7, maskGrowth = 7;       // px
+constexpr double misfitCap = 12., misfitLimit = 2.; // squares over variance, of a pixel and on average
+constexpr double largestHidden = 0.7;
+
+using Lanes = Eigen::Array<float, lanes, 1>;
+Lanes load(const cv::Mat &m, int row, int col) { return Eigen::Map<const Lanes>(m.ptr<float>(row) + col); }
+
+void clear(cv::Mat &buffer, int rows, int cols, int type)
+{
+  if (buffer.type() != type || buffer.rows < rows || buffer.cols < cols) {
+    buffer.create(std::max(buffer.rows, rows), std::max(buffer.cols, cols), type);
+  }
+  buffer(cv::Rect(0, 0, cols, rows)).setTo(0.);
+}
+} // namespace
+
+//! Sums over a block of weight * basis * basis^T and weight * basis * residual; the basis is (du, dv, grey, 1, dBlur).
+struct vpPixelRefiner::Sums {
+  Eigen::Matrix<double, 5, 5> normal;
+  Eigen::Matrix<double, 5, 1> right;
+};
+
+template <vpPixelRefiner::Weight kind> vpPixelRefiner::Sums vpPixelRefiner::blockSums(int row, int col) const
+{
+  const float gain = static_cast<float>(m_fit.camera.gain), bias = static_cast<float>(m_fit.camera.bias);
+  const float noise2 = static_cast<float>(tukey * tukey * m_fit.sigma * m_fit.sigma);
+  const double edge = tukey * m_slope * m_fit.camera.gain;
+  const float slope2 = static_cast<float>(edge * edge);
+  std::array<Lanes, 20> sums;
+  sums.fill(Lanes::Zero());
+  const int last = std::min(row + blockRows, m_prediction.area().height);
+  for (int r = row; r < last; ++r) {
+    const Lanes e = load(m_residuals, r, col), open = load(m_open, r, col), frame = load(m_frame, r, col);
+    const Lanes du = load(m_prediction.du(), r, col), dv = load(m_prediction.dv(), r, col);
+    const Lanes dBlur = load(m_prediction.dBlur(), r, col);
+    const Lanes grey = (frame - bias - e) / gain;
+    const Lanes misfit = (e * e / (noise2 + slope2 * (du * du + dv * dv))).min(1.f);
+    Lanes w = open * (1.f - misfit);
+    w *= kind == Weight::Derivative ? Lanes(1.f - 5.f * misfit) : Lanes(1.f - misfit);
+    if (kind == Weight::Score) {
+      w *= w * e * e;
+    }
+    const std::array<Lanes, 5> basis = {du, dv, grey, Lanes::Ones(), dBlur};
+    std::size_t k = 0;
+    for (std::size_t i = 0; i < 5; ++i) {
+      const Lanes weighted = w * basis[i];
+      for (std::size_t j = i; j < 5; ++j) {
+        sums[k++] += weighted * basis[j];
+      }
+      sums[k++] += weighted * e;
+    }
+  }
+  Sums result;
+  std::size_t k = 0;
+  for (int i = 0; i < 5; ++i) {
+    for (int j = i; j < 5; ++j) {
+      result.normal(i, j) = result.normal(j, i) = sums[k++].sum();
+    }
+    result.right(i) = sums[k++].sum();
+  }
+  return result;
+}
+
+// Calls visit(row, col, J, sums) for each block on the target, J the derivative of grey values over the gradient.
+template <vpPixelRefiner::Weight kind, typename Visit> void vpPixelRefiner::forBlocks(Visit visit) const
+{
+  const cv::Rect &area = m_prediction.area();
+  const auto &spans = m_prediction.spans();
+  for (int row = 0; row < area.height; row += blockRows) {
+    const int last = std::min(row + blockRows, area.height);
+    int begin = area.width, end = 0;
+    for (int r = row; r < last; ++r) {
+      const vpTargetPrediction::Span span = spans[static_cast<std::size_t>(r)];
+      if (span.begin < span.end) {
+        begin = std::min(begin, span.begin);
+        end = std::max(end, span.end);
+      }
+    }
+    for (int col = begin / lanes * lanes; col < end; col += lanes) {
+      const Eigen::Matrix<double, 2, 6> motion =
+          pixelMotion(m_fit.pose, m_binned, area.x + col + 0.5 * (lanes - 1), area.y + 0.5 * (row + last - 1));
+      visit(row, col, motion, blockSums<kind>(row, col));
+    }
+  }
+}
+
+void vpPixelRefiner::takeFrame(const cv::Mat &image, const cv::Rect &area)
+{
+  clear(m_frame, area.height, area.width, CV_32F);
+  const cv::Rect seen = area & cv::Rect(cv::Point(), m_frameSize);
+  const cv::Rect source(m_bin * seen.x, m_bin * seen.y, m_bin * seen.width, m_bin * seen.height);
+  cv::Mat target = m_frame(cv::Rect(0, 0, seen.width, seen.height));
+  if (m_bin == 1) {
+    image(source).convertTo(target, CV_32F);
+  }
+  else {
+    image(source).convertTo(m_misfit, CV_32F);
+    cv::resize(m_misfit, target, target.size(), 0., 0., cv::INTER_AREA); // mean of whole pixels: noise stays white
+  }
+}
+
+bool vpPixelRefiner::predict(const cv::Mat &image)
+{
+  if (!m_prediction.predict(m_texture, m_fit.pose, m_binned, m_frameSize, m_fit.camera.blur)) {
+    return false;
+  }
+  const cv::Rect &area = m_prediction.area();
+  takeFrame(image, area);
+  clear(m_residuals, area.height, area.width, CV_32F);
+  clear(m_open, area.height, area.width, CV_32F);
+  for (int r = 0; r < area.height; ++r) {
+    const vpTargetPrediction::Span span = m_prediction.spans()[static_cast<std::size_t>(r)];
+    const unsigned char *const hidden = m_hidden.ptr<unsigned char>(area.y + r) + area.x;
+    float *const open = m_open.ptr<float>(r);
+    for (int c = span.begin; c < span.end; ++c) {
+      open[c] = hidden[c] ? 0.f : 1.f;
+    }
+  }
+  m_change.setZero();
+  return true;
+}
+
+void vpPixelRefiner::updateResiduals()
+{
+  const float gain = static_cast<float>(m_fit.camera.gain), bias = static_cast<float>(m_fit.camera.bias);
+  const float beta = static_cast<float>(m_change(8));
+  const cv::Rect &area = m_prediction.area();
+  for (int row = 0; row < area.height; row += blockRows) {
+    for (int col = 0; col < area.width; col += lanes) {
+      const Eigen::Vector2d shift =
+          pixelMotion(m_fit.pose, m_binned, area.x + col + 0.5 * (lanes - 1), area.y + row + 0.5 * (blockRows - 1)) *
+          m_change.head<6>();
+      const float su = static_cast<float>(shift.x()), sv = static_cast<float>(shift.y());
+      for (int r = row; r < std::min(row + blockRows, area.height); ++r) {
+        const Lanes grey = load(m_prediction.grey(), r, col) - su * load(m_prediction.du(), r, col) -
+                           sv * load(m_prediction.dv(), r, col) + beta * load(m_prediction.dBlur(), r, col);
+        Eigen::Map<Lanes>(m_residuals.ptr<float>(r) + col) = load(m_frame, r, col) - bias - gain * grey;
+      }
+    }
+  }
+}
+
+// Deviation of the residuals that are not hidden, from their median.
+double vpPixelRefiner::scale()
+{
+  const int stride = 1 + m_prediction.pixels() / static_cast<int>(enoughForMedian);
+  m_sample.clear();
+  int skip = 0;
+  for (int r = 0; r < m_prediction.area().height; ++r) {
+    const vpTargetPrediction::Span span = m_prediction.spans()[static_cast<std::size_t>(r)];
+    int c = span.begin + skip;
+    for (; c < span.end; c += stride) {
+      if (m_open.at<float>(r, c) > 0.f) {
+        m_sample.push_back(std::abs(m_residuals.at<float>(r, c)));
+      }
+    }
+    skip = std::max(0, c - span.end);
+  }
+  const double median = vpQuantileInPlace(m_sample.data(), m_sample.data() + m_sample.size(), 0.5);
+  return m_sample.empty() ? smallestSigma : std::max(smallestSigma, madToSigma * median);
+}
+
+// Normal equations of the nine parameters.
+template <vpPixelRefiner::Weight kind> void vpPixelRefiner::assemble(Normal &N, Params &right) const
+{
+  N.setZero();
+  right.setZero();
+  forBlocks<kind>([&](int, int, const Eigen::Matrix<double, 2, 6> &motion, const Sums &sums) {
+    const Eigen::Matrix<double, 6, 2> J = -m_fit.camera.gain * motion.transpose();
+    N.topLeftCorner<6, 6>() += J * sums.normal.topLeftCorner<2, 2>() * J.transpose();
+    N.topRightCorner<6, 3>() += J * sums.normal.topRightCorner<2, 3>();
+    N.bottomRightCorner<3, 3>() += sums.normal.bottomRightCorner<3, 3>();
+    right.head<6>() += J * sums.right.head<2>();
+    right.tail<3>() += sums.right.tail<3>();
+  });
+  N.bottomLeftCorner<3, 6>() = N.topRightCorner<6, 3>().transpose();
+  // The derivative by the blur has the gain in it.
+  N.row(8) *= m_fit.camera.gain;
+  N.col(8) *= m_fit.camera.gain;
+  right(8) *= m_fit.camera.gain;
+}
+
+// One step of Gauss and Newton; its length is in deviations of the pose.
+bool vpPixelRefiner::step(double &length)
+{
+  updateResiduals();
+  m_fit.sigma = scale();
+  Normal N;
+  Params right;
+  assemble<Weight::Estimate>(N, right);
+  Normal held = N;
+  const double variance = m_fit.sigma * m_fit.sigma, move = usualMove * m_fit.pose.t.norm();
+  held.diagonal().head<3>().array() += variance / (move * move);
+  held.diagonal().segment<3>(3).array() += variance / (usualTurn * usualTurn);
+  held(8, 8) += variance; // px^4: what cannot be seen of the blur stays
+  const Params d = held.ldlt().solve(right);
+  if (!d.allFinite()) {
+    return false;
+  }
+  m_change += d;
+  m_fit.camera.gain += d(6);
+  m_fit.camera.bias += d(7);
+  const auto deviations = [&](const Params &p) {
+    return std::sqrt(std::max(0., p.head<6>().dot(N.topLeftCorner<6, 6>() * p.head<6>()))) / m_fit.sigma;
+  };
+  length = deviations(d);
+  m_way = deviations(m_change);
+  return m_fit.camera.gain > 0.05 && m_change.segment<3>(3).norm() < 0.5 &&
+         m_change.head<3>().norm() < 0.5 * m_fit.pose.t.norm();
+}
+
+// Steps with one prediction.
+bool vpPixelRefiner::descend()
+{
+  double length = std::numeric_limits<double>::infinity();
+  for (unsigned int k = 0; k < mostSteps && length > shortStep; ++k) {
+    if (!step(length)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+// Whole areas that do not fit.
+void vpPixelRefiner::maskHidden()
+{
+  const cv::Rect &area = m_prediction.area();
+  clear(m_misfit, area.height, area.width, CV_32F);
+  clear(m_count, area.height, area.width, CV_32F);
+  const double noise2 = m_fit.sigma * m_fit.sigma, edge = m_slope * m_fit.camera.gain;
+  for (int r = 0; r < area.height; ++r) {
+    const vpTargetPrediction::Span span = m_prediction.spans()[static_cast<std::size_t>(r)];
+    const float *const e = m_residuals.ptr<float>(r), *const du = m_prediction.du().ptr<float>(r),
+                       *const dv = m_prediction.dv().ptr<float>(r);
+    float *const misfit = m_misfit.ptr<float>(r), *const count = m_count.ptr<float>(r);
+    for (int c = span.begin; c < span.end; ++c) {
+      const float variance = static_cast<float>(noise2 + edge * edge * (du[c] * du[c] + dv[c] * dv[c]));
+      misfit[c] = std::min(static_cast<float>(misfitCap), e[c] * e[c] / variance);
+      count[c] = 1.f;
+    }
+  }
+  const cv::Rect part(0, 0, area.width, area.height);
+  const cv::Size window(maskWindow, maskWindow);
+  cv::Mat misfit = m_misfit(part), count = m_count(part);
+  cv::boxFilter(misfit, misfit, CV_32F, window, cv::Point(-1, -1), false, cv::BORDER_CONSTANT | cv::BORDER_ISOLATED);
+  cv::boxFilter(count, count, CV_32F, window, cv::Point(-1, -1), false, cv::BORDER_CONSTANT | cv::BORDER_ISOLATED);
+  cv::scaleAdd(count, -misfitLimit, misfit, misfit);
+  cv::compare(misfit, 0., m_bad, cv::CMP_GT);
+  cv::dilate(m_bad, m_bad, cv::Mat::ones(maskGrowth, maskGrowth, CV_8U));
+  for (int r = 0; r < area.height; ++r) {
+    const vpTargetPrediction::Span span = m_prediction.spans()[static_cast<std::size_t>(r)];
+    const unsigned char *const bad = m_bad.ptr<unsigned char>(r);
+    unsigned char *const hidden = m_hidden.ptr<unsigned char>(area.y + r) + area.x;
+    float *const open = m_open.ptr<float>(r);
+    for (int c = span.begin; c < span.end; ++c) {
+      hidden[c] = bad[c];
+      open[c] = bad[c] ? 0.f : 1.f;
+    }
+  }
+}
+
+// How far the target has moved in the frame since the prediction, px.
+double vpPixelRefiner::largestMove() const
+{
+  const cv::Rect &area = m_prediction.area();
+  double shift = 0.;
+  for (const double u : {0., 0.5, 1.}) {
+    for (const double v : {0., 0.5, 1.}) {
+      const auto motion = pixelMotion(m_fit.pose, m_binned, area.x + u * area.width, area.y + v * area.height);
+      shift = std::max(shift, (motion * m_change.head<6>()).norm());
+    }
+  }
+  return shift;
+}
+
+// True if the prediction, linear in the change, holds: a new one would lead nowhere else.
+bool vpPixelRefiner::isLinear() const
+{
+  const double blur2 = m_fit.camera.blur * m_fit.camera.blur;
+  const double shift = largestMove();
+  return (m_way < smallWay || shift < tinyShift) && shift < smallShift && m_change.segment<3>(3).norm() < smallTurn &&
+         (std::abs(m_change(8)) < smallBlur * (blur2 + 0.1) || blurred(m_change(8)) == m_fit.camera.blur);
+}
+
+double vpPixelRefiner::blurred(double change) const
+{
+  return std::clamp(std::sqrt(std::max(0., m_fit.camera.blur * m_fit.camera.blur + 2. * change)),
+                    vpTargetPrediction::sharpest, vpTargetPrediction::softest);
+}
+
+void vpPixelRefiner::adopt()
+{
+  m_fit.pose.t += m_change.head<3>();
+  m_fit.pose.R = vpSO3::exp(m_change.segment<3>(3)) * m_fit.pose.R;
+  m_fit.camera.blur = blurred(m_change(8));
+}
+
+// Sum of squares of the score of whole patches, which see errors that neighbours share.
+vpPixelRefiner::Normal vpPixelRefiner::patchScores() const
+{
+  const cv::Rect &area = m_prediction.area();
+  const double gain = m_fit.camera.gain;
+  const int across = area.width / (lanes * patch) + 1, down = area.height / (blockRows * patch) + 1;
+  std::vector<Params> scores(static_cast<std::size_t>(across) * static_cast<std::size_t>(down), Params::Zero());
+  forBlocks<Weight::Estimate>([&](int row, int col, const Eigen::Matrix<double, 2, 6> &motion, const Sums &sums) {
+    Params &score = scores[static_cast<std::size_t>(row / (blockRows * patch) * across + col / (lanes * patch))];
+    score.head<6>() -= gain * motion.transpose() * sums.right.head<2>();
+    score.segment<2>(6) += sums.right.segment<2>(2);
+    score(8) += gain * sums.right(4);
+  });
+  Normal S = Normal::Zero();
+  int used = 0;
+  for (const Params &score : scores) {
+    S += score * score.transpose();
+    used += score.squaredNorm() > 0.;
+  }
+  return used / std::max(1., used - 9.) * S;
+}
+
+// Residual and hidden share of the fit; returns the number of pixels that are not hidden.
+int vpPixelRefiner::judgeResiduals()
+{
+  double squares = 0.;
+  int open = 0;
+  for (int r = 0; r < m_prediction.area().height; ++r) {
+    const vpTargetPrediction::Span span = m_prediction.spans()[static_cast<std::size_t>(r)];
+    for (int c = span.begin; c < span.end; ++c) {
+      if (m_open.at<float>(r, c) > 0.f) {
+        const double e = m_residuals.at<float>(r, c);
+        squares += e * e;
+        ++open;
+      }
+    }
+  }
+  m_fit.residual = open > 0 ? std::sqrt(squares / open) : 0.;
+  m_fit.hidden = 1. - static_cast<double>(open) / m_prediction.pixels();
+  return open;
+}
+
+void vpPixelRefiner::conclude()
+{
+  updateResiduals();
+  m_fit.sigma = scale();
+  Normal A, B;
+  Params unused;
+  assemble<Weight::Derivative>(A, unused);
+  assemble<Weight::Score>(B, unused);
+  const Normal S = patchScores();
+  const int open = judgeResiduals();
+  const Eigen::LDLT<Normal> factor(A);
+  if (factor.info() != Eigen::Success || !factor.isPositive() || open < vpTargetPrediction::fewestPixels) {
+    return;
+  }
+  const Normal inverse = factor.solve(Normal::Identity());
+  const Eigen::Matrix<double, 6, 6> C = (inverse * B * inverse.transpose()).topLeftCorner<6, 6>();
+  const Eigen::Matrix<double, 6, 6> CS = (inverse * S * inverse.transpose()).topLeftCorner<6, 6>();
+  m_fit.kappa = std::max(1., C.ldlt().solve(CS).trace() / 6.);
+  m_fit.covariance = m_fit.kappa * C;
+  m_fit.converged =
+      m_fit.covariance.allFinite() && (m_fit.covariance.diagonal().array() > 0.).all() && m_fit.hidden < largestHidden;
+}
+
+const vpPixelFit &vpPixelRefiner::refine(const cv::Mat &image, const vpRigidPose &pose, const vpCameraState &start)
+{
+  m_fit = vpPixelFit();
+  m_fit.pose = pose;
+  m_fit.camera = start;
+  const double pixels = imageScale(pose, m_camera) * m_plane.width * m_plane.height;
+  m_bin = std::clamp(static_cast<int>(std::ceil(std::sqrt(pixels / mostPixels))), 1,
+                     std::max(1, std::min(image.cols, image.rows) / 32));
+  const double k = m_bin, centre = 0.5 * (k - 1.);
+  m_binned = {m_camera.px / k, m_camera.py / k, (m_camera.u0 - centre) / k, (m_camera.v0 - centre) / k, m_camera.kud};
+  m_frameSize = cv::Size(image.cols / m_bin, image.rows / m_bin);
+  m_fit.camera.blur = std::clamp(start.blur / k, vpTargetPrediction::sharpest, vpTargetPrediction::softest);
+  clear(m_hidden, m_frameSize.height, m_frameSize.width + lanes, CV_8U);
+  for (unsigned int round = 0; round < mostRounds; ++round) {
+    m_slope = startSlope;
+    if (!predict(image) || !descend()) {
+      return m_fit;
+    }
+    const double shift = largestMove();
+    if (shift < maskShift) { // what does not fit now is hidden and not misplaced
+      m_slope = slope;
+      maskHidden();
+      if (!descend()) {
+        return m_fit;
+      }
+    }
+    const bool settled = shift < maskShift && isLinear();
+    if (settled) {
+      conclude();
+    }
+    adopt();
+    if (settled) {
+      break;
+    }
+  }
+  // Products of rotations drift from orthonormality: nearest rotation by one Newton step.
+  m_fit.pose.R = 0.5 * m_fit.pose.R * (3. * Eigen::Matrix3d::Identity() - m_fit.pose.R.transpose() * m_fit.pose.R);
+  m_fit.camera.blur *= k;
+  for (const Eigen::Vector2d &corner : m_plane.corners()) {
+    const Eigen::Vector3d P = pose.R.leftCols<2>() * corner + pose.t;
+    const Eigen::Vector2d p = m_camera.project(P.head<2>() / P.z());
+    m_fit.converged &= pixelShift(pose, m_fit.pose, m_camera, p.x(), p.y()).norm() < largestShift * k;
+  }
+  return m_fit;
+}
+
+double vpPixelRefiner::distance(const vpRigidPose &other) const
+{
+  using Vector6 = Eigen::Matrix<double, 6, 1>;
+  Eigen::Matrix<double, 6, 6> N = Eigen::Matrix<double, 6, 6>::Zero();
+  Vector6 right = Vector6::Zero();
+  double squares = 0.;
+  const cv::Rect &area = m_prediction.area();
+  forBlocks<Weight::Estimate>([&](int row, int col, const Eigen::Matrix<double, 2, 6> &motion, const Sums &sums) {
+    const Eigen::Vector2d shift =
+        pixelShift(m_fit.pose, other, m_binned, area.x + col + 0.5 * (lanes - 1), area.y + row + 0.5 * (blockRows - 1));
+    const Eigen::Matrix2d slopes = sums.normal.topLeftCorner<2, 2>();
+    N += motion.transpose() * slopes * motion;
+    right += motion.transpose() * slopes * shift;
+    squares += shift.dot(slopes * shift);
+  });
+  const double left = squares - right.dot(N.ldlt().solve(right));
+  return m_fit.camera.gain / m_fit.sigma * std::sqrt(std::max(0., left));
+}
+
+END_VISP_NAMESPACE

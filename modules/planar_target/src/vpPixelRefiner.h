@@ -1,0 +1,108 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpPixelRefiner.h
+ * \brief Internal: the last stage of a pose, on the frame's own pixels, with its covariance.
+ */
+#ifndef vpPixelRefiner_h
+#define vpPixelRefiner_h
+
+#include "vpTargetPrediction.h"
+
+BEGIN_VISP_NAMESPACE
+
+//! What the camera makes of the target's grey values: gain * value + bias, blurred.
+struct vpCameraState {
+  double gain = 1., bias = 0.;
+  double blur = 0.7; //!< deviation of a Gaussian, px
+};
+
+//! A pose as the frame's pixels know it.
+struct vpPixelFit {
+  bool converged = false; //!< without it nothing else counts
+  vpRigidPose pose;
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero(); //!< of (v, w), see vpPoseCovariance
+  double sigma = 0.;                                                            //!< of a pixel, grey levels
+  double kappa = 1.;    //!< factor in covariance for what is not white noise; > 1: the model does not say all
+  double hidden = 0.;   //!< share of the target's pixels in the frame
+  double residual = 0.; //!< root mean square over the pixels that are not hidden, grey levels
+  vpCameraState camera;
+};
+
+/*!
+ * Minimises sum rho(I(u) - g T(u; pose, blur) - b) over the pixels u of the frame: noise is white there and nowhere else.
+ * Six numbers of the pose, three of the camera (gain, bias, blur). rho is Tukey's with a bound that grows with the slope
+ * of T; besides, whole areas that do not fit are hidden, as a single pixel of an occluder may have a likely grey value.
+ *
+ * The derivative of T by the pose is its gradient times the motion of the pixels, which changes slowly: it is taken as
+ * constant in blocks of 8x8 pixels, so that an iteration needs 20 sums a block. T is predicted anew when the pose has
+ * moved by more than a tenth of a pixel, and linear within.
+ *
+ * The covariance is A^-1 B A^-1 with A = sum psi' J J^T and B = sum psi^2 J J^T, times kappa = max(1, tr(C^-1 C_S) / 6),
+ * where C_S takes for B the squares of whole blocks' sums, which see errors that neighbours share.
+ */
+class vpPixelRefiner
+{
+public:
+  //! \e texture must outlive this object.
+  vpPixelRefiner(const vpTargetTexture &texture, const vpTargetPlane &plane, const vpPinhole &camera)
+    : m_texture(texture), m_plane(plane), m_camera(camera), m_prediction(plane)
+  {}
+
+  /*!
+   * \param image : CV_8UC1 frame. \param pose : Start, within about a pixel.
+   * \param start : Of the camera, where known.
+   */
+  const vpPixelFit &refine(const cv::Mat &image, const vpRigidPose &pose, const vpCameraState &start);
+
+  [[nodiscard]] const vpPixelFit &fit() const { return m_fit; }
+  //! Pixels of the last frame's area, residuals of the last fit; weights are 0 off the target and where it is hidden.
+  [[nodiscard]] const cv::Rect &area() const { return m_prediction.area(); }
+  [[nodiscard]] const cv::Mat &residuals() const { return m_residuals; } //!< see area()
+  [[nodiscard]] const cv::Mat &open() const { return m_open; }           //!< see area()
+  //! The deviation by which \e other differs from the fit in the pixels' eyes, after all that the fit could adapt.
+  [[nodiscard]] double distance(const vpRigidPose &other) const;
+
+private:
+  using Params = Eigen::Matrix<double, 9, 1>; // v, w, gain, bias, half the square of the blur
+  using Normal = Eigen::Matrix<double, 9, 9>;
+  struct Sums;
+  enum class Weight { Estimate, Derivative, Score };
+
+  bool predict(const cv::Mat &image);
+  void takeFrame(const cv::Mat &image, const cv::Rect &area);
+  void updateResiduals();
+  double scale();
+  template <Weight kind> Sums blockSums(int row, int col) const;
+  template <Weight kind, typename Visit> void forBlocks(Visit visit) const;
+  template <Weight kind> void assemble(Normal &N, Params &right) const;
+  bool descend();
+  bool step(double &length);
+  double largestMove() const;
+  bool isLinear() const;
+  double blurred(double change) const;
+  void adopt();
+  void maskHidden();
+  Normal patchScores() const;
+  int judgeResiduals();
+  void conclude();
+
+  const vpTargetTexture &m_texture;
+  vpTargetPlane m_plane;
+  vpPinhole m_camera;
+  vpTargetPrediction m_prediction;
+  vpPixelFit m_fit;
+  Params m_change = Params::Zero(); // since the last prediction
+  double m_way = 0.;                // length of m_change, deviations of the pose
+  double m_slope = 0.;              // px that the prediction may be off without being taken for an occlusion
+  int m_bin = 1;
+  vpPinhole m_binned;   // camera of the frame after binning
+  cv::Size m_frameSize; // likewise
+  cv::Mat m_frame, m_residuals, m_open, m_hidden, m_misfit, m_count, m_bad;
+  std::vector<double> m_sample;
+};
+
+END_VISP_NAMESPACE
+#endif

@@ -1,0 +1,72 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpPoseChoice.h
+ * \brief Internal: which of the two poses of a plane the pixels prefer, over time.
+ */
+#ifndef vpPoseChoice_h
+#define vpPoseChoice_h
+
+#include "vpPixelRefiner.h"
+
+#include <array>
+#include <optional>
+
+BEGIN_VISP_NAMESPACE
+
+//! The pose that the pixels prefer, and the other one where there is one.
+struct vpPoseDecision {
+  vpPixelFit best; //!< likelier over the frames so far; only if it converged
+  std::optional<vpPixelFit> rival;
+  double evidence = 0.; //!< logarithm of the ratio of likelihoods, best over rival, over the frames so far
+  double spreads = 0.;  //!< evidence over its standard deviation
+  bool certain = true;  //!< the data decide
+};
+
+/*!
+ * At weak perspective a plane has two poses with nearly the same image: the normal turned by 180 degrees about the line of
+ * sight. Both are refined on the pixels. Their squared residuals say which is right, L = sum (e_rival^2 - e^2) / (2 s^2),
+ * ideally normal with mean d^2 / 2 and variance d^2, d the distance of the two images in deviations. How far to trust
+ * L the sums over blocks of the image tell: z is L over their spread. Certain: L > 9.2 (odds of 10,000) and z > 3.
+ *
+ * Over time the evidence adds up and fades, L_k = 0.9 L_(k-1) + L, so that the choice can change.
+ */
+class vpPoseChoice
+{
+public:
+  //! \e texture must outlive this object.
+  vpPoseChoice(const vpTargetTexture &texture, const vpTargetPlane &plane, const vpPinhole &camera)
+    : m_refiners{vpPixelRefiner(texture, plane, camera), vpPixelRefiner(texture, plane, camera)}
+  {}
+
+  //! \param image : CV_8UC1 frame. \param pose : Of the best of the frame before, or a new one, within a pixel.
+  const vpPoseDecision &decide(const cv::Mat &image, const vpRigidPose &pose, const vpCameraState &camera);
+  //! The next frame has nothing to do with the ones before.
+  void forget() { m_memory.reset(); }
+
+private:
+  struct Evidence {
+    double L = 0., variance = 0.;
+  };
+  struct Memory {
+    vpRigidPose best;
+    std::optional<vpRigidPose> rival;
+    Evidence evidence; // for best
+  };
+
+  bool refineRival(const cv::Mat &image);
+  [[nodiscard]] Evidence compare() const;
+  void conclude(Evidence now);
+
+  std::array<vpPixelRefiner, 2> m_refiners; // of the pose that was asked for, and of its rival
+  std::optional<Memory> m_memory;
+  vpPoseDecision m_decision;
+};
+
+//! The other pose with the same image to first order: normal turned by 180 degrees about the line of sight to the centre.
+[[nodiscard]] vpRigidPose rivalPose(const vpRigidPose &pose);
+
+END_VISP_NAMESPACE
+#endif

@@ -1,0 +1,224 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpFineRenderer.h
+ * \brief For tests: a photograph on a plane in floating point, and the least error that an estimate of its pose can have.
+ */
+#ifndef vpFineRenderer_h
+#define vpFineRenderer_h
+
+#include <visp3/core/vpHomogeneousMatrix.h>
+#include <visp3/core/vpImage.h>
+#include <visp3/direct_core/vpSO3.h>
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+VISP_DIRECT_USING_NAMESPACE
+
+using vpPoseError = Eigen::Matrix<double, 6, 1>;
+using vpErrorCovariance = Eigen::Matrix<double, 6, 6>;
+
+//! The pose after t += v, R = exp(w) R.
+inline vpHomogeneousMatrix vpMoved(const vpHomogeneousMatrix &cMo, const vpPoseError &e)
+{
+  Eigen::Matrix3d R;
+  for (int i = 0; i < 9; ++i) {
+    R(i / 3, i % 3) = cMo[i / 3][i % 3];
+  }
+  R = vpSO3::exp(e.tail<3>()) * R;
+  vpHomogeneousMatrix moved;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      moved[i][j] = R(i, j);
+    }
+    moved[i][3] = cMo[i][3] + e(i);
+  }
+  return moved;
+}
+
+//! (v, w) that leads from \e found to \e truth.
+inline vpPoseError vpErrorOf(const vpHomogeneousMatrix &found, const vpHomogeneousMatrix &truth)
+{
+  Eigen::Matrix3d F, T;
+  vpPoseError e;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      F(i, j) = found[i][j];
+      T(i, j) = truth[i][j];
+    }
+    e(i) = truth[i][3] - found[i][3];
+  }
+  e.tail<3>() = vpSO3::log(T * F.transpose());
+  return e;
+}
+
+/*!
+ * Every pixel is the mean of samples x samples values of the photograph at its full resolution, by Catmull and Rom's cubic
+ * interpolation; then Gaussian blur over four deviations. Nothing is rounded. The estimator samples otherwise.
+ */
+class vpFineRenderer
+{
+public:
+  vpFineRenderer(const vpImage<unsigned char> &photo, double width, double height, double focal, unsigned int cols,
+                 unsigned int rows)
+    : m_photo(photo), m_width(width), m_height(height), m_focal(focal), m_cols(static_cast<int>(cols)),
+      m_rows(static_cast<int>(rows))
+  {}
+
+  //! Grey values row by row; \e background off the target.
+  std::vector<double> render(const vpHomogeneousMatrix &cMo, double blur, int samples, double background = 128.) const
+  {
+    std::vector<double> image(static_cast<std::size_t>(m_cols * m_rows));
+    const Eigen::Matrix3d toPlane = planeFromPixel(cMo);
+    for (int v = 0; v < m_rows; ++v) {
+      for (int u = 0; u < m_cols; ++u) {
+        const Eigen::Vector3d centre = toPlane * Eigen::Vector3d(u, v, 1.);
+        if (!contains(centre, 3. * cMo[2][3] / m_focal)) {
+          image[static_cast<std::size_t>(v * m_cols + u)] = background;
+          continue;
+        }
+        double sum = 0.;
+        for (int k = 0; k < samples * samples; ++k) {
+          const double du = (k % samples + 0.5) / samples - 0.5, dv = (k / samples + 0.5) / samples - 0.5;
+          const Eigen::Vector3d q = toPlane * Eigen::Vector3d(u + du, v + dv, 1.);
+          sum += value(q.x() / q.z(), q.y() / q.z(), background);
+        }
+        image[static_cast<std::size_t>(v * m_cols + u)] = sum / (samples * samples);
+      }
+    }
+    if (blur > 0.) {
+      smooth(image, blur, 1, m_cols);
+      smooth(image, blur, m_cols, m_rows);
+    }
+    return image;
+  }
+
+  //! True if the pixel lies on the target, \e margin px from its edges or more (measured across the line of sight).
+  bool isInside(const vpHomogeneousMatrix &cMo, int u, int v, double margin) const
+  {
+    return contains(planeFromPixel(cMo) * Eigen::Vector3d(u, v, 1.), -margin * cMo[2][3] / m_focal);
+  }
+
+  /*!
+   * Bound of Cramer and Rao on the covariance of the pose, gain and bias of the camera unknown, from the pixels that
+   * \e use names: differences of renders that are a twentieth of a pixel apart.
+   */
+  template <typename Use>
+  vpErrorCovariance bound(const vpHomogeneousMatrix &cMo, double blur, double gain, double noise, Use use) const
+  {
+    constexpr int samples = 3;
+    const double pixel = cMo[2][3] / m_focal, lever = 0.3 * m_width;
+    std::vector<std::vector<double>> derivatives;
+    for (int i = 0; i < 6; ++i) {
+      const double h = 0.05 * (i < 2 ? pixel : i == 2 ? pixel * cMo[2][3] / lever : pixel / lever);
+      vpPoseError e = vpPoseError::Unit(i) * h;
+      derivatives.push_back(render(vpMoved(cMo, e), blur, samples));
+      const std::vector<double> other = render(vpMoved(cMo, -e), blur, samples);
+      for (std::size_t k = 0; k < other.size(); ++k) {
+        derivatives.back()[k] = gain * (derivatives.back()[k] - other[k]) / (2. * h);
+      }
+    }
+    const std::vector<double> grey = render(cMo, blur, samples);
+    Eigen::Matrix<double, 8, 8> N = Eigen::Matrix<double, 8, 8>::Zero();
+    for (int v = 0; v < m_rows; ++v) {
+      for (int u = 0; u < m_cols; ++u) {
+        if (use(u, v)) {
+          const auto k = static_cast<std::size_t>(v * m_cols + u);
+          Eigen::Matrix<double, 8, 1> j;
+          for (int i = 0; i < 6; ++i) {
+            j(i) = derivatives[static_cast<std::size_t>(i)][k];
+          }
+          j(6) = grey[k];
+          j(7) = 1.;
+          N += j * j.transpose();
+        }
+      }
+    }
+    const double variance = noise * noise + 1. / 12.; // and rounding
+    return variance * N.inverse().topLeftCorner<6, 6>();
+  }
+
+private:
+  Eigen::Matrix3d planeFromPixel(const vpHomogeneousMatrix &cMo) const
+  {
+    Eigen::Matrix3d K, H;
+    K << m_focal, 0., 0.5 * (m_cols - 1), 0., m_focal, 0.5 * (m_rows - 1), 0., 0., 1.;
+    for (int r = 0; r < 3; ++r) {
+      H.row(r) << cMo[r][0], cMo[r][1], cMo[r][3];
+    }
+    return (K * H).inverse();
+  }
+
+  //! True if a point of the plane is on the target or at most \e more, m, beside it.
+  bool contains(const Eigen::Vector3d &q, double more) const
+  {
+    return std::abs(q.x() / q.z()) < 0.5 * m_width + more && std::abs(q.y() / q.z()) < 0.5 * m_height + more;
+  }
+
+  double value(double x, double y, double background) const
+  {
+    if (std::abs(x) > 0.5 * m_width || std::abs(y) > 0.5 * m_height) {
+      return background;
+    }
+    const int cols = static_cast<int>(m_photo.getWidth()), rows = static_cast<int>(m_photo.getHeight());
+    const double u = (x / m_width + 0.5) * cols - 0.5, v = (y / m_height + 0.5) * rows - 0.5;
+    const int iu = static_cast<int>(std::floor(u)), iv = static_cast<int>(std::floor(v));
+    const std::array<double, 4> wu = cubic(u - iu), wv = cubic(v - iv);
+    double sum = 0.;
+    for (int r = 0; r < 4; ++r) {
+      const unsigned char *const row = m_photo[std::clamp(iv + r - 1, 0, rows - 1)];
+      double along = 0.;
+      for (int c = 0; c < 4; ++c) {
+        along += wu[static_cast<std::size_t>(c)] * row[std::clamp(iu + c - 1, 0, cols - 1)];
+      }
+      sum += wv[static_cast<std::size_t>(r)] * along;
+    }
+    return sum;
+  }
+
+  static std::array<double, 4> cubic(double t)
+  {
+    return {t * (-0.5 + t * (1. - 0.5 * t)), 1. + t * t * (-2.5 + 1.5 * t), t * (0.5 + t * (2. - 1.5 * t)),
+            t * t * (-0.5 + 0.5 * t)};
+  }
+
+  // Along lines of \e length pixels that are \e step apart in memory.
+  void smooth(std::vector<double> &image, double blur, int step, int length) const
+  {
+    const int n = static_cast<int>(std::ceil(4. * blur));
+    std::vector<double> kernel, line(static_cast<std::size_t>(length));
+    double total = 0.;
+    for (int i = -n; i <= n; ++i) { // the Gaussian over each whole pixel
+      const double s = 1. / (blur * std::sqrt(2.));
+      kernel.push_back(std::erf(s * (i + 0.5)) - std::erf(s * (i - 0.5)));
+      total += kernel.back();
+    }
+    const int lines = m_cols * m_rows / length, next = step == 1 ? m_cols : 1;
+    for (int l = 0; l < lines; ++l) {
+      double *const first = &image[static_cast<std::size_t>(l * next)];
+      for (int i = 0; i < length; ++i) {
+        double sum = 0.;
+        for (int k = -n; k <= n; ++k) {
+          sum += kernel[static_cast<std::size_t>(k + n)] * first[std::clamp(i + k, 0, length - 1) * step];
+        }
+        line[static_cast<std::size_t>(i)] = sum / total;
+      }
+      for (int i = 0; i < length; ++i) {
+        first[i * step] = line[static_cast<std::size_t>(i)];
+      }
+    }
+  }
+
+  vpImage<unsigned char> m_photo;
+  double m_width, m_height, m_focal;
+  int m_cols, m_rows;
+};
+
+#endif
