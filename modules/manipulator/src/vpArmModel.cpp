@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <sstream>
@@ -67,11 +68,18 @@ void notNegative(const vpArmSpec &spec, const std::string &what, double value)
   }
 }
 
-// No arm is 10 km long, and beyond it clearances drown in rounding.
-void notTooFar(const vpArmSpec &spec, const std::string &what, double value)
+// NaN is refused too.
+void length(const vpArmSpec &spec, const std::string &what, double value)
 {
-  if (!(std::fabs(value) <= 1e4)) {
-    fail(spec, what + " is " + text(value) + ", must be at most 1e4 in magnitude");
+  if (!(std::fabs(value) <= vpLargestLength)) {
+    fail(spec, what + " is " + text(value) + " m, must be within " + text(vpLargestLength) + " m");
+  }
+}
+
+void lengths(const vpArmSpec &spec, const std::string &what, const Eigen::Vector3d &p)
+{
+  for (int k = 0; k < 3; ++k) {
+    length(spec, what, p(k));
   }
 }
 
@@ -81,7 +89,7 @@ void rigid(const vpArmSpec &spec, const std::string &what, const vpRigidTransfor
       (T.R * T.R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() > 1e-9 || T.R.determinant() < 0.) {
     fail(spec, what + " is not a rotation and a finite translation");
   }
-  notTooFar(spec, "translation of the " + what, T.p.cwiseAbs().maxCoeff());
+  lengths(spec, "translation of the " + what, T.p);
 }
 
 bool isInside(const vpArmJointSpec &joint, double q)
@@ -89,6 +97,8 @@ bool isInside(const vpArmJointSpec &joint, double q)
   return joint.type == vpJointType::Continuous ? std::fabs(q) <= vpArmLargest
                                                : vpLimit::isBetween(joint.lower, q, joint.upper);
 }
+
+double largestLimit(vpJointType type) { return type == vpJointType::Prismatic ? vpLargestLength : vpLargestCoordinate; }
 
 void checkJoint(const vpArmSpec &spec, const vpArmJointSpec &joint, std::set<std::string> &names)
 {
@@ -101,18 +111,18 @@ void checkJoint(const vpArmSpec &spec, const vpArmJointSpec &joint, std::set<std
   const std::string of = " of joint " + joint.name;
   rigid(spec, "frame before" + of, joint.before);
   rigid(spec, "frame after" + of, joint.after);
-  if (!std::isfinite(joint.offset)) {
-    fail(spec, "offset" + of + " is " + text(joint.offset) + ", must be finite");
+  if (!(std::fabs(joint.offset) <= largestLimit(joint.type))) {
+    fail(spec, "offset" + of + " is " + text(joint.offset) + ", must be within " + text(largestLimit(joint.type)));
   }
-  notTooFar(spec, "offset" + of, joint.offset);
   if (joint.type != vpJointType::Continuous &&
       (!std::isfinite(joint.lower) || !std::isfinite(joint.upper) || !(joint.lower < joint.upper))) {
     fail(spec, "limits" + of + " are " + text(joint.lower) + " and " + text(joint.upper) +
                    ", must be finite and lower < upper");
   }
-  if (joint.type != vpJointType::Continuous) {
-    notTooFar(spec, "lower limit" + of, joint.lower);
-    notTooFar(spec, "upper limit" + of, joint.upper);
+  if (joint.type != vpJointType::Continuous &&
+      std::max(std::fabs(joint.lower), std::fabs(joint.upper)) > largestLimit(joint.type)) {
+    fail(spec, "limits" + of + " are " + text(joint.lower) + " and " + text(joint.upper) + ", must be within " +
+                   text(largestLimit(joint.type)));
   }
   positive(spec, "velocity limit" + of, joint.velocity);
   positive(spec, "acceleration limit" + of, joint.acceleration);
@@ -202,8 +212,9 @@ vpArmModel::vpArmModel(const vpArmSpec &spec) : m_spec(spec), m_size(static_cast
       fail(spec, "a capsule of link " + std::to_string(capsule.link) + " is not finite");
     }
     const std::string of = " of a capsule of link " + std::to_string(capsule.link);
-    notTooFar(spec, "radius" + of, capsule.radius);
-    notTooFar(spec, "an end" + of, std::max(capsule.from.cwiseAbs().maxCoeff(), capsule.to.cwiseAbs().maxCoeff()));
+    length(spec, "radius" + of, capsule.radius);
+    lengths(spec, "end" + of, capsule.from);
+    lengths(spec, "end" + of, capsule.to);
   }
 
   for (vpJointVector *vector : {&m_lower, &m_upper, &m_velocity, &m_acceleration, &m_torque}) {

@@ -369,7 +369,7 @@ TEST_CASE("An arm with numbers beyond reason is refused", "[limits]")
   vpArmSpec spec = mixed().spec();
   spec.joints[1].after.p(0) = 2147483648.;
   CHECK(error(spec) ==
-        "arm mixed: translation of the frame after of joint m1 is 2.14748e+09, must be at most 1e4 in magnitude");
+        "arm mixed: translation of the frame after of joint m1 is 2.14748e+09 m, must be within 10000 m");
   spec = mixed().spec();
   spec.joints[1].velocity = 1e300;
   CHECK(error(spec) == "arm mixed: velocity limit of joint m1 is 1e+300, must be from 1e-12 to 1e9");
