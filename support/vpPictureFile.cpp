@@ -278,10 +278,16 @@ cv::Mat GreyScale::toGrey(const cv::Mat &picture, unsigned int white, const std:
 
 std::string GreyScale::remark() const
 {
-  std::string text = m_colour ? "The images are in colour; they were made grey." : "";
-  if (m_white != 0 && !(m_white == 255 && m_widenedAt.empty())) {
-    text += (text.empty() ? "" : " ") + std::string("The images have ") + std::to_string(m_bits) +
-            " bits a value; the values 0 to " + std::to_string(m_firstWhite) + " became the grey values 0 to 255";
+  const std::string colour = m_colour ? "The images are in colour; they were made grey." : "", depth = depthRemark();
+  return colour + (colour.empty() || depth.empty() ? "" : " ") + depth;
+}
+
+std::string GreyScale::depthRemark() const
+{
+  std::string text;
+  if (m_white != 0) {
+    text = "The images have " + std::to_string(m_bits) + " bits a value; the values 0 to " +
+           std::to_string(m_firstWhite) + " became the grey values 0 to 255";
     if (!m_widenedAt.empty()) {
       text += ", and from " + m_widenedAt + " on, which has larger ones, the values 0 to " + std::to_string(m_white);
     }

@@ -75,12 +75,14 @@ public:
   [[nodiscard]] cv::Mat toGrey(const cv::Mat &picture, unsigned int white, const std::string &name);
   //! What was done to colours and values, in sentences; empty: nothing.
   [[nodiscard]] std::string remark() const;
+  //! What was done to the values alone.
+  [[nodiscard]] std::string depthRemark() const;
 
 private:
   bool m_colour = false;
-  unsigned int m_bits = 0;           // of the files, where they were not 8
-  unsigned int m_white = 0;          // becomes 255
-  unsigned int m_firstWhite = 0;     // before it was widened
+  unsigned int m_bits = 0;       // of the files, where they were not 8
+  unsigned int m_white = 0;      // becomes 255
+  unsigned int m_firstWhite = 0; // before it was widened
   std::string m_widenedAt;
 };
 

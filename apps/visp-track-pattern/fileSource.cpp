@@ -147,9 +147,10 @@ std::vector<std::string> FileSource::remarks() const
 {
   std::vector<std::string> all;
   if (m_gapCount > 0) {
-    all.push_back(std::to_string(m_gapCount) + (m_gapCount == 1 ? " gap: images are missing (" : " gaps: images are missing (") +
-                  listOf(m_gaps, m_gapCount) +
-                  "). How far the product moved meanwhile is not known: no displacement is given there, and a new epoch begins.");
+    all.push_back(
+        std::to_string(m_gapCount) + (m_gapCount == 1 ? " gap: images are missing (" : " gaps: images are missing (") +
+        listOf(m_gaps, m_gapCount) +
+        "). How far the product moved meanwhile is not known: no displacement is given there, and a new epoch begins.");
   }
   if (m_leftOut > 0) {
     all.push_back(std::to_string(m_leftOut) + (m_leftOut == 1 ? " image was" : " images were") + " left out (" +

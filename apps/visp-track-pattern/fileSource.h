@@ -62,12 +62,12 @@ private:
   std::string m_description;
   std::size_t m_frames;
   std::unique_ptr<TruthFiles> m_truth;
-  std::size_t m_count = 0;      // images that there should be, at most m_frames
-  bool m_several = false;       // a file has several pages: images are numbered by their position
+  std::size_t m_count = 0;                  // images that there should be, at most m_frames
+  bool m_several = false;                   // a file has several pages: images are numbered by their position
   std::unique_ptr<vpPictures::File> m_open; // m_next.file
   vpPictures::GreyScale m_scale;
-  Place m_next, m_last;         // m_last: read by the last next()
-  std::size_t m_position = 0;   // of m_next among all images
+  Place m_next, m_last;       // m_last: read by the last next()
+  std::size_t m_position = 0; // of m_next among all images
   std::size_t m_read = 0;
   unsigned int m_number = 0;
   bool m_afterGap = false, m_pageMissing = false;

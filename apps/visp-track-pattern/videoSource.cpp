@@ -110,17 +110,19 @@ std::vector<std::string> VideoSource::remarks() const
 {
   std::vector<std::string> all;
   if (m_failed > 0) {
-    all.push_back("The camera failed to give an image " + std::to_string(m_failed) +
-                  (m_failed == 1 ? " time" : " times") +
-                  ". How far the product moved meanwhile is not known: no displacement is given there, and a new epoch begins.");
+    all.push_back(
+        "The camera failed to give an image " + std::to_string(m_failed) + (m_failed == 1 ? " time" : " times") +
+        ". How far the product moved meanwhile is not known: no displacement is given there, and a new epoch begins.");
   }
   if (m_isCamera && !m_scale.remark().empty()) { // OpenCV makes the images of every video colour
     all.push_back(m_scale.remark());
   }
   if (m_bits > 8) {
-    all.push_back("The video has " + std::to_string(m_bits) + " bits a value; its largest possible value became the grey "
-                  "value 255. If it uses a small part of that range, store its images as PNG or TIFF, of which all bits "
-                  "are read.");
+    all.push_back(
+        "The video has " + std::to_string(m_bits) +
+        " bits a value; its largest possible value became the grey "
+        "value 255. If it uses a small part of that range, store its images as PNG or TIFF, of which all bits "
+        "are read.");
   }
   if (m_short) {
     all.push_back("The video promises " + std::to_string(m_promised) + " images, only " + std::to_string(m_read) +

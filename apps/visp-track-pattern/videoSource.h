@@ -37,7 +37,10 @@ public:
   [[nodiscard]] unsigned int number() const override { return static_cast<unsigned int>(m_read + m_failed - 1); }
   [[nodiscard]] bool isAfterGap() const override { return m_afterGap; }
   [[nodiscard]] std::size_t count() const override;
-  [[nodiscard]] std::string description() const override { return (m_isCamera ? "the camera " : "the video ") + m_name; }
+  [[nodiscard]] std::string description() const override
+  {
+    return (m_isCamera ? "the camera " : "the video ") + m_name;
+  }
   [[nodiscard]] std::vector<std::string> remarks() const override;
 
 private:
