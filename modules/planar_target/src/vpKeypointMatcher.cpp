@@ -4,9 +4,10 @@
  */
 #include "vpKeypointMatcher.h"
 
+#include <algorithm>
 #include <cstdint>
-#include <cstring>
 #include <limits>
+#include <numeric>
 
 // Counting bits is one instruction on every x86 of the last fifteen years, but not of the one that compilers build for.
 // The program picks the version at run time. OpenCV's own distances take four times as long, for the tracing of each call.
@@ -31,17 +32,6 @@ VISP_DIRECT_POPCOUNT_CLONES void hammingDistances(const std::uint64_t *from, con
     }
     distances[j] = d;
   }
-}
-
-// Rows of bytes as rows of 64-bit words, filled up with zeros (AKAZE has 61 bytes).
-std::vector<std::uint64_t> toWords(const cv::Mat &descriptors, std::size_t words)
-{
-  std::vector<std::uint64_t> packed(static_cast<std::size_t>(descriptors.rows) * words, 0);
-  for (int i = 0; i < descriptors.rows; ++i) {
-    std::memcpy(&packed[static_cast<std::size_t>(i) * words], descriptors.ptr(i),
-                static_cast<std::size_t>(descriptors.cols));
-  }
-  return packed;
 }
 
 // Feeds on one row of distances after the other; keeps the two nearest of each row and the nearest of each column.
@@ -94,29 +84,57 @@ private:
   std::vector<std::pair<int, int>> m_candidates;
 };
 
-std::vector<std::pair<int, int>> matchBinary(const cv::Mat &reference, const cv::Mat &current, float ratio)
+// Distances of each row of \e from to all rows of \e to, one row after the other.
+template <class Take> void forEachRow(const vpKeypointSet &from, const vpKeypointSet &to, const Take &take)
 {
-  const std::size_t words = (static_cast<std::size_t>(current.cols) + 7) / 8,
-                    cols = static_cast<std::size_t>(current.rows);
-  const std::vector<std::uint64_t> from = toWords(reference, words), to = toWords(current, words);
+  const std::size_t words = to.words(), cols = to.points.size();
   std::vector<int> distances(cols);
-  MutualMatches<int> matches(cols, ratio);
-  for (int i = 0; i < reference.rows; ++i) {
-    hammingDistances(&from[static_cast<std::size_t>(i) * words], to.data(), cols, words, distances.data());
-    matches.add(i, distances.data());
+  for (std::size_t i = 0; i < from.points.size(); ++i) {
+    hammingDistances(&from.packed[i * words], to.packed.data(), cols, words, distances.data());
+    take(static_cast<int>(i), distances);
   }
+}
+
+std::vector<std::pair<int, int>> matchBinary(const vpKeypointSet &reference, const vpKeypointSet &current, float ratio)
+{
+  MutualMatches<int> matches(current.points.size(), ratio);
+  forEachRow(reference, current,
+             [&matches](int row, const std::vector<int> &distances) { matches.add(row, distances.data()); });
   return matches.matches();
 }
 
-std::vector<std::pair<int, int>> matchReal(const cv::Mat &reference, const cv::Mat &current, float ratio)
+std::vector<std::pair<int, int>> matchReal(const vpKeypointSet &reference, const vpKeypointSet &current, float ratio)
 {
   cv::Mat distances;
-  cv::batchDistance(reference, current, distances, CV_32F, cv::noArray(), cv::NORM_L2);
-  MutualMatches<float> matches(static_cast<std::size_t>(current.rows), ratio);
+  cv::batchDistance(reference.descriptors, current.descriptors, distances, CV_32F, cv::noArray(), cv::NORM_L2);
+  MutualMatches<float> matches(current.points.size(), ratio);
   for (int i = 0; i < distances.rows; ++i) {
     matches.add(i, distances.ptr<float>(i));
   }
   return matches.matches();
+}
+
+// How far each descriptor is from the nearest other one of its image.
+std::vector<float> isolation(const vpKeypointSet &set)
+{
+  std::vector<float> nearest(set.points.size(), std::numeric_limits<float>::max());
+  const auto take = [&nearest](int row, const auto &distances) {
+    for (std::size_t j = 0; j < nearest.size(); ++j) {
+      if (j != static_cast<std::size_t>(row)) {
+        nearest[j] = std::min(nearest[j], static_cast<float>(distances[j]));
+      }
+    }
+  };
+  if (!set.packed.empty()) {
+    forEachRow(set, set, take);
+    return nearest;
+  }
+  cv::Mat distances;
+  cv::batchDistance(set.descriptors, set.descriptors, distances, CV_32F, cv::noArray(), cv::NORM_L2);
+  for (int i = 0; i < distances.rows; ++i) {
+    take(i, distances.ptr<float>(i));
+  }
+  return nearest;
 }
 } // namespace
 
@@ -126,8 +144,30 @@ std::vector<std::pair<int, int>> matchKeypoints(const vpKeypointSet &reference, 
   if (reference.points.empty() || current.points.empty()) {
     return {};
   }
-  const bool binary = reference.descriptors.depth() == CV_8U;
-  return (binary ? matchBinary : matchReal)(reference.descriptors, current.descriptors, ratio);
+  return (reference.packed.empty() ? matchReal : matchBinary)(reference, current, ratio);
+}
+
+vpKeypointSet tellingKeypoints(const vpKeypointSet &set, std::size_t most)
+{
+  constexpr std::size_t strong = 500; // weaker ones are often not found again
+  const std::size_t n = set.points.size();
+  std::vector<int> order(n);
+  std::iota(order.begin(), order.end(), 0);
+  if (n > most) {
+    const std::vector<float> alone = isolation(set);
+    const auto first = order.begin() + static_cast<std::ptrdiff_t>(most / 2);
+    std::stable_sort(first, order.begin() + static_cast<std::ptrdiff_t>(std::min(n, strong)), [&alone](int a, int b) {
+      return alone[static_cast<std::size_t>(a)] > alone[static_cast<std::size_t>(b)];
+    });
+    order.resize(most);
+  }
+  vpKeypointSet chosen;
+  for (const int i : order) {
+    chosen.points.push_back(set.points[static_cast<std::size_t>(i)]);
+    chosen.descriptors.push_back(set.descriptors.row(i));
+  }
+  chosen.pack();
+  return chosen;
 }
 
 END_VISP_NAMESPACE

@@ -59,6 +59,7 @@ const vpPlanarTargetResult &vpPlanarTarget::track(const vpImage<unsigned char> &
 void vpPlanarTarget::reset()
 {
   m_impl->m_known = false;
+  m_impl->m_fresh = true;
   m_impl->m_result = vpPlanarTargetResult();
 }
 
