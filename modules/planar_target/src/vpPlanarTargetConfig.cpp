@@ -51,6 +51,8 @@ const char *toString(vpPlanarTargetStatus status)
     return "Acquired";
   case vpPlanarTargetStatus::Tracked:
     return "Tracked";
+  case vpPlanarTargetStatus::Extrapolated:
+    return "Extrapolated";
   case vpPlanarTargetStatus::NoTexture:
     return "NoTexture";
   case vpPlanarTargetStatus::TooFewInliers:

@@ -231,6 +231,29 @@ TEST_CASE("what cannot be decomposed is refused", "[two-view][errors]")
   }
   CHECK(decomposition.process(H, world.points).status == vpTwoViewStatus::Invalid);
 
+  // A plane has two sides, and a camera sees one: det(R + t n^T / d) > 0.
+  for (unsigned int mirror = 0; mirror < 2; ++mirror) {
+    for (unsigned int trial = 0; trial < 50; ++trial) {
+      World other(9100 + trial);
+      vpHomography mirrored = homography(other.motion(), other.normal, 1.);
+      for (unsigned int c = 0; c < 3; ++c) {
+        mirrored[mirror][c] = -mirrored[mirror][c];
+      }
+      CHECK(decomposition.process(mirrored, other.points).status == vpTwoViewStatus::Invalid);
+      CHECK(decomposition.result().message.find("The homography is mirrored") == 0);
+      CHECK(decomposition.result().candidates.empty());
+    }
+  }
+  for (const double bad : {double(NAN), double(INFINITY)}) {
+    auto points = world.points;
+    points[points.size() - 1].second = bad;
+    CHECK(decomposition.process(homography(world.motion(), world.normal, 1.), points).status ==
+          vpTwoViewStatus::Invalid);
+    CHECK(decomposition.result().message.find("Point " + std::to_string(points.size() - 1) + " of the plane is (") ==
+          0);
+    CHECK(decomposition.result().message.find(", must be finite.") != std::string::npos);
+  }
+
   vpTwoViewConfig config;
   config.minTranslation = -1.;
   CHECK_THROWS_WITH(vpTwoViewDecomposition(config),

@@ -1,0 +1,44 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpCaseFile.h
+ * \brief Inputs from public problems, which are not part of the project.
+ */
+#ifndef vpCaseFile_h
+#define vpCaseFile_h
+
+#include "vpCatch.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+namespace vpTestSupport
+{
+/*!
+ * Path of a file of the folder `shared/cases` that stands beside the project or farther up, or that the environment
+ * variable `VISP_DIRECT_CASES` names.
+ * \return Empty when there is no such file: the test is then marked as skipped.
+ */
+inline std::string caseFile(const std::string &name)
+{
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  const char *folder = std::getenv("VISP_DIRECT_CASES");
+  if (folder != nullptr && fs::exists(fs::path(folder) / name, ignored)) {
+    return (fs::path(folder) / name).string();
+  }
+  for (fs::path at = VISP_DIRECT_DATA_DIR; at.has_relative_path(); at = at.parent_path()) {
+    const fs::path file = at / "shared" / "cases" / name;
+    if (fs::exists(file, ignored)) {
+      return file.string();
+    }
+  }
+  skip("the public case " + name + " is not there (folder shared/cases, or VISP_DIRECT_CASES)");
+  return "";
+}
+} // namespace vpTestSupport
+
+#endif
