@@ -4,11 +4,11 @@
  */
 // A whole control cycle with whole-arm avoidance: kinematics, redundancy with two indices and limits, and the supervisor
 // among ten obstacles; and the parts. Every cycle is timed on its own for the quantiles.
+#include "vpBenchmark.h"
+
 #include <visp3/avoidance/vpStopSupervisor.h>
 #include <visp3/manipulator/vpArmJson.h>
 #include <visp3/manipulator/vpRedundancySolver.h>
-
-#include <benchmark/benchmark.h>
 
 #include <algorithm>
 #include <chrono>
@@ -96,4 +96,4 @@ BENCHMARK_CAPTURE(cycle, without_avoidance, 0., false)->Iterations(20000);
 BENCHMARK_CAPTURE(cycle, supervised_static, 0., true)->Iterations(20000);
 BENCHMARK_CAPTURE(cycle, supervised_moving, 0.2, true)->Iterations(20000);
 
-BENCHMARK_MAIN();
+VP_BENCHMARK_MAIN();

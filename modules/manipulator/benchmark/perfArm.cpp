@@ -4,6 +4,8 @@
  */
 // Time of a cycle of the arm, with KDL's kernels beside ours. The percentiles are over single cycles, each measured by
 // itself.
+#include "vpBenchmark.h"
+
 #include <visp3/manipulator/vpArmDynamics.h>
 #include <visp3/manipulator/vpArmJson.h>
 #include <visp3/manipulator/vpArmKinematics.h>
@@ -13,8 +15,6 @@
 #include <kdl/chainfksolverpos_recursive.hpp>
 #include <kdl/chainiksolvervel_wdls.hpp>
 #include <kdl/chainjnttojacsolver.hpp>
-
-#include <benchmark/benchmark.h>
 
 #include <algorithm>
 #include <chrono>
@@ -212,4 +212,4 @@ void dynamics(benchmark::State &state)
 BENCHMARK(dynamics);
 } // namespace
 
-BENCHMARK_MAIN();
+VP_BENCHMARK_MAIN();

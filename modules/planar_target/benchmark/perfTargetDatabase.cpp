@@ -5,11 +5,10 @@
 // A frame of 640x480 for a database of which one target is seen and the others are lost, on one core. Beside it: each target
 // on its own, with all that can be done for it in every frame.
 #include "../test/vpPosters.h"
+#include "vpBenchmark.h"
 
 #include <visp3/direct_core/vpQuantile.h>
 #include <visp3/planar_target/vpPlanarTargetDatabase.h>
-
-#include <benchmark/benchmark.h>
 
 #include <ctime>
 
@@ -99,10 +98,5 @@ int main(int argc, char *argv[])
 {
   cv::setNumThreads(1);
   views();
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) {
-    return 2;
-  }
-  benchmark::RunSpecifiedBenchmarks();
-  return 0;
+  return vpTestSupport::runBenchmarks(argc, argv);
 }
