@@ -56,7 +56,7 @@ private:
 
 std::size_t vpKeypointSet::words() const
 {
-  return (static_cast<std::size_t>(descriptors.cols) * descriptors.elemSize() + 7) / 8;
+  return (static_cast<std::size_t>(descriptors.cols) * descriptors.elemSize() + 31) / 32 * 4;
 }
 
 void vpKeypointSet::pack()
@@ -65,11 +65,14 @@ void vpKeypointSet::pack()
   if (descriptors.empty() || descriptors.depth() != CV_8U) {
     return;
   }
-  // Filled up with zeros (AKAZE has 61 bytes).
-  packed.resize(static_cast<std::size_t>(descriptors.rows) * words(), 0);
-  for (int i = 0; i < descriptors.rows; ++i) {
-    std::memcpy(&packed[static_cast<std::size_t>(i) * words()], descriptors.ptr(i),
-                static_cast<std::size_t>(descriptors.cols));
+  const std::size_t n = static_cast<std::size_t>(descriptors.rows);
+  std::vector<std::uint64_t> row(words(), 0); // filled up with zeros: AKAZE has 61 bytes
+  packed.resize(n * row.size());
+  for (std::size_t i = 0; i < n; ++i) {
+    std::memcpy(row.data(), descriptors.ptr(static_cast<int>(i)), static_cast<std::size_t>(descriptors.cols));
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      packed[k * n + i] = row[k];
+    }
   }
 }
 

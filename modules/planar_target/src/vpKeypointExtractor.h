@@ -23,10 +23,12 @@ BEGIN_VISP_NAMESPACE
 //! the top-left pixel.
 struct vpKeypointSet {
   std::vector<cv::Point2f> points;
-  cv::Mat descriptors;               //!< CV_8U (binary, compared by Hamming distance) or CV_32F (Euclidean distance).
-  std::vector<std::uint64_t> packed; //!< Rows of binary descriptors as whole words, see pack(); empty for others.
+  cv::Mat descriptors; //!< CV_8U (binary, compared by Hamming distance) or CV_32F (Euclidean distance).
+  std::vector<std::uint64_t>
+      packed; //!< Binary descriptors, word by word: the first of all points, then the second; see
+              //!< pack(). Empty for others.
 
-  //! Words of a descriptor.
+  //! 64-bit words of a descriptor, a multiple of four.
   [[nodiscard]] std::size_t words() const;
   //! Set \e packed from \e descriptors: once, however many sets it is compared with.
   void pack();
