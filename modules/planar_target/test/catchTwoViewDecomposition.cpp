@@ -165,11 +165,15 @@ TEST_CASE("further motions decide between the two planes, and never for the fals
     World world(5000 + i);
     vpTwoViewDecomposition decomposition;
     bool done = false;
+    double apart = M_PI; // the two planes that the first frame allows, rad
     for (unsigned int frame = 1; frame <= 10; ++frame) {
       const Motion truth = world.motion();
       const vpTwoViewResult &result =
           decomposition.process(homography(truth, world.normal, world.scale()), world.points);
       CAPTURE(i, frame, result.message);
+      if (frame == 1 && result.candidates.size() == 2) {
+        apart = angle(result.candidates[0].normal, result.candidates[1].normal);
+      }
       if (result.status == vpTwoViewStatus::Unique) {
         REQUIRE(isTrue(result.best, truth, world.normal));
         frames += done ? 0. : frame;
@@ -180,11 +184,14 @@ TEST_CASE("further motions decide between the two planes, and never for the fals
         REQUIRE_FALSE(done); // once decided, it stays
       }
     }
+    // Planes within the tolerance of normals confirm each other for ever.
+    CAPTURE(i, apart);
+    CHECK((done || apart < vpTwoViewConfig().normalTolerance));
     decided += done;
   }
   std::cout << "several views: " << decided << " of 500 decided, after " << frames / decided << " frames on average"
             << std::endl;
-  CHECK(decided == 500);
+  CHECK(decided > 490);
 }
 
 TEST_CASE("a camera that only turns gives a status and no motion", "[two-view]")
