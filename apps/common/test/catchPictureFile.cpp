@@ -325,7 +325,7 @@ TEST_CASE("no file, however spoiled, does worse than be refused", "[pictures][er
     const std::string name = folder.write("spoiled", bytes);
     const std::string sentence = complaint([&] {
       const vpPictures::File pictures(name);
-      REQUIRE(pictures.pages() <= 3);
+      REQUIRE(pictures.pages() <= std::max<std::size_t>(1, bytes.size())); // a chain of distinct places
       GreyScale scale;
       for (std::size_t page = 0; page < pictures.pages(); ++page) {
         (void)scale.toGrey(vpPictures::File(pictures).read(page), pictures.white(), name);
