@@ -5,11 +5,11 @@
 #include "photoScene.h"
 
 #include "dataFile.h"
+#include "greyPicture.h"
 #include "jsonReader.h"
 #include "numberText.h"
 
 #include <visp3/avoidance/vpObstacleDetector.h>
-#include <visp3/io/vpImageIo.h>
 #include <visp3/manipulator/vpArmJson.h>
 
 #include <algorithm>
@@ -84,7 +84,11 @@ void dress(PhotoScene &scene, const vpObjectPhoto &photo, const vpCollisionObjec
   vpScenePhoto dressed;
   dressed.object = photo.object;
   dressed.size = size.head<2>();
-  vpImageIo::read(dressed.image, imageOf(scene.targets, photo.target));
+  vpPictures::GreyScale scale;
+  vpApp::copyGrey(vpApp::readGreyPicture(imageOf(scene.targets, photo.target), scale), dressed.image);
+  if (!scale.depthRemark().empty()) {
+    scene.remarks.push_back("Photograph of object " + photo.object + ": " + scale.depthRemark());
+  }
   scene.camera.photos.push_back(dressed);
   addObstacle(scene, box);
 }

@@ -84,6 +84,9 @@ void compare(const Options &options, const std::string &commandLine)
   out.writeSummary(summaryOf(plan, results, commandLine, parts.wallTime));
   vpApp::throwIfInterrupted();
   out.commit();
+  if (!plan.target.remark.empty()) {
+    std::cout << plan.target.file << ": " << plan.target.remark << "\n";
+  }
   std::cout << "Report: " << (out.path() / "report.html").string() << std::endl;
 }
 } // namespace

@@ -142,7 +142,9 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   app.add_option("--limits", options.robot.limits,
                  "At a position limit stop only that joint, or scale the whole motion (default: stop)")
       ->option_text("stop|scale");
-  app.add_option("--target", options.target, "Photo of the flat object (default: klimt.jpg of the data folder)")
+  app.add_option("--target", options.target,
+                 "Photo of the flat object, 8 or 16 bits, turned as its EXIF orientation says (default: klimt.jpg of "
+                 "the data folder)")
       ->check(CLI::ExistingFile)
       ->option_text("IMAGE");
   std::string repetitions = "1";

@@ -8,15 +8,14 @@
 #include "catalogue.h"
 #include "dataFile.h"
 #include "format.h"
+#include "greyPicture.h"
 #include "robotChoice.h"
 
 #include <visp3/planar_target/vpPlanarTarget.h>
 
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
-#include <cstring>
 
 namespace servoCompare
 {
@@ -97,10 +96,9 @@ Target readTarget(const std::string &asked)
   Target target;
   target.isDefault = asked.empty();
   target.file = asked.empty() ? vpApp::dataFile("target/klimt.jpg") : asked;
-  cv::Mat photo = cv::imread(target.file, cv::IMREAD_GRAYSCALE);
-  if (photo.empty()) {
-    throw std::runtime_error(target.file + ": is not an image that can be read");
-  }
+  vpPictures::GreyScale depth;
+  cv::Mat photo = vpApp::readGreyPicture(target.file, depth);
+  target.remark = depth.depthRemark();
   if (photo.cols < SMALLEST_PHOTO || photo.rows < SMALLEST_PHOTO) {
     throw std::runtime_error(target.file + ": is " + std::to_string(photo.cols) + "x" + std::to_string(photo.rows) +
                              " px, must be at least 32x32 px");
@@ -109,10 +107,7 @@ Target readTarget(const std::string &asked)
   if (scale < 1.) {
     cv::resize(photo, photo, cv::Size(), scale, scale, cv::INTER_AREA);
   }
-  target.photo.resize(photo.rows, photo.cols);
-  for (int row = 0; row < photo.rows; ++row) {
-    std::memcpy(target.photo[row], photo.ptr(row), photo.cols);
-  }
+  vpApp::copyGrey(photo, target.photo);
   return target;
 }
 

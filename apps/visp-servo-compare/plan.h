@@ -22,6 +22,7 @@ struct Target {
   std::string file;             //!< Where the user's photo, or ours, is.
   bool isDefault = true;        //!< It is the one of the data folder.
   vpImage<unsigned char> photo; //!< Grey values, at most 1024 px wide and high.
+  std::string remark;           //!< What reading did to colours and depth; empty: nothing.
 };
 
 //! \brief All that will be run, checked.

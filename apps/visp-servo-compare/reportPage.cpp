@@ -268,7 +268,8 @@ void writeParameters(HtmlReport &page, const Plan &plan, const ReportParts &part
                      " feature points; how soon it leaves the view depends on this size, which "
                      "the thesis does not give"},
       {"Photo (real)", plan.target.file + ", used at " + std::to_string(plan.target.photo.getWidth()) + "x" +
-                           std::to_string(plan.target.photo.getHeight()) + " px, grey"},
+                           std::to_string(plan.target.photo.getHeight()) + " px, grey" +
+                           (plan.target.remark.empty() ? "" : ". " + plan.target.remark)},
       {"Rendered views for measure image", "grey noise " + number(faults.noise, 3) + ", blur " +
                                                number(faults.blur, 3) + " px, gain " + number(faults.gain, 3) +
                                                ", bias " + number(faults.bias, 3) + ", occlusion " +

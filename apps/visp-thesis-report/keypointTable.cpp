@@ -87,7 +87,7 @@ void match(Column &column, vpPlaneMatcher &matcher, const vpImage<unsigned char>
   column.found.add(static_cast<double>(match.frameKeypoints));
   column.matched.add(static_cast<double>(match.matches));
   column.inliers.add(static_cast<double>(match.inliers.size()));
-  column.recognised += match.found() ? 1 : 0;
+  column.recognised += match.hasHomography() ? 1 : 0;
 }
 
 //! All columns on each view in turn, so that what else the machine does meets all of them.

@@ -17,6 +17,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace trackPattern
 {
@@ -47,20 +48,14 @@ public:
   [[nodiscard]] virtual std::size_t count() const = 0;
   //! What it is, for people ("the folder recording", "its own sequence").
   [[nodiscard]] virtual std::string description() const = 0;
-  //! Something to say about what was read so far ("colour was made grey"); empty: nothing.
-  [[nodiscard]] virtual std::string remark() const { return ""; }
+  //! True when images are missing between that of the last next() and the one before it.
+  [[nodiscard]] virtual bool isAfterGap() const { return false; }
+  //! What there is to say about what was read so far ("The images are in colour ..."), in sentences.
+  [[nodiscard]] virtual std::vector<std::string> remarks() const { return {}; }
 };
 
 //! The source that the options name. \throw std::runtime_error naming the input that cannot be used.
 [[nodiscard]] std::unique_ptr<ImageSource> makeSource(const Options &options);
-
-/*!
- * The files that a pattern such as "img%04d.png" stands for, by number.
- * \throw std::runtime_error naming the pattern when it is none or no file is there.
- */
-[[nodiscard]] std::vector<std::filesystem::path> filesOfPattern(const std::string &pattern);
-//! The images of a folder, in the order of the numbers in their names ("2.png" before "10.png"). May be empty.
-[[nodiscard]] std::vector<std::filesystem::path> imagesOfFolder(const std::filesystem::path &folder);
 } // namespace trackPattern
 
 #endif

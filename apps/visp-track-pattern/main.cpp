@@ -33,23 +33,42 @@ std::string videoFor(const Options &options, vpApp::OutputFolder &out)
   return !ignored && size < LARGEST_SHOWN_VIDEO ? vpApp::readFile(file) : "";
 }
 
-void track(const Options &options, const std::string &commandLine)
+void writeResult(const Options &options, const RunResults &results, vpApp::OutputFolder &out,
+                 const std::string &commandLine)
 {
-  vpApp::requireGnuplot();
-  const std::unique_ptr<ImageSource> source = makeSource(options);
-  vpApp::OutputFolder out("visp-track-pattern", options.out);
-  const RunResults results = trackAll(options, *source, out);
   out.write("report.html", reportPage(results, options, videoFor(options, out), commandLine));
   out.writeSummary(summaryOf(results, options, commandLine));
-  vpApp::throwIfInterrupted();
   out.commit();
   for (const std::string &line : findings(results)) {
     std::cout << line << "\n";
   }
   std::cout << "Report: " << (std::filesystem::path(options.out) / "report.html").string() << std::endl;
-  if (results.imagesWithCells() == 0) {
+}
+
+int track(const Options &options, const std::string &commandLine)
+{
+  vpApp::requireGnuplot();
+  const std::unique_ptr<ImageSource> source = makeSource(options);
+  vpApp::OutputFolder out("visp-track-pattern", options.out);
+  RunResults results;
+  try {
+    trackAll(options, *source, out, results);
+    writeResult(options, results, out, commandLine);
+  }
+  catch (const std::exception &error) {
+    if (results.frames.empty()) { // nothing to keep
+      throw;
+    }
+    const std::string sentence = vpApp::sentenceOf(error);
+    throw std::runtime_error(sentence + "; " + out.keepUnfinished(sentence));
+  }
+  if (results.ending == Ending::Incomplete) {
+    throw std::runtime_error(results.failure + "; the report shows what was seen");
+  }
+  if (results.ending == Ending::Complete && results.imagesWithCells() == 0) {
     throw std::runtime_error("no pattern was found; the report shows the images as they were read");
   }
+  return results.ending == Ending::Interrupted && vpApp::interrupted() ? vpApp::ExitInterrupted : vpApp::ExitOk;
 }
 } // namespace
 
@@ -57,9 +76,9 @@ int main(int argc, char **argv)
 {
   return vpApp::runMain("visp-track-pattern", [&]() -> int {
     Options options;
-    if (readOptions(argc, argv, options)) {
-      track(options, vpApp::commandLine("visp-track-pattern", argc, argv));
+    if (!readOptions(argc, argv, options)) {
+      return vpApp::ExitOk;
     }
-    return vpApp::ExitOk;
+    return track(options, vpApp::commandLine("visp-track-pattern", argc, argv));
   });
 }

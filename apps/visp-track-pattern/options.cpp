@@ -20,9 +20,11 @@ constexpr const char *ABOUT =
     R"(Find the cells of a repetitive product (openings of a display, dots of a grid, pads of a wafer) in every image, to
 hundredths of a pixel, and say how far the product moved since the image before. Nothing needs to be known of the
 product: its lattice and its looks are learned from the first images (some 60 of a product that moves). The images must
-be grey with 8 bits, or colour, which is made grey, and must show at least two cells each way.
+show at least two cells each way. Colour is made grey; 16 bits a value are scaled to 8 by the range that they use; JPEG
+and TIFF images are turned as their orientation tag says; every page of a TIFF is an image.
 
-INPUT is a folder, image files, a pattern such as img%04d.png, a video file, or /dev/video0. Without input the program
+INPUT is a folder, image files, a pattern such as img%04d.png, a video file, or /dev/video0. Where the numbers in the names
+jump, images are missing, and no displacement is given. What cannot be read is left out. Without input the program
 makes a sequence of its own and says how far the answers are from the truth. It does so too for a folder that
 visp-generate-pattern wrote.)";
 
@@ -40,9 +42,10 @@ constexpr const char *EXAMPLES =
       the same recording in pixels and in micrometres
 
 Written into the folder of --out: report.html (read this first), cells.csv, motion.csv, summary.json, and the overlay.
-data/pattern/README.md describes the files. Places are pixels; (0, 0) is the centre of the top left one.
+data/pattern/README.md describes the files. Ctrl-C ends the run with the report of what was seen until then. Places are pixels; (0, 0) is the centre of the top left one.
 
-Exit status: 0 done, 1 an image, a file or the camera does not allow it or shows no pattern, 2 the command line is wrong.)";
+Exit status: 0 done, 1 an image, a file or the camera does not allow it or shows no pattern, 2 the command line is wrong,
+130 ended by Ctrl-C.)";
 
 constexpr std::size_t NAME_COLUMN = 34; // width, characters
 

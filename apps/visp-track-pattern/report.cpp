@@ -39,6 +39,23 @@ std::string mostFrequentMessage(const RunResults &results)
   return best;
 }
 
+//! What the reader must know before all else: that images are missing at the end.
+std::string endingSentence(const RunResults &results)
+{
+  const std::size_t n = results.frames.size();
+  const std::string until =
+      text("%zu", n) + (results.expected > 0 ? text(" of %zu", results.expected) : "") + " image" + plural(n);
+  switch (results.ending) {
+  case Ending::Complete:
+    break;
+  case Ending::Interrupted:
+    return "The run was interrupted after " + until + "; all below holds for these.";
+  case Ending::Incomplete:
+    return "Incomplete: " + results.failure + ". All below holds for the " + until + " that were seen.";
+  }
+  return "";
+}
+
 std::size_t epochsOf(const RunResults &results)
 {
   unsigned int last = 0;
@@ -165,6 +182,9 @@ std::vector<std::string> findings(const RunResults &results)
   const std::size_t n = results.frames.size(), tracked = results.count(vpPatternStatus::Tracking);
   const std::size_t degraded = results.count(vpPatternStatus::Degraded), lost = results.count(vpPatternStatus::Lost);
   const vpPatternLattice &lattice = results.lattice;
+  if (results.ending != Ending::Complete) {
+    lines.push_back(endingSentence(results));
+  }
   if (results.imagesWithCells() == 0) {
     lines.push_back(text("No pattern was found in any of the %zu image%s. The tracker says: %s", n, plural(n),
                          mostFrequentMessage(results).c_str()));
@@ -210,9 +230,7 @@ std::vector<std::string> findings(const RunResults &results)
     lines.push_back(text("In micrometres: %.5g um a pixel, the displacement is good to %.3g um in x.",
                          results.calibration->pixelSizeUm(), sigmaDx * results.calibration->pixelSizeUm()));
   }
-  if (!results.remark.empty()) {
-    lines.push_back(results.remark);
-  }
+  lines.insert(lines.end(), results.remarks.begin(), results.remarks.end());
   return lines;
 }
 
@@ -221,8 +239,9 @@ std::string reportPage(const RunResults &results, const Options &options, const 
 {
   const auto svg = [](const std::string &document) { return vpApp::dataUri("image/svg+xml", document); };
   vpApp::HtmlReport page("Tracking of a repetitive product",
-                         text("%zu image%s of %u x %u px, %s", results.frames.size(), plural(results.frames.size()),
-                              results.width, results.height, results.input.c_str()));
+                         text("%zu image%s of %u x %u px, %s%s", results.frames.size(), plural(results.frames.size()),
+                              results.width, results.height, results.input.c_str(),
+                              results.ending == Ending::Complete ? "" : text(" (%s)", results.endingWord()).c_str()));
   page.section("What came out");
   page.highlight(findings(results));
   page.picture(vpApp::dataUri("image/png", results.picture), "an image with the cells that were found",
@@ -241,7 +260,9 @@ std::string reportPage(const RunResults &results, const Options &options, const 
   if (moves) {
     page.section("Motion");
     page.picture(svg(motionFigure(results)), "displacement of every image",
-                 "How far the product moved since the image before: x to the right, y down. A gap: not known.");
+                 "How far the product moved since the image before: x to the right, y down. A gap in the curve: not "
+                 "known, as where "
+                 "images are missing.");
     if (results.hasTruth) {
       page.picture(svg(errorFigure(results)), "error of the displacement", "The same, minus the truth.");
     }
@@ -280,13 +301,14 @@ std::string reportPage(const RunResults &results, const Options &options, const 
 nlohmann::ordered_json summaryOf(const RunResults &results, const Options &options, const std::string &commandLine)
 {
   nlohmann::ordered_json json = {{"version", VISP_DIRECT_VERSION},
+                                 {"status", results.endingWord()},
                                  {"command", commandLine},
                                  {"input", results.input},
                                  {"image", {{"width", results.width}, {"height", results.height}}},
                                  {"method", toString(options.tracker.method)},
                                  {"threshold", toString(options.tracker.threshold)},
                                  {"images", results.frames.size()},
-                                 {"status",
+                                 {"images_by_status",
                                   {{"acquiring", results.count(vpPatternStatus::Acquiring)},
                                    {"tracking", results.count(vpPatternStatus::Tracking)},
                                    {"degraded", results.count(vpPatternStatus::Degraded)},
@@ -313,6 +335,7 @@ nlohmann::ordered_json summaryOf(const RunResults &results, const Options &optio
                           {"kappa1_status", toString(results.calibrated->kappa1Status)},
                           {"views", results.calibrationViews}};
   }
+  json["remarks"] = results.remarks;
   json["findings"] = findings(results);
   return json;
 }

@@ -4,10 +4,17 @@
  */
 #include "results.h"
 
+#include <visp3/direct_core/vpQuantile.h>
+
 #include <algorithm>
 
 namespace trackPattern
 {
+const char *RunResults::endingWord() const
+{
+  return ending == Ending::Complete ? "complete" : ending == Ending::Interrupted ? "interrupted" : "incomplete";
+}
+
 std::size_t RunResults::count(vpPatternStatus status) const
 {
   return static_cast<std::size_t>(std::count_if(frames.begin(), frames.end(),
@@ -23,12 +30,7 @@ std::size_t RunResults::imagesWithCells() const
 double quantile(std::vector<double> values, double p)
 {
   values.erase(std::remove_if(values.begin(), values.end(), [](double x) { return !std::isfinite(x); }), values.end());
-  if (values.empty()) {
-    return NOTHING;
-  }
-  const auto place = static_cast<std::ptrdiff_t>(std::lround(p * static_cast<double>(values.size() - 1)));
-  std::nth_element(values.begin(), values.begin() + place, values.end());
-  return values[static_cast<std::size_t>(place)];
+  return vpQuantile(std::move(values), p);
 }
 
 std::vector<double> column(const RunResults &results, double FrameRecord::*member)

@@ -80,10 +80,20 @@ struct CellDeviation {
   double x = 0., y = 0.; //!< px.
 };
 
+//! How a run ended.
+enum class Ending {
+  Complete,    //!< All images were seen.
+  Interrupted, //!< By Ctrl-C, or a click: the results hold until then.
+  Incomplete   //!< By a failure, see RunResults::failure: likewise.
+};
+
 //! \brief All of a run.
 struct RunResults {
-  std::string input;  //!< What it is, for people.
-  std::string remark; //!< About reading it; empty: nothing.
+  Ending ending = Ending::Complete;
+  std::string failure;              //!< The sentence of what failed; empty: nothing.
+  std::size_t expected = 0;         //!< Number of images that there should be; 0: unknown.
+  std::string input;                //!< What it is, for people.
+  std::vector<std::string> remarks; //!< About reading it, in sentences.
   unsigned int width = 0, height = 0;
   std::vector<FrameRecord> frames;
   bool hasTruth = false;
@@ -96,12 +106,14 @@ struct RunResults {
   std::optional<vpMicroscopeCalibrationResult> calibrated; //!< Made by this run.
   std::size_t calibrationViews = 0;
 
+  //! "complete", "interrupted" or "incomplete", for files.
+  [[nodiscard]] const char *endingWord() const;
   [[nodiscard]] std::size_t count(vpPatternStatus status) const;
   //! Number of images with at least one valid cell.
   [[nodiscard]] std::size_t imagesWithCells() const;
 };
 
-//! Share \e p (0..1) of the finite values is below it; NaN when there is none.
+//! vpQuantile() of the finite values; NaN when there is none.
 [[nodiscard]] double quantile(std::vector<double> values, double p);
 //! One number of every frame.
 [[nodiscard]] std::vector<double> column(const RunResults &results, double FrameRecord::*member);

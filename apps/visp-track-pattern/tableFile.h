@@ -21,6 +21,8 @@ class TableFile
 public:
   TableFile(vpApp::OutputFolder &out, const std::string &name, const std::string &heading);
   void add(const std::string &line) { m_stream << line << '\n'; }
+  //! What was added is on its way to the disk, should the program be killed.
+  void flush() { m_stream.flush(); }
   //! \throw std::runtime_error naming the file when the disk refuses.
   void close();
 

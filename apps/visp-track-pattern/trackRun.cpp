@@ -106,6 +106,8 @@ public:
       line += text(",%.5f,%.5f", plain(record.dxUm), plain(record.dyUm));
     }
     m_motion.add(line);
+    m_cells.flush();
+    m_motion.flush();
   }
   void close()
   {
@@ -118,7 +120,7 @@ private:
   {
     static constexpr const char *words[] = {
         "None",     "WrongSize",    "NoContrast",      "NoCells",      "TooMuchNoise", "NoLattice", "CellTooSmall",
-        "Learning", "CellsMissing", "AmbiguousMotion", "IdentitySlip", "Restarted",    "NoMatch"};
+        "Learning", "CellsMissing", "AmbiguousMotion", "IdentitySlip", "Restarted",    "NoMatch",   "ImagesMissing"};
     const auto index = static_cast<std::size_t>(reason);
     return index < std::size(words) ? words[index] : "Unknown";
   }
@@ -172,9 +174,10 @@ class Session
 {
 public:
   Session(const Options &options, vpApp::OutputFolder &out, const vpImage<unsigned char> &first,
-          const std::string &name)
-    : m_options(options), m_window(first, options.roi, name), m_tracker(makeTracker(m_window, options.tracker, name)),
-      m_overlays(out, options.overlay, options.videoRate), m_collector(options)
+          const std::string &name, RunResults &results)
+    : m_options(options), m_results(results), m_window(first, options.roi, name),
+      m_tracker(makeTracker(m_window, options.tracker, name)), m_overlays(out, options.overlay, options.videoRate),
+      m_collector(options)
   {
     m_results.width = first.getWidth();
     m_results.height = first.getHeight();
@@ -189,6 +192,10 @@ public:
   cv::Mat take(const vpImage<unsigned char> &image, const ImageSource &source, bool draw)
   {
     const vpImage<unsigned char> &part = m_window.cut(image, source.name());
+    if (source.isAfterGap()) {
+      m_tracker.interrupt();
+      m_comparison.skip();
+    }
     const auto start = std::chrono::steady_clock::now();
     const vpPatternFrame &frame = m_tracker.track(part);
     const double microseconds =
@@ -231,23 +238,35 @@ public:
     return picture;
   }
 
-  RunResults finish(const ImageSource &source, vpApp::OutputFolder &out)
+  void finish(const ImageSource &source, vpApp::OutputFolder &out)
   {
     m_tables->close();
     m_overlays.close();
     m_results.input = source.description();
-    m_results.remark = source.remark();
+    m_results.remarks = source.remarks();
     m_results.picture = pngOf(m_picture);
     if (m_options.calibrate) {
-      m_results.calibrated = m_collector.compute(m_results.width, m_results.height);
-      m_results.calibrationViews = m_collector.viewCount();
-      out.write("calibration.json", jsonOf(*m_results.calibrated, m_results.calibrationViews).dump(2) + "\n");
-      m_results.calibrated->calibration.saveXml(out.file("calibration.xml"));
+      calibrate(out);
     }
-    return std::move(m_results);
   }
 
 private:
+  // What was tracked is worth its tables without a calibration, too.
+  void calibrate(vpApp::OutputFolder &out)
+  {
+    try {
+      m_results.calibrated = m_collector.compute(m_results.width, m_results.height);
+    }
+    catch (const std::runtime_error &error) {
+      m_results.failure += (m_results.failure.empty() ? "" : "; ") + std::string(error.what());
+      m_results.ending = m_results.ending == Ending::Complete ? Ending::Incomplete : m_results.ending;
+      return;
+    }
+    m_results.calibrationViews = m_collector.viewCount();
+    out.write("calibration.json", jsonOf(*m_results.calibrated, m_results.calibrationViews).dump(2) + "\n");
+    m_results.calibrated->calibration.saveXml(out.file("calibration.xml"));
+  }
+
   static vpPatternTracker makeTracker(const Window &window, const vpPatternOptions &options, const std::string &name)
   {
     try {
@@ -259,48 +278,67 @@ private:
   }
 
   const Options &m_options;
+  RunResults &m_results;
   Window m_window;
   vpPatternTracker m_tracker;
   std::unique_ptr<Tables> m_tables;
   OverlayFiles m_overlays;
   CalibrationRun m_collector;
   Comparison m_comparison;
-  RunResults m_results;
   cv::Mat m_picture;
   bool m_pictureHasCells = false;
 };
+// False at the end, and after a failure once there is something to show.
+bool takeNext(ImageSource &source, vpImage<unsigned char> &image, RunResults &results)
+{
+  try {
+    return source.next(image);
+  }
+  catch (const std::runtime_error &error) {
+    if (results.frames.empty()) {
+      throw;
+    }
+    results.failure = error.what();
+    results.ending = Ending::Incomplete;
+    return false;
+  }
+}
 } // namespace
 
-RunResults trackAll(const Options &options, ImageSource &source, vpApp::OutputFolder &out)
+void trackAll(const Options &options, ImageSource &source, vpApp::OutputFolder &out, RunResults &results)
 {
   std::unique_ptr<vpApp::PictureWindow> screen;
   if (options.display) {
     screen = std::make_unique<vpApp::PictureWindow>("visp-track-pattern: click to end");
   }
+  results.expected = source.count();
   std::unique_ptr<vpApp::Progress> progress;
-  if (source.count() > 0) {
-    progress = std::make_unique<vpApp::Progress>("tracking " + std::to_string(source.count()) + " images",
-                                                 static_cast<double>(source.count()));
+  if (results.expected > 0) {
+    progress = std::make_unique<vpApp::Progress>("tracking " + std::to_string(results.expected) + " images",
+                                                 static_cast<double>(results.expected));
   }
   std::unique_ptr<Session> session;
   vpImage<unsigned char> image;
-  bool going = true;
-  while (going && source.next(image)) {
-    vpApp::throwIfInterrupted();
+  bool clicked = false;
+  while (!clicked && !vpApp::interrupted() && takeNext(source, image, results)) {
     if (!session) {
-      session = std::make_unique<Session>(options, out, image, source.name());
+      session = std::make_unique<Session>(options, out, image, source.name(), results);
     }
     const cv::Mat picture = session->take(image, source, screen != nullptr);
     if (screen) {
-      going = screen->show(picture, options.camera.empty() ? 1. / options.videoRate : 0.);
+      clicked = !screen->show(picture, options.camera.empty() ? 1. / options.videoRate : 0.);
     }
     if (progress) {
       progress->add(1.);
     }
   }
   if (!session) {
+    vpApp::throwIfInterrupted();
     throw std::runtime_error(source.description() + " holds no image");
   }
-  return session->finish(source, out);
+  if (results.ending == Ending::Complete && (clicked || vpApp::interrupted())) {
+    results.ending = Ending::Interrupted;
+  }
+  session->finish(source, out);
 }
 } // namespace trackPattern

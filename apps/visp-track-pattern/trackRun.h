@@ -18,10 +18,14 @@
 namespace trackPattern
 {
 /*!
- * Write cells.csv, motion.csv, the overlay and, if asked for, calibration.json and calibration.xml.
- * \throw std::runtime_error naming the image, file or camera that does not allow it; vpApp::Interrupted.
+ * Write cells.csv and motion.csv, row by row, the overlay and, if asked for, calibration.json and calibration.xml.
+ *
+ * After Ctrl-C, and when a camera fails or a calibration is not possible, what was seen is a result all the same:
+ * RunResults::ending tells.
+ * \param results : Filled as the run goes; still good for its frames after an exception.
+ * \throw std::runtime_error naming the image, file or camera that does not allow it; vpApp::Interrupted before the first image.
  */
-[[nodiscard]] RunResults trackAll(const Options &options, ImageSource &source, vpApp::OutputFolder &out);
+void trackAll(const Options &options, ImageSource &source, vpApp::OutputFolder &out, RunResults &results);
 } // namespace trackPattern
 
 #endif

@@ -31,6 +31,7 @@ struct TestFolder {
     std::ofstream(path / name, std::ios::binary) << content;
     return (path / name).string();
   }
+  [[nodiscard]] std::string file(const std::string &name) const { return (path / name).string(); }
   [[nodiscard]] std::vector<std::string> entries() const
   {
     std::vector<std::string> names;

@@ -5,8 +5,9 @@
 // Real images: the dot grids and the film of marks of visp-images-data.
 #include "vpCatch.h"
 
-#include "imageFile.h"
-#include "imageSource.h"
+#include "fileNames.h"
+
+#include "greyPicture.h"
 
 #include <visp3/core/vpIoTools.h>
 #include <visp3/pattern/vpPatternTracker.h>
@@ -31,6 +32,14 @@ std::string imageFolder(const std::string &name)
     return "";
   }
   return folder;
+}
+
+vpImage<unsigned char> greyImage(const std::string &file)
+{
+  vpPictures::GreyScale scale;
+  vpImage<unsigned char> image;
+  vpApp::copyGrey(vpApp::readGreyPicture(file, scale), image);
+  return image;
 }
 
 std::string gridFile(const std::string &folder, int number)
@@ -71,7 +80,7 @@ TEST_CASE("all dots of the real grids are found, in straight and in strongly til
   vpTsaiCalibration tsai(640, 480);
   for (int number = 1; number <= 4; ++number) {
     vpImage<unsigned char> image;
-    static_cast<void>(readGreyImage(gridFile(folder, number), image));
+    image = greyImage(gridFile(folder, number));
     const std::vector<vpCalibrationPoint> points = vpCalibrationPoints(image, {0.03, 0.03, 0.});
     CAPTURE(number);
     REQUIRE(points.size() == 36);
@@ -104,7 +113,7 @@ TEST_CASE("a real grid that is moved is tracked", "[images]")
   }
   for (int number = 1; number <= 4; ++number) {
     vpImage<unsigned char> whole;
-    static_cast<void>(readGreyImage(gridFile(folder, number), whole));
+    whole = greyImage(gridFile(folder, number));
     // A window that wanders over the image shows the grid in motion, by whole pixels, with real light and real dots.
     const unsigned int width = 580, height = 440;
     vpPatternTracker tracker(width, height);
@@ -154,13 +163,14 @@ TEST_CASE("a real film without a lattice is not tracked", "[images]")
   if (folder.empty()) {
     return;
   }
-  const std::vector<std::filesystem::path> files = imagesOfFolder(folder);
+  std::vector<std::filesystem::path> hidden;
+  const std::vector<std::filesystem::path> files = imagesOfFolder(folder, hidden);
   REQUIRE(files.size() > 100);
   std::unique_ptr<vpPatternTracker> tracker;
   vpImage<unsigned char> image;
   int tracking = 0, withCells = 0;
   for (const std::filesystem::path &file : files) {
-    static_cast<void>(readGreyImage(file, image));
+    image = greyImage(file.string());
     if (!tracker) {
       tracker = std::make_unique<vpPatternTracker>(image.getWidth(), image.getHeight());
     }

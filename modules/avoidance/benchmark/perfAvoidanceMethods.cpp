@@ -4,12 +4,12 @@
  */
 // What each method costs: every step and every look of whole motions past the pillar of S4a, timed on their own. The
 // planners are the peers: their start is OMPL's RRTConnect on certified motions, with path and timing.
+#include "vpBenchmark.h"
+
 #include <visp3/avoidance/vpAvoidanceMethods.h>
 #include <visp3/avoidance/vpCollisionSceneJson.h>
 #include <visp3/direct_core/vpQuantile.h>
 #include <visp3/manipulator/vpArmJson.h>
-
-#include <benchmark/benchmark.h>
 
 #include <chrono>
 #include <vector>
@@ -67,4 +67,4 @@ BENCHMARK_CAPTURE(motions, dtg_via, "dtg-via")->Iterations(10);
 BENCHMARK_CAPTURE(motions, planner, "planner")->Iterations(10);
 BENCHMARK_CAPTURE(motions, planner_dtg, "planner-dtg")->Iterations(10);
 
-BENCHMARK_MAIN();
+VP_BENCHMARK_MAIN();

@@ -3,14 +3,14 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 // Time of distances and of checks of motions, with FCL on the same pairs and motions beside.
+#include "vpBenchmark.h"
+
 #include <visp3/avoidance/vpCertifiedMotion.h>
 #include <visp3/avoidance/vpCollisionSceneJson.h>
 #include <visp3/avoidance/vpDiscreteMotion.h>
 #include <visp3/avoidance/vpFclChecker.h>
 #include <visp3/direct_core/vpSO3.h>
 #include <visp3/manipulator/vpArmJson.h>
-
-#include <benchmark/benchmark.h>
 
 #include <random>
 
@@ -193,4 +193,4 @@ BENCHMARK_CAPTURE(motionDiscreteFcl, free, true);
 BENCHMARK_CAPTURE(motionDiscreteFcl, any, false);
 } // namespace
 
-BENCHMARK_MAIN();
+VP_BENCHMARK_MAIN();

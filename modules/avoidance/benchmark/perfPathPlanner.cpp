@@ -4,12 +4,12 @@
  */
 // Planning time on pillar and shelf (S4), a seed an iteration: certified, own discrete and FCL discrete motions side by
 // side, and the other planners. first_ms is the planner's own time without shortening.
+#include "vpBenchmark.h"
+
 #include <visp3/avoidance/vpCollisionSceneJson.h>
 #include <visp3/avoidance/vpPathPlanner.h>
 #include <visp3/direct_core/vpQuantile.h>
 #include <visp3/manipulator/vpArmJson.h>
-
-#include <benchmark/benchmark.h>
 
 #include <string>
 
@@ -71,10 +71,5 @@ int main(int argc, char **argv)
       add(scene.first, scene.second, planner, "certified", vpMotionValidation::Certified, 10);
     }
   }
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) {
-    return 1;
-  }
-  benchmark::RunSpecifiedBenchmarks();
-  return 0;
+  return vpTestSupport::runBenchmarks(argc, argv);
 }

@@ -4,12 +4,12 @@
  */
 // A whole control cycle with whole-arm avoidance: kinematics, redundancy with two indices and limits, and the supervisor
 // among ten obstacles and among a thousand; and without it. Every cycle is timed on its own for the quantiles.
+#include "vpBenchmark.h"
+
 #include <visp3/avoidance/vpStopSupervisor.h>
 #include <visp3/direct_core/vpQuantile.h>
 #include <visp3/manipulator/vpArmJson.h>
 #include <visp3/manipulator/vpRedundancySolver.h>
-
-#include <benchmark/benchmark.h>
 
 #include <algorithm>
 #include <ctime>
@@ -114,4 +114,4 @@ BENCHMARK_CAPTURE(cycle, supervised_static, 0., true)->Iterations(20000);
 BENCHMARK_CAPTURE(cycle, supervised_moving, 0.2, true)->Iterations(20000);
 BENCHMARK_CAPTURE(cycle, supervised_among_1000, 0., true, 1000)->Iterations(4000);
 
-BENCHMARK_MAIN();
+VP_BENCHMARK_MAIN();

@@ -4,7 +4,8 @@
  */
 // Time of one cycle: every law, the view filter, and, in the same run and for the same task, ViSP's vpServo and
 // vpQuadProg.
-#include <benchmark/benchmark.h>
+
+#include "vpBenchmark.h"
 
 #include <visp3/core/vpQuadProg.h>
 #include <visp3/feedforward/vpFeatureLookAt.h>
@@ -193,7 +194,5 @@ int main(int argc, char **argv)
   benchmark::RegisterBenchmark("vpServo, as ibvs", vpServoIbvs);
   benchmark::RegisterBenchmark("vpTwistProjection, 16 rows", projection16Rows);
   benchmark::RegisterBenchmark("vpQuadProg, 16 rows", vpQuadProg16Rows);
-  benchmark::Initialize(&argc, argv);
-  benchmark::RunSpecifiedBenchmarks();
-  return 0;
+  return vpTestSupport::runBenchmarks(argc, argv);
 }

@@ -4,6 +4,8 @@
  */
 // Time of a cycle of the arm, with KDL's kernels beside ours. The percentiles are over single cycles, each measured by
 // itself.
+#include "vpBenchmark.h"
+
 #include <visp3/direct_core/vpQuantile.h>
 #include <visp3/manipulator/vpArmDynamics.h>
 #include <visp3/manipulator/vpArmJson.h>
@@ -14,8 +16,6 @@
 #include <kdl/chainfksolverpos_recursive.hpp>
 #include <kdl/chainiksolvervel_wdls.hpp>
 #include <kdl/chainjnttojacsolver.hpp>
-
-#include <benchmark/benchmark.h>
 
 #include <chrono>
 #include <random>
@@ -208,4 +208,4 @@ void dynamics(benchmark::State &state)
 BENCHMARK(dynamics);
 } // namespace
 
-BENCHMARK_MAIN();
+VP_BENCHMARK_MAIN();

@@ -5,14 +5,13 @@
 // Time per image and accuracy of tracking, acquisition and the baselines, with OpenCV's and ViSP's own ways of doing it
 // beside them. Deviations and biases are px; over_bound is the deviation over the Cramer-Rao bound of this pattern.
 #include "../test/vpAnalyticPattern.h"
+#include "vpBenchmark.h"
 
 #include <visp3/blob/vpDot2.h>
 #include <visp3/core/vpException.h>
 #include <visp3/pattern/vpPatternTracker.h>
 
 #include <opencv2/imgproc.hpp>
-
-#include <benchmark/benchmark.h>
 
 #include <algorithm>
 #include <chrono>
@@ -369,4 +368,4 @@ BENCHMARK(vispDot2)->Unit(benchmark::kMicrosecond);
 BENCHMARK(scaling)->RangeMultiplier(2)->Range(128, 2048)->Unit(benchmark::kMicrosecond)->Iterations(200);
 BENCHMARK(magnified)->Arg(50)->Arg(70)->Arg(100)->Arg(140)->Arg(200)->Arg(300)->Unit(benchmark::kMicrosecond);
 
-BENCHMARK_MAIN();
+VP_BENCHMARK_MAIN();

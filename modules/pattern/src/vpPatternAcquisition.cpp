@@ -111,7 +111,9 @@ vpPatternReason vpPatternTracker::Impl::adopt(const vpLattice &found)
       m_bank.clear();
     }
     m_frame.epoch += again ? 1 : 0;
-    return again ? vpPatternReason::Restarted : vpPatternReason::None;
+    const bool missing = m_interrupted;
+    m_interrupted = false;
+    return missing ? vpPatternReason::ImagesMissing : again ? vpPatternReason::Restarted : vpPatternReason::None;
   }
   // The vectors that are known are better than those of one image, and the deviations were measured from them. Compare
   // where both lattices have a point near the middle of the view: there an error of the vectors counts least.

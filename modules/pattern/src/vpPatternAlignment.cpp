@@ -268,6 +268,7 @@ void vpPatternTracker::Impl::turnOn()
 void vpPatternTracker::Impl::follow(const vpImage<unsigned char> &image)
 {
   const vpLattice last = m_lattice;
+  const double vx = m_vx, vy = m_vy;
   const unsigned int epoch = m_frame.epoch;
   m_lattice.ox += m_vx * (m_lostFrames + 1);
   m_lattice.oy += m_vy * (m_lostFrames + 1);
@@ -302,7 +303,8 @@ void vpPatternTracker::Impl::follow(const vpImage<unsigned char> &image)
   double row = 0., column = 0.;
   unit.invert(m_lattice.ox - last.ox, m_lattice.oy - last.oy, row, column);
   const double frames = m_lostFrames + 1;
-  if (std::abs(row) > nearHalf * frames || std::abs(column) > nearHalf * frames) {
+  const bool restarted = late && note != vpPatternReason::None; // on a lattice of its own
+  if (!restarted && (std::abs(row) > nearHalf * frames || std::abs(column) > nearHalf * frames)) {
     note = vpPatternReason::AmbiguousMotion;
   }
   if (m_frame.epoch != epoch && note == vpPatternReason::None) {
@@ -311,8 +313,8 @@ void vpPatternTracker::Impl::follow(const vpImage<unsigned char> &image)
   else if (note == vpPatternReason::AmbiguousMotion) {
     renumber(note);
   }
-  m_vx = (m_lattice.ox - last.ox) / frames;
-  m_vy = (m_lattice.oy - last.oy) / frames;
+  m_vx = restarted ? vx : (m_lattice.ox - last.ox) / frames; // as before: the next image knows no better
+  m_vy = restarted ? vy : (m_lattice.oy - last.oy) / frames;
   measureMotion();
   updateDeviations();
   remember();

@@ -37,6 +37,8 @@ const char *vpPatternFrame::message() const
     return "Degraded: the cells do not deviate from the lattice as before, the identities started anew.";
   case vpPatternReason::Restarted:
     return "Degraded: found again after a long loss, the identities started anew.";
+  case vpPatternReason::ImagesMissing:
+    return "Degraded: images are missing before this one, the identities started anew.";
   case vpPatternReason::NoMatch:
     return "Lost: the image does not show the pattern where it can be.";
   case vpPatternReason::None:

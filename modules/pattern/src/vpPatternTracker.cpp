@@ -63,7 +63,7 @@ vpPatternTracker::Impl::Impl(unsigned int width, unsigned int height, const vpPa
 void vpPatternTracker::Impl::reset()
 {
   m_stage = Stage::Searching;
-  m_known = false;
+  m_known = m_interrupted = false;
   m_bank.clear();
   m_memory.clear();
   m_lostFrames = m_learned = m_rotate = m_row = m_column = 0;
@@ -73,6 +73,13 @@ void vpPatternTracker::Impl::reset()
   lose(vpPatternReason::None, vpPatternStatus::Acquiring);
   m_lostFrames = 0;
   m_frame.lattice = vpPatternLattice();
+}
+
+// As after too many images without a lock.
+void vpPatternTracker::Impl::interrupt()
+{
+  m_interrupted = m_known;
+  m_lostFrames = m_known ? std::max(m_lostFrames, m_options.maxLostFrames + 1) : m_lostFrames;
 }
 
 const vpPatternFrame &vpPatternTracker::Impl::track(const vpImage<unsigned char> &image)
@@ -302,6 +309,7 @@ vpPatternTracker &vpPatternTracker::operator=(vpPatternTracker &&) noexcept = de
 const vpPatternFrame &vpPatternTracker::track(const vpImage<unsigned char> &image) { return m_impl->track(image); }
 const vpPatternFrame &vpPatternTracker::frame() const { return m_impl->m_frame; }
 const vpPatternOptions &vpPatternTracker::options() const { return m_impl->m_options; }
+void vpPatternTracker::interrupt() { m_impl->interrupt(); }
 void vpPatternTracker::reset() { m_impl->reset(); }
 
 END_VISP_NAMESPACE

@@ -21,6 +21,7 @@ class vpPatternTracker::Impl
 public:
   Impl(unsigned int width, unsigned int height, const vpPatternOptions &options);
   const vpPatternFrame &track(const vpImage<unsigned char> &image);
+  void interrupt();
   void reset();
 
   vpPatternOptions m_options;
@@ -100,6 +101,7 @@ private:
   bool m_bright = true;        // polarity
   double m_vx = 0., m_vy = 0.; // px/frame
   unsigned int m_gap = 0;      // images without a lock just before this one
+  bool m_interrupted = false;  // images are missing before the next
   int m_lostFrames = 0, m_learned = 0, m_refined = 0, m_rotate = 0;
   double m_share = 0.; // of the cells in view that are valid, smoothed
   double m_noise = 0.; // variance of the residuals, smoothed

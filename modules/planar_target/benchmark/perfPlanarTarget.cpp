@@ -5,6 +5,7 @@
 // Acquisition and tracking of a planar target in 640x480 renders, on one core, beside what ViSP and OpenCV offer.
 // Each benchmark also shows its error: rotation against the render's truth, deg (root mean square over the poses).
 #include "../test/vpPlanarScene.h"
+#include "vpBenchmark.h"
 
 #include <visp3/planar_target/vpPlanarTarget.h>
 #include <visp3/tt/vpTemplateTrackerSSDInverseCompositional.h>
@@ -12,7 +13,6 @@
 #include <visp3/tt/vpTemplateTrackerZNCCInverseCompositional.h>
 #include <visp3/vision/vpKeyPoint.h>
 
-#include <benchmark/benchmark.h>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/features2d.hpp>
 #include <opencv2/video/tracking.hpp>
@@ -328,10 +328,5 @@ int main(int argc, char *argv[])
   // Rendered here and not in the first benchmark that happens to ask.
   scattered();
   sequence();
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) {
-    return 2;
-  }
-  benchmark::RunSpecifiedBenchmarks();
-  return 0;
+  return vpTestSupport::runBenchmarks(argc, argv);
 }

@@ -8,6 +8,10 @@
 
 #include <opencv2/features2d.hpp>
 
+#include <algorithm>
+#include <cstring>
+#include <numeric>
+
 BEGIN_VISP_NAMESPACE
 
 namespace
@@ -24,18 +28,53 @@ public:
 
   void extract(const cv::Mat &image, vpKeypointSet &keypoints) override
   {
-    m_feature->detect(image, m_found);
-    cv::KeyPointsFilter::retainBest(m_found, static_cast<int>(m_maxKeypoints));
-    m_feature->compute(image, m_found, keypoints.descriptors);
-    cv::KeyPoint::convert(m_found, keypoints.points);
+    // Together: AKAZE, KAZE and SIFT would build their scale space twice.
+    m_feature->detectAndCompute(image, cv::noArray(), m_found, m_descriptors);
+    m_order.resize(m_found.size());
+    std::iota(m_order.begin(), m_order.end(), 0);
+    std::stable_sort(m_order.begin(), m_order.end(), [this](int a, int b) {
+      return m_found[static_cast<std::size_t>(a)].response > m_found[static_cast<std::size_t>(b)].response;
+    });
+    m_order.resize(std::min<std::size_t>(m_order.size(), m_maxKeypoints));
+    keypoints.points.clear();
+    keypoints.descriptors.create(static_cast<int>(m_order.size()), m_descriptors.cols, m_descriptors.type());
+    for (std::size_t i = 0; i < m_order.size(); ++i) {
+      keypoints.points.push_back(m_found[static_cast<std::size_t>(m_order[i])].pt);
+      m_descriptors.row(m_order[i]).copyTo(keypoints.descriptors.row(static_cast<int>(i)));
+    }
+    keypoints.pack();
   }
 
 private:
   cv::Ptr<cv::Feature2D> m_feature;
   unsigned int m_maxKeypoints;
   std::vector<cv::KeyPoint> m_found;
+  std::vector<int> m_order; // of m_found, by strength
+  cv::Mat m_descriptors;
 };
 } // namespace
+
+std::size_t vpKeypointSet::words() const
+{
+  return (static_cast<std::size_t>(descriptors.cols) * descriptors.elemSize() + 31) / 32 * 4;
+}
+
+void vpKeypointSet::pack()
+{
+  packed.clear();
+  if (descriptors.empty() || descriptors.depth() != CV_8U) {
+    return;
+  }
+  const std::size_t n = static_cast<std::size_t>(descriptors.rows);
+  std::vector<std::uint64_t> row(words(), 0); // filled up with zeros: AKAZE has 61 bytes
+  packed.resize(n * row.size());
+  for (std::size_t i = 0; i < n; ++i) {
+    std::memcpy(row.data(), descriptors.ptr(static_cast<int>(i)), static_cast<std::size_t>(descriptors.cols));
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      packed[k * n + i] = row[k];
+    }
+  }
+}
 
 std::unique_ptr<vpKeypointExtractor> makeKeypointExtractor(vpKeypointType type, unsigned int maxKeypoints)
 {

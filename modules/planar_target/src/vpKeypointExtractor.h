@@ -13,15 +13,25 @@
 
 #include <opencv2/core.hpp>
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
 BEGIN_VISP_NAMESPACE
 
-//! Keypoints of one image; row i of the descriptors belongs to point i. Pixel (0,0) is the centre of the top-left pixel.
+//! Keypoints of one image, the strongest first; row i of the descriptors belongs to point i. Pixel (0,0) is the centre of
+//! the top-left pixel.
 struct vpKeypointSet {
   std::vector<cv::Point2f> points;
   cv::Mat descriptors; //!< CV_8U (binary, compared by Hamming distance) or CV_32F (Euclidean distance).
+  std::vector<std::uint64_t>
+      packed; //!< Binary descriptors, word by word: the first of all points, then the second; see
+              //!< pack(). Empty for others.
+
+  //! 64-bit words of a descriptor, a multiple of four.
+  [[nodiscard]] std::size_t words() const;
+  //! Set \e packed from \e descriptors: once, however many sets it is compared with.
+  void pack();
 };
 
 class vpKeypointExtractor

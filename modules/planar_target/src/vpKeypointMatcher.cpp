@@ -4,59 +4,146 @@
  */
 #include "vpKeypointMatcher.h"
 
+#include <algorithm>
 #include <cstdint>
-#include <cstring>
+#include <iterator>
 #include <limits>
+#include <numeric>
 
-// Counting bits is one instruction on every x86 of the last fifteen years, but not of the one that compilers build for.
-// The program picks the version at run time. OpenCV's own distances take four times as long, for the tracing of each call.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-#define VISP_DIRECT_POPCOUNT_CLONES __attribute__((target_clones("popcnt", "default")))
+// Counting bits is one instruction on every x86 of the last fifteen years, and one for eight words on newer ones, but not of
+// the one that compilers build for. The program picks the version at run time. OpenCV's own distances take ten times as long.
+#if defined(__x86_64__) && defined(__GNUC__)
+#define VISP_DIRECT_POPCOUNT_VERSIONS
+#define VISP_DIRECT_ALWAYS_INLINE inline __attribute__((always_inline))
 #else
-#define VISP_DIRECT_POPCOUNT_CLONES
+#define VISP_DIRECT_ALWAYS_INLINE inline
 #endif
 
 BEGIN_VISP_NAMESPACE
 
 namespace
 {
-// Distances from one binary descriptor to rows of others, all of \e words 64-bit words.
-VISP_DIRECT_POPCOUNT_CLONES void hammingDistances(const std::uint64_t *from, const std::uint64_t *to, std::size_t rows,
-                                                  std::size_t words, int *distances)
+// A distance and the place that it belongs to as one number: the least is the nearest and, of several, the first.
+constexpr int placeBits = 21; // of two million keypoints
+constexpr int far = std::numeric_limits<int>::max();
+int distanceOf(int key) { return key >> placeBits; }
+int placeOf(int key) { return key & ((1 << placeBits) - 1); }
+
+struct Nearest {
+  int best = far, second = far; // keys
+};
+
+// One descriptor against all \e n others: keys by column, of which the two least, and the least of each column so far.
+VISP_DIRECT_ALWAYS_INLINE Nearest compareRow(const std::uint64_t *from, const std::uint64_t *to, std::size_t n,
+                                             std::size_t words, int row, int *__restrict keys, int *__restrict columns)
 {
-  for (std::size_t j = 0; j < rows; ++j, to += words) {
-    int d = 0;
-    for (std::size_t k = 0; k < words; ++k) {
-      d += __builtin_popcountll(from[k] ^ to[k]);
+  std::fill_n(keys, n, 0);
+  for (std::size_t k = 0; k < words; k += 4) {
+    const std::uint64_t f0 = from[k], f1 = from[k + 1], f2 = from[k + 2], f3 = from[k + 3];
+    const std::uint64_t *t0 = to + k * n, *t1 = t0 + n, *t2 = t1 + n, *t3 = t2 + n;
+    for (std::size_t j = 0; j < n; ++j) {
+      keys[j] += __builtin_popcountll(f0 ^ t0[j]) + __builtin_popcountll(f1 ^ t1[j]) +
+                 __builtin_popcountll(f2 ^ t2[j]) + __builtin_popcountll(f3 ^ t3[j]);
     }
-    distances[j] = d;
   }
+  Nearest nearest;
+  for (std::size_t j = 0; j < n; ++j) {
+    const int d = keys[j] << placeBits;
+    columns[j] = std::min(columns[j], d + row);
+    keys[j] = d + static_cast<int>(j);
+    nearest.best = std::min(nearest.best, keys[j]);
+  }
+  for (std::size_t j = 0; j < n; ++j) {
+    nearest.second = std::min(nearest.second, keys[j] == nearest.best ? far : keys[j]);
+  }
+  return nearest;
 }
 
-// Rows of bytes as rows of 64-bit words, filled up with zeros (AKAZE has 61 bytes).
-std::vector<std::uint64_t> toWords(const cv::Mat &descriptors, std::size_t words)
+using CompareRow = Nearest (*)(const std::uint64_t *, const std::uint64_t *, std::size_t, std::size_t, int, int *,
+                               int *);
+
+Nearest compareRowAnywhere(const std::uint64_t *from, const std::uint64_t *to, std::size_t n, std::size_t words,
+                           int row, int *keys, int *columns)
 {
-  std::vector<std::uint64_t> packed(static_cast<std::size_t>(descriptors.rows) * words, 0);
-  for (int i = 0; i < descriptors.rows; ++i) {
-    std::memcpy(&packed[static_cast<std::size_t>(i) * words], descriptors.ptr(i),
-                static_cast<std::size_t>(descriptors.cols));
+  return compareRow(from, to, n, words, row, keys, columns);
+}
+
+#ifdef VISP_DIRECT_POPCOUNT_VERSIONS
+__attribute__((target("popcnt,sse4.1"))) Nearest compareRowPopcount(const std::uint64_t *from, const std::uint64_t *to,
+                                                                    std::size_t n, std::size_t words, int row,
+                                                                    int *keys, int *columns)
+{
+  return compareRow(from, to, n, words, row, keys, columns);
+}
+
+__attribute__((target("popcnt,avx512f,avx512vl,avx512bw,avx512vpopcntdq"))) Nearest
+compareRowAvx512(const std::uint64_t *from, const std::uint64_t *to, std::size_t n, std::size_t words, int row,
+                 int *keys, int *columns)
+{
+  return compareRow(from, to, n, words, row, keys, columns);
+}
+#endif
+
+CompareRow bestVersion()
+{
+#ifdef VISP_DIRECT_POPCOUNT_VERSIONS
+  if (__builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") &&
+      __builtin_cpu_supports("avx512vpopcntdq")) {
+    return compareRowAvx512;
   }
-  return packed;
+  if (__builtin_cpu_supports("popcnt") && __builtin_cpu_supports("sse4.1")) {
+    return compareRowPopcount;
+  }
+#endif
+  return compareRowAnywhere;
+}
+
+// Takes the two nearest of each row, and returns the nearest row of each column.
+template <class Take>
+std::vector<int> compareAll(const vpKeypointSet &reference, const vpKeypointSet &current, const Take &take)
+{
+  static const CompareRow compare = bestVersion();
+  const std::size_t words = current.words(), rows = reference.points.size(), cols = current.points.size();
+  std::vector<int> keys(cols), columns(cols, far);
+  std::vector<std::uint64_t> from(words);
+  for (std::size_t i = 0; i < rows; ++i) {
+    for (std::size_t k = 0; k < words; ++k) {
+      from[k] = reference.packed[k * rows + i];
+    }
+    take(static_cast<int>(i),
+         compare(from.data(), current.packed.data(), cols, words, static_cast<int>(i), keys.data(), columns.data()));
+  }
+  return columns;
+}
+
+std::vector<std::pair<int, int>> matchBinary(const vpKeypointSet &reference, const vpKeypointSet &current, float ratio)
+{
+  std::vector<std::pair<int, int>> candidates, mutual;
+  const std::vector<int> columns = compareAll(reference, current, [&](int row, const Nearest &nearest) {
+    if (static_cast<float>(distanceOf(nearest.best)) < ratio * static_cast<float>(distanceOf(nearest.second))) {
+      candidates.emplace_back(row, placeOf(nearest.best));
+    }
+  });
+  std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(mutual),
+               [&columns](const std::pair<int, int> &pair) {
+                 return placeOf(columns[static_cast<std::size_t>(pair.second)]) == pair.first;
+               });
+  return mutual;
 }
 
 // Feeds on one row of distances after the other; keeps the two nearest of each row and the nearest of each column.
-template <typename T> class MutualMatches
+class MutualMatches
 {
 public:
   MutualMatches(std::size_t cols, float ratio) : m_ratio(ratio), m_rowOfColumn(cols, -1), m_bestOfColumn(cols, infinity)
   {}
 
-  void add(int row, const T *distances)
+  void add(int row, const float *distances)
   {
-    T best = infinity, second = infinity;
+    float best = infinity, second = infinity;
     int nearest = -1;
     for (std::size_t j = 0; j < m_bestOfColumn.size(); ++j) {
-      const T d = distances[j];
+      const float d = distances[j];
       if (d < best) {
         second = best;
         best = d;
@@ -70,7 +157,7 @@ public:
         m_rowOfColumn[j] = row;
       }
     }
-    if (nearest >= 0 && static_cast<float>(best) < m_ratio * static_cast<float>(second)) {
+    if (nearest >= 0 && best < m_ratio * second) {
       m_candidates.emplace_back(row, nearest);
     }
   }
@@ -87,36 +174,43 @@ public:
   }
 
 private:
-  static constexpr T infinity = std::numeric_limits<T>::max();
+  static constexpr float infinity = std::numeric_limits<float>::max();
   float m_ratio;
   std::vector<int> m_rowOfColumn;
-  std::vector<T> m_bestOfColumn;
+  std::vector<float> m_bestOfColumn;
   std::vector<std::pair<int, int>> m_candidates;
 };
 
-std::vector<std::pair<int, int>> matchBinary(const cv::Mat &reference, const cv::Mat &current, float ratio)
-{
-  const std::size_t words = (static_cast<std::size_t>(current.cols) + 7) / 8,
-                    cols = static_cast<std::size_t>(current.rows);
-  const std::vector<std::uint64_t> from = toWords(reference, words), to = toWords(current, words);
-  std::vector<int> distances(cols);
-  MutualMatches<int> matches(cols, ratio);
-  for (int i = 0; i < reference.rows; ++i) {
-    hammingDistances(&from[static_cast<std::size_t>(i) * words], to.data(), cols, words, distances.data());
-    matches.add(i, distances.data());
-  }
-  return matches.matches();
-}
-
-std::vector<std::pair<int, int>> matchReal(const cv::Mat &reference, const cv::Mat &current, float ratio)
+std::vector<std::pair<int, int>> matchReal(const vpKeypointSet &reference, const vpKeypointSet &current, float ratio)
 {
   cv::Mat distances;
-  cv::batchDistance(reference, current, distances, CV_32F, cv::noArray(), cv::NORM_L2);
-  MutualMatches<float> matches(static_cast<std::size_t>(current.rows), ratio);
+  cv::batchDistance(reference.descriptors, current.descriptors, distances, CV_32F, cv::noArray(), cv::NORM_L2);
+  MutualMatches matches(current.points.size(), ratio);
   for (int i = 0; i < distances.rows; ++i) {
     matches.add(i, distances.ptr<float>(i));
   }
   return matches.matches();
+}
+
+// How far each descriptor is from the nearest other one of its image.
+std::vector<float> isolation(const vpKeypointSet &set)
+{
+  std::vector<float> alone(set.points.size());
+  if (!set.packed.empty()) { // the nearest is itself, or its double
+    compareAll(set, set, [&alone](int row, const Nearest &nearest) {
+      alone[static_cast<std::size_t>(row)] = static_cast<float>(distanceOf(nearest.second));
+    });
+    return alone;
+  }
+  cv::Mat distances;
+  cv::batchDistance(set.descriptors, set.descriptors, distances, CV_32F, cv::noArray(), cv::NORM_L2);
+  for (int i = 0; i < distances.rows; ++i) {
+    distances.at<float>(i, i) = std::numeric_limits<float>::max();
+    double least = 0.;
+    cv::minMaxLoc(distances.row(i), &least);
+    alone[static_cast<std::size_t>(i)] = static_cast<float>(least);
+  }
+  return alone;
 }
 } // namespace
 
@@ -126,8 +220,30 @@ std::vector<std::pair<int, int>> matchKeypoints(const vpKeypointSet &reference, 
   if (reference.points.empty() || current.points.empty()) {
     return {};
   }
-  const bool binary = reference.descriptors.depth() == CV_8U;
-  return (binary ? matchBinary : matchReal)(reference.descriptors, current.descriptors, ratio);
+  return (reference.packed.empty() ? matchReal : matchBinary)(reference, current, ratio);
+}
+
+vpKeypointSet tellingKeypoints(const vpKeypointSet &set, std::size_t most)
+{
+  constexpr std::size_t strong = 500; // weaker ones are often not found again
+  const std::size_t n = set.points.size();
+  std::vector<int> order(n);
+  std::iota(order.begin(), order.end(), 0);
+  if (n > most) {
+    const std::vector<float> alone = isolation(set);
+    const auto first = order.begin() + static_cast<std::ptrdiff_t>(most / 2);
+    std::stable_sort(first, order.begin() + static_cast<std::ptrdiff_t>(std::min(n, strong)), [&alone](int a, int b) {
+      return alone[static_cast<std::size_t>(a)] > alone[static_cast<std::size_t>(b)];
+    });
+    order.resize(most);
+  }
+  vpKeypointSet chosen;
+  for (const int i : order) {
+    chosen.points.push_back(set.points[static_cast<std::size_t>(i)]);
+    chosen.descriptors.push_back(set.descriptors.row(i));
+  }
+  chosen.pack();
+  return chosen;
 }
 
 END_VISP_NAMESPACE

@@ -22,5 +22,11 @@ BEGIN_VISP_NAMESPACE
 std::vector<std::pair<int, int>> matchKeypoints(const vpKeypointSet &reference, const vpKeypointSet &current,
                                                 float ratio);
 
+/*!
+ * The keypoints of a reference by which it is recognised soonest, \e most of them: half the strongest, half those of the
+ * strong ones that are least like any other of the image, which the ratio test of matchKeypoints() passes.
+ */
+vpKeypointSet tellingKeypoints(const vpKeypointSet &set, std::size_t most);
+
 END_VISP_NAMESPACE
 #endif

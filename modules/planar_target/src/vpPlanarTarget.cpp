@@ -56,7 +56,11 @@ const vpPlanarTargetResult &vpPlanarTarget::track(const vpImage<unsigned char> &
   return m_impl->m_result;
 }
 
-void vpPlanarTarget::reset() { m_impl->reset(); }
+void vpPlanarTarget::reset()
+{
+  m_impl->reset();
+  m_impl->m_fresh = true;
+}
 
 const vpPlanarTargetResult &vpPlanarTarget::result() const { return m_impl->m_result; }
 double vpPlanarTarget::width() const { return m_impl->m_plane.width; }

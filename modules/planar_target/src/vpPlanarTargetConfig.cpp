@@ -53,6 +53,8 @@ const char *toString(vpPlanarTargetStatus status)
     return "Tracked";
   case vpPlanarTargetStatus::Ambiguous:
     return "Ambiguous";
+  case vpPlanarTargetStatus::Extrapolated:
+    return "Extrapolated";
   case vpPlanarTargetStatus::NoTexture:
     return "NoTexture";
   case vpPlanarTargetStatus::TooFewInliers:

@@ -6,6 +6,7 @@
 
 #include "vpPlanarTargetImpl.h"
 #include "vpTargetList.h"
+#include "vpTargetSearch.h"
 
 #include <visp3/core/vpException.h>
 
@@ -18,7 +19,7 @@ class vpPlanarTargetDatabase::Store
 {
 public:
   Store(const vpCameraParameters &camera, const vpPlanarTargetConfig &config)
-    : m_camera(camera), m_config(config), m_frame(config.maxKeypoints)
+    : m_camera(camera), m_config(config), m_frame(config.maxKeypoints, camera.get_px() / camera.get_py())
   {}
 
   vpCameraParameters m_camera;
@@ -26,6 +27,7 @@ public:
   vpTargetFrame m_frame; // of all targets
   std::vector<std::unique_ptr<vpPlanarTarget::Impl>> m_targets;
   std::vector<vpPlanarTargetSighting> m_sightings; // one for each target
+  vpTargetSearch m_search;
 };
 
 vpPlanarTargetDatabase::vpPlanarTargetDatabase(const vpCameraParameters &camera, const vpPlanarTargetConfig &config)
@@ -84,22 +86,25 @@ std::size_t vpPlanarTargetDatabase::size() const { return m_store->m_targets.siz
 
 const std::vector<vpPlanarTargetSighting> &vpPlanarTargetDatabase::process(const vpImage<unsigned char> &image)
 {
-  bool assigned = false;
-  for (std::size_t i = 0; i < m_store->m_targets.size(); ++i) {
-    vpPlanarTarget::Impl &target = *m_store->m_targets[i];
-    if (!target.refuse(image)) {
-      if (!assigned) {
-        m_store->m_frame.assign(image);
-        assigned = true;
-      }
-      target.process(m_store->m_frame);
-    }
-    m_store->m_sightings[i].result = target.m_result;
+  std::vector<vpPlanarTarget::Impl *> targets;
+  bool refused = false;
+  for (const auto &target : m_store->m_targets) {
+    refused = target->refuse(image);
+    targets.push_back(target.get());
+  }
+  if (!refused) {
+    m_store->m_frame.assign(image);
+    m_store->m_search.process(m_store->m_frame, targets);
+  }
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    m_store->m_sightings[i].result = targets[i]->m_result;
   }
   return m_store->m_sightings;
 }
 
 const std::vector<vpPlanarTargetSighting> &vpPlanarTargetDatabase::sightings() const { return m_store->m_sightings; }
+
+const vpPlanarTargetEffort &vpPlanarTargetDatabase::effort() const { return m_store->m_search.effort(); }
 
 void vpPlanarTargetDatabase::predict(std::size_t i, const vpHomogeneousMatrix &cMo)
 {
@@ -116,6 +121,7 @@ void vpPlanarTargetDatabase::predict(std::size_t i, const vpHomogeneousMatrix &c
 
 void vpPlanarTargetDatabase::reset()
 {
+  m_store->m_search = vpTargetSearch();
   for (std::size_t i = 0; i < m_store->m_targets.size(); ++i) {
     m_store->m_targets[i]->reset();
     m_store->m_sightings[i].result = vpPlanarTargetResult();

@@ -27,6 +27,7 @@ constexpr double smallestContrast = 4.;    // standard deviation of the referenc
 constexpr int keypointReferenceSize =
     400; // px; a larger reference is reduced so that its keypoints have a frame's scale
 constexpr float loweRatio = 0.8f;
+constexpr std::size_t tellingCount = 128;   // keypoints that tell whether a target may be there
 constexpr double keypointReach = 2.;        // px; how far keypoints put the target from its place
 constexpr double motionReach = 14.;         // px; likewise the frame before
 constexpr double largestTurn = 0.35;        // rad between frames; more is beyond the reach, and means another optimum
@@ -58,6 +59,21 @@ vpPoseCovariance covarianceOf(const vpPixelFit &fit)
   return covariance;
 }
 
+double pixelAspect(const vpCameraParameters &camera) { return camera.get_px() / camera.get_py(); }
+
+// The reference with square pixels, reduced where it is large.
+cv::Mat keypointImage(const cv::Mat &image, double width, double height)
+{
+  const double scale = std::min(1., static_cast<double>(keypointReferenceSize) / std::max(image.cols, image.rows));
+  const double aspect = (image.cols / width) / (image.rows / height);
+  const double stretch = std::abs(aspect - 1.) < 0.02 ? 1. : std::sqrt(aspect);
+  cv::Mat reduced = image;
+  if (scale < 1. || stretch != 1.) {
+    cv::resize(image, reduced, cv::Size(), scale / stretch, scale * stretch, cv::INTER_AREA);
+  }
+  return reduced;
+}
+
 vpTargetPlane makePlane(const vpImage<unsigned char> &reference, double width, double height)
 {
   if (reference.getWidth() < smallestImage || reference.getHeight() < smallestImage) {
@@ -74,7 +90,7 @@ vpTargetPlane makePlane(const vpImage<unsigned char> &reference, double width, d
 vpPlanarTarget::Impl::Impl(const vpImage<unsigned char> &reference, double width, double height,
                            const vpCameraParameters &camera, const vpPlanarTargetConfig &config)
   : m_config(config), m_viewer(camera), m_camera(vpPinhole::fromCamera(camera)),
-    m_plane(makePlane(reference, width, height)), m_ownFrame(config.maxKeypoints)
+    m_plane(makePlane(reference, width, height)), m_ownFrame(config.maxKeypoints, pixelAspect(camera))
 {
   config.validate();
   const cv::Mat image = view(reference);
@@ -91,11 +107,7 @@ vpPlanarTarget::Impl::Impl(const vpImage<unsigned char> &reference, double width
     m_choice = std::make_unique<vpPoseChoice>(*m_texture, m_plane, m_camera);
   }
 
-  cv::Mat reduced = image;
-  const double scale = static_cast<double>(keypointReferenceSize) / std::max(image.cols, image.rows);
-  if (scale < 1.) {
-    cv::resize(image, reduced, cv::Size(), scale, scale, cv::INTER_AREA);
-  }
+  const cv::Mat reduced = keypointImage(image, width, height);
   const vpTargetPlane reducedPlane{width, height, reduced.cols, reduced.rows};
   std::vector<vpKeypointType> types{config.keypoints};
   if (config.fallback && config.keypoints != vpKeypointType::AKAZE) {
@@ -103,8 +115,9 @@ vpPlanarTarget::Impl::Impl(const vpImage<unsigned char> &reference, double width
   }
   unsigned int most = 0;
   for (vpKeypointType type : types) {
-    Reference r{type, {}, {}};
+    Reference r{type, {}, {}, {}};
     makeKeypointExtractor(type, config.maxKeypoints)->extract(reduced, r.keypoints);
+    r.telling = tellingKeypoints(r.keypoints, tellingCount);
     for (const cv::Point2f &p : r.keypoints.points) {
       r.plane.push_back(reducedPlane.metric(p.x, p.y));
     }
@@ -151,28 +164,25 @@ void vpPlanarTarget::Impl::reset()
 
 void vpPlanarTarget::Impl::process(vpTargetFrame &frame)
 {
-  if (!m_known) {
+  if (m_fresh) { // the first image may be the only one
     acquire(frame);
     return;
   }
-  trackLast(frame);
-  if (m_known) {
-    return;
-  }
-  const vpPlanarTargetResult lost = m_result;
-  acquire(frame);
-  // Keypoints cannot tell that the target has just left the view; tracking can.
-  if (!m_known && lost.status == vpPlanarTargetStatus::OutOfView) {
-    m_result = lost;
-  }
+  m_search.process(frame, {this});
+}
+
+std::size_t vpPlanarTarget::Impl::matchesOf(const vpKeypointSet &part, const vpKeypointSet &current)
+{
+  return matchKeypoints(part, current, loweRatio).size();
 }
 
 void vpPlanarTarget::Impl::acquire(vpTargetFrame &frame)
 {
   reset();
+  m_fresh = false;
   for (const Reference &reference : m_references) {
     const vpPlanarTargetResult before = m_result;
-    acquireWith(reference, frame);
+    acquireWith(reference, frame.keypoints(reference.type), frame);
     if (m_known) {
       return;
     }
@@ -183,10 +193,10 @@ void vpPlanarTarget::Impl::acquire(vpTargetFrame &frame)
   }
 }
 
-void vpPlanarTarget::Impl::acquireWith(const Reference &reference, vpTargetFrame &frame)
+void vpPlanarTarget::Impl::acquireWith(const Reference &reference, const vpKeypointSet &current,
+                                       const vpTargetFrame &frame)
 {
   m_result = vpPlanarTargetResult();
-  const vpKeypointSet &current = frame.keypoints(reference.type);
   if (current.points.size() < m_config.minInliers) {
     fail(vpPlanarTargetStatus::NoTexture,
          sentence("The image has %zu %s keypoints, at least %u are needed.", current.points.size(),

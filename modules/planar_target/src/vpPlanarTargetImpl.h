@@ -12,6 +12,7 @@
 #include "vpPhotometricRefiner.h"
 #include "vpPoseChoice.h"
 #include "vpTargetFrame.h"
+#include "vpTargetSearch.h"
 
 BEGIN_VISP_NAMESPACE
 
@@ -21,8 +22,20 @@ public:
   Impl(const vpImage<unsigned char> &reference, double width, double height, const vpCameraParameters &camera,
        const vpPlanarTargetConfig &config);
 
+  //! One detector, and what it finds on the reference.
+  struct Reference {
+    vpKeypointType type;
+    vpKeypointSet keypoints;
+    vpKeypointSet telling; //!< A part of them, see tellingKeypoints().
+    std::vector<Eigen::Vector2d> plane;
+  };
+
   void process(vpTargetFrame &frame);
   void acquire(vpTargetFrame &frame);
+  //! Acquire by keypoints \e current of the frame, or of a part of it.
+  void acquireWith(const Reference &reference, const vpKeypointSet &current, const vpTargetFrame &frame);
+  //! Number of matches of a part of a reference's keypoints.
+  [[nodiscard]] static std::size_t matchesOf(const vpKeypointSet &part, const vpKeypointSet &current);
   void track(vpTargetFrame &frame, const vpRigidPose &guess);
   //! Track from the last pose; with none, the status stays what the last frame left.
   void trackLast(vpTargetFrame &frame);
@@ -37,25 +50,20 @@ public:
   vpTargetPlane m_plane;
   vpTargetFrame m_ownFrame;
   vpPlanarTargetResult m_result;
+  bool m_fresh = true;  //!< nothing was looked for since the last reset
   bool m_known = false; //!< m_result holds the pose of the frame before
 
-private:
-  //! One detector, and what it finds on the reference.
-  struct Reference {
-    vpKeypointType type;
-    vpKeypointSet keypoints;
-    std::vector<Eigen::Vector2d> plane;
-  };
+  std::vector<Reference> m_references; //!< The detector of the settings, and the fallback if wanted.
+  void fail(vpPlanarTargetStatus status, const std::string &message);
 
-  void acquireWith(const Reference &reference, vpTargetFrame &frame);
+private:
   bool trackFrom(const vpTargetFrame &frame, const vpRigidPose &guess, double reach);
   bool checkView(const vpRigidPose &pose);
   bool conclude(const vpTargetFrame &frame, const vpRigidPose &coarse, vpPlanarTargetStatus success);
   bool confirm(const vpTargetFrame &frame, const vpRigidPose &pose);
   void report(const vpRigidPose &pose, const vpPoseDecision &decision, vpPlanarTargetStatus success);
-  void fail(vpPlanarTargetStatus status, const std::string &message);
 
-  std::vector<Reference> m_references;
+  vpTargetSearch m_search;
   std::unique_ptr<vpPhotometricModel> m_model;
   std::unique_ptr<vpPhotometricRefiner> m_refiner;
   std::unique_ptr<vpTargetTexture> m_texture;

@@ -4,14 +4,19 @@
  */
 #include <visp3/planar_target/vpPlaneMatcher.h>
 
+#include "vpHomographySpread.h"
 #include "vpKeypointMatcher.h"
 
 #include <visp3/core/vpException.h>
 #include <visp3/core/vpPixelMeterConversion.h>
 
 #include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
 
 BEGIN_VISP_NAMESPACE
 
@@ -43,13 +48,14 @@ public:
           vpException::badValue, "reference image has too little texture: %u %s keypoints, at least %u are needed",
           static_cast<unsigned int>(m_reference.points.size()), toString(config.keypoints), config.minInliers);
     }
-    m_result.referenceKeypoints = m_reference.points.size();
+    m_width = reference.getWidth();
+    m_height = reference.getHeight();
+    begin();
   }
 
   void match(const vpImage<unsigned char> &image)
   {
-    m_result = vpPlaneMatch();
-    m_result.referenceKeypoints = m_reference.points.size();
+    begin();
     if (image.getWidth() < smallestImage || image.getHeight() < smallestImage) {
       fail(vpPlanarTargetStatus::NoTexture, "The image is " + std::to_string(image.getWidth()) + "x" +
                                                 std::to_string(image.getHeight()) + " px, at least 32x32 are needed.");
@@ -70,12 +76,15 @@ public:
     }
     m_result.matches = from.size();
     std::vector<unsigned char> mask;
+    std::vector<cv::Point2f> inlierFrom, inlierTo;
     cv::Mat H;
     if (from.size() >= m_config.minInliers) {
       H = cv::findHomography(from, to, cv::USAC_MAGSAC, m_config.inlierThreshold, mask, 5000, 0.999);
     }
     for (std::size_t i = 0; !H.empty() && i < from.size(); ++i) {
       if (mask[i]) {
+        inlierFrom.push_back(from[i]);
+        inlierTo.push_back(to[i]);
         m_result.inliers.emplace_back(vpImagePoint(from[i].y, from[i].x), vpImagePoint(to[i].y, to[i].x));
       }
     }
@@ -85,17 +94,54 @@ public:
                " matches agree on one plane, at least " + std::to_string(m_config.minInliers) + " must.");
       return;
     }
-    for (int i = 0; i < 9; ++i) {
-      m_result.homography[static_cast<std::size_t>(i)] = H.at<double>(i / 3, i % 3) / H.at<double>(2, 2);
-    }
-    m_result.status = vpPlanarTargetStatus::Acquired;
-    m_result.message =
-        std::to_string(m_result.inliers.size()) + " of " + std::to_string(from.size()) + " matches agree.";
+    conclude(vpHomographySpread(inlierFrom, inlierTo, H, m_width, m_height), cv::boundingRect(inlierFrom));
   }
 
   vpPlaneMatch m_result;
 
 private:
+  void begin()
+  {
+    m_result = vpPlaneMatch();
+    m_result.referenceKeypoints = m_reference.points.size();
+    m_result.referenceWidth = m_width;
+    m_result.referenceHeight = m_height;
+  }
+
+  void conclude(const vpHomographySpread &spread, const cv::Rect &box)
+  {
+    Eigen::Matrix3d toNormalised;
+    toNormalised << 2. / m_width, 0., -1., 0., 2. / m_width, -1. * m_height / m_width, 0., 0., 1.;
+    Eigen::Matrix3d H = spread.G * toNormalised;
+    H /= H(2, 2);
+    for (int i = 0; i < 9; ++i) {
+      m_result.homography[static_cast<std::size_t>(i)] = H(i / 3, i % 3);
+    }
+    m_result.status = vpPlanarTargetStatus::Extrapolated; // also when the inliers do not determine it
+    m_result.sigma = spread.sigma;
+    for (int i = 0; i < 64; ++i) {
+      m_result.covariance[static_cast<std::size_t>(i)] =
+          spread.known ? spread.covariance(i / 8, i % 8) : std::numeric_limits<double>::infinity();
+    }
+    for (const double v : {0., m_height - 1.}) {
+      for (const double u : {0., m_width - 1.}) {
+        m_result.cornerDeviation = std::max(m_result.cornerDeviation, m_result.deviation(vpImagePoint(v, u)));
+      }
+    }
+    m_result.message =
+        std::to_string(m_result.inliers.size()) + " of " + std::to_string(m_result.matches) + " matches agree.";
+    if (m_result.cornerDeviation <= 3. * m_config.inlierThreshold) {
+      m_result.status = vpPlanarTargetStatus::Acquired;
+      return;
+    }
+    char text[200];
+    std::snprintf(
+        text, sizeof(text),
+        " They lie within %d x %d of %u x %u px; a corner of the image is uncertain by %.3g px, at most %.3g may be.",
+        box.width, box.height, m_width, m_height, m_result.cornerDeviation, 3. * m_config.inlierThreshold);
+    m_result.message += text;
+  }
+
   void fail(vpPlanarTargetStatus status, const std::string &message)
   {
     m_result.status = status;
@@ -103,6 +149,7 @@ private:
   }
 
   vpPlanarTargetConfig m_config;
+  unsigned int m_width = 0, m_height = 0; // of the reference
   std::unique_ptr<vpKeypointExtractor> m_extractor;
   vpKeypointSet m_reference, m_current;
 };
@@ -122,6 +169,25 @@ const vpPlaneMatch &vpPlaneMatcher::match(const vpImage<unsigned char> &image)
 }
 
 const vpPlaneMatch &vpPlaneMatcher::result() const { return m_impl->m_result; }
+
+double vpPlaneMatch::deviation(const vpImagePoint &reference) const
+{
+  if (!hasHomography()) {
+    return std::numeric_limits<double>::infinity();
+  }
+  const double S = 0.5 * referenceWidth;
+  Eigen::Matrix3d H, back;
+  for (int i = 0; i < 9; ++i) {
+    H(i / 3, i % 3) = homography[static_cast<std::size_t>(i)];
+  }
+  back << S, 0., S, 0., S, 0.5 * referenceHeight, 0., 0., 1.;
+  Eigen::Matrix3d G = H * back;
+  G /= G(2, 2);
+  const Eigen::Map<const Eigen::Matrix<double, 8, 8>> C(covariance.data()); // symmetric
+  const auto J = homographyDerivative(G, (reference.get_u() - S) / S, (reference.get_v() - 0.5 * referenceHeight) / S);
+  const double variance = (J * C * J.transpose()).trace();
+  return variance >= 0. ? std::sqrt(variance) : std::numeric_limits<double>::infinity();
+}
 
 vpHomography vpPlaneMatch::euclidean(const vpCameraParameters &camera) const
 {

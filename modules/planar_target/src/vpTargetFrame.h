@@ -23,7 +23,12 @@ BEGIN_VISP_NAMESPACE
 class vpTargetFrame
 {
 public:
-  explicit vpTargetFrame(unsigned int maxKeypoints) : m_maxKeypoints(maxKeypoints) {}
+  /*!
+   * \param maxKeypoints : As in vpPlanarTargetConfig.
+   * \param pixelAspect : Height of a pixel over its width, px / py of the camera. Keypoints are looked for in an image with
+   * square pixels: detectors and descriptors are made for these.
+   */
+  vpTargetFrame(unsigned int maxKeypoints, double pixelAspect);
 
   //! Take a new frame (the pixels are copied) and forget the keypoints of the one before.
   void assign(const vpImage<unsigned char> &image);
@@ -33,6 +38,11 @@ public:
   [[nodiscard]] const std::vector<cv::Mat> &pyramid() const { return m_pyramid; }
   //! Keypoints of one kind, extracted at the first call.
   const vpKeypointSet &keypoints(vpKeypointType type);
+  /*!
+   * Keypoints of a part of half the width and half the height, extracted now; valid until the next call.
+   * \param part : Of nine that overlap by half, row by row; counted on from 8 to 0.
+   */
+  const vpKeypointSet &keypointsOfPart(vpKeypointType type, unsigned int part);
 
 private:
   struct Keypoints {
@@ -40,8 +50,14 @@ private:
     vpKeypointSet set;
     bool valid = false;
   };
+  void makeSquare();
+  vpKeypointExtractor &extractor(vpKeypointType type);
+  void extract(vpKeypointType type, const cv::Rect &where, vpKeypointSet &set);
+
   unsigned int m_maxKeypoints;
-  cv::Mat m_image;
+  double m_stretchX, m_stretchY; // from the frame to square pixels
+  cv::Mat m_image, m_square;     // m_square: with square pixels, empty until asked for
+  vpKeypointSet m_part;
   std::vector<cv::Mat> m_pyramid;
   std::map<vpKeypointType, Keypoints> m_keypoints;
 };

@@ -5,16 +5,16 @@
 #include "vpTargetList.h"
 
 #include "vpJsonObject.h"
+#include "vpPictureFile.h"
 #include "vpReading.h"
 
 #include <visp3/core/vpException.h>
-
-#include <opencv2/imgcodecs.hpp>
 
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <set>
+#include <stdexcept>
 
 BEGIN_VISP_NAMESPACE
 
@@ -45,16 +45,6 @@ std::string text(vpJsonObject &entry, const char *field)
   return value;
 }
 
-bool isPhotograph(const fs::path &path)
-{
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  static const std::set<std::string> known = {".png", ".jpg", ".jpeg", ".pgm", ".ppm",
-                                              ".bmp", ".tif", ".tiff", ".webp"};
-  return known.count(extension) > 0;
-}
-
 void requireAllListed(const std::string &folder, const std::vector<vpTargetListEntry> &entries)
 {
   std::set<std::string> listed;
@@ -63,7 +53,7 @@ void requireAllListed(const std::string &folder, const std::vector<vpTargetListE
   }
   for (const fs::directory_entry &item : fs::directory_iterator(folder)) {
     const std::string name = item.path().filename().string();
-    if (isPhotograph(item.path()) && listed.count(name) == 0) {
+    if (name[0] != '.' && vpPictures::isImageName(name) && listed.count(name) == 0) {
       fail(folder + "/targets.json", "does not list the photograph " + name + " of its folder");
     }
   }
@@ -103,9 +93,13 @@ std::vector<vpTargetListEntry> readTargetList(const std::string &folder)
 
 void readReference(const std::string &file, vpImage<unsigned char> &reference)
 {
-  const cv::Mat image = cv::imread(file, cv::IMREAD_GRAYSCALE);
-  if (image.empty()) {
-    throw vpException(vpException::ioError, file + ": is not an image that can be read");
+  cv::Mat image;
+  try {
+    vpPictures::GreyScale scale;
+    image = vpPictures::readGreyPicture(file, scale);
+  }
+  catch (const std::runtime_error &error) {
+    throw vpException(vpException::ioError, error.what());
   }
   reference.resize(static_cast<unsigned int>(image.rows), static_cast<unsigned int>(image.cols));
   for (int row = 0; row < image.rows; ++row) {

@@ -8,6 +8,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -45,11 +46,33 @@ vpTranslationVector translation(const vpHomography &H, const vpRotationMatrix &R
   return t;
 }
 
+double determinant(const vpHomography &H)
+{
+  Eigen::Matrix3d M;
+  for (unsigned int i = 0; i < 9; ++i) {
+    M(i / 3, i % 3) = H[i / 3][i % 3];
+  }
+  return M.determinant();
+}
+
 std::string degrees(double angle)
 {
   char text[32];
   std::snprintf(text, sizeof(text), "%.1f deg", angle * 180. / M_PI);
   return text;
+}
+
+std::string notFinite(const std::vector<std::pair<double, double>> &points)
+{
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!std::isfinite(points[i].first) || !std::isfinite(points[i].second)) {
+      char text[120];
+      std::snprintf(text, sizeof(text), "Point %zu of the plane is (%g, %g), must be finite.", i, points[i].first,
+                    points[i].second);
+      return text;
+    }
+  }
+  return "";
 }
 
 // Scaled to sigma2 = 1 and to positive depth of the point (x, y) in the current view; false when that is impossible.
@@ -142,9 +165,20 @@ const vpTwoViewResult &vpTwoViewDecomposition::process(const vpHomography &c2Hc1
   m_result = vpTwoViewResult();
   vpHomography H;
   Eigen::Vector3d sigma;
+  const std::string badPoint = notFinite(points);
+  if (!badPoint.empty()) {
+    conclude(vpTwoViewStatus::Invalid, badPoint);
+    return m_result;
+  }
   if (points.empty() || !normalise(c2Hc1, points[0].first, points[0].second, H, sigma)) {
     conclude(vpTwoViewStatus::Invalid, points.empty() ? "No point of the plane is given, at least one is needed."
                                                       : "The homography is singular or not finite.");
+    return m_result;
+  }
+  // det(R + t n^T / d) is the distance of the second camera from the plane over that of the first, on the same side.
+  if (!(determinant(H) > 0.)) {
+    conclude(vpTwoViewStatus::Invalid,
+             "The homography is mirrored: no motion of a camera before an opaque plane does that.");
     return m_result;
   }
   const double moved = sigma[0] - sigma[2]; // = |t| / d

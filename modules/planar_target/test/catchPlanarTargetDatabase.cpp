@@ -103,7 +103,7 @@ TEST_CASE("what is wrong with a folder of targets is said in a sentence", "[data
   list(R"({ "name": "a", "image": "a.png", "width_m": 0.1, "size": 3 })");
   CHECK_THROWS_WITH(load(), Contains("unknown field targets[0].size; known are"));
   list(R"({ "name": "a", "image": "a.png", "width_m": 0.1 })");
-  CHECK_THROWS_WITH(load(), Contains("a.png: is not an image that can be read"));
+  CHECK_THROWS_WITH(load(), Contains("a.png: cannot be read"));
   folder.write("a.png", "no image");
   CHECK_THROWS_WITH(load(), Contains("a.png: is not an image that can be read"));
 

@@ -3,6 +3,8 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 // Time of a step of each class. Peers for the Kalman filter: OpenCV's cv::KalmanFilter with the same states.
+#include "vpBenchmark.h"
+
 #include <visp3/printing/vpAlphaBetaFilter.h>
 #include <visp3/printing/vpFrictionIdentification.h>
 #include <visp3/printing/vpMotionKalmanFilter.h>
@@ -14,8 +16,6 @@
 #include <visp3/printing/vpProductOdometer.h>
 
 #include <opencv2/video/tracking.hpp>
-
-#include <benchmark/benchmark.h>
 
 #include <vector>
 
@@ -194,4 +194,4 @@ void frictionIdentification(benchmark::State &state)
 BENCHMARK(frictionIdentification)->Unit(benchmark::kMillisecond);
 } // namespace
 
-BENCHMARK_MAIN();
+VP_BENCHMARK_MAIN();

@@ -3,12 +3,12 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 // One frame of 640x480 px with three photographs on boxes and five other obstacles: drawn, and seen.
+#include "vpBenchmark.h"
+
 #include <visp3/io/vpImageIo.h>
 #include <visp3/manipulator/vpArmJson.h>
 #include <visp3/simulation/vpDepthObstacleSensor.h>
 #include <visp3/simulation/vpImageObstacleSensor.h>
-
-#include <benchmark/benchmark.h>
 
 #include <string>
 #include <vector>
@@ -175,4 +175,4 @@ static void lookDepth(benchmark::State &state)
 }
 BENCHMARK(lookDepth)->ArgName("stride")->Arg(2)->Arg(4)->Arg(8)->Unit(benchmark::kMillisecond);
 
-BENCHMARK_MAIN();
+VP_BENCHMARK_MAIN();

@@ -3,12 +3,12 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 // Planning times, with the thesis's iteration beside them. Ruckig is not packaged in Debian, so it is no peer here.
+#include "vpBenchmark.h"
+
 #include <visp3/trajectory/vpDirectTrajectory.h>
 #include <visp3/trajectory/vpPoseTrajectory.h>
 #include <visp3/trajectory/vpThesisDuration.h>
 #include <visp3/trajectory/vpTwistShaper.h>
-
-#include <benchmark/benchmark.h>
 
 #include <algorithm>
 #include <chrono>
@@ -267,4 +267,4 @@ BENCHMARK(thesisIteration)->Unit(benchmark::kMicrosecond);
 BENCHMARK(poseRetarget)->Unit(benchmark::kMicrosecond);
 BENCHMARK(shaperStep)->Unit(benchmark::kMicrosecond);
 
-BENCHMARK_MAIN();
+VP_BENCHMARK_MAIN();

@@ -43,7 +43,8 @@ enum class vpPatternReason {
   AmbiguousMotion, //!< The motion is near or above half a pitch: identities started anew.
   IdentitySlip,    //!< The cells do not deviate from the lattice as before: identities started anew.
   Restarted,       //!< Found again after too many frames: identities started anew.
-  NoMatch          //!< The image does not show the pattern where it can be.
+  NoMatch,         //!< The image does not show the pattern where it can be.
+  ImagesMissing    //!< vpPatternTracker::interrupt(): identities started anew.
 };
 
 //! \ingroup group_pattern

@@ -57,6 +57,13 @@ public:
   [[nodiscard]] const vpPatternFrame &frame() const;
   //! The options in use.
   [[nodiscard]] const vpPatternOptions &options() const;
+  /*!
+   * \brief Images are missing before the next one, and how far the product moved meanwhile is not known.
+   *
+   * The next image with the pattern has no motion and begins a new epoch, with reason ImagesMissing; lattice vectors and
+   * template stay. Call it when a number of the images is skipped, or a camera failed. Does not allocate.
+   */
+  void interrupt();
   //! Forget lattice, template and identities; the next image is acquired anew. Does not allocate.
   void reset();
 

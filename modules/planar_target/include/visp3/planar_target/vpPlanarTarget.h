@@ -40,7 +40,7 @@ enum class vpKeypointType {
 //! \brief Settings of a target. The defaults serve 640x480 images of a target that fills a third of the view or more.
 struct VISP_EXPORT vpPlanarTargetConfig {
   vpKeypointType keypoints = vpKeypointType::ORB; //!< Detector for acquisition.
-  bool fallback = true;             //!< Try AKAZE when the detector above gives too few inliers; costs time only then.
+  bool fallback = true;                           //!< Try AKAZE when the detector above gives too few inliers.
   unsigned int maxKeypoints = 1500; //!< More find smaller targets and take longer; detectors without a bound ignore it.
   unsigned int minInliers = 12;     //!< Fewer agreeing matches are TooFewInliers, >= 8.
   double inlierThreshold = 3.;      //!< Largest reprojection error of an inlier, px, > 0.
@@ -57,6 +57,18 @@ struct VISP_EXPORT vpPlanarTargetConfig {
   void validate() const;
 };
 
+//! \ingroup group_planar_target
+//! \brief What a frame cost: a loop at the camera's rate has these bounds.
+struct VISP_EXPORT vpPlanarTargetEffort {
+  unsigned int followed = 0; //!< Targets tracked from the frame before: what was known then.
+  unsigned int extractions =
+      0;                   //!< Of keypoints, of the whole frame or a part of it: at most 1, 0 when nothing was lost.
+  unsigned int probed = 0; //!< Lost targets of which the most telling keypoints were compared with the frame's.
+  std::size_t comparisons =
+      0;                     //!< For that, in 64-bit words of descriptors: at most 20 million beyond the first target.
+  unsigned int searches = 0; //!< Thorough searches for a lost target: those that found it, and at most one in vain.
+};
+
 /*!
  * \class vpPlanarTarget
  * \ingroup group_planar_target
@@ -64,7 +76,9 @@ struct VISP_EXPORT vpPlanarTargetConfig {
  *
  * process() tracks the target from the frame before by its grey values (photometric Gauss-Newton with Tukey weights, gain
  * and bias); when there is nothing to track, or tracking fails, it acquires it by keypoints (OpenCV's USAC_MAGSAC) and then
- * refines. It never gives a pose that the image does not support: see vpPlanarTargetStatus.
+ * refines. The first frame is searched by all detectors, as by acquire(). A lost target is looked for with a bounded effort
+ * per frame, see vpPlanarTargetEffort: by the detector of the settings, and in every third frame instead by the fallback in
+ * one of nine parts of the frame that overlap by half. It never gives a pose that the image does not support: see vpPlanarTargetStatus.
  *
  * The last stage fits the picture that the camera should see to the frame's own pixels, whose noise is white, with gain,
  * bias and blur of the camera, and leaves out areas that something hides. It gives the covariance of the pose. Where the
@@ -108,6 +122,7 @@ public:
 
 private:
   friend class vpPlanarTargetDatabase; // shares one frame between many targets
+  friend class vpTargetSearch;
   class Impl;
   std::unique_ptr<Impl> m_impl;
 };

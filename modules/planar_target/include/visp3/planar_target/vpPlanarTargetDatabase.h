@@ -43,8 +43,12 @@ struct VISP_EXPORT vpPlanarTargetSighting {
  * picture, and 0 when it is not given. Nothing is left out in silence: a file that
  * cannot be used, an unknown field, or a photograph in the folder that targets.json does not list is an error.
  *
- * The frame's pyramid is built once and its keypoints are extracted once for all targets; targets that are being
- * tracked need no keypoints.
+ * The time of a frame is bounded by what is there, however many targets are not: each target that was seen in the frame
+ * before is tracked, and needs no keypoints. The lost ones share one extraction of keypoints; as many as a fixed number of
+ * comparisons allows, 25 or more, are compared with it by their most telling keypoints, in turn; the likeliest are searched
+ * thoroughly, until the first in vain. See vpPlanarTargetEffort. So a target that comes into view is usually found in the
+ * next frame, and after at most as many frames as there are lost targets where it looks like nothing known at first; where
+ * only the fallback detector sees it, which looks at one of nine parts of the frame in every third frame, after 27 or more.
  */
 class VISP_EXPORT vpPlanarTargetDatabase
 {
@@ -74,6 +78,8 @@ public:
   [[nodiscard]] std::size_t size() const;
   //! Look for all targets. \return One entry for each, in the order in which they were added.
   const std::vector<vpPlanarTargetSighting> &process(const vpImage<unsigned char> &image);
+  //! What the last frame cost.
+  [[nodiscard]] const vpPlanarTargetEffort &effort() const;
   //! The last result; all NoFrame before the first frame.
   [[nodiscard]] const std::vector<vpPlanarTargetSighting> &sightings() const;
   /*!

@@ -26,6 +26,7 @@ enum class vpPlanarTargetStatus {
   Acquired,      //!< Found by keypoints, refined on the grey values.
   Tracked,       //!< Followed from the frame before by its grey values.
   Ambiguous,     //!< Found, but two poses fit and the frames so far do not decide: cMo and vpPlanarTargetResult::rival.
+  Extrapolated,  //!< vpPlaneMatcher only: a homography that holds where the matches are, and not in the whole image.
   NoTexture,     //!< The image has too few keypoints.
   TooFewInliers, //!< Keypoints were matched, but too few agree on one homography.
   OutOfView,     //!< The target left the image or is seen from behind or too obliquely.

@@ -27,7 +27,8 @@ enum class vpTwoViewStatus {
   Unique,       //!< One motion, see vpTwoViewResult::best.
   Ambiguous,    //!< Two motions fit and nothing tells them apart yet: move on, or give a normal prior.
   PureRotation, //!< sigma1 = sigma3: the camera only turned (or moved too little); plane and translation are unobservable.
-  Invalid       //!< The homography is not finite or singular, or no motion sees all points in front of both cameras.
+  Invalid //!< The homography is not finite, singular or mirrored, a point is not finite, or no motion sees all points
+          //!< in front of both cameras.
 };
 
 //! \ingroup group_planar_target

@@ -9,7 +9,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-namespace trackPattern
+namespace vpApp
 {
 QuietLibraries::QuietLibraries()
   : m_level(cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT)),
@@ -32,4 +32,4 @@ QuietLibraries::~QuietLibraries()
   }
   cv::utils::logging::setLogLevel(m_level);
 }
-} // namespace trackPattern
+} // namespace vpApp

@@ -6,12 +6,12 @@
  * \file quietLibraries.h
  * \brief Keeps what libraries print away from the user, who gets a sentence instead.
  */
-#ifndef trackPattern_quietLibraries_h
-#define trackPattern_quietLibraries_h
+#ifndef vpApp_quietLibraries_h
+#define vpApp_quietLibraries_h
 
 #include <opencv2/core/utils/logger.hpp>
 
-namespace trackPattern
+namespace vpApp
 {
 /*!
  * \brief While it lives, OpenCV logs nothing and what anyone prints on stderr is lost: its decoders, and FFmpeg below
@@ -29,6 +29,6 @@ private:
   cv::utils::logging::LogLevel m_level;
   int m_stderr; // the real one; -1: could not be kept, nothing was redirected
 };
-} // namespace trackPattern
+} // namespace vpApp
 
 #endif

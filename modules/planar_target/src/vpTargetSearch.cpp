@@ -1,0 +1,101 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "vpTargetSearch.h"
+
+#include "vpKeypointMatcher.h"
+#include "vpPlanarTargetImpl.h"
+
+#include <algorithm>
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+constexpr unsigned int fallbackEvery = 3; // frames; so that its nine parts take 27, less than a second at 30 Hz
+constexpr std::uint64_t waited = 30;      // frames, of a target just lost: soon, but not before all others
+constexpr std::size_t mostComparisons =
+    20'000'000; // 64-bit words; 6 ms. 130 keypoints of ORB with 1500 take 0.8 million
+} // namespace
+
+void vpTargetSearch::process(vpTargetFrame &frame, const std::vector<vpPlanarTarget::Impl *> &targets)
+{
+  m_effort = vpPlanarTargetEffort();
+  ++m_frame;
+  m_turns.resize(targets.size());
+  follow(frame, targets);
+  if (!m_lost.empty()) {
+    look(frame, targets);
+  }
+}
+
+void vpTargetSearch::follow(vpTargetFrame &frame, const std::vector<vpPlanarTarget::Impl *> &targets)
+{
+  m_lost.clear();
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    m_turns[i].justLost = targets[i]->m_known;
+    if (targets[i]->m_known) {
+      targets[i]->trackLast(frame);
+      ++m_effort.followed;
+    }
+    if (targets[i]->m_known) {
+      continue;
+    }
+    m_lost.push_back(i);
+    if (m_turns[i].justLost) {
+      const std::uint64_t before = m_frame > waited ? m_frame - waited : 0;
+      std::fill_n(m_turns[i].searched, mostDetectors, before);
+      std::fill_n(m_turns[i].probed, mostDetectors, 0);
+    }
+  }
+}
+
+void vpTargetSearch::look(vpTargetFrame &frame, const std::vector<vpPlanarTarget::Impl *> &targets)
+{
+  const auto &references = targets[m_lost[0]]->m_references;
+  const bool fallback = references.size() > 1 && m_looks % fallbackEvery == fallbackEvery - 1;
+  ++m_looks;
+  const std::size_t detector = fallback ? 1 : 0;
+  const vpKeypointType type = references[detector].type;
+  const vpKeypointSet &current = fallback ? frame.keypointsOfPart(type, m_part++ % 9) : frame.keypoints(type);
+  m_effort.extractions = 1;
+  const auto probed = [this, detector](std::size_t i) { return m_turns[i].probed[detector]; };
+  std::stable_sort(m_lost.begin(), m_lost.end(),
+                   [&probed](std::size_t a, std::size_t b) { return probed(a) < probed(b); });
+  m_candidates.clear();
+  for (const std::size_t i : m_lost) {
+    const vpKeypointSet &telling = targets[i]->m_references[detector].telling;
+    m_effort.comparisons += telling.points.size() * current.points.size() * current.words();
+    if (m_effort.comparisons > mostComparisons && m_effort.probed > 0) {
+      break;
+    }
+    ++m_effort.probed;
+    m_turns[i].probed[detector] = m_frame;
+    const double score = static_cast<double>(targets[i]->matchesOf(telling, current)) + 0.5;
+    m_candidates.push_back({i, score * score * static_cast<double>(m_frame - m_turns[i].searched[detector])});
+  }
+  std::stable_sort(m_candidates.begin(), m_candidates.end(),
+                   [](const Candidate &a, const Candidate &b) { return a.priority > b.priority; });
+  bool found = true;
+  for (std::size_t k = 0; k < m_candidates.size() && found; ++k) {
+    const std::size_t i = m_candidates[k].target;
+    ++m_effort.searches;
+    m_turns[i].searched[detector] = m_frame;
+    const bool outOfView = m_turns[i].justLost && targets[i]->m_result.status == vpPlanarTargetStatus::OutOfView;
+    const vpPlanarTargetResult before = targets[i]->m_result;
+    targets[i]->acquireWith(targets[i]->m_references[detector], current, frame);
+    found = targets[i]->m_known;
+    // Keypoints cannot tell that the target has just left the view; tracking can.
+    if (!found && outOfView) {
+      targets[i]->m_result = before;
+    }
+  }
+  for (const std::size_t i : m_lost) {
+    if (targets[i]->m_result.status == vpPlanarTargetStatus::NoFrame) {
+      targets[i]->fail(vpPlanarTargetStatus::TooFewInliers, "Not looked for yet: lost targets take their turns.");
+    }
+  }
+}
+
+END_VISP_NAMESPACE
