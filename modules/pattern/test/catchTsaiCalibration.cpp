@@ -252,7 +252,7 @@ TEST_CASE("the camera has the errors that the covariance says", "[calibration][t
          << ", not reliable " << unreliable);
     CHECK(nees == Approx(static_cast<double>(n)).epsilon(0.12));
     CHECK(factor == Approx(1.).margin(0.02));
-    CHECK(unreliable == 0);
+    CHECK(unreliable <= 30); // 10 +- 3.2 false alarms are stated
   }
 }
 

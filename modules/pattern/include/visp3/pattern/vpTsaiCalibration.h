@@ -10,6 +10,7 @@
 #define vpTsaiCalibration_h
 
 #include <visp3/pattern/vpCalibrationPoint.h>
+#include <visp3/pattern/vpFitTest.h>
 
 #include <visp3/core/vpCameraParameters.h>
 #include <visp3/core/vpHomogeneousMatrix.h>
@@ -33,6 +34,8 @@ struct VISP_EXPORT vpTsaiCalibrationOptions {
   bool estimateAspect = true;         //!< Find py / px. Ignored for one view of a plane, which cannot tell.
   bool estimateKappa1 = true;         //!< Find the radial distortion.
   bool estimatePrincipalPoint = true; //!< Find u0 and v0. Ignored for one view of a plane, which cannot tell.
+  bool sigmaFromResiduals = false;    //!< The points' deviations are only ratios; the residuals tell the common factor.
+  double falseAlarm = 0.01;           //!< vpFitTest::level: right fits that may be called misfits, in [1e-12, 0.5].
 
   //! \throw vpException (badValue) naming the field and its value.
   void check() const;
@@ -62,8 +65,9 @@ struct VISP_EXPORT vpTsaiCalibrationResult {
   double condition = 1.;      //!< Of the common parameters, columns scaled to equal length.
   int iterations = 0;         //!< Of the refinement.
   bool converged = false;     //!< The refinement came to its end.
-  bool reliable =
-      false; //!< It converged and the focal length is known to a tenth; otherwise #message says what is wrong.
+  vpFitTest fit;              //!< Whether the camera fits the points, and which fit worst.
+  //! It converged, the focal length is known to a tenth and the points fit; otherwise #message says what is wrong.
+  bool reliable = false;
   std::string message; //!< All of it in a few sentences.
 
   //! Standard deviation of a parameter, in its unit.
@@ -83,7 +87,9 @@ struct VISP_EXPORT vpTsaiCalibrationResult {
  *
  * The plane must be tilted: seen straight on, only f / tz can be told (use vpPlanarMicroscopeCalibration); the result
  * is
- * not `reliable` then and the sentence says so.
+ * not `reliable` then and the sentence says so. Nor is it when the points do not fit (vpFitTest): outliers, a view whose
+ * points have each other's names, wrong distances on the object. A wrong common scale of the object changes only the
+ * poses and cannot be seen.
  */
 class VISP_EXPORT vpTsaiCalibration
 {
