@@ -47,7 +47,7 @@ void track(const Options &options, const std::string &commandLine)
     std::cout << line << "\n";
   }
   std::cout << "Report: " << (std::filesystem::path(options.out) / "report.html").string() << std::endl;
-  if (results.imagesWithCells() == 0) {
+  if (results.imagesWithCells() == 0 && !results.calibrated) {
     throw std::runtime_error("no pattern was found; the report shows the images as they were read");
   }
 }

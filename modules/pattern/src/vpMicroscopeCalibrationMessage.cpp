@@ -84,7 +84,7 @@ std::string vpMicroscopeMessage(const vpMicroscopeCalibrationResult &result, con
                      "whole image: cover more of it.",
                      decision.significance);
   }
-  if (decision.tiltedTooFar) {
+  if (result.looksTiltedTooFar) {
     text += sentence(" The product looks as if tilted by %.3g degrees: a pitch is wrong, or the cells are on another "
                      "lattice than told.",
                      vpMath::deg(decision.looksTilted));

@@ -16,7 +16,6 @@ struct vpMicroscopeDecision {
   double significance = 0.;      // of it, standard deviations
   bool hiddenDistortion = false; // it is there, but the points cover too little of the image to say how large
   double looksTilted = 0.;       // by foreshortening, rad
-  bool tiltedTooFar = false;     // beyond what the options allow and noise explains
 };
 
 [[nodiscard]] std::string vpMicroscopeMessage(const vpMicroscopeCalibrationResult &result,

@@ -243,9 +243,9 @@ private:
     const double sigma = std::hypot(m_result.sigma(vpMicroscopeStretch), m_result.sigma(vpMicroscopeShear));
     m_decision.looksTilted = std::acos(std::max(-1., (1. - s) / (1. + s)));
     const double sure = std::max(0., s - 3. * sigma);
-    m_decision.tiltedTooFar = (1. - sure) / (1. + sure) < std::cos(m_options.maxTilt);
+    m_result.looksTiltedTooFar = (1. - sure) / (1. + sure) < std::cos(m_options.maxTilt);
     m_result.reliable = m_result.converged && m_result.fit.verdict == vpFitVerdict::Fits &&
-                        !m_decision.hiddenDistortion && !m_decision.tiltedTooFar;
+                        !m_decision.hiddenDistortion && !m_result.looksTiltedTooFar;
   }
 
   const std::vector<std::vector<vpCalibrationPoint>> &m_points; // owned by the caller

@@ -25,7 +25,8 @@ using State = vpTsaiState;
 
 constexpr std::size_t leastPoints = 6;
 constexpr std::size_t leastOfBody = 8;
-constexpr double largestDoubt = 0.1; // standard deviation of f over f in a reliable result
+constexpr std::size_t mostLeftOut = 30; // views that are left out in turn after a misfit
+constexpr double largestDoubt = 0.1;    // standard deviation of f over f in a reliable result
 
 vpHomogeneousMatrix poseOf(const vpTsaiPose &pose, const Eigen::Vector3d &origin)
 {
@@ -178,7 +179,9 @@ vpTsaiCalibrationResult resultOf(const vpTsaiProblem &problem, const vpBundleSol
   int count = 0;
   for (std::size_t k = 0; k < views.size(); ++k) {
     result.cMo.push_back(poseOf(solution.state.poses[k], views[k].origin));
-    squares += linear[k].linear.residual.cwiseProduct(linear[k].sigma.reshaped()).squaredNorm();
+    const double ofView = linear[k].linear.residual.cwiseProduct(linear[k].sigma.reshaped()).squaredNorm();
+    result.viewRms.push_back(std::sqrt(ofView / static_cast<double>(points[k].size())));
+    squares += ofView;
     count += static_cast<int>(points[k].size());
   }
   result.residualRms = std::sqrt(squares / count);
@@ -192,7 +195,6 @@ vpTsaiCalibrationResult resultOf(const vpTsaiProblem &problem, const vpBundleSol
   result.fit = vpTestFit(linear, options.falseAlarm, !options.sigmaFromResiduals);
   result.reliable = solution.converged && result.sigma(vpTsaiPx) < largestDoubt * result.px &&
                     result.fit.verdict == vpFitVerdict::Fits;
-  result.message = messageOf(result);
   return result;
 }
 } // namespace
@@ -254,10 +256,42 @@ vpTsaiCalibrationResult vpTsaiCalibration::compute() const
   if (m_views.empty()) {
     throw vpException(vpException::badValue, "there is no view to calibrate from");
   }
+  vpTsaiCalibrationResult result = solve(m_views);
+  findWorstView(result);
+  result.message = messageOf(result);
+  return result;
+}
+
+// A view that is grossly wrong pulls the others astray, so that its own residuals need not be the largest: the rest is
+// computed without it.
+void vpTsaiCalibration::findWorstView(vpTsaiCalibrationResult &result) const
+{
+  if (result.fit.verdict != vpFitVerdict::Misfit || m_views.size() < 3 || m_views.size() > mostLeftOut) {
+    return;
+  }
+  double least = HUGE_VAL;
+  for (std::size_t k = 0; k < m_views.size(); ++k) {
+    std::vector<std::vector<vpCalibrationPoint>> others = m_views;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
+    try {
+      const double factor = solve(others).varianceFactor;
+      if (factor < least) {
+        least = factor;
+        result.fit.worstView = static_cast<int>(k);
+        result.fit.worstViewRms = result.viewRms[k];
+      }
+    }
+    catch (const vpException &) { // no camera sees the others so: it is not this view
+    }
+  }
+}
+
+vpTsaiCalibrationResult vpTsaiCalibration::solve(const std::vector<std::vector<vpCalibrationPoint>> &points) const
+{
   std::vector<vpTsaiView> views;
   std::vector<std::vector<vpTsaiPose>> candidates;
-  for (const std::vector<vpCalibrationPoint> &points : m_views) {
-    views.push_back(vpMakeTsaiView(points, m_options.u0, m_options.v0, m_options.aspect));
+  for (const std::vector<vpCalibrationPoint> &view : points) {
+    views.push_back(vpMakeTsaiView(view, m_options.u0, m_options.v0, m_options.aspect));
     candidates.push_back(vpAlignTsaiView(views.back()));
     if (candidates.back().empty()) {
       throw vpException(vpException::fatalError,
@@ -273,14 +307,14 @@ vpTsaiCalibrationResult vpTsaiCalibration::compute() const
   const bool onePlane = views.size() == 1 && views[0].planar;
   const bool aspect = m_options.estimateAspect && !onePlane, principal = m_options.estimatePrincipalPoint && !onePlane;
   // From few parameters to many: far from the answer those that are weakly determined run away.
-  const vpTsaiProblem few(m_views, views, {{true, false, false, false, false}});
+  const vpTsaiProblem few(points, views, {{true, false, false, false, false}});
   state = vpSolveBundle(few, state).state;
   if (m_options.estimateKappa1) {
-    const vpTsaiProblem more(m_views, views, {{true, false, true, false, false}});
+    const vpTsaiProblem more(points, views, {{true, false, true, false, false}});
     state = vpSolveBundle(more, state).state;
   }
-  const vpTsaiProblem problem(m_views, views, {{true, aspect, m_options.estimateKappa1, principal, principal}});
-  return resultOf(problem, vpSolveBundle(problem, state), m_views, views, m_options);
+  const vpTsaiProblem problem(points, views, {{true, aspect, m_options.estimateKappa1, principal, principal}});
+  return resultOf(problem, vpSolveBundle(problem, state), points, views, m_options);
 }
 
 END_VISP_NAMESPACE

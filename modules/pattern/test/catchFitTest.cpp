@@ -104,7 +104,8 @@ TEST_CASE("three gross outliers in one of five views are named, with a stated de
       CHECK(result.fit.worstPointView == bad);
       CHECK((result.fit.worstPoint == 4 || result.fit.worstPoint == 30 || result.fit.worstPoint == 55));
       CHECK(result.fit.worstPointDistance > 10.);
-      CHECK(result.message.find("This is not reliable. The model does not fit the points: ") != std::string::npos);
+      CHECK(result.message.find("This is not reliable") != std::string::npos);
+      CHECK(result.message.find("The model does not fit the points: ") != std::string::npos);
       CHECK(result.message.find("View " + std::to_string(bad) + " fits worst") != std::string::npos);
     }
   }
@@ -127,9 +128,7 @@ TEST_CASE("a view whose points have each other's names, and a wrong pitch, are m
       vpTsaiCalibrationResult result = calibrate(turned, stated);
       CAPTURE(trial, stated, result.message);
       CHECK_FALSE(result.reliable);
-      const int named =
-          static_cast<int>(bad); // a fit that did not end compares the views at a place that is no minimum
-      CHECK((result.fit.worstView == named || (!result.converged && result.fit.worstPointView == named)));
+      CHECK(result.fit.worstView == static_cast<int>(bad));
       std::vector<Points> stretched = good;
       for (Points &view : stretched) { // a pitch that is wrong by 2 %, in all views alike
         for (vpCalibrationPoint &point : view) {

@@ -71,7 +71,8 @@ TEST_CASE("without noise every calibration is found exactly", "[calibration]")
   CAPTURE(vpTestSupport::seed());
   for (int trial = 0; trial < 300; ++trial) {
     const int views = 1 + trial % 3;
-    Problem problem = randomProblem(rng, views, uniform(rng, -3e-7, 3e-7), 640, 480, 0.035);
+    const double size = uniform(rng, 3e-8, 3e-7); // without distortion there is no principal point
+    Problem problem = randomProblem(rng, views, trial % 2 == 0 ? size : -size, 640, 480, 0.035);
     vpMicroscopeCalibrationOptions options;
     options.minSignificance = options.minEffect = 0.;
     options.maxCornerSigma = 1e6;
@@ -501,6 +502,12 @@ TEST_CASE("bad input to the planar calibration is refused in words", "[calibrati
   });
   CHECK(mirrored.find("view 1 shows the product ") == 0);
 
+  CHECK(refusalOf([](Points &p) { // two places, again and again
+          for (std::size_t i = 0; i < p.size(); ++i) {
+            p[i] = p[i % 2];
+          }
+        }) == "the points of view 1 lie on a line of the product");
+  CHECK_THROWS_WITH(vpPlanarMicroscopeCalibration(0, 0), Catch::Contains("width is 0 px, must be in [8, 65536]"));
   CHECK_THROWS_WITH(vpPlanarMicroscopeCalibration(640, 480).compute(),
                     Catch::Contains("there is no view to calibrate from"));
   CHECK_THROWS_WITH(vpPlanarMicroscopeCalibration(640, 4), Catch::Contains("height is 4 px, must be in [8, 65536]"));

@@ -99,7 +99,8 @@ struct VISP_EXPORT vpMicroscopeCalibrationResult {
   double condition = 1.;  //!< Of the common parameters, columns scaled to equal length; above 1e3 they hang together.
   int iterations = 0;     //!< Of the refinement.
   bool converged = false; //!< The refinement came to its end.
-  vpFitTest fit;          //!< Whether the calibration fits the points, and which fit worst.
+  bool looksTiltedTooFar = false; //!< More than vpMicroscopeCalibrationOptions::maxTilt, and noise does not explain it.
+  vpFitTest fit;                  //!< Whether the calibration fits the points, and which fit worst.
   //! It converged, the points fit, and neither distortion nor tilt is left out or beyond belief; see #message.
   bool reliable = false;
   std::string message; //!< All of it in a few sentences.

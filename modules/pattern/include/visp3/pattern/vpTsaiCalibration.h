@@ -59,13 +59,14 @@ struct VISP_EXPORT vpTsaiCalibrationResult {
   //! Of (px, py, kappa1, u0, v0), in their units; zero where a parameter was given. With the aspect given, px and py
   //! have correlation 1.
   Eigen::Matrix<double, vpTsaiParameterCount, vpTsaiParameterCount> covariance;
-  double residualRms = 0.;    //!< Root mean square distance of the points from where they should be seen, px.
-  double varianceFactor = 0.; //!< Sum of squares over degrees of freedom: 1 when the points' deviations are right.
-  int degreesOfFreedom = 0;   //!< Two per point less the parameters.
-  double condition = 1.;      //!< Of the common parameters, columns scaled to equal length.
-  int iterations = 0;         //!< Of the refinement.
-  bool converged = false;     //!< The refinement came to its end.
-  vpFitTest fit;              //!< Whether the camera fits the points, and which fit worst.
+  std::vector<double> viewRms; //!< The same as #residualRms of each view, px.
+  double residualRms = 0.;     //!< Root mean square distance of the points from where they should be seen, px.
+  double varianceFactor = 0.;  //!< Sum of squares over degrees of freedom: 1 when the points' deviations are right.
+  int degreesOfFreedom = 0;    //!< Two per point less the parameters.
+  double condition = 1.;       //!< Of the common parameters, columns scaled to equal length.
+  int iterations = 0;          //!< Of the refinement.
+  bool converged = false;      //!< The refinement came to its end.
+  vpFitTest fit;               //!< Whether the camera fits the points, and which fit worst.
   //! It converged, the focal length is known to a tenth and the points fit; otherwise #message says what is wrong.
   bool reliable = false;
   std::string message; //!< All of it in a few sentences.
@@ -112,10 +113,14 @@ public:
   //! Number of views so far.
   [[nodiscard]] std::size_t viewCount() const { return m_views.size(); }
 
+  //! A misfit of up to 30 views is computed again without each of them, to name the one that does not belong.
   //! \throw vpException (badValue) when there is no view, (fatalError) when no camera can see a view's points so.
   [[nodiscard]] vpTsaiCalibrationResult compute() const;
 
 private:
+  [[nodiscard]] vpTsaiCalibrationResult solve(const std::vector<std::vector<vpCalibrationPoint>> &points) const;
+  void findWorstView(vpTsaiCalibrationResult &result) const;
+
   unsigned int m_width;
   unsigned int m_height;
   vpTsaiCalibrationOptions m_options;
