@@ -28,6 +28,27 @@ struct Candidate {
   bool bright = false;
 };
 
+// Steps of the same lattice, to a tenth.
+bool isSame(const vpLatticeFound &p, const vpLatticeFound &q)
+{
+  const auto near = [](const Eigen::Vector2d &v, const Eigen::Vector2d &w) {
+    return std::min((v - w).norm(), (v + w).norm()) <= 0.1 * w.norm();
+  };
+  return p.kind == q.kind && near(p.a, q.a) && near(p.b, q.b);
+}
+
+bool isBetter(const Candidate &candidate, const Candidate &best)
+{
+  const bool none = best.found.kind == vpDotLatticeKind::None;
+  if (candidate.found.kind == vpDotLatticeKind::None) {
+    return none && candidate.spots.size() > best.spots.size();
+  }
+  // In perspective the dots far out, of another size, raise the rms, but belong to it.
+  const bool more = candidate.bright == best.bright && isSame(candidate.found, best.found) &&
+                    candidate.found.spots.size() > best.found.spots.size();
+  return none || more || candidate.found.score > best.found.score;
+}
+
 // A row is taken when it explains most spots and the plane not clearly more.
 vpLatticeFound search(const std::vector<vpLatticeSpot> &spots, const Eigen::Vector2d &middle)
 {
@@ -143,9 +164,7 @@ vpDotLattice vpFindDotLattice(const vpImage<unsigned char> &image)
         candidate.bright = bright;
         candidate.spots = finder.find(bright, alike);
         candidate.found = search(candidate.spots, middle);
-        const bool none = best.found.kind == vpDotLatticeKind::None;
-        if (candidate.found.kind != vpDotLatticeKind::None ? none || candidate.found.score > best.found.score
-                                                           : none && candidate.spots.size() > best.spots.size()) {
+        if (isBetter(candidate, best)) {
           best = std::move(candidate);
         }
       }

@@ -225,7 +225,7 @@ private:
       return true;
     }
     const double reach =
-        std::clamp(3. * rms * std::sqrt(count / (count - 1. * spent)), leastPrecision * pitch, 0.25 * pitch);
+        std::clamp(3. * rms * std::sqrt(count / (count - 1. * spent)), leastPrecision * pitch, 0.3 * pitch);
     const double density = static_cast<double>(m_index.count()) / m_index.size().prod();
     const double met = std::min(0.9, density * M_PI * reach * reach);
     const double places = std::max<double>(count, std::round(count / occupancy)), above = count - spent;

@@ -17,9 +17,10 @@ BEGIN_VISP_NAMESPACE
 namespace
 {
 constexpr double margin = 2.;      // px around the box of the spots
-constexpr double walkReach = 0.25; // of the shorter step
+constexpr double walkReach = 0.3;  // of the shorter step
 constexpr double nextReach = 0.2;  // of the step, for the occupancy
 constexpr double gain = 0.4;       // of what a step is seen to be off
+constexpr double strayShare = 0.1; // of the pitch: what perspective of third order leaves is no stray
 
 using Terms = Eigen::Matrix<double, 6, 1>;
 
@@ -126,6 +127,7 @@ double vpLatticeWalk::occupancy() const
 
 bool vpLatticeWalk::fit(const Eigen::Vector2d &middle, Eigen::Vector2d &a, Eigen::Vector2d &b, double &rms)
 {
+  const double pitch = std::min(a.norm(), b.norm());
   Eigen::Matrix<double, 6, 2> bent;
   std::vector<char> good(m_nodes.size());
   for (std::size_t i = 0; i < m_nodes.size(); ++i) {
@@ -153,7 +155,7 @@ bool vpLatticeWalk::fit(const Eigen::Vector2d &middle, Eigen::Vector2d &a, Eigen
         some.push_back(misses[i]);
       }
     }
-    const double limit = std::max(0.5, 4. * vpMedian(some));
+    const double limit = std::max({0.5, 4. * vpMedian(some), strayShare * pitch});
     double squares = 0.;
     for (std::size_t i = 0; i < m_nodes.size(); ++i) {
       good[i] = misses[i] >= 0. && misses[i] < limit ? 1 : 0;

@@ -85,9 +85,10 @@ std::string vpMicroscopeMessage(const vpMicroscopeCalibrationResult &result, con
                      decision.significance);
   }
   if (result.looksTiltedTooFar) {
-    text += sentence(" The product looks as if tilted by %.3g degrees: a pitch is wrong, or the cells are on another "
-                     "lattice than told.",
-                     vpMath::deg(decision.looksTilted));
+    text += sentence(
+        " The product looks as if tilted by %.3g degrees: it is, or a pitch is wrong, or the cells are on another "
+        "lattice than told.",
+        vpMath::deg(decision.looksTilted));
   }
   return text + " " + result.fit.message(result.varianceFactor);
 }
