@@ -33,6 +33,10 @@ vpMicroscopeCalibration readJson(const std::string &file)
   c.kappa1 = top.number("kappa1_per_px2", 0.);
   c.u0 = top.number("u0_px", 0.5 * (c.width - 1.));
   c.v0 = top.number("v0_px", 0.5 * (c.height - 1.));
+  c.tiltX = top.number("tilt_x_per_px", 0.);
+  c.tiltY = top.number("tilt_y_per_px", 0.);
+  c.stretch = top.number("stretch", 0.);
+  c.shear = top.number("shear", 0.);
   static_cast<void>(top.text("comment", ""));
   static_cast<void>(top.has("quality"));
   top.finish();
@@ -44,6 +48,22 @@ vpMicroscopeCalibration readJson(const std::string &file)
   }
   return c;
 }
+
+//! Probabilities that were not computed are null.
+nlohmann::ordered_json jsonOf(const vpFitTest &fit)
+{
+  return {{"verdict", toString(fit.verdict)},
+          {"level", fit.level},
+          {"whole_probability", fit.wholeProbability},
+          {"view_probability", fit.viewProbability},
+          {"point_probability", fit.pointProbability},
+          {"field_probability", fit.fieldProbability},
+          {"worst_view", fit.worstView},
+          {"worst_view_rms_px", fit.worstViewRms},
+          {"worst_point_view", fit.worstPointView},
+          {"worst_point", fit.worstPoint},
+          {"worst_point_distance_px", fit.worstPointDistance}};
+}
 } // namespace
 
 nlohmann::ordered_json jsonOf(const vpMicroscopeCalibrationResult &result, std::size_t views)
@@ -54,7 +74,12 @@ nlohmann::ordered_json jsonOf(const vpMicroscopeCalibrationResult &result, std::
                                   {"rotation_deg", vpMath::deg(result.sigma(vpMicroscopeRotation))},
                                   {"tx_m", result.sigma(vpMicroscopeTx)},
                                   {"ty_m", result.sigma(vpMicroscopeTy)},
-                                  {"kappa1_per_px2", result.kappa1Sigma}};
+                                  {"kappa1_per_px2", result.kappa1Sigma},
+                                  {"kappa1_at_corner_px", result.kappa1CornerSigma},
+                                  {"tilt_x_per_px", result.sigma(vpMicroscopeTiltX)},
+                                  {"tilt_y_per_px", result.sigma(vpMicroscopeTiltY)},
+                                  {"stretch", result.sigma(vpMicroscopeStretch)},
+                                  {"shear", result.sigma(vpMicroscopeShear)}};
   nlohmann::ordered_json covariance = nlohmann::ordered_json::array();
   for (Eigen::Index i = 0; i < result.covariance.rows(); ++i) {
     std::vector<double> row;
@@ -75,11 +100,19 @@ nlohmann::ordered_json jsonOf(const vpMicroscopeCalibrationResult &result, std::
           {"kappa1_per_px2", c.kappa1},
           {"u0_px", c.u0},
           {"v0_px", c.v0},
+          {"tilt_x_per_px", c.tiltX},
+          {"tilt_y_per_px", c.tiltY},
+          {"stretch", c.stretch},
+          {"shear", c.shear},
           {"quality",
-           {{"kappa1_status", toString(result.kappa1Status)},
+           {{"reliable", result.reliable},
+            {"fit", jsonOf(result.fit)},
+            {"kappa1_status", toString(result.kappa1Status)},
             {"kappa1_effect_px", result.kappa1Effect},
             {"standard_deviations", sigma},
-            {"covariance_of", {"scale_x", "scale_y", "kappa1", "u0", "v0", "rotation_rad", "tx", "ty"}},
+            {"covariance_of",
+             {"scale_x", "scale_y", "kappa1", "u0", "v0", "rotation_rad", "tx", "ty", "tilt_x", "tilt_y", "stretch",
+              "shear"}},
             {"covariance", covariance},
             {"residual_rms_px", result.residualRms},
             {"variance_factor", result.varianceFactor},

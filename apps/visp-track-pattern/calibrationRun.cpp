@@ -4,6 +4,8 @@
  */
 #include "calibrationRun.h"
 
+#include <visp3/pattern/vpDotLattice.h>
+
 #include <visp3/core/vpException.h>
 
 #include <stdexcept>
@@ -14,6 +16,15 @@ namespace
 {
 constexpr std::size_t MOST_VIEWS = 100;
 constexpr std::size_t LEAST_POINTS = 6; // what vpPlanarMicroscopeCalibration asks of a view
+// Residuals that are no noise of a centre: a calibration with them is worse than none.
+constexpr double FAR_RATIO = 10.;   // over the points' deviations
+constexpr double FAR_RESIDUAL = 1.; // px
+
+bool isFarFromFitting(const vpMicroscopeCalibrationResult &result)
+{
+  const bool residuals = result.residualRms > FAR_RESIDUAL && result.varianceFactor > FAR_RATIO * FAR_RATIO;
+  return residuals || result.looksTiltedTooFar;
+}
 } // namespace
 
 CalibrationRun::CalibrationRun(const Options &options) : m_dotGrid(options.dotGrid), m_pitch(options.pitch) {}
@@ -27,7 +38,9 @@ void CalibrationRun::add(const vpImage<unsigned char> &image, const vpPatternFra
   std::vector<vpCalibrationPoint> points;
   if (m_dotGrid) {
     try {
-      points = vpCalibrationPoints(image, m_pitch);
+      const vpDotLattice grid = vpFindDotLattice(image);
+      points = vpCalibrationPoints(grid, m_pitch);
+      m_grid = grid.message;
     }
     catch (const vpException &error) {
       m_complaint = error.getStringMessage();
@@ -76,7 +89,14 @@ vpMicroscopeCalibrationResult CalibrationRun::compute(unsigned int width, unsign
     for (const std::vector<vpCalibrationPoint> &points : m_views) {
       calibration.addView(points);
     }
-    return calibration.compute();
+    vpMicroscopeCalibrationResult result = calibration.compute();
+    if (!m_grid.empty()) {
+      result.message = "In the last image " + m_grid + " " + result.message;
+    }
+    if (isFarFromFitting(result)) {
+      throw std::runtime_error("--calibrate: the points do not fit, no calibration is written. " + result.message);
+    }
+    return result;
   }
   catch (const vpException &error) {
     throw std::runtime_error("--calibrate: " + error.getStringMessage());

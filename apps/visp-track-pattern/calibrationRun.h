@@ -31,7 +31,7 @@ public:
   //! One image and what was found in it. \param left, top : Of the part that was tracked, px.
   void add(const vpImage<unsigned char> &image, const vpPatternFrame &frame, double left, double top);
   [[nodiscard]] std::size_t viewCount() const { return m_views.size(); }
-  //! \throw std::runtime_error saying why there is nothing to calibrate from.
+  //! \throw std::runtime_error saying why there is nothing to calibrate from, or that the points are far from fitting.
   [[nodiscard]] vpMicroscopeCalibrationResult compute(unsigned int width, unsigned int height) const;
 
 private:
@@ -43,6 +43,7 @@ private:
   std::size_t m_seen = 0;
   std::size_t m_stride = 1;
   std::string m_complaint; // of the last image without a grid
+  std::string m_grid;      // of the last image with one
 };
 } // namespace trackPattern
 

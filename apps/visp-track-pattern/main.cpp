@@ -65,7 +65,7 @@ int track(const Options &options, const std::string &commandLine)
   if (results.ending == Ending::Incomplete) {
     throw std::runtime_error(results.failure + "; the report shows what was seen");
   }
-  if (results.ending == Ending::Complete && results.imagesWithCells() == 0) {
+  if (results.ending == Ending::Complete && results.imagesWithCells() == 0 && !results.calibrated) {
     throw std::runtime_error("no pattern was found; the report shows the images as they were read");
   }
   return results.ending == Ending::Interrupted && vpApp::interrupted() ? vpApp::ExitInterrupted : vpApp::ExitOk;

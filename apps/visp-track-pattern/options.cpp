@@ -7,9 +7,11 @@
 #include "appMain.h"
 
 #include <visp3/core/vpException.h>
+#include <visp3/core/vpMath.h>
 
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <map>
 
 namespace trackPattern
@@ -153,7 +155,7 @@ void addMethod(CLI::App &app, Options &options)
   addChoice(app, "--polarity", POLARITIES, options.tracker.polarity, "What is a cell", "automatic", group);
 }
 
-void addScale(CLI::App &app, Options &options, std::vector<double> &pitch, double &sigma)
+void addScale(CLI::App &app, Options &options, std::vector<double> &pitch, double &sigma, double &axes)
 {
   const std::string group = "Micrometres";
   app.add_option("--calibration", options.calibration,
@@ -172,16 +174,22 @@ void addScale(CLI::App &app, Options &options, std::vector<double> &pitch, doubl
       ->expected(2)
       ->option_text("X Y")
       ->group(group);
+  app.add_option(
+         "--axes-deg", axes,
+         "For --calibrate: from the columns' direction to the rows' (as found: 60 when the grid is hexagonal and "
+         "both pitches are the same, otherwise 90)")
+      ->option_text("A")
+      ->group(group);
   app.add_option("--pitch-sigma-um", sigma,
                  "For --calibrate: standard deviation of a cell's place on the product (default: 0)")
       ->option_text("S")
       ->group(group);
 }
 
-void checkScale(Options &options, const std::vector<double> &pitch, double sigma)
+void checkScale(Options &options, const std::vector<double> &pitch, double sigma, double axes)
 {
-  if (!options.calibrate && (options.dotGrid || !pitch.empty() || sigma != 0.)) {
-    throw vpApp::UsageError("--dot-grid, --pitch-um and --pitch-sigma-um belong to --calibrate");
+  if (!options.calibrate && (options.dotGrid || !pitch.empty() || sigma != 0. || !std::isnan(axes))) {
+    throw vpApp::UsageError("--dot-grid, --pitch-um, --axes-deg and --pitch-sigma-um belong to --calibrate");
   }
   if (options.calibrate && !options.calibration.empty()) {
     throw vpApp::UsageError("--calibrate makes a calibration and --calibration uses one: not both in one run");
@@ -198,6 +206,10 @@ void checkScale(Options &options, const std::vector<double> &pitch, double sigma
     if (!(sigma >= 0. && sigma < 1e9)) {
       throw vpApp::UsageError("--pitch-sigma-um is " + std::to_string(sigma) + " um, must be >= 0");
     }
+    if (!std::isnan(axes) && !(axes >= 30. && axes <= 150.)) {
+      throw vpApp::UsageError("--axes-deg is " + std::to_string(axes) + ", must be 30..150");
+    }
+    options.pitch.angle = vpMath::rad(axes);
     options.pitch.columns = 1e-6 * pitch[0];
     options.pitch.rows = 1e-6 * pitch[1];
     options.pitch.sigmaPlane = 1e-6 * sigma;
@@ -235,11 +247,11 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   app.footer(EXAMPLES);
   std::string roi;
   std::vector<double> pitch;
-  double sigma = 0.;
+  double sigma = 0., axes = std::numeric_limits<double>::quiet_NaN(); // NaN: as found
   addInput(app, options, roi);
   addOutput(app, options);
   addMethod(app, options);
-  addScale(app, options, pitch, sigma);
+  addScale(app, options, pitch, sigma, axes);
   if (!vpApp::parseCommandLine(app, argc, argv)) {
     return false;
   }
@@ -255,7 +267,7 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   if (options.out.empty()) {
     throw vpApp::UsageError("--out is empty, must name a folder");
   }
-  checkScale(options, pitch, sigma);
+  checkScale(options, pitch, sigma, axes);
   findCamera(options);
   return true;
 }

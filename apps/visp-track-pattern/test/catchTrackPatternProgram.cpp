@@ -10,9 +10,12 @@
 #include <nlohmann/json.hpp>
 
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <sstream>
 
@@ -223,6 +226,48 @@ TEST_CASE("A still grid of dots calibrates by single images", "[visp-track-patte
   CHECK(calibration["quality"]["views"] == 3);
 }
 
+TEST_CASE("A hexagonal grid is calibrated as one, and never as a square one", "[visp-track-pattern]")
+{
+  ProgramRun run(TRACK_PATTERN);
+  cv::Mat grid(480, 640, CV_8UC1, cv::Scalar(40));
+  const double pitch = 24., angle = 0.6; // px; beyond what the tracker follows
+  for (int row = -40; row <= 40; ++row) {
+    for (int column = -60; column <= 60; ++column) {
+      const double x = pitch * (column + 0.5 * row), y = pitch * 0.5 * std::sqrt(3.) * row;
+      const double u = 320. + std::cos(angle) * x - std::sin(angle) * y;
+      const double v = 240. + std::sin(angle) * x + std::cos(angle) * y;
+      constexpr double fine = 16.; // of cv::circle's shift
+      cv::circle(grid, cv::Point(cvRound(fine * u), cvRound(fine * v)), cvRound(fine * 6.), cv::Scalar(200), cv::FILLED,
+                 cv::LINE_AA, 4);
+    }
+  }
+  cv::imwrite(run.path("hexagonal.png").string(), grid);
+  REQUIRE(run("hexagonal.png --calibrate --dot-grid --pitch-um 24 24 --overlay none --out scale") == OK);
+  CHECK(run.out().find("are on a hexagonal lattice") != std::string::npos);
+  CHECK(run.out().find("whose axes are at ") != std::string::npos);
+  const json calibration = json::parse(vpApp::readFile(run.path("scale/calibration.json")));
+  CHECK(calibration["scale_x_px_per_m"].get<double>() == Approx(1e6).epsilon(1e-3));
+  CHECK(run("hexagonal.png --calibrate --dot-grid --pitch-um 24 24 --axes-deg 60 --overlay none --out same") == OK);
+  CHECK(run("hexagonal.png --calibrate --dot-grid --pitch-um 24 24 --axes-deg 90 --overlay none --out square") == DATA);
+  CHECK(run.err().find("--calibrate: the points do not fit, no calibration is written. ") != std::string::npos);
+  CHECK(run.err().find("the cells are on another lattice than told") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(run.path("square/calibration.json")));
+  CHECK(run("hexagonal.png --calibrate --dot-grid --pitch-um 24 24 --axes-deg 9 --out square") == USAGE);
+}
+
+TEST_CASE("A micrograph of a grid with dots of three levels is a grid", "[visp-track-pattern]")
+{
+  const char *const cases = std::getenv("VISP_DIRECT_CASES"); // the folder with inputs from public problems
+  const std::string image = std::string(cases == nullptr ? "" : cases) + "/images/three-level-dots.png";
+  if (!std::filesystem::exists(image)) {
+    vpTestSupport::skip("VISP_DIRECT_CASES names no folder with images/three-level-dots.png");
+    return;
+  }
+  ProgramRun run(TRACK_PATTERN);
+  REQUIRE(run("'" + image + "' --calibrate --dot-grid --pitch-um 16 16 --overlay none --out scale") == OK);
+  CHECK(run.out().find("of 796 bright dots are on a square lattice of 15.98 and 15.97 px") != std::string::npos);
+}
+
 TEST_CASE("Videos and colour images are read", "[visp-track-pattern]")
 {
   ProgramRun run(TRACK_PATTERN);
@@ -408,7 +453,7 @@ TEST_CASE("Bad use ends with a sentence and nothing written", "[visp-track-patte
       {"--calibrate", USAGE, "--calibrate needs --pitch-um X Y"},
       {"--calibrate --pitch-um 220 -80", USAGE, "--pitch-um is -80.000000 um, must be > 0"},
       {"--calibrate --pitch-um 220 80 --pitch-sigma-um -1", USAGE, "--pitch-sigma-um is -1.000000 um, must be >= 0"},
-      {"--pitch-um 220 80", USAGE, "--dot-grid, --pitch-um and --pitch-sigma-um belong to --calibrate"},
+      {"--pitch-um 220 80", USAGE, "--dot-grid, --pitch-um, --axes-deg and --pitch-sigma-um belong"},
       {"--calibrate --pitch-um 1 1 --calibration x.json", USAGE, "not both in one run"},
       {"--camera 0 good.png", USAGE, "--camera and the input good.png are both given"},
       {"--camera front", USAGE, "--camera is front, must be a number or /dev/videoN"},

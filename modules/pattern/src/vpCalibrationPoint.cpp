@@ -3,9 +3,10 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include <visp3/pattern/vpCalibrationPoint.h>
-#include <visp3/pattern/vpPatternTracker.h>
 
 #include <visp3/core/vpException.h>
+
+#include <Eigen/Dense>
 
 #include <cmath>
 
@@ -15,7 +16,52 @@ namespace
 {
 constexpr double unknownSigma = 0.1; // px, see vpCalibrationPoints()
 
+constexpr double alike = 0.98; // of the best likeness: bases that look the same
+
 double known(double sigma) { return std::isfinite(sigma) ? sigma : unknownSigma; }
+
+// Columns: the steps to the next column and row on the object, m.
+Eigen::Matrix2d basisOf(const vpCalibrationPitch &pitch, const vpDotLattice &seen)
+{
+  double angle = pitch.angle;
+  if (std::isnan(angle)) {
+    const bool hexagonal = pitch.columns == pitch.rows && std::string(seen.name()) == "hexagonal";
+    angle = hexagonal ? M_PI / 3. : M_PI / 2.;
+  }
+  Eigen::Matrix2d basis;
+  basis << pitch.columns, pitch.rows * std::cos(angle), 0., pitch.rows * std::sin(angle);
+  return basis;
+}
+
+// How much a map is like a scaled rotation: its smaller over its larger singular value, and less when it mirrors.
+double likeness(const Eigen::Matrix2d &map)
+{
+  const Eigen::Vector2d s = Eigen::JacobiSVD<Eigen::Matrix2d>(map).singularValues();
+  return (map.determinant() < 0. ? alike * alike : 1.) * s[1] / s[0];
+}
+
+// From (column, row) of the lattice as it was found to (column, row) as the object counts.
+Eigen::Matrix2d renumbering(const Eigen::Matrix2d &seen, const Eigen::Matrix2d &object)
+{
+  Eigen::Matrix2d best = Eigen::Matrix2d::Identity();
+  double bestLikeness = 0., bestRight = -2.;
+  const Eigen::Matrix2d inverse = object.inverse();
+  for (int code = 0; code < 625; ++code) { // all bases of steps up to two
+    Eigen::Matrix2d steps;
+    steps << code % 5 - 2, code / 5 % 5 - 2, code / 25 % 5 - 2, code / 125 - 2;
+    if (std::abs(std::abs(steps.determinant()) - 1.) > 0.5) {
+      continue;
+    }
+    const Eigen::Matrix2d basis = seen * steps;
+    const double like = likeness(basis * inverse), right = basis(0, 0) / basis.col(0).norm();
+    if (like > bestLikeness / alike || (like > bestLikeness * alike && right > bestRight)) {
+      bestLikeness = std::max(bestLikeness, like);
+      bestRight = right;
+      best = steps.inverse();
+    }
+  }
+  return best;
+}
 } // namespace
 
 void vpCalibrationPitch::check() const
@@ -30,19 +76,29 @@ void vpCalibrationPitch::check() const
   if (!(sigmaPlane >= 0. && std::isfinite(sigmaPlane))) {
     throw vpException(vpException::badValue, "sigmaPlane of the pitch is %g m, must be >= 0", sigmaPlane);
   }
+  if (!std::isnan(angle) && !(angle >= 0.5 && angle <= 2.7)) {
+    throw vpException(vpException::badValue, "the angle of the pitch is %g rad, must be in [0.5, 2.7]", angle);
+  }
 }
 
 std::vector<vpCalibrationPoint> vpCalibrationPoints(const vpPatternFrame &frame, const vpCalibrationPitch &pitch)
 {
   pitch.check();
+  vpDotLattice seen;
+  seen.kind = vpDotLatticeKind::Plane;
+  seen.ax = frame.lattice.columnPitchX;
+  seen.ay = frame.lattice.columnPitchY;
+  seen.bx = frame.lattice.rowPitchX;
+  seen.by = frame.lattice.rowPitchY;
+  const Eigen::Matrix2d object = basisOf(pitch, seen);
   std::vector<vpCalibrationPoint> points;
   for (const vpPatternCell &cell : frame.cells) {
     if (cell.valid) {
       vpCalibrationPoint point;
       point.u = cell.x;
       point.v = cell.y;
-      point.x = cell.column * pitch.columns;
-      point.y = cell.row * pitch.rows;
+      point.x = cell.column * object(0, 0) + cell.row * object(0, 1);
+      point.y = cell.row * object(1, 1);
       point.sigmaU = known(cell.sigmaX);
       point.sigmaV = known(cell.sigmaY);
       point.sigmaPlane = pitch.sigmaPlane;
@@ -52,18 +108,35 @@ std::vector<vpCalibrationPoint> vpCalibrationPoints(const vpPatternFrame &frame,
   return points;
 }
 
+std::vector<vpCalibrationPoint> vpCalibrationPoints(const vpDotLattice &lattice, const vpCalibrationPitch &pitch)
+{
+  pitch.check();
+  if (lattice.kind != vpDotLatticeKind::Plane) {
+    throw vpException(vpException::fatalError, "no dots of a grid were found: %s", lattice.message.c_str());
+  }
+  Eigen::Matrix2d seen;
+  seen << lattice.ax, lattice.bx, lattice.ay, lattice.by;
+  const Eigen::Matrix2d object = basisOf(pitch, lattice), numbers = renumbering(seen, object);
+  std::vector<vpCalibrationPoint> points;
+  for (const vpLatticeDot &dot : lattice.dots) {
+    const Eigen::Vector2d place = object * (numbers * Eigen::Vector2d(dot.column, dot.row));
+    vpCalibrationPoint point;
+    point.u = dot.x;
+    point.v = dot.y;
+    point.x = place.x();
+    point.y = place.y();
+    point.sigmaU = point.sigmaV = unknownSigma;
+    point.sigmaPlane = pitch.sigmaPlane;
+    points.push_back(point);
+  }
+  return points;
+}
+
 std::vector<vpCalibrationPoint> vpCalibrationPoints(const vpImage<unsigned char> &image,
                                                     const vpCalibrationPitch &pitch)
 {
   pitch.check();
-  vpPatternOptions options;
-  options.method = vpPatternMethod::HalfMaximumEdges;
-  vpPatternTracker tracker(image.getWidth(), image.getHeight(), options);
-  const vpPatternFrame &frame = tracker.track(image);
-  if (frame.validCells == 0) {
-    throw vpException(vpException::fatalError, "no dots of a grid were found: %s", frame.message());
-  }
-  return vpCalibrationPoints(frame, pitch);
+  return vpCalibrationPoints(vpFindDotLattice(image), pitch);
 }
 
 END_VISP_NAMESPACE

@@ -9,6 +9,7 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 BEGIN_VISP_NAMESPACE
@@ -19,6 +20,9 @@ constexpr int size = vpTemplateBank::basisSize;
 constexpr int maxSteps = 10;    // one, or two, unless the motion has changed a lot
 constexpr int unknowns = 4;     // rows of the basis for brightness, contrast, x and y; the slopes come after them
 constexpr double maxStep = 1.5; // px: the template says nothing about what is farther
+// Of what a side of a cell says about its axis, half at most may be hidden: one edge alone may be that of something else,
+// of like grey, and the other pixels would agree with it.
+constexpr double mostHidden = 0.5;
 
 // sums[k] = row k of q times w, for rows that share what is loaded of w. All numbers are 16 bits wide and the sums 32: the
 // compiler multiplies and adds pairs.
@@ -296,6 +300,7 @@ vpCellFit vpCellAligner::alignMasked(const vpImage<unsigned char> &image, const 
   Eigen::Matrix4d normal;
   Vector4 solution = Vector4::Zero();
   Step s{};
+  std::array<double, 4> hidden{}; // shares of the left, right, upper and lower side
   bool started = false;
   for (int round = 0; round < maxRounds && settled < lastRounds; ++round) {
     const vpTemplateBank::Place next = bank.place(x, y);
@@ -333,6 +338,7 @@ vpCellFit vpCellAligner::alignMasked(const vpImage<unsigned char> &image, const 
     Vector4 right(z[0] - h[0], z[1] - h[1], z[2] - h[2], z[3] - h[3]);
     count = 0;
     findMask(n, 2 * bank.halfWidth() + 1, limit);
+    hidden = {};
     for (int i = 0; i < n; ++i) {
       if (m_mask[static_cast<std::size_t>(i)] != 0) {
         const std::size_t k = static_cast<std::size_t>(i);
@@ -346,6 +352,9 @@ vpCellFit vpCellAligner::alignMasked(const vpImage<unsigned char> &image, const 
         const Vector4 a(q[0], q[1], q[2], q[3]);
         normal.noalias() -= a * a.transpose();
         right -= a * value;
+        const int columns = 2 * bank.halfWidth() + 1;
+        hidden[i % columns < bank.halfWidth() ? 0 : 1] += 2. * q[2] * q[2]; // the rows have length 1, half on each side
+        hidden[i / columns < bank.halfHeight() ? 2 : 3] += 2. * q[3] * q[3];
       }
     }
     if (3 * count > n) {
@@ -386,7 +395,7 @@ vpCellFit vpCellAligner::alignMasked(const vpImage<unsigned char> &image, const 
   fit.variance = std::max(0.05, rest / std::max(1, n - count - size));
   fit.masked = true;
   fit.ok = settled > 0 && fit.xx > 0. && fit.yy > 0. && std::abs(s.dx) < 2. * bank.reach() &&
-           std::abs(s.dy) < 2. * bank.reach();
+           std::abs(s.dy) < 2. * bank.reach() && *std::max_element(hidden.begin(), hidden.end()) < mostHidden;
   return fit;
 }
 

@@ -12,11 +12,13 @@
 #include <visp3/core/vpXmlParserCamera.h>
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iostream>
+#include <limits>
 #include <sstream>
 
 BEGIN_VISP_NAMESPACE
@@ -43,13 +45,22 @@ private:
 };
 
 Eigen::Rotation2Dd turn(double angle) { return Eigen::Rotation2Dd(angle); }
+
+Eigen::Matrix2d deformed(const vpMicroscopeCalibration &c)
+{
+  Eigen::Matrix2d D;
+  D << 1. + c.stretch, c.shear, c.shear, 1. - c.stretch;
+  return D;
+}
 } // namespace
 
 Eigen::Vector2d vpMicroscopeCalibration::toPlane(double u, double v) const
 {
   Eigen::Vector2d d(u - u0, (v - v0) * scaleX / scaleY);
   d *= 1. + kappa1 * d.squaredNorm();
-  Eigen::Vector2d p = turn(-rotation) * (d / scaleX - Eigen::Vector2d(tx, ty));
+  const double share = 1. - tiltX * d.x() - tiltY * d.y();
+  d /= share > 0. ? share : std::numeric_limits<double>::quiet_NaN();
+  Eigen::Vector2d p = turn(-rotation) * (deformed(*this).inverse() * (d / scaleX - Eigen::Vector2d(tx, ty)));
   if (mirrored) {
     p.y() = -p.y();
   }
@@ -58,9 +69,10 @@ Eigen::Vector2d vpMicroscopeCalibration::toPlane(double u, double v) const
 
 Eigen::Vector2d vpMicroscopeCalibration::toImage(double x, double y) const
 {
-  const Eigen::Vector2d ideal =
-      scaleX * (turn(rotation) * Eigen::Vector2d(x, mirrored ? -y : y) + Eigen::Vector2d(tx, ty));
-  const Eigen::Vector2d d = vpDistort(ideal, kappa1).d;
+  const Eigen::Vector2d q =
+      scaleX * (deformed(*this) * (turn(rotation) * Eigen::Vector2d(x, mirrored ? -y : y)) + Eigen::Vector2d(tx, ty));
+  const double depth = 1. + tiltX * q.x() + tiltY * q.y();
+  const Eigen::Vector2d d = vpDistort(q / (depth > 0. ? depth : std::numeric_limits<double>::quiet_NaN()), kappa1).d;
   return {u0 + d.x(), v0 + d.y() * scaleY / scaleX};
 }
 
@@ -69,9 +81,9 @@ vpCameraParameters vpMicroscopeCalibration::toCamera() const
   const double kdu = kappa1PerSquareMetre();
   const double farU = std::max(u0, width - 1. - u0), farV = std::max(v0, height - 1. - v0);
   const double seen2 = (farU * farU) / (scaleX * scaleX) + (farV * farV) / (scaleY * scaleY);
-  const double stretch = 1. + kdu * seen2; // ideal over seen radius
-  const double ideal2 = stretch * stretch * seen2;
-  const double kud = ideal2 > 0. && stretch > 0. ? (1. / stretch - 1.) / ideal2 : -kdu;
+  const double longer = 1. + kdu * seen2; // ideal over seen radius
+  const double ideal2 = longer * longer * seen2;
+  const double kud = ideal2 > 0. && longer > 0. ? (1. / longer - 1.) / ideal2 : -kdu;
   vpCameraParameters camera;
   camera.initPersProjWithDistortion(scaleX, scaleY, u0, v0, kud, kdu);
   return camera;

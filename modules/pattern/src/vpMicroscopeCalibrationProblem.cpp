@@ -30,29 +30,46 @@ vpBundleView vpMicroscopeProblem::view(const vpMicroscopeState &state, std::size
     return result;
   }
   const double c = std::cos(state.local[k][0]), sn = std::sin(state.local[k][0]);
-  Eigen::Matrix2d R, dR;
+  Eigen::Matrix2d R, dR, D;
   R << c, -sn, sn, c;
   dR << -sn, -c, c, -sn;
+  D << 1. + s[vpMicroscopeState::Stretch], s[vpMicroscopeState::Shear], s[vpMicroscopeState::Shear],
+      1. - s[vpMicroscopeState::Stretch];
+  const Eigen::Vector2d tilt(s[vpMicroscopeState::TiltX], s[vpMicroscopeState::TiltY]);
   for (Eigen::Index i = 0; i < n; ++i) {
     const Eigen::Vector2d p = (*m_views)[k].p.col(i), turned = R * p;
-    const Eigen::Vector2d ideal = scale * turned + state.local[k].tail<2>();
-    const vpDistortedPoint seen = vpDistort(ideal, s[vpMicroscopeState::Kappa1]);
+    const Eigen::Vector2d q = scale * (D * turned) + state.local[k].tail<2>();
+    const double depth = 1. + tilt.dot(q);
+    if (!(depth > 0.)) {
+      result.residual.setConstant(std::numeric_limits<double>::quiet_NaN());
+      return result;
+    }
+    const vpDistortedPoint seen = vpDistort(q / depth, s[vpMicroscopeState::Kappa1]);
+    const Eigen::Matrix2d byQ =
+        seen.byIdeal * (Eigen::Matrix2d::Identity() / depth - q * tilt.transpose() / (depth * depth));
     const Eigen::Vector2d inverse = sigma(k, static_cast<std::size_t>(i)).cwiseInverse();
     const Eigen::Vector2d toPixel(inverse.x(), inverse.y() * aspect); // of d
     const vpCalibrationPoint &point = (*m_points)[k][static_cast<std::size_t>(i)];
     result.residual[2 * i] = (point.u - s[vpMicroscopeState::U0] - seen.d.x()) * inverse.x();
     result.residual[2 * i + 1] = (point.v - s[vpMicroscopeState::V0] - aspect * seen.d.y()) * inverse.y();
     Eigen::Matrix<double, 2, vpMicroscopeState::SharedCount> byAll;
-    byAll.col(vpMicroscopeState::Scale) = toPixel.asDiagonal() * seen.byIdeal * turned;
+    byAll.col(vpMicroscopeState::Scale) = toPixel.asDiagonal() * byQ * (D * turned);
     byAll.col(vpMicroscopeState::Aspect) << 0., seen.d.y() * inverse.y();
     byAll.col(vpMicroscopeState::Kappa1) = toPixel.asDiagonal() * seen.byKappa1;
     byAll.col(vpMicroscopeState::U0) << inverse.x(), 0.;
     byAll.col(vpMicroscopeState::V0) << 0., inverse.y();
+    const Eigen::Vector2d byDepth = toPixel.asDiagonal() * seen.byIdeal * (-q / (depth * depth));
+    byAll.col(vpMicroscopeState::TiltX) = byDepth * q.x();
+    byAll.col(vpMicroscopeState::TiltY) = byDepth * q.y();
+    byAll.col(vpMicroscopeState::Stretch) =
+        toPixel.asDiagonal() * byQ * Eigen::Vector2d(scale * turned.x(), -scale * turned.y());
+    byAll.col(vpMicroscopeState::Shear) =
+        toPixel.asDiagonal() * byQ * Eigen::Vector2d(scale * turned.y(), scale * turned.x());
     for (std::size_t j = 0; j < m_free.size(); ++j) {
       result.byShared.block<2, 1>(2 * i, static_cast<Eigen::Index>(j)) = byAll.col(m_free[j]);
     }
-    result.byLocal.block<2, 1>(2 * i, 0) = toPixel.asDiagonal() * seen.byIdeal * (scale * (dR * p));
-    result.byLocal.block<2, 2>(2 * i, 1) = toPixel.asDiagonal() * seen.byIdeal;
+    result.byLocal.block<2, 1>(2 * i, 0) = toPixel.asDiagonal() * byQ * (scale * (D * (dR * p)));
+    result.byLocal.block<2, 2>(2 * i, 1) = toPixel.asDiagonal() * byQ;
   }
   return result;
 }

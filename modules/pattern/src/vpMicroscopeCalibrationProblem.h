@@ -15,8 +15,8 @@
 BEGIN_VISP_NAMESPACE
 
 struct vpMicroscopeState {
-  // Scale (px/m), aspect, kappa1 (px^-2), u0, v0 (px).
-  enum Shared { Scale, Aspect, Kappa1, U0, V0, SharedCount };
+  // Scale (px/m), aspect, kappa1 (px^-2), u0, v0 (px), tilt (px^-1), stretch, shear: see vpMicroscopeCalibration.
+  enum Shared { Scale, Aspect, Kappa1, U0, V0, TiltX, TiltY, Stretch, Shear, SharedCount };
   std::array<double, SharedCount> shared{};
   // For each view: rotation (rad), place of the view's origin in the image without distortion (px, square pixels).
   std::vector<Eigen::Vector3d> local;

@@ -2,8 +2,10 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
+#include "vpCalibrationFitTest.h"
 #include "vpCalibrationInput.h"
-#include "vpMicroscopeCalibrationProblem.h"
+#include "vpMicroscopeCalibrationCovariance.h"
+#include "vpMicroscopeCalibrationMessage.h"
 
 #include <visp3/pattern/vpPlanarMicroscopeCalibration.h>
 
@@ -11,7 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <optional>
 
 BEGIN_VISP_NAMESPACE
 
@@ -21,82 +23,7 @@ using State = vpMicroscopeState;
 using Solution = vpBundleSolution<State>;
 
 constexpr std::size_t leastPoints = 6;
-constexpr double suspicious = 5.; // residuals over what the points' deviations say
-
-double wrapped(double angle) { return std::remainder(angle, 2. * M_PI); }
-
-// The placement of one view and its derivatives by (scale, rotation, place of the view's origin in px).
-struct Placed {
-  vpMicroscopePlacement placement;
-  Eigen::Matrix<double, 3, 4> by;
-};
-
-// t = place / scale - R F origin.
-Placed placeOf(const State &state, const vpPlanarView &view, std::size_t k)
-{
-  const double scale = state.shared[State::Scale], angle = state.local[k][0];
-  const double c = std::cos(angle), s = std::sin(angle);
-  const Eigen::Vector2d origin(view.origin.x(), view.mirrored ? -view.origin.y() : view.origin.y());
-  const Eigen::Vector2d place = state.local[k].tail<2>();
-  Placed placed;
-  placed.placement.rotation = wrapped(angle);
-  placed.placement.tx = place.x() / scale - (c * origin.x() - s * origin.y());
-  placed.placement.ty = place.y() / scale - (s * origin.x() + c * origin.y());
-  placed.by << 0., 1., 0., 0.,                                                       //
-      -place.x() / (scale * scale), s * origin.x() + c * origin.y(), 1. / scale, 0., //
-      -place.y() / (scale * scale), -c * origin.x() + s * origin.y(), 0., 1. / scale;
-  return placed;
-}
-
-// Covariance of (all shared, local k), zero where a parameter was given.
-Eigen::Matrix<double, 8, 8> covarianceOf(const Solution &solution, const std::vector<int> &isFree, std::size_t k)
-{
-  Eigen::Matrix<double, 8, 8> all = Eigen::Matrix<double, 8, 8>::Zero();
-  for (std::size_t i = 0; i < isFree.size(); ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    for (std::size_t j = 0; j < isFree.size(); ++j) {
-      all(isFree[i], isFree[j]) = solution.sharedCovariance(row, static_cast<Eigen::Index>(j));
-    }
-    all.block<1, 3>(isFree[i], State::SharedCount) = solution.crossCovariance[k].row(row);
-    all.block<3, 1>(State::SharedCount, isFree[i]) = solution.crossCovariance[k].row(row).transpose();
-  }
-  all.bottomRightCorner<3, 3>() = solution.localCovariance[k];
-  return all;
-}
-
-// From (scale, aspect, kappa1, u0, v0, local of the view) to vpMicroscopeParameter.
-Eigen::Matrix<double, 8, 8> resultBy(const State &state, const Placed &placed)
-{
-  Eigen::Matrix<double, 8, 8> by = Eigen::Matrix<double, 8, 8>::Zero();
-  by(vpMicroscopeScaleX, State::Scale) = 1.;
-  by(vpMicroscopeScaleY, State::Scale) = state.shared[State::Aspect];
-  by(vpMicroscopeScaleY, State::Aspect) = state.shared[State::Scale];
-  by(vpMicroscopeKappa1, State::Kappa1) = 1.;
-  by(vpMicroscopeU0, State::U0) = 1.;
-  by(vpMicroscopeV0, State::V0) = 1.;
-  by.block<3, 1>(vpMicroscopeRotation, State::Scale) = placed.by.col(0);
-  by.block<3, 3>(vpMicroscopeRotation, State::SharedCount) = placed.by.rightCols<3>();
-  return by;
-}
-
-vpMicroscopeCalibration calibrationOf(const State &state, const vpPlanarView &first, unsigned int width,
-                                      unsigned int height)
-{
-  vpMicroscopeCalibration calibration;
-  calibration.width = width;
-  calibration.height = height;
-  calibration.scaleX = state.shared[State::Scale];
-  calibration.scaleY = state.shared[State::Scale] * state.shared[State::Aspect];
-  calibration.kappa1 = state.shared[State::Kappa1];
-  calibration.u0 = state.shared[State::U0];
-  calibration.v0 = state.shared[State::V0];
-  calibration.mirrored = first.mirrored;
-  const vpMicroscopePlacement placement = placeOf(state, first, 0).placement;
-  calibration.rotation = placement.rotation;
-  calibration.tx = placement.tx;
-  calibration.ty = placement.ty;
-  return calibration;
-}
+constexpr double largestUnseen = 0.01; // share of the distance that an unseen distortion moves the farthest corner by
 
 // How far the two differ at the worst corner of the image, px. Infinite where one of them sees nothing.
 double differenceAtCorners(const vpMicroscopeCalibration &a, const vpMicroscopeCalibration &b)
@@ -112,78 +39,24 @@ double differenceAtCorners(const vpMicroscopeCalibration &a, const vpMicroscopeC
   return worst;
 }
 
-void fillResiduals(const vpMicroscopeProblem &problem, const Solution &solution, vpMicroscopeCalibrationResult &result)
+// What the test of the fit needs, at the solution.
+std::vector<vpFitTestView> linearised(const vpMicroscopeProblem &problem, const Solution &solution,
+                                      const std::vector<std::vector<vpCalibrationPoint>> &points)
 {
-  double squares = 0.;
-  std::size_t count = 0;
-  for (std::size_t k = 0; k < problem.views(); ++k) {
-    const Eigen::VectorXd residual = problem.view(solution.state, k).residual;
-    for (Eigen::Index i = 0; i < residual.size() / 2; ++i) {
-      const Eigen::Vector2d whitened = residual.segment<2>(2 * i);
-      squares += whitened.cwiseProduct(problem.sigma(k, static_cast<std::size_t>(i))).squaredNorm();
-      ++count;
-      if (whitened.norm() > result.worstResidual) {
-        result.worstResidual = whitened.norm();
-        result.worstView = static_cast<int>(k);
-        result.worstPoint = static_cast<int>(i);
-      }
+  std::vector<vpFitTestView> views(problem.views());
+  for (std::size_t k = 0; k < views.size(); ++k) {
+    const auto n = static_cast<Eigen::Index>(points[k].size());
+    views[k] = {problem.view(solution.state, k), vpJointCovariance(solution, k), Eigen::Matrix2Xd(2, n),
+                Eigen::Matrix2Xd(2, n)};
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const auto point = static_cast<std::size_t>(i);
+      views[k].sigma.col(i) = problem.sigma(k, point);
+      views[k].place.col(i) << points[k][point].u, points[k][point].v;
     }
   }
-  result.residualRms = std::sqrt(squares / static_cast<double>(count));
-  result.degreesOfFreedom = static_cast<int>(2 * count - problem.freeParameters().size() - 3 * problem.views());
-  result.varianceFactor = result.degreesOfFreedom > 0 ? solution.chi2 / result.degreesOfFreedom : 1.;
+  return views;
 }
 
-template <class... Values> std::string sentence(const char *format, Values... values)
-{
-  char text[400];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
-}
-
-std::string kappa1Sentence(const vpMicroscopeCalibrationResult &result, double estimate, double significance,
-                           const vpMicroscopeCalibrationOptions &options)
-{
-  switch (result.kappa1Status) {
-  case vpKappa1Status::NotAsked:
-    return "The distortion was not asked for.";
-  case vpKappa1Status::Estimated:
-    return sentence("The distortion kappa1 is %.4g +- %.2g px^-2 and moves the worst corner of the image by %.2g px.",
-                    estimate, result.kappa1Sigma, result.kappa1Effect);
-  case vpKappa1Status::Unobservable:
-    break;
-  }
-  if (significance < options.minSignificance) {
-    return sentence("The distortion kappa1 is unobservable and taken as 0: the points say %.2g +- %.2g px^-2, %.1f "
-                    "standard deviations from zero, less than %g.",
-                    estimate, result.kappa1Sigma, significance, options.minSignificance);
-  }
-  return sentence("The distortion kappa1 is unobservable and taken as 0: in this field of view it would move the worst "
-                  "corner by %.2g px, less than %g px.",
-                  result.kappa1Effect, options.minEffect);
-}
-
-std::string messageOf(const vpMicroscopeCalibrationResult &result, const std::string &aboutKappa1)
-{
-  const vpMicroscopeCalibration &c = result.calibration;
-  std::string text = sentence("The scale is %.8g +- %.2g px/m (%.6g um a pixel)", c.scaleX,
-                              result.sigma(vpMicroscopeScaleX), c.pixelSizeUm());
-  if (c.scaleY != c.scaleX) {
-    text += sentence(" along u and %.8g +- %.2g px/m along v", c.scaleY, result.sigma(vpMicroscopeScaleY));
-  }
-  text += ". " + aboutKappa1;
-  text += sentence(" The residuals are %.3g px (rms), %.3g times what the points' deviations say.", result.residualRms,
-                   std::sqrt(result.varianceFactor));
-  if (result.varianceFactor > suspicious * suspicious) {
-    text +=
-        " That is far too much: the plane is not parallel to the image, points are named wrongly, or the product is "
-        "less regular than told.";
-  }
-  if (!result.converged) {
-    text += " The refinement did not come to its end.";
-  }
-  return text;
-}
 // One run: closed-form start, fit without distortion, fit with it, choice between the two.
 class Calibrator
 {
@@ -221,6 +94,9 @@ public:
           m_result.principalPointEstimated = true;
         }
       }
+      else {
+        m_unseen = bent;
+      }
     }
     fill(best);
     return m_result;
@@ -236,7 +112,7 @@ private:
   {
     const vpPlanarScale scale = vpStartPlanarScale(m_views, m_starts, withKappa1);
     State state;
-    state.shared = {{scale.scale, m_options.aspect, scale.kappa1, m_options.u0, m_options.v0}};
+    state.shared = {{scale.scale, m_options.aspect, scale.kappa1, m_options.u0, m_options.v0, 0., 0., 0., 0.}};
     for (const vpPlanarStart &view : m_starts) {
       state.local.emplace_back(view.rotation, scale.scale * view.t.x(), scale.scale * view.t.y());
     }
@@ -245,58 +121,100 @@ private:
 
   [[nodiscard]] Fit fit(bool kappa1, bool principalPoint, const State &from) const
   {
+    const bool tilt = m_options.estimateTilt, aspect = m_options.estimateAspect;
+    // Aspect and stretch are the same but for the distortion.
     const std::array<bool, State::SharedCount> isFree = {
-        {true, m_options.estimateAspect, kappa1, principalPoint, principalPoint}};
+        {true, aspect, kappa1, principalPoint, principalPoint, tilt, tilt, tilt && !aspect, tilt}};
     const vpMicroscopeProblem problem(m_points, m_views, isFree, m_weightScale);
     return {problem, vpSolveBundle(problem, from)};
+  }
+
+  [[nodiscard]] int degreesOf(const Fit &fitted) const
+  {
+    std::size_t numbers = 0;
+    for (const std::vector<vpCalibrationPoint> &view : m_points) {
+      numbers += 2 * view.size();
+    }
+    return static_cast<int>(numbers) - static_cast<int>(fitted.problem.shared()) - 3 * static_cast<int>(m_views.size());
+  }
+
+  [[nodiscard]] double varianceFactorOf(const Fit &fitted) const
+  {
+    const int degrees = degreesOf(fitted);
+    return degrees > 0 ? fitted.solution.chi2 / degrees : 1.;
   }
 
   // What the covariance is multiplied by.
   [[nodiscard]] double factorOf(const Fit &fitted) const
   {
-    vpMicroscopeCalibrationResult residuals;
-    fillResiduals(fitted.problem, fitted.solution, residuals);
-    return m_options.sigmaFromResiduals ? residuals.varianceFactor : 1.;
+    return m_options.sigmaFromResiduals ? varianceFactorOf(fitted) : 1.;
   }
 
   [[nodiscard]] vpMicroscopeCalibration calibration(const Fit &fitted) const
   {
-    return calibrationOf(fitted.solution.state, m_views[0], m_width, m_height);
+    return vpMicroscopeCalibrationOf(fitted.solution.state, m_views[0], m_width, m_height);
+  }
+
+  [[nodiscard]] vpMicroscopeCovariance covarianceOf(const Fit &fitted, std::size_t k) const
+  {
+    return factorOf(fitted) * vpMicroscopeCovarianceOf(fitted.solution, fitted.problem.freeParameters(), m_views[k], k);
+  }
+
+  // Of the image, from the principal point, px (columns).
+  [[nodiscard]] double farthestCorner(const State &state) const
+  {
+    const double u0 = state.shared[State::U0], v0 = state.shared[State::V0];
+    return std::hypot(std::max(std::abs(u0), std::abs(m_width - 1. - u0)),
+                      std::max(std::abs(v0), std::abs(m_height - 1. - v0)) / state.shared[State::Aspect]);
   }
 
   void takeKappa1(const Fit &fitted)
   {
     const std::vector<int> &isFree = fitted.problem.freeParameters();
     const auto at = std::find(isFree.begin(), isFree.end(), State::Kappa1) - isFree.begin();
-    m_kappa1 = fitted.solution.state.shared[State::Kappa1];
+    m_decision.kappa1 = fitted.solution.state.shared[State::Kappa1];
     m_result.kappa1Sigma = std::sqrt(fitted.solution.sharedCovariance(at, at) * factorOf(fitted));
-    m_significance = std::abs(m_kappa1) / m_result.kappa1Sigma;
+    m_result.kappa1CornerSigma = m_result.kappa1Sigma * std::pow(farthestCorner(fitted.solution.state), 3);
+    m_decision.significance = std::abs(m_decision.kappa1) / m_result.kappa1Sigma;
   }
 
-  // Whether the distortion is there and matters.
+  // Whether the distortion is there, matters, and is known.
   bool judgeKappa1(const Fit &bent, const Fit &straight)
   {
     takeKappa1(bent);
     m_result.kappa1Effect = differenceAtCorners(calibration(bent), calibration(straight));
-    const bool observable = bent.solution.converged && m_significance >= m_options.minSignificance &&
-                            m_result.kappa1Effect >= m_options.minEffect;
-    m_result.kappa1Status = observable ? vpKappa1Status::Estimated : vpKappa1Status::Unobservable;
-    return observable;
+    const bool isThere = bent.solution.converged && m_decision.significance >= m_options.minSignificance &&
+                         m_result.kappa1Effect >= m_options.minEffect;
+    const bool isKnown = m_result.kappa1CornerSigma <= m_options.maxCornerSigma;
+    m_decision.hiddenDistortion = isThere && !isKnown;
+    m_result.kappa1Status = isThere && isKnown ? vpKappa1Status::Estimated : vpKappa1Status::Unobservable;
+    return isThere && isKnown;
+  }
+
+  // What a distortion that is taken as zero may change in the rest: as much as its deviation or its estimate says.
+  [[nodiscard]] vpMicroscopeCovariance unseenBy(std::size_t k) const
+  {
+    const vpMicroscopeCovariance C = covarianceOf(*m_unseen, k);
+    const double corner = farthestCorner(m_unseen->solution.state);
+    const double kappa1 =
+        std::min(std::max(m_result.kappa1Sigma, std::abs(m_decision.kappa1)), largestUnseen / (corner * corner));
+    Eigen::Matrix<double, vpMicroscopeParameterCount, 1> change =
+        C.col(vpMicroscopeKappa1) * (kappa1 / C(vpMicroscopeKappa1, vpMicroscopeKappa1));
+    change[vpMicroscopeKappa1] = 0.;
+    return change * change.transpose();
   }
 
   void fill(const Fit &best)
   {
     const Solution &solution = best.solution;
-    fillResiduals(best.problem, solution, m_result);
-    const double factor = factorOf(best);
     m_result.calibration = calibration(best);
     for (std::size_t k = 0; k < m_views.size(); ++k) {
-      const Placed placed = placeOf(solution.state, m_views[k], k);
-      const Eigen::Matrix<double, 8, 8> by = resultBy(solution.state, placed);
-      const Eigen::Matrix<double, 8, 8> covariance =
-          factor * by * covarianceOf(solution, best.problem.freeParameters(), k) * by.transpose();
-      m_result.placements.push_back(placed.placement);
-      m_result.placements.back().covariance = covariance.bottomRightCorner<3, 3>();
+      vpMicroscopeCovariance covariance = covarianceOf(best, k);
+      if (m_unseen) {
+        covariance += unseenBy(k);
+      }
+      m_result.placements.push_back(vpMicroscopePlaceOf(solution.state, m_views[k], k));
+      m_result.placements.back().covariance = covariance.block<3, 3>(vpMicroscopeRotation, vpMicroscopeRotation);
       if (k == 0) {
         m_result.covariance = covariance;
       }
@@ -304,7 +222,30 @@ private:
     m_result.condition = solution.condition;
     m_result.iterations = solution.iterations;
     m_result.converged = solution.converged;
-    m_result.message = messageOf(m_result, kappa1Sentence(m_result, m_kappa1, m_significance, m_options));
+    m_result.degreesOfFreedom = degreesOf(best);
+    m_result.varianceFactor = varianceFactorOf(best);
+    judgeFit(best);
+    m_result.message = vpMicroscopeMessage(m_result, m_decision, m_options);
+  }
+
+  void judgeFit(const Fit &best)
+  {
+    const std::vector<vpFitTestView> views = linearised(best.problem, best.solution, m_points);
+    m_result.fit = vpTestFit(views, m_options.falseAlarm, !m_options.sigmaFromResiduals);
+    double squares = 0., count = 0.;
+    for (const vpFitTestView &view : views) {
+      squares += view.linear.residual.cwiseProduct(view.sigma.reshaped()).squaredNorm();
+      count += static_cast<double>(view.sigma.cols());
+    }
+    m_result.residualRms = std::sqrt(squares / count);
+    // Along and across the tilt the scales are as 1 + s and 1 - s.
+    const double s = std::hypot(m_result.calibration.stretch, m_result.calibration.shear);
+    const double sigma = std::hypot(m_result.sigma(vpMicroscopeStretch), m_result.sigma(vpMicroscopeShear));
+    m_decision.looksTilted = std::acos(std::max(-1., (1. - s) / (1. + s)));
+    const double sure = std::max(0., s - 3. * sigma);
+    m_result.looksTiltedTooFar = (1. - sure) / (1. + sure) < std::cos(m_options.maxTilt);
+    m_result.reliable = m_result.converged && m_result.fit.verdict == vpFitVerdict::Fits &&
+                        !m_decision.hiddenDistortion && !m_result.looksTiltedTooFar;
   }
 
   const std::vector<std::vector<vpCalibrationPoint>> &m_points; // owned by the caller
@@ -314,8 +255,8 @@ private:
   std::vector<vpPlanarView> m_views;
   std::vector<vpPlanarStart> m_starts;
   double m_weightScale = 0.; // px/m
-  double m_kappa1 = 0.;      // estimate, px^-2, whether it is used or not
-  double m_significance = 0.;
+  vpMicroscopeDecision m_decision;
+  std::optional<Fit> m_unseen; // with the distortion that the answer lacks
   vpMicroscopeCalibrationResult m_result;
 };
 } // namespace
@@ -327,6 +268,9 @@ void vpMicroscopeCalibrationOptions::check() const
   vpCheckCalibrationRange("aspect", aspect, 0.1, 10., "");
   vpCheckCalibrationRange("minSignificance", minSignificance, 0., 100., "");
   vpCheckCalibrationRange("minEffect", minEffect, 0., 1e6, " px");
+  vpCheckCalibrationRange("maxCornerSigma", maxCornerSigma, 0., 1e6, " px");
+  vpCheckCalibrationRange("maxTilt", maxTilt, 0., 0.5, " rad");
+  vpCheckCalibrationRange("falseAlarm", falseAlarm, 1e-12, 0.5, "");
 }
 
 double vpMicroscopeCalibrationResult::sigma(vpMicroscopeParameter parameter) const

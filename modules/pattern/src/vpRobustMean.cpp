@@ -6,6 +6,8 @@
 
 #include "vpPatternSimd.h"
 
+#include <visp3/direct_core/vpQuantile.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,17 +22,18 @@ namespace
 constexpr int few = 32;
 
 #if defined(__GNUC__)
-// The greatest value that has at most n / 2 others below it. All against all, four at a time: no branch depends on the
-// values that could be guessed wrong, and the compiler has nothing to guess about vectors. Three times as fast as sorting.
+// vpMedian() of few: the mean of the greatest value that has at most n / 2 others below it and of the greatest that has
+// at most (n - 1) / 2. All against all, four at a time: no branch depends on the values that could be guessed wrong, and
+// the compiler has nothing to guess about vectors. Three times as fast as sorting.
 VISP_PATTERN_CLONES double medianOfFew(const double *values, int n)
 {
   using Four = double __attribute__((vector_size(32)));
   using Counts = std::int64_t __attribute__((vector_size(32)));
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const int blocks = (n + 3) / 4;
-  const std::int64_t half = -(n / 2); // a comparison that holds is -1
-  Four padded[few / 4], best = {-infinity, -infinity, -infinity, -infinity};
-  padded[blocks - 1] = -best;
+  const std::int64_t above = -(n / 2), under = -((n - 1) / 2); // a comparison that holds is -1
+  Four padded[few / 4], high = {-infinity, -infinity, -infinity, -infinity}, low = high;
+  padded[blocks - 1] = -high;
   std::memcpy(padded, values, static_cast<std::size_t>(n) * sizeof(double));
   for (int block = 0; block < blocks; ++block) {
     const Four mine = padded[block];
@@ -39,18 +42,21 @@ VISP_PATTERN_CLONES double medianOfFew(const double *values, int n)
       const double v = values[k];
       below += Four{v, v, v, v} < mine;
     }
-    const Four candidate = below >= Counts{half, half, half, half} ? mine : best;
-    best = candidate > best ? candidate : best;
+    const Four upper = below >= Counts{above, above, above, above} ? mine : high;
+    const Four lower = below >= Counts{under, under, under, under} ? mine : low;
+    high = upper > high ? upper : high;
+    low = lower > low ? lower : low;
   }
-  return std::max(std::max(best[0], best[1]), std::max(best[2], best[3]));
+  const double upper = std::max(std::max(high[0], high[1]), std::max(high[2], high[3]));
+  const double lower = std::max(std::max(low[0], low[1]), std::max(low[2], low[3]));
+  return lower == upper ? upper : 0.5 * lower + 0.5 * upper;
 }
 #else
 double medianOfFew(const double *values, int n)
 {
-  std::array<double, few> sorted;
-  std::copy_n(values, n, sorted.begin());
-  std::nth_element(sorted.begin(), sorted.begin() + n / 2, sorted.begin() + n);
-  return sorted[static_cast<std::size_t>(n / 2)];
+  std::array<double, few> copy;
+  std::copy_n(values, n, copy.begin());
+  return vpQuantileInPlace(copy.data(), copy.data() + n, 0.5);
 }
 #endif
 
@@ -93,9 +99,7 @@ double vpRobustMean::median(std::vector<double> &values)
   if (values.size() <= few) {
     return medianOfFew(values.data(), static_cast<int>(values.size()));
   }
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return vpQuantileInPlace(values.data(), values.data() + values.size(), 0.5);
 }
 
 vpRobustMean::Result vpRobustMean::mean()

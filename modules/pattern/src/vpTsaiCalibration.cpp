@@ -2,9 +2,11 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
+#include "vpCalibrationFitTest.h"
 #include "vpCalibrationInput.h"
 #include "vpTsaiCalibrationProblem.h"
 
+#include <visp3/direct_core/vpQuantile.h>
 #include <visp3/pattern/vpTsaiCalibration.h>
 
 #include <visp3/core/vpException.h>
@@ -23,7 +25,8 @@ using State = vpTsaiState;
 
 constexpr std::size_t leastPoints = 6;
 constexpr std::size_t leastOfBody = 8;
-constexpr double largestDoubt = 0.1; // standard deviation of f over f in a reliable result
+constexpr std::size_t mostLeftOut = 30; // views that are left out in turn after a misfit
+constexpr double largestDoubt = 0.1;    // standard deviation of f over f in a reliable result
 
 vpHomogeneousMatrix poseOf(const vpTsaiPose &pose, const Eigen::Vector3d &origin)
 {
@@ -50,12 +53,6 @@ vpTsaiDepth bestDepth(const vpTsaiView &view, const std::vector<vpTsaiPose> &pos
     }
   }
   return result;
-}
-
-double median(std::vector<double> values)
-{
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-  return values[values.size() / 2];
 }
 
 // Poses for a focal length; false when a view has none.
@@ -89,7 +86,7 @@ bool start(const std::vector<vpTsaiView> &views, const std::vector<std::vector<v
     }
   }
   if (!told.empty()) {
-    told.push_back(median(told));
+    told.push_back(vpMedian(told));
   }
   for (const double share : {0.5, 0.8, 1.2, 2., 4., 8.}) {
     told.push_back(share * width);
@@ -122,12 +119,16 @@ std::string messageOf(const vpTsaiCalibrationResult &result)
   if (!result.converged) {
     text += " The refinement did not come to its end.";
   }
-  if (!result.reliable) {
+  if (!(result.sigma(vpTsaiPx) < largestDoubt * result.px)) {
     text += " This is not reliable: the views do not tell the focal length apart from the distance. Tilt the plane, or "
             "for a plane parallel to the image use the planar microscope calibration.";
   }
-  return text;
+  else if (!result.reliable) {
+    text += " This is not reliable.";
+  }
+  return text + " " + result.fit.message(result.varianceFactor);
 }
+
 Eigen::Matrix<double, vpTsaiParameterCount, vpTsaiParameterCount> covarianceOf(const vpBundleSolution<State> &solution,
                                                                                const std::vector<int> &isFree)
 {
@@ -144,9 +145,27 @@ Eigen::Matrix<double, vpTsaiParameterCount, vpTsaiParameterCount> covarianceOf(c
   return by * all * by.transpose();
 }
 
+// What the test of the fit needs, at the solution.
+std::vector<vpFitTestView> linearised(const vpTsaiProblem &problem, const vpBundleSolution<State> &solution,
+                                      const std::vector<std::vector<vpCalibrationPoint>> &points)
+{
+  std::vector<vpFitTestView> views(points.size());
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const auto n = static_cast<Eigen::Index>(points[k].size());
+    views[k] = {problem.view(solution.state, k), vpJointCovariance(solution, k), Eigen::Matrix2Xd(2, n),
+                Eigen::Matrix2Xd(2, n)};
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const vpCalibrationPoint &point = points[k][static_cast<std::size_t>(i)];
+      views[k].sigma.col(i) << point.sigmaU, point.sigmaV;
+      views[k].place.col(i) << point.u, point.v;
+    }
+  }
+  return views;
+}
+
 vpTsaiCalibrationResult resultOf(const vpTsaiProblem &problem, const vpBundleSolution<State> &solution,
                                  const std::vector<std::vector<vpCalibrationPoint>> &points,
-                                 const std::vector<vpTsaiView> &views)
+                                 const std::vector<vpTsaiView> &views, const vpTsaiCalibrationOptions &options)
 {
   vpTsaiCalibrationResult result;
   const std::array<double, State::SharedCount> &s = solution.state.shared;
@@ -155,27 +174,27 @@ vpTsaiCalibrationResult resultOf(const vpTsaiProblem &problem, const vpBundleSol
   result.kappa1 = s[State::Kappa1];
   result.u0 = s[State::U0];
   result.v0 = s[State::V0];
+  const std::vector<vpFitTestView> linear = linearised(problem, solution, points);
   double squares = 0.;
   int count = 0;
   for (std::size_t k = 0; k < views.size(); ++k) {
     result.cMo.push_back(poseOf(solution.state.poses[k], views[k].origin));
-    const Eigen::VectorXd residual = problem.view(solution.state, k).residual;
-    for (std::size_t i = 0; i < points[k].size(); ++i) {
-      const auto row = static_cast<Eigen::Index>(2 * i);
-      squares +=
-          std::pow(residual[row] * points[k][i].sigmaU, 2) + std::pow(residual[row + 1] * points[k][i].sigmaV, 2);
-      ++count;
-    }
+    const double ofView = linear[k].linear.residual.cwiseProduct(linear[k].sigma.reshaped()).squaredNorm();
+    result.viewRms.push_back(std::sqrt(ofView / static_cast<double>(points[k].size())));
+    squares += ofView;
+    count += static_cast<int>(points[k].size());
   }
   result.residualRms = std::sqrt(squares / count);
   result.degreesOfFreedom = 2 * count - static_cast<int>(problem.shared()) - 6 * static_cast<int>(views.size());
   result.varianceFactor = result.degreesOfFreedom > 0 ? solution.chi2 / result.degreesOfFreedom : 1.;
-  result.covariance = covarianceOf(solution, problem.freeParameters());
+  result.covariance =
+      (options.sigmaFromResiduals ? result.varianceFactor : 1.) * covarianceOf(solution, problem.freeParameters());
   result.condition = solution.condition;
   result.iterations = solution.iterations;
   result.converged = solution.converged;
-  result.reliable = solution.converged && result.sigma(vpTsaiPx) < largestDoubt * result.px;
-  result.message = messageOf(result);
+  result.fit = vpTestFit(linear, options.falseAlarm, !options.sigmaFromResiduals);
+  result.reliable = solution.converged && result.sigma(vpTsaiPx) < largestDoubt * result.px &&
+                    result.fit.verdict == vpFitVerdict::Fits;
   return result;
 }
 } // namespace
@@ -185,6 +204,7 @@ void vpTsaiCalibrationOptions::check() const
   vpCheckPrincipalPoint("u0", u0);
   vpCheckPrincipalPoint("v0", v0);
   vpCheckCalibrationRange("aspect", aspect, 0.1, 10., "");
+  vpCheckCalibrationRange("falseAlarm", falseAlarm, 1e-12, 0.5, "");
 }
 
 double vpTsaiCalibrationResult::sigma(vpTsaiParameter parameter) const
@@ -236,10 +256,42 @@ vpTsaiCalibrationResult vpTsaiCalibration::compute() const
   if (m_views.empty()) {
     throw vpException(vpException::badValue, "there is no view to calibrate from");
   }
+  vpTsaiCalibrationResult result = solve(m_views);
+  findWorstView(result);
+  result.message = messageOf(result);
+  return result;
+}
+
+// A view that is grossly wrong pulls the others astray, so that its own residuals need not be the largest: the rest is
+// computed without it.
+void vpTsaiCalibration::findWorstView(vpTsaiCalibrationResult &result) const
+{
+  if (result.fit.verdict != vpFitVerdict::Misfit || m_views.size() < 3 || m_views.size() > mostLeftOut) {
+    return;
+  }
+  double least = HUGE_VAL;
+  for (std::size_t k = 0; k < m_views.size(); ++k) {
+    std::vector<std::vector<vpCalibrationPoint>> others = m_views;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
+    try {
+      const double factor = solve(others).varianceFactor;
+      if (factor < least) {
+        least = factor;
+        result.fit.worstView = static_cast<int>(k);
+        result.fit.worstViewRms = result.viewRms[k];
+      }
+    }
+    catch (const vpException &) { // no camera sees the others so: it is not this view
+    }
+  }
+}
+
+vpTsaiCalibrationResult vpTsaiCalibration::solve(const std::vector<std::vector<vpCalibrationPoint>> &points) const
+{
   std::vector<vpTsaiView> views;
   std::vector<std::vector<vpTsaiPose>> candidates;
-  for (const std::vector<vpCalibrationPoint> &points : m_views) {
-    views.push_back(vpMakeTsaiView(points, m_options.u0, m_options.v0, m_options.aspect));
+  for (const std::vector<vpCalibrationPoint> &view : points) {
+    views.push_back(vpMakeTsaiView(view, m_options.u0, m_options.v0, m_options.aspect));
     candidates.push_back(vpAlignTsaiView(views.back()));
     if (candidates.back().empty()) {
       throw vpException(vpException::fatalError,
@@ -255,14 +307,14 @@ vpTsaiCalibrationResult vpTsaiCalibration::compute() const
   const bool onePlane = views.size() == 1 && views[0].planar;
   const bool aspect = m_options.estimateAspect && !onePlane, principal = m_options.estimatePrincipalPoint && !onePlane;
   // From few parameters to many: far from the answer those that are weakly determined run away.
-  const vpTsaiProblem few(m_views, views, {{true, false, false, false, false}});
+  const vpTsaiProblem few(points, views, {{true, false, false, false, false}});
   state = vpSolveBundle(few, state).state;
   if (m_options.estimateKappa1) {
-    const vpTsaiProblem more(m_views, views, {{true, false, true, false, false}});
+    const vpTsaiProblem more(points, views, {{true, false, true, false, false}});
     state = vpSolveBundle(more, state).state;
   }
-  const vpTsaiProblem problem(m_views, views, {{true, aspect, m_options.estimateKappa1, principal, principal}});
-  return resultOf(problem, vpSolveBundle(problem, state), m_views, views);
+  const vpTsaiProblem problem(points, views, {{true, aspect, m_options.estimateKappa1, principal, principal}});
+  return resultOf(problem, vpSolveBundle(problem, state), points, views, m_options);
 }
 
 END_VISP_NAMESPACE

@@ -21,24 +21,25 @@ using namespace vpPatternTest;
 
 namespace
 {
-using Vector8 = Eigen::Matrix<double, 8, 1>;
+constexpr int all = vpMicroscopeParameterCount;
+using Parameters = Eigen::Matrix<double, all, 1>;
 
-Vector8 parametersOf(const vpMicroscopeCalibration &c)
+Parameters parametersOf(const vpMicroscopeCalibration &c)
 {
-  Vector8 p;
-  p << c.scaleX, c.scaleY, c.kappa1, c.u0, c.v0, c.rotation, c.tx, c.ty;
+  Parameters p;
+  p << c.scaleX, c.scaleY, c.kappa1, c.u0, c.v0, c.rotation, c.tx, c.ty, c.tiltX, c.tiltY, c.stretch, c.shear;
   return p;
 }
 
-Vector8 errorOf(const vpMicroscopeCalibration &found, const vpMicroscopeCalibration &truth)
+Parameters errorOf(const vpMicroscopeCalibration &found, const vpMicroscopeCalibration &truth)
 {
-  Vector8 error = parametersOf(found) - parametersOf(truth);
+  Parameters error = parametersOf(found) - parametersOf(truth);
   error[vpMicroscopeRotation] = std::remainder(error[vpMicroscopeRotation], 2. * M_PI);
   return error;
 }
 
 // Sum of squares of a calibration over a view, by its public functions: an oracle for the minimum.
-double chi2Of(const Vector8 &p, bool mirrored, const Points &points)
+double chi2Of(const Parameters &p, bool mirrored, const Points &points)
 {
   vpMicroscopeCalibration c;
   c.scaleX = p[0];
@@ -49,6 +50,10 @@ double chi2Of(const Vector8 &p, bool mirrored, const Points &points)
   c.rotation = p[5];
   c.tx = p[6];
   c.ty = p[7];
+  c.tiltX = p[8];
+  c.tiltY = p[9];
+  c.stretch = p[10];
+  c.shear = p[11];
   c.mirrored = mirrored;
   double sum = 0.;
   for (const vpCalibrationPoint &point : points) {
@@ -66,17 +71,20 @@ TEST_CASE("without noise every calibration is found exactly", "[calibration]")
   CAPTURE(vpTestSupport::seed());
   for (int trial = 0; trial < 300; ++trial) {
     const int views = 1 + trial % 3;
-    Problem problem = randomProblem(rng, views, uniform(rng, -3e-7, 3e-7));
+    const double size = uniform(rng, 3e-8, 3e-7); // without distortion there is no principal point
+    Problem problem = randomProblem(rng, views, trial % 2 == 0 ? size : -size, 640, 480, 0.035);
     vpMicroscopeCalibrationOptions options;
-    options.minSignificance = 0.;
-    options.minEffect = 0.;
+    options.minSignificance = options.minEffect = 0.;
+    options.maxCornerSigma = 1e6;
     const bool everything = trial % 4 == 3;
     if (everything) { // aspect and principal point too
       const double aspect = uniform(rng, 0.95, 1.05), u0 = uniform(rng, 290., 350.), v0 = uniform(rng, 210., 270.);
       problem.truth.scaleY *= aspect;
       problem.truth.u0 = u0;
       problem.truth.v0 = v0;
+      problem.truth.stretch = 0.; // is aspect
       for (vpMicroscopeCalibration &view : problem.views) {
+        view.stretch = 0.;
         view.scaleY *= aspect;
         view.u0 = u0;
         view.v0 = v0;
@@ -92,12 +100,14 @@ TEST_CASE("without noise every calibration is found exactly", "[calibration]")
     REQUIRE(result.converged);
     REQUIRE(result.residualRms < 1e-6);
     REQUIRE(result.calibration.mirrored == problem.truth.mirrored);
-    const Vector8 error = errorOf(result.calibration, problem.truth);
+    const Parameters error = errorOf(result.calibration, problem.truth);
     REQUIRE(std::abs(error[vpMicroscopeScaleX]) < 1e-8 * problem.truth.scaleX);
     REQUIRE(std::abs(error[vpMicroscopeScaleY]) < 1e-8 * problem.truth.scaleY);
     REQUIRE(std::abs(error[vpMicroscopeKappa1]) < 1e-12);
     REQUIRE(error.segment<2>(vpMicroscopeU0).norm() < 1e-3);
     REQUIRE(std::abs(error[vpMicroscopeRotation]) < 1e-8);
+    REQUIRE(error.segment<2>(vpMicroscopeTx).norm() < 1e-8);
+    REQUIRE(error.segment<2>(vpMicroscopeTiltX).norm() < 1e-10);
     REQUIRE(error.tail<2>().norm() < 1e-8);
     for (std::size_t k = 0; k < problem.views.size(); ++k) {
       REQUIRE(std::remainder(result.placements[k].rotation - problem.views[k].rotation, 2. * M_PI) ==
@@ -118,7 +128,8 @@ TEST_CASE("scale, kappa1 and placement have the errors that the covariance says"
   int failed = 0;
   for (int trial = 0; trial < problems; ++trial) {
     const double size = uniform(rng, 4e-8, 3e-7);
-    Problem problem = randomProblem(rng, 1 + trial % 2, trial % 2 == 0 ? size : -size);
+    Problem problem =
+        randomProblem(rng, 1 + trial % 2, trial % 2 == 0 ? size : -size, 640, 480, trial < problems / 2 ? 0. : 0.035);
     if (trial % 3 != 0) { // the origin in view: its place then depends on the scale and not only on the rotation
       problem.views[0].tx *= 0.1;
       problem.views[0].ty *= 0.1;
@@ -137,7 +148,7 @@ TEST_CASE("scale, kappa1 and placement have the errors that the covariance says"
     const vpMicroscopeCalibrationResult result = calibration.compute();
     REQUIRE(result.converged);
     REQUIRE(result.kappa1Status == vpKappa1Status::Estimated);
-    const Vector8 error = errorOf(result.calibration, problem.truth);
+    const Parameters error = errorOf(result.calibration, problem.truth);
     Eigen::Matrix<double, 5, 1> e;
     Eigen::Matrix<double, 5, 5> C;
     const int index[5] = {vpMicroscopeScaleX, vpMicroscopeKappa1, vpMicroscopeRotation, vpMicroscopeTx, vpMicroscopeTy};
@@ -202,16 +213,16 @@ TEST_CASE("the result is the minimum, in every direction", "[calibration]")
     const vpMicroscopeCalibrationResult result = calibration.compute();
     CAPTURE(trial, result.message);
     REQUIRE(result.principalPointEstimated);
-    const Vector8 best = parametersOf(result.calibration);
+    const Parameters best = parametersOf(result.calibration);
     const double least = chi2Of(best, result.calibration.mirrored, points);
     // Along the eigenvectors of the covariance, a step of one deviation raises the sum of squares by one.
-    const Vector8 sigma = result.covariance.diagonal().cwiseSqrt();
-    const Eigen::Matrix<double, 8, 8> correlation =
-        sigma.cwiseInverse().asDiagonal() * result.covariance * sigma.cwiseInverse().asDiagonal();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 8, 8>> solver(correlation);
-    for (int i = 0; i < 8; ++i) {
-      const Vector8 step =
-          sigma.asDiagonal() * solver.eigenvectors().col(i) * std::sqrt(std::max(0., solver.eigenvalues()[i]));
+    const Parameters sigma = result.covariance.diagonal().cwiseSqrt();
+    const Parameters unit = (sigma.array() > 0.).select(sigma, 1.); // the stretch is the aspect here
+    const Eigen::Matrix<double, all, all> correlation =
+        unit.cwiseInverse().asDiagonal() * result.covariance * unit.cwiseInverse().asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, all, all>> solver(correlation);
+    for (int i = 1; i < all; ++i) {
+      const Parameters step = unit.asDiagonal() * solver.eigenvectors().col(i) * std::sqrt(solver.eigenvalues()[i]);
       for (const double sign : {1., -1.}) {
         CHECK(chi2Of(best + sign * step, result.calibration.mirrored, points) - least == Approx(1.).margin(0.03));
       }
@@ -239,22 +250,22 @@ TEST_CASE("the covariance also holds for points at the edge of the image", "[cal
     vpPlanarMicroscopeCalibration calibration(640, 480, options);
     calibration.addView(points);
     const vpMicroscopeCalibrationResult result = calibration.compute();
-    const Vector8 best = parametersOf(result.calibration);
+    const Parameters best = parametersOf(result.calibration);
     const double least = chi2Of(best, result.calibration.mirrored, points);
-    const Vector8 sigma = result.covariance.diagonal().cwiseSqrt();
-    const Vector8 unit = (sigma.array() > 0.).select(sigma, 1.);
-    const Eigen::Matrix<double, 8, 8> correlation =
+    const Parameters sigma = result.covariance.diagonal().cwiseSqrt();
+    const Parameters unit = (sigma.array() > 0.).select(sigma, 1.);
+    const Eigen::Matrix<double, all, all> correlation =
         unit.cwiseInverse().asDiagonal() * result.covariance * unit.cwiseInverse().asDiagonal();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 8, 8>> solver(correlation);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, all, all>> solver(correlation);
     int directions = 0;
-    for (int i = 0; i < 8; ++i) {
+    for (int i = 0; i < all; ++i) {
       if (solver.eigenvalues()[i] > 1e-9) { // the others were given
-        const Vector8 step = unit.asDiagonal() * solver.eigenvectors().col(i) * std::sqrt(solver.eigenvalues()[i]);
+        const Parameters step = unit.asDiagonal() * solver.eigenvectors().col(i) * std::sqrt(solver.eigenvalues()[i]);
         CHECK(chi2Of(best + step, result.calibration.mirrored, points) - least == Approx(1.).margin(0.01));
         ++directions;
       }
     }
-    CHECK(directions == 4); // scale, rotation, tx, ty
+    CHECK(directions == 8); // scale, rotation, tx, ty, tilt
   }
 }
 
@@ -263,7 +274,7 @@ TEST_CASE("kappa1 of a good lens is unobservable at 160 x 100 px, whatever the n
 {
   auto rng = vpTestSupport::generator(515);
   CAPTURE(vpTestSupport::seed());
-  int wrong = 0, insignificant = 0, withoutEffect = 0;
+  int seen = 0, insignificant = 0, withoutEffect = 0;
   for (int trial = 0; trial < 400; ++trial) {
     // Table 7.4 (-6.72e-10 um^-2) and the 0.1 % at 200 px of a low-distortion lens.
     const double kappas[] = {-6.72e-10 * 4.5 * 4.5, 6.72e-10 * 4.5 * 4.5, 0.001 / (200. * 200.), 0.};
@@ -276,7 +287,11 @@ TEST_CASE("kappa1 of a good lens is unobservable at 160 x 100 px, whatever the n
           pointsOf(problem, static_cast<std::size_t>(k), fine ? 0.0153 : 0.18, fine ? 0.0078 : 0.035, rng));
     }
     const vpMicroscopeCalibrationResult result = calibration.compute();
-    wrong += result.kappa1Status != vpKappa1Status::Unobservable ? 1 : 0;
+    if (result.kappa1Status != vpKappa1Status::Unobservable) {
+      ++seen;
+      CHECK(std::abs(result.calibration.kappa1 - kappas[trial % 4]) < 5. * result.kappa1Sigma);
+      continue;
+    }
     CHECK(result.calibration.kappa1 == 0.);
     CHECK(result.kappa1Sigma > 0.);
     CHECK(result.covariance(vpMicroscopeKappa1, vpMicroscopeKappa1) == 0.);
@@ -284,7 +299,7 @@ TEST_CASE("kappa1 of a good lens is unobservable at 160 x 100 px, whatever the n
     insignificant += result.message.find("standard deviations from zero, less than 5") != std::string::npos ? 1 : 0;
     withoutEffect += result.message.find("would move the worst corner by ") != std::string::npos ? 1 : 0;
   }
-  CHECK(wrong == 0);
+  CHECK(seen <= 4); // 2.5e-8 is 2.5 deviations below what counts as there in some fine views: 0.3 expected
   CHECK(insignificant > 0);
   CHECK(withoutEffect > 0); // 200 frames say that it is there, and it does not matter
   // A lens ten times as bad as that shows its distortion over the whole sensor, and in many fine frames in the window.
@@ -354,32 +369,14 @@ TEST_CASE("unknown deviations come from the residuals, a product that is not exa
   CHECK(byPlane.rms() == Approx(1.).margin(0.2));
 }
 
-TEST_CASE("a plane that is not parallel to the image is suspected", "[calibration]")
-{
-  auto rng = vpTestSupport::generator(521);
-  CAPTURE(vpTestSupport::seed());
-  const Problem problem = randomProblem(rng, 1, 0.);
-  Points points = pointsOf(problem, 0, 0.05, 0.05, rng);
-  const auto messageOf = [&points] {
-    vpPlanarMicroscopeCalibration calibration(640, 480);
-    calibration.addView(points);
-    return calibration.compute().message;
-  };
-  CHECK(messageOf().find("far too much") == std::string::npos);
-  for (vpCalibrationPoint &point : points) { // perspective
-    const double depth = 1. + 1e-5 * (point.u - problem.truth.u0);
-    point.u = problem.truth.u0 + (point.u - problem.truth.u0) / depth;
-    point.v = problem.truth.v0 + (point.v - problem.truth.v0) / depth;
-  }
-  CHECK(messageOf().find("That is far too much: the plane is not parallel to the image") != std::string::npos);
-}
-
 TEST_CASE("two rows of cells, which lie on a conic, are enough", "[calibration]")
 {
   auto rng = vpTestSupport::generator(518);
   CAPTURE(vpTestSupport::seed());
   for (int trial = 0; trial < 100; ++trial) {
     Problem problem = randomProblem(rng, 1, 0.);
+    problem.truth.tx *= 0.1;
+    problem.truth.ty *= 0.1;
     std::normal_distribution<double> normal;
     Points points;
     for (int row = 0; row < 2; ++row) {
@@ -394,12 +391,17 @@ TEST_CASE("two rows of cells, which lie on a conic, are enough", "[calibration]"
         points.push_back(point);
       }
     }
-    vpPlanarMicroscopeCalibration calibration(640, 480);
-    calibration.addView(points);
-    const vpMicroscopeCalibrationResult result = calibration.compute();
-    CAPTURE(result.message);
-    CHECK(result.calibration.scaleX == Approx(problem.truth.scaleX).epsilon(1e-3));
-    CHECK(result.calibration.mirrored == problem.truth.mirrored);
+    for (const bool tilt : {true, false}) { // with tilt six points far from the centre say little, and it shows
+      vpMicroscopeCalibrationOptions options;
+      options.estimateTilt = tilt;
+      vpPlanarMicroscopeCalibration calibration(640, 480, options);
+      calibration.addView(points);
+      const vpMicroscopeCalibrationResult result = calibration.compute();
+      CAPTURE(result.message);
+      const double error = result.calibration.scaleX - problem.truth.scaleX;
+      CHECK(std::abs(error) < (tilt ? 5. * result.sigma(vpMicroscopeScaleX) : 1e-3 * problem.truth.scaleX));
+      CHECK(result.calibration.mirrored == problem.truth.mirrored);
+    }
   }
 }
 
@@ -500,6 +502,12 @@ TEST_CASE("bad input to the planar calibration is refused in words", "[calibrati
   });
   CHECK(mirrored.find("view 1 shows the product ") == 0);
 
+  CHECK(refusalOf([](Points &p) { // two places, again and again
+          for (std::size_t i = 0; i < p.size(); ++i) {
+            p[i] = p[i % 2];
+          }
+        }) == "the points of view 1 lie on a line of the product");
+  CHECK_THROWS_WITH(vpPlanarMicroscopeCalibration(0, 0), Catch::Contains("width is 0 px, must be in [8, 65536]"));
   CHECK_THROWS_WITH(vpPlanarMicroscopeCalibration(640, 480).compute(),
                     Catch::Contains("there is no view to calibrate from"));
   CHECK_THROWS_WITH(vpPlanarMicroscopeCalibration(640, 4), Catch::Contains("height is 4 px, must be in [8, 65536]"));

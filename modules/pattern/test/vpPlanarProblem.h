@@ -32,8 +32,9 @@ inline double uniform(std::mt19937_64 &rng, double from, double to)
   return std::uniform_real_distribution<double>(from, to)(rng);
 }
 
+// mostTilt: rad; the problem is drawn in the same way whatever it is.
 inline Problem randomProblem(std::mt19937_64 &rng, int views, double kappa, unsigned int width = 640,
-                             unsigned int height = 480)
+                             unsigned int height = 480, double mostTilt = 0.)
 {
   Problem problem;
   vpMicroscopeCalibration &c = problem.truth;
@@ -44,6 +45,11 @@ inline Problem randomProblem(std::mt19937_64 &rng, int views, double kappa, unsi
   c.u0 = 0.5 * (width - 1.);
   c.v0 = 0.5 * (height - 1.);
   c.mirrored = uniform(rng, 0., 1.) < 0.5;
+  const double tilt = uniform(rng, 0., mostTilt), way = uniform(rng, -M_PI, M_PI), distance = 40000.; // px
+  c.tiltX = std::sin(tilt) / distance * std::cos(way);
+  c.tiltY = std::sin(tilt) / distance * std::sin(way);
+  c.stretch = -0.5 * (1. - std::cos(tilt)) * std::cos(2. * way); // shorter across the axis of the tilt
+  c.shear = -0.5 * (1. - std::cos(tilt)) * std::sin(2. * way);
   for (int k = 0; k < views; ++k) {
     c.rotation = width < 320 ? uniform(rng, -0.1, 0.1) : uniform(rng, -M_PI, M_PI); // a window must show two columns
     c.tx = uniform(rng, -5e-3, 5e-3); // the lattice goes on for ever, its origin may be far outside

@@ -9,10 +9,12 @@
 #ifndef vpCalibrationPoint_h
 #define vpCalibrationPoint_h
 
+#include <visp3/pattern/vpDotLattice.h>
 #include <visp3/pattern/vpPatternFrame.h>
 
 #include <visp3/core/vpImage.h>
 
+#include <limits>
 #include <vector>
 
 BEGIN_VISP_NAMESPACE
@@ -40,6 +42,9 @@ struct VISP_EXPORT vpCalibrationPitch {
   double columns = 0.;    //!< From a cell to its neighbour in the next column, m, > 0.
   double rows = 0.;       //!< From a cell to its neighbour in the next row, m, > 0.
   double sigmaPlane = 0.; //!< Standard deviation of the place of a cell, each axis, m, >= 0.
+  //! From the columns' direction to the rows', rad, in [0.5, 2.7]: pi/2 for a rectangular lattice, pi/3 for a hexagonal
+  //! one. NaN: as found, hexagonal where it is and #columns and #rows are the same, rectangular otherwise.
+  double angle = std::numeric_limits<double>::quiet_NaN();
 
   //! \throw vpException (badValue) naming the field and its value.
   void check() const;
@@ -47,7 +52,8 @@ struct VISP_EXPORT vpCalibrationPitch {
 
 /*!
  * \ingroup group_pattern
- * The valid cells of a frame as points of the lattice: x = column * columns, y = row * rows, z = 0.
+ * The valid cells of a frame as points of the lattice: x = column * columns + row * rows * cos(angle),
+ * y = row * rows * sin(angle), z = 0.
  *
  * The columns are those that vpPatternTracker counts to the right in the image and the rows those that it counts
  * downwards, so that a product that lies across shows its pitches exchanged. The standard deviations are the cells'
@@ -60,13 +66,21 @@ struct VISP_EXPORT vpCalibrationPitch {
 
 /*!
  * \ingroup group_pattern
- * The dots of one image of a calibration grid, of either polarity, as points of the lattice. Their centres are found by
- * half-maximum edges (vpPatternMethod::HalfMaximumEdges).
- * \param image : 8 bit, at least 16 x 16 px; two periods each way must be in view, and the view must be straight:
- * rows and columns are a lattice, which they are not under a strong perspective.
- * \param pitch : Of the grid.
- * \throw vpException (badValue) naming a pitch that is not > 0; (fatalError) with the tracker's sentence when it finds
- * no lattice.
+ * The dots of a lattice as such points. Of all bases of the lattice the one that looks most like the pitch counts, and of
+ * those that look alike the one whose columns go most nearly to the right. The standard deviations are 0.1 px: set
+ * sigmaFromResiduals of the calibration.
+ * \param lattice : Of vpFindDotLattice(). \param pitch : Of the grid.
+ * \throw vpException (badValue) naming a pitch that is not > 0; (fatalError) with the lattice's sentence when there is none,
+ * or only one row.
+ */
+[[nodiscard]] VISP_EXPORT std::vector<vpCalibrationPoint> vpCalibrationPoints(const vpDotLattice &lattice,
+                                                                              const vpCalibrationPitch &pitch);
+
+/*!
+ * \ingroup group_pattern
+ * The same of the dots that vpFindDotLattice() finds in an image.
+ * \param image : 8 bit, at least 16 x 16 px. \param pitch : Of the grid.
+ * \throw vpException as the others, and as vpFindDotLattice().
  */
 [[nodiscard]] VISP_EXPORT std::vector<vpCalibrationPoint> vpCalibrationPoints(const vpImage<unsigned char> &image,
                                                                               const vpCalibrationPitch &pitch);

@@ -21,14 +21,16 @@ BEGIN_VISP_NAMESPACE
 
 /*!
  * \ingroup group_pattern
- * \brief A camera that looks straight at a plane of fixed depth (thesis section 7.2.1, equation (7.7)).
+ * \brief A camera that looks straight, or nearly so, at a plane (thesis section 7.2.1, equation (7.7)).
  *
  * With the pixel relative to the principal point, d = (u - u0, (v - v0) scaleX / scaleY), and a point p of the plane,
  * \verbatim
-   d (1 + kappa1 |d|^2) = scaleX (R(theta) F p + t)
+   d (1 + kappa1 |d|^2) = q / (1 + g . q),   q = scaleX (D R(theta) F p + t),   D = (1 + stretch      shear  )
+                                                                                    (  shear     1 - stretch)
    \endverbatim
- * where F mirrors y when #mirrored is set. scaleX is the magnification M_o = f / t_z of (7.7) in px per metre of
- * product; with square pixels scaleY is the same.
+ * where F mirrors y when #mirrored is set and g = (tiltX, tiltY). With g and D - 1 zero this is (7.7), and scaleX its
+ * magnification M_o = f / t_z in px per metre of product. A plane tilted by the angle a about the axis that stands at
+ * the angle b to u has |g| = sin a / distance, the distance in px, and looks shorter across the axis by 1 - cos a.
  */
 struct VISP_EXPORT vpMicroscopeCalibration {
   unsigned int width = 0;  //!< Columns of the images, px.
@@ -42,6 +44,10 @@ struct VISP_EXPORT vpMicroscopeCalibration {
   double kappa1 = 0.;      //!< Radial distortion, px^-2 (columns); positive: barrel, negative: pincushion.
   double u0 = 0.;          //!< Principal point, px: the centre of the distortion.
   double v0 = 0.;          //!< Principal point, px.
+  double tiltX = 0.;       //!< g: the scale falls by this share along u, px^-1.
+  double tiltY = 0.;       //!< The same along v.
+  double stretch = 0.;     //!< D: what a tilted plane looks longer along u and shorter along v, share of the scale.
+  double shear = 0.;       //!< D: the same along the diagonals.
 
   //! Where a pixel is on the product, m.
   [[nodiscard]] Eigen::Vector2d toPlane(double u, double v) const;
@@ -54,7 +60,7 @@ struct VISP_EXPORT vpMicroscopeCalibration {
 
   /*!
    * As ViSP's camera one metre away from the product: its normalised coordinates are metres on the product, relative to
-   * the principal point and not turned. `kdu` is exact (vpPixelMeterConversion agrees with toPlane()); `kud`, which is
+   * the principal point, not turned and without tilt. `kdu` is exact (vpPixelMeterConversion agrees with toPlane()); `kud`, which is
    * another model, agrees with it at the corner of the image that is farthest from the principal point.
    */
   [[nodiscard]] vpCameraParameters toCamera() const;
@@ -63,7 +69,7 @@ struct VISP_EXPORT vpMicroscopeCalibration {
   [[nodiscard]] static vpMicroscopeCalibration fromCamera(const vpCameraParameters &camera, unsigned int width,
                                                           unsigned int height);
   /*!
-   * Write toCamera() as ViSP's camera file. Rotation, translation and mirroring are not part of that file.
+   * Write toCamera() as ViSP's camera file. Rotation, translation, mirroring and tilt are not part of that file.
    * \param file : Must not exist, ViSP would add to it. \param name : Of the camera in the file.
    * ViSP reports on std::cout and std::cerr, which are silent meanwhile: not for two threads at once.
    * \throw vpException (ioError) naming the file.

@@ -10,6 +10,7 @@
 #define vpTsaiCalibration_h
 
 #include <visp3/pattern/vpCalibrationPoint.h>
+#include <visp3/pattern/vpFitTest.h>
 
 #include <visp3/core/vpCameraParameters.h>
 #include <visp3/core/vpHomogeneousMatrix.h>
@@ -33,6 +34,8 @@ struct VISP_EXPORT vpTsaiCalibrationOptions {
   bool estimateAspect = true;         //!< Find py / px. Ignored for one view of a plane, which cannot tell.
   bool estimateKappa1 = true;         //!< Find the radial distortion.
   bool estimatePrincipalPoint = true; //!< Find u0 and v0. Ignored for one view of a plane, which cannot tell.
+  bool sigmaFromResiduals = false;    //!< The points' deviations are only ratios; the residuals tell the common factor.
+  double falseAlarm = 0.01;           //!< vpFitTest::level: right fits that may be called misfits, in [1e-12, 0.5].
 
   //! \throw vpException (badValue) naming the field and its value.
   void check() const;
@@ -56,14 +59,16 @@ struct VISP_EXPORT vpTsaiCalibrationResult {
   //! Of (px, py, kappa1, u0, v0), in their units; zero where a parameter was given. With the aspect given, px and py
   //! have correlation 1.
   Eigen::Matrix<double, vpTsaiParameterCount, vpTsaiParameterCount> covariance;
-  double residualRms = 0.;    //!< Root mean square distance of the points from where they should be seen, px.
-  double varianceFactor = 0.; //!< Sum of squares over degrees of freedom: 1 when the points' deviations are right.
-  int degreesOfFreedom = 0;   //!< Two per point less the parameters.
-  double condition = 1.;      //!< Of the common parameters, columns scaled to equal length.
-  int iterations = 0;         //!< Of the refinement.
-  bool converged = false;     //!< The refinement came to its end.
-  bool reliable =
-      false; //!< It converged and the focal length is known to a tenth; otherwise #message says what is wrong.
+  std::vector<double> viewRms; //!< The same as #residualRms of each view, px.
+  double residualRms = 0.;     //!< Root mean square distance of the points from where they should be seen, px.
+  double varianceFactor = 0.;  //!< Sum of squares over degrees of freedom: 1 when the points' deviations are right.
+  int degreesOfFreedom = 0;    //!< Two per point less the parameters.
+  double condition = 1.;       //!< Of the common parameters, columns scaled to equal length.
+  int iterations = 0;          //!< Of the refinement.
+  bool converged = false;      //!< The refinement came to its end.
+  vpFitTest fit;               //!< Whether the camera fits the points, and which fit worst.
+  //! It converged, the focal length is known to a tenth and the points fit; otherwise #message says what is wrong.
+  bool reliable = false;
   std::string message; //!< All of it in a few sentences.
 
   //! Standard deviation of a parameter, in its unit.
@@ -83,7 +88,9 @@ struct VISP_EXPORT vpTsaiCalibrationResult {
  *
  * The plane must be tilted: seen straight on, only f / tz can be told (use vpPlanarMicroscopeCalibration); the result
  * is
- * not `reliable` then and the sentence says so.
+ * not `reliable` then and the sentence says so. Nor is it when the points do not fit (vpFitTest): outliers, a view whose
+ * points have each other's names, wrong distances on the object. A wrong common scale of the object changes only the
+ * poses and cannot be seen.
  */
 class VISP_EXPORT vpTsaiCalibration
 {
@@ -106,10 +113,14 @@ public:
   //! Number of views so far.
   [[nodiscard]] std::size_t viewCount() const { return m_views.size(); }
 
+  //! A misfit of up to 30 views is computed again without each of them, to name the one that does not belong.
   //! \throw vpException (badValue) when there is no view, (fatalError) when no camera can see a view's points so.
   [[nodiscard]] vpTsaiCalibrationResult compute() const;
 
 private:
+  [[nodiscard]] vpTsaiCalibrationResult solve(const std::vector<std::vector<vpCalibrationPoint>> &points) const;
+  void findWorstView(vpTsaiCalibrationResult &result) const;
+
   unsigned int m_width;
   unsigned int m_height;
   vpTsaiCalibrationOptions m_options;

@@ -1,0 +1,26 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// The sentences of a planar calibration.
+#ifndef vpMicroscopeCalibrationMessage_h
+#define vpMicroscopeCalibrationMessage_h
+
+#include <visp3/pattern/vpPlanarMicroscopeCalibration.h>
+
+BEGIN_VISP_NAMESPACE
+
+// What was found and decided, but not published.
+struct vpMicroscopeDecision {
+  double kappa1 = 0.;            // estimate, px^-2, whether it is used or not
+  double significance = 0.;      // of it, standard deviations
+  bool hiddenDistortion = false; // it is there, but the points cover too little of the image to say how large
+  double looksTilted = 0.;       // by foreshortening, rad
+};
+
+[[nodiscard]] std::string vpMicroscopeMessage(const vpMicroscopeCalibrationResult &result,
+                                              const vpMicroscopeDecision &decision,
+                                              const vpMicroscopeCalibrationOptions &options);
+
+END_VISP_NAMESPACE
+#endif

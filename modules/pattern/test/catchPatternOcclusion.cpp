@@ -1,0 +1,116 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// Things of like grey in front of the product: no valid cell is far from its place.
+#include "vpAnalyticPattern.h"
+#include "vpCatch.h"
+
+#include <visp3/pattern/vpPatternTracker.h>
+
+#include <cstdlib>
+
+VISP_DIRECT_USING_NAMESPACE
+using namespace vpPatternTest;
+
+namespace
+{
+// A soft rectangle of a cell's or the background's grey, or any other, that drifts.
+struct Occluder {
+  double x, y, width, height, grey, vx, vy, soft;
+  int life; // images
+};
+
+void draw(const Occluder &o, const Pattern &pattern, std::mt19937_64 &rng, vpImage<unsigned char> &image)
+{
+  std::normal_distribution<double> normal;
+  for (int v = std::max(0, int(o.y - 0.5 * o.height - 4)); v < std::min(100, int(o.y + 0.5 * o.height + 5)); ++v) {
+    for (int u = std::max(0, int(o.x - 0.5 * o.width - 4)); u < std::min(160, int(o.x + 0.5 * o.width + 5)); ++u) {
+      const double inside = std::min(0.5 * o.width - std::abs(u - o.x), 0.5 * o.height - std::abs(v - o.y)) / o.soft;
+      const double share = 1. / (1. + std::exp(-3. * inside));
+      if (share > 0.01) {
+        unsigned char &pixel = image[static_cast<unsigned int>(v)][static_cast<unsigned int>(u)];
+        const double grey = share * (o.grey + pattern.sigma(o.grey) * normal(rng)) + (1. - share) * pixel;
+        pixel = static_cast<unsigned char>(std::clamp(std::lround(grey), 0L, 255L));
+      }
+    }
+  }
+}
+
+// Distance to the nearest cell of the truth.
+double errorOf(const vpPatternCell &cell, const Pattern &pattern)
+{
+  const int row = static_cast<int>(std::lround((cell.y - pattern.y) / pattern.pitchY));
+  const int column = static_cast<int>(std::lround((cell.x - pattern.x) / pattern.pitchX));
+  double least = 1e9;
+  for (int r = row - 1; r <= row + 1; ++r) {
+    for (int c = column - 1; c <= column + 1; ++c) {
+      least = std::min(least, std::hypot(cell.x - pattern.cellPositionX(r, c), cell.y - pattern.cellPositionY(r, c)));
+    }
+  }
+  return least;
+}
+} // namespace
+
+TEST_CASE("cells behind things of like grey are invalid or right", "[tracker][occlusion]")
+{
+  const char *const longer = std::getenv("VISP_DIRECT_LONG_TESTS");
+  const int runs = longer == nullptr ? 3 : static_cast<int>(3 * std::max(1., std::atof(longer)));
+  CAPTURE(vpTestSupport::seed());
+  constexpr int phases = 40, images = 4000; // the pattern goes to and fro, so that its pictures are made once
+  long valid = 0, far = 0;
+  double worst = 0.;
+  for (int run = 0; run < runs; ++run) {
+    auto rng = vpTestSupport::generator(870 + static_cast<unsigned int>(run));
+    const auto uniform = [&rng](double from, double to) {
+      return std::uniform_real_distribution<double>(from, to)(rng);
+    };
+    Pattern pattern;
+    pattern.noise = uniform(1., 4.);
+    pattern.jitter = uniform(0., 0.3);
+    std::vector<Pattern> places(phases, pattern);
+    std::vector<vpImage<unsigned char>> pictures(phases);
+    for (int k = 0; k < phases; ++k) {
+      Pattern &place = places[static_cast<std::size_t>(k)];
+      place.x += 7. * std::sin(2. * M_PI * k / phases);
+      place.y += 2. * std::sin(2. * M_PI * k / phases);
+      place.render(rng, pictures[static_cast<std::size_t>(k)]);
+    }
+    vpPatternTracker tracker(160, 100);
+    for (int i = 0; i < 3 * phases; ++i) {
+      tracker.track(pictures[static_cast<std::size_t>(i % phases)]);
+    }
+    std::vector<Occluder> occluders;
+    for (int i = 0; i < images; ++i) {
+      const Pattern &place = places[static_cast<std::size_t>(i % phases)];
+      vpImage<unsigned char> image = pictures[static_cast<std::size_t>(i % phases)];
+      if (occluders.size() < 2 && uniform(0., 1.) < 0.2) {
+        const double grey = uniform(0., 1.) < 0.5
+                                ? (uniform(0., 1.) < 0.5 ? pattern.bright : pattern.dark) + uniform(-15., 15.)
+                                : uniform(40., 190.);
+        occluders.push_back({uniform(0., 160.), uniform(0., 100.), uniform(4., 30.), uniform(3., 20.), grey,
+                             uniform(-3., 3.), uniform(-2., 2.), uniform(0.5, 2.), int(uniform(3., 60.))});
+      }
+      for (Occluder &o : occluders) {
+        draw(o, pattern, rng, image);
+        o.x += o.vx;
+        o.y += o.vy;
+        --o.life;
+      }
+      occluders.erase(std::remove_if(occluders.begin(), occluders.end(), [](const Occluder &o) { return o.life <= 0; }),
+                      occluders.end());
+      for (const vpPatternCell &cell : tracker.track(image).cells) {
+        if (cell.valid) {
+          const double error = errorOf(cell, place);
+          worst = std::max(worst, error);
+          far += error > 0.5 ? 1 : 0;
+          ++valid;
+        }
+      }
+    }
+  }
+  WARN(valid << " valid cells in " << runs * images << " images, " << far << " off by more than 0.5 px, the worst "
+             << worst << " px");
+  CHECK(valid > 5L * runs * images);
+  CHECK(far == 0);
+}
