@@ -24,8 +24,8 @@ void readCamera(JsonObject camera, vpServoTask &task)
   const double u0 = camera.number("u0");
   const double v0 = camera.number("v0");
   for (const auto &focal : {std::make_pair("px", px), std::make_pair("py", py)}) {
-    if (focal.second <= 0.) { // vpCameraParameters would say less
-      throw camera.error(std::string(focal.first) + " is " + number(focal.second, 6) + ", must be > 0");
+    if (!(focal.second >= 1e-6)) { // vpCameraParameters would say less
+      throw camera.error(std::string(focal.first) + " is " + number(focal.second, 6) + ", must be > 0, at least 1e-6");
     }
   }
   task.camera.initPersProjWithoutDistortion(px, py, u0, v0);
