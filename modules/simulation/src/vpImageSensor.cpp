@@ -40,6 +40,7 @@ protected:
       return false;
     }
     result.cMo = target.cMo;
+    result.covariance = target.covariance;
     project(m_points, result.cMo, result.points);
     for (vpServoPoint &p : result.points) {
       p.visible = p.visible && inPicture(p.x, p.y);
