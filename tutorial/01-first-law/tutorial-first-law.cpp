@@ -75,7 +75,8 @@ int main(int argc, char **argv)
     for (int frame = 0; frame < 160 && isWorking(command.status); ++frame) { // an error ends the loop
       view.render(robot.getPosition().inverse(), {}, 1, image);
       const vpPlanarTargetResult &found = target.process(image);
-      const vpServoMeasurement seen{found.found(), 0.05 * frame, found.cMo, cornersAt(found.cMo, width, height), {}};
+      const vpServoMeasurement seen{found.found(),   0.05 * frame, found.cMo, cornersAt(found.cMo, width, height), {},
+                                    found.covariance};
       command = law->update(seen, 0.05); // zero twist and Holding when the photograph was not found
       robot.setVelocity(vpRobot::CAMERA_FRAME, limitTwist(command.v, 0.2, 0.7).toColVector()); // m/s, rad/s
       //! [Loop]
