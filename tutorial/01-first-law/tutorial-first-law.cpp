@@ -51,14 +51,14 @@ int main(int argc, char **argv)
     //! [Target]
     vpImage<unsigned char> photo, image;
     vpImageIo::read(photo, VISP_DIRECT_DATA_DIR "/target/klimt.jpg");
-    const double width = 0.16, height = width * photo.getHeight() / photo.getWidth(); // m, from edge to edge
-    vpPlanarTarget target(photo, width, height, camera);
+    const double w = 0.16, h = w * photo.getHeight() / photo.getWidth(); // m, from edge to edge
+    vpPlanarTarget target(photo, w, h, camera);
     //! [Target]
 
     //! [Law]
     vpServoGoal goal;
     goal.cdMo = vpHomogeneousMatrix(0., 0., 0.4, 0., 0., 0.); // the photograph straight ahead, 0.4 m away
-    goal.points = cornersAt(goal.cdMo, width, height);
+    goal.points = cornersAt(goal.cdMo, w, h);
     const auto law = vpServoLaw::create(argc > 1 ? argv[1] : "ff-lookat");
     law->setGoal(goal);
     //! [Law]
@@ -67,7 +67,7 @@ int main(int argc, char **argv)
     robot.setPosition(vpHomogeneousMatrix(0.12, -0.05, 0.7, 0.35, -0.45, 0.5).inverse());
     robot.setSamplingTime(0.05); // s
     robot.setRobotState(vpRobot::STATE_VELOCITY_CONTROL);
-    vpPlaneRenderer view(photo, width, height, camera, 640, 480); // in the place of a real camera
+    vpPlaneRenderer view(photo, w, h, camera, 640, 480); // in the place of a real camera
     //! [Robot]
     //! [Loop]
     vpImage<vpRGBa> panel, picture(480, 1280); // the first image beside the last one
@@ -75,8 +75,7 @@ int main(int argc, char **argv)
     for (int frame = 0; frame < 160 && isWorking(command.status); ++frame) { // an error ends the loop
       view.render(robot.getPosition().inverse(), {}, 1, image);
       const vpPlanarTargetResult &found = target.process(image);
-      const vpServoMeasurement seen{found.found(),   0.05 * frame, found.cMo, cornersAt(found.cMo, width, height), {},
-                                    found.covariance};
+      const vpServoMeasurement seen{found.found(), 0.05 * frame, found.cMo, cornersAt(found.cMo, w, h), {}, found.covariance};
       command = law->update(seen, 0.05); // zero twist and Holding when the photograph was not found
       robot.setVelocity(vpRobot::CAMERA_FRAME, limitTwist(command.v, 0.2, 0.7).toColVector()); // m/s, rad/s
       //! [Loop]

@@ -41,12 +41,11 @@ bool servo(vpRobot &robot, const Grab &grab, vpPlanarTarget &target, std::ostrea
   for (int cycle = 0; cycle < 150 && isGoing; ++cycle) {
     const double before = vpTime::measureTimeMs();
     grab(image);
-    const bool isFresh = vpTime::measureTimeMs() - before < 200.; // watchdog: a camera that stalls sees nothing
+    const bool fresh = vpTime::measureTimeMs() - before < 200.; // watchdog: a camera that stalls sees nothing
     const vpPlanarTargetResult &found = target.process(image);
     const double Z = found.cMo[2][3];
     const vpServoPoint centre{found.cMo[0][3] / Z, found.cMo[1][3] / Z, Z};
-    const vpServoMeasurement seen{isFresh && found.found(), 0.04 * cycle, found.cMo, {centre}, {centre},
-                                  found.covariance};
+    const vpServoMeasurement seen{fresh && found.found(), 0.04 * cycle, found.cMo, {centre}, {centre}, found.covariance};
     const auto [v, status] = controller.update(seen, 0.04);
     robot.setVelocity(vpRobot::CAMERA_FRAME, v.toColVector());
     wasLost = wasLost || status == vpServoStatus::Retreating;
