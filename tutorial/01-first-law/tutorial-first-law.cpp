@@ -72,17 +72,17 @@ int main(int argc, char **argv)
     //! [Loop]
     vpImage<vpRGBa> panel, picture(480, 1280); // the first image beside the last one
     vpServoCommand command{vpTwist(), vpServoStatus::Holding};
-    for (int frame = 0; frame < 160 && isWorking(command.status); ++frame) { // an error ends the loop
+    for (int k = 0; k < 160 && isWorking(command.status); ++k) { // an error ends the loop
       view.render(robot.getPosition().inverse(), {}, 1, image);
       const vpPlanarTargetResult &found = target.process(image);
-      const vpServoMeasurement seen{found.found(), 0.05 * frame, found.cMo, cornersAt(found.cMo, w, h), {}, found.covariance};
+      const vpServoMeasurement seen{found.found(), 0.05 * k, found.cMo, cornersAt(found.cMo, w, h), {}, found.covariance};
       command = law->update(seen, 0.05); // zero twist and Holding when the photograph was not found
       robot.setVelocity(vpRobot::CAMERA_FRAME, limitTwist(command.v, 0.2, 0.7).toColVector()); // m/s, rad/s
       //! [Loop]
       vpImageConvert::convert(image, panel);
       drawOutline(panel, goal.points, vpColor::blue, 6);
       drawOutline(panel, seen.points, vpColor::yellow, 2);
-      picture.insert(panel, vpImagePoint(0, frame == 0 ? 0 : 640));
+      picture.insert(panel, vpImagePoint(0, k == 0 ? 0 : 640));
     }
     vpFont(24).drawText(picture, "First image: yellow found, blue goal", vpImagePoint(8, 8), vpColor::black);
     vpFont(24).drawText(picture, "Last image, 8 s later", vpImagePoint(8, 648), vpColor::black);

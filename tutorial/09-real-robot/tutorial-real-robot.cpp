@@ -38,19 +38,19 @@ bool servo(vpRobot &robot, const Grab &grab, vpPlanarTarget &target, std::ostrea
   robot.setRobotState(vpRobot::STATE_VELOCITY_CONTROL);
   vpImage<unsigned char> image;
   bool wasLost = false, isGoing = true;
-  for (int cycle = 0; cycle < 150 && isGoing; ++cycle) {
+  for (int k = 0; k < 150 && isGoing; ++k) {
     const double before = vpTime::measureTimeMs();
     grab(image);
     const bool fresh = vpTime::measureTimeMs() - before < 200.; // watchdog: a camera that stalls sees nothing
     const vpPlanarTargetResult &found = target.process(image);
     const double Z = found.cMo[2][3];
     const vpServoPoint centre{found.cMo[0][3] / Z, found.cMo[1][3] / Z, Z};
-    const vpServoMeasurement seen{fresh && found.found(), 0.04 * cycle, found.cMo, {centre}, {centre}, found.covariance};
+    const vpServoMeasurement seen{fresh && found.found(), 0.04 * k, found.cMo, {centre}, {centre}, found.covariance};
     const auto [v, status] = controller.update(seen, 0.04);
     robot.setVelocity(vpRobot::CAMERA_FRAME, v.toColVector());
     wasLost = wasLost || status == vpServoStatus::Retreating;
     isGoing = isWorking(status); // an error, or a target that stays lost, ends the loop: the robot stops
-    log << 0.04 * cycle << ' ' << v.linearNorm() << ' ' << v.angularNorm() << ' ' << toString(status) << std::endl;
+    log << 0.04 * k << ' ' << v.linearNorm() << ' ' << v.angularNorm() << ' ' << toString(status) << std::endl;
   }
   robot.setRobotState(vpRobot::STATE_STOP);
   return wasLost;
@@ -66,7 +66,7 @@ int main(int argc, char **argv)
     vpPlanarTargetConfig fast;
     fast.refinementSize = 120;                                                    // px: for the rate of a camera
     vpPlanarTarget target(photo, 0.12, 0.12, camera, fast);                       // m
-    vpSimulatedArm robot(vpLoadArmJson(VISP_DIRECT_DATA_DIR "/robot/amor.json")); // 40 ms a cycle; yours: any vpRobot
+    vpSimulatedArm robot(vpLoadArmJson(VISP_DIRECT_DATA_DIR "/robot/amor.json")); // 40 ms a k; yours: any vpRobot
     const vpHomogeneousMatrix fMo = robot.get_fMc() * vpHomogeneousMatrix(0.06, 0.04, 0.45, 0.2, -0.3, 0.4);
     vpPlaneRenderer view(photo, 0.12, 0.12, camera, 320, 240);
     Grab grab = [&](vpImage<unsigned char> &image) {
