@@ -23,15 +23,15 @@ namespace
 const vpCameraParameters camera(800., 800., 319.5, 239.5); // of images with 640 x 480 pixels
 
 // The corners of the photograph as the camera sees them, which laws use beside the pose.
-std::vector<vpServoPoint> cornersAt(const vpHomogeneousMatrix &cMo, double width, double height)
+std::vector<vpServoPoint> corners(const vpHomogeneousMatrix &cMo, double width, double height)
 {
   const double x = 0.5 * width, y = 0.5 * height;
-  std::vector<vpServoPoint> corners;
+  std::vector<vpServoPoint> seen;
   for (vpPoint corner : {vpPoint(-x, -y, 0), vpPoint(x, -y, 0), vpPoint(x, y, 0), vpPoint(-x, y, 0)}) {
     corner.track(cMo);
-    corners.push_back({corner.get_x(), corner.get_y(), corner.get_Z()});
+    seen.push_back({corner.get_x(), corner.get_y(), corner.get_Z()});
   }
-  return corners;
+  return seen;
 }
 
 void drawOutline(vpImage<vpRGBa> &picture, const std::vector<vpServoPoint> &corners, const vpColor &color,
@@ -58,7 +58,7 @@ int main(int argc, char **argv)
     //! [Law]
     vpServoGoal goal;
     goal.cdMo = vpHomogeneousMatrix(0., 0., 0.4, 0., 0., 0.); // the photograph straight ahead, 0.4 m away
-    goal.points = cornersAt(goal.cdMo, w, h);
+    goal.points = corners(goal.cdMo, w, h);
     const auto law = vpServoLaw::create(argc > 1 ? argv[1] : "ff-lookat");
     law->setGoal(goal);
     //! [Law]
@@ -75,7 +75,7 @@ int main(int argc, char **argv)
     for (int k = 0; k < 160 && isWorking(command.status); ++k) { // an error ends the loop
       view.render(robot.getPosition().inverse(), {}, 1, image);
       const vpPlanarTargetResult &found = target.process(image);
-      const vpServoMeasurement seen{found.found(), 0.05 * k, found.cMo, cornersAt(found.cMo, w, h), {}, found.covariance};
+      const vpServoMeasurement seen{found.found(), 0.05 * k, found.cMo, corners(found.cMo, w, h), {}, found.covariance};
       command = law->update(seen, 0.05); // zero twist and Holding when the photograph was not found
       robot.setVelocity(vpRobot::CAMERA_FRAME, limitTwist(command.v, 0.2, 0.7).toColVector()); // m/s, rad/s
       //! [Loop]

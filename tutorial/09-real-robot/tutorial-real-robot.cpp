@@ -66,7 +66,7 @@ int main(int argc, char **argv)
     vpPlanarTargetConfig fast;
     fast.refinementSize = 120;                                                    // px: for the rate of a camera
     vpPlanarTarget target(photo, 0.12, 0.12, camera, fast);                       // m
-    vpSimulatedArm robot(vpLoadArmJson(VISP_DIRECT_DATA_DIR "/robot/amor.json")); // 40 ms a k; yours: any vpRobot
+    vpSimulatedArm robot(vpLoadArmJson(VISP_DIRECT_DATA_DIR "/robot/amor.json")); // 40 ms a cycle; yours: any vpRobot
     const vpHomogeneousMatrix fMo = robot.get_fMc() * vpHomogeneousMatrix(0.06, 0.04, 0.45, 0.2, -0.3, 0.4);
     vpPlaneRenderer view(photo, 0.12, 0.12, camera, 320, 240);
     Grab grab = [&](vpImage<unsigned char> &image) {
