@@ -238,7 +238,7 @@ void vpStopSupervisor::startStopAt(const vpJointVector &q) noexcept
     const double v = m_stop.at(j, m_time)[1], left = m_stop.duration(j) - m_time, way = left > 0. ? v * left : 0.;
     m_candidate.begin(j, q(j), vpTrajectoryForm::Direct);
     m_candidate.append(j, {0., way, -0.5 * way}, left);
-    m_candidate.finish(j, {q(j) + 0.5 * way, 0., 0., 0.}, 0.);
+    m_candidate.finish(j, {q(j) + 0.5 * way, 0., 0., 0.});
   }
   std::swap(m_stop, m_candidate);
   m_time = 0.;

@@ -174,7 +174,7 @@ TEST_CASE("No plan with a number out of range is free", "[numbers]")
       const bool odd = j == 2;
       plan.begin(j, odd ? x[0] : home()(j), vpTrajectoryForm::Direct);
       plan.append(j, odd ? vpPolynomial{x[1], x[2], x[3], x[4]} : vpPolynomial{0.}, odd ? x[5] : 0.5);
-      plan.finish(j, odd ? vpAxisState{x[6], x[7], 0., 0.} : vpAxisState{home()(j), 0., 0., 0.}, odd ? x[8] : 0.);
+      plan.finish(j, odd ? vpAxisState{x[6], x[7], 0., 0.} : vpAxisState{home()(j), 0., 0., 0.});
     }
   };
   const double q = home()(2);
@@ -227,7 +227,7 @@ TEST_CASE("No plan with a number out of range is free", "[numbers]")
   for (int j = 0; j < 7; ++j) {
     jump.begin(j, home()(j), vpTrajectoryForm::Direct);
     jump.append(j, {0.}, 0.5);
-    jump.finish(j, {home()(j) + (j == 0 ? 1. : 0.), 0., 0., 0.}, 0.);
+    jump.finish(j, {home()(j) + (j == 0 ? 1. : 0.), 0., 0., 0.});
   }
   CHECK_FALSE(careful.verdict(jump, 0., 1., 0., 5000).isFree());
 }
