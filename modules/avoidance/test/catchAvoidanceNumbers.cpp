@@ -168,7 +168,7 @@ TEST_CASE("No plan with a number out of range is free", "[numbers]")
   const vpCollisionScene scene(amor(), everything());
   vpCertifiedTrajectory certificate(scene);
   vpTrajectoryPlan plan(7);
-  const auto make = [&plan](const std::array<double, 9> &x) {
+  const auto make = [&plan](const std::array<double, 8> &x) {
     plan.clear();
     for (int j = 0; j < 7; ++j) {
       const bool odd = j == 2;
@@ -178,11 +178,11 @@ TEST_CASE("No plan with a number out of range is free", "[numbers]")
     }
   };
   const double q = home()(2);
-  const std::array<double, 9> ordinary{{q, 0., 0.01, 0.01, 0.01, 0.5, q + 0.03, 0.12, 0.}};
+  const std::array<double, 8> ordinary{{q, 0., 0.01, 0.01, 0.01, 0.5, q + 0.03, 0.12}};
   make(ordinary);
   REQUIRE(certificate.check(plan).isFree());
   int free = 0;
-  everyPlace(ordinary, [&](const std::array<double, 9> &x, std::size_t place, std::size_t value) {
+  everyPlace(ordinary, [&](const std::array<double, 8> &x, std::size_t place, std::size_t value) {
     CAPTURE(place, values[value]);
     make(x);
     const vpTrajectoryClearance verdict = certificate.verdict(plan, 0., 0.5, 0., 2000);
