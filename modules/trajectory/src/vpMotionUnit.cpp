@@ -121,8 +121,14 @@ bool vpMotionUnit::takeLast() noexcept
     limits.maxPosition = std::max(high, limits.maxPosition);
   }
   if (wider) {
+    m_cruiseReady = false;
     close(vpMotionAxis::Direct);
-    m_cruiseReady = m_rampedReady = m_softReady = false;
+  }
+  if (wider && m_rampedReady) {
+    close(vpMotionAxis::Ramped);
+  }
+  if (m_softReady && (wider || m_last == vpMotionAxis::Soft)) { // which may have got the way back inside
+    close(vpMotionAxis::Soft);
   }
   return wider;
 }
@@ -351,9 +357,6 @@ double vpMotionUnit::searchStops(double T, double instead) noexcept
 
 double vpMotionUnit::searchLast(double T) noexcept
 {
-  if (!m_lastBuilt) {
-    buildLast();
-  }
   if (!m_lastReady) {
     close(m_last);
     m_lastReady = true;
