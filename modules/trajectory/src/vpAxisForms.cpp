@@ -56,11 +56,27 @@ double vpAxisTask::brakeAcceleration() const
 
 double vpAxisTask::brakeJerk(const vpAxisState &x, double hardness) const
 {
-  // While the acceleration is taken back, it adds a^2/(2 j) to the velocity.
-  const double room = limits.velocity - std::copysign(1., x[2]) * x[1];
-  const double needed =
-      order > 2 && room > 0. && std::isfinite(room) ? x[2] * x[2] / (2. * std::max(room, 1e-6 * limits.velocity)) : 0.;
-  return std::min(limits.jerk, std::max(hardness * brakeAcceleration() / rampUnit(), needed));
+  // While the acceleration is taken back, it adds a^2/(2 j) to the velocity. A room that a ramp of a millionth of the
+  // usual duration does not meet is none; rampDuration() says the same.
+  const double usual = brakeAcceleration() / rampUnit(), room = limits.velocity - std::copysign(1., x[2]) * x[1];
+  const double least = 1e-6 * std::min(limits.velocity, x[2] * x[2] / (2. * usual));
+  const bool near = order > 2 && x[2] != 0. && room > 0. && std::isfinite(room);
+  return std::min(limits.jerk, std::max(hardness * usual, near ? x[2] * x[2] / (2. * std::max(room, least)) : 0.));
+}
+
+double vpAxisTask::brakingDistance() const
+{
+  const auto stop = [this](double v, double a) {
+    if (order == 2) {
+      return v * v / (2. * brakeAcceleration());
+    }
+    if (v == 0. && a == 0.) {
+      return 0.;
+    }
+    const vpVelocityRamp ramp(v, a, 0., brakeAcceleration(), brakeJerk({0., v, a, 0.}));
+    return std::abs(ramp.at(0., ramp.duration())[0]);
+  };
+  return std::max(stop(from[1], from[2]), stop(-to[1], to[2]));
 }
 
 bool vpAxisTask::isMoving() const
@@ -299,15 +315,22 @@ void vpFramedMotion::hull(double &low, double &high) const noexcept
   }
 }
 
+bool vpFramedMotion::fixedStaysWithin(double low, double high) const noexcept
+{
+  if (!hasFixedPieces()) {
+    return true;
+  }
+  double a = 0., b = 0.;
+  hull(a, b);
+  return a >= low && b <= high;
+}
+
 bool vpFramedMotion::staysWithin(double low, double high, double T) const noexcept
 {
-  double a = 0., b = 0.;
-  if (hasFixedPieces()) {
-    hull(a, b);
-    if (a < low || b > high) {
-      return false;
-    }
+  if (!fixedStaysWithin(low, high)) {
+    return false;
   }
+  double a = 0., b = 0.;
   const vpPolynomial p = m_middle.at(T - fixedDuration());
   vpRootKernel::enclose(p.data(), p.degree(), a, b);
   if (m_head[0] + a >= low && m_head[0] + b <= high) {
@@ -378,6 +401,19 @@ void vpCruiseMotion::open(const vpAxisTask &task, const vpFramedMotion &framed) 
   const double constant = (h - up.at(m_up).value(1.) - down.at(m_down).value(1.)) / full;
   m_shortest = m_braked + m_up + m_down + constant;
   m_available = constant >= 0.;
+}
+
+double vpCruiseMotion::least(const vpAxisTask &task, const vpFramedMotion &framed) noexcept
+{
+  const vpAxisState &from = framed.head(), &to = framed.tail();
+  const double h = to[0] - from[0], side = std::copysign(1., h);
+  const double v = task.limits.velocity, a = task.limits.acceleration;
+  if (task.order != 3 || h == 0. || !std::isfinite(v) || !std::isfinite(a)) {
+    return infinity;
+  }
+  const double v0 = side * from[1], v1 = side * to[1];
+  const double constant = side * h - (2. * v * v - v0 * v0 - v1 * v1) / (2. * a);
+  return constant >= 0. ? framed.fixedDuration() + (2. * v - v0 - v1) / a + constant / v : infinity;
 }
 
 bool vpCruiseMotion::ramps(double cruise, vpPolynomial &up, vpPolynomial &down) const noexcept

@@ -37,6 +37,8 @@ struct vpAxisTask {
   [[nodiscard]] vpAxisLimits withoutPosition() const;
   //! Start or goal has a velocity (or what of higher derivatives matters): the axis needs room to brake or to launch.
   [[nodiscard]] bool isMoving() const;
+  //! The longer of the ways that a stop from the start and a launch to the goal take, as hard as usual.
+  [[nodiscard]] double brakingDistance() const;
   //! How far a stop takes it is defined.
   [[nodiscard]] bool hasBrakingDistance() const
   {
@@ -94,6 +96,8 @@ public:
   }
   [[nodiscard]] bool hasFixedPieces() const { return m_heads + m_tails > 0; } //!< It is more than one polynomial.
   [[nodiscard]] bool isBlocked() const { return m_blocked; } //!< The fixed pieces leave the position limits.
+  //! The fixed pieces stay between these places.
+  [[nodiscard]] bool fixedStaysWithin(double low, double high) const noexcept;
   //! The motion of total duration \e T stays between these places.
   [[nodiscard]] bool staysWithin(double low, double high, double T) const noexcept;
   //! One look: the total duration \e T itself if the limits are kept, else the next candidate; see vpMinimumDuration.
@@ -132,6 +136,8 @@ class vpCruiseMotion
 public:
   //! Set up after the head of \e framed (which may have braked). Not available without both limits or on short moves.
   void open(const vpAxisTask &task, const vpFramedMotion &framed) noexcept;
+  //! No motion of this form is shorter: constant accelerations at both ends; infinite where it is not available.
+  [[nodiscard]] static double least(const vpAxisTask &task, const vpFramedMotion &framed) noexcept;
   //! Smallest feasible duration >= T of this form, or infinity.
   [[nodiscard]] double next(double T) const noexcept;
   //! The motion of total duration \e T stays between these places.

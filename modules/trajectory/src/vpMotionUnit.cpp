@@ -31,7 +31,7 @@ void vpMotionUnit::clear() noexcept
 void vpMotionUnit::prepare(bool allowCruise) noexcept
 {
   m_allowCruise = allowCruise && isSingle();
-  m_droppedGoal = m_rampedReady = m_softReady = m_lastBuilt = m_lastReady = false;
+  m_droppedGoal = m_rampedReady = m_softReady = m_lastBuilt = m_lastReady = m_cruiseReady = false;
   m_iterations = 0;
   m_braking = 0.;
   bool outside = m_hasNorm && breaksNorm();
@@ -50,11 +50,12 @@ void vpMotionUnit::prepare(bool allowCruise) noexcept
   }
   boundPositions();
   close(vpMotionAxis::Direct);
-  if (m_allowCruise) {
-    at(0).cruise.open(at(0).task, at(0)[vpMotionAxis::Direct]);
-  }
   m_own = infinity;
-  if (isOutside()) {
+  const bool isOut = isOutside();
+  if (isOut || m_braking > 0.) {
+    takeLast();
+  }
+  if (isOut) {
     const double own = search(vpMotionAxis::Direct, 0.);
     m_own = own < infinity ? own * (1. + 1e-9) : 0.;
   }
@@ -79,37 +80,57 @@ void vpMotionUnit::close(Form form) noexcept
   }
 }
 
-// No form leaves the span of start and goal by more than the braking distance, nor goes beyond the position limits
-// unless the last resort has to.
+// Until the last resort is needed: no form leaves the span of start and goal by more than the braking distance, nor goes
+// beyond the position limits.
 void vpMotionUnit::boundPositions() noexcept
 {
   bool monotone = m_braking == 0. && !isOutside();
   for (int i = 0; i < m_count; ++i) {
     monotone = monotone && !at(i).task.isMoving();
   }
-  if (!monotone) {
-    buildLast();
-  }
+  m_bounded = !monotone;
   for (int i = 0; i < m_count; ++i) {
     vpAxisTask &task = at(i).task;
-    double &low = task.limits.minPosition, &high = task.limits.maxPosition;
-    if (monotone) {
-      at(i).low = low = -infinity;
-      at(i).high = high = infinity;
-      continue;
-    }
-    double lastLow = 0., lastHigh = 0.;
-    at(i)[m_last].hull(lastLow, lastHigh);
-    const double distance = task.hasBrakingDistance() ? at(i)[m_last].brakingDistance(task.to[0]) : infinity;
-    at(i).low = std::min(lastLow, std::min(0., task.to[0]) - distance);
-    at(i).high = std::max(lastHigh, std::max(0., task.to[0]) + distance);
-    low = std::min(lastLow, task.minPosition);
-    high = std::max(lastHigh, task.maxPosition);
+    const double low = std::min(0., task.to[0]), high = std::max(0., task.to[0]);
+    const double distance = m_bounded && task.hasBrakingDistance() ? task.brakingDistance() : infinity;
+    at(i).low = low - distance;
+    at(i).high = high + distance;
+    task.limits.minPosition = m_bounded ? std::min(low, task.minPosition) : -infinity;
+    task.limits.maxPosition = m_bounded ? std::max(high, task.maxPosition) : infinity;
   }
-  if (m_rampedReady) { // built on the way, within other bounds
+}
+
+// What the last resort cannot avoid is open to the other forms too. True when their bounds have changed.
+bool vpMotionUnit::takeLast() noexcept
+{
+  buildLast();
+  if (!m_bounded) {
+    return false;
+  }
+  bool wider = false;
+  for (int i = 0; i < m_count; ++i) {
+    const vpAxisTask &task = at(i).task;
+    vpAxisLimits &limits = at(i).task.limits;
+    double low = 0., high = 0.;
+    at(i)[m_last].hull(low, high);
+    const double distance = task.hasBrakingDistance() ? at(i)[m_last].brakingDistance(task.to[0]) : infinity;
+    at(i).low = std::min(low, std::min(0., task.to[0]) - distance);
+    at(i).high = std::max(high, std::max(0., task.to[0]) + distance);
+    wider = wider || low < limits.minPosition || high > limits.maxPosition;
+    limits.minPosition = std::min(low, limits.minPosition);
+    limits.maxPosition = std::max(high, limits.maxPosition);
+  }
+  if (wider) {
+    m_cruiseReady = false;
+    close(vpMotionAxis::Direct);
+  }
+  if (wider && m_rampedReady) {
     close(vpMotionAxis::Ramped);
+  }
+  if (m_softReady && (wider || m_last == vpMotionAxis::Soft)) { // which may have got the way back inside
     close(vpMotionAxis::Soft);
   }
+  return wider;
 }
 
 bool vpMotionUnit::isOutside() const noexcept
@@ -242,20 +263,43 @@ double vpMotionUnit::next(double T) noexcept
   if (T > m_own) { // comes back inside before anything else
     return searchStops(T, infinity);
   }
-  double best = search(vpMotionAxis::Direct, T);
-  if (m_allowCruise) {
-    const double cruise = at(0).cruise.next(T);
-    if (cruise < worthwhile * best || (cruise == T && T < best)) { // much sooner, or in time
-      m_form = vpTrajectoryForm::Cruise;
-      best = cruise;
-    }
+  double best = searchFree(T);
+  if (best < infinity && !makesDetour(best)) {
+    return best;
   }
-  if (!(best < infinity)) {
-    best = searchRamped(T);
+  if (!m_lastBuilt) { // it costs more than all others
+    const double soft = searchSoft(T, best);
+    if (soft < infinity) {
+      return soft;
+    }
+    best = takeLast() ? searchFree(T) : best;
   }
   // A detour only where that is quicker than to stop first.
   const bool stops = !(best < infinity) || (makesDetour(best) && !(best < searchLast(T)));
   return stops ? searchStops(T, best) : best;
+}
+
+// The forms that do not stop.
+double vpMotionUnit::searchFree(double T) noexcept
+{
+  m_form = vpTrajectoryForm::Direct;
+  m_used = vpMotionAxis::Direct;
+  const double best = search(vpMotionAxis::Direct, T);
+  const auto isBetter = [=](double cruise) { // much sooner, or in time
+    return cruise < worthwhile * best || (cruise == T && T < best);
+  };
+  if (m_allowCruise && isBetter(std::max(T, vpCruiseMotion::least(at(0).task, at(0)[vpMotionAxis::Direct])))) {
+    if (!m_cruiseReady) {
+      at(0).cruise.open(at(0).task, at(0)[vpMotionAxis::Direct]);
+      m_cruiseReady = true;
+    }
+    const double cruise = at(0).cruise.next(T);
+    if (isBetter(cruise)) {
+      m_form = vpTrajectoryForm::Cruise;
+      return cruise;
+    }
+  }
+  return best < infinity ? best : searchRamped(T);
 }
 
 bool vpMotionUnit::makesDetour(double T) const noexcept
@@ -281,29 +325,38 @@ double vpMotionUnit::searchRamped(double T) noexcept
   return at(0)[m_used].hasFixedPieces() ? search(m_used, T) : infinity;
 }
 
-// The gentle stop, unless it needs more time than another form would.
+// The gentle stop, unless it needs more time than another form would, or more room; infinity then.
+double vpMotionUnit::searchSoft(double T, double instead) noexcept
+{
+  const vpTrajectoryForm form = m_form;
+  const Form used = m_used;
+  m_form = vpTrajectoryForm::StopAndGo;
+  m_used = vpMotionAxis::Soft;
+  if (!m_softReady) {
+    buildSoft();
+  }
+  const double soft = search(m_used, T);
+  if (soft < infinity && soft <= std::max(T, instead) && !makesDetour(soft)) {
+    return soft;
+  }
+  m_form = form;
+  m_used = used;
+  return infinity;
+}
+
 double vpMotionUnit::searchStops(double T, double instead) noexcept
 {
-  m_form = vpTrajectoryForm::StopAndGo;
-  if (T <= m_own) {
-    if (!m_softReady) {
-      buildSoft();
-    }
-    m_used = vpMotionAxis::Soft;
-    const double soft = search(m_used, T);
-    if (soft < infinity && soft <= std::max(T, instead) && !makesDetour(soft)) {
-      return soft;
-    }
+  const double soft = T <= m_own ? searchSoft(T, instead) : infinity;
+  if (soft < infinity) {
+    return soft;
   }
+  m_form = vpTrajectoryForm::StopAndGo;
   m_used = m_last;
   return searchLast(T);
 }
 
 double vpMotionUnit::searchLast(double T) noexcept
 {
-  if (!m_lastBuilt) {
-    buildLast();
-  }
   if (!m_lastReady) {
     close(m_last);
     m_lastReady = true;
@@ -333,7 +386,16 @@ void vpMotionUnit::buildSoft() noexcept
     buildStop(vpMotionAxis::Soft, gentle);
   }
   m_softReady = true;
-  close(vpMotionAxis::Soft);
+  bool roomy = true;
+  for (int i = 0; i < m_count; ++i) {
+    roomy = roomy && at(i)[vpMotionAxis::Soft].fixedStaysWithin(at(i).low, at(i).high);
+  }
+  if (roomy || order() == 4) { // where it may be the last resort
+    close(vpMotionAxis::Soft);
+  }
+  else {
+    m_none[vpMotionAxis::Soft] = 0.;
+  }
 }
 
 // A stop with continuous jerk, from the ramped form.

@@ -87,7 +87,9 @@ private:
   [[nodiscard]] bool isSingle() const { return m_count == 1 && !m_hasNorm; }
   [[nodiscard]] int order() const { return at(0).task.order; }
   [[nodiscard]] double search(Form form, double T) noexcept;
+  [[nodiscard]] double searchFree(double T) noexcept;
   [[nodiscard]] double searchRamped(double T) noexcept;
+  [[nodiscard]] double searchSoft(double T, double instead) noexcept;
   [[nodiscard]] double searchStops(double T, double instead) noexcept;
   [[nodiscard]] double searchLast(double T) noexcept;
   [[nodiscard]] bool makesDetour(double T) const noexcept;
@@ -107,6 +109,7 @@ private:
   void buildLast() noexcept;
   void comeBack() noexcept;
   void boundPositions() noexcept;
+  bool takeLast() noexcept;
   void close(Form form) noexcept;
   [[nodiscard]] double normNext(const vpMotionFamily *families, double T) noexcept;
 
@@ -116,7 +119,8 @@ private:
   int m_count = 0;
   vpNormLimits m_norm;
   bool m_hasNorm = false, m_allowCruise = false, m_droppedGoal = false;
-  bool m_rampedReady = false, m_softReady = false, m_lastBuilt = false, m_lastReady = false;
+  bool m_rampedReady = false, m_softReady = false, m_lastBuilt = false, m_lastReady = false, m_cruiseReady = false;
+  bool m_bounded = false;           // not a move from rest to rest, which never leaves the span of start and goal
   Form m_last = vpMotionAxis::Hard; // has an answer for every duration
   Form m_used = vpMotionAxis::Direct;
   std::array<double, vpMotionAxis::FormCount> m_none{}; // from here on a form is known to be infeasible

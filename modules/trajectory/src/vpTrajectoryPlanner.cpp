@@ -19,8 +19,9 @@ int orderOf(vpTrajectoryContinuity continuity) { return 2 + static_cast<int>(con
 } // namespace
 
 vpTrajectoryPlanner::Impl::Impl(int count, int maxVias)
-  : n(count), from(static_cast<std::size_t>(count)), to(from), axes(static_cast<std::size_t>(count) + 1),
-    units(static_cast<std::size_t>(count)), unitDurations(static_cast<std::size_t>(count)),
+  : n(count), from(static_cast<std::size_t>(count)), to(from),
+    axes(static_cast<std::size_t>(count) + 1 + vpTrajectoryOptions::maxGroups), units(static_cast<std::size_t>(count)),
+    lines(static_cast<std::size_t>(count)), unitDurations(static_cast<std::size_t>(count)),
     direction(static_cast<std::size_t>(count)), spline(maxVias),
     chain(static_cast<std::size_t>(count) * (static_cast<std::size_t>(maxVias) + 1)),
     column(static_cast<std::size_t>(count)), legs(static_cast<std::size_t>(maxVias) + 1)
@@ -57,43 +58,64 @@ void vpTrajectoryPlanner::Impl::setTasks(const vpTrajectoryProblem &problem)
 // One unit for every axis or group of axes under a norm.
 void vpTrajectoryPlanner::Impl::makeUnits(const vpTrajectoryProblem &problem)
 {
-  straight = problem.options.synchronisation == vpSynchronisation::Straight && makeStraight(problem);
-  if (straight) {
+  unitCount = 0;
+  straight = false;
+  if (problem.options.synchronisation == vpSynchronisation::Straight && addLine(problem, nullptr, axis(n))) {
+    straight = true;
     return;
   }
-  unitCount = 0;
   std::uint64_t grouped = 0;
   for (int g = 0; g < vpTrajectoryOptions::maxGroups; ++g) {
     const vpAxisGroup &group = problem.options.groups[static_cast<std::size_t>(g)];
     if (group.axes == 0) {
       continue;
     }
-    vpMotionUnit &unit = units[static_cast<std::size_t>(unitCount++)];
-    unit.clear();
+    grouped |= group.axes;
+    if (isAtRest(group) && addLine(problem, &group, axis(n + 1 + g))) {
+      continue;
+    }
+    vpMotionUnit &unit = addUnit();
     unit.setNorm(problem.groupLimits(g));
     for (int i = 0; i < n; ++i) {
       if (group.contains(i)) {
         unit.add(&axis(i));
       }
     }
-    grouped |= group.axes;
   }
   for (int i = 0; i < n; ++i) {
     if (i >= 64 || (grouped >> i & 1) == 0) {
-      vpMotionUnit &unit = units[static_cast<std::size_t>(unitCount++)];
-      unit.clear();
-      unit.add(&axis(i));
+      addUnit().add(&axis(i));
     }
   }
 }
 
-// All axes as one: the way along the straight line, with the tightest of their limits. Possible when the line is defined
-// and every given derivative lies on it.
-bool vpTrajectoryPlanner::Impl::makeStraight(const vpTrajectoryProblem &problem)
+vpMotionUnit &vpTrajectoryPlanner::Impl::addUnit()
 {
+  lines[static_cast<std::size_t>(unitCount)] = {};
+  vpMotionUnit &unit = units[static_cast<std::size_t>(unitCount++)];
+  unit.clear();
+  return unit;
+}
+
+// At start and goal.
+bool vpTrajectoryPlanner::Impl::isAtRest(const vpAxisGroup &group)
+{
+  bool rests = true;
+  for (int i = 0; i < n; ++i) {
+    rests = rests && !(group.contains(i) && axis(i).task.isMoving());
+  }
+  return rests;
+}
+
+// Axes as one: the way along the straight line, with the tightest of their limits. Possible when the line is defined and
+// every given derivative lies on it. All axes without a group.
+bool vpTrajectoryPlanner::Impl::addLine(const vpTrajectoryProblem &problem, const vpAxisGroup *group,
+                                        vpMotionAxis &carrier)
+{
+  const Line members{true, group};
   double length = 0.;
   for (int i = 0; i < n; ++i) {
-    length = std::hypot(length, axis(i).task.to[0]);
+    length = members.contains(i) ? std::hypot(length, axis(i).task.to[0]) : length;
   }
   vpAxisTask line;
   line.order = axis(0).task.order;
@@ -102,6 +124,9 @@ bool vpTrajectoryPlanner::Impl::makeStraight(const vpTrajectoryProblem &problem)
   line.minPosition = -infinity;
   line.maxPosition = infinity;
   for (int i = 0; i < n; ++i) {
+    if (!members.contains(i)) {
+      continue;
+    }
     const vpAxisTask &task = axis(i).task;
     const double u = direction[static_cast<std::size_t>(i)] = length > 0. ? task.to[0] / length : 0.;
     for (std::size_t k = 1; k < 4; ++k) {
@@ -120,7 +145,7 @@ bool vpTrajectoryPlanner::Impl::makeStraight(const vpTrajectoryProblem &problem)
   }
   bool onLine = true;
   for (int i = 0; i < n; ++i) {
-    onLine = onLine && !isAcross(axis(i).task, line, i);
+    onLine = onLine && !(members.contains(i) && isAcross(axis(i).task, line, i));
   }
   if (!onLine || length == 0.) {
     return false;
@@ -129,19 +154,17 @@ bool vpTrajectoryPlanner::Impl::makeStraight(const vpTrajectoryProblem &problem)
     const vpNormLimits limits = problem.groupLimits(g);
     double share = 0.;
     for (int i = 0; i < n; ++i) {
-      share = problem.options.groups[static_cast<std::size_t>(g)].contains(i)
-                  ? std::hypot(share, direction[static_cast<std::size_t>(i)])
-                  : share;
+      const bool counts = members.contains(i) && problem.options.groups[static_cast<std::size_t>(g)].contains(i);
+      share = counts ? std::hypot(share, direction[static_cast<std::size_t>(i)]) : share;
     }
     if (share > 0.) {
       line.limits.velocity = std::min(line.limits.velocity, limits.velocity / share);
       line.limits.acceleration = std::min(line.limits.acceleration, limits.acceleration / share);
     }
   }
-  axis(n).task = line;
-  unitCount = 1;
-  units[0].clear();
-  units[0].add(&axis(n));
+  carrier.task = line;
+  addUnit().add(&carrier);
+  lines[static_cast<std::size_t>(unitCount - 1)] = members;
   return true;
 }
 
@@ -202,11 +225,21 @@ void vpTrajectoryPlanner::Impl::noteFaults()
     const vpMotionUnit &unit = units[static_cast<std::size_t>(u)];
     iterations = std::max(iterations, unit.iterations());
     if (unit.hasDroppedGoalAcceleration()) {
-      const int i = straight ? 0 : static_cast<int>(unit.member(0) - axes.data());
+      const int i = firstAxis(u);
       fault = {vpTrajectoryResult::NoFeasibleDuration, vpTrajectoryFault::GoalContradiction, i,
                to[static_cast<std::size_t>(i)][2]};
     }
   }
+}
+
+int vpTrajectoryPlanner::Impl::firstAxis(int u) const
+{
+  const Line &line = lines[static_cast<std::size_t>(u)];
+  int i = line.used ? 0 : static_cast<int>(units[static_cast<std::size_t>(u)].member(0) - axes.data());
+  while (line.used && !line.contains(i)) {
+    ++i;
+  }
+  return i;
 }
 
 double vpTrajectoryPlanner::Impl::groupBraking() const
@@ -225,12 +258,16 @@ void vpTrajectoryPlanner::Impl::emitLeg(vpTrajectoryPlan &plan, double begin, bo
   for (int u = 0; u < unitCount; ++u) {
     const vpMotionUnit &unit = units[static_cast<std::size_t>(u)];
     const double T = unitDurations[static_cast<std::size_t>(u)];
-    for (int m = 0; m < (straight ? n : unit.count()); ++m) {
-      const int i = straight ? m : static_cast<int>(unit.member(m) - axes.data());
+    const Line &line = lines[static_cast<std::size_t>(u)];
+    for (int m = 0; m < (line.used ? n : unit.count()); ++m) {
+      const int i = line.used ? m : static_cast<int>(unit.member(m) - axes.data());
+      if (line.used && !line.contains(i)) {
+        continue;
+      }
       if (!viaLeg) {
         plan.begin(i, from[static_cast<std::size_t>(i)][0], unit.form());
       }
-      unit.emit(plan, straight ? 0 : m, i, straight ? direction[static_cast<std::size_t>(i)] : 1., T);
+      unit.emit(plan, line.used ? 0 : m, i, line.used ? direction[static_cast<std::size_t>(i)] : 1., T);
       plan.endLeg(i, begin + T);
     }
   }

@@ -18,6 +18,12 @@ BEGIN_VISP_NAMESPACE
 
 struct vpTrajectoryPlanner::Impl {
   Impl(int count, int maxVias);
+  // Axes that a unit moves along a straight line, as one: all, or those of a group.
+  struct Line {
+    bool used = false;
+    const vpAxisGroup *group = nullptr;
+    [[nodiscard]] bool contains(int i) const { return group == nullptr || group->contains(i); }
+  };
   [[nodiscard]] vpMotionAxis &axis(int i) { return axes[static_cast<std::size_t>(i)]; }
 
   void begin()
@@ -30,7 +36,10 @@ struct vpTrajectoryPlanner::Impl {
   // A leg: all axes from `from` to `to`.
   void setTasks(const vpTrajectoryProblem &problem);
   void makeUnits(const vpTrajectoryProblem &problem);
-  bool makeStraight(const vpTrajectoryProblem &problem);
+  vpMotionUnit &addUnit();
+  [[nodiscard]] bool isAtRest(const vpAxisGroup &group);
+  bool addLine(const vpTrajectoryProblem &problem, const vpAxisGroup *group, vpMotionAxis &carrier);
+  [[nodiscard]] int firstAxis(int unit) const;
   [[nodiscard]] bool isAcross(const vpAxisTask &task, const vpAxisTask &line, int i);
   double searchLeg(const vpTrajectoryOptions &options, double floor, bool independent);
   void emitLeg(vpTrajectoryPlan &plan, double begin, bool viaLeg);
@@ -57,12 +66,13 @@ struct vpTrajectoryPlanner::Impl {
 
   int n;
   std::vector<vpAxisState> from, to; // of the present leg, places as in the problem
-  std::vector<vpMotionAxis> axes;    // one more for the straight line
+  std::vector<vpMotionAxis> axes;    // more for the straight lines of all axes and of each group
   std::vector<vpMotionUnit> units;
+  std::vector<Line> lines; // by unit
   std::vector<double> unitDurations;
   int unitCount = 0;
-  bool straight = false;
-  std::vector<double> direction; // of the straight line
+  bool straight = false;         // one line for all axes
+  std::vector<double> direction; // of the straight line of an axis
   vpViaSpline spline;
   std::vector<vpMotionFamily> chain; // segment by segment, axis by axis
   std::vector<const vpMotionFamily *> column;

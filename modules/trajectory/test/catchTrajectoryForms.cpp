@@ -170,6 +170,62 @@ TEST_CASE("cruise brings long moves close to the trapezoid", "[forms]")
   CHECK(plan.form() == vpTrajectoryForm::Direct);
 }
 
+TEST_CASE("a group at rest cruises along its line", "[forms]")
+{
+  const auto duration = [](bool group, bool cruise) {
+    vpTrajectoryInput<3> input;
+    const double way[] = {0.5, 0.3, 0.4};
+    for (int i = 0; i < 3; ++i) {
+      input.goal.q[i] = way[i];
+      input.maxVelocity[i] = 0.25;
+      input.maxAcceleration[i] = 0.5;
+    }
+    if (group) {
+      input.options.groups[0] = vpAxisGroup({0, 1, 2}, 0.25, 0.5);
+    }
+    input.options.cruise = cruise;
+    vpTrajectoryPlan plan(3);
+    REQUIRE(vpDirectTrajectory<3>::calculate(input, plan).result == vpTrajectoryResult::Working);
+    REQUIRE(plan.form(0) == (cruise ? vpTrajectoryForm::Cruise : vpTrajectoryForm::Direct));
+    REQUIRE(worstViolation(input, plan) < 1e-9);
+    return plan.duration();
+  };
+  // Ramps of 1.5 v/a each cover half of their time at full speed: h/v + 1.5 v/a, or 15/8 h/v; h is the length of the line.
+  const double h = std::sqrt(0.5);
+  CHECK(duration(false, true) == Approx(0.5 / 0.25 + 0.75));
+  CHECK(duration(true, true) == Approx(h / 0.25 + 0.75));
+  CHECK(duration(true, false) == Approx(1.875 * h / 0.25));
+
+  auto rng = vpTestSupport::generator(44);
+  CAPTURE(vpTestSupport::seed());
+  int cruises = 0;
+  for (int k = 0; k < problems(10000); ++k) { // two groups and an axis of its own; every third group moves at the start
+    auto input = randomInput<6>(rng, Class::RestToRest, k % 2 == 1);
+    const double length = logUniform(rng, 0.1, 100.);
+    for (int i = 0; i < 6; ++i) {
+      input.goal.q[i] = input.start.q[i] + length * uniform(rng, -1., 1.);
+    }
+    input.options.groups[0] = vpAxisGroup({0, 2, 4}, logUniform(rng, 0.1, 10.), logUniform(rng, 0.1, 10.));
+    input.options.groups[1] = vpAxisGroup({1, 5}, logUniform(rng, 0.1, 10.), logUniform(rng, 0.1, 10.));
+    if (k % 3 == 0) {
+      input.start.v[5] = 0.5 * std::min(input.maxVelocity[5], input.options.groups[1].maxSpeed);
+    }
+    vpTrajectoryPlan plan(6);
+    const vpTrajectoryStatus status = vpDirectTrajectory<6>::calculate(input, plan);
+    CAPTURE(k, status.message());
+    REQUIRE(status.result == vpTrajectoryResult::Working);
+    REQUIRE(worstViolation(input, plan) < 1e-9);
+    REQUIRE(worstMismatch(input, plan) < 1e-12);
+    cruises += plan.form(0) == vpTrajectoryForm::Cruise;
+    const double t = uniform(rng, 0., plan.duration()), share = (plan.at(0, t)[0] - input.start.q[0]) / length;
+    for (const int i : {2, 4}) { // on the line
+      const double ratio = (input.goal.q[i] - input.start.q[i]) / (input.goal.q[0] - input.start.q[0]);
+      REQUIRE(std::abs((plan.at(i, t)[0] - input.start.q[i]) / length - ratio * share) < 1e-9 * (1. + std::abs(ratio)));
+    }
+  }
+  CHECK(cruises > problems(10000) / 10);
+}
+
 TEST_CASE("straight lines are straight, in every form", "[forms]")
 {
   auto rng = vpTestSupport::generator(93);

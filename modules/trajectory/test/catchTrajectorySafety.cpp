@@ -81,3 +81,27 @@ TEST_CASE("every problem of 7 axes is answered safely", "[safety]")
   requireAllSafe<7>(14, false);
   requireAllSafe<7>(15, true);
 }
+
+// The acceleration adds to the velocity while it is taken back: gently, there is no room for it.
+TEST_CASE("a motion next to its velocity limit, with some acceleration left, never exceeds it", "[safety]")
+{
+  auto rng = vpTestSupport::generator(43);
+  CAPTURE(vpTestSupport::seed());
+  vpTrajectoryPlan plan(2);
+  int stops = 0;
+  for (int k = 0; k < problems(20000); ++k) {
+    auto input = randomInput<2>(rng, Class::RestToRest, false);
+    const double v = input.maxVelocity[0], usual = 10. * std::pow(input.maxAcceleration[0], 2) / v;
+    const double room = v * logUniform(rng, 1e-12, 1e-3);
+    input.start.v[0] = v - room;
+    // From a ramp of the usual jerk to one that is ten thousand times shorter.
+    input.start.a[0] = std::min(input.maxAcceleration[0], std::sqrt(2. * usual * room * logUniform(rng, 1., 1e4)));
+    input.goal.q[1] = input.start.q[1] + 100. * uniform(rng, -1., 1.);
+    const vpTrajectoryStatus status = vpDirectTrajectory<2>::calculate(input, plan);
+    CAPTURE(k, status.message(), room / v, input.start.a[0] / input.maxAcceleration[0]);
+    REQUIRE(status.result == vpTrajectoryResult::Working);
+    REQUIRE(worstViolation(input, plan) <= 1e-12);
+    stops += plan.form(0) == vpTrajectoryForm::StopAndGo;
+  }
+  CHECK(stops > problems(20000) / 4);
+}

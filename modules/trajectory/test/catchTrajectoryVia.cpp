@@ -29,6 +29,30 @@ template <int N> vpTrajectoryInput<N> randomVias(std::mt19937_64 &rng, int count
   }
   return input;
 }
+
+// What the evaluation of velocity and acceleration loses, relative to their limits: Horner's rule rounds by 2 n u of the sum
+// of the magnitudes of its terms, and a via near an end makes large terms of different signs.
+template <int N> double roundingOf(const vpTrajectoryInput<N> &input, const vpTrajectoryPlan &plan)
+{
+  double worst = 0.;
+  for (int i = 0; i < plan.axes(); ++i) {
+    for (int k = 0; k < plan.segments(i); ++k) {
+      const vpTrajectorySegment &segment = plan.segment(i, k);
+      vpPolynomial p = segment.p;
+      double unit = 1.;
+      for (const double limit : {input.maxVelocity[i], input.maxAcceleration[i]}) {
+        p = p.derivative();
+        unit *= segment.duration;
+        double terms = 0.;
+        for (int j = 0; j <= p.degree(); ++j) {
+          terms += std::abs(p[j]);
+        }
+        worst = std::max(worst, p.degree() * std::numeric_limits<double>::epsilon() * terms / (limit * unit));
+      }
+    }
+  }
+  return worst;
+}
 } // namespace
 
 TEST_CASE("vias are met, joints are C2, limits kept, for any number of vias", "[via]")
@@ -43,7 +67,7 @@ TEST_CASE("vias are met, joints are C2, limits kept, for any number of vias", "[
     const vpTrajectoryStatus status = vpDirectTrajectory<3>::calculate(input, plan);
     CAPTURE(k, count, status.message(), toString(plan.form()), plan.duration());
     REQUIRE(status.result == vpTrajectoryResult::Working);
-    REQUIRE(worstViolation(input, plan) <= 1e-12);
+    REQUIRE(worstViolation(input, plan) <= 1e-12 + roundingOf(input, plan));
     REQUIRE(worstMismatch(input, plan) <= 1e-10); // the joints of a chain carry the lever of the short segments
     REQUIRE(plan.vias() == count);
     (plan.form() == vpTrajectoryForm::Direct ? direct : legs) += 1;
