@@ -54,8 +54,8 @@ Eigen::Matrix<double, 10, 8> poseToDesign(const vpRigidPose &pose, double unit, 
 } // namespace
 
 vpPhotometricRefiner::vpPhotometricRefiner(const vpPhotometricModel &model, const vpTargetPlane &plane,
-                                           const vpPinhole &camera)
-  : m_model(model), m_plane(plane), m_photometry(model, camera)
+                                           const vpPinhole &camera, bool precise)
+  : m_model(model), m_plane(plane), m_photometry(model, camera), m_precise(precise)
 {}
 
 std::size_t vpPhotometricRefiner::finestUseful(const vpRigidPose &pose) const
@@ -143,7 +143,7 @@ bool vpPhotometricRefiner::start(const std::vector<cv::Mat> &pyramid, std::size_
 bool vpPhotometricRefiner::descend(const std::vector<cv::Mat> &pyramid, std::size_t index, std::size_t soft,
                                    vpRigidPose &pose, unsigned int iterations, unsigned int &budget, double &shift)
 {
-  const double enough = index == 0 ? 0.004 : 0.02;
+  const double enough = index == 0 && m_precise ? 0.004 : 0.02;
   double sigma = std::numeric_limits<double>::infinity();
   shift = largestShift;
   if (m_photometry.sample(pyramid, index, pose) < vpPhotometry::fewestSamples) {

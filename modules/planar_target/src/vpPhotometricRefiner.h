@@ -28,8 +28,9 @@ BEGIN_VISP_NAMESPACE
 class vpPhotometricRefiner
 {
 public:
-  //! \e model must outlive this object.
-  vpPhotometricRefiner(const vpPhotometricModel &model, const vpTargetPlane &plane, const vpPinhole &camera);
+  //! \e model must outlive this object. \param precise : False if another stage follows: the last small steps are left to it.
+  vpPhotometricRefiner(const vpPhotometricModel &model, const vpTargetPlane &plane, const vpPinhole &camera,
+                       bool precise);
 
   /*!
    * Refine \e pose from coarse to fine.
@@ -64,6 +65,7 @@ private:
   const vpPhotometricModel &m_model;
   vpTargetPlane m_plane;
   vpPhotometry m_photometry;
+  bool m_precise;
   std::size_t m_soft = 1; //!< softness that fitted the last frame
 };
 

@@ -49,17 +49,26 @@ std::size_t vpPhotometry::sample(const std::vector<cv::Mat> &pyramid, std::size_
   const Eigen::Vector3d a = m_model.unit() * pose.R.col(0), b = m_model.unit() * pose.R.col(1);
   const Eigen::Vector3f next = (level.pitchX * a).cast<float>();
   m_values.resize(level.samples.size());
-  std::size_t i = 0, inside = 0;
+  for (std::vector<float> *row : {&m_u, &m_v}) {
+    row->resize(static_cast<std::size_t>(level.cols));
+  }
+  std::size_t inside = 0;
   for (int r = 0; r < level.rows; ++r) {
     const Eigen::Vector3f first = (pose.t + level.firstX * a + (level.firstY + r * level.pitchY) * b).cast<float>();
-    for (int c = 0; c < level.cols; ++c, ++i) {
+    float *const us = m_u.data(), *const vs = m_v.data();
+    for (int c = 0; c < level.cols; ++c) { // by itself: compilers turn it into vector instructions
       const float k = static_cast<float>(c);
       const float invZ = 1.f / (first.z() + k * next.z());
       const float x = invZ * (first.x() + k * next.x()), y = invZ * (first.y() + k * next.y());
       const float distortion = 1.f + kud * (x * x + y * y);
-      const float u = u0 + px * distortion * x, v = v0 + py * distortion * y;
-      if (!(invZ > 0.f && u >= 0.f && v >= 0.f && u < lastU && v < lastV)) {
-        m_values[i] = outside;
+      us[c] = invZ > 0.f ? u0 + px * distortion * x : outside;
+      vs[c] = v0 + py * distortion * y;
+    }
+    float *const values = &m_values[static_cast<std::size_t>(r) * static_cast<std::size_t>(level.cols)];
+    for (int c = 0; c < level.cols; ++c) {
+      const float u = us[c], v = vs[c];
+      if (!(u >= 0.f && v >= 0.f && u < lastU && v < lastV)) {
+        values[c] = outside;
         continue;
       }
       const int iu = static_cast<int>(u), iv = static_cast<int>(v);
@@ -67,7 +76,7 @@ std::size_t vpPhotometry::sample(const std::vector<cv::Mat> &pyramid, std::size_
       const unsigned char *p = frame.ptr<unsigned char>(iv) + iu, *q = p + frame.step[0];
       const float top = static_cast<float>(p[0]) + fu * static_cast<float>(p[1] - p[0]);
       const float bottom = static_cast<float>(q[0]) + fu * static_cast<float>(q[1] - q[0]);
-      m_values[i] = top + fv * (bottom - top);
+      values[c] = top + fv * (bottom - top);
       ++inside;
     }
   }

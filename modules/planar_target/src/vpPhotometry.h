@@ -89,6 +89,7 @@ private:
   double m_gain = 1., m_bias = 0.;
   std::vector<float> m_values; //!< of the frame at each sample, < 0 outside of it
   std::vector<float> m_residuals;
+  std::vector<float> m_u, m_v; //!< where a row of samples is in the frame
   std::vector<double> m_scratch;
 };
 

@@ -28,11 +28,13 @@ constexpr double smallestSigma = 0.35; // grey levels; rounding to whole ones is
 constexpr std::size_t enoughForMedian = 8192;
 constexpr double startSlope = 0.3, slope = 0.15; // px, see m_slope
 constexpr unsigned int mostRounds = 6, mostSteps = 8;
-constexpr double shortStep = 0.05;                    // deviations
+constexpr double shortStep = 0.05, longStep = 0.5;    // deviations; after a long one the noise is estimated anew
+constexpr double roughStep = 0.1;                     // of the way
 constexpr double smallShift = 0.1, smallTurn = 0.005; // px, rad: within, a prediction is linear,
 constexpr double tinyShift = 0.005;                   // px; whatever the deviations, as of an image without noise
 constexpr double smallWay = 10.;                      // deviations; and its gradient, good to 1 %, leads to the place
 constexpr double smallBlur = 0.1;                     // change of half the square of the blur, share of blur^2 + 0.1
+constexpr double smallError = 0.05;                   // deviations; that share of the way
 constexpr double maskShift = 0.7;   // px; with more, what does not fit may be misplaced and not hidden
 constexpr double largestShift = 6.; // px of a corner from the start; the other stages are never so far off
 constexpr double usualTurn = 0.1, usualMove = 0.1;  // rad, share of the distance; hold back what is hardly seen
@@ -115,9 +117,7 @@ template <vpPixelRefiner::Weight kind, typename Visit> void vpPixelRefiner::forB
       }
     }
     for (int col = begin / lanes * lanes; col < end; col += lanes) {
-      const Eigen::Matrix<double, 2, 6> motion =
-          pixelMotion(m_fit.pose, m_binned, area.x + col + 0.5 * (lanes - 1), area.y + 0.5 * (row + last - 1));
-      visit(row, col, motion, blockSums<kind>(row, col));
+      visit(row, col, motion(row, col), blockSums<kind>(row, col));
     }
   }
 }
@@ -154,8 +154,20 @@ bool vpPixelRefiner::predict(const cv::Mat &image)
       open[c] = hidden[c] ? 0.f : 1.f;
     }
   }
+  m_motions.clear();
+  for (int row = 0; row < area.height; row += blockRows) {
+    const double v = area.y + 0.5 * (row + std::min(row + blockRows, area.height) - 1);
+    for (int col = 0; col < area.width; col += lanes) {
+      m_motions.push_back(pixelMotion(m_fit.pose, m_binned, area.x + col + 0.5 * (lanes - 1), v));
+    }
+  }
   m_change.setZero();
   return true;
+}
+
+const vpPixelRefiner::Motion &vpPixelRefiner::motion(int row, int col) const
+{
+  return m_motions[static_cast<std::size_t>(row / blockRows * (m_prediction.area().width / lanes) + col / lanes)];
 }
 
 void vpPixelRefiner::updateResiduals()
@@ -165,9 +177,7 @@ void vpPixelRefiner::updateResiduals()
   const cv::Rect &area = m_prediction.area();
   for (int row = 0; row < area.height; row += blockRows) {
     for (int col = 0; col < area.width; col += lanes) {
-      const Eigen::Vector2d shift =
-          pixelMotion(m_fit.pose, m_binned, area.x + col + 0.5 * (lanes - 1), area.y + row + 0.5 * (blockRows - 1)) *
-          m_change.head<6>();
+      const Eigen::Vector2d shift = motion(row, col) * m_change.head<6>();
       const float su = static_cast<float>(shift.x()), sv = static_cast<float>(shift.y());
       for (int r = row; r < std::min(row + blockRows, area.height); ++r) {
         const Lanes grey = load(m_prediction.grey(), r, col) - su * load(m_prediction.du(), r, col) -
@@ -203,7 +213,7 @@ template <vpPixelRefiner::Weight kind> void vpPixelRefiner::assemble(Normal &N, 
 {
   N.setZero();
   right.setZero();
-  forBlocks<kind>([&](int, int, const Eigen::Matrix<double, 2, 6> &motion, const Sums &sums) {
+  forBlocks<kind>([&](int, int, const Motion &motion, const Sums &sums) {
     const Eigen::Matrix<double, 6, 2> J = -m_fit.camera.gain * motion.transpose();
     N.topLeftCorner<6, 6>() += J * sums.normal.topLeftCorner<2, 2>() * J.transpose();
     N.topRightCorner<6, 3>() += J * sums.normal.topRightCorner<2, 3>();
@@ -222,7 +232,9 @@ template <vpPixelRefiner::Weight kind> void vpPixelRefiner::assemble(Normal &N, 
 bool vpPixelRefiner::step(double &length)
 {
   updateResiduals();
-  m_fit.sigma = scale();
+  if (length > longStep) {
+    m_fit.sigma = scale();
+  }
   Normal N;
   Params right;
   assemble<Weight::Estimate>(N, right);
@@ -247,7 +259,7 @@ bool vpPixelRefiner::step(double &length)
          m_change.head<3>().norm() < 0.5 * m_fit.pose.t.norm();
 }
 
-// Steps with one prediction.
+// Steps with one prediction; roughly where the next one will be needed anyway.
 bool vpPixelRefiner::descend()
 {
   double length = std::numeric_limits<double>::infinity();
@@ -255,12 +267,15 @@ bool vpPixelRefiner::descend()
     if (!step(length)) {
       return false;
     }
+    if (length < roughStep * m_way && !isLinear()) {
+      break;
+    }
   }
   return true;
 }
 
-// Whole areas that do not fit.
-void vpPixelRefiner::maskHidden()
+// Hides whole areas that do not fit; true if they are not those that are hidden already.
+bool vpPixelRefiner::maskHidden()
 {
   const cv::Rect &area = m_prediction.area();
   clear(m_misfit, area.height, area.width, CV_32F);
@@ -285,16 +300,19 @@ void vpPixelRefiner::maskHidden()
   cv::scaleAdd(count, -misfitLimit, misfit, misfit);
   cv::compare(misfit, 0., m_bad, cv::CMP_GT);
   cv::dilate(m_bad, m_bad, cv::Mat::ones(maskGrowth, maskGrowth, CV_8U));
+  bool changed = false;
   for (int r = 0; r < area.height; ++r) {
     const vpTargetPrediction::Span span = m_prediction.spans()[static_cast<std::size_t>(r)];
     const unsigned char *const bad = m_bad.ptr<unsigned char>(r);
     unsigned char *const hidden = m_hidden.ptr<unsigned char>(area.y + r) + area.x;
     float *const open = m_open.ptr<float>(r);
     for (int c = span.begin; c < span.end; ++c) {
+      changed |= hidden[c] != bad[c];
       hidden[c] = bad[c];
       open[c] = bad[c] ? 0.f : 1.f;
     }
   }
+  return changed;
 }
 
 // How far the target has moved in the frame since the prediction, px.
@@ -314,10 +332,11 @@ double vpPixelRefiner::largestMove() const
 // True if the prediction, linear in the change, holds: a new one would lead nowhere else.
 bool vpPixelRefiner::isLinear() const
 {
-  const double blur2 = m_fit.camera.blur * m_fit.camera.blur;
-  const double shift = largestMove();
+  const double blur = m_fit.camera.blur, shift = largestMove();
+  // At a blur that is wrong by a share the gradient is, by about two of these.
+  const double share = blurred(m_change(8)) == blur ? 0. : std::abs(m_change(8)) / (blur * blur + 0.1);
   return (m_way < smallWay || shift < tinyShift) && shift < smallShift && m_change.segment<3>(3).norm() < smallTurn &&
-         (std::abs(m_change(8)) < smallBlur * (blur2 + 0.1) || blurred(m_change(8)) == m_fit.camera.blur);
+         share < smallBlur && m_way * share < smallError;
 }
 
 double vpPixelRefiner::blurred(double change) const
@@ -340,7 +359,7 @@ vpPixelRefiner::Normal vpPixelRefiner::patchScores() const
   const double gain = m_fit.camera.gain;
   const int across = area.width / (lanes * patch) + 1, down = area.height / (blockRows * patch) + 1;
   std::vector<Params> scores(static_cast<std::size_t>(across) * static_cast<std::size_t>(down), Params::Zero());
-  forBlocks<Weight::Estimate>([&](int row, int col, const Eigen::Matrix<double, 2, 6> &motion, const Sums &sums) {
+  forBlocks<Weight::Estimate>([&](int row, int col, const Motion &motion, const Sums &sums) {
     Params &score = scores[static_cast<std::size_t>(row / (blockRows * patch) * across + col / (lanes * patch))];
     score.head<6>() -= gain * motion.transpose() * sums.right.head<2>();
     score.segment<2>(6) += sums.right.segment<2>(2);
@@ -398,7 +417,7 @@ void vpPixelRefiner::conclude()
       m_fit.covariance.allFinite() && (m_fit.covariance.diagonal().array() > 0.).all() && m_fit.hidden < largestHidden;
 }
 
-const vpPixelFit &vpPixelRefiner::refine(const cv::Mat &image, const vpRigidPose &pose, const vpCameraState &start)
+void vpPixelRefiner::begin(const cv::Mat &image, const vpRigidPose &pose, const vpCameraState &start)
 {
   m_fit = vpPixelFit();
   m_fit.pose = pose;
@@ -411,16 +430,31 @@ const vpPixelFit &vpPixelRefiner::refine(const cv::Mat &image, const vpRigidPose
   m_frameSize = cv::Size(image.cols / m_bin, image.rows / m_bin);
   m_fit.camera.blur = std::clamp(start.blur / k, vpTargetPrediction::sharpest, vpTargetPrediction::softest);
   clear(m_hidden, m_frameSize.height, m_frameSize.width + lanes, CV_8U);
+  m_slope = startSlope;
+}
+
+bool vpPixelRefiner::glance(const cv::Mat &image, const vpRigidPose &pose, const vpCameraState &start)
+{
+  begin(image, pose, start);
+  if (!predict(image) || !descend()) {
+    return false;
+  }
+  updateResiduals();
+  return true;
+}
+
+const vpPixelFit &vpPixelRefiner::refine(const cv::Mat &image, const vpRigidPose &pose, const vpCameraState &start)
+{
+  begin(image, pose, start);
   for (unsigned int round = 0; round < mostRounds; ++round) {
-    m_slope = startSlope;
     if (!predict(image) || !descend()) {
       return m_fit;
     }
     const double shift = largestMove();
     if (shift < maskShift) { // what does not fit now is hidden and not misplaced
+      const bool stricter = m_slope > slope;
       m_slope = slope;
-      maskHidden();
-      if (!descend()) {
+      if ((maskHidden() || stricter) && isLinear() && !descend()) {
         return m_fit;
       }
     }
@@ -435,11 +469,11 @@ const vpPixelFit &vpPixelRefiner::refine(const cv::Mat &image, const vpRigidPose
   }
   // Products of rotations drift from orthonormality: nearest rotation by one Newton step.
   m_fit.pose.R = 0.5 * m_fit.pose.R * (3. * Eigen::Matrix3d::Identity() - m_fit.pose.R.transpose() * m_fit.pose.R);
-  m_fit.camera.blur *= k;
+  m_fit.camera.blur *= m_bin;
   for (const Eigen::Vector2d &corner : m_plane.corners()) {
     const Eigen::Vector3d P = pose.R.leftCols<2>() * corner + pose.t;
     const Eigen::Vector2d p = m_camera.project(P.head<2>() / P.z());
-    m_fit.converged &= pixelShift(pose, m_fit.pose, m_camera, p.x(), p.y()).norm() < largestShift * k;
+    m_fit.converged &= pixelShift(pose, m_fit.pose, m_camera, p.x(), p.y()).norm() < largestShift * m_bin;
   }
   return m_fit;
 }
@@ -451,7 +485,7 @@ double vpPixelRefiner::distance(const vpRigidPose &other) const
   Vector6 right = Vector6::Zero();
   double squares = 0.;
   const cv::Rect &area = m_prediction.area();
-  forBlocks<Weight::Estimate>([&](int row, int col, const Eigen::Matrix<double, 2, 6> &motion, const Sums &sums) {
+  forBlocks<Weight::Estimate>([&](int row, int col, const Motion &motion, const Sums &sums) {
     const Eigen::Vector2d shift =
         pixelShift(m_fit.pose, other, m_binned, area.x + col + 0.5 * (lanes - 1), area.y + row + 0.5 * (blockRows - 1));
     const Eigen::Matrix2d slopes = sums.normal.topLeftCorner<2, 2>();

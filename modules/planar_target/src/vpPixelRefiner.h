@@ -57,6 +57,12 @@ public:
    */
   const vpPixelFit &refine(const cv::Mat &image, const vpRigidPose &pose, const vpCameraState &start);
 
+  /*!
+   * One prediction and its linear steps: residuals() of about what refine() would come to, for comparison; fit() has no pose.
+   * \return False where they lead nowhere.
+   */
+  bool glance(const cv::Mat &image, const vpRigidPose &pose, const vpCameraState &start);
+
   [[nodiscard]] const vpPixelFit &fit() const { return m_fit; }
   //! Pixels of the last frame's area, residuals of the last fit; weights are 0 off the target and where it is hidden.
   [[nodiscard]] const cv::Rect &area() const { return m_prediction.area(); }
@@ -68,10 +74,13 @@ public:
 private:
   using Params = Eigen::Matrix<double, 9, 1>; // v, w, gain, bias, half the square of the blur
   using Normal = Eigen::Matrix<double, 9, 9>;
+  using Motion = Eigen::Matrix<double, 2, 6>;
   struct Sums;
   enum class Weight { Estimate, Derivative, Score };
 
+  void begin(const cv::Mat &image, const vpRigidPose &pose, const vpCameraState &start);
   bool predict(const cv::Mat &image);
+  [[nodiscard]] const Motion &motion(int row, int col) const;
   void takeFrame(const cv::Mat &image, const cv::Rect &area);
   void updateResiduals();
   double scale();
@@ -84,7 +93,7 @@ private:
   bool isLinear() const;
   double blurred(double change) const;
   void adopt();
-  void maskHidden();
+  bool maskHidden();
   Normal patchScores() const;
   int judgeResiduals();
   void conclude();
@@ -101,6 +110,7 @@ private:
   vpPinhole m_binned;   // camera of the frame after binning
   cv::Size m_frameSize; // likewise
   cv::Mat m_frame, m_residuals, m_open, m_hidden, m_misfit, m_count, m_bad;
+  std::vector<Motion> m_motions; // of the blocks, at the prediction
   std::vector<double> m_sample;
 };
 

@@ -101,8 +101,9 @@ vpPlanarTarget::Impl::Impl(const vpImage<unsigned char> &reference, double width
                       "least %.0f",
                       m_model->contrast(), smallestContrast);
   }
-  m_refiner = std::make_unique<vpPhotometricRefiner>(*m_model, m_plane, m_camera);
-  if (config.exact && config.refine) {
+  const bool exact = config.exact && config.refine;
+  m_refiner = std::make_unique<vpPhotometricRefiner>(*m_model, m_plane, m_camera, !exact);
+  if (exact) {
     m_texture = std::make_unique<vpTargetTexture>(image, m_plane);
     m_choice = std::make_unique<vpPoseChoice>(*m_texture, m_plane, m_camera);
   }

@@ -22,6 +22,8 @@ constexpr double fading = 0.9;                 // of evidence, from frame to fra
 constexpr double mostEvidence = 50.;           // so that a few frames can change it
 constexpr double sameTurn2 = 9.;               // squared deviations of the rotation; within, the covariance holds both
 constexpr double farDistance = 60.;            // deviations between two images that no frame can mistake
+constexpr double plainEvidence = 100.;         // of a glance, of the farDistance^2 / 2 that are to be expected
+constexpr double plainKappa = 3.;              // of a fit that no other could much improve
 constexpr double oneTurn = 0.3;                // share of the turn to the rival; closer, both have ended in one place
 constexpr float cut = 22.f;                    // squared deviations; what is beyond does not fit either
 constexpr int block = 12;                      // px, see Evidence
@@ -55,6 +57,17 @@ vpRigidPose rivalPose(const vpRigidPose &pose)
   return rival;
 }
 
+// True if the first refiner's pose fits, and the rival is so far off that its place need not be known.
+bool vpPoseChoice::isPlain(const cv::Mat &image, const vpRigidPose &rival)
+{
+  const vpPixelFit &fit = m_refiners[0].fit();
+  if (fit.kappa > plainKappa || !m_refiners[1].glance(image, rival, fit.camera)) {
+    return false;
+  }
+  const Evidence evidence = compare();
+  return evidence.L > plainEvidence && evidence.L > sureSpreads * std::sqrt(evidence.variance);
+}
+
 // True if there is a rival, refined.
 bool vpPoseChoice::refineRival(const cv::Mat &image)
 {
@@ -63,8 +76,9 @@ bool vpPoseChoice::refineRival(const cv::Mat &image)
     return false;
   }
   const vpRigidPose start = rivalPose(fit.pose);
-  // Followed from a frame before, the pose is decided for good where the perspective is strong.
-  if (turn2(fit, start) < sameTurn2 || (m_memory && m_refiners[0].distance(start) > farDistance)) {
+  // Where the perspective is strong, the pose is decided for good when followed from a frame before, or at a glance.
+  if (turn2(fit, start) < sameTurn2 ||
+      (m_refiners[0].distance(start) > farDistance && (m_memory || isPlain(image, start)))) {
     return false;
   }
   const double whole = turnBetween(start, fit.pose);

@@ -56,6 +56,7 @@ private:
     Evidence evidence; // for best
   };
 
+  bool isPlain(const cv::Mat &image, const vpRigidPose &rival);
   bool refineRival(const cv::Mat &image);
   [[nodiscard]] Evidence compare() const;
   void conclude(Evidence now);

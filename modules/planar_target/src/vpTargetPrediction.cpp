@@ -180,30 +180,48 @@ bool vpTargetPrediction::findArea(const vpRigidPose &pose, const vpPinhole &came
 void vpTargetPrediction::sampleRow(const cv::Mat &texture, const Eigen::Matrix3f &toTexel, const vpPinhole &camera,
                                    double v, int begin, int end)
 {
-  const std::size_t n = 2 * static_cast<std::size_t>(end - begin);
+  const int n = 2 * (end - begin), stride = static_cast<int>(texture.step1());
   const float lastU = static_cast<float>(texture.cols - 1) - 1e-3f,
               lastV = static_cast<float>(texture.rows - 1) - 1e-3f;
-  const float first = static_cast<float>(m_area.x + begin) - 0.25f;
-  for (std::size_t i = 0; i < n; ++i) {
+  const float first = static_cast<float>(m_area.x + begin) - 0.25f, line = static_cast<float>(v);
+  float *const texelU = m_texelU.data(), *const texelV = m_texelV.data();
+  int *const texel = m_texel.data();
+  // Loops of their own, each of one kind of work, are what compilers turn into vector instructions.
+  if (camera.kud == 0.) {
     float x, y;
-    toNormalised<float>(camera, first + 0.5f * static_cast<float>(i), static_cast<float>(v), x, y);
+    toNormalised<float>(camera, first, line, x, y);
+    const float step = static_cast<float>(0.5 / camera.px);
+    for (int i = 0; i < n; ++i) {
+      texelU[i] = x + step * static_cast<float>(i);
+      texelV[i] = y;
+    }
+  }
+  else {
+    for (int i = 0; i < n; ++i) {
+      toNormalised<float>(camera, first + 0.5f * static_cast<float>(i), line, texelU[i], texelV[i]);
+    }
+  }
+  for (int i = 0; i < n; ++i) {
+    const float x = texelU[i], y = texelV[i];
     const float scale = 1.f / (toTexel(2, 0) * x + toTexel(2, 1) * y + toTexel(2, 2));
     const float a = scale * (toTexel(0, 0) * x + toTexel(0, 1) * y + toTexel(0, 2));
     const float b = scale * (toTexel(1, 0) * x + toTexel(1, 1) * y + toTexel(1, 2));
-    m_texelU[i] = std::min(lastU, std::max(0.f, a)); // in this order no NaN comes through
-    m_texelV[i] = std::min(lastV, std::max(0.f, b));
-  }
-  const auto sample = [&](std::size_t i) {
-    const float u = m_texelU[i], w = m_texelV[i];
+    const float u = std::min(lastU, std::max(0.f, a)), w = std::min(lastV, std::max(0.f, b)); // so no NaN comes through
     const int iu = static_cast<int>(u), iv = static_cast<int>(w);
-    const float fu = u - static_cast<float>(iu), fv = w - static_cast<float>(iv);
-    const float *p = texture.ptr<float>(iv) + iu, *q = texture.ptr<float>(iv + 1) + iu;
-    const float upper = p[0] + fu * (p[1] - p[0]), lower = q[0] + fu * (q[1] - q[0]);
-    return upper + fv * (lower - upper);
+    texelU[i] = u - static_cast<float>(iu);
+    texelV[i] = w - static_cast<float>(iv);
+    texel[i] = iv * stride + iu;
+  }
+  const float *const upperRow = texture.ptr<float>(), *const lowerRow = upperRow + stride;
+  const auto sample = [&](int i) {
+    const float *const p = upperRow + texel[i], *const q = lowerRow + texel[i];
+    const float upper = p[0] + texelU[i] * (p[1] - p[0]), lower = q[0] + texelU[i] * (q[1] - q[0]);
+    return upper + texelV[i] * (lower - upper);
   };
-  for (std::size_t i = 0; i < n; i += 2) {
-    m_left[i / 2] = sample(i);
-    m_right[i / 2] = sample(i + 1);
+  float *const left = m_left.data(), *const right = m_right.data();
+  for (int i = 0; i < n / 2; ++i) {
+    left[i] = sample(2 * i);
+    right[i] = sample(2 * i + 1);
   }
 }
 
@@ -286,6 +304,7 @@ bool vpTargetPrediction::predict(const vpTargetTexture &texture, const vpRigidPo
   for (std::vector<float> *v : {&m_texelU, &m_texelV, &m_left, &m_right}) {
     v->resize(samples);
   }
+  m_texel.resize(samples);
   int next = 0; // row of samples, 0 is the upper one of row -halo
   for (int r = 0; r < rows; ++r) {
     if (m_spans[static_cast<std::size_t>(r)].begin >= m_spans[static_cast<std::size_t>(r)].end) {

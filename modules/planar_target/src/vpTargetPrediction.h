@@ -78,7 +78,8 @@ private:
   std::vector<Span> m_spans;
   int m_pixels = 0;
   cv::Mat m_grey, m_du, m_dv, m_dBlur;
-  std::vector<float> m_texelU, m_texelV;  //!< of one row of samples
+  std::vector<float> m_texelU, m_texelV;  //!< of one row of samples: where, then where between four texels
+  std::vector<int> m_texel;               //!< likewise: index of the first of the four
   std::vector<float> m_left, m_right;     //!< the samples in the left and in the right half of each pixel of a row
   cv::Mat m_smooth, m_slope, m_curvature; //!< rows of samples, filtered along the row; a ring
 };
