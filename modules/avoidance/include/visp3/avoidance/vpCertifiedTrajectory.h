@@ -70,9 +70,9 @@ public:
   }
 
   /*!
-   * The same for whom only the verdict matters, in less time: the time of a collision is one when something is too near,
-   * not the first one.
-   * \param looks : No more configurations than so many are looked at; a motion that needs more is Undecided.
+   * As check() with its parameters, for whom only the verdict matters, in less time: the time of a collision is one when
+   * something is too near, not the first one. No more than \e looks configurations are looked at; a motion that needs more
+   * is Undecided.
    */
   [[nodiscard]] vpTrajectoryClearance verdict(const vpTrajectoryPlan &plan, double from, double to, double age = 0.,
                                               int looks = mostLooks) noexcept;

@@ -34,7 +34,7 @@ struct VISP_EXPORT vpPlaneMatch {
   std::size_t matches = 0;            //!< Mutual best pairs before the homography; the inliers are among them.
   double sigma = 0.;                  //!< Standard deviation of an inlier from the homography, px in each axis.
   double cornerDeviation = 0.;        //!< The largest deviation() at the corners of the reference image, px.
-  unsigned int referenceWidth = 0, referenceHeight = 0; //!< px.
+  unsigned int referenceWidth /*!< px. */ = 0, referenceHeight /*!< px. */ = 0;
   /*!
    * Of the first eight elements, row by row, of G = H B / (H B)(2,2), where B takes ((u - width/2)/S, (v - height/2)/S, 1),
    * S = width/2, to the pixel (u, v) of the reference: sigma^2 (sum J^T J)^-1, row by row, from the inliers. Infinite when
