@@ -148,7 +148,7 @@ TEST_CASE("Bad use ends with a sentence and nothing written", "[visp-generate-pa
       {"--nonsense", USAGE, "--nonsense"},
       {"extra", USAGE, "extra"},
       {"--pitch-x -5", USAGE, "--pitch-x is -5 px, must be 2..100000"},
-      {"--width -5", USAGE, "--width = -5"},
+      {"--width -5", USAGE, "--width is -5, must be a whole number >= 0"},
       {"--width 7", USAGE, "--width is 7 px, must be 8..16384"},
       {"--dust nan", USAGE, "--dust is nan, must be 0..100"},
       {"--shape star", USAGE, "--shape is star, must be rectangle, rounded or dot"},

@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 // Motions against the published values, the answers against the motions, and random problems against their limits.
-#include "vpCatch.h"
+#include "vpCaseFile.h"
 
 #include "answer.h"
 #include "figure.h"
@@ -308,12 +308,11 @@ TEST_CASE("The example files are answered, and have a picture", "[visp-plan-traj
 
 namespace
 {
-//! Lines of a file of the folder that VISP_DIRECT_CASES names, with problems from public reports.
+//! Lines of a file with problems from public reports; none where the file is missing, and the test is then skipped.
 std::vector<std::string> publicProblems(const std::string &name)
 {
   std::vector<std::string> lines;
-  const char *folder = std::getenv("VISP_DIRECT_CASES");
-  std::ifstream file(std::string(folder != nullptr ? folder : "") + "/trajectory/" + name);
+  std::ifstream file(vpTestSupport::caseFile("trajectory/" + name));
   for (std::string line; std::getline(file, line);) {
     lines.push_back(line);
   }
@@ -325,13 +324,8 @@ TEST_CASE("Public problems: every line is refused, or its excess is told, and no
           "[visp-plan-trajectory]")
 {
   for (const char *name : {"limit-broken.jsonl", "limit-sweep.jsonl", "not-finite.jsonl", "public.jsonl"}) {
-    const std::vector<std::string> lines = publicProblems(name);
-    if (lines.empty()) {
-      vpTestSupport::skip(std::string("VISP_DIRECT_CASES names no folder with trajectory/") + name);
-      continue;
-    }
     std::size_t number = 0;
-    for (const std::string &text : lines) {
+    for (const std::string &text : publicProblems(name)) {
       ++number;
       CAPTURE(name, number, text);
       if (text.find_first_not_of(" \r\t") == std::string::npos) {

@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 // The program as its users run it: exit status, what is on which stream, what is written.
-#include "vpCatch.h"
+#include "vpCaseFile.h"
 
 #include "programRun.h"
 
@@ -257,10 +257,8 @@ TEST_CASE("A hexagonal grid is calibrated as one, and never as a square one", "[
 
 TEST_CASE("A micrograph of a grid with dots of three levels is a grid", "[visp-track-pattern]")
 {
-  const char *const cases = std::getenv("VISP_DIRECT_CASES"); // the folder with inputs from public problems
-  const std::string image = std::string(cases == nullptr ? "" : cases) + "/images/three-level-dots.png";
-  if (!std::filesystem::exists(image)) {
-    vpTestSupport::skip("VISP_DIRECT_CASES names no folder with images/three-level-dots.png");
+  const std::string image = vpTestSupport::caseFile("images/three-level-dots.png");
+  if (image.empty()) {
     return;
   }
   ProgramRun run(TRACK_PATTERN);

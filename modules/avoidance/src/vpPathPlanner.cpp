@@ -151,7 +151,6 @@ void requireGood(const char *field, double value, bool good, const char *range)
   }
 }
 
-// The goal's angles of continuous joints, by the short way from the start.
 vpJointVector withinLimits(const vpArmModel &arm, const vpJointVector &q)
 {
   return q.cwiseMax(arm.lower()).cwiseMin(arm.upper());
@@ -165,6 +164,7 @@ std::string exactly(double value)
   return text;
 }
 
+// The goal's angles of continuous joints, by the short way from the start.
 vpJointVector nearGoal(const vpArmModel &arm, const vpJointVector &start, const vpJointVector &goal)
 {
   vpJointVector near = goal;

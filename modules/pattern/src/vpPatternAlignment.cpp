@@ -220,8 +220,8 @@ void vpPatternTracker::Impl::validate(const vpImage<unsigned char> &image)
     if (cell.valid) {
       cell.x = fit.x;
       cell.y = fit.y;
-      cell.sigmaX = sx;
-      cell.sigmaY = sy;
+      cell.sigmaX = std::hypot(sx, fit.doubtX);
+      cell.sigmaY = std::hypot(sy, fit.doubtY);
       ++m_frame.validCells;
     }
   }

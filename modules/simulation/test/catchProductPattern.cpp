@@ -171,7 +171,9 @@ TEST_CASE("The centroid of a cell is its true place", "[pattern]")
   CAPTURE(exact.worst, rounded.worst, rounded.meanX / rounded.cells, rounded.meanY / rounded.cells);
   CHECK(exact.cells > 300);
   CHECK(exact.worst < 2e-4);
-  CHECK(rounded.worst < 0.012); // rounding moves all pixels of an edge alike where it is parallel to them, ...
+  // Rounding moves all pixels of an edge alike where it is parallel to them: each of a dozen columns by 0.0013 px
+  // (0.289 of 110 grey levels, at both ends of 34 px), and this is five deviations of their sum; ...
+  CHECK(rounded.worst < 0.023);
   CHECK(std::fabs(rounded.meanX / rounded.cells) < 6e-4); // ... without a bias
   CHECK(std::fabs(rounded.meanY / rounded.cells) < 6e-4);
 }
