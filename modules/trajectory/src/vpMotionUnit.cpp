@@ -148,6 +148,9 @@ bool vpMotionUnit::keepsPositions(Form form) const noexcept
 {
   for (int i = 0; i < m_count; ++i) {
     const vpAxisTask &task = at(i).task;
+    if (!std::isfinite(task.minPosition) && !std::isfinite(task.maxPosition)) {
+      continue;
+    }
     double low = 0., high = 0.;
     at(i)[form].hull(low, high);
     if (low < std::min({task.minPosition, 0., task.to[0]}) || high > std::max({task.maxPosition, 0., task.to[0]})) {
