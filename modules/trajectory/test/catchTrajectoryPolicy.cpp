@@ -156,7 +156,7 @@ TEST_CASE("KeepArrival tracks a moving goal with noise better than EventMinTime,
         CHECK(keep.rmsError <= each.rmsError);
         // Peaks are extremes of the noise, on both sides; means vary less.
         CHECK((cyclesPerImage == 1 ? 4. : 1.) * keep.peakJerk <= std::min(event.peakJerk, each.peakJerk));
-        CHECK((cyclesPerImage == 1 ? 10. : 2.5) * keep.rmsJerk <= std::min(event.rmsJerk, each.rmsJerk));
+        CHECK((cyclesPerImage == 1 ? 5. : 2.5) * keep.rmsJerk <= std::min(event.rmsJerk, each.rmsJerk));
       }
     }
   }
