@@ -157,6 +157,33 @@ TEST_CASE("a target of the usual perspective is never ambiguous, seen from the f
   }
 }
 
+TEST_CASE("the mirrored pose at strong perspective, given as the pose to start from, is never called certain",
+          "[planar_target]")
+{
+  // Here one look at the rival decides, from whichever of the two it is seen.
+  CAPTURE(vpTestSupport::seed());
+  for (const double f : {800., 1500., 2500.}) {
+    Scene scene(klimt(), f);
+    int certain = 0;
+    const int n = views(6);
+    for (int i = 0; i < n; ++i) {
+      auto rng = vpTestSupport::generator(static_cast<unsigned int>(9000000. + f + 10000. * i));
+      const double azimuth = uniform(rng, 0., 2. * M_PI), tilt = uniform(rng, 0.05, 0.5),
+                   roll = uniform(rng, -M_PI, M_PI);
+      const vpHomogeneousMatrix cMo = scene.pose(azimuth, tilt, roll);
+      scene.target.reset();
+      const vpPlanarTargetResult &r =
+          scene.target.track(scene.view(cMo, static_cast<unsigned int>(rng())), scene.pose(azimuth + M_PI, tilt, roll));
+      CAPTURE(f, tilt, i, r.message);
+      if (r.found()) {
+        ++certain;
+        CHECK(turn(r.cMo, cMo) < tilt);
+      }
+    }
+    std::cout << "f " << f << ", started at the mirrored pose: " << certain << " of " << n << " certain\n";
+  }
+}
+
 TEST_CASE("hints that are no poses, other image sizes, and targets of any size: a status, never a wrong pose",
           "[planar_target]")
 {

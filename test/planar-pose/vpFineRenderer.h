@@ -75,15 +75,20 @@ public:
   //! Grey values row by row; \e background off the target.
   std::vector<double> render(const vpHomogeneousMatrix &cMo, double blur, int samples, double background = 128.) const
   {
-    std::vector<double> image(static_cast<std::size_t>(m_cols * m_rows));
+    std::vector<double> image(static_cast<std::size_t>(m_cols * m_rows), background);
     const Eigen::Matrix3d toPlane = planeFromPixel(cMo);
+    const int reach = static_cast<int>(std::ceil(4. * blur));
+    int left = m_cols, right = -1, top = m_rows, bottom = -1; // what is not background, before it is blurred
     for (int v = 0; v < m_rows; ++v) {
       for (int u = 0; u < m_cols; ++u) {
         const Eigen::Vector3d centre = toPlane * Eigen::Vector3d(u, v, 1.);
         if (!contains(centre, 3. * cMo[2][3] / m_focal)) {
-          image[static_cast<std::size_t>(v * m_cols + u)] = background;
           continue;
         }
+        left = std::min(left, u);
+        right = std::max(right, u);
+        top = std::min(top, v);
+        bottom = std::max(bottom, v);
         double sum = 0.;
         for (int k = 0; k < samples * samples; ++k) {
           const double du = (k % samples + 0.5) / samples - 0.5, dv = (k / samples + 0.5) / samples - 0.5;
@@ -93,9 +98,14 @@ public:
         image[static_cast<std::size_t>(v * m_cols + u)] = sum / (samples * samples);
       }
     }
-    if (blur > 0.) {
-      smooth(image, blur, 1, m_cols);
-      smooth(image, blur, m_cols, m_rows);
+    if (blur > 0. && left <= right) {
+      left = std::max(0, left - reach);
+      right = std::min(m_cols - 1, right + reach);
+      top = std::max(0, top - reach);
+      bottom = std::min(m_rows - 1, bottom + reach);
+      double *const first = &image[static_cast<std::size_t>(top * m_cols + left)];
+      smooth(first, blur, 1, right - left + 1, m_cols, bottom - top + 1);
+      smooth(first, blur, m_cols, bottom - top + 1, 1, right - left + 1);
     }
     return image;
   }
@@ -106,26 +116,36 @@ public:
     return contains(planeFromPixel(cMo) * Eigen::Vector3d(u, v, 1.), -margin * cMo[2][3] / m_focal);
   }
 
-  /*!
-   * Bound of Cramer and Rao on the covariance of the pose, gain and bias of the camera unknown, from the pixels that
-   * \e use names: differences of renders that are a twentieth of a pixel apart.
-   */
-  template <typename Use>
-  vpErrorCovariance bound(const vpHomogeneousMatrix &cMo, double blur, double gain, double noise, Use use) const
+  //! Grey values of a view and their derivatives by the pose.
+  struct Slopes {
+    std::vector<double> grey;
+    std::array<std::vector<double>, 6> pose;
+  };
+
+  //! By differences of renders that are a twentieth of a pixel apart.
+  Slopes slopes(const vpHomogeneousMatrix &cMo, double blur) const
   {
-    constexpr int samples = 3;
+    constexpr int samples = 3; // with two, aliases make the bound 9 % lower
     const double pixel = cMo[2][3] / m_focal, lever = 0.3 * m_width;
-    std::vector<std::vector<double>> derivatives;
+    Slopes s;
+    s.grey = render(cMo, blur, samples);
     for (int i = 0; i < 6; ++i) {
       const double h = 0.05 * (i < 2 ? pixel : i == 2 ? pixel * cMo[2][3] / lever : pixel / lever);
-      vpPoseError e = vpPoseError::Unit(i) * h;
-      derivatives.push_back(render(vpMoved(cMo, e), blur, samples));
+      const vpPoseError e = vpPoseError::Unit(i) * h;
+      std::vector<double> &slope = s.pose[static_cast<std::size_t>(i)];
+      slope = render(vpMoved(cMo, e), blur, samples);
       const std::vector<double> other = render(vpMoved(cMo, -e), blur, samples);
       for (std::size_t k = 0; k < other.size(); ++k) {
-        derivatives.back()[k] = gain * (derivatives.back()[k] - other[k]) / (2. * h);
+        slope[k] = (slope[k] - other[k]) / (2. * h);
       }
     }
-    const std::vector<double> grey = render(cMo, blur, samples);
+    return s;
+  }
+
+  //! Bound of Cramer and Rao on the covariance of the pose, gain and bias of the camera unknown, from the pixels that \e use
+  //! names.
+  template <typename Use> vpErrorCovariance bound(const Slopes &slopes, double gain, double noise, Use use) const
+  {
     Eigen::Matrix<double, 8, 8> N = Eigen::Matrix<double, 8, 8>::Zero();
     for (int v = 0; v < m_rows; ++v) {
       for (int u = 0; u < m_cols; ++u) {
@@ -133,9 +153,9 @@ public:
           const auto k = static_cast<std::size_t>(v * m_cols + u);
           Eigen::Matrix<double, 8, 1> j;
           for (int i = 0; i < 6; ++i) {
-            j(i) = derivatives[static_cast<std::size_t>(i)][k];
+            j(i) = gain * slopes.pose[static_cast<std::size_t>(i)][k];
           }
-          j(6) = grey[k];
+          j(6) = slopes.grey[k];
           j(7) = 1.;
           N += j * j.transpose();
         }
@@ -189,8 +209,8 @@ private:
             t * t * (-0.5 + 0.5 * t)};
   }
 
-  // Along lines of \e length pixels that are \e step apart in memory.
-  void smooth(std::vector<double> &image, double blur, int step, int length) const
+  // Along lines of \e length pixels that are \e step apart in memory, each line \e next from the one before.
+  static void smooth(double *image, double blur, int step, int length, int next, int lines)
   {
     const int n = static_cast<int>(std::ceil(4. * blur));
     std::vector<double> kernel, line(static_cast<std::size_t>(length));
@@ -200,9 +220,8 @@ private:
       kernel.push_back(std::erf(s * (i + 0.5)) - std::erf(s * (i - 0.5)));
       total += kernel.back();
     }
-    const int lines = m_cols * m_rows / length, next = step == 1 ? m_cols : 1;
     for (int l = 0; l < lines; ++l) {
-      double *const first = &image[static_cast<std::size_t>(l * next)];
+      double *const first = image + l * next;
       for (int i = 0; i < length; ++i) {
         double sum = 0.;
         for (int k = -n; k <= n; ++k) {

@@ -30,6 +30,7 @@ constexpr float loweRatio = 0.8f;
 constexpr std::size_t tellingCount = 128;   // keypoints that tell whether a target may be there
 constexpr double keypointReach = 2.;        // px; how far keypoints put the target from its place
 constexpr double motionReach = 14.;         // px; likewise the frame before
+constexpr double rivalReach = 6.;           // px; likewise the mirrored pose
 constexpr double largestTurn = 0.35;        // rad between frames; more is beyond the reach, and means another optimum
 constexpr double smallestFrontality = 0.17; // 80 deg from the normal
 constexpr double smallestInImage = 0.25;    // share of the target
@@ -299,7 +300,23 @@ bool vpPlanarTarget::Impl::trackFrom(const vpTargetFrame &frame, const vpRigidPo
                   turn * 180. / M_PI, largestTurn * 180. / M_PI));
     return false;
   }
+  if (m_choice && !m_choice->follows(pose)) {
+    preferRival(frame, pose, reach);
+  }
   return conclude(frame, pose, vpPlanarTargetStatus::Tracked);
+}
+
+// A hint may be the mirrored pose. Where perspective is strong, that is a false optimum from which the last stage, whose
+// reach is a pixel, does not find the other one.
+void vpPlanarTarget::Impl::preferRival(const vpTargetFrame &frame, vpRigidPose &pose, double reach)
+{
+  vpRigidPose rival = rivalPose(pose);
+  const double correlation = m_refiner->verify(frame.pyramid(), pose).correlation;
+  if (nearestCornerDepth(m_plane, rival) > 0. &&
+      m_refiner->refine(frame.pyramid(), rival, std::max(reach, rivalReach), m_config.maxIterations) &&
+      m_refiner->verify(frame.pyramid(), rival).correlation > correlation) {
+    pose = rival;
+  }
 }
 
 // The plane must be in front of the camera and face it.

@@ -58,6 +58,7 @@ public:
 
 private:
   bool trackFrom(const vpTargetFrame &frame, const vpRigidPose &guess, double reach);
+  void preferRival(const vpTargetFrame &frame, vpRigidPose &pose, double reach);
   bool checkView(const vpRigidPose &pose);
   bool conclude(const vpTargetFrame &frame, const vpRigidPose &coarse, vpPlanarTargetStatus success);
   bool confirm(const vpTargetFrame &frame, const vpRigidPose &pose);

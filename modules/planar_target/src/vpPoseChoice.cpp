@@ -155,9 +155,17 @@ void vpPoseChoice::conclude(Evidence now)
       Memory{m_decision.best.pose, m_decision.rival->pose, {hold * m_decision.evidence, hold * hold * now.variance}};
 }
 
+bool vpPoseChoice::follows(const vpRigidPose &pose) const
+{
+  return m_memory && turnBetween(pose, m_memory->best) <= turnBetween(pose, rivalPose(m_memory->best));
+}
+
 const vpPoseDecision &vpPoseChoice::decide(const cv::Mat &image, const vpRigidPose &pose, const vpCameraState &camera)
 {
   m_decision = vpPoseDecision();
+  if (!follows(pose)) {
+    forget();
+  }
   m_decision.best = m_refiners[0].refine(image, pose, camera);
   if (!m_decision.best.converged) {
     forget();

@@ -43,6 +43,8 @@ public:
 
   //! \param image : CV_8UC1 frame. \param pose : Of the best of the frame before, or a new one, within a pixel.
   const vpPoseDecision &decide(const cv::Mat &image, const vpRigidPose &pose, const vpCameraState &camera);
+  //! True if \e pose goes on from the frame before: nearer to its best pose than to the mirrored one.
+  [[nodiscard]] bool follows(const vpRigidPose &pose) const;
   //! The next frame has nothing to do with the ones before.
   void forget() { m_memory.reset(); }
 

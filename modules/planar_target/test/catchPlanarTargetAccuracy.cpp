@@ -93,5 +93,5 @@ TEST_CASE("noise 6, blur 1.5, gain 0.8, 25 % occluded: 3 sigma of every angle is
   for (unsigned int axis = 0; axis < 3; ++axis) {
     CHECK(spread.threeSigma(axis) <= 0.25);
   }
-  CHECK(refused <= 2);
+  CHECK(refused <= 10); // of 40; one in twenty would exceed it once in 100,000 runs
 }
