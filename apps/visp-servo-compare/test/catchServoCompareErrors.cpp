@@ -146,7 +146,7 @@ TEST_CASE("A bad task file ends with status 1 and names the field", "[visp-servo
   with("", "line 1, column 1: ");
   with("{\n  \"camera\": [\n}", "line 3, column 1: ");
   with(task("\"lambda\": 1", "\"lambda\": NaN"), "line 6, column ");
-  with(task("\"lambda\": 1", "\"lambda\": 1e999"), "number overflow parsing '1e999'");
+  with(task("\"lambda\": 1", "\"lambda\": 1e999"), "line 6, column 27: number overflow parsing '1e999'");
   with(task("\"lambda\": 1", "\"lambda\": \"NaN\""), "gains.lambda is \"NaN\", must be a number");
   with(task("\"lambda\": 1", "\"lambda\": -1"), "servo gain lambda is -1");
   with(task("\"lambda\": 1", "\"lamda\": 1"), "unknown field gains.lamda; known are ");

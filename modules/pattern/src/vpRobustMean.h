@@ -27,6 +27,11 @@ public:
   Result mean(double centre);
   //! The same about the median.
   Result mean();
+  /*!
+   * One of the values, for an even number of them the upper one of the two in the middle; 0 of none. A start for robust
+   * estimates, no figure for a report (vpMedian()): the mean of the two is half way to a stranger when there are
+   * only two values, and turning products lost their lock by it.
+   */
   static double median(std::vector<double> &values);
 
 private:
