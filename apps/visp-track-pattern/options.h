@@ -35,7 +35,7 @@ struct Options {
       inputs;         //!< Files, one folder, one pattern or one video; empty: a camera or the own sequence.
   std::string camera; //!< "/dev/video0"; empty: none.
   std::string out = "out/track-pattern";
-  std::size_t frames = 0; //!< Most frames; 0: all (200 of the own sequence, 300 of a camera).
+  unsigned int frames = 0; //!< Most frames; 0: all (200 of the own sequence, 300 of a camera).
   std::optional<Roi> roi;
   vpPatternOptions tracker;
   OverlayKind overlay = OverlayKind::Mp4;

@@ -85,7 +85,7 @@ TEST_CASE("Mistakes on the command line", "[programs]")
       }
     }
     if (has(help, "--frames")) {
-      complains(run, program, "--frames -5", 2, "frames is -5, must be ");
+      complains(run, program, "--frames -5", 2, " is -5, must be ");
     }
     if (has(help, "--seed ")) {
       complains(run, program, "--seed luck", 2, "--seed is luck, must be ");
