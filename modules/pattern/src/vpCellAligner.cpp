@@ -21,8 +21,8 @@ constexpr int maxSteps = 10;    // one, or two, unless the motion has changed a 
 constexpr int unknowns = 4;     // rows of the basis for brightness, contrast, x and y; the slopes come after them
 constexpr double maxStep = 1.5; // px: the template says nothing about what is farther
 // Where more than half of what a side of a cell says about its axis is hidden, the other edge may be that of something
-// else, of like grey, and the other pixels would agree with it: the place is then known to no better than this, px.
-constexpr double mostHidden = 0.5, strangeEdge = 1.;
+// else, of like grey, and the other pixels would agree with it.
+constexpr double mostHidden = 0.5;
 
 // sums[k] = row k of q times w, for rows that share what is loaded of w. All numbers are 16 bits wide and the sums 32: the
 // compiler multiplies and adds pairs.
@@ -396,8 +396,8 @@ vpCellFit vpCellAligner::alignMasked(const vpImage<unsigned char> &image, const 
   fit.masked = true;
   fit.ok = settled > 0 && fit.xx > 0. && fit.yy > 0. && std::abs(s.dx) < 2. * bank.reach() &&
            std::abs(s.dy) < 2. * bank.reach();
-  fit.doubtX = std::max(hidden[0], hidden[1]) < mostHidden ? 0. : strangeEdge;
-  fit.doubtY = std::max(hidden[2], hidden[3]) < mostHidden ? 0. : strangeEdge;
+  fit.doubtX = !(std::max(hidden[0], hidden[1]) < mostHidden);
+  fit.doubtY = !(std::max(hidden[2], hidden[3]) < mostHidden);
   return fit;
 }
 

@@ -20,7 +20,7 @@ struct vpCellFit {
   double contrast = 0.;    // of the template's, 1 when it is the same
   double variance = 0.;    // of the residuals, grey values squared
   double xx = 0., yy = 0.; // variance of x and y for residuals of variance 1
-  double doubtX = 0., doubtY = 0.; // more, px: the edge that is seen may be that of something else
+  bool doubtX = false, doubtY = false; // the edge that is seen may be that of something else
   bool masked = false;     // pixels were left out
   bool hasSlopes = false;  // the slopes were measured
   vpSlopes slopes{};       // as this cell alone shows them

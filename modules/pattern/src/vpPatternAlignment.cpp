@@ -19,6 +19,7 @@ constexpr double hopeless = 1.7;    // the same after masking: no such cell
 constexpr double knownGate = 0.5;   // px: how far a known cell may move against the others in one frame
 constexpr double nearHalf = 0.4;    // of a pitch
 constexpr double maskedSigma = 0.1; // px: what dirt does to a centre although its pixels are left out (rendered dirt)
+constexpr double leastDoubt = 1.;   // px: of a cell whose seen edge may be that of something else
 constexpr double latticeGain = 0.02;
 constexpr int hurryAfterTurn = 30;     // images
 constexpr int restlessAfterTurn = 10;  // images
@@ -220,8 +221,9 @@ void vpPatternTracker::Impl::validate(const vpImage<unsigned char> &image)
     if (cell.valid) {
       cell.x = fit.x;
       cell.y = fit.y;
-      cell.sigmaX = std::hypot(sx, fit.doubtX);
-      cell.sigmaY = std::hypot(sy, fit.doubtY);
+      const double doubt = std::max(leastDoubt, 0.5 * newGate); // the place is anywhere within the gate
+      cell.sigmaX = fit.doubtX ? std::hypot(sx, doubt) : sx;
+      cell.sigmaY = fit.doubtY ? std::hypot(sy, doubt) : sy;
       ++m_frame.validCells;
     }
   }
