@@ -13,6 +13,21 @@ namespace
 {
 constexpr double longestStep = 1e9;                           // s
 constexpr double shortestThesis = 1e-9, longestThesis = 1e12; // s
+
+bool sameLimits(const vpTrajectoryProblem &a, const vpTrajectoryProblem &b)
+{
+  bool same = true;
+  for (int i = 0; i < a.axes(); ++i) {
+    const vpAxisLimits x = a.limits(i), y = b.limits(i);
+    same = same && x.velocity == y.velocity && x.acceleration == y.acceleration && x.jerk == y.jerk &&
+           x.minPosition == y.minPosition && x.maxPosition == y.maxPosition;
+  }
+  for (int g = 0; g < vpTrajectoryOptions::maxGroups; ++g) {
+    const vpNormLimits x = a.groupLimits(g), y = b.groupLimits(g);
+    same = same && x.velocity == y.velocity && x.acceleration == y.acceleration;
+  }
+  return same;
+}
 } // namespace
 
 vpTrajectoryFollower::vpTrajectoryFollower(int axes, int maxVias)
@@ -78,8 +93,9 @@ vpTrajectoryFollower::Event vpTrajectoryFollower::detect(const vpTrajectoryProbl
   const bool frozen = remaining() > 0. && remaining() < options.freeze;
   if (!problem.sameTask(m_task)) {
     // A fixed arrival cannot be put off, and so close to it nothing sensible fits in: the change waits for the arrival.
-    const bool wait =
-        options.policy == vpReplanPolicy::FixedArrival && options.arrivalTime == m_task.options.arrivalTime;
+    // Not so other limits, which the status would not speak of.
+    const bool wait = options.policy == vpReplanPolicy::FixedArrival &&
+                      options.arrivalTime == m_task.options.arrivalTime && sameLimits(problem, m_task);
     return wait && frozen ? Event::None : Event::Task;
   }
   const bool due = options.replanPeriod > 0. && m_sinceReplan >= options.replanPeriod * (1. - 1e-9);
