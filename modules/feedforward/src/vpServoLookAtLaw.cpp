@@ -16,8 +16,9 @@ namespace
 constexpr double meanTime = 1., meanShare = 1. / 3.;
 // What is left of an integral, turned round, when the error tells that it is wrong.
 constexpr double turned = 0.8;
-// A mean as large as so many times its noise, or so many rad when nobody knows that, tells that the integral is wrong.
-constexpr double unwindDeviations = 2., unwindUnknown = 0.004;
+// A mean as large as so many times its noise, and as so many rad, tells that the integral is wrong: less is taken away by
+// the next cycles anyway, however well it is known.
+constexpr double unwindDeviations = 2., unwindLeast = 0.004;
 
 // Where the camera is, seen from a goal.
 struct Gaze {
@@ -138,7 +139,7 @@ protected:
     const double noise = known ? meanShare * std::hypot(measurement.covariance.rotationDeviation(),
                                                         measurement.covariance.positionDeviation() / gaze.distance)
                                : 0.;
-    const double clear = known ? unwindDeviations * noise : unwindUnknown;
+    const double clear = std::max(unwindDeviations * noise, unwindLeast);
     const Eigen::Vector3d x = e - m_model;
     m_mean += (1. - std::exp(-dt / meanTime)) * (x - m_mean);
     for (int axis = 0; axis < 3; ++axis) {
