@@ -65,7 +65,8 @@ void checkTable(const std::string &csv)
 {
   std::istringstream stream(csv);
   std::string heading, line;
-  while (std::getline(stream, heading) && heading.rfind("name,", 0) != 0) { // what the machine is comes before, in a file
+  while (std::getline(stream, heading) &&
+         heading.rfind("name,", 0) != 0) { // what the machine is comes before, in a file
   }
   CHECK(heading.find(",\"first\",\"second\"") != std::string::npos);
   std::vector<std::string> ends;

@@ -15,15 +15,15 @@ BEGIN_VISP_NAMESPACE
 using vpSlopes = std::array<double, 4>;
 
 struct vpCellFit {
-  bool ok = false;         // the window is in the image and the steps converged
-  double x = 0., y = 0.;   // centre, px
-  double contrast = 0.;    // of the template's, 1 when it is the same
-  double variance = 0.;    // of the residuals, grey values squared
-  double xx = 0., yy = 0.; // variance of x and y for residuals of variance 1
+  bool ok = false;                     // the window is in the image and the steps converged
+  double x = 0., y = 0.;               // centre, px
+  double contrast = 0.;                // of the template's, 1 when it is the same
+  double variance = 0.;                // of the residuals, grey values squared
+  double xx = 0., yy = 0.;             // variance of x and y for residuals of variance 1
   bool doubtX = false, doubtY = false; // the edge that is seen may be that of something else
-  bool masked = false;     // pixels were left out
-  bool hasSlopes = false;  // the slopes were measured
-  vpSlopes slopes{};       // as this cell alone shows them
+  bool masked = false;                 // pixels were left out
+  bool hasSlopes = false;              // the slopes were measured
+  vpSlopes slopes{};                   // as this cell alone shows them
 };
 
 class vpCellAligner

@@ -154,11 +154,9 @@ TEST_CASE("The scenes of the thesis", "[avoidance-scenes]")
   CHECK(shelf.name == "S4b shelf, lower to upper");
   CHECK(shelf.run.methodSpec.seed == 7);
   CHECK(straightClearance(shelf.run, 2000) < 0.);
-  CHECK_THROWS_WITH(fromTask(arm(), file, 2, 1),
-                    Catch::Contains("scene S4b shelf has 2 tasks, there is no number 2"));
-  CHECK_THROWS_WITH(
-      fromTask(sledge(), file, 0, 1),
-      Catch::Contains("task right to left of scene S4b shelf is for 7 joints, arm sledge has 1"));
+  CHECK_THROWS_WITH(fromTask(arm(), file, 2, 1), Catch::Contains("scene S4b shelf has 2 tasks, there is no number 2"));
+  CHECK_THROWS_WITH(fromTask(sledge(), file, 0, 1),
+                    Catch::Contains("task right to left of scene S4b shelf is for 7 joints, arm sledge has 1"));
   CHECK_THROWS_WITH(randomStatic(nullptr, 1), Catch::Contains("the scene has no arm"));
   CHECK_THROWS_WITH(figure88(sledge(), 1),
                     Catch::Contains("arm sledge does not reach (0.05, 0.63, 0.35) m from its start"));

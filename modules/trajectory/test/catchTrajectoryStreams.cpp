@@ -89,10 +89,10 @@ template <int N> void stream(std::mt19937_64 &rng, double &worst)
         const double excess =
             std::max({std::abs(x.v[i]) / input.maxVelocity[i] - 1., std::abs(x.a[i]) / input.maxAcceleration[i] - 1.,
                       (x.q[i] - input.maxPosition[i]) / place, (input.minPosition[i] - x.q[i]) / place});
-        CAPTURE(i, x.q[i], x.v[i], x.a[i], excess, input.maxVelocity[i], input.maxAcceleration[i],
-                input.minPosition[i], input.maxPosition[i], input.options.freeze,
-                static_cast<int>(input.options.policy), static_cast<int>(input.options.method), output.newPlan,
-                trajectory.plan().brakingEnd(), output.remaining);
+        CAPTURE(i, x.q[i], x.v[i], x.a[i], excess, input.maxVelocity[i], input.maxAcceleration[i], input.minPosition[i],
+                input.maxPosition[i], input.options.freeze, static_cast<int>(input.options.policy),
+                static_cast<int>(input.options.method), output.newPlan, trajectory.plan().brakingEnd(),
+                output.remaining);
         // A start that is beyond a limit by the tolerance of given numbers is on it.
         REQUIRE((excess <= vpLimit::tolerance || saysSo(output.status)));
         worst = saysSo(output.status) ? worst : std::max(worst, excess);
@@ -130,9 +130,9 @@ TEST_CASE("numbers that no robot has: refused, or a finite motion", "[streams]")
 {
   auto rng = vpTestSupport::generator(211);
   CAPTURE(vpTestSupport::seed());
-  const double strange[] = {std::nan(""), none,   -none, 1e154, -1e154, 1e300, 1e308,  -1e308, 1.7976931348623157e308,
-                            5e-324,       -5e-324, 0.,   -0.,   1e-308, 1e-154, 1e-13, 1e12,   -1e12,
-                            1e13,         1e-12,  1e-9,  1e9,   1e6,    -1.,   1.,     1e-300};
+  const double strange[] = {std::nan(""), none,    -none, 1e154, -1e154, 1e300,  1e308, -1e308, 1.7976931348623157e308,
+                            5e-324,       -5e-324, 0.,    -0.,   1e-308, 1e-154, 1e-13, 1e12,   -1e12,
+                            1e13,         1e-12,   1e-9,  1e9,   1e6,    -1.,    1.,    1e-300};
   const auto pick = [&] { return strange[rng() % (sizeof(strange) / sizeof(strange[0]))]; };
   int refused = 0;
   const int count = problems(20000);

@@ -26,7 +26,7 @@ BEGIN_VISP_NAMESPACE
  * from the numbers then.
  */
 struct VISP_EXPORT vpPoseCovariance {
-  bool known = false; //!< The numbers have a reason.
+  bool known = false;         //!< The numbers have a reason.
   std::array<double, 36> C{}; //!< Row-major 6 x 6, (v, w): m^2, m rad, rad^2.
 
   //! Element of row \e i and column \e j, 0 to 5.
