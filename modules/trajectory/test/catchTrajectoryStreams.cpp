@@ -101,7 +101,16 @@ template <int N> void stream(std::mt19937_64 &rng, double &worst)
     // Continuous: what changes in a cycle is what the derivatives of the plan allow.
     for (int i = 0; i < N; ++i) {
       vpTrajectoryPeaks &peaks = planned[i];
-      peaks = output.newPlan ? trajectory.plan().peaks(i) : peaks;
+      if (output.newPlan) {
+        peaks = trajectory.plan().peaks(i); // until the arrival
+        for (int s = 0; s < trajectory.plan().coasting(i); ++s) {
+          const vpTrajectorySegment &after = trajectory.plan().segment(i, trajectory.plan().segments(i) + s);
+          const vpPolynomial rate = after.p.derivative();
+          const double r = 1. / after.duration;
+          peaks.velocity = std::max(peaks.velocity, r * rate.range().peak());
+          peaks.acceleration = std::max(peaks.acceleration, r * r * rate.derivative().range().peak());
+        }
+      }
       const double v = std::max({peaks.velocity, std::abs(before.v[i]), std::abs(x.v[i])});
       const double a = std::max({peaks.acceleration, std::abs(before.a[i]), std::abs(x.a[i])});
       CAPTURE(i, x.q[i], before.q[i], x.v[i], before.v[i], v, a);
