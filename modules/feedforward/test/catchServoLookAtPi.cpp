@@ -108,6 +108,30 @@ TEST_CASE("noise alone does not wind the integral up", "[integral][covariance]")
   CHECK(most[1] < 0.8 * most[0]);
 }
 
+TEST_CASE("a small error that is well known does not turn an integral that is right", "[integral][covariance]")
+{
+  auto rng = vpTestSupport::generator(61);
+  CAPTURE(vpTestSupport::seed());
+  const auto points = object(rng, 0.16, 10);
+  const vpHomogeneousMatrix cdMo = facing(0., 0.);
+  Difference added(goal(cdMo, points));
+  vpServoMeasurement seen;
+  measure(cdMo, points, seen); // the model of the law's own way starts at zero
+  seen.covariance = covariance(1e-6, 0.005 * degree);
+  static_cast<void>(added(seen));
+  const auto held = [&](double degrees, int cycles) {
+    measure(pose(turn(degrees * degree, Eigen::Vector3d::UnitX()), Eigen::Vector3d::Zero()) * cdMo, points, seen);
+    Eigen::Vector3d last;
+    for (int i = 0; i < cycles; ++i) {
+      last = added(seen);
+    }
+    return last;
+  };
+  const Eigen::Vector3d friction = held(1., 1000); // 1 / s^2 times 1 deg times 10 s
+  REQUIRE(friction.norm() > 5. * degree);
+  CHECK(held(-0.1, 500).dot(friction) > 0.8 * friction.squaredNorm());
+}
+
 TEST_CASE("a wrong integral of a biased spell is gone in seconds", "[integral][covariance]")
 {
   auto rng = vpTestSupport::generator(59);

@@ -196,3 +196,23 @@ TEST_CASE("a goal velocity does not lead out of the position limits after the ar
   CHECK(status.fault == vpTrajectoryFault::LimitExceeded);
   CHECK(status.excess.limit == vpTrajectoryLimit::MaxPosition);
 }
+
+TEST_CASE("limits that change within the freeze of a fixed arrival are not passed over in silence", "[status]")
+{
+  vpDirectTrajectory<1> trajectory;
+  vpTrajectoryInput<1> input;
+  vpTrajectoryOutput<1> output;
+  input.goal.q[0] = 1.;
+  input.maxVelocity[0] = 5.;
+  input.maxAcceleration[0] = 20.;
+  input.options.policy = vpReplanPolicy::FixedArrival;
+  input.options.arrivalTime = 2.;
+  input.options.freeze = 1.5;
+  for (int k = 0; k < 100; ++k) {
+    REQUIRE(trajectory.update(input, output, 0.01) == vpTrajectoryResult::Working);
+  }
+  REQUIRE(output.state.v[0] > 0.5);
+  input.maxVelocity[0] = 0.1;
+  CHECK(trajectory.update(input, output, 0.01) != vpTrajectoryResult::Working);
+  CHECK(output.status.excess.limit == vpTrajectoryLimit::Velocity);
+}
