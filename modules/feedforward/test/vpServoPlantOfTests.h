@@ -31,7 +31,7 @@ public:
 
   const vpHomogeneousMatrix &cMo() const { return m_cMo; }
 
-  //! \e bias : A rotation that the vision adds for now.
+  //! \e bias : A rotation that the vision adds in this frame.
   void measure(const std::vector<Eigen::Vector3d> &points, vpServoMeasurement &measurement,
                const Eigen::Matrix3d &bias = Eigen::Matrix3d::Identity())
   {

@@ -104,7 +104,7 @@ public:
   [[nodiscard]] int vias() const { return m_vias; }
   //! When via \e k is passed, s from the start of the plan.
   [[nodiscard]] double viaTime(int k) const { return m_viaTimes[static_cast<std::size_t>(k)]; }
-  //! Exact extremes of an axis, from the roots of the derivatives.
+  //! Exact extremes of an axis until its arrival, from the roots of the derivatives.
   [[nodiscard]] vpTrajectoryPeaks peaks(int axis) const noexcept;
   /*!
    * Exact peak of the Euclidean norm of the velocities (order 1) or accelerations (order 2) over the axes whose bit is
