@@ -14,7 +14,7 @@
 #include "numberText.h"
 
 #include <visp3/manipulator/vpArmJson.h>
-#include <visp3/simulation/vpAvoidanceScenes.h>
+#include "lab/avoidance/vpAvoidanceScenes.h"
 
 #include <algorithm>
 #include <cmath>

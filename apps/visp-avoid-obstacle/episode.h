@@ -12,7 +12,7 @@
 #include "diary.h"
 #include "photoScene.h"
 
-#include <visp3/simulation/vpAvoidanceExperiment.h>
+#include "lab/avoidance/vpAvoidanceExperiment.h"
 
 namespace avoidObstacle
 {

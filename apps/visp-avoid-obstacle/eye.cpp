@@ -5,9 +5,9 @@
 #include "eye.h"
 
 #include <visp3/direct_core/vpSO3.h>
-#include <visp3/simulation/vpDepthObstacleSensor.h>
-#include <visp3/simulation/vpImageObstacleSensor.h>
-#include <visp3/simulation/vpPoseSensor.h>
+#include "lab/avoidance/vpDepthObstacleSensor.h"
+#include "lab/avoidance/vpImageObstacleSensor.h"
+#include "lab/avoidance/vpPoseSensor.h"
 
 #include <opencv2/imgcodecs.hpp>
 

@@ -12,7 +12,7 @@
 #include "diary.h"
 #include "photoScene.h"
 
-#include <visp3/simulation/vpObstacleSensor.h>
+#include "lab/avoidance/vpObstacleSensor.h"
 
 namespace avoidObstacle
 {

@@ -9,7 +9,7 @@
 #ifndef generatePattern_fields_h
 #define generatePattern_fields_h
 
-#include <visp3/simulation/vpProductPatternSpec.h>
+#include <visp3/rendering/vpProductPatternSpec.h>
 
 #include <string>
 #include <variant>

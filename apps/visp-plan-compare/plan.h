@@ -12,7 +12,7 @@
 #include "catalogue.h"
 #include "options.h"
 
-#include <visp3/simulation/vpAvoidanceScenes.h>
+#include "lab/avoidance/vpAvoidanceScenes.h"
 
 #include <functional>
 

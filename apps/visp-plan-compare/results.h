@@ -12,7 +12,7 @@
 #include "plan.h"
 #include "statistics.h"
 
-#include <visp3/simulation/vpAvoidanceExperiment.h>
+#include "lab/avoidance/vpAvoidanceExperiment.h"
 
 #include <optional>
 

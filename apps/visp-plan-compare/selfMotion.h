@@ -11,7 +11,7 @@
 
 #include "plan.h"
 
-#include <visp3/simulation/vpSelfMotionExperiment.h>
+#include "lab/arm/vpSelfMotionExperiment.h"
 
 namespace planCompare
 {

@@ -10,7 +10,7 @@
 #define printPattern_identification_h
 
 #include <visp3/printing/vpFrictionIdentification.h>
-#include <visp3/simulation/vpPrintExperiment.h>
+#include "lab/printing/vpPrintExperiment.h"
 
 namespace printPattern
 {

@@ -9,7 +9,7 @@
 #ifndef printPattern_options_h
 #define printPattern_options_h
 
-#include <visp3/simulation/vpPrintExperiment.h>
+#include "lab/printing/vpPrintExperiment.h"
 
 #include <string>
 

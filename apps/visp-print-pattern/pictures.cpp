@@ -8,7 +8,7 @@
 #include "videoFile.h"
 
 #include <visp3/pattern/vpPatternTracker.h>
-#include <visp3/simulation/vpProductPattern.h>
+#include <visp3/rendering/vpProductPattern.h>
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>

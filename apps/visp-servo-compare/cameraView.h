@@ -11,7 +11,7 @@
 
 #include "plan.h"
 
-#include <visp3/simulation/vpPlaneRenderer.h>
+#include <visp3/rendering/vpPlaneRenderer.h>
 
 #include <opencv2/core.hpp>
 

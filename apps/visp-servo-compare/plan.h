@@ -13,7 +13,7 @@
 #include "scenario.h"
 
 #include <visp3/core/vpImage.h>
-#include <visp3/simulation/vpServoExperiment.h>
+#include "lab/servo/vpServoExperiment.h"
 
 namespace servoCompare
 {

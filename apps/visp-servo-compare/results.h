@@ -11,7 +11,7 @@
 
 #include "plan.h"
 
-#include <visp3/simulation/vpServoExperiment.h>
+#include "lab/servo/vpServoExperiment.h"
 
 #include <functional>
 #include <optional>

@@ -11,7 +11,7 @@
 #include <visp3/core/vpMath.h>
 #include <visp3/manipulator/vpArmJson.h>
 #include <visp3/manipulator/vpArmUrdf.h>
-#include <visp3/simulation/vpServoStart.h>
+#include "lab/servo/vpServoStart.h"
 
 #include <filesystem>
 

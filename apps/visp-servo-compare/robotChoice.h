@@ -11,8 +11,8 @@
 
 #include "options.h"
 
-#include <visp3/simulation/vpServoArm.h>
-#include <visp3/simulation/vpServoTask.h>
+#include "lab/servo/vpServoArm.h"
+#include "lab/servo/vpServoTask.h"
 
 #include <memory>
 #include <string>

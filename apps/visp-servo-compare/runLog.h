@@ -9,7 +9,7 @@
 #ifndef servoCompare_runLog_h
 #define servoCompare_runLog_h
 
-#include <visp3/simulation/vpServoExperiment.h>
+#include "lab/servo/vpServoExperiment.h"
 
 #include <string>
 

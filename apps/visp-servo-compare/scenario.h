@@ -10,9 +10,9 @@
 #define servoCompare_scenario_h
 
 #include <visp3/feedforward/vpServoLaw.h>
-#include <visp3/simulation/vpPlaneRenderer.h>
+#include <visp3/rendering/vpPlaneRenderer.h>
 #include <visp3/simulation/vpServoPlant.h>
-#include <visp3/simulation/vpServoTask.h>
+#include "lab/servo/vpServoTask.h"
 #include <visp3/trajectory/vpTwistShaper.h>
 
 #include <string>

@@ -15,7 +15,7 @@
 #include <visp3/core/vpHomogeneousMatrix.h>
 #include <visp3/core/vpImage.h>
 #include <visp3/planar_target/vpPlaneMatcher.h>
-#include <visp3/simulation/vpPlaneRenderer.h>
+#include <visp3/rendering/vpPlaneRenderer.h>
 
 namespace thesisReport
 {

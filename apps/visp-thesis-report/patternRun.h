@@ -12,7 +12,7 @@
 #include "spread.h"
 
 #include <visp3/pattern/vpPatternTracker.h>
-#include <visp3/simulation/vpProductPattern.h>
+#include <visp3/rendering/vpProductPattern.h>
 
 #include <functional>
 #include <vector>

@@ -10,7 +10,7 @@
 #include "numberText.h"
 
 #include <visp3/manipulator/vpArmJson.h>
-#include <visp3/simulation/vpSelfMotionExperiment.h>
+#include "lab/arm/vpSelfMotionExperiment.h"
 
 #include <Eigen/Geometry>
 

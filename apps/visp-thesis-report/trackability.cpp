@@ -9,7 +9,7 @@
 
 #include "numberText.h"
 
-#include <visp3/simulation/vpPrintExperiment.h>
+#include "lab/printing/vpPrintExperiment.h"
 
 namespace thesisReport
 {

@@ -9,7 +9,7 @@
 #ifndef trackPattern_truth_h
 #define trackPattern_truth_h
 
-#include <visp3/simulation/vpProductPattern.h>
+#include <visp3/rendering/vpProductPattern.h>
 
 #include <filesystem>
 #include <optional>

@@ -8,7 +8,7 @@
  */
 #include "vpCatch.h"
 
-#include <visp3/simulation/vpServoExperiment.h>
+#include "lab/servo/vpServoExperiment.h"
 
 VISP_DIRECT_USING_NAMESPACE
 

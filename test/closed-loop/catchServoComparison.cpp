@@ -13,7 +13,7 @@
 #include "vpCatch.h"
 
 #include <visp3/core/vpMath.h>
-#include <visp3/simulation/vpServoExperiment.h>
+#include "lab/servo/vpServoExperiment.h"
 
 #include <cmath>
 #include <cstdio>

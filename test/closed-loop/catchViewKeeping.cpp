@@ -9,7 +9,7 @@
 #include "vpCatch.h"
 
 #include <visp3/core/vpMeterPixelConversion.h>
-#include <visp3/simulation/vpServoExperiment.h>
+#include "lab/servo/vpServoExperiment.h"
 
 #include <algorithm>
 #include <cmath>

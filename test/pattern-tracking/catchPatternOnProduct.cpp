@@ -6,7 +6,7 @@
 #include "vpCatch.h"
 
 #include <visp3/pattern/vpPatternTracker.h>
-#include <visp3/simulation/vpProductPattern.h>
+#include <visp3/rendering/vpProductPattern.h>
 
 #include <algorithm>
 #include <cmath>

@@ -12,7 +12,7 @@
 #include <visp3/core/vpIoTools.h>
 #include <visp3/io/vpImageIo.h>
 #include <visp3/planar_target/vpPlanarTarget.h>
-#include <visp3/simulation/vpPlaneRenderer.h>
+#include <visp3/rendering/vpPlaneRenderer.h>
 
 #include <cstdlib>
 #include <string>

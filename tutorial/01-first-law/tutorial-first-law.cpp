@@ -7,12 +7,12 @@
 #include <visp3/core/vpImageConvert.h>
 #include <visp3/core/vpImageDraw.h>
 #include <visp3/core/vpMeterPixelConversion.h>
-#include <visp3/core/vpPoint.h>
 #include <visp3/feedforward/vpServoLaw.h>
 #include <visp3/io/vpImageIo.h>
 #include <visp3/planar_target/vpPlanarTarget.h>
+#include <visp3/rendering/vpPlaneRenderer.h>
 #include <visp3/robot/vpSimulatorCamera.h>
-#include <visp3/simulation/vpPlaneRenderer.h>
+#include <visp3/servoing/vpServoTarget.h>
 
 #include <iostream>
 
@@ -21,18 +21,6 @@ VISP_DIRECT_USING_NAMESPACE
 namespace
 {
 const vpCameraParameters camera(800., 800., 319.5, 239.5); // of images with 640 x 480 pixels
-
-// The corners of the photograph as the camera sees them, which laws use beside the pose.
-std::vector<vpServoPoint> corners(const vpHomogeneousMatrix &cMo, double width, double height)
-{
-  const double x = 0.5 * width, y = 0.5 * height;
-  std::vector<vpServoPoint> seen;
-  for (vpPoint corner : {vpPoint(-x, -y, 0), vpPoint(x, -y, 0), vpPoint(x, y, 0), vpPoint(-x, y, 0)}) {
-    corner.track(cMo);
-    seen.push_back({corner.get_x(), corner.get_y(), corner.get_Z()});
-  }
-  return seen;
-}
 
 void drawOutline(vpImage<vpRGBa> &picture, const std::vector<vpServoPoint> &corners, const vpColor &color,
                  unsigned int wide)
@@ -56,9 +44,8 @@ int main(int argc, char **argv)
     //! [Target]
 
     //! [Law]
-    vpServoGoal goal;
-    goal.cdMo = vpHomogeneousMatrix(0., 0., 0.4, 0., 0., 0.); // the photograph straight ahead, 0.4 m away
-    goal.points = corners(goal.cdMo, w, h);
+    const vpServoTarget plate = vpServoTarget::rectangle(w, h);                        // laws use its corners, too
+    const vpServoGoal goal = plate.goal(vpHomogeneousMatrix(0., 0., 0.4, 0., 0., 0.)); // straight ahead, 0.4 m away
     const auto law = vpServoLaw::create(argc > 1 ? argv[1] : "ff-lookat");
     law->setGoal(goal);
     //! [Law]
@@ -71,11 +58,11 @@ int main(int argc, char **argv)
     //! [Robot]
     //! [Loop]
     vpImage<vpRGBa> panel, picture(480, 1280); // the first image beside the last one
+    vpServoMeasurement seen;
     vpServoCommand command{vpTwist(), vpServoStatus::Holding};
     for (int k = 0; k < 160 && isWorking(command.status); ++k) { // an error ends the loop
       view.render(robot.getPosition().inverse(), {}, 1, image);
-      const vpPlanarTargetResult &found = target.process(image);
-      const vpServoMeasurement seen{found.found(), 0.05 * k, found.cMo, corners(found.cMo, w, h), {}, found.covariance};
+      plate.measure(target.process(image), 0.05 * k, seen);
       command = law->update(seen, 0.05); // zero twist and Holding when the photograph was not found
       robot.setVelocity(vpRobot::CAMERA_FRAME, limitTwist(command.v, 0.2, 0.7).toColVector()); // m/s, rad/s
       //! [Loop]

@@ -6,12 +6,11 @@
 #include <visp3/core/vpFont.h>
 #include <visp3/core/vpImageDraw.h>
 #include <visp3/core/vpMeterPixelConversion.h>
-#include <visp3/core/vpPoint.h>
 #include <visp3/io/vpImageIo.h>
 #include <visp3/manipulator/vpArmJson.h>
 #include <visp3/manipulator/vpArmUrdf.h>
+#include <visp3/servoing/vpServoTarget.h>
 #include <visp3/simulation/vpSimulatedArm.h>
-#include <visp3/visual_features/vpFeatureBuilder.h>
 #include <visp3/visual_features/vpFeaturePoint.h>
 #include <visp3/vs/vpServo.h>
 
@@ -54,15 +53,16 @@ int main(int argc, char **argv)
     //! [Robot]
     //! [Task]
     const vpHomogeneousMatrix cdMo(0, 0, 0.35, 0, 0, 0), cMo(0.07, 0.05, 0.45, 0.17, -0.17, 0.44);
-    vpPoint point[4] = {{-0.05, -0.05, 0}, {0.05, -0.05, 0}, {0.05, 0.05, 0}, {-0.05, 0.05, 0}};
+    const vpServoTarget target = vpServoTarget::rectangle(0.1, 0.1); // m; four points
+    const vpServoGoal goal = target.goal(cdMo);
+    vpServoMeasurement seen;
     vpServo task;
     task.setServo(vpServo::EYEINHAND_CAMERA);
     task.setInteractionMatrixType(vpServo::CURRENT);
     task.setLambda(0.8);
     vpFeaturePoint p[4], pd[4];
     for (unsigned int i = 0; i < 4; ++i) {
-      point[i].track(cdMo);
-      vpFeatureBuilder::create(pd[i], point[i]);
+      pd[i].set_xyZ(goal.points[i].x, goal.points[i].y, goal.points[i].Z);
       task.addFeature(p[i], pd[i]);
     }
     //! [Task]
@@ -70,10 +70,9 @@ int main(int argc, char **argv)
     vpImage<vpRGBa> picture(480, 640, vpRGBa(255, 255, 255));
     const vpHomogeneousMatrix fMo = robot.get_fMc() * cMo; // the object stands still
     for (unsigned int iter = 0; iter < 250; ++iter) {
-      const vpHomogeneousMatrix cMoNow = robot.get_fMc().inverse() * fMo;
+      target.measure(robot.get_fMc().inverse() * fMo, 0.040 * iter, seen); // yours: of the points in an image
       for (unsigned int i = 0; i < 4; ++i) {
-        point[i].track(cMoNow);
-        vpFeatureBuilder::create(p[i], point[i]);
+        p[i].set_xyZ(seen.points[i].x, seen.points[i].y, seen.points[i].Z);
         draw(picture, p[i], vpColor::getColor(i), false);
       }
       robot.setVelocity(vpRobot::CAMERA_FRAME, task.computeControlLaw()); // 40 ms pass

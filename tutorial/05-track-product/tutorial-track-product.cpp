@@ -8,7 +8,7 @@
 #include <visp3/io/vpImageIo.h>
 #include <visp3/io/vpVideoReader.h>
 #include <visp3/pattern/vpPatternTracker.h>
-#include <visp3/simulation/vpProductPattern.h>
+#include <visp3/rendering/vpProductPattern.h>
 
 #include <cmath>
 #include <iostream>

@@ -9,7 +9,7 @@
 #include <visp3/core/vpImageTools.h>
 #include <visp3/io/vpImageIo.h>
 #include <visp3/pattern/vpPlanarMicroscopeCalibration.h>
-#include <visp3/simulation/vpProductPattern.h>
+#include <visp3/rendering/vpProductPattern.h>
 #include <cmath>
 #include <cstdlib>
 #include <iostream>

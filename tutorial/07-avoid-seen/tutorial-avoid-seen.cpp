@@ -10,7 +10,7 @@
 #include <visp3/core/vpImageDraw.h>
 #include <visp3/io/vpImageIo.h>
 #include <visp3/manipulator/vpArmJson.h>
-#include <visp3/simulation/vpSceneCamera.h>
+#include <visp3/rendering/vpSceneCamera.h>
 
 #include <iostream>
 

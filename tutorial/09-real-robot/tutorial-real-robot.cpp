@@ -8,8 +8,9 @@
 #include <visp3/io/vpImageIo.h>
 #include <visp3/manipulator/vpArmJson.h>
 #include <visp3/planar_target/vpPlanarTarget.h>
+#include <visp3/rendering/vpPlaneRenderer.h>
 #include <visp3/sensor/vpV4l2Grabber.h>
-#include <visp3/simulation/vpPlaneRenderer.h>
+#include <visp3/servoing/vpServoTarget.h>
 #include <visp3/simulation/vpSimulatedArm.h>
 #include <cstdlib>
 #include <fstream>
@@ -32,20 +33,20 @@ bool servo(vpRobot &robot, const Grab &grab, vpPlanarTarget &target, std::ostrea
   config.view.maxAngular = 0.3;          // rad/s
   config.recovery = {0.3, 2., 0.1, 0.3}; // target lost: wait 0.3 s, then undo the last 2 s; m/s, rad/s
   vpServoController controller = vpServoController::create("ff-lookat+cbf", config);
-  controller.setGoal({cdMo, {{0., 0., cdMo[2][3]}}});
+  const vpServoTarget centre({Eigen::Vector3d::Zero()}); // of the object: where to look, and what stays in view
+  controller.setGoal(centre.goal(cdMo));
   robot.setMaxTranslationVelocity(0.11); // the robot's own limits stand behind those of the controller
   robot.setMaxRotationVelocity(0.33);
   robot.setRobotState(vpRobot::STATE_VELOCITY_CONTROL);
   vpImage<unsigned char> image;
+  vpServoMeasurement seen;
   bool wasLost = false, isGoing = true;
   for (int k = 0; k < 150 && isGoing; ++k) {
     const double before = vpTime::measureTimeMs();
     grab(image);
     const bool fresh = vpTime::measureTimeMs() - before < 200.; // watchdog: a camera that stalls sees nothing
-    const vpPlanarTargetResult &found = target.process(image);
-    const double Z = found.cMo[2][3];
-    const vpServoPoint centre{found.cMo[0][3] / Z, found.cMo[1][3] / Z, Z};
-    const vpServoMeasurement seen{fresh && found.found(), 0.04 * k, found.cMo, {centre}, {centre}, found.covariance};
+    centre.measure(target.process(image), 0.04 * k, seen);
+    seen.valid = seen.valid && fresh;
     const auto [v, status] = controller.update(seen, 0.04);
     robot.setVelocity(vpRobot::CAMERA_FRAME, v.toColVector());
     wasLost = wasLost || status == vpServoStatus::Retreating;

@@ -3,12 +3,8 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include <visp3/pattern/vpPatternTracker.h>
-#include <visp3/printing/vpMotionObserver.h>
-#include <visp3/printing/vpPreviewControl.h>
-#include <visp3/printing/vpPrintReference.h>
-#include <visp3/printing/vpPrintTrigger.h>
-#include <visp3/printing/vpProductOdometer.h>
-#include <visp3/simulation/vpProductPattern.h>
+#include <visp3/printing/vpPrintMachine.h>
+#include <visp3/rendering/vpProductPattern.h>
 #include <visp3/simulation/vpXYStage.h>
 #include <cmath>
 #include <cstdlib>
@@ -23,13 +19,17 @@ int main()
   vpProductPatternSpec spec; // the display of the thesis, 160 x 100 px of 4.5 um; all in px and frames
   spec.flexAmplitudeX = 2.;  // cells lie up to 2 px off a regular pitch
   const vpProductPattern product(spec);
-  vpXYStage stage(vpXYStageSpec::thesis());                  // friction that sticks, and rises by 30 % on the way
-  const vpFrictionModel friction{1., 0.02, 0.08, 0.12, 0.3}; // what vpIdentifyFriction() would know of it
-  const vpPreviewControl control({friction, 0.03, 0.7, 0.3, 0., 0.25}); // gains, lag, delay, four commands a frame
-  vpMotionObserver observer(vpMotionObserverSpec{friction});
-  vpProductOdometer odometer;
-  vpPrintReference reference; // 4 px/frame at the centres of the cells, 5 in the mean
-  vpPrintTrigger trigger({vpPrintTriggerMethod::Horizon, vpPrintAxis::X, 79.5, 49.5, 7.}); // nozzle, height of its row
+  vpXYStage stage(vpXYStageSpec::thesis()); // friction that sticks, and rises by 30 % on the way
+  vpPrintMachineSpec print;                 // geometry as above; 4 px/frame at the centres of the cells, 5 on average
+  print.originX = 79.5 - print.pitchX;      // of the first cell: one pitch before the nozzle
+  print.cellsPerRow = 200;
+  print.visionDelay = 1.; // frame
+  print.observer.model = print.preview.model =
+      print.previewAcross.model = {1., 0.02, 0.08, 0.12, 0.3}; // identified friction
+  print.preview.positionGain = 0.03;
+  print.preview.velocityGain = 0.7;
+  print.commandsPerFrame = 4;
+  vpPrintMachine machine(print);
   vpImage<unsigned char> image;
   vpPatternTracker tracker(spec.width, spec.height);
   vpPatternCell first;              // under the nozzle at the start; printing begins behind it
@@ -39,7 +39,7 @@ int main()
       first = std::hypot(cell.x - 79.5, cell.y - 49.5) < 8. ? cell : first;
     }
   }
-  reference.reset(0., 0., -first.column);
+  machine.reset(first.row, first.column - 1);
   //! [Machine]
   std::vector<vpPrintShot> shots;
   std::vector<vpXYStage::State> log(5, stage.state()); // the truth, each quarter of a frame
@@ -48,33 +48,10 @@ int main()
     const vpXYStage::State seen = log[log.size() - 5]; // the camera is a frame late
     product.render(seen.position[0], 0., seen.velocity[0], 0., static_cast<unsigned int>(now), image);
     const vpPatternFrame &frame = tracker.track(image);
-    odometer.step(frame.cells.data(), frame.cells.size(), frame.epoch);
-    observer.measure(now - 1., odometer.output().x, 0.01); // px, its standard deviation
-    std::vector<vpPrintTarget> targets; // the product moves to the right: columns come in falling order
-    for (auto cell = frame.cells.rbegin(); cell != frame.cells.rend(); ++cell) {
-      double along = 0., across = 0.; // of the cell on the product, as the trigger remembers it
-      if (cell->row == first.row && trigger.find(cell->row, cell->column, frame.epoch, along, across)) {
-        targets.push_back({-cell->column, 79.5 - along, 4., 0.});
-      }
-    }
-    reference.step(now, targets.data(), targets.size());
-    const vpObservedMotion here = observer.at(now);
-    vpPrintTriggerInput input;
-    input.time = now;
-    input.captureTime = now - 1.;
-    input.cells = frame.cells.data();
-    input.cellCount = frame.cells.size();
-    input.epoch = frame.epoch;
-    input.captureAlong = odometer.output().x;
-    input.along = {now, here.position, here.velocity, 0., 0., 3., reference.pieceCount(), reference.pieces()};
-    const vpPrintTriggerOutput &out = trigger.step(input); // the shots that are due before the next image
-    shots.insert(shots.end(), out.shots.begin(), out.shots.begin() + out.shotCount);
-    for (double t = now; t < now + 1.; t += 0.25) {
-      const vpObservedMotion then = observer.at(control.feedbackAt(t)); // where it will be when the command acts
-      const vpAxisState wish = reference.at(control.actsAt(t)), goal = reference.at(control.feedbackAt(t));
-      const double force = control.command({wish, goal, then.position, then.velocity, then.disturbance}).force;
-      observer.command(t, force);
-      log.push_back(stage.step(0.25, {{force, 0.}}));
+    const vpPrintMachineOutput &out = machine.step({now, frame.cells.data(), frame.cells.size(), frame.epoch});
+    shots.insert(shots.end(), out.trigger->shots.begin(), out.trigger->shots.begin() + out.trigger->shotCount);
+    for (std::size_t i = 0; i < 4; ++i) {
+      log.push_back(stage.step(0.25, {{out.forceX[i], out.forceY[i]}}));
     }
     //! [Loop]
   }

@@ -11,7 +11,7 @@
 
 #include "armPicture.h"
 
-#include <visp3/simulation/vpAvoidanceExperiment.h>
+#include "lab/avoidance/vpAvoidanceExperiment.h"
 
 namespace vpApp
 {

@@ -7,7 +7,7 @@
 
 #include "programRun.h"
 
-#include <visp3/simulation/vpProductPattern.h>
+#include <visp3/rendering/vpProductPattern.h>
 
 #include <nlohmann/json.hpp>
 

@@ -9,7 +9,7 @@
 #ifndef printExplore_design_h
 #define printExplore_design_h
 
-#include <visp3/simulation/vpPrintExperiment.h>
+#include "lab/printing/vpPrintExperiment.h"
 
 #include <map>
 #include <string>

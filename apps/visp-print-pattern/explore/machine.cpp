@@ -4,7 +4,7 @@
  */
 #include "machine.h"
 
-#include <visp3/simulation/vpPrintUnits.h>
+#include "lab/printing/vpPrintUnits.h"
 
 #include <algorithm>
 #include <cmath>

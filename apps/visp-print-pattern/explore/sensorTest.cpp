@@ -5,7 +5,7 @@
 #include "sensorTest.h"
 
 #include <visp3/pattern/vpPatternTracker.h>
-#include <visp3/simulation/vpProductPattern.h>
+#include <visp3/rendering/vpProductPattern.h>
 
 #include <algorithm>
 #include <cmath>

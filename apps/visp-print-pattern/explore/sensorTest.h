@@ -9,7 +9,7 @@
 #ifndef printExplore_sensorTest_h
 #define printExplore_sensorTest_h
 
-#include <visp3/simulation/vpPrintExperiment.h>
+#include "lab/printing/vpPrintExperiment.h"
 
 namespace printExplore
 {

@@ -14,7 +14,7 @@
 #include "designSpace.h"
 #include "setupReader.h"
 
-#include <visp3/simulation/vpProductPattern.h>
+#include <visp3/rendering/vpProductPattern.h>
 
 #include <algorithm>
 #include <cmath>

@@ -54,7 +54,7 @@ void vpSimulatedArmCore::tick() noexcept
   if (stale) {
     m_motion.hold();
   }
-  m_drives.move(m_motion.next(m_drives.wanted(), m_drives.command()), m_motion.period());
+  m_drives.move(m_motion.step(m_drives.wanted(), m_drives.command()), m_motion.period());
   ++m_periods;
   superviseDrives();
   const bool wasStale = m_status == vpSimulatedArmStatus::Stale && m_motion.kind() == vpArmTaskKind::Hold;

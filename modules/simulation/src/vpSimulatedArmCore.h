@@ -8,7 +8,7 @@
 
 #include <visp3/simulation/vpSimulatedArm.h>
 
-#include "vpArmMotion.h"
+#include <visp3/manipulator/vpArmMotion.h>
 
 BEGIN_VISP_NAMESPACE
 

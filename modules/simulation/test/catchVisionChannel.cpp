@@ -6,7 +6,7 @@
 #include "vpWildNumbers.h"
 
 #include <visp3/core/vpExponentialMap.h>
-#include <visp3/simulation/vpOdometryBridge.h>
+#include <visp3/feedforward/vpOdometryBridge.h>
 #include <visp3/simulation/vpVisionChannel.h>
 
 #include <cmath>

@@ -1,0 +1,181 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "lab/avoidance/vpAvoidanceExperiment.h"
+
+#include "lab/avoidance/vpAvoidanceEvaluation.h"
+#include "lab/avoidance/vpMovingGoal.h"
+#include "lab/avoidance/vpPerceivedScene.h"
+
+#include <visp3/core/vpException.h>
+
+#include <chrono>
+#include <cmath>
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+constexpr double holdTime = 0.2;     // s that the arm must rest at the goal
+constexpr double patience = 1.;      // s that a method may call itself arrived where it is not
+constexpr double stuckTime = 3.;     // s without any motion
+constexpr double longestStep = 1e-3; // s between knots of drives that are not ideal
+
+double secondsSince(std::chrono::steady_clock::time_point start)
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::unique_ptr<vpAvoidanceMethod> makeMethod(const vpAvoidanceRunSpec &spec, const vpCollisionScene &scene)
+{
+  auto method = spec.makeMethod ? spec.makeMethod(scene, spec.methodSpec)
+                                : makeAvoidanceMethod(spec.method, scene, spec.methodSpec);
+  if (!method) {
+    throw vpException(vpException::badValue, "makeMethod of the avoidance experiment made no method");
+  }
+  return method;
+}
+
+//! \brief The loop, a period at a time.
+class Loop
+{
+public:
+  explicit Loop(vpAvoidanceRun &run)
+    : m_run(&run), m_spec(&run.spec), m_truth(run.spec), m_perceived(run.spec), m_goal(run.spec),
+      m_drives(*run.spec.arm, run.spec.drives), m_method(makeMethod(run.spec, m_perceived.scene()))
+  {
+    m_drives.reset(m_spec->start);
+    m_knots.push_back({0., m_spec->start});
+    m_truth.enter(0.);
+    static_cast<void>(m_perceived.update(0., m_truth, m_spec->start));
+    const auto begin = std::chrono::steady_clock::now();
+    run.start = m_method->start(m_spec->start, m_goal.told(0.));
+    run.startTime = secondsSince(begin);
+    static_cast<void>(m_goal.isDue(0.)); // told by that
+  }
+
+  //! Log, look, step. \return False when the run has come to its end.
+  bool cycle(double t)
+  {
+    m_truth.enter(t);
+    vpAvoidanceSample s = observe(t);
+    s.newImage = t > 0. && m_perceived.update(t, m_truth, s.q);
+    if (m_goal.isDue(t)) {
+      m_method->setGoal(m_goal.told(t));
+      s.newImage = true;
+    }
+    if (s.newImage) {
+      const auto begin = std::chrono::steady_clock::now();
+      m_method->look();
+      s.lookTime = secondsSince(begin);
+      m_run->lookTimes.push_back(s.lookTime);
+    }
+    m_method->step(s.commanded, m_output);
+    s.command = m_output.velocity;
+    s.wanted = m_output.wanted;
+    s.status = m_output.status;
+    s.stopping = m_output.stopping;
+    m_run->samples.push_back(s);
+    return t < m_goal.end() || !isOver(s);
+  }
+
+  //! The drives go on for a period.
+  void move(double t)
+  {
+    const double period = m_spec->methodSpec.period;
+    const int steps = m_spec->drives.ideal ? 1 : static_cast<int>(std::ceil(period / longestStep - 1e-9));
+    const vpJointVector command = m_output.velocity;
+    for (int i = 1; i <= steps; ++i) {
+      m_drives.move(command, period / steps);
+      m_knots.push_back({t + i * period / steps, m_drives.q()});
+    }
+  }
+
+  //! The last row: where everything is at the end.
+  void finish(double t)
+  {
+    m_run->sentence = sentence(m_output, m_perceived.scene(), m_spec->methodSpec.margin);
+    if (!m_run->samples.empty() && m_run->samples.back().time == t) {
+      m_run->samples.back().command.setZero();
+      return;
+    }
+    m_truth.enter(t);
+    vpAvoidanceSample s = observe(t);
+    s.command = vpJointVector::Zero(s.q.size());
+    s.wanted = s.tool;
+    s.status = m_run->samples.back().status;
+    m_run->samples.push_back(s);
+  }
+
+  [[nodiscard]] const std::vector<vpMotionKnot> &knots() const noexcept { return m_knots; }
+
+private:
+  bool isOver(const vpAvoidanceSample &s)
+  {
+    const bool there = vpAvoidanceEvaluation::isThere(*m_spec, s), arrived = s.status == vpAvoidanceStatus::Arrived;
+    m_thereSince = there ? std::min(m_thereSince, s.time) : HUGE_VAL;
+    m_arrivedSince = arrived ? std::min(m_arrivedSince, s.time) : HUGE_VAL;
+    const bool still = vpAvoidanceEvaluation::isAtRest(s.command) && m_truth.isStill(s.time);
+    m_stillSince = still ? std::min(m_stillSince, s.time) : HUGE_VAL;
+    return s.time - m_thereSince >= holdTime || s.time - m_arrivedSince >= patience ||
+           s.time - m_stillSince >= stuckTime;
+  }
+  vpAvoidanceSample observe(double t)
+  {
+    vpAvoidanceSample s;
+    s.time = t;
+    s.q = m_drives.q();
+    s.commanded = m_drives.wanted();
+    m_truth.scene().place(s.q, m_data);
+    s.tool = m_data.arm.tool.p;
+    s.goal = m_goal.at(t).position;
+    s.goalDistance = (s.tool - s.goal).norm();
+    s.clearance = m_truth.scene().clearance(m_data, vpClearanceSearch::horizon);
+    if (s.clearance.kind == vpCollisionKind::Object) {
+      s.nearest = m_truth.scene().object(s.clearance.other).name;
+    }
+    return s;
+  }
+
+  vpAvoidanceRun *m_run;
+  const vpAvoidanceRunSpec *m_spec;
+  vpTrueScene m_truth;
+  vpPerceivedScene m_perceived;
+  vpMovingGoal m_goal;
+  vpArmDrives m_drives;
+  std::unique_ptr<vpAvoidanceMethod> m_method;
+  vpCollisionData m_data;
+  vpAvoidanceOutput m_output;
+  std::vector<vpMotionKnot> m_knots;
+  double m_thereSince = HUGE_VAL, m_arrivedSince = HUGE_VAL, m_stillSince = HUGE_VAL; // s
+};
+} // namespace
+
+vpAvoidanceRun runAvoidanceExperiment(const vpAvoidanceRunSpec &spec, const std::function<bool(double)> &progress)
+{
+  spec.validate();
+  vpAvoidanceRun run;
+  run.spec = spec;
+  Loop loop(run);
+  const double period = spec.methodSpec.period;
+  const long cycles = std::lround(std::ceil(spec.maxDuration / period - 1e-9)),
+             reportEvery = std::max(1L, cycles / 100);
+  long cycle = 0;
+  for (; cycle < cycles; ++cycle) {
+    const double t = static_cast<double>(cycle) * period;
+    if (!loop.cycle(t)) {
+      break;
+    }
+    loop.move(t);
+    if (progress && cycle % reportEvery == 0 && !progress(static_cast<double>(cycle) / static_cast<double>(cycles))) {
+      ++cycle;
+      break;
+    }
+  }
+  loop.finish(static_cast<double>(cycle) * period);
+  run.metrics = vpAvoidanceEvaluation::evaluate(run, loop.knots());
+  return run;
+}
+
+END_VISP_NAMESPACE

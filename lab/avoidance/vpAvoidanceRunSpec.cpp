@@ -1,0 +1,84 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "lab/avoidance/vpAvoidanceRunSpec.h"
+
+#include <visp3/core/vpException.h>
+
+#include <cmath>
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+void requireGood(const char *field, double value, bool good, const char *range)
+{
+  if (!good || !std::isfinite(value)) {
+    throw vpException(vpException::badValue, "%s of the avoidance experiment is %g, must be %s and finite", field,
+                      value, range);
+  }
+}
+
+void requireFit(const char *field, const vpJointVector &q, int size, bool mayBeEmpty)
+{
+  if ((mayBeEmpty && q.size() == 0) || (q.size() == size && q.allFinite())) {
+    return;
+  }
+  throw vpException(vpException::badValue, "%s of the avoidance experiment has %d numbers, must have %d finite ones",
+                    field, static_cast<int>(q.size()), size);
+}
+
+void requirePlace(const char *field, const Eigen::Vector3d &place)
+{
+  for (const double value : {place.x(), place.y(), place.z()}) {
+    requireGood(field, value, true, "a number");
+  }
+}
+
+void requireInOrder(const vpAvoidanceRunSpec &spec)
+{
+  double before = 0.;
+  for (const vpGoalMove &move : spec.goalMoves) {
+    requireGood("begin of a goal's move", move.begin, move.begin >= before, ">= 0 s and after the move before");
+    requireGood("end of a goal's move", move.end, move.end >= move.begin, ">= its begin");
+    requireFit("the goal", move.to.q, spec.arm->size(), true);
+    requirePlace("the goal", move.to.position);
+    before = move.end;
+  }
+  for (const auto &[from, to] : spec.covered) {
+    requireGood("begin of a covered interval", from, from >= 0., ">= 0 s");
+    requireGood("end of a covered interval", to, to >= from, ">= its begin");
+  }
+}
+} // namespace
+
+void vpAvoidanceRunSpec::validate() const
+{
+  if (!arm) {
+    throw vpException(vpException::badValue, "the avoidance experiment has no arm");
+  }
+  if (sight == vpObstacleSight::Custom && !makeSensor) {
+    throw vpException(vpException::badValue,
+                      "makeSensor of the avoidance experiment is empty, a custom sensor needs it");
+  }
+  methodSpec.validate();
+  poses.validate();
+  tracks.validate();
+  drives.validate(*arm);
+  for (const vpMovingObstacle &obstacle : obstacles) {
+    obstacle.validate();
+  }
+  requireFit("the start", start, arm->size(), false);
+  requireFit("the goal", goal.q, arm->size(), true);
+  requirePlace("the goal", goal.position);
+  requireGood("goalRate", goalRate, goalRate > 0., "> 0 Hz");
+  requireGood("goalNoise", goalNoise, goalNoise >= 0., ">= 0 m");
+  requireGood("visionRate", visionRate, visionRate > 0., "> 0 Hz");
+  requireGood("latency", latency, latency >= 0., ">= 0 s");
+  requireGood("maxDuration", maxDuration, maxDuration > 0., "> 0 s");
+  requireGood("goalTolerance", goalTolerance, goalTolerance > 0., "> 0 m");
+  requireInOrder(*this);
+}
+
+END_VISP_NAMESPACE

@@ -1,0 +1,37 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpCameraPoseNoise.h
+ * \brief Where an arm believes its camera to be.
+ */
+#ifndef vpCameraPoseNoise_h
+#define vpCameraPoseNoise_h
+
+#include "vpHashRandom.h"
+
+#include <visp3/direct_core/vpSO3.h>
+#include <visp3/manipulator/vpArmTypes.h>
+
+BEGIN_VISP_NAMESPACE
+
+//! fMc with normal errors of its place (m) and rotation (rad), each component alike. \param seed : Of this picture.
+inline vpRigidTransform vpNoisyCamera(const vpRigidTransform &fMc, double positionSigma, double angleSigma,
+                                      unsigned int seed)
+{
+  vpHashRandom random(seed, vpHashRandom::Purpose::CameraPose, 0, 0);
+  const auto normal = [&random] {
+    const double value = vpNormalQuantiles::get()[static_cast<std::uint16_t>(random.bits())];
+    return value;
+  };
+  Eigen::Vector3d place, turn;
+  for (int i = 0; i < 3; ++i) {
+    place(i) = positionSigma * normal();
+    turn(i) = angleSigma * normal();
+  }
+  return {vpSO3::exp(turn) * fMc.R, fMc.p + place};
+}
+
+END_VISP_NAMESPACE
+#endif

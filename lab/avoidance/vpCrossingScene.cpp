@@ -1,0 +1,165 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "lab/avoidance/vpSceneDraw.h"
+#include "lab/avoidance/vpTrueScene.h"
+
+#include <visp3/avoidance/vpCertifiedMotion.h>
+#include <visp3/core/vpException.h>
+
+#include <algorithm>
+#include <cmath>
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+constexpr unsigned int number = 3;
+constexpr double step = 0.01;      // s, at which the conditions are looked at
+constexpr double jointShare = 0.5; // of the joints' speed: the arm that takes no notice
+constexpr double toolSpeed = 0.25; // m/s, mean of the tool that takes no notice
+constexpr int places = 60;
+
+//! \brief An arm that takes no notice: configurations in equal steps of time.
+struct Blind {
+  std::vector<vpJointVector> way;
+  double duration = 0.; // s
+
+  [[nodiscard]] const vpJointVector &at(double share) const
+  {
+    const double last = static_cast<double>(way.size()) - 1.;
+    return way[static_cast<std::size_t>(std::lround(std::clamp(share, 0., 1.) * last))];
+  }
+};
+
+double timeOf(const vpArmModel &arm, const vpJointVector &start, const vpJointVector &goal)
+{
+  return ((goal - start).cwiseAbs().array() / (jointShare * arm.velocity().array())).maxCoeff();
+}
+
+Blind alongJoints(const vpArmModel &arm, const vpJointVector &start, const vpJointVector &goal)
+{
+  Blind blind;
+  blind.duration = timeOf(arm, start, goal);
+  for (int i = 0; i < places; ++i) {
+    blind.way.push_back(start + static_cast<double>(i) / (places - 1) * (goal - start));
+  }
+  return blind;
+}
+
+Blind alongLine(const vpArmModel &arm, const vpJointVector &start, const vpJointVector &goal)
+{
+  const double length = (vpSceneDraw::tool(arm, goal) - vpSceneDraw::tool(arm, start)).norm();
+  return {vpSceneDraw::toolLine(arm, start, goal, places), length / toolSpeed};
+}
+
+//! Meets the tool of the blind arm on its way, at about the time when it is there.
+vpMovingObstacle randomObstacle(vpHashRandom &random, int i, const vpArmModel &arm, const Blind &blind, double speed)
+{
+  vpMovingObstacle o;
+  o.object.name = "mover " + std::to_string(i + 1);
+  const double radius = random.uniform(0.04, 0.08), length = random.uniform(0.1, 0.3);
+  o.object.shape = i % 2 == 0 ? vpCollisionShape::sphere(radius) : vpCollisionShape::capsule(0.7 * radius, length);
+  const double angle = random.uniform(-M_PI, M_PI), along = random.uniform(0.3, 0.9);
+  const Eigen::Vector3d v = speed * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.);
+  const double when = along * blind.duration + random.uniform(-0.1, 0.1);
+  o.object.pose.p = vpSceneDraw::tool(arm, blind.at(along)) - when * v;
+  o.object.pose.p.z() += random.uniform(-0.05, 0.05);
+  o.object.velocity = vpTwist(v.x(), v.y(), v.z(), 0., 0., 0.);
+  return o;
+}
+
+//! Waiting at the start, until nothing is near the way any more, and then going is free.
+bool canWait(vpTrueScene &truth, const vpJointVector &start, const vpJointVector &goal, double longest)
+{
+  vpMotionScratch scratch;
+  const vpCertifiedMotion motion(truth.scene(), {vpAvoidanceScenes::feasibleMargin, 1e-4});
+  const double going = timeOf(truth.scene().arm(), start, goal);
+  double freeSince = 0.; // the whole way
+  for (double t = 0.; t < longest; t += step) {
+    truth.place(t);
+    if (!vpSceneDraw::isFree(truth.scene(), start, vpAvoidanceScenes::feasibleMargin)) {
+      return false;
+    }
+    freeSince = motion.check(start, goal, scratch).isFree() ? freeSince : t + step;
+    if (t - freeSince > going + 1.) { // by then it could have gone
+      return true;
+    }
+  }
+  return false;
+}
+
+//! The arm that goes at once is touched on its way, not at its start.
+bool isInTheWay(vpTrueScene &truth, const Blind &blind)
+{
+  for (double t = 0.; t < blind.duration; t += step) {
+    truth.place(t);
+    if (!vpSceneDraw::isFree(truth.scene(), blind.at(t / blind.duration), 0.)) {
+      return t > 0.2 * blind.duration;
+    }
+  }
+  return false;
+}
+
+//! Without obstacles the arm may go this way.
+bool isFreeAlone(const vpCollisionScene &empty, const Blind &blind)
+{
+  return std::all_of(blind.way.begin(), blind.way.end(), [&](const vpJointVector &q) {
+    return vpSceneDraw::isFree(empty, q, vpAvoidanceScenes::feasibleMargin);
+  });
+}
+
+void requirePositive(const char *field, double value, bool good)
+{
+  if (!good || !std::isfinite(value)) {
+    throw vpException(vpException::badValue, "%s of the crossing obstacles is %g, must be > 0 and finite", field,
+                      value);
+  }
+}
+} // namespace
+
+vpAvoidanceScenario vpAvoidanceScenes::crossing(const std::shared_ptr<const vpArmModel> &arm, unsigned int seed,
+                                                const vpCrossingSpec &spec)
+{
+  vpSceneDraw::requireArm(arm);
+  requirePositive("speed", spec.speed, spec.speed > 0.);
+  requirePositive("visionRate", spec.visionRate, spec.visionRate > 0.);
+  for (int draw = 0; draw < vpSceneDraw::mostDraws; ++draw) {
+    vpHashRandom random = vpSceneDraw::random(number, seed, draw);
+    const vpJointVector start = vpSceneDraw::configuration(*arm, random);
+    const vpJointVector goal = vpSceneDraw::shortWay(*arm, start, vpSceneDraw::configuration(*arm, random));
+    const double way = (vpSceneDraw::tool(*arm, goal) - vpSceneDraw::tool(*arm, start)).norm();
+    vpAvoidanceScenario scenario;
+    scenario.run = vpSceneDraw::between(arm, start, goal, seed);
+    scenario.run.scene.ground = vpSceneDraw::ground();
+    vpMotionScratch scratch;
+    const vpCollisionScene empty(*arm, scenario.run.scene);
+    if (way < 0.3 || way > 0.8 ||
+        !vpCertifiedMotion(empty, {feasibleMargin, 1e-4}).check(start, goal, scratch).isFree()) {
+      continue;
+    }
+    const Blind joints = alongJoints(*arm, start, goal), line = alongLine(*arm, start, goal);
+    if (line.way.empty() || !isFreeAlone(empty, line)) {
+      continue;
+    }
+    scenario.run.obstacles = {randomObstacle(random, 0, *arm, joints, spec.speed),
+                              randomObstacle(random, 1, *arm, line, spec.speed)};
+    vpTrueScene truth(scenario.run);
+    truth.enter(0.);
+    if (isInTheWay(truth, joints) && isInTheWay(truth, line) && canWait(truth, start, goal, scenario.run.maxDuration)) {
+      scenario.name = "S3 number " + std::to_string(seed);
+      scenario.run.visionRate = spec.visionRate;
+      scenario.run.latency = spec.latency;
+      scenario.run.poses.positionNoise = 0.003;
+      scenario.run.poses.eye = Eigen::Vector3d(0., 0., 2.); // a camera above
+      scenario.run.poses.range = 5.;
+      scenario.run.maxDuration = 30.;
+      scenario.draws = draw + 1;
+      return scenario;
+    }
+  }
+  vpSceneDraw::giveUp("S3", seed);
+}
+
+END_VISP_NAMESPACE

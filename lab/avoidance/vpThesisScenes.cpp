@@ -1,0 +1,137 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "lab/avoidance/vpReachPoint.h"
+#include "lab/avoidance/vpSceneDraw.h"
+
+#include <visp3/avoidance/vpCertifiedMotion.h>
+#include <visp3/core/vpException.h>
+
+#include <algorithm>
+#include <cmath>
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+constexpr unsigned int number = 1;
+
+//! The configuration nearby that brings the tool to a place.
+vpAvoidanceGoal goalAt(const vpArmModel &arm, const vpJointVector &near, const Eigen::Vector3d &place)
+{
+  vpJointVector q = near;
+  if (!vpReachPoint(arm, place, q)) {
+    throw vpException(vpException::badValue, "arm %s does not reach (%g, %g, %g) m from its start", arm.label().c_str(),
+                      place.x(), place.y(), place.z());
+  }
+  return vpAvoidanceGoal::at(arm, q);
+}
+
+//! AMOR's start of chapter 8, found from the arm's home.
+vpAvoidanceGoal thesisStart(const vpArmModel &arm) { return goalAt(arm, arm.home(), {0.05, 0.63, 0.35}); }
+
+//! Part of a way that an arm is past when it can be at rest again: it sets out by least jerk and 1 m/s^2, sees at \e t.
+double goneUntil(double t, double way)
+{
+  constexpr double braking = 0.06; // m
+  const double s = std::min(1., t / std::sqrt(10. / std::sqrt(3.) * way));
+  return s * s * s * (10. - 15. * s + 6. * s * s) + braking / way;
+}
+
+//! The ball touches the tool that goes straight on, but neither its start nor the new goal.
+bool isGood(const vpCollisionScene &scene, const vpJointVector &start, const Eigen::Vector3d &way,
+            const vpJointVector &goal, double from, unsigned int seed)
+{
+  if (!vpSceneDraw::isFree(scene, start, vpAvoidanceScenes::feasibleMargin) ||
+      !vpSceneDraw::isFree(scene, goal, vpAvoidanceScenes::feasibleMargin)) {
+    return false;
+  }
+  vpJointVector q = start;
+  const Eigen::Vector3d place = vpSceneDraw::tool(scene.arm(), start);
+  bool touched = false;
+  for (double s = 0.; s <= 1.; s += 0.02) {
+    const bool reached = vpReachPoint(scene.arm(), place + s * way, q);
+    const bool free = vpSceneDraw::isFree(scene, q, 0.);
+    if (!reached || (s <= from && !vpSceneDraw::isFree(scene, q, vpAvoidanceScenes::feasibleMargin))) {
+      return false; // too near to where the arm is when it appears
+    }
+    touched = touched || !free;
+  }
+  return touched && vpSceneDraw::hasPath(scene, start, goal, seed);
+}
+} // namespace
+
+vpAvoidanceScenario vpAvoidanceScenes::figure88(const std::shared_ptr<const vpArmModel> &arm, unsigned int seed)
+{
+  vpSceneDraw::requireArm(arm);
+  const vpAvoidanceGoal start = thesisStart(*arm);
+  const Eigen::Vector3d way(0., 0.3, 0.);
+  const vpAvoidanceGoal straight = goalAt(*arm, start.q, start.position + way);
+  const vpAvoidanceGoal aside = goalAt(*arm, start.q, start.position + Eigen::Vector3d(0.175, 0.3, 0.));
+  for (int draw = 0; draw < vpSceneDraw::mostDraws; ++draw) {
+    vpHashRandom random = vpSceneDraw::random(number, seed, draw);
+    const double when = random.uniform(0.2, 0.45);
+    vpMovingObstacle ball;
+    ball.object.name = "ball";
+    ball.object.shape = vpCollisionShape::sphere(0.05);
+    ball.object.pose.p = start.position + Eigen::Vector3d(random.uniform(-0.1, 0.05), random.uniform(0.15, 0.35),
+                                                          random.uniform(-0.05, 0.05));
+    ball.appears = when;
+    vpAvoidanceScenario scenario;
+    scenario.run = vpSceneDraw::between(arm, start.q, straight.q, seed);
+    scenario.run.scene.ground = vpSceneDraw::ground();
+    vpCollisionScene scene(*arm, scenario.run.scene);
+    scene.add(ball.object);
+    if (isGood(scene, start.q, way, aside.q, goneUntil(when + 0.15, way.norm()), seed)) {
+      scenario.name = "S1 number " + std::to_string(seed);
+      scenario.run.obstacles.push_back(ball);
+      scenario.run.goalMoves = {{when, when, aside}};
+      scenario.run.visionRate = 10.;
+      scenario.run.poses.eye = Eigen::Vector3d(0., 0., 2.); // a camera above
+      scenario.run.poses.range = 5.;
+      scenario.draws = draw + 1;
+      return scenario;
+    }
+  }
+  vpSceneDraw::giveUp("S1", seed);
+}
+
+vpAvoidanceScenario vpAvoidanceScenes::movingGoal(const std::shared_ptr<const vpArmModel> &arm, unsigned int seed)
+{
+  vpSceneDraw::requireArm(arm);
+  const vpAvoidanceGoal start = thesisStart(*arm);
+  const auto place = [&](double x, double y) {
+    return goalAt(*arm, start.q, start.position + Eigen::Vector3d(x, y, 0.));
+  };
+  vpAvoidanceScenario scenario;
+  scenario.name = "S7 number " + std::to_string(seed);
+  scenario.run = vpSceneDraw::between(arm, start.q, place(0.1, 0.3).q, seed);
+  scenario.run.goalMoves = {{0.5, 0.9, place(0.23, 0.13)}, {1.7, 1.9, place(0.14, 0.04)}};
+  scenario.run.goalNoise = 0.01;
+  scenario.run.maxDuration = 10.;
+  return scenario;
+}
+
+vpAvoidanceScenario vpAvoidanceScenes::fromTask(const std::shared_ptr<const vpArmModel> &arm,
+                                                const vpCollisionSceneFile &file, std::size_t task, unsigned int seed)
+{
+  vpSceneDraw::requireArm(arm);
+  if (task >= file.tasks.size()) {
+    throw vpException(vpException::badValue, "scene %s has %d tasks, there is no number %d", file.name.c_str(),
+                      static_cast<int>(file.tasks.size()), static_cast<int>(task));
+  }
+  const vpMotionTask &motion = file.tasks[task];
+  if (motion.start.size() != arm->size() || motion.goal.size() != arm->size()) {
+    throw vpException(vpException::badValue, "task %s of scene %s is for %d joints, arm %s has %d", motion.name.c_str(),
+                      file.name.c_str(), static_cast<int>(motion.start.size()), arm->label().c_str(), arm->size());
+  }
+  vpAvoidanceScenario scenario;
+  scenario.name = file.name + ", " + motion.name;
+  scenario.run = vpSceneDraw::between(arm, motion.start, motion.goal, seed);
+  scenario.run.scene = file.spec;
+  scenario.run.visionRate = 5.;
+  return scenario;
+}
+
+END_VISP_NAMESPACE

@@ -1,0 +1,115 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "lab/printing/vpPrintExperiment.h"
+
+#include <visp3/core/vpException.h>
+
+#include <cmath>
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+void require(bool good, const char *field, double value, const char *range)
+{
+  if (!good) {
+    throw vpException(vpException::badValue, "%s of the print experiment is %g, must be %s", field, value, range);
+  }
+}
+
+// The cells' scatter on the product is part of the set that shows the thesis's figures.
+vpPrintExperimentSpec thesisRun()
+{
+  vpPrintExperimentSpec spec;
+  spec.sensorModel = vpPrintSensorModel::thesis();
+  spec.product.jitter = 0.3;
+  spec.product.noise = 4.;
+  spec.reference.mode = vpPrintReferenceMode::FixedArrival;
+  spec.reference.dropTime = 10.8;
+  spec.frames = 120;
+  spec.cellsPerRow = 40;
+  return spec;
+}
+} // namespace
+
+vpPrintSensorModel vpPrintSensorModel::thesis() { return vpPrintSensorModel(); }
+
+vpPrintSensorModel vpPrintSensorModel::tracker()
+{
+  vpPrintSensorModel sensor;
+  sensor.sigmaX = 0.0153;
+  sensor.sigmaY = 0.0078;
+  sensor.effectiveCells = 10.;
+  return sensor;
+}
+
+vpPrintExperimentSpec vpPrintExperimentSpec::thesisPid()
+{
+  vpPrintExperimentSpec spec = thesisRun();
+  spec.controller = vpPrintController::Pid;
+  spec.pid = vpPrintVelocityControlSpec::thesisPid();
+  return spec;
+}
+
+vpPrintExperimentSpec vpPrintExperimentSpec::thesisFeedforward()
+{
+  vpPrintExperimentSpec spec = thesisRun();
+  spec.controller = vpPrintController::PidFeedforward;
+  spec.pid = vpPrintVelocityControlSpec::thesisFeedforward();
+  spec.filter = {0.19, 1.17};
+  return spec;
+}
+
+vpPrintExperimentSpec vpPrintExperimentSpec::thesisPoorFilter()
+{
+  vpPrintExperimentSpec spec = thesisPid();
+  spec.filter = {0.80, 0.08};
+  return spec;
+}
+
+vpPrintExperimentSpec vpPrintExperimentSpec::withObserver(const vpPrintSensorModel &sensor)
+{
+  vpPrintExperimentSpec spec;
+  spec.sensorModel = sensor;
+  spec.product.noise = 4.;
+  spec.controller = vpPrintController::Observer;
+  spec.observer.model.viscous = 0.02;
+  spec.observer.model.coulomb = 0.08;
+  spec.observer.model.stiction = 0.12;
+  spec.observer.model.stribeckVelocity = 0.3;
+  spec.preview.model = spec.observer.model;
+  spec.preview.velocityGain = 0.7;
+  spec.preview.positionGain = 0.03;
+  spec.previewAcross = spec.preview; // stiff, against sticking
+  spec.previewAcross.velocityGain = 0.8;
+  spec.previewAcross.positionGain = 0.25;
+  spec.commandsPerFrame = 4;
+  const bool fine = sensor.sigmaX / std::sqrt(sensor.effectiveCells) < 0.03;
+  // A coarse sensor needs a quiet filter, which would learn too late where the friction rises. A fine one sees the errors of
+  // the friction model instead: to it everything would be a change.
+  spec.observer.disturbanceNoise = fine ? 1e-7 : 3e-7;
+  spec.observer.changeRate = fine ? 0. : 0.003;
+  spec.observer.velocityNoise = 1e-6;
+  return spec;
+}
+
+void vpPrintExperimentSpec::validate() const
+{
+  vpPrintMachineSpec::validate();
+  stage.validate();
+  product.validate();
+  require(sensorModel.sigmaX > 0. && std::isfinite(sensorModel.sigmaX), "sigmaX", sensorModel.sigmaX, "> 0");
+  require(sensorModel.sigmaY > 0. && std::isfinite(sensorModel.sigmaY), "sigmaY", sensorModel.sigmaY, "> 0");
+  require(sensorModel.effectiveCells >= 1., "effectiveCells", sensorModel.effectiveCells, ">= 1");
+  require(captureJitter >= 0. && captureJitter <= 2., "captureJitter", captureJitter, "in [0, 2]");
+  require(dropped >= 0. && dropped <= 0.5, "dropped", dropped, "in [0, 0.5]");
+  require(std::isfinite(nozzleOffset), "nozzleOffset", nozzleOffset, "finite");
+  require(frames >= 0, "frames", frames, ">= 0");
+  require(evaluateFrom >= 0, "evaluateFrom", evaluateFrom, ">= 0");
+  require(frameRate > 0. && std::isfinite(frameRate), "frameRate", frameRate, "> 0");
+  require(product.rotation == 0., "rotation", product.rotation, "0: the axes of stage and product are the same");
+}
+
+END_VISP_NAMESPACE

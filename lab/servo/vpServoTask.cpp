@@ -1,0 +1,106 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "lab/servo/vpServoTask.h"
+
+#include <visp3/core/vpException.h>
+#include <visp3/core/vpThetaUVector.h>
+
+#include <cmath>
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+void requirePositive(const std::string &field, double value, const char *unit)
+{
+  if (!(value > 0.) || !std::isfinite(value)) {
+    throw vpException(vpException::badValue, "%s of the task is %g %s, must be > 0 and finite", field.c_str(), value,
+                      unit);
+  }
+}
+
+// The object must be a thing that this camera can see: rigid pose, all of it in front, its front side towards us.
+void requireVisiblePose(const std::string &field, const vpHomogeneousMatrix &cMo, double width, double height)
+{
+  for (unsigned int i = 0; i < 12; ++i) {
+    if (!std::isfinite(cMo.data[i])) {
+      throw vpException(vpException::badValue, "%s of the task has the entry %g in row %u, column %u, must be finite",
+                        field.c_str(), cMo.data[i], i / 4, i % 4);
+    }
+  }
+  if (!cMo.isAnHomogeneousMatrix()) {
+    throw vpException(vpException::badValue, "%s of the task is not a rigid motion: its 3x3 part is not a rotation",
+                      field.c_str());
+  }
+  for (int corner = 0; corner < 4; ++corner) {
+    const double x = (corner % 2 == 0 ? -0.5 : 0.5) * width, y = (corner / 2 == 0 ? -0.5 : 0.5) * height;
+    const double depth = cMo[2][0] * x + cMo[2][1] * y + cMo[2][3];
+    if (!(depth > 0.)) {
+      throw vpException(vpException::badValue,
+                        "%s of the task has a corner of the object at depth %g m, must be in front of the camera",
+                        field.c_str(), depth);
+    }
+  }
+  const double cameraZ = -(cMo[0][2] * cMo[0][3] + cMo[1][2] * cMo[1][3] + cMo[2][2] * cMo[2][3]);
+  if (!(cameraZ < 0.)) {
+    throw vpException(vpException::badValue,
+                      "%s of the task has the camera at z = %g m of the object, must be < 0 to see its front",
+                      field.c_str(), cameraZ);
+  }
+}
+
+// Pose of an object at depth Z0 on the first camera's axis, seen by a camera that moved by (x, 0, z) and faces it.
+vpHomogeneousMatrix facingPose(double x, double z, double Z0)
+{
+  const double yaw = std::atan2(-x, Z0 - z);
+  const vpHomogeneousMatrix wMc(vpTranslationVector(x, 0., z), vpRotationMatrix(vpThetaUVector(0., yaw, 0.)));
+  return wMc.inverse() * vpHomogeneousMatrix(0., 0., Z0, 0., 0., 0.);
+}
+} // namespace
+
+vpServoTask vpServoTask::thesis()
+{
+  const double Z0 = 0.47, sideways = 0.2, forward = 0.1;
+  vpServoTask task;
+  task.camera.initPersProjWithoutDistortion(800., 800., 320., 240.);
+  task.initial = facingPose(0., 0., Z0);
+  task.segments = {{"2", facingPose(-sideways, forward, Z0), 8.},
+                   {"1", facingPose(0., 0., Z0), 8.},
+                   {"3", facingPose(sideways, forward, Z0), 8.}};
+  return task;
+}
+
+void vpServoTask::validate() const
+{
+  if (camera.get_projModel() != vpCameraParameters::perspectiveProjWithoutDistortion) {
+    throw vpException(vpException::badValue, "camera of the task has a distortion model, must have none");
+  }
+  requirePositive("camera px", camera.get_px(), "px");
+  requirePositive("camera py", camera.get_py(), "px");
+  if (!std::isfinite(camera.get_u0()) || !std::isfinite(camera.get_v0())) {
+    throw vpException(vpException::badValue, "camera of the task has the principal point (%g, %g) px, must be finite",
+                      camera.get_u0(), camera.get_v0());
+  }
+  if (width < 32 || height < 32 || width > 10000 || height > 10000) {
+    throw vpException(vpException::badValue, "image size of the task is %ux%u px, must be 32 to 10000 each way", width,
+                      height);
+  }
+  requirePositive("objectWidth", objectWidth, "m");
+  requirePositive("objectHeight", objectHeight, "m");
+  if (pointCount < 4 || pointCount > 10000) {
+    throw vpException(vpException::badValue, "pointCount of the task is %u, must be 4 to 10000", pointCount);
+  }
+  requireVisiblePose("initial", initial, objectWidth, objectHeight);
+  if (segments.empty()) {
+    throw vpException(vpException::badValue, "the task has no segments, must have at least one");
+  }
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    const std::string segment = "segment " + std::to_string(i) + " ('" + segments[i].name + "')";
+    requirePositive("duration of " + segment, segments[i].duration, "s");
+    requireVisiblePose("cdMo of " + segment, segments[i].cdMo, objectWidth, objectHeight);
+  }
+}
+
+END_VISP_NAMESPACE

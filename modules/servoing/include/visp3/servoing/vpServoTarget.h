@@ -1,0 +1,75 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpServoTarget.h
+ * \brief From the pose of a known object to what servo laws are told.
+ */
+#ifndef vpServoTarget_h
+#define vpServoTarget_h
+
+#include <visp3/feedforward/vpServoMeasurement.h>
+#include <visp3/planar_target/vpPlanarTargetResult.h>
+
+#include <Eigen/Core>
+
+#include <vector>
+
+BEGIN_VISP_NAMESPACE
+
+/*!
+ * \class vpServoTarget
+ * \ingroup group_servoing
+ * \brief The points of an object that a law uses: their images at the goal, and at a measured pose.
+ *
+ * \code
+ * const vpServoTarget plate = vpServoTarget::rectangle(0.16, 0.11); // m
+ * law->setGoal(plate.goal(cdMo));
+ * plate.measure(target.process(image), time, measurement); // each frame
+ * command = law->update(measurement, dt);
+ * \endcode
+ */
+class VISP_EXPORT vpServoTarget
+{
+public:
+  /*!
+   * \param points : Features of the object in its own frame, m; at least one.
+   * \param outline : Points that must stay in view, in the object's frame, m; empty: \e points.
+   * \throw vpException (badValue) when there is no point or a coordinate is not finite.
+   */
+  explicit vpServoTarget(std::vector<Eigen::Vector3d> points, std::vector<Eigen::Vector3d> outline = {});
+  /*!
+   * The corners of a rectangle in the plane z = 0 around the origin: top left, top right, bottom right, bottom left.
+   * \param width, height : m, > 0.
+   * \throw vpException (badValue) naming the side that is out of range.
+   */
+  [[nodiscard]] static vpServoTarget rectangle(double width, double height);
+
+  //! \param cdMo : Pose of the object in the desired camera frame, m.
+  [[nodiscard]] vpServoGoal goal(const vpHomogeneousMatrix &cdMo) const;
+  /*!
+   * What a camera that sees the object at \e cMo tells a law; points behind the camera are not visible. Allocates only until
+   * \e result has its size.
+   * \param cMo : Pose of the object in the camera, m. \param time : Of the exposure, s.
+   */
+  void measure(const vpHomogeneousMatrix &cMo, double time, vpServoMeasurement &result) const;
+  //! The same of what was found in an image, with its covariance; not valid unless vpPlanarTargetResult::found().
+  void measure(const vpPlanarTargetResult &seen, double time, vpServoMeasurement &result) const;
+  /*!
+   * Images of points of an object at \e cMo; one behind the camera is not visible, and its numbers stay.
+   * \param points : In the object's frame, m. \param images : Gets their number; allocates when it grows.
+   */
+  static void project(const std::vector<Eigen::Vector3d> &points, const vpHomogeneousMatrix &cMo,
+                      std::vector<vpServoPoint> &images);
+  //! As given.
+  [[nodiscard]] const std::vector<Eigen::Vector3d> &points() const { return m_points; }
+  //! As given.
+  [[nodiscard]] const std::vector<Eigen::Vector3d> &outline() const { return m_outline; }
+
+private:
+  std::vector<Eigen::Vector3d> m_points, m_outline;
+};
+
+END_VISP_NAMESPACE
+#endif

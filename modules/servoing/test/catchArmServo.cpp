@@ -1,0 +1,212 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// From measurements to joint velocities: the goal is reached through latency, limits are kept, obstacles are not touched,
+// and whatever comes in the answer is finite.
+#include "vpCatch.h"
+#include "vpTestArms.h"
+#include "vpWildNumbers.h"
+
+#include <visp3/core/vpException.h>
+#include <visp3/servoing/vpArmServo.h>
+#include <visp3/servoing/vpServoTarget.h>
+
+#include <deque>
+
+VISP_DIRECT_USING_NAMESPACE
+using vpTestArms::amor;
+
+namespace
+{
+constexpr double period = 0.005; // s
+const vpServoTarget plate = vpServoTarget::rectangle(0.16, 0.11);
+const vpHomogeneousMatrix cdMo(0., 0., 0.35, 0., 0., 0.);
+
+vpArmServoSpec spec()
+{
+  vpArmServoSpec spec;
+  spec.redundancy.period = period;
+  spec.indices = {vpSelfMotionIndex::jointLimits()};
+  return spec;
+}
+
+vpRigidTransform cameraAt(const vpJointVector &q)
+{
+  vpArmData data;
+  vpArmKinematics::update(amor(), q, data);
+  return vpArmKinematics::camera(amor(), data);
+}
+
+//! An arm that does what it is told, and a camera that sees exactly, 10 times a second, and answers late.
+struct Bench {
+  vpArmServo servo;
+  vpJointVector q = amor().home(), velocity = vpJointVector::Zero(7);
+  vpHomogeneousMatrix fMo;
+  double latency = 0.1;
+  std::deque<vpServoMeasurement> pending;
+  int cycle = 0;
+
+  bool told = true; // the time of the exposure; otherwise that of the arrival
+
+  explicit Bench(const std::string &law, const vpServoControllerConfig &config = {})
+    : servo(amor(), vpServoController::create(law, config), spec()),
+      fMo(cameraAt(amor().home()).toHomogeneous() * vpHomogeneousMatrix(0.06, 0.04, 0.45, 0.2, -0.3, 0.4))
+  {
+    servo.setGoal(plate.goal(cdMo));
+  }
+  [[nodiscard]] vpHomogeneousMatrix cMo() const { return cameraAt(q).inverse().toHomogeneous() * fMo; }
+  const vpArmServoOutput &step()
+  {
+    const double now = period * cycle;
+    if (cycle++ % 20 == 0) {
+      pending.emplace_back();
+      plate.measure(cMo(), now, pending.back());
+    }
+    while (!pending.empty() && pending.front().time + latency <= now + 1e-9) {
+      vpServoMeasurement seen = pending.front();
+      seen.time = told ? seen.time : now;
+      static_cast<void>(servo.see(seen));
+      pending.pop_front();
+    }
+    const unsigned long before = vpTestSupport::allocationCount();
+    const vpArmServoOutput &out = servo.step(q, now);
+    if (cycle > 100) {
+      REQUIRE(vpTestSupport::allocationCount() == before);
+    }
+    for (int i = 0; i < 7; ++i) {
+      REQUIRE(std::abs(out.velocity(i)) <= amor().velocity()(i) * (1. + 1e-9));
+      REQUIRE(std::abs(out.velocity(i) - velocity(i)) <= amor().acceleration()(i) * period * (1. + 1e-9) + 1e-12);
+    }
+    velocity = out.velocity;
+    q += period * velocity;
+    return out;
+  }
+  [[nodiscard]] double error() const // m, of the camera's place
+  {
+    return (cdMo * cMo().inverse()).getTranslationVector().frobeniusNorm();
+  }
+};
+} // namespace
+
+TEST_CASE("An arm servo reaches its goal through a latency of 100 ms", "[servoing]")
+{
+  for (const char *law : {"pbvs1", "ff-lookat", "ff-lookat-pi", "ibvs"}) {
+    Bench bench(law);
+    for (int i = 0; i < 4000; ++i) {
+      bench.step();
+    }
+    INFO(law << ", " << bench.error() << " m");
+    CHECK(bench.error() < 1e-5);
+    CHECK(bench.velocity.norm() < 0.3); // the self-motion goes on
+  }
+}
+
+TEST_CASE("A measurement that is late and told as new makes the loop swing, one told with its time does not",
+          "[servoing]")
+{
+  vpServoControllerConfig quick;
+  quick.gains.lambda = 8.;
+  double worst[2] = {0., 0.};
+  for (const bool told : {true, false}) {
+    Bench bench("pbvs1", quick);
+    bench.latency = 0.3;
+    bench.told = told;
+    for (int i = 0; i < 2000; ++i) {
+      bench.step();
+      if (i > 1000) {
+        worst[told] = std::max(worst[told], bench.error());
+      }
+    }
+  }
+  CHECK(worst[true] < 1e-4);
+  CHECK(worst[false] > 100. * worst[true]);
+}
+
+TEST_CASE("An arm servo behind which a scene stands does not touch it", "[servoing]")
+{
+  const Bench free("pbvs1");
+  vpCollisionSceneSpec world;
+  vpCollisionObject wall;
+  wall.name = "wall";
+  wall.shape = vpCollisionShape::box(Eigen::Vector3d(0.02, 0.3, 0.3));
+  // Between the camera and its goal.
+  const vpRigidTransform goal = vpRigidTransform::fromHomogeneous(free.fMo * cdMo.inverse());
+  const vpRigidTransform from = cameraAt(amor().home());
+  wall.pose.p = from.p + 3. * (goal.p - from.p);
+  world.objects.push_back(wall);
+  const vpCollisionScene scene(amor(), world);
+  Bench bench("pbvs1");
+  bench.fMo = (vpRigidTransform{goal.R, from.p + 5. * (goal.p - from.p)}).toHomogeneous() * cdMo; // behind it
+  bench.servo.supervise(scene);
+  vpCollisionData data;
+  double least = 1.;
+  bool stopped = false;
+  for (int i = 0; i < 3000; ++i) {
+    stopped = stopped || bench.step().supervision != vpSupervision::Passed;
+    scene.place(bench.q, data);
+    least = std::min(least, scene.clearance(data).distance);
+  }
+  CHECK(stopped);
+  CHECK(least > 0.0099);
+  CHECK(least < 0.2);
+}
+
+TEST_CASE("A target that is lost stops the arm, and it goes on when it comes back", "[servoing]")
+{
+  Bench bench("ff-lookat");
+  for (int i = 0; i < 200; ++i) {
+    bench.step();
+  }
+  const double before = bench.error();
+  bench.pending.clear();
+  for (int i = 0; i < 400; ++i) { // no camera
+    const auto &out = bench.servo.step(bench.q, period * bench.cycle++);
+    bench.velocity = out.velocity;
+    bench.q += period * out.velocity;
+  }
+  CHECK(bench.servo.step(bench.q, period * bench.cycle++).servo != vpServoStatus::Servoing);
+  for (int i = 0; i < 4000; ++i) {
+    bench.step();
+  }
+  CHECK(bench.error() < 1e-4);
+  CHECK(before > 1e-3);
+}
+
+TEST_CASE("Wild configurations, times and measurements leave the arm's velocities within its limits", "[servoing]")
+{
+  std::mt19937_64 rng(Catch::rngSeed());
+  for (int sequence = 0; sequence < 100; ++sequence) {
+    Bench bench("ff-lookat-pi");
+    for (int i = 0; i < 100; ++i) {
+      const double now = vpWildNumbers::mixed(rng, period * i, 0.1);
+      vpServoMeasurement seen;
+      plate.measure(bench.cMo(), vpWildNumbers::mixed(rng, period * i, 0.1), seen);
+      for (unsigned int r = 0; r < 3; ++r) {
+        seen.cMo[r][3] = vpWildNumbers::mixed(rng, seen.cMo[r][3], 0.1);
+      }
+      static_cast<void>(bench.servo.see(seen));
+      vpJointVector q = bench.q;
+      vpWildNumbers::mix(rng, q, 0.05);
+      const vpJointVector &velocity = bench.servo.step(q, now).velocity;
+      for (int j = 0; j < 7; ++j) {
+        REQUIRE(vpWildNumbers::atMost(std::abs(velocity(j)), amor().velocity()(j) * (1. + 1e-9)));
+      }
+    }
+  }
+}
+
+TEST_CASE("What is out of range is named", "[servoing]")
+{
+  vpArmServoSpec bad = spec();
+  bad.maxAge = 0.;
+  CHECK_THROWS_WITH(vpArmServo(amor(), vpServoController::create("pbvs1"), bad),
+                    "maxAge of the arm servo is 0, must be > 0");
+  bad = spec();
+  bad.maxLinear = NAN;
+  CHECK_THROWS_WITH(vpArmServo(amor(), vpServoController::create("pbvs1"), bad),
+                    "maxLinear of the arm servo is nan, must be > 0");
+  CHECK_THROWS_WITH(vpServoTarget::rectangle(0., 1.), "width of the servo target is 0 m, must be > 0");
+  CHECK_THROWS_WITH(vpServoTarget({}), "the servo target has no points, must have one or more");
+  CHECK_THROWS_WITH(vpServoTarget({{0., NAN, 0.}}), "point 0 of the servo target is (0, nan, 0), must be finite");
+}
