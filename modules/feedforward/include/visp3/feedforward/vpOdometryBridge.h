@@ -21,7 +21,7 @@ BEGIN_VISP_NAMESPACE
 
 /*!
  * \class vpOdometryBridge
- * \ingroup group_simulation
+ * \ingroup group_feedforward
  * \brief Carries a measurement over latency and between frames by the robot's own motion since its capture.
  *
  * The twists that the robot executed are integrated to cMn, the pose of the camera now in the camera at capture; then

@@ -18,7 +18,7 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! \ingroup group_simulation
+//! \ingroup group_rendering
 //! \brief What a real camera adds to an ideal picture. The defaults change nothing.
 struct VISP_EXPORT vpCameraFaults {
   double noise = 0.;         //!< Standard deviation of the grey value, 0..255 scale, >= 0.
@@ -34,7 +34,7 @@ struct VISP_EXPORT vpCameraFaults {
 
 /*!
  * \class vpPlaneRenderer
- * \ingroup group_simulation
+ * \ingroup group_rendering
  * \brief Renders a photograph, taken as a rectangle in the plane z = 0 centred at the object's origin, before a faint
  * background.
  *

@@ -17,7 +17,7 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! \ingroup group_simulation
+//! \ingroup group_rendering
 //! \brief Where a cell of the product truly is in the image.
 struct VISP_EXPORT vpPatternTruthCell {
   int row = 0;            //!< Number of its row on the product, any sign.
@@ -30,7 +30,7 @@ struct VISP_EXPORT vpPatternTruthCell {
 
 /*!
  * \class vpProductPattern
- * \ingroup group_simulation
+ * \ingroup group_rendering
  * \brief Renders an endless product with repetitive cells, for qualifying optics and testing trackers.
  *
  * Cell (0, 0) lies at the centre of the image when the product is at (0, 0), up to its jitter and the flexible pitch.

@@ -15,7 +15,7 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! \ingroup group_simulation
+//! \ingroup group_rendering
 //! \brief Outline of a cell's opening.
 enum class vpProductShape {
   Rectangle, //!< Sharp corners.
@@ -23,12 +23,12 @@ enum class vpProductShape {
   Dot        //!< Ellipse, a circle where both sizes are the same.
 };
 
-//! \ingroup group_simulation
+//! \ingroup group_rendering
 //! \return "rectangle", "rounded" or "dot".
 [[nodiscard]] VISP_EXPORT std::string toString(vpProductShape shape);
 
 /*!
- * \ingroup group_simulation
+ * \ingroup group_rendering
  * \brief Parameters of a vpProductPattern. The defaults are the display of thesis chapter 7: openings of 178 x 52 um
  * every 220 x 80 um, seen with 4.5 um a pixel; without noise or defects beyond those of a good camera.
  *

@@ -19,7 +19,7 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
- * \ingroup group_simulation
+ * \ingroup group_rendering
  * \brief A photograph on the front of a box.
  */
 struct VISP_EXPORT vpScenePhoto {
@@ -29,7 +29,7 @@ struct VISP_EXPORT vpScenePhoto {
 };
 
 /*!
- * \ingroup group_simulation
+ * \ingroup group_rendering
  * \brief What makes a vpSceneCamera.
  */
 struct VISP_EXPORT vpSceneCameraSpec {
@@ -39,7 +39,7 @@ struct VISP_EXPORT vpSceneCameraSpec {
   std::vector<vpScenePhoto> photos;                                         //!< At most one an object.
 };
 
-//! \ingroup group_simulation
+//! \ingroup group_rendering
 //! \brief What a real depth camera adds to ideal depths. The defaults change nothing.
 struct VISP_EXPORT vpDepthFaults {
   double noise = 0.;    //!< Standard deviation at a depth of 1 m, m; it grows with the square of the depth. >= 0.
@@ -52,7 +52,7 @@ struct VISP_EXPORT vpDepthFaults {
 
 /*!
  * \class vpSceneCamera
- * \ingroup group_simulation
+ * \ingroup group_rendering
  * \brief A camera among obstacles: grey pictures, with real photographs on boxes, and depth images.
  *
  * Every shape is cut exactly by the ray of each pixel's centre: sphere, capsule, box, cylinder, triangles of a mesh,
