@@ -11,6 +11,8 @@ if(NOT VISP_DIRECT_EIGEN3_INCLUDE_DIR)
   unset(_vispdirect_eigen_dirs)
 endif()
 
+include("${CMAKE_CURRENT_LIST_DIR}/VispDirectDependencies.cmake")
+
 # The standalone build sets C++17 once; a ViSP tree may still default to C++11. Call after vp_create_module().
 macro(vispdirect_module_settings)
   target_compile_features(${the_module} PUBLIC cxx_std_17)

@@ -39,18 +39,6 @@ bool isBody(const Eigen::Vector3d &point, const vpPlacedCapsule *capsules, int c
 }
 } // namespace
 
-const char *vpDepthReport::sentence() const noexcept
-{
-  switch (status) {
-  case vpDepthStatus::Ok:
-    return "the depth image was used";
-  case vpDepthStatus::NoPoint:
-    return "the depth image has no depth in range that is not the arm";
-  default:
-    return "the camera's pose is no rotation and place in range, or its focal lengths are 0";
-  }
-}
-
 vpDepthOctomap::vpDepthOctomap(const vpDepthOctomapSpec &spec) : m_spec(spec)
 {
   check("resolution", spec.resolution, spec.resolution > 0., "> 0 m");

@@ -1,0 +1,89 @@
+# Libraries that visp-direct can do without. Each is looked for in every configuration, unless WITH_<NAME>=OFF, and sets
+# VISP_DIRECT_HAVE_<NAME>, VISP_DIRECT_<NAME>_INCLUDES and VISP_DIRECT_<NAME>_LIBRARIES, this once for all rooms.
+# Without one, what needs it throws vpException::notImplementedError and names it (sources *Missing.cpp).
+# Found by path where a package's own target or variable is unfit for use inside a ViSP tree.
+
+# vispdirect_optional(NAME PURPOSE INCLUDES LIBRARIES): of paths that find_path() and find_library() gave.
+function(vispdirect_optional name purpose includes libraries)
+  option(WITH_${name} "Use ${name}: ${purpose}" ON)
+  set(have ${WITH_${name}})
+  foreach(path ${includes} ${libraries})
+    if(NOT path)
+      set(have OFF)
+    endif()
+  endforeach()
+  if(NOT have)
+    set(includes "")
+    set(libraries "")
+    get_property(said GLOBAL PROPERTY VISP_DIRECT_SAID_${name})
+    if(NOT said) # once, and not for every room
+      set(why "is missing")
+      if(NOT WITH_${name})
+        set(why "is switched off")
+      endif()
+      message(STATUS "visp-direct: ${name} ${why}: no ${purpose}")
+      set_property(GLOBAL PROPERTY VISP_DIRECT_SAID_${name} TRUE)
+    endif()
+  endif()
+  list(REMOVE_ITEM includes /usr/include) # as a system folder it would hide the compiler's <stdlib.h>
+  set(VISP_DIRECT_HAVE_${name} ${have} CACHE INTERNAL "")
+  set(VISP_DIRECT_${name}_INCLUDES "${includes}" CACHE INTERNAL "")
+  set(VISP_DIRECT_${name}_LIBRARIES "${libraries}" CACHE INTERNAL "")
+endfunction()
+
+find_path(VISP_DIRECT_KDL_INCLUDE_DIR kdl/chain.hpp)
+find_library(VISP_DIRECT_KDL_LIBRARY orocos-kdl)
+vispdirect_optional(KDL "dynamics of arms (vpArmDynamics)" "${VISP_DIRECT_KDL_INCLUDE_DIR}" "${VISP_DIRECT_KDL_LIBRARY}")
+
+find_path(VISP_DIRECT_URDF_MODEL_INCLUDE_DIR urdf_model/model.h PATH_SUFFIXES urdfdom_headers)
+find_path(VISP_DIRECT_URDF_PARSER_INCLUDE_DIR urdf_parser/urdf_parser.h PATH_SUFFIXES urdfdom)
+find_library(VISP_DIRECT_URDF_MODEL_LIBRARY urdfdom_model)
+find_library(VISP_DIRECT_CONSOLE_BRIDGE_LIBRARY console_bridge)
+vispdirect_optional(URDFDOM "arms from URDF (vpLoadArmUrdf)"
+  "${VISP_DIRECT_URDF_MODEL_INCLUDE_DIR};${VISP_DIRECT_URDF_PARSER_INCLUDE_DIR}"
+  "${VISP_DIRECT_URDF_MODEL_LIBRARY};${VISP_DIRECT_CONSOLE_BRIDGE_LIBRARY}")
+
+find_path(VISP_DIRECT_OCTOMAP_INCLUDE_DIR octomap/octomap.h)
+find_library(VISP_DIRECT_OCTOMAP_LIBRARY octomap)
+find_library(VISP_DIRECT_OCTOMATH_LIBRARY octomath)
+vispdirect_optional(OCTOMAP "octrees from files and depth images (vpDepthOctomap)" "${VISP_DIRECT_OCTOMAP_INCLUDE_DIR}"
+  "${VISP_DIRECT_OCTOMAP_LIBRARY};${VISP_DIRECT_OCTOMATH_LIBRARY}")
+
+find_path(VISP_DIRECT_FCL_INCLUDE_DIR fcl/fcl.h)
+find_path(VISP_DIRECT_CCD_INCLUDE_DIR ccd/ccd.h)
+find_library(VISP_DIRECT_FCL_LIBRARY fcl)
+vispdirect_optional(FCL "second opinion on collisions (vpFclChecker)"
+  "${VISP_DIRECT_FCL_INCLUDE_DIR};${VISP_DIRECT_CCD_INCLUDE_DIR}" "${VISP_DIRECT_FCL_LIBRARY}")
+if(VISP_DIRECT_HAVE_FCL AND NOT VISP_DIRECT_HAVE_OCTOMAP) # FCL's headers include it
+  message(STATUS "visp-direct: FCL is left out, for it needs OCTOMAP")
+  set(VISP_DIRECT_HAVE_FCL OFF CACHE INTERNAL "")
+  set(VISP_DIRECT_FCL_LIBRARIES "" CACHE INTERNAL "")
+endif()
+
+file(GLOB vispdirect_ompl_folders "/usr/include/ompl-*" "/usr/local/include/ompl-*")
+find_path(VISP_DIRECT_OMPL_INCLUDE_DIR ompl/geometric/SimpleSetup.h HINTS ${vispdirect_ompl_folders})
+find_library(VISP_DIRECT_OMPL_LIBRARY ompl)
+vispdirect_optional(OMPL "sampling-based planners (vpPathPlanner)" "${VISP_DIRECT_OMPL_INCLUDE_DIR}" "${VISP_DIRECT_OMPL_LIBRARY}")
+
+find_path(VISP_DIRECT_DLIB_INCLUDE_DIR dlib/image_keypoint.h)
+find_library(VISP_DIRECT_DLIB_LIBRARY dlib)
+find_library(VISP_DIRECT_BLAS_LIBRARY NAMES blas openblas) # dlib's headers call it
+vispdirect_optional(DLIB "SURF keypoints" "${VISP_DIRECT_DLIB_INCLUDE_DIR}" "${VISP_DIRECT_DLIB_LIBRARY};${VISP_DIRECT_BLAS_LIBRARY}")
+
+# vispdirect_without(FILE...): leaves sources of the module out. After vp_glob_module_sources().
+macro(vispdirect_without)
+  foreach(vispdirect_file ${ARGN})
+    list(FILTER VISP_MODULE_${the_module}_SOURCES EXCLUDE REGEX "/${vispdirect_file}$")
+  endforeach()
+endmacro()
+
+# vispdirect_choose(NAME FILE...): FILE.cpp with the library NAME, FILEMissing.cpp without it.
+macro(vispdirect_choose name)
+  foreach(vispdirect_file ${ARGN})
+    if(VISP_DIRECT_HAVE_${name})
+      vispdirect_without(${vispdirect_file}Missing.cpp)
+    else()
+      vispdirect_without(${vispdirect_file}.cpp)
+    endif()
+  endforeach()
+endmacro()

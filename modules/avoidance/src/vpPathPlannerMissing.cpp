@@ -1,0 +1,31 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "vpMissingLibrary.h"
+
+#include <visp3/avoidance/vpPathPlanner.h>
+
+BEGIN_VISP_NAMESPACE
+
+class vpPathPlanner::Impl
+{
+};
+
+vpPathPlanner::vpPathPlanner(const vpCollisionScene &, const vpPathPlannerSpec &)
+{
+  vpMissingLibrary("vpPathPlanner", "OMPL");
+}
+vpPathPlanner::~vpPathPlanner() = default;
+vpPathPlanner::vpPathPlanner(vpPathPlanner &&) noexcept = default;
+vpPathPlanner &vpPathPlanner::operator=(vpPathPlanner &&) noexcept = default;
+vpPathResult vpPathPlanner::plan(const vpJointVector &, const vpJointVector &) { return {}; }
+void vpPathPlanner::setTimeLimit(double) noexcept {}
+void vpPathPlanner::setSeed(unsigned int) noexcept {}
+const vpPathPlannerSpec &vpPathPlanner::spec() const noexcept
+{
+  static const vpPathPlannerSpec none; // there is no object to ask
+  return none;
+}
+
+END_VISP_NAMESPACE

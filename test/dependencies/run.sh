@@ -1,0 +1,48 @@
+#!/usr/bin/env bash
+# Configure and build with each optional library switched off in turn, and see what a program says that wants it.
+set -euo pipefail
+usage() {
+  cat <<'TEXT'
+usage: test/dependencies/run.sh [NAME...]
+
+Modules, programs and tutorials are built without tests, in build/without-NAME, once for each NAME: KDL, URDFDOM, OCTOMAP, FCL,
+OMPL, DLIB or CLI11 (by default all of them). JOBS=N sets the number of compilers at work.
+TEXT
+}
+case ${1:-} in -h | --help) usage; exit 0 ;; esac
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+[ $# -gt 0 ] || set -- KDL URDFDOM OCTOMAP FCL OMPL DLIB CLI11
+launcher=()
+command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+
+# expect STATUS SENTENCE COMMAND...: the command ends with the status and says the sentence.
+expect() {
+  local wanted=$1 sentence=$2 said status=0
+  shift 2
+  said=$("$@" 2>&1) || status=$?
+  if [ "$status" -ne "$wanted" ] || [[ $said != *"$sentence"* ]]; then
+    printf 'dependencies: "%s" ended with %s, not %s, and said:\n%s\n' "$*" "$status" "$wanted" "$said" >&2
+    exit 1
+  fi
+}
+
+for name; do
+  build=build/without-$name
+  out=$(mktemp -d)
+  echo "== without $name"
+  cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTS=OFF -DBUILD_BENCHMARKS=OFF "-DWITH_$name=OFF" \
+    "${launcher[@]}" >"$build.log" 2>&1 || { cat "$build.log" >&2; exit 1; }
+  grep -q "$name is switched off\|no programs are built" "$build.log" || { echo "dependencies: no word about $name" >&2; exit 1; }
+  cmake --build "$build" -j "${JOBS:-$(nproc)}" >"$build.log" 2>&1 || { tail -40 "$build.log" >&2; exit 1; }
+  bin=$build/bin
+  [ "$name" = CLI11 ] || expect 0 "Report" "$bin/visp-print-pattern" --cells 3 --no-thesis --out "$out/print"
+  case $name in
+  KDL)
+    expect 0 "Report" "$bin/visp-servo-compare" --law pbvs1 --plant A --out "$out/servo"
+    expect 1 "orocos-kdl" "$bin/visp-servo-compare" --law pbvs1 --plant D --robot amor --out "$out/arm"
+    ;;
+  URDFDOM) expect 1 "urdfdom" "$bin/visp-servo-compare" --robot data/robot/generic-6r.urdf --out "$out/arm" ;;
+  OMPL) expect 1 "OMPL" "$bin/visp-avoid-obstacle" --method planner --out "$out/planner" ;;
+  esac
+  rm -rf "$out"
+done
