@@ -19,11 +19,20 @@ macro(vispdirect_module_settings)
   set_target_properties(${the_module} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
   target_compile_options(${the_module} PRIVATE "$<$<CXX_COMPILER_ID:GNU,Clang>:-Wall;-Wextra;-Wshadow;-Wnon-virtual-dtor>")
   target_include_directories(${the_module} PRIVATE "${VISP_DIRECT_ROOT}/support")
+  vispdirect_precompile(${the_module} support/vpModuleHeaders.h)
   # A library with an undefined symbol shall fail here and not in the first program that uses it.
   if(CMAKE_SYSTEM_NAME STREQUAL "Linux" AND NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
     target_link_options(${the_module} PRIVATE LINKER:-z,defs)
   endif()
 endmacro()
+
+# vispdirect_precompile(TARGET HEADER): reads the headers that nearly every source of a target includes once. Not with ccache,
+# which takes precompiled headers only by leave of its own settings, and is quicker still.
+function(vispdirect_precompile target header)
+  if(VISP_DIRECT_STANDALONE AND NOT CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache")
+    target_precompile_headers(${target} PRIVATE "${VISP_DIRECT_ROOT}/${header}")
+  endif()
+endfunction()
 
 # vispdirect_add_tests([DEPENDS_ON module...] [SOURCES_EXCLUDE file...]): every test/*.cpp of the module is one Catch2 program
 # with the shared main of test/support. Benchmarks are never tests: see vispdirect_add_benchmarks.
@@ -71,14 +80,26 @@ function(vispdirect_test_support)
   target_link_libraries(vispdirect_test_support PUBLIC ${vispdirect_catch})
   target_compile_features(vispdirect_test_support PUBLIC cxx_std_17)
   target_compile_definitions(vispdirect_test_support PUBLIC VISP_DIRECT_DATA_DIR="${VISP_DIRECT_ROOT}/data")
-  # What every test includes is read once: a quarter to a third of a test's compile time. Not with ccache, which takes
-  # precompiled headers only by leave of its own settings, and is quicker still.
+  # What every test includes is read once: a quarter to a third of a test's compile time.
   if(VISP_DIRECT_STANDALONE AND NOT CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache")
     file(WRITE "${PROJECT_BINARY_DIR}/vispdirect_test_pch.cpp" "int main() { return 0; }\n")
     add_executable(vispdirect_test_pch "${PROJECT_BINARY_DIR}/vispdirect_test_pch.cpp")
     target_link_libraries(vispdirect_test_pch PRIVATE vispdirect_test_support)
-    target_precompile_headers(vispdirect_test_pch PRIVATE "${VISP_DIRECT_ROOT}/test/support/vpTestHeaders.h")
+    vispdirect_precompile(vispdirect_test_pch test/support/vpTestHeaders.h)
   endif()
+endfunction()
+
+# vispdirect_add_test(TEST [SOURCES file...] LINK library...): TEST.cpp of this folder is a program of Catch2 with the shared main.
+function(vispdirect_add_test test)
+  vispdirect_test_support()
+  cmake_parse_arguments(PARSE_ARGV 1 test "" "" "SOURCES;LINK")
+  add_executable(${test} ${test}.cpp ${test_SOURCES})
+  target_link_libraries(${test} PRIVATE ${test_LINK} vispdirect_test_support)
+  if(TARGET vispdirect_test_pch)
+    target_precompile_headers(${test} REUSE_FROM vispdirect_test_pch)
+  endif()
+  add_test(NAME ${test} COMMAND ${test})
+  set_tests_properties(${test} PROPERTIES SKIP_RETURN_CODE 77)
 endfunction()
 
 # vispdirect_add_benchmarks([libraries]): every benchmark/*.cpp of the module is one Google Benchmark program.

@@ -31,6 +31,7 @@ macro(vispdirect_add_program vispdirect_program)
   target_include_directories(${vispdirect_library} SYSTEM PUBLIC ${VISP_INCLUDE_DIRS} ${VISP_DIRECT_EIGEN3_INCLUDE_DIR})
   target_link_libraries(${vispdirect_library} PUBLIC vispdirect_apps_common ${ARGN})
   target_compile_options(${vispdirect_library} PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang>:-Wall;-Wextra;-Wshadow>)
+  vispdirect_precompile(${vispdirect_library} support/vpModuleHeaders.h)
 
   add_executable(${vispdirect_program} main.cpp)
   target_link_libraries(${vispdirect_program} PRIVATE ${vispdirect_library})
@@ -65,9 +66,6 @@ endfunction()
 
 # What both kinds have in common: the shared main, the kit of apps/common/test, the data folder, skipping.
 function(vispdirect_add_app_test test)
-  add_executable(${test} ${test}.cpp)
+  vispdirect_add_test(${test} LINK ${ARGN})
   target_include_directories(${test} PRIVATE "${VISP_DIRECT_ROOT}/apps/common/test")
-  target_link_libraries(${test} PRIVATE ${ARGN} vispdirect_test_support)
-  add_test(NAME ${test} COMMAND ${test})
-  set_tests_properties(${test} PROPERTIES SKIP_RETURN_CODE 77)
 endfunction()

@@ -7,6 +7,8 @@
 
 #include "vpPrintable.h"
 
+#include <CLI/CLI.hpp>
+
 #include <visp3/core/vpConfig.h>
 
 #include <opencv2/core.hpp>

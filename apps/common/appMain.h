@@ -9,11 +9,14 @@
 #ifndef vpApp_appMain_h
 #define vpApp_appMain_h
 
-#include <CLI/CLI.hpp>
-
 #include <functional>
 #include <stdexcept>
 #include <string>
+
+namespace CLI
+{
+class App;
+}
 
 namespace vpApp
 {

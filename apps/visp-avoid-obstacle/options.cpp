@@ -8,6 +8,8 @@
 #include "numberText.h"
 #include "replicas.h"
 
+#include <CLI/CLI.hpp>
+
 #include <visp3/avoidance/vpAvoidanceMethods.h>
 
 #include <algorithm>

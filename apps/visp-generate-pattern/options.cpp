@@ -6,6 +6,8 @@
 
 #include "appMain.h"
 
+#include <CLI/CLI.hpp>
+
 #include <visp3/core/vpMath.h>
 
 #include <functional>

@@ -8,6 +8,8 @@
 #include "jobs.h"
 #include "numberText.h"
 
+#include <CLI/CLI.hpp>
+
 #include <cmath>
 
 namespace planCompare

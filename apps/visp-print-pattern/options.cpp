@@ -7,6 +7,8 @@
 #include "appMain.h"
 #include "numberText.h"
 
+#include <CLI/CLI.hpp>
+
 #include <visp3/core/vpException.h>
 
 #include <map>

@@ -9,6 +9,8 @@
 #include "jobs.h"
 #include "scenario.h"
 
+#include <CLI/CLI.hpp>
+
 #include <sstream>
 
 namespace servoCompare

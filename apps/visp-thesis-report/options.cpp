@@ -10,6 +10,8 @@
 #include "jobs.h"
 #include "numberText.h"
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 
 namespace thesisReport

@@ -21,6 +21,8 @@
 #include "progress.h"
 #include "videoFile.h"
 
+#include <CLI/CLI.hpp>
+
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
