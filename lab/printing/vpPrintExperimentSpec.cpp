@@ -2,9 +2,9 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
+#include "vpFieldCheck.h"
 #include "lab/printing/vpPrintExperiment.h"
 
-#include <visp3/core/vpException.h>
 
 #include <cmath>
 
@@ -12,12 +12,7 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-void require(bool good, const char *field, double value, const char *range)
-{
-  if (!good) {
-    throw vpException(vpException::badValue, "%s of the print experiment is %g, must be %s", field, value, range);
-  }
-}
+constexpr vpFieldCheck fields("the print experiment");
 
 // The cells' scatter on the product is part of the set that shows the thesis's figures.
 vpPrintExperimentSpec thesisRun()
@@ -100,16 +95,16 @@ void vpPrintExperimentSpec::validate() const
   vpPrintMachineSpec::validate();
   stage.validate();
   product.validate();
-  require(sensorModel.sigmaX > 0. && std::isfinite(sensorModel.sigmaX), "sigmaX", sensorModel.sigmaX, "> 0");
-  require(sensorModel.sigmaY > 0. && std::isfinite(sensorModel.sigmaY), "sigmaY", sensorModel.sigmaY, "> 0");
-  require(sensorModel.effectiveCells >= 1., "effectiveCells", sensorModel.effectiveCells, ">= 1");
-  require(captureJitter >= 0. && captureJitter <= 2., "captureJitter", captureJitter, "in [0, 2]");
-  require(dropped >= 0. && dropped <= 0.5, "dropped", dropped, "in [0, 0.5]");
-  require(std::isfinite(nozzleOffset), "nozzleOffset", nozzleOffset, "finite");
-  require(frames >= 0, "frames", frames, ">= 0");
-  require(evaluateFrom >= 0, "evaluateFrom", evaluateFrom, ">= 0");
-  require(frameRate > 0. && std::isfinite(frameRate), "frameRate", frameRate, "> 0");
-  require(product.rotation == 0., "rotation", product.rotation, "0: the axes of stage and product are the same");
+  fields.positive("sigmaX", sensorModel.sigmaX);
+  fields.positive("sigmaY", sensorModel.sigmaY);
+  fields.require(sensorModel.effectiveCells >= 1., "effectiveCells", sensorModel.effectiveCells, ">= 1");
+  fields.require(captureJitter >= 0. && captureJitter <= 2., "captureJitter", captureJitter, "in [0, 2]");
+  fields.require(dropped >= 0. && dropped <= 0.5, "dropped", dropped, "in [0, 0.5]");
+  fields.finite("nozzleOffset", nozzleOffset);
+  fields.require(frames >= 0, "frames", frames, ">= 0");
+  fields.require(evaluateFrom >= 0, "evaluateFrom", evaluateFrom, ">= 0");
+  fields.positive("frameRate", frameRate);
+  fields.require(product.rotation == 0., "rotation", product.rotation, "0: the axes of stage and product are the same");
 }
 
 END_VISP_NAMESPACE

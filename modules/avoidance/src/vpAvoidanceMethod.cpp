@@ -4,6 +4,7 @@
  */
 #include <visp3/avoidance/vpAvoidanceMethod.h>
 
+#include "vpFieldCheck.h"
 #include "vpPairText.h"
 
 #include <visp3/core/vpException.h>
@@ -14,24 +15,19 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
+constexpr vpFieldCheck fields("the avoidance method");
 // Slower than this, rad/s or m/s, an arm that brakes stands.
 constexpr double standing = 1e-3;
 
-void requireGood(const char *field, double value, bool good, const char *range)
-{
-  if (!good || !std::isfinite(value)) {
-    throw vpException(vpException::badValue, "%s of the avoidance method is %g, must be %s", field, value, range);
-  }
-}
 } // namespace
 
 void vpAvoidanceMethodSpec::validate() const
 {
-  requireGood("period", period, period > 0. && period <= 1., "> 0 s and at most 1 s");
-  requireGood("maxVelocity", maxVelocity, maxVelocity > 0., "> 0 m/s");
-  requireGood("maxAcceleration", maxAcceleration, maxAcceleration > 0., "> 0 m/s^2");
-  requireGood("margin", margin, margin >= 0., ">= 0 m");
-  requireGood("seed", seed, seed >= 1, ">= 1");
+  fields.require(period > 0. && period <= 1., "period", period, "> 0 s and at most 1 s");
+  fields.positive("maxVelocity", maxVelocity, "m/s");
+  fields.positive("maxAcceleration", maxAcceleration, "m/s^2");
+  fields.notNegative("margin", margin, "m");
+  fields.require(seed >= 1, "seed", seed, ">= 1");
 }
 
 bool vpAvoidanceGoal::fits(const vpArmModel &model) const noexcept

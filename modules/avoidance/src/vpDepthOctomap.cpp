@@ -2,6 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
+#include "vpFieldCheck.h"
 #include "vpOctomapCells.h"
 #include "vpPlausible.h"
 
@@ -21,12 +22,7 @@ struct vpDepthOctomap::Map {
 
 namespace
 {
-void check(const char *what, double value, bool good, const char *range)
-{
-  if (!good || !std::isfinite(value)) {
-    throw vpException(vpException::badValue, "%s of the depth octomap is %g, must be %s", what, value, range);
-  }
-}
+constexpr vpFieldCheck fields("the depth octomap");
 
 bool isBody(const Eigen::Vector3d &point, const vpPlacedCapsule *capsules, int count, double inflation)
 {
@@ -41,12 +37,12 @@ bool isBody(const Eigen::Vector3d &point, const vpPlacedCapsule *capsules, int c
 
 vpDepthOctomap::vpDepthOctomap(const vpDepthOctomapSpec &spec) : m_spec(spec)
 {
-  check("resolution", spec.resolution, spec.resolution > 0., "> 0 m");
-  check("minRange", spec.minRange, spec.minRange >= 0., ">= 0 m");
-  check("maxRange", spec.maxRange, spec.maxRange > spec.minRange && spec.maxRange <= vpLargestLength,
-        "> minRange and at most 10 km");
-  check("stride", spec.stride, spec.stride >= 1, ">= 1");
-  check("bodyInflation", spec.bodyInflation, spec.bodyInflation >= 0., ">= 0 m");
+  fields.positive("resolution", spec.resolution, "m");
+  fields.notNegative("minRange", spec.minRange, "m");
+  fields.require(spec.maxRange > spec.minRange && spec.maxRange <= vpLargestLength, "maxRange", spec.maxRange,
+                 "> minRange and at most 10 km");
+  fields.require(spec.stride >= 1, "stride", spec.stride, ">= 1");
+  fields.notNegative("bodyInflation", spec.bodyInflation, "m");
   m_map = std::make_unique<Map>(spec.resolution);
 }
 

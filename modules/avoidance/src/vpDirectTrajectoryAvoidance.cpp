@@ -4,10 +4,10 @@
  */
 #include <visp3/avoidance/vpDirectTrajectoryAvoidance.h>
 
+#include "vpFieldCheck.h"
 #include "vpDetourSearch.h"
 
 #include <visp3/avoidance/vpStopSupervisor.h>
-#include <visp3/core/vpException.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +16,7 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
+constexpr vpFieldCheck fields("the direct trajectory avoidance");
 using Eigen::Vector3d;
 constexpr double offPlan = 1e-3;   // m: a tool farther from its plan than this has left it
 constexpr double correction = 10.; // 1/s, of what the steps leave of second order: gentle, so that it bends no bound
@@ -24,14 +25,6 @@ constexpr double atGoal = 1e-4;    // m
 constexpr double atRest = 1e-3;    // m/s
 constexpr double ending = 0.5;     // s: the last part of a motion is left as it is, or its smooth end would be lost
 constexpr double quicker = 0.9;    // of the rest of a detour: the direct way is worth changing to
-
-void requireGood(const char *field, double value, bool good, const char *range)
-{
-  if (!good || !std::isfinite(value)) {
-    throw vpException(vpException::badValue, "%s of the direct trajectory avoidance is %g, must be %s", field, value,
-                      range);
-  }
-}
 
 //! Largest part of a change for which |present + part * change| keeps a bound; the best one where none does. 0..1.
 double partWithin(const Vector3d &present, const Vector3d &change, double bound)
@@ -48,10 +41,10 @@ double partWithin(const Vector3d &present, const Vector3d &change, double bound)
 void vpDirectTrajectoryAvoidanceSpec::validate() const
 {
   common.validate();
-  requireGood("clearance", clearance, clearance >= 0., ">= 0 m");
-  requireGood("toolClearance", toolClearance, toolClearance >= 0., ">= 0 m");
-  requireGood("sides", sides, sides >= 2 && sides <= 32, "2 to 32");
-  requireGood("forecasts", forecasts, forecasts >= 1, ">= 1");
+  fields.notNegative("clearance", clearance, "m");
+  fields.notNegative("toolClearance", toolClearance, "m");
+  fields.require(sides >= 2 && sides <= 32, "sides", sides, "2 to 32");
+  fields.require(forecasts >= 1, "forecasts", forecasts, ">= 1");
 }
 
 class vpDirectTrajectoryAvoidance::Impl

@@ -4,10 +4,10 @@
  */
 #include <visp3/avoidance/vpPlannedMotion.h>
 
+#include "vpFieldCheck.h"
 #include "vpStopPlan.h"
 
 #include <visp3/avoidance/vpGoalConfiguration.h>
-#include <visp3/core/vpException.h>
 #include <visp3/trajectory/vpDirectTrajectory.h>
 
 #include <algorithm>
@@ -17,16 +17,10 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
+constexpr vpFieldCheck fields("the planned motion");
 constexpr double ending = 0.5;  // s: the last part of a motion is left as it is, or its smooth end would be lost
 constexpr double quicker = 0.9; // of what is left: a new motion is worth changing to
 constexpr double slack = 1e-4;  // m: the rest of a motion is proven again with so much less margin
-
-void requireGood(const char *field, double value, bool good, const char *range)
-{
-  if (!good || !std::isfinite(value)) {
-    throw vpException(vpException::badValue, "%s of the planned motion is %g, must be %s", field, value, range);
-  }
-}
 
 vpPathPlannerSpec plannerSpec(const vpPlannedMotionSpec &spec, double clearance)
 {
@@ -56,10 +50,10 @@ bool moves(const vpCollisionScene &scene)
 void vpPlannedMotionSpec::validate() const
 {
   common.validate();
-  requireGood("clearance", clearance, clearance >= 0., ">= 0 m");
-  requireGood("startTime", startTime, startTime > 0., "> 0 s");
-  requireGood("replanTime", replanTime, replanTime > 0., "> 0 s");
-  requireGood("shortenTime", shortenTime, shortenTime >= 0., ">= 0 s");
+  fields.notNegative("clearance", clearance, "m");
+  fields.positive("startTime", startTime, "s");
+  fields.positive("replanTime", replanTime, "s");
+  fields.notNegative("shortenTime", shortenTime, "s");
 }
 
 vpPlannedMotion::vpPlannedMotion(const vpCollisionScene &scene, const vpPlannedMotionSpec &spec)

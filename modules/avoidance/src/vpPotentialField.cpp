@@ -2,9 +2,10 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
+#include "vpFieldCheck.h"
+
 #include <visp3/avoidance/vpPotentialField.h>
 
-#include <visp3/core/vpException.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,20 +14,16 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-void requireGood(const char *field, double value, bool good, const char *range)
-{
-  if (!good || !std::isfinite(value)) {
-    throw vpException(vpException::badValue, "%s of the potential field is %g, must be %s", field, value, range);
-  }
-}
+constexpr vpFieldCheck fields("the potential field");
 } // namespace
 
 void vpFieldWeightSpec::validate(vpFieldForm form) const
 {
-  requireGood("centre", centre, centre > 0., "> 0");
-  requireGood("width", width, width > 0., "> 0");
-  requireGood("height", height, height > 0., "> 0");
-  requireGood("height", height, form == vpFieldForm::Thesis || height == 0.5, "0.5 in the corrected form");
+  fields.positive("centre", centre);
+  fields.positive("width", width);
+  fields.positive("height", height);
+  fields.require(std::isfinite(height) && (form == vpFieldForm::Thesis || height == 0.5), "height", height,
+                 "0.5 in the corrected form");
 }
 
 double fieldWeight(const vpFieldWeightSpec &spec, vpFieldForm form, double distance) noexcept

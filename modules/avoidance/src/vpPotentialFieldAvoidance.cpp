@@ -4,10 +4,10 @@
  */
 #include <visp3/avoidance/vpPotentialFieldAvoidance.h>
 
+#include "vpFieldCheck.h"
 #include "vpStopPlan.h"
 #include "vpToolMotion.h"
 
-#include <visp3/core/vpException.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,15 +16,9 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
+constexpr vpFieldCheck fields("the potential field");
 using Eigen::Vector3d;
 constexpr double still = 2e-3; // m/s: a slower tool stands
-
-void requireGood(const char *field, double value)
-{
-  if (!(value > 0.) || !std::isfinite(value)) {
-    throw vpException(vpException::badValue, "%s of the potential field is %g, must be > 0", field, value);
-  }
-}
 
 //! The arm as the text drives it: no limits of velocity and acceleration.
 vpArmModel withoutMotionLimits(const vpArmModel &arm)
@@ -45,13 +39,13 @@ void vpPotentialFieldAvoidanceSpec::validate() const
   common.validate();
   metres.validate(vpFieldForm::Corrected);
   pixels.validate(vpFieldForm::Thesis);
-  requireGood("gain", gain);
-  requireGood("avoidSpeed", avoidSpeed);
-  requireGood("focal", focal);
-  requireGood("imageWidth", imageWidth);
-  requireGood("imageHeight", imageHeight);
-  requireGood("sight", sight);
-  requireGood("tolerance", tolerance);
+  fields.positive("gain", gain);
+  fields.positive("avoidSpeed", avoidSpeed);
+  fields.positive("focal", focal);
+  fields.positive("imageWidth", imageWidth);
+  fields.positive("imageHeight", imageHeight);
+  fields.positive("sight", sight);
+  fields.positive("tolerance", tolerance);
 }
 
 class vpPotentialFieldAvoidance::Impl

@@ -4,9 +4,9 @@
  */
 #include <visp3/avoidance/vpStopSupervisor.h>
 
+#include "vpFieldCheck.h"
 #include "vpStopPlan.h"
 
-#include <visp3/core/vpException.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,25 +15,20 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
+constexpr vpFieldCheck fields("the stop supervisor");
 constexpr double sameTime = 1e-9; // of a period
 constexpr double slack = 1e-4;    // m: so much nearer an arm at its margin may come between periods on its way away
 
-void requireGood(const char *field, double value, bool good, const char *range)
-{
-  if (!good || !std::isfinite(value)) {
-    throw vpException(vpException::badValue, "%s of the stop supervisor is %g, must be %s", field, value, range);
-  }
-}
 } // namespace
 
 void vpStopSupervisorSpec::validate() const
 {
-  requireGood("period", period, period > 0. && period <= 1., "> 0 and at most 1 s");
-  requireGood("margin", margin, margin >= 0., ">= 0 m");
-  requireGood("latency", latency, latency >= 0., ">= 0 s");
-  requireGood("resolution", resolution, resolution > 0., "> 0 m");
-  requireGood("attempts", attempts, attempts >= 1 && attempts <= 16, "1 to 16");
-  requireGood("looks", looks, looks >= 60, ">= 60");
+  fields.require(period > 0. && period <= 1., "period", period, "> 0 and at most 1 s");
+  fields.notNegative("margin", margin, "m");
+  fields.notNegative("latency", latency, "s");
+  fields.positive("resolution", resolution, "m");
+  fields.require(attempts >= 1 && attempts <= 16, "attempts", attempts, "1 to 16");
+  fields.require(looks >= 60, "looks", looks, ">= 60");
 }
 
 const char *vpSupervisedVelocity::sentence() const noexcept

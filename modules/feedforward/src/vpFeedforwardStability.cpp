@@ -4,9 +4,9 @@
  */
 #include <visp3/feedforward/vpFeedforwardStability.h>
 
+#include "vpFieldCheck.h"
 #include "vpBearing.h"
 
-#include <visp3/core/vpException.h>
 #include <visp3/direct_core/vpSO3.h>
 
 #include <Eigen/Eigenvalues>
@@ -19,14 +19,8 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
+constexpr vpFieldCheck fields("the stability margin");
 constexpr unsigned int bearingDirections = 16;
-
-void require(bool ok, const char *name, double value, const char *range)
-{
-  if (!ok) {
-    throw vpException(vpException::badValue, "%s of the stability margin is %g, must be %s", name, value, range);
-  }
-}
 
 // Points of a spiral from pole to pole at equal areas: even cover of the sphere for any number of them.
 Eigen::Vector3d sphereSample(unsigned int i, unsigned int count)
@@ -40,10 +34,10 @@ Eigen::Vector3d sphereSample(unsigned int i, unsigned int count)
 
 double feedforwardSumStabilityMargin(double bearing, double rotation, double kappa, unsigned int samples)
 {
-  require(bearing >= 0. && bearing < M_PI / 2., "bearing", bearing, "in [0, pi/2) rad");
-  require(rotation >= 0. && rotation <= M_PI, "rotation", rotation, "in [0, pi] rad");
-  require(kappa >= 0. && kappa <= 1e6, "kappa", kappa, "finite and >= 0, at most 1e6");
-  require(samples >= 1, "samples", samples, ">= 1");
+  fields.require(bearing >= 0. && bearing < M_PI / 2., "bearing", bearing, "in [0, pi/2) rad");
+  fields.require(rotation >= 0. && rotation <= M_PI, "rotation", rotation, "in [0, pi] rad");
+  fields.require(kappa >= 0. && kappa <= 1e6, "kappa", kappa, "finite and >= 0, at most 1e6");
+  fields.require(samples >= 1, "samples", samples, ">= 1");
 
   double least = std::numeric_limits<double>::infinity();
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;

@@ -2,9 +2,10 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
+#include "vpFieldCheck.h"
+
 #include <visp3/feedforward/vpTargetLossRecovery.h>
 
-#include <visp3/core/vpException.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +14,7 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
+constexpr vpFieldCheck fields("the target-loss recovery");
 // Slower than this, m/s and rad/s, is standing still: not worth a place in the memory.
 constexpr double slowest = 1e-6;
 // No robot did that; to undo it within the limits would take for ever.
@@ -20,21 +22,15 @@ constexpr double fastest = 1e3;
 // Rounding of sums of cycle times must not add a cycle.
 constexpr double timeTolerance = 1e-9;
 
-void require(bool ok, const char *name, double value, const char *range)
-{
-  if (!ok) {
-    throw vpException(vpException::badValue, "%s of the target-loss recovery is %g, must be %s", name, value, range);
-  }
-}
 } // namespace
 
 void vpTargetLossConfig::validate() const
 {
-  require(std::isfinite(holdTime) && holdTime >= 0., "holdTime", holdTime, "finite and >= 0 s");
-  require(std::isfinite(retreatTime) && retreatTime >= 0., "retreatTime", retreatTime, "finite and >= 0 s");
-  require(std::isfinite(maxLinear) && maxLinear > 0., "maxLinear", maxLinear, "finite and > 0 m/s");
-  require(std::isfinite(maxAngular) && maxAngular > 0., "maxAngular", maxAngular, "finite and > 0 rad/s");
-  require(capacity >= 1 && capacity <= 100000, "capacity", capacity, "in 1..100000");
+  fields.require(std::isfinite(holdTime) && holdTime >= 0., "holdTime", holdTime, "finite and >= 0 s");
+  fields.require(std::isfinite(retreatTime) && retreatTime >= 0., "retreatTime", retreatTime, "finite and >= 0 s");
+  fields.require(std::isfinite(maxLinear) && maxLinear > 0., "maxLinear", maxLinear, "finite and > 0 m/s");
+  fields.require(std::isfinite(maxAngular) && maxAngular > 0., "maxAngular", maxAngular, "finite and > 0 rad/s");
+  fields.require(capacity >= 1 && capacity <= 100000, "capacity", capacity, "in 1..100000");
 }
 
 vpTargetLossRecovery::vpTargetLossRecovery(const vpTargetLossConfig &config) : m_config(config)

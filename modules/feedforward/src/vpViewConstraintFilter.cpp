@@ -2,6 +2,8 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
+#include "vpFieldCheck.h"
+
 #include <visp3/feedforward/vpViewConstraintFilter.h>
 
 #include <visp3/core/vpException.h>
@@ -13,6 +15,7 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
+constexpr vpFieldCheck fields("the view constraint");
 // Less than this share of the wanted speed left: stuck.
 constexpr double deadlockShare = 0.02;
 // Wanted speeds below this, in units of the limits, are standing still, not deadlock.
@@ -21,13 +24,6 @@ constexpr double standstill = 1e-6;
 constexpr double mostPerPeriod = 0.125;
 // Least factor of the scaling to the wanted speed for which the margin is derived.
 constexpr double smallestScale = 0.5;
-
-void require(bool ok, const char *name, double value, const char *range)
-{
-  if (!ok) {
-    throw vpException(vpException::badValue, "%s of the view constraint is %g, must be %s", name, value, range);
-  }
-}
 
 double speed(const vpTwist &twist, double maxLinear, double maxAngular)
 {
@@ -53,17 +49,18 @@ vpViewConstraintConfig vpViewConstraintConfig::fromCamera(const vpCameraParamete
 
 void vpViewConstraintConfig::validate() const
 {
-  require(std::isfinite(left) && left < 0., "left border", left, "finite and < 0");
-  require(std::isfinite(right) && right > 0., "right border", right, "finite and > 0");
-  require(std::isfinite(top) && top < 0., "top border", top, "finite and < 0");
-  require(std::isfinite(bottom) && bottom > 0., "bottom border", bottom, "finite and > 0");
-  require(std::isfinite(period) && period > 0., "period", period, "finite and > 0 s");
-  require(gamma > 0. && gamma * period <= 0.5, "gamma", gamma, "> 0 and at most 0.5 / period 1/s");
-  require(imageUncertainty >= 0. && imageUncertainty < std::min({-left, right, -top, bottom}), "imageUncertainty",
-          imageUncertainty, ">= 0 and less than the distance from the principal point to each border");
-  require(depthUncertainty >= 0. && depthUncertainty <= 0.9, "depthUncertainty", depthUncertainty, "in 0..0.9");
-  require(std::isfinite(maxLinear) && maxLinear > 0., "maxLinear", maxLinear, "finite and > 0 m/s");
-  require(std::isfinite(maxAngular) && maxAngular > 0., "maxAngular", maxAngular, "finite and > 0 rad/s");
+  fields.require(std::isfinite(left) && left < 0., "left border", left, "finite and < 0");
+  fields.require(std::isfinite(right) && right > 0., "right border", right, "finite and > 0");
+  fields.require(std::isfinite(top) && top < 0., "top border", top, "finite and < 0");
+  fields.require(std::isfinite(bottom) && bottom > 0., "bottom border", bottom, "finite and > 0");
+  fields.require(std::isfinite(period) && period > 0., "period", period, "finite and > 0 s");
+  fields.require(gamma > 0. && gamma * period <= 0.5, "gamma", gamma, "> 0 and at most 0.5 / period 1/s");
+  fields.require(imageUncertainty >= 0. && imageUncertainty < std::min({-left, right, -top, bottom}),
+                 "imageUncertainty", imageUncertainty,
+                 ">= 0 and less than the distance from the principal point to each border");
+  fields.require(depthUncertainty >= 0. && depthUncertainty <= 0.9, "depthUncertainty", depthUncertainty, "in 0..0.9");
+  fields.require(std::isfinite(maxLinear) && maxLinear > 0., "maxLinear", maxLinear, "finite and > 0 m/s");
+  fields.require(std::isfinite(maxAngular) && maxAngular > 0., "maxAngular", maxAngular, "finite and > 0 rad/s");
 }
 
 vpViewConstraintFilter::vpViewConstraintFilter(const vpViewConstraintConfig &config) : m_config(config), m_inside(true)

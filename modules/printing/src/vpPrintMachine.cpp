@@ -2,9 +2,10 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
+#include "vpFieldCheck.h"
+
 #include <visp3/printing/vpPrintMachine.h>
 
-#include <visp3/core/vpException.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,17 +14,9 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-void require(bool good, const char *field, double value, const char *range)
-{
-  if (!good) {
-    throw vpException(vpException::badValue, "%s of the print machine is %g, must be %s", field, value, range);
-  }
-}
+constexpr vpFieldCheck fields("the print machine");
 
-void requirePositive(const char *field, double value)
-{
-  require(value > 0. && std::isfinite(value), field, value, "> 0");
-}
+void requirePositive(const char *field, double value) { fields.positive(field, value); }
 
 vpPrintMachineSpec validated(const vpPrintMachineSpec &spec)
 {
@@ -81,32 +74,32 @@ void vpPrintMachineSpec::validate() const
 {
   requirePositive("pitchX", pitchX);
   requirePositive("pitchY", pitchY);
-  require(std::isfinite(originX), "originX", originX, "finite");
-  require(std::isfinite(nozzle), "nozzle", nozzle, "finite");
-  require(std::isfinite(nozzleAcross), "nozzleAcross", nozzleAcross, "finite");
+  fields.finite("originX", originX);
+  fields.finite("nozzle", nozzle);
+  fields.finite("nozzleAcross", nozzleAcross);
   requirePositive("sigmaX", sigmaX);
   requirePositive("sigmaY", sigmaY);
   filter.validate();
-  require(filterAhead >= 0. && filterAhead <= 64., "filterAhead", filterAhead, "in [0, 64]");
+  fields.require(filterAhead >= 0. && filterAhead <= 64., "filterAhead", filterAhead, "in [0, 64]");
   pid.validate();
   forecast.validate();
   observer.validate();
   preview.validate();
   previewAcross.validate();
-  require(commandsPerFrame == 1 || commandsPerFrame == 2 || commandsPerFrame == 4 || commandsPerFrame == 8 ||
-              commandsPerFrame == 16,
-          "commandsPerFrame", commandsPerFrame, "1, 2, 4, 8 or 16");
+  fields.require(commandsPerFrame == 1 || commandsPerFrame == 2 || commandsPerFrame == 4 || commandsPerFrame == 8 ||
+                     commandsPerFrame == 16,
+                 "commandsPerFrame", commandsPerFrame, "1, 2, 4, 8 or 16");
   reference.validate();
   requirePositive("dropVelocity", dropVelocity);
   requirePositive("rowStepTime", rowStepTime);
   requirePositive("followTime", followTime);
-  require(visionDelay >= 0. && visionDelay <= 8., "visionDelay", visionDelay, "in [0, 8]");
+  fields.require(visionDelay >= 0. && visionDelay <= 8., "visionDelay", visionDelay, "in [0, 8]");
   triggerOf(*this).validate();
-  require(rows >= 1 && rows <= 1000, "rows", rows, "in [1, 1000]");
-  require(cellsPerRow >= 1 && cellsPerRow <= 10000, "cellsPerRow", cellsPerRow, "in [1, 10000]");
+  fields.require(rows >= 1 && rows <= 1000, "rows", rows, "in [1, 1000]");
+  fields.require(cellsPerRow >= 1 && cellsPerRow <= 10000, "cellsPerRow", cellsPerRow, "in [1, 10000]");
   const bool wanted = controller == vpPrintController::PidFeedforward;
-  require(controller == vpPrintController::Observer || pid.feedforward == wanted, "pid.feedforward",
-          pid.feedforward ? 1. : 0., "1 with PidFeedforward and 0 with Pid");
+  fields.require(controller == vpPrintController::Observer || pid.feedforward == wanted, "pid.feedforward",
+                 pid.feedforward ? 1. : 0., "1 with PidFeedforward and 0 with Pid");
 }
 
 vpPrintMachine::vpPrintMachine(const vpPrintMachineSpec &spec)

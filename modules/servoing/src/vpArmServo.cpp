@@ -2,6 +2,8 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
+#include "vpFieldCheck.h"
+
 #include <visp3/servoing/vpArmServo.h>
 
 #include <visp3/core/vpException.h>
@@ -14,12 +16,7 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-void requirePositive(const char *field, double value)
-{
-  if (!(value > 0. && std::isfinite(value))) {
-    throw vpException(vpException::badValue, "%s of the arm servo is %g, must be > 0", field, value);
-  }
-}
+constexpr vpFieldCheck fields("the arm servo");
 
 vpArmServoSpec validated(const vpArmServoSpec &spec, const vpArmModel &model)
 {
@@ -31,9 +28,9 @@ vpArmServoSpec validated(const vpArmServoSpec &spec, const vpArmModel &model)
 void vpArmServoSpec::validate(const vpArmModel &model) const
 {
   redundancy.validate(model);
-  requirePositive("maxAge", maxAge);
-  requirePositive("maxLinear", maxLinear);
-  requirePositive("maxAngular", maxAngular);
+  fields.positive("maxAge", maxAge);
+  fields.positive("maxLinear", maxLinear);
+  fields.positive("maxAngular", maxAngular);
   if (indices.size() > vpMaxArmIndices) {
     throw vpException(vpException::badValue, "the arm servo has %zu indices, must be at most %d", indices.size(),
                       vpMaxArmIndices);
