@@ -71,7 +71,7 @@ struct VISP_EXPORT vpObservedMotion {
  * (generalised likelihood ratio with priors, after \cite Willsky76). Any model error that the sensor can resolve is
  * taken for a change: leave it out with a sensor that resolves the model errors.
  *
- * The third consecutive measurement beyond the gate is accepted, and the state is corrected to it.
+ * The third consecutive measurement beyond the gate is accepted with an inflated covariance.
  *
  * Times more than maxGap ahead are rejected, because one wrong time stamp would make all later ones too late. After a
  * longer gap, or when the clock was reset, call reset() with the current time. The observer starts at time 0: call
