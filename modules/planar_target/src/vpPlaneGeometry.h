@@ -68,24 +68,24 @@ struct vpTargetPlane {
 //! Area of the target in the image over its area in the plane, at the target's centre, px^2 / m^2.
 [[nodiscard]] double imageScale(const vpRigidPose &pose, const vpPinhole &camera);
 
-//! Points of the plane (m) and where they are seen (normalised coordinates).
+//! Points of the plane (m) and their image positions (normalised coordinates).
 struct vpPlaneMatches {
   std::vector<Eigen::Vector2d> plane;
   std::vector<Eigen::Vector2d> image;
 };
 
-//! Both poses that a plane may have for the same points, better first; the second only while it is a real rival.
+//! Both poses that a plane may have for the same points, better first; the second only if it is plausible.
 struct vpPlanePoses {
   std::vector<std::size_t> inliers; //!< indices of the matches that agree
-  vpRigidPose best;                 //!< meaningful if there are enough inliers
+  vpRigidPose best;                 //!< valid if there are enough inliers
   std::optional<vpRigidPose> rival;
 };
 
 /*!
  * Homography by USAC_MAGSAC, then the poses of its inliers (IPPE, then Levenberg-Marquardt on the reprojection error).
- * \param planePixels, imagePixels : Pixels in a metre of the plane and in a normalised unit of the image.
+ * \param planePixels, imagePixels : Pixels per metre of the plane and per normalised unit of the image.
  * \param threshold : Largest reprojection error of an inlier, px.
- * \param minInliers : With fewer there are no poses.
+ * \param minInliers : Minimum number of inliers for a pose.
  */
 vpPlanePoses planePoses(const vpPlaneMatches &matches, double planePixels, double imagePixels, double threshold,
                         unsigned int minInliers);
