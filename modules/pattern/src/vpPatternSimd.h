@@ -17,10 +17,10 @@
 #include <cstdint>
 #include <vector>
 
-//! Vectors of this many bytes that begin at multiples of it never lie in two lines of the cache.
+//! Vectors of this many bytes that begin at multiples of it never cross a cache line.
 constexpr std::size_t vpPatternAlignment = 64;
 
-//! Room for \e count numbers from alignedBegin() on.
+//! Memory for \e count numbers from alignedBegin() on.
 template <typename Number> std::vector<Number> alignedRoom(std::size_t count)
 {
   return std::vector<Number>(count + vpPatternAlignment / sizeof(Number));

@@ -93,7 +93,7 @@ bool vpRunLabels::scanRow(const unsigned char *row, int threshold, bool bright)
     if (left >= block) {
       bits = blockAbove(row + x, threshold) ^ other;
     }
-    else if (m_width >= block) { // the last 64 of the row, without those that were seen before
+    else if (m_width >= block) { // the last 64 of the row, without those already processed
       bits = (blockAbove(row + m_width - block, threshold) ^ other) >> (block - left);
     }
     else {

@@ -40,7 +40,7 @@ public:
   const vpKeypointSet &keypoints(vpKeypointType type);
   /*!
    * Keypoints of a part of half the width and half the height, extracted now; valid until the next call.
-   * \param part : Index of one of nine parts that overlap by half, row by row; 9 counts as 0.
+   * \param part : Index, modulo 9, of nine parts that overlap by half, row by row.
    */
   const vpKeypointSet &keypointsOfPart(vpKeypointType type, unsigned int part);
 
