@@ -26,7 +26,7 @@ std::string read(const std::string &name)
   return std::string(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
 }
 
-// Stands in for ViSP's robot: flies as it is told.
+// Stands in for ViSP's robot: executes the commanded velocity.
 struct vpRobot {
   enum Frame { CAMERA_FRAME };
   vpHomogeneousMatrix cMo;

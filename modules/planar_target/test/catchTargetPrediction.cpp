@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The derivatives of a prediction, by place, pose and blur, against differences of predictions.
+// The derivatives of a prediction, by position, pose and blur, against differences of predictions.
 #include "vpCatch.h"
 #include "vpPlanarScene.h"
 #include "vpTargetPrediction.h"

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Parameters that are known, from logs with noise and outliers; logs that cannot tell; stated deviations.
+// Known parameters, from logs with noise and outliers; logs without enough information; reported sigmas.
 #include "vpCatch.h"
 
 #include <visp3/printing/vpFrictionIdentification.h>

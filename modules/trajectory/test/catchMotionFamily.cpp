@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Polynomials and the closed forms built on them.
+// Polynomials and the closed forms based on them.
 #include "vpTrajectoryTestKit.h"
 
 #include <Eigen/LU>
@@ -73,7 +73,7 @@ TEST_CASE("special roots: double, at the ends, degenerate degrees", "[polynomial
   CHECK(vpPolynomial{}.roots().count == 0);
   CHECK(vpPolynomial{-0.3, 1., 0., 0., 0., 0.}.roots().count == 1); // a line stored with degree 5
   CHECK(vpPolynomial{1., 0., 1.}.roots().count == 0);
-  // Small roots beside large coefficients: values near zero are small there, and no roots.
+  // Small roots beside large coefficients: values near zero are small there without being roots.
   const auto small = vpPolynomial{-1e-9, 1.}.times({-3e-9, 1.}).times({2., -1.}).times({3., 1.}).roots();
   REQUIRE(small.count == 2);
   CHECK(small.s[0] == Approx(1e-9).epsilon(1e-9));
@@ -114,8 +114,8 @@ TEST_CASE("range is the range of a dense sampling, and composition a change of c
 
 namespace
 {
-// Sum of the magnitudes of all terms of the derivative d on [0, 1], each power of T of each coefficient by itself: the
-// coefficients may be small differences of those.
+// Sum of the magnitudes of all terms of the derivative d on [0, 1], each power of T of each coefficient separately: the
+// coefficients may be small differences of these.
 double termsOf(const vpMotionFamily &motion, int d, double T)
 {
   double sum = 0.;

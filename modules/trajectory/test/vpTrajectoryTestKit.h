@@ -37,7 +37,7 @@ inline double uniform(std::mt19937_64 &rng, double low, double high)
   return std::uniform_real_distribution<double>(low, high)(rng);
 }
 
-//! Between low and high, as often in each decade.
+//! Between low and high, equally often in each decade.
 inline double logUniform(std::mt19937_64 &rng, double low, double high)
 {
   return std::exp(uniform(rng, std::log(low), std::log(high)));
