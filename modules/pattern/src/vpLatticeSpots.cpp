@@ -57,7 +57,7 @@ double vpLatticeSpots::noise() const
                            std::sqrt(6.)); // 0.3: rounding to whole grey values
 }
 
-// Two levels from mean m, deviation s and skewness g of a window: m + s (g/2 -+ sqrt(1 + g^2/4)), whatever share each has.
+// Two levels from mean m, deviation s and skewness g of a window: m + s (g/2 -+ sqrt(1 + g^2/4)), for any shares.
 void vpLatticeSpots::measureLevels(int window)
 {
   const int width = static_cast<int>(m_image.getWidth()), height = static_cast<int>(m_image.getHeight());

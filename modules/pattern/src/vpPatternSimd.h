@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// A second copy of the hot loops for AVX2, chosen when the program is loaded; the module itself is built for any x86-64.
+// A second copy of the hot loops for AVX2, selected at load time; the module itself is built for any x86-64.
 #ifndef vpPatternSimd_h
 #define vpPatternSimd_h
 

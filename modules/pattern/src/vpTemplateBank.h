@@ -14,9 +14,9 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
- * A cell at the phase p plus a small d looks like  c + s (T - dx Tx - dy Ty) + g1 x + g2 y + g3 xT + g4 yT: brightness c,
- * contrast s and slopes g of the illumination. With the columns 1, T, Tx, Ty, x, y, xT, yT, B = Q R and z = Q' I, the
- * rows of R give the unknowns, and |I|^2 - |z|^2 is the residual. The slopes are the same for all cells and change
+ * A cell at the phase p plus a small d looks like  c + s (T - dx Tx - dy Ty) + g1 x + g2 y + g3 xT + g4 yT: brightness
+ * c, contrast s and slopes g of the illumination. With the columns 1, T, Tx, Ty, x, y, xT, yT, B = Q R and z = Q' I,
+ * the rows of R give the unknowns, and |I|^2 - |z|^2 is the residual. The slopes are the same for all cells and change
  * slowly; estimated for each cell they would double the variance of y.
  *
  * Q is kept as 16-bit integers: eight products in one instruction of any x86-64.

@@ -16,8 +16,8 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
- * Pairs (index in \e reference, index in \e current). Each is the mutual nearest neighbour, and nearer than \e ratio times
- * the second nearest in the current image (Lowe). One pass over the distances serves both tests.
+ * Pairs (index in \e reference, index in \e current). Each is the mutual nearest neighbour, and nearer than \e ratio
+ * times the second nearest in the current image (Lowe). One pass over the distances serves both tests.
  */
 std::vector<std::pair<int, int>> matchKeypoints(const vpKeypointSet &reference, const vpKeypointSet &current,
                                                 float ratio);

@@ -6,8 +6,8 @@
  * \file vpPlaneGeometry.h
  * \brief Internal: camera, rigid motion and plane on fixed-size types, and the pose of a plane from matched points.
  *
- * Pixels: (0,0) is the centre of the top-left pixel. The reference image of W x H pixels covers width x height metres from
- * outer edge to outer edge, so the centre of reference pixel (u,v) is at X = ((u + 0.5) / W - 0.5) width, likewise Y.
+ * Pixels: (0,0) is the centre of the top-left pixel. The reference image of W x H pixels covers width x height metres
+ * from outer edge to outer edge, so the centre of reference pixel (u,v) is at X = ((u + 0.5) / W - 0.5) width, Y alike.
  */
 #ifndef vpPlaneGeometry_h
 #define vpPlaneGeometry_h
@@ -57,11 +57,11 @@ struct vpTargetPlane {
   [[nodiscard]] Eigen::Vector2d metric(double u, double v) const;
   //! Outer corners, m: top left, top right, bottom right, bottom left.
   [[nodiscard]] std::array<Eigen::Vector2d, 4> corners() const;
-  //! Reference pixels to the pixels of a camera without distortion, H(2,2) = 1 (0 in the limit of a reference at infinity).
+  //! Reference pixels to pixels of a camera without distortion, H(2,2) = 1 (0 for a reference at infinity).
   [[nodiscard]] Eigen::Matrix3d homography(const vpRigidPose &pose, const vpPinhole &camera) const;
 };
 
-//! Cosine of the angle between the line of sight to the target's centre and its normal: 1 seen from the front, < 0 behind.
+//! Cosine of the angle between the line of sight to the target's centre and its normal: 1 frontal, < 0 from behind.
 [[nodiscard]] double frontality(const vpRigidPose &pose);
 //! Smallest depth of the four corners, m.
 [[nodiscard]] double nearestCornerDepth(const vpTargetPlane &plane, const vpRigidPose &pose);

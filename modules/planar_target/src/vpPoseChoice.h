@@ -69,7 +69,7 @@ private:
   vpPoseDecision m_decision;
 };
 
-//! The other pose with the same image to first order: normal turned by 180 degrees about the line of sight to the centre.
+//! The other pose with the same image to first order: normal rotated by 180 degrees about the central line of sight.
 [[nodiscard]] vpRigidPose rivalPose(const vpRigidPose &pose);
 
 END_VISP_NAMESPACE

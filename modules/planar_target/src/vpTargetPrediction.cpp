@@ -83,8 +83,8 @@ const cv::Mat &vpTargetTexture::at(const vpRigidPose &pose, const vpPinhole &cam
 }
 
 /*
- * Pixel box and Gaussian, h(x) = (Phi((x + 1/2) / blur) - Phi((x - 1/2) / blur)) / 2 at the samples x = 1/4, 3/4, ... px and
- * their mirror images. The derivatives are h with differences of fourth order of the samples: good for every blur.
+ * Pixel box and Gaussian, h(x) = (Phi((x + 1/2) / blur) - Phi((x - 1/2) / blur)) / 2 at the samples x = 1/4, 3/4, ...
+ * px and their mirror images. The derivatives are h with fourth-order differences of the samples: valid for any blur.
  */
 struct vpTargetPrediction::Kernel {
   static constexpr int stencil = 2;

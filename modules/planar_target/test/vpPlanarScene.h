@@ -6,9 +6,9 @@
  * \file vpPlanarScene.h
  * \brief For tests and benchmarks: photographs on planes, seen by a camera, with image degradations.
  *
- * A photograph of W x H pixels covers width x height metres from outer edge to outer edge: the centre of its pixel (u,v) is
- * at X = ((u + 0.5) / W - 0.5) width, likewise Y, in the plane z = 0. vpImageSimulator maps the corners that it is given to
- * the centres of the corner pixels, so it is given those; the outer half pixel of the photograph is not drawn.
+ * A photograph of W x H pixels covers width x height metres from outer edge to outer edge: the centre of its pixel
+ * (u,v) is at X = ((u + 0.5) / W - 0.5) width, likewise Y, in the plane z = 0. vpImageSimulator maps the given
+ * corners to the centres of the corner pixels, so these are passed; the photograph's outer half pixel is not drawn.
  */
 #ifndef vpPlanarScene_h
 #define vpPlanarScene_h

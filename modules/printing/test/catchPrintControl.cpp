@@ -191,7 +191,8 @@ TEST_CASE("A sudden change of friction is found early, and none where there is n
   spec.velocityNoise = 1e-6;
   vpMotionObserverSpec looking = spec;
   looking.changeRate = 0.003;
-  // Squares of the errors of the disturbance: with and without the hypotheses, 12 frames behind a change and without one.
+  // Squares of the errors of the disturbance: with and without the hypotheses, 12 frames after a change and in
+  // quiet runs.
   double found = 0., late = 0., quiet = 0., still = 0., promised = 0.;
   for (int problem = 0; problem < problems; ++problem) {
     const bool changes = problem % 2 == 0;

@@ -87,7 +87,7 @@ template <typename Call> void measure(benchmark::State &state, std::size_t count
   state.counters["max_us"] = 1e-3 * ns.back();
 }
 
-// No motion from (q, v) to rest is faster: constant acceleration, full speed, constant deceleration, without a jerk limit.
+// Fastest motion from (q, v) to rest without a jerk limit: constant acceleration, full speed, constant deceleration.
 double leastTime(double q, double v, double goal, double maxVelocity, double maxAcceleration)
 {
   const double stop = q + 0.5 * v * std::abs(v) / maxAcceleration, side = goal < stop ? -1. : 1.;

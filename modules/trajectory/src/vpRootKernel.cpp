@@ -41,7 +41,7 @@ double rounding(const double *c, int degree, double s)
   return 2. * epsilon * sum;
 }
 
-// The root between l and r, where the polynomial is monotone and changes sign: Newton, halving when it leaves the bracket.
+// The root between l and r, where the polynomial is monotone and changes sign: Newton, bisection outside the bracket.
 double closeIn(const double *c, int degree, double l, double r, double fl, double fr, double precision)
 {
   double x = l + (r - l) * (fl / (fl - fr));

@@ -10,9 +10,9 @@
 VISP_DIRECT_USING_NAMESPACE
 using namespace vpTrajectoryTest;
 
-// Rounding of a coefficient in the product of n factors (s - r): 2 u for each factor, of the product of (1 + |r|); as much
-// for its value by Horner's rule, and the root finder takes values below 2 epsilon of that for zero. A root moves by the
-// sum over the slope there; to first order, so only where that is small against the distance to the next root.
+// Rounding of a coefficient in the product of n factors (s - r): 2 u for each factor, of the product of (1 + |r|); as
+// much for its value by Horner's rule, and the root finder takes values below 2 epsilon of that for zero. A root moves
+// by the sum over the slope there; to first order, so only where that is small against the distance to the next root.
 TEST_CASE("roots of products of known factors are found, each once", "[polynomial]")
 {
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -182,7 +182,8 @@ TEST_CASE("families meet their boundary values at every duration", "[family]")
     CHECK(six.degree() == 6);
     CHECK(eight.degree() == 8);
     REQUIRE(std::abs(six.at(T).value(tau) + x[0] - via[0]) < rounded * (termsOf(six, 0, T) + 4.));
-    // Each order of the bump corrects what the one before, rounded, left at the via: w'/w is 3 (1 - 2 tau)/(tau (1 - tau)).
+    // Each order of the bump corrects the rounded remainder of the previous one at the via: w'/w is
+    // 3 (1 - 2 tau)/(tau (1 - tau)).
     const double lever = 3. / (tau * (1. - tau));
     const auto through = eight.at(T).jet(tau);
     double inherited = 0.;

@@ -36,7 +36,7 @@ double sampledPeak(const vpPolynomial &p, double T, std::size_t order)
   return peak / std::pow(T, static_cast<double>(order));
 }
 
-// Lines 4 to 8 of Algorithm 6.3 with a1..a6 read as a0..a5: the latest root of the acceleration, and the velocity there.
+// Lines 4 to 8 of Algorithm 6.3 with a1..a6 read as a0..a5: the latest root of the acceleration, and its velocity.
 double latestExtremum(const vpPolynomial &p, double T)
 {
   const auto acceleration = [&](double s) { return p.jet(s)[2]; };

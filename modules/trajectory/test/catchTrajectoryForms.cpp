@@ -191,7 +191,7 @@ TEST_CASE("a group at rest cruises along its line", "[forms]")
     REQUIRE(worstViolation(input, plan) < 1e-9);
     return plan.duration();
   };
-  // Ramps of 1.5 v/a each cover half of their time at full speed: h/v + 1.5 v/a, or 15/8 h/v; h is the length of the line.
+  // Ramps of 1.5 v/a each cover half of their time at full speed: h/v + 1.5 v/a, or 15/8 h/v; h: length of the line.
   const double h = std::sqrt(0.5);
   CHECK(duration(false, true) == Approx(0.5 / 0.25 + 0.75));
   CHECK(duration(true, true) == Approx(h / 0.25 + 0.75));

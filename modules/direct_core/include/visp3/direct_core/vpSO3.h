@@ -9,7 +9,8 @@
  * ViSP's vpThetaUVector and vpRotationMatrix allocate on construction; these free functions do not. Notation: for a
  * rotation vector e = theta u, [e]x is its skew matrix and J_r(e) the right Jacobian, so that a rotation R = exp(e)
  * rotating at body rate w (R' = R [w]x) has e' = J_r(e)^-1 w. This J_r^-1 is the L_theta_u of visual servoing with
- * the sign that belongs to R of cdMc (thesis (5.6), corrected): I + theta/2 [u]x + (1 - sinc theta / sinc^2(theta/2)) [u]x^2.
+ * the sign that belongs to R of cdMc (thesis (5.6), corrected):
+ * I + theta/2 [u]x + (1 - sinc theta / sinc^2(theta/2)) [u]x^2.
  *
  * Non-finite input, and an angle of 1e154 rad or more, whose square overflows, give NaN.
  */

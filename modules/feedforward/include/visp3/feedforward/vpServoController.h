@@ -90,7 +90,7 @@ public:
    * exp(w / rotationGain). For `pbvs1` this is the goal (the identity); with the term added by `ff-*` it is the
    * reference of figures 5.6 and 5.8 of the thesis.
    * \param measurement : The valid measurement of the command. \param command : Result of update().
-   * \return Orientation in the desired camera frame. The identity when no goal is set, or the measurement is not finite.
+   * \return Orientation in the desired camera frame. The identity without a goal or with a non-finite measurement.
    */
   [[nodiscard]] Eigen::Matrix3d referenceRotation(const vpServoMeasurement &measurement,
                                                   const vpServoCommand &command) const noexcept;

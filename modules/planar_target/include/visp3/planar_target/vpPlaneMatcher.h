@@ -67,7 +67,7 @@ struct VISP_EXPORT vpPlaneMatch {
 /*!
  * \class vpPlaneMatcher
  * \ingroup group_planar_target
- * \brief Keypoints, mutual best matches and a robust homography (OpenCV's USAC_MAGSAC) between a reference view and frames.
+ * \brief Keypoints, mutual best matches and a robust homography (OpenCV's USAC_MAGSAC) from a reference to frames.
  *
  * The homography is the least-squares fit to the inliers, with its covariance. If all inliers lie in a corner of the
  * image, the rest is extrapolated, and the status is Extrapolated.

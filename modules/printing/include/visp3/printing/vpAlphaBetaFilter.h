@@ -56,8 +56,8 @@ struct VISP_EXPORT vpAlphaBetaGains {
  * \verbatim
    x- = x + T v + T^2 u / 2,   v- = v + T u,   r = z - x-,   x = x- + alpha r,   v = v- + beta r / T
    \endverbatim
- * where u is the known acceleration of the value, 0 unless given. The value may be a position (the rate is the velocity)
- * or a measured velocity (the rate is the acceleration). With velocities in px/frame the period is 1.
+ * where u is the known acceleration of the value, 0 unless given. The value may be a position (the rate is the
+ * velocity) or a measured velocity (the rate is the acceleration). With velocities in px/frame the period is 1.
  *
  * step() does not allocate, throw, lock or print.
  */

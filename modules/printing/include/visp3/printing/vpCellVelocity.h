@@ -27,9 +27,9 @@ struct VISP_EXPORT vpCellVelocity {
 
 /*!
  * \ingroup group_printing
- * \brief Thesis (7.27), corrected: the mean displacement of the cells that are valid in \e both frames, by identity, each
- * weighted by the variance of its displacement. As printed, the sum runs over the cells of one frame and jumps by a
- * pitch when a cell enters or leaves.
+ * \brief Thesis (7.27), corrected: the mean displacement of the cells that are valid in \e both frames, by identity,
+ * each weighted by the variance of its displacement. As printed, the sum runs over the cells of one frame and jumps by
+ * a pitch when a cell enters or leaves.
  *
  * \param before, beforeCount : Cells of the earlier frame. Cells with numbers that are not finite or beyond
  *   vpPrintingLargest, or with deviations not > 0, are ignored.

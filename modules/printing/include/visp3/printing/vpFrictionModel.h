@@ -15,8 +15,8 @@ BEGIN_VISP_NAMESPACE
 
 /*!
  * \ingroup group_printing
- * \brief Mass and friction of one axis: F = m a + Fv v + sgn(v) (Fc + (Fs - Fc) exp(-(v / vs)^2)), thesis (7.25), (7.26) with
- * Stribeck's term. Units: length L (px), time T (frame), force F; with mass 1 forces are accelerations.
+ * \brief Mass and friction of one axis: F = m a + Fv v + sgn(v) (Fc + (Fs - Fc) exp(-(v / vs)^2)), thesis (7.25),
+ * (7.26) with Stribeck's term. Units: length L (px), time T (frame), force F; with mass 1 forces are accelerations.
  */
 struct VISP_EXPORT vpFrictionModel {
   double mass = 1.;             //!< Mass, F T^2/L, > 0.

@@ -38,8 +38,8 @@ struct VISP_EXPORT vpPrintVelocityControlSpec {
 /*!
  * \class vpPrintVelocityControl
  * \ingroup group_printing
- * \brief Force from velocity errors, thesis (3.20), (7.25), (7.26). (3.20) is a PI law although the text calls it PID; the
- * D part acts on the difference of errors.
+ * \brief Force from velocity errors, thesis (3.20), (7.25), (7.26). (3.20) is a PI law although the text calls it PID;
+ * the D part acts on the difference of errors.
  *
  * Anti-windup: while the command is at its bound, the integral changes only in the direction that leads away from it.
  * step() does not allocate, throw, lock or print.

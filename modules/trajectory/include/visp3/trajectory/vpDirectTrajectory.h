@@ -77,7 +77,7 @@ public:
 
   //! The next update() starts from input.start.
   void reset() noexcept { m_follower.reset(); }
-  //! The plan in force: at(axis, t), peaks(axis), segments(axis), pieces().
+  //! The current plan: at(axis, t), peaks(axis), segments(axis), pieces().
   [[nodiscard]] const vpTrajectoryPlan &plan() const { return m_follower.plan(); }
 
   /*!

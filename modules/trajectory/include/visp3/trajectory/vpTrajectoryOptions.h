@@ -38,7 +38,7 @@ enum class vpReplanPolicy {
 //! \brief How the axes are synchronised.
 enum class vpSynchronisation {
   Time,     //!< All axes arrive at the same time.
-  Straight, //!< All axes stay on the straight line to the goal when start and goal velocities lie on it, otherwise Time.
+  Straight, //!< All axes stay on the straight line to the goal if start and goal velocities lie on it, else Time.
   None      //!< Each axis arrives as early as it can.
 };
 

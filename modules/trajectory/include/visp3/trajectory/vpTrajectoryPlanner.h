@@ -46,8 +46,8 @@ public:
    * \param problem : Valid, see vpTrajectoryProblem::validate().
    * \param floor : Minimum duration of the plan, s.
    * \param plan : Receives the motion.
-   * \return Working, Braking, NoFeasibleDuration or ArrivalInfeasible (the value is then the earliest feasible arrival),
-   *   decided by one exact check of all limits on the finished motion; the status gives the largest excess.
+   * \return Working, Braking, NoFeasibleDuration or ArrivalInfeasible (the value is then the earliest feasible
+   *   arrival), decided by one exact check of all limits on the finished motion; the status gives the largest excess.
    *   With FixedArrival the floor is the arrival time.
    */
   vpTrajectoryStatus plan(const vpTrajectoryProblem &problem, double floor, vpTrajectoryPlan &plan) noexcept;
