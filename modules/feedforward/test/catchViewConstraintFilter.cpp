@@ -154,7 +154,7 @@ TEST_CASE("wrong depths within their bound do no harm", "[filter]")
     vpHomogeneousMatrix cMo = task.start;
     double factor[4];
     for (double &f : factor) {
-      f = 1. / uniform(rng, 0.7, 1.3); // true depth = (1 +- 0.3) x the depth told
+      f = 1. / uniform(rng, 0.7, 1.3); // true depth = (1 +- 0.3) x the given depth
     }
     vpTwist v;
     for (int i = 0; i < 300; ++i) {

@@ -27,7 +27,7 @@ struct Part {
   int degrees = 0;
 };
 
-// b' A^+ b and the rank of A, which is symmetric; directions whose eigenvalue is below the least count as none.
+// b' A^+ b and the rank of A, which is symmetric; directions with an eigenvalue below least are ignored.
 Part quadratic(const Eigen::MatrixXd &A, const Eigen::VectorXd &b, double least)
 {
   Part part;

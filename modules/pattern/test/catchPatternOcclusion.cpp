@@ -58,7 +58,7 @@ TEST_CASE("cells behind things of like grey are invalid, right or say how far of
   const char *const longer = std::getenv("VISP_DIRECT_LONG_TESTS");
   const int runs = longer == nullptr ? 3 : static_cast<int>(3 * std::max(1., std::atof(longer)));
   CAPTURE(vpTestSupport::seed());
-  constexpr int phases = 40, images = 4000; // the pattern goes to and fro, so that its pictures are made once
+  constexpr int phases = 40, images = 4000; // the pattern goes to and fro, so that its images are rendered once
   long valid = 0, far = 0;
   double worst = 0.;
   for (int run = 0; run < runs; ++run) {

@@ -130,7 +130,7 @@ TEST_CASE("scale, kappa1 and placement have the errors that the covariance says"
     const double size = uniform(rng, 4e-8, 3e-7);
     Problem problem =
         randomProblem(rng, 1 + trial % 2, trial % 2 == 0 ? size : -size, 640, 480, trial < problems / 2 ? 0. : 0.035);
-    if (trial % 3 != 0) { // the origin in view: its place then depends on the scale and not only on the rotation
+    if (trial % 3 != 0) { // the origin in view: its position then depends on the scale and not only on the rotation
       problem.views[0].tx *= 0.1;
       problem.views[0].ty *= 0.1;
       problem.truth = problem.views[0];

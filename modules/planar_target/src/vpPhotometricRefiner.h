@@ -17,11 +17,11 @@ BEGIN_VISP_NAMESPACE
  * Minimises sum rho(I(w(p; T)) - g R(p) - b) over the pose T, the gain g and the bias b, with Tukey's rho, R the
  * reference and w the projection of the plane (with the camera's distortion).
  *
- * Inverse compositional: a small motion of the target, t + v and exp(w) R, moves the visible plane as the homography I
- * + A with A = G^-1 ([w]x r1, [w]x r2, v) does, G = (r1, r2, t) of T. So the derivative of a sample is -g J(p) M(T) (v,
- * w), J (1x8) of the reference alone and M (8x6) the same for all samples of an iteration. The 10x10 normal equations
- * of homography, gain and bias are accumulated and then projected on the pose: no gradient of the noisy frame is used
- * (it would bias the estimate), and the result is a pose, not an approximate homography.
+ * Inverse compositional: a small motion of the target, t + v and exp(w) R, moves the visible plane as the homography
+ * I + A with A = G^-1 ([w]x r1, [w]x r2, v) does, G = (r1, r2, t) of T. So the derivative of a sample is -g J(p) M(T)
+ * (v, w), J (1x8) of the reference alone and M (8x6) the same for all samples of an iteration. The 10x10 normal
+ * equations of homography, gain and bias are accumulated and then projected on the pose: no gradient of the noisy frame
+ * is used (it would bias the estimate), and the result is a pose, not an approximate homography.
  *
  * The work space is allocated by the constructor; refine() and verify() allocate nothing.
  */

@@ -69,7 +69,7 @@ Outcome print(long cells, double sigma, vpPrintTriggerMethod method, double offs
   spec.lead = lead;
   vpPrintTrigger trigger(spec);
   vpMotionKalmanSpec kalman;
-  kalman.model = vpMotionModel::ConstantVelocity; // of what is not planned
+  kalman.model = vpMotionModel::ConstantVelocity; // for the unplanned motion
   kalman.processNoise = sigma > 0.1 ? 1e-3 : 1e-2;
   kalman.sigmaPosition = 1.;
   kalman.sigmaVelocity = 0.5;

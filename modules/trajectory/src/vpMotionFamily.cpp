@@ -11,8 +11,8 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-// Upper coefficients of the Hermite polynomial with m conditions at each end, from the residuals of the lower ones at s
-// = 1: row = coefficient m, m + 1, ..., column = residual of the derivative 0, 1, ... The case m = 3 is (3.62).
+// Upper coefficients of the Hermite polynomial with m conditions at each end, from the residuals of the lower ones at
+// s = 1: row = coefficient m, m + 1, ..., column = residual of the derivative 0, 1, ... The case m = 3 is (3.62).
 constexpr double upper1[1][1] = {{1.}};
 constexpr double upper2[2][2] = {{3., -1.}, {-2., 1.}};
 constexpr double upper3[3][3] = {{10., -4., 0.5}, {-15., 7., -1.}, {6., -3., 0.5}};

@@ -192,7 +192,7 @@ double vpMotionUnit::search(Form form, double T) noexcept
   }
   m_iterations = std::max(m_iterations, looks);
   none = from;
-  return infinity; // undecided: another form answers
+  return infinity; // undecided: use another form
 }
 
 bool vpMotionUnit::isAtGoal(bool atRest) const noexcept

@@ -43,7 +43,7 @@ TEST_CASE("roots of products of known factors are found, each once", "[polynomia
       separate = separate && error < 0.01 * gap / degree;
       if (all[i] >= 0. && all[i] <= 1.) {
         known.push_back(all[i]);
-        errors.push_back(1.1 * error + 4. * epsilon); // what is left of the higher orders; the step that ends Newton
+        errors.push_back(1.1 * error + 4. * epsilon); // remainder of the higher orders; the step that ends Newton
       }
     }
     if (!separate) {

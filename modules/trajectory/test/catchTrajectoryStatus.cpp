@@ -48,7 +48,7 @@ TEST_CASE("a limit that cannot be kept is named with its excess", "[status]")
 
 TEST_CASE("a position limit is exceeded by no more than the hardest stop needs", "[status]")
 {
-  // From q0 with v = a = 1 the least is q0 + 1/2; with a jerk limit v a/(2 j) more.
+  // From q0 with v = a = 1 the minimum is q0 + 1/2; with a jerk limit v a/(2 j) more.
   for (const double jerk : {none, 1000.}) {
     for (int k = 0; k <= 100; ++k) {
       vpTrajectoryInput<1> input = wall(0.4 + 0.005 * k);

@@ -17,7 +17,7 @@ BEGIN_VISP_NAMESPACE
  * \ingroup group_direct_core
  * Probability that a chi-square variable is at least \e value: test of a fit with known standard deviations.
  * \param value : Sum of squares, >= 0, in standard deviations squared. \param degrees : Degrees of freedom, > 0.
- * \return In [0, 1]; 0 for infinity, NaN for NaN or what is out of range.
+ * \return In [0, 1]; 0 for infinity, NaN for NaN or out-of-range input.
  */
 [[nodiscard]] VISP_EXPORT double vpChiSquareTail(double value, double degrees) noexcept;
 
@@ -27,7 +27,7 @@ BEGIN_VISP_NAMESPACE
  * common standard deviation is not known.
  * \param ratio : Numerator mean square over denominator mean square, >= 0.
  * \param above, below : Their degrees of freedom, > 0.
- * \return In [0, 1]; 0 for infinity, NaN for NaN or what is out of range.
+ * \return In [0, 1]; 0 for infinity, NaN for NaN or out-of-range input.
  */
 [[nodiscard]] VISP_EXPORT double vpFisherTail(double ratio, double above, double below) noexcept;
 

@@ -4,8 +4,7 @@
  */
 /*!
  * \file vpFeatureFeedforwardSum.h
- * \brief Visual feature for vpServo: the rotation error of position-based servoing plus the bearing error of the
- * object.
+ * \brief Visual feature for vpServo: rotation error of position-based servoing plus the object's bearing error.
  */
 #ifndef vpFeatureFeedforwardSum_h
 #define vpFeatureFeedforwardSum_h

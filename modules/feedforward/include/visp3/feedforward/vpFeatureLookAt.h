@@ -4,8 +4,7 @@
  */
 /*!
  * \file vpFeatureLookAt.h
- * \brief Visual feature for vpServo: rotation error relative to the orientation that sees the object at its desired
- * position.
+ * \brief Visual feature for vpServo: rotation error relative to the orientation that looks at the object.
  */
 #ifndef vpFeatureLookAt_h
 #define vpFeatureLookAt_h
@@ -54,8 +53,7 @@ public:
   /*!
    * \param cdMc : Pose of the current camera in the desired camera frame, m.
    * \param cdMo : Pose of the object in the desired camera frame, m.
-   * \throw vpException (badValue) when the camera is at the object's origin or on its opposite side, or a pose is
-   *   invalid.
+   * \throw vpException (badValue) when the camera is at the object's origin or opposite to it, or a pose is invalid.
    */
   void buildFrom(const vpHomogeneousMatrix &cdMc, const vpHomogeneousMatrix &cdMo);
 

@@ -30,8 +30,7 @@ BEGIN_VISP_NAMESPACE
  *
  * The memory is a ring buffer of fixed size, allocated by the constructor; a step allocates nothing once the vectors of
  * the measurements have their sizes. A step does not throw, lock or print. The clock is the caller's; a time that is
- * not finite, runs backwards, or advances by more than the maximum age breaks the path: all earlier data become
- * invalid.
+ * not finite, runs backwards, or advances by more than the maximum age invalidates all earlier data.
  */
 class VISP_EXPORT vpOdometryBridge
 {

@@ -30,12 +30,11 @@ enum class vpServoStatus {
 
 /*!
  * \ingroup group_feedforward
- * \brief Loop condition: true while the camera is moving to the goal or may recover (Servoing, ViewLimited, Holding,
+ * \brief Loop condition: true while the camera moves to the goal or may recover (Servoing, ViewLimited, Holding,
  * Retreating).
  *
  * False ends the loop: message() gives the reason. The twist is zero then, or near zero (Deadlock). No status reports
- * that the goal is reached, because the required accuracy is the caller's choice: that is the other half of the
- * condition.
+ * that the goal is reached, because the required accuracy is the caller's choice and part of the caller's condition.
  */
 [[nodiscard]] constexpr bool isWorking(vpServoStatus status)
 {

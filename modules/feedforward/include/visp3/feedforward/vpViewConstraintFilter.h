@@ -52,8 +52,8 @@ struct VISP_EXPORT vpViewConstraintConfig {
  * of #vpViewConstraintConfig::maxLinear and #vpViewConstraintConfig::maxAngular.
  *
  * **Limits.** v0 is first scaled, as a whole, to the speed limits V0 and W0, and the solution is scaled back to the
- * share of them used by v0, s0 = max(|v0| / V0, |w0| / W0). One factor for all six components: a twist that satisfies L
- * v >= -gamma h with h >= 0 does so at every smaller speed too, while clipping by axis would violate it. V0 and W0 are
+ * share of them used by v0, s0 = max(|v0| / V0, |w0| / W0). One factor for all six components: a twist that satisfies
+ * L v >= -gamma h with h >= 0 does so at every smaller speed too, while clipping by axis would violate it. V0, W0 are
  * #vpViewConstraintConfig::maxLinear and #vpViewConstraintConfig::maxAngular, and while a point is visible at most an
  * eighth of the smallest depth, and 1 / (8 rho1) rad, in a period T.
  *
@@ -61,28 +61,27 @@ struct VISP_EXPORT vpViewConstraintConfig {
  * unsafe. If every visible point is initially inside the view (by imageUncertainty), and the camera executes the
  * constant twist returned, then no point is outside at any time from 0 to T.
  *
- * **Proof.** Under a constant twist (v, w) a point at m = (x, y, 1) and depth Z has, with q = P'/Z = -v/Z - w x m, x' =
- * q_x - x q_z, q' = -w x q - q_z q, and so x'' + 2 q_z x' = (1, 0, -x) . (-w x q). All twists of a step, v0 as well as
- * the result, have |v| <= V = s0 V0 and |w| <= W = s0 W0. With the view radius rho, rho1 = sqrt(1 + rho^2), and n the
- * smallest depth that the uncertainty allows, Z' >= -V - W rho Z gives Z >= zeta = (n - V T) exp(-W rho T) > 0 while
- * the point is in view, hence |x'' + 2 q_z x'| <= C = rho1 W (V/zeta + W rho1) and |q_z| <= kappa = V/zeta + W rho.
- * Solved by the integrating factor exp(2 int q_z), which stays in exp(+-2 kappa T): with b the distance to a border and
- * r the outward speed at t = 0, b(t) >= b - r t f - C t^2 exp(2 kappa T) / 2 with some f in exp(+-2 kappa T). The rows
- * see the point with an error of up to imageUncertainty u, which changes r by at most D = u (V/n + W (1 + 3 rho + 2
- * u)). Take the smaller of gamma and exp(-2 kappa T) / (2 T) for gamma, and the margin m = exp(4 kappa T) (C T + 2
- * D) / gamma.
+ * **Proof.** Under a constant twist (v, w) a point at m = (x, y, 1) and depth Z has, with q = P'/Z = -v/Z - w x m,
+ * x' = q_x - x q_z, q' = -w x q - q_z q, and so x'' + 2 q_z x' = (1, 0, -x) . (-w x q). All twists of a step, v0 as
+ * well as the result, have |v| <= V = s0 V0 and |w| <= W = s0 W0. With the view radius rho, rho1 = sqrt(1 + rho^2), and
+ * n the smallest depth that the uncertainty allows, Z' >= -V - W rho Z gives Z >= zeta = (n - V T) exp(-W rho T) > 0
+ * while the point is in view, hence |x'' + 2 q_z x'| <= C = rho1 W (V/zeta + W rho1) and |q_z| <= kappa = V/zeta + W
+ * rho. Solved by the integrating factor exp(2 int q_z), which stays in exp(+-2 kappa T): with b the distance to a
+ * border and r the outward speed at t = 0, b(t) >= b - r t f - C t^2 exp(2 kappa T) / 2 with some f in exp(+-2 kappa
+ * T). The rows see the point with an error of up to imageUncertainty u, which changes r by at most D = u (V/n + W (1 +
+ * 3 rho + 2 u)). Take the smaller of gamma and exp(-2 kappa T) / (2 T) for gamma, and the margin m = exp(4 kappa T) (C
+ * T + 2 D) / gamma.
  * - h >= 0, r <= gamma h + D: b(t) >= b (1 - gamma T exp(2 kappa T)) + exp(2 kappa T) T (gamma m - D - C T / 2) >= 0,
  *   since the first bracket is at least 1/2 and gamma m >= C T + 2 D.
  * - h < 0, r <= D - s gamma (m - b) with s the factor of the scaling, at least 1/2 (below that the filter stands
- *   still), hence b(t) >= b (1 - s gamma t f) + t f (s gamma m - D) - C t^2 exp(2 kappa T) / 2 >= 0, since s gamma m -
- *   D >= exp(4 kappa T) C T / 2.
+ *   still), hence b(t) >= b (1 - s gamma t f) + t f (s gamma m - D) - C t^2 exp(2 kappa T) / 2 >= 0, since
+ *   s gamma m - D >= exp(4 kappa T) C T / 2.
  * The margin vanishes with the square of the speed towards the goal (except for u), so the whole view is usable at the
  * goal. `bin/catchViewConstraintProof` tests the guarantee with adversarial cases.
  *
  * **Zero twist** is feasible while all h >= 0. A point with h < 0, in the margin or outside the image, has to move
  * inwards (backing away does it for all points, the principal point being in view); the motion is scaled to the speed
- * of v0, so without any desired motion the point stays where it is. If the rows contradict each other the result is
- * zero.
+ * of v0, so without any desired motion the point stays where it is. Contradicting rows give zero.
  *
  * **Deadlock** is possible: the nearest twist may be zero although the goal is not reached. It is reported
  * (vpServoStatus::Deadlock) when less than 2 % of the desired speed is left.

@@ -43,8 +43,8 @@ struct VISP_EXPORT vpCalibrationPitch {
   double rows = 0.;       //!< Distance between neighbouring rows, m, > 0.
   double sigmaPlane = 0.; //!< Standard deviation of the position of a cell, per axis, m, >= 0.
   //! Angle from the columns' direction to the rows', rad, in [0.5, 2.7]: pi/2 for a rectangular lattice, pi/3 for a
-  //! hexagonal one. NaN: automatic, hexagonal where the lattice is and #columns and #rows are equal, rectangular
-  //! otherwise.
+  //! hexagonal one. NaN: hexagonal where the lattice is and #columns and #rows are equal, otherwise
+  //! rectangular.
   double angle = std::numeric_limits<double>::quiet_NaN();
 
   //! \throw vpException (badValue) naming the field and its value.

@@ -62,8 +62,7 @@ struct VISP_EXPORT vpDotLattice {
   [[nodiscard]] double columnPitch() const;
   //! Length of b, px.
   [[nodiscard]] double rowPitch() const;
-  //! Kind of lattice: "square", "rectangular", "hexagonal", "centred rectangular", "oblique" or "row", to 3 % and 2
-  //! degrees.
+  //! Name: "square", "rectangular", "hexagonal", "centred rectangular", "oblique" or "row", to 3 % and 2 degrees.
   [[nodiscard]] const char *name() const;
 };
 

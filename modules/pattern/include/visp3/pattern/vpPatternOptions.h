@@ -41,8 +41,7 @@ enum class vpPatternPolarity {
 
 /*!
  * \ingroup group_pattern
- * \brief Options of vpPatternTracker. The defaults suit every pattern with at least two periods in both directions
- * visible.
+ * \brief Options of vpPatternTracker. The defaults suit every pattern with two visible periods in both directions.
  */
 struct VISP_EXPORT vpPatternOptions {
   vpPatternMethod method = vpPatternMethod::GaussNewton;           //!< Method that measures a centre.

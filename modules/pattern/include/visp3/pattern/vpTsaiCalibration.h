@@ -111,8 +111,7 @@ public:
   //! Number of views so far.
   [[nodiscard]] std::size_t viewCount() const { return m_views.size(); }
 
-  //! For a misfit of up to 30 views the calibration is repeated without each of them, to identify the inconsistent
-  //! view.
+  //! For a misfit of up to 30 views the calibration is repeated without each of them, to find the wrong one.
   //! \throw vpException (badValue) when there is no view, (fatalError) when no camera can see a view's points as given.
   [[nodiscard]] vpTsaiCalibrationResult compute() const;
 

@@ -90,8 +90,7 @@ public:
   /*!
    * \param reference : Fronto-parallel image of the target.
    * \param width, height : Metric size of the area shown in the reference image, m, > 0.
-   * \param camera : Intrinsics of the images given to process(). Distortion (perspectiveProjWithDistortion) is
-   *   compensated.
+   * \param camera : Intrinsics of the images given to process(). Distortion (perspectiveProjWithDistortion) is removed.
    * \param config : Settings.
    * \throw vpException (badValue / dimensionError) naming the error: image under 32x32 px, blank image (too little
    *   texture for keypoints and for the refinement), size not positive, invalid setting.

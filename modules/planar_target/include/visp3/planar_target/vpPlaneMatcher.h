@@ -84,8 +84,7 @@ public:
   /*!
    * \param reference : Reference view, at least 32x32 px. \param config : Its keypoints, maxKeypoints, minInliers and
    * inlierThreshold are used.
-   * \throw vpException (dimensionError, badValue) naming the error: image too small, too few keypoints, invalid
-   *   setting.
+   * \throw vpException (dimensionError, badValue) naming the error: small image, too few keypoints, invalid setting.
    */
   explicit vpPlaneMatcher(const vpImage<unsigned char> &reference, const vpPlanarTargetConfig &config = {});
   ~vpPlaneMatcher();

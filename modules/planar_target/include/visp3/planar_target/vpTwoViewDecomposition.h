@@ -88,8 +88,7 @@ public:
   explicit vpTwoViewDecomposition(const vpTwoViewConfig &config = {});
 
   /*!
-   * Set the approximate plane normal, in the reference camera frame: decides between the two planes from the first
-   * frame.
+   * Set the approximate plane normal, in the reference camera frame: decides between the two planes at once.
    * \throw vpException (badValue) if \e normal does not have 3 finite components or is zero.
    */
   void setNormalPrior(const vpColVector &normal);

@@ -40,8 +40,8 @@ struct VISP_EXPORT vpAlphaBetaGains {
    * (2 alpha^2 + 2 beta - 3 alpha beta) / (alpha (4 - 2 alpha - beta)).
    */
   [[nodiscard]] double valueVariance() const;
-  //! Variance of the rate times period squared, relative to that of the measurements: 2 beta^2 / (alpha (4 - 2 alpha -
-  //! beta)).
+  //! Variance of the rate times period squared, relative to that of the measurements:
+  //! 2 beta^2 / (alpha (4 - 2 alpha - beta)).
   [[nodiscard]] double rateVariance() const;
   //! \throw vpException (badValue) naming the gain that makes the filter unstable, and its value.
   void validate() const;

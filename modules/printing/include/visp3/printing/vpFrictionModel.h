@@ -25,7 +25,7 @@ struct VISP_EXPORT vpFrictionModel {
   double stiction = 0.;         //!< Fs, stiction, F, >= 0; with stiction = coulomb there is no Stribeck term.
   double stribeckVelocity = 1.; //!< vs, Stribeck velocity, L/T, > 0.
 
-  //! Friction at a velocity, F; odd function, 0 at rest. Finite for a plausible velocity (vpIsPlausible()) and a valid
+  //! Friction at a velocity, F; odd function, 0 at rest. Finite for a plausible velocity (vpIsPlausible()), valid
   //! model.
   [[nodiscard]] double friction(double velocity) const noexcept;
   //! Force required for an acceleration at a velocity, (7.26), F. Finite as friction() is.

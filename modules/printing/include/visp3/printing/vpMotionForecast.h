@@ -21,8 +21,8 @@ BEGIN_VISP_NAMESPACE
  * \brief Extrapolation of a current state: along a planned motion if there is one, otherwise with its acceleration for
  * a limited time and then at constant velocity.
  *
- * With a plan r(t) and the state (p, v) at the time t0, the motion is p + r(t) - r(t0) + (v - r'(t0)) tau (1 - exp(-(t
- * - t0) / tau)): the velocity error decays as under the controller.
+ * With a plan r(t) and the state (p, v) at the time t0, the motion is
+ * p + r(t) - r(t0) + (v - r'(t0)) tau (1 - exp(-(t - t0) / tau)): the velocity error decays as under the controller.
  */
 struct VISP_EXPORT vpMotionForecast {
   static constexpr int maxPieces = 4;    //!< Maximum number of pieces of a plan.
@@ -51,8 +51,7 @@ struct VISP_EXPORT vpMotionForecast {
 
 /*!
  * \ingroup group_printing
- * \brief State of a sequence of polynomials, of durations > 0, at any time; outside it continues at the velocity of its
- * end.
+ * \brief State of a sequence of polynomials, of durations > 0, at any time; outside, the end velocity continues.
  */
 [[nodiscard]] VISP_EXPORT vpAxisState vpEvaluatePieces(const vpTrajectorySegment *pieces, int count, double t) noexcept;
 

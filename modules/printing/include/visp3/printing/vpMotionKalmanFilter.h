@@ -91,7 +91,7 @@ struct VISP_EXPORT vpMotionEstimate {
  *
  * Readings carry their time of measurement. Those within maxDelay of the newest are kept in order of time and replayed,
  * so the result is that of a filter that received them in order; older ones are final. Missing readings are simply not
- * added. The displacement since the last one is a state of its own, which keeps the correlation. Two axes need two
+ * added. The displacement since the last one is a separate state, which keeps the correlation. Two axes need two
  * filters.
  *
  * Displacement errors are assumed independent. Those of successive frames are not quite (the same error of the middle

@@ -69,7 +69,7 @@ struct VISP_EXPORT vpObservedMotion {
  * each of the last measurements carries the hypothesis that the friction changed there; the evidence of the later
  * innovations, with rate and size as priors, corrects the state at once, and permanently when the odds are 50 to 1
  * (generalised likelihood ratio with priors, after \cite Willsky76). Any model error that the sensor can resolve is
- * taken for a change: leave it out with a sensor that resolves the model errors.
+ * taken for a change: use changeRate 0 with a sensor that resolves the model errors.
  *
  * The third consecutive measurement beyond the gate is accepted with an inflated covariance.
  *

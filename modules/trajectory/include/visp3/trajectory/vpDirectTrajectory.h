@@ -81,7 +81,7 @@ public:
   [[nodiscard]] const vpTrajectoryPlan &plan() const { return m_follower.plan(); }
 
   /*!
-   * Plan the whole motion at once, from input.start to input.goal, without executing it, always by the exact method.
+   * Plan the whole motion at once, from input.start to input.goal, without executing it, by the exact method.
    * Allocates.
    * \param input : The problem.
    * \param plan : Receives the motion; unchanged when the input is invalid.

@@ -24,9 +24,9 @@ BEGIN_VISP_NAMESPACE
  * alternating sign; a goal that was moved makes a single one. So the jitter of an axis is the smaller of two successive
  * surprises of opposite signs: its largest value, which decays by a factor of e in #memory.
  *
- * Corrections of this size, made at every new goal with plans of duration T, need accelerations up to 10/sqrt(3) jitter
- * / T^2 and jerks up to 60 jitter / T^3. floor() is #ease times the duration at which a correction would reach the
- * limits.
+ * Corrections of this size, made at every new goal with plans of duration T, need accelerations up to
+ * 10/sqrt(3) jitter / T^2 and jerks up to 60 jitter / T^3. floor() is #ease times the duration at which a correction
+ * would reach the limits.
  */
 class VISP_EXPORT vpGoalJitter
 {

@@ -57,8 +57,7 @@ struct VISP_EXPORT vpDurationAnswer {
  * (Found) or some g has no root left (Infeasible, a proof). T grows from below and converges quadratically, in 4
  * iterations on average. The roots are those of g shifted to the current T, whose constant term is the violation
  * itself: a rounding tie cannot make the search jump to the far root. Peak velocity is not monotone in T and the
- * feasible set may consist of several intervals; both are handled. Replaces the thesis's iteration (6.6), kept as
- * vpThesisDuration.
+ * feasible set may consist of several intervals; both are handled. Replaces the iteration (6.6), see vpThesisDuration.
  *
  * Nothing here allocates or throws.
  */

@@ -19,7 +19,7 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_trajectory
-//! \brief How the rotation is planned. Both follow the geodesic when the current angular velocity lies on it (as at
+//! \brief How the rotation is planned. Both follow the geodesic if the current angular velocity lies on it (as at
 //! rest).
 enum class vpRotationPath {
   Geodesic,      //!< Limits bound the norm of the rotation vector's rates. The position path is straight, too.
@@ -68,8 +68,9 @@ struct VISP_EXPORT vpCameraState {
 /*!
  * \class vpPoseTrajectory
  * \ingroup group_trajectory
- * \brief Moves a camera from any moving state to a goal pose within limits, on SE(3): DTG, direct trajectory
- * generation.
+ * \brief Moves a camera from any moving state to a goal pose within limits, on SE(3).
+ *
+ * Implements DTG, direct trajectory generation.
  *
  * Position: three synchronised axes. Rotation: R(t) = R_0 exp(e(t)) with R_0 the rotation when the plan began, so e
  * starts at zero, where e' = w_c and e'' = w_c' exactly, and the transition to a new goal is smooth for every angular

@@ -16,8 +16,7 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_trajectory
-//! \brief Result of a step. The motion is safe to execute in every case, except where an option explicitly allows
-//! excess.
+//! \brief Result of a step. The motion is safe to execute in every case, unless an option explicitly allows excess.
 enum class vpTrajectoryResult {
   Working,            //!< On the way, within the limits.
   Finished,           //!< The goal was reached in this cycle.

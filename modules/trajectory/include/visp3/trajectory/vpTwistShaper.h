@@ -35,22 +35,21 @@ struct VISP_EXPORT vpTwistShaperLimits {
 /*!
  * \class vpTwistShaper
  * \ingroup group_trajectory
- * \brief Filter for the output of any vpServo or servo law: raw twist in, twist with bounded acceleration (and jerk)
- * out.
+ * \brief Filter for the output of any vpServo or servo law: bounds the acceleration (and jerk) of a raw twist.
  *
  * Classical visual servoing commands v = -lambda L^+ e, whose first value is a step: infinite acceleration at t = 0
  * (thesis, 6.1.1, figure 6.1). The shaper follows the raw twist along the time-optimal ramps of vpVelocityRamp,
- * replanned each cycle from its own commanded twist and acceleration. With constant input it arrives exactly, in finite
+ * replanned each cycle from its own commanded twist and acceleration. A constant input is reached exactly, in finite
  * time.
  *
  * **Speed.** The output is never faster than the fastest input so far (norms of the linear and of the angular part
  * separately; the twist given to reset() counts as an input), however the input turns: inputs limited by limitTwist()
  * give outputs within its limits. Ramps per component alone do not guarantee that: combined, they overshoot when the
- * input turns. Proof: from velocity v and acceleration a, braking with the full jerk J against a leads straight to p =
- * v + a |a| / (2 J). While |v| and |p| are at most V, a ball being convex, braking never leaves the ball of radius V,
- * and neither v nor p of the next cycle does. Where the ramps would leave V = max(|input|, |v|, |p|), the cycle mixes
- * ramps and braking, with as much of the ramps as V allows; velocity, acceleration and jerk of a mixture are within the
- * bounds of its parts.
+ * input turns. Proof: from velocity v and acceleration a, braking with the full jerk J against a leads straight to
+ * p = v + a |a| / (2 J). While |v| and |p| are at most V, a ball being convex, braking never leaves the ball of radius
+ * V, and neither v nor p of the next cycle does. Where the ramps would leave V = max(|input|, |v|, |p|), the cycle
+ * mixes ramps and braking, with as much of the ramps as V allows; velocity, acceleration and jerk of a mixture are
+ * within the bounds of its parts.
  *
  * \code
  * vpTwistShaper shaper(limits);
