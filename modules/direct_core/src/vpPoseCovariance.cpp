@@ -11,7 +11,7 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-// A trace that is negative or no number is no knowledge.
+// A negative or NaN trace counts as unknown.
 double deviation(bool known, double trace)
 {
   return known && trace >= 0. ? std::sqrt(trace) : std::numeric_limits<double>::infinity();

@@ -21,7 +21,7 @@ double vpQuantileInPlace(double *begin, double *end, double share) noexcept
   double *const low = begin + static_cast<std::ptrdiff_t>(below);
   std::nth_element(begin, low, end);
   const double rest = place - below;
-  if (rest == 0.) { // also keeps infinities clear of 0 * inf
+  if (rest == 0.) { // also avoids 0 * inf
     return *low;
   }
   const double high = *std::min_element(low + 1, end);

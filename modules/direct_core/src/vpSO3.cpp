@@ -45,14 +45,14 @@ double angleMinusSinOverAngle3(double a2)
   return (a - std::sin(a)) / (a2 * a);
 }
 
-// Of any length; NaN for a vector of zeros or one that is not finite.
+// Unit vector along a of any length; NaN for a zero or non-finite vector.
 Eigen::Vector3d unit(const Eigen::Vector3d &a)
 {
-  const Eigen::Vector3d scaled = a / a.cwiseAbs().maxCoeff(); // squares neither overflow nor vanish
+  const Eigen::Vector3d scaled = a / a.cwiseAbs().maxCoeff(); // so that squares neither overflow nor underflow
   return scaled / scaled.norm();
 }
 
-// The minimal rotation between unit vectors at an angle of at most 90 deg.
+// Minimal rotation between unit vectors at most 90 deg apart.
 Eigen::Matrix3d acuteRotation(const Eigen::Vector3d &a, const Eigen::Vector3d &b, double cosine)
 {
   const Eigen::Matrix3d k = skew(a.cross(b));
@@ -76,7 +76,7 @@ Eigen::Matrix3d exp(const Eigen::Vector3d &e)
 
 Eigen::Vector3d log(const Eigen::Matrix3d &R)
 {
-  // Through the quaternion: well conditioned for every angle, no branch on the trace is needed beyond Eigen's own.
+  // Via the quaternion: well conditioned at every angle, no branch on the trace needed beyond Eigen's own.
   Eigen::Quaterniond q(R);
   if (q.w() < 0.) {
     q.coeffs() = -q.coeffs();
@@ -115,11 +115,11 @@ Eigen::Matrix3d minimalRotation(const Eigen::Vector3d &from, const Eigen::Vector
   if (!(cosine < 0.)) {
     return acuteRotation(a, b, cosine);
   }
-  // The quotient above loses digits towards opposite directions. So a half turn to -a first, about an axis that is exactly
+  // The quotient above loses digits near opposite directions. So first a half turn to -a, about an axis exactly
   // perpendicular to a, then the acute rotation from there. a + b is exact where it is small, hence so is the axis.
   Eigen::Vector3d axis = unit(a.cross(a + b));
   axis -= a.dot(axis) * a;
-  if (!(axis.squaredNorm() > 0.5)) { // opposite to the last digit
+  if (!(axis.squaredNorm() > 0.5)) { // opposite to within rounding
     axis = a.unitOrthogonal();
   }
   axis.normalize();

@@ -14,7 +14,7 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-// Squares overflow from 1e154 on. (std::hypot of three numbers loses a NaN in the middle of zeros.)
+// Squares overflow from 1e154 on. (std::hypot of three numbers loses a NaN among zeros.)
 double norm(double x, double y, double z) { return std::hypot(std::hypot(x, y), z); }
 } // namespace
 

@@ -95,7 +95,7 @@ TEST_CASE("minimal rotation takes one direction to the other about their common 
     const Eigen::Vector3d b = i % 3 == 0 ? randomDirection(rng) : near;
     const Eigen::Matrix3d R = vpSO3::minimalRotation(std::pow(10., length(rng)) * a, std::pow(10., length(rng)) * b);
     CAPTURE(i, a.transpose(), b.transpose());
-    // A rotation and at b, to some roundings of products of numbers up to 1.
+    // R is a rotation and maps a to b, to a few roundings of products of numbers up to 1.
     REQUIRE((R * R.transpose() - Eigen::Matrix3d::Identity()).norm() < 4e-15);
     REQUIRE(R.determinant() > 0.);
     REQUIRE((R * a - b).norm() < 4e-15);
@@ -103,7 +103,7 @@ TEST_CASE("minimal rotation takes one direction to the other about their common 
     REQUIRE(std::abs(vpSO3::log(R).norm() - std::atan2(a.cross(b).norm(), a.dot(b))) < 4e-15);
   }
   for (const double bad : {0., -0., static_cast<double>(NAN), static_cast<double>(INFINITY)}) {
-    CHECK_FALSE(vpSO3::minimalRotation({bad, 0., 0.}, {0., 0., 1.}).allFinite()); // no direction, and no answer
+    CHECK_FALSE(vpSO3::minimalRotation({bad, 0., 0.}, {0., 0., 1.}).allFinite()); // no direction, NaN
     CHECK_FALSE(vpSO3::minimalRotation({0., 0., 1.}, {0., bad, 0.}).allFinite());
   }
 }
@@ -129,7 +129,7 @@ TEST_CASE("the length and the limit of a twist hold for every number", "[twist][
     }
     const vpTwist limited = limitTwist(v, x[6], x[7]);
     REQUIRE(limited.isFinite());
-    // Denormals have fewer digits: three components that are one unit off.
+    // Denormals have fewer digits: three components with an error of one unit.
     const double least = 3. * std::numeric_limits<double>::denorm_min();
     REQUIRE((limited.linearNorm() <= least || vpWildNumbers::atMost(limited.linearNorm(), x[6], 3e-15)));
     REQUIRE((limited.angularNorm() <= least || vpWildNumbers::atMost(limited.angularNorm(), x[7], 3e-15)));

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Medians and percentiles against a sort; how well a pose is known when nobody said so.
+// Medians and percentiles against a sort; unknown pose covariance.
 #include <visp3/direct_core/vpPoseCovariance.h>
 #include <visp3/direct_core/vpQuantile.h>
 

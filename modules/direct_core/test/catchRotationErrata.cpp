@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Thesis (5.6) and (5.7): the printed formulas beside those of vpSO3, on the same rotations. See doc/errata.md.
+// Thesis (5.6) and (5.7): the printed formulas compared with vpSO3, on the same rotations. See doc/errata.md.
 #include "vpCatch.h"
 
 #include <visp3/direct_core/vpSO3.h>
@@ -19,7 +19,7 @@ Eigen::Vector3d randomDirection(std::mt19937_64 &rng)
   return Eigen::Vector3d(gauss(rng), gauss(rng), gauss(rng)).normalized();
 }
 
-// (5.6) with the sign of its second term to choose; sinc as the text defines it.
+// (5.6) with selectable sign of its second term; sinc as defined in the text.
 Eigen::Matrix3d interaction(const Eigen::Vector3d &e, double sign)
 {
   const double theta = e.norm();
@@ -45,7 +45,7 @@ TEST_CASE("(5.6) has the sign of the inverse rotation as printed, and the other 
   const double h = 1e-6;
   for (int k = 0; k < 1000; ++k) {
     const Eigen::Vector3d e = angle(rng) * randomDirection(rng), w = randomDirection(rng);
-    // A camera that turns with w moves cdRc to cdRc exp(w t): Eigen's angle and axis, no formula of ours.
+    // A camera that rotates with w moves cdRc to cdRc exp(w t): Eigen's angle and axis, an independent formula.
     const auto thetaU = [&](double t) {
       const Eigen::AngleAxisd turned(Eigen::AngleAxisd(e.norm(), e.normalized()).toRotationMatrix() *
                                      Eigen::AngleAxisd(t, w).toRotationMatrix());

@@ -33,7 +33,7 @@ TEST_CASE("the ends of the tails")
     CHECK(vpFisherTail(0., degrees, 3.) == 1.);
     CHECK(vpFisherTail(far, degrees, 3.) == 0.);
     CHECK(vpFisherTail(1e12, degrees, 500.) < 1e-100);
-    // With known deviation below, Fisher's is the chi-square.
+    // With a known deviation in the denominator, Fisher's is the chi-square.
     CHECK(vpFisherTail(1.3, degrees, 1e7) ==
           Approx(vpChiSquareTail(1.3 * degrees, degrees)).epsilon(1e-2).margin(1e-9));
   }

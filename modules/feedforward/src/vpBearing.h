@@ -29,7 +29,7 @@ inline double angleRatio(double r2)
   return std::atan(r) / r;
 }
 
-//! th(x, y) = atan(r) / r (-y, x, 0), rad: a point to the right asks for a turn about +y, one below for -x.
+//! th(x, y) = atan(r) / r (-y, x, 0), rad: a point to the right requires a rotation about +y, one below about -x.
 inline Eigen::Vector3d angle(const Eigen::Vector2d &p)
 {
   return angleRatio(p.squaredNorm()) * Eigen::Vector3d(-p.y(), p.x(), 0.);
@@ -49,13 +49,13 @@ inline Eigen::Matrix<double, 3, 2> jacobian(const Eigen::Vector2d &p)
   return J;
 }
 
-//! c tanh(D / c) per axis: slope 1 at zero, never beyond c.
+//! c tanh(D / c) per axis: slope 1 at zero, bounded by c.
 inline Eigen::Vector3d saturate(const Eigen::Vector3d &D, double c)
 {
   return {c * std::tanh(D.x() / c), c * std::tanh(D.y() / c), c * std::tanh(D.z() / c)};
 }
 
-//! Derivative of saturate(), one factor an axis.
+//! Derivative of saturate(), one factor per axis.
 inline Eigen::Vector3d saturateSlope(const Eigen::Vector3d &D, double c)
 {
   const Eigen::Array3d s = saturate(D, c).array() / c;

@@ -38,7 +38,7 @@ void vpFeatureLookAt::buildFrom(const vpHomogeneousMatrix &cdMc, const vpHomogen
   for (unsigned int i = 0; i < 3; ++i) {
     s[i] = e[i];
   }
-  // d' = -R v: the direction to the object turns against the camera's motion.
+  // d' = -R v: the direction to the object rotates against the camera's motion.
   const Eigen::Matrix3d inverseJacobian = vpSO3::rightJacobianInverse(e);
   m_interaction << inverseJacobian * R.transpose() * lookAt.rate * R, inverseJacobian;
 }

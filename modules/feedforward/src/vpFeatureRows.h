@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpFeatureRows.h
- * \brief What the features of this module share: choosing rows as vpServo asks for them.
+ * \brief Common code of the features of this module: row selection as requested by vpServo.
  */
 #ifndef vpFeatureRows_h
 #define vpFeatureRows_h
@@ -20,7 +20,7 @@ BEGIN_VISP_NAMESPACE
 
 namespace vpFeatureRows
 {
-//! The rows of \e L that \e select names.
+//! The rows of \e L selected by \e select.
 inline vpMatrix select(const Eigen::Matrix<double, 3, 6> &L, unsigned int select)
 {
   vpMatrix rows;
@@ -36,7 +36,7 @@ inline vpMatrix select(const Eigen::Matrix<double, 3, 6> &L, unsigned int select
   return rows;
 }
 
-//! "name: s0 s1 s2" with the chosen components.
+//! "name: s0 s1 s2" with the selected components.
 inline void print(const char *name, const vpColVector &s, unsigned int select)
 {
   std::cout << name << ":";

@@ -22,7 +22,7 @@ namespace
 constexpr vpFieldCheck fields("the stability margin");
 constexpr unsigned int bearingDirections = 16;
 
-// Points of a spiral from pole to pole at equal areas: even cover of the sphere for any number of them.
+// Points of an equal-area spiral from pole to pole: even coverage of the sphere for any number of points.
 Eigen::Vector3d sphereSample(unsigned int i, unsigned int count)
 {
   const double z = 1. - (2. * i + 1.) / count;
@@ -53,7 +53,7 @@ double feedforwardSumStabilityMargin(double bearing, double rotation, double kap
         const Eigen::Vector3d S(corner & 1, corner >> 1, 0.);
         const Eigen::Matrix3d A = L + kappa * S.asDiagonal() * M;
         solver.computeDirect(0.5 * (A + A.transpose()), Eigen::EigenvaluesOnly);
-        if (!(solver.eigenvalues()[0] >= least)) { // NaN is no margin
+        if (!(solver.eigenvalues()[0] >= least)) { // NaN is not a margin
           least = solver.eigenvalues()[0];
         }
       }

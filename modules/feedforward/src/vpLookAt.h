@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpLookAt.h
- * \brief The orientation that keeps an object at its place in the image while the camera translates, and its rate.
+ * \brief The orientation that keeps an object at its image position while the camera translates, and its rate.
  */
 #ifndef vpLookAt_h
 #define vpLookAt_h
@@ -16,13 +16,13 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
- * With O* the object's origin in the desired camera frame and t the camera's position in it, d = O* - t points from
- * the camera to the object, and R_la is the rotation of least angle from d* = O* to d. A camera with that orientation
+ * With O* the object's origin in the desired camera frame and t the camera's position in it, d = O* - t points from the
+ * camera to the object, and R_la is the rotation of smallest angle from d* = O* to d. A camera with that orientation
  * sees the object in the direction d*, as the desired camera does.
  */
 struct vpLookAt {
   bool
-      defined; //!< False when the camera is at the object's origin or looks from the opposite side, or a number is wild.
+      defined; //!< False when the camera is at the object's origin or looks from the opposite side, or invalid numbers.
   Eigen::Matrix3d rotation; //!< R_la, in the desired camera frame.
   /*!
    * Spatial angular velocity of R_la, in the desired camera frame, per d'. Of all rates with n' = rate x n, with n = d
@@ -36,8 +36,8 @@ struct vpLookAt {
   {
     const Eigen::Vector3d d = origin - t;
     const double length = d.norm(), goalLength = origin.norm();
-    // Nearer than a tenth of a millimetre, or within 0.1 deg of the opposite side, the direction is noise. Comparisons are
-    // written so that NaN, and what overflows, fails them.
+    // Closer than a tenth of a millimetre, or within 0.1 deg of the opposite side, the direction is noise. Comparisons
+    // are written so that NaN and overflows fail them.
     if (!(length > 1e-4 && goalLength > 1e-4 && length < 1e9 && goalLength < 1e9)) {
       return;
     }

@@ -17,11 +17,11 @@ BEGIN_VISP_NAMESPACE
 
 /*!
  * The mean of image points is not the image of a point of the object, so the interaction matrix of one point at the
- * mean is only near the truth. The mean of the points' interaction matrices is exact, and costs a few sums.
- * Rows: mean x, mean y, mean Z. For a single point these are the rows of the text books.
+ * mean is only approximate. The mean of the points' interaction matrices is exact, and costs a few sums. Rows: mean x,
+ * mean y, mean Z. For a single point these are the textbook rows.
  */
 struct vpMeanPoint {
-  unsigned int count = 0;         //!< Points visible now and in the goal; the rest is meaningless when 0.
+  unsigned int count = 0;         //!< Points visible now and in the goal; if 0, the rest is invalid.
   Eigen::Vector2d xy;             //!< Mean of (x, y) now.
   Eigen::Vector2d goalXy;         //!< Mean of (x, y) of the same points in the goal.
   double Z;                       //!< Mean depth now, m.

@@ -18,7 +18,7 @@ BEGIN_VISP_NAMESPACE
 namespace
 {
 constexpr double timeTolerance = 1e-9;
-// A point nearer than this has left every lens's range, and its image is about to become infinite.
+// A point nearer than this is out of range of any lens, and its image coordinates become infinite.
 constexpr double nearestDepth = 1e-3;
 
 void transport(const Eigen::Matrix3d &R, const Eigen::Vector3d &t, const std::vector<vpServoPoint> &from,
@@ -58,13 +58,13 @@ vpOdometryBridge::Pose vpOdometryBridge::moved(const Pose &pose, const vpTwist &
 {
   const Eigen::Vector3d v(twist[0], twist[1], twist[2]), e = dt * Eigen::Vector3d(twist[3], twist[4], twist[5]);
   Pose next;
-  // Normalised, so that hours of small rotations are a rotation.
+  // Normalised, so that hours of small rotations remain a rotation.
   next.R = Eigen::Quaterniond(pose.R * vpSO3::exp(e)).normalized().toRotationMatrix();
   next.t = pose.t + pose.R * (vpSO3::rightJacobian(-e) * (dt * v));
   return next;
 }
 
-// The path begins anew, here and now; nothing older can be carried on.
+// Restart the path here and now; older data cannot be predicted any more.
 void vpOdometryBridge::restart(double time) noexcept
 {
   m_first = 0;
@@ -99,7 +99,7 @@ bool vpOdometryBridge::move(const vpTwist &twist, double time) noexcept
 
 bool vpOdometryBridge::correct(const vpServoMeasurement &result) noexcept
 {
-  std::size_t i = m_count; // behind the last instant that is not later than the capture
+  std::size_t i = m_count; // one past the last instant that is not later than the capture
   while (i > 0 && !(at(i - 1).time <= result.time + timeTolerance)) {
     --i;
   }
@@ -139,7 +139,7 @@ void vpOdometryBridge::predict(vpServoMeasurement &now) const noexcept
     }
   }
   now.covariance = m_last.covariance;
-  if (now.covariance.known) { // v and w of the error turn with the camera
+  if (now.covariance.known) { // v and w of the error rotate with the camera
     Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>> C(now.covariance.C.data());
     for (int block = 0; block < 6; block += 3) {
       C.middleRows<3>(block) = (R * C.middleRows<3>(block)).eval();

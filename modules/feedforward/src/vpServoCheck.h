@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpServoCheck.h
- * \brief What a law may compute with: finite, and within bounds beyond which there is no camera and no object.
+ * \brief Valid numbers for a law: finite, and within bounds that no camera or object exceeds.
  */
 #ifndef vpServoCheck_h
 #define vpServoCheck_h
@@ -22,8 +22,8 @@ BEGIN_VISP_NAMESPACE
 // Every comparison is written so that NaN fails it.
 namespace vpServoCheck
 {
-constexpr double largest = 1e6;  // m; and of x and y, which is 90 deg off the axis but for a millionth
-constexpr double nearest = 1e-9; // m, of a depth
+constexpr double largest = 1e6;  // m; also of x and y, which is 90 deg off the axis to within 1e-6
+constexpr double nearest = 1e-9; // m, smallest depth
 
 inline bool isPoint(const vpServoPoint &point)
 {

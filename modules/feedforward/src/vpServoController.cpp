@@ -15,7 +15,7 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-// No std::string: a static object elsewhere may make a controller before it were built.
+// No std::string: a static object elsewhere may create a controller before its initialisation.
 constexpr std::string_view filterSuffix = "+cbf";
 } // namespace
 

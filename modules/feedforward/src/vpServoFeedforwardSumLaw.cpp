@@ -13,8 +13,8 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-// The law of thesis 5.3, corrected: (5.26) and (5.28) swap the image axes and lack a sign. PBVS-1 whose rotation error
-// also contains the angle by which the object is off the place in the image where it shall be seen.
+// The FF-PBVS law of thesis 5.3, corrected: (5.26) and (5.28) swap the image axes and lack a sign. PBVS-1 whose
+// rotation error also contains the bearing error of the object relative to its desired image position.
 class vpServoFeedforwardSum : public vpServoLaw
 {
 public:

@@ -14,9 +14,9 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-// 2-1/2 D, thesis (5.20)-(5.21): rotation from the pose; mean image point and log depth steer the translation, with the
-// motion that the rotation causes taken out, so that the mean point moves on a straight line in the image. The depth
-// ratio is that of the measured depths; det(H) of (5.21) is the ratio of the distances to a plane instead.
+// 2-1/2 D, thesis (5.20)-(5.21): rotation from the pose; mean image point and log depth control the translation, with
+// the motion caused by the rotation compensated, so that the mean point moves on a straight line in the image. The
+// depth ratio is that of the measured depths; det(H) of (5.21) is the ratio of the distances to a plane instead.
 class vpServoHybrid25d : public vpServoLaw
 {
 public:

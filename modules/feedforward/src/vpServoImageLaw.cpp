@@ -16,12 +16,12 @@ namespace
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-// Least eigenvalue of L^T L, relative to the largest, that is not taken for zero. A square of 5 mm at 2 m has 7e-12 or
-// more; fewer than three points, or points in a line, have 4e-16. The pivots of a Cholesky factor do not tell these
-// apart: there the line has up to 1e-8.
+// Smallest eigenvalue of L^T L, relative to the largest, that counts as nonzero. A square of 5 mm at 2 m has 7e-12 or
+// more; fewer than three points, or collinear points, have 4e-16. The pivots of a Cholesky factor do not separate
+// these: there the line has up to 1e-8.
 constexpr double smallestEigenvalue = 1e-13;
 
-// A roll by theta is done on a way back to 1 / cos(theta / 2) of the depth: five times at 157 deg, without end at 180.
+// A roll by theta retreats to 1 / cos(theta / 2) of the depth: five times at 157 deg, without bound at 180.
 constexpr double farthest = 5.;
 
 // Thesis (5.4) with the points' interaction matrix at the current image and depth, in normalised coordinates and with
@@ -72,7 +72,7 @@ protected:
   void goalChanged() VP_OVERRIDE { m_depth = 0.; }
 
 private:
-  double m_depth = 0.; // the larger one of those at the goal and at the first measurement for it, m; 0: not seen yet
+  double m_depth = 0.; // larger of the depths at the goal and at the first measurement for it, m; 0: not seen yet
 };
 } // namespace
 

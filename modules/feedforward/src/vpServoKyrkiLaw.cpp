@@ -16,16 +16,16 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-// Determinant below which the rotation asked for is no longer sensible; it is 1 + x^2 + y^2 near the goal.
+// Determinant below which the required rotation is no longer sensible; it is 1 + x^2 + y^2 near the goal.
 constexpr double smallestDeterminant = 1e-2;
 
 /*
  * Kyrki et al., thesis (5.22) corrected: e = (t, x - x*, y - y*, theta u_z). The translation is that of PBVS-1; pan and
  * tilt hold the mean point, roll comes from the pose. In the full law the image motion caused by the translation is
- * taken out, so the image error decays by itself; the decoupled law, with which the thesis compares, leaves it in.
+ * compensated, so the image error decays independently; the decoupled law, used for comparison in the thesis, does not.
  *
- * The last row is row 3 of L_theta_u, so the determinant is (1 + x^2 + y^2) (row 3 . (x, y, 1)), which does vanish for
- * large rotations about the other axes: the law answers Degenerate there.
+ * The last row is row 3 of L_theta_u, so the determinant is (1 + x^2 + y^2) (row 3 . (x, y, 1)), which vanishes for
+ * large rotations about the other axes: the law returns Degenerate there.
  */
 class vpServoKyrki : public vpServoLaw
 {

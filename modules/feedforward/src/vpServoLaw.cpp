@@ -33,7 +33,7 @@ const Entry entries[] = {
 };
 
 constexpr double largestGain = 1e6;
-// An integral takes no step longer than this, s: after a pause, or with a wrong clock, it would jump to its limit.
+// Maximum integration step, s: after a pause, or with a wrong clock, an integral would jump to its limit.
 constexpr double longestStep = 0.5;
 
 bool isUsable(const vpServoMeasurement &measurement, const vpServoGoal &goal)

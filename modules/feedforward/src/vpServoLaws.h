@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpServoLaws.h
- * \brief The makers of the laws, one family a source file; vpServoLaw::create() is the only caller.
+ * \brief Factory functions of the laws, one family per source file; only called by vpServoLaw::create().
  */
 #ifndef vpServoLaws_h
 #define vpServoLaws_h

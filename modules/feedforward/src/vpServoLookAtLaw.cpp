@@ -12,15 +12,15 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-// Time over which measurements are averaged, s, and what share of the deviation of one the mean is taken to have.
+// Averaging time of measurements, s, and standard deviation of the mean relative to that of one measurement.
 constexpr double meanTime = 1., meanShare = 1. / 3.;
-// What is left of an integral, turned round, when the error tells that it is wrong.
+// Remaining fraction of an integral, with reversed sign, when the error shows that it is wrong.
 constexpr double turned = 0.8;
-// A mean as large as so many times its noise, and as so many rad, tells that the integral is wrong: less is taken away by
-// the next cycles anyway, however well it is known.
+// A mean beyond this multiple of its noise, and this angle in rad, shows that the integral is wrong: smaller errors are
+// removed by the next cycles anyway, however accurately they are known.
 constexpr double unwindDeviations = 2., unwindLeast = 0.004;
 
-// Where the camera is, seen from a goal.
+// Pose of the camera relative to a goal.
 struct Gaze {
   vpServoPose::Error error;
   vpLookAt lookAt;
@@ -38,10 +38,10 @@ struct Gaze {
 };
 
 /*
- * The recommended law. The camera translates as in PBVS-1 and turns towards R_la (vpLookAt). With the error
- * e = log(R_la^T R) and the rate of R_la, which the commanded translation causes, fed forward,
- * w = -k e + R^T rate d', e' = J_r^-1(e) (w - R^T rate d') = -k e exactly. R_la becomes the identity when the
- * translation is done, so the commanded pose is reached.
+ * The recommended FF-PBVS law. The camera translates as in PBVS-1 and rotates towards R_la (vpLookAt). With the error
+ * e = log(R_la^T R) and the rate of R_la, caused by the commanded translation, fed forward, w = -k e + R^T rate d',
+ * e' = J_r^-1(e) (w - R^T rate d') = -k e exactly. R_la becomes the identity when the translation is done, so the
+ * commanded pose is reached.
  */
 class vpServoLookAt : public vpServoLaw
 {
@@ -65,7 +65,7 @@ protected:
     return {vpServoPose::twist(v, w - integral(measurement, gaze, w, dt)), vpServoStatus::Servoing};
   }
 
-  //! Angular velocity to take off the wanted one \e w, camera frame, rad/s; zero in this law.
+  //! Angular velocity to subtract from the desired one \e w, camera frame, rad/s; zero in this law.
   virtual Eigen::Vector3d integral(const vpServoMeasurement &, const Gaze &, const Eigen::Vector3d & /*w*/,
                                    double) noexcept
   {
@@ -74,20 +74,20 @@ protected:
 };
 
 /*
- * The same with an integral term against friction and other velocity errors of the rotation axes. What is integrated is
+ * `ff-lookat` with an integral term against friction and other velocity errors of the rotation axes. The integrand is
  * not e but its distance from e_m, where e_m' = -k e_m starts at the first error and jumps with e when the goal does.
  * So the way to a far goal, which is no disturbance, leaves the integral at zero and causes no overshoot. Anti-windup:
  * - bounded norm;
- * - no integration over a step whose predecessor was not executed as asked (e_m starts again);
- * - what is within the noise is not integrated. The noise is that of the mean of e - e_m over the last second, a third of the
- *   deviation of one measurement (at ten independent ones a second it is 0.22 of it), which comes from the covariance of the
- *   pose: the turn, and the shift over the distance. The mean counts as far as it is beyond. Nothing is taken off when the
- *   covariance is not known;
- * - an integral that was wrong (a spell of biased measurements) does not stay: on an axis where that mean is clearly, by twice its
- *   noise, on the other side of it, friction is against the other direction now, and the integral changes its sign. Not
- *   all of it: what was no friction is gone after a few turns;
- * - friction turns round with the motion: when the law asks an axis to go against the integral and faster than it, the
- *   integral of this axis starts again from zero. Kept, it would double the disturbance after each reversal.
+ * - no integration over a step whose predecessor was not executed as commanded (e_m restarts);
+ * - errors within the noise are not integrated. The noise is that of the mean of e - e_m over the last second, a third
+ *   of the standard deviation of one measurement (for ten independent ones per second it is 0.22 of it), which comes
+ *   from the covariance of the pose: the rotation, and the translation over the distance. Only the part of the mean
+ *   beyond it counts. Nothing is subtracted when the covariance is not known;
+ * - a wrong integral (after a period of biased measurements) does not stay: on an axis where that mean is clearly, by
+ *   twice its noise, on the other side, friction now acts against the other direction, and the integral changes its
+ *   sign. Not all of it: a part not due to friction vanishes after a few reversals;
+ * - friction reverses with the motion: when the law requires an axis to rotate against the integral and faster than it,
+ *   the integral of this axis restarts from zero. Otherwise it would double the disturbance after each reversal.
  */
 class vpServoLookAtPi : public vpServoLookAt
 {
@@ -100,7 +100,7 @@ public:
 protected:
   void goalChanged() VP_OVERRIDE
   {
-    // Several goals may come between two steps; the model belongs to the one of the last step.
+    // Several goals may be set between two steps; the model belongs to the one of the last step.
     if (!m_goalMoved) {
       m_modelGoal = m_lastGoal;
       m_goalMoved = true;
@@ -130,7 +130,7 @@ protected:
     m_goalMoved = m_restart = false;
 
     for (int axis = 0; axis < 3; ++axis) {
-      // The integral is subtracted: of the same sign as w it opposes it.
+      // The integral is subtracted: with the same sign as w it opposes it.
       if (w[axis] * m_integral[axis] > 0. && std::abs(w[axis]) > std::abs(m_integral[axis])) {
         m_integral[axis] = 0.;
       }
@@ -162,10 +162,10 @@ protected:
 private:
   bool m_restart = true;
   bool m_goalMoved = false;
-  vpHomogeneousMatrix m_lastGoal;  // cdMo in force
-  vpHomogeneousMatrix m_modelGoal; // cdMo that m_model belongs to, when the goal has moved since
+  vpHomogeneousMatrix m_lastGoal;  // current cdMo
+  vpHomogeneousMatrix m_modelGoal; // cdMo of m_model, when the goal has moved since
   Eigen::Vector3d m_model = Eigen::Vector3d::Zero();
-  Eigen::Vector3d m_mean = Eigen::Vector3d::Zero(); // of e - e_m
+  Eigen::Vector3d m_mean = Eigen::Vector3d::Zero(); // mean of e - e_m
   Eigen::Vector3d m_integral = Eigen::Vector3d::Zero();
 };
 } // namespace

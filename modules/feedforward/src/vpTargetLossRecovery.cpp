@@ -15,9 +15,9 @@ BEGIN_VISP_NAMESPACE
 namespace
 {
 constexpr vpFieldCheck fields("the target-loss recovery");
-// Slower than this, m/s and rad/s, is standing still: not worth a place in the memory.
+// Slower than this, m/s and rad/s, counts as standing still and is not recorded.
 constexpr double slowest = 1e-6;
-// No robot did that; to undo it within the limits would take for ever.
+// Implausible for a robot; undoing it within the limits would never end.
 constexpr double fastest = 1e3;
 // Rounding of sums of cycle times must not add a cycle.
 constexpr double timeTolerance = 1e-9;

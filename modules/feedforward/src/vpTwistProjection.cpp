@@ -17,7 +17,7 @@ namespace
 constexpr double infinity = std::numeric_limits<double>::infinity();
 // A row counts as violated beyond this, in units of the unknowns (rows have unit length).
 constexpr double violation = 1e-10;
-// A row whose part outside the span of the active ones is shorter than this counts as dependent on them.
+// A row whose part outside the span of the active ones is shorter than this counts as linearly dependent.
 constexpr double dependence = 1e-9;
 // Every pass adds or drops a row; real problems take fewer than ten passes.
 constexpr int maxPasses = 500;
@@ -29,7 +29,7 @@ bool vpTwistProjection::addRow(const Vector &a, double b) noexcept
   if (m_rowCount == capacity || !std::isfinite(length) || !std::isfinite(b)) {
     return false;
   }
-  // A row of zeros says 0 >= b, true or false for every x; left as it is, solve() finds out which.
+  // A row of zeros means 0 >= b, true or false for every x; solve() handles it.
   const double scale = length > 0. ? 1. / length : 1.;
   m_a.col(m_rowCount) = a * scale;
   m_b[m_rowCount] = b * scale;
@@ -59,7 +59,7 @@ int vpTwistProjection::mostViolatedRow() const noexcept
 
 void vpTwistProjection::activate(int row, double multiplier) noexcept
 {
-  // Turn the part of d beyond the active columns into one entry, which extends R by a column.
+  // Rotate the part of d beyond the active columns into one entry, which extends R by a column.
   for (int k = 5; k > m_activeCount; --k) {
     Eigen::JacobiRotation<double> turn;
     double length;

@@ -16,13 +16,13 @@ BEGIN_VISP_NAMESPACE
 namespace
 {
 constexpr vpFieldCheck fields("the view constraint");
-// Less than this share of the wanted speed left: stuck.
+// Less than this share of the desired speed left: deadlock.
 constexpr double deadlockShare = 0.02;
-// Wanted speeds below this, in units of the limits, are standing still, not deadlock.
+// Desired speeds below this, in units of the limits, count as standing still, not deadlock.
 constexpr double standstill = 1e-6;
-// Most that the camera may move in one period, in depths of the nearest point and, times rho1, in rad.
+// Maximum camera motion in one period, in depths of the nearest point and, times rho1, in rad.
 constexpr double mostPerPeriod = 0.125;
-// Least factor of the scaling to the wanted speed for which the margin is derived.
+// Smallest factor of the scaling to the desired speed for which the margin is derived.
 constexpr double smallestScale = 0.5;
 
 double speed(const vpTwist &twist, double maxLinear, double maxAngular)
@@ -138,7 +138,7 @@ vpServoCommand vpViewConstraintFilter::filter(const vpServoCommand &wanted, cons
     if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.Z) || !(point.Z > 0.)) {
       return invalid;
     }
-    // The margin needs a camera that neither comes near the point nor turns far within one period.
+    // The margin requires a camera that neither approaches the point nor rotates far within one period.
     limits.linear = std::min(limits.linear, mostPerPeriod * point.Z * (1. - m_config.depthUncertainty) / period);
     limits.angular = std::min(limits.angular, mostPerPeriod / (std::hypot(1., m_radius) * period));
   }
@@ -165,7 +165,7 @@ vpServoCommand vpViewConstraintFilter::filter(const vpServoCommand &wanted, cons
     x = m_projection.solution();
     const double solvedSpeed = std::max(x.head<3>().norm(), x.tail<3>().norm());
     const double scale = solvedSpeed > startSpeed ? startSpeed / solvedSpeed : 1.;
-    // Points outside the image have to come back at whatever speed; a guarantee for the border does not exist there.
+    // Points outside the image have to return at any speed; there is no guarantee for the border there.
     if (scale >= smallestScale || !m_inside) {
       for (int i = 0; i < 6; ++i) {
         command.v[i] = scale * x[i] * (i < 3 ? limits.linear : limits.angular);

@@ -26,7 +26,7 @@ std::string read(const std::string &name)
   return std::string(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
 }
 
-// Stands in for ViSP's robot: flies as it is told.
+// Stands in for ViSP's robot: executes the commanded velocity.
 struct vpRobot {
   enum Frame { CAMERA_FRAME };
   vpHomogeneousMatrix cMo;
@@ -55,13 +55,13 @@ TEST_CASE("the controller example of the README reaches its goal", "[readme]")
 vpServoControllerConfig config;
 config.view = vpViewConstraintConfig::fromCamera(camera, 640, 480);
 vpServoController servo = vpServoController::create("ff-lookat-pi+cbf", config);
-servo.setGoal(goal);       // cdMo and the object's points as the desired camera sees them
+servo.setGoal(goal);       // cdMo and the object's points in the desired camera
 vpServoCommand command;
 do {
   seen = look();           // seen.valid = false when the target was not found
   command = servo.update(seen, 0.01);
   robot.setVelocity(vpRobot::CAMERA_FRAME, command.v.toColVector());
-} while (isWorking(command.status) && !closeEnough(seen)); // message(command.status) tells what else ended it
+} while (isWorking(command.status) && !closeEnough(seen)); // message(command.status) gives any other reason
 robot.setVelocity(vpRobot::CAMERA_FRAME, vpColVector(6));
   // clang-format on
   CHECK(cycles < 2000);

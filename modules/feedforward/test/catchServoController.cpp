@@ -19,7 +19,7 @@ struct Segment {
   double endDegrees, pastDegrees, imageError; // deg, deg, normalised
 };
 
-// One segment of 8 s. past: how far the rotation went beyond the goal, along its first error.
+// One segment of 8 s. past: overshoot of the rotation beyond the goal, along its first error.
 Segment runSegment(vpServoController &servo, Plant &plant, const vpHomogeneousMatrix &cdMo,
                    const std::vector<Eigen::Vector3d> &points, bool streamed)
 {
@@ -55,7 +55,7 @@ TEST_CASE("the integral of ff-lookat-pi removes friction without overshoot", "[c
       CAPTURE(vpTestSupport::seed(), deadband, streamed);
       auto servo = vpServoController::create("ff-lookat-pi");
       Plant plant(facing(0., 0.), deadband, vpTestSupport::seed());
-      // Pose 1 -> 2 -> 1 -> 3: 28.4 deg each; friction turns round in the second and goes on in the third.
+      // Pose 1 -> 2 -> 1 -> 3: 28.4 deg each; friction reverses in the second and continues in the third.
       for (const vpHomogeneousMatrix &cdMo : {facing(0.2, 0.1), facing(0., 0.), facing(-0.2, 0.1)}) {
         const Segment segment = runSegment(servo, plant, cdMo, points, streamed);
         CHECK(segment.endDegrees < 0.2);
@@ -143,7 +143,7 @@ TEST_CASE("the controller tells the law when the filter limits its twist", "[con
   measure(pose(turn(0.02, Eigen::Vector3d::UnitX()), Eigen::Vector3d::Zero()) * cdMo, points, near);
   servo.setGoal(goal(cdMo, points));
   fresh.setGoal(goal(cdMo, points));
-  for (int i = 0; i < 500; ++i) { // slower than asked for seconds: no reason to integrate
+  for (int i = 0; i < 500; ++i) { // slower than commanded for seconds: no reason to integrate
     REQUIRE(servo.update(far, 0.01).status == vpServoStatus::ViewLimited);
   }
   CHECK(servo.update(near, 0.01).v[3] == Approx(fresh.update(near, 0.01).v[3]).epsilon(1e-9));
@@ -169,7 +169,7 @@ TEST_CASE("the pipeline goes through its statuses", "[controller]")
   vpHomogeneousMatrix cMo = facing(0., 0.);
   measure(cMo, points, measurement);
   CHECK(step(measurement).status == vpServoStatus::NoGoal);
-  servo.setGoal(goal(facing(0.3, 0.), points)); // turns faster than it translates: the object gets to the border
+  servo.setGoal(goal(facing(0.3, 0.), points)); // rotates faster than it translates: the object reaches the border
   for (int i = 0; i < 100; ++i) {
     measure(cMo, points, measurement);
     cMo = move(cMo, step(measurement).v, 0.01);

@@ -2,8 +2,8 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Printed control laws of thesis chapter 5 beside those used here, on the same random poses. The oracle is ViSP's
-// exponential map: what the errors do while the camera moves as the law says. See doc/errata.md.
+// Printed control laws of thesis chapter 5 compared with those used here, on the same random poses. The oracle is
+// ViSP's exponential map: the evolution of the errors while the camera follows the law. See doc/errata.md.
 #include "vpCatch.h"
 #include "vpServoScene.h"
 
@@ -50,7 +50,7 @@ Eigen::VectorXd rate(const Quantity &quantity, const vpHomogeneousMatrix &cMo, c
   return (quantity(move(cMo, v, h)) - quantity(move(cMo, v, -h))) / (2. * h);
 }
 
-// The law's answer with all gains 1.
+// Output of the law with all gains 1.
 vpTwist answer(const std::string &id, const Situation &s)
 {
   auto law = vpServoLaw::create(id);
@@ -95,7 +95,7 @@ TEST_CASE("(5.16) as printed is the motion of the object: the camera leads the i
     const Quantity point = [](const vpHomogeneousMatrix &cMo) { return Eigen::VectorXd(image(cMo)); };
     const Vector6 w = Eigen::Map<const Vector6>(twist.data());
     REQUIRE((rate(point, s.cMo, twist) + printed * w).norm() < 1e-6);
-    // So the law (5.8) with it drives the error up as fast as it should fall.
+    // So the law (5.8) with it increases the error as fast as it should decrease.
     const Eigen::Vector2d e = image(s.cMo) - image(s.cdMo);
     const Vector6 law = -printed.transpose() * (printed * printed.transpose()).inverse() * e;
     REQUIRE((rate(point, s.cMo, twistOf(law)) - e).norm() < 1e-6);
@@ -118,7 +118,7 @@ TEST_CASE("(5.22): the first block is R, not the identity, and the roll needs th
     REQUIRE((rate(place, s.cMo, twist) - s.R() * v).norm() < 1e-6);
     REQUIRE((rate(place, s.cMo, twist) - v).norm() > 1e-3);
     wrongRow += std::abs(rate(roll, s.cMo, twist)[0] - twist[5]) > 0.05; // (0 0 0 0 0 1) v as printed
-    // The law lets the camera fly straight and the roll decay at the same time.
+    // The law makes the camera move straight and the roll decay at the same time.
     const vpTwist kyrki = answer("kyrki", s);
     REQUIRE((rate(place, s.cMo, kyrki) + t).norm() < 1e-6);
     REQUIRE(std::abs(rate(roll, s.cMo, kyrki)[0] + s.thetaU().z()) < 1e-5);
@@ -128,7 +128,7 @@ TEST_CASE("(5.22): the first block is R, not the identity, and the roll needs th
 
 TEST_CASE("(5.26) and (5.28) as printed turn about the wrong axis: the object goes aside, not back", "[errata]")
 {
-  // Camera at the goal, except that the object is off its place by u: only the image term acts.
+  // Camera at the goal, except that the object is displaced by u: only the image term acts.
   for (const double u : {-0.3, -0.1, 0.1, 0.3}) {
     const vpHomogeneousMatrix cdMo = pose(Eigen::Matrix3d::Identity(), {0., 0., 1.});
     const Situation s{cdMo, pose(Eigen::Matrix3d::Identity(), {u, 0., 1.})};

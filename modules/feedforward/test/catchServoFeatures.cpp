@@ -125,7 +125,8 @@ TEST_CASE("interaction matrices equal finite differences of the motion", "[featu
       moved.buildFrom(s.cdMo * cMo.inverse(), origin(cMo), origin(s.cdMo));
       return moved.get_s();
     });
-    // Central differences leave h^2 / 6 times the third derivative: 1 / Z^3 of a translation, times kappa / c^2 of the saturation.
+    // Central differences leave h^2 / 6 times the third derivative: 1 / Z^3 of a translation, times kappa / c^2 of the
+    // saturation.
     const double Z = translation(s.cMo).z(), truncation = 1e-10 * (1. + kappa / (c * c)) / (Z * Z * Z);
     REQUIRE(largest(sum.interaction() - sumRates) < 1e-7 + truncation);
   }

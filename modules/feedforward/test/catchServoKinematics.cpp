@@ -2,8 +2,8 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// What each law promises about the motion, checked at random poses by finite differences of ViSP's exponential map: the
-// oracle knows poses and points only, none of the laws' formulas.
+// Motion guaranteed by each law, checked at random poses by finite differences of ViSP's exponential map: the oracle
+// uses poses and points only, none of the laws' formulas.
 #include "vpCatch.h"
 #include "vpServoScene.h"
 
@@ -82,7 +82,7 @@ vpTwist answer(vpServoLaw &law, const Situation &s, const vpHomogeneousMatrix &c
 
 using Quantity = std::function<Eigen::VectorXd(const vpHomogeneousMatrix &)>;
 
-// |q' + gain q|, q' along the motion that the law asks for.
+// |q' + gain q|, q' along the motion commanded by the law.
 double deviation(const Quantity &q, const vpHomogeneousMatrix &cMo, const vpTwist &v, double gain)
 {
   const double h = 1e-5;

@@ -13,7 +13,7 @@ namespace
 {
 using namespace vpServoScene;
 
-// Where each law is expected to converge, and how far it was tried.
+// Where each law is expected to converge, and the tested range.
 struct Domain {
   const char *id;
   double rotation; // between start and goal, deg
@@ -29,7 +29,7 @@ const Domain domains[] = {{"pbvs1", 179., 60., 2.},      {"pbvs1-rot2", 179., 60
 double degrees(double rad) { return rad * 180. / M_PI; }
 double radians(double deg) { return deg * M_PI / 180.; }
 
-// A start from which the goal is at most as far as the domain says.
+// A start within the domain around the goal.
 vpHomogeneousMatrix randomStart(std::mt19937_64 &rng, const Domain &domain, const vpHomogeneousMatrix &cdMo)
 {
   for (;;) {
@@ -112,7 +112,7 @@ TEST_CASE("every law answers bad input with a status and zero twist", "[laws]")
       bad = good;
       bad.points[2].x = value;
       check(bad, 0.01, vpServoStatus::InvalidInput);
-      bad.points[2].visible = false; // is then not read
+      bad.points[2].visible = false; // is then ignored
       check(bad, 0.01, vpServoStatus::Servoing);
     }
     for (double depth : {0., -0.5, nan}) {
@@ -155,7 +155,7 @@ TEST_CASE("laws without enough points are degenerate, not wild", "[laws]")
   CHECK(statusWith("ibvs", square, 3) == vpServoStatus::Servoing);
   const std::vector<Eigen::Vector3d> line = {{-0.1, 0., 0.}, {0., 0., 0.}, {0.05, 0., 0.}, {0.1, 0., 0.}};
   CHECK(statusWith("ibvs", line, 4) == vpServoStatus::Degenerate);
-  for (unsigned int k = 0; k < 200; ++k) { // a line however it lies, and a small square far away, which is enough
+  for (unsigned int k = 0; k < 200; ++k) { // a line in any direction, and a small square far away, which is enough
     auto random = vpTestSupport::generator(1300 + k);
     CAPTURE(vpTestSupport::seed(), k);
     const bool worst = k == 0; // straight ahead, 2 m away

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// What the integral of ff-lookat-pi does about measurements that are not exact, with and without their covariance.
+// Effect of inexact measurements on the integral of ff-lookat-pi, with and without their covariance.
 #include "vpCatch.h"
 #include "vpServoPlantOfTests.h"
 
@@ -12,7 +12,7 @@ namespace
 {
 using namespace vpServoPlantOfTests;
 
-// Isotropic: standard deviations of the whole shift and the whole turn.
+// Isotropic: standard deviations of the whole translation and the whole rotation.
 vpPoseCovariance covariance(double position, double rotation)
 {
   vpPoseCovariance c;
@@ -29,7 +29,7 @@ double degreesOff(const vpHomogeneousMatrix &cdMo, const vpHomogeneousMatrix &cM
   return rotationError(cdMo, cMo) / degree;
 }
 
-// Both laws see the same; what the integral adds.
+// Both laws get the same measurements; contribution of the integral.
 class Difference
 {
 public:
@@ -56,12 +56,12 @@ TEST_CASE("an error within the noise is not integrated, one beyond it is", "[int
   CAPTURE(vpTestSupport::seed());
   const auto points = object(rng, 0.16, 10);
   const vpHomogeneousMatrix cdMo = facing(0., 0.);
-  // A camera that friction holds at the same small error for a minute: a fixed point of the vision, say.
+  // A camera held by friction at the same small error for a minute: a fixed point of the vision, for example.
   vpServoMeasurement seen;
   for (const bool isKnown : {false, true}) {
     for (const double degrees : {0.15, 0.3}) {
       Difference added(goal(cdMo, points));
-      measure(cdMo, points, seen); // the model of the law's own way starts at zero
+      measure(cdMo, points, seen); // the model of the law's own motion starts at zero
       seen.covariance = isKnown ? covariance(1e-4, 0.5 * degree) : vpPoseCovariance();
       static_cast<void>(added(seen));
       measure(pose(turn(degrees * degree, Eigen::Vector3d::UnitY()), Eigen::Vector3d::Zero()) * cdMo, points, seen);
@@ -70,11 +70,11 @@ TEST_CASE("an error within the noise is not integrated, one beyond it is", "[int
         last = added(seen);
       }
       CAPTURE(isKnown, degrees, last.transpose());
-      // Not known: as ever, up to the limit of 0.5 rad/s or 1 / s^2 times the error times a minute.
+      // Unknown: as without covariance, up to the limit of 0.5 rad/s or 1 / s^2 times the error times a minute.
       const double all = std::min(0.5, degrees * degree * 60.);
       const double beyond = std::min(0.5, std::max(degrees - 0.5 / 3., 0.) * degree * 60.); // of the mean
       CHECK(last.norm() ==
-            Approx(isKnown ? beyond : all).epsilon(0.05).margin(1e-12)); // the mean comes in within a second or two
+            Approx(isKnown ? beyond : all).epsilon(0.05).margin(1e-12)); // the mean builds up within a second or two
     }
   }
 }
@@ -102,7 +102,8 @@ TEST_CASE("noise alone does not wind the integral up", "[integral][covariance]")
     }
   }
   CAPTURE(most[0], most[1]);
-  // A random walk of one step of e 0.1 s / s^2 a frame, of which the covariance leaves the few beyond the noise of the mean.
+  // A random walk of one step of e 0.1 s / s^2 per frame, of which the covariance leaves the few beyond the noise of
+  // the mean.
   CHECK(most[0] < 5. * std::sqrt(frames) * 0.1 * noise);
   CHECK(most[1] < 2.5 * std::sqrt(frames) * 0.1 * noise);
   CHECK(most[1] < 0.8 * most[0]);
@@ -116,7 +117,7 @@ TEST_CASE("a small error that is well known does not turn an integral that is ri
   const vpHomogeneousMatrix cdMo = facing(0., 0.);
   Difference added(goal(cdMo, points));
   vpServoMeasurement seen;
-  measure(cdMo, points, seen); // the model of the law's own way starts at zero
+  measure(cdMo, points, seen); // the model of the law's own motion starts at zero
   seen.covariance = covariance(1e-6, 0.005 * degree);
   static_cast<void>(added(seen));
   const auto held = [&](double degrees, int cycles) {
@@ -155,9 +156,10 @@ TEST_CASE("a wrong integral of a biased spell is gone in seconds", "[integral][c
           return degreesOff(cdMo, plant.cMo());
         };
         CHECK(run(8., 0.) < 0.25);
-        CHECK(run(6., biasDegrees) > 0.5 * std::abs(biasDegrees)); // believed, for nothing tells otherwise
-        // Turned round, a fifth of the friction is missing: with the gains of 2 / s and 1 / s^2 an error of 0.1 deadband, which
-        // fades within 2 s; and what is too small to tell that the integral is wrong: without a covariance 0.23 deg an axis.
+        CHECK(run(6., biasDegrees) > 0.5 * std::abs(biasDegrees)); // integrated, because nothing contradicts it
+        // With reversed sign, a fifth of the friction is missing: with the gains of 2 / s and 1 / s^2 an error of 0.1
+        // deadband, which decays within 2 s; and errors too small to show that the integral is wrong: without a
+        // covariance 0.23 deg per axis.
         CHECK(run(5., 0.) < 0.5);
         CHECK(run(5., 0.) < (isKnown ? 0.25 : 0.4));
       }

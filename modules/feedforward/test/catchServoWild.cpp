@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Wild numbers in every field of a measurement, of a goal and of the time, for every law; and ibvs that runs away.
+// Invalid numbers in every field of a measurement, of a goal and of the time, for every law; and divergence of ibvs.
 #include "vpCatch.h"
 #include "vpServoScene.h"
 #include "vpWildNumbers.h"
@@ -60,7 +60,7 @@ void put(const Numbers &x, vpServoMeasurement &m, double &dt)
   dt = x[k];
 }
 
-// What may leave a step: finite, zero with an error, and no faster than the largest gain times the largest distance.
+// Valid output of a step: finite, zero with an error, and no faster than the largest gain times the largest distance.
 void check(const vpServoCommand &command)
 {
   REQUIRE(command.v.isFinite());
@@ -250,7 +250,7 @@ TEST_CASE("ibvs that runs away from the target says so and stops; a roll it can 
     if (degrees > 157.) {
       CHECK(command.v.linearNorm() == 0.);
       CHECK(std::string(toString(command.status)) == "Diverging");
-      law->setGoal(goal(cMo, points)); // a goal that is near: on it goes
+      law->setGoal(goal(cMo, points)); // a nearby goal: it continues
       CHECK(law->update(seen, 0.01).status == vpServoStatus::Servoing);
     }
   }

@@ -122,8 +122,8 @@ TEST_CASE("the optimality conditions hold on random problems of every size", "[p
     changed += qp.activeCount() > 0;
     full += qp.activeCount() == 6;
   }
-  CHECK(changed > 15000); // the problems are problems,
-  CHECK(full > 100);      // down to those that leave no freedom
+  CHECK(changed > 15000); // the problems are not trivial,
+  CHECK(full > 100);      // including some without freedom left
 }
 
 TEST_CASE("small problems agree with trying all active sets, infeasible ones included", "[projection]")
@@ -134,7 +134,7 @@ TEST_CASE("small problems agree with trying all active sets, infeasible ones inc
   int infeasible = 0;
   for (int run = 0; run < 400; ++run) {
     Problem p = randomProblem(rng, run % 8);
-    if (run % 4 == 3 && p.a.size() > 1) { // contradict the first row, by a combination half of the time
+    if (run % 4 == 3 && p.a.size() > 1) { // contradict the first row, half of the time by a combination
       p.a.back() = -p.a[0] - (run % 8 == 3 ? p.a[1] : Vector::Zero());
       p.b.back() = -p.b[0] - (run % 8 == 3 ? p.b[1] : 0.) + 0.1;
     }

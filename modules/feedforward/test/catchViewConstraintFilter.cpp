@@ -38,7 +38,7 @@ struct Task {
   vpHomogeneousMatrix cdMo, start;
 };
 
-// The object is inside both views, anywhere in them and up to the border; everything else is random.
+// The object is inside both views, anywhere up to the border; everything else is random.
 Task randomTask(std::mt19937_64 &rng)
 {
   Task task;
@@ -137,7 +137,7 @@ TEST_CASE("no twist whatever takes a point over the border", "[filter]")
       cMo = move(cMo, command.v, config.period);
     }
   }
-  CHECK(closest < 0.005); // the border was reached for: 4 px
+  CHECK(closest < 0.005); // the border was approached: 4 px
 }
 
 TEST_CASE("wrong depths within their bound do no harm", "[filter]")
@@ -154,7 +154,7 @@ TEST_CASE("wrong depths within their bound do no harm", "[filter]")
     vpHomogeneousMatrix cMo = task.start;
     double factor[4];
     for (double &f : factor) {
-      f = 1. / uniform(rng, 0.7, 1.3); // true depth = (1 +- 0.3) x the depth told
+      f = 1. / uniform(rng, 0.7, 1.3); // true depth = (1 +- 0.3) x the given depth
     }
     vpTwist v;
     for (int i = 0; i < 300; ++i) {
@@ -222,8 +222,8 @@ TEST_CASE("a point outside the view comes back however little motion is wanted",
 
 TEST_CASE("a point on the very border stays inside during the next period at full speed", "[filter]")
 {
-  // What the margin is derived for. Half of the twists slide the point along the border and roll at the same time, so
-  // that its path curves outwards: the worst there is.
+  // Worst case for which the margin is derived. Half of the twists slide the point along the border and roll at the
+  // same time, so that its path curves outwards.
   const unsigned int seed = vpTestSupport::seed();
   auto rng = vpTestSupport::generator(71);
   const vpViewConstraintConfig config = vga();

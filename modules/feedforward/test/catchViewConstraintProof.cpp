@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Attacks on the promise of vpViewConstraintFilter, and wild numbers.
+// Adversarial tests of the guarantee of vpViewConstraintFilter, and invalid numbers.
 #include "vpCatch.h"
 #include "vpServoScene.h"
 #include "vpWildNumbers.h"
@@ -27,7 +27,7 @@ double logUniform(std::mt19937_64 &rng, double low, double high)
   return std::exp(uniform(rng, std::log(low), std::log(high)));
 }
 
-// A view, and how it is asked for.
+// A view and the parameters of a request.
 vpViewConstraintConfig randomConfig(std::mt19937_64 &rng)
 {
   vpViewConstraintConfig config;
@@ -57,7 +57,8 @@ double inside(std::mt19937_64 &rng, double low, double high)
   }
 }
 
-// How far outside the view a point gets under a constant twist, at 16 times up to T: P' = -v - w x P, by Runge-Kutta.
+// Maximum distance of a point outside the view under a constant twist, at 16 times up to T: P' = -v - w x P, by
+// Runge-Kutta.
 double farthest(const vpServoPoint &start, const vpTwist &twist, double T, const vpViewConstraintConfig &config)
 {
   const Eigen::Vector3d v(twist[0], twist[1], twist[2]), w(twist[3], twist[4], twist[5]);

@@ -30,14 +30,14 @@ TEST_CASE("untouched, limited and stuck are told apart", "[filter]")
   CHECK(command.v[0] == Approx(1.));
   CHECK(command.v[5] == Approx(0.5));
 
-  // Two opposite borders reached: the only way for vz > 0 is blocked, and nothing else is wanted.
+  // Two opposite borders reached: the only motion for vz > 0 is blocked, and no other is desired.
   const double inset = filter.margin(0.5, 0.1, 0.15, 0.01);
   const std::vector<vpServoPoint> wide = {{config.left + inset, 0., 0.5, true}, {config.right - inset, 0., 0.5, true}};
   command = filter.filter(wanted(vpTwist(0., 0., 0.1, 0., 0., 0.)), wide, 0.01);
   CHECK(command.status == vpServoStatus::Deadlock);
   CHECK(command.v.linearNorm() < 2e-3);
   command = filter.filter(wanted(vpTwist()), wide, 0.01);
-  CHECK(command.status == vpServoStatus::Servoing); // nothing wanted is not stuck
+  CHECK(command.status == vpServoStatus::Servoing); // no desired motion is no deadlock
 
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const vpServoPoint &bad :

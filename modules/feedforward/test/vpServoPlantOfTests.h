@@ -17,8 +17,8 @@ using namespace vpServoScene;
 
 constexpr double degree = M_PI / 180.;
 
-//! Robot and vision of plants B and D of the comparison, as far as the law sees them: 100 Hz loop, the error of the
-//! vision new at 10 Hz, velocity lag 30 ms, and a rotational deadband for friction.
+//! Robot and vision of plants B and D of the comparison, as seen by the law: 100 Hz loop, vision error updated at
+//! 10 Hz, velocity lag 30 ms, and a rotational deadband for friction.
 class Plant
 {
 public:
@@ -27,11 +27,11 @@ public:
   {}
 
   double rotationNoise = 0.05 * degree; //!< Standard deviation of the angle, rad, about a random axis.
-  double positionNoise = 3e-4;          //!< Of the shift, m.
+  double positionNoise = 3e-4;          //!< Standard deviation of the position, m.
 
   const vpHomogeneousMatrix &cMo() const { return m_cMo; }
 
-  //! \e bias : A rotation that the vision adds in this frame.
+  //! \e bias : A rotation added by the vision in this frame.
   void measure(const std::vector<Eigen::Vector3d> &points, vpServoMeasurement &measurement,
                const Eigen::Matrix3d &bias = Eigen::Matrix3d::Identity())
   {

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpServoScene.h
- * \brief For the tests: a planar object, a camera that flies exactly as told, and random places for both.
+ * \brief For the tests: a planar object, a camera that executes the twist exactly, and random poses for both.
  */
 #ifndef vpServoScene_h
 #define vpServoScene_h
@@ -83,7 +83,7 @@ inline std::vector<Eigen::Vector3d> object(std::mt19937_64 &rng, double size, in
   return points;
 }
 
-//! What an ideal camera sees; points behind it or beyond 80 deg are not visible.
+//! Measurement of an ideal camera; points behind it or beyond 80 deg are not visible.
 inline void project(const vpHomogeneousMatrix &cMo, const std::vector<Eigen::Vector3d> &object,
                     std::vector<vpServoPoint> &points)
 {
@@ -133,7 +133,7 @@ inline bool inView(const std::vector<vpServoPoint> &points)
   return true;
 }
 
-//! Pose of an object that faces the camera more or less and whose origin is seen at the given distance and bearing.
+//! Pose of an object that faces the camera more or less, with its origin at the given distance and bearing.
 inline vpHomogeneousMatrix randomPose(std::mt19937_64 &rng, double near, double far, double bearing, double tilt)
 {
   const double z = uniform(rng, near, far), azimuth = uniform(rng, 0., 2. * M_PI);

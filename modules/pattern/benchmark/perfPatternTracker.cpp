@@ -2,8 +2,8 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Time per image and accuracy of tracking, acquisition and the baselines, with OpenCV's and ViSP's own ways of doing it
-// beside them. Deviations and biases are px; over_bound is the deviation over the Cramer-Rao bound of this pattern.
+// Time per image and accuracy of tracking, acquisition and the baselines, compared with OpenCV and ViSP. Deviations and
+// biases are px; over_bound is the deviation over the Cramer-Rao bound of this pattern.
 #include "../test/vpAnalyticPattern.h"
 #include "vpBenchmark.h"
 
@@ -23,10 +23,10 @@ using vpPatternTest::Pattern;
 
 namespace
 {
-constexpr int frames = 200; // a closed path, so that it can be gone round and round
+constexpr int frames = 200; // a closed path, so that it can be repeated
 
 struct Sequence {
-  Pattern pattern; // at its last place
+  Pattern pattern; // at its last position
   std::vector<vpImage<unsigned char>> images;
   std::vector<double> x, y; // of cell (0, 0)
 };
@@ -57,7 +57,7 @@ const Sequence &small()
   return s;
 }
 
-// Errors of centres against the true ones, and what no method can do better than.
+// Errors of centres against the true ones, and the lower bound for any method.
 class Accuracy
 {
 public:
@@ -96,7 +96,7 @@ private:
   std::vector<double> m_x, m_y;
 };
 
-// Time of each call: mean by Google Benchmark, the distribution here. The clock itself costs about 25 ns a call.
+// Time of each call: mean by Google Benchmark, the distribution here. The clock itself takes about 25 ns per call.
 template <typename Call> void measure(benchmark::State &state, std::size_t count, int rounds, Call call)
 {
   using Clock = std::chrono::steady_clock;
@@ -148,7 +148,7 @@ void track(benchmark::State &state, const Sequence &s, const vpPatternOptions &o
 
 void tracking(benchmark::State &state) { track(state, small(), vpPatternOptions()); }
 
-// A piece of work for the next template in each image instead of each 128th.
+// A unit of relearning in each image instead of each 128th.
 void trackingRefreshedAlways(benchmark::State &state)
 {
   vpPatternOptions options;
@@ -156,7 +156,8 @@ void trackingRefreshedAlways(benchmark::State &state)
   track(state, small(), options);
 }
 
-// To and fro by 8 degrees, 0.08 from image to image, and to and fro along the rows: the template is learned anew in a hurry.
+// To and fro by 8 degrees, 0.08 from image to image, and to and fro along the rows: the template is relearned at full
+// speed.
 void trackingTurning(benchmark::State &state)
 {
   constexpr int images = 400, toLearn = 100; // the first ones do not turn
@@ -214,7 +215,7 @@ void magnified(benchmark::State &state)
   track(state, sequence(width, height, 40. * std::min(1., scale), pattern), vpPatternOptions());
 }
 
-// The first image after a reset: threshold, labels, edges, lattice, names.
+// The first image after a reset: threshold, labels, edges, lattice, identities.
 void coldAcquisition(benchmark::State &state)
 {
   vpPatternOptions options;
@@ -277,7 +278,7 @@ void opencvMatchTemplate(benchmark::State &state)
   });
 }
 
-// One dot per cell that is completely in view, each tracked from its place in the image before.
+// One dot per cell completely in view, each tracked from its position in the previous image.
 void vispDot2(benchmark::State &state)
 {
   vpPatternOptions options;
@@ -287,7 +288,7 @@ void vispDot2(benchmark::State &state)
   std::size_t lost = 0, all = 0;
   Accuracy accuracy;
   measure(state, small().images.size(), 3, [&](std::size_t k) {
-    if (k % 20 == 0) { // cells leave and enter: begin anew
+    if (k % 20 == 0) { // cells leave and enter: restart
       dots.clear();
       for (const vpPatternCell &cell : finder.track(small().images[k]).cells) {
         dots.emplace_back(vpImagePoint(cell.y, cell.x));

@@ -2,8 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Levenberg-Marquardt over parameters that all views share and others that belong to one view each. The normal matrix
-// is
+// Levenberg-Marquardt over parameters shared by all views and others that belong to one view each. The normal matrix is
 // an arrow; the views are eliminated one by one, so that the effort grows with their number and not with its cube.
 #ifndef vpCalibrationBundle_h
 #define vpCalibrationBundle_h
@@ -52,7 +51,7 @@ public:
     m_mixed[k] = view.byShared.transpose() * view.byLocal;
     m_localGradient[k] = view.byLocal.transpose() * view.residual;
   }
-  // Solves with the diagonal raised by the share lambda. Answers false when the matrix is singular.
+  // Solves with the diagonal raised by the share lambda. Returns false when the matrix is singular.
   bool solve(double lambda, Eigen::VectorXd &shared, std::vector<Eigen::VectorXd> &local) const
   {
     Eigen::MatrixXd reduced = raised(m_shared, lambda);
@@ -108,7 +107,7 @@ private:
     matrix.diagonal() *= 1. + lambda;
     return matrix;
   }
-  // Parameters have units from px^-2 to px/m; only after scaling do the sizes of numbers mean something.
+  // Parameters have units from px^-2 to px/m; only after scaling are their magnitudes meaningful.
   static Eigen::MatrixXd scaledInverse(const Eigen::MatrixXd &matrix, double *condition = nullptr)
   {
     if (matrix.rows() == 0) {
@@ -116,7 +115,7 @@ private:
     }
     const Eigen::VectorXd scale = matrix.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scale.asDiagonal() * matrix * scale.asDiagonal());
-    // What rounding leaves of a direction that is not determined may be negative; its deviation shall come out large.
+    // Rounding may make the eigenvalue of an undetermined direction negative; its deviation must come out large.
     const double most = solver.eigenvalues()[matrix.rows() - 1];
     const Eigen::VectorXd values = solver.eigenvalues().cwiseMax(leastEigenvalue * most);
     if (condition != nullptr) {
@@ -134,13 +133,13 @@ private:
 };
 
 /*
- * Problem: shared() and views() give sizes; view(state, k) the residuals (NaN where the state makes no sense);
- * plus(state, shared, local) the state after a step.
+ * Problem: shared() and views() give sizes; view(state, k) the residuals (NaN where the state is invalid); plus(state,
+ * shared, local) the state after a step.
  */
 template <class Problem, class State> vpBundleSolution<State> vpSolveBundle(const Problem &problem, const State &start)
 {
   constexpr int mostIterations = 200;
-  constexpr double enough = 1e-6; // length of the last step, standard deviations
+  constexpr double enough = 1e-6; // length of the last step at convergence, standard deviations
   vpBundleSolution<State> solution;
   solution.state = start;
   const auto linearise = [&problem](const State &state, vpBundleNormal &normal) {
@@ -174,7 +173,7 @@ template <class Problem, class State> vpBundleSolution<State> vpSolveBundle(cons
       lambda = std::max(0.1 * lambda, 1e-12);
       solution.converged = small;
     }
-    else { // a small step that no longer helps is the end of what rounding allows
+    else { // a small step that no longer improves is the limit of rounding
       solution.converged = small;
       lambda *= 10.;
     }

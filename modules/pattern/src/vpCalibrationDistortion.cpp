@@ -18,7 +18,7 @@ double seenRadius(double rho, double kappa)
   if (kappa < 0. && rho > 2. / (3. * std::sqrt(-3. * kappa))) {
     return std::numeric_limits<double>::quiet_NaN();
   }
-  // Newton from the side where the curve bends towards the root, so that it comes nearer monotonically.
+  // Newton from the side where the curve bends towards the root, so that it converges monotonically.
   double r = kappa < 0. ? rho : std::min(rho, std::cbrt(rho / kappa));
   for (int i = 0; i < 60; ++i) {
     const double slope = 1. + 3. * kappa * r * r;

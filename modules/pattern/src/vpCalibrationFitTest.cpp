@@ -16,7 +16,7 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-constexpr double leastTold = 1e-9; // what other views tell of a shared direction, over what all tell
+constexpr double leastTold = 1e-9; // information of other views on a shared direction over that of all
 constexpr double leastLeft =
     1e-4;                         // share of a direction that the fit leaves; less is lost in the covariance's rounding
 constexpr double rounding = 1e-6; // px: residuals below are not noise of a measurement
@@ -27,7 +27,7 @@ struct Part {
   int degrees = 0;
 };
 
-// b' A^+ b and the rank of A, which is symmetric; directions whose eigenvalue is below the least count as none.
+// b' A^+ b and the rank of A, which is symmetric; directions with an eigenvalue below least are ignored.
 Part quadratic(const Eigen::MatrixXd &A, const Eigen::VectorXd &b, double least)
 {
   Part part;
@@ -80,7 +80,7 @@ public:
   }
 
 private:
-  // Probability that a part of the squares is so large beside the rest; NaN when there is no part or no rest.
+  // Probability that a part of the squares is this large relative to the rest; NaN when there is no part or no rest.
   [[nodiscard]] double probabilityOf(const Part &part) const
   {
     const int below = m_all.degrees - part.degrees;
@@ -94,7 +94,7 @@ private:
     return vpFisherTail(mean / rest, part.degrees, below);
   }
 
-  // With a view goes what it alone tells of the shared parameters.
+  // Information of one view alone on the shared parameters leaves with the view.
   void leaveOutViews()
   {
     const std::size_t n = m_views.size();
@@ -160,7 +160,7 @@ private:
     m_test.pointProbability = count == 0 ? m_test.pointProbability : std::min(1., worst * static_cast<double>(count));
   }
 
-  // What polynomials of the place, added to the model, would take of the squares.
+  // Squares that polynomials of the image position, added to the model, would explain.
   void lookForFields()
   {
     double worst = 2.;

@@ -13,13 +13,13 @@
 BEGIN_VISP_NAMESPACE
 
 struct vpFitTestView {
-  vpBundleView linear;        // residuals (two a point) and derivatives, in standard deviations
+  vpBundleView linear;        // residuals (two per point) and derivatives, in standard deviations
   Eigen::MatrixXd covariance; // of (shared, local of this view)
   Eigen::Matrix2Xd sigma;     // of the points, px
-  Eigen::Matrix2Xd place;     // of the points in the image, px
+  Eigen::Matrix2Xd place;     // image positions of the points, px
 };
 
-// stated: the deviations are meant as they are and not as ratios only.
+// stated: the deviations are absolute, not only ratios.
 [[nodiscard]] vpFitTest vpTestFit(const std::vector<vpFitTestView> &views, double level, bool stated);
 
 // The joint covariance of the shared and one view's own parameters.

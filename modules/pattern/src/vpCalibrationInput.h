@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// What every calibration asks of its points, in sentences.
+// Input checks common to all calibrations, with messages.
 #ifndef vpCalibrationInput_h
 #define vpCalibrationInput_h
 
@@ -23,7 +23,8 @@ void vpCheckPrincipalPoint(const char *field, double value);
 // Checks number, finiteness and standard deviations; "point 3 of view 0: u is nan, must be finite".
 void vpCheckCalibrationView(std::size_t view, const std::vector<vpCalibrationPoint> &points, std::size_t least);
 
-// How the points of a view lie: centre, principal axes (columns, longest first), standard deviations along them.
+// Distribution of the points of a view: centre, principal axes (columns, longest first), standard deviations along
+// them.
 struct vpCalibrationSpread {
   Eigen::Vector3d centre;
   Eigen::Matrix3d axes; // right-handed
@@ -34,7 +35,7 @@ struct vpCalibrationSpread {
 };
 [[nodiscard]] vpCalibrationSpread vpSpreadOf(const std::vector<vpCalibrationPoint> &points);
 
-// The same of the places in the image; sigma[2] is 0.
+// Distribution of the image positions, likewise; sigma[2] is 0.
 [[nodiscard]] vpCalibrationSpread vpImageSpreadOf(const std::vector<vpCalibrationPoint> &points);
 
 END_VISP_NAMESPACE

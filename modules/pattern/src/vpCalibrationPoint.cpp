@@ -16,7 +16,7 @@ namespace
 {
 constexpr double unknownSigma = 0.1; // px, see vpCalibrationPoints()
 
-constexpr double alike = 0.98; // of the best likeness: bases that look the same
+constexpr double alike = 0.98; // of the best similarity: bases that look the same
 
 double known(double sigma) { return std::isfinite(sigma) ? sigma : unknownSigma; }
 
@@ -33,14 +33,14 @@ Eigen::Matrix2d basisOf(const vpCalibrationPitch &pitch, const vpDotLattice &see
   return basis;
 }
 
-// How much a map is like a scaled rotation: its smaller over its larger singular value, and less when it mirrors.
+// Similarity of a map to a scaled rotation: its smaller over its larger singular value, less when it mirrors.
 double likeness(const Eigen::Matrix2d &map)
 {
   const Eigen::Vector2d s = Eigen::JacobiSVD<Eigen::Matrix2d>(map).singularValues();
   return (map.determinant() < 0. ? alike * alike : 1.) * s[1] / s[0];
 }
 
-// From (column, row) of the lattice as it was found to (column, row) as the object counts.
+// From (column, row) of the lattice found to (column, row) of the object.
 Eigen::Matrix2d renumbering(const Eigen::Matrix2d &seen, const Eigen::Matrix2d &object)
 {
   Eigen::Matrix2d best = Eigen::Matrix2d::Identity();

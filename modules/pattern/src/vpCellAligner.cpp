@@ -19,13 +19,13 @@ namespace
 constexpr int size = vpTemplateBank::basisSize;
 constexpr int maxSteps = 10;    // one, or two, unless the motion has changed a lot
 constexpr int unknowns = 4;     // rows of the basis for brightness, contrast, x and y; the slopes come after them
-constexpr double maxStep = 1.5; // px: the template says nothing about what is farther
-// Where more than half of what a side of a cell says about its axis is hidden, the other edge may be that of something
-// else, of like grey, and the other pixels would agree with it.
+constexpr double maxStep = 1.5; // px: the template contains no information farther away
+// Where more than half of the information of a side of a cell about its axis is hidden, the other edge may belong to
+// another object of similar grey value, and the other pixels would agree with it.
 constexpr double mostHidden = 0.5;
 
-// sums[k] = row k of q times w, for rows that share what is loaded of w. All numbers are 16 bits wide and the sums 32: the
-// compiler multiplies and adds pairs.
+// sums[k] = row k of q times w, for rows that share the loaded part of w. All numbers are 16 bits wide and the sums 32:
+// the compiler multiplies and adds pairs.
 struct StepSums {
   std::int64_t contrast, x, y, brightness, energy;
 };
@@ -77,7 +77,7 @@ double scaled(const vpTemplateBank::Phase &phase, int row, std::int64_t sum)
 }
 
 // z = Q' w for brightness, contrast, x and y; returns |w|^2. The row of the brightness is one number, the same in all
-// phases: that of the first stays in the cache.
+// phases: the first phase's row stays in the cache.
 double projectStep(const vpTemplateBank &bank, const vpTemplateBank::Phase &phase, const std::int16_t *w, double *z)
 {
   const vpTemplateBank::Phase &first = bank.phase(0);
@@ -99,8 +99,8 @@ void projectSlopes(const vpTemplateBank::Phase &phase, const std::int16_t *w, in
   }
 }
 
-// The window, row after row without gaps. All rows but the last are written in whole vectors: what is too much comes from
-// the row below in the image and is overwritten by the next row.
+// The window, row after row without gaps. All rows but the last are written in whole vectors: the excess comes from the
+// row below in the image and is overwritten by the next row.
 VISP_PATTERN_CLONES void toWindow(const unsigned char *from, std::ptrdiff_t stride, int columns, int rows,
                                   std::int16_t *__restrict to)
 {
@@ -127,7 +127,7 @@ VISP_PATTERN_CLONES void addRow(const std::int16_t *q, float factor, int n, floa
   }
 }
 
-// The window is in the image.
+// True when the window is in the image.
 bool fits(const vpImage<unsigned char> &image, const vpTemplateBank &bank, const vpTemplateBank::Place &place)
 {
   return place.x >= bank.halfWidth() && place.y >= bank.halfHeight() &&
@@ -143,7 +143,7 @@ Step solve(const vpTemplateBank::Phase &phase, const double *z, const vpSlopes &
 {
   double u[4];
   for (std::size_t k = 1; k < 4; ++k) {
-    // In brackets: what is known before z.
+    // In brackets: terms known before z.
     u[k] = z[k] - ((phase.r[k][4] * slopes[0] + phase.r[k][5] * slopes[1]) +
                    (phase.r[k][6] * slopes[2] + phase.r[k][7] * slopes[3]));
   }
@@ -152,7 +152,7 @@ Step solve(const vpTemplateBank::Phase &phase, const double *z, const vpSlopes &
   return {s, -ux * inverse, -uy * inverse};
 }
 
-// What the slopes should give on the rows of the basis that are theirs.
+// Contribution of the slopes to their own rows of the basis.
 void knownSlopes(const vpTemplateBank::Phase &phase, const vpSlopes &slopes, double *z)
 {
   for (std::size_t k = unknowns; k < size; ++k) {
@@ -163,7 +163,7 @@ void knownSlopes(const vpTemplateBank::Phase &phase, const vpSlopes &slopes, dou
   }
 }
 
-// What this cell alone says about the slopes.
+// Information of this cell alone about the slopes.
 vpSlopes slopesOf(const vpTemplateBank::Phase &phase, const double *z)
 {
   vpSlopes g{};
@@ -201,7 +201,7 @@ void vpCellAligner::prefetch(const vpImage<unsigned char> &image, const vpTempla
   const int width = 2 * bank.halfWidth() + 1, height = 2 * bank.halfHeight() + 1;
   if (width > line || height > most || left < 0 || top < 0 || left + width > static_cast<int>(image.getWidth()) ||
       top + height > static_cast<int>(image.getHeight())) {
-    return; // of big windows the processor sees by itself what comes next
+    return; // for big windows the processor prefetches by itself
   }
   const std::ptrdiff_t stride = image.getWidth();
   const unsigned char *from = image.bitmap + top * stride + left, *end = from + height * stride;
@@ -233,7 +233,7 @@ vpCellFit vpCellAligner::align(const vpImage<unsigned char> &image, const vpTemp
     double z[size];
     const double energy = projectStep(bank, phase, m_window, z);
     const Step s = solve(phase, z, m_slopes);
-    // Without contrast there is nothing to align with.
+    // Without contrast no alignment is possible.
     if (!(s.contrast > 0.1 && s.contrast < 10.)) {
       return fit;
     }
@@ -246,7 +246,7 @@ vpCellFit vpCellAligner::align(const vpImage<unsigned char> &image, const vpTemp
         fit.hasSlopes = true;
       }
       else {
-        knownSlopes(phase, m_slopes, z); // near enough for the sum of what is left over
+        knownSlopes(phase, m_slopes, z); // accurate enough for the sum of the residuals
       }
       double rest = energy;
       for (const double v : z) {
@@ -267,7 +267,8 @@ vpCellFit vpCellAligner::align(const vpImage<unsigned char> &image, const vpTemp
   return fit;
 }
 
-// Pixels that do not fit, and their neighbours: the rim of a speck is too faint to be seen and too dark to be right.
+// Pixels that do not fit, and their neighbours: the rim of a speck is too faint to be detected and too dark to be
+// correct.
 void vpCellAligner::findMask(int n, int columns, float limit)
 {
   std::fill_n(m_mask.begin(), n, static_cast<unsigned char>(0));
@@ -287,10 +288,11 @@ void vpCellAligner::findMask(int n, int columns, float limit)
 vpCellFit vpCellAligner::alignMasked(const vpImage<unsigned char> &image, const vpTemplateBank &bank, double x,
                                      double y, double noise)
 {
-  // Q is orthonormal over all pixels. Without the masked ones its normal matrix is the unit matrix less their products,
-  // so that each round solves four equations exactly. The slopes h come from the other cells: dirt would tilt them.
+  // Q is orthonormal over all pixels. Without the masked ones its normal matrix is the unit matrix minus their
+  // products, so that each round solves four equations exactly. The slopes h come from the other cells: dirt would tilt
+  // them.
   constexpr int maxRounds = 8, lastRounds = 3;
-  constexpr double limits[] = {6., 4.5, 3.5}; // wide open at first: the dirt has drawn the model towards itself
+  constexpr double limits[] = {6., 4.5, 3.5}; // wide at first: the dirt has biased the model towards itself
   using Vector4 = Eigen::Vector4d;
   vpCellFit fit;
   const int n = bank.pixels();
@@ -300,7 +302,7 @@ vpCellFit vpCellAligner::alignMasked(const vpImage<unsigned char> &image, const 
   Eigen::Matrix4d normal;
   Vector4 solution = Vector4::Zero();
   Step s{};
-  std::array<double, 4> hidden{}; // shares of the left, right, upper and lower side
+  std::array<double, 4> hidden{}; // hidden fractions of the left, right, upper and lower side
   bool started = false;
   for (int round = 0; round < maxRounds && settled < lastRounds; ++round) {
     const vpTemplateBank::Place next = bank.place(x, y);
@@ -371,7 +373,7 @@ vpCellFit vpCellAligner::alignMasked(const vpImage<unsigned char> &image, const 
     fit.x = place.px + std::clamp(s.dx, -maxStep, maxStep);
     fit.y = place.py + std::clamp(s.dy, -maxStep, maxStep);
     if (std::abs(s.dx) > bank.reach() || std::abs(s.dy) > bank.reach()) {
-      x = fit.x; // a new phase starts over, but with the mask nearly closed
+      x = fit.x; // a new phase restarts, but with the mask nearly closed
       y = fit.y;
     }
     settled += opening >= 3 ? 1 : 0;

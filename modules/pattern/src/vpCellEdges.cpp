@@ -12,7 +12,7 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-// The image along one axis: along(position, line) whatever the axis is, with the border repeated.
+// The image along one axis: along(position, line) for either axis, with the border repeated.
 struct View {
   const vpImage<unsigned char> &image;
   bool vertical;
@@ -26,11 +26,11 @@ struct View {
   }
 };
 
-// Where the level is crossed between two neighbouring pixels with the values a and b, in steps from a; or NaN.
+// Crossing of the level between two neighbouring pixels with the values a and b, in steps from a; or NaN.
 double crossing(double a, double b) { return a * b > 0. || a == b ? NAN : a / (a - b); }
 
-// Mean of the middle between both edges over the middle three quarters of the lines. \e along and \e across are the steps
-// in memory; the box does not touch the border of the image.
+// Mean of the midpoints between both edges over the middle three quarters of the lines. \e along and \e across are the
+// memory steps; the box does not touch the border of the image.
 double middle(const unsigned char *pixels, std::ptrdiff_t along, std::ptrdiff_t across, int low, int high,
               int firstLine, int lastLine, double level)
 {
@@ -73,7 +73,7 @@ double gradient(const View &view, int position, int line, vpPatternDerivative de
   return std::abs(difference(line));
 }
 
-// Steepest place near an edge: (7.13) and (7.14), mean over three lines. Unguarded, the parabola may run away.
+// Steepest position near an edge: (7.13) and (7.14), mean over three lines. Unguarded, the parabola may diverge.
 double steepest(const View &view, int edge, int line, vpPatternDerivative derivative, bool guarded)
 {
   double sum = 0.;
@@ -91,7 +91,7 @@ double steepest(const View &view, int edge, int line, vpPatternDerivative deriva
     sum += best + (a - c) / (2. * curvature);
     ++count;
   }
-  // The difference of two neighbours belongs between them.
+  // The difference of two neighbours is located between them.
   return count == 0 ? NAN : sum / count + (derivative == vpPatternDerivative::Roberts ? 0.5 : 0.);
 }
 

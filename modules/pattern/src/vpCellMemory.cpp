@@ -10,7 +10,7 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-// Least number of bits that count to n.
+// Smallest number of bits that count to n.
 int bitsFor(int n)
 {
   int bits = 0;

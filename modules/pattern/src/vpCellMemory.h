@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// What is remembered of each cell from frame to frame: a ring in rows and columns, of fixed size.
+// Data stored for each cell from frame to frame: a ring in rows and columns, of fixed size.
 #ifndef vpCellMemory_h
 #define vpCellMemory_h
 
@@ -26,22 +26,22 @@ public:
 
   explicit vpCellMemory(std::size_t capacity) : m_slots(capacity) {}
 
-  //! Forget everything, and make room for so many rows and columns at a time, as far as there is room.
+  //! Forget everything, and set the number of rows and columns stored at a time, within the capacity.
   void shape(int rows, int columns);
-  //! Forget everything. Takes no time: what was there belongs to another generation.
+  //! Forget everything, in constant time: old entries belong to another generation.
   void clear() { ++m_generation; }
-  //! The cell if it is remembered, or null.
+  //! The cell if it is stored, or null.
   Slot *find(int row, int column);
-  //! The cell; an older one in its place is forgotten.
+  //! The cell; an older one in its slot is forgotten.
   Slot &claim(int row, int column);
-  //! Deviation to start from: its own, or the mean of its remembered neighbours. True when it is its own.
+  //! Initial deviation: its own, or the mean of its stored neighbours. True when it is its own.
   bool deviation(int row, int column, double &x, double &y);
 
 private:
   Slot &at(int row, int column);
   std::vector<Slot> m_slots;
   unsigned int m_generation = 1;
-  int m_rowBits = 0, m_columnBits = 0; // powers of two: finding a cell takes no division
+  int m_rowBits = 0, m_columnBits = 0; // powers of two: finding a cell needs no division
 };
 
 END_VISP_NAMESPACE

@@ -48,7 +48,7 @@ inline void filter(const float *from, int count, int stride, const Taps &t, floa
   }
 }
 
-// The border of the image goes on for ever: only what is around the window of a cell may lie out there.
+// The border of the image is repeated: only the surroundings of a cell's window may lie outside.
 inline float clampedPixel(const vpImage<unsigned char> &image, int x, int y)
 {
   return static_cast<float>(image[static_cast<unsigned int>(std::clamp(y, 0, static_cast<int>(image.getHeight()) - 1))]

@@ -19,8 +19,8 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-constexpr int windows[] = {41, 21, 81, 161}; // px; the first that shows a lattice is taken
-constexpr double sizes[] = {1.7, 3.};        // factor of area: one size first, two shapes in a period are two classes
+constexpr int windows[] = {41, 21, 81, 161}; // px; the first that shows a lattice is used
+constexpr double sizes[] = {1.7, 3.};        // factor of area: one size first; two shapes per period: two classes
 
 struct Candidate {
   vpLatticeFound found;
@@ -28,7 +28,7 @@ struct Candidate {
   bool bright = false;
 };
 
-// Steps of the same lattice, to a tenth.
+// Equal lattice vectors, to a tenth.
 bool isSame(const vpLatticeFound &p, const vpLatticeFound &q)
 {
   const auto near = [](const Eigen::Vector2d &v, const Eigen::Vector2d &w) {
@@ -43,13 +43,13 @@ bool isBetter(const Candidate &candidate, const Candidate &best)
   if (candidate.found.kind == vpDotLatticeKind::None) {
     return none && candidate.spots.size() > best.spots.size();
   }
-  // In perspective the dots far out, of another size, raise the rms, but belong to it.
+  // In perspective distant dots, of another size, raise the rms, but belong to the lattice.
   const bool more = candidate.bright == best.bright && isSame(candidate.found, best.found) &&
                     candidate.found.spots.size() > best.found.spots.size();
   return none || more || candidate.found.score > best.found.score;
 }
 
-// A row is taken when it explains most spots and the plane not clearly more.
+// A row is selected when it explains most spots and the plane not clearly more.
 vpLatticeFound search(const std::vector<vpLatticeSpot> &spots, const Eigen::Vector2d &middle)
 {
   const vpLatticeFound plane = vpSearchLattice(spots, middle), row = vpSearchRow(spots);
@@ -59,7 +59,7 @@ vpLatticeFound search(const std::vector<vpLatticeSpot> &spots, const Eigen::Vect
                                                                                                                 : plane;
 }
 
-// a points most nearly to the right, b is clockwise of it as seen (y is down).
+// a points most nearly to the right, b is clockwise from it as seen (y is down).
 void orient(vpLatticeFound &found)
 {
   const auto flip = [](std::vector<int> &steps) {
@@ -143,7 +143,7 @@ const char *vpDotLattice::name() const
   if (equal) {
     return skew > 28. && skew < 32. ? "hexagonal" : "centred rectangular";
   }
-  // The other basis of a centred lattice: the longer step reaches half a shorter one aside.
+  // The other basis of a centred lattice: the longer step ends half a shorter one aside.
   const double aside = std::abs(ax * bx + ay * by) / std::pow(std::min(columnPitch(), rowPitch()), 2);
   return std::abs(aside - 0.5) < 0.03 ? "centred rectangular" : "oblique";
 }

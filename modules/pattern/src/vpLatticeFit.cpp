@@ -15,9 +15,8 @@ BEGIN_VISP_NAMESPACE
 namespace
 {
 constexpr std::size_t leastSpots = 4; // two by two
-constexpr double offLattice =
-    0.25; // pitch: how far a cell may be off its place, in a tilted view or of a flexible product
-constexpr std::size_t maxSeeds = 16; // that look for their neighbours: enough for a vote, near enough to be even
+constexpr double offLattice = 0.25;   // pitch: maximum deviation of a cell, in a tilted view or of a flexible product
+constexpr std::size_t maxSeeds = 16;  // that search their neighbours: enough for a vote, near enough to be even
 } // namespace
 
 void vpLattice::invert(double px, double py, double &row, double &column) const
@@ -43,7 +42,7 @@ vpLatticeFit::vpLatticeFit(std::size_t maxSpots)
   m_seeds.reserve(maxSpots);
 }
 
-// Area with the most others within this factor, of the sorted ones; 0 when nowhere are enough alike.
+// Area with the most others within this factor, from sorted areas; 0 when too few are alike.
 int vpLatticeFit::commonestArea(double tolerance) const
 {
   std::size_t most = 0, low = 0, high = 0;
@@ -55,7 +54,7 @@ int vpLatticeFit::commonestArea(double tolerance) const
     while (high < m_sorted.size() && m_sorted[high] <= candidate * tolerance) {
       ++high;
     }
-    // Of equal numbers the greater spots: specks of noise are alike, too.
+    // For equal numbers, the larger spots: specks of noise are alike, too.
     if (high - low >= leastSpots && (high - low) * static_cast<std::size_t>(candidate) >= most) {
       most = (high - low) * static_cast<std::size_t>(candidate);
       area = candidate;
@@ -66,14 +65,14 @@ int vpLatticeFit::commonestArea(double tolerance) const
 
 bool vpLatticeFit::keepAlike(std::vector<vpPatternSpot> &spots)
 {
-  // The commonest area: the one with the most others within a fifth; noise and dust are many but not alike. Then all that
-  // are like it as far as a tilted view makes them so.
+  // The most common area: the one with the most others within a fifth; noise and dust are many but not alike. Then all
+  // spots within the range that a tilted view causes.
   m_sorted.clear();
   for (const vpPatternSpot &spot : spots) {
     m_sorted.push_back(spot.area);
   }
   std::sort(m_sorted.begin(), m_sorted.end());
-  // A tilted view of few cells has no four of the same size.
+  // A tilted view of few cells does not have four of the same size.
   int area = 0;
   for (const double tolerance : {1.2, 1.7}) {
     area = area == 0 ? commonestArea(tolerance) : area;
@@ -113,7 +112,7 @@ bool vpLatticeFit::keepKnown(std::vector<vpPatternSpot> &spots) const
 
 bool vpLatticeFit::shift(const std::vector<vpPatternSpot> &spots, vpLattice &lattice) const
 {
-  // The first spot names a lattice; the others have to agree.
+  // The first spot determines a lattice; the others must agree.
   double sx = 0., sy = 0.;
   for (const vpPatternSpot &spot : spots) {
     double dx = spot.x - spots[0].x, dy = spot.y - spots[0].y;
@@ -131,8 +130,8 @@ bool vpLatticeFit::shift(const std::vector<vpPatternSpot> &spots, vpLattice &lat
 
 void vpLatticeFit::removeDirty(std::vector<vpPatternSpot> &spots)
 {
-  // In a tilted view the logarithm of the area runs evenly over the image. Dirt changes it for some: twice, the second
-  // time without those that were far off.
+  // In a tilted view the logarithm of the area is linear over the image. Dirt changes it for some spots: fitted twice,
+  // the second time without outliers.
   constexpr double tolerance[] = {0.25, 0.06};
   for (const double limit : tolerance) {
     Eigen::Matrix3d normal = 1e-9 * Eigen::Matrix3d::Identity();
@@ -144,11 +143,11 @@ void vpLatticeFit::removeDirty(std::vector<vpPatternSpot> &spots)
     }
     const Eigen::Vector3d even = normal.ldlt().solve(right);
     const auto dirty = [&](const vpPatternSpot &s) {
-      const double rounding = 2. * (s.width() + s.height()) / s.area; // a pixel more or less all around: not dirt
+      const double rounding = 2. * (s.width() + s.height()) / s.area; // one pixel more or less all around: not dirt
       return std::abs(std::log(s.area) - even.dot(row(s))) > limit + std::min(0.15, 0.1 * rounding);
     };
     if (2 * std::count_if(spots.begin(), spots.end(), dirty) > static_cast<std::ptrdiff_t>(spots.size())) {
-      return; // not even at all: nothing can be said
+      return; // not even linear: no conclusion possible
     }
     spots.erase(std::remove_if(spots.begin(), spots.end(), dirty), spots.end());
   }
@@ -172,7 +171,8 @@ void vpLatticeFit::findSeeds(const std::vector<vpPatternSpot> &spots)
   m_seeds.resize(count);
 }
 
-// The commonest vector to the next spot on the right (or below): each seed names one, the one with most others wins.
+// The most common vector to the next spot on the right (or below): each seed proposes one, the one with most others
+// wins.
 bool vpLatticeFit::direction(const std::vector<vpPatternSpot> &spots, bool down, double minPitch, double &vx,
                              double &vy)
 {
@@ -214,7 +214,7 @@ bool vpLatticeFit::direction(const std::vector<vpPatternSpot> &spots, bool down,
   return most >= 2 && 2 * most >= count && std::hypot(vx, vy) >= minPitch;
 }
 
-// Index of the spot nearest to a point, within reach; the number of spots when there is none. Spots are sorted by top.
+// Index of the spot nearest to a point, within reach; otherwise the number of spots. Spots are sorted by top.
 std::size_t vpLatticeFit::nearest(const std::vector<vpPatternSpot> &spots, double x, double y, double reach) const
 {
   const int high = 2 * m_height + 3; // no spot is higher
@@ -232,7 +232,7 @@ std::size_t vpLatticeFit::nearest(const std::vector<vpPatternSpot> &spots, doubl
   return best;
 }
 
-// From neighbour to neighbour: steps may change on the way, in a tilted view or on a flexible product.
+// From neighbour to neighbour: steps may vary on the way, in a tilted view or on a flexible product.
 void vpLatticeFit::walk(const std::vector<vpPatternSpot> &spots, std::size_t seed, const vpLattice &lattice)
 {
   m_nodes.assign(spots.size(), Node());
@@ -255,7 +255,7 @@ void vpLatticeFit::walk(const std::vector<vpPatternSpot> &spots, std::size_t see
       Node &to = m_nodes[i];
       to = node;
       (along ? to.column : to.row) += sign;
-      // Half of what is seen: the cells are uneven, too.
+      // Half of the observed change: the cells vary, too.
       (along ? to.ax : to.bx) += 0.5 * (sign * (spots[i].x - from.x) - vx);
       (along ? to.ay : to.by) += 0.5 * (sign * (spots[i].y - from.y) - vy);
       m_reached.push_back(i);
@@ -263,7 +263,7 @@ void vpLatticeFit::walk(const std::vector<vpPatternSpot> &spots, std::size_t see
   }
 }
 
-// Least squares over the spots that were reached. False when they do not span two directions.
+// Least squares over the reached spots. False when they do not span two directions.
 bool vpLatticeFit::solve(const std::vector<vpPatternSpot> &spots, vpLattice &lattice) const
 {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
@@ -297,7 +297,7 @@ bool vpLatticeFit::fit(std::vector<vpPatternSpot> &spots, double minPitch, vpLat
   if (!solve(spots, l)) {
     return false;
   }
-  // Those that were reached, or lie behind a gap on the same lattice; the place must be the one that rounding names.
+  // Spots that were reached, or lie behind a gap on the same lattice; the position must match the rounded indices.
   std::size_t kept = 0;
   for (std::size_t i = 0; i < spots.size(); ++i) {
     double row = 0., column = 0.;

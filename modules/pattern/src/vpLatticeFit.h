@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The regular lattice behind a set of spots, whatever else is among them.
+// The regular lattice of a set of spots that may contain outliers.
 #ifndef vpLatticeFit_h
 #define vpLatticeFit_h
 
@@ -21,7 +21,7 @@ struct vpLattice {
   double y(double row, double column) const { return oy + column * ay + row * by; }
   //! Row and column, not rounded, of a point.
   void invert(double px, double py, double &row, double &column) const;
-  //! The lattice vector part (in px) that is left of a vector after taking away whole pitches.
+  //! Remainder of a vector (px) after subtracting whole pitches.
   void reduce(double &dx, double &dy) const;
 };
 
@@ -30,15 +30,15 @@ class vpLatticeFit
 public:
   explicit vpLatticeFit(std::size_t maxSpots);
 
-  //! Keep the spots of the commonest size; false when fewer than four are alike.
+  //! Keep the spots of the most common size; false when fewer than four are alike.
   bool keepAlike(std::vector<vpPatternSpot> &spots);
-  //! Remove spots whose size is not that of those around them: dirt has eaten from them, or grown onto them.
+  //! Remove spots whose size differs from those around them, because of dirt.
   static void removeDirty(std::vector<vpPatternSpot> &spots);
-  //! Lattice of the spots, whose strays are removed. \e a points right, \e b down. False: no two periods each way.
+  //! Lattice of the spots, after removing outliers. \e a points right, \e b down. False: no two periods each way.
   bool fit(std::vector<vpPatternSpot> &spots, double minPitch, vpLattice &lattice);
-  //! Keep the spots of the size that keepAlike() found last; false when there are none.
+  //! Keep the spots of the size last found by keepAlike(); false when there are none.
   bool keepKnown(std::vector<vpPatternSpot> &spots) const;
-  //! Move a lattice that is known onto spots that are too few to show one. False when they are not on one lattice.
+  //! Fit a known lattice to spots that are too few to determine one. False when they are not on one lattice.
   bool shift(const std::vector<vpPatternSpot> &spots, vpLattice &lattice) const;
   int medianWidth() const { return m_width; }
   int medianHeight() const { return m_height; }
@@ -52,7 +52,7 @@ private:
   std::size_t nearest(const std::vector<vpPatternSpot> &spots, double x, double y, double reach) const;
   bool solve(const std::vector<vpPatternSpot> &spots, vpLattice &lattice) const;
 
-  //! A spot that the walk has reached: its place in the lattice, and the steps to its neighbours.
+  //! A spot reached by the walk: its lattice indices, and the steps to its neighbours.
   struct Node {
     bool reached = false;
     int row = 0, column = 0;

@@ -11,17 +11,17 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-constexpr std::size_t mostSpots = 80; // more are no single row
-constexpr double across = 0.15;       // of the least step: how far a spot may be beside the line
+constexpr std::size_t mostSpots = 80; // with more it is no single row
+constexpr double across = 0.15;       // of the smallest step: maximum distance of a spot from the line
 constexpr double along = 0.08;        // of the period
 
-// A period and what lies on it.
+// A period and the spots on it.
 struct Period {
   double length = 0., origin = 0., rms = 0., score = 0.;
   int count = 0;
 };
 
-// Spots on a line: their places along it.
+// Spots on a line, with their positions along it.
 struct Line {
   Eigen::Vector2d direction = Eigen::Vector2d::Zero();
   std::vector<std::pair<double, std::size_t>> places;
@@ -56,7 +56,7 @@ Line longestLine(const std::vector<vpLatticeSpot> &spots, double least)
   return best;
 }
 
-// Least squares of origin and length from a first guess.
+// Least squares of origin and length from an initial value.
 Period refine(const std::vector<std::pair<double, std::size_t>> &places, double length, double origin, double least)
 {
   Period period;

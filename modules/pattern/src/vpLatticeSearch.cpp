@@ -20,15 +20,15 @@ namespace
 constexpr double tolerance = 0.16;   // of a vector's length: perspective and jitter
 constexpr double leastHit = 0.35;    // rate beyond chance of a lattice vector
 constexpr double shareOfBest = 0.72; // of the best rate
-constexpr int neighbours = 14;       // of a spot, whose differences are looked at
+constexpr int neighbours = 14;       // of a spot, whose differences are used
 constexpr int seeds = 40;
 constexpr std::size_t mostVectors = 7;
-constexpr double leastPrecision = 0.05; // of the pitch: no dot is credited with more
-constexpr double mostChance = 1e-6;     // that random spots lie so; some 1000 lattices are tried for an image
+constexpr double leastPrecision = 0.05; // of the pitch: no dot counts as more precise
+constexpr double mostChance = 1e-6;     // that random spots lie so; some 1000 lattices are tried per image
 
 using Vectors = std::vector<Eigen::Vector2d>;
 
-// One of +-v, the one on the side of another.
+// The one of +-v on the side of another vector.
 Eigen::Vector2d folded(const Eigen::Vector2d &v, const Eigen::Vector2d &like) { return v.dot(like) < 0. ? -v : v; }
 
 double cross(const Eigen::Vector2d &a, const Eigen::Vector2d &b) { return a.x() * b.y() - a.y() * b.x(); }
@@ -63,7 +63,7 @@ public:
       return best;
     }
     best.why = "most spots are on no common lattice";
-    Vectors tried; // a and b in turn
+    Vectors tried; // candidates for a and b
     for (std::size_t i = 0; i < vectors.size(); ++i) {
       for (std::size_t j = i + 1; j < vectors.size(); ++j) {
         Eigen::Vector2d a = vectors[i], b = vectors[j];
@@ -145,12 +145,12 @@ private:
     return means;
   }
 
-  // Of the spots whose partner would be in view, how many have one, beyond chance.
+  // Share of the spots whose partner would be in view that have one, beyond chance.
   [[nodiscard]] double hitRate(const Eigen::Vector2d &v) const
   {
     const double reach = std::max(1.2, tolerance * v.norm());
     const Eigen::Vector2d size = m_index.size();
-    const bool narrow = size.minCoeff() < 3. * reach; // one row, level or upright
+    const bool narrow = size.minCoeff() < 3. * reach; // one row, horizontal or vertical
     const double chance =
         narrow ? 0. : std::min(0.8, static_cast<double>(m_index.count()) * M_PI * reach * reach / (size.prod() + 1.));
     int inView = 0, met = 0;
@@ -166,7 +166,7 @@ private:
     return inView >= 4 ? (static_cast<double>(met) / inView - chance) / (1. - chance) : 0.;
   }
 
-  // The shortest of those that spots share.
+  // The shortest of the shared vectors.
   [[nodiscard]] Vectors latticeVectors() const
   {
     const Vectors all = clusters();
@@ -187,7 +187,7 @@ private:
     return good;
   }
 
-  // Lagrange and Gauss: the shortest basis of the same lattice. False when the two are nearly parallel.
+  // Lagrange-Gauss reduction: the shortest basis of the same lattice. False when the two are nearly parallel.
   [[nodiscard]] bool reduce(Eigen::Vector2d &a, Eigen::Vector2d &b) const
   {
     if (std::abs(cross(a, b)) < 0.3 * a.norm() * b.norm()) {
@@ -216,8 +216,8 @@ private:
     return false;
   }
 
-  // Whether so many of the places of a lattice that was looked for would be met by random spots: the binomial tail. Six
-  // dots are spent on the twelve numbers of the bent lattice.
+  // Whether random spots would meet this many positions of a candidate lattice: the binomial tail. Six dots are
+  // subtracted for the twelve parameters of the bent lattice.
   [[nodiscard]] bool mayBeChance(int count, double occupancy, double rms, double pitch) const
   {
     constexpr int spent = 6;

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The basis of the lattice among spots with strangers and gaps.
+// The basis of the lattice among spots with outliers and gaps.
 #ifndef vpLatticeSearch_h
 #define vpLatticeSearch_h
 
@@ -23,11 +23,11 @@ struct vpLatticeFound {
   std::vector<int> rows, columns;                                   // of each of those
 };
 
-// Rows and columns; middle: where a and b are wanted, px.
+// Rows and columns; middle: where a and b are determined, px.
 [[nodiscard]] vpLatticeFound vpSearchLattice(const std::vector<vpLatticeSpot> &spots, const Eigen::Vector2d &middle);
 // One row: the line with most spots, then the period that most of them share; gaps do not matter.
 [[nodiscard]] vpLatticeFound vpSearchRow(const std::vector<vpLatticeSpot> &spots);
-// Smallest step that can be one: no shorter than a spot is wide.
+// Smallest possible step: at least the width of a spot.
 [[nodiscard]] double vpLeastStep(const std::vector<vpLatticeSpot> &spots);
 
 END_VISP_NAMESPACE

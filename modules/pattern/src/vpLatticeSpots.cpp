@@ -17,7 +17,7 @@ namespace
 constexpr double share = 0.38;          // of the contrast, from the background: half loses a faint third level
 constexpr double overNoise = 6.;        // contrast in standard deviations of the noise
 constexpr double flattest = 8.;         // skewness of a window with hardly a spot
-constexpr std::size_t candidates = 300; // for the commonest size
+constexpr std::size_t candidates = 300; // for the most common size
 
 // Sums over a window of columns of f, f^2 and f^3, f being the grey value less 128.
 using Sums = std::array<double, 3>;
@@ -57,7 +57,7 @@ double vpLatticeSpots::noise() const
                            std::sqrt(6.)); // 0.3: rounding to whole grey values
 }
 
-// Two levels from mean m, deviation s and skewness g of a window: m + s (g/2 -+ sqrt(1 + g^2/4)), whatever share each has.
+// Two levels from mean m, deviation s and skewness g of a window: m + s (g/2 -+ sqrt(1 + g^2/4)), for any shares.
 void vpLatticeSpots::measureLevels(int window)
 {
   const int width = static_cast<int>(m_image.getWidth()), height = static_cast<int>(m_image.getHeight());
@@ -150,7 +150,7 @@ std::vector<vpLatticeSpot> vpLatticeSpots::find(bool bright, double alike)
     spot.level = level / count;
     spots.push_back(spot);
   }
-  // The commonest size by its mass: specks are many but light.
+  // The most common size by its mass: specks are many but light.
   double heaviest = 0., area = 0., amplitude = 0.;
   const std::size_t step = 1 + spots.size() / candidates;
   for (std::size_t i = 0; i < spots.size(); i += step) {

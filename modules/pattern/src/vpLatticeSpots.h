@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Spots that differ from the levels around them, whatever the light and however many grey levels there are.
+// Spots that differ from the levels around them, for any illumination and number of grey levels.
 #ifndef vpLatticeSpots_h
 #define vpLatticeSpots_h
 
@@ -24,9 +24,9 @@ class vpLatticeSpots
 public:
   static constexpr std::size_t most = 20000;
 
-  // window: px, odd; more than a pitch.
+  // window: px, odd; larger than a pitch.
   vpLatticeSpots(const vpImage<unsigned char> &image, int window);
-  // Spots of one polarity whose areas are those of the commonest within the factor alike.
+  // Spots of one polarity whose areas are those of the most common within the factor alike.
   [[nodiscard]] std::vector<vpLatticeSpot> find(bool bright, double alike);
 
 private:
@@ -35,7 +35,7 @@ private:
   [[nodiscard]] double above(std::size_t pixel, bool bright) const;
 
   const vpImage<unsigned char> &m_image; // owned by the caller
-  double m_least = 0.;                   // contrast that is more than noise
+  double m_least = 0.;                   // minimum contrast above the noise
   std::vector<float> m_low, m_high;      // local levels; equal where there is no contrast
   vpRunLabels m_labels;
 };

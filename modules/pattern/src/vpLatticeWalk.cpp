@@ -19,8 +19,8 @@ namespace
 constexpr double margin = 2.;      // px around the box of the spots
 constexpr double walkReach = 0.3;  // of the shorter step
 constexpr double nextReach = 0.2;  // of the step, for the occupancy
-constexpr double gain = 0.4;       // of what a step is seen to be off
-constexpr double strayShare = 0.1; // of the pitch: what perspective of third order leaves is no stray
+constexpr double gain = 0.4;       // share of the observed step error that is corrected
+constexpr double strayShare = 0.1; // of the pitch: perspective of third order is no outlier
 
 using Terms = Eigen::Matrix<double, 6, 1>;
 
@@ -133,7 +133,7 @@ bool vpLatticeWalk::fit(const Eigen::Vector2d &middle, Eigen::Vector2d &a, Eigen
   for (std::size_t i = 0; i < m_nodes.size(); ++i) {
     good[i] = m_nodes[i].on ? 1 : 0;
   }
-  for (int round = 0; round < 3; ++round) { // without those that the round before found astray
+  for (int round = 0; round < 3; ++round) { // without the outliers of the previous round
     Eigen::Matrix<double, 6, 6> normal = 1e-9 * Eigen::Matrix<double, 6, 6>::Identity();
     Eigen::Matrix<double, 6, 2> right = Eigen::Matrix<double, 6, 2>::Zero();
     for (std::size_t i = 0; i < m_nodes.size(); ++i) {

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// From spot to spot by the steps of a lattice, and what the walk says of the lattice.
+// From spot to spot by the steps of a lattice, and the resulting measures of the lattice.
 #ifndef vpLatticeWalk_h
 #define vpLatticeWalk_h
 
@@ -14,14 +14,14 @@
 
 BEGIN_VISP_NAMESPACE
 
-// The spots with an index by place.
+// The spots with an index by position.
 class vpSpotIndex
 {
 public:
   explicit vpSpotIndex(const std::vector<vpLatticeSpot> &spots);
-  // Number of the spot nearest to a place, within reach; -1 when there is none.
+  // Index of the spot nearest to a position, within reach; -1 when there is none.
   [[nodiscard]] int nearest(const Eigen::Vector2d &place, double reach) const;
-  // Whether a place lies in the box of all spots.
+  // Whether a position lies in the bounding box of all spots.
   [[nodiscard]] bool inView(const Eigen::Vector2d &place) const;
   [[nodiscard]] Eigen::Vector2d size() const { return m_high - m_low; }
   [[nodiscard]] Eigen::Vector2d place(std::size_t i) const { return {m_spots[i].x, m_spots[i].y}; }
@@ -49,11 +49,12 @@ public:
 
   // From a seed, with local steps, also over one missing spot.
   vpLatticeWalk(const vpSpotIndex &index, std::size_t seed, const Eigen::Vector2d &a, const Eigen::Vector2d &b);
-  // Share of the single steps to places in view that meet a spot.
+  // Share of the single steps to positions in view that end at a spot.
   [[nodiscard]] double occupancy() const;
-  // Fits a lattice bent to second order; strays leave. False when that is not determined. The steps at a place: a, b.
+  // Fits a lattice bent to second order and removes outliers. False when it is not determined. Steps at a position: a,
+  // b.
   bool fit(const Eigen::Vector2d &middle, Eigen::Vector2d &a, Eigen::Vector2d &b, double &rms);
-  // Whether most nodes stand in one row or column: a row among strangers.
+  // Whether most nodes lie in one row or column: a row among outliers.
   [[nodiscard]] bool isRow() const;
   [[nodiscard]] int count() const;
   [[nodiscard]] const std::vector<Node> &nodes() const { return m_nodes; }

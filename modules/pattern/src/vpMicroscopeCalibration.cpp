@@ -25,7 +25,7 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-// ViSP's parser reports on the streams of the program; what matters becomes an exception here.
+// ViSP's parser reports on the standard streams; errors become an exception here.
 class QuietStreams
 {
 public:
@@ -81,7 +81,7 @@ vpCameraParameters vpMicroscopeCalibration::toCamera() const
   const double kdu = kappa1PerSquareMetre();
   const double farU = std::max(u0, width - 1. - u0), farV = std::max(v0, height - 1. - v0);
   const double seen2 = (farU * farU) / (scaleX * scaleX) + (farV * farV) / (scaleY * scaleY);
-  const double longer = 1. + kdu * seen2; // ideal over seen radius
+  const double longer = 1. + kdu * seen2; // ratio of ideal to observed radius
   const double ideal2 = longer * longer * seen2;
   const double kud = ideal2 > 0. && longer > 0. ? (1. / longer - 1.) / ideal2 : -kdu;
   vpCameraParameters camera;

@@ -17,7 +17,7 @@ constexpr int stateCount = State::SharedCount + localCount;
 
 using StateMatrix = Eigen::Matrix<double, stateCount, stateCount>;
 
-// Of (all shared, local k), zero where a parameter was given.
+// Covariance of (all shared, local k), zero for given parameters.
 StateMatrix stateCovariance(const vpBundleSolution<State> &solution, const std::vector<int> &isFree, std::size_t k)
 {
   StateMatrix all = StateMatrix::Zero();

@@ -14,7 +14,7 @@ BEGIN_VISP_NAMESPACE
 
 using vpMicroscopeCovariance = Eigen::Matrix<double, vpMicroscopeParameterCount, vpMicroscopeParameterCount>;
 
-// Where the product lies in a view; the covariance is left open.
+// Placement of the product in a view; the covariance is not set.
 [[nodiscard]] vpMicroscopePlacement vpMicroscopePlaceOf(const vpMicroscopeState &state, const vpPlanarView &view,
                                                         std::size_t k);
 
@@ -23,7 +23,7 @@ using vpMicroscopeCovariance = Eigen::Matrix<double, vpMicroscopeParameterCount,
                                                                 const vpPlanarView &first, unsigned int width,
                                                                 unsigned int height);
 
-// Covariance in the order of vpMicroscopeParameter with the placement of view k; zero where a parameter was given.
+// Covariance in the order of vpMicroscopeParameter with the placement of view k; zero for given parameters.
 [[nodiscard]] vpMicroscopeCovariance vpMicroscopeCovarianceOf(const vpBundleSolution<vpMicroscopeState> &solution,
                                                               const std::vector<int> &isFree, const vpPlanarView &view,
                                                               std::size_t k);

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The sentences of a planar calibration.
+// The messages of a planar calibration.
 #ifndef vpMicroscopeCalibrationMessage_h
 #define vpMicroscopeCalibrationMessage_h
 
@@ -10,12 +10,12 @@
 
 BEGIN_VISP_NAMESPACE
 
-// What was found and decided, but not published.
+// Internal results and decisions.
 struct vpMicroscopeDecision {
   double kappa1 = 0.;            // estimate, px^-2, whether it is used or not
-  double significance = 0.;      // of it, standard deviations
-  bool hiddenDistortion = false; // it is there, but the points cover too little of the image to say how large
-  double looksTilted = 0.;       // by foreshortening, rad
+  double significance = 0.;      // of kappa1, standard deviations
+  bool hiddenDistortion = false; // distortion is present, but the points cover too little of the image to estimate it
+  double looksTilted = 0.;       // from foreshortening, rad
 };
 
 [[nodiscard]] std::string vpMicroscopeMessage(const vpMicroscopeCalibrationResult &result,

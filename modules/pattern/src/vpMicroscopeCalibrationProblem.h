@@ -18,14 +18,15 @@ struct vpMicroscopeState {
   // Scale (px/m), aspect, kappa1 (px^-2), u0, v0 (px), tilt (px^-1), stretch, shear: see vpMicroscopeCalibration.
   enum Shared { Scale, Aspect, Kappa1, U0, V0, TiltX, TiltY, Stretch, Shear, SharedCount };
   std::array<double, SharedCount> shared{};
-  // For each view: rotation (rad), place of the view's origin in the image without distortion (px, square pixels).
+  // For each view: rotation (rad), position of the view's origin in the undistorted image (px, square pixels).
   std::vector<Eigen::Vector3d> local;
 };
 
 class vpMicroscopeProblem
 {
 public:
-  // isFree: which of the shared parameters are to be found. scale: for the share of sigmaPlane in the weights, px/m.
+  // isFree: which of the shared parameters are estimated. scale: for the contribution of sigmaPlane to the weights,
+  // px/m.
   vpMicroscopeProblem(const std::vector<std::vector<vpCalibrationPoint>> &points,
                       const std::vector<vpPlanarView> &views,
                       const std::array<bool, vpMicroscopeState::SharedCount> &isFree, double scale)

@@ -12,7 +12,7 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-constexpr double leastGap = 1e-3; // of the two smallest singular values of the radial alignment, over the largest
+constexpr double leastGap = 1e-3; // between the two smallest singular values of the radial alignment, over the largest
 
 // The affine map d = A p + t, up to a factor that may be negative.
 struct Affine {
@@ -20,7 +20,7 @@ struct Affine {
   Eigen::Vector2d t;
 };
 
-// u q - v p = 0 for (a, b, tx, c, d, ty); false when the points allow other solutions too.
+// u q - v p = 0 for (a, b, tx, c, d, ty); false when the solution is not unique.
 bool alignRadially(const vpPlanarView &view, double unitD, double unitP, Affine &result)
 {
   Eigen::MatrixXd rows(view.d.cols(), 6);
@@ -73,7 +73,7 @@ vpPlanarStart vpStartPlanarView(vpPlanarView &view)
     affine = fitAffine(view);
   }
   if ((affine.A * view.p).cwiseProduct(view.d).sum() + affine.t.dot(view.d.rowwise().sum()) < 0.) {
-    affine.A *= -1.; // points are seen where they are and not opposite
+    affine.A *= -1.; // points are seen on their own side, not opposite
     affine.t *= -1.;
   }
   view.mirrored = affine.A.determinant() < 0.;

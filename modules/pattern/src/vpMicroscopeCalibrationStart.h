@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Step 1 of the planar calibration: closed-form start values.
+// Step 1 of the planar calibration: closed-form initial values.
 #ifndef vpMicroscopeCalibrationStart_h
 #define vpMicroscopeCalibrationStart_h
 
@@ -14,8 +14,8 @@
 
 BEGIN_VISP_NAMESPACE
 
-// A view relative to the principal point and with square pixels: seen places d and points of the plane p about its
-// origin.
+// A view relative to the principal point and with square pixels: observed positions d and points of the plane p about
+// its origin.
 struct vpPlanarView {
   Eigen::Matrix2Xd d;     // px
   Eigen::Matrix2Xd p;     // m, y mirrored where the view is

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// From an image to a lattice without any knowledge, and the learning of the template.
+// Lattice from an image without prior knowledge, and learning of the template.
 #include "vpPatternTrackerImpl.h"
 
 #include "vpCellEdges.h"
@@ -18,7 +18,7 @@ namespace
 {
 constexpr double leastSeparability = 0.7; // noise alone has 0.64
 constexpr int windowsPerFrame = 4;
-constexpr double nearHalf = 0.4; // of a pitch: beyond it the neighbour may have been taken
+constexpr double nearHalf = 0.4; // of a pitch: beyond it the neighbour may have been matched
 
 } // namespace
 
@@ -30,7 +30,7 @@ vpPatternReason vpPatternTracker::Impl::detectPolarity(const vpImage<unsigned ch
     return vpPatternReason::TooMuchNoise;
   }
   std::vector<vpPatternSpot> &spots = m_labels.spots();
-  // While the cells are learned in a view of hardly two periods, many images show fewer than four of them.
+  // While learning in a view of hardly two periods, many images show fewer than four cells.
   const bool few = spots.size() < 4 && m_stage != Stage::Searching;
   if (few ? !m_fitter.keepKnown(spots) : !m_fitter.keepAlike(spots)) {
     return vpPatternReason::NoCells;
@@ -52,7 +52,7 @@ vpPatternReason vpPatternTracker::Impl::detectPolarity(const vpImage<unsigned ch
       good = vpHalfMaximumCentre(image, half, spot);
       break;
     }
-    // A centre outside its box is one of Algorithm 7.4's runaway parabolas.
+    // A centre outside its box is a diverged parabola of Algorithm 7.4.
     if (good && spot.x > spot.left && spot.x < spot.right && spot.y > spot.top && spot.y < spot.bottom) {
       spots[kept++] = spot;
     }
@@ -83,13 +83,13 @@ vpPatternReason vpPatternTracker::Impl::detect(const vpImage<unsigned char> &ima
   if (reason != vpPatternReason::None && !m_known) {
     const vpPatternReason other = detectPolarity(image, level, !m_bright, lattice);
     m_bright = other == vpPatternReason::None ? !m_bright : m_bright;
-    // Which of two failures is told: the one that came farther.
+    // Which of two failures is reported: the one that got further.
     reason = other == vpPatternReason::None || reason == vpPatternReason::NoCells ? other : reason;
   }
   return reason;
 }
 
-// Take over a lattice that was found without knowledge: the cells keep their numbers when they can.
+// Take over a lattice found without prior knowledge: the cells keep their indices when possible.
 vpPatternReason vpPatternTracker::Impl::adopt(const vpLattice &found)
 {
   const double dax = found.ax - m_lattice.ax, day = found.ay - m_lattice.ay;
@@ -115,12 +115,12 @@ vpPatternReason vpPatternTracker::Impl::adopt(const vpLattice &found)
     m_interrupted = false;
     return missing ? vpPatternReason::ImagesMissing : again ? vpPatternReason::Restarted : vpPatternReason::None;
   }
-  // The vectors that are known are better than those of one image, and the deviations were measured from them. Compare
-  // where both lattices have a point near the middle of the view: there an error of the vectors counts least.
+  // The known vectors are better than those of one image, and the deviations refer to them. Compare where both lattices
+  // have a point near the middle of the view: there an error of the vectors matters least.
   double row = 0., column = 0.;
   found.invert(0.5 * (m_width - 1.), 0.5 * (m_height - 1.), row, column);
   const double px = found.x(std::round(row), std::round(column)), py = found.y(std::round(row), std::round(column));
-  // From one image to the next the least motion counts; after a loss the motion went on, as far as we know.
+  // From one image to the next the smallest motion is assumed; after a loss, a continued motion.
   const double frames = m_lostFrames;
   m_lattice.ox += frames * m_vx;
   m_lattice.oy += frames * m_vy;
@@ -137,7 +137,7 @@ vpPatternReason vpPatternTracker::Impl::adopt(const vpLattice &found)
   return vpPatternReason::None;
 }
 
-// A frame that is measured by its edges: while learning, and always with the baselines.
+// A frame measured by its edges: while learning, and always with the baselines.
 void vpPatternTracker::Impl::acquire(const vpImage<unsigned char> &image)
 {
   vpLattice found;
@@ -238,7 +238,7 @@ void vpPatternTracker::Impl::learn(const vpImage<unsigned char> &image)
     }
   }
   else if (m_stage == Stage::Refining) {
-    // Twice: the second time only little is left.
+    // Twice: the second correction is small.
     const std::size_t n = m_frame.cells.size();
     int taken = 0;
     for (std::size_t i = 0; i < n && taken < windowsPerFrame; ++i) {
@@ -261,8 +261,8 @@ void vpPatternTracker::Impl::learn(const vpImage<unsigned char> &image)
     m_aligner.setSlopes(m_slopes);
     m_noise = 0.;
     beginRefresh();
-    // Measure this image again, as the next one will be: edges and template do not see quite the same centre, under
-    // uneven light, and the difference is no motion. Twice: the first time shows the slopes of the light.
+    // Measure this image again, as the next one will be: under uneven light, edges and template have slightly different
+    // centres, and the difference is no motion. Twice: the first time determines the illumination gradients.
     if (alignAll(image) && alignAll(image)) {
       updateLattice();
       updateDeviations();

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// A frame of a pattern that is known: align the template with every cell, drop what does not fit, follow the lattice.
+// A frame of a known pattern: align the template with every cell, drop misfits, track the lattice.
 #include "vpPatternTrackerImpl.h"
 
 #include <Eigen/Dense>
@@ -15,11 +15,11 @@ BEGIN_VISP_NAMESPACE
 namespace
 {
 constexpr double dirty = 1.4;       // residual variance over the usual one: masking is tried above it
-constexpr double hopeless = 1.7;    // the same after masking: no such cell
-constexpr double knownGate = 0.5;   // px: how far a known cell may move against the others in one frame
+constexpr double hopeless = 1.7;    // residual variance after masking: no such cell
+constexpr double knownGate = 0.5;   // px: maximum motion of a known cell relative to the others in one frame
 constexpr double nearHalf = 0.4;    // of a pitch
-constexpr double maskedSigma = 0.1; // px: what dirt does to a centre although its pixels are left out (rendered dirt)
-constexpr double leastDoubt = 1.;   // px: of a cell whose seen edge may be that of something else
+constexpr double maskedSigma = 0.1; // px: error of a centre due to masked dirt (rendered dirt)
+constexpr double leastDoubt = 1.;   // px: of a cell whose visible edge may belong to another object
 constexpr double latticeGain = 0.02;
 constexpr int hurryAfterTurn = 30;     // images
 constexpr int restlessAfterTurn = 10;  // images
@@ -37,7 +37,7 @@ bool vpPatternTracker::Impl::alignAll(const vpImage<unsigned char> &image)
   }
   validate(image);
   if (mostKnownAreGone()) {
-    // Perhaps other cells have taken their places: see whether they fit when nothing is expected of them.
+    // Perhaps other cells have taken their positions: check whether they fit without expected deviations.
     const int before = m_frame.validCells;
     startAll(image, false);
     static_cast<void>(deviateAsBefore());
@@ -45,7 +45,7 @@ bool vpPatternTracker::Impl::alignAll(const vpImage<unsigned char> &image)
     if (m_frame.validCells > before + 1 && 3 * m_frame.validCells > 4 * before) {
       renumber(vpPatternReason::IdentitySlip);
     }
-    else { // dirt, or something in front
+    else { // dirt, or an occlusion
       startAll(image);
       static_cast<void>(deviateAsBefore());
       validate(image);
@@ -54,7 +54,7 @@ bool vpPatternTracker::Impl::alignAll(const vpImage<unsigned char> &image)
   return m_frame.validCells >= 1 && m_frame.validCells >= 0.2 * usualCells();
 }
 
-// Of the cells that were measured in the last image, and are still in view, at least four and more than half are not.
+// True if at least four and more than half of the last image's measured cells still in view are now missing.
 bool vpPatternTracker::Impl::mostKnownAreGone() const
 {
   int known = 0, gone = 0;
@@ -65,7 +65,7 @@ bool vpPatternTracker::Impl::mostKnownAreGone() const
   return known >= 4 && 2 * gone > known;
 }
 
-// Align every cell from its place in the lattice and, when \e expected, its own deviation.
+// Align every cell from its lattice position and, when \e expected, its own deviation.
 void vpPatternTracker::Impl::startAll(const vpImage<unsigned char> &image, bool expected)
 {
   listCells(m_bank.halfWidth() + 0.5, m_bank.halfHeight() + 0.5);
@@ -81,8 +81,8 @@ void vpPatternTracker::Impl::startAll(const vpImage<unsigned char> &image, bool 
   }
 }
 
-// What all cells have moved by, as the known ones show it: new ones also show their deviations. False when cells that
-// are known and clean lie otherwise to each other than before: these are not the same cells.
+// Common motion of all cells, from the known ones: new ones also show their deviations. False when the relative
+// positions of known, clean cells have changed: these are other cells.
 bool vpPatternTracker::Impl::deviateAsBefore()
 {
   const std::size_t n = m_frame.cells.size();
@@ -120,12 +120,12 @@ bool vpPatternTracker::Impl::deviateAsBefore()
   return turnLattice(limit) || count < 4. || usual < limit;
 }
 
-// A pattern that turns or tilts is no other one, and takes its lattice along at once; it is expected to go on. By least
-// squares from the known and clean cells; false when it is not that: what is left would be above \e limit for each
-// freedom, or it would be much for one image, or may be noise.
+// A pattern that turns or tilts is the same pattern, and its lattice follows at once; the turn is expected to continue.
+// Least squares from the known and clean cells; false when it is not a turn: the residuals would be above \e limit per
+// degree of freedom, or it would be large for one image, or may be noise.
 bool vpPatternTracker::Impl::turnLattice(double limit)
 {
-  constexpr double significant = 80.; // sum of squares that it explains, in variances, with six freedoms
+  constexpr double significant = 80.; // sum of squares explained, in variances, with six degrees of freedom
   constexpr double most = 0.05;       // of the pitch
   constexpr double gain = 0.4;
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
@@ -151,7 +151,7 @@ bool vpPatternTracker::Impl::turnLattice(double limit)
   const Eigen::Matrix<double, 3, 2> s = ldlt.solve(right);
   const double explained = (s.transpose() * right).trace();
   const double rest = std::sqrt(std::max(0., squares - explained) / std::max(1, count - 3));
-  // Other cells would deviate at random, not evenly over the view.
+  // Other cells would deviate randomly, not linearly over the view.
   if ((rest > limit && explained < 0.95 * squares) || explained < significant * 0.5 * variances / count ||
       s.row(1).norm() > most * std::hypot(m_lattice.ax, m_lattice.ay) ||
       s.row(2).norm() > most * std::hypot(m_lattice.bx, m_lattice.by)) {
@@ -181,7 +181,7 @@ bool vpPatternTracker::Impl::turnLattice(double limit)
   return true;
 }
 
-// The template is not perfect: a hundredth of its range is nothing to look into.
+// The template is not perfect: a hundredth of its range is ignored.
 double vpPatternTracker::Impl::allowance() const { return 1e-4 * m_bank.range() * m_bank.range(); }
 
 void vpPatternTracker::Impl::validate(const vpImage<unsigned char> &image)
@@ -196,7 +196,7 @@ void vpPatternTracker::Impl::validate(const vpImage<unsigned char> &image)
     }
     return vpRobustMean::median(m_scratch);
   };
-  // The usual residuals, whether the light changes or most cells are dirty.
+  // Usual residuals, also when the light changes or most cells are dirty.
   const double now = median([&](std::size_t i) { return m_fits[i].variance; });
   const double usual = m_noise > 0. ? std::clamp(now, 0.5 * m_noise, 2. * m_noise) : std::max(now, 0.05);
   const double contrast = median([&](std::size_t i) { return m_fits[i].contrast; });
@@ -221,7 +221,7 @@ void vpPatternTracker::Impl::validate(const vpImage<unsigned char> &image)
     if (cell.valid) {
       cell.x = fit.x;
       cell.y = fit.y;
-      const double doubt = std::max(leastDoubt, 0.5 * newGate); // the place is anywhere within the gate
+      const double doubt = std::max(leastDoubt, 0.5 * newGate); // the centre is anywhere within the gate
       cell.sigmaX = fit.doubtX ? std::hypot(sx, doubt) : sx;
       cell.sigmaY = fit.doubtY ? std::hypot(sy, doubt) : sy;
       ++m_frame.validCells;
@@ -238,9 +238,9 @@ void vpPatternTracker::Impl::validate(const vpImage<unsigned char> &image)
     }
   }
   if (clean > 0) {
-    // Few cells say little. From the first image on the mean of all that was seen, later the recent past.
+    // Few cells carry little information. At first the mean of all measurements, later the recent past.
     m_slopeWeight = std::min(m_slopeWeight + clean, slopeMemory);
-    const double gain = std::min(1., clean / m_slopeWeight); // more cells than the memory are all there is to know
+    const double gain = std::min(1., clean / m_slopeWeight); // more cells than the memory: no more information
     for (std::size_t k = 0; k < sum.size(); ++k) {
       m_slopes[k] += gain * (sum[k] / clean - m_slopes[k]);
     }
@@ -251,7 +251,7 @@ void vpPatternTracker::Impl::validate(const vpImage<unsigned char> &image)
   }
 }
 
-// The lattice turns on as it did; less and less without a reason to.
+// The lattice continues to turn; the rate decays without new evidence.
 void vpPatternTracker::Impl::turnOn()
 {
   constexpr double fade = 0.8;
@@ -278,7 +278,7 @@ void vpPatternTracker::Impl::follow(const vpImage<unsigned char> &image)
   vpPatternReason note = vpPatternReason::None;
   const bool late = m_lostFrames > m_options.maxLostFrames;
   if (late || !alignAll(image)) {
-    // Not where it should be: look at the whole image.
+    // Not at the expected position: search the whole image.
     m_lattice = last;
     vpLattice found;
     vpPatternReason reason = detect(image, found);
@@ -315,7 +315,7 @@ void vpPatternTracker::Impl::follow(const vpImage<unsigned char> &image)
   else if (note == vpPatternReason::AmbiguousMotion) {
     renumber(note);
   }
-  m_vx = restarted ? vx : (m_lattice.ox - last.ox) / frames; // as before: the next image knows no better
+  m_vx = restarted ? vx : (m_lattice.ox - last.ox) / frames; // as before: the next image may confirm it
   m_vy = restarted ? vy : (m_lattice.oy - last.oy) / frames;
   measureMotion();
   updateDeviations();
@@ -334,7 +334,7 @@ void vpPatternTracker::Impl::follow(const vpImage<unsigned char> &image)
   }
 }
 
-// What is common to the deviations belongs to the lattice; the rest stays with the cells.
+// The common part of the deviations belongs to the lattice; the rest stays with the cells.
 void vpPatternTracker::Impl::updateDeviations()
 {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
@@ -347,7 +347,7 @@ void vpPatternTracker::Impl::updateDeviations()
       right += a * Eigen::RowVector2d(cell.x - m_lattice.x(r, c), cell.y - m_lattice.y(r, c));
     }
   }
-  normal(1, 1) += 1e-3; // one row or one column alone says nothing about the other vector
+  normal(1, 1) += 1e-3; // one row or one column alone does not determine the other vector
   normal(2, 2) += 1e-3;
   Eigen::Matrix<double, 3, 2> s = Eigen::Matrix<double, 3, 2>::Zero();
   if (normal(0, 0) > 0.5) {
@@ -362,7 +362,7 @@ void vpPatternTracker::Impl::updateDeviations()
   for (vpPatternCell &cell : m_frame.cells) {
     const int r = cell.row - m_row, c = cell.column - m_column;
     vpCellMemory::Slot *slot = m_memory.find(cell.row, cell.column);
-    if (slot != nullptr) { // the same place as before, seen from the lattice that has moved
+    if (slot != nullptr) { // the same position as before, relative to the moved lattice
       slot->offsetX -= s(0, 0) + c * s(1, 0) + r * s(2, 0);
       slot->offsetY -= s(0, 1) + c * s(1, 1) + r * s(2, 1);
     }

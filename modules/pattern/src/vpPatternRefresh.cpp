@@ -2,11 +2,12 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The template learned anew while it is in use: residuals of cells that fit well are collected, a share of their mean is
-// added, the bases are prepared beside those in use, and exchanged when they fit no worse. All in small pieces.
+// Relearning of the template while it is in use: residuals of cells that fit well are collected, a share of their mean
+// is added, the bases are prepared beside those in use, and replaced when they fit no worse. All in small units of
+// work.
 //
-// Nothing creeps: the centre is that of point symmetry, found anew in each template and not carried over from the last; what
-// it moves by at an exchange is taken out of the motion.
+// No drift: the centre of point symmetry is determined for each template, not carried over from the last; its shift at
+// a replacement is subtracted from the motion.
 #include "vpPatternTrackerImpl.h"
 
 #include <algorithm>
@@ -19,17 +20,17 @@ namespace
 constexpr int piecesInHurry = 24; // per image
 constexpr int examples = 32;      // residuals for a new template
 constexpr int examplesInHurry = 12;
-constexpr double share = 0.25;        // of their mean that is added: the mean of about 7 times as many
+constexpr double share = 0.25;        // of their mean that is added: like the mean of about 7 times as many
 constexpr double shareOfMisfit = 0.8; // when they show that the template does not fit
-constexpr double misfit = 2.;         // the mean residual has so many times the variance that noise alone would leave
-constexpr double fits = 1.4;          // residual variance over the usual one of a cell that is learned from
+constexpr double misfit = 2.;         // variance of the mean residual over that of noise alone
+constexpr double fits = 1.4;          // residual variance over the usual one, of a cell used for learning
 constexpr int hurryFor = 40;          // images
-constexpr int settling = 50;          // images until m_noise is what the template leaves
+constexpr int settling = 50;          // images until m_noise is that of the template
 constexpr double noWorse = 1.02;      // residual variance of new bases over that of the old ones
 constexpr std::size_t compared = 64;  // cells, at most
 } // namespace
 
-// Bases that were just prepared from the learner are in use.
+// True when bases just prepared from the learner are in use.
 void vpPatternTracker::Impl::beginRefresh()
 {
   m_refresh = Refresh::Collecting;
@@ -91,7 +92,7 @@ void vpPatternTracker::Impl::refresh(const vpImage<unsigned char> &image)
   }
 }
 
-// Measured with all its pixels, and with no larger residuals than usual: no dirt, no damage.
+// Measured with all its pixels, and with at most the usual residuals: no dirt, no damage.
 bool vpPatternTracker::Impl::isGoodExample(std::size_t cell) const
 {
   const vpCellFit &fit = m_fits[cell];
@@ -118,8 +119,8 @@ bool vpPatternTracker::Impl::collect(const vpImage<unsigned char> &image, int &t
   return found;
 }
 
-// Use the new bases from the next image on, unless they fit this one worse. By how much their centre is another one is seen
-// from the cells of this image: that is no motion.
+// Use the new bases from the next image on, unless they fit this one worse. The shift of their centre is measured on
+// the cells of this image: it is no motion.
 bool vpPatternTracker::Impl::exchange(const vpImage<unsigned char> &image)
 {
   const std::size_t n = m_frame.cells.size(), step = 1 + n / compared;

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Known cells that are not where they should be are looked for among the spots of the image: those that were missed, and all
+// Searches known cells that are not at their expected positions among the spots of the image: the missed ones, and all
 // of them after a jump.
 #include "vpPatternTrackerImpl.h"
 
@@ -18,13 +18,13 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-constexpr double nearHalf = 0.4; // of a pitch: beyond it the neighbour may have been taken
+constexpr double nearHalf = 0.4; // of a pitch: beyond it the neighbour may have been matched
 
 double middleX(const vpPatternSpot &spot) { return 0.5 * (spot.left + spot.right); }
 double middleY(const vpPatternSpot &spot) { return 0.5 * (spot.top + spot.bottom); }
 } // namespace
 
-// The spot the middle of whose box is nearest, or null.
+// The spot with the nearest box centre, or null.
 const vpPatternSpot *vpPatternTracker::Impl::spotAt(double x, double y, double reach) const
 {
   const vpPatternSpot *best = nullptr;
@@ -45,8 +45,8 @@ bool vpPatternTracker::Impl::findSpots(const vpImage<unsigned char> &image)
   return level.threshold >= 0 && m_labels.find(image, level.threshold, m_bright, vpRunLabels::leastArea);
 }
 
-// A pattern that turns in perspective leaves its lattice: a cell that was missed where it should be may be seen as a spot
-// beside that place. Then this is where it deviates to, in the next image.
+// A pattern that turns in perspective leaves its lattice: a cell missed at its expected position may appear as a spot
+// beside it. That spot is then its deviation in the next image.
 void vpPatternTracker::Impl::lookForMissing(const vpImage<unsigned char> &image)
 {
   if (!findSpots(image)) {
@@ -56,7 +56,7 @@ void vpPatternTracker::Impl::lookForMissing(const vpImage<unsigned char> &image)
   const double reach = std::clamp(0.12 * pitch, 2., 8.);
   for (const vpPatternCell &cell : m_frame.cells) {
     vpCellMemory::Slot *slot = m_memory.find(cell.row, cell.column);
-    if (cell.valid || slot == nullptr) { // only what was a cell before
+    if (cell.valid || slot == nullptr) { // only former cells
       continue;
     }
     const double x = m_lattice.x(cell.row - m_row, cell.column - m_column);
@@ -70,9 +70,9 @@ void vpPatternTracker::Impl::lookForMissing(const vpImage<unsigned char> &image)
   }
 }
 
-// The lattice is known, but has jumped farther than the template reaches, and the spots alone do not show it, among others or
-// in perspective: the shift that brings the known cells of the last lock onto spots, and how the lattice has turned with it.
-// False: less than three cells, or less than two thirds of them.
+// The lattice is known, but has jumped out of the template's reach, and the spots alone do not determine it, among
+// outliers or in perspective: finds the shift that brings the known cells of the last lock onto spots, and the rotation
+// of the lattice. False: less than three cells, or less than two thirds of them.
 bool vpPatternTracker::Impl::relocate(const vpImage<unsigned char> &image)
 {
   constexpr std::size_t tested = 12; // cells
@@ -95,7 +95,7 @@ bool vpPatternTracker::Impl::relocate(const vpImage<unsigned char> &image)
   const double pitch = std::min(std::hypot(unit.ax, unit.ay), std::hypot(unit.bx, unit.by));
   const double reach = std::clamp(0.08 * pitch, 2., 8.);
   std::size_t most = 0;
-  double dx = 0., dy = 0., least = 0.; // sum of what is left
+  double dx = 0., dy = 0., least = 0.; // sum of the residuals
   for (std::size_t k = 0; k < n; ++k) {
     for (const vpPatternSpot &spot : m_labels.spots()) {
       const double sx = middleX(spot) - m_startX[cells[k]], sy = middleY(spot) - m_startY[cells[k]];
@@ -135,7 +135,7 @@ bool vpPatternTracker::Impl::relocate(const vpImage<unsigned char> &image)
       right += a * Eigen::RowVector2d(middleX(*at) - x, middleY(*at) - y);
     }
   }
-  normal.diagonal().tail<2>().array() += 1e-3; // one row or one column alone says nothing about the other vector
+  normal.diagonal().tail<2>().array() += 1e-3; // one row or one column alone does not determine the other vector
   const Eigen::Matrix<double, 3, 2> s = normal.ldlt().solve(right);
   m_lattice.ox += s(0, 0);
   m_lattice.oy += s(0, 1);

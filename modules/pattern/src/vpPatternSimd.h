@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// A second copy of the hot loops for AVX2, chosen when the program is loaded; the module itself is built for any x86-64.
+// A second copy of the hot loops for AVX2, selected at load time; the module itself is built for any x86-64.
 #ifndef vpPatternSimd_h
 #define vpPatternSimd_h
 
@@ -17,10 +17,10 @@
 #include <cstdint>
 #include <vector>
 
-//! Vectors of this many bytes that begin at multiples of it never lie in two lines of the cache.
+//! Vectors of this many bytes that begin at multiples of it never cross a cache line.
 constexpr std::size_t vpPatternAlignment = 64;
 
-//! Room for \e count numbers from alignedBegin() on.
+//! Memory for \e count numbers from alignedBegin() on.
 template <typename Number> std::vector<Number> alignedRoom(std::size_t count)
 {
   return std::vector<Number>(count + vpPatternAlignment / sizeof(Number));

@@ -13,7 +13,7 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-// Weight, mean and variance of the two classes that a threshold makes.
+// Weight, mean and variance of the two classes of a threshold.
 struct Classes {
   double darkWeight, brightWeight, darkMean, brightMean, darkVariance, brightVariance;
 };

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The state machine of vpPatternTracker, and what acquisition and tracking share.
+// The state machine of vpPatternTracker, and the common part of acquisition and tracking.
 #include "vpPatternTrackerImpl.h"
 
 #include <visp3/core/vpException.h>
@@ -15,14 +15,14 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-constexpr double unknownVariance = 0.01; // px^2, of centres of which nothing is known yet: any equal value does
+constexpr double unknownVariance = 0.01; // px^2, of centres with unknown variance: any equal value works
 
 std::size_t roomForCells(unsigned int width, unsigned int height, double minPitch)
 {
   return static_cast<std::size_t>((width / minPitch + 2.) * (height / minPitch + 2.));
 }
 
-// Two periods must be in view, so a cell with its surroundings covers at most a quarter of the image, and some margin.
+// Two periods must be in view, so a cell with its surroundings covers at most a quarter of the image, plus a margin.
 std::size_t roomForPixels(unsigned int width, unsigned int height)
 {
   return std::min<std::size_t>((width / 2 + 24) * static_cast<std::size_t>(height / 2 + 28), 1u << 20);
@@ -102,7 +102,7 @@ const vpPatternFrame &vpPatternTracker::Impl::track(const vpImage<unsigned char>
   return m_frame;
 }
 
-// Rows and columns of the lattice, from its own (0, 0), that may have a cell in the view less this border.
+// Rows and columns of the lattice, from its own (0, 0), that may have a cell in the view minus this border.
 vpPatternTracker::Impl::Range vpPatternTracker::Impl::inView(double halfWidth, double halfHeight) const
 {
   double rowLow = 1e9, rowHigh = -1e9, columnLow = 1e9, columnHigh = -1e9;
@@ -119,7 +119,7 @@ vpPatternTracker::Impl::Range vpPatternTracker::Impl::inView(double halfWidth, d
           static_cast<int>(std::ceil(columnLow)), static_cast<int>(std::floor(columnHigh))};
 }
 
-// Cells whose window of +-halfWidth by +-halfHeight is completely inside the image, at their place in the lattice.
+// Cells whose window of +-halfWidth by +-halfHeight is completely inside the image, at their lattice positions.
 void vpPatternTracker::Impl::listCells(double halfWidth, double halfHeight)
 {
   m_frame.cells.clear();
@@ -140,7 +140,7 @@ void vpPatternTracker::Impl::listCells(double halfWidth, double halfHeight)
   }
 }
 
-// Number of valid cells that there should be: where the product ends in view, or cells are missing, not all are there.
+// Expected number of valid cells: not all, where the product ends in view or cells are missing.
 double vpPatternTracker::Impl::usualCells() const { return m_share * static_cast<double>(m_frame.cells.size()); }
 
 void vpPatternTracker::Impl::updateShare()
@@ -151,7 +151,7 @@ void vpPatternTracker::Impl::updateShare()
   }
 }
 
-// Where each cell should be: its place in the lattice and its deviation, if that was seen in the last image and counts.
+// Expected position of each cell: its lattice position plus its deviation, if that was measured in the last image.
 void vpPatternTracker::Impl::expectCells(bool deviations)
 {
   const std::size_t n = m_frame.cells.size();
@@ -161,7 +161,7 @@ void vpPatternTracker::Impl::expectCells(bool deviations)
   for (std::size_t i = 0; i < n; ++i) {
     const vpPatternCell &cell = m_frame.cells[i];
     double x = 0., y = 0.;
-    // What left the view and comes back is remembered, but the lattice has moved on since.
+    // Cells that return are remembered, but the lattice has moved since.
     const bool own = deviations && m_memory.deviation(cell.row, cell.column, x, y);
     m_ownStart[i] = own && wasInLast(*m_memory.find(cell.row, cell.column)) ? 1 : 0;
     m_startX[i] = cell.x + x;
@@ -169,7 +169,7 @@ void vpPatternTracker::Impl::expectCells(bool deviations)
   }
 }
 
-// Move the lattice onto the cells: those that are known show how it has moved, the others how they deviate.
+// Move the lattice onto the cells: the known ones determine its motion, the others their deviations.
 void vpPatternTracker::Impl::updateLattice()
 {
   const std::size_t n = m_frame.cells.size();
@@ -187,14 +187,14 @@ void vpPatternTracker::Impl::updateLattice()
       m_meanY.add(cell.y - m_startY[i], variance(cell.sigmaY));
     }
   }
-  const bool aligned = m_stage == Stage::Locked; // the shift is known then, and is as good a centre as the median
+  const bool aligned = m_stage == Stage::Locked; // then the shift is known, and is as good a centre as the median
   m_lattice.ox += (aligned ? m_meanX.mean(m_shiftX) : m_meanX.mean()).value;
   m_lattice.oy += (aligned ? m_meanY.mean(m_shiftY) : m_meanY.mean()).value;
 }
 
 void vpPatternTracker::Impl::measureMotion()
 {
-  // Centres from edges know their deviation from the spread of their motion only; before that, any equal value does.
+  // Centres from edges get their deviation from the spread of their motion; before that, any equal value works.
   const bool edges = m_stage != Stage::Locked || m_options.method != vpPatternMethod::GaussNewton;
   m_meanX.clear();
   m_meanY.clear();
@@ -251,7 +251,7 @@ void vpPatternTracker::Impl::remember()
   }
 }
 
-// Keep the lattice's own (0, 0) near the middle of the view: far away an error of the pitch would move the cells.
+// Keep the lattice's own (0, 0) near the middle of the view: far away an error of the pitch would shift the cells.
 void vpPatternTracker::Impl::anchor()
 {
   double row = 0., column = 0.;

@@ -39,7 +39,7 @@ private:
   void cellsFromSpots();
   void learn(const vpImage<unsigned char> &image);
 
-  // Known cells that are not where they should be (vpPatternRelocation.cpp)
+  // Known cells that are not at their expected positions (vpPatternRelocation.cpp)
   bool relocate(const vpImage<unsigned char> &image);
   void lookForMissing(const vpImage<unsigned char> &image);
   bool findSpots(const vpImage<unsigned char> &image);
@@ -56,7 +56,7 @@ private:
   bool turnLattice(double limit);
   void turnOn();
 
-  // Learning the template anew while tracking (vpPatternRefresh.cpp)
+  // Relearning the template while tracking (vpPatternRefresh.cpp)
   enum class Refresh { Collecting, Refining, Restoring, Preparing };
   void beginRefresh();
   void refresh(const vpImage<unsigned char> &image);
@@ -64,7 +64,7 @@ private:
   bool isGoodExample(std::size_t cell) const;
   bool exchange(const vpImage<unsigned char> &image);
 
-  // Both
+  // Common part
   struct Range {
     int rowLow, rowHigh, columnLow, columnHigh;
   };
@@ -96,30 +96,30 @@ private:
 
   vpLattice m_lattice; // its (0, 0) is the cell (m_row, m_column), near the middle of the view
   int m_row = 0, m_column = 0;
-  unsigned int m_images = 0;   // so far
-  bool m_known = false;        // m_lattice holds for an earlier image
+  unsigned int m_images = 0;   // number of images so far
+  bool m_known = false;        // m_lattice is valid for an earlier image
   bool m_bright = true;        // polarity
   double m_vx = 0., m_vy = 0.; // px/frame
   unsigned int m_gap = 0;      // images without a lock just before this one
   bool m_interrupted = false;  // images are missing before the next
   int m_lostFrames = 0, m_learned = 0, m_refined = 0, m_rotate = 0;
-  double m_share = 0.; // of the cells in view that are valid, smoothed
+  double m_share = 0.; // valid share of the cells in view, smoothed
   double m_noise = 0.; // variance of the residuals, smoothed
   Refresh m_refresh = Refresh::Collecting;
-  int m_hurry = 0;                          // images for which the template is learned anew as fast as at first
+  int m_hurry = 0;                          // images for which the template is relearned at full speed
   int m_sinceFit = 0;                       // images since the template was first learned
-  double m_fitNoise = 0.;                   // m_noise as it was with a template just learned
+  double m_fitNoise = 0.;                   // m_noise with a template just learned
   vpLattice m_turn{0., 0., 0., 0., 0., 0.}; // change of the vectors of the lattice from image to image
   bool m_turned = false;                    // the lattice has turned in this image
-  int m_restless = 0;                       // images for which it may go on
+  int m_restless = 0;                       // images for which the turning may continue
   vpSlopes m_slopes{};                      // of the illumination
   double m_slopeWeight = 0.;
   double m_edgeVarianceX = 0.,
          m_edgeVarianceY = 0.;         // of centres from edges, from the spread of their motion; 0: unknown
   std::vector<vpCellFit> m_fits;       // of the cells of m_frame
-  double m_shiftX = 0., m_shiftY = 0.; // what all cells are off their start
+  double m_shiftX = 0., m_shiftY = 0.; // common shift of all cells from their start
   std::vector<double> m_startX, m_startY, m_scratch;
-  std::vector<unsigned char> m_ownStart; // the start of the cell comes from its own deviation
+  std::vector<unsigned char> m_ownStart; // the start of the cell includes its own deviation
 };
 
 END_VISP_NAMESPACE

@@ -25,7 +25,7 @@ using Solution = vpBundleSolution<State>;
 constexpr std::size_t leastPoints = 6;
 constexpr double largestUnseen = 0.01; // share of the distance that an unseen distortion moves the farthest corner by
 
-// How far the two differ at the worst corner of the image, px. Infinite where one of them sees nothing.
+// Largest distance between the two at the corners of the image, px. Infinite where one of them has no inverse.
 double differenceAtCorners(const vpMicroscopeCalibration &a, const vpMicroscopeCalibration &b)
 {
   double worst = 0.;
@@ -39,7 +39,7 @@ double differenceAtCorners(const vpMicroscopeCalibration &a, const vpMicroscopeC
   return worst;
 }
 
-// What the test of the fit needs, at the solution.
+// Input of the fit test, at the solution.
 std::vector<vpFitTestView> linearised(const vpMicroscopeProblem &problem, const Solution &solution,
                                       const std::vector<std::vector<vpCalibrationPoint>> &points)
 {
@@ -57,7 +57,7 @@ std::vector<vpFitTestView> linearised(const vpMicroscopeProblem &problem, const 
   return views;
 }
 
-// One run: closed-form start, fit without distortion, fit with it, choice between the two.
+// One run: closed-form initial value, fit without distortion, fit with it, choice between the two.
 class Calibrator
 {
 public:
@@ -79,11 +79,11 @@ public:
 
   vpMicroscopeCalibrationResult run()
   {
-    // Without distortion first: it is the answer where kappa1 cannot be told, and what its effect is compared with.
+    // Without distortion first: it is the result where kappa1 is unobservable, and the reference for its effect.
     Fit best = fit(false, false, start(false));
     if (m_options.estimateKappa1) {
       Fit bent = fit(true, false, start(true));
-      if (!(bent.solution.chi2 <= best.solution.chi2)) { // a start that no pixel allows
+      if (!(bent.solution.chi2 <= best.solution.chi2)) { // an initial value that no pixel allows
         bent = fit(true, false, best.solution.state);
       }
       if (judgeKappa1(bent, best)) {
@@ -122,7 +122,7 @@ private:
   [[nodiscard]] Fit fit(bool kappa1, bool principalPoint, const State &from) const
   {
     const bool tilt = m_options.estimateTilt, aspect = m_options.estimateAspect;
-    // Aspect and stretch are the same but for the distortion.
+    // Aspect and stretch are equivalent except for the distortion.
     const std::array<bool, State::SharedCount> isFree = {
         {true, aspect, kappa1, principalPoint, principalPoint, tilt, tilt, tilt && !aspect, tilt}};
     const vpMicroscopeProblem problem(m_points, m_views, isFree, m_weightScale);
@@ -144,7 +144,7 @@ private:
     return degrees > 0 ? fitted.solution.chi2 / degrees : 1.;
   }
 
-  // What the covariance is multiplied by.
+  // Factor of the covariance.
   [[nodiscard]] double factorOf(const Fit &fitted) const
   {
     return m_options.sigmaFromResiduals ? varianceFactorOf(fitted) : 1.;
@@ -160,7 +160,7 @@ private:
     return factorOf(fitted) * vpMicroscopeCovarianceOf(fitted.solution, fitted.problem.freeParameters(), m_views[k], k);
   }
 
-  // Of the image, from the principal point, px (columns).
+  // Distance of the farthest image corner from the principal point, px (columns).
   [[nodiscard]] double farthestCorner(const State &state) const
   {
     const double u0 = state.shared[State::U0], v0 = state.shared[State::V0];
@@ -178,7 +178,7 @@ private:
     m_decision.significance = std::abs(m_decision.kappa1) / m_result.kappa1Sigma;
   }
 
-  // Whether the distortion is there, matters, and is known.
+  // Whether the distortion is significant, relevant, and known.
   bool judgeKappa1(const Fit &bent, const Fit &straight)
   {
     takeKappa1(bent);
@@ -191,7 +191,7 @@ private:
     return isThere && isKnown;
   }
 
-  // What a distortion that is taken as zero may change in the rest: as much as its deviation or its estimate says.
+  // Effect on the other parameters of a distortion taken as zero: of its deviation or its estimate.
   [[nodiscard]] vpMicroscopeCovariance unseenBy(std::size_t k) const
   {
     const vpMicroscopeCovariance C = covarianceOf(*m_unseen, k);
@@ -256,7 +256,7 @@ private:
   std::vector<vpPlanarStart> m_starts;
   double m_weightScale = 0.; // px/m
   vpMicroscopeDecision m_decision;
-  std::optional<Fit> m_unseen; // with the distortion that the answer lacks
+  std::optional<Fit> m_unseen; // with the distortion that the result omits
   vpMicroscopeCalibrationResult m_result;
 };
 } // namespace

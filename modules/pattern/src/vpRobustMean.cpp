@@ -20,15 +20,15 @@ namespace
 constexpr int few = 32;
 
 #if defined(__GNUC__)
-// The greatest value that has at most n / 2 others below it. All against all, four at a time: no branch depends on the
-// values that could be guessed wrong, and the compiler has nothing to guess about vectors. Three times as fast as sorting.
+// The greatest value that has at most n / 2 others below it. All against all, four at a time: without value-dependent
+// branches, and easy to vectorise. Three times as fast as sorting.
 VISP_PATTERN_CLONES double medianOfFew(const double *values, int n)
 {
   using Four = double __attribute__((vector_size(32)));
   using Counts = std::int64_t __attribute__((vector_size(32)));
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const int blocks = (n + 3) / 4;
-  const std::int64_t half = -(n / 2); // a comparison that holds is -1
+  const std::int64_t half = -(n / 2); // a true comparison is -1
   Four padded[few / 4], best = {-infinity, -infinity, -infinity, -infinity};
   padded[blocks - 1] = -best;
   std::memcpy(padded, values, static_cast<std::size_t>(n) * sizeof(double));

@@ -25,12 +25,12 @@ public:
   void add(double value, double variance);
   //! Tukey's biweight about \e centre, each value weighted with its variance.
   Result mean(double centre);
-  //! The same about the median.
+  //! Tukey's biweight about the median.
   Result mean();
   /*!
-   * One of the values, for an even number of them the upper one of the two in the middle; 0 of none. A start for robust
-   * estimates, no figure for a report (vpMedian()): the mean of the two is half way to a stranger when there are
-   * only two values, and turning products lost their lock by it.
+   * One of the values, for an even number of them the upper of the two in the middle; 0 if empty. An initial value for
+   * robust estimates, not a result for reports (vpMedian()): the mean of the two is half way to an outlier when there
+   * are only two values, which made the tracker lose turning products.
    */
   static double median(std::vector<double> &values);
 

@@ -81,7 +81,7 @@ void vpRunLabels::join(int a, int b)
   m_parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
 }
 
-// Runs of one row. 64 pixels at a time become 64 bits, and the ends of runs are where a bit differs from the one before.
+// Runs of one row. 64 pixels at a time become 64 bits; runs end where a bit differs from the previous one.
 bool vpRunLabels::scanRow(const unsigned char *row, int threshold, bool bright)
 {
   const std::uint64_t other = bright ? 0 : ~std::uint64_t(0);
@@ -93,7 +93,7 @@ bool vpRunLabels::scanRow(const unsigned char *row, int threshold, bool bright)
     if (left >= block) {
       bits = blockAbove(row + x, threshold) ^ other;
     }
-    else if (m_width >= block) { // the last 64 of the row, without those that were seen before
+    else if (m_width >= block) { // the last 64 of the row, without those already processed
       bits = (blockAbove(row + m_width - block, threshold) ^ other) >> (block - left);
     }
     else {

@@ -25,12 +25,12 @@ struct vpPatternSpot {
 class vpRunLabels
 {
 public:
-  static constexpr int leastArea = 9; //!< Of what may be a cell, px.
+  static constexpr int leastArea = 9; //!< Minimum area of a cell, px.
 
   vpRunLabels(unsigned int width, unsigned int height, std::size_t maxSpots);
 
-  //! Spots that do not touch the border and have at least \e minArea pixels. False: more runs or spots than there is
-  //! room for. \e bright: spots are the values above the threshold, otherwise those up to it.
+  //! Spots that do not touch the border and have at least \e minArea pixels. False: more runs or spots than the
+  //! capacity. \e bright: spots are the values above the threshold, otherwise those up to it.
   bool find(const vpImage<unsigned char> &image, int threshold, bool bright, int minArea);
   std::vector<vpPatternSpot> &spots() { return m_spots; }
   const std::vector<vpPatternSpot> &spots() const { return m_spots; }

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Grey values of an image, for its threshold.
+// Histogram of the grey values of an image, for its threshold.
 #ifndef vpSubsampledHistogram_h
 #define vpSubsampledHistogram_h
 
@@ -11,7 +11,7 @@
 
 BEGIN_VISP_NAMESPACE
 
-// Every second row and column of big enough images: the threshold needs no more. Two at a time: neighbours are often of
+// Every second row and column of large images, which suffices for the threshold. Two at a time: neighbours often have
 // the same value, and a count that was just written cannot be read at once.
 inline vpPatternHistogram vpSubsampledHistogram(const vpImage<unsigned char> &image)
 {

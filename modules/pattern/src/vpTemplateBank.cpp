@@ -39,7 +39,7 @@ VISP_PATTERN_CLONES void subtract(float *__restrict a, float factor, const float
     a[i] -= factor * b[i];
   }
 }
-// Round to 16 bits; returns what one step of them is worth. Neither a number nor the sum over pixels of +-256 may overflow.
+// Round to 16 bits; returns the value of one step. Neither a number nor the sum over pixels of +-256 may overflow.
 VISP_PATTERN_CLONES float toIntegers(const float *b, int n, std::int16_t *__restrict q)
 {
   constexpr int lanes = 16; // so that the compiler may use vectors without reordering a sum
@@ -80,7 +80,7 @@ void vpTemplateBank::begin(const vpTemplateLearner &learner)
   m_hw = learner.halfWidth();
   m_hh = learner.halfHeight();
   m_ready = m_piece = 0;
-  // Big cells take coarser phases; the Gauss-Newton step covers the rest.
+  // Large cells use coarser phases; the Gauss-Newton step covers the rest.
   m_perAxis = finest;
   while (static_cast<std::size_t>(m_perAxis * m_perAxis * basisSize * stride()) > m_room && m_perAxis > 1) {
     m_perAxis /= 2;
@@ -126,7 +126,7 @@ bool vpTemplateBank::preparePiece(const vpTemplateLearner &learner)
 
 vpTemplateBank::Place vpTemplateBank::place(double x, double y) const
 {
-  // In steps of a phase, rounded and counted from the first phase of pixel 0; nothing negative can be in the image.
+  // In steps of a phase, rounded and counted from the first phase of pixel 0; image coordinates are never negative.
   const int bits = m_perAxis == 4 ? 2 : m_perAxis == 2 ? 1 : 0, half = m_perAxis / 2, mask = m_perAxis - 1;
   const int ix = static_cast<int>(x * m_perAxis + 0.5) + half, iy = static_cast<int>(y * m_perAxis + 0.5) + half;
   const int phaseX = ix & mask, phaseY = iy & mask;

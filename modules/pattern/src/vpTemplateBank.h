@@ -14,10 +14,10 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
- * A cell at the phase p plus a small d looks like  c + s (T - dx Tx - dy Ty) + g1 x + g2 y + g3 xT + g4 yT: brightness c,
- * contrast s and slopes g of the illumination. With the columns 1, T, Tx, Ty, x, y, xT, yT, B = Q R and z = Q' I, the
- * rows of R give the unknowns, and |I|^2 - |z|^2 is what is left over. The slopes are the same for all cells and change
- * slowly; estimated for each cell anew they would double the variance of y.
+ * A cell at the phase p plus a small d looks like  c + s (T - dx Tx - dy Ty) + g1 x + g2 y + g3 xT + g4 yT: brightness
+ * c, contrast s and slopes g of the illumination. With the columns 1, T, Tx, Ty, x, y, xT, yT, B = Q R and z = Q' I,
+ * the rows of R give the unknowns, and |I|^2 - |z|^2 is the residual. The slopes are the same for all cells and change
+ * slowly; estimated for each cell they would double the variance of y.
  *
  * Q is kept as 16-bit integers: eight products in one instruction of any x86-64.
  */
@@ -25,8 +25,8 @@ class vpTemplateBank
 {
 public:
   static constexpr int basisSize = 8;
-  //! Phases per axis. Gauss-Newton covers the rest of a quarter of a pixel without loss, and with 8 the bases would not
-  //! stay in the cache: 8 were half as fast and no better.
+  //! Phases per axis. Gauss-Newton covers the rest of a quarter of a pixel without loss; with 8 the bases would not
+  //! stay in the cache: half as fast and no better.
   static constexpr int finest = 4;
   static constexpr int maxPhases = finest * finest;
 
@@ -40,31 +40,31 @@ public:
   //! Position of a cell: middle pixel of its window, and phase.
   struct Place {
     int x, y, phase;
-    double px, py; // where the phase is, px
+    double px, py; // position of the phase, px
   };
 
   explicit vpTemplateBank(std::size_t maxPixels);
 
-  //! Take over what was learned; no phase is ready yet.
+  //! Take over the learned template; no phase is ready yet.
   void begin(const vpTemplateLearner &learner);
   //! Prepare the next phases; true when all are ready.
   bool prepare(const vpTemplateLearner &learner, int count);
-  //! Prepare a piece of a phase, so small that it fits beside the tracking of an image; true when all are ready.
+  //! Prepare a part of a phase, small enough to run beside the tracking of an image; true when all are ready.
   bool preparePiece(const vpTemplateLearner &learner);
   bool isReady() const { return m_phases > 0 && m_ready == m_phases; }
   void clear() { m_phases = m_ready = m_piece = 0; }
 
   Place place(double x, double y) const;
   const Phase &phase(int index) const { return m_phase[static_cast<std::size_t>(index)]; }
-  //! How far a cell may be from its phase, px, along each axis; with the finest phases the third order of the template is
-  //! below 0.002 px there.
+  //! Maximum distance of a cell from its phase, px, along each axis; with the finest phases the third order of the
+  //! template is below 0.002 px there.
   double reach() const { return 0.8 / m_perAxis; }
   int halfWidth() const { return m_hw; }
   int halfHeight() const { return m_hh; }
   //! Difference between the brightest and the darkest pixel of the template, grey values.
   double range() const { return m_range; }
   int pixels() const { return (2 * m_hw + 1) * (2 * m_hh + 1); }
-  int stride() const { return (pixels() + 31) / 32 * 32; } // whole lines of the cache
+  int stride() const { return (pixels() + 31) / 32 * 32; } // whole cache lines
 
 private:
   static constexpr int piecesPerPhase = 4;
@@ -74,7 +74,7 @@ private:
   float *column(std::size_t k) { return &m_basis[k * m_capacity]; }
 
   int m_hw = 0, m_hh = 0, m_perAxis = finest, m_phases = 0, m_ready = 0;
-  int m_piece = 0; // of the phase in work
+  int m_piece = 0; // of the phase in preparation
   double m_range = 0.;
   std::size_t m_capacity;
   std::array<Phase, maxPhases> m_phase;

@@ -24,7 +24,7 @@ const float splinePole = static_cast<float>(std::sqrt(3.) - 2.);
 // Coefficients of the cubic B-spline through the values, in place: causal and anticausal recursion (Unser 1993).
 void prefilter(float *values, int count)
 {
-  values[0] *= 6.F / (1.F - splinePole); // the border value goes on for ever
+  values[0] *= 6.F / (1.F - splinePole); // the border value is repeated
   for (int i = 1; i < count; ++i) {
     values[i] = 6.F * values[i] + splinePole * values[i - 1];
   }
@@ -69,7 +69,7 @@ void vpTemplateLearner::resample(const vpImage<unsigned char> &image, int ix, in
   filter(m_rowPass.data(), w * h, w, ty, m_window.data());
 }
 
-// Bring the window to the brightness and contrast of the first, so that the illumination does not spread the mean.
+// Normalise the window to the brightness and contrast of the first, so that the illumination does not spread the mean.
 void vpTemplateLearner::normalise()
 {
   const std::size_t n = static_cast<std::size_t>(columns()) * static_cast<std::size_t>(rows());
@@ -91,7 +91,7 @@ void vpTemplateLearner::normalise()
   }
 }
 
-// The median of the first few windows, then a mean of values clipped to three deviations: dust leaves no mark.
+// The median of the first few windows, then a mean of values clipped to three deviations: robust to dust.
 void vpTemplateLearner::mix()
 {
   const std::size_t n = static_cast<std::size_t>(columns()) * static_cast<std::size_t>(rows());
@@ -143,7 +143,7 @@ bool vpTemplateLearner::finish()
   return m_count >= medianCount && makeSpline();
 }
 
-// Of a half of the rows.
+// For a half of the rows.
 void vpTemplateLearner::coefficientsAlongRows(bool lower)
 {
   const int w = columns(), begin = lower ? rows() / 2 : 0, end = lower ? rows() : rows() / 2;
@@ -179,8 +179,8 @@ void vpTemplateLearner::coefficientsAlongColumns()
   }
 }
 
-// A cell is symmetric about its centre. What is odd in the mean is a shift, or a slope of the illumination. Of a half of the
-// pixels, as the other half of the window says the same with the other sign.
+// A cell is symmetric about its centre. The odd part of the mean is a shift, or an illumination gradient. For a half of
+// the pixels, because the other half of the window has the same values with opposite sign.
 void vpTemplateLearner::addSymmetry(bool lower)
 {
   const int wide = 2 * m_hw + 1, n = wide * (2 * m_hh + 1), begin = lower ? n / 4 : 0, end = lower ? n / 2 : n / 4;
@@ -215,7 +215,7 @@ void vpTemplateLearner::centreOnSymmetry()
   if (!m_good) {
     return;
   }
-  // The slopes are the image's, not the cell's.
+  // The slopes belong to the image, not to the cell.
   const int w = columns();
   const float gx = static_cast<float>(odd[2]), gy = static_cast<float>(odd[3]), level = static_cast<float>(m_level);
   const float hx = static_cast<float>(odd[4]), hy = static_cast<float>(odd[5]);
@@ -236,7 +236,7 @@ void vpTemplateLearner::beginSpline(int rounds)
   m_good = true;
 }
 
-// One round: coefficients, values and slopes, centre. At the end the coefficients once more.
+// One round: coefficients, values and slopes, centre. At the end the coefficients again.
 bool vpTemplateLearner::splinePiece()
 {
   switch (m_piece++) {
@@ -253,7 +253,7 @@ bool vpTemplateLearner::splinePiece()
       return true;
     }
     return false;
-  case 3: // the first windows, or the residuals, are used up: their room serves
+  case 3: // the first windows, or the residuals, are used up: their memory is reused
     evaluate(0., 0., m_first.data(), m_first.data() + m_capacity, m_first.data() + 2 * m_capacity);
     return false;
   case 4:

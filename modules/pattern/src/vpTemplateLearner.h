@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// What a cell looks like, learned from the images: a robust mean of cells that were shifted onto each other.
+// Appearance of a cell, learned from the images: a robust mean of cells shifted onto each other.
 #ifndef vpTemplateLearner_h
 #define vpTemplateLearner_h
 
@@ -17,35 +17,35 @@ BEGIN_VISP_NAMESPACE
 class vpTemplateLearner
 {
 public:
-  //! Room for windows of \e maxPixels pixels.
+  //! Capacity for windows of \e maxPixels pixels.
   explicit vpTemplateLearner(std::size_t maxPixels);
 
-  //! Start anew with windows of 2 halfWidth + 1 by 2 halfHeight + 1 px. False when they do not fit into the room.
+  //! Restart with windows of 2 halfWidth + 1 by 2 halfHeight + 1 px. False when they exceed the capacity.
   bool begin(int halfWidth, int halfHeight);
-  //! Take in the cell with this centre, px. False when its window is not completely inside the image.
+  //! Add the cell with this centre, px. False when its window is not completely inside the image.
   bool add(const vpImage<unsigned char> &image, double x, double y);
   int count() const { return m_count; }
   //! Finish: the centre of point symmetry and the coefficients of the spline are computed. False: no symmetric cell.
   bool finish();
-  //! After finish(): take in what the template leaves over at this cell. Shifting blurs the mean a little, and more at
-  //! half a pixel than at none; the residuals bring back what was lost (iterative back-projection).
+  //! After finish(): add the residual of the template at this cell. Shifting blurs the mean a little, and more at half
+  //! a pixel than at none; the residuals restore the loss (iterative back-projection).
   bool addResidual(const vpImage<unsigned char> &image, double x, double y);
-  //! Number of windows taken in by addResidual().
+  //! Number of windows added by addResidual().
   int residuals() const { return m_residuals; }
   //! Add the residuals to the template and finish it again.
   bool refine();
 
   //! Residuals are clipped to this, grey values; at first three deviations of the windows from their mean.
   void setLimit(double limit) { m_limit = static_cast<float>(limit); }
-  //! Mean square of the mean residual on the window, times their number: their variance when the template fits, more when
-  //! it does not.
+  //! Mean square of the mean residual on the window, times their number: their variance when the template fits, more
+  //! when it does not.
   double misfit() const;
-  //! refine() in pieces, with a share of the residuals only: begin, then refinePiece() until it says true.
+  //! refine() in parts, with a share of the residuals only: begin, then refinePiece() until it returns true.
   void beginRefine(double share);
   bool refinePiece();
   //! After the last piece: the cell is still symmetric about a centre near the old one.
   bool isGood() const { return m_good; }
-  //! Back to the template before beginRefine(), in pieces too.
+  //! Restore the template before beginRefine(), also in parts.
   void beginRestore();
 
   int halfWidth() const { return m_hw; }
@@ -55,8 +55,8 @@ public:
   void evaluate(double px, double py, float *value, float *dx, float *dy) const;
 
 private:
-  static constexpr int extra = 2;       // pixels around the window that must be right, too: the spline looks at them
-  static constexpr int margin = 5;      // pixels around the window in all, for shifts
+  static constexpr int extra = 2;       // pixels around the window that must be correct, too: the spline uses them
+  static constexpr int margin = 5;      // pixels around the window in total, for shifts
   static constexpr int medianCount = 5; // windows whose median starts the mean
   int columns() const { return 2 * (m_hw + margin) + 1; }
   int rows() const { return 2 * (m_hh + margin) + 1; }
@@ -77,10 +77,10 @@ private:
   std::size_t m_capacity;
   int m_hw = 0, m_hh = 0, m_count = 0, m_residuals = 0;
   double m_centreX = 0., m_centreY = 0.; // of symmetry, from the middle of the grid
-  double m_level = 0., m_contrast = 1.;  // of the first window, to which the others are brought
+  double m_level = 0., m_contrast = 1.;  // of the first window, to which the others are normalised
   float m_spread = 1.F;                  // mean absolute deviation from the mean
   float m_limit = 3.F;                   // of residuals
-  int m_rounds = 0, m_piece = 0;         // of makeSpline() that are left; in this round
+  int m_rounds = 0, m_piece = 0;         // remaining rounds of makeSpline(); part of this round
   bool m_good = false;
   static constexpr std::size_t unknowns = 6; // shift, slopes of the light
   std::array<std::array<double, unknowns>, unknowns> m_normal{};

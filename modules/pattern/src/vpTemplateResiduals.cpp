@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// What a template leaves over at the cells, collected and given back to it.
+// Residuals of a template at the cells, collected and added back to it.
 #include "vpTemplateLearner.h"
 
 #include "vpCubicFilter.h"
@@ -17,7 +17,7 @@ using namespace vpCubicFilter;
 
 namespace
 {
-// Pixels become what the model, brightened and stretched to fit, leaves over, clipped. False: it does not fit at all.
+// Pixels become the residuals of the model, fitted in brightness and contrast, clipped. False: it does not fit at all.
 VISP_PATTERN_CLONES bool toResiduals(const float *model, float *__restrict pixels, int n, float limit)
 {
   constexpr int lanes = 8; // partial sums, so that the compiler may use vectors without reordering a sum
@@ -76,7 +76,7 @@ bool vpTemplateLearner::addResidual(const vpImage<unsigned char> &image, double 
       iy + m_hh >= static_cast<int>(image.getHeight())) {
     return false;
   }
-  // The first windows are not needed any more: their room serves for the model and its slopes.
+  // The first windows are not needed any more: their memory is used for the model and its slopes.
   float *model = m_first.data(), *rest = model + m_capacity, *padded = rest + m_capacity;
   evaluateOn(hw, hh, x - ix, y - iy, model, rest, padded);
   const bool inside = ix >= hw && iy >= hh && ix + hw < static_cast<int>(image.getWidth()) &&
@@ -94,7 +94,7 @@ bool vpTemplateLearner::addResidual(const vpImage<unsigned char> &image, double 
   if (!toResiduals(model, rest, n, m_limit)) {
     return false;
   }
-  // Shift what is left over back onto the grid of the template; beyond the window the nearest value stands in.
+  // Shift the residuals back onto the grid of the template; beyond the window the nearest value is used.
   const int w = columns(), h = rows(), room = w * (h + 3);
   const double sx = ix - x + m_centreX, sy = iy - y + m_centreY; // pixel u shows the template at u + s
   const int dx = static_cast<int>(std::ceil(sx)), dy = static_cast<int>(std::ceil(sy));
@@ -145,7 +145,7 @@ void vpTemplateLearner::beginRefine(double share)
   for (std::size_t i = 0; i < used(); ++i) {
     m_mean[i] += factor * m_correction[i];
   }
-  beginSpline(2); // from a centre that is nearly right
+  beginSpline(2); // from a nearly correct centre
 }
 
 bool vpTemplateLearner::refinePiece() { return splinePiece(); }

@@ -25,7 +25,7 @@ using State = vpTsaiState;
 
 constexpr std::size_t leastPoints = 6;
 constexpr std::size_t leastOfBody = 8;
-constexpr std::size_t mostLeftOut = 30; // views that are left out in turn after a misfit
+constexpr std::size_t mostLeftOut = 30; // views left out in turn after a misfit
 constexpr double largestDoubt = 0.1;    // standard deviation of f over f in a reliable result
 
 vpHomogeneousMatrix poseOf(const vpTsaiPose &pose, const Eigen::Vector3d &origin)
@@ -40,7 +40,7 @@ vpHomogeneousMatrix poseOf(const vpTsaiPose &pose, const Eigen::Vector3d &origin
   return {vpTranslationVector(t.x(), t.y(), t.z()), R};
 }
 
-// The focal length that a view tells, with the pose that it tells; the better of two where the tilt may have two signs.
+// Focal length and pose from one view; the better of two where the tilt may have two signs.
 vpTsaiDepth bestDepth(const vpTsaiView &view, const std::vector<vpTsaiPose> &poses, double f, vpTsaiPose &best)
 {
   vpTsaiDepth result;
@@ -72,8 +72,8 @@ bool placeAll(const std::vector<vpTsaiView> &views, const std::vector<std::vecto
   return true;
 }
 
-// The focal length with which all views fit best, among those that single views tell and a row of plausible ones: a
-// view that is hardly tilted tells nearly nothing.
+// The focal length with which all views fit best, among those of single views and a range of plausible ones: a view
+// with little tilt contains little information.
 bool start(const std::vector<vpTsaiView> &views, const std::vector<std::vector<vpTsaiPose>> &candidates, double width,
            State &state)
 {
@@ -134,7 +134,7 @@ Eigen::Matrix<double, vpTsaiParameterCount, vpTsaiParameterCount> covarianceOf(c
 {
   Eigen::Matrix<double, vpTsaiParameterCount, vpTsaiParameterCount> all, by;
   all.setZero();
-  by.setIdentity(); // the order is the same, only py is made of two
+  by.setIdentity(); // the order is the same, only py consists of two
   by(vpTsaiPy, State::F) = solution.state.shared[State::Aspect];
   by(vpTsaiPy, State::Aspect) = solution.state.shared[State::F];
   for (std::size_t i = 0; i < isFree.size(); ++i) {
@@ -145,7 +145,7 @@ Eigen::Matrix<double, vpTsaiParameterCount, vpTsaiParameterCount> covarianceOf(c
   return by * all * by.transpose();
 }
 
-// What the test of the fit needs, at the solution.
+// Input of the fit test, at the solution.
 std::vector<vpFitTestView> linearised(const vpTsaiProblem &problem, const vpBundleSolution<State> &solution,
                                       const std::vector<std::vector<vpCalibrationPoint>> &points)
 {
@@ -262,8 +262,8 @@ vpTsaiCalibrationResult vpTsaiCalibration::compute() const
   return result;
 }
 
-// A view that is grossly wrong pulls the others astray, so that its own residuals need not be the largest: the rest is
-// computed without it.
+// A grossly wrong view biases the others, so that its own residuals need not be the largest: the rest is computed
+// without it.
 void vpTsaiCalibration::findWorstView(vpTsaiCalibrationResult &result) const
 {
   if (result.fit.verdict != vpFitVerdict::Misfit || m_views.size() < 3 || m_views.size() > mostLeftOut) {
@@ -281,7 +281,7 @@ void vpTsaiCalibration::findWorstView(vpTsaiCalibrationResult &result) const
         result.fit.worstViewRms = result.viewRms[k];
       }
     }
-    catch (const vpException &) { // no camera sees the others so: it is not this view
+    catch (const vpException &) { // no camera can see the other views so: it is not this view
     }
   }
 }
@@ -306,7 +306,7 @@ vpTsaiCalibrationResult vpTsaiCalibration::solve(const std::vector<std::vector<v
   }
   const bool onePlane = views.size() == 1 && views[0].planar;
   const bool aspect = m_options.estimateAspect && !onePlane, principal = m_options.estimatePrincipalPoint && !onePlane;
-  // From few parameters to many: far from the answer those that are weakly determined run away.
+  // From few parameters to many: far from the solution weakly determined ones diverge.
   const vpTsaiProblem few(points, views, {{true, false, false, false, false}});
   state = vpSolveBundle(few, state).state;
   if (m_options.estimateKappa1) {

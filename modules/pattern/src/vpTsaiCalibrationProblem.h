@@ -37,7 +37,7 @@ public:
   [[nodiscard]] Eigen::Index shared() const { return static_cast<Eigen::Index>(m_free.size()); }
   [[nodiscard]] std::size_t views() const { return m_views->size(); }
   [[nodiscard]] const std::vector<int> &freeParameters() const { return m_free; }
-  // Local parameters: a turn of the camera frame (rad), then t (m).
+  // Local parameters: a rotation of the camera frame (rad), then t (m).
   [[nodiscard]] vpBundleView view(const vpTsaiState &state, std::size_t k) const;
   [[nodiscard]] vpTsaiState plus(const vpTsaiState &state, const Eigen::VectorXd &shared,
                                  const std::vector<Eigen::VectorXd> &local) const;

@@ -34,7 +34,7 @@ Eigen::Matrix3d nearestRotation(const Eigen::Matrix3d &M)
   return svd.matrixU() * svd.matrixV().transpose();
 }
 
-// Points are seen where they are and not opposite.
+// Points are seen on their own side, not opposite.
 double signOf(const vpTsaiView &view, const Eigen::Matrix<double, 2, 3> &rows, const Eigen::Vector2d &t)
 {
   return ((rows * view.p).colwise() + t).cwiseProduct(view.d).sum() < 0. ? -1. : 1.;
@@ -134,7 +134,7 @@ std::vector<vpTsaiPose> vpAlignTsaiView(const vpTsaiView &view)
 
 vpTsaiDepth vpFindTsaiDepth(const vpTsaiView &view, const vpTsaiPose &pose, double f)
 {
-  // f p - u tz = u w and f q - v tz = v w, with w the depth but for tz.
+  // f p - u tz = u w and f q - v tz = v w, with w the depth without tz.
   const Eigen::Matrix3Xd turned = (pose.R * view.p).colwise() + pose.t;
   Eigen::MatrixXd rows(2 * turned.cols(), 2);
   Eigen::VectorXd right(2 * turned.cols());

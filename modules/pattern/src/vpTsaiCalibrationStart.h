@@ -14,13 +14,13 @@
 
 BEGIN_VISP_NAMESPACE
 
-// A pose as the solver turns it: p in the camera = R (p - origin) + t, with the mean of the points as origin.
+// A pose as used by the solver: p in the camera = R (p - origin) + t, with the mean of the points as origin.
 struct vpTsaiPose {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   Eigen::Vector3d t = Eigen::Vector3d::Zero();
 };
 
-// Seen places relative to the principal point with square pixels (px), points about their mean (m).
+// Observed positions relative to the principal point with square pixels (px), points about their mean (m).
 struct vpTsaiView {
   Eigen::Matrix2Xd d;
   Eigen::Matrix3Xd p;
@@ -31,11 +31,11 @@ struct vpTsaiView {
 [[nodiscard]] vpTsaiView vpMakeTsaiView(const std::vector<vpCalibrationPoint> &points, double u0, double v0,
                                         double aspect);
 
-// The poses that the radial alignment allows (one for a body, two for a plane: its tilt has two signs), tz still zero.
+// The poses allowed by the radial alignment (one for a body, two for a plane: its tilt has two signs), tz still zero.
 // Empty when the points do not determine it.
 [[nodiscard]] std::vector<vpTsaiPose> vpAlignTsaiView(const vpTsaiView &view);
 
-// f (px) and tz (m) of a view by least squares, and how badly they fit. f = 0: find it, else it is given.
+// f (px) and tz (m) of a view by least squares, and their misfit. f = 0: estimate it, else it is given.
 struct vpTsaiDepth {
   double f = 0.;
   double tz = 0.;

@@ -31,7 +31,7 @@ Eigen::Vector2d stepB(const vpDotLattice &lattice) { return {lattice.bx, lattice
 TEST_CASE("lattices of every kind are found at any rotation, with gaps and strangers", "[lattice]")
 {
   CAPTURE(vpTestSupport::seed());
-  // At most so many percent wrong or refused; the prototype had none, and up to 5 with a third missing.
+  // Maximum percentage wrong or refused; the prototype had none, and up to 5 with a third missing.
   const struct {
     DotKind kind;
     int percent;
@@ -118,7 +118,7 @@ TEST_CASE("dots of a grid of any kind calibrate a microscope, and one of another
     vpMicroscopeCalibrationResult result = calibrate();
     CAPTURE(result.message);
     CHECK(result.calibration.scaleX == Approx(scale).epsilon(3e-3));
-    if (shape == DotShape::Hexagonal) { // a square one is told
+    if (shape == DotShape::Hexagonal) { // a square one is specified
       pitch.angle = M_PI / 2.;
       result = calibrate();
       CAPTURE(result.message);

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Calibrations that do not fit their points are not called reliable, and those that fit are, at the stated level.
+// Calibrations that do not fit their points are not reported reliable, and those that fit are, at the given level.
 #include "vpCatch.h"
 #include "vpPlanarProblem.h"
 
@@ -74,7 +74,7 @@ vpMicroscopeCalibrationResult calibrate(const vpPatternTest::Problem &problem, c
   return calibration.compute();
 }
 
-// False alarms of so many fits lie within five deviations of their number.
+// The number of false alarms lies within five deviations of its mean.
 void checkAlarms(int alarms, int fits, double level)
 {
   CAPTURE(alarms, fits, level);
@@ -130,7 +130,7 @@ TEST_CASE("a view whose points have each other's names, and a wrong pitch, are m
       CHECK_FALSE(result.reliable);
       CHECK(result.fit.worstView == static_cast<int>(bad));
       std::vector<Points> stretched = good;
-      for (Points &view : stretched) { // a pitch that is wrong by 2 %, in all views alike
+      for (Points &view : stretched) { // a pitch error of 2 %, equal in all views
         for (vpCalibrationPoint &point : view) {
           point.y *= 1.02;
         }
@@ -180,7 +180,7 @@ TEST_CASE("500 random microscopes, tilted to two degrees: honest covariance, ala
   CAPTURE(vpTestSupport::seed());
   constexpr int problems = 500;
   constexpr double level = 0.05;
-  for (const bool isBent : {true, false}) { // distortion that is seen, and none
+  for (const bool isBent : {true, false}) { // observable distortion, and none
     vpPatternTest::Moments nees;
     int alarms = 0;
     for (int trial = 0; trial < problems; ++trial) {
@@ -255,7 +255,7 @@ TEST_CASE("a microscope with a false point, a bent product or a wrong pitch is n
       CHECK_FALSE(result.reliable);
 
       views = good;
-      for (Points &view : views) { // rows that are 2 % farther from each other than told
+      for (Points &view : views) { // row distance 2 % larger than specified
         for (vpCalibrationPoint &point : view) {
           point.y *= 0.98;
         }

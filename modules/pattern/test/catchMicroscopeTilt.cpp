@@ -2,8 +2,8 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// A tilted plane seen by points in a part of the image: no distortion is read from the tilt, and none is given that the
-// points cannot tell.
+// A tilted plane seen by points in a part of the image: the tilt is not taken for distortion, and no distortion is
+// reported that the points do not determine.
 #include "vpCatch.h"
 #include "vpPlanarProblem.h"
 
@@ -54,7 +54,7 @@ TEST_CASE("a tilt of two degrees is not taken for distortion, whatever part of t
 {
   auto rng = vpTestSupport::generator(740);
   CAPTURE(vpTestSupport::seed());
-  // Deviation of kappa1, px at the edge, when scale, foreshortening and tilt are found with it (by linear algebra).
+  // Deviation of kappa1, px at the edge, when scale, foreshortening and tilt are estimated with it (by linear algebra).
   const struct {
     double span, sigma;
   } table[] = {{180., 61.}, {600., 1.64}, {1200., 0.21}, {2000., 0.044}};
@@ -122,7 +122,7 @@ TEST_CASE("a distortion is given where it is known at the corner, and missed whe
         CHECK(std::abs(result.calibration.kappa1 - kappa) < 5. * result.kappa1Sigma);
         CHECK(result.kappa1CornerSigma <= 0.5);
       }
-      else { // it is there, and nothing is said about the corner
+      else { // present, but undetermined at the corner
         CHECK(result.kappa1Status == vpKappa1Status::Unobservable);
         CHECK(result.calibration.kappa1 == 0.);
         CHECK_FALSE(result.reliable);

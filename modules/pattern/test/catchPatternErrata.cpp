@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Thesis (7.14) without a guard beside the mended algorithm, on edges that are soft and noisy. See doc/errata.md.
+// Thesis (7.14) without a guard compared with the corrected algorithm, on soft and noisy edges. See doc/errata.md.
 #include "vpAnalyticPattern.h"
 #include "vpCatch.h"
 

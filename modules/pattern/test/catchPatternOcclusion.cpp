@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Things of like grey in front of the product: no valid cell is far from its place.
+// Objects of similar grey value in front of the product: no valid cell is far from its true position.
 #include "vpAnalyticPattern.h"
 #include "vpCatch.h"
 
@@ -15,7 +15,7 @@ using namespace vpPatternTest;
 
 namespace
 {
-// A soft rectangle of a cell's or the background's grey, or any other, that drifts.
+// A soft drifting rectangle of a cell's or the background's grey, or any other.
 struct Occluder {
   double x, y, width, height, grey, vx, vy, soft;
   int life; // images
@@ -58,7 +58,7 @@ TEST_CASE("cells behind things of like grey are invalid, right or say how far of
   const char *const longer = std::getenv("VISP_DIRECT_LONG_TESTS");
   const int runs = longer == nullptr ? 3 : static_cast<int>(3 * std::max(1., std::atof(longer)));
   CAPTURE(vpTestSupport::seed());
-  constexpr int phases = 40, images = 4000; // the pattern goes to and fro, so that its pictures are made once
+  constexpr int phases = 40, images = 4000; // the pattern goes to and fro, so that its images are rendered once
   long valid = 0, far = 0;
   double worst = 0.;
   for (int run = 0; run < runs; ++run) {
@@ -113,6 +113,6 @@ TEST_CASE("cells behind things of like grey are invalid, right or say how far of
   WARN(valid << " valid cells in " << runs * images << " images, " << far
              << " off by more than 0.5 px and four of their sigmas, the worst " << worst << " px");
   CHECK(valid > 5L * runs * images);
-  // Not none: a cell of another thing's edge can be taken for a known one, rarely, and is then followed for some images.
+  // Not none: rarely, a cell at another object's edge is mistaken for a known one, and is then tracked for some images.
   CHECK(far <= valid / 2000);
 }

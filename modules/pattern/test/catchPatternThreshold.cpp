@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Thresholds against ViSP's, an exhaustive search, and classes that are known.
+// Thresholds against ViSP's, an exhaustive search, and known classes.
 #include "vpCatch.h"
 
 #include <visp3/core/vpImage.h>
@@ -69,7 +69,7 @@ TEST_CASE("thresholds agree with ViSP's and with the definition", "[threshold]")
          {vpPatternThreshold::Otsu, vpPatternThreshold::Isodata, vpPatternThreshold::MinimumError}) {
       CAPTURE(toString(method));
       const vpPatternThresholdResult r = vpFindThreshold(h, method);
-      // However the value itself is chosen, it lies between the classes and gives their means.
+      // Whatever the value itself, it lies between the classes and gives their means.
       CHECK(r.threshold > m.dark);
       CHECK(r.threshold < m.bright);
       CHECK(r.darkMean == Approx(m.dark).margin(3.));
@@ -79,9 +79,9 @@ TEST_CASE("thresholds agree with ViSP's and with the definition", "[threshold]")
         vpImage<unsigned char> copy(image);
         const int peer = threshold(copy, method == vpPatternThreshold::Otsu);
         if (peer == 0) {
-          continue; // ViSP's Isodata finds no fixed point now and then
+          continue; // ViSP's Isodata sometimes finds no fixed point
         }
-        // Any value in the empty gap divides alike: compare what lies between the two.
+        // Any value in the empty gap divides equally: compare the gap.
         long between = 0;
         for (int g = std::min(peer, r.threshold) + 1; g <= std::max(peer, r.threshold); ++g) {
           between += h[static_cast<std::size_t>(g)];

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Tracking against the truth of patterns in closed form: accuracy, honesty, identity, loss, bad input, allocation.
+// Tracking against patterns in closed form: accuracy, reported sigma, identity, loss, invalid input, allocation.
 #include "vpAnalyticPattern.h"
 
 #include "vpCatch.h"
@@ -108,7 +108,7 @@ TEST_CASE("centres reach the Cramer-Rao bound and say how good they are", "[patt
   CHECK(s.sigmaY() < 1.15 * boundY);
   CHECK(std::abs(s.meanX()) < 0.01);
   CHECK(std::abs(s.meanY()) < 0.01);
-  CHECK(s.chi / s.count == Approx(1.).margin(0.2)); // the deviations that are told are the true ones
+  CHECK(s.chi / s.count == Approx(1.).margin(0.2)); // the reported sigmas are correct
   CHECK(std::sqrt(s.motion / s.motions) < 0.008);
   CHECK(s.count > 250 * 8);
   CHECK(s.slips == 0);
@@ -152,7 +152,7 @@ TEST_CASE("cells keep their row and column over a long way, forth and back", "[p
   CHECK(s.slips == 0);
   CHECK(s.far == 0);
   CHECK(tracker.frame().epoch == epoch);
-  // The map of deviations shows what the cells were made with, up to a common part.
+  // The map of deviations shows the deviations of the cells as generated, up to a common part.
   double error = 0.;
   int n = 0;
   for (const vpPatternCell &cell : tracker.frame().cells) {
@@ -266,7 +266,7 @@ TEST_CASE("images without a pattern are never tracked", "[pattern]")
     CHECK(frame.validCells == 0);
   }
   CHECK(std::string(tracker.frame().message()).find("No lock: ") == 0);
-  // A locked tracker says Lost, whatever else it is shown.
+  // A locked tracker reports Lost for any other image.
   Pattern pattern;
   vpPatternTracker locked(160, 100);
   REQUIRE(lock(pattern, locked, rng, 1., 0.));

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// What the planar calibration as printed in the thesis costs, where it works and where it fails.
+// Loss of accuracy of the planar calibration as printed in the thesis, where it works and where it fails.
 #include "vpCatch.h"
 #include "vpPrintedCalibration.h"
 

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The planar calibration against random truths: exactness, honest covariance, what kappa1 can be told from, bad input.
+// The planar calibration against random truths: exactness, correct covariance, observability of kappa1, invalid input.
 #include "vpAnalyticPattern.h"
 #include "vpCatch.h"
 #include "vpPrintedCalibration.h"
@@ -130,13 +130,13 @@ TEST_CASE("scale, kappa1 and placement have the errors that the covariance says"
     const double size = uniform(rng, 4e-8, 3e-7);
     Problem problem =
         randomProblem(rng, 1 + trial % 2, trial % 2 == 0 ? size : -size, 640, 480, trial < problems / 2 ? 0. : 0.035);
-    if (trial % 3 != 0) { // the origin in view: its place then depends on the scale and not only on the rotation
+    if (trial % 3 != 0) { // the origin in view: its position then depends on the scale and not only on the rotation
       problem.views[0].tx *= 0.1;
       problem.views[0].ty *= 0.1;
       problem.truth = problem.views[0];
     }
     vpMicroscopeCalibrationOptions options;
-    options.minSignificance = 0.; // whatever comes out, so that nothing is selected
+    options.minSignificance = 0.; // minimum 0, so that nothing is selected
     options.minEffect = 0.;
     vpPlanarMicroscopeCalibration calibration(640, 480, options);
     Points first;
@@ -235,7 +235,7 @@ TEST_CASE("the covariance also holds for points at the edge of the image", "[cal
 {
   auto rng = vpTestSupport::generator(522);
   CAPTURE(vpTestSupport::seed());
-  for (int trial = 0; trial < 40; ++trial) { // off the centre, place and scale hang together
+  for (int trial = 0; trial < 40; ++trial) { // off the centre, position and scale are correlated
     Problem problem = randomProblem(rng, 1, 0.);
     problem.views[0].tx *= 0.1;
     problem.views[0].ty *= 0.1;
@@ -299,9 +299,9 @@ TEST_CASE("kappa1 of a good lens is unobservable at 160 x 100 px, whatever the n
     insignificant += result.message.find("standard deviations from zero, less than 5") != std::string::npos ? 1 : 0;
     withoutEffect += result.message.find("would move the worst corner by ") != std::string::npos ? 1 : 0;
   }
-  CHECK(seen <= 4); // 2.5e-8 is 2.5 deviations below what counts as there in some fine views: 0.3 expected
+  CHECK(seen <= 4); // 2.5e-8 is 2.5 deviations below the threshold in some fine views: 0.3 expected
   CHECK(insignificant > 0);
-  CHECK(withoutEffect > 0); // 200 frames say that it is there, and it does not matter
+  CHECK(withoutEffect > 0); // significant with 200 frames, but irrelevant
   // A lens ten times as bad as that shows its distortion over the whole sensor, and in many fine frames in the window.
   for (const unsigned int width : {640U, 160U}) {
     const Problem problem = randomProblem(rng, 60, 0.01 / (200. * 200.), width, width == 640U ? 480U : 100U);
@@ -343,7 +343,7 @@ TEST_CASE("unknown deviations come from the residuals, a product that is not exa
     options.sigmaFromResiduals = true;
     vpPlanarMicroscopeCalibration first(640, 480, options);
     for (vpCalibrationPoint &point : points) {
-      point.sigmaU = point.sigmaV = 3.; // nonsense
+      point.sigmaU = point.sigmaV = 3.; // invalid
     }
     first.addView(points);
     const vpMicroscopeCalibrationResult a = first.compute();
@@ -391,7 +391,7 @@ TEST_CASE("two rows of cells, which lie on a conic, are enough", "[calibration]"
         points.push_back(point);
       }
     }
-    for (const bool tilt : {true, false}) { // with tilt six points far from the centre say little, and it shows
+    for (const bool tilt : {true, false}) { // with tilt six points far from the centre give little information
       vpMicroscopeCalibrationOptions options;
       options.estimateTilt = tilt;
       vpPlanarMicroscopeCalibration calibration(640, 480, options);
@@ -502,7 +502,7 @@ TEST_CASE("bad input to the planar calibration is refused in words", "[calibrati
   });
   CHECK(mirrored.find("view 1 shows the product ") == 0);
 
-  CHECK(refusalOf([](Points &p) { // two places, again and again
+  CHECK(refusalOf([](Points &p) { // two positions, repeated
           for (std::size_t i = 0; i < p.size(); ++i) {
             p[i] = p[i % 2];
           }

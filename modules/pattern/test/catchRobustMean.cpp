@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The tracker's own median, which counts in vectors, is one of the values: that in the middle, or the upper one of two.
+// The tracker's own vectorised median is one of the values: the middle one, or the upper of two.
 #include "../src/vpRobustMean.cpp" // the class is not exported
 
 #include "vpCatch.h"

@@ -2,9 +2,8 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Tsai's calibration of bodies and planes against random truths and beside ViSP's vpCalibration; honest covariance;
-// what
-// cannot be told is not told; bad input.
+// Tsai's calibration of bodies and planes against random truths and ViSP's vpCalibration; correct covariance;
+// unobservable parameters are not reported; invalid input.
 #include "vpCatch.h"
 
 #include <visp3/core/vpException.h>
@@ -101,7 +100,7 @@ double difference(const vpHomogeneousMatrix &a, const vpHomogeneousMatrix &b)
   return worst;
 }
 
-//! \brief What a scenario of the test shows.
+//! \brief Result of a scenario of the test.
 struct Scene {
   Camera camera;
   std::vector<vpHomogeneousMatrix> poses;
@@ -114,7 +113,7 @@ Scene randomScene(Kind kind, double sigma, std::mt19937_64 &rng)
 {
   Scene scene;
   scene.camera = randomCamera(rng);
-  if (kind == Kind::Plane) { // one view of a plane tells neither aspect nor principal point
+  if (kind == Kind::Plane) { // aspect and principal point are unobservable in one view of a plane
     scene.camera.py = scene.camera.px;
     scene.camera.u0 = 319.5;
     scene.camera.v0 = 239.5;
@@ -135,7 +134,7 @@ vpTsaiCalibrationResult calibrate(const Scene &scene)
   return calibration.compute();
 }
 
-// ViSP's answer to the same points; its reports on std::cout are not for us.
+// ViSP's result for the same points, with its reports on std::cout muted.
 bool calibrateByViSP(const Scene &scene, vpCameraParameters &camera)
 {
   std::ostringstream sink;
@@ -252,7 +251,7 @@ TEST_CASE("the camera has the errors that the covariance says", "[calibration][t
          << ", not reliable " << unreliable);
     CHECK(nees == Approx(static_cast<double>(n)).epsilon(0.12));
     CHECK(factor == Approx(1.).margin(0.02));
-    CHECK(unreliable <= 30); // 10 +- 3.2 false alarms are stated
+    CHECK(unreliable <= 30); // 10 +- 3.2 false alarms are expected
   }
 }
 
@@ -353,12 +352,12 @@ TEST_CASE("bad input to Tsai's calibration is refused in words", "[calibration][
           p = pointsOf(Camera(), scene.poses[0], false, 0., rng);
           p = {p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[20]};
         }) == "the points of view 0 do not determine its pose: too many of them lie on a line");
-  CHECK(refusalOf([](Points &p) { // a body as a mirror shows it
+  CHECK(refusalOf([](Points &p) { // a mirrored body
           for (vpCalibrationPoint &point : p) {
             point.x = -point.x;
           }
         }) != "reliable");
-  CHECK(refusalOf([](Points &p) { // two places, again and again
+  CHECK(refusalOf([](Points &p) { // two positions, repeated
           for (std::size_t i = 0; i < p.size(); ++i) {
             p[i] = p[i % 2];
           }

@@ -25,9 +25,9 @@ struct Pattern {
          slope = 0.;       // slope: share by which the light falls off across the image
   double jitter = 0.;      // px, fixed for each cell
   double x = 20., y = 12.; // centre of cell (0, 0)
-  double rotation = 0.;    // rad, about that centre; of the pictures only
+  double rotation = 0.;    // rad, about that centre; of the images only
 
-  // Deviation of a cell from its place, the same whenever it is asked for.
+  // Deviation of a cell from its lattice position, reproducible.
   double deviation(int row, int column, int axis) const
   {
     const double h = std::sin(12.9898 * row + 78.233 * column + 37.719 * axis) * 43758.5453;

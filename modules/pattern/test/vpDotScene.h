@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Random pictures of dots on lattices of all kinds, with gaps, strangers, uneven light and perspective.
+// Random images of dots on lattices of all kinds, with gaps, outliers, uneven light and perspective.
 #ifndef vpDotScene_h
 #define vpDotScene_h
 

@@ -32,7 +32,7 @@ inline double uniform(std::mt19937_64 &rng, double from, double to)
   return std::uniform_real_distribution<double>(from, to)(rng);
 }
 
-// mostTilt: rad; the problem is drawn in the same way whatever it is.
+// mostTilt: rad; the rest of the problem does not depend on it.
 inline Problem randomProblem(std::mt19937_64 &rng, int views, double kappa, unsigned int width = 640,
                              unsigned int height = 480, double mostTilt = 0.)
 {
@@ -52,7 +52,7 @@ inline Problem randomProblem(std::mt19937_64 &rng, int views, double kappa, unsi
   c.shear = -0.5 * (1. - std::cos(tilt)) * std::sin(2. * way);
   for (int k = 0; k < views; ++k) {
     c.rotation = width < 320 ? uniform(rng, -0.1, 0.1) : uniform(rng, -M_PI, M_PI); // a window must show two columns
-    c.tx = uniform(rng, -5e-3, 5e-3); // the lattice goes on for ever, its origin may be far outside
+    c.tx = uniform(rng, -5e-3, 5e-3); // the lattice is infinite, its origin may be far outside
     c.ty = uniform(rng, -5e-3, 5e-3);
     problem.views.push_back(c);
   }
@@ -60,7 +60,7 @@ inline Problem randomProblem(std::mt19937_64 &rng, int views, double kappa, unsi
   return problem;
 }
 
-// The cells that a view shows, with noise.
+// The cells visible in a view, with noise.
 inline Points pointsOf(const Problem &problem, std::size_t view, double sigmaU, double sigmaV, std::mt19937_64 &rng)
 {
   const vpMicroscopeCalibration &c = problem.views[view];

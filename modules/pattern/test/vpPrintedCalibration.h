@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The calibration of thesis section 7.2 as it is printed, to compare with.
+// The calibration of thesis section 7.2 as printed, for comparison.
 #ifndef vpPrintedCalibration_h
 #define vpPrintedCalibration_h
 

@@ -2,8 +2,8 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Acquisition and tracking of a planar target in 640x480 renders, on one core, beside what ViSP and OpenCV offer.
-// Each benchmark also shows its error: rotation against the render's truth, deg (root mean square over the poses).
+// Acquisition and tracking of a planar target in 640x480 renders, on one core, compared with ViSP and OpenCV. Each
+// benchmark also shows its error: rotation against the render's truth, deg (root mean square over the poses).
 #include "../test/vpPlanarScene.h"
 #include "vpBenchmark.h"
 
@@ -32,7 +32,7 @@ const vpPlanarScene::Target &klimt()
   return target;
 }
 
-// Poses all over the view, every angle within 30 deg.
+// Poses throughout the view, every angle within 30 deg.
 const std::vector<View> &scattered()
 {
   static const std::vector<View> views = []() {
@@ -48,7 +48,7 @@ const std::vector<View> &scattered()
   return views;
 }
 
-// A camera that moves: 3 to 4 px and 0.4 deg a frame, there and back.
+// A camera that moves: 3 to 4 px and 0.4 deg per frame, back and forth.
 const std::vector<View> &sequence()
 {
   static const std::vector<View> views = []() {
@@ -71,7 +71,7 @@ cv::Mat view(const Image &image)
   return cv::Mat(static_cast<int>(image.getHeight()), static_cast<int>(image.getWidth()), CV_8UC1, image.bitmap);
 }
 
-// Pose from a homography of reference pixels to frame pixels, for the peers that give no more: IPPE on a grid.
+// Pose from a homography of reference pixels to frame pixels, for methods that give only that: IPPE on a grid.
 vpHomogeneousMatrix poseOf(const cv::Mat &H)
 {
   const double W = klimt().image.getWidth(), Hh = klimt().image.getHeight();
@@ -206,7 +206,7 @@ void track(benchmark::State &state)
   error.report(state);
 }
 
-// ViSP's template trackers follow the outline that they were given in the first frame, by a homography on its first picture.
+// ViSP's template trackers track the outline given in the first frame, by a homography on its first image.
 template <typename Tracker> void trackVispTemplate(benchmark::State &state)
 {
   vpTemplateTrackerWarpHomography warp;
@@ -274,7 +274,7 @@ void trackOpenCvEcc(benchmark::State &state)
 
 void trackOpenCvFlow(benchmark::State &state)
 {
-  // Points of the reference, followed from frame to frame, homography each time: it drifts, as such trackers do.
+  // Points of the reference, tracked from frame to frame, homography each time: it drifts, as such trackers do.
   vpPlanarTarget target(klimt().image, klimt().width, klimt().height, vpPlanarScene::camera());
   std::vector<cv::Point2f> reference, points;
   cv::goodFeaturesToTrack(view(klimt().image), reference, 300, 0.01, 7.);
@@ -325,7 +325,7 @@ BENCHMARK(trackOpenCvFlow)->Unit(benchmark::kMillisecond);
 int main(int argc, char *argv[])
 {
   cv::setNumThreads(1);
-  // Rendered here and not in the first benchmark that happens to ask.
+  // Rendered here and not in whichever benchmark runs first.
   scattered();
   sequence();
   return vpTestSupport::runBenchmarks(argc, argv);

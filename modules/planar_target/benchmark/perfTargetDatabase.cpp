@@ -2,8 +2,8 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// A frame of 640x480 for a database of which one target is seen and the others are lost, on one core. Beside it: each target
-// on its own, with all that can be done for it in every frame.
+// A frame of 640x480 for a database of which one target is visible and the others are lost, on one core. For
+// comparison: each target separately, with full effort in every frame.
 #include "../test/vpPosters.h"
 #include "vpBenchmark.h"
 
@@ -49,7 +49,7 @@ const std::vector<vpPlanarScene::Image> &views()
 
 template <class Process> void run(benchmark::State &state, const Process &process)
 {
-  std::vector<double> times; // of the processor, so that another program does not count
+  std::vector<double> times; // processor time, so that other programs do not count
   std::size_t i = 0;
   for (auto _ : state) {
     const std::clock_t start = std::clock();

@@ -55,9 +55,9 @@ vpHomographySpread::vpHomographySpread(const std::vector<cv::Point2f> &from, con
                                        const cv::Mat &start, double width, double height)
 {
   constexpr int iterations = 10;       // quadratic convergence from RANSAC's result
-  constexpr double determined = 1e-12; // least eigenvalue over the largest: numbers would lose all digits
+  constexpr double determined = 1e-12; // smallest over largest eigenvalue: below it all digits are lost
   const double S = 0.5 * width;
-  Eigen::Matrix3d back; // normalised to pixels
+  Eigen::Matrix3d back; // normalised coordinates to pixels
   back << S, 0., 0.5 * width, 0., S, 0.5 * height, 0., 0., 1.;
   std::vector<Eigen::Vector2d> x;
   for (const cv::Point2f &p : from) {

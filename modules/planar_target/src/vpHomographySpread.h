@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpHomographySpread.h
- * \brief Internal: a homography by least squares with its covariance, and what that means for a pixel.
+ * \brief Internal: least-squares homography with its covariance, and the resulting uncertainty of a pixel.
  */
 #ifndef vpHomographySpread_h
 #define vpHomographySpread_h
@@ -19,22 +19,22 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
- * \brief Pixels (u, v) of a reference of width x height are normalised to X = ((u - width/2)/S, (v - height/2)/S, 1), S half
- * the width; G takes X to pixels of the frame, G(2,2) = 1, and its other eight elements, row by row, have the covariance
- * C = s^2 (sum J^T J)^-1, s^2 = RSS / (2n - 8).
+ * \brief Pixels (u, v) of a reference of width x height are normalised to X = ((u - width/2)/S, (v - height/2)/S, 1), S
+ * half the width; G maps X to pixels of the frame, G(2,2) = 1, and its other eight elements, row by row, have the
+ * covariance C = s^2 (sum J^T J)^-1, s^2 = RSS / (2n - 8).
  */
 struct vpHomographySpread {
   Eigen::Matrix3d G = Eigen::Matrix3d::Identity();
   Eigen::Matrix<double, 8, 8> covariance = Eigen::Matrix<double, 8, 8>::Zero();
-  double sigma = 0.;  //!< s, px in each axis.
-  bool known = false; //!< False when the points do not determine a homography (nearly on a line).
+  double sigma = 0.;  //!< s, px per axis.
+  bool known = false; //!< False when the points do not determine a homography (nearly collinear).
 
-  //! \param from, to : At least five pairs, px. \param start : Homography of pixels that is nearly right.
+  //! \param from, to : At least five pairs, px. \param start : Initial homography of pixels.
   vpHomographySpread(const std::vector<cv::Point2f> &from, const std::vector<cv::Point2f> &to, const cv::Mat &start,
                      double width, double height);
 };
 
-//! Derivative of the image of the normalised (x, y) under \e G by the eight elements.
+//! Derivative of the image of the normalised (x, y) under \e G with respect to the eight elements.
 [[nodiscard]] Eigen::Matrix<double, 2, 8> homographyDerivative(const Eigen::Matrix3d &G, double x, double y);
 
 END_VISP_NAMESPACE

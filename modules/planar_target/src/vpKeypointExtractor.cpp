@@ -16,7 +16,7 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-// The default of 20 loses corners of a blurred or dim target; 15 keeps them, and the bound on their number holds.
+// The default of 20 loses corners of a blurred or dim target; 15 keeps them, within the bound on their number.
 constexpr int fastThreshold = 15;
 
 class OpenCvExtractor : public vpKeypointExtractor
@@ -28,7 +28,7 @@ public:
 
   void extract(const cv::Mat &image, vpKeypointSet &keypoints) override
   {
-    // Together: AKAZE, KAZE and SIFT would build their scale space twice.
+    // Detection and description together: AKAZE, KAZE and SIFT would build their scale space twice.
     m_feature->detectAndCompute(image, cv::noArray(), m_found, m_descriptors);
     m_order.resize(m_found.size());
     std::iota(m_order.begin(), m_order.end(), 0);
@@ -49,7 +49,7 @@ private:
   cv::Ptr<cv::Feature2D> m_feature;
   unsigned int m_maxKeypoints;
   std::vector<cv::KeyPoint> m_found;
-  std::vector<int> m_order; // of m_found, by strength
+  std::vector<int> m_order; // indices of m_found, by strength
   cv::Mat m_descriptors;
 };
 } // namespace
@@ -66,7 +66,7 @@ void vpKeypointSet::pack()
     return;
   }
   const std::size_t n = static_cast<std::size_t>(descriptors.rows);
-  std::vector<std::uint64_t> row(words(), 0); // filled up with zeros: AKAZE has 61 bytes
+  std::vector<std::uint64_t> row(words(), 0); // padded with zeros: AKAZE has 61 bytes
   packed.resize(n * row.size());
   for (std::size_t i = 0; i < n; ++i) {
     std::memcpy(row.data(), descriptors.ptr(static_cast<int>(i)), static_cast<std::size_t>(descriptors.cols));

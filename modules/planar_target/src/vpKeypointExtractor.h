@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpKeypointExtractor.h
- * \brief Internal: one interface to the keypoint detectors of OpenCV and dlib.
+ * \brief Internal: common interface of the keypoint detectors of OpenCV and dlib.
  */
 #ifndef vpKeypointExtractor_h
 #define vpKeypointExtractor_h
@@ -19,7 +19,7 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! Keypoints of one image, the strongest first; row i of the descriptors belongs to point i. Pixel (0,0) is the centre of
+//! Keypoints of one image, strongest first; row i of the descriptors belongs to point i. Pixel (0,0) is the centre of
 //! the top-left pixel.
 struct vpKeypointSet {
   std::vector<cv::Point2f> points;
@@ -30,7 +30,7 @@ struct vpKeypointSet {
 
   //! 64-bit words of a descriptor, a multiple of four.
   [[nodiscard]] std::size_t words() const;
-  //! Set \e packed from \e descriptors: once, however many sets it is compared with.
+  //! Set \e packed from \e descriptors: once per set, for all comparisons.
   void pack();
 };
 
@@ -43,12 +43,12 @@ public:
 };
 
 /*!
- * \param maxKeypoints : Bound on the number of keypoints; the strongest are kept.
+ * \param maxKeypoints : Maximum number of keypoints; the strongest are kept.
  * \throw vpException (fatalError) if \e type is SURF and this build has no dlib.
  */
 std::unique_ptr<vpKeypointExtractor> makeKeypointExtractor(vpKeypointType type, unsigned int maxKeypoints);
 
-//! SURF, in surf/: by dlib, or an exception that says how to get it.
+//! SURF, in surf/: by dlib, or an exception that tells how to get it.
 std::unique_ptr<vpKeypointExtractor> makeSurfExtractor(unsigned int maxKeypoints);
 
 END_VISP_NAMESPACE

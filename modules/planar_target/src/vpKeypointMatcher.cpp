@@ -10,8 +10,9 @@
 #include <limits>
 #include <numeric>
 
-// Counting bits is one instruction on every x86 of the last fifteen years, and one for eight words on newer ones, but not of
-// the one that compilers build for. The program picks the version at run time. OpenCV's own distances take ten times as long.
+// Counting bits is one instruction on every x86 of the last fifteen years, and one for eight words on newer ones, but
+// not on the baseline that compilers build for. The version is selected at run time. OpenCV's own distances take ten
+// times as long.
 #if defined(__x86_64__) && defined(__GNUC__)
 #define VISP_DIRECT_POPCOUNT_VERSIONS
 #define VISP_DIRECT_ALWAYS_INLINE inline __attribute__((always_inline))
@@ -23,8 +24,8 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-// A distance and the place that it belongs to as one number: the least is the nearest and, of several, the first.
-constexpr int placeBits = 21; // of two million keypoints
+// A distance and its index in one number: the smallest is the nearest and, of equals, the first.
+constexpr int placeBits = 21; // for two million keypoints
 constexpr int far = std::numeric_limits<int>::max();
 int distanceOf(int key) { return key >> placeBits; }
 int placeOf(int key) { return key & ((1 << placeBits) - 1); }
@@ -33,7 +34,8 @@ struct Nearest {
   int best = far, second = far; // keys
 };
 
-// One descriptor against all \e n others: keys by column, of which the two least, and the least of each column so far.
+// One descriptor against all \e n others: keys by column, the two smallest of them, and the smallest of each column so
+// far.
 VISP_DIRECT_ALWAYS_INLINE Nearest compareRow(const std::uint64_t *from, const std::uint64_t *to, std::size_t n,
                                              std::size_t words, int row, int *__restrict keys, int *__restrict columns)
 {
@@ -98,7 +100,7 @@ CompareRow bestVersion()
   return compareRowAnywhere;
 }
 
-// Takes the two nearest of each row, and returns the nearest row of each column.
+// Finds the two nearest of each row, and returns the nearest row of each column.
 template <class Take>
 std::vector<int> compareAll(const vpKeypointSet &reference, const vpKeypointSet &current, const Take &take)
 {
@@ -131,7 +133,7 @@ std::vector<std::pair<int, int>> matchBinary(const vpKeypointSet &reference, con
   return mutual;
 }
 
-// Feeds on one row of distances after the other; keeps the two nearest of each row and the nearest of each column.
+// Processes one row of distances after the other; keeps the two nearest of each row and the nearest of each column.
 class MutualMatches
 {
 public:
@@ -192,11 +194,11 @@ std::vector<std::pair<int, int>> matchReal(const vpKeypointSet &reference, const
   return matches.matches();
 }
 
-// How far each descriptor is from the nearest other one of its image.
+// Distance of each descriptor to the nearest other one of its image.
 std::vector<float> isolation(const vpKeypointSet &set)
 {
   std::vector<float> alone(set.points.size());
-  if (!set.packed.empty()) { // the nearest is itself, or its double
+  if (!set.packed.empty()) { // the nearest is itself, or its duplicate
     compareAll(set, set, [&alone](int row, const Nearest &nearest) {
       alone[static_cast<std::size_t>(row)] = static_cast<float>(distanceOf(nearest.second));
     });

@@ -20,25 +20,25 @@ BEGIN_VISP_NAMESPACE
 //! One sample of the reference.
 struct vpPhotometricSample {
   float value;  //!< grey value
-  float dx, dy; //!< its derivatives by the coordinates in the plane, per vpPhotometricModel::unit()
-  float slope2; //!< square of the gradient's length, (grey levels per sample)^2
+  float dx, dy; //!< derivatives with respect to the plane coordinates, per vpPhotometricModel::unit()
+  float slope2; //!< squared gradient length, (grey levels per sample)^2
 };
 
 //! One level of the reference.
 struct vpPhotometricLevel {
-  int cols = 0, rows = 0;                   //!< of the samples; the border of the level is left out
-  double firstX = 0., firstY = 0.;          //!< first sample in the plane, in units of vpPhotometricModel::unit()
-  double pitchX = 0., pitchY = 0.;          //!< between samples, same units
+  int cols = 0, rows = 0;                   //!< number of samples, without the border of the level
+  double firstX = 0., firstY = 0.;          //!< first sample in the plane, in vpPhotometricModel::unit()
+  double pitchX = 0., pitchY = 0.;          //!< distance of samples, same units
   std::vector<vpPhotometricSample> samples; //!< row by row
-  float textured = 0.f;                     //!< least slope2 of a sample with texture
+  float textured = 0.f;                     //!< smallest slope2 of a sample with texture
 };
 
 /*!
- * The reference at several resolutions (finest first), each in several degrees of softness.
+ * The reference at several resolutions (finest first), each with several degrees of softness.
  *
- * A level is the reference averaged over areas, so that its edges stay the target's edges. The outermost samples are left
- * out: in a frame they mix with whatever is behind the target. Softness is a Gaussian blur that can be chosen to match the
- * blur of a frame: what does not match stays in the residuals, where it hides occlusions and biases the pose.
+ * A level is the reference averaged over areas, so that its edges stay the target's edges. The outermost samples are
+ * excluded: in a frame they mix with the background. Softness is a Gaussian blur that can be chosen to match the blur
+ * of a frame: a mismatch stays in the residuals, where it hides occlusions and biases the pose.
  */
 class vpPhotometricModel
 {
@@ -54,7 +54,8 @@ public:
 
   //! Number of levels.
   [[nodiscard]] std::size_t levels() const { return m_levels[0].size(); }
-  //! A level, 0 the finest; \e soft is an index of softness. Levels of different softness have the same samples' places.
+  //! A level, 0 the finest; \e soft is an index of softness. Levels of different softness have the same sample
+  //! positions.
   [[nodiscard]] const vpPhotometricLevel &level(std::size_t index, std::size_t soft) const
   {
     return m_levels[soft][index];

@@ -18,13 +18,13 @@ BEGIN_VISP_NAMESPACE
 namespace
 {
 constexpr double largestShift = 0.3; // samples; at the start of a level
-constexpr double usualMove = 0.1;    // of a step, share of the distance
-constexpr double usualTurn = 0.03;   // of a step, rad
+constexpr double usualMove = 0.1;    // usual step, share of the distance
+constexpr double usualTurn = 0.03;   // usual step, rad
 constexpr double coarsePixels = 4.;  // per sample; at coarser levels
-constexpr double coarseTilt = 1e-4;  // rad, the tilt stays what it was
+constexpr double coarseTilt = 1e-4;  // rad, keeps the tilt unchanged
 constexpr double converged = 0.02;   // samples; the last step at the finest level
-constexpr double largestStep = 0.5;  // rad, and share of the distance; a longer one is divergence
-constexpr unsigned int patience = 8; // steps; one that is still large then will not lead to the target
+constexpr double largestStep = 0.5;  // rad, and share of the distance; a longer step is divergence
+constexpr unsigned int patience = 8; // steps; if the last one is still large, there is no convergence
 
 // The eight parameters of a homography I + A near the identity:
 // dx = a0 x + a1 y + a2 - x (a6 x + a7 y), dy = a3 x + a4 y + a5 - y (a6 x + a7 y).
@@ -98,8 +98,8 @@ vpPhotometricRefiner::Design vpPhotometricRefiner::accumulate(const vpPhotometri
 }
 
 /*
- * One Gauss-Newton step at one level. shift, in samples, is how far off the pose may be, before and after. sigma never
- * grows within a level: it would let a step that makes things worse look like a noisier image.
+ * One Gauss-Newton step at one level. shift, in samples, is the possible pose error, before and after. sigma never
+ * grows within a level: otherwise a step that increases the residuals would look like a noisier image.
  */
 bool vpPhotometricRefiner::iterate(const std::vector<cv::Mat> &pyramid, std::size_t index,
                                    const vpPhotometricLevel &level, vpRigidPose &pose, double &shift, double &sigma)
@@ -110,7 +110,7 @@ bool vpPhotometricRefiner::iterate(const std::vector<cv::Mat> &pyramid, std::siz
   const double gain = std::max(m_photometry.gain(), vpPhotometry::smallestGain);
   const Eigen::Matrix<double, 10, 8> P = poseToDesign(pose, m_model.unit(), gain);
   Eigen::Matrix<double, 8, 8> normal = P.transpose() * N.topLeftCorner<10, 10>() * P;
-  // Steps have usual sizes: this holds back what a level hardly shows, the tilt above all, and moves no fixed point.
+  // Prior on the step size: regularises weakly observable directions, above all the tilt, without moving a fixed point.
   const double tilt = m_photometry.pixelsPerSample(index, pose) > coarsePixels ? coarseTilt : usualTurn;
   const auto hold = [sigma](double usual) { return sigma * sigma / (usual * usual); };
   normal.diagonal().head<3>().array() += hold(usualMove * pose.t.norm());
@@ -124,7 +124,7 @@ bool vpPhotometricRefiner::iterate(const std::vector<cv::Mat> &pyramid, std::siz
   pose.R = vpSO3::exp(w) * pose.R;
   pose.t += v;
   m_photometry.addToLight(step(6), step(7));
-  // Each of the eight parameters moves the points of the plane by itself at most.
+  // Each of the eight parameters alone moves the points of the plane by at most this.
   shift = (P.topLeftCorner<8, 6>() * step.head<6>()).lpNorm<Eigen::Infinity>() / (gain * level.pitchX);
   return nearestCornerDepth(m_plane, pose) > 0. &&
          m_photometry.sample(pyramid, index, pose) >= vpPhotometry::fewestSamples;
@@ -177,7 +177,7 @@ bool vpPhotometricRefiner::refine(const std::vector<cv::Mat> &pyramid, vpRigidPo
     }
     const unsigned int share = budget / static_cast<unsigned int>(index - finest + 1);
     double shift = 0.;
-    // A coarse level of the frame is sharp, whatever blurred the frame.
+    // A coarse level of the frame is sharp, however blurred the frame is.
     if (!descend(pyramid, index, 0, pose, share, budget, shift)) {
       return false;
     }
@@ -185,7 +185,7 @@ bool vpPhotometricRefiner::refine(const std::vector<cv::Mat> &pyramid, vpRigidPo
   if (coarsest == finest && !start(pyramid, finest, pose)) {
     return false;
   }
-  // Blur can be told only where the pose is right, and the pose is right only with the blur told.
+  // The blur can be estimated only at the right pose, and the pose only with the right blur.
   double shift = largestShift;
   do {
     if (!descend(pyramid, finest, m_soft, pose, budget, budget, shift)) {
@@ -200,7 +200,8 @@ bool vpPhotometricRefiner::refine(const std::vector<cv::Mat> &pyramid, vpRigidPo
   return true;
 }
 
-// Take the softness whose residuals are smallest for their gain, by descent from the present one; true if it is another.
+// Select the softness with the smallest residuals relative to the gain, by descent from the current one; true if
+// changed.
 bool vpPhotometricRefiner::matchBlur(std::size_t index)
 {
   const std::size_t before = m_soft;

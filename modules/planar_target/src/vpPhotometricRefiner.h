@@ -14,43 +14,44 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
- * Minimises sum rho(I(w(p; T)) - g R(p) - b) over the pose T, the gain g and the bias b, with Tukey's rho, R the reference
- * and w the projection of the plane (with the camera's distortion).
+ * Minimises sum rho(I(w(p; T)) - g R(p) - b) over the pose T, the gain g and the bias b, with Tukey's rho, R the
+ * reference and w the projection of the plane (with the camera's distortion).
  *
- * Inverse compositional: a small motion of the target, t + v and exp(w) R, moves the seen plane as the homography
- * I + A with A = G^-1 ([w]x r1, [w]x r2, v) does, G = (r1, r2, t) of T. So the derivative of a sample is
- * -g J(p) M(T) (v, w), J (1x8) of the reference alone and M (8x6) the same for all samples of an iteration. The
- * 10x10 normal equations of homography, gain and bias are accumulated and then projected on the pose: no gradient of the
- * noisy frame enters (it would bias the estimate), and the result is a pose, not a homography that is almost one.
+ * Inverse compositional: a small motion of the target, t + v and exp(w) R, moves the visible plane as the homography
+ * I + A with A = G^-1 ([w]x r1, [w]x r2, v) does, G = (r1, r2, t) of T. So the derivative of a sample is -g J(p) M(T)
+ * (v, w), J (1x8) of the reference alone and M (8x6) the same for all samples of an iteration. The 10x10 normal
+ * equations of homography, gain and bias are accumulated and then projected on the pose: no gradient of the noisy frame
+ * is used (it would bias the estimate), and the result is a pose, not an approximate homography.
  *
  * The work space is allocated by the constructor; refine() and verify() allocate nothing.
  */
 class vpPhotometricRefiner
 {
 public:
-  //! \e model must outlive this object. \param precise : False if another stage follows: the last small steps are left to it.
+  //! \e model must outlive this object. \param precise : False if another stage follows: then the last small steps are
+  //! skipped.
   vpPhotometricRefiner(const vpPhotometricModel &model, const vpTargetPlane &plane, const vpPinhole &camera,
                        bool precise);
 
   /*!
    * Refine \e pose from coarse to fine.
    * \param pyramid : See vpTargetFrame.
-   * \param reach : How far the points of the target may be from their place, px. Decides on the coarsest level: a level
-   * coarser than needed is a detour on which an occlusion leads astray.
-   * \param maxIterations : Over all levels.
+   * \param reach : Maximum error of the target's points, px. Determines the coarsest level: a level coarser than needed
+   *   is a detour on which an occlusion can mislead.
+   * \param maxIterations : Maximum number of iterations over all levels.
    * \return False if it diverged or did not converge; \e pose is undefined then.
    */
   bool refine(const std::vector<cv::Mat> &pyramid, vpRigidPose &pose, double reach, unsigned int maxIterations);
 
-  //! The fit at \e pose on the finest level that the frame resolves.
+  //! Fit at \e pose on the finest level that the frame resolves.
   vpPhotometricFit verify(const std::vector<cv::Mat> &pyramid, const vpRigidPose &pose);
 
-  //! Of the last frame's pyramid.
+  //! Gain of the last frame's pyramid.
   [[nodiscard]] double gain() const { return m_photometry.gain(); }
   [[nodiscard]] double bias() const { return m_photometry.bias(); } //!< see gain()
 
 private:
-  //! Normal equations: 8 of the homography, gain, bias, and the residual in column 10; filled up to whole registers.
+  //! Normal equations: 8 of the homography, gain, bias, and the residual in column 10; padded to whole registers.
   using Design = Eigen::Matrix<double, 12, 12>;
 
   std::size_t finestUseful(const vpRigidPose &pose) const;

@@ -15,7 +15,7 @@ namespace
 {
 constexpr double tukey = 4.685;       // 95 % efficiency under Gaussian noise
 constexpr double madToSigma = 1.4826; // likewise
-constexpr double smallestSigma = 1.5; // grey levels; below, rounding and interpolation would be rejected as occlusion
+constexpr double smallestSigma = 1.5; // grey levels; a smaller one would reject rounding and interpolation as occlusion
 constexpr std::size_t enoughForMedian = 2000;
 constexpr float outside = -1.f;
 constexpr float rejected = 1e9f;
@@ -37,7 +37,8 @@ double vpPhotometry::pixelsPerSample(std::size_t level, const vpRigidPose &pose)
 std::size_t vpPhotometry::sample(const std::vector<cv::Mat> &pyramid, std::size_t index, const vpRigidPose &pose)
 {
   const vpPhotometricLevel &level = m_model.level(index, 0);
-  // The frame at the resolution of the samples or finer: a coarser one would be softer than the reference can be made.
+  // The frame at the resolution of the samples or finer: a coarser one would be softer than any softness of the
+  // reference.
   const double pixels = std::max(1., pixelsPerSample(index, pose));
   const int frameLevel = std::min(static_cast<int>(std::log2(pixels)), static_cast<int>(pyramid.size()) - 1);
   const cv::Mat &frame = pyramid[static_cast<std::size_t>(frameLevel)];
@@ -56,7 +57,7 @@ std::size_t vpPhotometry::sample(const std::vector<cv::Mat> &pyramid, std::size_
   for (int r = 0; r < level.rows; ++r) {
     const Eigen::Vector3f first = (pose.t + level.firstX * a + (level.firstY + r * level.pitchY) * b).cast<float>();
     float *const us = m_u.data(), *const vs = m_v.data();
-    for (int c = 0; c < level.cols; ++c) { // by itself: compilers turn it into vector instructions
+    for (int c = 0; c < level.cols; ++c) { // a separate loop: compilers vectorise it
       const float k = static_cast<float>(c);
       const float invZ = 1.f / (first.z() + k * next.z());
       const float x = invZ * (first.x() + k * next.x()), y = invZ * (first.y() + k * next.y());
@@ -85,7 +86,7 @@ std::size_t vpPhotometry::sample(const std::vector<cv::Mat> &pyramid, std::size_
 
 double vpPhotometry::median() { return vpQuantileInPlace(m_scratch.data(), m_scratch.data() + m_scratch.size(), 0.5); }
 
-// Whatever hides a part of the target must not decide on gain and bias: what is wrong with them is taken for misalignment.
+// Occluders must not affect gain and bias: their errors would be taken for misalignment.
 void vpPhotometry::start(const vpPhotometricLevel &level)
 {
   const std::size_t stride = std::max<std::size_t>(1, level.samples.size() / enoughForMedian);
@@ -163,7 +164,7 @@ double vpPhotometry::fit(const vpPhotometricLevel &level)
     }
     const double det = N(0, 0) * N(1, 1) - N(0, 1) * N(0, 1);
     if (!(det > 1e-9 * N(0, 0) * N(1, 1))) {
-      break; // what is left is of one grey value
+      break; // the remaining samples have one grey value
     }
     const double gain = (N(1, 1) * N(0, 2) - N(0, 1) * N(1, 2)) / det;
     const double bias = (N(0, 0) * N(1, 2) - N(0, 1) * N(0, 2)) / det;
@@ -190,7 +191,7 @@ vpPhotometricBound vpPhotometry::bound(double sigma, double shift) const
 
 vpPhotometricFit vpPhotometry::judge(const vpPhotometricLevel &level, double sigma) const
 {
-  constexpr int block = 16; // samples; over a larger area, light and dark halves would pass for a match of detail
+  constexpr int block = 16; // samples; in larger blocks, light and dark halves would pass for a match of detail
   const vpPhotometricBound limit = bound(sigma, smallestShift);
   double inside = 0., accepted = 0., varR = 0., varI = 0., cov = 0.;
   for (int top = 0; top < level.rows; top += block) {

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpPhotometry.h
- * \brief Internal: the grey values of a frame at the samples of the reference, and how they fit.
+ * \brief Internal: the grey values of a frame at the samples of the reference, and their fit.
  */
 #ifndef vpPhotometry_h
 #define vpPhotometry_h
@@ -13,7 +13,7 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! Which residuals pass: e^2 < noise2 + slope2 * (slope of the sample)^2, the bound of Tukey's weight.
+//! Accepted residuals: e^2 < noise2 + slope2 * (slope of the sample)^2, the bound of Tukey's weight.
 struct vpPhotometricBound {
   float noise2;
   float slope2;
@@ -26,24 +26,24 @@ struct vpPhotometricBound {
   }
 };
 
-//! How the grey values of a frame fit the reference at a pose.
+//! Fit of the grey values of a frame to the reference at a pose.
 struct vpPhotometricFit {
   double correlation =
       0.;              //!< Normalised correlation over the samples that are seen and not rejected, blockwise zero-mean.
-  double inImage = 0.; //!< Share of the samples that fall into the image.
-  double visible = 0.; //!< Share of the samples that fall into the image and are not rejected.
+  double inImage = 0.; //!< Fraction of the samples inside the image.
+  double visible = 0.; //!< Fraction of the samples inside the image and not rejected.
 };
 
 /*!
- * Values of one frame at the samples of one level, with frame = gain * reference + bias. Gain and bias stay from frame to
- * frame. The work space is allocated by the constructor.
+ * Values of one frame at the samples of one level, with frame = gain * reference + bias. Gain and bias are kept from
+ * frame to frame. The work space is allocated by the constructor.
  */
 class vpPhotometry
 {
 public:
-  static constexpr std::size_t fewestSamples = 100; //!< to fit six numbers of a pose and two of the light
-  static constexpr double smallestGain = 0.05;      //!< below, the frame shows nothing of the reference
-  static constexpr double smallestShift = 0.1;      //!< samples; what blur and interpolation are worth
+  static constexpr std::size_t fewestSamples = 100; //!< to fit six parameters of a pose and two of the light
+  static constexpr double smallestGain = 0.05;      //!< below it, the frame shows nothing of the reference
+  static constexpr double smallestShift = 0.1;      //!< samples; equivalent error of blur and interpolation
 
   //! \e model must outlive this object.
   vpPhotometry(const vpPhotometricModel &model, const vpPinhole &camera);
@@ -55,29 +55,29 @@ public:
 
   //! Gain and bias of the last frame or from medians, whichever fits better, then fit().
   void start(const vpPhotometricLevel &level);
-  //! Gain and bias at the present samples, reweighted until they stand; returns the robust deviation of the residuals.
+  //! Gain and bias at the current samples, reweighted until convergence; returns the robust deviation of the residuals.
   double fit(const vpPhotometricLevel &level);
-  //! Residuals at the present samples, gain and bias; returns their robust deviation.
+  //! Residuals at the current samples, gain and bias; returns their robust deviation.
   double update(const vpPhotometricLevel &level);
   /*!
-   * The robust deviation after update() where the reference has texture. Blank ground fits to the noise, whatever the pose
-   * and the softness; its deviation would reject the edges, which do not, and leave a pose that only blank ground confirms.
+   * Robust deviation after update() where the reference has texture. Blank areas fit to the noise, whatever the pose
+   * and the softness; their deviation would reject misfitting edges and leave a pose confirmed only by blank areas.
    */
   double textureDeviation(const vpPhotometricLevel &level);
   void addToLight(double gain, double bias);
 
   /*!
-   * \param sigma : Deviation of the residuals from noise. \param shift : Samples that the pose may be off, or what blur and
-   * interpolation are worth. With sigma alone, which the flat parts of a picture dominate, every edge that is off would
-   * pass for an occlusion, and edges are what the pose is found from.
+   * \param sigma : Standard deviation of the residuals from noise. \param shift : Possible pose error in samples, or
+   *   the equivalent error of blur and interpolation. With sigma alone, dominated by the flat parts of an image, every
+   *   misplaced edge would count as an occlusion, and edges determine the pose.
    */
   [[nodiscard]] vpPhotometricBound bound(double sigma, double shift) const;
-  //! Correlation and shares at the present samples, after fit() gave \e sigma.
+  //! Correlation and fractions at the current samples, after fit() gave \e sigma.
   [[nodiscard]] vpPhotometricFit judge(const vpPhotometricLevel &level, double sigma) const;
 
   [[nodiscard]] double gain() const { return m_gain; }
   [[nodiscard]] double bias() const { return m_bias; }
-  //! Residual of each sample; enormous outside of the image.
+  //! Residual of each sample; huge outside the image.
   [[nodiscard]] const std::vector<float> &residuals() const { return m_residuals; }
 
 private:
@@ -87,9 +87,9 @@ private:
   const vpPhotometricModel &m_model;
   vpPinhole m_camera;
   double m_gain = 1., m_bias = 0.;
-  std::vector<float> m_values; //!< of the frame at each sample, < 0 outside of it
+  std::vector<float> m_values; //!< of the frame at each sample, < 0 outside
   std::vector<float> m_residuals;
-  std::vector<float> m_u, m_v; //!< where a row of samples is in the frame
+  std::vector<float> m_u, m_v; //!< frame coordinates of a row of samples
   std::vector<double> m_scratch;
 };
 

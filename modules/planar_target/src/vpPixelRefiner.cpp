@@ -20,7 +20,7 @@ BEGIN_VISP_NAMESPACE
 namespace
 {
 constexpr int lanes = vpTargetPrediction::lanes, blockRows = 8;
-constexpr int patch = 2;               // blocks each way whose residuals may belong together
+constexpr int patch = 2;               // blocks each way whose residuals may be correlated
 constexpr double mostPixels = 200000.; // of the target; a larger one is binned
 constexpr double tukey = 4.685;        // 95 % efficiency under Gaussian noise
 constexpr double madToSigma = 1.4826;  // likewise
@@ -28,16 +28,16 @@ constexpr double smallestSigma = 0.35; // grey levels; rounding to whole ones is
 constexpr std::size_t enoughForMedian = 8192;
 constexpr double startSlope = 0.3, slope = 0.15; // px, see m_slope
 constexpr unsigned int mostRounds = 6, mostSteps = 8;
-constexpr double shortStep = 0.05, longStep = 0.5;    // deviations; after a long one the noise is estimated anew
+constexpr double shortStep = 0.05, longStep = 0.5;    // deviations; after a long one the noise is re-estimated
 constexpr double roughStep = 0.1;                     // of the way
-constexpr double smallShift = 0.1, smallTurn = 0.005; // px, rad: within, a prediction is linear,
-constexpr double tinyShift = 0.005;                   // px; whatever the deviations, as of an image without noise
-constexpr double smallWay = 10.;                      // deviations; and its gradient, good to 1 %, leads to the place
+constexpr double smallShift = 0.1, smallTurn = 0.005; // px, rad: up to these, a prediction is linear,
+constexpr double tinyShift = 0.005;                   // px; whatever the deviations, as for an image without noise
+constexpr double smallWay = 10.;                      // deviations; and its gradient is accurate to 1 %
 constexpr double smallBlur = 0.1;                     // change of half the square of the blur, share of blur^2 + 0.1
-constexpr double smallError = 0.05;                   // deviations; that share of the way
-constexpr double maskShift = 0.7;   // px; with more, what does not fit may be misplaced and not hidden
-constexpr double largestShift = 6.; // px of a corner from the start; the other stages are never so far off
-constexpr double usualTurn = 0.1, usualMove = 0.1;  // rad, share of the distance; hold back what is hardly seen
+constexpr double smallError = 0.05;                   // deviations, or this share of the way
+constexpr double maskShift = 0.7;   // px; above it, a misfit may be a misplacement and not an occlusion
+constexpr double largestShift = 6.; // px of a corner from the start; larger than any error of the other stages
+constexpr double usualTurn = 0.1, usualMove = 0.1;  // rad, share of the distance; prior for weak directions
 constexpr int maskWindow = 7, maskGrowth = 7;       // px
 constexpr double misfitCap = 12., misfitLimit = 2.; // squares over variance, of a pixel and on average
 constexpr double largestHidden = 0.7;
@@ -188,7 +188,7 @@ void vpPixelRefiner::updateResiduals()
   }
 }
 
-// Deviation of the residuals that are not hidden, from their median.
+// Standard deviation of the unoccluded residuals, from their median.
 double vpPixelRefiner::scale()
 {
   const int stride = 1 + m_prediction.pixels() / static_cast<int>(enoughForMedian);
@@ -222,13 +222,13 @@ template <vpPixelRefiner::Weight kind> void vpPixelRefiner::assemble(Normal &N, 
     right.tail<3>() += sums.right.tail<3>();
   });
   N.bottomLeftCorner<3, 6>() = N.topRightCorner<6, 3>().transpose();
-  // The derivative by the blur has the gain in it.
+  // The derivative with respect to the blur includes the gain.
   N.row(8) *= m_fit.camera.gain;
   N.col(8) *= m_fit.camera.gain;
   right(8) *= m_fit.camera.gain;
 }
 
-// One step of Gauss and Newton; its length is in deviations of the pose.
+// One Gauss-Newton step; its length is in deviations of the pose.
 bool vpPixelRefiner::step(double &length)
 {
   updateResiduals();
@@ -242,7 +242,7 @@ bool vpPixelRefiner::step(double &length)
   const double variance = m_fit.sigma * m_fit.sigma, move = usualMove * m_fit.pose.t.norm();
   held.diagonal().head<3>().array() += variance / (move * move);
   held.diagonal().segment<3>(3).array() += variance / (usualTurn * usualTurn);
-  held(8, 8) += variance; // px^4: what cannot be seen of the blur stays
+  held(8, 8) += variance; // px^4: an unobservable blur stays
   const Params d = held.ldlt().solve(right);
   if (!d.allFinite()) {
     return false;
@@ -259,7 +259,7 @@ bool vpPixelRefiner::step(double &length)
          m_change.head<3>().norm() < 0.5 * m_fit.pose.t.norm();
 }
 
-// Steps with one prediction; roughly where the next one will be needed anyway.
+// Steps with one prediction; approximate when the next prediction will be needed anyway.
 bool vpPixelRefiner::descend()
 {
   double length = std::numeric_limits<double>::infinity();
@@ -274,7 +274,7 @@ bool vpPixelRefiner::descend()
   return true;
 }
 
-// Hides whole areas that do not fit; true if they are not those that are hidden already.
+// Masks whole areas that do not fit; true if the mask has changed.
 bool vpPixelRefiner::maskHidden()
 {
   const cv::Rect &area = m_prediction.area();
@@ -315,7 +315,7 @@ bool vpPixelRefiner::maskHidden()
   return changed;
 }
 
-// How far the target has moved in the frame since the prediction, px.
+// Displacement of the target in the frame since the prediction, px.
 double vpPixelRefiner::largestMove() const
 {
   const cv::Rect &area = m_prediction.area();
@@ -329,11 +329,11 @@ double vpPixelRefiner::largestMove() const
   return shift;
 }
 
-// True if the prediction, linear in the change, holds: a new one would lead nowhere else.
+// True if the prediction, linear in the change, is valid: a new one would give the same result.
 bool vpPixelRefiner::isLinear() const
 {
   const double blur = m_fit.camera.blur, shift = largestMove();
-  // At a blur that is wrong by a share the gradient is, by about two of these.
+  // With a relative error of the blur, the gradient has about twice that error.
   const double share = blurred(m_change(8)) == blur ? 0. : std::abs(m_change(8)) / (blur * blur + 0.1);
   return (m_way < smallWay || shift < tinyShift) && shift < smallShift && m_change.segment<3>(3).norm() < smallTurn &&
          share < smallBlur && m_way * share < smallError;
@@ -352,7 +352,7 @@ void vpPixelRefiner::adopt()
   m_fit.camera.blur = blurred(m_change(8));
 }
 
-// Sum of squares of the score of whole patches, which see errors that neighbours share.
+// Sum of squares of the score of whole patches, which includes errors correlated between neighbours.
 vpPixelRefiner::Normal vpPixelRefiner::patchScores() const
 {
   const cv::Rect &area = m_prediction.area();
@@ -374,7 +374,7 @@ vpPixelRefiner::Normal vpPixelRefiner::patchScores() const
   return used / std::max(1., used - 9.) * S;
 }
 
-// Residual and hidden share of the fit; returns the number of pixels that are not hidden.
+// Residual and occluded fraction of the fit; returns the number of unoccluded pixels.
 int vpPixelRefiner::judgeResiduals()
 {
   double squares = 0.;
@@ -451,7 +451,7 @@ const vpPixelFit &vpPixelRefiner::refine(const cv::Mat &image, const vpRigidPose
       return m_fit;
     }
     const double shift = largestMove();
-    if (shift < maskShift) { // what does not fit now is hidden and not misplaced
+    if (shift < maskShift) { // a misfit is now an occlusion, not a misplacement
       const bool stricter = m_slope > slope;
       m_slope = slope;
       if ((maskHidden() || stricter) && isLinear() && !descend()) {

@@ -13,35 +13,37 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! What the camera makes of the target's grey values: gain * value + bias, blurred.
+//! Camera model of the target's grey values: gain * value + bias, blurred.
 struct vpCameraState {
   double gain = 1., bias = 0.;
-  double blur = 0.7; //!< deviation of a Gaussian, px
+  double blur = 0.7; //!< standard deviation of a Gaussian, px
 };
 
-//! A pose as the frame's pixels know it.
+//! A pose estimated from the frame's pixels.
 struct vpPixelFit {
-  bool converged = false; //!< without it nothing else counts
+  bool converged = false; //!< otherwise nothing else is valid
   vpRigidPose pose;
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero(); //!< of (v, w), see vpPoseCovariance
   double sigma = 0.;                                                            //!< of a pixel, grey levels
-  double kappa = 1.;    //!< factor in covariance for what is not white noise; > 1: the model does not say all
-  double hidden = 0.;   //!< share of the target's pixels in the frame
-  double residual = 0.; //!< root mean square over the pixels that are not hidden, grey levels
+  double kappa = 1.;    //!< covariance factor for correlated errors; > 1: the model is incomplete
+  double hidden = 0.;   //!< occluded fraction of the target's pixels in the frame
+  double residual = 0.; //!< root mean square over the unoccluded pixels, grey levels
   vpCameraState camera;
 };
 
 /*!
- * Minimises sum rho(I(u) - g T(u; pose, blur) - b) over the pixels u of the frame: noise is white there and nowhere else.
- * Six numbers of the pose, three of the camera (gain, bias, blur). rho is Tukey's with a bound that grows with the slope
- * of T; besides, whole areas that do not fit are hidden, as a single pixel of an occluder may have a likely grey value.
+ * Minimises sum rho(I(u) - g T(u; pose, blur) - b) over the pixels u of the frame, where (and only where) the noise is
+ * white. Six parameters of the pose, three of the camera (gain, bias, blur). rho is Tukey's with a bound that grows
+ * with the slope of T; in addition, whole areas that do not fit are masked, because a single pixel of an occluder may
+ * have a likely grey value.
  *
- * The derivative of T by the pose is its gradient times the motion of the pixels, which changes slowly: it is taken as
- * constant in blocks of 8x8 pixels, so that an iteration needs 20 sums a block. T is predicted anew when the pose has
- * moved by more than a tenth of a pixel, and linear within.
+ * The derivative of T with respect to the pose is its gradient times the motion of the pixels, which changes slowly: it
+ * is constant in blocks of 8x8 pixels, so that an iteration needs 20 sums per block. T is predicted anew when the pose
+ * has moved by more than a tenth of a pixel, and linear within.
  *
- * The covariance is A^-1 B A^-1 with A = sum psi' J J^T and B = sum psi^2 J J^T, times kappa = max(1, tr(C^-1 C_S) / 6),
- * where C_S takes for B the squares of whole blocks' sums, which see errors that neighbours share.
+ * The covariance is A^-1 B A^-1 with A = sum psi' J J^T and B = sum psi^2 J J^T, times kappa = max(1, tr(C^-1
+ * C_S) / 6), where C_S uses for B the squares of the sums of whole blocks, which include errors correlated between
+ * neighbours.
  */
 class vpPixelRefiner
 {
@@ -53,22 +55,24 @@ public:
 
   /*!
    * \param image : CV_8UC1 frame. \param pose : Start, within about a pixel.
-   * \param start : Of the camera, where known.
+   * \param start : Initial camera parameters, where known.
    */
   const vpPixelFit &refine(const cv::Mat &image, const vpRigidPose &pose, const vpCameraState &start);
 
   /*!
-   * One prediction and its linear steps: residuals() of about what refine() would come to, for comparison; fit() has no pose.
-   * \return False where they lead nowhere.
+   * One prediction and its linear steps: gives residuals() close to those of refine(), for comparison; fit() has no
+   * pose.
+   * \return False when there is no solution.
    */
   bool glance(const cv::Mat &image, const vpRigidPose &pose, const vpCameraState &start);
 
   [[nodiscard]] const vpPixelFit &fit() const { return m_fit; }
-  //! Pixels of the last frame's area, residuals of the last fit; weights are 0 off the target and where it is hidden.
+  //! Pixels of the last frame's area, residuals of the last fit; weights are 0 off the target and where it is occluded.
   [[nodiscard]] const cv::Rect &area() const { return m_prediction.area(); }
   [[nodiscard]] const cv::Mat &residuals() const { return m_residuals; } //!< see area()
   [[nodiscard]] const cv::Mat &open() const { return m_open; }           //!< see area()
-  //! The deviation by which \e other differs from the fit in the pixels' eyes, after all that the fit could adapt.
+  //! Distance of \e other from the fit in standard deviations of the pixels, after the fit's other parameters are
+  //! adapted.
   [[nodiscard]] double distance(const vpRigidPose &other) const;
 
 private:
@@ -105,7 +109,7 @@ private:
   vpPixelFit m_fit;
   Params m_change = Params::Zero(); // since the last prediction
   double m_way = 0.;                // length of m_change, deviations of the pose
-  double m_slope = 0.;              // px that the prediction may be off without being taken for an occlusion
+  double m_slope = 0.;              // px; possible error of the prediction that is not an occlusion
   int m_bin = 1;
   vpPinhole m_binned;   // camera of the frame after binning
   cv::Size m_frameSize; // likewise

@@ -113,7 +113,7 @@ void vpPlanarTargetDatabase::predict(std::size_t i, const vpHomogeneousMatrix &c
       return;
     }
   }
-  // The results of the last frame stay as they were given; the pose to track from is the target's own.
+  // The results of the last frame are not modified; the pose for tracking is the target's own.
   if (i < m_store->m_targets.size() && m_store->m_targets[i]->m_known) {
     m_store->m_targets[i]->m_result.cMo = cMo;
   }

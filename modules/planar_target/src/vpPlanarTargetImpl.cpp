@@ -27,14 +27,14 @@ constexpr double smallestContrast = 4.;    // standard deviation of the referenc
 constexpr int keypointReferenceSize =
     400; // px; a larger reference is reduced so that its keypoints have a frame's scale
 constexpr float loweRatio = 0.8f;
-constexpr std::size_t tellingCount = 128;   // keypoints that tell whether a target may be there
-constexpr double keypointReach = 2.;        // px; how far keypoints put the target from its place
-constexpr double motionReach = 14.;         // px; likewise the frame before
-constexpr double rivalReach = 6.;           // px; likewise the mirrored pose
-constexpr double largestTurn = 0.35;        // rad between frames; more is beyond the reach, and means another optimum
+constexpr std::size_t tellingCount = 128;   // keypoints that show whether a target may be visible
+constexpr double keypointReach = 2.;        // px; error of a pose from keypoints
+constexpr double motionReach = 14.;         // px; error of a pose from the previous frame
+constexpr double rivalReach = 6.;           // px; error of the mirrored pose
+constexpr double largestTurn = 0.35;        // rad between frames; more is out of reach, and means another optimum
 constexpr double smallestFrontality = 0.17; // 80 deg from the normal
 constexpr double smallestInImage = 0.25;    // share of the target
-constexpr double smallestUnhidden = 0.4;    // share of what is in the image; half is where robust estimation ends
+constexpr double smallestUnhidden = 0.4;    // share of the part in the image; half is the limit of robust estimation
 
 template <typename... Args> std::string sentence(const char *format, Args... args)
 {
@@ -188,7 +188,7 @@ void vpPlanarTarget::Impl::acquire(vpTargetFrame &frame)
     if (m_known) {
       return;
     }
-    // Report the detector that came furthest.
+    // Report the detector that got furthest.
     if (before.inliers > m_result.inliers) {
       m_result = before;
     }
@@ -231,7 +231,7 @@ void vpPlanarTarget::Impl::acquireWith(const Reference &reference, const vpKeypo
     double best = 0.;
     for (const vpRigidPose &start : {poses.best, poses.rival.value_or(poses.best)}) {
       vpRigidPose refined = start;
-      // Two independent witnesses: a refinement that leaves the keypoints has found something else.
+      // Two independent checks: a refinement that leaves the keypoints has found something else.
       if (m_refiner->refine(frame.pyramid(), refined, keypointReach, m_config.maxIterations) &&
           pixels * medianError(matches, poses.inliers, refined) < 2. * m_config.inlierThreshold) {
         const double correlation = m_refiner->verify(frame.pyramid(), refined).correlation;
@@ -278,7 +278,7 @@ void vpPlanarTarget::Impl::track(vpTargetFrame &frame, const vpRigidPose &guess)
   if (!checkView(guess)) {
     return;
   }
-  // Small motion is the rule, and the fine levels alone stand more occlusion; the coarse ones reach further.
+  // Small motion is the usual case, and the fine levels alone tolerate more occlusion; the coarse ones reach further.
   if (!trackFrom(frame, guess, keypointReach)) {
     m_result = vpPlanarTargetResult();
     trackFrom(frame, guess, motionReach);
@@ -306,8 +306,8 @@ bool vpPlanarTarget::Impl::trackFrom(const vpTargetFrame &frame, const vpRigidPo
   return conclude(frame, pose, vpPlanarTargetStatus::Tracked);
 }
 
-// A hint may be the mirrored pose. Where perspective is strong, that is a false optimum from which the last stage, whose
-// reach is a pixel, does not find the other one.
+// A hint may be the mirrored pose. Where perspective is strong, that is a false optimum from which the last stage,
+// whose reach is one pixel, does not find the other one.
 void vpPlanarTarget::Impl::preferRival(const vpTargetFrame &frame, vpRigidPose &pose, double reach)
 {
   vpRigidPose rival = rivalPose(pose);
@@ -337,7 +337,7 @@ bool vpPlanarTarget::Impl::checkView(const vpRigidPose &pose)
   return true;
 }
 
-// Only a pose that the grey values confirm becomes a result.
+// Only a pose confirmed by the grey values becomes a result.
 bool vpPlanarTarget::Impl::conclude(const vpTargetFrame &frame, const vpRigidPose &coarse, vpPlanarTargetStatus success)
 {
   if (!coarse.isFinite() || !checkView(coarse)) {
@@ -347,7 +347,7 @@ bool vpPlanarTarget::Impl::conclude(const vpTargetFrame &frame, const vpRigidPos
   if (m_choice) {
     decision = m_choice->decide(frame.image(), coarse, {m_refiner->gain(), m_refiner->bias(), m_blur});
   }
-  // Without convergence, as when the pixels are few, there is a pose, but nothing is known of its error.
+  // Without convergence, for example with few pixels, there is a pose, but its error is unknown.
   const vpRigidPose pose = decision.best.converged ? decision.best.pose : coarse;
   if (!checkView(pose) || !confirm(frame, pose)) {
     return false;

@@ -22,11 +22,11 @@ public:
   Impl(const vpImage<unsigned char> &reference, double width, double height, const vpCameraParameters &camera,
        const vpPlanarTargetConfig &config);
 
-  //! One detector, and what it finds on the reference.
+  //! One detector with its keypoints on the reference.
   struct Reference {
     vpKeypointType type;
     vpKeypointSet keypoints;
-    vpKeypointSet telling; //!< A part of them, see tellingKeypoints().
+    vpKeypointSet telling; //!< The most distinctive ones, see tellingKeypoints().
     std::vector<Eigen::Vector2d> plane;
   };
 
@@ -37,11 +37,11 @@ public:
   //! Number of matches of a part of a reference's keypoints.
   [[nodiscard]] static std::size_t matchesOf(const vpKeypointSet &part, const vpKeypointSet &current);
   void track(vpTargetFrame &frame, const vpRigidPose &guess);
-  //! Track from the last pose; with none, the status stays what the last frame left.
+  //! Track from the last pose; without one, the status of the last frame stays.
   void trackLast(vpTargetFrame &frame);
-  //! Forget where the target was.
+  //! Forget the pose of the target.
   void reset();
-  //! A frame that is too small to be processed at all.
+  //! Result for a frame that is too small to be processed.
   bool refuse(const vpImage<unsigned char> &image);
 
   vpPlanarTargetConfig m_config;
@@ -50,8 +50,8 @@ public:
   vpTargetPlane m_plane;
   vpTargetFrame m_ownFrame;
   vpPlanarTargetResult m_result;
-  bool m_fresh = true;  //!< nothing was looked for since the last reset
-  bool m_known = false; //!< m_result holds the pose of the frame before
+  bool m_fresh = true;  //!< no search since the last reset
+  bool m_known = false; //!< m_result holds the pose of the previous frame
 
   std::vector<Reference> m_references; //!< The detector of the settings, and the fallback if wanted.
   void fail(vpPlanarTargetStatus status, const std::string &message);
@@ -69,7 +69,7 @@ private:
   std::unique_ptr<vpPhotometricRefiner> m_refiner;
   std::unique_ptr<vpTargetTexture> m_texture;
   std::unique_ptr<vpPoseChoice> m_choice; //!< none when the last stage is switched off
-  double m_blur = 0.7;                    //!< of the frame before, px
+  double m_blur = 0.7;                    //!< of the previous frame, px
 };
 
 END_VISP_NAMESPACE

@@ -134,7 +134,7 @@ vpPlanePoses planePoses(const vpPlaneMatches &matches, double planePixels, doubl
     from[i] = {planePixels * matches.plane[i].x(), planePixels * matches.plane[i].y()};
     to[i] = {imagePixels * matches.image[i].x(), imagePixels * matches.image[i].y()};
   }
-  // In pixels: MAGSAC's tables and degeneracy tests are made for them and fail in metres.
+  // In pixels: MAGSAC's tables and degeneracy tests assume pixels and fail in metres.
   std::vector<unsigned char> mask;
   const cv::Mat H = cv::findHomography(from, to, cv::USAC_MAGSAC, threshold, mask, 2000, 0.999);
   if (H.empty()) {

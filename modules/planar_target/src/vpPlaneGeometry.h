@@ -6,8 +6,8 @@
  * \file vpPlaneGeometry.h
  * \brief Internal: camera, rigid motion and plane on fixed-size types, and the pose of a plane from matched points.
  *
- * Pixels: (0,0) is the centre of the top-left pixel. The reference image of W x H pixels covers width x height metres from
- * outer edge to outer edge, so the centre of reference pixel (u,v) is at X = ((u + 0.5) / W - 0.5) width, likewise Y.
+ * Pixels: (0,0) is the centre of the top-left pixel. The reference image of W x H pixels covers width x height metres
+ * from outer edge to outer edge, so the centre of reference pixel (u,v) is at X = ((u + 0.5) / W - 0.5) width, Y alike.
  */
 #ifndef vpPlaneGeometry_h
 #define vpPlaneGeometry_h
@@ -57,35 +57,35 @@ struct vpTargetPlane {
   [[nodiscard]] Eigen::Vector2d metric(double u, double v) const;
   //! Outer corners, m: top left, top right, bottom right, bottom left.
   [[nodiscard]] std::array<Eigen::Vector2d, 4> corners() const;
-  //! Reference pixels to the pixels of a camera without distortion, H(2,2) = 1 (0 in the limit of a reference at infinity).
+  //! Reference pixels to pixels of a camera without distortion, H(2,2) = 1 (0 for a reference at infinity).
   [[nodiscard]] Eigen::Matrix3d homography(const vpRigidPose &pose, const vpPinhole &camera) const;
 };
 
-//! Cosine of the angle between the line of sight to the target's centre and its normal: 1 seen from the front, < 0 behind.
+//! Cosine of the angle between the line of sight to the target's centre and its normal: 1 frontal, < 0 from behind.
 [[nodiscard]] double frontality(const vpRigidPose &pose);
 //! Smallest depth of the four corners, m.
 [[nodiscard]] double nearestCornerDepth(const vpTargetPlane &plane, const vpRigidPose &pose);
 //! Area of the target in the image over its area in the plane, at the target's centre, px^2 / m^2.
 [[nodiscard]] double imageScale(const vpRigidPose &pose, const vpPinhole &camera);
 
-//! Points of the plane (m) and where they are seen (normalised coordinates).
+//! Points of the plane (m) and their image positions (normalised coordinates).
 struct vpPlaneMatches {
   std::vector<Eigen::Vector2d> plane;
   std::vector<Eigen::Vector2d> image;
 };
 
-//! Both poses that a plane may have for the same points, better first; the second only while it is a real rival.
+//! Both poses that a plane may have for the same points, better first; the second only if it is plausible.
 struct vpPlanePoses {
   std::vector<std::size_t> inliers; //!< indices of the matches that agree
-  vpRigidPose best;                 //!< meaningful if there are enough inliers
+  vpRigidPose best;                 //!< valid if there are enough inliers
   std::optional<vpRigidPose> rival;
 };
 
 /*!
  * Homography by USAC_MAGSAC, then the poses of its inliers (IPPE, then Levenberg-Marquardt on the reprojection error).
- * \param planePixels, imagePixels : Pixels in a metre of the plane and in a normalised unit of the image.
+ * \param planePixels, imagePixels : Pixels per metre of the plane and per normalised unit of the image.
  * \param threshold : Largest reprojection error of an inlier, px.
- * \param minInliers : With fewer there are no poses.
+ * \param minInliers : Minimum number of inliers for a pose.
  */
 vpPlanePoses planePoses(const vpPlaneMatches &matches, double planePixels, double imagePixels, double threshold,
                         unsigned int minInliers);

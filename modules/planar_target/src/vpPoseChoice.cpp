@@ -18,16 +18,16 @@ BEGIN_VISP_NAMESPACE
 namespace
 {
 constexpr double sure = 9.2, sureSpreads = 3.; // log of 10,000
-constexpr double fading = 0.9;                 // of evidence, from frame to frame
-constexpr double mostEvidence = 50.;           // so that a few frames can change it
-constexpr double sameTurn2 = 9.;               // squared deviations of the rotation; within, the covariance holds both
-constexpr double farDistance = 60.;            // deviations between two images that no frame can mistake
-constexpr double plainEvidence = 100.;         // of a glance, of the farDistance^2 / 2 that are to be expected
-constexpr double plainKappa = 3.;              // of a fit that no other could much improve
-constexpr double oneTurn = 0.3;                // share of the turn to the rival; closer, both have ended in one place
-constexpr float cut = 22.f;                    // squared deviations; what is beyond does not fit either
+constexpr double fading = 0.9;                 // decay of the evidence from frame to frame
+constexpr double mostEvidence = 50.;           // limit, so that a few frames can change it
+constexpr double sameTurn2 = 9.;               // squared deviations of the rotation; covariance covers both
+constexpr double farDistance = 60.;            // deviations between two images that are clearly different
+constexpr double plainEvidence = 100.;         // evidence of a first comparison, of the expected farDistance^2 / 2
+constexpr double plainKappa = 3.;              // of a fit that no other pose could improve much
+constexpr double oneTurn = 0.3;                // share of the rotation to the rival; closer, both are one pose
+constexpr float cut = 22.f;                    // squared deviations; beyond it neither fits
 constexpr int block = 12;                      // px, see Evidence
-constexpr double smallestFrontality = 0.05;    // rivals seen more obliquely are no rivals
+constexpr double smallestFrontality = 0.05;    // rivals viewed more obliquely are excluded
 
 double turnBetween(const vpRigidPose &a, const vpRigidPose &b) { return vpSO3::log(a.R * b.R.transpose()).norm(); }
 
@@ -46,7 +46,7 @@ vpRigidPose rivalPose(const vpRigidPose &pose)
   const Eigen::Vector3d turned = 2. * sight * sight.dot(normal) - normal;
   vpRigidPose rival = pose;
   for (int i = 0; i < 2; ++i) {
-    // The part across the line of sight stays; the part along it puts the axis into the turned plane.
+    // The part across the line of sight stays; the part along it rotates the axis into the turned plane.
     const Eigen::Vector3d across = pose.R.col(i) - sight * sight.dot(pose.R.col(i));
     rival.R.col(i) = across - sight * (turned.dot(across) / turned.dot(sight));
   }
@@ -57,7 +57,7 @@ vpRigidPose rivalPose(const vpRigidPose &pose)
   return rival;
 }
 
-// True if the first refiner's pose fits, and the rival is so far off that its place need not be known.
+// True if the first refiner's pose fits, and the rival is so different that its exact pose does not matter.
 bool vpPoseChoice::isPlain(const cv::Mat &image, const vpRigidPose &rival)
 {
   const vpPixelFit &fit = m_refiners[0].fit();
@@ -76,7 +76,7 @@ bool vpPoseChoice::refineRival(const cv::Mat &image)
     return false;
   }
   const vpRigidPose start = rivalPose(fit.pose);
-  // Where the perspective is strong, the pose is decided for good when followed from a frame before, or at a glance.
+  // Where the perspective is strong, the pose is decided immediately when tracked, or after a first comparison.
   if (turn2(fit, start) < sameTurn2 ||
       (m_refiners[0].distance(start) > farDistance && (m_memory || isPlain(image, start)))) {
     return false;
@@ -85,7 +85,8 @@ bool vpPoseChoice::refineRival(const cv::Mat &image)
   if (!m_refiners[1].refine(image, start, fit.camera).converged) {
     return false;
   }
-  // Both anew from where they ended: a prediction that is linear over a longer way fits otherwise, by as much as counts here.
+  // Both restart from their results: a prediction that is linear over a longer way fits differently, by a relevant
+  // amount.
   const vpPixelFit first = fit, second = m_refiners[1].fit();
   return m_refiners[0].refine(image, first.pose, first.camera).converged &&
          m_refiners[1].refine(image, second.pose, first.camera).converged &&
@@ -132,12 +133,12 @@ vpPoseChoice::Evidence vpPoseChoice::compare() const
   return evidence;
 }
 
-// Adds the evidence of this frame to that of the ones before and takes the likelier pose.
+// Adds the evidence of this frame to the previous evidence and selects the more likely pose.
 void vpPoseChoice::conclude(Evidence now)
 {
   const vpPixelFit &a = m_refiners[0].fit(), &b = m_refiners[1].fit();
   if (m_memory) {
-    // Which of the two is the one that was the best before?
+    // Which of the two was the best before?
     const vpRigidPose &best = m_memory->best;
     const bool swapped = turnBetween(b.pose, best) < turnBetween(a.pose, best);
     now.L += (swapped ? -fading : fading) * m_memory->evidence.L;
@@ -149,7 +150,7 @@ void vpPoseChoice::conclude(Evidence now)
   m_decision.evidence = std::abs(now.L);
   m_decision.spreads = m_decision.evidence / std::sqrt(std::max(now.variance, 1e-12));
   m_decision.certain = m_decision.evidence > sure && m_decision.spreads > sureSpreads;
-  // Held back together, so that their ratio stays.
+  // Limited together, so that their ratio stays.
   const double hold = std::min(1., mostEvidence / std::max(m_decision.evidence, 1e-12));
   m_memory =
       Memory{m_decision.best.pose, m_decision.rival->pose, {hold * m_decision.evidence, hold * hold * now.variance}};

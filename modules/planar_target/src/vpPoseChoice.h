@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpPoseChoice.h
- * \brief Internal: which of the two poses of a plane the pixels prefer, over time.
+ * \brief Internal: decides between the two poses of a plane from the pixels, over time.
  */
 #ifndef vpPoseChoice_h
 #define vpPoseChoice_h
@@ -16,9 +16,9 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! The pose that the pixels prefer, and the other one where there is one.
+//! The more likely pose, and the other one where it exists.
 struct vpPoseDecision {
-  vpPixelFit best; //!< likelier over the frames so far; only if it converged
+  vpPixelFit best; //!< more likely over the frames so far; valid if it converged
   std::optional<vpPixelFit> rival;
   double evidence = 0.; //!< logarithm of the ratio of likelihoods, best over rival, over the frames so far
   double spreads = 0.;  //!< evidence over its standard deviation
@@ -26,12 +26,13 @@ struct vpPoseDecision {
 };
 
 /*!
- * At weak perspective a plane has two poses with nearly the same image: the normal turned by 180 degrees about the line of
- * sight. Both are refined on the pixels. Their squared residuals say which is right, L = sum (e_rival^2 - e^2) / (2 s^2),
- * ideally normal with mean d^2 / 2 and variance d^2, d the distance of the two images in deviations. How far to trust
- * L the sums over blocks of the image tell: z is L over their spread. Certain: L > 9.2 (odds of 10,000) and z > 3.
+ * At weak perspective a plane has two poses with nearly the same image: the normal turned by 180 degrees about the line
+ * of sight. Both are refined on the pixels. Their squared residuals decide, L = sum (e_rival^2 - e^2) / (2 s^2),
+ * ideally normal with mean d^2 / 2 and variance d^2, d the distance of the two images in deviations. The reliability of
+ * L comes from the sums over blocks of the image: z is L over their spread. Certain: L > 9.2 (odds of 10,000) and z >
+ * 3.
  *
- * Over time the evidence adds up and fades, L_k = 0.9 L_(k-1) + L, so that the choice can change.
+ * Over time the evidence accumulates and decays, L_k = 0.9 L_(k-1) + L, so that the choice can change.
  */
 class vpPoseChoice
 {
@@ -41,11 +42,11 @@ public:
     : m_refiners{vpPixelRefiner(texture, plane, camera), vpPixelRefiner(texture, plane, camera)}
   {}
 
-  //! \param image : CV_8UC1 frame. \param pose : Of the best of the frame before, or a new one, within a pixel.
+  //! \param image : CV_8UC1 frame. \param pose : Best pose of the previous frame, or a new one, within a pixel.
   const vpPoseDecision &decide(const cv::Mat &image, const vpRigidPose &pose, const vpCameraState &camera);
-  //! True if \e pose goes on from the frame before: nearer to its best pose than to the mirrored one.
+  //! True if \e pose continues the previous frame: nearer to its best pose than to the mirrored one.
   [[nodiscard]] bool follows(const vpRigidPose &pose) const;
-  //! The next frame has nothing to do with the ones before.
+  //! The next frame is independent of the previous ones.
   void forget() { m_memory.reset(); }
 
 private:
@@ -63,12 +64,12 @@ private:
   [[nodiscard]] Evidence compare() const;
   void conclude(Evidence now);
 
-  std::array<vpPixelRefiner, 2> m_refiners; // of the pose that was asked for, and of its rival
+  std::array<vpPixelRefiner, 2> m_refiners; // of the given pose, and of its rival
   std::optional<Memory> m_memory;
   vpPoseDecision m_decision;
 };
 
-//! The other pose with the same image to first order: normal turned by 180 degrees about the line of sight to the centre.
+//! The other pose with the same image to first order: normal rotated by 180 degrees about the central line of sight.
 [[nodiscard]] vpRigidPose rivalPose(const vpRigidPose &pose);
 
 END_VISP_NAMESPACE

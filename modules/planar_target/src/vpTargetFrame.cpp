@@ -13,8 +13,8 @@ BEGIN_VISP_NAMESPACE
 namespace
 {
 constexpr std::size_t maxLevels = 5;
-constexpr double smoothing = 1.;   // px; of noise, and so that the reference can be made as soft as the frame
-constexpr int minSideToHalve = 48; // a smaller level would not hold the coarsest template any more
+constexpr double smoothing = 1.;   // px; against noise, and so that the reference can be made as soft as the frame
+constexpr int minSideToHalve = 48; // a smaller level could not contain the coarsest template
 } // namespace
 
 vpTargetFrame::vpTargetFrame(unsigned int maxKeypoints, double pixelAspect)
@@ -58,7 +58,7 @@ vpKeypointExtractor &vpTargetFrame::extractor(vpKeypointType type)
   return *entry.extractor;
 }
 
-// In a part of the image with square pixels; places are those in the frame.
+// In a part of the image with square pixels; positions are in the frame.
 void vpTargetFrame::extract(vpKeypointType type, const cv::Rect &where, vpKeypointSet &set)
 {
   extractor(type).extract(m_square(where), set);

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpTargetFrame.h
- * \brief Internal: what all targets share of one frame, computed once.
+ * \brief Internal: data of one frame shared by all targets, computed once.
  */
 #ifndef vpTargetFrame_h
 #define vpTargetFrame_h
@@ -25,22 +25,22 @@ class vpTargetFrame
 public:
   /*!
    * \param maxKeypoints : As in vpPlanarTargetConfig.
-   * \param pixelAspect : Height of a pixel over its width, px / py of the camera. Keypoints are looked for in an image with
-   * square pixels: detectors and descriptors are made for these.
+   * \param pixelAspect : Height of a pixel over its width, px / py of the camera. Keypoints are extracted from an image
+   *   with square pixels, as detectors and descriptors assume.
    */
   vpTargetFrame(unsigned int maxKeypoints, double pixelAspect);
 
-  //! Take a new frame (the pixels are copied) and forget the keypoints of the one before.
+  //! Set a new frame (the pixels are copied) and forget the previous keypoints.
   void assign(const vpImage<unsigned char> &image);
 
-  //! The frame as it is.
+  //! The frame as given.
   [[nodiscard]] const cv::Mat &image() const { return m_image; }
   [[nodiscard]] const std::vector<cv::Mat> &pyramid() const { return m_pyramid; }
   //! Keypoints of one kind, extracted at the first call.
   const vpKeypointSet &keypoints(vpKeypointType type);
   /*!
    * Keypoints of a part of half the width and half the height, extracted now; valid until the next call.
-   * \param part : Of nine that overlap by half, row by row; counted on from 8 to 0.
+   * \param part : Index, modulo 9, of nine parts that overlap by half, row by row.
    */
   const vpKeypointSet &keypointsOfPart(vpKeypointType type, unsigned int part);
 

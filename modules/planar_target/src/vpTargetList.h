@@ -21,13 +21,13 @@ BEGIN_VISP_NAMESPACE
 //! One entry of targets.json.
 struct vpTargetListEntry {
   std::string name;
-  std::string file; //!< with the folder
+  std::string file; //!< including the folder
   double width;     //!< m
   std::optional<double> height;
   double depth = 0.; //!< m; 0: not given
 };
 
-//! \throw vpException (ioError, badValue) naming the file, the field and its value; a photograph that is not listed too.
+//! \throw vpException (ioError, badValue) naming the file, the field and its value, or an unlisted photograph.
 std::vector<vpTargetListEntry> readTargetList(const std::string &folder);
 //! Read a photograph as grey values. \throw vpException (ioError) naming the file.
 void readReference(const std::string &file, vpImage<unsigned char> &reference);

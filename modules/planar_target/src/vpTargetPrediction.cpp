@@ -50,7 +50,7 @@ Eigen::Matrix3d planeToCamera(const vpRigidPose &pose)
 
 cv::Mat resized(cv::Mat &buffer, int rows, int cols)
 {
-  // Buffers grow and never shrink: targets move.
+  // Buffers grow and never shrink, because targets move.
   if (buffer.rows < rows || buffer.cols < cols) {
     buffer.create(std::max(buffer.rows, rows), std::max(buffer.cols, cols), CV_32F);
   }
@@ -65,7 +65,7 @@ vpTargetTexture::vpTargetTexture(const cv::Mat &reference, const vpTargetPlane &
   m_levels.push_back(level);
   while (std::min(level.cols, level.rows) >= 2 * smallestSide) {
     cv::Mat half;
-    // Odd sizes as well: the level still covers the target from edge to edge.
+    // Also for odd sizes: the level still covers the target from edge to edge.
     cv::resize(level, half, cv::Size((level.cols + 1) / 2, (level.rows + 1) / 2), 0., 0., cv::INTER_AREA);
     level = half;
     m_levels.push_back(level);
@@ -83,8 +83,8 @@ const cv::Mat &vpTargetTexture::at(const vpRigidPose &pose, const vpPinhole &cam
 }
 
 /*
- * Pixel box and Gaussian, h(x) = (Phi((x + 1/2) / blur) - Phi((x - 1/2) / blur)) / 2 at the samples x = 1/4, 3/4, ... px and
- * their mirror images. The derivatives are h with differences of fourth order of the samples: good for every blur.
+ * Pixel box and Gaussian, h(x) = (Phi((x + 1/2) / blur) - Phi((x - 1/2) / blur)) / 2 at the samples x = 1/4, 3/4, ...
+ * px and their mirror images. The derivatives are h with fourth-order differences of the samples: valid for any blur.
  */
 struct vpTargetPrediction::Kernel {
   static constexpr int stencil = 2;
@@ -114,14 +114,14 @@ struct vpTargetPrediction::Kernel {
       curvature[k] = static_cast<float>((16. * (at(i - 1) + at(i + 1)) - 30. * at(i) - (at(i - 2) + at(i + 2))) / 3.);
     }
   }
-  //! How far the kernel reaches, whole pixels.
+  //! Radius of the kernel, whole pixels.
   [[nodiscard]] int halo() const { return (size + 1) / 2; }
 };
 
-// The rectangle of the frame that holds the target, and its spans.
+// The rectangle of the frame that contains the target, and its spans.
 bool vpTargetPrediction::findArea(const vpRigidPose &pose, const vpPinhole &camera, cv::Size size, double margin)
 {
-  // Per metre along each side, px, at the corner where it is least: the margin holds everywhere.
+  // Pixels per metre along each side, at the corner where it is smallest: the margin is valid everywhere.
   double left = 1e9, top = 1e9, right = -1e9, bottom = -1e9, scaleX = 1e9, scaleY = 1e9;
   const auto corners = m_plane.corners();
   for (std::size_t i = 0; i < 4; ++i) {
@@ -176,7 +176,7 @@ bool vpTargetPrediction::findArea(const vpRigidPose &pose, const vpPinhole &came
   return m_pixels >= fewestPixels;
 }
 
-// Two samples for each pixel of [begin, end) of the rectangle's columns, at row v of the frame.
+// Two samples per pixel of [begin, end) of the rectangle's columns, at row v of the frame.
 void vpTargetPrediction::sampleRow(const cv::Mat &texture, const Eigen::Matrix3f &toTexel, const vpPinhole &camera,
                                    double v, int begin, int end)
 {
@@ -186,7 +186,7 @@ void vpTargetPrediction::sampleRow(const cv::Mat &texture, const Eigen::Matrix3f
   const float first = static_cast<float>(m_area.x + begin) - 0.25f, line = static_cast<float>(v);
   float *const texelU = m_texelU.data(), *const texelV = m_texelV.data();
   int *const texel = m_texel.data();
-  // Loops of their own, each of one kind of work, are what compilers turn into vector instructions.
+  // Separate loops with one kind of work each, which compilers vectorise.
   if (camera.kud == 0.) {
     float x, y;
     toNormalised<float>(camera, first, line, x, y);
@@ -206,7 +206,7 @@ void vpTargetPrediction::sampleRow(const cv::Mat &texture, const Eigen::Matrix3f
     const float scale = 1.f / (toTexel(2, 0) * x + toTexel(2, 1) * y + toTexel(2, 2));
     const float a = scale * (toTexel(0, 0) * x + toTexel(0, 1) * y + toTexel(0, 2));
     const float b = scale * (toTexel(1, 0) * x + toTexel(1, 1) * y + toTexel(1, 2));
-    const float u = std::min(lastU, std::max(0.f, a)), w = std::min(lastV, std::max(0.f, b)); // so no NaN comes through
+    const float u = std::min(lastU, std::max(0.f, a)), w = std::min(lastV, std::max(0.f, b)); // also removes NaN
     const int iu = static_cast<int>(u), iv = static_cast<int>(w);
     texelU[i] = u - static_cast<float>(iu);
     texelV[i] = w - static_cast<float>(iv);
@@ -281,7 +281,7 @@ bool vpTargetPrediction::predict(const vpTargetTexture &texture, const vpRigidPo
                                  cv::Size size, double blur)
 {
   const Kernel kernel(blur);
-  // Beyond the kernel's reach the frame mixes with what is behind the target.
+  // Beyond the kernel's radius the frame mixes with the background.
   if (!findArea(pose, camera, size, 1. + reach * blur)) {
     return false;
   }
@@ -312,7 +312,7 @@ bool vpTargetPrediction::predict(const vpTargetTexture &texture, const vpRigidPo
     }
     next = std::max(next, 2 * r);
     for (; next < 2 * (r + 2 * halo + 1); ++next) {
-      // All columns that a row within reach needs.
+      // All columns needed by a row within reach.
       int begin = m_area.width, end = 0;
       for (int k = std::max(0, next / 2 - 2 * halo); k <= std::min(rows - 1, next / 2); ++k) {
         const Span span = m_spans[static_cast<std::size_t>(k)];

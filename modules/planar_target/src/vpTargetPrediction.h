@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpTargetPrediction.h
- * \brief Internal: what a frame should show of the target, pixel by pixel, with derivatives.
+ * \brief Internal: predicted image of the target in the frame, pixel by pixel, with derivatives.
  */
 #ifndef vpTargetPrediction_h
 #define vpTargetPrediction_h
@@ -30,19 +30,19 @@ private:
 };
 
 /*!
- * The camera's picture of the target on a rectangle of whole pixels: the texture, sampled twice a pixel each way, mean over
- * the pixel, Gaussian blur in the frame. The kernel acts in the frame, so tilt and distance do not change its shape, and
- * all derivatives are taken on the samples, twice as fine as the pixels.
+ * Predicted image of the target on a rectangle of whole pixels: the texture, sampled twice per pixel each way, mean
+ * over the pixel, Gaussian blur in the frame. The kernel acts in the frame, so tilt and distance do not change its
+ * shape, and all derivatives are taken on the samples, twice as fine as the pixels.
  */
 class vpTargetPrediction
 {
 public:
   static constexpr int lanes = 8;          //!< columns are a multiple of it, for the loops over them
-  static constexpr double sharpest = 0.1;  //!< px; next to the pixel's own size less makes no difference
+  static constexpr double sharpest = 0.1;  //!< px; smaller values have no effect next to the pixel size
   static constexpr double softest = 4.;    //!< px
-  static constexpr int fewestPixels = 200; //!< to fit six numbers of a pose and three of the camera
+  static constexpr int fewestPixels = 200; //!< to fit six parameters of a pose and three of the camera
 
-  //! Pixels of one row that are safely on the target, columns from the rectangle's left.
+  //! Pixels of one row that are certainly on the target, columns from the rectangle's left.
   struct Span {
     int begin = 0, end = 0;
   };
@@ -50,7 +50,8 @@ public:
   explicit vpTargetPrediction(const vpTargetPlane &plane) : m_plane(plane) {}
 
   /*!
-   * \param size : Of the frame, px. \param blur : Deviation of the Gaussian, px, within sharpest and softest.
+   * \param size : Size of the frame, px. \param blur : Standard deviation of the Gaussian, px, within sharpest and
+   *   softest.
    * \return False if fewer than fewestPixels pixels are on the target.
    */
   bool predict(const vpTargetTexture &texture, const vpRigidPose &pose, const vpPinhole &camera, cv::Size size,
@@ -59,7 +60,7 @@ public:
   [[nodiscard]] const cv::Rect &area() const { return m_area; } //!< in the frame; wider than it by less than lanes
   [[nodiscard]] const std::vector<Span> &spans() const { return m_spans; } //!< one for each row
   [[nodiscard]] int pixels() const { return m_pixels; }                    //!< in all spans
-  //! Grey values and their derivatives by u, by v (per px), and by half the square of the blur (per px^2); CV_32F.
+  //! Grey values and their derivatives with respect to u, v (per px), and half the squared blur (per px^2); CV_32F.
   [[nodiscard]] const cv::Mat &grey() const { return m_grey; }
   [[nodiscard]] const cv::Mat &du() const { return m_du; }       //!< see grey()
   [[nodiscard]] const cv::Mat &dv() const { return m_dv; }       //!< see grey()
@@ -84,11 +85,11 @@ private:
   cv::Mat m_smooth, m_slope, m_curvature; //!< rows of samples, filtered along the row; a ring
 };
 
-//! Derivative of the pixel that shows the target at (u, v), by (v, w) of the pose: R = exp(w) R, t += v.
+//! Derivative of the pixel that shows the target at (u, v) with respect to (v, w) of the pose: R = exp(w) R, t += v.
 [[nodiscard]] Eigen::Matrix<double, 2, 6> pixelMotion(const vpRigidPose &pose, const vpPinhole &camera, double u,
                                                       double v);
 
-//! By how much a pixel (u, v) that shows the target at pose \e from has moved at pose \e to, px.
+//! Displacement of a pixel (u, v) that shows the target at pose \e from when the pose changes to \e to, px.
 [[nodiscard]] Eigen::Vector2d pixelShift(const vpRigidPose &from, const vpRigidPose &to, const vpPinhole &camera,
                                          double u, double v);
 

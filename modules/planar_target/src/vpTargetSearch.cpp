@@ -14,7 +14,7 @@ BEGIN_VISP_NAMESPACE
 namespace
 {
 constexpr unsigned int fallbackEvery = 3; // frames; so that its nine parts take 27, less than a second at 30 Hz
-constexpr std::uint64_t waited = 30;      // frames, of a target just lost: soon, but not before all others
+constexpr std::uint64_t waited = 30;      // frames, initial wait of a lost target: soon, but not before all others
 constexpr std::size_t mostComparisons =
     20'000'000; // 64-bit words; 6 ms. 130 keypoints of ORB with 1500 take 0.8 million
 } // namespace
@@ -86,7 +86,7 @@ void vpTargetSearch::look(vpTargetFrame &frame, const std::vector<vpPlanarTarget
     const vpPlanarTargetResult before = targets[i]->m_result;
     targets[i]->acquireWith(targets[i]->m_references[detector], current, frame);
     found = targets[i]->m_known;
-    // Keypoints cannot tell that the target has just left the view; tracking can.
+    // Keypoints do not show that the target has just left the view; tracking does.
     if (!found && outOfView) {
       targets[i]->m_result = before;
     }

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpTargetSearch.h
- * \brief Internal: follows the targets that are known, and looks for the others with a bounded effort per frame.
+ * \brief Internal: tracks the known targets, and searches for the others with a bounded effort per frame.
  */
 #ifndef vpTargetSearch_h
 #define vpTargetSearch_h
@@ -21,20 +21,20 @@ class vpTargetFrame;
 /*!
  * Per frame with a lost target, see vpPlanarTargetEffort:
  *
- * -# One extraction of keypoints: of the frame with the detector of the settings, or, every third time, of a part of it with
+ * -# One extraction of keypoints: of the frame with the configured detector, or, every third time, of a part of it with
  *    the fallback (AKAZE takes five times as long).
- * -# The most telling keypoints of lost targets are compared with it, for as many targets as a fixed number of comparisons
- *    allows, those first that have waited longest. The score is the number of matches.
- * -# Thorough searches, with all keypoints, in the order of (score + 1/2)^2 times the frames since the last one: who seems to
- *    be there comes at once, a look-alike does not keep the others waiting, and everyone gets a turn. The first search in
- *    vain ends the frame.
+ * -# The most distinctive keypoints of lost targets are compared with it, for as many targets as a fixed number of
+ *    comparisons allows, those first that have waited longest. The score is the number of matches.
+ * -# Thorough searches, with all keypoints, in the order of (score + 1/2)^2 times the frames since the last one: likely
+ *    targets come at once, a look-alike does not block the others, and every target is searched eventually. The first
+ *    failed search ends the frame.
  */
 class vpTargetSearch
 {
 public:
-  //! \param targets : The same ones in the same order at each call, with more behind them, all of one configuration.
+  //! \param targets : The same ones in the same order at each call; new ones may be appended; all of one configuration.
   void process(vpTargetFrame &frame, const std::vector<vpPlanarTarget::Impl *> &targets);
-  //! What the last process() did.
+  //! Effort of the last process().
   [[nodiscard]] const vpPlanarTargetEffort &effort() const { return m_effort; }
 
 private:

@@ -212,7 +212,7 @@ void vpTwoViewDecomposition::choose()
     conclude(vpTwoViewStatus::Invalid, "No motion has all points in front of the reference camera.");
     return;
   }
-  // Translation along the normal: both planes are one.
+  // Translation along the normal: both planes coincide.
   if (candidates.size() == 2 && angleBetween(candidates[0].normal, candidates[1].normal) < 1e-3) {
     candidates.pop_back();
   }
@@ -264,7 +264,7 @@ void vpTwoViewDecomposition::chooseByHistory()
     conclude(vpTwoViewStatus::Unique, "One plane explains all frames so far.");
     return;
   }
-  if (m_hypotheses.empty()) { // the first frame, or the reference changed unnoticed: begin anew
+  if (m_hypotheses.empty()) { // the first frame, or the reference changed unnoticed: restart
     for (const vpTwoViewMotion &candidate : candidates) {
       m_hypotheses.push_back(candidate.normal);
     }

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 std::string dataFolder() { return std::string(VISP_DIRECT_DATA_DIR) + "/target"; }
 
-// A folder of this test alone, gone at its end.
+// A folder for this test only, removed at its end.
 class Folder
 {
 public:
@@ -43,7 +43,7 @@ TEST_CASE("three targets are found, followed and told apart in one frame", "[dat
   CHECK(database.sightings()[0].result.status == vpPlanarTargetStatus::NoFrame);
 
   auto rng = vpTestSupport::generator(11);
-  // Beside each other at 0.8 m: each covers about a quarter of the view.
+  // Side by side at 0.8 m: each covers about a quarter of the view.
   const double x[3] = {-0.17, 0.13, -0.10}, y[3] = {-0.11, -0.11, 0.13};
   for (int frame = 0; frame < 3; ++frame) {
     vpPlanarScene::Image I = vpPlanarScene::background(rng);
@@ -62,7 +62,7 @@ TEST_CASE("three targets are found, followed and told apart in one frame", "[dat
       CHECK(std::sqrt(vpPlanarScene::rotationError(truth[i], seen[i].result.cMo).sumSquare()) < 0.5);
     }
   }
-  // One target is taken away: the others stay, the missing one is not made up.
+  // One target is removed: the others stay, the missing one is not reported.
   vpPlanarScene::Image I = vpPlanarScene::background(rng);
   const vpPlanarTargetSighting first = database.sightings()[0];
   vpPlanarScene::draw(I, {vpPlanarScene::photo("klimt.jpg"), first.width, first.height}, vpPlanarScene::camera(),
@@ -157,5 +157,5 @@ TEST_CASE("a target is followed through large motions of the camera when these a
     CHECK(vpPlanarScene::positionError(cMo, seen.cMo) < 2e-3);
     followed += untold.process(I)[0].result.status == vpPlanarTargetStatus::Tracked ? 1 : 0;
   }
-  CHECK(followed < 3); // without being told it is lost and must be acquired anew
+  CHECK(followed < 3); // without the prediction it is lost and must be acquired again
 }

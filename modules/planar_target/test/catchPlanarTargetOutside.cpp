@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Checks against data that others made, with the error printed: OpenCV's graf1 and graf3, photographs with a measured
+// Checks against external data, with the error printed: OpenCV's graf1 and graf3, photographs with a measured
 // homography, and the AprilTag scene of visp-images-data, rendered with known poses.
 #include "vpCatch.h"
 #include "vpPlanarScene.h"
@@ -68,8 +68,7 @@ TEST_CASE("graf1 to graf3: homography of real photographs against the measured o
     vpPlaneMatcher matcher(first, config);
     const vpPlaneMatch &match = matcher.match(third);
     CAPTURE(toString(type), match.message);
-    if (!match
-             .found()) { // 40 deg of view change: SURF of dlib is not made for it; no homography is better than a wrong one
+    if (!match.found()) { // 40 deg of view change: too much for SURF of dlib; no homography is better than a wrong one
       std::cout << "graf1/graf3 " << toString(type) << ": " << toString(match.status) << ", " << match.message
                 << std::endl;
       CHECK((type == vpKeypointType::SURF || type == vpKeypointType::BRISK || type == vpKeypointType::KAZE));
@@ -111,7 +110,7 @@ TEST_CASE("AprilTag scene: pose of each tag against the renderer's", "[planar_ta
     }
     truth = truth * vpHomogeneousMatrix(0., 0., 0., M_PI, 0., 0.); // their y is up and z towards the camera
 
-    // The reference is drawn anew, with ideal edges; only which cell is black is taken from the picture.
+    // The reference is redrawn, with ideal edges; only which cell is black is taken from the image.
     const double width = size[tag] * cells / 8.;
     double grey[10][10], low = 255., high = 0.;
     for (unsigned int r = 0; r < cells; ++r) {
@@ -134,7 +133,7 @@ TEST_CASE("AprilTag scene: pose of each tag against the renderer's", "[planar_ta
     vpPlanarTargetConfig config;
     config.refinementSize = 60;
     vpPlanarTarget target(reference, width, width, camera, config);
-    // From a guess as a tracker has it: some pixels and degrees away.
+    // From an initial value as a tracker has it: some pixels and degrees away.
     const double Z = truth[2][3];
     const vpHomogeneousMatrix shift(0.003 * Z, -0.003 * Z, 0.01 * Z, 0., 0., 0.), turn(0., 0., 0., 0.03, -0.03, 0.04);
     const vpPlanarTargetResult &result = target.track(I, shift * truth * turn);
@@ -154,5 +153,5 @@ TEST_CASE("AprilTag scene: pose of each tag against the renderer's", "[planar_ta
     CHECK(position < 0.02);
     CHECK(angle < 2.);
   }
-  CHECK(found >= 4); // one is 30 px wide: a status is the right answer there, a wrong pose is not
+  CHECK(found >= 4); // one is 30 px wide: a status is correct there, a wrong pose is not
 }

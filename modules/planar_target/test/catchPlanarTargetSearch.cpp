@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Many targets of which most are not there: the work of each frame is bounded, and what comes back is found in a second.
+// Many targets, most of them missing: the work per frame is bounded, and returning ones are found within a second.
 #include "vpCatch.h"
 #include "vpPosters.h"
 
@@ -14,7 +14,7 @@ namespace
 {
 constexpr unsigned int second = 30; // frames
 
-//! So many, times the factor of long tests.
+//! \e count times the factor of long tests.
 std::size_t longer(std::size_t count)
 {
   const char *factor = std::getenv("VISP_DIRECT_LONG_TESTS");
@@ -41,7 +41,7 @@ vpHomogeneousMatrix placeOf(std::mt19937_64 &rng, double x, double angle)
                              angle * u(rng));
 }
 
-// What vpPlanarTargetEffort promises, from what the sightings say.
+// Bounds of vpPlanarTargetEffort, from the sightings.
 void checkEffort(const vpPlanarTargetDatabase &database, const std::vector<bool> &known)
 {
   const vpPlanarTargetEffort &effort = database.effort();
@@ -73,7 +73,7 @@ TEST_CASE("the work of a frame is bounded however many targets are lost", "[sear
     for (const vpPlanarTargetSighting &sighting : gallery.database.sightings()) {
       known.push_back(sighting.result.found());
     }
-    // In turn: nothing but clutter, one of them, another one, none, an empty wall.
+    // In turn: only clutter, one of them, another one, none, an empty wall.
     vpPlanarScene::Image view = vpPosters::wall(rng);
     if (frame % 8 < 6) {
       vpPlanarScene::draw(view, gallery.posters[static_cast<std::size_t>(frame / 8) % count], vpPlanarScene::camera(),
@@ -83,7 +83,7 @@ TEST_CASE("the work of a frame is bounded however many targets are lost", "[sear
     checkEffort(gallery.database, known);
     mostProbed = std::max(mostProbed, gallery.database.effort().probed);
   }
-  CHECK(mostProbed >= 20); // it is a bound, not a standstill
+  CHECK(mostProbed >= 20); // it is a bound, not zero
 }
 
 TEST_CASE("with nine of ten targets lost, each that comes back is found within a second", "[search]")
@@ -94,8 +94,8 @@ TEST_CASE("with nine of ten targets lost, each that comes back is found within a
   const int trials = static_cast<int>(longer(4));
   unsigned int slowest = 0;
   for (int trial = 0; trial < trials; ++trial) {
-    // One is always there and keeps being tracked; another comes, in a view in which it can be acquired at once when it is
-    // the only one that is looked for.
+    // One is always visible and stays tracked; another appears, in a view in which it can be acquired at once when it
+    // is the only one searched.
     const std::size_t there = rng() % 10, comes = (there + 1 + rng() % 9) % 10;
     const vpHomogeneousMatrix still = placeOf(rng, -0.12, 0.2), place = placeOf(rng, 0.12, 0.4);
     const vpPlanarScene::Image wall = vpPosters::wall(rng);

@@ -32,7 +32,7 @@ void requireNoPose(const vpPlanarTargetResult &r)
 {
   CHECK_FALSE(r.found());
   CHECK_FALSE(r.message.empty());
-  CHECK(r.cMo[2][3] == 0.); // nothing that could be taken for a pose
+  CHECK(r.cMo[2][3] == 0.); // nothing that could be mistaken for a pose
 }
 } // namespace
 
@@ -48,7 +48,7 @@ TEST_CASE("a target that moves is acquired once and then tracked", "[planar_targ
     REQUIRE(r.status == (frame == 0 ? vpPlanarTargetStatus::Acquired : vpPlanarTargetStatus::Tracked));
     CHECK(vpPlanarScene::positionError(cMo, r.cMo) < 1e-3);
     CHECK(std::sqrt(vpPlanarScene::rotationError(cMo, r.cMo).sumSquare()) < 0.05);
-    // Homography, corners and pose say the same.
+    // Homography, corners and pose agree.
     const double W = klimt().image.getWidth(), H = klimt().image.getHeight();
     const double reference[4][2] = {{-0.5, -0.5}, {W - 0.5, -0.5}, {W - 0.5, H - 0.5}, {-0.5, H - 0.5}};
     for (int k = 0; k < 4; ++k) {
@@ -90,7 +90,7 @@ TEST_CASE("a target that leaves, turns away or is covered is lost, and found aga
   const vpHomogeneousMatrix front = vpPlanarScene::pose(0., 0., 0.5, 0., 0., 0.);
   REQUIRE(target.process(viewOf(front)).found());
 
-  // Out of the image, step by step as a camera sees it.
+  // Out of the image, step by step as with a moving camera.
   bool lost = false;
   for (int k = 1; k <= 40 && !lost; ++k) {
     const vpHomogeneousMatrix cMo = vpPlanarScene::pose(0.01 * k, 0., 0.5, 0., 0., 0.);
@@ -124,7 +124,8 @@ TEST_CASE("distortion of the lens is undone", "[planar_target]")
   vpCameraParameters lens;
   lens.initPersProjWithDistortion(800., 800., 319.5, 239.5, -0.2, 0.2);
   const vpHomogeneousMatrix cMo = vpPlanarScene::pose(0.03, -0.01, 0.5, 0.1, 0.2, -0.3);
-  // Drawn without distortion, then bent pixel by pixel: distorted (xd, yd) shows what is at (xd, yd) (1 + kdu rd^2).
+  // Drawn without distortion, then distorted pixel by pixel: distorted (xd, yd) shows what is at (xd, yd) (1 + kdu
+  // rd^2).
   Image straight(720, 960), bent(480, 640);
   vpPlanarScene::draw(straight, klimt(), vpCameraParameters(800., 800., 479.5, 359.5), cMo);
   for (unsigned int i = 0; i < bent.getHeight(); ++i) {
@@ -191,9 +192,9 @@ TEST_CASE("a match says how many keypoints and pairs it came from", "[planar_tar
     CHECK(match.matches < budget);
     CHECK(match.message ==
           std::to_string(match.inliers.size()) + " of " + std::to_string(match.matches) + " matches agree.");
-    // The same picture: nearly every keypoint finds itself, but those in one place with two directions.
+    // The same image: nearly every keypoint matches itself, except those at one position with two directions.
     CHECK(matcher.match(first).matches > 3 * budget / 4);
-    // Nothing to see, then nothing to look at: what is not known is 0 again.
+    // First no match, then no keypoints: unknown values are 0 again.
     CHECK(matcher.match(Image(480, 640, 7)).frameKeypoints == 0);
     CHECK(matcher.result().referenceKeypoints == ofReference);
     CHECK(matcher.match(Image(8, 8, 7)).matches == 0);

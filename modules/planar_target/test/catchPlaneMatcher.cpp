@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The spread of a homography: against repeated fits, on photographs with known points, and where it says that it extrapolates.
+// The covariance of a homography: against repeated fits, on photographs with known points, and when it extrapolates.
 #include "vpCaseFile.h"
 #include "vpCatch.h"
 #include "vpPosters.h"
@@ -45,8 +45,8 @@ Image viewOf(const vpPlanarScene::Target &target, double shown, std::mt19937_64 
 
 TEST_CASE("the spread is that of fits to data with other noise", "[planar_target][plane-matcher]")
 {
-  // Oracle: the inliers' places where the homography puts them, with noise of the size found, fitted by OpenCV again and
-  // again. Their spread is known to 1/sqrt(2 * 400) = 3.5 % per axis; 20 % is five times that and leaves room for the
+  // Oracle: the inliers at the positions given by the homography, with noise of the estimated size, fitted repeatedly
+  // by OpenCV. Their spread is known to 1/sqrt(2 * 400) = 3.5 % per axis; 20 % is five times that and allows for the
   // second order.
   CAPTURE(vpTestSupport::seed());
   constexpr int repeats = 400;
@@ -147,7 +147,7 @@ TEST_CASE("whiteboard: matches in a corner of a real photograph are said to extr
     CAPTURE(toString(type), match.message, error / count);
     WARN(toString(type) << ": " << toString(match.status) << ", " << match.message << " Largest deviation "
                         << match.cornerDeviation << " px, mean error at the known points " << error / count << " px");
-    // What is said to hold everywhere is nowhere far off.
+    // A homography reported as valid everywhere has small errors everywhere.
     CHECK((!match.found() || error / count < 9.));
     if (type == vpKeypointType::ORB) {
       CHECK(match.status == vpPlanarTargetStatus::Extrapolated);

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The derivatives of a prediction, by place, pose and blur, against differences of predictions.
+// The derivatives of a prediction, by position, pose and blur, against differences of predictions.
 #include "vpCatch.h"
 #include "vpPlanarScene.h"
 #include "vpTargetPrediction.h"
@@ -49,8 +49,9 @@ vpRigidPose randomPose(std::mt19937_64 &rng)
 }
 
 /*!
- * Largest relative deviation, root mean square over the pixels that all three predictions hold, of \e derivative(prediction,
- * row, column, u, v) from the difference of grey values between \e plus and \e minus over \e step.
+ * Largest relative deviation, root mean square over the pixels that all three predictions hold, of
+ * \e derivative(prediction, row, column, u, v) from the difference of grey values between \e plus and \e minus over
+ * \e step.
  */
 double deviation(const vpTargetPrediction &at, const vpTargetPrediction &plus, const vpTargetPrediction &minus,
                  double step, const std::function<double(int, int)> &derivative)
@@ -96,7 +97,7 @@ TEST_CASE("derivatives of the predicted grey values by the pose agree with diffe
         REQUIRE(plus.predict(scene.texture, moved(pose, Vector6::Unit(k) * h), scene.camera, {640, 480}, blur));
         REQUIRE(minus.predict(scene.texture, moved(pose, -Vector6::Unit(k) * h), scene.camera, {640, 480}, blur));
         CAPTURE(kud, i, k);
-        // A wave of w rad/px differs by w^2 / 6 from its difference over two pixels, 0.6 %; rounded grey values add to it.
+        // A wave of w rad/px differs by w^2 / 6 from its difference over two pixels, 0.6 %, plus rounded grey values.
         CHECK(
             deviation(at, plus, minus, 2. * h, [&](int r, int c) {
               const Vector6 motion =

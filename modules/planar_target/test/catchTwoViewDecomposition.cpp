@@ -184,7 +184,7 @@ TEST_CASE("further motions decide between the two planes, and never for the fals
         REQUIRE_FALSE(done); // once decided, it stays
       }
     }
-    // Planes within the tolerance of normals confirm each other for ever.
+    // Planes within the tolerance of normals confirm each other forever.
     CAPTURE(i, apart);
     CHECK((done || apart < vpTwoViewConfig().normalTolerance));
     decided += done;

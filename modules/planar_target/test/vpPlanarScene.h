@@ -4,11 +4,11 @@
  */
 /*!
  * \file vpPlanarScene.h
- * \brief For tests and benchmarks: photographs on planes, seen by a camera, with what spoils an image.
+ * \brief For tests and benchmarks: photographs on planes, seen by a camera, with image degradations.
  *
- * A photograph of W x H pixels covers width x height metres from outer edge to outer edge: the centre of its pixel (u,v) is
- * at X = ((u + 0.5) / W - 0.5) width, likewise Y, in the plane z = 0. vpImageSimulator maps the corners that it is given to
- * the centres of the corner pixels, so it is given those; the outer half pixel of the photograph is not drawn.
+ * A photograph of W x H pixels covers width x height metres from outer edge to outer edge: the centre of its pixel
+ * (u,v) is at X = ((u + 0.5) / W - 0.5) width, likewise Y, in the plane z = 0. vpImageSimulator maps the given
+ * corners to the centres of the corner pixels, so these are passed; the photograph's outer half pixel is not drawn.
  */
 #ifndef vpPlanarScene_h
 #define vpPlanarScene_h
@@ -73,8 +73,8 @@ inline Image background(std::mt19937_64 &rng, unsigned int rows = 480, unsigned 
 }
 
 /*!
- * Draw a target over \e I. Rendered at \e supersample times the resolution and averaged: without it, the nearest texture
- * values of vpImageSimulator would alias and shift edges.
+ * Draw a target over \e I. Rendered at \e supersample times the resolution and averaged: otherwise the nearest-texel
+ * sampling of vpImageSimulator would alias and shift edges.
  */
 inline void draw(Image &I, const Target &target, const vpCameraParameters &cam, const vpHomogeneousMatrix &cMo,
                  unsigned int supersample = 2)
@@ -137,7 +137,7 @@ inline void spoil(Image &I, double blur, double gain, double noise, std::mt19937
   }
 }
 
-//! Hide a rectangle of \e share of the target, at a random place, by a piece of another photograph.
+//! Occlude a rectangle of \e share of the target, at a random position, with a piece of another photograph.
 inline void occlude(Image &target, const Image &occluder, double share, std::mt19937_64 &rng)
 {
   std::uniform_real_distribution<double> uniform(0., 1.);

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpPosters.h
- * \brief Any number of targets that differ: random shapes of random grey, and views with some of them.
+ * \brief Any number of different targets: random shapes of random grey, and views with some of them.
  */
 #ifndef vpPosters_h
 #define vpPosters_h

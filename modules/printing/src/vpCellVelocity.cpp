@@ -27,11 +27,11 @@ vpCellVelocity vpFindCellVelocity(const vpPatternCell *before, std::size_t befor
                                   std::size_t nowCount, double frames) noexcept
 {
   vpCellVelocity result;
-  if (!vpIsPlausibleDeviation(frames)) { // of the same range
+  if (!vpIsPlausibleDeviation(frames)) { // same range as a deviation
     return result;
   }
   Mean x, y;
-  std::size_t hint = 0; // where the search begins: after the last match
+  std::size_t hint = 0; // index where the search begins: after the last match
   for (std::size_t i = 0; i < nowCount; ++i) {
     const vpPatternCell &b = now[i];
     if (!vpIsUsableCell(b)) {

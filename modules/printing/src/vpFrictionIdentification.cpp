@@ -24,7 +24,7 @@ struct Fit {
   double sigma = 0., cost = 0., condition = std::numeric_limits<double>::infinity();
 };
 
-// Median of absolute values times 1.4826: the standard deviation, if half of them are good.
+// Median of absolute values times 1.4826: the standard deviation, if at least half of them are inliers.
 double robustSigma(const Eigen::VectorXd &r)
 {
   const Eigen::VectorXd a = r.cwiseAbs();
@@ -57,7 +57,7 @@ Fit robustFit(const Eigen::MatrixXd &A, const Eigen::VectorXd &b, double outlier
   Fit fit;
   fit.weights = Eigen::VectorXd::Ones(b.size());
   fit.x = solveWeighted(A, b, fit.weights);
-  // Least absolute values first: they are not drawn away by outliers. Then Tukey at a fixed scale.
+  // First an L1 fit, which is robust to outliers. Then Tukey at a fixed scale.
   for (int i = 0; i < 20; ++i) {
     const Eigen::VectorXd r = b - A * fit.x;
     const double floor = 1e-3 * robustSigma(r) + 1e-15;
@@ -76,7 +76,7 @@ Fit robustFit(const Eigen::MatrixXd &A, const Eigen::VectorXd &b, double outlier
   }
   const Eigen::VectorXd r = b - A * fit.x;
   const Eigen::ArrayXd u = (r.array() / (outlier * scale)).abs().min(1.);
-  fit.cost = (1. - (1. - u.square()).cube()).sum(); // Tukey's, at this scale
+  fit.cost = (1. - (1. - u.square()).cube()).sum(); // Tukey's cost at this scale
   fit.condition = conditionOf(A);
   // Asymptotic covariance of an M-estimator.
   const Eigen::ArrayXd psi = fit.weights.array() * r.array();
@@ -106,7 +106,7 @@ Eigen::MatrixXd regressors(const std::vector<vpFrictionSample> &log, double stri
   return A;
 }
 
-// Sum of absolute residuals of the fit that makes it least, by a few reweighted steps.
+// Sum of absolute residuals of the L1 fit, by a few reweighted steps.
 double absoluteCost(const Eigen::MatrixXd &A, const Eigen::VectorXd &b)
 {
   Eigen::VectorXd r = b - A * solveWeighted(A, b, Eigen::VectorXd::Ones(b.size()));
@@ -117,8 +117,9 @@ double absoluteCost(const Eigen::MatrixXd &A, const Eigen::VectorXd &b)
   return r.cwiseAbs().sum();
 }
 
-// The Stribeck velocity of the least residuals, by a scan in its logarithm and golden sections. With weights: squares; with
-// none yet: absolute values, for weights of a fit without Stribeck's term would leave out the slow samples.
+// The Stribeck velocity of the smallest residuals, by a scan in its logarithm and golden sections. With weights:
+// squares; without weights yet: absolute values, because weights from a fit without Stribeck's term would exclude the
+// slow samples.
 double bestStribeck(const std::vector<vpFrictionSample> &log, const Eigen::VectorXd &b, const Eigen::VectorXd &weights,
                     double low, double high)
 {
@@ -217,11 +218,11 @@ vpFrictionIdentification vpIdentifyFriction(const std::vector<vpFrictionSample> 
     if (used.size() >= 50 && high > low) {
       stribeck = bestStribeck(used, b, Eigen::VectorXd(), low, high);
       Fit full = robustFit(regressors(used, stribeck), b, spec.outlier);
-      for (int i = 0; i < 2; ++i) { // the outliers are known by now
+      for (int i = 0; i < 2; ++i) { // the outliers are known here
         stribeck = bestStribeck(used, b, full.weights, low, high);
         full = robustFit(regressors(used, stribeck), b, spec.outlier);
       }
-      // The search over its velocity makes a term of pure noise look significant at 3 sigma; 5 is safe.
+      // The search over its velocity makes a noise term look significant at 3 sigma; 5 is safe.
       const bool shown = full.condition <= spec.maxCondition && full.x[3] > 5. * std::sqrt(full.covariance(3, 3));
       if (shown) {
         fit = full;

@@ -64,7 +64,7 @@ vpAxisState vpMotionForecast::at(double asked) const noexcept
     x[1] += error * decay;
     x[2] -= error * decay / errorTime;
   }
-  else { // the past: as it was
+  else { // the past, extrapolated back
     x[0] += position - from[0] + error * dt;
     x[1] += error;
   }

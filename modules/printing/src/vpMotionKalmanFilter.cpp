@@ -15,13 +15,13 @@ using namespace vpPrintingCheck;
 namespace
 {
 enum Index { Place, Velocity, Acceleration, Moved, Offset, Scale };
-constexpr int patience = 3;           // so many readings beyond the gate in a row are no outliers
-constexpr double largestState = 1e30; // beyond it a belief is lost: its squares would soon overflow
-// Each element of a covariance is off by a few roundings of what it was made from. As much noise on the diagonal keeps it
-// positive, whatever lies between the deviations of the state and of the readings.
+constexpr int patience = 3;           // consecutive readings beyond the gate that are no outliers
+constexpr double largestState = 1e30; // beyond it the state is invalid: its squares would soon overflow
+// Each element of a covariance has a few rounding errors relative to its terms. Noise of that size on the diagonal
+// keeps it positive, whatever the ratio of the deviations of the state and of the readings.
 constexpr double rounding = 1e-14;
 
-// Rounding can leave a variance that is nothing a little below it.
+// Rounding can make a zero variance slightly negative.
 double deviation(double variance) { return std::sqrt(std::max(0., variance)); }
 } // namespace
 
@@ -67,7 +67,7 @@ void vpMotionKalmanFilter::reset(double time, double position, double velocity) 
   m_outliers = 0;
 }
 
-// White acceleration or jerk, integrated exactly. What has been moved since the mark goes with the place.
+// White acceleration or jerk, integrated exactly. The displacement since the mark changes with the position.
 void vpMotionKalmanFilter::predict(Belief &b, double time) const noexcept
 {
   const double t = time - b.time;
@@ -117,7 +117,7 @@ void vpMotionKalmanFilter::mark(Belief &b) noexcept
   b.marked = true;
 }
 
-// Finite, and a covariance as far as pairs of states tell.
+// Finite, and a valid covariance as far as pairs of states show.
 bool vpMotionKalmanFilter::isSound(const Belief &b) noexcept
 {
   if (!(b.x.array().abs() <= largestState).all() || !(b.P.array().abs() <= largestState * largestState).all()) {
@@ -133,8 +133,8 @@ bool vpMotionKalmanFilter::isSound(const Belief &b) noexcept
   return true;
 }
 
-// When rounding spoils the covariance, again without correlations: n diag(P) is never less than P. A reading after which the
-// belief would be lost even so is not used.
+// When rounding corrupts the covariance, repeat without correlations: n diag(P) >= P. A reading after which the state
+// would be invalid even so is rejected.
 vpMotionReadingResult vpMotionKalmanFilter::correct(Belief &b, const vpMotionReading &reading) const noexcept
 {
   const Belief before = b;
@@ -160,7 +160,7 @@ vpMotionReadingResult vpMotionKalmanFilter::resultOf(Belief &b, const vpMotionRe
     return vpMotionReadingResult::Used;
   }
   Vector H = Vector::Zero();       // a row
-  double expected = 0., bent = 0.; // variance by the curvature of what is measured
+  double expected = 0., bent = 0.; // variance due to the curvature of the measurement
   switch (reading.kind) {
   case vpMotionReadingKind::Displacement:
     if (!b.marked) {
@@ -188,7 +188,7 @@ vpMotionReadingResult vpMotionKalmanFilter::resultOf(Belief &b, const vpMotionRe
   const bool beyond = !(innovation * innovation <= m_spec.gate * m_spec.gate * S);
   int &refused = b.refused[static_cast<std::size_t>(reading.kind)];
   refused = beyond ? refused + 1 : 0;
-  if (refused == patience) { // not outliers any more: the belief is wrong, about the encoder or about the motion
+  if (refused == patience) { // not outliers: the state is wrong, about the encoder or about the motion
     if (reading.kind == vpMotionReadingKind::Encoder) {
       b.P(Offset, Offset) += innovation * innovation;
     }
@@ -214,7 +214,7 @@ vpMotionReadingResult vpMotionKalmanFilter::resultOf(Belief &b, const vpMotionRe
     result = vpMotionReadingResult::Used;
   }
   if (reading.kind == vpMotionReadingKind::Displacement) {
-    mark(b); // the next displacement counts from here, used or not
+    mark(b); // the next displacement starts here, used or not
   }
   return result;
 }
@@ -239,13 +239,13 @@ vpMotionReadingResult vpMotionKalmanFilter::add(const vpMotionReading &reading) 
   if (reading.time > m_newest.time + m_spec.maxGap) {
     return vpMotionReadingResult::ImplausibleTime;
   }
-  int place = m_count; // behind all that are not later
+  int place = m_count; // after all that are not later
   while (place > 0 && m_pending[static_cast<std::size_t>(place - 1)].time > reading.time) {
     --place;
   }
   Belief next = m_newest;
   vpMotionReadingResult result = vpMotionReadingResult::Used;
-  if (place == m_count && m_newest.time <= reading.time) { // the usual case: the newest of all
+  if (place == m_count && m_newest.time <= reading.time) { // the usual case: the newest reading
     result = correct(next, reading);
   }
   else {
@@ -279,8 +279,8 @@ vpMotionReadingResult vpMotionKalmanFilter::add(const vpMotionReading &reading) 
 
 vpMotionEstimate vpMotionKalmanFilter::at(double time) const noexcept
 {
-  // Between readings that are kept, those before the instant count; after the newest, all.
-  const bool earlier = time < m_newest.time; // not so for NaN
+  // Between stored readings, only those before the instant count; after the newest, all.
+  const bool earlier = time < m_newest.time; // false for NaN
   Belief b = earlier ? m_settled : m_newest;
   if (earlier) {
     for (int i = 0; i < m_count && m_pending[static_cast<std::size_t>(i)].time <= time; ++i) {

@@ -17,10 +17,10 @@ namespace
 {
 enum Index { Place, Velocity, Force, Disturbance };
 constexpr double longestPart = 0.25;  // of an integration step, T: error of the velocity below 1e-4 px/frame
-constexpr int patience = 3;           // so many measurements beyond the gate in a row are no outliers
-constexpr double largestState = 1e30; // beyond it a belief is lost: its squares would soon overflow
-constexpr double rounding = 1e-14;    // share of a variance by which its correction is off
-constexpr double certainOdds = 50.;   // of a change of friction: then it has happened
+constexpr int patience = 3;           // consecutive measurements beyond the gate that are no outliers
+constexpr double largestState = 1e30; // beyond it the state is invalid: its squares would soon overflow
+constexpr double rounding = 1e-14;    // relative error of a variance after its correction
+constexpr double certainOdds = 50.;   // odds at which a friction change is certain
 } // namespace
 
 void vpMotionObserverSpec::validate() const
@@ -75,7 +75,7 @@ bool vpMotionObserver::command(double time, double force) noexcept
   return true;
 }
 
-// The command that acts at a time, and until when.
+// The command acting at a time, and its end.
 double vpMotionObserver::commandAt(double time, double &until) const noexcept
 {
   until = std::numeric_limits<double>::infinity();
@@ -95,7 +95,7 @@ double vpMotionObserver::commandAt(double time, double &until) const noexcept
 double vpMotionObserver::acceleration(const Eigen::Vector4d &x) const noexcept
 {
   const double drive = x[Force] - x[Disturbance];
-  if (x[Velocity] == 0.) { // held by stiction, or about to go
+  if (x[Velocity] == 0.) { // held by stiction, or about to move
     const double held = std::max(m_spec.model.stiction, m_spec.model.coulomb);
     return std::fabs(drive) <= held ? 0. : (drive - std::copysign(held, drive)) / m_spec.model.mass;
   }
@@ -106,7 +106,7 @@ double vpMotionObserver::acceleration(const Eigen::Vector4d &x) const noexcept
 void vpMotionObserver::part(Belief &b, double command, double h, Eigen::Matrix4d *transition) const noexcept
 {
   const double decay = m_spec.lag > 0. ? std::exp(-h / m_spec.lag) : 0.;
-  const double share = m_spec.lag > 0. ? (1. - decay) * m_spec.lag / h : 0.; // of the old force in the mean
+  const double share = m_spec.lag > 0. ? (1. - decay) * m_spec.lag / h : 0.; // mean share of the old force
   const double v = b.x[Velocity];
   Eigen::Vector4d x = b.x;
   x[Force] = command + (b.x[Force] - command) * share; // mean over the part
@@ -170,7 +170,7 @@ vpMotionReadingResult vpMotionObserver::measure(double time, double position, do
   }
   const vpMotionObserver before = *this;
   const vpMotionReadingResult result = take(time, position, sigma);
-  if (!isSound()) { // a measurement after which the belief would be lost is not used
+  if (!isSound()) { // a measurement that would make the state invalid is rejected
     *this = before;
     return vpMotionReadingResult::Invalid;
   }
@@ -201,7 +201,7 @@ vpMotionReadingResult vpMotionObserver::take(double time, double position, doubl
     if (++m_refused < patience) {
       return vpMotionReadingResult::Outlier;
     }
-    // Not outliers any more: the model is wrong, such as friction that changed. Doubt the belief instead.
+    // Not outliers: the model is wrong, for example because friction changed. Inflate the covariance instead.
     m_belief.P(Place, Place) += innovation * innovation;
     m_belief.P(Velocity, Velocity) += innovation * innovation / (patience * patience);
     m_belief.P(Disturbance, Disturbance) += m_spec.sigmaDisturbance * m_spec.sigmaDisturbance;
@@ -219,8 +219,8 @@ vpMotionReadingResult vpMotionObserver::take(double time, double position, doubl
   return vpMotionReadingResult::Used;
 }
 
-// Friction may have changed at any of the last measurements. Each of these hypotheses knows what the belief's error would
-// be for a change by 1, and with it what the innovations since say about the size of the change.
+// Friction may have changed at any of the last measurements. Each hypothesis has the response of the estimation error
+// to a unit change, and from it the evidence of the later innovations about the size of the change.
 void vpMotionObserver::lookForChange(double innovation, double S, const Eigen::Vector4d &K) noexcept
 {
   m_lean.setZero();
@@ -228,7 +228,7 @@ void vpMotionObserver::lookForChange(double innovation, double S, const Eigen::V
     return;
   }
   const double prior = 1. / (m_spec.sigmaDisturbance * m_spec.sigmaDisturbance);
-  double odds = 0.; // of any change to none
+  double odds = 0.; // odds of any change against none
   for (int i = 0; i < m_changeCount; ++i) {
     Change &change = m_changes[static_cast<std::size_t>(i)];
     const double g = change.response[Place];
@@ -255,7 +255,7 @@ void vpMotionObserver::lookForChange(double innovation, double S, const Eigen::V
   next.response[Disturbance] = 1.;
 }
 
-// The belief takes the likeliest change over, and what stays unknown about its size.
+// The state takes over the most likely change, and the remaining uncertainty of its size.
 void vpMotionObserver::takeChange() noexcept
 {
   const Change &change = *std::max_element(m_changes.begin(), m_changes.begin() + m_changeCount,

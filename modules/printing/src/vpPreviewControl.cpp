@@ -36,7 +36,7 @@ vpPreviewControl::Output vpPreviewControl::command(const Input &input) const noe
     return out;
   }
   const double v = input.reference[1], a = input.reference[2], j = input.reference[3];
-  const double rate = m_spec.model.mass * j + m_spec.model.viscous * a; // of the force
+  const double rate = m_spec.model.mass * j + m_spec.model.viscous * a; // rate of the force
   const double ahead = m_spec.model.force(v, a) + input.disturbance + m_spec.lag * rate;
   const double back = m_spec.positionGain * (input.referenceFeedback[0] - input.position) +
                       m_spec.velocityGain * (input.referenceFeedback[1] - input.velocity);

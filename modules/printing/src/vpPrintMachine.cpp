@@ -48,7 +48,7 @@ vpPreviewControlSpec withPeriod(vpPreviewControlSpec preview, int commandsPerFra
 double previewForce(const vpPreviewControl &control, double now, const vpMotionObserver &observer,
                     const vpPrintReference &reference)
 {
-  const vpObservedMotion motion = observer.at(control.feedbackAt(now)); // where it will be when the command acts
+  const vpObservedMotion motion = observer.at(control.feedbackAt(now)); // predicted for when the command acts
   vpPreviewControl::Input input;
   input.reference = reference.at(control.actsAt(now));
   input.referenceFeedback = reference.at(control.feedbackAt(now));
@@ -182,7 +182,7 @@ double vpPrintMachine::positionAt(double time) const noexcept
   return isObserved() ? m_observer.at(time).position : m_kalman.at(time).position;
 }
 
-// Displacement at which a cell is at the nozzle, as far as it is known: measured, or by the pitch from its neighbour.
+// Displacement at which a cell is at the nozzle, if known: measured, or from its neighbour by the pitch.
 double vpPrintMachine::placeOf(int row, int column) noexcept
 {
   double along = 0., across = 0.;
@@ -198,7 +198,7 @@ double vpPrintMachine::placeOf(int row, int column) noexcept
   return m_spec.nozzle - m_spec.originX - (column - m_firstColumn) * m_spec.pitchX;
 }
 
-// The cells from the present one on, turns between the rows.
+// The cells from the current one on, and the turns between the rows.
 void vpPrintMachine::makeTargets() noexcept
 {
   const long perRow = m_spec.cellsPerRow + 1L;
@@ -226,8 +226,8 @@ void vpPrintMachine::makeTargets() noexcept
   m_output.row = std::min(static_cast<int>(m_present / perRow), m_spec.rows - 1);
 }
 
-// The nozzle follows the cells across the rows, too: the next three, as they were measured. Behind the last cell of a row
-// the stage steps to the next one.
+// The nozzle follows the cells across the rows, too: the mean of the next three, as measured. After the last cell of a
+// row the stage steps to the next one.
 void vpPrintMachine::makeTargetAcross(double now) noexcept
 {
   const long perRow = m_spec.cellsPerRow + 1L;
@@ -289,8 +289,8 @@ void vpPrintMachine::fire(const vpPrintMachineInput &seen) noexcept
   input.epoch = m_epoch;
   input.firstColumn = m_firstColumn - m_spec.cellsPerRow + 1;
   input.lastColumn = m_firstColumn;
-  // The sum of displacements, not a filtered position: an error that all cells have in common cancels exactly, and
-  // the lag of a filter would make the cells wander.
+  // The sum of displacements, not a filtered position: an error common to all cells cancels exactly, and the lag of a
+  // filter would make the cells drift.
   input.captureAlong = m_odometer.output().x;
   input.captureAcross = m_odometer.output().y;
   const vpObservedMotion across = m_observerY.at(now);

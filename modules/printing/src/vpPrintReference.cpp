@@ -15,7 +15,7 @@ using namespace vpPrintingCheck;
 
 namespace
 {
-constexpr double shortest = 0.05; // frame; a target is never nearer in time
+constexpr double shortest = 0.05; // frame; minimum time to a target
 constexpr int quintic = 3;        // conditions at each end
 constexpr double largestState = 1e30;
 
@@ -73,7 +73,8 @@ double vpPrintReference::durationTo(const vpAxisState &from, const vpPrintTarget
       T = m_spec.dropTime;
       break;
     case vpPrintReferenceMode::CellVelocity: {
-      // Faster than the mean of both ends by what the mean between cells is faster than the velocity at cells.
+      // Faster than the mean of both ends by the difference of the mean velocity between cells and the velocity at
+      // cells.
       const double fastest = std::max(std::fabs(from[1]), std::fabs(target.velocity));
       const double faster = std::max(0., m_spec.meanVelocity - fastest);
       T = way / std::max(ends + faster, 1e-3);
@@ -132,7 +133,7 @@ const vpPrintReference::Output &vpPrintReference::step(double now, const vpPrint
     }
     return i;
   };
-  // Take up what comes next; more than one if a step was long.
+  // Advance to the next targets; more than one if a step was long.
   for (int guard = 0; guard < 16; ++guard) {
     if (m_hasTarget && now >= m_pieces[0].begin + m_pieces[0].duration) {
       m_since = m_pieces[0].begin + m_pieces[0].duration;
@@ -146,9 +147,9 @@ const vpPrintReference::Output &vpPrintReference::step(double now, const vpPrint
     }
     const std::size_t next = after(m_passed);
     if (next == known) {
-      break; // nothing known: on at this velocity
+      break; // no target known: continue at this velocity
     }
-    if (now - m_since > 1.) { // it went on for a while
+    if (now - m_since > 1.) { // it continued for a while
       m_start = at(now);
       m_since = now;
     }
@@ -159,7 +160,7 @@ const vpPrintReference::Output &vpPrintReference::step(double now, const vpPrint
     m_output.newTarget = true;
   }
   if (m_hasTarget) {
-    // Follow the target where it is measured, while there is time.
+    // Follow the measured position of the target, while there is time.
     vpTrajectorySegment &piece = m_pieces[0];
     const double rest = piece.begin + piece.duration - now;
     m_output.frozen = rest < m_spec.freeze;
@@ -170,7 +171,7 @@ const vpPrintReference::Output &vpPrintReference::step(double now, const vpPrint
         plan(piece, at(now), m_target, now, rest);
       }
     }
-    // And those behind it, as far as they are known.
+    // And the following targets, as far as they are known.
     m_count = 1;
     vpAxisState from{{m_target.position, m_target.velocity, 0., 0.}};
     for (std::size_t i = after(m_target.key); i < known && m_count < vpMotionForecast::maxPieces; ++i) {
@@ -194,7 +195,7 @@ const vpPrintReference::Output &vpPrintReference::step(double now, const vpPrint
   if (std::all_of(state.begin(), state.end(), [](double x) { return std::fabs(x) <= largestState; })) {
     m_output.state = state;
   }
-  else { // targets that are much too far for their time: stay
+  else { // targets much too far for their time: stay
     reset(now, m_output.state[0], m_passed);
     m_output.valid = false;
   }

@@ -17,7 +17,7 @@ namespace
 {
 constexpr double atRest = 1e-9; // px/frame
 
-// Instant in [from, to] at which the place is reached; it is passed in between. Newton, kept inside the bracket.
+// Instant in [from, to] at which the position is reached; it is passed in between. Newton, kept inside the bracket.
 double crossing(const vpMotionForecast &motion, double place, double from, double to)
 {
   const bool rising = motion.at(to)[0] > place;
@@ -126,7 +126,7 @@ const vpPrintTriggerOutput &vpPrintTrigger::step(const vpPrintTriggerInput &inpu
   return m_output;
 }
 
-// Takes the cells of a frame into the memory.
+// Stores the cells of a frame.
 void vpPrintTrigger::see(const vpPrintTriggerInput &input) noexcept
 {
   const double movedAlong = input.captureAlong, movedAcross = input.captureAcross;
@@ -169,12 +169,12 @@ void vpPrintTrigger::see(const vpPrintTriggerInput &input) noexcept
   }
 }
 
-// The entry of a cell: by identity, or by place if it is known from another epoch.
+// The entry of a cell: by identity, or by position if it is known from another epoch.
 vpPrintTrigger::Entry *vpPrintTrigger::known(int row, int column, unsigned int epoch, double along,
                                              double across) noexcept
 {
   Entry *same = nullptr;
-  for (int k = 0; k < m_count; ++k) { // cells come in the same order as last time
+  for (int k = 0; k < m_count; ++k) { // same order of cells as last time
     const int i = m_hint + k < m_count ? m_hint + k : m_hint + k - m_count;
     Entry &e = m_entries[static_cast<std::size_t>(i)];
     if (e.row == row && e.column == column && e.epoch == epoch) {
@@ -193,7 +193,7 @@ vpPrintTrigger::Entry *vpPrintTrigger::known(int row, int column, unsigned int e
   return same;
 }
 
-// A new entry; when all are taken, that of the cell farthest from the nozzle that is not on its way there.
+// A new entry; if none is free, that of the cell farthest from the nozzle and not approaching it.
 vpPrintTrigger::Entry *vpPrintTrigger::room(double place) noexcept
 {
   if (m_count < m_spec.capacity) {
@@ -209,13 +209,13 @@ vpPrintTrigger::Entry *vpPrintTrigger::room(double place) noexcept
   return farthest;
 }
 
-// \e now, \e across: state when a drop that is fired now lands.
+// \e now, \e across: state at the landing of a drop fired now.
 void vpPrintTrigger::schedule(const vpPrintTriggerInput &input, const vpAxisState &now, double across,
                               Entry &entry) noexcept
 {
   const double delay = m_spec.travelTime + m_spec.electronicsDelay;
-  const double earliest = input.time + delay;                // landing of a drop that is fired now
-  const double ahead = entry.along + now[0] - m_spec.nozzle; // the cell minus the nozzle
+  const double earliest = input.time + delay;                // landing of a drop fired now
+  const double ahead = entry.along + now[0] - m_spec.nozzle; // cell minus nozzle
   const double aside = entry.across + across - m_spec.nozzleAcross;
   const bool wanted = entry.column >= input.firstColumn && entry.column <= input.lastColumn;
   if (!wanted || !(std::fabs(aside) <= m_spec.rowTolerance)) {
@@ -227,7 +227,7 @@ void vpPrintTrigger::schedule(const vpPrintTriggerInput &input, const vpAxisStat
   shot.column = entry.column;
   shot.epoch = entry.epoch;
   shot.sigma = std::sqrt(entry.varianceAlong + m_spec.drift * std::max(0., earliest - entry.seen));
-  if (entry.latch == Latch::Armed && ahead * entry.side < 0.) { // has passed since the last step
+  if (entry.latch == Latch::Armed && ahead * entry.side < 0.) { // passed since the last step
     shot.late = true;
     shot.fireTime = input.time;
     shot.landTime = earliest;

@@ -61,7 +61,7 @@ vpPrintVelocityControl::Output vpPrintVelocityControl::step(const Input &input) 
   double integral = known ? m_integral + error : m_integral; // an old error is not added again
   out.feedback = feedback(integral);
   double force = out.feedback + out.feedforward;
-  if (std::fabs(force) > m_spec.maxForce && force * error > 0.) { // the integral would press on against the bound
+  if (std::fabs(force) > m_spec.maxForce && force * error > 0.) { // the integral would increase against the bound
     integral = m_integral;
     out.feedback = feedback(integral);
     force = out.feedback + out.feedforward;

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Checks of specifications, for the constructors of this module. What is not zero is of a magnitude from 1e-30 to 1e15, so
+// Checks of specifications, for the constructors of this module. Nonzero values have magnitudes from 1e-30 to 1e15, so
 // that no step overflows.
 #ifndef vpPrintingCheck_h
 #define vpPrintingCheck_h
@@ -32,7 +32,7 @@ inline void notNegative(const char *field, const char *owner, double value)
 {
   require(value == 0. || usual(value), field, owner, value, ">= 0 and finite (0, or 1e-30 to 1e15)");
 }
-//! Of a bound that may be infinite.
+//! Check of a bound that may be infinite.
 inline void bound(const char *field, const char *owner, double value)
 {
   require(value >= 1e-30, field, owner, value, "> 0, at least 1e-30 or infinite");

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// (7.27) by identity: against the known displacement, with cells that come, go and fail, and its stated uncertainty.
+// (7.27) by identity: against the known displacement, with cells that appear, leave and fail, and its reported sigma.
 #include "vpCatch.h"
 
 #include <visp3/core/vpException.h>
@@ -59,7 +59,7 @@ TEST_CASE("The velocity of matched cells is unbiased and as exact as it says", "
     const auto before = look(x, y, 0.1, rng);
     auto now = look(x + frames * vx, y + frames * vy, 0.1, rng);
     if (problem % 5 == 0) {
-      std::shuffle(now.begin(), now.end(), rng); // allowed, if slower
+      std::shuffle(now.begin(), now.end(), rng); // allowed, but slower
     }
     const vpCellVelocity found = vpFindCellVelocity(before.data(), before.size(), now.data(), now.size(), frames);
     int expected = 0;

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Parameters that are known, from logs with noise and outliers; logs that cannot tell; stated deviations.
+// Known parameters, from logs with noise and outliers; logs without enough information; reported sigmas.
 #include "vpCatch.h"
 
 #include <visp3/printing/vpFrictionIdentification.h>
@@ -84,8 +84,9 @@ TEST_CASE("Errors are as large as their stated deviations, with a tenth of outli
     sum2[1] += std::pow((found.model.viscous - model.viscous) / found.sigmaViscous, 2);
     sum2[2] += std::pow((found.model.coulomb - model.coulomb) / found.sigmaCoulomb, 2);
     CHECK(found.outliers > 5);
-    // With a share e of outliers half of all lies below the quantile 0.5 / (1 - e) of the good ones: 1.13 standard deviations
-    // for a tenth. That of this median from 300 samples is 1.17 / sqrt(300), and e varies by 0.017: 0.08 together; six of them.
+    // With a share e of outliers half of all lies below the quantile 0.5 / (1 - e) of the inliers: 1.13 standard
+    // deviations for a tenth. This median of 300 samples has the deviation 1.17 / sqrt(300), and e varies by 0.017:
+    // 0.08 together; six of them.
     CHECK(found.noise / 0.01 == Approx(1.13).margin(6. * 0.08));
     noise += found.noise / 0.01 / problems;
   }

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Against the Riccati equation, the information form, order of arrival, and consistency of the stated uncertainty.
+// Against the Riccati equation, the information form, order of arrival, and consistency of the reported covariance.
 #include "vpCatch.h"
 
 #include <visp3/printing/vpMotionKalmanFilter.h>

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// PID with feedforward, its bounds; observer and preview on a plant that is integrated independently.
+// PID with feedforward, its bounds; observer and preview on an independently integrated plant.
 #include "vpCatch.h"
 
 #include <visp3/printing/vpMotionObserver.h>
@@ -131,7 +131,7 @@ TEST_CASE("The observer follows the plant through delay and noise and finds the 
     CHECK(now.disturbance == Approx(plant.disturbance).margin(0.012));
     nees += std::pow((now.velocity - plant.v) / std::hypot(now.sigmaVelocity, 0.002), 2);
     ++count;
-    // And ahead, with the last command held.
+    // And predicted, with the last command held.
     plant.run(command, 2.);
     CHECK(observer.at(152.).velocity == Approx(plant.v).margin(6. * now.sigmaVelocity + 0.02));
   }
@@ -191,7 +191,8 @@ TEST_CASE("A sudden change of friction is found early, and none where there is n
   spec.velocityNoise = 1e-6;
   vpMotionObserverSpec looking = spec;
   looking.changeRate = 0.003;
-  // Squares of the errors of the disturbance: with and without the hypotheses, 12 frames behind a change and without one.
+  // Squares of the errors of the disturbance: with and without the hypotheses, 12 frames after a change and in
+  // quiet runs.
   double found = 0., late = 0., quiet = 0., still = 0., promised = 0.;
   for (int problem = 0; problem < problems; ++problem) {
     const bool changes = problem % 2 == 0;
@@ -223,10 +224,10 @@ TEST_CASE("A sudden change of friction is found early, and none where there is n
   CAPTURE(found, late, quiet, still, promised);
   CHECK(found < 0.15 * late);
   CHECK(found < 0.01 * 0.01);
-  // A change is believed at odds of 50 to 1, so at most 3 of the 150 quiet runs are expected to have a false alarm, which is off
-  // by about 0.02; 13 of them would break this. Quiet runs without one are nearly still.
+  // A change is accepted at odds of 50 to 1, so at most 3 of the 150 quiet runs are expected to have a false alarm,
+  // with an error of about 0.02; 13 of them would break this. Quiet runs without one have hardly any error.
   CHECK(quiet < 0.006 * 0.006);
-  CHECK(promised < 1.6); // its own deviation holds behind a change, too
+  CHECK(promised < 1.6); // its own sigma is valid after a change, too
 }
 
 TEST_CASE("The preview makes a lagging plant follow a sine without feedback", "[preview]")

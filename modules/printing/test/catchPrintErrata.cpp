@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Thesis (7.24) and (7.27) as printed on a product that passes, beside what is used here. See doc/errata.md.
+// Thesis (7.24) and (7.27) as printed on a passing product, compared with those used here. See doc/errata.md.
 #include "vpCatch.h"
 
 #include <visp3/printing/vpAlphaBetaFilter.h>
@@ -70,7 +70,7 @@ TEST_CASE("(7.24): with velocities per frame the period is a frame, not the loop
     filter.step(v * k);
   }
   const double now = v * 199.;
-  CHECK(filter.predict(1.) == Approx(now + v).margin(1e-6)); // where the cell is in the next two frames
+  CHECK(filter.predict(1.) == Approx(now + v).margin(1e-6)); // position of the cell in the next two frames
   CHECK(filter.predict(2.) == Approx(now + 2. * v).margin(1e-6));
   const double printed = filter.state().value + 2. * loop * filter.state().rate;
   CHECK(now + 2. * v - printed > 9.9);

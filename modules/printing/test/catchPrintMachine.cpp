@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The loop of a printing machine on a stage without friction whose motion is known in closed form. On simulated stages with
+// The loop of a printing machine on a frictionless stage with motion known in closed form. On simulated stages with
 // friction and rendered images the same loop is tested in lab/.
 #include "vpCatch.h"
 #include "vpWildNumbers.h"
@@ -29,7 +29,7 @@ vpPrintMachineSpec idealSpec()
   return spec;
 }
 
-//! One axis: a mass that each command accelerates for a quarter of a frame.
+//! One axis: a mass accelerated by each command for a quarter of a frame.
 class Mass
 {
 public:
@@ -84,7 +84,7 @@ TEST_CASE("Each cell of rows to and fro gets one drop in its centre, whatever it
   vpPrintMachineSpec spec = idealSpec();
   spec.rows = 3;
   spec.cellsPerRow = 6;
-  spec.originX = spec.nozzle - spec.pitchX; // a way to get up to speed
+  spec.originX = spec.nozzle - spec.pitchX; // a distance to accelerate
   vpPrintMachine machine(spec);
   for (const auto &[firstRow, firstColumn] : {std::pair<int, int>{0, -1}, {7, 40}}) {
     machine.reset(firstRow, firstColumn);

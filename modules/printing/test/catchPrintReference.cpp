@@ -87,7 +87,7 @@ TEST_CASE("In every mode the centres are passed as wished and the motion is C2",
           REQUIRE(x[1] == Approx(4.).margin(1e-9));
         }
       }
-      if (now > 0.) { // no jump in place, velocity, acceleration
+      if (now > 0.) { // no jump in position, velocity, acceleration
         REQUIRE(std::fabs(x[0] - before[0] - 0.05 * (x[1] + before[1])) < 0.02);
         REQUIRE(std::fabs(x[1] - before[1] - 0.05 * (x[2] + before[2])) < 0.02);
       }
@@ -109,14 +109,14 @@ TEST_CASE("A measured target is followed until the freeze, and made good afterwa
     auto targets = lattice(60, rng, 0.3);
     const auto truth = targets;
     long last = -1;
-    double place = 0., bound = 0.; // where the target was seen last; of the acceleration on the way there
+    double place = 0., bound = 0.; // last measured target position; bound of the acceleration on the way there
     for (int k = 0; k < 500; ++k) {
       for (std::size_t i = 0; i < targets.size(); ++i) {
         targets[i].position = truth[i].position + normal(rng);
       }
       const auto &out = reference.step(k, targets.data(), targets.size());
       REQUIRE(out.hasTarget);
-      // Seen with 0.18 px of noise, by which it is off: 5.5 standard deviations in 1000 frames.
+      // Measured with 0.18 px of noise, the error of the target: 5.5 standard deviations in 1000 frames.
       REQUIRE(std::fabs(reference.at(out.arrival)[0] - truth[static_cast<std::size_t>(out.target)].position) < 1.);
       CHECK(out.frozen == (out.arrival - k < spec.freeze));
       const vpTrajectorySegment &piece = reference.pieces()[0];
@@ -137,7 +137,7 @@ TEST_CASE("A measured target is followed until the freeze, and made good afterwa
     }
     CHECK(last > 40);
   }
-  // Why there is a freeze: of the last corrections without it, half come with less than half a frame to go and ask for more
+  // Reason for the freeze: of the last corrections without it, half come with less than half a frame left and need more
   // than 5.8 |d| / 0.25 each.
   CHECK(hardest[0] > 2. * hardest[1]);
 }

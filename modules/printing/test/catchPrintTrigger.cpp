@@ -19,7 +19,7 @@ namespace
 {
 constexpr double nozzle = 79.5, travel = 0.32, electronics = 0.11, visionDelay = 1.28;
 
-//! Place of a cell at displacement 0; cell 0 comes first, later ones lie to the left. Flexible pitch and jitter.
+//! Position of a cell at displacement 0; cell 0 comes first, later ones are to the left. Flexible pitch and jitter.
 double placeOf(long cell)
 {
   const auto hash = static_cast<unsigned long>(cell) * 2654435761ul % 10007ul;
@@ -27,7 +27,7 @@ double placeOf(long cell)
   return 20. - 48.9 * k - 3. * std::sin(2. * M_PI * k / 37.) - 0.6 * (static_cast<double>(hash) / 10007. - 0.5);
 }
 
-//! \brief The planned motion, from cell to cell with 4 px/frame at the centres, and a slow one on top that nobody plans.
+//! \brief The planned motion, from cell to cell with 4 px/frame at the centres, plus a slow unplanned one.
 struct Motion {
   static constexpr double T = 9.78, w2 = 2. * M_PI / 137., w3 = 2. * M_PI / 1001.;
   static vpTrajectorySegment piece(long i)
@@ -69,7 +69,7 @@ Outcome print(long cells, double sigma, vpPrintTriggerMethod method, double offs
   spec.lead = lead;
   vpPrintTrigger trigger(spec);
   vpMotionKalmanSpec kalman;
-  kalman.model = vpMotionModel::ConstantVelocity; // of what is not planned
+  kalman.model = vpMotionModel::ConstantVelocity; // for the unplanned motion
   kalman.processNoise = sigma > 0.1 ? 1e-3 : 1e-2;
   kalman.sigmaPosition = 1.;
   kalman.sigmaVelocity = 0.5;
@@ -198,7 +198,7 @@ TEST_CASE("Without the plan of the motion some cells are missed, and said to be:
     const double share = static_cast<double>(o.within) / static_cast<double>(o.drops);
     CAPTURE(sigma);
     CHECK(o.doubled == 0);
-    CHECK(o.missed == o.reported); // never in silence
+    CHECK(o.missed == o.reported); // all reported
     if (sigma < 0.1) {
       CHECK(share > 0.9);
       CHECK(share < 1.);
@@ -217,7 +217,7 @@ TEST_CASE("Algorithm 7.5 as printed misses and doubles cells", "[trigger]")
   const double faulty = static_cast<double>(o.missed + o.doubled) / 20000.;
   CHECK(faulty > 0.01);
   CHECK(faulty < 0.15);
-  // And it lets the drops fall late: nobody subtracts the delay of the camera.
+  // And the drops land late: the camera's delay is not subtracted.
   CHECK(std::sqrt(o.sum2 / static_cast<double>(o.drops)) * 4.5 > 10.);
 }
 
@@ -330,7 +330,7 @@ TEST_CASE("The instant is exact for a known motion, forwards, backwards and alon
 
 TEST_CASE("Late cells are fired if they can still be hit and reported if not", "[trigger]")
 {
-  for (const double jump : {1., 20.}) { // px by which the product is suddenly farther than it was thought to be
+  for (const double jump : {1., 20.}) { // px, sudden displacement that the forecast did not include
     vpPrintTrigger trigger;
     const vpPatternCell cell = cellAt(nozzle - 10.);
     CHECK(trigger.step(exact(0., 0., 4., &cell)).shotCount == 0);

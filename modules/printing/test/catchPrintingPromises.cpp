@@ -2,8 +2,8 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// What the docstrings of this module promise, attacked by random input: motions that jump, reverse and stand still, references
-// and measurements that have nothing to do with each other.
+// Guarantees in the docstrings of this module under random input: motions that jump, reverse and stand still,
+// references and measurements unrelated to each other.
 #include "vpCatch.h"
 
 #include <visp3/printing/vpPrintTrigger.h>
@@ -45,12 +45,12 @@ TEST_CASE(
     const double noise = uniform(rng, 0., 1.) < 0.5 ? 0.02 : 2.;
     constexpr int cells = 8;
     std::map<int, int> answers;            // for each column
-    std::vector<double> ahead(cells, 0.);  // of the nozzle, when a drop that is fired now lands
+    std::vector<double> ahead(cells, 0.);  // of the nozzle, when a drop fired now lands
     std::vector<bool> waits(cells, false); // and the product moves towards it
     double position = 0., velocity = uniform(rng, -8., 8.);
     for (int k = 0; k < 120; ++k) {
       if (uniform(rng, 0., 1.) < 0.05) {
-        velocity = uniform(rng, 0., 1.) < 0.2 ? 0. : uniform(rng, -8., 8.); // and no forecast knew
+        velocity = uniform(rng, 0., 1.) < 0.2 ? 0. : uniform(rng, -8., 8.); // without any forecast of it
       }
       if (uniform(rng, 0., 1.) < 0.02) {
         position += uniform(rng, -60., 60.); // a slip
@@ -88,7 +88,7 @@ TEST_CASE(
         }
         ++(shot ? fired : missed);
       }
-      // The trigger's own places of the cells tell which have passed since the last step.
+      // The trigger's own cell positions determine which have passed since the last step.
       const double lands = input.along.at(input.time + spec.travelTime)[0];
       for (int c = 0; c < cells; ++c) {
         double along = 0., across = 0.;

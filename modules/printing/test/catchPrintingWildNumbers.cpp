@@ -2,8 +2,9 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Every step of this module under NaN, infinities, numbers whose squares overflow, denormals and broken clocks: the answer is
-// finite, the status tells, a refused input changes nothing, and good input is taken again afterwards.
+// Every step of this module under NaN, infinities, numbers whose squares overflow, denormals and wrong clocks: the
+// output is finite, the status reports it, rejected input changes nothing, and valid input is accepted again
+// afterwards.
 #include "vpCatch.h"
 #include "vpWildNumbers.h"
 
@@ -81,7 +82,7 @@ void motionKalmanFilter(std::mt19937_64 &rng)
       REQUIRE(now.covariance == before.covariance);
     }
   }
-  // Not lost: position readings that follow are used, and right in the end.
+  // Not lost: subsequent position readings are used, and the estimate converges.
   const double start = filter.at(NAN).time;
   for (int k = 1; k <= 200; ++k) {
     const auto result = filter.add({vpMotionReadingKind::Position, start + k, 3. * k, 0.1});
@@ -125,7 +126,7 @@ void motionObserver(std::mt19937_64 &rng)
       REQUIRE(now.sigmaPosition == before.sigmaPosition);
     }
   }
-  // Not lost: with a command of 0 and measurements of rest it comes to rest; every third in a row counts whatever it believes.
+  // Not lost: with a command of 0 and measurements of rest it comes to rest; every third consecutive one is accepted.
   const double start = observer.at(NAN).time;
   int used = 0;
   for (int k = 1; k <= 200; ++k) {
@@ -135,7 +136,7 @@ void motionObserver(std::mt19937_64 &rng)
   }
   CHECK(used >= 66);
   if (std::isfinite(
-          spec.gate)) { // without a gate 1e12 px with a deviation of 0.1 is believed, and forgotten at the filter's pace
+          spec.gate)) { // without a gate 1e12 px with a deviation of 0.1 is accepted, forgotten at the filter's rate
     const vpObservedMotion end = observer.at(start + 200.);
     CHECK(end.position == Approx(0.).margin(6. * end.sigmaPosition));
   }
@@ -354,7 +355,7 @@ struct Step {
   const char *name;
   void (*run)(std::mt19937_64 &);
 };
-// A new class with a step comes into this list.
+// Add every new class with a step to this list.
 const Step everyStep[] = {
     {"vpMotionKalmanFilter", motionKalmanFilter}, {"vpMotionObserver", motionObserver},
     {"vpAlphaBetaFilter", alphaBetaFilter},       {"vpProductOdometer, vpFindCellVelocity", productOdometer},

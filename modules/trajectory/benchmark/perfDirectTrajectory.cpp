@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Planning times, with the thesis's iteration beside them. Ruckig is not packaged in Debian, so it is no peer here.
+// Planning times, compared with the thesis's iteration. Ruckig is not packaged in Debian, so it is not compared.
 #include "vpBenchmark.h"
 
 #include <visp3/trajectory/vpDirectTrajectory.h>
@@ -27,7 +27,7 @@ double uniform(std::mt19937_64 &rng, double low, double high)
 }
 
 // Retargeting in mid-motion: each problem starts somewhere on the way to another goal. The limits are those of a
-// robot's joints. `wanted` selects problems by the form that answers them (Hold: any).
+// robot's joints. `wanted` selects problems by the form of their solution (Hold: any).
 template <int N> std::vector<vpTrajectoryProblem> retargets(int count, vpTrajectoryForm wanted, bool jerk = false)
 {
   std::mt19937_64 rng(1);
@@ -58,13 +58,13 @@ template <int N> std::vector<vpTrajectoryProblem> retargets(int count, vpTraject
   return problems;
 }
 
-// Time of each call: mean by Google Benchmark, the distribution here. The clock itself costs about 25 ns a call.
+// Time of each call: mean by Google Benchmark, the distribution here. The clock itself takes about 25 ns per call.
 template <typename Call> void measure(benchmark::State &state, std::size_t count, Call call)
 {
   using Clock = std::chrono::steady_clock;
   std::vector<double> ns;
   ns.reserve(count * 20);
-  double quietest = none; // mean of the round that other users of the machine disturbed least, ns
+  double quietest = none; // mean of the round least disturbed by other users of the machine, ns
   for (int round = 0; round < 20; ++round) {
     double sum = 0.;
     for (std::size_t k = 0; k < count; ++k) {
@@ -87,7 +87,7 @@ template <typename Call> void measure(benchmark::State &state, std::size_t count
   state.counters["max_us"] = 1e-3 * ns.back();
 }
 
-// No motion from (q, v) to rest is faster: constant acceleration, full speed, constant deceleration, without a jerk limit.
+// Fastest motion from (q, v) to rest without a jerk limit: constant acceleration, full speed, constant deceleration.
 double leastTime(double q, double v, double goal, double maxVelocity, double maxAcceleration)
 {
   const double stop = q + 0.5 * v * std::abs(v) / maxAcceleration, side = goal < stop ? -1. : 1.;
@@ -158,7 +158,7 @@ template <int N> void planning(benchmark::State &state, vpTrajectoryForm form, b
 void planning1(benchmark::State &state, vpTrajectoryForm form) { planning<1>(state, form); }
 void planning7(benchmark::State &state, vpTrajectoryForm form, bool jerk) { planning<7>(state, form, jerk); }
 
-// What a control loop pays: one cycle of update(), a new goal every 20 cycles.
+// Time of a control loop: one cycle of update(), a new goal every 20 cycles.
 template <int N> void cycle(benchmark::State &state)
 {
   std::mt19937_64 rng(2);
@@ -206,7 +206,7 @@ void sixthOrder(benchmark::State &state)
   state.counters["iterations"] = iterations;
 }
 
-// Retargets that a single polynomial answers, by (6.6) with its default gains, one axis.
+// Retargets solved by a single polynomial, by (6.6) with its default gains, one axis.
 void thesisIteration(benchmark::State &state)
 {
   const auto problems = retargets<1>(5000, vpTrajectoryForm::Direct);

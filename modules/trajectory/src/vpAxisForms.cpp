@@ -56,8 +56,8 @@ double vpAxisTask::brakeAcceleration() const
 
 double vpAxisTask::brakeJerk(const vpAxisState &x, double hardness) const
 {
-  // While the acceleration is taken back, it adds a^2/(2 j) to the velocity. A room that a ramp of a millionth of the
-  // usual duration does not meet is none; rampDuration() says the same.
+  // While the acceleration ramps down, it adds a^2/(2 j) to the velocity. A margin that a ramp of a millionth of the
+  // usual duration exceeds counts as zero; rampDuration() agrees.
   const double usual = brakeAcceleration() / rampUnit(), room = limits.velocity - std::copysign(1., x[2]) * x[1];
   const double least = 1e-6 * std::min(limits.velocity, x[2] * x[2] / (2. * usual));
   const bool near = order > 2 && x[2] != 0. && room > 0. && std::isfinite(room);
@@ -104,7 +104,7 @@ double rampDuration(const vpAxisState &x, const vpAxisTask &task) noexcept
     return 0.;
   }
   if (task.order == 4) {
-    // Cubic acceleration: any short enough ramp keeps a start that is inside; take the longest of a few.
+    // Cubic acceleration: any sufficiently short ramp keeps an inside start; take the longest of a few.
     const vpMotionFamily ramp = vpMotionFamily::accelerationStep(x, {x[0], x[1], 0., 0.}, 2);
     double r = 4. * task.rampUnit();
     for (int i = 0; i < 40; ++i, r *= 0.5) {
@@ -115,7 +115,7 @@ double rampDuration(const vpAxisState &x, const vpAxisTask &task) noexcept
     return -1.;
   }
   const double room = task.limits.velocity - std::copysign(1., x[2]) * x[1];
-  // Without an acceleration limit to compare with: change the velocity by a tenth of its limit.
+  // Without an acceleration limit for comparison: change the velocity by a tenth of its limit.
   const double gentle = std::isfinite(task.limits.acceleration)
                             ? a / std::min(task.limits.jerk, task.brakeAcceleration() / task.rampUnit())
                             : std::max(0.2 * task.limits.velocity / a, a / task.limits.jerk);
@@ -431,7 +431,7 @@ bool vpCruiseMotion::ramps(double cruise, vpPolynomial &up, vpPolynomial &down) 
           (within(up, m_from[0], m_limits) && within(down, m_to[0] - down.value(1.), m_limits)));
 }
 
-// The velocity that takes the duration T with the same ramps; their lengths are linear in it.
+// The velocity for the duration T with the same ramps; their lengths are linear in it.
 double vpCruiseMotion::cruiseAt(double T) const noexcept
 {
   const double ends =

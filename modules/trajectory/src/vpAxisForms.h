@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpAxisForms.h
- * \brief The shapes that the motion of one axis can take, each with one free duration.
+ * \brief Forms of the motion of one axis, each with one free duration.
  */
 #ifndef vpAxisForms_h
 #define vpAxisForms_h
@@ -18,28 +18,29 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! One axis on its way from a state to a state; places are relative to the start, so from[0] is 0.
+//! Motion of one axis between two states; positions are relative to the start, so from[0] is 0.
 struct vpAxisTask {
   vpAxisState from{};
   vpAxisState to{};
   vpAxisLimits limits;                       // positions: those that the forms have to keep
-  double minPosition = 0., maxPosition = 0.; // as the user limits them
+  double minPosition = 0., maxPosition = 0.; // position limits of the user
   int order = 3;                             // conditions at each end: 2 cubic, 3 quintic, 4 septic
-  double timeUnit = 0.05;                    // s, where the limits define none
+  double timeUnit = 0.05;                    // s, used where the limits define no time
 
   //! Duration of an acceleration ramp over the full range when no jerk limit sets it: a tenth of v_max/a_max.
   [[nodiscard]] double rampUnit() const;
   //! Acceleration to brake with.
   [[nodiscard]] double brakeAcceleration() const;
-  //! Jerk to brake with from a state: gentle, unless the velocity limit leaves no room for that, or times \e hardness.
+  //! Jerk for braking from a state: gentle, unless the velocity limit leaves no margin for that, or times \e hardness.
   [[nodiscard]] double brakeJerk(const vpAxisState &x, double hardness = 1.) const;
-  //! The limits without those on the position.
+  //! The limits without the position limits.
   [[nodiscard]] vpAxisLimits withoutPosition() const;
-  //! Start or goal has a velocity (or what of higher derivatives matters): the axis needs room to brake or to launch.
+  //! True when start or goal has a velocity (or relevant higher derivatives): the axis needs a distance to brake or
+  //! launch.
   [[nodiscard]] bool isMoving() const;
-  //! The longer of the ways that a stop from the start and a launch to the goal take, as hard as usual.
+  //! The longer of the distances of a stop from the start and a launch to the goal, at usual hardness.
   [[nodiscard]] double brakingDistance() const;
-  //! How far a stop takes it is defined.
+  //! True when the braking distance is defined.
   [[nodiscard]] bool hasBrakingDistance() const
   {
     return std::isfinite(limits.acceleration) || std::isfinite(limits.jerk);
@@ -47,12 +48,12 @@ struct vpAxisTask {
 };
 
 /*!
- * Duration of the ramp from acceleration a to zero that starts in this state (j matters for order 4): gentle if there
- * is room, never beyond the velocity limit. Zero when there is nothing to ramp, negative when no ramp keeps the limits.
+ * Duration of the ramp from acceleration a to zero starting in this state (j matters for order 4): gentle if there is a
+ * margin, never beyond the velocity limit. Zero when there is nothing to ramp, negative when no ramp keeps the limits.
  */
 double rampDuration(const vpAxisState &x, const vpAxisTask &task) noexcept;
 
-//! True when the state is outside the limits or cannot but leave them: braking comes first.
+//! True when the state is outside the limits or will inevitably leave them: braking comes first.
 bool needsBraking(const vpAxisTask &task) noexcept;
 
 /*!
@@ -61,46 +62,48 @@ bool needsBraking(const vpAxisTask &task) noexcept;
 class vpFramedMotion
 {
 public:
-  //! Start over: nothing fixed yet.
+  //! Remove all fixed pieces.
   void open(const vpAxisTask &task) noexcept;
-  //! Fixed pieces at the head: braking to the velocity \e target with zero acceleration, padded to \e duration if longer.
+  //! Fixed pieces at the head: braking to the velocity \e target with zero acceleration, extended to \e duration if
+  //! longer.
   void brake(const vpAxisTask &task, double target, double duration, double jerk) noexcept;
   //! Fixed pieces at the tail: as fast as the limits allow from rest to the velocity before the tail.
   void launch(const vpAxisTask &task, double jerk) noexcept;
-  //! Fixed piece at the head: from rest to rest at \e place.
+  //! Fixed piece at the head: from rest to rest at position \e place.
   void go(double place, double duration) noexcept;
-  //! Rest until the head, or the tail, lasts that long; both are at rest.
+  //! Hold at rest until the head, or the tail, lasts this long; both are at rest.
   void padHead(double duration) noexcept;
   void padTail(double duration) noexcept;
-  //! Fixed pieces: the acceleration ramps, at the head from the present state, at the tail up to the goal.
+  //! Fixed pieces: the acceleration ramps, at the head from the initial state, at the tail up to the goal.
   void rampHead(double r) noexcept;
   void rampTail(double r) noexcept;
-  //! Fixed pieces: from the present velocity to rest, and from rest to the velocity before the tail.
+  //! Fixed pieces: from the initial velocity to rest, and from rest to the velocity before the tail.
   void stopHead(double T) noexcept;
   void stopTail(double T) noexcept;
-  //! Everything fixed is in place: make the polynomial between.
+  //! Make the free polynomial between the fixed pieces, once these are complete.
   void close(const vpAxisTask &task) noexcept;
 
   [[nodiscard]] const vpAxisState &head() const { return m_head; } //!< State in which the free polynomial begins.
-  [[nodiscard]] const vpAxisState &tail() const { return m_tail; } //!< State in which it ends.
-  [[nodiscard]] double headDuration() const { return m_headTime; } //!< Of the fixed pieces at the head, s.
-  [[nodiscard]] double tailDuration() const { return m_tailTime; } //!< Of those at the tail, s.
-  [[nodiscard]] double fixedDuration() const { return m_headTime + m_tailTime; } //!< Of all fixed pieces, s.
+  [[nodiscard]] const vpAxisState &tail() const { return m_tail; } //!< State in which the free polynomial ends.
+  [[nodiscard]] double headDuration() const { return m_headTime; } //!< Duration of the fixed pieces at the head, s.
+  [[nodiscard]] double tailDuration() const { return m_tailTime; } //!< Duration of the fixed pieces at the tail, s.
+  [[nodiscard]] double fixedDuration() const { return m_headTime + m_tailTime; } //!< Duration of all fixed pieces, s.
   [[nodiscard]] const vpMotionFamily &middle() const { return m_middle; }        //!< The free polynomial.
-  //! Lowest and highest place of the fixed pieces and of both ends.
+  //! Lowest and highest position of the fixed pieces and of both ends.
   void hull(double &low, double &high) const noexcept;
-  //! The longer of the ways that a stop takes from the start and a launch takes to the goal.
+  //! The longer of the distances of a stop from the start and a launch to the goal.
   [[nodiscard]] double brakingDistance(double goal) const noexcept
   {
     return std::max(std::abs(m_head[0]), std::abs(goal - m_tail[0]));
   }
-  [[nodiscard]] bool hasFixedPieces() const { return m_heads + m_tails > 0; } //!< It is more than one polynomial.
+  [[nodiscard]] bool hasFixedPieces() const { return m_heads + m_tails > 0; } //!< There is more than one polynomial.
   [[nodiscard]] bool isBlocked() const { return m_blocked; } //!< The fixed pieces leave the position limits.
-  //! The fixed pieces stay between these places.
+  //! True when the fixed pieces stay between these positions.
   [[nodiscard]] bool fixedStaysWithin(double low, double high) const noexcept;
-  //! The motion of total duration \e T stays between these places.
+  //! True when the motion of total duration \e T stays between these positions.
   [[nodiscard]] bool staysWithin(double low, double high, double T) const noexcept;
-  //! One look: the total duration \e T itself if the limits are kept, else the next candidate; see vpMinimumDuration.
+  //! One evaluation: the total duration \e T itself if the limits are kept, else the next candidate; see
+  //! vpMinimumDuration.
   [[nodiscard]] double next(double T) const noexcept;
   //! Append the motion of total duration \e T to a plan, times \e factor.
   void emit(vpTrajectoryPlan &plan, int axis, double factor, double T) const noexcept;
@@ -112,7 +115,7 @@ private:
     vpPolynomial p;
     double duration = 0.;
   };
-  static constexpr int maxHead = 8; // braking 4, padding, ramp, stop, the way back inside
+  static constexpr int maxHead = 8; // braking 4, padding, ramp, stop, the return inside
   static constexpr int maxTail = 6; // ramp, stop or a launch of four, padding; the last one first
 
   void addHead(const vpPolynomial &p, double duration) noexcept;
@@ -129,18 +132,18 @@ private:
 };
 
 /*!
- * Ramp, constant velocity, ramp: for long moves. The ramps are quartic, their durations are those of full speed.
+ * Ramp, constant velocity, ramp: for long moves. The ramps are quartic, their durations are those at full speed.
  */
 class vpCruiseMotion
 {
 public:
-  //! Set up after the head of \e framed (which may have braked). Not available without both limits or on short moves.
+  //! Set up after the head of \e framed (which may brake). Not available without both limits or for short moves.
   void open(const vpAxisTask &task, const vpFramedMotion &framed) noexcept;
-  //! No motion of this form is shorter: constant accelerations at both ends; infinite where it is not available.
+  //! Lower bound on the duration of this form: constant accelerations at both ends; infinite where it is not available.
   [[nodiscard]] static double least(const vpAxisTask &task, const vpFramedMotion &framed) noexcept;
   //! Smallest feasible duration >= T of this form, or infinity.
   [[nodiscard]] double next(double T) const noexcept;
-  //! The motion of total duration \e T stays between these places.
+  //! True when the motion of total duration \e T stays between these positions.
   [[nodiscard]] bool staysWithin(double low, double high, double T) const noexcept;
   //! Append the motion of total duration \e T to a plan, times \e factor, without the head of \e framed.
   void emit(vpTrajectoryPlan &plan, int axis, double factor, double T) const noexcept;

@@ -11,7 +11,7 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-// Duration of the quintic from rest to rest over h that just keeps the limits.
+// Duration of the rest-to-rest quintic over h that just keeps the limits.
 double restDuration(double h, double velocity, double acceleration, double jerk)
 {
   return std::max(

@@ -102,7 +102,7 @@ void vpLimitCheck::checkAxis(int axis, double from, Wanted wanted, Worst &worst)
 {
   const vpAxisLimits limits = m_problem.limits(axis);
   const bool jerk = std::isfinite(limits.jerk) && m_problem.options.continuity != vpTrajectoryContinuity::C1;
-  // Places are rounded to what the digits of the largest of them are worth.
+  // Positions are rounded relative to the largest of them.
   const double place = std::max(std::abs(m_problem.start(axis)[0]), std::abs(m_problem.goal(axis)[0]));
   const int count = m_plan.segments(axis) + m_plan.coasting(axis);
   for (int i = 0; i < count; ++i) {
@@ -178,7 +178,7 @@ void vpLimitCheck::checkGroups(double from, Worst &worst) const noexcept
   }
 }
 
-// The start is beyond this limit of its axis, or cannot but go beyond it: the excess is not the planner's.
+// The start is beyond this limit of its axis, or cannot avoid exceeding it: the excess is not due to the planner.
 bool vpLimitCheck::startsOutside(int axis, vpTrajectoryLimit limit) const noexcept
 {
   const vpAxisLimits limits = m_problem.limits(axis);
@@ -201,7 +201,7 @@ bool vpLimitCheck::anyStartsOutside(int axis) const noexcept
          startsOutside(axis, vpTrajectoryLimit::Velocity);
 }
 
-// Until the first stretch of time beyond a limit is over.
+// Until the end of the first interval beyond a limit.
 double vpLimitCheck::excursionEnd(int axis, vpTrajectoryLimit limit) const noexcept
 {
   const vpAxisLimits limits = m_problem.limits(axis);

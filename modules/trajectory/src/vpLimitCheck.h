@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpLimitCheck.h
- * \brief Does a finished plan keep the limits? Judged by what is handed out, whatever made it.
+ * \brief Checks the limits of a finished plan from its segments, independently of the planner.
  */
 #ifndef vpLimitCheck_h
 #define vpLimitCheck_h
@@ -15,8 +15,8 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
- * The exact extrema of all segments of a plan, those after the arrival included, against all limits of a problem.
- * Cheap bounds first, so that extrema are computed only where a limit is near. Never allocates.
+ * Compares the exact extrema of all segments of a plan, including those after the arrival, with all limits of a
+ * problem. Cheap bounds first, so that extrema are computed only where a limit is near. Never allocates.
  */
 class vpLimitCheck
 {
@@ -28,8 +28,8 @@ public:
   {}
 
   /*!
-   * The status of the plan: Working, Braking or NoFeasibleDuration, with the largest excess.
-   * \param groupBraking : Until then groups that start outside their limits are on their way back, s.
+   * Status of the plan: Working, Braking or NoFeasibleDuration, with the largest excess.
+   * \param groupBraking : Time until which groups that start outside their limits are returning, s.
    * \param brakingEnd : Receives the time from which everything that was outside at the start is inside, s.
    */
   [[nodiscard]] vpTrajectoryStatus judge(double groupBraking, double &brakingEnd) const noexcept;

@@ -18,9 +18,9 @@ namespace
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int size = vpMotionFamily::maxDegree + 1;
-constexpr double farAway = 1.05; // a jump by so much that looking for a longer one does not pay
+constexpr double farAway = 1.05; // a jump by this factor makes the search for a longer one unnecessary
 
-// A derivative of the motion at the present T, with its roots.
+// A derivative of the motion at the current T, with its roots.
 struct Level {
   double c[size];
   int degree = 0;
@@ -65,7 +65,7 @@ double power(double x, int n)
   return p;
 }
 
-// In place: the polynomial in x = T' - T instead of T'. Its constant becomes the excess, exactly as it was seen.
+// In place: the polynomial in x = T' - T instead of T'. Its constant term becomes the excess, exactly as evaluated.
 void shift(double *g, int degree, double T, double excess)
 {
   for (int i = 0; i < degree; ++i) {
@@ -82,18 +82,18 @@ vpPolynomial derivativeOf(const vpMotionFamily &motion, int d, double T)
   return d == 1 ? first : first.derivative();
 }
 
-// From one duration to the next that may be feasible, given how far the root of g is.
+// From one duration to the next that may be feasible, given the distance of the root of g.
 double advance(double T, double root) { return std::max(T + root, T * (1. + 2. * epsilon)); }
 
-// The search over the extrema of one derivative at one T.
+// Search over the extrema of one derivative at one T.
 class Look
 {
 public:
   Look(const vpMotionFamily &motion, double T) : m_motion(motion), m_T(T) {}
   [[nodiscard]] double next() const { return m_next; }
 
-  // As the extremum that asked for the longest jump moves on with T, to the roots of its next places. Each step starts
-  // where the limit is broken, so nothing is skipped; to follow one extremum is cheaper than to seek all.
+  // Follows the extremum with the longest jump as it moves with T, to the roots at its next locations. Each step starts
+  // where the limit is violated, so nothing is skipped; following one extremum is cheaper than searching all.
   [[nodiscard]] double nextFollowing()
   {
     constexpr int steps = 4;
@@ -110,7 +110,7 @@ public:
     return m_next;
   }
 
-  // |d^d p/ds^d| <= limit (share T)^d, at the extrema and, unless they are given values, at the ends.
+  // |d^d p/ds^d| <= limit (share T)^d, at the extrema and, unless they are given, at the ends.
   void boundAbsolute(const Level &level, const Level &derivative, int d, double limit)
   {
     const double bound = limit * power(m_motion.share() * m_T, d);
@@ -126,7 +126,7 @@ public:
   // lower <= p <= upper, all relative to the start.
   void boundPosition(const Level &level, const Level &derivative, double lower, double upper)
   {
-    // Relative to the room where there is one, never below what evaluating p loses.
+    // Relative to the position range where there is one, never below the rounding of p.
     const double room =
         std::max(std::isfinite(lower) ? std::abs(lower) : 0., std::isfinite(upper) ? std::abs(upper) : 0.);
     const double slack = tolerance * room + 0.5 * level.noise();
@@ -141,7 +141,7 @@ public:
     });
   }
 
-  // |d^d p/ds^d| <= limit (share T)^d at a place chosen beforehand.
+  // |d^d p/ds^d| <= limit (share T)^d at a given s.
   void boundAt(double s, int d, double limit)
   {
     const auto g = m_motion.inDuration(s, d);
@@ -217,7 +217,7 @@ private:
   const vpMotionFamily &m_motion;
   double m_T;
   double m_next = m_T;
-  Extremum m_last; // that m_next is due to
+  Extremum m_last; // extremum that determined m_next
 };
 } // namespace
 
@@ -232,11 +232,11 @@ double nextCandidate(const vpMotionFamily &motion, const vpAxisLimits &limits, d
   const bool position = std::isfinite(limits.minPosition) || std::isfinite(limits.maxPosition);
   const bool jerk = std::isfinite(limits.jerk);
   const bool acceleration = std::isfinite(limits.acceleration);
-  // Where no closed form gives the roots, a bound first: often none are needed.
+  // Without a closed form for the roots, first a bound: often no roots are needed.
   const bool velocity = std::isfinite(limits.velocity) &&
                         !(level[2].degree > 2 && vpRootKernel::isSurelyWithin(level[1].c, level[1].degree,
                                                                               limits.velocity * motion.share() * T));
-  // From the highest derivative down: the roots of each split the next into monotone pieces.
+  // From the highest derivative down: the roots of each split the next one into monotone pieces.
   Look look(motion, T);
   const bool deep = level[3].degree > 2 && (position || velocity || acceleration);
   if (jerk || deep) {
@@ -253,7 +253,7 @@ double nextCandidate(const vpMotionFamily &motion, const vpAxisLimits &limits, d
     look.boundAbsolute(level[2], level[3], 2, limits.acceleration);
   }
   if (look.next() > farAway * T) {
-    return look.nextFollowing(); // the peak velocity here is of no interest any more
+    return look.nextFollowing(); // the peak velocity at T no longer matters
   }
   if (position || velocity) {
     level[2].findRoots(&level[3]);
@@ -261,7 +261,7 @@ double nextCandidate(const vpMotionFamily &motion, const vpAxisLimits &limits, d
   if (velocity) {
     look.boundAbsolute(level[1], level[2], 1, limits.velocity);
   }
-  if (position && look.next() == T) { // the dearest last, and only where the others are content
+  if (position && look.next() == T) { // the most expensive last, and only when all others are satisfied
     level[1].findRoots(&level[2]);
     look.boundPosition(level[0], level[1], limits.minPosition, limits.maxPosition);
   }
@@ -287,7 +287,7 @@ double nextCandidate(const vpMotionFamily *const motions[], int count, const vpN
     const double share = motions[0]->share();
     const double bound = limit * limit * power(share * T, 2 * d);
     const auto check = [&](double s) {
-      // The square locates the extrema; its value is taken from the parts, which keeps the digits.
+      // The square locates the extrema; its value is computed from the components, which keeps the digits.
       double y = 0., noise = 0.;
       for (int i = 0; i < count; ++i) {
         const vpPolynomial part = derivativeOf(*motions[i], d, T);

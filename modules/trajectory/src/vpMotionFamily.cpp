@@ -11,7 +11,7 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-// Upper coefficients of the Hermite polynomial with m conditions at each end, from what the lower ones leave over at
+// Upper coefficients of the Hermite polynomial with m conditions at each end, from the residuals of the lower ones at
 // s = 1: row = coefficient m, m + 1, ..., column = residual of the derivative 0, 1, ... The case m = 3 is (3.62).
 constexpr double upper1[1][1] = {{1.}};
 constexpr double upper2[2][2] = {{3., -1.}, {-2., 1.}};
@@ -126,7 +126,7 @@ vpMotionFamily vpMotionFamily::throughState(const vpAxisState &from, const vpAxi
   return family;
 }
 
-// Adds w(s) (k0 + k1 (s - tau) + k2 (s - tau)^2), w = s^3 (1 - s)^3, which changes nothing at the ends up to the second
+// Adds w(s) (k0 + k1 (s - tau) + k2 (s - tau)^2), w = s^3 (1 - s)^3, which leaves the ends unchanged up to the second
 // derivative; the k follow one by one from the conditions at tau, power of T by power of T.
 void vpMotionFamily::addBump(double tau, int count, const std::array<std::array<double, maxPower + 1>, 3> &targets)
 {
@@ -160,7 +160,7 @@ vpMotionFamily vpMotionFamily::chained(const std::array<std::array<double, 3>, 3
   family.m_degree = 5;
   family.m_power = 2;
   family.m_share = share;
-  // The inner ends of a chain are not given but computed, so limits are looked at there too.
+  // The inner ends of a chain are computed, not given, so limits are checked there too.
   for (std::size_t m = 0; m <= 2; ++m) {
     const double left[3] = {from[0][m], from[1][m], from[2][m]}, right[3] = {to[0][m], to[1][m], to[2][m]};
     double out[6];

@@ -12,7 +12,7 @@ BEGIN_VISP_NAMESPACE
 namespace
 {
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double worthwhile = 0.8; // the cruise form replaces the polynomial of least jerk where it saves a fifth
+constexpr double worthwhile = 0.8; // the cruise form replaces the minimum-jerk polynomial where it saves a fifth
 } // namespace
 
 void vpMotionUnit::reserve(int axes)
@@ -69,8 +69,8 @@ void vpMotionUnit::close(Form form) noexcept
   }
 }
 
-// Until the last resort is needed: no form leaves the span of start and goal by more than the braking distance, nor goes
-// beyond the position limits.
+// Until the fallback is needed: no form leaves the range from start to goal by more than the braking distance, nor
+// exceeds the position limits.
 void vpMotionUnit::boundPositions() noexcept
 {
   bool monotone = m_braking == 0. && !isOutside();
@@ -89,7 +89,7 @@ void vpMotionUnit::boundPositions() noexcept
   }
 }
 
-// What the last resort cannot avoid is open to the other forms too. True when their bounds have changed.
+// Where the fallback has to go, the other forms may go too. True when their bounds have changed.
 bool vpMotionUnit::takeLast() noexcept
 {
   buildLast();
@@ -116,7 +116,7 @@ bool vpMotionUnit::takeLast() noexcept
   if (wider && m_rampedReady) {
     close(vpMotionAxis::Ramped);
   }
-  if (m_softReady && (wider || m_last == vpMotionAxis::Soft)) { // which may have got the way back inside
+  if (m_softReady && (wider || m_last == vpMotionAxis::Soft)) { // which may include the return inside
     close(vpMotionAxis::Soft);
   }
   return wider;
@@ -132,7 +132,7 @@ bool vpMotionUnit::isOutside() const noexcept
   return false;
 }
 
-// As far as start and goal do.
+// The extent of start and goal.
 bool vpMotionUnit::keepsPositions(Form form) const noexcept
 {
   for (int i = 0; i < m_count; ++i) {
@@ -192,7 +192,7 @@ double vpMotionUnit::search(Form form, double T) noexcept
   }
   m_iterations = std::max(m_iterations, looks);
   none = from;
-  return infinity; // undecided: another form answers
+  return infinity; // undecided: use another form
 }
 
 bool vpMotionUnit::isAtGoal(bool atRest) const noexcept
@@ -216,7 +216,7 @@ double vpMotionUnit::next(double T) noexcept
     m_form = vpTrajectoryForm::Hold;
     return T;
   }
-  if (T > m_own) { // comes back inside before anything else
+  if (T > m_own) { // returns inside before anything else
     return searchStops(T, infinity);
   }
   double best = searchFree(T);
@@ -230,12 +230,12 @@ double vpMotionUnit::next(double T) noexcept
     }
     best = takeLast() ? searchFree(T) : best;
   }
-  // A detour only where that is quicker than to stop first.
+  // A detour only where it is faster than stopping first.
   const bool stops = !(best < infinity) || (makesDetour(best) && !(best < searchLast(T)));
   return stops ? searchStops(T, best) : best;
 }
 
-// The forms that do not stop.
+// The forms without a stop.
 double vpMotionUnit::searchFree(double T) noexcept
 {
   m_form = vpTrajectoryForm::Direct;
@@ -281,7 +281,7 @@ double vpMotionUnit::searchRamped(double T) noexcept
   return at(0)[m_used].hasFixedPieces() ? search(m_used, T) : infinity;
 }
 
-// The gentle stop, unless it needs more time than another form would, or more room; infinity then.
+// The gentle stop, unless it needs more time than another form would, or more space; infinity then.
 double vpMotionUnit::searchSoft(double T, double instead) noexcept
 {
   const vpTrajectoryForm form = m_form;

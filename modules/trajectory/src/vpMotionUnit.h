@@ -21,10 +21,10 @@ BEGIN_VISP_NAMESPACE
 struct vpMotionAxis {
   //! The forms that have one free polynomial.
   enum Form {
-    Direct, // nothing but the polynomial
+    Direct, // only the polynomial
     Ramped, // acceleration ramps around it
     Soft,   // a gentle stop, a polynomial from rest to rest, a gentle launch
-    Hard,   // the same as hard as is needed
+    Hard,   // like Soft, as hard as needed
     FormCount
   };
   [[nodiscard]] vpFramedMotion &operator[](Form form) { return forms[static_cast<std::size_t>(form)]; }
@@ -33,26 +33,26 @@ struct vpMotionAxis {
   vpAxisTask task;
   std::array<vpFramedMotion, FormCount> forms;
   vpCruiseMotion cruise;
-  double low = 0., high = 0.; // where it may go while it waits
+  double low = 0., high = 0.; // range of positions while it waits
 };
 
 /*!
  * Finds, for its axes together, the smallest feasible duration that is not below a given one. The single polynomial is
- * preferred; the other forms are tried when it has no feasible duration, or makes a detour: acceleration ramps around it,
- * a gentle stop and a polynomial from there, and last a stop as hard as is needed.
+ * preferred; the other forms are tried when it has no feasible duration, or makes a detour: acceleration ramps around
+ * it, a gentle stop and a polynomial from there, and last a stop as hard as needed.
  *
- * That last form has an answer for every duration above its own smallest, because a polynomial from rest to rest keeps
- * its limits however slow it is, and it leaves the span of start and goal by the braking distance only. No other form may
- * go beyond the position limits if it does not: so a limit that cannot be kept is exceeded as little as can be. And none
- * may leave the span by more than the braking distance unless it is quicker than to stop first: so no axis makes a detour
- * while it waits for the others.
+ * That last form has a solution for every duration above its own smallest, because a polynomial from rest to rest keeps
+ * its limits however slow it is, and it leaves the range from start to goal by the braking distance only. No other form
+ * may exceed the position limits if it does not: so a limit that cannot be kept is exceeded as little as possible. And
+ * none may leave the range by more than the braking distance unless it is faster than stopping first: so no axis makes
+ * a detour while it waits for the others.
  */
 class vpMotionUnit
 {
 public:
-  //! Room for so many members.
+  //! Capacity for this many members.
   void reserve(int axes);
-  //! No members, no norm.
+  //! Remove all members and the norm.
   void clear() noexcept;
   void add(vpMotionAxis *axis) noexcept { m_members[static_cast<std::size_t>(m_count++)] = axis; }
   void setNorm(const vpNormLimits &norm) noexcept
@@ -65,7 +65,7 @@ public:
    * \param allowCruise : The cruise form may replace the single polynomial when it is faster.
    */
   void prepare(bool allowCruise) noexcept;
-  //! Smallest feasible duration >= T; remembers the form that takes it.
+  //! Smallest feasible duration >= T; remembers its form.
   [[nodiscard]] double next(double T) noexcept;
 
   [[nodiscard]] int count() const { return m_count; } //!< Number of members.
@@ -73,11 +73,11 @@ public:
   {
     return m_members[static_cast<std::size_t>(i)];
   }                                                                  //!< A member.
-  [[nodiscard]] bool hasNorm() const { return m_hasNorm; }           //!< It is a group.
+  [[nodiscard]] bool hasNorm() const { return m_hasNorm; }           //!< True for a group with a norm limit.
   [[nodiscard]] double brakingDuration() const { return m_braking; } //!< s; 0: the start is inside the limits.
   [[nodiscard]] vpTrajectoryForm form() const { return m_form; }     //!< Form of the last next().
-  [[nodiscard]] int iterations() const { return m_iterations; }      //!< Most looks of one search since prepare().
-  [[nodiscard]] bool hasDroppedGoalAcceleration() const { return m_droppedGoal; } //!< It cannot be reached.
+  [[nodiscard]] int iterations() const { return m_iterations; }      //!< Maximum evaluations per search so far.
+  [[nodiscard]] bool hasDroppedGoalAcceleration() const { return m_droppedGoal; } //!< Goal acceleration unreachable.
   //! Append the motion of \e member (its number here) to the track of an axis.
   void emit(vpTrajectoryPlan &plan, int member, int axis, double factor, double T) const noexcept;
 
@@ -120,12 +120,12 @@ private:
   vpNormLimits m_norm;
   bool m_hasNorm = false, m_allowCruise = false, m_droppedGoal = false;
   bool m_rampedReady = false, m_softReady = false, m_lastBuilt = false, m_lastReady = false, m_cruiseReady = false;
-  bool m_bounded = false;           // not a move from rest to rest, which never leaves the span of start and goal
-  Form m_last = vpMotionAxis::Hard; // has an answer for every duration
+  bool m_bounded = false;           // not a rest-to-rest move, which never leaves the range from start to goal
+  Form m_last = vpMotionAxis::Hard; // has a solution for every duration
   Form m_used = vpMotionAxis::Direct;
-  std::array<double, vpMotionAxis::FormCount> m_none{}; // from here on a form is known to be infeasible
+  std::array<double, vpMotionAxis::FormCount> m_none{}; // a form is known to be infeasible from this duration on
   double m_braking = 0., m_headRamp = 0., m_tailRamp = 0.;
-  double m_own = 0.; // longer than this, a start outside its position limits comes back before anything else
+  double m_own = 0.; // for longer durations, a start outside its position limits returns before anything else
   int m_iterations = 0;
   vpTrajectoryForm m_form = vpTrajectoryForm::Direct;
 };

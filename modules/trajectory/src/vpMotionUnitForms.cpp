@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// How the members of a unit ramp, brake, stop and launch together.
+// Ramps, braking, stops and launches common to the members of a unit.
 #include "vpMotionUnit.h"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ void vpMotionUnit::dropGoalAcceleration() noexcept
   }
 }
 
-// All members come back inside together: their velocities keep their proportions.
+// All members return inside together: their velocities keep their ratios.
 void vpMotionUnit::brake() noexcept
 {
   const auto naturalTarget = [](const vpAxisTask &task) {
@@ -88,7 +88,7 @@ void vpMotionUnit::buildSoft() noexcept
   for (int i = 0; i < m_count; ++i) {
     roomy = roomy && at(i)[vpMotionAxis::Soft].fixedStaysWithin(at(i).low, at(i).high);
   }
-  if (roomy || order() == 4) { // where it may be the last resort
+  if (roomy || order() == 4) { // where it may be the fallback
     close(vpMotionAxis::Soft);
   }
   else {
@@ -113,7 +113,7 @@ void vpMotionUnit::buildSmooth() noexcept
 
 namespace
 {
-// The task with the acceleration that it may brake with.
+// The task with the acceleration allowed for braking.
 vpAxisTask harder(vpAxisTask task, double share, double normAcceleration, double hardness)
 {
   double &a = task.limits.acceleration;
@@ -139,7 +139,7 @@ void vpMotionUnit::buildStop(Form form, double hardness) noexcept
     vpFramedMotion &motion = axis[form];
     motion.open(axis.task);
     if (!isSingle()) {
-      motion = axis[vpMotionAxis::Direct]; // with its braking
+      motion = axis[vpMotionAxis::Direct]; // including its braking
       motion.rampHead(m_headRamp > 0. ? std::max(m_headRamp / std::max(hardness, 1.), shortest[0]) : 0.);
       motion.rampTail(m_tailRamp > 0. ? std::max(m_tailRamp / std::max(hardness, 1.), shortest[1]) : 0.);
     }
@@ -167,8 +167,8 @@ void vpMotionUnit::buildStop(Form form, double hardness) noexcept
   }
 }
 
-// What always has an answer. It keeps the position limits if it can be hard enough; where the jerk is not limited, up to
-// ten thousand times harder than usual, which is within 1e-4 of what no jerk could better.
+// The fallback, which always has a solution. It keeps the position limits if it can be hard enough; where the jerk is
+// not limited, up to ten thousand times harder than usual, which is within 1e-4 of the optimum at any jerk.
 void vpMotionUnit::buildLast() noexcept
 {
   constexpr double hardest = 1e4;
@@ -191,7 +191,7 @@ void vpMotionUnit::buildLast() noexcept
   }
 }
 
-// From where the last resort comes to rest to the nearest place inside.
+// From the stopping position of the fallback to the nearest position inside.
 void vpMotionUnit::comeBack() noexcept
 {
   const auto inside = [](const vpMotionAxis &axis, double place) {

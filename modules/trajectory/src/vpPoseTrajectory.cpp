@@ -18,7 +18,7 @@ namespace
 {
 using P = vpTrajectoryProblem;
 
-constexpr double longestStep = 1e9; // s; a clock that says more is wrong
+constexpr double longestStep = 1e9; // s; a longer step is a clock error
 
 // J_r'(e, e') e': what the change of the right Jacobian adds to the angular acceleration.
 Eigen::Vector3d jacobianRateTerm(const Eigen::Vector3d &e, const Eigen::Vector3d &rate)
@@ -47,7 +47,7 @@ Eigen::Vector3d angular(const vpTwist &v) { return {v[3], v[4], v[5]}; }
 
 vpTwist twist(const Eigen::Vector3d &v, const Eigen::Vector3d &w) { return {v.x(), v.y(), v.z(), w.x(), w.y(), w.z()}; }
 
-// As in vpTrajectoryProblem: beyond this nothing can be computed reliably.
+// As in vpTrajectoryProblem: larger numbers cannot be computed reliably.
 constexpr double largest = 1e12;
 
 vpTrajectoryFault faultOf(double x, bool start)
@@ -63,7 +63,7 @@ bool isFinite(const vpCameraState &x)
   return x.fRc.allFinite() && x.ftc.allFinite() && x.v.isFinite() && x.a.isFinite();
 }
 
-// Read a pose and make its rotation orthonormal to the last digit.
+// Read a pose and orthonormalise its rotation.
 vpTrajectoryStatus read(const vpHomogeneousMatrix &M, bool start, Eigen::Matrix3d &R, Eigen::Vector3d &t)
 {
   Eigen::Matrix3d raw;
@@ -133,7 +133,7 @@ void vpPoseTrajectory::setOptions(const vpPoseTrajectoryOptions &options)
   options.validate();
   if (options.policy == vpReplanPolicy::FixedArrival &&
       (m_options.policy != options.policy || m_options.arrivalTime != options.arrivalTime)) {
-    m_arrival = -1.; // counts from now
+    m_arrival = -1.; // starts now
   }
   m_options = options;
   m_event = true;
@@ -220,7 +220,7 @@ vpTrajectoryStatus vpPoseTrajectory::setGoal(const vpHomogeneousMatrix &fMcd, co
   return status;
 }
 
-// Where the goal is \e ahead seconds after it was given, going on with its twist.
+// Goal pose \e ahead seconds after it was given, moving with its twist.
 void vpPoseTrajectory::goalAt(double ahead, Eigen::Matrix3d &R, Eigen::Vector3d &t) const noexcept
 {
   const Eigen::Vector3d turn = ahead * angular(m_goalTwist);
@@ -228,7 +228,7 @@ void vpPoseTrajectory::goalAt(double ahead, Eigen::Matrix3d &R, Eigen::Vector3d 
   t = m_ftd + m_fRd * (vpSO3::rightJacobian(-turn) * (ahead * linear(m_goalTwist)));
 }
 
-// How the goal moves, from what is new about it.
+// Estimate the goal's motion from its changes.
 void vpPoseTrajectory::noteGoal(const Eigen::Matrix3d &R, const Eigen::Vector3d &t) noexcept
 {
   m_goalInterval = 0.;
@@ -247,7 +247,7 @@ void vpPoseTrajectory::noteGoal(const Eigen::Matrix3d &R, const Eigen::Vector3d 
   m_goalAge = 0.;
 }
 
-// The floor of KeepArrival, and where its goal will be; see vpTrajectoryFollower.
+// Minimum duration of KeepArrival, and the goal's predicted pose; see vpTrajectoryFollower.
 double vpPoseTrajectory::meet(double floor, Eigen::Matrix3d &R, Eigen::Vector3d &t) noexcept
 {
   floor = std::max(floor, m_jitter.floor(m_problem));
@@ -318,10 +318,10 @@ vpTrajectoryStatus vpPoseTrajectory::update(double dt) noexcept
     m_clock = duration(); // sums of dt differ from the duration by rounding
   }
   const vpCameraState next = at(m_clock);
-  if (!isFinite(next)) { // numbers that only together are too large: stand still, safely
+  if (!isFinite(next)) { // numbers whose combination is too large: stand still, safely
     m_plan.clear();
     m_clock = 0.;
-    m_event = true; // the next cycle plans anew from here
+    m_event = true; // the next cycle replans from here
     m_state.v = m_state.a = vpTwist();
     return {vpTrajectoryResult::InvalidInput, vpTrajectoryFault::OutOfRange, -1, dt};
   }

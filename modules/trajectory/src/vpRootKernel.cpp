@@ -30,8 +30,8 @@ constexpr double inverseBinomial[9][9] = {{1.},
                                           {1., 1. / 7., 1. / 21., 1. / 35., 1. / 35., 1. / 21., 1. / 7., 1.},
                                           {1., 1. / 8., 1. / 28., 1. / 56., 1. / 70., 1. / 56., 1. / 28., 1. / 8., 1.}};
 
-// What rounding can make of the value at s >= 0. Near zero the high coefficients do not count: a bound over the whole
-// interval would take small values there for zero and miss the root beside them.
+// Rounding error of the value at s >= 0. Near zero the high coefficients do not matter: a bound over the whole interval
+// would take small values there for zero and miss the root beside them.
 double rounding(const double *c, int degree, double s)
 {
   double sum = std::abs(c[degree]);
@@ -41,7 +41,7 @@ double rounding(const double *c, int degree, double s)
   return 2. * epsilon * sum;
 }
 
-// The root between l and r, where the polynomial is monotone and changes sign: Newton, halving when it leaves the bracket.
+// The root between l and r, where the polynomial is monotone and changes sign: Newton, bisection outside the bracket.
 double closeIn(const double *c, int degree, double l, double r, double fl, double fr, double precision)
 {
   double x = l + (r - l) * (fl / (fl - fr));
@@ -108,7 +108,7 @@ int rootsBetween(const double *c, int degree, const double *critical, int critic
                  double *out) noexcept
 {
   const bool touching = wanted == Wanted::Roots;
-  // At an extremum an error of s enters squared: 1e-7 leaves 1e-13 of the value.
+  // At an extremum an error of s enters squared: 1e-7 causes 1e-13 of the value.
   const double precision = touching ? 2. * epsilon : 1e-7;
   int count = 0;
   double l = 0., fl = c[0];
@@ -214,7 +214,7 @@ double firstPositiveRoot(const double *c, int degree) noexcept
     bound = std::max(bound, 2. * std::pow(std::abs(c[degree - k] / c[degree]), 1. / k));
   }
   if (!std::isfinite(bound)) {
-    return firstPositiveRoot(c, degree - 1); // the leading coefficient is nothing against the others
+    return firstPositiveRoot(c, degree - 1); // the leading coefficient is negligible
   }
   double scaled[vpPolynomial::maxDegree + 1];
   double power = 1.;

@@ -25,7 +25,7 @@ namespace vpRootKernel
   return value;
 }
 
-//! Derivative coefficients; \e out has room for \e degree numbers.
+//! Derivative coefficients; \e out has capacity for \e degree numbers.
 inline void differentiate(const double *c, int degree, double *out)
 {
   for (int k = 1; k <= degree; ++k) {
@@ -36,10 +36,10 @@ inline void differentiate(const double *c, int degree, double *out)
 //! Roots of a polynomial of degree <= 2 in [0, 1], ascending; returns their number.
 int closedFormRoots(const double *c, int degree, double *out) noexcept;
 
-//! What rootsBetween() is asked for.
+//! What rootsBetween() computes.
 enum class Wanted {
   Roots,  //!< All roots to the last digit, also where the polynomial touches zero.
-  Extrema //!< Roots as extrema one level down: sign changes only, to 1e-9, of which an extremum takes the square.
+  Extrema //!< Roots for extrema of the next lower derivative: sign changes only, to 1e-9, whose square matters.
 };
 
 /*!
@@ -54,7 +54,7 @@ void enclose(const double *c, int degree, double &low, double &high) noexcept;
 //! True when |polynomial| <= bound on [0, 1] is certain from enclose(). False says nothing.
 bool isSurelyWithin(const double *c, int degree, double bound) noexcept;
 
-//! All roots in [0, 1], touching ones included; \e out has room for \e degree numbers.
+//! All roots in [0, 1], touching ones included; \e out has capacity for \e degree numbers.
 int allRoots(const double *c, int degree, double *out) noexcept;
 
 /*!

@@ -32,7 +32,7 @@ vpDurationAnswer solve(const vpMotionFamily &motion, const vpAxisLimits &limits,
   while (answer.iterations < steps) {
     ++answer.iterations;
     const double extra = extraTime(motion, limits, gains, answer.T);
-    // Taking away more than half of the time at once would leave the range where (6.6) means anything.
+    // Reducing T by more than half at once would leave the range in which (6.6) is meaningful.
     answer.T = std::max(answer.T + extra, 0.5 * answer.T);
     if (std::abs(extra) < 1e-10 * answer.T) {
       answer.kind = vpDurationAnswer::Kind::Found;

@@ -92,8 +92,8 @@ vpTrajectoryFollower::Event vpTrajectoryFollower::detect(const vpTrajectoryProbl
   const vpTrajectoryOptions &options = problem.options;
   const bool frozen = remaining() > 0. && remaining() < options.freeze;
   if (!problem.sameTask(m_task)) {
-    // A fixed arrival cannot be put off, and so close to it nothing sensible fits in: the change waits for the arrival.
-    // Not so other limits, which the status would not speak of.
+    // A fixed arrival cannot be delayed, and close to it no sensible change fits: the change waits for the arrival.
+    // Other limits do not wait, because the status would not report them.
     const bool wait = options.policy == vpReplanPolicy::FixedArrival &&
                       options.arrivalTime == m_task.options.arrivalTime && sameLimits(problem, m_task);
     return wait && frozen ? Event::None : Event::Task;
@@ -102,7 +102,7 @@ vpTrajectoryFollower::Event vpTrajectoryFollower::detect(const vpTrajectoryProbl
   return due && !frozen && remaining() > 0. ? Event::Rate : Event::None;
 }
 
-// What is left to do from the commanded state: vias that were passed are dropped until the list of vias changes.
+// The rest of the task from the commanded state: passed vias are dropped until the list of vias changes.
 void vpTrajectoryFollower::takeRest(const vpTrajectoryProblem &problem) noexcept
 {
   if (!m_started) {
@@ -133,7 +133,7 @@ void vpTrajectoryFollower::takeRest(const vpTrajectoryProblem &problem) noexcept
   }
 }
 
-// How the goal moves, from what is new about it.
+// Estimate the goal's motion from its changes.
 void vpTrajectoryFollower::noteGoal(const vpTrajectoryProblem &problem) noexcept
 {
   using P = vpTrajectoryProblem;
@@ -161,7 +161,7 @@ double vpTrajectoryFollower::floorOf(const vpTrajectoryProblem &problem, Event e
 {
   const vpTrajectoryOptions &options = problem.options;
   if (options.policy == vpReplanPolicy::FixedArrival) {
-    // The date stays while the goal is refined; one that could not be kept means: as early as possible.
+    // The arrival time stays while the goal is refined; when it could not be kept: as early as possible.
     const bool goesOn = m_started && remaining() > 0. && m_task.options.policy == options.policy &&
                         m_task.options.arrivalTime == options.arrivalTime;
     m_arrival = goesOn ? std::max(m_arrival - m_clock, 0.) : options.arrivalTime;
@@ -177,7 +177,7 @@ double vpTrajectoryFollower::floorOf(const vpTrajectoryProblem &problem, Event e
   return std::max({options.minimumDuration, left, m_jitter.floor(problem)});
 }
 
-// Where a goal that moves will be when the plan may end, within the position limits.
+// Predicted position of a moving goal at the end of the plan, within the position limits.
 void vpTrajectoryFollower::aim() noexcept
 {
   using P = vpTrajectoryProblem;
@@ -209,7 +209,7 @@ void vpTrajectoryFollower::replan(const vpTrajectoryProblem &problem, Event even
   m_clock = m_sinceReplan = 0.;
   m_thesisBusy = problem.options.method == vpDurationMethod::ThesisIteration;
   if (m_thesisBusy) {
-    // (6.9) at the beginning, the time that is left at an event (6.8).
+    // (6.9) at the beginning, the remaining time at an event (6.8).
     m_thesisT = left;
     for (int i = 0; i < m_rest.axes() && left == 0.; ++i) {
       const vpAxisLimits limits = m_rest.limits(i);
@@ -224,12 +224,12 @@ void vpTrajectoryFollower::replan(const vpTrajectoryProblem &problem, Event even
   if (problem.options.policy == vpReplanPolicy::KeepArrival && m_goalMoves) {
     aim();
   }
-  // Without an event, a single polynomial is planned again as it is.
+  // Without an event, a single polynomial is replanned in the same form.
   m_planStatus = event == Event::Rate && isSinglePolynomial() ? m_planner.planDirect(m_rest, floor, m_plan)
                                                               : m_planner.plan(m_rest, floor, m_plan);
 }
 
-// Some steps of (6.6), from the commanded state, until no axis asks for a change.
+// Some steps of (6.6), from the commanded state, until no axis requests a change.
 void vpTrajectoryFollower::iterateThesis() noexcept
 {
   if (m_clock > 0.) {
@@ -247,7 +247,7 @@ void vpTrajectoryFollower::iterateThesis() noexcept
       const vpMotionFamily motion = vpMotionFamily::pointToPoint(m_rest.start(i), m_rest.goal(i), order);
       extra = std::max(extra, vpThesisDuration::extraTime(motion, m_rest.limits(i), gains, m_thesisT));
     }
-    // Where the iteration runs away, the time stays one that can be computed with; NaN becomes the shortest.
+    // Where the iteration diverges, the time is clamped to a valid range; NaN becomes the shortest.
     m_thesisT = std::min(longestThesis, std::max(shortestThesis, m_thesisT + extra));
     converged = std::abs(extra) < 1e-10 * m_thesisT;
   }
@@ -259,7 +259,7 @@ void vpTrajectoryFollower::iterateThesis() noexcept
 vpTrajectoryStatus vpTrajectoryFollower::currentStatus(bool arrivedBefore) const noexcept
 {
   if (m_clock >= m_plan.duration()) {
-    // A plan that cannot keep its limits may exceed them after the arrival too.
+    // A plan that exceeds its limits may do so after the arrival too.
     return {arrivedBefore ? vpTrajectoryResult::Holding : vpTrajectoryResult::Finished, vpTrajectoryFault::None, -1, 0.,
             m_planStatus.isGood() ? vpLimitExcess() : m_planStatus.excess};
   }

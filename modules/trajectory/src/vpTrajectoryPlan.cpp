@@ -14,12 +14,12 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-// At most: braking (4) and its padding, a ramp, a stop, a way back inside, one polynomial, a launch (4).
+// At most: braking (4) and its padding, a ramp, a stop, a return inside, one polynomial, a launch (4).
 constexpr int segmentsPerLeg = 13;
 // After the arrival: a ramp, constant velocity, braking (4).
 constexpr int segmentsAfter = 6;
 
-// What times differ by when they are sums of different durations that are equal in theory.
+// Rounding difference of times that are sums of different durations but equal in theory.
 double rounding(double t) { return 1e-14 * t; }
 
 vpAxisState jetInTime(const vpPolynomial &p, double s, double duration)
@@ -128,7 +128,7 @@ bool vpTrajectoryPlan::isFinite() const noexcept
     for (int i = 0; i < track.count + track.coasting; ++i) {
       const vpTrajectorySegment &s = segment(axis, i);
       const double r = 1. / s.duration;
-      sum += r * r * r; // what jets are multiplied by
+      sum += r * r * r; // factor of the jets
       for (int k = 0; k <= s.p.degree(); ++k) {
         sum += std::abs(s.p[k]) * r * r * r;
       }
@@ -211,7 +211,7 @@ double vpTrajectoryPlan::endOf(int axis, int i) const noexcept
 
 double vpTrajectoryPlan::nextBreak(double t, double until) const noexcept
 {
-  // Axes add up their segments on their own; what differs by rounding only is one break.
+  // Each axis sums its own segments; breaks that differ by rounding only are merged.
   const double later = t + rounding(until);
   double next = until;
   for (int axis = 0; axis < m_axes; ++axis) {
@@ -236,7 +236,7 @@ vpPolynomial vpTrajectoryPlan::between(int axis, double from, double to, double 
     const vpTrajectorySegment &s = segment(axis, i);
     const double end = endOf(axis, i);
     if (middle < end) {
-      // From end to end where the times agree to rounding, so that the ends are met whatever the times are rounded to.
+      // From end to end where the times agree to rounding, so that the ends are met exactly.
       const double first = std::abs(from - s.begin) <= same ? 0. : (from - s.begin) / s.duration;
       const double last = std::abs(to - end) <= same ? 1. : (to - s.begin) / s.duration;
       duration = (last - first) * s.duration;
@@ -249,7 +249,7 @@ vpPolynomial vpTrajectoryPlan::between(int axis, double from, double to, double 
 
 double vpTrajectoryPlan::peakNorm(unsigned long long axes, int order, double begin) const noexcept
 {
-  // The derivative in time, on the clock of the interval.
+  // Derivative with respect to time, in the interval's own time.
   const auto part = [order, this](int axis, double from, double to) {
     double duration = 0.;
     vpPolynomial x = between(axis, from, to, duration);
@@ -278,7 +278,7 @@ double vpTrajectoryPlan::peakNorm(unsigned long long axes, int order, double beg
         }
       }
     }
-    // The square locates the peak; its value is taken from the parts, which keeps the digits.
+    // The square locates the peak; its value is computed from the components, which keeps the digits.
     const double s = squared.range().atMax;
     double norm = 0.;
     for (int axis = 0; axis < m_axes; ++axis) {

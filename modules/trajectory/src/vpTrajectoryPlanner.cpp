@@ -38,7 +38,7 @@ void vpTrajectoryPlanner::Impl::setTasks(const vpTrajectoryProblem &problem)
     vpAxisTask &task = axis(i).task;
     task.order = orderOf(problem.options.continuity);
     task.limits = problem.limits(i);
-    // Places count from the start of the leg: differences of near numbers are exact, and the digits stay.
+    // Positions are relative to the start of the leg: differences of near numbers are exact, and the digits stay.
     task.minPosition = task.limits.minPosition -= from[k][0];
     task.maxPosition = task.limits.maxPosition -= from[k][0];
     if (problem.options.continuity == vpTrajectoryContinuity::C1) {
@@ -107,8 +107,8 @@ bool vpTrajectoryPlanner::Impl::isAtRest(const vpAxisGroup &group)
   return rests;
 }
 
-// Axes as one: the way along the straight line, with the tightest of their limits. Possible when the line is defined and
-// every given derivative lies on it. All axes without a group.
+// Several axes as one: motion along the straight line, with the tightest of their limits. Possible when the line is
+// defined and every given derivative lies on it. All axes without a group.
 bool vpTrajectoryPlanner::Impl::addLine(const vpTrajectoryProblem &problem, const vpAxisGroup *group,
                                         vpMotionAxis &carrier)
 {
@@ -168,12 +168,12 @@ bool vpTrajectoryPlanner::Impl::addLine(const vpTrajectoryProblem &problem, cons
   return true;
 }
 
-// The axis has a derivative that is not its share of that along the line; noted as a fault.
+// The axis has a derivative off the line; reported as a fault.
 bool vpTrajectoryPlanner::Impl::isAcross(const vpAxisTask &task, const vpAxisTask &line, int i)
 {
   const auto a = static_cast<std::size_t>(i);
   const double u = direction[a];
-  // The direction is a difference of places, which are rounded.
+  // The direction is a difference of positions, which are rounded.
   const double rounded = 4. * std::numeric_limits<double>::epsilon() * (std::abs(from[a][0]) + std::abs(to[a][0]));
   for (std::size_t k = 1; k < static_cast<std::size_t>(task.order); ++k) {
     const double pairs[2][2] = {{task.from[k], line.from[k]}, {task.to[k], line.to[k]}};
@@ -205,8 +205,8 @@ double vpTrajectoryPlanner::Impl::searchLeg(const vpTrajectoryOptions &options, 
     }
   }
   else {
-    // To a fixed point from below: a longer duration may be infeasible for an axis that was content with a shorter one.
-    // Each time an axis takes another form, of which it has few, so this ends.
+    // To a fixed point from below: a longer duration may be infeasible for an axis that was satisfied with a shorter
+    // one. Each time an axis changes its form, of which it has few, so this terminates.
     int content = 0;
     for (int i = 0; content < unitCount && i < 100 * unitCount; ++i) {
       const double next = units[static_cast<std::size_t>(i % unitCount)].next(T);
@@ -252,7 +252,7 @@ double vpTrajectoryPlanner::Impl::groupBraking() const
   return longest;
 }
 
-// Append the present leg to the tracks.
+// Append the current leg to the tracks.
 void vpTrajectoryPlanner::Impl::emitLeg(vpTrajectoryPlan &plan, double begin, bool viaLeg)
 {
   for (int u = 0; u < unitCount; ++u) {
@@ -279,7 +279,7 @@ void vpTrajectoryPlanner::Impl::finish(const vpTrajectoryProblem &problem, vpTra
     vpAxisState goal = problem.goal(i);
     const vpAxisState &planned = axis(straight ? n : i).task.to;
     const int given = 2 + static_cast<int>(problem.options.continuity);
-    for (int k = 2; k < 4; ++k) { // what the continuity does not reach, and what had to be dropped
+    for (int k = 2; k < 4; ++k) { // beyond the continuity, or dropped
       double &x = goal[static_cast<std::size_t>(k)];
       x = k >= given || planned[static_cast<std::size_t>(k)] == 0. ? 0. : x;
     }
@@ -289,7 +289,7 @@ void vpTrajectoryPlanner::Impl::finish(const vpTrajectoryProblem &problem, vpTra
   plan.setIterations(iterations);
 }
 
-// The axis's own ramp, or the one that its group has in common: at the end of it |v + a r/2| is the limit at most.
+// The axis's own ramp, or the common one of its group: at its end |v + a r/2| is at most the limit.
 double vpTrajectoryPlanner::Impl::coastingRamp(const vpTrajectoryProblem &problem, int i) const
 {
   const auto own = [&](int m) {
@@ -320,8 +320,8 @@ double vpTrajectoryPlanner::Impl::coastingRamp(const vpTrajectoryProblem &proble
   return longest;
 }
 
-// After the arrival: the acceleration goes down linearly, the velocity stays, and the axis brakes where it would leave
-// its position limits otherwise.
+// After the arrival: the acceleration decreases linearly, the velocity stays, and the axis brakes where it would
+// otherwise leave its position limits.
 void vpTrajectoryPlanner::Impl::coast(int i, const vpAxisState &goal, double ramp, vpTrajectoryPlan &plan)
 {
   const vpAxisTask &task = axis(i).task;
@@ -353,7 +353,7 @@ void vpTrajectoryPlanner::Impl::coast(int i, const vpAxisState &goal, double ram
   }
 }
 
-// When all else fails: to rest, as fast as the limits allow.
+// When everything else fails: to rest, as fast as the limits allow.
 void vpTrajectoryPlanner::Impl::stopAll(const vpTrajectoryProblem &problem, vpTrajectoryPlan &plan)
 {
   plan.clear();
@@ -412,7 +412,7 @@ vpTrajectoryPlanner::~vpTrajectoryPlanner() = default;
 vpTrajectoryPlanner::vpTrajectoryPlanner(vpTrajectoryPlanner &&) noexcept = default;
 vpTrajectoryPlanner &vpTrajectoryPlanner::operator=(vpTrajectoryPlanner &&) noexcept = default;
 
-// Nothing in the scratch memory outlives a call.
+// The scratch memory carries no state between calls.
 vpTrajectoryPlanner::vpTrajectoryPlanner(const vpTrajectoryPlanner &other)
   : m_impl(std::make_unique<Impl>(other.m_impl->n, static_cast<int>(other.m_impl->legs.size()) - 1))
 {}
@@ -435,7 +435,7 @@ vpTrajectoryStatus vpTrajectoryPlanner::plan(const vpTrajectoryProblem &problem,
     vpTrajectoryStatus status = problem.options.lateArrival == vpLateArrival::ExceedLimits
                                     ? planDirect(problem, floor, plan)
                                     : d.judge(problem, plan);
-    if (d.fault.isGood()) { // a goal that cannot be reached is worse
+    if (d.fault.isGood()) { // an unreachable goal is worse
       status = {vpTrajectoryResult::ArrivalInfeasible, vpTrajectoryFault::ArrivalTooEarly, -1, T, status.excess};
     }
     return status;

@@ -65,8 +65,8 @@ struct vpTrajectoryPlanner::Impl {
   double planVias(const vpTrajectoryProblem &problem, double floor, vpTrajectoryPlan &plan);
 
   int n;
-  std::vector<vpAxisState> from, to; // of the present leg, places as in the problem
-  std::vector<vpMotionAxis> axes;    // more for the straight lines of all axes and of each group
+  std::vector<vpAxisState> from, to; // of the current leg, positions as in the problem
+  std::vector<vpMotionAxis> axes;    // plus one for the straight line of all axes and of each group
   std::vector<vpMotionUnit> units;
   std::vector<Line> lines; // by unit
   std::vector<double> unitDurations;
@@ -79,7 +79,7 @@ struct vpTrajectoryPlanner::Impl {
   std::vector<double> legs; // durations
   int iterations = 0;
   double braking = 0.;      // of groups, in the first leg
-  vpTrajectoryStatus fault; // what is wrong apart from limits
+  vpTrajectoryStatus fault; // fault other than a limit
 };
 
 END_VISP_NAMESPACE

@@ -15,7 +15,8 @@ namespace
 constexpr double infinity = std::numeric_limits<double>::infinity();
 }
 
-// One polynomial for no via, for one place (degree 6) and for one place with velocity and acceleration (degree 8).
+// One polynomial for no via, for one position (degree 6) and for one position with velocity and acceleration (degree
+// 8).
 int vpTrajectoryPlanner::Impl::segments(const vpTrajectoryProblem &problem) const
 {
   const int vias = problem.vias();
@@ -67,7 +68,7 @@ double vpTrajectoryPlanner::Impl::searchChain(const vpTrajectoryProblem &problem
     for (int k = 0; k < count; ++k) {
       for (int i = 0; i < n; ++i) {
         vpAxisLimits limits = axis(i).task.limits;
-        // Segments count their places from their own start.
+        // Segments have positions relative to their own start.
         const double place = k == 0 ? 0. : problem.viaState(k - 1, i)[0] - problem.start(i)[0];
         limits.minPosition -= place;
         limits.maxPosition -= place;
@@ -109,7 +110,7 @@ void vpTrajectoryPlanner::Impl::emitChain(const vpTrajectoryProblem &problem, do
   }
 }
 
-// From via to via with the velocity that a via gives, or rest: this always has an answer.
+// Via by via with the given velocity of a via, or rest: this always has a solution.
 double vpTrajectoryPlanner::Impl::planLegs(const vpTrajectoryProblem &problem, bool withFloors, vpTrajectoryPlan &plan)
 {
   double total = 0.;

@@ -162,7 +162,7 @@ bool vpTrajectoryProblem::sameVias(const vpTrajectoryProblem &other) const
 
 bool vpTrajectoryProblem::sameTask(const vpTrajectoryProblem &other) const
 {
-  // Bit by bit, so that a NaN is no event in every cycle.
+  // Bitwise comparison, so that a NaN is not an event in every cycle.
   const std::size_t count = index(FieldCount, 0) - index(GoalQ, 0);
   return m_axes == other.m_axes && std::memcmp(field(GoalQ), other.field(GoalQ), count * sizeof(double)) == 0 &&
          options == other.options && sameVias(other);

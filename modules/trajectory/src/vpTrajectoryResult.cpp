@@ -92,7 +92,7 @@ const char *sentence(vpTrajectoryFault fault)
   return "";
 }
 
-// The fewest digits that give this number and no other.
+// The fewest digits that identify this number.
 struct Digits {
   char text[32];
   explicit Digits(double value)

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// What may be wrong with a problem, checked in one place so that planning can rely on it.
+// Validation of a problem, all in one place so that planning can rely on it.
 #include <visp3/trajectory/vpTrajectoryProblem.h>
 
 #include <visp3/direct_core/vpLimit.h>

@@ -36,7 +36,7 @@ void requireJerk(const char *name, double value, const char *unit)
   }
 }
 
-// Finite and within what a machine can do.
+// Finite and within the range of a machine.
 bool isPlausible(const vpTwist &twist)
 {
   for (std::size_t i = 0; i < 6; ++i) {
@@ -59,8 +59,8 @@ struct Bounds {
   double size(const Vector3d &a) const { return norm ? a.norm() : a.cwiseAbs().maxCoeff(); }
 };
 
-// Shares of a norm limit for the components: in the direction of the wished change as far as the accelerations in
-// progress leave room, w_i = max(|b_i|, lambda d_i) with the largest lambda that keeps the norm of w at 1.
+// Shares of a norm limit for the components: in the direction of the desired change as far as the current accelerations
+// allow, w_i = max(|b_i|, lambda d_i) with the largest lambda that keeps the norm of w at 1.
 Vector3d shareLimit(const Vector3d &busy, const Vector3d &wish)
 {
   const auto share = [&](double lambda) { return Vector3d(busy.cwiseMax(lambda * wish)); };
@@ -108,7 +108,7 @@ Motion rampTo(const Vector3d &target, const Motion &now, const Bounds &bounds, d
   return next;
 }
 
-// Full jerk against the acceleration until it is zero, after dt: the velocity goes straight to where() it ends.
+// Full jerk against the acceleration until it is zero, after dt: the velocity goes straight to its final value where().
 Motion brake(const Motion &now, const Bounds &bounds, double dt)
 {
   const double time = std::isfinite(bounds.jerk) ? bounds.size(now.a) / bounds.jerk : 0.;
@@ -172,7 +172,7 @@ void vpTwistShaper::updatePart(std::size_t first, const vpTwist &raw, double max
   Motion next = rampTo(target, now, bounds, dt);
   const double most = std::max(target.norm(), peak(now, bounds)) * (1. + rounding);
   if (!(peak(next, bounds) <= most)) {
-    // Straight towards the wish, which from rest never leaves the ball: ramps with limits of their own, one a component,
+    // Straight towards the input, which from rest never leaves the ball: ramps with separate limits per component
     // might, and nothing of them would be left.
     const Motion ramp = m_limits.norm ? next : rampTo(target, now, {maxAcceleration, maxJerk, true}, dt);
     const Motion slow = brake(now, bounds, dt);

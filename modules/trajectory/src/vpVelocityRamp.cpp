@@ -19,7 +19,7 @@ vpVelocityRamp::vpVelocityRamp(double v, double a, double target, double maxAcce
     v += std::copysign(excess * (std::abs(a) + maxAcceleration) / (2. * J), a);
     a = std::copysign(maxAcceleration, a);
   }
-  // Taking the acceleration to zero at once would end at this velocity; what is missing decides the direction.
+  // Reducing the acceleration to zero at once would end at this velocity; the difference decides the direction.
   const double missing = target - (v + a * std::abs(a) / (2. * J));
   const double d = missing < 0. ? -1. : 1.;
   const double aAlong = d * a;

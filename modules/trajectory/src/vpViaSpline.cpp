@@ -37,8 +37,8 @@ vpViaSpline::vpViaSpline(int maxVias)
 {}
 
 // Continuity of the third (row 0) and fourth (row 1) derivative at a via between segments of length l and r; rows of
-// values that are given become identities. Unknowns are ordered so that row 0 belongs to d2 and row 1 to d1: what is
-// given replaces its dual condition (d1 given: the fourth derivative may jump; d2 given: the third may).
+// given values become identities. Unknowns are ordered so that row 0 belongs to d2 and row 1 to d1: a given value
+// replaces its dual condition (d1 given: the fourth derivative may jump; d2 given: the third may).
 void vpViaSpline::assemble(Row &row, const Node &before, const Node &here, const Node &after, int order) const
 {
   const double l = here.time - before.time, r = after.time - here.time;

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpViaSpline.h
- * \brief The chain of quintics through vias that has the least integrated squared jerk.
+ * \brief The chain of quintics through vias with the least integrated squared jerk.
  */
 #ifndef vpViaSpline_h
 #define vpViaSpline_h
@@ -16,25 +16,26 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
- * Velocities and accelerations that a via leaves free are those for which the third and fourth derivatives are
- * continuous too: the condition for the least integral of the squared jerk at fixed tau. In s they are linear in the
- * given values, hence polynomials in T of degree 2: the chain is a set of vpMotionFamily like any other motion.
+ * Free velocities and accelerations of a via are those for which the third and fourth derivatives are continuous too:
+ * the condition for the least integral of the squared jerk at fixed tau. In s they are linear in the given values,
+ * hence polynomials in T of degree 2: the chain is a set of vpMotionFamily like any other motion.
  */
 class vpViaSpline
 {
 public:
-  //! Allocates for so many vias.
+  //! Allocates for up to this many vias.
   explicit vpViaSpline(int maxVias);
-  //! Find what the vias leave free on one axis. Places in \e from and \e to are relative to the problem's start.
+  //! Compute the free values of the vias of one axis. Positions in \e from and \e to are relative to the problem's
+  //! start.
   void solve(const vpTrajectoryProblem &problem, int axis, const vpAxisState &from, const vpAxisState &to) noexcept;
-  //! Segment \e k = 0 ... vias() of the chain that was solved last.
+  //! Segment \e k = 0 ... vias() of the last chain solved.
   [[nodiscard]] vpMotionFamily segment(int k) const noexcept;
 
 private:
   using Columns = std::array<double, 3>; // coefficients of T^0, T^1, T^2
   struct Node {
     double time = 0.;        // in s
-    Columns p{}, d1{}, d2{}; // place, first and second derivative in s of the whole move
+    Columns p{}, d1{}, d2{}; // position, first and second derivative in s of the whole move
   };
   struct Row {
     double below[2][2], diagonal[2][2], above[2][2];

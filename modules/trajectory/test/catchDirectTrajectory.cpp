@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Reference values, derived independently of the code, and the cycle by cycle use.
+// Independently derived reference values, and cycle-by-cycle use.
 #include "vpTrajectoryTestKit.h"
 
 VISP_DIRECT_USING_NAMESPACE
@@ -67,7 +67,7 @@ TEST_CASE("figures 6.3 to 6.5: the goal moves to 0.8 at 1.2 s", "[reference]")
   });
   CHECK(std::abs(fig64 - 2.474039801872) < 1e-9);
 
-  // Figure 6.5: the time is not changed, so the limits are exceeded, and said to be.
+  // Figure 6.5: the time is kept, so the limits are exceeded, and this is reported.
   auto input = figureInput(0.5, 0.5, 1.);
   input.options.policy = vpReplanPolicy::FixedArrival;
   input.options.arrivalTime = 1.875;
@@ -84,7 +84,7 @@ TEST_CASE("figures 6.3 to 6.5: the goal moves to 0.8 at 1.2 s", "[reference]")
   CHECK(std::abs(trajectory.plan().peaks(0).acceleration - 4.321256684) < 1e-8);
   CHECK(output.status.value > 0.675); // the earliest feasible arrival
   CHECK_THAT(output.status.message(), Catch::Contains("earliest feasible arrival is in"));
-  // And with the limits kept it arrives then.
+  // With the limits kept, it arrives then.
   const double earliest = output.status.value;
   vpTrajectoryInput<1> kept = input;
   kept.start = output.state;
@@ -187,7 +187,7 @@ TEST_CASE("finished once, then holding, then on to the next goal", "[cycle]")
   CHECK(output.newPlan);
   CHECK(output.state.q[0] < 0.5);
 
-  // A goal with a velocity: it is kept; its acceleration is ramped down without a jump.
+  // A goal with a velocity: the velocity is kept; the acceleration is ramped down without a jump.
   vpTrajectoryInput<1> moving = figureInput(1., 1., 1.);
   moving.goal.v[0] = 0.3;
   moving.goal.a[0] = 0.5;

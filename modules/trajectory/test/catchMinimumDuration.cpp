@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The smallest duration against a dense scan over T with an oracle of its own: (3.62) in t, sampled, no root finding.
+// The smallest duration against a dense scan over T with an independent oracle: (3.62) in t, sampled, no root finding.
 #include "vpTrajectoryTestKit.h"
 
 VISP_DIRECT_USING_NAMESPACE
@@ -43,7 +43,7 @@ public:
     return best;
   }
 
-  // The smallest T in [from, to] of `steps` that the samples cannot refute, or infinity.
+  // The smallest T in [from, to] of `steps` for which no sample exceeds a limit, or infinity.
   double firstFeasible(double from, double to, int steps)
   {
     for (int i = 0; i < steps; ++i) {

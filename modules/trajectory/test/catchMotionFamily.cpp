@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Polynomials and the closed forms built on them.
+// Polynomials and the closed forms based on them.
 #include "vpTrajectoryTestKit.h"
 
 #include <Eigen/LU>
@@ -10,9 +10,9 @@
 VISP_DIRECT_USING_NAMESPACE
 using namespace vpTrajectoryTest;
 
-// Rounding of a coefficient in the product of n factors (s - r): 2 u for each factor, of the product of (1 + |r|); as much
-// for its value by Horner's rule, and the root finder takes values below 2 epsilon of that for zero. A root moves by the
-// sum over the slope there; to first order, so only where that is small against the distance to the next root.
+// Rounding of a coefficient in the product of n factors (s - r): 2 u for each factor, of the product of (1 + |r|); as
+// much for its value by Horner's rule, and the root finder takes values below 2 epsilon of that for zero. A root moves
+// by the sum over the slope there; to first order, so only where that is small against the distance to the next root.
 TEST_CASE("roots of products of known factors are found, each once", "[polynomial]")
 {
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -43,7 +43,7 @@ TEST_CASE("roots of products of known factors are found, each once", "[polynomia
       separate = separate && error < 0.01 * gap / degree;
       if (all[i] >= 0. && all[i] <= 1.) {
         known.push_back(all[i]);
-        errors.push_back(1.1 * error + 4. * epsilon); // what is left of the higher orders; the step that ends Newton
+        errors.push_back(1.1 * error + 4. * epsilon); // remainder of the higher orders; the step that ends Newton
       }
     }
     if (!separate) {
@@ -73,7 +73,7 @@ TEST_CASE("special roots: double, at the ends, degenerate degrees", "[polynomial
   CHECK(vpPolynomial{}.roots().count == 0);
   CHECK(vpPolynomial{-0.3, 1., 0., 0., 0., 0.}.roots().count == 1); // a line stored with degree 5
   CHECK(vpPolynomial{1., 0., 1.}.roots().count == 0);
-  // Small roots beside large coefficients: values near zero are small there, and no roots.
+  // Small roots beside large coefficients: values near zero are small there without being roots.
   const auto small = vpPolynomial{-1e-9, 1.}.times({-3e-9, 1.}).times({2., -1.}).times({3., 1.}).roots();
   REQUIRE(small.count == 2);
   CHECK(small.s[0] == Approx(1e-9).epsilon(1e-9));
@@ -114,8 +114,8 @@ TEST_CASE("range is the range of a dense sampling, and composition a change of c
 
 namespace
 {
-// Sum of the magnitudes of all terms of the derivative d on [0, 1], each power of T of each coefficient by itself: the
-// coefficients may be small differences of those.
+// Sum of the magnitudes of all terms of the derivative d on [0, 1], each power of T of each coefficient separately: the
+// coefficients may be small differences of these.
 double termsOf(const vpMotionFamily &motion, int d, double T)
 {
   double sum = 0.;
@@ -182,7 +182,8 @@ TEST_CASE("families meet their boundary values at every duration", "[family]")
     CHECK(six.degree() == 6);
     CHECK(eight.degree() == 8);
     REQUIRE(std::abs(six.at(T).value(tau) + x[0] - via[0]) < rounded * (termsOf(six, 0, T) + 4.));
-    // Each order of the bump corrects what the one before, rounded, left at the via: w'/w is 3 (1 - 2 tau)/(tau (1 - tau)).
+    // Each order of the bump corrects the rounded remainder of the previous one at the via: w'/w is
+    // 3 (1 - 2 tau)/(tau (1 - tau)).
     const double lever = 3. / (tau * (1. - tau));
     const auto through = eight.at(T).jet(tau);
     double inherited = 0.;

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Motions on SE(3): the twist against finite differences of the pose, hand-over, limits, turns up to pi.
+// Motions on SE(3): the twist against finite differences of the pose, transitions, limits, rotations up to pi.
 #include "vpCatch.h"
 #include "vpWildNumbers.h"
 
@@ -97,7 +97,7 @@ TEST_CASE("the camera twist is the derivative of the pose, for turns up to pi", 
       REQUIRE(angular(x.a).norm() <= options.angularAcceleration * (k % 2 == 0 ? 1. : std::sqrt(3.)) + curved + 1e-9);
     }
     for (const double t : {0.137, 0.421, 0.77, 0.93}) {
-      bool joint = false; // differences across a joint of the polynomials mean nothing
+      bool joint = false; // differences across a joint of the polynomials are meaningless
       for (int i = 0; i < 6; ++i) {
         for (int s = 0; s < trajectory.plan().segments(i); ++s) {
           joint = joint || std::abs(trajectory.plan().segment(i, s).begin - t * T) < 1e-4;
@@ -184,7 +184,7 @@ TEST_CASE("a goal with a twist is met with that twist", "[pose]")
     const vpCameraState end = trajectory.at(trajectory.duration());
     CHECK((linear(end.v) - linear(twist)).norm() < 1e-12);
     CHECK((angular(end.v) - angular(twist)).norm() < 1e-12);
-    // A constant body twist: no angular acceleration, and the origin turns with the frame.
+    // A constant body twist: no angular acceleration, and the origin rotates with the frame.
     CHECK(angular(end.a).norm() < 1e-12);
     CHECK((linear(end.a) - angular(twist).cross(linear(twist))).norm() < 1e-12);
   }
@@ -226,7 +226,7 @@ TEST_CASE("KeepArrival of a pose meets an object on its way that is measured wit
   auto rng = vpTestSupport::generator(64);
   CAPTURE(vpTestSupport::seed());
   std::normal_distribution<double> gauss;
-  // The goal goes round in a circle of 0.2 m in 8 s, turning as it goes; measured at 100 Hz with 0.5 mm and 0.5 mrad.
+  // The goal moves on a circle of 0.2 m in 8 s, rotating with it; measured at 100 Hz with 0.5 mm and 0.5 mrad.
   const double w = 2. * M_PI / 8.;
   const vpTwist twist(0.2 * w, 0., 0., 0., 0., w); // in its own frame
   double rms[2] = {0., 0.}, jerk[2] = {0., 0.};

@@ -2,7 +2,8 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Printed formulas of thesis chapters 3, 6 and 8 on examples where they fail, beside what is used here; doc/errata.md.
+// Printed formulas of thesis chapters 3, 6 and 8 on examples where they fail, compared with those used here;
+// doc/errata.md.
 #include "vpTrajectoryTestKit.h"
 
 VISP_DIRECT_USING_NAMESPACE
@@ -19,7 +20,7 @@ vpTrajectoryInput<1> moveTo(double goal, double v, double a)
   return input;
 }
 
-// (6.9), with the max that it lacks.
+// (6.9), with the missing max.
 double printedDuration(double h, double v, double a)
 {
   return std::max(15. / 8. * h / v, std::sqrt(10. * std::sqrt(3.) / 3. * h / a));
@@ -35,7 +36,7 @@ double sampledPeak(const vpPolynomial &p, double T, std::size_t order)
   return peak / std::pow(T, static_cast<double>(order));
 }
 
-// Lines 4 to 8 of Algorithm 6.3 with a1..a6 read as a0..a5: the latest root of the acceleration, and the velocity there.
+// Lines 4 to 8 of Algorithm 6.3 with a1..a6 read as a0..a5: the latest root of the acceleration, and its velocity.
 double latestExtremum(const vpPolynomial &p, double T)
 {
   const auto acceleration = [&](double s) { return p.jet(s)[2]; };
@@ -106,14 +107,14 @@ TEST_CASE("(6.10) as printed breaks the limit of acceleration, and its constants
   CHECK(at(plan.duration()) == Approx(1.).epsilon(1e-6));
   CHECK(at(printed) > 6.);
   CHECK(at(2.6925 * std::sqrt(0.3)) > 1.9); // nor with the root where it belongs
-  input.vias[0].q[0] = 0.25;                // another via, another constant
+  input.vias[0].q[0] = 0.25;                // another via needs another constant
   REQUIRE(vpDirectTrajectory<1>::calculate(input, plan).isGood());
   CHECK(plan.duration() > 1.2 * 3.80782 * std::sqrt(0.3));
 }
 
 TEST_CASE("(8.8) and (8.9) as printed put the via behind the end; one T with a share for the via does not", "[errata]")
 {
-  const double via = 0.5, goal = 0.2; // the obstacle is gone round on its far side
+  const double via = 0.5, goal = 0.2; // the obstacle is passed on its far side
   CHECK(printedDuration(via, 0.5, 2.) > printedDuration(goal, 0.5, 2.));
   auto input = moveTo(goal, 0.5, 2.);
   vpTrajectoryVia<1> between;
@@ -136,7 +137,7 @@ TEST_CASE("Algorithm 6.2: a goal that moves back is an event, and without events
   int plans = 0;
   for (int i = 0; i < 5000; ++i) {
     const double before = output.state.q[0];
-    input.goal.q[0] = i < 600 ? 0.5 : 0.35; // q_s = -0.15: "q_s > 0" as printed does not see it
+    input.goal.q[0] = i < 600 ? 0.5 : 0.35; // q_s = -0.15: not detected by the printed "q_s > 0"
     static_cast<void>(trajectory.update(input, output, 1e-3));
     plans += output.newPlan;
     if (i > 10 && i < 600) {
@@ -159,9 +160,9 @@ TEST_CASE("Algorithm 6.3: the latest root is not the largest velocity, and a neg
     const double T = uniform(rng, 0.5, 3.);
     const vpPolynomial p = vpMotionFamily::pointToPoint(from, {uniform(rng, -1., 1.), 0., 0., 0.}, 3).at(T);
     const double peak = sampledPeak(p, T, 1), latest = latestExtremum(p, T);
-    REQUIRE(p.derivative().range(0., 1.).peak() / T == Approx(peak).margin(1e-6)); // what is used here
+    REQUIRE(p.derivative().range(0., 1.).peak() / T == Approx(peak).margin(1e-6)); // as used here
     smaller += std::abs(latest) < 0.9 * peak;
-    negative += latest < -0.9 * peak; // v_m > v_max as printed lets it pass
+    negative += latest < -0.9 * peak; // accepted by the printed v_m > v_max
   }
   // About a sixth of all or more, 167 +- sqrt(n p (1 - p)) = 12: a tenth is more than five deviations off.
   CHECK(smaller > cases / 10);

@@ -2,7 +2,8 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// What is not a plain quintic: braking, position and norm limits, cruise, straight lines, C1 and C3, contradictions.
+// Everything except plain quintics: braking, position and norm limits, cruise, straight lines, C1 and C3,
+// contradictions.
 #include "vpTrajectoryTestKit.h"
 
 #include <Eigen/Geometry>
@@ -59,7 +60,7 @@ TEST_CASE("a start outside the limits comes back inside and says so", "[forms]")
 
 namespace
 {
-// Infimum of the way until rest from v > 0 when the jerk is free.
+// Infimum of the braking distance from v > 0 when the jerk is free.
 double stoppingDistance(double v, double maxAcceleration) { return v * v / (2. * maxAcceleration); }
 } // namespace
 
@@ -72,7 +73,7 @@ TEST_CASE("position limits are kept, by stopping and going when nothing else doe
     auto input = randomInput<2>(rng, Class::AnyToRest, false);
     input.maxAcceleration *= 10.;
     for (int i = 0; i < 2; ++i) {
-      // Room to stop in, sometimes hardly.
+      // Enough distance to stop, sometimes barely.
       const double stop = std::pow(input.start.v[i], 2) / input.maxAcceleration[i];
       const double low = std::min(input.start.q[i], input.goal.q[i]),
                    high = std::max(input.start.q[i], input.goal.q[i]);
@@ -86,7 +87,7 @@ TEST_CASE("position limits are kept, by stopping and going when nothing else doe
     if (status.result == vpTrajectoryResult::NoFeasibleDuration) {
       ++unreachable;
       REQUIRE(status.fault == vpTrajectoryFault::LimitExceeded);
-      // It is true: even the hardest stop leaves the limits (all but a hundredth of it).
+      // Correct: even the hardest stop leaves the limits (all but a hundredth of it).
       const int i = status.excess.index;
       const double v = input.start.v[i],
                    room = v > 0. ? input.maxPosition[i] - input.start.q[i] : input.start.q[i] - input.minPosition[i];
@@ -143,7 +144,7 @@ TEST_CASE("the norm over a group of axes stays below its limits", "[forms]")
     REQUIRE(worstMismatch(input, plan) <= 1e-11);
     fallback += plan.form(0) != vpTrajectoryForm::Direct;
     if (plan.form() == vpTrajectoryForm::Direct && k % 4 == 0) {
-      // Rest to rest it is the smallest: some limit is reached.
+      // For rest to rest it is the smallest: some limit is reached.
       REQUIRE(worstViolation(input, plan) >= -1e-9);
     }
   }
@@ -190,7 +191,7 @@ TEST_CASE("a group at rest cruises along its line", "[forms]")
     REQUIRE(worstViolation(input, plan) < 1e-9);
     return plan.duration();
   };
-  // Ramps of 1.5 v/a each cover half of their time at full speed: h/v + 1.5 v/a, or 15/8 h/v; h is the length of the line.
+  // Ramps of 1.5 v/a each cover half of their time at full speed: h/v + 1.5 v/a, or 15/8 h/v; h: length of the line.
   const double h = std::sqrt(0.5);
   CHECK(duration(false, true) == Approx(0.5 / 0.25 + 0.75));
   CHECK(duration(true, true) == Approx(h / 0.25 + 0.75));
@@ -199,7 +200,7 @@ TEST_CASE("a group at rest cruises along its line", "[forms]")
   auto rng = vpTestSupport::generator(44);
   CAPTURE(vpTestSupport::seed());
   int cruises = 0;
-  for (int k = 0; k < problems(10000); ++k) { // two groups and an axis of its own; every third group moves at the start
+  for (int k = 0; k < problems(10000); ++k) { // two groups and a separate axis; every third group moves at the start
     auto input = randomInput<6>(rng, Class::RestToRest, k % 2 == 1);
     const double length = logUniform(rng, 0.1, 100.);
     for (int i = 0; i < 6; ++i) {
@@ -239,7 +240,7 @@ TEST_CASE("straight lines are straight, in every form", "[forms]")
     REQUIRE(vpDirectTrajectory<3>::calculate(input, plan).isGood());
     REQUIRE(worstViolation(input, plan) <= 1e-12);
     REQUIRE(worstMismatch(input, plan) <= 1e-12);
-    // Onwards from half way, along the same line.
+    // Continued from half way, along the same line.
     const double t = 0.4 * plan.duration();
     const Eigen::Vector3d line = input.goal.q - input.start.q;
     const Eigen::Vector3d origin = input.start.q;

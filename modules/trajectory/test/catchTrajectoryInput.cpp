@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Bad input is named, and never stops the motion.
+// Invalid input is named, and never stops the motion.
 #include "vpTrajectoryTestKit.h"
 
 #include <visp3/core/vpException.h>
@@ -94,7 +94,7 @@ TEST_CASE("every bad number is named with its axis and value", "[input]")
     CHECK_THAT(output.status.message(), Catch::Contains(c.sentence));
     CHECK(output.state.q.allFinite());
   }
-  // The start state is read once.
+  // The start state is read only once.
   Input input = good();
   input.start.a[2] = NAN;
   vpTrajectoryPlan plan(3, 2);

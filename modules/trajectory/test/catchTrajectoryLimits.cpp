@@ -2,8 +2,8 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Whatever is asked: ends are exact, no limit is exceeded without a status that says so, nobody makes a detour while
-// waiting, and nothing is ever not finite. Judged from the printed pieces by vpMotionJudge.h.
+// For any input: ends are exact, no limit is exceeded without a status that reports it, no axis makes a detour while
+// waiting, and everything is finite. Checked from the printed pieces by vpMotionJudge.h.
 #include "vpMotionJudge.h"
 #include "vpTrajectoryTestKit.h"
 
@@ -16,7 +16,7 @@ using Input = vpTrajectoryInput<Eigen::Dynamic>;
 
 bool chance(std::mt19937_64 &rng, double p) { return uniform(rng, 0., 1.) < p; }
 
-// One time scale for all, a length scale for each axis, both over twelve decades.
+// One time scale for all, one length scale per axis, both over twelve decades.
 Input anyProblem(std::mt19937_64 &rng)
 {
   constexpr int counts[] = {1, 1, 1, 2, 3, 7};
@@ -57,7 +57,7 @@ Input anyProblem(std::mt19937_64 &rng)
       const double high = std::max(input.start.q[i], input.goal.q[i]);
       input.minPosition[i] = low - uniform(rng, 0., 1.) * stop - 0.01 * metre * uniform(rng, 0., 1.);
       input.maxPosition[i] = high + uniform(rng, 0., 1.) * stop + 0.01 * metre * uniform(rng, 0., 1.);
-      if (outside && chance(rng, 0.3)) { // the limits are about the goal only
+      if (outside && chance(rng, 0.3)) { // the limits apply to the goal only
         input.minPosition[i] = input.goal.q[i] - metre * uniform(rng, 0., 0.5);
         input.maxPosition[i] = input.goal.q[i] + metre * uniform(rng, 0.001, 0.5);
       }
@@ -77,7 +77,7 @@ Input anyProblem(std::mt19937_64 &rng)
     o.arrivalTime = second * logUniform(rng, 0.1, 1e3);
   }
   if (n >= 3 && chance(rng, 0.2)) {
-    // Lengths of one kind: the second axis takes the limits of the first.
+    // Same lengths: the second axis takes the limits of the first.
     for (auto *x : {&input.maxVelocity, &input.maxAcceleration, &input.maxJerk, &input.minPosition, &input.maxPosition,
                     &input.start.q, &input.start.v, &input.start.a, &input.start.j, &input.goal.q, &input.goal.v,
                     &input.goal.a, &input.goal.j}) {
@@ -93,7 +93,7 @@ Input anyProblem(std::mt19937_64 &rng)
   return input;
 }
 
-// How far the hardest stop from (v, a) goes, with |a| <= A and |j| <= J, by its three phases.
+// Distance of the hardest stop from (v, a), with |a| <= A and |j| <= J, by its three phases.
 double stopDistance(double v, double a, double A, double J)
 {
   double q = 0., furthest = 0.;
@@ -180,7 +180,7 @@ std::string describe(const Input &x)
 void judge(const Input &input, const vpTrajectoryPlan &plan, const vpTrajectoryStatus &status, Tally &tally)
 {
   const bool silent = status.isGood() && status.result != vpTrajectoryResult::Braking;
-  // Braking and hard stops are C2 whatever was asked.
+  // Braking and hard stops are C2 for every continuity.
   const int n = plan.axes(), order = 2 + static_cast<int>(input.options.continuity);
   const int given = silent && plan.form() != vpTrajectoryForm::StopAndGo ? order : std::min(order, 3);
   const auto pieces = plan.pieces(), onwards = plan.pieces(1.3 * plan.duration());
@@ -233,7 +233,7 @@ void judge(const Input &input, const vpTrajectoryPlan &plan, const vpTrajectoryS
       }
     }
 
-    // Detours: beyond the braking distance only where that is quicker than to stop first.
+    // Detours: beyond the braking distance only where that is faster than stopping first.
     const bool defined = std::isfinite(limits.a) && std::isfinite(limits.v) &&
                          input.options.continuity == vpTrajectoryContinuity::C2 &&
                          !input.options.groups[0].contains(i) && (plan.form(i) != vpTrajectoryForm::Vias) &&

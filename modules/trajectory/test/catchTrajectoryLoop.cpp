@@ -15,7 +15,7 @@ namespace
 {
 constexpr int most = 20000; // cycles of a millisecond
 
-// Cycles until the loop ends; bad is put in before cycle number \e when.
+// Cycles until the loop ends; the invalid value is set before cycle number \e when.
 template <class Bad> int cyclesOf(int when, vpTrajectoryOutput<2> &output, Bad bad)
 {
   vpTrajectoryInput<2> input;

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Replanning policies: noisy goals (figure 8.13), the ending, fixed arrival, the thesis's iteration.
+// Replanning policies: noisy goals (figure 8.13), the final approach, fixed arrival, the thesis's iteration.
 #include "vpTrajectoryTestKit.h"
 
 #include <visp3/trajectory/vpGoalJitter.h>
@@ -64,8 +64,8 @@ Scene follow(double goalNoise, vpReplanPolicy policy, bool reminimiseEachCycle, 
 TEST_CASE("figure 8.13: a moving object measured with noise", "[policy]")
 {
   CAPTURE(vpTestSupport::seed());
-  // The thesis's "50 % standard deviation" has no unit, so the noise is our choice: 0.1 mm, with 1 mm for comparison. The
-  // more noise, the less often re-minimising arrives between two images, and it is arriving that makes its jerk.
+  // The thesis's "50 % standard deviation" has no unit, so the noise is our choice: 0.1 mm, with 1 mm for comparison.
+  // With more noise, re-minimising arrives less often between two images, and arriving is what causes its jerk.
   const double floor = 0.4;
   for (const double goalNoise : {1e-4, 1e-3}) {
     const Scene keep = follow(goalNoise, vpReplanPolicy::KeepArrival, false, floor);
@@ -77,7 +77,7 @@ TEST_CASE("figure 8.13: a moving object measured with noise", "[policy]")
                                << each.peakJerk << ", " << each.rmsError);
     CHECK(keep.peakAcceleration <= 1. + 1e-12);
     CHECK(event.peakAcceleration <= 1. + 1e-12);
-    // The jerk of an arrival is a draw of the noise: over twenty seeds the largest is 23 times ours and more, or 7 times.
+    // The jerk of an arrival depends on the noise: over twenty seeds the largest is 23 times ours and more, or 7 times.
     CHECK((goalNoise < 5e-4 ? 10. : 4.) * keep.peakJerk <= each.peakJerk);
     CHECK(keep.rmsError < 1.02 * event.rmsError); // and it follows as closely
   }
@@ -85,7 +85,7 @@ TEST_CASE("figure 8.13: a moving object measured with noise", "[policy]")
 
 namespace
 {
-// An object that swings by 0.3 m at 0.5 Hz or moves at 0.1 m/s, measured with noise; its velocity is known.
+// An object that oscillates by 0.3 m at 0.5 Hz or moves at 0.1 m/s, measured with noise; its velocity is known.
 struct Object {
   bool swings;
   double q(double t) const { return swings ? 0.3 * std::sin(M_PI * t) : 0.1 * t; }
@@ -167,7 +167,7 @@ TEST_CASE("the jitter of a goal is its noise, not its motion nor a jump, and fad
   auto rng = vpTestSupport::generator(75);
   CAPTURE(vpTestSupport::seed());
   vpGoalJitter jitter(1);
-  for (int k = 0; k < 1000; ++k) { // a goal whose velocity is not known: the same surprise again and again
+  for (int k = 0; k < 1000; ++k) { // a goal of unknown velocity: repeated equal surprises
     jitter.see(0, 0.01);
     jitter.pass(0.02);
   }
@@ -270,7 +270,7 @@ TEST_CASE("FixedArrival keeps the date while the goal is refined, and freezes at
   input.goal.q[0] = 5.;
   input.options.arrivalTime = 0.1;
   CHECK(trajectory.update(input, output, 1e-3) == vpTrajectoryResult::ArrivalInfeasible);
-  CHECK(output.duration == Approx(output.status.value)); // the limits are kept, the earliest arrival is told
+  CHECK(output.duration == Approx(output.status.value)); // the limits are kept, the earliest arrival is reported
   CHECK(trajectory.plan().peaks(0).velocity <= 1. + 1e-12);
 }
 
@@ -301,7 +301,7 @@ TEST_CASE("the thesis's iteration converges in figure 6.6 and is no substitute",
   CHECK(arrivals[0] == Approx(2.442439077777).margin(1e-6));
   CHECK(arrivals[1] == Approx(arrivals[0]).margin(0.02));
 
-  // With one gain for all problems it often does not arrive at a duration that keeps the limits.
+  // With one gain for all problems it often does not find a duration that keeps the limits.
   auto rng = vpTestSupport::generator(73);
   CAPTURE(vpTestSupport::seed());
   int failed = 0, most = 0;

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The step functions allocate nothing, whatever happens in them.
+// The step functions never allocate.
 #include "vpTrajectoryTestKit.h"
 
 #include <visp3/trajectory/vpPoseTrajectory.h>
@@ -54,7 +54,7 @@ TEST_CASE("no step allocates", "[realtime]")
       }
     }
     if (k % 7 == 0) {
-      input.maxVelocity[3] = NAN; // bad input
+      input.maxVelocity[3] = NAN; // invalid input
     }
     inputs.push_back(input);
   }

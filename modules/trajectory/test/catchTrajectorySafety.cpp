@@ -82,7 +82,7 @@ TEST_CASE("every problem of 7 axes is answered safely", "[safety]")
   requireAllSafe<7>(15, true);
 }
 
-// The acceleration adds to the velocity while it is taken back: gently, there is no room for it.
+// The acceleration adds to the velocity while it ramps down: there is no margin to do that gently.
 TEST_CASE("a motion next to its velocity limit, with some acceleration left, never exceeds it", "[safety]")
 {
   auto rng = vpTestSupport::generator(43);
@@ -94,7 +94,7 @@ TEST_CASE("a motion next to its velocity limit, with some acceleration left, nev
     const double v = input.maxVelocity[0], usual = 10. * std::pow(input.maxAcceleration[0], 2) / v;
     const double room = v * logUniform(rng, 1e-12, 1e-3);
     input.start.v[0] = v - room;
-    // From a ramp of the usual jerk to one that is ten thousand times shorter.
+    // From a ramp of the usual jerk to one ten thousand times shorter.
     input.start.a[0] = std::min(input.maxAcceleration[0], std::sqrt(2. * usual * room * logUniform(rng, 1., 1e4)));
     input.goal.q[1] = input.start.q[1] + 100. * uniform(rng, -1., 1.);
     const vpTrajectoryStatus status = vpDirectTrajectory<2>::calculate(input, plan);

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Problems that were answered wrongly once, and what a status says about limits.
+// Problems that once had wrong results, and the status of exceeded limits.
 #include "vpTrajectoryTestKit.h"
 
 VISP_DIRECT_USING_NAMESPACE
@@ -48,7 +48,7 @@ TEST_CASE("a limit that cannot be kept is named with its excess", "[status]")
 
 TEST_CASE("a position limit is exceeded by no more than the hardest stop needs", "[status]")
 {
-  // From q0 with v = a = 1 the least is q0 + 1/2; with a jerk limit v a/(2 j) more.
+  // From q0 with v = a = 1 the minimum is q0 + 1/2; with a jerk limit v a/(2 j) more.
   for (const double jerk : {none, 1000.}) {
     for (int k = 0; k <= 100; ++k) {
       vpTrajectoryInput<1> input = wall(0.4 + 0.005 * k);
@@ -190,7 +190,7 @@ TEST_CASE("a goal velocity does not lead out of the position limits after the ar
   CHECK(highest > 1. - 1e-9);
   CHECK(output.state.v[0] == 0.);
   CHECK(output.status.result == vpTrajectoryResult::Holding);
-  input.maxPosition[0] = 0.55; // no room to stop in: that is said
+  input.maxPosition[0] = 0.55; // not enough distance to stop: reported
   vpTrajectoryPlan plan(1);
   const vpTrajectoryStatus status = vpDirectTrajectory<1>::calculate(input, plan);
   CHECK(status.fault == vpTrajectoryFault::LimitExceeded);

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Control loops in which everything changes on the fly, and numbers that no robot has: every state that leaves is finite,
+// Control loops in which everything changes on the fly, and implausible numbers: every output state is finite,
 // continuous, and within the limits unless the status says otherwise.
 #include "vpTrajectoryTestKit.h"
 
@@ -83,7 +83,7 @@ template <int N> void stream(std::mt19937_64 &rng, double &worst)
     REQUIRE((x.q.allFinite() && x.v.allFinite() && x.a.allFinite() && x.j.allFinite()));
     REQUIRE((std::isfinite(output.remaining) && std::isfinite(output.duration)));
     if (result != vpTrajectoryResult::InvalidInput) {
-      accepted = input; // otherwise the motion goes on within the limits before
+      accepted = input; // otherwise the motion continues within the previous limits
       for (int i = 0; i < N; ++i) {
         const double place = std::max({metre, std::abs(x.q[i]), std::abs(input.goal.q[i])});
         const double excess =
@@ -93,12 +93,12 @@ template <int N> void stream(std::mt19937_64 &rng, double &worst)
                 input.maxPosition[i], input.options.freeze, static_cast<int>(input.options.policy),
                 static_cast<int>(input.options.method), output.newPlan, trajectory.plan().brakingEnd(),
                 output.remaining);
-        // A start that is beyond a limit by the tolerance of given numbers is on it.
+        // A start beyond a limit by at most vpLimit::tolerance counts as on it.
         REQUIRE((excess <= vpLimit::tolerance || saysSo(output.status)));
         worst = saysSo(output.status) ? worst : std::max(worst, excess);
       }
     }
-    // Continuous: what changes in a cycle is what the derivatives of the plan allow.
+    // Continuous: changes per cycle are within the derivatives of the plan.
     for (int i = 0; i < N; ++i) {
       vpTrajectoryPeaks &peaks = planned[i];
       if (output.newPlan) {

@@ -30,8 +30,8 @@ template <int N> vpTrajectoryInput<N> randomVias(std::mt19937_64 &rng, int count
   return input;
 }
 
-// What the evaluation of velocity and acceleration loses, relative to their limits: Horner's rule rounds by 2 n u of the sum
-// of the magnitudes of its terms, and a via near an end makes large terms of different signs.
+// Rounding error of velocity and acceleration, relative to their limits: Horner's rule rounds by 2 n u of the sum of
+// the magnitudes of its terms, and a via near an end makes large terms of different signs.
 template <int N> double roundingOf(const vpTrajectoryInput<N> &input, const vpTrajectoryPlan &plan)
 {
   double worst = 0.;
@@ -68,7 +68,7 @@ TEST_CASE("vias are met, joints are C2, limits kept, for any number of vias", "[
     CAPTURE(k, count, status.message(), toString(plan.form()), plan.duration());
     REQUIRE(status.result == vpTrajectoryResult::Working);
     REQUIRE(worstViolation(input, plan) <= 1e-12 + roundingOf(input, plan));
-    REQUIRE(worstMismatch(input, plan) <= 1e-10); // the joints of a chain carry the lever of the short segments
+    REQUIRE(worstMismatch(input, plan) <= 1e-10); // short segments amplify errors at the joints of a chain
     REQUIRE(plan.vias() == count);
     (plan.form() == vpTrajectoryForm::Direct ? direct : legs) += 1;
     for (int v = 0; v < count; ++v) {
@@ -114,7 +114,7 @@ TEST_CASE("the chain has the least integrated squared jerk of all chains through
     vpTrajectoryPlan plan(1);
     REQUIRE(vpDirectTrajectory<1>::calculate(input, plan).isGood());
     const double least = plan.peaks(0).squaredJerk;
-    for (int v = 0; v < 3; ++v) { // C4 at the joints, and any other velocity and acceleration there costs more
+    for (int v = 0; v < 3; ++v) { // C4 at the joints; any other velocity and acceleration there costs more
       const auto before = plan.segment(0, v).p, after = plan.segment(0, v + 1).p;
       const double l = plan.segment(0, v).duration, r = plan.segment(0, v + 1).duration;
       CHECK(before.jet(1.)[3] / std::pow(l, 3) == Approx(after.jet(0.)[3] / std::pow(r, 3)).epsilon(1e-8).margin(1e-7));
@@ -152,7 +152,7 @@ TEST_CASE("figure 8.9: the via appears under way and is dropped once passed", "[
       input.goal.q << 0.125, 0.3;
     }
     if (plans == 2 && output.remaining < 0.3 * output.duration) {
-      input.goal.q[0] = 0.13; // a new goal after the via: the via must not come back
+      input.goal.q[0] = 0.13; // a new goal after the via: the via must not return
     }
     static_cast<void>(trajectory.update(input, output, 1e-3));
     plans += output.newPlan;

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The shaper keeps its limits for any input, arrives exactly, and takes away the step at t = 0.
+// The shaper keeps its limits for any input, arrives exactly, and removes the step at t = 0.
 #include "vpTrajectoryTestKit.h"
 #include "vpWildNumbers.h"
 
@@ -102,7 +102,7 @@ TEST_CASE("shaped twists keep their limits for any input", "[shaper]")
 
 namespace
 {
-// Everything anew from the twists that came out, by differences: nothing of the shaper's own state is believed.
+// Recomputed from the output twists by differences: the shaper's own state is not used.
 class Recheck
 {
 public:
@@ -124,7 +124,7 @@ public:
       double a[3], j[3];
       for (std::size_t i = 0; i < 3; ++i) {
         a[i] = (v[part + i] - m_twist[part + i]) / dt;
-        j[i] = 2. * (a[i] - m_rate[part + i]) / (dt + m_dt); // mean rates belong to the middles of the steps
+        j[i] = 2. * (a[i] - m_rate[part + i]) / (dt + m_dt); // mean rates belong to the middle of the steps
         m_rate[part + i] = a[i];
       }
       // Differences of speeds lose digits in short steps.
@@ -201,7 +201,7 @@ TEST_CASE("10^6 random steps: speed, acceleration and jerk, rechecked by differe
       atLimit = std::max(atLimit, v.linearNorm());
     }
   }
-  CHECK(atLimit > 0.249); // the limit was reached for
+  CHECK(atLimit > 0.249); // the limit was approached
 }
 
 TEST_CASE("a wish that turns on the speed limit is followed on it, not beyond", "[shaper]")
@@ -223,7 +223,7 @@ TEST_CASE("a wish that turns on the speed limit is followed on it, not beyond", 
       CAPTURE(norm, rate, error);
       CHECK(fastest <= 1. + 1e-9);
       CHECK(fastest > 0.9);
-      CHECK((rate > 1.5 || error < 0.05)); // 2 rad/s asks for 0.5 m/s^2: all there is
+      CHECK((rate > 1.5 || error < 0.05)); // 2 rad/s needs 0.5 m/s^2: the whole limit
     }
   }
 }

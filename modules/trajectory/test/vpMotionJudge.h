@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpMotionJudge.h
- * \brief What a motion does, computed from its printed pieces by the definition and by nothing of the module.
+ * \brief Extremes of a motion, computed from its printed pieces by definition, independently of the module.
  */
 #ifndef vpMotionJudge_h
 #define vpMotionJudge_h
@@ -31,7 +31,7 @@ inline double derivativeAt(const std::vector<double> &c, int d, double t)
   return static_cast<double>(sum);
 }
 
-//! Where the derivative \e d changes its sign in [0, T], found by halving between the sign changes of the next one.
+//! Sign changes of the derivative \e d in [0, T], by bisection between the sign changes of the next one.
 inline std::vector<double> signChanges(const std::vector<double> &c, int d, double T)
 {
   std::vector<double> out;
@@ -58,12 +58,12 @@ inline std::vector<double> signChanges(const std::vector<double> &c, int d, doub
 
 //! \brief Extremes of one axis over a motion.
 struct Extremes {
-  double low = std::numeric_limits<double>::infinity();   //!< Lowest place.
-  double high = -std::numeric_limits<double>::infinity(); //!< Highest place.
+  double low = std::numeric_limits<double>::infinity();   //!< Lowest position.
+  double high = -std::numeric_limits<double>::infinity(); //!< Highest position.
   std::array<double, 3> peak{};                           //!< Largest |v|, |a|, |j|.
-  bool finite = true;                                     //!< All coefficients are.
+  bool finite = true;                                     //!< All coefficients are finite.
 
-  //! Take in a piece of duration T: its ends, its exact extrema, and some places between.
+  //! Add a piece of duration T: its ends, its exact extrema, and some times in between.
   void include(const std::vector<double> &c, double T)
   {
     for (double x : c) {

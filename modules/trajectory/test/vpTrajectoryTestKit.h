@@ -37,13 +37,13 @@ inline double uniform(std::mt19937_64 &rng, double low, double high)
   return std::uniform_real_distribution<double>(low, high)(rng);
 }
 
-//! Between low and high, as often in each decade.
+//! Between low and high, equally often in each decade.
 inline double logUniform(std::mt19937_64 &rng, double low, double high)
 {
   return std::exp(uniform(rng, std::log(low), std::log(high)));
 }
 
-//! What start and goal look like.
+//! Types of start and goal.
 enum class Class { RestToRest, Retarget, AnyToRest, AnyToAny };
 
 //! A random state strictly inside the limits of an axis, with jerk limits also one that can be left and reached.
@@ -127,7 +127,7 @@ template <int N> double worstMismatch(const vpTrajectoryInput<N> &input, const v
   double worst = 0.;
   const int given = 2 + static_cast<int>(input.options.continuity);
   const auto compare = [&](int i, const vpAxisState &x, const vpAxisState &y) {
-    // Relative to what the digits are spent on: places to the way covered, accelerations to v/T when that is larger.
+    // Relative to the rounding scale: positions to the distance covered, accelerations to v/T when that is larger.
     const vpTrajectoryPeaks peaks = plan.peaks(i);
     const double scale[4] = {
         std::max(1., peaks.maxPosition - peaks.minPosition), std::min(input.maxVelocity[i], 1e6),

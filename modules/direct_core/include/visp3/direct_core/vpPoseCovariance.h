@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpPoseCovariance.h
- * \brief How well a measured pose is known.
+ * \brief Covariance of a measured pose.
  */
 #ifndef vpPoseCovariance_h
 #define vpPoseCovariance_h
@@ -22,20 +22,19 @@ BEGIN_VISP_NAMESPACE
  * \brief Covariance of the error (v, w) of a measured pose cMo = (R, t), in the camera frame: the true pose is
  * (exp([w]x) R, t + v), v in m, w in rad.
  *
- * `known` is false until somebody has a reason for the numbers; what is unknown is not zero, so nothing may be concluded
- * from the numbers then.
+ * While `known` is false the numbers carry no information and must not be used: an unknown covariance is not zero.
  */
 struct VISP_EXPORT vpPoseCovariance {
-  bool known = false;         //!< The numbers have a reason.
-  std::array<double, 36> C{}; //!< Row-major 6 x 6, (v, w): m^2, m rad, rad^2.
+  bool known = false;         //!< True when #C has been estimated.
+  std::array<double, 36> C{}; //!< Covariance of (v, w), 6 x 6 row-major: m^2, m rad, rad^2.
 
   //! Element of row \e i and column \e j, 0 to 5.
   [[nodiscard]] constexpr double operator()(std::size_t i, std::size_t j) const { return C[6 * i + j]; }
   //! Element of row \e i and column \e j, writable.
   [[nodiscard]] constexpr double &operator()(std::size_t i, std::size_t j) { return C[6 * i + j]; }
-  //! Standard deviation of the position, m: root of the trace of the block of v. Infinite when not known.
+  //! Standard deviation of the position, m: square root of the trace of the v block. Infinite when not known.
   [[nodiscard]] double positionDeviation() const;
-  //! Standard deviation of the orientation, rad: root of the trace of the block of w. Infinite when not known.
+  //! Standard deviation of the orientation, rad: square root of the trace of the w block. Infinite when not known.
   [[nodiscard]] double rotationDeviation() const;
 };
 

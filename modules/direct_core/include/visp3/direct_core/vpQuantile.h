@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpQuantile.h
- * \brief The one definition of medians and percentiles in visp-direct.
+ * \brief Medians and percentiles, with one definition for all of visp-direct.
  */
 #ifndef vpQuantile_h
 #define vpQuantile_h
@@ -17,21 +17,21 @@ BEGIN_VISP_NAMESPACE
 
 /*!
  * \ingroup group_direct_core
- * Quantile of a sample: linear interpolation between the order statistics, at place share (n - 1) counted from 0. The
- * definition of NumPy, of R (type 7) and of spreadsheets: the median of 1..10 is 5.5.
+ * Quantile of a sample: linear interpolation between the order statistics at index share (n - 1), from 0. Same
+ * definition as NumPy, R (type 7) and spreadsheets: the median of 1..10 is 5.5.
  * \param values : The sample, in any order, without NaN; infinities are ordinary values.
- * \param share : 0 for the least, 0.5 for the median, 1 for the largest; values outside [0, 1] are clamped.
+ * \param share : 0 for the minimum, 0.5 for the median, 1 for the maximum; values outside [0, 1] are clamped.
  * \return The quantile; NaN when the sample is empty or \e share is NaN.
  */
 [[nodiscard]] VISP_EXPORT double vpQuantile(std::vector<double> values, double share);
 
 //! \ingroup group_direct_core
-//! vpQuantile() at 0.5.
+//! Median: vpQuantile() at 0.5.
 [[nodiscard]] VISP_EXPORT double vpMedian(std::vector<double> values);
 
 /*!
  * \ingroup group_direct_core
- * vpQuantile() of the numbers in [begin, end) without allocation, for a step of a control loop; their order changes.
+ * vpQuantile() of the values in [begin, end) without allocation, for control loops; reorders the values.
  */
 [[nodiscard]] VISP_EXPORT double vpQuantileInPlace(double *begin, double *end, double share) noexcept;
 

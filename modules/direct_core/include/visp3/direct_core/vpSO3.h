@@ -8,10 +8,11 @@
  *
  * ViSP's vpThetaUVector and vpRotationMatrix allocate on construction; these free functions do not. Notation: for a
  * rotation vector e = theta u, [e]x is its skew matrix and J_r(e) the right Jacobian, so that a rotation R = exp(e)
- * that turns with body rate w (R' = R [w]x) has e' = J_r(e)^-1 w. This J_r^-1 is the L_theta_u of visual servoing with
- * the sign that belongs to R of cdMc (thesis (5.6), corrected): I + theta/2 [u]x + (1 - sinc theta / sinc^2(theta/2)) [u]x^2.
+ * rotating at body rate w (R' = R [w]x) has e' = J_r(e)^-1 w. This J_r^-1 is the L_theta_u of visual servoing with
+ * the sign that belongs to R of cdMc (thesis (5.6), corrected):
+ * I + theta/2 [u]x + (1 - sinc theta / sinc^2(theta/2)) [u]x^2.
  *
- * What is not finite, and an angle of 1e154 rad or more, whose square overflows, gives NaN: it cannot be taken for a rotation.
+ * Non-finite input, and an angle of 1e154 rad or more, whose square overflows, give NaN.
  */
 #ifndef vpSO3_h
 #define vpSO3_h
@@ -47,9 +48,9 @@ namespace vpSO3
 [[nodiscard]] VISP_EXPORT Eigen::Matrix3d rightJacobianInverse(const Eigen::Vector3d &e);
 
 /*!
- * The rotation of least angle that takes direction \e from to direction \e to, of any lengths: a rotation, and one
- * that ends at \e to, to 1e-15 at every angle. For opposite directions the axis is any one perpendicular to \e from.
- * A vector of zeros or with a number that is not finite has no direction: NaN.
+ * Rotation of smallest angle that takes direction \e from to direction \e to, vectors of any length; orthonormal and
+ * exact to 1e-15 at every angle. For opposite directions the axis is any one perpendicular to \e from.
+ * NaN for a zero vector or one with a non-finite component.
  */
 [[nodiscard]] VISP_EXPORT Eigen::Matrix3d minimalRotation(const Eigen::Vector3d &from, const Eigen::Vector3d &to);
 } // namespace vpSO3

@@ -22,9 +22,9 @@ BEGIN_VISP_NAMESPACE
  * \ingroup group_direct_core
  * \brief Rigid-body velocity (vx, vy, vz, wx, wy, wz) in m/s and rad/s, stored in place.
  *
- * ViSP passes velocities as a vpColVector, which lives on the heap. A real-time step must not allocate, so the laws,
- * filters and trajectories of visp-direct exchange this type and convert at the edge with toColVector().
- * The frame is stated by whoever owns the twist; throughout visp-direct it is the current camera frame unless said.
+ * ViSP passes velocities as a vpColVector, which is allocated on the heap. A real-time step must not allocate, so the
+ * laws, filters and trajectories of visp-direct exchange this type and convert at the edge with toColVector().
+ * Unless stated otherwise, twists in visp-direct are expressed in the current camera frame.
  */
 class VISP_EXPORT vpTwist
 {
@@ -37,12 +37,12 @@ public:
 
   /*!
    * Copy of a 6-vector of ViSP (linear, angular).
-   * \throw vpException (dimensionError) if \e v has not 6 rows.
+   * \throw vpException (dimensionError) if \e v does not have 6 rows.
    */
   static vpTwist fromColVector(const vpColVector &v);
   //! A new vpColVector of 6 rows. Allocates.
   [[nodiscard]] vpColVector toColVector() const;
-  //! Write into \e v, which allocates only if it has not 6 rows yet.
+  //! Write into \e v, which allocates only if it does not have 6 rows yet.
   void copyTo(vpColVector &v) const;
 
   //! Component \e i: 0-2 linear (m/s), 3-5 angular (rad/s).
@@ -54,9 +54,9 @@ public:
   //! The six numbers, linear part first, writable.
   [[nodiscard]] double *data() { return m_data.data(); }
 
-  //! Euclidean norm of the linear part, m/s. Squares do not overflow in it; NaN if a component is NaN.
+  //! Euclidean norm of the linear part, m/s. Does not overflow; NaN if a component is NaN.
   [[nodiscard]] double linearNorm() const;
-  //! Euclidean norm of the angular part, rad/s, likewise.
+  //! Euclidean norm of the angular part, rad/s. Does not overflow; NaN if a component is NaN.
   [[nodiscard]] double angularNorm() const;
   //! True if no component is infinite or NaN.
   [[nodiscard]] bool isFinite() const;
@@ -74,7 +74,7 @@ private:
  * \param twist : Twist to limit.
  * \param maxLinear : Largest linear norm, m/s, > 0.
  * \param maxAngular : Largest angular norm, rad/s, > 0.
- * \return The scaled twist; the input itself when it is within both limits; zero, standing still, when a component is
+ * \return The scaled twist; the input itself when it is within both limits; zero when a component is
  *   not finite or a limit is not > 0.
  */
 [[nodiscard]] VISP_EXPORT vpTwist limitTwist(const vpTwist &twist, double maxLinear, double maxAngular);

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpFeatureFeedforwardSum.h
- * \brief Visual feature for vpServo: the rotation error of position-based servoing plus the angle off the object.
+ * \brief Visual feature for vpServo: rotation error of position-based servoing plus the object's bearing error.
  */
 #ifndef vpFeatureFeedforwardSum_h
 #define vpFeatureFeedforwardSum_h
@@ -20,12 +20,12 @@ BEGIN_VISP_NAMESPACE
 /*!
  * \class vpFeatureFeedforwardSum
  * \ingroup group_feedforward
- * \brief The rotation error of the law `ff-sum` as a feature of vpServo, 3 components, rad.
+ * \brief Rotation error of the FF-PBVS law `ff-sum` as a feature of vpServo, 3 components, rad.
  *
  * s = theta u - kappa c tanh(D / c), D = th(p) - th(p*), th(x, y) = atan(r) / r (-y, x, 0), for one image point p
- * (thesis (5.26)-(5.28), corrected). Its desired value is zero. The interaction matrix is the exact one,
- * L = [-kappa S J Lv, L_theta_u - kappa S J Lw], so vpServo also compensates the image motion that the translation
- * causes, which the law `ff-sum` does not: the two move differently, and share the error only.
+ * (thesis (5.26)-(5.28), corrected). Its desired value is zero. The interaction matrix is exact, L = [-kappa S J Lv,
+ * L_theta_u - kappa S J Lw], so vpServo also compensates the image motion caused by the translation, which the law
+ * `ff-sum` does not: the two share the error only and move differently.
  */
 class VISP_EXPORT vpFeatureFeedforwardSum : public vpBasicFeature
 {
@@ -39,8 +39,9 @@ public:
 
   /*!
    * \param cdMc : Pose of the current camera in the desired camera frame, m.
-   * \param point : The object as seen now. \param goal : The same as the desired camera sees it.
-   * \throw vpException (badValue) when the depth of \e point is not positive, a number not finite or above 1e6, or \e cdMc no pose.
+   * \param point : Current image point of the object. \param goal : Image point in the desired camera.
+   * \throw vpException (badValue) when the depth of \e point is not positive, a number is not finite or above 1e6, or
+   *   \e cdMc is not a valid pose.
    */
   void buildFrom(const vpHomogeneousMatrix &cdMc, const vpServoPoint &point, const vpServoPoint &goal);
 
@@ -52,7 +53,7 @@ public:
   void print(unsigned int select = FEATURE_ALL) const VP_OVERRIDE;
   //! A copy on the heap, owned by the caller.
   vpFeatureFeedforwardSum *duplicate() const VP_OVERRIDE;
-  //! A rotation has no place in the image: draws nothing.
+  //! Draws nothing: a rotation has no image position.
   void display(const vpCameraParameters &, const vpImage<unsigned char> &, const vpColor &,
                unsigned int) const VP_OVERRIDE
   {}

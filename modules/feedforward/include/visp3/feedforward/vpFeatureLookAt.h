@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpFeatureLookAt.h
- * \brief Visual feature for vpServo: how far the camera is turned from where it sees the object in its place.
+ * \brief Visual feature for vpServo: rotation error relative to the orientation that looks at the object.
  */
 #ifndef vpFeatureLookAt_h
 #define vpFeatureLookAt_h
@@ -20,12 +20,12 @@ BEGIN_VISP_NAMESPACE
 /*!
  * \class vpFeatureLookAt
  * \ingroup group_feedforward
- * \brief The error of the law `ff-lookat` as a feature of vpServo, 3 components, rad.
+ * \brief Error of the FF-PBVS law `ff-lookat` as a feature of vpServo, 3 components, rad.
  *
- * With (R, t) of cdMc and O* the object's origin in the desired camera frame, R_la is the rotation of least angle from
- * O* to O* - t, the orientation in which the camera sees the object where the desired camera sees it, and
- * s = theta u(R_la^T R). Its desired value is zero. The interaction matrix is exact:
- * L = J_r^-1(s) [R^T W R, I], with W the rate of R_la per rate of the direction O* - t.
+ * With (R, t) of cdMc and O* the object's origin in the desired camera frame, R_la is the rotation of smallest angle
+ * from O* to O* - t, the orientation in which the camera sees the object at its desired image position, and s = theta
+ * u(R_la^T R). Its desired value is zero. The interaction matrix is exact: L = J_r^-1(s) [R^T W R, I], with W the rate
+ * of R_la per rate of the direction O* - t.
  *
  * Together with vpFeatureTranslation for cdMc and the current interaction matrix this gives the law `ff-lookat` with
  * equal gains on translation and rotation.
@@ -53,7 +53,7 @@ public:
   /*!
    * \param cdMc : Pose of the current camera in the desired camera frame, m.
    * \param cdMo : Pose of the object in the desired camera frame, m.
-   * \throw vpException (badValue) when the camera is at the object's origin or on its opposite side, or a pose is none.
+   * \throw vpException (badValue) when the camera is at the object's origin or opposite to it, or a pose is invalid.
    */
   void buildFrom(const vpHomogeneousMatrix &cdMc, const vpHomogeneousMatrix &cdMo);
 
@@ -65,7 +65,7 @@ public:
   void print(unsigned int select = FEATURE_ALL) const VP_OVERRIDE;
   //! A copy on the heap, owned by the caller.
   vpFeatureLookAt *duplicate() const VP_OVERRIDE;
-  //! A rotation has no place in the image: draws nothing.
+  //! Draws nothing: a rotation has no image position.
   void display(const vpCameraParameters &, const vpImage<unsigned char> &, const vpColor &,
                unsigned int) const VP_OVERRIDE
   {}

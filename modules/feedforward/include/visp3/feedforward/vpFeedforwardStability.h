@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpFeedforwardStability.h
- * \brief Where the law `ff-sum` is known to converge: a map to print, not a proof for all poses.
+ * \brief Stability margin of the law `ff-sum`: where it is known to converge, not a proof for all poses.
  */
 #ifndef vpFeedforwardStability_h
 #define vpFeedforwardStability_h
@@ -15,22 +15,22 @@ BEGIN_VISP_NAMESPACE
 
 /*!
  * \ingroup group_feedforward
- * Stability margin of the rotation under `ff-sum`, the object at a bearing and the camera turned away from the goal.
+ * Stability margin of the rotation under `ff-sum`, for a bearing of the object and a rotation to the goal.
  *
- * The law is a cascade: the translation error decays by itself, and with it the disturbance B v of the rotation. What
- * remains is e_w' = -k A e_w, with k the rotation gain, A = L_theta_u + kappa S M, M = -J_th Lw the effect of a
+ * The law is a cascade: the translation error decays independently, and with it the disturbance B v of the rotation.
+ * What remains is e_w' = -k A e_w, with k the rotation gain, A = L_theta_u + kappa S M, M = -J_th Lw the effect of a
  * rotation on the bearing angle of a point, and S = diag(s1, s2, 0), 0 < s <= 1, the slopes of the saturation. The
- * result is the least eigenvalue of (A + A^T) / 2 over sampled directions of bearing and rotation and over the corners
- * of S. (The least eigenvalue is concave in S, so the corners bound all saturations.) While it is > 0 on the whole
- * way, |e_w| decreases at least with exp(-k margin t). Where it is <= 0 nothing is known: the thesis's claim of global
- * stability, (5.29)-(5.31), does not apply to this law.
+ * result is the smallest eigenvalue of (A + A^T) / 2 over sampled directions of bearing and rotation and over the
+ * corners of S. (The smallest eigenvalue is concave in S, so the corners bound all saturations.) While it is > 0 along
+ * the whole path, |e_w| decreases at least as exp(-k margin t). Where it is <= 0 nothing is known: the thesis's claim
+ * of global stability, (5.29)-(5.31), does not apply to this law.
  *
  * \param bearing : Angle between the optical axis and the direction to the object, rad, in [0, pi/2).
  * \param rotation : Angle theta of the rotation to the goal, rad, in [0, pi].
  * \param kappa : Weight of the image term, >= 0.
- * \param samples : Number of rotation axes tried, spread evenly over the sphere, for each of 16 directions of the
+ * \param samples : Number of rotation axes, evenly distributed over the sphere, for each of 16 directions of the
  *   bearing, >= 1.
- * \return The margin; 1 at the goal, never above.
+ * \return The margin; 1 at the goal, at most 1.
  * \throw vpException (badValue) naming the argument and its value when one is out of its range.
  */
 [[nodiscard]] VISP_EXPORT double feedforwardSumStabilityMargin(double bearing, double rotation, double kappa,

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpOdometryBridge.h
- * \brief From the last vision result, which is late and rare, to where the object is now.
+ * \brief Predicts the current measurement from the last vision result, which is late and infrequent.
  */
 #ifndef vpOdometryBridge_h
 #define vpOdometryBridge_h
@@ -22,60 +22,60 @@ BEGIN_VISP_NAMESPACE
 /*!
  * \class vpOdometryBridge
  * \ingroup group_feedforward
- * \brief Carries a measurement over latency and between frames by the robot's own motion since its capture.
+ * \brief Compensates latency and bridges the time between frames by the robot's own motion since the capture.
  *
- * The twists that the robot executed are integrated to cMn, the pose of the camera now in the camera at capture; then
- * the object is at cMn^-1 cMo, and each point, placed in space by its depth, is projected anew. The object itself must
- * stand still in the world. The covariance of the pose is carried along; what the odometry adds to it is not known here.
+ * The executed twists are integrated to cMn, the pose of the current camera in the camera at capture; the object is
+ * then at cMn^-1 cMo, and each point, located in space by its depth, is projected again. The object itself must be
+ * static. The covariance of the pose is transformed; the uncertainty of the odometry is not added.
  *
- * The memory is a ring that is made by the constructor: nothing grows, and a step allocates nothing once the vectors of the
- * measurements have their sizes. It neither throws, locks nor prints. The clock is the caller's; a step of it that is not
- * finite, runs backwards, or is longer than the greatest age breaks the path: nothing seen before is valid after it.
+ * The memory is a ring buffer of fixed size, allocated by the constructor; a step allocates nothing once the vectors of
+ * the measurements have their sizes. A step does not throw, lock or print. The clock is the caller's; a time that is
+ * not finite, runs backwards, or advances by more than the maximum age invalidates all earlier data.
  */
 class VISP_EXPORT vpOdometryBridge
 {
 public:
   /*!
    * Starts at rest at time 0 s.
-   * \param maxAge : Age beyond which a measurement is no longer valid, and how late a result may come, s, > 0.
-   * \param rate : How often move() is called, Hz, > 0. With a higher rate, results must come sooner. The path reaches back at
+   * \param maxAge : Age beyond which a measurement is no longer valid, and the maximum latency of a result, s, > 0.
+   * \param rate : Rate of calls of move(), Hz, > 0. At a higher rate, results must arrive sooner. The path holds at
    *   most #longestPath steps.
    * \throw vpException (badValue) naming the number that is out of its range.
    */
   explicit vpOdometryBridge(double maxAge = 1., double rate = 1000.);
 
-  static constexpr int longestPath = 100000; //!< Steps.
+  static constexpr int longestPath = 100000; //!< Maximum number of steps.
 
   /*!
-   * The camera moved with \e twist (its own frame) from the time of the call before until \e time, s.
-   * \return False when the path is broken there: a bad time (see above), or a twist that is not finite.
+   * The camera moved with \e twist (its own frame) from the time of the previous call until \e time, s.
+   * \return False when this breaks the path: an invalid time (see above), or a twist that is not finite.
    */
   bool move(const vpTwist &twist, double time) noexcept;
   /*!
-   * A result arrived; it replaces the one before. Its vpServoMeasurement::time says when it was captured.
-   * \return False, and the result is not taken, when it was captured later than now, before the path begins, or at a time that
-   *   is not finite.
+   * A new result; it replaces the previous one. vpServoMeasurement::time is its time of capture.
+   * \return False, and the result is ignored, when it was captured in the future, before the path begins, or at a time
+   *   that is not finite.
    */
   [[nodiscard]] bool correct(const vpServoMeasurement &result) noexcept;
   /*!
-   * The last result as it would be seen now.
-   * \param now : Valid if the last result was, is not older than the greatest age, and the object is still in front of the
-   *   camera. A point that was not seen then, or is behind the camera now, is not visible. The time of capture is kept.
+   * Predict the last result at the current time.
+   * \param now : Valid if the last result was valid, is not older than the maximum age, and the object is still in
+   *   front of the camera. A point that was not visible then, or is behind the camera now, is not visible. The time of
+   *   capture is kept.
    */
   void predict(vpServoMeasurement &now) const noexcept;
 
-  [[nodiscard]] double
-  age() const noexcept; //!< Of the last result, s; infinite when there is none that can be carried on.
+  [[nodiscard]] double age() const noexcept; //!< Age of the last result, s; infinite when no result can be predicted.
 
 private:
-  struct Pose { // of the camera in the frame of the odometry
+  struct Pose { // pose of the camera in the odometry frame
     Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
     Eigen::Vector3d t = Eigen::Vector3d::Zero();
   };
   struct Instant {
     double time = 0.;
     Pose pose;
-    vpTwist twist; // that led to it
+    vpTwist twist; // twist that led to pose
   };
   [[nodiscard]] static Pose moved(const Pose &pose, const vpTwist &twist, double dt) noexcept;
   [[nodiscard]] const Instant &at(std::size_t i) const noexcept { return m_ring[(m_first + i) % m_ring.size()]; }
@@ -86,7 +86,7 @@ private:
   std::size_t m_first = 0;
   std::size_t m_count = 1;
   vpServoMeasurement m_last;
-  Pose m_capture; // of m_last
+  Pose m_capture; // camera pose at the capture of m_last
 };
 
 END_VISP_NAMESPACE

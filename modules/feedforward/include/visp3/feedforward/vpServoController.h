@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpServoController.h
- * \brief A servo law with the view filter behind it and the recovery of a lost target behind that.
+ * \brief A servo law followed by the view filter and the recovery of a lost target.
  */
 #ifndef vpServoController_h
 #define vpServoController_h
@@ -25,9 +25,9 @@ BEGIN_VISP_NAMESPACE
 //! \ingroup group_feedforward
 //! \brief Parameters of all parts of a vpServoController.
 struct VISP_EXPORT vpServoControllerConfig {
-  vpServoGains gains;          //!< Of the law.
-  vpViewConstraintConfig view; //!< Of the view filter; used by the ids that end in `+cbf`.
-  vpTargetLossConfig recovery; //!< Of the recovery of a lost target.
+  vpServoGains gains;          //!< Gains of the law.
+  vpViewConstraintConfig view; //!< Parameters of the view filter; used by ids ending in `+cbf`.
+  vpTargetLossConfig recovery; //!< Parameters of the target loss recovery.
 
   //! \throw vpException (badValue) naming the field and its value when one is out of its range or not finite.
   void validate() const;
@@ -36,7 +36,7 @@ struct VISP_EXPORT vpServoControllerConfig {
 /*!
  * \class vpServoController
  * \ingroup group_feedforward
- * \brief The servo pipeline: law, optional view filter, recovery. One per camera; one call a cycle.
+ * \brief The servo pipeline: law, optional view filter, recovery. One per camera; one call per cycle.
  *
  * \code
  * vpServoControllerConfig config;
@@ -68,29 +68,29 @@ public:
   //! Forget the goal, the integrals, and the motion remembered for a retreat.
   void reset();
 
-  //! The id the controller was made from, `+cbf` included.
+  //! The id of the controller, including `+cbf`.
   [[nodiscard]] const std::string &id() const { return m_id; }
-  //! The parameters in force.
+  //! Current parameters.
   [[nodiscard]] const vpServoControllerConfig &config() const { return m_config; }
-  //! The gains in force.
+  //! Current gains.
   [[nodiscard]] const vpServoGains &gains() const { return m_config.gains; }
-  //! The law in front.
+  //! The servo law.
   [[nodiscard]] const vpServoLaw &law() const { return *m_law; }
 
   /*!
    * One cycle. Allocates nothing, takes no lock, throws nothing.
-   * \param measurement : What was seen; `valid = false` when the target was not found.
+   * \param measurement : Current measurement; `valid = false` when the target was not found.
    * \param dt : Time since the last call and until the next one, s, > 0.
-   * \return The twist to execute, safe in every case, and how it came about.
+   * \return The twist to execute, safe in every case, and its status.
    */
   [[nodiscard]] vpServoCommand update(const vpServoMeasurement &measurement, double dt) noexcept;
 
   /*!
-   * The orientation that a command aims at: where the camera would end if the rotation went on alone,
-   * R exp(w / rotationGain). For `pbvs1` this is the goal (the identity); what `ff-*` adds to it is the reference of
-   * the figures 5.6 and 5.8 of the thesis.
-   * \param measurement : The valid measurement that the command answers. \param command : Answer of update().
-   * \return Orientation in the desired camera frame. The identity when no goal is set, or the measurement is not finite.
+   * Orientation that a command aims at: where the camera would end if only the rotation continued, R
+   * exp(w / rotationGain). For `pbvs1` this is the goal (the identity); with the term added by `ff-*` it is the
+   * reference of figures 5.6 and 5.8 of the thesis.
+   * \param measurement : The valid measurement of the command. \param command : Result of update().
+   * \return Orientation in the desired camera frame. The identity without a goal or with a non-finite measurement.
    */
   [[nodiscard]] Eigen::Matrix3d referenceRotation(const vpServoMeasurement &measurement,
                                                   const vpServoCommand &command) const noexcept;

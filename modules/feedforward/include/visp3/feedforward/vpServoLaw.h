@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpServoLaw.h
- * \brief The one interface of all servo laws.
+ * \brief Common interface of all servo laws.
  */
 #ifndef vpServoLaw_h
 #define vpServoLaw_h
@@ -20,7 +20,7 @@ BEGIN_VISP_NAMESPACE
 
 /*!
  * \ingroup group_feedforward
- * \brief Gains of the laws. One set serves all of them, so that a comparison tunes none alone. None may be above 1e6.
+ * \brief Gains of the laws. One set for all laws, so that comparisons tune none individually. None may be above 1e6.
  */
 struct VISP_EXPORT vpServoGains {
   double lambda = 1.;      //!< Gain on the translation and on image errors, 1/s, > 0.
@@ -28,7 +28,7 @@ struct VISP_EXPORT vpServoGains {
   double kappa = 1.;       //!< Weight of the image term of `ff-sum`, >= 0.
   double saturation = 0.5; //!< Bound c of c tanh(D/c) in `ff-sum`, rad, > 0.
   double integral = 1.;    //!< Gain on the integral of the rotation error in `ff-lookat-pi`, 1/s^2, >= 0.
-  double integralLimit = 0.5; //!< Largest angular velocity that the integral may add, rad/s, > 0 (anti-windup).
+  double integralLimit = 0.5; //!< Largest angular velocity contributed by the integral, rad/s, > 0 (anti-windup).
 
   /*!
    * \throw vpException (badValue) naming the gain and its value when one is out of its range or not finite.
@@ -41,8 +41,9 @@ struct VISP_EXPORT vpServoGains {
  * \ingroup group_feedforward
  * \brief A servo law: measurement and goal in, camera twist out.
  *
- * Set-up (create(), setGoal()) validates and throws. The step update() never throws and never allocates for the laws
- * of this module; it answers bad input with a status and zero twist.
+ * Set-up (create(), setGoal()) validates and throws. The step update() never throws and never allocates for the laws of
+ * this module; invalid input gives a status and zero twist. The `ff-*` laws implement FF-PBVS, feedforward
+ * position-based visual servoing.
  *
  * \code
  * auto law = vpServoLaw::create("ff-lookat-pi", vpServoGains());
@@ -68,59 +69,59 @@ public:
    * \throw vpException (badValue) naming the unknown id and listing the known ones, or naming the bad gain.
    */
   [[nodiscard]] static std::unique_ptr<vpServoLaw> create(const std::string &id, const vpServoGains &gains = {});
-  //! All ids that create() knows, in the order in which reports list them.
+  //! All ids known to create(), in the order used by reports.
   [[nodiscard]] static const std::vector<std::string> &ids();
 
   /*!
-   * Set or change the goal, also every cycle. The integral of `ff-lookat-pi` is kept, except on axes that now turn the
-   * other way: friction has turned with them.
+   * Set or change the goal, also every cycle. The integral of `ff-lookat-pi` is kept, except on axes whose direction of
+   * rotation changes: there friction has reversed.
    * \throw vpException (badValue) when the goal has no points, or one that is not finite or has no positive depth.
    */
   void setGoal(const vpServoGoal &goal);
   //! Forget the goal and all state (integrals).
   void reset();
-  //! The id the law was made from.
+  //! The id of the law.
   [[nodiscard]] const std::string &id() const { return m_id; }
-  //! The goal in force.
+  //! Current goal.
   [[nodiscard]] const vpServoGoal &goal() const { return m_goal; }
 
   /*!
-   * Effective gain on the rotation error, 1/s: what the law multiplies it with, all factors included. With it the
-   * rotation a law aims at can be told from its output: R exp(w / rotationGain()), see vpServoController.
+   * Effective gain on the rotation error, 1/s, including all factors. It gives the orientation that a law aims at from
+   * its output: R exp(w / rotationGain()), see vpServoController.
    */
   [[nodiscard]] virtual double rotationGain() const noexcept;
 
   /*!
-   * Tell the law that its last twist was not executed as it was given (limited, filtered, or the target was lost), so
-   * that integrals do not wind up. vpServoController calls it.
+   * Notify the law that its last twist was not executed as given (limited, filtered, or the target was lost), so that
+   * integrals do not wind up. Called by vpServoController.
    */
   virtual void notifyInterrupted() noexcept {}
 
   /*!
    * One cycle.
-   * \param measurement : What was seen. An invalid one gives zero twist and vpServoStatus::Holding; what to do about a
-   *   lost target is decided by vpTargetLossRecovery.
-   *   Numbers beyond 1e6 (m; x and y of points) count as not finite.
-   * \param dt : Time since the last call, s, > 0; used by integrals only, which take 0.5 s at most at a time.
+   * \param measurement : Current measurement. An invalid one gives zero twist and vpServoStatus::Holding; recovery from
+   *   a lost target is up to vpTargetLossRecovery. Numbers beyond 1e6 (m; x and y of points) count as not finite.
+   * \param dt : Time since the last call, s, > 0; used by integrals only, which use at most 0.5 s per call.
    */
   [[nodiscard]] vpServoCommand update(const vpServoMeasurement &measurement, double dt) noexcept;
 
 protected:
-  //! \param id : Of the law. \param gains : Validated here.
-  //! \param rotationFactor : Fixed factor of this law on top of vpServoGains::rotation; 2 for the ids with `-rot2`.
+  //! \param id : Id of the law. \param gains : Validated here.
+  //! \param rotationFactor : Fixed factor of this law in addition to vpServoGains::rotation; 2 for the ids with
+  //!   `-rot2`.
   vpServoLaw(std::string id, const vpServoGains &gains, double rotationFactor = 1.);
-  //! Called by setGoal() after validation: precompute what depends on the goal.
+  //! Called by setGoal() after validation: precompute data that depend on the goal.
   virtual void goalChanged() {}
   //! Called by reset(): forget internal state.
   virtual void stateReset() {}
   //! The law itself. The measurement is valid, finite, and has the goal's number of points. Must not throw or allocate.
   virtual vpServoCommand step(const vpServoMeasurement &measurement, double dt) noexcept = 0;
 
-  std::string m_id;        //!< The id the law was made from.
-  vpServoGains m_gains;    //!< Valid.
-  double m_rotationFactor; //!< Fixed factor of this law on the gain of the rotation.
-  vpServoGoal m_goal;      //!< Valid when there is one.
-  bool m_hasGoal = false;  //!< A goal was set.
+  std::string m_id;        //!< The id of the law.
+  vpServoGains m_gains;    //!< Validated gains.
+  double m_rotationFactor; //!< Fixed factor of this law on the rotation gain.
+  vpServoGoal m_goal;      //!< Current goal; valid if #m_hasGoal.
+  bool m_hasGoal = false;  //!< True when a goal is set.
 };
 
 END_VISP_NAMESPACE

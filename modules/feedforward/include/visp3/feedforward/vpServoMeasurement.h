@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpServoMeasurement.h
- * \brief What a servo law is told: the goal, once, and the measurement, each cycle.
+ * \brief Input of a servo law: the goal, once, and the measurement, each cycle.
  */
 #ifndef vpServoMeasurement_h
 #define vpServoMeasurement_h
@@ -26,38 +26,39 @@ struct VISP_EXPORT vpServoPoint {
   double x = 0.;       //!< X/Z, to the right.
   double y = 0.;       //!< Y/Z, downwards.
   double Z = 1.;       //!< Depth along the optical axis, m, > 0. Measured or estimated.
-  bool visible = true; //!< False when this point was not measured in this frame; x, y, Z are then not read.
+  bool visible = true; //!< False when this point was not measured in this frame; x, y, Z are then ignored.
 };
 
 /*!
  * \ingroup group_feedforward
- * \brief Where to go: the pose of the object in the camera when the task is done, and the image that belongs to it.
+ * \brief The goal: desired pose of the object in the camera, and the corresponding image.
  */
 struct VISP_EXPORT vpServoGoal {
   vpHomogeneousMatrix cdMo;         //!< Pose of the object in the desired camera frame, m.
-  std::vector<vpServoPoint> points; //!< The object's points as the desired camera sees them. At least one.
+  std::vector<vpServoPoint> points; //!< The object's points in the desired camera, at least one.
   /*!
-   * Where the mean of the points shall be seen on the way, for the laws that steer the gaze (`ff-sum`, `ff-lookat`);
-   * by default the mean of #points.
+   * Desired image position of the mean of the points during the motion, for the laws that control the gaze (`ff-sum`,
+   * `ff-lookat`); by default the mean of #points.
    */
   [[nodiscard]] vpServoPoint mean() const;
 };
 
 /*!
  * \ingroup group_feedforward
- * \brief What was seen, this cycle. Reuse one object: assigning to its members then allocates nothing.
+ * \brief Measurement of one cycle. Reuse one object: assigning to its members then allocates nothing.
  */
 struct VISP_EXPORT vpServoMeasurement {
-  bool valid = false; //!< False when the target was not found; nothing else is read then, except #time.
+  bool valid = false; //!< False when the target was not found; all other members except #time are then ignored.
   /*!
-   * Time of capture, s, on the clock of the caller. **No law reads it**: a measurement counts as seen now, and latency is not
-   * compensated by telling the time. vpOdometryBridge reads it; it carries a late measurement to now, to be given to the law.
+   * Time of capture, s, on the clock of the caller. **No law reads it**: a measurement counts as current, and setting
+   * the time does not compensate latency. vpOdometryBridge uses it to predict a late measurement at the current time,
+   * as input for the law.
    */
   double time = 0.;
   vpHomogeneousMatrix cMo;           //!< Pose of the object in the current camera frame, m.
-  std::vector<vpServoPoint> points;  //!< The goal's points in the same order as seen now; see vpServoPoint::visible.
-  std::vector<vpServoPoint> outline; //!< Points that must stay in the view (usually the target's corners), for `+cbf`.
-  vpPoseCovariance covariance; //!< Of #cMo; not known by default. `ff-lookat-pi` does not integrate what is within it.
+  std::vector<vpServoPoint> points;  //!< Current image of the goal's points, same order; see vpServoPoint::visible.
+  std::vector<vpServoPoint> outline; //!< Points that must stay in view (usually the target's corners), for `+cbf`.
+  vpPoseCovariance covariance; //!< Covariance of #cMo, unknown by default; `ff-lookat-pi` ignores errors within it.
 };
 
 END_VISP_NAMESPACE

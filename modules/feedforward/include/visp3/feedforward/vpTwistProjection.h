@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpTwistProjection.h
- * \brief The twist nearest to a wanted one under linear inequalities: a small quadratic program for real-time code.
+ * \brief The twist nearest to a desired one under linear inequalities: a small quadratic program for real-time code.
  */
 #ifndef vpTwistProjection_h
 #define vpTwistProjection_h
@@ -20,9 +20,9 @@ BEGIN_VISP_NAMESPACE
  * \ingroup group_feedforward
  * \brief Solves min |x - x0|^2 subject to a_i^T x >= b_i, for 6 unknowns and a bounded number of rows, exactly.
  *
- * The dual active-set method of Goldfarb and Idnani \cite Goldfarb83 for a unit Hessian: it starts
- * from x0, which satisfies everything else, and adds the most violated row until none is left. No allocation, no
- * exception; a few microseconds. ViSP's vpQuadProg solves the general problem on the heap.
+ * The dual active-set method of Goldfarb and Idnani \cite Goldfarb83 for a unit Hessian: it starts from x0, the
+ * unconstrained optimum, and adds the most violated row until none is left. No allocation, no exception; a few
+ * microseconds. ViSP's vpQuadProg solves the general problem on the heap.
  */
 class VISP_EXPORT vpTwistProjection
 {
@@ -35,31 +35,31 @@ public:
   enum class Result {
     Solved,      //!< solution() is the optimum.
     Infeasible,  //!< No x satisfies all rows; solution() is not meaningful.
-    NotConverged //!< x0 is not finite, or rounding kept it from ending (huge x0); solution() is not meaningful.
+    NotConverged //!< x0 is not finite, or rounding prevented termination (huge x0); solution() is not meaningful.
   };
 
   //! Forget all rows.
   void clear() noexcept { m_rowCount = 0; }
   /*!
-   * Add a . x >= b. Rows are scaled to unit length inside.
+   * Add a . x >= b. Rows are normalised internally.
    * \return False, and the row is not added, when there are #capacity rows already or a number is not finite.
    */
   [[nodiscard]] bool addRow(const Vector &a, double b) noexcept;
   //! Number of rows.
   [[nodiscard]] int rowCount() const noexcept { return m_rowCount; }
 
-  //! Find the point nearest to \e x0 that satisfies all rows to within 1e-10 of their unit length.
+  //! Find the point nearest to \e x0 that satisfies all rows, normalised, to within 1e-10.
   [[nodiscard]] Result solve(const Vector &x0) noexcept;
   //! The optimum of the last solve().
   [[nodiscard]] const Vector &solution() const noexcept { return m_x; }
 
-  //! Number of rows that hold the optimum back (0 when it is x0 itself).
+  //! Number of active rows at the optimum (0 when it is x0 itself).
   [[nodiscard]] int activeCount() const noexcept { return m_activeCount; }
-  //! Index, in the order of addRow(), of the active row number \e i.
+  //! Index, in the order of addRow(), of active row \e i.
   [[nodiscard]] int activeRow(int i) const noexcept { return m_active[i]; }
   /*!
-   * Lagrange multiplier of the active row number \e i, >= 0, for the row scaled to unit length: the optimum is
-   * x0 + sum multiplier(i) a / |a|. This is its proof of optimality.
+   * Lagrange multiplier of active row \e i, >= 0, for the normalised row: the optimum is x0 + sum multiplier(i)
+   * a / |a|, which proves its optimality.
    */
   [[nodiscard]] double multiplier(int i) const noexcept { return m_multipliers[i]; }
 

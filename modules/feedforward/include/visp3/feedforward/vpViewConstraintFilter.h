@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpViewConstraintFilter.h
- * \brief Keeps the target in the image: the least change of a camera twist that does not let it leave.
+ * \brief Keeps the target in the image with the smallest change of the camera twist.
  */
 #ifndef vpViewConstraintFilter_h
 #define vpViewConstraintFilter_h
@@ -23,16 +23,16 @@ struct VISP_EXPORT vpViewConstraintConfig {
   double right = 0.39875;  //!< Right border, > 0.
   double top = -0.3;       //!< Upper border, < 0.
   double bottom = 0.29875; //!< Lower border, > 0.
-  double gamma = 5.;    //!< A point may use up at most this share of its distance to the border per second, 1/s, > 0.
-  double period = 0.01; //!< Longest time for which a twist is executed before the next one, s, > 0.
-  double imageUncertainty = 0.; //!< Bound of the error of the outline's x and y, normalised, >= 0; kept off the border.
+  double gamma = 5.;    //!< A point may use at most this fraction of its distance to the border per second, 1/s, > 0.
+  double period = 0.01; //!< Longest time for which a twist is executed, s, > 0.
+  double imageUncertainty = 0.; //!< Bound of the error of the outline's x and y, normalised, >= 0; added to the margin.
   double depthUncertainty = 0.; //!< Bound of the relative error of the outline's depths, 0..0.9.
   double maxLinear = 1.;        //!< Limit of the linear speed, m/s, > 0.
   double maxAngular = 1.5;      //!< Limit of the angular speed, rad/s, > 0.
 
   /*!
-   * The view of a camera. Its image reaches from the centre of the first pixel to that of the last one; distortion is
-   * not regarded, so with a distorting lens give the undistorted camera.
+   * The view of a camera. The image extends from the centre of the first pixel to the centre of the last one;
+   * distortion is ignored, so with a distorting lens pass the undistorted camera.
    * \throw vpException (badValue) when the size is 0 or the principal point is not inside the image.
    */
   [[nodiscard]] static vpViewConstraintConfig fromCamera(const vpCameraParameters &camera, unsigned int width,
@@ -44,67 +44,68 @@ struct VISP_EXPORT vpViewConstraintConfig {
 /*!
  * \class vpViewConstraintFilter
  * \ingroup group_feedforward
- * \brief Filter behind any servo law: the twist nearest to the wanted one that keeps every outline point in the view.
+ * \brief Filter behind any servo law: the twist nearest to the desired one that keeps every outline point in view.
  *
  * For each outline point and each of the four borders, with b the distance to the border, h = b - m the distance to a
- * line a margin m inside of it, and L the row of the point's interaction matrix, it asks L v >= -gamma h (a control
- * barrier function: near the border the point slows down exponentially) and solves
- * min |v - v0|^2, speeds in units of #vpViewConstraintConfig::maxLinear and #vpViewConstraintConfig::maxAngular.
+ * line inside it by a margin m, and L the row of the point's interaction matrix, it requires L v >= -gamma h (a control
+ * barrier function: near the border the point slows down exponentially) and solves min |v - v0|^2, with speeds in units
+ * of #vpViewConstraintConfig::maxLinear and #vpViewConstraintConfig::maxAngular.
  *
- * **Limits.** v0 is first scaled, as a whole, to the speed limits V0 and W0, and the solution is scaled back to the share of
- * them that v0 took, s0 = max(|v0| / V0, |w0| / W0). One factor for all six components: a twist that satisfies
- * L v >= -gamma h with h >= 0 does so at every smaller speed too, while clipping by axis would break it. V0 and W0 are
- * #vpViewConstraintConfig::maxLinear and #vpViewConstraintConfig::maxAngular, and while a point is visible at most an eighth
- * of the least depth, and 1 / (8 rho1) rad, in a period T.
+ * **Limits.** v0 is first scaled, as a whole, to the speed limits V0 and W0, and the solution is scaled back to the
+ * share of them used by v0, s0 = max(|v0| / V0, |w0| / W0). One factor for all six components: a twist that satisfies
+ * L v >= -gamma h with h >= 0 does so at every smaller speed too, while clipping by axis would violate it. V0, W0 are
+ * #vpViewConstraintConfig::maxLinear and #vpViewConstraintConfig::maxAngular, and while a point is visible at most an
+ * eighth of the smallest depth, and 1 / (8 rho1) rad, in a period T.
  *
- * **The promise.** T is the longer one of \e dt and #vpViewConstraintConfig::period; a longer dt makes the motion slower, not
- * unsafe. If every visible point is inside the view at the beginning (by imageUncertainty), and the camera moves as told, with
- * the constant twist of the answer, then no point is outside at any time from 0 to T.
+ * **Guarantee.** T is the longer of \e dt and #vpViewConstraintConfig::period; a longer dt makes the motion slower, not
+ * unsafe. If every visible point is initially inside the view (by imageUncertainty), and the camera executes the
+ * constant twist returned, then no point is outside at any time from 0 to T.
  *
- * **The proof.** Under a constant twist (v, w) a point at m = (x, y, 1) and depth Z has, with q = P'/Z = -v/Z - w x m,
- * x' = q_x - x q_z, q' = -w x q - q_z q, and so x'' + 2 q_z x' = (1, 0, -x) . (-w x q). All twists of a step, v0 as well as
- * the answer, have |v| <= V = s0 V0 and |w| <= W = s0 W0. With the view radius rho, rho1 = sqrt(1 + rho^2), and n the least
- * depth that the uncertainty allows, Z' >= -V - W rho Z gives Z >= zeta = (n - V T) exp(-W rho T) > 0 while the point is in the
- * view, hence |x'' + 2 q_z x'| <= C = rho1 W (V/zeta + W rho1) and |q_z| <= kappa = V/zeta + W rho. Solved by the integrating
- * factor exp(2 int q_z), which stays in exp(+-2 kappa T): with b the distance to a border and r the outward speed at t = 0,
- * b(t) >= b - r t f - C t^2 exp(2 kappa T) / 2 with some f in exp(+-2 kappa T). The rows see the point up to imageUncertainty
- * u from where it is, which changes r by D = u (V/n + W (1 + 3 rho + 2 u)) at most. Take the smaller one of gamma and
- * exp(-2 kappa T) / (2 T) for gamma, and the margin m = exp(4 kappa T) (C T + 2 D) / gamma.
- * - h >= 0, r <= gamma h + D: b(t) >= b (1 - gamma T exp(2 kappa T)) + exp(2 kappa T) T (gamma m - D - C T / 2) >= 0, for the
- *   first bracket is 1/2 at least and gamma m >= C T + 2 D.
- * - h < 0, r <= D - s gamma (m - b) with s the factor of the scaling, 1/2 at least (with less the filter stands still), hence
- *   b(t) >= b (1 - s gamma t f) + t f (s gamma m - D) - C t^2 exp(2 kappa T) / 2 >= 0, since
+ * **Proof.** Under a constant twist (v, w) a point at m = (x, y, 1) and depth Z has, with q = P'/Z = -v/Z - w x m,
+ * x' = q_x - x q_z, q' = -w x q - q_z q, and so x'' + 2 q_z x' = (1, 0, -x) . (-w x q). All twists of a step, v0 as
+ * well as the result, have |v| <= V = s0 V0 and |w| <= W = s0 W0. With the view radius rho, rho1 = sqrt(1 + rho^2), and
+ * n the smallest depth that the uncertainty allows, Z' >= -V - W rho Z gives Z >= zeta = (n - V T) exp(-W rho T) > 0
+ * while the point is in view, hence |x'' + 2 q_z x'| <= C = rho1 W (V/zeta + W rho1) and |q_z| <= kappa = V/zeta + W
+ * rho. Solved by the integrating factor exp(2 int q_z), which stays in exp(+-2 kappa T): with b the distance to a
+ * border and r the outward speed at t = 0, b(t) >= b - r t f - C t^2 exp(2 kappa T) / 2 with some f in exp(+-2 kappa
+ * T). The rows see the point with an error of up to imageUncertainty u, which changes r by at most D = u (V/n + W (1 +
+ * 3 rho + 2 u)). Take the smaller of gamma and exp(-2 kappa T) / (2 T) for gamma, and the margin m = exp(4 kappa T) (C
+ * T + 2 D) / gamma.
+ * - h >= 0, r <= gamma h + D: b(t) >= b (1 - gamma T exp(2 kappa T)) + exp(2 kappa T) T (gamma m - D - C T / 2) >= 0,
+ *   since the first bracket is at least 1/2 and gamma m >= C T + 2 D.
+ * - h < 0, r <= D - s gamma (m - b) with s the factor of the scaling, at least 1/2 (below that the filter stands
+ *   still), hence b(t) >= b (1 - s gamma t f) + t f (s gamma m - D) - C t^2 exp(2 kappa T) / 2 >= 0, since
  *   s gamma m - D >= exp(4 kappa T) C T / 2.
- * The margin vanishes with the square of the speed towards the goal (but for u) and takes nothing of the view from it.
- * `bin/catchViewConstraintProof` attacks the promise.
+ * The margin vanishes with the square of the speed towards the goal (except for u), so the whole view is usable at the
+ * goal. `bin/catchViewConstraintProof` tests the guarantee with adversarial cases.
  *
  * **Zero twist** is feasible while all h >= 0. A point with h < 0, in the margin or outside the image, has to move
- * inwards (backing away does it for all points, the principal point being in the view); scaled to the speed of v0, so
- * without any wanted motion it stays where it is. If the rows contradict each other the result is zero.
+ * inwards (backing away does it for all points, the principal point being in view); the motion is scaled to the speed
+ * of v0, so without any desired motion the point stays where it is. Contradicting rows give zero.
  *
  * **Deadlock** is possible: the nearest twist may be zero although the goal is not reached. It is reported
- * (vpServoStatus::Deadlock) when less than 2 % of the wanted speed is left.
+ * (vpServoStatus::Deadlock) when less than 2 % of the desired speed is left.
  *
- * **Uncertain depth:** rows hold at both ends of the interval of depths; they are linear in 1/Z, so between them too.
+ * **Uncertain depth:** rows hold at both ends of the depth interval; they are linear in 1/Z, so in between too.
  */
 class VISP_EXPORT vpViewConstraintFilter
 {
 public:
-  //! Largest number of visible outline points: two rows for each border at most.
+  //! Maximum number of visible outline points: at most two rows for each border.
   static constexpr int maxPoints = vpTwistProjection::capacity / 8;
 
   //! \throw vpException (badValue) naming the field and its value.
   explicit vpViewConstraintFilter(const vpViewConstraintConfig &config = {});
 
-  //! The parameters in force.
+  //! Current parameters.
   [[nodiscard]] const vpViewConstraintConfig &config() const { return m_config; }
 
   /*!
    * One cycle.
-   * \param wanted : The law's answer. Any status but Servoing passes through unchanged.
-   * \param outline : Points to keep in the view, as seen now; those not visible are left out. None: only the speed
+   * \param wanted : Output of the law. Any status but Servoing passes through unchanged.
+   * \param outline : Points to keep in view, as currently seen; those not visible are ignored. None: only the speed
    *   limits apply.
-   * \param dt : Time for which the twist will be executed, s; the period of the configuration counts when it is longer.
+   * \param dt : Time for which the twist will be executed, s; at least the period of the configuration is used.
    * \return Servoing with the same twist, ViewLimited with a changed one, Deadlock, or InvalidInput with zero twist
    *   when a visible point is not finite, has a depth <= 0, or more than #maxPoints are visible.
    */
@@ -112,8 +113,8 @@ public:
                                       double dt) noexcept;
 
   /*!
-   * The margin m, normalised, that a point at depth \e Z is kept off the border by.
-   * \param Z : Depth, m, > 0. \param linear, angular : Speed, m/s and rad/s. \param period : s, > 0.
+   * Margin m, normalised, between the border and a point at depth \e Z.
+   * \param Z : Depth, m, > 0. \param linear, angular : Speed, m/s and rad/s. \param period : Time step, s, > 0.
    */
   [[nodiscard]] double margin(double Z, double linear, double angular, double period) const noexcept;
 
@@ -122,7 +123,7 @@ private:
   struct Speeds {
     double linear, angular;
   };
-  // gamma and margin of a point.
+  // Values of gamma and margin for a point.
   struct Bounds {
     double gamma, margin;
   };
@@ -130,7 +131,7 @@ private:
   bool addRows(const vpServoPoint &point, const Speeds &limits, double share, double period) noexcept;
 
   vpViewConstraintConfig m_config;
-  double m_radius; // of the view's farthest corner, normalised
+  double m_radius; // radius of the view's farthest corner, normalised
   bool m_inside;   // all points of this cycle are within the true borders
   vpTwistProjection m_projection;
 };

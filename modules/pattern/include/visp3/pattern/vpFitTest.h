@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpFitTest.h
- * \brief Whether a calibration's model fits its points, and which view and point fit worst.
+ * \brief Tests whether a calibration's model fits its points, and which view and point fit worst.
  */
 #ifndef vpFitTest_h
 #define vpFitTest_h
@@ -17,47 +17,47 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_pattern
-//! \brief What the residuals say of a fit.
+//! \brief Verdict on a fit from its residuals.
 enum class vpFitVerdict {
-  NotTested, //!< There are no more numbers than parameters: nothing can be said.
-  Fits,      //!< The residuals are noise, as far as the tests see.
-  Misfit     //!< They are not: points are wrong, or the model is.
+  NotTested, //!< No more measurements than parameters: no test possible.
+  Fits,      //!< The residuals are consistent with noise.
+  Misfit     //!< The residuals are not noise: some points, or the model, are wrong.
 };
 
 /*!
  * \ingroup group_pattern
  * \brief Tests of a least-squares fit by its residuals.
  *
- * Up to four tests share the probability #level of a false alarm evenly:
- * \li **whole**: the sum of squares against the points' stated deviations (chi-square), when these are stated;
- * \li **views** and **points**: each is left out in turn, and what it misses the fit of the rest by is compared with the
+ * Up to four tests share the false-alarm probability #level evenly:
+ * \li **whole**: the sum of squares against the points' given standard deviations (chi-square), when these are given;
+ * \li **views** and **points**: each is left out in turn, and its misfit to the fit of the rest is compared with the
  * rest's own residuals (Fisher's F, the smallest probability times the number of views or points);
- * \li **field**: for each view, whether the residuals hold a smooth field (a polynomial of second or third degree of the
- * place in the image) that the model lacks (F, likewise).
+ * \li **field**: for each view, whether the residuals contain a smooth field (a polynomial of second or third degree in
+ * the image position) that the model lacks (F, as above).
  *
- * The last three need no stated deviation. The probabilities are exact where the model is linear in what the noise
- * moves, and for normal noise.
+ * The last three need no given deviation. The probabilities are exact for models that are linear over the noise range,
+ * and for normal noise.
  */
 struct VISP_EXPORT vpFitTest {
-  vpFitVerdict verdict = vpFitVerdict::NotTested; //!< What they say together.
-  double level = 0.01;                            //!< Probability that a right fit is called a misfit.
-  //! Of the sum of squares, when the fit is right; NaN: no deviation was stated, or the test cannot be made.
+  vpFitVerdict verdict = vpFitVerdict::NotTested; //!< Verdict of all tests.
+  double level = 0.01;                            //!< Probability that a correct fit is reported as a misfit.
+  //! Probability of the sum of squares, for a correct fit; NaN: no deviation was given, or the test cannot be made.
   double wholeProbability = std::numeric_limits<double>::quiet_NaN();
-  double viewProbability = std::numeric_limits<double>::quiet_NaN();  //!< Of the worst view; NaN for one view.
-  double pointProbability = std::numeric_limits<double>::quiet_NaN(); //!< Of the worst point.
-  double fieldProbability = std::numeric_limits<double>::quiet_NaN(); //!< Of the worst field of a view.
-  int worstView = -1;             //!< The view that fits the others worst; with one view 0. -1: unknown.
-  double worstViewRms = 0.;       //!< Root mean square residual of its points, px.
+  double viewProbability = std::numeric_limits<double>::quiet_NaN();  //!< Probability of worst view; NaN for one view.
+  double pointProbability = std::numeric_limits<double>::quiet_NaN(); //!< Probability of the worst point.
+  double fieldProbability = std::numeric_limits<double>::quiet_NaN(); //!< Probability of the worst field of a view.
+  int worstView = -1;             //!< View that fits the others worst; 0 for one view. -1: unknown.
+  double worstViewRms = 0.;       //!< Root mean square residual of the points of #worstView, px.
   int worstPointView = -1;        //!< View of the point that fits the others worst; -1: unknown.
-  int worstPoint = -1;            //!< That point.
-  double worstPointDistance = 0.; //!< How far it is from where the others put it, px.
+  int worstPoint = -1;            //!< Index of the point in #worstPointView that fits worst.
+  double worstPointDistance = 0.; //!< Distance of that point from its prediction by the others, px.
 
-  //! Name what does not fit, in a sentence; of a fit that holds, how it was tested.
+  //! A sentence naming what does not fit, or the tests that were passed.
   [[nodiscard]] std::string message(double varianceFactor) const;
 };
 
 //! \ingroup group_pattern
-//! \brief The verdict as a word ("Misfit"), for files; static text.
+//! \brief Verdict as a word ("Misfit"), for files; static text.
 [[nodiscard]] VISP_EXPORT const char *toString(vpFitVerdict verdict);
 
 END_VISP_NAMESPACE

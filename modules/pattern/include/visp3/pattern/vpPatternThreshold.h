@@ -6,7 +6,7 @@
  * \file vpPatternThreshold.h
  * \brief Thresholds of table 7.1, computed from a histogram.
  *
- * ViSP's autoThreshold() knows Otsu and Isodata too, but it allocates and overwrites the image, and has no minimum error.
+ * ViSP's autoThreshold() has Otsu and Isodata too, but allocates and overwrites the image, and has no minimum error.
  */
 #ifndef vpPatternThreshold_h
 #define vpPatternThreshold_h
@@ -19,11 +19,11 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_pattern
-//! \brief How the image is divided into bright and dark.
+//! \brief Method that divides the image into bright and dark.
 enum class vpPatternThreshold {
-  Otsu,        //!< Greatest variance between the classes \cite Otsu79.
+  Otsu,        //!< Maximum variance between the classes \cite Otsu79.
   Isodata,     //!< Mean of the class means, iterated \cite Ridler78.
-  MinimumError //!< Two normal distributions of least classification error \cite Kittler86.
+  MinimumError //!< Two normal distributions of minimum classification error \cite Kittler86.
 };
 
 //! \ingroup group_pattern
@@ -31,9 +31,9 @@ enum class vpPatternThreshold {
 using vpPatternHistogram = std::array<std::uint32_t, 256>;
 
 //! \ingroup group_pattern
-//! \brief A threshold and how well it divides.
+//! \brief A threshold and its separability.
 struct VISP_EXPORT vpPatternThresholdResult {
-  int threshold = -1; //!< Values above it are bright; 0 to 254. -1: all pixels have the same value, there is none.
+  int threshold = -1;       //!< Values above it are bright; 0 to 254. -1: none, because all pixels have the same value.
   double separability = 0.; //!< Variance between the classes over the total variance, 0 to 1 (noise alone: about 0.64).
   double darkMean = 0.;     //!< Mean of the values up to the threshold, 0 to 255.
   double brightMean = 0.;   //!< Mean of the values above the threshold, 0 to 255.

@@ -22,32 +22,32 @@ BEGIN_VISP_NAMESPACE
  * \ingroup group_pattern
  * \brief Tracks rectangular, rounded or dot cells that repeat on a lattice (thesis section 7.2.2, with another method).
  *
- * Acquisition: threshold, run-length labels, sub-pixel edges, robust lattice. Then a template is learned from the images
- * themselves and aligned with every cell by Gauss-Newton steps that leave out brightness, contrast and their slopes;
- * pixels under dust and cracks are masked, cells that do not fit are not valid.
+ * Acquisition: threshold, run-length labels, sub-pixel edges, robust lattice. Then a template is learned from the
+ * images themselves and aligned with every cell by Gauss-Newton steps that are invariant to brightness, contrast and
+ * their gradients; pixels under dust and cracks are masked, cells that do not fit are invalid.
  *
- * The motion must stay below half a pitch per frame: a pattern without deviations that moves by 0.8 pitch looks like one
- * that moves by -0.2, and no method can tell. Motion near half a pitch and sudden jumps start a new epoch.
+ * The motion must stay below half a pitch per frame: a motion of a pattern without deviations by 0.8 pitch cannot be
+ * distinguished from one by -0.2. Motion near half a pitch and sudden jumps start a new epoch.
  *
- * All memory is taken in the constructor. track() does not allocate, throw, lock or print.
+ * All memory is allocated in the constructor. track() does not allocate, throw, lock or print.
  */
 class VISP_EXPORT vpPatternTracker
 {
 public:
   /*!
    * \param width, height Size of the images, px, each in [16, 16384].
-   * \param options Checked here.
+   * \param options Validated here.
    * \throw vpException (badValue) that names what is out of range, and its value.
    */
   vpPatternTracker(unsigned int width, unsigned int height, const vpPatternOptions &options = vpPatternOptions());
   ~vpPatternTracker();
-  vpPatternTracker(vpPatternTracker &&) noexcept;            //!< Moves; the other may only be destroyed or assigned to.
-  vpPatternTracker &operator=(vpPatternTracker &&) noexcept; //!< Moves; the other may only be destroyed or assigned to.
+  vpPatternTracker(vpPatternTracker &&) noexcept;            //!< Moves; the source can only be destroyed or assigned.
+  vpPatternTracker &operator=(vpPatternTracker &&) noexcept; //!< Moves; the source can only be destroyed or assigned.
   vpPatternTracker(const vpPatternTracker &) = delete;
   vpPatternTracker &operator=(const vpPatternTracker &) = delete;
 
   /*!
-   * \brief Take the next image.
+   * \brief Process the next image.
    * \param image 8-bit image of the size given to the constructor; another size gives Lost with WrongSize.
    * \return The result, valid until the next call.
    */
@@ -58,13 +58,13 @@ public:
   //! The options in use.
   [[nodiscard]] const vpPatternOptions &options() const;
   /*!
-   * \brief Images are missing before the next one, and how far the product moved meanwhile is not known.
+   * \brief Notify the tracker of missing images, during which the motion of the product is unknown.
    *
-   * The next image with the pattern has no motion and begins a new epoch, with reason ImagesMissing; lattice vectors and
-   * template stay. Call it when a number of the images is skipped, or a camera failed. Does not allocate.
+   * The next image with the pattern has no motion and begins a new epoch, with reason ImagesMissing; lattice vectors
+   * and template are kept. Call it when images were skipped or a camera failed. Does not allocate.
    */
   void interrupt();
-  //! Forget lattice, template and identities; the next image is acquired anew. Does not allocate.
+  //! Forget lattice, template and identities; the next image starts a new acquisition. Does not allocate.
   void reset();
 
 private:

@@ -25,55 +25,55 @@ BEGIN_VISP_NAMESPACE
 
 /*!
  * \ingroup group_pattern
- * \brief What vpTsaiCalibration shall find and what it is told.
+ * \brief Parameters to estimate and given values of vpTsaiCalibration.
  */
 struct VISP_EXPORT vpTsaiCalibrationOptions {
-  double u0 = std::numeric_limits<double>::quiet_NaN(); //!< Principal point, px; NaN: the centre. Start when estimated.
-  double v0 = std::numeric_limits<double>::quiet_NaN(); //!< Principal point, px; NaN: the centre. Start when estimated.
-  double aspect = 1.;                                   //!< py / px, in [0.1, 10]; start when estimated.
-  bool estimateAspect = true;         //!< Find py / px. Ignored for one view of a plane, which cannot tell.
-  bool estimateKappa1 = true;         //!< Find the radial distortion.
-  bool estimatePrincipalPoint = true; //!< Find u0 and v0. Ignored for one view of a plane, which cannot tell.
-  bool sigmaFromResiduals = false;    //!< The points' deviations are only ratios; the residuals tell the common factor.
-  double falseAlarm = 0.01;           //!< vpFitTest::level: right fits that may be called misfits, in [1e-12, 0.5].
+  double u0 = std::numeric_limits<double>::quiet_NaN(); //!< Principal point, px; NaN: the centre. Initial if estimated.
+  double v0 = std::numeric_limits<double>::quiet_NaN(); //!< Principal point, px; NaN: the centre. Initial if estimated.
+  double aspect = 1.;                                   //!< py / px, in [0.1, 10]; initial value when estimated.
+  bool estimateAspect = true;         //!< Estimate py / px. Ignored for one view of a plane (unobservable).
+  bool estimateKappa1 = true;         //!< Estimate the radial distortion.
+  bool estimatePrincipalPoint = true; //!< Estimate u0 and v0. Ignored for one view of a plane (unobservable).
+  bool sigmaFromResiduals = false;    //!< The points' deviations are only ratios; take the factor from the residuals.
+  double falseAlarm = 0.01;           //!< vpFitTest::level: probability of a false misfit, in [1e-12, 0.5].
 
   //! \throw vpException (badValue) naming the field and its value.
   void check() const;
 };
 
 //! \ingroup group_pattern
-//! \brief Numbers of the parameters in vpTsaiCalibrationResult::covariance.
+//! \brief Indices of the parameters in vpTsaiCalibrationResult::covariance.
 enum vpTsaiParameter : int { vpTsaiPx, vpTsaiPy, vpTsaiKappa1, vpTsaiU0, vpTsaiV0, vpTsaiParameterCount };
 
 /*!
  * \ingroup group_pattern
- * \brief The camera with all that tells how good it is.
+ * \brief The camera with its quality measures.
  */
 struct VISP_EXPORT vpTsaiCalibrationResult {
   double px = 0.;                       //!< Focal length over the width of a pixel, px, > 0.
   double py = 0.;                       //!< Focal length over the height of a pixel, px, > 0.
   double u0 = 0.;                       //!< Principal point, px.
   double v0 = 0.;                       //!< Principal point, px.
-  double kappa1 = 0.;                   //!< Of (4.5) with u and v in px (columns), px^-2. ViSP's kdu is kappa1 px^2.
-  std::vector<vpHomogeneousMatrix> cMo; //!< Object in the camera, one for each view, m.
-  //! Of (px, py, kappa1, u0, v0), in their units; zero where a parameter was given. With the aspect given, px and py
-  //! have correlation 1.
+  double kappa1 = 0.;                   //!< (4.5) with u and v in px (columns), px^-2. ViSP's kdu is kappa1 px^2.
+  std::vector<vpHomogeneousMatrix> cMo; //!< Pose of the object in the camera, one per view, m.
+  //! Covariance of (px, py, kappa1, u0, v0), in their units; zero for given parameters. With the aspect given, px and
+  //! py have correlation 1.
   Eigen::Matrix<double, vpTsaiParameterCount, vpTsaiParameterCount> covariance;
-  std::vector<double> viewRms; //!< The same as #residualRms of each view, px.
-  double residualRms = 0.;     //!< Root mean square distance of the points from where they should be seen, px.
-  double varianceFactor = 0.;  //!< Sum of squares over degrees of freedom: 1 when the points' deviations are right.
-  int degreesOfFreedom = 0;    //!< Two per point less the parameters.
-  double condition = 1.;       //!< Of the common parameters, columns scaled to equal length.
-  int iterations = 0;          //!< Of the refinement.
-  bool converged = false;      //!< The refinement came to its end.
-  vpFitTest fit;               //!< Whether the camera fits the points, and which fit worst.
-  //! It converged, the focal length is known to a tenth and the points fit; otherwise #message says what is wrong.
+  std::vector<double> viewRms; //!< Root mean square reprojection error of each view, px.
+  double residualRms = 0.;     //!< Root mean square reprojection error of all points, px.
+  double varianceFactor = 0.;  //!< Sum of squares over degrees of freedom: 1 when the points' deviations are correct.
+  int degreesOfFreedom = 0;    //!< Two per point minus the number of parameters.
+  double condition = 1.;       //!< Condition of the common parameters, columns scaled to equal length.
+  int iterations = 0;          //!< Iterations of the refinement.
+  bool converged = false;      //!< The refinement converged.
+  vpFitTest fit;               //!< Tests whether the camera fits the points.
+  //! Converged, the focal length is known to a tenth and the points fit; otherwise #message gives the reason.
   bool reliable = false;
-  std::string message; //!< All of it in a few sentences.
+  std::string message; //!< Summary in a few sentences.
 
   //! Standard deviation of a parameter, in its unit.
   [[nodiscard]] double sigma(vpTsaiParameter parameter) const;
-  //! For ViSP: px, py, u0, v0, kdu exact, kud = -kdu to first order.
+  //! ViSP camera: px, py, u0, v0, kdu exact, kud = -kdu to first order.
   [[nodiscard]] vpCameraParameters toCamera() const;
 };
 
@@ -86,35 +86,33 @@ struct VISP_EXPORT vpTsaiCalibrationResult {
  * the rotation, tx and ty; (4.6) and (4.7) without distortion, stacked and not added as in (4.10), give f and tz.
  * Step 2 minimises the distance in the image over f, aspect, kappa1, principal point and all poses, weighted.
  *
- * The plane must be tilted: seen straight on, only f / tz can be told (use vpPlanarMicroscopeCalibration); the result
- * is
- * not `reliable` then and the sentence says so. Nor is it when the points do not fit (vpFitTest): outliers, a view whose
- * points have each other's names, wrong distances on the object. A wrong common scale of the object changes only the
- * poses and cannot be seen.
+ * The plane must be tilted: viewed perpendicularly, only f / tz is observable (use vpPlanarMicroscopeCalibration); the
+ * result is then not `reliable` and the message says so. Nor is it when the points do not fit (vpFitTest): outliers, a
+ * view with permuted points, wrong distances on the object. A wrong common scale of the object changes only the poses
+ * and cannot be detected.
  */
 class VISP_EXPORT vpTsaiCalibration
 {
 public:
   /*!
    * \param width, height : Size of the images, px, each in [8, 65536].
-   * \param options : What to find and how.
-   * \throw vpException (badValue) naming what is out of range.
+   * \param options : What to estimate and how.
+   * \throw vpException (badValue) naming the value that is out of range.
    */
   vpTsaiCalibration(unsigned int width, unsigned int height,
                     const vpTsaiCalibrationOptions &options = vpTsaiCalibrationOptions());
 
   /*!
-   * Points of one image; sigmaPlane is not used. At least 6 in a plane, or 8 that are in no plane; none may be behind
-   * the
-   * camera.
-   * \throw vpException (badValue) in a sentence that names view, point, field and value.
+   * Add the points of one image; sigmaPlane is not used. At least 6 in a plane, or 8 not in a plane; none may be behind
+   * the camera.
+   * \throw vpException (badValue) naming view, point, field and value in a sentence.
    */
   void addView(const std::vector<vpCalibrationPoint> &points);
   //! Number of views so far.
   [[nodiscard]] std::size_t viewCount() const { return m_views.size(); }
 
-  //! A misfit of up to 30 views is computed again without each of them, to name the one that does not belong.
-  //! \throw vpException (badValue) when there is no view, (fatalError) when no camera can see a view's points so.
+  //! For a misfit of up to 30 views the calibration is repeated without each of them, to find the wrong one.
+  //! \throw vpException (badValue) when there is no view, (fatalError) when no camera can see a view's points as given.
   [[nodiscard]] vpTsaiCalibrationResult compute() const;
 
 private:

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpPlanarTarget.h
- * \brief Reference image and camera in, pose of the textured plane out.
+ * \brief Pose of a textured plane from a reference image and camera images.
  */
 #ifndef vpPlanarTarget_h
 #define vpPlanarTarget_h
@@ -23,7 +23,7 @@ BEGIN_VISP_NAMESPACE
 enum class vpKeypointType {
   ORB,   //!< OpenCV; fast, the default.
   SIFT,  //!< OpenCV; most precise before refinement, slow.
-  AKAZE, //!< OpenCV; the fallback when ORB finds too few.
+  AKAZE, //!< OpenCV; the fallback when ORB finds too few keypoints.
   KAZE,  //!< OpenCV.
   BRISK, //!< OpenCV.
   SURF   //!< dlib (Debian's OpenCV has none).
@@ -37,64 +37,63 @@ enum class vpKeypointType {
 [[nodiscard]] VISP_EXPORT vpKeypointType keypointTypeFromString(const std::string &name);
 
 //! \ingroup group_planar_target
-//! \brief Settings of a target. The defaults serve 640x480 images of a target that fills a third of the view or more.
+//! \brief Settings of a target. The defaults suit 640x480 images with a target that fills at least a third of the view.
 struct VISP_EXPORT vpPlanarTargetConfig {
   vpKeypointType keypoints = vpKeypointType::ORB; //!< Detector for acquisition.
   bool fallback = true;                           //!< Try AKAZE when the detector above gives too few inliers.
-  unsigned int maxKeypoints = 1500; //!< More find smaller targets and take longer; detectors without a bound ignore it.
-  unsigned int minInliers = 12;     //!< Fewer agreeing matches are TooFewInliers, >= 8.
+  unsigned int maxKeypoints = 1500; //!< More find smaller targets but take longer; detectors without a bound ignore it.
+  unsigned int minInliers = 12;     //!< Minimum number of inliers, below it TooFewInliers, >= 8.
   double inlierThreshold = 3.;      //!< Largest reprojection error of an inlier, px, > 0.
-  double minCorrelation = 0.6;      //!< Below this the pose is not trusted (LowCorrelation), 0..1.
-  unsigned int refinementSize =
-      200; //!< Longer side of the reference at the finest level of the refinement, px; cost grows with its square.
-  unsigned int maxIterations = 30; //!< Of the refinement, over all levels.
-  bool refine = true;              //!< False: keypoints only, for comparison with tables 4.2 and 4.3 of the thesis.
-  bool exact =
-      true; //!< A last stage on the frame's own pixels: the covariance, the choice between two poses, and errors
-            //!< near the least possible. False: none of these, in about half the time. Needs refine.
+  double minCorrelation = 0.6;      //!< Minimum correlation, below it LowCorrelation, 0..1.
+  unsigned int refinementSize = 200; //!< Longer side of the reference at the finest level, px; cost: its square.
+  unsigned int maxIterations = 30;   //!< Maximum number of refinement iterations, over all levels.
+  bool refine = true;                //!< False: keypoints only, for comparison with tables 4.2 and 4.3 of the thesis.
+  //! Last stage on the frame's own pixels: gives the covariance, the choice between two poses, and errors near the
+  //! lower bound. False: none of these, in about half the time. Needs refine.
+  bool exact = true;
 
   //! \throw vpException (badValue) naming the field and its value.
   void validate() const;
 };
 
 //! \ingroup group_planar_target
-//! \brief What a frame cost: a loop at the camera's rate has these bounds.
+//! \brief Effort for one frame, bounded so that it fits a loop at the camera's rate.
 struct VISP_EXPORT vpPlanarTargetEffort {
-  unsigned int followed = 0; //!< Targets tracked from the frame before: what was known then.
-  unsigned int extractions =
-      0;                   //!< Of keypoints, of the whole frame or a part of it: at most 1, 0 when nothing was lost.
-  unsigned int probed = 0; //!< Lost targets of which the most telling keypoints were compared with the frame's.
-  std::size_t comparisons =
-      0;                     //!< For that, in 64-bit words of descriptors: at most 20 million beyond the first target.
-  unsigned int searches = 0; //!< Thorough searches for a lost target: those that found it, and at most one in vain.
+  unsigned int followed = 0;    //!< Targets tracked from the previous frame.
+  unsigned int extractions = 0; //!< Keypoint extractions, whole frame or part: at most 1, 0 when nothing was lost.
+  unsigned int probed = 0;      //!< Lost targets whose most distinctive keypoints were compared with the frame's.
+  //! Comparisons of probed targets, in 64-bit words of descriptors: at most 20 million beyond the first target.
+  std::size_t comparisons = 0;
+  unsigned int searches = 0; //!< Thorough searches for lost targets: all successful ones and at most one failed.
 };
 
 /*!
  * \class vpPlanarTarget
  * \ingroup group_planar_target
- * \brief Finds and follows one textured planar target.
+ * \brief Detects and tracks one textured planar target.
  *
- * process() tracks the target from the frame before by its grey values (photometric Gauss-Newton with Tukey weights, gain
- * and bias); when there is nothing to track, or tracking fails, it acquires it by keypoints (OpenCV's USAC_MAGSAC) and then
- * refines. The first frame is searched by all detectors, as by acquire(). A lost target is looked for with a bounded effort
- * per frame, see vpPlanarTargetEffort: by the detector of the settings, and in every third frame instead by the fallback in
- * one of nine parts of the frame that overlap by half. It never gives a pose that the image does not support: see vpPlanarTargetStatus.
+ * process() tracks the target from the previous frame by its grey values (photometric Gauss-Newton with Tukey weights,
+ * gain and bias); when there is nothing to track, or tracking fails, it acquires the target by keypoints (OpenCV's
+ * USAC_MAGSAC) and then refines the pose. The first frame is searched by all detectors, as by acquire(). A lost target
+ * is searched with a bounded effort per frame, see vpPlanarTargetEffort: by the configured detector, and in every third
+ * frame instead by the fallback in one of nine parts of the frame that overlap by half. It never returns a pose that
+ * the image does not support: see vpPlanarTargetStatus.
  *
- * The last stage fits the picture that the camera should see to the frame's own pixels, whose noise is white, with gain,
- * bias and blur of the camera, and leaves out areas that something hides. It gives the covariance of the pose. Where the
- * perspective is weak, it compares both poses of the plane; the status is Ambiguous until odds of 10,000 and three
- * standard deviations decide, in one frame or in several: evidence fades by a tenth each frame, so a choice can change.
+ * The last stage fits the predicted image to the frame's own pixels, whose noise is white, with gain, bias and blur of
+ * the camera, and excludes occluded areas. It gives the covariance of the pose. Where the perspective is weak, it
+ * compares both poses of the plane; the status is Ambiguous until odds of 10,000 and three standard deviations decide,
+ * in one frame or in several: evidence decays by a tenth each frame, so a choice can change.
  */
 class VISP_EXPORT vpPlanarTarget
 {
 public:
   /*!
    * \param reference : Fronto-parallel image of the target.
-   * \param width, height : Metric size of what the reference image shows, m, > 0.
-   * \param camera : Intrinsics of the images given to process(). Distortion (perspectiveProjWithDistortion) is undone.
+   * \param width, height : Metric size of the area shown in the reference image, m, > 0.
+   * \param camera : Intrinsics of the images given to process(). Distortion (perspectiveProjWithDistortion) is removed.
    * \param config : Settings.
-   * \throw vpException (badValue / dimensionError) naming what is wrong: image under 32x32 px, blank image (too little
-   * texture for keypoints and for the refinement), size not positive, bad setting.
+   * \throw vpException (badValue / dimensionError) naming the error: image under 32x32 px, blank image (too little
+   *   texture for keypoints and for the refinement), size not positive, invalid setting.
    */
   vpPlanarTarget(const vpImage<unsigned char> &reference, double width, double height, const vpCameraParameters &camera,
                  const vpPlanarTargetConfig &config = {});
@@ -104,13 +103,13 @@ public:
 
   //! Track, or acquire when that fails. \param image : Frame of any size of at least 32x32 px.
   const vpPlanarTargetResult &process(const vpImage<unsigned char> &image);
-  //! Acquire by keypoints, whatever was known before.
+  //! Acquire by keypoints, ignoring the previous state.
   const vpPlanarTargetResult &acquire(const vpImage<unsigned char> &image);
   //! Track only, from the last pose.
   const vpPlanarTargetResult &track(const vpImage<unsigned char> &image);
   //! Track only, from \e cMoGuess.
   const vpPlanarTargetResult &track(const vpImage<unsigned char> &image, const vpHomogeneousMatrix &cMoGuess);
-  //! Forget where the target was.
+  //! Forget the pose of the target.
   void reset();
 
   //! The last result.

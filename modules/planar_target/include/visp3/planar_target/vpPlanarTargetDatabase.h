@@ -18,19 +18,19 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_planar_target
-//! \brief One target of the database, as it was seen in the last frame.
+//! \brief One target of the database with its result in the last frame.
 struct VISP_EXPORT vpPlanarTargetSighting {
   std::string name;            //!< Name in the database.
-  double width = 0.;           //!< Metric size of the target, m.
-  double height = 0.;          //!< m.
-  double depth = 0.;           //!< Of the body whose front face the target is, m; 0: not known.
+  double width = 0.;           //!< Width of the target, m.
+  double height = 0.;          //!< Height of the target, m.
+  double depth = 0.;           //!< Depth of the body whose front face is the target, m; 0: not known.
   vpPlanarTargetResult result; //!< Status, and pose if it was found.
 };
 
 /*!
  * \class vpPlanarTargetDatabase
  * \ingroup group_planar_target
- * \brief Looks for every target of a collection in each frame.
+ * \brief Searches for every target of a collection in each frame.
  *
  * A folder holds the reference photographs and a file targets.json that lists them:
  * \code{.json}
@@ -39,16 +39,17 @@ struct VISP_EXPORT vpPlanarTargetSighting {
  *   { "name": "poster", "image": "poster.jpg", "width_m": 0.42 }
  * ] }
  * \endcode
- * Without height_m the height follows from the photograph's aspect ratio; depth_m is for those who want the body behind the
- * picture, and 0 when it is not given. Nothing is left out in silence: a file that
- * cannot be used, an unknown field, or a photograph in the folder that targets.json does not list is an error.
+ * Without height_m the height follows from the photograph's aspect ratio; depth_m is optional, for users who need the
+ * body behind the picture, and 0 when not given. Nothing is skipped silently: an unusable file, an unknown field, or a
+ * photograph in the folder that targets.json does not list is an error.
  *
- * The time of a frame is bounded by what is there, however many targets are not: each target that was seen in the frame
- * before is tracked, and needs no keypoints. The lost ones share one extraction of keypoints; as many as a fixed number of
- * comparisons allows, 25 or more, are compared with it by their most telling keypoints, in turn; the likeliest are searched
- * thoroughly, until the first in vain. See vpPlanarTargetEffort. So a target that comes into view is usually found in the
- * next frame, and after at most as many frames as there are lost targets where it looks like nothing known at first; where
- * only the fallback detector sees it, which looks at one of nine parts of the frame in every third frame, after 27 or more.
+ * The time per frame is bounded by the visible targets, however many are missing: each target seen in the previous
+ * frame is tracked, and needs no keypoints. The lost ones share one extraction of keypoints; as many as a fixed number
+ * of comparisons allows, 25 or more, are compared with it by their most distinctive keypoints, in turn; the most likely
+ * are searched thoroughly, until the first failure. See vpPlanarTargetEffort. So a target that appears is usually found
+ * in the next frame, and after at most as many frames as there are lost targets when it is not recognised at first;
+ * where only the fallback detector finds it, which searches one of nine parts of the frame in every third frame, after
+ * 27 or more.
  */
 class VISP_EXPORT vpPlanarTargetDatabase
 {
@@ -61,34 +62,34 @@ public:
 
   /*!
    * All targets of a folder, in the order of its targets.json.
-   * \throw vpException (ioError, badValue) naming the file, and the field and its value where it is one.
+   * \throw vpException (ioError, badValue) naming the file, and the invalid field and its value.
    */
   [[nodiscard]] static vpPlanarTargetDatabase fromFolder(const std::string &folder, const vpCameraParameters &camera,
                                                          const vpPlanarTargetConfig &config = {});
   /*!
    * Add a target.
-   * \param name : Not empty, each once. \param reference, width, height : As for vpPlanarTarget.
-   * \param depth : For vpPlanarTargetSighting::depth, m, >= 0.
-   * \throw vpException (badValue) naming the target and what is wrong with it.
+   * \param name : Not empty, unique. \param reference, width, height : As for vpPlanarTarget.
+   * \param depth : Value of vpPlanarTargetSighting::depth, m, >= 0.
+   * \throw vpException (badValue) naming the target and the error.
    */
   void add(const std::string &name, const vpImage<unsigned char> &reference, double width, double height,
            double depth = 0.);
 
   //! Number of targets.
   [[nodiscard]] std::size_t size() const;
-  //! Look for all targets. \return One entry for each, in the order in which they were added.
+  //! Search for all targets. \return One entry per target, in the order in which they were added.
   const std::vector<vpPlanarTargetSighting> &process(const vpImage<unsigned char> &image);
-  //! What the last frame cost.
+  //! Effort of the last frame.
   [[nodiscard]] const vpPlanarTargetEffort &effort() const;
-  //! The last result; all NoFrame before the first frame.
+  //! Last result; all NoFrame before the first frame.
   [[nodiscard]] const std::vector<vpPlanarTargetSighting> &sightings() const;
   /*!
-   * Where a target is expected in the next frame, which saves a moving camera from losing what it tracks. Ignored for a
+   * Set the predicted pose of a target in the next frame, so that a moving camera does not lose it. Ignored for a
    * target that was not found in the last frame.
-   * \param i : 0..size()-1. \param cMo : Its pose in the camera then. Ignored when it is not finite.
+   * \param i : 0..size()-1. \param cMo : Predicted pose in the camera. Ignored when it is not finite.
    */
   void predict(std::size_t i, const vpHomogeneousMatrix &cMo);
-  //! Forget where all targets were.
+  //! Forget the poses of all targets.
   void reset();
 
 private:

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpTwoViewDecomposition.h
- * \brief Camera motion between two views of a plane of unknown size: which of the homography's decompositions is true.
+ * \brief Camera motion between two views of a plane of unknown size: selects the true decomposition of the homography.
  */
 #ifndef vpTwoViewDecomposition_h
 #define vpTwoViewDecomposition_h
@@ -22,42 +22,41 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_planar_target
-//! \brief How a decomposition went. Only Unique carries a motion.
+//! \brief Result of a decomposition. Only Unique has a motion.
 enum class vpTwoViewStatus {
   Unique,       //!< One motion, see vpTwoViewResult::best.
-  Ambiguous,    //!< Two motions fit and nothing tells them apart yet: move on, or give a normal prior.
-  PureRotation, //!< sigma1 = sigma3: the camera only turned (or moved too little); plane and translation are unobservable.
+  Ambiguous,    //!< Two motions fit and cannot be distinguished yet: keep moving, or set a normal prior.
+  PureRotation, //!< sigma1 = sigma3: rotation only (or too little motion); plane and translation are unobservable.
   Invalid //!< The homography is not finite, singular or mirrored, a point is not finite, or no motion sees all points
           //!< in front of both cameras.
 };
 
 //! \ingroup group_planar_target
-//! \brief The status as a word ("Unique"), static text.
+//! \brief Status as a word ("Unique"), static text.
 [[nodiscard]] VISP_EXPORT const char *toString(vpTwoViewStatus status);
 
 //! \ingroup group_planar_target
 //! \brief One physically possible motion.
 struct VISP_EXPORT vpTwoViewMotion {
   vpRotationMatrix c2Rc1;               //!< Orientation of the reference camera in the current one.
-  vpTranslationVector t = {0., 0., 0.}; //!< c2tc1 over d, the distance of the plane from the reference camera; no unit.
+  vpTranslationVector t = {0., 0., 0.}; //!< c2tc1 / d, d the distance of the plane from the reference camera; no unit.
   vpColVector normal;                   //!< Unit normal of the plane in the reference camera, pointing away from it.
 };
 
 //! \ingroup group_planar_target
 //! \brief Result of one frame.
 struct VISP_EXPORT vpTwoViewResult {
-  vpTwoViewStatus status = vpTwoViewStatus::Invalid; //!< How it went.
-  std::string message;                               //!< One sentence for a person.
-  vpTwoViewMotion best;                              //!< The motion; meaningful when \e status is Unique.
-  std::vector<vpTwoViewMotion> candidates;           //!< What positive depth leaves: none, one or two.
+  vpTwoViewStatus status = vpTwoViewStatus::Invalid; //!< Status of the frame.
+  std::string message;                               //!< One sentence for users.
+  vpTwoViewMotion best;                              //!< Motion; valid when \e status is Unique.
+  std::vector<vpTwoViewMotion> candidates;           //!< Motions with positive depth: none, one or two.
 };
 
 //! \ingroup group_planar_target
 //! \brief Settings of vpTwoViewDecomposition.
 struct VISP_EXPORT vpTwoViewConfig {
-  double minTranslation = 0.02; //!< Shorter motions, as a share of the plane's distance, are PureRotation, > 0.
-  double normalTolerance =
-      0.0873; //!< Normals closer than this are the same plane, rad, 0..0.5 (5 deg). Raise it with the noise.
+  double minTranslation = 0.02;    //!< Shorter motions, as a fraction of the plane's distance, are PureRotation, > 0.
+  double normalTolerance = 0.0873; //!< Angle up to which normals are equal, rad, 0..0.5 (5 deg). Raise with the noise.
   //! \throw vpException (badValue) naming the field and its value.
   void validate() const;
 };
@@ -65,22 +64,22 @@ struct VISP_EXPORT vpTwoViewConfig {
 /*!
  * \class vpTwoViewDecomposition
  * \ingroup group_planar_target
- * \brief From the Euclidean homography x2 ~ H x1, H = R + t n^T / d, to the motion, in three steps (thesis 4.3.2).
+ * \brief Camera motion from the Euclidean homography x2 ~ H x1, H = R + t n^T / d, in three steps (thesis 4.3.2).
  *
- * -# **Four.** The singular values of H, scaled so that sigma2 = 1, give four triples (R, t/d, n): two planes, each with
- *    the sign of (t, n) open. ViSP's vpHomography::computeDisplacement does it.
+ * -# **Four.** The singular values of H, scaled so that sigma2 = 1, give four triples (R, t/d, n): two planes, each
+ *    with the sign of (t, n) undetermined, by ViSP's vpHomography::computeDisplacement.
  * -# **Two.** All points were seen, so they lie in front of the reference camera: n . x1 > 0 for every point. One sign
- *    of each pair remains, and of the two planes both or one.
- * -# **One.** Two planes explain one pair of views equally well, and no algebra tells them apart. Either the normal
- *    is roughly known (setNormalPrior()), or a further frame decides: the true normal, in the reference frame, is the
- *    same for every motion, the false one changes with it. Hypotheses that no candidate of a new frame confirms are
- *    dropped; until one is left the status is Ambiguous. A decided normal then serves as the prior.
+ *    of each pair remains, for one or both planes.
+ * -# **One.** Two planes explain one pair of views equally well. Either the normal is roughly known (setNormalPrior()),
+ *    or a further frame decides: the true normal, in the reference frame, is the same for every motion, the false one
+ *    changes with it. Hypotheses that no candidate of a new frame confirms are dropped; while more than one is left the
+ *    status is Ambiguous. A decided normal then serves as the prior.
  *
- * Degenerate: with sigma1 - sigma3 = |t| / d below vpTwoViewConfig::minTranslation the camera has only turned; the
+ * Degenerate: with sigma1 - sigma3 = |t| / d below vpTwoViewConfig::minTranslation the camera has only rotated; the
  * decomposition would return noise, so the status is PureRotation. With t parallel to n both planes coincide, and the
- * motion is Unique at once.
+ * motion is immediately Unique.
  *
- * The homography itself comes from vpHomography or OpenCV; in normalised coordinates, not pixels.
+ * The homography comes from vpHomography or OpenCV, in normalised coordinates, not pixels.
  */
 class VISP_EXPORT vpTwoViewDecomposition
 {
@@ -89,17 +88,17 @@ public:
   explicit vpTwoViewDecomposition(const vpTwoViewConfig &config = {});
 
   /*!
-   * The plane is roughly like this, in the reference camera frame: decides between the two planes from the first frame.
-   * \throw vpException (badValue) if \e normal has not 3 finite components or is zero.
+   * Set the approximate plane normal, in the reference camera frame: decides between the two planes at once.
+   * \throw vpException (badValue) if \e normal does not have 3 finite components or is zero.
    */
   void setNormalPrior(const vpColVector &normal);
-  //! Forget the prior and all hypotheses: a new reference view.
+  //! Forget the prior and all hypotheses, for a new reference view.
   void reset();
 
   /*!
-   * One frame.
+   * Process one frame.
    * \param c2Hc1 : Homography from the reference view to the current one, normalised coordinates, any scale.
-   * \param points : Points of the plane that both views see, (x, y) in the reference view, normalised; at least one.
+   * \param points : Points of the plane visible in both views, (x, y) in the reference view, normalised; at least one.
    */
   const vpTwoViewResult &process(const vpHomography &c2Hc1, const std::vector<std::pair<double, double>> &points);
   //! The last result.
@@ -113,7 +112,7 @@ private:
 
   vpTwoViewConfig m_config;
   vpTwoViewResult m_result;
-  std::vector<vpColVector> m_hypotheses; // normals that every frame so far confirmed; one: decided, or the prior
+  std::vector<vpColVector> m_hypotheses; // normals confirmed by every frame so far; one: decided, or the prior
   bool m_hasPrior = false;
 };
 

@@ -18,57 +18,57 @@ BEGIN_VISP_NAMESPACE
 //! \ingroup group_printing
 //! \brief One row of the log.
 struct VISP_EXPORT vpFrictionSample {
-  double force = 0.;        //!< That acted, F.
-  double velocity = 0.;     //!< L/T.
-  double acceleration = 0.; //!< L/T^2.
+  double force = 0.;        //!< Applied force, F.
+  double velocity = 0.;     //!< Velocity, L/T.
+  double acceleration = 0.; //!< Acceleration, L/T^2.
 };
 
 //! \ingroup group_printing
-//! \brief What the identification may be told.
+//! \brief Options of the identification.
 struct VISP_EXPORT vpFrictionIdentificationSpec {
-  bool stribeck = true;      //!< Also stiction and Stribeck velocity; otherwise stiction = Coulomb.
-  double minVelocity = 0.;   //!< Slower samples are not used (they may stick), L/T, >= 0.
-  double outlier = 4.685;    //!< Tukey's bound, in standard deviations, > 1; 4.685 keeps 95 % efficiency.
-  double maxCondition = 1e3; //!< Largest condition number of the scaled regressors, > 1.
+  bool stribeck = true;      //!< Identify stiction and Stribeck velocity, too; otherwise stiction = Coulomb.
+  double minVelocity = 0.;   //!< Slower samples are ignored (they may stick), L/T, >= 0.
+  double outlier = 4.685;    //!< Tukey's bound, in standard deviations, > 1; 4.685 has 95 % efficiency.
+  double maxCondition = 1e3; //!< Maximum condition number of the scaled regressors, > 1.
 
   //! \throw vpException (badValue) naming the field that is out of range, and its value.
   void validate() const;
 };
 
 //! \ingroup group_printing
-//! \brief How an identification ended.
+//! \brief Result of an identification.
 enum class vpFrictionStatus {
-  Good,          //!< All parameters hold.
-  TooFewSamples, //!< Less than ten samples for each parameter.
-  NotExcited,    //!< Velocities or accelerations vary too little to tell the parameters apart; nothing holds.
-  NoStribeck,    //!< The slow samples do not show a Stribeck term; stiction = Coulomb, the rest holds.
-  NotFinite      //!< A sample is not finite or beyond vpPrintingLargest; nothing holds.
+  Good,          //!< All parameters are valid.
+  TooFewSamples, //!< Less than ten samples per parameter.
+  NotExcited,    //!< Velocities or accelerations vary too little to separate the parameters; nothing is valid.
+  NoStribeck,    //!< The slow samples show no Stribeck term; stiction = Coulomb, the rest is valid.
+  NotFinite      //!< A sample is not finite or beyond vpPrintingLargest; nothing is valid.
 };
 
 //! \ingroup group_printing
 //! \brief Parameters with their standard deviations.
 struct VISP_EXPORT vpFrictionIdentification {
-  vpFrictionStatus status = vpFrictionStatus::TooFewSamples; //!< How far to rely on the rest.
-  vpFrictionModel model;                                     //!< Best parameters.
+  vpFrictionStatus status = vpFrictionStatus::TooFewSamples; //!< Reliability of the result.
+  vpFrictionModel model;                                     //!< Estimated parameters.
   double sigmaMass = 0.;                                     //!< Standard deviation of the mass.
-  double sigmaViscous = 0.;                                  //!< Of the viscous friction.
-  double sigmaCoulomb = 0.;                                  //!< Of the Coulomb friction.
-  double sigmaStiction = 0.;                                 //!< Of stiction, at the Stribeck velocity found.
-  double noise = 0.;     //!< Standard deviation of the forces about the model, robust, F.
-  int samples = 0;       //!< Used.
-  int outliers = 0;      //!< Of these, with weight 0.
+  double sigmaViscous = 0.;                                  //!< Standard deviation of the viscous friction.
+  double sigmaCoulomb = 0.;                                  //!< Standard deviation of the Coulomb friction.
+  double sigmaStiction = 0.;                                 //!< Standard deviation of stiction at stribeckVelocity.
+  double noise = 0.;     //!< Standard deviation of the forces from the model, robust, F.
+  int samples = 0;       //!< Number of samples used.
+  int outliers = 0;      //!< Number of samples used with weight 0.
   double condition = 0.; //!< Condition number of the scaled regressors.
 
-  //! The status in a sentence; static text, never null.
+  //! Status as a sentence; static text, never null.
   [[nodiscard]] const char *message() const;
 };
 
 /*!
  * \ingroup group_printing
- * \brief Mass, viscous, Coulomb and Stribeck friction from a log such as a velocity ramp (thesis section 7.3.4): weighted
- * least squares with Tukey's weights, started from absolute values; the Stribeck velocity by a search over the fit.
+ * \brief Mass, viscous, Coulomb and Stribeck friction from a log such as a velocity ramp (thesis section 7.3.4):
+ * weighted least squares with Tukey's weights, starting from an L1 fit; the Stribeck velocity by a search over the fit.
  *
- * Velocities and accelerations are taken as exact: filter them before, without delay between them and the forces.
+ * Velocities and accelerations are assumed exact: filter them before, without delay relative to the forces.
  * Allocates; not for control loops.
  * \throw vpException (badValue) naming a field of \e spec that is out of range.
  */

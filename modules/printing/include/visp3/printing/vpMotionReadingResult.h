@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpMotionReadingResult.h
- * \brief Answer of the motion filters to a measurement.
+ * \brief Result of adding a measurement to a motion filter.
  */
 #ifndef vpMotionReadingResult_h
 #define vpMotionReadingResult_h
@@ -14,14 +14,14 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_printing
-//! \brief What became of a reading. Unless it is Used, Outlier or NoMark, nothing has changed.
+//! \brief Result for a reading. Unless it is Used, Outlier or NoMark, nothing has changed.
 enum class vpMotionReadingResult {
-  Used,            //!< It counts.
-  Outlier,         //!< Beyond the gate.
-  TooLate,         //!< It lies before what can still be corrected.
-  ImplausibleTime, //!< It lies too far ahead of the reading before it: a broken time stamp, or a gap that needs reset().
+  Used,            //!< Used.
+  Outlier,         //!< Rejected: beyond the gate.
+  TooLate,         //!< Earlier than the filter can still correct.
+  ImplausibleTime, //!< Too far ahead of the previous reading: a wrong time stamp, or a gap that needs reset().
   Invalid,         //!< A number is not finite or beyond vpPrintingLargest, or sigma is not > 0.
-  NoMark           //!< A displacement before any Mark: it counts as a Mark.
+  NoMark           //!< A displacement before any Mark: used as a Mark.
 };
 
 END_VISP_NAMESPACE

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpPreviewControl.h
- * \brief The command for the time at which it acts.
+ * \brief Control with preview: each command is computed for the time at which it acts.
  */
 #ifndef vpPreviewControl_h
 #define vpPreviewControl_h
@@ -22,11 +22,11 @@ BEGIN_VISP_NAMESPACE
  */
 struct VISP_EXPORT vpPreviewControlSpec {
   vpFrictionModel model;     //!< Mass and friction of the axis.
-  double positionGain = 0.;  //!< Force per position error, F/L, >= 0. 0: the velocity alone is controlled.
+  double positionGain = 0.;  //!< Force per position error, F/L, >= 0. 0: velocity control only.
   double velocityGain = 0.3; //!< Force per velocity error, F T/L, >= 0.
-  double lag = 0.3;          //!< From command to force, T, >= 0.
+  double lag = 0.3;          //!< Time constant from command to force, T, >= 0.
   double delay = 0.;         //!< Dead time of the command, T, >= 0.
-  double period = 1.;        //!< A command is held for so long, T, > 0.
+  double period = 1.;        //!< Hold time of a command, T, > 0.
   double maxForce = std::numeric_limits<double>::infinity(); //!< |command| <= maxForce, F, > 0.
 
   //! \throw vpException (badValue) naming the field that is out of range, and its value.
@@ -36,39 +36,39 @@ struct VISP_EXPORT vpPreviewControlSpec {
 /*!
  * \class vpPreviewControl
  * \ingroup group_printing
- * \brief Feedforward (7.26) and state feedback, both for the time at which the command acts.
+ * \brief Feedforward (7.26) and state feedback, both computed for the time at which the command acts.
  *
- * A command given now acts from now + delay for one period, through the lag: its feedforward is that of the reference in the
- * middle of this time, actsAt(), with the lag inverted, u = F + lag F'. Its feedback is that of the state predicted for
- * feedbackAt(), when it begins to act. Without memory: the same input gives the same answer.
+ * A command given now acts from now + delay for one period, through the lag: its feedforward is that of the reference
+ * in the middle of this time, actsAt(), with the lag inverted, u = F + lag F'. Its feedback uses the state predicted
+ * for feedbackAt(), when it begins to act. Stateless: the same input gives the same output.
  */
 class VISP_EXPORT vpPreviewControl
 {
 public:
-  //! \brief What is asked in a step; all plausible by vpIsPlausible().
+  //! \brief Input of a step; all values must satisfy vpIsPlausible().
   struct Input {
     vpAxisState reference{};         //!< Position, velocity, acceleration, jerk at actsAt(now).
-    vpAxisState referenceFeedback{}; //!< The same at feedbackAt(now).
-    double position = 0.;            //!< Predicted for feedbackAt(now), L.
-    double velocity = 0.;            //!< Predicted for feedbackAt(now), L/T.
+    vpAxisState referenceFeedback{}; //!< Position, velocity, acceleration, jerk at feedbackAt(now).
+    double position = 0.;            //!< Position predicted for feedbackAt(now), L.
+    double velocity = 0.;            //!< Velocity predicted for feedbackAt(now), L/T.
     double disturbance = 0.;         //!< Friction beyond the model, F.
   };
-  //! \brief What is answered.
+  //! \brief Output of a step.
   struct Output {
     double force = 0.;      //!< Command, F, within maxForce.
-    bool saturated = false; //!< The bound cut the command.
+    bool saturated = false; //!< The command was limited.
     bool valid = false; //!< False: a number of the input is not finite or beyond vpPrintingLargest; the command is 0.
   };
 
   //! \throw vpException (badValue) naming the field of \e spec that is out of range, and its value.
   explicit vpPreviewControl(const vpPreviewControlSpec &spec = vpPreviewControlSpec());
-  //! When a command given at \e now acts in the mean.
+  //! Mean time at which a command given at \e now acts.
   [[nodiscard]] double actsAt(double now) const noexcept { return now + m_spec.delay + 0.5 * m_spec.period; }
-  //! When it begins to act.
+  //! Time at which it begins to act.
   [[nodiscard]] double feedbackAt(double now) const noexcept { return now + m_spec.delay; }
-  //! The command. Does not throw or allocate.
+  //! Compute the command. Does not throw or allocate.
   [[nodiscard]] Output command(const Input &input) const noexcept;
-  //! As given.
+  //! Specification as given.
   [[nodiscard]] const vpPreviewControlSpec &spec() const { return m_spec; }
 
 private:

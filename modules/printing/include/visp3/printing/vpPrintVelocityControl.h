@@ -24,7 +24,7 @@ struct VISP_EXPORT vpPrintVelocityControlSpec {
   double ki = 0.0011;       //!< Force per sum of velocity errors (one each step), F T/L, >= 0.
   double kd = 0.;           //!< Force per change of the velocity error from step to step, F T/L, >= 0. (3.20) has none.
   bool feedforward = false; //!< Add (7.26).
-  vpFrictionModel model;    //!< Of the axis, for the feedforward.
+  vpFrictionModel model;    //!< Model of the axis, for the feedforward.
   double maxForce = std::numeric_limits<double>::infinity(); //!< |command| <= maxForce, F, > 0.
 
   //! PID of figure 7.13: 0.038, 0.0011, 0, without feedforward.
@@ -38,29 +38,29 @@ struct VISP_EXPORT vpPrintVelocityControlSpec {
 /*!
  * \class vpPrintVelocityControl
  * \ingroup group_printing
- * \brief Force from velocity errors, thesis (3.20), (7.25), (7.26). (3.20) is a PI law although the text calls it PID; the
- * D part acts on the difference of errors.
+ * \brief Force from velocity errors, thesis (3.20), (7.25), (7.26). (3.20) is a PI law although the text calls it PID;
+ * the D part acts on the difference of errors.
  *
- * Anti-windup: while the command is at its bound, the integral grows only in the direction that leads away from it.
+ * Anti-windup: while the command is at its bound, the integral changes only in the direction that leads away from it.
  * step() does not allocate, throw, lock or print.
  */
 class VISP_EXPORT vpPrintVelocityControl
 {
 public:
-  //! \brief What is asked in a step.
+  //! \brief Input of a step.
   struct Input {
-    double velocity = 0.;     //!< Reference, L/T.
-    double acceleration = 0.; //!< Reference, L/T^2; for the feedforward.
-    double measured = 0.;     //!< Velocity, filtered or not, L/T.
+    double velocity = 0.;     //!< Reference velocity, L/T.
+    double acceleration = 0.; //!< Reference acceleration, L/T^2; for the feedforward.
+    double measured = 0.;     //!< Measured velocity, filtered or not, L/T.
   };
-  //! \brief What is answered.
+  //! \brief Output of a step.
   struct Output {
     double force = 0.;       //!< Command, F.
     double feedback = 0.;    //!< PID part before the bound, F.
-    double feedforward = 0.; //!< (7.26), F.
-    bool saturated = false;  //!< The bound cut the command.
-    //! False: a number of the input is not finite or beyond vpPrintingLargest. Without velocities the last error and the
-    //! integral stand; without a reference there is no feedforward.
+    double feedforward = 0.; //!< Feedforward (7.26), F.
+    bool saturated = false;  //!< The command was limited.
+    //! False: a number of the input is not finite or beyond vpPrintingLargest. Without velocities the last error and
+    //! the integral are kept; without a reference there is no feedforward.
     bool valid = true;
   };
 
@@ -68,11 +68,11 @@ public:
   explicit vpPrintVelocityControl(const vpPrintVelocityControlSpec &spec = vpPrintVelocityControlSpec());
   //! One period.
   Output step(const Input &input) noexcept;
-  //! Forget errors.
+  //! Reset the errors.
   void reset() noexcept;
   //! Sum of errors so far, L.
   [[nodiscard]] double integral() const { return m_integral; }
-  //! As given.
+  //! Specification as given.
   [[nodiscard]] const vpPrintVelocityControlSpec &spec() const { return m_spec; }
 
 private:

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpPrintingLimits.h
- * \brief Which numbers the steps of this module take for measurements.
+ * \brief Range of valid numbers for the steps of this module.
  */
 #ifndef vpPrintingLimits_h
 #define vpPrintingLimits_h
@@ -17,9 +17,8 @@ BEGIN_VISP_NAMESPACE
 
 /*!
  * \ingroup group_printing
- * \brief Largest magnitude of a time, place, velocity, acceleration, force or deviation that a step takes, in any unit:
- * beyond it a number is a broken one, and no square or product of those within it overflows. Deviations are also at
- * least 1 / vpPrintingLargest.
+ * \brief Largest valid magnitude of a time, position, velocity, acceleration, force or deviation, in any unit: larger
+ * numbers are errors, and within it no square or product overflows. Deviations are also at least 1 / vpPrintingLargest.
  */
 constexpr double vpPrintingLargest = 1e12;
 

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpProductOdometer.h
- * \brief Displacement of the product since the first frame, from the cells that successive frames have in common.
+ * \brief Displacement of the product since the first frame, from cells common to successive frames.
  */
 #ifndef vpProductOdometer_h
 #define vpProductOdometer_h
@@ -18,47 +18,47 @@ BEGIN_VISP_NAMESPACE
 /*!
  * \class vpProductOdometer
  * \ingroup group_printing
- * \brief Adds up vpFindCellVelocity() over the frames. While the same cells are in view, with the same deviations, the sum
- * telescopes: its error is that of two frames, not of all; it walks slowly as cells leave and enter or their weights change.
+ * \brief Sums vpFindCellVelocity() over the frames. While the same cells are in view, with the same deviations, the sum
+ * telescopes: its error is that of two frames only; it drifts slowly as cells leave and enter or their weights change.
  *
- * A dropped frame loses nothing as long as the next one has cells in common with the last one seen. After a change of
- * epoch, or without common cells, the displacement in between is taken from a prediction.
+ * A dropped frame loses nothing if the next one has cells in common with the last one received. After a change of
+ * epoch, or without common cells, the displacement in between is predicted.
  *
  * step() does not allocate, throw, lock or print.
  */
 class VISP_EXPORT vpProductOdometer
 {
 public:
-  //! \brief Where the product is.
+  //! \brief Position of the product.
   struct Output {
     double x = 0.;         //!< Displacement since the first frame, px to the right.
     double y = 0.;         //!< Displacement, px down.
-    double dx = 0.;        //!< Since the last frame that was given, px.
-    double dy = 0.;        //!< As dx, down.
+    double dx = 0.;        //!< Displacement since the last frame given, px to the right.
+    double dy = 0.;        //!< Displacement since the last frame given, px down.
     double sigmaX = 0.;    //!< Standard deviation of dx, px.
-    double sigmaY = 0.;    //!< Of dy, px.
-    int cells = 0;         //!< In common with the last frame.
+    double sigmaY = 0.;    //!< Standard deviation of dy, px.
+    int cells = 0;         //!< Cells in common with the last frame.
     bool measured = false; //!< dx and dy were measured, not predicted.
-    bool lost = false; //!< A displacement since reset() was neither measured nor predicted: x and y are off since then.
+    bool lost = false;     //!< A displacement since reset() was neither measured nor predicted: x and y are wrong.
   };
 
   /*!
-   * \param capacity : Cells of a frame that are kept, 1..65536; more are ignored.
+   * \param capacity : Maximum number of cells per frame, 1..65536; more are ignored.
    * \throw vpException (badValue) naming the capacity and its value.
    */
   explicit vpProductOdometer(int capacity = 1024);
 
   /*!
-   * Take a frame. The first one only sets the start.
-   * \param cells, count : Its cells. \param epoch : Theirs.
-   * \param predictedX, predictedY : Displacement since the last frame to use when none can be measured, px; plausible by
-   * vpIsPlausible().
+   * Process a frame. The first one only sets the origin.
+   * \param cells, count : Cells of the frame. \param epoch : Epoch of the cells.
+   * \param predictedX, predictedY : Displacement since the last frame, used when it cannot be measured, px; must
+   *   satisfy vpIsPlausible().
    */
   const Output &step(const vpPatternCell *cells, std::size_t count, unsigned int epoch, double predictedX = 0.,
                      double predictedY = 0.) noexcept;
-  //! Of the last step.
+  //! Output of the last step.
   [[nodiscard]] const Output &output() const { return m_output; }
-  //! The next frame is the first.
+  //! Restart: the next frame is the first.
   void reset() noexcept;
 
 private:

@@ -18,10 +18,11 @@ BEGIN_VISP_NAMESPACE
 /*!
  * \class vpDirectTrajectory
  * \ingroup group_trajectory
- * \brief N axes from any state to any state within limits that may change at any cycle, as smooth as a minimum-jerk
- * polynomial, with an answer in every case (thesis chapter 6, corrected).
+ * \brief Moves N axes from any state to any state within limits that may change at any cycle, as smooth as a
+ * minimum-jerk polynomial, with an answer in every case. Implements DTG, direct trajectory generation (thesis chapter
+ * 6, corrected).
  *
- * \tparam N Number of axes, or Eigen::Dynamic to give it to the constructor.
+ * \tparam N Number of axes, or Eigen::Dynamic to pass it to the constructor.
  *
  * \code
  * vpDirectTrajectory<3> trajectory;
@@ -36,19 +37,19 @@ BEGIN_VISP_NAMESPACE
  *   robot.setPosition(output.state.q);   // the goal itself
  * }
  * else {
- *   std::cerr << output.status.message(); // an error ends the loop too
+ *   std::cerr << output.status.message(); // an error also ends the loop
  * }
  * \endcode
  *
- * Units are free but the same throughout an axis. update() never allocates, throws, locks or prints. Copyable: a copy
- * carries the whole state of the motion.
+ * Units are free but must be consistent for each axis. update() never allocates, throws, locks or prints. Copyable: a
+ * copy carries the whole state of the motion.
  */
 template <int N> class vpDirectTrajectory
 {
 public:
   /*!
    * \param axes : Number of axes; must be N unless N is Eigen::Dynamic.
-   * \param maxVias : Room for so many vias.
+   * \param maxVias : Maximum number of vias.
    * \throw vpException (badValue) naming the number that is out of range.
    */
   explicit vpDirectTrajectory(int axes = N, int maxVias = 0)
@@ -76,14 +77,15 @@ public:
 
   //! The next update() starts from input.start.
   void reset() noexcept { m_follower.reset(); }
-  //! The plan in force: at(axis, t), peaks(axis), segments(axis), pieces().
+  //! The current plan: at(axis, t), peaks(axis), segments(axis), pieces().
   [[nodiscard]] const vpTrajectoryPlan &plan() const { return m_follower.plan(); }
 
   /*!
-   * The whole motion at once, from input.start to input.goal, without following it, always by the exact method. Allocates.
+   * Plan the whole motion at once, from input.start to input.goal, without executing it, by the exact method.
+   * Allocates.
    * \param input : The problem.
    * \param plan : Receives the motion; unchanged when the input is invalid.
-   * \return How it went, with a sentence.
+   * \return Status of the plan, with a message.
    */
   static vpTrajectoryStatus calculate(const vpTrajectoryInput<N> &input, vpTrajectoryPlan &plan)
   {

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpGoalJitter.h
- * \brief How far a measured goal goes to and fro, and how long a plan should last to be smooth in spite of it.
+ * \brief Estimates the noise of a measured goal, and the plan duration needed for smooth motion in spite of it.
  */
 #ifndef vpGoalJitter_h
 #define vpGoalJitter_h
@@ -18,35 +18,36 @@ BEGIN_VISP_NAMESPACE
 /*!
  * \class vpGoalJitter
  * \ingroup group_trajectory
- * \brief Noise of a goal, told from the goals themselves: what vpReplanPolicy::KeepArrival takes its floor from.
+ * \brief Noise of a goal, estimated from the goals themselves; gives vpReplanPolicy::KeepArrival its minimum duration.
  *
- * A surprise is how far a new goal is from where the old one, moving on with its velocity, would be. Noise makes surprises of
- * alternating sign, since it does not stay; a goal that was moved makes a single one. So the jitter of an axis is the smaller
- * one of two successive surprises of opposite signs: its largest value, which fades by a factor of e in #memory.
+ * A surprise is the distance of a new goal from the old one extrapolated with its velocity. Noise makes surprises of
+ * alternating sign; a goal that was moved makes a single one. So the jitter of an axis is the smaller of two successive
+ * surprises of opposite signs: its largest value, which decays by a factor of e in #memory.
  *
- * Corrections of such a size, made anew at every goal with plans of duration T, take accelerations up to 10/sqrt(3) jitter / T^2
- * and jerks up to 60 jitter / T^3. floor() is #ease times the duration at which a correction would take the limits themselves.
+ * Corrections of this size, made at every new goal with plans of duration T, need accelerations up to
+ * 10/sqrt(3) jitter / T^2 and jerks up to 60 jitter / T^3. floor() is #ease times the duration at which a correction
+ * would reach the limits.
  */
 class VISP_EXPORT vpGoalJitter
 {
 public:
-  static constexpr double memory = 1.; //!< s.
-  static constexpr double ease = 2.;   //!< A correction takes 1 / ease^2 of the acceleration limit.
+  static constexpr double memory = 1.; //!< Decay time constant of the jitter, s.
+  static constexpr double ease = 2.;   //!< Duration factor: a correction takes 1 / ease^2 of the acceleration limit.
 
   /*!
-   * While a goal is on its way, the time left of KeepArrival comes down so many times as fast as time goes by, besides by
-   * itself: the date of a plan that was long for once must not keep the next ones long.
+   * While a goal is moving, the remaining time of KeepArrival also decreases by this many times the elapsed time: one
+   * long plan must not keep the following ones long.
    */
   static constexpr double hurry = 5.;
 
   //! \param axes : Number of axes, >= 1.
   explicit vpGoalJitter(int axes);
 
-  void reset() noexcept;                        //!< No goal was seen.
-  void pass(double dt) noexcept;                //!< Time goes by, s.
-  void see(int axis, double surprise) noexcept; //!< A new goal; NaN and infinity are not noise and are left out.
+  void reset() noexcept;                        //!< Forget all goals.
+  void pass(double dt) noexcept;                //!< Advance the time by dt, s.
+  void see(int axis, double surprise) noexcept; //!< Add the surprise of a new goal; NaN and infinity are ignored.
   [[nodiscard]] double level(int axis) const;   //!< Jitter of an axis, unit.
-  //! Least duration of a plan within the limits of \e problem, s; 0 for a goal that does not jitter.
+  //! Minimum duration of a plan within the limits of \e problem, s; 0 for a goal without jitter.
   [[nodiscard]] double floor(const vpTrajectoryProblem &problem) const noexcept;
 
 private:

@@ -21,8 +21,8 @@ struct VISP_EXPORT vpAxisLimits {
   double velocity = std::numeric_limits<double>::infinity();     //!< |v| <= velocity, unit/s, > 0.
   double acceleration = std::numeric_limits<double>::infinity(); //!< |a| <= acceleration, unit/s^2, > 0.
   double jerk = std::numeric_limits<double>::infinity();         //!< |j| <= jerk, unit/s^3, > 0.
-  double minPosition = -std::numeric_limits<double>::infinity(); //!< Lowest place, relative to the motion's start.
-  double maxPosition = std::numeric_limits<double>::infinity();  //!< Highest place, relative to the motion's start.
+  double minPosition = -std::numeric_limits<double>::infinity(); //!< Lowest position, relative to the motion's start.
+  double maxPosition = std::numeric_limits<double>::infinity();  //!< Highest position, relative to the motion's start.
 };
 
 //! \ingroup group_trajectory
@@ -33,47 +33,47 @@ struct VISP_EXPORT vpNormLimits {
 };
 
 //! \ingroup group_trajectory
-//! \brief Answer of a search for a duration.
+//! \brief Result of a search for a duration.
 struct VISP_EXPORT vpDurationAnswer {
   //! How the search ended.
   enum class Kind {
     Found,      //!< #T is the smallest feasible duration that is not below the floor.
     Infeasible, //!< Proven: no duration at or above the floor is feasible.
-    Undecided   //!< The iterations were used up; every duration below #T is certified infeasible.
+    Undecided   //!< Iteration limit reached; every duration below #T is certified infeasible.
   };
   Kind kind = Kind::Undecided; //!< How the search ended.
-  double T = 0.;               //!< s.
-  int iterations = 0;          //!< Looks at the motion; at most vpMinimumDuration::maxIterations.
+  double T = 0.;               //!< Duration, s.
+  int iterations = 0;          //!< Evaluations of the motion; at most vpMinimumDuration::maxIterations.
 };
 
 /*!
  * \ingroup group_trajectory
  * \brief The smallest T for which the motions of a vpMotionFamily keep their limits.
  *
- * At a fixed s the limit on a derivative of order d reads g(T) = +-d^d p/ds^d (s; T) - L T^d <= 0, a polynomial in T
- * of degree 2 or 3 (4 or 6 for a norm). Starting from a floor, the exact extrema over s at the present T are
- * computed; at each one that breaks its limit, T jumps to the next root of *that extremum's own* g: every T before the
- * root breaks the limit at that s, so nothing is skipped. The largest jump is taken, until nothing is broken (Found)
- * or some g has no root left (Infeasible, a proof). T grows from below and converges quadratically, 4 looks on
- * average. The roots are taken of g shifted to the present T, whose constant is the violation itself: a rounding tie
- * cannot make the search leap to the far root. Peak velocity is not monotone in T and the feasible set may consist of
- * several intervals; both are covered. Replaces the thesis's iteration (6.6), kept as vpThesisDuration.
+ * At a fixed s the limit on a derivative of order d reads g(T) = +-d^d p/ds^d (s; T) - L T^d <= 0, a polynomial in T of
+ * degree 2 or 3 (4 or 6 for a norm). Starting from a lower bound, the exact extrema over s at the current T are
+ * computed; at each one that violates its limit, T jumps to the next root of *that extremum's own* g: every T before
+ * the root violates the limit at that s, so nothing is skipped. The largest jump is taken, until no limit is violated
+ * (Found) or some g has no root left (Infeasible, a proof). T grows from below and converges quadratically, in 4
+ * iterations on average. The roots are those of g shifted to the current T, whose constant term is the violation
+ * itself: a rounding tie cannot make the search jump to the far root. Peak velocity is not monotone in T and the
+ * feasible set may consist of several intervals; both are handled. Replaces the iteration (6.6), see vpThesisDuration.
  *
  * Nothing here allocates or throws.
  */
 namespace vpMinimumDuration
 {
-constexpr int maxIterations = 64;   //!< Bound on the looks at one motion.
-constexpr double tolerance = 2e-13; //!< Relative excess over a limit that counts as kept: rounding.
+constexpr int maxIterations = 64;   //!< Maximum number of evaluations of one motion.
+constexpr double tolerance = 2e-13; //!< Relative excess over a limit that counts as rounding.
 
 /*!
- * One look: \e T itself when the motion keeps its limits at T, otherwise a later duration with everything in between
- * certified infeasible; infinity when no later duration is feasible.
+ * One evaluation: \e T itself when the motion keeps its limits at T, otherwise a later duration with everything in
+ * between certified infeasible; infinity when no later duration is feasible.
  */
 [[nodiscard]] VISP_EXPORT double nextCandidate(const vpMotionFamily &motion, const vpAxisLimits &limits,
                                                double T) noexcept;
 
-//! One look at a norm over \e count motions that share their duration and their share.
+//! One evaluation of a norm over \e count motions that share their duration and their share().
 [[nodiscard]] VISP_EXPORT double nextCandidate(const vpMotionFamily *const motions[], int count,
                                                const vpNormLimits &limits, double T) noexcept;
 
@@ -86,15 +86,15 @@ constexpr double tolerance = 2e-13; //!< Relative excess over a limit that count
                                                  double floor) noexcept;
 
 /*!
- * No motion between these states is shorter: max(|h|/v_max, |dv|/a_max, |da|/j_max), and never below a millionth of
- * v_max/a_max, where coefficients lose their digits.
+ * Lower bound on the duration of any motion between these states: max(|h|/v_max, |dv|/a_max, |da|/j_max), and at least
+ * one millionth of v_max/a_max, where coefficients lose their digits.
  */
 [[nodiscard]] VISP_EXPORT double lowerBound(const vpAxisState &from, const vpAxisState &to,
                                             const vpAxisLimits &limits) noexcept;
 
 /*!
- * A later lower bound than \e T from the limits at three fixed places: where a motion from rest to rest is fastest, and
- * where it accelerates most. Cheaper than a look, because no extrema are sought.
+ * A lower bound later than \e T from the limits at three fixed instants: where a rest-to-rest motion is fastest and
+ * where it accelerates most. Cheaper than nextCandidate(), because no extrema are computed.
  * \return \e T or later; infinity when no later duration is feasible.
  */
 [[nodiscard]] VISP_EXPORT double raiseLowerBound(const vpMotionFamily &motion, const vpAxisLimits &limits,

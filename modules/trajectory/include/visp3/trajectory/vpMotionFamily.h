@@ -25,14 +25,14 @@ using vpAxisState = std::array<double, 4>;
  * \brief All motions p(s; T), s = t/T, that meet the same boundary values, one for each duration T.
  *
  * Each coefficient of p is a polynomial in T of degree <= 3, because a derivative of order k given in 1/s^k enters as
- * T^k times its value. So at a fixed s every derivative of the motion is a polynomial in T too, which is what makes the
+ * T^k times its value. So at a fixed s every derivative of the motion is also a polynomial in T, which makes the
  * smallest duration an exact computation (see vpMinimumDuration). Positions are relative to the start.
  */
 class VISP_EXPORT vpMotionFamily
 {
 public:
-  static constexpr int maxDegree = 8; //!< A via with position, velocity and acceleration.
-  static constexpr int maxPower = 3;  //!< Given jerk enters with T^3.
+  static constexpr int maxDegree = 8; //!< Reached by a via with position, velocity and acceleration.
+  static constexpr int maxPower = 3;  //!< A given jerk enters with T^3.
 
   /*!
    * Point to point. \e order conditions at each end (q, v, a, j in that order): 2 cubic (C1), 3 quintic (C2, the
@@ -41,22 +41,22 @@ public:
   [[nodiscard]] static vpMotionFamily pointToPoint(const vpAxisState &from, const vpAxisState &to, int order);
 
   /*!
-   * Change of velocity with the place of the end left free: \e order conditions at each end, (v), (v, a) or (v, a, j).
-   * Only `to[1]...` is read. order 2 is the quartic ramp of the cruise form.
+   * Change of velocity with free final position: \e order conditions at each end, (v), (v, a) or (v, a, j). Only
+   * `to[1]...` is read. Order 2 is the quartic ramp of the cruise form.
    */
   [[nodiscard]] static vpMotionFamily velocityStep(const vpAxisState &from, const vpAxisState &to, int order);
 
   /*!
-   * Change of acceleration with place and velocity of the end left free: \e order conditions at each end, (a) or (a, j).
-   * order 1 is the linear ramp of the ramped form.
+   * Change of acceleration with free final position and velocity: \e order conditions at each end, (a) or (a, j). Order
+   * 1 is the linear ramp of the ramped form.
    */
   [[nodiscard]] static vpMotionFamily accelerationStep(const vpAxisState &from, const vpAxisState &to, int order);
 
   /*!
    * One via position: the quintic plus one term s^3 (1 - s)^3, degree 6 (thesis (8.7), one T for the whole move).
    * \param from, to : State at the ends.
-   * \param via : Place of the via, same origin as \e from.
-   * \param tau : When, as a fraction of T, 0 < tau < 1.
+   * \param via : Position of the via, same origin as \e from.
+   * \param tau : Time of the via as a fraction of T, 0 < tau < 1.
    */
   [[nodiscard]] static vpMotionFamily throughPosition(const vpAxisState &from, const vpAxisState &to, double via,
                                                       double tau);
@@ -67,7 +67,7 @@ public:
 
   //! The motion of duration T > 0 as a polynomial in s, relative to the start.
   [[nodiscard]] vpPolynomial at(double T) const noexcept;
-  //! The same coefficients, degree() + 1 of them, into \e c.
+  //! Coefficients of at(T), degree() + 1 of them, written to \e c.
   void evaluate(double T, double *c) const noexcept;
   /*!
    * Coefficients in T of the derivative of order \e derivative (0 ... 3) with respect to s, at a fixed \e s:
@@ -79,7 +79,7 @@ public:
   [[nodiscard]] int power() const { return m_power; }   //!< Degree in T.
 
   /*!
-   * True when the derivative of this order is one of the given values at both ends (so it can break no limit there).
+   * True when the derivative of this order is given at both ends (so it cannot violate a limit there).
    */
   [[nodiscard]] bool isGivenAtEnds(int derivative) const
   {
@@ -93,8 +93,8 @@ public:
   }
 
   /*!
-   * A segment of a chain whose ends are given by their coefficients in T of the whole move: used by vpViaSpline.
-   * \param from, to : Value, first and second derivative with respect to s of the segment, each as coefficients in T.
+   * One segment of a chain whose end conditions are coefficients in the T of the whole move: used by vpViaSpline.
+   * \param from, to : Value, first and second derivative of the segment with respect to s, each as coefficients in T.
    * \param share : Duration of the segment as a fraction of T.
    */
   [[nodiscard]] static vpMotionFamily chained(const std::array<std::array<double, 3>, 3> &from,

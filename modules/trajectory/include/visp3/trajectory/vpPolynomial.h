@@ -37,33 +37,33 @@ public:
     std::array<double, maxDegree> s{};                                   //!< The points; the first #count are valid.
     int count = 0;                                                       //!< Number of points.
     [[nodiscard]] const double *begin() const { return s.data(); }       //!< First point.
-    [[nodiscard]] const double *end() const { return s.data() + count; } //!< Behind the last.
+    [[nodiscard]] const double *end() const { return s.data() + count; } //!< One past the last point.
   };
 
-  //! Smallest and largest value on an interval and where they are taken.
+  //! Smallest and largest value on an interval and their locations.
   struct Range {
     double min = 0.;   //!< Smallest value.
     double max = 0.;   //!< Largest value.
-    double atMin = 0.; //!< Where the smallest value is.
-    double atMax = 0.; //!< Where the largest value is.
+    double atMin = 0.; //!< Location of the smallest value.
+    double atMax = 0.; //!< Location of the largest value.
     //! Largest absolute value.
     [[nodiscard]] double peak() const { return max > -min ? max : -min; }
   };
 
   //! The zero polynomial.
   vpPolynomial() = default;
-  //! Coefficients from the constant up, at most maxDegree + 1 of them; more are ignored.
+  //! From coefficients, constant first, at most maxDegree + 1 of them; more are ignored.
   vpPolynomial(std::initializer_list<double> coefficients);
 
   //! Degree as stored: the highest coefficient may be zero.
   [[nodiscard]] int degree() const { return m_degree; }
-  //! Change the degree, clamped to 0 ... maxDegree; coefficients that come in are zero.
+  //! Change the degree, clamped to 0 ... maxDegree; new coefficients are zero.
   void setDegree(int degree);
   //! Coefficient of s^k, 0 <= k <= degree().
   [[nodiscard]] double operator[](int k) const { return m_c[static_cast<std::size_t>(k)]; }
   //! Coefficient of s^k, writable.
   [[nodiscard]] double &operator[](int k) { return m_c[static_cast<std::size_t>(k)]; }
-  //! The coefficients from the constant up.
+  //! Coefficients, constant first.
   [[nodiscard]] const double *data() const { return m_c.data(); }
 
   //! Value at \e s (Horner), any \e s.
@@ -74,15 +74,15 @@ public:
   [[nodiscard]] vpPolynomial derivative() const noexcept;
   //! The product of two polynomials; the sum of their degrees must be at most maxDegree (higher terms are dropped).
   [[nodiscard]] vpPolynomial times(const vpPolynomial &other) const noexcept;
-  //! p(offset + scale u) as a polynomial in u: a part of the curve on its own clock.
+  //! p(offset + scale u) as a polynomial in u: a part of the curve, reparameterised.
   [[nodiscard]] vpPolynomial composed(double offset, double scale) const noexcept;
 
   /*!
    * All real roots in [0, 1], each once, in ascending order.
    *
    * Closed forms up to the quadratic; above, the roots of the derivative split [0, 1] into monotone pieces and each
-   * sign change is closed in on by Newton steps kept inside the bracket. A double root is reported when the value at
-   * the extremum is zero to rounding. The zero polynomial has no roots here.
+   * sign change is refined by Newton steps kept inside the bracket. A double root is reported when the value at the
+   * extremum is zero to rounding. The zero polynomial has no roots here.
    */
   [[nodiscard]] Points roots() const noexcept;
 

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpThesisDuration.h
- * \brief The constraint optimisation of the thesis, (6.6) and algorithm 6.3, as a baseline.
+ * \brief The duration iteration of the thesis, (6.6) and algorithm 6.3, as a baseline.
  */
 #ifndef vpThesisDuration_h
 #define vpThesisDuration_h
@@ -18,8 +18,8 @@ BEGIN_VISP_NAMESPACE
  * \brief T <- T + max(d_v (|v|_max - v_max), d_alpha (|a|_max - a_max)): the proportional iteration of the thesis.
  *
  * Corrected as follows: the peaks are the largest absolute values over all interior extrema and both ends (not the
- * latest root), and time is taken away as well as added. With a fixed gain it needs 6 to 2600 iterations and often does
- * not converge, so the limits are not guaranteed. Kept to be compared with vpMinimumDuration.
+ * latest root), and the duration can decrease as well as increase. With a fixed gain it needs 6 to 2600 iterations and
+ * often does not converge, so the limits are not guaranteed. Kept for comparison with vpMinimumDuration.
  */
 namespace vpThesisDuration
 {
@@ -29,7 +29,7 @@ struct VISP_EXPORT Gains {
   double acceleration = 0.1; //!< d_alpha, s/(unit/s^2), > 0.
 };
 
-//! The extra time of (6.6) for the present \e T: positive when a limit is broken, negative when none is reached.
+//! Extra time of (6.6) at duration \e T: positive when a limit is violated, negative when no limit is reached.
 [[nodiscard]] VISP_EXPORT double extraTime(const vpMotionFamily &motion, const vpAxisLimits &limits, const Gains &gains,
                                            double T) noexcept;
 

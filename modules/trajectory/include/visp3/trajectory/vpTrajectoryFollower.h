@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpTrajectoryFollower.h
- * \brief The control cycle: advance along the plan, replan at events, answer the commanded state.
+ * \brief The control cycle: advance along the plan, replan at events, return the commanded state.
  */
 #ifndef vpTrajectoryFollower_h
 #define vpTrajectoryFollower_h
@@ -18,16 +18,16 @@ BEGIN_VISP_NAMESPACE
 /*!
  * \class vpTrajectoryFollower
  * \ingroup group_trajectory
- * \brief Direct trajectory generation (algorithm 6.2, corrected) for a number of axes known at run time only.
+ * \brief DTG, direct trajectory generation (algorithm 6.2, corrected), with the number of axes known at run time only.
  *
  * vpDirectTrajectory is the typed form that users write. An event is any change of goal, limits, vias or options; the
  * new plan starts at the commanded state of the last cycle, never at a measured one, so the motion is C2 across events.
  *
- * **KeepArrival** is for goals that are measured, with noise, again and again. The time of arrival stays; a plan lasts at least
- * vpGoalJitter::floor(), which grows and fades with the noise that is seen. A goal that has changed since the motion began, and
- * has a velocity, is an object on its way: there the time left comes down again quickly, to that floor, and the plan aims at
- * where the object will be then, q + v floor, within the position limits. (Aimed at q, the motion would lag behind by the
- * duration of its plans for ever.) The plan of the first goal ends at the goal as it was given, as with the other policies.
+ * **KeepArrival** is for goals that are measured repeatedly, with noise. The arrival time stays; a plan lasts at least
+ * vpGoalJitter::floor(), which grows and decays with the measured noise. A goal that has changed since the motion began
+ * and has a velocity is a moving object: the remaining time then decreases quickly to that minimum, and the plan aims
+ * at the predicted position q + v floor, within the position limits. (A plan to q would always lag behind by its own
+ * duration.) The plan of the first goal ends at the goal as given, as with the other policies.
  */
 class VISP_EXPORT vpTrajectoryFollower
 {
@@ -39,19 +39,19 @@ public:
 
   //! One cycle of \e dt seconds, at most 1e9. Never throws, never allocates.
   vpTrajectoryStatus update(const vpTrajectoryProblem &problem, double dt) noexcept;
-  //! One cycle with an input that could not even be read: the motion goes on, the answer is \e fault.
+  //! One cycle with an input that could not be read: the motion continues, the result is \e fault.
   vpTrajectoryStatus advance(const vpTrajectoryStatus &fault, double dt) noexcept;
   //! The next update() starts from the problem's start state.
   void reset() noexcept { m_started = false; }
 
   [[nodiscard]] vpAxisState state(int axis) const noexcept { return m_plan.at(axis, m_clock); } //!< Commanded state.
-  [[nodiscard]] const vpTrajectoryPlan &plan() const { return m_plan; }                         //!< Plan in force.
-  [[nodiscard]] const vpTrajectoryStatus &status() const { return m_status; }                   //!< Of the last cycle.
-  [[nodiscard]] double clock() const { return m_clock; } //!< Since the plan in force began, s.
+  [[nodiscard]] const vpTrajectoryPlan &plan() const { return m_plan; }                         //!< Current plan.
+  [[nodiscard]] const vpTrajectoryStatus &status() const { return m_status; }                   //!< Last status.
+  [[nodiscard]] double clock() const { return m_clock; } //!< Time since the start of the current plan, s.
   [[nodiscard]] double remaining() const
   {
     return m_clock < m_plan.duration() ? m_plan.duration() - m_clock : 0.;
-  }                                                          //!< s.
+  }                                                          //!< Time to arrival, s.
   [[nodiscard]] bool isNewPlan() const { return m_newPlan; } //!< The last cycle made a plan.
 
 private:
@@ -67,20 +67,20 @@ private:
   void tick(double dt) noexcept;
   [[nodiscard]] vpTrajectoryStatus currentStatus(bool arrivedBefore) const noexcept;
 
-  vpTrajectoryProblem m_task; // in force, as the user gave it
-  vpTrajectoryProblem m_rest; // what was left of it when the plan began, from the commanded state
+  vpTrajectoryProblem m_task; // Current task, as given by the user
+  vpTrajectoryProblem m_rest; // The part of m_task left when the plan began, from the commanded state
   vpTrajectoryPlanner m_planner;
   vpTrajectoryPlan m_plan;
   vpGoalJitter m_jitter;
   vpTrajectoryStatus m_status;
   vpTrajectoryStatus m_planStatus;
-  double m_clock = 0.;       // since the plan began
-  double m_sinceReplan = 0.; // for the rate-based use
+  double m_clock = 0.;       // Time since the plan began, s
+  double m_sinceReplan = 0.; // Time since the last replan, s, for replanPeriod
   double m_arrival = 0.;     // FixedArrival: on m_clock
-  double m_goalAge = 0.;     // since the goal was given
+  double m_goalAge = 0.;     // Time since the goal was given, s
   double m_thesisT = 0.;
-  double m_goalInterval = 0.; // between the last two goals, if this event brought one
-  bool m_goalMoves = false;   // it has changed since the motion began, and has a velocity
+  double m_goalInterval = 0.; // Time between the last two goals if this event brought one, s
+  bool m_goalMoves = false;   // The goal has changed since the motion began, and has a velocity
   bool m_thesisBusy = false;
   bool m_started = false;
   bool m_newPlan = false;

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpTrajectoryInput.h
- * \brief What a trajectory is asked and what it answers, typed by the number of axes.
+ * \brief Input and output of a trajectory, typed by the number of axes.
  */
 #ifndef vpTrajectoryInput_h
 #define vpTrajectoryInput_h
@@ -37,12 +37,12 @@ template <int N> struct vpTrajectoryState {
 };
 
 //! \ingroup group_trajectory
-//! \brief A place to go through at the fraction \e tau of the move.
+//! \brief A point to pass at the fraction \e tau of the move.
 template <int N> struct vpTrajectoryVia {
   double tau = 0.5;             //!< Time as a fraction of the whole move, in (0, 1), ascending.
-  vpAxisVector<N> q;            //!< Place.
-  vpAxisVector<N> v;            //!< Velocity there, if given.
-  vpAxisVector<N> a;            //!< Acceleration there, if given.
+  vpAxisVector<N> q;            //!< Position.
+  vpAxisVector<N> v;            //!< Velocity at the via, if given.
+  vpAxisVector<N> a;            //!< Acceleration at the via, if given.
   bool hasVelocity = false;     //!< \e v is given; otherwise it is chosen for least jerk.
   bool hasAcceleration = false; //!< \e a is given too; needs \e hasVelocity.
 
@@ -54,20 +54,20 @@ template <int N> struct vpTrajectoryVia {
  * \ingroup group_trajectory
  * \brief Start, goal, limits, vias and options: everything that vpDirectTrajectory reads, each cycle.
  *
- * Change any member at any cycle; that is an event. \e start is read in the first cycle and after reset() only.
+ * Any member may change at any cycle; that is an event. \e start is read in the first cycle and after reset() only.
  */
 template <int N> struct vpTrajectoryInput {
-  vpTrajectoryState<N> start;      //!< Where the motion begins.
-  vpTrajectoryState<N> goal;       //!< Where it ends. The jerk is read for vpTrajectoryContinuity::C3 only.
-  vpAxisVector<N> maxVelocity;     //!< unit/s, > 0; infinity: none. Of velocity and acceleration one must be limited.
-  vpAxisVector<N> maxAcceleration; //!< unit/s^2, > 0; infinity: none.
-  vpAxisVector<N> maxJerk;         //!< unit/s^3, > 0; infinity (the default): none.
-  vpAxisVector<N> minPosition;     //!< unit; -infinity (the default): none.
-  vpAxisVector<N> maxPosition;     //!< unit; infinity (the default): none.
-  std::vector<vpTrajectoryVia<N>> vias; //!< Vias, at most as many as the trajectory was set up for.
-  vpTrajectoryOptions options;          //!< Everything else.
+  vpTrajectoryState<N> start;           //!< Initial state.
+  vpTrajectoryState<N> goal;            //!< Final state. The jerk is read for vpTrajectoryContinuity::C3 only.
+  vpAxisVector<N> maxVelocity;          //!< unit/s, > 0; infinity: none. Velocity or acceleration must be limited.
+  vpAxisVector<N> maxAcceleration;      //!< unit/s^2, > 0; infinity: none.
+  vpAxisVector<N> maxJerk;              //!< unit/s^3, > 0; infinity (the default): none.
+  vpAxisVector<N> minPosition;          //!< unit; -infinity (the default): none.
+  vpAxisVector<N> maxPosition;          //!< unit; infinity (the default): none.
+  std::vector<vpTrajectoryVia<N>> vias; //!< Vias, at most the maxVias of the trajectory.
+  vpTrajectoryOptions options;          //!< All other options.
 
-  //! At rest at zero with limits of 1.
+  //! At rest at zero with velocity and acceleration limits of 1.
   explicit vpTrajectoryInput(int axes = N == Eigen::Dynamic ? 0 : N)
     : start(axes), goal(axes), maxVelocity(vpAxisVector<N>::Ones(axes)), maxAcceleration(maxVelocity),
       maxJerk(vpAxisVector<N>::Constant(axes, std::numeric_limits<double>::infinity())), minPosition(-maxJerk),
@@ -76,19 +76,19 @@ template <int N> struct vpTrajectoryInput {
 
   /*!
    * Write into \e problem, which must have been made for this number of axes. Never allocates.
-   * \return InvalidInput when a vector has another length or there are too many vias, otherwise Working.
+   * \return InvalidInput when a vector has the wrong length or there are too many vias, otherwise Working.
    */
   vpTrajectoryStatus copyTo(vpTrajectoryProblem &problem) const noexcept;
 };
 
 //! \ingroup group_trajectory
-//! \brief What one cycle answers.
+//! \brief Output of one cycle.
 template <int N> struct vpTrajectoryOutput {
   vpTrajectoryState<N> state; //!< Commanded state.
-  vpTrajectoryStatus status;  //!< How the step went; status.message() is a sentence.
-  double time = 0.;           //!< Since the plan in force began, s.
-  double duration = 0.;       //!< Of the plan in force, s.
-  double remaining = 0.;      //!< Until arrival, s.
+  vpTrajectoryStatus status;  //!< Status of the step; status.message() is a sentence.
+  double time = 0.;           //!< Time since the start of the current plan, s.
+  double duration = 0.;       //!< Duration of the current plan, s.
+  double remaining = 0.;      //!< Time to arrival, s.
   bool newPlan = false;       //!< This cycle made a plan.
 
   //! All zero.

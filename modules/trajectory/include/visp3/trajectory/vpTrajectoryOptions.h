@@ -21,24 +21,24 @@ BEGIN_VISP_NAMESPACE
 //! \ingroup group_trajectory
 //! \brief Highest derivative that is continuous across replans (6.2, "trajectory type").
 enum class vpTrajectoryContinuity {
-  C1, //!< Cubic: position and velocity. The acceleration jumps.
-  C2, //!< Quintic: and acceleration; the minimum-jerk motion.
-  C3  //!< Septic: and jerk, except where an axis has to brake hard to stay inside its limits.
+  C1, //!< Cubic: position and velocity are continuous. The acceleration jumps.
+  C2, //!< Quintic: acceleration too; the minimum-jerk motion.
+  C3  //!< Septic: jerk too, except where an axis has to brake hard to stay within its limits.
 };
 
 //! \ingroup group_trajectory
-//! \brief What happens to the time of arrival when the goal or the limits change.
+//! \brief What happens to the arrival time when the goal or the limits change.
 enum class vpReplanPolicy {
-  EventMinTime, //!< Smallest duration, found anew at events only: never shortened in between, which would spoil the ending.
-  KeepArrival, //!< The time of arrival stays; it is put off when the limits or the goal's noise need it. For measured goals: vpTrajectoryFollower.
-  FixedArrival //!< The time of arrival is given: vpTrajectoryOptions::arrivalTime.
+  EventMinTime, //!< Smallest duration, recomputed at events only: in between it would spoil the final approach.
+  KeepArrival,  //!< The arrival time stays unless the limits or the goal's noise delay it; see vpTrajectoryFollower.
+  FixedArrival  //!< The arrival time is given: vpTrajectoryOptions::arrivalTime.
 };
 
 //! \ingroup group_trajectory
-//! \brief How the axes go together.
+//! \brief How the axes are synchronised.
 enum class vpSynchronisation {
   Time,     //!< All axes arrive at the same time.
-  Straight, //!< All axes stay on the straight line to the goal when start and goal velocities lie on it, otherwise Time.
+  Straight, //!< All axes stay on the straight line to the goal if start and goal velocities lie on it, else Time.
   None      //!< Each axis arrives as early as it can.
 };
 
@@ -50,7 +50,7 @@ enum class vpDurationMethod {
 };
 
 //! \ingroup group_trajectory
-//! \brief What a FixedArrival plan does when the limits do not allow the given time. The result is ArrivalInfeasible in both cases.
+//! \brief FixedArrival when the limits do not allow the given time. The result is ArrivalInfeasible in both cases.
 enum class vpLateArrival {
   Extend,      //!< Keep the limits and arrive at the earliest feasible time.
   ExceedLimits //!< Keep the time with a single polynomial and exceed the limits (printing; figure 6.5).
@@ -83,22 +83,23 @@ struct VISP_EXPORT vpTrajectoryOptions {
 
   vpTrajectoryContinuity continuity = vpTrajectoryContinuity::C2; //!< Continuity across replans.
   vpReplanPolicy policy = vpReplanPolicy::EventMinTime;           //!< Replanning policy.
-  vpSynchronisation synchronisation = vpSynchronisation::Time;    //!< How the axes go together.
-  vpDurationMethod method = vpDurationMethod::Exact;              //!< How the duration is found.
-  vpLateArrival lateArrival = vpLateArrival::Extend;              //!< For FixedArrival.
+  vpSynchronisation synchronisation = vpSynchronisation::Time;    //!< Synchronisation of the axes.
+  vpDurationMethod method = vpDurationMethod::Exact;              //!< Method that finds the duration.
+  vpLateArrival lateArrival = vpLateArrival::Extend;              //!< Infeasible arrival times of FixedArrival.
   /*!
-   * Allow ramp, constant velocity, ramp where that saves a fifth of the time of the single polynomial (long moves), or where
-   * that has no feasible time. For C2: axes without a group, groups at rest at both ends, the line of Straight.
+   * Allow ramp, constant velocity, ramp where that saves a fifth of the time of the single polynomial (long moves), or
+   * where the single polynomial has no feasible time. For C2: axes without a group, groups at rest at both ends, the
+   * line of Straight.
    */
   bool cruise = true;
-  double arrivalTime = 0.;     //!< FixedArrival: s from the event that set it, > 0.
-  double minimumDuration = 0.; //!< No plan is shorter than this, s, >= 0; the floor of KeepArrival.
-  double freeze = 0.05;     //!< Within this time of the arrival a plan is not recomputed without a new goal, s, >= 0.
-  double replanPeriod = 0.; //!< Rate-based use (6.2.1): recompute the polynomial every so often, s; 0: at events only.
+  double arrivalTime = 0.;     //!< FixedArrival: arrival time, s from the event that set it, > 0.
+  double minimumDuration = 0.; //!< Minimum duration of a plan, s, >= 0; the minimum of KeepArrival.
+  double freeze = 0.05;        //!< Within this time before arrival a plan is recomputed for a new goal only, s, >= 0.
+  double replanPeriod = 0.;    //!< Rate-based use (6.2.1): period for recomputing the polynomial, s; 0: at events only.
   double thesisVelocityGain = 0.5;             //!< d_v of (6.6), s/(unit/s), > 0.
   double thesisAccelerationGain = 0.1;         //!< d_alpha of (6.6), s/(unit/s^2), > 0.
-  int thesisStepsPerCycle = 1000;              //!< 1 spreads the iteration over the cycles (figure 6.6), >= 1.
-  std::array<vpAxisGroup, maxGroups> groups{}; //!< Limits on norms; a group without axes is not used.
+  int thesisStepsPerCycle = 1000;              //!< Iterations per cycle; 1 spreads them over cycles (figure 6.6), >= 1.
+  std::array<vpAxisGroup, maxGroups> groups{}; //!< Limits on norms; a group without axes is ignored.
 };
 
 //! \ingroup group_trajectory

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpTrajectoryPlan.h
- * \brief A planned motion of several axes: polynomials one after another, and what can be asked of them.
+ * \brief A planned motion of several axes as a sequence of polynomials, and its queries.
  */
 #ifndef vpTrajectoryPlan_h
 #define vpTrajectoryPlan_h
@@ -17,14 +17,14 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_trajectory
-//! \brief The shape that an axis was given.
+//! \brief Form of the motion of one axis.
 enum class vpTrajectoryForm {
-  Hold,   //!< Start and goal are the same.
-  Direct, //!< One polynomial (or one per via), the minimum-jerk motion.
-  Cruise, //!< Ramp, constant velocity, ramp.
-  Ramped, //!< Acceleration ramps around a polynomial: no single polynomial keeps the limits.
-  StopAndGo, //!< Comes to rest, goes, and takes up the final velocity: keeps position and group limits that nothing else keeps.
-  Vias //!< From via to via, because no single duration keeps the limits over all of them.
+  Hold,      //!< Start and goal are the same.
+  Direct,    //!< One polynomial (or one per via), the minimum-jerk motion.
+  Cruise,    //!< Ramp, constant velocity, ramp.
+  Ramped,    //!< Acceleration ramps around a polynomial: no single polynomial keeps the limits.
+  StopAndGo, //!< Stop, move, accelerate to the final velocity: keeps position and group limits when no other form does.
+  Vias       //!< Via by via, because no single duration keeps the limits over all of them.
 };
 
 //! \ingroup group_trajectory
@@ -32,18 +32,18 @@ enum class vpTrajectoryForm {
 [[nodiscard]] VISP_EXPORT const char *toString(vpTrajectoryForm form);
 
 //! \ingroup group_trajectory
-//! \brief A polynomial on its own clock: q(t) = p((t - begin)/duration).
+//! \brief A polynomial in its own normalised time: q(t) = p((t - begin)/duration).
 struct VISP_EXPORT vpTrajectorySegment {
-  double begin = 0.;    //!< s from the start of the plan.
-  double duration = 0.; //!< s, > 0.
-  vpPolynomial p;       //!< Position in s = (t - begin)/duration; the constant is the place itself.
+  double begin = 0.;    //!< Start, s from the start of the plan.
+  double duration = 0.; //!< Duration, s, > 0.
+  vpPolynomial p;       //!< Position in s = (t - begin)/duration; the constant term is the absolute position.
 };
 
 //! \ingroup group_trajectory
 //! \brief Exact extremes of one axis over a plan.
 struct VISP_EXPORT vpTrajectoryPeaks {
-  double minPosition = 0.;  //!< Lowest place.
-  double maxPosition = 0.;  //!< Highest place.
+  double minPosition = 0.;  //!< Lowest position.
+  double maxPosition = 0.;  //!< Highest position.
   double velocity = 0.;     //!< Largest |v|, unit/s.
   double acceleration = 0.; //!< Largest |a|, unit/s^2.
   double jerk = 0.;         //!< Largest |j|, unit/s^3.
@@ -53,98 +53,98 @@ struct VISP_EXPORT vpTrajectoryPeaks {
 //! \ingroup group_trajectory
 //! \brief An interval in which every axis is one polynomial in t - begin, for reports.
 struct VISP_EXPORT vpTrajectoryPiece {
-  double begin = 0.;                             //!< s from the start of the plan.
-  double end = 0.;                               //!< s from the start of the plan.
-  std::vector<std::vector<double>> coefficients; //!< Per axis, from the constant up, in t - begin (s).
+  double begin = 0.;                             //!< Start, s from the start of the plan.
+  double end = 0.;                               //!< End, s from the start of the plan.
+  std::vector<std::vector<double>> coefficients; //!< Per axis, constant first, in t - begin (s).
 };
 
 /*!
  * \class vpTrajectoryPlan
  * \ingroup group_trajectory
- * \brief An immutable motion, as a value. Made by vpTrajectoryPlanner; reading it never allocates except pieces().
+ * \brief An immutable motion, as a value. Made by vpTrajectoryPlanner; queries never allocate except pieces().
  */
 class VISP_EXPORT vpTrajectoryPlan
 {
 public:
   /*!
-   * An empty plan with room for its axes.
+   * An empty plan with capacity for its axes and vias.
    * \throw vpException (badValue) when \e axes < 1 or \e maxVias < 0.
    */
   explicit vpTrajectoryPlan(int axes, int maxVias = 0);
 
   [[nodiscard]] int axes() const { return m_axes; }            //!< Number of axes.
-  [[nodiscard]] double duration() const { return m_duration; } //!< Until the last axis arrives, s.
-  //! Until this axis arrives, s: below duration() with vpSynchronisation::None only.
+  [[nodiscard]] double duration() const { return m_duration; } //!< Arrival of the last axis, s.
+  //! Arrival of this axis, s: below duration() with vpSynchronisation::None only.
   [[nodiscard]] double duration(int axis) const { return m_tracks[static_cast<std::size_t>(axis)].duration; }
   [[nodiscard]] double brakingEnd() const
   {
     return m_brakingEnd;
-  } //!< Until the start is back inside the limits, s; 0: it was.
+  } //!< Time until the start is back within the limits, s; 0: it was inside.
   [[nodiscard]] vpTrajectoryForm form(int axis) const
   {
     return m_tracks[static_cast<std::size_t>(axis)].form;
-  } //!< Shape of an axis.
-  //! The worst form over the axes.
+  } //!< Form of an axis.
+  //! The worst form of all axes.
   [[nodiscard]] vpTrajectoryForm form() const;
-  [[nodiscard]] int iterations() const { return m_iterations; } //!< Most looks that one search of this plan took.
+  [[nodiscard]] int iterations() const { return m_iterations; } //!< Maximum iterations of one search of this plan.
 
   /*!
-   * State of an axis at time \e t (s from the start of the plan), any finite t. Before the start: the start. At the end
-   * exactly the goal. After it a goal acceleration is ramped down and a goal velocity is kept, until the axis has to
-   * brake for a position limit.
+   * State of an axis at time \e t (s from the start of the plan), any finite t. Before the start: the start state. At
+   * the end: exactly the goal. Afterwards a goal acceleration is ramped down and a goal velocity is kept, until the
+   * axis has to brake for a position limit.
    */
   [[nodiscard]] vpAxisState at(int axis, double t) const noexcept;
   //! Number of segments of an axis.
   [[nodiscard]] int segments(int axis) const { return m_tracks[static_cast<std::size_t>(axis)].count; }
-  //! Number of segments that follow the arrival, until the velocity stays; 0 when the goal is at rest.
+  //! Number of segments after the arrival, until the velocity is constant; 0 when the goal is at rest.
   [[nodiscard]] int coasting(int axis) const { return m_tracks[static_cast<std::size_t>(axis)].coasting; }
   //! Segment \e i of an axis, 0 <= i < segments(axis) + coasting(axis).
   [[nodiscard]] const vpTrajectorySegment &segment(int axis, int i) const { return m_segments[index(axis, i)]; }
   //! Number of vias that the plan goes through.
   [[nodiscard]] int vias() const { return m_vias; }
-  //! When via \e k is passed, s from the start of the plan.
+  //! Time at which via \e k is passed, s from the start of the plan.
   [[nodiscard]] double viaTime(int k) const { return m_viaTimes[static_cast<std::size_t>(k)]; }
   //! Exact extremes of an axis until its arrival, from the roots of the derivatives.
   [[nodiscard]] vpTrajectoryPeaks peaks(int axis) const noexcept;
   /*!
    * Exact peak of the Euclidean norm of the velocities (order 1) or accelerations (order 2) over the axes whose bit is
-   * set in \e axes, from the time \e from on, what follows the arrival included.
+   * set in \e axes, from the time \e from on, including the motion after arrival.
    */
   [[nodiscard]] double peakNorm(unsigned long long axes, int order, double from = 0.) const noexcept;
-  //! The plan cut at every change of polynomial of any axis. Allocates.
+  //! The plan split at every change of polynomial of any axis. Allocates.
   [[nodiscard]] std::vector<vpTrajectoryPiece> pieces() const { return pieces(m_duration); }
-  //! The same until another time than the arrival, s > 0. Allocates.
+  //! The plan split as in pieces(), until the time \e until, s > 0, instead of the arrival. Allocates.
   [[nodiscard]] std::vector<vpTrajectoryPiece> pieces(double until) const;
 
   /*! \name For planners */
   //! @{
-  void clear() noexcept;                                          //!< Forget the motion, keep the room.
-  void begin(int axis, double q, vpTrajectoryForm form) noexcept; //!< Start the track of an axis at place \e q.
-  //! Append a motion relative to where the track ends now. Ignored when \e duration is not > 0 or the room is used up.
+  void clear() noexcept;                                          //!< Forget the motion, keep the capacity.
+  void begin(int axis, double q, vpTrajectoryForm form) noexcept; //!< Start the track of an axis at position \e q.
+  //! Append a motion relative to the end of the track. Ignored when \e duration is not > 0 or the capacity is used up.
   void append(int axis, const vpPolynomial &relative, double duration) noexcept;
   //! Append a change of velocity from the state \e x.
   void appendRamp(int axis, const vpVelocityRamp &ramp, const vpAxisState &x) noexcept;
-  //! The leg ends at this very time, s from the start of the plan: what its segments add up to, without their rounding.
+  //! Set the exact end time of the leg, s from the start of the plan, free of the rounding of its segment durations.
   void endLeg(int axis, double t) noexcept;
-  //! Close a track with the exact goal; what is appended from now on follows the arrival.
+  //! Close a track with the exact goal; everything appended later follows the arrival.
   void finish(int axis, const vpAxisState &goal) noexcept;
   void rest(int axis) noexcept { m_tracks[static_cast<std::size_t>(axis)].coast = 0.; } //!< The track ends at rest.
-  //! All numbers that can be asked for are finite.
+  //! True when all numbers of the plan are finite.
   [[nodiscard]] bool isFinite() const noexcept;
   void setBrakingEnd(double t) { m_brakingEnd = t; } //!< See brakingEnd().
   void setIterations(int n) { m_iterations = n; }    //!< See iterations().
-  void addVia(double t) noexcept; //!< The next via is passed at \e t. Ignored when the room is used up.
+  void addVia(double t) noexcept; //!< Add the time \e t of the next via. Ignored when the capacity is used up.
   //! @}
 
 private:
   struct Track {
     int count = 0;    // segments until the arrival
-    int coasting = 0; // and after it
+    int coasting = 0; // segments after the arrival
     bool finished = false;
     double duration = 0.; // until the arrival
-    double end = 0.;      // of the last segment
-    double place = 0.;    // where that is
-    double coast = 0.;    // velocity from then on
+    double end = 0.;      // end of the last segment
+    double place = 0.;    // position at end
+    double coast = 0.;    // velocity after end
     vpAxisState goal{};
     vpTrajectoryForm form = vpTrajectoryForm::Hold;
   };
@@ -163,7 +163,7 @@ private:
   double m_brakingEnd = 0.;
   int m_iterations = 0;
   std::vector<Track> m_tracks;
-  std::vector<vpTrajectorySegment> m_segments; // axes x capacity: sized at construction, so that a copy keeps its room
+  std::vector<vpTrajectorySegment> m_segments; // axes x capacity: sized at construction, so copies keep the capacity
   std::vector<double> m_viaTimes;
 };
 

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpTrajectoryPlanner.h
- * \brief From a problem to a plan: the whole motion at once.
+ * \brief From a problem to a plan of the whole motion.
  */
 #ifndef vpTrajectoryPlanner_h
 #define vpTrajectoryPlanner_h
@@ -19,14 +19,14 @@ BEGIN_VISP_NAMESPACE
 /*!
  * \class vpTrajectoryPlanner
  * \ingroup group_trajectory
- * \brief Plans the motion of several axes from any state to any state within limits. Always answers.
+ * \brief Plans the motion of several axes from any state to any state within limits. Always returns a motion.
  *
  * Each axis gets a single polynomial of the exact smallest duration (vpMinimumDuration) when one exists; otherwise
- * acceleration ramps around a polynomial; when position or group limits rule that out too, it stops and goes. All axes
- * are then brought to one duration, which only ever grows, until every one of them keeps its limits at it. "Smallest"
- * means within these forms, not over all motions.
+ * acceleration ramps around a polynomial; when position or group limits exclude that too, it stops and restarts. Then
+ * all axes are brought to one common duration, which is increased until every axis keeps its limits. "Smallest" means
+ * within these forms, not over all motions.
  *
- * Scratch memory only: two calls with the same problem give the same plan. Allocates at construction only.
+ * Has no state except scratch memory: the same problem gives the same plan. Allocates at construction only.
  */
 class VISP_EXPORT vpTrajectoryPlanner
 {
@@ -42,19 +42,19 @@ public:
   vpTrajectoryPlanner &operator=(vpTrajectoryPlanner &&) noexcept;  //!< Moves.
 
   /*!
-   * Plan. Never throws, never allocates.
+   * Plan the whole motion. Never throws, never allocates.
    * \param problem : Valid, see vpTrajectoryProblem::validate().
-   * \param floor : No plan is shorter than this, s.
+   * \param floor : Minimum duration of the plan, s.
    * \param plan : Receives the motion.
-   * \return Working, Braking, NoFeasibleDuration or ArrivalInfeasible (the value is then the earliest feasible arrival),
-   *   decided by one exact check of all limits on the finished motion; the status tells the largest excess.
+   * \return Working, Braking, NoFeasibleDuration or ArrivalInfeasible (the value is then the earliest feasible
+   *   arrival), decided by one exact check of all limits on the finished motion; the status gives the largest excess.
    *   With FixedArrival the floor is the arrival time.
    */
   vpTrajectoryStatus plan(const vpTrajectoryProblem &problem, double floor, vpTrajectoryPlan &plan) noexcept;
 
   /*!
-   * A single polynomial per axis of this duration (clamped to 1e-9 ... 1e12 s), whatever the limits (figure 6.5, and the thesis's
-   * iteration). The status tells what they have to say to it.
+   * A single polynomial per axis of this duration (clamped to 1e-9 ... 1e12 s), whatever the limits (figure 6.5, and
+   * the thesis's iteration). The status reports any excess over the limits.
    */
   vpTrajectoryStatus planDirect(const vpTrajectoryProblem &problem, double T, vpTrajectoryPlan &plan) noexcept;
 

@@ -20,19 +20,19 @@ BEGIN_VISP_NAMESPACE
 /*!
  * \class vpTrajectoryProblem
  * \ingroup group_trajectory
- * \brief What vpTrajectoryPlanner is asked, with the number of axes known at run time only.
+ * \brief Input of vpTrajectoryPlanner, with the number of axes known at run time only.
  *
- * vpTrajectoryInput is the typed form that users write; this is what it becomes. Allocates at construction only.
+ * vpTrajectoryInput is its typed form for users. Allocates at construction only.
  */
 class VISP_EXPORT vpTrajectoryProblem
 {
 public:
-  //! One number per axis each.
+  //! Fields with one number per axis.
   enum Field {
     StartQ,
     StartV,
     StartA,
-    StartJ, //!< Start state; the rest is what an event may change.
+    StartJ, //!< Start state; an event may change the other fields.
     GoalQ,
     GoalV,
     GoalA,
@@ -48,16 +48,16 @@ public:
   /*!
    * At rest at zero, without limits.
    * \param axes : Number of axes, >= 1.
-   * \param maxVias : Room for so many vias, >= 0.
+   * \param maxVias : Maximum number of vias, >= 0.
    * \throw vpException (badValue) naming the number that is out of range.
    */
   explicit vpTrajectoryProblem(int axes, int maxVias = 0);
 
   [[nodiscard]] int axes() const { return m_axes; }       //!< Number of axes.
-  [[nodiscard]] int maxVias() const { return m_maxVias; } //!< Room for vias.
+  [[nodiscard]] int maxVias() const { return m_maxVias; } //!< Maximum number of vias.
   [[nodiscard]] int vias() const { return m_vias; }       //!< Number of vias in use.
 
-  //! The numbers of a field, axes() of them.
+  //! Values of a field, axes() of them.
   [[nodiscard]] double *field(Field f) { return m_values.data() + index(f, 0); }
   [[nodiscard]] const double *field(Field f) const { return m_values.data() + index(f, 0); } //!< \overload
 
@@ -65,7 +65,7 @@ public:
   void setViaCount(int count) { m_vias = count; }
   /*!
    * Sets a via.
-   * \param k : Which one, 0 <= k < maxVias().
+   * \param k : Index of the via, 0 <= k < maxVias().
    * \param tau : Time as a fraction of the whole move.
    * \param q, v, a : axes() numbers each; \e v, \e a may be null: left free.
    */
@@ -74,33 +74,33 @@ public:
   [[nodiscard]] int viaOrder(int k) const
   {
     return m_viaOrders[static_cast<std::size_t>(k)];
-  } //!< 1: q; 2: q, v; 3: q, v, a.
-  //! Place, velocity and acceleration of via \e k on \e axis.
+  } //!< Given values, 1: q; 2: q, v; 3: q, v, a.
+  //! Position, velocity and acceleration of via \e k on \e axis.
   [[nodiscard]] vpAxisState viaState(int k, int axis) const;
-  //! Forget the first \e count vias and put the others on the clock of what is left of the move from fraction \e done on.
+  //! Forget the first \e count vias; rescale the others to the part of the move left after the fraction \e done.
   void dropVias(int count, double done);
 
-  //! Take goal, limits and options of \e other, made for as many axes, and keep the vias.
+  //! Take goal, limits and options of \e other, which has the same number of axes, and keep the vias.
   void takeTask(const vpTrajectoryProblem &other);
 
   void setStart(int axis, const vpAxisState &x);   //!< Set the start state of an axis.
   [[nodiscard]] vpAxisState start(int axis) const; //!< Start state of an axis.
   [[nodiscard]] vpAxisState goal(int axis) const;  //!< Goal state of an axis.
   /*!
-   * Limits of an axis, positions as given. States of start, goal and vias that are beyond a limit within
-   * vpLimit::tolerance are on it: the limit is moved to them.
+   * Limits of an axis, positions as given. A state of start, goal or vias beyond a limit by no more than
+   * vpLimit::tolerance counts as on it: the limit is moved to the state.
    */
   [[nodiscard]] vpAxisLimits limits(int axis) const;
-  //! Limits on the norms of group \e g, moved to those of start and goal in the same way.
+  //! Limits on the norms of group \e g, moved to the norms of start and goal in the same way.
   [[nodiscard]] vpNormLimits groupLimits(int g) const;
 
-  //! Goal, limits, vias and options are the same (the start is not compared).
+  //! True when goal, limits, vias and options are the same (the start is not compared).
   [[nodiscard]] bool sameTask(const vpTrajectoryProblem &other) const;
-  //! The vias are the same.
+  //! True when the vias are the same.
   [[nodiscard]] bool sameVias(const vpTrajectoryProblem &other) const;
   /*!
    * Check every number.
-   * \param startToo : Also the start state.
+   * \param startToo : Check the start state, too.
    * \return InvalidInput with the first fault found, or Working.
    */
   [[nodiscard]] vpTrajectoryStatus validate(bool startToo) const noexcept;

@@ -16,24 +16,24 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_trajectory
-//! \brief How the step went. The motion is safe to execute in every case (with the exceptions that the user asked for by name).
+//! \brief Result of a step. The motion is safe to execute in every case, unless an option explicitly allows excess.
 enum class vpTrajectoryResult {
   Working,            //!< On the way, within the limits.
   Finished,           //!< The goal was reached in this cycle.
-  Holding,            //!< The goal was reached before; nothing changed.
-  Braking,            //!< The start was outside the limits: coming back inside as fast as the limits allow.
-  InvalidInput,       //!< The input has a bad value; the motion goes on as planned before.
-  NoFeasibleDuration, //!< Not all limits can be kept: the motion keeps the others, and exceeds these as little as it can.
-  ArrivalInfeasible   //!< The given arrival time cannot be kept within the limits.
+  Holding,            //!< The goal was reached earlier; nothing changed.
+  Braking,            //!< The start was outside the limits: returning inside as fast as the limits allow.
+  InvalidInput,       //!< The input has an invalid value; the motion continues as planned before.
+  NoFeasibleDuration, //!< Not all limits can be kept: the motion keeps the others and exceeds these minimally.
+  ArrivalInfeasible   //!< The given arrival time is not feasible within the limits.
 };
 
 /*!
  * \ingroup group_trajectory
- * \brief The condition of a loop of steps: true while the motion goes to its goal within the limits (Working, Braking).
+ * \brief Loop condition: true while the motion goes to its goal within the limits (Working, Braking).
  *
- * False ends the loop: at the goal (Finished, Holding), or at an error that more cycles with the same input do not mend
- * (InvalidInput, NoFeasibleDuration, ArrivalInfeasible); vpTrajectoryStatus::message() names it. An error does not stop the
- * motion: further cycles lead on along the plan in force, so a program may also mend the input, or brake, and go on.
+ * False ends the loop: at the goal (Finished, Holding), or at an error that more cycles with the same input cannot fix
+ * (InvalidInput, NoFeasibleDuration, ArrivalInfeasible); vpTrajectoryStatus::message() names it. An error does not stop
+ * the motion: further cycles follow the current plan, so a program may also correct the input, or brake, and go on.
  */
 [[nodiscard]] constexpr bool isWorking(vpTrajectoryResult result)
 {
@@ -41,7 +41,7 @@ enum class vpTrajectoryResult {
 }
 
 //! \ingroup group_trajectory
-//! \brief What the matter is, in detail.
+//! \brief Detailed reason of a result.
 enum class vpTrajectoryFault {
   None,                    //!< Nothing.
   StartNotFinite,          //!< A number of the start state is NaN or infinite.
@@ -61,11 +61,11 @@ enum class vpTrajectoryFault {
   GroupAxis,               //!< A group names an axis that does not exist, or an axis of another group.
   ViaNotFinite,            //!< A number of a via is NaN or infinite.
   ViaTime,                 //!< tau of a via is not in (0, 1).
-  ViaOrder,                //!< tau of a via is not above that of the one before.
+  ViaOrder,                //!< tau of a via is not above the tau of the previous via.
   ViaOutsideLimits,        //!< Position, velocity or acceleration of a via is outside the limits.
-  TooManyVias,             //!< More vias than were set up.
+  TooManyVias,             //!< More vias than the maximum.
   ViaContinuity,           //!< Vias need continuity C2.
-  AxisCount,               //!< A vector has not one number per axis.
+  AxisCount,               //!< A vector does not have one number per axis.
   ArrivalTime,             //!< The arrival time of FixedArrival is not within 1e-9 to 1e12 s.
   Duration,                //!< minimumDuration, freeze or replanPeriod is not within 0 to 1e12 s.
   ThesisGain,              //!< A gain of (6.6) is not within 1e-12 to 1e12.
@@ -73,15 +73,15 @@ enum class vpTrajectoryFault {
   NotARotation,            //!< The rotation of a pose is not orthonormal to 1e-6.
   TimeStep,                //!< dt is not > 0 and at most 1e9 s.
   GoalContradiction,       //!< The goal cannot be approached within the limits (such as v = v_max with a < 0).
-  LimitExceeded,           //!< A limit cannot be kept; vpTrajectoryStatus::excess tells which and by how much.
-  StartOutsideLimits, //!< The start is outside a limit; vpTrajectoryStatus::excess tells how far the motion is at most.
-  NotStraight,        //!< The axes arrive together, but not on the straight line that was asked for.
-  NoMotion,           //!< No motion could be computed; the axes come to rest.
-  ArrivalTooEarly     //!< The given arrival time needs more than the limits allow.
+  LimitExceeded,           //!< A limit cannot be kept; vpTrajectoryStatus::excess gives the limit and the excess.
+  StartOutsideLimits,      //!< The start is outside a limit; vpTrajectoryStatus::excess gives the maximum.
+  NotStraight,             //!< The axes arrive together, but not on the straight line requested.
+  NoMotion,                //!< No motion could be computed; the axes come to rest.
+  ArrivalTooEarly          //!< The given arrival time is too early for the limits.
 };
 
 //! \ingroup group_trajectory
-//! \brief Which limit is meant.
+//! \brief Kind of limit.
 enum class vpTrajectoryLimit {
   None,             //!< None is exceeded.
   MinPosition,      //!< Lowest position of an axis.
@@ -95,15 +95,15 @@ enum class vpTrajectoryLimit {
 
 /*!
  * \ingroup group_trajectory
- * \brief A limit and how far a motion goes beyond it, at its exact extremum.
+ * \brief A limit and the excess of a motion over it, at its exact extremum.
  */
 struct VISP_EXPORT vpLimitExcess {
-  vpTrajectoryLimit limit = vpTrajectoryLimit::None; //!< Which limit.
+  vpTrajectoryLimit limit = vpTrajectoryLimit::None; //!< Kind of limit.
   int index = -1;                                    //!< Axis or group, from 0.
   double value = 0.;                                 //!< Largest value; the lowest position for MinPosition.
-  double bound = 0.;                                 //!< What is allowed.
+  double bound = 0.;                                 //!< Allowed value.
 
-  //! By how much, >= 0, in the unit of the limit.
+  //! Excess, >= 0, in the unit of the limit.
   [[nodiscard]] double amount() const
   {
     return limit == vpTrajectoryLimit::MinPosition ? bound - value : value - bound;
@@ -112,18 +112,18 @@ struct VISP_EXPORT vpLimitExcess {
 
 /*!
  * \ingroup group_trajectory
- * \brief Result with its reason: which axis, which value.
+ * \brief Result with its reason: the axis and the value concerned.
  */
 struct VISP_EXPORT vpTrajectoryStatus {
-  vpTrajectoryResult result = vpTrajectoryResult::Holding; //!< How the step went.
-  vpTrajectoryFault fault = vpTrajectoryFault::None;       //!< Why, when something is wrong.
-  int index = -1;                                          //!< Axis (from 0), via or group that is meant; -1: none.
-  double value = 0.;    //!< The value that is wrong, or the earliest feasible arrival in s.
-  vpLimitExcess excess; //!< The limit that the motion exceeds most, relative to it; None: all are kept, to 1e-9.
+  vpTrajectoryResult result = vpTrajectoryResult::Holding; //!< Result of the step.
+  vpTrajectoryFault fault = vpTrajectoryFault::None;       //!< Reason, when something is wrong.
+  int index = -1;                                          //!< Axis (from 0), via or group concerned; -1: none.
+  double value = 0.;    //!< The invalid value, or the earliest feasible arrival in s.
+  vpLimitExcess excess; //!< The limit exceeded most, relative to it; None: all are kept, to 1e-9.
 
   //! Holding, without a fault.
   constexpr vpTrajectoryStatus() = default;
-  //! From its parts.
+  //! Status from its parts.
   constexpr vpTrajectoryStatus(vpTrajectoryResult theResult, vpTrajectoryFault theFault, int theIndex, double theValue,
                                const vpLimitExcess &theExcess = {})
     : result(theResult), fault(theFault), index(theIndex), value(theValue), excess(theExcess)

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpTwistShaper.h
- * \brief Makes any commanded twist start from the present one, with bounded acceleration and jerk.
+ * \brief Makes any commanded twist start from the current one, with bounded acceleration and jerk.
  */
 #ifndef vpTwistShaper_h
 #define vpTwistShaper_h
@@ -35,19 +35,21 @@ struct VISP_EXPORT vpTwistShaperLimits {
 /*!
  * \class vpTwistShaper
  * \ingroup group_trajectory
- * \brief Put after any vpServo or servo law: raw twist in, twist with bounded acceleration (and jerk) out.
+ * \brief Filter for the output of any vpServo or servo law: bounds the acceleration (and jerk) of a raw twist.
  *
- * Classical visual servoing answers v = -lambda L^+ e, whose first value is a step: infinite acceleration at t = 0
- * (thesis, 6.1.1, figure 6.1). The shaper follows the raw twist along the time-optimal ramps of vpVelocityRamp, planned
- * anew each cycle from its own commanded twist and acceleration. With constant input it arrives exactly, in finite time.
+ * Classical visual servoing commands v = -lambda L^+ e, whose first value is a step: infinite acceleration at t = 0
+ * (thesis, 6.1.1, figure 6.1). The shaper follows the raw twist along the time-optimal ramps of vpVelocityRamp,
+ * replanned each cycle from its own commanded twist and acceleration. A constant input is reached exactly, in finite
+ * time.
  *
- * **Speed.** It is never faster than the fastest wish so far (norms of the linear and of the angular part, each for itself; the
- * twist given to reset() counts as a wish), however the wishes turn: wishes behind limitTwist() come out within its limits. The
- * ramps of the components alone do not promise that: together they cut the corners of a turning wish on the outside. Proof:
- * from velocity v and acceleration a, braking with the full jerk J against a leads straight to p = v + a |a| / (2 J). So long as
- * |v| and |p| are at most V, a ball being convex, braking never leaves the ball of V, and neither v nor p of the next cycle
- * does. Where the ramps would lead out of V = max(|wish|, |v|, |p|), the cycle is the mixture of ramps and braking, as much of
- * the ramps as V allows; velocity, acceleration and jerk of a mixture are within the bounds of its parts.
+ * **Speed.** The output is never faster than the fastest input so far (norms of the linear and of the angular part
+ * separately; the twist given to reset() counts as an input), however the input turns: inputs limited by limitTwist()
+ * give outputs within its limits. Ramps per component alone do not guarantee that: combined, they overshoot when the
+ * input turns. Proof: from velocity v and acceleration a, braking with the full jerk J against a leads straight to
+ * p = v + a |a| / (2 J). While |v| and |p| are at most V, a ball being convex, braking never leaves the ball of radius
+ * V, and neither v nor p of the next cycle does. Where the ramps would leave V = max(|input|, |v|, |p|), the cycle
+ * mixes ramps and braking, with as much of the ramps as V allows; velocity, acceleration and jerk of a mixture are
+ * within the bounds of its parts.
  *
  * \code
  * vpTwistShaper shaper(limits);
@@ -65,33 +67,33 @@ public:
    */
   explicit vpTwistShaper(const vpTwistShaperLimits &limits = {});
 
-  static constexpr double implausible = 1e6; //!< No velocity (m/s, rad/s) or acceleration is that large.
-  static constexpr double longestStep = 1.;  //!< s.
+  static constexpr double implausible = 1e6; //!< Larger velocities (m/s, rad/s) and accelerations are invalid.
+  static constexpr double longestStep = 1.;  //!< Maximum time step, s.
 
   /*!
-   * Start anew from this twist and this rate of change (m/s^2, rad/s^2), for example those of a moving robot; from rest when a
-   * number is not finite or above #implausible.
+   * Restart from this twist and this rate of change (m/s^2, rad/s^2), for example those of a moving robot; from rest
+   * when a number is not finite or above #implausible.
    */
   void reset(const vpTwist &twist = {}, const vpTwist &acceleration = {});
   /*!
-   * Change the limits; they hold from the next cycle on. An acceleration above a lowered limit comes down at full jerk.
+   * Change the limits from the next cycle on. An acceleration above a lowered limit decreases at full jerk.
    * \throw vpException (badValue) naming a limit that is out of its range.
    */
   void setLimits(const vpTwistShaperLimits &limits);
 
   /*!
    * One cycle. Never throws, never allocates.
-   * \param raw : The wished twist, in any fixed component meaning (usually the camera frame). When a number is not finite or
-   *   above #implausible the shaper brakes towards zero instead.
-   * \param dt : Time since the last call, s. When it is not finite and > 0 the twist stays as it is; more than #longestStep
-   *   counts as that, so that after a pause, or with a wrong clock, the twist does not step.
+   * \param raw : Desired twist; components in any fixed frame (usually the camera frame). When a number is not finite
+   *   or above #implausible the shaper brakes to zero instead.
+   * \param dt : Time since the last call, s. When it is not finite and > 0 the twist is unchanged; more than
+   *   #longestStep counts as #longestStep, so that the twist does not step after a pause or with a wrong clock.
    * \return The twist to command.
    */
   [[nodiscard]] vpTwist update(const vpTwist &raw, double dt) noexcept;
 
   //! The commanded twist.
   [[nodiscard]] const vpTwist &twist() const { return m_twist; }
-  //! Its present rate of change, m/s^2 and rad/s^2.
+  //! Current rate of change of the twist, m/s^2 and rad/s^2.
   [[nodiscard]] const vpTwist &acceleration() const { return m_acceleration; }
 
 private:

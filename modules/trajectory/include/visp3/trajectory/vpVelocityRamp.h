@@ -16,27 +16,27 @@ BEGIN_VISP_NAMESPACE
 /*!
  * \class vpVelocityRamp
  * \ingroup group_trajectory
- * \brief The fastest way from (v, a) to (v_target, 0) with |a| <= a_max and |j| <= j_max: at most four pieces of
+ * \brief The fastest transition from (v, a) to (v_target, 0) with |a| <= a_max and |j| <= j_max: at most four pieces of
  * constant jerk.
  *
- * Used to brake from outside the limits and, one cycle at a time, by vpTwistShaper. A start beyond a_max first comes
- * back to it at full jerk.
+ * Used to brake from outside the limits and, one cycle at a time, by vpTwistShaper. A start beyond a_max first returns
+ * to it at full jerk.
  */
 class VISP_EXPORT vpVelocityRamp
 {
 public:
-  static constexpr int maxPieces = 4; //!< Most stretches of a ramp.
+  static constexpr int maxPieces = 4; //!< Maximum number of pieces of a ramp.
 
-  //! A stretch of constant jerk.
+  //! A piece of constant jerk.
   struct Piece {
-    double duration = 0.; //!< s, >= 0.
-    double jerk = 0.;     //!< unit/s^3.
+    double duration = 0.; //!< Duration, s, >= 0.
+    double jerk = 0.;     //!< Jerk, unit/s^3.
   };
 
   //! No motion.
   vpVelocityRamp() = default;
   /*!
-   * \param v, a : Present velocity and acceleration.
+   * \param v, a : Initial velocity and acceleration.
    * \param target : Velocity to reach with zero acceleration.
    * \param maxAcceleration, maxJerk : Limits, > 0 and finite.
    */
@@ -44,12 +44,12 @@ public:
 
   //! Total duration, s.
   [[nodiscard]] double duration() const { return m_duration; }
-  //! Number of pieces, 0 when the target is reached already.
+  //! Number of pieces, 0 when the target is already reached.
   [[nodiscard]] int count() const { return m_count; }
   //! Piece \e i of count().
   [[nodiscard]] const Piece &piece(int i) const { return m_pieces[static_cast<std::size_t>(i)]; }
   /*!
-   * State at time \e t >= 0 with the place counted from \e q; after the end the velocity stays at the target, exactly.
+   * State at time \e t >= 0, starting at position \e q; after the end the velocity is exactly the target.
    */
   [[nodiscard]] vpAxisState at(double q, double t) const noexcept;
 
