@@ -19,8 +19,8 @@ namespace printExplore
  * blur.
  *
  * Gains of the observer's control are constant in seconds: it knows the delay and is limited by the lag of the drives.
- * PID gains, the poles of their filter and its prediction are slowed down or sped up with the loop's delay (camera, half
- * a frame, lag) relative to the thesis: kp x delay is always that of the thesis.
+ * PID gains, the poles of their filter and its prediction are slowed down or sped up with the loop's delay (camera,
+ * half a frame, lag) relative to the thesis: kp x delay is always that of the thesis.
  * \param sensor : Errors expected by the estimators, px of this camera.
  * \throw vpException naming a field that the experiment rejects.
  */
