@@ -26,7 +26,7 @@ struct PhotoScene {
   std::string name;
   vpCollisionSceneSpec known;              //!< Objects known from the start, and the ground.
   std::vector<vpMovingObstacle> obstacles; //!< Objects to be seen.
-  std::vector<vpObjectPhoto> carriers;     //!< Which obstacle carries which target.
+  std::vector<vpObjectPhoto> carriers;     //!< Assignment of targets to obstacles.
   vpSceneCameraSpec camera;                //!< Camera, with the photographs.
   std::string targets;                     //!< Folder of all known photographs.
   vpMotionTask task;                       //!< First task of the file.

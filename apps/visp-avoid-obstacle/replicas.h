@@ -30,13 +30,13 @@ struct Comparison {
 //! \brief A reproduced figure.
 struct Replica {
   std::string name;                 //!< "fig8.7"
-  std::string title;                //!< What the figure shows.
+  std::string title;                //!< Content of the figure.
   std::vector<std::string> story;   //!< Results; the first sentence is the main one.
   std::vector<std::string> choices; //!< Choices made where the thesis leaves values open.
   std::vector<Comparison> comparisons;
   std::vector<Figure> figures;
   std::vector<std::pair<std::string, std::string>> tables; //!< Names and content of CSV files.
-  nlohmann::ordered_json numbers;                          //!< For summary.json.
+  nlohmann::ordered_json numbers;                          //!< Results for summary.json.
 };
 
 //! Names for --replica: "fig8.6" to "fig8.13".

@@ -16,7 +16,7 @@ namespace planCompare
 {
 //! \brief Description of a method.
 struct MethodInfo {
-  std::string id;       //!< For makeAvoidanceMethod().
+  std::string id;       //!< Id for makeAvoidanceMethod().
   std::string number;   //!< "(iii)".
   std::string name;     //!< Short, for tables.
   std::string sentence; //!< Description.

@@ -30,9 +30,9 @@ enum class GainGroup {
 
 //! \brief Display data of a law.
 struct LawInfo {
-  std::string id;       //!< As in vpServoLaw::ids(), with `+cbf` if filtered.
-  std::string name;     //!< For legends.
-  std::string sentence; //!< For --list and the report.
+  std::string id;       //!< Id as in vpServoLaw::ids(), with `+cbf` if filtered.
+  std::string name;     //!< Name in legends.
+  std::string sentence; //!< Description for --list and the report.
   std::string colour;   //!< #rrggbb, the same in every figure.
   GainGroup group = GainGroup::Single;
 };
