@@ -2,7 +2,7 @@
 # Install what is missing, build a program and run it: visp-servo-compare unless the first argument names another one
 # (./demo.sh visp-print-pattern). The other arguments go to the program: ./demo.sh --help
 set -euo pipefail
-from=$PWD # relative paths in the arguments mean the caller's folder
+from=$PWD # relative paths in the arguments refer to the caller's folder
 # shellcheck source=scripts/setup.sh
 source "$(dirname "${BASH_SOURCE[0]}")/scripts/setup.sh"
 
@@ -25,7 +25,7 @@ for ((i = 1; i <= $#; i++)); do
     --out=*) out=${!i#--out=} arguments=("$@") ;;
   esac
 done
-if [ "$program" = visp-plan-trajectory ]; then # reads problems and answers them, and has no folder
+if [ "$program" = visp-plan-trajectory ]; then # reads problems and prints answers, without a result folder
   arguments=("$@")
 fi
 

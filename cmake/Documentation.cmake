@@ -8,7 +8,7 @@ if(NOT DOXYGEN_FOUND OR NOT VISP_DIRECT_BIBTEX)
   return()
 endif()
 
-# vispdirect_quoted(OUT FILE...): a list in the form of a Doxyfile.
+# vispdirect_quoted(OUT FILE...): a list in Doxyfile syntax.
 function(vispdirect_quoted out)
   list(TRANSFORM ARGN REPLACE "(.+)" "\"\\1\"")
   list(JOIN ARGN " " quoted)

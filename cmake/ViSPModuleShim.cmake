@@ -1,7 +1,7 @@
-# The part of ViSP's module macros that our modules use, for a build on an installed ViSP.
+# The subset of ViSP's module macros that our modules use, for a build on an installed ViSP.
 # Same names and arguments as cmake/VISPModule.cmake of ViSP 3.5, so one module CMakeLists.txt serves both builds.
 
-# Installed libraries and programs find each other wherever the folder is moved to.
+# Installed libraries and programs find each other even if the install folder is moved.
 file(RELATIVE_PATH _vispdirect_bin_to_lib "/${CMAKE_INSTALL_BINDIR}" "/${CMAKE_INSTALL_LIBDIR}")
 set(CMAKE_INSTALL_RPATH "$ORIGIN;$ORIGIN/${_vispdirect_bin_to_lib}")
 unset(_vispdirect_bin_to_lib)
@@ -41,7 +41,7 @@ macro(vp_module_include_directories)
   set(VISP_MODULE_${the_module}_PRIVATE_INCLUDES ${ARGN})
 endmacro()
 
-# vp_create_module([libraries] [LINK_PRIVATE libraries]): as in ViSP; here all of the libraries are private.
+# vp_create_module([libraries] [LINK_PRIVATE libraries]): as in ViSP; here all libraries are private.
 macro(vp_create_module)
   set(_vispdirect_libraries ${ARGN})
   list(REMOVE_ITEM _vispdirect_libraries LINK_PRIVATE)

@@ -1,9 +1,9 @@
-# Libraries that visp-direct can do without. Each is looked for in every configuration, unless WITH_<NAME>=OFF, and sets
-# VISP_DIRECT_HAVE_<NAME>, VISP_DIRECT_<NAME>_INCLUDES and VISP_DIRECT_<NAME>_LIBRARIES, this once for all rooms.
-# Without one, what needs it throws vpException::notImplementedError and names it (sources *Missing.cpp).
-# Found by path where a package's own target or variable is unfit for use inside a ViSP tree.
+# Optional libraries. Each is searched in every configuration, unless WITH_<NAME>=OFF, and sets VISP_DIRECT_HAVE_<NAME>,
+# VISP_DIRECT_<NAME>_INCLUDES and VISP_DIRECT_<NAME>_LIBRARIES, once for all components.
+# Without one, code that needs it throws vpException::notImplementedError and names it (sources *Missing.cpp).
+# Found by path where a package's own target or variable cannot be used inside a ViSP tree.
 
-# vispdirect_optional(NAME PURPOSE INCLUDES LIBRARIES): of paths that find_path() and find_library() gave.
+# vispdirect_optional(NAME PURPOSE INCLUDES LIBRARIES): from the results of find_path() and find_library().
 function(vispdirect_optional name purpose includes libraries)
   option(WITH_${name} "Use ${name}: ${purpose}" ON)
   set(have ${WITH_${name}})
@@ -16,7 +16,7 @@ function(vispdirect_optional name purpose includes libraries)
     set(includes "")
     set(libraries "")
     get_property(said GLOBAL PROPERTY VISP_DIRECT_SAID_${name})
-    if(NOT said) # once, and not for every room
+    if(NOT said) # once, not for every component
       set(why "is missing")
       if(NOT WITH_${name})
         set(why "is switched off")
@@ -54,7 +54,7 @@ find_path(VISP_DIRECT_CCD_INCLUDE_DIR ccd/ccd.h)
 find_library(VISP_DIRECT_FCL_LIBRARY fcl)
 vispdirect_optional(FCL "second opinion on collisions (vpFclChecker)"
   "${VISP_DIRECT_FCL_INCLUDE_DIR};${VISP_DIRECT_CCD_INCLUDE_DIR}" "${VISP_DIRECT_FCL_LIBRARY}")
-if(VISP_DIRECT_HAVE_FCL AND NOT VISP_DIRECT_HAVE_OCTOMAP) # FCL's headers include it
+if(VISP_DIRECT_HAVE_FCL AND NOT VISP_DIRECT_HAVE_OCTOMAP) # FCL's headers include octomap
   message(STATUS "visp-direct: FCL is left out, for it needs OCTOMAP")
   set(VISP_DIRECT_HAVE_FCL OFF CACHE INTERNAL "")
   set(VISP_DIRECT_FCL_LIBRARIES "" CACHE INTERNAL "")
@@ -67,10 +67,10 @@ vispdirect_optional(OMPL "sampling-based planners (vpPathPlanner)" "${VISP_DIREC
 
 find_path(VISP_DIRECT_DLIB_INCLUDE_DIR dlib/image_keypoint.h)
 find_library(VISP_DIRECT_DLIB_LIBRARY dlib)
-find_library(VISP_DIRECT_BLAS_LIBRARY NAMES blas openblas) # dlib's headers call it
+find_library(VISP_DIRECT_BLAS_LIBRARY NAMES blas openblas) # dlib's headers use BLAS
 vispdirect_optional(DLIB "SURF keypoints" "${VISP_DIRECT_DLIB_INCLUDE_DIR}" "${VISP_DIRECT_DLIB_LIBRARY};${VISP_DIRECT_BLAS_LIBRARY}")
 
-# vispdirect_without(FILE...): leaves sources of the module out. After vp_glob_module_sources().
+# vispdirect_without(FILE...): excludes sources from the module. Call after vp_glob_module_sources().
 macro(vispdirect_without)
   foreach(vispdirect_file ${ARGN})
     list(FILTER VISP_MODULE_${the_module}_SOURCES EXCLUDE REGEX "/${vispdirect_file}$")

@@ -20,14 +20,14 @@ macro(vispdirect_module_settings)
   target_compile_options(${the_module} PRIVATE "$<$<CXX_COMPILER_ID:GNU,Clang>:-Wall;-Wextra;-Wshadow;-Wnon-virtual-dtor>")
   target_include_directories(${the_module} PRIVATE "${VISP_DIRECT_ROOT}/support")
   vispdirect_precompile(${the_module} support/vpModuleHeaders.h)
-  # A library with an undefined symbol shall fail here and not in the first program that uses it.
+  # A library with an undefined symbol must fail here and not in the first program that uses it.
   if(CMAKE_SYSTEM_NAME STREQUAL "Linux" AND NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
     target_link_options(${the_module} PRIVATE LINKER:-z,defs)
   endif()
 endmacro()
 
-# vispdirect_precompile(TARGET HEADER): reads the headers that nearly every source of a target includes once. Not with ccache,
-# which takes precompiled headers only by leave of its own settings, and is quicker still.
+# vispdirect_precompile(TARGET HEADER): precompiles the headers that nearly every source of a target includes. Not with ccache,
+# which is even faster and accepts precompiled headers only with special settings.
 function(vispdirect_precompile target header)
   if(VISP_DIRECT_STANDALONE AND NOT CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache")
     target_precompile_headers(${target} PRIVATE "${VISP_DIRECT_ROOT}/${header}")
@@ -45,7 +45,7 @@ macro(vispdirect_add_tests)
       get_filename_component(_vispdirect_test ${_vispdirect_test} NAME_WE)
       if(TARGET ${_vispdirect_test})
         target_compile_features(${_vispdirect_test} PRIVATE cxx_std_17)
-        # See vpTestSupport::skip(): what a test left out for want of data shall not count as passed.
+        # See vpTestSupport::skip(): parts of a test skipped for lack of data must not count as passed.
         set_tests_properties(${_vispdirect_test} PROPERTIES SKIP_RETURN_CODE 77)
       endif()
     endforeach()
@@ -59,7 +59,7 @@ function(vispdirect_test_support)
   if(TARGET vispdirect_test_support)
     return()
   endif()
-  # Catch2 3 is a library, 2 is a header, which ViSP's sources bring too; test/support/vpCatch.h knows all of them.
+  # Catch2 3 is a library, 2 is a header, also part of ViSP's sources; test/support/vpCatch.h supports all of them.
   find_package(Catch2 QUIET)
   if(TARGET Catch2::Catch2 AND Catch2_VERSION VERSION_GREATER_EQUAL 3)
     set(vispdirect_catch Catch2::Catch2)
@@ -80,7 +80,7 @@ function(vispdirect_test_support)
   target_link_libraries(vispdirect_test_support PUBLIC ${vispdirect_catch})
   target_compile_features(vispdirect_test_support PUBLIC cxx_std_17)
   target_compile_definitions(vispdirect_test_support PUBLIC VISP_DIRECT_DATA_DIR="${VISP_DIRECT_ROOT}/data")
-  # What every test includes is read once: a quarter to a third of a test's compile time.
+  # Precompile the headers of every test: a quarter to a third of its compile time.
   if(VISP_DIRECT_STANDALONE AND NOT CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache")
     file(WRITE "${PROJECT_BINARY_DIR}/vispdirect_test_pch.cpp" "int main() { return 0; }\n")
     add_executable(vispdirect_test_pch "${PROJECT_BINARY_DIR}/vispdirect_test_pch.cpp")
@@ -120,8 +120,8 @@ macro(vispdirect_add_benchmarks)
   endif()
 endmacro()
 
-# For programs, which unlike modules get no include folders from vp_create_module: sets VISP_INCLUDE_DIRS. In a ViSP tree
-# the targets carry none and ViSP's own build tree config tells; standalone the root has found ViSP, once.
+# Sets VISP_INCLUDE_DIRS for programs, which unlike modules get no include folders from vp_create_module. In a ViSP tree
+# the targets have none and ViSP's build tree config provides them; standalone the root has found ViSP, once.
 macro(vispdirect_find_visp)
   if(NOT VISP_DIRECT_STANDALONE)
     find_package(VISP REQUIRED)

@@ -1,10 +1,10 @@
-# A program of visp-direct, in its own build and as an app of a ViSP source tree that has this folder among its contrib
+# A program of visp-direct, in its own build and as an app of a ViSP source tree with this folder among its contrib
 # modules. Included at the top of every program's CMakeLists.txt.
 include("${CMAKE_CURRENT_LIST_DIR}/VispDirectModule.cmake")
 
-# vispdirect_add_program(visp-NAME TARGET...): the program of this folder, on modules and libraries that must be there;
-# without one of them it is not built, which is said in a line. All but main.cpp becomes a library vispdirect_NAME, so
-# that the tests of test/ can link it.
+# vispdirect_add_program(visp-NAME TARGET...): the program of this folder, with its required modules and libraries;
+# if one is missing the program is not built, with a one-line notice. All sources but main.cpp form the library
+# vispdirect_NAME, so that the tests of test/ can link it.
 macro(vispdirect_add_program vispdirect_program)
   vispdirect_find_visp()
   find_package(nlohmann_json QUIET)
@@ -44,15 +44,15 @@ macro(vispdirect_add_program vispdirect_program)
   endif()
 endmacro()
 
-# vispdirect_add_part_test(TEST visp-NAME): TEST.cpp on the parts of a program.
+# vispdirect_add_part_test(TEST visp-NAME): TEST.cpp tests the parts of a program.
 function(vispdirect_add_part_test test program)
   string(REGEX REPLACE "^visp-" "" library "${program}")
   string(REPLACE "-" "_" library "vispdirect_${library}")
   vispdirect_add_app_test(${test} ${library})
 endfunction()
 
-# vispdirect_add_program_test(TEST visp-NAME...): TEST.cpp runs programs. Their paths are the macros NAME, in capitals with
-# underscores.
+# vispdirect_add_program_test(TEST visp-NAME...): TEST.cpp runs programs. Their paths are the macros NAME, in upper case
+# with underscores.
 function(vispdirect_add_program_test test)
   vispdirect_add_app_test(${test} vispdirect_apps_common)
   foreach(program ${ARGN})
@@ -64,7 +64,7 @@ function(vispdirect_add_program_test test)
   endforeach()
 endfunction()
 
-# What both kinds have in common: the shared main, the kit of apps/common/test, the data folder, skipping.
+# Common to both kinds: the shared main, the support code of apps/common/test, the data folder, skipping.
 function(vispdirect_add_app_test test)
   vispdirect_add_test(${test} LINK ${ARGN})
   target_include_directories(${test} PRIVATE "${VISP_DIRECT_ROOT}/apps/common/test")

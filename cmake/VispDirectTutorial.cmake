@@ -1,9 +1,9 @@
-# A tutorial of visp-direct, in its own build and inside a ViSP source tree that has this folder among its contrib
+# A tutorial of visp-direct, in its own build and inside a ViSP source tree with this folder among its contrib
 # modules. Included at the top of every tutorial's CMakeLists.txt.
 include("${CMAKE_CURRENT_LIST_DIR}/VispDirectModule.cmake")
 
-# vispdirect_add_tutorial(NAME TARGET...): NAME.cpp on modules that must be there; without one of them it is not built.
-# ctest runs it without arguments and without a screen; the pictures that it makes stay in the build folder.
+# vispdirect_add_tutorial(NAME TARGET...): NAME.cpp with its required modules; if one is missing it is not built.
+# ctest runs it without arguments and without a screen; its figures stay in the build folder.
 macro(vispdirect_add_tutorial vispdirect_tutorial)
   vispdirect_find_visp()
   foreach(vispdirect_need ${ARGN})

@@ -1,9 +1,9 @@
-# Builds the documentation and checks what doxygen does not:
+# Builds the documentation and adds checks that doxygen lacks:
 # cmake -DDOXYGEN=... -DSOURCE_DIR=... -DDOC_DIR=... -P build.cmake
 cmake_minimum_required(VERSION 3.18)
 set(faults "")
 
-# Links of Markdown pages to files of the repository. Those into the web are not followed.
+# Links of Markdown pages to files of the repository. Web links are not followed.
 file(GLOB pages RELATIVE "${SOURCE_DIR}" "${SOURCE_DIR}/*.md")
 foreach(folder apps data doc modules test tutorial)
   file(GLOB_RECURSE found RELATIVE "${SOURCE_DIR}" "${SOURCE_DIR}/${folder}/*.md")
@@ -14,7 +14,7 @@ foreach(page ${pages})
   file(READ "${SOURCE_DIR}/${page}" text)
   get_filename_component(folder "${SOURCE_DIR}/${page}" DIRECTORY)
   string(REPLACE "](" "link:(" text "${text}")
-  string(REGEX REPLACE "[][;]" "," text "${text}") # which mean something in a list of CMake
+  string(REGEX REPLACE "[][;]" "," text "${text}") # special characters in CMake lists
   string(REGEX MATCHALL "link:\\([^()]+\\)" found "${text}")
   foreach(link ${found})
     string(REGEX REPLACE "^link:\\(([^)#]*).*$" "\\1" target "${link}")
@@ -29,7 +29,7 @@ foreach(page ${pages})
 endforeach()
 
 file(REMOVE_RECURSE "${DOC_DIR}/html" "${DOC_DIR}/visp-direct.tag")
-set(ENV{BSTINPUTS} .) # where bibtex looks; without the rest of TeX nobody tells it
+set(ENV{BSTINPUTS} .) # search path of bibtex, which is not set without the rest of TeX
 set(ENV{BIBINPUTS} .)
 execute_process(COMMAND "${DOXYGEN}" "${DOC_DIR}/Doxyfile" WORKING_DIRECTORY "${SOURCE_DIR}" OUTPUT_VARIABLE said ERROR_VARIABLE said
                 RESULT_VARIABLE status)
@@ -37,7 +37,7 @@ if(NOT status EQUAL 0 OR said MATCHES "(warning|error): ")
   list(APPEND faults "doxygen ended with status ${status} and said:\n${said}")
 endif()
 
-# Classes and namespaces that belong to no module. Doxygen leaves out a namespace without a docstring and does not say so.
+# Classes and namespaces that belong to no module. Doxygen silently omits a namespace without a docstring.
 if(EXISTS "${DOC_DIR}/visp-direct.tag")
   file(READ "${DOC_DIR}/visp-direct.tag" tags)
   string(REGEX REPLACE "[][;]" "," tags "${tags}")

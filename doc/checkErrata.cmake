@@ -1,8 +1,8 @@
-# The checks that doc/errata.md names exist: cmake -DPAGE=errata.md -DBIN_DIR=... -P checkErrata.cmake
-# A check is written as `program`, "name of a test case"; each row above the last section must have one.
+# Tests that the checks named in doc/errata.md exist: cmake -DPAGE=errata.md -DBIN_DIR=... -P checkErrata.cmake
+# A check has the form `program`, "test case name"; each row above the last section must have one.
 cmake_minimum_required(VERSION 3.18)
 file(READ "${PAGE}" page)
-# Lists of CMake bear neither semicolons nor brackets.
+# CMake lists cannot hold semicolons or brackets.
 macro(plain text)
   string(REPLACE ";" "," ${text} "${${text}}")
   string(REPLACE "[" "(" ${text} "${${text}}")
@@ -35,7 +35,7 @@ foreach(check ${named})
   endif()
 endforeach()
 
-# Every row of the tables up to there names a check.
+# Every table row up to there must name a check.
 string(REGEX MATCHALL "\n\\| [^\n]*" rows "${checked}")
 foreach(row ${rows})
   if(NOT row MATCHES "^\n\\| (where|---)" AND NOT row MATCHES "`catch[A-Za-z0-9]+`, \"")

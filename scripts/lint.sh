@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Style of the C++ sources: scripts/lint.sh format | fix | tidy [FILE...]. Exit status 1 when something is to be mended.
-#   format  lists what clang-format would change      fix  lets it change the files
-#   tidy    runs clang-tidy with .clang-tidy over the files of the release build
+# Style of the C++ sources: scripts/lint.sh format | fix | tidy [FILE...]. Exit status 1 when something must be fixed.
+#   format  lists what clang-format would change      fix  applies the changes
+#   tidy    runs clang-tidy with .clang-tidy on the files of the release build
 set -euo pipefail
 # shellcheck source=scripts/setup.sh
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
@@ -33,16 +33,16 @@ case $what in
   tidy)
     install_packages "${packages[@]}" clang-tidy
     [ -f "$build/compile_commands.json" ] || build_tree all
-    # Headers are read through the files that include them; a file outside the build has no command to be read with.
+    # Headers are checked through the files that include them; a file outside the build has no compile command.
     compiled=()
     for file in "${sources[@]}"; do
-      [[ $file != */benchmark/* ]] || continue # Google Benchmark's macros are not ours to mend
+      [[ $file != */benchmark/* ]] || continue # Google Benchmark's macros cannot be fixed here
       if [[ $file == *.cpp ]] && grep -qF "\"file\": \"$(realpath "$file")\"" "$build/compile_commands.json"; then
         compiled+=("$file")
       fi
     done
     [ ${#compiled[@]} -gt 0 ] || { echo "tidy: none of these files is part of the release build" >&2; exit 1; }
-    # GCC's own warning options mean nothing to clang.
+    # clang does not know GCC's own warning options.
     printf '%s\0' "${compiled[@]}" |
       xargs -0 -n 1 -P "$(job_count)" clang-tidy --quiet -p "$build" --extra-arg=-Wno-unknown-warning-option \
         2> >(grep -v -E 'warnings? generated|Suppressed|^Use -header-filter' >&2)

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Time of vpPatternTracker against the number of cells in view, from 128 x 128 to 2048 x 2048 px, as doc/pattern-scaling.svg.
+# Plots the time of vpPatternTracker over the number of cells in view, 128 x 128 to 2048 x 2048 px, as doc/pattern-scaling.svg.
 # Usage: scripts/plot-pattern-scaling.sh [BUILD_DIR]     (build/release)
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -7,7 +7,7 @@ build=${1:-$root/build/release}
 table=$(mktemp)
 trap 'rm -f "$table" "$table.dat"' EXIT
 "$build/bin/perfPatternTracker" --benchmark_filter='^scaling' --benchmark_format=csv 2>/dev/null >"$table"
-# Columns by name: Google Benchmark sorts the counters.
+# Columns by name, as Google Benchmark sorts the counters.
 awk -F, '/^name,/ { for (i = 1; i <= NF; i++) { gsub(/"/, "", $i); column[$i] = i } next }
          /^"scaling/ { split($1, part, "/"); print part[2], $column["cells"], $column["p50_us"] }' "$table" >"$table.dat"
 cat "$table.dat"

@@ -1,12 +1,12 @@
 #!/bin/sh
-# Runs tests under the sanitizers of the compiler. Builds only what they need, into build/asan and build/tsan.
+# Runs tests under the compiler's sanitizers. Builds only what they need, in build/asan and build/tsan.
 #
 #   scripts/sanitize.sh memory [MODULE...]   address and undefined behaviour: all tests of these modules
 #                                            (default: trajectory feedforward manipulator avoidance)
-#   scripts/sanitize.sh files [FACTOR]       the same: damaged files of every format, 400 times FACTOR each (default: 25)
-#   scripts/sanitize.sh threads              data races: the job runner of the programs, and the arm that runs in real time
+#   scripts/sanitize.sh files [FACTOR]       same sanitizers: damaged files of every format, 400 times FACTOR each (default: 25)
+#   scripts/sanitize.sh threads              data races: the programs' job runner and the real-time arm
 #
-# JOBS=N compiles N files at a time (default: the number of cores). Ends with 1 when anything is found.
+# JOBS=N compiles N files at a time (default: the number of cores). Exit status 1 when anything is found.
 set -eu
 cd "$(dirname "$0")/.."
 jobs=${JOBS:-$(nproc)}
@@ -16,7 +16,7 @@ export UBSAN_OPTIONS="print_stacktrace=1:halt_on_error=1"
 export LSAN_OPTIONS="suppressions=$PWD/scripts/sanitizers/leaks.txt"
 export TSAN_OPTIONS="suppressions=$PWD/scripts/sanitizers/threads.txt:halt_on_error=1:second_deadlock_stack=1"
 
-# build PRESET TEST...: the programs of these tests. run PRESET TEST...: through ctest.
+# build PRESET TEST...: builds these test programs. run PRESET TEST...: runs them by ctest.
 build() {
   preset=$1
   shift

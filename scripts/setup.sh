@@ -1,18 +1,18 @@
 # shellcheck shell=bash disable=SC2034
 # Sourced by demo.sh, test.sh and scripts/lint.sh: from a fresh Debian 12 to a configured and built tree.
-# Every step is one line for the reader; what the tools print goes to build/*.log and is shown when a step fails.
+# Every step prints one line; the output of the tools goes to build/*.log and is shown when a step fails.
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$root/build/release
 logs=$root/build
 mkdir -p "$logs"
 
-# What the build needs from Debian 12. ViSP brings OpenCV and Eigen, which we name because we use them ourselves.
+# Debian 12 packages needed by the build. ViSP depends on OpenCV and Eigen; they are listed because we use them directly.
 packages=(g++ cmake ninja-build libvisp-dev libopencv-dev libeigen3-dev libdlib-dev catch2 libbenchmark-dev
   libcli11-dev nlohmann-json3-dev liborocos-kdl-dev liburdfdom-dev libfcl-dev liboctomap-dev
   libompl-dev gnuplot-nox)
-# Real images that some tests check against; those are skipped where the images are missing. What makes the documentation,
-# which is a test, too: doxygen, and bibtex for the bibliography. Open MPI, under which one program can spread over processes.
+# Real images for some tests, which are skipped if the images are missing. Documentation tools, as the documentation is also
+# a test: doxygen, and bibtex for the bibliography. Open MPI, for the program that can run on several processes.
 test_packages=(visp-images-data opencv-doc doxygen texlive-binaries libopenmpi-dev openmpi-bin)
 
 # run LOG SENTENCE COMMAND...
@@ -25,7 +25,7 @@ run() {
     echo "done, $((SECONDS - start)) s"
   else
     echo "failed"
-    # The lines that say why, wherever they stand, then the end; compilers write long lines.
+    # The lines with the reason, wherever they are, then the end; compilers write long lines.
     {
       grep -m 10 -E '^(FAILED|E): |error: |undefined reference|CMake Error' "$log" && echo ...
       tail -n 15 "$log"
@@ -47,11 +47,11 @@ as_root() {
 apt_install() {
   local get=(apt-get -y -o DPkg::Lock::Timeout=300)
   as_root "${get[@]}" install --no-install-recommends "$@" && return
-  # No package lists yet, or out of date: fetch them once and try again.
+  # Package lists missing or out of date: fetch them once and retry.
   as_root "${get[@]}" update && as_root "${get[@]}" install --no-install-recommends "$@"
 }
 
-# install_packages PACKAGE...: those that are missing; nothing is asked of the network when none is.
+# install_packages PACKAGE...: installs the missing ones; no network access when none is missing.
 install_packages() {
   local package missing=()
   if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
@@ -71,7 +71,7 @@ install_packages() {
   run install.log "Installing ${#missing[@]} Debian packages and what they need" apt_install "${missing[@]}"
 }
 
-# Compilers at work: one a processor, but one per 1.5 GB of free memory at most. JOBS=N overrides.
+# Parallel compilers: one per processor, at most one per 1.5 GB of free memory. JOBS=N overrides.
 job_count() {
   local jobs memory
   jobs=$(nproc 2>/dev/null || echo 1)
@@ -87,7 +87,7 @@ job_count() {
 build_tree() {
   local options=()
   ! command -v ccache >/dev/null || options=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-  cd "$root" || exit 1 # presets are looked for in the current folder
+  cd "$root" || exit 1 # presets are searched in the current folder
   run configure.log "Configuring" cmake --preset release ${options[@]+"${options[@]}"}
   run build.log "Building, $(job_count) at a time (minutes the first time)" \
     cmake --build --preset release --parallel "$(job_count)" --target "$@"

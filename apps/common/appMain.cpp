@@ -25,9 +25,9 @@ namespace vpApp
 namespace
 {
 volatile std::sig_atomic_t s_interrupted = 0;
-int s_wake[2] = {-1, -1}; // a pipe: reading end, writing end
+int s_wake[2] = {-1, -1}; // pipe: read end, write end
 
-// The second Ctrl-C ends the program at once, should a step take long.
+// The second Ctrl-C ends the program at once, in case a step takes long.
 void onInterrupt(int signal)
 {
   s_interrupted = 1;
@@ -85,7 +85,7 @@ std::string sentenceOf(const std::exception &error)
 int runMain(const std::string &program, const std::function<int()> &body)
 {
   const PrintableStream out(std::cout);
-  const PrintableStream errors(std::cerr, "\r"); // of a bar of progress
+  const PrintableStream errors(std::cerr, "\r"); // "\r" is used by the progress bar
   try {
     catchInterrupts();
     const int status = body();

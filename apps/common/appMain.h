@@ -44,17 +44,17 @@ public:
 };
 
 /*!
- * Run a program's body and turn whatever it throws into one sentence on stderr, "program: what is wrong", and an exit
- * status. Also makes Ctrl-C and SIGTERM end the program by way of throwIfInterrupted(), so that destructors remove temporary
- * files; makes all that is printed printable (PrintableStream); and tells when standard output took not all of it.
- * \param program : Name that begins the sentence.
+ * Run a program's body and turn any exception into one sentence on stderr, "program: what is wrong", and an exit
+ * status. Also makes Ctrl-C and SIGTERM end the program through throwIfInterrupted(), so that destructors remove
+ * temporary files; makes all output printable (PrintableStream); and reports incomplete writes to standard output.
+ * \param program : Name at the beginning of the sentence.
  * \param body : The program; its exit status is returned.
  */
 [[nodiscard]] int runMain(const std::string &program, const std::function<int()> &body);
 
 /*!
  * Parse the command line, with `--version` added.
- * \return False when there is nothing left to do because `--help` or `--version` was asked for, and printed.
+ * \return False if `--help` or `--version` was requested and printed, so nothing is left to do.
  * \throw UsageError with CLI11's message, as one line.
  */
 [[nodiscard]] bool parseCommandLine(CLI::App &app, int argc, const char *const *argv);
@@ -62,17 +62,17 @@ public:
 //! Version of visp-direct and of ViSP, "0.1.0 (ViSP 3.5.0)".
 [[nodiscard]] std::string versionText();
 
-//! The command as it was typed, for reports and summaries: the program's name and its arguments.
+//! The command line as typed, for reports and summaries: program name and arguments.
 [[nodiscard]] std::string commandLine(const std::string &program, int argc, const char *const *argv);
 
 //! True after Ctrl-C or SIGTERM.
 [[nodiscard]] bool interrupted();
 //! \throw Interrupted after Ctrl-C.
 void throwIfInterrupted();
-//! A file descriptor that can be read from as soon as interrupted() is true, for poll(); negative outside runMain().
+//! File descriptor for poll() that becomes readable when interrupted() is true; negative outside runMain().
 [[nodiscard]] int interruptDescriptor();
 
-//! The message of any exception as one printable line without the decoration that libraries add.
+//! The message of any exception as one printable line, without decoration added by libraries.
 [[nodiscard]] std::string sentenceOf(const std::exception &error);
 } // namespace vpApp
 

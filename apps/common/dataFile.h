@@ -4,7 +4,7 @@
  */
 /*!
  * \file dataFile.h
- * \brief Where the files of data/ are at run time.
+ * \brief Location of the files of data/ at run time.
  */
 #ifndef vpApp_dataFile_h
 #define vpApp_dataFile_h
@@ -17,7 +17,7 @@ namespace vpApp
  * Path of a file of visp-direct's data folder: in the folder named by the environment variable `VISP_DIRECT_DATA` if it
  * is set, else where the package installs its data, else in the source tree that the program was built from.
  * \param name : Path inside data/, for example "target/klimt.jpg".
- * \throw std::runtime_error naming the places that were searched.
+ * \throw std::runtime_error naming the searched folders.
  */
 [[nodiscard]] std::string dataFile(const std::string &name);
 } // namespace vpApp

@@ -22,7 +22,7 @@ namespace vpApp
 namespace
 {
 constexpr const char *MARK = ".visp-direct-run";
-constexpr int PATIENCE = 100; // times that another process may remove the folder while we enter it
+constexpr int PATIENCE = 100; // retries when another process removes the folder while we enter it
 
 std::runtime_error refused(const fs::path &path, int reason)
 {
@@ -41,14 +41,14 @@ bool isMarked(const fs::path &folder)
   return isRealFolder(folder) && fs::symlink_status(folder / MARK, ignored).type() == fs::file_type::regular;
 }
 
-std::string ownerOf(const fs::path &folder) // empty when it was killed before it wrote its name
+std::string ownerOf(const fs::path &folder) // empty if it was killed before writing its name
 {
   std::array<char, 256> line{};
   std::ifstream(folder / MARK).getline(line.data(), line.size());
   return line.data();
 }
 
-// False when the mark was removed after it was opened: its owner had ended.
+// False if the mark was removed after opening, because its owner had ended.
 bool stillThere(int descriptor)
 {
   struct stat status {
@@ -121,7 +121,7 @@ void FolderLock::clear() const
   }
 }
 
-// Enough bytes to find a full disk before anything is computed.
+// Enough bytes to detect a full disk before any computation.
 void FolderLock::writeMark(const std::string &owner) const
 {
   constexpr std::size_t SIZE = 4096;
@@ -145,7 +145,7 @@ void FolderLock::remove()
     }
   }
   unlink((m_folder / MARK).c_str());
-  rmdir(m_folder.c_str()); // fails when the next run is in it already
+  rmdir(m_folder.c_str()); // fails if the next run already uses it
 }
 
 bool FolderLock::isMark(const fs::path &file) { return file.filename() == MARK; }

@@ -4,7 +4,7 @@
  */
 /*!
  * \file folderLock.h
- * \brief A folder that one process at a time may write into.
+ * \brief A folder that only one process at a time may write into.
  */
 #ifndef vpApp_folderLock_h
 #define vpApp_folderLock_h
@@ -15,15 +15,15 @@
 namespace vpApp
 {
 /*!
- * \brief Makes a folder and holds the lock on a mark in it. The system releases the lock when the process ends, however
- * it ends; the mark stays then, and tells that the folder and all in it are a leftover that the next owner may remove.
+ * \brief Creates a folder and holds the lock on a mark file in it. The system releases the lock when the process ends
+ * in any way; a remaining mark shows that the folder and its content are a leftover that the next owner may remove.
  */
 class FolderLock
 {
 public:
   /*!
-   * \param folder : Made if it does not exist; its parent does.
-   * \param owner : Program that the mark names.
+   * \param folder : Created if missing; its parent must exist.
+   * \param owner : Name of the program, written into the mark.
    * \throw std::runtime_error when another process holds the lock, when the folder is no leftover, or when the system
    * refuses: no permission, read-only or full disk.
    */
@@ -33,11 +33,11 @@ public:
   FolderLock(const FolderLock &) = delete;
   FolderLock &operator=(const FolderLock &) = delete;
 
-  //! Remove the folder with all in it, the mark last.
+  //! Remove the folder and its content, the mark last.
   void remove();
-  //! True for the file that is the mark.
+  //! True if the file is a mark.
   [[nodiscard]] static bool isMark(const std::filesystem::path &file);
-  //! True for a folder that \e owner marked, or that is empty.
+  //! True for a folder marked by \e owner, or an empty one.
   [[nodiscard]] static bool isLeftoverOf(const std::string &owner, const std::filesystem::path &folder);
 
 private:

@@ -4,7 +4,7 @@
  */
 /*!
  * \file greyPicture.h
- * \brief Photographs that a program is given: all read by the one rule of support/vpPictureFile.h.
+ * \brief Input photographs of programs, all read by the rule of support/vpPictureFile.h.
  */
 #ifndef vpApp_greyPicture_h
 #define vpApp_greyPicture_h
@@ -16,10 +16,10 @@
 
 namespace vpApp
 {
-//! As vpPictures::readGreyPicture(), while the decoders keep quiet.
+//! Like vpPictures::readGreyPicture(), with the output of the decoders suppressed.
 [[nodiscard]] cv::Mat readGreyPicture(const std::filesystem::path &file, vpPictures::GreyScale &scale);
 
-//! Copy a picture, CV_8UC1, into a vpImage<unsigned char>.
+//! Copy a CV_8UC1 image into a vpImage<unsigned char>.
 template <class Image> void copyGrey(const cv::Mat &picture, Image &image)
 {
   image.resize(static_cast<unsigned int>(picture.rows), static_cast<unsigned int>(picture.cols));

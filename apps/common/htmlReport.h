@@ -4,7 +4,7 @@
  */
 /*!
  * \file htmlReport.h
- * \brief A report as one HTML file that needs nothing else: style, pictures and videos are inside.
+ * \brief A report as one self-contained HTML file: style, figures and videos are embedded.
  */
 #ifndef vpApp_htmlReport_h
 #define vpApp_htmlReport_h
@@ -14,9 +14,9 @@
 
 namespace vpApp
 {
-//! Text made safe for HTML, in element content and in quoted attributes.
+//! Text escaped for HTML, for element content and quoted attributes.
 [[nodiscard]] std::string escapeHtml(const std::string &text);
-//! Bytes as a `data:` address. \param mime : "image/svg+xml", "image/png", "image/jpeg", "video/mp4".
+//! Bytes as a `data:` URI. \param mime : "image/svg+xml", "image/png", "image/jpeg", "video/mp4".
 [[nodiscard]] std::string dataUri(const std::string &mime, const std::string &bytes);
 
 //! \brief One cell of a table.
@@ -25,9 +25,9 @@ struct HtmlCell {
     : text(std::move(cellText)), style(std::move(cellStyle)), span(cellSpan)
   {}
   std::string text;      //!< Plain text, escaped when written.
-  std::string style;     //!< Names of styles: "best", "worst", "left", "start" (left border), or none.
-  unsigned int span = 1; //!< Number of columns that it covers.
-  std::string hint;      //!< Shown when the pointer rests on the cell.
+  std::string style;     //!< Style names: "best", "worst", "left", "start" (left border), or none.
+  unsigned int span = 1; //!< Number of columns covered.
+  std::string hint;      //!< Tooltip of the cell.
 };
 
 //! \brief A table: rows of header cells, then rows of cells.
@@ -46,16 +46,16 @@ public:
   //! \param title : Heading and window title. \param lead : A sentence below it.
   HtmlReport(std::string title, std::string lead);
 
-  //! Begin a section; it is listed in the contents.
+  //! Begin a section, listed in the table of contents.
   void section(const std::string &title);
   void paragraph(const std::string &text);
-  //! A paragraph that stands out: the answer.
+  //! A highlighted paragraph: the main result.
   void highlight(const std::vector<std::string> &sentences);
   void list(const std::vector<std::string> &items);
   void table(const HtmlTable &table, const std::string &caption);
   //! Two columns: name, value.
   void facts(const std::vector<std::pair<std::string, std::string>> &facts, const std::string &caption);
-  //! A picture with its caption. \param uri : See dataUri(). \param alt : What it shows, for those who cannot see it.
+  //! A figure with its caption. \param uri : See dataUri(). \param alt : Alternative text.
   void picture(const std::string &uri, const std::string &alt, const std::string &caption);
   //! \brief One of several videos side by side.
   struct Video {
@@ -63,10 +63,10 @@ public:
     std::string caption; //!< Below the video.
   };
   void videos(const std::vector<Video> &videos);
-  //! Everything until endDetails() is folded away under \e summary.
+  //! Everything until endDetails() is collapsed under \e summary.
   void beginDetails(const std::string &summary);
   void endDetails();
-  //! Markup, as it is.
+  //! Raw markup.
   void raw(const std::string &html);
 
   //! The whole page.

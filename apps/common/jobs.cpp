@@ -19,7 +19,7 @@ namespace vpApp
 {
 namespace
 {
-//! Sets the number of OpenCV's threads and puts it back.
+//! Sets the number of OpenCV threads and restores it.
 class OpenCVThreads
 {
 public:
@@ -72,7 +72,7 @@ void runJobs(std::size_t count, unsigned int threads, const std::function<void(s
       pool.emplace_back(worker);
     }
   }
-  catch (const std::system_error &) { // the system gives no more threads: those that run do the work
+  catch (const std::system_error &) { // no more threads available: the running ones do the work
   }
   worker();
   for (std::thread &thread : pool) {

@@ -17,12 +17,12 @@ using JsonObject = vpJsonObject;
 
 //! Parse a JSON file. \throw vpFileError naming the file, and the line and column of a syntax error.
 [[nodiscard]] inline nlohmann::json readJsonFile(const std::string &file) { return vpReadJson(file); }
-//! Parse the content of the JSON file \e file that was read already.
+//! Parse the content of the JSON file \e file, already read.
 [[nodiscard]] inline nlohmann::json parseJson(const std::string &text, const std::string &file)
 {
   return vpParseJson(text, file);
 }
-//! Parse one line of a file of JSON lines; \e place begins every message ("problems.jsonl:3").
+//! Parse one line of a JSON Lines file; every message begins with \e place ("problems.jsonl:3").
 [[nodiscard]] inline nlohmann::json parseJsonLine(const std::string &line, const std::string &place)
 {
   return vpParseJson(line, place, true);

@@ -19,7 +19,7 @@ namespace vpApp
 LineReader::LineReader(const std::string &file) : m_name(file == "-" ? "standard input" : file)
 {
   if (file != "-") {
-    // Without waiting for the other end of a pipe, which Ctrl-C could not end: next() waits.
+    // Do not wait here for the other end of a pipe, as Ctrl-C could not interrupt it: next() waits.
     m_descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     struct stat status {
     };

@@ -4,7 +4,7 @@
  */
 /*!
  * \file lineReader.h
- * \brief Lines of a file, a pipe or standard input, which Ctrl-C ends also while they are waited for.
+ * \brief Lines of a file, a pipe or standard input; Ctrl-C also interrupts waiting.
  */
 #ifndef vpApp_lineReader_h
 #define vpApp_lineReader_h
@@ -13,7 +13,7 @@
 
 namespace vpApp
 {
-//! \brief Reads line by line, each as soon as it is there.
+//! \brief Reads line by line, each as soon as it is available.
 class LineReader
 {
 public:
@@ -26,9 +26,9 @@ public:
   LineReader &operator=(const LineReader &) = delete;
 
   /*!
-   * The next line without its end; false at the end of the file.
-   * \throw Interrupted after Ctrl-C. \throw std::runtime_error naming the file when it cannot be read, or the line when it
-   * is longer than LONGEST.
+   * Read the next line without its line end; false at the end of the file.
+   * \throw Interrupted after Ctrl-C. \throw std::runtime_error naming the file when it cannot be read, or the line when
+   * it is longer than LONGEST.
    */
   [[nodiscard]] bool next(std::string &line);
   //! The file, or "standard input".
@@ -41,7 +41,7 @@ private:
   int m_descriptor = 0;
   std::size_t m_line = 0;
   std::string m_buffer;
-  std::size_t m_start = 0;    // what is before was given out
+  std::size_t m_start = 0;    // data before it was returned
   std::size_t m_searched = 0; // no line ends before it
 };
 } // namespace vpApp

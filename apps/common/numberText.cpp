@@ -22,7 +22,7 @@ std::string number(double value, int digits)
   std::ostringstream text;
   text.imbue(std::locale::classic());
   text << std::setprecision(digits) << value;
-  // "1.5e+02" is 150 to everybody.
+  // Write "1.5e+02" as 150.
   if (text.str().find("e+") == std::string::npos || std::fabs(value) >= LARGEST_PLAIN) {
     return text.str();
   }

@@ -20,7 +20,7 @@ namespace vpApp
 [[nodiscard]] std::string fixed(double value, int decimals);
 //! "a", "a and b", "a, b and c".
 [[nodiscard]] std::string enumerate(const std::vector<std::string> &items);
-//! A file name made of any text: letters, digits, `-`, `+` and `.` stay, all else becomes `_`.
+//! File name from any text: letters, digits, `-`, `+` and `.` are kept, all else becomes `_`.
 [[nodiscard]] std::string fileName(const std::string &text);
 } // namespace vpApp
 

@@ -54,7 +54,7 @@ void writeAll(int descriptor, const std::string &content, const fs::path &file)
   }
 }
 
-// False when another run took the file away after we opened it.
+// False if another run removed the file after we opened it.
 bool isFileOf(int descriptor, const fs::path &file)
 {
   struct stat opened {
@@ -63,7 +63,7 @@ bool isFileOf(int descriptor, const fs::path &file)
          opened.st_dev == named.st_dev;
 }
 
-// The name does not change from run to run, so that what a killed one left is used up by the next.
+// The name is the same in every run, so that the next run reuses the file left by a killed one.
 void replace(const fs::path &target, const std::string &content, const fs::path &file)
 {
   const fs::path temporary = target.parent_path() / ("." + target.filename().string() + ".partial");
@@ -110,7 +110,7 @@ void requireWritable(const fs::path &file)
 
 void writeWholeFile(const fs::path &file, const std::string &content)
 {
-  // A device or a pipe is written to, never replaced; a link stays a link.
+  // A device or a pipe is written to, never replaced; a link is kept.
   if (!fs::exists(file) || fs::is_regular_file(file)) {
     replace(fs::weakly_canonical(file), content, file);
     return;

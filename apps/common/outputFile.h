@@ -4,7 +4,7 @@
  */
 /*!
  * \file outputFile.h
- * \brief Single files that appear whole or not at all.
+ * \brief Single files that are written completely or not at all.
  */
 #ifndef vpApp_outputFile_h
 #define vpApp_outputFile_h
@@ -15,14 +15,14 @@
 namespace vpApp
 {
 /*!
- * Complain before the work is done, not after it.
+ * Check a file name before the work, not after it.
  * \throw std::runtime_error naming the file when its folder does not exist or it is a folder itself.
  */
 void requireWritable(const std::filesystem::path &file);
 
 /*!
- * Write \e content to \e file, replacing an earlier one in one step. After an error the earlier one is still there.
- * \throw std::runtime_error naming the file when the system refuses.
+ * Write \e content to \e file, replacing an earlier file atomically. After an error the earlier file is kept.
+ * \throw std::runtime_error naming the file when writing fails.
  */
 void writeWholeFile(const std::filesystem::path &file, const std::string &content);
 } // namespace vpApp

@@ -28,7 +28,7 @@ std::runtime_error cannot(const fs::path &path, const std::string &what, const s
   return std::runtime_error(path.string() + ": " + what + (reason ? " (" + reason.message() + ")" : ""));
 }
 
-// Without changing what it means: "link/.." stays, since it is not ".".
+// Without changing the meaning: "link/.." is kept, as it is not ".".
 fs::path plainPath(const std::string &folder)
 {
   const fs::path path = fs::absolute(folder);
@@ -37,19 +37,19 @@ fs::path plainPath(const std::string &folder)
   return plain.has_filename() ? plain : plain.parent_path(); // "out/" is "out"
 }
 
-fs::file_type typeOf(const fs::path &path) // of a symbolic link, not of what it leads to
+fs::file_type typeOf(const fs::path &path) // of a symbolic link, not of its target
 {
   std::error_code ignored;
   return fs::symlink_status(path, ignored).type();
 }
 
-// A summary.json that somebody edited must not lead out of the folder.
+// An edited summary.json must not lead out of the folder.
 bool isInside(const fs::path &name)
 {
   return !name.empty() && name.is_relative() && std::find(name.begin(), name.end(), "..") == name.end();
 }
 
-// The folders on the way to folder/name that are not plain folders, or the first of them.
+// The parents of folder/name that are not plain folders, or the first of them.
 fs::path obstacleOnWay(const fs::path &folder, const fs::path &name)
 {
   fs::path way;
@@ -63,7 +63,7 @@ fs::path obstacleOnWay(const fs::path &folder, const fs::path &name)
   return {};
 }
 
-// Null when there is none.
+// Null if there is none.
 nlohmann::json readSummary(const fs::path &folder)
 {
   try {
@@ -103,7 +103,7 @@ OutputFolder::OutputFolder(std::string program, const std::string &folder)
   makeFolder();
   try {
     m_lock = std::make_unique<FolderLock>(m_unfinished, m_program);
-    readFormerResult(); // another run may just have ended
+    readFormerResult(); // another run may have ended just now
   }
   catch (...) {
     undo();
@@ -231,7 +231,7 @@ void OutputFolder::writeSummary(nlohmann::ordered_json summary)
   summary["program"] = m_program;
   summary["status"] = summary.value("status", std::string("complete"));
   summary["files"] = files;
-  // What was typed may be no UTF-8.
+  // User input may be invalid UTF-8.
   write(SUMMARY, summary.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
@@ -241,7 +241,7 @@ void OutputFolder::commit()
   for (const std::string &name : files) {
     requireFreePlace(name);
   }
-  // From here on both results are known to be ours, whenever the process may be killed.
+  // From here on both results are identified as ours, even if the process is killed.
   std::vector<std::string> all = m_formerFiles;
   all.insert(all.end(), files.begin(), files.end());
   const fs::path mixed = m_unfinished / ".summary-while-moving";
@@ -262,7 +262,7 @@ void OutputFolder::removeFormer(const std::vector<std::string> &except) const
 {
   for (const std::string &name : m_formerFiles) {
     const fs::file_type type = typeOf(m_folder / name);
-    const bool gone = type == fs::file_type::not_found; // a run was killed between file and folder
+    const bool gone = type == fs::file_type::not_found; // a run was killed between removing file and folder
     const bool ours = (type == fs::file_type::regular || gone) && obstacleOnWay(m_folder, name).empty();
     if (ours && name != SUMMARY && !std::binary_search(except.begin(), except.end(), name)) {
       std::error_code ignored;
@@ -280,7 +280,7 @@ std::string OutputFolder::keepUnfinished(const std::string &reason)
   try {
     writeSummary({{"status", "unfinished"}, {"reason", reason}});
   }
-  catch (const std::exception &) { // its folder's name says it too
+  catch (const std::exception &) { // the folder's name shows it, too
   }
   return "the data so far are in " + m_unfinished.string();
 }

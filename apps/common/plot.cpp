@@ -57,7 +57,7 @@ private:
   fs::path m_path;
 };
 
-// Answers gnuplot's exit status; its output and complaints go to log.
+// Returns gnuplot's exit status; its output and errors go to log.
 int runGnuplot(const std::string &argument, const std::string &log)
 {
   posix_spawn_file_actions_t actions;
@@ -88,7 +88,7 @@ std::string quoted(const std::string &text)
   return result + "'";
 }
 
-// What stands in the picture may come from files.
+// Text in the figure may come from files.
 std::string quotedText(const std::string &text) { return quoted(vpEscapeUnprintable(text, "\n")); }
 
 std::string range(const std::pair<double, double> &limits)
@@ -103,7 +103,7 @@ std::string range(const std::pair<double, double> &limits)
   return text.str();
 }
 
-// Distance of the tics of a map: 1, 2 or 5 times a power of ten, some five of them over the width of the data.
+// Tic spacing of a map: 1, 2 or 5 times a power of ten, about five tics over the width of the data.
 double ticStep(const Plot &plot)
 {
   double least = HUGE_VAL;
@@ -158,7 +158,7 @@ void setLogarithmic(const Plot &plot, const char *axis, std::vector<double> Plot
   script << "set logscale " << axis << " 10\nset format " << axis << (least >= 10. ? " '%.0s%c'\n" : " '%g'\n");
 }
 
-//! The commands that draw one plot. \param id : Of the plot in the picture.
+//! The commands that draw one plot. \param id : Id of the plot in the figure.
 void draw(const Plot &plot, std::size_t id, std::ostream &script)
 {
   const std::string data = "$curve" + std::to_string(id) + "_";
@@ -170,7 +170,7 @@ void draw(const Plot &plot, std::size_t id, std::ostream &script)
     script << "set size ratio -1\nset offsets graph 0.08, graph 0.08, graph 0.04, graph 0.04\n"
            << "set xtics " << ticStep(plot) << "\nset ytics " << ticStep(plot) << "\n";
   }
-  else if (!plot.logY) { // room for the texts of the marks
+  else if (!plot.logY) { // room for the labels of the marks
     script << "set offsets 0, 0, graph 0.12, graph 0.04\n";
   }
   if (plot.logX) {
@@ -220,7 +220,7 @@ void draw(const Plot &plot, std::size_t id, std::ostream &script)
   script << "\n";
 }
 
-// The margins make room for the legend and are the same in all panels.
+// The margins leave room for the legend and are the same in all panels.
 std::string scriptOf(const std::vector<Plot> &panels, PlotFormat format, const std::string &output)
 {
   unsigned int width = 0;

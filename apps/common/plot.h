@@ -15,26 +15,26 @@
 
 namespace vpApp
 {
-//! How a curve is drawn.
+//! Drawing style of a curve.
 enum class PlotStyle { Solid, Dashed, Dotted, Points, Rings };
 
-//! \brief One curve. A point that is not finite interrupts the line.
+//! \brief One curve. A non-finite point interrupts the line.
 struct PlotCurve {
-  std::string label;              //!< Legend; empty for none.
+  std::string label;              //!< Legend entry; empty for none.
   std::string colour = "#000000"; //!< #rrggbb.
   PlotStyle style = PlotStyle::Solid;
   double width = 2.;
-  std::vector<double> x; //!< As many as #y.
+  std::vector<double> x; //!< Same size as #y.
   std::vector<double> y;
 };
 
-//! \brief A vertical line at \e x with a text at its top.
+//! \brief A vertical line at \e x with a label at its top.
 struct PlotMark {
   double x = 0.;
   std::string label;
 };
 
-//! \brief What to plot. The range of x is free where minimum = maximum.
+//! \brief Content of a plot. The range of x is automatic if minimum = maximum.
 struct Plot {
   std::string title;
   std::string xLabel; //!< With unit: "time (s)".
@@ -44,16 +44,16 @@ struct Plot {
   std::vector<std::string> categories; //!< Names for x = 0, 1, 2 ... instead of numbers.
   std::pair<double, double> xRange{0., 0.};
   bool fromZero = false;  //!< y begins at 0.
-  bool equalAxes = false; //!< One unit is as long on x as on y: maps.
-  bool logX = false;      //!< Powers of ten are equally far apart on x (1k, 10k, ...); points at x <= 0 are left out.
-  bool logY = false;      //!< The same on y. Not with #fromZero.
+  bool equalAxes = false; //!< Equal scale on x and y, for maps.
+  bool logX = false;      //!< Logarithmic x (1k, 10k, ...); points at x <= 0 are omitted.
+  bool logY = false;      //!< Logarithmic y. Not with #fromZero.
   unsigned int width = 960;
   unsigned int height = 440;
 };
 
 /*!
- * Make sure that gnuplot is there, before hours of work are done whose result could not be shown.
- * \throw std::runtime_error saying how to install it.
+ * Check that gnuplot is available, before hours of work whose result could not be plotted.
+ * \throw std::runtime_error explaining how to install it.
  */
 void requireGnuplot();
 
@@ -63,12 +63,12 @@ void requireGnuplot();
  */
 [[nodiscard]] std::string renderSvg(const Plot &plot);
 
-//! What a picture is written as.
+//! File format of a figure.
 enum class PlotFormat { Svg, Png };
 
 /*!
- * Plots below each other in one picture, as wide as the widest, with the same margins, so that the same x stands at the
- * same place in all of them.
+ * Plots below each other in one figure, as wide as the widest, with the same margins, so that their x axes are
+ * aligned.
  * \param panels : From top to bottom, at least one.
  * \throw std::runtime_error with gnuplot's complaint.
  */

@@ -10,7 +10,7 @@ namespace vpApp
 {
 namespace
 {
-// Bytes at the end of a text that may become a character with those that follow.
+// Bytes at the end of a text that may be an incomplete character.
 std::size_t unfinished(const std::string &text)
 {
   for (std::size_t back = 1; back <= 3 && back <= text.size(); ++back) {
@@ -31,7 +31,7 @@ PrintableStream::PrintableStream(std::ostream &stream, const std::string &keep)
 PrintableStream::~PrintableStream()
 {
   pass(true);
-  m_stream.rdbuf(m_target); // clears the state, which the caller has looked at before
+  m_stream.rdbuf(m_target); // clears the state, already checked by the caller
 }
 
 bool PrintableStream::pass(bool all)

@@ -4,7 +4,7 @@
  */
 /*!
  * \file printableStreams.h
- * \brief What comes from files never steers the terminal.
+ * \brief Keeps control characters from files away from the terminal.
  */
 #ifndef vpApp_printableStreams_h
 #define vpApp_printableStreams_h
@@ -17,13 +17,13 @@
 namespace vpApp
 {
 /*!
- * \brief As long as it lives, a stream escapes what is unprintable (vpEscapeUnprintable()), whoever writes to it: names from
- * files, sentences of libraries. A text of JSON stays the same text.
+ * \brief During its lifetime, a stream escapes unprintable characters (vpEscapeUnprintable()) from all writers: names
+ * from files, messages of libraries. JSON text keeps its meaning.
  */
 class PrintableStream : private std::streambuf
 {
 public:
-  //! \param stream : The stream. \param keep : Control characters that pass besides the end of a line and the tabulator.
+  //! \param stream : The stream. \param keep : Control characters to pass besides line end and tabulator.
   explicit PrintableStream(std::ostream &stream, const std::string &keep = "");
   ~PrintableStream() override;
   PrintableStream(const PrintableStream &) = delete;
@@ -38,8 +38,8 @@ private:
   std::ostream &m_stream;
   std::streambuf *m_target;
   std::string m_keep;
-  std::string m_pending; // the beginning of a character
-  std::mutex m_mutex;    // as the standard streams, this one may be written to by several threads
+  std::string m_pending; // incomplete character
+  std::mutex m_mutex;    // several threads may write, as with the standard streams
 };
 } // namespace vpApp
 

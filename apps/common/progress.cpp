@@ -51,7 +51,7 @@ double Progress::share() const
 
 void Progress::show()
 {
-  // The sum of many shares ends a little below one.
+  // The sum of many fractions ends slightly below one.
   const double share = std::min(1., m_done / m_total + 1e-9);
   const int percent = static_cast<int>(std::floor(100. * share));
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - m_start).count();

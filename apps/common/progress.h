@@ -4,7 +4,7 @@
  */
 /*!
  * \file progress.h
- * \brief How far a long job is, on stderr.
+ * \brief Progress of a long job on stderr.
  */
 #ifndef vpApp_progress_h
 #define vpApp_progress_h
@@ -24,9 +24,9 @@ namespace vpApp
 class Progress
 {
 public:
-  //! How progress is shown.
+  //! Display style.
   enum class Style {
-    Bar,   //!< One line that is rewritten.
+    Bar,   //!< One line, rewritten.
     Lines, //!< A new line at 25, 50, 75 and 100 %.
     Silent //!< Nothing.
   };
@@ -35,21 +35,21 @@ public:
   [[nodiscard]] static Style detect();
 
   /*!
-   * \param title : What is being done ("simulating 42 runs").
+   * \param title : Description of the job ("simulating 42 runs").
    * \param total : The sum of all add() when done, in any unit, > 0.
    * \param out : Where to print. \param style : How.
    */
   Progress(std::string title, double total, std::ostream &out, Style style);
-  //! On stderr, in the style that suits it.
+  //! On stderr, in the suitable style.
   Progress(std::string title, double total);
   //! Ends the line of a bar.
   ~Progress();
   Progress(const Progress &) = delete;
   Progress &operator=(const Progress &) = delete;
 
-  //! \e amount more is done.
+  //! Add \e amount of finished work.
   void add(double amount);
-  //! Share done, 0..1.
+  //! Fraction done, 0..1.
   [[nodiscard]] double share() const;
 
 private:

@@ -4,7 +4,7 @@
  */
 /*!
  * \file quietLibraries.h
- * \brief Keeps what libraries print away from the user, who gets a sentence instead.
+ * \brief Suppresses output of libraries; the user gets a sentence instead.
  */
 #ifndef vpApp_quietLibraries_h
 #define vpApp_quietLibraries_h
@@ -14,7 +14,7 @@
 namespace vpApp
 {
 /*!
- * \brief While it lives, OpenCV logs nothing and what anyone prints on stderr is lost: its decoders, and FFmpeg below
+ * \brief During its lifetime, OpenCV logs nothing and all output on stderr is discarded: its decoders, and FFmpeg below
  * them, print there directly. For one thread, and for calls that only decode.
  */
 class QuietLibraries
@@ -27,7 +27,7 @@ public:
 
 private:
   cv::utils::logging::LogLevel m_level;
-  int m_stderr; // the real one; -1: could not be kept, nothing was redirected
+  int m_stderr; // the original; -1: could not be duplicated, nothing was redirected
 };
 } // namespace vpApp
 

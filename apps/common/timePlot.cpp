@@ -10,7 +10,7 @@ namespace vpApp
 {
 namespace
 {
-constexpr std::size_t CURVE_POINTS = 800; // more does not show
+constexpr std::size_t CURVE_POINTS = 800; // more would not be visible
 }
 
 Plot timePlot(const std::string &title, const std::string &yLabel, unsigned int height)

@@ -4,7 +4,7 @@
  */
 /*!
  * \file timePlot.h
- * \brief Plots of something over time.
+ * \brief Plots over time.
  */
 #ifndef vpApp_timePlot_h
 #define vpApp_timePlot_h
@@ -19,20 +19,20 @@ namespace vpApp
 //! An empty plot against time in s. \param yLabel : With unit.
 [[nodiscard]] Plot timePlot(const std::string &title, const std::string &yLabel, unsigned int height = 260);
 
-//! A dashed level over the width of the curves so far, and over Plot::xRange when that is set.
+//! A dashed horizontal line over the width of the curves so far, and over Plot::xRange if set.
 void addLevel(Plot &plot, double level, const std::string &label);
 
-//! What is shown of neighbours that fall together: peaks and valleys must not get lost.
+//! Value shown for merged neighbours, so that peaks or valleys are kept.
 enum class Keep { Largest, Least };
 
 /*!
- * A curve of at most some 800 points.
- * \param count : Number of values. \param time, value : Of index 0 ... count - 1.
+ * A curve of at most about 800 points.
+ * \param count : Number of values. \param time, value : Functions of the index 0 ... count - 1.
  */
 [[nodiscard]] PlotCurve timeCurve(const std::string &label, const std::string &colour, std::size_t count,
                                   const std::function<double(std::size_t)> &time,
                                   const std::function<double(std::size_t)> &value, Keep keep = Keep::Largest);
-//! The same of values that are there.
+//! Curve of stored values.
 [[nodiscard]] PlotCurve timeCurve(const std::string &label, const std::string &colour, const std::vector<double> &times,
                                   const std::vector<double> &values, Keep keep = Keep::Largest);
 } // namespace vpApp

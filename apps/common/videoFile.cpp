@@ -14,7 +14,7 @@ namespace vpApp
 VideoFile::VideoFile(const std::string &file, int width, int height, double rate) : m_file(file)
 {
   const cv::Size size(width, height);
-  // A missing encoder is answered by the fallback, not by OpenCV's log.
+  // A missing encoder is handled by the fallback, without OpenCV's log.
   const auto level = cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   m_forBrowsers = m_writer.open(file, cv::CAP_FFMPEG, cv::VideoWriter::fourcc('a', 'v', 'c', '1'), rate, size);
   if (!m_forBrowsers) {

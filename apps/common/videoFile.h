@@ -4,7 +4,7 @@
  */
 /*!
  * \file videoFile.h
- * \brief MP4 files that a browser plays.
+ * \brief MP4 files for browsers.
  */
 #ifndef vpApp_videoFile_h
 #define vpApp_videoFile_h
@@ -17,20 +17,21 @@ namespace vpApp
 {
 /*!
  * \brief Writes one MP4 file through OpenCV's FFmpeg: H.264, which browsers play, or MPEG-4 part 2 where FFmpeg has no
- * H.264 encoder; isForBrowsers() tells which.
+ * H.264 encoder; see isForBrowsers().
  */
 class VideoFile
 {
 public:
   /*!
-   * \param file : Path, ends in .mp4. \param width, height : Frame size, px, even. \param rate : Frames a second, > 0.
+   * \param file : Path, ends in .mp4. \param width, height : Frame size, px, even. \param rate : Frames per second, >
+   * 0.
    * \throw std::runtime_error naming the file when neither codec can be opened.
    */
   VideoFile(const std::string &file, int width, int height, double rate);
 
-  //! Append a frame. \param frame : 8-bit BGR of the size given before.
+  //! Append a frame. \param frame : 8-bit BGR of the given size.
   void write(const cv::Mat &frame);
-  //! End the file. \throw std::runtime_error naming it when nothing arrived on the disk.
+  //! Close the file. \throw std::runtime_error naming it when nothing was written.
   void close();
   //! False if the video is MPEG-4 part 2, which browsers do not play.
   [[nodiscard]] bool isForBrowsers() const { return m_forBrowsers; }

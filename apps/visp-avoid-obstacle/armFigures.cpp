@@ -54,7 +54,7 @@ Figure animate(const vpAvoidanceRun &run, const std::string &title)
 
 namespace
 {
-//! Most of the pictures from the time when something was seen, and the last one.
+//! Mostly images in which something was seen, and the last one.
 std::vector<std::size_t> shownFrames(const std::vector<Frame> &frames)
 {
   std::size_t last = frames.size() - 1;

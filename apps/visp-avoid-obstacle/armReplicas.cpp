@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Figures 8.8 and 8.10: experiments, so the arm does them here, with its drives; 8.11 and 8.12 are snapshots of them.
+// Figures 8.8 and 8.10: experiments, here run by the arm with its drives; 8.11 and 8.12 are snapshots of them.
 #include "planePlots.h"
 #include "prescribedMotion.h"
 #include "replicas.h"
@@ -29,15 +29,15 @@ using vpApp::number;
 
 constexpr double MOTION_BEGINS = 0.4;    // s
 constexpr double MOST_ACCELERATION = 2.; // m/s^2
-constexpr double SETTLED = 0.008;        // m: table 8.1 has 3.0, 5.6 and 5.2 mm rms, 8.2 mm together
+constexpr double SETTLED = 0.008;        // m: table 8.1 has 3.0, 5.6 and 5.2 mm rms, 8.2 mm in total
 constexpr double HEIGHT = 0.35;          // m
-constexpr double ROUNDING = 1e-6;        // relative: a bound counts as kept
+constexpr double ROUNDING = 1e-6;        // relative tolerance of a bound
 constexpr int SNAPSHOTS = 6;
 
 Vector3d place(double x, double y) { return {x, y, HEIGHT}; }
 std::string text(const Vector3d &p) { return "[" + number(p.x(), 3) + ", " + number(p.y(), 3) + "] m"; }
 
-//! \brief What is told when.
+//! \brief Commands with their times.
 struct Script {
   std::vector<ToolEvent> events;
   double viaShare = 0.5;
@@ -58,7 +58,7 @@ vpAvoidanceRunSpec specOf(const Options &options, const Script &script)
 {
   const auto arm = std::make_shared<const vpArmModel>(
       vpLoadArmJson(options.arm.empty() ? vpApp::dataFile("robot/amor.json") : options.arm));
-  vpAvoidanceRunSpec spec = vpAvoidanceScenes::figure88(arm, 1).run; // its start, its ground
+  vpAvoidanceRunSpec spec = vpAvoidanceScenes::figure88(arm, 1).run; // start and ground of figure 8.8
   spec.obstacles.clear();
   spec.goalMoves.clear();
   spec.goal = vpAvoidanceGoal();
@@ -108,7 +108,7 @@ Figure draw(const vpAvoidanceRun &run, const Script &script)
       vias.emplace_back(event.via->head<2>());
     }
   }
-  changes.erase(changes.begin()); // the motion's own beginning
+  changes.erase(changes.begin()); // the start of the motion itself
   const Rates rates = ratesOf(commandedWay(run), run.spec.methodSpec.period);
   vpApp::Plot way = wayPlot("The way of the tool"), speed = vpApp::timePlot("Speed of the commanded tool", "m/s"),
               acceleration = vpApp::timePlot("Acceleration of the commanded tool", "m/s^2");

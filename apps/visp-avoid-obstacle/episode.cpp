@@ -16,16 +16,16 @@ namespace avoidObstacle
 {
 namespace
 {
-//! What stood still and is out of view is believed to stay: after 5 s it counts as 13 mm thicker (m/s^2).
+//! Process noise of static obstacles out of view: inflation by 13 mm after 5 s (m/s^2).
 constexpr double REST_ACCELERATION = 0.002;
-//! Boxes do not begin to turn by themselves, rad/s^2.
+//! Boxes do not start to rotate by themselves, rad/s^2.
 constexpr double ANGULAR_ACCELERATION = 0.2;
-//! Errors of pictures in a row are not independent: a slow drift of them is no motion.
+//! Errors of consecutive images are correlated: their slow drift is no motion.
 constexpr double REST_SIGMAS = 5.;
 constexpr double TIME_ROUNDING = 1e-9;    // s
-constexpr double DRIVEN_TOLERANCE = 0.01; // m: drives by PD alone do not hold the millimetre
+constexpr double DRIVEN_TOLERANCE = 0.01; // m: PD drives alone do not reach 1 mm
 
-//! The two that move the tool by trajectories keep the camera's direction, so that it goes on seeing what it looks at.
+//! The two methods with tool trajectories keep the camera's direction, so that it keeps seeing the same objects.
 void keepLooking(vpAvoidanceRunSpec &spec)
 {
   if (spec.method != "dtg" && spec.method != "dtg-via") {
@@ -41,7 +41,7 @@ void keepLooking(vpAvoidanceRunSpec &spec)
   };
 }
 
-//! Where the obstacle of that name truly is; false when there is none now.
+//! True pose of the obstacle of that name; false if there is none now.
 bool truePlace(const PhotoScene &scene, const std::string &name, double time, Eigen::Vector3d &place)
 {
   for (const vpMovingObstacle &obstacle : scene.obstacles) {
@@ -81,7 +81,7 @@ vpAvoidanceRunSpec specOf(const PhotoScene &scene, const Options &options, Diary
       const bool isThere = truePlace(scene, track.name, time, place);
       diary.tracks.push_back({time, track, isThere ? (track.pose.p - place).norm() : NAN});
       if (track.shape.type() == vpShapeType::Octree) {
-        diary.tracks.back().track.shape = vpCollisionShape::sphere(0.001); // maps are too large to keep 200 of a second
+        diary.tracks.back().track.shape = vpCollisionShape::sphere(0.001); // maps are too large to keep 200 per second
       }
     }
   };

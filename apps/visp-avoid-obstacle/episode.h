@@ -4,7 +4,7 @@
  */
 /*!
  * \file episode.h
- * \brief One run of the closed loop, from image to joints, with all that is known of it.
+ * \brief One closed-loop run, from image to joints, with all its data.
  */
 #ifndef avoidObstacle_episode_h
 #define avoidObstacle_episode_h
@@ -22,11 +22,11 @@ struct Episode {
   Diary diary;
 };
 
-//! What visp-avoid-obstacle runs; the sensor and the track table write into \e diary, which must outlive the run.
+//! Specification of the run; the sensor and the track table write into \e diary, which must outlive the run.
 [[nodiscard]] vpAvoidanceRunSpec specOf(const PhotoScene &scene, const Options &options, Diary &diary);
-//! Runs it. \throw vpApp::Interrupted after Ctrl-C; vpException naming what the spec gets wrong.
+//! Runs the episode. \throw vpApp::Interrupted after Ctrl-C; vpException naming the invalid field.
 [[nodiscard]] Episode play(const PhotoScene &scene, const Options &options);
-//! The obstacles as the method knew them at a time, with their inflation; maps of depths as a dot.
+//! The obstacles known to the method at a time, with their inflation; depth maps as a dot.
 [[nodiscard]] std::vector<vpCollisionObject> believedAt(const Episode &episode, double time);
 } // namespace avoidObstacle
 

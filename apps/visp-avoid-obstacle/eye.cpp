@@ -19,8 +19,8 @@ namespace
 {
 constexpr double TIME_ROUNDING = 1e-9; // s
 constexpr int JPEG_QUALITY = 90;
-constexpr float SHOWN_DEPTH = 1.5F; // m: black in pictures of depths
-constexpr unsigned char DARK = 3;   // grey of a covered camera
+constexpr float SHOWN_DEPTH = 1.5F; // m: black in depth images
+constexpr unsigned char DARK = 3;   // grey value of a covered camera
 
 std::string jpegOf(const vpImage<unsigned char> &image)
 {
@@ -30,7 +30,7 @@ std::string jpegOf(const vpImage<unsigned char> &image)
   return std::string(bytes.begin(), bytes.end());
 }
 
-//! Near is bright.
+//! Depth image as grey values, near is bright.
 vpImage<unsigned char> pictureOf(const vpImage<float> &depth)
 {
   vpImage<unsigned char> picture(depth.getHeight(), depth.getWidth());
@@ -41,7 +41,7 @@ vpImage<unsigned char> pictureOf(const vpImage<float> &depth)
   return picture;
 }
 
-//! What is known from the start is left out: it is not what the sensor is for, and mapped twice it would be in the way.
+//! Objects known from the start are left out: they need no sensor, and mapped twice they would be in the way.
 vpCollisionScene onlyObstacles(const PhotoScene &scene, const vpCollisionScene &truth)
 {
   vpCollisionSceneSpec spec;
@@ -54,7 +54,7 @@ vpCollisionScene onlyObstacles(const PhotoScene &scene, const vpCollisionScene &
   return vpCollisionScene(truth.arm(), spec);
 }
 
-//! \brief What all kinds have in common: covering, and the diary.
+//! \brief Common base of all sensors: covering, and the diary.
 class Eye : public vpObstacleSensor
 {
 public:
@@ -82,7 +82,7 @@ public:
   }
 
 protected:
-  //! Take a picture and find what is in it; frame.covered says whether there is light.
+  //! Take an image and detect its objects; frame.covered tells whether the camera is covered.
   virtual void expose(const vpCollisionScene &truth, const vpCollisionData &arm, Frame &frame,
                       std::vector<vpObjectSighting> &result) = 0;
   [[nodiscard]] const PhotoScene &scene() const noexcept { return *m_scene; }
@@ -108,7 +108,7 @@ private:
       const int i = truth.find(sighting.name);
       Sight *sight = find(frame, sighting.name);
       if (i < 0 || sight == nullptr) {
-        continue; // a map has no single objects
+        continue; // a map has no separate objects
       }
       const vpRigidTransform &pose = truth.object(i).pose;
       sight->seen = true;
@@ -241,7 +241,7 @@ private:
     return names;
   }
   vpPoseSensor m_sensor;
-  vpSceneCamera m_camera; // for pictures only
+  vpSceneCamera m_camera; // for images only
 };
 } // namespace
 

@@ -4,7 +4,7 @@
  */
 /*!
  * \file eye.h
- * \brief The sensor of a run, which writes into its diary what it sees.
+ * \brief The sensor of a run, which records its sightings in the diary.
  */
 #ifndef avoidObstacle_eye_h
 #define avoidObstacle_eye_h
@@ -17,8 +17,8 @@
 namespace avoidObstacle
 {
 /*!
- * A camera in the hand (image, depth) or a vision system that always finds what is in range (poses).
- * \param scene, options, diary : Must outlive it. \param seed : Of its noise.
+ * An eye-in-hand camera (image, depth) or an ideal vision system that detects everything in range (poses).
+ * \param scene, options, diary : Must outlive it. \param seed : Noise seed.
  */
 [[nodiscard]] std::unique_ptr<vpObstacleSensor> makeEye(const PhotoScene &scene, const Options &options,
                                                         unsigned int seed, Diary &diary);

@@ -15,7 +15,7 @@ vpFieldWeightSpec mildField() { return {0.06, 0.03, 0.5}; }
 FieldMotion followField(const FieldTask &task, const vpFieldWeightSpec &weight, bool withObstacle)
 {
   weight.validate(vpFieldForm::Thesis);
-  constexpr double noWeight = 1e3; // m: so far off that it does not count
+  constexpr double noWeight = 1e3; // m: far enough to have no effect
   FieldMotion motion;
   motion.weight = weight;
   Eigen::Vector2d x = Eigen::Vector2d::Zero();

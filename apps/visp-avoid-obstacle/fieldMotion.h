@@ -4,7 +4,7 @@
  */
 /*!
  * \file fieldMotion.h
- * \brief A point that goes through places in a potential field as printed: figure 8.6.
+ * \brief A point that visits positions in a potential field as printed: figure 8.6.
  */
 #ifndef avoidObstacle_fieldMotion_h
 #define avoidObstacle_fieldMotion_h
@@ -16,32 +16,32 @@
 namespace avoidObstacle
 {
 /*!
- * \brief Places in the order of time, and an obstacle beside the way that acts on x alone, as in section 8.3.3. The
+ * \brief Positions in time order, and an obstacle beside the path that acts only on x, as in section 8.3.3. The
  * thesis gives no numbers for figure 8.6: these are our choice.
  */
 struct FieldTask {
-  std::vector<Eigen::Vector2d> places = {{0.05, 0.15}, {0.05, 0.3}, {0., 0.45}}; //!< From (0, 0), m.
-  double slot = 2.5;                       //!< For each place, s, and twice as long for the last one.
+  std::vector<Eigen::Vector2d> places = {{0.05, 0.15}, {0.05, 0.3}, {0., 0.45}}; //!< Starting at (0, 0), m.
+  double slot = 2.5;                       //!< Time per position, s, twice as long for the last one.
   Eigen::Vector2d obstacle = {-0.12, 0.4}; //!< m.
-  double sight = 0.2;                      //!< Farther along y the camera does not see it, m.
+  double sight = 0.2;                      //!< Beyond this along y the camera does not see it, m.
   double gain = 2.;                        //!< x'_t = gain (place - x), 1/s.
   double avoidSpeed = 0.25;                //!< x'_oa, m/s.
   double period = 0.005;                   //!< s.
 };
 
-//! \brief What became of it.
+//! \brief The resulting motion.
 struct FieldMotion {
   vpFieldWeightSpec weight;
   std::vector<double> times;        //!< s.
   std::vector<Eigen::Vector2d> way; //!< m.
   std::vector<double> weights;      //!< w_u.
-  std::vector<double> missed;       //!< Distance from each place at the end of its slot, m.
+  std::vector<double> missed;       //!< Distance from each position at the end of its slot, m.
   double peakSpeed = 0.;            //!< m/s.
 };
 
-//! Without an obstacle's weight \e withObstacle is false.
+//! If \e withObstacle is false, the obstacle has no weight.
 [[nodiscard]] FieldMotion followField(const FieldTask &task, const vpFieldWeightSpec &weight, bool withObstacle = true);
-//! The parameters of the upper (strict) and the lower drawing, m.
+//! Parameters of the upper (strict) and the lower plot, m.
 [[nodiscard]] vpFieldWeightSpec strictField();
 [[nodiscard]] vpFieldWeightSpec mildField();
 } // namespace avoidObstacle

@@ -19,9 +19,9 @@ using vpApp::Plot;
 using vpApp::PlotCurve;
 using vpApp::PlotStyle;
 
-constexpr std::size_t CURVE_POINTS = 800; // more does not show
-constexpr double CUT = 3.;                // of the bound of a: what is above is drawn there
-constexpr double FAR = 300.;              // mm of clearance: what is above is drawn there
+constexpr std::size_t CURVE_POINTS = 800; // more would not be visible
+constexpr double CUT = 3.;                // in units of the bound of a: larger values are drawn there
+constexpr double FAR = 300.;              // mm of clearance: larger values are drawn there
 const char *const COLOURS[] = {"#1f77b4", "#d62728", "#2ca02c", "#ff7f0e", "#9467bd", "#8c564b", "#17becf", "#7f7f7f"};
 
 PlotCurve curveOf(const std::string &label, const std::string &colour)
@@ -53,7 +53,7 @@ Plot jointSpeeds(const vpAvoidanceRun &run)
   return plot;
 }
 
-//! Columns of the track table over time, thinned out.
+//! Columns of the track table over time, downsampled.
 PlotCurve ofTrack(const Diary &diary, const std::string &object, const std::string &label, const std::string &colour,
                   const std::function<double(const TrackRow &)> &value)
 {
@@ -84,7 +84,7 @@ PlotCurve sightErrors(const Diary &diary, const std::string &object, const std::
   return curve;
 }
 
-//! Every name that the track table ever had.
+//! All names that occurred in the track table.
 std::vector<std::string> namesOf(const PhotoScene &scene, const Diary &diary)
 {
   std::vector<std::string> names;

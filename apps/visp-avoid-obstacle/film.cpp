@@ -139,7 +139,7 @@ const vpAvoidanceSample &sampleAt(const vpAvoidanceRun &run, double time)
   return after == run.samples.end() ? run.samples.back() : *after;
 }
 
-//! Even numbers, as videos need them.
+//! Even numbers, as videos require.
 cv::Mat evened(const cv::Mat &picture)
 {
   cv::Mat result;

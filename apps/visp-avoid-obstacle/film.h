@@ -4,7 +4,7 @@
  */
 /*!
  * \file film.h
- * \brief Moving pictures of a run: the camera's view beside the arm.
+ * \brief Video of a run: the camera view beside the arm.
  */
 #ifndef avoidObstacle_film_h
 #define avoidObstacle_film_h
@@ -17,13 +17,14 @@
 
 namespace avoidObstacle
 {
-//! The picture of a frame in colour, with what was found outlined and its time.
+//! Colour image of a frame, with detections outlined and its time.
 [[nodiscard]] cv::Mat cameraPicture(const Frame &frame);
 
 /*!
- * Every exposure as a picture of the camera's view beside the arm from above and from the side, in real time.
- * \param file : MP4 to write; empty: none. \param window : Where to show it as well; null: nowhere. A click ends that.
- * \return True when browsers play the file.
+ * Every exposure as an image of the camera view beside the arm from above and from the side, in real time.
+ * \param file : MP4 to write; empty: none. \param window : Also shows the video; null: no window. A click ends the
+ * display.
+ * \return True if browsers can play the file.
  */
 [[nodiscard]] bool makeFilm(const Episode &episode, const std::string &file, vpApp::PictureWindow *window);
 } // namespace avoidObstacle

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// visp-avoid-obstacle: an arm goes past what the camera in its hand sees, from image to joints, and a report.
+// visp-avoid-obstacle: an arm avoids what its eye-in-hand camera sees, from image to joints, with a report.
 #include "film.h"
 #include "options.h"
 #include "replicas.h"

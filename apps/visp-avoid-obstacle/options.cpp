@@ -100,7 +100,7 @@ void requireKnown(const char *option, const std::string &name, const std::vector
   }
 }
 
-//! A replica is what the thesis says: only where it goes, and what is left open there, may be chosen.
+//! A replica follows the thesis: only its result folder, and values that the thesis leaves open, may be chosen.
 void requireNothingElse(const CLI::App &app)
 {
   for (const char *other : {"--method", "--scene", "--targets", "--sensor", "--hide", "--vision-rate", "--latency",
@@ -111,7 +111,7 @@ void requireNothingElse(const CLI::App &app)
   }
 }
 
-//! What is read as text, so that messages can name it.
+//! Options read as text, so that messages can name them.
 struct Texts {
   std::string visionRate = "30", latency = "0.05", duration = "20", noise = "2", forget = "0", friction = "1",
               seed = "1";

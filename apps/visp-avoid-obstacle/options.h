@@ -15,32 +15,32 @@
 
 namespace avoidObstacle
 {
-//! \brief How obstacles are seen.
+//! \brief Sensor of the obstacles.
 enum class SensorKind {
-  Image, //!< Photographs in pictures of the camera in the hand.
-  Depth, //!< Depth images of the camera in the hand, as a map of cubes.
-  Poses  //!< Poses with noise: a vision system that always finds what is in range.
+  Image, //!< Photographs in images of the eye-in-hand camera.
+  Depth, //!< Depth images of the eye-in-hand camera, as a map of cubes.
+  Poses  //!< Noisy poses: a vision system that detects everything in range.
 };
 
-//! \brief What the user asked for, not yet looked up.
+//! \brief User options, not yet resolved.
 struct Options {
   std::string method = "dtg-via";
   std::string scene;   //!< JSON file; empty for the default scene.
   std::string arm;     //!< JSON file; empty for AMOR.
-  std::string targets; //!< Folder with targets.json; empty for the data folder's.
+  std::string targets; //!< Folder with targets.json; empty for that of the data folder.
   SensorKind sensor = SensorKind::Image;
-  std::vector<std::pair<double, double>> hidden; //!< The camera is covered from, until; s.
+  std::vector<std::pair<double, double>> hidden; //!< Intervals with covered camera: from, until; s.
   double visionRate = 30.;                       //!< Hz.
   double latency = 0.05;                         //!< s.
-  double duration = 20.;                         //!< At most, s.
-  double forget = 0.;                            //!< What is not seen for so long is not there any more, s; 0: never.
-  double noise = 2.;                             //!< Of pictures, grey values.
-  double friction = 1.;                          //!< Of the joints, relative to the arm's file; 0: ideal drives.
+  double duration = 20.;                         //!< Maximum duration, s.
+  double forget = 0.;                            //!< Forget obstacles unseen for this time, s; 0: never.
+  double noise = 2.;                             //!< Image noise, grey values.
+  double friction = 1.;                          //!< Joint friction relative to the arm's file; 0: ideal drives.
   unsigned int seed = 1;
   std::string replica; //!< Name of a figure; empty for none.
   std::string out = "out/avoid-obstacle";
   bool record = false;  //!< Write a video.
-  bool display = false; //!< Show it in a window, too.
+  bool display = false; //!< Also show it in a window.
   bool list = false;
 };
 
@@ -49,12 +49,12 @@ struct Options {
 
 /*!
  * Read the command line.
- * \return False when `--help` or `--version` was asked for, and printed.
+ * \return False when `--help` or `--version` was requested and printed.
  * \throw vpApp::UsageError naming the option and its value.
  */
 [[nodiscard]] bool readOptions(int argc, const char *const *argv, Options &options);
 
-//! Exit status beside those of vpApp::ExitStatus: there is a report, and in it the moving arm hits something.
+//! Exit status in addition to vpApp::ExitStatus: report written, and the moving arm hit something.
 constexpr int ExitHit = 3;
 
 } // namespace avoidObstacle

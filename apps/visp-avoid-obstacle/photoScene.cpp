@@ -22,7 +22,7 @@ namespace
 {
 constexpr double SAME_SIZE = 0.01; // relative
 
-//! Picture file of a target; the database has checked that targets.json is sound.
+//! Image file of a target; the database has validated targets.json.
 std::string imageOf(const std::string &folder, const std::string &target)
 {
   const nlohmann::json list = vpApp::readJsonFile((std::filesystem::path(folder) / "targets.json").string());
@@ -50,7 +50,7 @@ const vpPlanarTargetSighting &targetNamed(const std::vector<vpPlanarTargetSighti
   return *found;
 }
 
-//! The box must be as large as its photograph says: by that everything becomes metric.
+//! The box must have the size of its photograph, which sets the metric scale.
 void requireSize(const PhotoScene &scene, const vpObjectPhoto &photo, const Eigen::Vector3d &size,
                  const vpPlanarTargetSighting &target)
 {
@@ -94,8 +94,8 @@ void dress(PhotoScene &scene, const vpObjectPhoto &photo, const vpCollisionObjec
 }
 
 /*
- * Of an object without a photograph. Sensors that need none see all objects of a scene in which none has one; where some
- * have, the others are known from the start, unless they move.
+ * For an object without a photograph. Sensors that need no photographs see all objects if none in the scene has one; if
+ * some have, the others are known from the start, unless they move.
  */
 bool mustBeSeen(const PhotoScene &scene, SensorKind sensor, const vpCollisionObject &object)
 {

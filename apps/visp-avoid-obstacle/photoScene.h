@@ -4,7 +4,7 @@
  */
 /*!
  * \file photoScene.h
- * \brief A scene: what is known from the start, and what has to be seen, by the photographs that boxes carry or without.
+ * \brief A scene: objects known from the start, and objects to be seen, with photographs on boxes or without.
  */
 #ifndef avoidObstacle_photoScene_h
 #define avoidObstacle_photoScene_h
@@ -20,29 +20,29 @@
 
 namespace avoidObstacle
 {
-//! \brief All that is there, checked against each other.
+//! \brief The whole scene, checked for consistency.
 struct PhotoScene {
   std::shared_ptr<const vpArmModel> arm;
   std::string name;
-  vpCollisionSceneSpec known;              //!< Objects that need not be seen, and the ground.
-  std::vector<vpMovingObstacle> obstacles; //!< Those that have to be.
-  std::vector<vpObjectPhoto> carriers;     //!< Which obstacle carries which target.
-  vpSceneCameraSpec camera;                //!< With the photographs.
-  std::string targets;                     //!< Folder of all photographs that are known.
-  vpMotionTask task;                       //!< The first one of the file.
-  std::vector<std::string> remarks;        //!< A sentence each.
+  vpCollisionSceneSpec known;              //!< Objects known from the start, and the ground.
+  std::vector<vpMovingObstacle> obstacles; //!< Objects to be seen.
+  std::vector<vpObjectPhoto> carriers;     //!< Assignment of targets to obstacles.
+  vpSceneCameraSpec camera;                //!< Camera, with the photographs.
+  std::string targets;                     //!< Folder of all known photographs.
+  vpMotionTask task;                       //!< First task of the file.
+  std::vector<std::string> remarks;        //!< One sentence each.
 
-  //! Name of the obstacle that carries a target; the target's own name when none does.
+  //! Name of the obstacle that carries a target; the target's own name if none does.
   [[nodiscard]] std::string carrierOf(const std::string &target) const;
 };
 
 /*!
- * Read what the options name.
+ * Read the scene named by the options.
  * \throw std::runtime_error or vpException naming the file and the element: no task, a task for another arm, nothing
- * to see with the sensor, a target that is not in the folder, a box that has not its target's size.
+ * to see with the sensor, a target missing in the folder, a box whose size differs from its target.
  */
 [[nodiscard]] PhotoScene loadPhotoScene(const Options &options);
-//! The database of photographs with settings for a control loop.
+//! Database of the photographs, set up for a control loop.
 [[nodiscard]] vpPlanarTargetDatabase loadTargets(const PhotoScene &scene);
 } // namespace avoidObstacle
 

@@ -15,13 +15,13 @@
 
 namespace avoidObstacle
 {
-//! A curve of places. \param thin : Every so many of them.
+//! Path as a curve. \param thin : Keep every thin-th point.
 [[nodiscard]] vpApp::PlotCurve wayCurve(const std::string &label, const std::string &colour,
                                         const std::vector<Eigen::Vector2d> &way, std::size_t thin = 1);
-//! Single places as points.
+//! Single positions as points.
 [[nodiscard]] vpApp::PlotCurve placeCurve(const std::string &label, const std::string &colour,
                                           const std::vector<Eigen::Vector2d> &places);
-//! A map: x to the right, y up, to scale.
+//! Map: x to the right, y up, to scale.
 [[nodiscard]] vpApp::Plot wayPlot(const std::string &title);
 } // namespace avoidObstacle
 

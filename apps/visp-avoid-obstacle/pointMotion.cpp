@@ -12,7 +12,7 @@ namespace avoidObstacle
 {
 namespace
 {
-constexpr int DENSE = 10;       // looks a period
+constexpr int DENSE = 10;       // evaluations per period
 constexpr double LONGEST = 30.; // s
 
 double norm(const vpTrajectoryPlan &plan, double t, int order)

@@ -22,7 +22,7 @@ using Eigen::Vector2d;
 using vpApp::fixed;
 using vpApp::number;
 
-constexpr double ROUNDING = 1e-9;   // relative: a bound counts as kept
+constexpr double ROUNDING = 1e-9;   // relative tolerance of a bound
 constexpr double GOAL_NOISE = 0.01; // m
 constexpr std::size_t THIN = 4;
 
@@ -157,7 +157,7 @@ PointTask throughVia()
   return task;
 }
 
-//! Where the object of figure 8.13 is.
+//! Position of the object of figure 8.13.
 Vector2d objectAt(double t)
 {
   const Vector2d a(0.1, 0.3), b(0.23, 0.13), c(0.14, 0.04);

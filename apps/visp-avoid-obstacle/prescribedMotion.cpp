@@ -10,7 +10,7 @@ namespace avoidObstacle
 {
 namespace
 {
-constexpr double FOLLOWING_GAIN = 10.; // 1/s: what joint limits hold back is made up for so quickly
+constexpr double FOLLOWING_GAIN = 10.; // 1/s: gain that recovers lag caused by joint limits
 
 vpRedundancySpec solverSpec(double period)
 {
@@ -62,7 +62,7 @@ void PrescribedMotion::step(const vpJointVector &q, vpAvoidanceOutput &output) n
   for (; m_next < m_events.size() && m_events[m_next].time <= now + 0.5 * m_spec.period; ++m_next) {
     take(m_events[m_next]);
   }
-  const Eigen::Vector3d before = m_cycle == 1 ? m_input.start.q : m_output.state.q; // where the tool should be now
+  const Eigen::Vector3d before = m_cycle == 1 ? m_input.start.q : m_output.state.q; // desired tool position now
   const vpTrajectoryResult result = m_trajectory.update(m_input, m_output, m_spec.period);
   vpArmKinematics::forward(*m_arm, q, m_data);
   vpArmKinematics::jacobian(*m_arm, m_data);

@@ -4,7 +4,7 @@
  */
 /*!
  * \file prescribedMotion.h
- * \brief The tool of an arm on direct trajectories whose goal and via change when it is written: figures 8.8 and 8.10.
+ * \brief The tool of an arm on direct trajectories with goals and vias changing at given times: figures 8.8 and 8.10.
  */
 #ifndef avoidObstacle_prescribedMotion_h
 #define avoidObstacle_prescribedMotion_h
@@ -18,7 +18,7 @@
 
 namespace avoidObstacle
 {
-//! \brief At some time the tool is told to go elsewhere.
+//! \brief A change of the tool's goal.
 struct ToolEvent {
   double time = 0.;                               //!< s.
   Eigen::Vector3d goal = Eigen::Vector3d::Zero(); //!< m.
@@ -26,18 +26,18 @@ struct ToolEvent {
 };
 
 /*!
- * \brief Does what the thesis says was done, at the times when it was done; it does not look at obstacles. The position
+ * \brief Repeats the events of the thesis at their times, without looking at obstacles. The position
  * of the tool is controlled, its orientation is free (thesis 8.1.1).
  */
 class PrescribedMotion : public vpAvoidanceMethod
 {
 public:
-  //! \param events : In the order of time; the first one begins the motion. \param scene : Must outlive this.
+  //! \param events : In time order; the first one starts the motion. \param scene : Must outlive this.
   PrescribedMotion(const vpCollisionScene &scene, const vpAvoidanceMethodSpec &spec, std::vector<ToolEvent> events,
                    double viaShare);
 
   vpAvoidanceStatus start(const vpJointVector &q, const vpAvoidanceGoal &goal) override;
-  void setGoal(const vpAvoidanceGoal &) noexcept override {} // the events have it
+  void setGoal(const vpAvoidanceGoal &) noexcept override {} // goals come from the events
   void look() override {}
   void step(const vpJointVector &q, vpAvoidanceOutput &output) noexcept override;
 
@@ -52,7 +52,7 @@ private:
   vpDirectTrajectory<3> m_trajectory;
   vpTrajectoryInput<3> m_input;
   vpTrajectoryOutput<3> m_output;
-  std::vector<vpTrajectoryVia<3>> m_via; // room for one
+  std::vector<vpTrajectoryVia<3>> m_via; // capacity for one
   vpRedundancyInput m_wish;
   vpRedundancyOutput m_solved;
   vpArmData m_data;

@@ -4,7 +4,7 @@
  */
 /*!
  * \file replicas.h
- * \brief The figures of thesis chapter 8 that can be repeated.
+ * \brief Reproducible figures of thesis chapter 8.
  */
 #ifndef avoidObstacle_replicas_h
 #define avoidObstacle_replicas_h
@@ -24,29 +24,29 @@ struct Comparison {
   std::string what;
   std::string thesis;
   std::string ours;
-  bool agrees = true; //!< False: differs, and a sentence of the replica says why.
+  bool agrees = true; //!< False: differs, and a sentence of the replica explains why.
 };
 
-//! \brief A figure that was repeated.
+//! \brief A reproduced figure.
 struct Replica {
   std::string name;                 //!< "fig8.7"
-  std::string title;                //!< What the figure shows.
-  std::vector<std::string> story;   //!< What came out; the first sentence answers.
-  std::vector<std::string> choices; //!< What the thesis leaves open, and what we took.
+  std::string title;                //!< Content of the figure.
+  std::vector<std::string> story;   //!< Results; the first sentence is the main one.
+  std::vector<std::string> choices; //!< Choices made where the thesis leaves values open.
   std::vector<Comparison> comparisons;
   std::vector<Figure> figures;
-  std::vector<std::pair<std::string, std::string>> tables; //!< Names of CSV files and their content.
-  nlohmann::ordered_json numbers;                          //!< For summary.json.
+  std::vector<std::pair<std::string, std::string>> tables; //!< Names and content of CSV files.
+  nlohmann::ordered_json numbers;                          //!< Results for summary.json.
 };
 
 //! Names for --replica: "fig8.6" to "fig8.13".
 [[nodiscard]] const std::vector<std::string> &replicaNames();
-//! What a figure shows, in a sentence. \throw std::out_of_range for an unknown name.
+//! Content of a figure, in one sentence. \throw std::out_of_range for an unknown name.
 [[nodiscard]] const std::string &replicaTitle(const std::string &name);
-//! Repeat the figure of that name.
+//! Reproduce the figure of that name.
 [[nodiscard]] Replica playReplica(const Options &options);
 
-// The figures by how they are made; each takes one of its names.
+// The figures by method; each takes one of its names.
 [[nodiscard]] Replica playFieldReplica(const Options &options); //!< 8.6
 [[nodiscard]] Replica playPointReplica(const Options &options); //!< 8.7, 8.9, 8.13
 [[nodiscard]] Replica playArmReplica(const Options &options);   //!< 8.8, 8.10, 8.11, 8.12

@@ -19,9 +19,9 @@ namespace avoidObstacle
 {
 //! \brief A video beside the page.
 struct FilmFile {
-  std::string name; //!< In the result folder; empty: there is none.
+  std::string name; //!< In the result folder; empty: none.
   bool forBrowsers = true;
-  std::string bytes; //!< Its content.
+  std::string bytes; //!< File content.
 };
 
 //! Adds a figure to a page.
@@ -30,7 +30,7 @@ void addFigure(vpApp::HtmlReport &page, const Figure &figure);
 [[nodiscard]] std::string reportPage(const PhotoScene &scene, const Options &options, const Episode &episode,
                                      const std::vector<Figure> &figures, const FilmFile &film,
                                      const std::string &commandLine);
-//! The page of a figure that was repeated.
+//! The page of a reproduced figure.
 [[nodiscard]] std::string replicaPage(const Replica &replica, const std::string &commandLine);
 } // namespace avoidObstacle
 

@@ -4,7 +4,7 @@
  */
 /*!
  * \file summary.h
- * \brief The content of summary.json.
+ * \brief Content of summary.json.
  */
 #ifndef avoidObstacle_summary_h
 #define avoidObstacle_summary_h
@@ -16,12 +16,12 @@
 
 namespace avoidObstacle
 {
-//! The figures of a run by the names of vpAvoidanceMetrics.
+//! Metrics of a run by the names of vpAvoidanceMetrics.
 [[nodiscard]] nlohmann::ordered_json metricsJson(const vpAvoidanceMetrics &metrics);
-//! Everything about a run, but for what OutputFolder adds.
+//! Summary of a run, without the fields added by OutputFolder.
 [[nodiscard]] nlohmann::ordered_json summaryOf(const PhotoScene &scene, const Options &options, const Episode &episode,
                                                const std::string &commandLine, double wallTime);
-//! The same about a figure that was repeated.
+//! Summary of a reproduced figure, without the fields added by OutputFolder.
 [[nodiscard]] nlohmann::ordered_json summaryOf(const Replica &replica, const Options &options,
                                                const std::string &commandLine, double wallTime);
 } // namespace avoidObstacle

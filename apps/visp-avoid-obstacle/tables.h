@@ -13,11 +13,11 @@
 
 namespace avoidObstacle
 {
-//! samples.csv: a row for every period of the loop.
+//! samples.csv: one row per period of the loop.
 [[nodiscard]] std::string samplesCsv(const vpAvoidanceRun &run);
-//! tracks.csv: the track table of every period, a row for each obstacle.
+//! tracks.csv: the track table of every period, one row per obstacle.
 [[nodiscard]] std::string tracksCsv(const Diary &diary);
-//! frames.csv: a row for every obstacle in every picture.
+//! frames.csv: one row per obstacle and image.
 [[nodiscard]] std::string framesCsv(const Diary &diary);
 } // namespace avoidObstacle
 

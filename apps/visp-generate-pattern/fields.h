@@ -4,7 +4,7 @@
  */
 /*!
  * \file fields.h
- * \brief The numbers that describe a product, as the command line and a file call them.
+ * \brief Numerical parameters of a product, with their names on the command line and in files.
  */
 #ifndef generatePattern_fields_h
 #define generatePattern_fields_h
@@ -20,27 +20,27 @@ VISP_DIRECT_USING_NAMESPACE
 namespace generatePattern
 {
 /*!
- * \brief A number of vpProductPatternSpec: how it is called in C++ ("pitchX"), on the command line ("--pitch-x") and in a
+ * \brief A number of vpProductPatternSpec with its names in C++ ("pitchX"), on the command line ("--pitch-x") and in a
  * file ("pitch_x").
  */
 struct Field {
-  const char *group;    //!< Object of the file; heading of the help.
-  const char *name;     //!< As in C++.
-  const char *unit;     //!< In the help.
-  const char *sentence; //!< What it does.
+  const char *group;    //!< Object in the file; heading in the help.
+  const char *name;     //!< Name in C++.
+  const char *unit;     //!< Unit, for the help.
+  const char *sentence; //!< Description.
   std::variant<double vpProductPatternSpec::*, unsigned int vpProductPatternSpec::*> member;
 
   //! "pitch-x" with '-', "pitch_x" with '_'.
   [[nodiscard]] std::string nameWith(char separator) const;
-  //! As a user reads it, six digits.
+  //! Value as text, six digits.
   [[nodiscard]] std::string valueOf(const vpProductPatternSpec &product) const;
 };
 
-//! All numbers of the product but the angle, which users give in degrees.
+//! All numbers of the product except the angle, which users give in degrees.
 [[nodiscard]] const std::vector<Field> &fields();
-//! The shape called so. \throw std::runtime_error "NAME, must be rectangle, rounded or dot".
+//! The shape of that name. \throw std::runtime_error "NAME, must be rectangle, rounded or dot".
 [[nodiscard]] vpProductShape shapeOf(const std::string &name);
-//! Six digits, as a user reads it.
+//! Number as text, six digits.
 [[nodiscard]] std::string shortNumber(double value);
 } // namespace generatePattern
 

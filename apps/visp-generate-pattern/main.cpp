@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// visp-generate-pattern: pictures of a repetitive product in motion, with the true places of its cells.
+// visp-generate-pattern: images of a moving repetitive product, with the true positions of its cells.
 #include "options.h"
 #include "sequence.h"
 

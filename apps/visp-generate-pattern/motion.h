@@ -4,7 +4,7 @@
  */
 /*!
  * \file motion.h
- * \brief How the product moves through the sequence.
+ * \brief Motion of the product in the sequence.
  */
 #ifndef generatePattern_motion_h
 #define generatePattern_motion_h
@@ -22,11 +22,11 @@ struct Motion {
   Pair start{{0., 0.}};    //!< Displacement in frame 0, px.
   Pair velocity{{5., 0.}}; //!< px/frame.
   Pair swing{{0., 0.}};    //!< Amplitude of the sine, px.
-  double period = 50.;     //!< Of the sine, frames, >= 2.
+  double period = 50.;     //!< Period of the sine, frames, >= 2.
 
   //! Displacement of the product in a frame, px.
   [[nodiscard]] Pair placeAt(double frame) const;
-  //! Its derivative, px/frame.
+  //! Velocity of the product in a frame, px/frame.
   [[nodiscard]] Pair velocityAt(double frame) const;
 };
 } // namespace generatePattern

@@ -47,7 +47,7 @@ std::string headingOf(const std::string &group)
   return group;
 }
 
-//! Changes to the task that come after the file, in the order of the command line.
+//! Changes to the task applied after the file, in command-line order.
 using Changes = std::vector<std::function<void(Task &)>>;
 
 void addField(CLI::App &app, const Field &field, Changes &changes)

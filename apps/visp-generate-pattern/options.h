@@ -15,11 +15,11 @@
 
 namespace generatePattern
 {
-//! \brief What the user asked for.
+//! \brief User options.
 struct Options {
   Task task;                                //!< From the file of --config, then from the other options.
   std::string out = "out/generate-pattern"; //!< Result folder.
-  std::string format = "png";               //!< Of the frames, "png" or "pgm".
+  std::string format = "png";               //!< Image format of the frames, "png" or "pgm".
   bool video = false;                       //!< Write video.mp4.
   double videoRate = 25.;                   //!< Frames per second of the video, 1..240.
 };

@@ -23,7 +23,7 @@ namespace
 {
 constexpr std::size_t LINE = 256; // longest line of a table, characters
 
-//! \brief A table that grows line by line; it may be larger than the memory.
+//! \brief A table written line by line; it may exceed the memory.
 class Table
 {
 public:
@@ -55,7 +55,7 @@ std::string encoded(const cv::Mat &frame, const std::string &format)
   return {bytes.begin(), bytes.end()};
 }
 
-//! Video codecs want colour and even sizes.
+//! Video codecs require colour and even sizes.
 cv::Mat forVideo(const cv::Mat &frame)
 {
   cv::Mat even, colour;

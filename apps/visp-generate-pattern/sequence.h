@@ -17,7 +17,7 @@
 namespace generatePattern
 {
 /*!
- * Write frames/, truth.csv, motion.csv and, if asked for, video.mp4.
+ * Write frames/, truth.csv, motion.csv and, if requested, video.mp4.
  * \return Number of lines of truth.csv without its heading.
  * \throw std::runtime_error naming a file that cannot be written; vpApp::Interrupted.
  */

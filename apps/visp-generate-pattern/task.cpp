@@ -16,7 +16,7 @@ namespace generatePattern
 {
 namespace
 {
-constexpr double longestBlur = 1000.; // px, what vpProductPattern renders
+constexpr double longestBlur = 1000.; // px, limit of vpProductPattern
 constexpr double farthest = 1e8;      // px
 constexpr unsigned int mostFrames = 1000000;
 

@@ -4,7 +4,7 @@
  */
 /*!
  * \file task.h
- * \brief What is to be made, and its form as a JSON file.
+ * \brief The sequence to generate, and its JSON format.
  */
 #ifndef generatePattern_task_h
 #define generatePattern_task_h
@@ -26,19 +26,19 @@ struct Task {
 };
 
 /*!
- * Read a task; what the file does not give stays at its default.
+ * Read a task; fields missing in the file keep their defaults.
  * \throw std::runtime_error naming the file, the field and the value.
  */
 [[nodiscard]] Task readTask(const std::string &file);
-//! The task as a file from which readTask() makes the same one.
+//! The task as JSON, from which readTask() restores it.
 [[nodiscard]] nlohmann::ordered_json jsonOf(const Task &task);
 
-//! How a complaint calls what it is about.
+//! How messages name a field.
 enum class Naming {
   CommandLine, //!< --pitch-x
   File         //!< pitch_x
 };
-//! \throw std::runtime_error naming what is out of its range, and its value.
+//! \throw std::runtime_error naming an out-of-range field and its value.
 void check(const Task &task, Naming naming);
 } // namespace generatePattern
 

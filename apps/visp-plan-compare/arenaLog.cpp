@@ -14,7 +14,7 @@ namespace planCompare
 {
 namespace
 {
-//! A property of a run: its name and type, and its value.
+//! A property of a run: name, type and value.
 struct Property {
   const char *name;
   double (*value)(const Record &);
@@ -43,7 +43,7 @@ const std::vector<Property> &properties()
   return all;
 }
 
-//! A word: spaces would end the name.
+//! Text as one word: spaces would end the name.
 std::string word(const std::string &text) { return vpApp::fileName(text); }
 } // namespace
 

@@ -14,13 +14,13 @@
 namespace planCompare
 {
 /*!
- * The log of one scene: every method a planner, every problem a run. Times are those of planning (start and all looks),
- * in s as OMPL has them; all else is in the units of vpAvoidanceMetrics.
- * \param startedAt : As "2024-05-17 08:30:00".
+ * The log of one scene: each method is a planner, each problem a run. Times are planning times (start and all looks),
+ * in s as in OMPL; everything else is in the units of vpAvoidanceMetrics.
+ * \param startedAt : Start time in the form "2024-05-17 08:30:00".
  */
 [[nodiscard]] std::string arenaLog(const Plan &plan, const Results &results, const SceneInfo &scene,
                                    const std::string &startedAt);
-//! Now, as arenaLog() wants it.
+//! Current time in the format of arenaLog().
 [[nodiscard]] std::string timeText();
 } // namespace planCompare
 

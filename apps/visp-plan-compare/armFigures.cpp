@@ -28,7 +28,7 @@ std::vector<vpApp::ArmTrace> tracesOf(const Plan &plan, const Results &results, 
   return traces;
 }
 
-//! Which of the scene's runs is shown: "right to left, seed 1".
+//! Description of the shown run of a scene: "right to left, seed 1".
 std::string whichRun(const Plan &plan, const std::string &scene)
 {
   for (const Problem &problem : plan.problems) {

@@ -4,7 +4,7 @@
  */
 /*!
  * \file armFigures.h
- * \brief The arm of the shown runs, still and moving.
+ * \brief Arm figures and animations of the shown runs.
  */
 #ifndef planCompare_armFigures_h
 #define planCompare_armFigures_h
@@ -13,9 +13,9 @@
 
 namespace planCompare
 {
-//! The ways of all methods' tools, and the arm of one of them at some times.
+//! Tool paths of all methods, and the arm of one of them at some times.
 [[nodiscard]] Figure drawArm(const Plan &plan, const Results &results, const SceneInfo &scene);
-//! That arm as it moves, and the obstacles.
+//! Animation of that arm and the obstacles.
 [[nodiscard]] Figure animateArm(const Plan &plan, const Results &results, const SceneInfo &scene);
 } // namespace planCompare
 

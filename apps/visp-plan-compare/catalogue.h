@@ -4,7 +4,7 @@
  */
 /*!
  * \file catalogue.h
- * \brief Names and sentences of methods and scenes.
+ * \brief Names and descriptions of methods and scenes.
  */
 #ifndef planCompare_catalogue_h
 #define planCompare_catalogue_h
@@ -14,30 +14,30 @@
 
 namespace planCompare
 {
-//! \brief A method in words.
+//! \brief Description of a method.
 struct MethodInfo {
-  std::string id;       //!< For makeAvoidanceMethod().
+  std::string id;       //!< Id for makeAvoidanceMethod().
   std::string number;   //!< "(iii)".
   std::string name;     //!< Short, for tables.
-  std::string sentence; //!< What it does.
+  std::string sentence; //!< Description.
   std::string colour;   //!< #rrggbb
 };
 
-//! Of any method; one that is not known here has its id for a name.
+//! Description of any method; an unknown method is named by its id.
 [[nodiscard]] MethodInfo methodInfo(const std::string &id);
 
-//! \brief A scene in words.
+//! \brief Description of a scene.
 struct SceneInfo {
   std::string id;         //!< "S4b".
   std::string name;       //!< Short, for tables.
-  std::string sentence;   //!< What it is.
-  unsigned int seeds = 0; //!< Of the default job.
-  unsigned int quick = 0; //!< Of a quick one.
+  std::string sentence;   //!< Description.
+  unsigned int seeds = 0; //!< Number of seeds by default.
+  unsigned int quick = 0; //!< Number of seeds with --quick.
 };
 
-//! S1, S2, S3, S4a, S4b, S6, S7. S5 is none of them: there is no goal to go to.
+//! S1, S2, S3, S4a, S4b, S6, S7. S5 is not included, as it has no goal.
 [[nodiscard]] const std::vector<SceneInfo> &standardScenes();
-//! A sentence for S5.
+//! Description of S5.
 [[nodiscard]] const char *selfMotionSentence();
 } // namespace planCompare
 

@@ -21,7 +21,7 @@ using vpApp::Plot;
 using vpApp::PlotCurve;
 using vpApp::PlotStyle;
 
-constexpr double CUT = 3.; // of the bound of a: what is above is drawn there
+constexpr double CUT = 3.; // in units of the bound of a: larger values are drawn there
 
 using Value = std::function<double(const vpAvoidanceRun &, std::size_t)>;
 
@@ -49,7 +49,7 @@ double clearance(const vpAvoidanceRun &run, std::size_t i)
   return 1000. * std::min(0.3, run.samples[i].clearance.distance);
 }
 
-//! A value over time, a curve for each method.
+//! A value over time, one curve per method.
 Plot methodsOverTime(const Plan &plan, const Results &results, const std::string &scene, const std::string &title,
                      const std::string &label, const Value &value, vpApp::Keep keep = vpApp::Keep::Largest)
 {

@@ -4,7 +4,7 @@
  */
 /*!
  * \file figures.h
- * \brief Plots, pictures of the arm and animations of the shown runs.
+ * \brief Plots, arm figures and animations of the shown runs.
  */
 #ifndef planCompare_figures_h
 #define planCompare_figures_h
@@ -14,22 +14,22 @@
 
 namespace planCompare
 {
-//! \brief A figure, ready for the page: a drawing, or a piece of HTML.
+//! \brief A figure for the page: a drawing, or an HTML fragment.
 struct Figure {
-  std::string scene;   //!< Id: the section where it stands.
+  std::string scene;   //!< Scene id: the section of the figure.
   std::string name;    //!< File name without suffix: "S3-arm".
-  std::string title;   //!< In a few words.
-  std::string caption; //!< What to see.
-  std::string svg;     //!< The drawing; or empty.
-  std::string html;    //!< An animation; or empty.
+  std::string title;   //!< Short title.
+  std::string caption; //!< Explanation.
+  std::string svg;     //!< Drawing, or empty.
+  std::string html;    //!< Animation, or empty.
 };
 
-//! The method of a scene that is drawn as an arm: most successes, then the shortest median duration.
+//! The method whose arm is drawn for a scene: most successes, then the shortest median duration.
 [[nodiscard]] std::string heroOf(const Plan &plan, const Results &results, const std::string &scene);
 
 /*!
  * Draw all figures that the runs allow.
- * \param jobs : Figures drawn at a time.
+ * \param jobs : Figures drawn in parallel.
  */
 [[nodiscard]] std::vector<Figure> drawFigures(const Plan &plan, const Results &results,
                                               const std::vector<SelfMotionRow> &selfMotion, unsigned int jobs);

@@ -30,7 +30,7 @@ std::string nameOf(const std::string &method)
 
 std::string pText(double p) { return p < 0.001 ? "p < 0.001" : "p = " + number(p, 2); }
 
-//! Scenes where no method does significantly better, pair by pair, where it succeeds at all and touches nothing.
+//! Scenes in which the method succeeds, touches nothing, and no other is significantly better in paired tests.
 std::vector<std::string> unbeatenScenes(const Plan &plan, const Results &results, const std::string &method)
 {
   std::vector<std::string> scenes;
@@ -48,7 +48,7 @@ std::vector<std::string> unbeatenScenes(const Plan &plan, const Results &results
   return scenes;
 }
 
-//! Of these, those where its median duration is the least of all methods that are as good there.
+//! Of these, the scenes where its median duration is the shortest of all equally good methods.
 std::vector<std::string> quickestScenes(const Plan &plan, const Results &results, const std::string &method)
 {
   const auto duration = [&](const std::string &scene, const std::string &m) {
@@ -68,10 +68,10 @@ std::vector<std::string> quickestScenes(const Plan &plan, const Results &results
   return scenes;
 }
 
-//! A time in ms; what is too short to tell is said to be so.
+//! A time in ms; times too short to measure are marked.
 std::string msText(double ms) { return ms < 0.001 ? "less than 0.001" : number(ms, 2); }
 
-//! Of the methods that never touched anything, or of all when there is none.
+//! Methods that never touched anything.
 std::vector<std::string> safest(const Plan &plan, const Results &results)
 {
   std::vector<std::string> names;

@@ -4,7 +4,7 @@
  */
 /*!
  * \file findings.h
- * \brief What the numbers say, in sentences made of them.
+ * \brief Sentences computed from the results.
  */
 #ifndef planCompare_findings_h
 #define planCompare_findings_h
@@ -13,15 +13,15 @@
 
 namespace planCompare
 {
-//! The answer in a few sentences.
+//! Main result in a few sentences.
 [[nodiscard]] std::vector<std::string> answerOf(const Plan &plan, const Results &results);
-//! What a method is good for, and what not.
+//! Strengths and weaknesses of a method.
 [[nodiscard]] std::string verdictOf(const Plan &plan, const Results &results, const std::string &method);
-//! What a scene shows.
+//! Results of a scene.
 [[nodiscard]] std::vector<std::string> findingsOf(const Plan &plan, const Results &results, const SceneInfo &scene);
-//! Of the planners' validators; empty without them.
+//! Result on the planners' validators; empty without them.
 [[nodiscard]] std::string validatorFinding(const std::vector<ValidatorRow> &rows);
-//! Of S5; empty without it.
+//! Result of S5; empty without it.
 [[nodiscard]] std::string selfMotionFinding(const std::vector<SelfMotionRow> &rows);
 //! "17 of 20".
 [[nodiscard]] std::string countText(int part, std::size_t all);

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// visp-plan-compare: ways to bring an arm to a goal among obstacles on the same scenes, and a report.
+// visp-plan-compare: avoidance methods for an arm on the same scenes, with a report.
 #include "arenaLog.h"
 #include "figures.h"
 #include "options.h"

@@ -14,15 +14,15 @@
 
 namespace planCompare
 {
-//! \brief What the user asked for, not yet looked up.
+//! \brief User options, not yet resolved.
 struct Options {
   std::vector<std::string> scenes;  //!< Ids or files; empty for all.
   std::vector<std::string> methods; //!< Names; empty for all.
-  unsigned int seeds = 0;           //!< A scene; 0: each scene's own number.
+  unsigned int seeds = 0;           //!< Seeds per scene; 0: each scene's own number.
   unsigned int firstSeed = 1;
   bool quick = false;   //!< A few seeds.
   std::string arm;      //!< JSON file; empty for AMOR.
-  double friction = 0.; //!< Of the joints, relative to the arm's file; 0: ideal drives.
+  double friction = 0.; //!< Joint friction relative to the arm's file; 0: ideal drives.
   std::string out = "out/plan-compare";
   unsigned int jobs = 1;
   bool list = false;
@@ -30,7 +30,7 @@ struct Options {
 
 /*!
  * Read the command line.
- * \return False when `--help` or `--version` was asked for, and printed.
+ * \return False when `--help` or `--version` was requested and printed.
  * \throw vpApp::UsageError naming the option.
  */
 [[nodiscard]] bool readOptions(int argc, const char *const *argv, Options &options);

@@ -16,7 +16,7 @@ namespace planCompare
 {
 namespace
 {
-constexpr unsigned int OWN_SEEDS = 5; // of a scene of the user's
+constexpr unsigned int OWN_SEEDS = 5; // seeds of a user scene
 
 bool endsWith(const std::string &text, const std::string &end)
 {
@@ -40,7 +40,7 @@ std::vector<std::string> chooseMethods(const std::vector<std::string> &asked)
   return methods;
 }
 
-//! How many seeds of a scene.
+//! Number of seeds of a scene.
 unsigned int seedsOf(const Options &options, const SceneInfo &scene)
 {
   return options.seeds > 0 ? options.seeds : options.quick ? scene.quick : scene.seeds;
@@ -67,7 +67,7 @@ public:
         scenario.run.drives.ideal = false;
         scenario.run.drives.frictionScale = friction;
         scenario.run.drives.compensateFriction = true;
-        scenario.run.goalTolerance = 0.01; // drives by PD alone do not hold the millimetre
+        scenario.run.goalTolerance = 0.01; // PD drives alone do not reach 1 mm
       }
       return scenario;
     };

@@ -4,7 +4,7 @@
  */
 /*!
  * \file plan.h
- * \brief From what the user asked for to the list of scenes.
+ * \brief From the user's options to the list of scenes.
  */
 #ifndef planCompare_plan_h
 #define planCompare_plan_h
@@ -21,13 +21,13 @@ namespace planCompare
 //! \brief One scene with one seed; all methods run on it.
 struct Problem {
   std::string scene;   //!< Id.
-  std::string variant; //!< What differs among the problems of a scene besides the seed: "0.3 m/s at 30 Hz"; or empty.
+  std::string variant; //!< Variant of the scene besides the seed: "0.3 m/s at 30 Hz"; or empty.
   unsigned int seed = 1;
-  bool shown = false;                        //!< The first of its scene: its logs are kept.
-  std::function<vpAvoidanceScenario()> make; //!< Safe from several threads.
+  bool shown = false;                        //!< First problem of its scene: its logs are kept.
+  std::function<vpAvoidanceScenario()> make; //!< Thread-safe.
 };
 
-//! \brief All that will be run, checked.
+//! \brief All runs to be done, checked.
 struct Plan {
   std::shared_ptr<const vpArmModel> arm;
   std::vector<std::string> methods;
@@ -39,7 +39,7 @@ struct Plan {
 };
 
 /*!
- * Look up and check what the user asked for.
+ * Resolve and check the user's options.
  * \throw vpApp::UsageError for an unknown scene or method, naming the known ones; std::runtime_error or vpException
  * naming the file for a bad scene or arm.
  */

@@ -14,7 +14,7 @@
 
 namespace planCompare
 {
-//! The whole page, everything inside.
+//! The whole page, self-contained.
 [[nodiscard]] std::string reportPage(const Plan &plan, const Results &results, const Extras &extras,
                                      const std::vector<Figure> &figures);
 } // namespace planCompare

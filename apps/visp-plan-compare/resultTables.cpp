@@ -35,7 +35,7 @@ std::string intervalText(const Cell &cell)
 
 std::string msText(double ms) { return ms < 0.001 ? "0.000" : number(ms, 2); }
 
-//! Millimetres; rounding errors are none.
+//! Millimetres; rounding errors become 0.
 std::string mmText(double m) { return m < 1e-8 ? "0" : number(1000. * m, 2); }
 
 HtmlCell methodCell(const std::string &method)

@@ -4,7 +4,7 @@
  */
 /*!
  * \file resultTables.h
- * \brief The tables of the report that hold results of runs.
+ * \brief Result tables of the report.
  */
 #ifndef planCompare_resultTables_h
 #define planCompare_resultTables_h
@@ -14,11 +14,11 @@
 
 namespace planCompare
 {
-//! Methods by scenes: success, and the median duration of the successes.
+//! Methods by scenes: successes, and their median duration.
 [[nodiscard]] vpApp::HtmlTable mainTable(const Plan &plan, const Results &results);
-//! What each method does and is good for.
+//! Description and strengths of each method.
 [[nodiscard]] vpApp::HtmlTable verdictTable(const Plan &plan, const Results &results);
-//! All figures of a scene.
+//! All metrics of a scene.
 [[nodiscard]] vpApp::HtmlTable sceneTable(const Plan &plan, const Results &results, const std::string &scene);
 //! Successes of a scene by variant.
 [[nodiscard]] vpApp::HtmlTable variantTable(const Plan &plan, const Results &results, const std::string &scene);

@@ -129,7 +129,7 @@ Results runAll(const Plan &plan, unsigned int jobs)
   Results results;
   const std::size_t methods = plan.methods.size();
   results.records.resize(plan.problems.size() * methods);
-  std::vector<std::size_t> slots; // of the shown problems
+  std::vector<std::size_t> slots; // slots of the shown problems
   for (std::size_t i = 0; i < plan.problems.size(); ++i) {
     slots.push_back(results.shownScenes.size());
     if (plan.problems[i].shown) {

@@ -4,7 +4,7 @@
  */
 /*!
  * \file results.h
- * \brief The finished runs, and what can be counted in them.
+ * \brief The finished runs, and their statistics.
  */
 #ifndef planCompare_results_h
 #define planCompare_results_h
@@ -25,7 +25,7 @@ struct Record {
   std::string method;
   unsigned int seed = 1;
   double planTime = 0.;          //!< Wall time of vpAvoidanceMethod::start(), s.
-  std::vector<double> lookTimes; //!< Of vpAvoidanceMethod::look(), s.
+  std::vector<double> lookTimes; //!< Wall times of vpAvoidanceMethod::look(), s.
   vpAvoidanceMetrics metrics;
 };
 
@@ -38,34 +38,34 @@ struct Cell {
   std::vector<const Record *> runs; //!< By problem.
   [[nodiscard]] int successes() const;
   [[nodiscard]] Interval interval() const { return wilson(successes(), static_cast<int>(runs.size())); }
-  //! Of all runs, or of those that succeeded.
+  //! Metric of all runs, or only of successful ones.
   [[nodiscard]] std::vector<double> values(Metric metric, bool successesOnly) const;
   [[nodiscard]] int sum(Count count) const;
-  //! Runs in which the count is not 0.
+  //! Number of runs in which the count is not 0.
   [[nodiscard]] int runsWith(Count count) const;
   //! All look times, ms.
   [[nodiscard]] std::vector<double> replanTimes() const;
 };
 
-//! \brief All of it, by problem and then by method.
+//! \brief All records, by problem and then by method.
 struct Results {
   std::vector<Record> records;
-  std::vector<vpAvoidanceRun> shown;    //!< With their logs: of each scene the first problem, by method.
-  std::vector<std::string> shownScenes; //!< Of each of #shown.
+  std::vector<vpAvoidanceRun> shown;    //!< Runs with logs: the first problem of each scene, by method.
+  std::vector<std::string> shownScenes; //!< Scene of each run in #shown.
   double wallTime = 0.;                 //!< s
 
   [[nodiscard]] Cell cell(const std::string &scene, const std::string &method) const;
-  //! The same of one variant.
+  //! Cell of one variant.
   [[nodiscard]] Cell cell(const std::string &scene, const std::string &method, const std::string &variant) const;
-  //! Over all scenes.
+  //! Runs of a method over all scenes.
   [[nodiscard]] Cell all(const std::string &method) const;
-  //! The variants of a scene in their order; those of S3 sorted.
+  //! The variants of a scene in order; those of S3 sorted.
   [[nodiscard]] std::vector<std::string> variants(const std::string &scene) const;
   //! Run of a scene with its log; null when there is none.
   [[nodiscard]] const vpAvoidanceRun *find(const std::string &scene, const std::string &method) const;
 };
 
-//! \brief The same problems, two methods.
+//! \brief Paired results of two methods on the same problems.
 struct Pairing {
   int both = 0, onlyFirst = 0, onlySecond = 0, neither = 0;
   double p = 1.; //!< McNemar's exact test.
@@ -77,7 +77,7 @@ struct Pairing {
 
 /*!
  * Run everything, with a progress bar.
- * \param jobs : Problems at a time.
+ * \param jobs : Problems run in parallel.
  */
 [[nodiscard]] Results runAll(const Plan &plan, unsigned int jobs);
 } // namespace planCompare

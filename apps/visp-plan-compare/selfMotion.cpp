@@ -15,7 +15,7 @@ struct Index {
   std::function<vpSelfMotionIndex(vpIndexSense)> make;
 };
 
-//! The things of section 8.3.5: a point beside joint 4, the line from base to tool, the plane through three points.
+//! The geometry of section 8.3.5: a point beside joint 4, the line from base to tool, the plane through three points.
 std::vector<Index> indices(const vpArmModel &arm)
 {
   const Eigen::Vector3d point(0.45, 0.1, 0.4);

@@ -23,7 +23,7 @@ struct SelfMotionRow {
   vpSelfMotionRun run;
 };
 
-//! Empty when S5 was not asked for. \throw vpException for an arm with fewer than four joints.
+//! Runs S5; empty if it was not requested. \throw vpException for an arm with fewer than four joints.
 [[nodiscard]] std::vector<SelfMotionRow> runSelfMotion(const Plan &plan);
 } // namespace planCompare
 

@@ -4,7 +4,7 @@
  */
 /*!
  * \file statistics.h
- * \brief What may be concluded from counted successes.
+ * \brief Statistical inference from success counts.
  */
 #ifndef planCompare_statistics_h
 #define planCompare_statistics_h
@@ -13,7 +13,7 @@
 
 namespace planCompare
 {
-//! \brief An interval of a share, 0..1.
+//! \brief Interval of a proportion, 0..1.
 struct Interval {
   double low = 0.;
   double high = 1.;
@@ -21,12 +21,12 @@ struct Interval {
 
 /*!
  * Wilson's score interval without continuity correction, 95 %. \cite Wilson 1927, J. Am. Stat. Assoc. 22, 209-212
- * \param successes : 0..total. \param total : >= 0; nothing is known of 0 trials: [0, 1].
+ * \param successes : 0..total. \param total : >= 0; for 0 trials the interval is [0, 1].
  */
 [[nodiscard]] Interval wilson(int successes, int total);
 
 /*!
- * McNemar's exact test, two-sided: the probability of a split as uneven as this one if both do equally well.
+ * McNemar's exact test, two-sided: probability of a split at least this uneven if both perform equally well.
  * \param onlyFirst, onlySecond : Pairs in which only one of the two succeeded; >= 0. \return p, 1 when there are none.
  */
 [[nodiscard]] double mcNemar(int onlyFirst, int onlySecond);

@@ -17,7 +17,7 @@ namespace
 {
 using Json = nlohmann::ordered_json;
 
-//! Median, and what 5 and 95 % of the runs stay below.
+//! Median, 5th and 95th percentiles over the runs.
 Json spread(const std::vector<double> &values)
 {
   return {{"median", vpMedian(values)}, {"p5", vpQuantile(values, 0.05)}, {"p95", vpQuantile(values, 0.95)}};

@@ -4,7 +4,7 @@
  */
 /*!
  * \file summary.h
- * \brief summary.json: all figures for other programs.
+ * \brief summary.json: all results for other programs.
  */
 #ifndef planCompare_summary_h
 #define planCompare_summary_h
@@ -17,17 +17,17 @@
 
 namespace planCompare
 {
-//! \brief What was computed besides the runs.
+//! \brief Results computed besides the runs.
 struct Extras {
   std::vector<ValidatorRow> validators;
   std::vector<SelfMotionRow> selfMotion;
   std::string commandLine;
-  double wallTime = 0.; //!< Of all, s.
+  double wallTime = 0.; //!< Total wall time, s.
 };
 
-//! The methods whose successes are compared pair by pair: (v) with (iii) when both were run; else none.
+//! Pairs of methods whose successes are compared: (v) with (iii) if both were run; else none.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> pairsOf(const Plan &plan);
-//! The content of summary.json, but for what OutputFolder adds.
+//! The content of summary.json without the fields added by OutputFolder.
 [[nodiscard]] nlohmann::ordered_json summaryOf(const Plan &plan, const Results &results, const Extras &extras);
 } // namespace planCompare
 

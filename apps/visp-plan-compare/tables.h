@@ -4,7 +4,7 @@
  */
 /*!
  * \file tables.h
- * \brief CSV files: all runs, and the log of one.
+ * \brief CSV files: all runs, and the log of one run.
  */
 #ifndef planCompare_tables_h
 #define planCompare_tables_h
@@ -13,11 +13,11 @@
 
 namespace planCompare
 {
-//! runs.csv: a row a run.
+//! runs.csv: one row per run.
 [[nodiscard]] std::string runsCsv(const Results &results);
-//! Log of a run: a row a period.
+//! Log of a run: one row per period.
 [[nodiscard]] std::string logCsv(const vpAvoidanceRun &run);
-//! File of the log: "log/S3-planner-dtg.csv".
+//! File name of a log: "log/S3-planner-dtg.csv".
 [[nodiscard]] std::string logName(const std::string &scene, const std::string &method);
 } // namespace planCompare
 

@@ -50,7 +50,7 @@ ValidatorRow compareOn(const vpCollisionScene &scene, const vpCollisionSceneFile
     vpPathPlannerSpec spec;
     spec.validation = validator.validation;
     spec.seed = seed;
-    spec.margin = 0.; // what is asked is whether it touches
+    spec.margin = 0.; // only contact is checked
     vpPathPlanner planner(scene, spec);
     for (const vpMotionTask &task : file.tasks) {
       const vpPathResult result = planner.plan(task.start, task.goal);

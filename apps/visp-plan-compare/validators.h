@@ -4,7 +4,7 @@
  */
 /*!
  * \file validators.h
- * \brief S4: what proofs cost a planner, and what samples miss.
+ * \brief S4: cost of certified checks for a planner, and collisions missed by samples.
  */
 #ifndef planCompare_validators_h
 #define planCompare_validators_h
@@ -13,7 +13,7 @@
 
 namespace planCompare
 {
-//! \brief RRTConnect with one way of looking at motions, over the tasks of a scene and many seeds.
+//! \brief RRTConnect with one motion validator, over the tasks of a scene and many seeds.
 struct ValidatorRow {
   std::string scene;
   std::string validator; //!< "certified", "samples, own distances", "samples, FCL".
@@ -21,10 +21,10 @@ struct ValidatorRow {
   int solved = 0;
   double p50 = 0.; //!< Planning time, ms.
   double p95 = 0.;
-  int colliding = 0; //!< Paths that collide when looked at again at 10,000 places.
+  int colliding = 0; //!< Paths found in collision when rechecked at 10,000 configurations.
 };
 
-//! Validators in turn; one plan at a time, since the times are the result. Empty when S4 was not asked for.
+//! Compares the validators, one plan at a time, as times are the result. Empty if S4 was not requested.
 [[nodiscard]] std::vector<ValidatorRow> compareValidators(const Plan &plan);
 } // namespace planCompare
 

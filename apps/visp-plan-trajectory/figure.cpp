@@ -17,19 +17,19 @@ using vpApp::Plot;
 using vpApp::PlotCurve;
 using vpApp::PlotStyle;
 
-constexpr int points = 1000;      // of a curve
-constexpr int formerPoints = 250; // of what a replaced plan would have done
-constexpr double shortest = 1e-3; // time axis of a motion that takes no time, s
+constexpr int points = 1000;      // points of a curve
+constexpr int formerPoints = 250; // points of a replaced plan's continuation
+constexpr double shortest = 1e-3; // time axis of a motion of zero duration, s
 constexpr double gap = std::numeric_limits<double>::quiet_NaN();
 
-// Okabe and Ito: told apart by colour-blind readers too.
+// Okabe and Ito: also distinguishable for colour-blind readers.
 constexpr std::array<const char *, 7> colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                                  "#e69f00", "#56b4e9", "#000000"};
 
 std::string colourOf(int axis) { return colours[static_cast<std::size_t>(axis) % colours.size()]; }
 std::string nameOf(int axis, int axes) { return axes == 1 ? "executed" : "axis " + std::to_string(axis); }
 
-//! When an input is in force.
+//! Time during which an input is active.
 struct Interval {
   double begin = 0.;
   double end = 0.;
@@ -68,7 +68,7 @@ PlotCurve curveOf(const Motion &motion, int axis, std::size_t derivative)
       curve.y.push_back(value);
     }
   }
-  if (motion.pieces.empty()) { // it is there already
+  if (motion.pieces.empty()) { // already at the goal
     const double value = motion.at(axis, 0.)[derivative];
     curve.x = {0., shortest};
     curve.y = {value, value};
@@ -78,7 +78,7 @@ PlotCurve curveOf(const Motion &motion, int axis, std::size_t derivative)
   return curve;
 }
 
-//! What the replaced plans would have done.
+//! Continuation of the replaced plans.
 PlotCurve formerCurve(const Motion &motion, int axis, std::size_t derivative)
 {
   PlotCurve curve;
@@ -101,7 +101,7 @@ PlotCurve formerCurve(const Motion &motion, int axis, std::size_t derivative)
   return curve;
 }
 
-//! A value that holds for a while and then jumps.
+//! A piecewise constant value.
 PlotCurve steps(const std::vector<Interval> &list, const std::function<double(const Input &)> &value, PlotStyle style)
 {
   PlotCurve curve;
@@ -120,7 +120,7 @@ bool anyFinite(const PlotCurve &curve)
   return std::any_of(curve.y.begin(), curve.y.end(), [](double y) { return std::isfinite(y); });
 }
 
-//! Limits of all axes; those that are the same are drawn once, in black.
+//! Limits of all axes; equal ones are drawn once, in black.
 void addLimits(Plot &plot, const std::vector<Interval> &list, int axes,
                const std::function<std::pair<double, double>(const Input &, int)> &limits)
 {

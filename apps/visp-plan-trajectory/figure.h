@@ -4,7 +4,7 @@
  */
 /*!
  * \file figure.h
- * \brief A motion as a picture: position, velocity, acceleration, jerk over time, with limits and events.
+ * \brief Plot of a motion: position, velocity, acceleration, jerk over time, with limits and events.
  */
 #ifndef planTrajectory_figure_h
 #define planTrajectory_figure_h
@@ -17,9 +17,9 @@
 namespace planTrajectory
 {
 /*!
- * Draw a motion. Solid: what is executed; thin: what a plan would have done had no event come; dashed: the limits in
- * force; dotted: the goal; grey vertical lines: events; dots: vias.
- * \param title : First line of the picture.
+ * Draw a motion. Solid: executed motion; thin: continuation of a plan without the next event; dashed: current
+ * limits; dotted: goal; grey vertical lines: events; dots: vias.
+ * \param title : First line of the figure.
  */
 [[nodiscard]] std::string drawMotion(const Problem &problem, const Motion &motion, const std::string &title,
                                      vpApp::PlotFormat format);

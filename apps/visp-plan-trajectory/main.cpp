@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// visp-plan-trajectory: problems in, motions out, a line each.
+// visp-plan-trajectory: problems in, motions out, one line each.
 #include "answer.h"
 #include "figure.h"
 #include "options.h"
@@ -25,7 +25,7 @@ struct Planned {
   Motion motion;
 };
 
-//! \brief How many problems there were, and what was wrong with the first bad one.
+//! \brief Number of problems, and the error of the first bad one.
 struct Count {
   std::size_t all = 0;
   std::size_t refused = 0;
@@ -34,7 +34,7 @@ struct Count {
 
 bool isBlank(const std::string &line) { return line.find_first_not_of(" \t\r") == std::string::npos; }
 
-//! Answers a line on standard output at once, so that another program may wait for it.
+//! Writes each answer to standard output at once, so that another program may wait for it.
 void answer(const std::string &text, const std::string &name, std::size_t line, Count &count,
             std::vector<Planned> *planned)
 {
@@ -60,7 +60,7 @@ void answer(const std::string &text, const std::string &name, std::size_t line, 
   }
 }
 
-//! What was answered before stays answered.
+//! Throws after Ctrl-C; earlier answers remain valid.
 void requireTime()
 {
   if (vpApp::interrupted()) {

@@ -39,7 +39,7 @@ void appendPieces(const PlanInForce &plan, std::vector<vpTrajectoryPiece> &piece
   }
 }
 
-//! The piece on its own clock 0 ... 1.
+//! The piece in its own time 0 ... 1.
 vpPolynomial normalised(const std::vector<double> &coefficients, double duration)
 {
   vpPolynomial p;

@@ -4,7 +4,7 @@
  */
 /*!
  * \file motion.h
- * \brief From a problem to the motion that a robot would execute, event by event.
+ * \brief From a problem to the motion executed by a robot, event by event.
  */
 #ifndef planTrajectory_motion_h
 #define planTrajectory_motion_h
@@ -18,22 +18,22 @@
 
 namespace planTrajectory
 {
-//! \brief A plan and the time in which it was in force.
+//! \brief A plan and the time during which it was active.
 struct PlanInForce {
   double begin = 0.;         //!< s from the start of the motion.
-  double end = 0.;           //!< s; until the next plan, or the arrival.
-  vpTrajectoryPlan plan{1};  //!< On its own clock, which is 0 at #begin.
-  vpTrajectoryStatus status; //!< What the planner said.
+  double end = 0.;           //!< s; start of the next plan, or arrival.
+  vpTrajectoryPlan plan{1};  //!< Its own time is 0 at #begin.
+  vpTrajectoryStatus status; //!< Status returned by the planner.
 };
 
-//! \brief The motion that was executed, from its start to the last arrival.
+//! \brief The executed motion, from its start to the last arrival.
 struct Motion {
-  std::vector<PlanInForce> plans;                           //!< One after another, at least one.
-  std::vector<vpTrajectoryPiece> pieces;                    //!< The executed polynomials, on the clock of the motion.
+  std::vector<PlanInForce> plans;                           //!< Consecutive plans, at least one.
+  std::vector<vpTrajectoryPiece> pieces;                    //!< The executed polynomials, in the time of the motion.
   std::vector<vpTrajectoryPeaks> peaks;                     //!< Per axis, exact, over #pieces.
   vpTrajectoryForm form = vpTrajectoryForm::Hold;           //!< The worst of all plans.
   vpTrajectoryResult result = vpTrajectoryResult::Finished; //!< The worst of all plans; Working counts as Finished.
-  vpLimitExcess excess;                                     //!< Of the plan that #result is of.
+  vpLimitExcess excess;                                     //!< Limit excess of the plan that gave #result.
   std::string message;                                      //!< A sentence.
 
   [[nodiscard]] double duration() const { return plans.back().end; } //!< s.
@@ -41,13 +41,13 @@ struct Motion {
   [[nodiscard]] vpAxisState at(int axis, double t) const;
 };
 
-//! The most control cycles that one motion may take.
+//! Maximum number of control cycles of a motion.
 constexpr double maxCycles = 1e7;
 
 /*!
  * Execute a problem: without events a whole plan at once, else cycle by cycle as vpDirectTrajectory does in a control
- * loop. An event that falls between two cycles is taken at its very instant, by a shorter cycle.
- * \throw std::runtime_error: one sentence with place, axis and value when the input is invalid or needs more than
+ * loop. An event between two cycles takes effect at its exact time, by a shorter cycle.
+ * \throw std::runtime_error: one sentence with location, axis and value if the input is invalid or needs more than
  * maxCycles cycles.
  */
 [[nodiscard]] Motion execute(const Problem &problem);

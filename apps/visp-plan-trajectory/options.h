@@ -15,13 +15,13 @@
 
 namespace planTrajectory
 {
-//! \brief What the user asked for.
+//! \brief User options.
 struct Options {
   std::string file; //!< Problems; "-": standard input; empty: figure 6.3 of the thesis.
   std::string csv;  //!< File for the samples; empty: none.
-  std::string plot; //!< File for the picture, ends in .svg or .png; empty: none.
+  std::string plot; //!< File for the plot, ends in .svg or .png; empty: none.
 
-  //! What #plot is written as.
+  //! File format of #plot.
   [[nodiscard]] vpApp::PlotFormat plotFormat() const;
 };
 

@@ -20,7 +20,7 @@ using Vector = vpAxisVector<Eigen::Dynamic>;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-//! What null stands for in a field.
+//! Meaning of null in a field.
 enum class Null { Forbidden, NoUpperLimit, NoLowerLimit };
 
 double axisValue(const JsonObject &object, const std::string &field, const json &value, Null null)
@@ -34,7 +34,7 @@ double axisValue(const JsonObject &object, const std::string &field, const json 
   return value.get<double>();
 }
 
-//! One number an axis: a list, or a single number that holds for all axes.
+//! One number per axis: a list, or a single number for all axes.
 void readVector(JsonObject &object, const std::string &field, Vector &vector, Null null = Null::Forbidden)
 {
   if (!object.has(field)) {
@@ -54,7 +54,7 @@ void readVector(JsonObject &object, const std::string &field, Vector &vector, Nu
   }
 }
 
-//! A field whose value is one of some words.
+//! A field whose value is one of several words.
 template <class Enum>
 void readWord(JsonObject &object, const std::string &field, Enum &choice,
               const std::vector<std::pair<const char *, Enum>> &words)
@@ -80,7 +80,7 @@ void readVias(JsonObject &object, Input &input)
   }
   input.vias.clear();
   if (object.value("via").is_array() && object.value("via").empty()) {
-    return; // an event that drops them
+    return; // an event that removes them
   }
   for (JsonObject &item : object.objects("via")) {
     vpTrajectoryVia<Eigen::Dynamic> via(static_cast<int>(input.goal.q.size()));
@@ -152,7 +152,7 @@ void readOptions(JsonObject &object, vpTrajectoryOptions &options)
   readGroups(object, options);
 }
 
-//! What an event may change too.
+//! Fields that events may also change.
 void readTask(JsonObject &object, Input &input)
 {
   readVector(object, "q1", input.goal.q);
@@ -168,7 +168,7 @@ void readTask(JsonObject &object, Input &input)
   readOptions(object, input.options);
 }
 
-//! What holds for the whole motion.
+//! Fields of the whole motion.
 void readMethod(JsonObject &object, vpTrajectoryOptions &options)
 {
   readWord(

@@ -4,7 +4,7 @@
  */
 /*!
  * \file problemLine.h
- * \brief One line of the input: a motion that is asked for.
+ * \brief One line of the input: a requested motion.
  */
 #ifndef planTrajectory_problemLine_h
 #define planTrajectory_problemLine_h
@@ -18,22 +18,22 @@
 
 namespace planTrajectory
 {
-//! Number of axes known at run time only.
+//! Number of axes known only at run time.
 using Input = vpTrajectoryInput<Eigen::Dynamic>;
 
-//! \brief A change of goal, limits, vias or options while the motion is under way.
+//! \brief A change of goal, limits, vias or options during the motion.
 struct Event {
   double t = 0.; //!< s from the start of the motion.
-  Input input;   //!< Everything as it is from then on.
+  Input input;   //!< Complete input from then on.
 };
 
-//! \brief A motion that is asked for. The format is described in data/trajectory/README.md.
+//! \brief A requested motion. The format is described in data/trajectory/README.md.
 struct Problem {
-  std::string place;         //!< Where it was read, for messages: "problems.jsonl:3".
+  std::string place;         //!< Source location for messages: "problems.jsonl:3".
   std::size_t line = 1;      //!< Number of the line, from 1.
-  nlohmann::ordered_json id; //!< The user's name for it, any JSON value; null: none.
+  nlohmann::ordered_json id; //!< User-defined id, any JSON value; null: none.
   Input input;               //!< Start, goal, limits, vias, options.
-  std::vector<Event> events; //!< In the order of time.
+  std::vector<Event> events; //!< In time order.
   double dt = 0.001;         //!< Control cycle, s.
 
   [[nodiscard]] int axes() const { return static_cast<int>(input.goal.q.size()); } //!< Number of axes.
@@ -41,9 +41,9 @@ struct Problem {
 
 /*!
  * Read one line.
- * \param text : The line, a JSON object. \param place : Begins every message. \param line : Number of the line.
- * \throw std::runtime_error: one sentence that names the place, the field with its axis, and the value. Whether the
- * numbers make sense as a motion is not looked at, vpDirectTrajectory does that.
+ * \param text : The line, a JSON object. \param place : Prefix of every message. \param line : Number of the line.
+ * \throw std::runtime_error: one sentence with the location, the field with its axis, and the value. Whether the
+ * numbers are valid for a motion is checked by vpDirectTrajectory.
  */
 [[nodiscard]] Problem readProblem(const std::string &text, const std::string &place, std::size_t line);
 } // namespace planTrajectory

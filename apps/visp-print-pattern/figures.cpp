@@ -22,8 +22,8 @@ using vpApp::PlotCurve;
 using vpApp::PlotStyle;
 
 constexpr const char *REFERENCE = "#000000", *MEASURED = "#9ecae1", *TRUE_VALUE = "#d62728", *LIMIT = "#2ca02c";
-constexpr double FIRST_FRAMES = 160.; // that the plot of the velocity shows
-constexpr double SMALL = 0.3;         // share of the tolerance below which it is not drawn
+constexpr double FIRST_FRAMES = 160.; // frames shown in the velocity plot
+constexpr double SMALL = 0.3;         // fraction of the tolerance below which it is not drawn
 constexpr double PIXEL = 4.5;         // um, of figure 7.10
 
 //! Velocities against time in seconds.
@@ -72,7 +72,7 @@ Figure landingFigure(const vpPrintRun &run)
   const double last = static_cast<double>(std::max<std::size_t>(1, run.drops.size()));
   for (const double limit : {Landing::tolerance, -Landing::tolerance}) {
     if (run.metrics.landing_worst_um < SMALL * Landing::tolerance) {
-      break; // the lines would hide how the drops lie
+      break; // the lines would hide the drops
     }
     plot.curves.push_back({limit > 0. ? "tolerance" : "", LIMIT, PlotStyle::Dashed, 1.2, {1., last}, {limit, limit}});
   }
@@ -83,7 +83,7 @@ Figure landingFigure(const vpPrintRun &run)
 
 Figure histogramFigure(const Landing &landing)
 {
-  // Bars as an outline: 40 classes up to the largest error, and to the tolerance unless it is far away.
+  // Bars as an outline: 40 classes up to the largest error, including the tolerance unless it is far away.
   constexpr int classes = 40;
   const bool small = landing.max < SMALL * Landing::tolerance;
   const double top = small ? 1.1 * landing.max + 0.01 : std::max(1.1 * Landing::tolerance, 1.001 * landing.max);

@@ -19,16 +19,16 @@ namespace printPattern
 //! \brief A plot as SVG.
 struct Figure {
   std::string name;    //!< File name without extension, "figure-7.13".
-  std::string alt;     //!< What it shows, in words.
-  std::string caption; //!< Below it.
+  std::string alt;     //!< Alternative text.
+  std::string caption; //!< Caption.
   std::string svg;
 };
 
 //! Plots of the user's run: velocity, landing errors from cell to cell, their histogram.
 [[nodiscard]] std::vector<Figure> ownFigures(const Results &results);
-//! Figures 7.12 to 7.15 and the same with the observer.
+//! Figures 7.12 to 7.15, and their task with the observer.
 [[nodiscard]] std::vector<Figure> thesisFigures(const Results &results);
-//! Figure 7.10: how far radial distortion moves a pixel.
+//! Figure 7.10: displacement of a pixel by radial distortion.
 [[nodiscard]] Figure distortionFigure();
 } // namespace printPattern
 

@@ -17,12 +17,12 @@ namespace
 constexpr int SWINGS = 12;
 constexpr int SWING_FRAMES = 160;   // a tenth of a second
 constexpr double STRONGEST = 0.30;  // force, px/frame^2 at mass 1: up to about 8 px/frame
-constexpr double WEAKEST = 0.10;    // hardly breaks loose
-constexpr double FIFTH_CELL = 244.; // px: beyond it the stage has more friction, which no constant model can show
-constexpr int HALF_WINDOW = 6;      // frames; velocity and acceleration come from a parabola over twice that and one
+constexpr double WEAKEST = 0.10;    // hardly overcomes static friction
+constexpr double FIFTH_CELL = 244.; // px: beyond it the stage has more friction, not covered by a constant model
+constexpr int HALF_WINDOW = 6;      // frames; velocity and acceleration from a parabola over 2 n + 1 frames
 
-// A parabola through the places of a window gives velocity and acceleration. The acceleration is a weighted mean over the
-// window; the force is averaged with the same weights, or the mass would come out too small.
+// A parabola fitted to the positions of a window gives velocity and acceleration. The acceleration is a weighted mean
+// over the window; the force is averaged with the same weights, or the mass estimate would be too small.
 vpFrictionIdentification identify(const std::vector<double> &force, const std::vector<double> &place)
 {
   constexpr int n = HALF_WINDOW;
@@ -36,7 +36,7 @@ vpFrictionIdentification identify(const std::vector<double> &force, const std::v
   for (int i = -n; i <= n; ++i) {
     second[static_cast<std::size_t>(i + n)] = 2. * (i * i - s2 / count) / (s4 - s2 * s2 / count);
   }
-  for (int j = -n; j <= n; ++j) { // summed twice: what an acceleration at j adds to the places after it
+  for (int j = -n; j <= n; ++j) { // double sum: effect of an acceleration at j on the later positions
     for (int i = j + 1; i <= n; ++i) {
       mean[static_cast<std::size_t>(j + n)] += second[static_cast<std::size_t>(i + n)] * (i - j);
     }
@@ -53,7 +53,7 @@ vpFrictionIdentification identify(const std::vector<double> &force, const std::v
     log.push_back(sample);
   }
   vpFrictionIdentificationSpec task;
-  task.minVelocity = 0.15; // slower samples mix standing and moving within the window
+  task.minVelocity = 0.15; // slower samples mix standstill and motion within the window
   return vpIdentifyFriction(log, task);
 }
 } // namespace
@@ -70,7 +70,7 @@ Identification identifyStage(const vpPrintExperimentSpec &spec)
   result.frames = SWINGS * SWING_FRAMES;
 
   vpXYStage stage(spec.stage);
-  // Far on the near side, so that the swings stay where the friction is the same.
+  // Start far on the near side, so that the oscillation stays in a region of constant friction.
   stage.reset({{std::min(0., axis.viscousRiseFrom) - 4. * FIFTH_CELL, 0.}});
   std::mt19937_64 random(spec.seed);
   std::normal_distribution<double> normal(0., spec.sensorModel.sigmaX / std::sqrt(spec.sensorModel.effectiveCells));
@@ -82,7 +82,7 @@ Identification identifyStage(const vpPrintExperimentSpec &spec)
     place.push_back(stage.state().position[0] + normal(random));
     force.push_back(acting);
     stage.step(1., {{command, 0.}});
-    acting = stage.state().force[0]; // known to whoever knows the lag
+    acting = stage.state().force[0]; // known if the lag is known
   }
   result.found = identify(force, place);
   return result;

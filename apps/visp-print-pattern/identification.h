@@ -4,7 +4,7 @@
  */
 /*!
  * \file identification.h
- * \brief Mass and friction of the stage from a ramp that the camera watches.
+ * \brief Mass and friction of the stage from a ramp measured by the camera.
  */
 #ifndef printPattern_identification_h
 #define printPattern_identification_h
@@ -16,20 +16,21 @@ namespace printPattern
 {
 VISP_DIRECT_USING_NAMESPACE
 
-//! \brief What the ramp showed, beside what the simulated stage was made of.
+//! \brief Identified and true parameters of the simulated stage.
 struct Identification {
-  vpFrictionIdentification found; //!< From the camera's places.
-  vpFrictionModel truth;          //!< Of the stage, near the start.
+  vpFrictionIdentification found; //!< Identified from the camera's positions.
+  vpFrictionModel truth;          //!< True model of the stage, near the start.
   int frames = 0;                 //!< Length of the ramp.
 };
 
 /*!
- * Drive the x axis with a force that swings slowly to and fro with growing strength, open loop; take the product's place in
- * each frame with the error of the sensor; smooth it, and identify.
+ * Drive the x axis in open loop with a slowly oscillating force of growing amplitude; measure the product's position in
+ * each frame with the sensor error; smooth it, and identify.
  * \param spec : Stage, sensor model, seed.
  */
 [[nodiscard]] Identification identifyStage(const vpPrintExperimentSpec &spec);
-//! Let observer, preview and feedforward use what was found. \throw std::runtime_error with the sentence of a failure.
+//! Use the identified model in observer, preview and feedforward. \throw std::runtime_error with the sentence of a
+//! failure.
 void useIdentified(const Identification &identification, vpPrintExperimentSpec &spec);
 } // namespace printPattern
 

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// visp-print-pattern: drops on a moving, flexible product, in a closed loop through the camera.
+// visp-print-pattern: prints drops on a moving, flexible product, in a closed loop with the camera.
 #include "explore/explorationProgram.h"
 #include "explore/ranks.h"
 #include "options.h"

@@ -55,7 +55,7 @@ Value valueOf(const std::string &option, const std::string &name, const std::map
   return found->second;
 }
 
-//! \brief Texts and numbers as they stand on the command line, before they become a specification.
+//! \brief Texts and numbers from the command line, before conversion to a specification.
 struct Words {
   std::string controller = "observer", reference = "centres", trigger = "horizon", axis = "x";
   std::vector<double> filter;
@@ -150,7 +150,7 @@ void addWorld(CLI::App &app, Words &words)
       ->group(group);
 }
 
-//! With --explore the file says what is run: other options would go unheard.
+//! With --explore the file defines the runs: other options would be ignored.
 void checkExploration(const CLI::App &app, Options &options)
 {
   if (options.explore.empty()) {

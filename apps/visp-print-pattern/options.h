@@ -17,17 +17,17 @@ namespace printPattern
 {
 VISP_DIRECT_USING_NAMESPACE
 
-//! \brief What the user asked for.
+//! \brief User options.
 struct Options {
-  vpPrintExperimentSpec spec;            //!< The run of the user.
+  vpPrintExperimentSpec spec;            //!< The user's run.
   std::string sensor = "image";          //!< image, tracker or thesis; the last two are models of a sensor.
-  int runs = 1;                          //!< Runs of it with other seeds, for statistics.
-  bool replicas = true;                  //!< Also the experiments of the thesis.
-  bool identify = false;                 //!< First find mass and friction of the stage from a ramp.
+  int runs = 1;                          //!< Number of runs with different seeds, for statistics.
+  bool replicas = true;                  //!< Also run the experiments of the thesis.
+  bool identify = false;                 //!< First identify mass and friction of the stage from a ramp.
   bool video = false;                    //!< Write camera.mp4.
-  unsigned int jobs = 0;                 //!< Runs at a time, 0: one per core.
+  unsigned int jobs = 0;                 //!< Parallel runs, 0: one per core.
   std::string out = "out/print-pattern"; //!< Result folder.
-  std::string explore;                   //!< File of an exploration; all else but #jobs and #out plays no part then.
+  std::string explore;                   //!< Exploration file; if set, only #jobs and #out are used besides.
 };
 
 /*!

@@ -21,8 +21,8 @@ namespace printPattern
 {
 namespace
 {
-constexpr double DROP_DIAMETER = 50.; // um, of the thesis
-constexpr int SHIFT = 4;              // binary digits of OpenCV's sub-pixel coordinates
+constexpr double DROP_DIAMETER = 50.; // um, from the thesis
+constexpr int SHIFT = 4;              // fractional bits of OpenCV's sub-pixel coordinates
 
 const cv::Scalar GOOD(60, 180, 60), BAD(40, 40, 230), CENTRE(0, 0, 0), FOUND(230, 120, 30), NOZZLE(0, 200, 255);
 
@@ -35,7 +35,7 @@ cv::Mat enlarged(const vpImage<unsigned char> &image, int scale)
   return colour;
 }
 
-//! A place of the small image in the enlarged one, in parts of a pixel.
+//! Point of the small image in the enlarged one, in fractions of a pixel.
 cv::Point place(double x, double y, int scale)
 {
   const double unit = 1 << SHIFT;
@@ -72,7 +72,7 @@ Drops dropsByCell(const vpPrintRun &run)
   return drops;
 }
 
-//! Drops and centres of the cells of a picture of the product at a displacement.
+//! Draws drops and cell centres into an image of the product at a displacement.
 void drawDrops(cv::Mat &picture, const vpProductPattern &product, double x, double y, const Drops &drops, double until,
                int scale)
 {
@@ -94,7 +94,7 @@ void drawDrops(cv::Mat &picture, const vpProductPattern &product, double x, doub
   }
 }
 
-//! One strip of the product with the cells around a column, all printed rows that fit.
+//! One strip of the product with the cells around a column, with all printed rows that fit.
 cv::Mat strip(const vpPrintRun &run, const Drops &drops, int row, int column, const std::string &title)
 {
   constexpr int scale = 3;
@@ -104,7 +104,7 @@ cv::Mat strip(const vpPrintRun &run, const Drops &drops, int row, int column, co
   spec.height = static_cast<unsigned int>(std::ceil((rows + 1) * spec.pitchY));
   spec.noise = 1.;
   const vpProductPattern product(spec);
-  // The product moves by minus the place of the cell, so that this is in the middle.
+  // The product moves by minus the cell position, so that the cell is at the centre.
   const int first = std::clamp(row - rows / 2, 0, run.spec.rows - rows);
   const double x = -(column + 0.5) * spec.pitchX, y = -(first + 0.5 * (rows - 1)) * spec.pitchY;
   vpImage<unsigned char> image;
@@ -187,7 +187,7 @@ cv::Mat cameraView(const vpPrintRun &run, std::size_t sample, int scale)
   cv::Mat picture = enlarged(image, scale);
   drawDrops(picture, product, s.x, s.y, dropsByCell(run), s.frame, scale);
   const double nozzle = 0.5 * (image.getWidth() - 1.) + run.spec.nozzleOffset, middle = 0.5 * (image.getHeight() - 1.);
-  for (const double sign : {-1., 1.}) { // a mark above and one below, which hides no drop
+  for (const double sign : {-1., 1.}) { // one mark above and one below, hiding no drop
     cv::line(picture, place(nozzle, middle + sign * 0.5 * image.getHeight(), scale),
              place(nozzle, middle + sign * (0.5 * image.getHeight() - 4.), scale), NOZZLE, 2, cv::LINE_AA, SHIFT);
   }

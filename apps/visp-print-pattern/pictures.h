@@ -4,7 +4,7 @@
  */
 /*!
  * \file pictures.h
- * \brief Pictures of the product: the drops on it, what the camera sees, what the thesis's detection finds.
+ * \brief Images of the product: the drops on it, the camera view, the detection of the thesis.
  */
 #ifndef printPattern_pictures_h
 #define printPattern_pictures_h
@@ -17,26 +17,26 @@ namespace printPattern
 {
 /*!
  * The printed product from above, up to 6 cells of 4 rows: the first ones and those around the worst drop. Drops are
- * circles of 50 um, green within the tolerance and red beyond; a cross marks the true centre.
+ * circles of 50 um, green within the tolerance, red outside; a cross marks the true centre.
  */
 [[nodiscard]] cv::Mat printedProduct(const vpPrintRun &run);
 
 /*!
- * Figure 7.11: on the left the threshold image (Otsu), on the right the cells that algorithm 7.4 finds, their boxes and
- * centres; true centres as crosses.
+ * Figure 7.11: the threshold image (Otsu) on the left, the cells found by algorithm 7.4 on the right, with their boxes
+ * and centres; true centres as crosses.
  */
 [[nodiscard]] cv::Mat detection(const vpPrintExperimentSpec &spec);
 
-//! What the camera sees at a frame of the run, with the drops that have landed; \e scale times as large.
+//! Camera view at a frame of the run, with the landed drops, magnified by \e scale.
 [[nodiscard]] cv::Mat cameraView(const vpPrintRun &run, std::size_t sample, int scale);
 
 /*!
- * Write the camera's view over the whole run, 25 times a second.
+ * Write the camera view over the whole run as a video of 25 frames per second.
  * \throw std::runtime_error naming the file.
  */
 void writeVideo(const vpPrintRun &run, const std::string &file);
 
-//! A picture as PNG. \throw std::runtime_error when OpenCV cannot.
+//! An image as PNG. \throw std::runtime_error when OpenCV fails.
 [[nodiscard]] std::string pngOf(const cv::Mat &picture);
 } // namespace printPattern
 

@@ -4,7 +4,7 @@
  */
 /*!
  * \file reportPage.h
- * \brief The page that visp-print-pattern writes.
+ * \brief The report page of visp-print-pattern.
  */
 #ifndef printPattern_reportPage_h
 #define printPattern_reportPage_h
@@ -13,17 +13,17 @@
 
 namespace printPattern
 {
-//! \brief What the page shows besides the numbers.
+//! \brief Content of the page besides the numbers.
 struct ReportParts {
-  std::vector<Figure> own;    //!< Of the user's run.
-  std::vector<Figure> thesis; //!< Of the thesis's experiments; may be empty.
+  std::vector<Figure> own;    //!< Figures of the user's run.
+  std::vector<Figure> thesis; //!< Figures of the thesis's experiments; may be empty.
   std::string printed;        //!< The printed product, PNG.
   std::string detection;      //!< Figure 7.11, PNG; empty without the thesis's experiments.
   std::string video;          //!< File beside the page, or empty.
-  std::string commandLine;    //!< That made it.
+  std::string commandLine;    //!< Command line of the run.
 };
 
-//! The page, with everything but the video in it.
+//! The page, self-contained except for the video.
 [[nodiscard]] std::string reportPage(const Options &options, const Results &results, const ReportParts &parts);
 } // namespace printPattern
 

@@ -4,7 +4,7 @@
  */
 /*!
  * \file results.h
- * \brief The runs of visp-print-pattern, and their figures.
+ * \brief The runs of visp-print-pattern, and their metrics.
  */
 #ifndef printPattern_results_h
 #define printPattern_results_h
@@ -25,40 +25,40 @@ struct Landing {
   double p50 = 0.;            //!< Median.
   double p99 = 0.;            //!< 99th percentile.
   double max = 0.;            //!< Largest.
-  double within = 0.;         //!< Share within #tolerance, 0..1.
+  double within = 0.;         //!< Fraction within #tolerance, 0..1.
 
-  static constexpr double tolerance = 10.; //!< um: that of the thesis.
+  static constexpr double tolerance = 10.; //!< um, as in the thesis.
 };
 
-//! \brief An experiment of the thesis, repeated.
+//! \brief A repeated experiment of the thesis.
 struct Replica {
   std::string figure;                //!< "7.13".
   std::string name;                  //!< "PID".
-  double thesis = 0.;                //!< Velocity error that the thesis gives, rms, px/frame; 0: none.
-  std::vector<vpPrintRun> runs;      //!< With different seeds; the first one is drawn.
-  double rms_velocity_error = 0.;    //!< Of all runs together, px/frame.
-  double centre_velocity_error = 0.; //!< The same at the centres.
+  double thesis = 0.;                //!< Rms velocity error in the thesis, px/frame; 0: none.
+  std::vector<vpPrintRun> runs;      //!< Runs with different seeds; the first one is plotted.
+  double rms_velocity_error = 0.;    //!< Rms velocity error over all runs, px/frame.
+  double centre_velocity_error = 0.; //!< Rms velocity error at the centres, px/frame.
 };
 
-//! \brief All that was run.
+//! \brief All runs.
 struct Results {
   std::optional<Identification> identification; //!< With --identify.
-  std::vector<vpPrintRun> runs;                 //!< Of the user's specification; the first one is drawn.
-  Landing landing;                              //!< Of these.
+  std::vector<vpPrintRun> runs;                 //!< Runs of the user's specification; the first one is plotted.
+  Landing landing;                              //!< Landing errors of #runs.
   std::vector<Replica> replicas;                //!< Experiments of the thesis, by figure; may be empty.
-  std::vector<Replica> observers;               //!< The same task with the observer: thesis's sensor, and our tracker.
+  std::vector<Replica> observers;               //!< Same task with the observer: thesis's sensor, and our tracker.
 };
 
 /*!
- * Run everything, several runs at a time, with progress on stderr.
+ * Run everything in parallel, with progress on stderr.
  * \throw vpApp::Interrupted after Ctrl-C.
  */
 [[nodiscard]] Results runAll(const Options &options);
 //! Landing errors of some runs.
 [[nodiscard]] Landing landingOf(const std::vector<vpPrintRun> &runs);
-//! Root mean square of a figure over the runs.
+//! Root mean square of a metric over the runs.
 [[nodiscard]] double rmsOf(const std::vector<vpPrintRun> &runs, double vpPrintMetrics::*figure);
-//! Mean of a figure over the runs.
+//! Mean of a metric over the runs.
 [[nodiscard]] double meanOf(const std::vector<vpPrintRun> &runs, double vpPrintMetrics::*figure);
 //! Sum of a count over the runs.
 [[nodiscard]] int sumOf(const std::vector<vpPrintRun> &runs, int vpPrintMetrics::*count);

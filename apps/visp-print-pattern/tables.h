@@ -17,14 +17,14 @@
 
 namespace printPattern
 {
-//! What is true and known at each frame; see data/pattern/README.md.
+//! True and estimated state of each frame; see data/pattern/README.md.
 [[nodiscard]] std::string motionCsv(const vpPrintRun &run);
-//! Where each drop landed.
+//! Landing position of each drop.
 [[nodiscard]] std::string dropsCsv(const vpPrintRun &run);
 //! summary.json without the fields that OutputFolder adds.
 [[nodiscard]] nlohmann::ordered_json summaryOf(const Options &options, const Results &results,
                                                const std::string &commandLine, double wallTime);
-//! Names of the command line.
+//! Names on the command line.
 [[nodiscard]] std::string nameOf(vpPrintController controller);
 [[nodiscard]] std::string nameOf(vpPrintReferenceMode mode);
 } // namespace printPattern

@@ -8,9 +8,9 @@ namespace printPattern
 {
 namespace
 {
-constexpr int REPLICA_SEEDS = 8; // as many as the figures of the design were found with
+constexpr int REPLICA_SEEDS = 8; // number of seeds used for the results of the design
 
-//! Figure 7.12: a step of the velocity, PID.
+//! Figure 7.12: a velocity step, PID.
 vpPrintExperimentSpec stepResponse()
 {
   vpPrintExperimentSpec spec = vpPrintExperimentSpec::thesisPid();

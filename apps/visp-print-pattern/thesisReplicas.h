@@ -13,9 +13,9 @@
 
 namespace printPattern
 {
-//! Figures 7.12 to 7.15, and the same task with the observer; specifications with their seeds, still to be run.
+//! Figures 7.12 to 7.15, and their task with the observer; specifications with seeds, not yet run.
 [[nodiscard]] std::vector<Replica> thesisReplicas();
-//! Fill in the figures over all runs, when they are there.
+//! Compute the metrics over all finished runs.
 void summarise(Replica &replica);
 } // namespace printPattern
 

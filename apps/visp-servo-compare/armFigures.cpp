@@ -22,7 +22,7 @@ using vpApp::Plot;
 using vpApp::PlotCurve;
 using vpApp::PlotStyle;
 
-constexpr std::size_t CURVE_POINTS = 600; // more does not show
+constexpr std::size_t CURVE_POINTS = 600; // more would not be visible
 constexpr const char *DEFAULT_LAW = "ff-lookat-pi";
 const char *const JOINT_COLOURS[] = {"#1f77b4", "#ff7f0e", "#2ca02c", "#d62728",
                                      "#9467bd", "#8c564b", "#e377c2", "#7f7f7f"};
@@ -42,7 +42,7 @@ PlotCurve curveOf(const vpServoRun &run, const std::string &label, const std::st
   return curve;
 }
 
-//! A plot with a curve for each joint for which it makes sense.
+//! A plot with one curve per applicable joint.
 Plot jointPlot(const vpArmModel &model, const vpServoRun &run, const std::string &title, const std::string &unit,
                const std::function<bool(int)> &shown, const std::function<double(const vpArmSample &, int)> &value)
 {

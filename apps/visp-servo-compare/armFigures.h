@@ -4,7 +4,7 @@
  */
 /*!
  * \file armFigures.h
- * \brief The joints over time.
+ * \brief Plots of the joints over time.
  */
 #ifndef servoCompare_armFigures_h
 #define servoCompare_armFigures_h
@@ -13,12 +13,12 @@
 
 namespace servoCompare
 {
-//! The law whose joints are shown: the default of visp-direct where it was run, else the first.
+//! The law whose joints are shown: the default of visp-direct if it was run, else the first.
 [[nodiscard]] std::string armLaw(const Plan &plan);
 
 /*!
- * Joint angles, speeds, room to the limits and self-motion on the hardest plant, and the joint errors; empty without an
- * arm.
+ * Joint angles, speeds, distances to the limits and self-motion on the hardest plant, and joint errors; empty without
+ * an arm.
  */
 [[nodiscard]] std::vector<Figure> drawArmFigures(const Plan &plan, const Results &results);
 } // namespace servoCompare

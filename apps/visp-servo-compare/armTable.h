@@ -4,7 +4,7 @@
  */
 /*!
  * \file armTable.h
- * \brief What the joints of the arm went through, for the report.
+ * \brief Joint statistics of the arm, for the report.
  */
 #ifndef servoCompare_armTable_h
 #define servoCompare_armTable_h
@@ -15,10 +15,10 @@
 
 namespace servoCompare
 {
-//! Limit margins, speeds, self-motion and status of each law on each plant, measured by the main measure, first seed.
+//! Limit margins, speeds, self-motion and status of each law on each plant, with the main measure, first seed.
 [[nodiscard]] vpApp::HtmlTable armTable(const Plan &plan, const Results &results);
 
-//! Root mean square of the joint errors of a law on each plant; beside table 8.1 of the thesis where the arm is AMOR.
+//! Root mean square of the joint errors of a law on each plant; with table 8.1 of the thesis if the arm is AMOR.
 [[nodiscard]] vpApp::HtmlTable jointErrorTable(const Plan &plan, const Results &results, const std::string &law);
 } // namespace servoCompare
 

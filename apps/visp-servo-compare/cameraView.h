@@ -4,7 +4,7 @@
  */
 /*!
  * \file cameraView.h
- * \brief What the camera sees at one instant of a run, with the goal drawn over it.
+ * \brief Camera view at one instant of a run, with the goal overlaid.
  */
 #ifndef servoCompare_cameraView_h
 #define servoCompare_cameraView_h
@@ -18,27 +18,27 @@
 namespace servoCompare
 {
 /*!
- * \brief Renders logged poses as pictures: the photo as the camera sees it, the outline of the object (yellow) and of
- * where the goal wants it (cyan), and a warning when a corner is out of the image.
+ * \brief Renders logged poses as images: the photo as seen by the camera, the outline of the object (yellow) and its
+ * desired image position (cyan), and a warning when a corner is out of the image.
  *
- * Not to be used by two threads at a time.
+ * Not thread-safe.
  */
 class CameraView
 {
 public:
-  //! \param plan : Task and photo. \param width : Width of the pictures, px; their height follows from the camera's.
+  //! \param plan : Task and photo. \param width : Width of the images, px; the height follows from the camera.
   CameraView(const Plan &plan, int width);
 
   //! The view of a sample, 8-bit BGR.
   [[nodiscard]] cv::Mat draw(const vpServoSample &sample);
-  //! The view below a strip of text: law, plant, time, segment. Width and height are even, as videos need it.
+  //! The view below a line of text: law, plant, time, segment. Width and height are even, as videos require.
   [[nodiscard]] cv::Mat drawWithTitle(const vpServoRun &run, const vpServoSample &sample, const std::string &title);
 
 private:
   void drawOutline(cv::Mat &picture, const vpHomogeneousMatrix &cMo, const cv::Scalar &colour) const;
 
   vpServoTask m_task;
-  double m_scale; //!< Pixels of the picture for one of the camera.
+  double m_scale; //!< Image pixels per camera pixel.
   vpCameraParameters m_camera;
   cv::Size m_size;
   vpPlaneRenderer m_renderer;

@@ -4,7 +4,7 @@
  */
 /*!
  * \file catalogue.h
- * \brief What a person wants to know of each law and plant: a name, a sentence, a colour.
+ * \brief Display data of each law and plant: name, description, colour.
  */
 #ifndef servoCompare_catalogue_h
 #define servoCompare_catalogue_h
@@ -18,7 +18,7 @@ VISP_DIRECT_USING_NAMESPACE
 
 namespace servoCompare
 {
-//! Laws that are compared like with like: those of one group close the rotation error equally fast.
+//! Groups of comparable laws: those of one group reduce the rotation error equally fast.
 enum class GainGroup {
   Single,  //!< Rotation gain lambda.
   Double,  //!< Effective rotation gain 2 lambda near the goal.
@@ -28,16 +28,16 @@ enum class GainGroup {
 //! Title of a group, for tables.
 [[nodiscard]] const char *titleOf(GainGroup group);
 
-//! \brief How a law is shown.
+//! \brief Display data of a law.
 struct LawInfo {
-  std::string id;       //!< As in vpServoLaw::ids(), with `+cbf` if filtered.
-  std::string name;     //!< For legends.
-  std::string sentence; //!< For --list and the report.
+  std::string id;       //!< Id as in vpServoLaw::ids(), with `+cbf` if filtered.
+  std::string name;     //!< Name in legends.
+  std::string sentence; //!< Description for --list and the report.
   std::string colour;   //!< #rrggbb, the same in every figure.
   GainGroup group = GainGroup::Single;
 };
 
-//! What is known of a law; `+cbf` gives the law's own entry with the filter added to name and sentence.
+//! Display data of a law; `+cbf` adds the filter to name and sentence.
 [[nodiscard]] LawInfo lawInfo(const std::string &id);
 //! All ids of vpServoLaw::ids(), as `"a, b, c"`.
 [[nodiscard]] std::string knownLaws();
@@ -48,7 +48,7 @@ struct LawInfo {
 
 //! Names of the plants of the comparison: A, B, D.
 [[nodiscard]] const std::vector<std::string> &standardPlants();
-//! A plant in one sentence, from its parameters. \param onArm : An arm's joints take the place of lag and deadband.
+//! A plant in one sentence, from its parameters. \param onArm : The arm's joints replace lag and deadband.
 [[nodiscard]] std::string sentenceOf(const vpServoPlant &plant, bool onArm = false);
 } // namespace servoCompare
 

@@ -22,10 +22,10 @@ using vpApp::Plot;
 using vpApp::PlotCurve;
 using vpApp::PlotStyle;
 
-constexpr std::size_t CURVE_POINTS = 600; // more does not show
-constexpr std::size_t FEW = 5;            // curves that can be told apart
+constexpr std::size_t CURVE_POINTS = 600; // more would not be visible
+constexpr std::size_t FEW = 5;            // distinguishable curves
 
-//! A figure before gnuplot drew it.
+//! A figure before drawing by gnuplot.
 struct Draft {
   std::string name;
   Plot plot;
@@ -70,7 +70,7 @@ std::vector<vpApp::PlotMark> segmentMarks(const vpServoTask &task, int lastSegme
   return marks;
 }
 
-//! A number of each law in words: "PBVS-1 34.5, FF sum 45.7".
+//! A number of each law as text: "PBVS-1 34.5, FF sum 45.7".
 std::string perLaw(const Plan &plan, const Results &results, const std::vector<std::string> &laws,
                    const std::string &plant, Metric metric, int decimals)
 {
@@ -83,7 +83,7 @@ std::string perLaw(const Plan &plan, const Results &results, const std::vector<s
   return enumerate(items);
 }
 
-//! The sentence if it speaks of nothing that is missing.
+//! The sentence, if all its values are present.
 std::string ifAll(const std::vector<std::string> &laws, const std::vector<std::string> &needed,
                   const std::string &sentence)
 {
@@ -93,7 +93,7 @@ std::string ifAll(const std::vector<std::string> &laws, const std::vector<std::s
   return all ? sentence : "";
 }
 
-//! Makes the drafts; holds what all of them need.
+//! Creates the drafts; holds their common data.
 class Draughtsman
 {
 public:
@@ -110,7 +110,7 @@ public:
     return draft;
   }
 
-  //! How far beyond the goal a law's reference goes, seen from where the segment begins; 0 if it was not run. deg
+  //! Overshoot of a law's reference beyond the goal of a segment, deg; 0 if it was not run.
   [[nodiscard]] double overshoot(const std::string &law, const vpServoPlant &plant) const
   {
     const vpServoRun *run = find(law, plant);
@@ -240,7 +240,7 @@ public:
     return draft;
   }
 
-  //! A dot for each seed above each law.
+  //! One dot per seed above each law.
   [[nodiscard]] Draft seeds(const std::string &name, const std::string &title, const std::string &unit,
                             Metric metric) const
   {
@@ -257,7 +257,7 @@ public:
       draft.plot.categories.push_back(info.name);
       PlotCurve curve{"", info.colour, PlotStyle::Points, 1., {}, {}};
       for (const double value : m_results.values(m_plan.laws[i], plant.name, m_plan.mainMeasure(), metric)) {
-        // Spread a little from left to right, so that equal values do not hide each other.
+        // Spread horizontally, so that equal values do not hide each other.
         curve.x.push_back(i + 0.36 * (std::fmod(0.618 * curve.x.size(), 1.) - 0.5));
         curve.y.push_back(value);
       }
@@ -281,7 +281,7 @@ private:
     curve.y.push_back(NAN);
   }
 
-  //! Where the camera looks at the end of each segment.
+  //! Viewing direction of the camera at the end of each segment.
   static PlotCurve gazes(const vpServoRun &run)
   {
     PlotCurve curve{"", lawInfo(run.spec.law).colour, PlotStyle::Solid, 1., {}, {}};
@@ -295,7 +295,7 @@ private:
 
   [[nodiscard]] int last() const { return static_cast<int>(m_plan.scenario.task.segments.size()) - 1; }
 
-  //! When a segment ends, s.
+  //! End of a segment, s.
   [[nodiscard]] double endOf(int segment) const
   {
     double time = 0.;

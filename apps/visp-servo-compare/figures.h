@@ -4,7 +4,7 @@
  */
 /*!
  * \file figures.h
- * \brief The plots of the report: figures 5.6 to 5.10 of the thesis again, the camera's path, and the seeds.
+ * \brief The plots of the report: figures 5.6 to 5.10 of the thesis, the camera's path, and the seeds.
  */
 #ifndef servoCompare_figures_h
 #define servoCompare_figures_h
@@ -13,21 +13,21 @@
 
 namespace servoCompare
 {
-//! \brief A figure, ready for the page.
+//! \brief A figure for the page.
 struct Figure {
   std::string name;    //!< File name without suffix: "figure-5.6".
   std::string svg;     //!< The drawing.
-  std::string title;   //!< In a few words.
-  std::string caption; //!< What to see, and how it differs from the thesis.
+  std::string title;   //!< Short title.
+  std::string caption; //!< Explanation, with differences from the thesis.
 };
 
 /*!
  * Draw all figures that the runs allow.
- * \param jobs : Figures drawn at a time.
+ * \param jobs : Figures drawn in parallel.
  */
 [[nodiscard]] std::vector<Figure> drawFigures(const Plan &plan, const Results &results, unsigned int jobs);
 
-//! The laws of the figures: of \e preferred those that were run, or the first few that were run.
+//! The laws of the figures: those of \e preferred that were run, or the first few that were run.
 [[nodiscard]] std::vector<std::string> figureLaws(const Plan &plan, const std::vector<std::string> &preferred);
 } // namespace servoCompare
 

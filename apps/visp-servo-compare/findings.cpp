@@ -16,7 +16,7 @@ namespace
 {
 constexpr double ARRIVED = 0.2; // deg, at the end of every segment
 
-//! The figures of one law on one plant that the sentences use.
+//! Metrics of one law on one plant used in the sentences.
 struct Figures {
   std::string law;
   double rotation; // deg, end of segments
@@ -25,7 +25,7 @@ struct Figures {
   double out;      // s
 };
 
-//! What a plant is called in a sentence.
+//! Name of a plant in a sentence.
 std::string plantName(const Plan &plan, const vpServoPlant &plant)
 {
   if (plant.deadband <= 0.) {
@@ -65,7 +65,7 @@ public:
   }
   [[nodiscard]] double idealYaw() const
   {
-    return m_results.runs().front().metrics.ideal_yaw_range_deg; // a matter of the task alone
+    return m_results.runs().front().metrics.ideal_yaw_range_deg; // depends only on the task
   }
 
 private:
@@ -77,7 +77,7 @@ private:
 
 std::string withRotation(const Figures &f) { return f.law + " (" + fixed(f.rotation, 2) + " deg)"; }
 
-//! Who ends each segment at the goal.
+//! Laws that end each segment at the goal.
 std::string arrival(const Plan &plan, const Reader &reader)
 {
   std::vector<Figures> laws = reader.all();
@@ -110,14 +110,14 @@ std::string turning(const Figures &f, double ideal)
          " px rms image error and ends " + fixed(f.rotation, 1) + " deg off";
 }
 
-//! Equal for all that a user could notice: 2 deg of yaw, 2 px or a tenth of the image error, half a degree at the end.
+//! Practically equal: 2 deg of yaw, 2 px or a tenth of the image error, half a degree at the end.
 bool tie(const Figures &a, const Figures &b)
 {
   return std::abs(a.yaw - b.yaw) < 2. && std::abs(a.rms - b.rms) < std::max(2., 0.1 * std::max(a.rms, b.rms)) &&
          std::abs(a.rotation - b.rotation) < 0.5;
 }
 
-//! Is the feedforward more than a higher gain? Compares it with the full law of Kyrki at the same gain.
+//! Compares feedforward with the full law of Kyrki at the same gain.
 std::optional<std::string> matchedRival(const Plan &plan, const Reader &reader)
 {
   const auto feedforward = reader.of("ff-lookat");
@@ -137,7 +137,7 @@ std::optional<std::string> matchedRival(const Plan &plan, const Reader &reader)
   return head + "differ on " + plantName(plan, plan.hardPlant()) + ": " + numbers + ".";
 }
 
-//! What the feedforward is good for: the rotation gain can rise without the object leaving its place in the image.
+//! Benefit of feedforward: the rotation gain can rise without the object leaving its image position.
 std::optional<std::string> benefit(const Plan &plan, const Results &results)
 {
   const Reader reader(plan, results, plan.easyPlant().name, plan.mainMeasure());
@@ -152,7 +152,7 @@ std::optional<std::string> benefit(const Plan &plan, const Results &results)
          plantName(plan, plan.easyPlant()) + ".";
 }
 
-//! The statement of the thesis, tested with the rivals of the thesis.
+//! The statement of the thesis, tested against the laws that the thesis compares with.
 std::optional<std::string> thesisOrder(const Plan &plan, const Reader &reader)
 {
   const auto sum = reader.of("ff-sum");
@@ -187,7 +187,7 @@ std::string outOfView(const Plan &plan, const Reader &reader)
   return "A corner of the object leaves the image" + where + " with " + enumerate(losers) + ".";
 }
 
-//! The view filter promises something only for a robot that does what it is told.
+//! The view filter's guarantee holds only for a robot that executes its commands exactly.
 std::optional<std::string> filterAgainstFriction(const Plan &plan, const Reader &reader)
 {
   std::vector<std::string> losers;
@@ -203,7 +203,7 @@ std::optional<std::string> filterAgainstFriction(const Plan &plan, const Reader 
          ", which does not execute all that is commanded, a corner is lost in spite of it: " + enumerate(losers) + ".";
 }
 
-//! Do rendered views give the same answer as points?
+//! Compares the results of rendered views and of points.
 std::optional<std::string> imageAgainstPoints(const Plan &plan, const Results &results)
 {
   std::vector<std::string> pairs;

@@ -4,7 +4,7 @@
  */
 /*!
  * \file findings.h
- * \brief What the numbers say, in sentences: computed, never written beforehand.
+ * \brief Results in sentences computed from the numbers.
  */
 #ifndef servoCompare_findings_h
 #define servoCompare_findings_h
@@ -15,11 +15,11 @@ namespace servoCompare
 {
 //! \brief Sentences on a finished comparison.
 struct Findings {
-  std::vector<std::string> answer; //!< One or two sentences: who arrives, and what is left at equal gain.
+  std::vector<std::string> answer; //!< One or two sentences: laws that arrive, and remaining differences at equal gain.
   std::vector<std::string> more;   //!< Further ones, for a list.
 };
 
-//! Draw the conclusions, from medians over the seeds. What was not run is not spoken of.
+//! Conclusions from medians over the seeds; only runs that were done are mentioned.
 [[nodiscard]] Findings findingsOf(const Plan &plan, const Results &results);
 } // namespace servoCompare
 

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// visp-servo-compare: all servo laws on one task, and a report.
+// visp-servo-compare: all servo laws on one task, with a report.
 #include "armFigures.h"
 #include "catalogue.h"
 #include "options.h"
@@ -38,7 +38,7 @@ void printList()
   }
 }
 
-//! The photo as a file that ViSP reads whatever its format was.
+//! The photo as a file readable by ViSP, whatever its original format.
 std::string writeTarget(const Target &target, vpApp::OutputFolder &out)
 {
   std::string file = out.file("target.png");

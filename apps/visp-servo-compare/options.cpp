@@ -49,7 +49,7 @@ Exit status: 0 done, 1 the data do not allow it, 2 the command line is wrong. No
 constexpr std::size_t NAME_COLUMN = 22; // width, characters
 constexpr std::size_t HELP_COLUMN = 96; // width, characters
 
-//! Breaks the help of an option into lines that stand below each other.
+//! Breaks the help of an option into aligned lines.
 class HelpFormatter : public CLI::Formatter
 {
 public:

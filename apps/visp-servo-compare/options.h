@@ -14,27 +14,27 @@
 
 namespace servoCompare
 {
-//! \brief Which robot carries the camera.
+//! \brief The robot that carries the camera.
 struct RobotOptions {
   std::string robot = "camera"; //!< "camera", "amor", or a .urdf or .json file.
   std::string base;             //!< First link of a URDF's chain; empty for the root.
   std::string tip;              //!< Last link; empty for the only leaf.
-  std::string camera;           //!< Link that is the camera; empty for the tip itself.
-  double acceleration = 10.;    //!< Limit of all joints of a URDF, rad/s^2 or m/s^2.
-  std::vector<std::string> selfMotion{"limits", "manipulability"}; //!< What the spare joints climb.
+  std::string camera;           //!< Camera link; empty for the tip itself.
+  double acceleration = 10.;    //!< Acceleration limit of all joints of a URDF, rad/s^2 or m/s^2.
+  std::vector<std::string> selfMotion{"limits", "manipulability"}; //!< Indices maximised by self-motion.
   std::string limits = "stop";                                     //!< At position limits: "stop" or "scale".
 };
 
-//! \brief What the user asked for, not yet looked up or checked against each other.
+//! \brief User options, not yet resolved or checked for consistency.
 struct Options {
   std::vector<std::string> laws;     //!< Ids; empty for all.
   std::vector<std::string> plants;   //!< Names; empty for all.
   std::vector<std::string> measures; //!< "points", "image"; empty for the default choice.
-  bool full = false;                 //!< Everything with everything.
-  bool shape = false;                //!< Each run a second time with its twist shaped.
+  bool full = false;                 //!< All combinations.
+  bool shape = false;                //!< Repeat each run with a shaped twist.
   std::string taskFile;              //!< Empty for the task of the thesis.
-  std::string target;                //!< Photo of the object; empty for the one of data/.
-  unsigned int repetitions = 1;      //!< Seeds a run.
+  std::string target;                //!< Photo of the object; empty for that of data/.
+  unsigned int repetitions = 1;      //!< Seeds per run.
   unsigned int seed = 1;             //!< The first seed.
   std::string out = "out/servo-compare";
   bool display = false;
@@ -45,7 +45,7 @@ struct Options {
 
 /*!
  * Read the command line.
- * \return False when `--help` or `--version` was asked for, and printed.
+ * \return False when `--help` or `--version` was requested and printed.
  * \throw vpApp::UsageError naming the option.
  */
 [[nodiscard]] bool readOptions(int argc, const char *const *argv, Options &options);

@@ -23,7 +23,7 @@ namespace
 {
 constexpr const char *POINTS = "points";
 constexpr const char *IMAGE = "image";
-constexpr int LARGEST_PHOTO = 1024; // px; more detail than any view of it shows
+constexpr int LARGEST_PHOTO = 1024; // px; more detail than any view shows
 constexpr int SMALLEST_PHOTO = 32;  // px
 
 bool contains(const std::vector<std::string> &list, const std::string &item)
@@ -78,7 +78,7 @@ std::vector<vpServoPlant> choosePlants(const std::vector<std::string> &asked, co
   return plants;
 }
 
-//! By which measures to run a law on a plant.
+//! Measures used for a law on a plant.
 std::vector<std::string> chooseMeasures(const Options &options, const std::string &law, const vpServoPlant &plant)
 {
   if (options.full) {
@@ -111,7 +111,7 @@ Target readTarget(const std::string &asked)
   return target;
 }
 
-//! Say now, not after minutes, that the photo cannot serve as a target.
+//! Check early that the photo can serve as a target.
 void requireUsableTarget(const Target &target, const vpServoTask &task)
 {
   try {
@@ -122,7 +122,7 @@ void requireUsableTarget(const Target &target, const vpServoTask &task)
   }
 }
 
-//! Say now that the arm cannot be driven as a plant wants it.
+//! Check early that the arm supports the drives of a plant.
 void requireDrivable(const Plan &plan)
 {
   for (const vpServoPlant &plant : plan.scenario.plants) {

@@ -23,7 +23,7 @@ namespace servoCompare
 {
 namespace
 {
-constexpr double VIDEO_RATE = 10.;    // frames a second
+constexpr double VIDEO_RATE = 10.;    // frames per second
 constexpr double VIDEO_DURATION = 8.; // s, about
 constexpr int VIDEO_WIDTH = 480;
 constexpr int STRIP_VIEW_WIDTH = 220;
@@ -39,7 +39,7 @@ double durationOf(const vpServoTask &task)
   return duration;
 }
 
-//! Whole-numbered, so that a person can think in it.
+//! Integer speed-up, easy to read.
 double speedUp(const vpServoTask &task) { return std::max(1., std::round(durationOf(task) / VIDEO_DURATION)); }
 
 std::size_t indexAt(const vpServoRun &run, double time)
@@ -57,7 +57,7 @@ std::string captionOf(const vpServoRun &run)
                                : ", object always in view.");
 }
 
-//! Draws all frames of a run and hands them on; ends early when \e frame answers false.
+//! Draws all frames of a run and passes them on; ends early when \e frame returns false.
 void replay(const Plan &plan, const vpServoRun &run, const std::function<bool(const cv::Mat &)> &frame)
 {
   CameraView view(plan, VIDEO_WIDTH);
@@ -83,7 +83,7 @@ std::vector<ReplayVideo> writeVideos(const Plan &plan, const Results &results, v
     if (const vpServoRun *run = results.find(law, plan.hardPlant().name, plan.mainMeasure())) {
       runs.push_back(run);
       videos.push_back({"video/" + fileName(law + "-" + run->spec.plant.name) + ".mp4", captionOf(*run), true});
-      (void)out.file(videos.back().name); // makes the folder before the threads begin
+      (void)out.file(videos.back().name); // creates the folder before the threads start
     }
   }
   vpApp::Progress progress("filming " + std::to_string(runs.size()) + " laws", static_cast<double>(runs.size()));
@@ -112,7 +112,7 @@ FilmStrip drawFilmStrip(const Plan &plan, const Results &results)
   strip.laws = figureLaws(plan, {"pbvs1", "kyrki-decoupled", "kyrki", "ff-sum", "ff-lookat-pi"});
   const double end = plan.scenario.task.segments.front().duration;
   for (int i = 0; i < STRIP_COLUMNS; ++i) {
-    // Close together at first, when all moves, then towards the end: 0.4, 1.2, 2.8, 5.2 and 8 s of 8 s.
+    // Dense at first, when motion is fast, then sparse: 0.4, 1.2, 2.8, 5.2 and 8 s of 8 s.
     constexpr double shares[STRIP_COLUMNS] = {0.05, 0.15, 0.35, 0.65, 1.};
     strip.times.push_back(shares[i] * end);
   }

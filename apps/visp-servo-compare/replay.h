@@ -4,7 +4,7 @@
  */
 /*!
  * \file replay.h
- * \brief Logged runs as videos and film strips of the camera's view.
+ * \brief Logged runs as videos and film strips of the camera view.
  */
 #ifndef servoCompare_replay_h
 #define servoCompare_replay_h
@@ -19,13 +19,13 @@ namespace servoCompare
 //! \brief The video of one law.
 struct ReplayVideo {
   std::string name;    //!< File inside the result folder.
-  std::string caption; //!< Law, what happens, how fast.
+  std::string caption; //!< Law, events, playback speed.
   bool forBrowsers = true;
 };
 
 /*!
- * Write a video of each law on the hardest plant, sped up to last some 8 s.
- * \param jobs : Videos at a time. \param window : When given, the frames are also shown, one law after another.
+ * Write a video of each law on the hardest plant, sped up to about 8 s.
+ * \param jobs : Videos written in parallel. \param window : If given, also shows the frames, one law after another.
  */
 [[nodiscard]] std::vector<ReplayVideo> writeVideos(const Plan &plan, const Results &results, vpApp::OutputFolder &out,
                                                    unsigned int jobs, vpApp::PictureWindow *window);
@@ -36,7 +36,7 @@ struct FilmStrip {
   std::vector<std::string> laws; //!< Rows from top to bottom.
   std::vector<double> times;     //!< Columns, s.
 };
-//! Views of the first segment, up to its end, on the hardest plant.
+//! Views of the complete first segment on the hardest plant.
 [[nodiscard]] FilmStrip drawFilmStrip(const Plan &plan, const Results &results);
 } // namespace servoCompare
 

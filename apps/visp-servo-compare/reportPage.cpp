@@ -44,7 +44,7 @@ std::string poseText(const vpHomogeneousMatrix &M)
          ") deg";
 }
 
-//! Names of the poses in the order of visit: "1 - 2 - 1 - 3" for the task of the thesis.
+//! Names of the poses in visiting order: "1 - 2 - 1 - 3" for the task of the thesis.
 std::string routeOf(const vpServoTask &task)
 {
   std::string route = "start";

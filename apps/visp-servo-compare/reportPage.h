@@ -4,7 +4,7 @@
  */
 /*!
  * \file reportPage.h
- * \brief The page that a person reads.
+ * \brief The report page.
  */
 #ifndef servoCompare_reportPage_h
 #define servoCompare_reportPage_h
@@ -14,11 +14,11 @@
 
 namespace servoCompare
 {
-//! \brief What the page is made of, besides plan and results.
+//! \brief Content of the page besides plan and results.
 struct ReportParts {
-  std::vector<Figure> armFigures; //!< Of the joints; empty without an arm.
+  std::vector<Figure> armFigures; //!< Figures of the joints; empty without an arm.
   std::vector<Figure> figures;
-  std::optional<Figure> step; //!< Of the section on shaped runs, if there are any.
+  std::optional<Figure> step; //!< Figure of the section on shaped runs, if any.
   FilmStrip filmStrip;
   std::vector<ReplayVideo> videos;
   std::string commandLine;
@@ -26,7 +26,7 @@ struct ReportParts {
 };
 
 /*!
- * The page as HTML. \param out : Where the videos lie.
+ * The page as HTML. \param out : Folder of the videos.
  */
 [[nodiscard]] std::string reportPage(const Plan &plan, const Results &results, const ReportParts &parts,
                                      vpApp::OutputFolder &out);

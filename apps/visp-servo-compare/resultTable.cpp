@@ -51,14 +51,14 @@ const std::vector<Column> FURTHER = {
     {"peak rad/s", &vpServoMetrics::peak_angular_radps, 3, Column::Neutral, "Largest angular speed executed"},
 };
 
-//! How good a median is, as the cell shows it: smaller is better. A yaw beyond the ideal is as wrong as one below.
+//! Rating of a median as displayed: smaller is better. A yaw beyond the ideal is as wrong as one below.
 double badness(const Column &column, double median, double idealYaw)
 {
   const double shown = std::stod(fixed(median, column.decimals));
   return column.order == Column::MoreIsBetter ? std::abs(shown - std::stod(fixed(idealYaw, column.decimals))) : shown;
 }
 
-//! Marks the best and the worst value of a column, unless so many laws share it that it says nothing.
+//! Marks the best and the worst value of a column, unless too many laws share it.
 class Marks
 {
 public:

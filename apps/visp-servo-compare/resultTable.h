@@ -4,7 +4,7 @@
  */
 /*!
  * \file resultTable.h
- * \brief Laws against plants, with the best and the worst marked.
+ * \brief Tables of laws by plants, with the best and the worst values marked.
  */
 #ifndef servoCompare_resultTable_h
 #define servoCompare_resultTable_h
@@ -15,9 +15,9 @@
 
 namespace servoCompare
 {
-//! Image error, end error, range of yaw and loss of view of each law on each plant, in groups of equal gain.
+//! Image error, final error, yaw range and loss of view of each law on each plant, in groups of equal gain.
 [[nodiscard]] vpApp::HtmlTable mainTable(const Plan &plan, const Results &results, const std::string &measure);
-//! The other figures: settling time, translation, path, peak speeds, deadlock, status.
+//! The other metrics: settling time, translation, path, peak speeds, deadlock, status.
 [[nodiscard]] vpApp::HtmlTable furtherTable(const Plan &plan, const Results &results, const std::string &measure);
 } // namespace servoCompare
 

@@ -17,7 +17,7 @@ namespace servoCompare
 {
 namespace
 {
-//! Expected cost of a run relative to one by points: rendering and vision take most of the time.
+//! Expected cost of a run relative to one with points: rendering and vision take most of the time.
 double costOf(const vpServoRunSpec &spec) { return spec.measure == "image" ? 2. * spec.plant.visionRate : 1.; }
 
 bool matches(const vpServoRunSpec &spec, const std::string &law, const std::string &plant, const std::string &measure,

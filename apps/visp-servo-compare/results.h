@@ -4,7 +4,7 @@
  */
 /*!
  * \file results.h
- * \brief The finished runs, and how to find one among them.
+ * \brief The finished runs, with lookup.
  */
 #ifndef servoCompare_results_h
 #define servoCompare_results_h
@@ -28,7 +28,7 @@ struct Spread {
 //! A field of vpServoMetrics.
 using Metric = double vpServoMetrics::*;
 
-//! What the robot gets: the law's twist as it is, or shaped (Plan::shaped).
+//! Command to the robot: the law's twist unchanged, or shaped (Plan::shaped).
 enum class Command { Raw, Shaped };
 
 //! \brief All runs in the order of Plan::runs.
@@ -36,14 +36,14 @@ class Results
 {
 public:
   explicit Results(std::size_t count) : m_runs(count) {}
-  //! Put in run number \e index. Safe from several threads for different indices.
+  //! Store run number \e index. Thread-safe for different indices.
   void set(std::size_t index, vpServoRun run) { m_runs[index] = std::move(run); }
   [[nodiscard]] const std::vector<vpServoRun> &runs() const { return m_runs; }
 
-  //! The run with the first seed, which has its samples; nullptr if it was not asked for.
+  //! The run with the first seed, with its samples; nullptr if it was not requested.
   [[nodiscard]] const vpServoRun *find(const std::string &law, const std::string &plant, const std::string &measure,
                                        Command command = Command::Raw) const;
-  //! A metric over all seeds; nothing if the run was not asked for.
+  //! A metric over all seeds; nullopt if the run was not requested.
   [[nodiscard]] std::optional<Spread> spread(const std::string &law, const std::string &plant,
                                              const std::string &measure, Metric metric,
                                              Command command = Command::Raw) const;
@@ -58,8 +58,8 @@ private:
 /*!
  * Run everything, the slow runs first, with a progress bar.
  * \param plan : What to run. \param targetFile : The photo as an image file that ViSP reads.
- * \param jobs : Runs at a time.
- * \param finished : Called with each run of the first seed as it ends, from several threads. The samples of all other
+ * \param jobs : Parallel runs.
+ * \param finished : Called with each finished run of the first seed, from several threads. The samples of all other
  * seeds are dropped to save memory.
  */
 [[nodiscard]] Results runAll(const Plan &plan, const std::string &targetFile, unsigned int jobs,

@@ -4,7 +4,7 @@
  */
 /*!
  * \file robotChoice.h
- * \brief Which robot carries the camera.
+ * \brief The robot that carries the camera.
  */
 #ifndef servoCompare_robotChoice_h
 #define servoCompare_robotChoice_h
@@ -22,13 +22,13 @@ VISP_DIRECT_USING_NAMESPACE
 namespace servoCompare
 {
 /*!
- * The arm that was asked for, with a start from which the task can be done and its self-motion; nothing for a camera
- * that flies freely.
- * \throw vpApp::UsageError for an unknown choice; vpException naming the file and the element that does not do.
+ * The requested arm, with a start configuration from which the task is feasible and its self-motion; null for a
+ * free-flying camera.
+ * \throw vpApp::UsageError for an unknown choice; vpException naming the file and the invalid element.
  */
 [[nodiscard]] std::shared_ptr<const vpServoArm> chooseArm(const RobotOptions &options, const vpServoTask &task);
 
-//! The arm in a sentence: joints, start, what the spare joints do.
+//! The arm in a sentence: joints, start, self-motion.
 [[nodiscard]] std::string sentenceOf(const vpServoArm &arm);
 } // namespace servoCompare
 

@@ -22,7 +22,7 @@ namespace servoCompare
 [[nodiscard]] std::string logName(const vpServoRunSpec &spec);
 /*!
  * The log as CSV: a line of names with units, then a line for each cycle of the inner loop. Pose: camera in the world
- * (the camera at the start), translation and theta u. Twists: camera frame. All in m, rad, s and px.
+ * (initial camera frame), translation and theta u. Twists: camera frame. All in m, rad, s and px.
  */
 [[nodiscard]] std::string csvOf(const vpServoRun &run);
 } // namespace servoCompare

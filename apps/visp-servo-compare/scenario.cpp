@@ -24,7 +24,7 @@ void readCamera(JsonObject camera, vpServoTask &task)
   const double u0 = camera.number("u0");
   const double v0 = camera.number("v0");
   for (const auto &focal : {std::make_pair("px", px), std::make_pair("py", py)}) {
-    if (!(focal.second >= 1e-6)) { // vpCameraParameters would say less
+    if (!(focal.second >= 1e-6)) { // vpCameraParameters has a less specific message
       throw camera.error(std::string(focal.first) + " is " + number(focal.second, 6) + ", must be > 0, at least 1e-6");
     }
   }
@@ -133,7 +133,7 @@ void readShape(JsonObject object, vpTwistShaperLimits &limits)
 {
   const auto read = [&object](const char *field, double &limit) {
     limit = object.number(field, limit);
-    if (limit <= 0.) { // the shaper would not name the field
+    if (limit <= 0.) { // the shaper's message would not name the field
       throw object.error(std::string(field) + " is " + number(limit, 6) + ", must be > 0");
     }
   };

@@ -4,7 +4,7 @@
  */
 /*!
  * \file scenario.h
- * \brief Task, gains and plants: built in, or from the user's JSON file.
+ * \brief Task, gains and plants: built-in, or from the user's JSON file.
  */
 #ifndef servoCompare_scenario_h
 #define servoCompare_scenario_h
@@ -22,17 +22,17 @@ VISP_DIRECT_USING_NAMESPACE
 
 namespace servoCompare
 {
-//! \brief Everything of a comparison but the laws. The default is the task of the thesis.
+//! \brief A comparison without the laws. The default is the task of the thesis.
 struct Scenario {
   Scenario();
   vpServoTask task;
   std::string description;
   vpServoGains gains;
-  std::vector<vpServoPlant> plants; //!< At least one; the first ones are easier than the last ones.
-  vpCameraFaults faults;            //!< Of the rendered views, on plants that are not perfect.
+  std::vector<vpServoPlant> plants; //!< At least one, ordered from easy to hard.
+  vpCameraFaults faults;            //!< Faults of the rendered views, on non-ideal plants.
   /*!
-   * Of the shaped runs. By default the angular limits are 2.5 1/m times the linear ones: turning keeps pace with going
-   * sideways at 0.4 m from the object, which it holds in the image.
+   * Limits of the shaped runs. By default the angular limits are 2.5 1/m times the linear ones: rotation keeps the
+   * object in the image during sideways motion at a distance of 0.4 m.
    */
   vpTwistShaperLimits shape;
 };

@@ -19,9 +19,9 @@ using vpApp::Plot;
 using vpApp::PlotCurve;
 using vpApp::PlotStyle;
 
-constexpr double BEFORE = 0.1;   // s shown before the command begins
-constexpr double AFTER = 1.;     // s shown from there on
-constexpr double HEADROOM = 2.5; // height of the plots of acceleration in limits; the raw step is far beyond it
+constexpr double BEFORE = 0.1;   // s shown before the start of the command
+constexpr double AFTER = 1.;     // s shown after the start
+constexpr double HEADROOM = 2.5; // range of the acceleration plots in limits; the raw step is far beyond
 constexpr const char *RAW = "#d62728";
 constexpr const char *SHAPED = "#1f77b4";
 
@@ -31,7 +31,7 @@ struct Part {
   const char *name;
   const char *speedUnit;
   const char *accelerationUnit;
-  double limit; //!< Of the acceleration.
+  double limit; //!< Acceleration limit.
 };
 
 double change(const vpTwist &to, const vpTwist &from, const Part &part)
@@ -44,7 +44,7 @@ double change(const vpTwist &to, const vpTwist &from, const Part &part)
   return std::sqrt(sum);
 }
 
-//! When the raw law begins to move the robot, s; with latency that is later than 0.
+//! Time at which the raw law starts to move the robot, s; later than 0 with latency.
 double beginning(const vpServoRun &raw)
 {
   for (const vpServoSample &s : raw.samples) {
@@ -55,7 +55,7 @@ double beginning(const vpServoRun &raw)
   return 0.;
 }
 
-//! Cuts what is drawn to the part of a run around its beginning.
+//! Restricts the plot to the beginning of a run.
 class StepPlots
 {
 public:
@@ -77,7 +77,7 @@ public:
     PlotCurve limit{"limit", "#555555", PlotStyle::Dotted, 2., {plot.xRange.first, plot.xRange.second}, {}};
     limit.y = {part.limit, part.limit};
     plot.curves.push_back(limit);
-    plot.height += 70; // room for the text at its top
+    plot.height += 70; // room for the label at its top
     const double step = stepOf(m_raw, part);
     if (step > HEADROOM * part.limit) {
       plot.marks = {{m_begin, "raw: up to " + number(step, 3) + " " + part.accelerationUnit + ", far off the scale"}};
@@ -85,7 +85,7 @@ public:
     return plot;
   }
 
-  //! Largest acceleration in the time that is shown.
+  //! Largest acceleration in the displayed time.
   [[nodiscard]] double stepOf(const vpServoRun &run, const Part &part) const
   {
     double largest = 0.;

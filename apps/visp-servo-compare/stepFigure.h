@@ -4,7 +4,7 @@
  */
 /*!
  * \file stepFigure.h
- * \brief The first second of a run, raw and shaped: the jump of velocity at the start and the ramp in its place.
+ * \brief The first second of a run, raw and shaped: velocity step at the start, and the ramp that replaces it.
  */
 #ifndef servoCompare_stepFigure_h
 #define servoCompare_stepFigure_h
@@ -14,8 +14,8 @@
 namespace servoCompare
 {
 /*!
- * Speed and acceleration of the command from a little before it begins until a second later, of PBVS-1 if it was run,
- * otherwise of the first law, on the easiest plant.
+ * Speed and acceleration of the command from shortly before its start until one second later, for PBVS-1 if it was run,
+ * otherwise for the first law, on the easiest plant.
  * \param plan : With Plan::shaped.
  */
 [[nodiscard]] Figure drawStep(const Plan &plan, const Results &results);

@@ -70,7 +70,7 @@ std::string stepGone(const Results &results)
          " m/s^2 and " + number(angular.shaped, 3) + " rad/s^2 shaped.";
 }
 
-//! By how much a figure rises with the shaper: the law with the largest rise.
+//! Increase of a metric by the shaper: the law with the largest increase.
 struct Rise {
   std::string law;
   Pair pair{0., 0.};
@@ -112,7 +112,7 @@ std::string cost(const Plan &plan, const Results &results, const vpServoPlant &p
          text(&vpServoMetrics::out_of_view_s, "the time out of view", "s", 2) + ".";
 }
 
-//! The filter counts on a twist that is executed at once, which it is not behind a shaper.
+//! The filter assumes that its twist is executed at once, which is not the case behind a shaper.
 std::optional<std::string> filterBehindShaper(const Plan &plan, const Results &results)
 {
   std::vector<std::string> losses;

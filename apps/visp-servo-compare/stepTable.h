@@ -4,7 +4,7 @@
  */
 /*!
  * \file stepTable.h
- * \brief Raw beside shaped runs: what the shaper takes away, and what it costs.
+ * \brief Comparison of raw and shaped runs: benefit and cost of the shaper.
  */
 #ifndef servoCompare_stepTable_h
 #define servoCompare_stepTable_h
@@ -15,10 +15,10 @@
 
 namespace servoCompare
 {
-//! Raw and shaped figures of each law side by side, medians over the seeds; without rows if nothing was run there.
+//! Raw and shaped metrics of each law side by side, medians over the seeds; no rows if nothing was run.
 [[nodiscard]] vpApp::HtmlTable stepTable(const Plan &plan, const Results &results, const vpServoPlant &plant,
                                          const std::string &measure);
-//! What shaping took away and what it cost, in sentences that follow from the numbers. \param plan : With Plan::shaped.
+//! Benefit and cost of shaping, in sentences computed from the numbers. \param plan : With Plan::shaped.
 [[nodiscard]] std::vector<std::string> stepFindings(const Plan &plan, const Results &results);
 } // namespace servoCompare
 

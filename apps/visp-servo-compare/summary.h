@@ -4,7 +4,7 @@
  */
 /*!
  * \file summary.h
- * \brief The figures of all runs as JSON.
+ * \brief The metrics of all runs as JSON.
  */
 #ifndef servoCompare_summary_h
 #define servoCompare_summary_h
@@ -16,7 +16,7 @@
 namespace servoCompare
 {
 /*!
- * The content of summary.json. \param commandLine : How the program was called. \param wallTime : s.
+ * The content of summary.json. \param commandLine : Command line of the program. \param wallTime : s.
  */
 [[nodiscard]] nlohmann::ordered_json summaryOf(const Plan &plan, const Results &results, const std::string &commandLine,
                                                double wallTime);

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Table 8.1: how well joints and tool of the arm follow a motion.
+// Table 8.1: tracking errors of joints and tool of the arm.
 #include "curves.h"
 #include "part.h"
 
@@ -27,10 +27,10 @@ constexpr double PERIOD = 0.005; // s, 200 Hz as in the thesis
 constexpr int PERIODS = 2000;    // 10 s
 constexpr int JOINTS = 7;
 
-//! What was wanted and what came of it.
+//! Desired and actual motion.
 struct Tracking {
   std::vector<double> time;
-  std::array<std::vector<double>, JOINTS> joints; //!< Wanted minus true, rad.
+  std::array<std::vector<double>, JOINTS> joints; //!< Desired minus actual, rad.
   std::array<std::vector<double>, 6> tool;        //!< x y z m, roll pitch yaw rad.
 };
 
@@ -50,7 +50,7 @@ Eigen::Vector3d rollPitchYaw(const Eigen::Matrix3d &R)
           std::atan2(R(1, 0), R(0, 0))};
 }
 
-//! Along the line of figure 8.8, 0.8 of the way there in 4.5 s, least jerk, and back.
+//! Along the line of figure 8.8, 0.8 of its length in 4.5 s, minimum jerk, and back.
 Tracking follow(const vpArmModel &arm, bool compensated, const Setting &setting, double done)
 {
   vpArmDriveSpec spec;

@@ -14,7 +14,7 @@ namespace
 using avoidObstacle::Replica;
 
 constexpr double MAX_SPEED = 0.5, MAX_ACCELERATION = 1.; // m/s, m/s^2
-constexpr double KEPT = 1e-9;                            // m/s: rounding
+constexpr double KEPT = 1e-9;                            // m/s: rounding tolerance
 
 Quantity speedKept(double peak)
 {

@@ -38,13 +38,13 @@ CalibrationPattern grid(const std::string &name, vpProductShape shape, vpPattern
   CalibrationPattern pattern{name, {}, {}, 4.03, -3.84e-10, method};
   pattern.spec = viewOf(GRID_PITCH, GRID_PITCH, GRID_MARK, GRID_MARK, pattern.umPerPixel, seed);
   pattern.spec.shape = shape;
-  pattern.spec.dark = 200.; // what lies between the marks: they are dark, as chrome on glass
+  pattern.spec.dark = 200.; // between the marks, which are dark, like chrome on glass
   pattern.spec.bright = 40.;
   pattern.pitch.columns = pattern.pitch.rows = GRID_PITCH * 1e-6;
   return pattern;
 }
 
-//! For each pixel of the distorted picture its place in the straight one.
+//! Position in the undistorted image for each pixel of the distorted one.
 cv::Mat mapOf(const vpMicroscopeCalibration &lens)
 {
   cv::Mat map(HEIGHT, WIDTH, CV_32FC2);
@@ -57,7 +57,7 @@ cv::Mat mapOf(const vpMicroscopeCalibration &lens)
   return map;
 }
 
-//! The renderer's picture without noise, through the lens; then the noise of vpProductPatternSpec::noise, and rounding.
+//! The renderer's image without noise, through the lens; then vpProductPatternSpec::noise, and rounding.
 void seen(const vpProductPattern &pattern, double x, double y, const cv::Mat &map, std::mt19937_64 &rng,
           vpImage<unsigned char> &image)
 {
@@ -91,7 +91,7 @@ void addExperiment(const std::vector<vpCalibrationPoint> &points, CalibrationOut
   vpPlanarMicroscopeCalibration careful(WIDTH, HEIGHT, options);
   careful.addView(points);
   outcome.significant += careful.compute().kappa1Status == vpKappa1Status::Estimated ? 1 : 0;
-  options.minSignificance = options.minEffect = 0.; // the thesis gives kappa1 whatever it is worth, and knows no tilt
+  options.minSignificance = options.minEffect = 0.; // the thesis gives kappa1 without a significance test, and no tilt
   options.maxCornerSigma = 1e6;
   options.estimateTilt = false;
   vpPlanarMicroscopeCalibration calibration(WIDTH, HEIGHT, options);
@@ -110,7 +110,7 @@ void addExperiment(const std::vector<vpCalibrationPoint> &points, CalibrationOut
 } // namespace
 
 CalibrationPattern squareGrid(unsigned int seed)
-{ // of squares the thesis finds all four edges to a part of a pixel
+{ // the thesis finds all four edges of squares with sub-pixel accuracy
   return grid("industrial grid", vpProductShape::Rectangle, vpPatternMethod::ThesisAlgorithmFixed, seed);
 }
 

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Table 7.4: a microscope with the thesis's distortion, calibrated by a grid and by the product.
+// Table 7.4: a microscope with the thesis's distortion, calibrated with a grid and with the product.
 #include "calibrationRun.h"
 #include "curves.h"
 #include "patternItems.h"
@@ -61,7 +61,7 @@ void addRows(Item &item, const Found &f, std::size_t method, const ThesisError &
                              "Largest " + number(o.error.largest(), 3) + " um."});
 }
 
-//! Round dots: what the thesis cannot be compared with.
+//! Round dots, without a value in the thesis.
 void addDots(Item &item, const Found &f)
 {
   for (std::size_t method = 0; method < f.outcomes.size(); ++method) {
@@ -76,7 +76,7 @@ void addDots(Item &item, const Found &f)
   }
 }
 
-//! How far each calibration is from the truth over the distance from the middle.
+//! Error of each calibration over the distance from the centre.
 vpApp::Plot errorPlot(const std::vector<std::pair<std::string, vpMicroscopeCalibration>> &found)
 {
   vpApp::Plot plot;

@@ -4,8 +4,7 @@
  */
 /*!
  * \file coreTime.h
- * \brief How long a core has worked for this thread: parts of the report run beside each other, and so do other
- * programs of the machine.
+ * \brief CPU time of this thread, as parts of the report and other programs run in parallel.
  */
 #ifndef thesisReport_coreTime_h
 #define thesisReport_coreTime_h
@@ -14,7 +13,7 @@
 
 namespace thesisReport
 {
-//! Time that cores have spent on this thread, s. While it waits for a core it stands still.
+//! CPU time of this thread, s; waiting for a core does not count.
 [[nodiscard]] inline double coreSeconds()
 {
   timespec time{};

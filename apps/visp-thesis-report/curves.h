@@ -4,7 +4,7 @@
  */
 /*!
  * \file curves.h
- * \brief Curves of plots, in a line each.
+ * \brief Curves of plots, one line of code each.
  */
 #ifndef thesisReport_curves_h
 #define thesisReport_curves_h
@@ -16,7 +16,7 @@
 
 namespace thesisReport
 {
-//! Colours that are told apart by all eyes, in the order of use.
+//! Colours distinguishable with colour blindness, in order of use.
 [[nodiscard]] const std::string &colour(std::size_t i);
 
 //! Add a curve in the next colour.

@@ -25,14 +25,14 @@ const std::array<vpPatternDerivative, OPERATORS> derivativesOfTable = {
     vpPatternDerivative::Symmetric};
 enum Operator : std::size_t { Prewitt, Roberts, Sobel, Symmetric };
 
-constexpr int IMAGES = 400;     // of a moving product
-constexpr int PLACES = 20;      // of a product at rest
-constexpr int REPETITIONS = 25; // images of each place
+constexpr int IMAGES = 400;     // images of a moving product
+constexpr int PLACES = 20;      // positions of a product at rest
+constexpr int REPETITIONS = 25; // images per position
 
-//! \brief What came out for one operator, px.
+//! \brief Results of one operator, px.
 struct Outcome {
   CentreErrors moving;
-  double noise = 0.; // standard deviation of y that noise alone makes
+  double noise = 0.; // standard deviation of y due to noise alone
 };
 using Outcomes = std::array<Outcome, OPERATORS>;
 
@@ -44,14 +44,14 @@ vpPatternOptions optionsFor(vpPatternDerivative derivative)
   return options;
 }
 
-//! The same places with other noise: how far each cell's y scatters about its own mean.
+//! Same positions with different noise: scatter of each cell's y about its own mean.
 double noiseOf(const vpProductPattern &product, vpPatternDerivative derivative)
 {
   vpImage<unsigned char> image;
   Spread deviations;
   for (int place = 0; place < PLACES; ++place) {
     vpPatternTracker tracker(product.spec().width, product.spec().height, optionsFor(derivative));
-    const double x = 17.31 * place, y = 2.39 * place; // all parts of a pixel
+    const double x = 17.31 * place, y = 2.39 * place; // all sub-pixel phases
     std::map<std::pair<int, int>, Spread> cells;
     for (int k = 0; k < REPETITIONS; ++k) {
       product.render(x, y, 0., 0., static_cast<unsigned int>(place * REPETITIONS + k), image);
@@ -138,7 +138,7 @@ void draw(Item &item, const Outcomes &all)
   vpApp::PlotCurve noise{"deviation by noise alone", colour(1), vpApp::PlotStyle::Points, 6., {}, {}};
   for (std::size_t i = 0; i < OPERATORS; ++i) {
     plot.categories.emplace_back(toString(derivativesOfTable[i]));
-    error.x.push_back(static_cast<double>(i) - 0.06); // beside each other: the two are nearly the same
+    error.x.push_back(static_cast<double>(i) - 0.06); // side by side: the two are nearly equal
     noise.x.push_back(static_cast<double>(i) + 0.06);
     error.y.push_back(all[i].moving.y.rms());
     noise.y.push_back(all[i].noise);

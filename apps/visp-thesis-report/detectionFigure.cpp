@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Figure 7.11: what the detection of the centres gives, and how well.
+// Figure 7.11: detection of the centres, and its accuracy.
 #include "patternItems.h"
 #include "patternRun.h"
 
@@ -17,7 +17,7 @@ namespace
 using vpApp::number;
 
 constexpr int IMAGES = 600;
-constexpr double SIGMA = 0.18, SIGMA_UM = 0.85, THREE_SIGMA_UM = 2.55; // of the thesis
+constexpr double SIGMA = 0.18, SIGMA_UM = 0.85, THREE_SIGMA_UM = 2.55; // from the thesis
 
 CentreErrors errorsOf(vpPatternMethod method, const Setting &setting, double from)
 {

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Figure 7.10: how far radial distortion moves a pixel, by the calibration's own model.
+// Figure 7.10: displacement of a pixel by radial distortion, by the calibration's own model.
 #include "curves.h"
 #include "patternItems.h"
 
@@ -22,10 +22,10 @@ using vpApp::fixed;
 using vpApp::number;
 
 constexpr double PIXEL = 4.5;             // um of product
-constexpr double FAR_OFF = 200.;          // px, where the thesis states the distortion
+constexpr double FAR_OFF = 200.;          // px, position at which the thesis states the distortion
 constexpr double EDGE = 80.;              // px, half the width of its image for control
-constexpr double KAPPA = -3.84e-10;       // um^-2, of table 7.4, industrial grid
-constexpr double THREE_SIGMA = 2.55;      // um, of the thesis
+constexpr double KAPPA = -3.84e-10;       // um^-2, table 7.4, industrial grid
+constexpr double THREE_SIGMA = 2.55;      // um, from the thesis
 constexpr double OUR_THREE_SIGMA = 0.045; // px
 
 //! A lens with this distortion, px^-2.
@@ -39,7 +39,7 @@ vpMicroscopeCalibration lens(double kappa1)
 
 vpMicroscopeCalibration lensOfShare(double share) { return lens(share / (FAR_OFF * FAR_OFF)); }
 
-//! How far a pixel \e r px off the centre is from where it belongs, px.
+//! Displacement of a pixel \e r px from the centre, px.
 double mismatch(const vpMicroscopeCalibration &lens, double r)
 {
   return std::fabs(lens.toPlane(r, 0.)[0] * lens.scaleX - r);

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Figure 7.1 and (7.2): frame rate against image size, of others and of vpPatternTracker.
+// Figure 7.1 and (7.2): frame rate against image size, of other systems and of vpPatternTracker.
 #include "curves.h"
 #include "patternItems.h"
 #include "patternRun.h"
@@ -17,9 +17,9 @@ namespace
 {
 using vpApp::number;
 
-constexpr double SWING = 40.;            // px, of the product
-constexpr std::size_t SMALL_RUN = 3000;  // images timed at the sizes of others
-constexpr std::size_t LARGE_RUN = 600;   // and at the sizes of (7.2)
+constexpr double SWING = 40.;            // px, product motion
+constexpr std::size_t SMALL_RUN = 3000;  // images timed at the sizes of other systems
+constexpr std::size_t LARGE_RUN = 600;   // images timed at the sizes of (7.2)
 constexpr unsigned int FEW_PIXELS = 100; // narrower images see the product at half the magnification
 
 //! \brief A vision system of figure 7.1.
@@ -37,7 +37,7 @@ const std::vector<System> &systems()
   return all;
 }
 
-//! \brief What an interface carries, without what its protocol takes.
+//! \brief Bandwidth of an interface without protocol overhead.
 struct Interface {
   const char *name;
   double bytes; // per second
@@ -56,7 +56,7 @@ vpProductPatternSpec productAt(unsigned int width, unsigned int height, unsigned
   vpProductPatternSpec spec = thesisProduct(seed);
   spec.width = width;
   spec.height = height;
-  if (width < FEW_PIXELS) { // two periods each way must be in view
+  if (width < FEW_PIXELS) { // two periods in each direction must be in view
     for (double *length : {&spec.pitchX, &spec.pitchY, &spec.openingX, &spec.openingY, &spec.cornerRadius}) {
       *length *= 0.5;
     }
@@ -111,7 +111,7 @@ void addInterfaces(vpApp::Plot &plot)
 
 //! \brief Times against size.
 struct Scaling {
-  std::vector<double> pixels, cells, median, p99; // cells of an image; us
+  std::vector<double> pixels, cells, median, p99; // cells per image; us
   void add(std::size_t size, const TrackingTime &time)
   {
     pixels.push_back(static_cast<double>(size));
@@ -137,7 +137,7 @@ void scale(const Setting &setting, Scaling &tracker, Scaling &thesis)
   }
 }
 
-//! Slope of the least-squares line through the logarithms.
+//! Slope of the least-squares line in log-log scale.
 double exponentOf(const std::vector<double> &x, const std::vector<double> &y)
 {
   Spread logX, logY, product, square;

@@ -13,7 +13,7 @@ namespace thesisReport
 {
 namespace
 {
-//! A field of CSV: in quotes where it needs them.
+//! A CSV field, quoted if necessary.
 std::string field(const std::string &text)
 {
   if (text.find_first_of(",\"\n") == std::string::npos) {

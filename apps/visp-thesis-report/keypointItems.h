@@ -4,7 +4,7 @@
  */
 /*!
  * \file keypointItems.h
- * \brief What keypointParts() is made of, and the views that both tables look at.
+ * \brief Items of keypointParts(), and the views used by both tables.
  */
 #ifndef thesisReport_keypointItems_h
 #define thesisReport_keypointItems_h
@@ -27,19 +27,19 @@ VISP_DIRECT_USING_NAMESPACE
 //! Camera of both tables: 640 x 480 px, focal length 800 px.
 [[nodiscard]] vpCameraParameters keypointCamera();
 
-//! Pose from a place (m) and angles about the camera's axes (rad): roll about z, pitch about x, yaw about y.
+//! Pose from a position (m) and angles about the camera axes (rad): roll about z, pitch about x, yaw about y.
 [[nodiscard]] vpHomogeneousMatrix poseOf(double x, double y, double z, double roll, double pitch, double yaw);
 
 /*!
- * A matcher whose reference has a number of keypoints, as nearly as the detector lets one choose it: dlib's SURF leaves
- * out some of those that it is asked for.
+ * A matcher whose reference has approximately the given number of keypoints: dlib's SURF omits some of the requested
+ * ones.
  */
 [[nodiscard]] vpPlaneMatcher matcherWith(const vpImage<unsigned char> &reference, vpKeypointType type,
                                          unsigned int keypoints);
 
 /*!
- * \brief A real photograph (data/target/klimt.jpg, 0.2 m wide) before another one (starry-night.jpg), as a camera sees
- * it.
+ * \brief Camera views of a real photograph (data/target/klimt.jpg, 0.2 m wide) in front of another one
+ * (starry-night.jpg).
  */
 class KeypointScene
 {
@@ -49,12 +49,12 @@ public:
   [[nodiscard]] const vpImage<unsigned char> &photograph() const { return m_photo; }
   [[nodiscard]] double width() const { return m_width; }   //!< m.
   [[nodiscard]] double height() const { return m_height; } //!< m.
-  //! The photograph alone, before the renderer's faint background: a reference view. Parameters as for render().
+  //! Reference view of the photograph alone, on the renderer's faint background. Parameters as for render().
   void renderAlone(const vpHomogeneousMatrix &cMo, const vpCameraFaults &faults, unsigned int seed,
                    vpImage<unsigned char> &image);
   /*!
-   * \param cMo : Photograph in the camera. \param faults : Noise reaches both photographs, an occluder the first.
-   * \param seed : Of the noise.
+   * \param cMo : Photograph in the camera. \param faults : Noise affects both photographs, an occluder the first.
+   * \param seed : Noise seed.
    */
   void render(const vpHomogeneousMatrix &cMo, const vpCameraFaults &faults, unsigned int seed,
               vpImage<unsigned char> &image);

@@ -64,7 +64,7 @@ vpPlaneMatcher matcherWith(const vpImage<unsigned char> &reference, vpKeypointTy
     config.maxKeypoints = more;
     vpPlaneMatcher next(reference, config);
     if (next.result().referenceKeypoints == matcher.result().referenceKeypoints) {
-      break; // there are no more
+      break; // no more keypoints
     }
     matcher = std::move(next);
   }

@@ -27,7 +27,7 @@ using vpApp::number;
 
 constexpr int VIEWS = 21;
 
-//! \brief A column of the table; without values of the thesis for the detectors that it does not compare.
+//! \brief A column of the table; without thesis values for detectors not compared there.
 struct Column {
   vpKeypointType type;
   unsigned int budget; // keypoints of the reference
@@ -90,7 +90,7 @@ void match(Column &column, vpPlaneMatcher &matcher, const vpImage<unsigned char>
   column.recognised += match.hasHomography() ? 1 : 0;
 }
 
-//! All columns on each view in turn, so that what else the machine does meets all of them.
+//! All columns on each view in turn, so that other machine load affects all of them.
 void run(std::vector<Column> &all, const KeypointScene &scene, const std::vector<vpImage<unsigned char>> &images,
          const std::function<void(double)> &progress)
 {
@@ -154,7 +154,7 @@ void addClaims(Item &item, const std::vector<Column> &all)
        "The thesis: \"the number of matched points is roughly similar\"."});
 }
 
-//! SURF where nothing else is in view: how many matches the busy background costs.
+//! SURF with nothing else in view: number of matches lost by the textured background.
 void addQuietViews(Item &item, KeypointScene &scene, const Setting &setting)
 {
   std::vector<Column> surf = columns();
@@ -178,7 +178,7 @@ std::string csvOf(const std::vector<Column> &all)
   return csv;
 }
 
-//! A view with the matches that agree, as figure 4.5.
+//! A view with the consistent matches, as figure 4.5.
 std::string matchesPicture(const KeypointScene &scene, const vpImage<unsigned char> &image)
 {
   vpPlaneMatcher matcher = matcherWith(scene.photograph(), vpKeypointType::SURF, 523);

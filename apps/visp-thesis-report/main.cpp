@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// visp-thesis-report: every result of the thesis again, beside its value.
+// visp-thesis-report: reproduces every result of the thesis, beside its value.
 #include "options.h"
 #include "reportPage.h"
 #include "results.h"

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Table A.1: peak over mean velocity of the motions that make the integral of a squared derivative least.
+// Table A.1: peak over mean velocity of the motions that minimise the integral of a squared derivative.
 #include "curves.h"
 #include "part.h"
 
@@ -18,12 +18,12 @@ namespace thesisReport
 {
 namespace
 {
-constexpr int INTERVALS = 400; // of the discretised motion
+constexpr int INTERVALS = 400; // intervals of the discretised motion
 
 /*!
- * The motion from 0 to 1 in unit time, at rest (to the order that the boundary needs) at both ends, that makes the
- * integral of the squared derivative least: found from scratch among all motions on a grid, without taking polynomials
- * for granted, which is what appendix A proves.
+ * The motion from 0 to 1 in unit time, at rest (to the order required by the boundary) at both ends, that minimises the
+ * integral of the squared derivative: optimised over all motions on a grid, without assuming polynomials, which
+ * appendix A proves.
  * \param order : 2 acceleration, 3 jerk, 4 snap.
  */
 Eigen::VectorXd smoothest(int order)
@@ -42,14 +42,14 @@ Eigen::VectorXd smoothest(int order)
   return motion;
 }
 
-//! Peak over mean velocity. The ends rest for (order - 1) samples in sum, so the motion takes less than the grid.
+//! Peak over mean velocity. The ends rest for (order - 1) samples in total, so the motion is shorter than the grid.
 double ratioOf(const Eigen::VectorXd &motion, int order)
 {
   const double step = 1. / (INTERVALS - (order - 1));
   return (motion.tail(motion.size() - 1) - motion.head(motion.size() - 1)).maxCoeff() / step;
 }
 
-//! The same of a quintic of the trajectory module, from its exact peaks.
+//! Peak over mean velocity of a quintic of the trajectory module, from its exact peaks.
 double ratioOfPlan(vpTrajectoryContinuity continuity)
 {
   vpTrajectoryInput<1> input;

@@ -39,7 +39,7 @@ Nothing is written unless all succeeded.)";
 
 constexpr std::size_t NAME_COLUMN = 22; // width, characters
 
-//! Ids of what the user named: an id, "chapter6", or "appendixA".
+//! Ids of a user's choice: an id, "chapter6", or "appendixA".
 std::vector<std::string> idsOf(const std::string &name)
 {
   std::vector<std::string> ids, chapters;

@@ -14,18 +14,18 @@
 
 namespace thesisReport
 {
-//! \brief What the user asked for.
+//! \brief User options.
 struct Options {
-  std::vector<std::string> only; //!< Ids; all of them when nothing was asked for.
+  std::vector<std::string> only; //!< Requested ids; all of them by default.
   std::string out = "out/thesis-report";
-  unsigned int jobs = 1; //!< Parts at a time.
+  unsigned int jobs = 1; //!< Parallel parts.
   unsigned int seed = 1;
   bool list = false;
 };
 
 /*!
  * Read the command line.
- * \return False when `--help` or `--version` was asked for, and printed.
+ * \return False when `--help` or `--version` was requested and printed.
  * \throw vpApp::UsageError naming the option and its value.
  */
 [[nodiscard]] bool readOptions(int argc, const char *const *argv, Options &options);

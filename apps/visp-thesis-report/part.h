@@ -4,7 +4,7 @@
  */
 /*!
  * \file part.h
- * \brief What the report is made of: pieces of work, each for one or several figures and tables of the thesis.
+ * \brief Parts of the report, each for one or several figures and tables of the thesis.
  */
 #ifndef thesisReport_part_h
 #define thesisReport_part_h
@@ -18,34 +18,34 @@
 
 namespace thesisReport
 {
-//! \brief What every part is told.
+//! \brief Input of every part.
 struct Setting {
-  unsigned int seed = 1;                //!< Of everything random.
-  std::set<std::string> wanted;         //!< Ids that were asked for.
-  std::function<void(double)> progress; //!< Call with the share done, 0..1; throws when the user interrupts.
+  unsigned int seed = 1;                //!< Seed of all random numbers.
+  std::set<std::string> wanted;         //!< Requested ids.
+  std::function<void(double)> progress; //!< Call with the fraction done, 0..1; throws on interruption by the user.
   [[nodiscard]] bool wants(const std::string &id) const { return wanted.count(id) != 0; }
 };
 
-//! \brief A figure or table that can be asked for.
+//! \brief A figure or table that can be requested.
 struct Entry {
   std::string id;    //!< "table4.3".
-  std::string title; //!< What it shows, in the thesis's sense.
+  std::string title; //!< Content, in terms of the thesis.
 };
 
-//! \brief Figures and tables that come from the same runs.
+//! \brief Figures and tables from the same runs.
 struct Part {
   std::string chapter;        //!< Heading in the report: "Chapter 4: keypoints".
   std::vector<Entry> entries; //!< In the order of the thesis.
-  double cost = 1.;           //!< Expected time on one core, s; long parts begin first.
+  double cost = 1.;           //!< Expected time on one core, s; long parts start first.
   /*!
-   * Does the work on one thread. Gives at least the items of Setting::wanted that are among the entries.
+   * Runs on one thread. Returns at least the items of Setting::wanted that are among the entries.
    */
   std::function<std::vector<Item>(const Setting &)> play;
 };
 
 //! All parts, in the order of the thesis.
 [[nodiscard]] const std::vector<Part> &catalogue();
-//! A chapter's name for the command line: "chapter4", "appendixA".
+//! Name of a chapter on the command line: "chapter4", "appendixA".
 [[nodiscard]] std::string chapterName(const Part &part);
 //! All ids, in the order of the thesis.
 [[nodiscard]] std::vector<std::string> allIds();

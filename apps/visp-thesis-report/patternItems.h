@@ -4,7 +4,7 @@
  */
 /*!
  * \file patternItems.h
- * \brief What patternParts() is made of, one or several items each.
+ * \brief Functions behind patternParts(), one or several items each.
  */
 #ifndef thesisReport_patternItems_h
 #define thesisReport_patternItems_h

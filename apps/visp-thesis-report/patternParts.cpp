@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Chapter 7 up to figure 7.11: what the camera and the detection of the cells can do.
+// Chapter 7 up to figure 7.11: performance of the camera and of the cell detection.
 #include "patternItems.h"
 
 namespace thesisReport

@@ -13,9 +13,9 @@ namespace thesisReport
 {
 namespace
 {
-constexpr std::size_t ROUND = 60; // images of a round trip
-constexpr int WARM_UP = 3;        // rounds in which the template is learned and prepared
-constexpr double NEAR = 2.;       // px: a centre farther off its cell was not found
+constexpr std::size_t ROUND = 60; // images of one cycle
+constexpr int WARM_UP = 3;        // cycles for learning and preparing the template
+constexpr double NEAR = 2.;       // px: a centre farther from its cell counts as not found
 
 void compare(const std::vector<vpPatternTruthCell> &truth, const std::vector<vpPatternCell> &cells,
              CentreErrors &errors)
@@ -57,7 +57,7 @@ CentreErrors centreErrors(const vpProductPattern &product, const vpPatternOption
   bool learned = options.method != vpPatternMethod::GaussNewton;
   double x = 0., y = 0.;
   for (int k = 0, counted = 0; counted < images; ++k) {
-    const double vx = 4. + 1.5 * std::sin(0.07 * k), vy = 0.37; // px/frame: all sub-pixel places come by
+    const double vx = 4. + 1.5 * std::sin(0.07 * k), vy = 0.37; // px/frame: all sub-pixel phases occur
     x += vx;
     y += vy;
     product.render(x, y, vx, vy, static_cast<unsigned int>(k), image);

@@ -21,37 +21,37 @@ namespace thesisReport
 {
 VISP_DIRECT_USING_NAMESPACE
 
-//! The display of the thesis under its camera: the default product with noise 4, which was chosen so that Algorithm 7.4
-//! has the thesis's deviation.
+//! The display of the thesis under its camera: the default product with noise 4, chosen so that Algorithm 7.4 has the
+//! thesis's standard deviation.
 [[nodiscard]] vpProductPatternSpec thesisProduct(unsigned int seed);
 
-//! \brief Centres against the truth of the renderer.
+//! \brief Errors of the centres against the renderer's ground truth.
 struct CentreErrors {
   Spread x, y;           //!< px.
-  std::size_t whole = 0; //!< Cells that lie completely in view.
-  std::size_t most = 0;  //!< The most of them in one image.
-  std::size_t found = 0; //!< Those with a valid centre within 2 px.
+  std::size_t whole = 0; //!< Cells completely in view.
+  std::size_t most = 0;  //!< Maximum of these in one image.
+  std::size_t found = 0; //!< Cells with a valid centre within 2 px.
   [[nodiscard]] double share() const { return static_cast<double>(found) / static_cast<double>(whole); }
 };
 
 /*!
- * Move a product under the tracker, about 4 px/frame along the rows, and compare. Images count from the first with a
- * learned template on where the method has one.
- * \param images : How many. \param product : Rendered. \param progress : Called with the share done.
+ * Move a product under the tracker, about 4 px/frame along the rows, and compare. If the method learns a template,
+ * images count from the first with a learned template.
+ * \param images : Number of images. \param product : Rendered product. \param progress : Called with the fraction done.
  */
 [[nodiscard]] CentreErrors centreErrors(const vpProductPattern &product, const vpPatternOptions &options, int images,
                                         const std::function<void(double)> &progress);
 
-//! Images of a product that swings by \e amplitude px and comes back to where it began, to be gone round and round.
+//! Image loop of a product that oscillates with \e amplitude px and returns to its start.
 [[nodiscard]] std::vector<vpImage<unsigned char>> roundTrip(const vpProductPatternSpec &spec, double amplitude);
 
-//! \brief How long an image takes.
+//! \brief Tracking time per image.
 struct TrackingTime {
-  Spread us;          //!< Of each image, us, see coreSeconds().
-  double locked = 0.; //!< Share of the images with status Tracking; baselines without a template too.
-  double cells = 0.;  //!< Valid cells of an image, mean.
+  Spread us;          //!< Time of each image, us, see coreSeconds().
+  double locked = 0.; //!< Fraction of images with status Tracking, also for baselines without a template.
+  double cells = 0.;  //!< Mean number of valid cells per image.
   double pitchX = 0.; //!< Distance of neighbouring cells along the row, from the tracker's lattice, px.
-  //! The highest rate at which 99 of 100 images are done before the next one comes, Hz.
+  //! Highest rate at which 99 of 100 images are finished before the next one arrives, Hz.
   [[nodiscard]] double sustainedRate() const { return 1e6 / us.quantile(0.99); }
 };
 

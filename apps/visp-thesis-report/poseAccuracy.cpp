@@ -15,11 +15,11 @@ namespace
 constexpr double DISTANCE = 0.4;        // m: the photograph is 400 px wide
 constexpr unsigned int KEYPOINTS = 244; // second column of table 4.2
 constexpr int VIEWS = 24;
-constexpr int REFINED_VIEWS = 8; // of them, also by vpPlanarTarget
+constexpr int REFINED_VIEWS = 8; // of these, also with vpPlanarTarget
 constexpr double NOISE = 6., BLUR = 1., HIDDEN = 0.1;
 constexpr double WRONG_FOCAL_LENGTH = 1.01;
-constexpr double UNIT = 1e-3;  // of the distance
-constexpr double NEVER = 1e-9; // limits of the decomposition that shall not act: the thesis has none
+constexpr double UNIT = 1e-3;  // relative to the distance
+constexpr double NEVER = 1e-9; // disables limits of the decomposition, which the thesis does not have
 
 vpHomogeneousMatrix poseAt(PoseAxis axis, double offset)
 {
@@ -41,7 +41,7 @@ vpHomogeneousMatrix poseAt(PoseAxis axis, double offset)
   return poseOf(0., 0., DISTANCE + step, 0., 0., 0.);
 }
 
-//! The component of a motion that the axis is about. \param t : Over the distance of the plane.
+//! Component of a motion along or about the axis. \param t : Relative to the distance of the plane.
 double componentOf(const vpRotationMatrix &R, const vpTranslationVector &t, PoseAxis axis)
 {
   const vpThetaUVector rotation(R);
@@ -113,7 +113,7 @@ void PoseExperiment::compare(const vpPlaneMatch &match, PoseAxis axis, double of
     return;
   }
   errors.surf.add(componentOf(found.best.c2Rc1, found.best.t, axis) - offset);
-  vpTranslationVector centre = found.best.t; // of a point ahead at the distance 1
+  vpTranslationVector centre = found.best.t; // of a point straight ahead at distance 1
   for (unsigned int i = 0; i < 3; ++i) {
     centre[i] += found.best.c2Rc1[i][2] - (i == 2 ? 1. : 0.);
   }

@@ -4,7 +4,7 @@
  */
 /*!
  * \file poseAccuracy.h
- * \brief The experiment of table 4.3: a photograph is moved along or about one axis, and its motion is found again.
+ * \brief The experiment of table 4.3: a photograph is moved along or about one axis, and its motion is estimated.
  */
 #ifndef thesisReport_poseAccuracy_h
 #define thesisReport_poseAccuracy_h
@@ -30,17 +30,17 @@ enum class PoseAxis { Roll, Pitch, Yaw, X, Y, Z };
 [[nodiscard]] bool isAngle(PoseAxis axis);       //!< Degrees; else thousandths of the plane's distance.
 [[nodiscard]] std::string unitOf(PoseAxis axis); //!< " deg", or nothing.
 
-//! \brief Found minus true offset over several views, in the unit of the axis.
+//! \brief Estimated minus true offset over several views, in the unit of the axis.
 struct PoseErrors {
   Spread surf;      //!< SURF, homography, decomposition.
-  Spread wrongLens; //!< The same matches, focal length 1 % too long.
+  Spread wrongLens; //!< Same matches, focal length 1 % too long.
   Spread refined;   //!< vpPlanarTarget.
-  Spread centre;    //!< The same matches: place of the object's centre instead of the camera's motion; angles as surf.
-  Spread matches;   //!< That agree on the plane, of a view.
+  Spread centre;    //!< Same matches: position of the object's centre instead of the camera's motion; angles as surf.
+  Spread matches;   //!< Matches per view that agree with the plane.
   int lost = 0;     //!< Views in which SURF gave no motion.
 };
 
-//! \brief Views of the photograph at an offset, that differ by their noise and by what is hidden.
+//! \brief Views of the photograph at an offset, differing in noise and occlusion.
 class PoseExperiment
 {
 public:
@@ -53,13 +53,13 @@ private:
   void refine(const vpImage<unsigned char> &image, PoseAxis axis, double offset, PoseErrors &errors);
 
   unsigned int m_seed;
-  unsigned int m_views = 0; // so far: each has its own noise
+  unsigned int m_views = 0; // so far; each has its own noise
   KeypointScene m_scene;
   std::unique_ptr<vpPlaneMatcher> m_matcher;
   std::unique_ptr<vpPlanarTarget> m_target;
 };
 
-//! What was chosen, for the report.
+//! Chosen parameters, for the report.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> poseParameters();
 } // namespace thesisReport
 

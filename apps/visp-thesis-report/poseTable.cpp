@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Table 4.3: offsets of a photograph, found again from SURF matches by the decomposition of their homography.
+// Table 4.3: offsets of a photograph, estimated from SURF matches by decomposition of their homography.
 #include "poseAccuracy.h"
 
 #include "curves.h"
@@ -55,10 +55,10 @@ const std::vector<Row> &rows()
   return all;
 }
 
-//! \brief What came out for one row, by offset.
+//! \brief Results of one row, by offset.
 struct Measured {
   std::vector<PoseErrors> errors;
-  PoseErrors busy; // at the first offset, before another photograph
+  PoseErrors busy; // at the first offset, in front of another photograph
 };
 
 std::string place(const Row &row, std::size_t i)
@@ -68,7 +68,7 @@ std::string place(const Row &row, std::size_t i)
 
 const char *const KNOWN = "The camera is known exactly here.";
 
-//! Why an error of the mean is smaller, or larger: then more views would tell, or they would not.
+//! Reason why an error of the mean is smaller, or larger, and whether more views would help.
 std::string reasonOf(const PoseErrors &e, double thesis, PoseAxis axis)
 {
   if (std::fabs(e.surf.mean()) < thesis) {
@@ -95,7 +95,7 @@ void addRow(Item &item, const Row &row, const Measured &measured)
   for (std::size_t i = 0; i < row.offsets.size(); ++i) {
     const PoseErrors &e = measured.errors[i];
     const double thesisError = std::fabs(row.thesis[i].mean - row.offsets[i]), threeSigma = row.thesis[i].threeSigma;
-    const bool slip = row.axis == PoseAxis::X && row.offsets[i] == 100.; // 90.41, maybe a slip of the pen
+    const bool slip = row.axis == PoseAxis::X && row.offsets[i] == 100.; // 90.41, possibly a misprint
     item.quantities.push_back(
         {place(row, i) + ": error of the mean", unit, thesisError, std::fabs(e.surf.mean()), Tolerance::factor(3.),
          Good::Smaller, reasonOf(e, thesisError, row.axis),
@@ -112,7 +112,7 @@ void addRow(Item &item, const Row &row, const Measured &measured)
   }
 }
 
-//! Largest of something over a row.
+//! Largest value of a quantity over a row.
 template <typename Value> double worst(const Measured &measured, Value value)
 {
   double largest = 0.;
@@ -146,7 +146,7 @@ void addOthers(Item &item, const Row &row, const Measured &m)
   add("largest 3 sigma, vpPlanarTarget", worst(m, [](const PoseErrors &e) { return 3. * e.refined.sigma(); }), "");
 }
 
-//! Mean error with bars of 3 sigma, and the thesis's beside it.
+//! Mean error with bars of 3 sigma, beside that of the thesis.
 vpApp::Plot plotOf(const Row &row, const Measured &measured)
 {
   vpApp::Plot plot;
@@ -154,7 +154,7 @@ vpApp::Plot plotOf(const Row &row, const Measured &measured)
   plot.xLabel = isAngle(row.axis) ? "offset (deg)" : "offset (thousandths of the distance)";
   plot.yLabel = isAngle(row.axis) ? "error (deg)" : "error (thousandths)";
   plot.height = 270;
-  const bool first = row.axis == rows().front().axis; // the legend stands once
+  const bool first = row.axis == rows().front().axis; // one legend only
   const double step = 0.08 * (row.offsets[1] - row.offsets[0]);
   const auto add = [&](const std::string &label, const std::string &colour, double shift, auto mean, auto threeSigma) {
     vpApp::PlotCurve dots{label, colour, vpApp::PlotStyle::Points, 4., {}, {}},

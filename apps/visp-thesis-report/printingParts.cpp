@@ -23,7 +23,7 @@ using printPattern::Replica;
 constexpr const char *CHAPTER = "Chapter 7: product pattern-based visual servoing";
 constexpr double DROP_VELOCITY = 4.; // px/frame
 
-//! The replicas of the figures, run.
+//! The finished replicas of the figures.
 class Replicas
 {
 public:
@@ -52,7 +52,7 @@ public:
     return *std::find_if(m_results.replicas.begin(), m_results.replicas.end(),
                          [&](const Replica &replica) { return replica.figure == figure; });
   }
-  //! An item with picture, data and parameters.
+  //! An item with figure, data and parameters.
   [[nodiscard]] Item item(const std::string &figure) const
   {
     Item item;

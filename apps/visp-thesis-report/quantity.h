@@ -4,7 +4,7 @@
  */
 /*!
  * \file quantity.h
- * \brief A value of the thesis beside ours, and what comes of comparing them.
+ * \brief A value of the thesis beside ours, and their comparison.
  */
 #ifndef thesisReport_quantity_h
 #define thesisReport_quantity_h
@@ -14,7 +14,7 @@
 
 namespace thesisReport
 {
-//! \brief How near a value must be to the thesis's. Stated before anything is measured, and part of the report.
+//! \brief Tolerance relative to the thesis's value, set before any measurement and part of the report.
 class Tolerance
 {
 public:
@@ -27,7 +27,7 @@ public:
   //! A claim that something is not smaller: ours >= thesis - size.
   [[nodiscard]] static Tolerance atLeast(double size = 0.) { return {Kind::AtLeast, size}; }
 
-  //! True if \e ours is within it. What is not finite never is.
+  //! True if \e ours is within the tolerance; false for non-finite values.
   [[nodiscard]] bool holds(double thesis, double ours) const;
   //! In words: "within a factor 1.1".
   [[nodiscard]] std::string text() const;
@@ -39,15 +39,15 @@ private:
   double m_size;
 };
 
-//! Which way a value is better than another.
+//! Direction in which a value is better.
 enum class Good { Neither, Smaller, Larger };
 
-//! What a comparison says.
+//! Result of a comparison.
 enum class Verdict {
   Agrees,  //!< Within the tolerance.
-  Better,  //!< Outside, on the good side.
-  Differs, //!< Outside.
-  NoValue  //!< The thesis gives none; ours stands for itself.
+  Better,  //!< Outside the tolerance, on the good side.
+  Differs, //!< Outside the tolerance.
+  NoValue  //!< The thesis gives no value.
 };
 
 //! "agrees", "better", "differs", "no value in the thesis".
@@ -57,19 +57,19 @@ enum class Verdict {
 struct Quantity {
   std::string name;             //!< "rms velocity error".
   std::string unit;             //!< "px/frame"; "1" for a ratio or a count.
-  std::optional<double> thesis; //!< Its value, or the bound that it claims; none: not told.
+  std::optional<double> thesis; //!< Value or claimed bound of the thesis; none: not given.
   double ours = 0.;             //!< Measured in this run.
   Tolerance tolerance = Tolerance::factor(1.1);
   Good good = Good::Neither;
-  std::string reason; //!< Why it differs when it does; shown only then.
-  std::string note;   //!< How it was measured; always shown.
+  std::string reason; //!< Reason for a difference; shown only then.
+  std::string note;   //!< Measurement method; always shown.
 };
 
-//! Compare. Computed from the numbers alone.
+//! Comparison, computed only from the numbers.
 [[nodiscard]] Verdict verdictOf(const Quantity &quantity);
-//! ours / thesis; nothing without a value or where the thesis's is 0.
+//! ours / thesis; nullopt without a value or if the thesis's is 0.
 [[nodiscard]] std::optional<double> ratioOf(const Quantity &quantity);
-//! Note and, where it does not agree, the reason; "not explained" where one is owed and there is none.
+//! Note and, if the values disagree, the reason; "not explained" if it is missing.
 [[nodiscard]] std::string remarkOf(const Quantity &quantity);
 } // namespace thesisReport
 

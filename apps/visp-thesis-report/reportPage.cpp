@@ -40,7 +40,7 @@ std::string labelOf(const std::string &id)
                            : "(" + id.substr(2) + ")";
 }
 
-//! Why an item differs, in the words of its quantities.
+//! Reasons for the difference of an item, from its quantities.
 std::string whyOf(const Item &item)
 {
   std::vector<std::string> reasons;

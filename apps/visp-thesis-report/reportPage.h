@@ -13,7 +13,7 @@
 
 namespace thesisReport
 {
-//! The page; pictures are inside.
+//! The page, with embedded figures.
 [[nodiscard]] std::string reportPage(const std::vector<Played> &all, const std::string &commandLine, double wallTime);
 } // namespace thesisReport
 

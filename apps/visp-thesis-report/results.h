@@ -17,12 +17,12 @@
 
 namespace thesisReport
 {
-//! A row for each quantity: id, quantity, unit, thesis, ours, ratio, tolerance, verdict, note; null where there is none.
+//! A row per quantity: id, quantity, unit, thesis, ours, ratio, tolerance, verdict, note; null for missing values.
 [[nodiscard]] nlohmann::ordered_json resultsJson(const std::vector<Played> &all);
-//! The verdict of each item, how many there are of each, and what it took.
+//! Verdict of each item, number of each verdict, and computing time.
 [[nodiscard]] nlohmann::ordered_json summaryJson(const std::vector<Played> &all, const Options &options,
                                                  const std::string &commandLine, double wallTime);
-//! How many items have each verdict.
+//! Number of items with each verdict.
 [[nodiscard]] std::map<Verdict, int> countVerdicts(const std::vector<Played> &all);
 } // namespace thesisReport
 

@@ -14,17 +14,17 @@
 
 namespace thesisReport
 {
-//! \brief A part that was played.
+//! \brief A finished part.
 struct Played {
   const Part *part = nullptr; //!< In the catalogue.
-  std::vector<Item> items;    //!< Those that were asked for, in the order of the part's entries.
-  double seconds = 0.;        //!< That it took.
+  std::vector<Item> items;    //!< Requested items, in the order of the part's entries.
+  double seconds = 0.;        //!< Computing time.
 };
 
 /*!
- * Play the parts that are needed, the long ones first, with a progress bar.
- * \return In the order of the catalogue.
- * \throw std::runtime_error naming the id when a part fails or leaves out an item; vpApp::Interrupted.
+ * Run the required parts, the long ones first, with a progress bar.
+ * \return Finished parts in the order of the catalogue.
+ * \throw std::runtime_error naming the id when a part fails or omits an item; vpApp::Interrupted.
  */
 [[nodiscard]] std::vector<Played> playAll(const Options &options);
 } // namespace thesisReport

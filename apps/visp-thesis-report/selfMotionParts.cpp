@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Figures 8.14 to 8.17: what the spare joint does while the tool follows its way.
+// Figures 8.14 to 8.17: self-motion while the tool follows its path.
 #include "curves.h"
 #include "part.h"
 
@@ -25,7 +25,7 @@ namespace
 {
 constexpr int JOINT_4 = 3;
 constexpr double WEAK = 0.3, STRONG = 0.6; // |k_0|
-constexpr double DRIFT = 1e-4;             // m: the tool's task counts as kept
+constexpr double DRIFT = 1e-4;             // m: tolerance of the tool's task
 
 using MakeIndex = std::function<vpSelfMotionIndex(vpIndexSense)>;
 
@@ -129,7 +129,7 @@ Item point(const char *id, const Eigen::Vector3d &place, const std::string &name
 
 Item besideJoint() { return point("fig8.14", {0.45, 0.1, 0.4}, "the point beside it"); }
 
-//! Under joint 4 of the first posture.
+//! Point below joint 4 of the first posture.
 Item underJoint()
 {
   const auto arm = amor();

@@ -26,7 +26,7 @@ constexpr const char *POINTS = "points";
 constexpr const char *PERFECT = "A", *HARD = "D";
 constexpr unsigned int SEEDS = 5;
 constexpr double DIED_OUT = 0.5; // deg
-//! The law of the thesis, and the rivals as the thesis means them; then what became of the first.
+//! The law of the thesis, and the compared laws as meant by the thesis; then the successor of the first.
 constexpr const char *FEEDFORWARD = "ff-sum", *PBVS = "pbvs1", *KYRKI = "kyrki-decoupled", *OURS = "ff-lookat-pi";
 
 using Value = std::function<double(const vpServoRun &)>;
@@ -64,7 +64,7 @@ public:
     }
     return vpMedian(values);
   }
-  //! The same of one law over that of another.
+  //! Ratio of the medians of two laws.
   [[nodiscard]] double ratio(const std::string &law, const std::string &other, const std::string &plant,
                              const Value &value) const
   {
@@ -76,7 +76,7 @@ private:
   Results m_results;
 };
 
-// What is read off the curves. Angles deg.
+// Quantities read from the curves. Angles in deg.
 
 double yawError(const vpServoRun &run)
 {
@@ -87,7 +87,7 @@ double yawError(const vpServoRun &run)
   return std::sqrt(sum / static_cast<double>(run.samples.size()));
 }
 
-//! Largest distance of the reference from the goal while the first pose is in force and something has been measured.
+//! Largest distance of the reference from the goal during the first pose, after the first measurement.
 double referenceDistance(const vpServoRun &run)
 {
   double largest = 0.;
@@ -98,7 +98,7 @@ double referenceDistance(const vpServoRun &run)
   return largest;
 }
 
-//! Most that the reference turns towards pose 2, over the turn of the goal.
+//! Largest rotation of the reference towards pose 2, relative to the rotation of the goal.
 double peakReference(const vpServoRun &run)
 {
   double largest = 0.;
@@ -115,7 +115,7 @@ const vpServoSample &endOfPose2(const vpServoRun &run)
   return *(next - 1);
 }
 
-//! Distance of the reference from the goal over the last second at pose 2, mean.
+//! Mean distance of the reference from the goal over the last second at pose 2.
 double referenceLeft(const vpServoRun &run)
 {
   const double end = endOfPose2(run).time;
@@ -135,7 +135,7 @@ double idealYawRange(const vpServoRun &run) { return run.metrics.ideal_yaw_range
 double inView(const vpServoRun &run) { return endOfPose2(run).inView ? 1. : 0.; }
 double yawAtPose2(const vpServoRun &run) { return std::fabs(vpMath::deg(endOfPose2(run).yaw)); }
 
-//! Time out of view on the way to pose 2 and there, s.
+//! Time out of view on the way to pose 2 and at pose 2, s.
 double lostAtPose2(const vpServoRun &run)
 {
   const double cycle = 1. / run.spec.plant.loopRate;
@@ -143,7 +143,7 @@ double lostAtPose2(const vpServoRun &run)
                                                    [](const vpServoSample &s) { return s.segment == 0 && !s.inView; }));
 }
 
-//! Image error along u on the way 1 - 2 - 1, rms, px.
+//! Rms image error along u on the path 1 - 2 - 1, px.
 double imageError(const vpServoRun &run)
 {
   double sum = 0.;
@@ -303,7 +303,7 @@ std::vector<std::pair<std::string, std::string>> parameters(const Plan &plan)
           {"seeds", std::to_string(SEEDS) + ", medians; the pictures show the first"}};
 }
 
-//! The picture and the logs of its runs.
+//! The figure and the logs of its runs.
 void illustrate(const Runs &runs, const std::vector<servoCompare::Figure> &figures, Item &item)
 {
   const std::string number = item.id.substr(3);

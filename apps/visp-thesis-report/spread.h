@@ -4,7 +4,7 @@
  */
 /*!
  * \file spread.h
- * \brief Mean, standard deviation and quantiles of what was measured.
+ * \brief Mean, standard deviation and quantiles of measurements.
  */
 #ifndef thesisReport_spread_h
 #define thesisReport_spread_h
@@ -13,7 +13,7 @@
 
 namespace thesisReport
 {
-//! \brief Collects values. All figures of no value are 0.
+//! \brief Collects values. All statistics are 0 without values.
 class Spread
 {
 public:
@@ -22,9 +22,9 @@ public:
   [[nodiscard]] double mean() const;
   //! Standard deviation about the mean, of a sample (n - 1); 0 for a single value.
   [[nodiscard]] double sigma() const;
-  [[nodiscard]] double rms() const; //!< About 0.
+  [[nodiscard]] double rms() const; //!< Root mean square, about 0.
   [[nodiscard]] double largest() const;
-  //! The value that \e share of all do not exceed. \param share : 0..1.
+  //! Quantile: the value not exceeded by the fraction \e share. \param share : 0..1.
   [[nodiscard]] double quantile(double share) const;
   [[nodiscard]] double median() const { return quantile(0.5); }
 

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Table 7.1: three ways to a threshold, timed and tried on images in changing light.
+// Table 7.1: three threshold methods, timed and tested on images in changing light.
 #include "coreTime.h"
 #include "curves.h"
 #include "patternItems.h"
@@ -25,14 +25,14 @@ const std::array<vpPatternThreshold, METHODS> methods = {vpPatternThreshold::Iso
                                                          vpPatternThreshold::Otsu};
 constexpr int STILL = 200;          // images in constant light
 constexpr int CHANGING = 300;       // images in changing light
-constexpr int REPEATED = 200;       // calls timed at a time: the clock is too coarse for one
-constexpr double APPLICABLE = 0.95; // share of the cells that a method must find
+constexpr int REPEATED = 200;       // calls timed together: the clock is too coarse for one
+constexpr double APPLICABLE = 0.95; // fraction of the cells that a method must find
 
-//! \brief What came out for one method.
+//! \brief Results of one method.
 struct Outcome {
-  Spread ns;    // of a call
+  Spread ns;    // per call
   Spread still; // thresholds in constant light
-  Spread off;   // threshold minus the middle of the two grey values, over their difference, in changing light
+  Spread off;   // (threshold - mean of the two grey values) / their difference, in changing light
   std::size_t found = 0, whole = 0;
   [[nodiscard]] double share() const { return static_cast<double>(found) / static_cast<double>(whole); }
 };
@@ -49,7 +49,7 @@ vpPatternHistogram histogramOf(const vpImage<unsigned char> &image)
 
 double nanosecondsOf(const vpPatternHistogram &histogram, vpPatternThreshold method)
 {
-  volatile int result = 0; // keeps the calls
+  volatile int result = 0; // prevents removal of the calls
   const double begin = coreSeconds();
   for (int i = 0; i < REPEATED; ++i) {
     result = vpFindThreshold(histogram, method).threshold;
@@ -58,7 +58,7 @@ double nanosecondsOf(const vpPatternHistogram &histogram, vpPatternThreshold met
   return 1e9 * (coreSeconds() - begin) / REPEATED;
 }
 
-//! Constant light: the same product in motion, only noise and place differ.
+//! Constant light: the same moving product, only noise and position differ.
 void still(const Setting &setting, Outcomes &outcomes)
 {
   const vpProductPattern product(thesisProduct(setting.seed));
@@ -74,7 +74,7 @@ void still(const Setting &setting, Outcomes &outcomes)
   }
 }
 
-//! Light, contrast, noise and blur as they come: the same images for all methods.
+//! Varying light, contrast, noise and blur: the same images for all methods.
 vpProductPatternSpec inSomeLight(std::mt19937_64 &rng)
 {
   const auto uniform = [&](double from, double to) { return std::uniform_real_distribution<double>(from, to)(rng); };

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// (7.1): magnification times trackability, from closed-loop runs and the tracker's own ruler.
+// (7.1): magnification times trackability, from closed-loop runs and the tracker's own scale.
 #include "curves.h"
 #include "patternItems.h"
 #include "patternRun.h"
@@ -19,8 +19,8 @@ using vpApp::number;
 
 constexpr int RUNS = 4;
 constexpr double RATE = 1600.;     // Hz
-constexpr double TARGET = 28.8e-3; // m/s, of the thesis
-constexpr double LENGTH = 220e-6;  // m, of a cell
+constexpr double TARGET = 28.8e-3; // m/s, from the thesis
+constexpr double LENGTH = 220e-6;  // m, cell length
 
 //! \brief Velocities of the product in closed-loop runs, m/s.
 struct Velocity {
@@ -32,7 +32,7 @@ Velocity velocityOf(vpPrintExperimentSpec spec, const Setting &setting)
 {
   Velocity velocity;
   Spread all;
-  const double metres = spec.product.pixelSize * 1e-6 * spec.frameRate; // of 1 px/frame
+  const double metres = spec.product.pixelSize * 1e-6 * spec.frameRate; // m/s per px/frame
   for (int run = 0; run < RUNS; ++run) {
     spec.seed = spec.product.seed = setting.seed + static_cast<unsigned int>(run);
     const vpPrintRun result = runPrintExperiment(spec);

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Figures 6.3 to 6.6: one joint whose goal moves under way.
+// Figures 6.3 to 6.6: one joint whose goal changes during the motion.
 #include "curves.h"
 #include "part.h"
 
@@ -25,24 +25,24 @@ constexpr double PERIOD = 0.001;                                 // s, 1 kHz
 constexpr double CHANGE = 1.2;                                   // s
 constexpr double MAX_VELOCITY = 0.5, MAX_ACCELERATION = 1.;      // rad/s, rad/s^2
 constexpr double FIRST_GOAL = 0.5, SECOND_GOAL = 0.8;            // rad
-constexpr double FIRST_DURATION = 1.875;                         // s, of the first motion at the velocity bound
+constexpr double FIRST_DURATION = 1.875;                         // s, first motion at the velocity bound
 constexpr double NONE = std::numeric_limits<double>::infinity(); // no limit
 constexpr double ITERATION_GAIN = 1.;                            // d_v of (6.6), s/(rad/s)
 constexpr double SETTLED = 1e-6;                                 // s
 constexpr double LONGEST = 6.;                                   // s
 
-//! What differs between the figures.
+//! Differences between the figures.
 struct Case {
   double maxVelocity = NONE, maxAcceleration = NONE;
-  bool keepTime = false; // figure 6.5: t_f is not altered
+  bool keepTime = false; // figure 6.5: t_f is kept
   vpDurationMethod method = vpDurationMethod::Exact;
   int stepsPerCycle = 1000;
 };
 
 struct Motion {
-  std::vector<double> t, q, v, a, end; // end: t_f as planned in this cycle
+  std::vector<double> t, q, v, a, end; // end: t_f planned in this cycle
   double peakVelocity = 0., peakAcceleration = 0., finalTime = 0., place = 0.;
-  int cyclesToSettle = 0; // cycles after the change in which t_f still moved
+  int cyclesToSettle = 0; // cycles after the change in which t_f still varied
   double jump = 0.;       // largest change of the acceleration in a cycle
 };
 
@@ -53,7 +53,7 @@ vpTrajectoryInput<1> inputOf(const Case &task)
   input.maxVelocity[0] = task.maxVelocity;
   input.maxAcceleration[0] = task.maxAcceleration;
   input.options.minimumDuration = FIRST_DURATION;
-  input.options.freeze = 0.; // every cycle counts
+  input.options.freeze = 0.; // replan in every cycle
   return input;
 }
 

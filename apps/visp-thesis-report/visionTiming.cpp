@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Table 7.3: from exposure to the centres of the cells.
+// Table 7.3: time from exposure to the cell centres.
 #include "curves.h"
 #include "patternItems.h"
 #include "patternRun.h"
@@ -16,7 +16,7 @@ namespace
 using vpApp::number;
 
 constexpr double RATE = 1600.;                   // Hz
-constexpr double EXPOSURE = 50., READOUT = 500.; // us, of the thesis's camera
+constexpr double EXPOSURE = 50., READOUT = 500.; // us, camera of the thesis
 constexpr std::size_t IMAGES = 6000;
 const char *const PROCESSOR = "A processor of today, against an FPGA that works at the pace of the readout.";
 

@@ -49,7 +49,7 @@ vpMicroscopeCalibration readJson(const std::string &file)
   return c;
 }
 
-//! Probabilities that were not computed are null.
+//! Probability, null if not computed.
 nlohmann::ordered_json jsonOf(const vpFitTest &fit)
 {
   return {{"verdict", toString(fit.verdict)},

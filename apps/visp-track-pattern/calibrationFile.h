@@ -23,9 +23,9 @@ namespace trackPattern
 [[nodiscard]] nlohmann::ordered_json jsonOf(const vpMicroscopeCalibrationResult &result, std::size_t views);
 
 /*!
- * Read what jsonOf() wrote, or a camera file of ViSP when the name ends in .xml.
- * \param cameraName : Of the camera in an XML file. \param width, height : Size of the images, px.
- * \throw std::runtime_error naming the file and the field; also when it is for images of another size.
+ * Read a file written by jsonOf(), or a ViSP camera file if the name ends in .xml.
+ * \param cameraName : Name of the camera in an XML file. \param width, height : Size of the images, px.
+ * \throw std::runtime_error naming the file and the field; also if it is for images of another size.
  */
 [[nodiscard]] vpMicroscopeCalibration readCalibration(const std::string &file, const std::string &cameraName,
                                                       unsigned int width, unsigned int height);

@@ -15,9 +15,9 @@ namespace trackPattern
 namespace
 {
 constexpr std::size_t MOST_VIEWS = 100;
-constexpr std::size_t LEAST_POINTS = 6; // what vpPlanarMicroscopeCalibration asks of a view
-// Residuals that are no noise of a centre: a calibration with them is worse than none.
-constexpr double FAR_RATIO = 10.;   // over the points' deviations
+constexpr std::size_t LEAST_POINTS = 6; // minimum per view of vpPlanarMicroscopeCalibration
+// Residuals too large for centre noise: a calibration with them is worse than none.
+constexpr double FAR_RATIO = 10.;   // relative to the points' standard deviations
 constexpr double FAR_RESIDUAL = 1.; // px
 
 bool isFarFromFitting(const vpMicroscopeCalibrationResult &result)
@@ -62,7 +62,7 @@ void CalibrationRun::add(const vpImage<unsigned char> &image, const vpPatternFra
 void CalibrationRun::keep(std::vector<vpCalibrationPoint> points)
 {
   m_views.push_back(std::move(points));
-  if (m_views.size() == 2 * MOST_VIEWS) { // every second one goes, and from now on only every second one comes
+  if (m_views.size() == 2 * MOST_VIEWS) { // drop every second view, and from now on store only every second one
     for (std::size_t i = 1; i < MOST_VIEWS; ++i) {
       m_views[i] = std::move(m_views[2 * i]);
     }

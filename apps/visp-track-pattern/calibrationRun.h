@@ -4,7 +4,7 @@
  */
 /*!
  * \file calibrationRun.h
- * \brief Collects views of the product while it is tracked, and calibrates the microscope from them.
+ * \brief Collects views of the product during tracking, and calibrates the microscope from them.
  */
 #ifndef trackPattern_calibrationRun_h
 #define trackPattern_calibrationRun_h
@@ -22,16 +22,16 @@
 namespace trackPattern
 {
 /*!
- * \brief Keeps views evenly over a recording of unknown length, so that memory and time stay bounded.
+ * \brief Keeps views evenly distributed over a recording of unknown length, so that memory and time are bounded.
  */
 class CalibrationRun
 {
 public:
   explicit CalibrationRun(const Options &options);
-  //! One image and what was found in it. \param left, top : Of the part that was tracked, px.
+  //! Add one image with its result. \param left, top : Corner of the tracked region, px.
   void add(const vpImage<unsigned char> &image, const vpPatternFrame &frame, double left, double top);
   [[nodiscard]] std::size_t viewCount() const { return m_views.size(); }
-  //! \throw std::runtime_error saying why there is nothing to calibrate from, or that the points are far from fitting.
+  //! \throw std::runtime_error explaining why there are no data to calibrate from, or that the fit is poor.
   [[nodiscard]] vpMicroscopeCalibrationResult compute(unsigned int width, unsigned int height) const;
 
 private:
@@ -42,8 +42,8 @@ private:
   std::vector<std::vector<vpCalibrationPoint>> m_views;
   std::size_t m_seen = 0;
   std::size_t m_stride = 1;
-  std::string m_complaint; // of the last image without a grid
-  std::string m_grid;      // of the last image with one
+  std::string m_complaint; // message of the last image without a grid
+  std::string m_grid;      // description of the last image with a grid
 };
 } // namespace trackPattern
 

@@ -10,7 +10,7 @@ namespace trackPattern
 {
 namespace
 {
-constexpr double FAR = 2.; // px; what is farther off is another mistake than noise or bias
+constexpr double FAR = 2.; // px; larger errors are not caused by noise or bias
 
 const vpPatternTruthCell *nearest(const FrameTruth &truth, double x, double y, double within)
 {
@@ -46,7 +46,7 @@ void Comparison::add(const vpPatternFrame &frame, const FrameTruth &truth, doubl
         m_names.emplace(std::make_tuple(frame.epoch, cell.row, cell.column), std::make_pair(match->row, match->column));
     errors.slips += name.first->second != std::make_pair(match->row, match->column) ? 1 : 0;
     if (std::hypot(ex, ey) > FAR) {
-      ++errors.far; // would hide what all others are like
+      ++errors.far; // would dominate the statistics
       continue;
     }
     errors.x.add(ex, cell.sigmaX);

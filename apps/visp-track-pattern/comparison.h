@@ -4,7 +4,7 @@
  */
 /*!
  * \file comparison.h
- * \brief What was found against the truth.
+ * \brief Results compared with the ground truth.
  */
 #ifndef trackPattern_comparison_h
 #define trackPattern_comparison_h
@@ -20,12 +20,12 @@
 namespace trackPattern
 {
 /*!
- * \brief Compares frame by frame; remembers which true cell each name belongs to.
+ * \brief Compares frame by frame; stores which true cell each name belongs to.
  */
 class Comparison
 {
 public:
-  //! \param left, top : Of the part that was tracked, px. Sets the true displacement in \e record.
+  //! \param left, top : Corner of the tracked region, px. Sets the true displacement in \e record.
   void add(const vpPatternFrame &frame, const FrameTruth &truth, double left, double top, FrameRecord &record,
            RunResults &results);
   //! A frame without truth interrupts the displacements.

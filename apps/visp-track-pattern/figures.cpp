@@ -78,7 +78,7 @@ const char *colourOf(vpPatternStatus status)
   return "#000000";
 }
 
-//! 1, 2 or 5 times a power of ten, the largest that is not above \e value.
+//! Largest number of the form 1, 2 or 5 times a power of ten that does not exceed \e value.
 double roundBelow(double value)
 {
   const double power = std::pow(10., std::floor(std::log10(value)));
@@ -115,8 +115,8 @@ std::string errorFigure(const RunResults &results)
 
 std::string sigmaFigure(const RunResults &results)
 {
-  // While the tracker learns, and for the first displacement after it, they may be a hundred times as large and would
-  // flatten the rest.
+  // During learning, and for the first displacement after it, they may be a hundred times larger and would flatten the
+  // rest.
   RunResults shown;
   const bool learned = results.count(vpPatternStatus::Tracking) > 1;
   bool before = false;
@@ -155,7 +155,7 @@ std::string timeFigure(const RunResults &results)
   plot.fromZero = true;
   plot.xRange = {0., end};
   std::vector<double> x, y;
-  for (int i = 0; i < bins; ++i) { // a step for each bin
+  for (int i = 0; i < bins; ++i) { // one step per bin
     for (const int side : {0, 1}) {
       x.push_back(end * (i + side) / bins);
       y.push_back(counts[static_cast<std::size_t>(i)]);
@@ -174,7 +174,7 @@ std::string statusFigure(const RunResults &results)
   std::string svg = text("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 960 112\" %s font-size=\"14\">"
                          "<rect width=\"960\" height=\"112\" fill=\"#ffffff\"/>",
                          FONT);
-  for (std::size_t i = 0; i < results.frames.size();) { // a run of images of one status is one bar
+  for (std::size_t i = 0; i < results.frames.size();) { // consecutive images of one status form one bar
     std::size_t end = i;
     while (end < results.frames.size() && results.frames[end].status == results.frames[i].status) {
       ++end;
@@ -211,7 +211,7 @@ DeviationMap deviationMap(const RunResults &results)
   const unsigned int epoch = std::max_element(sizes.begin(), sizes.end(), [](const auto &a, const auto &b) {
                                return a.second < b.second;
                              })->first;
-  // Places on the regular lattice, the product laid straight.
+  // Positions on the regular lattice, without rotation of the product.
   const double pitchX = results.lattice.columnPitch(), pitchY = results.lattice.rowPitch();
   struct Arrow {
     double x, y, dx, dy;
@@ -238,7 +238,7 @@ DeviationMap deviationMap(const RunResults &results)
   map.cells = arrows.size();
   map.rmsX = std::sqrt(squares[0] / static_cast<double>(map.cells));
   map.rmsY = std::sqrt(squares[1] / static_cast<double>(map.cells));
-  // The long arrows nearly reach the neighbour.
+  // The longest arrows nearly reach the neighbour.
   const double wanted = 0.8 * std::min(pitchX / std::max(quantile(lengthX, 0.95), 1e-6),
                                        pitchY / std::max(quantile(lengthY, 0.95), 1e-6));
   map.factor = roundBelow(wanted);
@@ -260,7 +260,7 @@ DeviationMap deviationMap(const RunResults &results)
                     "fill=\"%s\"/>",
                     x, y, 0.7 * head, LIGHT, x, y, endX, endY, BLUE, endX, endY, head, BLUE);
   }
-  // How long an arrow of a round length is, at most an eighth of the picture.
+  // Reference arrow of a round length, at most an eighth of the figure.
   const double longest = width / 8. / (zoom * map.factor);
   const double sample = roundBelow(longest);
   const double sampleLength = zoom * map.factor * sample;

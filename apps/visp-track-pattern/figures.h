@@ -4,7 +4,7 @@
  */
 /*!
  * \file figures.h
- * \brief The pictures of the report, each an SVG document.
+ * \brief The figures of the report, each an SVG document.
  */
 #ifndef trackPattern_figures_h
 #define trackPattern_figures_h
@@ -15,25 +15,25 @@
 
 namespace trackPattern
 {
-//! Displacement per image, found and, where known, true.
+//! Displacement per image, measured and, where known, true.
 [[nodiscard]] std::string motionFigure(const RunResults &results);
-//! Displacement per image, found minus true. Only with truth.
+//! Displacement per image, measured minus true. Only with ground truth.
 [[nodiscard]] std::string errorFigure(const RunResults &results);
-//! Standard deviation of a cell and of the displacement per image, as the tracker says, once it has learned.
+//! Reported standard deviation of a cell and of the displacement per image, after learning.
 [[nodiscard]] std::string sigmaFigure(const RunResults &results);
 //! Histogram of the tracker's time per image.
 [[nodiscard]] std::string timeFigure(const RunResults &results);
 //! Status of every image as a strip.
 [[nodiscard]] std::string statusFigure(const RunResults &results);
 
-//! \brief The map of the cells' deviations, and what it shows.
+//! \brief Map of the cells' deviations, with its data.
 struct DeviationMap {
-  std::string svg; //!< Empty when there is nothing to show.
+  std::string svg; //!< Empty if there is nothing to show.
   std::size_t cells = 0;
-  double factor = 1.;          //!< The arrows are this much longer than the deviations.
+  double factor = 1.;          //!< Magnification of the arrows.
   double rmsX = 0., rmsY = 0.; //!< px.
 };
-//! Of the epoch with the most cells.
+//! Map of the epoch with the most cells.
 [[nodiscard]] DeviationMap deviationMap(const RunResults &results);
 } // namespace trackPattern
 

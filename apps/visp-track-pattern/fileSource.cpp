@@ -16,7 +16,7 @@ namespace trackPattern
 {
 namespace
 {
-constexpr std::size_t NAMED = 3; // of gaps and of files that were left out
+constexpr std::size_t NAMED = 3; // number of gaps and skipped files that are named
 constexpr long long LARGEST_NUMBER = 999999999;
 
 std::string listOf(const std::vector<std::string> &named, std::size_t all)
@@ -28,7 +28,7 @@ std::string listOf(const std::vector<std::string> &named, std::size_t all)
   return text + (all > named.size() ? "; and so on" : "");
 }
 
-// Of an unreadable file 1: it is one image that is missing.
+// 1 for an unreadable file: it counts as one missing image.
 std::size_t pagesOf(const fs::path &file)
 {
   try {
@@ -82,7 +82,7 @@ bool FileSource::next(vpImage<unsigned char> &image)
   return false;
 }
 
-// The image at m_next, and on; false when it cannot be read.
+// Reads the image at m_next and advances; false if it is unreadable.
 bool FileSource::readNext(vpImage<unsigned char> &image)
 {
   try {

@@ -4,7 +4,7 @@
  */
 /*!
  * \file fileSource.h
- * \brief Images from files, with all their pages; what cannot be read is left out, and said.
+ * \brief Images from files, with all their pages; unreadable ones are skipped and reported.
  */
 #ifndef trackPattern_fileSource_h
 #define trackPattern_fileSource_h
@@ -19,19 +19,19 @@ namespace trackPattern
 /*!
  * \brief One image after the other from a list of files.
  *
- * A page or a file that cannot be read is counted and left out. Images are missing where the numbers in the names say so
- * (see FileNumbers), and within a file of several pages where a page cannot be read.
+ * An unreadable page or file is counted and skipped. Gaps are detected from the numbers in the names (see FileNumbers),
+ * and within a file of several pages at unreadable pages.
  */
 class FileSource : public ImageSource
 {
 public:
   /*!
-   * \param files : At least one. \param description : For people. \param frames : Most images; 0: all.
+   * \param files : At least one. \param description : For messages. \param frames : Maximum number of images; 0: all.
    * \param truth : May be null.
    */
   FileSource(std::vector<std::filesystem::path> files, std::string description, std::size_t frames,
              std::unique_ptr<TruthFiles> truth);
-  //! Count files as left out that are no images, with the reason.
+  //! Count files that are not images as skipped, with the reason.
   void leaveOut(const std::vector<std::filesystem::path> &files, const std::string &reason);
 
   //! \throw std::runtime_error when no image could be read at all, with the reason of the first.
@@ -62,7 +62,7 @@ private:
   std::string m_description;
   std::size_t m_frames;
   std::unique_ptr<TruthFiles> m_truth;
-  std::size_t m_count = 0;                  // images that there should be, at most m_frames
+  std::size_t m_count = 0;                  // expected number of images, at most m_frames
   bool m_several = false;                   // a file has several pages: images are numbered by their position
   std::unique_ptr<vpPictures::File> m_open; // m_next.file
   vpPictures::GreyScale m_scale;
@@ -72,8 +72,8 @@ private:
   unsigned int m_number = 0;
   bool m_afterGap = false, m_pageMissing = false;
   std::size_t m_leftOut = 0, m_cut = 0;
-  std::vector<std::string> m_reasons; // of those left out, the first few
-  std::vector<std::string> m_gaps;    // the first few
+  std::vector<std::string> m_reasons; // first few reasons for skipped files
+  std::vector<std::string> m_gaps;    // first few gaps
   std::size_t m_gapCount = 0;
 };
 } // namespace trackPattern

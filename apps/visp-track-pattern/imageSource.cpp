@@ -18,8 +18,8 @@ namespace
 constexpr std::size_t OWN_FRAMES = 200;
 
 /*!
- * The display of the thesis, a little turned, flexible and with the noise of the thesis's camera. It moves forth and
- * back along its rows and a little across.
+ * The display of the thesis, slightly rotated, flexible and with the noise of the thesis's camera. It moves back and
+ * forth along its rows and slightly across.
  */
 class OwnSource : public ImageSource
 {
@@ -74,7 +74,7 @@ private:
 
 std::unique_ptr<ImageSource> makeFolderSource(const fs::path &given, std::size_t frames)
 {
-  // What visp-generate-pattern wrote, whichever of its two folders is given.
+  // Output of visp-generate-pattern, given by either of its two folders.
   const fs::path whole = given.filename().empty() ? given.parent_path() : given;
   fs::path images = given, top = whole;
   std::error_code ignored;

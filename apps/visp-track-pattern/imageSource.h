@@ -4,7 +4,7 @@
  */
 /*!
  * \file imageSource.h
- * \brief Where the images come from: files, a video, a camera, or the program's own sequence.
+ * \brief Image sources: files, a video, a camera, or the program's own sequence.
  */
 #ifndef trackPattern_imageSource_h
 #define trackPattern_imageSource_h
@@ -22,7 +22,7 @@
 namespace trackPattern
 {
 /*!
- * \brief Gives one image after the other.
+ * \brief Provides images one by one.
  */
 class ImageSource
 {
@@ -38,23 +38,23 @@ public:
    * \throw std::runtime_error naming the file or the camera.
    */
   [[nodiscard]] virtual bool next(vpImage<unsigned char> &image) = 0;
-  //! What the image of the last next() is called in complaints ("img0012.png", "frame 12 of film.mp4").
+  //! Name of the image of the last next() in messages ("img0012.png", "frame 12 of film.mp4").
   [[nodiscard]] virtual std::string name() const = 0;
-  //! Number of the image of the last next(), as the file's name or the video has it.
+  //! Number of the image of the last next(), from the file name or the video.
   [[nodiscard]] virtual unsigned int number() const = 0;
-  //! The truth about the image of the last next(), where there is one.
+  //! Ground truth of the image of the last next(), if any.
   [[nodiscard]] virtual std::optional<FrameTruth> truth() const { return std::nullopt; }
-  //! How many images there will be; 0: unknown.
+  //! Number of images; 0: unknown.
   [[nodiscard]] virtual std::size_t count() const = 0;
-  //! What it is, for people ("the folder recording", "its own sequence").
+  //! Description of the source ("the folder recording", "its own sequence").
   [[nodiscard]] virtual std::string description() const = 0;
-  //! True when images are missing between that of the last next() and the one before it.
+  //! True if images are missing between that of the last next() and the previous one.
   [[nodiscard]] virtual bool isAfterGap() const { return false; }
-  //! What there is to say about what was read so far ("The images are in colour ..."), in sentences.
+  //! Remarks on the images read so far ("The images are in colour ..."), in sentences.
   [[nodiscard]] virtual std::vector<std::string> remarks() const { return {}; }
 };
 
-//! The source that the options name. \throw std::runtime_error naming the input that cannot be used.
+//! The source named by the options. \throw std::runtime_error naming an unusable input.
 [[nodiscard]] std::unique_ptr<ImageSource> makeSource(const Options &options);
 } // namespace trackPattern
 

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// visp-track-pattern: centres and motion of the cells of a repetitive product, from images, a video or a camera.
+// visp-track-pattern: cell centres and motion of a repetitive product, from images, a video or a camera.
 #include "imageSource.h"
 #include "options.h"
 #include "report.h"

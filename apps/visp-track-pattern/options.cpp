@@ -249,7 +249,7 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   app.footer(EXAMPLES);
   std::string roi;
   std::vector<double> pitch;
-  double sigma = 0., axes = std::numeric_limits<double>::quiet_NaN(); // NaN: as found
+  double sigma = 0., axes = std::numeric_limits<double>::quiet_NaN(); // NaN: as detected
   addInput(app, options, roi);
   addOutput(app, options);
   addMethod(app, options);

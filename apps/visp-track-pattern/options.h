@@ -21,32 +21,32 @@ VISP_DIRECT_USING_NAMESPACE
 
 namespace trackPattern
 {
-//! Pictures of what was found.
+//! Format of the result overlays.
 enum class OverlayKind { None, Png, Mp4 };
 
-//! \brief A part of the images, px.
+//! \brief Region of the images, px.
 struct Roi {
   unsigned int x = 0, y = 0, width = 0, height = 0;
 };
 
-//! \brief What the user asked for.
+//! \brief User options.
 struct Options {
   std::vector<std::string>
-      inputs;         //!< Files, one folder, one pattern or one video; empty: a camera or the own sequence.
+      inputs;         //!< Files, one folder, one pattern or one video; empty: a camera or the program's own sequence.
   std::string camera; //!< "/dev/video0"; empty: none.
   std::string out = "out/track-pattern";
-  unsigned int frames = 0; //!< Most frames; 0: all (200 of the own sequence, 300 of a camera).
+  unsigned int frames = 0; //!< Maximum number of frames; 0: all (own sequence: 200, camera: 300).
   std::optional<Roi> roi;
   vpPatternOptions tracker;
   OverlayKind overlay = OverlayKind::Mp4;
   double videoRate = 25.;                //!< Frames per second of the overlay video, 1..240.
   std::string calibration;               //!< File; empty: none.
-  std::string cameraName = "microscope"; //!< Of the camera in an XML file.
-  bool calibrate = false;                //!< Make calibration.json and calibration.xml.
-  bool dotGrid = false;                  //!< Each image shows a still grid of dots.
-  vpCalibrationPitch pitch;              //!< Of the product or the grid, m.
+  std::string cameraName = "microscope"; //!< Name of the camera in an XML file.
+  bool calibrate = false;                //!< Write calibration.json and calibration.xml.
+  bool dotGrid = false;                  //!< Each image shows a static grid of dots.
+  vpCalibrationPitch pitch;              //!< Pitch of the product or the grid, m.
   bool display = false;                  //!< Show the overlay in a window.
-  unsigned int seed = 1;                 //!< Of the own sequence.
+  unsigned int seed = 1;                 //!< Seed of the program's own sequence.
 };
 
 /*!

@@ -40,7 +40,7 @@ cv::Scalar colourOf(vpPatternStatus status)
 
 void line(cv::Mat &canvas, const cv::Point2d &from, const cv::Point2d &to, const cv::Scalar &colour, int thickness)
 {
-  constexpr int bits = 4; // OpenCV draws between pixels when told so
+  constexpr int bits = 4; // sub-pixel bits for drawing in OpenCV
   const auto fixed = [](const cv::Point2d &p) {
     return cv::Point(static_cast<int>(std::lround(p.x * (1 << bits))),
                      static_cast<int>(std::lround(p.y * (1 << bits))));

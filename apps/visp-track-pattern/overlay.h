@@ -4,7 +4,7 @@
  */
 /*!
  * \file overlay.h
- * \brief Draws into an image what was found in it.
+ * \brief Draws results into an image.
  */
 #ifndef trackPattern_overlay_h
 #define trackPattern_overlay_h
@@ -29,9 +29,9 @@ class VideoFile;
 namespace trackPattern
 {
 /*!
- * The image, enlarged so that crosses of a pixel can be told apart, with the cells (green: measured, red: not measured)
- * and a line of text below. Both sizes are even.
- * \param roi : Where the tracker looked; its places are relative to it.
+ * The image, enlarged so that crosses of a pixel can be distinguished, with the cells (green: measured, red: not
+ * measured) and a line of text below. Both sizes are even.
+ * \param roi : Tracked region; the tracker's positions are relative to it.
  */
 [[nodiscard]] cv::Mat drawOverlay(const vpImage<unsigned char> &image, const vpPatternFrame &frame,
                                   const std::optional<Roi> &roi, unsigned int number);
@@ -56,7 +56,7 @@ private:
   std::unique_ptr<vpApp::VideoFile> m_video;
 };
 
-//! A picture as the bytes of a PNG file.
+//! An image as the bytes of a PNG file.
 [[nodiscard]] std::string pngOf(const cv::Mat &picture);
 } // namespace trackPattern
 

@@ -19,7 +19,7 @@ namespace
 {
 const char *plural(std::size_t n) { return n == 1 ? "" : "s"; }
 
-//! The sentence that most of the images without a lock have.
+//! Most frequent message of the images without a lock.
 std::string mostFrequentMessage(const RunResults &results)
 {
   std::map<std::string, std::size_t> counts;
@@ -39,7 +39,7 @@ std::string mostFrequentMessage(const RunResults &results)
   return best;
 }
 
-//! What the reader must know before all else: that images are missing at the end.
+//! First message to the reader: images are missing at the end.
 std::string endingSentence(const RunResults &results)
 {
   const std::size_t n = results.frames.size();

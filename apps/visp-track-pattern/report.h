@@ -4,7 +4,7 @@
  */
 /*!
  * \file report.h
- * \brief The pages that people and programs read: report.html, summary.json, and the lines on the terminal.
+ * \brief Reports for users and programs: report.html, summary.json, and terminal output.
  */
 #ifndef trackPattern_report_h
 #define trackPattern_report_h
@@ -19,12 +19,12 @@
 
 namespace trackPattern
 {
-//! What came out, in a few sentences.
+//! Results in a few sentences.
 [[nodiscard]] std::vector<std::string> findings(const RunResults &results);
 //! report.html. \param video : The bytes of overlay.mp4, shown in the page; empty: none. \param commandLine : As typed.
 [[nodiscard]] std::string reportPage(const RunResults &results, const Options &options, const std::string &video,
                                      const std::string &commandLine);
-//! summary.json without what OutputFolder adds.
+//! summary.json without the fields added by OutputFolder.
 [[nodiscard]] nlohmann::ordered_json summaryOf(const RunResults &results, const Options &options,
                                                const std::string &commandLine);
 } // namespace trackPattern

@@ -4,7 +4,7 @@
  */
 /*!
  * \file results.h
- * \brief What a run leaves in memory: numbers for the report, not images.
+ * \brief Results of a run in memory: numbers for the report, not images.
  */
 #ifndef trackPattern_results_h
 #define trackPattern_results_h
@@ -26,12 +26,12 @@ namespace trackPattern
 {
 constexpr double NOTHING = std::numeric_limits<double>::quiet_NaN();
 
-//! \brief One image.
+//! \brief Results of one image.
 struct FrameRecord {
-  unsigned int number = 0; //!< As the source has it.
+  unsigned int number = 0; //!< Number from the source.
   vpPatternStatus status = vpPatternStatus::Lost;
   vpPatternReason reason = vpPatternReason::None;
-  const char *message = ""; //!< Static.
+  const char *message = ""; //!< Static string.
   unsigned int epoch = 0;
   int validCells = 0;
   int cells = 0;
@@ -39,15 +39,15 @@ struct FrameRecord {
   double sigmaDx = NOTHING, sigmaDy = NOTHING; //!< px.
   double dxUm = NOTHING, dyUm = NOTHING;       //!< Along the rows and across, um; NaN without calibration.
   double sigmaX = NOTHING, sigmaY = NOTHING;   //!< Median over the valid cells, px.
-  double microseconds = 0.;                    //!< Of the tracker alone.
-  double trueDx = NOTHING, trueDy = NOTHING;   //!< px; NaN: not known.
+  double microseconds = 0.;                    //!< Time of the tracker only.
+  double trueDx = NOTHING, trueDy = NOTHING;   //!< True displacement, px; NaN: unknown.
 };
 
-//! \brief Mean and deviation of errors.
+//! \brief Mean and standard deviation of errors.
 struct Errors {
   long n = 0;
   double sum = 0., squares = 0.;
-  double normalised = 0.; //!< Sum of squares of the errors in units of what the tracker says.
+  double normalised = 0.; //!< Sum of squares of errors / reported sigma.
 
   void add(double error, double sigma)
   {
@@ -67,43 +67,43 @@ struct Errors {
   }
 };
 
-//! \brief Found against true.
+//! \brief Errors against the ground truth.
 struct TruthErrors {
-  Errors x, y, dx, dy; //!< Of centres and of displacements, px.
-  long far = 0;        //!< Centres more than 2 px off; they are not in the errors above.
-  long slips = 0;      //!< Cells that got another name within an epoch.
-  long noCell = 0;     //!< Valid cells where there is none.
+  Errors x, y, dx, dy; //!< Errors of centres and displacements, px.
+  long far = 0;        //!< Centres more than 2 px off, not included in the errors above.
+  long slips = 0;      //!< Cells renamed within an epoch.
+  long noCell = 0;     //!< Valid cells without a true cell.
 };
 
-//! \brief How far a cell lies off its place in the regular lattice.
+//! \brief Deviation of a cell from its position in the regular lattice.
 struct CellDeviation {
   double x = 0., y = 0.; //!< px.
 };
 
-//! How a run ended.
+//! End of a run.
 enum class Ending {
-  Complete,    //!< All images were seen.
-  Interrupted, //!< By Ctrl-C, or a click: the results hold until then.
-  Incomplete   //!< By a failure, see RunResults::failure: likewise.
+  Complete,    //!< All images were processed.
+  Interrupted, //!< Interrupted by Ctrl-C or a click: results until then.
+  Incomplete   //!< Ended by a failure, see RunResults::failure: results until then.
 };
 
-//! \brief All of a run.
+//! \brief Complete results of a run.
 struct RunResults {
   Ending ending = Ending::Complete;
-  std::string failure;              //!< The sentence of what failed; empty: nothing.
-  std::size_t expected = 0;         //!< Number of images that there should be; 0: unknown.
-  std::string input;                //!< What it is, for people.
-  std::vector<std::string> remarks; //!< About reading it, in sentences.
+  std::string failure;              //!< Message of the failure; empty: none.
+  std::size_t expected = 0;         //!< Expected number of images; 0: unknown.
+  std::string input;                //!< Description of the input.
+  std::vector<std::string> remarks; //!< Remarks on reading the input, in sentences.
   unsigned int width = 0, height = 0;
   std::vector<FrameRecord> frames;
   bool hasTruth = false;
   TruthErrors acquiring, tracking;                                        //!< Before and after the template is learned.
   std::map<std::tuple<unsigned int, int, int>, CellDeviation> deviations; //!< By epoch, row, column.
-  vpPatternLattice lattice;                                               //!< Of the last image with one.
+  vpPatternLattice lattice;                                               //!< Lattice of the last image with one.
   std::string picture; //!< PNG of the overlay of a typical image; empty: none.
   std::string pictureCaption;
-  std::optional<vpMicroscopeCalibration> calibration;      //!< In use.
-  std::optional<vpMicroscopeCalibrationResult> calibrated; //!< Made by this run.
+  std::optional<vpMicroscopeCalibration> calibration;      //!< Calibration in use.
+  std::optional<vpMicroscopeCalibrationResult> calibrated; //!< Calibration made by this run.
   std::size_t calibrationViews = 0;
 
   //! "complete", "interrupted" or "incomplete", for files.
@@ -113,9 +113,9 @@ struct RunResults {
   [[nodiscard]] std::size_t imagesWithCells() const;
 };
 
-//! vpQuantile() of the finite values; NaN when there is none.
+//! vpQuantile() of the finite values; NaN if there are none.
 [[nodiscard]] double quantile(std::vector<double> values, double p);
-//! One number of every frame.
+//! One field of every frame.
 [[nodiscard]] std::vector<double> column(const RunResults &results, double FrameRecord::*member);
 } // namespace trackPattern
 

@@ -4,7 +4,7 @@
  */
 /*!
  * \file tableFile.h
- * \brief A table in the result folder that grows line by line; it may be larger than the memory.
+ * \brief A table in the result folder, written line by line; it may exceed the memory.
  */
 #ifndef trackPattern_tableFile_h
 #define trackPattern_tableFile_h
@@ -21,9 +21,9 @@ class TableFile
 public:
   TableFile(vpApp::OutputFolder &out, const std::string &name, const std::string &heading);
   void add(const std::string &line) { m_stream << line << '\n'; }
-  //! What was added is on its way to the disk, should the program be killed.
+  //! Flush added lines to disk, in case the program is killed.
   void flush() { m_stream.flush(); }
-  //! \throw std::runtime_error naming the file when the disk refuses.
+  //! \throw std::runtime_error naming the file when writing fails.
   void close();
 
 private:

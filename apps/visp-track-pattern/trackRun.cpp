@@ -31,7 +31,7 @@ std::string sizeOf(const vpImage<unsigned char> &image)
   return std::to_string(image.getWidth()) + " x " + std::to_string(image.getHeight()) + " px";
 }
 
-//! The images as the tracker gets them, all of one size.
+//! The images passed to the tracker, all of one size.
 class Window
 {
 public:
@@ -72,7 +72,7 @@ private:
   vpImage<unsigned char> m_part;
 };
 
-// printf tells a negative NaN from a positive one; a table shall not.
+// printf distinguishes negative and positive NaN; a table must not.
 double plain(double value) { return std::isnan(value) ? NOTHING : value; }
 
 //! cells.csv and motion.csv.
@@ -159,7 +159,7 @@ FrameRecord recordOf(const vpPatternFrame &frame, unsigned int number, double mi
   return record;
 }
 
-// The displacement where the image has its centre; the scale hardly changes over the image.
+// The displacement at the image centre; the scale hardly changes over the image.
 void convertMotion(const vpMicroscopeCalibration &calibration, FrameRecord &record)
 {
   const double u = 0.5 * (calibration.width - 1.), v = 0.5 * (calibration.height - 1.);
@@ -169,7 +169,7 @@ void convertMotion(const vpMicroscopeCalibration &calibration, FrameRecord &reco
   record.dyUm = moved.y();
 }
 
-//! Everything that is made at the first image, when its size is known.
+//! Objects created at the first image, when its size is known.
 class Session
 {
 public:
@@ -188,7 +188,7 @@ public:
     m_tables = std::make_unique<Tables>(out, m_results.calibration.has_value());
   }
 
-  //! The overlay, for the window; empty when nobody wants one.
+  //! The overlay for the window; empty if not requested.
   cv::Mat take(const vpImage<unsigned char> &image, const ImageSource &source, bool draw)
   {
     const vpImage<unsigned char> &part = m_window.cut(image, source.name());
@@ -251,7 +251,7 @@ public:
   }
 
 private:
-  // What was tracked is worth its tables without a calibration, too.
+  // Tracking results are written to the tables even without a calibration.
   void calibrate(vpApp::OutputFolder &out)
   {
     try {
@@ -288,7 +288,7 @@ private:
   cv::Mat m_picture;
   bool m_pictureHasCells = false;
 };
-// False at the end, and after a failure once there is something to show.
+// False at the end, and after a failure if there are results.
 bool takeNext(ImageSource &source, vpImage<unsigned char> &image, RunResults &results)
 {
   try {

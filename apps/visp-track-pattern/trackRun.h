@@ -18,12 +18,12 @@
 namespace trackPattern
 {
 /*!
- * Write cells.csv and motion.csv, row by row, the overlay and, if asked for, calibration.json and calibration.xml.
+ * Write cells.csv and motion.csv, row by row, the overlay and, if requested, calibration.json and calibration.xml.
  *
- * After Ctrl-C, and when a camera fails or a calibration is not possible, what was seen is a result all the same:
- * RunResults::ending tells.
- * \param results : Filled as the run goes; still good for its frames after an exception.
- * \throw std::runtime_error naming the image, file or camera that does not allow it; vpApp::Interrupted before the first image.
+ * After Ctrl-C, a camera failure or a failed calibration, the images so far still give a result, see
+ * RunResults::ending.
+ * \param results : Filled during the run; its frames remain valid after an exception.
+ * \throw std::runtime_error naming the failing image, file or camera; vpApp::Interrupted before the first image.
  */
 void trackAll(const Options &options, ImageSource &source, vpApp::OutputFolder &out, RunResults &results);
 } // namespace trackPattern

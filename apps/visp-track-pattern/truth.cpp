@@ -17,7 +17,7 @@ namespace
 {
 constexpr const char *TRUTH = "truth.csv";
 constexpr const char *MOTION = "motion.csv";
-constexpr double LARGEST = 1e9; // of any number, so that frames, rows and columns are whole numbers
+constexpr double LARGEST = 1e9; // limit of all numbers, so that frames, rows and columns are exact integers
 
 void forEachLine(const std::filesystem::path &file, const std::string &heading, std::size_t fields,
                  const std::function<void(const std::vector<double> &)> &take)

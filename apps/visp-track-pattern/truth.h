@@ -4,7 +4,7 @@
  */
 /*!
  * \file truth.h
- * \brief Where the cells truly are, when that is known.
+ * \brief Ground truth of the cells, if known.
  */
 #ifndef trackPattern_truth_h
 #define trackPattern_truth_h
@@ -20,22 +20,22 @@ VISP_DIRECT_USING_NAMESPACE
 
 namespace trackPattern
 {
-//! \brief The truth about one frame.
+//! \brief Ground truth of one frame.
 struct FrameTruth {
   std::vector<vpPatternTruthCell> cells; //!< All cells in view.
   double x = 0.;                         //!< Displacement of the product, px.
   double y = 0.;                         //!< Displacement of the product, px.
 };
 
-//! \brief The truth that visp-generate-pattern wrote: truth.csv and motion.csv.
+//! \brief Ground truth written by visp-generate-pattern: truth.csv and motion.csv.
 class TruthFiles
 {
 public:
-  //! True when \e folder holds both files.
+  //! True if \e folder holds both files.
   [[nodiscard]] static bool areIn(const std::filesystem::path &folder);
-  //! \throw std::runtime_error naming file, line and what is wrong.
+  //! \throw std::runtime_error naming file, line and error.
   explicit TruthFiles(const std::filesystem::path &folder);
-  //! Of a frame by its number; nothing when the files do not have it.
+  //! Ground truth of a frame by its number; nullopt if missing in the files.
   [[nodiscard]] std::optional<FrameTruth> at(unsigned int frame) const;
 
 private:

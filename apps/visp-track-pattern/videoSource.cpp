@@ -17,7 +17,7 @@ namespace trackPattern
 namespace
 {
 constexpr std::size_t CAMERA_FRAMES = 300;
-constexpr std::size_t MOST_FAILURES = 2; // of a camera, in a row; each may last its time limit
+constexpr std::size_t MOST_FAILURES = 2; // consecutive failures of a camera; each may last its time limit
 
 std::size_t least(std::size_t there, std::size_t wanted) { return wanted == 0 ? there : std::min(there, wanted); }
 
@@ -28,8 +28,8 @@ std::array<char, 4> lettersOf(double code)
           static_cast<char>(bits >> 24U & 255U)};
 }
 
-// FFmpeg's code of a pixel format, such as Y 1 0 16 or RGB 48: where values have more than 8 bits, a byte at one end tells
-// how many, or how many a pixel has.
+// FFmpeg's code of a pixel format, such as Y 1 0 16 or RGB 48: for values of more than 8 bits, a byte at one end is the
+// number of bits per value, or per pixel.
 unsigned int bitsOf(double pixelFormat)
 {
   const std::array<char, 4> code = lettersOf(pixelFormat);
@@ -114,7 +114,7 @@ std::vector<std::string> VideoSource::remarks() const
         "The camera failed to give an image " + std::to_string(m_failed) + (m_failed == 1 ? " time" : " times") +
         ". How far the product moved meanwhile is not known: no displacement is given there, and a new epoch begins.");
   }
-  if (m_isCamera && !m_scale.remark().empty()) { // OpenCV makes the images of every video colour
+  if (m_isCamera && !m_scale.remark().empty()) { // OpenCV converts the images of every video to colour
     all.push_back(m_scale.remark());
   }
   if (m_bits > 8) {

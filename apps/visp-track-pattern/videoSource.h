@@ -18,17 +18,17 @@
 namespace trackPattern
 {
 /*!
- * \brief One image after the other from what OpenCV captures.
+ * \brief Images one by one from an OpenCV capture.
  *
- * A camera may fail to give an image twice in a row: the next one comes after a gap. Images that a camera drops by itself
- * are not seen here. OpenCV gives the upper 8 bits of the values of a video with more; of a camera all are read.
+ * A camera may fail to give an image twice in a row: the next one comes after a gap. Images dropped inside a camera
+ * are not detected. For videos with more than 8 bits OpenCV gives the upper 8 bits; for a camera all bits are read.
  */
 class VideoSource : public ImageSource
 {
 public:
   /*!
-   * \param capture : Open. \param name : File or device. \param isCamera : And no file, which has an end.
-   * \param frames : Most images; 0: all of the file.
+   * \param capture : Open. \param name : File or device. \param isCamera : Camera, not a file of finite length.
+   * \param frames : Maximum number of images; 0: all of the file.
    */
   VideoSource(std::unique_ptr<cv::VideoCapture> capture, std::string name, bool isCamera, std::size_t frames);
 
@@ -50,8 +50,8 @@ private:
   std::string m_name;
   bool m_isCamera;
   std::size_t m_frames;
-  std::size_t m_promised = 0; // by the file; 0: nothing
-  unsigned int m_bits = 8;    // of a value in the file
+  std::size_t m_promised = 0; // number of images stated by the file; 0: none
+  unsigned int m_bits = 8;    // bits per value in the file
   std::size_t m_read = 0, m_failed = 0;
   bool m_afterGap = false, m_short = false;
   vpPictures::GreyScale m_scale;

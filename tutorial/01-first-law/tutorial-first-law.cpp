@@ -1,6 +1,6 @@
 /*! \example tutorial-first-law.cpp
- * From pixels to a servo law: a camera finds a photograph in its images and goes to where it shall be.
- * Usage: tutorial-first-law [LAW], one of those that vpServoLaw::ids() lists
+ * From pixels to a servo law: a camera detects a photograph in its images and moves to its desired pose.
+ * Usage: tutorial-first-law [LAW], one of the ids listed by vpServoLaw::ids()
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include <visp3/core/vpFont.h>
@@ -20,7 +20,7 @@ VISP_DIRECT_USING_NAMESPACE
 
 namespace
 {
-const vpCameraParameters camera(800., 800., 319.5, 239.5); // of images with 640 x 480 pixels
+const vpCameraParameters camera(800., 800., 319.5, 239.5); // for images of 640 x 480 pixels
 
 void drawOutline(vpImage<vpRGBa> &picture, const std::vector<vpServoPoint> &corners, const vpColor &color,
                  unsigned int wide)
@@ -44,7 +44,7 @@ int main(int argc, char **argv)
     //! [Target]
 
     //! [Law]
-    const vpServoTarget plate = vpServoTarget::rectangle(w, h);                        // laws use its corners, too
+    const vpServoTarget plate = vpServoTarget::rectangle(w, h);                        // laws also use its corners
     const vpServoGoal goal = plate.goal(vpHomogeneousMatrix(0., 0., 0.4, 0., 0., 0.)); // straight ahead, 0.4 m away
     const auto law = vpServoLaw::create(argc > 1 ? argv[1] : "ff-lookat");
     law->setGoal(goal);
@@ -54,16 +54,16 @@ int main(int argc, char **argv)
     robot.setPosition(vpHomogeneousMatrix(0.12, -0.05, 0.7, 0.35, -0.45, 0.5).inverse());
     robot.setSamplingTime(0.05); // s
     robot.setRobotState(vpRobot::STATE_VELOCITY_CONTROL);
-    vpPlaneRenderer view(photo, w, h, camera, 640, 480); // in the place of a real camera
+    vpPlaneRenderer view(photo, w, h, camera, 640, 480); // replaces a real camera
     //! [Robot]
     //! [Loop]
-    vpImage<vpRGBa> panel, picture(480, 1280); // the first image beside the last one
+    vpImage<vpRGBa> panel, picture(480, 1280); // first image beside the last one
     vpServoMeasurement seen;
     vpServoCommand command{vpTwist(), vpServoStatus::Holding};
     for (int k = 0; k < 160 && isWorking(command.status); ++k) { // an error ends the loop
       view.render(robot.getPosition().inverse(), {}, 1, image);
       plate.measure(target.process(image), 0.05 * k, seen);
-      command = law->update(seen, 0.05); // zero twist and Holding when the photograph was not found
+      command = law->update(seen, 0.05); // zero twist and Holding if the photograph was not found
       robot.setVelocity(vpRobot::CAMERA_FRAME, limitTwist(command.v, 0.2, 0.7).toColVector()); // m/s, rad/s
       //! [Loop]
       vpImageConvert::convert(image, panel);

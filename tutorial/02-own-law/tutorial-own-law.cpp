@@ -1,6 +1,6 @@
 /*! \example tutorial-own-law.cpp
- * Write your own servo law, check what it promises, and run it: a camera on four axes (a gantry, a drone) that can
- * go anywhere and turn about the vertical, but neither tilt nor roll.
+ * Write your own servo law, check its guarantee, and run it: a camera on four axes (a gantry, a drone) that can
+ * translate freely and turn about the vertical, but neither tilt nor roll.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include <visp3/core/vpExponentialMap.h>
@@ -17,7 +17,7 @@ VISP_DIRECT_USING_NAMESPACE
 namespace
 {
 //! [Error]
-// What the law takes to zero: place of the camera in the desired camera frame (m), and its yaw about the y axis (rad).
+// Error that the law drives to zero: camera position in the desired camera frame (m), and yaw about the y axis (rad).
 Eigen::Vector4d errorOf(const vpHomogeneousMatrix &cMo, const vpHomogeneousMatrix &cdMo)
 {
   using Pose = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>; // ViSP's own products would allocate
@@ -38,8 +38,8 @@ protected:
   vpServoCommand step(const vpServoMeasurement &seen, double /*dt*/) noexcept override
   {
     const Eigen::Vector4d e = errorOf(seen.cMo, m_goal.cdMo);
-    const Eigen::Vector3d v = -m_gains.lambda * e.head<3>(); // along the axes of the desired camera,
-    const double c = std::cos(e(3)), s = std::sin(e(3));     // which the present one has turned away from
+    const Eigen::Vector3d v = -m_gains.lambda * e.head<3>(); // along the axes of the desired camera;
+    const double c = std::cos(e(3)), s = std::sin(e(3));     // rotated into the current frame below
     const double wy = -m_gains.lambda * m_gains.rotation * e(3);
     return {vpTwist(c * v.x() - s * v.z(), v.y(), s * v.x() + c * v.z(), 0., wy, 0.), vpServoStatus::Servoing};
   }
@@ -51,7 +51,7 @@ int main()
 {
   vpServoGoal goal;
   goal.cdMo = vpHomogeneousMatrix(0., 0., 0.5, 0., 0., 0.);
-  goal.points = {{0., 0., 0.5}}; // at least one; this law reads the pose alone
+  goal.points = {{0., 0., 0.5}}; // at least one; this law uses only the pose
   vpServoGains gains;
   gains.rotation = 2.; // yaw twice as fast as the rest
   LevelLaw law(gains);
@@ -59,7 +59,7 @@ int main()
   const Eigen::Vector4d k(gains.lambda, gains.lambda, gains.lambda, gains.lambda * gains.rotation);
 
   //! [Check]
-  vpUniRand random(1); // the promise e' = -k e, by central differences at random places of a level camera
+  vpUniRand random(1); // the guarantee e' = -k e, by central differences at random places of a level camera
   double worst = 0.;
   vpServoMeasurement seen;
   seen.valid = true;
@@ -75,7 +75,7 @@ int main()
   std::cout << "e' = -k e, worst difference at 1000 places: " << worst << std::endl;
   //! [Check]
   //! [Run]
-  std::ofstream plot("tutorial-own-law.gp"); // time, the four errors, the four promised ones; then what to draw
+  std::ofstream plot("tutorial-own-law.gp"); // time, the four errors, the four expected ones; then plot commands
   plot << "$log << end\n";
   seen.cMo = vpHomogeneousMatrix(0.3, 0.1, 0.9, 0., 0.8, 0.);
   const Eigen::Vector4d start = errorOf(seen.cMo, goal.cdMo);

@@ -22,8 +22,8 @@ namespace
 const double dt = 0.01, bound = 1.; // s, m/s^2
 
 struct Run {
-  std::vector<double> speed, acceleration; // of the linear part, m/s and m/s^2, each dt
-  double error = 0.;                       // in the image at the end
+  std::vector<double> speed, acceleration; // linear, m/s and m/s^2, one value per dt
+  double error = 0.;                       // final image error
 };
 
 Run servo(bool isShaped)
@@ -34,7 +34,7 @@ Run servo(bool isShaped)
   vpSimulatorCamera robot;
   robot.setSamplingTime(dt);
   robot.setPosition(vpHomogeneousMatrix(0.15, -0.1, 1., 0.2, -0.2, 0.5).inverse());
-  robot.setMaxTranslationVelocity(2.); // high: here vpSimulatorCamera shall cut nothing itself
+  robot.setMaxTranslationVelocity(2.); // high, so that vpSimulatorCamera does not limit
   robot.setMaxRotationVelocity(4.);
   vpServo task;
   task.setServo(vpServo::EYEINHAND_CAMERA);

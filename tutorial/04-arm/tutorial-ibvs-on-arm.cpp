@@ -1,5 +1,5 @@
 /*! \example tutorial-ibvs-on-arm.cpp
- * Your robot by URDF: image-based visual servoing of four points, as in ViSP's tutorial-ibvs-4pts.cpp, on any arm.
+ * Your robot from URDF: image-based visual servoing of four points, as in ViSP's tutorial-ibvs-4pts.cpp, on any arm.
  * Usage: tutorial-ibvs-on-arm [ARM.urdf TIP CAMERA | ARM.json]
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
@@ -23,13 +23,13 @@ namespace
 //! [Load]
 vpArmModel loadArm(int argc, char **argv)
 {
-  if (argc == 2) { // a DH table, with all that a URDF leaves open
+  if (argc == 2) { // a DH table, including the data that a URDF lacks
     return vpLoadArmJson(argv[1]);
   }
   vpArmUrdfOptions options;
-  options.tip = argc == 4 ? argv[2] : "tool";      // link that is the end effector
-  options.camera = argc == 4 ? argv[3] : "camera"; // link that is the camera, z along the optical axis
-  options.acceleration = 10.;                      // rad/s^2, of all joints: URDF has none
+  options.tip = argc == 4 ? argv[2] : "tool";      // end-effector link
+  options.camera = argc == 4 ? argv[3] : "camera"; // camera link, z along the optical axis
+  options.acceleration = 10.;                      // rad/s^2, all joints: URDF has none
   return vpLoadArmUrdf(argc == 4 ? argv[1] : VISP_DIRECT_DATA_DIR "/robot/generic-6r.urdf", options);
 }
 //! [Load]
@@ -45,8 +45,8 @@ int main(int argc, char **argv)
 {
   try {
     //! [Robot]
-    vpSimulatedArmSpec spec; // torques, friction that sticks, 5 ms control; spec.drives.ideal = true for a perfect arm
-    spec.indices = {vpSelfMotionIndex::jointLimits(), vpSelfMotionIndex::manipulability()}; // for joints to spare
+    vpSimulatedArmSpec spec; // torques, stick-slip friction, 5 ms control; spec.drives.ideal = true for an ideal arm
+    spec.indices = {vpSelfMotionIndex::jointLimits(), vpSelfMotionIndex::manipulability()}; // for redundant joints
     vpSimulatedArm robot(loadArm(argc, argv), spec);
     robot.setSamplingTime(0.040);
     robot.setRobotState(vpRobot::STATE_VELOCITY_CONTROL);
@@ -68,9 +68,9 @@ int main(int argc, char **argv)
     //! [Task]
     //! [Loop]
     vpImage<vpRGBa> picture(480, 640, vpRGBa(255, 255, 255));
-    const vpHomogeneousMatrix fMo = robot.get_fMc() * cMo; // the object stands still
+    const vpHomogeneousMatrix fMo = robot.get_fMc() * cMo; // static object
     for (unsigned int iter = 0; iter < 250; ++iter) {
-      target.measure(robot.get_fMc().inverse() * fMo, 0.040 * iter, seen); // yours: of the points in an image
+      target.measure(robot.get_fMc().inverse() * fMo, 0.040 * iter, seen); // on a real robot: from image points
       for (unsigned int i = 0; i < 4; ++i) {
         p[i].set_xyZ(seen.points[i].x, seen.points[i].y, seen.points[i].Z);
         draw(picture, p[i], vpColor::getColor(i), false);

@@ -1,5 +1,5 @@
 /*! \example tutorial-track-product.cpp
- * Track a repetitive product: its cells and its motion. Rendered images, with dirt, are compared with the truth.
+ * Track a repetitive product: its cells and its motion. Rendered images, with dirt, are compared with the ground truth.
  * Usage: tutorial-track-product [IMAGES], a sequence or a video for vpVideoReader, such as frames/%06d.png
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
@@ -28,11 +28,11 @@ vpProductPattern dirtyProduct()
   spec.jitter = 0.2;
   spec.noise = 4.;
   spec.dust = 5.;     // specks per 100 x 100 px
-  spec.missing = 0.1; // of all cells
+  spec.missing = 0.1; // fraction of all cells
   return vpProductPattern(spec);
 }
 //! [Product]
-// Blue: measured, with row and column. Red: not measured, and where the cell should be.
+// Blue: measured cell, with row and column. Red: expected position of a cell that was not measured.
 void drawCells(const vpImage<unsigned char> &image, const vpPatternFrame &frame, const std::string &file)
 {
   const unsigned int zoom = 5;
@@ -70,7 +70,7 @@ int main(int argc, char **argv)
       truth = 5. * i + 10. * std::sin(0.1 * i);
       argc > 1 ? reader.acquire(image) : product.render(truth, 0., 5. + std::cos(0.1 * i), 0., i, image);
       const vpPatternFrame &frame = tracker.track(image);
-      moved += frame.hasMotion ? frame.dx : 0.; // since the image before
+      moved += frame.hasMotion ? frame.dx : 0.; // since the previous image
       tracked += frame.status == vpPatternStatus::Tracking ? 1 : 0;
     }
     //! [Track]
@@ -82,7 +82,7 @@ int main(int argc, char **argv)
     if (argc > 1) {
       return tracked > 0 ? EXIT_SUCCESS : EXIT_FAILURE;
     }
-    double worst = 0.; // distance of a measured cell from the true one next to it, px
+    double worst = 0.; // distance of a measured cell from the nearest true one, px
     for (const vpPatternCell &cell : last.cells) {
       double least = cell.valid ? HUGE_VAL : 0.;
       for (const vpPatternTruthCell &there : product.cells(truth, 0.)) {

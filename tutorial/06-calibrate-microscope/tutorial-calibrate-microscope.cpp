@@ -1,5 +1,5 @@
 /*! \example tutorial-calibrate-microscope.cpp
- * How many pixels a metre, and is the lens straight? From one image of dots of known pitch, rendered unless given.
+ * Scale (pixels per metre) and distortion of a lens from one image of dots of known pitch, rendered unless given.
  * Usage: tutorial-calibrate-microscope [IMAGE PITCH_X_UM PITCH_Y_UM]
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
@@ -18,18 +18,18 @@ VISP_DIRECT_USING_NAMESPACE
 
 namespace
 {
-const double scale = 1e6 / 4.5, kappa1 = 5e-8; // of the rendered image: px/m, px^-2
-// 640 x 480 px of a grid of dots as a lens with barrel distortion shows it: each pixel the mean of 3 x 3 samples.
+const double scale = 1e6 / 4.5, kappa1 = 5e-8; // rendered image: px/m, px^-2
+// 640 x 480 px image of a grid of dots through a lens with barrel distortion: each pixel is the mean of 3 x 3 samples.
 vpImage<unsigned char> throughTheLens()
 {
   vpProductPatternSpec spec;
   spec.shape = vpProductShape::Dot;
-  spec.width = 3 * 672; // a straight picture three times as fine, and wider than the image
+  spec.width = 3 * 672; // undistorted image at three times the resolution, wider than the result
   spec.height = 3 * 512;
   spec.pitchX = spec.pitchY = 3. * scale * 112.5e-6;
   spec.openingX = spec.openingY = 3. * scale * 60e-6;
   spec.rotation = 0.03; // rad
-  spec.psf = 2.4;       // px of the fine picture
+  spec.psf = 2.4;       // px of the fine image
   vpImage<unsigned char> straight, image(480, 640);
   vpProductPattern(spec).render(0., 0., 0., 0., 0, straight);
   for (unsigned int i = 0; i < image.getSize(); ++i) {
@@ -49,9 +49,9 @@ vpImage<unsigned char> throughTheLens()
 vpMicroscopeCalibrationResult calibrate(const vpImage<unsigned char> &image, const vpCalibrationPitch &pitch)
 {
   vpMicroscopeCalibrationOptions options;
-  options.sigmaFromResiduals = true; // a single image does not tell how well its dots are measured
+  options.sigmaFromResiduals = true; // the accuracy of the dots is unknown for a single image
   vpPlanarMicroscopeCalibration microscope(image.getWidth(), image.getHeight(), options);
-  microscope.addView(vpCalibrationPoints(image, pitch)); // more views of the same microscope make it better
+  microscope.addView(vpCalibrationPoints(image, pitch)); // more views of the same microscope improve the result
   return microscope.compute();
 }
 //! [Calibrate]
@@ -77,7 +77,7 @@ int main(int argc, char **argv)
 {
   try {
     vpImage<unsigned char> image = throughTheLens(), middle;
-    vpCalibrationPitch pitch{112.5e-6, 112.5e-6, 0.}; // m, of columns and rows
+    vpCalibrationPitch pitch{112.5e-6, 112.5e-6, 0.}; // m, columns and rows
     if (argc == 4) {
       vpImageIo::read(image, argv[1]);
       pitch = {1e-6 * std::atof(argv[2]), 1e-6 * std::atof(argv[3]), 0.};

@@ -1,5 +1,5 @@
 /*! \example tutorial-avoid-seen.cpp
- * The camera in the hand sees a box by its photograph, and the arm goes round it; covered it runs into the box.
+ * The eye-in-hand camera detects a box by its photograph, and the arm avoids it; with a covered camera it hits the box.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include <visp3/avoidance/vpCollisionSceneJson.h>
@@ -18,10 +18,10 @@ VISP_DIRECT_USING_NAMESPACE
 
 namespace
 {
-// A place in the right half of the picture, from above, 1 mm a pixel.
+// Position in the right half of the figure, from above, 1 mm per pixel.
 vpImagePoint fromAbove(double x, double y) { return vpImagePoint(460. - 1000. * (y - 0.4), 900. + 1000. * x); }
 
-// Drives to the goal and draws: on the left what the camera sees, on the right the box and the way of the tool.
+// Moves to the goal and draws: the camera view on the left, the box and the tool path on the right.
 double drive(bool isCovered, vpImage<vpRGBa> &picture)
 {
   //! [World]
@@ -38,10 +38,10 @@ double drive(bool isCovered, vpImage<vpRGBa> &picture)
   targets.add("box", view.photos[0].image, 0.16, 0.11012, 0.06); // width, height and depth, m
   vpObstacleDetector detector(std::move(targets), view.camera);
   vpObjectTracks tracks;
-  file.spec.objects.clear(); // nobody tells the arm where the box is
+  file.spec.objects.clear(); // the arm does not know where the box is
   vpCollisionScene known(arm, file.spec);
   vpDirectTrajectoryAvoidanceSpec spec; // via positions beside the obstacle; 0.5 m/s, 1 m/s^2, 10 mm of margin
-  spec.keepOrientation = true;          // the camera goes on looking where it looks
+  spec.keepOrientation = true;          // the camera keeps its viewing direction
   vpDirectTrajectoryAvoidance method(known, spec);
   vpJointVector q = file.tasks[0].start;
   method.start(q, vpAvoidanceGoal::at(arm, file.tasks[0].goal));
@@ -56,18 +56,18 @@ double drive(bool isCovered, vpImage<vpRGBa> &picture)
     const vpImagePoint tool = fromAbove(data.arm.tool.p.x(), data.arm.tool.p.y());
     vpImageDraw::drawPoint(picture, tool, isCovered ? vpColor::red : vpColor::blue, 5);
     //! [Loop]
-    if (cycle % 8 == 0 && !isCovered) { // 25 images a second
+    if (cycle % 8 == 0 && !isCovered) { // 25 images per second
       const vpRigidTransform fMc = vpArmKinematics::camera(arm, data.arm);
       camera.picture(truth, fMc, {}, 1, image);
       for (const vpObstacleDetection &detection : detector.process(image, fMc, 0.005 * cycle)) {
-        detection.seen &&tracks.add(detection.sighting); // else detection.sentence says why not
+        detection.seen &&tracks.add(detection.sighting); // else detection.sentence explains why
       }
       tracks.advance(0.005 * cycle);
       tracks.applyTo(known);
       method.look();
     }
     method.step(q, output);
-    q += 0.005 * output.velocity; // a robot that does what it is told
+    q += 0.005 * output.velocity; // ideal robot
     //! [Loop]
     if (cycle == 80 && !isCovered) {
       vpImage<vpRGBa> seen;

@@ -1,5 +1,5 @@
 /*! \example tutorial-plan-path.cpp
- * Plan a motion among obstacles, prove it free, give it time, and drive it under a supervisor.
+ * Plan a motion among obstacles, certify it, time it, and execute it under a supervisor.
  * Usage: tutorial-plan-path [SCENE.json]
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
@@ -18,7 +18,7 @@ VISP_DIRECT_USING_NAMESPACE
 
 namespace
 {
-// From the right (y, z) on the left half of the picture, from above (y, x) on the right one; 4 mm a pixel.
+// View from the right (y, z) in the left half of the figure, from above (y, x) in the right half; 4 mm per pixel.
 void drawLine(vpImage<vpRGBa> &I, const Eigen::Vector3d &a, const Eigen::Vector3d &b, const vpColor &color)
 {
   const auto right = [](const Eigen::Vector3d &p) { return vpImagePoint(330. - 250. * p.z(), 110. + 250. * p.y()); };
@@ -59,7 +59,7 @@ int main(int argc, char **argv)
     std::cout << found.sentence << " " << found.path.points.size() << " points, " << found.path.length() << " rad, "
               << found.motions << " motions checked" << std::endl;
     if (found.status != vpPathStatus::Solved) {
-      return EXIT_FAILURE; // the sentence says why
+      return EXIT_FAILURE; // the sentence explains why
     }
     const vpTimedPath motion(scene, found.path);
     std::cout << motion.sentence(scene) << std::endl;
@@ -67,17 +67,17 @@ int main(int argc, char **argv)
     //! [Drive]
     vpImage<vpRGBa> picture(500, 860, vpRGBa(255, 255, 255));
     drawBoxes(picture, scene);
-    vpStopSupervisor supervisor(scene, {0.005, 0.}); // every 5 ms; margin 0: the plan keeps its own
+    vpStopSupervisor supervisor(scene, {0.005, 0.}); // every 5 ms; margin 0: the plan has its own
     vpSupervisedVelocity command;
     vpCollisionData data;
     vpJointVector q = file.tasks.back().start, wish(arm.size());
     double least = 1.;
     int slowed = 0;
     for (int cycle = 0; cycle * 0.005 < motion.duration(); ++cycle) {
-      for (int j = 0; j < arm.size(); ++j) { // where the plan will be after this period
+      for (int j = 0; j < arm.size(); ++j) { // towards the plan's position after this period
         wish(j) = (motion.at(j, (cycle + 1) * 0.005)[0] - q(j)) / 0.005;
       }
-      supervisor.step(q, wish, command); // on a robot the obstacles would be where a camera sees them now
+      supervisor.step(q, wish, command); // on a real robot, update the obstacles first
       slowed += command.status == vpSupervision::Passed ? 0 : 1;
       q += 0.005 * command.velocity;
       scene.place(q, data);

@@ -1,5 +1,5 @@
 /*! \example tutorial-real-robot.cpp
- * One loop for a simulated arm and a real one, with limits, a watchdog, and a way out when the target is lost.
+ * One loop for simulated and real arms, with limits, a watchdog, and recovery of a lost target.
  * Usage: tutorial-real-robot [/dev/video0], a dry run with a live camera: the arm that follows is simulated
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
@@ -19,23 +19,23 @@
 VISP_DIRECT_USING_NAMESPACE
 namespace
 {
-const vpCameraParameters camera(400., 400., 159.5, 119.5); // of 320 x 240 px; yours comes from its calibration
+const vpCameraParameters camera(400., 400., 159.5, 119.5); // for 320 x 240 px; use your calibration
 const vpHomogeneousMatrix cdMo(0., 0., 0.35, 0., 0., 0.);  // the goal
 using Grab = std::function<void(vpImage<unsigned char> &)>;
 //! [Servo]
-// All that moves a robot; nothing in here knows whether it is simulated. True if the target was lost on the way.
+// All motion code, the same for simulated and real robots. True if the target was lost on the way.
 bool servo(vpRobot &robot, const Grab &grab, vpPlanarTarget &target, std::ostream &log)
 {
   vpServoControllerConfig config;
   config.gains.lambda = 2.;                                           // 1/s
-  config.view = vpViewConstraintConfig::fromCamera(camera, 320, 240); // "+cbf" keeps the target's centre in there
-  config.view.maxLinear = 0.1;           // m/s; a fifth of it for the first run of a real robot
+  config.view = vpViewConstraintConfig::fromCamera(camera, 320, 240); // "+cbf" keeps the target's centre in it
+  config.view.maxLinear = 0.1;           // m/s; use a fifth of it for the first run on a real robot
   config.view.maxAngular = 0.3;          // rad/s
   config.recovery = {0.3, 2., 0.1, 0.3}; // target lost: wait 0.3 s, then undo the last 2 s; m/s, rad/s
   vpServoController controller = vpServoController::create("ff-lookat+cbf", config);
-  const vpServoTarget centre({Eigen::Vector3d::Zero()}); // of the object: where to look, and what stays in view
+  const vpServoTarget centre({Eigen::Vector3d::Zero()}); // object origin: look-at point, kept in view
   controller.setGoal(centre.goal(cdMo));
-  robot.setMaxTranslationVelocity(0.11); // the robot's own limits stand behind those of the controller
+  robot.setMaxTranslationVelocity(0.11); // the robot's own limits back up those of the controller
   robot.setMaxRotationVelocity(0.33);
   robot.setRobotState(vpRobot::STATE_VELOCITY_CONTROL);
   vpImage<unsigned char> image;
@@ -44,13 +44,13 @@ bool servo(vpRobot &robot, const Grab &grab, vpPlanarTarget &target, std::ostrea
   for (int k = 0; k < 150 && isGoing; ++k) {
     const double before = vpTime::measureTimeMs();
     grab(image);
-    const bool fresh = vpTime::measureTimeMs() - before < 200.; // watchdog: a camera that stalls sees nothing
+    const bool fresh = vpTime::measureTimeMs() - before < 200.; // watchdog: ignore images of a stalled camera
     centre.measure(target.process(image), 0.04 * k, seen);
     seen.valid = seen.valid && fresh;
     const auto [v, status] = controller.update(seen, 0.04);
     robot.setVelocity(vpRobot::CAMERA_FRAME, v.toColVector());
     wasLost = wasLost || status == vpServoStatus::Retreating;
-    isGoing = isWorking(status); // an error, or a target that stays lost, ends the loop: the robot stops
+    isGoing = isWorking(status); // an error or a permanent loss ends the loop: the robot stops
     log << 0.04 * k << ' ' << v.linearNorm() << ' ' << v.angularNorm() << ' ' << toString(status) << std::endl;
   }
   robot.setRobotState(vpRobot::STATE_STOP);
@@ -65,9 +65,9 @@ int main(int argc, char **argv)
     vpImage<unsigned char> photo;
     vpImageIo::read(photo, VISP_DIRECT_DATA_DIR "/target/klimt.jpg");
     vpPlanarTargetConfig fast;
-    fast.refinementSize = 120;                                                    // px: for the rate of a camera
+    fast.refinementSize = 120;                                                    // px: fast enough for the camera rate
     vpPlanarTarget target(photo, 0.12, 0.12, camera, fast);                       // m
-    vpSimulatedArm robot(vpLoadArmJson(VISP_DIRECT_DATA_DIR "/robot/amor.json")); // 40 ms a cycle; yours: any vpRobot
+    vpSimulatedArm robot(vpLoadArmJson(VISP_DIRECT_DATA_DIR "/robot/amor.json")); // 40 ms per cycle; any vpRobot works
     const vpHomogeneousMatrix fMo = robot.get_fMc() * vpHomogeneousMatrix(0.06, 0.04, 0.45, 0.2, -0.3, 0.4);
     vpPlaneRenderer view(photo, 0.12, 0.12, camera, 320, 240);
     Grab grab = [&](vpImage<unsigned char> &image) {
@@ -75,7 +75,7 @@ int main(int argc, char **argv)
       image = std::floor(robot.getState().time) == 1. ? vpImage<unsigned char>(240, 320, 0) : image; // covered
     };
 #ifdef VISP_HAVE_V4L2
-    vpV4l2Grabber live(0, 2); // input 0, half of 640 x 480 px
+    vpV4l2Grabber live(0, 2); // input 0, 640 x 480 px halved
     if (argc > 1) {
       live.setDevice(argv[1]);
       grab = [&live](vpImage<unsigned char> &image) { live.acquire(image); };

@@ -1,5 +1,5 @@
 /*! \example tutorial-print.cpp
- * Print on the fly on a flexible product: a drop into the centre of each cell, the camera is the only encoder.
+ * Print on the fly on a flexible product: a drop at the centre of each cell, the camera is the only encoder.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include <visp3/pattern/vpPatternTracker.h>
@@ -19,9 +19,9 @@ int main()
   vpProductPatternSpec spec; // the display of the thesis, 160 x 100 px of 4.5 um; all in px and frames
   spec.flexAmplitudeX = 2.;  // cells lie up to 2 px off a regular pitch
   const vpProductPattern product(spec);
-  vpXYStage stage(vpXYStageSpec::thesis()); // friction that sticks, and rises by 30 % on the way
+  vpXYStage stage(vpXYStageSpec::thesis()); // stick-slip friction, rises by 30 % on the way
   vpPrintMachineSpec print;                 // geometry as above; 4 px/frame at the centres of the cells, 5 on average
-  print.originX = 79.5 - print.pitchX;      // of the first cell: one pitch before the nozzle
+  print.originX = 79.5 - print.pitchX;      // first cell: one pitch before the nozzle
   print.cellsPerRow = 200;
   print.visionDelay = 1.; // frame
   print.observer.model = print.preview.model =
@@ -32,8 +32,8 @@ int main()
   vpPrintMachine machine(print);
   vpImage<unsigned char> image;
   vpPatternTracker tracker(spec.width, spec.height);
-  vpPatternCell first;              // under the nozzle at the start; printing begins behind it
-  for (int i = -100; i <= 0; ++i) { // in slow motion the tracker learns what the cells look like
+  vpPatternCell first;              // under the nozzle at the start; printing begins after it
+  for (int i = -100; i <= 0; ++i) { // in slow motion the tracker learns the template of the cell
     product.render(0.5 * i, 0., 0.5, 0., 100 + i, image);
     for (const vpPatternCell &cell : tracker.track(image).cells) {
       first = std::hypot(cell.x - 79.5, cell.y - 49.5) < 8. ? cell : first;
@@ -42,10 +42,10 @@ int main()
   machine.reset(first.row, first.column - 1);
   //! [Machine]
   std::vector<vpPrintShot> shots;
-  std::vector<vpXYStage::State> log(5, stage.state()); // the truth, each quarter of a frame
+  std::vector<vpXYStage::State> log(5, stage.state()); // ground truth, every quarter of a frame
   for (double now = 0.; now < 320.; ++now) {
     //! [Loop]
-    const vpXYStage::State seen = log[log.size() - 5]; // the camera is a frame late
+    const vpXYStage::State seen = log[log.size() - 5]; // the camera is one frame late
     product.render(seen.position[0], 0., seen.velocity[0], 0., static_cast<unsigned int>(now), image);
     const vpPatternFrame &frame = tracker.track(image);
     const vpPrintMachineOutput &out = machine.step({now, frame.cells.data(), frame.cells.size(), frame.epoch});
@@ -62,7 +62,7 @@ int main()
           "plot '-' with impulses lw 3 title 'drops; a pixel is 4.5 um, a cell comes every 10 frames'\n";
   for (const vpPrintShot &shot : shots) {
     const vpXYStage::State &at = log[std::min(log.size() - 1, static_cast<std::size_t>(4. + 4. * shot.landTime))];
-    const double x = at.position[0] + at.velocity[0] * (shot.landTime - at.time); // of the product, at the landing
+    const double x = at.position[0] + at.velocity[0] * (shot.landTime - at.time); // product position at the landing
     for (const vpPatternTruthCell &cell : product.cells(x, 0.)) {
       if (cell.row == 0 && cell.column == shot.column - first.column) {
         plot << shot.landTime << ' ' << (79.5 - cell.x) * spec.pixelSize << '\n';

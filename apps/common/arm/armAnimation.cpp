@@ -64,7 +64,7 @@ void append(std::string &list, const Eigen::Vector2d &p)
   list += (list.empty() ? "" : ",") + px(p.x()) + "," + px(p.y());
 }
 
-//! A text as a string of JavaScript that may stand in a script element.
+//! Text as a JavaScript string, safe inside a script element.
 std::string quoted(const std::string &text)
 {
   std::string result = "\"";
@@ -110,7 +110,7 @@ std::string frameData(const ArmCanvas &canvas, const vpArmModel &arm, const ArmA
          "],s:" + quoted(frame.caption) + "}";
 }
 
-//! The arm that the script moves, as wide as it is.
+//! The arm moved by the script, with its true width.
 void drawArm(ArmCanvas &canvas, const vpArmModel &arm, const vpJointVector &q)
 {
   const PlacedArm placed = placeArm(arm, q);
@@ -133,7 +133,7 @@ ArmCanvas layOut(const vpArmModel &arm, const ArmAnimation &animation, const std
     canvas.show(frame.q);
   }
   for (const vpCollisionObject &object : animation.objects) {
-    if (object.velocity.linearNorm() == 0.) { // what moves comes from far away
+    if (object.velocity.linearNorm() == 0.) { // moving objects come from far away
       canvas.show(object);
     }
   }

@@ -17,8 +17,8 @@ namespace
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 constexpr double WIDTH = 960.; // px
-constexpr double GAP = 30.;    // px, about and between the views
-constexpr double HEAD = 46.;   // px, title and names of the views
+constexpr double GAP = 30.;    // px, around and between the views
+constexpr double HEAD = 46.;   // px, title and view names
 
 std::string px(double value) { return number(std::round(10. * value) / 10., 6); }
 
@@ -126,7 +126,7 @@ void ArmCanvas::heading(const std::string &title, bool ground)
     add(line(pixel(Vector2d(f.low.x(), 0.), ArmView::Side), pixel(Vector2d(f.high.x(), 0.), ArmView::Side),
              "stroke=\"#999999\" stroke-width=\"1.5\""));
   }
-  const Vector2d from(GAP, m_height - 10.); // a decimetre
+  const Vector2d from(GAP, m_height - 10.); // scale bar of a decimetre
   add(line(from, from + Vector2d(0.1 * m_scale, 0.), "stroke=\"#333333\" stroke-width=\"2\""));
   add(text(from.x() + 0.1 * m_scale + 6., from.y() + 4., "0.1 m", "font-size=\"11\" fill=\"#333333\""));
 }

@@ -4,7 +4,7 @@
  */
 /*!
  * \file armCanvas.h
- * \brief Two orthographic views beside each other as SVG elements.
+ * \brief Two orthographic views side by side as SVG elements.
  */
 #ifndef vpApp_armCanvas_h
 #define vpApp_armCanvas_h
@@ -13,44 +13,44 @@
 
 namespace vpApp
 {
-//! \brief Metres to pixels, and what is drawn so far. First show() everything that shall fit, then draw.
+//! \brief Maps metres to pixels and collects the drawing. First show() everything that must fit, then draw.
 class ArmCanvas
 {
 public:
   static constexpr ArmView views[2] = {ArmView::Top, ArmView::Side};
 
-  //! \param id : Begins the names in the document; differs among the documents of a page.
+  //! \param id : Prefix of the names in the document; unique among the documents of a page.
   explicit ArmCanvas(const vpArmModel &arm, std::string id = "view") : m_arm(&arm), m_id(std::move(id)) {}
 
-  void show(const vpCollisionObject &object); //!< Make room for it.
-  void show(const Eigen::Vector3d &place);    //!< Make room for it.
-  void show(const vpJointVector &q);          //!< Make room for the arm.
-  void layOut();                              //!< From here on the scale stands.
+  void show(const vpCollisionObject &object); //!< Extend the views to the object.
+  void show(const Eigen::Vector3d &place);    //!< Extend the views to the point.
+  void show(const vpJointVector &q);          //!< Extend the views to the arm.
+  void layOut();                              //!< Fix the scale.
 
   void heading(const std::string &title, bool ground);
-  //! What lies outside a view is cut off.
+  //! Draw an object; parts outside a view are clipped.
   void object(const vpCollisionObject &object, const std::string &attributes);
   void ghost(const ArmGhost &ghost);
   void trace(const ArmTrace &trace);
   void mark(const ArmMark &mark);
-  //! The traces that have a label.
+  //! Legend of the traces with a label.
   void legend(const std::vector<ArmTrace> &traces);
   void add(const std::string &element) { m_elements += element; }
 
-  //! Pixel of a place.
+  //! Pixel of a point.
   [[nodiscard]] Eigen::Vector2d pixel(const Eigen::Vector3d &place, ArmView view) const;
   [[nodiscard]] Eigen::Vector2d pixel(const Eigen::Vector2d &projected, ArmView view) const;
-  //! Pixels of a metre.
+  //! Pixels per metre.
   [[nodiscard]] double scale() const { return m_scale; }
-  //! A polygon's "points".
+  //! SVG attribute "points" of a polygon.
   [[nodiscard]] std::string points(const Polygon &polygon, ArmView view) const;
-  //! The document. \param attributes : Of its element.
+  //! The document. \param attributes : Attributes of its root element.
   [[nodiscard]] std::string svg(const std::string &attributes = "") const;
 
 private:
   struct Frame {
     Eigen::Vector2d low = Eigen::Vector2d::Constant(-0.1),
-                    high = Eigen::Vector2d::Constant(0.1); // m, the base at least
+                    high = Eigen::Vector2d::Constant(0.1); // m, contains at least the base
     Eigen::Vector2d corner = Eigen::Vector2d::Zero();      // px, top left
   };
   [[nodiscard]] Frame &frame(ArmView view) { return m_frames[view == ArmView::Top ? 0 : 1]; }
@@ -65,7 +65,7 @@ private:
   std::string m_elements;
 };
 
-//! The capsules of an arm and its tool in a configuration, in the base.
+//! Capsules and tool of an arm at a configuration, in the base frame.
 struct PlacedArm {
   std::vector<vpPlacedCapsule> capsules;
   Eigen::Vector3d tool = Eigen::Vector3d::Zero();

@@ -4,7 +4,7 @@
  */
 /*!
  * \file armPicture.h
- * \brief An arm among obstacles, seen from above and from the side, as SVG, still or moving.
+ * \brief An arm among obstacles, seen from above and from the side, as SVG, static or animated.
  */
 #ifndef vpApp_armPicture_h
 #define vpApp_armPicture_h
@@ -16,60 +16,60 @@
 
 namespace vpApp
 {
-//! \brief From where an orthographic picture is taken. The base's axes.
+//! \brief View direction of an orthographic figure, along the axes of the base.
 enum class ArmView {
   Top, //!< x to the right, y up.
   Side //!< y to the right, z up: seen along -x.
 };
 
-//! \brief The arm in one configuration: its capsules, and a dot for the tool.
+//! \brief The arm at one configuration: its capsules, and a dot for the tool.
 struct ArmGhost {
   vpJointVector q;
   std::string colour = "#44546a"; //!< #rrggbb
   double opacity = 1.;            //!< 0..1
 };
 
-//! \brief A way of a point, such as the tool's.
+//! \brief Path of a point, such as the tool.
 struct ArmTrace {
-  std::vector<Eigen::Vector3d> points; //!< In the base, m.
+  std::vector<Eigen::Vector3d> points; //!< In the base frame, m.
   std::string colour = "#000000";      //!< #rrggbb
   bool dashed = false;
-  std::string label; //!< In the legend; empty for none.
+  std::string label; //!< Legend entry; empty for none.
 };
 
-//! \brief A place with a name.
+//! \brief A labelled point.
 struct ArmMark {
-  Eigen::Vector3d place; //!< In the base, m.
+  Eigen::Vector3d place; //!< In the base frame, m.
   std::string label;
 };
 
-//! \brief What to draw.
+//! \brief Content of a figure.
 struct ArmPicture {
   std::string title;
-  std::vector<vpCollisionObject> objects; //!< Obstacles where they are. What is inflated is drawn so.
-  std::vector<vpCollisionObject> faint;   //!< The same elsewhere: where they come from, how they were seen.
+  std::vector<vpCollisionObject> objects; //!< Obstacles at their poses, drawn with inflation.
+  std::vector<vpCollisionObject> faint;   //!< Obstacles at other poses: at the start, as seen.
   bool ground = false;                    //!< A line at z = 0 in the side view.
   std::vector<ArmGhost> ghosts;           //!< Drawn in this order.
   std::vector<ArmTrace> traces;
   std::vector<ArmMark> marks;
 };
 
-//! Both views beside each other, to the same scale. An SVG document.
+//! Both views side by side at the same scale, as an SVG document.
 [[nodiscard]] std::string armPictureSvg(const vpArmModel &arm, const ArmPicture &picture);
 
 //! \brief One instant of an animation.
 struct ArmFrame {
   double time = 0.;                      //!< s, increasing.
-  vpJointVector q;                       //!< Of the arm.
-  std::vector<vpRigidTransform> objects; //!< Poses of ArmAnimation::objects; not turned.
-  std::vector<bool> visible;             //!< Of the same; empty: all are there.
-  std::string caption;                   //!< Such as the status.
+  vpJointVector q;                       //!< Configuration of the arm.
+  std::vector<vpRigidTransform> objects; //!< Poses of ArmAnimation::objects, without rotation.
+  std::vector<bool> visible;             //!< Visibility of the objects; empty: all visible.
+  std::string caption;                   //!< For example the status.
 };
 
-//! \brief What to animate.
+//! \brief Content of an animation.
 struct ArmAnimation {
   std::string title;
-  std::vector<vpCollisionObject> objects; //!< What may move, all there is else in #still.
+  std::vector<vpCollisionObject> objects; //!< Moving objects; all others are in #still.
   std::vector<vpCollisionObject> still;
   bool ground = false;
   std::vector<ArmTrace> traces;
@@ -78,8 +78,8 @@ struct ArmAnimation {
 };
 
 /*!
- * Both views with a slider and a button, as a piece of HTML with its own script: no codec, no other file.
- * \param id : Of the element, only once in a page; letters and digits.
+ * Both views with a slider and a button, as an HTML fragment with its own script: no codec, no other file.
+ * \param id : Id of the element, unique in the page; letters and digits.
  */
 [[nodiscard]] std::string armAnimationHtml(const vpArmModel &arm, const ArmAnimation &animation, const std::string &id);
 } // namespace vpApp

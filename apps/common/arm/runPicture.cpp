@@ -12,7 +12,7 @@ namespace
 {
 constexpr int GHOSTS = 5;
 constexpr std::size_t TRACE_POINTS = 300;
-constexpr double FRAME = 0.05;  // s of an animation
+constexpr double FRAME = 0.05;  // s, frame period of an animation
 constexpr double LONGEST = 20.; // s
 
 std::vector<ArmMark> marksOf(const vpAvoidanceRun &run)

@@ -4,7 +4,7 @@
  */
 /*!
  * \file runPicture.h
- * \brief A run of an avoidance experiment as a picture and as an animation.
+ * \brief A run of an avoidance experiment as a figure and as an animation.
  */
 #ifndef vpApp_runPicture_h
 #define vpApp_runPicture_h
@@ -15,19 +15,19 @@
 
 namespace vpApp
 {
-//! When the tool has gone so much of its way, 0..1.
+//! Sample at which the tool has covered the fraction \e share of its path, 0..1.
 [[nodiscard]] const vpAvoidanceSample &sampleAt(const vpAvoidanceRun &run, double share);
-//! The obstacle where it is then, s.
+//! The obstacle at its pose at \e time, s.
 [[nodiscard]] vpCollisionObject objectAt(const vpMovingObstacle &obstacle, double time);
-//! The way of the tool, thinned out.
+//! Path of the tool, downsampled.
 [[nodiscard]] ArmTrace toolTrace(const vpAvoidanceRun &run, const std::string &label, const std::string &colour);
 
 /*!
- * The arm at the start (grey), at the end (dark) and in between (faint), start and goal, and the obstacles where they are
- * when the tool is half way. Traces are left to the caller.
+ * The arm at the start (grey), at the end (dark) and in between (faint), start and goal, and the obstacles where they
+ * are when the tool is half way. The caller adds traces.
  */
 [[nodiscard]] ArmPicture runPicture(const vpAvoidanceRun &run, const std::string &title);
-//! The first 20 s, 20 pictures a second; captions say the status. Traces are left to the caller.
+//! The first 20 s at 20 frames per second; captions show the status. The caller adds traces.
 [[nodiscard]] ArmAnimation runAnimation(const vpAvoidanceRun &run, const std::string &title);
 } // namespace vpApp
 

@@ -71,7 +71,7 @@ Polygon convexHull(std::vector<Vector2d> points)
       }
       hull.push_back(p);
     }
-    hull.pop_back(); // the first of the other pass
+    hull.pop_back(); // equals the first of the other pass
     std::reverse(points.begin(), points.end());
   }
   return hull;

@@ -4,7 +4,7 @@
  */
 /*!
  * \file shapeOutline.h
- * \brief Outlines of collision shapes in orthographic pictures.
+ * \brief Outlines of collision shapes in orthographic figures.
  */
 #ifndef vpApp_shapeOutline_h
 #define vpApp_shapeOutline_h
@@ -15,13 +15,13 @@ namespace vpApp
 {
 using Polygon = std::vector<Eigen::Vector2d>;
 
-//! A place in the picture's plane, m: right, up.
+//! Projection of a point into the figure plane, m: right, up.
 [[nodiscard]] Eigen::Vector2d project(const Eigen::Vector3d &place, ArmView view);
 //! Convex hull, anticlockwise.
 [[nodiscard]] Polygon convexHull(std::vector<Eigen::Vector2d> points);
 /*!
- * Polygons that together are what one sees of an object: one for spheres, capsules, boxes and cylinders (inflation
- * included), one for every triangle of a mesh and every cell of an octree (without).
+ * Polygons that together cover the view of an object: one for spheres, capsules, boxes and cylinders (with
+ * inflation), one for every triangle of a mesh and every cell of an octree (without).
  */
 [[nodiscard]] std::vector<Polygon> outline(const vpCollisionObject &object, ArmView view);
 } // namespace vpApp

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// What the programs share: exit statuses, progress, jobs, JSON errors, HTML, plots and videos.
+// Code shared by the programs: exit statuses, progress, jobs, JSON errors, HTML, plots and videos.
 #include "vpCatch.h"
 
 #include "testFolder.h"
@@ -42,7 +42,7 @@ namespace fs = std::filesystem;
 
 namespace
 {
-//! Collects what a piece of code prints on a stream.
+//! Captures the output of code on a stream.
 class Captured
 {
 public:
@@ -186,12 +186,12 @@ TEST_CASE("runJobs does without threads that the system does not give", "[apps]"
     return;
   }
   const pid_t child = fork();
-  if (child == 0) { // in a process of its own: the limit stays
+  if (child == 0) { // in a separate process, as the limit is permanent
     const rlimit none{0, 0};
     std::atomic<int> done{0};
     try {
       setrlimit(RLIMIT_NPROC, &none);
-      std::size_t pages = 0; // for root, whom the number does not bind: memory for a few stacks
+      std::size_t pages = 0; // for root, which the number does not limit: memory for a few stacks
       std::ifstream("/proc/self/statm") >> pages;
       const rlim_t most = pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE)) + (64U << 20U);
       const rlimit memory{most, most};
@@ -229,7 +229,7 @@ TEST_CASE("Lines of files and pipes", "[apps]")
   CHECK(complaint([&] { (void)linesOf(folder.path.string()); }) == folder.path.string() + ": cannot be read");
   CHECK(complaint([&] { (void)linesOf("/dev/zero"); }) == "/dev/zero:1: is longer than 64 MB");
 
-  // A pipe whose other end comes later and writes in pieces.
+  // A pipe whose other end is opened later and writes in pieces.
   const std::string pipe = (folder.path / "pipe").string();
   REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
   std::thread writer([&pipe] {
@@ -328,7 +328,7 @@ TEST_CASE("Numbers are written as people do", "[apps]")
   CHECK(vpApp::number(3e12, 3) == "3e+12");
   CHECK(vpApp::number(INFINITY, 3) == "inf");
   std::mt19937_64 random = vpTestSupport::generator();
-  for (int i = 0; i < 1000; ++i) { // the digits that are asked for, and no more
+  for (int i = 0; i < 1000; ++i) { // exactly the requested digits
     const int digits = std::uniform_int_distribution<int>(1, 12)(random);
     const double value = std::pow(10., std::uniform_real_distribution<double>(-6., 9.)(random));
     const double written = std::stod(vpApp::number(value, digits));
@@ -342,12 +342,12 @@ TEST_CASE("Texts of files are made printable", "[apps]")
   CHECK(vpPrintable("plain, grüße, 世界, 🤖") == "plain, grüße, 世界, 🤖");
   CHECK(vpPrintable("  two\nlines\t\r\n and  blanks \n") == "two lines and blanks");
   CHECK(vpPrintable("\x1b[31m\a\x7f") == "\\u001b[31m\\u0007\\u007f");
-  CHECK(vpPrintable("\xc2\x9b") == "\\u009b"); // steers a terminal too
+  CHECK(vpPrintable("\xc2\x9b") == "\\u009b"); // also controls a terminal
   CHECK(vpPrintable("a\xe2\x80\xae"
-                    "b") == "a\\u202eb"); // turns the direction of writing
+                    "b") == "a\\u202eb"); // reverses the text direction
   CHECK(vpPrintable("\xf3\xa0\x81\x81") == "\\udb40\\udc41");
   CHECK(nlohmann::json::parse("\"" + vpPrintable("\xf3\xa0\x81\x81") + "\"") == "\xf3\xa0\x81\x81");
-  // No UTF-8: alone, cut off, overlong, half of a pair, beyond the last character.
+  // Invalid UTF-8: isolated, truncated, overlong, half of a pair, beyond the last character.
   CHECK(vpPrintable("\xff\xc3") == "\\xff\\xc3");
   CHECK(vpPrintable("\xc0\xaf") == "\\xc0\\xaf");
   CHECK(vpPrintable("\xe0\x80\xaf") == "\\xe0\\x80\\xaf");
@@ -427,7 +427,7 @@ TEST_CASE("gnuplot draws a plot with awkward labels and gaps", "[apps]")
 
 TEST_CASE("On logarithmic axes powers of ten are equally far apart", "[apps]")
 {
-  // Where the three points of a curve were drawn, from the SVG's point symbols.
+  // Positions of the three points of a curve, from the SVG's point symbols.
   const auto placesOf = [](bool logX, bool logY) {
     vpApp::Plot plot;
     plot.logX = logX;

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Result folders: whole results, one run at a time, leftovers of killed runs, and nothing of the user's touched.
+// Result folders: complete results, one run at a time, leftovers of killed runs, and untouched user files.
 #include "vpCatch.h"
 
 #include "testFolder.h"
@@ -26,7 +26,7 @@ namespace
 {
 using vpApp::OutputFolder;
 
-//! One run of the program "prog" from begin to end.
+//! One complete run of the program "prog".
 void finish(const std::string &wanted, const std::vector<std::string> &names, const std::string &content = "x")
 {
   OutputFolder out("prog", wanted);
@@ -304,7 +304,7 @@ TEST_CASE("The next run removes what a killed one left, whenever it was killed",
   }
   SECTION("at any moment of a run that replaces a result")
   {
-    // Two results of which each has files that the other has not; the child makes them in turn until it is killed.
+    // Two results with different files; the child creates them in turn until it is killed.
     std::vector<std::string> even{"common.txt"}, odd{"common.txt"};
     for (int i = 0; i < 20; ++i) {
       even.push_back("even/" + std::to_string(i) + "/a.txt");
@@ -312,7 +312,7 @@ TEST_CASE("The next run removes what a killed one left, whenever it was killed",
     }
     finish(wanted, odd);
     folder.write("out/my-notes.txt", "mine");
-    fs::create_directory(wanted + "/even"); // of the user's, empty until the program uses it
+    fs::create_directory(wanted + "/even"); // user folder, empty until the program uses it
     const fs::path ready = folder.path / "ready";
     int unfinished = 0, complete = 0;
     std::mt19937_64 random = vpTestSupport::generator();
@@ -353,8 +353,8 @@ TEST_CASE("The next run removes what a killed one left, whenever it was killed",
 namespace
 {
 /*!
- * Run \e body in a child process whose mounts are its own, with a tiny file system of its own at \e place.
- * \return What body returns, or "not permitted".
+ * Run \e body in a child process with private mounts and a tiny file system at \e place.
+ * \return The result of \e body, or "not permitted".
  */
 std::string onOwnFileSystem(const fs::path &place, const std::string &options, unsigned long flags,
                             const std::function<std::string()> &body)
@@ -406,7 +406,7 @@ TEST_CASE("A mount point may be the result folder; a full or read-only one is re
             wanted + "/out: cannot be written (Read-only file system)"));
   CHECK(has(onOwnFileSystem(place, "size=1m", MS_RDONLY, [&] { return complaintOf(wanted); }),
             wanted + ": cannot be written (Read-only file system)"));
-  // The disk fills up while the program computes: the data so far stay.
+  // The disk fills up during the run: the data so far are kept.
   CHECK(onOwnFileSystem(place, "size=64k", 0, [&] {
           const std::string error = complaint([&] {
             OutputFolder out("prog", wanted);

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The one way in which image files are read: depth, pages, orientation, and what is refused.
+// The rule for reading image files: depth, pages, orientation, and rejected files.
 #include "vpCatch.h"
 
 #include "greyPicture.h"
@@ -39,7 +39,7 @@ cv::Mat marked()
   return picture;
 }
 
-//! Where the mark is: 0 top left, 1 top right, 2 bottom right, 3 bottom left.
+//! Position of the mark: 0 top left, 1 top right, 2 bottom right, 3 bottom left.
 int cornerOf(const cv::Mat &picture)
 {
   const int right = picture.cols - 3, bottom = picture.rows - 3;
@@ -54,7 +54,7 @@ int cornerOf(const cv::Mat &picture)
 
 std::string bytesOf(const std::string &file) { return vpApp::readFile(file); }
 
-//! EXIF data in a JPEG file that say only how the picture is turned.
+//! EXIF data of a JPEG file with only the orientation.
 std::string withOrientation(const std::string &jpeg, int orientation)
 {
   const std::string tiff = std::string("II*\0\x08\0\0\0\x01\0\x12\x01\x03\0\x01\0\0\0", 18) +
@@ -63,7 +63,7 @@ std::string withOrientation(const std::string &jpeg, int orientation)
   return jpeg.substr(0, 2) + "\xff\xe1" + '\0' + static_cast<char>(exif.size() + 2) + exif + jpeg.substr(2);
 }
 
-//! A TIFF file, grey with 8 bits, of pages that are each of one grey value; a byte of the other order if \e big.
+//! A TIFF file, 8 bit grey, with pages of one grey value each; other byte order if \e big.
 class TiffFile
 {
 public:
@@ -78,7 +78,7 @@ public:
     m_link = m_bytes.size();
     put(0, word());
   }
-  //! \param orientation : 1..8. \param kind : Of NewSubfileType.
+  //! \param orientation : 1..8. \param kind : Value of NewSubfileType.
   void add(const cv::Mat &page, unsigned int orientation = 1, unsigned int kind = 0)
   {
     const std::size_t pixels = m_bytes.size();
@@ -107,7 +107,7 @@ public:
     m_link = m_bytes.size();
     put(0, word());
   }
-  //! The last page is followed by the first.
+  //! Links the last page to the first.
   void close() { patch(m_link, m_bigTiff ? 16 : 8); }
   [[nodiscard]] const std::string &bytes() const { return m_bytes; }
 
@@ -184,7 +184,7 @@ TEST_CASE("values of more than 8 bits are scaled by the range of the format or o
                                   " became the grey values 0 to 255.");
     }
   }
-  // A PGM says where its values end, with comments anywhere, whatever the largest one is.
+  // A PGM states its maximum value, with comments anywhere, independently of the largest actual value.
   for (const unsigned int white : {15U, 100U, 1023U, 4095U, 65535U}) {
     CAPTURE(white);
     std::string content = "P5 # by hand\n4 #\n# x\n4\n" + std::to_string(white) + "\n";
@@ -216,7 +216,7 @@ TEST_CASE("a picture stands as its file says, in JPEG and in TIFF", "[pictures][
 {
   const TestFolder folder;
   cv::imwrite(folder.file("plain.jpg"), marked(), {cv::IMWRITE_JPEG_QUALITY, 95});
-  // EXIF 2.3, tag Orientation: where the stored first row and column belong.
+  // EXIF 2.3, tag Orientation: position of the stored first row and column.
   const int corner[] = {0, 0, 1, 2, 3, 0, 1, 2, 3};
   for (int orientation = 1; orientation <= 8; ++orientation) {
     CAPTURE(orientation);
@@ -255,7 +255,7 @@ TEST_CASE("every page of a TIFF is read, in any byte order, and copies of pages 
       CHECK(pictures.nameOf(2) == "page 3 of " + folder.file("stack.tif"));
       CHECK(complaint([&] { (void)read(folder.file("stack.tif")); }) ==
             folder.file("stack.tif") + ": has 5 pages, must have one");
-      // A chain of pages that leads back must end, and one that leads beyond the file.
+      // A cyclic chain of pages must end, and so must one that leads beyond the file.
       file.close();
       CHECK(vpPictures::File(folder.write("ring.tif", file.bytes())).pages() <= 5);
       const vpPictures::File cut(folder.write("cut.tif", file.bytes().substr(0, file.bytes().size() / 2)));
@@ -295,7 +295,7 @@ TEST_CASE("what is no picture, or cut short, is refused by name", "[pictures][er
     CAPTURE(name);
     CHECK(refused(name) == unreadable);
   }
-  // The end mark of a small copy within the EXIF data is not that of the picture.
+  // The end mark of a thumbnail within the EXIF data is not that of the image.
   const std::string jpeg = bytesOf(folder.file("cut.jpg"));
   folder.write("thumbnail.jpg", jpeg.substr(0, 2) + std::string("\xff\xe1\0\x06\xff\xd9..", 8) + jpeg.substr(2));
   CHECK(refused("thumbnail.jpg") == unreadable);
@@ -325,7 +325,7 @@ TEST_CASE("no file, however spoiled, does worse than be refused", "[pictures][er
     const std::string name = folder.write("spoiled", bytes);
     const std::string sentence = complaint([&] {
       const vpPictures::File pictures(name);
-      REQUIRE(pictures.pages() <= std::max<std::size_t>(1, bytes.size())); // a chain of distinct places
+      REQUIRE(pictures.pages() <= std::max<std::size_t>(1, bytes.size())); // a chain of distinct positions
       GreyScale scale;
       for (std::size_t page = 0; page < pictures.pages(); ++page) {
         (void)scale.toGrey(vpPictures::File(pictures).read(page), pictures.white(), name);

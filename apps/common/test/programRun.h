@@ -4,7 +4,7 @@
  */
 /*!
  * \file programRun.h
- * \brief Runs a program in an empty folder and catches what it says.
+ * \brief Runs a program in an empty folder and captures its output.
  */
 #ifndef vpApp_test_programRun_h
 #define vpApp_test_programRun_h
@@ -19,7 +19,7 @@
 
 #include <sys/wait.h>
 
-//! \brief An empty folder for one test, the working directory of the program; removed afterwards.
+//! \brief Empty folder for one test, the working directory of the program; removed afterwards.
 class ProgramRun
 {
 public:
@@ -33,7 +33,7 @@ public:
   ProgramRun(const ProgramRun &) = delete;
   ProgramRun &operator=(const ProgramRun &) = delete;
 
-  //! Run with these arguments (shell syntax), optionally after an assignment of environment variables; the exit status.
+  //! Run with arguments (shell syntax), optionally with environment variables; returns the exit status.
   int operator()(const std::string &arguments, const std::string &environment = "")
   {
     const int status = call(environment + " '" + m_program + "' " + arguments + " >stdout.txt 2>stderr.txt");
@@ -41,7 +41,7 @@ public:
     m_err = take("stderr.txt");
     return status;
   }
-  //! The same with a standard output that takes nothing.
+  //! Run with a standard output that accepts no data.
   int intoFullDevice(const std::string &arguments)
   {
     const int status = call("'" + m_program + "' " + arguments + " >/dev/full 2>stderr.txt");
@@ -57,7 +57,7 @@ public:
   {
     std::ofstream(path(name), std::ios::binary) << content;
   }
-  //! Names in the folder, sorted by nothing.
+  //! Names in the folder, unsorted.
   [[nodiscard]] std::vector<std::string> entries() const
   {
     std::vector<std::string> names;

@@ -4,7 +4,7 @@
  */
 /*!
  * \file testFolder.h
- * \brief An empty folder for one test, and what a call complains of.
+ * \brief An empty folder for one test, and the message of an exception.
  */
 #ifndef vpApp_test_testFolder_h
 #define vpApp_test_testFolder_h
@@ -44,7 +44,7 @@ struct TestFolder {
   std::filesystem::path path;
 };
 
-//! What a call throws, as text.
+//! Message of the exception thrown by a call.
 template <typename Call> std::string complaint(const Call &call)
 {
   try {

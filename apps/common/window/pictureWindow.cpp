@@ -37,7 +37,7 @@ PictureWindow::PictureWindow(const std::string &title) : m_impl(std::make_unique
   if (screen == nullptr || *screen == '\0') {
     throw std::runtime_error("--display needs a screen, but the environment variable DISPLAY is not set");
   }
-  // Opened and closed once: a screen that does not answer is found before the work, not after.
+  // Open and close once, to detect an unavailable screen before the work, not after.
   vpImage<vpRGBa> probe(16, 16);
   try {
     vpDisplayX display;

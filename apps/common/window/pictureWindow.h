@@ -4,7 +4,7 @@
  */
 /*!
  * \file pictureWindow.h
- * \brief A window for the programs that can show what they do (--display).
+ * \brief A window for programs with --display.
  */
 #ifndef vpApp_pictureWindow_h
 #define vpApp_pictureWindow_h
@@ -19,14 +19,14 @@
 namespace vpApp
 {
 /*!
- * \brief Shows one picture after another in a window of ViSP (vpDisplayX). For one thread.
+ * \brief Shows images one after another in a ViSP window (vpDisplayX). For one thread.
  */
 class PictureWindow
 {
 public:
   /*!
-   * \param title : Of the window.
-   * \throw std::runtime_error saying why no window can be opened (no screen, ViSP without X11).
+   * \param title : Window title.
+   * \throw std::runtime_error explaining why no window can be opened (no screen, ViSP without X11).
    */
   explicit PictureWindow(const std::string &title);
   ~PictureWindow();
@@ -34,8 +34,8 @@ public:
   PictureWindow &operator=(const PictureWindow &) = delete;
 
   /*!
-   * Show a picture for \e duration seconds.
-   * \return False when the user clicked into the window: enough of it.
+   * Show an image for \e duration seconds.
+   * \return False when the user clicked into the window to stop.
    */
   [[nodiscard]] bool show(const cv::Mat &picture, double duration);
 

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The parts of the program: replicas against values that are computed otherwise, and what is told of a run.
+// The parts of the program: replicas against independently computed values, and the story of a run.
 #include "vpCatch.h"
 
 #include "fieldMotion.h"
@@ -77,11 +77,12 @@ TEST_CASE("Figure 8.7: the bound is kept at any time and the arrival is the earl
   REQUIRE(motion.arrived);
   CHECK((motion.samples.back().place - Vector2d(0.2, 0.3)).norm() < 1e-9);
   CHECK(motion.peakSpeed <= 0.5 * (1. + 1e-9));
-  CHECK(motion.peakSpeed > 0.4999); // the bound is what makes it last
+  CHECK(motion.peakSpeed > 0.4999); // limited by the bound
   CHECK(motion.jump < 0.05);        // the acceleration does not jump
   CHECK(motion.plans == 2);
 
-  // Independently: minimum jerk over 15/8 h/v until 0.1 s, then the shortest quintic whose speed stays below the bound.
+  // Independent computation: minimum jerk over 15/8 h/v until 0.1 s, then the shortest quintic whose speed stays below
+  // the bound.
   const double T1 = 15. / 8. * 0.3 / 0.5, s = 0.1 / T1;
   const double q = 0.3 * s * s * s * (10. - 15. * s + 6. * s * s), v = 0.3 / T1 * 30. * s * s * (1. - s) * (1. - s),
                a = 0.3 / (T1 * T1) * 60. * s * (1. - s) * (1. - 2. * s);
@@ -116,7 +117,7 @@ TEST_CASE("Any interruption keeps the bound and arrives", "[visp-avoid-obstacle]
     double least = HUGE_VAL;
     for (std::size_t i = 1; i < motion.samples.size(); ++i) {
       const PointSample &b = motion.samples[i], &a = motion.samples[i - 1];
-      CHECK((b.place - a.place).norm() <= 0.5 * pointPeriod * (1. + 1e-9)); // no place is skipped
+      CHECK((b.place - a.place).norm() <= 0.5 * pointPeriod * (1. + 1e-9)); // no position is skipped
       least = task.events[0].via ? std::min(least, (b.place - *task.events[0].via).norm()) : 0.;
     }
     CHECK(least < 1e-3);
@@ -128,7 +129,7 @@ TEST_CASE("Figure 8.6: where it comes to rest is where both velocities cancel", 
   const FieldTask task;
   for (const vpFieldWeightSpec &field : {strictField(), mildField()}) {
     const FieldMotion motion = followField(task, field);
-    // (8.1) and (8.2) once more: (1 - w) gain e = w speed, at the distance 0.12 + e.
+    // (8.1) and (8.2) again: (1 - w) gain e = w speed, at the distance 0.12 + e.
     double low = 0., high = 0.3;
     for (int i = 0; i < 80; ++i) {
       const double e = 0.5 * (low + high), d = 0.12 + e;

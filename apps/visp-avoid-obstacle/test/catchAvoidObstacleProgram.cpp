@@ -17,7 +17,7 @@ constexpr int DATA = 1;
 constexpr int USAGE = 2;
 constexpr int HIT = 3;
 
-//! The default scene, with one piece replaced.
+//! The default scene, with one part replaced.
 std::string scene(const std::string &piece = "", const std::string &replacement = "")
 {
   std::string text = vpApp::readFile(std::string(VISP_DIRECT_DATA_DIR) + "/scene/photo-box.json");
@@ -52,7 +52,7 @@ nlohmann::json summaryOf(ProgramRun &run, const std::string &arguments, int expe
   return vpApp::readJsonFile(run.path("result/summary.json").string());
 }
 
-//! Options for a database with the box alone, where nothing else has to be looked for in vain.
+//! Options for a database with only the box, to avoid searching for other targets.
 std::string onlyBox(const ProgramRun &run)
 {
   const std::filesystem::path from = std::filesystem::path(VISP_DIRECT_DATA_DIR) / "target/box.png";
@@ -129,8 +129,8 @@ TEST_CASE("A bad scene ends with a sentence that names file and element", "[visp
 TEST_CASE("From image to joints: round what is seen, into what is not", "[visp-avoid-obstacle]")
 {
   ProgramRun run(AVOID_OBSTACLE);
-  // The same scene twice. With the camera covered all the time nobody knows of the box, and the tool runs into it: so
-  // it is the pictures that make the difference.
+  // The same scene twice. With the camera always covered the box is unknown, and the tool hits it: so the images make
+  // the difference.
   const nlohmann::json blind = summaryOf(run, "--hide 0:100" + onlyBox(run), HIT);
   CHECK_FALSE(blind.at("metrics").at("success").get<bool>());
   CHECK(blind.at("metrics").at("collisions_moving").get<int>() > 0);
@@ -148,7 +148,7 @@ TEST_CASE("From image to joints: round what is seen, into what is not", "[visp-a
   CHECK(metrics.at("joint_v_violations").get<int>() == 0);
   CHECK(metrics.at("joint_a_violations").get<int>() == 0);
   CHECK(box.at("first_seen_s").get<double>() == 0.);
-  CHECK(box.at("known_s").get<double>() == Approx(0.06).margin(1e-9)); // by then the first picture is through
+  CHECK(box.at("known_s").get<double>() == Approx(0.06).margin(1e-9)); // by then the first image is processed
   CHECK(box.at("longest_gap_s").get<double>() >= 0.2);
   CHECK(box.at("worst_error_m").get<double>() < 0.01);
   CHECK(box.at("least_inflation_less_error_m").get<double>() >= 0.);
@@ -220,7 +220,7 @@ TEST_CASE("Depth images and poses need no photograph", "[visp-avoid-obstacle]")
     const nlohmann::json seeing = summaryOf(run, std::string("--scene my-scene.json --sensor ") + sensor);
     CHECK(seeing.at("metrics").at("success").get<bool>());
     CHECK(seeing.at("metrics").at("min_clearance_m").get<double>() > 0.);
-    // It is what is seen that makes the difference: in the dark it runs into the box, and the status says so.
+    // Vision makes the difference: in the dark it hits the box, and the status reports it.
     const nlohmann::json blind =
         summaryOf(run, std::string("--scene my-scene.json --hide 0:100 --sensor ") + sensor, HIT);
     CHECK(blind.at("metrics").at("collisions_moving").get<int>() > 0);
@@ -246,7 +246,7 @@ TEST_CASE("A replica leaves its report", "[visp-avoid-obstacle]")
   std::istringstream list(run.out());
   std::string line;
   int named = 0;
-  while (std::getline(list, line)) { // a name and a sentence each, but for the two headings
+  while (std::getline(list, line)) { // a name and a sentence each, except the two headings
     CAPTURE(line);
     CHECK((line.find("  ") != 0 || line.size() > line.find(": ") + 20));
     named += line.find("  ") == 0 ? 1 : 0;

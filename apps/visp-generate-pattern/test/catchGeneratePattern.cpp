@@ -18,7 +18,7 @@ namespace
 {
 using namespace generatePattern;
 
-//! \brief A file that is gone afterwards.
+//! \brief A file that is removed afterwards.
 class TemporaryFile
 {
 public:
@@ -76,7 +76,7 @@ TEST_CASE("A task survives being written and read", "[visp-generate-pattern]")
   CAPTURE(vpTestSupport::seed());
   std::uniform_real_distribution<double> unit(0., 1.);
   Task task;
-  for (const Field &field : fields()) { // a small change of each, so that a field that is forgotten shows
+  for (const Field &field : fields()) { // a small change of each, to detect a forgotten field
     std::visit([&](auto pointer) { task.product.*pointer = (task.product.*pointer) * 0.9 + 1e-3 * unit(rng); },
                field.member);
   }
@@ -105,7 +105,7 @@ TEST_CASE("The example is read, an empty object is the default", "[visp-generate
   CHECK(jsonOf(readTask(file.path())) == jsonOf(Task()));
 
   const std::string readme = vpApp::readFile(std::string(VISP_DIRECT_DATA_DIR) + "/pattern/README.md");
-  for (const Field &field : fields()) { // "_y" may stand for the second of a pair
+  for (const Field &field : fields()) { // "_y" may be the second of a pair
     const std::string name = std::string(field.group) + "." + field.nameWith('_');
     CAPTURE(name);
     const bool second = name.size() > 2 && name.substr(name.size() - 2) == "_y";

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The program as its users run it: exit status, what is on which stream, what is written.
+// The program as run by users: exit status, output streams, written files.
 #include "vpCatch.h"
 
 #include "programRun.h"
@@ -113,7 +113,7 @@ TEST_CASE("Frames and tables are those of vpProductPattern", "[visp-generate-pat
     }
     CHECK(line == truth.size());
   }
-  CHECK_FALSE(std::filesystem::exists(run.path("d/frames/000000.png"))); // of the earlier run
+  CHECK_FALSE(std::filesystem::exists(run.path("d/frames/000000.png"))); // file of the earlier run
 }
 
 TEST_CASE("A written configuration makes the same sequence again", "[visp-generate-pattern]")
@@ -122,7 +122,7 @@ TEST_CASE("A written configuration makes the same sequence again", "[visp-genera
   REQUIRE(run("--config '" VISP_DIRECT_DATA_DIR
               "/pattern/oled.json' --frames 5 --noise 2 --video --width 101 --height 81 --out a") == OK);
   const json config = json::parse(vpApp::readFile(run.path("a/config.json")));
-  CHECK(config["frames"] == 5); // the option goes before the file
+  CHECK(config["frames"] == 5); // the option overrides the file
   CHECK(config["camera"]["noise"] == 2.);
   CHECK(config["cells"]["rotation_deg"].get<double>() == Approx(1.5));
   CHECK(std::filesystem::file_size(run.path("a/video.mp4")) > 500);

@@ -34,7 +34,7 @@ Record record(const std::string &scene, const std::string &method, unsigned int 
   return r;
 }
 
-//! Two methods, (v) and (iii), on scenes of which so many are mastered by both, one of them, none.
+//! Two methods, (v) and (iii), with given numbers of scenes solved by both, by one of them, by none.
 Results counted(Plan &plan, int both, int onlyFirst, int onlySecond, int neither)
 {
   plan.methods = {"dtg-via", "planner-dtg"};
@@ -91,7 +91,7 @@ TEST_CASE("McNemar's exact test is a sign test", "[statistics]")
   CHECK(mcNemar(0, 1) == Approx(1.));
   CHECK(mcNemar(0, 5) == Approx(0.0625));                       // 2 / 2^5
   CHECK(mcNemar(1, 9) == Approx(2. * 11. / 1024.));             // 2 (1 + 10) / 2^10
-  CHECK(mcNemar(12, 2) == Approx(2. * (1 + 14 + 91) / 16384.)); // 0.01294, as tables of the sign test have it
+  CHECK(mcNemar(12, 2) == Approx(2. * (1 + 14 + 91) / 16384.)); // 0.01294, as in tables of the sign test
   CHECK(mcNemar(3, 8) == mcNemar(8, 3));
   CHECK(mcNemar(300, 900) < 1e-60); // factorials of 1200 would overflow
 }
@@ -121,7 +121,7 @@ TEST_CASE("Sentences follow the numbers", "[findings]")
   CHECK(verdictOf(plan, results, "planner-dtg").find("Good for S2, ") == 0);
   CHECK(verdictOf(plan, results, "dtg-via").find("Good for none of these scenes") == 0);
 
-  results = counted(plan, 80, 2, 12, 6); // the other way round
+  results = counted(plan, 80, 2, 12, 6); // reversed
   text = joined(answerOf(plan, results));
   CHECK(text.find("p = 0.013): (iii) DTG with via does significantly better.") != std::string::npos);
   results = counted(plan, 80, 5, 7, 6);
@@ -223,7 +223,7 @@ TEST_CASE("An outline holds all of a shape and no more", "[outline]")
     for (const vpApp::ArmView view : {vpApp::ArmView::Top, vpApp::ArmView::Side}) {
       const std::vector<vpApp::Polygon> polygons = vpApp::outline(object, view);
       REQUIRE(polygons.size() == 1);
-      // The area of a convex body's shadow, in closed form, along the direction of view.
+      // The projected area of a convex body along the viewing direction, in closed form.
       const Eigen::Vector3d look = view == vpApp::ArmView::Top ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX();
       const Eigen::Vector3d d = object.pose.R.transpose() * look;
       const double sine = std::hypot(d.x(), d.y()), cosine = std::fabs(d.z()), pi = std::acos(-1.);

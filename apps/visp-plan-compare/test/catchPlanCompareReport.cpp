@@ -64,7 +64,7 @@ TEST_CASE("The result has all its parts, and the same seed the same numbers", "[
   REQUIRE(status == 0);
   const nlohmann::json summary = vpApp::readJsonFile(run.path("result/summary.json"));
   CHECK(summary["program"] == "visp-plan-compare");
-  REQUIRE(summary["results"].size() == 6); // two scenes of three methods
+  REQUIRE(summary["results"].size() == 6); // two scenes with three methods
   for (const nlohmann::json &cell : summary["results"]) {
     CAPTURE(cell["scene"], cell["method"]);
     CHECK(cell["runs"] == 3);
@@ -79,7 +79,7 @@ TEST_CASE("The result has all its parts, and the same seed the same numbers", "[
     for (const char *field : {"p50", "p95", "p99"}) {
       CHECK(cell["replan_ms"][field] >= 0.);
     }
-    if (cell["method"] != "potential-corrected") { // what promises its bounds keeps them
+    if (cell["method"] != "potential-corrected") { // methods with guaranteed bounds respect them
       CHECK(cell["runs_over_joint_acceleration"] == 0);
       CHECK(cell["runs_over_joint_velocity"] == 0);
     }
@@ -105,7 +105,7 @@ TEST_CASE("The result has all its parts, and the same seed the same numbers", "[
   }
   CHECK(page.find("http://") == page.find("http://www.w3.org")); // nothing is fetched from elsewhere
 
-  // One job, another order of work: the same numbers, but for what a clock measured.
+  // One job, different order of work: the same numbers, except measured times.
   REQUIRE(run(arguments + "--jobs 1 --out again") == 0);
   const auto figures = [&](const char *file) {
     std::istringstream lines(vpApp::readFile(run.path(file)));
@@ -140,7 +140,7 @@ TEST_CASE("A scene of one's own, on drives with friction", "[visp-plan-compare]"
   REQUIRE(status == 0);
   const nlohmann::json cell = vpApp::readJsonFile(run.path("result/summary.json"))["results"][0];
   CHECK(cell["scene"] == "my <b> scene");
-  CHECK(cell["goal_error_m"]["median"] > 1e-6); // the drives do not hold the micrometre
+  CHECK(cell["goal_error_m"]["median"] > 1e-6); // the drives do not reach 1 um
   CHECK(cell["successes"] == 1);
   const std::string page = vpApp::readFile(run.path("result/report.html"));
   CHECK(page.find("my &lt;b&gt; scene") != std::string::npos);

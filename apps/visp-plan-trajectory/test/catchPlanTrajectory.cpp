@@ -27,7 +27,7 @@ json answerOf(const std::string &line)
   return json::parse(answerLine(problem, execute(problem)));
 }
 
-//! The sentence with which a line is refused.
+//! The message with which a line is rejected.
 std::string refusalOf(const std::string &line)
 {
   try {
@@ -121,7 +121,7 @@ TEST_CASE("An answer says what the motion is", "[visp-plan-trajectory]")
   for (const json &segment : answer["segments"]) {
     const auto c = segment["coefficients"][1].get<std::vector<double>>();
     const double length = segment["t1"].get<double>() - segment["t0"].get<double>();
-    for (int k = 0; k <= 2000; ++k) { // dense sampling, the oracle of the exact peaks
+    for (int k = 0; k <= 2000; ++k) { // dense sampling, the reference for the exact peaks
       v = std::max(v, std::abs(valueOf(c, length * k / 2000., 1)));
       a = std::max(a, std::abs(valueOf(c, length * k / 2000., 2)));
     }
@@ -290,7 +290,7 @@ TEST_CASE("The example files are answered, and have a picture", "[visp-plan-traj
       CAPTURE(name, line, text);
       const Problem problem = readProblem(text, name, line);
       const Motion motion = execute(problem);
-      // The thesis's iteration does not guarantee the limits, and that is said.
+      // The thesis's iteration does not guarantee the limits, which is reported.
       const bool exact = problem.input.options.method == vpDurationMethod::Exact;
       CHECK((!exact || motion.result != vpTrajectoryResult::NoFeasibleDuration));
       CHECK(motion.duration() > 0.);
@@ -338,7 +338,7 @@ TEST_CASE("Public problems: every line is refused, or its excess is told, and no
         motion = execute(problem);
       }
       catch (const std::runtime_error &error) {
-        CHECK(std::string(error.what()).find(name) == 0); // refused in a sentence
+        CHECK(std::string(error.what()).find(name) == 0); // rejected with a message
         continue;
       }
       const std::string answer = answerLine(problem, motion);
@@ -349,7 +349,7 @@ TEST_CASE("Public problems: every line is refused, or its excess is told, and no
           const double place = std::max(std::abs(problem.input.start.q[i]), std::abs(problem.input.goal.q[i]));
           CHECK(peaks.velocity <= problem.input.maxVelocity[i] * (1. + 1e-9));
           CHECK(peaks.acceleration <= problem.input.maxAcceleration[i] * (1. + 1e-9));
-          // A goal beyond its limit by the tolerance is on it.
+          // A goal within the tolerance beyond its limit counts as on it.
           CHECK(peaks.maxPosition <= std::max(problem.input.maxPosition[i], problem.input.goal.q[i]) + 1e-9 * place);
           CHECK(peaks.minPosition >= std::min(problem.input.minPosition[i], problem.input.goal.q[i]) - 1e-9 * place);
         }

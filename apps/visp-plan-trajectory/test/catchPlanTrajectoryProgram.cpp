@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The program as its users run it: exit status, what is on which stream, what is written.
+// The program as run by users: exit status, output streams, written files.
 #include "vpCatch.h"
 
 #include "programRun.h"
@@ -136,7 +136,7 @@ TEST_CASE("Ctrl-C and SIGTERM end the program while it waits for problems", "[vi
         _exit(99);
       }
       std::ofstream(pipe) << R"({"q1": 1, "v_max": 1})" << std::endl;
-      while (!std::filesystem::exists(out) || std::filesystem::file_size(out) == 0) { // it has answered and waits again
+      while (!std::filesystem::exists(out) || std::filesystem::file_size(out) == 0) { // it answered and waits again
         usleep(1000);
       }
       kill(child, signal);

@@ -15,9 +15,9 @@ namespace
 {
 using vpApp::number;
 
-constexpr double longestDelay = 8.; // frames that vpPrintExperiment can delay the camera by
+constexpr double longestDelay = 8.; // frames, maximum camera delay of vpPrintExperiment
 
-//! Openings that lie whole in a length of the product, in um: on average, and at least.
+//! Whole openings within a length of the product, in um: average and minimum.
 double cellsAlong(double length, double pitch, double opening) { return std::max(0., length - opening) / pitch; }
 } // namespace
 

@@ -4,7 +4,7 @@
  */
 /*!
  * \file design.h
- * \brief A design of a printing machine's vision and control, and what to evaluate it for.
+ * \brief A design of a printing machine's vision and control, and its evaluation task.
  */
 #ifndef printExplore_design_h
 #define printExplore_design_h
@@ -19,82 +19,82 @@ namespace printExplore
 {
 VISP_DIRECT_USING_NAMESPACE
 
-//! \brief What a designer may choose.
+//! \brief Design variables.
 struct Design {
   double frameRate = 1600.;                                   //!< Hz.
-  unsigned int width = 160;                                   //!< Of the image, px.
-  unsigned int height = 100;                                  //!< Of the image, px.
+  unsigned int width = 160;                                   //!< Image width, px.
+  unsigned int height = 100;                                  //!< Image height, px.
   double pixelSize = 4.5;                                     //!< Magnification: um on the product per px.
   double exposure = 50.;                                      //!< us.
-  vpPrintController controller = vpPrintController::Observer; //!< Of the axis of printing.
+  vpPrintController controller = vpPrintController::Observer; //!< Controller of the printing axis.
   double dropVelocity = 28.8;                                 //!< At the centres of the cells, mm/s.
-  double speedUp = 1.25;                                      //!< Mean velocity between centres over dropVelocity.
+  double speedUp = 1.25;                                      //!< Mean velocity between centres / dropVelocity.
 
   //! The camera of thesis section 7.3.1 and its velocity: 1600 Hz, 160 x 100 px, 4.5 um/px, 50 us, 4 px/frame.
   [[nodiscard]] static Design thesis(vpPrintController controller);
   [[nodiscard]] bool operator==(const Design &other) const;
-  [[nodiscard]] double pixels() const { return 1. * width * height; } //!< Of an image.
+  [[nodiscard]] double pixels() const { return 1. * width * height; } //!< Pixels of an image.
 };
 
-//! \brief The product, and how much of it is printed to judge a design.
+//! \brief The product, and the amount printed to evaluate a design.
 struct Task {
-  int cells = 40;          //!< Of one row.
-  int runs = 2;            //!< With other noise and another product each.
-  double jitter = 0.;      //!< Standard deviation of a cell's place, um.
-  double flex = 0.;        //!< Flexible pitch: cells lie up to this far off, um.
-  double flexPeriod = 20.; //!< Over so many cells.
+  int cells = 40;          //!< Cells of one row.
+  int runs = 2;            //!< Runs, each with different noise and product.
+  double jitter = 0.;      //!< Standard deviation of a cell's position, um.
+  double flex = 0.;        //!< Flexible pitch: maximum displacement of a cell, um.
+  double flexPeriod = 20.; //!< Period of the flexible pitch, cells.
 };
 
 /*!
- * \brief What all cameras have in common. The defaults are thesis section 7.3: 16000 px are read out in 500 us, over Camera
- * Link; the grey values are those of its product at 50 us and 4.5 um/px.
+ * \brief Properties shared by all cameras. The defaults are from thesis section 7.3: 16000 px are read out in 500 us,
+ * over Camera Link; the grey values are those of its product at 50 us and 4.5 um/px.
  */
 struct Camera {
   double pixelRate = 32.;      //!< Readout, 1e6 px/s.
-  double link = 255.;          //!< Bandwidth to the computer, 1e6 bytes/s, a byte a pixel.
-  bool overlap = false;        //!< The next image is exposed while this one is read out.
-  double interfaceTime = 260.; //!< Grabber, bus and output, us: with it the thesis's camera is 1.28 frames late.
+  double link = 255.;          //!< Bandwidth to the computer, 1e6 bytes/s, one byte per pixel.
+  bool overlap = false;        //!< Expose the next image during readout.
+  double interfaceTime = 260.; //!< Grabber, bus and output, us: gives 1.28 frames of delay for the thesis's camera.
   double dark = 60.;           //!< Grey value between the openings with #lightExposure and #lightPixel.
-  double bright = 170.;        //!< Grey value of the openings, likewise.
+  double bright = 170.;        //!< Grey value of the openings with #lightExposure and #lightPixel.
   double lightExposure = 50.;  //!< us.
   double lightPixel = 4.5;     //!< um.
-  double fullGrey = 240.;      //!< The lamp is dimmed so that nothing is brighter.
+  double fullGrey = 240.;      //!< Maximum grey value; the lamp is dimmed accordingly.
   double noise = 4.;           //!< vpProductPatternSpec::noise.
   double blur = 3.6;           //!< Standard deviation of the optics' blur on the product, um.
 };
 
 /*!
- * \brief Cost of computing on one core, from benchmarks on one machine: perfPatternTracker (magnified, scaling) and
- * perfPrinting. A model, so that results do not depend on the machine that explores.
+ * \brief Computing time on one core, from benchmarks on one machine: perfPatternTracker (magnified, scaling) and
+ * perfPrinting. A model, so that results do not depend on the machine running the exploration.
  */
 struct Processor {
-  double frame = 0.3;      //!< Of the tracker per image, us.
-  double cell = 0.28;      //!< Of the tracker per whole cell in view, us.
-  double cellPixel = 0.37; //!< Of the tracker per px of the pitches of these cells, ns.
+  double frame = 0.3;      //!< Tracker time per image, us.
+  double cell = 0.28;      //!< Tracker time per whole cell in view, us.
+  double cellPixel = 0.37; //!< Tracker time per px of the pitches of these cells, ns.
   double pid = 10.5;       //!< Motion, reference, control, trigger per frame with pid or pid-ff, us.
-  double observer = 11.3;  //!< The same with the observer, us.
-  double maxLoad = 1.;     //!< Share of a core that is allowed.
+  double observer = 11.3;  //!< Motion, reference, control, trigger per frame with the observer, us.
+  double maxLoad = 1.;     //!< Maximum load, fraction of a core.
 };
 
-//! \brief A bound on a figure of a design.
+//! \brief A bound on a metric of a design.
 struct Requirement {
   std::string figure; //!< One of figureNames().
-  double bound = 0.;  //!< At most, or at least where more is better.
+  double bound = 0.;  //!< Upper bound, or lower bound where more is better.
 };
 
-//! \brief All that an exploration is made of.
+//! \brief Complete setup of an exploration.
 struct Setup {
-  std::string name = "exploration"; //!< For the report.
-  std::vector<Design> designs;      //!< In the order of the results.
+  std::string name = "exploration"; //!< Name in the report.
+  std::vector<Design> designs;      //!< Designs in the order of the results.
   bool sampled = false;             //!< Drawn from ranges, not a full grid.
   Task task;
   Camera camera;
   Processor processor;
-  double maxAcceleration = 50.; //!< Of the stage's drives, m/s^2, > 0.
-  int minCells = 4;             //!< Whole cells that must be in view at any time.
-  unsigned int seed = 1;        //!< Of samples, noise and product.
-  std::vector<std::string> objectives{"landing_worst_um", "throughput_cells_per_s", "load"}; //!< Of the front.
-  std::vector<Requirement> requirements; //!< What a design must keep.
+  double maxAcceleration = 50.; //!< Limit of the stage's drives, m/s^2, > 0.
+  int minCells = 4;             //!< Minimum number of whole cells in view at any time.
+  unsigned int seed = 1;        //!< Seed of samples, noise and product.
+  std::vector<std::string> objectives{"landing_worst_um", "throughput_cells_per_s", "load"}; //!< Front objectives.
+  std::vector<Requirement> requirements; //!< Bounds that a design must satisfy.
 };
 
 //! Name on the command line and in files: "pid", "pid-ff", "observer".

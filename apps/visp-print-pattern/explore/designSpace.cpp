@@ -12,9 +12,9 @@ namespace printExplore
 {
 namespace
 {
-constexpr unsigned int firstPoint = 20; // the first ones of the larger bases lie on a line
+constexpr unsigned int firstPoint = 20; // the first points in the larger bases lie on a line
 
-//! Digits of the index, mirrored at the point.
+//! Radical inverse: digits of the index, mirrored at the point.
 double radicalInverse(unsigned int index, unsigned int base)
 {
   double value = 0., place = 1.;
@@ -102,7 +102,7 @@ std::vector<Design> DesignSpace::samples(unsigned int count, unsigned int seed) 
   std::array<double, 7> shift{};
   for (double &s : shift) {
     s = static_cast<double>(random() >> 11U) *
-        0x1p-53; // the same on every machine, unlike a distribution of the library
+        0x1p-53; // identical on every machine, unlike a standard library distribution
   }
   std::vector<Design> designs(count);
   for (unsigned int i = 0; i < count; ++i) {

@@ -4,7 +4,7 @@
  */
 /*!
  * \file designSpace.h
- * \brief Designs from lists and ranges of the variables: a full grid, or a sequence that fills the space evenly.
+ * \brief Designs from lists and ranges of the variables: a full grid, or a low-discrepancy sequence.
  */
 #ifndef printExplore_designSpace_h
 #define printExplore_designSpace_h
@@ -17,16 +17,16 @@ namespace printExplore
 {
 //! \brief Values of a variable: a list, or a range.
 struct Axis {
-  std::vector<double> values; //!< For a grid; at least one.
-  double from = 0.;           //!< Of a range, else unused.
-  double to = 0.;             //!< Its end, > from; equal: #values are a list.
-  bool logarithmic = false;   //!< Even factors instead of even steps; from > 0.
+  std::vector<double> values; //!< Values for a grid; at least one.
+  double from = 0.;           //!< Start of a range, else unused.
+  double to = 0.;             //!< End of the range, > from; if equal, #values are a list.
+  bool logarithmic = false;   //!< Geometric instead of arithmetic steps; from > 0.
 
-  //! A list.
+  //! Make a list.
   [[nodiscard]] static Axis list(const std::vector<double> &values);
-  //! A range of \e steps values, both ends among them.
+  //! Make a range of \e steps values, including both ends.
   [[nodiscard]] static Axis range(double from, double to, int steps, bool logarithmic);
-  //! The value at a share 0..1: anywhere in a range, one of a list.
+  //! The value at a fraction 0..1: interpolated in a range, or one of a list.
   [[nodiscard]] double at(double share) const;
 };
 
@@ -42,11 +42,11 @@ struct DesignSpace {
 
   //! Number of designs of grid().
   [[nodiscard]] double gridSize() const;
-  //! Every combination; the variable that is last here changes fastest.
+  //! Every combination; the last variable here changes fastest.
   [[nodiscard]] std::vector<Design> grid() const;
   /*!
-   * Halton's sequence in the bases 2, 3, 5, 7, 11, 13, 17, from its 20th point on, shifted by the seed (Cranley and Patterson 1976).
-   * Any beginning of it fills the space evenly, so more samples only add designs.
+   * Halton sequence in the bases 2, 3, 5, 7, 11, 13, 17, from its 20th point on, shifted by the seed (Cranley and
+   * Patterson 1976). Any initial part fills the space evenly, so more samples only add designs.
    */
   [[nodiscard]] std::vector<Design> samples(unsigned int count, unsigned int seed) const;
 };

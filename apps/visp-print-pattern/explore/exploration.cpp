@@ -18,7 +18,7 @@ namespace printExplore
 {
 namespace
 {
-//! About how long a design takes: images to render, and the stage between them. Any unit.
+//! Approximate cost of a design: images to render, and the stage between them. Any unit.
 double effortOf(const Design &design, const Setup &setup)
 {
   const Timing timing = timingOf(design, setup);

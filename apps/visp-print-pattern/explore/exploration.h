@@ -17,25 +17,25 @@
 
 namespace printExplore
 {
-//! \brief What an exploration found.
+//! \brief Result of an exploration.
 struct Exploration {
-  std::vector<Outcome> outcomes;  //!< By the order of the setup's designs.
-  std::vector<std::size_t> front; //!< Indices of the Pareto front, ascending; of designs that keep what is required.
-  std::ptrdiff_t best = -1;       //!< The compromise among these; -1: none.
-  std::size_t feasible = 0;       //!< Designs that work.
-  std::size_t required = 0;       //!< Of these, those that keep what is required.
+  std::vector<Outcome> outcomes;  //!< In the order of the setup's designs.
+  std::vector<std::size_t> front; //!< Indices of the Pareto front, ascending, among designs that meet the requirements.
+  std::ptrdiff_t best = -1;       //!< Best compromise on the front; -1: none.
+  std::size_t feasible = 0;       //!< Number of feasible designs.
+  std::size_t required = 0;       //!< Number of feasible designs that meet the requirements.
 };
 
 /*!
- * Which designs each rank evaluates: the longest ones first, each to the rank with the least to do. The same on every rank.
- * \return For each rank the indices of its designs.
+ * Distributes the designs: the longest ones first, each to the least loaded rank. The same on every rank.
+ * \return Indices of the designs of each rank.
  */
 [[nodiscard]] std::vector<std::vector<std::size_t>> shareOut(const Setup &setup, int ranks);
 
 /*!
  * Evaluate all designs, with progress on stderr. The result does not depend on the number of ranks or threads.
  * \param jobs : Threads of this rank; 0: its share of the cores.
- * \return On rank 0 everything; elsewhere nothing.
+ * \return The result on rank 0; empty elsewhere.
  * \throw vpApp::Interrupted after Ctrl-C.
  */
 [[nodiscard]] Exploration explore(const Setup &setup, const Ranks &ranks, unsigned int jobs);

@@ -19,7 +19,7 @@ using vpApp::HtmlReport;
 using vpApp::HtmlTable;
 using vpApp::number;
 
-constexpr std::size_t mostRows = 60; // of the table of the front; the CSV has all
+constexpr std::size_t mostRows = 60; // rows of the front's table; the CSV has all
 
 HtmlTable::Row header(const std::vector<const char *> &names)
 {

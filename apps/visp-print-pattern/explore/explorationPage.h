@@ -13,7 +13,7 @@
 
 namespace printExplore
 {
-//! The page, with everything in it.
+//! The page, self-contained.
 [[nodiscard]] std::string explorationPage(const Setup &setup, const Exploration &result,
                                           const std::vector<Plotted> &plots, const std::string &commandLine);
 } // namespace printExplore

@@ -33,7 +33,7 @@ void add(PlotCurve &curve, const Outcome &outcome, const Figure &x, const Figure
   curve.y.push_back(y.of(outcome));
 }
 
-//! \brief A colour and what it stands for.
+//! \brief A colour and its meaning.
 struct Kind {
   std::string label;
   const char *colour;
@@ -53,7 +53,7 @@ std::vector<Kind> byController()
   return kinds;
 }
 
-//! Thirds of the loads that occur, light to dark.
+//! Terciles of the loads, light to dark.
 std::vector<Kind> byLoad(const Exploration &result)
 {
   std::vector<double> loads;
@@ -77,7 +77,7 @@ std::vector<Kind> byLoad(const Exploration &result)
   return kinds;
 }
 
-//! Designs that work in the plane of two figures; rings: the front.
+//! Feasible designs in the plane of two metrics; rings: the front.
 Plot frontPlot(const Setup &setup, const Exploration &result, const std::vector<Kind> &kinds, const std::string &title)
 {
   const Figure &y = figureCalled(setup.objectives[0]);
@@ -122,7 +122,7 @@ Plot frontPlot(const Setup &setup, const Exploration &result, const std::vector<
   return plot;
 }
 
-//! Figure 7.1: image size against frame rate, with what camera and link allow.
+//! Figure 7.1: image size against frame rate, with the limits of camera and link.
 Plotted cameraPlot(const Setup &setup, const Exploration &result)
 {
   PlotCurve works = points("at least one design works", "#1f77b4", 4.), fails = points("none works", GREY, 4.);

@@ -4,7 +4,7 @@
  */
 /*!
  * \file explorationPlots.h
- * \brief Pictures of an exploration.
+ * \brief Figures of an exploration.
  */
 #ifndef printExplore_explorationPlots_h
 #define printExplore_explorationPlots_h
@@ -16,17 +16,17 @@
 
 namespace printExplore
 {
-//! \brief A picture as SVG.
+//! \brief A figure as SVG.
 struct Plotted {
   std::string name;    //!< File name without extension.
-  std::string alt;     //!< What it shows, in words.
-  std::string caption; //!< Below it.
+  std::string alt;     //!< Alternative text.
+  std::string caption; //!< Caption.
   std::string svg;
 };
 
 /*!
- * The front in the plane of the first two objectives, by controller and by load; what each variable does to the first objective;
- * which cameras can work (figure 7.1 of the thesis).
+ * The front in the plane of the first two objectives, by controller and by load; influence of each variable on the
+ * first objective; feasible cameras (figure 7.1 of the thesis).
  */
 [[nodiscard]] std::vector<Plotted> explorationPlots(const Setup &setup, const Exploration &result);
 } // namespace printExplore

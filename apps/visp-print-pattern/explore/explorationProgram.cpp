@@ -84,7 +84,7 @@ void exploreFile(const std::string &file, const std::string &out, unsigned int j
   if (ranks.rank() == 0) {
     vpApp::requireGnuplot();
     text = vpApp::readFile(file);
-    static_cast<void>(readSetup(text, file)); // complains before the others wait for work
+    static_cast<void>(readSetup(text, file)); // reports errors before the others wait for work
     folder = std::make_unique<vpApp::OutputFolder>("visp-print-pattern", out);
   }
   const Setup setup = readSetup(ranks.broadcast(text), file);

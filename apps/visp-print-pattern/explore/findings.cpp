@@ -16,7 +16,7 @@ namespace
 using vpApp::fixed;
 using vpApp::number;
 
-//! Designs that keep what is required, are at least as good in all objectives and better in one.
+//! Designs that meet the requirements, are at least as good in all objectives and better in one.
 std::size_t betterThan(const Setup &setup, const Exploration &result, const Outcome &one)
 {
   const auto costs = [&](const Outcome &outcome) {

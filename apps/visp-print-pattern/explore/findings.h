@@ -4,7 +4,7 @@
  */
 /*!
  * \file findings.h
- * \brief What an exploration says, in sentences.
+ * \brief Results of an exploration in sentences.
  */
 #ifndef printExplore_findings_h
 #define printExplore_findings_h
@@ -17,11 +17,11 @@
 
 namespace printExplore
 {
-//! How many designs do not work, by the kind of their verdict.
+//! Number of infeasible designs, by the kind of their verdict.
 [[nodiscard]] std::map<std::string, std::size_t> reasonsOf(const Exploration &result);
-//! What a kind of verdict means, for people.
+//! Description of a kind of verdict.
 [[nodiscard]] std::string meaningOf(const std::string &kind);
-//! The answer: how many work, the best compromise, where the thesis's camera lies.
+//! Main result: number of feasible designs, best compromise, position of the thesis's camera.
 [[nodiscard]] std::vector<std::string> findingsOf(const Setup &setup, const Exploration &result);
 //! "95 % of the drops within 0.31 um, worst 0.40 um, 163.6 cells/s, 2.7 % of a core".
 [[nodiscard]] std::string figuresText(const Outcome &outcome);

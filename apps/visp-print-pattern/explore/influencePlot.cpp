@@ -20,9 +20,9 @@ using vpApp::Plot;
 using vpApp::PlotCurve;
 using vpApp::PlotStyle;
 
-constexpr std::size_t mostClasses = 8; // of a variable that has more values
+constexpr std::size_t mostClasses = 8; // maximum number of classes of a variable
 
-//! \brief A variable of a design: what to order by, and how its value is called.
+//! \brief A variable of a design: sort key and name of its value.
 struct Variable {
   const char *text;
   double (*value)(const Design &);
@@ -50,7 +50,7 @@ const std::vector<Variable> &variables()
   return all;
 }
 
-//! Values in classes: each its own, or eighths of the designs where there are many.
+//! Values in classes: one per value, or octiles of the designs if there are many.
 std::map<double, std::size_t> classesOf(const std::vector<Outcome> &outcomes, const Variable &variable)
 {
   std::vector<double> values;
@@ -111,7 +111,7 @@ Plot panelOf(const Variable &variable, const std::map<double, std::size_t> &clas
   plot.logY = true;
   plot.width = 1060;
   plot.height = 330;
-  PlotCurve bestPoints = best, medianPoints = median; // a class alone has no line
+  PlotCurve bestPoints = best, medianPoints = median; // a single class has no line
   bestPoints.style = medianPoints.style = PlotStyle::Points;
   bestPoints.label = medianPoints.label = "";
   bestPoints.width = medianPoints.width = 3.;

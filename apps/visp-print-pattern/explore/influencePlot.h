@@ -4,7 +4,7 @@
  */
 /*!
  * \file influencePlot.h
- * \brief What each variable does to the first objective.
+ * \brief Influence of each variable on the first objective.
  */
 #ifndef printExplore_influencePlot_h
 #define printExplore_influencePlot_h
@@ -13,7 +13,7 @@
 
 namespace printExplore
 {
-//! A panel for each variable that varies: all designs that work, the best one and the median at each value.
+//! One panel per varying variable: all feasible designs, the best one and the median at each value.
 [[nodiscard]] Plotted influencePlot(const Setup &setup, const Exploration &result);
 } // namespace printExplore
 

@@ -13,12 +13,12 @@ namespace printExplore
 {
 namespace
 {
-constexpr double basePixel = 4.5, baseRate = 1600.; // um, Hz: units in which the machine is described
-constexpr double baseVelocity = 4.;                 // px/frame, to which the reference's constants belong
-constexpr double baseDelay = 1.28, hold = 0.5;      // frames of the thesis's loop; what a held command adds
-constexpr int runOut = 8;                           // cells behind the last one that counts
-constexpr int runUp = 3;                            // times of a cell, to get into motion
-constexpr double mostCommands = 56.;                // that the observer remembers beyond the camera's delay
+constexpr double basePixel = 4.5, baseRate = 1600.; // um, Hz: units of the machine description
+constexpr double baseVelocity = 4.;                 // px/frame, for the reference's constants
+constexpr double baseDelay = 1.28, hold = 0.5;      // frames: delay of the thesis's loop; delay of a held command
+constexpr int runOut = 8;                           // cells after the last counted one
+constexpr int runUp = 3;                            // cell times, for acceleration
+constexpr double mostCommands = 56.;                // commands stored by the observer beyond the camera's delay
 
 double pxPerFrame(double mmPerSecond) { return mmPerSecond * 1e3 / basePixel / baseRate; }
 
@@ -37,7 +37,7 @@ vpPrintExperimentSpec machineOf(const Design &design, const Setup &setup, const 
   spec.dropVelocity = pxPerFrame(design.dropVelocity);
   spec.reference.meanVelocity = design.speedUp * spec.dropVelocity;
   const double faster = spec.dropVelocity / baseVelocity;
-  spec.reference.freeze /= faster; // share of the time from cell to cell
+  spec.reference.freeze /= faster; // fraction of the time from cell to cell
   // Jerk grows with the cube of the velocity and lasts as long as a cell.
   spec.forecast.processNoise *= std::pow(faster, 5);
   const double bound = setup.maxAcceleration * 1e6 / basePixel / (baseRate * baseRate);
@@ -54,7 +54,7 @@ void retune(vpPrintExperimentSpec &spec, const vpPrintUnits &units, double delay
   const double bound = spec.pid.maxForce;
   const vpFrictionModel model = spec.pid.model;
   spec.pid = vpInUnits(spec.pid, units, slower);
-  spec.pid.maxForce = bound; // of the drives, not of the tuning
+  spec.pid.maxForce = bound; // limit of the drives, not a tuning parameter
   spec.pid.model = model;
   spec.filter = vpInUnits(spec.filter, units, slower);
   spec.filterAhead *= frames / thesis;
@@ -96,7 +96,7 @@ vpPrintExperimentSpec experimentOf(const Design &design, const Setup &setup, con
   spec.product = productOf(design, setup, timing);
   spec.sensor = vpPrintSensor::Image;
   spec.visionDelay = timing.delayFrames;
-  // A control of velocities stops short of the last cell; and who is a fourth too slow has failed.
+  // A velocity control stops short of the last cell; a run 25 % too slow has failed.
   spec.cellsPerRow = setup.task.cells + setup.task.cells / 4 + runOut;
   const double cellTime = Lengths::pitchX * 1e-3 / (design.dropVelocity * design.speedUp); // s
   spec.frames = static_cast<int>(std::ceil(1.25 * (setup.task.cells + runUp) * cellTime * design.frameRate));

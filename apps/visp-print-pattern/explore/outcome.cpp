@@ -20,7 +20,7 @@ namespace printExplore
 {
 namespace
 {
-//! Another number for each design and run, whatever the seeds are (splitmix64).
+//! A different number for each design and run, for any seeds (splitmix64).
 unsigned int seedOf(unsigned int seed, std::size_t index, int run)
 {
   std::uint64_t z = (static_cast<std::uint64_t>(seed) << 40U) + 64U * index + static_cast<std::uint64_t>(run);
@@ -30,7 +30,7 @@ unsigned int seedOf(unsigned int seed, std::size_t index, int run)
   return static_cast<unsigned int>((z ^ (z >> 31U)) >> 33U);
 }
 
-//! Drops of the cells that count: columns -1, -2 ... in the order of printing.
+//! Drops of the counted cells: columns -1, -2 ... in printing order.
 void takeRun(Outcome &outcome, const vpPrintRun &run, int cells, std::vector<double> &errors)
 {
   std::vector<int> drops(static_cast<std::size_t>(cells), 0);
@@ -132,7 +132,7 @@ Outcome evaluate(const Design &design, std::size_t index, const Setup &setup, bo
     try {
       simulate(outcome, index, setup, goOn);
     }
-    catch (const vpException &error) { // a length or gain that the modules do not allow
+    catch (const vpException &error) { // a length or gain rejected by the modules
       outcome.verdict = {"model", vpApp::sentenceOf(error)};
     }
   }

@@ -4,7 +4,7 @@
  */
 /*!
  * \file outcome.h
- * \brief What became of a design.
+ * \brief Evaluation of a design.
  */
 #ifndef printExplore_outcome_h
 #define printExplore_outcome_h
@@ -13,42 +13,43 @@
 
 namespace printExplore
 {
-//! \brief A design with its figures. Those of the closed loop are 0 unless it was simulated.
+//! \brief A design with its metrics. Closed-loop metrics are 0 unless it was simulated.
 struct Outcome {
   Design design;
   Timing timing;
   Verdict verdict;
-  double sensorX = 0.;      //!< Deviation of a cell along the motion, um.
-  double sensorY = 0.;      //!< Across, um.
-  double landingRms = 0.;   //!< Distance of the drops from the centres over all runs, um.
-  double landing95 = 0.;    //!< 95 % are nearer, um.
-  double landingWorst = 0.; //!< The largest, um.
-  int cells = 0;            //!< That were to be printed in all runs.
-  int missed = 0;           //!< Without a drop: passed over, or not reached in 1.25 times the time it should take.
-  int doubled = 0;          //!< With more than one.
-  double throughput = 0.;   //!< Cells a second, mean of the runs.
+  double sensorX = 0.;      //!< Standard deviation of a cell along the motion, um.
+  double sensorY = 0.;      //!< Standard deviation of a cell across the motion, um.
+  double landingRms = 0.;   //!< Rms distance of the drops from the centres over all runs, um.
+  double landing95 = 0.;    //!< 95th percentile of the distance, um.
+  double landingWorst = 0.; //!< Largest distance, um.
+  int cells = 0;            //!< Cells to be printed in all runs.
+  int missed = 0;           //!< Cells without a drop: skipped, or not reached within 1.25 times the expected time.
+  int doubled = 0;          //!< Cells with more than one drop.
+  double throughput = 0.;   //!< Cells per second, mean of the runs.
   bool thesis = false;      //!< The camera and velocity of the thesis.
   bool front = false;       //!< #required, and no such design is better in one objective and as good in all others.
-  bool required = false;    //!< Keeps what is required, and works.
+  bool required = false;    //!< Feasible, and meets the requirements.
 };
 
-//! \brief A figure of an outcome that can be an objective or be required.
+//! \brief A metric of an outcome, usable as objective or requirement.
 struct Figure {
-  const char *name; //!< In files.
-  const char *text; //!< For people, with its unit.
+  const char *name; //!< Name in files.
+  const char *text; //!< Readable name, with unit.
   bool more;        //!< More is better.
   double (*of)(const Outcome &);
 };
 
-//! All such figures.
+//! All metrics.
 [[nodiscard]] const std::vector<Figure> &figures();
-//! That called so. \throw std::out_of_range if there is none.
+//! Metric of that name. \throw std::out_of_range if there is none.
 [[nodiscard]] const Figure &figureCalled(const std::string &name);
 
 /*!
- * Simulate a design: what the camera sees, then the closed loop with rendered pictures, once for each run.
- * \param design : Of the setup. \param index : Its number there; with the setup's seed it fixes everything random.
- * \param goOn : Asked now and then; false stops early, and the outcome is of no use.
+ * Simulate a design: camera test, then the closed loop with rendered images, once per run.
+ * \param design : Design of the setup. \param index : Its index; with the setup's seed it determines all random
+ * numbers.
+ * \param goOn : Polled; false stops early with an invalid outcome.
  */
 [[nodiscard]] Outcome evaluate(const Design &design, std::size_t index, const Setup &setup, bool (*goOn)());
 } // namespace printExplore

@@ -82,7 +82,7 @@ std::string packed(const std::vector<Outcome> &outcomes)
     list.push_back({o.sensorX, o.sensorY, o.landingRms, o.landing95, o.landingWorst, o.throughput, o.cells, o.missed,
                     o.doubled, o.verdict.kind, o.verdict.sentence});
   }
-  return list.dump(); // shortest digits that are read back to the same number
+  return list.dump(); // shortest digits that restore the same number
 }
 
 std::vector<Outcome> unpacked(const std::string &text, const std::vector<std::size_t> &share, const Setup &setup)

@@ -4,7 +4,7 @@
  */
 /*!
  * \file outcomeText.h
- * \brief Outcomes as text: between ranks, and as files.
+ * \brief Outcomes as text: for exchange between ranks, and as files.
  */
 #ifndef printExplore_outcomeText_h
 #define printExplore_outcomeText_h
@@ -18,9 +18,9 @@
 
 namespace printExplore
 {
-//! What the closed loop found, exactly; for unpacked().
+//! Closed-loop results without loss, for unpacked().
 [[nodiscard]] std::string packed(const std::vector<Outcome> &outcomes);
-//! \param share : Indices of the designs that were packed. \throw std::runtime_error if the text has others.
+//! \param share : Indices of the packed designs. \throw std::runtime_error if the text has others.
 [[nodiscard]] std::vector<Outcome> unpacked(const std::string &text, const std::vector<std::size_t> &share,
                                             const Setup &setup);
 
@@ -29,7 +29,7 @@ namespace printExplore
 //! summary.json without the fields that OutputFolder adds.
 [[nodiscard]] nlohmann::ordered_json summaryOf(const Setup &setup, const Exploration &result,
                                                const std::string &commandLine, double wallTime);
-//! A design with all its figures, by the names of the CSV's columns.
+//! A design with all its metrics, by the column names of the CSV.
 [[nodiscard]] nlohmann::ordered_json jsonOf(const Outcome &outcome);
 } // namespace printExplore
 

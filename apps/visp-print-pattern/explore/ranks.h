@@ -4,7 +4,7 @@
  */
 /*!
  * \file ranks.h
- * \brief The processes that mpirun started, or this one alone. Built from ranksMpi.cpp where MPI is, else from
+ * \brief The processes started by mpirun, or a single process. Built from ranksMpi.cpp with MPI, else from
  * ranksSingle.cpp.
  */
 #ifndef printExplore_ranks_h
@@ -16,26 +16,26 @@
 namespace printExplore
 {
 /*!
- * \brief MPI from the first line of a program to its last. MPI begins only if mpirun started the program, which the environment
- * tells; a plain start needs nothing of it. One thread, that of main(), may call these functions.
+ * \brief MPI for the lifetime of a program. MPI is initialised only if the environment shows that mpirun started the
+ * program; a plain start does not need MPI. Only the thread of main() may call these functions.
  */
 class Ranks
 {
 public:
-  //! \throw std::runtime_error if mpirun started several processes of a program that was built without MPI.
+  //! \throw std::runtime_error if mpirun started several processes of a program built without MPI.
   Ranks();
   ~Ranks();
   Ranks(const Ranks &) = delete;
   Ranks &operator=(const Ranks &) = delete;
 
-  [[nodiscard]] int rank() const { return m_rank; }   //!< Of this process, 0..size() - 1.
-  [[nodiscard]] int size() const { return m_size; }   //!< Processes; 1 without mpirun.
-  [[nodiscard]] int local() const { return m_local; } //!< Those of them on this machine, this one included.
+  [[nodiscard]] int rank() const { return m_rank; }   //!< Rank of this process, 0..size() - 1.
+  [[nodiscard]] int size() const { return m_size; }   //!< Number of processes; 1 without mpirun.
+  [[nodiscard]] int local() const { return m_local; } //!< Number of processes on this machine, including this one.
   //! The text of rank 0, on all ranks.
   [[nodiscard]] std::string broadcast(const std::string &text) const;
-  //! The texts of all ranks by rank, on rank 0; elsewhere nothing.
+  //! The texts of all ranks in rank order, on rank 0; empty elsewhere.
   [[nodiscard]] std::vector<std::string> gather(const std::string &text) const;
-  //! End all ranks with a status; returns it if there is only one.
+  //! End all ranks with a status; returns the status if there is only one rank.
   [[nodiscard]] int endAll(int status) const;
 
 private:

@@ -16,9 +16,9 @@ namespace
 {
 constexpr int learningFrames = 120, frames = 60;
 constexpr double learningVelocity = 0.37;     // px/frame, as in the print experiment
-constexpr double across = 0.013;              // share of the velocity, so that all phases of the pixels come by
+constexpr double across = 0.013;              // fraction of the velocity, so that all pixel phases occur
 constexpr double leastSigma = 1e-4;           // px
-constexpr unsigned int firstNoise = 2000000u; // frame numbers that no run uses
+constexpr unsigned int firstNoise = 2000000u; // frame numbers unused by runs
 
 //! \brief Sum and sum of squares.
 struct Moments {
@@ -36,7 +36,7 @@ struct Moments {
   }
 };
 
-//! \brief Errors of cells and of their mean over a frame; a bias that is always the same moves nothing.
+//! \brief Errors of cells and of their mean over a frame; a constant bias has no effect.
 struct Errors {
   Moments x, y, meanX;
 
@@ -76,7 +76,7 @@ SensorTest testSensor(const vpProductPatternSpec &spec, double velocity)
   }
   Errors errors;
   double held = 0.;
-  // The velocity grows from frame to frame, by half of the reach of the tracker at most.
+  // The velocity grows from frame to frame, by at most half of the tracker's range.
   const double gain = std::min(1., 20. / frames);
   double place = 0., v = 0.;
   for (int k = 0; k < frames; ++k) {

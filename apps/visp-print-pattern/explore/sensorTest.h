@@ -4,7 +4,7 @@
  */
 /*!
  * \file sensorTest.h
- * \brief How well a camera sees the cells: rendered pictures through vpPatternTracker, against the truth.
+ * \brief Accuracy of a camera for the cells: rendered images through vpPatternTracker, against the ground truth.
  */
 #ifndef printExplore_sensorTest_h
 #define printExplore_sensorTest_h
@@ -17,16 +17,16 @@ VISP_DIRECT_USING_NAMESPACE
 
 //! \brief Errors of a sensor, px.
 struct SensorTest {
-  vpPrintSensorModel model; //!< Deviations of a cell, and how many cells are independent; for the estimators.
-  double held = 0.;         //!< Share of the frames in which the tracker had cells, 0..1.
+  vpPrintSensorModel model; //!< Standard deviations of a cell, and number of independent cells; for the estimators.
+  double held = 0.;         //!< Fraction of frames in which the tracker had cells, 0..1.
   double cells = 0.;        //!< Measured cells per frame.
-  //! True if the tracker has hardly ever lost the product, and measured enough to tell its errors.
+  //! True if the tracker hardly ever lost the product, and measured enough cells to estimate its errors.
   [[nodiscard]] bool good() const { return held >= 0.95 && cells >= 1.; }
 };
 
 /*!
- * The tracker learns the product at a slow motion, as in the print experiment, and then sees it at the velocity of the drops.
- * \param product : What the camera sees. \param velocity : px/frame.
+ * The tracker learns the product at slow motion, as in the print experiment, then sees it at the drop velocity.
+ * \param product : Product seen by the camera. \param velocity : px/frame.
  */
 [[nodiscard]] SensorTest testSensor(const vpProductPatternSpec &product, double velocity);
 } // namespace printExplore

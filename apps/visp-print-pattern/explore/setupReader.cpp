@@ -21,7 +21,7 @@ using vpApp::JsonObject;
 
 constexpr double mostDesigns = 1e6;
 
-//! \brief What a number may be.
+//! \brief Valid range of a number.
 struct Range {
   double least, most;
   [[nodiscard]] bool holds(double value) const { return value >= least && value <= most; }
@@ -243,7 +243,7 @@ void makeDesigns(JsonObject &top, const DesignSpace &space, Setup &setup)
   else {
     setup.designs = space.grid();
   }
-  if (top.flag("thesis", true)) { // its camera beside them, with the same controllers
+  if (top.flag("thesis", true)) { // also its camera, with the same controllers
     for (const vpPrintController controller : space.controllers) {
       const Design design = Design::thesis(controller);
       if (std::find(setup.designs.begin(), setup.designs.end(), design) == setup.designs.end()) {

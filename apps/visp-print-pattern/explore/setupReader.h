@@ -4,7 +4,7 @@
  */
 /*!
  * \file setupReader.h
- * \brief An exploration from its JSON file; data/explore/README.md describes the format.
+ * \brief Reads an exploration from its JSON file; data/explore/README.md describes the format.
  */
 #ifndef printExplore_setupReader_h
 #define printExplore_setupReader_h
@@ -16,7 +16,7 @@
 namespace printExplore
 {
 /*!
- * \param text : The file's content. \param file : Its name, which begins every message.
+ * \param text : File content. \param file : File name, the prefix of every message.
  * \throw std::runtime_error naming the file, the field and the value.
  */
 [[nodiscard]] Setup readSetup(const std::string &text, const std::string &file);

@@ -25,7 +25,7 @@ using namespace printExplore;
 
 namespace
 {
-//! By the definition, each point against all others.
+//! By definition, each point against all others.
 std::vector<std::size_t> bruteForceFront(const std::vector<Costs> &points)
 {
   std::vector<std::size_t> front;
@@ -70,7 +70,7 @@ TEST_CASE("The compromise is a point of the front, and scale plays no part", "[e
   CHECK(compromise({{0., 10.}, {4., 4.}, {10., 0.}}) == 1);
   CHECK(compromise({{0., 10e6}, {4., 4e6}, {10., 0.}}) == 1);
   CHECK(compromise({{1., 1.}}) == 0);
-  CHECK(compromise({{2., 5.}, {1., 5.}}) == 1); // all alike in the second
+  CHECK(compromise({{2., 5.}, {1., 5.}}) == 1); // all equal in the second
   const unsigned int seed = GENERATE(range(0u, 50u));
   CAPTURE(seed);
   std::mt19937 random(seed);
@@ -371,7 +371,7 @@ TEST_CASE("Only designs that work are on the front, and the best keeps what is r
   outcomes[2].verdict = {"tracker", "lost"};
   const Exploration result = judge(setup, outcomes);
   CHECK(result.feasible == 3);
-  CHECK(result.front == std::vector<std::size_t>{1}); // 0 is too slow, 2 does not work, 1 is better than 3
+  CHECK(result.front == std::vector<std::size_t>{1}); // 0 is too slow, 2 is infeasible, 1 is better than 3
   CHECK(result.best == 1);
   CHECK(result.required == 2);
   CHECK(reasonsOf(result).at("tracker") == 1);

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// visp-print-pattern --explore as its users run it, on one process.
+// visp-print-pattern --explore as run by users, on one process.
 #include "vpCatch.h"
 
 #include "programRun.h"
@@ -17,7 +17,7 @@ using nlohmann::json;
 
 constexpr int OK = 0, DATA = 1, USAGE = 2;
 
-// 2 cameras that work, one without time for its readout, one that sees no cell, one that is too slow for the motion.
+// 2 feasible cameras, one without time for its readout, one that sees no cell, one too slow for the motion.
 const std::string SPEC =
     R"({"seed": 4, "design": {"frame_rate_hz": [300, 1600, 2400], "image_px": [[96, 72], [160, 100]],
   "um_per_px": [2, 6], "drop_velocity_mm_s": 40, "controller": ["observer", "pid"]}, "task": {"cells": 8, "runs": 1},
@@ -52,7 +52,7 @@ TEST_CASE("An exploration is the same on one thread and on three, and says what 
   }
   const json summary = summaryOf(run, "a");
   CHECK(summary == summaryOf(run, "b"));
-  CHECK(summary["designs"] == 3 * 2 * 2 * 2 + 2); // and the thesis's camera with both controllers
+  CHECK(summary["designs"] == 3 * 2 * 2 * 2 + 2); // plus the thesis's camera with both controllers
   CHECK(lines(vpApp::readFile(run.path("a/explore.csv"))) == 27);
   CHECK(lines(vpApp::readFile(run.path("a/front.csv"))) == summary["front"].size() + 1);
   CHECK(summary["feasible"].get<int>() >= 4);

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// visp-print-pattern --explore under mpirun. Skipped where mpirun is missing; not built where the program has no MPI.
+// visp-print-pattern --explore under mpirun. Skipped if mpirun is missing; not built if the program has no MPI.
 #include "vpCatch.h"
 
 #include "programRun.h"
@@ -25,7 +25,7 @@ bool haveMpirun()
   return false;
 }
 
-//! What stands before the program's name. As root, as in a container, Open MPI wants to be told twice.
+//! Command prefix of the program. Open MPI requires two confirmations to run as root, as in a container.
 std::string mpirun(int ranks)
 {
   return "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --oversubscribe -n " + std::to_string(ranks);
@@ -57,7 +57,7 @@ TEST_CASE("Any number of ranks gives the files of one process", "[explore]")
     CAPTURE(ranks);
     REQUIRE(run("--explore spec.json --out many", mpirun(ranks)) == 0);
     CAPTURE(run.err());
-    CHECK(occurrences(run.out(), "are on the Pareto front") == 1); // only the first rank speaks
+    CHECK(occurrences(run.out(), "are on the Pareto front") == 1); // only the first rank prints
     for (const char *file : {"explore.csv", "front.csv", "front.json"}) {
       CAPTURE(file);
       CHECK(vpApp::readFile(run.path(std::string("one/") + file)) ==

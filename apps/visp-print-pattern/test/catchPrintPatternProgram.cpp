@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The program as its users run it: exit status, what it says, and that its figures follow from its own tables.
+// The program as run by users: exit status, messages, and consistency of its results with its tables.
 #include "vpCatch.h"
 
 #include "programRun.h"
@@ -127,7 +127,7 @@ TEST_CASE("Rows that are bent and off their regular place are hit in the middle"
   REQUIRE(run("--no-thesis --sensor tracker --axis xy --rows 4 --cells 25 --flex 2 --out d") == OK);
   const json summary = json::parse(vpApp::readFile(run.path("d/summary.json")));
   CHECK(summary["printed"] == 100);
-  // 2 px = 9 um is how far the rows are off.
+  // The rows are off by 2 px = 9 um.
   CHECK(summary["landing_error_um"]["max"].get<double>() < 1.5);
 }
 

@@ -22,7 +22,7 @@ using namespace servoCompare;
 
 namespace
 {
-//! Results with given figures instead of simulated ones.
+//! Results with given metrics instead of simulated ones.
 Results resultsOf(const Plan &plan, const std::function<vpServoMetrics(const vpServoRunSpec &)> &metrics)
 {
   Results results(plan.runs.size());
@@ -174,7 +174,7 @@ TEST_CASE("With --shape every run occurs raw and shaped, and each is found", "[v
   CHECK(results.spread("ibvs", "D", "points", &vpServoMetrics::settle_s, Command::Shaped)->least == 101.);
   const vpApp::HtmlTable table = stepTable(plan, results, plan.hardPlant(), "points");
   REQUIRE(table.rows.size() == 1);
-  REQUIRE(table.rows[0].size() == 15); // law, then seven figures raw and shaped
+  REQUIRE(table.rows[0].size() == 15); // law, then seven metrics raw and shaped
   CHECK(table.rows[0][11].text == "1.50");
   CHECK(table.rows[0][12].text == "101.50");
   CHECK(stepTable(plan, results, plan.hardPlant(), "image").rows.empty());
@@ -203,7 +203,7 @@ TEST_CASE("What shaping costs follows from the numbers", "[visp-servo-compare]")
                         }));
   };
   const std::vector<std::string> sentences = findings();
-  REQUIRE(sentences.size() == 4); // one plant: its cost is told once
+  REQUIRE(sentences.size() == 4); // one plant: its cost is reported once
   CHECK(sentences[0] == "Over all laws and plants the command asks for accelerations of up to 30 m/s^2 and 49.6 "
                         "rad/s^2 raw, and of up to 1 m/s^2 and 2.5 rad/s^2 shaped.");
   CHECK(sentences[1] ==

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Every kind of bad input: the exit status, one sentence that names the thing and its value, and nothing written.
+// Every kind of bad input: exit status, one message naming the item and its value, and nothing written.
 #include "vpCatch.h"
 
 #include "programRun.h"
@@ -14,7 +14,7 @@ namespace
 constexpr int DATA = 1;
 constexpr int USAGE = 2;
 
-//! The good task file, with one piece replaced.
+//! The valid task file, with one part replaced.
 std::string task(const std::string &piece = "", const std::string &replacement = "")
 {
   std::string text = R"({
@@ -106,7 +106,7 @@ TEST_CASE("A bad robot ends with a sentence that names the file and the element"
                             "upper='1' velocity='1' effort='1'/></joint></robot>");
   check(run, {"--robot two.urdf --plant A", DATA, "two.urdf"});
   check(run, {"--robot two.urdf --robot-tip z --plant A", DATA, "two.urdf"});
-  // One joint cannot take the camera to all poses; nor can an arm without masses be driven by torques.
+  // One joint cannot move the camera to all poses; an arm without masses cannot be torque-driven.
   check(run, {"--robot two.urdf --robot-tip b --plant A", DATA, "from none of 200 start configurations"});
   std::string amor = vpApp::readFile(std::string(VISP_DIRECT_DATA_DIR) + "/robot/amor.json");
   const std::string mass =
@@ -160,7 +160,7 @@ TEST_CASE("A bad task file ends with status 1 and names the field", "[visp-servo
   with(task("\"px\": 800", "\"px\": 0"), "camera: px is 0, must be > 0");
   with(task("\"width_m\": 0.18", "\"width_m\": -0.18"), "objectWidth of the task is -0.18");
   with(task("\"object\"", "\"objekt\""), "object is missing");
-  // The shaper's limits are checked whether or not --shape is given.
+  // The shaper's limits are checked with and without --shape.
   const std::string jerk = "\"linear_jerk_mps3\": 20";
   with(task(jerk, "\"linear_jerk_mps3\": 0"), "shape: linear_jerk_mps3 is 0, must be > 0");
   with(task(jerk, "\"linear_acceleration_mps2\": -1"), "shape: linear_acceleration_mps2 is -1, must be > 0");

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// A whole run of the program: is everything in the result folder, and is it what it should be?
+// A complete run of the program: presence and correctness of all result files.
 #include "vpCatch.h"
 
 #include "jsonReader.h"
@@ -55,7 +55,7 @@ TEST_CASE("A small comparison leaves a whole result", "[visp-servo-compare]")
   CAPTURE(run.err());
   REQUIRE(status == 0);
   CHECK(run.out() == "Report: " + run.path("new/result/report.html").string() + "\n");
-  CHECK(run.err().find('\r') == std::string::npos); // no bar outside of a terminal
+  CHECK(run.err().find('\r') == std::string::npos); // no progress bar outside a terminal
 
   const nlohmann::json summary = vpApp::readJsonFile(run.path("new/result/summary.json"));
   CHECK(summary["program"] == "visp-servo-compare");
@@ -85,7 +85,7 @@ TEST_CASE("A small comparison leaves a whole result", "[visp-servo-compare]")
     CHECK(item["gains"]["lambda"] == 1.);
     CHECK(item["plant_parameters"]["max_linear_mps"] == 1.);
 
-    // The log says the same as the summary.
+    // The log agrees with the summary.
     auto log = readCsv(run.path("new/result/" + item["log"].get<std::string>()));
     REQUIRE(log["time_s"].size() == 2400);
     double largest = 0.;
@@ -110,7 +110,7 @@ TEST_CASE("A small comparison leaves a whole result", "[visp-servo-compare]")
           std::string::npos);
   }
   CHECK(page.find("Figure 5.11 again") != std::string::npos);
-  // Every picture and video is inside, none is empty or refers to a file.
+  // Every figure and video is embedded, none is empty or refers to a file.
   CHECK(countOf(page, "src=\"") == countOf(page, "src=\"data:"));
   CHECK(countOf(page, "src=\"data:image/svg+xml;base64,PD94") == 6); // "<?x"
   CHECK(countOf(page, "src=\"data:image/jpeg;base64,/9j/") == 1);
@@ -119,7 +119,7 @@ TEST_CASE("A small comparison leaves a whole result", "[visp-servo-compare]")
   CHECK(page.find("all 2 laws end within 0.2 deg of every goal") != std::string::npos);
   CHECK(page.find("rendered from that photograph") != std::string::npos);
 
-  // Again into the same folder: replaced, and the user's own file stays.
+  // Again into the same folder: replaced, and the user's file is kept.
   run.write("new/result/notes.txt", "mine");
   REQUIRE(run("--law pbvs1 --plant A --measure points --out new/result") == 0);
   CHECK(vpApp::readJsonFile(run.path("new/result/summary.json"))["runs"].size() == 1);
@@ -153,7 +153,7 @@ TEST_CASE("Several seeds and a task of one's own", "[visp-servo-compare]")
   }
   CHECK(seeds["ibvs"] == std::vector<int>{7, 8, 9});
   CHECK(seeds["pbvs1+cbf"] == std::vector<int>{7, 8, 9});
-  // Noise differs from seed to seed, and nothing but the seed matters.
+  // Noise differs from seed to seed, and depends only on the seed.
   CHECK(summary["runs"][0]["rms_image_error_px"] != summary["runs"][1]["rms_image_error_px"]);
   REQUIRE(run("--task task.json --law ibvs --seed 8 --measure points --jobs 1 --out again") == 0);
   nlohmann::json again = vpApp::readJsonFile(run.path("again/summary.json"))["runs"][0];
@@ -200,7 +200,7 @@ TEST_CASE("Shaped runs stand beside the raw ones", "[visp-servo-compare]")
     CHECK((item["peak_linear_acceleration_mps2"] <= 0.8 * (1. + 1e-9)) == shaped);
     CHECK((item["peak_angular_acceleration_radps2"] <= 2.5 * (1. + 1e-9)) == shaped);
 
-    // The log holds what the robot was asked for; its digits are 7.
+    // The log holds the commands to the robot with 7 digits.
     auto log = readCsv(run.path("result/" + item["log"].get<std::string>()));
     REQUIRE(log["time_s"].size() == 400);
     double peak = 0., before[3] = {0., 0., 0.};
@@ -299,7 +299,7 @@ TEST_CASE("On an arm the result has the joints", "[visp-servo-compare]")
       auto columns = readCsv(run.path("result").append(item["log"].get<std::string>()));
       const std::string first = summary["robot"]["joints"][0];
       REQUIRE(columns.count("q_" + first) == 1);
-      // What the joints show is what the table says.
+      // The joint data agree with the table.
       double squares = 0.;
       const std::vector<double> &q = columns["q_" + first], &wanted = columns["wanted_" + first];
       for (std::size_t i = 0; i < q.size(); ++i) {

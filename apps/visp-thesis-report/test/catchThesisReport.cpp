@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Verdicts come from the numbers; the catalogue has what the thesis shows.
+// Verdicts follow from the numbers; the catalogue covers the results of the thesis.
 #include "item.h"
 #include "part.h"
 #include "results.h"

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// visp-thesis-report as a user runs it.
+// visp-thesis-report as run by users.
 #include "programRun.h"
 
 #include "vpCatch.h"
@@ -67,7 +67,7 @@ TEST_CASE("Chapter 7 up to figure 7.11: what is arithmetic, and what follows fro
   // kappa1 of table 7.4 at 80 px of 4.5 um, by hand: 3.84e-10 * 360^3 um.
   CHECK(valueOf(rows, "fig7.10", "mismatch of the thesis's lens at 80 px") == Approx(0.01791590).epsilon(1e-5));
   CHECK(valueOf(rows, "fig7.10", "mismatch of 0.1 % distortion at 200 px") == Approx(0.2));
-  // The delay is the thesis's exposure and readout, and what was measured in the same run.
+  // The delay is the thesis's exposure and readout plus the time measured in the same run.
   CHECK(valueOf(rows, "table7.3", "start-to-end delay") ==
         Approx(550. + valueOf(rows, "table7.3", "visual processing")));
   CHECK(valueOf(rows, "table7.4", "kappa1, product, edges at half height") == Approx(-6.72e-10).epsilon(0.1));
@@ -75,7 +75,7 @@ TEST_CASE("Chapter 7 up to figure 7.11: what is arithmetic, and what follows fro
   CHECK(valueOf(rows, "table7.4", "magnification, product, Algorithm 7.4") == Approx(4.26).epsilon(0.002));
   CHECK(std::filesystem::exists(run.path("out/data/table7.4-distortion.csv")));
 
-  REQUIRE(run("--only table7.4 --out again --jobs 1") == 0); // times aside, what runs beside it changes nothing
+  REQUIRE(run("--only table7.4 --out again --jobs 1") == 0); // except for times, parallel jobs change nothing
   const Json again = Json::parse(vpApp::readFile(run.path("again/results.json")));
   REQUIRE_FALSE(again.empty());
   CHECK(std::all_of(again.begin(), again.end(),

@@ -124,7 +124,7 @@ TEST_CASE("errors against the truth are those that were put in", "[visp-track-pa
         cell.valid = true;
         cell.sigmaX = 0.02;
         cell.sigmaY = 0.01;
-        cell.x = place.x - 7. + 0.1 + 0.02 * normal(rng); // 7, 3: where the part begins
+        cell.x = place.x - 7. + 0.1 + 0.02 * normal(rng); // 7, 3: corner of the region
         cell.y = place.y - 3. - 0.2 + 0.03 * normal(rng);
         frame.cells.push_back(cell);
       }
@@ -146,7 +146,7 @@ TEST_CASE("errors against the truth are those that were put in", "[visp-track-pa
   CHECK(results.acquiring.x.n == 0);
   CHECK(e.x.n == frames * 9 - 1);
   CHECK(e.far == 1);
-  CHECK(e.slips == 0); // a row and a column of the same number were exchanged
+  CHECK(e.slips == 0); // a row and a column of the same number were swapped
   CHECK(e.x.mean() == Approx(0.1).margin(0.003));
   CHECK(e.y.mean() == Approx(-0.2).margin(0.003));
   CHECK(e.x.sigma() == Approx(0.02).epsilon(0.05));
@@ -199,7 +199,7 @@ TEST_CASE("quantiles and the map of deviations", "[visp-track-pattern]")
   for (int i = 0; i < 12; ++i) {
     results.deviations[{1U, i / 4, i % 4}] = {0.3, i % 2 == 0 ? 0.4 : -0.4};
   }
-  results.deviations[{0U, 0, 0}] = {9., 9.}; // an epoch with less cells
+  results.deviations[{0U, 0, 0}] = {9., 9.}; // an epoch with fewer cells
   const DeviationMap map = deviationMap(results);
   CHECK(map.cells == 12);
   CHECK(map.rmsX == Approx(0.3));

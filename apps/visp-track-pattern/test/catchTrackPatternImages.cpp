@@ -23,7 +23,7 @@ namespace
 {
 using namespace trackPattern;
 
-// Empty, with the test left out, when the images are missing.
+// Empty, and the test skipped, if the images are missing.
 std::string imageFolder(const std::string &name)
 {
   const std::string folder = vpIoTools::getViSPImagesDataPath() + "/" + name;
@@ -96,13 +96,13 @@ TEST_CASE("all dots of the real grids are found, in straight and in strongly til
     const double residual = homographyResidual(points);
     WARN("grid36-0" << number << ": " << points.size() << " dots, residual of the homography " << residual
                     << " px (rms)");
-    CHECK(residual < 1.5); // distortion of the lens included
+    CHECK(residual < 1.5); // includes lens distortion
     tsai.addView(points);
   }
   const vpTsaiCalibrationResult result = tsai.compute();
   WARN("Tsai's calibration from these four: " << result.message);
   CHECK(result.residualRms < 1.);
-  // 0.1 px is stated of each dot, and with strong perspective the middle of a dot's edges is not its centre: it shows.
+  // 0.1 px is assumed per dot, but with strong perspective the middle of a dot's edges is not its centre: detected.
   CHECK_FALSE(result.reliable);
   CHECK(result.message.find("The model does not fit the points: the residuals are 2") != std::string::npos);
 }
@@ -116,7 +116,7 @@ TEST_CASE("a real grid that is moved is tracked", "[images]")
   for (int number = 1; number <= 4; ++number) {
     vpImage<unsigned char> whole;
     whole = greyImage(gridFile(folder, number));
-    // A window that wanders over the image shows the grid in motion, by whole pixels, with real light and real dots.
+    // A window moving over the image by whole pixels shows the grid in motion, with real light and real dots.
     const unsigned int width = 580, height = 440;
     vpPatternTracker tracker(width, height);
     vpImage<unsigned char> image(height, width);

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The program as its users run it: exit status, what is on which stream, what is written.
+// The program as run by users: exit status, output streams, written files.
 #include "vpCaseFile.h"
 
 #include "programRun.h"
@@ -139,7 +139,7 @@ TEST_CASE("The folder of visp-generate-pattern brings its truth, a region keeps 
     CHECK(errors["x"]["sigma_px"].get<double>() < 0.02);
     CHECK(errors["dx"]["sigma_px"].get<double>() < 0.02);
     CHECK_FALSE(std::filesystem::exists(run.path("t/overlay.mp4")));
-    // The table itself, not only what the program compares.
+    // Checks the table itself, not only the program's comparison.
     const Table truth = tableOf(vpApp::readFile(run.path("d/truth.csv")));
     const Table cells = tableOf(vpApp::readFile(run.path("t/cells.csv")));
     const std::string last = cells.lines.back().at("frame");
@@ -160,7 +160,7 @@ TEST_CASE("The folder of visp-generate-pattern brings its truth, a region keeps 
     }
     CHECK(compared >= 6);
   }
-  // The same images by pattern or by name bring no truth.
+  // The same images by pattern or by name come without ground truth.
   REQUIRE(run("'d/frames/%06d.png' --overlay none --frames 5 --out t") == OK);
   CHECK_FALSE(summaryIn(run, "t").contains("errors"));
   REQUIRE(run("d/frames/000003.png d/frames/000004.png --overlay png --out t") == OK);
@@ -230,7 +230,7 @@ TEST_CASE("A hexagonal grid is calibrated as one, and never as a square one", "[
 {
   ProgramRun run(TRACK_PATTERN);
   cv::Mat grid(480, 640, CV_8UC1, cv::Scalar(40));
-  const double pitch = 24., angle = 0.6; // px; beyond what the tracker follows
+  const double pitch = 24., angle = 0.6; // px; beyond the tracker's range
   for (int row = -40; row <= 40; ++row) {
     for (int column = -60; column <= 60; ++column) {
       const double x = pitch * (column + 0.5 * row), y = pitch * 0.5 * std::sqrt(3.) * row;
@@ -332,19 +332,19 @@ TEST_CASE("Across a gap in the numbers there is no displacement, a new epoch beg
     }
     CHECK(line.at("epoch") == (i < 70 ? "0" : "1"));
   }
-  CHECK(motion.lines.back().at("status") == "Tracking"); // what was learned stays
+  CHECK(motion.lines.back().at("status") == "Tracking"); // the learned template is kept
 }
 
 TEST_CASE("Ctrl-C ends a run with a report of what was seen", "[visp-track-pattern][unfinished]")
 {
   ProgramRun run(TRACK_PATTERN);
-  // The shell interrupts as soon as rows are there: they are written as the run goes.
+  // The shell interrupts as soon as there are rows, which are written during the run.
   const std::string script =
       "--frames 5000000 --overlay none --out t >out.txt 2>err.txt & pid=$!; "
       "for i in $(seq 1000); do "
       "test \"$(cat t/unfinished-run/motion.csv 2>/dev/null | wc -l)\" -gt 70 && break; sleep 0.05; "
       "done; kill -INT $pid; wait $pid";
-  // A background job of a shell that is not interactive ignores the interrupt unless it is told otherwise.
+  // A background job of a non-interactive shell ignores the interrupt by default.
   CHECK(run(script, "exec 3>&1; env --default-signal=INT") == 130);
   const json summary = summaryIn(run, "t");
   CHECK(summary["status"] == "interrupted");
@@ -376,7 +376,7 @@ TEST_CASE("After a failure what was measured stays, marked as incomplete", "[vis
   CHECK(unfinished["reason"] == "sizes/5.png: has 161 x 100 px, sizes/0.png has 160 x 100 px");
   CHECK(tableOf(vpApp::readFile(run.path("t/unfinished-run/motion.csv"))).lines.size() == 5);
 
-  // A calibration that is not possible does not throw the measurement away.
+  // A failed calibration does not discard the measurement.
   for (const auto &[arguments, reason] : std::vector<std::pair<std::string, std::string>>{
            {"--frames 5 --calibrate --pitch-um 220 80", "--calibrate: in no image the product was tracked"},
            {"sizes/1.png --calibrate --dot-grid --pitch-um 1 1",
@@ -480,7 +480,7 @@ TEST_CASE("Bad use ends with a sentence and nothing written", "[visp-track-patte
     CAPTURE(run.err());
     const std::size_t sentence = run.err().rfind("visp-track-pattern: ");
     CHECK((sentence == 0 || (sentence != std::string::npos && run.err()[sentence - 1] == '\n')));
-    CHECK(std::count(run.err().begin(), run.err().end(), '\n') <= 5); // the sentence, and progress at every quarter
+    CHECK(std::count(run.err().begin(), run.err().end(), '\n') <= 5); // the message, and progress at every quarter
     CHECK(run.err().find(bad.sentence) != std::string::npos);
     CHECK(run.out().empty());
     CHECK(run.entries().size() == entries);

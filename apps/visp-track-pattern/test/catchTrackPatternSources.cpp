@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Files, stacks, videos and cameras as they come: gaps, unreadable ones, depth.
+// Files, stacks, videos and cameras: gaps, unreadable images, depth.
 #include "vpCatch.h"
 
 #include "fileSource.h"
@@ -19,10 +19,10 @@ namespace
 using namespace trackPattern;
 namespace fs = std::filesystem;
 
-//! Pictures that can be told apart by their grey value.
+//! Images distinguishable by their grey value.
 cv::Mat plain(int grey, int type = CV_8UC1) { return cv::Mat(20, 30, type, cv::Scalar::all(grey)); }
 
-//! Grey value of the first pixel of each image, a ! before those after a gap, its number behind.
+//! Grey value of the first pixel of each image, preceded by ! after a gap, followed by its number.
 std::string contentOf(ImageSource &source)
 {
   std::string line;
@@ -43,7 +43,7 @@ std::string joined(const std::vector<std::string> &lines)
   return text;
 }
 
-//! A camera that gives its pictures in turn; an empty one is a failure.
+//! A camera that gives its images in turn; an empty one is a failure.
 class ScriptedCapture : public cv::VideoCapture
 {
 public:
@@ -121,11 +121,11 @@ TEST_CASE("a jump of the numbers is a gap, a steady step is none", "[sources][ga
   CHECK(gaps({"f0.png", "f10.png", "f20.png", "f30.png"}) == "...");
   CHECK(gaps({"f0.png", "f10.png", "f20.png", "f40.png"}) == "..!");
   CHECK(gaps({"f9.png", "f8.png", "f7.png", "f5.png"}) == "..!");                         // backwards
-  CHECK(gaps({"f0.png", "f1.png", "f2.png", "f1.png"}) == "..!");                         // turned round
+  CHECK(gaps({"f0.png", "f1.png", "f2.png", "f1.png"}) == "..!");                         // direction reversed
   CHECK(gaps({"t1000033.png", "t1000066.png", "t1000100.png", "t1000167.png"}) == "..!"); // time stamps
   CHECK(gaps({"t1730000000000033.png", "t1730000000000066.png", "t1730000000000199.png"}) == ".!");
   CHECK(gaps({"a1.png", "a2.png", "b1.png", "b2.png"}) == ".!.");     // another series
-  CHECK(gaps({"left.png", "right.png"}) == ".");                      // names say nothing
+  CHECK(gaps({"left.png", "right.png"}) == ".");                      // no information in names
   CHECK(gaps({"3.png", "79.png"}) == ".");                            // nothing to compare with
   CHECK(FileNumbers({"left.png", "?.png", "right.png"}).isGap(0, 2)); // unless one was unreadable
 }
@@ -184,7 +184,7 @@ TEST_CASE("all pages of a TIFF are images, one that cannot be read is a gap", "[
   FileSource both({stack, folder.file("stack2.tif")}, "the files", 8, nullptr);
   CHECK(contentOf(both) == "0@0 1@1 2@2 3@3 4@4 5@5 6@6 0@7 ");
 
-  // Cut: what is still there is read.
+  // Truncated: the remaining part is read.
   fs::resize_file(stack, fs::file_size(stack) * 2 / 3);
   FileSource cut({stack}, "the file", 0, nullptr);
   const std::string content = contentOf(cut);
