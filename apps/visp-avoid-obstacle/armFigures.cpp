@@ -76,7 +76,7 @@ std::vector<std::size_t> shownFrames(const std::vector<Frame> &frames)
 
 Figure drawViews(const Episode &episode)
 {
-  const std::vector<Frame> &frames = episode.diary.frames;
+  const std::vector<Frame> &frames = episode.sensorLog.frames;
   const std::vector<std::size_t> shown = frames.empty() ? std::vector<std::size_t>() : shownFrames(frames);
   cv::Mat sheet;
   for (int row = 0; row < VIEWS / VIEW_COLUMNS && !frames.empty(); ++row) {

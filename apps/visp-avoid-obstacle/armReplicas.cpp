@@ -184,10 +184,11 @@ void compare(const vpAvoidanceRun &run, const Script &script, Replica &replica)
                                    "the true tool passes it at " + number(1000. * missed, 2) + " mm", missed < 0.01});
     replica.numbers["via_distance_m"] = missed;
   }
-  replica.story = {"The arm went at no more than " + number(m.peak_v, 6) + " m/s where 0.5 m/s are allowed and ended " +
-                       number(1000. * m.goal_error_m, 2) + " mm from the goal after " + fixed(m.duration_s, 2) + " s.",
-                   "No obstacle stands in this scene: the thesis tells when goal and via changed and to what, which is "
-                   "repeated, but not where the obstacle was."};
+  replica.findings = {
+      "The arm went at no more than " + number(m.peak_v, 6) + " m/s where 0.5 m/s are allowed and ended " +
+          number(1000. * m.goal_error_m, 2) + " mm from the goal after " + fixed(m.duration_s, 2) + " s.",
+      "No obstacle stands in this scene: the thesis tells when goal and via changed and to what, which is "
+      "repeated, but not where the obstacle was."};
 }
 } // namespace
 

@@ -5,7 +5,7 @@
 #include "episode.h"
 
 #include "appMain.h"
-#include "eye.h"
+#include "loggingSensor.h"
 #include "progress.h"
 
 #include <visp3/avoidance/vpDirectTrajectoryAvoidance.h>
@@ -31,7 +31,7 @@ void keepLooking(vpAvoidanceRunSpec &spec)
   if (spec.method != "dtg" && spec.method != "dtg-via") {
     return;
   }
-  const vpDetourKind detour = spec.method == "dtg" ? vpDetourKind::Final : vpDetourKind::Via;
+  const vpDetourKind detour = spec.method == "dtg" ? vpDetourKind::PointToPoint : vpDetourKind::Via;
   spec.makeMethod = [detour](const vpCollisionScene &scene, const vpAvoidanceMethodSpec &common) {
     vpDirectTrajectoryAvoidanceSpec direct;
     direct.common = common;
@@ -57,7 +57,7 @@ bool truePlace(const PhotoScene &scene, const std::string &name, double time, Ei
 }
 } // namespace
 
-vpAvoidanceRunSpec specOf(const PhotoScene &scene, const Options &options, Diary &diary)
+vpAvoidanceRunSpec specOf(const PhotoScene &scene, const Options &options, SensorLog &sensorLog)
 {
   vpAvoidanceRunSpec spec;
   spec.arm = scene.arm;
@@ -68,20 +68,23 @@ vpAvoidanceRunSpec specOf(const PhotoScene &scene, const Options &options, Diary
   spec.start = scene.task.start;
   spec.goal = vpAvoidanceGoal::at(*scene.arm, scene.task.goal);
   spec.sight = vpObstacleSight::Custom;
-  spec.makeSensor = [&scene, &options, &diary](unsigned int seed) { return makeEye(scene, options, seed, diary); };
+  spec.makeSensor = [&scene, &options, &sensorLog](unsigned int seed) {
+    return makeLoggingSensor(scene, options, seed, sensorLog);
+  };
   spec.visionRate = options.visionRate;
   spec.latency = options.latency;
   spec.tracks.restAcceleration = REST_ACCELERATION;
   spec.tracks.angularAcceleration = ANGULAR_ACCELERATION;
   spec.tracks.restSigmas = REST_SIGMAS;
   spec.tracks.forget = options.forget > 0. ? options.forget : HUGE_VAL;
-  spec.watchTracks = [&scene, &diary](double time, const std::vector<vpObjectTrack> &tracks) {
+  spec.watchTracks = [&scene, &sensorLog](double time, const std::vector<vpObjectTrack> &tracks) {
     for (const vpObjectTrack &track : tracks) {
       Eigen::Vector3d place;
       const bool isThere = truePlace(scene, track.name, time, place);
-      diary.tracks.push_back({time, track, isThere ? (track.pose.p - place).norm() : NAN});
+      sensorLog.tracks.push_back({time, track, isThere ? (track.pose.p - place).norm() : NAN});
       if (track.shape.type() == vpShapeType::Octree) {
-        diary.tracks.back().track.shape = vpCollisionShape::sphere(0.001); // maps are too large to keep 200 per second
+        sensorLog.tracks.back().track.shape =
+            vpCollisionShape::sphere(0.001); // maps are too large to keep 200 per second
       }
     }
   };
@@ -99,7 +102,7 @@ std::vector<vpCollisionObject> believedAt(const Episode &episode, double time)
 {
   std::vector<vpCollisionObject> objects;
   double latest = -1.; // s
-  for (const TrackRow &row : episode.diary.tracks) {
+  for (const TrackRow &row : episode.sensorLog.tracks) {
     if (row.time > time + TIME_ROUNDING) {
       break;
     }
@@ -122,7 +125,7 @@ Episode play(const PhotoScene &scene, const Options &options)
   Episode episode;
   vpApp::Progress progress("simulating " + scene.name, 1.);
   double done = 0.;
-  episode.run = runAvoidanceExperiment(specOf(scene, options, episode.diary), [&](double share) {
+  episode.run = runAvoidanceExperiment(specOf(scene, options, episode.sensorLog), [&](double share) {
     progress.add(share - done);
     done = share;
     return !vpApp::interrupted();

@@ -83,13 +83,13 @@ Replica playFieldReplica(const Options &options)
   const FieldMotion strict = followField(task, strictField()), mild = followField(task, mildField()),
                     undisturbed = followField(task, mildField(), false);
   const bool strictFails = strict.missed.back() >= REACHED, mildReaches = mild.missed.back() < REACHED;
-  replica.story = {"With the strict parameters the point ends " + number(1000. * strict.missed.back(), 3) +
-                       " mm from its end and " + (strictFails ? "does not reach it" : "reaches it") +
-                       ", with the mild ones " + number(1000. * mild.missed.back(), 3) +
-                       " mm from it, which counts as " + (mildReaches ? "reached." : "missed."),
-                   "Nothing is known of speeds beforehand: they go up to " + number(strict.peakSpeed, 3) + " and " +
-                       number(mild.peakSpeed, 3) +
-                       " m/s and jump where a new place is told or the obstacle comes into view."};
+  replica.findings = {"With the strict parameters the point ends " + number(1000. * strict.missed.back(), 3) +
+                          " mm from its end and " + (strictFails ? "does not reach it" : "reaches it") +
+                          ", with the mild ones " + number(1000. * mild.missed.back(), 3) +
+                          " mm from it, which counts as " + (mildReaches ? "reached." : "missed."),
+                      "Nothing is known of speeds beforehand: they go up to " + number(strict.peakSpeed, 3) + " and " +
+                          number(mild.peakSpeed, 3) +
+                          " m/s and jump where a new place is told or the obstacle comes into view."};
   replica.comparisons = {{"strict (upper): end reached", "no", strictFails ? "no" : "yes", strictFails},
                          {"mild (lower): end reached", "yes", mildReaches ? "yes" : "no", mildReaches},
                          {"strict: vias reached", "no", "missed by " + missedText(strict) + " (the end last)",

@@ -54,13 +54,13 @@ Plot jointSpeeds(const vpAvoidanceRun &run)
 }
 
 //! Columns of the track table over time, downsampled.
-PlotCurve ofTrack(const Diary &diary, const std::string &object, const std::string &label, const std::string &colour,
-                  const std::function<double(const TrackRow &)> &value)
+PlotCurve ofTrack(const SensorLog &sensorLog, const std::string &object, const std::string &label,
+                  const std::string &colour, const std::function<double(const TrackRow &)> &value)
 {
   PlotCurve curve = curveOf(label, colour);
-  const std::size_t stride = std::max<std::size_t>(1, diary.tracks.size() / CURVE_POINTS);
+  const std::size_t stride = std::max<std::size_t>(1, sensorLog.tracks.size() / CURVE_POINTS);
   std::size_t count = 0;
-  for (const TrackRow &row : diary.tracks) {
+  for (const TrackRow &row : sensorLog.tracks) {
     if (row.track.name == object && count++ % stride == 0) {
       curve.x.push_back(row.time);
       curve.y.push_back(value(row));
@@ -69,11 +69,11 @@ PlotCurve ofTrack(const Diary &diary, const std::string &object, const std::stri
   return curve;
 }
 
-PlotCurve sightErrors(const Diary &diary, const std::string &object, const std::string &colour)
+PlotCurve sightErrors(const SensorLog &sensorLog, const std::string &object, const std::string &colour)
 {
   PlotCurve curve = curveOf(object + ", error of sightings", colour);
   curve.style = PlotStyle::Points;
-  for (const Frame &frame : diary.frames) {
+  for (const Frame &frame : sensorLog.frames) {
     for (const Sight &sight : frame.sights) {
       if (sight.object == object && sight.seen) {
         curve.x.push_back(frame.time);
@@ -85,13 +85,13 @@ PlotCurve sightErrors(const Diary &diary, const std::string &object, const std::
 }
 
 //! All names that occurred in the track table.
-std::vector<std::string> namesOf(const PhotoScene &scene, const Diary &diary)
+std::vector<std::string> namesOf(const PhotoScene &scene, const SensorLog &sensorLog)
 {
   std::vector<std::string> names;
   for (const vpMovingObstacle &obstacle : scene.obstacles) {
     names.push_back(obstacle.object.name);
   }
-  for (const TrackRow &row : diary.tracks) {
+  for (const TrackRow &row : sensorLog.tracks) {
     if (std::find(names.begin(), names.end(), row.track.name) == names.end()) {
       names.push_back(row.track.name);
     }
@@ -160,20 +160,20 @@ Figure drawTracks(const PhotoScene &scene, const Episode &episode)
   std::vector<Plot> panels = {
       vpApp::timePlot("Errors of place, and what the track table adds to the obstacle for them", "mm"),
       vpApp::timePlot("Speed in the track table", "m/s"), vpApp::timePlot("Confidence in the track table", "0..1")};
-  const Diary &diary = episode.diary;
-  const std::vector<std::string> names = namesOf(scene, diary);
+  const SensorLog &sensorLog = episode.sensorLog;
+  const std::vector<std::string> names = namesOf(scene, sensorLog);
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::string &name = names[i], colour = COLOURS[i % 8];
-    panels[0].curves.push_back(sightErrors(diary, name, colour));
+    panels[0].curves.push_back(sightErrors(sensorLog, name, colour));
     panels[0].curves.push_back(
-        ofTrack(diary, name, name + ", error of track", colour, [](const TrackRow &r) { return 1000. * r.error; }));
-    panels[0].curves.push_back(ofTrack(diary, name, name + ", inflation", colour,
+        ofTrack(sensorLog, name, name + ", error of track", colour, [](const TrackRow &r) { return 1000. * r.error; }));
+    panels[0].curves.push_back(ofTrack(sensorLog, name, name + ", inflation", colour,
                                        [](const TrackRow &r) { return 1000. * r.track.inflation; }));
     panels[0].curves.back().style = PlotStyle::Dashed;
     panels[1].curves.push_back(
-        ofTrack(diary, name, name, colour, [](const TrackRow &r) { return r.track.velocity.linearNorm(); }));
+        ofTrack(sensorLog, name, name, colour, [](const TrackRow &r) { return r.track.velocity.linearNorm(); }));
     panels[2].curves.push_back(
-        ofTrack(diary, name, name, colour, [](const TrackRow &r) { return r.track.confidence; }));
+        ofTrack(sensorLog, name, name, colour, [](const TrackRow &r) { return r.track.confidence; }));
   }
   for (Plot &plot : panels) {
     plot.curves.erase(std::remove_if(plot.curves.begin(), plot.curves.end(), [](const auto &c) { return c.x.empty(); }),

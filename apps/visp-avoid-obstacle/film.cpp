@@ -173,7 +173,7 @@ bool makeFilm(const Episode &episode, const std::string &file, vpApp::PictureWin
   const vpAvoidanceRun &run = episode.run;
   const SideView top(run, ArmView::Top, {SIDE_WIDTH, VIEW_HEIGHT}), side(run, ArmView::Side, {SIDE_WIDTH, VIEW_HEIGHT});
   std::optional<vpApp::VideoFile> video;
-  for (const Frame &frame : episode.diary.frames) {
+  for (const Frame &frame : episode.sensorLog.frames) {
     vpApp::throwIfInterrupted();
     const vpAvoidanceSample &s = sampleAt(run, frame.time);
     const std::vector<vpCollisionObject> believed = believedAt(episode, frame.time);

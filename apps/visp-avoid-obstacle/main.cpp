@@ -63,7 +63,7 @@ void repeat(const Options &options, const std::string &commandLine)
   out.writeSummary(summaryOf(replica, options, commandLine, wallTime));
   vpApp::throwIfInterrupted();
   out.commit();
-  for (const std::string &sentence : replica.story) {
+  for (const std::string &sentence : replica.findings) {
     std::cout << sentence << "\n";
   }
   std::cout << "Report: " << (out.path() / "report.html").string() << std::endl;
@@ -80,8 +80,8 @@ bool avoid(const Options &options, const std::string &commandLine)
 
   const Episode episode = play(scene, options);
   out.write("samples.csv", samplesCsv(episode.run));
-  out.write("tracks.csv", tracksCsv(episode.diary));
-  out.write("frames.csv", framesCsv(episode.diary));
+  out.write("tracks.csv", tracksCsv(episode.sensorLog));
+  out.write("frames.csv", framesCsv(episode.sensorLog));
   FilmFile film;
   if (options.record || window) {
     film.name = options.record ? "video.mp4" : "";
@@ -99,7 +99,7 @@ bool avoid(const Options &options, const std::string &commandLine)
   out.writeSummary(summaryOf(scene, options, episode, commandLine, wallTime));
   vpApp::throwIfInterrupted();
   out.commit();
-  for (const std::string &sentence : storyOf(scene, options, episode)) {
+  for (const std::string &sentence : findingsOf(scene, options, episode)) {
     std::cout << sentence << "\n";
   }
   std::cout << "Report: " << (out.path() / "report.html").string() << std::endl;

@@ -131,10 +131,11 @@ void compareSpeed(const PointTask &task, const PointMotion &motion, Replica &rep
                                  "at most " + number(motion.peakSpeed, 6) + " m/s, looked at every 0.1 ms", kept});
   replica.comparisons.push_back(
       {"acceleration", "no bound told", "up to " + number(motion.peakAcceleration, 3) + " m/s^2, continuous"});
-  replica.story.push_back("The point went at no more than " + number(motion.peakSpeed, 6) + " m/s where " +
-                          number(task.maxSpeed, 3) + " m/s are allowed, arrived after " + fixed(motion.arrival, 3) +
-                          " s, and its acceleration was continuous: from one millisecond to the next it changed by " +
-                          number(motion.jump, 3) + " m/s^2 at most.");
+  replica.findings.push_back(
+      "The point went at no more than " + number(motion.peakSpeed, 6) + " m/s where " + number(task.maxSpeed, 3) +
+      " m/s are allowed, arrived after " + fixed(motion.arrival, 3) +
+      " s, and its acceleration was continuous: from one millisecond to the next it changed by " +
+      number(motion.jump, 3) + " m/s^2 at most.");
 }
 
 PointTask interrupted()
@@ -198,10 +199,10 @@ void compareFollowing(const PointTask &task, const PointMotion &motion, Replica 
        "50 Hz of a 1 kHz loop, noise of " + number(1000. * GOAL_NOISE, 3) + " mm (standard deviation of each axis)"});
   replica.comparisons.push_back({"continuity", "place and acceleration continuous",
                                  "acceleration changes by at most " + number(motion.jump, 3) + " m/s^2 in 1 ms"});
-  replica.story.push_back("The point followed the object with no more than " + number(motion.peakAcceleration, 6) +
-                          " m/s^2 where " + number(task.maxAcceleration, 3) + " m/s^2 are allowed; it was off by " +
-                          number(1000. * rms, 3) + " mm (rms over all of it, setting out included) and by " +
-                          number(1000. * after, 3) + " mm when the object moved for the second time.");
+  replica.findings.push_back("The point followed the object with no more than " + number(motion.peakAcceleration, 6) +
+                             " m/s^2 where " + number(task.maxAcceleration, 3) + " m/s^2 are allowed; it was off by " +
+                             number(1000. * rms, 3) + " mm (rms over all of it, setting out included) and by " +
+                             number(1000. * after, 3) + " mm when the object moved for the second time.");
   replica.numbers["goal_noise_m"] = GOAL_NOISE;
   replica.numbers["rms_distance_m"] = rms;
 }

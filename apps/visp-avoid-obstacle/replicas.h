@@ -29,10 +29,10 @@ struct Comparison {
 
 //! \brief A reproduced figure.
 struct Replica {
-  std::string name;                 //!< "fig8.7"
-  std::string title;                //!< Content of the figure.
-  std::vector<std::string> story;   //!< Results; the first sentence is the main one.
-  std::vector<std::string> choices; //!< Choices made where the thesis leaves values open.
+  std::string name;                  //!< "fig8.7"
+  std::string title;                 //!< Content of the figure.
+  std::vector<std::string> findings; //!< Results; the first sentence is the main one.
+  std::vector<std::string> choices;  //!< Choices made where the thesis leaves values open.
   std::vector<Comparison> comparisons;
   std::vector<Figure> figures;
   std::vector<std::pair<std::string, std::string>> tables; //!< Names and content of CSV files.

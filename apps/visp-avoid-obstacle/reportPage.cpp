@@ -52,7 +52,7 @@ void addTurns(HtmlReport &page, const vpAvoidanceRun &run)
 {
   HtmlTable table;
   table.header = {{HtmlCell("from s"), HtmlCell("status", "left"), HtmlCell("what it means", "left")}};
-  for (const Turn &turn : turnsOf(run)) {
+  for (const StatusChange &turn : statusChangesOf(run)) {
     table.rows.push_back(
         {HtmlCell(fixed(turn.time, 2)),
          HtmlCell(std::string(toString(turn.status)) + (turn.stopping ? ", protective stop" : ""), "left"),
@@ -68,7 +68,7 @@ void addSightings(HtmlReport &page, const PhotoScene &scene, const Episode &epis
                    HtmlCell("known from s"), HtmlCell("last seen s"), HtmlCell("longest gap s"),
                    HtmlCell("error mm, median"), HtmlCell("worst"), HtmlCell("told deviation mm"),
                    HtmlCell("track: worst error mm"), HtmlCell("least inflation less error mm")}};
-  for (const Acquaintance &a : acquaintances(scene, episode)) {
+  for (const SightingSummary &a : sightingSummaries(scene, episode)) {
     const bool known = a.known.has_value(), seen = a.firstSeen.has_value();
     table.rows.push_back({HtmlCell(a.object, "left"), HtmlCell(std::to_string(a.frames)),
                           HtmlCell(std::to_string(a.seen)), HtmlCell(timeText(a.firstSeen)),
@@ -140,7 +140,7 @@ std::string reportPage(const PhotoScene &scene, const Options &options, const Ep
     }
   };
   page.section("What happened");
-  page.highlight(storyOf(scene, options, episode));
+  page.highlight(findingsOf(scene, options, episode));
   add("way");
   addTurns(page, episode.run);
   add("animation");
@@ -166,7 +166,7 @@ std::string replicaPage(const Replica &replica, const std::string &commandLine)
 {
   HtmlReport page("Replica of figure " + replica.name.substr(3), replica.title + ".");
   page.section("What came out");
-  page.highlight(replica.story);
+  page.highlight(replica.findings);
   HtmlTable table;
   table.header = {{HtmlCell("", "left"), HtmlCell("thesis", "left"), HtmlCell("here", "left"), HtmlCell("agrees")}};
   for (const Comparison &c : replica.comparisons) {

@@ -11,7 +11,7 @@
 
 #include "figures.h"
 #include "replicas.h"
-#include "story.h"
+#include "findings.h"
 
 #include "htmlReport.h"
 

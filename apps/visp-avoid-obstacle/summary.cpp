@@ -13,7 +13,7 @@ using Json = nlohmann::ordered_json;
 
 Json optional(const std::optional<double> &value) { return value ? Json(*value) : Json(nullptr); }
 
-Json jsonOf(const Acquaintance &a)
+Json jsonOf(const SightingSummary &a)
 {
   return {{"object", a.object},
           {"pictures", a.frames},
@@ -83,10 +83,10 @@ Json summaryOf(const PhotoScene &scene, const Options &options, const Episode &e
                double wallTime)
 {
   Json obstacles = Json::array(), turns = Json::array();
-  for (const Acquaintance &a : acquaintances(scene, episode)) {
+  for (const SightingSummary &a : sightingSummaries(scene, episode)) {
     obstacles.push_back(jsonOf(a));
   }
-  for (const Turn &turn : turnsOf(episode.run)) {
+  for (const StatusChange &turn : statusChangesOf(episode.run)) {
     turns.push_back({{"time_s", turn.time}, {"status", toString(turn.status)}, {"stopping", turn.stopping}});
   }
   const JointUse use = jointUseOf(episode.run);

@@ -10,7 +10,7 @@
 #define avoidObstacle_summary_h
 
 #include "replicas.h"
-#include "story.h"
+#include "findings.h"
 
 #include <nlohmann/json.hpp>
 

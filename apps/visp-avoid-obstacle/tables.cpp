@@ -71,11 +71,11 @@ std::string samplesCsv(const vpAvoidanceRun &run)
   return csv;
 }
 
-std::string tracksCsv(const Diary &diary)
+std::string tracksCsv(const SensorLog &sensorLog)
 {
   std::string csv = "time_s,object,status,resting,x_m,y_m,z_m,velocity_x_mps,velocity_y_mps,velocity_z_mps,"
                     "position_sigma_m,velocity_sigma_mps,inflation_m,confidence,age_s,sightings,restarts,error_m\n";
-  for (const TrackRow &r : diary.tracks) {
+  for (const TrackRow &r : sensorLog.tracks) {
     const vpObjectTrack &t = r.track;
     Row row;
     row << r.time << t.name << toString(t.status) << t.resting << t.pose.p
@@ -86,10 +86,10 @@ std::string tracksCsv(const Diary &diary)
   return csv;
 }
 
-std::string framesCsv(const Diary &diary)
+std::string framesCsv(const SensorLog &sensorLog)
 {
   std::string csv = "time_s,covered,object,seen,error_m,angle_error_rad,sigma_m,sentence\n";
-  for (const Frame &frame : diary.frames) {
+  for (const Frame &frame : sensorLog.frames) {
     for (const Sight &s : frame.sights) {
       Row row;
       row << frame.time << frame.covered << s.object << s.seen << (s.seen ? s.error : NAN)

@@ -16,9 +16,9 @@ namespace avoidObstacle
 //! samples.csv: one row per period of the loop.
 [[nodiscard]] std::string samplesCsv(const vpAvoidanceRun &run);
 //! tracks.csv: the track table of every period, one row per obstacle.
-[[nodiscard]] std::string tracksCsv(const Diary &diary);
+[[nodiscard]] std::string tracksCsv(const SensorLog &sensorLog);
 //! frames.csv: one row per obstacle and image.
-[[nodiscard]] std::string framesCsv(const Diary &diary);
+[[nodiscard]] std::string framesCsv(const SensorLog &sensorLog);
 } // namespace avoidObstacle
 
 #endif

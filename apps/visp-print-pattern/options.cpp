@@ -56,7 +56,7 @@ Value valueOf(const std::string &option, const std::string &name, const std::map
 }
 
 //! \brief Texts and numbers from the command line, before conversion to a specification.
-struct Words {
+struct RawOptions {
   std::string controller = "observer", reference = "centres", trigger = "horizon", axis = "x";
   std::vector<double> filter;
   bool defects = false, noReplicas = false;
@@ -67,14 +67,14 @@ struct Words {
   unsigned int seed = 1;
 };
 
-void addControl(CLI::App &app, Words &words, Options &options)
+void addControl(CLI::App &app, RawOptions &raw, Options &options)
 {
   const char *group = "Control";
-  app.add_option("--controller", words.controller,
+  app.add_option("--controller", raw.controller,
                  "observer, pid or pid-ff (with mass and friction feedforward) (default: observer)")
       ->option_text("NAME")
       ->group(group);
-  app.add_option("--filter", words.filter, "Gains of the alpha-beta filter, for pid and pid-ff")
+  app.add_option("--filter", raw.filter, "Gains of the alpha-beta filter, for pid and pid-ff")
       ->expected(2)
       ->option_text("ALPHA BETA")
       ->group(group);
@@ -87,65 +87,62 @@ void addControl(CLI::App &app, Words &words, Options &options)
   app.add_flag("--identify", options.identify,
                "First find mass and friction of the stage from a ramp that the camera watches, and use them")
       ->group(group);
-  app.add_option("--trigger", words.trigger,
-                 "horizon: each cell exactly once; thesis: algorithm 7.5 (default: horizon)")
+  app.add_option("--trigger", raw.trigger, "horizon: each cell exactly once; thesis: algorithm 7.5 (default: horizon)")
       ->option_text("NAME")
       ->group(group);
 }
 
-void addMotion(CLI::App &app, Words &words)
+void addMotion(CLI::App &app, RawOptions &raw)
 {
   const char *group = "Motion";
-  app.add_option("--reference", words.reference,
+  app.add_option("--reference", raw.reference,
                  "centres: drop velocity at the centres and faster between; arrival: a fixed time from cell to cell; "
                  "limited: as fast as a limit allows; constant: drop velocity all the way (default: centres)")
       ->option_text("NAME")
       ->group(group);
-  app.add_option("--drop-velocity", words.dropVelocity, "At the centres (default: 4)")
+  app.add_option("--drop-velocity", raw.dropVelocity, "At the centres (default: 4)")
       ->option_text("PX/FRAME")
       ->group(group);
-  app.add_option("--mean-velocity", words.meanVelocity, "For centres (default: 5)")
+  app.add_option("--mean-velocity", raw.meanVelocity, "For centres (default: 5)")
       ->option_text("PX/FRAME")
       ->group(group);
-  app.add_option("--drop-time", words.dropTime, "For arrival (default: 10.8)")->option_text("FRAMES")->group(group);
-  app.add_option("--max-velocity", words.maxVelocity, "For limited (default: 6)")
-      ->option_text("PX/FRAME")
-      ->group(group);
-  app.add_option("--axis", words.axis, "x: one row; xy: rows one after another, to and fro (default: x)")
+  app.add_option("--drop-time", raw.dropTime, "For arrival (default: 10.8)")->option_text("FRAMES")->group(group);
+  app.add_option("--max-velocity", raw.maxVelocity, "For limited (default: 6)")->option_text("PX/FRAME")->group(group);
+  app.add_option("--axis", raw.axis, "x: one row; xy: rows one after another, to and fro (default: x)")
       ->option_text("NAME")
       ->group(group);
-  app.add_option("--rows", words.rows, "With --axis xy (default: 3)")->option_text("N")->group(group);
-  app.add_option("--cells", words.cells, "In a row (default: 40)")->option_text("N")->group(group);
-  app.add_option("--frames", words.frames, "Stop after so many; 0: when all cells are printed (default: 0)")
+  app.add_option("--rows", raw.rows, "With --axis xy (default: 3)")->option_text("N")->group(group);
+  app.add_option("--cells", raw.cells, "In a row (default: 40)")->option_text("N")->group(group);
+  app.add_option("--frames", raw.frames, "Stop after so many; 0: when all cells are printed (default: 0)")
       ->option_text("N")
       ->group(group);
 }
 
-void addWorld(CLI::App &app, Words &words)
+void addWorld(CLI::App &app, RawOptions &raw)
 {
   const char *group = "Product, camera and head";
-  app.add_option("--flex", words.flex,
+  app.add_option("--flex", raw.flex,
                  "Flexible pitch: cells lie up to this far before or behind their place, in x and y (default: 0)")
       ->option_text("PX")
       ->group(group);
-  app.add_option("--flex-period", words.flexPeriod, "Over so many cells (default: 20)")
+  app.add_option("--flex-period", raw.flexPeriod, "Over so many cells (default: 20)")
       ->option_text("CELLS")
       ->group(group);
-  app.add_option("--jitter", words.jitter, "Standard deviation of a cell's place (default: 0)")
+  app.add_option("--jitter", raw.jitter, "Standard deviation of a cell's place (default: 0)")
       ->option_text("PX")
       ->group(group);
-  app.add_flag("--defects", words.defects, "Dust and cracks: 12 and 3 in view")->group(group);
-  app.add_option("--noise", words.noise, "Of the camera, see visp-generate-pattern (default: 4)")
+  app.add_flag("--defects", raw.defects, "Dust and cracks: 12 and 3 in view")->group(group);
+  app.add_option("--noise", raw.noise, "Of the camera, see visp-generate-pattern (default: 4)")
       ->option_text("NS")
       ->group(group);
-  app.add_option("--vision-delay", words.visionDelay, "From exposure to control (default: 1.28)")
+  app.add_option("--vision-delay", raw.visionDelay, "From exposure to control (default: 1.28)")
       ->option_text("FRAMES")
       ->group(group);
-  app.add_option("--dropped", words.dropped, "Share of frames that never arrive (default: 0)")
+  app.add_option("--dropped", raw.dropped, "Share of frames that never arrive (default: 0)")
       ->option_text("SHARE")
       ->group(group);
-  app.add_option("--travel-time", words.travelTime, "Of a drop (default: 0.32)")->option_text("FRAMES")->group(group);
-  app.add_option("--nozzle", words.nozzle, "Place of the nozzle from the middle of the image (default: 0)")
+  app.add_option("--travel-time", raw.travelTime, "Of a drop (default: 0.32)")->option_text("FRAMES")->group(group);
+  app.add_option("--nozzle", raw.nozzle, "Place of the nozzle from the middle of the image (default: 0)")
       ->option_text("PX")
       ->group(group);
 }
@@ -165,9 +162,9 @@ void checkExploration(const CLI::App &app, Options &options)
   options.out = app.get_option("--out")->count() > 0 ? options.out : "out/print-explore";
 }
 
-vpPrintExperimentSpec specOf(const Words &words, const Options &options)
+vpPrintExperimentSpec specOf(const RawOptions &raw, const Options &options)
 {
-  const auto controller = valueOf<vpPrintController>("--controller", words.controller,
+  const auto controller = valueOf<vpPrintController>("--controller", raw.controller,
                                                      {{"observer", vpPrintController::Observer},
                                                       {"pid", vpPrintController::Pid},
                                                       {"pid-ff", vpPrintController::PidFeedforward}});
@@ -183,41 +180,41 @@ vpPrintExperimentSpec specOf(const Words &words, const Options &options)
     spec.pid = pid.pid;
     spec.filter = pid.filter;
   }
-  if (!words.filter.empty()) {
-    spec.filter = {words.filter[0], words.filter[1]};
+  if (!raw.filter.empty()) {
+    spec.filter = {raw.filter[0], raw.filter[1]};
   }
   spec.sensor = options.sensor == "image" ? vpPrintSensor::Image : vpPrintSensor::Model;
   spec.trigger = valueOf<vpPrintTriggerMethod>(
-      "--trigger", words.trigger,
+      "--trigger", raw.trigger,
       {{"horizon", vpPrintTriggerMethod::Horizon}, {"thesis", vpPrintTriggerMethod::ThesisAlgorithm}});
-  spec.reference.mode = valueOf<vpPrintReferenceMode>("--reference", words.reference,
+  spec.reference.mode = valueOf<vpPrintReferenceMode>("--reference", raw.reference,
                                                       {{"centres", vpPrintReferenceMode::CellVelocity},
                                                        {"arrival", vpPrintReferenceMode::FixedArrival},
                                                        {"limited", vpPrintReferenceMode::LimitedVelocity},
                                                        {"constant", vpPrintReferenceMode::ConstantVelocity}});
-  spec.reference.meanVelocity = words.meanVelocity;
-  spec.reference.maxVelocity = words.maxVelocity;
-  spec.reference.dropTime = words.dropTime;
-  spec.dropVelocity = words.dropVelocity;
-  const bool both = valueOf<bool>("--axis", words.axis, {{"x", false}, {"xy", true}});
-  if (!both && words.rows > 1) {
-    throw vpApp::UsageError("--rows is " + std::to_string(words.rows) + ", more than one row needs --axis xy");
+  spec.reference.meanVelocity = raw.meanVelocity;
+  spec.reference.maxVelocity = raw.maxVelocity;
+  spec.reference.dropTime = raw.dropTime;
+  spec.dropVelocity = raw.dropVelocity;
+  const bool both = valueOf<bool>("--axis", raw.axis, {{"x", false}, {"xy", true}});
+  if (!both && raw.rows > 1) {
+    throw vpApp::UsageError("--rows is " + std::to_string(raw.rows) + ", more than one row needs --axis xy");
   }
-  spec.rows = both ? (words.rows == 0 ? 3 : words.rows) : 1;
-  spec.cellsPerRow = words.cells;
-  spec.frames = words.frames;
-  spec.product.flexAmplitudeX = spec.product.flexAmplitudeY = words.flex;
-  spec.product.flexPeriodX = spec.product.flexPeriodY = words.flexPeriod;
-  spec.product.jitter = words.jitter;
-  spec.product.noise = words.noise;
-  spec.product.dust = words.defects ? 12. / 1.6 : 0.; // per 100 x 100 px
-  spec.product.cracks = words.defects ? 3. / 1.6 : 0.;
-  spec.product.seed = words.seed;
-  spec.visionDelay = words.visionDelay;
-  spec.dropped = words.dropped;
-  spec.travelTime = words.travelTime;
-  spec.nozzleOffset = words.nozzle;
-  spec.seed = words.seed;
+  spec.rows = both ? (raw.rows == 0 ? 3 : raw.rows) : 1;
+  spec.cellsPerRow = raw.cells;
+  spec.frames = raw.frames;
+  spec.product.flexAmplitudeX = spec.product.flexAmplitudeY = raw.flex;
+  spec.product.flexPeriodX = spec.product.flexPeriodY = raw.flexPeriod;
+  spec.product.jitter = raw.jitter;
+  spec.product.noise = raw.noise;
+  spec.product.dust = raw.defects ? 12. / 1.6 : 0.; // per 100 x 100 px
+  spec.product.cracks = raw.defects ? 3. / 1.6 : 0.;
+  spec.product.seed = raw.seed;
+  spec.visionDelay = raw.visionDelay;
+  spec.dropped = raw.dropped;
+  spec.travelTime = raw.travelTime;
+  spec.nozzleOffset = raw.nozzle;
+  spec.seed = raw.seed;
   return spec;
 }
 } // namespace
@@ -227,20 +224,20 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   CLI::App app(ABOUT, "visp-print-pattern");
   app.get_formatter()->column_width(NAME_COLUMN);
   app.footer(EXAMPLES);
-  Words words;
+  RawOptions raw;
   app.add_option("--out", options.out, "Folder for the result (default: out/print-pattern)")->option_text("DIR");
   app.add_option("--explore", options.explore,
                  "Explore the design space of a file (data/explore/README.md) instead: which frame rate, image, "
                  "magnification, exposure, controller and velocity; also under mpirun")
       ->option_text("FILE.json");
   app.add_option("--runs", options.runs, "Repeat with other seeds, 1..10000 (default: 1)")->option_text("N");
-  app.add_option("--seed", words.seed, "Of everything random (default: 1)")->option_text("N");
+  app.add_option("--seed", raw.seed, "Of everything random (default: 1)")->option_text("N");
   app.add_option("--jobs", options.jobs, "Runs at a time (default: one for each core)")->option_text("N");
-  app.add_flag("--no-thesis", words.noReplicas, "Leave out the experiments of the thesis");
+  app.add_flag("--no-thesis", raw.noReplicas, "Leave out the experiments of the thesis");
   app.add_flag("--video", options.video, "Write camera.mp4: what the camera sees, and the drops");
-  addControl(app, words, options);
-  addMotion(app, words);
-  addWorld(app, words);
+  addControl(app, raw, options);
+  addMotion(app, raw);
+  addWorld(app, raw);
   if (!vpApp::parseCommandLine(app, argc, argv)) {
     return false;
   }
@@ -256,8 +253,8 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   if (app.count("--jobs") > 0 && (options.jobs < 1 || options.jobs > 256)) {
     throw vpApp::UsageError("--jobs is " + std::to_string(options.jobs) + ", must be 1..256");
   }
-  options.replicas = !words.noReplicas;
-  options.spec = specOf(words, options);
+  options.replicas = !raw.noReplicas;
+  options.spec = specOf(raw, options);
   try {
     options.spec.validate();
   }

@@ -94,10 +94,10 @@ std::string ifAll(const std::vector<std::string> &laws, const std::vector<std::s
 }
 
 //! Creates the drafts; holds their common data.
-class Draughtsman
+class FigureWriter
 {
 public:
-  Draughtsman(const Plan &plan, const Results &results) : m_plan(plan), m_results(results) {}
+  FigureWriter(const Plan &plan, const Results &results) : m_plan(plan), m_results(results) {}
 
   [[nodiscard]] Draft reference(const std::string &name, const std::string &figure, const vpServoPlant &plant,
                                 const std::vector<std::string> &laws, const std::string &caption) const
@@ -358,7 +358,7 @@ std::vector<std::string> figureLaws(const Plan &plan, const std::vector<std::str
 
 std::vector<Figure> drawFigures(const Plan &plan, const Results &results, unsigned int jobs)
 {
-  const Draughtsman draw(plan, results);
+  const FigureWriter draw(plan, results);
   const vpServoPlant &easy = plan.easyPlant();
   const vpServoPlant &hard = plan.hardPlant();
   const std::vector<std::string> all =

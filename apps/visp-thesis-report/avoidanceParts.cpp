@@ -110,7 +110,7 @@ Item itemOf(const std::string &id, const Setting &setting,
   Item item;
   item.id = id;
   item.quantities = quantities(replica.numbers);
-  item.remarks = replica.story;
+  item.remarks = replica.findings;
   for (const std::string &choice : replica.choices) {
     item.parameters.emplace_back("our choice", choice);
   }

@@ -2,14 +2,14 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The parts of the program: replicas against independently computed values, and the story of a run.
+// The parts of the program: replicas against independently computed values, and the findings of a run.
 #include "vpCatch.h"
 
 #include "fieldMotion.h"
 #include "figures.h"
 #include "pointMotion.h"
 #include "replicas.h"
-#include "story.h"
+#include "findings.h"
 
 #include <array>
 #include <cmath>
@@ -155,7 +155,7 @@ TEST_CASE("Every replica agrees with what the thesis tells", "[visp-avoid-obstac
     const Replica result = playReplica(replica(name));
     CHECK(result.name == name);
     CHECK_FALSE(result.figures.empty());
-    CHECK_FALSE(result.story.empty());
+    CHECK_FALSE(result.findings.empty());
     CHECK_FALSE(result.choices.empty());
     CHECK_FALSE(result.tables.empty());
     for (const Comparison &c : result.comparisons) {
@@ -206,7 +206,7 @@ TEST_CASE("Rates are differences from rest", "[visp-avoid-obstacle]")
   CHECK(rates.acceleration[3] == Approx(2.));
 }
 
-TEST_CASE("What was seen when, from a diary", "[visp-avoid-obstacle]")
+TEST_CASE("What was seen when, from a sensorLog", "[visp-avoid-obstacle]")
 {
   PhotoScene scene;
   scene.obstacles.resize(2);
@@ -224,17 +224,17 @@ TEST_CASE("What was seen when, from a diary", "[visp-avoid-obstacle]")
     frame.sights[0].error = errors[i];
     frame.sights[0].sigma = 0.003;
     frame.sights[1].object = "b";
-    episode.diary.frames.push_back(frame);
+    episode.sensorLog.frames.push_back(frame);
     if (i >= 2) {
       TrackRow row;
       row.time = frame.time;
       row.track.name = "a";
       row.track.inflation = 0.005;
       row.error = i == 4 ? 0.006 : 0.001;
-      episode.diary.tracks.push_back(row);
+      episode.sensorLog.tracks.push_back(row);
     }
   }
-  const std::vector<Acquaintance> all = acquaintances(scene, episode);
+  const std::vector<SightingSummary> all = sightingSummaries(scene, episode);
   REQUIRE(all.size() == 2);
   CHECK(all[0].frames == 7);
   CHECK(all[0].seen == 3);
@@ -269,7 +269,7 @@ TEST_CASE("Turns leave out what lasts less than 50 ms", "[visp-avoid-obstacle]")
   add(0.5, S::Moving);
   add(0.8, S::Detouring);
   add(1., S::Arrived);
-  const std::vector<Turn> turns = turnsOf(run);
+  const std::vector<StatusChange> turns = statusChangesOf(run);
   REQUIRE(turns.size() == 3);
   CHECK(turns[0].status == S::Moving);
   CHECK(turns[1].status == S::Detouring);

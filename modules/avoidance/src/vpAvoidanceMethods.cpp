@@ -62,7 +62,7 @@ std::unique_ptr<vpAvoidanceMethod> makeAvoidanceMethod(const std::string &name, 
   if (name == "dtg" || name == "dtg-via") {
     vpDirectTrajectoryAvoidanceSpec full;
     full.common = spec;
-    full.detour = name == "dtg" ? vpDetourKind::Final : vpDetourKind::Via;
+    full.detour = name == "dtg" ? vpDetourKind::PointToPoint : vpDetourKind::Via;
     return std::make_unique<vpDirectTrajectoryAvoidance>(scene, full);
   }
   std::string names;

@@ -64,7 +64,7 @@ TEST_CASE("The detour takes the side that is nearer, round the extent of the obs
   auto rng = vpTestSupport::generator(981);
   CAPTURE(vpTestSupport::seed());
   const Vector3d start = toolAt(amor().home());
-  for (const vpDetourKind kind : {vpDetourKind::Via, vpDetourKind::Final}) {
+  for (const vpDetourKind kind : {vpDetourKind::Via, vpDetourKind::PointToPoint}) {
     int nearer = 0, free = 0;
     for (int problem = 0; problem < 12; ++problem) {
       // Across the front of the arm, with a ball a little above or below the straight way: the other side is shorter.
@@ -106,7 +106,7 @@ TEST_CASE("The planned tool keeps its bounds and is C2 over every change of plan
   for (int problem = 0; problem < 15; ++problem) {
     vpCollisionScene scene(amor());
     vpDirectTrajectoryAvoidanceSpec spec;
-    spec.detour = problem % 2 == 0 ? vpDetourKind::Via : vpDetourKind::Final;
+    spec.detour = problem % 2 == 0 ? vpDetourKind::Via : vpDetourKind::PointToPoint;
     vpDirectTrajectoryAvoidance method(scene, spec);
     vpJointVector q = amor().home();
     REQUIRE(method.start(q, ahead(0.3)) == vpAvoidanceStatus::Moving);

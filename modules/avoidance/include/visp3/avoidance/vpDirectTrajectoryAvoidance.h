@@ -15,8 +15,8 @@ BEGIN_VISP_NAMESPACE
 //! \ingroup group_avoidance
 //! \brief What the trajectory is changed by.
 enum class vpDetourKind {
-  Final, //!< Point to point, (8.3)-(8.5): another final position beside the obstacle until the way to the goal is free.
-  Via    //!< Multi-point, (8.6)-(8.9): up to four via positions, the goal stays.
+  PointToPoint, //!< Point to point, (8.3)-(8.5): another final position beside the obstacle until the way to the goal is free.
+  Via           //!< Multi-point, (8.6)-(8.9): up to four via positions, the goal stays.
 };
 
 /*!
@@ -71,7 +71,7 @@ public:
   void look() override;
   void step(const vpJointVector &q, vpAvoidanceOutput &output) noexcept override;
 
-  //! Via or, for vpDetourKind::Final, the present final position, m; for pictures. Empty on the direct way.
+  //! Via or, for vpDetourKind::PointToPoint, the present final position, m; for pictures. Empty on the direct way.
   [[nodiscard]] std::vector<Eigen::Vector3d> detour() const;
 
 private:

@@ -3,11 +3,11 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 /*!
- * \file diary.h
+ * \file sensorLog.h
  * \brief Sightings and tracks of a run, per frame and per period.
  */
-#ifndef avoidObstacle_diary_h
-#define avoidObstacle_diary_h
+#ifndef avoidObstacle_sensorLog_h
+#define avoidObstacle_sensorLog_h
 
 #include <visp3/avoidance/vpObjectTracks.h>
 
@@ -45,7 +45,7 @@ struct TrackRow {
 };
 
 //! \brief Data of a run that vpAvoidanceRun does not hold.
-struct Diary {
+struct SensorLog {
   std::vector<Frame> frames;
   std::vector<TrackRow> tracks;
 };

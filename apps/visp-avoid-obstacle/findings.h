@@ -3,11 +3,11 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 /*!
- * \file story.h
+ * \file findings.h
  * \brief Course of a run, in numbers and in words.
  */
-#ifndef avoidObstacle_story_h
-#define avoidObstacle_story_h
+#ifndef avoidObstacle_findings_h
+#define avoidObstacle_findings_h
 
 #include "episode.h"
 
@@ -16,7 +16,7 @@
 namespace avoidObstacle
 {
 //! \brief Detection statistics of one obstacle.
-struct Acquaintance {
+struct SightingSummary {
   std::string object;
   std::size_t frames = 0;          //!< Frames in which it was present.
   std::size_t seen = 0;            //!< Frames in which it was detected.
@@ -33,16 +33,16 @@ struct Acquaintance {
 };
 
 //! Statistics of each obstacle, in scene order.
-[[nodiscard]] std::vector<Acquaintance> acquaintances(const PhotoScene &scene, const Episode &episode);
+[[nodiscard]] std::vector<SightingSummary> sightingSummaries(const PhotoScene &scene, const Episode &episode);
 
 //! \brief A status change of the method.
-struct Turn {
+struct StatusChange {
   double time = 0.; //!< s.
   vpAvoidanceStatus status = vpAvoidanceStatus::Moving;
   bool stopping = false;
 };
 //! All status changes; those shorter than 50 ms are omitted.
-[[nodiscard]] std::vector<Turn> turnsOf(const vpAvoidanceRun &run);
+[[nodiscard]] std::vector<StatusChange> statusChangesOf(const vpAvoidanceRun &run);
 
 //! Largest speed and acceleration of the commanded joints, relative to their limits.
 struct JointUse {
@@ -52,7 +52,8 @@ struct JointUse {
 [[nodiscard]] JointUse jointUseOf(const vpAvoidanceRun &run);
 
 //! Result in a few sentences: arrived or not and why, clearance, detections.
-[[nodiscard]] std::vector<std::string> storyOf(const PhotoScene &scene, const Options &options, const Episode &episode);
+[[nodiscard]] std::vector<std::string> findingsOf(const PhotoScene &scene, const Options &options,
+                                                  const Episode &episode);
 } // namespace avoidObstacle
 
 #endif

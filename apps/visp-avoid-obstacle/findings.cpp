@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-#include "story.h"
+#include "findings.h"
 
 #include "numberText.h"
 
@@ -20,10 +20,10 @@ using vpApp::number;
 
 constexpr double SHORTEST_TURN = 0.05; // s
 
-void addFrames(const Diary &diary, Acquaintance &a)
+void addFrames(const SensorLog &sensorLog, SightingSummary &a)
 {
   std::vector<double> errors, sigmas;
-  for (const Frame &frame : diary.frames) {
+  for (const Frame &frame : sensorLog.frames) {
     for (const Sight &sight : frame.sights) {
       if (sight.object != a.object) {
         continue;
@@ -47,9 +47,9 @@ void addFrames(const Diary &diary, Acquaintance &a)
   a.medianSigma = vpMedian(sigmas);
 }
 
-void addTracks(const Diary &diary, Acquaintance &a)
+void addTracks(const SensorLog &sensorLog, SightingSummary &a)
 {
-  for (const TrackRow &row : diary.tracks) {
+  for (const TrackRow &row : sensorLog.tracks) {
     if (row.track.name != a.object) {
       continue;
     }
@@ -77,7 +77,7 @@ std::string ending(const vpAvoidanceRun &run)
          " from the goal, and touched nothing. " + run.sentence;
 }
 
-std::string seeing(const Acquaintance &a, const vpAvoidanceRun &run)
+std::string seeing(const SightingSummary &a, const vpAvoidanceRun &run)
 {
   if (!a.firstSeen) {
     return "Obstacle " + a.object + " was never seen, so the method never knew of it.";
@@ -102,22 +102,22 @@ std::string seeing(const Acquaintance &a, const vpAvoidanceRun &run)
 }
 } // namespace
 
-std::vector<Acquaintance> acquaintances(const PhotoScene &scene, const Episode &episode)
+std::vector<SightingSummary> sightingSummaries(const PhotoScene &scene, const Episode &episode)
 {
-  std::vector<Acquaintance> all;
+  std::vector<SightingSummary> all;
   for (const vpMovingObstacle &obstacle : scene.obstacles) {
-    Acquaintance a;
+    SightingSummary a;
     a.object = obstacle.object.name;
-    addFrames(episode.diary, a);
-    addTracks(episode.diary, a);
+    addFrames(episode.sensorLog, a);
+    addTracks(episode.sensorLog, a);
     all.push_back(a);
   }
   return all;
 }
 
-std::vector<Turn> turnsOf(const vpAvoidanceRun &run)
+std::vector<StatusChange> statusChangesOf(const vpAvoidanceRun &run)
 {
-  std::vector<Turn> turns;
+  std::vector<StatusChange> turns;
   for (const vpAvoidanceSample &s : run.samples) {
     if (turns.empty() || turns.back().status != s.status || turns.back().stopping != s.stopping) {
       if (turns.size() > 1 && s.time - turns.back().time < SHORTEST_TURN) {
@@ -148,28 +148,28 @@ JointUse jointUseOf(const vpAvoidanceRun &run)
   return use;
 }
 
-std::vector<std::string> storyOf(const PhotoScene &scene, const Options &options, const Episode &episode)
+std::vector<std::string> findingsOf(const PhotoScene &scene, const Options &options, const Episode &episode)
 {
   const vpAvoidanceRun &run = episode.run;
   const vpAvoidanceMetrics &m = run.metrics;
-  std::vector<std::string> story = {ending(run)};
-  story.push_back("The least true clearance of the whole arm was " + mm(m.min_clearance_m) + " (the method keeps " +
-                  mm(run.spec.methodSpec.margin) + " from what it knows); the arm was stopped " +
-                  std::to_string(m.stops) + " times for safety.");
-  for (const Acquaintance &a : acquaintances(scene, episode)) {
+  std::vector<std::string> findings = {ending(run)};
+  findings.push_back("The least true clearance of the whole arm was " + mm(m.min_clearance_m) + " (the method keeps " +
+                     mm(run.spec.methodSpec.margin) + " from what it knows); the arm was stopped " +
+                     std::to_string(m.stops) + " times for safety.");
+  for (const SightingSummary &a : sightingSummaries(scene, episode)) {
     if (options.sensor == SensorKind::Depth) {
       continue;
     }
-    story.push_back(seeing(a, run));
+    findings.push_back(seeing(a, run));
   }
   if (options.sensor == SensorKind::Depth) {
-    story.push_back("Depth images know no single objects: all that they show is one map of cubes, at rest.");
+    findings.push_back("Depth images know no single objects: all that they show is one map of cubes, at rest.");
   }
-  story.push_back("The commanded tool went at up to " + number(m.peak_v, 3) + " m/s (bound " +
-                  number(run.spec.methodSpec.maxVelocity, 3) + ") and " + number(m.peak_a, 3) + " m/s^2 (bound " +
-                  number(run.spec.methodSpec.maxAcceleration, 3) + "); a look at a new picture took the method " +
-                  ms(1e-3 * m.replan_ms_p50) + " (median) and " + ms(1e-3 * m.replan_ms_p99) + " (99 %).");
-  story.insert(story.end(), scene.remarks.begin(), scene.remarks.end());
-  return story;
+  findings.push_back("The commanded tool went at up to " + number(m.peak_v, 3) + " m/s (bound " +
+                     number(run.spec.methodSpec.maxVelocity, 3) + ") and " + number(m.peak_a, 3) + " m/s^2 (bound " +
+                     number(run.spec.methodSpec.maxAcceleration, 3) + "); a look at a new picture took the method " +
+                     ms(1e-3 * m.replan_ms_p50) + " (median) and " + ms(1e-3 * m.replan_ms_p99) + " (99 %).");
+  findings.insert(findings.end(), scene.remarks.begin(), scene.remarks.end());
+  return findings;
 }
 } // namespace avoidObstacle

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-#include "eye.h"
+#include "loggingSensor.h"
 
 #include <visp3/direct_core/vpSO3.h>
 #include "lab/avoidance/vpDepthObstacleSensor.h"
@@ -54,12 +54,12 @@ vpCollisionScene onlyObstacles(const PhotoScene &scene, const vpCollisionScene &
   return vpCollisionScene(truth.arm(), spec);
 }
 
-//! \brief Common base of all sensors: covering, and the diary.
-class Eye : public vpObstacleSensor
+//! \brief Common base of all sensors: covering, and the sensorLog.
+class LoggingSensor : public vpObstacleSensor
 {
 public:
-  Eye(const PhotoScene &scene, const Options &options, Diary &diary)
-    : m_scene(&scene), m_options(&options), m_diary(&diary)
+  LoggingSensor(const PhotoScene &scene, const Options &options, SensorLog &sensorLog)
+    : m_scene(&scene), m_options(&options), m_log(&sensorLog)
   {}
 
   void look(const vpCollisionScene &truth, const vpCollisionData &arm, double time,
@@ -78,7 +78,7 @@ public:
     result.clear();
     expose(truth, arm, frame, result);
     compare(truth, result, frame);
-    m_diary->frames.push_back(std::move(frame));
+    m_log->frames.push_back(std::move(frame));
   }
 
 protected:
@@ -120,14 +120,14 @@ private:
 
   const PhotoScene *m_scene;
   const Options *m_options;
-  Diary *m_diary;
+  SensorLog *m_log;
 };
 
-class ImageEye : public Eye
+class ImageLogger : public LoggingSensor
 {
 public:
-  ImageEye(const PhotoScene &scene, const Options &options, unsigned int seed, Diary &diary)
-    : Eye(scene, options, diary),
+  ImageLogger(const PhotoScene &scene, const Options &options, unsigned int seed, SensorLog &sensorLog)
+    : LoggingSensor(scene, options, sensorLog),
       m_sensor(vpSceneCamera(scene.camera), vpObstacleDetector(loadTargets(scene), scene.camera.camera),
                spec(options, seed))
   {}
@@ -170,11 +170,11 @@ private:
   vpImageObstacleSensor m_sensor;
 };
 
-class DepthEye : public Eye
+class DepthLogger : public LoggingSensor
 {
 public:
-  DepthEye(const PhotoScene &scene, const Options &options, unsigned int seed, Diary &diary)
-    : Eye(scene, options, diary), m_sensor(vpSceneCamera(scene.camera), spec(seed))
+  DepthLogger(const PhotoScene &scene, const Options &options, unsigned int seed, SensorLog &sensorLog)
+    : LoggingSensor(scene, options, sensorLog), m_sensor(vpSceneCamera(scene.camera), spec(seed))
   {}
 
 protected:
@@ -207,11 +207,12 @@ private:
   vpDepthObstacleSensor m_sensor;
 };
 
-class PoseEye : public Eye
+class PoseLogger : public LoggingSensor
 {
 public:
-  PoseEye(const PhotoScene &scene, const Options &options, unsigned int seed, Diary &diary)
-    : Eye(scene, options, diary), m_sensor(namesOf(scene), vpPoseSensorSpec(), seed), m_camera(scene.camera)
+  PoseLogger(const PhotoScene &scene, const Options &options, unsigned int seed, SensorLog &sensorLog)
+    : LoggingSensor(scene, options, sensorLog), m_sensor(namesOf(scene), vpPoseSensorSpec(), seed),
+      m_camera(scene.camera)
   {}
 
 protected:
@@ -245,17 +246,17 @@ private:
 };
 } // namespace
 
-std::unique_ptr<vpObstacleSensor> makeEye(const PhotoScene &scene, const Options &options, unsigned int seed,
-                                          Diary &diary)
+std::unique_ptr<vpObstacleSensor> makeLoggingSensor(const PhotoScene &scene, const Options &options, unsigned int seed,
+                                                    SensorLog &sensorLog)
 {
   switch (options.sensor) {
   case SensorKind::Depth:
-    return std::make_unique<DepthEye>(scene, options, seed, diary);
+    return std::make_unique<DepthLogger>(scene, options, seed, sensorLog);
   case SensorKind::Poses:
-    return std::make_unique<PoseEye>(scene, options, seed, diary);
+    return std::make_unique<PoseLogger>(scene, options, seed, sensorLog);
   case SensorKind::Image:
     break;
   }
-  return std::make_unique<ImageEye>(scene, options, seed, diary);
+  return std::make_unique<ImageLogger>(scene, options, seed, sensorLog);
 }
 } // namespace avoidObstacle
