@@ -26,7 +26,7 @@ vpTrajectoryPlanner::Impl::Impl(int count, int maxVias)
     chain(static_cast<std::size_t>(count) * (static_cast<std::size_t>(maxVias) + 1)),
     column(static_cast<std::size_t>(count)), legs(static_cast<std::size_t>(maxVias) + 1)
 {
-  for (vpAxisGroup &unit : units) {
+  for (vpMotionUnit &unit : units) {
     unit.reserve(count);
   }
 }
@@ -74,7 +74,7 @@ void vpTrajectoryPlanner::Impl::makeUnits(const vpTrajectoryProblem &problem)
     if (isAtRest(group) && addLine(problem, &group, axis(n + 1 + g))) {
       continue;
     }
-    vpAxisGroup &unit = addUnit();
+    vpMotionUnit &unit = addUnit();
     unit.setNorm(problem.groupLimits(g));
     for (int i = 0; i < n; ++i) {
       if (group.contains(i)) {
@@ -89,10 +89,10 @@ void vpTrajectoryPlanner::Impl::makeUnits(const vpTrajectoryProblem &problem)
   }
 }
 
-vpAxisGroup &vpTrajectoryPlanner::Impl::addUnit()
+vpMotionUnit &vpTrajectoryPlanner::Impl::addUnit()
 {
   lines[static_cast<std::size_t>(unitCount)] = {};
-  vpAxisGroup &unit = units[static_cast<std::size_t>(unitCount++)];
+  vpMotionUnit &unit = units[static_cast<std::size_t>(unitCount++)];
   unit.clear();
   return unit;
 }
@@ -222,7 +222,7 @@ double vpTrajectoryPlanner::Impl::searchLeg(const vpTrajectoryOptions &options, 
 void vpTrajectoryPlanner::Impl::noteFaults()
 {
   for (int u = 0; u < unitCount; ++u) {
-    const vpAxisGroup &unit = units[static_cast<std::size_t>(u)];
+    const vpMotionUnit &unit = units[static_cast<std::size_t>(u)];
     iterations = std::max(iterations, unit.iterations());
     if (unit.hasDroppedGoalAcceleration()) {
       const int i = firstAxis(u);
@@ -246,7 +246,7 @@ double vpTrajectoryPlanner::Impl::groupBraking() const
 {
   double longest = 0.;
   for (int u = 0; u < unitCount; ++u) {
-    const vpAxisGroup &unit = units[static_cast<std::size_t>(u)];
+    const vpMotionUnit &unit = units[static_cast<std::size_t>(u)];
     longest = unit.hasNorm() ? std::max(longest, unit.brakingDuration()) : longest;
   }
   return longest;
@@ -256,7 +256,7 @@ double vpTrajectoryPlanner::Impl::groupBraking() const
 void vpTrajectoryPlanner::Impl::emitLeg(vpTrajectoryPlan &plan, double begin, bool viaLeg)
 {
   for (int u = 0; u < unitCount; ++u) {
-    const vpAxisGroup &unit = units[static_cast<std::size_t>(u)];
+    const vpMotionUnit &unit = units[static_cast<std::size_t>(u)];
     const double T = unitDurations[static_cast<std::size_t>(u)];
     const Line &line = lines[static_cast<std::size_t>(u)];
     for (int m = 0; m < (line.used ? n : unit.count()); ++m) {

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-#include "vpAxisGroup.h"
+#include "vpMotionUnit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,20 +15,20 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double worthwhile = 0.8; // the cruise form replaces the minimum-jerk polynomial where it saves a fifth
 } // namespace
 
-void vpAxisGroup::reserve(int axes)
+void vpMotionUnit::reserve(int axes)
 {
   m_members.resize(static_cast<std::size_t>(axes));
   m_steps.resize(static_cast<std::size_t>(axes));
   m_families.resize(static_cast<std::size_t>(axes));
 }
 
-void vpAxisGroup::clear() noexcept
+void vpMotionUnit::clear() noexcept
 {
   m_count = 0;
   m_hasNorm = false;
 }
 
-void vpAxisGroup::prepare(bool allowCruise) noexcept
+void vpMotionUnit::prepare(bool allowCruise) noexcept
 {
   m_allowCruise = allowCruise && isSingle();
   m_droppedGoal = m_rampedReady = m_softReady = m_lastBuilt = m_lastReady = m_cruiseReady = false;
@@ -61,7 +61,7 @@ void vpAxisGroup::prepare(bool allowCruise) noexcept
   }
 }
 
-void vpAxisGroup::close(Form form) noexcept
+void vpMotionUnit::close(Form form) noexcept
 {
   for (int i = 0; i < m_count; ++i) {
     at(i)[form].close(at(i).task);
@@ -71,7 +71,7 @@ void vpAxisGroup::close(Form form) noexcept
 
 // Until the fallback is needed: no form leaves the range from start to goal by more than the braking distance, nor
 // exceeds the position limits.
-void vpAxisGroup::boundPositions() noexcept
+void vpMotionUnit::boundPositions() noexcept
 {
   bool monotone = m_braking == 0. && !isOutside();
   for (int i = 0; i < m_count; ++i) {
@@ -90,7 +90,7 @@ void vpAxisGroup::boundPositions() noexcept
 }
 
 // Where the fallback has to go, the other forms may go too. True when their bounds have changed.
-bool vpAxisGroup::takeLast() noexcept
+bool vpMotionUnit::takeLast() noexcept
 {
   buildLast();
   if (!m_bounded) {
@@ -122,7 +122,7 @@ bool vpAxisGroup::takeLast() noexcept
   return wider;
 }
 
-bool vpAxisGroup::isOutside() const noexcept
+bool vpMotionUnit::isOutside() const noexcept
 {
   for (int i = 0; i < m_count; ++i) {
     if (at(i).task.minPosition > 0. || at(i).task.maxPosition < 0.) {
@@ -133,7 +133,7 @@ bool vpAxisGroup::isOutside() const noexcept
 }
 
 // The extent of start and goal.
-bool vpAxisGroup::keepsPositions(Form form) const noexcept
+bool vpMotionUnit::keepsPositions(Form form) const noexcept
 {
   for (int i = 0; i < m_count; ++i) {
     const vpAxisTask &task = at(i).task;
@@ -149,7 +149,7 @@ bool vpAxisGroup::keepsPositions(Form form) const noexcept
   return true;
 }
 
-bool vpAxisGroup::breaksNorm() const noexcept
+bool vpMotionUnit::breaksNorm() const noexcept
 {
   const double slack = 1. + 1e-12;
   double v2 = 0., a2 = 0.;
@@ -161,7 +161,7 @@ bool vpAxisGroup::breaksNorm() const noexcept
   return std::sqrt(v2) > m_norm.velocity * slack || std::sqrt(a2) > m_norm.acceleration * slack;
 }
 
-double vpAxisGroup::search(Form form, double T) noexcept
+double vpMotionUnit::search(Form form, double T) noexcept
 {
   double &none = m_none[static_cast<std::size_t>(form)];
   if (T >= none) {
@@ -195,7 +195,7 @@ double vpAxisGroup::search(Form form, double T) noexcept
   return infinity; // undecided: use another form
 }
 
-bool vpAxisGroup::isAtGoal(bool atRest) const noexcept
+bool vpMotionUnit::isAtGoal(bool atRest) const noexcept
 {
   for (int i = 0; i < m_count; ++i) {
     const vpAxisTask &task = m_members[static_cast<std::size_t>(i)]->task;
@@ -208,7 +208,7 @@ bool vpAxisGroup::isAtGoal(bool atRest) const noexcept
   return true;
 }
 
-double vpAxisGroup::next(double T) noexcept
+double vpMotionUnit::next(double T) noexcept
 {
   m_form = vpTrajectoryForm::Direct;
   m_used = vpMotionAxis::Direct;
@@ -236,7 +236,7 @@ double vpAxisGroup::next(double T) noexcept
 }
 
 // The forms without a stop.
-double vpAxisGroup::searchFree(double T) noexcept
+double vpMotionUnit::searchFree(double T) noexcept
 {
   m_form = vpTrajectoryForm::Direct;
   m_used = vpMotionAxis::Direct;
@@ -258,7 +258,7 @@ double vpAxisGroup::searchFree(double T) noexcept
   return best < infinity ? best : searchRamped(T);
 }
 
-bool vpAxisGroup::makesDetour(double T) const noexcept
+bool vpMotionUnit::makesDetour(double T) const noexcept
 {
   for (int i = 0; i < m_count; ++i) {
     const vpMotionAxis &axis = at(i);
@@ -271,7 +271,7 @@ bool vpAxisGroup::makesDetour(double T) const noexcept
   return false;
 }
 
-double vpAxisGroup::searchRamped(double T) noexcept
+double vpMotionUnit::searchRamped(double T) noexcept
 {
   m_form = vpTrajectoryForm::Ramped;
   m_used = vpMotionAxis::Ramped;
@@ -282,7 +282,7 @@ double vpAxisGroup::searchRamped(double T) noexcept
 }
 
 // The gentle stop, unless it needs more time than another form would, or more space; infinity then.
-double vpAxisGroup::searchSoft(double T, double instead) noexcept
+double vpMotionUnit::searchSoft(double T, double instead) noexcept
 {
   const vpTrajectoryForm form = m_form;
   const Form used = m_used;
@@ -300,7 +300,7 @@ double vpAxisGroup::searchSoft(double T, double instead) noexcept
   return infinity;
 }
 
-double vpAxisGroup::searchStops(double T, double instead) noexcept
+double vpMotionUnit::searchStops(double T, double instead) noexcept
 {
   const double soft = T <= m_own ? searchSoft(T, instead) : infinity;
   if (soft < infinity) {
@@ -311,7 +311,7 @@ double vpAxisGroup::searchStops(double T, double instead) noexcept
   return searchLast(T);
 }
 
-double vpAxisGroup::searchLast(double T) noexcept
+double vpMotionUnit::searchLast(double T) noexcept
 {
   if (!m_lastReady) {
     close(m_last);
@@ -320,7 +320,7 @@ double vpAxisGroup::searchLast(double T) noexcept
   return search(m_last, T);
 }
 
-void vpAxisGroup::emit(vpTrajectoryPlan &plan, int member, int axis, double factor, double T) const noexcept
+void vpMotionUnit::emit(vpTrajectoryPlan &plan, int member, int axis, double factor, double T) const noexcept
 {
   const vpMotionAxis &m = at(member);
   if (m_form == vpTrajectoryForm::Cruise) {

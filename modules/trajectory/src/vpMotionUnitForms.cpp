@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 // Ramps, braking, stops and launches common to the members of a unit.
-#include "vpAxisGroup.h"
+#include "vpMotionUnit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@ namespace
 constexpr double infinity = std::numeric_limits<double>::infinity();
 } // namespace
 
-void vpAxisGroup::dropGoalAcceleration() noexcept
+void vpMotionUnit::dropGoalAcceleration() noexcept
 {
   m_droppedGoal = true;
   m_tailRamp = 0.;
@@ -27,7 +27,7 @@ void vpAxisGroup::dropGoalAcceleration() noexcept
 }
 
 // All members return inside together: their velocities keep their ratios.
-void vpAxisGroup::brake() noexcept
+void vpMotionUnit::brake() noexcept
 {
   const auto naturalTarget = [](const vpAxisTask &task) {
     const double a = task.order > 2 ? task.from[2] : 0.;
@@ -54,7 +54,7 @@ void vpAxisGroup::brake() noexcept
   }
 }
 
-double vpAxisGroup::normNext(const vpMotionFamily *families, double T) noexcept
+double vpMotionUnit::normNext(const vpMotionFamily *families, double T) noexcept
 {
   for (int i = 0; i < m_count; ++i) {
     m_families[static_cast<std::size_t>(i)] = families + i;
@@ -62,7 +62,7 @@ double vpAxisGroup::normNext(const vpMotionFamily *families, double T) noexcept
   return vpMinimumDuration::nextCandidate(m_families.data(), m_count, m_norm, T);
 }
 
-void vpAxisGroup::buildRamped() noexcept
+void vpMotionUnit::buildRamped() noexcept
 {
   m_rampedReady = true;
   for (int i = 0; i < m_count; ++i) {
@@ -74,7 +74,7 @@ void vpAxisGroup::buildRamped() noexcept
   close(vpMotionAxis::Ramped);
 }
 
-void vpAxisGroup::buildSoft() noexcept
+void vpMotionUnit::buildSoft() noexcept
 {
   constexpr double gentle = 0.25; // a quarter of the usual jerk, about that of a smooth polynomial
   if (order() == 4) {
@@ -97,7 +97,7 @@ void vpAxisGroup::buildSoft() noexcept
 }
 
 // A stop with continuous jerk, from the ramped form.
-void vpAxisGroup::buildSmooth() noexcept
+void vpMotionUnit::buildSmooth() noexcept
 {
   if (!m_rampedReady) {
     buildRamped();
@@ -126,7 +126,7 @@ vpAxisTask harder(vpAxisTask task, double share, double normAcceleration, double
 
 // Members of a norm first lose their acceleration, then they slow down with accelerations in proportion to their
 // velocities, so that the norms keep their limits.
-void vpAxisGroup::buildStop(Form form, double hardness) noexcept
+void vpMotionUnit::buildStop(Form form, double hardness) noexcept
 {
   double head2 = 0., tail2 = 0., shortest[2] = {0., 0.};
   for (int i = 0; i < m_count; ++i) {
@@ -169,7 +169,7 @@ void vpAxisGroup::buildStop(Form form, double hardness) noexcept
 
 // The fallback, which always has a solution. It keeps the position limits if it can be hard enough; where the jerk is
 // not limited, up to ten thousand times harder than usual, which is within 1e-4 of the optimum at any jerk.
-void vpAxisGroup::buildLast() noexcept
+void vpMotionUnit::buildLast() noexcept
 {
   constexpr double hardest = 1e4;
   m_lastBuilt = true;
@@ -192,7 +192,7 @@ void vpAxisGroup::buildLast() noexcept
 }
 
 // From the stopping position of the fallback to the nearest position inside.
-void vpAxisGroup::comeBack() noexcept
+void vpMotionUnit::comeBack() noexcept
 {
   const auto inside = [](const vpMotionAxis &axis, double place) {
     return std::clamp(place, axis.task.minPosition, axis.task.maxPosition);
@@ -215,7 +215,7 @@ void vpAxisGroup::comeBack() noexcept
 }
 
 // The smallest duration >= T for which the motions in m_steps keep the norm.
-double vpAxisGroup::commonDuration(double T) noexcept
+double vpMotionUnit::commonDuration(double T) noexcept
 {
   for (int k = 0; m_hasNorm && T > 0. && k < vpMinimumDuration::maxIterations; ++k) {
     const double next = normNext(m_steps.data(), T);
@@ -228,7 +228,7 @@ double vpAxisGroup::commonDuration(double T) noexcept
 }
 
 // Members of a norm share their ramps, shortened until the norm keeps its limit at the end of the ramp.
-double vpAxisGroup::commonRamp(bool head) noexcept
+double vpMotionUnit::commonRamp(bool head) noexcept
 {
   double common = infinity, shortest = 0.;
   bool any = false;
@@ -260,7 +260,7 @@ double vpAxisGroup::commonRamp(bool head) noexcept
   return common < shortest * (1. - 1e-9) ? -1. : common;
 }
 
-double vpAxisGroup::commonStop(bool head) noexcept
+double vpMotionUnit::commonStop(bool head) noexcept
 {
   double T = 0.;
   for (int i = 0; i < m_count; ++i) {
