@@ -4,6 +4,7 @@
  */
 #include "vpAxisForms.h"
 
+#include "vpHardStop.h"
 #include "vpRootKernel.h"
 
 #include <algorithm>
@@ -62,6 +63,14 @@ double vpAxisTask::brakeJerk(const vpAxisState &x, double hardness) const
   const double least = 1e-6 * std::min(limits.velocity, x[2] * x[2] / (2. * usual));
   const bool near = order > 2 && x[2] != 0. && room > 0. && std::isfinite(room);
   return std::min(limits.jerk, std::max(hardness * usual, near ? x[2] * x[2] / (2. * std::max(room, least)) : 0.));
+}
+
+vpAxisTask vpAxisTask::harder(double hardness) const
+{
+  vpAxisTask task = *this;
+  double &a = task.limits.acceleration;
+  a = std::isfinite(a) ? a : brakeAcceleration() * std::sqrt(hardness);
+  return task;
 }
 
 double vpAxisTask::brakingDistance() const
@@ -158,34 +167,46 @@ void vpFramedMotion::addTail(const vpPolynomial &p, double duration) noexcept
   m_tailTime += duration;
 }
 
-void vpFramedMotion::brake(const vpAxisTask &task, double target, double duration, double jerk) noexcept
+void vpFramedMotion::rampTo(double target, double acceleration, double jerk) noexcept
 {
-  double t = 0.;
   vpAxisState x{m_head[0], m_head[1], m_order > 2 ? m_head[2] : 0., 0.};
   if (m_order == 2) { // the acceleration may jump
-    t = std::abs(target - x[1]) / task.brakeAcceleration();
+    const double t = std::abs(target - x[1]) / acceleration;
     if (t > 0.) {
       addHead({0., x[1] * t, 0.5 * (target - x[1]) * t}, t);
-      x = {x[0] + 0.5 * (x[1] + target) * t, target, 0., 0.};
+      x[0] += 0.5 * (x[1] + target) * t;
     }
   }
   else {
-    const vpVelocityRamp ramp(x[1], x[2], target, task.brakeAcceleration(), jerk);
+    const vpVelocityRamp ramp(x[1], x[2], target, acceleration, jerk);
     for (int i = 0; i < ramp.count(); ++i) {
       const auto &piece = ramp.piece(i);
       const double d = piece.duration;
       addHead({0., x[1] * d, x[2] * d * d / 2., piece.jerk * d * d * d / 6.}, d);
-      t += d;
       x[0] += d * (x[1] + d * (x[2] / 2. + d * piece.jerk / 6.));
       x[1] += d * (x[2] + d * piece.jerk / 2.);
       x[2] += d * piece.jerk;
     }
   }
-  const double rest = duration - t;
+  m_head = {x[0], target, 0., 0.};
+}
+
+void vpFramedMotion::brake(const vpAxisTask &task, double target, double duration, double jerk) noexcept
+{
+  const double before = m_headTime;
+  rampTo(target, task.brakeAcceleration(), jerk);
+  const double rest = duration - (m_headTime - before);
   if (rest > 0.) {
     addHead({0., target * rest}, rest);
+    m_head[0] += target * rest;
   }
-  m_head = {x[0] + std::max(rest, 0.) * target, target, 0., 0.};
+}
+
+void vpFramedMotion::brake(const vpHardStop &stop) noexcept
+{
+  for (int i = 0; i < stop.count; ++i) {
+    rampTo(stop.velocities[static_cast<std::size_t>(i)], stop.acceleration, stop.jerk);
+  }
 }
 
 void vpFramedMotion::go(double place, double duration) noexcept
@@ -211,15 +232,27 @@ void vpFramedMotion::padTail(double duration) noexcept
 
 void vpFramedMotion::launch(const vpAxisTask &task, double jerk) noexcept
 {
-  if (m_tail[1] == 0. && (m_order == 2 || m_tail[2] == 0.)) {
-    m_tail[2] = m_tail[3] = 0.;
-    return;
-  }
-  // Time runs backwards from the goal: braking from (-v, a).
   vpFramedMotion backwards;
   backwards.m_order = m_order;
-  backwards.m_head = {m_tail[0], -m_tail[1], m_order > 2 ? m_tail[2] : 0., 0.};
+  backwards.m_head = m_tail;
+  backwards.m_head[1] = -m_tail[1];
   backwards.brake(task, 0., 0., jerk);
+  takeTail(backwards);
+}
+
+void vpFramedMotion::launch(const vpHardStop &stop) noexcept
+{
+  vpFramedMotion backwards;
+  backwards.m_order = m_order;
+  backwards.m_head = m_tail;
+  backwards.m_head[1] = -m_tail[1];
+  backwards.brake(stop);
+  takeTail(backwards);
+}
+
+// Time runs backwards from the goal.
+void vpFramedMotion::takeTail(const vpFramedMotion &backwards) noexcept
+{
   for (int i = 0; i < backwards.m_heads; ++i) {
     const Piece &piece = backwards.m_headPieces[static_cast<std::size_t>(i)];
     vpPolynomial p = piece.p.composed(1., -1.);

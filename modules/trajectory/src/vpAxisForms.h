@@ -33,8 +33,13 @@ struct vpAxisTask {
   [[nodiscard]] double brakeAcceleration() const;
   //! Jerk to brake with from a state: gentle, unless the velocity limit leaves no room for that, or times \e hardness.
   [[nodiscard]] double brakeJerk(const vpAxisState &x, double hardness = 1.) const;
+  //! The task with the acceleration that it may brake with: its limit, or where there is none, \e hardness decides.
+  [[nodiscard]] vpAxisTask harder(double hardness) const;
   //! The limits without those on the position.
   [[nodiscard]] vpAxisLimits withoutPosition() const;
+  //! The position limits, as far as start and goal are within them.
+  [[nodiscard]] double lowest() const { return std::min({minPosition, 0., to[0]}); }
+  [[nodiscard]] double highest() const { return std::max({maxPosition, 0., to[0]}); }
   //! Start or goal has a velocity (or what of higher derivatives matters): the axis needs room to brake or to launch.
   [[nodiscard]] bool isMoving() const;
   //! The longer of the ways that a stop from the start and a launch to the goal take, as hard as usual.
@@ -55,6 +60,8 @@ double rampDuration(const vpAxisState &x, const vpAxisTask &task) noexcept;
 //! True when the state is outside the limits or cannot but leave them: braking comes first.
 bool needsBraking(const vpAxisTask &task) noexcept;
 
+struct vpHardStop;
+
 /*!
  * Fixed pieces, one polynomial of free duration, fixed pieces. Everything except the cruise form is of this kind.
  */
@@ -67,6 +74,9 @@ public:
   void brake(const vpAxisTask &task, double target, double duration, double jerk) noexcept;
   //! Fixed pieces at the tail: as fast as the limits allow from rest to the velocity before the tail.
   void launch(const vpAxisTask &task, double jerk) noexcept;
+  //! Fixed pieces at the head, and at the tail with time running backwards: this stop.
+  void brake(const vpHardStop &stop) noexcept;
+  void launch(const vpHardStop &stop) noexcept;
   //! Fixed piece at the head: from rest to rest at \e place.
   void go(double place, double duration) noexcept;
   //! Rest until the head, or the tail, lasts that long; both are at rest.
@@ -112,9 +122,11 @@ private:
     vpPolynomial p;
     double duration = 0.;
   };
-  static constexpr int maxHead = 8; // braking 4, padding, ramp, stop, the way back inside
-  static constexpr int maxTail = 6; // ramp, stop or a launch of four, padding; the last one first
+  static constexpr int maxHead = 10; // braking 4, padding, ramp, stop, or a stop of 8; the way back inside
+  static constexpr int maxTail = 8;  // ramp, stop or a launch of 8, padding; the last one first
 
+  void rampTo(double target, double acceleration, double jerk) noexcept;
+  void takeTail(const vpFramedMotion &backwards) noexcept;
   void addHead(const vpPolynomial &p, double duration) noexcept;
   void addTail(const vpPolynomial &p, double duration) noexcept;
 

@@ -142,7 +142,7 @@ bool vpMotionUnit::keepsPositions(Form form) const noexcept
     }
     double low = 0., high = 0.;
     at(i)[form].hull(low, high);
-    if (low < std::min({task.minPosition, 0., task.to[0]}) || high > std::max({task.maxPosition, 0., task.to[0]})) {
+    if (low < task.lowest() || high > task.highest()) {
       return false;
     }
   }

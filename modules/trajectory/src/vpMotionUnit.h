@@ -107,6 +107,7 @@ private:
   void buildSmooth() noexcept;
   void buildStop(Form form, double hardness) noexcept;
   void buildLast() noexcept;
+  void buildHardStop() noexcept;
   void comeBack() noexcept;
   void boundPositions() noexcept;
   bool takeLast() noexcept;

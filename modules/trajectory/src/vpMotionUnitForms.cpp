@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 // How the members of a unit ramp, brake, stop and launch together.
+#include "vpHardStop.h"
 #include "vpMotionUnit.h"
 
 #include <algorithm>
@@ -111,19 +112,6 @@ void vpMotionUnit::buildSmooth() noexcept
   }
 }
 
-namespace
-{
-// The task with the acceleration that it may brake with.
-vpAxisTask harder(vpAxisTask task, double share, double normAcceleration, double hardness)
-{
-  double &a = task.limits.acceleration;
-  a = std::isfinite(a) ? a : task.brakeAcceleration() * std::sqrt(hardness);
-  a = std::isfinite(normAcceleration) ? std::min(a, share * normAcceleration) : a;
-  return task;
-}
-
-} // namespace
-
 // Members of a norm first lose their acceleration, then they slow down with accelerations in proportion to their
 // velocities, so that the norms keep their limits.
 void vpMotionUnit::buildStop(Form form, double hardness) noexcept
@@ -154,8 +142,9 @@ void vpMotionUnit::buildStop(Form form, double hardness) noexcept
     const vpAxisState from = motion.head(), to = motion.tail();
     const double headShare = from[1] != 0. ? std::abs(from[1]) / std::sqrt(head2) : 1.;
     const double tailShare = to[1] != 0. ? std::abs(to[1]) / std::sqrt(tail2) : 1.;
-    const vpAxisTask stop = harder(axis.task, headShare, norm, hardness);
-    const vpAxisTask start = harder(axis.task, tailShare, norm, hardness);
+    vpAxisTask stop = axis.task.harder(hardness), start = stop;
+    stop.limits.acceleration = std::min(stop.limits.acceleration, headShare * norm);
+    start.limits.acceleration = std::min(start.limits.acceleration, tailShare * norm);
     motion.brake(stop, 0., 0., stop.brakeJerk(from, hardness));
     motion.launch(start, start.brakeJerk({to[0], -to[1], to[2], 0.}, hardness));
     head = std::max(head, motion.headDuration());
@@ -167,8 +156,8 @@ void vpMotionUnit::buildStop(Form form, double hardness) noexcept
   }
 }
 
-// What always has an answer. It keeps the position limits if it can be hard enough; where the jerk is not limited, up to
-// ten thousand times harder than usual, which is within 1e-4 of what no jerk could better.
+// What always has an answer. It keeps the position limits if it can be hard enough, or exceeds them as little as can be;
+// see vpHardStop. Members of a norm brake together, so that there the excess is that of the hardest stop to rest.
 void vpMotionUnit::buildLast() noexcept
 {
   constexpr double hardest = 1e4;
@@ -179,16 +168,32 @@ void vpMotionUnit::buildLast() noexcept
   }
   if (order() != 4 || !keepsPositions(m_last)) {
     m_last = vpMotionAxis::Hard;
-    double hardness = 1.;
-    buildStop(m_last, hardness);
-    while (hardness < hardest && !keepsPositions(m_last)) {
-      hardness *= 10.;
+    if (isSingle()) {
+      buildHardStop();
+    }
+    else {
+      double hardness = 1.;
       buildStop(m_last, hardness);
+      while (hardness < hardest && !keepsPositions(m_last)) {
+        hardness *= 10.;
+        buildStop(m_last, hardness);
+      }
     }
   }
   if (isOutside()) {
     comeBack();
   }
+}
+
+void vpMotionUnit::buildHardStop() noexcept
+{
+  const vpAxisTask &task = at(0).task;
+  vpFramedMotion &motion = at(0)[m_last];
+  motion.open(task);
+  const double low = task.lowest(), high = task.highest();
+  motion.brake(vpHardStop(task.from, task, low, high));
+  const double goal = task.to[0];
+  motion.launch(vpHardStop({0., -task.to[1], task.to[2], 0.}, task, low - goal, high - goal));
 }
 
 // From where the last resort comes to rest to the nearest place inside.

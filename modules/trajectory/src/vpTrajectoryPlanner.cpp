@@ -4,6 +4,7 @@
  */
 #include "vpTrajectoryPlannerImpl.h"
 
+#include "vpHardStop.h"
 #include "vpLimitCheck.h"
 
 #include <algorithm>
@@ -284,7 +285,7 @@ void vpTrajectoryPlanner::Impl::finish(const vpTrajectoryProblem &problem, vpTra
       x = k >= given || planned[static_cast<std::size_t>(k)] == 0. ? 0. : x;
     }
     plan.finish(i, goal);
-    coast(i, goal, coastingRamp(problem, i), plan);
+    coast(problem, i, goal, plan);
   }
   plan.setIterations(iterations);
 }
@@ -322,10 +323,11 @@ double vpTrajectoryPlanner::Impl::coastingRamp(const vpTrajectoryProblem &proble
 
 // After the arrival: the acceleration goes down linearly, the velocity stays, and the axis brakes where it would leave
 // its position limits otherwise.
-void vpTrajectoryPlanner::Impl::coast(int i, const vpAxisState &goal, double ramp, vpTrajectoryPlan &plan)
+void vpTrajectoryPlanner::Impl::coast(const vpTrajectoryProblem &problem, int i, const vpAxisState &goal,
+                                      vpTrajectoryPlan &plan)
 {
   const vpAxisTask &task = axis(i).task;
-  const double r = goal[2] != 0. ? ramp : 0.;
+  const double r = goal[2] != 0. ? coastingRamp(problem, i) : 0.;
   vpAxisState x{goal[0], goal[1] + 0.5 * r * goal[2], 0., 0.};
   x[0] += r * (goal[1] + r * goal[2] / 3.);
   const double wall = from[static_cast<std::size_t>(i)][0] + (x[1] > 0. ? task.maxPosition : task.minPosition);
@@ -338,19 +340,32 @@ void vpTrajectoryPlanner::Impl::coast(int i, const vpAxisState &goal, double ram
     stop = brakeFrom(x);
     constant = (wall - stop.at(x[0], stop.duration())[0]) / x[1];
   }
-  if (constant >= 0.) {
-    plan.append(i, {0., goal[1] * r, goal[2] * r * r / 2., -goal[2] * r * r / 6.}, r);
+  const vpPolynomial ramp{0., goal[1] * r, goal[2] * r * r / 2., -goal[2] * r * r / 6.};
+  const double place = from[static_cast<std::size_t>(i)][0] - goal[0];
+  const double low = std::min(task.minPosition + place, 0.), high = std::max(task.maxPosition + place, 0.);
+  if (constant >= 0. && ramp.range().min >= low && ramp.range().max <= high) {
+    plan.append(i, ramp, r);
+    if (std::isfinite(constant)) {
+      plan.append(i, {0., x[1] * constant}, constant);
+      plan.appendRamp(i, stop, x);
+      plan.rest(i);
+    }
+    return;
   }
-  else {
-    x = goal;
-    stop = brakeFrom(x);
+  // No room for that: at once, and as hard as is needed. The norm of a group is for the usual stop only.
+  const auto &groups = problem.options.groups;
+  const bool grouped = std::any_of(groups.begin(), groups.end(), [i](const vpAxisGroup &g) { return g.contains(i); });
+  vpAxisTask hard = task;
+  hard.order = 3;
+  const double far = grouped ? infinity : 0.;
+  const vpHardStop hardStop(goal, hard, low - far, high + far);
+  x = goal;
+  for (int k = 0; k < hardStop.count; ++k) {
+    const double v = hardStop.velocities[static_cast<std::size_t>(k)];
+    plan.appendRamp(i, vpVelocityRamp(x[1], x[2], v, hardStop.acceleration, hardStop.jerk), x);
+    x = {0., v, 0., 0.};
   }
-  if (std::isfinite(constant)) {
-    plan.append(i, {0., x[1] * constant}, constant);
-    x[0] += std::max(constant, 0.) * x[1];
-    plan.appendRamp(i, stop, x);
-    plan.rest(i);
-  }
+  plan.rest(i);
 }
 
 // When all else fails: to rest, as fast as the limits allow.
