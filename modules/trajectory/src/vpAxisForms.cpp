@@ -409,68 +409,68 @@ void vpFramedMotion::emit(vpTrajectoryPlan &plan, int axis, double factor, doubl
 void vpCruiseMotion::open(const vpAxisTask &task, const vpFramedMotion &framed) noexcept
 {
   m_available = false;
-  m_from = framed.head();
-  m_to = framed.tail();
-  m_braked = framed.fixedDuration();
-  m_limits = task.limits;
-  const double h = m_to[0] - m_from[0];
+  const vpAxisState &from = framed.head(), &to = framed.tail();
+  const double h = to[0] - from[0];
   if (framed.isBlocked() || task.order != 3 || h == 0. || !std::isfinite(task.limits.velocity) ||
       !std::isfinite(task.limits.acceleration)) {
     return;
   }
   const double full = std::copysign(task.limits.velocity, h);
-  const vpMotionFamily up = vpMotionFamily::velocityStep(m_from, {m_from[0], full, 0., 0.}, 2);
-  const vpMotionFamily down = vpMotionFamily::velocityStep({m_to[0], full, 0., 0.}, m_to, 2);
   const vpAxisLimits free = task.withoutPosition();
-  const vpDurationAnswer a = vpMinimumDuration::solve(
-      up, free, vpMinimumDuration::lowerBound({0., m_from[1], m_from[2], 0.}, {0., full, 0., 0.}, free));
-  const vpDurationAnswer b = vpMinimumDuration::solve(
-      down, free, vpMinimumDuration::lowerBound({0., full, 0., 0.}, {0., m_to[1], m_to[2], 0.}, free));
-  if (a.kind != vpDurationAnswer::Kind::Found || b.kind != vpDurationAnswer::Kind::Found) {
-    return;
+  const vpDurationAnswer up =
+      vpMinimumDuration::solve(vpMotionFamily::velocityStep(from, {0., full, 0., 0.}, 2), free,
+                               vpMinimumDuration::lowerBound({0., from[1], from[2], 0.}, {0., full, 0., 0.}, free));
+  const vpDurationAnswer down =
+      vpMinimumDuration::solve(vpMotionFamily::velocityStep({0., full, 0., 0.}, to, 2), free,
+                               vpMinimumDuration::lowerBound({0., full, 0., 0.}, {0., to[1], to[2], 0.}, free));
+  if (up.kind == vpDurationAnswer::Kind::Found && down.kind == vpDurationAnswer::Kind::Found) {
+    open(task, framed, up.T, down.T,
+         framed.fixedDuration() + rest(framed, up.T, down.T) / full + 0.5 * (up.T + down.T));
   }
-  m_up = a.T;
-  m_down = b.T;
-  const double constant = (h - up.at(m_up).value(1.) - down.at(m_down).value(1.)) / full;
-  m_shortest = m_braked + m_up + m_down + constant;
-  m_available = constant >= 0.;
 }
 
-double vpCruiseMotion::least(const vpAxisTask &task, const vpFramedMotion &framed) noexcept
+void vpCruiseMotion::open(const vpAxisTask &task, const vpFramedMotion &framed, double up, double down,
+                          double shortest) noexcept
 {
-  const vpAxisState &from = framed.head(), &to = framed.tail();
-  const double h = to[0] - from[0], side = std::copysign(1., h);
-  const double v = task.limits.velocity, a = task.limits.acceleration;
-  if (task.order != 3 || h == 0. || !std::isfinite(v) || !std::isfinite(a)) {
+  m_from = framed.head();
+  m_to = framed.tail();
+  m_braked = framed.fixedDuration();
+  m_limits = task.limits;
+  m_up = up;
+  m_down = down;
+  m_shortest = shortest;
+  m_rest = rest(framed, up, down);
+  m_available = shortest < infinity && shortest >= m_braked + up + down;
+}
+
+double vpCruiseMotion::least(double fixed, double h, double v0, double v1, double v, double a) noexcept
+{
+  const double side = std::copysign(1., h);
+  if (h == 0. || !std::isfinite(v) || !std::isfinite(a)) {
     return infinity;
   }
-  const double v0 = side * from[1], v1 = side * to[1];
+  v0 *= side;
+  v1 *= side;
   const double constant = side * h - (2. * v * v - v0 * v0 - v1 * v1) / (2. * a);
-  return constant >= 0. ? framed.fixedDuration() + (2. * v - v0 - v1) / a + constant / v : infinity;
+  return constant >= 0. ? fixed + (2. * v - v0 - v1) / a + constant / v : infinity;
 }
 
-bool vpCruiseMotion::ramps(double cruise, vpPolynomial &up, vpPolynomial &down) const noexcept
+void vpCruiseMotion::ramps(double T, vpMotionFamily &up, vpMotionFamily &down) const noexcept
 {
-  const vpMotionFamily first = vpMotionFamily::velocityStep(m_from, {0., cruise, 0., 0.}, 2);
-  const vpMotionFamily last = vpMotionFamily::velocityStep({0., cruise, 0., 0.}, m_to, 2);
-  vpAxisLimits free = m_limits;
-  free.minPosition = -infinity;
-  free.maxPosition = infinity;
-  up = first.at(m_up);
-  down = last.at(m_down);
-  return std::abs(cruise) <= m_limits.velocity * (1. + vpMinimumDuration::tolerance) &&
-         vpMinimumDuration::isFeasible(first, free, m_up) && vpMinimumDuration::isFeasible(last, free, m_down) &&
-         (!isBounded(m_limits) ||
-          (within(up, m_from[0], m_limits) && within(down, m_to[0] - down.value(1.), m_limits)));
+  const vpAxisState cruise{0., cruiseAt(T), 0., 0.};
+  up = vpMotionFamily::velocityStep(m_from, cruise, 2);
+  down = vpMotionFamily::velocityStep(cruise, m_to, 2);
 }
 
-// The velocity that takes the duration T with the same ramps; their lengths are linear in it.
-double vpCruiseMotion::cruiseAt(double T) const noexcept
+// The ramps' lengths are linear in the velocity between them.
+double vpCruiseMotion::rest(const vpFramedMotion &framed, double up, double down) noexcept
 {
-  const double ends =
-      m_up * (m_from[1] / 2. + m_up * m_from[2] / 12.) + m_down * (m_to[1] / 2. - m_down * m_to[2] / 12.);
-  return (m_to[0] - m_from[0] - ends) / (T - m_braked - 0.5 * (m_up + m_down));
+  const vpAxisState &from = framed.head(), &to = framed.tail();
+  return to[0] - from[0] - up * (from[1] / 2. + up * from[2] / 12.) - down * (to[1] / 2. - down * to[2] / 12.);
 }
+
+// The velocity that takes the duration T with the same ramps.
+double vpCruiseMotion::cruiseAt(double T) const noexcept { return m_rest / (T - m_braked - 0.5 * (m_up + m_down)); }
 
 double vpCruiseMotion::next(double T) const noexcept
 {
@@ -478,29 +478,37 @@ double vpCruiseMotion::next(double T) const noexcept
     return infinity;
   }
   T = std::max(T, m_shortest);
-  vpPolynomial up, down;
-  return ramps(cruiseAt(T), up, down) ? T : infinity;
+  vpMotionFamily up, down;
+  ramps(T, up, down);
+  vpAxisLimits free = m_limits;
+  free.minPosition = -infinity;
+  free.maxPosition = infinity;
+  const bool keeps = std::abs(cruiseAt(T)) <= m_limits.velocity * (1. + vpMinimumDuration::tolerance) &&
+                     vpMinimumDuration::isFeasible(up, free, m_up) &&
+                     vpMinimumDuration::isFeasible(down, free, m_down) &&
+                     (!isBounded(m_limits) || staysWithin(m_limits.minPosition, m_limits.maxPosition, T));
+  return keeps ? T : infinity;
 }
 
 bool vpCruiseMotion::staysWithin(double low, double high, double T) const noexcept
 {
-  vpPolynomial up, down;
-  static_cast<void>(ramps(cruiseAt(T), up, down));
+  vpMotionFamily up, down;
+  ramps(T, up, down);
   vpAxisLimits places;
   places.minPosition = low;
   places.maxPosition = high;
-  return within(up, m_from[0], places) && within(down, m_to[0] - down.value(1.), places);
+  const vpPolynomial last = down.at(m_down);
+  return within(up.at(m_up), m_from[0], places) && within(last, m_to[0] - last.value(1.), places);
 }
 
 void vpCruiseMotion::emit(vpTrajectoryPlan &plan, int axis, double factor, double T) const noexcept
 {
-  vpPolynomial up, down;
-  const double cruise = cruiseAt(T);
-  static_cast<void>(ramps(cruise, up, down));
+  vpMotionFamily up, down;
+  ramps(T, up, down);
   const double constant = T - m_braked - m_up - m_down;
-  plan.append(axis, scaled(up, factor), m_up);
-  plan.append(axis, {0., factor * cruise * constant}, constant);
-  plan.append(axis, scaled(down, factor), m_down);
+  plan.append(axis, scaled(up.at(m_up), factor), m_up);
+  plan.append(axis, {0., factor * cruiseAt(T) * constant}, constant);
+  plan.append(axis, scaled(down.at(m_down), factor), m_down);
 }
 
 END_VISP_NAMESPACE

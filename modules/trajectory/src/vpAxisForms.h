@@ -141,28 +141,37 @@ private:
 };
 
 /*!
- * Ramp, constant velocity, ramp: for long moves. The ramps are quartic, their durations are those of full speed.
+ * Ramp, constant velocity, ramp: for long moves. The ramps are quartic; their durations are those of full speed, or what
+ * a group has in common.
  */
 class vpCruiseMotion
 {
 public:
   //! Set up after the head of \e framed (which may have braked). Not available without both limits or on short moves.
   void open(const vpAxisTask &task, const vpFramedMotion &framed) noexcept;
-  //! No motion of this form is shorter: constant accelerations at both ends; infinite where it is not available.
-  [[nodiscard]] static double least(const vpAxisTask &task, const vpFramedMotion &framed) noexcept;
+  //! The same with durations of the ramps, no shorter than the total duration \e shortest; infinite: not available.
+  void open(const vpAxisTask &task, const vpFramedMotion &framed, double up, double down, double shortest) noexcept;
+  //! No motion of this form is shorter: constant accelerations \e a at both ends; infinite where it is not available.
+  [[nodiscard]] static double least(double fixed, double h, double v0, double v1, double v, double a) noexcept;
   //! Smallest feasible duration >= T of this form, or infinity.
   [[nodiscard]] double next(double T) const noexcept;
+  //! The ramps from and to the constant velocity of the total duration \e T.
+  void ramps(double T, vpMotionFamily &up, vpMotionFamily &down) const noexcept;
+  [[nodiscard]] double up() const { return m_up; }     //!< Duration of the first ramp, s.
+  [[nodiscard]] double down() const { return m_down; } //!< Duration of the last, s.
   //! The motion of total duration \e T stays between these places.
   [[nodiscard]] bool staysWithin(double low, double high, double T) const noexcept;
   //! Append the motion of total duration \e T to a plan, times \e factor, without the head of \e framed.
   void emit(vpTrajectoryPlan &plan, int axis, double factor, double T) const noexcept;
 
+  //! What ramps of these durations, from and to \e framed's states, leave for the mean of their ends and the constant part.
+  [[nodiscard]] static double rest(const vpFramedMotion &framed, double up, double down) noexcept;
+
 private:
-  [[nodiscard]] bool ramps(double cruise, vpPolynomial &up, vpPolynomial &down) const noexcept;
   [[nodiscard]] double cruiseAt(double T) const noexcept;
 
   bool m_available = false;
-  double m_braked = 0., m_up = 0., m_down = 0., m_shortest = 0.;
+  double m_braked = 0., m_up = 0., m_down = 0., m_shortest = 0., m_rest = 0.;
   vpAxisState m_from{}, m_to{};
   vpAxisLimits m_limits;
 };

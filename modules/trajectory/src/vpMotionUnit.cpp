@@ -30,7 +30,7 @@ void vpMotionUnit::clear() noexcept
 
 void vpMotionUnit::prepare(bool allowCruise) noexcept
 {
-  m_allowCruise = allowCruise && isSingle();
+  m_allowCruise = allowCruise && order() == 3;
   m_droppedGoal = m_rampedReady = m_softReady = m_lastBuilt = m_lastReady = m_cruiseReady = false;
   m_iterations = 0;
   m_braking = 0.;
@@ -244,12 +244,8 @@ double vpMotionUnit::searchFree(double T) noexcept
   const auto isBetter = [=](double cruise) { // much sooner, or in time
     return cruise < worthwhile * best || (cruise == T && T < best);
   };
-  if (m_allowCruise && isBetter(std::max(T, vpCruiseMotion::least(at(0).task, at(0)[vpMotionAxis::Direct])))) {
-    if (!m_cruiseReady) {
-      at(0).cruise.open(at(0).task, at(0)[vpMotionAxis::Direct]);
-      m_cruiseReady = true;
-    }
-    const double cruise = at(0).cruise.next(T);
+  if (m_allowCruise && isBetter(std::max(T, leastCruise()))) {
+    const double cruise = searchCruise(T);
     if (isBetter(cruise)) {
       m_form = vpTrajectoryForm::Cruise;
       return cruise;

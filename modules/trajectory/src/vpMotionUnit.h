@@ -112,6 +112,10 @@ private:
   void boundPositions() noexcept;
   bool takeLast() noexcept;
   void close(Form form) noexcept;
+  [[nodiscard]] double leastCruise() const noexcept;
+  void openCruise() noexcept;
+  [[nodiscard]] double commonStep(bool head, double rest, double up, double down) noexcept;
+  [[nodiscard]] double searchCruise(double T) noexcept;
   [[nodiscard]] double normNext(const vpMotionFamily *families, double T) noexcept;
 
   std::vector<vpMotionAxis *> m_members;

@@ -286,4 +286,106 @@ double vpMotionUnit::commonStop(bool head) noexcept
   return commonDuration(T);
 }
 
+// No cruise is shorter: for a group along its way, with what its ramps do to the direction left out.
+double vpMotionUnit::leastCruise() const noexcept
+{
+  double h = 0., v0 = 0., v1 = 0., v = m_hasNorm ? m_norm.velocity : infinity, a = infinity;
+  for (int i = 0; i < m_count; ++i) {
+    const vpFramedMotion &motion = at(i)[vpMotionAxis::Direct];
+    h = isSingle() ? motion.tail()[0] - motion.head()[0] : std::hypot(h, motion.tail()[0] - motion.head()[0]);
+  }
+  for (int i = 0; i < m_count && h != 0.; ++i) {
+    const vpFramedMotion &motion = at(i)[vpMotionAxis::Direct];
+    const double u = (motion.tail()[0] - motion.head()[0]) / h;
+    v0 += u * motion.head()[1];
+    v1 += u * motion.tail()[1];
+    v = std::min(v, at(i).task.limits.velocity / std::abs(u));
+    a = std::min(a, at(i).task.limits.acceleration / std::abs(u));
+  }
+  a = m_hasNorm ? std::min(a, m_norm.acceleration) : a;
+  return vpCruiseMotion::least(at(0)[vpMotionAxis::Direct].fixedDuration(), h, v0, v1, v, a);
+}
+
+// Members of a norm share the durations of their ramps. The direction of the constant velocity follows from these, and
+// they from it: a few rounds, and ramps a hundredth longer for what the direction still changes.
+void vpMotionUnit::openCruise() noexcept
+{
+  constexpr int rounds = 3;
+  m_cruiseReady = true;
+  if (isSingle()) {
+    at(0).cruise.open(at(0).task, at(0)[vpMotionAxis::Direct]);
+    return;
+  }
+  double up = 0., down = 0., rest = 0.;
+  for (int k = 0; k <= rounds && up < infinity && down < infinity; ++k) {
+    if (k > 0) {
+      const double first = commonStep(true, rest, up, down), last = commonStep(false, rest, up, down);
+      up = first * (k < rounds ? 1. : 1.01);
+      down = last * (k < rounds ? 1. : 1.01);
+    }
+    // What the rest takes at the full speed.
+    double norm = 0.;
+    rest = 0.;
+    for (int i = 0; i < m_count; ++i) {
+      const double way = vpCruiseMotion::rest(at(i)[vpMotionAxis::Direct], up, down);
+      norm = std::hypot(norm, way);
+      rest = std::max(rest, std::abs(way) / at(i).task.limits.velocity);
+    }
+    rest = m_hasNorm ? std::max(rest, norm / m_norm.velocity) : rest;
+  }
+  for (int i = 0; i < m_count; ++i) {
+    const vpFramedMotion &motion = at(i)[vpMotionAxis::Direct];
+    at(i).cruise.open(at(i).task, motion, up, down,
+                      motion.isBlocked() ? infinity : motion.fixedDuration() + rest + 0.5 * (up + down));
+  }
+}
+
+// Smallest common duration of the ramps to, or from, the velocities that take \e rest for what ramps of the durations
+// \e up and \e down leave.
+double vpMotionUnit::commonStep(bool head, double rest, double up, double down) noexcept
+{
+  double T = 0.;
+  for (int i = 0; i < m_count; ++i) {
+    const vpFramedMotion &motion = at(i)[vpMotionAxis::Direct];
+    const vpAxisState cruise{0., vpCruiseMotion::rest(motion, up, down) / rest, 0., 0.};
+    const vpAxisState from = head ? motion.head() : cruise, to = head ? cruise : motion.tail();
+    m_steps[static_cast<std::size_t>(i)] = vpMotionFamily::velocityStep(from, to, 2);
+    T = std::max(T, vpMinimumDuration::lowerBound({0., from[1], from[2], 0.}, {0., to[1], to[2], 0.},
+                                                  at(i).task.withoutPosition()));
+  }
+  for (int k = 0; k < vpMinimumDuration::maxIterations; ++k) {
+    double next = normNext(m_steps.data(), T);
+    for (int i = 0; i < m_count; ++i) {
+      next = std::max(next, vpMinimumDuration::nextCandidate(m_steps[static_cast<std::size_t>(i)],
+                                                             at(i).task.withoutPosition(), T));
+    }
+    if (next == T || !(next < infinity)) {
+      return next;
+    }
+    T = next;
+  }
+  return infinity;
+}
+
+double vpMotionUnit::searchCruise(double T) noexcept
+{
+  if (!m_cruiseReady) {
+    openCruise();
+  }
+  for (int i = 0; i < m_count && T < infinity; ++i) {
+    T = at(i).cruise.next(T);
+  }
+  for (const bool head : {true, false}) {
+    double duration = 0.;
+    for (int i = 0; i < m_count && m_hasNorm && T < infinity; ++i) {
+      vpMotionFamily up, down;
+      at(i).cruise.ramps(T, up, down);
+      m_steps[static_cast<std::size_t>(i)] = head ? up : down;
+      duration = head ? at(i).cruise.up() : at(i).cruise.down();
+    }
+    T = duration > 0. && normNext(m_steps.data(), duration) != duration ? infinity : T;
+  }
+  return T;
+}
+
 END_VISP_NAMESPACE

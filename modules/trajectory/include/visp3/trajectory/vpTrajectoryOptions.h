@@ -88,7 +88,7 @@ struct VISP_EXPORT vpTrajectoryOptions {
   vpLateArrival lateArrival = vpLateArrival::Extend;              //!< For FixedArrival.
   /*!
    * Allow ramp, constant velocity, ramp where that saves a fifth of the time of the single polynomial (long moves), or where
-   * that has no feasible time. For C2: axes without a group, groups at rest at both ends, the line of Straight.
+   * that has no feasible time. For C2; a group that moves at the start or the goal bends into its constant velocity.
    */
   bool cruise = true;
   double arrivalTime = 0.;     //!< FixedArrival: s from the event that set it, > 0.
