@@ -363,14 +363,10 @@ bool vpFramedMotion::staysWithin(double low, double high, double T) const noexce
   if (!fixedStaysWithin(low, high)) {
     return false;
   }
-  double a = 0., b = 0.;
-  const vpPolynomial p = m_middle.at(T - fixedDuration());
-  vpRootKernel::enclose(p.data(), p.degree(), a, b);
-  if (m_head[0] + a >= low && m_head[0] + b <= high) {
-    return true;
-  }
-  const auto range = p.range();
-  return m_head[0] + range.min >= low && m_head[0] + range.max <= high;
+  double c[vpMotionFamily::maxDegree + 1];
+  m_middle.evaluate(T - fixedDuration(), c);
+  c[0] += m_head[0];
+  return vpRootKernel::staysWithin(c, m_middle.degree(), low, high);
 }
 
 double vpFramedMotion::next(double T) const noexcept

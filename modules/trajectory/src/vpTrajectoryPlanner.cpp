@@ -326,6 +326,9 @@ double vpTrajectoryPlanner::Impl::coastingRamp(const vpTrajectoryProblem &proble
 void vpTrajectoryPlanner::Impl::coast(const vpTrajectoryProblem &problem, int i, const vpAxisState &goal,
                                       vpTrajectoryPlan &plan)
 {
+  if (goal[1] == 0. && goal[2] == 0.) {
+    return;
+  }
   const vpAxisTask &task = axis(i).task;
   const double r = goal[2] != 0. ? coastingRamp(problem, i) : 0.;
   vpAxisState x{goal[0], goal[1] + 0.5 * r * goal[2], 0., 0.};
