@@ -150,6 +150,7 @@ void vpFramedMotion::open(const vpAxisTask &task) noexcept
 {
   m_heads = m_tails = 0;
   m_headTime = m_tailTime = 0.;
+  m_hullKnown = false;
   m_order = task.order;
   m_head = task.from;
   m_tail = task.to;
@@ -159,12 +160,14 @@ void vpFramedMotion::addHead(const vpPolynomial &p, double duration) noexcept
 {
   m_headPieces[static_cast<std::size_t>(m_heads++)] = {p, duration};
   m_headTime += duration;
+  m_hullKnown = false;
 }
 
 void vpFramedMotion::addTail(const vpPolynomial &p, double duration) noexcept
 {
   m_tailPieces[static_cast<std::size_t>(m_tails++)] = {p, duration};
   m_tailTime += duration;
+  m_hullKnown = false;
 }
 
 void vpFramedMotion::rampTo(double target, double acceleration, double jerk) noexcept
@@ -327,25 +330,28 @@ void vpFramedMotion::close(const vpAxisTask &task) noexcept
 
 void vpFramedMotion::hull(double &low, double &high) const noexcept
 {
-  low = high = 0.;
-  const auto include = [&low, &high](const vpPolynomial &p, double place) {
-    const auto range = p.range();
-    low = std::min(low, place + range.min);
-    high = std::max(high, place + range.max);
-  };
-  double place = 0.;
-  for (int i = 0; i < m_heads; ++i) {
-    const vpPolynomial &p = m_headPieces[static_cast<std::size_t>(i)].p;
-    include(p, place);
-    place += p.value(1.);
+  if (!m_hullKnown) {
+    m_low = m_high = 0.;
+    double place = 0.;
+    const auto include = [&](const vpPolynomial &p) {
+      double min = 0., max = 0.;
+      vpRootKernel::extremes(p.data(), p.degree(), 0., min, max);
+      m_low = std::min(m_low, place + min);
+      m_high = std::max(m_high, place + max);
+      place += p.value(1.);
+    };
+    for (int i = 0; i < m_heads; ++i) {
+      include(m_headPieces[static_cast<std::size_t>(i)].p);
+    }
+    place = m_tail[0];
+    include(vpPolynomial{});
+    for (int i = m_tails; i > 0; --i) {
+      include(m_tailPieces[static_cast<std::size_t>(i - 1)].p);
+    }
+    m_hullKnown = true;
   }
-  place = m_tail[0];
-  include(vpPolynomial{}, place);
-  for (int i = m_tails; i > 0; --i) {
-    const vpPolynomial &p = m_tailPieces[static_cast<std::size_t>(i - 1)].p;
-    include(p, place);
-    place += p.value(1.);
-  }
+  low = m_low;
+  high = m_high;
 }
 
 bool vpFramedMotion::fixedStaysWithin(double low, double high) const noexcept

@@ -110,6 +110,8 @@ public:
   [[nodiscard]] bool fixedStaysWithin(double low, double high) const noexcept;
   //! The motion of total duration \e T stays between these places.
   [[nodiscard]] bool staysWithin(double low, double high, double T) const noexcept;
+  //! No duration that next() finds is shorter.
+  [[nodiscard]] double least() const { return m_blocked ? 0. : fixedDuration() + m_lower; }
   //! One look: the total duration \e T itself if the limits are kept, else the next candidate; see vpMinimumDuration.
   [[nodiscard]] double next(double T) const noexcept;
   //! Append the motion of total duration \e T to a plan, times \e factor.
@@ -134,6 +136,8 @@ private:
   std::array<Piece, maxTail> m_tailPieces{};
   int m_heads = 0, m_tails = 0, m_order = 3;
   double m_headTime = 0., m_tailTime = 0., m_lower = 0.;
+  mutable double m_low = 0., m_high = 0.; // the hull, once it is asked for
+  mutable bool m_hullKnown = false;
   bool m_blocked = false; // the fixed pieces leave the position limits
   vpAxisState m_head{}, m_tail{};
   vpMotionFamily m_middle;

@@ -50,6 +50,10 @@ void vpMotionUnit::prepare(bool allowCruise) noexcept
   }
   boundPositions();
   close(vpMotionAxis::Direct);
+  m_estimate = 0.;
+  for (int i = 0; i < m_count; ++i) {
+    m_estimate = std::max(m_estimate, at(i)[vpMotionAxis::Direct].least());
+  }
   m_own = infinity;
   const bool isOut = isOutside();
   if (isOut || m_braking > 0.) {

@@ -68,7 +68,8 @@ public:
   //! Smallest feasible duration >= T; remembers the form that takes it.
   [[nodiscard]] double next(double T) noexcept;
 
-  [[nodiscard]] int count() const { return m_count; } //!< Number of members.
+  [[nodiscard]] double estimate() const { return m_estimate; } //!< Lower bound of the single polynomial's duration.
+  [[nodiscard]] int count() const { return m_count; }          //!< Number of members.
   [[nodiscard]] const vpMotionAxis *member(int i) const
   {
     return m_members[static_cast<std::size_t>(i)];
@@ -130,6 +131,7 @@ private:
   Form m_used = vpMotionAxis::Direct;
   std::array<double, vpMotionAxis::FormCount> m_none{}; // from here on a form is known to be infeasible
   double m_braking = 0., m_headRamp = 0., m_tailRamp = 0.;
+  double m_estimate = 0.;
   double m_own = 0.; // longer than this, a start outside its position limits comes back before anything else
   int m_iterations = 0;
   vpTrajectoryForm m_form = vpTrajectoryForm::Direct;

@@ -208,8 +208,12 @@ double vpTrajectoryPlanner::Impl::searchLeg(const vpTrajectoryOptions &options, 
   else {
     // To a fixed point from below: a longer duration may be infeasible for an axis that was content with a shorter one.
     // Each time an axis takes another form, of which it has few, so this ends.
-    int content = 0;
-    for (int i = 0; content < unitCount && i < 100 * unitCount; ++i) {
+    // The one that is likely to be the slowest comes first: then the others look at its duration only.
+    const auto last = units.begin() + unitCount;
+    const auto first = std::max_element(
+        units.begin(), last, [](const vpMotionUnit &a, const vpMotionUnit &b) { return a.estimate() < b.estimate(); });
+    int content = 0, i = static_cast<int>(first - units.begin());
+    for (const int end = i + 100 * unitCount; content < unitCount && i < end; ++i) {
       const double next = units[static_cast<std::size_t>(i % unitCount)].next(T);
       content = next == T ? content + 1 : 1;
       T = next;
