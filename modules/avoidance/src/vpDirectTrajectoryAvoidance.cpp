@@ -268,6 +268,8 @@ private:
     toolVelocity = (reached - data.arm.tool.p) / period;
     velocity = supervised.velocity;
     const bool passed = supervised.status == vpSupervision::Passed || supervised.status == vpSupervision::Limited;
+    // The joints may still be moving where the tool is not, towards the goal's posture and away from limits.
+    const bool rests = velocity.norm() < vpToolMotion::jointRest;
     if (passed && (reached - next.x).norm() < offPlan) {
       tool = next;
     }
@@ -279,7 +281,7 @@ private:
     output.pair = passed ? pair : supervised.pair;
     output.status = supervised.status == vpSupervision::Unsafe         ? vpAvoidanceStatus::Unsafe
                     : supervised.status == vpSupervision::InvalidInput ? vpAvoidanceStatus::InvalidInput
-                    : toGoal && isArrived()                            ? vpAvoidanceStatus::Arrived
+                    : toGoal && isArrived() && rests                   ? vpAvoidanceStatus::Arrived
                     : passed || stopped                                ? status
                                                                        : vpAvoidanceStatus::Slowed;
   }

@@ -73,15 +73,16 @@ public:
     output.pair = vpClearance();
     const Vector3d velocity = spec.form == vpFieldForm::Thesis ? asPrinted(task, avoiding) //
                                                                : radial(task, avoiding, output.pair);
-    motion.step(data, near, velocity, goal.q, data.arm.tool.R, previous, solved);
+    const bool there = error.norm() <= spec.tolerance;
+    motion.step(data, near, velocity, goal.q, data.arm.tool.R, previous, solved, !(stood && there));
     output.velocity = previous = solved.velocity;
     const Vector3d moved = data.arm.J.topRows<3>() * solved.velocity;
     output.wanted = x + spec.common.period * moved;
-    const bool stands = moved.norm() < still;
-    output.status = stands && error.norm() <= spec.tolerance ? vpAvoidanceStatus::Arrived
-                    : stands && !starting                    ? vpAvoidanceStatus::Waiting
-                    : avoiding                               ? vpAvoidanceStatus::Detouring
-                                                             : vpAvoidanceStatus::Moving;
+    const bool stands = stood = moved.norm() < still;
+    output.status = stands && there && previous.norm() < vpToolMotion::jointRest ? vpAvoidanceStatus::Arrived
+                    : stands && !there && !starting                              ? vpAvoidanceStatus::Waiting
+                    : avoiding                                                   ? vpAvoidanceStatus::Detouring
+                                                                                 : vpAvoidanceStatus::Moving;
     starting = starting && stands;
   }
 
@@ -135,7 +136,7 @@ public:
   int last = 0; // link that carries the outermost capsule
   vpAvoidanceGoal goal;
   vpJointVector previous;
-  bool starting = true, valid = false;
+  bool starting = true, stood = false, valid = false; // stood: the tool did in the last period
   vpCollisionData data;
   vpNearPairs near;
   vpRedundancyOutput solved;
@@ -163,6 +164,7 @@ vpAvoidanceStatus vpPotentialFieldAvoidance::start(const vpJointVector &q, const
   m_impl->valid = m_impl->data.placed && goal.fits(m_impl->arm);
   m_impl->previous = vpJointVector::Zero(n);
   m_impl->starting = true;
+  m_impl->stood = false;
   m_impl->goal = goal;
   return m_impl->valid ? vpAvoidanceStatus::Moving : vpAvoidanceStatus::InvalidInput;
 }

@@ -30,6 +30,8 @@ struct vpToolMotionSpec {
 class vpToolMotion
 {
 public:
+  static constexpr double jointRest = 1e-2; // rad/s: the norm of joint velocities of an arm that stands
+
   explicit vpToolMotion(const vpArmModel &model, const vpToolMotionSpec &spec = {});
 
   /*!

@@ -4,6 +4,7 @@
  */
 #include "vpAxisForms.h"
 
+#include "vpHardStop.h"
 #include "vpRootKernel.h"
 
 #include <algorithm>
@@ -62,6 +63,14 @@ double vpAxisTask::brakeJerk(const vpAxisState &x, double hardness) const
   const double least = 1e-6 * std::min(limits.velocity, x[2] * x[2] / (2. * usual));
   const bool near = order > 2 && x[2] != 0. && room > 0. && std::isfinite(room);
   return std::min(limits.jerk, std::max(hardness * usual, near ? x[2] * x[2] / (2. * std::max(room, least)) : 0.));
+}
+
+vpAxisTask vpAxisTask::harder(double hardness) const
+{
+  vpAxisTask task = *this;
+  double &a = task.limits.acceleration;
+  a = std::isfinite(a) ? a : brakeAcceleration() * std::sqrt(hardness);
+  return task;
 }
 
 double vpAxisTask::brakingDistance() const
@@ -141,6 +150,7 @@ void vpFramedMotion::open(const vpAxisTask &task) noexcept
 {
   m_heads = m_tails = 0;
   m_headTime = m_tailTime = 0.;
+  m_hullKnown = false;
   m_order = task.order;
   m_head = task.from;
   m_tail = task.to;
@@ -150,42 +160,56 @@ void vpFramedMotion::addHead(const vpPolynomial &p, double duration) noexcept
 {
   m_headPieces[static_cast<std::size_t>(m_heads++)] = {p, duration};
   m_headTime += duration;
+  m_hullKnown = false;
 }
 
 void vpFramedMotion::addTail(const vpPolynomial &p, double duration) noexcept
 {
   m_tailPieces[static_cast<std::size_t>(m_tails++)] = {p, duration};
   m_tailTime += duration;
+  m_hullKnown = false;
 }
 
-void vpFramedMotion::brake(const vpAxisTask &task, double target, double duration, double jerk) noexcept
+void vpFramedMotion::rampTo(double target, double acceleration, double jerk) noexcept
 {
-  double t = 0.;
   vpAxisState x{m_head[0], m_head[1], m_order > 2 ? m_head[2] : 0., 0.};
   if (m_order == 2) { // the acceleration may jump
-    t = std::abs(target - x[1]) / task.brakeAcceleration();
+    const double t = std::abs(target - x[1]) / acceleration;
     if (t > 0.) {
       addHead({0., x[1] * t, 0.5 * (target - x[1]) * t}, t);
-      x = {x[0] + 0.5 * (x[1] + target) * t, target, 0., 0.};
+      x[0] += 0.5 * (x[1] + target) * t;
     }
   }
   else {
-    const vpVelocityRamp ramp(x[1], x[2], target, task.brakeAcceleration(), jerk);
+    const vpVelocityRamp ramp(x[1], x[2], target, acceleration, jerk);
     for (int i = 0; i < ramp.count(); ++i) {
       const auto &piece = ramp.piece(i);
       const double d = piece.duration;
       addHead({0., x[1] * d, x[2] * d * d / 2., piece.jerk * d * d * d / 6.}, d);
-      t += d;
       x[0] += d * (x[1] + d * (x[2] / 2. + d * piece.jerk / 6.));
       x[1] += d * (x[2] + d * piece.jerk / 2.);
       x[2] += d * piece.jerk;
     }
   }
-  const double rest = duration - t;
+  m_head = {x[0], target, 0., 0.};
+}
+
+void vpFramedMotion::brake(const vpAxisTask &task, double target, double duration, double jerk) noexcept
+{
+  const double before = m_headTime;
+  rampTo(target, task.brakeAcceleration(), jerk);
+  const double rest = duration - (m_headTime - before);
   if (rest > 0.) {
     addHead({0., target * rest}, rest);
+    m_head[0] += target * rest;
   }
-  m_head = {x[0] + std::max(rest, 0.) * target, target, 0., 0.};
+}
+
+void vpFramedMotion::brake(const vpHardStop &stop) noexcept
+{
+  for (int i = 0; i < stop.count; ++i) {
+    rampTo(stop.velocities[static_cast<std::size_t>(i)], stop.acceleration, stop.jerk);
+  }
 }
 
 void vpFramedMotion::go(double place, double duration) noexcept
@@ -211,15 +235,27 @@ void vpFramedMotion::padTail(double duration) noexcept
 
 void vpFramedMotion::launch(const vpAxisTask &task, double jerk) noexcept
 {
-  if (m_tail[1] == 0. && (m_order == 2 || m_tail[2] == 0.)) {
-    m_tail[2] = m_tail[3] = 0.;
-    return;
-  }
-  // Time runs backwards from the goal: braking from (-v, a).
   vpFramedMotion backwards;
   backwards.m_order = m_order;
-  backwards.m_head = {m_tail[0], -m_tail[1], m_order > 2 ? m_tail[2] : 0., 0.};
+  backwards.m_head = m_tail;
+  backwards.m_head[1] = -m_tail[1];
   backwards.brake(task, 0., 0., jerk);
+  takeTail(backwards);
+}
+
+void vpFramedMotion::launch(const vpHardStop &stop) noexcept
+{
+  vpFramedMotion backwards;
+  backwards.m_order = m_order;
+  backwards.m_head = m_tail;
+  backwards.m_head[1] = -m_tail[1];
+  backwards.brake(stop);
+  takeTail(backwards);
+}
+
+// Time runs backwards from the goal.
+void vpFramedMotion::takeTail(const vpFramedMotion &backwards) noexcept
+{
   for (int i = 0; i < backwards.m_heads; ++i) {
     const Piece &piece = backwards.m_headPieces[static_cast<std::size_t>(i)];
     vpPolynomial p = piece.p.composed(1., -1.);
@@ -294,25 +330,28 @@ void vpFramedMotion::close(const vpAxisTask &task) noexcept
 
 void vpFramedMotion::hull(double &low, double &high) const noexcept
 {
-  low = high = 0.;
-  const auto include = [&low, &high](const vpPolynomial &p, double place) {
-    const auto range = p.range();
-    low = std::min(low, place + range.min);
-    high = std::max(high, place + range.max);
-  };
-  double place = 0.;
-  for (int i = 0; i < m_heads; ++i) {
-    const vpPolynomial &p = m_headPieces[static_cast<std::size_t>(i)].p;
-    include(p, place);
-    place += p.value(1.);
+  if (!m_hullKnown) {
+    m_low = m_high = 0.;
+    double place = 0.;
+    const auto include = [&](const vpPolynomial &p) {
+      double min = 0., max = 0.;
+      vpRootKernel::extremes(p.data(), p.degree(), 0., min, max);
+      m_low = std::min(m_low, place + min);
+      m_high = std::max(m_high, place + max);
+      place += p.value(1.);
+    };
+    for (int i = 0; i < m_heads; ++i) {
+      include(m_headPieces[static_cast<std::size_t>(i)].p);
+    }
+    place = m_tail[0];
+    include(vpPolynomial{});
+    for (int i = m_tails; i > 0; --i) {
+      include(m_tailPieces[static_cast<std::size_t>(i - 1)].p);
+    }
+    m_hullKnown = true;
   }
-  place = m_tail[0];
-  include(vpPolynomial{}, place);
-  for (int i = m_tails; i > 0; --i) {
-    const vpPolynomial &p = m_tailPieces[static_cast<std::size_t>(i - 1)].p;
-    include(p, place);
-    place += p.value(1.);
-  }
+  low = m_low;
+  high = m_high;
 }
 
 bool vpFramedMotion::fixedStaysWithin(double low, double high) const noexcept
@@ -330,14 +369,10 @@ bool vpFramedMotion::staysWithin(double low, double high, double T) const noexce
   if (!fixedStaysWithin(low, high)) {
     return false;
   }
-  double a = 0., b = 0.;
-  const vpPolynomial p = m_middle.at(T - fixedDuration());
-  vpRootKernel::enclose(p.data(), p.degree(), a, b);
-  if (m_head[0] + a >= low && m_head[0] + b <= high) {
-    return true;
-  }
-  const auto range = p.range();
-  return m_head[0] + range.min >= low && m_head[0] + range.max <= high;
+  double c[vpMotionFamily::maxDegree + 1];
+  m_middle.evaluate(T - fixedDuration(), c);
+  c[0] += m_head[0];
+  return vpRootKernel::staysWithin(c, m_middle.degree(), low, high);
 }
 
 double vpFramedMotion::next(double T) const noexcept
@@ -376,68 +411,68 @@ void vpFramedMotion::emit(vpTrajectoryPlan &plan, int axis, double factor, doubl
 void vpCruiseMotion::open(const vpAxisTask &task, const vpFramedMotion &framed) noexcept
 {
   m_available = false;
-  m_from = framed.head();
-  m_to = framed.tail();
-  m_braked = framed.fixedDuration();
-  m_limits = task.limits;
-  const double h = m_to[0] - m_from[0];
+  const vpAxisState &from = framed.head(), &to = framed.tail();
+  const double h = to[0] - from[0];
   if (framed.isBlocked() || task.order != 3 || h == 0. || !std::isfinite(task.limits.velocity) ||
       !std::isfinite(task.limits.acceleration)) {
     return;
   }
   const double full = std::copysign(task.limits.velocity, h);
-  const vpMotionFamily up = vpMotionFamily::velocityStep(m_from, {m_from[0], full, 0., 0.}, 2);
-  const vpMotionFamily down = vpMotionFamily::velocityStep({m_to[0], full, 0., 0.}, m_to, 2);
   const vpAxisLimits free = task.withoutPosition();
-  const vpDurationAnswer a = vpMinimumDuration::solve(
-      up, free, vpMinimumDuration::lowerBound({0., m_from[1], m_from[2], 0.}, {0., full, 0., 0.}, free));
-  const vpDurationAnswer b = vpMinimumDuration::solve(
-      down, free, vpMinimumDuration::lowerBound({0., full, 0., 0.}, {0., m_to[1], m_to[2], 0.}, free));
-  if (a.kind != vpDurationAnswer::Kind::Found || b.kind != vpDurationAnswer::Kind::Found) {
-    return;
+  const vpDurationAnswer up =
+      vpMinimumDuration::solve(vpMotionFamily::velocityStep(from, {0., full, 0., 0.}, 2), free,
+                               vpMinimumDuration::lowerBound({0., from[1], from[2], 0.}, {0., full, 0., 0.}, free));
+  const vpDurationAnswer down =
+      vpMinimumDuration::solve(vpMotionFamily::velocityStep({0., full, 0., 0.}, to, 2), free,
+                               vpMinimumDuration::lowerBound({0., full, 0., 0.}, {0., to[1], to[2], 0.}, free));
+  if (up.kind == vpDurationAnswer::Kind::Found && down.kind == vpDurationAnswer::Kind::Found) {
+    open(task, framed, up.T, down.T,
+         framed.fixedDuration() + rest(framed, up.T, down.T) / full + 0.5 * (up.T + down.T));
   }
-  m_up = a.T;
-  m_down = b.T;
-  const double constant = (h - up.at(m_up).value(1.) - down.at(m_down).value(1.)) / full;
-  m_shortest = m_braked + m_up + m_down + constant;
-  m_available = constant >= 0.;
 }
 
-double vpCruiseMotion::least(const vpAxisTask &task, const vpFramedMotion &framed) noexcept
+void vpCruiseMotion::open(const vpAxisTask &task, const vpFramedMotion &framed, double up, double down,
+                          double shortest) noexcept
 {
-  const vpAxisState &from = framed.head(), &to = framed.tail();
-  const double h = to[0] - from[0], side = std::copysign(1., h);
-  const double v = task.limits.velocity, a = task.limits.acceleration;
-  if (task.order != 3 || h == 0. || !std::isfinite(v) || !std::isfinite(a)) {
+  m_from = framed.head();
+  m_to = framed.tail();
+  m_braked = framed.fixedDuration();
+  m_limits = task.limits;
+  m_up = up;
+  m_down = down;
+  m_shortest = shortest;
+  m_rest = rest(framed, up, down);
+  m_available = shortest < infinity && shortest >= m_braked + up + down;
+}
+
+double vpCruiseMotion::least(double fixed, double h, double v0, double v1, double v, double a) noexcept
+{
+  const double side = std::copysign(1., h);
+  if (h == 0. || !std::isfinite(v) || !std::isfinite(a)) {
     return infinity;
   }
-  const double v0 = side * from[1], v1 = side * to[1];
+  v0 *= side;
+  v1 *= side;
   const double constant = side * h - (2. * v * v - v0 * v0 - v1 * v1) / (2. * a);
-  return constant >= 0. ? framed.fixedDuration() + (2. * v - v0 - v1) / a + constant / v : infinity;
+  return constant >= 0. ? fixed + (2. * v - v0 - v1) / a + constant / v : infinity;
 }
 
-bool vpCruiseMotion::ramps(double cruise, vpPolynomial &up, vpPolynomial &down) const noexcept
+void vpCruiseMotion::ramps(double T, vpMotionFamily &up, vpMotionFamily &down) const noexcept
 {
-  const vpMotionFamily first = vpMotionFamily::velocityStep(m_from, {0., cruise, 0., 0.}, 2);
-  const vpMotionFamily last = vpMotionFamily::velocityStep({0., cruise, 0., 0.}, m_to, 2);
-  vpAxisLimits free = m_limits;
-  free.minPosition = -infinity;
-  free.maxPosition = infinity;
-  up = first.at(m_up);
-  down = last.at(m_down);
-  return std::abs(cruise) <= m_limits.velocity * (1. + vpMinimumDuration::tolerance) &&
-         vpMinimumDuration::isFeasible(first, free, m_up) && vpMinimumDuration::isFeasible(last, free, m_down) &&
-         (!isBounded(m_limits) ||
-          (within(up, m_from[0], m_limits) && within(down, m_to[0] - down.value(1.), m_limits)));
+  const vpAxisState cruise{0., cruiseAt(T), 0., 0.};
+  up = vpMotionFamily::velocityStep(m_from, cruise, 2);
+  down = vpMotionFamily::velocityStep(cruise, m_to, 2);
 }
 
-// The velocity for the duration T with the same ramps; their lengths are linear in it.
-double vpCruiseMotion::cruiseAt(double T) const noexcept
+// The ramps' lengths are linear in the velocity between them.
+double vpCruiseMotion::rest(const vpFramedMotion &framed, double up, double down) noexcept
 {
-  const double ends =
-      m_up * (m_from[1] / 2. + m_up * m_from[2] / 12.) + m_down * (m_to[1] / 2. - m_down * m_to[2] / 12.);
-  return (m_to[0] - m_from[0] - ends) / (T - m_braked - 0.5 * (m_up + m_down));
+  const vpAxisState &from = framed.head(), &to = framed.tail();
+  return to[0] - from[0] - up * (from[1] / 2. + up * from[2] / 12.) - down * (to[1] / 2. - down * to[2] / 12.);
 }
+
+// The velocity that takes the duration T with the same ramps.
+double vpCruiseMotion::cruiseAt(double T) const noexcept { return m_rest / (T - m_braked - 0.5 * (m_up + m_down)); }
 
 double vpCruiseMotion::next(double T) const noexcept
 {
@@ -445,29 +480,37 @@ double vpCruiseMotion::next(double T) const noexcept
     return infinity;
   }
   T = std::max(T, m_shortest);
-  vpPolynomial up, down;
-  return ramps(cruiseAt(T), up, down) ? T : infinity;
+  vpMotionFamily up, down;
+  ramps(T, up, down);
+  vpAxisLimits free = m_limits;
+  free.minPosition = -infinity;
+  free.maxPosition = infinity;
+  const bool keeps = std::abs(cruiseAt(T)) <= m_limits.velocity * (1. + vpMinimumDuration::tolerance) &&
+                     vpMinimumDuration::isFeasible(up, free, m_up) &&
+                     vpMinimumDuration::isFeasible(down, free, m_down) &&
+                     (!isBounded(m_limits) || staysWithin(m_limits.minPosition, m_limits.maxPosition, T));
+  return keeps ? T : infinity;
 }
 
 bool vpCruiseMotion::staysWithin(double low, double high, double T) const noexcept
 {
-  vpPolynomial up, down;
-  static_cast<void>(ramps(cruiseAt(T), up, down));
+  vpMotionFamily up, down;
+  ramps(T, up, down);
   vpAxisLimits places;
   places.minPosition = low;
   places.maxPosition = high;
-  return within(up, m_from[0], places) && within(down, m_to[0] - down.value(1.), places);
+  const vpPolynomial last = down.at(m_down);
+  return within(up.at(m_up), m_from[0], places) && within(last, m_to[0] - last.value(1.), places);
 }
 
 void vpCruiseMotion::emit(vpTrajectoryPlan &plan, int axis, double factor, double T) const noexcept
 {
-  vpPolynomial up, down;
-  const double cruise = cruiseAt(T);
-  static_cast<void>(ramps(cruise, up, down));
+  vpMotionFamily up, down;
+  ramps(T, up, down);
   const double constant = T - m_braked - m_up - m_down;
-  plan.append(axis, scaled(up, factor), m_up);
-  plan.append(axis, {0., factor * cruise * constant}, constant);
-  plan.append(axis, scaled(down, factor), m_down);
+  plan.append(axis, scaled(up.at(m_up), factor), m_up);
+  plan.append(axis, {0., factor * cruiseAt(T) * constant}, constant);
+  plan.append(axis, scaled(down.at(m_down), factor), m_down);
 }
 
 END_VISP_NAMESPACE

@@ -33,10 +33,14 @@ struct vpAxisTask {
   [[nodiscard]] double brakeAcceleration() const;
   //! Jerk for braking from a state: gentle, unless the velocity limit leaves no margin for that, or times \e hardness.
   [[nodiscard]] double brakeJerk(const vpAxisState &x, double hardness = 1.) const;
-  //! The limits without the position limits.
+  //! The task with the acceleration that it may brake with: its limit, or where there is none, \e hardness decides.
+  [[nodiscard]] vpAxisTask harder(double hardness) const;
+  //! The limits without those on the position.
   [[nodiscard]] vpAxisLimits withoutPosition() const;
-  //! True when start or goal has a velocity (or relevant higher derivatives): the axis needs a distance to brake or
-  //! launch.
+  //! The position limits, as far as start and goal are within them.
+  [[nodiscard]] double lowest() const { return std::min({minPosition, 0., to[0]}); }
+  [[nodiscard]] double highest() const { return std::max({maxPosition, 0., to[0]}); }
+  //! Start or goal has a velocity (or what of higher derivatives matters): the axis needs room to brake or to launch.
   [[nodiscard]] bool isMoving() const;
   //! The longer of the distances of a stop from the start and a launch to the goal, at usual hardness.
   [[nodiscard]] double brakingDistance() const;
@@ -56,6 +60,8 @@ double rampDuration(const vpAxisState &x, const vpAxisTask &task) noexcept;
 //! True when the state is outside the limits or will inevitably leave them: braking comes first.
 bool needsBraking(const vpAxisTask &task) noexcept;
 
+struct vpHardStop;
+
 /*!
  * Fixed pieces, one polynomial of free duration, fixed pieces. Everything except the cruise form is of this kind.
  */
@@ -69,7 +75,10 @@ public:
   void brake(const vpAxisTask &task, double target, double duration, double jerk) noexcept;
   //! Fixed pieces at the tail: as fast as the limits allow from rest to the velocity before the tail.
   void launch(const vpAxisTask &task, double jerk) noexcept;
-  //! Fixed piece at the head: from rest to rest at position \e place.
+  //! Fixed pieces at the head, and at the tail with time running backwards: this stop.
+  void brake(const vpHardStop &stop) noexcept;
+  void launch(const vpHardStop &stop) noexcept;
+  //! Fixed piece at the head: from rest to rest at \e place.
   void go(double place, double duration) noexcept;
   //! Hold at rest until the head, or the tail, lasts this long; both are at rest.
   void padHead(double duration) noexcept;
@@ -102,8 +111,9 @@ public:
   [[nodiscard]] bool fixedStaysWithin(double low, double high) const noexcept;
   //! True when the motion of total duration \e T stays between these positions.
   [[nodiscard]] bool staysWithin(double low, double high, double T) const noexcept;
-  //! One evaluation: the total duration \e T itself if the limits are kept, else the next candidate; see
-  //! vpMinimumDuration.
+  //! No duration that next() finds is shorter.
+  [[nodiscard]] double least() const { return m_blocked ? 0. : fixedDuration() + m_lower; }
+  //! One look: the total duration \e T itself if the limits are kept, else the next candidate; see vpMinimumDuration.
   [[nodiscard]] double next(double T) const noexcept;
   //! Append the motion of total duration \e T to a plan, times \e factor.
   void emit(vpTrajectoryPlan &plan, int axis, double factor, double T) const noexcept;
@@ -115,9 +125,11 @@ private:
     vpPolynomial p;
     double duration = 0.;
   };
-  static constexpr int maxHead = 8; // braking 4, padding, ramp, stop, the return inside
-  static constexpr int maxTail = 6; // ramp, stop or a launch of four, padding; the last one first
+  static constexpr int maxHead = 10; // braking 4, padding, ramp, stop, or a stop of 8; the way back inside
+  static constexpr int maxTail = 8;  // ramp, stop or a launch of 8, padding; the last one first
 
+  void rampTo(double target, double acceleration, double jerk) noexcept;
+  void takeTail(const vpFramedMotion &backwards) noexcept;
   void addHead(const vpPolynomial &p, double duration) noexcept;
   void addTail(const vpPolynomial &p, double duration) noexcept;
 
@@ -125,6 +137,8 @@ private:
   std::array<Piece, maxTail> m_tailPieces{};
   int m_heads = 0, m_tails = 0, m_order = 3;
   double m_headTime = 0., m_tailTime = 0., m_lower = 0.;
+  mutable double m_low = 0., m_high = 0.; // the hull, once it is asked for
+  mutable bool m_hullKnown = false;
   bool m_blocked = false; // the fixed pieces leave the position limits
   vpAxisState m_head{}, m_tail{};
   vpMotionFamily m_middle;
@@ -132,28 +146,37 @@ private:
 };
 
 /*!
- * Ramp, constant velocity, ramp: for long moves. The ramps are quartic, their durations are those at full speed.
+ * Ramp, constant velocity, ramp: for long moves. The ramps are quartic; their durations are those of full speed, or what
+ * a group has in common.
  */
 class vpCruiseMotion
 {
 public:
   //! Set up after the head of \e framed (which may brake). Not available without both limits or for short moves.
   void open(const vpAxisTask &task, const vpFramedMotion &framed) noexcept;
-  //! Lower bound on the duration of this form: constant accelerations at both ends; infinite where it is not available.
-  [[nodiscard]] static double least(const vpAxisTask &task, const vpFramedMotion &framed) noexcept;
+  //! The same with durations of the ramps, no shorter than the total duration \e shortest; infinite: not available.
+  void open(const vpAxisTask &task, const vpFramedMotion &framed, double up, double down, double shortest) noexcept;
+  //! No motion of this form is shorter: constant accelerations \e a at both ends; infinite where it is not available.
+  [[nodiscard]] static double least(double fixed, double h, double v0, double v1, double v, double a) noexcept;
   //! Smallest feasible duration >= T of this form, or infinity.
   [[nodiscard]] double next(double T) const noexcept;
-  //! True when the motion of total duration \e T stays between these positions.
+  //! The ramps from and to the constant velocity of the total duration \e T.
+  void ramps(double T, vpMotionFamily &up, vpMotionFamily &down) const noexcept;
+  [[nodiscard]] double up() const { return m_up; }     //!< Duration of the first ramp, s.
+  [[nodiscard]] double down() const { return m_down; } //!< Duration of the last, s.
+  //! The motion of total duration \e T stays between these places.
   [[nodiscard]] bool staysWithin(double low, double high, double T) const noexcept;
   //! Append the motion of total duration \e T to a plan, times \e factor, without the head of \e framed.
   void emit(vpTrajectoryPlan &plan, int axis, double factor, double T) const noexcept;
 
+  //! What ramps of these durations, from and to \e framed's states, leave for the mean of their ends and the constant part.
+  [[nodiscard]] static double rest(const vpFramedMotion &framed, double up, double down) noexcept;
+
 private:
-  [[nodiscard]] bool ramps(double cruise, vpPolynomial &up, vpPolynomial &down) const noexcept;
   [[nodiscard]] double cruiseAt(double T) const noexcept;
 
   bool m_available = false;
-  double m_braked = 0., m_up = 0., m_down = 0., m_shortest = 0.;
+  double m_braked = 0., m_up = 0., m_down = 0., m_shortest = 0., m_rest = 0.;
   vpAxisState m_from{}, m_to{};
   vpAxisLimits m_limits;
 };

@@ -111,16 +111,21 @@ void vpLimitCheck::checkAxis(int axis, double from, Wanted wanted, Worst &worst)
     if (first >= 1.) {
       continue;
     }
-    vpPolynomial p = segment.p;
-    for (int d = 0; d <= 3; ++d) {
-      p = d == 0 ? p : p.derivative();
-      if (d == 3 && !jerk) {
+    double c[vpMotionFamily::maxDegree + 1];
+    int degree = std::min(segment.p.degree(), vpMotionFamily::maxDegree);
+    std::copy_n(segment.p.data(), degree + 1, c);
+    double unit = 1.;
+    for (int d = 0; d <= (jerk ? 3 : 2) && degree >= 0; ++d) {
+      if (d > 0) {
+        vpRootKernel::differentiate(c, degree--, c);
+        unit *= segment.duration;
+      }
+      if (degree < 0) {
         break;
       }
-      const double unit = power(segment.duration, d);
       double low = 0., high = 0.;
       bool exact = false;
-      vpRootKernel::enclose(p.data(), p.degree(), low, high);
+      vpRootKernel::enclose(c, degree, low, high);
       const auto consider = [&](vpTrajectoryLimit limit, bool upper) {
         const double bound = boundOf(limits, limit);
         if (!std::isfinite(bound) || (wanted == Wanted::Unexplained && startsOutside(axis, limit))) {
@@ -136,9 +141,7 @@ void vpLimitCheck::checkAxis(int axis, double from, Wanted wanted, Worst &worst)
           return;
         }
         if (!exact) {
-          const auto range = p.range(std::max(first, 0.), 1.);
-          low = range.min;
-          high = range.max;
+          vpRootKernel::extremes(c, degree, std::max(first, 0.), low, high);
           exact = true;
         }
         if (!(relative() <= worst.relative)) {

@@ -30,7 +30,7 @@ void vpMotionUnit::clear() noexcept
 
 void vpMotionUnit::prepare(bool allowCruise) noexcept
 {
-  m_allowCruise = allowCruise && isSingle();
+  m_allowCruise = allowCruise && order() == 3;
   m_droppedGoal = m_rampedReady = m_softReady = m_lastBuilt = m_lastReady = m_cruiseReady = false;
   m_iterations = 0;
   m_braking = 0.;
@@ -50,6 +50,10 @@ void vpMotionUnit::prepare(bool allowCruise) noexcept
   }
   boundPositions();
   close(vpMotionAxis::Direct);
+  m_estimate = 0.;
+  for (int i = 0; i < m_count; ++i) {
+    m_estimate = std::max(m_estimate, at(i)[vpMotionAxis::Direct].least());
+  }
   m_own = infinity;
   const bool isOut = isOutside();
   if (isOut || m_braking > 0.) {
@@ -142,7 +146,7 @@ bool vpMotionUnit::keepsPositions(Form form) const noexcept
     }
     double low = 0., high = 0.;
     at(i)[form].hull(low, high);
-    if (low < std::min({task.minPosition, 0., task.to[0]}) || high > std::max({task.maxPosition, 0., task.to[0]})) {
+    if (low < task.lowest() || high > task.highest()) {
       return false;
     }
   }
@@ -244,12 +248,8 @@ double vpMotionUnit::searchFree(double T) noexcept
   const auto isBetter = [=](double cruise) { // much sooner, or in time
     return cruise < worthwhile * best || (cruise == T && T < best);
   };
-  if (m_allowCruise && isBetter(std::max(T, vpCruiseMotion::least(at(0).task, at(0)[vpMotionAxis::Direct])))) {
-    if (!m_cruiseReady) {
-      at(0).cruise.open(at(0).task, at(0)[vpMotionAxis::Direct]);
-      m_cruiseReady = true;
-    }
-    const double cruise = at(0).cruise.next(T);
+  if (m_allowCruise && isBetter(std::max(T, leastCruise()))) {
+    const double cruise = searchCruise(T);
     if (isBetter(cruise)) {
       m_form = vpTrajectoryForm::Cruise;
       return cruise;

@@ -68,7 +68,8 @@ public:
   //! Smallest feasible duration >= T; remembers its form.
   [[nodiscard]] double next(double T) noexcept;
 
-  [[nodiscard]] int count() const { return m_count; } //!< Number of members.
+  [[nodiscard]] double estimate() const { return m_estimate; } //!< Lower bound of the single polynomial's duration.
+  [[nodiscard]] int count() const { return m_count; }          //!< Number of members.
   [[nodiscard]] const vpMotionAxis *member(int i) const
   {
     return m_members[static_cast<std::size_t>(i)];
@@ -107,10 +108,15 @@ private:
   void buildSmooth() noexcept;
   void buildStop(Form form, double hardness) noexcept;
   void buildLast() noexcept;
+  void buildHardStop() noexcept;
   void comeBack() noexcept;
   void boundPositions() noexcept;
   bool takeLast() noexcept;
   void close(Form form) noexcept;
+  [[nodiscard]] double leastCruise() const noexcept;
+  void openCruise() noexcept;
+  [[nodiscard]] double commonStep(bool head, double rest, double up, double down) noexcept;
+  [[nodiscard]] double searchCruise(double T) noexcept;
   [[nodiscard]] double normNext(const vpMotionFamily *families, double T) noexcept;
 
   std::vector<vpMotionAxis *> m_members;
@@ -125,7 +131,8 @@ private:
   Form m_used = vpMotionAxis::Direct;
   std::array<double, vpMotionAxis::FormCount> m_none{}; // a form is known to be infeasible from this duration on
   double m_braking = 0., m_headRamp = 0., m_tailRamp = 0.;
-  double m_own = 0.; // for longer durations, a start outside its position limits returns before anything else
+  double m_estimate = 0.;
+  double m_own = 0.; // longer than this, a start outside its position limits comes back before anything else
   int m_iterations = 0;
   vpTrajectoryForm m_form = vpTrajectoryForm::Direct;
 };

@@ -2,7 +2,8 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Ramps, braking, stops and launches common to the members of a unit.
+// How the members of a unit ramp, brake, stop and launch together.
+#include "vpHardStop.h"
 #include "vpMotionUnit.h"
 
 #include <algorithm>
@@ -111,19 +112,6 @@ void vpMotionUnit::buildSmooth() noexcept
   }
 }
 
-namespace
-{
-// The task with the acceleration allowed for braking.
-vpAxisTask harder(vpAxisTask task, double share, double normAcceleration, double hardness)
-{
-  double &a = task.limits.acceleration;
-  a = std::isfinite(a) ? a : task.brakeAcceleration() * std::sqrt(hardness);
-  a = std::isfinite(normAcceleration) ? std::min(a, share * normAcceleration) : a;
-  return task;
-}
-
-} // namespace
-
 // Members of a norm first lose their acceleration, then they slow down with accelerations in proportion to their
 // velocities, so that the norms keep their limits.
 void vpMotionUnit::buildStop(Form form, double hardness) noexcept
@@ -154,8 +142,9 @@ void vpMotionUnit::buildStop(Form form, double hardness) noexcept
     const vpAxisState from = motion.head(), to = motion.tail();
     const double headShare = from[1] != 0. ? std::abs(from[1]) / std::sqrt(head2) : 1.;
     const double tailShare = to[1] != 0. ? std::abs(to[1]) / std::sqrt(tail2) : 1.;
-    const vpAxisTask stop = harder(axis.task, headShare, norm, hardness);
-    const vpAxisTask start = harder(axis.task, tailShare, norm, hardness);
+    vpAxisTask stop = axis.task.harder(hardness), start = stop;
+    stop.limits.acceleration = std::min(stop.limits.acceleration, headShare * norm);
+    start.limits.acceleration = std::min(start.limits.acceleration, tailShare * norm);
     motion.brake(stop, 0., 0., stop.brakeJerk(from, hardness));
     motion.launch(start, start.brakeJerk({to[0], -to[1], to[2], 0.}, hardness));
     head = std::max(head, motion.headDuration());
@@ -167,8 +156,8 @@ void vpMotionUnit::buildStop(Form form, double hardness) noexcept
   }
 }
 
-// The fallback, which always has a solution. It keeps the position limits if it can be hard enough; where the jerk is
-// not limited, up to ten thousand times harder than usual, which is within 1e-4 of the optimum at any jerk.
+// What always has an answer. It keeps the position limits if it can be hard enough, or exceeds them as little as can be;
+// see vpHardStop. Members of a norm brake together, so that there the excess is that of the hardest stop to rest.
 void vpMotionUnit::buildLast() noexcept
 {
   constexpr double hardest = 1e4;
@@ -179,11 +168,16 @@ void vpMotionUnit::buildLast() noexcept
   }
   if (order() != 4 || !keepsPositions(m_last)) {
     m_last = vpMotionAxis::Hard;
-    double hardness = 1.;
-    buildStop(m_last, hardness);
-    while (hardness < hardest && !keepsPositions(m_last)) {
-      hardness *= 10.;
+    if (isSingle()) {
+      buildHardStop();
+    }
+    else {
+      double hardness = 1.;
       buildStop(m_last, hardness);
+      while (hardness < hardest && !keepsPositions(m_last)) {
+        hardness *= 10.;
+        buildStop(m_last, hardness);
+      }
     }
   }
   if (isOutside()) {
@@ -191,7 +185,18 @@ void vpMotionUnit::buildLast() noexcept
   }
 }
 
-// From the stopping position of the fallback to the nearest position inside.
+void vpMotionUnit::buildHardStop() noexcept
+{
+  const vpAxisTask &task = at(0).task;
+  vpFramedMotion &motion = at(0)[m_last];
+  motion.open(task);
+  const double low = task.lowest(), high = task.highest();
+  motion.brake(vpHardStop(task.from, task, low, high));
+  const double goal = task.to[0];
+  motion.launch(vpHardStop({0., -task.to[1], task.to[2], 0.}, task, low - goal, high - goal));
+}
+
+// From where the last resort comes to rest to the nearest place inside.
 void vpMotionUnit::comeBack() noexcept
 {
   const auto inside = [](const vpMotionAxis &axis, double place) {
@@ -279,6 +284,108 @@ double vpMotionUnit::commonStop(bool head) noexcept
     T = std::max(T, vpMinimumDuration::solve(m_steps[static_cast<std::size_t>(i)], limits, lower).T);
   }
   return commonDuration(T);
+}
+
+// No cruise is shorter: for a group along its way, with what its ramps do to the direction left out.
+double vpMotionUnit::leastCruise() const noexcept
+{
+  double h = 0., v0 = 0., v1 = 0., v = m_hasNorm ? m_norm.velocity : infinity, a = infinity;
+  for (int i = 0; i < m_count; ++i) {
+    const vpFramedMotion &motion = at(i)[vpMotionAxis::Direct];
+    h = isSingle() ? motion.tail()[0] - motion.head()[0] : std::hypot(h, motion.tail()[0] - motion.head()[0]);
+  }
+  for (int i = 0; i < m_count && h != 0.; ++i) {
+    const vpFramedMotion &motion = at(i)[vpMotionAxis::Direct];
+    const double u = (motion.tail()[0] - motion.head()[0]) / h;
+    v0 += u * motion.head()[1];
+    v1 += u * motion.tail()[1];
+    v = std::min(v, at(i).task.limits.velocity / std::abs(u));
+    a = std::min(a, at(i).task.limits.acceleration / std::abs(u));
+  }
+  a = m_hasNorm ? std::min(a, m_norm.acceleration) : a;
+  return vpCruiseMotion::least(at(0)[vpMotionAxis::Direct].fixedDuration(), h, v0, v1, v, a);
+}
+
+// Members of a norm share the durations of their ramps. The direction of the constant velocity follows from these, and
+// they from it: a few rounds, and ramps a hundredth longer for what the direction still changes.
+void vpMotionUnit::openCruise() noexcept
+{
+  constexpr int rounds = 3;
+  m_cruiseReady = true;
+  if (isSingle()) {
+    at(0).cruise.open(at(0).task, at(0)[vpMotionAxis::Direct]);
+    return;
+  }
+  double up = 0., down = 0., rest = 0.;
+  for (int k = 0; k <= rounds && up < infinity && down < infinity; ++k) {
+    if (k > 0) {
+      const double first = commonStep(true, rest, up, down), last = commonStep(false, rest, up, down);
+      up = first * (k < rounds ? 1. : 1.01);
+      down = last * (k < rounds ? 1. : 1.01);
+    }
+    // What the rest takes at the full speed.
+    double norm = 0.;
+    rest = 0.;
+    for (int i = 0; i < m_count; ++i) {
+      const double way = vpCruiseMotion::rest(at(i)[vpMotionAxis::Direct], up, down);
+      norm = std::hypot(norm, way);
+      rest = std::max(rest, std::abs(way) / at(i).task.limits.velocity);
+    }
+    rest = m_hasNorm ? std::max(rest, norm / m_norm.velocity) : rest;
+  }
+  for (int i = 0; i < m_count; ++i) {
+    const vpFramedMotion &motion = at(i)[vpMotionAxis::Direct];
+    at(i).cruise.open(at(i).task, motion, up, down,
+                      motion.isBlocked() ? infinity : motion.fixedDuration() + rest + 0.5 * (up + down));
+  }
+}
+
+// Smallest common duration of the ramps to, or from, the velocities that take \e rest for what ramps of the durations
+// \e up and \e down leave.
+double vpMotionUnit::commonStep(bool head, double rest, double up, double down) noexcept
+{
+  double T = 0.;
+  for (int i = 0; i < m_count; ++i) {
+    const vpFramedMotion &motion = at(i)[vpMotionAxis::Direct];
+    const vpAxisState cruise{0., vpCruiseMotion::rest(motion, up, down) / rest, 0., 0.};
+    const vpAxisState from = head ? motion.head() : cruise, to = head ? cruise : motion.tail();
+    m_steps[static_cast<std::size_t>(i)] = vpMotionFamily::velocityStep(from, to, 2);
+    T = std::max(T, vpMinimumDuration::lowerBound({0., from[1], from[2], 0.}, {0., to[1], to[2], 0.},
+                                                  at(i).task.withoutPosition()));
+  }
+  for (int k = 0; k < vpMinimumDuration::maxIterations; ++k) {
+    double next = normNext(m_steps.data(), T);
+    for (int i = 0; i < m_count; ++i) {
+      next = std::max(next, vpMinimumDuration::nextCandidate(m_steps[static_cast<std::size_t>(i)],
+                                                             at(i).task.withoutPosition(), T));
+    }
+    if (next == T || !(next < infinity)) {
+      return next;
+    }
+    T = next;
+  }
+  return infinity;
+}
+
+double vpMotionUnit::searchCruise(double T) noexcept
+{
+  if (!m_cruiseReady) {
+    openCruise();
+  }
+  for (int i = 0; i < m_count && T < infinity; ++i) {
+    T = at(i).cruise.next(T);
+  }
+  for (const bool head : {true, false}) {
+    double duration = 0.;
+    for (int i = 0; i < m_count && m_hasNorm && T < infinity; ++i) {
+      vpMotionFamily up, down;
+      at(i).cruise.ramps(T, up, down);
+      m_steps[static_cast<std::size_t>(i)] = head ? up : down;
+      duration = head ? at(i).cruise.up() : at(i).cruise.down();
+    }
+    T = duration > 0. && normNext(m_steps.data(), duration) != duration ? infinity : T;
+  }
+  return T;
 }
 
 END_VISP_NAMESPACE

@@ -136,21 +136,120 @@ int rootsBetween(const double *c, int degree, const double *critical, int critic
   return count;
 }
 
-void enclose(const double *c, int degree, double &low, double &high) noexcept
+namespace
 {
-  double b[9] = {};
-  for (int k = 0; k <= degree; ++k) {
-    b[k] = c[k] * inverseBinomial[degree][k];
+template <int N> void bernstein(const double *c, double *b)
+{
+  for (int k = 0; k <= N; ++k) {
+    b[k] = c[k] * inverseBinomial[N][k];
   }
-  for (int pass = 1; pass <= degree; ++pass) {
-    for (int k = degree; k >= pass; --k) {
+  for (int pass = 1; pass <= N; ++pass) {
+    for (int k = N; k >= pass; --k) {
       b[k] += b[k - 1];
     }
   }
+}
+
+void bernstein(const double *c, int degree, double *b)
+{
+  switch (degree) { // unrolled
+  case 0:
+    b[0] = c[0];
+    break;
+  case 1:
+    return bernstein<1>(c, b);
+  case 2:
+    return bernstein<2>(c, b);
+  case 3:
+    return bernstein<3>(c, b);
+  case 4:
+    return bernstein<4>(c, b);
+  case 5:
+    return bernstein<5>(c, b);
+  case 6:
+    return bernstein<6>(c, b);
+  case 7:
+    return bernstein<7>(c, b);
+  default:
+    return bernstein<8>(c, b);
+  }
+}
+
+enum class Decision { Within, Beyond, Open };
+
+// By halves, from the Bernstein coefficients; those at the ends are values, which rounding does not change by slack.
+Decision decide(double *b, int degree, double low, double high, double slack, int depth)
+{
+  bool within = true;
+  for (int k = 0; k <= degree; ++k) {
+    within = within && b[k] >= low && b[k] <= high;
+  }
+  if (within) {
+    return Decision::Within;
+  }
+  if (b[0] < low - slack || b[0] > high + slack || b[degree] < low - slack || b[degree] > high + slack) {
+    return Decision::Beyond;
+  }
+  if (depth == 0) {
+    return Decision::Open;
+  }
+  double left[9];
+  for (int k = 0; k <= degree; ++k) { // de Casteljau; b becomes the right half
+    left[k] = b[0];
+    for (int i = 0; i < degree - k; ++i) {
+      b[i] = 0.5 * (b[i] + b[i + 1]);
+    }
+  }
+  const Decision first = decide(left, degree, low, high, slack, depth - 1);
+  if (first == Decision::Beyond) {
+    return first;
+  }
+  const Decision second = decide(b, degree, low, high, slack, depth - 1);
+  return second == Decision::Within ? first : second;
+}
+} // namespace
+
+void enclose(const double *c, int degree, double &low, double &high) noexcept
+{
+  double b[9];
+  bernstein(c, degree, b);
   low = high = b[0];
   for (int k = 1; k <= degree; ++k) {
     low = std::min(low, b[k]);
     high = std::max(high, b[k]);
+  }
+}
+
+bool staysWithin(const double *c, int degree, double low, double high) noexcept
+{
+  constexpr int depth = 3;
+  double b[9], sum = 0.;
+  bernstein(c, degree, b);
+  for (int k = 0; k <= degree; ++k) {
+    sum += std::abs(c[k]);
+  }
+  const Decision decision = decide(b, degree, low, high, 32. * epsilon * sum, depth);
+  if (decision == Decision::Open) {
+    double min = 0., max = 0.;
+    extremes(c, degree, 0., min, max);
+    return min >= low && max <= high;
+  }
+  return decision == Decision::Within;
+}
+
+void extremes(const double *c, int degree, double from, double &low, double &high) noexcept
+{
+  const double first = horner(c, degree, from), last = horner(c, degree, 1.);
+  low = std::min(first, last);
+  high = std::max(first, last);
+  double slope[9], places[9];
+  slope[0] = 0.;
+  differentiate(c, degree, slope);
+  const int count = allRoots(slope, std::max(degree - 1, 0), places, Wanted::Extrema);
+  for (int i = 0; i < count; ++i) {
+    const double value = horner(c, degree, std::max(places[i], from));
+    low = std::min(low, value);
+    high = std::max(high, value);
   }
 }
 
@@ -161,7 +260,7 @@ bool isSurelyWithin(const double *c, int degree, double bound) noexcept
   return low >= -bound && high <= bound;
 }
 
-int allRoots(const double *c, int degree, double *out) noexcept
+int allRoots(const double *c, int degree, double *out, Wanted wanted) noexcept
 {
   while (degree > 0 && c[degree] == 0.) {
     --degree;
@@ -182,7 +281,7 @@ int allRoots(const double *c, int degree, double *out) noexcept
   for (int d = 3; d <= degree; ++d) {
     const double *level = d == degree ? c : chain[degree - d - 1];
     double found[vpPolynomial::maxDegree];
-    count = rootsBetween(level, d, critical, count, Wanted::Roots, found);
+    count = rootsBetween(level, d, critical, count, wanted, found);
     std::copy(found, found + count, critical);
   }
   std::copy(critical, critical + count, out);

@@ -51,11 +51,18 @@ int rootsBetween(const double *c, int degree, const double *critical, int critic
 //! Bounds of the polynomial on [0, 1]: the extremes of its Bernstein coefficients, which enclose it. Degree <= 8.
 void enclose(const double *c, int degree, double &low, double &high) noexcept;
 
+//! Whether the polynomial stays between these values on [0, 1]: by halves until enclose() or a value decides, else by the
+//! roots of its derivative. Degree <= 8.
+bool staysWithin(const double *c, int degree, double low, double high) noexcept;
+
+//! Smallest and largest value on [from, 1], within [0, 1]; its places to 1e-7, so the values to 1e-13. Degree <= 8.
+void extremes(const double *c, int degree, double from, double &low, double &high) noexcept;
+
 //! True when |polynomial| <= bound on [0, 1] is certain from enclose(). False says nothing.
 bool isSurelyWithin(const double *c, int degree, double bound) noexcept;
 
-//! All roots in [0, 1], touching ones included; \e out has capacity for \e degree numbers.
-int allRoots(const double *c, int degree, double *out) noexcept;
+//! All roots in [0, 1], touching ones included unless Extrema are wanted; \e out has room for \e degree numbers.
+int allRoots(const double *c, int degree, double *out, Wanted wanted = Wanted::Roots) noexcept;
 
 /*!
  * Smallest x > 0 with g(x) = 0, where g(0) = c[0] > 0; infinity if there is none. Closed form up to degree 2.

@@ -14,10 +14,10 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-// At most: braking (4) and its padding, a ramp, a stop, a return inside, one polynomial, a launch (4).
-constexpr int segmentsPerLeg = 13;
-// After the arrival: a ramp, constant velocity, braking (4).
-constexpr int segmentsAfter = 6;
+// At most: a stop (8), a way back inside, one polynomial, a launch (8).
+constexpr int segmentsPerLeg = 18;
+// After the arrival: a ramp, constant velocity, braking (4), or a stop (8).
+constexpr int segmentsAfter = 8;
 
 // Rounding difference of times that are sums of different durations but equal in theory.
 double rounding(double t) { return 1e-14 * t; }

@@ -4,6 +4,7 @@
  */
 #include "vpTrajectoryPlannerImpl.h"
 
+#include "vpHardStop.h"
 #include "vpLimitCheck.h"
 
 #include <algorithm>
@@ -205,10 +206,14 @@ double vpTrajectoryPlanner::Impl::searchLeg(const vpTrajectoryOptions &options, 
     }
   }
   else {
-    // To a fixed point from below: a longer duration may be infeasible for an axis that was satisfied with a shorter
-    // one. Each time an axis changes its form, of which it has few, so this terminates.
-    int content = 0;
-    for (int i = 0; content < unitCount && i < 100 * unitCount; ++i) {
+    // To a fixed point from below: a longer duration may be infeasible for an axis that was content with a shorter one.
+    // Each time an axis takes another form, of which it has few, so this ends.
+    // The one that is likely to be the slowest comes first: then the others look at its duration only.
+    const auto last = units.begin() + unitCount;
+    const auto first = std::max_element(
+        units.begin(), last, [](const vpMotionUnit &a, const vpMotionUnit &b) { return a.estimate() < b.estimate(); });
+    int content = 0, i = static_cast<int>(first - units.begin());
+    for (const int end = i + 100 * unitCount; content < unitCount && i < end; ++i) {
       const double next = units[static_cast<std::size_t>(i % unitCount)].next(T);
       content = next == T ? content + 1 : 1;
       T = next;
@@ -284,7 +289,7 @@ void vpTrajectoryPlanner::Impl::finish(const vpTrajectoryProblem &problem, vpTra
       x = k >= given || planned[static_cast<std::size_t>(k)] == 0. ? 0. : x;
     }
     plan.finish(i, goal);
-    coast(i, goal, coastingRamp(problem, i), plan);
+    coast(problem, i, goal, plan);
   }
   plan.setIterations(iterations);
 }
@@ -320,12 +325,16 @@ double vpTrajectoryPlanner::Impl::coastingRamp(const vpTrajectoryProblem &proble
   return longest;
 }
 
-// After the arrival: the acceleration decreases linearly, the velocity stays, and the axis brakes where it would
-// otherwise leave its position limits.
-void vpTrajectoryPlanner::Impl::coast(int i, const vpAxisState &goal, double ramp, vpTrajectoryPlan &plan)
+// After the arrival: the acceleration goes down linearly, the velocity stays, and the axis brakes where it would leave
+// its position limits otherwise.
+void vpTrajectoryPlanner::Impl::coast(const vpTrajectoryProblem &problem, int i, const vpAxisState &goal,
+                                      vpTrajectoryPlan &plan)
 {
+  if (goal[1] == 0. && goal[2] == 0.) {
+    return;
+  }
   const vpAxisTask &task = axis(i).task;
-  const double r = goal[2] != 0. ? ramp : 0.;
+  const double r = goal[2] != 0. ? coastingRamp(problem, i) : 0.;
   vpAxisState x{goal[0], goal[1] + 0.5 * r * goal[2], 0., 0.};
   x[0] += r * (goal[1] + r * goal[2] / 3.);
   const double wall = from[static_cast<std::size_t>(i)][0] + (x[1] > 0. ? task.maxPosition : task.minPosition);
@@ -338,19 +347,32 @@ void vpTrajectoryPlanner::Impl::coast(int i, const vpAxisState &goal, double ram
     stop = brakeFrom(x);
     constant = (wall - stop.at(x[0], stop.duration())[0]) / x[1];
   }
-  if (constant >= 0.) {
-    plan.append(i, {0., goal[1] * r, goal[2] * r * r / 2., -goal[2] * r * r / 6.}, r);
+  const vpPolynomial ramp{0., goal[1] * r, goal[2] * r * r / 2., -goal[2] * r * r / 6.};
+  const double place = from[static_cast<std::size_t>(i)][0] - goal[0];
+  const double low = std::min(task.minPosition + place, 0.), high = std::max(task.maxPosition + place, 0.);
+  if (constant >= 0. && ramp.range().min >= low && ramp.range().max <= high) {
+    plan.append(i, ramp, r);
+    if (std::isfinite(constant)) {
+      plan.append(i, {0., x[1] * constant}, constant);
+      plan.appendRamp(i, stop, x);
+      plan.rest(i);
+    }
+    return;
   }
-  else {
-    x = goal;
-    stop = brakeFrom(x);
+  // No room for that: at once, and as hard as is needed. The norm of a group is for the usual stop only.
+  const auto &groups = problem.options.groups;
+  const bool grouped = std::any_of(groups.begin(), groups.end(), [i](const vpAxisGroup &g) { return g.contains(i); });
+  vpAxisTask hard = task;
+  hard.order = 3;
+  const double far = grouped ? infinity : 0.;
+  const vpHardStop hardStop(goal, hard, low - far, high + far);
+  x = goal;
+  for (int k = 0; k < hardStop.count; ++k) {
+    const double v = hardStop.velocities[static_cast<std::size_t>(k)];
+    plan.appendRamp(i, vpVelocityRamp(x[1], x[2], v, hardStop.acceleration, hardStop.jerk), x);
+    x = {0., v, 0., 0.};
   }
-  if (std::isfinite(constant)) {
-    plan.append(i, {0., x[1] * constant}, constant);
-    x[0] += std::max(constant, 0.) * x[1];
-    plan.appendRamp(i, stop, x);
-    plan.rest(i);
-  }
+  plan.rest(i);
 }
 
 // When everything else fails: to rest, as fast as the limits allow.

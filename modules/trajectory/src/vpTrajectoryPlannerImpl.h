@@ -47,7 +47,7 @@ struct vpTrajectoryPlanner::Impl {
   [[nodiscard]] double groupBraking() const;
   void finish(const vpTrajectoryProblem &problem, vpTrajectoryPlan &plan);
   [[nodiscard]] double coastingRamp(const vpTrajectoryProblem &problem, int i) const;
-  void coast(int i, const vpAxisState &goal, double ramp, vpTrajectoryPlan &plan);
+  void coast(const vpTrajectoryProblem &problem, int i, const vpAxisState &goal, vpTrajectoryPlan &plan);
   void stopAll(const vpTrajectoryProblem &problem, vpTrajectoryPlan &plan);
   vpTrajectoryStatus judge(const vpTrajectoryProblem &problem, vpTrajectoryPlan &plan);
   double planPointToPoint(const vpTrajectoryProblem &problem, double floor, vpTrajectoryPlan &plan);

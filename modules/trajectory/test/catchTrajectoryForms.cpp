@@ -227,6 +227,65 @@ TEST_CASE("a group at rest cruises along its line", "[forms]")
   CHECK(cruises > problems(10000) / 10);
 }
 
+TEST_CASE("a group that moves at the start or the goal cruises too", "[forms]")
+{
+  vpTrajectoryInput<3> example;
+  example.goal.q << 0.5, 0.3, 0.4;
+  example.goal.q *= 10.;
+  example.start.v << 0.1, -0.05, 0.;
+  example.start.a << 0., 0.1, 0.;
+  example.goal.v << 0., 0., 0.1;
+  example.maxVelocity.setConstant(0.25);
+  example.maxAcceleration.setConstant(0.5);
+  example.options.groups[0] = vpAxisGroup({0, 1, 2}, 0.25, 0.5);
+  const double h = 10. * std::sqrt(0.5);
+  vpTrajectoryPlan motion(3);
+  REQUIRE(vpDirectTrajectory<3>::calculate(example, motion).result == vpTrajectoryResult::Working);
+  CHECK(motion.form(0) == vpTrajectoryForm::Cruise);
+  CHECK(worstViolation(example, motion) < 1e-9);
+  CHECK(motion.duration() < h / 0.25 + 1.); // 28.3 s at full speed, and the ramps; 45 without a cruise
+  example.options.cruise = false;
+  REQUIRE(vpDirectTrajectory<3>::calculate(example, motion).result == vpTrajectoryResult::Working);
+  CHECK(motion.duration() > 1.5 * h / 0.25);
+
+  auto rng = vpTestSupport::generator(45);
+  CAPTURE(vpTestSupport::seed());
+  int cruises = 0, longer = 0;
+  for (int k = 0; k < problems(10000); ++k) {
+    auto input = randomInput<5>(rng, static_cast<Class>(k % 4), k % 3 == 1);
+    const double length = logUniform(rng, 0.1, 100.);
+    double v[2][2] = {}, a[2][2] = {}; // norms at start and goal, of each group
+    const vpAxisGroup members[] = {vpAxisGroup({0, 2, 4}, 1.), vpAxisGroup({1, 3}, 1.)};
+    for (int i = 0; i < 5; ++i) {
+      input.goal.q[i] = input.start.q[i] + length * uniform(rng, -1., 1.);
+      const int g = members[0].contains(i) ? 0 : 1;
+      v[g][0] = std::hypot(v[g][0], input.start.v[i]), v[g][1] = std::hypot(v[g][1], input.goal.v[i]);
+      a[g][0] = std::hypot(a[g][0], input.start.a[i]), a[g][1] = std::hypot(a[g][1], input.goal.a[i]);
+    }
+    for (int g = 0; g < 2; ++g) { // well above: acceleration at the start may add to the velocity
+      vpAxisGroup &group = input.options.groups[static_cast<std::size_t>(g)];
+      group = members[g];
+      group.maxSpeed = 2. * std::max(v[g][0], v[g][1]) + logUniform(rng, 0.1, 1.);
+      group.maxAcceleration = 1.1 * std::max(a[g][0], a[g][1]) + logUniform(rng, 0.1, 1.);
+    }
+    vpTrajectoryPlan plan(5), single(5);
+    const vpTrajectoryStatus status = vpDirectTrajectory<5>::calculate(input, plan);
+    CAPTURE(k, status.message(), toString(plan.form()));
+    const bool cruise = plan.form(0) == vpTrajectoryForm::Cruise || plan.form(1) == vpTrajectoryForm::Cruise;
+    if (cruise && status.result == vpTrajectoryResult::Working) {
+      REQUIRE(worstViolation(input, plan) < 1e-9);
+      REQUIRE(worstMismatch(input, plan) < 1e-12);
+      input.options.cruise = false;
+      static_cast<void>(vpDirectTrajectory<5>::calculate(input, single));
+      longer += plan.duration() > single.duration() * (1. + 1e-9);
+    }
+    cruises += cruise && status.isGood();
+  }
+  WARN(cruises << " cruises, " << longer << " of them longer than without");
+  CHECK(cruises > problems(10000) / 5);
+  CHECK(longer < cruises / 100 + 1); // units that wait for each other may change their forms
+}
+
 TEST_CASE("straight lines are straight, in every form", "[forms]")
 {
   auto rng = vpTestSupport::generator(93);

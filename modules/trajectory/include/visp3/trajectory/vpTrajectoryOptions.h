@@ -87,9 +87,8 @@ struct VISP_EXPORT vpTrajectoryOptions {
   vpDurationMethod method = vpDurationMethod::Exact;              //!< Method that finds the duration.
   vpLateArrival lateArrival = vpLateArrival::Extend;              //!< Infeasible arrival times of FixedArrival.
   /*!
-   * Allow ramp, constant velocity, ramp where that saves a fifth of the time of the single polynomial (long moves), or
-   * where the single polynomial has no feasible time. For C2: axes without a group, groups at rest at both ends, the
-   * line of Straight.
+   * Allow ramp, constant velocity, ramp where that saves a fifth of the time of the single polynomial (long moves), or where
+   * that has no feasible time. For C2; a group that moves at the start or the goal bends into its constant velocity.
    */
   bool cruise = true;
   double arrivalTime = 0.;     //!< FixedArrival: arrival time, s from the event that set it, > 0.
