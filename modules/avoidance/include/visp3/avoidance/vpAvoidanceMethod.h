@@ -100,7 +100,7 @@ struct VISP_EXPORT vpAvoidanceMethodSpec {
  *     method.look();
  *   }
  *   method.step(q, output);
- *   q += period * output.velocity;  // or what the drives were told
+ *   q += period * output.velocity;  // or the position commanded to the drives
  * } while (isWorking(output));
  * \endcode
  */

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpCertifiedMotion.h
- * \brief Proof that a straight motion between two configurations is free.
+ * \brief Certified collision check of a straight joint-space motion.
  */
 #ifndef vpCertifiedMotion_h
 #define vpCertifiedMotion_h

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpCertifiedTrajectory.h
- * \brief Proof that a coming trajectory in joint space is free.
+ * \brief Certified collision check of a joint-space trajectory.
  */
 #ifndef vpCertifiedTrajectory_h
 #define vpCertifiedTrajectory_h

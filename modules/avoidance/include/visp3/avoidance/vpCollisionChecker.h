@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpCollisionChecker.h
- * \brief One configuration at a time, by the fast path or by another library.
+ * \brief Collision queries of single configurations, by the fast path or another library.
  */
 #ifndef vpCollisionChecker_h
 #define vpCollisionChecker_h

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpCollisionData.h
- * \brief Scratch and results of collision queries.
+ * \brief Scratch memory and results of collision queries.
  */
 #ifndef vpCollisionData_h
 #define vpCollisionData_h

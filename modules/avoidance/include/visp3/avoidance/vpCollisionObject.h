@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpCollisionObject.h
- * \brief An obstacle: a shape somewhere, perhaps moving, known with an uncertainty.
+ * \brief An obstacle: shape, pose, velocity and uncertainty.
  */
 #ifndef vpCollisionObject_h
 #define vpCollisionObject_h

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpCollisionScene.h
- * \brief An arm among obstacles: what may touch what, and how near it is.
+ * \brief An arm among obstacles: allowed contacts, collision and distance queries.
  */
 #ifndef vpCollisionScene_h
 #define vpCollisionScene_h

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpCollisionSceneJson.h
- * \brief Scenes and tasks from a JSON file. Needs nlohmann_json when the module is built.
+ * \brief Loads scenes and tasks from a JSON file. Requires a build with nlohmann_json.
  */
 #ifndef vpCollisionSceneJson_h
 #define vpCollisionSceneJson_h
@@ -18,7 +18,7 @@ BEGIN_VISP_NAMESPACE
  * \brief A motion to plan in a scene.
  */
 struct VISP_EXPORT vpMotionTask {
-  std::string name;    //!< For reports.
+  std::string name;    //!< Name for reports.
   vpJointVector start; //!< Start configuration, rad or m.
   vpJointVector goal;  //!< Goal configuration, rad or m, of the same size.
 };
@@ -37,7 +37,7 @@ struct VISP_EXPORT vpObjectPhoto {
  * \brief Contents of a scene file.
  */
 struct VISP_EXPORT vpCollisionSceneFile {
-  std::string name;                  //!< For reports.
+  std::string name;                  //!< Name for reports.
   vpCollisionSceneSpec spec;         //!< Specification for vpCollisionScene; its source is the file.
   std::vector<vpObjectPhoto> photos; //!< Photographs, each target and object at most once; may be empty.
   std::vector<vpMotionTask> tasks;   //!< Motions to plan; may be empty.

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpCollisionShape.h
- * \brief What a body looks like to collision checks.
+ * \brief Shape of a body for collision checks.
  */
 #ifndef vpCollisionShape_h
 #define vpCollisionShape_h

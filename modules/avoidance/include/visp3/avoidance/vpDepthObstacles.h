@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpDepthObstacles.h
- * \brief What depth images show and nobody knows, as one object of a scene. Needs octomap when the module is built.
+ * \brief Unknown obstacles from depth images, as one object of a scene. Requires a build with octomap.
  */
 #ifndef vpDepthObstacles_h
 #define vpDepthObstacles_h

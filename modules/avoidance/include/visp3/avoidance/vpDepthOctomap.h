@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpDepthOctomap.h
- * \brief Obstacles from depth images. Needs octomap when the module is built.
+ * \brief Occupancy map from depth images. Requires a build with octomap.
  */
 #ifndef vpDepthOctomap_h
 #define vpDepthOctomap_h

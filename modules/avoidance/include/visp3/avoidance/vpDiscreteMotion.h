@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpDiscreteMotion.h
- * \brief The usual check of a motion: samples at a fixed step. For comparison.
+ * \brief Conventional motion check by samples at a fixed step, for comparison.
  */
 #ifndef vpDiscreteMotion_h
 #define vpDiscreteMotion_h

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpFclChecker.h
- * \brief The same questions answered by FCL, for comparison. Needs FCL when the module is built.
+ * \brief Collision queries by FCL, for comparison. Requires a build with FCL.
  */
 #ifndef vpFclChecker_h
 #define vpFclChecker_h

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpJointPath.h
- * \brief A way through configurations, without time.
+ * \brief A path through configurations, without timing.
  */
 #ifndef vpJointPath_h
 #define vpJointPath_h

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpMotionResult.h
- * \brief What a check of a straight motion between two configurations says.
+ * \brief Result of checking a straight joint-space motion.
  */
 #ifndef vpMotionResult_h
 #define vpMotionResult_h

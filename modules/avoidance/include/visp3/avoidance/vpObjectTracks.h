@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpObjectTracks.h
- * \brief From sightings of obstacles to obstacles that move: place, velocity and uncertainty of each, now.
+ * \brief Tracks moving obstacles from sightings: current pose, velocity and uncertainty of each.
  */
 #ifndef vpObjectTracks_h
 #define vpObjectTracks_h

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpObstacleDetector.h
- * \brief Obstacles from pictures (thesis 8.3.2). Needs the module planar_target when this one is built.
+ * \brief Detects obstacles in images (thesis 8.3.2). Requires a build with the module planar_target.
  */
 #ifndef vpObstacleDetector_h
 #define vpObstacleDetector_h

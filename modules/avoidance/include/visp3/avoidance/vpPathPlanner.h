@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpPathPlanner.h
- * \brief Ways round obstacles in joint space, by the planners of OMPL. Needs OMPL when the module is built.
+ * \brief Collision-free paths in joint space, by the planners of OMPL. Requires a build with OMPL.
  */
 #ifndef vpPathPlanner_h
 #define vpPathPlanner_h

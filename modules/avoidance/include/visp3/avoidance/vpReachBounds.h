@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpReachBounds.h
- * \brief How far the capsules of an arm can be from its axes.
+ * \brief Largest distances of an arm's capsules from its joint axes.
  */
 #ifndef vpReachBounds_h
 #define vpReachBounds_h

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpStopSupervisor.h
- * \brief Lets only such joint velocities pass from which the arm can still stop in time.
+ * \brief Passes only joint velocities from which the arm can still stop in time.
  */
 #ifndef vpStopSupervisor_h
 #define vpStopSupervisor_h

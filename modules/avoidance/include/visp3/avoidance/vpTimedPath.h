@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpTimedPath.h
- * \brief From a path to a motion within the joints' limits that is as free as the path.
+ * \brief Converts a path to a motion within the joint limits that is as free as the path.
  */
 #ifndef vpTimedPath_h
 #define vpTimedPath_h

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpTriangleMesh.h
- * \brief Surface of triangles, from memory or from an .obj or .stl file.
+ * \brief Triangle mesh, from memory or from an .obj or .stl file.
  */
 #ifndef vpTriangleMesh_h
 #define vpTriangleMesh_h

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpArmDynamics.h
- * \brief Inertia matrix, Coriolis and gravity terms of an arm. Needs Orocos KDL when the module is built.
+ * \brief Inertia matrix, Coriolis and gravity terms of an arm. Requires a build with Orocos KDL.
  */
 #ifndef vpArmDynamics_h
 #define vpArmDynamics_h

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpArmJson.h
- * \brief An arm from a JSON file with a standard DH table. Needs nlohmann_json when the module is built.
+ * \brief Loads an arm from a JSON file with a standard DH table. Requires a build with nlohmann_json.
  */
 #ifndef vpArmJson_h
 #define vpArmJson_h

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpArmModel.h
- * \brief An arm that has been checked and does not change any more.
+ * \brief Validated, immutable model of an arm.
  */
 #ifndef vpArmModel_h
 #define vpArmModel_h

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpArmMotion.h
- * \brief From what an arm is asked to do to the joint velocities of the next control period.
+ * \brief Converts a requested arm motion to joint velocities for the next control period.
  */
 #ifndef vpArmMotion_h
 #define vpArmMotion_h

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpArmSpec.h
- * \brief What makes an arm: joints, links, tool, camera. Filled by hand, from JSON or from URDF.
+ * \brief Specification of an arm: joints, links, tool, camera. Filled by hand, from JSON or from URDF.
  */
 #ifndef vpArmSpec_h
 #define vpArmSpec_h
@@ -31,7 +31,7 @@ enum class vpJointType {
  * before * motion(q + offset) * after. Standard DH has before = I and after = Tz(d) Tx(a) Rx(alpha).
  */
 struct VISP_EXPORT vpArmJointSpec {
-  std::string name;                         //!< For messages; not empty.
+  std::string name;                         //!< Name for messages; not empty.
   vpJointType type = vpJointType::Revolute; //!< Revolute, continuous or prismatic.
   vpRigidTransform before;                  //!< Joint frame in the frame of the preceding link.
   vpRigidTransform after;                   //!< Frame of the moved link in the joint frame.
@@ -57,7 +57,7 @@ struct VISP_EXPORT vpArmJointSpec {
  * \brief Link moved by a joint, in the link frame (standard DH: frame i; URDF: frame of the child link).
  */
 struct VISP_EXPORT vpArmLinkSpec {
-  std::string name;                                  //!< For messages.
+  std::string name;                                  //!< Name for messages.
   bool hasMass = false;                              //!< False: mass unknown.
   double mass = 0.;                                  //!< Mass, kg, > 0 if hasMass.
   Eigen::Vector3d com = Eigen::Vector3d::Zero();     //!< Centre of mass, m.
@@ -81,7 +81,7 @@ struct VISP_EXPORT vpArmCapsule {
  * \brief Specification of an arm; validated by vpArmModel.
  */
 struct VISP_EXPORT vpArmSpec {
-  std::string name;                   //!< For messages.
+  std::string name;                   //!< Name for messages.
   std::string source;                 //!< Source file, for messages; may be empty.
   std::vector<vpArmJointSpec> joints; //!< Joints from the base on, 1..8.
   std::vector<vpArmLinkSpec> links;   //!< Links, as many as joints, or none.

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpArmTypes.h
- * \brief Vectors and matrices of a serial arm, stored in place: nothing here lives on the heap.
+ * \brief Vectors and matrices of a serial arm, stored in place: no heap memory.
  */
 #ifndef vpArmTypes_h
 #define vpArmTypes_h

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpArmUrdf.h
- * \brief An arm from a URDF file. Needs urdfdom when the module is built.
+ * \brief Loads an arm from a URDF file. Requires a build with urdfdom.
  */
 #ifndef vpArmUrdf_h
 #define vpArmUrdf_h

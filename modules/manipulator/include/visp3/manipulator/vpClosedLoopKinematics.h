@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpClosedLoopKinematics.h
- * \brief From a wanted pose of the end effector to joint positions, with feedback on the pose.
+ * \brief Closed-loop inverse kinematics: joint positions from a desired end-effector pose, with pose feedback.
  */
 #ifndef vpClosedLoopKinematics_h
 #define vpClosedLoopKinematics_h

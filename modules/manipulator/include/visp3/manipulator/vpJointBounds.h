@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpJointBounds.h
- * \brief Which joint velocities may be commanded now so that the limits still hold later.
+ * \brief Bounds of joint velocities for which the limits can still be kept later.
  */
 #ifndef vpJointBounds_h
 #define vpJointBounds_h

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpJointFriction.h
- * \brief Friction of the joints and the torque that makes up for it.
+ * \brief Joint friction and its compensation torque.
  */
 #ifndef vpJointFriction_h
 #define vpJointFriction_h

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpJointPositionControl.h
- * \brief Joint torques from joint positions: PD with gravity.
+ * \brief Joint position control: PD with gravity compensation.
  */
 #ifndef vpJointPositionControl_h
 #define vpJointPositionControl_h

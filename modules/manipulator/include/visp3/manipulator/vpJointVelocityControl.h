@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpJointVelocityControl.h
- * \brief Joint torques from joint velocities: PI.
+ * \brief Joint velocity control: PI.
  */
 #ifndef vpJointVelocityControl_h
 #define vpJointVelocityControl_h

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpJointVelocityEstimator.h
- * \brief Joint velocities from noisy joint positions.
+ * \brief Estimates joint velocities from noisy joint positions.
  */
 #ifndef vpJointVelocityEstimator_h
 #define vpJointVelocityEstimator_h

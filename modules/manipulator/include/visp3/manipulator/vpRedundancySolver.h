@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpRedundancySolver.h
- * \brief From a twist to joint velocities: weighted inverse, self-motion, singularities and limits.
+ * \brief Joint velocities from a twist: weighted inverse, self-motion, singularities and limits.
  */
 #ifndef vpRedundancySolver_h
 #define vpRedundancySolver_h

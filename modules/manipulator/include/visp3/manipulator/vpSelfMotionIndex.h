@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpSelfMotionIndex.h
- * \brief What the spare joints shall do: indices of a configuration with exact gradients.
+ * \brief Self-motion criteria: indices of a configuration with exact gradients.
  */
 #ifndef vpSelfMotionIndex_h
 #define vpSelfMotionIndex_h

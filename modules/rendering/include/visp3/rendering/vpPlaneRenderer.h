@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpPlaneRenderer.h
- * \brief Pictures of a real photograph as a plane in space, with the faults of a real camera.
+ * \brief Renders a real photograph as a plane in space, with the faults of a real camera.
  */
 #ifndef vpPlaneRenderer_h
 #define vpPlaneRenderer_h

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpProductPattern.h
- * \brief Pictures of a repetitive, flexible product that moves, with the true places of its cells.
+ * \brief Renders a moving, repetitive, flexible product, with the true positions of its cells.
  */
 #ifndef vpProductPattern_h
 #define vpProductPattern_h

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpProductPatternSpec.h
- * \brief What a repetitive, flexible product looks like under a camera.
+ * \brief Appearance of a repetitive, flexible product under a camera.
  */
 #ifndef vpProductPatternSpec_h
 #define vpProductPatternSpec_h

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpSceneCamera.h
- * \brief Pictures and depth images of a whole scene of obstacles.
+ * \brief Renders grey and depth images of a scene of obstacles.
  */
 #ifndef vpSceneCamera_h
 #define vpSceneCamera_h

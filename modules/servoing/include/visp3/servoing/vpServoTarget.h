@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpServoTarget.h
- * \brief From the pose of a known object to what servo laws are told.
+ * \brief Converts the pose of a known object to measurements and goals of servo laws.
  */
 #ifndef vpServoTarget_h
 #define vpServoTarget_h

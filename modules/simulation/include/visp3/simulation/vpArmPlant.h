@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpArmPlant.h
- * \brief An arm that torques move: inertia, gravity, friction that sticks, end stops.
+ * \brief Torque-driven arm: inertia, gravity, stiction, end stops.
  */
 #ifndef vpArmPlant_h
 #define vpArmPlant_h

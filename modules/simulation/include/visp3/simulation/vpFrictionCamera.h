@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpFrictionCamera.h
- * \brief A free-flying camera that moves as a real robot does: with lag, friction and limits.
+ * \brief Free-flying camera with the lag, friction and limits of a real robot.
  */
 #ifndef vpFrictionCamera_h
 #define vpFrictionCamera_h

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpServoPlant.h
- * \brief How imperfect the robot and its vision are.
+ * \brief Imperfections of a robot and its vision system.
  */
 #ifndef vpServoPlant_h
 #define vpServoPlant_h
@@ -20,7 +20,7 @@ BEGIN_VISP_NAMESPACE
  * \brief Parameters of a plant. The limits are the same for all laws compared.
  */
 struct VISP_EXPORT vpServoPlant {
-  std::string name = "A";   //!< For reports.
+  std::string name = "A";   //!< Name for reports.
   double loopRate = 100.;   //!< Rate of the inner loop that runs the law, Hz, > 0.
   double visionRate = 100.; //!< Rate of the camera, Hz, > 0 and <= #loopRate.
   double latency = 0.;      //!< Latency from exposure to result, s, >= 0. The inner loop compensates it by odometry.

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpSimulatedArm.h
- * \brief A robot of ViSP that is a simulated arm with a camera in its hand.
+ * \brief Simulated arm with an eye-in-hand camera, as a robot of ViSP.
  */
 #ifndef vpSimulatedArm_h
 #define vpSimulatedArm_h

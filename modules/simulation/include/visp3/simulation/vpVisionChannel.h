@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpVisionChannel.h
- * \brief When a camera exposes and when its result arrives.
+ * \brief Exposure and arrival times of vision results.
  */
 #ifndef vpVisionChannel_h
 #define vpVisionChannel_h
