@@ -17,7 +17,7 @@ BEGIN_VISP_NAMESPACE
 namespace
 {
 using Eigen::Vector3d;
-constexpr double still = 2e-3; // m/s: a slower tool stands
+constexpr double still = 2e-3; // m/s: a slower tool counts as standing
 
 void requireGood(const char *field, double value)
 {
@@ -26,7 +26,7 @@ void requireGood(const char *field, double value)
   }
 }
 
-//! The arm as the text drives it: no limits of velocity and acceleration.
+//! The arm as in the text: no velocity and acceleration limits.
 vpArmModel withoutMotionLimits(const vpArmModel &arm)
 {
   vpArmSpec spec = arm.spec();
@@ -68,7 +68,7 @@ public:
     }
   }
 
-  //! In the configuration that was placed.
+  //! Evaluated in the placed configuration.
   void step(vpAvoidanceOutput &output) noexcept
   {
     scene->near(data, cutoff(), near);
@@ -91,7 +91,7 @@ public:
     starting = starting && stands;
   }
 
-  //! The obstacle next to the image's centre, while its own centre is in the picture.
+  //! The obstacle nearest to the image's centre, if its own centre is in the image.
   Vector3d asPrinted(const Vector3d &task, bool &avoiding) const noexcept
   {
     const vpRigidTransform fMc = vpArmKinematics::camera(arm, data.arm);
@@ -113,7 +113,7 @@ public:
     return fMc.R * blendAsPrinted(spec.pixels, nearest, away, fMc.R.transpose() * task);
   }
 
-  //! All that is near the last link, the nearest last: it decides.
+  //! All obstacles near the last link, the nearest last: it decides.
   Vector3d radial(const Vector3d &task, bool &avoiding, vpClearance &nearest) noexcept
   {
     Vector3d velocity = task;
