@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpFileText.h
- * \brief What all readers of files have in common: their error, their bounds, and how a file is taken into memory. Not
+ * \brief Common parts of all file readers: error class, bounds, and reading a file into memory. Not
  * installed.
  */
 #ifndef vpFileText_h
@@ -18,23 +18,23 @@
 #include <stdexcept>
 #include <string>
 
-//! Deepest nesting that a reader follows, in elements or brackets; recursion on deeper ones would overflow the stack.
+//! Deepest nesting that readers accept, in elements or brackets; deeper recursion could overflow the stack.
 constexpr int vpDeepestNesting = 64;
-//! Largest text file that a reader takes, bytes. A description of a robot or a scene is a thousand times smaller.
+//! Largest text file that readers accept, bytes. A description of a robot or a scene is a thousand times smaller.
 constexpr std::size_t vpLargestTextFile = 64U << 20U;
-//! Largest file of a mesh or an octree, bytes.
+//! Largest mesh or octree file that readers accept, bytes.
 constexpr std::size_t vpLargestDataFile = 256U << 20U;
 
 /*!
- * \brief What is wrong with a file, as one printable sentence. Readers inside throw it; vpReading() makes it the vpException
- * that the modules promise.
+ * \brief Error in a file, as one printable sentence. Thrown internally by readers; vpReading() converts it to the
+ * documented vpException.
  */
 class vpFileError : public std::runtime_error
 {
 public:
   enum class Kind {
-    Unreadable, //!< The system does not give the file.
-    Wrong       //!< What is in it.
+    Unreadable, //!< The file cannot be read.
+    Wrong       //!< The content is invalid.
   };
   explicit vpFileError(const std::string &sentence, Kind kind = Kind::Wrong)
     : std::runtime_error(vpPrintable(sentence)), m_kind(kind)
@@ -46,8 +46,8 @@ private:
 };
 
 /*!
- * The bytes of a file, or of a pipe.
- * \throw vpFileError when the file cannot be read or has more than \e most bytes.
+ * Reads all bytes of a file or a pipe.
+ * \throw vpFileError if the file cannot be read or has more than \e most bytes.
  */
 inline std::string vpReadFileText(const std::string &file, std::size_t most = vpLargestTextFile)
 {
@@ -70,7 +70,7 @@ inline std::string vpReadFileText(const std::string &file, std::size_t most = vp
   return text;
 }
 
-//! "line 3, column 7" of a byte counted from 0.
+//! Position of a byte, counted from 0, as "line 3, column 7".
 inline std::string vpLineAndColumn(const std::string &text, std::size_t byte)
 {
   std::size_t line = 1, start = 0;

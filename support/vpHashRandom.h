@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpHashRandom.h
- * \brief Random numbers that depend on a key, such as the row and column of a cell, and not on the order of drawing.
+ * \brief Random numbers determined by a key, such as the row and column of a cell, independent of the drawing order.
  */
 #ifndef vpHashRandom_h
 #define vpHashRandom_h
@@ -18,12 +18,12 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
- * \brief A stream of random numbers for (seed, purpose, a, b): splitmix64 from a hash of the four.
+ * \brief Stream of random numbers for (seed, purpose, a, b): splitmix64 seeded by a hash of the four.
  */
 class vpHashRandom
 {
 public:
-  //! What the numbers are for; streams of different purposes are independent.
+  //! Purpose of the numbers; streams of different purposes are independent.
   enum class Purpose : std::uint64_t { Cell = 1, Flex, Dust, Crack, Noise, Scene, CameraPose };
 
   vpHashRandom(unsigned int seed, Purpose purpose, std::int64_t a, std::int64_t b)
@@ -46,7 +46,7 @@ private:
   static constexpr std::uint64_t GOLDEN = 0x9e3779b97f4a7c15U;
   static std::uint64_t mix(std::uint64_t z)
   {
-    z += GOLDEN; // or zero would stay zero
+    z += GOLDEN; // otherwise zero would stay zero
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
     return z ^ (z >> 31);
@@ -56,13 +56,13 @@ private:
 };
 
 /*!
- * \brief Quantiles of the normal distribution with variance 1 at (k + 1/2) / 65536: up to +-4.3, the variance of a
+ * \brief Quantiles of the standard normal distribution at (k + 1/2) / 65536: up to +-4.3; the variance of a
  * random entry is 1 within 1e-6.
  */
 class vpNormalQuantiles
 {
 public:
-  //! The table, made at its first use.
+  //! The table, created at its first use.
   static const vpNormalQuantiles &get();
   float operator[](std::uint16_t k) const { return m_table[k]; }
 
@@ -73,7 +73,7 @@ private:
 
 inline vpNormalQuantiles::vpNormalQuantiles() : m_table(65536)
 {
-  // Newton's method from the quantile before, outwards from the middle; the lower half mirrors the upper.
+  // Newton's method from the previous quantile, outwards from the middle; the lower half mirrors the upper.
   constexpr std::size_t half = 32768;
   double z = 0.;
   double sum = 0.;
@@ -86,7 +86,7 @@ inline vpNormalQuantiles::vpNormalQuantiles() : m_table(65536)
     upper[k] = z;
     sum += z * z;
   }
-  const double toUnit = std::sqrt(half / sum); // what the cut tails took
+  const double toUnit = std::sqrt(half / sum); // compensates the truncated tails
   for (std::size_t k = 0; k < half; ++k) {
     m_table[half + k] = static_cast<float>(toUnit * upper[k]);
     m_table[half - 1 - k] = -m_table[half + k];

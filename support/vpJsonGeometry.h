@@ -15,14 +15,14 @@
 
 #include <cmath>
 
-//! A field of \e N numbers.
+//! Reads a field of \e N numbers.
 template <int N> Eigen::Matrix<double, N, 1> vpJsonVector(vpJsonObject &object, const std::string &field)
 {
   const std::vector<double> numbers = object.numbers(field, static_cast<std::size_t>(N));
   return Eigen::Map<const Eigen::Matrix<double, N, 1>>(numbers.data());
 }
 
-//! A pose: `translation_m`, and if wanted `rotation_deg`, a rotation vector.
+//! Reads a pose: `translation_m`, and optionally `rotation_deg`, a rotation vector.
 template <class Transform> Transform vpJsonTransform(vpJsonObject &object)
 {
   Transform T;
@@ -30,7 +30,7 @@ template <class Transform> Transform vpJsonTransform(vpJsonObject &object)
   if (object.has("rotation_deg")) {
     const Eigen::Vector3d e = M_PI / 180. * vpJsonVector<3>(object, "rotation_deg");
     const double angle = e.stableNorm();
-    if (!(angle <= 1e6)) { // many turns; far from where sine and cosine lose their digits
+    if (!(angle <= 1e6)) { // many turns; sine and cosine still keep their digits
       throw object.wrong("rotation_deg", object.value("rotation_deg"), "an angle of at most 1e6 rad");
     }
     if (angle > 0.) {

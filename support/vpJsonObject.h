@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpJsonObject.h
- * \brief Reading JSON objects strictly, for modules and programs. Not installed: only .cpp files include it.
+ * \brief Strict reading of JSON objects, for modules and programs. Not installed: only .cpp files include it.
  */
 #ifndef vpJsonObject_h
 #define vpJsonObject_h
@@ -17,10 +17,10 @@
 #include <vector>
 
 /*!
- * \brief One JSON object that is read field by field.
+ * \brief Reads one JSON object field by field.
  *
- * Ask for every field that the object may have, then call finish(), which complains about all others, so that a misspelt one
- * does not go unseen. All errors are vpFileError: `task.json: camera.px is "wide", must be a number`.
+ * Read every field that the object may have, then call finish(), which reports all others as errors, so that misspelt
+ * names are noticed. All errors are vpFileError: `task.json: camera.px is "wide", must be a number`.
  */
 class vpJsonObject
 {
@@ -28,8 +28,8 @@ public:
   using json = nlohmann::json;
 
   /*!
-   * \param value : The JSON value, which must be an object and outlive this one. \param file : Begins every message.
-   * \param path : Where the object is in the file ("plants[0]"), empty for the whole file.
+   * \param value : The JSON value, which must be an object and outlive this one. \param file : Prefix of every message.
+   * \param path : Path of the object in the file ("plants[0]"), empty for the whole file.
    */
   vpJsonObject(const json &value, std::string file, std::string path = "")
     : m_value(&value), m_file(std::move(file)), m_path(std::move(path))
@@ -40,16 +40,16 @@ public:
     }
   }
 
-  //! True if the field is there; it then counts as known.
+  //! True if the field exists; it then counts as known.
   [[nodiscard]] bool has(const std::string &field)
   {
     m_known.insert(field);
     return m_value->contains(field);
   }
-  //! A field that is not read here may be there.
+  //! Marks a field that is not read here as known.
   void ignore(const std::string &field) { m_known.insert(field); }
 
-  //! A number. \throw vpFileError when missing.
+  //! A number. \throw vpFileError if missing.
   [[nodiscard]] double number(const std::string &field)
   {
     const json &value = this->value(field);
@@ -58,12 +58,12 @@ public:
     }
     return value.get<double>();
   }
-  //! A number, \e fallback when missing.
+  //! A number, \e fallback if missing.
   [[nodiscard]] double number(const std::string &field, double fallback)
   {
     return has(field) ? number(field) : fallback;
   }
-  //! A whole number >= 0, \e fallback when missing.
+  //! An integer >= 0, \e fallback if missing.
   [[nodiscard]] unsigned int count(const std::string &field, unsigned int fallback)
   {
     if (!has(field)) {
@@ -75,7 +75,7 @@ public:
     }
     return value.get<unsigned int>();
   }
-  //! A text. \throw vpFileError when missing.
+  //! A string. \throw vpFileError if missing.
   [[nodiscard]] std::string text(const std::string &field)
   {
     const json &value = this->value(field);
@@ -84,12 +84,12 @@ public:
     }
     return value.get<std::string>();
   }
-  //! A text, \e fallback when missing.
+  //! A string, \e fallback if missing.
   [[nodiscard]] std::string text(const std::string &field, const std::string &fallback)
   {
     return has(field) ? text(field) : fallback;
   }
-  //! True or false, \e fallback when missing.
+  //! A boolean, \e fallback if missing.
   [[nodiscard]] bool flag(const std::string &field, bool fallback)
   {
     if (!has(field)) {
@@ -101,7 +101,7 @@ public:
     }
     return value.get<bool>();
   }
-  //! Any number of numbers.
+  //! A list of numbers of any size.
   [[nodiscard]] std::vector<double> numbers(const std::string &field)
   {
     const json &value = this->value(field);
@@ -110,7 +110,7 @@ public:
     }
     return value.get<std::vector<double>>();
   }
-  //! Exactly \e size numbers.
+  //! A list of exactly \e size numbers.
   [[nodiscard]] std::vector<double> numbers(const std::string &field, std::size_t size)
   {
     const json &value = this->value(field);
@@ -132,12 +132,12 @@ public:
     }
     return all;
   }
-  //! An object. \throw vpFileError when missing.
+  //! An object. \throw vpFileError if missing.
   [[nodiscard]] vpJsonObject object(const std::string &field)
   {
     return vpJsonObject(value(field), m_file, pathOf(field));
   }
-  //! A list of objects, at least one. \throw vpFileError when missing or empty.
+  //! A list of objects, at least one. \throw vpFileError if missing or empty.
   [[nodiscard]] std::vector<vpJsonObject> objects(const std::string &field)
   {
     const json &value = this->value(field);
@@ -150,7 +150,7 @@ public:
     }
     return all;
   }
-  //! Call \e take with every object of a list, which may be empty, and finish it. \throw vpFileError when missing.
+  //! Calls \e take with every object of a list, which may be empty, and finishes it. \throw vpFileError if missing.
   template <class Take> void each(const std::string &field, Take take)
   {
     if (list(field).empty()) {
@@ -161,7 +161,7 @@ public:
       item.finish();
     }
   }
-  //! Call \e take with the object \e field if it is there, and finish it.
+  //! Calls \e take with the object \e field if it exists, and finishes it.
   template <class Take> void optional(const std::string &field, Take take)
   {
     if (has(field)) {
@@ -171,7 +171,7 @@ public:
     }
   }
 
-  //! Whatever stands there, for what the other readers do not cover. \throw vpFileError when missing.
+  //! Raw value of a field, for types not covered above. \throw vpFileError if missing.
   [[nodiscard]] const json &value(const std::string &field)
   {
     if (!has(field)) {
@@ -180,7 +180,7 @@ public:
     return (*m_value)[field];
   }
 
-  //! \throw vpFileError naming the first field that was not asked for, and those that were.
+  //! \throw vpFileError naming the first unknown field, and the known ones.
   void finish() const
   {
     for (const auto &item : m_value->items()) {

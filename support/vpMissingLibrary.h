@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpMissingLibrary.h
- * \brief What a class says that was built without its library.
+ * \brief Error of a class that was built without its library.
  */
 #ifndef vpMissingLibrary_h
 #define vpMissingLibrary_h
@@ -14,7 +14,7 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! \throw vpException (notImplementedError) naming both.
+//! \throw vpException (notImplementedError) naming class and library.
 [[noreturn]] inline void vpMissingLibrary(const char *what, const char *library)
 {
   throw vpException(vpException::notImplementedError, "%s needs %s, which this build of visp-direct is without", what,

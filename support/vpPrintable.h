@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpPrintable.h
- * \brief Text from files, made safe for a terminal. Not installed.
+ * \brief Makes text from files safe for a terminal. Not installed.
  */
 #ifndef vpPrintable_h
 #define vpPrintable_h
@@ -17,10 +17,10 @@
 //! One character of a UTF-8 text.
 struct vpUtf8Character {
   std::uint32_t code = 0;
-  std::size_t size = 0; //!< bytes; 0 where the text is not UTF-8
+  std::size_t size = 0; //!< Bytes; 0 if the text is not UTF-8.
 };
 
-//! The character that begins at \e at, strictly: no overlong form, no surrogate, nothing cut off.
+//! Decodes the character at \e at strictly: no overlong form, no surrogate, no truncation.
 inline vpUtf8Character vpDecodeUtf8(const std::string &text, std::size_t at)
 {
   const auto byte = [&text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
@@ -47,7 +47,7 @@ inline vpUtf8Character vpDecodeUtf8(const std::string &text, std::size_t at)
   return wrong ? vpUtf8Character{} : vpUtf8Character{code, size};
 }
 
-//! True for characters that steer a terminal, hide, or turn the direction of writing.
+//! True for characters that control a terminal, are invisible, or change the writing direction.
 inline bool vpIsUnprintable(std::uint32_t code)
 {
   const auto in = [code](std::uint32_t first, std::uint32_t last) { return code >= first && code <= last; };
@@ -56,10 +56,10 @@ inline bool vpIsUnprintable(std::uint32_t code)
 }
 
 /*!
- * A text with every unprintable character as `\u001b` and every byte that is no UTF-8 as `\xff`. So a string of JSON stays
- * the same string.
+ * Escapes every unprintable character as `\u001b` and every byte that is not UTF-8 as `\xff`. A JSON string thus keeps
+ * its meaning.
  * \param text : Any bytes.
- * \param keep : Control characters that stay ("\n").
+ * \param keep : Control characters to keep ("\n").
  */
 inline std::string vpEscapeUnprintable(const std::string &text, const std::string &keep = "")
 {
@@ -78,7 +78,7 @@ inline std::string vpEscapeUnprintable(const std::string &text, const std::strin
       std::snprintf(buffer, sizeof buffer, "\\u%04x", c.code);
       result += buffer;
     }
-    else { // as JSON writes it, in two halves
+    else { // surrogate pair, as in JSON
       std::snprintf(buffer, sizeof buffer, "\\u%04x\\u%04x", 0xd7c0 + (c.code >> 10U), 0xdc00 + (c.code & 0x3ffU));
       result += buffer;
     }
@@ -88,8 +88,8 @@ inline std::string vpEscapeUnprintable(const std::string &text, const std::strin
 }
 
 /*!
- * Any text as one line for a person: white space becomes single blanks, what is unprintable is escaped, and what is too
- * long ends in "...".
+ * Converts any text to one readable line: white space becomes single blanks, unprintable characters are escaped, and
+ * long text ends in "...".
  */
 inline std::string vpPrintable(const std::string &text, std::size_t longest = 1000)
 {
@@ -102,7 +102,7 @@ inline std::string vpPrintable(const std::string &text, std::size_t longest = 10
     else if (!line.empty() && line.back() != ' ') {
       line += ' ';
     }
-    if (line.size() > longest + 4) { // and perhaps a part of a character
+    if (line.size() > longest + 4) { // perhaps with a partial character
       break;
     }
   }

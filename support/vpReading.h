@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpReading.h
- * \brief The border of the readers of modules: what they throw. Not installed.
+ * \brief Converts errors of readers to the exceptions of the modules. Not installed.
  */
 #ifndef vpReading_h
 #define vpReading_h
@@ -17,8 +17,8 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
- * What \e read returns.
- * \throw vpException with one printable sentence: ioError for a file that cannot be read, badValue for what is in it, else
+ * Returns the result of \e read.
+ * \throw vpException with one printable sentence: ioError for an unreadable file, badValue for invalid content, else
  * the code of the vpException that \e read threw.
  */
 template <class Read> auto vpReading(Read read) -> decltype(read())

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpStrictJson.h
- * \brief Parsing JSON strictly, for modules and programs. Not installed.
+ * \brief Strict JSON parser for modules and programs. Not installed.
  */
 #ifndef vpStrictJson_h
 #define vpStrictJson_h
@@ -17,8 +17,8 @@
 #include <vector>
 
 /*!
- * \brief Builds the value while the parser reads, and refuses what the parser would let pass: a field that is given twice
- * (the last would win in silence) and nesting deeper than vpDeepestNesting.
+ * \brief Builds the value during parsing, and rejects what the parser would accept: a duplicate field (the last would
+ * win silently) and nesting deeper than vpDeepestNesting.
  */
 class vpStrictJsonBuilder : public nlohmann::json_sax<nlohmann::json>
 {
@@ -26,8 +26,8 @@ public:
   using json = nlohmann::json;
 
   /*!
-   * \param text : What is parsed. \param name : Begins every message. \param isLine : The text is one line, whose place
-   * the name tells.
+   * \param text : Text to parse. \param name : Prefix of every message. \param isLine : True if the text is one line,
+   * whose position is part of the name.
    */
   vpStrictJsonBuilder(const std::string &text, std::string name, bool isLine)
     : m_text(text), m_name(std::move(name)), m_isLine(isLine)
@@ -55,7 +55,8 @@ public:
   }
   bool parse_error(std::size_t position, const std::string &, const nlohmann::detail::exception &error) override
   {
-    // nlohmann: "[json.exception.parse_error.101] parse error at line 1, column 5: syntax error while parsing value - ..."
+    // nlohmann: "[json.exception.parse_error.101] parse error at line 1, column 5: syntax error while parsing value -
+    // ..."
     std::string reason = error.what();
     for (const char *mark : {"] ", "column ", ": "}) {
       const std::size_t at = reason.find(mark);
@@ -106,15 +107,15 @@ private:
   std::string m_name;
   bool m_isLine;
   json m_root;
-  std::vector<json *> m_open; // the arrays and objects around the present value
+  std::vector<json *> m_open; // arrays and objects around the current value
   std::string m_field;
 };
 
 /*!
- * Parse a text. A byte order mark and lines that end with CR LF are fine.
+ * Parses a text. A byte order mark and CR LF line ends are accepted.
  * \param text : The content of a file, or a line of it. \param name : The file ("task.json"), or the line
- * ("problems.jsonl:3"). \param isLine : Tells which.
- * \throw vpFileError with the place of a syntax error, the field that is given twice, or the number that is too large.
+ * ("problems.jsonl:3"). \param isLine : True for a line.
+ * \throw vpFileError with the position of a syntax error, the duplicate field, or the number that is too large.
  */
 inline nlohmann::json vpParseJson(const std::string &text, const std::string &name, bool isLine = false)
 {
@@ -123,7 +124,7 @@ inline nlohmann::json vpParseJson(const std::string &text, const std::string &na
   return builder.take();
 }
 
-//! Read and parse a file. \throw vpFileError as vpReadFileText() and vpParseJson().
+//! Reads and parses a file. \throw vpFileError as vpReadFileText() and vpParseJson().
 inline nlohmann::json vpReadJson(const std::string &file) { return vpParseJson(vpReadFileText(file), file); }
 
 #endif

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpSelfMotionExperiment.h
- * \brief S5: what the spare joints do while the tool does its work, figures 8.14 to 8.17.
+ * \brief S5: self-motion during a tool motion, figures 8.14 to 8.17.
  */
 #ifndef vpSelfMotionExperiment_h
 #define vpSelfMotionExperiment_h
@@ -17,25 +17,25 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
- * \brief A tool that goes through places, its orientation kept, and one index for the self-motion.
+ * \brief Tool motion through given positions at constant orientation, with one self-motion index.
  */
 struct vpSelfMotionRunSpec {
-  std::shared_ptr<const vpArmModel> arm; //!< Must be there.
-  vpJointVector start;                   //!< rad or m.
-  std::vector<Eigen::Vector3d> places;   //!< Of the tool, m, one after another by least jerk; empty: it stays.
-  double legTime = 2.;                   //!< From place to place, s, > 0.
-  double restTime = 1.;                  //!< At the last place, s, >= 0.
-  vpSelfMotionIndex index;               //!< What the spare joints climb.
+  std::shared_ptr<const vpArmModel> arm; //!< The arm; not null.
+  vpJointVector start;                   //!< Start configuration, rad or m.
+  std::vector<Eigen::Vector3d> places;   //!< Successive tool positions by minimum jerk, m; empty: at rest.
+  double legTime = 2.;                   //!< Time between positions, s, > 0.
+  double restTime = 1.;                  //!< Time at the last position, s, >= 0.
+  vpSelfMotionIndex index;               //!< Index that self-motion maximizes.
   double share = 0.5;                    //!< |eta|, 0..1: see vpRedundancySpec::selfMotion; 0: no self-motion.
 
   /*!
-   * The motion of section 8.3.3 from the arm's home: two vias and a final place, 2 s each. The thesis tells no places;
-   * these lie 0.05 to 0.17 m before and beside the start, at its height.
+   * Motion of section 8.3.3 from the arm's home: two vias and a final position, 2 s each. The thesis does not give the
+   * positions; these are 0.05 to 0.17 m in front of and beside the start, at its height.
    */
   [[nodiscard]] static vpSelfMotionRunSpec thesis(const std::shared_ptr<const vpArmModel> &arm);
   /*!
-   * The boundary of figure 8.17: the plane through the base, [0, 0, 1] and [1, 1, 0.5] m for joint 4. The allowed side is
-   * the one on which the joint is at the arm's home.
+   * Boundary of figure 8.17: the plane through the base, [0, 0, 1] and [1, 1, 0.5] m for joint 4. The allowed side is
+   * that of the joint at the arm's home.
    */
   [[nodiscard]] static vpSelfMotionIndex thesisPlane(const vpArmModel &arm, vpIndexSense sense);
   //! \throw vpException (badValue) naming the field that is out of range, and its value.
@@ -43,31 +43,31 @@ struct vpSelfMotionRunSpec {
 };
 
 /*!
- * \brief At the end of a period.
+ * \brief Sample at the end of a period.
  */
 struct vpSelfMotionSample {
-  double time = 0.;     //!< s.
-  vpJointVector q;      //!< rad or m.
-  double drift = 0.;    //!< Of the tool from where it shall be, m.
-  double turn = 0.;     //!< Of its orientation, rad.
-  double distance = 0.; //!< Of the joint that the index looks at, m; see vpIndexValue::distance.
+  double time = 0.;     //!< Time, s.
+  vpJointVector q;      //!< Configuration, rad or m.
+  double drift = 0.;    //!< Position error of the tool, m.
+  double turn = 0.;     //!< Orientation error of the tool, rad.
+  double distance = 0.; //!< Distance measured by the index, m; see vpIndexValue::distance.
 };
 
 /*!
- * \brief The log and its figures; the same names as in summary.json.
+ * \brief Log and metrics, named as in summary.json.
  */
 struct vpSelfMotionRun {
-  std::vector<vpSelfMotionSample> samples; //!< One a period.
-  double tcp_drift_m = 0.;                 //!< Largest drift.
-  double tcp_drift_rad = 0.;               //!< Largest turn.
+  std::vector<vpSelfMotionSample> samples; //!< One per period.
+  double tcp_drift_m = 0.;                 //!< Largest position error.
+  double tcp_drift_rad = 0.;               //!< Largest orientation error.
   double start_distance_m = 0.;            //!< Distance at the start.
-  double mean_distance_m = 0.;             //!< Mean over time.
-  double end_distance_m = 0.;              //!< Distance in the end.
-  double joint_travel_rad = 0.;            //!< Sum of the ways of all joints, d_total of figure 8.16.
+  double mean_distance_m = 0.;             //!< Mean distance over time.
+  double end_distance_m = 0.;              //!< Distance at the end.
+  double joint_travel_rad = 0.;            //!< Sum of the travel of all joints, d_total of figure 8.16.
 };
 
 //! \ingroup group_simulation
-//! \brief Runs one experiment with ideal drives at 200 Hz. \throw vpException (badValue) naming what is wrong with the spec.
+//! \brief Runs one experiment with ideal drives at 200 Hz. \throw vpException (badValue) naming the error in the spec.
 [[nodiscard]] vpSelfMotionRun runSelfMotionExperiment(const vpSelfMotionRunSpec &spec);
 
 END_VISP_NAMESPACE

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpAvoidanceEvaluation.h
- * \brief The figures of an avoidance experiment.
+ * \brief Metrics of an avoidance experiment.
  */
 #ifndef vpAvoidanceEvaluation_h
 #define vpAvoidanceEvaluation_h
@@ -17,11 +17,11 @@ BEGIN_VISP_NAMESPACE
 
 namespace vpAvoidanceEvaluation
 {
-//! True when the tool is at the goal and the joints are commanded to rest.
+//! True if the tool is at the goal and the joints are commanded to rest.
 [[nodiscard]] bool isThere(const vpAvoidanceRunSpec &spec, const vpAvoidanceSample &sample);
-//! True when the joints are commanded to rest.
+//! True if the joints are commanded to rest.
 [[nodiscard]] bool isAtRest(const vpJointVector &command);
-//! All figures. \param knots : The true motion.
+//! Computes all metrics. \param knots : The true motion.
 [[nodiscard]] vpAvoidanceMetrics evaluate(const vpAvoidanceRun &run, const std::vector<vpMotionKnot> &knots);
 } // namespace vpAvoidanceEvaluation
 

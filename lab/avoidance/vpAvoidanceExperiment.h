@@ -14,88 +14,88 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
- * \brief One row of the log, a period each: what is true at #time, and what is commanded from then until the next row.
+ * \brief One row of the log per period: the true state at #time, and the command from then until the next row.
  */
 struct vpAvoidanceSample {
-  double time = 0.;        //!< s since the start.
+  double time = 0.;        //!< Time since the start, s.
   vpJointVector q;         //!< True configuration, rad or m.
   vpJointVector commanded; //!< Commanded configuration: the integral of the commands so far, rad or m.
-  vpJointVector command;   //!< Joint velocities from now on, rad/s or m/s.
-  Eigen::Vector3d tool = Eigen::Vector3d::Zero();             //!< True place of the end effector's origin, m.
+  vpJointVector command;   //!< Joint velocities from #time on, rad/s or m/s.
+  Eigen::Vector3d tool = Eigen::Vector3d::Zero();             //!< True position of the end effector's origin, m.
   Eigen::Vector3d wanted = Eigen::Vector3d::Zero();           //!< vpAvoidanceOutput::wanted, m.
-  Eigen::Vector3d goal = Eigen::Vector3d::Zero();             //!< True place of the goal, m.
-  vpAvoidanceStatus status = vpAvoidanceStatus::InvalidInput; //!< Of the method.
+  Eigen::Vector3d goal = Eigen::Vector3d::Zero();             //!< True position of the goal, m.
+  vpAvoidanceStatus status = vpAvoidanceStatus::InvalidInput; //!< Status of the method.
   bool stopping = false;                                      //!< vpAvoidanceOutput::stopping.
-  bool newImage = false;    //!< A result of the sensor arrived, or the goal was told anew.
-  double lookTime = 0.;     //!< Wall time that vpAvoidanceMethod::look() took then, s; plays no part in the run.
-  double goalDistance = 0.; //!< Of the true tool, m.
-  vpClearance clearance;    //!< True nearest pair now, within 1 m; other is an index of \e objects.
-  //! Names of the true objects of #clearance when its kind is Object, else empty.
+  bool newImage = false;    //!< A sensor result arrived, or the goal was updated.
+  double lookTime = 0.;     //!< Wall time of vpAvoidanceMethod::look(), s; does not affect the run.
+  double goalDistance = 0.; //!< Distance of the true tool from the true goal, m.
+  vpClearance clearance;    //!< True nearest pair, within 1 m; other is an index of \e objects.
+  //! Name of the true object of #clearance if its kind is Object, else empty.
   std::string nearest;
 };
 
 /*!
- * \brief The figures of a run; the same names as in summary.json.
+ * \brief Metrics of a run, named as in summary.json.
  *
- * v, a and jerk are those of the commanded tool: differences of its place at the commanded configurations, one period
- * apart, from rest at the start; a jump of the velocity shows as a large a that grows with 1 / period, one of the
- * acceleration as a large jerk. The clearance is that of the true arm and the true obstacles at every instant: between
- * two knots of the true motion (1 ms apart at most with drives that are not ideal, else a period, where the joints move
- * at constant velocity) it is searched until it is known to 0.1 mm, by bounds on how far arm and obstacles move.
+ * v, a and jerk are those of the commanded tool: differences of its position at the commanded configurations, one
+ * period apart, from rest at the start; a velocity jump appears as a large a that grows with 1 / period, an
+ * acceleration jump as a large jerk. The clearance is that of the true arm and the true obstacles at every instant:
+ * between two knots of the true motion (at most 1 ms apart with non-ideal drives, else one period of constant joint
+ * velocity) it is searched to 0.1 mm, by bounds on the motion of arm and obstacles.
  */
 struct vpAvoidanceMetrics {
-  //! At the goal (vpAvoidanceRunSpec::goalTolerance) at rest in the end, and nothing touched while the arm moved.
+  //! At rest at the goal (vpAvoidanceRunSpec::goalTolerance) at the end, and no contact while the arm moved.
   bool success = false;
   double min_clearance_m = 0.; //!< Least true clearance of the whole arm, negative: depth; at most 1 m.
-  double goal_error_m = 0.;    //!< Distance of the true tool from the true goal in the end.
-  double duration_s = 0.;      //!< Until it is at the goal at rest for good; until the end of the run if it is not.
-  double peak_v = 0.;          //!< m/s.
-  double peak_a = 0.;          //!< m/s^2.
-  double peak_jerk = 0.;       //!< m/s^3.
-  double jerk_integral = 0.;   //!< Of the squared jerk over time, m^2/s^5.
-  double path_length = 0.;     //!< Of the true tool, m.
-  double replan_ms_p50 = 0.;   //!< Wall time of vpAvoidanceMethod::look(), ms, see vpQuantile(); 0: none.
-  double replan_ms_p95 = 0.;   //!< The same.
-  double replan_ms_p99 = 0.;   //!< The same.
-  //! Times that the moving arm was stopped: vpAvoidanceOutput::stopping, Waiting or Unsafe after something else.
+  double goal_error_m = 0.;    //!< Distance of the true tool from the true goal at the end.
+  double duration_s = 0.;      //!< Time until finally at rest at the goal; else until the end of the run.
+  double peak_v = 0.;          //!< Peak velocity, m/s.
+  double peak_a = 0.;          //!< Peak acceleration, m/s^2.
+  double peak_jerk = 0.;       //!< Peak jerk, m/s^3.
+  double jerk_integral = 0.;   //!< Integral of the squared jerk over time, m^2/s^5.
+  double path_length = 0.;     //!< Path length of the true tool, m.
+  double replan_ms_p50 = 0.;   //!< Median wall time of vpAvoidanceMethod::look(), ms, see vpQuantile(); 0: none.
+  double replan_ms_p95 = 0.;   //!< 95 % quantile of the same.
+  double replan_ms_p99 = 0.;   //!< 99 % quantile of the same.
+  //! Number of stops of the moving arm: vpAvoidanceOutput::stopping, Waiting or Unsafe after another status.
   int stops = 0;
   /*!
-   * Stops without a reason: nothing would have come nearer than the margin and 20 mm while the obstacles do what they
-   * truly do, neither had the joints kept the velocities of the period before for another second, within their position
-   * limits, nor had the joints, nor had the tool gone straight to the goal, at the tool's largest speed. What a method
-   * had planned is not known here; a way round that is blocked for good reason on no straight way counts as false.
+   * Number of unjustified stops: with the true obstacle motion nothing would have come nearer than the margin and 20
+   * mm, neither if the joints had kept their previous velocities for another second, within the position limits, nor if
+   * the joints or the tool had gone straight to the goal, at the tool's largest speed. The method's plan is not known
+   * here; a justified stop on a detour, with all straight motions free, counts as false.
    */
   int false_stops = 0;
-  int collisions_moving = 0;   //!< Times that something was touched while a joint moved faster than 0.01 rad/s or m/s.
-  int collisions_standing = 0; //!< Times that something ran into the arm at rest.
-  int joint_v_violations = 0;  //!< Periods with a joint velocity above its limit by more than 1e-6 of it.
-  int joint_a_violations = 0;  //!< Periods with a change of a joint velocity above its limit by more than 1e-6 of it.
+  int collisions_moving = 0;   //!< Number of contacts while a joint moved faster than 0.01 rad/s or m/s.
+  int collisions_standing = 0; //!< Number of contacts with the arm at rest.
+  int joint_v_violations = 0;  //!< Periods with a joint velocity above its limit by more than a relative 1e-6.
+  int joint_a_violations = 0;  //!< Periods with a joint acceleration above its limit by more than a relative 1e-6.
   int tool_v_violations = 0;   //!< Periods without a protective stop and v above the bound by more than 1 %.
-  int tool_a_violations = 0;   //!< The same of a.
-  std::string status;          //!< How it ended, as a sentence.
+  int tool_a_violations = 0;   //!< Periods without a protective stop and a above the bound by more than 1 %.
+  std::string status;          //!< Final status, as a sentence.
 };
 
 /*!
  * \brief A finished run.
  */
 struct vpAvoidanceRun {
-  vpAvoidanceRunSpec spec;                             //!< What was run.
-  std::vector<vpAvoidanceSample> samples;              //!< The last one is the end: nothing is commanded any more.
-  std::vector<double> lookTimes;                       //!< Of all calls of vpAvoidanceMethod::look(), s.
-  vpAvoidanceStatus start = vpAvoidanceStatus::Moving; //!< What vpAvoidanceMethod::start() said.
-  double startTime = 0.;                               //!< Wall time that it took, s.
-  std::string sentence;                                //!< What the method said in the end, with pair and margin.
-  vpAvoidanceMetrics metrics;                          //!< The figures.
+  vpAvoidanceRunSpec spec;                             //!< Specification of the run.
+  std::vector<vpAvoidanceSample> samples;              //!< Log; the last sample is the end, without a command.
+  std::vector<double> lookTimes;                       //!< Wall times of all calls of vpAvoidanceMethod::look(), s.
+  vpAvoidanceStatus start = vpAvoidanceStatus::Moving; //!< Result of vpAvoidanceMethod::start().
+  double startTime = 0.;                               //!< Wall time of start(), s.
+  std::string sentence;                                //!< Final sentence of the method, with pair and margin.
+  vpAvoidanceMetrics metrics;                          //!< Metrics.
 };
 
 /*!
- * Runs one experiment. It ends when the arm is at the goal, at rest (joints commanded no faster than 0.01 rad/s or m/s)
- * for 0.2 s, or the method has called itself arrived for 1 s, and the goal does not move any more; when nothing has moved
- * for 3 s, neither arm nor obstacle nor goal, and nothing is to come; or with vpAvoidanceRunSpec::maxDuration.
- * \param spec : What to run; validated first.
- * \param progress : If given, called now and then with the share of maxDuration that is done, 0..1; return false to stop
- * early.
- * \throw vpException naming what is wrong with the spec.
+ * Runs one experiment. It ends when the goal no longer moves and the arm is at the goal, at rest (joint commands at
+ * most 0.01 rad/s or m/s) for 0.2 s, or the method reports Arrived for 1 s; when arm, obstacles and goal have not moved
+ * for 3 s and no motion is pending; or after vpAvoidanceRunSpec::maxDuration.
+ * \param spec : Specification; validated first.
+ * \param progress : If given, called periodically with the completed fraction of maxDuration, 0..1; return false to
+ * stop early.
+ * \throw vpException naming the error in the spec.
  */
 [[nodiscard]] vpAvoidanceRun runAvoidanceExperiment(const vpAvoidanceRunSpec &spec,
                                                                 const std::function<bool(double)> &progress = {});

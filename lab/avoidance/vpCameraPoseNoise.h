@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpCameraPoseNoise.h
- * \brief Where an arm believes its camera to be.
+ * \brief Camera pose as known by the arm.
  */
 #ifndef vpCameraPoseNoise_h
 #define vpCameraPoseNoise_h
@@ -16,7 +16,7 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! fMc with normal errors of its place (m) and rotation (rad), each component alike. \param seed : Of this picture.
+//! fMc with Gaussian errors of position (m) and rotation (rad) per component. \param seed : Seed for this image.
 inline vpRigidTransform vpNoisyCamera(const vpRigidTransform &fMc, double positionSigma, double angleSigma,
                                       unsigned int seed)
 {

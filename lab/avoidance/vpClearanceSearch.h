@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpClearanceSearch.h
- * \brief Clearance of a true motion at every instant, not at samples.
+ * \brief Clearance of a true motion at every instant, not only at samples.
  */
 #ifndef vpClearanceSearch_h
 #define vpClearanceSearch_h
@@ -15,41 +15,40 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! \brief A place on the true motion; the joints move at constant velocity from one to the next.
+//! \brief A knot of the true motion; the joints move at constant velocity between knots.
 struct vpMotionKnot {
   double time = 0.;
   vpJointVector q;
 };
 
-//! \brief What the search finds.
+//! \brief Result of the search.
 struct vpClearanceHistory {
-  double least = 0.;          //!< m, to 0.1 mm, at most vpClearanceSearch::horizon.
-  int collisionsMoving = 0;   //!< Touches during which the arm moved.
-  int collisionsStanding = 0; //!< Touches during which it did not.
+  double least = 0.;          //!< Least clearance, m, to 0.1 mm, at most vpClearanceSearch::horizon.
+  int collisionsMoving = 0;   //!< Number of contacts during which the arm moved.
+  int collisionsStanding = 0; //!< Number of contacts during which it stood.
 };
 
 /*!
- * \brief Looks for the least clearance between the knots where bounds on the motion of arm and obstacles leave room for
- * it.
+ * \brief Searches the least clearance between knots by branch and bound with motion bounds of arm and obstacles.
  */
 class vpClearanceSearch
 {
 public:
-  static constexpr double horizon = 1.;          //!< m: clearances beyond it are not told apart.
-  static constexpr double tolerance = 1e-4;      //!< m: the least clearance is known to it.
-  static constexpr double movingVelocity = 0.01; //!< rad/s or m/s: an arm whose joints are slower stands.
+  static constexpr double horizon = 1.;          //!< Clearances beyond it are not distinguished, m.
+  static constexpr double tolerance = 1e-4;      //!< Accuracy of the least clearance, m.
+  static constexpr double movingVelocity = 0.01; //!< An arm with all joints slower stands, rad/s or m/s.
 
   explicit vpClearanceSearch(const vpAvoidanceRunSpec &spec);
 
-  //! Of a whole motion; at least one knot.
+  //! Searches a whole motion of at least one knot.
   [[nodiscard]] vpClearanceHistory search(const std::vector<vpMotionKnot> &knots);
   /*!
-   * True when no pair comes nearer than \e distance, m, while the joints keep \e velocity from \e q on for \e duration,
+   * True if no pair comes nearer than \e distance, m, while the joints keep \e velocity from \e q on for \e duration,
    * s, each until its position limit.
    */
   [[nodiscard]] bool isFreeAhead(double time, const vpJointVector &q, const vpJointVector &velocity, double duration,
                                  double distance);
-  //! The same for configurations in equal steps of time; looked at in these alone.
+  //! True if no pair comes nearer than \e distance at configurations in equal time steps; checked only there.
   [[nodiscard]] bool isFreeAlong(double time, const std::vector<vpJointVector> &way, double duration, double distance);
 
 private:

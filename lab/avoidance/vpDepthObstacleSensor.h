@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpDepthObstacleSensor.h
- * \brief A depth camera in the hand: from the true scene over a depth image to a map.
+ * \brief Simulated depth camera in the hand: renders the true scene and maps it.
  */
 #ifndef vpDepthObstacleSensor_h
 #define vpDepthObstacleSensor_h
@@ -16,15 +16,15 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
- * \brief What is wrong with depth images and with what is known of the camera, and the map made of them.
+ * \brief Errors of depth images and of the known camera pose, and parameters of the map.
  */
 struct vpDepthObstacleSensorSpec {
-  std::string name = "depth";  //!< Of the sighting; not empty.
-  vpDepthFaults faults;        //!< Of each depth image.
-  vpDepthOctomapSpec map;      //!< Of the map.
-  double positionSigma = 2e-4; //!< As vpImageObstacleSensorSpec::positionSigma, m, >= 0.
-  double angleSigma = 5e-4;    //!< As vpImageObstacleSensorSpec::angleSigma, rad, >= 0.
-  unsigned int seed = 1;       //!< Of all noise.
+  std::string name = "depth";  //!< Name of the sighting; not empty.
+  vpDepthFaults faults;        //!< Imperfections of each depth image.
+  vpDepthOctomapSpec map;      //!< Parameters of the map.
+  double positionSigma = 2e-4; //!< See vpImageObstacleSensorSpec::positionSigma, m, >= 0.
+  double angleSigma = 5e-4;    //!< See vpImageObstacleSensorSpec::angleSigma, rad, >= 0.
+  unsigned int seed = 1;       //!< Seed of all noise.
 
   //! \throw vpException (badValue) naming the field that is out of range, and its value; the map checks its own.
   void validate() const;
@@ -32,10 +32,10 @@ struct vpDepthObstacleSensorSpec {
 
 /*!
  * \class vpDepthObstacleSensor
- * \brief Everything that depth images have shown so far, as one sighting: an octree at rest in the base.
+ * \brief Map of all depth images so far, as one sighting: a static octree in the base.
  *
- * Each image gives a sighting, though the map may be empty. It knows no single objects, so it has no velocities: what
- * moves leaves cubes until they are carved. Where the track table is fed by pictures too, vpDepthObstacles is the better
+ * Each image gives a sighting, even if the map is empty. The map has no separate objects and thus no velocities: moving
+ * objects leave cubes until they are carved. If images also feed the track table, vpDepthObstacles is the better
  * second source.
  */
 class vpDepthObstacleSensor : public vpObstacleSensor
@@ -43,7 +43,7 @@ class vpDepthObstacleSensor : public vpObstacleSensor
 public:
   /*!
    * \param camera : Its photographs are not used.
-   * \param spec : Of map and images.
+   * \param spec : Parameters of map and images.
    * \throw vpException (badValue) naming the field and its value.
    */
   vpDepthObstacleSensor(vpSceneCamera camera, const vpDepthObstacleSensorSpec &spec = {});
@@ -52,7 +52,7 @@ public:
             std::vector<vpObjectSighting> &result) VP_OVERRIDE;
   //! The last depth image, m; empty before the first.
   [[nodiscard]] const vpImage<float> &depth() const noexcept { return m_depth; }
-  //! What became of its pixels.
+  //! Pixel statistics of the last depth image.
   [[nodiscard]] const vpDepthReport &report() const noexcept { return m_report; }
 
 private:

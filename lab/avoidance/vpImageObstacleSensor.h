@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpImageObstacleSensor.h
- * \brief The camera in the hand: from the true scene over a picture to sightings.
+ * \brief Simulated camera in the hand: renders the true scene and detects obstacles.
  */
 #ifndef vpImageObstacleSensor_h
 #define vpImageObstacleSensor_h
@@ -16,13 +16,13 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
- * \brief What is wrong with pictures and with what is known of the camera.
+ * \brief Errors of images and of the known camera pose.
  */
 struct vpImageObstacleSensorSpec {
-  vpCameraFaults faults;       //!< Of each picture.
-  double positionSigma = 2e-4; //!< The camera is not quite where the arm says: each coordinate, m, >= 0; new each time.
-  double angleSigma = 5e-4;    //!< The same of its rotation, rad, >= 0.
-  unsigned int seed = 1;       //!< Of all noise.
+  vpCameraFaults faults;       //!< Imperfections of each image.
+  double positionSigma = 2e-4; //!< Position error sigma of the known camera pose per coordinate and image, m, >= 0.
+  double angleSigma = 5e-4;    //!< Rotation error sigma per component and image, rad, >= 0.
+  unsigned int seed = 1;       //!< Seed of all noise.
 
   //! \throw vpException (badValue) naming the field that is out of range, and its value.
   void validate() const;
@@ -30,28 +30,28 @@ struct vpImageObstacleSensorSpec {
 
 /*!
  * \class vpImageObstacleSensor
- * \brief Renders what the camera of the arm sees and finds the obstacles in it (thesis 8.3.2), picture by picture.
+ * \brief Renders the view of the arm's camera and detects the obstacles in each image (thesis 8.3.2).
  */
 class vpImageObstacleSensor : public vpObstacleSensor
 {
 public:
   /*!
-   * \param camera : Draws the pictures. \param detector : Made for the same intrinsics.
-   * \param spec : Of the pictures.
+   * \param camera : Renders the images. \param detector : Detector for the same intrinsics.
+   * \param spec : Parameters of the images.
    * \throw vpException (badValue), see vpImageObstacleSensorSpec::validate().
    */
   vpImageObstacleSensor(vpSceneCamera camera, vpObstacleDetector detector, const vpImageObstacleSensorSpec &spec = {});
 
-  //! Errors as of vpSceneCamera::picture().
+  //! Throws as vpSceneCamera::picture().
   void look(const vpCollisionScene &truth, const vpCollisionData &arm, double time,
             std::vector<vpObjectSighting> &result) VP_OVERRIDE;
-  //! A covered camera takes dark pictures.
+  //! A covered camera gives dark images.
   void cover(bool covered) noexcept { m_covered = covered; }
-  //! The last picture; empty before the first.
+  //! The last image; empty before the first.
   [[nodiscard]] const vpImage<unsigned char> &picture() const noexcept { return m_picture; }
-  //! What was found in it, and where.
+  //! Detector with the last result.
   [[nodiscard]] const vpObstacleDetector &detector() const noexcept { return m_detector; }
-  //! Where the camera was, as far as the arm knew.
+  //! Camera pose at the last image, as known by the arm.
   [[nodiscard]] const vpRigidTransform &fMc() const noexcept { return m_fMc; }
 
 private:

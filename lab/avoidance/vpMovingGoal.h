@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpMovingGoal.h
- * \brief Where the goal of an avoidance experiment is, and what the method is told of it.
+ * \brief True and reported goal of an avoidance experiment.
  */
 #ifndef vpMovingGoal_h
 #define vpMovingGoal_h
@@ -15,7 +15,7 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! \brief The goal along vpAvoidanceRunSpec::goalMoves.
+//! \brief Goal moving along vpAvoidanceRunSpec::goalMoves.
 class vpMovingGoal
 {
 public:
@@ -23,18 +23,18 @@ public:
 
   //! True goal at time \e t, s; its velocity counts as 0.
   [[nodiscard]] vpAvoidanceGoal at(double t) const;
-  //! True when the method shall be told at time \e t; the first time is at 0. Call it once a period.
+  //! True if a goal update is due at time \e t; the first is at 0. Call once per period.
   [[nodiscard]] bool isDue(double t);
-  //! What it is told then: with noise, and with joints that fit.
+  //! Reported goal: with noise, and with matching joints.
   [[nodiscard]] vpAvoidanceGoal told(double t);
-  //! When the goal comes to rest for good, s.
+  //! Time at which the goal comes to rest finally, s.
   [[nodiscard]] double end() const noexcept { return m_end; }
 
 private:
   const vpAvoidanceRunSpec *m_spec;
   std::mt19937_64 m_random;
   double m_end;
-  double m_next = 0.; // number of the next telling
+  double m_next = 0.; // number of the next update
 };
 
 END_VISP_NAMESPACE

@@ -12,23 +12,23 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
- * \brief How an obstacle of a simulation truly moves: on for ever, or to and fro; it may come and go.
+ * \brief True motion of a simulated obstacle: straight on, or back and forth; it may appear and vanish.
  *
- * It does not turn. To and fro it goes at the object's velocity, turns round (at constant deceleration, #turnTime for
- * all of it) about the time #turnAfter, and is back where it was at the time 2 #turnAfter.
+ * It does not rotate. Back and forth it moves at the object's velocity, reverses (at constant deceleration, within
+ * #turnTime) around the time #turnAfter, and is back at its start at the time 2 #turnAfter.
  */
 struct vpMovingObstacle {
-  vpCollisionObject object;                                  //!< As it is (or would be) at the time 0.
-  double turnAfter = 0.;                                     //!< s; 0: never turns round. Otherwise > turnTime.
-  double turnTime = 0.2;                                     //!< From velocity to opposite velocity, s, > 0.
-  double appears = 0.;                                       //!< s, >= 0: it is not there before.
-  double vanishes = std::numeric_limits<double>::infinity(); //!< s, > appears: it is not there from then on.
+  vpCollisionObject object;                                  //!< State (possibly before it appears) at time 0.
+  double turnAfter = 0.;                                     //!< Time of reversal, s; 0: never; else > turnTime.
+  double turnTime = 0.2;                                     //!< Duration of a reversal, s, > 0.
+  double appears = 0.;                                       //!< Time of appearance, s, >= 0.
+  double vanishes = std::numeric_limits<double>::infinity(); //!< Time from which it is absent, s, > appears.
 
   //! \throw vpException (badValue) naming the obstacle, the field that is out of range, and its value.
   void validate() const;
-  //! Where it is at time \e t, s, and its velocity then; does not allocate.
+  //! Pose and velocity at time \e t, s; does not allocate.
   void stateAt(double t, vpRigidTransform &pose, vpTwist &velocity) const noexcept;
-  //! True when it is there at time \e t, s.
+  //! True if it is present at time \e t, s.
   [[nodiscard]] bool isThere(double t) const noexcept { return t >= appears && t < vanishes; }
 };
 

@@ -13,7 +13,7 @@ BEGIN_VISP_NAMESPACE
 
 /*!
  * \class vpObstacleSensor
- * \brief One exposure of a sensor that sees obstacles: the true scene in, sightings out.
+ * \brief Simulated obstacle sensor: gives the sightings of the true scene at one exposure.
  */
 class vpObstacleSensor
 {
@@ -21,8 +21,8 @@ public:
   virtual ~vpObstacleSensor() = default;
 
   /*!
-   * \param truth : Objects where they are at \e time. \param arm : True configuration then, after place().
-   * \param time : Of the exposure, s; becomes vpObjectSighting::time. \param result : What is seen, replaced.
+   * \param truth : True scene at \e time. \param arm : True configuration at \e time, after place().
+   * \param time : Time of exposure, s; becomes vpObjectSighting::time. \param result : Replaced by the sightings.
    */
   virtual void look(const vpCollisionScene &truth, const vpCollisionData &arm, double time,
                     std::vector<vpObjectSighting> &result) = 0;

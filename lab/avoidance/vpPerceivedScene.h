@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpPerceivedScene.h
- * \brief The scene of an avoidance experiment as the method knows it.
+ * \brief Scene of an avoidance experiment as perceived by the method.
  */
 #ifndef vpPerceivedScene_h
 #define vpPerceivedScene_h
@@ -15,18 +15,18 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! \brief Sensor, latency, tracks: from the true scene to the one that the method reads.
+//! \brief Sensor, latency and tracks: converts the true scene to the one read by the method.
 class vpPerceivedScene
 {
 public:
   explicit vpPerceivedScene(const vpAvoidanceRunSpec &spec);
 
   /*!
-   * One period: exposes when that is due, takes in what has arrived, and brings the scene to the time \e t, s.
-   * \param q : True configuration now. \return True when a result arrived, even one without objects.
+   * One period: exposes when due, processes arrived results, and updates the scene to the time \e t, s.
+   * \param q : True current configuration. \return True if a result arrived, even one without objects.
    */
   bool update(double t, const vpTrueScene &truth, const vpJointVector &q);
-  //! For the method.
+  //! Perceived scene for the method.
   [[nodiscard]] const vpCollisionScene &scene() const noexcept { return m_scene; }
 
 private:

@@ -13,14 +13,14 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
- * \brief How good a vpPoseSensor is.
+ * \brief Parameters of vpPoseSensor.
  */
 struct vpPoseSensorSpec {
-  double positionNoise = 0.002;       //!< Standard deviation of each coordinate, m, > 0; told in the sightings.
-  double angleNoise = 0.01;           //!< Of each component of the rotation, rad, > 0; told in the sightings.
-  double range = 2.;                  //!< Objects whose origin is farther from the eye are not seen, m, > 0.
-  double missed = 0.;                 //!< Part of the sightings in range that fail, at random, 0..1.
-  std::optional<Eigen::Vector3d> eye; //!< Fixed place in the base, m; none: the camera in the hand.
+  double positionNoise = 0.002;       //!< Standard deviation of each coordinate, m, > 0; reported in the sightings.
+  double angleNoise = 0.01;           //!< Sigma of each rotation component, rad, > 0; reported in the sightings.
+  double range = 2.;                  //!< Maximum distance of an object's origin from the eye, m, > 0.
+  double missed = 0.;                 //!< Fraction of the sightings in range that are missed at random, 0..1.
+  std::optional<Eigen::Vector3d> eye; //!< Fixed position in the base, m; none: the camera in the hand.
 
   //! \throw vpException (badValue) naming the field that is out of range, and its value.
   void validate() const;
@@ -28,16 +28,16 @@ struct vpPoseSensorSpec {
 
 /*!
  * \class vpPoseSensor
- * \brief Poses of the objects with noise, as a vision system reports them that finds an object wherever it looks: there
- * is a range, but nothing hides behind anything. Knows the objects' shapes and tells them apart.
+ * \brief Noisy object poses of an ideal vision system: limited range, but no occlusion and no field of view. Object
+ * shapes and identities are known.
  */
 class vpPoseSensor : public vpObstacleSensor
 {
 public:
   /*!
-   * \param names : Objects that can be seen; all others are taken for known. \param seed : Of noise and failures. Each
-   * object has its own stream, one draw an exposure, whether it is seen or not.
-   * \param spec : Range, noise and failures.
+   * \param names : Objects that can be seen; all others are assumed known. \param seed : Seed of noise and misses. Each
+   * object has its own stream with one draw per exposure, whether it is seen or not.
+   * \param spec : Range, noise and misses.
    * \throw vpException (badValue), see vpPoseSensorSpec::validate().
    */
   vpPoseSensor(const std::vector<std::string> &names, const vpPoseSensorSpec &spec, unsigned int seed);

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpReachPoint.h
- * \brief A configuration near another one that brings the tool to a place.
+ * \brief Finds a configuration near another one with the tool at a given position.
  */
 #ifndef vpReachPoint_h
 #define vpReachPoint_h
@@ -14,8 +14,8 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
- * Damped Newton steps on the place of the end effector alone, within the position limits.
- * \param q : Where to begin; the result. \return False when the place is farther than 1e-9 m after 200 steps.
+ * Damped Newton iteration on the end-effector position alone, within the position limits.
+ * \param q : Start; receives the result. \return False if the error exceeds 1e-9 m after 200 steps.
  */
 [[nodiscard]] bool vpReachPoint(const vpArmModel &model, const Eigen::Vector3d &place, vpJointVector &q);
 

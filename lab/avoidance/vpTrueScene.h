@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpTrueScene.h
- * \brief The scene of an avoidance experiment as it truly is.
+ * \brief True scene of an avoidance experiment.
  */
 #ifndef vpTrueScene_h
 #define vpTrueScene_h
@@ -13,27 +13,27 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! \brief Objects at rest, and obstacles that come, move and go.
+//! \brief Static objects, and obstacles that appear, move and vanish.
 class vpTrueScene
 {
 public:
   explicit vpTrueScene(const vpAvoidanceRunSpec &spec);
 
-  //! Obstacles that are there at time \e t come in, those that are not go; and all are where they are then.
+  //! Adds and removes obstacles according to their presence at time \e t, and moves all to their poses at \e t.
   void enter(double t);
-  //! Moves those that are there; no allocation. Does not look who should be there.
+  //! Moves the obstacles in the scene; no allocation. Does not check which should be present.
   void place(double t) noexcept;
-  //! As it was last made.
+  //! The current true scene.
   [[nodiscard]] const vpCollisionScene &scene() const noexcept { return m_scene; }
-  //! True when no obstacle moves, comes or goes from time \e t on.
+  //! True if no obstacle moves, appears or vanishes from time \e t on.
   [[nodiscard]] bool isStill(double t) const noexcept;
-  //! Speed that no obstacle ever exceeds, m/s.
+  //! Maximum speed of all obstacles, m/s.
   [[nodiscard]] double fastest() const noexcept { return m_fastest; }
 
 private:
   struct Obstacle {
     vpMovingObstacle motion;
-    int index = -1; // in the scene; -1: not there
+    int index = -1; // in the scene; -1: absent
   };
   vpCollisionScene m_scene;
   std::vector<Obstacle> m_obstacles;

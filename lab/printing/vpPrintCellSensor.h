@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Cells of a frame as a sensor reports them: from the truth, or from rendered pictures.
+// Measured cells of a frame: from the true state, or from rendered images.
 #ifndef vpPrintCellSensor_h
 #define vpPrintCellSensor_h
 
@@ -18,7 +18,7 @@ class vpPrintCellSensor
 {
 public:
   vpPrintCellSensor(const vpPrintExperimentSpec &spec, const vpProductPattern &product);
-  //! What the frame with this number sees, of a product at (x, y) with velocity (vx, vy).
+  //! Measures the cells in frame number \e frame, with the product at (x, y) and its velocity (vx, vy).
   void see(double x, double y, double vx, double vy, unsigned int frame);
   [[nodiscard]] const std::vector<vpPatternCell> &cells() const { return m_cells; }
   [[nodiscard]] unsigned int epoch() const { return m_epoch; }

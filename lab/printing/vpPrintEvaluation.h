@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The figures of a print experiment, from what truly happened.
+// Metrics of a print experiment, from the true motion.
 #ifndef vpPrintEvaluation_h
 #define vpPrintEvaluation_h
 
@@ -12,18 +12,18 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! \brief A cell at the nozzle.
+//! \brief Passage of a cell at the nozzle.
 struct vpPrintPass {
   int row, column;
-  double time;     //!< frame
-  double velocity; //!< In the direction of printing, px/frame.
-  double x;        //!< True place of the cell at displacement 0, px.
+  double time;     //!< Time, frames.
+  double velocity; //!< Velocity in the printing direction, px/frame.
+  double x;        //!< True position of the cell at displacement 0, px.
 };
 
 /*!
- * Set the metrics of \e run, and order its drops by landing.
- * \param passes : In the order of printing.
- * \param end : Time at which the run ended, frame.
+ * Computes the metrics of \e run, and sorts its drops by landing time.
+ * \param passes : Passages in printing order.
+ * \param end : End time of the run, frames.
  */
 void vpEvaluatePrintRun(vpPrintRun &run, const std::vector<vpPrintPass> &passes, double end);
 

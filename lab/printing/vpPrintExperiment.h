@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpPrintExperiment.h
- * \brief Printing on the fly in a closed loop: product -> camera -> estimate -> reference -> control -> stage -> drops.
+ * \brief Closed-loop printing on the fly: product -> camera -> estimate -> reference -> control -> stage -> drops.
  */
 #ifndef vpPrintExperiment_h
 #define vpPrintExperiment_h
@@ -19,124 +19,125 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! \brief Where the cells are measured.
+//! \brief Source of the cell measurements.
 enum class vpPrintSensor {
-  Model, //!< True places plus normal errors: fast.
-  Image  //!< Rendered pictures through vpPatternTracker.
+  Model, //!< True positions plus Gaussian errors: fast.
+  Image  //!< Rendered images through vpPatternTracker.
 };
 
 /*!
- * \brief Errors of a sensor in px. Errors of the cells of a frame have a part in common: the mean over all cells has the
- * standard deviation sigma / sqrt(effectiveCells).
+ * \brief Errors of a sensor in px. The errors of the cells of a frame are correlated: their mean has the standard
+ * deviation sigma / sqrt(effectiveCells).
  */
 struct vpPrintSensorModel {
-  double sigmaX = 0.18;       //!< Of a cell, px, > 0.
-  double sigmaY = 0.035;      //!< Of a cell, px, > 0.
-  double effectiveCells = 2.; //!< >= 1; more than are in view count as these.
+  double sigmaX = 0.18;       //!< Standard deviation of a cell along x, px, > 0.
+  double sigmaY = 0.035;      //!< Standard deviation of a cell along y, px, > 0.
+  double effectiveCells = 2.; //!< Effective number of independent cells, >= 1; limited to those in view.
 
   [[nodiscard]] static vpPrintSensorModel thesis();  //!< Algorithm 7.4: 0.18 and 0.035 px, 2 effective cells.
   [[nodiscard]] static vpPrintSensorModel tracker(); //!< vpPatternTracker: 0.0153 and 0.0078 px, 10 effective cells.
 };
 
 /*!
- * \brief What to run; all fields with the seed determine the result. Lengths px, times frames unless said. Geometry and
- * deviations of the machine (pitches, origin, nozzle, lateTolerance, sigmas) are taken from product, nozzleOffset and sensor.
+ * \brief Specification of a run; it determines the result. Lengths in px, times in frames unless stated. Geometry and
+ * standard deviations of the machine (pitches, origin, nozzle, lateTolerance, sigmas) are taken from product,
+ * nozzleOffset and sensor.
  */
 struct vpPrintExperimentSpec : vpPrintMachineSpec {
-  vpPrintSensor sensor = vpPrintSensor::Model;                    //!< Where the cells are measured.
-  vpPrintSensorModel sensorModel = vpPrintSensorModel::tracker(); //!< Errors; for Image what the estimators expect.
+  vpPrintSensor sensor = vpPrintSensor::Model;                    //!< Source of the cell measurements.
+  vpPrintSensorModel sensorModel = vpPrintSensorModel::tracker(); //!< Errors; for Image as assumed by the estimators.
   vpXYStageSpec stage = vpXYStageSpec::thesis();                  //!< The plant.
-  vpProductPatternSpec product;                                   //!< The product and, for Image, how it looks.
-  double captureJitter = 0.; //!< Standard deviation of the instant of exposure; nobody is told, frame, >= 0.
-  double dropped = 0.;       //!< Share of frames that never arrive, 0..0.5.
-  double nozzleOffset = 0.;  //!< Nozzle minus middle of the image, along x, px.
+  vpProductPatternSpec product;                                   //!< The product and, for Image, its appearance.
+  double captureJitter = 0.; //!< Standard deviation of the (unreported) exposure time error, frames, >= 0.
+  double dropped = 0.;       //!< Fraction of frames lost, 0..0.5.
+  double nozzleOffset = 0.;  //!< Nozzle minus image centre, along x, px.
 
-  int frames = 0;           //!< Stop after so many; 0: when all cells are printed.
-  int evaluateFrom = 60;    //!< Velocity errors count from this frame on, >= 0.
-  double frameRate = 1600.; //!< Hz, > 0: what a frame is in seconds.
-  unsigned int seed = 1;    //!< Of the errors of the sensor. The product has its own.
+  int frames = 0;           //!< Maximum number of frames; 0: until all cells are printed.
+  int evaluateFrom = 60;    //!< First frame for the velocity errors, >= 0.
+  double frameRate = 1600.; //!< Frame rate, Hz, > 0.
+  unsigned int seed = 1;    //!< Seed of the sensor errors. The product has its own.
 
-  //! Figure 7.13: PID without feedforward, thesis's sensor, time from cell to cell 10.8 frames, 120 frames.
+  //! Figure 7.13: PID without feedforward, sensor of the thesis, cell period 10.8 frames, 120 frames.
   [[nodiscard]] static vpPrintExperimentSpec thesisPid();
   //! Figure 7.14: PID with feedforward.
   [[nodiscard]] static vpPrintExperimentSpec thesisFeedforward();
   //! Figure 7.15: PID with a poorly tuned filter (0.80, 0.08).
   [[nodiscard]] static vpPrintExperimentSpec thesisPoorFilter();
   /*!
-   * Observer and preview, velocity 4 at the centres and 5 in the mean.
-   * \param sensor : Errors of the sensor; the observer is tuned to them.
+   * Observer and preview, velocity 4 px/frame at the centres and 5 px/frame on average.
+   * \param sensor : Errors of the sensor, to which the observer is tuned.
    */
   [[nodiscard]] static vpPrintExperimentSpec withObserver(const vpPrintSensorModel &sensor);
   //! \throw vpException (badValue) naming the field that is out of range, and its value.
   void validate() const;
 };
 
-//! \brief A row of the log: what is true and known at a control step.
+//! \brief A row of the log: true and estimated state at a control step.
 struct vpPrintSample {
-  int frame = 0;                 //!< Number of the step; its time in frames.
+  int frame = 0;                 //!< Number of the step, also its time in frames.
   double x = 0.;                 //!< True displacement of the product, px to the right.
   double y = 0.;                 //!< True displacement, px down.
   double vx = 0.;                //!< True velocity, px/frame to the right.
   double vy = 0.;                //!< True velocity, px/frame down.
-  double referencePosition = 0.; //!< Along x, px.
-  double referenceVelocity = 0.; //!< Along x, px/frame.
-  double measuredVelocity = 0.;  //!< (7.27), before any filter, along x, px/frame; late by the camera's delay.
-  double estimatedVelocity = 0.; //!< What the controller uses, px/frame.
-  double force = 0.;             //!< Command along x.
-  int row = 0;                   //!< Being printed.
-  int cells = 0;                 //!< Measured cells.
-  bool dropped = false;          //!< No frame arrived.
+  double referencePosition = 0.; //!< Reference position along x, px.
+  double referenceVelocity = 0.; //!< Reference velocity along x, px/frame.
+  double measuredVelocity = 0.;  //!< Unfiltered velocity (7.27) along x, px/frame; delayed by the camera.
+  double estimatedVelocity = 0.; //!< Velocity used by the controller, px/frame.
+  double force = 0.;             //!< Commanded force along x.
+  int row = 0;                   //!< Row being printed.
+  int cells = 0;                 //!< Number of measured cells.
+  bool dropped = false;          //!< True if no frame arrived.
 };
 
-//! \brief A drop and where it landed.
+//! \brief A drop and its landing.
 struct vpPrintDrop {
-  int row = 0;          //!< Of the cell that it was meant for.
-  int column = 0;       //!< Of that cell.
-  double fireTime = 0.; //!< frame.
-  double landTime = 0.; //!< frame.
-  double errorX = 0.;   //!< Landing place minus true centre, um.
-  double errorY = 0.;   //!< The same along y, um.
-  double velocity = 0.; //!< True velocity of the product at the landing, along x, px/frame.
+  int row = 0;          //!< Row of the target cell.
+  int column = 0;       //!< Column of the target cell.
+  double fireTime = 0.; //!< Firing time, frames.
+  double landTime = 0.; //!< Landing time, frames.
+  double errorX = 0.;   //!< Landing position minus true centre along x, um.
+  double errorY = 0.;   //!< Landing position minus true centre along y, um.
+  double velocity = 0.; //!< True velocity of the product at landing, along x, px/frame.
   bool late = false;    //!< See vpPrintShot::late.
 };
 
-//! \brief The figures of a run.
+//! \brief Metrics of a run.
 struct vpPrintMetrics {
-  //! Measured velocity (before the filter, as the thesis plots it) minus the reference of the step before, rms, px/frame.
+  //! Measured velocity (before the filter, as plotted in the thesis) minus the reference of the previous step, rms,
+  //! px/frame.
   double rms_velocity_error = 0.;
-  double rms_true_velocity_error = 0.; //!< True velocity minus the reference of the same instant, rms, px/frame.
-  double centre_velocity_error =
-      0.; //!< |true velocity| minus dropVelocity when a cell is at the nozzle, rms, px/frame.
-  double centre_velocity_worst = 0.;  //!< The largest of these.
-  double landing_rms_um = 0.;         //!< Distance of the drops from the centres, rms, um.
-  double landing_worst_um = 0.;       //!< The largest.
-  double landed_within_10um = 0.;     //!< Share of the drops, 0..1.
-  int printed = 0;                    //!< Cells with at least one drop.
-  int missed = 0;                     //!< Cells that passed the nozzle without a drop.
-  int doubled = 0;                    //!< Cells with more than one.
-  double throughput_cells_per_s = 0.; //!< From the first to the last drop, turning included.
-  //! Time at dropVelocity over the time taken, between first and last cell of the rows, minus 1.
+  double rms_true_velocity_error = 0.; //!< True velocity minus the simultaneous reference, rms, px/frame.
+  double centre_velocity_error = 0.;   //!< |true velocity| minus dropVelocity with a cell at the nozzle, rms, px/frame.
+  double centre_velocity_worst = 0.;   //!< Largest such error, px/frame.
+  double landing_rms_um = 0.;          //!< Distance of the drops from the centres, rms, um.
+  double landing_worst_um = 0.;        //!< Largest distance of a drop from its centre, um.
+  double landed_within_10um = 0.;      //!< Fraction of the drops, 0..1.
+  int printed = 0;                     //!< Number of cells with at least one drop.
+  int missed = 0;                      //!< Number of cells that passed the nozzle without a drop.
+  int doubled = 0;                     //!< Number of cells with more than one drop.
+  double throughput_cells_per_s = 0.;  //!< Cells per second from the first to the last drop, including turns.
+  //! Time at dropVelocity divided by the time taken, between first and last cell of the rows, minus 1.
   double gain_over_constant = 0.;
-  int frames = 0;        //!< Run.
-  bool complete = false; //!< All cells passed the nozzle.
+  int frames = 0;        //!< Number of frames run.
+  bool complete = false; //!< True if all cells passed the nozzle.
 };
 
 //! \brief A finished run.
 struct vpPrintRun {
-  vpPrintExperimentSpec spec;         //!< What was run.
-  std::vector<vpPrintSample> samples; //!< One for each frame.
-  std::vector<vpPrintDrop> drops;     //!< In the order of landing.
-  vpPrintMetrics metrics;             //!< The figures.
+  vpPrintExperimentSpec spec;         //!< Specification of the run.
+  std::vector<vpPrintSample> samples; //!< Log, one per frame.
+  std::vector<vpPrintDrop> drops;     //!< Drops in order of landing.
+  vpPrintMetrics metrics;             //!< Metrics.
 };
 
 /*!
- * \brief Run one experiment. Row 0 is at the nozzle at the start, its first cell one pitch before it; rows are printed to and
- * fro, with one pitch to turn in while the stage steps to the next row.
+ * \brief Runs one experiment. Row 0 is at the nozzle at the start, its first cell one pitch before it; rows are printed
+ * back and forth, with one pitch for turning while the stage steps to the next row.
  *
- * With vpPrintSensor::Image the tracker sees 120 frames of a slow motion first, to learn. Its rows and columns are numbered
- * like the product's with the help of the truth, once for each epoch; nothing else of the truth is used.
- * \param spec : Validated first. The same specification gives the same run, bit for bit.
- * \param progress : If given, called now and then with the share done, 0..1; return false to stop early.
+ * With vpPrintSensor::Image the tracker first learns from 120 frames of slow motion. Its rows and columns are numbered
+ * like the product's by means of the true state, once per epoch; nothing else of the true state is used.
+ * \param spec : Specification; validated first. The same specification gives the same run, bit for bit.
+ * \param progress : If given, called periodically with the completed fraction, 0..1; return false to stop early.
  * \throw vpException naming the field of the specification that is out of range.
  */
 [[nodiscard]] vpPrintRun runPrintExperiment(const vpPrintExperimentSpec &spec,

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// What truly happens to the product of a print experiment.
+// True motion of the product in a print experiment.
 #ifndef vpPrintTruth_h
 #define vpPrintTruth_h
 
@@ -13,7 +13,7 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! \brief True motion, remembered for exposures and landings.
+//! \brief True motion, stored for exposures and landings.
 class vpPrintTruth
 {
 public:
@@ -31,7 +31,7 @@ public:
   }
   [[nodiscard]] double now() const { return m_points.back().t; }
   [[nodiscard]] const Point &last() const { return m_points.back(); }
-  //! Interpolated by cubics; at rest before the start.
+  //! State at time \e t, cubic interpolation; at rest before the start.
   [[nodiscard]] Point at(double t) const
   {
     if (t <= 0.) {

@@ -27,114 +27,115 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
- * \brief One row of the log, taken each cycle of the inner loop: what is true at #time, and the motion from then until
+ * \brief One row of the log per cycle of the inner loop: the true state at #time, and the motion from then until
  * the next row. Angles in rad, all else in SI units and px.
  *
  * World frame: the camera at the start of the experiment.
  */
 struct vpServoSample {
-  double time = 0.;        //!< s since the start.
-  int segment = 0;         //!< Index of the segment in force.
+  double time = 0.;        //!< Time since the start, s.
+  int segment = 0;         //!< Index of the current segment.
   vpHomogeneousMatrix wMc; //!< True pose of the camera in the world.
   vpHomogeneousMatrix cMo; //!< True pose of the object in the camera.
-  vpTwist commanded;       //!< Twist asked of the plant, after the shaper if there is one; camera frame.
-  vpTwist actual;          //!< Twist that the plant executed, camera frame.
+  vpTwist commanded;       //!< Twist commanded to the plant, after the shaper if there is one; camera frame.
+  vpTwist actual;          //!< Twist executed by the plant, camera frame.
   double yaw = 0.;         //!< Rotation of the camera about the vertical (y axis of the world), rad.
-  double goalYaw = 0.;     //!< The same of the goal.
-  //! Where the law wants to turn to: yaw of R exp(w / gain) with vpServoLaw::rotationGain(); figures 5.6 and 5.8.
+  double goalYaw = 0.;     //!< Yaw of the goal, rad.
+  //! Reference yaw of the law: yaw of R exp(w / gain) with vpServoLaw::rotationGain(), rad; figures 5.6 and 5.8.
   double referenceYaw = 0.;
   double rotationError = 0.;    //!< Angle of the true cdMc, rad.
   double translationError = 0.; //!< Length of the true cdMc, m.
   /*!
-   * Standard deviations of the rotation (rad) and translation (m) of cdMc that the covariance of the measurement in use gives
-   * it; infinite when that is not known or nothing was measured.
+   * Standard deviation of the rotation of cdMc, rad, from the covariance of the measurement in use; infinite if unknown
+   * or nothing was measured.
    */
   double rotationDeviation = std::numeric_limits<double>::infinity();
-  double translationDeviation = std::numeric_limits<double>::infinity(); //!< See #rotationDeviation.
+  double translationDeviation = std::numeric_limits<double>::infinity(); //!< Likewise of the translation, m.
   double u = 0.;                                //!< True, noise-free image of the object's centre, px to the right.
-  double v = 0.;                                //!< The same, px down.
+  double v = 0.;                                //!< True, noise-free image of the object's centre, px down.
   double imageErrorU = 0.;                      //!< u minus the goal's u, px.
   double imageErrorV = 0.;                      //!< v minus the goal's v, px.
-  bool inView = true;                           //!< All of the object's corners lie in the image (true pose).
-  bool measured = false;                        //!< The measurement in use was valid.
-  bool newFrame = false;                        //!< A vision result arrived in this cycle.
-  vpServoStatus status = vpServoStatus::NoGoal; //!< Of the controller.
+  bool inView = true;                           //!< True if all corners of the object lie in the image (true pose).
+  bool measured = false;                        //!< True if the measurement in use was valid.
+  bool newFrame = false;                        //!< True if a vision result arrived in this cycle.
+  vpServoStatus status = vpServoStatus::NoGoal; //!< Status of the controller.
 };
 
 //! \ingroup group_simulation
-//! \brief What to run. All fields together with the seed determine the result.
+//! \brief Specification of a run; it determines the result.
 struct vpServoRunSpec {
   std::string law = "ff-lookat-pi";         //!< Id of the law, optionally followed by `+cbf`.
   std::string measure = "points";           //!< "points" (vpServoSensor::points) or "image" (vpServoSensor::image).
-  vpServoGains gains;                       //!< The same for every law.
-  vpServoPlant plant;                       //!< What moves the camera.
-  vpServoTask task = vpServoTask::thesis(); //!< Where to.
-  unsigned int seed = 1;                    //!< Of all noise.
+  vpServoGains gains;                       //!< Gains, the same for every law.
+  vpServoPlant plant;                       //!< Plant that moves the camera.
+  vpServoTask task = vpServoTask::thesis(); //!< Task with the goals.
+  unsigned int seed = 1;                    //!< Seed of all noise.
   std::string target;                       //!< Image file of the object for measure "image".
-  vpCameraFaults faults; //!< Of the pictures for measure "image", in the place of vpServoPlant::pixelNoise.
+  vpCameraFaults faults;                    //!< Image faults for measure "image", instead of vpServoPlant::pixelNoise.
   /*!
-   * Limits of a vpTwistShaper between controller and plant; without them the plant gets the controller's twist as it
-   * is. The shaper starts at rest and is never reset: a new goal, a lost target and the retreat after it are ramps too.
+   * Limits of a vpTwistShaper between controller and plant; without them the plant gets the controller's twist
+   * unchanged. The shaper starts at rest and is never reset: a new goal, a lost target and the retreat after it are
+   * ramps too.
    */
   std::optional<vpTwistShaperLimits> shape;
-  //! Carries the camera; null: the camera flies freely, with the lag and friction of the plant.
+  //! Arm that carries the camera; null: free-flying camera with the lag and friction of the plant.
   std::shared_ptr<const vpServoArm> arm;
 };
 
 //! \ingroup group_simulation
-//! \brief The figures of a run; the same names as in summary.json.
+//! \brief Metrics of a run, named as in summary.json.
 struct vpServoMetrics {
-  double max_image_error_px = 0.; //!< Largest distance of the object's centre from where it shall be seen.
+  double max_image_error_px = 0.; //!< Largest distance of the object's centre from its desired image position.
   double rms_image_error_px = 0.; //!< Root mean square of that distance.
   double end_rotation_deg = 0.;   //!< Largest rotation error at the end of a segment.
   double end_translation_mm = 0.; //!< Largest translation error at the end of a segment.
   /*!
-   * What the measurements' own covariance lets expect at the end of a segment: the largest standard deviation of the rotation
-   * error there. A law that ends beyond three of them has an error of its own. Infinite when it is not known.
+   * Expected rotation error at the end of a segment from the covariance of the measurements: its largest standard
+   * deviation there. A law that ends beyond three of them has an error of its own. Infinite if unknown.
    */
   double expected_end_rotation_deg = 0.;
-  double expected_end_translation_mm = 0.; //!< The same of the translation error.
+  double expected_end_translation_mm = 0.; //!< Expected translation error, likewise.
   double yaw_range_deg = 0.;               //!< Largest minus smallest yaw.
-  double ideal_yaw_range_deg = 0.;         //!< The same of the goals (and the start).
+  double ideal_yaw_range_deg = 0.;         //!< Largest minus smallest yaw of the goals (and the start).
   double out_of_view_s = 0.;               //!< Time during which a corner of the object is out of the image.
   //! Time until the error stays below 2 deg and 5 mm, the segment's duration if it never does; mean over the segments.
   double settle_s = 0.;
-  double path_length_m = 0.;      //!< Of the camera's way.
-  double peak_linear_mps = 0.;    //!< Of the executed motion.
-  double peak_angular_radps = 0.; //!< The same of the angular part.
+  double path_length_m = 0.;      //!< Length of the camera's path.
+  double peak_linear_mps = 0.;    //!< Peak linear speed of the executed motion.
+  double peak_angular_radps = 0.; //!< Peak angular speed of the executed motion.
   /*!
    * Largest linear part of the change of vpServoSample::commanded, within the plant's speed limits, from one cycle to
-   * the next, divided by the cycle. The first change is that from rest, so a step at t = 0 shows here: as a number that
+   * the next, divided by the cycle. The first change is from rest, so a step at t = 0 appears here as a number that
    * grows with the loop rate.
    */
   double peak_linear_acceleration_mps2 = 0.;
-  double peak_angular_acceleration_radps2 = 0.; //!< The same of the angular part.
-  int deadlock_cycles = 0;                      //!< Cycles with vpServoStatus::Deadlock.
-  std::string status; //!< "ok", or a sentence on how the run ended otherwise (target lost, deadlock).
+  double peak_angular_acceleration_radps2 = 0.; //!< Likewise for the angular part.
+  int deadlock_cycles = 0;                      //!< Number of cycles with vpServoStatus::Deadlock.
+  std::string status;                           //!< "ok", or a sentence on the failure (target lost, deadlock).
 };
 
 //! \ingroup group_simulation
 //! \brief A finished run.
 struct vpServoRun {
-  vpServoRunSpec spec;                    //!< What was run.
-  std::vector<vpServoSample> samples;     //!< One a cycle of the loop.
-  vpServoMetrics metrics;                 //!< The figures.
-  std::vector<vpArmSample> arm;           //!< As many as samples, at the end of each cycle; none without an arm.
-  std::optional<vpArmMetrics> armMetrics; //!< Given when there is an arm.
+  vpServoRunSpec spec;                    //!< Specification of the run.
+  std::vector<vpServoSample> samples;     //!< Log, one per cycle of the loop.
+  vpServoMetrics metrics;                 //!< Metrics.
+  std::vector<vpArmSample> arm;           //!< Arm at the end of each cycle, as many as samples; empty without an arm.
+  std::optional<vpArmMetrics> armMetrics; //!< Metrics of the arm, if there is one.
 };
 
 /*!
- * Run one experiment.
- * \param spec : What to run; validated first.
- * \param progress : If given, called now and then with the share done, 0..1; return false to stop early.
- * \throw vpException naming what is wrong with the spec (unknown law, measure, plant field, target image,
+ * Runs one experiment.
+ * \param spec : Specification; validated first.
+ * \param progress : If given, called periodically with the completed fraction, 0..1; return false to stop early.
+ * \throw vpException naming the error in the spec (unknown law, measure, plant field, target image,
  * limit of the shaper).
  */
 [[nodiscard]] vpServoRun runServoExperiment(const vpServoRunSpec &spec,
                                             const std::function<bool(double)> &progress = {});
 
 /*!
- * The figures of a log.
+ * Computes the metrics of a log.
  */
 [[nodiscard]] vpServoMetrics evaluateServoRun(const vpServoRunSpec &spec, const std::vector<vpServoSample> &samples);
 

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpServoGeometry.h
- * \brief Angles of a pose, as the log and the figures of an experiment use them.
+ * \brief Angles of a pose, as used in the log and the metrics of an experiment.
  */
 #ifndef vpServoGeometry_h
 #define vpServoGeometry_h

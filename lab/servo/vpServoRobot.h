@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// What carries the camera of a servo experiment: nothing but friction, or an arm.
+// Robot that carries the camera of a servo experiment: free-flying with friction, or an arm.
 #ifndef vpServoRobot_h
 #define vpServoRobot_h
 
@@ -16,17 +16,17 @@ BEGIN_VISP_NAMESPACE
 class vpServoRobot
 {
 public:
-  //! A free camera, or the arm of the spec. \throw vpException naming what does not do.
+  //! Creates a free-flying camera, or the arm of the spec. \throw vpException naming the invalid parameter.
   [[nodiscard]] static std::unique_ptr<vpServoRobot> create(const vpServoRunSpec &spec);
   virtual ~vpServoRobot() = default;
 
-  //! One cycle of the plant with a twist in the camera's frame.
+  //! Moves for one cycle of the plant with a twist in the camera frame.
   virtual void move(const vpTwist &twist) = 0;
   //! True pose of the camera in its frame at the start.
   [[nodiscard]] virtual vpHomogeneousMatrix wMc() = 0;
-  //! Twist that was executed in the last cycle, as encoders tell, camera frame.
+  //! Twist executed in the last cycle, as measured by encoders, camera frame.
   [[nodiscard]] virtual vpTwist actual() const = 0;
-  //! The arm now, with the command of the last cycle; false for a free camera.
+  //! Current state of the arm, with the command of the last cycle; false for a free-flying camera.
   virtual bool sample(vpArmSample &) const { return false; }
 };
 

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpServoStart.h
- * \brief Where an arm begins a servo task, so that all of its poses are within reach.
+ * \brief Start configuration of an arm for a servo task with all poses reachable.
  */
 #ifndef vpServoStart_h
 #define vpServoStart_h
@@ -15,16 +15,16 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
- * \brief How well a start suits a task: the least over the way through all poses (vpClosedLoopKinematics) of the distance
- * from the position limits, as a part of half the range, and of the smallest singular value in 0.2 m/rad.
- * \return 0..1; negative when a pose cannot be reached.
+ * \brief Rates a start for a task: the minimum along the path through all poses (vpClosedLoopKinematics) of the
+ * distance from the position limits, as a fraction of half the range, and of the smallest singular value in 0.2 m/rad.
+ * \return 0..1; negative if a pose is unreachable.
  */
 [[nodiscard]] double rateServoStart(const vpArmModel &model, const vpServoTask &task, const vpJointVector &start);
 
 /*!
- * \brief The arm's home where its file gives one; else the best of 200 random configurations (always the same ones) by
+ * \brief The arm's home if its file gives one; else the best of 200 random configurations (always the same) by
  * rateServoStart().
- * \throw vpException (badValue) naming arm and task when none of them reaches all poses.
+ * \throw vpException (badValue) naming arm and task if none reaches all poses.
  */
 [[nodiscard]] vpJointVector findServoStart(const vpArmModel &model, const vpServoTask &task);
 

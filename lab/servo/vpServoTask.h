@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpServoTask.h
- * \brief What a servo experiment is about: camera, planar object, and the poses to visit.
+ * \brief Task of a servo experiment: camera, planar object, and the poses to visit.
  */
 #ifndef vpServoTask_h
 #define vpServoTask_h
@@ -19,11 +19,11 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_simulation
-//! \brief One leg of the task: the pose to reach and the time given for it.
+//! \brief One leg of the task: the pose to reach and its duration.
 struct vpServoSegment {
-  std::string name;         //!< For reports ("2").
+  std::string name;         //!< Name for reports ("2").
   vpHomogeneousMatrix cdMo; //!< Pose of the object in the desired camera frame, m.
-  double duration = 8.;     //!< s, > 0.
+  double duration = 8.;     //!< Duration, s, > 0.
 };
 
 /*!
@@ -33,7 +33,7 @@ struct vpServoSegment {
  * by the camera that looks along +z.
  */
 struct vpServoTask {
-  std::string name = "thesis-5.4";      //!< For reports.
+  std::string name = "thesis-5.4";      //!< Name for reports.
   vpCameraParameters camera;            //!< Intrinsics, pixels; no distortion.
   unsigned int width = 640;             //!< Image width, px.
   unsigned int height = 480;            //!< Image height, px.
@@ -41,13 +41,13 @@ struct vpServoTask {
   double objectHeight = 0.18;           //!< Height of the object, m, > 0.
   unsigned int pointCount = 30;         //!< Number of feature points on the object (measurement by points), >= 4.
   vpHomogeneousMatrix initial;          //!< Pose of the object in the camera at the start, m.
-  std::vector<vpServoSegment> segments; //!< Visited one after another; at least one.
+  std::vector<vpServoSegment> segments; //!< Segments in order; at least one.
 
   /*!
    * The task 1 -> 2 -> 1 -> 3 of section 5.4.2 with the values of the comparison: 0.2 m sideways, 0.1 m forward, facing
-   * the object, Z0 = 0.47 m (28.4 deg of yaw), f = 800 px, 640x480, 8 s a segment. The thesis does not give the size of
-   * the object. 0.18 m was picked from sizes of 0.16 to 0.20 m because it comes nearest to the losses of view of an
-   * earlier prototype on plant D. The losses hang on it: with 0.16 m only decoupled Kyrki loses the view there.
+   * the object, Z0 = 0.47 m (28.4 deg of yaw), f = 800 px, 640x480, 8 s per segment. The thesis does not give the size
+   * of the object. 0.18 m was chosen from sizes of 0.16 to 0.20 m because it best reproduces the losses of view of an
+   * earlier prototype on plant D. The losses depend on it: with 0.16 m only decoupled Kyrki loses the view there.
    */
   [[nodiscard]] static vpServoTask thesis();
   /*!

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The arms of the tests: AMOR, six axes by URDF, and a single joint whose motion is known in closed form.
+// Arms for tests: AMOR, six axes from URDF, and a single joint with a closed-form motion.
 #ifndef vpArmsOfTests_h
 #define vpArmsOfTests_h
 
@@ -14,7 +14,7 @@ namespace vpArmsOfTests
 {
 using namespace vpTestArms;
 
-//! Turns about the vertical: no gravity, no coupling. Inertia 0.5 kg m^2, viscous 0.8 Nm s/rad, Coulomb 0.6 Nm.
+//! Rotates about the vertical: no gravity, no coupling. Inertia 0.5 kg m^2, viscous 0.8 Nm s/rad, Coulomb 0.6 Nm.
 inline const vpArmModel &turntable()
 {
   static const vpArmModel model = [] {

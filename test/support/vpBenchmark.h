@@ -4,8 +4,8 @@
  */
 /*!
  * \file vpBenchmark.h
- * \brief The main of the benchmarks. Google Benchmark ends with an abort when it writes CSV and a later benchmark has counters
- * that the first one has not; here the columns are those of all of them.
+ * \brief The main of the benchmarks. Google Benchmark aborts when writing CSV if a later benchmark has counters
+ * that the first one lacks; here the columns are those of all benchmarks.
  */
 #ifndef vpBenchmark_h
 #define vpBenchmark_h
@@ -21,9 +21,9 @@ namespace vpTestSupport
 {
 #if defined(__GNUC__)
 #pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wdeprecated-declarations" // it goes one day, and --benchmark_format=csv with it
+#pragma GCC diagnostic ignored "-Wdeprecated-declarations" // will be removed, and --benchmark_format=csv with it
 #endif
-//! \brief Waits for the last benchmark, then gives each the counters of all, NaN where it has none.
+//! \brief Waits for the last benchmark, then gives each the counters of all, NaN where missing.
 class WholeCsv : public benchmark::CSVReporter
 {
 public:
@@ -53,7 +53,7 @@ private:
 #pragma GCC diagnostic pop
 #endif
 
-//! Run the registered benchmarks as the command line says. \return Exit status: 2 for a wrong command line.
+//! Runs the registered benchmarks according to the command line. \return Exit status: 2 for an invalid command line.
 inline int runBenchmarks(int argc, char **argv)
 {
   bool csv = false, csvFile = false;
@@ -71,7 +71,7 @@ inline int runBenchmarks(int argc, char **argv)
 }
 } // namespace vpTestSupport
 
-//! In place of BENCHMARK_MAIN().
+//! Replaces BENCHMARK_MAIN().
 #define VP_BENCHMARK_MAIN()                                                                                            \
   int main(int argc, char **argv) { return vpTestSupport::runBenchmarks(argc, argv); }                                 \
   static_assert(true, "a semicolon follows")

@@ -18,9 +18,9 @@
 namespace vpTestSupport
 {
 /*!
- * Path of a file of the folder `shared/cases` that stands beside the project or farther up, or that the environment
- * variable `VISP_DIRECT_CASES` names.
- * \return Empty when there is no such file: the test is then marked as skipped.
+ * Path of a file in the folder `shared/cases` in a parent folder of the project, or in the folder named by the
+ * environment variable `VISP_DIRECT_CASES`.
+ * \return Empty if there is no such file: the test is then marked as skipped.
  */
 inline std::string caseFile(const std::string &name)
 {

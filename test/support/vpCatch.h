@@ -7,8 +7,8 @@
  * \brief Catch2 for every build: 2.13 of Debian, the copy embedded in ViSP 3.5, or 3.x.
  *
  * The main function is in vpTestMain.cpp, linked to all tests. Random tests take their seed from
- * vpTestSupport::seed(), which Catch2's `--rng-seed` sets and every failure prints. Where the environment variable
- * VISP_DIRECT_SEED holds a number, the tests that asked for the seed run again with that one.
+ * vpTestSupport::seed(), which Catch2's `--rng-seed` sets and every failure prints. If the environment variable
+ * VISP_DIRECT_SEED holds a number, the tests that used the seed run again with that one.
  */
 #ifndef vpCatch_h
 #define vpCatch_h
@@ -16,7 +16,7 @@
 #if __has_include(<catch2/catch_all.hpp>)
 #include <catch2/catch_all.hpp>
 using Catch::Approx;
-namespace Catch // names that moved since version 2
+namespace Catch // names moved since version 2
 {
 using Matchers::EndsWith;
 using Matchers::StartsWith;
@@ -34,7 +34,7 @@ inline auto Contains(const std::string &text) { return Matchers::ContainsSubstri
 namespace vpTestSupport
 {
 /*!
- * Seed of this run: fixed by default so that a failure repeats, another with `--rng-seed N` or `--rng-seed time`.
+ * Seed of this run: fixed by default so that failures repeat; set with `--rng-seed N` or `--rng-seed time`.
  * Use with CAPTURE(seed).
  */
 unsigned int seed();
@@ -42,12 +42,12 @@ unsigned int seed();
 //! Generator of the random problem number \e index of this run: independent streams, repeatable one by one.
 std::mt19937_64 generator(unsigned int index = 0);
 
-//! Leave a check out, saying why ("image x is not installed"). When nothing failed, ctest then reports "Skipped".
+//! Skips a check with a reason ("image x is not installed"). If nothing failed, ctest then reports "Skipped".
 void skip(const std::string &why);
 
 //! Number of heap allocations (malloc, calloc, realloc, new) made by this thread since the program began.
 unsigned long allocationCount();
-//! False when the build cannot count (sanitizers); tests of allocations skip themselves then, saying so.
+//! False if the build cannot count (sanitizers); tests of allocations are then skipped with a message.
 bool canCountAllocations();
 } // namespace vpTestSupport
 

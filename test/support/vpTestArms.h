@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The arms of the data folder and random configurations, for the tests of all modules that move arms.
+// Arms of the data folder and random configurations, for the tests of all modules that move arms.
 #ifndef vpTestArms_h
 #define vpTestArms_h
 
@@ -41,7 +41,7 @@ inline double uniform(std::mt19937_64 &rng, double from, double to)
   return std::uniform_real_distribution<double>(from, to)(rng);
 }
 
-//! Within the limits, away from them by a share of the range; continuous joints anywhere in +-pi.
+//! Random configuration inside the limits by a fraction of the range; continuous joints within +-pi.
 inline vpJointVector configuration(const vpArmModel &model, std::mt19937_64 &rng, double share = 0.)
 {
   vpJointVector q(model.size());

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpTestHeaders.h
- * \brief Precompiled for the tests; none of them includes it by itself.
+ * \brief Precompiled header of the tests; not included explicitly.
  */
 #ifndef vpTestHeaders_h
 #define vpTestHeaders_h

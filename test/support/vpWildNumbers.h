@@ -4,12 +4,12 @@
  */
 /*!
  * \file vpWildNumbers.h
- * \brief Numbers that no sensor should send and no step of a control loop may be broken by.
+ * \brief Invalid numbers that no sensor should send and that no control step may fail on.
  *
  * NaN, infinities, magnitudes whose squares, cubes or sums overflow, denormals, signed zeros; time steps and time
  * stamps that repeat, jump and run backwards. A test feeds them to a step, one at a time (everyPlace()) and mixed into
- * ordinary input (mixed()), and accepts only a finite answer within the limits and a status. Write its comparisons with
- * atMost(), which NaN fails.
+ * ordinary input (mixed()), and accepts only finite output within the limits and a status. Use atMost() for
+ * comparisons: it is false for NaN.
  */
 #ifndef vpWildNumbers_h
 #define vpWildNumbers_h
@@ -22,7 +22,7 @@
 
 namespace vpWildNumbers
 {
-//! The numbers; those that are finite stand behind the first three.
+//! The numbers; the first three are not finite.
 inline constexpr std::array<double, 26> values{
     {std::numeric_limits<double>::quiet_NaN(),
      std::numeric_limits<double>::infinity(),
@@ -44,7 +44,7 @@ inline constexpr std::array<double, 26> values{
      1e9, // beyond the range of 32 bits
      -1e9,
      1e-155,
-     std::numeric_limits<double>::min(),        // the least normal number: its inverse is finite
+     std::numeric_limits<double>::min(),        // the smallest normal number: its inverse is finite
      std::numeric_limits<double>::denorm_min(), // its inverse is not
      -std::numeric_limits<double>::denorm_min(),
      std::numeric_limits<double>::epsilon(),
@@ -57,13 +57,13 @@ inline double any(std::mt19937_64 &rng)
   return values[std::uniform_int_distribution<std::size_t>(0, values.size() - 1)(rng)];
 }
 
-//! \e ordinary, or in a \e share of the cases one of #values.
+//! \e ordinary, or with the probability \e share one of #values.
 inline double mixed(std::mt19937_64 &rng, double ordinary, double share)
 {
   return std::uniform_real_distribution<double>(0., 1.)(rng) < share ? any(rng) : ordinary;
 }
 
-//! As mixed(), for each number of a container (std::array, std::vector, Eigen vector of doubles) in place.
+//! Applies mixed() to each number of a container (std::array, std::vector, Eigen vector of doubles) in place.
 template <class Numbers> void mix(std::mt19937_64 &rng, Numbers &numbers, double share)
 {
   for (decltype(numbers.size()) i = 0; i < numbers.size(); ++i) {
@@ -72,8 +72,8 @@ template <class Numbers> void mix(std::mt19937_64 &rng, Numbers &numbers, double
 }
 
 /*!
- * Call \e step(numbers) for each place of \e ordinary and each of #values put into it, all others as they were: each
- * field is reached, which chance does not promise. The caller names what failed by the two indices.
+ * Calls \e step(numbers) for each position of \e ordinary and each of #values put there, all others unchanged: each
+ * field is reached, which random input does not guarantee. The two indices identify a failure.
  * \param step : void(const Numbers &numbers, std::size_t place, std::size_t value).
  */
 template <class Numbers, class Step> void everyPlace(const Numbers &ordinary, Step &&step)
@@ -88,15 +88,15 @@ template <class Numbers, class Step> void everyPlace(const Numbers &ordinary, St
 }
 
 /*!
- * Time stamps of a clock that ticks by \e period most of the time, and else stands still, skips, runs backwards, or is
- * one of #values for a moment. What it says next is not spoilt by what it said.
+ * Time stamps of a clock that advances by \e period most of the time, and else stands still, skips, runs backwards, or
+ * is momentarily one of #values. Invalid stamps do not affect later ones.
  */
 class Clock
 {
 public:
   explicit Clock(double period, double start = 0.) : m_period(period), m_time(start) {}
 
-  //! The next time stamp, s; wild in a \e share of the cases.
+  //! The next time stamp, s; irregular with the probability \e share.
   double next(std::mt19937_64 &rng, double share)
   {
     if (std::uniform_real_distribution<double>(0., 1.)(rng) >= share) {
@@ -134,7 +134,7 @@ template <class Numbers> bool allFinite(const Numbers &numbers)
   return true;
 }
 
-//! |x| <= limit with a relative \e slack for rounding; false for NaN, whichever of the two it is.
+//! |x| <= limit with a relative \e slack for rounding; false if either is NaN.
 inline bool atMost(double x, double limit, double slack = 1e-9) { return std::abs(x) <= limit * (1. + slack); }
 } // namespace vpWildNumbers
 

@@ -15,8 +15,7 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-constexpr vpFieldCheck fields("the avoidance method");
-// Slower than this, rad/s or m/s, an arm that brakes stands.
+// rad/s or m/s: a braking arm slower than this counts as standing.
 constexpr double standing = 1e-3;
 
 } // namespace
@@ -62,7 +61,7 @@ bool isWorking(const vpAvoidanceOutput &output) noexcept
     return true;
   case vpAvoidanceStatus::Arrived:
     return false;
-  default: // brakes; a velocity that is no number ends the loop
+  default: // brakes; a NaN velocity ends the loop
     return output.velocity.size() > 0 && output.velocity.allFinite() &&
            output.velocity.cwiseAbs().maxCoeff() > standing;
   }

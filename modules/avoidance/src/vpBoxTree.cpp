@@ -31,7 +31,7 @@ void vpBoxTree::split(std::size_t node, int first, int count, const std::vector<
     high = high.cwiseMax(items[static_cast<std::size_t>(*i)].high);
   }
   m_nodes[node].centre = 0.5 * (low + high);
-  // A hair thicker, so that rounding cannot make the bound larger than what it bounds.
+  // Slightly enlarged, so that rounding cannot make the distance bound too large.
   m_nodes[node].half = 0.5 * (high - low) +
                        Eigen::Vector3d::Constant(1e-14 * (1. + high.cwiseAbs().maxCoeff() + low.cwiseAbs().maxCoeff()));
   if (count <= leafSize) {

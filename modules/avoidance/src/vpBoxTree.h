@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Tree of axis-aligned boxes over the triangles of a mesh or the cubes of an octree, for the nearest one to a segment.
+// Tree of axis-aligned boxes over the triangles of a mesh or the cubes of an octree, to find the nearest to a segment.
 #ifndef vpBoxTree_h
 #define vpBoxTree_h
 
@@ -16,8 +16,8 @@ BEGIN_VISP_NAMESPACE
 struct vpBoxTreeNode {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   Eigen::Vector3d half = Eigen::Vector3d::Zero();
-  int first = 0; // Leaf: first item in the order; otherwise the left child, the right one follows it.
-  int count = 0; // Items of a leaf; 0 for an inner node.
+  int first = 0; // Leaf: first item in the order; otherwise the left child; the right one follows it.
+  int count = 0; // Number of items of a leaf; 0 for an inner node.
 };
 
 class vpBoxTree
@@ -35,7 +35,7 @@ public:
   {
     return !empty() && ((p - m_nodes[0].centre).cwiseAbs().array() <= m_nodes[0].half.array()).all();
   }
-  // Sphere around everything.
+  // Bounding sphere of all items.
   [[nodiscard]] Eigen::Vector3d centre() const noexcept
   {
     return empty() ? Eigen::Vector3d::Zero().eval() : m_nodes[0].centre;
@@ -43,7 +43,7 @@ public:
   [[nodiscard]] double radius() const noexcept { return empty() ? 0. : m_nodes[0].half.norm(); }
 
   /*
-   * Nearest item to the segment that is nearer than cutoff; index -1 when there is none. exact(i) gives the
+   * Nearest item to the segment within cutoff; index -1 if there is none. exact(i) gives the
    * vpNearestPoints of item i; the search ends at a distance of 0.
    */
   template <class Exact>
@@ -56,7 +56,7 @@ public:
     if (empty()) {
       return best;
     }
-    // Halving the items at every level, the tree is at most 32 deep and the stack holds one node a level.
+    // The items are halved at every level: the tree is at most 32 deep and the stack holds one node per level.
     struct Entry {
       int node;
       double bound;

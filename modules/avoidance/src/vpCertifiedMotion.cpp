@@ -16,7 +16,7 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-// 8^-14 of the motion: below any resolution that doubles can show.
+// 8^-14 of the motion: below the resolution of doubles.
 constexpr int maxDepth = 14;
 constexpr int mostLooks = 8000000; // a motion that needs more is undecided
 
@@ -33,8 +33,8 @@ void bound(const vpCollisionScene &scene, const vpReachBounds &reach, const vpJo
     const double R = reach(pair.capsule, j), dq = std::fabs(change(j));
     const bool revolute = !scene.arm().isPrismatic(j);
     pair.speed += R * dq;
-    // dJ_j/dq_k is a cross product with the inner axis and as long as J of the outer one; a prismatic inner joint turns
-    // nothing.
+    // dJ_j/dq_k is a cross product with the inner axis and as long as J of the outer one; a prismatic inner joint
+    // rotates nothing.
     pair.acceleration += R * dq * (2. * inner + (revolute ? dq : 0.));
     inner += revolute ? dq : 0.;
   }
@@ -49,7 +49,7 @@ vpEdgePair pairOf(vpCollisionKind kind, int capsule, int other)
   return pair;
 }
 
-// What may have changed since the last motion: objects move.
+// Updates what may have changed since the last motion: objects move.
 void refresh(const vpCollisionScene &scene, double margin, vpEdgePair &pair)
 {
   const auto halfLength = [&scene](int i) { return 0.5 * (scene.capsule(i).to - scene.capsule(i).from).norm(); };
@@ -108,12 +108,12 @@ struct vpMotionScratch::Memory {
   const vpCollisionScene *scene = nullptr;
   unsigned long revision = 0;
   std::vector<vpEdgePair> pairs;
-  // For every level of splitting: the pairs in question, and where they are not proven.
+  // For every level of splitting: the remaining pairs, and where they are unproven.
   std::array<std::vector<std::uint32_t>, maxDepth + 1> lists;
   std::array<std::vector<std::uint8_t>, maxDepth + 1> unproven;
   vpEdgeMotion motion;
   double resolution = 0.;
-  double fastest = 0.; // Of all pairs, per unit of s.
+  double fastest = 0.; // Maximum of all pairs, per unit of s.
   vpMotionResult result;
 
   void fit(const vpCollisionScene &now)
@@ -138,7 +138,7 @@ struct vpMotionScratch::Memory {
     result.pair = clearanceOf(*scene, pair, q);
   }
 
-  // True when all of the piece is proven free for the first count pairs of the list of this depth.
+  // True if the whole interval is proven free for the first count pairs of the list of this depth.
   bool prove(int depth, double start, double width, int count)
   {
     const std::uint32_t *list = lists[at(depth)].data();

@@ -15,12 +15,12 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-constexpr int deepest = 40;        // halvings; the resolution ends it long before
+constexpr int deepest = 40;        // halvings; the resolution ends the search long before
 constexpr double rounding = 1e-9;  // m, of distances
-constexpr double longest = 1e6;    // s: no time of a plan is beyond
-constexpr double largestWay = 1e9; // rad or m, of a joint in an interval: no motion of an arm
+constexpr double longest = 1e6;    // s: largest time of a plan
+constexpr double largestWay = 1e9; // rad or m, of a joint in an interval: implausible beyond
 
-// What an object moves by within h, at most.
+// Largest motion of an object within h.
 double motionOf(const vpCollisionScene &scene, int object, double h)
 {
   const vpTwist &v = scene.object(object).velocity;
@@ -49,7 +49,7 @@ void vpCertifiedTrajectory::setMargin(double margin) noexcept
   m_spec.margin = margin >= 0. && std::isfinite(margin) ? margin : 0.;
 }
 
-// What bounds the motion between looks; false when a number is not finite.
+// Computes the motion bounds between evaluations; false if a number is not finite.
 bool vpCertifiedTrajectory::study(const vpTrajectoryPlan &plan) noexcept
 {
   for (int j = 0; j < plan.axes(); ++j) {
@@ -57,10 +57,10 @@ bool vpCertifiedTrajectory::study(const vpTrajectoryPlan &plan) noexcept
     m_acceleration(j) = std::fabs(goal[2]);
     m_speed(j) = std::max(std::fabs(goal[1]), std::fabs(plan.at(j, 2. * longest)[1]));
     m_kink(j) = m_jump(j) = 0.;
-    double next = goal[1], x = goal[0]; // velocity and place where the segment behind begins
+    double next = goal[1], x = goal[0]; // velocity and position at the start of the next segment
     for (int i = plan.segments(j) - 1; i >= 0; --i) {
       const vpTrajectorySegment &s = plan.segment(j, i);
-      double sum = s.begin + s.duration; // one NaN or infinity makes it one
+      double sum = s.begin + s.duration; // not finite if any term is not
       for (int k = 0; k <= s.p.degree(); ++k) {
         sum += std::fabs(s.p[k]);
       }
@@ -162,11 +162,11 @@ vpTrajectoryClearance vpCertifiedTrajectory::search(const vpTrajectoryPlan &plan
       !(std::fabs(age) <= longest) || from > to || !study(plan)) {
     return result;
   }
-  // Depth first and from the start on: all before the place that is told is proven to be free.
+  // Depth first from the start on: everything before the reported time is proven free.
   struct Part {
     double middle, half;
   };
-  std::array<Part, deepest + 2> open; // one half waits for each halving
+  std::array<Part, deepest + 2> open; // one pending half per halving
   open[0] = {0.5 * (from + to), 0.5 * (to - from)};
   int count = 1;
   bool collides = false;
@@ -199,7 +199,7 @@ vpTrajectoryClearance vpCertifiedTrajectory::search(const vpTrajectoryPlan &plan
     }
     const double half = 0.5 * part.half;
     if (verdict == Verdict::Collision) {
-      count = 0; // what comes later does not matter any more
+      count = 0; // later intervals are irrelevant
     }
     else {
       open[static_cast<std::size_t>(count++)] = {part.middle + half, half};

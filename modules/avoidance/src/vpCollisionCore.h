@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// An object as the fast path sees it: a core whose distance from a segment is known, and a radius around it.
+// An object in the fast path: a core with a known distance from a segment, and a radius around it.
 #ifndef vpCollisionCore_h
 #define vpCollisionCore_h
 
@@ -17,12 +17,12 @@ BEGIN_VISP_NAMESPACE
 struct vpCollisionCore {
   vpShapeType type = vpShapeType::Sphere;
   vpRigidTransform pose;
-  double radius = 0.; // Around the core: of a sphere or capsule, and the inflation.
+  double radius = 0.; // Radius of a sphere or capsule, plus the inflation.
   Eigen::Vector3d half =
       Eigen::Vector3d::Zero(); // Box: half its size. Cylinder: radius, -, half its length. Capsule: z.
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero(); // Of the sphere around the core, in the object's frame.
-  double bound = 0.;                                // Radius of that sphere.
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero(); // Of that sphere, in the base.
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero(); // Centre of the core's bounding sphere, in the object's frame.
+  double bound = 0.;                                // Radius of the bounding sphere.
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero(); // Centre of the bounding sphere, in the base.
   const vpTriangleMeshData *mesh = nullptr;         // Kept alive by the object's shape.
   const vpOctreeData *octree = nullptr;
 
@@ -34,20 +34,20 @@ struct vpCollisionCore {
     pose = to;
     centre = to.R * middle + to.p;
   }
-  // Neither mesh nor octree: the plane through the nearest point, across the normal, separates.
+  // Neither mesh nor octree: the plane through the nearest point, perpendicular to the normal, separates.
   [[nodiscard]] bool isConvex() const noexcept { return !mesh && !octree; }
-  // Ends of a capsule's core; of a sphere both are its centre.
+  // Ends of a capsule's core; for a sphere both are its centre.
   [[nodiscard]] Eigen::Vector3d end(double sign) const noexcept { return pose.p + sign * half.z() * pose.R.col(2); }
 
   /*
-   * Nearest points of the core and of a segment in the base. A mesh or octree that is not nearer than the cutoff gives an
+   * Nearest points of the core and of a segment in the base. A mesh or octree beyond the cutoff gives an
    * infinite distance without points. Negative inside a watertight mesh.
    */
   [[nodiscard]] vpNearestPoints nearest(const Eigen::Vector3d &from, const Eigen::Vector3d &to,
                                         double cutoff) const noexcept;
 };
 
-// The clearance of two rounded cores from the nearest points of the cores; distance may be negative (see nearest()).
+// Clearance of two rounded cores from the nearest points of the cores; the distance may be negative (see nearest()).
 vpClearance vpRounded(const vpNearestPoints &cores, double radius, double otherRadius,
                       const Eigen::Vector3d &otherCentre) noexcept;
 

@@ -19,7 +19,7 @@ namespace
 {
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-// Unlike an address it is never used again for another scene.
+// Unlike an address it is never reused for another scene.
 unsigned long nextRevision()
 {
   static std::atomic<unsigned long> last{0};
@@ -38,10 +38,10 @@ std::string text(double value)
   return out.str();
 }
 
-constexpr double fastest = 1e3; // m/s or rad/s: nothing that an arm is to keep from is faster
-constexpr double longest = 1e6; // s: nobody foresees more
+constexpr double fastest = 1e3; // m/s or rad/s: largest plausible object velocity
+constexpr double longest = 1e6; // s: largest prediction time
 
-// In this sense, here and below, so that NaN is refused.
+// Written such that NaN is rejected, here and below.
 bool isPlausible(const vpTwist &velocity)
 {
   return std::all_of(velocity.data(), velocity.data() + 6, [](double v) { return std::fabs(v) <= fastest; });
@@ -165,7 +165,7 @@ vpClearance unknownClearance() noexcept
   return clearance;
 }
 
-// Can anything be said? Otherwise every query says: in collision.
+// True if the input is valid; otherwise every query reports a collision.
 bool isKnown(const vpCollisionData &data, double cutoff, double time) noexcept
 {
   return data.placed && std::fabs(time) <= longest && cutoff == cutoff;
@@ -178,11 +178,11 @@ bool areApart(const Eigen::Vector3d &a, const Eigen::Vector3d &b, double radii, 
   return reach < 0. || (a - b).squaredNorm() > reach * reach;
 }
 
-// What a query does with the pairs: it sees those below its cutoff and may stop.
+// Visitors of a query: they get the pairs below their cutoff and may stop.
 struct Any {
   double margin;
   bool found = false;
-  // A hair more, so that a touch at the margin itself is still seen.
+  // Slightly more, so that a contact exactly at the margin is still found.
   [[nodiscard]] double cutoff() const noexcept { return margin + 1e-12; }
   bool take(const vpClearance &pair) noexcept
   {
@@ -382,7 +382,7 @@ void vpCollisionScene::place(const vpJointVector &q, vpCollisionData &data) cons
   }
 }
 
-// Shows every pair that must not touch and whose bounding spheres are nearer than the visitor's cutoff.
+// Visits every pair that must not touch and whose bounding spheres are nearer than the visitor's cutoff.
 template <class Visit>
 void vpCollisionScene::visit(const vpCollisionData &data, double time, Visit &visitor) const noexcept
 {

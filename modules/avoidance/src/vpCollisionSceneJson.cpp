@@ -13,7 +13,7 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-// What a value type says about its numbers gets the file and the element in front.
+// Prefixes errors of value types with the file and the element.
 template <class Make> auto located(const vpJsonObject &object, Make make) -> decltype(make())
 {
   try {
@@ -112,7 +112,7 @@ vpCollisionShape shape(vpJsonObject &object, std::vector<std::string> &warnings)
   throw object.wrong("shape", object.value("shape"), "sphere, capsule, box, cylinder, mesh or octree");
 }
 
-//! The photograph that an object carries; by it the object is recognised, so it is there only once.
+//! Reads the photograph of an object; it identifies the object, so it must be unique.
 void photo(vpJsonObject &object, const vpCollisionObject &carrier, vpCollisionSceneFile &scene)
 {
   if (!object.has("photo")) {

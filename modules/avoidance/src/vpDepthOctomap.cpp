@@ -83,7 +83,7 @@ vpDepthReport vpDepthOctomap::insert(const vpImage<float> &depth, const vpCamera
         ++report.invalid;
         continue;
       }
-      // octomap computes in float: what is beyond only tells a direction.
+      // octomap computes in float: points beyond only give a direction.
       const Eigen::Vector3d point = fMc.R * ray * std::min(1., 2. * m_spec.maxRange / range) + fMc.p;
       if (range > m_spec.maxRange) {
         ++report.beyond;
@@ -106,7 +106,7 @@ vpDepthReport vpDepthOctomap::insert(const vpImage<float> &depth, const vpCamera
   if (m_spec.carve) {
     const octomap::point3d eye(static_cast<float>(fMc.p.x()), static_cast<float>(fMc.p.y()),
                                static_cast<float>(fMc.p.z()));
-    // Every ray for itself: one ray for each end cube would leave cubes on the way uncleared.
+    // Every ray separately: one ray per end cube would leave cubes on the way uncleared.
     tree.insertPointCloud(cloud, eye, m_spec.maxRange, true, false);
   }
   else {
@@ -124,7 +124,7 @@ vpOctree vpDepthOctomap::snapshot() const { return vpOctree(vpOctomapCells(m_map
 
 void vpDepthOctomap::save(const std::string &file) const
 {
-  // octomap's own conversion to binary decides every cell; the map itself goes on to learn.
+  // octomap's own conversion to binary decides every cell; the map itself is not changed.
   octomap::OcTree copy(m_map->tree);
   if (!copy.writeBinary(file)) {
     throw vpException(vpException::ioError, "%s: cannot be written", file.c_str());

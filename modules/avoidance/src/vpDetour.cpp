@@ -15,9 +15,9 @@ namespace
 {
 using Eigen::Vector3d;
 
-constexpr double neighbourhood = 0.2; // m: an octree may be the whole room; what counts is what is near the place
+constexpr double neighbourhood = 0.2; // m: an octree may be the whole room; only the part near the position is used
 
-//! Farthest the surface goes along a unit vector; both and the place in the shape's frame.
+//! Extent of the surface along a unit vector; vector and position in the shape's frame.
 double extent(const vpCollisionShape &shape, const Vector3d &u, const Vector3d &place)
 {
   const double across = std::hypot(u.x(), u.y()), along = std::fabs(u.z());
@@ -49,7 +49,7 @@ double extent(const vpCollisionShape &shape, const Vector3d &u, const Vector3d &
   return most;
 }
 
-//! Two unit vectors across a direction; the first one is level.
+//! Two unit vectors perpendicular to a direction; the first one is horizontal.
 void across(const Vector3d &d, Vector3d &level, Vector3d &up)
 {
   level = Vector3d::UnitZ().cross(d);
@@ -72,14 +72,14 @@ std::vector<Vector3d> placesBeside(const vpCollisionScene &scene, const vpForeca
   const Vector3d way = to - from;
   Vector3d level, up;
   across(way.norm() > 1e-6 ? Vector3d(way.normalized()) : Vector3d::UnitX(), level, up);
-  if (pair.kind == vpCollisionKind::None) { // the arm itself does not come along there
+  if (pair.kind == vpCollisionKind::None) { // the arm itself cannot follow there
     for (int k = 0; k < sides; ++k) {
       const double angle = 2. * M_PI * k / sides;
       places.push_back(conflict.tool + 0.15 * (std::cos(angle) * level + std::sin(angle) * up));
     }
     return places;
   }
-  // Away from what was touched, wherever on the arm that was.
+  // Away from the obstacle, wherever on the arm the contact is.
   for (const double shift : {0.1, 0.2}) {
     places.push_back(conflict.tool + shift * pair.normal);
   }

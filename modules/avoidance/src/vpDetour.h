@@ -11,16 +11,17 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! How far the object's surface, inflation included, lies from its origin at most along a unit direction, m; of an
-//! octree only what is near a place.
+//! Largest extent of the object's surface, inflation included, from its origin along a unit direction, m; for an
+//! octree only near a position.
 [[nodiscard]] double extentAlong(const vpCollisionObject &object, const Eigen::Vector3d &direction,
                                  const Eigen::Vector3d &place);
 
 /*!
- * Places beside what is in the way of a tool that goes from \e from to \e to: on every side of the obstacle, by its
- * extent there and a clearance; where the tool is not what would touch, also further out. When nothing is in the way but
- * the arm does not come along, places about the one where it stays behind.
- * \param conflict : Foreseen. \param clearance : Of the tool's origin from the extent, m. \param sides : How many, >= 2.
+ * Positions beside the obstacle in the way of a tool moving from \e from to \e to: on every side of the obstacle, at
+ * its extent there plus a clearance; if another part than the tool would touch, also farther out. If nothing is in the
+ * way but the arm cannot follow, positions around the one where it lags behind.
+ * \param conflict : Predicted conflict. \param clearance : Clearance of the tool's origin from the extent, m.
+ * \param sides : Number of sides, >= 2.
  */
 [[nodiscard]] std::vector<Eigen::Vector3d> placesBeside(const vpCollisionScene &scene, const vpForecast &conflict,
                                                         const Eigen::Vector3d &from, const Eigen::Vector3d &to,

@@ -12,9 +12,9 @@ namespace
 {
 using Eigen::Vector3d;
 constexpr std::array<double, 3> speeds{1., 0.5, 0.25};
-constexpr double atGoal = 0.01; // m: a conflict of a tool so near to its goal is one of the goal
+constexpr double atGoal = 0.01; // m: conflicts with the tool this near to its goal count as conflicts at the goal
 
-//! Where a via has to go in to be between the right ones: the stretch whose line is nearest to a place.
+//! Insertion index of a via: the segment whose line is nearest to a position.
 int stretchOf(const vpToolTask &task, const Vector3d &from, const Vector3d &place)
 {
   int best = 0;
@@ -66,7 +66,7 @@ vpForecast vpDetourSearch::foresee(const vpDetourStart &start, vpToolTask &task,
 
 std::optional<vpJointVector> vpDetourSearch::endOf(const vpDetourStart &start, const Vector3d &goal)
 {
-  constexpr double nothing = -1e3; // m: a margin that nothing comes nearer than
+  constexpr double nothing = -1e3; // m: a margin that is never violated
   vpToolTask task;
   task.goal = goal;
   const vpForecast forecast = foresee(start, task, nothing);
@@ -95,7 +95,7 @@ void vpDetourSearch::expand(const vpDetourStart &start, const Node &node, const 
   }
 }
 
-// Behind a stop at a final position beside the obstacle.
+// Motion after a stop at a final position beside the obstacle.
 bool vpDetourSearch::leadsToGoal(const vpDetourStart &start, const vpForecast &there, const Vector3d &goal)
 {
   vpToolState rest;
@@ -127,8 +127,8 @@ vpDetourResult vpDetourSearch::search(const vpDetourStart &start, const Vector3d
     std::pop_heap(m_open.begin(), m_open.end(), longer);
     Node node = m_open.back();
     m_open.pop_back();
-    const bool final = m_spec.detour == vpDetourKind::PointToPoint && node.task.viaCount > 0;
-    if (final) { // the newest place is where it stops first
+    const bool final = m_spec.detour == vpDetourKind::Final && node.task.viaCount > 0;
+    if (final) { // the newest position is the first stop
       node.task.goal = node.task.vias[0];
       node.task.goalVelocity.setZero();
       node.task.viaCount = 0;

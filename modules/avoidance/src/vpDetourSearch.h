@@ -13,24 +13,24 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! \brief Where a search starts.
+//! \brief Start of a search.
 struct vpDetourStart {
   vpToolState tool;
   vpJointVector q, velocity;
-  vpJointVector posture;       // to lean to; may be empty
-  Eigen::Matrix3d orientation; // kept if the method keeps it
+  vpJointVector posture;       // preferred posture; may be empty
+  Eigen::Matrix3d orientation; // orientation to keep, if the method does
 };
 
-//! \brief What a search found.
+//! \brief Result of a search.
 struct vpDetourResult {
-  std::optional<vpToolTask> task; // none: no motion is foreseen to be free
-  vpForecast direct;              // of the direct way, for its status
+  std::optional<vpToolTask> task; // none: no motion is predicted to be free
+  vpForecast direct;              // of the direct path, for its status
 };
 
 /*!
  * \class vpDetourSearch
- * \brief Best first over tasks with more and more vias: what comes into the way of one is gone round on all sides, the
- * shortest way first.
+ * \brief Best-first search over tasks with increasing numbers of vias: obstacles on a path are bypassed on all sides,
+ * the shortest path first.
  */
 class vpDetourSearch
 {
@@ -38,15 +38,15 @@ public:
   vpDetourSearch(const vpCollisionScene &scene, const vpDirectTrajectoryAvoidanceSpec &spec,
                  const vpToolMotionSpec &motion);
 
-  //! A motion of the arm on a task, slower if the joints demand it; \e task gets the speed that was needed.
+  //! Predicts the arm on a task, slower if the joints require it; \e task receives the speed used.
   [[nodiscard]] vpForecast foresee(const vpDetourStart &start, vpToolTask &task, double margin);
-  //! The rest of a motion.
+  //! Predicts the rest of a motion.
   [[nodiscard]] vpForecast foresee(const vpDetourStart &start, const vpTrajectoryPlan &plan, double clock,
                                    double margin);
-  //! The direct way to the goal or a way round.
+  //! Searches the direct path to the goal or a detour.
   [[nodiscard]] vpDetourResult search(const vpDetourStart &start, const Eigen::Vector3d &goal,
                                       const Eigen::Vector3d &goalVelocity);
-  //! Where the direct way would end if nothing were in the way; none: the arm does not get there.
+  //! End of the direct path without obstacles; none: the arm cannot reach it.
   [[nodiscard]] std::optional<vpJointVector> endOf(const vpDetourStart &start, const Eigen::Vector3d &goal);
 
 private:
@@ -63,7 +63,7 @@ private:
   vpToolPath m_path;
   vpTrajectoryPlan m_plan;
   std::vector<Node> m_open; // a heap, the shortest on top
-  int m_left = 0;           // forecasts
+  int m_left = 0;           // remaining forecasts
 };
 
 END_VISP_NAMESPACE

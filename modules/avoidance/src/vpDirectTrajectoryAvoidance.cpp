@@ -18,15 +18,23 @@ namespace
 {
 constexpr vpFieldCheck fields("the direct trajectory avoidance");
 using Eigen::Vector3d;
-constexpr double offPlan = 1e-3;   // m: a tool farther from its plan than this has left it
-constexpr double correction = 10.; // 1/s, of what the steps leave of second order: gentle, so that it bends no bound
-constexpr double reserve = 0.995;  // of the bound of acceleration, for what the Jacobian leaves out
+constexpr double offPlan = 1e-3;   // m: tolerance for the tool to be on its plan
+constexpr double correction = 10.; // 1/s, gain on second-order errors of the steps: low, to keep the bounds
+constexpr double reserve = 0.995;  // fraction of the acceleration bound, for errors of the Jacobian
 constexpr double atGoal = 1e-4;    // m
 constexpr double atRest = 1e-3;    // m/s
-constexpr double ending = 0.5;     // s: the last part of a motion is left as it is, or its smooth end would be lost
-constexpr double quicker = 0.9;    // of the rest of a detour: the direct way is worth changing to
+constexpr double ending = 0.5;     // s: the last part of a motion is not changed, to keep its smooth end
+constexpr double quicker = 0.9;    // of the rest of a detour: faster direct paths replace it
 
-//! Largest part of a change for which |present + part * change| keeps a bound; the best one where none does. 0..1.
+void requireGood(const char *field, double value, bool good, const char *range)
+{
+  if (!good || !std::isfinite(value)) {
+    throw vpException(vpException::badValue, "%s of the direct trajectory avoidance is %g, must be %s", field, value,
+                      range);
+  }
+}
+
+//! Largest fraction of a change for which |present + part * change| keeps a bound; the best one if none does. 0..1.
 double partWithin(const Vector3d &present, const Vector3d &change, double bound)
 {
   const double a = change.squaredNorm(), b = present.dot(change), c = present.squaredNorm() - bound * bound;
@@ -124,7 +132,7 @@ public:
     const vpToolState next = vpToolPath::at(plan, clock);
     scene->place(q, data);
     const Vector3d x = data.arm.tool.p;
-    scene->place(q + 0.5 * period * velocity, data); // half a period on the Jacobian is that of the mean
+    scene->place(q + 0.5 * period * velocity, data); // the Jacobian half a period later is that of the mean
     scene->near(data, motion.spec().repelRange, near);
     const Vector3d wish = (next.x - here) / period + correction * (here - x);
     motion.step(data, near, wish, leaning, orientation, velocity, solved, !stands());
@@ -133,7 +141,7 @@ public:
     finish(q, next, output);
   }
 
-  //! It is not known where the arm is: on the stop that was proven last.
+  //! The arm's state is unknown: follows the last proven stop.
   void stop(const vpJointVector &q, vpAvoidanceOutput &output) noexcept
   {
     supervisor.step(q, velocity, supervised);
@@ -180,11 +188,11 @@ private:
     return result;
   }
 
-  //! Under way on a motion that look() took.
+  //! Moving on a motion chosen by look().
   [[nodiscard]] bool following() const noexcept { return !stopped && !rebase && clock < plan.duration(); }
   [[nodiscard]] vpJointVector posture() const { return spec.usePosture ? goal.q : vpJointVector(); }
 
-  //! At the goal, or where it has to wait: the arm stands, all of it.
+  //! At the goal or a waiting position: the whole arm stands.
   [[nodiscard]] bool stands() const noexcept { return tool.v.norm() < atRest && (stopped || (toGoal && isArrived())); }
 
   vpAvoidanceStatus whyNot(const vpDetourStart &here, vpForecastStatus direct)
@@ -221,7 +229,7 @@ private:
     status = toGoal && task.viaCount == 0 ? vpAvoidanceStatus::Moving : vpAvoidanceStatus::Detouring;
   }
 
-  //! On a detour: is the direct way free by now?
+  //! On a detour: checks whether the direct path has become free.
   void shorten(const vpDetourStart &here)
   {
     vpToolTask direct;
@@ -246,7 +254,7 @@ private:
     toGoal = false;
   }
 
-  //! Joints at their limits may bend the way of the tool, but not harder than its bound allows.
+  //! Joints at their limits may bend the tool path, but only within its acceleration bound.
   void keepAcceleration() noexcept
   {
     const auto J = data.arm.J.topRows<3>();
@@ -255,7 +263,7 @@ private:
     solved.velocity = velocity + partWithin(present, change, bound) * (solved.velocity - velocity);
   }
 
-  //! What was commanded, where that leads, and whether the plan still holds.
+  //! Stores the command and its result, and checks whether the plan is still valid.
   void finish(const vpJointVector &q, const vpToolState &next, vpAvoidanceOutput &output) noexcept
   {
     const double period = spec.common.period;
@@ -286,7 +294,7 @@ private:
                                                                        : vpAvoidanceStatus::Slowed;
   }
 
-  //! The next motion starts from what was allowed.
+  //! The next motion starts from the allowed state.
   void leave(const Vector3d &reached) noexcept
   {
     const Vector3d before = tool.v;
@@ -319,12 +327,12 @@ private:
   vpTrajectoryPlan plan;
   vpStopSupervisor supervisor;
   vpToolState tool;                         // commanded, at the end of the last period
-  Vector3d toolVelocity = Vector3d::Zero(); // that it had in the last period, m/s
+  Vector3d toolVelocity = Vector3d::Zero(); // in the last period, m/s
   Eigen::Matrix3d orientation = Eigen::Matrix3d::Identity();
   vpJointVector leaning;
   double clock = 0.;
   bool rebase = true;  // the next step plans from #tool
-  bool stopped = true; // braking or standing, because nothing is free
+  bool stopped = true; // braking or standing, because no motion is free
   vpClearance pair;
   vpNearPairs near;
   vpRedundancyOutput solved;

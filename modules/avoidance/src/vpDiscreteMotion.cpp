@@ -47,7 +47,7 @@ vpMotionResult vpDiscreteMotion::check(const vpJointVector &from, const vpJointV
   if (collides(0) || collides(n)) {
     return result;
   }
-  // Middles of ever shorter pieces: k = odd multiples of n / 2, n / 4, ... each inner sample once.
+  // Midpoints of ever shorter intervals: k = odd multiples of n / 2, n / 4, ... each inner sample once.
   int top = 1;
   while (top < n) {
     top *= 2;

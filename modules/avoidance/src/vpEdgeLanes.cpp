@@ -10,8 +10,8 @@
 #include <atomic>
 #include <cmath>
 
-// One entry for every generation of the processor, chosen at run time: the build needs no -march, and no type whose layout
-// depends on it crosses a call.
+// One entry per instruction set, chosen at run time: the build needs no -march, and no type whose layout depends on it
+// crosses a call.
 #if defined(__x86_64__) && defined(__GNUC__)
 #define VP_TARGET(set) __attribute__((target(set)))
 #else
@@ -93,8 +93,8 @@ Entry chooseEntry()
   return evaluateBaseline;
 }
 
-// Chosen at the first call, not by an initialiser: those of other files may call it before this file's have run. No lock:
-// whoever chooses, chooses the same.
+// Chosen at the first call, not by an initialiser: those of other files may call it earlier. No lock: all threads
+// choose the same.
 std::atomic<Entry> chosen{nullptr};
 } // namespace
 

@@ -2,8 +2,8 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Included by vpEdgeLanes.cpp once for every width of vector, each time in a namespace that defines vpLane and lanes: not
-// a template, because all of it has to be compiled for the entry's instruction set.
+// Included by vpEdgeLanes.cpp once per vector width, each time in a namespace that defines vpLane and lanes: not
+// a template, because all of it must be compiled for the instruction set of the entry.
 
 struct Frame {
   Vector x, y, z, p;
@@ -17,8 +17,8 @@ struct Twist {
 struct Capsule {
   Vector from, to;         // Ends of the axis.
   Vector fromRate, toRate; // Their velocities.
-  Vector centre;           // Half way.
-  vpLane fastest;          // No point of the axis is faster.
+  Vector centre;           // Midpoint of the axis.
+  vpLane fastest;          // Maximum speed of the axis points.
 };
 
 VP_KERNEL_INLINE vpLane filled(double v) { return constant<vpLane>(v); }
@@ -36,7 +36,7 @@ VP_KERNEL_INLINE vpLane absolute(const vpLane &v) { return v < 0. ? -v : v; }
 VP_KERNEL_INLINE vpLane norm(const Vector &v) { return root(dot(v, v)); }
 VP_KERNEL_INLINE Vector rate(const Twist &t, const Vector &p) { return t.linear + cross(t.angular, p); }
 
-// Cosines and sines of angles at equal steps, from two by turning on.
+// Cosines and sines of equally spaced angles, by recurrence from two.
 VP_KERNEL_INLINE void turns(double first, double step, vpLane &c, vpLane &s)
 {
   c[0] = std::cos(first);
@@ -109,7 +109,7 @@ VP_KERNEL_INLINE void placeCapsules(const vpCollisionScene &scene, const Frame *
   }
 }
 
-// Into the axes of an object.
+// Transforms into the axes of an object.
 VP_KERNEL_INLINE Vector local(const vpRigidTransform &T, const Vector &p)
 {
   const Vector d = p - filled(T.p);
@@ -143,18 +143,18 @@ VP_KERNEL_INLINE Nearest<vpLane> toCore(const vpCollisionCore &core, const Capsu
 }
 
 struct Verdict {
-  vpLane clearance; // Less the margin.
-  vpLane slack;     // What is left of it after the motion.
+  vpLane clearance; // Minus the margin.
+  vpLane slack;     // Remaining clearance after the motion.
 };
 
-// An end of the axis beyond the separating plane, after it has moved.
+// Clearance left between an end of the axis and the separating plane after its motion.
 VP_KERNEL_INLINE vpLane leftOf(const Vector &normal, const vpLane &height, const Vector &speed, double radii,
                                double half, double acceleration)
 {
   return height - radii - normalRounding - half * absolute(dot(normal, speed)) - 0.5 * half * half * acceleration;
 }
 
-//! From the nearest points of convex cores.
+//! Bounds from the nearest points of convex cores.
 VP_KERNEL_INLINE Verdict judge(const Nearest<vpLane> &near, const Capsule &c, const vpLane &need, double radii,
                                double half, double acceleration)
 {
@@ -167,7 +167,7 @@ VP_KERNEL_INLINE Verdict judge(const Nearest<vpLane> &near, const Capsule &c, co
   return v;
 }
 
-// Meshes and octrees: one lane after the other, only where it is needed.
+// Meshes and octrees: lane by lane, only where needed.
 VP_KERNEL_INLINE Verdict walk(const vpCollisionCore &core, const Capsule &c, const vpLane &need, const vpLane &apart,
                               double radii)
 {
@@ -197,7 +197,7 @@ VP_KERNEL_INLINE Verdict judgeObject(const Capsule &c, const vpEdgePair &pair, d
   const vpCollisionCore &core = *pair.core;
   const double radii = pair.radii;
   const vpLane need = smaller(filled(half * pair.speed), half * c.fastest + 0.5 * half * half * pair.acceleration);
-  // Spheres around both: most pairs are done with that.
+  // Bounding spheres first: sufficient for most pairs.
   const vpLane apart = norm(c.centre - filled(core.centre)) - pair.bounds;
   if (all(apart - need)) {
     return {apart, apart - need};
@@ -206,7 +206,7 @@ VP_KERNEL_INLINE Verdict judgeObject(const Capsule &c, const vpEdgePair &pair, d
                          : walk(core, c, need, apart, radii);
 }
 
-// In the frame of the inner capsule's link, where that one stands still.
+// In the frame of the inner capsule's link, where that capsule is at rest.
 VP_KERNEL_INLINE Verdict judgeSelf(const Capsule &inner, const Twist &innerTwist, const Capsule &outer,
                                    const vpEdgePair &pair, double half)
 {
@@ -262,7 +262,7 @@ VP_KERNEL_INLINE bool evaluate(const vpEdgeMotion &motion, const vpEdgePair *pai
     tightest = smaller(tightest, v.slack);
     unsigned int mask = 0;
     for (int l = 0; l < lanes; ++l) {
-      // In this sense, so that a NaN proves nothing.
+      // Written such that NaN proves nothing.
       mask |= v.slack[l] > rounding ? 0U : 1U << l;
     }
     unproven[k] = static_cast<std::uint8_t>((group == 0 ? 0U : unproven[k]) | mask << group);

@@ -43,7 +43,7 @@ Geometry meshOf(const vpTriangleMesh &mesh)
   return model;
 }
 
-// FCL's own octree walks octomap's; its leaves must have one size there.
+// FCL's octree uses octomap's, with leaves of equal size.
 Geometry octreeOf(const vpOctree &octree)
 {
   double finest = std::numeric_limits<double>::infinity();
@@ -86,7 +86,7 @@ Geometry geometryOf(const vpCollisionShape &shape)
 struct vpFclChecker::Bodies {
   std::vector<Geometry> capsules;
   std::vector<Geometry> objects;
-  std::vector<fcl::Transform3d> at; // Of the capsules, in the base.
+  std::vector<fcl::Transform3d> at; // Poses of the capsules in the base.
 
   void place(const vpCollisionScene &scene, const vpCollisionData &data)
   {
@@ -118,7 +118,7 @@ struct vpFclChecker::Bodies {
     return fcl::collide(a.get(), atA, b.get(), atB, request, result) > 0;
   }
 
-  // Calls take(a, at a, b, at b, inflation, pair) for every pair that must not touch, until it says true.
+  // Calls take(a, at a, b, at b, inflation, pair) for every pair that must not touch, until it returns true.
   template <class Take> void each(const vpCollisionScene &scene, Take take) const
   {
     for (int j = 0; j < scene.objectCount(); ++j) {
@@ -191,7 +191,7 @@ vpClearance vpFclChecker::clearance(const vpJointVector &q, double cutoff)
 {
   m_scene->place(q, m_data);
   if (!m_data.placed || std::isnan(cutoff)) {
-    return m_scene->clearance(m_data, cutoff); // says what is wrong
+    return m_scene->clearance(m_data, cutoff); // reports the error
   }
   m_bodies->place(*m_scene, m_data);
   vpClearance best;

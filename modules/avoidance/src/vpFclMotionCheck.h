@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// FCL where the module was built with it, an error where not.
+// FCL if the module was built with it, otherwise an error.
 #ifndef vpFclMotionCheck_h
 #define vpFclMotionCheck_h
 
@@ -14,7 +14,7 @@ BEGIN_VISP_NAMESPACE
 
 namespace vpFclMotionCheck
 {
-//! \throw vpException (notImplementedError) when FCL was missing.
+//! \throw vpException (notImplementedError) if built without FCL.
 [[nodiscard]] std::unique_ptr<vpCollisionChecker> makeChecker(const vpCollisionScene &scene);
 } // namespace vpFclMotionCheck
 

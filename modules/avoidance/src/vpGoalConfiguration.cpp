@@ -14,7 +14,7 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-constexpr double period = 0.02; // s of a motion that nobody makes: only its end counts
+constexpr double period = 0.02; // s, of a virtual motion of which only the end is used
 constexpr int longest = 1500;   // periods
 
 vpJointVector randomConfiguration(const vpArmModel &arm, std::mt19937_64 &random)

@@ -2,8 +2,8 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Two, four or eight doubles as one number: the width of the registers of a generation of processors. Include before
-// vpSegmentKernel.h, whose templates must find root().
+// Vectors of two, four or eight doubles, for different register widths. Include before vpSegmentKernel.h, whose
+// templates must find root().
 #ifndef vpLane_h
 #define vpLane_h
 

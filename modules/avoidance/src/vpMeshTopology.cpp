@@ -20,7 +20,7 @@ using Edges = std::map<std::pair<int, int>, std::vector<int>>; // their triangle
 
 struct Shell {
   std::vector<int> triangles;
-  bool turned = false; // some of its triangles had to be
+  bool turned = false; // some of its triangles were reversed
   double volume = 0.;  // times 6; > 0: outwards
   Eigen::AlignedBox3d box;
 };
@@ -31,7 +31,7 @@ std::pair<int, int> edgeOf(const std::array<int, 3> &t, std::size_t k) { return 
 
 void turn(std::array<int, 3> &t) { std::swap(t[1], t[2]); }
 
-// All triangles that hang together with the first one by edges of two triangles, turned as that one.
+// All triangles connected to the first one by edges of two triangles, with the same orientation.
 Shell spread(int first, const Edges &edges, Triangles &triangles, std::vector<bool> &seen, int &twisted)
 {
   Shell shell;
@@ -47,7 +47,7 @@ Shell spread(int first, const Edges &edges, Triangles &triangles, std::vector<bo
       }
       const int other = uses[0] == here ? uses[1] : uses[0];
       std::array<int, 3> &t = triangles[at(other)];
-      // It should have the edge in the opposite sense.
+      // The neighbour should have the edge in the opposite direction.
       const bool same = (t[0] == from && t[1] == to) || (t[1] == from && t[2] == to) || (t[2] == from && t[0] == to);
       if (!seen[at(other)]) {
         seen[at(other)] = true;

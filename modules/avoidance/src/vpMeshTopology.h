@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Is a set of triangles a solid, and which side of them is outside?
+// Determines whether a set of triangles is a solid, and orients it outwards.
 #ifndef vpMeshTopology_h
 #define vpMeshTopology_h
 
@@ -16,13 +16,13 @@
 BEGIN_VISP_NAMESPACE
 
 struct vpMeshTopology {
-  int openEdges = 0;  // of one triangle
-  int otherEdges = 0; // of more than two, or between triangles that cannot be turned to the same side
+  int openEdges = 0;  // edges of one triangle
+  int otherEdges = 0; // edges of more than two, or between triangles that cannot be oriented consistently
 };
 
 /*
- * Turns the triangles of each closed shell to the same side, and that to the outside. A shell that is turned inwards as a
- * whole stays so, as a cavity, when it lies within the bounds of another one; turned outwards it would count as filled.
+ * Orients the triangles of each closed shell consistently outwards. A shell that is oriented inwards as a whole is
+ * kept, as a cavity, if it lies within the bounds of another one; oriented outwards it would count as filled.
  */
 vpMeshTopology vpOrientMesh(const std::vector<Eigen::Vector3d> &vertices, std::vector<std::array<int, 3>> &triangles);
 

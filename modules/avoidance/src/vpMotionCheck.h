@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// One question for three ways of looking at a motion.
+// Common interface of the three motion checks.
 #ifndef vpMotionCheck_h
 #define vpMotionCheck_h
 

@@ -16,12 +16,12 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-constexpr double farAhead = 60.;  // s: nobody waits so long for the next picture
-constexpr double eternity = 1e11; // s: no clock shows more
+constexpr double farAhead = 60.;  // s: longest plausible gap between images
+constexpr double eternity = 1e11; // s: largest plausible time
 
 bool isPositive(double value) { return std::isfinite(value) && value > 0.; }
 bool isTime(double value) { return std::fabs(value) <= eternity; }   // false for NaN
-bool isSigma(double value) { return value >= 1e-9 && value <= 1e3; } // its square and the inverse of that are of use
+bool isSigma(double value) { return value >= 1e-9 && value <= 1e3; } // its square and the inverse of that are usable
 
 bool isGood(const vpObjectSighting &sighting)
 {
@@ -39,7 +39,7 @@ bool isSame(const vpCollisionShape &a, const vpCollisionShape &b)
                                            : true;
 }
 
-//! Of the point farthest from the shape's origin, m.
+//! Distance of the farthest point from the shape's origin, m.
 double reach(const vpCollisionShape &shape)
 {
   double farthest = 0.;
@@ -153,7 +153,7 @@ bool vpObjectTracks::add(const vpObjectSighting &sighting)
   else {
     i = static_cast<std::size_t>(known - m_tracks.data());
     if (std::isfinite(m_now) &&
-        m_filters[i].time() > m_now + farAhead) { // seen before the clock was known, by a wrong one
+        m_filters[i].time() > m_now + farAhead) { // seen before the clock was known, with a wrong time
       m_filters[i] = vpTrackFilter(sighting, m_spec);
       m_filters[i].setReach(reach(m_tracks[i].shape));
     }
@@ -161,7 +161,7 @@ bool vpObjectTracks::add(const vpObjectSighting &sighting)
       return false;
     }
     if (!m_filters[i].add(sighting, m_spec)) {
-      refresh(i); // confidence has fallen
+      refresh(i); // confidence has decreased
       return false;
     }
   }
@@ -186,7 +186,7 @@ bool vpObjectTracks::advance(double now)
   if (!isTime(now) || now < m_now) {
     return false;
   }
-  const bool agrees = now > m_doubted && now <= m_doubted + farAhead; // not a clock that stands
+  const bool agrees = now > m_doubted && now <= m_doubted + farAhead; // not a stopped clock
   if (std::isfinite(m_now) && now > m_now + farAhead && !agrees) {
     m_doubted = now;
     return false;
@@ -205,7 +205,7 @@ bool vpObjectTracks::advance(double now)
   return true;
 }
 
-// Returns true when the list of objects changed.
+// Returns true if the list of objects changed.
 bool vpObjectTracks::place(vpCollisionScene &scene, const vpObjectTrack &track)
 {
   const int i = scene.find(track.name);
@@ -227,7 +227,7 @@ bool vpObjectTracks::place(vpCollisionScene &scene, const vpObjectTrack &track)
   return true;
 }
 
-// Objects whose tracks are gone. Returns true when the list of objects changed.
+// Removes objects whose tracks were dropped. Returns true if the list of objects changed.
 bool vpObjectTracks::withdraw(vpCollisionScene &scene)
 {
   bool changed = false;

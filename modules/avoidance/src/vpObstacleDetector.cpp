@@ -22,8 +22,8 @@ namespace
 {
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-constexpr double longestMotion = 0.2; // s; over a longer time a velocity says little
-constexpr double eternity = 1e11;     // s: no clock shows more
+constexpr double longestMotion = 0.2; // s; velocities over longer times are not meaningful
+constexpr double eternity = 1e11;     // s: largest plausible time
 
 double square(double x) { return x * x; }
 
@@ -33,7 +33,7 @@ double worst(const Eigen::Matrix3d &covariance)
   return solver.eigenvalues()(2);
 }
 
-// What four corners tell of the pose: place of the body's middle and rotation, both in the axes of the camera, per px^2.
+// Information of four corners on position of the body's centre and rotation, in the camera axes, per px^2.
 Matrix6 information(const vpRigidTransform &cMo, double width, double height, double depth,
                     const vpCameraParameters &camera)
 {
@@ -54,8 +54,8 @@ Matrix6 information(const vpRigidTransform &cMo, double width, double height, do
   return sum;
 }
 
-// A correlation of c is that of a picture with a noise of sqrt(1 / c^2 - 1) times its contrast. A part of the target
-// tells less than the whole: less area, and over a shorter lever.
+// A correlation of c corresponds to an image with a noise of sqrt(1 / c^2 - 1) times its contrast. A part of the target
+// gives less information than the whole: less area, and a shorter lever.
 double pixelVariance(const vpPlanarTargetResult &result, const vpObstacleDetectorSpec &spec)
 {
   const double c = std::clamp(result.correlation, 0.1, 1.), visible = std::clamp(result.visible, 0.05, 1.);
@@ -89,7 +89,7 @@ vpPlanarTargetConfig vpObstacleDetector::fastTargets()
   vpPlanarTargetConfig config;
   config.fallback = false;
   config.refinementSize = 120;
-  config.exact = false; // this class has its own, wider figures for the errors
+  config.exact = false; // this class has its own, larger error estimates
   return config;
 }
 
@@ -151,7 +151,7 @@ const std::vector<vpObstacleDetection> &vpObstacleDetector::process(const vpImag
   return m_detections;
 }
 
-// By the camera's motion and, when it was seen twice of late, by the target's own.
+// Predicts by the camera's motion and, if seen twice recently, by the target's own.
 void vpObstacleDetector::predict(const vpRigidTransform &fMc, double time)
 {
   for (std::size_t i = 0; i < m_memory.size(); ++i) {

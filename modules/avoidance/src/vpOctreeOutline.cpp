@@ -18,7 +18,7 @@ namespace
 {
 constexpr const char *binaryHead = "# Octomap OcTree binary file";
 constexpr const char *fullHead = "# Octomap OcTree file";
-constexpr int levels = 16; // of octomap's trees
+constexpr int levels = 16; // levels of octomap's trees
 
 [[noreturn]] void fail(const std::string &file, const std::string &what) { throw vpFileError(file + ": " + what); }
 
@@ -70,12 +70,12 @@ vpOctreeOutline readHead(const std::string &bytes, const std::string &file)
   return head;
 }
 
-//! Which children a node has, and which of them are described by nodes of their own.
+//! Children of a node, and those described by their own nodes.
 struct Children {
   unsigned long all = 0, described = 0;
 };
 
-// Two bits a child: 01 and 10 are leaves, 11 is described farther on.
+// Two bits per child: 01 and 10 are leaves, 11 is described later.
 Children binaryNode(const char *record)
 {
   Children children;
@@ -89,7 +89,7 @@ Children binaryNode(const char *record)
   return children;
 }
 
-// A value and a bit a child; all children are described farther on.
+// A value and one bit per child; all children are described later.
 Children fullNode(const char *record, const std::string &file)
 {
   float value = 0.;
@@ -106,7 +106,7 @@ void requireNodes(const std::string &bytes, const vpOctreeOutline &head, const s
   const std::size_t record = head.binary ? 2 : 5;
   std::size_t at = head.data;
   unsigned long nodes = head.size > 0 ? 1 : 0;
-  // Depths of the nodes that are still to come: the last one is next, as in the file.
+  // Depths of the pending nodes: the last one is next, as in the file.
   std::vector<int> coming(head.size > 0 ? 1 : 0, 0);
   while (!coming.empty()) {
     const int depth = coming.back();

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpOctreeOutline.h
- * \brief What a file must be before octomap may read it.
+ * \brief Checks a file before it is passed to octomap.
  */
 #ifndef vpOctreeOutline_h
 #define vpOctreeOutline_h
@@ -12,19 +12,19 @@
 #include <cstddef>
 #include <string>
 
-//! What the head of a file of octomap tells.
+//! Header of an octomap file.
 struct vpOctreeOutline {
-  bool binary = false;    //!< .bt: two bits a child; else .ot: values.
-  double resolution = 0.; //!< m.
-  unsigned long size = 0; //!< Nodes.
-  std::size_t data = 0;   //!< Where the nodes begin, byte.
+  bool binary = false;    //!< .bt: two bits per child; else .ot: values.
+  double resolution = 0.; //!< Resolution, m.
+  unsigned long size = 0; //!< Number of nodes.
+  std::size_t data = 0;   //!< Offset of the nodes, bytes.
 };
 
 /*!
- * Go through the bytes of a file of octomap, .bt or .ot, once, without recursion.
+ * Checks the bytes of an octomap file, .bt or .ot, in one pass, without recursion.
  *
- * octomap recurses into nodes without a bound, reads on beyond the end of a file that is cut off, and tells what it does
- * not like to the terminal. So the tree must have at most 16 levels, all nodes that the head promises and finite values.
+ * octomap recurses into nodes without a bound, reads beyond the end of a truncated file, and prints errors to the
+ * terminal. So the tree must have at most 16 levels, all nodes announced in the header, and finite values.
  * \throw vpFileError
  */
 vpOctreeOutline vpRequireOctree(const std::string &bytes, const std::string &file);

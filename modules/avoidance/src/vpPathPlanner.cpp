@@ -47,7 +47,7 @@ vpJointVector jointsOf(const ob::State *state, int n)
   return Eigen::Map<const Eigen::VectorXd>(state->as<Space::StateType>()->values, n);
 }
 
-// OMPL's view of our checks.
+// Adapter of the motion checks for OMPL.
 class Validity : public ob::StateValidityChecker
 {
 public:
@@ -76,7 +76,7 @@ public:
   {
     const vpMotionResult result = check(from, to);
     if (!result.isFree()) {
-      // Only the start is known to be free: what lies before the place that was found need not be.
+      // Only the start is known to be free: the part before the collision found need not be.
       lastValid.second = 0.;
       if (lastValid.first != nullptr) {
         si_->copyState(lastValid.first, from);
@@ -97,7 +97,7 @@ private:
   int m_n;
 };
 
-// With a seed of its own: planners ask for samplers while they search, when other threads do so, too.
+// With its own seed: planners create samplers while searching, possibly in several threads.
 class Sampler : public ob::RealVectorStateSampler
 {
 public:
@@ -136,7 +136,7 @@ ob::PlannerPtr makePlanner(const vpPathPlannerSpec &spec, const ob::SpaceInforma
   return withRange<og::RRTConnect>(si, spec.range);
 }
 
-// OMPL's seeds come from one generator of the process.
+// OMPL's seeds come from one process-wide generator.
 std::mutex &seedLock()
 {
   static std::mutex lock;
@@ -148,7 +148,7 @@ vpJointVector withinLimits(const vpArmModel &arm, const vpJointVector &q)
   return q.cwiseMax(arm.lower()).cwiseMin(arm.upper());
 }
 
-//! With all digits, so that two numbers that differ look so.
+//! With all digits, so that different numbers are printed differently.
 std::string exactly(double value)
 {
   char text[40];
@@ -156,7 +156,7 @@ std::string exactly(double value)
   return text;
 }
 
-// The goal's angles of continuous joints, by the short way from the start.
+// The goal with continuous joints by the shorter way from the start.
 vpJointVector nearGoal(const vpArmModel &arm, const vpJointVector &start, const vpJointVector &goal)
 {
   vpJointVector near = goal;
@@ -174,7 +174,7 @@ ob::StateSpacePtr makeSpace(const vpArmModel &arm, const vpJointVector &start, c
   ob::RealVectorBounds bounds(static_cast<unsigned int>(arm.size()));
   for (int i = 0; i < arm.size(); ++i) {
     const auto k = static_cast<unsigned int>(i);
-    // A whole turn is room enough for a joint without limits.
+    // One full turn suffices for a joint without limits.
     bounds.setLow(k, arm.isContinuous(i) ? std::min(start(i), goal(i)) - M_PI : arm.lower()(i));
     bounds.setHigh(k, arm.isContinuous(i) ? std::max(start(i), goal(i)) + M_PI : arm.upper()(i));
   }
@@ -208,10 +208,10 @@ public:
   {
     spec.validate();
     check = vpMotionCheck::create(s, p);
-    ompl::msg::noOutputHandler(); // what it would print is in the result
+    ompl::msg::noOutputHandler(); // its messages are part of the result
   }
 
-  //! Why a configuration cannot be an end of the path; Solved when it can.
+  //! Reason why a configuration cannot be an end of the path; Solved if it can.
   vpPathStatus judge(const vpJointVector &q, bool isStart, std::string &sentence)
   {
     const vpArmModel &arm = scene->arm();
@@ -281,7 +281,7 @@ public:
     result.status = exact ? vpPathStatus::Solved : vpPathStatus::TimedOut;
   }
 
-  //! Of a search, for messages.
+  //! Description of a search, for messages.
   [[nodiscard]] std::string limits() const
   {
     const std::string time = std::to_string(spec.timeLimit) + " s";

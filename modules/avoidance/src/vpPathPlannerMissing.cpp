@@ -24,7 +24,7 @@ void vpPathPlanner::setTimeLimit(double) noexcept {}
 void vpPathPlanner::setSeed(unsigned int) noexcept {}
 const vpPathPlannerSpec &vpPathPlanner::spec() const noexcept
 {
-  static const vpPathPlannerSpec none; // there is no object to ask
+  static const vpPathPlannerSpec none; // no object can exist
   return none;
 }
 

@@ -17,10 +17,9 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-constexpr vpFieldCheck fields("the planned motion");
-constexpr double ending = 0.5;  // s: the last part of a motion is left as it is, or its smooth end would be lost
-constexpr double quicker = 0.9; // of what is left: a new motion is worth changing to
-constexpr double slack = 1e-4;  // m: the rest of a motion is proven again with so much less margin
+constexpr double ending = 0.5;  // s: the last part of a motion is not changed, to keep its smooth end
+constexpr double quicker = 0.9; // of the remaining time: faster new motions replace it
+constexpr double slack = 1e-4;  // m: reduction of the margin when proving the rest of a motion again
 
 vpPathPlannerSpec plannerSpec(const vpPlannedMotionSpec &spec, double clearance)
 {
@@ -89,7 +88,7 @@ vpPlannedMotion::State vpPlannedMotion::state(double t) const
   return result;
 }
 
-// The scene as it will be; objects may have come and gone since the last time.
+// Predicts the scene; objects may have been added or removed since the last time.
 void vpPlannedMotion::predict(double time)
 {
   if (m_view.revision() != m_scene->revision()) {
@@ -192,7 +191,7 @@ bool vpPlannedMotion::restIsFree()
   return true;
 }
 
-// The path's points that are still to come, from where the motion is.
+// Remaining points of the path, from the current state of the motion.
 vpJointPath vpPlannedMotion::restOfPath() const
 {
   vpJointPath path;
@@ -212,7 +211,7 @@ vpJointPath vpPlannedMotion::restOfPath() const
   return path;
 }
 
-// With room first, then with the margin alone; never twice with the same seed.
+// First with clearance, then with the margin alone; never twice with the same seed.
 vpPathResult vpPlannedMotion::findPath(const vpJointVector &from, double time)
 {
   predict(time);
@@ -331,7 +330,7 @@ bool vpPlannedMotion::planOnTheFly()
   return stopAndPlan();
 }
 
-// What was in the way may be gone: the rest of the path sooner, or straight to the goal.
+// The obstacle may be gone: tries the rest of the path faster, or straight to the goal.
 void vpPlannedMotion::hasten()
 {
   const State here = state(m_clock);
@@ -349,7 +348,7 @@ void vpPlannedMotion::hasten()
   }
 }
 
-// A stop that is free, and a path that is free behind it.
+// A free stop, and a free path after it.
 bool vpPlannedMotion::stopAndPlan()
 {
   for (const vpTrajectoryPlan &stop : stops()) {
@@ -376,7 +375,7 @@ bool vpPlannedMotion::stopAndPlan()
   return false;
 }
 
-// Straight on, and to places that the motion would go through next: all joints at rest there as soon as they can.
+// Stops straight on, and at the next points of the motion: all joints at rest there as soon as possible.
 std::vector<vpTrajectoryPlan> vpPlannedMotion::stops() const
 {
   const vpArmModel &arm = m_scene->arm();

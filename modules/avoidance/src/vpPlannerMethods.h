@@ -11,7 +11,7 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! vpPlannedMotion. \throw vpException (notImplementedError) when OMPL was missing.
+//! Creates a vpPlannedMotion. \throw vpException (notImplementedError) if built without OMPL.
 [[nodiscard]] std::unique_ptr<vpAvoidanceMethod> makePlannedMotion(const vpCollisionScene &scene, bool onTheFly,
                                                                    const vpAvoidanceMethodSpec &spec);
 

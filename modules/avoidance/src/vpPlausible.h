@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Is it what it should be, and of a size that can be true? False for NaN.
+// Checks of validity and plausible magnitude. False for NaN.
 #ifndef vpPlausible_h
 #define vpPlausible_h
 
@@ -12,14 +12,14 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! A rotation (to 1e-6) and a translation, of any finite size.
+//! True for a rotation (to 1e-6) and any finite translation.
 inline bool vpIsRigid(const vpRigidTransform &T)
 {
   return T.p.allFinite() && T.R.allFinite() &&
          (T.R * T.R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < 1e-6 && T.R.determinant() > 0.;
 }
 
-//! A rotation and a place within vpLargestLength.
+//! True for a rotation and a translation within vpLargestLength.
 inline bool vpIsPlace(const vpRigidTransform &T)
 {
   return vpIsRigid(T) && (T.p.cwiseAbs().array() <= vpLargestLength).all();

@@ -18,9 +18,16 @@ namespace
 {
 constexpr vpFieldCheck fields("the potential field");
 using Eigen::Vector3d;
-constexpr double still = 2e-3; // m/s: a slower tool stands
+constexpr double still = 2e-3; // m/s: a slower tool counts as standing
 
-//! The arm as the text drives it: no limits of velocity and acceleration.
+void requireGood(const char *field, double value)
+{
+  if (!(value > 0.) || !std::isfinite(value)) {
+    throw vpException(vpException::badValue, "%s of the potential field is %g, must be > 0", field, value);
+  }
+}
+
+//! The arm as in the text: no velocity and acceleration limits.
 vpArmModel withoutMotionLimits(const vpArmModel &arm)
 {
   vpArmSpec spec = arm.spec();
@@ -62,7 +69,7 @@ public:
     }
   }
 
-  //! In the configuration that was placed.
+  //! Evaluated in the placed configuration.
   void step(vpAvoidanceOutput &output) noexcept
   {
     scene->near(data, cutoff(), near);
@@ -86,7 +93,7 @@ public:
     starting = starting && stands;
   }
 
-  //! The obstacle next to the image's centre, while its own centre is in the picture.
+  //! The obstacle nearest to the image's centre, if its own centre is in the image.
   Vector3d asPrinted(const Vector3d &task, bool &avoiding) const noexcept
   {
     const vpRigidTransform fMc = vpArmKinematics::camera(arm, data.arm);
@@ -108,7 +115,7 @@ public:
     return fMc.R * blendAsPrinted(spec.pixels, nearest, away, fMc.R.transpose() * task);
   }
 
-  //! All that is near the last link, the nearest last: it decides.
+  //! All obstacles near the last link, the nearest last: it decides.
   Vector3d radial(const Vector3d &task, bool &avoiding, vpClearance &nearest) noexcept
   {
     Vector3d velocity = task;

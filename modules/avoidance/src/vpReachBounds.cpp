@@ -19,11 +19,11 @@ using Eigen::Vector3d;
 constexpr int elevations = 180; // Steps of the support function from -pi/2 to pi/2.
 constexpr int turns = 180;      // Steps of half a turn about z.
 constexpr double pi = 3.14159265358979323846;
-constexpr double beyond = 0.05; // of a prismatic joint's range: so far outside it may be found, and brought back
+constexpr double beyond = 0.05; // of a prismatic joint's range: tolerated distance outside its limits
 
 /*
  * Support function of a body of revolution about z: h(phi) = max over the body of x cos(phi) + z sin(phi), at samples.
- * Between them a direction is a combination of its two neighbours with weights >= 0, and h is sublinear, so the same
+ * A direction in between is a combination of its two neighbours with weights >= 0, and h is sublinear, so the same
  * combination of samples bounds it from above.
  */
 class Profile
@@ -33,7 +33,7 @@ public:
   static double sine(int k) { return table().sine[at(k)]; }
   static double cosine(int k) { return table().cosine[at(k)]; }
 
-  // At the direction whose sine is s.
+  // Value at the direction with the sine s.
   [[nodiscard]] double operator()(double s) const
   {
     const Table &t = table();
@@ -79,7 +79,7 @@ private:
   std::array<double, elevations + 1> m_values{};
 };
 
-// What a capsule can reach seen from a joint: a body of revolution about some axis, put at any of some places (a prismatic
+// Reach of a capsule relative to a joint: a body of revolution about an axis, at any of several positions (a prismatic
 // joint gives two, its ends); before the first revolute joint just the points themselves.
 struct Reach {
   bool revolved = false;
@@ -88,7 +88,7 @@ struct Reach {
   std::vector<Vector3d> places;
 };
 
-// Seen from the frame before, which T places this one in.
+// Transforms into the preceding frame, in which T is the pose of this one.
 void step(const vpRigidTransform &T, Reach &reach)
 {
   reach.axis = T.R * reach.axis;
@@ -116,11 +116,11 @@ double support(const Reach &reach, const Vector3d &u)
   return reach.revolved ? most + reach.body(std::clamp(u.dot(reach.axis), -1., 1.)) : most;
 }
 
-// All turns about z.
+// All rotations about z.
 void turn(Reach &reach)
 {
-  // A direction u between two neighbours u1 and u2 of a circle of one elevation is w1 u1 + w2 u2 and some of z, with w1 +
-  // w2 <= 1 + e, e = 1 / cos(half a step) - 1: h(u) <= max(h(u1), h(u2)) + 2 e times the body's farthest point.
+  // A direction u between two neighbours u1 and u2 of a circle of one elevation is w1 u1 + w2 u2 and some of z, with w1
+  // + w2 <= 1 + e, e = 1 / cos(half a step) - 1: h(u) <= max(h(u1), h(u2)) + 2 e times the body's farthest point.
   double farthest = 0., away = 0.;
   for (int k = 0; reach.revolved && k <= elevations; ++k) {
     farthest = std::max(farthest, std::fabs(reach.body.value(k)));
@@ -182,7 +182,7 @@ vpReachBounds::vpReachBounds(const vpArmModel &arm)
       }
       else {
         turn(reach);
-        // The body is about z now: its extent at elevation 0 is its distance from the axis.
+        // The body is now about z: its extent at elevation 0 is its distance from the axis.
         bound = reach.body.value(elevations / 2) * (1. + 1e-12);
       }
     }

@@ -11,18 +11,18 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-// What rests is believed to rest until this much more speaks against it, so that noise does not set it in motion.
+// Hysteresis: factor on the thresholds for leaving rest, so that noise does not cause motion.
 constexpr double slopeHysteresis = 1.5, scatterHysteresis = 2.;
 } // namespace
 
-// Weighted least squares of a straight line through the newest ones.
+// Weighted least-squares line through the newest measurements.
 vpRestTest::Line vpRestTest::fit(int count) const
 {
   Line line;
   for (int k = 0; k < count; ++k) {
     const Sample &s = newest(k);
     line.weight += s.weight;
-    line.time += s.weight * (s.time - newest(0).time); // differences: clocks may show large numbers
+    line.time += s.weight * (s.time - newest(0).time); // differences: times may be large numbers
     line.mean += s.weight * (s.value - newest(0).value);
   }
   line.time = newest(0).time + line.time / line.weight;
@@ -45,7 +45,7 @@ bool vpRestTest::isConstant(const Line &line, int count, double slopeSigmas, dou
          line.scatter <= freedom + scatterSigmas * std::sqrt(2. * freedom);
 }
 
-// Fewest of the newest measurements whose slope is known well enough; 0 when all are too few.
+// Smallest number of newest measurements with sufficient accuracy of the slope; 0 if all are too few.
 int vpRestTest::enough(const Limits &limits) const
 {
   for (int count = 3; count <= m_count; ++count) {
@@ -68,7 +68,7 @@ void vpRestTest::add(double time, const Eigen::Vector3d &value, double variance,
   }
   const Line line = fit(count);
   if (m_resting > 0) {
-    // The few newest see a start soon, all of them a slow creep.
+    // The few newest detect a start quickly, all together detect slow creep.
     m_resting = std::max(std::min(m_resting + 1, capacity), count);
     m_line = fit(m_resting);
     const double slope = slopeHysteresis * limits.sigmas, scatter = scatterHysteresis * limits.sigmas;

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpRestTest.h
- * \brief Internal: does a point move, or is it only noise?
+ * \brief Internal: distinguishes motion of a point from noise.
  */
 #ifndef vpRestTest_h
 #define vpRestTest_h
@@ -18,29 +18,29 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
- * \brief The last measurements of a vector, and whether a constant explains them.
+ * \brief Tests whether a constant explains the last measurements of a vector.
  *
- * A Kalman filter that follows manoeuvres has a noisy velocity. A straight line through many measurements has a better
- * one, so rest is decided by that. Does not allocate.
+ * A Kalman filter that follows manoeuvres has a noisy velocity. A straight line through many measurements is more
+ * accurate, so it decides on rest. Does not allocate.
  */
 class vpRestTest
 {
 public:
-  //! What counts as rest.
+  //! Criteria for rest.
   struct Limits {
-    double sigmas; //!< Slope below so many of its standard deviations; 0: never at rest.
-    double speed;  //!< Only as many measurements as tell this speed from 0 can tell.
+    double sigmas; //!< Maximum slope in standard deviations; 0: never at rest.
+    double speed;  //!< Only enough measurements to distinguish this speed from 0 decide.
   };
 
-  //! Forgets everything.
+  //! Clears all measurements.
   void clear() { *this = vpRestTest(); }
-  //! The next measurement. \param variance : Of each of its components.
+  //! Adds a measurement. \param variance : Variance of each component.
   void add(double time, const Eigen::Vector3d &value, double variance, const Limits &limits);
-  //! True when the last measurements are those of something that does not move.
+  //! True if the last measurements are those of a resting object.
   [[nodiscard]] bool isResting() const { return m_resting > 0; }
-  //! Where it rests.
+  //! Rest position.
   [[nodiscard]] const Eigen::Vector3d &place() const { return m_line.mean; }
-  //! Variance of each component of place() at \e time, for all that is known of its slope.
+  //! Variance of each component of place() at \e time, including that of the slope.
   [[nodiscard]] double variance(double time) const;
   //! Variance of each component of the slope.
   [[nodiscard]] double slopeVariance() const { return 1. / m_line.spread; }
@@ -67,8 +67,8 @@ private:
 
   std::array<Sample, capacity> m_samples;
   int m_count = 0, m_next = 0;
-  int m_resting = 0; // so many of the newest
-  Line m_line;       // through these
+  int m_resting = 0; // number of newest measurements at rest
+  Line m_line;       // line through these
 };
 
 END_VISP_NAMESPACE

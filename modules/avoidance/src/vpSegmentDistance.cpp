@@ -19,7 +19,7 @@ namespace
 namespace kernel = vpSegmentKernel;
 using V3 = kernel::V3<double>;
 
-// No number of theirs is NaN or so large that squares or products of squares overflow.
+// True if no number is NaN or so large that squares or products of squares overflow.
 template <class... Vectors> bool arePlausible(const Vectors &...vectors)
 {
   constexpr double largest = 100. * vpLargestLength;
@@ -45,7 +45,7 @@ void keepNearer(const vpNearestPoints &candidate, vpNearestPoints &best)
   }
 }
 
-// The point of the triangle's plane nearest to p, if it lies inside the triangle.
+// Projection of p onto the triangle's plane, if it lies inside the triangle.
 void offerFace(const Eigen::Vector3d &p, const Eigen::Vector3d &a, const Eigen::Vector3d &b, const Eigen::Vector3d &c,
                const Eigen::Vector3d &n, vpNearestPoints &best)
 {
@@ -95,7 +95,7 @@ vpNearestPoints triangle(const Eigen::Vector3d &from, const Eigen::Vector3d &to,
   offerFace(to, a, b, c, n, best);
   const double before = (from - a).dot(n), after = (to - a).dot(n);
   if (before * after < 0.) {
-    // It goes through the plane: the crossing is inside the triangle or an edge is nearest.
+    // The segment crosses the plane: the intersection is inside the triangle, or an edge is nearest.
     offerFace(from + before / (before - after) * (to - from), a, b, c, n, best);
   }
   return best;

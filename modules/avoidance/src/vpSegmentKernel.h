@@ -20,7 +20,7 @@ namespace vpSegmentKernel
 template <class T> struct V3 {
   T x, y, z;
 };
-//! Nearest points, a on the segment and b on the other thing, and their distance.
+//! Nearest points, a on the segment and b on the other body, and their distance.
 template <class T> struct Nearest {
   T distance;
   V3<T> a, b;
@@ -67,7 +67,7 @@ template <class T> VP_KERNEL_INLINE Nearest<T> toPoint(const V3<T> &from, const 
   return {root(dot(gap, gap)), a, point};
 }
 
-//! Keeps the nearer of the best so far and the points at s and t.
+//! Keeps the nearer of the best result and the points at s and t.
 template <class T>
 VP_KERNEL_INLINE void offer(const V3<T> &p, const V3<T> &d, const V3<T> &q, const V3<T> &e, const T &s, const T &t,
                             T &squared, V3<T> &a, V3<T> &b)
@@ -80,8 +80,8 @@ VP_KERNEL_INLINE void offer(const V3<T> &p, const V3<T> &d, const V3<T> &q, cons
 }
 
 /*
- * The least of five: inside both segments, and each of the four ends. Inside, s = ((q - p) x e) . n / n . n with n = d x
- * e keeps its accuracy for nearly parallel segments, where the usual d.d e.e - (d.e)^2 is all cancellation.
+ * Minimum of five: inside both segments, and each of the four ends. Inside, s = ((q - p) x e) . n / n . n with n = d x
+ * e keeps its accuracy for nearly parallel segments, where the usual d.d e.e - (d.e)^2 suffers from cancellation.
  */
 template <class T>
 VP_KERNEL_INLINE Nearest<T> toSegment(const V3<T> &p, const V3<T> &pEnd, const V3<T> &q, const V3<T> &qEnd)
@@ -123,8 +123,8 @@ template <class T> VP_KERNEL_INLINE T boxSlope(const V3<T> &p, const V3<T> &d, c
 }
 
 /*
- * Box about the origin. The squared distance is convex and piecewise quadratic in t, its slope rises piecewise linearly
- * with at most six kinks: the two nearest kinks about the root give it exactly.
+ * Box centred at the origin. The squared distance is convex and piecewise quadratic in t, its slope increases piecewise
+ * linearly with at most six kinks: the two kinks enclosing the root give it exactly.
  */
 template <class T> VP_KERNEL_INLINE Nearest<T> toBox(const V3<T> &from, const V3<T> &to, const V3<T> &half)
 {
@@ -157,10 +157,10 @@ VP_KERNEL_INLINE T cylinderSlope(const V3<T> &p, const V3<T> &d, const T &radius
   return ratio(out * (x * d.x + y * d.y), rho) + d.z * over;
 }
 
-//! One configuration is solved to the end; eight take as many steps as nearly all of them need.
+//! One configuration is solved completely; eight take as many steps as nearly all of them need.
 template <class T> constexpr int rootSteps() { return 18; }
-template <> constexpr int rootSteps<double>() { return 50; } // The last one no bisection.
-//! The squared distance f is convex: at a slope 2 g it is above its least value by no more than 2 |g| (high - low).
+template <> constexpr int rootSteps<double>() { return 50; } // The last one is not a bisection.
+//! The squared distance f is convex: at a slope 2 g it exceeds its minimum by at most 2 |g| (high - low).
 template <class T> VP_KERNEL_INLINE bool isClosed(const T &, const T &, const T &) { return false; }
 template <> VP_KERNEL_INLINE bool isClosed(const double &width, const double &g, const double &squared)
 {
@@ -168,9 +168,9 @@ template <> VP_KERNEL_INLINE bool isClosed(const double &width, const double &g,
 }
 
 /*
- * Solid cylinder about z: where the segment crosses the caps' planes and the mantle the slope has its kinks, in between
- * it is smooth, and a bracketed secant (Illinois) with bisections finds the root. An error e of t changes a distance d by
- * e^2 / d at most: it matters only to a segment that touches.
+ * Solid cylinder about z: the slope has kinks where the segment crosses the planes of the caps and the lateral surface;
+ * in between it is smooth, and a bracketed secant (Illinois) with bisections finds the root. An error e of t changes a
+ * distance d by at most e^2 / d: it only matters for a touching segment.
  */
 template <class T>
 VP_KERNEL_INLINE Nearest<T> toCylinder(const V3<T> &from, const V3<T> &to, const T &radius, const T &half)
@@ -198,7 +198,7 @@ VP_KERNEL_INLINE Nearest<T> toCylinder(const V3<T> &from, const V3<T> &to, const
     const T next = halving ? middle : clamp(secant, low, high);
     g = cylinderSlope(from, d, radius, half, next, squared);
     const auto left = g <= zero;
-    // Illinois: the value of an end that stays twice is halved, so that the secant cannot creep.
+    // Illinois: the value of an end retained twice is halved, so that the secant does not stall.
     const T keptHigh = side > zero ? gHigh / two : gHigh, keptLow = side < zero ? gLow / two : gLow;
     gHigh = left ? keptHigh : g;
     gLow = left ? g : keptLow;

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// vpSegmentDistance for numbers that are known to be finite and of the size of a workplace: without its check.
+// vpSegmentDistance without its input check, for numbers known to be finite and of plausible magnitude.
 #ifndef vpSegmentNearest_h
 #define vpSegmentNearest_h
 

@@ -11,18 +11,19 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
- * A time at constant velocity, then all joints to rest at the same time, the slowest to brake at its acceleration limit;
- * a joint that would pass its position limit brakes harder. No allocation.
- * \param keep : s, >= 0. \param plan : Of as many axes as the arm has joints; replaced.
- * \return False when a joint passes its position limit although it brakes as hard as it can, or a number is not finite.
+ * Constant velocity for a time, then all joints brake to rest simultaneously, the slowest at its acceleration limit;
+ * a joint that would exceed its position limit brakes harder. No allocation.
+ * \param keep : Time at constant velocity, s, >= 0. \param plan : One axis per joint; replaced.
+ * \return False if a joint exceeds its position limit even at full braking, or a number is not finite.
  */
 bool planStop(const vpArmModel &arm, const vpJointVector &q, const vpJointVector &velocity, double keep,
               vpTrajectoryPlan &plan) noexcept;
 
-//! The velocities of the next period of braking at the acceleration limits, each joint for itself.
+//! Velocities of the next period when braking at the acceleration limits, each joint separately.
 vpJointVector brakeOnce(const vpArmModel &arm, const vpJointVector &velocity, double period) noexcept;
 
-//! How far a joint may go in the sense of \e velocity, rad or m: to its limit and 1e-9 of it (at least 1e-9) beyond.
+//! Distance that a joint may move in the direction of \e velocity, rad or m: to its limit plus 1e-9 of it (at least
+//! 1e-9).
 double roomAhead(const vpArmModel &arm, int joint, double q, double velocity) noexcept;
 
 END_VISP_NAMESPACE

@@ -17,7 +17,7 @@ namespace
 {
 constexpr vpFieldCheck fields("the stop supervisor");
 constexpr double sameTime = 1e-9; // of a period
-constexpr double slack = 1e-4;    // m: so much nearer an arm at its margin may come between periods on its way away
+constexpr double slack = 1e-4;    // m: tolerated loss of clearance between periods during a retreat
 
 } // namespace
 
@@ -67,7 +67,7 @@ void vpStopSupervisor::reset() noexcept
   m_command = vpJointVector::Zero(m_scene->arm().size());
 }
 
-// The stop of the last period, one period on: the mean of its ramp.
+// The stop of the last period, one period later: the mean of its ramp.
 vpJointVector vpStopSupervisor::braking() const noexcept
 {
   vpJointVector velocity = vpJointVector::Zero(m_scene->arm().size());
@@ -77,7 +77,7 @@ vpJointVector vpStopSupervisor::braking() const noexcept
   return velocity;
 }
 
-// The velocity nearest to the wish that the limits of each joint allow.
+// The velocity nearest to the request within the limits of each joint.
 vpJointVector vpStopSupervisor::limited(const vpJointVector &q, const vpJointVector &wish) const noexcept
 {
   const vpArmModel &arm = m_scene->arm();
@@ -86,7 +86,7 @@ vpJointVector vpStopSupervisor::limited(const vpJointVector &q, const vpJointVec
   for (int j = 0; j < velocity.size(); ++j) {
     const double fastest = arm.velocity()(j), a = arm.acceleration()(j), last = m_command(j);
     const double low = std::max(-fastest, last - period * a), high = std::min(fastest, last + period * a);
-    // v T + v^2 / (2 a) <= room, so that it can brake before its position limit; beyond it, no farther.
+    // v T + v^2 / (2 a) <= room, so that it can brake before its position limit; beyond the limit, no farther.
     const auto towards = [&](double sense) {
       const double room = std::max(0., roomAhead(arm, j, q(j), sense));
       return room < HUGE_VAL ? 2. * room / (period + std::sqrt(period * period + 2. * room / a)) : fastest;
@@ -97,13 +97,13 @@ vpJointVector vpStopSupervisor::limited(const vpJointVector &q, const vpJointVec
   return velocity;
 }
 
-// When the arm stands that is commanded a plan: at the end of the period in which the plan ends.
+// Time at which an arm commanded by a plan stands: the end of the period in which the plan ends.
 double vpStopSupervisor::standing(const vpTrajectoryPlan &plan) const noexcept
 {
   return std::ceil(plan.duration() / m_spec.period - sameTime) * m_spec.period;
 }
 
-// By how much a clearance of the arm on the chords of a plan may be less than on the plan: 2 e of the proof.
+// Largest loss of clearance of the arm on the chords of a plan compared with the plan: 2 e of the proof.
 double vpStopSupervisor::offPlan(const vpTrajectoryPlan &plan) const noexcept
 {
   const int n = m_scene->arm().size();
@@ -135,8 +135,8 @@ vpClearance vpStopSupervisor::clearanceAt(const vpTrajectoryPlan &plan, double t
   return m_scene->clearance(m_data, cutoff, m_spec.latency + time);
 }
 
-// One of so many equal parts of the looks for a proof, so that one that is hard to find does not use up all of them; two
-// are kept for the last one.
+// Equal share of the evaluations for a proof, so that a difficult one does not use up all of them; two shares
+// are reserved for the stop in force.
 int vpStopSupervisor::looksOfProof() const noexcept { return m_spec.looks / (m_spec.attempts + 3); }
 
 vpTrajectoryClearance vpStopSupervisor::prove(const vpTrajectoryPlan &plan, double from, double margin,
@@ -154,9 +154,9 @@ bool vpStopSupervisor::admit(const vpJointVector &q, const vpJointVector &veloci
   if (!planStop(m_scene->arm(), q, velocity, m_spec.period, m_candidate)) {
     return false;
   }
-  // With the resolution in hand, so that what is proven now can be proven again in any later period.
+  // With the resolution as reserve, so that a proof can be repeated in any later period.
   const double off = offPlan(m_candidate) + m_spec.resolution, margin = m_spec.margin + off;
-  // Where it would come to rest is most often what is wrong, and quickly told.
+  // The rest position collides most often, and is checked quickly.
   const vpClearance there = clearanceAt(m_candidate, standing(m_candidate), margin);
   if (there.kind == vpCollisionKind::None) {
     const vpTrajectoryClearance verdict = prove(m_candidate, 0., margin, looksOfProof());
@@ -171,7 +171,7 @@ bool vpStopSupervisor::admit(const vpJointVector &q, const vpJointVector &veloci
   return isRetreat(q, off);
 }
 
-// An arm at or within its margin may move where it is no nearer at the end of any period, and hardly nearer in between.
+// An arm at or within its margin may move if it is no nearer at the end of any period, and hardly nearer in between.
 bool vpStopSupervisor::isRetreat(const vpJointVector &q, double off) noexcept
 {
   --m_looks;
@@ -218,7 +218,7 @@ bool vpStopSupervisor::tryWish(const vpJointVector &q, const vpJointVector &wish
   return false;
 }
 
-// The rest of the stop from where the arm is, if that is not where the stop has it.
+// The rest of the stop from the arm's position, if it deviates from the stop.
 void vpStopSupervisor::startStopAt(const vpJointVector &q) noexcept
 {
   double off = 0.;
@@ -244,7 +244,7 @@ void vpStopSupervisor::step(const vpJointVector &q, const vpJointVector &wish, v
   const int n = m_scene->arm().size(), reserve = 2 * looksOfProof();
   output = vpSupervisedVelocity();
   output.velocity = braking();
-  const int mine = m_spec.looks - reserve - 2; // a try may look twice more than is left
+  const int mine = m_spec.looks - reserve - 2; // an attempt may evaluate two more than are left
   m_looks = mine;
   const bool placed = m_certificate.reach().holds(q);
   if (placed && wish.size() == n && wish.allFinite()) {
@@ -256,7 +256,7 @@ void vpStopSupervisor::step(const vpJointVector &q, const vpJointVector &wish, v
     }
     output.status = m_moving ? vpSupervision::Stopping : vpSupervision::Standing;
   }
-  if (m_moving && placed) { // is the stop still free, from where the arm is, with the objects where they are now?
+  if (m_moving && placed) { // checks the stop again, from the arm's position, with the current objects
     startStopAt(q);
     m_looks = reserve;
     const vpTrajectoryClearance rest = prove(m_stop, m_time, offPlan(m_stop), reserve);

@@ -17,7 +17,7 @@ namespace
 {
 using Input = vpTrajectoryInput<Eigen::Dynamic>;
 constexpr double sampleTime = 0.005; // s, for the bounds of the tool
-constexpr double reserve = 0.99;     // of these bounds
+constexpr double reserve = 0.99;     // fraction of these bounds used
 
 void requireShare(const char *field, double value)
 {
@@ -44,7 +44,7 @@ void requireBound(const char *field, double value)
 
 bool isMoving(const vpJointVector &rate) { return rate.size() != 0 && rate.cwiseAbs().maxCoeff() > 0.; }
 
-//! By what time has to be stretched for the tool to keep its bounds; at most 1: they are kept.
+//! Factor by which time must be stretched for the tool to keep its bounds; at most 1: they are kept.
 double stretchForTool(const vpArmModel &arm, const vpTrajectoryPlan &plan, const vpTimedPathSpec &spec)
 {
   vpArmData data;
@@ -69,11 +69,11 @@ double stretchForTool(const vpArmModel &arm, const vpTrajectoryPlan &plan, const
   return stretch;
 }
 
-//! The shortest motion that keeps the tool's bounds. False: there is none, or none was found.
+//! The fastest motion that keeps the tool's bounds. False: there is none, or none was found.
 vpTrajectoryStatus planWithinBounds(const vpArmModel &arm, Input &input, const vpTimedPathSpec &spec,
                                     vpTrajectoryPlan &plan)
 {
-  constexpr int attempts = 6; // from rest the second one does; a start that moves does not stretch in proportion
+  constexpr int attempts = 6; // from rest the second one succeeds; a start velocity prevents proportional scaling
   vpTrajectoryStatus status = vpDirectTrajectory<Eigen::Dynamic>::calculate(input, plan);
   if (std::isinf(spec.toolVelocity) && std::isinf(spec.toolAcceleration)) {
     return status;
@@ -110,7 +110,7 @@ Input inputOf(const vpArmModel &arm, const vpJointPath &path, std::size_t first,
   input.maxAcceleration = spec.acceleration * arm.acceleration();
   input.minPosition = arm.lower();
   input.maxPosition = arm.upper();
-  input.options.cruise = false; // one shape for every duration, so that stretching it stretches the tool's motion
+  input.options.cruise = false; // the same shape for every duration, so that stretching it stretches the tool's motion
   input.options.synchronisation = last <= first + 1 ? vpSynchronisation::Straight : vpSynchronisation::Time;
   if (first == 0 && spec.startVelocity.size() != 0) {
     input.start.v = spec.startVelocity;
@@ -132,7 +132,7 @@ Input inputOf(const vpArmModel &arm, const vpJointPath &path, std::size_t first,
   return input;
 }
 
-//! The path without points at the same place.
+//! The path without duplicate consecutive points.
 vpJointPath withoutRepeats(const vpJointPath &path)
 {
   vpJointPath result;
@@ -182,7 +182,7 @@ void vpTimedPath::build(const vpCollisionScene &scene, const vpJointPath &path, 
   m_start = path.points.front();
   m_worst.status = vpMotionStatus::Free;
   const vpJointPath way = withoutRepeats(path);
-  // Stretches that are still to be done, the next one last.
+  // Pending sections, the next one last.
   std::vector<std::pair<std::size_t, std::size_t>> open;
   const bool moving = isMoving(spec.startVelocity) || isMoving(spec.startAcceleration);
   if (way.points.size() > 1 || moving) {

@@ -11,9 +11,9 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-constexpr double lag = 0.01;     // m: a tool farther behind its motion has not followed it
-constexpr double arrival = 2e-3; // m: within this of the end it has arrived
-constexpr double settling = 0.6; // s behind the end for the arm to catch up
+constexpr double lag = 0.01;     // m: maximum lag of a tool that follows its motion
+constexpr double arrival = 2e-3; // m: tolerance for arrival at the end
+constexpr double settling = 0.6; // s after the end for the arm to catch up
 
 vpToolMotionSpec coarse(vpToolMotionSpec spec, double step)
 {
@@ -21,7 +21,7 @@ vpToolMotionSpec coarse(vpToolMotionSpec spec, double step)
   return spec;
 }
 
-//! Largest way of a capsule's end between two configurations.
+//! Largest motion of a capsule's end between two configurations.
 double largestWay(const vpCollisionData &a, const std::array<vpPlacedCapsule, vpArmMaxCapsules> &b, int count)
 {
   double way = 0.;
@@ -67,10 +67,10 @@ vpForecast vpToolForecast::run(const vpJointVector &q, const vpJointVector &velo
     result.time = t;
     result.tool = m_data.arm.tool.p;
     if (!m_data.placed) {
-      return result; // stuck: where the arm would be is no number
+      return result; // stuck: the configuration is not finite
     }
     const vpClearance nearest = leastOf(m_near);
-    if (t == 0.) { // an arm that is nearer already may stay hardly nearer
+    if (t == 0.) { // an arm within the margin may stay at slightly less than its clearance
       margin = std::min(margin, std::max(1e-3, nearest.distance - 1e-3));
     }
     else if (nearest.distance < margin + 0.5 * way) {

@@ -10,31 +10,31 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! \brief What will happen on a tool's motion.
+//! \brief Predicted result of a tool motion.
 enum class vpForecastStatus {
-  Free,     // it is followed to its end
-  Conflict, // something comes nearer than the margin
-  TooFast,  // joints cannot follow the tool; a slower motion may do
-  Stuck     // the arm cannot get there: limits or singularities
+  Free,     // followed to its end
+  Conflict, // an obstacle comes nearer than the margin
+  TooFast,  // joints cannot follow the tool; a slower motion may work
+  Stuck     // the arm cannot reach it: limits or singularities
 };
 
-//! \brief A motion of the tool as the arm would make it.
+//! \brief Prediction of the arm on a tool motion.
 struct vpForecast {
   vpForecastStatus status = vpForecastStatus::Stuck;
-  double time = 0.;                               // s from now: of the conflict, or of the end
-  vpClearance pair;                               // Conflict: what
-  Eigen::Vector3d tool = Eigen::Vector3d::Zero(); // where the tool is then
-  vpJointVector end;                              // configuration then
-  vpJointVector velocity;                         // of the joints then
+  double time = 0.;                               // of the conflict, or of the end, s from now
+  vpClearance pair;                               // Conflict: the pair
+  Eigen::Vector3d tool = Eigen::Vector3d::Zero(); // tool position at that time
+  vpJointVector end;                              // configuration at that time
+  vpJointVector velocity;                         // joint velocities at that time
 };
 
 /*!
  * \class vpToolForecast
- * \brief The whole arm along a coming motion of the tool: makes it in coarse steps with the same law that makes it in
- * fine ones, objects moving on by their velocities, and measures clearances on the way.
+ * \brief Predicts the whole arm along a tool motion in coarse steps with the control law that executes it in fine
+ * steps, with objects moving at their velocities, and evaluates clearances.
  *
- * Between two looks no point of a capsule is farther from where it was looked at than half of what its ends move, so the
- * margin counts that much more. Joints may come out a little differently in fine steps: this chooses motions, the stop
+ * Between two evaluations no point of a capsule is farther from an evaluated position than half the motion of its ends,
+ * so the margin is enlarged by that. Joints may differ slightly in fine steps: this selects motions, the stop
  * supervisor proves them.
  */
 class vpToolForecast
@@ -43,9 +43,10 @@ public:
   vpToolForecast(const vpCollisionScene &scene, const vpToolMotionSpec &motion, double step = 0.04);
 
   /*!
-   * \param q, velocity : Of the joints now. \param plan : Of the tool; \param clock : where it is on it now, s.
-   * \param posture, orientation : See vpToolMotion. \param margin : m. \param later : The motion begins in so many
-   * seconds, objects are where they are then.
+   * \param q, velocity : Current state of the joints. \param plan : Plan of the tool. \param clock : Current time on
+   * it, s.
+   * \param posture, orientation : See vpToolMotion. \param margin : m. \param later : Delay of the motion, s, by which
+   * objects are extrapolated.
    */
   [[nodiscard]] vpForecast run(const vpJointVector &q, const vpJointVector &velocity, const vpTrajectoryPlan &plan,
                                double clock, const vpJointVector &posture, const Eigen::Matrix3d &orientation,

@@ -20,7 +20,7 @@ vpRedundancySpec solverSpec(double period)
   spec.period = period;
   spec.policy = vpLimitPolicy::StopJoints;
   spec.selfAcceleration = 0.2;
-  spec.positionMargin = 0.005; // room for a tool that must not be braked harder
+  spec.positionMargin = 0.005; // reserve for a tool that must not brake harder
   spec.selfMotion = 1.;
   spec.minSelfMotion = 1.;
   return spec;
@@ -35,7 +35,7 @@ vpToolMotion::vpToolMotion(const vpArmModel &model, const vpToolMotionSpec &spec
   m_input.free = {false, false, false, free, free, free};
 }
 
-// The joint at the end of the link that the obstacle is nearest to moves away from the obstacle.
+// The joint at the end of the link nearest to the obstacle moves away from it.
 void vpToolMotion::repel(const vpCollisionData &data, const vpNearPairs &near) noexcept
 {
   std::array<bool, vpNearPairs::capacity> used{};
@@ -56,7 +56,7 @@ void vpToolMotion::repel(const vpCollisionData &data, const vpNearPairs &near) n
     const vpClearance &pair = near.pairs[static_cast<std::size_t>(nearest)];
     const int link = m_model->spec().capsules[static_cast<std::size_t>(pair.capsule)].link;
     int joint = std::min(link, m_model->size() - 1);
-    if (link >= 1 && link < m_model->size()) { // which of its two ends is nearer?
+    if (link >= 1 && link < m_model->size()) { // the nearer of its two ends
       const double far = (data.arm.joint[static_cast<std::size_t>(link)].p - pair.onArm).norm();
       const double close = (data.arm.joint[static_cast<std::size_t>(link - 1)].p - pair.onArm).norm();
       joint = far <= close ? link : link - 1;

@@ -10,22 +10,23 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! \brief How the joints follow a motion of the tool.
+//! \brief Parameters of vpToolMotion.
 struct vpToolMotionSpec {
-  double period = 0.005;        // of the steps, s
-  double repelRange = 0.12;     // m: nearer obstacles push the joints next to them away
-  double postureGain = 0.3;     // towards the goal's configuration, when there is one
+  double period = 0.005;        // control period, s
+  double repelRange = 0.12;     // m: nearer obstacles repel the adjacent joints
+  double postureGain = 0.3;     // towards the goal's configuration, if given
   double limitGain = 0.1;       // away from position limits
-  bool keepOrientation = false; // of the end effector, which costs three of the joints' freedoms
+  bool keepOrientation = false; // keeps the end effector's orientation, which takes three degrees of freedom
   double orientationGain = 5.;  // 1/s
 };
 
 /*!
  * \class vpToolMotion
- * \brief Joint velocities for a velocity of the tool's origin (thesis (8.1), (8.10)-(8.12), corrected): what the task
- * leaves free moves the arm's body away from obstacles, to the goal's posture and away from limits.
+ * \brief Joint velocities for a velocity of the tool's origin (thesis (8.1), (8.10)-(8.12), corrected): the remaining
+ * redundancy moves the arm's body away from obstacles, to the goal's posture and away from limits.
  *
- * No allocation, no exception in step(). Used with a coarse period to foresee a motion and with a fine one to make it.
+ * No allocation, no exception in step(). Used with a coarse period to predict a motion and with a fine one to execute
+ * it.
  */
 class vpToolMotion
 {
@@ -36,9 +37,10 @@ public:
 
   /*!
    * \param data : After vpCollisionScene::place(); the Jacobian is added. \param near : Pairs of that configuration.
-   * \param velocity : Of the tool's origin, base frame, m/s. \param posture : Configuration to lean to; may be empty.
-   * \param orientation : Kept, if the spec says so. \param previous : Joint velocities of the last period.
-   * \param selfMotion : False: the joints move for the task alone.
+   * \param velocity : Velocity of the tool's origin, base frame, m/s. \param posture : Preferred posture; may be empty.
+   * \param orientation : Orientation to keep, if set in the spec. \param previous : Joint velocities of the last
+   * period.
+   * \param selfMotion : False: no self-motion.
    */
   void step(vpCollisionData &data, const vpNearPairs &near, const Eigen::Vector3d &velocity,
             const vpJointVector &posture, const Eigen::Matrix3d &orientation, const vpJointVector &previous,

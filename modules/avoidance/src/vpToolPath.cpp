@@ -47,7 +47,7 @@ bool vpToolPath::plan(const vpToolState &from, const vpToolTask &task, vpTraject
     last = via;
     m_problem.setVia(k, way / length, via.data(), nullptr, nullptr);
   }
-  // A straight motion keeps to its line.
+  // A straight motion stays on its line.
   m_problem.options.synchronisation = task.viaCount == 0 ? vpSynchronisation::Straight : vpSynchronisation::Time;
   return m_problem.validate(true).isGood() && m_planner.plan(m_problem, 0., plan).isGood();
 }

@@ -13,11 +13,11 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-constexpr double learning = 0.3;    // share of the missing trust that a good sighting brings
-constexpr double doubting = 0.6;    // share of the trust that a doubted sighting leaves
+constexpr double learning = 0.3;    // fraction of the missing trust gained by a good sighting
+constexpr double doubting = 0.6;    // fraction of the trust left after a doubted sighting
 constexpr double startTrust = 0.3;  // after the first sighting
-constexpr int stubborn = 4;         // times as many doubts as allowed start anew even when they do not agree
-constexpr double rebaseAngle = 0.5; // rad; rotation vectors of the rest test stay where they add up like vectors
+constexpr int stubborn = 4;         // factor on the allowed doubts that restarts even if they do not agree
+constexpr double rebaseAngle = 0.5; // rad; keeps the rotation vectors of the rest test small enough to add like vectors
 
 double square(double x) { return x * x; }
 
@@ -71,7 +71,7 @@ void vpTrackFilter::start(const vpObjectSighting &sighting, const vpObjectTrackS
   m_doubted = m_agreeing = 0;
 }
 
-// It moves on for as long as it may coast and then stays; that it may have gone on adds to the variance.
+// The object coasts for the allowed time and then stays; possible further motion adds to the variance.
 vpTrackFilter::Motion vpTrackFilter::at(double time, const vpObjectTrackSpec &spec) const
 {
   const double dt = std::max(0., time - m_time), moves = std::min(dt, spec.coast);
@@ -136,7 +136,7 @@ void vpTrackFilter::testRest(const vpObjectSighting &sighting, const vpObjectTra
   m_turnTest.add(sighting.time, turn, square(sighting.angleSigma), {spec.restSigmas, spec.restTurn});
 }
 
-// Not used, unless it and those before it agree that the object is somewhere else.
+// The sighting is not used, unless it and the previous ones agree that the object is elsewhere.
 bool vpTrackFilter::doubt(const vpObjectSighting &sighting, const vpObjectTrackSpec &spec)
 {
   Motion before;
@@ -183,7 +183,7 @@ void vpTrackFilter::predict(double now, const vpObjectTrackSpec &spec, vpObjectT
   if (m_turnTest.isResting()) {
     track.pose.R = vpSO3::exp(m_turnTest.place()) * m_reference;
     angular.setZero();
-    // As far as an unforeseen acceleration of the place goes, the rotation goes too.
+    // The random angular acceleration at rest is scaled like that of the position.
     const double share = square(spec.angularAcceleration / spec.acceleration);
     turn = m_turnTest.variance(now) + share * density(spec.restAcceleration, spec) * age * age * age / 3.;
   }

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpTrackFilter.h
- * \brief Internal: where one object of vpObjectTracks is and how it moves.
+ * \brief Internal: state estimate of one object of vpObjectTracks.
  */
 #ifndef vpTrackFilter_h
 #define vpTrackFilter_h
@@ -21,14 +21,14 @@ BEGIN_VISP_NAMESPACE
 struct vpMotionVariance {
   double value = 0., both = 0., rate = 0.;
 
-  //! After \e dt seconds. \param density : Of the noise.
+  //! Predicts by \e dt seconds. \param density : Density of the noise.
   [[nodiscard]] vpMotionVariance after(double dt, double density) const;
-  //! What a measurement of the value takes away. \param gain : Of value and rate.
+  //! Updates with a measurement of the value. \param gain : Gains of value and rate.
   void measure(double variance, Eigen::Vector2d &gain);
 };
 
 /*!
- * \brief Kalman filter of constant velocity for position and rotation, a rest test for each, a gate. Does not allocate.
+ * \brief Constant-velocity Kalman filters for position and rotation, a rest test for each, a gate. Does not allocate.
  */
 class vpTrackFilter
 {
@@ -36,13 +36,13 @@ public:
   //! Starts with a sighting, velocity unknown.
   vpTrackFilter(const vpObjectSighting &sighting, const vpObjectTrackSpec &spec);
 
-  //! The next sighting, not older than time(). \return True when it was used, if only to start anew.
+  //! Adds a sighting, not older than time(). \return True if it was used, even if only to restart.
   bool add(const vpObjectSighting &sighting, const vpObjectTrackSpec &spec);
-  //! Fills in all of \e track but its name, shape and inflation, at \e now.
+  //! Sets all fields of \e track except name, shape and inflation, at \e now.
   void predict(double now, const vpObjectTrackSpec &spec, vpObjectTrack &track) const;
-  //! Of the last sighting that was used.
+  //! Time of the last sighting used.
   [[nodiscard]] double time() const { return m_time; }
-  //! Distance of the shape's farthest point from its origin, m: kept here, since a mesh has many points.
+  //! Distance of the shape's farthest point from its origin, m: cached, since a mesh has many points.
   [[nodiscard]] double reach() const { return m_reach; }
   //! The shape has changed.
   void setReach(double reach) { m_reach = reach; }
@@ -64,10 +64,10 @@ private:
   double m_time = 0., m_reach = 0.;
   Motion m_motion; // at m_time
   vpRestTest m_placeTest, m_turnTest;
-  Eigen::Matrix3d m_reference = Eigen::Matrix3d::Identity(); // rotation vectors of m_turnTest are from here
+  Eigen::Matrix3d m_reference = Eigen::Matrix3d::Identity(); // origin of the rotation vectors of m_turnTest
   int m_sightings = 0, m_restarts = 0;
   double m_trust = 0.; // 0..1
-  // Doubted sightings in a row; those that agree with the last one; where that was.
+  // Number of consecutive doubted sightings; of those that agree with the last one; its position.
   int m_doubted = 0, m_agreeing = 0;
   vpRigidTransform m_doubtedPose;
   double m_doubtedTime = 0., m_doubtedPlaceVariance = 0., m_doubtedTurnVariance = 0.;

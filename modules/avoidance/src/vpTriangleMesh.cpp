@@ -24,7 +24,8 @@ double angleAt(const Eigen::Vector3d &corner, const Eigen::Vector3d &a, const Ei
   return std::atan2((a - corner).cross(b - corner).norm(), (a - corner).dot(b - corner));
 }
 
-// Formats repeat a vertex in every triangle, or where a texture has a seam: equal ones are one, or every edge were a hole.
+// Formats repeat a vertex in every triangle, or at texture seams: equal ones are merged, else every edge would be a
+// hole.
 std::vector<int> joinVertices(const std::vector<Eigen::Vector3d> &vertices, vpTriangleMeshData &data)
 {
   std::map<std::array<double, 3>, int> known;
@@ -147,7 +148,7 @@ vpNearestPoints vpTriangleMeshData::nearest(const Eigen::Vector3d &from, const E
                                       vertices[static_cast<std::size_t>(t[1])],
                                       vertices[static_cast<std::size_t>(t[2])]);
   };
-  // A segment inside a solid may be far from its surface: then the cutoff must not hide it.
+  // A segment inside a solid may be farther from the surface than the cutoff, which must then be ignored.
   const bool mayBeInside = watertight && tree.contains(from);
   vpNearestPoints best =
       tree.nearest(from, to, mayBeInside ? std::numeric_limits<double>::infinity() : cutoff, exact, index);

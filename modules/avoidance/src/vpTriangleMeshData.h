@@ -17,13 +17,13 @@ struct vpTriangleMeshData {
   std::vector<std::array<int, 3>> triangles;
   bool watertight = false;
   vpBoxTree tree;
-  // Normals for the sign (Baerentzen and Aanaes, 2005): of the face, of the edges 01, 12, 20, of the vertices weighted by
-  // the angle.
+  // Normals for the sign (Baerentzen and Aanaes, 2005): of the face, of the edges 01, 12, 20, of the vertices weighted
+  // by angle.
   std::vector<Eigen::Vector3d> faceNormals, vertexNormals;
   std::vector<std::array<Eigen::Vector3d, 3>> edgeNormals;
 
-  // Nearest points to a segment in the mesh's frame; negative distance when the segment is inside a watertight mesh.
-  // Infinite, without points, when nothing is nearer than the cutoff.
+  // Nearest points to a segment in the mesh's frame; negative distance if the segment is inside a watertight mesh.
+  // Infinite, without points, if nothing is within the cutoff.
   [[nodiscard]] vpNearestPoints nearest(const Eigen::Vector3d &from, const Eigen::Vector3d &to,
                                         double cutoff) const noexcept;
 };

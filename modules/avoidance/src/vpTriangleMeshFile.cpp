@@ -22,7 +22,7 @@ struct Soup {
 
 [[noreturn]] void fail(const std::string &file, const std::string &why) { throw vpFileError(file + ": " + why); }
 
-// First number of "7", "7/1" or "7//3"; negative ones count from the end.
+// First number of "7", "7/1" or "7//3"; negative numbers count from the end.
 int objIndex(const std::string &word, std::size_t vertices, const std::string &file, const std::string &line)
 {
   int index = 0;
@@ -135,7 +135,7 @@ Soup readBinaryStl(const std::string &bytes, const std::string &file)
 
 Soup readStl(const std::string &bytes, const std::string &file)
 {
-  // Binary files may begin with "solid" as well: the size decides.
+  // Binary files may begin with "solid", too: the size decides.
   const bool binary = bytes.size() >= stlHeader && bytes.size() == stlHeader + binaryCount(bytes) * stlTriangle;
   return !binary && bytes.compare(0, 5, "solid") == 0 ? readTextStl(bytes, file) : readBinaryStl(bytes, file);
 }

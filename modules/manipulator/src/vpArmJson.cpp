@@ -15,7 +15,7 @@ namespace
 {
 constexpr double degree = M_PI / 180.;
 
-// Limits of turning joints are degrees in the file, those of sliding ones metres.
+// Limits in the file are in degrees for revolute joints, in metres for prismatic ones.
 vpArmJointSpec joint(vpJsonObject &object)
 {
   const std::string type = object.text("type");

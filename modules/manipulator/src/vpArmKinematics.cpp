@@ -33,7 +33,7 @@ void view(const vpArmModel &model, const vpArmData &data, vpArmFrame frame, Eige
   }
 }
 
-// Of an unknown configuration all is NaN: no comparison takes it for something.
+// For an unknown configuration everything is NaN, so that every comparison fails.
 void forget(vpArmData &data)
 {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -142,7 +142,7 @@ pointJacobian(const vpArmModel &model, const vpArmData &data, int k) noexcept
   for (int i = 0; i < data.size; ++i) {
     const Eigen::Vector3d z = axis(data, i);
     if (model.isPrismatic(i)) {
-      // A prismatic joint carries the origin of its own frame along.
+      // A prismatic joint moves the origin of its own frame.
       J.col(i) = i <= k ? z : Eigen::Vector3d::Zero();
     }
     else {
@@ -184,7 +184,7 @@ vpArmJacobian derivative(const vpArmModel &model, const vpArmData &data, int k, 
     }
     const Eigen::Vector3d v = data.J.col(i).head<3>() + w.cross(lever);
     const Eigen::Vector3d dv = d.head<3>() + dw.cross(lever) + w.cross(turn.cross(lever));
-    // The frame turns as well: d(R^T a) = R^T (da - turn x a).
+    // The frame rotates as well: d(R^T a) = R^T (da - turn x a).
     D.col(i).head<3>() = R.transpose() * (dv - turn.cross(v));
     D.col(i).tail<3>() = R.transpose() * (dw - turn.cross(w));
   }

@@ -36,7 +36,7 @@ std::string text(double value, int digits = 6)
   return out.str();
 }
 
-//! As many digits as it takes to tell a number from others.
+//! As many digits as needed to distinguish the number from others.
 int digitsOf(double value, std::initializer_list<double> others)
 {
   int digits = 6;
@@ -68,7 +68,7 @@ void notNegative(const vpArmSpec &spec, const std::string &what, double value)
   }
 }
 
-// NaN is refused too.
+// NaN is rejected too.
 void length(const vpArmSpec &spec, const std::string &what, double value)
 {
   if (!(std::fabs(value) <= vpLargestLength)) {

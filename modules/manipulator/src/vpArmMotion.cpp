@@ -87,7 +87,7 @@ const vpJointVector &vpArmMotion::step(const vpJointVector &q, const vpJointVect
   return m_velocity;
 }
 
-// Each joint for itself: only the one that comes to a limit is stopped.
+// Each joint separately: only the one that reaches a limit is stopped.
 void vpArmMotion::clamped(const vpJointVector &q, const vpJointVector &velocity, const vpJointVector &wanted) noexcept
 {
   m_bounds.update(*m_model, q, velocity, period(), 0.);
@@ -127,7 +127,7 @@ void vpArmMotion::followTwist(const vpJointVector &q, const vpJointVector &veloc
     m_input.frame = vpArmFrame::Camera;
     break;
   case vpArmTwistFrame::Mixt: {
-    // Velocity of the camera's origin along the axes of the base, turn about the axes of the camera.
+    // Velocity of the camera's origin along the axes of the base, rotation about the axes of the camera.
     const Eigen::Matrix3d cRf = vpArmKinematics::camera(*m_model, m_data).R.transpose();
     const Eigen::Vector3d v = cRf * Eigen::Vector3d(m_twist[0], m_twist[1], m_twist[2]);
     m_input.frame = vpArmFrame::Camera;
@@ -143,7 +143,7 @@ void vpArmMotion::followPath(const vpJointVector &q, const vpJointVector &veloci
 {
   const vpTrajectoryResult result = m_path.update(m_pathInput, m_pathOutput, period());
   m_failed = !m_pathOutput.status.isGood();
-  if (m_failed) { // no state to go to
+  if (m_failed) { // no next state
     m_finished = true;
     hold();
     clamped(q, velocity, vpJointVector::Zero(m_model->size()));

@@ -27,8 +27,8 @@ namespace
   throw vpFileError(file + ": " + sentence);
 }
 
-// urdfdom says what is wrong to a handler of the whole process, and answers with an empty pointer. The first
-// sentence says what, the second where; more than two say the same again.
+// urdfdom reports errors to a process-wide handler and returns a null pointer. The first sentence is the error, the
+// second its location; further ones repeat it.
 class Listener : public console_bridge::OutputHandler
 {
 public:
@@ -53,7 +53,7 @@ urdf::ModelInterfaceSharedPtr parse(const std::string &file)
 {
   const std::string text = vpReadFileText(file);
   vpRequireXmlOutline(text, file);
-  static std::mutex mutex; // the handler is one for the process
+  static std::mutex mutex; // the handler is process-wide
   const std::lock_guard<std::mutex> lock(mutex);
   const Listener listener;
   urdf::ModelInterfaceSharedPtr tree;
@@ -63,14 +63,14 @@ urdf::ModelInterfaceSharedPtr parse(const std::string &file)
   catch (const std::exception &e) {
     fail(file, e.what());
   }
-  // A malformed element is reported, and the tree may come all the same, with the element left out.
+  // For a malformed element urdfdom reports an error, but may still return the tree without the element.
   if (!tree || !listener.text().empty()) {
     fail(file, listener.text().empty() ? "is no URDF" : listener.text());
   }
   return tree;
 }
 
-// urdfdom asks for one root, but takes cycles beside it, and links with two parents.
+// urdfdom requires one root, but accepts additional cycles, and links with two parents.
 void requireTree(const urdf::ModelInterface &tree, const std::string &file)
 {
   std::map<std::string, std::string> above; // the joint above a link
@@ -81,7 +81,7 @@ void requireTree(const urdf::ModelInterface &tree, const std::string &file)
            "link " + joint->child_link_name + " is the child of two joints, " + other.first->second + " and " + name);
     }
   }
-  std::set<std::string> below; // links that are known to be below the root
+  std::set<std::string> below; // links known to be below the root
   for (const auto &item : tree.links_) {
     std::set<std::string> way;
     for (std::string link = item.first; below.count(link) == 0;) {
@@ -98,7 +98,7 @@ void requireTree(const urdf::ModelInterface &tree, const std::string &file)
   }
 }
 
-// Links own their children, so those of a cycle would keep each other for ever.
+// Links own their children, so those of a cycle would never be freed.
 urdf::ModelInterfaceSharedPtr parseTree(const std::string &file)
 {
   const urdf::ModelInterfaceSharedPtr tree = parse(file);
@@ -146,7 +146,7 @@ Eigen::Matrix3d steiner(double mass, const Eigen::Vector3d &r)
   return mass * (r.squaredNorm() * Eigen::Matrix3d::Identity() - r * r.transpose());
 }
 
-// A body that is fixed to a link at a pose becomes part of it.
+// Merges a body fixed to a link at a pose into the link.
 void carry(vpArmLinkSpec &link, const vpArmLinkSpec &part, const vpRigidTransform &at)
 {
   if (!part.hasMass) {
@@ -175,11 +175,11 @@ void surface(const urdf::Link &link, int number, const vpRigidTransform &at, std
       continue;
     }
     const vpRigidTransform T = at * pose(collision->origin);
-    double half = 0.; // of the segment, along z
+    double half = 0.; // half length of the segment, along z
     Eigen::Vector3d direction = T.R.col(2);
     vpArmCapsule capsule;
     if (const auto *cylinder = dynamic_cast<const urdf::Cylinder *>(collision->geometry.get())) {
-      // Encloses the rims as well, so it reaches past the flat ends.
+      // Encloses the rims, too, so it extends beyond the flat ends.
       capsule.radius = cylinder->radius;
       half = 0.5 * cylinder->length;
     }
@@ -272,7 +272,7 @@ vpArmJointSpec moving(const urdf::Joint &from, const std::string &file, const vp
   if (!(axis.norm() > 1e-9)) {
     fail(file, "axis of joint " + from.name + " is zero");
   }
-  // Our joints move about z: turn it to the axis, and back after the motion.
+  // Joints of vpArmModel move about z: rotate z to the axis, and back after the motion.
   const Eigen::Matrix3d turn = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis).toRotationMatrix();
   joint.before = pose(from.parent_to_joint_origin_transform) * vpRigidTransform{turn, Eigen::Vector3d::Zero()};
   joint.after.R = turn.transpose();
@@ -298,7 +298,7 @@ vpArmModel load(const std::string &file, const vpArmUrdfOptions &options)
   spec.source = file;
   spec.name = tree->getName();
   surface(*find(*tree, file, base), 0, {}, spec.capsules);
-  vpRigidTransform fixed; // from the last moving link to the present one
+  vpRigidTransform fixed; // from the last moving link to the current one
   for (const urdf::JointSharedPtr &from : path(*tree, file, base, tip)) {
     const urdf::LinkConstSharedPtr child = find(*tree, file, from->child_link_name);
     if (from->type == urdf::Joint::FIXED) {
@@ -322,7 +322,7 @@ vpArmModel load(const std::string &file, const vpArmUrdfOptions &options)
   }
   spec.tool = fixed;
   if (!options.camera.empty()) {
-    // Up or down from the end effector over fixed joints only.
+    // Up or down from the end effector through fixed joints only.
     const auto toCommon = [&](const std::string &from) {
       vpRigidTransform T;
       for (const urdf::JointSharedPtr &joint :

@@ -25,7 +25,7 @@ void positive(const char *field, double value)
   }
 }
 
-// From a to b in the axes of a, m and rad.
+// Pose error from a to b in the axes of a, m and rad.
 Vector6 between(const vpRigidTransform &a, const vpRigidTransform &b)
 {
   Vector6 e;
@@ -89,7 +89,7 @@ vpClosedLoopKinematics::vpClosedLoopKinematics(const vpArmModel &model, const vp
   m_input.frame = vpArmFrame::EndEffector;
 }
 
-// What a period at constant joint velocity does to the tool beyond J q' dt, as the twist that takes it back.
+// Drift of the tool in a period at constant joint velocity beyond J q' dt, as the compensating twist.
 void vpClosedLoopKinematics::drift(const vpJointVector &velocity, Vector6 &twist) noexcept
 {
   const double dt = m_solver.spec().period;
@@ -140,7 +140,7 @@ void vpClosedLoopKinematics::motion(const vpClosedLoopInput &input, vpClosedLoop
     wanted(k) = stopped ? 0. : limited[static_cast<std::size_t>(k)];
   }
   m_input.indexCount = stopped ? 0 : input.indexCount;
-  // The self-motion comes back by steps after it was slowed down.
+  // The self-motion is restored stepwise after it was slowed down.
   double share = std::min(1., 1.25 * state.selfMotionShare + 0.01);
   for (int attempt = 0;; ++attempt) {
     m_input.selfMotionShare = share;
@@ -152,7 +152,7 @@ void vpClosedLoopKinematics::motion(const vpClosedLoopInput &input, vpClosedLoop
     const Vector6 corrected = wanted + back;
     m_input.twist = twistOf(corrected);
     m_solver.step(m_data, m_input, output.solver);
-    // The motion as it is drifts by -rest; the solver was asked to make up for it and did so as far as it can.
+    // The motion drifts by -rest; the solver has already compensated it as far as possible.
     Vector6 rest;
     drift(output.solver.velocity, rest);
     const double left = (rest - (rate(output.solver.velocity) - before)).norm() * m_solver.spec().period;

@@ -15,7 +15,7 @@ namespace
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-// Largest velocity towards a limit that is so far away; beyond the limit: back, as fast as that way takes.
+// Largest velocity towards a limit at distance room; beyond the limit: back, at the speed for that distance.
 double towards(double room, double velocity, double acceleration, double period)
 {
   if (room == infinity) {
@@ -24,7 +24,7 @@ double towards(double room, double velocity, double acceleration, double period)
   if (room < 0.) {
     return -towards(-room, velocity, acceleration, period);
   }
-  // The same as a (sqrt(dt^2 + 2 room / a) - dt), without the difference of two large numbers.
+  // Equals a (sqrt(dt^2 + 2 room / a) - dt), without the difference of two large numbers.
   return std::min(velocity, 2. * room / (period + std::sqrt(period * period + 2. * room / acceleration)));
 }
 
@@ -69,7 +69,7 @@ double vpJointBounds::together(const vpArmModel &model, const vpJointVector &dir
   if (direction.size() != n || !direction.allFinite()) {
     return 0.;
   }
-  double braking = infinity; // of the factor, 1/s
+  double braking = infinity; // deceleration of the factor, 1/s
   for (int i = 0; i < n; ++i) {
     if (std::fabs(direction(i)) > 0.) {
       braking = std::min(braking, model.acceleration()(i) / std::fabs(direction(i)));
@@ -79,7 +79,7 @@ double vpJointBounds::together(const vpArmModel &model, const vpJointVector &dir
   for (int i = 0; i < n; ++i) {
     const double v = std::fabs(direction(i)), room = direction(i) > 0. ? roomAbove(i) : roomBelow(i);
     if (v > 1e-12 && room < infinity) {
-      // The direction turns on the way, so half of the deceleration is kept in hand.
+      // The direction changes during braking, so half of the deceleration is kept in reserve.
       const double most = room > 0. ? towards(room, v, 0.5 * braking * v, period) : 0.;
       factor = std::min(factor, most / v);
     }

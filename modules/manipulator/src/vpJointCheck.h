@@ -2,8 +2,8 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Checks of specifications with a number a joint, for the constructors of the joint controllers. Numbers are bounded so that no
-// step overflows.
+// Checks of specifications with one number per joint, for the constructors of the joint controllers. Numbers are
+// bounded so that no step overflows.
 #ifndef vpJointCheck_h
 #define vpJointCheck_h
 

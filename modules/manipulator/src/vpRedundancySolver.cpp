@@ -22,9 +22,9 @@ using vpTaskLevel::Rows;
 using vpTaskLevel::Square;
 using vpTaskLevel::Task;
 
-constexpr double slack = 1e-9;     // rad/s: what counts as beyond a bound
-constexpr double exactness = 1e-6; // of the wanted velocity, by which an exact answer may be off
-constexpr double least = 1e-3;     // m/s: of a slower wish it may be off by as much as of this one
+constexpr double slack = 1e-9;     // rad/s: tolerance of bounds
+constexpr double exactness = 1e-6; // relative error of the velocity that still counts as exact
+constexpr double least = 1e-3;     // m/s: slower requests have the absolute tolerance of this one
 
 void check(const vpArmModel &model, bool good, const char *field, double value, const char *range)
 {
@@ -63,21 +63,21 @@ bool usable(const vpArmModel &model, const vpArmData &data, const vpRedundancyIn
   return true;
 }
 
-// The main task in weighted coordinates and scaled units, without the free axes.
+// Main task in weighted coordinates and scaled units, without the free axes.
 struct MainTask {
   Rows B = Rows::Zero();
   Task r = Task::Zero();
-  std::array<int, 6> row{}; // of the twist
+  std::array<int, 6> row{}; // rows of the twist
   int rows = 0;
 };
 
-// What a cycle works with.
+// Working data of a cycle.
 struct Work {
   MainTask main;
   vpJointBounds bounds;
   unsigned int stopped = 0;       // joints held at a position limit
   Joints held = Joints::Zero();   // their velocities
-  Joints motion = Joints::Zero(); // of the tasks, joint velocities
+  Joints motion = Joints::Zero(); // joint velocities for the tasks
   Basis basis;
   vpTaskLevel::Info info;
   bool escaping = false;
@@ -203,7 +203,7 @@ Joints escape(const vpArmModel &model, const vpArmData &data, const vpRedundancy
 {
   const int n = data.size;
   double demand = 0.;
-  Eigen::Matrix<double, 6, 1> lost = Eigen::Matrix<double, 6, 1>::Zero(); // on the components of the twist
+  Eigen::Matrix<double, 6, 1> lost = Eigen::Matrix<double, 6, 1>::Zero(); // lost direction in components of the twist
   Joints slope = Joints::Zero();
   for (int i = 0; i < work.main.rows; ++i) {
     const int k = work.main.row[static_cast<std::size_t>(i)];
@@ -215,7 +215,7 @@ Joints escape(const vpArmModel &model, const vpArmData &data, const vpRedundancy
   if (!(std::fabs(demand) > 1e-9)) {
     return Joints::Zero();
   }
-  // What neither the regular directions nor stopped joints need.
+  // Space that neither the regular directions nor stopped joints need.
   Basis regular;
   Joints mayMove = Joints::Zero();
   for (int i = 0; i < n; ++i) {
@@ -234,7 +234,7 @@ Joints escape(const vpArmModel &model, const vpArmData &data, const vpRedundancy
     work.noEscape = true;
     return Joints::Zero();
   }
-  // A joint at its limit decides between the two signs when it can follow one of them only.
+  // A joint at its limit decides between the two signs if it can follow only one.
   const auto possible = [&](double sign) {
     for (int i = 0; i < n; ++i) {
       if ((sign * z(i) > 0.05 && work.bounds.upper(i) < 1e-6) ||
@@ -253,7 +253,7 @@ Joints escape(const vpArmModel &model, const vpArmData &data, const vpRedundancy
   return speed / std::max(1e-9, scale.cwiseProduct(z).norm()) * z;
 }
 
-// All tasks in their order, with the stopped joints at their velocities.
+// All tasks in order, with the stopped joints at their velocities.
 void solveTasks(const vpArmModel &model, const vpArmData &data, const vpRedundancyInput &input,
                 const vpRedundancySpec &spec, const Joints &scale, Work &work)
 {
@@ -261,7 +261,7 @@ void solveTasks(const vpArmModel &model, const vpArmData &data, const vpRedundan
   const vpTaskLevel::Options options{spec.singularRegion, spec.damping};
   work.basis.count = 0;
   work.escaping = work.noEscape = false;
-  // Motion of the stopped joints; what it does to the task is asked of the others.
+  // Motion of the stopped joints; the other joints compensate its effect on the task.
   Task r = work.main.r;
   Joints held = Joints::Zero();
   for (int i = 0; i < n; ++i) {
@@ -294,14 +294,14 @@ void solveTasks(const vpArmModel &model, const vpArmData &data, const vpRedundan
   work.motion = scale.cwiseProduct(y + held);
 }
 
-// Stops the joint that goes farthest beyond its position bound. False when none does.
+// Stops the joint that exceeds its position bound most. False if none does.
 bool stopWorst(const vpArmModel &model, Work &work)
 {
   int worst = -1;
   double most = slack;
   for (int i = 0; i < model.size(); ++i) {
     const double v = work.motion(i);
-    // A bound that is the velocity limit is none of position.
+    // A bound equal to the velocity limit is not a position bound.
     const double over = std::max(work.bounds.upper(i) < work.bounds.velocityLimit(i) ? v - work.bounds.upper(i) : 0.,
                                  work.bounds.lower(i) > -work.bounds.velocityLimit(i) ? work.bounds.lower(i) - v : 0.);
     if (!isStopped(work, i) && over > most) {
@@ -319,7 +319,7 @@ bool stopWorst(const vpArmModel &model, Work &work)
 
 void toVector(const Joints &from, int n, vpJointVector &to) { to = from.head(n); }
 
-// Largest factor up to 1 with which the motion is within its bounds.
+// Largest factor up to 1 that brings the motion within its bounds.
 double scaleWithin(const vpArmModel &model, const Work &work, const vpRedundancySpec &spec)
 {
   double scale = 1.;
@@ -335,7 +335,8 @@ double scaleWithin(const vpArmModel &model, const Work &work, const vpRedundancy
   return scale;
 }
 
-// The self-motion of the last period, led to the new one with a part of the accelerations, so that the task has the rest.
+// Moves the self-motion of the last period towards the new one with a fraction of the accelerations; the task has the
+// rest.
 Joints slowlyChanged(const vpArmModel &model, const vpRedundancyInput &input, const vpRedundancySpec &spec,
                      const Joints &scale, const Work &work, const Joints &wanted)
 {
@@ -352,7 +353,7 @@ Joints slowlyChanged(const vpArmModel &model, const vpRedundancyInput &input, co
   return before + share * (wanted - before);
 }
 
-// Self-motion in joint velocities: gradient, projection, k0, and as much of it as the bounds leave.
+// Self-motion in joint velocities: gradient, projection, k0, reduced to the bounds.
 Joints selfMotion(const vpArmModel &model, const vpArmData &data, const vpRedundancyInput &input,
                   const vpRedundancySpec &spec, const Joints &scale, const Work &work)
 {
@@ -392,10 +393,10 @@ Joints selfMotion(const vpArmModel &model, const vpArmData &data, const vpRedund
   return work.bounds.together(model, direction, spec.period) * room * motion;
 }
 
-// How the answer lies to the wish.
+// Comparison of the output with the request.
 struct Likeness {
-  bool exact = false;  // the same
-  bool onPath = false; // the same direction
+  bool exact = false;  // same velocity
+  bool onPath = false; // same direction
 };
 
 vpRedundancyStatus judge(const Work &work, bool accelerating, bool clamped, const Likeness &likeness,
@@ -426,7 +427,7 @@ vpRedundancyStatus judge(const Work &work, bool accelerating, bool clamped, cons
 }
 } // namespace
 
-// Without looking at what may be broken.
+// Without using data that may be invalid.
 void vpRedundancySolver::brake(const vpRedundancyInput &input, vpRedundancyOutput &output) const noexcept
 {
   const int n = m_model->size();
@@ -470,7 +471,7 @@ void vpRedundancySolver::step(const vpArmData &data, const vpRedundancyInput &in
     toVector(self, n, output.selfMotion);
     motion += self;
   }
-  if (!motion.allFinite()) { // what the tasks ask for has no answer in numbers
+  if (!motion.allFinite()) { // the tasks have no finite solution
     brake(input, output);
     return;
   }
@@ -504,7 +505,7 @@ void vpRedundancySolver::step(const vpArmData &data, const vpRedundancyInput &in
   output.stoppedJoints = work.stopped;
   const double tolerance = exactness * (std::sqrt(wanted) + least);
   const double along =
-      wanted > 0. ? (wanted - done) * (wanted - done) / wanted : 0.; // part of it in the wish's direction
+      wanted > 0. ? (wanted - done) * (wanted - done) / wanted : 0.; // fraction in the requested direction
   const Likeness likeness{std::sqrt(missed) <= tolerance, std::sqrt(std::max(0., missed - along)) <= tolerance};
   output.status = judge(work, blend < 1., clamped, likeness, output);
 }

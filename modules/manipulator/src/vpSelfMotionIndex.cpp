@@ -27,7 +27,7 @@ bool pointwise(vpIndexKind kind)
 
 bool isUsual(double value) { return value >= 1e-9 && value <= vpArmLargest; }
 
-// An empty text when all is well; for the loop and for validate().
+// Empty if the index is valid; for the loop and for validate().
 const char *complaint(const vpArmModel &model, const vpSelfMotionIndex &index)
 {
   if (!(index.gain >= 0.) || index.gain > vpArmLargest) {
@@ -139,7 +139,7 @@ bool manipulability(const vpArmModel &model, const vpArmData &data, const vpSelf
   return true;
 }
 
-// Value and slope of an index as a function of the distance.
+// Value and derivative of an index as a function of the distance.
 void wish(const vpSelfMotionIndex &index, double d, double &value, double &slope)
 {
   const double s = index.range, x = d / s;
@@ -149,7 +149,7 @@ void wish(const vpSelfMotionIndex &index, double d, double &value, double &slope
     slope = -x / root;
   }
   else if (index.kind == vpIndexKind::PlaneDistance) {
-    // The logarithm in the form that does not overflow far on the wrong side.
+    // The logarithm in a form that does not overflow far on the wrong side.
     value = x > 0. ? -s * std::log1p(std::exp(-x)) : s * x - s * std::log1p(std::exp(x));
     slope = x > 0. ? std::exp(-x) / (1. + std::exp(-x)) : 1. / (1. + std::exp(x));
   }
@@ -163,8 +163,8 @@ bool distance(const vpArmModel &model, const vpArmData &data, const vpSelfMotion
 {
   const Eigen::Vector3d at = data.joint[static_cast<std::size_t>(index.joint)].p;
   const auto J = vpArmKinematics::pointJacobian(model, data, index.joint);
-  Eigen::Vector3d direction; // of growing distance
-  double share = 0.;         // with which the foot on the line follows the tool
+  Eigen::Vector3d direction; // of increasing distance
+  double share = 0.;         // with which the foot point on the line follows the tool
   if (index.kind == vpIndexKind::PlaneDistance) {
     result.distance = index.normal.dot(at - index.point);
     direction = index.normal;
@@ -182,7 +182,7 @@ bool distance(const vpArmModel &model, const vpArmData &data, const vpSelfMotion
   double slope = 0.;
   wish(index, result.distance, result.value, slope);
   for (int i = 0; i < model.size(); ++i) {
-    // The foot's own motion along the line does not change the distance; that of the line with the tool does.
+    // The foot point's motion along the line does not change the distance; that of the line with the tool does.
     result.gradient(i) = slope * direction.dot(J.col(i) - share * data.J.col(i).head<3>());
   }
   return direction.squaredNorm() > 0.;

@@ -14,8 +14,8 @@ namespace
 using vpTaskLevel::Joints;
 using vpTaskLevel::Square;
 
-// Eigenvectors (columns of V) and eigenvalues of the symmetric upper left d x d part, by Jacobi's rotations: d is 2 or
-// 3 mostly.
+// Eigenvectors (columns of V) and eigenvalues of the symmetric upper left d x d part, by Jacobi rotations: d is mostly
+// 2 or 3.
 void eigen(Square A, int d, Square &V, Joints &values)
 {
   V.setIdentity();
@@ -66,16 +66,16 @@ Square curvature(const vpArmModel &model, const vpArmData &data, vpArmFrame fram
 
 Room room(const vpTaskLevel::Basis &taken, const Joints &mayMove)
 {
-  constexpr double least = 0.01; // squared length of what is left of a joint's own direction
+  constexpr double least = 0.01; // squared length of the remainder of a joint's own direction
   Room space;
   vpTaskLevel::Basis all = taken;
-  // The basis is orthonormal: of unit vector i there is left 1 - sum v_k(i)^2.
+  // The basis is orthonormal: the remainder of unit vector i has the squared length 1 - sum v_k(i)^2.
   Joints left = Joints::Ones();
   for (int k = 0; k < all.count; ++k) {
     left -= all.vectors.col(k).cwiseAbs2();
   }
   for (;;) {
-    // The joint of which most is left, so that the vectors are well defined.
+    // The joint with the largest remainder, so that the vectors are well defined.
     int joint = -1;
     double most = least;
     for (int i = 0; i < vpArmMaxJoints; ++i) {
@@ -102,8 +102,8 @@ bool direction(const Room &space, const Square &H, double sense, const Joints &s
   }
   const double flat = 1e-3 * (1e-3 + H.cwiseAbs().maxCoeff());
   const Square symmetric = 0.5 * sense * (H + H.transpose());
-  // All in the coordinates of the room; beyond d there are zeros.
-  const Joints pull = space.vectors.transpose() * (symmetric * motion); // how the motion gains by a self-motion
+  // All in the coordinates of the space; zeros beyond d.
+  const Joints pull = space.vectors.transpose() * (symmetric * motion); // gain of the motion by a self-motion
   const Square inside = space.vectors.transpose() * symmetric * space.vectors;
   Square V;
   Joints values;
@@ -118,7 +118,7 @@ bool direction(const Room &space, const Square &H, double sense, const Joints &s
   }
   const Joints turning = neutral * pull;
   if (values(top) > flat) {
-    // Bends the arm: moves along the demand whichever way it goes.
+    // Bends the arm: moves along the demand for either sign.
     z = V.col(top);
   }
   else if (turning.norm() > flat * std::max(1e-3, motion.norm())) {
@@ -127,7 +127,7 @@ bool direction(const Room &space, const Square &H, double sense, const Joints &s
     return true;
   }
   else {
-    // The demand is the lost direction itself: turn it, either way does.
+    // The demand is the lost direction itself: turn it, with either sign.
     const Square change = neutral * (space.vectors.transpose() * H);
     eigen(change * change.transpose(), d, V, values);
     top = 0;
@@ -141,7 +141,7 @@ bool direction(const Room &space, const Square &H, double sense, const Joints &s
   }
   const double second = pull.dot(z);
   z = (space.vectors * z).eval();
-  // Of the two signs the one that already serves the demand, so that the arm does not turn round on its way out.
+  // Choose the sign that already serves the demand, so that the arm does not reverse on its way out.
   const double first = sense * slope.dot(z);
   if ((std::fabs(first) > 1e-6 ? first : second) < 0.) {
     z = -z;

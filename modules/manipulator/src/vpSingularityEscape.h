@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The self-motion that leads out of a singularity.
+// Self-motion that leads out of a singularity.
 #ifndef vpSingularityEscape_h
 #define vpSingularityEscape_h
 
@@ -15,27 +15,27 @@ BEGIN_VISP_NAMESPACE
 namespace vpSingularityEscape
 {
 /*!
- * H(k, l) = lost . dJ_l/dq_k in weighted coordinates: the task velocity in the lost direction after a time t of the
- * motion y is t y^T H y, because lost . J is about zero.
+ * H(k, l) = lost . dJ_l/dq_k in weighted coordinates: after a time t of the motion y the task velocity in the lost
+ * direction is t y^T H y, because lost . J is about zero.
  */
 vpTaskLevel::Square curvature(const vpArmModel &model, const vpArmData &data, vpArmFrame frame,
                               const Eigen::Matrix<double, 6, 1> &lost, const vpTaskLevel::Joints &scale);
 
-//! Orthonormal vectors of the self-motion that may be used: the first count columns.
+//! Orthonormal basis of the usable self-motion: the first count columns.
 struct Room {
   vpTaskLevel::Square vectors = vpTaskLevel::Square::Zero();
   int count = 0;
 };
 
-//! What a set of orthonormal vectors leaves of the joints that may move.
+//! Complement of a set of orthonormal vectors in the space of the movable joints.
 Room room(const vpTaskLevel::Basis &taken, const vpTaskLevel::Joints &mayMove);
 
 /*!
- * Unit vector z in the room that makes the lost direction reachable in the sense of the demand.
+ * Unit vector z in the space that makes the lost direction reachable in the sense of the demand.
  * \param sense : +1 or -1, sign of the demand along the lost direction.
- * \param slope : lost . J, what is left of the reachability.
- * \param motion : Motion that serves the rest of the task.
- * \return False when there is none: the demand points out of the workspace.
+ * \param slope : Remaining reachability lost . J.
+ * \param motion : Motion for the rest of the task.
+ * \return False if there is none: the demand points out of the workspace.
  */
 bool direction(const Room &space, const vpTaskLevel::Square &H, double sense, const vpTaskLevel::Joints &slope,
                const vpTaskLevel::Joints &motion, vpTaskLevel::Joints &z);

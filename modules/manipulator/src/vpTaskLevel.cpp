@@ -13,7 +13,7 @@ namespace vpTaskLevel
 {
 namespace
 {
-constexpr double rankless = 1e-6; // singular values below this are taken for zero
+constexpr double rankless = 1e-6; // singular values below this count as zero
 constexpr double exactRate = 50.; // 1/s
 
 // B = L V with orthonormal rows V. False when a row depends on those before it.
@@ -60,7 +60,7 @@ void jacobi(Rows &B, int rows, Eigen::Matrix<double, 6, 6> &U)
       }
     }
     if (largest < 1e-8) {
-      break; // converges quadratically: the sweep just made was the last that was needed
+      break; // converges quadratically: this sweep was the last one needed
     }
   }
 }
@@ -122,8 +122,8 @@ Info solve(const Rows &B, const Task &r, int rows, const Options &options, Basis
       info.singular = true;
     }
     if (s > rankless) {
-      // Damping sets in smoothly below s0, only in the direction that needs it, and only as far as the demand needs it:
-      // a small one is served exactly, with a speed of at most exactRate * s, at which s itself changes little in a
+      // Damping sets in smoothly below s0, only in the direction that needs it, and only as far as the demand requires:
+      // a small demand is fulfilled exactly, at a speed of at most exactRate * s, at which s itself changes little in a
       // period.
       const double ratio = s / options.singularRegion, demand = U.col(i).dot(rest);
       const double most = ratio < 1. ? options.damping * (1. - ratio * ratio) : 0.;

@@ -2,8 +2,8 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// One level of a hierarchy of tasks B y = r in weighted joint coordinates: inverse, damping, and what is left for the
-// next level.
+// One level of a hierarchy of tasks B y = r in weighted joint coordinates: inverse, damping, and the remaining space
+// for the next level.
 #ifndef vpTaskLevel_h
 #define vpTaskLevel_h
 
@@ -13,20 +13,21 @@ BEGIN_VISP_NAMESPACE
 
 namespace vpTaskLevel
 {
-// Everything has the full capacity and is padded with zeros: fixed sizes are several times faster than counted ones.
+// All matrices have the full capacity and are padded with zeros: fixed sizes are several times faster than dynamic
+// ones.
 using Joints = Eigen::Matrix<double, vpArmMaxJoints, 1>;
 using Square = Eigen::Matrix<double, vpArmMaxJoints, vpArmMaxJoints>;
-using Rows = Eigen::Matrix<double, vpArmMaxJoints, 6>; // a column for each row of the task
+using Rows = Eigen::Matrix<double, vpArmMaxJoints, 6>; // one column per row of the task
 using Task = Eigen::Matrix<double, 6, 1>;
 
-//! Orthonormal vectors that are spoken for.
+//! Orthonormal basis of the space already used.
 struct Basis {
   Square vectors;
   int count = 0;
-  //! Part of a vector that is free.
+  //! Component of a vector in the free space.
   [[nodiscard]] Joints free(Joints z) const
   {
-    // Twice is enough, once is not when little is left.
+    // Twice suffices; once does not if the remainder is small.
     for (int pass = 0; pass < 2; ++pass) {
       for (int i = 0; i < count; ++i) {
         z -= vectors.col(i) * vectors.col(i).dot(z);
@@ -34,7 +35,7 @@ struct Basis {
     }
     return z;
   }
-  //! One more unit vector, perpendicular to the others; a full basis stays as it is.
+  //! Adds a unit vector, perpendicular to the others; a full basis is unchanged.
   void add(const Joints &unit)
   {
     if (count < vpArmMaxJoints) {
@@ -51,10 +52,10 @@ struct Options {
 struct Info {
   bool singular = false;    // a singular value was below s0
   double smallest = 0.;     // singular value; a lower bound when not singular
-  Task lost = Task::Zero(); // direction of the task that belongs to it, when singular
+  Task lost = Task::Zero(); // its task direction, when singular
 };
 
-//! Adds to y the motion that brings B y nearest to r within what the basis leaves free, and to the basis what it takes.
+//! Adds to y the motion in the free space that brings B y nearest to r, and extends the basis by the space used.
 Info solve(const Rows &B, const Task &r, int rows, const Options &options, Basis &basis, Joints &y);
 } // namespace vpTaskLevel
 

@@ -171,7 +171,7 @@ private:
     if (value.find('%') != std::string::npos && field != "filename") {
       fail(m_at, "attribute " + field + " is " + vpPrintable(value, 60) + ", must be without %");
     }
-    if (value.find("&#") != std::string::npos) { // another way to write any of them
+    if (value.find("&#") != std::string::npos) { // character reference: could encode any of them
       fail(m_at, "attribute " + field + " is " + vpPrintable(value, 60) + ", must be without &#");
     }
   }
@@ -209,7 +209,7 @@ private:
   const std::string &m_text;
   const std::string &m_file;
   std::size_t m_at = 0;
-  std::vector<std::string> m_open; // the elements around the present place
+  std::vector<std::string> m_open; // the elements around the current position
 };
 } // namespace
 

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpXmlOutline.h
- * \brief What a text must be before urdfdom may read it.
+ * \brief Checks an XML text before it is passed to urdfdom.
  */
 #ifndef vpXmlOutline_h
 #define vpXmlOutline_h
@@ -12,12 +12,12 @@
 #include <string>
 
 /*!
- * Go through an XML text once, without recursion.
+ * Checks an XML text in one pass, without recursion.
  *
- * The parser behind urdfdom recurses into nested elements without a bound, goes on after some mistakes, and urdfdom passes
- * texts of the file to printf as a format. So the text must be well-formed, not nested deeper than vpDeepestNesting, and
- * without `%` in an attribute, but for `filename`, which is never part of a message.
- * \throw vpFileError with the line of what is wrong.
+ * The parser of urdfdom recurses into nested elements without a bound and continues after some errors, and urdfdom
+ * passes texts of the file to printf as a format. So the text must be well-formed, not nested deeper than
+ * vpDeepestNesting, and without `%` in an attribute, except `filename`, which is never part of a message.
+ * \throw vpFileError with the line of the error.
  */
 void vpRequireXmlOutline(const std::string &text, const std::string &file);
 

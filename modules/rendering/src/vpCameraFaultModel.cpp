@@ -54,7 +54,7 @@ void vpCameraFaultModel::apply(const vpCameraFaults &faults, unsigned int seed, 
   const float gain = static_cast<float>(faults.gain), bias = static_cast<float>(faults.bias) + 0.5f;
   const float noise = static_cast<float>(faults.noise);
   for (unsigned int r = 0; r < height; ++r) {
-    // A row takes a run of the pool from a random place on.
+    // A row takes a section of the pool from a random position on.
     unsigned int next = random.next();
     unsigned char *pixel = image[r];
     for (unsigned int c = 0; c < width; ++c, ++next) {

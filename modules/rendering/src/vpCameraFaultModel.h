@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpCameraFaultModel.h
- * \brief Lens, exposure and sensor: from an ideal picture to what a camera delivers.
+ * \brief Lens, exposure and sensor: converts an ideal image to a camera image.
  */
 #ifndef vpCameraFaultModel_h
 #define vpCameraFaultModel_h
@@ -15,16 +15,16 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! Applies vpCameraFaults in the order of the light's way: blur (lens), gain and bias (exposure), noise (sensor).
+//! Applies vpCameraFaults in the order of the light path: blur (lens), gain and bias (exposure), noise (sensor).
 class vpCameraFaultModel
 {
 public:
   vpCameraFaultModel();
-  //! \param seed : Of the noise. \param image : Changed in place.
+  //! \param seed : Seed of the noise. \param image : Modified in place.
   void apply(const vpCameraFaults &faults, unsigned int seed, vpImage<unsigned char> &image);
 
 private:
-  std::vector<float> m_pool; // standard normal numbers: drawing afresh for each pixel would take longer than rendering
+  std::vector<float> m_pool; // standard normal numbers: drawing one per pixel would take longer than rendering
   vpImage<double> m_blurred;
 };
 

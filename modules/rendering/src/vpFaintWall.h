@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpFaintWall.h
- * \brief What simulated cameras see behind everything.
+ * \brief Background of simulated cameras.
  */
 #ifndef vpFaintWall_h
 #define vpFaintWall_h
@@ -14,7 +14,7 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! A wall far behind the object: smooth and faint, so that it neither looks like the object nor offers keypoints.
+//! A wall far behind the object: smooth and faint, so that it neither resembles the object nor offers keypoints.
 vpImage<unsigned char> vpFaintWall(unsigned int width, unsigned int height);
 
 END_VISP_NAMESPACE

@@ -13,7 +13,7 @@ namespace
 {
 constexpr double keptShare = 0.2; // of the half length, beyond the centre, on the damaged side
 
-// Share of a stretch of length h around a point that lies `distance` outside (> 0) or inside (< 0) an edge.
+// Fraction of an interval of length h that is inside, centred `distance` outside (> 0) or inside (< 0) an edge.
 double inside(double distance, double h) { return std::clamp(0.5 - distance / h, 0., 1.); }
 } // namespace
 
@@ -41,7 +41,7 @@ double vpOpeningOutline::coverage(double x, double y, double h) const
 {
   const double p = m_cos * x + m_sin * y; // along the row of cells
   const double q = m_cos * y - m_sin * x;
-  // A rectangle is the product of its two stretches; this also closes the damaged side.
+  // A rectangle is the product of its two intervals; this also closes the damaged side.
   const double rectangle =
       inside(m_left - p, h) * inside(p - m_right, h) * inside(m_upper - q, h) * inside(q - m_lower, h);
   if (rectangle <= 0.) {

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpOpeningOutline.h
- * \brief The outline of an opening, exactly.
+ * \brief Exact outline of an opening.
  */
 #ifndef vpOpeningOutline_h
 #define vpOpeningOutline_h
@@ -14,7 +14,7 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
- * \brief An opening around its centre, turned as the product is. A damaged one lacks two fifths on one side.
+ * \brief An opening about its centre, rotated with the product. A damaged one has two fifths closed on one side.
  */
 class vpOpeningOutline
 {
@@ -22,10 +22,10 @@ public:
   //! \param spec : Valid. \param damage : Which side is closed.
   vpOpeningOutline(const vpProductPatternSpec &spec, vpOpeningDamage damage);
 
-  //! Half the size of the box around the turned opening along the image's axes, px.
+  //! Half the size of the bounding box of the rotated opening along the image's axes, px.
   [[nodiscard]] double halfX() const { return m_halfX; }
   [[nodiscard]] double halfY() const { return m_halfY; }
-  //! Share of the square of side \e h around (x, y), px from the centre, that is open.
+  //! Open fraction of the square of side \e h around (x, y), px from the centre.
   [[nodiscard]] double coverage(double x, double y, double h) const;
 
 private:
@@ -33,7 +33,7 @@ private:
   double m_a, m_b; // half lengths
   double m_radius; // of the corners
   double m_cos, m_sin;
-  double m_left, m_right, m_upper, m_lower; // what is not closed, product axes
+  double m_left, m_right, m_upper, m_lower; // bounds of the open part, product axes
   double m_halfX, m_halfY;
 };
 

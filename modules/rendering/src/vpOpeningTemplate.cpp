@@ -13,7 +13,7 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-constexpr double tail = 4.5; // where the Gaussian is taken to be 0, standard deviations
+constexpr double tail = 4.5; // beyond it the Gaussian counts as 0, standard deviations
 
 // Gaussian and pixel area in one: the integral of the Gaussian over a pixel at distance t.
 std::vector<double> blurKernel(double sigma, int steps)
@@ -33,7 +33,7 @@ std::vector<double> blurKernel(double sigma, int steps)
   return kernel;
 }
 
-// Convolve lines of n entries, `stride` apart, with the kernel; outside they are 0.
+// Convolves lines of n entries, `stride` apart, with the kernel; 0 outside.
 void convolve(std::vector<float> &data, int lines, int lineStride, int n, int stride, const std::vector<double> &kernel)
 {
   const std::size_t half = kernel.size() / 2;
@@ -60,13 +60,13 @@ vpOpeningTemplate::vpOpeningTemplate(const vpProductPatternSpec &spec, vpOpening
   : m_steps(std::max(spec.openingX, spec.openingY) <= 256. ? 8 : 4)
 {
   const double h = 1. / m_steps;
-  // The table begins with means over its meshes, which are a small blur already.
+  // The table starts with means over its mesh cells, which already are a small blur.
   const double sigma = std::sqrt(std::max(spec.psf * spec.psf - h * h / 12., h * h / 16.));
   const std::vector<double> kernel = blurKernel(sigma, m_steps);
   const vpOpeningOutline outline(spec, damage);
   const auto makeAxis = [&](double halfSize) {
     const double reach = halfSize + tail * sigma + 0.5;
-    const int size = 2 * static_cast<int>(std::ceil(reach)) + 4; // a pixel on either side for the interpolation
+    const int size = 2 * static_cast<int>(std::ceil(reach)) + 4; // one pixel on either side for the interpolation
     return Axis{reach, size, size * m_steps / 2};
   };
   m_x = makeAxis(outline.halfX());

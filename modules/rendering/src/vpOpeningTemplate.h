@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpOpeningTemplate.h
- * \brief An opening, blurred by optics and pixel, that can be put anywhere between the pixels.
+ * \brief An opening, blurred by optics and pixel, for any sub-pixel position.
  */
 #ifndef vpOpeningTemplate_h
 #define vpOpeningTemplate_h
@@ -20,20 +20,20 @@ BEGIN_VISP_NAMESPACE
 enum class vpOpeningDamage { None, Left, Right, Upper, Lower };
 
 /*!
- * \brief The share of light that a pixel gets from one opening: its outline, turned as the product is, convolved with
- * the Gaussian of the optics and the pixel's area, tabulated finely.
+ * \brief Fraction of light that a pixel gets from one opening: its outline, rotated with the product, convolved with
+ * the Gaussian of the optics and the pixel's area, on a fine table.
  */
 class vpOpeningTemplate
 {
 public:
-  //! \param spec : Valid. \param damage : Two fifths of the opening are closed on this side (of the turned product).
+  //! \param spec : Valid. \param damage : Two fifths of the opening are closed on this side (of the rotated product).
   vpOpeningTemplate(const vpProductPatternSpec &spec, vpOpeningDamage damage);
 
-  //! How far from its centre the blurred opening reaches, px.
+  //! Extent of the blurred opening from its centre, px.
   [[nodiscard]] double reachX() const { return m_x.reach; }
   [[nodiscard]] double reachY() const { return m_y.reach; }
 
-  //! Add \e weight times the opening with its centre at (u, v), px, to \e image, as far as it is in there.
+  //! Adds \e weight times the opening with its centre at (u, v), px, to \e image, clipped to it.
   void add(double u, double v, double weight, vpImage<float> &image) const;
 
 private:
@@ -43,10 +43,10 @@ private:
     int size;   // px
     int middle; // node
   };
-  // How the pixels of an axis read the table: pixel k interpolates between four nodes, each of them in the sub-table of
-  // its phase, whose entries are a pixel apart.
+  // Table access by the pixels of an axis: pixel k interpolates between four nodes, each in the sub-table of
+  // its phase, whose entries are one pixel apart.
   struct Taps {
-    int first, last; // pixels that are touched, last is one beyond
+    int first, last; // pixels affected, last is one beyond
     int phase[4];
     int shift[4]; // entry = pixel + shift
     double weight[4];

@@ -18,21 +18,22 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
- * Draws a rectangle |x| <= width / 2, |y| <= height / 2, z = 0 with a photograph edge to edge, sampled 2x2 times a pixel.
- * What is done with each pixel is the caller's business.
+ * Draws a rectangle |x| <= width / 2, |y| <= height / 2, z = 0 with a photograph edge to edge, sampled 2x2 times per
+ * pixel. The caller processes each pixel.
  */
 class vpPhotoPatch
 {
 public:
-  //! \param photo : At least 8x8 px. \param width, height : Of the rectangle, m.
+  //! \param photo : At least 8x8 px. \param width, height : Size of the rectangle, m.
   vpPhotoPatch(const vpImage<unsigned char> &photo, double width, double height)
     : m_photo(photo, width, height), m_width(width), m_height(height)
   {}
 
   /*!
-   * \param cMo : Pose of the rectangle. \param camera : Without distortion. \param width, height : Of the picture, px.
-   * \param visit : Called for every pixel that the rectangle covers in part, as visit(int row, int column, int sum, int
-   * samples): how many of its four samples are on the rectangle, 1 to 4, and the sum of their grey values.
+   * \param cMo : Pose of the rectangle. \param camera : Without distortion. \param width, height : Size of the image,
+   * px.
+   * \param visit : Called for every pixel that the rectangle covers at least partly, as visit(int row, int column, int
+   * sum, int samples): number of its four samples on the rectangle, 1 to 4, and the sum of their grey values.
    */
   template <class Visit>
   void draw(const vpHomogeneousMatrix &cMo, const vpCameraParameters &camera, unsigned int width, unsigned int height,
@@ -65,7 +66,7 @@ public:
   }
 
 private:
-  // One row of the picture from its two rows of samples.
+  // One row of the image from its two rows of samples.
   template <class Visit>
   void averageRow(const vpPlaneOutline &outline, int r, int r0, int c0, int c1, Visit &visit) const
   {

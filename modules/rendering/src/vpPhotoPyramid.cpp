@@ -15,7 +15,7 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-constexpr unsigned int coarsestSize = 16; // px; smaller copies would serve objects of a few pixels only
+constexpr unsigned int coarsestSize = 16; // px; smaller copies would only be used for objects of a few pixels
 constexpr int margin = 1;                 // texels; bilinear interpolation ends at the centres of the border texels
 
 // Each pixel is the mean of 2x2; an odd last row or column counts twice.
@@ -44,8 +44,8 @@ vpImage<unsigned char> withMargin(const vpImage<unsigned char> &image)
   return wide;
 }
 
-// What vpImageTools::warpImage() does with linear interpolation and not in fixed point (whose 16 bits leave the perspective
-// terms two digits), the same to the bit and in less time. H takes pixels of the photo to pixels of the image.
+// Bit-identical to vpImageTools::warpImage() with linear interpolation and without fixed point (whose 16 bits leave two
+// digits for the perspective terms), but faster. H maps pixels of the photo to pixels of the image.
 void warp(const vpImage<unsigned char> &photo, const vpMatrix &H, vpImage<unsigned char> &image)
 {
   const Eigen::Matrix3d A = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(H.data).inverse();

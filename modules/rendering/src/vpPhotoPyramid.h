@@ -19,22 +19,22 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
- * A warp samples the photograph at one point a pixel, which aliases when the photograph is finer than the picture. So
- * there are halved copies of it, and draw() takes the one that is about as fine as the picture.
+ * A warp samples the photograph at one point per pixel, which aliases if the photograph is finer than the image. So
+ * there are halved copies of it, and draw() uses the one with about the resolution of the image.
  *
- * Why not vpImageSimulator: it takes 4 times as long, truncates its interpolated values, puts the centres of the corner
- * pixels instead of their outer edges on the object's corners, and never draws the last row and column of its image. A
+ * Not vpImageSimulator, which takes 4 times as long, truncates its interpolated values, maps the centres of the corner
+ * pixels instead of their outer edges to the object's corners, and never draws the last row and column of its image. A
  * test compares the two where they must agree.
  */
 class vpPhotoPyramid
 {
 public:
-  //! \param photo : At least 8x8 px. \param width, height : Of the object, m.
+  //! \param photo : At least 8x8 px. \param width, height : Size of the object, m.
   vpPhotoPyramid(const vpImage<unsigned char> &photo, double width, double height);
 
   /*!
-   * Draw over \e image, and a little beyond the photograph's edge; the caller cuts that off (vpPlaneOutline).
-   * \param cMo : Pose of the object, front side visible. \param camera : Of \e image, which may be a crop of a picture.
+   * Draws into \e image, slightly beyond the photograph's edge; the caller clips that (vpPlaneOutline).
+   * \param cMo : Pose of the object, front side visible. \param camera : Intrinsics of \e image, which may be a crop.
    * \param area : Area of the object in \e image, px^2.
    */
   void draw(const vpHomogeneousMatrix &cMo, const vpCameraParameters &camera, double area,

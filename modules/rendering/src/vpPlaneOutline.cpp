@@ -75,7 +75,7 @@ bool vpPlaneOutline::span(double v, double &left, double &right) const
   right = -left;
   for (std::size_t i = 0; i < m_u.size(); ++i) {
     const std::size_t k = (i + 1) % m_u.size();
-    // Half open, so that a vertex on the line counts for one of its two edges only.
+    // Half open, so that a vertex on the line counts for only one of its two edges.
     if ((m_v[i] <= v) != (m_v[k] <= v)) {
       const double u = m_u[i] + (m_u[k] - m_u[i]) * (v - m_v[i]) / (m_v[k] - m_v[i]);
       left = std::min(left, u);

@@ -18,23 +18,23 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
- * Image of the rectangle |x| <= width / 2, |y| <= height / 2 in the plane z = 0, cut off just in front of the camera: a
- * convex polygon in pixels, empty when the front side of the rectangle cannot be seen.
+ * Image of the rectangle |x| <= width / 2, |y| <= height / 2 in the plane z = 0, clipped just in front of the camera: a
+ * convex polygon in pixels, empty if the front side of the rectangle is not visible.
  */
 class vpPlaneOutline
 {
 public:
   vpPlaneOutline(const vpHomogeneousMatrix &cMo, double width, double height, const vpCameraParameters &camera);
 
-  //! True when there is nothing to see.
+  //! True if nothing is visible.
   bool empty() const { return m_u.size() < 3; }
-  //! Area of the polygon, px^2, also of what lies outside the image.
+  //! Area of the polygon, px^2, including parts outside the image.
   double area() const;
   //! Smallest box around the polygon, px.
   void box(double &left, double &top, double &right, double &bottom) const;
   /*!
-   * Where the polygon meets the line of constant \e v, px.
-   * \return False when it does not; otherwise the points with left <= u < right are inside.
+   * Intersection of the polygon with the line of constant \e v, px.
+   * \return False if there is none; otherwise the points with left <= u < right are inside.
    */
   bool span(double v, double &left, double &right) const;
 

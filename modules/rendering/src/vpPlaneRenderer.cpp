@@ -20,7 +20,7 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-// An elliptic patch that sticks to the object. Coordinates are shares of the object's size, the origin its centre.
+// An elliptic patch fixed to the object. Coordinates are fractions of the object's size, the origin is its centre.
 struct Occluder {
   double x, y, cosine, sine, stretch, phase;
 
@@ -35,7 +35,7 @@ struct Occluder {
     stretch = random.uniform(1., 2.);
     phase = random.uniform(0., 2. * M_PI);
   }
-  // How large the patch must be to reach this point.
+  // Size at which the patch reaches this point.
   double reach(double px, double py) const
   {
     const double along = cosine * (px - x) + sine * (py - y), across = cosine * (py - y) - sine * (px - x);
@@ -74,7 +74,7 @@ public:
 private:
   struct Pixel {
     unsigned int row, column;
-    double x, y;  // in the object, shares of its size
+    double x, y;  // in the object, fractions of its size
     double reach; // of the occluder
   };
 
@@ -88,7 +88,7 @@ private:
     });
   }
 
-  // The patch grows until it hides the share asked for of the pixels that show the object.
+  // The patch grows until it hides the required fraction of the object's pixels.
   void drawOccluder(const vpHomogeneousMatrix &cMo, const vpCameraFaults &faults, vpImage<unsigned char> &image)
   {
     if (m_covered.empty()) {
@@ -121,7 +121,7 @@ private:
   vpCameraParameters m_camera;
   double m_objectWidth, m_objectHeight;
   vpImage<unsigned char> m_background;
-  std::vector<Pixel> m_covered; // pixels of which the object covers half or more
+  std::vector<Pixel> m_covered; // pixels at least half covered by the object
   vpCameraFaultModel m_faults;
 };
 

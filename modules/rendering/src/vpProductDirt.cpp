@@ -14,9 +14,9 @@ BEGIN_VISP_NAMESPACE
 namespace
 {
 constexpr double tile = 100.;       // px
-constexpr double longestMark = 72.; // px from where it begins, blur apart
+constexpr double longestMark = 72.; // px from its start, without blur
 
-// So many that their mean over the tiles is the density.
+// Number of marks in a tile; its mean over the tiles is the density.
 int countOf(vpHashRandom &random, double density) { return static_cast<int>(std::floor(density + random.uniform())); }
 
 double distanceToPiece(double x, double y, double ax, double ay, double bx, double by)
@@ -68,7 +68,7 @@ std::vector<vpProductDirt::Mark> vpProductDirt::marksOf(int tileX, int tileY) co
   return marks;
 }
 
-// Light lost at a point of the product, after the blur. Exact for straight edges that are long compared with the blur.
+// Light lost at a point of the product, after blur. Exact for straight edges that are long compared with the blur.
 double vpProductDirt::shade(const Mark &mark, double x, double y) const
 {
   const double scale = M_SQRT1_2 / m_sigma;

@@ -18,12 +18,12 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
- * \brief Specks and cracks, from a hash of the 100 x 100 px tile of the product in which they lie (a crack: begins).
+ * \brief Specks and cracks, from a hash of the 100 x 100 px tile of the product in which they lie (cracks: begin).
  */
 class vpProductDirt
 {
 public:
-  //! \brief A displacement of the product during the exposure and its share of the time.
+  //! \brief A displacement of the product during the exposure and its fraction of the time.
   struct Instant {
     double x, y, share; // px
   };
@@ -32,19 +32,19 @@ public:
   explicit vpProductDirt(const vpProductPatternSpec &spec);
 
   /*!
-   * Multiply the picture by the light that dust and cracks let through.
-   * \param instants : The exposure, shares add up to 1. \param image : As large as the specification says.
+   * Multiplies the image by the transmission of dust and cracks.
+   * \param instants : The exposure, fractions add up to 1. \param image : Of the size in the specification.
    */
   void darken(const std::vector<Instant> &instants, vpImage<float> &image) const;
 
 private:
   static constexpr int pieces = 4; // of a crack
-  //! \brief A line of width 2 * half through the corners; a speck is an ellipse about the first of them.
+  //! \brief A polyline of width 2 * half through the corners; a speck is an ellipse about the first corner.
   struct Mark {
     bool crack;
     std::array<double, pieces + 1> x, y; // px, product at (0, 0)
     double half;                         // width or semi-axis, px
-    double stretch, cosine, sine;        // of a speck: second semi-axis by the first, direction
+    double stretch, cosine, sine;        // of a speck: ratio of second to first semi-axis, direction
     double opacity;
   };
   [[nodiscard]] std::vector<Mark> marksOf(int tileX, int tileY) const;

@@ -58,7 +58,7 @@ std::vector<vpProductLattice::Cell> vpProductLattice::cellsNear(double x, double
 {
   const double halfU = m_spec.width / 2. + marginX;
   const double halfV = m_spec.height / 2. + marginY;
-  // The box around the turned image in the axes of the product, and what a cell may be off its place.
+  // Bounding box of the rotated image in the axes of the product, plus the largest displacement of a cell.
   const double c = std::fabs(m_cos);
   const double s = std::fabs(m_sin);
   const double reachP = c * halfU + s * halfV + jitterCut * m_spec.jitter + m_spec.flexAmplitudeX;

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpProductLattice.h
- * \brief Where the cells of an endless product are, and which are defective.
+ * \brief Positions and defects of the cells of an endless product.
  */
 #ifndef vpProductLattice_h
 #define vpProductLattice_h
@@ -17,7 +17,7 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
- * \brief Places and defects of cells by their row and column, from the specification alone.
+ * \brief Positions and defects of cells by row and column, from the specification alone.
  */
 class vpProductLattice
 {
@@ -33,7 +33,7 @@ public:
   explicit vpProductLattice(const vpProductPatternSpec &spec);
 
   /*!
-   * The cells whose centre is in the image or up to (\e marginX, \e marginY) px beside it, by row, then by column.
+   * Cells whose centre is in the image or up to (\e marginX, \e marginY) px outside, by row, then by column.
    * The image covers -0.5 <= u < width - 0.5, v likewise. \param x, y : Displacement of the product, px.
    */
   [[nodiscard]] std::vector<Cell> cellsNear(double x, double y, double marginX, double marginY) const;

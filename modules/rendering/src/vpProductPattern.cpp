@@ -18,7 +18,7 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-constexpr double farthest = 1e8;      // px: beyond, the places of the cells would lose digits
+constexpr double farthest = 1e8;      // px: beyond, the cell positions would lose digits
 constexpr double longestBlur = 1000.; // px
 
 void requireWithin(const char *name, double value, double limit, const char *unit)
@@ -108,7 +108,7 @@ public:
   const vpOpeningOutline outline;
 
 private:
-  // Gauss' rule with two points for each pixel of motion: the picture is smooth on that scale.
+  // Gauss quadrature with two points per pixel of motion: the image is smooth on that scale.
   static std::vector<vpProductDirt::Instant> instantsOf(double x, double y, double blurX, double blurY)
   {
     const double length = std::hypot(blurX, blurY);
@@ -140,7 +140,7 @@ private:
     }
   }
 
-  std::vector<vpOpeningTemplate> m_openings; // by vpOpeningDamage
+  std::vector<vpOpeningTemplate> m_openings; // indexed by vpOpeningDamage
   vpProductDirt m_dirt;
 };
 

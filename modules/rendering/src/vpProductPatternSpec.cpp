@@ -27,7 +27,7 @@ void requireBetween(const char *field, double value, const char *unit, double lo
   require(value >= low && value <= high, field, value, unit, range);
 }
 
-// Between the openings of neighbours there is always ground, however they are displaced.
+// Neighbouring openings must not touch at any displacement.
 void requireGap(const char *field, double opening, double pitch, double jitter, double amplitude, double period)
 {
   const double room = pitch - 6. * jitter - 2. * amplitude * std::sin(M_PI / period);

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpRayCast.h
- * \brief Where a ray cuts a body; all in the body's frame.
+ * \brief Intersections of a ray with a body; all in the body's frame.
  */
 #ifndef vpRayCast_h
 #define vpRayCast_h
@@ -21,15 +21,15 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
- * Each body has hit(): the first cut of the ray from + t along, t > 0, where it enters the body. It gives t, infinity for
- * none, and the normal there (of any length and sign).
+ * Each body has hit(): the first intersection of the ray from + t along, t > 0, where it enters the body. It gives t,
+ * infinity for none, and the normal there (of any length and sign).
  */
 namespace vpRayCast
 {
 using Eigen::Vector3d;
 constexpr double none = std::numeric_limits<double>::infinity();
 
-//! Lower root of a t^2 + 2 b t + c; infinity when there is none above 0.
+//! Lower root of a t^2 + 2 b t + c; infinity if there is none above 0.
 inline double enter(double a, double b, double c)
 {
   const double under = b * b - a * c;
@@ -72,7 +72,7 @@ struct Tube {
         normal = n;
       }
     }
-    // From inside a round end's sphere or of the tube there is no entry.
+    // From inside an end sphere or the tube there is no entry.
     return best;
   }
 
@@ -89,7 +89,7 @@ struct Box {
   Vector3d half;
   [[nodiscard]] double hit(const Vector3d &from, const Vector3d &along, Vector3d &normal) const
   {
-    // A ray along a face gets a slope that cannot matter instead of a division by 0.
+    // A ray along a face gets an irrelevant slope instead of a division by 0.
     const auto slope = [](double d) { return 1. / (d == 0. ? 1e-300 : d); };
     const Vector3d inverse(slope(along.x()), slope(along.y()), slope(along.z()));
     const Vector3d middle = -from.cwiseProduct(inverse), reach = half.cwiseProduct(inverse).cwiseAbs();
@@ -103,12 +103,12 @@ struct Box {
   }
 };
 
-//! Seen from both sides.
+//! Visible from both sides.
 struct Triangle {
   Vector3d a, b, c;
   [[nodiscard]] double hit(const Vector3d &from, const Vector3d &along, Vector3d &normal) const
   {
-    // On which side of each edge the ray passes.
+    // Side of each edge on which the ray passes.
     const Vector3d p = a - from, q = b - from, r = c - from;
     const double ab = along.dot(p.cross(q)), bc = along.dot(q.cross(r)), ca = along.dot(r.cross(p));
     if (!((ab >= 0. && bc >= 0. && ca >= 0.) || (ab <= 0. && bc <= 0. && ca <= 0.))) {

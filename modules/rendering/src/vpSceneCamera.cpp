@@ -116,7 +116,7 @@ public:
   vpSceneCameraSpec m_spec;
 
 private:
-  // Over what the raster has drawn, where nothing is in front of the face.
+  // Overwrites the raster where nothing is in front of the face.
   void drawPhoto(const vpScenePhoto &photo, vpPhotoPatch &patch, const vpCollisionObject &object,
                  const vpRigidTransform &cMf, vpImage<unsigned char> &image)
   {
@@ -143,7 +143,7 @@ private:
 
   vpImage<unsigned char> m_wall;
   vpSceneRaster m_raster;
-  std::vector<vpPhotoPatch> m_patches; // one for each photograph
+  std::vector<vpPhotoPatch> m_patches; // one per photograph
   vpCameraFaultModel m_faults;
 };
 

@@ -18,7 +18,7 @@ constexpr double darkest = 0.45;             // of the object's tone, where the 
 const Eigen::Vector3d light(0.35, 0.5, 0.8); // in the base
 constexpr double groundTone = 118.;
 
-// Different objects differ, the same one looks the same in every run and on every machine.
+// Different objects look different, the same one looks the same in every run and on every machine.
 double toneOf(const std::string &name)
 {
   unsigned int hash = 2166136261U; // FNV-1a
@@ -28,7 +28,7 @@ double toneOf(const std::string &name)
   return 90. + hash % 120U;
 }
 
-// Pixels of a sphere along one axis; false when it is beside the picture.
+// Pixels of a sphere along one axis; false if it is outside the image.
 bool range(double across, double along, double radius, double focal, double centre, int size, int &low, int &high)
 {
   low = 0;
@@ -38,7 +38,7 @@ bool range(double across, double along, double radius, double focal, double cent
     return true; // around the camera
   }
   const double middle = std::atan2(across, along), half = std::asin(radius / distance);
-  constexpr double edge = 1.57; // rad; beyond it there is no picture
+  constexpr double edge = 1.57; // rad; no image beyond it
   if (middle - half >= edge || middle + half <= -edge) {
     return false;
   }
@@ -69,7 +69,8 @@ vpSceneRaster::Window vpSceneRaster::window(const Eigen::Vector3d &centre, doubl
   return w;
 }
 
-// The pixels around a box's corners are far fewer than those of its sphere, when it is all in front of the camera.
+// The image bounds of a box's corners contain far fewer pixels than its sphere, if all corners are in front of the
+// camera.
 void vpSceneRaster::drawBox(const Eigen::Vector3d &half, const vpRigidTransform &cMo)
 {
   Window w = window(cMo.p, half.norm());
@@ -166,7 +167,7 @@ void vpSceneRaster::drawObject(const vpCollisionObject &object, const vpRigidTra
   }
 }
 
-// A camera below the ground does not see it.
+// The ground is invisible from below.
 void vpSceneRaster::drawGround(const vpHalfSpace &ground, const vpRigidTransform &fMc)
 {
   const double height = ground.normal.dot(fMc.p) - ground.offset;

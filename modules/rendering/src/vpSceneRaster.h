@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpSceneRaster.h
- * \brief For every pixel of a camera: how far what is seen there is, and its grey.
+ * \brief Depth and grey value of every pixel of a camera.
  */
 #ifndef vpSceneRaster_h
 #define vpSceneRaster_h
@@ -16,15 +16,16 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
- * Each body is cut by the rays of the pixels that its bounding sphere covers; the nearest cut stays.
+ * Each body is intersected with the rays of the pixels covered by its bounding sphere; the nearest intersection is
+ * kept.
  */
 class vpSceneRaster
 {
 public:
-  //! \param camera : Without distortion. \param width, height : px.
+  //! \param camera : Without distortion. \param width, height : Image size, px.
   vpSceneRaster(const vpCameraParameters &camera, unsigned int width, unsigned int height);
 
-  //! Draws a scene. \param grey : Drawn over where something is seen; null: depths only.
+  //! Draws a scene. \param grey : Overwritten where something is seen; null: depths only.
   void draw(const vpCollisionScene &scene, const vpRigidTransform &fMc, vpImage<unsigned char> *grey);
   //! Depth along the optical axis, m; infinity where nothing is seen.
   [[nodiscard]] const vpImage<float> &depth() const { return m_depth; }
@@ -53,8 +54,8 @@ private:
   vpImage<float> m_depth;
   // While drawing.
   vpImage<unsigned char> *m_grey = nullptr;
-  Eigen::Vector3d m_light = Eigen::Vector3d::UnitZ(); // in the camera
-  double m_tone = 0.;                                 // of the object
+  Eigen::Vector3d m_light = Eigen::Vector3d::UnitZ(); // in the camera frame
+  double m_tone = 0.;                                 // grey tone of the object
 };
 
 END_VISP_NAMESPACE

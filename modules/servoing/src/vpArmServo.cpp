@@ -54,7 +54,7 @@ void vpArmServo::supervise(const vpCollisionScene &scene, const vpStopSupervisor
 
 bool vpArmServo::see(const vpServoMeasurement &result) noexcept { return m_odometry.correct(result); }
 
-// Twist that leads from the camera of the last step to the present one in the time between, in the frame of the camera.
+// Mean camera twist since the last step, in the camera frame.
 vpTwist vpArmServo::executed(const vpRigidTransform &fMc, double time) const noexcept
 {
   if (!m_started) {

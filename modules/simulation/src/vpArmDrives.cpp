@@ -14,8 +14,8 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-constexpr double naturalFrequency = 12.;    // rad/s, least of gains that nobody gave
-constexpr double frictionError = 1. / 300.; // rad or m that Coulomb friction may hold back with such gains
+constexpr double naturalFrequency = 12.;    // rad/s, minimum for derived gains
+constexpr double frictionError = 1. / 300.; // rad or m, largest error by Coulomb friction with such gains
 constexpr double estimatorBandwidth = 300.; // rad/s
 constexpr int inertiaSamples = 200;
 
@@ -27,7 +27,7 @@ void requireGood(const char *field, double value, bool good, const char *range)
   }
 }
 
-// The largest inertia that each drive may see, kg m^2.
+// Largest inertia seen by each drive, kg m^2.
 vpJointVector largestInertia(const vpArmModel &model)
 {
   std::mt19937_64 rng(1);
@@ -125,7 +125,7 @@ bool vpArmDrives::move(const vpJointVector &velocity, double duration) noexcept
     m_command.setZero();
     return false;
   }
-  // As far as the wanted place stays one.
+  // As long as the desired position stays valid.
   const bool good = velocity.size() == m_wanted.size() && vpIsPlausibleForArm(velocity) &&
                     vpIsPlausibleForArm(m_wanted + duration * velocity);
   if (good) {

@@ -16,8 +16,8 @@ BEGIN_VISP_NAMESPACE
 namespace
 {
 constexpr int mostPasses = 200;
-constexpr double settled = 1e-12;  // rad/s: change of a pass that ends the iteration
-constexpr double sticking = 1e-10; // rad/s: what is left of the velocity of a joint that sticks
+constexpr double settled = 1e-12;  // rad/s: change per pass that ends the iteration
+constexpr double sticking = 1e-10; // rad/s: residual velocity below which a joint sticks
 
 double clamp(double value, double lower, double upper) { return std::min(upper, std::max(lower, value)); }
 } // namespace
@@ -80,8 +80,8 @@ bool vpArmPlant::move(const vpJointVector &torque, double dt) noexcept
   return true;
 }
 
-// Friction impulses lie within +-dt Fc, those of a stop push inwards only. Both start from the last step's, which are
-// nearly right.
+// Friction impulses are within +-dt Fc, those of a stop push inwards only. Both start from the last step's values,
+// which are nearly correct.
 void vpArmPlant::holdBack(const vpJointMatrix &compliance, double dt) noexcept
 {
   const Eigen::Index n = m_q.size();

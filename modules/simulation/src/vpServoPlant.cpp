@@ -12,7 +12,7 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-// NaN fails every comparison, so each check is written as "is it good", never as "is it bad".
+// NaN fails every comparison, so each check tests for validity, never for invalidity.
 void requirePositive(const char *field, double value, const char *unit)
 {
   if (!(value > 0.) || !std::isfinite(value)) {

@@ -22,7 +22,7 @@ BEGIN_VISP_NAMESPACE
 namespace
 {
 using Clock = std::chrono::steady_clock;
-constexpr double longestLag = 0.1;  // s: what a clock that was held up makes up for; beyond it the arm's time lags
+constexpr double longestLag = 0.1;  // s: delay that the clock catches up; beyond it the arm's time lags
 constexpr double resting = 1e-4;    // rad/s or m/s
 constexpr double longestRest = 1.;  // s
 constexpr double longestWait = 1e6; // s
@@ -112,7 +112,7 @@ const char *sentenceOf(vpClosedLoopStatus status)
 }
 } // namespace
 
-//! Core, clock and the lock between them.
+//! Core, clock and their lock.
 class vpSimulatedArm::Impl
 {
 public:
@@ -138,7 +138,7 @@ public:
 
   [[nodiscard]] bool stepped() const { return core.spec.clock == vpArmClock::Stepped; }
 
-  //! Stepped: let time pass. What is less than a control period is kept for the next time; ViSP's own sampling time is
+  //! Stepped: lets time pass. The remainder below a control period is carried over; ViSP's own sampling time is
   //! a float.
   void pass(double duration)
   {
@@ -146,7 +146,7 @@ public:
       core.tick();
     }
   }
-  //! Until something holds, whoever makes time pass.
+  //! Waits for a condition with either clock.
   template <class Condition> void waitUntil(std::unique_lock<std::mutex> &lock, const Condition &holds)
   {
     while (!holds()) {
@@ -159,13 +159,13 @@ public:
     }
   }
 
-  //! A new order ends the one before it, whichever thread waits for that.
+  //! A new command cancels the previous one, in whichever thread it is awaited.
   long order() { return ++m_orders; }
   [[nodiscard]] bool ended(long order) const { return order != m_orders; }
 
   mutable std::mutex mutex;
   vpSimulatedArmCore core;
-  double positioning = 0.15; // part of the velocity limits
+  double positioning = 0.15; // fraction of the velocity limits
   vpArmData before;          // at the last getDisplacement()
 
 private:
@@ -340,7 +340,7 @@ void vpSimulatedArm::setPosition(const vpRobot::vpControlFrameType frame, const 
   if (byJoints && core.motion().failed()) {
     throw vpRobotException(vpRobotException::lowLevelError, "%s", core.motion().pathSentence().c_str());
   }
-  // Drives with friction come to rest a little later than their commands.
+  // Drives with friction come to rest slightly later than their commands.
   const double end = core.time() + longestRest;
   m_impl->waitUntil(lock, [this, &core, order, end] {
     return m_impl->ended(order) || core.drives().velocity().cwiseAbs().maxCoeff() < resting || core.time() >= end;

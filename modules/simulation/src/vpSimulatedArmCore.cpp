@@ -12,7 +12,7 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-// The cycles of joint control fill a control period exactly.
+// A control period is an integer number of joint control cycles.
 vpArmDriveSpec driveSpec(const vpSimulatedArmSpec &spec)
 {
   vpArmDriveSpec drives = spec.drives;

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The simulated arm without ViSP's interface and without a clock: one control period after the other.
+// The simulated arm without ViSP's interface and without a clock: advanced by control periods.
 #ifndef vpSimulatedArmCore_h
 #define vpSimulatedArmCore_h
 
@@ -19,11 +19,11 @@ public:
 
   //! One control period; no allocation, no exception.
   void tick() noexcept;
-  //! A velocity has come that is good until a time, s; motion() says which.
+  //! Sets the time until which the velocity command of motion() is valid, s.
   void commandUntil(double deadline);
-  //! Brake and forget what was wrong.
+  //! Brakes and clears errors.
   void stop();
-  //! Nothing moves and nothing is asked of it.
+  //! True if the joint commands are zero and no motion is requested.
   [[nodiscard]] bool atRest() const noexcept;
 
   [[nodiscard]] vpSimulatedArmState state() const;
@@ -35,7 +35,7 @@ public:
   [[nodiscard]] vpSimulatedArmStatus status() const noexcept { return m_status; }
   //! Kinematics of the true configuration.
   [[nodiscard]] vpArmData kinematics() const;
-  //! Kinematics of what the encoders show.
+  //! Kinematics of the measured configuration.
   [[nodiscard]] vpArmData measuredKinematics() const;
 
   const vpArmModel model;

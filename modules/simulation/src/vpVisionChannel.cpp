@@ -13,7 +13,7 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-// Times are multiples of a cycle in binary fractions: 0.1 + 0.2 must count as 0.3. Far below any cycle.
+// Tolerance of times, since 0.1 + 0.2 must count as 0.3; far below any cycle.
 constexpr double timeTolerance = 1e-9;
 } // namespace
 
@@ -32,7 +32,7 @@ bool vpVisionChannel::due(double now) const { return now + timeTolerance >= m_ne
 void vpVisionChannel::push(const vpServoMeasurement &measurement)
 {
   m_pending.push_back(measurement);
-  // Counted from the start and not from this exposure, so that a frame taken late does not shift the later ones.
+  // Counted from the start, not from this exposure, so that a late frame does not shift later ones.
   m_nextFrame = std::floor((measurement.time + timeTolerance) * m_frameRate) + 1.;
 }
 

@@ -16,7 +16,7 @@ namespace
 constexpr int partsPerStep = 32;
 constexpr double stepsPerDelay = 1000.;
 constexpr double longestStep = 1e6;
-constexpr double largest = 1e12; // force or place
+constexpr double largest = 1e12; // force or position
 
 void require(bool good, const char *axis, const char *field, double value, const char *range)
 {
@@ -25,7 +25,7 @@ void require(bool good, const char *axis, const char *field, double value, const
   }
 }
 
-// Of a magnitude with which no step overflows.
+// Small enough that no step overflows.
 bool positive(double value) { return value >= 1e-30 && value <= 1e15; }
 bool notNegative(double value) { return value == 0. || positive(value); }
 } // namespace
@@ -106,7 +106,7 @@ const vpXYStage::State &vpXYStage::step(double dt, const Pair &command)
                         force, largest);
     }
   }
-  // Forget commands whose successor acts already on both axes.
+  // Drop commands whose successor already acts on both axes.
   const auto stale = [&](const Given &next) { return next.time + longest <= m_state.time; };
   while (m_given.size() > 1 && stale(m_given[1])) {
     m_given.erase(m_given.begin());
@@ -119,7 +119,7 @@ const vpXYStage::State &vpXYStage::step(double dt, const Pair &command)
   return m_state;
 }
 
-// Cuts the step where a command begins to act.
+// Splits the step where a command begins to act.
 void vpXYStage::stepAxis(std::size_t axis, double dt)
 {
   const double delay = m_axes[axis].delay;
@@ -173,7 +173,7 @@ void vpXYStage::part(std::size_t axis, double command, double h)
   };
   const double middle = v + 0.5 * h * acceleration(v);
   const double next = v + h * acceleration(direction * middle > 0. ? middle : 0.);
-  if (direction * next <= 0.) { // comes to rest on the way
+  if (direction * next <= 0.) { // comes to rest within the part
     const double share = v == next ? 0. : v / (v - next);
     p += 0.5 * v * share * h;
     v = 0.;

@@ -11,75 +11,75 @@ BEGIN_VISP_NAMESPACE
 
 /*!
  * \ingroup group_avoidance
- * \brief Where the arm shall go. Methods that move the tool read #position, methods that move joints read #q.
+ * \brief Goal of the arm. Methods that move the tool read #position, methods that move joints read #q.
  */
 struct VISP_EXPORT vpAvoidanceGoal {
   vpJointVector q;                                    //!< Configuration, rad or m; empty: only the position is given.
-  Eigen::Vector3d position = Eigen::Vector3d::Zero(); //!< Of the end effector's origin in the base, m.
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero(); //!< Of that goal, m/s; 0 for a goal at rest.
+  Eigen::Vector3d position = Eigen::Vector3d::Zero(); //!< Goal of the end effector's origin, base frame, m.
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero(); //!< Velocity of the goal, m/s; 0 for a goal at rest.
 
-  //! A configuration and where it brings the end effector. \throw vpException (badValue) when it does not fit the arm.
+  //! Goal from a configuration, with its tool position. \throw vpException (badValue) if it does not fit the arm.
   [[nodiscard]] static vpAvoidanceGoal at(const vpArmModel &model, const vpJointVector &q);
-  //! True when #q is empty or of the arm's size and all is finite and within vpLargestCoordinate, vpLargestLength and
-  //! 1000 m/s.
+  //! True if #q is empty or of the arm's size and all values are finite and within vpLargestCoordinate, vpLargestLength
+  //! and 1000 m/s.
   [[nodiscard]] bool fits(const vpArmModel &model) const noexcept;
 };
 
 //! \ingroup group_avoidance
-//! \brief How the motion stands.
+//! \brief Status of the motion.
 enum class vpAvoidanceStatus {
-  Moving,           //!< On the direct way to the goal.
-  Detouring,        //!< On a way round something, or a slower one behind it.
+  Moving,           //!< Moving directly to the goal.
+  Detouring,        //!< Moving around an obstacle, or more slowly behind it.
   Slowed,           //!< Slower than planned: otherwise the arm could not stop in time.
-  Waiting,          //!< There is no free way now: brakes or stands, and goes on when there is one.
+  Waiting,          //!< No free path at present: brakes or stands, and resumes when there is one.
   Arrived,          //!< At the goal, at rest.
-  GoalInCollision,  //!< The goal is not free: brakes or stands, and goes on when it is.
-  StartInCollision, //!< Something is nearer to the arm than the margin already: stands.
-  Unreachable,      //!< The arm cannot get to the goal whether there are obstacles or not: brakes or stands.
-  Unsafe,           //!< Brakes, but something has come so that it may not end in time.
-  InvalidInput      //!< A number is not finite or out of range, or a vector has a wrong size; brakes.
+  GoalInCollision,  //!< The goal is not free: brakes or stands, and resumes when it is.
+  StartInCollision, //!< An obstacle is nearer to the arm than the margin at the start: stands.
+  Unreachable,      //!< The arm cannot reach the goal even without obstacles: brakes or stands.
+  Unsafe,           //!< Brakes, but because of a new or faster obstacle may not stop in time.
+  InvalidInput      //!< A number is not finite or out of range, or a vector has the wrong size; brakes.
 };
 
 //! \ingroup group_avoidance
-//! \brief The status as a word ("Moving"), for files; static text.
+//! \brief Status as a word ("Moving"), for files; static text.
 [[nodiscard]] VISP_EXPORT const char *toString(vpAvoidanceStatus status);
 //! \ingroup group_avoidance
-//! \brief The status as a sentence for a person; static text.
+//! \brief Status as a readable sentence; static text.
 [[nodiscard]] VISP_EXPORT const char *sentence(vpAvoidanceStatus status);
 
 /*!
  * \ingroup group_avoidance
- * \brief What to command for the next period, and why.
+ * \brief Velocities to command for the next period, and their status.
  */
 struct VISP_EXPORT vpAvoidanceOutput {
-  vpJointVector velocity;                                     //!< rad/s or m/s.
-  vpAvoidanceStatus status = vpAvoidanceStatus::InvalidInput; //!< How the motion stands.
-  vpClearance pair;                                           //!< What is in the way, if something is.
-  Eigen::Vector3d wanted = Eigen::Vector3d::Zero(); //!< Where the end effector is planned to be after the period, m.
-  bool stopping = false; //!< A protective stop acts: the plan's own bounds gave way to those of the joints.
+  vpJointVector velocity;                                     //!< Joint velocities, rad/s or m/s.
+  vpAvoidanceStatus status = vpAvoidanceStatus::InvalidInput; //!< Status of the motion.
+  vpClearance pair;                                           //!< The obstructing pair, if any.
+  Eigen::Vector3d wanted = Eigen::Vector3d::Zero();           //!< Planned end-effector position after the period, m.
+  bool stopping = false; //!< Protective stop active: the joint limits replace the bounds of the plan.
 };
 
 /*!
  * \ingroup group_avoidance
- * \brief The condition of a loop of steps: true while the arm moves, or may come to its goal by itself (Moving, Detouring,
- * Slowed, Waiting, Unsafe).
+ * \brief Loop condition for step(): true while the arm moves or may still reach its goal (Moving, Detouring, Slowed,
+ * Waiting, Unsafe).
  *
- * False ends the loop, after the arm has braked: it has arrived, or something is wrong that more of the same steps do not
- * mend (GoalInCollision, StartInCollision, Unreachable, InvalidInput). Whoever wants to wait until a goal becomes free goes on
- * at GoalInCollision. The two potential fields do not know what is out of reach: there they are Moving or Waiting for ever.
+ * False after the arm has braked: it has arrived, or an error persists (GoalInCollision, StartInCollision, Unreachable,
+ * InvalidInput). To wait until a goal becomes free, continue at GoalInCollision. The two potential fields do not detect
+ * unreachable goals: they stay Moving or Waiting forever.
  */
 [[nodiscard]] VISP_EXPORT bool isWorking(const vpAvoidanceOutput &output) noexcept;
 
 /*!
  * \ingroup group_avoidance
- * \brief What all methods have in common, so that they are compared on equal terms.
+ * \brief Parameters common to all methods, for comparison on equal terms.
  */
 struct VISP_EXPORT vpAvoidanceMethodSpec {
-  double period = 0.005;       //!< Of step(), s, > 0.
-  double maxVelocity = 0.5;    //!< Of the end effector's origin, m/s, > 0 (thesis 8.3.4).
-  double maxAcceleration = 1.; //!< Of the same, m/s^2, > 0.
-  double margin = 0.01;        //!< Clearance that is kept, m, >= 0.
-  unsigned int seed = 1;       //!< Of planners that sample, >= 1.
+  double period = 0.005;       //!< Period of step(), s, > 0.
+  double maxVelocity = 0.5;    //!< Limit for the end effector's origin, m/s, > 0 (thesis 8.3.4).
+  double maxAcceleration = 1.; //!< Acceleration limit for the same point, m/s^2, > 0.
+  double margin = 0.01;        //!< Clearance to keep, m, >= 0.
+  unsigned int seed = 1;       //!< Seed of sampling planners, >= 1.
 
   //! \throw vpException (badValue) naming the field that is out of range, and its value.
   void validate() const;
@@ -88,10 +88,10 @@ struct VISP_EXPORT vpAvoidanceMethodSpec {
 /*!
  * \class vpAvoidanceMethod
  * \ingroup group_avoidance
- * \brief A way to bring an arm to a goal among obstacles: one interface for all that are compared.
+ * \brief Common interface of methods that move an arm to a goal among obstacles.
  *
- * A method is made with a scene, which it reads and never changes. Its owner moves the objects there to where they are
- * now, with their velocities, between the calls:
+ * A method reads its scene and never changes it. The owner updates the poses and velocities of the objects between
+ * the calls:
  * \code
  * method.start(q, goal);
  * do {
@@ -100,7 +100,7 @@ struct VISP_EXPORT vpAvoidanceMethodSpec {
  *     method.look();
  *   }
  *   method.step(q, output);
- *   q += period * output.velocity;  // or what the drives were told
+ *   q += period * output.velocity;  // or the position commanded to the drives
  * } while (isWorking(output));
  * \endcode
  */
@@ -110,30 +110,30 @@ public:
   virtual ~vpAvoidanceMethod() = default;
 
   /*!
-   * Begins a motion at rest in \e q. May allocate and take milliseconds.
-   * \return What step() will say, if it does nothing else: Moving, or why the arm will stand.
+   * Starts a motion at rest in \e q. May allocate and take milliseconds.
+   * \return The status of the next step(): Moving, or the reason for standing.
    */
   virtual vpAvoidanceStatus start(const vpJointVector &q, const vpAvoidanceGoal &goal) = 0;
-  //! The goal has moved. No allocation; takes effect in the next look(). Ignored when it is not finite or does not fit.
+  //! Changes the goal. No allocation; takes effect in the next look(). Ignored if not finite or if it does not fit.
   virtual void setGoal(const vpAvoidanceGoal &goal) noexcept = 0;
   /*!
-   * The scene has changed: looks at the coming motion again, and for a better one. May allocate and take milliseconds;
-   * call it as often as images come.
+   * Updates the motion after a change of the scene: checks it again and searches for a better one. May allocate and
+   * take milliseconds; call it for every image.
    */
   virtual void look() = 0;
   /*!
    * One period; no allocation, no exception, no lock.
-   * \param q : Commanded configuration now, rad or m.
-   * \param output : Receives what to command until the next period, and how the motion stands.
+   * \param q : Current commanded configuration, rad or m.
+   * \param output : Receives the velocities to command until the next period, and the status.
    */
   virtual void step(const vpJointVector &q, vpAvoidanceOutput &output) noexcept = 0;
 };
 
 /*!
  * \ingroup group_avoidance
- * The status as a sentence with what it is about, as "The arm stands: link 5 and object pillar are 9.85 mm apart, the margin
- * is 10 mm." Allocates.
- * \param output : Of a step. \param scene : The one that its method has. \param margin : Of that method, m.
+ * Status as a sentence with details, such as "The arm stands: link 5 and object pillar are 9.85 mm apart, the margin is
+ * 10 mm." Allocates.
+ * \param output : Output of a step. \param scene : Scene of the method. \param margin : Margin of the method, m.
  */
 [[nodiscard]] VISP_EXPORT std::string sentence(const vpAvoidanceOutput &output, const vpCollisionScene &scene,
                                                double margin);

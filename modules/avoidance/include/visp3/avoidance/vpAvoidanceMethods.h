@@ -14,20 +14,20 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_avoidance
-//! \brief Names for makeAvoidanceMethod().
+//! \brief Method names for makeAvoidanceMethod().
 [[nodiscard]] VISP_EXPORT const std::vector<std::string> &avoidanceMethodNames();
 //! \ingroup group_avoidance
-//! What a method of that name does when something is in the way, for a list of them; static text, empty when there is none.
+//! Describes how the named method reacts to obstacles, for menus; static text, empty for an unknown name.
 [[nodiscard]] VISP_EXPORT const char *avoidanceMethodSentence(const std::string &name) noexcept;
 
 /*!
  * \ingroup group_avoidance
- * A method by name, with its own parameters at their defaults.
+ * Creates a method by name, with its own parameters at their defaults.
  * \param name : One of avoidanceMethodNames().
  * \param scene : Must outlive the method.
- * \param spec : What all methods have in common.
- * \throw vpException (badValue) naming an unknown method with the known ones, or a field out of range;
- * (notImplementedError) for the planners where OMPL was missing.
+ * \param spec : Parameters common to all methods.
+ * \throw vpException (badValue) naming an unknown method and the known ones, or a field out of range;
+ * (notImplementedError) for planners if built without OMPL.
  */
 [[nodiscard]] VISP_EXPORT std::unique_ptr<vpAvoidanceMethod>
 makeAvoidanceMethod(const std::string &name, const vpCollisionScene &scene, const vpAvoidanceMethodSpec &spec = {});

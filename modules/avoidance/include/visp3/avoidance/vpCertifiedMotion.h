@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpCertifiedMotion.h
- * \brief Proof that a straight motion between two configurations is free.
+ * \brief Certified collision check of a straight joint-space motion.
  */
 #ifndef vpCertifiedMotion_h
 #define vpCertifiedMotion_h
@@ -23,13 +23,13 @@ BEGIN_VISP_NAMESPACE
  */
 struct VISP_EXPORT vpCertifiedMotionSpec {
   double margin = 0.;       //!< Clearance that must be exceeded everywhere, m, >= 0.
-  double resolution = 1e-5; //!< Pieces in which the arm moves less than this are not split further, m, > 0.
+  double resolution = 1e-5; //!< Intervals in which the arm moves less than this are not split further, m, > 0.
 };
 
 /*!
  * \class vpMotionScratch
  * \ingroup group_avoidance
- * \brief Memory of vpCertifiedMotion::check(); one for each thread. It grows when a scene with more pairs is checked.
+ * \brief Scratch memory of vpCertifiedMotion::check(); one per thread. It grows for scenes with more pairs.
  */
 class VISP_EXPORT vpMotionScratch
 {
@@ -48,14 +48,15 @@ private:
 /*!
  * \class vpCertifiedMotion
  * \ingroup group_avoidance
- * \brief Free is a proof for every point of the motion q(s) = from + s (to - from), not a statement about samples.
+ * \brief Continuous collision check of a straight joint motion: Free is a proof for every point of
+ * q(s) = from + s (to - from), not a statement about samples.
  *
- * An interval of half-width h about s_m is free for a pair when its clearance at s_m, less the margin, exceeds what its
- * parts can move within it: the smaller of h sum_j R_ij |dq_j| (vpReachBounds) and h |v| + h^2 / 2 sum_jk |dq_j| |dq_k|
- * R_i,max(j,k), with v the velocity of the capsule's ends along the motion at s_m; the second term bounds the
- * acceleration. Convex obstacles are also tested along the normal of the nearest points, where only the velocity towards
- * the obstacle counts. In pairs of two capsules only the joints between them count. Intervals that are not proven are
- * split into eight, with the unproven pairs alone; eight configurations are evaluated at once.
+ * An interval of half-width h about s_m is free for a pair if its clearance at s_m minus the margin exceeds the largest
+ * motion of its parts within the interval: the smaller of h sum_j R_ij |dq_j| (vpReachBounds) and h |v| + h^2 / 2
+ * sum_jk |dq_j| |dq_k| R_i,max(j,k), with v the velocity of the capsule's ends along the motion at s_m; the second term
+ * bounds the acceleration. Convex obstacles are also tested along the normal of the nearest points, where only the
+ * velocity towards the obstacle counts. For pairs of two capsules only the joints between them count. Unproven
+ * intervals are split into eight, for the unproven pairs only; eight configurations are evaluated at once.
  *
  * Immutable; may be shared by threads, each with its own vpMotionScratch.
  */
@@ -63,8 +64,8 @@ class VISP_EXPORT vpCertifiedMotion
 {
 public:
   /*!
-   * \param scene : Must outlive this. Objects may be moved, added and removed, but not during check(); velocities play
-   * no part.
+   * \param scene : Must outlive this. Objects may be moved, added and removed, but not during check(); velocities are
+   * ignored.
    * \param spec : Margin and resolution.
    * \throw vpException (badValue) naming margin or resolution and its value.
    */
@@ -73,9 +74,9 @@ public:
   //! Checks the motion, both ends included. Does not allocate unless the scratch has to grow.
   [[nodiscard]] vpMotionResult check(const vpJointVector &from, const vpJointVector &to,
                                      vpMotionScratch &scratch) const;
-  //! What it was made with.
+  //! Margin and resolution.
   [[nodiscard]] const vpCertifiedMotionSpec &spec() const noexcept { return m_spec; }
-  //! R_ij of the scene's arm.
+  //! Reach bounds R_ij of the scene's arm.
   [[nodiscard]] const vpReachBounds &reach() const noexcept { return m_reach; }
 
 private:

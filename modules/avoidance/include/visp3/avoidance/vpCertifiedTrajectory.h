@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpCertifiedTrajectory.h
- * \brief Proof that a coming trajectory in joint space is free.
+ * \brief Certified collision check of a joint-space trajectory.
  */
 #ifndef vpCertifiedTrajectory_h
 #define vpCertifiedTrajectory_h
@@ -16,33 +16,33 @@ BEGIN_VISP_NAMESPACE
 
 /*!
  * \ingroup group_avoidance
- * \brief Verdict on a trajectory, and when.
+ * \brief Result of checking a trajectory.
  */
 struct VISP_EXPORT vpTrajectoryClearance {
-  vpMotionStatus status = vpMotionStatus::BadInput; //!< Only Free may be driven.
-  double time = 0.; //!< Collision and Undecided: when, s from the start of the plan; all before is free.
-  vpClearance pair; //!< Collision and Undecided: the pair then, not always the nearest one.
-  double least =
-      0.; //!< Least clearance that was looked at, m; infinite when none was near. The true least may be less.
-  int evaluated = 0; //!< Configurations looked at.
+  vpMotionStatus status = vpMotionStatus::BadInput; //!< Only Free may be executed.
+  double time = 0.;  //!< Collision and Undecided: time of it, s from the start of the plan; free before.
+  vpClearance pair;  //!< Collision and Undecided: the pair at that time, not always the nearest one.
+  double least = 0.; //!< Least clearance evaluated, m; infinite if none was near. The true minimum may be less.
+  int evaluated = 0; //!< Number of configurations evaluated.
 
-  //! True when the trajectory is free.
+  //! True if the trajectory is free.
   [[nodiscard]] bool isFree() const noexcept { return status == vpMotionStatus::Free; }
 };
 
 /*!
  * \class vpCertifiedTrajectory
  * \ingroup group_avoidance
- * \brief Free is a proof for every instant of a vpTrajectoryPlan of the arm's joints, with obstacles that move by their
- * velocities.
+ * \brief Continuous collision check of a joint trajectory: Free is a proof for every instant of a vpTrajectoryPlan,
+ * with obstacles moving at their velocities.
  *
- * In an interval of half-width h about t_m joint j is never farther from where it is then than d_j, the smaller of
- * (|v_j(t_m)| + w_j) h + a_j h^2 / 2 and V_j h, and x_j more: V_j and a_j are its largest velocity and acceleration over the
- * plan, w_j and x_j the sums of its jumps of velocity and place (rounding only in a plan of vpTrajectoryPlanner). Capsule i moves by no more than sum_j R_ij d_j
- * (vpReachBounds), an object by no more than its speed times h plus its turn times its extent. The interval is free when
- * at t_m every pair is farther apart than the margin, both motions together and 1e-9 m of rounding; otherwise it is split.
- * What is not finite, takes a joint beyond vpLargestCoordinate or a prismatic one to where the bounds do not hold
- * (vpReachBounds::holds()) is BadInput, and the number of looks is limited: then it is Undecided.
+ * In an interval of half-width h about t_m joint j moves from its position at t_m by at most d_j + x_j, with d_j the
+ * smaller of (|v_j(t_m)| + w_j) h + a_j h^2 / 2 and V_j h: V_j and a_j are its largest velocity and acceleration over
+ * the plan, w_j and x_j the sums of its velocity and position jumps (only rounding in a plan of vpTrajectoryPlanner).
+ * Capsule i moves by at most the sum over j of R_ij times that (vpReachBounds), an object by at most its speed times h
+ * plus its rotation times its extent. The interval is free if at t_m the distance of every pair exceeds the sum of the
+ * margin, both motions and 1e-9 m for rounding; otherwise it is split. Values that are not finite, joints beyond
+ * vpLargestCoordinate and prismatic joints where the bounds do not hold (vpReachBounds::holds()) give BadInput;
+ * reaching the limit on evaluations gives Undecided.
  */
 class VISP_EXPORT vpCertifiedTrajectory
 {
@@ -55,33 +55,32 @@ public:
   explicit vpCertifiedTrajectory(const vpCollisionScene &scene, const vpCertifiedMotionSpec &spec = {});
 
   /*!
-   * Checks the plan from a time on; no allocation, no exception.
-   * \param plan : Of as many axes as the arm has joints, in rad or m.
+   * Checks the plan over a time interval; no allocation, no exception.
+   * \param plan : Plan with one axis per joint of the arm, rad or m.
    * \param from, to : Times on the plan, s; from <= to, beyond the plan's end the arm stands at its goal.
-   * \param age : How long ago the objects were where the scene has them at time \e from, s: they are moved on by it.
+   * \param age : Age of the scene's object poses at time \e from, s: objects are extrapolated by it.
    * All times within 1e6 s.
    */
   [[nodiscard]] vpTrajectoryClearance check(const vpTrajectoryPlan &plan, double from, double to,
                                             double age = 0.) noexcept;
-  //! The whole plan, objects where the scene has them at its start.
+  //! Checks the whole plan, with the scene's object poses at its start.
   [[nodiscard]] vpTrajectoryClearance check(const vpTrajectoryPlan &plan) noexcept
   {
     return check(plan, 0., plan.duration());
   }
 
   /*!
-   * As check() with its parameters, for whom only the verdict matters, in less time: the time of a collision is one when
-   * something is too near, not the first one. No more than \e looks configurations are looked at; a motion that needs more
-   * is Undecided.
+   * Like check(), but faster: the time of a collision is not necessarily the first one. At most \e looks configurations
+   * are evaluated; a motion that needs more is Undecided.
    */
   [[nodiscard]] vpTrajectoryClearance verdict(const vpTrajectoryPlan &plan, double from, double to, double age = 0.,
                                               int looks = mostLooks) noexcept;
 
-  static constexpr int mostLooks = 1000000; //!< Of one check.
+  static constexpr int mostLooks = 1000000; //!< Maximum number of evaluations of one check.
 
-  //! Changes the margin, m; values that are not >= 0 and finite count as 0. No exception.
+  //! Sets the margin, m; values that are not finite or negative count as 0. No exception.
   void setMargin(double margin) noexcept;
-  //! R_ij of the scene's arm.
+  //! Reach bounds R_ij of the scene's arm.
   [[nodiscard]] const vpReachBounds &reach() const noexcept { return m_reach; }
 
 private:
@@ -97,10 +96,10 @@ private:
   vpReachBounds m_reach;
   vpCollisionData m_data;
   vpNearPairs m_near;
-  vpJointVector m_speed, m_acceleration; // largest of each joint over the plan
-  vpJointVector m_kink, m_jump;          // of each joint over the plan: sum of the jumps of its velocity, of its place
+  vpJointVector m_speed, m_acceleration; // maximum of each joint over the plan
+  vpJointVector m_kink, m_jump; // sums of the velocity jumps and of the position jumps of each joint over the plan
   std::array<double, vpArmMaxCapsules> m_motion{};
-  double m_largest = 0.; // motion of a part in the interval that was looked at, m
+  double m_largest = 0.; // largest capsule motion in the last interval, m
 };
 
 END_VISP_NAMESPACE

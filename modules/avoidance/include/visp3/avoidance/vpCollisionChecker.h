@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpCollisionChecker.h
- * \brief One configuration at a time, by the fast path or by another library.
+ * \brief Collision queries of single configurations, by the fast path or another library.
  */
 #ifndef vpCollisionChecker_h
 #define vpCollisionChecker_h
@@ -16,15 +16,15 @@ BEGIN_VISP_NAMESPACE
 /*!
  * \class vpCollisionChecker
  * \ingroup group_avoidance
- * \brief What a planner or a discrete motion asks. One for each thread; the scene must outlive it.
+ * \brief Interface of collision queries for planners and discrete motions. One per thread; the scene must outlive it.
  */
 class VISP_EXPORT vpCollisionChecker
 {
 public:
   virtual ~vpCollisionChecker() = default;
-  //! Number of joints of the arm: the size of a configuration.
+  //! Number of joints of the arm: size of a configuration.
   [[nodiscard]] virtual int jointCount() const noexcept = 0;
-  //! True when a pair that must not touch has a clearance <= \e margin (m) in configuration \e q.
+  //! True if a checked pair has a clearance <= \e margin (m) in configuration \e q.
   [[nodiscard]] virtual bool inCollision(const vpJointVector &q, double margin) = 0;
   //! The pair with the least clearance below \e cutoff (m), see vpCollisionScene::clearance().
   [[nodiscard]] virtual vpClearance clearance(const vpJointVector &q, double cutoff) = 0;
@@ -33,7 +33,7 @@ public:
 /*!
  * \class vpSceneChecker
  * \ingroup group_avoidance
- * \brief The fast path of vpCollisionScene. Does not allocate.
+ * \brief Collision checker using the fast path of vpCollisionScene. Does not allocate.
  */
 class VISP_EXPORT vpSceneChecker : public vpCollisionChecker
 {

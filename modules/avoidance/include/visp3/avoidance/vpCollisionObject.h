@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpCollisionObject.h
- * \brief An obstacle: a shape somewhere, perhaps moving, known with an uncertainty.
+ * \brief An obstacle: shape, pose, velocity and uncertainty.
  */
 #ifndef vpCollisionObject_h
 #define vpCollisionObject_h
@@ -17,18 +17,18 @@ BEGIN_VISP_NAMESPACE
 
 /*!
  * \ingroup group_avoidance
- * \brief One obstacle in the frame of the arm's base. vpCollisionScene checks it.
+ * \brief One obstacle in the base frame of the arm; validated by vpCollisionScene.
  *
- * At time t it stands at p + v t, turned by exp(w t) about its own origin.
+ * At time t it is at p + v t, rotated by exp(w t) about its own origin.
  */
 struct VISP_EXPORT vpCollisionObject {
-  std::string name;                                        //!< Not empty, only once in a scene.
-  vpCollisionShape shape = vpCollisionShape::sphere(0.05); //!< In its own frame.
+  std::string name;                                        //!< Name, unique in the scene; not empty.
+  vpCollisionShape shape = vpCollisionShape::sphere(0.05); //!< Shape in the object's frame.
   vpRigidTransform pose;                                   //!< fMo: the object's frame in the base, m.
-  vpTwist velocity;      //!< Of the object's origin (m/s), and angular (rad/s); axes of the base.
-  double inflation = 0.; //!< Uncertainty of its place and extent, m, >= 0: the shape counts as that much thicker.
+  vpTwist velocity;      //!< Velocity of the object's origin, m/s, and angular velocity, rad/s; axes of the base.
+  double inflation = 0.; //!< Uncertainty of position and extent, m, >= 0: the shape is inflated by it.
 
-  //! Pose at time \e t (s) from now, by the velocity. Does not allocate.
+  //! Pose at time \e t (s) from now, extrapolated by the velocity. Does not allocate.
   [[nodiscard]] vpRigidTransform poseAt(double t) const noexcept;
 };
 

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpCollisionScene.h
- * \brief An arm among obstacles: what may touch what, and how near it is.
+ * \brief An arm among obstacles: allowed contacts, collision and distance queries.
  */
 #ifndef vpCollisionScene_h
 #define vpCollisionScene_h
@@ -22,33 +22,33 @@ struct vpCollisionCore;
 
 /*!
  * \ingroup group_avoidance
- * \brief The ground: the side normal^T x < offset is forbidden. In the base frame.
+ * \brief Ground plane: the side normal^T x < offset is forbidden. In the base frame.
  */
 struct VISP_EXPORT vpHalfSpace {
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ(); //!< Points to the free side; of any length but 0.
-  double offset = 0.;                                //!< m.
-  int firstLink = 2; //!< Capsules of links below this one (1..n) stand on the ground and are not checked.
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ(); //!< Normal towards the free side; any length but 0.
+  double offset = 0.;                                //!< Offset along the normal, m.
+  int firstLink = 2; //!< Capsules of links below this one (1..n) rest on the ground and are not checked.
 };
 
 /*!
  * \ingroup group_avoidance
- * \brief A touch that is allowed: an object that a link carries or stands on.
+ * \brief Allowed contact: an object that a link carries or rests on.
  */
 struct VISP_EXPORT vpAllowedContact {
-  std::string object; //!< Name of an object.
-  int link = 0;       //!< 1..n.
+  std::string object; //!< Name of the object.
+  int link = 0;       //!< Index of the link, 1..n.
 };
 
 /*!
  * \ingroup group_avoidance
- * \brief What makes a scene. vpCollisionScene checks it.
+ * \brief Specification of a scene; validated by vpCollisionScene.
  */
 struct VISP_EXPORT vpCollisionSceneSpec {
-  std::string source;                            //!< File it came from, for messages; may be empty.
+  std::string source;                            //!< Source file, for messages; may be empty.
   std::vector<vpCollisionObject> objects;        //!< Obstacles.
-  std::optional<vpHalfSpace> ground;             //!< None: no ground.
+  std::optional<vpHalfSpace> ground;             //!< Ground plane, optional.
   bool allowAdjacent = true;                     //!< Adjacent links may touch, see vpCollisionScene.
-  std::vector<std::pair<int, int>> allowedLinks; //!< More pairs of links (0..n) that may touch.
+  std::vector<std::pair<int, int>> allowedLinks; //!< Further pairs of links (0..n) that may touch.
   std::vector<vpAllowedContact> allowedContacts; //!< Links that may touch an object.
 };
 
@@ -64,14 +64,14 @@ struct VISP_EXPORT vpSelfPair {
 /*!
  * \class vpCollisionScene
  * \ingroup group_avoidance
- * \brief Arm and obstacles; the queries are const, do not allocate, throw or lock, and leave their scratch in a
- * vpCollisionData (one a thread).
+ * \brief Arm and obstacles for collision queries; these are const, do not allocate, throw or lock, and use a
+ * vpCollisionData (one per thread) as scratch memory.
  *
- * Set-up (constructor, add(), remove()) allocates and throws; moveObject(), setVelocity() and advance() belong to the
+ * Set-up (constructor, add(), remove()) allocates and throws; moveObject(), setVelocity() and advance() are for the
  * control cycle. No query may run while another thread changes the scene: give that thread its own copy.
  *
- * The arm is its capsules (vpArmSpec::capsules). Checked are: capsules of moving links against all objects, against the
- * ground, and against each other (3.48). Two links are adjacent when no link between them carries a capsule: with
+ * The arm is modelled by its capsules (vpArmSpec::capsules). Capsules of moving links are checked against all objects,
+ * the ground, and each other (3.48). Two links are adjacent if no link between them carries a capsule: with
  * capsules on links 1, 3, 5 and 7 the pairs (1, 3), (3, 5) and (5, 7). Capsules of the base (link 0) are checked
  * against the arm only, since no motion frees the base from an obstacle.
  */
@@ -80,9 +80,9 @@ class VISP_EXPORT vpCollisionScene
 public:
   /*!
    * \throw vpException (badValue) naming the source, the element and the value: an arm without capsules or with more
-   * than 32, an object without a name or with a duplicate name, a pose that is none, lengths that are not finite,
-   * negative or above vpLargestLength, velocities above 1000 m/s or rad/s, a ground without normal, links or objects that
-   * do not exist.
+   * than 32, an object without a name or with a duplicate name, an invalid pose, lengths that are not finite,
+   * negative or above vpLargestLength, velocities above 1000 m/s or rad/s, a ground without normal, links or objects
+   * that do not exist.
    */
   explicit vpCollisionScene(const vpArmModel &arm, const vpCollisionSceneSpec &spec = {});
   vpCollisionScene(const vpCollisionScene &other);                //!< Copies.
@@ -103,16 +103,17 @@ public:
   [[nodiscard]] const std::optional<vpHalfSpace> &ground() const noexcept { return m_ground; }
   //! Number of objects.
   [[nodiscard]] int objectCount() const noexcept { return static_cast<int>(m_objects.size()); }
-  //! Object \e i, 0..objectCount()-1, where it stands now.
+  //! Object \e i, 0..objectCount()-1, at its current pose.
   [[nodiscard]] const vpCollisionObject &object(int i) const noexcept { return m_objects[static_cast<std::size_t>(i)]; }
   //! Index of an object, -1 when there is none of that name.
   [[nodiscard]] int find(const std::string &name) const noexcept;
-  //! True when capsule \e capsule must not touch object \e object.
+  //! True if capsule \e capsule must not touch object \e object.
   [[nodiscard]] bool isChecked(int capsule, int object) const noexcept;
-  //! True when capsule \e capsule must not touch the ground.
+  //! True if capsule \e capsule must not touch the ground.
   [[nodiscard]] bool isCheckedWithGround(int capsule) const noexcept;
 
-  //! Another number after every add() and remove(), unique among all scenes but copies: lists of pairs made for it hold.
+  //! Revision number, new after every add() and remove() and unique among all scenes except copies: pair lists made for
+  //! the same number remain valid.
   [[nodiscard]] unsigned long revision() const noexcept { return m_revision; }
 
   //! Adds an object and returns its index. Allocates. \throw vpException (badValue) as the constructor.
@@ -121,46 +122,46 @@ public:
   void remove(int i);
 
   /*!
-   * Puts object \e i to a new place. Does not allocate.
-   * \return False, and nothing changes, when there is no such object, or the pose is no rigid transform within
+   * Moves object \e i to a new pose. Does not allocate.
+   * \return False, and nothing changes, if there is no such object, or the pose is not a rigid transform within
    * vpLargestLength.
    */
   bool moveObject(int i, const vpRigidTransform &pose) noexcept;
-  //! Sets the velocity of object \e i (axes of the base). False, and nothing changes, for a bad index or number.
+  //! Sets the velocity of object \e i (axes of the base). False, and nothing changes, for an invalid index or number.
   bool setVelocity(int i, const vpTwist &velocity) noexcept;
-  //! Sets the inflation of object \e i, m, >= 0. False, and nothing changes, for a bad index or number.
+  //! Sets the inflation of object \e i, m, >= 0. False, and nothing changes, for an invalid index or number.
   bool setInflation(int i, double inflation) noexcept;
-  //! Moves every object on by its velocity for \e dt seconds. Does not allocate. False when one had to stay where it is,
-  //! see moveObject().
+  //! Moves every object by its velocity for \e dt seconds. Does not allocate. False if one could not be moved, see
+  //! moveObject().
   bool advance(double dt) noexcept;
 
-  //! Places the arm in configuration \e q for the queries below. A configuration of another size, not finite or beyond
-  //! vpLargestCoordinate is none (vpCollisionData::placed): then every query says that the arm is in collision.
+  //! Places the arm in configuration \e q for the queries below. A configuration of the wrong size, not finite or
+  //! beyond vpLargestCoordinate is invalid (vpCollisionData::placed): every query then reports a collision.
   void place(const vpJointVector &q, vpCollisionData &data) const noexcept;
   /*!
-   * True when a pair that must not touch has a clearance <= margin. Stops at the first.
+   * True if a checked pair has a clearance <= margin. Stops at the first.
    * \param data : After place().
-   * \param margin : m, added to every pair.
-   * \param time : s from now; objects count as moved on by their velocities. NaN, or beyond 1e6 s: in collision.
+   * \param margin : Margin for every pair, m.
+   * \param time : s from now; objects are extrapolated by their velocities. NaN, or beyond 1e6 s: in collision.
    */
   [[nodiscard]] bool inCollision(const vpCollisionData &data, double margin = 0., double time = 0.) const noexcept;
   /*!
-   * The pair with the least clearance below \e cutoff (m); kind None and an infinite distance when there is none. A small
-   * cutoff saves time. Parameters as inCollision(); what cannot be told is kind Unknown at -infinity.
+   * The pair with the least clearance below \e cutoff (m); kind None and infinite distance if there is none. A small
+   * cutoff saves time. Parameters as for inCollision(); invalid input gives kind Unknown at -infinity.
    */
   [[nodiscard]] vpClearance clearance(const vpCollisionData &data,
                                       double cutoff = std::numeric_limits<double>::infinity(),
                                       double time = 0.) const noexcept;
-  //! All pairs with a clearance below \e cutoff (m). Parameters as inCollision(); what cannot be told is an empty list
+  //! All pairs with a clearance below \e cutoff (m). Parameters as for inCollision(); invalid input gives an empty list
   //! with \e dropped set.
   void near(const vpCollisionData &data, double cutoff, vpNearPairs &result, double time = 0.) const noexcept;
-  //! Clearance of capsule \e capsule from object \e object, whether they may touch or not. After place().
+  //! Clearance of capsule \e capsule from object \e object, even if contact is allowed. After place().
   [[nodiscard]] vpClearance pair(const vpCollisionData &data, int capsule, int object, double time = 0.) const noexcept;
   //! Clearance of two capsules. After place().
   [[nodiscard]] vpClearance selfPair(const vpCollisionData &data, int first, int second) const noexcept;
-  //! Clearance of a capsule from the ground, which there must be. After place().
+  //! Clearance of a capsule from the ground, which must exist. After place().
   [[nodiscard]] vpClearance groundPair(const vpCollisionData &data, int capsule) const noexcept;
-  //! What a pair is, for messages: "link 5 and object pillar". Allocates.
+  //! Describes a pair for messages: "link 5 and object pillar". Allocates.
   [[nodiscard]] std::string describe(const vpClearance &pair) const;
 
   //! For this module's own use.

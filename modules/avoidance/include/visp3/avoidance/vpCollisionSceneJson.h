@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpCollisionSceneJson.h
- * \brief Scenes and tasks from a JSON file. Needs nlohmann_json when the module is built.
+ * \brief Loads scenes and tasks from a JSON file. Requires a build with nlohmann_json.
  */
 #ifndef vpCollisionSceneJson_h
 #define vpCollisionSceneJson_h
@@ -18,14 +18,14 @@ BEGIN_VISP_NAMESPACE
  * \brief A motion to plan in a scene.
  */
 struct VISP_EXPORT vpMotionTask {
-  std::string name;    //!< For reports.
-  vpJointVector start; //!< rad or m.
-  vpJointVector goal;  //!< rad or m, of the same size.
+  std::string name;    //!< Name for reports.
+  vpJointVector start; //!< Start configuration, rad or m.
+  vpJointVector goal;  //!< Goal configuration, rad or m, of the same size.
 };
 
 /*!
  * \ingroup group_avoidance
- * \brief A photograph on the front of a box, so that a camera can recognise it.
+ * \brief A photograph on the front of a box, by which a camera can recognise it.
  */
 struct VISP_EXPORT vpObjectPhoto {
   std::string object; //!< Name of the box; the photograph is on its face z = -size.z / 2, x right, y down.
@@ -34,22 +34,22 @@ struct VISP_EXPORT vpObjectPhoto {
 
 /*!
  * \ingroup group_avoidance
- * \brief What a scene's file holds.
+ * \brief Contents of a scene file.
  */
 struct VISP_EXPORT vpCollisionSceneFile {
-  std::string name;                  //!< For reports.
-  vpCollisionSceneSpec spec;         //!< For vpCollisionScene; its source is the file.
-  std::vector<vpObjectPhoto> photos; //!< May be empty; each target and each object once.
-  std::vector<vpMotionTask> tasks;   //!< May be empty.
-  std::vector<std::string> warnings; //!< One sentence each: meshes with holes that are taken as surfaces.
+  std::string name;                  //!< Name for reports.
+  vpCollisionSceneSpec spec;         //!< Specification for vpCollisionScene; its source is the file.
+  std::vector<vpObjectPhoto> photos; //!< Photographs, each target and object at most once; may be empty.
+  std::vector<vpMotionTask> tasks;   //!< Motions to plan; may be empty.
+  std::vector<std::string> warnings; //!< One sentence each: meshes with holes, which are treated as surfaces.
 };
 
 /*!
  * \ingroup group_avoidance
- * \brief Reads a scene; data/scene/README.md has the fields. Unknown fields are errors, so that a misspelt one does not
- * go unseen. Meshes and octrees are looked for beside the file.
- * \throw vpException (ioError) when it or a file that it names cannot be read, (badValue) when it is no JSON or a field
- * is missing or out of range; one sentence with the file and the element, as "shelf.json: objects[2].size_m is missing".
+ * \brief Reads a scene; data/scene/README.md lists the fields. Unknown fields are errors, so that misspelt names are
+ * noticed. Paths of meshes and octrees are relative to the file.
+ * \throw vpException (ioError) if it or a referenced file cannot be read, (badValue) if it is not valid JSON or a field
+ * is missing or out of range; one sentence with the file and the element: "shelf.json: objects[2].size_m is missing".
  */
 [[nodiscard]] VISP_EXPORT vpCollisionSceneFile vpLoadCollisionScene(const std::string &file);
 

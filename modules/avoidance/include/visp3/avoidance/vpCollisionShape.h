@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpCollisionShape.h
- * \brief What a body looks like to collision checks.
+ * \brief Shape of a body for collision checks.
  */
 #ifndef vpCollisionShape_h
 #define vpCollisionShape_h
@@ -19,51 +19,52 @@ BEGIN_VISP_NAMESPACE
 //! \ingroup group_avoidance
 //! \brief Kind of a shape.
 enum class vpShapeType {
-  Sphere,   //!< About the origin.
+  Sphere,   //!< Centred on the origin.
   Capsule,  //!< All points within a radius of a segment along z, centred on the origin.
-  Box,      //!< Axes along the frame's, centred on the origin.
+  Box,      //!< Aligned with the frame's axes, centred on the origin.
   Cylinder, //!< Solid, along z, centred on the origin.
   Mesh,     //!< vpTriangleMesh.
   Octree    //!< vpOctree.
 };
 
 //! \ingroup group_avoidance
-//! \brief What a mesh has to be.
+//! \brief Required kind of mesh.
 enum class vpMeshUse {
-  Solid,  //!< Closed: what is inside collides.
-  Surface //!< Open ones, too, as sheets that have no inside. A closed one is a solid all the same.
+  Solid,  //!< Closed mesh: its inside collides.
+  Surface //!< Open meshes allowed, as sheets without inside. A closed one is still a solid.
 };
 
 /*!
  * \class vpCollisionShape
  * \ingroup group_avoidance
- * \brief Shape as a value, in its own frame; lengths in m. Meshes and octrees are shared between copies.
+ * \brief Collision shape (value type) in its own frame; lengths in m. Copies share meshes and octrees.
  */
 class VISP_EXPORT vpCollisionShape
 {
 public:
-  //! \throw vpException (badValue) naming the radius unless it is > 0 and at most vpLargestLength, as below.
+  //! Sphere. \throw vpException (badValue) naming the radius unless it is > 0 and at most vpLargestLength.
   [[nodiscard]] static vpCollisionShape sphere(double radius);
   /*!
-   * \param radius : Of tube and caps, > 0.
-   * \param length : Between the centres of the two caps, >= 0.
+   * Capsule along z.
+   * \param radius : Radius of tube and caps, > 0.
+   * \param length : Distance between the centres of the two caps, >= 0.
    * \throw vpException (badValue) naming the number: radius not > 0, length not >= 0, or out of range.
    */
   [[nodiscard]] static vpCollisionShape capsule(double radius, double length);
-  //! \param size : Lengths of the edges. \throw vpException (badValue) naming the one that is out of range.
+  //! Box. \param size : Lengths of the edges, m. \throw vpException (badValue) naming the one that is out of range.
   [[nodiscard]] static vpCollisionShape box(const Eigen::Vector3d &size);
-  //! \throw vpException (badValue) naming radius or length when out of range.
+  //! Cylinder along z. \throw vpException (badValue) naming radius or length if out of range.
   [[nodiscard]] static vpCollisionShape cylinder(double radius, double length);
   /*!
-   * Triangles.
-   * \throw vpException (badValue) naming the mesh: it has holes or edges of more than two triangles, so that nothing is
-   * inside, and a solid was asked for.
+   * Triangle mesh.
+   * \throw vpException (badValue) naming the mesh: a solid was requested, but it has holes or edges of more than two
+   * triangles and thus no inside.
    */
   [[nodiscard]] static vpCollisionShape mesh(const vpTriangleMesh &mesh, vpMeshUse use = vpMeshUse::Solid);
-  //! Occupied cubes.
+  //! Octree: occupied cubes.
   [[nodiscard]] static vpCollisionShape octree(const vpOctree &octree);
 
-  //! Which of the factories made it.
+  //! Kind of the shape.
   [[nodiscard]] vpShapeType type() const noexcept { return m_type; }
   //! Radius of a sphere, capsule or cylinder, m; 0 for the others.
   [[nodiscard]] double radius() const noexcept { return m_radius; }

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpDepthObstacles.h
- * \brief What depth images show and nobody knows, as one object of a scene. Needs octomap when the module is built.
+ * \brief Unknown obstacles from depth images, as one object of a scene. Requires a build with octomap.
  */
 #ifndef vpDepthObstacles_h
 #define vpDepthObstacles_h
@@ -20,12 +20,12 @@ BEGIN_VISP_NAMESPACE
  * \brief Parameters of vpDepthObstacles.
  */
 struct VISP_EXPORT vpDepthObstaclesSpec {
-  vpDepthOctomapSpec map = defaultMap(); //!< Of the map; by default every fourth row and column is used.
-  std::string name = "depth";            //!< Of the object in the scene; not empty.
-  double inflation = 0.;                 //!< Of that object, m, >= 0.
-  double knownMargin = 0.03;             //!< Points that near to an object of the scene are that object, m, >= 0.
+  vpDepthOctomapSpec map = defaultMap(); //!< Parameters of the map; default: every fourth row and column.
+  std::string name = "depth";            //!< Name of the object in the scene; not empty.
+  double inflation = 0.;                 //!< Inflation of that object, m, >= 0.
+  double knownMargin = 0.03;             //!< Points closer to a scene object are attributed to it, m, >= 0.
 
-  //! vpDepthOctomapSpec with a stride that a control loop can afford.
+  //! Default parameters of the map, with a stride fast enough for a control loop.
   [[nodiscard]] static vpDepthOctomapSpec defaultMap() noexcept;
   //! \throw vpException (badValue) naming the field that is out of range, and its value; the map checks its own.
   void validate() const;
@@ -34,12 +34,12 @@ struct VISP_EXPORT vpDepthObstaclesSpec {
 /*!
  * \class vpDepthObstacles
  * \ingroup group_avoidance
- * \brief Second source of obstacles beside vpObjectTracks: a map of what depth images show, as one octree at rest.
+ * \brief Second source of obstacles besides vpObjectTracks: a map from depth images, as one static octree.
  *
- * Points on objects that the scene has, with their inflation, and on its ground are left out: a tracked object would
- * stand in the scene twice, which is safe, but also leave cubes behind where it was until they are carved, which blocks
- * ways that are free. What was mapped before its picture was recognised stays until it is carved: safe, and in the way
- * for a while. Points beside a tracked object, because it is not where it is thought to be, go into the map.
+ * Points on scene objects (with their inflation) and on the ground are excluded: otherwise a tracked object would be in
+ * the scene twice, which is safe, but it would also leave cubes at its old positions until they are carved, which block
+ * free paths. What was mapped before its object was recognised remains until it is carved: safe, but temporarily in the
+ * way. Points beside a tracked object, due to an error of its pose, enter the map.
  */
 class VISP_EXPORT vpDepthObstacles
 {
@@ -50,27 +50,26 @@ public:
   /*!
    * Adds a depth image. Allocates.
    * \param depth, camera, fMc : As for vpDepthOctomap::insert().
-   * \param scene : Objects that are known when the image was taken (as perceived), and the arm.
-   * \param placed : Of the configuration when the image was taken, by vpCollisionScene::place().
+   * \param scene : Objects known when the image was taken (as perceived), and the arm.
+   * \param placed : Arm configuration when the image was taken, by vpCollisionScene::place().
    */
   vpDepthReport insert(const vpImage<float> &depth, const vpCameraParameters &camera, const vpRigidTransform &fMc,
                        const vpCollisionScene &scene, const vpCollisionData &placed);
   /*!
-   * Brings the map into a scene: its object is replaced when cubes came or went, and removed when there are none.
-   * Allocates.
-   * \return True when the list of objects changed.
-   * \throw vpException (badValue) when the scene has an object of that name from somebody else.
+   * Updates the map's object in a scene: replaced if cubes changed, removed if there are none. Allocates.
+   * \return True if the list of objects changed.
+   * \throw vpException (badValue) if the scene has an object of that name from another source.
    */
   bool applyTo(vpCollisionScene &scene);
   //! The map.
   [[nodiscard]] const vpDepthOctomap &map() const noexcept { return m_map; }
-  //! Forgets everything; the next applyTo() removes the object.
+  //! Clears the map; the next applyTo() removes the object.
   void clear();
 
 private:
   vpDepthObstaclesSpec m_spec;
   vpDepthOctomap m_map;
-  vpImage<float> m_unknown; // the depth image without what is known
+  vpImage<float> m_unknown; // depth image without the known points
   std::vector<vpOctreeCell> m_applied;
   bool m_isNew = false; // the map has changed since it was applied
 };

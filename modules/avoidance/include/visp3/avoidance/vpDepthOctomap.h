@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpDepthOctomap.h
- * \brief Obstacles from depth images. Needs octomap when the module is built.
+ * \brief Occupancy map from depth images. Requires a build with octomap.
  */
 #ifndef vpDepthOctomap_h
 #define vpDepthOctomap_h
@@ -23,41 +23,41 @@ BEGIN_VISP_NAMESPACE
  */
 struct VISP_EXPORT vpDepthOctomapSpec {
   double resolution = 0.02;    //!< Edge of the smallest cube, m, > 0.
-  double minRange = 0.1;       //!< Nearer points are not used, m from the camera's centre, >= 0.
-  double maxRange = 2.;        //!< Farther points are not used but show free space up to here, m, > minRange.
-  bool carve = true;           //!< Space in front of a point is free: clears what has gone.
-  int stride = 1;              //!< Every stride-th row and column, >= 1.
-  double bodyInflation = 0.02; //!< Points that near to the arm's own capsules are the arm, m, >= 0.
+  double minRange = 0.1;       //!< Nearer points are ignored, m from the camera's centre, >= 0.
+  double maxRange = 2.;        //!< Farther points only mark free space up to this range, m, > minRange.
+  bool carve = true;           //!< Marks the space in front of a point as free, which clears removed obstacles.
+  int stride = 1;              //!< Every stride-th row and column is used, >= 1.
+  double bodyInflation = 0.02; //!< Points closer to the arm's capsules are attributed to the arm, m, >= 0.
 };
 
 //! \ingroup group_avoidance
-//! \brief How the use of a depth image went.
+//! \brief Status of inserting a depth image.
 enum class vpDepthStatus {
   Ok,      //!< Points were used.
-  NoPoint, //!< The image is empty, or no pixel has a depth in range that is not the arm.
-  BadInput //!< The camera's pose is no rotation and place within vpLargestLength, or its focal lengths are 0.
+  NoPoint, //!< The image is empty, or all pixels are out of range or on the arm.
+  BadInput //!< The camera pose is not a rigid transform within vpLargestLength, or its focal lengths are 0.
 };
 
 /*!
  * \ingroup group_avoidance
- * \brief What became of the pixels that were looked at.
+ * \brief Statistics of the pixels used.
  */
 struct VISP_EXPORT vpDepthReport {
-  vpDepthStatus status = vpDepthStatus::BadInput; //!< Ok, or why not.
+  vpDepthStatus status = vpDepthStatus::BadInput; //!< Ok, or the reason for failure.
   int used = 0;                                   //!< Points that mark occupied space.
-  int body = 0;                                   //!< Left out: the arm itself.
-  int known = 0;                                  //!< Left out: known objects and ground, see vpDepthObstacles.
-  int invalid = 0;                                //!< Left out: no depth (not finite or <= 0) or nearer than minRange.
-  int beyond = 0;                                 //!< Farther than maxRange: show free space only.
+  int body = 0;                                   //!< Excluded: on the arm itself.
+  int known = 0;                                  //!< Excluded: on known objects and ground, see vpDepthObstacles.
+  int invalid = 0;                                //!< Excluded: no depth (not finite or <= 0) or nearer than minRange.
+  int beyond = 0;                                 //!< Farther than maxRange: mark free space only.
 
-  //! One sentence for the status.
+  //! Status as a sentence.
   [[nodiscard]] const char *sentence() const noexcept;
 };
 
 /*!
  * \class vpDepthOctomap
  * \ingroup group_avoidance
- * \brief Map of occupied space in the base frame, by octomap \cite Hornung13, fed with depth images. Not for two threads at once.
+ * \brief Map of occupied space in the base frame, by octomap \cite Hornung13, built from depth images. Not thread-safe.
  */
 class VISP_EXPORT vpDepthOctomap
 {
@@ -70,24 +70,24 @@ public:
 
   /*!
    * Adds an image. Allocates.
-   * \param depth : Along the optical axis, m; <= 0, infinite or NaN where there is none.
-   * \param camera : Of the depth image; all of ViSP's projection models.
+   * \param depth : Depth along the optical axis, m; <= 0, infinite or NaN where there is none.
+   * \param camera : Intrinsics of the depth image; all projection models of ViSP.
    * \param fMc : Camera in the base when the image was taken.
    */
   vpDepthReport insert(const vpImage<float> &depth, const vpCameraParameters &camera, const vpRigidTransform &fMc);
   /*!
-   * The same without the points on the arm.
+   * Adds an image without the points on the arm.
    * \param depth, camera, fMc : As above.
-   * \param scene : For the arm's capsules.
-   * \param placed : Of the configuration when the image was taken, by vpCollisionScene::place().
+   * \param scene : Scene with the arm's capsules.
+   * \param placed : Arm configuration when the image was taken, by vpCollisionScene::place().
    */
   vpDepthReport insert(const vpImage<float> &depth, const vpCameraParameters &camera, const vpRigidTransform &fMc,
                        const vpCollisionScene &scene, const vpCollisionData &placed);
-  //! Forgets everything.
+  //! Clears the map.
   void clear();
-  //! Occupied cubes now, for a vpCollisionShape with the identity as pose.
+  //! Current occupied cubes, for a vpCollisionShape with the identity as pose.
   [[nodiscard]] vpOctree snapshot() const;
-  //! Writes a .bt file of octomap. \throw vpException (ioError) naming the file when it cannot.
+  //! Writes an octomap .bt file. \throw vpException (ioError) naming the file on failure.
   void save(const std::string &file) const;
 
 private:

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpDiscreteMotion.h
- * \brief The usual check of a motion: samples at a fixed step. For comparison.
+ * \brief Conventional motion check by samples at a fixed step, for comparison.
  */
 #ifndef vpDiscreteMotion_h
 #define vpDiscreteMotion_h
@@ -17,20 +17,20 @@ BEGIN_VISP_NAMESPACE
 /*!
  * \class vpDiscreteMotion
  * \ingroup group_avoidance
- * \brief Looks at configurations at most a step apart, the middle first as OMPL does. What lies between two samples is
- * not seen: "free" may be wrong.
+ * \brief Discrete motion check: samples configurations at most a step apart, the middle first as OMPL does. Collisions
+ * between samples are missed: "free" may be wrong.
  */
 class VISP_EXPORT vpDiscreteMotion
 {
 public:
   /*!
-   * \param checker : Own fast path or FCL; must outlive this.
+   * \param checker : Fast path or FCL; must outlive this.
    * \param step : Largest change of a joint between samples, rad or m, > 0.
-   * \param margin : m, >= 0, as vpCertifiedMotion.
+   * \param margin : Clearance margin, m, >= 0, see vpCertifiedMotionSpec.
    * \throw vpException (badValue) naming step or margin and its value.
    */
   explicit vpDiscreteMotion(vpCollisionChecker &checker, double step = 0.05, double margin = 0.);
-  //! Both ends included.
+  //! Checks the motion, both ends included.
   [[nodiscard]] vpMotionResult check(const vpJointVector &from, const vpJointVector &to);
 
 private:

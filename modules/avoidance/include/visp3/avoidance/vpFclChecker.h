@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpFclChecker.h
- * \brief The same questions answered by FCL, for comparison. Needs FCL when the module is built.
+ * \brief Collision queries by FCL, for comparison. Requires a build with FCL.
  */
 #ifndef vpFclChecker_h
 #define vpFclChecker_h
@@ -18,17 +18,18 @@ BEGIN_VISP_NAMESPACE
 /*!
  * \class vpFclChecker
  * \ingroup group_avoidance
- * \brief All pairs of a scene by FCL 0.7 \cite Pan12 : an independent implementation, slower and less exact than the fast path.
+ * \brief Checks all pairs of a scene by FCL 0.7 \cite Pan12 : an independent implementation, slower and less exact than
+ * the fast path.
  *
- * Distances of capsules from boxes err by up to a millimetre there; meshes are surfaces without inside; penetrating
- * pairs have the distance 0 (so do those whose axis is deeper than the inflation). Boolean checks use FCL's collide()
- * for a margin and inflation of 0, its distance otherwise. The ground is checked by the scene: FCL 0.7 has no distance from
- * a half space and crashes. Allocates.
+ * Its capsule-box distances err by up to 1 mm; meshes are surfaces without inside; penetrating
+ * pairs have distance 0 (so do those whose axis is deeper than the inflation). Boolean checks use FCL's collide()
+ * for a margin and inflation of 0, its distance otherwise. The ground is checked by the scene: FCL 0.7 has no
+ * half-space distance and crashes. Allocates.
  */
 class VISP_EXPORT vpFclChecker : public vpCollisionChecker
 {
 public:
-  //! Takes the scene's objects as they are now; their poses are read anew at every call.
+  //! Copies the current objects of the scene; their poses are read at every call.
   explicit vpFclChecker(const vpCollisionScene &scene);
   ~vpFclChecker() VP_OVERRIDE;
   vpFclChecker(const vpFclChecker &) = delete;

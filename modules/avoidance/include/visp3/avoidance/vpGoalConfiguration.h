@@ -13,17 +13,17 @@ BEGIN_VISP_NAMESPACE
 
 /*!
  * \ingroup group_avoidance
- * \brief A configuration that brings the end effector's origin to a place, the orientation left free.
+ * \brief Finds a configuration with the end effector's origin at a position, orientation free.
  *
- * Closed-loop inverse kinematics (vpClosedLoopKinematics) from \e from and, if that leads to no free configuration, from
- * random ones. Takes milliseconds; allocates.
+ * Closed-loop inverse kinematics (vpClosedLoopKinematics) from \e from and, if that gives no free configuration, from
+ * random configurations. Takes milliseconds; allocates.
  * \param scene : Arm and obstacles.
- * \param from : n numbers, rad or m: the answer is the first one found, so near here when the straight way leads there.
- * \param position : In the base, m. \param margin : Clearance wanted, m, >= 0.
- * \param attempts : Starts that are tried, >= 1. \param seed : Of the random ones, >= 1.
- * \return A configuration within the position limits, free with the margin when there is one among those found and else
- * the first found; none when the place cannot be reached.
- * \throw vpException (badValue) when \e from does not fit the arm or \e position is not finite.
+ * \param from : First start, n numbers, rad or m; the result is near it if the direct motion succeeds.
+ * \param position : In the base, m. \param margin : Required clearance, m, >= 0.
+ * \param attempts : Number of starts, >= 1. \param seed : Seed of the random starts, >= 1.
+ * \return A configuration within the position limits: the first found that is free with the margin, else the first
+ * found; none if the position is unreachable.
+ * \throw vpException (badValue) if \e from does not fit the arm or \e position is not finite.
  */
 [[nodiscard]] VISP_EXPORT std::optional<vpJointVector>
 goalConfiguration(const vpCollisionScene &scene, const vpJointVector &from, const Eigen::Vector3d &position,

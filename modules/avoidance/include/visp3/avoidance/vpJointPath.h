@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpJointPath.h
- * \brief A way through configurations, without time.
+ * \brief A path through configurations, without timing.
  */
 #ifndef vpJointPath_h
 #define vpJointPath_h
@@ -20,13 +20,13 @@ BEGIN_VISP_NAMESPACE
  * \brief Configurations joined by straight motions in joint space.
  */
 struct VISP_EXPORT vpJointPath {
-  std::vector<vpJointVector> points; //!< rad or m; the first is the start, the last the goal.
+  std::vector<vpJointVector> points; //!< Configurations from start to goal, rad or m.
 
-  //! Sum of the Euclidean lengths of the motions, rad (radians and metres as they are).
+  //! Sum of the Euclidean lengths of the motions, rad (radians and metres added unscaled).
   [[nodiscard]] double length() const noexcept;
   /*!
-   * Configuration at a part of the length. Does not allocate.
-   * \param s : 0..1, clamped. The path must have a point.
+   * Configuration at a fraction of the length. Does not allocate.
+   * \param s : Fraction, 0..1, clamped. The path must not be empty.
    */
   [[nodiscard]] vpJointVector at(double s) const noexcept;
 };

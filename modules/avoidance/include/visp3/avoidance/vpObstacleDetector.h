@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpObstacleDetector.h
- * \brief Obstacles from pictures (thesis 8.3.2). Needs the module planar_target when this one is built.
+ * \brief Detects obstacles in images (thesis 8.3.2). Requires a build with the module planar_target.
  */
 #ifndef vpObstacleDetector_h
 #define vpObstacleDetector_h
@@ -22,13 +22,13 @@ BEGIN_VISP_NAMESPACE
  * \brief Parameters of vpObstacleDetector.
  */
 struct VISP_EXPORT vpObstacleDetectorSpec {
-  double thickness = 0.02;           //!< Of a body whose depth the database does not tell, m, > 0.
-  double pixelSigma = 0.06;          //!< How far a clear picture leaves each corner of a target uncertain, px, > 0.
-  double greySigma = 0.8;            //!< The same for a picture whose noise is as strong as its contrast, px, >= 0.
-  double cameraPositionSigma = 5e-4; //!< Of fMc: standard deviation of each coordinate, m, >= 0.
-  double cameraAngleSigma = 1e-3;    //!< Of each component of its rotation, rad, >= 0.
-  double scaleSigma = 1e-3;          //!< Of the sizes of photographs and the focal length, relative, >= 0.
-  double maxPositionSigma = 0.05;    //!< What is known no better is not reported, m, > 0.
+  double thickness = 0.02;           //!< Thickness of a body without depth in the database, m, > 0.
+  double pixelSigma = 0.06;          //!< Sigma of each target corner in a clear image, px, > 0.
+  double greySigma = 0.8;            //!< Sigma of each corner when noise equals contrast, px, >= 0.
+  double cameraPositionSigma = 5e-4; //!< Standard deviation of each coordinate of fMc, m, >= 0.
+  double cameraAngleSigma = 1e-3;    //!< Standard deviation of each rotation component of fMc, rad, >= 0.
+  double scaleSigma = 1e-3;          //!< Relative sigma of photograph sizes and focal length, >= 0.
+  double maxPositionSigma = 0.05;    //!< Detections with a larger position sigma are not reported, m, > 0.
 
   //! \throw vpException (badValue) naming the field that is out of range, and its value.
   void validate() const;
@@ -36,66 +36,66 @@ struct VISP_EXPORT vpObstacleDetectorSpec {
 
 /*!
  * \ingroup group_avoidance
- * \brief What a picture shows of one obstacle of the database.
+ * \brief Detection of one obstacle of the database in an image.
  */
 struct VISP_EXPORT vpObstacleDetection {
-  vpObjectSighting sighting; //!< Its name and shape are always set, the rest when it was seen.
-  bool seen = false;         //!< True when the sighting may be used.
-  vpPlanarTargetStatus status = vpPlanarTargetStatus::NoFrame; //!< Of its picture.
-  std::string sentence;                                        //!< How it went, or why it was not seen.
+  vpObjectSighting sighting; //!< Sighting; name and shape are always set, the rest only if seen.
+  bool seen = false;         //!< True if the sighting is valid.
+  vpPlanarTargetStatus status = vpPlanarTargetStatus::NoFrame; //!< Status of its target.
+  std::string sentence;                                        //!< Result, or why it was not seen.
 };
 
 /*!
  * \class vpObstacleDetector
  * \ingroup group_avoidance
- * \brief Picture and place of the camera in, obstacles in the base frame out.
+ * \brief Detects obstacles in the base frame from an image and the camera pose.
  *
- * Every obstacle is a box with a known photograph on its front: width and height are those of the photograph, which make
- * everything metric, and it reaches vpPlanarTargetSighting::depth behind it. The box's frame is in its middle, its z axis
- * points into the photograph.
+ * Every obstacle is a box with a known photograph on its front: width and height are those of the photograph, which set
+ * the metric scale, and it extends vpPlanarTargetSighting::depth behind it. The box's frame is at its centre, its z
+ * axis points into the photograph.
  *
- * A target is looked for where it would be by the motion of the camera and its own last motion, so that both may move
- * farther between pictures than tracking alone would bridge.
+ * Each target is searched where the camera motion and its own last motion predict it, so that both may move farther
+ * between images than tracking alone could handle.
  *
- * The deviations come from the geometry of the view: the information that the target's corners have about the pose,
- * when each is uncertain by vpObstacleDetectorSpec::pixelSigma, or more as the picture correlates less with the
- * photograph. Depth is worse than the other two coordinates; the sighting carries the worst direction. Deviations of the
- * camera's place and rotation and of all that is known of sizes are added.
+ * The standard deviations follow from the geometry of the view: the information of the target's corners about the pose,
+ * each with a sigma of vpObstacleDetectorSpec::pixelSigma, or more for a lower correlation of the image with the
+ * photograph. Depth is less accurate than the other two coordinates; the sighting reports the worst direction. The
+ * uncertainties of camera position, camera rotation and sizes are added.
  */
 class VISP_EXPORT vpObstacleDetector
 {
 public:
   /*!
-   * Settings of the targets for a control loop: no second kind of keypoints, which takes longer than a frame, and a
-   * refinement at 120 px, which is as accurate as at 200 px in a third of the time.
+   * Target settings for a control loop: no second kind of keypoints, which takes longer than a frame, and refinement at
+   * 120 px, which is as accurate as 200 px in a third of the time.
    */
   [[nodiscard]] static vpPlanarTargetConfig fastTargets();
   /*!
-   * \param targets : The photographs; made for \e camera. \param camera : Of the pictures.
+   * \param targets : The photographs; created for \e camera. \param camera : Intrinsics of the images.
    * \param spec : Parameters; copied.
-   * \throw vpException (badValue), see vpObstacleDetectorSpec::validate(), or naming the database when it is empty.
+   * \throw vpException (badValue), see vpObstacleDetectorSpec::validate(), or naming the database if it is empty.
    */
   vpObstacleDetector(vpPlanarTargetDatabase targets, const vpCameraParameters &camera,
                      const vpObstacleDetectorSpec &spec = {});
 
   /*!
-   * All obstacles of a picture.
-   * \param image : As for vpPlanarTargetDatabase::process(). \param fMc : Camera in the base at the exposure; when it is
-   * not finite nothing is seen. \param time : Of the exposure, s; becomes vpObjectSighting::time.
-   * \return One entry for each target, in the order of the database.
+   * Detects all obstacles in an image.
+   * \param image : As for vpPlanarTargetDatabase::process(). \param fMc : Camera in the base at exposure; if not
+   * finite, nothing is seen. \param time : Time of exposure, s; becomes vpObjectSighting::time.
+   * \return One entry per target, in the order of the database.
    */
   const std::vector<vpObstacleDetection> &process(const vpImage<unsigned char> &image, const vpRigidTransform &fMc,
                                                   double time);
-  //! The last result; all NoFrame before the first picture.
+  //! The last result; all NoFrame before the first image.
   [[nodiscard]] const std::vector<vpObstacleDetection> &detections() const noexcept { return m_detections; }
-  //! The targets as they were seen in the last picture, for drawing.
+  //! Targets as seen in the last image, for drawing.
   [[nodiscard]] const std::vector<vpPlanarTargetSighting> &targets() const { return m_targets.sightings(); }
-  //! Forgets where everything was.
+  //! Clears the remembered target motions.
   void reset();
 
 private:
   struct Memory {
-    vpRigidTransform fMo; // of the target, in the last picture
+    vpRigidTransform fMo; // of the target, in the last image
     Eigen::Vector3d linear = Eigen::Vector3d::Zero(), angular = Eigen::Vector3d::Zero(); // in the base
     double time = 0.;
     bool isKnown = false;

@@ -26,15 +26,15 @@ struct vpOctreeData;
  * \brief One occupied cube, axes along those of the map.
  */
 struct VISP_EXPORT vpOctreeCell {
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero(); //!< m, in the map's frame.
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero(); //!< Centre in the map frame, m.
   double size = 0.;                                 //!< Length of an edge, m, > 0.
 };
 
 /*!
  * \class vpOctree
  * \ingroup group_avoidance
- * \brief Immutable set of occupied cubes with a tree of boxes for distances; copies share it. Unknown space counts as
- * free. May hold no cube at all.
+ * \brief Immutable set of occupied cubes with a bounding-box tree for distances; copies share it. Unknown space counts
+ * as free. May be empty.
  */
 class VISP_EXPORT vpOctree
 {
@@ -46,14 +46,14 @@ public:
    */
   explicit vpOctree(const std::vector<vpOctreeCell> &cells, const std::string &label = "octree");
   /*!
-   * Occupied leaves of a .bt or .ot file of octomap.
-   * \throw vpException (ioError) when it cannot be read, (fatalError) when the module was built without octomap.
+   * Loads the occupied leaves of an octomap .bt or .ot file.
+   * \throw vpException (ioError) if it cannot be read, (fatalError) if the module was built without octomap.
    */
   [[nodiscard]] static vpOctree load(const std::string &file);
 
   //! The cubes.
   [[nodiscard]] const std::vector<vpOctreeCell> &cells() const noexcept;
-  //! What it was called at construction.
+  //! The label given at construction.
   [[nodiscard]] const std::string &label() const noexcept;
   //! For this module's own use.
   [[nodiscard]] const vpOctreeData &data() const noexcept { return *m_data; }

@@ -15,10 +15,10 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_avoidance
-//! \brief What a planned motion does when something comes into its way.
+//! \brief Reaction of a planned motion to an obstacle on its path.
 enum class vpReplanning {
-  FromRest, //!< Brakes, plans anew when it stands, and goes on: how planners are used as a rule.
-  OnTheFly  //!< Times the rest of the path anew or plans another from the moving state; brakes only if neither is free.
+  FromRest, //!< Brakes, replans at rest, and continues: the usual way of using planners.
+  OnTheFly  //!< Re-times the remaining path or replans from the moving state; brakes only if neither is free.
 };
 
 /*!
@@ -26,14 +26,14 @@ enum class vpReplanning {
  * \brief Parameters of vpPlannedMotion.
  */
 struct VISP_EXPORT vpPlannedMotionSpec {
-  vpAvoidanceMethodSpec common;                                  //!< Its seed goes to the planner.
-  vpReplanning replanning = vpReplanning::OnTheFly;              //!< See there.
+  vpAvoidanceMethodSpec common;                                  //!< Common parameters; the seed is for the planner.
+  vpReplanning replanning = vpReplanning::OnTheFly;              //!< Reaction to obstacles on the path.
   std::string planner = "RRTConnect";                            //!< See vpPathPlannerSpec.
   vpMotionValidation validation = vpMotionValidation::Certified; //!< See vpPathPlannerSpec.
-  double clearance = 0.005;  //!< Of paths beyond the margin, m, >= 0: room for the timing to leave the path.
-  double startTime = 2.;     //!< For planning in start(), s, > 0.
-  double replanTime = 0.05;  //!< For each planning in look(), s, > 0.
-  double shortenTime = 0.05; //!< For making a found way shorter, s, >= 0.
+  double clearance = 0.005;  //!< Clearance of paths beyond the margin, m, >= 0: room for trajectories to deviate.
+  double startTime = 2.;     //!< Maximum planning time in start(), s, > 0.
+  double replanTime = 0.05;  //!< Maximum time of each planning in look(), s, > 0.
+  double shortenTime = 0.05; //!< Maximum time for shortening a path, s, >= 0.
 
   //! \throw vpException (badValue) naming the field that is out of range, and its value.
   void validate() const;
@@ -42,17 +42,17 @@ struct VISP_EXPORT vpPlannedMotionSpec {
 /*!
  * \class vpPlannedMotion
  * \ingroup group_avoidance
- * \brief A path of vpPathPlanner as trajectories (vpTimedPath), followed and, when the scene changes, timed or planned
- * anew: methods (iv) and (v), thesis section 9.2.
+ * \brief Follows a path of vpPathPlanner as trajectories (vpTimedPath), re-timed or replanned when the scene changes:
+ * methods (iv) and (v), thesis section 9.2.
  *
- * Every motion that is commanded is proven to be free up to its end at rest (vpCertifiedTrajectory), with the objects
- * moving on at their velocities; look() proves the rest of it again. If that fails, on the fly are tried: the same path
- * slower, another path from the moving state (obstacles that move stand where they are predicted to be soon), and a stop
- * with a path behind it. Stops go straight on or along the path, whichever is proven free. Only where no stop is, the
+ * Every commanded motion is proven free up to its end at rest (vpCertifiedTrajectory), with the objects
+ * moving at their velocities; look() proves the remaining part again. If that fails, on the fly are tried: the same
+ * path slower, another path from the moving state (moving obstacles fixed at their predicted near-future poses), and a
+ * stop followed by a new path. Stops go straight on or along the path, whichever is proven free. If no stop is, the
  * status is Unsafe.
  *
- * Joints keep their limits, and the end effector the bounds of vpAvoidanceMethodSpec: motions that would not are timed
- * slower. Stops keep the limits of the joints only.
+ * Joints keep their limits, and the end effector the bounds of vpAvoidanceMethodSpec: motions that would not are
+ * slowed. Stops keep the joint limits only.
  */
 class VISP_EXPORT vpPlannedMotion : public vpAvoidanceMethod
 {
@@ -69,15 +69,15 @@ public:
   void look() override;
   /*!
    * \copydoc vpAvoidanceMethod::step()
-   * Where \e q is not what was commanded, the arm goes to where it should be as fast as the joints' velocities allow.
+   * If \e q differs from the commanded configuration, the arm returns to it as fast as the velocity limits allow.
    */
   void step(const vpJointVector &q, vpAvoidanceOutput &output) noexcept override;
 
-  //! How far the present motion is, s, and how long it takes.
+  //! Elapsed time and total duration of the current motion, s.
   [[nodiscard]] double clock() const noexcept { return m_clock; }
   //! \overload
   [[nodiscard]] double duration() const noexcept { return m_duration; }
-  //! State of joint \e joint at time \e t of the present motion.
+  //! State of joint \e joint at time \e t of the current motion.
   [[nodiscard]] vpAxisState at(int joint, double t) const noexcept;
 
 private:
@@ -103,7 +103,7 @@ private:
 
   const vpCollisionScene *m_scene;
   vpPlannedMotionSpec m_spec;
-  vpCollisionScene m_view;              // the scene as it will be at another time
+  vpCollisionScene m_view;              // the scene predicted to another time
   vpPathPlanner m_wide, m_near;         // in m_view; with clearance, with the margin alone
   vpCertifiedTrajectory m_now, m_later; // in the scene; in m_view
   double m_planningTime = 0.;
@@ -115,7 +115,7 @@ private:
   double m_duration = 0., m_clock = 0.;
   double m_stopping = 0.;  // until then the motion is a stop
   vpJointVector m_command; // of the last period
-  vpJointVector m_hold;    // where it stands while there are no parts
+  vpJointVector m_hold;    // configuration to hold while there are no parts
   vpAvoidanceStatus m_status = vpAvoidanceStatus::InvalidInput;
   vpClearance m_pair;
   vpArmData m_data;

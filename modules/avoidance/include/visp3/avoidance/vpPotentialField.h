@@ -12,10 +12,10 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_avoidance
-//! \brief Which reading of (8.1)-(8.2).
+//! \brief Variant of (8.1)-(8.2).
 enum class vpFieldForm {
-  Thesis,   //!< As printed: a weight for each image axis by itself, not normalised; may exceed 1.
-  Corrected //!< One radial weight that is 1 in contact, on the direction towards the obstacle only.
+  Thesis,   //!< As printed: a separate weight per image axis, not normalised; may exceed 1.
+  Corrected //!< One radial weight, 1 in contact, applied to the direction towards the obstacle only.
 };
 
 /*!
@@ -23,9 +23,9 @@ enum class vpFieldForm {
  * \brief Parameters of (8.2). The unit of #centre and #width is that of the distances: px or m.
  */
 struct VISP_EXPORT vpFieldWeightSpec {
-  double centre = 0.04; //!< d_0: distance at which the weight has fallen by half, > 0.
-  double width = 0.02;  //!< k_s: width of the transition, > 0 (the text calls it a slope).
-  //! w_s: height, > 0. 0.5 is all of the motion as printed; more overshoots, which reverses the task. Corrected: 0.5 only.
+  double centre = 0.04; //!< Distance d_0 at which the weight has fallen by half, > 0.
+  double width = 0.02;  //!< Width k_s of the transition, > 0 (called a slope in the text).
+  //! Height w_s, > 0. 0.5 is full motion as printed; more overshoots, which reverses the task. Corrected: 0.5 only.
   double height = 0.5;
 
   //! \throw vpException (badValue) naming the field that is out of range for the form, and its value.
@@ -36,19 +36,19 @@ struct VISP_EXPORT vpFieldWeightSpec {
  * \ingroup group_avoidance
  * \brief Weight of avoidance at a distance, (8.2): a double sigmoid.
  *
- * As printed w(0) = 2 w_s tanh(d_0/k_s): 0.76 for d_0 = k_s and w_s = 0.5, so that an arm in contact still goes on
- * towards the obstacle. Corrected it is divided by tanh(d_0/k_s) and never above 1.
- * \param spec : Shape. \param form : Which reading.
- * \param distance : In the unit of the spec; as printed signed, else negative counts as 0.
+ * As printed w(0) = 2 w_s tanh(d_0/k_s): 0.76 for d_0 = k_s and w_s = 0.5, so that an arm in contact still moves
+ * towards the obstacle. Corrected: divided by tanh(d_0/k_s) and never above 1.
+ * \param spec : Parameters. \param form : Variant.
+ * \param distance : In the unit of the spec; signed as printed, corrected: negative counts as 0.
  */
 [[nodiscard]] VISP_EXPORT double fieldWeight(const vpFieldWeightSpec &spec, vpFieldForm form, double distance) noexcept;
 
 /*!
  * \ingroup group_avoidance
  * \brief (8.1) as printed, on two image axes: x' = w x'_oa + (I - w) x'_t with w = diag(w_u, w_v, 0) in the camera.
- * \param spec : Of both weights, px.
- * \param offset : Of the obstacle from the image's centre, px. \param avoid : x'_oa. \param task : x'_t; both of the
- * tool in the axes of the camera, m/s.
+ * \param spec : Parameters of both weights, px.
+ * \param offset : Offset of the obstacle from the image's centre, px. \param avoid : Avoidance velocity x'_oa.
+ * \param task : Task velocity x'_t; both of the tool in the axes of the camera, m/s.
  */
 [[nodiscard]] VISP_EXPORT Eigen::Vector3d blendAsPrinted(const vpFieldWeightSpec &spec, const Eigen::Vector2d &offset,
                                                          const Eigen::Vector3d &avoid,
@@ -56,11 +56,11 @@ struct VISP_EXPORT vpFieldWeightSpec {
 
 /*!
  * \ingroup group_avoidance
- * \brief (8.1) as corrected: the part of the task's velocity along the normal is blended into one away from the obstacle;
- * what leads along the obstacle or away from it stays.
- * \param spec : Of the weight, m.
- * \param distance : From the obstacle's surface, m. \param normal : Unit vector from obstacle to tool.
- * \param speed : Of x'_oa, m/s, >= 0. \param task : x'_t, m/s, in the axes of the normal.
+ * \brief (8.1) as corrected: the task velocity towards the obstacle is blended into a velocity away from it; motion
+ * along or away from the obstacle is unchanged.
+ * \param spec : Parameters of the weight, m.
+ * \param distance : Distance from the obstacle's surface, m. \param normal : Unit vector from obstacle to tool.
+ * \param speed : Avoidance speed |x'_oa|, m/s, >= 0. \param task : Task velocity x'_t, m/s, in the frame of the normal.
  */
 [[nodiscard]] VISP_EXPORT Eigen::Vector3d blendRadial(const vpFieldWeightSpec &spec, double distance,
                                                       const Eigen::Vector3d &normal, double speed,

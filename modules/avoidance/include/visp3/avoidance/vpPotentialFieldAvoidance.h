@@ -17,17 +17,17 @@ BEGIN_VISP_NAMESPACE
  * \brief Parameters of vpPotentialFieldAvoidance.
  */
 struct VISP_EXPORT vpPotentialFieldAvoidanceSpec {
-  vpAvoidanceMethodSpec common;              //!< What all methods have.
-  vpFieldForm form = vpFieldForm::Corrected; //!< See there.
+  vpAvoidanceMethodSpec common;              //!< Parameters common to all methods.
+  vpFieldForm form = vpFieldForm::Corrected; //!< Variant of (8.1)-(8.2).
   vpFieldWeightSpec metres;                  //!< Corrected: (8.2) over the distance from the surface, m.
-  vpFieldWeightSpec pixels{120., 60., 0.5};  //!< Thesis: (8.2) over the place in the image, px.
-  double gain = 2.;                          //!< x'_t = gain (goal - x), 1/s, > 0.
-  double avoidSpeed = 0.25;                  //!< |x'_oa|, m/s, > 0; as printed of each image axis.
+  vpFieldWeightSpec pixels{120., 60., 0.5};  //!< Thesis: (8.2) over the image position, px.
+  double gain = 2.;                          //!< Gain of x'_t = gain (goal - x), 1/s, > 0.
+  double avoidSpeed = 0.25;                  //!< Avoidance speed |x'_oa|, m/s, > 0; as printed, per image axis.
   double focal = 600.;                       //!< Thesis: focal length of the camera, px, > 0.
-  double imageWidth = 640.;                  //!< Thesis: of the picture, px, > 0.
-  double imageHeight = 480.;                 //!< The same.
-  double sight = 1.;                         //!< Thesis: obstacles farther from the camera do not count, m, > 0.
-  double tolerance = 1e-3;                   //!< The goal is reached within this, m, > 0.
+  double imageWidth = 640.;                  //!< Thesis: image width, px, > 0.
+  double imageHeight = 480.;                 //!< Thesis: image height, px, > 0.
+  double sight = 1.;                         //!< Thesis: maximum distance of obstacles from the camera, m, > 0.
+  double tolerance = 1e-3;                   //!< Position tolerance at the goal, m, > 0.
 
   //! \throw vpException (badValue) naming the field that is out of range, and its value.
   void validate() const;
@@ -36,15 +36,15 @@ struct VISP_EXPORT vpPotentialFieldAvoidanceSpec {
 /*!
  * \class vpPotentialFieldAvoidance
  * \ingroup group_avoidance
- * \brief Reactive avoidance on path level, thesis 8.2.1: the tool's velocity is a mixture of one to the goal and one away
- * from the obstacle. A baseline: nothing is foreseen, and it stops where both cancel (Waiting).
+ * \brief Reactive avoidance at path level, thesis 8.2.1: the tool velocity blends one to the goal and one away from the
+ * obstacle. A baseline: no prediction, and it stops where both cancel (Waiting).
  *
- * vpFieldForm::Thesis: (8.1)-(8.2) as printed; the obstacle counts while the camera sees its centre, on the two image
- * axes apart, which are turned into the base frame (the text takes them for it). As in the text no bound is kept on
- * velocities or accelerations, only position limits are.
+ * vpFieldForm::Thesis: (8.1)-(8.2) as printed; the obstacle acts while the camera sees its centre, separately on the
+ * two image axes, which are rotated into the base frame (the text equates them with it). As in the text velocities and
+ * accelerations are not limited, only positions.
  *
  * vpFieldForm::Corrected: radial distance of the last link from the obstacle's surface, weight 1 in contact, only the
- * velocity towards the obstacle changes. The tool's speed and the joints' limits are kept, the tool's acceleration is not.
+ * velocity towards the obstacle changes. Tool speed and joint limits are kept, the tool's acceleration limit is not.
  *
  * Both push the rest of the arm away from obstacles by self-motion, (8.10)-(8.12).
  */
@@ -61,7 +61,7 @@ public:
 
   vpAvoidanceStatus start(const vpJointVector &q, const vpAvoidanceGoal &goal) override;
   void setGoal(const vpAvoidanceGoal &goal) noexcept override;
-  //! Nothing: the field is looked up in every step().
+  //! Does nothing: the field is evaluated in every step().
   void look() override {}
   void step(const vpJointVector &q, vpAvoidanceOutput &output) noexcept override;
 

@@ -20,37 +20,37 @@ BEGIN_VISP_NAMESPACE
  * \brief Two nearest points. All lengths in m, all points in one frame.
  */
 struct VISP_EXPORT vpNearestPoints {
-  double distance = 0.; //!< |onSegment - onOther|, m, >= 0; 0 when they touch; -infinity: not known, points are 0.
-  Eigen::Vector3d onSegment = Eigen::Vector3d::Zero(); //!< On the segment.
-  Eigen::Vector3d onOther = Eigen::Vector3d::Zero();   //!< On or in the other thing.
+  double distance = 0.; //!< |onSegment - onOther|, m, >= 0; 0 in contact; -infinity: unknown, points are 0.
+  Eigen::Vector3d onSegment = Eigen::Vector3d::Zero(); //!< Nearest point on the segment.
+  Eigen::Vector3d onOther = Eigen::Vector3d::Zero();   //!< Nearest point on or in the other body.
 };
 
 /*!
  * \ingroup group_avoidance
- * \brief Kernels of the fast path; none of them allocates, throws or locks. Solids count as filled: the distance is 0
- * for a segment inside. A segment whose ends agree is a point. Accuracy about 1e-15 of the size of the numbers, for the
- * cylinder 1e-12 m; tests against an independent search hold them to 1e-9 m. Where a number is not finite or beyond
- * 100 vpLargestLength the distance is -infinity, so that every comparison says: near.
+ * \brief Distances of a segment from other bodies; no allocation, exception or lock. Solids are filled: the distance is
+ * 0 for a segment inside. A segment with coinciding ends is a point. Relative accuracy about 1e-15, for the
+ * cylinder 1e-12 m; tests against an independent search require 1e-9 m. If a number is not finite or beyond
+ * 100 vpLargestLength the distance is -infinity, which every comparison treats as near.
  */
 namespace vpSegmentDistance
 {
-//! From a point.
+//! Distance from a point.
 [[nodiscard]] VISP_EXPORT vpNearestPoints point(const Eigen::Vector3d &from, const Eigen::Vector3d &to,
                                                 const Eigen::Vector3d &other) noexcept;
-//! From another segment, parallel ones included.
+//! Distance from another segment, parallel ones included.
 [[nodiscard]] VISP_EXPORT vpNearestPoints segment(const Eigen::Vector3d &from, const Eigen::Vector3d &to,
                                                   const Eigen::Vector3d &otherFrom,
                                                   const Eigen::Vector3d &otherTo) noexcept;
 /*!
- * From the box |x| <= half(0), |y| <= half(1), |z| <= half(2): the root of the piecewise linear slope of the squared
- * distance along the segment.
+ * Distance from the box |x| <= half(0), |y| <= half(1), |z| <= half(2): the root of the piecewise linear slope of the
+ * squared distance along the segment.
  */
 [[nodiscard]] VISP_EXPORT vpNearestPoints box(const Eigen::Vector3d &from, const Eigen::Vector3d &to,
                                               const Eigen::Vector3d &half) noexcept;
-//! From the cylinder x^2 + y^2 <= radius^2, |z| <= half.
+//! Distance from the cylinder x^2 + y^2 <= radius^2, |z| <= half.
 [[nodiscard]] VISP_EXPORT vpNearestPoints cylinder(const Eigen::Vector3d &from, const Eigen::Vector3d &to,
                                                    double radius, double half) noexcept;
-//! From the triangle with corners a, b, c, which may be degenerate.
+//! Distance from the triangle with corners a, b, c, which may be degenerate.
 [[nodiscard]] VISP_EXPORT vpNearestPoints triangle(const Eigen::Vector3d &from, const Eigen::Vector3d &to,
                                                    const Eigen::Vector3d &a, const Eigen::Vector3d &b,
                                                    const Eigen::Vector3d &c) noexcept;

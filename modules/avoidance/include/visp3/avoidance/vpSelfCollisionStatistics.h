@@ -15,24 +15,24 @@ BEGIN_VISP_NAMESPACE
 
 /*!
  * \ingroup group_avoidance
- * \brief How often two capsules touched in random configurations within the limits (continuous joints: within +-pi).
+ * \brief Contacts of two capsules in random configurations within the limits (continuous joints: within +-pi).
  */
 struct VISP_EXPORT vpSelfPairStatistics {
   vpSelfPair pair;   //!< The capsules.
-  int samples = 0;   //!< Configurations looked at.
-  int touching = 0;  //!< Of these, with a clearance <= 0.
+  int samples = 0;   //!< Number of configurations.
+  int touching = 0;  //!< Number of configurations with a clearance <= 0.
   double least = 0.; //!< Least clearance seen, m.
 
-  //! True when they touched in every sample: such a pair is to be allowed.
+  //! True if they touched in every sample: allow such a pair.
   [[nodiscard]] bool always() const noexcept { return touching == samples; }
-  //! True when they never touched. An estimate, not a proof: leave the pair checked unless time is short.
+  //! True if they never touched. An estimate, not a proof: keep checking the pair unless time is critical.
   [[nodiscard]] bool never() const noexcept { return touching == 0; }
 };
 
 /*!
  * \ingroup group_avoidance
  * \brief Statistics of all self pairs of a scene; with allowAdjacent = false, of all pairs on different links.
- * \param scene : Its arm, capsules and allowed contacts; its objects play no part.
+ * \param scene : Provides arm, capsules and allowed contacts; its objects are ignored.
  * \param samples : Number of configurations, > 0.
  * \param seed : The same seed gives the same configurations.
  * \throw vpException (badValue) naming samples and its value.

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpStopSupervisor.h
- * \brief Lets only such joint velocities pass from which the arm can still stop in time.
+ * \brief Passes only joint velocities from which the arm can still stop in time.
  */
 #ifndef vpStopSupervisor_h
 #define vpStopSupervisor_h
@@ -18,72 +18,72 @@ BEGIN_VISP_NAMESPACE
  * \brief Parameters of vpStopSupervisor.
  */
 struct VISP_EXPORT vpStopSupervisorSpec {
-  double period = 0.005;    //!< Of the calls, s, > 0, at most 1.
-  double margin = 0.01;     //!< Clearance kept, m, >= 0.
-  double latency = 0.;      //!< Age of what the scene says of its objects, s, >= 0: they count as moved on by it.
+  double period = 0.005;    //!< Control period, s, > 0, at most 1.
+  double margin = 0.01;     //!< Clearance to keep, m, >= 0.
+  double latency = 0.;      //!< Age of the scene's object poses, s, >= 0: objects are extrapolated by it.
   double resolution = 1e-4; //!< See vpCertifiedMotionSpec, m, > 0.
-  int attempts = 4;         //!< Velocities between the wish and braking that are tried, 1..16: each halves the wish.
-  int looks = 300; //!< Configurations that a step looks at, at most; >= 60. What needs more counts as not free.
+  int attempts = 4;         //!< Number of velocities tried between request and braking, 1..16: each halves the request.
+  int looks = 300;          //!< Maximum number of configurations evaluated per step; >= 60. Beyond it: not free.
 
   //! \throw vpException (badValue) naming the field that is out of range, and its value.
   void validate() const;
 };
 
 //! \ingroup group_avoidance
-//! \brief What became of a wish.
+//! \brief Result of supervising a requested velocity.
 enum class vpSupervision {
-  Passed,      //!< As wished.
-  Limited,     //!< As wished as far as the joints' limits of velocity, acceleration and position go.
+  Passed,      //!< As requested.
+  Limited,     //!< As requested, within the joint velocity, acceleration and position limits.
   Slowed,      //!< Slower, so that the arm can still stop.
-  Stopping,    //!< On the stop that was proven free before.
-  Standing,    //!< At rest: any motion that was tried towards the wish cannot be stopped in time.
-  Unsafe,      //!< Brakes, but something came in the way since that stop was proven: it may not end in time.
-  InvalidInput //!< Something was not finite, out of range or of a wrong size; brakes.
+  Stopping,    //!< Executing the stop that was proven free before.
+  Standing,    //!< At rest: no motion tried towards the request can be stopped in time.
+  Unsafe,      //!< Brakes, but an obstacle came in the way after the stop was proven: it may not end in time.
+  InvalidInput //!< An input was not finite, out of range or of the wrong size; brakes.
 };
 
 /*!
  * \ingroup group_avoidance
- * \brief Velocity to command, and why.
+ * \brief Velocity to command, and its status.
  */
 struct VISP_EXPORT vpSupervisedVelocity {
-  vpJointVector velocity;                             //!< rad/s or m/s.
-  vpSupervision status = vpSupervision::InvalidInput; //!< What became of the wish.
-  double share = 0.;                                  //!< Of the wish as the joints' limits allow it, 0..1.
-  vpClearance pair;                                   //!< What is in the way, unless Passed or Limited.
-  int looks = 0;                                      //!< Configurations that the step looked at.
+  vpJointVector velocity;                             //!< Joint velocities, rad/s or m/s.
+  vpSupervision status = vpSupervision::InvalidInput; //!< Result of the supervision.
+  double share = 0.;                                  //!< Fraction of the request within the joint limits, 0..1.
+  vpClearance pair;                                   //!< The obstructing pair, unless Passed or Limited.
+  int looks = 0;                                      //!< Number of configurations evaluated.
 
-  //! The status as a sentence for a person.
+  //! Status as a readable sentence.
   [[nodiscard]] const char *sentence() const noexcept;
 };
 
 /*!
  * \class vpStopSupervisor
  * \ingroup group_avoidance
- * \brief Behind whatever makes joint velocities: a servo law, a joystick, a planner.
+ * \brief Collision supervisor for any source of joint velocities: servo law, joystick, planner.
  *
- * The wish is first brought within the arm's limits: of velocity, of acceleration from the last command, of position as far
- * as braking allows. It passes when one period of it, and then braking to rest within the limits, is proven free for the
- * whole arm (vpCertifiedTrajectory), with objects moving on at their velocities. Otherwise velocities between it and braking
- * are tried; if none passes, the stop of the last period, which was proven then, goes on. Nearness alone slows nothing: a
- * way along an obstacle or away from it is free at full speed, and an arm within the margin may go wherever it comes no
- * nearer.
+ * The request is first limited to the arm's velocity limits, acceleration limits (from the last command) and position
+ * limits (with braking). It passes if one period of it, followed by braking to rest within the limits, is proven free
+ * for the whole arm (vpCertifiedTrajectory), with objects moving at their velocities. Otherwise velocities between it
+ * and braking are tried; if none passes, the stop proven in the last period continues. Proximity alone does not slow
+ * the arm: motion along an obstacle or away from it is free at full speed, and an arm within the margin may move
+ * wherever it gets no nearer.
  *
- * Proof. Let the arm be where its commands took it, and the objects keep their velocities. By induction over the periods
- * every command is the first period, or the next one, of a plan q(t) that was proven: constant velocity for a period T, then
- * constant deceleration, then rest. A command holds one velocity for T, the mean of the plan's over that period, so at the
- * ends of periods the arm is where the plan is. In between it goes on the chord: |q''_j| <= d_j almost everywhere, with d_j
- * the deceleration of joint j, so it is never farther from q_j(t) than min(d_j T / 8, |v_j|) T, and a point of capsule i by no
- * more than e = sum_j R_ij of that (vpReachBounds). That holds to the end of the last period, in which the plan comes to rest
- * before the arm does. So the plan is proven from its start to the end of the period in which it ends, with the margin
- * enlarged by 2 e (two capsules may both be off) and the resolution, and the arm keeps the margin at every instant until
- * it stands. Two means that follow each other differ by no more than d_j T, which keeps the limit of acceleration. An arm
- * within the margin, at a clearance c, may go where it is no nearer at the end of any period, and keeps c - 0.1 mm - 2 e in
- * between, which therefore is not lost again and again; an arm that is nearer to its margin than 2 e and the resolution
- * counts as within it.
+ * Proof. Assume that the arm follows its commands and the objects keep their velocities. By induction over the periods
+ * every command is the first period, or the next one, of a proven plan q(t): constant velocity for a period T, then
+ * constant deceleration, then rest. A command holds one velocity for T, the mean of the plan's over that period, so at
+ * the ends of periods the arm is on the plan. In between it moves on the chord: |q''_j| <= d_j almost everywhere, with
+ * d_j the deceleration of joint j, so it deviates from q_j(t) by at most min(d_j T / 8, |v_j|) T, and a point of
+ * capsule i by at most e = sum_j R_ij of that (vpReachBounds). This holds to the end of the last period, in which the
+ * plan comes to rest before the arm does. So the plan is proven from its start to the end of the period in which it
+ * ends, with the margin enlarged by 2 e (both capsules of a pair may deviate) and the resolution, and the arm keeps the
+ * margin at every instant until it stands. Consecutive means differ by at most d_j T, which keeps the acceleration
+ * limit. An arm within the margin, at a clearance c, may move if it is no nearer at the end of any period, and keeps c
+ * - 0.1 mm - 2 e in between, so that the loss does not accumulate; an arm nearer to its margin than 2 e and the
+ * resolution counts as within it.
  *
- * What is beyond it: an object that comes faster than was told or appears (Unsafe says so), what runs into an arm that
- * stands, and drives that do not follow. An arm nearer to something than 0.1 mm, 2 e and the resolution together has no
- * way that could be proven, and stands.
+ * Not covered: an object that is faster than reported or appears suddenly (status Unsafe), objects that hit a standing
+ * arm, and drives that do not follow. An arm nearer to something than the sum of 0.1 mm, 2 e and the resolution has no
+ * provable motion, and stands.
  */
 class VISP_EXPORT vpStopSupervisor
 {
@@ -96,14 +96,14 @@ public:
   explicit vpStopSupervisor(const vpCollisionScene &scene, const vpStopSupervisorSpec &spec = {});
 
   /*!
-   * One period; no allocation, no exception, and no more than vpStopSupervisorSpec::looks, whatever comes in.
-   * \param q : Commanded configuration now, rad or m. Where it is not where the last command led, its way to rest is proven
-   * anew; Unsafe when that fails.
-   * \param wish : Velocities wished for the next period, rad/s or m/s; any finite numbers.
+   * One period; no allocation, no exception, and at most vpStopSupervisorSpec::looks evaluations for any input.
+   * \param q : Current commanded configuration, rad or m. If it deviates from the last command, its stop is proven
+   * again; Unsafe if that fails.
+   * \param wish : Requested velocities for the next period, rad/s or m/s; any finite numbers.
    * \param output : Receives the velocity to command.
    */
   void step(const vpJointVector &q, const vpJointVector &wish, vpSupervisedVelocity &output) noexcept;
-  //! Forgets the last stop: the arm stands.
+  //! Resets to a standing arm, discarding the last stop.
   void reset() noexcept;
 
 private:

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpTimedPath.h
- * \brief From a path to a motion within the joints' limits that is as free as the path.
+ * \brief Converts a path to a motion within the joint limits that is as free as the path.
  */
 #ifndef vpTimedPath_h
 #define vpTimedPath_h
@@ -23,70 +23,70 @@ BEGIN_VISP_NAMESPACE
  * \brief Parameters of vpTimedPath.
  */
 struct VISP_EXPORT vpTimedPathSpec {
-  double speed = 1.;        //!< Part of the joints' velocity limits that is used, (0, 1].
-  double acceleration = 1.; //!< Part of their acceleration limits, (0, 1].
-  double margin = 0.;       //!< Clearance that is proven, m, >= 0; not above that of the path's planner.
+  double speed = 1.;        //!< Fraction of the joint velocity limits used, (0, 1].
+  double acceleration = 1.; //!< Fraction of the joint acceleration limits used, (0, 1].
+  double margin = 0.;       //!< Proven clearance, m, >= 0; not above that of the path's planner.
   double resolution = 1e-4; //!< See vpCertifiedMotionSpec, m, > 0.
-  //! Bounds of the end effector's origin, m/s and m/s^2, > 0; infinity: none. Each trajectory is made so much longer that
-  //! it keeps them at samples 5 ms apart, with 1 % to spare for what is between.
+  //! Velocity bound of the end effector's origin, m/s, > 0; infinity: none. Each trajectory is extended until it keeps
+  //! the tool bounds at samples 5 ms apart, with 1 % reserve for the time between.
   double toolVelocity = std::numeric_limits<double>::infinity();
-  double toolAcceleration = std::numeric_limits<double>::infinity(); //!< See there.
-  vpJointVector startVelocity;     //!< Of the joints at the path's first point, n numbers; empty: at rest.
-  vpJointVector startAcceleration; //!< The same for their accelerations.
+  double toolAcceleration = std::numeric_limits<double>::infinity(); //!< Its acceleration bound, m/s^2, likewise.
+  vpJointVector startVelocity;     //!< Joint velocities at the path's first point, n numbers; empty: at rest.
+  vpJointVector startAcceleration; //!< Joint accelerations at the path's first point, likewise.
 };
 
 /*!
  * \class vpTimedPath
  * \ingroup group_avoidance
- * \brief Trajectories one after another, from rest to rest each, along a path.
+ * \brief Sequence of rest-to-rest trajectories along a path.
  *
- * One trajectory with the path's points as vias (least jerk, vpDirectTrajectory) leaves the straight motions between the
- * points and may touch what the path does not; vpCertifiedTrajectory looks at it. Where it is not free it is replaced by
- * two with a rest between them, down to single straight motions, which all joints traverse with the same polynomial and
- * which so are the path itself.
+ * One trajectory with the path's points as vias (minimum jerk, vpDirectTrajectory) leaves the straight motions between
+ * the points and may collide where the path does not; vpCertifiedTrajectory checks it. If it is not free it is replaced
+ * by two with a rest between them, down to single straight motions, which all joints traverse with the same polynomial
+ * and which thus follow the path exactly.
  *
- * With a velocity at the start, the first trajectory takes it up; the way to the second point is then not straight, and
- * what is not free cannot always be mended by a rest.
+ * With a start velocity, the first trajectory begins with it; the motion to the second point is then not straight, and
+ * inserting a rest may not resolve a collision.
  */
 class VISP_EXPORT vpTimedPath
 {
 public:
   //! \brief One of the trajectories.
   struct Part {
-    double begin = 0.;     //!< s from the start of the whole motion.
-    vpTrajectoryPlan plan; //!< In the joints of the arm.
+    double begin = 0.;     //!< Start time, s from the start of the whole motion.
+    vpTrajectoryPlan plan; //!< Trajectory of the arm's joints.
   };
 
   /*!
-   * \param scene : Objects where they are when the motion starts; they move on by their velocities.
+   * \param scene : Objects at the start of the motion; they move at their velocities.
    * \param path : At least one point, within the position limits.
-   * \param spec : Margin, limits and the state at the start.
+   * \param spec : Margin, limits and start state.
    * \throw vpException (badValue) naming a parameter, a joint without velocity or acceleration limit, or an empty path.
    */
   vpTimedPath(const vpCollisionScene &scene, const vpJointPath &path, const vpTimedPathSpec &spec = {});
   /*!
    * \overload
    * \param scene, path, spec : As above.
-   * \param certificate : For the same scene; saves the 10 ms of making one. Its margin becomes that of the spec, its
-   * resolution stays.
+   * \param certificate : Checker for the same scene; saves 10 ms for creating one. Its margin is set to that of the
+   * spec, its resolution is kept.
    */
   vpTimedPath(const vpCollisionScene &scene, const vpJointPath &path, const vpTimedPathSpec &spec,
               vpCertifiedTrajectory &certificate);
 
-  //! True when all of it is proven to be free with the margin. False for a path that is not free itself, or that cannot
-  //! be taken up from the velocity at its start within the limits and bounds.
+  //! True if the whole motion is proven free with the margin. False for a path that is not free itself, or that cannot
+  //! be entered at the start velocity within the limits and bounds.
   [[nodiscard]] bool isFree() const noexcept { return m_worst.isFree(); }
-  //! The first part that is not free, or the last one.
+  //! Result for the first part that is not free, or the last one.
   [[nodiscard]] const vpTrajectoryClearance &clearance() const noexcept { return m_worst; }
   //! The trajectories in their order.
   [[nodiscard]] const std::vector<Part> &parts() const noexcept { return m_parts; }
-  //! Until the arm is at the goal, s.
+  //! Total duration, s.
   [[nodiscard]] double duration() const noexcept { return m_duration; }
   /*!
    * State of joint \e joint (from 0) at time \e t, s from the start: (rad, rad/s, rad/s^2, rad/s^3). No allocation.
    */
   [[nodiscard]] vpAxisState at(int joint, double t) const noexcept;
-  //! A sentence on how it went: duration, rests, or what is in the way and when.
+  //! Result as a sentence: duration, rests, or what is in the way and when.
   [[nodiscard]] std::string sentence(const vpCollisionScene &scene) const;
 
 private:

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpTriangleMesh.h
- * \brief Surface of triangles, from memory or from an .obj or .stl file.
+ * \brief Triangle mesh, from memory or from an .obj or .stl file.
  */
 #ifndef vpTriangleMesh_h
 #define vpTriangleMesh_h
@@ -25,41 +25,42 @@ struct vpTriangleMeshData;
 /*!
  * \class vpTriangleMesh
  * \ingroup group_avoidance
- * \brief Immutable surface with a tree of boxes for distances; copies share it.
+ * \brief Immutable triangle surface with a bounding-box tree for distances; copies share it.
  *
- * Vertices at the same place are joined, since formats repeat them: for every triangle, or for a texture at a seam. A closed
- * surface (every edge in two triangles) is a solid: points inside have a negative distance, whatever the sense of the
- * triangles; a shell inside another one that is turned the other way is a cavity. A surface with holes has no inside, and
- * sentence() says so; vpCollisionShape::mesh() refuses it unless a sheet is asked for.
+ * Vertices at the same position are merged, since formats repeat them: per triangle, or at texture seams. A closed
+ * surface (every edge in two triangles) is a solid: points inside have a negative distance, whatever the orientation of
+ * the triangles; an inner shell of opposite orientation is a cavity. A surface with holes has no inside, which
+ * sentence() reports; vpCollisionShape::mesh() rejects it unless a sheet is requested.
  */
 class VISP_EXPORT vpTriangleMesh
 {
 public:
   /*!
-   * \param vertices : m, in the mesh's frame.
-   * \param triangles : Three indices into \e vertices each. Those without area are left out.
-   * \param label : For messages: a file's name.
+   * \param vertices : Vertices in the mesh frame, m.
+   * \param triangles : Three indices into \e vertices each. Degenerate triangles are dropped.
+   * \param label : For messages: a file name.
    * \throw vpException (badValue) naming \e label and the element: no triangle with an area, an index out of range, a
    * vertex that is not finite or beyond vpLargestLength.
    */
   vpTriangleMesh(const std::vector<Eigen::Vector3d> &vertices, const std::vector<std::array<int, 3>> &triangles,
                  const std::string &label = "mesh");
   /*!
-   * \param file : Wavefront .obj (only v and f lines count; polygons become fans) or .stl, text or binary.
-   * \param scale : m in one unit of the file, > 0: 0.001 for millimetres.
-   * \throw vpException (ioError) when the file cannot be read, (badValue) naming the file and its line or triangle.
+   * Loads a mesh file.
+   * \param file : Wavefront .obj (only v and f lines are used; polygons become fans) or .stl, text or binary.
+   * \param scale : Metres per unit of the file, > 0: 0.001 for millimetres.
+   * \throw vpException (ioError) if the file cannot be read, (badValue) naming the file and its line or triangle.
    */
   [[nodiscard]] static vpTriangleMesh load(const std::string &file, double scale = 1.);
 
-  //! m; no two at the same place.
+  //! Distinct vertices, m.
   [[nodiscard]] const std::vector<Eigen::Vector3d> &vertices() const noexcept;
-  //! Indices into vertices(); of a solid, in the sense that is against the clock seen from outside.
+  //! Indices into vertices(); for a solid, counter-clockwise seen from outside.
   [[nodiscard]] const std::vector<std::array<int, 3>> &triangles() const noexcept;
-  //! True for a solid: a closed surface that can be oriented.
+  //! True for a solid: a closed orientable surface.
   [[nodiscard]] bool isWatertight() const noexcept;
-  //! What is wrong with it in one sentence with its label ("cup.obj: the surface has holes, ..."), or nothing.
+  //! Defect in one sentence with its label ("cup.obj: the surface has holes, ..."); empty if none.
   [[nodiscard]] const std::string &sentence() const noexcept;
-  //! What it was called at construction.
+  //! The label given at construction.
   [[nodiscard]] const std::string &label() const noexcept;
   //! For this module's own use.
   [[nodiscard]] const vpTriangleMeshData &data() const noexcept { return *m_data; }

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpArmDynamics.h
- * \brief Inertia matrix, Coriolis and gravity terms of an arm. Needs Orocos KDL when the module is built.
+ * \brief Inertia matrix, Coriolis and gravity terms of an arm. Requires a build with Orocos KDL.
  */
 #ifndef vpArmDynamics_h
 #define vpArmDynamics_h
@@ -18,13 +18,13 @@ BEGIN_VISP_NAMESPACE
 /*!
  * \class vpArmDynamics
  * \ingroup group_manipulator
- * \brief M(q) q'' + C(q, q') q' + F_f(q') + g(q) = tau, thesis (3.1), without the friction. Rotor inertias are on the
- * diagonal of M.
+ * \brief Dynamics M(q) q'' + C(q, q') q' + F_f(q') + g(q) = tau, thesis (3.1), without the friction term. Rotor
+ * inertias are on the diagonal of M.
  *
- * Each function returns false, and zero in its result, when a vector is of a wrong size, not finite or beyond vpArmLargest, or
- * the result is not finite.
+ * Each function returns false and a zero result if a vector has the wrong size, is not finite or exceeds vpArmLargest,
+ * or if the result is not finite.
  *
- * The recursions are those of Orocos KDL. An object holds scratch: use one in each thread.
+ * Recursions by Orocos KDL. An object holds scratch memory: use one per thread.
  */
 class VISP_EXPORT vpArmDynamics
 {
@@ -41,15 +41,15 @@ public:
   vpArmDynamics(const vpArmDynamics &) = delete;
   vpArmDynamics &operator=(const vpArmDynamics &) = delete;
 
-  //! M(q), kg m^2 (kg for prismatic joints), symmetric and positive definite.
+  //! Inertia matrix M(q), kg m^2 (kg for prismatic joints), symmetric and positive definite.
   bool inertia(const vpJointVector &q, vpJointMatrix &M);
-  //! C(q, q') q', Nm or N.
+  //! Coriolis and centrifugal torques C(q, q') q', Nm or N.
   bool coriolis(const vpJointVector &q, const vpJointVector &velocity, vpJointVector &torque);
-  //! g(q), Nm or N: what holds the arm still.
+  //! Gravity torques g(q), Nm or N: they hold the arm still.
   bool gravity(const vpJointVector &q, vpJointVector &torque);
   /*!
-   * q'' = M^-1 (tau - C q' - g), rad/s^2 or m/s^2. Friction belongs into \e torque.
-   * \return False also when M is not positive definite.
+   * Joint accelerations q'' = M^-1 (tau - C q' - g), rad/s^2 or m/s^2. Include friction in \e torque.
+   * \return False also if M is not positive definite.
    */
   bool acceleration(const vpJointVector &q, const vpJointVector &velocity, const vpJointVector &torque,
                     vpJointVector &acceleration);

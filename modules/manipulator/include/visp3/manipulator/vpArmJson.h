@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpArmJson.h
- * \brief An arm from a JSON file with a standard DH table. Needs nlohmann_json when the module is built.
+ * \brief Loads an arm from a JSON file with a standard DH table. Requires a build with nlohmann_json.
  */
 #ifndef vpArmJson_h
 #define vpArmJson_h
@@ -15,11 +15,11 @@ BEGIN_VISP_NAMESPACE
 
 /*!
  * \ingroup group_manipulator
- * \brief Reads an arm; data/robot/README.md has the fields. Unknown fields are errors, so that a misspelt one does not
- * go unseen.
+ * \brief Reads an arm model; data/robot/README.md lists the fields. Unknown fields are errors, so that misspelt names
+ * are noticed.
  * \param file : File to read, for example data/robot/amor.json.
- * \throw vpException (ioError) when it cannot be read, (badValue) when it is no JSON or a field is missing or out of
- * range; one sentence with the file and the field, as "arm.json: joints[2].a_m is missing".
+ * \throw vpException (ioError) if the file cannot be read, (badValue) if it is not valid JSON or a field is missing or
+ * out of range; one sentence with the file and the field, such as "arm.json: joints[2].a_m is missing".
  */
 [[nodiscard]] VISP_EXPORT vpArmModel vpLoadArmJson(const std::string &file);
 

@@ -16,55 +16,55 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_manipulator
-//! \brief Frame in which a velocity of the arm is expressed, and the point whose linear velocity it has.
+//! \brief Axes in which a velocity of the arm is expressed, and its reference point.
 enum class vpArmFrame {
   Base,        //!< Origin of the end effector, axes of the base (fJe of ViSP).
   EndEffector, //!< Origin and axes of the end effector (eJe of ViSP).
-  Camera       //!< Origin and axes of the camera: what visual servoing commands.
+  Camera       //!< Origin and axes of the camera, as commanded by visual servoing.
 };
 
 /*!
  * \ingroup group_manipulator
- * \brief Scratch of one arm in one configuration: filled by vpArmKinematics::forward() and jacobian(). One for each
+ * \brief Kinematics of an arm in one configuration: filled by vpArmKinematics::forward() and jacobian(). One per
  * thread.
  */
 struct VISP_EXPORT vpArmData {
-  int size = 0;    //!< Number of joints n of the arm that filled it; 0: not filled.
+  int size = 0;    //!< Number of joints n of the arm; 0: not filled.
   vpJointVector q; //!< Configuration, rad or m.
   std::array<vpRigidTransform, vpArmMaxJoints>
-      joint;             //!< Joints in the base; z is the axis, the frame moves with its link.
+      joint;             //!< Joint frames in the base; z is the axis, the frame moves with its link.
   vpRigidTransform tool; //!< fMe: end effector in the base.
   vpArmJacobian J;       //!< Geometric Jacobian (3.9)-(3.13) in vpArmFrame::Base.
 };
 
 /*!
  * \ingroup group_manipulator
- * \brief Kernels of fixed capacity; none of them allocates, throws, locks or prints. Joints are numbered from 0 here.
+ * \brief Kinematics of fixed capacity; no allocation, exception, lock or output. Joints are numbered from 0 here.
  *
- * Of (3.12)-(3.13) as corrected: z_{i-1} is the third column of R^0_{i-1}, the axis in the base frame.
+ * In (3.12)-(3.13), as corrected, z_{i-1} is the third column of R^0_{i-1}, the axis in the base frame.
  */
 namespace vpArmKinematics
 {
 /*!
- * Frames of all joints and of the end effector, (3.8), and the configuration itself.
+ * Computes the frames of all joints and of the end effector, (3.8), and stores the configuration.
  * \param model : The arm.
- * \param q : n numbers.
- * \param data : Receives them.
- * \return False when \e q is of a wrong size, not finite or beyond vpArmLargest: all frames, and what is computed from them,
- * are NaN then, which no comparison takes for something.
+ * \param q : Configuration, n numbers, rad or m.
+ * \param data : Receives the frames.
+ * \return False if \e q has the wrong size, is not finite or exceeds vpArmLargest: all frames, and what is computed
+ * from them, are then NaN, so that every comparison fails.
  */
 VISP_EXPORT bool forward(const vpArmModel &model, const vpJointVector &q, vpArmData &data) noexcept;
 //! Geometric Jacobian in the base frame; after forward().
 VISP_EXPORT void jacobian(const vpArmModel &model, vpArmData &data) noexcept;
-//! forward() and jacobian(); returns what forward() does.
+//! Calls forward() and jacobian(); returns the result of forward().
 VISP_EXPORT bool update(const vpArmModel &model, const vpJointVector &q, vpArmData &data) noexcept;
 
 //! Frame of link \e i (1..n; 0 is the base) in the base; after forward().
 [[nodiscard]] VISP_EXPORT vpRigidTransform link(const vpArmModel &model, const vpArmData &data, int i) noexcept;
-//! fMc: camera in the base; after forward().
+//! Camera frame in the base, fMc; after forward().
 [[nodiscard]] VISP_EXPORT vpRigidTransform camera(const vpArmModel &model, const vpArmData &data) noexcept;
 
-//! Geometric Jacobian in a frame; after jacobian().
+//! Geometric Jacobian in the given frame; after jacobian().
 [[nodiscard]] VISP_EXPORT vpArmJacobian geometric(const vpArmModel &model, const vpArmData &data,
                                                   vpArmFrame frame) noexcept;
 /*!
@@ -74,22 +74,23 @@ VISP_EXPORT bool update(const vpArmModel &model, const vpJointVector &q, vpArmDa
  */
 [[nodiscard]] VISP_EXPORT vpArmJacobian analytic(const vpArmModel &model, const vpArmData &data) noexcept;
 /*!
- * Linear Jacobian of the origin of joint \e k (a column for every joint, 0 from joint k on): the partial Jacobian that
- * the distance indices use. In the base frame; after forward(). \e k = n is the end effector.
+ * Linear Jacobian of the origin of joint \e k (one column per joint, 0 from joint k on): the partial Jacobian used by
+ * the distance indices. In the base frame; after forward(). \e k = n is the end effector.
  */
 [[nodiscard]] VISP_EXPORT Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, vpArmMaxJoints>
 pointJacobian(const vpArmModel &model, const vpArmData &data, int k) noexcept;
 
 /*!
- * Column \e i of dJ/dq_k in the base frame, exact: a revolute k <= i turns column i, a revolute i < k sees its arm grow
- * by column k, and prismatic joints change nothing else. After jacobian().
+ * Column \e i of dJ/dq_k in the base frame, exact: a revolute joint k <= i rotates column i; for a revolute joint i < k
+ * the lever arm changes by column k; prismatic joints change nothing else. After jacobian().
  */
 [[nodiscard]] VISP_EXPORT Eigen::Matrix<double, 6, 1> columnDerivative(const vpArmModel &model, const vpArmData &data,
                                                                        int i, int k) noexcept;
-//! dJ/dq_k in a frame; after jacobian().
+//! Derivative dJ/dq_k in the given frame; after jacobian().
 [[nodiscard]] VISP_EXPORT vpArmJacobian derivative(const vpArmModel &model, const vpArmData &data, int k,
                                                    vpArmFrame frame) noexcept;
-//! dJ/dt = sum_k dJ/dq_k q'_k in a frame; after jacobian(). NaN for velocities that forward() would not take either.
+//! Derivative dJ/dt = sum_k dJ/dq_k q'_k in the given frame; after jacobian(). NaN for velocities of the wrong size,
+//! not finite or beyond vpArmLargest.
 [[nodiscard]] VISP_EXPORT vpArmJacobian timeDerivative(const vpArmModel &model, const vpArmData &data,
                                                        const vpJointVector &velocity, vpArmFrame frame) noexcept;
 } // namespace vpArmKinematics

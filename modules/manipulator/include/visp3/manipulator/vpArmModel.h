@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpArmModel.h
- * \brief An arm that has been checked and does not change any more.
+ * \brief Validated, immutable model of an arm.
  */
 #ifndef vpArmModel_h
 #define vpArmModel_h
@@ -18,10 +18,9 @@ BEGIN_VISP_NAMESPACE
 /*!
  * \class vpArmModel
  * \ingroup group_manipulator
- * \brief Immutable serial arm of 1 to 8 joints; what a cycle computes from it goes to vpArmData.
+ * \brief Immutable serial arm of 1 to 8 joints; results of a control cycle are kept in vpArmData.
  *
- * Make it from a vpArmSpec, with vpLoadArmJson() or with vpLoadArmUrdf(). Copies are cheap enough for set-up, not for a
- * loop.
+ * Created from a vpArmSpec, by vpLoadArmJson() or by vpLoadArmUrdf(). Copy it during set-up, not in a control loop.
  */
 class VISP_EXPORT vpArmModel
 {
@@ -29,23 +28,23 @@ public:
   /*!
    * \throw vpException (badValue) naming the arm or its file, the joint or link, and the value: no joint or more than
    * 8, empty or duplicate names, limits that are not lower < upper, velocity, acceleration or torque limits not > 0,
-   * masses not > 0, inertias that no body can have, rotations that are none, capsules of a link that does not exist or
-   * with a radius not > 0; places, links and capsules beyond 10 km, other numbers beyond vpArmLargest.
+   * masses not > 0, physically impossible inertias, invalid rotations, capsules of a link that does not exist or
+   * with a radius not > 0; positions, links and capsules beyond 10 km, other numbers beyond vpArmLargest.
    */
   explicit vpArmModel(const vpArmSpec &spec);
 
   //! Number of joints n.
   [[nodiscard]] int size() const noexcept { return m_size; }
-  //! Everything it was made from.
+  //! The specification of the arm.
   [[nodiscard]] const vpArmSpec &spec() const noexcept { return m_spec; }
-  //! The file it came from, or its name.
+  //! The source file, or the name if there is none.
   [[nodiscard]] const std::string &label() const noexcept
   {
     return m_spec.source.empty() ? m_spec.name : m_spec.source;
   }
-  //! True when joint \e i (0..n-1) is prismatic.
+  //! True if joint \e i (0..n-1) is prismatic.
   [[nodiscard]] bool isPrismatic(int i) const noexcept { return m_prismatic[static_cast<std::size_t>(i)]; }
-  //! True when joint \e i (0..n-1) turns without end.
+  //! True if joint \e i (0..n-1) is continuous: rotates without limits.
   [[nodiscard]] bool isContinuous(int i) const noexcept { return m_continuous[static_cast<std::size_t>(i)]; }
   //! Lower position limits, rad or m; -infinity for a continuous joint.
   [[nodiscard]] const vpJointVector &lower() const noexcept { return m_lower; }
@@ -57,24 +56,25 @@ public:
   [[nodiscard]] const vpJointVector &acceleration() const noexcept { return m_acceleration; }
   //! Torque or force limits, Nm or N; may be infinite.
   [[nodiscard]] const vpJointVector &torque() const noexcept { return m_torque; }
-  //! Where work starts: that of the spec, else the middle of every range (0 for a continuous joint), rad or m.
+  //! Home configuration, rad or m: that of the spec, else mid-range of each joint (0 for a continuous joint).
   [[nodiscard]] const vpJointVector &home() const noexcept { return m_home; }
-  //! True when every link has a mass.
+  //! True if every link has a mass.
   [[nodiscard]] bool hasMasses() const noexcept { return m_hasMasses; }
   /*!
-   * Whether a configuration is within the position limits, by the tolerance that all limits have (vpLimit).
-   * \param q : n numbers, rad or m.
-   * \return Empty when it is; else what is wrong, with enough digits to tell a number from its limit: "joint elbow at 3.2,
-   * outside its limits -3.1 and 3.1". NaN is never within.
+   * Checks a configuration against the position limits, with the tolerance common to all limits (vpLimit).
+   * \param q : Configuration, n numbers, rad or m.
+   * \return Empty if within the limits; else the violation, with enough digits to distinguish value and limit: "joint
+   * elbow at 3.2, outside its limits -3.1 and 3.1". NaN is never within.
    */
   [[nodiscard]] std::string outsideLimits(const vpJointVector &q) const;
   /*!
-   * \param user : Who needs them, for the message ("the redundancy solver").
+   * Requires velocity and acceleration limits of all joints.
+   * \param user : Name of the caller, for the message ("the redundancy solver").
    * \throw vpException (badValue) naming the first joint whose velocity or acceleration limit is infinite.
    */
   void requireMotionLimits(const char *user) const;
 
-  //! Offset of joint \e i, added to its coordinate.
+  //! Offset of joint \e i, added to its coordinate, rad or m.
   [[nodiscard]] double offset(int i) const noexcept { return m_offset[static_cast<std::size_t>(i)]; }
   //! Frame of joint \e i at q_i + offset = 0 in the moving frame of joint i - 1 (of the base for i = 0).
   [[nodiscard]] const vpRigidTransform &step(int i) const noexcept { return m_step[static_cast<std::size_t>(i)]; }

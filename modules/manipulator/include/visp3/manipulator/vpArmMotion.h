@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpArmMotion.h
- * \brief From what an arm is asked to do to the joint velocities of the next control period.
+ * \brief Converts a requested arm motion to joint velocities for the next control period.
  */
 #ifndef vpArmMotion_h
 #define vpArmMotion_h
@@ -18,13 +18,13 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_manipulator
-//! What the arm is asked to do.
+//! Motion requested from the arm.
 enum class vpArmTaskKind {
-  Hold,          //!< Brake and stay.
-  JointVelocity, //!< Given joint velocities.
-  Twist,         //!< A twist in one of the frames.
-  JointPath,     //!< To a configuration, by direct trajectory generation.
-  PosePath       //!< To a pose of the end effector, by closed-loop kinematics.
+  Hold,          //!< Brake and hold the position.
+  JointVelocity, //!< Follow given joint velocities.
+  Twist,         //!< Follow a twist in one of the frames.
+  JointPath,     //!< Move to a configuration, by direct trajectory generation.
+  PosePath       //!< Move to an end-effector pose, by closed-loop kinematics.
 };
 
 //! \ingroup group_manipulator
@@ -34,10 +34,10 @@ enum class vpArmTwistFrame { Base, EndEffector, Camera, Mixt };
 /*!
  * \class vpArmMotion
  * \ingroup group_manipulator
- * \brief The step between a wish (hold, joint velocities, twist, configuration, pose) and joint velocities within the
- * limits of position, velocity and acceleration: what a robot driver calls once per control period.
+ * \brief Converts a requested motion (hold, joint velocities, twist, configuration, pose) to joint velocities within
+ * the position, velocity and acceleration limits. A robot driver calls step() once per control period.
  *
- * The wish may change at any time. Set a wish in the thread that calls step(), or lock both.
+ * The request may change at any time. Set it in the thread that calls step(), or lock both.
  * \code
  * vpArmMotion motion(model, vpRedundancySpec(), vpClosedLoopSpec());
  * motion.twist(law.step(measurement), vpArmTwistFrame::Camera);
@@ -48,46 +48,49 @@ class VISP_EXPORT vpArmMotion
 {
 public:
   /*!
-   * \param model : Is referred to.
-   * \param redundancy : Of twists, poses and all limits; its period is that of step().
-   * \param closedLoop : Of poses.
-   * \throw vpException (badValue) naming a joint without motion limits or a field of the spec.
+   * \param model : The arm; referenced, must outlive this object.
+   * \param redundancy : Parameters for twists, poses and all limits; its period is that of step().
+   * \param closedLoop : Parameters for pose motions.
+   * \throw vpException (badValue) naming a joint without motion limits or an invalid field.
    */
   vpArmMotion(const vpArmModel &model, const vpRedundancySpec &redundancy, const vpClosedLoopSpec &closedLoop);
 
-  //! Brake and stay.
+  //! Brake and hold the position.
   void hold() { m_kind = vpArmTaskKind::Hold; }
-  //! \param velocity : rad/s or m/s, one for each joint.
+  //! Follow joint velocities. \param velocity : One per joint, rad/s or m/s.
   void jointVelocity(const vpJointVector &velocity);
-  //! \param twist : m/s and rad/s. \param frame : In which it is given.
+  //! Follow a twist. \param twist : m/s and rad/s. \param frame : Frame of the twist.
   void twist(const vpTwist &twist, vpArmTwistFrame frame);
   /*!
-   * \param goal : Configuration to stop at; cut to the position limits. \param q : Wanted now.
-   * \param velocity : Commanded now. \param share : Of the velocity limits, (0, 1].
+   * Move to a configuration.
+   * \param goal : Goal configuration; clamped to the position limits. \param q : Current commanded configuration.
+   * \param velocity : Current commanded velocities. \param share : Fraction of the velocity limits to use, (0, 1].
    */
   void jointPath(const vpJointVector &goal, const vpJointVector &q, const vpJointVector &velocity, double share);
-  //! \param goal : Pose of the end effector in the base to stop at. \param q : Wanted now. \param velocity : Commanded now.
+  //! Move to a pose. \param goal : Goal pose of the end effector in the base. \param q : Current commanded
+  //! configuration.
+  //! \param velocity : Current commanded velocities.
   void posePath(const vpRigidTransform &goal, const vpJointVector &q, const vpJointVector &velocity);
-  //! Indices that the spare joints climb and axes that do not matter, in twist and pose motions.
+  //! Sets the indices that self-motion maximizes and the free axes, for twist and pose motions.
   void setSelfMotion(const std::vector<vpSelfMotionIndex> &indices, const std::array<bool, 6> &free);
 
   /*!
-   * Joint velocities of the next period; no allocation, no exception.
-   * \param q : Wanted configuration now. \param velocity : Commanded in the last period.
+   * Joint velocities for the next period; no allocation, no exception.
+   * \param q : Current commanded configuration. \param velocity : Velocities commanded in the last period.
    */
   const vpJointVector &step(const vpJointVector &q, const vpJointVector &velocity) noexcept;
 
-  //! What is being done; Hold after a path has ended.
+  //! Current motion; Hold after a path has ended.
   [[nodiscard]] vpArmTaskKind kind() const { return m_kind; }
-  //! A path has ended; it holds since.
+  //! True if the path has ended and the arm holds.
   [[nodiscard]] bool finished() const { return m_finished; }
-  //! A joint path could not be followed; pathSentence() says why.
+  //! True if a joint path could not be followed; pathSentence() gives the reason.
   [[nodiscard]] bool failed() const { return m_failed; }
   //! Status of the joint path in a sentence.
   [[nodiscard]] std::string pathSentence() const { return m_pathOutput.status.message(); }
-  //! Progress or end of the pose path.
+  //! Status of the pose path.
   [[nodiscard]] vpClosedLoopStatus poseStatus() const { return m_closedState.status; }
-  //! Of the last period, in twist and pose motions; Exact otherwise.
+  //! Solver output of the last period, in twist and pose motions; Exact otherwise.
   [[nodiscard]] const vpRedundancyOutput &solver() const { return m_closed.solver; }
   //! Control period, s.
   [[nodiscard]] double period() const { return m_solver.spec().period; }

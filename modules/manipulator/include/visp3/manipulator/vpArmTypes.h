@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpArmTypes.h
- * \brief Vectors and matrices of a serial arm, stored in place: nothing here lives on the heap.
+ * \brief Vectors and matrices of a serial arm, stored in place: no heap memory.
  */
 #ifndef vpArmTypes_h
 #define vpArmTypes_h
@@ -17,36 +17,36 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_manipulator
-//! \brief Most joints that an arm may have.
+//! \brief Maximum number of joints of an arm.
 constexpr int vpArmMaxJoints = 8;
 
 /*!
  * \ingroup group_manipulator
- * \brief Largest length that is taken for real, m: of links, capsules, obstacles, and of their places. Up to it distances
- * are rounded by less than the 1e-9 m that certificates allow for.
+ * \brief Largest valid length and position coordinate of links, capsules and obstacles, m. Up to it distances are
+ * rounded by less than the 1e-9 m that certificates allow for.
  */
 constexpr double vpLargestLength = 1e4;
 //! \ingroup group_manipulator
-//! \brief Largest joint coordinate that is taken for real, rad or m: up to it rounding turns a joint by less than 1e-10.
+//! \brief Largest valid joint coordinate, rad or m: up to it rounding turns a joint by less than 1e-10.
 constexpr double vpLargestCoordinate = 1e6;
 
 //! \ingroup group_manipulator
-//! \brief One number a joint: rad, rad/s, Nm, ... for a revolute joint, m, m/s, N, ... for a prismatic one. Size n <= 8.
+//! \brief One number per joint: rad, rad/s, Nm, ... (revolute) or m, m/s, N, ... (prismatic). Size n <= 8.
 using vpJointVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, vpArmMaxJoints, 1>;
 //! \ingroup group_manipulator
-//! \brief 6 x n, linear part (rows 0-2) first, then angular.
+//! \brief Jacobian, 6 x n, linear part (rows 0-2) first, then angular.
 using vpArmJacobian = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, vpArmMaxJoints>;
 //! \ingroup group_manipulator
-//! \brief n x n.
+//! \brief Joint-space matrix, n x n.
 using vpJointMatrix =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, vpArmMaxJoints, vpArmMaxJoints>;
 
 //! \ingroup group_manipulator
-//! \brief Largest magnitude of a position, velocity, torque, gain or any other number of an arm, in its unit: beyond it a
-//! number is a broken one, and no square or product of those within it overflows.
+//! \brief Largest valid magnitude of a position, velocity, torque, gain or any other number of an arm, in its unit.
+//! Squares and products of valid numbers do not overflow.
 constexpr double vpArmLargest = 1e9;
 //! \ingroup group_manipulator
-//! \brief True when no number is beyond vpArmLargest; false for NaN.
+//! \brief True if no number exceeds vpArmLargest; false for NaN.
 template <class Derived> [[nodiscard]] bool vpIsPlausibleForArm(const Eigen::MatrixBase<Derived> &numbers) noexcept
 {
   return (numbers.array().abs() <= vpArmLargest).all();
@@ -57,16 +57,16 @@ template <class Derived> [[nodiscard]] bool vpIsPlausibleForArm(const Eigen::Mat
  * \brief Pose aMb of a frame b in a frame a, as a rotation and a translation (m). ViSP's vpHomogeneousMatrix allocates.
  */
 struct VISP_EXPORT vpRigidTransform {
-  Eigen::Matrix3d R = Eigen::Matrix3d::Identity(); //!< aRb.
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity(); //!< Rotation aRb.
   Eigen::Vector3d p = Eigen::Vector3d::Zero();     //!< Origin of b in a, m.
 
-  //! aMc = aMb * bMc.
+  //! Composition aMc = aMb * bMc.
   [[nodiscard]] vpRigidTransform operator*(const vpRigidTransform &bMc) const { return {R * bMc.R, p + R * bMc.p}; }
-  //! bMa.
+  //! Inverse bMa.
   [[nodiscard]] vpRigidTransform inverse() const { return {R.transpose(), -(R.transpose() * p)}; }
-  //! The same as a matrix of ViSP. Allocates.
+  //! Conversion to ViSP. Allocates.
   [[nodiscard]] vpHomogeneousMatrix toHomogeneous() const;
-  //! From a matrix of ViSP.
+  //! Conversion from ViSP.
   [[nodiscard]] static vpRigidTransform fromHomogeneous(const vpHomogeneousMatrix &M);
 };
 

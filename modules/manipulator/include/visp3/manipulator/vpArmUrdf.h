@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpArmUrdf.h
- * \brief An arm from a URDF file. Needs urdfdom when the module is built.
+ * \brief Loads an arm from a URDF file. Requires a build with urdfdom.
  */
 #ifndef vpArmUrdf_h
 #define vpArmUrdf_h
@@ -15,24 +15,24 @@ BEGIN_VISP_NAMESPACE
 
 /*!
  * \ingroup group_manipulator
- * \brief What a URDF file does not say.
+ * \brief Options for data that a URDF file does not contain.
  */
 struct VISP_EXPORT vpArmUrdfOptions {
   std::string base;   //!< First link of the chain; empty: the root.
   std::string tip;    //!< Last link, whose frame is the end effector; empty: the only leaf.
-  std::string camera; //!< Link that is the camera, fixed to the end effector's link; empty: the end effector itself.
+  std::string camera; //!< Camera link, fixed to the end effector's link; empty: the end effector itself.
   //! Acceleration limit of all joints, rad/s^2 or m/s^2, > 0; URDF has none.
   double acceleration = std::numeric_limits<double>::infinity();
 };
 
 /*!
  * \ingroup group_manipulator
- * \brief Reads the chain from base to tip. Fixed joints are folded into their neighbours with the masses they carry;
- * cylinders, spheres and boxes of the collision geometry become capsules that enclose them (meshes give none); damping
- * and friction become viscous and Coulomb friction. Other branches of the tree are left out, with their masses.
- * \throw vpException (ioError) when the file cannot be read, (badValue) when it is malformed, a link is missing, the
- * tip is not unique or not below the base, a joint is of a kind that has no place here (floating, planar, mimic), or
- * vpArmModel refuses a value; one sentence with the file and the element.
+ * \brief Reads the chain from base to tip. Fixed joints are merged into their neighbours with the masses they carry;
+ * cylinders, spheres and boxes of the collision geometry become enclosing capsules (meshes give none); damping and
+ * friction become viscous and Coulomb friction. Other branches of the tree are ignored, including their masses.
+ * \throw vpException (ioError) if the file cannot be read, (badValue) if it is malformed, a link is missing, the
+ * tip is not unique or not below the base, a joint type is unsupported (floating, planar, mimic), or
+ * vpArmModel rejects a value; one sentence with the file and the element.
  */
 [[nodiscard]] VISP_EXPORT vpArmModel vpLoadArmUrdf(const std::string &file, const vpArmUrdfOptions &options = {});
 

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpJointBounds.h
- * \brief Which joint velocities may be commanded now so that the limits still hold later.
+ * \brief Bounds of joint velocities for which the limits can still be kept later.
  */
 #ifndef vpJointBounds_h
 #define vpJointBounds_h
@@ -15,44 +15,44 @@ BEGIN_VISP_NAMESPACE
 
 /*!
  * \ingroup group_manipulator
- * \brief Interval of velocities of each joint for the next period, rad/s or m/s.
+ * \brief Velocity bounds of each joint for the next period, rad/s or m/s.
  *
- * A joint that moves for one period and then brakes at its acceleration limit shall end before its position limit:
- * v dt + v^2 / (2 a) <= room, so v <= a (sqrt(dt^2 + 2 room / a) - dt). Braking at a keeps this true in the next
+ * A joint that moves for one period and then brakes at its acceleration limit must stop before its position limit:
+ * v dt + v^2 / (2 a) <= room, so v <= a (sqrt(dt^2 + 2 room / a) - dt). Braking at a preserves this in the next
  * period, so a joint that starts inside never needs more than a.
  */
 struct VISP_EXPORT vpJointBounds {
-  vpJointVector lower;         //!< By position and velocity limits; <= 0 inside the position limits.
-  vpJointVector upper;         //!< By position and velocity limits; >= 0 inside the position limits.
-  vpJointVector velocityLimit; //!< By the velocity limits alone.
+  vpJointVector lower;         //!< Lower bound from position and velocity limits; <= 0 inside the position limits.
+  vpJointVector upper;         //!< Upper bound from position and velocity limits; >= 0 inside the position limits.
+  vpJointVector velocityLimit; //!< Velocity limits alone.
   vpJointVector
-      roomBelow; //!< Way to the lower position limit, less the margin, rad or m; infinite for a continuous joint.
-  vpJointVector roomAbove;         //!< The same to the upper one.
-  vpJointVector accelerationLower; //!< Previous velocity - a dt.
-  vpJointVector accelerationUpper; //!< Previous velocity + a dt.
+      roomBelow; //!< Distance to the lower position limit minus the margin, rad or m; infinite for a continuous joint.
+  vpJointVector roomAbove;         //!< Distance to the upper position limit minus the margin, likewise.
+  vpJointVector accelerationLower; //!< Lower bound from acceleration: previous velocity - a dt.
+  vpJointVector accelerationUpper; //!< Upper bound from acceleration: previous velocity + a dt.
 
   /*!
-   * No allocation, no exception.
+   * Computes the bounds; no allocation, no exception.
    * \param model : The arm.
-   * \param q : Present configuration.
-   * \param previous : Velocity commanded in the last period.
-   * \param period : s, > 0.
-   * \param margin : Kept from the position limits, rad or m, >= 0.
-   * \return False when a number is missing, not finite or beyond vpArmLargest. The bounds then lead to rest: a joint whose
-   * place is not known brakes, one whose velocity is not known counts as resting, and without period or margin all stop.
+   * \param q : Current configuration, rad or m.
+   * \param previous : Velocities commanded in the last period, rad/s or m/s.
+   * \param period : Control period, s, > 0.
+   * \param margin : Distance kept from the position limits, rad or m, >= 0.
+   * \return False if a number is missing, not finite or beyond vpArmLargest. The bounds then bring the arm to rest: a
+   * joint of unknown position brakes, one of unknown velocity counts as resting, and without valid period or margin all
+   * joints stop.
    */
   bool update(const vpArmModel &model, const vpJointVector &q, const vpJointVector &previous, double period,
               double margin) noexcept;
   /*!
-   * Largest factor up to 1 with which a motion of all joints along \e direction (rad/s) can be braked before any
-   * position limit without leaving that direction: the joint that brakes worst sets the deceleration of all. 0 for a
+   * Largest factor up to 1 at which a motion of all joints along \e direction (rad/s) can be braked before any position
+   * limit without changing direction: the joint with the weakest braking sets the deceleration of all. 0 for a
    * direction that is not finite.
    */
   [[nodiscard]] double together(const vpArmModel &model, const vpJointVector &direction, double period) const noexcept;
   /*!
-   * The velocity nearest to \e wanted that is within all limits of joint \e i; the velocity limit goes first, then
-   * acceleration, then position (they contradict each other only when a joint was brought to its limit by something
-   * else). NaN counts as 0.
+   * The velocity nearest to \e wanted within all limits of joint \e i; the velocity limit has priority, then
+   * acceleration, then position (they conflict only if something else moved the joint to its limit). NaN counts as 0.
    */
   [[nodiscard]] double clamp(int i, double wanted) const noexcept;
 };

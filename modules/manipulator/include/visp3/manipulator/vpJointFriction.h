@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpJointFriction.h
- * \brief Friction of the joints and the torque that makes up for it.
+ * \brief Joint friction and its compensation torque.
  */
 #ifndef vpJointFriction_h
 #define vpJointFriction_h
@@ -15,18 +15,18 @@ BEGIN_VISP_NAMESPACE
 
 /*!
  * \ingroup group_manipulator
- * \brief F_f = Fv q' + Fc sgn(q'), thesis (3.2)-(3.3), with sgn replaced by tanh(q' / smoothing): of a wanted velocity,
- * so that the noise of the measured one does not come back through the sign.
+ * \brief Joint friction F_f = Fv q' + Fc sgn(q'), thesis (3.2)-(3.3), with sgn replaced by tanh(q' / smoothing). Use
+ * the desired velocity: the noise of the measured one would be fed back through the sign.
  */
 struct VISP_EXPORT vpJointFriction {
-  vpJointVector viscous;   //!< Fv, Nm s/rad or N s/m, n numbers >= 0.
-  vpJointVector coulomb;   //!< Fc, Nm or N, n numbers >= 0.
-  double smoothing = 0.01; //!< Velocity at which 76 % of the Coulomb friction is given, rad/s or m/s, > 0.
+  vpJointVector viscous;   //!< Viscous coefficients Fv, Nm s/rad or N s/m, n numbers >= 0.
+  vpJointVector coulomb;   //!< Coulomb friction Fc, Nm or N, n numbers >= 0.
+  double smoothing = 0.01; //!< Velocity at which Coulomb friction reaches 76 %, rad/s or m/s, > 0.
 
-  //! That of the arm's file.
+  //! Friction of the arm model.
   [[nodiscard]] static vpJointFriction of(const vpArmModel &model);
-  //! Friction at these velocities, Nm or N; no allocation. False, and zero, when a velocity is missing, not finite or beyond
-  //! vpArmLargest.
+  //! Friction at these velocities, Nm or N; no allocation. False and zero if a velocity is missing, not finite or
+  //! beyond vpArmLargest.
   bool torque(const vpJointVector &velocity, vpJointVector &result) const noexcept;
   /*!
    * \param size : Number of joints.

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpJointPositionControl.h
- * \brief Joint torques from joint positions: PD with gravity.
+ * \brief Joint position control: PD with gravity compensation.
  */
 #ifndef vpJointPositionControl_h
 #define vpJointPositionControl_h
@@ -15,14 +15,14 @@ BEGIN_VISP_NAMESPACE
 
 /*!
  * \ingroup group_manipulator
- * \brief Gains of vpJointPositionControl, one of each a joint.
+ * \brief Gains of vpJointPositionControl, one per joint.
  */
 struct VISP_EXPORT vpJointPositionControlSpec {
-  vpJointVector kp;                //!< K_p, Nm/rad or N/m, >= 0.
-  vpJointVector kd;                //!< K_d, Nm s/rad or N s/m, >= 0.
-  vpJointVector maxTorque;         //!< Nm or N, > 0; infinity: none.
-  bool compensateFriction = false; //!< Adds friction of the wanted velocity.
-  vpJointFriction friction;        //!< Used when compensateFriction.
+  vpJointVector kp;                //!< Position gain K_p, Nm/rad or N/m, >= 0.
+  vpJointVector kd;                //!< Velocity gain K_d, Nm s/rad or N s/m, >= 0.
+  vpJointVector maxTorque;         //!< Torque limit, Nm or N, > 0; infinity: none.
+  bool compensateFriction = false; //!< Adds the friction at the desired velocity.
+  vpJointFriction friction;        //!< Used if compensateFriction.
 
   /*!
    * \throw vpException (badValue) naming the field and the joint that are out of range, and the value.
@@ -33,25 +33,25 @@ struct VISP_EXPORT vpJointPositionControlSpec {
 /*!
  * \class vpJointPositionControl
  * \ingroup group_manipulator
- * \brief tau = K_p (q_d - q) + K_d (q'_d - q') + g(q), thesis (3.19), and the friction and feedforward if wanted.
- * Without state.
+ * \brief PD control with gravity compensation tau = K_p (q_d - q) + K_d (q'_d - q') + g(q), thesis (3.19), with
+ * optional friction and feedforward. Stateless.
  */
 class VISP_EXPORT vpJointPositionControl
 {
 public:
-  //! What a step is told; all of n numbers.
+  //! Input of a step; n numbers each.
   struct Input {
-    vpJointVector q;              //!< Measured, rad or m.
-    vpJointVector velocity;       //!< Measured or estimated, rad/s or m/s.
-    vpJointVector wantedQ;        //!< q_d.
-    vpJointVector wantedVelocity; //!< q'_d.
-    vpJointVector feedforward;    //!< g(q) of vpArmDynamics::gravity(), and M(q) q''_d + C q' if wanted, Nm or N.
+    vpJointVector q;              //!< Measured configuration, rad or m.
+    vpJointVector velocity;       //!< Measured or estimated velocities, rad/s or m/s.
+    vpJointVector wantedQ;        //!< Desired configuration q_d, rad or m.
+    vpJointVector wantedVelocity; //!< Desired velocities q'_d, rad/s or m/s.
+    vpJointVector feedforward;    //!< g(q) by vpArmDynamics::gravity(), optionally M(q) q''_d + C q', Nm or N.
   };
-  //! What a step answers.
+  //! Output of a step.
   struct Output {
-    vpJointVector torque;       //!< Nm or N, within maxTorque.
+    vpJointVector torque;       //!< Torques, Nm or N, within maxTorque.
     unsigned int saturated = 0; //!< Bit i: joint i is at its torque limit.
-    bool valid = true; //!< False: an input was not finite, beyond vpArmLargest or of a wrong size; the torque is 0.
+    bool valid = true; //!< False: an input was not finite, beyond vpArmLargest or of the wrong size; the torque is 0.
   };
 
   //! \throw vpException (badValue), see vpJointPositionControlSpec::validate().

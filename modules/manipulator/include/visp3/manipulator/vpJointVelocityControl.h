@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpJointVelocityControl.h
- * \brief Joint torques from joint velocities: PI.
+ * \brief Joint velocity control: PI.
  */
 #ifndef vpJointVelocityControl_h
 #define vpJointVelocityControl_h
@@ -15,15 +15,15 @@ BEGIN_VISP_NAMESPACE
 
 /*!
  * \ingroup group_manipulator
- * \brief Gains of vpJointVelocityControl, one of each a joint.
+ * \brief Gains of vpJointVelocityControl, one per joint.
  */
 struct VISP_EXPORT vpJointVelocityControlSpec {
-  double period = 0.001;           //!< Of the calls, s, > 0.
-  vpJointVector kp;                //!< K_p, Nm s/rad or N s/m, >= 0.
-  vpJointVector ki;                //!< K_i, Nm/rad or N/m, >= 0.
-  vpJointVector maxTorque;         //!< Nm or N, > 0; infinity: none.
-  bool compensateFriction = false; //!< Adds friction of the wanted velocity.
-  vpJointFriction friction;        //!< Used when compensateFriction.
+  double period = 0.001;           //!< Control period, s, > 0.
+  vpJointVector kp;                //!< Proportional gain K_p, Nm s/rad or N s/m, >= 0.
+  vpJointVector ki;                //!< Integral gain K_i, Nm/rad or N/m, >= 0.
+  vpJointVector maxTorque;         //!< Torque limit, Nm or N, > 0; infinity: none.
+  bool compensateFriction = false; //!< Adds the friction at the desired velocity.
+  vpJointFriction friction;        //!< Used if compensateFriction.
 
   /*!
    * \throw vpException (badValue) naming the field and the joint that are out of range, and the value.
@@ -34,32 +34,32 @@ struct VISP_EXPORT vpJointVelocityControlSpec {
 /*!
  * \class vpJointVelocityControl
  * \ingroup group_manipulator
- * \brief tau = K_p e' + K_i xi, xi' = e', thesis (3.20)-(3.21), e' the velocity error; the integral stands still where
- * the torque is at its limit and would grow further.
+ * \brief PI control tau = K_p e' + K_i xi, xi' = e', thesis (3.20)-(3.21), e' the velocity error, with anti-windup: the
+ * integral is frozen where the torque is at its limit and would grow further.
  */
 class VISP_EXPORT vpJointVelocityControl
 {
 public:
-  //! What a step is told; all of n numbers.
+  //! Input of a step; n numbers each.
   struct Input {
-    vpJointVector velocity;       //!< Measured or estimated, rad/s or m/s.
-    vpJointVector wantedVelocity; //!< q'_d.
-    vpJointVector feedforward;    //!< g(q), or zero, Nm or N.
+    vpJointVector velocity;       //!< Measured or estimated velocities, rad/s or m/s.
+    vpJointVector wantedVelocity; //!< Desired velocities q'_d, rad/s or m/s.
+    vpJointVector feedforward;    //!< Gravity torques g(q), or zero, Nm or N.
   };
-  //! What a step answers.
+  //! Output of a step.
   struct Output {
-    vpJointVector torque;       //!< Nm or N, within maxTorque.
+    vpJointVector torque;       //!< Torques, Nm or N, within maxTorque.
     unsigned int saturated = 0; //!< Bit i: joint i is at its torque limit.
-    bool valid = true; //!< False: an input was not finite, beyond vpArmLargest or of a wrong size; the torque is 0.
+    bool valid = true; //!< False: an input was not finite, beyond vpArmLargest or of the wrong size; the torque is 0.
   };
 
   //! \throw vpException (badValue), see vpJointVelocityControlSpec::validate().
   explicit vpJointVelocityControl(const vpJointVelocityControlSpec &spec);
-  //! Starts anew with an empty integral.
+  //! Resets the integral to zero.
   void reset() noexcept;
   //! One cycle; no allocation, no exception.
   void step(const Input &input, Output &output) noexcept;
-  //! xi, rad or m.
+  //! Integral xi of the velocity error, rad or m.
   [[nodiscard]] const vpJointVector &integral() const noexcept { return m_integral; }
 
 private:

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpJointVelocityEstimator.h
- * \brief Joint velocities from noisy joint positions.
+ * \brief Estimates joint velocities from noisy joint positions.
  */
 #ifndef vpJointVelocityEstimator_h
 #define vpJointVelocityEstimator_h
@@ -16,34 +16,34 @@ BEGIN_VISP_NAMESPACE
 /*!
  * \class vpJointVelocityEstimator
  * \ingroup group_manipulator
- * \brief Thesis 8.2.3: integrates instead of differentiating. A model q'' = a, integrated, is corrected by its position
- * error with two equal poles at exp(-bandwidth period), so velocity has no steady error in a ramp and none in any
- * motion whose acceleration is given.
+ * \brief Velocity observer of thesis 8.2.3: integrates instead of differentiating. The integrated model q'' = a is
+ * corrected by its position error, with a double pole at exp(-bandwidth period): no steady-state velocity error in a
+ * ramp, nor in any motion whose acceleration is given.
  */
 class VISP_EXPORT vpJointVelocityEstimator
 {
 public:
   /*!
    * \param size : Number of joints, 1..8.
-   * \param period : Of the calls, s, > 0.
-   * \param bandwidth : rad/s, > 0: low is smooth, high is quick.
+   * \param period : Control period, s, > 0.
+   * \param bandwidth : Bandwidth, rad/s, > 0: low is smooth, high is fast.
    * \throw vpException (badValue) naming the parameter that is out of range, and its value.
    */
   vpJointVelocityEstimator(int size, double period, double bandwidth);
 
-  //! Starts anew at the next reading, at rest.
+  //! Restarts at the next reading, at rest.
   void reset() noexcept;
   /*!
-   * One cycle; no allocation, no exception. A reading of a wrong size, not finite or beyond vpArmLargest is left out: the
-   * model goes on, see measured().
+   * One cycle; no allocation, no exception. A reading of the wrong size, not finite or beyond vpArmLargest is ignored
+   * and the model alone is integrated, see measured().
    * \param q : Measured positions, unwrapped, rad or m.
-   * \param acceleration : That of the last period if known, rad/s^2 or m/s^2; empty or such a one: zero.
-   * \return Velocities now, rad/s or m/s.
+   * \param acceleration : Acceleration of the last period if known, rad/s^2 or m/s^2; empty or invalid: zero.
+   * \return Current velocities, rad/s or m/s.
    */
   const vpJointVector &step(const vpJointVector &q, const vpJointVector &acceleration = vpJointVector()) noexcept;
   //! Velocities of the last step.
   [[nodiscard]] const vpJointVector &velocity() const noexcept { return m_velocity; }
-  //! False when the last step had no usable reading.
+  //! False if the last step had no valid reading.
   [[nodiscard]] bool measured() const noexcept { return m_measured; }
   //! Smoothed positions of the last step.
   [[nodiscard]] const vpJointVector &position() const noexcept { return m_position; }

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpPlaneRenderer.h
- * \brief Pictures of a real photograph as a plane in space, with the faults of a real camera.
+ * \brief Renders a real photograph as a plane in space, with the faults of a real camera.
  */
 #ifndef vpPlaneRenderer_h
 #define vpPlaneRenderer_h
@@ -19,28 +19,28 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_rendering
-//! \brief What a real camera adds to an ideal picture. The defaults change nothing.
+//! \brief Imperfections of a real camera, applied to an ideal image. The defaults change nothing.
 struct VISP_EXPORT vpCameraFaults {
   double noise = 0.;         //!< Standard deviation of the grey value, 0..255 scale, >= 0.
   double blur = 0.;          //!< Standard deviation of a Gaussian blur, px, 0..5.
   double gain = 1.;          //!< Factor on the grey value, > 0.
-  double bias = 0.;          //!< Added to the grey value.
-  double occlusion = 0.;     //!< Share of the target's area in the picture that a textured blob hides, 0..0.9.
-  unsigned int occluder = 0; //!< Which blob: seed of its place on the target, to which it sticks, and of its texture.
+  double bias = 0.;          //!< Offset added to the grey value.
+  double occlusion = 0.;     //!< Fraction of the target's image area that a textured blob hides, 0..0.9.
+  unsigned int occluder = 0; //!< Seed of the blob's position, fixed on the target, and of its texture.
 
-  //! \throw vpException (badValue) naming the field and its value when one is out of its range or not finite.
+  //! \throw vpException (badValue) naming the field and its value if one is out of range or not finite.
   void validate() const;
 };
 
 /*!
  * \class vpPlaneRenderer
  * \ingroup group_rendering
- * \brief Renders a photograph, taken as a rectangle in the plane z = 0 centred at the object's origin, before a faint
+ * \brief Renders a photograph as a rectangle in the plane z = 0, centred at the object's origin, in front of a faint
  * background.
  *
  * Convention: the photograph of W x H pixels covers the object edge to edge, the centre of its pixel (u, v) lies at
- * x = ((u + 1/2) / W - 1/2) objectWidth, y likewise. Pixel (0, 0) of the picture is the centre of its top left pixel.
- * Each pixel is the mean of 2x2 samples, of a copy of the photograph that is about as fine as these (against aliasing).
+ * x = ((u + 1/2) / W - 1/2) objectWidth, y likewise. Image point (0, 0) is the centre of the top left pixel.
+ * Each pixel is the mean of 2x2 samples of a pyramid level of similar resolution (anti-aliasing).
  */
 class VISP_EXPORT vpPlaneRenderer
 {
@@ -58,10 +58,10 @@ public:
   vpPlaneRenderer &operator=(vpPlaneRenderer &&) noexcept; //!< Moves.
 
   /*!
-   * Render the view from \e cMo.
+   * Renders the view at \e cMo.
    * \param cMo : Pose of the object in the camera. An object behind or beside the camera gives the background only.
-   * \param faults : What the camera adds. \param seed : Seed of the noise. \param image : Result, resized when needed.
-   * \throw vpException (badValue) naming a fault that is out of its range.
+   * \param faults : Camera imperfections. \param seed : Seed of the noise. \param image : Result, resized if needed.
+   * \throw vpException (badValue) naming a fault that is out of range.
    */
   void render(const vpHomogeneousMatrix &cMo, const vpCameraFaults &faults, unsigned int seed,
               vpImage<unsigned char> &image);

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpProductPatternSpec.h
- * \brief What a repetitive, flexible product looks like under a camera.
+ * \brief Appearance of a repetitive, flexible product under a camera.
  */
 #ifndef vpProductPatternSpec_h
 #define vpProductPatternSpec_h
@@ -19,8 +19,8 @@ BEGIN_VISP_NAMESPACE
 //! \brief Outline of a cell's opening.
 enum class vpProductShape {
   Rectangle, //!< Sharp corners.
-  Rounded,   //!< Corners are quarters of a circle.
-  Dot        //!< Ellipse, a circle where both sizes are the same.
+  Rounded,   //!< Corners are quarter circles.
+  Dot        //!< Ellipse, a circle if both sizes are equal.
 };
 
 //! \ingroup group_rendering
@@ -30,49 +30,49 @@ enum class vpProductShape {
 /*!
  * \ingroup group_rendering
  * \brief Parameters of a vpProductPattern. The defaults are the display of thesis chapter 7: openings of 178 x 52 um
- * every 220 x 80 um, seen with 4.5 um a pixel; without noise or defects beyond those of a good camera.
+ * at a pitch of 220 x 80 um, imaged at 4.5 um per pixel; with the noise of a good camera and without defects.
  *
- * Lengths are px of the image, angles rad, grey values 0..255. x is along the image's rows (u), y along its columns (v),
- * both turned by #rotation for pitch, opening, jitter and flexible pitch.
+ * Lengths are in image px, angles in rad, grey values 0..255. x is along the image's rows (u), y along its columns (v),
+ * both rotated by #rotation for pitch, opening, jitter and flexible pitch.
  */
 struct VISP_EXPORT vpProductPatternSpec {
   unsigned int width = 160;  //!< Columns of the image, px, 8..16384.
   unsigned int height = 100; //!< Rows of the image, px, 8..16384.
-  double pixelSize = 4.5;    //!< Size of a pixel on the product, um, > 0. For reports; it changes no picture.
+  double pixelSize = 4.5;    //!< Size of a pixel on the product, um, > 0. For reports only.
 
-  double pitchX = 220. / 4.5;      //!< From cell to cell along a row, px, 2..100000.
-  double pitchY = 80. / 4.5;       //!< From row to row, px, 2..100000.
+  double pitchX = 220. / 4.5;      //!< Pitch of the cells along a row, px, 2..100000.
+  double pitchY = 80. / 4.5;       //!< Pitch of the rows, px, 2..100000.
   double openingX = 178. / 4.5;    //!< Length of an opening along its row, px, 1..1024, see validate().
   double openingY = 52. / 4.5;     //!< Length of an opening across its row, px, 1..1024, see validate().
-  double cornerRadius = 20. / 4.5; //!< Of vpProductShape::Rounded, px, 0..half of the shorter length; else unused.
+  double cornerRadius = 20. / 4.5; //!< Corner radius of vpProductShape::Rounded, px, 0..half of the shorter length.
   vpProductShape shape = vpProductShape::Rounded; //!< Outline of the openings.
-  double rotation = 0.; //!< Of the product in the image, from x to y (clockwise as seen), rad, -pi..pi.
+  double rotation = 0.; //!< Rotation of the product in the image, from x to y (clockwise as displayed), rad, -pi..pi.
 
   double dark = 60.;         //!< Grey value between the openings, 0..255.
   double bright = 170.;      //!< Grey value of the openings, 0..255; below #dark for dark cells on bright ground.
-  double illuminationX = 0.; //!< Light falls off along u: by this share at the left, more by it at the right, -1..1.
-  double illuminationY = 0.; //!< The same along v, from the top to the bottom; |x| + |y| < 1.
+  double illuminationX = 0.; //!< Illumination gradient along u: factor 1 - x at the left, 1 + x at the right, -1..1.
+  double illuminationY = 0.; //!< Illumination gradient along v, top to bottom; |x| + |y| < 1.
 
-  double psf = 0.8;  //!< Standard deviation of the Gaussian blur of the optics, px, 0..5. A pixel's area comes on top.
+  double psf = 0.8;  //!< Standard deviation of the Gaussian blur of the optics, px, 0..5. The pixel area adds to it.
   double noise = 1.; //!< Noise scale ns: variance = ns^2 (0.6^2 + I / 157) DN^2 at the grey value I; 0..50.
-  double exposure = 0.08; //!< Share of the time between two frames in which the camera sees the motion, 0..1.
+  double exposure = 0.08; //!< Exposure time as a fraction of the frame period, 0..1.
 
-  double jitter = 0.; //!< Standard deviation of a cell's place, each axis, px, >= 0; cut off at three times that.
-  double flexAmplitudeX = 0.; //!< Flexible pitch: cells lie up to this far before or behind their place, px, >= 0.
-  double flexAmplitudeY = 0.; //!< The same across the rows.
-  double flexPeriodX = 20.;   //!< The place varies with the column as a sine of this period, cells, >= 4.
-  double flexPeriodY = 20.;   //!< The same with the row.
+  double jitter = 0.; //!< Standard deviation of a cell's position per axis, px, >= 0; truncated at three times that.
+  double flexAmplitudeX = 0.; //!< Flexible pitch: amplitude of the displacement along the rows, px, >= 0.
+  double flexAmplitudeY = 0.; //!< Flexible pitch: amplitude of the displacement across the rows, px, >= 0.
+  double flexPeriodX = 20.;   //!< Period of the sinusoidal displacement over the columns, cells, >= 4.
+  double flexPeriodY = 20.;   //!< Period of the sinusoidal displacement over the rows, cells, >= 4.
 
   double dust = 0.;    //!< Dark specks, 2 to 8 px wide, per 100 x 100 px of product, on average; 0..100.
   double cracks = 0.;  //!< Dark crooked lines, 20 to 70 px long, per 100 x 100 px, on average; 0..100.
-  double missing = 0.; //!< Share of cells without an opening, 0..1.
-  double damaged = 0.; //!< Share of cells of which a part is closed, 0..1; #missing + damaged <= 1.
+  double missing = 0.; //!< Fraction of cells without an opening, 0..1.
+  double damaged = 0.; //!< Fraction of cells that are partly closed, 0..1; #missing + damaged <= 1.
 
-  unsigned int seed = 1; //!< Of everything random: another seed is another product and another noise.
+  unsigned int seed = 1; //!< Seed of product and noise.
 
   /*!
-   * Check the ranges above. In addition openings must not touch: opening <= pitch - 6 jitter - the most that the
-   * flexible pitch takes away, 2 amplitude sin(pi / period); in x and in y.
+   * Checks the ranges above. Openings must also not touch: opening <= pitch - 6 jitter - the largest reduction by the
+   * flexible pitch, 2 amplitude sin(pi / period); in x and in y.
    * \throw vpException (badValue) naming the field and its value.
    */
   void validate() const;

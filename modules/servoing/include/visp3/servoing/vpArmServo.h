@@ -21,14 +21,14 @@ BEGIN_VISP_NAMESPACE
 
 /*!
  * \ingroup group_servoing
- * \brief Parameters of a vpArmServo beside those of its controller.
+ * \brief Parameters of a vpArmServo besides those of its controller.
  */
 struct VISP_EXPORT vpArmServoSpec {
-  vpRedundancySpec redundancy;            //!< Of the arm; its period is that of the steps.
-  std::vector<vpSelfMotionIndex> indices; //!< What the spare joints climb; at most vpMaxArmIndices.
-  double maxAge = 0.5;                    //!< A measurement older than this is not used any more, s, > 0.
-  double maxLinear = 0.25;                //!< Of the camera, m/s, > 0.
-  double maxAngular = 1.;                 //!< Of the camera, rad/s, > 0.
+  vpRedundancySpec redundancy;            //!< Parameters of the arm; its period is that of step().
+  std::vector<vpSelfMotionIndex> indices; //!< Indices that self-motion maximizes; at most vpMaxArmIndices.
+  double maxAge = 0.5;                    //!< Measurements older than this are not used, s, > 0.
+  double maxLinear = 0.25;                //!< Limit of the camera's linear speed, m/s, > 0.
+  double maxAngular = 1.;                 //!< Limit of the camera's angular speed, rad/s, > 0.
 
   //! \throw vpException (badValue) naming the field that is out of range, and its value.
   void validate(const vpArmModel &model) const;
@@ -36,25 +36,27 @@ struct VISP_EXPORT vpArmServoSpec {
 
 /*!
  * \ingroup group_servoing
- * \brief What the arm does in the next period, and how it came about.
+ * \brief Velocities for the next period, and how they were obtained.
  */
 struct VISP_EXPORT vpArmServoOutput {
-  vpJointVector velocity;                               //!< To be commanded, rad/s or m/s.
-  vpTwist twist;                                        //!< Of the camera as the law wants it, in its frame.
-  vpServoStatus servo = vpServoStatus::Holding;         //!< Of the law, the view filter and the recovery.
-  vpRedundancyStatus arm = vpRedundancyStatus::Exact;   //!< Whether the joints can do it.
-  vpSupervision supervision = vpSupervision::Passed;    //!< Of the supervisor; Passed without one.
-  double age = std::numeric_limits<double>::infinity(); //!< Of the measurement in use, s.
+  vpJointVector velocity;                               //!< Joint velocities to command, rad/s or m/s.
+  vpTwist twist;                                        //!< Camera twist of the law, camera frame, m/s and rad/s.
+  vpServoStatus servo = vpServoStatus::Holding;         //!< Status of law, view filter and recovery.
+  vpRedundancyStatus arm = vpRedundancyStatus::Exact;   //!< Status of the redundancy solver.
+  vpSupervision supervision = vpSupervision::Passed;    //!< Status of the supervisor; Passed without one.
+  double age = std::numeric_limits<double>::infinity(); //!< Age of the measurement in use, s.
 };
 
 /*!
  * \class vpArmServo
  * \ingroup group_servoing
- * \brief From late and rare measurements of a camera in the hand to joint velocities within all limits, each period.
+ * \brief Converts delayed, low-rate measurements of a camera in the hand to joint velocities within all limits, every
+ * period.
  *
- * A measurement counts at its time of exposure: the motion of the joints since then carries it to the present
- * (vpOdometryBridge), so that the law sees no latency. The object must stand still in the base. Then the law's twist is limited, and
- * vpArmMotion makes joint velocities of it; with a scene, vpStopSupervisor lets them pass only where the arm can still stop.
+ * A measurement is valid at its time of exposure: the joint motion since then propagates it to the present
+ * (vpOdometryBridge), so that the law sees no latency. The object must be at rest in the base frame. The law's twist is
+ * limited and vpArmMotion converts it to joint velocities; with a scene, vpStopSupervisor passes them only if the arm
+ * can still stop.
  * \code
  * vpArmServo servo(model, vpServoController::create("ff-lookat-pi"));
  * servo.setGoal(target.goal(cdMo));
@@ -66,30 +68,31 @@ struct VISP_EXPORT vpArmServoOutput {
  *   robot.command(servo.step(robot.q(), now).velocity);
  * }
  * \endcode
- * see() and step() are for one thread; step() does not allocate, throw, lock or print.
+ * Call see() and step() from one thread; step() does not allocate, throw, lock or print.
  */
 class VISP_EXPORT vpArmServo
 {
 public:
   /*!
-   * \param model : Is referred to. \param controller : Law, view filter, recovery.
+   * \param model : The arm; referenced, must outlive this. \param controller : Law, view filter, recovery.
    * \throw vpException (badValue) naming the field of \e spec that is out of range, or a joint without motion limits.
    */
   vpArmServo(const vpArmModel &model, vpServoController controller, const vpArmServoSpec &spec = {});
 
-  //! From now on the arm keeps clear of a scene, which must outlive this. \throw vpException as vpStopSupervisor.
+  //! Enables collision avoidance in a scene, which must outlive this. \throw vpException as vpStopSupervisor.
   void supervise(const vpCollisionScene &scene, const vpStopSupervisorSpec &spec = {});
-  //! Set or change the goal, see vpServoTarget::goal().
+  //! Sets the goal, see vpServoTarget::goal().
   void setGoal(const vpServoGoal &goal) { m_controller.setGoal(goal); }
   /*!
-   * A result of the vision system, with its time of exposure on the clock of step().
-   * \return False when it is not taken: from the future, or from before the remembered motion.
+   * Adds a result of the vision system, with its time of exposure on the clock of step().
+   * \return False if rejected: from the future, or older than the stored motion.
    */
   bool see(const vpServoMeasurement &result) noexcept;
   /*!
    * One period.
-   * \param q : Configuration now, rad or m. \param time : Now, s; increases. What is not finite brakes the arm.
-   * \return The answer, valid until the next step.
+   * \param q : Current configuration, rad or m. \param time : Current time, s; increasing. If not finite, the arm
+   * brakes.
+   * \return The output, valid until the next step.
    */
   const vpArmServoOutput &step(const vpJointVector &q, double time) noexcept;
   //! Law, view filter and recovery.
@@ -105,7 +108,7 @@ private:
   vpOdometryBridge m_odometry;
   std::optional<vpStopSupervisor> m_supervisor;
   vpSupervisedVelocity m_supervised;
-  vpServoMeasurement m_measurement; // as it would be seen now
+  vpServoMeasurement m_measurement; // predicted to now
   vpArmServoOutput m_output;
   vpArmData m_data;
   vpRigidTransform m_camera; // of the last step

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpServoTarget.h
- * \brief From the pose of a known object to what servo laws are told.
+ * \brief Converts the pose of a known object to measurements and goals of servo laws.
  */
 #ifndef vpServoTarget_h
 #define vpServoTarget_h
@@ -21,7 +21,7 @@ BEGIN_VISP_NAMESPACE
 /*!
  * \class vpServoTarget
  * \ingroup group_servoing
- * \brief The points of an object that a law uses: their images at the goal, and at a measured pose.
+ * \brief Object points used by a law: their images at the goal and at a measured pose.
  *
  * \code
  * const vpServoTarget plate = vpServoTarget::rectangle(0.16, 0.11); // m
@@ -40,31 +40,31 @@ public:
    */
   explicit vpServoTarget(std::vector<Eigen::Vector3d> points, std::vector<Eigen::Vector3d> outline = {});
   /*!
-   * The corners of a rectangle in the plane z = 0 around the origin: top left, top right, bottom right, bottom left.
-   * \param width, height : m, > 0.
+   * Corners of a rectangle in the plane z = 0 centred at the origin: top left, top right, bottom right, bottom left.
+   * \param width, height : Size, m, > 0.
    * \throw vpException (badValue) naming the side that is out of range.
    */
   [[nodiscard]] static vpServoTarget rectangle(double width, double height);
 
-  //! \param cdMo : Pose of the object in the desired camera frame, m.
+  //! Goal for a law. \param cdMo : Pose of the object in the desired camera frame, m.
   [[nodiscard]] vpServoGoal goal(const vpHomogeneousMatrix &cdMo) const;
   /*!
-   * What a camera that sees the object at \e cMo tells a law; points behind the camera are not visible. Allocates only until
-   * \e result has its size.
-   * \param cMo : Pose of the object in the camera, m. \param time : Of the exposure, s.
+   * Measurement of a camera that sees the object at \e cMo; points behind the camera are not visible. Allocates only
+   * until \e result has its size.
+   * \param cMo : Pose of the object in the camera, m. \param time : Time of exposure, s.
    */
   void measure(const vpHomogeneousMatrix &cMo, double time, vpServoMeasurement &result) const;
-  //! The same of what was found in an image, with its covariance; not valid unless vpPlanarTargetResult::found().
+  //! Measurement from a target found in an image, with its covariance; invalid unless vpPlanarTargetResult::found().
   void measure(const vpPlanarTargetResult &seen, double time, vpServoMeasurement &result) const;
   /*!
-   * Images of points of an object at \e cMo; one behind the camera is not visible, and its numbers stay.
-   * \param points : In the object's frame, m. \param images : Gets their number; allocates when it grows.
+   * Images of points of an object at \e cMo; a point behind the camera is not visible and keeps its previous numbers.
+   * \param points : In the object's frame, m. \param images : Resized to \e points; allocates when it grows.
    */
   static void project(const std::vector<Eigen::Vector3d> &points, const vpHomogeneousMatrix &cMo,
                       std::vector<vpServoPoint> &images);
-  //! As given.
+  //! Features in the object's frame, m.
   [[nodiscard]] const std::vector<Eigen::Vector3d> &points() const { return m_points; }
-  //! As given.
+  //! Points that must stay in view, in the object's frame, m.
   [[nodiscard]] const std::vector<Eigen::Vector3d> &outline() const { return m_outline; }
 
 private:

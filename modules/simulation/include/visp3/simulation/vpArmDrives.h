@@ -19,18 +19,17 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_simulation
-//! \brief How good an arm's drives are.
+//! \brief Parameters of vpArmDrives.
 struct VISP_EXPORT vpArmDriveSpec {
-  bool ideal = false;              //!< True: the arm is where it is commanded to be; nothing below counts.
+  bool ideal = false;              //!< True: the arm follows its commands exactly; the fields below are unused.
   double period = 0.001;           //!< Longest cycle of joint control and plant, s, 1e-6 to 1.
-  double frictionScale = 1.;       //!< Of the plant, relative to the arm's file, >= 0.
-  bool compensateFriction = false; //!< The control adds the friction of the arm's file (not scaled).
-  double encoderNoise =
-      0.; //!< Standard deviation of measured positions, rad or m, >= 0; with it velocities are estimated.
-  unsigned int seed = 1; //!< Of the noise.
-  //! Gain on the position in (3.19), n numbers; empty: those of the arm's file, made from its inertia where it has none.
+  double frictionScale = 1.;       //!< Friction of the plant relative to the arm model, >= 0.
+  bool compensateFriction = false; //!< The controller adds the friction of the arm model (not scaled).
+  double encoderNoise = 0.; //!< Noise sigma of measured positions, rad or m, >= 0; if > 0 velocities are estimated.
+  unsigned int seed = 1;    //!< Seed of the noise.
+  //! Position gains of (3.19), n numbers; empty: those of the arm model, else derived from its inertia.
   vpJointVector kp;
-  vpJointVector kd; //!< The same on the velocity.
+  vpJointVector kd; //!< Velocity gains of (3.19), likewise.
 
   //! \throw vpException (badValue) naming the field that is out of range, and its value.
   void validate(const vpArmModel &model) const;
@@ -39,46 +38,46 @@ struct VISP_EXPORT vpArmDriveSpec {
 /*!
  * \class vpArmDrives
  * \ingroup group_simulation
- * \brief Joint control of section 8.2.3: the commanded velocity is integrated to a wanted configuration, PD with
- * gravity (3.19) makes torques of the difference within the torque limits, and vpArmPlant moves.
+ * \brief Joint control of section 8.2.3: the commanded velocity is integrated to a desired configuration, PD control
+ * with gravity compensation (3.19) gives torques within the limits, and vpArmPlant moves.
  *
- * Gains that the arm's file does not give are made from the largest diagonal of M over random configurations: so stiff
- * that the natural frequency is at least 12 rad/s and Coulomb friction holds back 1/300 rad at most (as AMOR's gains
- * do), critically damped.
+ * Gains missing in the arm model are derived from the largest diagonal of M over random configurations: natural
+ * frequency at least 12 rad/s, position error by Coulomb friction at most 1/300 rad (as with AMOR's gains), critically
+ * damped.
  */
 class VISP_EXPORT vpArmDrives
 {
 public:
-  static constexpr double longestMove = 100.; //!< s; the work of a move() is bounded by it.
+  static constexpr double longestMove = 100.; //!< Longest duration of a move(), s; bounds its computing time.
 
   /*!
-   * \param model : Is referred to; must outlive the drives.
-   * \param spec : How good the drives are.
+   * \param model : The arm; referenced, must outlive the drives.
+   * \param spec : Parameters; copied.
    * \throw vpException (badValue), see vpArmDriveSpec::validate(); naming the first link without mass unless ideal.
    */
   explicit vpArmDrives(const vpArmModel &model, const vpArmDriveSpec &spec = {});
 
-  //! At rest in \e q. \throw vpException (badValue) when it does not fit the arm.
+  //! Resets to rest at \e q. \throw vpException (badValue) if \e q does not fit the arm.
   void reset(const vpJointVector &q);
   /*!
-   * Let time pass; no allocation, no exception.
-   * \param velocity : Commanded, rad/s or m/s. One of a wrong size, not finite or beyond vpArmLargest counts as zero.
-   * \param duration : s, > 0 and at most #longestMove, otherwise no time passes; done in equal cycles of at most
+   * Simulates motion for a duration; no allocation, no exception.
+   * \param velocity : Commanded velocities, rad/s or m/s. Wrong size, not finite or beyond vpArmLargest counts as zero.
+   * \param duration : s, > 0 and at most #longestMove, otherwise no time passes; split into equal cycles of at most
    * vpArmDriveSpec::period.
-   * \return False when something was not taken as it was given.
+   * \return False if an argument was not used as given.
    */
   bool move(const vpJointVector &velocity, double duration) noexcept;
 
-  //! Want to be where the encoders are, at rest.
+  //! Sets the desired configuration to the measured one, at rest.
   void holdHere() noexcept;
 
-  //! What the encoders show, rad or m: the true configuration unless there is noise.
+  //! Encoder positions, rad or m: the true configuration unless there is noise.
   [[nodiscard]] const vpJointVector &measured() const noexcept { return m_input.q; }
   //! True configuration, rad or m.
   [[nodiscard]] const vpJointVector &q() const noexcept { return m_plant ? m_plant->q() : m_wanted; }
   //! True velocities, rad/s or m/s.
   [[nodiscard]] const vpJointVector &velocity() const noexcept { return m_plant ? m_plant->velocity() : m_command; }
-  //! Wanted configuration: the integral of the commands, rad or m.
+  //! Desired configuration: the integral of the commands, rad or m.
   [[nodiscard]] const vpJointVector &wanted() const noexcept { return m_wanted; }
   //! Last command, rad/s or m/s.
   [[nodiscard]] const vpJointVector &command() const noexcept { return m_command; }
@@ -86,7 +85,7 @@ public:
   [[nodiscard]] const vpJointVector &torque() const noexcept { return m_output.torque; }
   //! Bit i: joint i was at its torque limit in the last move().
   [[nodiscard]] unsigned int saturated() const noexcept { return m_saturated; }
-  //! How good they are.
+  //! Parameters of the drives.
   [[nodiscard]] const vpArmDriveSpec &spec() const noexcept { return m_spec; }
 
 private:

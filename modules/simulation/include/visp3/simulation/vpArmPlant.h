@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpArmPlant.h
- * \brief An arm that torques move: inertia, gravity, friction that sticks, end stops.
+ * \brief Torque-driven arm: inertia, gravity, stiction, end stops.
  */
 #ifndef vpArmPlant_h
 #define vpArmPlant_h
@@ -17,33 +17,33 @@ BEGIN_VISP_NAMESPACE
 /*!
  * \class vpArmPlant
  * \ingroup group_simulation
- * \brief M(q) q'' + C(q, q') q' + g(q) + friction + stops = tau in steps of about 1 ms.
+ * \brief Simulates M(q) q'' + C(q, q') q' + g(q) + friction + stops = tau in steps of about 1 ms.
  *
- * Dynamics by vpArmDynamics (Orocos KDL). Viscous friction is taken implicitly. Coulomb friction and end stops are
+ * Dynamics by vpArmDynamics (Orocos KDL). Viscous friction is integrated implicitly. Coulomb friction and end stops are
  * impulses that at most bring a joint to rest (projected Gauss-Seidel): a joint whose load is below its friction does
- * not move at all, where an explicit sgn would chatter. A joint that runs into its position limit stops without
+ * not move at all, where an explicit sgn would chatter. A joint that reaches its position limit stops without
  * bouncing.
  */
 class VISP_EXPORT vpArmPlant
 {
 public:
-  static constexpr double longestStep = 1.; //!< s.
+  static constexpr double longestStep = 1.; //!< Longest step, s.
 
   /*!
-   * \param model : Is referred to; must outlive the plant. Friction, masses and limits are its.
+   * \param model : The arm; referenced, must outlive the plant. Defines friction, masses and limits.
    * \param frictionScale : Factor on viscous and Coulomb friction, >= 0.
    * \throw vpException (badValue) naming the first link without mass, or frictionScale and its value.
    */
   explicit vpArmPlant(const vpArmModel &model, double frictionScale = 1.);
 
-  //! At rest in \e q, n numbers.
+  //! Resets to rest at \e q, n numbers, rad or m.
   void reset(const vpJointVector &q);
   /*!
    * One step; no allocation, no exception.
-   * \param torque : Of the drives, Nm or N, n numbers.
-   * \param dt : s, 1e-9 to #longestStep; 1 ms is what it is made for.
-   * \return False when \e dt is out of its range, a torque is missing, not finite or beyond vpArmLargest, or the motion would
-   * be; nothing has moved then.
+   * \param torque : Torques of the drives, Nm or N, n numbers.
+   * \param dt : Step, s, 1e-9 to #longestStep; designed for 1 ms.
+   * \return False if \e dt is out of range, or a torque or the resulting motion is not finite or beyond vpArmLargest,
+   * or a torque is missing; nothing has moved then.
    */
   bool step(const vpJointVector &torque, double dt) noexcept;
 
@@ -51,7 +51,7 @@ public:
   [[nodiscard]] const vpJointVector &q() const noexcept { return m_q; }
   //! Velocities, rad/s or m/s; exactly 0 for a joint that sticks.
   [[nodiscard]] const vpJointVector &velocity() const noexcept { return m_velocity; }
-  //! Friction that it has.
+  //! Friction of the plant.
   [[nodiscard]] const vpJointFriction &friction() const noexcept { return m_friction; }
 
 private:

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpFrictionCamera.h
- * \brief A free-flying camera that moves as a real robot does: with lag, friction and limits.
+ * \brief Free-flying camera with the lag, friction and limits of a real robot.
  */
 #ifndef vpFrictionCamera_h
 #define vpFrictionCamera_h
@@ -24,7 +24,7 @@ BEGIN_VISP_NAMESPACE
  * -# limits: the twist is scaled as a whole until its linear and angular norms are within getMaxTranslationVelocity()
  *    and getMaxRotationVelocity() (vpSimulatorCamera limits single axes and prints);
  * -# lag: y' = (v - y) / lag, solved exactly over the cycle;
- * -# Coulomb friction on the rotation axes, seen as lost velocity: w_out = sign(w) max(|w| - deadband, 0) per axis;
+ * -# Coulomb friction on the rotation axes, modelled as lost velocity: w_out = sign(w) max(|w| - deadband, 0) per axis;
  * -# motion: wMc <- wMc exp(twist * cycle), exact for a constant twist (vpExponentialMap).
  *
  * \code
@@ -39,14 +39,14 @@ class VISP_EXPORT vpFrictionCamera : public vpSimulatorCamera
 public:
   /*!
    * \param plant : Limits, lag, deadband, and the loop rate, whose inverse becomes the sampling time.
-   * \throw vpException (badValue) naming a field of the plant that is out of its range.
+   * \throw vpException (badValue) naming a field of the plant that is out of range.
    */
   explicit vpFrictionCamera(const vpServoPlant &plant = vpServoPlant());
 
   /*!
-   * Move for one sampling time.
+   * Moves for one sampling time.
    * \param frame : vpRobot::CAMERA_FRAME or vpRobot::ARTICULAR_FRAME, which are the same here.
-   * \param v : Twist asked for, camera frame, 6 rows, m/s and rad/s.
+   * \param v : Commanded twist, camera frame, 6 rows, m/s and rad/s.
    * \throw vpRobotException (wrongStateError) for another frame; vpException (dimensionError) unless there are 6 rows,
    * (badValue) naming a component that is not finite. The camera has not moved then.
    */
@@ -54,7 +54,7 @@ public:
   //! As in ViSP. vpRobot::STATE_STOP brings the camera to rest at once.
   vpRobot::vpRobotStateType setRobotState(const vpRobot::vpRobotStateType newState) VP_OVERRIDE;
 
-  //! What the camera did in the last cycle, camera frame, as joint encoders would tell (odometry).
+  //! Actual camera twist in the last cycle, camera frame, as measured by joint encoders (odometry), m/s and rad/s.
   [[nodiscard]] const vpTwist &actualTwist() const { return m_actual; }
 
 private:

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpServoPlant.h
- * \brief How imperfect the robot and its vision are.
+ * \brief Imperfections of a robot and its vision system.
  */
 #ifndef vpServoPlant_h
 #define vpServoPlant_h
@@ -17,16 +17,16 @@ BEGIN_VISP_NAMESPACE
 
 /*!
  * \ingroup group_simulation
- * \brief Parameters of a plant. The limits are the same for every law that is compared.
+ * \brief Parameters of a plant. The limits are the same for all laws compared.
  */
 struct VISP_EXPORT vpServoPlant {
-  std::string name = "A";   //!< For reports.
+  std::string name = "A";   //!< Name for reports.
   double loopRate = 100.;   //!< Rate of the inner loop that runs the law, Hz, > 0.
   double visionRate = 100.; //!< Rate of the camera, Hz, > 0 and <= #loopRate.
-  double latency = 0.;      //!< From exposure to result, s, >= 0. The inner loop bridges it with odometry.
+  double latency = 0.;      //!< Latency from exposure to result, s, >= 0. The inner loop compensates it by odometry.
   double pixelNoise = 0.;   //!< Standard deviation of the image points, px, >= 0.
   double lag = 0.;          //!< Time constant of the velocity response, s, >= 0.
-  double deadband = 0.;     //!< Coulomb friction seen by the rotation axes, as a velocity that is lost, rad/s, >= 0.
+  double deadband = 0.;     //!< Coulomb friction of the rotation axes, as lost velocity, rad/s, >= 0.
   double maxLinear = 1.;    //!< Limit of the linear speed, m/s, > 0.
   double maxAngular = 1.5;  //!< Limit of the angular speed, rad/s, > 0.
 
@@ -36,7 +36,7 @@ struct VISP_EXPORT vpServoPlant {
    * \throw vpException (badValue) naming an unknown plant and the known ones.
    */
   [[nodiscard]] static vpServoPlant byName(const std::string &name);
-  //! \throw vpException (badValue) naming the field and its value when one is out of its range or not finite.
+  //! \throw vpException (badValue) naming the field and its value if one is out of range or not finite.
   void validate() const;
 };
 

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpVisionChannel.h
- * \brief When a camera exposes and when its result arrives.
+ * \brief Exposure and arrival times of vision results.
  */
 #ifndef vpVisionChannel_h
 #define vpVisionChannel_h
@@ -18,25 +18,25 @@ BEGIN_VISP_NAMESPACE
 /*!
  * \class vpVisionChannel
  * \ingroup group_simulation
- * \brief Frame rate and latency of a vision system: results come out in the order of their exposures, none is lost,
+ * \brief Models frame rate and latency of a vision system: results come in the order of their exposures, without loss,
  * each with its time of capture (vpServoMeasurement::time).
  */
 class VISP_EXPORT vpVisionChannel
 {
 public:
   /*!
-   * \param frameRate : Exposures per second, Hz, > 0. \param latency : From exposure to result, s, >= 0.
+   * \param frameRate : Exposures per second, Hz, > 0. \param latency : Time from exposure to result, s, >= 0.
    * \throw vpException (badValue) naming the argument and its value.
    */
   vpVisionChannel(double frameRate, double latency);
 
-  //! Whether an exposure is due at time \e now, s. The first one is due at 0.
+  //! True if an exposure is due at time \e now, s. The first one is due at 0.
   [[nodiscard]] bool due(double now) const;
-  //! Hand in what the exposure at \e measurement.time saw. Times must not decrease.
+  //! Adds the result of the exposure at \e measurement.time. Times must not decrease.
   void push(const vpServoMeasurement &measurement);
   /*!
-   * Take the oldest result that has arrived by time \e now, s. Call it until it says no: there may be more than one.
-   * \return False, and \e result untouched, when there is none.
+   * Takes the oldest result that has arrived by time \e now, s. Call until false: there may be more than one.
+   * \return False if there is none; \e result is then unchanged.
    */
   [[nodiscard]] bool pop(double now, vpServoMeasurement &result);
 
