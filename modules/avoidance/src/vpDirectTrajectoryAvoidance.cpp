@@ -26,14 +26,6 @@ constexpr double atRest = 1e-3;    // m/s
 constexpr double ending = 0.5;     // s: the last part of a motion is not changed, to keep its smooth end
 constexpr double quicker = 0.9;    // of the rest of a detour: faster direct paths replace it
 
-void requireGood(const char *field, double value, bool good, const char *range)
-{
-  if (!good || !std::isfinite(value)) {
-    throw vpException(vpException::badValue, "%s of the direct trajectory avoidance is %g, must be %s", field, value,
-                      range);
-  }
-}
-
 //! Largest fraction of a change for which |present + part * change| keeps a bound; the best one if none does. 0..1.
 double partWithin(const Vector3d &present, const Vector3d &change, double bound)
 {

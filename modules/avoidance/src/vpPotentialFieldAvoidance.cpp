@@ -8,7 +8,6 @@
 #include "vpStopPlan.h"
 #include "vpToolMotion.h"
 
-
 #include <algorithm>
 #include <cmath>
 
@@ -19,13 +18,6 @@ namespace
 constexpr vpFieldCheck fields("the potential field");
 using Eigen::Vector3d;
 constexpr double still = 2e-3; // m/s: a slower tool counts as standing
-
-void requireGood(const char *field, double value)
-{
-  if (!(value > 0.) || !std::isfinite(value)) {
-    throw vpException(vpException::badValue, "%s of the potential field is %g, must be > 0", field, value);
-  }
-}
 
 //! The arm as in the text: no velocity and acceleration limits.
 vpArmModel withoutMotionLimits(const vpArmModel &arm)
