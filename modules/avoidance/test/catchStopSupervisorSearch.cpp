@@ -201,3 +201,161 @@ TEST_CASE("No search finds a supervised arm that touches while it moves or excee
   CHECK(count.near > wanted / 200);
   CHECK(count.stopped > wanted / 200);
 }
+
+namespace
+{
+// Two axes at right angles that move a ball. The first one can brake harder, and has to, before its limit.
+vpArmModel gantry(std::mt19937_64 &rng)
+{
+  vpArmSpec spec;
+  spec.name = "gantry";
+  for (int i = 0; i < 2; ++i) {
+    vpArmJointSpec joint = vpArmJointSpec::standardDH(0., i == 0 ? 0.5 * M_PI : 0., 0., 0.);
+    joint.name = i == 0 ? "along" : "across";
+    joint.type = vpJointType::Prismatic;
+    joint.lower = -5.;
+    joint.upper = uniform(rng, 0.3, 2.);
+    joint.velocity = uniform(rng, 0.5, 3.);
+    joint.acceleration = i == 0 ? uniform(rng, 5., 20.) : uniform(rng, 1., 5.);
+    spec.joints.push_back(joint);
+  }
+  const double radius = uniform(rng, 0.005, 0.03);
+  spec.capsules.push_back({2, {0., 0., 0.}, {0., 0., 0.}, radius});
+  return vpArmModel(spec);
+}
+
+Vector3d toolOf(const vpArmModel &arm, const vpJointVector &q)
+{
+  vpArmData data;
+  vpArmKinematics::update(arm, q, data);
+  return data.tool.p;
+}
+
+struct Stop {
+  std::vector<vpJointVector> places, commands; // of every period in which the arm moves
+  double share = 0.;                           // of the last wish
+};
+
+//! So many periods towards a wish, then bad input until the arm stands.
+Stop stopOf(const vpCollisionScene &scene, const vpStopSupervisorSpec &spec, vpJointVector q, const vpJointVector &aim,
+            int periods)
+{
+  vpStopSupervisor supervisor(scene, spec);
+  vpSupervisedVelocity answer;
+  Stop stop;
+  for (int k = 0; k < periods || answer.velocity.norm() > 0.; ++k) {
+    supervisor.step(q, k < periods ? aim : vpJointVector::Constant(2, NAN), answer);
+    stop.share = k < periods ? answer.share : stop.share;
+    stop.places.push_back(q);
+    stop.commands.push_back(answer.velocity);
+    q += spec.period * answer.velocity;
+  }
+  return stop;
+}
+
+//! Where the plan of a stop is, so long after the last wish: v t - v t^2 / (2 b) with the b that ends where the stop does.
+vpJointVector planned(const Stop &stop, std::size_t periods, double period, double time)
+{
+  const vpJointVector from = stop.places[periods], v = stop.commands[periods - 1];
+  vpJointVector q = stop.places.back() + period * stop.commands.back();
+  for (int j = 0; j < 2; ++j) {
+    const double braking = 2. * (q(j) - from(j)) / v(j);
+    q(j) = time < braking ? from(j) + v(j) * (time - time * time / (2. * braking)) : q(j);
+  }
+  return q;
+}
+} // namespace
+
+// Where one joint brakes harder than the other the plan of a stop goes round a corner, which the arm cuts. A ball is put
+// just there, so that the plan keeps about the margin; then the same is asked for again. In half of the cases another ball
+// is so near behind the start that only a retreat is allowed, and the ball at the corner so near that cutting it touches.
+TEST_CASE("A stop that cuts a corner keeps the margin, and a retreat that does so does not touch", "[supervisor]")
+{
+  auto rng = vpTestSupport::generator(926);
+  CAPTURE(vpTestSupport::seed());
+  long stops = 0, retreats = 0;
+  double nearest = 1., nearestRetreat = 1.;
+  const int cases = 40000 * lengthOfTests();
+  for (int problem = 0; problem < cases; ++problem) {
+    const vpArmModel arm = gantry(rng);
+    const double radius = arm.spec().capsules.front().radius;
+    const bool retreat = problem % 2 == 0;
+    vpStopSupervisorSpec spec;
+    spec.period = uniform(rng, 0.02, 0.2);
+    spec.margin = retreat ? uniform(rng, 0.01, 0.05) : uniform(rng, 0., 0.02);
+    spec.attempts = 1;
+    const std::size_t periods = retreat ? 1 : std::uniform_int_distribution<std::size_t>(1, 5)(rng);
+    vpJointVector start(2), aim(2);
+    for (int j = 0; j < 2; ++j) {
+      const double a = arm.acceleration()(j);
+      aim(j) = uniform(rng, 0.3, 1.) * std::min(arm.velocity()(j), a * static_cast<double>(periods) * spec.period);
+      double way = 0.5 * aim(j) * aim(j) / a;
+      for (std::size_t k = 1; k <= periods; ++k) {
+        way += spec.period * std::min(aim(j), a * static_cast<double>(k) * spec.period);
+      }
+      start(j) = arm.upper()(j) - way * uniform(rng, 1., j == 0 ? 1.1 : 3.);
+    }
+    const Stop alone = stopOf(vpCollisionScene(arm), spec, start, aim, static_cast<int>(periods));
+    if (!(alone.places.size() > periods + 1)) {
+      continue;
+    }
+    const std::size_t cut = std::uniform_int_distribution<std::size_t>(periods, alone.places.size() - 2)(rng);
+    const vpJointVector chord = alone.places[cut] + 0.5 * spec.period * alone.commands[cut];
+    const Vector3d middle = toolOf(arm, chord);
+    const Vector3d along = (toolOf(arm, chord + alone.commands[cut]) - middle).normalized();
+    Vector3d corner =
+        toolOf(arm, planned(alone, periods, spec.period, (static_cast<double>(cut - periods) + 0.5) * spec.period)) -
+        middle;
+    corner -= corner.dot(along) * along;
+    const double off = corner.norm();
+    if (!(off > 1e-4)) {
+      continue;
+    }
+    vpCollisionSceneSpec balls;
+    const auto addBall = [&](const Vector3d &direction, const Vector3d &from, double clearance) {
+      vpCollisionObject ball;
+      ball.name = "ball " + std::to_string(balls.objects.size());
+      const double size = uniform(rng, 0.002, 0.02);
+      ball.shape = vpCollisionShape::sphere(size);
+      ball.pose.p = from + (radius + size + clearance) * direction.normalized();
+      balls.objects.push_back(ball);
+    };
+    // Half of them where only the corner decides, the others where some stops are allowed.
+    const double far = problem % 4 < 2 ? 1. : 30.;
+    addBall(-corner, middle, (retreat ? 0. : spec.margin) + uniform(rng, -1., far) * off);
+    if (retreat) {
+      addBall(toolOf(arm, start) - toolOf(arm, start + alone.commands[0]), toolOf(arm, start),
+              slack + uniform(rng, 0., far) * off);
+    }
+    const auto clearance = [&](const vpJointVector &q) {
+      double least = 1.;
+      for (const vpCollisionObject &ball : balls.objects) {
+        least = std::min(least, (ball.pose.p - toolOf(arm, q)).norm() - radius - ball.shape.radius());
+      }
+      return least;
+    };
+    const double before = clearance(start);
+    if (!(before > (retreat ? 0. : spec.margin))) {
+      continue;
+    }
+    const Stop stop = stopOf(vpCollisionScene(arm, balls), spec, start, aim, static_cast<int>(periods));
+    double least = 1.;
+    for (std::size_t k = 0; k < stop.places.size(); ++k) {
+      for (int i = 0; i <= 32; ++i) {
+        least = std::min(least, clearance(stop.places[k] + i / 32. * spec.period * stop.commands[k]));
+      }
+    }
+    const double kept = retreat ? 0. : spec.margin - rounding;
+    CAPTURE(problem, retreat, least, kept, before, off, spec.period, periods, cut);
+    REQUIRE(least >= kept);
+    if (stop.share > 0.) {
+      ++(retreat ? retreats : stops);
+      double &nearestOfKind = retreat ? nearestRetreat : nearest;
+      nearestOfKind = std::min(nearestOfKind, least - kept);
+    }
+  }
+  std::cout << stops << " stops past a ball, " << retreats << " retreats; least clearance above what was to be kept "
+            << 1e3 * nearest << " and " << 1e3 * nearestRetreat << " mm\n";
+  CHECK(stops > cases / 50);
+  CHECK(retreats > cases / 5000);
+}
