@@ -73,16 +73,17 @@ struct VISP_EXPORT vpSupervisedVelocity {
  * constant deceleration, then rest. A command holds one velocity for T, the mean of the plan's over that period, so at the
  * ends of periods the arm is where the plan is. In between it goes on the chord: |q''_j| <= d_j almost everywhere, with d_j
  * the deceleration of joint j, so it is never farther from q_j(t) than min(d_j T / 8, |v_j|) T, and a point of capsule i by no
- * more than e = sum_j R_ij of that (vpReachBounds). That holds to the end of the last period, in which the plan comes to rest
- * before the arm does. So the plan is proven from its start to the end of the period in which it ends, with the margin
- * enlarged by 2 e (two capsules may both be off) and the resolution, and the arm keeps the margin at every instant until
- * it stands. Two means that follow each other differ by no more than d_j T, which keeps the limit of acceleration. An arm
- * within the margin, at a clearance c, may go where it is no nearer at the end of any period, and keeps c - 0.1 mm - 2 e in
- * between, which therefore is not lost again and again; an arm that is nearer to its margin than 2 e and the resolution
- * counts as within it.
+ * more than e_i = sum_j R_ij of that (vpReachBounds). A clearance is off by no more than e, the largest e_i: also that of two
+ * capsules of the arm, which changes only with the joints between them, and by them as the outer one moves seen from the
+ * inner one. That holds to the end of the last period, in which the plan comes to rest before the arm does. So the plan is
+ * proven from its start to the end of the period in which it ends, with the margin enlarged by e and the resolution, and the
+ * arm keeps the margin at every instant until it stands. Two means that follow each other differ by no more than d_j T, which
+ * keeps the limit of acceleration. An arm within the margin, at a clearance c, may go where it is no nearer at the end of any
+ * period, and keeps c - 0.1 mm - e in between, which therefore is not lost again and again; an arm that is nearer to its
+ * margin than e and the resolution counts as within it.
  *
  * What is beyond it: an object that comes faster than was told or appears (Unsafe says so), what runs into an arm that
- * stands, and drives that do not follow. An arm nearer to something than 0.1 mm, 2 e and the resolution together has no
+ * stands, and drives that do not follow. An arm nearer to something than 0.1 mm, e and the resolution together has no
  * way that could be proven, and stands.
  */
 class VISP_EXPORT vpStopSupervisor
