@@ -13,10 +13,12 @@
 #include "vpPrintable.h"
 
 #include <array>
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 //! Deepest nesting that readers accept, in elements or brackets; deeper recursion could overflow the stack.
 constexpr int vpDeepestNesting = 64;
@@ -46,16 +48,42 @@ private:
 };
 
 /*!
- * Reads all bytes of a file or a pipe.
- * \throw vpFileError if the file cannot be read or has more than \e most bytes.
+ * Open a file for reading.
+ * \throw vpFileError with the reason: there is none, it is a folder, a pipe or a device (which might never end, or never
+ * begin), or the system says no.
+ */
+inline std::ifstream vpOpenFile(const std::string &file)
+{
+  const auto refuse = [&file](const std::string &reason) {
+    throw vpFileError(file + ": cannot be read" + (reason.empty() ? "" : " (" + reason + ")"),
+                      vpFileError::Kind::Unreadable);
+  };
+  std::error_code ignored; // what the system says on opening is better
+  const std::filesystem::file_status status = std::filesystem::status(file, ignored);
+  if (status.type() == std::filesystem::file_type::not_found) {
+    refuse("there is no such file");
+  }
+  if (std::filesystem::is_directory(status)) {
+    refuse("it is a folder");
+  }
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    refuse("it is a pipe or a device");
+  }
+  errno = 0;
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) {
+    refuse(errno != 0 ? std::generic_category().message(errno) : "");
+  }
+  return stream;
+}
+
+/*!
+ * The bytes of a file.
+ * \throw vpFileError when the file cannot be read, see vpOpenFile(), or has more than \e most bytes.
  */
 inline std::string vpReadFileText(const std::string &file, std::size_t most = vpLargestTextFile)
 {
-  std::error_code ignored;
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(file, ignored)) {
-    throw vpFileError(file + ": cannot be read", vpFileError::Kind::Unreadable);
-  }
+  std::ifstream stream = vpOpenFile(file);
   std::string text;
   std::array<char, 1U << 16U> block;
   while (stream.read(block.data(), block.size()) || stream.gcount() > 0) {

@@ -4,6 +4,8 @@
  */
 #include "vpPictureFile.h"
 
+#include "vpFileText.h"
+
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -159,8 +161,8 @@ bool isImageName(const std::string &file)
 
 File::File(std::string name) : m_name(std::move(name))
 {
-  std::ifstream stream(m_name, std::ios::binary);
-  if (!stream.is_open() || (stream.peek(), stream.bad())) {
+  std::ifstream stream = vpOpenFile(m_name);
+  if (stream.peek(), stream.bad()) {
     throw std::runtime_error(m_name + ": cannot be read");
   }
   const TiffPages tiff = tiffPages(stream);
@@ -184,7 +186,8 @@ void File::load()
   if (!m_content.empty()) {
     return;
   }
-  std::ifstream stream(m_name, std::ios::binary | std::ios::ate);
+  std::ifstream stream = vpOpenFile(m_name);
+  stream.seekg(0, std::ios::end);
   const std::streamoff size = stream ? static_cast<std::streamoff>(stream.tellg()) : -1;
   if (size > std::numeric_limits<int>::max()) {
     throw std::runtime_error(m_name + ": has " + std::to_string(size >> 20) +

@@ -69,6 +69,17 @@ std::string mismatchSentence(const std::string &message)
   const std::size_t at = message.find(": 1 required ");
   return at == std::string::npos ? message : message.substr(0, at) + " is given without a value";
 }
+// A name that a script left empty would otherwise be taken as not given.
+void requireNoneEmpty(const CLI::App &app)
+{
+  for (const CLI::Option *option : app.get_options()) {
+    for (const std::string &value : option->results()) {
+      if (value.empty()) {
+        throw UsageError(option->get_name() + " is given without a value");
+      }
+    }
+  }
+}
 } // namespace
 
 std::string sentenceOf(const std::exception &error)
@@ -110,6 +121,7 @@ bool parseCommandLine(CLI::App &app, int argc, const char *const *argv)
   app.set_version_flag("--version", app.get_name() + " " + versionText());
   try {
     app.parse(argc, argv);
+    requireNoneEmpty(app);
     return true;
   }
   catch (const CLI::Success &request) { // --help, --version

@@ -22,9 +22,9 @@ namespace vpApp
 {
 //! Exit statuses of all programs of visp-direct.
 enum ExitStatus : int {
-  ExitOk = 0,           //!< Done.
-  ExitData = 1,         //!< The data or the machine do not allow it: unreadable image, full disk, no display.
-  ExitUsage = 2,        //!< The command line is wrong.
+  ExitOk = 0,    //!< Done.
+  ExitData = 1,  //!< The data or the machine do not allow it: a file that is missing or wrong, full disk, no display.
+  ExitUsage = 2, //!< The command line is wrong.
   ExitInterrupted = 130 //!< Ended by Ctrl-C, as a shell reports it.
 };
 
@@ -54,8 +54,9 @@ public:
 
 /*!
  * Parse the command line, with `--version` added.
- * \return False if `--help` or `--version` was requested and printed, so nothing is left to do.
- * \throw UsageError with CLI11's message, as one line.
+ * \return False when there is nothing left to do because `--help` or `--version` was asked for, and printed.
+ * \throw UsageError with CLI11's message, as one line, or naming an option whose value is empty. Whether a file is there is
+ * no matter of the command line: its reader tells, and the status is ExitData.
  */
 [[nodiscard]] bool parseCommandLine(CLI::App &app, int argc, const char *const *argv);
 

@@ -8,6 +8,7 @@
 #include <array>
 #include <cerrno>
 #include <stdexcept>
+#include <system_error>
 
 #include <fcntl.h>
 #include <poll.h>
@@ -24,7 +25,10 @@ LineReader::LineReader(const std::string &file) : m_name(file == "-" ? "standard
     struct stat status {
     };
     if (m_descriptor < 0 || fstat(m_descriptor, &status) != 0 || S_ISDIR(status.st_mode)) {
-      throw std::runtime_error(m_name + ": cannot be read");
+      const std::string reason = m_descriptor >= 0 ? "it is a folder"
+                                 : errno == ENOENT ? "there is no such file"
+                                                   : std::generic_category().message(errno);
+      throw std::runtime_error(m_name + ": cannot be read (" + reason + ")");
     }
   }
 }

@@ -5,13 +5,14 @@
 #include "outputFolder.h"
 #include "folderLock.h"
 
+#include "vpFileText.h"
 #include "vpStrictJson.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <fstream>
-#include <iterator>
+#include <limits>
 #include <stdexcept>
 
 namespace fs = std::filesystem;
@@ -287,11 +288,6 @@ std::string OutputFolder::keepUnfinished(const std::string &reason)
 
 std::string readFile(const fs::path &file)
 {
-  std::ifstream stream(file, std::ios::binary);
-  std::string content{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (!stream.is_open() || stream.bad() || fs::is_directory(file)) {
-    throw std::runtime_error(file.string() + ": cannot be read");
-  }
-  return content;
+  return vpReadFileText(file.string(), std::numeric_limits<std::size_t>::max());
 }
 } // namespace vpApp

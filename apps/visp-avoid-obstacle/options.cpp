@@ -125,14 +125,9 @@ void addOptions(CLI::App &app, Options &options, Texts &texts)
                  "How to avoid: " + vpApp::enumerate(avoidanceMethodNames()) + " (default: dtg-via)")
       ->option_text("NAME");
   app.add_option("--scene", options.scene, "Obstacles and motion (default: data/scene/photo-box.json)")
-      ->check(CLI::ExistingFile)
       ->option_text("FILE.json");
-  app.add_option("--arm", options.arm, "Another arm than AMOR, see data/robot/README.md")
-      ->check(CLI::ExistingFile)
-      ->option_text("FILE.json");
-  app.add_option("--targets", options.targets, "Photographs that are known (default: data/target)")
-      ->check(CLI::ExistingDirectory)
-      ->option_text("DIR");
+  app.add_option("--arm", options.arm, "Another arm than AMOR, see data/robot/README.md")->option_text("FILE.json");
+  app.add_option("--targets", options.targets, "Photographs that are known (default: data/target)")->option_text("DIR");
   app.add_option("--sensor", texts.sensor, "How obstacles are seen: image (default), depth or poses")
       ->option_text("KIND");
   app.add_option("--hide", texts.hidden, "The camera is covered from A to B s; may be given several times")
@@ -186,9 +181,6 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   options.noise = numberIn("--noise", texts.noise, 0., 100., true);
   options.friction = numberIn("--friction", texts.friction, 0., 10., true);
   options.seed = seedOf(texts.seed);
-  if (options.out.empty()) {
-    throw vpApp::UsageError("--out is empty, must name a folder");
-  }
   return true;
 }
 } // namespace avoidObstacle

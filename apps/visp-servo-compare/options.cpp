@@ -120,7 +120,6 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   app.add_flag("--full", options.full, "Everything: all laws, all plants, points and image (takes long)");
   app.add_flag("--shape", options.shape, shapeHelp());
   app.add_option("--task", options.taskFile, "Task file instead of the thesis' task; see data/scenario/README.md")
-      ->check(CLI::ExistingFile)
       ->option_text("FILE.json");
   app.add_option("--robot", options.robot.robot,
                  "What carries the camera: camera (flies freely), amor (the arm of the thesis), or an arm as .urdf or "
@@ -147,7 +146,6 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   app.add_option("--target", options.target,
                  "Photo of the flat object, 8 or 16 bits, turned as its EXIF orientation says (default: klimt.jpg of "
                  "the data folder)")
-      ->check(CLI::ExistingFile)
       ->option_text("IMAGE");
   std::string repetitions = "1";
   std::string jobs = std::to_string(vpApp::coreCount());
@@ -166,9 +164,6 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   requireAtLeastOne("--jobs", jobs, options.jobs);
   if (options.full && !(options.laws.empty() && options.plants.empty() && options.measures.empty())) {
     throw vpApp::UsageError("--full means all laws, plants and measures, it cannot be combined with a choice of them");
-  }
-  if (options.out.empty()) {
-    throw vpApp::UsageError("--out is empty, must name a folder");
   }
   return true;
 }

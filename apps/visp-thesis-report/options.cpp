@@ -81,9 +81,6 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   if (options.jobs < 1 || options.jobs > 256) {
     throw vpApp::UsageError("--jobs is " + std::to_string(options.jobs) + ", must be 1..256");
   }
-  if (options.out.empty()) {
-    throw vpApp::UsageError("--out is empty, must name a folder");
-  }
   for (const std::string &name : only) {
     const std::vector<std::string> ids = idsOf(name);
     options.only.insert(options.only.end(), ids.begin(), ids.end());

@@ -6,6 +6,8 @@
 #include "fileSource.h"
 #include "videoSource.h"
 
+#include "vpFileText.h"
+
 #include <cmath>
 #include <stdexcept>
 
@@ -120,14 +122,13 @@ std::unique_ptr<ImageSource> makeSource(const Options &options)
       throw std::runtime_error(first + ": there is no such file or folder");
     }
     if (!vpPictures::isImageName(first)) {
+      static_cast<void>(vpOpenFile(first)); // of a pipe or a device FFmpeg might wait for ever
       return openVideo(first, options.frames);
     }
   }
   std::vector<fs::path> files;
   for (const std::string &file : options.inputs) {
-    if (!fs::is_regular_file(file, ignored)) {
-      throw std::runtime_error(file + ": there is no such file");
-    }
+    static_cast<void>(vpOpenFile(file));
     files.emplace_back(file);
   }
   const std::string description =

@@ -266,9 +266,6 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   if (!(options.videoRate >= 1. && options.videoRate <= 240.)) {
     throw vpApp::UsageError("--video-rate is " + std::to_string(options.videoRate) + ", must be 1..240");
   }
-  if (options.out.empty()) {
-    throw vpApp::UsageError("--out is empty, must name a folder");
-  }
   checkScale(options, pitch, sigma, axes);
   findCamera(options);
   return true;

@@ -12,9 +12,11 @@
 #include <visp3/manipulator/vpArmJson.h>
 #include <visp3/manipulator/vpArmUrdf.h>
 #include <visp3/pattern/vpMicroscopeCalibration.h>
+#include <visp3/planar_target/vpPlanarTargetDatabase.h>
 
 #include <array>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 
@@ -170,4 +172,37 @@ TEST_CASE("Damaged camera files of ViSP", "[files][mutated]")
          static_cast<void>(vpMicroscopeCalibration::loadXml(file, "microscope", 640, 480));
        }));
   std::remove(name.c_str());
+}
+
+TEST_CASE("Damaged lists of targets", "[files][mutated]")
+{
+  // One small photograph, with something for keypoints; a database of it takes milliseconds.
+  namespace fs = std::filesystem;
+  const fs::path folder = "catchMutatedFiles-targets";
+  fs::create_directories(folder);
+  auto rng = vpTestSupport::generator(1000000);
+  std::string pixels = "P5\n160 160\n255\n";
+  std::array<unsigned char, 400> blocks;
+  for (unsigned char &block : blocks) {
+    block = static_cast<unsigned char>(rng() % 256);
+  }
+  for (std::size_t i = 0; i < 160 * 160; ++i) {
+    pixels += static_cast<char>(blocks[i / 160 / 8 * 20 + i % 160 / 8]);
+  }
+  std::ofstream(folder / "a.pgm", std::ios::binary) << pixels;
+  vpPlanarTargetConfig config;
+  config.minInliers = 8;
+  const vpCameraParameters camera(600., 600., 320., 240.);
+  const File good("targets.json", R"({"comment": "x", "targets": [
+    {"name": "a", "image": "a.pgm", "width_m": 0.1, "height_m": 0.1, "depth_m": 0.02}]})");
+  tell("targets.json", readMutated({good.name()}, ".json", mutationCount(800), [&](const std::string &file) {
+         fs::copy_file(file, folder / "targets.json", fs::copy_options::overwrite_existing);
+         try {
+           static_cast<void>(vpPlanarTargetDatabase::fromFolder(folder.string(), camera, config));
+         }
+         catch (const vpException &error) {
+           throw std::runtime_error(file + " as " + error.getStringMessage());
+         }
+       }));
+  fs::remove_all(folder);
 }

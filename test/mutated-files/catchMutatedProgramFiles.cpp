@@ -10,13 +10,19 @@
 
 #include "appMain.h"
 #include "calibrationFile.h"
+#include "greyPicture.h"
 #include "lineReader.h"
 #include "outputFolder.h"
 #include "problemLine.h"
+#include "quietLibraries.h"
 #include "scenario.h"
 #include "setupReader.h"
 #include "task.h"
 #include "truth.h"
+
+#include <nlohmann/json.hpp>
+
+#include <opencv2/imgcodecs.hpp>
 
 #include <iostream>
 
@@ -100,6 +106,77 @@ TEST_CASE("Damaged calibrations and truth", "[files][mutated]")
          }
          catch (const std::exception &error) {
            throw std::runtime_error(file + " as " + error.what());
+         }
+       }));
+}
+
+TEST_CASE("Damaged motions beside the truth", "[files][mutated]")
+{
+  const TestFolder folder, damaged;
+  const std::string motion =
+      folder.write("motion.csv", "frame,x,y,dx,dy\n0,0,0,0,0\n1,5,0,5,0\n2,10.5,0.25,5.5,0.25\n");
+  damaged.write("truth.csv", "frame,row,column,x,y,complete,defective\n0,0,0,10.5,11,1,0\n");
+  tell("motion.csv", readMutatedAsPrinted({motion}, ".csv", [&](const std::string &file) {
+         std::filesystem::copy_file(file, damaged.path / "motion.csv",
+                                    std::filesystem::copy_options::overwrite_existing);
+         try {
+           static_cast<void>(trackPattern::TruthFiles(damaged.path));
+         }
+         catch (const std::exception &error) {
+           throw std::runtime_error(file + " as " + error.what());
+         }
+       }));
+}
+
+TEST_CASE("Damaged pictures", "[files][mutated]")
+{
+  const TestFolder folder;
+  cv::Mat picture(24, 40, CV_8UC3);
+  cv::randu(picture, 0, 255);
+  for (const char *extension : {".png", ".pgm", ".ppm", ".bmp", ".jpg", ".tif", ".webp"}) {
+    const std::string file = folder.file(std::string("good") + extension);
+    if (!cv::haveImageWriter(file)) {
+      std::cout << extension << ": not known to this OpenCV\n";
+      continue;
+    }
+    cv::Mat one;
+    cv::extractChannel(picture, one, 0);
+    REQUIRE(cv::imwrite(file, std::string(extension) == ".pgm" ? one : picture));
+    const vpApp::QuietLibraries quiet;
+    const MutationCount count = readMutatedAsPrinted({file}, extension, [](const std::string &name) {
+      vpPictures::GreyScale scale;
+      vpPictures::File pictures(name);
+      for (std::size_t page = 0; page < pictures.pages(); ++page) {
+        static_cast<void>(scale.toGrey(pictures.read(page), pictures.white(), name));
+      }
+    });
+    std::cout << extension << ": " << count.accepted << " damaged files accepted, " << count.refused << " refused\n";
+    CHECK(count.refused > 0); // checksums of PNG refuse nearly all
+  }
+}
+
+TEST_CASE("Damaged summaries of the result before", "[files][mutated]")
+{
+  const TestFolder folder;
+  const std::string good = folder.write(
+      "good.json", R"({"program": "visp-x", "status": "complete", "files": ["a.txt", "b/c.txt", "summary.json"]})");
+  folder.write("mine.txt", "mine");
+  tell("summary.json", readMutatedAsPrinted({good}, ".json", [&](const std::string &file) {
+         std::filesystem::remove_all(folder.path / "out");
+         folder.write("out/a.txt", "old");
+         folder.write("out/b/c.txt", "old");
+         std::filesystem::copy_file(file, folder.path / "out/summary.json");
+         try {
+           vpApp::OutputFolder out("visp-x", folder.file("out"));
+           out.write("new.txt", "new");
+           out.writeSummary(nlohmann::ordered_json::object());
+           out.commit();
+         }
+         catch (const std::exception &error) {
+           throw std::runtime_error(file + " as " + error.what());
+         }
+         if (vpApp::readFile(folder.path / "mine.txt") != "mine" || !std::filesystem::exists(good)) {
+           throw std::runtime_error("a file outside of the result folder is gone");
          }
        }));
 }

@@ -6,8 +6,16 @@
 #include "vpCatch.h"
 
 #include "programRun.h"
+#include "testFolder.h"
+
+#include <opencv2/imgcodecs.hpp>
 
 #include <algorithm>
+#include <functional>
+#include <sstream>
+
+#include <sys/stat.h>
+#include <unistd.h>
 
 namespace
 {
@@ -91,7 +99,7 @@ TEST_CASE("Mistakes on the command line", "[programs]")
       complains(run, program, "--seed luck", 2, "--seed is luck, must be ");
     }
     if (has(help, "--out")) {
-      complains(run, program, "--out ''", 2, "--out is empty, must name a folder");
+      complains(run, program, "--out ''", 2, "--out is given without a value");
       complains(run, program, "--out", 2, "--out");
     }
   }
@@ -113,5 +121,165 @@ TEST_CASE("A result folder that cannot be used ends the program at once", "[prog
     CHECK(run("--out mine") == 1);
     CHECK(has(run.err(), "mine: is not empty and not a result of " + nameOf(program) + ", so it is left alone"));
     CHECK(vpApp::readFile(run.path("mine/thesis.txt")) == "years of work");
+  }
+}
+
+namespace
+{
+//! A way to give a program a file: F in the arguments stands for the file, D for its folder.
+struct Input {
+  std::string program, arguments, file;
+};
+
+const std::vector<Input> inputs = {
+    {"visp-avoid-obstacle", "--sensor depth --scene F", "scene.json"},
+    {"visp-avoid-obstacle", "--arm F", "arm.json"},
+    {"visp-avoid-obstacle", "--targets D", "targets.json"},
+    {"visp-generate-pattern", "--config F", "product.json"},
+    {"visp-plan-compare", "--scene F", "scene.json"},
+    {"visp-plan-compare", "--arm F", "arm.json"},
+    {"visp-plan-trajectory", "F", "problems.jsonl"},
+    {"visp-print-pattern", "--explore F", "setup.json"},
+    {"visp-servo-compare", "--task F", "task.json"},
+    {"visp-servo-compare", "--robot F", "arm.json"},
+    {"visp-servo-compare", "--robot F", "arm.urdf"},
+    {"visp-servo-compare", "--target F", "photo.png"},
+    {"visp-track-pattern", "F", "image.png"},
+    {"visp-track-pattern", "F", "video.mp4"},
+    {"visp-track-pattern", VISP_DIRECT_DATA_DIR "/target/box.png --calibration F", "calibration.json"},
+    {"visp-track-pattern", VISP_DIRECT_DATA_DIR "/target/box.png --calibration F", "calibration.xml"}};
+
+std::string replaced(std::string text, char mark, const std::string &by)
+{
+  const std::size_t at = text.find(std::string(" ") + mark);
+  const std::size_t place = text[0] == mark ? 0 : at == std::string::npos ? at : at + 1;
+  return place == std::string::npos ? text : text.replace(place, 1, "'" + by + "'");
+}
+
+//! What may lie where a good file should, and what the reader has to say of it; empty: whatever it is.
+struct Fault {
+  std::string name;
+  std::function<void(const std::string &)> make;
+  std::string sentence;
+};
+
+std::string deep(const std::string &opening)
+{
+  std::string text;
+  for (int i = 0; i < 1000000; ++i) {
+    text += opening;
+  }
+  return text;
+}
+
+std::vector<Fault> faults()
+{
+  const auto text = [](const std::string &content) {
+    return [content](const std::string &file) { std::ofstream(file, std::ios::binary) << content; };
+  };
+  std::vector<Fault> all = {
+      {"missing", [](const std::string &) {}, ": cannot be read (there is no such file)"},
+      {"folder", [](const std::string &file) { std::filesystem::create_directory(file); },
+       ": cannot be read (it is a folder)"},
+      {"pipe that nobody writes to", [](const std::string &file) { REQUIRE(mkfifo(file.c_str(), 0600) == 0); },
+       ": cannot be read (it is a pipe or a device)"},
+      {"device", [](const std::string &file) { std::filesystem::create_symlink("/dev/zero", file); },
+       ": cannot be read (it is a pipe or a device)"},
+      {"link to itself", [](const std::string &file) { std::filesystem::create_symlink(file, file); },
+       ": cannot be read (Too many levels of symbolic links)"},
+      {"no bytes", text(""), ""},
+      {"cut", text("{\"name\": \"x\", \"objects\": ["), ""},
+      {"brackets", text(deep("[")), ""},
+      {"objects", text(deep("{\"a\":")), ""},
+      {"elements", text(deep("<a>")), ""},
+      {"no number", text("{\"name\": NaN}"), ""},
+      {"infinity", text("{\"name\": 1e999}"), ""},
+      {"control characters", text("{\"\x1b[31mred\x07\": 1}"), ""},
+      {"escaped control characters", text("{\"\\u001b[31mred\\u0007\": 1}"), ""},
+      {"zeros", text(std::string(5000, '\0')), ""},
+      {"another format", text("<!DOCTYPE html><html>\x1b[31m</html>"), ""}};
+  if (geteuid() != 0) { // root may read everything
+    all.push_back({"no permission",
+                   [](const std::string &file) {
+                     std::ofstream(file, std::ios::binary) << "{}";
+                     std::filesystem::permissions(file, std::filesystem::perms::none);
+                   },
+                   ": cannot be read (Permission denied)"});
+  }
+  return all;
+}
+
+//! A grey picture as PNG, cut, or with another size in its header.
+std::vector<Fault> pictureFaults()
+{
+  std::vector<unsigned char> bytes;
+  REQUIRE(cv::imencode(".png", cv::Mat(64, 64, CV_8UC1, cv::Scalar(99)), bytes));
+  const std::string good(bytes.begin(), bytes.end());
+  std::string huge = good;
+  huge.replace(16, 8, std::string("\x7f\xff\xff\xff\x7f\xff\xff\xff", 8));
+  const auto text = [](const std::string &content) {
+    return [content](const std::string &file) { std::ofstream(file, std::ios::binary) << content; };
+  };
+  return {{"cut picture", text(good.substr(0, good.size() / 2)), ""}, {"huge picture", text(huge), ""}};
+}
+} // namespace
+
+// Whatever is wrong with a file is a matter of the data: status 1, one sentence that names it, in a bounded time, and nothing
+// written.
+TEST_CASE("Files that are missing or wrong", "[programs]")
+{
+  for (const Input &input : inputs) {
+    const auto program = std::find_if(programs.begin(), programs.end(),
+                                      [&](const std::string &path) { return nameOf(path) == input.program; });
+    if (program == programs.end()) {
+      continue;
+    }
+    std::vector<Fault> all = faults();
+    if (has(input.file, ".png")) {
+      const std::vector<Fault> more = pictureFaults();
+      all.insert(all.end(), more.begin(), more.end());
+    }
+    for (const Fault &fault : all) {
+      if (input.program == "visp-plan-trajectory" && has(fault.sentence, "pipe")) {
+        continue; // it reads them, until Ctrl-C; see catchPlanTrajectoryProgram
+      }
+      const TestFolder folder;
+      fault.make(folder.file(input.file));
+      ProgramRun run(*program);
+      const std::string arguments =
+          replaced(replaced(input.arguments, 'F', folder.file(input.file)), 'D', folder.path.string());
+      CAPTURE(input.program, arguments, fault.name);
+      CHECK(run(arguments, "timeout 60") == 1);
+      CAPTURE(run.err());
+      CHECK(run.err().find(nameOf(*program) + ": ") == 0);
+      const bool ownSentence = input.arguments == "F" && input.program == "visp-track-pattern" &&
+                               (fault.name == "missing" || fault.name == "folder"); // it takes folders, too
+      CHECK(has(run.err(), input.file + (ownSentence ? ": " : fault.sentence)));
+      CHECK(std::count(run.err().begin(), run.err().end(), '\n') == 1);
+      CHECK(
+          std::none_of(run.err().begin(), run.err().end(), [](char c) { return c != '\n' && (c < ' ' || c == 127); }));
+      CHECK((run.out().empty() || input.program == "visp-plan-trajectory")); // which answers line by line
+      CHECK(run.entries().empty());
+    }
+  }
+}
+
+TEST_CASE("Every option that reads a file is among those that are tried", "[programs]")
+{
+  for (const std::string &program : programs) {
+    ProgramRun run(program);
+    REQUIRE(run("--help") == 0);
+    std::istringstream help(run.out());
+    for (std::string line; std::getline(help, line);) {
+      std::istringstream words(line);
+      std::string option, value;
+      words >> option >> value;
+      const bool reads = (value.find("FILE") == 0 || value == "DIR" || value == "IMAGE") && option.find("--") == 0 &&
+                         option != "--out" && option != "--csv" && option != "--plot";
+      CAPTURE(program, line);
+      CHECK((!reads || std::any_of(inputs.begin(), inputs.end(), [&](const Input &input) {
+        return input.program == nameOf(program) && has(input.arguments, option + " ");
+      })));
+    }
   }
 }

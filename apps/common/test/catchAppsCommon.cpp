@@ -225,8 +225,9 @@ TEST_CASE("Lines of files and pipes", "[apps]")
   CHECK(linesOf(folder.write("a", "one\n")) == std::vector<std::string>{"one"});
   const std::string large(100000, 'x');
   CHECK(linesOf(folder.write("a", large + "\n" + large)) == std::vector<std::string>{large, large});
-  CHECK(complaint([&] { (void)linesOf("none.jsonl"); }) == "none.jsonl: cannot be read");
-  CHECK(complaint([&] { (void)linesOf(folder.path.string()); }) == folder.path.string() + ": cannot be read");
+  CHECK(complaint([&] { (void)linesOf("none.jsonl"); }) == "none.jsonl: cannot be read (there is no such file)");
+  CHECK(complaint([&] { (void)linesOf(folder.path.string()); }) ==
+        folder.path.string() + ": cannot be read (it is a folder)");
   CHECK(complaint([&] { (void)linesOf("/dev/zero"); }) == "/dev/zero:1: is longer than 64 MB");
 
   // A pipe whose other end is opened later and writes in pieces.
@@ -311,7 +312,11 @@ TEST_CASE("JSON errors name the file, the place and the value", "[apps]")
   CHECK(complaint([] { (void)vpApp::parseJsonLine("{\"id\": " + std::string(1000000, '['), "a.jsonl:7"); }) ==
         "a.jsonl:7: is nested more than 64 deep");
   CHECK(complaint([] { (void)vpApp::parseJsonLine("{\"a\" 1}", "a.jsonl:7"); }).find("a.jsonl:7: column 6: ") == 0);
-  CHECK(complaint([] { (void)vpApp::readJsonFile("/dev/zero"); }) == "/dev/zero: is larger than 64 MB");
+  CHECK(complaint([] { (void)vpApp::readJsonFile("/dev/zero"); }) ==
+        "/dev/zero: cannot be read (it is a pipe or a device)");
+  const std::string huge = folder.write("huge.json", "");
+  std::filesystem::resize_file(huge, (64U << 20U) + 1U);
+  CHECK(complaint([&] { (void)vpApp::readJsonFile(huge); }) == huge + ": is larger than 64 MB");
   CHECK(complaint([&] { (void)vpApp::readJsonFile(folder.path / "none.json"); }).find("none.json: cannot be read") !=
         std::string::npos);
 }

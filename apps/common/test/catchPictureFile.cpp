@@ -280,9 +280,9 @@ TEST_CASE("what is no picture, or cut short, is refused by name", "[pictures][er
   CHECK(refused("text.png") == unreadable);
   folder.write("empty.png", "");
   CHECK(refused("empty.png") == unreadable);
-  CHECK(refused("none.png") == "cannot be read");
+  CHECK(refused("none.png") == "cannot be read (there is no such file)");
   fs::create_directory(folder.file("folder.png"));
-  CHECK(refused("folder.png") == "cannot be read");
+  CHECK(refused("folder.png") == "cannot be read (it is a folder)");
   CAPTURE(vpTestSupport::seed());
   auto rng = vpTestSupport::generator(3);
   cv::Mat noise(200, 200, CV_8UC1);

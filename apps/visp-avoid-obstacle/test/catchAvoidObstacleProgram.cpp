@@ -91,9 +91,7 @@ TEST_CASE("A wrong command line ends with status 2", "[visp-avoid-obstacle]")
       {"--forget -2", "--forget is -2, must be a number"},
       {"--seed 0", "--seed is 0, must be a number >= 1"},
       {"--seed 1.5", "--seed is 1.5, must be a whole number"},
-      {"--scene none.json", "none.json"},
-      {"--arm none.json", "none.json"},
-      {"--targets none", "none"}};
+      {"--scene ''", "--scene is given without a value"}};
   for (const auto &[arguments, sentence] : cases) {
     check(run, arguments, USAGE, sentence);
   }

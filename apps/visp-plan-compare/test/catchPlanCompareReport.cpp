@@ -29,10 +29,10 @@ TEST_CASE("Wrong options are told in a sentence", "[visp-plan-compare]")
   says("--jobs -1", 2, "--jobs is -1, must be a whole number");
   says("--quick --seeds 3", 2, "--quick has its own number of seeds");
   says("--friction -1", 2, "--friction is -1, must be >= 0 and finite");
-  says("--out ''", 2, "--out is empty, must name a folder");
+  says("--out ''", 2, "--out is given without a value");
   says("--bogus", 2, "--bogus");
   says("--scene missing.json", 1, "missing.json");
-  says("--arm missing.json", 2, "missing.json");
+  says("--arm missing.json", 1, "missing.json: cannot be read (there is no such file)");
   run.write("other.txt", "mine");
   CHECK(run("--scene S7 --seeds 1 --method dtg --out .") == 1);
 }

@@ -14,6 +14,8 @@
 #include "outputFolder.h"
 #include "plot.h"
 
+#include "vpFileText.h"
+
 #include <chrono>
 #include <iostream>
 #include <memory>
@@ -83,8 +85,8 @@ void exploreFile(const std::string &file, const std::string &out, unsigned int j
   std::unique_ptr<vpApp::OutputFolder> folder;
   if (ranks.rank() == 0) {
     vpApp::requireGnuplot();
-    text = vpApp::readFile(file);
-    static_cast<void>(readSetup(text, file)); // reports errors before the others wait for work
+    text = vpReadFileText(file);
+    static_cast<void>(readSetup(text, file)); // complains before the others wait for work
     folder = std::make_unique<vpApp::OutputFolder>("visp-print-pattern", out);
   }
   const Setup setup = readSetup(ranks.broadcast(text), file);

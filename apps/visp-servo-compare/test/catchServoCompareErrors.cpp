@@ -77,8 +77,8 @@ TEST_CASE("A wrong command line ends with status 2", "[visp-servo-compare]")
       {"--monte-carlo 0", USAGE, "--monte-carlo is 0, must be"},
       {"--seed minus", USAGE, "--seed"},
       {"--full --law pbvs1", USAGE, "--full"},
-      {"--target none.jpg", USAGE, "none.jpg"},
-      {"--task none.json", USAGE, "none.json"},
+      {"--target none.jpg", DATA, "none.jpg: cannot be read (there is no such file)"},
+      {"--task none.json", DATA, "none.json: cannot be read (there is no such file)"},
       {"--law", USAGE, "--law"},
       {"--shape=soft", USAGE, "--shape"},
   };

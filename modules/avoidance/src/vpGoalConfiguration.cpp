@@ -8,6 +8,7 @@
 #include <visp3/manipulator/vpClosedLoopKinematics.h>
 
 #include <cmath>
+#include <optional>
 #include <random>
 
 BEGIN_VISP_NAMESPACE
@@ -50,9 +51,8 @@ std::optional<vpJointVector> reach(vpClosedLoopKinematics &kinematics, const vpA
 }
 } // namespace
 
-std::optional<vpJointVector> goalConfiguration(const vpCollisionScene &scene, const vpJointVector &from,
-                                               const Eigen::Vector3d &position, double margin, int attempts,
-                                               unsigned int seed)
+vpGoalConfiguration goalConfiguration(const vpCollisionScene &scene, const vpJointVector &from,
+                                      const Eigen::Vector3d &position, double margin, int attempts, unsigned int seed)
 {
   const vpArmModel &arm = scene.arm();
   if (from.size() != arm.size() || !(from.cwiseAbs().array() <= vpLargestCoordinate).all() ||
@@ -69,7 +69,7 @@ std::optional<vpJointVector> goalConfiguration(const vpCollisionScene &scene, co
   spec.stallTime = 1.;
   vpClosedLoopKinematics kinematics(arm, redundancy, spec);
   std::mt19937_64 random(seed);
-  std::optional<vpJointVector> first;
+  vpGoalConfiguration found;
   vpCollisionData data;
   vpJointVector start = from;
   for (int attempt = 0; attempt < attempts; ++attempt, start = randomConfiguration(arm, random)) {
@@ -79,11 +79,13 @@ std::optional<vpJointVector> goalConfiguration(const vpCollisionScene &scene, co
     }
     scene.place(*q, data);
     if (!scene.inCollision(data, margin)) {
-      return q;
+      return {vpGoalConfigurationStatus::Free, *q};
     }
-    first = first ? first : q;
+    if (found.status == vpGoalConfigurationStatus::Unreachable) {
+      found = {vpGoalConfigurationStatus::InCollision, *q};
+    }
   }
-  return first;
+  return found;
 }
 
 END_VISP_NAMESPACE

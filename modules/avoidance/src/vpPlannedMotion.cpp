@@ -146,8 +146,8 @@ void vpPlannedMotion::look()
     m_goal = m_wish;
     const State here = state(m_clock);
     if (m_goal.q.size() == 0) {
-      const auto q = goalConfiguration(*m_scene, here.q, m_goal.position, m_spec.common.margin + m_spec.clearance);
-      m_goal.q = q ? *q : vpJointVector();
+      // One in collision is planned to all the same: the planner says GoalInCollision until what is there has gone.
+      m_goal.q = goalConfiguration(*m_scene, here.q, m_goal.position, m_spec.common.margin + m_spec.clearance).q;
     }
     m_goalChanged = false;
     m_toGoal = false;

@@ -103,7 +103,7 @@ double vpStopSupervisor::standing(const vpTrajectoryPlan &plan) const noexcept
   return std::ceil(plan.duration() / m_spec.period - sameTime) * m_spec.period;
 }
 
-// Largest loss of clearance of the arm on the chords of a plan compared with the plan: 2 e of the proof.
+// By how much a clearance of the arm on the chords of a plan may be less than on the plan: e of the proof.
 double vpStopSupervisor::offPlan(const vpTrajectoryPlan &plan) const noexcept
 {
   const int n = m_scene->arm().size();
@@ -121,7 +121,7 @@ double vpStopSupervisor::offPlan(const vpTrajectoryPlan &plan) const noexcept
     }
     most = std::max(most, sum);
   }
-  return 2. * most;
+  return most;
 }
 
 vpClearance vpStopSupervisor::clearanceAt(const vpTrajectoryPlan &plan, double time, double cutoff) noexcept

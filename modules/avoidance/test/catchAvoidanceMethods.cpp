@@ -98,13 +98,9 @@ vpJointVector goalNear(std::mt19937_64 &rng, const vpCollisionScene &scene)
     if (place.z() < 0.1 || place.norm() > 0.95 || place.norm() < 0.4) {
       continue;
     }
-    const auto q = goalConfiguration(scene, home(), place, 0.03, 1);
-    if (q) {
-      vpCollisionData placed;
-      scene.place(*q, placed);
-      if (!scene.inCollision(placed, 0.03)) {
-        return *q;
-      }
+    const vpGoalConfiguration goal = goalConfiguration(scene, home(), place, 0.03, 1);
+    if (goal.isFree()) {
+      return goal.q;
     }
   }
   return {};
@@ -394,7 +390,44 @@ TEST_CASE("Names and parameters of methods are checked", "[methods]")
                       Catch::Contains("maxVelocity of the avoidance method is 0"));
   }
   CHECK_THROWS_WITH(vpAvoidanceGoal::at(amor(), vpJointVector::Zero(3)), Catch::Contains("a goal of 3 numbers"));
-  CHECK(goalConfiguration(scene, home(), Vector3d(0., 3., 0.), 0., 3) == std::nullopt);
   CHECK_THROWS_WITH(goalConfiguration(scene, vpJointVector::Zero(2), Vector3d::Zero()),
                     Catch::Contains("is sought from 2 numbers"));
+}
+
+TEST_CASE("A goal configuration is free, or its status says that none is, or that the place is out of reach",
+          "[methods]")
+{
+  auto rng = vpTestSupport::generator(94);
+  CAPTURE(vpTestSupport::seed());
+  int counts[3] = {0, 0, 0};
+  for (int problem = 0; problem < 60; ++problem) {
+    vpCollisionScene scene(amor(), randomScene(rng, 5, 0.8));
+    const Vector3d place = point(rng, 0.9);
+    if (problem % 3 == 0) { // nothing can be there
+      scene.add(ball("plug", place, 0.05));
+    }
+    const vpGoalConfiguration goal = goalConfiguration(scene, home(), place, 0.01, 3, 1 + rng() % 1000);
+    ++counts[static_cast<int>(goal.status)];
+    CAPTURE(problem, place.transpose(), static_cast<int>(goal.status));
+    CHECK(goal.isFree() == (goal.status == vpGoalConfigurationStatus::Free));
+    CHECK((problem % 3 != 0 || !goal.isFree()));
+    if (goal.status == vpGoalConfigurationStatus::Unreachable) {
+      CHECK(goal.q.size() == 0);
+      continue;
+    }
+    vpArmData data;
+    vpArmKinematics::forward(amor(), goal.q, data);
+    CHECK((data.tool.p - place).norm() < 1e-3);
+    for (int j = 0; j < goal.q.size(); ++j) {
+      CHECK((goal.q(j) >= amor().lower()(j) - 1e-9 && goal.q(j) <= amor().upper()(j) + 1e-9));
+    }
+    vpCollisionData placed;
+    scene.place(goal.q, placed);
+    CHECK(scene.inCollision(placed, 0.01) == (goal.status == vpGoalConfigurationStatus::InCollision));
+  }
+  for (const int count : counts) {
+    CHECK(count > 0);
+  }
+  const vpGoalConfiguration far = goalConfiguration(vpCollisionScene(amor()), home(), Vector3d(0., 3., 0.), 0., 3);
+  CHECK(far.status == vpGoalConfigurationStatus::Unreachable);
 }

@@ -291,10 +291,10 @@ TEST_CASE("Errors in meshes name the file and the place", "[files]")
   cut[0] = ' ';
   CHECK(meshError(".stl", cut) == stl + "says 4 triangles and ends in triangle 2");
   CHECK(meshError(".ply", "ply") == "catchCollisionFiles-mesh.ply: is no .obj and no .stl file");
-  CHECK(errorOf([] { return vpTriangleMesh::load("nowhere.obj"); }) == "nowhere.obj: cannot be read");
+  CHECK(errorOf([] { return vpTriangleMesh::load("nowhere.obj"); }) == "nowhere.obj: cannot be read (there is no such file)");
   CHECK(errorOf([] { return vpTriangleMesh::load("nowhere.obj", -1.); }) ==
         "nowhere.obj: scale is -1, must be > 0 and finite");
-  CHECK(errorOf([] { return vpOctree::load("nowhere.bt"); }) == "nowhere.bt: cannot be read");
+  CHECK(errorOf([] { return vpOctree::load("nowhere.bt"); }) == "nowhere.bt: cannot be read (there is no such file)");
   const File tree("no.bt", "no tree");
   CHECK(errorOf([&] { return vpOctree::load(tree.name()); }) == tree.name() + ": is no octree of octomap");
 }
@@ -438,7 +438,7 @@ TEST_CASE("Errors in scenes name the file and the element", "[files]")
   CHECK(objectError("\"shape\": \"sphere\", \"radius_m\": 1, \"pose\": {}") ==
         file + "objects[0].pose.translation_m is missing");
   CHECK(objectError("\"shape\": \"mesh\", \"file\": \"nowhere.stl\"") ==
-        file + "objects[0]: nowhere.stl: cannot be read");
+        file + "objects[0]: nowhere.stl: cannot be read (there is no such file)");
   CHECK(objectError("\"shape\": \"mesh\", \"vertices_m\": [[0, 0]], \"triangles\": []") ==
         file + "objects[0].vertices_m[0] is [0,0], must be a list of 3 numbers");
   CHECK(objectError("\"shape\": \"mesh\", \"vertices_m\": [[0, 0, 0]], \"triangles\": [[0, 0, 4]]") ==
@@ -446,14 +446,14 @@ TEST_CASE("Errors in scenes name the file and the element", "[files]")
   CHECK(objectError("\"shape\": \"octree\", \"cells_m\": [[0, 0, 0, -1]]") ==
         file + "objects[0]: octree: cell 0 has the size -1 m, must be > 0, and all within 10000 m");
   CHECK(objectError("\"shape\": \"octree\", \"file\": \"nowhere.bt\"") ==
-        file + "objects[0]: nowhere.bt: cannot be read");
+        file + "objects[0]: nowhere.bt: cannot be read (there is no such file)");
   CHECK(objectError("\"shape\": \"sphere\", \"radius_m\": 1, \"photo\": \"klimt\"") ==
         file + "objects[0].photo is \"klimt\", must be on a box");
   const std::string box = "\"shape\": \"box\", \"size_m\": [1, 1, 1], \"photo\": ";
   CHECK(objectError(box + "3").find(file + "objects[0].photo") == 0);
   CHECK(objectError(box + "\"klimt\"}, {\"name\": \"p\", " + box + "\"klimt\"") ==
         file + "objects[1].photo is \"klimt\", must be another one than object o carries");
-  CHECK(errorOf([] { return vpLoadCollisionScene("nowhere.json"); }) == "nowhere.json: cannot be read");
+  CHECK(errorOf([] { return vpLoadCollisionScene("nowhere.json"); }) == "nowhere.json: cannot be read (there is no such file)");
 }
 
 TEST_CASE("The scenes of data/scene load, and their tasks start and end free", "[files]")

@@ -12,6 +12,9 @@
 
 #include <kdl/chainjnttojacsolver.hpp>
 
+#include <Eigen/SVD>
+
+#include <bitset>
 #include <cstdlib>
 #include <iostream>
 
@@ -131,6 +134,7 @@ TEST_CASE("Solver: limits, task, self-motion and status hold in every random ste
   KDL::ChainJntToJacSolver jacobians[] = {KDL::ChainJntToJacSolver(chains[0]), KDL::ChainJntToJacSolver(chains[1])};
   std::array<int, 9> statuses{};
   double worstResidual = 0., worstSelf = 0.;
+  int whole = 0, slower = 0, stopped = 0;
   for (int problem = 0; problem < count(20000); ++problem) {
     const int which = problem % 2;
     const vpArmModel &model = which == 0 ? amor() : sixAxes();
@@ -148,6 +152,11 @@ TEST_CASE("Solver: limits, task, self-motion and status hold in every random ste
     vpJointVector q = configuration(model, rng);
     if (problem % 7 == 0) { // singular
       q(n - 2) = 0.;
+    }
+    const int near = static_cast<int>(rng() % static_cast<unsigned int>(n));
+    if (problem % 3 != 0 && !model.isContinuous(near)) { // a joint at its limit, or about to be there
+      const double room = logUniform(rng, 1e-7, 0.05);
+      q(near) = problem % 2 == 0 ? model.upper()(near) - room : model.lower()(near) + room;
     }
     vpArmData data;
     vpArmKinematics::update(model, q, data);
@@ -216,6 +225,35 @@ TEST_CASE("Solver: limits, task, self-motion and status hold in every random ste
       REQUIRE((done - share * wish).norm() <= 1e-6 * wish.norm() + 1e-9);
       REQUIRE(out.scale < 1.);
     }
+    // Away from singularities of the joints that are not stopped these do the whole task, whatever the stopped ones still
+    // move, or a part of it in its direction; not before all have the velocities that they want.
+    Eigen::MatrixXd able(0, n); // rows of the task, columns of the joints, in the weighted coordinates
+    for (int k = 0; k < 6; ++k) {
+      if (!in.free[static_cast<std::size_t>(k)]) {
+        able.conservativeResize(able.rows() + 1, n);
+        able.bottomRows<1>() = scale(k) * J.data.row(k);
+      }
+    }
+    double hurry = 0.; // of the acceleration limits
+    for (int i = 0; i < n; ++i) {
+      able.col(i) *= (out.stoppedJoints >> i & 1U) != 0U ? 0. : problem % 3 == 0 ? 1. / std::sqrt(spec.weights(i)) : 1.;
+      hurry = std::max(hurry, std::fabs(out.velocity(i) - in.previous(i)) / (model.acceleration()(i) * spec.period));
+    }
+    const bool many = able.rows() > 0 && able.rows() <= n - std::bitset<32>(out.stoppedJoints).count();
+    if (many && hurry < 1. - 1e-6 && able.jacobiSvd().singularValues().minCoeff() > 1.01 * spec.singularRegion) {
+      CAPTURE(share, out.scale);
+      REQUIRE((done - share * wish).norm() <= 1e-6 * wish.norm() + 1e-9);
+      if (out.scale == 1.) {
+        ++whole;
+        REQUIRE(share == Approx(1.).margin(1e-6));
+      }
+      else if (spec.policy == vpLimitPolicy::StopJoints) { // no slower than the joints' velocities ask for
+        ++slower;
+        const vpJointVector ofTask = out.velocity - out.selfMotion;
+        REQUIRE(ofTask.cwiseQuotient(model.velocity()).cwiseAbs().maxCoeff() == Approx(1.).epsilon(1e-6));
+      }
+      stopped += out.stoppedJoints != 0U ? 1 : 0;
+    }
     // Self-motion moves nothing that the task asks for, and no joint that is stopped.
     const double moved = scale.cwiseProduct(Vector6(J.data * out.selfMotion)).norm();
     if (out.smallestSingular > 1e-5) {
@@ -231,5 +269,10 @@ TEST_CASE("Solver: limits, task, self-motion and status hold in every random ste
     std::cout << ' ' << statuses[i];
     CHECK((statuses[i] > 0 || i > 5)); // those that block are rare; catchRedundancySolver sees to them
   }
-  std::cout << "; residual of Exact " << worstResidual << ", task by self-motion " << worstSelf << '\n';
+  CHECK(whole > count(20000) / 20);
+  CHECK(slower > count(20000) / 400);
+  CHECK(stopped > count(20000) / 400);
+  std::cout << "; " << whole << " do all, " << slower << " are at a velocity limit, " << stopped
+            << " with joints stopped; residual of Exact " << worstResidual << ", task by self-motion " << worstSelf
+            << '\n';
 }

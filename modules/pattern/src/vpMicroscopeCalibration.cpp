@@ -5,6 +5,7 @@
 #include "vpCalibrationDistortion.h"
 #include "vpCalibrationInput.h"
 #include "vpPrintable.h"
+#include "vpReading.h"
 
 #include <visp3/pattern/vpMicroscopeCalibration.h>
 
@@ -138,9 +139,7 @@ vpMicroscopeCalibration vpMicroscopeCalibration::loadXml(const std::string &file
                                                          unsigned int width, unsigned int height)
 {
   vpCheckCalibrationImage(width, height);
-  if (!std::ifstream(file).good()) {
-    throw vpException(vpException::ioError, vpPrintable(file) + ": cannot be read");
-  }
+  static_cast<void>(vpReading([&] { return vpOpenFile(file).good(); }));
   int status = 0;
   const auto named = [&](const auto &call) {
     try {

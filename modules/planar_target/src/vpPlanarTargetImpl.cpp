@@ -22,8 +22,10 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-constexpr unsigned int smallestImage = 32; // px, reference and frame
-constexpr double smallestContrast = 4.;    // standard deviation of the reference, grey levels
+constexpr double smallestTarget = 1e-6, largestTarget = 1e6; // m
+constexpr double mostAspect = 10.;                           // of a pixel of the reference
+constexpr unsigned int smallestImage = 32;                   // px, reference and frame
+constexpr double smallestContrast = 4.;                      // standard deviation of the reference, grey levels
 constexpr int keypointReferenceSize =
     400; // px; a larger reference is reduced so that its keypoints have a frame's scale
 constexpr float loweRatio = 0.8f;
@@ -81,8 +83,18 @@ vpTargetPlane makePlane(const vpImage<unsigned char> &reference, double width, d
     throw vpException(vpException::dimensionError, "reference image is %ux%u px, must be at least %ux%u",
                       reference.getWidth(), reference.getHeight(), smallestImage, smallestImage);
   }
-  if (!(width > 0.) || !(height > 0.) || !std::isfinite(width) || !std::isfinite(height)) {
-    throw vpException(vpException::badValue, "size of the target is %g x %g m, must be > 0", width, height);
+  const auto plausible = [](double size) { return size >= smallestTarget && size <= largestTarget; };
+  if (!plausible(width) || !plausible(height)) {
+    throw vpException(vpException::badValue, "size of the target is %g x %g m, must be > 0, from %g to %g", width,
+                      height, smallestTarget, largestTarget);
+  }
+  const double aspect = width / reference.getWidth() / (height / reference.getHeight());
+  if (!(aspect >= 1. / mostAspect && aspect <= mostAspect)) {
+    throw vpException(
+        vpException::badValue,
+        "target of %g x %g m has an image of %u x %u px, whose pixels are %g times as wide as high, must be "
+        "from %g to %g times",
+        width, height, reference.getWidth(), reference.getHeight(), aspect, 1. / mostAspect, mostAspect);
   }
   return {width, height, static_cast<int>(reference.getWidth()), static_cast<int>(reference.getHeight())};
 }

@@ -51,16 +51,22 @@ void requireAllListed(const std::string &folder, const std::vector<vpTargetListE
   for (const vpTargetListEntry &entry : entries) {
     listed.insert(fs::path(entry.file).filename().string());
   }
-  for (const fs::directory_entry &item : fs::directory_iterator(folder)) {
-    const std::string name = item.path().filename().string();
+  std::error_code error;
+  for (fs::directory_iterator item(folder, error), end; !error && item != end; item.increment(error)) {
+    const std::string name = item->path().filename().string();
     if (name[0] != '.' && vpPictures::isImageName(name) && listed.count(name) == 0) {
       fail(folder + "/targets.json", "does not list the photograph " + name + " of its folder");
     }
   }
+  if (error) {
+    throw vpFileError(folder + ": cannot be read (" + error.message() + ")", vpFileError::Kind::Unreadable);
+  }
 }
+
 std::vector<vpTargetListEntry> read(const std::string &folder)
 {
-  if (!fs::is_directory(folder)) {
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored)) {
     throw vpException(vpException::ioError, folder + ": is not a folder");
   }
   const std::string file = folder + "/targets.json";

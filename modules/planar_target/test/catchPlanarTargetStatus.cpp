@@ -211,6 +211,8 @@ TEST_CASE("set-up errors name the thing and its value", "[planar_target][errors]
   CHECK_THROWS_WITH(make(Image(1, 1, 0), 0.1), Contains("reference image is 1x1 px, must be at least 32x32"));
   CHECK_THROWS_WITH(make(Image(100, 100, 90), 0.1), Contains("reference image is blank"));
   CHECK_THROWS_WITH(make(klimt().image, NAN), Contains("size of the target is nan x 0.1 m, must be > 0"));
+  CHECK_THROWS_WITH(make(klimt().image, 1e308), Contains("size of the target is 1e+308 x 0.1 m, must be > 0"));
+  CHECK_THROWS_WITH(make(klimt().image, 1e4), Contains("times as wide as high, must be from 0.1 to 10 times"));
   CHECK_THROWS_WITH(make(klimt().image, -1.), Contains("-1 x 0.1 m"));
   vpPlanarTargetConfig config;
   config.inlierThreshold = 0.;

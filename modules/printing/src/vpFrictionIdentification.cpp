@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include <visp3/direct_core/vpQuantile.h>
+#include <visp3/direct_core/vpTailProbability.h>
 #include <visp3/printing/vpFrictionIdentification.h>
 
 #include "vpPrintingCheck.h"
@@ -19,7 +20,7 @@ namespace
 {
 //! \brief Result of a robust linear fit.
 struct Fit {
-  Eigen::VectorXd x, weights;
+  Eigen::VectorXd x, weights, psi; // psi: the weighted residuals, which the regressors do not explain
   Eigen::MatrixXd covariance;
   double sigma = 0., cost = 0., condition = std::numeric_limits<double>::infinity();
 };
@@ -79,11 +80,11 @@ Fit robustFit(const Eigen::MatrixXd &A, const Eigen::VectorXd &b, double outlier
   fit.cost = (1. - (1. - u.square()).cube()).sum(); // Tukey's cost at this scale
   fit.condition = conditionOf(A);
   // Asymptotic covariance of an M-estimator.
-  const Eigen::ArrayXd psi = fit.weights.array() * r.array();
+  fit.psi = fit.weights.cwiseProduct(r);
   const Eigen::ArrayXd slope = (u < 1.).select((1. - u.square()) * (1. - 5. * u.square()), 0.);
   const double n = static_cast<double>(b.size()), freedom = std::max(1., n - static_cast<double>(A.cols()));
   const double meanSlope = std::max(slope.mean(), 1e-6);
-  const double variance = psi.square().sum() / freedom / (meanSlope * meanSlope);
+  const double variance = fit.psi.squaredNorm() / freedom / (meanSlope * meanSlope);
   fit.sigma = robustSigma(r);
   fit.covariance = variance * (A.transpose() * A).ldlt().solve(Eigen::MatrixXd::Identity(A.cols(), A.cols()));
   return fit;
@@ -106,7 +107,66 @@ Eigen::MatrixXd regressors(const std::vector<vpFrictionSample> &log, double stri
   return A;
 }
 
-// Sum of absolute residuals of the L1 fit, by a few reweighted steps.
+// What would show that the model lacks something: an offset, and powers of the velocity, even and odd.
+Eigen::MatrixXd alternatives(const std::vector<vpFrictionSample> &log, double fastest)
+{
+  Eigen::MatrixXd Z(static_cast<Eigen::Index>(log.size()), 6);
+  for (Eigen::Index i = 0; i < Z.rows(); ++i) {
+    const double v = log[static_cast<std::size_t>(i)].velocity / fastest, s = std::fabs(v);
+    Z.row(i) << 1., s, v * v, v * s, v * v * v, v * v * s;
+  }
+  return Z;
+}
+
+// Probability of residuals that the alternatives explain so well, if they are independent: psi on what of the alternatives
+// is not in the regressors already (Rao's score test for M-estimators).
+double lackOfFit(const Eigen::MatrixXd &A, const Eigen::MatrixXd &Z, const Eigen::VectorXd &psi)
+{
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> in(A);
+  Eigen::MatrixXd rest = Z;
+  for (Eigen::Index k = 0; k < Z.cols(); ++k) {
+    rest.col(k) /= Z.col(k).norm();
+    rest.col(k) -= A * in.solve(rest.col(k).eval());
+  }
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(rest.rows(), rest.cols());
+  qr.setThreshold(1e-4 / std::max(1e-4, rest.colwise().norm().maxCoeff())); // below: the log does not tell them apart
+  qr.compute(rest);
+  const Eigen::Index k = qr.rank();
+  const double below = static_cast<double>(A.rows() - in.rank() - k), all = psi.squaredNorm();
+  if (k == 0 || !(below > 0.) || !(all > 0.)) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  const Eigen::VectorXd turned = qr.householderQ().transpose() * psi;
+  const double explained = std::min(turned.head(k).squaredNorm(), all);
+  return vpFisherTail(explained / static_cast<double>(k) / ((all - explained) / below), static_cast<double>(k), below);
+}
+
+// Probability of neighbours that are so much alike, or unlike, if they are independent: their correlation is about normal,
+// with the variance 1 / n.
+double likeness(const Eigen::VectorXd &psi)
+{
+  const Eigen::Index n = psi.size();
+  const double correlation = psi.head(n - 1).dot(psi.tail(n - 1)) / psi.squaredNorm();
+  return vpChiSquareTail(static_cast<double>(n) * correlation * correlation, 1.);
+}
+
+// Of both tests together. stribeck: that was fitted, 0 if none.
+double fitProbability(const std::vector<vpFrictionSample> &log, double stribeck, double fastest,
+                      const Eigen::VectorXd &psi)
+{
+  Eigen::MatrixXd A = regressors(log, stribeck);
+  if (stribeck > 0.) { // and what another velocity of Stribeck would change, which the search for it has used up
+    A.conservativeResize(Eigen::NoChange, 5);
+    for (Eigen::Index i = 0; i < A.rows(); ++i) {
+      const double ratio = log[static_cast<std::size_t>(i)].velocity / stribeck;
+      A(i, 4) = A(i, 3) * ratio * ratio;
+    }
+  }
+  const double lack = lackOfFit(A, alternatives(log, fastest), psi), alike = likeness(psi);
+  return std::isnan(lack) ? alike : std::min(1., 2. * std::min(lack, alike));
+}
+
+// Sum of absolute residuals of the fit that makes it least, by a few reweighted steps.
 double absoluteCost(const Eigen::MatrixXd &A, const Eigen::VectorXd &b)
 {
   Eigen::VectorXd r = b - A * solveWeighted(A, b, Eigen::VectorXd::Ones(b.size()));
@@ -158,6 +218,7 @@ void vpFrictionIdentificationSpec::validate() const
   const char *const owner = "friction identification";
   notNegative("minVelocity", owner, minVelocity);
   require(outlier > 1. && std::isfinite(outlier), "outlier", owner, outlier, "> 1 and finite");
+  require(falseAlarm > 0. && falseAlarm < 1., "falseAlarm", owner, falseAlarm, "> 0 and < 1");
   require(maxCondition > 1., "maxCondition", owner, maxCondition, "> 1");
 }
 
@@ -172,6 +233,10 @@ const char *vpFrictionIdentification::message() const
     return "NotExcited: velocities or accelerations vary too little to tell the parameters apart.";
   case vpFrictionStatus::NoStribeck:
     return "NoStribeck: the slow samples show no Stribeck term; stiction is set to Coulomb friction.";
+  case vpFrictionStatus::Misfit:
+    return "Misfit: the forces hold more than this model and independent noise; the parameters are its best, their "
+           "standard "
+           "deviations are too small.";
   default:
     return "NotFinite: a sample is not finite or beyond 1e12.";
   }
@@ -254,6 +319,12 @@ vpFrictionIdentification vpIdentifyFriction(const std::vector<vpFrictionSample> 
     }
   }
   result.outliers = static_cast<int>((fit.weights.array() == 0.).count());
+  if (fit.sigma > 1e-9 * b.cwiseAbs().maxCoeff()) { // below: rounding, which is no noise
+    result.fitProbability = fitProbability(used, fit.x.size() == 4 ? stribeck : 0., fastest, fit.psi);
+    if (result.fitProbability < spec.falseAlarm) {
+      result.status = vpFrictionStatus::Misfit;
+    }
+  }
   return result;
 }
 

@@ -7,9 +7,27 @@
 
 #include <visp3/avoidance/vpCollisionScene.h>
 
-#include <optional>
-
 BEGIN_VISP_NAMESPACE
+
+//! \ingroup group_avoidance
+//! \brief What was found of a goal.
+enum class vpGoalConfigurationStatus {
+  Free,        //!< A configuration that keeps the margin.
+  InCollision, //!< The place can be reached, but no configuration that was found keeps the margin.
+  Unreachable  //!< No configuration was found that brings the end effector there.
+};
+
+//! \ingroup group_avoidance
+//! \brief A configuration and what it is worth.
+struct VISP_EXPORT vpGoalConfiguration {
+  vpGoalConfigurationStatus status = vpGoalConfigurationStatus::Unreachable; //!< Look at it before q.
+  //! rad or m, within the position limits. InCollision: the first that was found, to tell what is in the way; Unreachable:
+  //! empty.
+  vpJointVector q;
+
+  //! True when q may be moved to.
+  [[nodiscard]] bool isFree() const noexcept { return status == vpGoalConfigurationStatus::Free; }
+};
 
 /*!
  * \ingroup group_avoidance
@@ -18,16 +36,16 @@ BEGIN_VISP_NAMESPACE
  * Closed-loop inverse kinematics (vpClosedLoopKinematics) from \e from and, if that gives no free configuration, from
  * random configurations. Takes milliseconds; allocates.
  * \param scene : Arm and obstacles.
- * \param from : First start, n numbers, rad or m; the result is near it if the direct motion succeeds.
- * \param position : In the base, m. \param margin : Required clearance, m, >= 0.
- * \param attempts : Number of starts, >= 1. \param seed : Seed of the random starts, >= 1.
- * \return A configuration within the position limits: the first found that is free with the margin, else the first
- * found; none if the position is unreachable.
- * \throw vpException (badValue) if \e from does not fit the arm or \e position is not finite.
+ * \param from : n numbers, rad or m: the answer is the first one found, so near here when the straight way leads there.
+ * \param position : In the base, m. \param margin : Clearance wanted, m, >= 0.
+ * \param attempts : Starts that are tried, >= 1. \param seed : Of the random ones, >= 1.
+ * \return The first configuration that keeps the margin, or a status that says what is missing.
+ * \throw vpException (badValue) when \e from does not fit the arm or \e position is not finite.
  */
-[[nodiscard]] VISP_EXPORT std::optional<vpJointVector>
-goalConfiguration(const vpCollisionScene &scene, const vpJointVector &from, const Eigen::Vector3d &position,
-                  double margin = 0., int attempts = 20, unsigned int seed = 1);
+[[nodiscard]] VISP_EXPORT vpGoalConfiguration goalConfiguration(const vpCollisionScene &scene,
+                                                                const vpJointVector &from,
+                                                                const Eigen::Vector3d &position, double margin = 0.,
+                                                                int attempts = 20, unsigned int seed = 1);
 
 END_VISP_NAMESPACE
 #endif

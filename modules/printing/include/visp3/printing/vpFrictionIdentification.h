@@ -11,6 +11,7 @@
 
 #include <visp3/printing/vpFrictionModel.h>
 
+#include <limits>
 #include <vector>
 
 BEGIN_VISP_NAMESPACE
@@ -26,10 +27,11 @@ struct VISP_EXPORT vpFrictionSample {
 //! \ingroup group_printing
 //! \brief Options of the identification.
 struct VISP_EXPORT vpFrictionIdentificationSpec {
-  bool stribeck = true;      //!< Identify stiction and Stribeck velocity, too; otherwise stiction = Coulomb.
-  double minVelocity = 0.;   //!< Slower samples are ignored (they may stick), L/T, >= 0.
-  double outlier = 4.685;    //!< Tukey's bound, in standard deviations, > 1; 4.685 has 95 % efficiency.
-  double maxCondition = 1e3; //!< Maximum condition number of the scaled regressors, > 1.
+  bool stribeck = true;      //!< Also stiction and Stribeck velocity; otherwise stiction = Coulomb.
+  double minVelocity = 0.;   //!< Slower samples are not used (they may stick), L/T, >= 0.
+  double outlier = 4.685;    //!< Tukey's bound, in standard deviations, > 1; 4.685 keeps 95 % efficiency.
+  double maxCondition = 1e3; //!< Largest condition number of the scaled regressors, > 1.
+  double falseAlarm = 0.01;  //!< Share of right models that may be called misfits, > 0 and < 1.
 
   //! \throw vpException (badValue) naming the field that is out of range, and its value.
   void validate() const;
@@ -38,15 +40,18 @@ struct VISP_EXPORT vpFrictionIdentificationSpec {
 //! \ingroup group_printing
 //! \brief Result of an identification.
 enum class vpFrictionStatus {
-  Good,          //!< All parameters are valid.
-  TooFewSamples, //!< Less than ten samples per parameter.
-  NotExcited,    //!< Velocities or accelerations vary too little to separate the parameters; nothing is valid.
-  NoStribeck,    //!< The slow samples show no Stribeck term; stiction = Coulomb, the rest is valid.
-  NotFinite      //!< A sample is not finite or beyond vpPrintingLargest; nothing is valid.
+  Good,          //!< All parameters hold.
+  TooFewSamples, //!< Less than ten samples for each parameter.
+  NotExcited,    //!< Velocities or accelerations vary too little to tell the parameters apart; nothing holds.
+  NoStribeck,    //!< The slow samples do not show a Stribeck term; stiction = Coulomb, the rest holds.
+  NotFinite,     //!< A sample is not finite or beyond vpPrintingLargest; nothing holds.
+  //! The forces hold what neither the model nor independent noise has: the parameters are the best of this model, their
+  //! standard deviations are too small.
+  Misfit
 };
 
 //! \ingroup group_printing
-//! \brief Parameters with their standard deviations.
+//! \brief Parameters with their standard deviations, which take the model as right and the noise of the samples as independent.
 struct VISP_EXPORT vpFrictionIdentification {
   vpFrictionStatus status = vpFrictionStatus::TooFewSamples; //!< Reliability of the result.
   vpFrictionModel model;                                     //!< Estimated parameters.
@@ -58,6 +63,8 @@ struct VISP_EXPORT vpFrictionIdentification {
   int samples = 0;       //!< Number of samples used.
   int outliers = 0;      //!< Number of samples used with weight 0.
   double condition = 0.; //!< Condition number of the scaled regressors.
+  //! Of residuals as these, or worse, when the model is right and the noise independent; NaN: not tested.
+  double fitProbability = std::numeric_limits<double>::quiet_NaN();
 
   //! Status as a sentence; static text, never null.
   [[nodiscard]] const char *message() const;
@@ -68,7 +75,12 @@ struct VISP_EXPORT vpFrictionIdentification {
  * \brief Mass, viscous, Coulomb and Stribeck friction from a log such as a velocity ramp (thesis section 7.3.4):
  * weighted least squares with Tukey's weights, starting from an L1 fit; the Stribeck velocity by a search over the fit.
  *
- * Velocities and accelerations are assumed exact: filter them before, without delay relative to the forces.
+ * Velocities and accelerations are taken as exact: filter them before, without delay between them and the forces.
+ *
+ * The fit is tested in two ways, which share spec.falseAlarm: whether the residuals hold an offset, or more of the velocity
+ * than the model has (up to its third power, other in either direction; score test of an M-estimator, by Fisher's F), and
+ * whether those that follow each other in the log are alike. vpFrictionStatus::Misfit says that they do. Samples that were
+ * smoothed over windows that overlap are alike.
  * Allocates; not for control loops.
  * \throw vpException (badValue) naming a field of \e spec that is out of range.
  */
