@@ -52,6 +52,10 @@ struct VISP_EXPORT vpServoSample {
    */
   double rotationDeviation = std::numeric_limits<double>::infinity();
   double translationDeviation = std::numeric_limits<double>::infinity(); //!< See #rotationDeviation.
+  double seenRotationError =
+      std::numeric_limits<double>::infinity(); //!< #rotationError by the measurement in use, rad.
+  double seenTranslationError =
+      std::numeric_limits<double>::infinity();  //!< #translationError by the measurement in use, m.
   double u = 0.;                                //!< True, noise-free image of the object's centre, px to the right.
   double v = 0.;                                //!< The same, px down.
   double imageErrorU = 0.;                      //!< u minus the goal's u, px.
@@ -90,14 +94,19 @@ struct VISP_EXPORT vpServoMetrics {
   double end_rotation_deg = 0.;   //!< Largest rotation error at the end of a segment.
   double end_translation_mm = 0.; //!< Largest translation error at the end of a segment.
   /*!
-   * What the measurements' own covariance lets expect at the end of a segment: the largest standard deviation of the rotation
-   * error there. A law that ends beyond three of them has an error of its own. Infinite when it is not known.
+   * What a machine that does not know the truth may expect of its rotation error at the end of a segment: the root mean square
+   * given the last measurement, sqrt(|e|^2 + tr C), the largest of the segments. e is the error that the measurement still
+   * shows, which is what the law has left (friction, a way not finished); C is the covariance of its rotation. An end beyond
+   * three of it says that the covariance is wrong. Infinite when that is not known.
    */
   double expected_end_rotation_deg = 0.;
   double expected_end_translation_mm = 0.; //!< The same of the translation error.
-  double yaw_range_deg = 0.;               //!< Largest minus smallest yaw.
-  double ideal_yaw_range_deg = 0.;         //!< The same of the goals (and the start).
-  double out_of_view_s = 0.;               //!< Time during which a corner of the object is out of the image.
+  double left_end_rotation_deg =
+      0.; //!< The part |e| of #expected_end_rotation_deg, what the law has left; the largest.
+  double left_end_translation_mm = 0.; //!< The same of the translation error.
+  double yaw_range_deg = 0.;           //!< Largest minus smallest yaw.
+  double ideal_yaw_range_deg = 0.;     //!< The same of the goals (and the start).
+  double out_of_view_s = 0.;           //!< Time during which a corner of the object is out of the image.
   //! Time until the error stays below 2 deg and 5 mm, the segment's duration if it never does; mean over the segments.
   double settle_s = 0.;
   double path_length_m = 0.;      //!< Of the camera's way.
