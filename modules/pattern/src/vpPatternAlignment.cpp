@@ -341,7 +341,8 @@ void vpPatternTracker::Impl::updateDeviations()
 {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Matrix<double, 3, 2> right = Eigen::Matrix<double, 3, 2>::Zero();
-  // A cell in doubt may be the edge of something else: learned from, it would be expected, and found, where that was.
+  // A cell in doubt may be the edge of something else: learned from, it would be expected, and found, where that was. While the
+  // template is learned anew it does not fit, and doubt says little.
   const auto teaches = [this](std::size_t i) {
     return m_frame.cells[i].valid && (m_hurry > 0 || (!m_fits[i].doubtX && !m_fits[i].doubtY));
   };

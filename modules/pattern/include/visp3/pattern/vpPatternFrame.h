@@ -44,7 +44,9 @@ enum class vpPatternReason {
   IdentitySlip,    //!< The cells do not deviate from the lattice as before: identities started anew.
   Restarted,       //!< Found again after too many frames: identities started anew.
   NoMatch,         //!< The image does not show the pattern where it can be.
-  ImagesMissing    //!< vpPatternTracker::interrupt(): identities started anew.
+  ImagesMissing,   //!< vpPatternTracker::interrupt(): identities started anew.
+  SingleRow,       //!< Instead of NoLattice: all spots are on one line.
+  TurnedTooFar     //!< Instead of NoLattice: rows that are turned by more than 30 degrees.
 };
 
 //! \ingroup group_pattern
