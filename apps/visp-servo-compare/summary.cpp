@@ -127,6 +127,8 @@ Json jsonOf(const Plan &plan, const vpServoRun &run)
                {"end_translation_mm", m.end_translation_mm},
                {"expected_end_rotation_deg", m.expected_end_rotation_deg},
                {"expected_end_translation_mm", m.expected_end_translation_mm},
+               {"left_end_rotation_deg", m.left_end_rotation_deg},
+               {"left_end_translation_mm", m.left_end_translation_mm},
                {"yaw_range_deg", m.yaw_range_deg},
                {"ideal_yaw_range_deg", m.ideal_yaw_range_deg},
                {"out_of_view_s", m.out_of_view_s},

@@ -332,6 +332,7 @@ nlohmann::ordered_json summaryOf(const RunResults &results, const Options &optio
   }
   if (results.calibrated) {
     json["calibrated"] = {{"um_per_px", results.calibrated->calibration.pixelSizeUm()},
+                          {"reliable", results.calibrated->reliable},
                           {"kappa1_status", toString(results.calibrated->kappa1Status)},
                           {"views", results.calibrationViews}};
   }

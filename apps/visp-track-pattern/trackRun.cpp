@@ -118,9 +118,11 @@ public:
 private:
   static const char *reasonWord(vpPatternReason reason)
   {
-    static constexpr const char *words[] = {
-        "None",     "WrongSize",    "NoContrast",      "NoCells",      "TooMuchNoise", "NoLattice", "CellTooSmall",
-        "Learning", "CellsMissing", "AmbiguousMotion", "IdentitySlip", "Restarted",    "NoMatch",   "ImagesMissing"};
+    static constexpr const char *words[] = {"None",         "WrongSize",       "NoContrast",   "NoCells",
+                                            "TooMuchNoise", "NoLattice",       "CellTooSmall", "Learning",
+                                            "CellsMissing", "AmbiguousMotion", "IdentitySlip", "Restarted",
+                                            "NoMatch",      "ImagesMissing",   "SingleRow",    "TurnedTooFar"};
+    static_assert(std::size(words) == static_cast<std::size_t>(vpPatternReason::TurnedTooFar) + 1);
     const auto index = static_cast<std::size_t>(reason);
     return index < std::size(words) ? words[index] : "Unknown";
   }

@@ -66,7 +66,6 @@ struct vpSelfMotionRun {
   double joint_travel_rad = 0.;            //!< Sum of the travel of all joints, d_total of figure 8.16.
 };
 
-//! \ingroup group_simulation
 //! \brief Runs one experiment with ideal drives at 200 Hz. \throw vpException (badValue) naming the error in the spec.
 [[nodiscard]] vpSelfMotionRun runSelfMotionExperiment(const vpSelfMotionRunSpec &spec);
 

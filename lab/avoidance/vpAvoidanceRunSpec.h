@@ -32,7 +32,6 @@ struct vpGoalMove {
   vpAvoidanceGoal to; //!< Final goal.
 };
 
-//! \ingroup group_simulation
 //! \brief How the method perceives obstacles.
 enum class vpObstacleSight {
   Exact, //!< True pose and velocity, with every frame and without latency.

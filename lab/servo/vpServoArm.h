@@ -32,7 +32,6 @@ struct vpServoArm {
   [[nodiscard]] vpSimulatedArmSpec forPlant(const vpServoPlant &plant) const;
 };
 
-//! \ingroup group_simulation
 //! \brief State of the arm at the time of a vpServoSample.
 struct vpArmSample {
   vpJointVector q;                //!< True configuration, rad or m.
@@ -48,7 +47,6 @@ struct vpArmSample {
   vpRedundancyStatus solver = vpRedundancyStatus::Exact;       //!< Status of the redundancy solver.
 };
 
-//! \ingroup group_simulation
 //! \brief Metrics of the arm over a run, named as in summary.json.
 struct vpArmMetrics {
   vpJointVector joint_rms;             //!< Rms of commanded minus true position, rad or m, one number per joint.
@@ -63,7 +61,6 @@ struct vpArmMetrics {
   std::string status;                  //!< "ok", or a sentence on the limitation of the arm.
 };
 
-//! \ingroup group_simulation
 //! \brief Metrics of a log. \param model : The arm. \param samples : The log. \param cycle : Sample period, s.
 [[nodiscard]] vpArmMetrics evaluateArmRun(const vpArmModel &model, const std::vector<vpArmSample> &samples,
                                           double cycle);

@@ -116,11 +116,17 @@ void fillTruth(const vpServoTask &task, const vpServoSegment &segment, vpServoSa
   s.inView = allCornersInImage(task, s.cMo);
 }
 
-// What the measurement's own covariance says about cdMc. With errors (v, w) of cMo = (R, t) the rotation of cdMc errs by w, and
+// What the measurement and its own covariance say about cdMc. With errors (v, w) of cMo = (R, t) the rotation of cdMc errs by w, and
 // the camera's place, -R^T t in the object's frame, by v + t x w.
-void fillDeviations(const vpServoMeasurement &measurement, vpServoSample &s)
+void fillSeen(const vpServoSegment &segment, const vpServoMeasurement &measurement, vpServoSample &s)
 {
-  if (!measurement.valid || !measurement.covariance.known) {
+  if (!measurement.valid) {
+    return;
+  }
+  const vpHomogeneousMatrix cdMc = segment.cdMo * measurement.cMo.inverse();
+  s.seenRotationError = vpSO3::log(vpServoGeometry::rotation(cdMc)).norm();
+  s.seenTranslationError = vpServoGeometry::distance(cdMc);
+  if (!measurement.covariance.known) {
     return;
   }
   using Matrix6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
@@ -198,7 +204,7 @@ vpServoRun runServoExperiment(const vpServoRunSpec &spec, const std::function<bo
     s.actual = robot->actual();
     s.referenceYaw = referenceYaw(s.wMc, command.v, servo.law().rotationGain());
     s.measured = measurement.valid;
-    fillDeviations(measurement, s);
+    fillSeen(spec.task.segments[segment], measurement, s);
     s.status = command.status;
     run.samples.push_back(s);
     vpArmSample joints;

@@ -51,6 +51,10 @@ struct vpServoSample {
    */
   double rotationDeviation = std::numeric_limits<double>::infinity();
   double translationDeviation = std::numeric_limits<double>::infinity(); //!< Likewise of the translation, m.
+  double seenRotationError =
+      std::numeric_limits<double>::infinity(); //!< #rotationError by the measurement in use, rad.
+  double seenTranslationError =
+      std::numeric_limits<double>::infinity();  //!< #translationError by the measurement in use, m.
   double u = 0.;                                //!< True, noise-free image of the object's centre, px to the right.
   double v = 0.;                                //!< True, noise-free image of the object's centre, px down.
   double imageErrorU = 0.;                      //!< u minus the goal's u, px.
@@ -61,7 +65,6 @@ struct vpServoSample {
   vpServoStatus status = vpServoStatus::NoGoal; //!< Status of the controller.
 };
 
-//! \ingroup group_simulation
 //! \brief Specification of a run; it determines the result.
 struct vpServoRunSpec {
   std::string law = "ff-lookat-pi";         //!< Id of the law, optionally followed by `+cbf`.
@@ -82,7 +85,6 @@ struct vpServoRunSpec {
   std::shared_ptr<const vpServoArm> arm;
 };
 
-//! \ingroup group_simulation
 //! \brief Metrics of a run, named as in summary.json.
 struct vpServoMetrics {
   double max_image_error_px = 0.; //!< Largest distance of the object's centre from its desired image position.
@@ -90,14 +92,18 @@ struct vpServoMetrics {
   double end_rotation_deg = 0.;   //!< Largest rotation error at the end of a segment.
   double end_translation_mm = 0.; //!< Largest translation error at the end of a segment.
   /*!
-   * Expected rotation error at the end of a segment from the covariance of the measurements: its largest standard
-   * deviation there. A law that ends beyond three of them has an error of its own. Infinite if unknown.
+   * Rotation error that a machine which does not know the truth may expect at the end of a segment: the root mean square given
+   * the last measurement, sqrt(|e|^2 + tr C), the largest of the segments. e is the error that the measurement still shows,
+   * which is what the law has left (friction, an unfinished motion); C is the covariance of its rotation. An end beyond three
+   * times this says that the covariance is wrong. Infinite if unknown.
    */
   double expected_end_rotation_deg = 0.;
   double expected_end_translation_mm = 0.; //!< Expected translation error, likewise.
-  double yaw_range_deg = 0.;               //!< Largest minus smallest yaw.
-  double ideal_yaw_range_deg = 0.;         //!< Largest minus smallest yaw of the goals (and the start).
-  double out_of_view_s = 0.;               //!< Time during which a corner of the object is out of the image.
+  double left_end_rotation_deg = 0.;   //!< Part |e| of #expected_end_rotation_deg that the law has left; the largest.
+  double left_end_translation_mm = 0.; //!< Part of #expected_end_translation_mm that the law has left.
+  double yaw_range_deg = 0.;           //!< Largest minus smallest yaw.
+  double ideal_yaw_range_deg = 0.;     //!< Largest minus smallest yaw of the goals (and the start).
+  double out_of_view_s = 0.;           //!< Time during which a corner of the object is out of the image.
   //! Time until the error stays below 2 deg and 5 mm, the segment's duration if it never does; mean over the segments.
   double settle_s = 0.;
   double path_length_m = 0.;      //!< Length of the camera's path.
@@ -114,7 +120,6 @@ struct vpServoMetrics {
   std::string status;                           //!< "ok", or a sentence on the failure (target lost, deadlock).
 };
 
-//! \ingroup group_simulation
 //! \brief A finished run.
 struct vpServoRun {
   vpServoRunSpec spec;                    //!< Specification of the run.

@@ -105,8 +105,12 @@ vpServoMetrics evaluateServoRun(const vpServoRunSpec &spec, const std::vector<vp
     if (s + 1 == end || (s + 1)->segment != s->segment) {
       m.end_rotation_deg = std::max(m.end_rotation_deg, vpMath::deg(s->rotationError));
       m.end_translation_mm = std::max(m.end_translation_mm, 1000. * s->translationError);
-      m.expected_end_rotation_deg = std::max(m.expected_end_rotation_deg, vpMath::deg(s->rotationDeviation));
-      m.expected_end_translation_mm = std::max(m.expected_end_translation_mm, 1000. * s->translationDeviation);
+      m.left_end_rotation_deg = std::max(m.left_end_rotation_deg, vpMath::deg(s->seenRotationError));
+      m.left_end_translation_mm = std::max(m.left_end_translation_mm, 1000. * s->seenTranslationError);
+      m.expected_end_rotation_deg =
+          std::max(m.expected_end_rotation_deg, vpMath::deg(std::hypot(s->seenRotationError, s->rotationDeviation)));
+      m.expected_end_translation_mm =
+          std::max(m.expected_end_translation_mm, 1000. * std::hypot(s->seenTranslationError, s->translationDeviation));
       settleSum += settlingTime(segmentBegin, s + 1, cycle);
       segmentBegin = s + 1;
       ++segments;

@@ -18,7 +18,6 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! \ingroup group_simulation
 //! \brief One leg of the task: the pose to reach and its duration.
 struct vpServoSegment {
   std::string name;         //!< Name for reports ("2").

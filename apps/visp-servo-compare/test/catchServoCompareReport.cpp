@@ -65,11 +65,11 @@ TEST_CASE("A small comparison leaves a whole result", "[visp-servo-compare]")
   REQUIRE(summary["runs"].size() == 2);
   for (const nlohmann::json &item : summary["runs"]) {
     CAPTURE(item);
-    for (const char *field :
-         {"max_image_error_px", "rms_image_error_px", "end_rotation_deg", "end_translation_mm",
-          "expected_end_rotation_deg", "expected_end_translation_mm", "yaw_range_deg", "ideal_yaw_range_deg",
-          "out_of_view_s", "settle_s", "path_length_m", "peak_linear_mps", "peak_angular_radps",
-          "peak_linear_acceleration_mps2", "peak_angular_acceleration_radps2", "deadlock_cycles"}) {
+    for (const char *field : {"max_image_error_px", "rms_image_error_px", "end_rotation_deg", "end_translation_mm",
+                              "expected_end_rotation_deg", "expected_end_translation_mm", "left_end_rotation_deg",
+                              "left_end_translation_mm", "yaw_range_deg", "ideal_yaw_range_deg", "out_of_view_s",
+                              "settle_s", "path_length_m", "peak_linear_mps", "peak_angular_radps",
+                              "peak_linear_acceleration_mps2", "peak_angular_acceleration_radps2", "deadlock_cycles"}) {
       CAPTURE(field);
       REQUIRE(item[field].is_number());
       CHECK(std::isfinite(item[field].get<double>()));

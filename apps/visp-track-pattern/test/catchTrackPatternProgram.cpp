@@ -247,6 +247,8 @@ TEST_CASE("A hexagonal grid is calibrated as one, and never as a square one", "[
   CHECK(run.out().find("whose axes are at ") != std::string::npos);
   const json calibration = json::parse(vpApp::readFile(run.path("scale/calibration.json")));
   CHECK(calibration["scale_x_px_per_m"].get<double>() == Approx(1e6).epsilon(1e-3));
+  const json summary = json::parse(vpApp::readFile(run.path("scale/summary.json")));
+  CHECK(summary["calibrated"]["reliable"] == calibration["quality"]["reliable"]);
   CHECK(run("hexagonal.png --calibrate --dot-grid --pitch-um 24 24 --axes-deg 60 --overlay none --out same") == OK);
   CHECK(run("hexagonal.png --calibrate --dot-grid --pitch-um 24 24 --axes-deg 90 --overlay none --out square") == DATA);
   CHECK(run.err().find("--calibrate: the points do not fit, no calibration is written. ") != std::string::npos);

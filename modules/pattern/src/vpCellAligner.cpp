@@ -396,7 +396,9 @@ vpCellFit vpCellAligner::alignMasked(const vpImage<unsigned char> &image, const 
   fit.contrast = s.contrast;
   fit.variance = std::max(0.05, rest / std::max(1, n - count - size));
   fit.masked = true;
-  fit.ok = settled > 0 && fit.xx > 0. && fit.yy > 0. && std::abs(s.dx) < 2. * bank.reach() &&
+  // With both edges of an axis hidden the place is that of the start: a cell that was taken for another would stay there.
+  const bool seen = std::min(hidden[0], hidden[1]) < mostHidden && std::min(hidden[2], hidden[3]) < mostHidden;
+  fit.ok = settled > 0 && seen && fit.xx > 0. && fit.yy > 0. && std::abs(s.dx) < 2. * bank.reach() &&
            std::abs(s.dy) < 2. * bank.reach();
   fit.doubtX = !(std::max(hidden[0], hidden[1]) < mostHidden);
   fit.doubtY = !(std::max(hidden[2], hidden[3]) < mostHidden);

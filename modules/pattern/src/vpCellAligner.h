@@ -39,8 +39,8 @@ public:
   static void prefetch(const vpImage<unsigned char> &image, const vpTemplateBank &bank, double x, double y);
   //! Least squares from the start (x, y) over all pixels. Measuring the slopes takes half as long again.
   vpCellFit align(const vpImage<unsigned char> &image, const vpTemplateBank &bank, double x, double y, bool withSlopes);
-  //! Least squares without the pixels whose residual is above 3.5 times \e noise. Not ok when more than half of one
-  //! side is hidden.
+  //! The same with the pixels left out whose residual is above 3.5 times \e noise. Where more than half of one side is
+  //! hidden the axis is in doubt; where more than half of both opposite sides is, the fit is not ok.
   vpCellFit alignMasked(const vpImage<unsigned char> &image, const vpTemplateBank &bank, double x, double y,
                         double noise);
 

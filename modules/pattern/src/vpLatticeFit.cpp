@@ -282,6 +282,58 @@ bool vpLatticeFit::solve(const std::vector<vpPatternSpot> &spots, vpLattice &lat
   return true;
 }
 
+vpPatternReason vpLatticeFit::trouble(const std::vector<vpPatternSpot> &spots) const
+{
+  constexpr double degree = 0.017453292519943295;
+  constexpr double straight = 0.25;     // of the pitch
+  constexpr double same = 10. * degree; // by chance 22 % of the directions lie within it
+  constexpr double mostTurned = 30. * degree;
+  const std::size_t n = m_seeds.size();
+  if (n < leastSpots) {
+    return vpPatternReason::NoLattice;
+  }
+  std::array<double, maxSeeds> turn{},
+      pitch{}; // of the vector to the nearest spot; turned by whole right angles to within 45 deg
+  for (std::size_t k = 0; k < n; ++k) {
+    const vpPatternSpot &seed = spots[m_seeds[k].second];
+    double least = std::numeric_limits<double>::infinity();
+    for (const vpPatternSpot &other : spots) {
+      const double dx = other.x - seed.x, dy = other.y - seed.y, d = dx * dx + dy * dy;
+      if (d > 0. && d < least) {
+        least = d;
+        turn[k] = std::remainder(std::atan2(dy, dx), 90. * degree);
+      }
+    }
+    pitch[k] = std::sqrt(least);
+  }
+  // The variance across the line that fits best: the smaller eigenvalue.
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+  for (const vpPatternSpot &spot : spots) {
+    mean += Eigen::Vector2d(spot.x, spot.y) / static_cast<double>(spots.size());
+  }
+  for (const vpPatternSpot &spot : spots) {
+    const Eigen::Vector2d d = Eigen::Vector2d(spot.x, spot.y) - mean;
+    spread += d * d.transpose() / static_cast<double>(spots.size());
+  }
+  std::array<double, maxSeeds> sorted = pitch;
+  std::sort(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(n));
+  const double usual = sorted[n / 2];
+  const double across = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>().computeDirect(spread).eigenvalues()(0);
+  if (across < straight * straight * usual * usual) {
+    return vpPatternReason::SingleRow;
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    const auto agree = std::count_if(turn.begin(), turn.begin() + static_cast<std::ptrdiff_t>(n), [&](double other) {
+      return std::abs(std::remainder(other - turn[k], 90. * degree)) < same;
+    });
+    if (std::abs(turn[k]) > mostTurned && 3 * static_cast<std::size_t>(agree) >= 2 * n) {
+      return vpPatternReason::TurnedTooFar;
+    }
+  }
+  return vpPatternReason::NoLattice;
+}
+
 bool vpLatticeFit::fit(std::vector<vpPatternSpot> &spots, double minPitch, vpLattice &lattice)
 {
   vpLattice l;
@@ -303,17 +355,23 @@ bool vpLatticeFit::fit(std::vector<vpPatternSpot> &spots, double minPitch, vpLat
     double row = 0., column = 0.;
     l.invert(spots[i].x, spots[i].y, row, column);
     const double r = std::round(row), c = std::round(column);
-    const bool on = m_nodes[i].reached
-                        ? m_nodes[i].row == static_cast<int>(r) && m_nodes[i].column == static_cast<int>(c)
-                        : std::abs(row - r) < offLattice && std::abs(column - c) < offLattice;
-    if (on) {
+    m_nodes[i].reached = m_nodes[i].reached
+                             ? m_nodes[i].row == static_cast<int>(r) && m_nodes[i].column == static_cast<int>(c)
+                             : std::abs(row - r) < offLattice && std::abs(column - c) < offLattice;
+    kept += m_nodes[i].reached ? 1 : 0;
+  }
+  if (kept < leastSpots || kept * 10 < spots.size() * 6) {
+    return false;
+  }
+  kept = 0;
+  for (std::size_t i = 0; i < spots.size(); ++i) {
+    if (m_nodes[i].reached) {
       spots[kept++] = spots[i];
     }
   }
-  const bool most = kept >= leastSpots && kept * 10 >= spots.size() * 6;
   spots.resize(kept);
-  lattice = most ? l : lattice;
-  return most;
+  lattice = l;
+  return true;
 }
 
 END_VISP_NAMESPACE

@@ -8,6 +8,8 @@
 
 #include "vpRunLabels.h"
 
+#include <visp3/pattern/vpPatternFrame.h>
+
 #include <array>
 #include <utility>
 #include <vector>
@@ -34,12 +36,15 @@ public:
   bool keepAlike(std::vector<vpPatternSpot> &spots);
   //! Remove spots whose size differs from those around them, because of dirt.
   static void removeDirty(std::vector<vpPatternSpot> &spots);
-  //! Lattice of the spots, after removing outliers. \e a points right, \e b down. False: no two periods each way.
+  //! Lattice of the spots, whose strays are removed. \e a points right, \e b down. False: no two periods each way, see trouble();
+  //! the spots are what they were.
   bool fit(std::vector<vpPatternSpot> &spots, double minPitch, vpLattice &lattice);
   //! Keep the spots of the size last found by keepAlike(); false when there are none.
   bool keepKnown(std::vector<vpPatternSpot> &spots) const;
   //! Fit a known lattice to spots that are too few to determine one. False when they are not on one lattice.
   bool shift(const std::vector<vpPatternSpot> &spots, vpLattice &lattice) const;
+  //! Why fit() has just failed, as far as the nearest neighbours of the spots in the middle show it; NoLattice if they do not.
+  vpPatternReason trouble(const std::vector<vpPatternSpot> &spots) const;
   int medianWidth() const { return m_width; }
   int medianHeight() const { return m_height; }
 

@@ -62,8 +62,11 @@ vpPatternReason vpPatternTracker::Impl::detectPolarity(const vpImage<unsigned ch
     lattice = m_lattice;
     return m_fitter.shift(spots, lattice) ? vpPatternReason::None : vpPatternReason::NoLattice;
   }
-  if (kept < 4 || !m_fitter.fit(spots, m_options.minPitch, lattice)) {
+  if (kept < 4) {
     return vpPatternReason::NoLattice;
+  }
+  if (!m_fitter.fit(spots, m_options.minPitch, lattice)) {
+    return m_fitter.trouble(spots);
   }
   vpLatticeFit::removeDirty(spots);
   return vpPatternReason::None;

@@ -21,7 +21,9 @@ constexpr double nearHalf = 0.4;    // of a pitch
 constexpr double maskedSigma = 0.1; // px: error of a centre due to masked dirt (rendered dirt)
 constexpr double leastDoubt = 1.;   // px: of a cell whose visible edge may belong to another object
 constexpr double latticeGain = 0.02;
-constexpr int hurryAfterTurn = 30;     // images
+constexpr unsigned int forgetAfter =
+    20;                            // images: a deviation with which a cell is not found, perhaps that of something else
+constexpr int hurryAfterTurn = 30; // images
 constexpr int restlessAfterTurn = 10;  // images
 constexpr double slopeMemory = 400.;   // cells
 constexpr std::size_t slopesEvery = 3; // cells, once they are known: they change slowly
@@ -339,8 +341,14 @@ void vpPatternTracker::Impl::updateDeviations()
 {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Matrix<double, 3, 2> right = Eigen::Matrix<double, 3, 2>::Zero();
-  for (const vpPatternCell &cell : m_frame.cells) {
-    if (cell.valid) {
+  // A cell in doubt may be the edge of something else: learned from, it would be expected, and found, where that was. While the
+  // template is learned anew it does not fit, and doubt says little.
+  const auto teaches = [this](std::size_t i) {
+    return m_frame.cells[i].valid && (m_hurry > 0 || (!m_fits[i].doubtX && !m_fits[i].doubtY));
+  };
+  for (std::size_t i = 0; i < m_frame.cells.size(); ++i) {
+    if (teaches(i)) {
+      const vpPatternCell &cell = m_frame.cells[i];
       const int r = cell.row - m_row, c = cell.column - m_column;
       const Eigen::Vector3d a(1., c, r);
       normal += a * a.transpose();
@@ -359,20 +367,25 @@ void vpPatternTracker::Impl::updateDeviations()
     m_lattice.bx += s(2, 0);
     m_lattice.by += s(2, 1);
   }
-  for (vpPatternCell &cell : m_frame.cells) {
+  for (std::size_t i = 0; i < m_frame.cells.size(); ++i) {
+    vpPatternCell &cell = m_frame.cells[i];
     const int r = cell.row - m_row, c = cell.column - m_column;
     vpCellMemory::Slot *slot = m_memory.find(cell.row, cell.column);
     if (slot != nullptr) { // the same position as before, relative to the moved lattice
       slot->offsetX -= s(0, 0) + c * s(1, 0) + r * s(2, 0);
       slot->offsetY -= s(0, 1) + c * s(1, 1) + r * s(2, 1);
     }
-    if (cell.valid) {
+    if (teaches(i)) {
       vpCellMemory::Slot &own = m_memory.claim(cell.row, cell.column);
       own.count = wasInLast(own) ? own.count : 0;
       own.count = std::min(own.count + 1, m_turned ? 3 : 20); // in perspective deviations turn, too
       own.offsetX += (cell.x - m_lattice.x(r, c) - own.offsetX) / own.count;
       own.offsetY += (cell.y - m_lattice.y(r, c) - own.offsetY) / own.count;
       slot = &own;
+    }
+    else if (slot != nullptr && !cell.valid && m_hurry == 0 && m_frame.index - slot->frame > forgetAfter) {
+      slot->count = 0;
+      slot = nullptr;
     }
     cell.deviationX = slot != nullptr ? slot->offsetX : 0.;
     cell.deviationY = slot != nullptr ? slot->offsetY : 0.;

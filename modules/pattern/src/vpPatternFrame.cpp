@@ -25,6 +25,10 @@ const char *vpPatternFrame::message() const
     return "No lock: there are more spots than a pattern can have.";
   case vpPatternReason::NoLattice:
     return "No lock: there are not two periods of a lattice each way in view.";
+  case vpPatternReason::SingleRow:
+    return "No lock: the cells are on a single row, two periods each way are needed.";
+  case vpPatternReason::TurnedTooFar:
+    return "No lock: the rows are turned by more than 30 degrees against the image's.";
   case vpPatternReason::CellTooSmall:
     return "No lock: the cells or their pitch are too small.";
   case vpPatternReason::Learning:

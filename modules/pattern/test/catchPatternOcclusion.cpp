@@ -52,14 +52,13 @@ double errorOf(const vpPatternCell &cell, const Pattern &pattern)
 }
 } // namespace
 
-TEST_CASE("cells behind things of like grey are invalid, right or say how far off they may be, but for one in 2000",
-          "[tracker][occlusion]")
+TEST_CASE("cells behind things of like grey are invalid, right or say how far off they may be", "[tracker][occlusion]")
 {
   const char *const longer = std::getenv("VISP_DIRECT_LONG_TESTS");
   const int runs = longer == nullptr ? 3 : static_cast<int>(3 * std::max(1., std::atof(longer)));
   CAPTURE(vpTestSupport::seed());
-  constexpr int phases = 40, images = 4000; // the pattern goes to and fro, so that its images are rendered once
-  long valid = 0, far = 0;
+  constexpr int phases = 40, images = 4000; // the pattern goes to and fro, so that its pictures are made once
+  long valid = 0, wide = 0, wrong = 0, far = 0;
   double worst = 0.;
   for (int run = 0; run < runs; ++run) {
     auto rng = vpTestSupport::generator(870 + static_cast<unsigned int>(run));
@@ -103,16 +102,23 @@ TEST_CASE("cells behind things of like grey are invalid, right or say how far of
       for (const vpPatternCell &cell : tracker.track(image).cells) {
         if (cell.valid) {
           const double error = errorOf(cell, place);
+          const double told = 4. * std::max(cell.sigmaX, cell.sigmaY);
           worst = std::max(worst, error);
-          far += error > std::max(0.5, 4. * std::max(cell.sigmaX, cell.sigmaY)) ? 1 : 0;
+          wide += told > 0.5 ? 1 : 0;
+          wrong += error > 0.5 ? 1 : 0;
+          far += error > std::max(0.5, told) ? 1 : 0;
           ++valid;
         }
       }
     }
   }
-  WARN(valid << " valid cells in " << runs * images << " images, " << far
-             << " off by more than 0.5 px and four of their sigmas, the worst " << worst << " px");
-  CHECK(valid > 5L * runs * images);
-  // Not none: rarely, a cell at another object's edge is mistaken for a known one, and is then tracked for some images.
-  CHECK(far <= valid / 2000);
+  WARN(valid << " valid cells in " << runs * images << " images, " << wrong << " off by more than 0.5 px, " << far
+             << " of them by more than four of their sigmas, the worst " << worst << " px");
+  CHECK(valid > 10L * runs * images); // of 11 in view, less what is hidden
+  // Normal errors are beyond four deviations in both directions together once in exp(8) times; only where that is more than 0.5 px
+  // can it count. And then as many more as a count of that mean has once in 100,000 times.
+  const double most = std::exp(-8.) * static_cast<double>(wide);
+  CHECK(static_cast<double>(far) <= most + 4.26 * std::sqrt(most));
+  // A cell that was taken for something else was followed beside its place for good: 20 to 190 of them then.
+  CHECK(wrong <= valid / 10000);
 }

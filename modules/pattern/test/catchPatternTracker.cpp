@@ -6,6 +6,7 @@
 #include "vpAnalyticPattern.h"
 
 #include "vpCatch.h"
+#include "vpDotScene.h"
 
 #include <visp3/core/vpException.h>
 #include <visp3/pattern/vpPatternTracker.h>
@@ -364,4 +365,41 @@ TEST_CASE("Algorithm 7.4 has the errors that were published, its correction has 
     CHECK(std::abs(s.meanY()) < 0.02);
     CHECK(s.slips == 0);
   }
+}
+
+TEST_CASE("a lattice that cannot be tracked is named: a single row, rows turned too far", "[pattern]")
+{
+  using namespace vpPatternTest;
+  CAPTURE(vpTestSupport::seed());
+  int named = 0;
+  for (const DotShape shape : {DotShape::Row, DotShape::Rectangular, DotShape::Hexagonal}) {
+    for (unsigned int i = 0; i < 60; ++i) {
+      auto rng = vpTestSupport::generator(9000 + 100 * static_cast<unsigned int>(shape) + i);
+      DotKind kind{};
+      kind.shape = shape;
+      const DotScene scene = makeDots(kind, rng);
+      vpPatternTracker tracker(scene.image.getWidth(), scene.image.getHeight());
+      const vpPatternFrame &frame = tracker.track(scene.image);
+      // Of all directions of the lattice: that of a, of b, each both ways, within 45 degrees of the image's rows.
+      const double turn = std::abs(std::remainder(std::atan2(scene.a.y(), scene.a.x()), 0.5 * M_PI)) * 180. / M_PI;
+      CAPTURE(static_cast<int>(shape), i, turn, frame.message());
+      if (shape == DotShape::Row) {
+        CHECK(frame.reason == vpPatternReason::SingleRow);
+      }
+      else if (shape == DotShape::Hexagonal || turn < 30.) { // rows of a hexagonal lattice are shifted by half a column
+        CHECK(frame.reason == vpPatternReason::Learning);
+      }
+      else if (frame.reason != vpPatternReason::Learning) {
+        CHECK(frame.reason == vpPatternReason::TurnedTooFar);
+        ++named;
+      }
+    }
+  }
+  // A third of the rectangular ones is turned too far; those of nearly equal pitches are followed along the diagonal.
+  CHECK(named > 0);
+  vpPatternFrame frame;
+  frame.reason = vpPatternReason::SingleRow;
+  CHECK(std::string(frame.message()).find("single row") != std::string::npos);
+  frame.reason = vpPatternReason::TurnedTooFar;
+  CHECK(std::string(frame.message()).find("more than 30 degrees") != std::string::npos);
 }

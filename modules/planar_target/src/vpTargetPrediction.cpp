@@ -20,7 +20,8 @@ namespace
 {
 constexpr int smallestSide = 16;  // of a texture, texels
 constexpr double texelSize = 0.6; // px
-constexpr double reach = 3.;      // deviations of the blur
+constexpr double reach = 3.;      // deviations of the blur: of the kernel,
+constexpr double margin = 2.;     // and from the edge of the target, beyond half a pixel and another half
 constexpr int undistortSteps = 4; // fixed point; each gains a factor of 3 kud r^2
 
 using Lanes = Eigen::Array<float, vpTargetPrediction::lanes, 1>;
@@ -281,8 +282,8 @@ bool vpTargetPrediction::predict(const vpTargetTexture &texture, const vpRigidPo
                                  cv::Size size, double blur)
 {
   const Kernel kernel(blur);
-  // Beyond the kernel's radius the frame mixes with the background.
-  if (!findArea(pose, camera, size, 1. + reach * blur)) {
+  // Beyond the kernel's reach the frame mixes with what is behind the target.
+  if (!findArea(pose, camera, size, 1. + margin * blur)) {
     return false;
   }
   const cv::Mat &level = texture.at(pose, camera);

@@ -14,7 +14,11 @@ BEGIN_VISP_NAMESPACE
 namespace
 {
 constexpr unsigned int fallbackEvery = 3; // frames; so that its nine parts take 27, less than a second at 30 Hz
-constexpr std::uint64_t waited = 30;      // frames, initial wait of a lost target: soon, but not before all others
+constexpr std::uint64_t waited = 30;      // frames, of a target just lost: soon, but not before all others
+// Of 128 telling keypoints 0 to 7 match in views without the target, by chance, and 11 or more in most that show it.
+constexpr double enoughMatches = 8.;
+constexpr std::size_t few =
+    3; // lost targets, for which comparing and searching blindly in the same frame takes no time
 constexpr std::size_t mostComparisons =
     20'000'000; // 64-bit words; 6 ms. 130 keypoints of ORB with 1500 take 0.8 million
 } // namespace
@@ -63,8 +67,17 @@ void vpTargetSearch::look(vpTargetFrame &frame, const std::vector<vpPlanarTarget
   const auto probed = [this, detector](std::size_t i) { return m_turns[i].probed[detector]; };
   std::stable_sort(m_lost.begin(), m_lost.end(),
                    [&probed](std::size_t a, std::size_t b) { return probed(a) < probed(b); });
+  // The fallback does not take turns: its nine parts are an odd number.
+  const bool isBlind = !fallback && m_lost.size() > few && m_blind, alsoBlind = fallback || m_lost.size() <= few;
+  m_blind = fallback ? m_blind : !m_blind;
   m_candidates.clear();
   for (const std::size_t i : m_lost) {
+    const double waiting = static_cast<double>(m_frame - m_turns[i].searched[detector]);
+    if (isBlind) {
+      const double score = m_turns[i].score + 0.5;
+      m_candidates.push_back({i, score * score * waiting});
+      continue;
+    }
     const vpKeypointSet &telling = targets[i]->m_references[detector].telling;
     m_effort.comparisons += telling.points.size() * current.points.size() * current.words();
     if (m_effort.comparisons > mostComparisons && m_effort.probed > 0) {
@@ -72,8 +85,13 @@ void vpTargetSearch::look(vpTargetFrame &frame, const std::vector<vpPlanarTarget
     }
     ++m_effort.probed;
     m_turns[i].probed[detector] = m_frame;
-    const double score = static_cast<double>(targets[i]->matchesOf(telling, current)) + 0.5;
-    m_candidates.push_back({i, score * score * static_cast<double>(m_frame - m_turns[i].searched[detector])});
+    const double matches = static_cast<double>(targets[i]->matchesOf(telling, current));
+    if (!fallback) {
+      m_turns[i].score = matches;
+    }
+    if (alsoBlind || matches >= enoughMatches) {
+      m_candidates.push_back({i, (matches + 0.5) * (matches + 0.5) * waiting});
+    }
   }
   std::stable_sort(m_candidates.begin(), m_candidates.end(),
                    [](const Candidate &a, const Candidate &b) { return a.priority > b.priority; });

@@ -23,11 +23,14 @@ class vpTargetFrame;
  *
  * -# One extraction of keypoints: of the frame with the configured detector, or, every third time, of a part of it with
  *    the fallback (AKAZE takes five times as long).
- * -# The most distinctive keypoints of lost targets are compared with it, for as many targets as a fixed number of
- *    comparisons allows, those first that have waited longest. The score is the number of matches.
- * -# Thorough searches, with all keypoints, in the order of (score + 1/2)^2 times the frames since the last one: likely
- *    targets come at once, a look-alike does not block the others, and every target is searched eventually. The first
- *    failed search ends the frame.
+ * -# The most telling keypoints of lost targets are compared with it, for as many targets as a fixed number of comparisons
+ *    allows, those first that have waited longest. The score is the number of matches.
+ * -# Thorough searches, with all keypoints, in the order of (score + 1/2)^2 times the frames since the last one: who seems to
+ *    be there comes at once, a look-alike does not keep the others waiting, and everyone gets a turn. The first search in
+ *    vain ends the frame.
+ *
+ * With more than a few lost targets a frame either compares, and then searches for those that seem to be there, or searches
+ * only, by the last scores: both in one frame would take too long.
  */
 class vpTargetSearch
 {
@@ -41,6 +44,7 @@ private:
   static constexpr std::size_t mostDetectors = 2;
   struct Turns {
     std::uint64_t probed[mostDetectors] = {0, 0}, searched[mostDetectors] = {0, 0}; // frame of the last one
+    double score = 0.; // when it was compared last, with the detector of the settings
     bool justLost = false;
   };
   struct Candidate {
@@ -56,6 +60,7 @@ private:
   std::vector<Candidate> m_candidates;
   std::uint64_t m_frame = 0;
   unsigned int m_looks = 0, m_part = 0;
+  bool m_blind = false; // the next frame with the detector of the settings compares nothing
   vpPlanarTargetEffort m_effort;
 };
 

@@ -39,12 +39,14 @@ enum class vpPatternReason {
   NoLattice,       //!< Spots, but not two periods of a lattice in both directions (a pattern coarser than the view).
   CellTooSmall,    //!< The cells or their pitch are below the minimum size.
   Learning,        //!< The lattice is known, the template is being learned.
-  CellsMissing,    //!< Less than half of the expected cells are valid.
-  AmbiguousMotion, //!< The motion is near or above half a pitch: identities restarted.
-  IdentitySlip,    //!< The cells' deviations from the lattice changed: identities restarted.
-  Restarted,       //!< Found again after too many frames: identities restarted.
-  NoMatch,         //!< The image does not show the pattern where it is expected.
-  ImagesMissing    //!< vpPatternTracker::interrupt(): identities restarted.
+  CellsMissing,    //!< Less than half of the cells that should be seen are valid.
+  AmbiguousMotion, //!< The motion is near or above half a pitch: identities started anew.
+  IdentitySlip,    //!< The cells do not deviate from the lattice as before: identities started anew.
+  Restarted,       //!< Found again after too many frames: identities started anew.
+  NoMatch,         //!< The image does not show the pattern where it can be.
+  ImagesMissing,   //!< vpPatternTracker::interrupt(): identities started anew.
+  SingleRow,       //!< Instead of NoLattice: all spots are on one line.
+  TurnedTooFar     //!< Instead of NoLattice: rows that are turned by more than 30 degrees.
 };
 
 //! \ingroup group_pattern
