@@ -26,8 +26,7 @@ namespace
 // The points belong to the object, not to the experiment: they must not depend on the seed.
 constexpr unsigned int objectSeed = 5;
 constexpr unsigned int fewestPoints = 4;
-// Points closer to a line than this fraction of the object's size (standard deviation) do not determine the tilt about
-// it.
+// Points closer to a line than this fraction of the object's size (standard deviation) leave the tilt about it unknown.
 constexpr double smallestSpread = 0.05;
 
 // Pose of the plane z = 0 from its homography to normalised image coordinates: H ~ [r1 r2 t], positive depth.

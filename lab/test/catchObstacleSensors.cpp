@@ -2,8 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Sightings and tracks from rendered photographs of the true scene: errors match the reported sigmas, camera in the
-// hand.
+// Sightings and tracks from rendered photographs of the true scene (eye in hand): errors match the reported sigmas.
 #include "vpCatch.h"
 #include "vpTestArms.h"
 

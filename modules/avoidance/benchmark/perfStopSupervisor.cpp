@@ -3,8 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 // A whole control cycle with whole-arm avoidance: kinematics, redundancy with two indices and limits, and the
-// supervisor among ten obstacles and among a thousand; and without it. Every cycle is timed individually for the
-// quantiles.
+// supervisor among ten obstacles and among a thousand; and without it. Every cycle is timed individually.
 #include "vpBenchmark.h"
 
 #include <visp3/avoidance/vpStopSupervisor.h>

@@ -2,8 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Paths of all planners: free where guaranteed, between the correct ends, within the limits, and correctly reported
-// failures.
+// Paths of all planners: free where guaranteed, with correct ends, within the limits, and correctly reported failures.
 #include "vpAvoidanceTestKit.h"
 #include "vpCatch.h"
 #include "vpIndependentClearance.h"
@@ -195,8 +194,7 @@ TEST_CASE("What cannot be planned is said", "[planner]")
   vpPathResult result = planner.plan(start, beyond);
   CHECK(result.status == vpPathStatus::OutsideLimits);
   CHECK(result.sentence == "Joint q2 of the goal is at 3, beyond its limit 2.3561944901923448.");
-  // A limit rounded by writing to a file counts as the limit; a slightly larger value does not, and is printed
-  // differently.
+  // A limit rounded in a file counts as the limit; a slightly larger value does not, and is printed differently.
   const vpCollisionScene nothing(amor());
   vpPathPlanner free(nothing, spec);
   const double limit = amor().upper()(5);

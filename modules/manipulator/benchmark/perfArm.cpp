@@ -2,8 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Time of a cycle of the arm, compared with KDL. The percentiles are over single cycles, each measured
-// individually.
+// Time of a cycle of the arm, compared with KDL. The percentiles are over individually measured cycles.
 #include "vpBenchmark.h"
 
 #include <visp3/direct_core/vpQuantile.h>

@@ -172,8 +172,7 @@ TEST_CASE("Drawn slowly by a soft spring a stage sticks and slips, fast it does 
   CHECK(slow.firstMove == Approx(0.12 / stiffness / 0.1).epsilon(0.001)); // when the spring force equals the stiction
   CHECK(slow.restingShare > 0.2);
   CHECK(slow.fastest > 2. * 0.1);
-  // Sliding is steady where the friction grows with the velocity: below 0.0225, at the flat top of the Stribeck curve,
-  // ...
+  // Sliding is steady where the friction grows with velocity: below 0.0225, at the flat top of the Stribeck curve, ...
   CHECK(drawBySpring(stiffness, 0.015, 8000., 0.05).restingShare == 0.);
   // ... and far above the Stribeck velocity.
   const Drawn fast = drawBySpring(stiffness, 3., 4000., 0.05);

@@ -67,9 +67,8 @@ public:
    * \param velocity : Current commanded velocities. \param share : Fraction of the velocity limits to use, (0, 1].
    */
   void jointPath(const vpJointVector &goal, const vpJointVector &q, const vpJointVector &velocity, double share);
-  //! Move to a pose. \param goal : Goal pose of the end effector in the base. \param q : Current commanded
-  //! configuration.
-  //! \param velocity : Current commanded velocities.
+  //! Move to a pose. \param goal : Goal pose of the end effector in the base.
+  //! \param q : Current commanded configuration. \param velocity : Current commanded velocities.
   void posePath(const vpRigidTransform &goal, const vpJointVector &q, const vpJointVector &velocity);
   //! Sets the indices that self-motion maximizes and the free axes, for twist and pose motions.
   void setSelfMotion(const std::vector<vpSelfMotionIndex> &indices, const std::array<bool, 6> &free);
