@@ -23,7 +23,7 @@ enum class vpArmTaskKind {
   Hold,          //!< Brake and hold the position.
   JointVelocity, //!< Follow given joint velocities.
   Twist,         //!< Follow a twist in one of the frames.
-  JointPath,     //!< Move to a configuration, by direct trajectory generation.
+  JointPath,     //!< Move to a configuration, by direct trajectory generation (DTG).
   PosePath       //!< Move to an end-effector pose, by closed-loop kinematics.
 };
 
@@ -40,7 +40,7 @@ enum class vpArmTwistFrame { Base, EndEffector, Camera, Mixt };
  * The request may change at any time. Set it in the thread that calls step(), or lock both.
  * \code
  * vpArmMotion motion(model, vpRedundancySpec(), vpClosedLoopSpec());
- * motion.twist(law.step(measurement), vpArmTwistFrame::Camera);
+ * motion.twist(law->update(measurement, motion.period()).v, vpArmTwistFrame::Camera);
  * velocity = motion.step(q, velocity); // every vpRedundancySpec::period; send it to the drives
  * \endcode
  */
