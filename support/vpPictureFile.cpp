@@ -25,7 +25,7 @@ namespace
 constexpr std::size_t MOST_PAGES = 1000000;
 constexpr const char *UNREADABLE = ": is not an image that can be read, or is cut short";
 
-// Whole numbers at any place of a file; anything beyond its end makes bad() true.
+// Reads integers at any position of a file; reading beyond its end makes bad() true.
 class Numbers
 {
 public:
@@ -71,7 +71,7 @@ bool isWholePage(Numbers &file, std::uint64_t entries, std::uint64_t count, bool
   return true;
 }
 
-// TIFF 6.0 and BigTIFF: a chain of directories, one a page.
+// TIFF 6.0 and BigTIFF: a chain of directories, one per page.
 TiffPages tiffPages(std::istream &stream)
 {
   TiffPages result;
@@ -91,7 +91,7 @@ TiffPages tiffPages(std::istream &stream)
     const std::uint64_t count = file.at(next, result.big ? 8 : 2);
     const std::uint64_t entries = next + (result.big ? 8 : 2);
     const std::uint64_t end = entries + count * (result.big ? 20 : 12);
-    if (count > 4096) { // no directory has so many entries: the chain leads into something else
+    if (count > 4096) { // implausible number of entries: the chain is invalid
       result.cut = true;
       break;
     }
@@ -130,7 +130,7 @@ unsigned int whiteOf(std::istream &stream)
   return value <= 65535 ? value : 0;
 }
 
-// libjpeg fills up what is missing and only warns; the end mark tells, and not that of a small copy in the EXIF data before.
+// libjpeg fills missing data with only a warning; check the end marker, but not that of a thumbnail in the EXIF data.
 bool isCutJpeg(const std::string &content)
 {
   if (content.compare(0, 2, "\xff\xd8") != 0) {
@@ -211,7 +211,7 @@ cv::Mat File::read(std::size_t page)
     throw std::runtime_error(nameOf(page) + UNREADABLE);
   }
   if (!m_pages.empty()) {
-    // OpenCV reads the first page: let that be the one that is wanted.
+    // OpenCV reads the first page: make the requested page the first one.
     const unsigned int bytes = m_bigTiff ? 8 : 4;
     for (unsigned int i = 0; i < bytes; ++i) {
       const unsigned int shift = 8 * (m_littleEndian ? i : bytes - 1 - i);
@@ -223,7 +223,7 @@ cv::Mat File::read(std::size_t page)
     const cv::Mat bytes(1, static_cast<int>(m_content.size()), CV_8UC1, m_content.data());
     picture = cv::imdecode(bytes, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR);
   }
-  catch (const cv::Exception &) { // says the same as an empty picture
+  catch (const cv::Exception &) { // equivalent to an empty image
     picture.release();
   }
   if (picture.empty()) {

@@ -55,8 +55,7 @@ public:
   }
   bool parse_error(std::size_t position, const std::string &, const nlohmann::detail::exception &error) override
   {
-    // nlohmann: "[json.exception.parse_error.101] parse error at line 1, column 5: syntax error while parsing value -
-    // ..."
+    // "[json.exception.parse_error.101] parse error at line 1, column 5: syntax error while parsing value - ..."
     std::string reason = error.what();
     for (const char *mark : {"] ", "column ", ": "}) {
       const std::size_t at = reason.find(mark);

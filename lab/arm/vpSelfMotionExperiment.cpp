@@ -26,7 +26,7 @@ void requireGood(const char *field, double value, bool good, const char *range)
   }
 }
 
-//! Where the tool shall be at time t, and its velocity: from place to place by least jerk.
+//! Desired tool position and velocity at time t: between positions by minimum jerk.
 void reference(const vpSelfMotionRunSpec &spec, const Eigen::Vector3d &start, double t, Eigen::Vector3d &place,
                Eigen::Vector3d &velocity)
 {
@@ -135,7 +135,7 @@ vpSelfMotionRun runSelfMotionExperiment(const vpSelfMotionRunSpec &spec)
     s.distance = value.distance;
     run.samples.push_back(s);
 
-    // The goal is where the tool shall be now; the velocity is the mean until the next period.
+    // The goal is the desired tool position now; the velocity is the mean until the next period.
     Eigen::Vector3d next;
     reference(spec, start.p, s.time + period, next, velocity);
     const Eigen::Vector3d mean = (next - place) / period;

@@ -19,8 +19,8 @@ namespace
 {
 constexpr double jointTolerance = 1e-6; // relative
 constexpr double toolTolerance = 0.01;  // relative: v and a are differences
-constexpr double lookAhead = 1.;        // s, of false stops
-constexpr int wayPlaces = 100;          // of the straight ways to the goal
+constexpr double lookAhead = 1.;        // s, for false stops
+constexpr int wayPlaces = 100;          // number of samples of the straight paths to the goal
 constexpr double falseStopRoom = 0.02;  // m beyond the margin
 
 Eigen::Vector3d toolAt(const vpArmModel &arm, const vpJointVector &q)
@@ -79,7 +79,7 @@ bool moves(const vpJointVector &velocity)
   return velocity.size() > 0 && velocity.cwiseAbs().maxCoeff() > vpClearanceSearch::movingVelocity;
 }
 
-//! The joints straight to the goal.
+//! Straight joint motion to the goal.
 std::vector<vpJointVector> jointWay(const vpJointVector &q, const vpAvoidanceGoal &goal)
 {
   std::vector<vpJointVector> way;
@@ -89,7 +89,7 @@ std::vector<vpJointVector> jointWay(const vpJointVector &q, const vpAvoidanceGoa
   return way;
 }
 
-//! The tool straight to the goal, as far as it comes.
+//! Straight tool motion to the goal, as far as possible.
 std::vector<vpJointVector> toolWay(const vpArmModel &arm, const vpJointVector &q, const vpAvoidanceGoal &goal)
 {
   const Eigen::Vector3d from = toolAt(arm, q), line = goal.position - from;
@@ -136,7 +136,7 @@ void evaluateStops(const vpAvoidanceRun &run, vpClearanceSearch &search, vpAvoid
   }
 }
 
-// 0 of nothing.
+// 0 for an empty list.
 double percentileMs(const std::vector<double> &seconds, double share)
 {
   return seconds.empty() ? 0. : 1000. * vpQuantile(seconds, share);
@@ -144,7 +144,7 @@ double percentileMs(const std::vector<double> &seconds, double share)
 
 void evaluateEnd(const vpAvoidanceRun &run, vpAvoidanceMetrics &m)
 {
-  std::size_t first = run.samples.size(); // from which on it is there
+  std::size_t first = run.samples.size(); // from which on the arm is at the goal
   while (first > 0 && vpAvoidanceEvaluation::isThere(run.spec, run.samples[first - 1])) {
     --first;
   }

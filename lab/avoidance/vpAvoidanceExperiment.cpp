@@ -18,9 +18,9 @@ BEGIN_VISP_NAMESPACE
 namespace
 {
 constexpr double holdTime = 0.2;     // s that the arm must rest at the goal
-constexpr double patience = 1.;      // s that a method may call itself arrived where it is not
+constexpr double patience = 1.;      // s that a method may report Arrived away from the goal
 constexpr double stuckTime = 3.;     // s without any motion
-constexpr double longestStep = 1e-3; // s between knots of drives that are not ideal
+constexpr double longestStep = 1e-3; // s between knots of non-ideal drives
 
 double secondsSince(std::chrono::steady_clock::time_point start)
 {
@@ -37,7 +37,7 @@ std::unique_ptr<vpAvoidanceMethod> makeMethod(const vpAvoidanceRunSpec &spec, co
   return method;
 }
 
-//! \brief The loop, a period at a time.
+//! \brief The loop, advanced by periods.
 class Loop
 {
 public:
@@ -52,10 +52,10 @@ public:
     const auto begin = std::chrono::steady_clock::now();
     run.start = m_method->start(m_spec->start, m_goal.told(0.));
     run.startTime = secondsSince(begin);
-    static_cast<void>(m_goal.isDue(0.)); // told by that
+    static_cast<void>(m_goal.isDue(0.)); // reported by start()
   }
 
-  //! Log, look, step. \return False when the run has come to its end.
+  //! Log, look, step. \return False at the end of the run.
   bool cycle(double t)
   {
     m_truth.enter(t);
@@ -80,7 +80,7 @@ public:
     return t < m_goal.end() || !isOver(s);
   }
 
-  //! The drives go on for a period.
+  //! Moves the drives for one period.
   void move(double t)
   {
     const double period = m_spec->methodSpec.period;
@@ -92,7 +92,7 @@ public:
     }
   }
 
-  //! The last row: where everything is at the end.
+  //! The last row: the final state.
   void finish(double t)
   {
     m_run->sentence = sentence(m_output, m_perceived.scene(), m_spec->methodSpec.margin);

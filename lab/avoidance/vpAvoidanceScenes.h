@@ -70,8 +70,7 @@ constexpr double feasibleMargin = 0.03;
 [[nodiscard]] vpAvoidanceScenario crossing(const std::shared_ptr<const vpArmModel> &arm, unsigned int seed,
                                                        const vpCrossingSpec &spec = {});
 /*!
- * S4, S6 and user files: task number \e task of a scene, completely known from the start. The seed is only for
- * the methods.
+ * S4, S6 and user files: task number \e task of a scene, completely known from the start. The seed is for methods.
  */
 [[nodiscard]] vpAvoidanceScenario fromTask(const std::shared_ptr<const vpArmModel> &arm,
                                                        const vpCollisionSceneFile &file, std::size_t task,

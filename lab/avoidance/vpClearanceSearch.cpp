@@ -18,8 +18,8 @@ double vpClearanceSearch::at(double time, const vpJointVector &q)
   return std::min(m_truth.scene().clearance(m_data, horizon).distance, horizon);
 }
 
-// No clearance changes by more while the joints move by dq within dt. Of two capsules only the outer one moves as seen
-// from the inner one, by the joints between them.
+// Largest change of any clearance while the joints move by dq within dt. Of two capsules only the outer one moves
+// relative to the inner one, by the joints between them.
 double vpClearanceSearch::motion(const vpJointVector &dq, double dt) const
 {
   double arm = 0.;
@@ -77,7 +77,7 @@ vpClearanceHistory vpClearanceSearch::search(const std::vector<vpMotionKnot> &kn
     m_truth.enter(knots[i].time);
     const bool inMotion = moves(i);
     Interval interval{&knots[i], &knots[i + 1], inMotion ? &moving : &standing, false};
-    // What is there at the end of the interval came with it: its clearance is looked at without.
+    // Obstacles that appear at the end of the interval are excluded from its clearance.
     split(interval, 0., clearances[i], 1., at(knots[i + 1].time, knots[i + 1].q));
     count(interval.touched, inMotion);
   }

@@ -16,12 +16,12 @@ BEGIN_VISP_NAMESPACE
 namespace
 {
 constexpr unsigned int number = 3;
-constexpr double step = 0.01;      // s, at which the conditions are looked at
-constexpr double jointShare = 0.5; // of the joints' speed: the arm that takes no notice
-constexpr double toolSpeed = 0.25; // m/s, mean of the tool that takes no notice
+constexpr double step = 0.01;      // s, time step for checking the conditions
+constexpr double jointShare = 0.5; // fraction of the joint speeds of the blind arm
+constexpr double toolSpeed = 0.25; // m/s, mean speed of the blind tool
 constexpr int places = 60;
 
-//! \brief An arm that takes no notice: configurations in equal steps of time.
+//! \brief A blind arm: configurations in equal time steps.
 struct Blind {
   std::vector<vpJointVector> way;
   double duration = 0.; // s
@@ -54,7 +54,7 @@ Blind alongLine(const vpArmModel &arm, const vpJointVector &start, const vpJoint
   return {vpSceneDraw::toolLine(arm, start, goal, places), length / toolSpeed};
 }
 
-//! Meets the tool of the blind arm on its way, at about the time when it is there.
+//! Obstacle that meets the tool of the blind arm on its path, at about the same time.
 vpMovingObstacle randomObstacle(vpHashRandom &random, int i, const vpArmModel &arm, const Blind &blind, double speed)
 {
   vpMovingObstacle o;
@@ -70,27 +70,27 @@ vpMovingObstacle randomObstacle(vpHashRandom &random, int i, const vpArmModel &a
   return o;
 }
 
-//! Waiting at the start, until nothing is near the way any more, and then going is free.
+//! True if waiting at the start until nothing is near the path, and then moving, is free.
 bool canWait(vpTrueScene &truth, const vpJointVector &start, const vpJointVector &goal, double longest)
 {
   vpMotionScratch scratch;
   const vpCertifiedMotion motion(truth.scene(), {vpAvoidanceScenes::feasibleMargin, 1e-4});
   const double going = timeOf(truth.scene().arm(), start, goal);
-  double freeSince = 0.; // the whole way
+  double freeSince = 0.; // of the whole path
   for (double t = 0.; t < longest; t += step) {
     truth.place(t);
     if (!vpSceneDraw::isFree(truth.scene(), start, vpAvoidanceScenes::feasibleMargin)) {
       return false;
     }
     freeSince = motion.check(start, goal, scratch).isFree() ? freeSince : t + step;
-    if (t - freeSince > going + 1.) { // by then it could have gone
+    if (t - freeSince > going + 1.) { // it could have moved by then
       return true;
     }
   }
   return false;
 }
 
-//! The arm that goes at once is touched on its way, not at its start.
+//! True if an arm that moves at once is hit on its path, not at its start.
 bool isInTheWay(vpTrueScene &truth, const Blind &blind)
 {
   for (double t = 0.; t < blind.duration; t += step) {
@@ -102,7 +102,7 @@ bool isInTheWay(vpTrueScene &truth, const Blind &blind)
   return false;
 }
 
-//! Without obstacles the arm may go this way.
+//! True if the path is free without obstacles.
 bool isFreeAlone(const vpCollisionScene &empty, const Blind &blind)
 {
   return std::all_of(blind.way.begin(), blind.way.end(), [&](const vpJointVector &q) {

@@ -15,7 +15,7 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-// Cubes contain the points that were seen; what is left is the camera's place, and that must not be 0 for a track.
+// Cubes contain the observed points; the remaining error is that of the camera pose, which must not be 0 for a track.
 constexpr double leastPositionSigma = 1e-4; // m
 constexpr double leastAngleSigma = 1e-4;    // rad
 } // namespace

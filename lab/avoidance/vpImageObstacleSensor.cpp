@@ -14,7 +14,7 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-constexpr unsigned char dark = 3; // grey of a covered camera
+constexpr unsigned char dark = 3; // grey value of a covered camera
 } // namespace
 
 void vpImageObstacleSensorSpec::validate() const

@@ -12,7 +12,7 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-constexpr unsigned int stream = 0x60a1; // apart from those of the sensors
+constexpr unsigned int stream = 0x60a1; // separate from those of the sensors
 
 vpAvoidanceGoal between(const vpAvoidanceGoal &from, const vpAvoidanceGoal &to, double s)
 {
@@ -50,7 +50,7 @@ bool vpMovingGoal::isDue(double t)
   if (m_spec->goalMoves.empty() || t < m_next / m_spec->goalRate - rounding) {
     return false;
   }
-  // Once more after the end, without noise: there the run is judged.
+  // Once more after the end, without noise, for the evaluation of the run.
   const bool due = m_next == 0. || (m_next - 1.) / m_spec->goalRate <= m_end;
   m_next += 1.;
   return due;
@@ -66,7 +66,7 @@ vpAvoidanceGoal vpMovingGoal::told(double t)
     }
   }
   if (goal.q.size() > 0) {
-    static_cast<void>(vpReachPoint(*m_spec->arm, goal.position, goal.q)); // as near as the arm comes
+    static_cast<void>(vpReachPoint(*m_spec->arm, goal.position, goal.q)); // as near as the arm can reach
   }
   return goal;
 }

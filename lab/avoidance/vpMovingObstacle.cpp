@@ -19,7 +19,7 @@ void requireGood(const std::string &name, const char *field, double value, bool 
   }
 }
 
-//! Way that has been gone, as a time at full speed, and the part of the speed; a turn is centred on phase 0.
+//! Travelled distance, as a time at full speed, and fraction of the speed; a reversal is centred on phase 0.
 struct Shuttle {
   double way = 0.;
   double speed = 1.;

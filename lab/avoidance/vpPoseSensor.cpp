@@ -52,7 +52,7 @@ void vpPoseSensor::look(const vpCollisionScene &truth, const vpCollisionData &ar
   result.clear();
   const Eigen::Vector3d eye = m_spec.eye ? *m_spec.eye : vpArmKinematics::camera(truth.arm(), arm.arm).p;
   for (Object &seen : m_objects) {
-    // Drawn in any case: what an object's noise is does not hang on what was seen before.
+    // Always drawn: an object's noise does not depend on what was seen before.
     const Eigen::Vector3d shift = noise(seen.random, m_spec.positionNoise);
     const Eigen::Vector3d turn = noise(seen.random, m_spec.angleNoise);
     const bool failed = std::uniform_real_distribution<double>(0., 1.)(seen.random) < m_spec.missed;

@@ -32,7 +32,7 @@ vpCollisionShape randomShape(vpHashRandom &random)
   }
 }
 
-//! Where the arm reaches, but not in its foot.
+//! Random position within reach, but outside the arm's foot.
 Eigen::Vector3d randomPlace(vpHashRandom &random)
 {
   const double angle = random.uniform(-M_PI, M_PI), distance = random.uniform(0.3, 1.), z = random.uniform(0.05, 0.9);
@@ -55,7 +55,7 @@ vpCollisionSceneSpec randomScene(vpHashRandom &random)
   return spec;
 }
 
-//! True when the straight motion collides. Samples are proof enough of that.
+//! True if the straight motion collides; samples suffice to prove that.
 bool touches(const vpCollisionScene &scene, const vpJointVector &start, const vpJointVector &goal)
 {
   constexpr int places = 200;
@@ -67,7 +67,7 @@ bool touches(const vpCollisionScene &scene, const vpJointVector &start, const vp
   return false;
 }
 
-//! True when the tool can go straight, but not freely.
+//! True if the straight tool motion is possible, but collides.
 bool toolTouches(const vpCollisionScene &scene, const vpJointVector &start, const vpJointVector &goal)
 {
   const std::vector<vpJointVector> line = vpSceneDraw::toolLine(scene.arm(), start, goal, 60);
@@ -75,10 +75,10 @@ bool toolTouches(const vpCollisionScene &scene, const vpJointVector &start, cons
                      [&](const vpJointVector &q) { return !vpSceneDraw::isFree(scene, q, 0.); });
 }
 
-//! Start and goal free and some way apart, neither straight motion free, a path known.
+//! Start and goal free and at some distance, neither straight motion free, a path known.
 bool isGood(const vpCollisionScene &scene, const vpJointVector &start, const vpJointVector &goal, unsigned int seed)
 {
-  constexpr double least = 0.3, most = 0.8; // m, way of the tool
+  constexpr double least = 0.3, most = 0.8; // m, distance of the tool positions
   const vpArmModel &arm = scene.arm();
   const double way = (vpSceneDraw::tool(arm, goal) - vpSceneDraw::tool(arm, start)).norm();
   if (way < least || way > most || !vpSceneDraw::isFree(scene, start, vpAvoidanceScenes::feasibleMargin) ||

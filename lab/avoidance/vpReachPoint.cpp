@@ -19,7 +19,7 @@ bool vpReachPoint(const vpArmModel &model, const Eigen::Vector3d &place, vpJoint
     if (error.norm() < close) {
       return true;
     }
-    const double damping = 1e-6 + 1e-3 * error.squaredNorm(); // none left in the end
+    const double damping = 1e-6 + 1e-3 * error.squaredNorm(); // vanishes at the end
     error *= std::min(1., longest / error.norm());
     const auto J = data.J.topRows<3>();
     const Eigen::Matrix3d JJ = J * J.transpose() + damping * Eigen::Matrix3d::Identity();

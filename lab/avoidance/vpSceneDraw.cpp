@@ -114,7 +114,7 @@ bool vpSceneDraw::hasPath(const vpCollisionScene &scene, const vpJointVector &st
   vpPathPlannerSpec spec;
   spec.margin = vpAvoidanceScenes::feasibleMargin;
   spec.iterations = 2000;
-  spec.timeLimit = 1000.; // never: a scene must not hang on the speed of the machine
+  spec.timeLimit = 1000.; // never reached: a scene must not depend on the speed of the machine
   spec.shortenTime = 0.;
   spec.seed = std::max(1U, seed);
   return vpPathPlanner(scene, spec).plan(start, goal).status == vpPathStatus::Solved;

@@ -17,7 +17,7 @@ namespace
 {
 constexpr unsigned int number = 1;
 
-//! The configuration nearby that brings the tool to a place.
+//! The nearby configuration with the tool at a position.
 vpAvoidanceGoal goalAt(const vpArmModel &arm, const vpJointVector &near, const Eigen::Vector3d &place)
 {
   vpJointVector q = near;
@@ -31,7 +31,7 @@ vpAvoidanceGoal goalAt(const vpArmModel &arm, const vpJointVector &near, const E
 //! AMOR's start of chapter 8, found from the arm's home.
 vpAvoidanceGoal thesisStart(const vpArmModel &arm) { return goalAt(arm, arm.home(), {0.05, 0.63, 0.35}); }
 
-//! Part of a way that an arm is past when it can be at rest again: it sets out by least jerk and 1 m/s^2, sees at \e t.
+//! Fraction of a path after which an arm can be at rest: it starts with minimum jerk and 1 m/s^2 and sees at \e t.
 double goneUntil(double t, double way)
 {
   constexpr double braking = 0.06; // m
@@ -39,7 +39,7 @@ double goneUntil(double t, double way)
   return s * s * s * (10. - 15. * s + 6. * s * s) + braking / way;
 }
 
-//! The ball touches the tool that goes straight on, but neither its start nor the new goal.
+//! True if the ball touches the tool on the straight path, but neither at its start nor at the new goal.
 bool isGood(const vpCollisionScene &scene, const vpJointVector &start, const Eigen::Vector3d &way,
             const vpJointVector &goal, double from, unsigned int seed)
 {

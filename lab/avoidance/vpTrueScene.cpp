@@ -29,7 +29,7 @@ void vpTrueScene::enter(double t)
     }
     o.index = there ? 0 : -1;
   }
-  for (Obstacle &o : m_obstacles) { // those behind a removed one have moved up
+  for (Obstacle &o : m_obstacles) { // those after a removed one have moved up
     o.index = o.index >= 0 ? m_scene.find(o.motion.object.name) : -1;
   }
   place(t);

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// One frame of 640x480 px with three photographs on boxes and five other obstacles: drawn, and seen.
+// One frame of 640x480 px with three photographs on boxes and five other obstacles: rendering and detection.
 #include "vpBenchmark.h"
 
 #include <visp3/io/vpImageIo.h>
@@ -114,7 +114,7 @@ static void drawDepth(benchmark::State &state)
 }
 BENCHMARK(drawDepth)->Unit(benchmark::kMillisecond);
 
-//! Detection alone: while tracking, or finding all anew.
+//! Detection alone: while tracking, or with all targets newly detected.
 static void detect(benchmark::State &state)
 {
   const Bench bench;
@@ -137,7 +137,7 @@ static void detect(benchmark::State &state)
 }
 BENCHMARK(detect)->ArgName("anew")->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 
-//! From the true scene to sightings.
+//! Rendering and detection: from the true scene to sightings.
 static void look(benchmark::State &state)
 {
   const Bench bench;
@@ -148,7 +148,7 @@ static void look(benchmark::State &state)
   std::vector<vpObjectSighting> sightings;
   std::size_t seen = 0, frames = 0;
   for (auto _ : state) {
-    // One of them at 0.15 m/s, there and back by 0.1 m.
+    // One of them moves at 0.15 m/s, back and forth by 0.1 m.
     const Vector3d step = (frames / 20 % 2 == 0 ? 0.005 : -0.005) * bench.fMc.R.col(0);
     static_cast<void>(scene.moveObject(0, {scene.object(0).pose.R, scene.object(0).pose.p + step}));
     sensor.look(scene, bench.arm, static_cast<double>(frames) / 30., sightings);

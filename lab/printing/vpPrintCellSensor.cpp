@@ -12,7 +12,7 @@ BEGIN_VISP_NAMESPACE
 namespace
 {
 constexpr int learningFrames = 120;
-constexpr double learningVelocity = 0.37; // px/frame, in both axes; all sub-pixel phases come by
+constexpr double learningVelocity = 0.37; // px/frame, in both axes; passes through all sub-pixel phases
 } // namespace
 
 vpPrintCellSensor::vpPrintCellSensor(const vpPrintExperimentSpec &spec, const vpProductPattern &product)
@@ -59,7 +59,7 @@ void vpPrintCellSensor::seeModel(double x, double y)
   if (n == 0.) {
     return;
   }
-  // The part in common, so that the mean has sigma^2 / effectiveCells.
+  // The common error, so that the mean has the variance sigma^2 / effectiveCells.
   const double effective = std::min(m_model.effectiveCells, n);
   const double common2 = n > 1. ? (1. / effective - 1. / n) / (1. - 1. / n) : 0.;
   const double common = std::sqrt(std::max(0., common2)), own = std::sqrt(std::max(0., 1. - common2));
@@ -92,7 +92,7 @@ void vpPrintCellSensor::seeImage(double x, double y, double vx, double vy, unsig
   }
 }
 
-// Which of the product's rows and columns the tracker's are.
+// Matches the tracker's rows and columns to the product's.
 void vpPrintCellSensor::number(double x, double y, const vpPatternFrame &frame)
 {
   m_numbered = false;

@@ -64,7 +64,7 @@ void evaluateDrops(vpPrintRun &run, const std::vector<vpPrintPass> &passes, doub
     ++m.printed;
     m.doubled += cell.second > 1 ? 1 : 0;
   }
-  // A cell that passed in the last frames may still be waited for.
+  // The drop of a cell that passed in the last frames may still be pending.
   for (const vpPrintPass &pass : passes) {
     const bool over = pass.time + 4. + spec.travelTime + spec.electronicsDelay <= end;
     m.missed += over && drops.count({pass.row, pass.column}) == 0 ? 1 : 0;

@@ -16,8 +16,8 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-constexpr double longestTurn = 0.25;  // s that a row may take beyond its cells
-constexpr double landedWithin = 10.;  // um: a late drop is still fired if it lands so close
+constexpr double longestTurn = 0.25;  // s that a row may take in addition to its cells
+constexpr double landedWithin = 10.;  // um: a late drop is still fired if it lands within this
 constexpr double rowOfNozzle = 0.225; // pitches across: a row passes the nozzle if it is nearer
 
 vpPrintMachineSpec machineOf(const vpPrintExperimentSpec &spec)
@@ -68,7 +68,7 @@ private:
   [[nodiscard]] const vpPrintMachineSpec &nozzle() const { return m_machine.spec(); }
   [[nodiscard]] static int direction(int row) { return row % 2 == 0 ? 1 : -1; }
 
-  //! True place of a cell at displacement 0. The product tells it when the cell is in the middle of the image.
+  //! True position of a cell at displacement 0, from the product with the cell at the image centre.
   vpPatternTruthCell truthOf(int row, int column)
   {
     const auto key = std::make_pair(row, column);
@@ -111,7 +111,7 @@ private:
     pass();
   }
 
-  // What the camera sees; by chance an image is lost.
+  // Takes an image; some are lost at random.
   void sense(int frame, vpPrintSample &sample)
   {
     std::mt19937_64 &random = m_sensor.random();
@@ -140,7 +140,7 @@ private:
     m_run.samples.push_back(sample);
   }
 
-  // Drops whose landing is in the past by now.
+  // Evaluates drops that have landed by now.
   void land()
   {
     for (std::size_t i = 0; i < m_flying.size();) {
@@ -203,7 +203,7 @@ private:
   std::normal_distribution<double> m_normal{0., 1.};
   std::vector<vpPrintShot> m_flying;
   std::vector<vpPrintPass> m_passes;
-  long m_passing = 0; // cells that have passed, in the order of printing
+  long m_passing = 0; // cells that have passed, in printing order
   std::map<std::pair<int, int>, vpPatternTruthCell> m_truths;
   vpPrintRun m_run;
 };

@@ -14,7 +14,7 @@ namespace
 {
 constexpr vpFieldCheck fields("the print experiment");
 
-// The cells' scatter on the product is part of the set that shows the thesis's figures.
+// The jitter of the cells is part of the parameters that reproduce the figures of the thesis.
 vpPrintExperimentSpec thesisRun()
 {
   vpPrintExperimentSpec spec;
@@ -77,13 +77,13 @@ vpPrintExperimentSpec vpPrintExperimentSpec::withObserver(const vpPrintSensorMod
   spec.preview.model = spec.observer.model;
   spec.preview.velocityGain = 0.7;
   spec.preview.positionGain = 0.03;
-  spec.previewAcross = spec.preview; // stiff, against sticking
+  spec.previewAcross = spec.preview; // stiff, against stiction
   spec.previewAcross.velocityGain = 0.8;
   spec.previewAcross.positionGain = 0.25;
   spec.commandsPerFrame = 4;
   const bool fine = sensor.sigmaX / std::sqrt(sensor.effectiveCells) < 0.03;
-  // A coarse sensor needs a quiet filter, which would learn too late where the friction rises. A fine one sees the errors of
-  // the friction model instead: to it everything would be a change.
+  // A coarse sensor needs a slow filter, which would learn too late where the friction rises. A fine one sees the
+  // errors of the friction model instead and would treat everything as a change.
   spec.observer.disturbanceNoise = fine ? 1e-7 : 3e-7;
   spec.observer.changeRate = fine ? 0. : 0.003;
   spec.observer.velocityNoise = 1e-6;

@@ -14,7 +14,7 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-//! \brief From one system of units to another; see the table of vpPrintUnits.
+//! \brief Conversion between two systems of units; see the table of vpPrintUnits.
 class Change
 {
 public:
@@ -24,7 +24,7 @@ public:
     from.validate();
     to.validate();
   }
-  //! Multiply a quantity of the unit L^length T^time.
+  //! Converts a quantity of the unit L^length T^time.
   void operator()(double &value, int length, int time) const
   {
     value *= std::pow(m_length, length) * std::pow(m_time, time);
@@ -33,7 +33,7 @@ public:
   [[nodiscard]] double time() const { return m_time; }
 
 private:
-  double m_length, m_time; // new units in an old one
+  double m_length, m_time; // new units per old unit
 };
 
 void change(vpFrictionModel &model, const Change &by)
@@ -165,13 +165,13 @@ vpAlphaBetaGains vpInUnits(const vpAlphaBetaGains &gains, const vpPrintUnits &fr
   if (slower == 1.) {
     return gains;
   }
-  const double half = 0.5 * (2. - gains.alpha - gains.beta); // of the sum of the poles
+  const double half = 0.5 * (2. - gains.alpha - gains.beta); // half the sum of the poles
   const std::complex<double> root = std::sqrt(std::complex<double>(half * half - (1. - gains.alpha), 0.));
   std::complex<double> sum = 0., product = 1.;
   for (const std::complex<double> &pole : {half + root, half - root}) {
     const double angle = std::clamp(std::arg(pole) * slower, -M_PI, M_PI);
     const double radius = std::pow(std::abs(pole), slower);
-    // A real pole below zero turns by half a frame rate, which has no counterpart: it keeps its sign.
+    // A negative real pole oscillates at half the frame rate, which has no counterpart: it keeps its sign.
     const std::complex<double> moved =
         pole.imag() == 0. ? std::copysign(radius, pole.real()) : std::polar(radius, angle);
     sum += moved;

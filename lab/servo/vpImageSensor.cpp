@@ -43,7 +43,7 @@ protected:
   }
 
 private:
-  // The squarest grid with at least pointCount nodes; its last row may be short.
+  // The most nearly square grid with at least pointCount nodes; its last row may be incomplete.
   static std::vector<Eigen::Vector3d> gridPoints(const vpServoTask &task)
   {
     const unsigned int columns = static_cast<unsigned int>(std::ceil(std::sqrt(task.pointCount)));
@@ -61,7 +61,7 @@ private:
   vpPlaneRenderer m_renderer;
   vpPlanarTarget m_tracker;
   vpCameraFaults m_faults;
-  unsigned int m_seed; // moves on with every frame
+  unsigned int m_seed; // changes with every frame
   vpImage<unsigned char> m_image;
 };
 } // namespace

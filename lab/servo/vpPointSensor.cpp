@@ -23,10 +23,10 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-// The points belong to the object, not to the experiment: another seed must not mean another object.
+// The points belong to the object, not to the experiment: they must not depend on the seed.
 constexpr unsigned int objectSeed = 5;
 constexpr unsigned int fewestPoints = 4;
-// Points closer to a line than this share of the object's size (standard deviation) do not tell the tilt about it.
+// Points closer to a line than this fraction of the object's size (standard deviation) leave the tilt about it unknown.
 constexpr double smallestSpread = 0.05;
 
 // Pose of the plane z = 0 from its homography to normalised image coordinates: H ~ [r1 r2 t], positive depth.
@@ -41,7 +41,7 @@ vpHomogeneousMatrix poseFromHomography(const vpHomography &H)
   M /= std::copysign(0.5 * (M.col(0).norm() + M.col(1).norm()), M(2, 2));
   Eigen::Matrix3d axes;
   axes << M.col(0), M.col(1), M.col(0).cross(M.col(1));
-  // Noise makes the axes not quite orthonormal: take the nearest rotation.
+  // With noise the axes are not exactly orthonormal: use the nearest rotation.
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(axes, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Matrix3d R = svd.matrixU() * svd.matrixV().transpose();
   vpHomogeneousMatrix cMo;
@@ -54,7 +54,7 @@ vpHomogeneousMatrix poseFromHomography(const vpHomography &H)
   return cMo;
 }
 
-// Standard deviation of the points across the line that fits them best.
+// Standard deviation of the points perpendicular to their best-fit line.
 double spreadAcrossLine(const std::vector<double> &X, const std::vector<double> &Y)
 {
   const Eigen::Map<const Eigen::ArrayXd> x(X.data(), X.size()), y(Y.data(), Y.size());
@@ -75,7 +75,7 @@ protected:
   {
     vpServoTarget::project(m_target.points(), cMo, result.points);
     for (vpServoPoint &p : result.points) {
-      // Drawn for hidden points too: the noise of a later frame must not depend on what this one showed.
+      // Drawn for hidden points, too: the noise of later frames must not depend on the visibility in this one.
       const double du = m_noise(), dv = m_noise();
       p.x += du / m_task.camera.get_px();
       p.y += dv / m_task.camera.get_py();
@@ -130,12 +130,12 @@ private:
       pose.poseVirtualVS(result.cMo);
       return pose.computeResidual(result.cMo) < largestResidual() * largestResidual() * 2. * points.size();
     }
-    catch (const vpException &) { // how ViSP says that these few points determine no homography
+    catch (const vpException &) { // ViSP's error if these few points determine no homography
       return false;
     }
   }
 
-  // More than any noise does: the refinement went astray. Normalised, per coordinate, root mean square.
+  // Beyond any noise: the refinement diverged. Normalised, per coordinate, root mean square.
   double largestResidual() const { return (3. * m_pixelNoise + 1.) / m_task.camera.get_px(); }
 
   bool takeDepths(vpServoMeasurement &result) const
@@ -151,8 +151,8 @@ private:
     return true;
   }
 
-  // Of the least-squares pose: (sum J^T J / sigma^2)^-1, J the derivatives of the visible points' images by (v, w), with which
-  // a point P of the object moves by v + w x (P - t).
+  // Covariance of the least-squares pose: (sum J^T J / sigma^2)^-1, J the derivatives of the visible points' images by
+  // (v, w), with which a point P of the object moves by v + w x (P - t).
   void takeCovariance(vpServoMeasurement &result) const
   {
     using Matrix6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;

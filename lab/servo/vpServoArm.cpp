@@ -12,9 +12,9 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-constexpr double longestPeriod = 0.005;    // s, of the arm's control
-constexpr double deadbandOfFriction = 0.1; // rad/s: deadband of the plant that stands for the friction of the file
-constexpr double noteworthy = 0.5;         // s of slowed motion that the status tells of
+constexpr double longestPeriod = 0.005;    // s, longest control period of the arm
+constexpr double deadbandOfFriction = 0.1; // rad/s: deadband of the plant equivalent to the friction of the arm model
+constexpr double noteworthy = 0.5;         // s of slowed motion that the status reports
 
 const vpArmSample *firstWith(const std::vector<vpArmSample> &samples, vpSimulatedArmStatus status)
 {
@@ -49,7 +49,7 @@ std::string reasonOf(const vpArmModel &model, const vpArmSample &s)
   }
 }
 
-// The gravest of what hindered the arm.
+// The most severe limitation of the arm.
 std::string describe(const vpArmModel &model, const std::vector<vpArmSample> &samples, const vpArmMetrics &m,
                      double cycle)
 {

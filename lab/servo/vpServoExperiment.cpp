@@ -22,7 +22,7 @@ BEGIN_VISP_NAMESPACE
 namespace
 {
 constexpr double mostCycles = 1e7;  // the log must fit into memory
-constexpr double framesMissed = 5.; // after so many, odometry alone is not believed any more
+constexpr double framesMissed = 5.; // maximum number of frames bridged by odometry alone
 
 std::unique_ptr<vpServoSensor> makeSensor(const vpServoRunSpec &spec)
 {
@@ -38,7 +38,7 @@ std::unique_ptr<vpServoSensor> makeSensor(const vpServoRunSpec &spec)
   throw vpException(vpException::badValue, "unknown measure '%s', known are points and image", spec.measure.c_str());
 }
 
-// Filter and plant share the speed limits and the view, so that the filter never asks for what the robot cannot do.
+// Filter and plant share the speed limits and the view, so that the filter never requests what the robot cannot do.
 vpServoController makeController(const vpServoRunSpec &spec)
 {
   vpServoControllerConfig config;
@@ -77,7 +77,7 @@ std::vector<long> segmentEnds(const vpServoRunSpec &spec)
 void project(const vpServoTask &task, const vpHomogeneousMatrix &cMo, double x, double y, double &u, double &v,
              bool &inImage)
 {
-  constexpr double nearest = 1e-3; // keeps the log finite when the object passes beside or behind the camera
+  constexpr double nearest = 1e-3; // keeps the log finite if the object passes beside or behind the camera
   const double depth = cMo[2][0] * x + cMo[2][1] * y + cMo[2][3];
   const double Z = std::max(depth, nearest);
   vpMeterPixelConversion::convertPoint(task.camera, (cMo[0][0] * x + cMo[0][1] * y + cMo[0][3]) / Z,
@@ -99,7 +99,7 @@ bool allCornersInImage(const vpServoTask &task, const vpHomogeneousMatrix &cMo)
   return true;
 }
 
-// What is true at this instant, whatever the sensor says.
+// The true state at this instant, independent of the sensor.
 void fillTruth(const vpServoTask &task, const vpServoSegment &segment, vpServoSample &s)
 {
   const vpHomogeneousMatrix cdMc = segment.cdMo * s.cMo.inverse();
@@ -139,7 +139,7 @@ void fillSeen(const vpServoSegment &segment, const vpServoMeasurement &measureme
   s.translationDeviation = variance >= 0. ? std::sqrt(variance) : s.translationDeviation;
 }
 
-// Where the rotation would end if this angular velocity decayed as the law's own rotation error does.
+// Final rotation if this angular velocity decayed like the law's own rotation error.
 double referenceYaw(const vpHomogeneousMatrix &wMc, const vpTwist &command, double rotationGain)
 {
   const Eigen::Vector3d w(command[3], command[4], command[5]);
@@ -194,7 +194,7 @@ vpServoRun runServoExperiment(const vpServoRunSpec &spec, const std::function<bo
     const vpServoCommand command = servo.update(measurement, dt);
     vpTwist asked = command.v;
     if (shaper) {
-      // The plant's speed limits come first: behind the shaper their onset would be a kink in its smooth twist.
+      // The plant's speed limits come first: after the shaper they would cause a kink in its smooth twist.
       asked = shaper->update(limitTwist(asked, spec.plant.maxLinear, spec.plant.maxAngular), dt);
     }
     robot->move(asked);

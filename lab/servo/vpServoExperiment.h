@@ -77,8 +77,7 @@ struct vpServoRunSpec {
   vpCameraFaults faults;                    //!< Image faults for measure "image", instead of vpServoPlant::pixelNoise.
   /*!
    * Limits of a vpTwistShaper between controller and plant; without them the plant gets the controller's twist
-   * unchanged. The shaper starts at rest and is never reset: a new goal, a lost target and the retreat after it are
-   * ramps too.
+   * unchanged. The shaper starts at rest and is never reset: a new goal, a lost target and the retreat also give ramps.
    */
   std::optional<vpTwistShaperLimits> shape;
   //! Arm that carries the camera; null: free-flying camera with the lag and friction of the plant.

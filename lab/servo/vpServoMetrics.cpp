@@ -22,7 +22,7 @@ constexpr double settledTranslation = 0.005;
 
 double idealYawRange(const vpServoTask &task)
 {
-  double lowest = 0., highest = 0.; // the world is the camera at the start
+  double lowest = 0., highest = 0.; // world frame: the camera at the start
   for (const vpServoSegment &segment : task.segments) {
     const double yaw = vpServoGeometry::yaw(vpServoGeometry::rotation(task.initial * segment.cdMo.inverse()));
     lowest = std::min(lowest, yaw);
@@ -31,7 +31,7 @@ double idealYawRange(const vpServoTask &task)
   return vpMath::deg(highest - lowest);
 }
 
-// How the run ended: the first rule that applies.
+// Final status of the run: the first rule that applies.
 std::string describeEnd(const vpServoRunSpec &spec, const std::vector<vpServoSample> &samples)
 {
   char text[256];
@@ -61,7 +61,7 @@ vpTwist minus(const vpTwist &a, const vpTwist &b)
   return vpTwist(a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3], a[4] - b[4], a[5] - b[5]);
 }
 
-// Time from a segment's first sample until its errors are small for good.
+// Time from a segment's first sample until its errors stay small.
 double settlingTime(const vpServoSample *first, const vpServoSample *last, double cycle)
 {
   const vpServoSample *s = last;

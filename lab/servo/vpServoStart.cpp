@@ -17,7 +17,7 @@ namespace
 {
 constexpr int candidates = 200;
 constexpr double goodSingular = 0.2; // m/rad: away from singularities
-constexpr double coarse = 1e-3;      // m and rad: near enough to know that a pose can be reached
+constexpr double coarse = 1e-3;      // m and rad: tolerance for a pose to count as reachable
 constexpr double longest = 20.;      // s to a pose
 
 double marginOf(const vpArmModel &model, const vpJointVector &q)
@@ -32,7 +32,7 @@ double marginOf(const vpArmModel &model, const vpJointVector &q)
   return margin;
 }
 
-// Ends early with what it has when that is not above a bound: such a start is not wanted.
+// Ends early with its current value if that is not above a bound: such a start is not used.
 double rate(const vpArmModel &model, const vpServoTask &task, const vpJointVector &start, double bound)
 {
   vpRedundancySpec redundancy;

@@ -21,7 +21,7 @@ void requirePositive(const std::string &field, double value, const char *unit)
   }
 }
 
-// The object must be a thing that this camera can see: rigid pose, all of it in front, its front side towards us.
+// The object must be visible to this camera: rigid pose, completely in front, front side towards the camera.
 void requireVisiblePose(const std::string &field, const vpHomogeneousMatrix &cMo, double width, double height)
 {
   for (unsigned int i = 0; i < 12; ++i) {
@@ -51,7 +51,7 @@ void requireVisiblePose(const std::string &field, const vpHomogeneousMatrix &cMo
   }
 }
 
-// Pose of an object at depth Z0 on the first camera's axis, seen by a camera that moved by (x, 0, z) and faces it.
+// Pose of an object at depth Z0 on the first camera's axis, for a camera that moved by (x, 0, z) and faces it.
 vpHomogeneousMatrix facingPose(double x, double z, double Z0)
 {
   const double yaw = std::atan2(-x, Z0 - z);

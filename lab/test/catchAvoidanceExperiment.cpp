@@ -121,7 +121,7 @@ TEST_CASE("The least clearance is that between the samples, too", "[avoidance-ex
 
 TEST_CASE("What runs into an arm at rest is counted apart", "[avoidance-experiment]")
 {
-  // The sledge rests at 0.5 m from 1 s on; the ball comes down on it at 2 s, goes, and comes again.
+  // The sledge rests at 0.5 m from 1 s on; the ball hits it from above at 2 s, leaves, and returns.
   BlindMethod::Spec blind;
   blind.duration = 1.;
   vpAvoidanceRunSpec spec = sledgeRun(0., 0.5, blind);
@@ -206,7 +206,7 @@ TEST_CASE("A stop without a reason is a false one", "[avoidance-experiment]")
   CHECK(run({movingBall({-0.3, 0., 0.}, {0., 0., 0.})}).false_stops == 1);
   CHECK(run({movingBall({0.45, 1.58, 0.}, {0., -1., 0.})}).false_stops == 0);
   CHECK(run({movingBall({0.45, 3.9, 0.}, {0., -1., 0.})}).false_stops == 1);
-  // Just set out it would be 0.1 m farther on after a second; but the ball is on the straight way to the goal.
+  // Just started it would be only 0.1 m farther after a second; but the ball is on the straight path to the goal.
   blind.stopFrom = 0.3;
   CHECK(run({}).false_stops == 1);
   CHECK(run({movingBall({0.5, 0., 0.}, {0., 0., 0.})}).false_stops == 0);

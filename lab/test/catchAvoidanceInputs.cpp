@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// What a method is told, and when: frames, goals, objects that come and go.
+// Inputs of a method and their times: frames, goals, objects that appear and vanish.
 #include "vpCatch.h"
 #include "vpMethodsOfTests.h"
 

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The scenes keep what they promise: neither trivial nor impossible, and the same on every machine.
+// The scenes meet their conditions: neither trivial nor infeasible, and the same on every machine.
 #include "vpCatch.h"
 #include "vpMethodsOfTests.h"
 
@@ -23,7 +23,7 @@ std::shared_ptr<const vpArmModel> arm()
   return model;
 }
 
-//! Least clearance of the straight motion at so many places, obstacles where they are at the time 0.
+//! Least clearance of the straight motion at a number of positions, obstacles at time 0.
 double straightClearance(const vpAvoidanceRunSpec &run, int places)
 {
   vpCollisionScene scene(*run.arm, run.scene);

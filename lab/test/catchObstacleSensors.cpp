@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// From the true scene over rendered photographs to sightings and tracks: as good as they say, with the camera in the hand.
+// Sightings and tracks from rendered photographs of the true scene (eye in hand): errors match the reported sigmas.
 #include "vpCatch.h"
 #include "vpTestArms.h"
 
@@ -141,8 +141,8 @@ TEST_CASE("Errors of sightings from rendered pictures are as large as they say",
   CHECK(far <= 3);
   std::cout << "sightings: " << seen << " of 36, wrong " << wild << ", error over deviation, rms: place "
             << std::sqrt(places / (seen - wild)) << ", rotation " << std::sqrt(turns / (seen - wild)) << std::endl;
-  // The worst direction stands for all three: between one and three squares each, and noise of the camera's place. A
-  // deviation three times too large or too small would be seen.
+  // The worst direction represents all three: between one and three squares each, and noise of the camera position. A
+  // standard deviation three times too large or too small would be detected.
   const double count = seen - wild;
   CHECK(std::sqrt(places / count) < 2.);
   CHECK(std::sqrt(places / count) > 0.2);

@@ -78,7 +78,7 @@ TEST_CASE("A pose sensor sees what is in range, and misses some of it", "[pose-s
   vpPoseSensor far({"ball", "other"}, spec, 1);
   far.look(scene, data, 0., seen);
   REQUIRE(seen.size() == 2);
-  CHECK(seen[0].pose.p == first); // the noise of one hangs on no other
+  CHECK(seen[0].pose.p == first); // the noise of objects is independent
 
   // From the hand the distance is that of the camera.
   spec.eye.reset();

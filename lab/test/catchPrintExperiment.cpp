@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The closed loop of printing: the thesis's figures, what the observer adds, each cell once, repeatable.
+// Closed-loop printing: the figures of the thesis, benefit of the observer, each cell once, repeatable.
 #include "vpCatch.h"
 
 #include "lab/printing/vpPrintExperiment.h"

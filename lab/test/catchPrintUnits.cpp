@@ -32,10 +32,10 @@ vpPrintExperimentSpec withPerfectSensor(vpPrintController controller)
   return spec;
 }
 
-//! Force on both axes, in m/s^2 at mass 1, at a time in s: enough to break loose, turn round and stop.
+//! Force on both axes, in m/s^2 at mass 1, at a time in s: enough to overcome stiction, reverse and stop.
 double forceAt(double t, double size) { return size * (std::sin(40. * t) + 0.5 * std::sin(97. * t)); }
 
-//! Places in um every 10 ms, of a stage in other units under the same force.
+//! Positions in um every 10 ms, of a stage in other units under the same force.
 std::vector<double> placesOf(const vpXYStageSpec &stage, const vpPrintUnits &units, double size)
 {
   constexpr double h = 1e-4, seconds = 0.2; // a command lasts 0.1 ms
@@ -157,7 +157,7 @@ TEST_CASE("There and back is where it was", "[print-units]")
 
 TEST_CASE("A filter keeps its answer in seconds, and stays stable", "[print-units]")
 {
-  // The answer to a step, compared at the same instants: the poles are the same, so the way to the step decays alike.
+  // Step response, compared at the same instants: the poles are the same, so the error decays equally.
   const unsigned int seed = GENERATE(range(0u, 200u));
   CAPTURE(seed);
   std::mt19937_64 random(seed);

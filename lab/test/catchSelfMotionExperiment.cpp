@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// S5: the spare joints obey the index, and the tool does not notice.
+// S5: the self-motion follows the index without moving the tool.
 #include "vpCatch.h"
 #include "vpMethodsOfTests.h"
 
@@ -55,7 +55,7 @@ TEST_CASE("Joint 4 goes where the index wants it, the tool stays on its way", "[
     }
     CHECK(far.joint_travel_rad > none.joint_travel_rad);
   }
-  // What is called a distance is one: of joint 4's origin from the point.
+  // The reported distance is that of joint 4's origin from the point.
   const vpSelfMotionRun r = run(repel[0], 0.6);
   vpArmData data;
   vpArmKinematics::forward(amor(), r.samples[700].q, data);

@@ -190,7 +190,7 @@ TEST_CASE("the reference of PBVS is the goal, that of the feedforward law leads 
   for (const vpServoSample &s : twice.samples) {
     REQUIRE(s.referenceYaw == Approx(s.goalYaw).margin(1e-9)); // its own gain, not lambda
   }
-  // Figure 5.8: on a plant with friction, the sum law asks for more than the goal, because the object is off its place.
+  // Figure 5.8: on a plant with friction, the sum law requests more than the goal, because of the image error.
   const vpServoRun sum = runServoExperiment(shortSpec("ff-sum", "D"));
   const vpServoSample &end = sum.samples[149];
   CHECK(end.referenceYaw > end.goalYaw + 0.05);
@@ -233,7 +233,7 @@ TEST_CASE("the figures of a made-up log are right", "[metrics]")
     s.inView = k != 3 && k != 4;
     s.actual = vpTwist(0., 0., k == 5 ? 0.5 : 0.1, 0., k == 6 ? -1.2 : 0., 0.);
     s.status = k == 7 ? vpServoStatus::Deadlock : vpServoStatus::Servoing;
-    // Segment 0 settles after 0.4 s, is off again at 0.6 s only by translation, and settles for good at 0.7 s.
+    // Segment 0 settles after 0.4 s, is off again at 0.6 s only by translation, and settles finally at 0.7 s.
     s.rotationError = vpMath::rad(k < 4 ? 10. : 0.5);
     s.translationError = k == 6 ? 0.006 : 0.001;
   }

@@ -94,7 +94,7 @@ TEST_CASE("From bad starts the servo ends at the goal or its status says why not
     for (int problem = 0; problem < 20; ++problem) {
       auto arm = std::make_shared<vpServoArm>(vpServoArm{*model, {}});
       arm->spec.start = configuration(*model, rng);
-      if (problem % 4 == 0) { // stretched out or with a wrist that has lost an axis
+      if (problem % 4 == 0) { // stretched out or with a singular wrist
         arm->spec.start(model == &amor() ? 3 : 4) = 0.;
       }
       const vpServoRun result = run("ff-lookat-pi", "A", arm);

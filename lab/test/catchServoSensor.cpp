@@ -18,7 +18,7 @@ VISP_DIRECT_USING_NAMESPACE
 
 namespace
 {
-// A view of the task's object with all of it in the picture.
+// A view of the task's object, completely in the image.
 vpHomogeneousMatrix randomView(std::mt19937_64 &rng)
 {
   std::uniform_real_distribution<double> unit(-1., 1.);
@@ -178,7 +178,7 @@ TEST_CASE("the covariance of the points' pose is that of its errors", "[sensor][
     const Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>> C(m.covariance.C.data());
     sum += e.dot(C.ldlt().solve(e));
   }
-  // Chi squared with 6 degrees: mean 6, variance 12; five deviations of the mean of so many.
+  // Chi squared with 6 degrees: mean 6, variance 12; five standard deviations of the mean.
   CHECK(std::abs(sum / views - 6.) < 5. * std::sqrt(12. / views));
   CHECK_FALSE(vpServoMeasurement().covariance.known);
 }

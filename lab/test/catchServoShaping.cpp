@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The twist shaper between controller and plant: what it bounds, what it leaves alone, and what it costs.
+// The twist shaper between controller and plant: bounds, unchanged properties, and costs.
 #include "vpCatch.h"
 
 #include <visp3/core/vpException.h>
@@ -27,7 +27,7 @@ vpServoRunSpec specOf(const std::string &law, const std::string &plant, double s
   return spec;
 }
 
-// Turning keeps pace with going sideways at about 0.4 m from the object.
+// Rotation matches sideways motion at about 0.4 m from the object.
 vpTwistShaperLimits gentle()
 {
   vpTwistShaperLimits limits;
@@ -122,7 +122,7 @@ TEST_CASE("the raw command is a step at t = 0 and at each new goal, the shaped o
     // 0.22 m and 28 deg away, gain 1 1/s: 0.22 m/s and 0.5 rad/s within one cycle of 10 ms.
     CHECK(peaksOf(raw, start, 1).acceleration[0] > 20.);
     CHECK(peaksOf(raw, start, 1).acceleration[1] > 45.);
-    // From the motion that is left of the segment before, jerk * dt at most in a cycle.
+    // From the remaining motion of the previous segment, at most jerk * dt per cycle.
     CHECK(peaksOf(shaped, start, 1).acceleration[0] <= 0.15);
     CHECK(peaksOf(shaped, start, 1).acceleration[1] <= 0.4);
     // But it does start at once.
@@ -212,7 +212,7 @@ TEST_CASE("shaped speeds stay at the plant's limits", "[shaping]")
 
 TEST_CASE("the view filter stands before the shaper, which weakens its promise", "[shaping]")
 {
-  // The filter's twist is safe when executed at once; what the shaper keeps from the motion before it is not.
+  // The filter's twist is safe if executed at once; the motion that the shaper carries over is not.
   vpServoRunSpec spec = specOf("ibvs", "A", 4.);
   spec.task.initial = vpHomogeneousMatrix(-0.12, 0.04, 0.6, 0., 0., 0.);
   spec.task.segments = {{"rolled", vpHomogeneousMatrix(-0.12, -0.04, 0.5, 0., 0., 1.5), 4.}};
@@ -222,7 +222,7 @@ TEST_CASE("the view filter stands before the shaper, which weakens its promise",
   CHECK(outOfView() == 0.);
   spec.shape = vpTwistShaperLimits{1., 10., 0.5, 5., true}; // turns too slowly for its translation
   CHECK(outOfView() > 0.5);
-  // A robot that is ten times as quick is close to what the filter takes for granted.
+  // A robot ten times as fast nearly fulfils the filter's assumption.
   spec.shape->linearAcceleration = 10.;
   spec.shape->linearJerk = 1000.;
   spec.shape->angularAcceleration = 25.;

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// A sledge whose motion is known in closed form, and a method that drives it without looking at anything.
+// A sledge with closed-form motion, and a method that drives it without perception.
 #ifndef vpMethodsOfTests_h
 #define vpMethodsOfTests_h
 
@@ -42,7 +42,7 @@ inline std::shared_ptr<const vpArmModel> sledge()
 
 inline vpJointVector at(double x) { return vpJointVector::Constant(1, x); }
 
-//! From start to goal by least jerk within #duration; stands from #stopFrom until #stopTo, calling it a stop.
+//! From start to goal by minimum jerk within #duration; stands from #stopFrom until #stopTo, reported as a stop.
 class BlindMethod : public vpAvoidanceMethod
 {
 public:
@@ -50,7 +50,7 @@ public:
     double duration = 2.;
     double stopFrom = std::numeric_limits<double>::infinity(), stopTo = 0.;
   };
-  //! What it was told and asked, with the cycle in which that was.
+  //! Record of the calls, with their cycles.
   struct Diary {
     int cycle = 0;
     std::vector<int> looks;
@@ -98,7 +98,7 @@ private:
   double m_clock = 0.;
 };
 
-//! The sledge from one place to another, blindly; nothing is there yet.
+//! Run of the sledge from one position to another, blindly; no obstacles yet.
 inline vpAvoidanceRunSpec sledgeRun(double from, double to, const BlindMethod::Spec &blind = {},
                                     std::shared_ptr<BlindMethod::Diary> diary = nullptr)
 {

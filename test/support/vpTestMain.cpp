@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 // Catch2's implementation and main, compiled once for all tests. ViSP's ctest passes "-c" and "-d" (later
-// "--no-display") to every test program; they mean nothing here and are dropped.
+// "--no-display") to every test program; they have no meaning here and are dropped.
 #define CATCH_CONFIG_RUNNER
 #include "vpCatch.h"
 
@@ -18,11 +18,11 @@ namespace
 constexpr int skipped = 77; // SKIP_RETURN_CODE of cmake/VispDirectModule.cmake
 unsigned int s_seed = 20240613;
 bool s_skipped = false;
-std::set<std::string> s_random; // names of the tests that asked for the seed
+std::set<std::string> s_random; // names of the tests that used the seed
 
 void noteRandomTest() { s_random.insert(Catch::getResultCapture().getCurrentTestName()); }
 
-// Run the tests that are random again, with the seed that the environment names.
+// Runs the random tests again, with the seed from the environment.
 int runAgain(Catch::Session &session, unsigned int seed)
 {
   Catch::ConfigData config = session.configData();

@@ -2,8 +2,8 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// What each method costs: every step and every look of whole motions past the pillar of S4a, timed on their own. The
-// planners are the peers: their start is OMPL's RRTConnect on certified motions, with path and timing.
+// Time of each method: every step and every look of whole motions past the pillar of S4a, timed individually. The
+// planners are for comparison: their start is OMPL's RRTConnect on certified motions, with path and timing.
 #include "vpBenchmark.h"
 
 #include <visp3/avoidance/vpAvoidanceMethods.h>

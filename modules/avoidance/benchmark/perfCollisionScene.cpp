@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Time of distances and of checks of motions, with FCL on the same pairs and motions beside.
+// Time of distances and motion checks, compared with FCL on the same pairs and motions.
 #include "vpBenchmark.h"
 
 #include <visp3/avoidance/vpCertifiedMotion.h>
@@ -20,7 +20,7 @@ namespace
 {
 std::string dataFile(const std::string &name) { return std::string(VISP_DIRECT_DATA_DIR) + "/" + name; }
 
-// AMOR with seven capsules, one a link, so that 10 of the pairs of capsules are not adjacent.
+// AMOR with seven capsules, one per link, so that 10 of the pairs of capsules are not adjacent.
 const vpArmModel &arm()
 {
   static const vpArmModel model = [] {
@@ -34,7 +34,7 @@ const vpArmModel &arm()
   return model;
 }
 
-// Ten spheres, capsules, boxes and cylinders about the arm: 70 pairs, and 10 of 21 pairs of capsules.
+// Ten spheres, capsules, boxes and cylinders around the arm: 70 pairs, and 10 of 21 pairs of capsules.
 const vpCollisionScene &scene()
 {
   static const vpCollisionScene made = [] {
@@ -116,7 +116,7 @@ void allPairsOwn(benchmark::State &state)
 }
 BENCHMARK(allPairsOwn);
 
-// What a control cycle wants: pairs nearer than 0.35 m.
+// As in a control cycle: pairs nearer than 0.35 m.
 void nearPairsOwn(benchmark::State &state)
 {
   vpCollisionData data;

@@ -2,8 +2,8 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Planning time on pillar and shelf (S4), a seed an iteration: certified, own discrete and FCL discrete motions side by
-// side, and the other planners. first_ms is the planner's own time without shortening.
+// Planning time on pillar and shelf (S4), one seed per iteration: certified, own discrete and FCL discrete motions,
+// and the other planners. first_ms is the planner's own time without shortening.
 #include "vpBenchmark.h"
 
 #include <visp3/avoidance/vpCollisionSceneJson.h>

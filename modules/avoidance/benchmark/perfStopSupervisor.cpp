@@ -2,8 +2,8 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// A whole control cycle with whole-arm avoidance: kinematics, redundancy with two indices and limits, and the supervisor
-// among ten obstacles and among a thousand; and without it. Every cycle is timed on its own for the quantiles.
+// A whole control cycle with whole-arm avoidance: kinematics, redundancy with two indices and limits, and the
+// supervisor among ten obstacles and among a thousand; and without it. Every cycle is timed individually.
 #include "vpBenchmark.h"
 
 #include <visp3/avoidance/vpStopSupervisor.h>
@@ -19,7 +19,7 @@ VISP_DIRECT_USING_NAMESPACE
 
 namespace
 {
-//! CPU time of this thread, us: what others do on the machine does not count.
+//! CPU time of this thread, us: independent of other load.
 double now()
 {
   timespec t{};
@@ -33,7 +33,7 @@ const vpArmModel &amor()
   return arm;
 }
 
-//! Ten of some size, or many small ones, none of them in the arm's way at first.
+//! Ten large obstacles, or many small ones that are initially not in the way of the arm.
 vpCollisionSceneSpec obstacles(double speed, int count)
 {
   std::mt19937_64 rng(7);

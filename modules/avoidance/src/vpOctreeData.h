@@ -16,8 +16,7 @@ struct vpOctreeData {
   std::vector<vpOctreeCell> cells;
   vpBoxTree tree;
 
-  // Nearest points to a segment in the map's frame, never negative. Infinite, without points, if nothing is within the
-  // cutoff.
+  // Nearest points to a segment in the map's frame, never negative. Infinite, without points, beyond the cutoff.
   [[nodiscard]] vpNearestPoints nearest(const Eigen::Vector3d &from, const Eigen::Vector3d &to,
                                         double cutoff) const noexcept;
 };

@@ -11,8 +11,8 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! "link 5 and object pillar are 9.85 mm apart, the margin is 10 mm"; "touch" if they do. Different numbers are printed
-//! differently.
+//! "link 5 and object pillar are 9.85 mm apart, the margin is 10 mm"; "touch" if they do. Different numbers stay
+//! distinguishable.
 std::string vpPairText(const vpCollisionScene &scene, const vpClearance &pair, double margin);
 
 END_VISP_NAMESPACE

@@ -22,8 +22,7 @@ bool planStop(const vpArmModel &arm, const vpJointVector &q, const vpJointVector
 //! Velocities of the next period when braking at the acceleration limits, each joint separately.
 vpJointVector brakeOnce(const vpArmModel &arm, const vpJointVector &velocity, double period) noexcept;
 
-//! Distance that a joint may move in the direction of \e velocity, rad or m: to its limit plus 1e-9 of it (at least
-//! 1e-9).
+//! Distance that a joint may move in the direction of \e velocity, rad or m: to its limit plus 1e-9 max(1, |limit|).
 double roomAhead(const vpArmModel &arm, int joint, double q, double velocity) noexcept;
 
 END_VISP_NAMESPACE

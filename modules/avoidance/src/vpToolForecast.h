@@ -43,8 +43,7 @@ public:
   vpToolForecast(const vpCollisionScene &scene, const vpToolMotionSpec &motion, double step = 0.04);
 
   /*!
-   * \param q, velocity : Current state of the joints. \param plan : Plan of the tool. \param clock : Current time on
-   * it, s.
+   * \param q, velocity : Current state of the joints. \param plan : Plan of the tool. \param clock : Time on it, s.
    * \param posture, orientation : See vpToolMotion. \param margin : m. \param later : Delay of the motion, s, by which
    * objects are extrapolated.
    */

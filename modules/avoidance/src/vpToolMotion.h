@@ -25,8 +25,7 @@ struct vpToolMotionSpec {
  * \brief Joint velocities for a velocity of the tool's origin (thesis (8.1), (8.10)-(8.12), corrected): the remaining
  * redundancy moves the arm's body away from obstacles, to the goal's posture and away from limits.
  *
- * No allocation, no exception in step(). Used with a coarse period to predict a motion and with a fine one to execute
- * it.
+ * No allocation, no exception in step(). Used with a coarse period for prediction and with a fine one for execution.
  */
 class vpToolMotion
 {

@@ -24,8 +24,7 @@ double angleAt(const Eigen::Vector3d &corner, const Eigen::Vector3d &a, const Ei
   return std::atan2((a - corner).cross(b - corner).norm(), (a - corner).dot(b - corner));
 }
 
-// Formats repeat a vertex in every triangle, or at texture seams: equal ones are merged, else every edge would be a
-// hole.
+// Formats repeat a vertex in every triangle, or at texture seams: without merging every edge would be a hole.
 std::vector<int> joinVertices(const std::vector<Eigen::Vector3d> &vertices, vpTriangleMeshData &data)
 {
   std::map<std::array<double, 3>, int> known;

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// One battery of laws for every method of makeAvoidanceMethod().
+// Common tests for every method of makeAvoidanceMethod().
 #include "vpAvoidanceTestKit.h"
 #include "vpCatch.h"
 #include "vpIndependentClearance.h"
@@ -21,20 +21,20 @@ constexpr double period = 0.005;
 
 bool isReactive(const std::string &method) { return method.rfind("potential", 0) == 0; }
 
-//! What became of a motion.
+//! Result of a motion.
 struct Drive {
   vpAvoidanceOutput last;
   vpJointVector q;
   double time = 0.;
-  double least = 1.;         // clearance while the arm moved, by other code
-  double worstVelocity = 0.; // largest share of a joint's limit
+  double least = 1.;         // clearance while the arm moved, by independent code
+  double worstVelocity = 0.; // largest fraction of a joint's limit
   double worstAcceleration = 0.;
   double toolSpeed = 0.;
-  double toolAcceleration = 0.; // beside protective stops
+  double toolAcceleration = 0.; // except protective stops
   bool unsafe = false;
 };
 
-//! Drives until arrival or the time is up; look() 30 times a second, objects as they truly are.
+//! Runs until arrival or timeout; look() at 30 Hz, with true object poses.
 Drive drive(vpCollisionScene &scene, vpAvoidanceMethod &method, const vpJointVector &start, double duration)
 {
   Drive result;
@@ -88,7 +88,7 @@ Drive drive(vpCollisionScene &scene, vpAvoidanceMethod &method, const vpJointVec
 
 vpJointVector home() { return amor().home(); }
 
-//! A configuration whose tool is some way from that of home, free and reached from there.
+//! A free configuration with the tool at some distance from home, reachable from there.
 vpJointVector goalNear(std::mt19937_64 &rng, const vpCollisionScene &scene)
 {
   vpArmData data;
@@ -127,7 +127,7 @@ TEST_CASE("Every method reaches goals in an empty scene", "[methods]")
       REQUIRE(goal.size() == 7);
       vpAvoidanceGoal wish = vpAvoidanceGoal::at(amor(), goal);
       if (problem % 2 == 1) {
-        wish.q.resize(0); // the place alone
+        wish.q.resize(0); // the position alone
       }
       const auto method = makeAvoidanceMethod(name, scene);
       CAPTURE(name, problem, goal.transpose());
@@ -158,7 +158,7 @@ TEST_CASE("Among obstacles that stand, methods that foresee keep the margin and 
     int arrived = 0;
     constexpr int problems = 12;
     for (int problem = 0; problem < problems; ++problem) {
-      // A ball on the tool's straight way, and others about.
+      // A ball on the tool's straight path, and others around.
       const vpJointVector goal = goalNear(rng, empty);
       REQUIRE(goal.size() == 7);
       vpArmData from, to;
@@ -235,7 +235,7 @@ TEST_CASE("No method that foresees touches what moves while it moves itself", "[
       static_cast<void>(method->start(home(), vpAvoidanceGoal::at(amor(), goal)));
       const Drive run = drive(scene, *method, home(), 15.);
       CAPTURE(name, problem, toString(run.last.status), run.time);
-      // What comes near an arm that stands may be within the margin when it leaves; it touches nothing.
+      // An obstacle that approaches a standing arm may be within the margin when it leaves; nothing is touched.
       CHECK(run.least > 0.);
       arrived += run.last.status == vpAvoidanceStatus::Arrived ? 1 : 0;
     }
@@ -256,7 +256,7 @@ TEST_CASE("A goal that is taken, then free: the arm waits, says so, and goes", "
     vpAvoidanceGoal wish;
     int index = -1;
     vpCollisionData data;
-    do { // a guest that leaves the arm at home alone
+    do { // an obstacle that does not affect the arm at home
       if (index >= 0) {
         scene.remove(index);
       }
@@ -330,7 +330,7 @@ TEST_CASE("Goals out of reach, an arm that touches, nonsense: a status, and the 
 TEST_CASE("An arm within the margin is told the pair, the clearance and the margin", "[methods]")
 {
   vpAvoidanceOutput output;
-  // 9.85 mm from a ball with a margin of 10: it does not touch it, and is told so.
+  // 9.85 mm from a ball with a margin of 10 mm: no contact, and the message says so.
   vpCollisionScene scene(amor());
   vpCollisionData placed;
   scene.place(home(), placed);

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// NaN, infinities and magnitudes that overflow, into every check of the module: none of them may come out as free.
+// NaN, infinities and overflowing magnitudes as input of every check of the module: none may be reported free.
 #include "vpCatch.h"
 #include "vpNumbersTestKit.h"
 
@@ -152,7 +152,7 @@ TEST_CASE("No motion to or from nowhere is free", "[numbers]")
     REQUIRE_FALSE(discrete.check(home(), q).isFree());
     REQUIRE_FALSE(discrete.check(q, q).isFree());
   });
-  // Bounds on the reach of an arm with slides hold within their limits only.
+  // Reach bounds of an arm with prismatic joints hold only within their limits.
   const vpCollisionScene slides(mixed());
   const vpCertifiedMotion within(slides);
   const vpJointVector zero = vpJointVector::Zero(5);
@@ -209,7 +209,7 @@ TEST_CASE("No plan with a number out of range is free", "[numbers]")
     CHECK((good || certificate.check(plan, -time, time).status == vpMotionStatus::BadInput));
     CHECK((good || certificate.check(plan, 0., 0.5, time).status == vpMotionStatus::BadInput));
   }
-  // A plan that jumps is no proof for the way of the jump: the hand passes a plate between two places that are free.
+  // A plan that jumps proves nothing for the path of the jump: the hand passes a plate between two free positions.
   vpCollisionSceneSpec spec;
   vpCollisionObject plate;
   plate.name = "plate";

@@ -2,8 +2,8 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// NaN, infinities and magnitudes that overflow, into every step of the module: each answers with a status, and with a command
-// that is a number within the limits.
+// NaN, infinities and overflowing magnitudes as input of every step of the module: each returns a status, and a finite
+// command within the limits.
 #include "vpCatch.h"
 #include "vpIndependentClearance.h"
 #include "vpNumbersTestKit.h"

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// "Free" must be a proof: random motions in random scenes, rechecked at 10,000 places by other code.
+// "Free" must be a proof: random motions in random scenes, checked at 10,000 positions by independent code.
 #include "vpAvoidanceTestKit.h"
 #include "vpCatch.h"
 #include "vpIndependentClearance.h"
@@ -162,7 +162,7 @@ TEST_CASE("Motions that graze: the margin is kept, and what collides by a hair i
     const vpArmModel &arm = trial % 3 == 2 ? mixed() : amor();
     const Motion m = motion(arm, rng);
     const int kind = trial < 60 ? trial % 6 : trial % 4; // Meshes and octrees take long here.
-    // An obstacle put so that the arm touches it to a hair somewhere on the way: nearest approach by a fine search.
+    // An obstacle placed such that the arm just touches it somewhere on the path: nearest approach by a fine search.
     const std::vector<vpOctreeCell> cells = {{{0., 0., 0.}, 0.1}, {{0.1, 0., 0.}, 0.1}};
     vpCollisionSceneSpec spec;
     vpCollisionObject one;

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// What is in the files arrives, and what is wrong with them is said in one sentence with the file and the element.
+// File contents are read correctly, and errors are reported in one sentence with the file and the element.
 #include "vpAvoidanceTestKit.h"
 #include "vpCaseFile.h"
 #include "vpCatch.h"
@@ -163,7 +163,7 @@ TEST_CASE("A closed mesh is a solid, however its file repeats corners and turns 
     REQUIRE(scene.moveObject(0, box.pose));
     CHECK_FALSE(scene.inCollision(data));
   }
-  // A shell within a shell that is turned inwards is a cavity: what is in there is free.
+  // An inner shell that is oriented inwards is a cavity: its inside is free.
   std::string cavity = vertices + faces;
   std::istringstream lines(vertices);
   std::string v;
@@ -469,7 +469,7 @@ TEST_CASE("The scenes of data/scene load, and their tasks start and end free", "
     for (const vpMotionTask &task : file.tasks) {
       CHECK(certified.check(task.start, task.start, scratch).isFree());
       CHECK(certified.check(task.goal, task.goal, scratch).isFree());
-      // Or there would be nothing to plan.
+      // Otherwise there would be nothing to plan.
       CHECK(certified.check(task.start, task.goal, scratch).status == vpMotionStatus::Collision);
       for (int i = 0; i < 7; ++i) {
         for (const double q : {task.start(i), task.goal(i)}) {

@@ -26,7 +26,7 @@ vpCollisionObject object(const std::string &name, const vpCollisionShape &shape,
   return result;
 }
 
-// The clearance of a capsule from an object by search; capsules by their axis in another way.
+// Clearance of a capsule from an object by search; capsules by their axis, computed independently.
 double searched(const vpPlacedCapsule &c, const vpCollisionObject &object)
 {
   const vpRigidTransform oMf = object.pose.inverse();
@@ -89,9 +89,9 @@ TEST_CASE("Clearances of capsules from primitives agree with a search; FCL besid
       c.to = to;
       c.radius = arm.spec().capsules[0].radius;
       const double truth = searched(c, obstacle);
-      // With the core's radius, distances of spheres and capsules go on into the negative: there the search ends.
+      // With the core's radius, distances of spheres and capsules continue to negative values: the search ends there.
       const double exact = truth + c.radius + obstacle.inflation > 1e-9 ? truth : std::min(pair.distance, truth);
-      // Both belong to points that exist: the smaller one is nearer to the truth, and a search may end early in a kink.
+      // Both belong to existing points: the smaller one is more accurate, and a search may end early in a kink.
       worst = std::max(worst, pair.distance - exact);
       CHECK(pair.distance > exact - 1e-6);
       CHECK((pair.onArm - pair.onOther - pair.distance * pair.normal).norm() < 1e-9);
@@ -120,8 +120,8 @@ TEST_CASE("Clearances of capsules from primitives agree with a search; FCL besid
     CHECK(apart > 3000);
     CHECK(apart < 9900);
     CHECK(worst < 1e-9);
-    // FCL is no reference, the search is: its iteration ends far off in single pairs (0.14 m was seen) and nobody knows
-    // a bound; but nearly all of its answers are independent witnesses.
+    // The search is the reference, not FCL: its iteration is far off in single pairs (0.14 m was observed) without a
+    // known bound; but nearly all of its results are independent confirmations.
     CHECK(offFcl <= compared / 100);
   }
 }

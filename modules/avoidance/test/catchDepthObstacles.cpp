@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Depth images of spheres, computed in closed form: what is not known comes into the scene, what is known does not.
+// Depth images of spheres, computed in closed form: unknown objects enter the scene, known ones do not.
 #include "vpAvoidanceTestKit.h"
 #include "vpCatch.h"
 
@@ -21,7 +21,7 @@ struct Ball {
   double radius;
 };
 
-// Nearest cut of each pixel's ray with the balls, and with the plane z = floor of the base when there is one.
+// Nearest intersection of each pixel's ray with the balls, and with the plane z = floor of the base if there is one.
 vpImage<float> render(const std::vector<Ball> &balls, const vpRigidTransform &fMc, double floor = -1e9)
 {
   vpImage<float> depth(120, 160, 0.F);

@@ -20,7 +20,7 @@ namespace
 {
 const vpCameraParameters camera(150., 150., 80., 60.);
 
-// Depth along z of bodies by marching along the rays: a body's distance is how far a ray may go on.
+// Depth along z of bodies by ray marching: a body's distance is the safe step.
 vpImage<float> render(const vpCollisionSceneSpec &bodies, const std::vector<vpPlacedCapsule> &capsules,
                       const vpRigidTransform &fMc)
 {

@@ -41,7 +41,7 @@ vpAvoidanceGoal ahead(double distance)
   return goal;
 }
 
-//! Places where the tool is planned to be, a period apart, from the first one on; the arm follows.
+//! Planned tool positions, one period apart, from the first one on; the arm follows.
 std::vector<Vector3d> follow(vpCollisionScene &scene, vpDirectTrajectoryAvoidance &method, vpJointVector &q, int steps,
                              vpAvoidanceOutput &output, bool looking = true)
 {
@@ -96,8 +96,8 @@ TEST_CASE("The detour takes the side that is nearer, round the extent of the obs
 
 TEST_CASE("The planned tool keeps its bounds and is C2 over every change of plan", "[dtg]")
 {
-  // Obstacles come and go at random while the tool is under way; what is planned never jumps in velocity, and its
-  // acceleration keeps the bound, as long as no protective stop acts.
+  // Obstacles appear and vanish at random while the tool moves; the planned velocity never jumps, and the
+  // acceleration keeps the bound, as long as no protective stop is active.
   auto rng = vpTestSupport::generator(982);
   CAPTURE(vpTestSupport::seed());
   const Vector3d start = toolAt(amor().home());
@@ -186,7 +186,7 @@ TEST_CASE("Without a detour the tool stops in time, and goes on when the way is 
 
 TEST_CASE("When look() is called no more, the arm still touches nothing", "[dtg]")
 {
-  // The camera is covered: an obstacle comes at the arm, and only the supervisor sees it in the scene.
+  // The camera is covered: an obstacle approaches the arm, and only the supervisor sees it in the scene.
   auto rng = vpTestSupport::generator(983);
   CAPTURE(vpTestSupport::seed());
   const Vector3d start = toolAt(amor().home());

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// What the table says of objects against objects whose motion is known, and against estimates of another kind.
+// The track table against objects with known motion, and against independent estimates.
 #include "vpCatch.h"
 #include "vpTrackTestKit.h"
 

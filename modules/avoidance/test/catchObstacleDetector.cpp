@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Obstacles in pictures: where they are in the base, how large, how sure that is, and why some are not seen.
+// Obstacles in images: position in the base, size, uncertainty, and why some are not seen.
 #include "vpAvoidanceTestKit.h"
 #include "vpCatch.h"
 #include "vpPlanarScene.h"
@@ -73,7 +73,7 @@ TEST_CASE("Three obstacles of one picture are boxes behind their photographs, in
                     vpRigidTransform::fromHomogeneous(vpPlanarScene::pose(x[i], y[i], 0.75, 0.05 * i, 0.25, -0.15)));
   }
   for (int frame = 0; frame < 3; ++frame) {
-    // The camera moves by more than tracking alone would bridge.
+    // The camera moves by more than tracking alone could handle.
     fMc = fMc * vpRigidTransform{vpSO3::exp(Vector3d(0., 0., 0.1)), Vector3d(0.03, -0.02, 0.01)};
     vpPlanarScene::Image I = vpPlanarScene::background(rng);
     for (int i = 0; i < 3; ++i) {

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Paths of all planners: free where that was promised, between the right ends, within the limits, and honest failures.
+// Paths of all planners: free where guaranteed, with correct ends, within the limits, and correctly reported failures.
 #include "vpAvoidanceTestKit.h"
 #include "vpCatch.h"
 #include "vpIndependentClearance.h"
@@ -26,7 +26,7 @@ int times(int plans)
   return factor == nullptr ? plans : plans * std::max(1, std::atoi(factor));
 }
 
-//! Least clearance at so many places of a path, by code that shares nothing with the planner.
+//! Least clearance at a number of path positions, by code independent of the planner.
 double recheck(const vpCollisionScene &scene, const vpCollisionSceneSpec &spec, const vpJointPath &path, int places)
 {
   const IndependentClearance oracle(scene.arm(), spec);
@@ -110,7 +110,7 @@ TEST_CASE("Every planner finds a free path round the pillar", "[planner]")
 
 TEST_CASE("Discrete validation calls paths free that are not", "[planner]")
 {
-  // Boards thinner than a step: nothing but luck keeps samples from passing them.
+  // Boards thinner than a step: samples detect them only by chance.
   auto rng = vpTestSupport::generator(901);
   CAPTURE(vpTestSupport::seed());
   int certified = 0, discrete = 0, lies = 0;
@@ -194,7 +194,7 @@ TEST_CASE("What cannot be planned is said", "[planner]")
   vpPathResult result = planner.plan(start, beyond);
   CHECK(result.status == vpPathStatus::OutsideLimits);
   CHECK(result.sentence == "Joint q2 of the goal is at 3, beyond its limit 2.3561944901923448.");
-  // A limit that was rounded on its way through a file is the limit; a little more is not, and looks so.
+  // A limit rounded in a file counts as the limit; a slightly larger value does not, and is printed differently.
   const vpCollisionScene nothing(amor());
   vpPathPlanner free(nothing, spec);
   const double limit = amor().upper()(5);

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// A planned motion when something comes into its way: from rest and on the fly.
+// A planned motion with an obstacle appearing on its path: replanning from rest and on the fly.
 #include "vpAvoidanceTestKit.h"
 #include "vpCatch.h"
 #include "vpIndependentClearance.h"
@@ -19,7 +19,7 @@ namespace
 {
 constexpr double period = 0.005;
 
-//! What became of a motion in which a ball appeared on what was still to be driven.
+//! Result of a motion in which a ball appeared on the remaining path.
 struct Outcome {
   bool appeared = false, arrived = false, stood = false, unsafe = false;
   double time = 0., least = 1.;

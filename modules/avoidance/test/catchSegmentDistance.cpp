@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The kernels of the fast path against searches that know only the distance of a point.
+// Segment distances of the fast path against searches that use only point distances.
 #include "vpAvoidanceTestKit.h"
 #include "vpCatch.h"
 

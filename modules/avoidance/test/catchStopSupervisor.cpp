@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Whatever is wished, the arm touches nothing while it moves, and nothing keeps it from leaving.
+// For any request, the arm touches nothing while it moves, and is never prevented from leaving.
 #include "vpAvoidanceTestKit.h"
 #include "vpCatch.h"
 #include "vpIndependentClearance.h"
@@ -50,16 +50,16 @@ vpJointVector freeStart(const vpCollisionScene &scene, std::mt19937_64 &rng)
   return {};
 }
 
-//! What a run of random wishes came to.
+//! Result of a run with random requests.
 struct Run {
   int touches = 0; // periods in which the moving arm was nearer than it should be
-  int limited = 0; // periods that were not as wished
+  int limited = 0; // periods not as requested
   double way = 0.; // rad
   bool unsafe = false;
 };
 
-// What stands is kept away from by the margin. What moves may come within it while the arm stands, and the arm may then
-// leave; so there only touching counts.
+// The margin is kept to resting objects. Moving ones may come within it while the arm stands, and the arm may then
+// leave; so only contacts count there.
 Run drive(vpCollisionScene &scene, std::mt19937_64 &rng, bool supervised, double margin, double kept)
 {
   Run run;
@@ -137,7 +137,7 @@ TEST_CASE("A supervised arm touches nothing while it moves, among obstacles that
     touches += without.touches;
     CHECK(with.way / 25. > 0.3); // it does move
   }
-  CHECK(touches > 0); // there is something to be kept from: about a third of the 50 runs
+  CHECK(touches > 0); // without supervisor there are contacts: in about a third of the 50 runs
 }
 
 TEST_CASE("The arm stops before a post, says so, and leaves at full speed", "[supervisor]")

@@ -2,8 +2,8 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// A search for a touch of a supervised arm that moves, and for a command beyond the joints' limits: random arms, scenes,
-// objects that move and turn, wishes of any size. Rechecked in dense time by code that shares nothing with the scene's.
+// Searches for contacts of a moving supervised arm, and for commands beyond the joint limits: random arms, scenes,
+// moving and rotating objects, requests of any size. Checked in dense time by independent code.
 #include "vpAvoidanceTestKit.h"
 #include "vpCatch.h"
 #include "vpIndependentClearance.h"
@@ -72,7 +72,7 @@ vpCollisionSceneSpec scenery(std::mt19937_64 &rng, double speed)
   return spec;
 }
 
-//! Objects where they are after a time at their velocities.
+//! Objects moved on by their velocities for a time.
 vpCollisionSceneSpec after(const vpCollisionScene &scene, double time)
 {
   vpCollisionSceneSpec spec;
@@ -84,7 +84,7 @@ vpCollisionSceneSpec after(const vpCollisionScene &scene, double time)
   return spec;
 }
 
-//! What is wished next: mostly in reach of the limits, some far beyond, some against what moves, for a random time.
+//! Next request: mostly within the limits, some far beyond, some towards moving objects, for a random time.
 vpJointVector wish(const vpArmModel &arm, std::mt19937_64 &rng)
 {
   vpJointVector v(arm.size());
@@ -139,7 +139,7 @@ void drive(const vpArmModel &arm, std::mt19937_64 &rng, int steps, Count &count)
   vpJointVector command = vpJointVector::Zero(arm.size()), aim = command;
   double last = IndependentClearance(arm, after(scene, spec.latency)).clearance(q, scene.selfPairs(), 0.1);
   bool moved = false;
-  bool retreats = false; // it may be on a way that began about its margin, and so lose a little between ends of periods
+  bool retreats = false; // on a motion that began near its margin: may lose slightly between ends of periods
   for (int k = 0, left = 0; k < steps; ++k, --left) {
     if (left == 0) {
       aim = wish(arm, rng);
@@ -152,15 +152,15 @@ void drive(const vpArmModel &arm, std::mt19937_64 &rng, int steps, Count &count)
       REQUIRE(std::fabs(answer.velocity(j)) <= arm.velocity()(j) * (1. + 1e-9));
       REQUIRE(std::fabs(answer.velocity(j) - command(j)) <= T * arm.acceleration()(j) * (1. + 1e-6));
     }
-    // With few looks a stop that was proven may not be proven again, which must be told.
+    // With few evaluations a proven stop may not be proven again, which must be reported.
     REQUIRE((answer.status != vpSupervision::Unsafe || spec.looks == 60));
     REQUIRE(answer.status != vpSupervision::InvalidInput);
     command = answer.velocity;
     const bool moves = command.cwiseAbs().maxCoeff() > 0.;
     retreats = (retreats && moved) || last < spec.margin + off + spec.resolution + slack;
     moved = moves;
-    // Between the ends of the period the arm moves at one velocity; at its end a clearance within the margin may not have
-    // become less by the arm's motion.
+    // Between the ends of the period the arm moves at one velocity; at its end a clearance within the margin may not
+    // have become less by the arm's motion.
     const double margin = std::min(spec.margin, last);
     const int parts = moves ? 4 : 1;
     for (int i = 1; i <= parts; ++i) {

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Trajectories in time: what is called free is free at every instant, and the limits of the joints are kept.
+// Trajectories in time: those reported free are free at every instant, and the joint limits are kept.
 #include "vpAvoidanceTestKit.h"
 #include "vpCatch.h"
 #include "vpIndependentClearance.h"
@@ -56,7 +56,7 @@ vpTrajectoryPlan randomPlan(std::mt19937_64 &rng)
   return plan;
 }
 
-//! The objects moved on, as the oracle sees them.
+//! The extrapolated objects, for the reference.
 vpCollisionSceneSpec at(const vpCollisionSceneSpec &spec, double time)
 {
   vpCollisionSceneSpec later = spec;
@@ -224,7 +224,7 @@ TEST_CASE("A straight motion is timed as a straight line, and a path through an 
 
 TEST_CASE("Obstacles move on while the arm is under way, behind a rest too", "[path]")
 {
-  // There and back by the base, with a rest between, since the way back is the way there. A ball crosses the place where
+  // There and back by the base, with a rest in between, since both paths coincide. A ball crosses the position where
   // the tool rests: too early, at that time, and when the arm is back.
   vpJointVector start(7);
   start << .246, .868, -1.237, -2.390, -2.591, -1.099, .324;

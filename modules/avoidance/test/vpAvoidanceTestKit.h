@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// AMOR among random obstacles, and distances found in another way: by search, from points only.
+// AMOR among random obstacles, and distances computed independently: by search, from points only.
 #ifndef vpAvoidanceTestKit_h
 #define vpAvoidanceTestKit_h
 

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Clearance of an arm from solids and the ground by other code than the scene's, for rechecking what was called free.
+// Clearance of an arm from solids and the ground by code independent of the scene, for verifying motions reported free.
 #ifndef vpIndependentClearance_h
 #define vpIndependentClearance_h
 
@@ -24,7 +24,8 @@ class IndependentClearance
 public:
   IndependentClearance(const vpArmModel &arm, const vpCollisionSceneSpec &spec) : m_arm(&arm), m_spec(&spec) {}
 
-  // Least clearance of the pairs that vpCollisionScene checks for an arm without allowed contacts, if it is below limit.
+  // Least clearance of the pairs that vpCollisionScene checks for an arm without allowed contacts, if it is below
+  // limit.
   [[nodiscard]] double clearance(const vpJointVector &q, const std::vector<vpSelfPair> &selfPairs, double limit) const
   {
     const std::vector<vpPlacedCapsule> capsules = place(q);

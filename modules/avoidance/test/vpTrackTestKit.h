@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// A body with a known motion and what a sensor sees of it.
+// A body with a known motion and its sightings by a sensor.
 #ifndef vpTrackTestKit_h
 #define vpTrackTestKit_h
 
@@ -28,7 +28,7 @@ inline Vector3d angular(const vpObjectTrack &track)
   return {track.velocity[3], track.velocity[4], track.velocity[5]};
 }
 
-//! A body that is pushed at random as the specification says.
+//! A body with random accelerations according to the specification.
 struct Body {
   Vector3d p = Vector3d::Zero(), v = Vector3d::Zero(), w = Vector3d::Zero();
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();

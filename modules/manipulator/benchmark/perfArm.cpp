@@ -2,8 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Time of a cycle of the arm, with KDL's kernels beside ours. The percentiles are over single cycles, each measured by
-// itself.
+// Time of a cycle of the arm, compared with KDL. The percentiles are over individually measured cycles.
 #include "vpBenchmark.h"
 
 #include <visp3/direct_core/vpQuantile.h>
@@ -135,7 +134,7 @@ void ourCycle(benchmark::State &state)
 }
 BENCHMARK(ourCycle);
 
-// The nearest that KDL has: damped weighted inverse, without indices, self-motion and limits.
+// The closest KDL equivalent: damped weighted inverse, without indices, self-motion and limits.
 void kdlCycle(benchmark::State &state)
 {
   const KDL::Chain links = chain();

@@ -335,8 +335,7 @@ double scaleWithin(const vpArmModel &model, const Work &work, const vpRedundancy
   return scale;
 }
 
-// Moves the self-motion of the last period towards the new one with a fraction of the accelerations; the task has the
-// rest.
+// Moves the last self-motion towards the new one with a fraction of the accelerations; the task has the rest.
 Joints slowlyChanged(const vpArmModel &model, const vpRedundancyInput &input, const vpRedundancySpec &spec,
                      const Joints &scale, const Work &work, const Joints &wanted)
 {

@@ -13,8 +13,7 @@ BEGIN_VISP_NAMESPACE
 
 namespace vpTaskLevel
 {
-// All matrices have the full capacity and are padded with zeros: fixed sizes are several times faster than dynamic
-// ones.
+// Matrices have the full capacity, padded with zeros: fixed sizes are several times faster than dynamic ones.
 using Joints = Eigen::Matrix<double, vpArmMaxJoints, 1>;
 using Square = Eigen::Matrix<double, vpArmMaxJoints, vpArmMaxJoints>;
 using Rows = Eigen::Matrix<double, vpArmMaxJoints, 6>; // one column per row of the task

@@ -179,7 +179,7 @@ TEST_CASE("Table B.1: upright at 0 by the offset of joint 2, 1.03 m of reach, 1.
   raw.tool = {};
   const vpArmModel table(raw);
   CHECK(at(table, vpJointVector::Zero(7)).joint[3].p(2) < 0.);
-  // The farthest the tool gets, by going from random configurations joint by joint to where it is farther.
+  // Maximum reach of the tool, by joint-by-joint ascent from random configurations.
   const auto farthest = [&](const vpArmModel &model, int axes) {
     const auto length = [&](const vpJointVector &q) { return at(model, q).tool.p.head(axes).norm(); };
     double most = 0.;

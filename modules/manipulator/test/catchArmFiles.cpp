@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// What is in the files arrives, and what is wrong with them is said in one sentence with the file and the element.
+// File contents are read correctly, and errors are reported in one sentence with the file and the element.
 #include "vpArmTestKit.h"
 #include "vpCaseFile.h"
 #include "vpCatch.h"
@@ -233,7 +233,7 @@ std::string repeated(const std::string &piece, int count)
 TEST_CASE("URDF that would harm its parser is refused before it gets there", "[files][hostile]")
 {
   const std::string file = "catchArmFiles-own.urdf: ";
-  // Such texts reached printf as a format.
+  // Such texts were passed to printf as a format.
   CHECK(urdfError("lower=\"-1.9\"", "lower=\"%s%n\"").find("attribute lower is %s%n, must be without %") !=
         std::string::npos);
   CHECK(urdfError("lower=\"-1.9\"", "lower=\"&#37;n\"").find("attribute lower is &#37;n, must be without &#") !=
@@ -246,7 +246,7 @@ TEST_CASE("URDF that would harm its parser is refused before it gets there", "[f
         std::string::npos);
   CHECK(errorOfUrdf("<robot><!-- " + repeated("<a>", 200) + " --><link name='%'/></robot>") ==
         file + "line 1, column 628: attribute name is %, must be without %");
-  // It goes on after some mistakes.
+  // It continues after some errors.
   for (const auto &[content, sentence] : std::vector<std::pair<std::string, std::string>>{
            {"", "line 1, column 1: has no element"},
            {"robot", "line 1, column 1: is no XML, which begins with <"},
@@ -267,7 +267,7 @@ TEST_CASE("URDF that would harm its parser is refused before it gets there", "[f
            {"<!DOCTYPE robot [<!ENTITY a 'b'>]><robot/>", "line 1, column 1: has a DOCTYPE with more than a name"}}) {
     CHECK(errorOfUrdf(content) == file + sentence);
   }
-  // What real files have is taken.
+  // Contents of real files are accepted.
   CHECK(errorOfUrdf("\xef\xbb\xbf<?xml version=\"1.0\"?>\r\n<?xml-stylesheet href='a'?><!DOCTYPE robot>\r\n"
                     "<robot name='r' xmlns:xacro='b'><!-- 100 % --><link name='a'><visual><geometry>"
                     "<mesh filename='a%20b.stl'/></geometry></visual></link><material>5 %</material></robot>\n")

@@ -163,7 +163,7 @@ TEST_CASE("Self-motion leaves the tool within 1 um over 10 s", "[null]")
 TEST_CASE("Figures 8.14 to 8.17: joint 4 goes the way that is asked for", "[null]")
 {
   // The straight move of section 8.3.3 and 8.3.5 from home, slow enough for the joints; the elbow's distance with and
-  // without a wish.
+  // without an index.
   vpArmData data;
   vpArmKinematics::update(amor(), home(), data);
   const Eigen::Vector3d elbow = data.joint[3].p;
@@ -216,8 +216,7 @@ TEST_CASE("Figures 8.14 to 8.17: joint 4 goes the way that is asked for", "[null
     std::cout << figure.name << ": mean " << mean[0] << ", " << mean[1] << ", " << mean[2] << "; final " << last[0]
               << ", " << last[1] << ", " << last[2] << "; final height " << height[0] << ", " << height[1] << ", "
               << height[2] << '\n';
-    // Not at every instant: the way of the elbow is another one, and the tool has its own (the text says the same of
-    // 8.14).
+    // Not at every instant: the elbow takes another path, and the tool has its own (as in the text for 8.14).
     CHECK(mean[1] < mean[0] - 0.003);
     CHECK(mean[2] > mean[0] + 0.001);
     CHECK(last[2] > last[0] + 0.001);

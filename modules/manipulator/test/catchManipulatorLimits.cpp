@@ -2,8 +2,8 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Joint bounds and redundancy solver over random steps, rechecked by rules that are written anew here: braking is simulated
-// step by step, the Jacobian is KDL's. VISP_DIRECT_LONG_TESTS=50 makes 10^6 steps of each.
+// Joint bounds and redundancy solver over random steps, verified by independent rules: braking is simulated
+// step by step, the Jacobian is KDL's. VISP_DIRECT_LONG_TESTS=50 runs 10^6 steps of each.
 #include "vpArmTestKit.h"
 #include "vpCatch.h"
 
@@ -35,12 +35,12 @@ double logUniform(std::mt19937_64 &rng, double low, double high)
   return std::exp(uniform(rng, std::log(low), std::log(high)));
 }
 
-//! A joint of its own, by plain numbers.
+//! A single joint, as plain numbers.
 struct Joint {
   double lower, upper, velocity, acceleration;
 };
 
-//! Where a joint comes to that moves at v for a period and then slows down by a each period.
+//! Final position of a joint that moves at v for a period and then decelerates at a in each period.
 double braked(double q, double v, const Joint &joint, double dt)
 {
   const double step = joint.acceleration * dt;
@@ -72,7 +72,7 @@ Joint jointOf(const vpArmModel &model, int i)
   return {model.lower()(i), model.upper()(i), model.velocity()(i), model.acceleration()(i)};
 }
 
-//! Whether a joint at q that moved at v has a way to brake inside its limits.
+//! True if a joint at q with velocity v can brake inside its limits.
 bool canBrake(double q, double v, const Joint &joint, double dt)
 {
   const double step = joint.acceleration * dt;
@@ -114,7 +114,7 @@ TEST_CASE("Bounds: within velocity and acceleration, always able to brake inside
       REQUIRE(std::fabs(now) <= joint.velocity);
       REQUIRE(std::fabs(now - before) <= joint.acceleration * dt * (1. + 1e-9));
       REQUIRE(inside(braked(q(0), now, joint, dt), joint));
-      // Nearest to the wish of what all three limits allow. A bound that is approached at full acceleration is off by rounding.
+      // Nearest to the request within all three limits. A bound approached at full acceleration is off by rounding.
       const double high = std::min(most(joint.upper - q(0), joint, dt), before + joint.acceleration * dt);
       const double low = std::max(-most(q(0) - joint.lower, joint, dt), before - joint.acceleration * dt);
       REQUIRE(low <= high + 1e-9 * joint.velocity);
@@ -177,7 +177,7 @@ TEST_CASE("Solver: limits, task, self-motion and status hold in every random ste
     in.indices[1] = vpSelfMotionIndex::posture(configuration(model, rng));
     in.indexCount = problem % 4 == 3 ? 0 : 2;
     vpRedundancyOutput out;
-    // A few periods at the same place, so that what takes time to reach is seen, too.
+    // A few periods at the same configuration, so that gradual effects are covered, too.
     for (int k = 0; k < 1 + problem % 40; ++k) {
       if (k > 0) {
         in.previous = out.velocity;
@@ -267,7 +267,7 @@ TEST_CASE("Solver: limits, task, self-motion and status hold in every random ste
   std::cout << "statuses from Exact to BlockedBySingularity:";
   for (std::size_t i = 0; i < 8; ++i) {
     std::cout << ' ' << statuses[i];
-    CHECK((statuses[i] > 0 || i > 5)); // those that block are rare; catchRedundancySolver sees to them
+    CHECK((statuses[i] > 0 || i > 5)); // blocking ones are rare; catchRedundancySolver covers them
   }
   CHECK(whole > count(20000) / 20);
   CHECK(slower > count(20000) / 400);

@@ -2,8 +2,8 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Every step of this module under NaN, infinities, numbers whose squares overflow and denormals: the answer is finite and within
-// the limits, the status tells, and a refused input makes the arm brake.
+// Every step of this module under NaN, infinities, numbers whose squares overflow and denormals: the output is finite
+// and within the limits, the status reports it, and a rejected input makes the arm brake.
 #include "vpArmTestKit.h"
 #include "vpCatch.h"
 #include "vpWildNumbers.h"
@@ -38,8 +38,8 @@ const vpArmModel &anyArm(std::mt19937_64 &rng)
   return k == 0 ? amor() : k == 1 ? sixAxes() : mixed();
 }
 
-// The rules of the limits, anew: the next velocity is within the velocity limit, and within the acceleration limit unless the
-// last one was broken or beyond the velocity limit.
+// Independent check of the limits: the next velocity is within the velocity limit, and within the acceleration limit
+// unless the last one was invalid or beyond the velocity limit.
 void requireWithin(const vpArmModel &model, const vpJointVector &before, const vpJointVector &velocity, double period)
 {
   REQUIRE(velocity.size() == model.size());
@@ -59,7 +59,7 @@ void kinematics(std::mt19937_64 &rng)
     const vpJointVector q = wild(rng, configuration(model, rng));
     const bool good = vpArmKinematics::update(model, q, data);
     REQUIRE(good == isGood(q));
-    // All or nothing: NaN everywhere when it does not hold, so that no comparison takes it for a pose.
+    // All or nothing: NaN everywhere if invalid, so that every comparison fails.
     REQUIRE(data.J.cols() == model.size());
     REQUIRE(data.tool.p.allFinite() == good);
     REQUIRE(data.tool.R.allFinite() == good);
@@ -192,7 +192,7 @@ void closedLoop(std::mt19937_64 &rng)
     good = good && std::fabs(in.twist[1]) <= vpArmLargest && std::fabs(in.twist[4]) <= vpArmLargest;
     REQUIRE((out.status == vpClosedLoopStatus::InvalidInput) == !good);
   }
-  // A broken state ends in a status that is not Moving, so that no loop spins for ever.
+  // An invalid state ends in a status that is not Moving, so that no loop runs forever.
   vpArmData data;
   vpArmKinematics::forward(model, configuration(model, rng), data);
   for (const double x : {std::numeric_limits<double>::quiet_NaN(), 1e300}) {
@@ -303,7 +303,7 @@ struct Step {
   const char *name;
   void (*run)(std::mt19937_64 &);
 };
-// A new class with a step comes into this list.
+// Add new classes with a step to this list.
 const Step everyStep[] = {{"vpArmKinematics, vpEvaluateIndex", kinematics},
                           {"vpJointBounds", jointBounds},
                           {"vpRedundancySolver", redundancySolver},

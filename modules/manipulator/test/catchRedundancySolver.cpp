@@ -131,7 +131,7 @@ TEST_CASE("Tasks keep their order", "[solver]")
     const vpArmData data = at(model, configuration(amor(), rng));
     const Vector6 twist = randomTwist(rng);
     vpRedundancyInput in = input(7, twist);
-    // The turn about the tool's own axis is free: two joints are to spare.
+    // The rotation about the tool's own axis is free: two redundant joints.
     in.frame = vpArmFrame::EndEffector;
     in.free[5] = true;
     vpRedundancyOutput out;
@@ -325,7 +325,7 @@ TEST_CASE("A joint always brakes before its limit", "[limits]")
 
 TEST_CASE("A stretched arm escapes inwards and says that there is no way out", "[singular]")
 {
-  // Arm to the side and as long as it gets: the elbow is offset, so that is not at 0.
+  // Arm to the side and fully stretched: the elbow is offset, so that is not at 0.
   vpJointVector longest = vector({0.3, 1., 0.2, 0., 0.4, 0.7, 0.1});
   double most = 0.;
   for (int k = 0; k < 1000000; ++k) {
@@ -345,7 +345,7 @@ TEST_CASE("A stretched arm escapes inwards and says that there is no way out", "
     vpJointVector start = longest;
     start(3) -= bend;
     vpArmData data = at(amor(), start);
-    // The direction that is lost lies along forearm and upper arm.
+    // The lost direction is along forearm and upper arm.
     const Eigen::Vector3d along = (data.joint[5].p - data.joint[1].p).normalized();
     const vpRedundancySolver solver(amor());
     Vector6 twist;
@@ -444,7 +444,7 @@ TEST_CASE("A straight arm whose elbow bends one way only comes in that way", "[s
 
 TEST_CASE("Damping is smooth where it sets in", "[singular]")
 {
-  // No jump of the answer while the elbow straightens through the edge of the singular region.
+  // No jump of the output while the elbow straightens through the edge of the singular region.
   const vpArmModel model = unlimited(amor());
   vpRedundancySpec spec;
   spec.escapeSpeed = 0.;

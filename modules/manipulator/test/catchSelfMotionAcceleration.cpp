@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// vpRedundancySpec::selfAcceleration: self-motion that starts and changes with a share of the accelerations.
+// vpRedundancySpec::selfAcceleration: self-motion that starts and changes with a fraction of the accelerations.
 #include "vpArmTestKit.h"
 #include "vpCatch.h"
 
@@ -15,11 +15,11 @@ namespace
 {
 constexpr double period = 0.005; // s
 
-//! What a tool that stands still and an index do over some periods.
+//! Results of self-motion with the tool at rest over some periods.
 struct Course {
-  double largestShare = 0.; //!< Change of a joint's velocity in a period over what its acceleration limit allows.
+  double largestShare = 0.; //!< Largest ratio of a joint's velocity change in a period to its acceleration limit.
   double drift = 0.;        //!< |J v|, m/s and rad/s.
-  double speed = 0.;        //!< Of the joints in the end, rad/s.
+  double speed = 0.;        //!< Final joint speed, rad/s.
 };
 
 Course climb(const vpArmModel &model, const vpJointVector &start, double selfAcceleration, int periods)
@@ -69,7 +69,7 @@ TEST_CASE("Self-motion starts with its share of the accelerations and then goes 
     CHECK(slow.drift < 1e-9);
     moving += slow.speed > 1e-6 ? 1 : 0;
     faster += free.largestShare > share ? 1 : 0;
-    // Where there is time enough it comes to the same speed.
+    // With enough time it reaches the same speed.
     const Course later = climb(amor(), start, 0.3, 100), without = climb(amor(), start, 0., 100);
     CHECK(later.speed == Approx(without.speed).epsilon(0.15).margin(2e-3));
   }

@@ -65,7 +65,7 @@ TEST_CASE("Gradients of the indices are those of finite differences", "[index]")
       for (const vpSelfMotionIndex &index : all(*model, rng)) {
         CAPTURE(model->label(), problem, static_cast<int>(index.kind), static_cast<int>(index.sense), index.joint);
         const vpIndexValue here = evaluate(*model, q, index);
-        // Where two pieces of the distance to the line meet, or near its kink at zero, differences are no oracle.
+        // Where two pieces of the distance to the line meet, or near its kink at zero, differences are not a reference.
         if (index.kind == vpIndexKind::LineDistance || index.kind == vpIndexKind::PointDistance) {
           vpArmData data;
           vpArmKinematics::update(*model, q, data);

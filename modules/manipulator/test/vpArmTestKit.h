@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The two arms of the tests, as our models and as chains of KDL that are made another way, and random configurations.
+// The two arms of the tests, as vpArmModel and as independently built KDL chains, and random configurations.
 #ifndef vpArmTestKit_h
 #define vpArmTestKit_h
 
@@ -29,7 +29,7 @@ using namespace vpTestArms;
 
 inline std::string dataFile(const std::string &name) { return std::string(VISP_DIRECT_DATA_DIR) + "/robot/" + name; }
 
-//! Revolute, prismatic, revolute, prismatic, in skew frames: for what the two arms have not.
+//! Revolute, prismatic, revolute, prismatic, in skew frames: for cases not covered by the two arms.
 inline const vpArmModel &mixed()
 {
   static const vpArmModel model = [] {
@@ -83,7 +83,7 @@ inline KDL::Chain kdlAmor(bool withTool = true, double offset2 = pi)
   KDL::Chain chain;
   for (int i = 0; i < 7; ++i) {
     KDL::Frame end = KDL::Frame::DH(a[i], alpha[i], d[i], i == 1 ? offset2 : 0.);
-    // Half way between the two ends of the link, in the frame at its end.
+    // Midpoint of the link, in the frame at its end.
     const KDL::Vector com = 0.5 * end.Inverse().p;
     const double I = 0.005 * mass[i];
     if (i == 6 && withTool) {
@@ -118,7 +118,7 @@ inline KDL::RigidBodyInertia kdlBody(const urdf::Link &link)
   return at * KDL::RigidBodyInertia(from.mass, KDL::Vector::Zero(), I);
 }
 
-//! The six axes straight from urdfdom's tree: joints about their own axes, fixed segments left as they are.
+//! The six axes directly from urdfdom's tree: joints about their own axes, fixed segments unchanged.
 inline KDL::Chain kdlSixAxes()
 {
   const urdf::ModelInterfaceSharedPtr tree = urdf::parseURDFFile(dataFile("generic-6r.urdf"));

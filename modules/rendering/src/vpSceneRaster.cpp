@@ -69,8 +69,7 @@ vpSceneRaster::Window vpSceneRaster::window(const Eigen::Vector3d &centre, doubl
   return w;
 }
 
-// The image bounds of a box's corners contain far fewer pixels than its sphere, if all corners are in front of the
-// camera.
+// The image bounds of a box's corners have far fewer pixels than its sphere, if all are in front of the camera.
 void vpSceneRaster::drawBox(const Eigen::Vector3d &half, const vpRigidTransform &cMo)
 {
   Window w = window(cMo.p, half.norm());

@@ -16,8 +16,7 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
- * Each body is intersected with the rays of the pixels covered by its bounding sphere; the nearest intersection is
- * kept.
+ * Each body is intersected with the rays of the pixels in its bounding sphere; the nearest intersection is kept.
  */
 class vpSceneRaster
 {

@@ -35,7 +35,7 @@ struct Point {
   double x, y;
 };
 
-//! First moments of what differs from the ground, in a window around a cell.
+//! First moments of the difference from the ground, in a window around a cell.
 template <class Grey>
 Point centroid(const vpImage<Grey> &I, const vpPatternTruthCell &cell, double reach, double ground)
 {
@@ -77,7 +77,7 @@ void measure(const vpProductPattern &product, double x, double y, const vpImage<
   }
 }
 
-//! Whether a point of the product's axes, from the centre of an opening, is open; written down anew.
+//! True if a point in product axes, relative to the centre of an opening, is open; independent implementation.
 bool isOpen(const vpProductPatternSpec &spec, double p, double q)
 {
   const double a = spec.openingX / 2., b = spec.openingY / 2.;

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The bookkeeping of a product: places, identities, defects, noise, light, and what is refused.
+// Properties of a product: positions, identities, defects, noise, illumination, and rejected parameters.
 #include "vpCatch.h"
 
 #include <visp3/rendering/vpProductPattern.h>

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Pictures and depths of scenes against rays that know only distances, and against the renderer of a single photograph.
+// Images and depths of scenes against ray marching by distances, and against the renderer of a single photograph.
 #include "vpCatch.h"
 #include "vpTestArms.h"
 
@@ -84,7 +84,7 @@ double outside(const vpCollisionShape &shape, const Vector3d &p)
   }
 }
 
-//! Depth of what a ray meets: it may always go on by the least distance.
+//! Depth of the first hit of a ray by marching: the least distance is a safe step.
 double march(const vpCollisionScene &scene, const vpRigidTransform &fMc, double u, double v, double far)
 {
   const Vector3d d = Vector3d((u - someCamera().get_u0()) / someCamera().get_px(),

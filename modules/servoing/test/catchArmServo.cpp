@@ -2,8 +2,8 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// From measurements to joint velocities: the goal is reached through latency, limits are kept, obstacles are not touched,
-// and whatever comes in the answer is finite.
+// From measurements to joint velocities: the goal is reached despite latency, limits are kept, obstacles are not
+// touched, and the output is finite for any input.
 #include "vpCatch.h"
 #include "vpTestArms.h"
 #include "vpWildNumbers.h"
@@ -38,7 +38,7 @@ vpRigidTransform cameraAt(const vpJointVector &q)
   return vpArmKinematics::camera(amor(), data);
 }
 
-//! An arm that does what it is told, and a camera that sees exactly, 10 times a second, and answers late.
+//! An ideal arm, and an exact camera at 10 Hz with latency.
 struct Bench {
   vpArmServo servo;
   vpJointVector q = amor().home(), velocity = vpJointVector::Zero(7);
@@ -47,7 +47,7 @@ struct Bench {
   std::deque<vpServoMeasurement> pending;
   int cycle = 0;
 
-  bool told = true; // the time of the exposure; otherwise that of the arrival
+  bool told = true; // true: time of exposure reported; otherwise that of arrival
 
   explicit Bench(const std::string &law, const vpServoControllerConfig &config = {})
     : servo(amor(), vpServoController::create(law, config), spec()),
@@ -82,7 +82,7 @@ struct Bench {
     q += period * velocity;
     return out;
   }
-  [[nodiscard]] double error() const // m, of the camera's place
+  [[nodiscard]] double error() const // m, of the camera position
   {
     return (cdMo * cMo().inverse()).getTranslationVector().frobeniusNorm();
   }
@@ -98,7 +98,7 @@ TEST_CASE("An arm servo reaches its goal through a latency of 100 ms", "[servoin
     }
     INFO(law << ", " << bench.error() << " m");
     CHECK(bench.error() < 1e-5);
-    CHECK(bench.velocity.norm() < 0.3); // the self-motion goes on
+    CHECK(bench.velocity.norm() < 0.3); // the self-motion continues
   }
 }
 

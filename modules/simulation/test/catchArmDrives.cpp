@@ -18,7 +18,7 @@ using namespace vpArmsOfTests;
 
 namespace
 {
-//! What came of the straight move of section 8.3.3, to 80 % of the way in 4.5 s and back.
+//! Result of the straight motion of section 8.3.3, to 80 % of the path in 4.5 s and back.
 struct Tracking {
   vpJointVector rms = vpJointVector::Zero(7); // rad
   double tool = 0.;                           // m

@@ -84,7 +84,7 @@ void stage(std::mt19937_64 &rng)
   }
 }
 
-// The numbers that a program gives it: refused with a sentence, and time passes as before.
+// Invalid numbers from a program: rejected with a sentence, and time passes as before.
 void simulatedArm(std::mt19937_64 &rng)
 {
   vpSimulatedArmSpec spec;
@@ -115,7 +115,7 @@ struct Step {
   const char *name;
   void (*run)(std::mt19937_64 &);
 };
-// A new class with a step comes into this list.
+// Add new classes with a step to this list.
 const Step everyStep[] = {
     {"vpArmPlant", plant}, {"vpArmDrives", drives}, {"vpXYStage", stage}, {"vpSimulatedArm", simulatedArm}};
 } // namespace

@@ -2,7 +2,8 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The arm in real time, called from several threads. Under the thread sanitizer these tests also show that there are no races.
+// The arm in real time, called from several threads. Under the thread sanitizer these tests also show that there are no
+// races.
 #include "vpArmsOfTests.h"
 #include "vpCatch.h"
 
@@ -65,7 +66,7 @@ TEST_CASE("A velocity that loses the race against a stop does not move the arm a
     }
     robot.setRobotState(vpRobot::STATE_STOP);
     const long moved = taken;
-    robot.wait(0.05); // brakes: the commander goes on asking
+    robot.wait(0.05); // brakes: the commander continues to command
     CHECK(robot.getState().command.norm() == 0.);
     CHECK(taken <= moved + 1); // the one that was taken just before the stop
   }

@@ -39,7 +39,7 @@ double steadyVelocity(const vpXYStageAxis &axis, double force, double position)
   return low;
 }
 
-//! \brief What a stage that is drawn by a spring does in the second half of the time.
+//! \brief Motion of a stage pulled by a spring in the second half of the time.
 struct Drawn {
   double restingShare = 0., firstMove = 0., fastest = 0.;
 };
@@ -134,7 +134,7 @@ TEST_CASE("A steady force gives the velocity at which friction equals it", "[sta
   }
   CHECK(stage.state().velocity[0] == Approx(steadyVelocity(vpXYStageSpec::thesis().x, 0.2, 300.)).epsilon(1e-6));
   CHECK(stage.state().velocity[0] == Approx(6. / 1.3).epsilon(1e-3));
-  // And it is held at its fastest.
+  // The speed limit is kept.
   spec.x.maxVelocity = 2.5;
   vpXYStage slow(spec);
   for (int k = 0; k < 200; ++k) {
@@ -169,10 +169,10 @@ TEST_CASE("Drawn slowly by a soft spring a stage sticks and slips, fast it does 
   const double stiffness = 0.01;
   const Drawn slow = drawBySpring(stiffness, 0.1, 4000., 0.05);
   CAPTURE(slow.restingShare, slow.fastest);
-  CHECK(slow.firstMove == Approx(0.12 / stiffness / 0.1).epsilon(0.001)); // when the spring draws with the stiction
+  CHECK(slow.firstMove == Approx(0.12 / stiffness / 0.1).epsilon(0.001)); // when the spring force equals the stiction
   CHECK(slow.restingShare > 0.2);
   CHECK(slow.fastest > 2. * 0.1);
-  // Sliding is steady where the friction grows with the velocity: below 0.0225, at the flat top of the Stribeck curve, ...
+  // Sliding is steady where the friction grows with velocity: below 0.0225, at the flat top of the Stribeck curve, ...
   CHECK(drawBySpring(stiffness, 0.015, 8000., 0.05).restingShare == 0.);
   // ... and far above the Stribeck velocity.
   const Drawn fast = drawBySpring(stiffness, 3., 4000., 0.05);

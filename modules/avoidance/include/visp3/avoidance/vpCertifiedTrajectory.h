@@ -78,7 +78,7 @@ public:
 
   static constexpr int mostLooks = 1000000; //!< Maximum number of evaluations of one check.
 
-  //! Sets the margin, m; values that are not finite or negative count as 0. No exception.
+  //! Sets the margin, m; negative and non-finite values count as 0. No exception.
   void setMargin(double margin) noexcept;
   //! Reach bounds R_ij of the scene's arm.
   [[nodiscard]] const vpReachBounds &reach() const noexcept { return m_reach; }

@@ -62,8 +62,8 @@ enum class vpCollisionKind {
  * core of a sphere is its centre, of a capsule its axis, of a box, cylinder or octree the solid itself, of the ground
  * the half space, of a mesh its surface. Positive: the exact gap. Negative: for spheres, capsules and the ground the
  * exact depth along \e normal; for boxes, cylinders and octrees exact until the axis itself is inside, then constant
- * at -(radius + inflation); inside a watertight mesh it keeps decreasing. It never changes by more than the motion of
- * its parts.
+ * at -(radius + inflation); inside a watertight mesh it keeps decreasing. It changes by at most the motion of its
+ * parts.
  */
 struct VISP_EXPORT vpClearance {
   //! Signed distance, m; infinity: no pair within the cutoff; -infinity: unknown (numbers out of range).

@@ -25,7 +25,7 @@ enum class vpArmFrame {
 
 /*!
  * \ingroup group_manipulator
- * \brief Kinematics of an arm in one configuration: filled by vpArmKinematics::forward() and jacobian(). One per
+ * \brief Kinematics of an arm in one configuration, filled by vpArmKinematics::forward() and jacobian(); one per
  * thread.
  */
 struct VISP_EXPORT vpArmData {

@@ -23,7 +23,7 @@ enum class vpArmTaskKind {
   Hold,          //!< Brake and hold the position.
   JointVelocity, //!< Follow given joint velocities.
   Twist,         //!< Follow a twist in one of the frames.
-  JointPath,     //!< Move to a configuration, by direct trajectory generation.
+  JointPath,     //!< Move to a configuration, by direct trajectory generation (DTG).
   PosePath       //!< Move to an end-effector pose, by closed-loop kinematics.
 };
 
@@ -40,7 +40,7 @@ enum class vpArmTwistFrame { Base, EndEffector, Camera, Mixt };
  * The request may change at any time. Set it in the thread that calls step(), or lock both.
  * \code
  * vpArmMotion motion(model, vpRedundancySpec(), vpClosedLoopSpec());
- * motion.twist(law.step(measurement), vpArmTwistFrame::Camera);
+ * motion.twist(law->update(measurement, motion.period()).v, vpArmTwistFrame::Camera);
  * velocity = motion.step(q, velocity); // every vpRedundancySpec::period; send it to the drives
  * \endcode
  */
@@ -67,9 +67,8 @@ public:
    * \param velocity : Current commanded velocities. \param share : Fraction of the velocity limits to use, (0, 1].
    */
   void jointPath(const vpJointVector &goal, const vpJointVector &q, const vpJointVector &velocity, double share);
-  //! Move to a pose. \param goal : Goal pose of the end effector in the base. \param q : Current commanded
-  //! configuration.
-  //! \param velocity : Current commanded velocities.
+  //! Move to a pose. \param goal : Goal pose of the end effector in the base.
+  //! \param q : Current commanded configuration. \param velocity : Current commanded velocities.
   void posePath(const vpRigidTransform &goal, const vpJointVector &q, const vpJointVector &velocity);
   //! Sets the indices that self-motion maximizes and the free axes, for twist and pose motions.
   void setSelfMotion(const std::vector<vpSelfMotionIndex> &indices, const std::array<bool, 6> &free);

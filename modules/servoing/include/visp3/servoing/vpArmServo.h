@@ -50,7 +50,7 @@ struct VISP_EXPORT vpArmServoOutput {
 /*!
  * \class vpArmServo
  * \ingroup group_servoing
- * \brief Converts delayed, low-rate measurements of a camera in the hand to joint velocities within all limits, every
+ * \brief Converts delayed, low-rate measurements of an eye-in-hand camera to joint velocities within limits, each
  * period.
  *
  * A measurement is valid at its time of exposure: the joint motion since then propagates it to the present
@@ -90,8 +90,7 @@ public:
   bool see(const vpServoMeasurement &result) noexcept;
   /*!
    * One period.
-   * \param q : Current configuration, rad or m. \param time : Current time, s; increasing. If not finite, the arm
-   * brakes.
+   * \param q : Current configuration, rad or m. \param time : Current time, s; increasing. Not finite: the arm brakes.
    * \return The output, valid until the next step.
    */
   const vpArmServoOutput &step(const vpJointVector &q, double time) noexcept;

@@ -48,8 +48,7 @@ struct VISP_EXPORT vpSimulatedArmSpec {
   std::vector<vpSelfMotionIndex> indices; //!< Indices that self-motion maximizes, at most 8.
   //! Free (uncontrolled) components of the camera (or end-effector) twist; {5}: rotation about the optical axis.
   std::array<bool, 6> free{};
-  //! Age beyond its sampling time (vpArmClock::RealTime: age) at which a velocity command is too old, s, > 0; infinity:
-  //! never.
+  //! Age beyond its sampling time (vpArmClock::RealTime: age) at which a command is too old, s, > 0; infinity: never.
   double watchdog = 0.2;
   double followingError = 0.3;            //!< Largest joint following error, rad or m, > 0; beyond it the arm stops.
   vpArmClock clock = vpArmClock::Stepped; //!< Clock of the simulation.
