@@ -15,9 +15,9 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
+constexpr vpFieldCheck fields("the avoidance method");
 // rad/s or m/s: a braking arm slower than this counts as standing.
 constexpr double standing = 1e-3;
-
 } // namespace
 
 void vpAvoidanceMethodSpec::validate() const

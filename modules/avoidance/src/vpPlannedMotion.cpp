@@ -17,6 +17,7 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
+constexpr vpFieldCheck fields("the planned motion");
 constexpr double ending = 0.5;  // s: the last part of a motion is not changed, to keep its smooth end
 constexpr double quicker = 0.9; // of the remaining time: faster new motions replace it
 constexpr double slack = 1e-4;  // m: reduction of the margin when proving the rest of a motion again

@@ -15,8 +15,8 @@ BEGIN_VISP_NAMESPACE
 //! \ingroup group_avoidance
 //! \brief How the trajectory is modified.
 enum class vpDetourKind {
-  Final, //!< Point-to-point, (8.3)-(8.5): temporary final position beside the obstacle until the goal is accessible.
-  Via    //!< Multi-point, (8.6)-(8.9): up to four via positions, the goal is unchanged.
+  PointToPoint, //!< (8.3)-(8.5): a temporary final position beside the obstacle until the goal is accessible.
+  Via           //!< Multi-point, (8.6)-(8.9): up to four via positions, the goal is unchanged.
 };
 
 /*!
