@@ -127,7 +127,7 @@ vpDetourResult vpDetourSearch::search(const vpDetourStart &start, const Vector3d
     std::pop_heap(m_open.begin(), m_open.end(), longer);
     Node node = m_open.back();
     m_open.pop_back();
-    const bool final = m_spec.detour == vpDetourKind::Final && node.task.viaCount > 0;
+    const bool final = m_spec.detour == vpDetourKind::PointToPoint && node.task.viaCount > 0;
     if (final) { // the newest position is the first stop
       node.task.goal = node.task.vias[0];
       node.task.goalVelocity.setZero();

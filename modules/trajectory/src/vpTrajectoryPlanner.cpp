@@ -27,7 +27,7 @@ vpTrajectoryPlanner::Impl::Impl(int count, int maxVias)
     chain(static_cast<std::size_t>(count) * (static_cast<std::size_t>(maxVias) + 1)),
     column(static_cast<std::size_t>(count)), legs(static_cast<std::size_t>(maxVias) + 1)
 {
-  for (vpMotionUnit &unit : units) {
+  for (vpCoupledAxes &unit : units) {
     unit.reserve(count);
   }
 }
@@ -75,7 +75,7 @@ void vpTrajectoryPlanner::Impl::makeUnits(const vpTrajectoryProblem &problem)
     if (isAtRest(group) && addLine(problem, &group, axis(n + 1 + g))) {
       continue;
     }
-    vpMotionUnit &unit = addUnit();
+    vpCoupledAxes &unit = addUnit();
     unit.setNorm(problem.groupLimits(g));
     for (int i = 0; i < n; ++i) {
       if (group.contains(i)) {
@@ -90,10 +90,10 @@ void vpTrajectoryPlanner::Impl::makeUnits(const vpTrajectoryProblem &problem)
   }
 }
 
-vpMotionUnit &vpTrajectoryPlanner::Impl::addUnit()
+vpCoupledAxes &vpTrajectoryPlanner::Impl::addUnit()
 {
   lines[static_cast<std::size_t>(unitCount)] = {};
-  vpMotionUnit &unit = units[static_cast<std::size_t>(unitCount++)];
+  vpCoupledAxes &unit = units[static_cast<std::size_t>(unitCount++)];
   unit.clear();
   return unit;
 }
@@ -210,8 +210,9 @@ double vpTrajectoryPlanner::Impl::searchLeg(const vpTrajectoryOptions &options, 
     // Each time an axis takes another form, of which it has few, so this ends.
     // The one that is likely to be the slowest comes first: then the others look at its duration only.
     const auto last = units.begin() + unitCount;
-    const auto first = std::max_element(
-        units.begin(), last, [](const vpMotionUnit &a, const vpMotionUnit &b) { return a.estimate() < b.estimate(); });
+    const auto first = std::max_element(units.begin(), last, [](const vpCoupledAxes &a, const vpCoupledAxes &b) {
+      return a.estimate() < b.estimate();
+    });
     int content = 0, i = static_cast<int>(first - units.begin());
     for (const int end = i + 100 * unitCount; content < unitCount && i < end; ++i) {
       const double next = units[static_cast<std::size_t>(i % unitCount)].next(T);
@@ -227,7 +228,7 @@ double vpTrajectoryPlanner::Impl::searchLeg(const vpTrajectoryOptions &options, 
 void vpTrajectoryPlanner::Impl::noteFaults()
 {
   for (int u = 0; u < unitCount; ++u) {
-    const vpMotionUnit &unit = units[static_cast<std::size_t>(u)];
+    const vpCoupledAxes &unit = units[static_cast<std::size_t>(u)];
     iterations = std::max(iterations, unit.iterations());
     if (unit.hasDroppedGoalAcceleration()) {
       const int i = firstAxis(u);
@@ -251,7 +252,7 @@ double vpTrajectoryPlanner::Impl::groupBraking() const
 {
   double longest = 0.;
   for (int u = 0; u < unitCount; ++u) {
-    const vpMotionUnit &unit = units[static_cast<std::size_t>(u)];
+    const vpCoupledAxes &unit = units[static_cast<std::size_t>(u)];
     longest = unit.hasNorm() ? std::max(longest, unit.brakingDuration()) : longest;
   }
   return longest;
@@ -261,7 +262,7 @@ double vpTrajectoryPlanner::Impl::groupBraking() const
 void vpTrajectoryPlanner::Impl::emitLeg(vpTrajectoryPlan &plan, double begin, bool viaLeg)
 {
   for (int u = 0; u < unitCount; ++u) {
-    const vpMotionUnit &unit = units[static_cast<std::size_t>(u)];
+    const vpCoupledAxes &unit = units[static_cast<std::size_t>(u)];
     const double T = unitDurations[static_cast<std::size_t>(u)];
     const Line &line = lines[static_cast<std::size_t>(u)];
     for (int m = 0; m < (line.used ? n : unit.count()); ++m) {

@@ -9,7 +9,7 @@
 #ifndef vpTrajectoryPlannerImpl_h
 #define vpTrajectoryPlannerImpl_h
 
-#include "vpMotionUnit.h"
+#include "vpCoupledAxes.h"
 #include "vpViaSpline.h"
 
 #include <visp3/trajectory/vpTrajectoryPlanner.h>
@@ -36,7 +36,7 @@ struct vpTrajectoryPlanner::Impl {
   // A leg: all axes from `from` to `to`.
   void setTasks(const vpTrajectoryProblem &problem);
   void makeUnits(const vpTrajectoryProblem &problem);
-  vpMotionUnit &addUnit();
+  vpCoupledAxes &addUnit();
   [[nodiscard]] bool isAtRest(const vpAxisGroup &group);
   bool addLine(const vpTrajectoryProblem &problem, const vpAxisGroup *group, vpMotionAxis &carrier);
   [[nodiscard]] int firstAxis(int unit) const;
@@ -67,7 +67,7 @@ struct vpTrajectoryPlanner::Impl {
   int n;
   std::vector<vpAxisState> from, to; // of the current leg, positions as in the problem
   std::vector<vpMotionAxis> axes;    // plus one for the straight line of all axes and of each group
-  std::vector<vpMotionUnit> units;
+  std::vector<vpCoupledAxes> units;
   std::vector<Line> lines; // by unit
   std::vector<double> unitDurations;
   int unitCount = 0;

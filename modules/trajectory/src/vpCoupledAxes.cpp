@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-#include "vpMotionUnit.h"
+#include "vpCoupledAxes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,20 +15,20 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double worthwhile = 0.8; // the cruise form replaces the minimum-jerk polynomial where it saves a fifth
 } // namespace
 
-void vpMotionUnit::reserve(int axes)
+void vpCoupledAxes::reserve(int axes)
 {
   m_members.resize(static_cast<std::size_t>(axes));
   m_steps.resize(static_cast<std::size_t>(axes));
   m_families.resize(static_cast<std::size_t>(axes));
 }
 
-void vpMotionUnit::clear() noexcept
+void vpCoupledAxes::clear() noexcept
 {
   m_count = 0;
   m_hasNorm = false;
 }
 
-void vpMotionUnit::prepare(bool allowCruise) noexcept
+void vpCoupledAxes::prepare(bool allowCruise) noexcept
 {
   m_allowCruise = allowCruise && order() == 3;
   m_droppedGoal = m_rampedReady = m_softReady = m_lastBuilt = m_lastReady = m_cruiseReady = false;
@@ -65,7 +65,7 @@ void vpMotionUnit::prepare(bool allowCruise) noexcept
   }
 }
 
-void vpMotionUnit::close(Form form) noexcept
+void vpCoupledAxes::close(Form form) noexcept
 {
   for (int i = 0; i < m_count; ++i) {
     at(i)[form].close(at(i).task);
@@ -75,7 +75,7 @@ void vpMotionUnit::close(Form form) noexcept
 
 // Until the fallback is needed: no form leaves the range from start to goal by more than the braking distance, nor
 // exceeds the position limits.
-void vpMotionUnit::boundPositions() noexcept
+void vpCoupledAxes::boundPositions() noexcept
 {
   bool monotone = m_braking == 0. && !isOutside();
   for (int i = 0; i < m_count; ++i) {
@@ -94,7 +94,7 @@ void vpMotionUnit::boundPositions() noexcept
 }
 
 // Where the fallback has to go, the other forms may go too. True when their bounds have changed.
-bool vpMotionUnit::takeLast() noexcept
+bool vpCoupledAxes::takeLast() noexcept
 {
   buildLast();
   if (!m_bounded) {
@@ -126,7 +126,7 @@ bool vpMotionUnit::takeLast() noexcept
   return wider;
 }
 
-bool vpMotionUnit::isOutside() const noexcept
+bool vpCoupledAxes::isOutside() const noexcept
 {
   for (int i = 0; i < m_count; ++i) {
     if (at(i).task.minPosition > 0. || at(i).task.maxPosition < 0.) {
@@ -137,7 +137,7 @@ bool vpMotionUnit::isOutside() const noexcept
 }
 
 // The extent of start and goal.
-bool vpMotionUnit::keepsPositions(Form form) const noexcept
+bool vpCoupledAxes::keepsPositions(Form form) const noexcept
 {
   for (int i = 0; i < m_count; ++i) {
     const vpAxisTask &task = at(i).task;
@@ -153,7 +153,7 @@ bool vpMotionUnit::keepsPositions(Form form) const noexcept
   return true;
 }
 
-bool vpMotionUnit::breaksNorm() const noexcept
+bool vpCoupledAxes::breaksNorm() const noexcept
 {
   const double slack = 1. + 1e-12;
   double v2 = 0., a2 = 0.;
@@ -165,7 +165,7 @@ bool vpMotionUnit::breaksNorm() const noexcept
   return std::sqrt(v2) > m_norm.velocity * slack || std::sqrt(a2) > m_norm.acceleration * slack;
 }
 
-double vpMotionUnit::search(Form form, double T) noexcept
+double vpCoupledAxes::search(Form form, double T) noexcept
 {
   double &none = m_none[static_cast<std::size_t>(form)];
   if (T >= none) {
@@ -199,7 +199,7 @@ double vpMotionUnit::search(Form form, double T) noexcept
   return infinity; // undecided: use another form
 }
 
-bool vpMotionUnit::isAtGoal(bool atRest) const noexcept
+bool vpCoupledAxes::isAtGoal(bool atRest) const noexcept
 {
   for (int i = 0; i < m_count; ++i) {
     const vpAxisTask &task = m_members[static_cast<std::size_t>(i)]->task;
@@ -212,7 +212,7 @@ bool vpMotionUnit::isAtGoal(bool atRest) const noexcept
   return true;
 }
 
-double vpMotionUnit::next(double T) noexcept
+double vpCoupledAxes::next(double T) noexcept
 {
   m_form = vpTrajectoryForm::Direct;
   m_used = vpMotionAxis::Direct;
@@ -240,7 +240,7 @@ double vpMotionUnit::next(double T) noexcept
 }
 
 // The forms without a stop.
-double vpMotionUnit::searchFree(double T) noexcept
+double vpCoupledAxes::searchFree(double T) noexcept
 {
   m_form = vpTrajectoryForm::Direct;
   m_used = vpMotionAxis::Direct;
@@ -258,7 +258,7 @@ double vpMotionUnit::searchFree(double T) noexcept
   return best < infinity ? best : searchRamped(T);
 }
 
-bool vpMotionUnit::makesDetour(double T) const noexcept
+bool vpCoupledAxes::makesDetour(double T) const noexcept
 {
   for (int i = 0; i < m_count; ++i) {
     const vpMotionAxis &axis = at(i);
@@ -271,7 +271,7 @@ bool vpMotionUnit::makesDetour(double T) const noexcept
   return false;
 }
 
-double vpMotionUnit::searchRamped(double T) noexcept
+double vpCoupledAxes::searchRamped(double T) noexcept
 {
   m_form = vpTrajectoryForm::Ramped;
   m_used = vpMotionAxis::Ramped;
@@ -282,7 +282,7 @@ double vpMotionUnit::searchRamped(double T) noexcept
 }
 
 // The gentle stop, unless it needs more time than another form would, or more space; infinity then.
-double vpMotionUnit::searchSoft(double T, double instead) noexcept
+double vpCoupledAxes::searchSoft(double T, double instead) noexcept
 {
   const vpTrajectoryForm form = m_form;
   const Form used = m_used;
@@ -300,7 +300,7 @@ double vpMotionUnit::searchSoft(double T, double instead) noexcept
   return infinity;
 }
 
-double vpMotionUnit::searchStops(double T, double instead) noexcept
+double vpCoupledAxes::searchStops(double T, double instead) noexcept
 {
   const double soft = T <= m_own ? searchSoft(T, instead) : infinity;
   if (soft < infinity) {
@@ -311,7 +311,7 @@ double vpMotionUnit::searchStops(double T, double instead) noexcept
   return searchLast(T);
 }
 
-double vpMotionUnit::searchLast(double T) noexcept
+double vpCoupledAxes::searchLast(double T) noexcept
 {
   if (!m_lastReady) {
     close(m_last);
@@ -320,7 +320,7 @@ double vpMotionUnit::searchLast(double T) noexcept
   return search(m_last, T);
 }
 
-void vpMotionUnit::emit(vpTrajectoryPlan &plan, int member, int axis, double factor, double T) const noexcept
+void vpCoupledAxes::emit(vpTrajectoryPlan &plan, int member, int axis, double factor, double T) const noexcept
 {
   const vpMotionAxis &m = at(member);
   if (m_form == vpTrajectoryForm::Cruise) {

@@ -3,11 +3,11 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 /*!
- * \file vpMotionUnit.h
+ * \file vpCoupledAxes.h
  * \brief Axes that must share a form: a single axis, or a group under a limit on its norm.
  */
-#ifndef vpMotionUnit_h
-#define vpMotionUnit_h
+#ifndef vpCoupledAxes_h
+#define vpCoupledAxes_h
 
 #include "vpAxisForms.h"
 
@@ -47,7 +47,7 @@ struct vpMotionAxis {
  * none may leave the range by more than the braking distance unless it is faster than stopping first: so no axis makes
  * a detour while it waits for the others.
  */
-class vpMotionUnit
+class vpCoupledAxes
 {
 public:
   //! Capacity for this many members.

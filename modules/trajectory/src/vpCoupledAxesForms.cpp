@@ -4,7 +4,7 @@
  */
 // How the members of a unit ramp, brake, stop and launch together.
 #include "vpHardStop.h"
-#include "vpMotionUnit.h"
+#include "vpCoupledAxes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ namespace
 constexpr double infinity = std::numeric_limits<double>::infinity();
 } // namespace
 
-void vpMotionUnit::dropGoalAcceleration() noexcept
+void vpCoupledAxes::dropGoalAcceleration() noexcept
 {
   m_droppedGoal = true;
   m_tailRamp = 0.;
@@ -28,7 +28,7 @@ void vpMotionUnit::dropGoalAcceleration() noexcept
 }
 
 // All members return inside together: their velocities keep their ratios.
-void vpMotionUnit::brake() noexcept
+void vpCoupledAxes::brake() noexcept
 {
   const auto naturalTarget = [](const vpAxisTask &task) {
     const double a = task.order > 2 ? task.from[2] : 0.;
@@ -55,7 +55,7 @@ void vpMotionUnit::brake() noexcept
   }
 }
 
-double vpMotionUnit::normNext(const vpMotionFamily *families, double T) noexcept
+double vpCoupledAxes::normNext(const vpMotionFamily *families, double T) noexcept
 {
   for (int i = 0; i < m_count; ++i) {
     m_families[static_cast<std::size_t>(i)] = families + i;
@@ -63,7 +63,7 @@ double vpMotionUnit::normNext(const vpMotionFamily *families, double T) noexcept
   return vpMinimumDuration::nextCandidate(m_families.data(), m_count, m_norm, T);
 }
 
-void vpMotionUnit::buildRamped() noexcept
+void vpCoupledAxes::buildRamped() noexcept
 {
   m_rampedReady = true;
   for (int i = 0; i < m_count; ++i) {
@@ -75,7 +75,7 @@ void vpMotionUnit::buildRamped() noexcept
   close(vpMotionAxis::Ramped);
 }
 
-void vpMotionUnit::buildSoft() noexcept
+void vpCoupledAxes::buildSoft() noexcept
 {
   constexpr double gentle = 0.25; // a quarter of the usual jerk, about that of a smooth polynomial
   if (order() == 4) {
@@ -98,7 +98,7 @@ void vpMotionUnit::buildSoft() noexcept
 }
 
 // A stop with continuous jerk, from the ramped form.
-void vpMotionUnit::buildSmooth() noexcept
+void vpCoupledAxes::buildSmooth() noexcept
 {
   if (!m_rampedReady) {
     buildRamped();
@@ -114,7 +114,7 @@ void vpMotionUnit::buildSmooth() noexcept
 
 // Members of a norm first lose their acceleration, then they slow down with accelerations in proportion to their
 // velocities, so that the norms keep their limits.
-void vpMotionUnit::buildStop(Form form, double hardness) noexcept
+void vpCoupledAxes::buildStop(Form form, double hardness) noexcept
 {
   double head2 = 0., tail2 = 0., shortest[2] = {0., 0.};
   for (int i = 0; i < m_count; ++i) {
@@ -158,7 +158,7 @@ void vpMotionUnit::buildStop(Form form, double hardness) noexcept
 
 // What always has an answer. It keeps the position limits if it can be hard enough, or exceeds them as little as can be;
 // see vpHardStop. Members of a norm brake together, so that there the excess is that of the hardest stop to rest.
-void vpMotionUnit::buildLast() noexcept
+void vpCoupledAxes::buildLast() noexcept
 {
   constexpr double hardest = 1e4;
   m_lastBuilt = true;
@@ -185,7 +185,7 @@ void vpMotionUnit::buildLast() noexcept
   }
 }
 
-void vpMotionUnit::buildHardStop() noexcept
+void vpCoupledAxes::buildHardStop() noexcept
 {
   const vpAxisTask &task = at(0).task;
   vpFramedMotion &motion = at(0)[m_last];
@@ -197,7 +197,7 @@ void vpMotionUnit::buildHardStop() noexcept
 }
 
 // From where the last resort comes to rest to the nearest place inside.
-void vpMotionUnit::comeBack() noexcept
+void vpCoupledAxes::comeBack() noexcept
 {
   const auto inside = [](const vpMotionAxis &axis, double place) {
     return std::clamp(place, axis.task.minPosition, axis.task.maxPosition);
@@ -220,7 +220,7 @@ void vpMotionUnit::comeBack() noexcept
 }
 
 // The smallest duration >= T for which the motions in m_steps keep the norm.
-double vpMotionUnit::commonDuration(double T) noexcept
+double vpCoupledAxes::commonDuration(double T) noexcept
 {
   for (int k = 0; m_hasNorm && T > 0. && k < vpMinimumDuration::maxIterations; ++k) {
     const double next = normNext(m_steps.data(), T);
@@ -233,7 +233,7 @@ double vpMotionUnit::commonDuration(double T) noexcept
 }
 
 // Members of a norm share their ramps, shortened until the norm keeps its limit at the end of the ramp.
-double vpMotionUnit::commonRamp(bool head) noexcept
+double vpCoupledAxes::commonRamp(bool head) noexcept
 {
   double common = infinity, shortest = 0.;
   bool any = false;
@@ -265,7 +265,7 @@ double vpMotionUnit::commonRamp(bool head) noexcept
   return common < shortest * (1. - 1e-9) ? -1. : common;
 }
 
-double vpMotionUnit::commonStop(bool head) noexcept
+double vpCoupledAxes::commonStop(bool head) noexcept
 {
   double T = 0.;
   for (int i = 0; i < m_count; ++i) {
@@ -287,7 +287,7 @@ double vpMotionUnit::commonStop(bool head) noexcept
 }
 
 // No cruise is shorter: for a group along its way, with what its ramps do to the direction left out.
-double vpMotionUnit::leastCruise() const noexcept
+double vpCoupledAxes::leastCruise() const noexcept
 {
   double h = 0., v0 = 0., v1 = 0., v = m_hasNorm ? m_norm.velocity : infinity, a = infinity;
   for (int i = 0; i < m_count; ++i) {
@@ -308,7 +308,7 @@ double vpMotionUnit::leastCruise() const noexcept
 
 // Members of a norm share the durations of their ramps. The direction of the constant velocity follows from these, and
 // they from it: a few rounds, and ramps a hundredth longer for what the direction still changes.
-void vpMotionUnit::openCruise() noexcept
+void vpCoupledAxes::openCruise() noexcept
 {
   constexpr int rounds = 3;
   m_cruiseReady = true;
@@ -342,7 +342,7 @@ void vpMotionUnit::openCruise() noexcept
 
 // Smallest common duration of the ramps to, or from, the velocities that take \e rest for what ramps of the durations
 // \e up and \e down leave.
-double vpMotionUnit::commonStep(bool head, double rest, double up, double down) noexcept
+double vpCoupledAxes::commonStep(bool head, double rest, double up, double down) noexcept
 {
   double T = 0.;
   for (int i = 0; i < m_count; ++i) {
@@ -367,7 +367,7 @@ double vpMotionUnit::commonStep(bool head, double rest, double up, double down) 
   return infinity;
 }
 
-double vpMotionUnit::searchCruise(double T) noexcept
+double vpCoupledAxes::searchCruise(double T) noexcept
 {
   if (!m_cruiseReady) {
     openCruise();
