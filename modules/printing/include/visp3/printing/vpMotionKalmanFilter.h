@@ -97,6 +97,9 @@ struct VISP_EXPORT vpMotionEstimate {
  * Displacement errors are taken to be independent. Those of successive frames are not quite (the same error of the middle
  * frame is in both, with opposite signs); Position readings of identified cells are better where there are any.
  *
+ * The standard deviations are those of the spec and of the readings, carried along: they hold as far as these do. The gate
+ * keeps out what contradicts them; it is no test of the fit.
+ *
  * The third reading of a kind in a row beyond the gate is taken to be right and the belief to be wrong (for an encoder: it has
  * slipped).
  *

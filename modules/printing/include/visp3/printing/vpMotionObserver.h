@@ -71,6 +71,9 @@ struct VISP_EXPORT vpObservedMotion {
  * likelihood ratio with priors, after \cite Willsky76). This takes any error of the model for a change that the sensor can
  * resolve: leave it out with a sensor that sees the errors of the model.
  *
+ * The standard deviations are those of the spec and of the measurements, carried along: they hold as far as these do, and
+ * the friction model. The gate keeps out what contradicts them; it is no test of the fit.
+ *
  * The third measurement in a row beyond the gate is taken to be right and the belief to be wrong.
  *
  * Times more than maxGap ahead are refused, for one broken time stamp would make all that follow come too late. After a

@@ -35,7 +35,7 @@ public:
     double y = 0.;         //!< Displacement, px down.
     double dx = 0.;        //!< Since the last frame that was given, px.
     double dy = 0.;        //!< As dx, down.
-    double sigmaX = 0.;    //!< Standard deviation of dx, px.
+    double sigmaX = 0.;    //!< Standard deviation of dx if the errors of the cells are independent, px.
     double sigmaY = 0.;    //!< Of dy, px.
     int cells = 0;         //!< In common with the last frame.
     bool measured = false; //!< dx and dy were measured, not predicted.
