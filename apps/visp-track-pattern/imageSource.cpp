@@ -118,7 +118,7 @@ std::unique_ptr<ImageSource> makeSource(const Options &options)
     if (first.find('%') != std::string::npos && !fs::exists(first, ignored)) {
       return std::make_unique<FileSource>(filesOfPattern(first), "the images " + first, options.frames, nullptr);
     }
-    if (!fs::exists(first, ignored)) {
+    if (fs::status(first, ignored).type() == fs::file_type::not_found) {
       throw std::runtime_error(first + ": there is no such file or folder");
     }
     if (!vpPictures::isImageName(first)) {

@@ -97,8 +97,11 @@ struct VISP_EXPORT vpMotionEstimate {
  * Displacement errors are assumed independent. Those of successive frames are not quite (the same error of the middle
  * frame is in both, with opposite signs); Position readings of identified cells are better where available.
  *
- * The third consecutive reading of a kind beyond the gate is accepted with an inflated covariance (for an encoder: it
- * has slipped).
+ * The standard deviations are those of the spec and of the readings, carried along: they hold as far as these do. The gate
+ * keeps out what contradicts them; it is no test of the fit.
+ *
+ * The third reading of a kind in a row beyond the gate is taken to be right and the belief to be wrong (for an encoder: it has
+ * slipped).
  *
  * A reading more than maxGap ahead is rejected, because one wrong time stamp would make all later readings too late.
  * After a longer gap, or when the clock was reset, call reset() with the current time. The filter starts at time 0:

@@ -71,7 +71,10 @@ struct VISP_EXPORT vpObservedMotion {
  * (generalised likelihood ratio with priors, after \cite Willsky76). Any model error that the sensor can resolve is
  * taken for a change: use changeRate 0 with a sensor that resolves the model errors.
  *
- * The third consecutive measurement beyond the gate is accepted with an inflated covariance.
+ * The standard deviations are those of the spec and of the measurements, carried along: they hold as far as these do, and
+ * the friction model. The gate keeps out what contradicts them; it is no test of the fit.
+ *
+ * The third measurement in a row beyond the gate is taken to be right and the belief to be wrong.
  *
  * Times more than maxGap ahead are rejected, because one wrong time stamp would make all later ones too late. After a
  * longer gap, or when the clock was reset, call reset() with the current time. The observer starts at time 0: call

@@ -33,11 +33,11 @@ public:
   struct Output {
     double x = 0.;         //!< Displacement since the first frame, px to the right.
     double y = 0.;         //!< Displacement, px down.
-    double dx = 0.;        //!< Displacement since the last frame given, px to the right.
-    double dy = 0.;        //!< Displacement since the last frame given, px down.
-    double sigmaX = 0.;    //!< Standard deviation of dx, px.
-    double sigmaY = 0.;    //!< Standard deviation of dy, px.
-    int cells = 0;         //!< Cells in common with the last frame.
+    double dx = 0.;        //!< Since the last frame that was given, px.
+    double dy = 0.;        //!< As dx, down.
+    double sigmaX = 0.;    //!< Standard deviation of dx if the errors of the cells are independent, px.
+    double sigmaY = 0.;    //!< Of dy, px.
+    int cells = 0;         //!< In common with the last frame.
     bool measured = false; //!< dx and dy were measured, not predicted.
     bool lost = false;     //!< A displacement since reset() was neither measured nor predicted: x and y are wrong.
   };
