@@ -60,8 +60,9 @@ inline vpPoseError vpErrorOf(const vpHomogeneousMatrix &found, const vpHomogeneo
 }
 
 /*!
- * Every pixel is the mean of samples x samples values of the photograph at its full resolution, by Catmull and Rom's cubic
- * interpolation; then Gaussian blur over four deviations. Nothing is rounded. The estimator samples otherwise.
+ * The photograph at its full resolution, by Catmull and Rom's cubic interpolation, samples x samples to a pixel; a pixel is their
+ * mean over its area, blurred by a Gaussian. A lens blurs before the sensor samples: blurring the pixels instead would leave
+ * aliases, which no estimate can use but the bound would count. Nothing is rounded. The estimator samples otherwise.
  */
 class vpFineRenderer
 {
@@ -75,37 +76,57 @@ public:
   //! Grey values row by row; \e background off the target.
   std::vector<double> render(const vpHomogeneousMatrix &cMo, double blur, int samples, double background = 128.) const
   {
-    std::vector<double> image(static_cast<std::size_t>(m_cols * m_rows), background);
     const Eigen::Matrix3d toPlane = planeFromPixel(cMo);
-    const int reach = static_cast<int>(std::ceil(4. * blur));
-    int left = m_cols, right = -1, top = m_rows, bottom = -1; // what is not background, before it is blurred
+    int left = m_cols, right = -1, top = m_rows, bottom = -1; // pixels that are not background before the blur
     for (int v = 0; v < m_rows; ++v) {
       for (int u = 0; u < m_cols; ++u) {
-        const Eigen::Vector3d centre = toPlane * Eigen::Vector3d(u, v, 1.);
-        if (!contains(centre, 3. * cMo[2][3] / m_focal)) {
-          continue;
+        if (contains(toPlane * Eigen::Vector3d(u, v, 1.), 3. * cMo[2][3] / m_focal)) {
+          left = std::min(left, u);
+          right = std::max(right, u);
+          top = std::min(top, v);
+          bottom = std::max(bottom, v);
         }
-        left = std::min(left, u);
-        right = std::max(right, u);
-        top = std::min(top, v);
-        bottom = std::max(bottom, v);
-        double sum = 0.;
-        for (int k = 0; k < samples * samples; ++k) {
-          const double du = (k % samples + 0.5) / samples - 0.5, dv = (k / samples + 0.5) / samples - 0.5;
-          const Eigen::Vector3d q = toPlane * Eigen::Vector3d(u + du, v + dv, 1.);
-          sum += value(q.x() / q.z(), q.y() / q.z(), background);
-        }
-        image[static_cast<std::size_t>(v * m_cols + u)] = sum / (samples * samples);
       }
     }
-    if (blur > 0. && left <= right) {
-      left = std::max(0, left - reach);
-      right = std::min(m_cols - 1, right + reach);
-      top = std::max(0, top - reach);
-      bottom = std::min(m_rows - 1, bottom + reach);
-      double *const first = &image[static_cast<std::size_t>(top * m_cols + left)];
-      smooth(first, blur, 1, right - left + 1, m_cols, bottom - top + 1);
-      smooth(first, blur, m_cols, bottom - top + 1, 1, right - left + 1);
+    std::vector<double> image(static_cast<std::size_t>(m_cols * m_rows), background);
+    if (left > right) {
+      return image;
+    }
+    // Samples of the photograph, then along rows and columns the lens's blur and the pixel's area together.
+    const int reach = static_cast<int>(std::ceil(4. * blur));
+    const int u0 = left - reach, v0 = top - reach; // of the first sample's pixel; the picture's border cuts nothing off
+    const int wide = (right - left + 1 + 2 * reach) * samples, high = (bottom - top + 1 + 2 * reach) * samples;
+    std::vector<double> fine(static_cast<std::size_t>(wide) * high);
+    for (int r = 0; r < high; ++r) {
+      for (int c = 0; c < wide; ++c) {
+        const double u = u0 - 0.5 + (c + 0.5) / samples, v = v0 - 0.5 + (r + 0.5) / samples;
+        const Eigen::Vector3d q = toPlane * Eigen::Vector3d(u, v, 1.);
+        fine[static_cast<std::size_t>(r) * wide + c] = value(q.x() / q.z(), q.y() / q.z(), background);
+      }
+    }
+    const std::vector<double> kernel = pixelKernel(blur, samples);
+    const int n = (static_cast<int>(kernel.size()) - samples) / 2; // samples beyond the pixel
+    std::vector<double> rows(static_cast<std::size_t>(right - left + 1 + 2 * reach) * high);
+    const int cols = wide / samples;
+    for (int r = 0; r < high; ++r) {
+      for (int c = 0; c < cols; ++c) {
+        double sum = 0.;
+        for (std::size_t k = 0; k < kernel.size(); ++k) {
+          const int at = std::clamp(c * samples - n + static_cast<int>(k), 0, wide - 1);
+          sum += kernel[k] * fine[static_cast<std::size_t>(r) * wide + at];
+        }
+        rows[static_cast<std::size_t>(r) * cols + c] = sum;
+      }
+    }
+    for (int v = std::max(0, v0); v < std::min(m_rows, v0 + high / samples); ++v) {
+      for (int u = std::max(0, u0); u < std::min(m_cols, u0 + cols); ++u) {
+        double sum = 0.;
+        for (std::size_t k = 0; k < kernel.size(); ++k) {
+          const int at = std::clamp((v - v0) * samples - n + static_cast<int>(k), 0, high - 1);
+          sum += kernel[k] * rows[static_cast<std::size_t>(at) * cols + (u - u0)];
+        }
+        image[static_cast<std::size_t>(v * m_cols + u)] = sum;
+      }
     }
     return image;
   }
@@ -209,30 +230,22 @@ private:
             t * t * (-0.5 + 0.5 * t)};
   }
 
-  // Along lines of \e length pixels that are \e step apart in memory, each line \e next from the one before.
-  static void smooth(double *image, double blur, int step, int length, int next, int lines)
+  // Weights of the samples of one line that a pixel collects: its own width, blurred by the lens over four deviations.
+  static std::vector<double> pixelKernel(double blur, int samples)
   {
-    const int n = static_cast<int>(std::ceil(4. * blur));
-    std::vector<double> kernel, line(static_cast<std::size_t>(length));
+    const int n = static_cast<int>(std::ceil(4. * blur)) * samples;
+    std::vector<double> kernel;
     double total = 0.;
-    for (int i = -n; i <= n; ++i) { // the Gaussian over each whole pixel
-      const double s = 1. / (blur * std::sqrt(2.));
-      kernel.push_back(std::erf(s * (i + 0.5)) - std::erf(s * (i - 0.5)));
+    for (int k = -n; k < samples + n; ++k) {
+      const double x = (k + 0.5) / samples - 0.5; // of the sample from the middle of the pixel, px
+      const double s = 1. / (std::max(blur, 1e-6) * std::sqrt(2.));
+      kernel.push_back(std::erf(s * (x + 0.5)) - std::erf(s * (x - 0.5)));
       total += kernel.back();
     }
-    for (int l = 0; l < lines; ++l) {
-      double *const first = image + l * next;
-      for (int i = 0; i < length; ++i) {
-        double sum = 0.;
-        for (int k = -n; k <= n; ++k) {
-          sum += kernel[static_cast<std::size_t>(k + n)] * first[std::clamp(i + k, 0, length - 1) * step];
-        }
-        line[static_cast<std::size_t>(i)] = sum / total;
-      }
-      for (int i = 0; i < length; ++i) {
-        first[i * step] = line[static_cast<std::size_t>(i)];
-      }
+    for (double &weight : kernel) {
+      weight /= total;
     }
+    return kernel;
   }
 
   vpImage<unsigned char> m_photo;
