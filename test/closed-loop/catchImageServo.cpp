@@ -12,7 +12,7 @@
 #include <visp3/core/vpIoTools.h>
 #include <visp3/core/vpMath.h>
 #include <visp3/direct_core/vpQuantile.h>
-#include <visp3/simulation/vpServoExperiment.h>
+#include "lab/servo/vpServoExperiment.h"
 
 #include <cstdlib>
 #include <iostream>
