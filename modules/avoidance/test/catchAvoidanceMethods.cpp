@@ -180,7 +180,7 @@ TEST_CASE("Among obstacles that stand, methods that foresee keep the margin and 
       }
       const auto method = makeAvoidanceMethod(name, scene);
       static_cast<void>(method->start(home(), vpAvoidanceGoal::at(amor(), goal)));
-      const Drive run = drive(scene, *method, home(), 15.);
+      const Drive run = drive(scene, *method, home(), 40.);
       CAPTURE(name, problem, toString(run.last.status));
       CHECK(run.least > 0.009);
       CHECK_FALSE(run.unsafe);
@@ -233,7 +233,7 @@ TEST_CASE("No method that foresees touches what moves while it moves itself", "[
       }
       const auto method = makeAvoidanceMethod(name, scene);
       static_cast<void>(method->start(home(), vpAvoidanceGoal::at(amor(), goal)));
-      const Drive run = drive(scene, *method, home(), 15.);
+      const Drive run = drive(scene, *method, home(), 40.);
       CAPTURE(name, problem, toString(run.last.status), run.time);
       // An obstacle that approaches a standing arm may be within the margin when it leaves; nothing is touched.
       CHECK(run.least > 0.);
