@@ -75,6 +75,7 @@ class VISP_EXPORT vpArmServo
 public:
   /*!
    * \param model : The arm; referenced, must outlive this. \param controller : Law, view filter, recovery.
+   * \param spec : Parameters; copied.
    * \throw vpException (badValue) naming the field of \e spec that is out of range, or a joint without motion limits.
    */
   vpArmServo(const vpArmModel &model, vpServoController controller, const vpArmServoSpec &spec = {});
