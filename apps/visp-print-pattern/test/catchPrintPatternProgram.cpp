@@ -204,7 +204,7 @@ TEST_CASE("Wrong command lines are told in a sentence", "[visp-print-pattern]")
       {"--flex 30", "flex"},
       {"--filter 0.5 4", "beta"},
       {"--dropped 0.9", "dropped"},
-      {"--out ''", "--out is empty"},
+      {"--out ''", "--out is given without a value"},
       {"--colour red", "--colour"},
   };
   for (const auto &[arguments, sentence] : wrong) {

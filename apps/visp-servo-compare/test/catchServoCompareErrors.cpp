@@ -133,7 +133,7 @@ TEST_CASE("A bad photo ends with status 1", "[visp-servo-compare]")
   check(run, {"--target empty.png", DATA, "empty.png: is not an image"});
   check(run, {"--target dot.pgm", DATA, "dot.pgm: is 1x1 px, must be at least 32x32 px"});
   check(run, {"--target blank.pgm", DATA, "blank.pgm: "});
-  check(run, {"--target folder.png", USAGE, "folder.png"});
+  check(run, {"--target folder.png", DATA, "folder.png: cannot be read (it is a folder)"});
 }
 
 TEST_CASE("A bad task file ends with status 1 and names the field", "[visp-servo-compare]")

@@ -91,7 +91,7 @@ TEST_CASE("Help, list, and what is wrong", "[program]")
   CHECK(run.out().find("fig8.13") != std::string::npos);
   const std::vector<std::pair<std::string, std::string>> wrong = {{"--only fig9.9", "--only: there is no fig9.9"},
                                                                   {"--jobs 0", "--jobs is 0"},
-                                                                  {"--out ''", "--out is empty"},
+                                                                  {"--out ''", "--out is given without a value"},
                                                                   {"--seed x", "--seed"},
                                                                   {"--frobnicate", "--frobnicate"},
                                                                   {"surplus", "surplus"}};

@@ -461,7 +461,7 @@ TEST_CASE("Bad use ends with a sentence and nothing written", "[visp-track-patte
       {"/dev/video9999", DATA, "/dev/video9999: the camera cannot be opened"},
       {"none", DATA, "none: there is no such file or folder"},
       {"none.png", DATA, "none.png: there is no such file or folder"},
-      {"good.png none.png", DATA, "none.png: there is no such file"},
+      {"good.png none.png", DATA, "none.png: cannot be read (there is no such file)"},
       {"mine", DATA, "mine: the folder holds no images"},
       {"'x%04d.png'", DATA, "x%04d.png: no file has such a name"},
       {"'x%s.png'", DATA, "x%s.png: is no pattern"},

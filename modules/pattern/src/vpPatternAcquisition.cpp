@@ -157,6 +157,7 @@ void vpPatternTracker::Impl::acquire(const vpImage<unsigned char> &image)
     renumber(note);
   }
   cellsFromSpots();
+  m_fits.assign(m_frame.cells.size(), vpCellFit()); // none is in doubt
   updateLattice();
   measureMotion();
   updateDeviations();
