@@ -180,7 +180,7 @@ public:
     Draft draft = timePlot(
         name, "Figure 5.10 again: image error on plant " + plant.name, "u of the object's centre - goal (px)", plant,
         laws, [](const vpServoSample &s) { return s.imageErrorU; }, lastSegment);
-    draft.caption = "How far the object is from where it shall be seen, to the right positive, for the first two "
+    draft.caption = "How far the object is from its desired image position, to the right positive, for the first two "
                     "segments (1-2-1 in the "
                     "thesis). A curve that ends a segment level but away from zero is held by friction. Root mean "
                     "square over the whole task, px: " +

@@ -115,8 +115,11 @@ void writeTables(HtmlReport &page, const Plan &plan, const Results &results)
   for (const std::string &measure : plan.measures) {
     page.table(mainTable(plan, results, measure),
                "Measured by " + measure +
-                   ". max px, rms px: distance of the object's centre from where it shall be seen. end "
-                   "deg: largest rotation error at the end of a segment. yaw deg: range of yaw covered, ideal is " +
+                   ". max px, rms px: distance of the object's centre from its desired image position. end "
+                   "deg: largest true rotation error at the end of a segment; left: what the last measurement still "
+                   "shows of it, deg, "
+                   "which the law has left; expected: root mean square of it by that measurement and its covariance, "
+                   "deg. yaw deg: range of yaw covered, ideal is " +
                    ideal +
                    ". out s: time with a corner of the object out of the image. The best of a column has a green mark, "
                    "the worst "
@@ -229,7 +232,7 @@ void writeFilm(HtmlReport &page, const Plan &plan, const ReportParts &parts, vpA
       "Figure 5.11 again: the way to pose " + plan.scenario.task.segments.front().name + " on plant " +
           plan.hardPlant().name +
           "; the last column is the end of the segment. Rows: " + enumerate(parts.filmStrip.laws) +
-          ". Yellow: the object; blue: where it shall be seen. A red frame: a corner is "
+          ". Yellow: the object; blue: its desired position. A red frame: a corner is "
           "out of the view. In the thesis these are photographs by the robot's camera; here they are rendered.");
   std::vector<HtmlReport::Video> videos;
   bool forBrowsers = true;

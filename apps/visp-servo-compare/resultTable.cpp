@@ -28,7 +28,7 @@ struct Column {
 
 const std::vector<Column> MAIN = {
     {"max px", &vpServoMetrics::max_image_error_px, 1, Column::LessIsBetter,
-     "Largest distance of the object's centre from where it shall be seen"},
+     "Largest distance of the object's centre from its desired image position"},
     {"rms px", &vpServoMetrics::rms_image_error_px, 1, Column::LessIsBetter, "Root mean square of that distance"},
     {"end deg", &vpServoMetrics::end_rotation_deg, 2, Column::LessIsBetter,
      "Largest rotation error at the end of a segment"},

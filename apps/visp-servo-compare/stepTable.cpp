@@ -28,7 +28,7 @@ const std::vector<Column> COLUMNS = {
     {"m/s2", &vpServoMetrics::peak_linear_acceleration_mps2, 2, "Largest linear acceleration of the command"},
     {"rad/s2", &vpServoMetrics::peak_angular_acceleration_radps2, 2, "Largest angular acceleration of the command"},
     {"max px", &vpServoMetrics::max_image_error_px, 1,
-     "Largest distance of the object's centre from where it shall be seen"},
+     "Largest distance of the object's centre from its desired image position"},
     {"end deg", &vpServoMetrics::end_rotation_deg, 2, "Largest rotation error at the end of a segment"},
     {"end mm", &vpServoMetrics::end_translation_mm, 2, "Largest translation error at the end of a segment"},
     {"settle s", &vpServoMetrics::settle_s, 2,
