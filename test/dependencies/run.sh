@@ -35,10 +35,10 @@ for name; do
   grep -q "$name is switched off\|no programs are built" "$build.log" || { echo "dependencies: no word about $name" >&2; exit 1; }
   cmake --build "$build" -j "${JOBS:-$(nproc)}" >"$build.log" 2>&1 || { tail -40 "$build.log" >&2; exit 1; }
   bin=$build/bin
-  [ "$name" = CLI11 ] || expect 0 "Report" "$bin/visp-print-pattern" --cells 3 --no-thesis --out "$out/print"
+  [ "$name" = CLI11 ] || expect 0 "report.html" "$bin/visp-print-pattern" --cells 3 --no-thesis --out "$out/print"
   case $name in
   KDL)
-    expect 0 "Report" "$bin/visp-servo-compare" --law pbvs1 --plant A --out "$out/servo"
+    expect 0 "report.html" "$bin/visp-servo-compare" --law pbvs1 --plant A --out "$out/servo"
     expect 1 "orocos-kdl" "$bin/visp-servo-compare" --law pbvs1 --plant D --robot amor --out "$out/arm"
     ;;
   URDFDOM) expect 1 "urdfdom" "$bin/visp-servo-compare" --robot data/robot/generic-6r.urdf --out "$out/arm" ;;
