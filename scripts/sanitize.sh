@@ -50,8 +50,8 @@ files)
   run asan catchMutatedFiles catchMutatedProgramFiles
   ;;
 threads)
-  build tsan catchAppsCommon catchSimulatedArm
-  run tsan catchAppsCommon catchSimulatedArm
+  build tsan catchAppsCommon catchSimulatedArm catchSimulatedArmThreads
+  run tsan catchAppsCommon catchSimulatedArm catchSimulatedArmThreads
   ;;
 *)
   sed -n '2,/^set/s/^# \{0,1\}//p' "$0" >&2
