@@ -14,7 +14,10 @@ namespace vpTrackTestKit
 {
 using namespace vpAvoidanceTestKit;
 
-inline double normal(std::mt19937_64 &rng, double sigma) { return std::normal_distribution<double>(0., sigma)(rng); }
+inline double normal(std::mt19937_64 &rng, double sigma)
+{
+  return sigma * std::normal_distribution<double>()(rng); // sigma may be 0
+}
 
 inline Vector3d normal3(std::mt19937_64 &rng, double sigma)
 {
