@@ -286,8 +286,10 @@ TEST_CASE("beside ViSP's vpCalibration on the same points", "[calibration][tsai]
          << 100. * std::sqrt(visps / n) << " %), of the principal point " << std::sqrt(oursPrincipal / n)
          << " px (ViSP " << std::sqrt(vispsPrincipal / n) << " px); ViSP refused " << refused
          << " and was more than 20 % off in " << far);
-    CHECK(ours <= 1.1 * visps);
-    CHECK(oursPrincipal <= 1.1 * vispsPrincipal);
+    // Not worse: of two sums of m squares of independent normal errors of one size the logarithm of the ratio has a variance of
+    // about 4 / m; errors on the same points are correlated and differ less. Five deviations.
+    CHECK(ours <= std::exp(5. * std::sqrt(4. / n)) * visps);
+    CHECK(oursPrincipal <= std::exp(5. * std::sqrt(2. / n)) * vispsPrincipal);
   }
 }
 
