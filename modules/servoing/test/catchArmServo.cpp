@@ -123,33 +123,39 @@ TEST_CASE("A measurement that is late and told as new makes the loop swing, one 
   CHECK(worst[false] > 100. * worst[true]);
 }
 
-TEST_CASE("An arm servo behind which a scene stands does not touch it", "[servoing]")
+TEST_CASE("A supervised arm servo stops before a ball in its way, which it hits without", "[servoing]")
 {
-  const Bench free("pbvs1");
-  vpCollisionSceneSpec world;
-  vpCollisionObject wall;
-  wall.name = "wall";
-  wall.shape = vpCollisionShape::box(Eigen::Vector3d(0.02, 0.3, 0.3));
-  // Between the camera and its goal.
-  const vpRigidTransform goal = vpRigidTransform::fromHomogeneous(free.fMo * cdMo.inverse());
-  const vpRigidTransform from = cameraAt(amor().home());
-  wall.pose.p = from.p + 3. * (goal.p - from.p);
-  world.objects.push_back(wall);
-  const vpCollisionScene scene(amor(), world);
-  Bench bench("pbvs1");
-  bench.fMo = (vpRigidTransform{goal.R, from.p + 5. * (goal.p - from.p)}).toHomogeneous() * cdMo; // behind it
-  bench.servo.supervise(scene);
-  vpCollisionData data;
-  double least = 1.;
-  bool stopped = false;
+  vpArmData data;
+  Bench free("pbvs1");
   for (int i = 0; i < 3000; ++i) {
-    stopped = stopped || bench.step().supervision != vpSupervision::Passed;
-    scene.place(bench.q, data);
-    least = std::min(least, scene.clearance(data).distance);
+    free.step();
   }
-  CHECK(stopped);
-  CHECK(least > 0.0099);
-  CHECK(least < 0.2);
+  vpArmKinematics::update(amor(), free.q, data);
+  vpCollisionSceneSpec world;
+  vpCollisionObject ball;
+  ball.name = "ball";
+  ball.shape = vpCollisionShape::sphere(0.05);
+  ball.pose.p = data.tool.p; // where the tool would end
+  world.objects.push_back(ball);
+  const vpCollisionScene scene(amor(), world);
+  double least[2] = {1., 1.};
+  bool isStopped = false;
+  for (const bool isSupervised : {false, true}) {
+    Bench bench("pbvs1");
+    if (isSupervised) {
+      bench.servo.supervise(scene);
+    }
+    vpCollisionData placed;
+    for (int i = 0; i < 3000; ++i) {
+      scene.place(bench.q, placed);
+      least[isSupervised] = std::min(least[isSupervised], scene.clearance(placed).distance);
+      isStopped = bench.step().supervision != vpSupervision::Passed || isStopped;
+    }
+  }
+  CHECK(isStopped);
+  CHECK(least[false] < 0.);
+  CHECK(least[true] > 0.0099); // the margin less the resolution
+  CHECK(least[true] < 0.05);
 }
 
 TEST_CASE("A target that is lost stops the arm, and it goes on when it comes back", "[servoing]")
@@ -193,6 +199,53 @@ TEST_CASE("Wild configurations, times and measurements leave the arm's velocitie
         REQUIRE(vpWildNumbers::atMost(std::abs(velocity(j)), amor().velocity()(j) * (1. + 1e-9)));
       }
     }
+  }
+}
+
+TEST_CASE("The camera's twist keeps its limits", "[servoing]")
+{
+  vpServoControllerConfig quick;
+  quick.gains.lambda = 8.;
+  quick.gains.rotation = 8.;
+  Bench bench("pbvs1", quick);
+  double linear = 0., angular = 0.;
+  for (int i = 0; i < 1000; ++i) {
+    const vpTwist &twist = bench.step().twist;
+    linear = std::max(linear, twist.linearNorm());
+    angular = std::max(angular, twist.angularNorm());
+  }
+  CHECK(linear <= spec().maxLinear * (1. + 1e-12));
+  CHECK(angular <= spec().maxAngular * (1. + 1e-12));
+  CHECK(std::max(linear / spec().maxLinear, angular / spec().maxAngular) == Approx(1.)); // a limit was met
+}
+
+TEST_CASE("A measurement has what was found and no more", "[servoing]")
+{
+  const vpServoTarget target({{0., 0., 0.}, {0., 0., -1.}}, {{0.1, 0., 0.}});
+  vpPlanarTargetResult found;
+  found.status = vpPlanarTargetStatus::Tracked;
+  found.cMo = vpHomogeneousMatrix(0.1, -0.2, 0.5, 0., 0., 0.);
+  found.covariance.known = true;
+  found.covariance.C[0] = 2.;
+  vpServoMeasurement seen;
+  target.measure(found, 3., seen);
+  CHECK(seen.valid);
+  CHECK(seen.time == 3.);
+  CHECK(seen.covariance.known);
+  CHECK(seen.covariance.C[0] == 2.);
+  REQUIRE(seen.points.size() == 2);
+  CHECK(seen.points[0].visible);
+  CHECK(seen.points[0].x == Approx(0.2));
+  CHECK(seen.points[0].y == Approx(-0.4));
+  CHECK(seen.points[0].Z == Approx(0.5));
+  CHECK(!seen.points[1].visible); // behind the camera
+  REQUIRE(seen.outline.size() == 1);
+  CHECK(seen.outline[0].x == Approx(0.4));
+  for (const vpPlanarTargetStatus status : {vpPlanarTargetStatus::Ambiguous, vpPlanarTargetStatus::LowCorrelation}) {
+    found.status = status;
+    target.measure(found, 4., seen);
+    CHECK(!seen.valid);
+    CHECK(seen.time == 4.);
   }
 }
 
