@@ -89,7 +89,7 @@ Replica playFieldReplica(const Options &options)
                           " mm from it, which counts as " + (mildReaches ? "reached." : "missed."),
                       "Nothing is known of speeds beforehand: they go up to " + number(strict.peakSpeed, 3) + " and " +
                           number(mild.peakSpeed, 3) +
-                          " m/s and jump where a new place is told or the obstacle comes into view."};
+                          " m/s and jump where a new position is given or the obstacle comes into view."};
   replica.comparisons = {{"strict (upper): end reached", "no", strictFails ? "no" : "yes", strictFails},
                          {"mild (lower): end reached", "yes", mildReaches ? "yes" : "no", mildReaches},
                          {"strict: vias reached", "no", "missed by " + missedText(strict) + " (the end last)",

@@ -230,7 +230,7 @@ Replica playPointReplica(const Options &options)
   replica.comparisons.insert(replica.comparisons.begin(),
                              {"interrupted at", number(event.time, 3) + " s", number(event.time, 3) + " s"});
   replica.choices = {"The first goal is not in the text; it is [0, 0.3] m, straight on.",
-                     "No bound on the acceleration is told, so there is none here."};
+                     "The text gives no bound on the acceleration, so there is none here."};
   if (event.via) {
     const double missed = distanceFrom(motion, *event.via);
     replica.comparisons.push_back(

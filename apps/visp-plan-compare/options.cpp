@@ -18,10 +18,10 @@ namespace
 {
 constexpr const char *ABOUT =
     R"(Compare ways to bring an arm to a goal among obstacles: the potential field of the thesis as printed and corrected,
-direct trajectory generation point to point and through a via, a planner with a timed path, and the planner tracked and
-planned anew on the fly. All of them get the same scenes, the same noise and the same limits. The arm, its sensors and the
-obstacles are simulated. The result is a folder with report.html (open it in a browser), summary.json, runs.csv, a CSV
-file for each shown run, and logs for Planner Arena.)";
+direct trajectory generation point to point and through a via, a planner with a timed path, and the planner with its
+path tracked and replanned on the fly. All of them get the same scenes, the same noise and the same limits. The arm,
+its sensors and the obstacles are simulated. The result is a folder with report.html (open it in a browser),
+summary.json, runs.csv, a CSV file for each shown run, and logs for Planner Arena.)";
 
 constexpr const char *EXAMPLES = R"(Scenes (--list says more):
   S1 the ball of figures 8.6-8.12   S2 random obstacles   S3 crossing obstacles   S4 pillar and shelf

@@ -113,7 +113,7 @@ void addMotion(CLI::App &app, RawOptions &raw)
       ->group(group);
   app.add_option("--rows", raw.rows, "With --axis xy (default: 3)")->option_text("N")->group(group);
   app.add_option("--cells", raw.cells, "In a row (default: 40)")->option_text("N")->group(group);
-  app.add_option("--frames", raw.frames, "Stop after so many; 0: when all cells are printed (default: 0)")
+  app.add_option("--frames", raw.frames, "Stop after N frames; 0: when all cells are printed (default: 0)")
       ->option_text("N")
       ->group(group);
 }
@@ -125,7 +125,7 @@ void addWorld(CLI::App &app, RawOptions &raw)
                  "Flexible pitch: cells lie up to this far before or behind their place, in x and y (default: 0)")
       ->option_text("PX")
       ->group(group);
-  app.add_option("--flex-period", raw.flexPeriod, "Over so many cells (default: 20)")
+  app.add_option("--flex-period", raw.flexPeriod, "Period of the flexible pitch (default: 20)")
       ->option_text("CELLS")
       ->group(group);
   app.add_option("--jitter", raw.jitter, "Standard deviation of a cell's place (default: 0)")

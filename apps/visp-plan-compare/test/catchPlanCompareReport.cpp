@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <sstream>
 
-TEST_CASE("Wrong options are told in a sentence", "[visp-plan-compare]")
+TEST_CASE("Wrong options end with a sentence that names them", "[visp-plan-compare]")
 {
   ProgramRun run(PLAN_COMPARE);
   const auto says = [&](const std::string &arguments, int status, const std::string &sentence) {

@@ -320,7 +320,7 @@ std::vector<std::string> publicProblems(const std::string &name)
 }
 } // namespace
 
-TEST_CASE("Public problems: every line is refused, or its excess is told, and nothing is not finite",
+TEST_CASE("Public problems: every line is refused or reports its excess, and all numbers are finite",
           "[visp-plan-trajectory]")
 {
   for (const char *name : {"limit-broken.jsonl", "limit-sweep.jsonl", "not-finite.jsonl", "public.jsonl"}) {

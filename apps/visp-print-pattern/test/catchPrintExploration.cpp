@@ -188,7 +188,7 @@ TEST_CASE("Cells in view are those that the product says", "[explore]")
   CHECK(least == t.leastCells);
 }
 
-TEST_CASE("What camera, link and processor cannot do is told with its numbers", "[explore]")
+TEST_CASE("Limits of camera, link and processor are reported with their numbers", "[explore]")
 {
   Setup setup;
   const auto kind = [&](const Design &design) {
