@@ -14,6 +14,7 @@
 #include <visp3/feedforward/vpServoController.h>
 #include <visp3/manipulator/vpArmMotion.h>
 
+#include <limits>
 #include <optional>
 #include <vector>
 
