@@ -72,7 +72,8 @@ std::string answerLine(const Problem &problem, const Motion &motion)
   }
   Json segments = Json::array();
   for (const vpTrajectoryPiece &piece : motion.pieces) {
-    segments.push_back({{"t0", piece.begin}, {"t1", piece.end}, {"coefficients", piece.coefficients}});
+    segments.push_back(
+        {{"t0", piece.begin}, {"t1", piece.end}, {"duration", piece.duration}, {"coefficients", piece.coefficients}});
   }
   answer["segments"] = segments;
   return oneLine(answer);

@@ -51,7 +51,7 @@ PlotCurve curveOf(const Motion &motion, int axis, std::size_t derivative)
 {
   PlotCurve curve;
   for (const vpTrajectoryPiece &piece : motion.pieces) {
-    const double length = piece.end - piece.begin;
+    const double length = piece.duration;
     const int steps = std::max(2, static_cast<int>(std::ceil(points * length / motion.duration())));
     for (int k = 0; k <= steps; ++k) {
       const double t = length * k / steps;

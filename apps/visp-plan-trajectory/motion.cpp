@@ -57,8 +57,8 @@ vpTrajectoryPeaks peaksOf(const std::vector<vpTrajectoryPiece> &pieces, std::siz
   vpTrajectoryPeaks peaks;
   peaks.minPosition = peaks.maxPosition = start[0];
   for (const vpTrajectoryPiece &piece : pieces) {
-    const double rate = 1. / (piece.end - piece.begin);
-    const vpPolynomial q = normalised(piece.coefficients[axis], piece.end - piece.begin);
+    const double rate = 1. / piece.duration;
+    const vpPolynomial q = normalised(piece.coefficients[axis], piece.duration);
     const vpPolynomial v = q.derivative();
     const vpPolynomial a = v.derivative();
     const vpPolynomial j = a.derivative();

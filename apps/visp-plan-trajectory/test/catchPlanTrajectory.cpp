@@ -63,7 +63,7 @@ double largestJump(const Problem &problem, const Motion &motion)
     for (const vpTrajectoryPiece &piece : motion.pieces) {
       for (int d = 0; d < 3; ++d) {
         jump = std::max(jump, std::abs(valueOf(piece.coefficients[axis], 0., d) - now[static_cast<std::size_t>(d)]));
-        now[static_cast<std::size_t>(d)] = valueOf(piece.coefficients[axis], piece.end - piece.begin, d);
+        now[static_cast<std::size_t>(d)] = valueOf(piece.coefficients[axis], piece.duration, d);
       }
     }
     const Input &last = problem.events.empty() ? problem.input : problem.events.back().input;

@@ -293,20 +293,57 @@ double vpTrajectoryPlan::peakNorm(unsigned long long axes, int order, double beg
 std::vector<vpTrajectoryPiece> vpTrajectoryPlan::pieces(double until) const
 {
   std::vector<vpTrajectoryPiece> pieces;
-  for (double t = 0.; t < until;) {
+  std::vector<int> next(m_tracks.size(), 0); // segment of each axis
+  const double same = rounding(until);
+  const auto countOf = [&](int axis) { // what follows the arrival only when it is asked for
+    return segments(axis) + (until > duration(axis) + same ? coasting(axis) : 0);
+  };
+  const auto hasEnded = [&](int axis, double t) {
+    const int i = next[static_cast<std::size_t>(axis)];
+    return i < countOf(axis) && endOf(axis, i) <= t + same;
+  };
+  bool pending = until > 0.;
+  for (double t = 0.; pending;) {
     vpTrajectoryPiece piece;
     piece.begin = t;
-    piece.end = nextBreak(t, until);
+    piece.end = until;
     for (int axis = 0; axis < m_axes; ++axis) {
-      double duration = 0.;
-      const vpPolynomial p = between(axis, t, piece.end, duration);
+      const int i = next[static_cast<std::size_t>(axis)];
+      piece.end = i < countOf(axis) ? std::min(piece.end, endOf(axis, i)) : piece.end;
+    }
+    piece.end = std::max(piece.end, t);
+    // A segment keeps the digits of its duration, which two times lose where it is little longer than their rounding.
+    piece.duration = std::numeric_limits<double>::infinity();
+    for (int axis = 0; axis < m_axes; ++axis) {
+      if (hasEnded(axis, piece.end)) {
+        const vpTrajectorySegment &s = segment(axis, next[static_cast<std::size_t>(axis)]);
+        piece.duration = std::abs(t - s.begin) <= same ? std::min(piece.duration, s.duration) : piece.duration;
+      }
+    }
+    piece.duration = std::isfinite(piece.duration) ? piece.duration : piece.end - t;
+    pending = piece.end < until;
+    for (int axis = 0; axis < m_axes; ++axis) {
+      int &i = next[static_cast<std::size_t>(axis)];
+      const int count = countOf(axis);
+      const bool ends = hasEnded(axis, piece.end);
+      const bool justEnded = i == count && count > 0 && std::abs(piece.end - endOf(axis, count - 1)) <= same;
+      vpPolynomial p{at(axis, t)[0], at(axis, 0.5 * (t + piece.end))[1] * piece.duration}; // arrived long ago
+      if (i < count || justEnded) {
+        const vpTrajectorySegment &s = segment(axis, justEnded ? i - 1 : i);
+        const double ratio = piece.duration / s.duration;
+        const double first = std::abs(t - s.begin) <= same ? 0. : (t - s.begin) / s.duration;
+        // Exact at the start of the motion, and later where a segment ends.
+        p = s.p.composed((ends && !pieces.empty()) || justEnded ? 1. - ratio : first, ratio);
+      }
       std::vector<double> c(p.data(), p.data() + p.degree() + 1);
       double power = 1.;
       for (double &x : c) {
         x /= power;
-        power *= duration; // not the difference of two rounded times
+        power *= piece.duration;
       }
       piece.coefficients.push_back(std::move(c));
+      i += ends ? 1 : 0;
+      pending = pending || hasEnded(axis, until);
     }
     t = piece.end;
     pieces.push_back(std::move(piece));

@@ -111,7 +111,7 @@ TEST_CASE("the last piece of a plan is no rounding error", "[status]")
     CHECK(piece.end - piece.begin > 1e-9 * plan.duration());
   }
   const vpTrajectoryPiece &last = pieces.back();
-  const double t = last.end - last.begin;
+  const double t = last.duration;
   CHECK(last.end == plan.duration());
   for (std::size_t i = 0; i < 3; ++i) {
     double a = 0., power = 1.;

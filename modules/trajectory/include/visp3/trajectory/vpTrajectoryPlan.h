@@ -55,6 +55,7 @@ struct VISP_EXPORT vpTrajectoryPeaks {
 struct VISP_EXPORT vpTrajectoryPiece {
   double begin = 0.;                             //!< Start, s from the start of the plan.
   double end = 0.;                               //!< End, s from the start of the plan.
+  double duration = 0.;                          //!< Duration, s: end - begin without the rounding of the two times.
   std::vector<std::vector<double>> coefficients; //!< Per axis, constant first, in t - begin (s).
 };
 
