@@ -8,7 +8,7 @@
  *
  * The main function is in vpTestMain.cpp, linked to all tests. Random tests take their seed from
  * vpTestSupport::seed(), which Catch2's `--rng-seed` sets and every failure prints. If the environment variable
- * VISP_DIRECT_SEED holds a number, the tests that used the seed run again with that one.
+ * VISP_DIRECT_SEED holds numbers, separated by spaces, the tests that used the seed run again with each of them.
  */
 #ifndef vpCatch_h
 #define vpCatch_h
