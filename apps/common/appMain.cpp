@@ -7,8 +7,6 @@
 
 #include "vpPrintable.h"
 
-#include <CLI/CLI.hpp>
-
 #include <visp3/core/vpConfig.h>
 
 #include <opencv2/core.hpp>
@@ -49,37 +47,6 @@ int fail(const std::string &program, const std::string &sentence, int status)
   std::cerr << program << ": " << sentence << std::endl;
   return status;
 }
-// CLI11 says "Could not convert: --frames = -5".
-std::string conversionSentence(const CLI::App &app, const std::string &message)
-{
-  const std::string begin = "Could not convert: ", middle = " = ";
-  const std::size_t at = message.find(middle);
-  if (message.compare(0, begin.size(), begin) != 0 || at == std::string::npos) {
-    return message;
-  }
-  const std::string name = message.substr(begin.size(), at - begin.size());
-  const CLI::Option *option = app.get_option_no_throw(name);
-  const std::string type = option == nullptr ? "" : option->get_type_name();
-  const std::string wanted = type == "UINT" ? "a whole number >= 0" : type == "INT" ? "a whole number" : "a number";
-  return name + " is " + message.substr(at + middle.size()) + ", must be " + wanted;
-}
-// CLI11 says "--out: 1 required TEXT missing".
-std::string mismatchSentence(const std::string &message)
-{
-  const std::size_t at = message.find(": 1 required ");
-  return at == std::string::npos ? message : message.substr(0, at) + " is given without a value";
-}
-// A name that a script left empty would otherwise be taken as not given.
-void requireNoneEmpty(const CLI::App &app)
-{
-  for (const CLI::Option *option : app.get_options()) {
-    for (const std::string &value : option->results()) {
-      if (value.empty()) {
-        throw UsageError(option->get_name() + " is given without a value");
-      }
-    }
-  }
-}
 } // namespace
 
 std::string sentenceOf(const std::exception &error)
@@ -113,29 +80,6 @@ int runMain(const std::string &program, const std::function<int()> &body)
   }
   catch (const std::exception &error) {
     return fail(program, sentenceOf(error), ExitData);
-  }
-}
-
-bool parseCommandLine(CLI::App &app, int argc, const char *const *argv)
-{
-  app.set_version_flag("--version", app.get_name() + " " + versionText());
-  try {
-    app.parse(argc, argv);
-    requireNoneEmpty(app);
-    return true;
-  }
-  catch (const CLI::Success &request) { // --help, --version
-    app.exit(request);
-    return false;
-  }
-  catch (const CLI::ConversionError &error) {
-    throw UsageError(conversionSentence(app, error.what()));
-  }
-  catch (const CLI::ArgumentMismatch &error) {
-    throw UsageError(mismatchSentence(error.what()));
-  }
-  catch (const CLI::ParseError &error) {
-    throw UsageError(error.what());
   }
 }
 

@@ -13,11 +13,6 @@
 #include <stdexcept>
 #include <string>
 
-namespace CLI
-{
-class App;
-}
-
 namespace vpApp
 {
 //! Exit statuses of all programs of visp-direct.
@@ -51,14 +46,6 @@ public:
  * \param body : The program; its exit status is returned.
  */
 [[nodiscard]] int runMain(const std::string &program, const std::function<int()> &body);
-
-/*!
- * Parse the command line, with `--version` added.
- * \return False when there is nothing left to do because `--help` or `--version` was asked for, and printed.
- * \throw UsageError with CLI11's message, as one line, or naming an option whose value is empty. Whether a file is there is
- * no matter of the command line: its reader tells, and the status is ExitData.
- */
-[[nodiscard]] bool parseCommandLine(CLI::App &app, int argc, const char *const *argv);
 
 //! Version of visp-direct and of ViSP, "0.1.0 (ViSP 3.5.0)".
 [[nodiscard]] std::string versionText();

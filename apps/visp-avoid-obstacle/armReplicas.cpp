@@ -174,10 +174,10 @@ void compare(const vpAvoidanceRun &run, const Script &script, Replica &replica)
        script.events.size() > 2 ? "0.95 s (via) and 1.15 s (goal)" : "0.95 s"},
       {"ends at", text(goal), text(end) + ", off by " + number(1000. * m.goal_error_m, 2) + " mm", m.success},
       {"speed", "at most 0.5 m/s, not violated", "at most " + number(m.peak_v, 6) + " m/s (commanded)", kept},
-      {"acceleration", "no bound told", "up to " + number(m.peak_a, 3) + " m/s^2 (commanded)"},
-      {"duration", "not told",
+      {"acceleration", "no limit given", "up to " + number(m.peak_a, 3) + " m/s^2 (commanded)"},
+      {"duration", "not given",
        fixed(m.duration_s, 2) + " s, of them " + number(MOTION_BEGINS, 2) + " s before it moves"},
-      {"clearance", "not told", fixed(1000. * m.min_clearance_m, 0) + " mm of the arm from itself and the ground"}};
+      {"clearance", "not given", fixed(1000. * m.min_clearance_m, 0) + " mm of the arm from itself and the ground"}};
   if (script.events.back().via) {
     const double missed = passes(run, *script.events.back().via);
     replica.comparisons.push_back({"goes through", text(*script.events.back().via),
@@ -187,7 +187,7 @@ void compare(const vpAvoidanceRun &run, const Script &script, Replica &replica)
   replica.findings = {
       "The arm went at no more than " + number(m.peak_v, 6) + " m/s where 0.5 m/s are allowed and ended " +
           number(1000. * m.goal_error_m, 2) + " mm from the goal after " + fixed(m.duration_s, 2) + " s.",
-      "No obstacle stands in this scene: the thesis tells when goal and via changed and to what, which is "
+      "There is no obstacle in this scene: the thesis gives when goal and via changed and to what, which is "
       "repeated, but not where the obstacle was."};
 }
 } // namespace
@@ -207,12 +207,12 @@ Replica playArmReplica(const Options &options)
   replica.choices = {
       "The clock of the experiments runs before the arm moves: 0.95 s of figure 8.10 and 0.55 s of figure 8.9 fit "
       "together when that is 0.4 s, which is our choice. Without it the motion were almost over at 0.95 s.",
-      "The motion is in a plane 0.35 m above the ground, which is not told, and the orientation of the tool is free.",
-      "A bound on the acceleration is not told; here it is 2 m/s^2, which the joints can follow.",
+      "The motion is in a plane 0.35 m above the ground, which is not given, and the orientation of the tool is free.",
+      "A limit on the acceleration is not given; here it is 2 m/s^2, which the joints can follow.",
       "Drives by torques with the friction of the arm's file: see option --friction of visp-avoid-obstacle."};
   if (multiPoint) {
     replica.choices.emplace_back("Two arrows, two changes: the via comes at 0.95 s, the final goal at 1.15 s. When to "
-                                 "be at the via is not told; "
+                                 "be at the via is not given; "
                                  "it is half way in time from its event on.");
   }
   if (snapshots) {

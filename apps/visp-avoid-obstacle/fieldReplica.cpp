@@ -97,7 +97,7 @@ Replica playFieldReplica(const Options &options)
                          {"mild stays closer to the way without obstacle", "yes",
                           "missed by " + missedText(mild) + " (the end last)", mild.missed[1] < strict.missed[1]},
                          {"bounds on speed and acceleration", "none", "none"},
-                         {"clearance", "not told",
+                         {"clearance", "not given",
                           number(1000. * (strict.way.back() - task.obstacle).norm(), 3) + " and " +
                               number(1000. * (mild.way.back() - task.obstacle).norm(), 3) +
                               " mm from the obstacle's centre in the end"}};

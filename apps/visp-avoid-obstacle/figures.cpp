@@ -187,9 +187,8 @@ Figure drawTracks(const PhotoScene &scene, const Episode &episode)
   Figure figure;
   figure.name = "tracks";
   figure.title = "The track table over time";
-  figure.caption =
-      "Points: sightings. The method takes each obstacle for thicker by its inflation (dashed), which must "
-      "stay above the error of the track; it grows while the obstacle is out of view.";
+  figure.caption = "Points: sightings. The method inflates each obstacle (dashed), which must "
+                   "stay above the error of the track; it grows while the obstacle is out of view.";
   figure.svg = vpApp::renderPanels(panels, vpApp::PlotFormat::Svg);
   return figure;
 }

@@ -87,7 +87,7 @@ std::string seeing(const SightingSummary &a, const vpAvoidanceRun &run)
                      (a.known ? "known to the method at " + fixed(*a.known, 3) + " s" : "never known to the method") +
                      "; it was seen in " + std::to_string(a.seen) + " of " + std::to_string(a.frames) +
                      " pictures, with errors of " + mm(a.medianError) + " (median) and " + mm(a.worstError) +
-                     " (worst) where the sightings told deviations of " + mm(a.medianSigma) + ".";
+                     " (worst) where the sightings reported deviations of " + mm(a.medianSigma) + ".";
   if (a.lost) {
     text += " From " + fixed(*a.lost, 3) + " s on it was not seen any more";
     text += run.samples.back().time > *a.lost ? ", and kept in mind by the track table alone." : ".";
@@ -95,9 +95,9 @@ std::string seeing(const SightingSummary &a, const vpAvoidanceRun &run)
   if (a.gap > 2.5 / run.spec.visionRate) {
     text += " The longest gap in between was " + fixed(a.gap, 2) + " s.";
   }
-  text += a.leastMargin >= 0.
-              ? " Its true place never left the uncertainty that the track table told."
-              : " Its true place was up to " + mm(-a.leastMargin) + " outside of what the track table told.";
+  text += a.leastMargin >= 0. ? " Its true place never left the uncertainty that the track table reported."
+                              : " Its true place was up to " + mm(-a.leastMargin) +
+                                    " outside the uncertainty that the track table reported.";
   return text;
 }
 } // namespace

@@ -188,7 +188,7 @@ protected:
     m_sensor.look(onlyObstacles(scene(), truth), arm, frame.time, result);
     frame.jpeg = jpegOf(pictureOf(m_sensor.depth()));
     for (Sight &sight : frame.sights) {
-      sight.sentence = "depths go into the map, objects are not told apart";
+      sight.sentence = "depths go into the map, objects are not distinguished";
     }
     result.erase(
         std::remove_if(result.begin(), result.end(), [](const auto &s) { return s.shape.octree().cells().empty(); }),

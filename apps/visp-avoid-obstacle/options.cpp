@@ -5,15 +5,13 @@
 #include "options.h"
 
 #include "appMain.h"
+#include "commandLine.h"
 #include "numberText.h"
 #include "replicas.h"
-
-#include <CLI/CLI.hpp>
 
 #include <visp3/avoidance/vpAvoidanceMethods.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace avoidObstacle
 {
@@ -38,59 +36,18 @@ constexpr const char *EXAMPLES = R"(Examples:
 Exit status: 0 done (also when the arm had to wait), 1 the data do not allow it, 2 the command line is wrong, 3 done, and the
 moving arm hit something.)";
 
-constexpr std::size_t NAME_COLUMN = 22; // width, characters
-
-//! A number in a range. \throw vpApp::UsageError naming the option.
-double numberIn(const char *option, const std::string &text, double least, double most, bool orLeast)
-{
-  std::size_t used = 0;
-  double value = NAN;
-  try {
-    value = std::stod(text, &used);
-  }
-  catch (const std::exception &) {
-    used = 0;
-  }
-  const bool good = used == text.size() && used > 0 && std::isfinite(value) && value <= most &&
-                    (orLeast ? value >= least : value > least);
-  if (!good) {
-    throw vpApp::UsageError(std::string(option) + " is " + text + ", must be a number " + (orLeast ? ">= " : "> ") +
-                            vpApp::number(least, 4) + " and <= " + vpApp::number(most, 6));
-  }
-  return value;
-}
-
-unsigned int seedOf(const std::string &text)
-{
-  const double value = numberIn("--seed", text, 1., 1e6, true);
-  if (value != std::floor(value)) {
-    throw vpApp::UsageError("--seed is " + text + ", must be a whole number");
-  }
-  return static_cast<unsigned int>(value);
-}
-
 std::pair<double, double> intervalOf(const std::string &text)
 {
   const std::size_t colon = text.find(':');
   if (colon == std::string::npos) {
     throw vpApp::UsageError("--hide is " + text + ", must be FROM:UNTIL in s");
   }
-  const double from = numberIn("--hide", text.substr(0, colon), 0., 1e4, true);
-  const double until = numberIn("--hide", text.substr(colon + 1), 0., 1e4, true);
+  const double from = vpApp::numberIn("--hide", text.substr(0, colon), {0., 1e4});
+  const double until = vpApp::numberIn("--hide", text.substr(colon + 1), {0., 1e4});
   if (until <= from) {
     throw vpApp::UsageError("--hide is " + text + ", must end after it begins");
   }
   return {from, until};
-}
-
-SensorKind sensorOf(const std::string &text)
-{
-  for (const SensorKind kind : {SensorKind::Image, SensorKind::Depth, SensorKind::Poses}) {
-    if (text == nameOf(kind)) {
-      return kind;
-    }
-  }
-  throw vpApp::UsageError("--sensor is " + text + ", must be image, depth or poses");
 }
 
 void requireKnown(const char *option, const std::string &name, const std::vector<std::string> &known)
@@ -101,52 +58,48 @@ void requireKnown(const char *option, const std::string &name, const std::vector
 }
 
 //! A replica follows the thesis: only its result folder, and values that the thesis leaves open, may be chosen.
-void requireNothingElse(const CLI::App &app)
+void requireNothingElse(const vpApp::CommandLine &line)
 {
-  for (const char *other : {"--method", "--scene", "--targets", "--sensor", "--hide", "--vision-rate", "--latency",
-                            "--duration", "--noise", "--forget", "--record", "--display"}) {
-    if (app.get_option(other)->count() > 0) {
-      throw vpApp::UsageError(std::string(other) + " cannot be combined with --replica, which has its own");
+  for (const std::string &name : line.given()) {
+    if (name != "--replica" && name != "--arm" && name != "--friction" && name != "--seed" && name != "--out" &&
+        name != "--list") {
+      throw vpApp::UsageError(name + " cannot be combined with --replica, which has its own");
     }
   }
 }
 
-//! Options read as text, so that messages can name them.
-struct Texts {
-  std::string visionRate = "30", latency = "0.05", duration = "20", noise = "2", forget = "0", friction = "1",
-              seed = "1";
-  std::string sensor = "image";
-  std::vector<std::string> hidden;
-};
-
-void addOptions(CLI::App &app, Options &options, Texts &texts)
+void addOptions(vpApp::CommandLine &line, Options &options)
 {
-  app.add_option("--method", options.method,
-                 "How to avoid: " + vpApp::enumerate(avoidanceMethodNames()) + " (default: dtg-via)")
-      ->option_text("NAME");
-  app.add_option("--scene", options.scene, "Obstacles and motion (default: data/scene/photo-box.json)")
-      ->option_text("FILE.json");
-  app.add_option("--arm", options.arm, "Another arm than AMOR, see data/robot/README.md")->option_text("FILE.json");
-  app.add_option("--targets", options.targets, "Photographs that are known (default: data/target)")->option_text("DIR");
-  app.add_option("--sensor", texts.sensor, "How obstacles are seen: image (default), depth or poses")
-      ->option_text("KIND");
-  app.add_option("--hide", texts.hidden, "The camera is covered from A to B s; may be given several times")
-      ->option_text("A:B");
-  app.add_option("--vision-rate", texts.visionRate, "Pictures a second (default: 30)")->option_text("HZ");
-  app.add_option("--latency", texts.latency, "From exposure to result (default: 0.05)")->option_text("S");
-  app.add_option("--forget", texts.forget, "What was not seen for so long is not there any more; 0: never (default)")
-      ->option_text("S");
-  app.add_option("--noise", texts.noise, "Of pictures, grey values (default: 2)")->option_text("GREY");
-  app.add_option("--friction", texts.friction, "Friction of the joints, 1: the arm's file (default), 0: ideal drives")
-      ->option_text("F");
-  app.add_option("--duration", texts.duration, "At most so long (default: 20)")->option_text("S");
-  app.add_option("--seed", texts.seed, "Of all noise and of planners (default: 1)")->option_text("N");
-  app.add_option("--replica", options.replica, "A figure of the thesis, fig8.6 to fig8.13, see --list")
-      ->option_text("NAME");
-  app.add_option("--out", options.out, "Result folder (default: out/avoid-obstacle)")->option_text("DIR");
-  app.add_flag("--record", options.record, "Write a video: the camera's view beside the arm");
-  app.add_flag("--display", options.display, "Show the same in a window; needs a screen");
-  app.add_flag("--list", options.list, "Name the methods and replicas, a sentence each, and end");
+  line.text("--method", options.method, "NAME", "How to avoid: " + vpApp::enumerate(avoidanceMethodNames()));
+  line.text("--scene", options.scene, "FILE.json", "Obstacles and motion (default: data/scene/photo-box.json)");
+  line.text("--arm", options.arm, "FILE.json", "Another arm than AMOR, see data/robot/README.md");
+  line.text("--targets", options.targets, "DIR", "Photographs that are known (default: data/target)");
+  line.choice<SensorKind>("--sensor", options.sensor,
+                          {{nameOf(SensorKind::Image), SensorKind::Image},
+                           {nameOf(SensorKind::Depth), SensorKind::Depth},
+                           {nameOf(SensorKind::Poses), SensorKind::Poses}},
+                          "How obstacles are seen");
+  line.add(
+      "--hide", "A:B", "The camera is covered from A to B s; may be given several times", "",
+      [&options](const auto &values) {
+        for (const std::string &interval : values) {
+          options.hidden.push_back(intervalOf(interval));
+        }
+      },
+      0);
+  line.number("--vision-rate", options.visionRate, {0., 200., true}, "HZ", "Pictures a second");
+  line.number("--latency", options.latency, {0., 10.}, "S", "From exposure to result");
+  line.number("--forget", options.forget, {0., 1e4}, "S", "Forget obstacles unseen for S seconds; 0: never");
+  line.number("--noise", options.noise, {0., 100.}, "GREY", "Noise of pictures, grey values");
+  line.number("--friction", options.friction, {0., 10.}, "F",
+              "Friction of the joints; 1: as in the arm's file, 0: ideal drives");
+  line.number("--duration", options.duration, {0., 600., true}, "S", "Maximum duration");
+  line.whole("--seed", options.seed, {1, 1e6}, "N", "Seed of all noise and of planners");
+  line.text("--replica", options.replica, "NAME", "A figure of the thesis, fig8.6 to fig8.13, see --list");
+  line.text("--out", options.out, "DIR", "Result folder");
+  line.flag("--record", options.record, "Write a video: the camera's view beside the arm");
+  line.flag("--display", options.display, "Show the same in a window; needs a screen");
+  line.flag("--list", options.list, "Name the methods and replicas, a sentence each, and end");
 }
 } // namespace
 
@@ -157,30 +110,16 @@ const char *nameOf(SensorKind kind)
 
 bool readOptions(int argc, const char *const *argv, Options &options)
 {
-  CLI::App app(ABOUT, "visp-avoid-obstacle");
-  app.get_formatter()->column_width(NAME_COLUMN);
-  app.footer(EXAMPLES);
-  Texts texts;
-  addOptions(app, options, texts);
-  if (!vpApp::parseCommandLine(app, argc, argv)) {
+  vpApp::CommandLine line("visp-avoid-obstacle", ABOUT, EXAMPLES);
+  addOptions(line, options);
+  if (!line.parse(argc, argv)) {
     return false;
   }
   requireKnown("--method", options.method, avoidanceMethodNames());
   if (!options.replica.empty()) {
     requireKnown("--replica", options.replica, replicaNames());
-    requireNothingElse(app);
+    requireNothingElse(line);
   }
-  options.sensor = sensorOf(texts.sensor);
-  for (const std::string &interval : texts.hidden) {
-    options.hidden.push_back(intervalOf(interval));
-  }
-  options.visionRate = numberIn("--vision-rate", texts.visionRate, 0., 200., false);
-  options.latency = numberIn("--latency", texts.latency, 0., 10., true);
-  options.duration = numberIn("--duration", texts.duration, 0., 600., false);
-  options.forget = numberIn("--forget", texts.forget, 0., 1e4, true);
-  options.noise = numberIn("--noise", texts.noise, 0., 100., true);
-  options.friction = numberIn("--friction", texts.friction, 0., 10., true);
-  options.seed = seedOf(texts.seed);
   return true;
 }
 } // namespace avoidObstacle

@@ -79,8 +79,8 @@ Figure draw(const PointTask &task, const PointMotion &motion)
   vpApp::Plot place = vpApp::timePlot("Place", "m"), rate = vpApp::timePlot("Speed", "m/s"),
               change = vpApp::timePlot("Acceleration", "m/s^2");
   place.curves = {vpApp::timeCurve("x", "#1f77b4", times, x), vpApp::timeCurve("y", "#d62728", times, y),
-                  vpApp::timeCurve("goal x as told", "#9ecae1", times, goalX),
-                  vpApp::timeCurve("goal y as told", "#fcae91", times, goalY)};
+                  vpApp::timeCurve("goal x as given", "#9ecae1", times, goalX),
+                  vpApp::timeCurve("goal y as given", "#fcae91", times, goalY)};
   rate.curves = {vpApp::timeCurve("speed", "#1f77b4", times, speed)};
   change.curves = {vpApp::timeCurve("acceleration", "#1f77b4", times, acceleration)};
   if (std::isfinite(task.maxSpeed)) {
@@ -114,8 +114,9 @@ void finish(const PointTask &task, const PointMotion &motion, Replica &replica)
 {
   const Vector2d end = motion.samples.back().place, goal = motion.samples.back().goal;
   replica.comparisons.push_back({"ends at", text(goal), text(end), (end - goal).norm() < 1e-6});
-  replica.comparisons.push_back({"duration", "not told", fixed(motion.arrival, 3) + " s"});
-  replica.comparisons.push_back({"clearance", "not told", "not known: the thesis does not say where the obstacle was"});
+  replica.comparisons.push_back({"duration", "not given", fixed(motion.arrival, 3) + " s"});
+  replica.comparisons.push_back(
+      {"clearance", "not given", "not known: the thesis does not say where the obstacle was"});
   replica.figures.push_back(draw(task, motion));
   replica.tables.emplace_back("samples.csv", csvOf(motion));
   replica.numbers = {
@@ -130,7 +131,7 @@ void compareSpeed(const PointTask &task, const PointMotion &motion, Replica &rep
   replica.comparisons.push_back({"speed", "at most 0.5 m/s, not violated",
                                  "at most " + number(motion.peakSpeed, 6) + " m/s, looked at every 0.1 ms", kept});
   replica.comparisons.push_back(
-      {"acceleration", "no bound told", "up to " + number(motion.peakAcceleration, 3) + " m/s^2, continuous"});
+      {"acceleration", "no limit given", "up to " + number(motion.peakAcceleration, 3) + " m/s^2, continuous"});
   replica.findings.push_back(
       "The point went at no more than " + number(motion.peakSpeed, 6) + " m/s where " + number(task.maxSpeed, 3) +
       " m/s are allowed, arrived after " + fixed(motion.arrival, 3) +
@@ -236,7 +237,7 @@ Replica playPointReplica(const Options &options)
     replica.comparisons.push_back(
         {"goes through", text(*event.via), "passes it at " + number(1000. * missed, 2) + " mm", missed < 1e-3});
     replica.numbers["via_distance_m"] = missed;
-    replica.choices.emplace_back("When to be at the via is not told; it is half way in time from the event on.");
+    replica.choices.emplace_back("When to be at the via is not given; it is half way in time from the event on.");
   }
   return replica;
 }

@@ -66,7 +66,7 @@ void addSightings(HtmlReport &page, const PhotoScene &scene, const Episode &epis
   HtmlTable table;
   table.header = {{HtmlCell("obstacle", "left"), HtmlCell("pictures"), HtmlCell("seen in"), HtmlCell("first seen s"),
                    HtmlCell("known from s"), HtmlCell("last seen s"), HtmlCell("longest gap s"),
-                   HtmlCell("error mm, median"), HtmlCell("worst"), HtmlCell("told deviation mm"),
+                   HtmlCell("error mm, median"), HtmlCell("worst"), HtmlCell("reported sigma mm"),
                    HtmlCell("track: worst error mm"), HtmlCell("least inflation less error mm")}};
   for (const SightingSummary &a : sightingSummaries(scene, episode)) {
     const bool known = a.known.has_value(), seen = a.firstSeen.has_value();

@@ -63,11 +63,6 @@ std::string Field::nameWith(char separator) const
   return text;
 }
 
-std::string Field::valueOf(const vpProductPatternSpec &product) const
-{
-  return std::visit([&product](auto pointer) { return shortNumber(product.*pointer); }, member);
-}
-
 vpProductShape shapeOf(const std::string &name)
 {
   for (const vpProductShape shape : {vpProductShape::Rectangle, vpProductShape::Rounded, vpProductShape::Dot}) {

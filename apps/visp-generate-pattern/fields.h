@@ -32,8 +32,6 @@ struct Field {
 
   //! "pitch-x" with '-', "pitch_x" with '_'.
   [[nodiscard]] std::string nameWith(char separator) const;
-  //! Value as text, six digits.
-  [[nodiscard]] std::string valueOf(const vpProductPatternSpec &product) const;
 };
 
 //! All numbers of the product except the angle, which users give in degrees.

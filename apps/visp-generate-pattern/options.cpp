@@ -5,12 +5,9 @@
 #include "options.h"
 
 #include "appMain.h"
-
-#include <CLI/CLI.hpp>
+#include "commandLine.h"
 
 #include <visp3/core/vpMath.h>
-
-#include <functional>
 
 namespace generatePattern
 {
@@ -32,8 +29,6 @@ constexpr const char *EXAMPLES =
 
 Exit status: 0 done, 1 the file or the disk does not allow it, 2 the command line is wrong.)";
 
-constexpr std::size_t NAME_COLUMN = 34; // width, characters
-
 std::string headingOf(const std::string &group)
 {
   static const std::vector<std::pair<std::string, std::string>> headings = {
@@ -47,127 +42,78 @@ std::string headingOf(const std::string &group)
   return group;
 }
 
-//! Changes to the task applied after the file, in command-line order.
-using Changes = std::vector<std::function<void(Task &)>>;
-
-void addField(CLI::App &app, const Field &field, Changes &changes)
+void addField(vpApp::CommandLine &line, const Field &field, vpProductPatternSpec &product)
 {
-  const std::string sentence =
-      std::string(field.sentence) + " (default: " + field.valueOf(vpProductPatternSpec()) + ")";
-  std::visit(
-      [&](auto pointer) {
-        using Number = std::remove_reference_t<decltype(std::declval<vpProductPatternSpec>().*pointer)>;
-        app.add_option_function<Number>(
-               "--" + field.nameWith('-'),
-               [&changes, pointer](const Number &value) {
-                 changes.emplace_back([pointer, value](Task &task) { task.product.*pointer = value; });
-               },
-               sentence)
-            ->option_text(field.unit)
-            ->group(headingOf(field.group));
+  line.group(headingOf(field.group));
+  const std::string name = "--" + field.nameWith('-');
+  if (const auto *real = std::get_if<double vpProductPatternSpec::*>(&field.member)) {
+    line.number(name, product.**real, {}, field.unit, field.sentence); // check() has the ranges
+  }
+  else {
+    line.whole(name, product.*std::get<unsigned int vpProductPatternSpec::*>(field.member), {0, 4294967295.},
+               field.unit, field.sentence);
+  }
+}
+
+void addPair(vpApp::CommandLine &line, const std::string &name, Pair &value, const char *text, const char *sentence)
+{
+  line.add(
+      name, text, sentence, shortNumber(value[0]) + " " + shortNumber(value[1]),
+      [&value, name](const auto &texts) {
+        value = {{vpApp::numberIn(name, texts[0], {}), vpApp::numberIn(name, texts[1], {})}};
       },
-      field.member);
+      2);
 }
 
-void addPair(CLI::App &app, const char *name, Pair Motion::*member, const char *text, const char *sentence,
-             Changes &changes)
+void addTask(vpApp::CommandLine &line, Task &task)
 {
-  app.add_option_function<std::vector<double>>(
-         name,
-         [&changes, member](const std::vector<double> &value) {
-           changes.emplace_back([member, value](Task &task) { task.motion.*member = {{value[0], value[1]}}; });
-         },
-         sentence)
-      ->expected(2)
-      ->option_text(text)
-      ->group("Motion");
-}
-
-void addShape(CLI::App &app, Changes &changes)
-{
-  app.add_option_function<std::string>(
-         "--shape",
-         [&changes](const std::string &name) {
-           changes.emplace_back([name](Task &task) {
-             try {
-               task.product.shape = shapeOf(name);
-             }
-             catch (const std::runtime_error &error) {
-               throw std::runtime_error(std::string("--shape is ") + error.what());
-             }
+  line.group("Motion");
+  line.whole("--frames", task.frames, {1, 1e6}, "N", "Length of the sequence");
+  addPair(line, "--motion", task.motion.velocity, "VX VY", "Velocity of the product, px/frame");
+  addPair(line, "--swing", task.motion.swing, "AX AY", "Amplitude of a sine that is added, px");
+  line.number("--swing-period", task.motion.period, {}, "FRAMES", "Period of that sine");
+  addPair(line, "--start", task.motion.start, "X Y", "Displacement in frame 0, px");
+  line.group(headingOf("cells"));
+  line.choice<vpProductShape>("--shape", task.product.shape,
+                              {{toString(vpProductShape::Rectangle), vpProductShape::Rectangle},
+                               {toString(vpProductShape::Rounded), vpProductShape::Rounded},
+                               {toString(vpProductShape::Dot), vpProductShape::Dot}},
+                              "Shape of an opening");
+  line.add("--rotation", "DEGREES", "Of the product in the image, clockwise, -180 to 180", "0",
+           [&task](const auto &values) {
+             task.product.rotation = vpMath::rad(vpApp::numberIn("--rotation", values[0], {-180., 180.}));
            });
-         },
-         "rectangle, rounded or dot (default: rounded)")
-      ->option_text("NAME")
-      ->group(headingOf("cells"));
-  app.add_option_function<double>(
-         "--rotation",
-         [&changes](const double &degrees) {
-           changes.emplace_back([degrees](Task &task) { task.product.rotation = vpMath::rad(degrees); });
-         },
-         "Of the product in the image, clockwise (default: 0)")
-      ->option_text("DEGREES")
-      ->group(headingOf("cells"));
+  for (const Field &field : fields()) {
+    addField(line, field, task.product);
+  }
 }
 
-void addMotion(CLI::App &app, Changes &changes)
+// Twice: the file comes first, and what is on the command line goes before it.
+bool parse(int argc, const char *const *argv, Options &options, std::string &config)
 {
-  app.add_option_function<unsigned int>(
-         "--frames",
-         [&changes](const unsigned int &frames) {
-           changes.emplace_back([frames](Task &task) { task.frames = frames; });
-         },
-         "Length of the sequence (default: 100)")
-      ->option_text("N")
-      ->group("Motion");
-  addPair(app, "--motion", &Motion::velocity, "VX VY", "Velocity of the product, px/frame (default: 5 0)", changes);
-  addPair(app, "--swing", &Motion::swing, "AX AY", "Amplitude of a sine that is added, px (default: 0 0)", changes);
-  app.add_option_function<double>(
-         "--swing-period",
-         [&changes](const double &period) {
-           changes.emplace_back([period](Task &task) { task.motion.period = period; });
-         },
-         "Its period (default: 50)")
-      ->option_text("FRAMES")
-      ->group("Motion");
-  addPair(app, "--start", &Motion::start, "X Y", "Displacement in frame 0, px (default: 0 0)", changes);
+  vpApp::CommandLine line("visp-generate-pattern", ABOUT, EXAMPLES);
+  line.text("--config", config, "FILE.json", "Read the sequence from a file; other options go before it");
+  line.text("--out", options.out, "DIR", "Folder for the result");
+  line.choice("--format", options.format, {{"png", std::string("png")}, {"pgm", std::string("pgm")}},
+              "Format of the frames");
+  line.flag("--video", options.video, "Write video.mp4 too");
+  line.number("--video-rate", options.videoRate, {1., 240.}, "HZ", "Frames per second of the video");
+  addTask(line, options.task);
+  return line.parse(argc, argv);
 }
 } // namespace
 
 bool readOptions(int argc, const char *const *argv, Options &options)
 {
-  CLI::App app(ABOUT, "visp-generate-pattern");
-  app.get_formatter()->column_width(NAME_COLUMN);
-  app.footer(EXAMPLES);
   std::string config;
-  app.add_option("--config", config, "Read the sequence from a file; other options go before it")
-      ->option_text("FILE.json");
-  app.add_option("--out", options.out, "Folder for the result (default: out/generate-pattern)")->option_text("DIR");
-  app.add_option("--format", options.format, "Of the frames: png or pgm (default: png)")->option_text("NAME");
-  app.add_flag("--video", options.video, "Write video.mp4 too");
-  app.add_option("--video-rate", options.videoRate, "Frames per second of the video (default: 25)")->option_text("HZ");
-  Changes changes;
-  addMotion(app, changes);
-  addShape(app, changes);
-  for (const Field &field : fields()) {
-    addField(app, field, changes);
-  }
-  if (!vpApp::parseCommandLine(app, argc, argv)) {
+  if (!parse(argc, argv, options, config)) {
     return false;
-  }
-  if (options.format != "png" && options.format != "pgm") {
-    throw vpApp::UsageError("--format is " + options.format + ", must be png or pgm");
-  }
-  if (!(options.videoRate >= 1. && options.videoRate <= 240.)) {
-    throw vpApp::UsageError("--video-rate is " + shortNumber(options.videoRate) + ", must be 1..240");
   }
   if (!config.empty()) {
     options.task = readTask(config);
+    static_cast<void>(parse(argc, argv, options, config));
   }
   try {
-    for (const auto &change : changes) {
-      change(options.task);
-    }
     check(options.task, Naming::CommandLine);
   }
   catch (const std::runtime_error &error) {

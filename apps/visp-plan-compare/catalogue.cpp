@@ -53,7 +53,7 @@ const std::vector<SceneInfo> &standardScenes()
       {"S4b", "shelf", "From one compartment of a shelf into the other, two tasks.", 5, 1},
       {"S6", "trap", "A pocket open towards the arm: ways that only descend end in it.", 5, 1},
       {"S7", "moving goal, fig. 8.13",
-       "Figure 8.13: nothing is in the way, the goal moves and is told with 10 mm of noise.", 20, 3},
+       "Figure 8.13: nothing is in the way, the goal moves and is measured with 10 mm of noise.", 20, 3},
   };
   return all;
 }

@@ -5,12 +5,8 @@
 #include "options.h"
 
 #include "appMain.h"
+#include "commandLine.h"
 #include "jobs.h"
-#include "numberText.h"
-
-#include <CLI/CLI.hpp>
-
-#include <cmath>
 
 namespace planCompare
 {
@@ -38,63 +34,28 @@ Examples:
       your own scene: data/scene/README.md has the fields
 
 Exit status: 0 done, 1 the data do not allow it, 2 the command line is wrong. Nothing is written unless all succeeded.)";
-
-constexpr std::size_t NAME_COLUMN = 22; // width, characters
-
-unsigned int atLeastOne(const char *option, const std::string &text)
-{
-  std::size_t used = 0;
-  long long number = 0;
-  try {
-    number = std::stoll(text, &used);
-  }
-  catch (const std::exception &) {
-    used = 0;
-  }
-  if (used != text.size() || number < 1 || number > 100000) {
-    throw vpApp::UsageError(std::string(option) + " is " + text + ", must be a whole number from 1 to 100000");
-  }
-  return static_cast<unsigned int>(number);
-}
 } // namespace
 
 bool readOptions(int argc, const char *const *argv, Options &options)
 {
-  CLI::App app(ABOUT, "visp-plan-compare");
-  app.get_formatter()->column_width(NAME_COLUMN);
-  app.footer(EXAMPLES);
-
-  std::string seeds, first = "1", jobs = std::to_string(vpApp::coreCount());
-  app.add_option("--scene", options.scenes, "Scenes to run, S1 to S7 or files (default: all)")
-      ->delimiter(',')
-      ->option_text("SCENE,...");
-  app.add_option("--method", options.methods, "Methods to compare (default: all)")
-      ->delimiter(',')
-      ->option_text("NAME,...");
-  app.add_option("--seeds", seeds, "Seeds of each scene (default: 5 to 200, see --list)")->option_text("N");
-  app.add_option("--seed", first, "The first seed (default: 1)")->option_text("S");
-  app.add_flag("--quick", options.quick, "A few seeds of each scene: some seconds");
-  app.add_option("--arm", options.arm, "Another arm than AMOR, see data/robot/README.md")->option_text("FILE.json");
-  app.add_option("--friction", options.friction,
-                 "Drives by torques against so much of the arm's friction; 0: ideal drives (default)")
-      ->option_text("F");
-  app.add_option("--out", options.out, "Result folder (default: out/plan-compare)")->option_text("DIR");
-  app.add_option("--jobs", jobs, "Runs at a time (default: one for each core)")->option_text("N");
-  app.add_flag("--list", options.list, "Name the scenes and methods, a sentence each, and end");
-
-  if (!vpApp::parseCommandLine(app, argc, argv)) {
+  vpApp::CommandLine line("visp-plan-compare", ABOUT, EXAMPLES);
+  options.jobs = vpApp::coreCount();
+  line.list("--scene", options.scenes, "SCENE,...", "Scenes to run, S1 to S7 or files (default: all)");
+  line.list("--method", options.methods, "NAME,...", "Methods to compare (default: all)");
+  line.whole("--seeds", options.seeds, {1, 100000}, "N", "Seeds of each scene (default: 5 to 200, see --list)");
+  line.whole("--seed", options.firstSeed, {1, 100000}, "S", "The first seed");
+  line.flag("--quick", options.quick, "A few seeds of each scene: some seconds");
+  line.text("--arm", options.arm, "FILE.json", "Another arm than AMOR, see data/robot/README.md");
+  line.number("--friction", options.friction, {0., 10.}, "F",
+              "Drives by torques against this share of the arm's friction; 0: ideal drives");
+  line.text("--out", options.out, "DIR", "Result folder");
+  line.whole("--jobs", options.jobs, {1, 256}, "N", "Runs at a time (default: one for each core)");
+  line.flag("--list", options.list, "Name the scenes and methods, a sentence each, and end");
+  if (!line.parse(argc, argv)) {
     return false;
   }
-  if (!seeds.empty()) {
-    options.seeds = atLeastOne("--seeds", seeds);
-  }
-  options.firstSeed = atLeastOne("--seed", first);
-  options.jobs = atLeastOne("--jobs", jobs);
-  if (options.quick && !seeds.empty()) {
+  if (options.quick && line.isGiven("--seeds")) {
     throw vpApp::UsageError("--quick has its own number of seeds, it cannot be combined with --seeds");
-  }
-  if (!std::isfinite(options.friction) || options.friction < 0.) {
-    throw vpApp::UsageError("--friction is " + vpApp::number(options.friction, 6) + ", must be >= 0 and finite");
   }
   return true;
 }

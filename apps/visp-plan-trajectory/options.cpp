@@ -5,8 +5,7 @@
 #include "options.h"
 
 #include "appMain.h"
-
-#include <CLI/CLI.hpp>
+#include "commandLine.h"
 
 #include <filesystem>
 
@@ -34,8 +33,6 @@ Examples:
 
 All fields are described in data/trajectory/README.md, with an example for each form of motion.
 Exit status: 0 every problem was answered, 1 some line was refused (the others are answered), 2 the command line is wrong.)";
-
-constexpr std::size_t NAME_COLUMN = 22; // width, characters
 } // namespace
 
 vpApp::PlotFormat Options::plotFormat() const
@@ -45,14 +42,12 @@ vpApp::PlotFormat Options::plotFormat() const
 
 bool readOptions(int argc, const char *const *argv, Options &options)
 {
-  CLI::App app(ABOUT, "visp-plan-trajectory");
-  app.get_formatter()->column_width(NAME_COLUMN);
-  app.footer(EXAMPLES);
-  app.add_option("FILE", options.file, "Problems, one JSON object a line; - for standard input")->option_text(" ");
-  app.add_option("--csv", options.csv, "Write t, q, v, a, j of every control cycle")->option_text("FILE");
-  app.add_option("--plot", options.plot, "Draw position, velocity, acceleration, jerk, with limits and events")
-      ->option_text("FILE.svg|png");
-  if (!vpApp::parseCommandLine(app, argc, argv)) {
+  vpApp::CommandLine line("visp-plan-trajectory", ABOUT, EXAMPLES);
+  line.text("FILE", options.file, " ", "Problems, one JSON object a line; - for standard input");
+  line.text("--csv", options.csv, "FILE", "Write t, q, v, a, j of every control cycle");
+  line.text("--plot", options.plot, "FILE.svg|png",
+            "Draw position, velocity, acceleration, jerk, with limits and events");
+  if (!line.parse(argc, argv)) {
     return false;
   }
   const std::string extension = std::filesystem::path(options.plot).extension().string();

@@ -5,13 +5,9 @@
 #include "options.h"
 
 #include "appMain.h"
-#include "numberText.h"
-
-#include <CLI/CLI.hpp>
+#include "commandLine.h"
 
 #include <visp3/core/vpException.h>
-
-#include <map>
 
 namespace printPattern
 {
@@ -39,216 +35,149 @@ constexpr const char *EXAMPLES =
 
 Exit status: 0 done, 1 a file, the machine or the disk does not allow it, 2 the command line is wrong.)";
 
-constexpr std::size_t NAME_COLUMN = 34; // width, characters
+enum class Axes { One, Both };
 
-template <typename Value>
-Value valueOf(const std::string &option, const std::string &name, const std::map<std::string, Value> &values)
-{
-  const auto found = values.find(name);
-  if (found == values.end()) {
-    std::vector<std::string> names;
-    for (const auto &value : values) {
-      names.push_back(value.first);
-    }
-    throw vpApp::UsageError(option + " is " + name + ", must be one of " + vpApp::enumerate(names));
-  }
-  return found->second;
-}
-
-//! \brief Texts and numbers from the command line, before conversion to a specification.
-struct RawOptions {
-  std::string controller = "observer", reference = "centres", trigger = "horizon", axis = "x";
-  std::vector<double> filter;
+//! \brief What is not a field of the specification as it is.
+struct Choices {
+  vpPrintController controller = vpPrintController::Observer;
+  Axes axes = Axes::One;
+  std::vector<double> filter; // alpha, beta; empty: that of the controller
   bool defects = false, noReplicas = false;
-  int rows = 0;
-  double meanVelocity = 5., maxVelocity = 6., dropTime = 10.8, flex = 0., flexPeriod = 20., jitter = 0., noise = 4.;
-  double dropVelocity = 4., visionDelay = 1.28, travelTime = 0.32, nozzle = 0., dropped = 0.;
-  int cells = 40, frames = 0;
-  unsigned int seed = 1;
+  int rows = 0; // 0: one, or three with both axes
+  double flex = 0., flexPeriod = 20.;
 };
 
-void addControl(CLI::App &app, RawOptions &raw, Options &options)
+constexpr vpApp::Range ANY; // vpPrintExperimentSpec::validate() has the ranges
+
+void addControl(vpApp::CommandLine &line, Choices &choices, Options &options)
 {
-  const char *group = "Control";
-  app.add_option("--controller", raw.controller,
-                 "observer, pid or pid-ff (with mass and friction feedforward) (default: observer)")
-      ->option_text("NAME")
-      ->group(group);
-  app.add_option("--filter", raw.filter, "Gains of the alpha-beta filter, for pid and pid-ff")
-      ->expected(2)
-      ->option_text("ALPHA BETA")
-      ->group(group);
-  app.add_option(
-         "--sensor", options.sensor,
-         "image: rendered pictures through vpPatternTracker; tracker, thesis: true places with the errors of that "
-         "tracker, or of the thesis's detection (default: image)")
-      ->option_text("NAME")
-      ->group(group);
-  app.add_flag("--identify", options.identify,
-               "First find mass and friction of the stage from a ramp that the camera watches, and use them")
-      ->group(group);
-  app.add_option("--trigger", raw.trigger, "horizon: each cell exactly once; thesis: algorithm 7.5 (default: horizon)")
-      ->option_text("NAME")
-      ->group(group);
+  line.group("Control");
+  line.choice("--controller", choices.controller,
+              {{"observer", vpPrintController::Observer},
+               {"pid", vpPrintController::Pid},
+               {"pid-ff", vpPrintController::PidFeedforward}},
+              "observer, pid or pid-ff (with mass and friction feedforward)");
+  line.add(
+      "--filter", "ALPHA BETA", "Gains of the alpha-beta filter, for pid and pid-ff", "",
+      [&choices](const auto &values) {
+        choices.filter = {vpApp::numberIn("--filter", values[0], {}), vpApp::numberIn("--filter", values[1], {})};
+      },
+      2);
+  line.choice("--sensor", options.sensor,
+              {{"image", std::string("image")}, {"tracker", std::string("tracker")}, {"thesis", std::string("thesis")}},
+              "image: rendered pictures through vpPatternTracker; tracker, thesis: true places with the errors of that "
+              "tracker, or of the thesis's detection");
+  line.flag("--identify", options.identify,
+            "First find mass and friction of the stage from a ramp that the camera watches, and use them");
+  line.choice("--trigger", options.spec.trigger,
+              {{"horizon", vpPrintTriggerMethod::Horizon}, {"thesis", vpPrintTriggerMethod::ThesisAlgorithm}},
+              "horizon: each cell exactly once; thesis: algorithm 7.5");
 }
 
-void addMotion(CLI::App &app, RawOptions &raw)
+void addMotion(vpApp::CommandLine &line, Choices &choices, vpPrintExperimentSpec &spec)
 {
-  const char *group = "Motion";
-  app.add_option("--reference", raw.reference,
-                 "centres: drop velocity at the centres and faster between; arrival: a fixed time from cell to cell; "
-                 "limited: as fast as a limit allows; constant: drop velocity all the way (default: centres)")
-      ->option_text("NAME")
-      ->group(group);
-  app.add_option("--drop-velocity", raw.dropVelocity, "At the centres (default: 4)")
-      ->option_text("PX/FRAME")
-      ->group(group);
-  app.add_option("--mean-velocity", raw.meanVelocity, "For centres (default: 5)")
-      ->option_text("PX/FRAME")
-      ->group(group);
-  app.add_option("--drop-time", raw.dropTime, "For arrival (default: 10.8)")->option_text("FRAMES")->group(group);
-  app.add_option("--max-velocity", raw.maxVelocity, "For limited (default: 6)")->option_text("PX/FRAME")->group(group);
-  app.add_option("--axis", raw.axis, "x: one row; xy: rows one after another, to and fro (default: x)")
-      ->option_text("NAME")
-      ->group(group);
-  app.add_option("--rows", raw.rows, "With --axis xy (default: 3)")->option_text("N")->group(group);
-  app.add_option("--cells", raw.cells, "In a row (default: 40)")->option_text("N")->group(group);
-  app.add_option("--frames", raw.frames, "Stop after N frames; 0: when all cells are printed (default: 0)")
-      ->option_text("N")
-      ->group(group);
+  line.group("Motion");
+  line.choice("--reference", spec.reference.mode,
+              {{"centres", vpPrintReferenceMode::CellVelocity},
+               {"arrival", vpPrintReferenceMode::FixedArrival},
+               {"limited", vpPrintReferenceMode::LimitedVelocity},
+               {"constant", vpPrintReferenceMode::ConstantVelocity}},
+              "centres: drop velocity at the centres and faster between; arrival: a fixed time from cell to cell; "
+              "limited: as fast as a limit allows; constant: drop velocity all the way");
+  line.number("--drop-velocity", spec.dropVelocity, ANY, "PX/FRAME", "Velocity at the centres");
+  line.number("--mean-velocity", spec.reference.meanVelocity, ANY, "PX/FRAME", "Mean velocity, for centres");
+  line.number("--drop-time", spec.reference.dropTime, ANY, "FRAMES", "Time from cell to cell, for arrival");
+  line.number("--max-velocity", spec.reference.maxVelocity, ANY, "PX/FRAME", "Limit of the velocity, for limited");
+  line.choice("--axis", choices.axes, {{"x", Axes::One}, {"xy", Axes::Both}},
+              "x: one row; xy: rows one after another, to and fro");
+  line.whole("--rows", choices.rows, {1, 10000}, "N", "Rows, with --axis xy (default: 3)");
+  line.whole("--cells", spec.cellsPerRow, {1, 10000}, "N", "Cells in a row");
+  line.whole("--frames", spec.frames, {0, 1e9}, "N", "Stop after N frames; 0: when all cells are printed");
 }
 
-void addWorld(CLI::App &app, RawOptions &raw)
+void addWorld(vpApp::CommandLine &line, Choices &choices, vpPrintExperimentSpec &spec)
 {
-  const char *group = "Product, camera and head";
-  app.add_option("--flex", raw.flex,
-                 "Flexible pitch: cells lie up to this far before or behind their place, in x and y (default: 0)")
-      ->option_text("PX")
-      ->group(group);
-  app.add_option("--flex-period", raw.flexPeriod, "Period of the flexible pitch (default: 20)")
-      ->option_text("CELLS")
-      ->group(group);
-  app.add_option("--jitter", raw.jitter, "Standard deviation of a cell's place (default: 0)")
-      ->option_text("PX")
-      ->group(group);
-  app.add_flag("--defects", raw.defects, "Dust and cracks: 12 and 3 in view")->group(group);
-  app.add_option("--noise", raw.noise, "Of the camera, see visp-generate-pattern (default: 4)")
-      ->option_text("NS")
-      ->group(group);
-  app.add_option("--vision-delay", raw.visionDelay, "From exposure to control (default: 1.28)")
-      ->option_text("FRAMES")
-      ->group(group);
-  app.add_option("--dropped", raw.dropped, "Share of frames that never arrive (default: 0)")
-      ->option_text("SHARE")
-      ->group(group);
-  app.add_option("--travel-time", raw.travelTime, "Of a drop (default: 0.32)")->option_text("FRAMES")->group(group);
-  app.add_option("--nozzle", raw.nozzle, "Place of the nozzle from the middle of the image (default: 0)")
-      ->option_text("PX")
-      ->group(group);
+  line.group("Product, camera and head");
+  line.number("--flex", choices.flex, ANY, "PX",
+              "Flexible pitch: cells lie up to this far before or behind their place, in x and y");
+  line.number("--flex-period", choices.flexPeriod, ANY, "CELLS", "Period of the flexible pitch");
+  line.number("--jitter", spec.product.jitter, ANY, "PX", "Standard deviation of a cell's place");
+  line.flag("--defects", choices.defects, "Dust and cracks: 12 and 3 in view");
+  line.number("--noise", spec.product.noise, ANY, "NS", "Noise of the camera, see visp-generate-pattern");
+  line.number("--vision-delay", spec.visionDelay, ANY, "FRAMES", "From exposure to control");
+  line.number("--dropped", spec.dropped, ANY, "SHARE", "Share of frames that never arrive");
+  line.number("--travel-time", spec.travelTime, ANY, "FRAMES", "Travel time of a drop");
+  line.number("--nozzle", spec.nozzleOffset, ANY, "PX", "Place of the nozzle from the middle of the image");
 }
 
 //! With --explore the file defines the runs: other options would be ignored.
-void checkExploration(const CLI::App &app, Options &options)
+void checkExploration(const vpApp::CommandLine &line, Options &options)
 {
-  for (const CLI::Option *option : app.get_options()) {
-    const std::string name = option->get_name();
-    if (option->count() > 0 && name != "--explore" && name != "--out" && name != "--jobs") {
+  for (const std::string &name : line.given()) {
+    if (name != "--explore" && name != "--out" && name != "--jobs") {
       throw vpApp::UsageError(name + " is given beside --explore, which takes --out and --jobs only");
     }
   }
-  options.out = app.get_option("--out")->count() > 0 ? options.out : "out/print-explore";
+  options.out = line.isGiven("--out") ? options.out : "out/print-explore";
 }
 
-vpPrintExperimentSpec specOf(const RawOptions &raw, const Options &options)
+void complete(vpPrintExperimentSpec &spec, const Choices &choices, const std::string &sensor)
 {
-  const auto controller = valueOf<vpPrintController>("--controller", raw.controller,
-                                                     {{"observer", vpPrintController::Observer},
-                                                      {"pid", vpPrintController::Pid},
-                                                      {"pid-ff", vpPrintController::PidFeedforward}});
-  const auto model = valueOf<vpPrintSensorModel>("--sensor", options.sensor,
-                                                 {{"image", vpPrintSensorModel::tracker()},
-                                                  {"tracker", vpPrintSensorModel::tracker()},
-                                                  {"thesis", vpPrintSensorModel::thesis()}});
-  vpPrintExperimentSpec spec = vpPrintExperimentSpec::withObserver(model);
-  if (controller != vpPrintController::Observer) {
-    const vpPrintExperimentSpec pid = controller == vpPrintController::Pid ? vpPrintExperimentSpec::thesisPid()
-                                                                           : vpPrintExperimentSpec::thesisFeedforward();
-    spec.controller = controller;
+  if (sensor == "thesis") {
+    const vpPrintExperimentSpec coarse = vpPrintExperimentSpec::withObserver(vpPrintSensorModel::thesis());
+    spec.sensorModel = coarse.sensorModel;
+    spec.observer = coarse.observer;
+  }
+  spec.sensor = sensor == "image" ? vpPrintSensor::Image : vpPrintSensor::Model;
+  spec.controller = choices.controller;
+  if (spec.controller != vpPrintController::Observer) {
+    const vpPrintExperimentSpec pid = spec.controller == vpPrintController::Pid
+                                          ? vpPrintExperimentSpec::thesisPid()
+                                          : vpPrintExperimentSpec::thesisFeedforward();
     spec.pid = pid.pid;
     spec.filter = pid.filter;
   }
-  if (!raw.filter.empty()) {
-    spec.filter = {raw.filter[0], raw.filter[1]};
+  if (!choices.filter.empty()) {
+    spec.filter = {choices.filter[0], choices.filter[1]};
   }
-  spec.sensor = options.sensor == "image" ? vpPrintSensor::Image : vpPrintSensor::Model;
-  spec.trigger = valueOf<vpPrintTriggerMethod>(
-      "--trigger", raw.trigger,
-      {{"horizon", vpPrintTriggerMethod::Horizon}, {"thesis", vpPrintTriggerMethod::ThesisAlgorithm}});
-  spec.reference.mode = valueOf<vpPrintReferenceMode>("--reference", raw.reference,
-                                                      {{"centres", vpPrintReferenceMode::CellVelocity},
-                                                       {"arrival", vpPrintReferenceMode::FixedArrival},
-                                                       {"limited", vpPrintReferenceMode::LimitedVelocity},
-                                                       {"constant", vpPrintReferenceMode::ConstantVelocity}});
-  spec.reference.meanVelocity = raw.meanVelocity;
-  spec.reference.maxVelocity = raw.maxVelocity;
-  spec.reference.dropTime = raw.dropTime;
-  spec.dropVelocity = raw.dropVelocity;
-  const bool both = valueOf<bool>("--axis", raw.axis, {{"x", false}, {"xy", true}});
-  if (!both && raw.rows > 1) {
-    throw vpApp::UsageError("--rows is " + std::to_string(raw.rows) + ", more than one row needs --axis xy");
+  if (choices.axes == Axes::One && choices.rows > 1) {
+    throw vpApp::UsageError("--rows is " + std::to_string(choices.rows) + ", more than one row needs --axis xy");
   }
-  spec.rows = both ? (raw.rows == 0 ? 3 : raw.rows) : 1;
-  spec.cellsPerRow = raw.cells;
-  spec.frames = raw.frames;
-  spec.product.flexAmplitudeX = spec.product.flexAmplitudeY = raw.flex;
-  spec.product.flexPeriodX = spec.product.flexPeriodY = raw.flexPeriod;
-  spec.product.jitter = raw.jitter;
-  spec.product.noise = raw.noise;
-  spec.product.dust = raw.defects ? 12. / 1.6 : 0.; // per 100 x 100 px
-  spec.product.cracks = raw.defects ? 3. / 1.6 : 0.;
-  spec.product.seed = raw.seed;
-  spec.visionDelay = raw.visionDelay;
-  spec.dropped = raw.dropped;
-  spec.travelTime = raw.travelTime;
-  spec.nozzleOffset = raw.nozzle;
-  spec.seed = raw.seed;
-  return spec;
+  spec.rows = choices.axes == Axes::One ? 1 : choices.rows == 0 ? 3 : choices.rows;
+  spec.product.flexAmplitudeX = spec.product.flexAmplitudeY = choices.flex;
+  spec.product.flexPeriodX = spec.product.flexPeriodY = choices.flexPeriod;
+  spec.product.dust = choices.defects ? 12. / 1.6 : 0.; // per 100 x 100 px
+  spec.product.cracks = choices.defects ? 3. / 1.6 : 0.;
+  spec.product.seed = spec.seed;
 }
 } // namespace
 
 bool readOptions(int argc, const char *const *argv, Options &options)
 {
-  CLI::App app(ABOUT, "visp-print-pattern");
-  app.get_formatter()->column_width(NAME_COLUMN);
-  app.footer(EXAMPLES);
-  RawOptions raw;
-  app.add_option("--out", options.out, "Folder for the result (default: out/print-pattern)")->option_text("DIR");
-  app.add_option("--explore", options.explore,
-                 "Explore the design space of a file (data/explore/README.md) instead: which frame rate, image, "
-                 "magnification, exposure, controller and velocity; also under mpirun")
-      ->option_text("FILE.json");
-  app.add_option("--runs", options.runs, "Repeat with other seeds, 1..10000 (default: 1)")->option_text("N");
-  app.add_option("--seed", raw.seed, "Of everything random (default: 1)")->option_text("N");
-  app.add_option("--jobs", options.jobs, "Runs at a time (default: one for each core)")->option_text("N");
-  app.add_flag("--no-thesis", raw.noReplicas, "Leave out the experiments of the thesis");
-  app.add_flag("--video", options.video, "Write camera.mp4: what the camera sees, and the drops");
-  addControl(app, raw, options);
-  addMotion(app, raw);
-  addWorld(app, raw);
-  if (!vpApp::parseCommandLine(app, argc, argv)) {
+  vpApp::CommandLine line("visp-print-pattern", ABOUT, EXAMPLES);
+  Choices choices;
+  options.spec = vpPrintExperimentSpec::withObserver(vpPrintSensorModel::tracker());
+  options.spec.cellsPerRow = 40;
+  line.text("--out", options.out, "DIR", "Folder for the result");
+  line.text("--explore", options.explore, "FILE.json",
+            "Explore the design space of a file (data/explore/README.md) instead: which frame rate, image, "
+            "magnification, exposure, controller and velocity; also under mpirun");
+  line.whole("--runs", options.runs, {1, 10000}, "N", "Repeat with other seeds");
+  line.whole("--seed", options.spec.seed, {0, 4294967295.}, "N", "Seed of everything random");
+  line.whole("--jobs", options.jobs, {1, 256}, "N", "Runs at a time (default: one for each core)");
+  line.flag("--no-thesis", choices.noReplicas, "Leave out the experiments of the thesis");
+  line.flag("--video", options.video, "Write camera.mp4: what the camera sees, and the drops");
+  addControl(line, choices, options);
+  addMotion(line, choices, options.spec);
+  addWorld(line, choices, options.spec);
+  if (!line.parse(argc, argv)) {
     return false;
   }
-  if (app.get_option("--explore")->count() > 0) {
-    checkExploration(app, options);
+  if (!options.explore.empty()) {
+    checkExploration(line, options);
   }
-  if (options.runs < 1 || options.runs > 10000) {
-    throw vpApp::UsageError("--runs is " + std::to_string(options.runs) + ", must be 1..10000");
-  }
-  if (app.count("--jobs") > 0 && (options.jobs < 1 || options.jobs > 256)) {
-    throw vpApp::UsageError("--jobs is " + std::to_string(options.jobs) + ", must be 1..256");
-  }
-  options.replicas = !raw.noReplicas;
-  options.spec = specOf(raw, options);
+  options.replicas = !choices.noReplicas;
+  complete(options.spec, choices, options.sensor);
   try {
     options.spec.validate();
   }

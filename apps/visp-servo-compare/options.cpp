@@ -5,13 +5,10 @@
 #include "options.h"
 
 #include "appMain.h"
+#include "commandLine.h"
 #include "format.h"
 #include "jobs.h"
 #include "scenario.h"
-
-#include <CLI/CLI.hpp>
-
-#include <sstream>
 
 namespace servoCompare
 {
@@ -46,31 +43,6 @@ constexpr const char *EXAMPLES = R"(Examples:
 
 Exit status: 0 done, 1 the data do not allow it, 2 the command line is wrong. Nothing is written unless all succeeded.)";
 
-constexpr std::size_t NAME_COLUMN = 22; // width, characters
-constexpr std::size_t HELP_COLUMN = 96; // width, characters
-
-//! Breaks the help of an option into aligned lines.
-class HelpFormatter : public CLI::Formatter
-{
-public:
-  HelpFormatter() { column_width(NAME_COLUMN); }
-  std::string make_option_desc(const CLI::Option *option) const override
-  {
-    std::string lines;
-    std::size_t column = 0;
-    std::istringstream words(option->get_description());
-    for (std::string word; words >> word;) {
-      if (column > 0 && column + 1 + word.size() > HELP_COLUMN) {
-        lines += '\n'; // CLI11 indents what follows
-        column = 0;
-      }
-      lines += (column > 0 ? " " : "") + word;
-      column += (column > 0 ? 1 : 0) + word.size();
-    }
-    return lines;
-  }
-};
-
 std::string shapeHelp()
 {
   const vpTwistShaperLimits limits = Scenario().shape;
@@ -82,86 +54,49 @@ std::string shapeHelp()
          " rad/s^3, or as \"shape\" of the task file says; the report shows both";
 }
 
-void requireAtLeastOne(const char *option, const std::string &text, unsigned int &value)
-{
-  std::size_t used = 0;
-  long long number = 0;
-  try {
-    number = std::stoll(text, &used);
-  }
-  catch (const std::exception &) {
-    used = 0;
-  }
-  if (used != text.size() || number < 1 || number > 100000) {
-    throw vpApp::UsageError(std::string(option) + " is " + text + ", must be a whole number from 1 to 100000");
-  }
-  value = static_cast<unsigned int>(number);
-}
 } // namespace
 
 bool readOptions(int argc, const char *const *argv, Options &options)
 {
-  CLI::App app(ABOUT, "visp-servo-compare");
-  app.formatter(std::make_shared<HelpFormatter>());
-  app.footer(EXAMPLES);
-
-  app.add_option("--law", options.laws,
-                 "Laws to compare, as LAW,LAW,...; append +cbf for the view filter (default: all)")
-      ->delimiter(',')
-      ->option_text("LAW,...");
-  app.add_option("--plant", options.plants, "Robots to compare on (default: A,B,D, or those of the task file)")
-      ->delimiter(',')
-      ->option_text("NAME,...");
-  app.add_option("--measure", options.measures,
-                 "points: noisy feature points; image: rendered views through the vision (default: all by points, and "
-                 "pbvs1, kyrki, ff-lookat-pi also by image where there is friction)")
-      ->delimiter(',')
-      ->option_text("KIND,...");
-  app.add_flag("--full", options.full, "Everything: all laws, all plants, points and image (takes long)");
-  app.add_flag("--shape", options.shape, shapeHelp());
-  app.add_option("--task", options.taskFile, "Task file instead of the thesis' task; see data/scenario/README.md")
-      ->option_text("FILE.json");
-  app.add_option("--robot", options.robot.robot,
-                 "What carries the camera: camera (flies freely), amor (the arm of the thesis), or an arm as .urdf or "
-                 ".json file, see data/robot/README.md. On an arm plant A is ideal; B and D are driven by torques "
-                 "against joint friction, on D twice that of the file (default: camera)")
-      ->option_text("ROBOT");
-  app.add_option("--robot-base", options.robot.base, "First link of the URDF's chain (default: the root)")
-      ->option_text("LINK");
-  app.add_option("--robot-tip", options.robot.tip, "Its last link (default: the only leaf)")->option_text("LINK");
-  app.add_option("--robot-camera", options.robot.camera, "Link that is the camera (default: the tip)")
-      ->option_text("LINK");
-  app.add_option("--robot-acceleration", options.robot.acceleration,
-                 "Acceleration limit of all joints of the URDF, which has none, rad/s^2 or m/s^2 (default: 10)")
-      ->check(CLI::PositiveNumber)
-      ->option_text("A");
-  app.add_option("--self-motion", options.robot.selfMotion,
-                 "What spare joints do: limits (away from joint limits), manipulability, posture (stay near the "
-                 "start), or none (default: limits,manipulability)")
-      ->delimiter(',')
-      ->option_text("WISH,...");
-  app.add_option("--limits", options.robot.limits,
-                 "At a position limit stop only that joint, or scale the whole motion (default: stop)")
-      ->option_text("stop|scale");
-  app.add_option("--target", options.target,
-                 "Photo of the flat object, 8 or 16 bits, turned as its EXIF orientation says (default: klimt.jpg of "
-                 "the data folder)")
-      ->option_text("IMAGE");
-  std::string repetitions = "1";
-  std::string jobs = std::to_string(vpApp::coreCount());
-  app.add_option("--monte-carlo", repetitions, "Repeat each run with N seeds")->option_text("N");
-  app.add_option("--seed", options.seed, "First seed of noise and feature points (default: 1)")->option_text("S");
-  app.add_option("--out", options.out, "Result folder (default: out/servo-compare)")->option_text("DIR");
-  app.add_flag("--display", options.display,
-               "Show the camera's view of each law in a window; click to skip to the next");
-  app.add_option("--jobs", jobs, "Runs at a time (default: one for each core)")->option_text("N");
-  app.add_flag("--list", options.list, "Name the laws and plants, a sentence each, and end");
-
-  if (!vpApp::parseCommandLine(app, argc, argv)) {
+  vpApp::CommandLine line("visp-servo-compare", ABOUT, EXAMPLES);
+  RobotOptions &robot = options.robot;
+  options.jobs = vpApp::coreCount();
+  line.list("--law", options.laws, "LAW,...", "Laws to compare; append +cbf for the view filter (default: all)");
+  line.list("--plant", options.plants, "NAME,...", "Robots to compare on (default: A,B,D, or those of the task file)");
+  line.list("--measure", options.measures, "KIND,...",
+            "points: noisy feature points; image: rendered views through the vision (default: all by points, and "
+            "pbvs1, kyrki, ff-lookat-pi also by image where there is friction)");
+  line.flag("--full", options.full, "Everything: all laws, all plants, points and image (takes long)");
+  line.flag("--shape", options.shape, shapeHelp());
+  line.text("--task", options.taskFile, "FILE.json",
+            "Task file instead of the thesis' task; see data/scenario/README.md");
+  line.text("--robot", robot.robot, "ROBOT",
+            "What carries the camera: camera (flies freely), amor (the arm of the thesis), or an arm as .urdf or .json "
+            "file, see data/robot/README.md. On an arm plant A is ideal; B and D are driven by torques against joint "
+            "friction, on D twice that of the file");
+  line.text("--robot-base", robot.base, "LINK", "First link of the URDF's chain (default: the root)");
+  line.text("--robot-tip", robot.tip, "LINK", "Its last link (default: the only leaf)");
+  line.text("--robot-camera", robot.camera, "LINK", "Link that is the camera (default: the tip)");
+  line.number("--robot-acceleration", robot.acceleration, {0., 1e6, true}, "A",
+              "Acceleration limit of all joints of the URDF, which has none, rad/s^2 or m/s^2");
+  line.list("--self-motion", robot.selfMotion, "WISH,...",
+            "What spare joints do: limits (away from joint limits), manipulability, posture (stay near the start), or "
+            "none");
+  line.choice("--limits", robot.limits, {{"stop", std::string("stop")}, {"scale", std::string("scale")}},
+              "At a position limit stop only that joint, or scale the whole motion");
+  line.text(
+      "--target", options.target, "IMAGE",
+      "Photo of the flat object, 8 or 16 bits, turned as its EXIF orientation says (default: klimt.jpg of the data "
+      "folder)");
+  line.whole("--monte-carlo", options.repetitions, {1, 100000}, "N", "Repeat each run with N seeds");
+  line.whole("--seed", options.seed, {0, 4294967295.}, "S", "First seed of noise and feature points");
+  line.text("--out", options.out, "DIR", "Result folder");
+  line.flag("--display", options.display, "Show the camera's view of each law in a window; click to skip to the next");
+  line.whole("--jobs", options.jobs, {1, 256}, "N", "Runs at a time (default: one for each core)");
+  line.flag("--list", options.list, "Name the laws and plants, a sentence each, and end");
+  if (!line.parse(argc, argv)) {
     return false;
   }
-  requireAtLeastOne("--monte-carlo", repetitions, options.repetitions);
-  requireAtLeastOne("--jobs", jobs, options.jobs);
   if (options.full && !(options.laws.empty() && options.plants.empty() && options.measures.empty())) {
     throw vpApp::UsageError("--full means all laws, plants and measures, it cannot be combined with a choice of them");
   }

@@ -196,7 +196,7 @@ void writeStep(HtmlReport &page, const Plan &plan, const Results &results, const
       " rad/s^2, with a jerk of at most " + number(limits.linearJerk, 4) + " m/s^3 and " +
       number(limits.angularJerk, 4) +
       " rad/s^3. Every run was made twice, with the law's own twist (raw) and with the shaper (shaped). Only this "
-      "section tells of the shaped runs.");
+      "section describes the shaped runs.");
   page.list(stepFindings(plan, results));
   page.picture(vpApp::dataUri("image/svg+xml", figure.svg), figure.title, figure.title + ". " + figure.caption);
   bool first = true;

@@ -130,7 +130,7 @@ std::optional<std::string> filterBehindShaper(const Plan &plan, const Results &r
   if (!filtered) {
     return std::nullopt;
   }
-  return "The view filter stands before the shaper and counts on its twist being executed at once; shaped, it promises "
+  return "The view filter comes before the shaper and relies on its twist being executed at once; shaped, it promises "
          "nothing. " +
          (losses.empty() ? "In these runs no filtered law is longer out of view for that."
                          : "Longer out of view for that: " + enumerate(losses) + ".");

@@ -104,7 +104,7 @@ std::vector<Item> play(const Setting &setting)
   constexpr std::array<double, 6> thesisTool = {0.0030, 0.0056, 0.0052, 0.0062, 0.0039, 0.0072};
   const vpArmModel arm = vpLoadArmJson(vpApp::dataFile("robot/amor.json"));
   const Tracking plain = follow(arm, false, setting, 0.), compensated = follow(arm, true, setting, 0.45);
-  const std::string reason = "Masses, gains and friction of the arm are not told; those of the model are assumed.";
+  const std::string reason = "Masses, gains and friction of the arm are not given; those of the model are assumed.";
   Item item;
   item.id = "table8.1";
   std::string csv = "axis,unit,thesis,pd_and_gravity,with_friction_compensation\n";

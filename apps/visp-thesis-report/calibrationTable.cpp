@@ -50,7 +50,8 @@ void addRows(Item &item, const Found &f, std::size_t method, const ThesisError &
                              Tolerance::factor(method == 0 ? 1.5 : 1.1), Good::Neither, "",
                              "Mean of " + std::to_string(EXPERIMENTS) + " single images, " + number(o.points, 3) +
                                  " points each; deviation between images " + number(o.kappa.sigma(), 2) +
-                                 " um^-2; told from zero in " + std::to_string(o.significant) + "."});
+                                 " um^-2; significantly different from zero in " + std::to_string(o.significant) +
+                                 "."});
   item.quantities.push_back({"magnification" + of, "um/px", f.pattern.umPerPixel, o.umPerPixel.mean(),
                              Tolerance::distance(0.01), Good::Neither, "",
                              "Deviation between images " + number(o.umPerPixel.sigma(), 2) + " um/px."});

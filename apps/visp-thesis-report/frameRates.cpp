@@ -200,11 +200,11 @@ Item systemsItem(const Scaling &scaling, const Setting &setting)
                       "px width, which otherwise show less than two periods"},
                      {"timed", std::to_string(SMALL_RUN) + " images of each size after learning"},
                      {"gradation", "8 bit a pixel"}};
-  addPlot(
-      item, "systems", "High-speed vision systems",
-      "Dots: systems with camera, as told in the thesis. Solid line: images a second that vpPatternTracker sustains on "
-      "one core. Dashed: what interfaces carry at 8 bit a pixel.",
-      {plot});
+  addPlot(item, "systems", "High-speed vision systems",
+          "Dots: systems with camera, as given in the thesis. Solid line: images a second that vpPatternTracker "
+          "sustains on "
+          "one core. Dashed: what interfaces carry at 8 bit a pixel.",
+          {plot});
   return item;
 }
 

@@ -7,10 +7,9 @@
 #include "part.h"
 
 #include "appMain.h"
+#include "commandLine.h"
 #include "jobs.h"
 #include "numberText.h"
-
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 
@@ -37,8 +36,6 @@ constexpr const char *EXAMPLES = R"(Examples:
 Exit status: 0 done (whatever the verdicts are), 1 the data or the disk do not allow it, 2 the command line is wrong.
 Nothing is written unless all succeeded.)";
 
-constexpr std::size_t NAME_COLUMN = 22; // width, characters
-
 //! Ids of a user's choice: an id, "chapter6", or "appendixA".
 std::vector<std::string> idsOf(const std::string &name)
 {
@@ -63,23 +60,16 @@ std::vector<std::string> idsOf(const std::string &name)
 
 bool readOptions(int argc, const char *const *argv, Options &options)
 {
-  CLI::App app(ABOUT, "visp-thesis-report");
-  app.get_formatter()->column_width(NAME_COLUMN);
-  app.footer(EXAMPLES);
+  vpApp::CommandLine line("visp-thesis-report", ABOUT, EXAMPLES);
   std::vector<std::string> only;
   options.jobs = vpApp::coreCount();
-  app.add_option("--only", only, "Only these figures, tables and chapters (default: all)")
-      ->delimiter(',')
-      ->option_text("ID,...");
-  app.add_option("--out", options.out, "Result folder (default: out/thesis-report)")->option_text("DIR");
-  app.add_option("--jobs", options.jobs, "Parts at a time (default: one for each core)")->option_text("N");
-  app.add_option("--seed", options.seed, "Of everything random (default: 1)")->option_text("S");
-  app.add_flag("--list", options.list, "Name all figures and tables, and end");
-  if (!vpApp::parseCommandLine(app, argc, argv)) {
+  line.list("--only", only, "ID,...", "Only these figures, tables and chapters (default: all)");
+  line.text("--out", options.out, "DIR", "Result folder");
+  line.whole("--jobs", options.jobs, {1, 256}, "N", "Parts at a time (default: one for each core)");
+  line.whole("--seed", options.seed, {0, 4294967295.}, "S", "Seed of everything random");
+  line.flag("--list", options.list, "Name all figures and tables, and end");
+  if (!line.parse(argc, argv)) {
     return false;
-  }
-  if (options.jobs < 1 || options.jobs > 256) {
-    throw vpApp::UsageError("--jobs is " + std::to_string(options.jobs) + ", must be 1..256");
   }
   for (const std::string &name : only) {
     const std::vector<std::string> ids = idsOf(name);

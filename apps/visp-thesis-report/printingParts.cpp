@@ -127,7 +127,7 @@ Item step(const Replicas &replicas)
       {"force from 0.075 to 0.15 s over that before cell 5", "1", std::nullopt,
        meanBetween(replica, 0.075, 0.15, &vpPrintSample::force) /
            meanBetween(replica, 0.02, 0.035, &vpPrintSample::force),
-       Tolerance::factor(1.1), Good::Neither, "", "Friction hangs on the place here, too."}};
+       Tolerance::factor(1.1), Good::Neither, "", "Friction depends on position here, too."}};
   return item;
 }
 
@@ -143,7 +143,7 @@ Item tracking(const Replicas &replicas, const std::string &figure, double thesis
                      {"mean velocity", "px/frame", 5., meanBetween(replica, 60. / 1600., 1., &vpPrintSample::vx),
                       Tolerance::factor(1.1), Good::Neither,
                       "The experiments that meet the thesis's errors go from centre to centre in 10.8 frames, 4.5 "
-                      "px/frame in the mean, "
+                      "px/frame on average, "
                       "and the stage lags behind that.",
                       "The thesis: about 5, a quarter above the velocity at the centres."}};
   return item;

@@ -102,7 +102,7 @@ void illustrate(const Runs &runs, const std::string &distance, Item &item)
           "The sign of k_0 as in the figures: positive attracts, negative repels.", {plot});
   item.parameters = {
       {"arm", "AMOR, ideal drives, 200 Hz"},
-      {"tool", "two vias and a final place, 2 s each, orientation kept; the thesis tells no places"},
+      {"tool", "two vias and a final place, 2 s each, orientation kept; the thesis gives no positions"},
       {"gain", "k_0 as a share of the speed that the spare joints may take (our form of k_0 is bounded)"}};
 }
 
@@ -119,7 +119,7 @@ Item point(const char *id, const Eigen::Vector3d &place, const std::string &name
                      {"least of the distance with k_0 = -0.6 minus that with 0", "m", std::nullopt,
                       leastDifference(runs.with(-STRONG), runs.with(0.)), Tolerance::factor(1.1), Good::Neither, "",
                       "Below 0 the joint would be nearer for a time, for the sake of the rest, as the thesis sees in "
-                      "figure 8.14; that hangs on the way of the tool."},
+                      "figure 8.14; that depends on the path of the tool."},
                      toolKept(runs)};
   illustrate(runs, name, item);
   item.parameters.emplace_back("point", "[" + vpApp::number(place.x(), 3) + ", " + vpApp::number(place.y(), 3) + ", " +

@@ -216,7 +216,7 @@ Item hardReference(const Runs &runs)
                  runs.ratio(FEEDFORWARD, KYRKI, HARD, peakReference), ""),
       {"feedforward: reference minus goal at the end of pose 2", "deg", DIED_OUT,
        runs.median(FEEDFORWARD, HARD, referenceLeft), Tolerance::atLeast(), Good::Neither, "",
-       "The thesis: by disturbances it does not completely die out, so more must be left than counts as nothing in "
+       "The thesis: by disturbances it does not completely die out, so more must be left than is negligible in "
        "figure "
        "5.6."}};
   return item;

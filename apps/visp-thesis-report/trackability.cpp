@@ -81,7 +81,7 @@ Item play(const Setting &setting)
        Tolerance::factor(1.1), Good::Neither, "", "Between the cells the product is faster."},
       {"n_f M if the camera gave all frames that the tracker can take", "1", std::nullopt,
        indexOf(time.sustainedRate(), seen, pitch), Tolerance::factor(2.), Good::Neither, "",
-       "Ogawa et al., as told in the thesis: above 20. " + number(1e-3 * time.sustainedRate(), 3) +
+       "Ogawa et al., as given in the thesis: above 20. " + number(1e-3 * time.sustainedRate(), 3) +
            " kHz by the 99 % quantile of the time of an image, measured here."}};
   item.remarks = {
       "(7.1) does not know the image: in pixels it is the length of the target over its motion from frame to "

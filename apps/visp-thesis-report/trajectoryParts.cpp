@@ -233,7 +233,7 @@ Item iterations()
   item.quantities = {
       {"iterations of (6.6), one each cycle, until t_f is settled", "1", 40.,
        static_cast<double>(bySpread.cyclesToSettle), Tolerance::atMost(), Good::Smaller,
-       "(6.6) is a proportional iteration; how many steps it takes hangs on its gain, which the thesis does not give "
+       "(6.6) is a proportional iteration; how many steps it takes depends on its gain, which the thesis does not give "
        "(\"when tuned properly\"). Settled means here to 1 us.",
        ""},
       {"largest difference of the velocity, spread or at once", "rad/s", 0., largestDifference(byWhole.v, bySpread.v),

@@ -5,8 +5,7 @@
 #include "options.h"
 
 #include "appMain.h"
-
-#include <CLI/CLI.hpp>
+#include "commandLine.h"
 
 #include <visp3/core/vpException.h>
 #include <visp3/core/vpMath.h>
@@ -14,7 +13,6 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <map>
 
 namespace trackPattern
 {
@@ -46,59 +44,11 @@ constexpr const char *EXAMPLES =
       the same recording in pixels and in micrometres
 
 Written into the folder of --out: report.html (read this first), cells.csv, motion.csv, summary.json, and the overlay.
-data/pattern/README.md describes the files. Ctrl-C ends the run with the report of what was seen until then. Places are pixels; (0, 0) is the centre of the top left one.
+data/pattern/README.md describes the files. Ctrl-C ends the run with the report of what was seen until
+then. Places are pixels; (0, 0) is the centre of the top left one.
 
 Exit status: 0 done, 1 an image, a file or the camera does not allow it or shows no pattern, 2 the command line is wrong,
 130 ended by Ctrl-C.)";
-
-constexpr std::size_t NAME_COLUMN = 34; // width, characters
-
-const std::map<std::string, vpPatternMethod> METHODS = {{"gauss-newton", vpPatternMethod::GaussNewton},
-                                                        {"half-maximum", vpPatternMethod::HalfMaximumEdges},
-                                                        {"thesis", vpPatternMethod::ThesisAlgorithm},
-                                                        {"thesis-fixed", vpPatternMethod::ThesisAlgorithmFixed}};
-const std::map<std::string, vpPatternThreshold> THRESHOLDS = {{"otsu", vpPatternThreshold::Otsu},
-                                                              {"isodata", vpPatternThreshold::Isodata},
-                                                              {"minimum-error", vpPatternThreshold::MinimumError}};
-const std::map<std::string, vpPatternDerivative> DERIVATIVES = {{"symmetric", vpPatternDerivative::Symmetric},
-                                                                {"roberts", vpPatternDerivative::Roberts},
-                                                                {"prewitt", vpPatternDerivative::Prewitt},
-                                                                {"sobel", vpPatternDerivative::Sobel}};
-const std::map<std::string, vpPatternPolarity> POLARITIES = {{"automatic", vpPatternPolarity::Automatic},
-                                                             {"bright", vpPatternPolarity::Bright},
-                                                             {"dark", vpPatternPolarity::Dark}};
-const std::map<std::string, OverlayKind> OVERLAYS = {
-    {"none", OverlayKind::None}, {"png", OverlayKind::Png}, {"mp4", OverlayKind::Mp4}};
-
-template <class Value> std::string namesOf(const std::map<std::string, Value> &table)
-{
-  std::string names;
-  std::size_t left = table.size();
-  for (const auto &entry : table) {
-    --left;
-    names += entry.first + (left == 0 ? "" : left == 1 ? " or " : ", ");
-  }
-  return names;
-}
-
-//! An option whose value is one of a table.
-template <class Value>
-void addChoice(CLI::App &app, const std::string &name, const std::map<std::string, Value> &table, Value &target,
-               const std::string &sentence, const std::string &preset, const std::string &group)
-{
-  app.add_option_function<std::string>(
-         name,
-         [&table, &target, name](const std::string &value) {
-           const auto found = table.find(value);
-           if (found == table.end()) {
-             throw vpApp::UsageError(name + " is " + value + ", must be " + namesOf(table));
-           }
-           target = found->second;
-         },
-         sentence + ": " + namesOf(table) + " (default: " + preset + ")")
-      ->option_text("NAME")
-      ->group(group);
-}
 
 Roi roiOf(const std::string &text)
 {
@@ -118,103 +68,98 @@ Roi roiOf(const std::string &text)
   return roi;
 }
 
-void addInput(CLI::App &app, Options &options, std::string &roi)
+void addInput(vpApp::CommandLine &line, Options &options)
 {
-  app.add_option("INPUT", options.inputs,
-                 "Folder, image files, pattern, video file, or /dev/videoN (none: a sequence "
-                 "of its own)");
-  app.add_option("--camera", options.camera, "Read from the camera /dev/videoN")->option_text("N")->group("Input");
-  app.add_option("--frames", options.frames, "Read so many at most (default: all; 200 of its own, 300 of a camera)")
-      ->option_text("N")
-      ->group("Input");
-  app.add_option("--roi", roi, "Look only here; places are still those in the whole image")
-      ->option_text("X,Y,W,H")
-      ->group("Input");
-  app.add_option("--seed", options.seed, "Of its own sequence (default: 1)")->option_text("N")->group("Input");
+  line.add(
+      "INPUT", " ", "Folder, image files, pattern, video file, or /dev/videoN (none: a sequence of its own)", "",
+      [&options](const auto &values) { options.inputs = values; }, -1);
+  line.group("Input");
+  line.text("--camera", options.camera, "N", "Read from the camera /dev/videoN");
+  line.whole("--frames", options.frames, {1, 1e7}, "N",
+             "Maximum number of frames (default: all; 200 of its own sequence, 300 of a camera)");
+  line.add("--roi", "X,Y,W,H", "Look only here; places are still those in the whole image", "",
+           [&options](const auto &values) { options.roi = roiOf(values[0]); });
+  line.whole("--seed", options.seed, {0, 4294967295.}, "N", "Seed of its own sequence");
 }
 
-void addOutput(CLI::App &app, Options &options)
+void addOutput(vpApp::CommandLine &line, Options &options)
 {
-  app.add_option("--out", options.out, "Folder for the result (default: out/track-pattern)")
-      ->option_text("DIR")
-      ->group("Output");
-  addChoice(app, "--overlay", OVERLAYS, options.overlay, "Pictures of what was found", "mp4", "Output");
-  app.add_option("--video-rate", options.videoRate, "Frames per second of the overlay video (default: 25)")
-      ->option_text("HZ")
-      ->group("Output");
-  app.add_flag("--display", options.display, "Show the overlay in a window; a click ends the run")->group("Output");
+  line.group("Output");
+  line.text("--out", options.out, "DIR", "Folder for the result");
+  line.choice("--overlay", options.overlay,
+              {{"none", OverlayKind::None}, {"png", OverlayKind::Png}, {"mp4", OverlayKind::Mp4}},
+              "Pictures of what was found");
+  line.number("--video-rate", options.videoRate, {1., 240.}, "HZ", "Frames per second of the overlay video");
+  line.flag("--display", options.display, "Show the overlay in a window; a click ends the run");
 }
 
-void addMethod(CLI::App &app, Options &options)
+void addMethod(vpApp::CommandLine &line, vpPatternOptions &tracker)
 {
-  const std::string group = "Method";
-  addChoice(app, "--method", METHODS, options.tracker.method,
-            "How a centre is measured; the others are baselines to compare with", "gauss-newton", group);
-  addChoice(app, "--threshold", THRESHOLDS, options.tracker.threshold, "How bright and dark are told apart", "otsu",
-            group);
-  addChoice(app, "--derivative", DERIVATIVES, options.tracker.derivative, "For the two thesis methods", "symmetric",
-            group);
-  addChoice(app, "--polarity", POLARITIES, options.tracker.polarity, "What is a cell", "automatic", group);
+  line.group("Method");
+  line.choice("--method", tracker.method,
+              {{"gauss-newton", vpPatternMethod::GaussNewton},
+               {"half-maximum", vpPatternMethod::HalfMaximumEdges},
+               {"thesis", vpPatternMethod::ThesisAlgorithm},
+               {"thesis-fixed", vpPatternMethod::ThesisAlgorithmFixed}},
+              "How a centre is measured; the others are baselines to compare with");
+  line.choice("--threshold", tracker.threshold,
+              {{"otsu", vpPatternThreshold::Otsu},
+               {"isodata", vpPatternThreshold::Isodata},
+               {"minimum-error", vpPatternThreshold::MinimumError}},
+              "Threshold between bright and dark");
+  line.choice("--derivative", tracker.derivative,
+              {{"symmetric", vpPatternDerivative::Symmetric},
+               {"roberts", vpPatternDerivative::Roberts},
+               {"prewitt", vpPatternDerivative::Prewitt},
+               {"sobel", vpPatternDerivative::Sobel}},
+              "Derivative filter of the two thesis methods");
+  line.choice("--polarity", tracker.polarity,
+              {{"automatic", vpPatternPolarity::Automatic},
+               {"bright", vpPatternPolarity::Bright},
+               {"dark", vpPatternPolarity::Dark}},
+              "What is a cell");
 }
 
-void addScale(CLI::App &app, Options &options, std::vector<double> &pitch, double &sigma, double &axes)
+void addScale(vpApp::CommandLine &line, Options &options)
 {
-  const std::string group = "Micrometres";
-  app.add_option("--calibration", options.calibration,
-                 "Results also in um, by this file: .json of --calibrate, or .xml "
-                 "of ViSP")
-      ->option_text("FILE")
-      ->group(group);
-  app.add_option("--camera-name", options.cameraName, "Of the camera in that .xml file (default: microscope)")
-      ->option_text("NAME")
-      ->group(group);
-  app.add_flag("--calibrate", options.calibrate, "Write calibration.json and .xml; the product is the ruler")
-      ->group(group);
-  app.add_flag("--dot-grid", options.dotGrid, "For --calibrate: each image shows a grid of dots, at rest or not")
-      ->group(group);
-  app.add_option("--pitch-um", pitch, "For --calibrate: from column to column, and from row to row")
-      ->expected(2)
-      ->option_text("X Y")
-      ->group(group);
-  app.add_option(
-         "--axes-deg", axes,
-         "For --calibrate: from the columns' direction to the rows' (as found: 60 when the grid is hexagonal and "
-         "both pitches are the same, otherwise 90)")
-      ->option_text("A")
-      ->group(group);
-  app.add_option("--pitch-sigma-um", sigma,
-                 "For --calibrate: standard deviation of a cell's place on the product (default: 0)")
-      ->option_text("S")
-      ->group(group);
+  line.group("Micrometres");
+  line.text("--calibration", options.calibration, "FILE",
+            "Results also in um, by this file: .json of --calibrate, or .xml of ViSP");
+  line.text("--camera-name", options.cameraName, "NAME", "Name of the camera in that .xml file");
+  line.flag("--calibrate", options.calibrate, "Write calibration.json and .xml; the product is the ruler");
+  line.flag("--dot-grid", options.dotGrid, "For --calibrate: each image shows a grid of dots, at rest or not");
+  line.add(
+      "--pitch-um", "X Y", "For --calibrate: from column to column, and from row to row", "",
+      [&pitch = options.pitch](const auto &values) {
+        pitch.columns = 1e-6 * vpApp::numberIn("--pitch-um", values[0], {0., 1e9, true});
+        pitch.rows = 1e-6 * vpApp::numberIn("--pitch-um", values[1], {0., 1e9, true});
+      },
+      2);
+  line.add(
+      "--axes-deg", "A",
+      "For --calibrate: from the columns' direction to the rows' (default: as found: 60 when the grid is hexagonal "
+      "and both pitches are the same, otherwise 90)",
+      "", [&pitch = options.pitch](const auto &values) {
+        pitch.angle = vpMath::rad(vpApp::numberIn("--axes-deg", values[0], {30., 150.}));
+      });
+  line.add("--pitch-sigma-um", "S", "For --calibrate: standard deviation of a cell's place on the product", "0",
+           [&pitch = options.pitch](const auto &values) {
+             pitch.sigmaPlane = 1e-6 * vpApp::numberIn("--pitch-sigma-um", values[0], {0., 1e9});
+           });
 }
 
-void checkScale(Options &options, const std::vector<double> &pitch, double sigma, double axes)
+void checkScale(const vpApp::CommandLine &line, const Options &options)
 {
-  if (!options.calibrate && (options.dotGrid || !pitch.empty() || sigma != 0. || !std::isnan(axes))) {
-    throw vpApp::UsageError("--dot-grid, --pitch-um, --axes-deg and --pitch-sigma-um belong to --calibrate");
+  for (const char *name : {"--dot-grid", "--pitch-um", "--axes-deg", "--pitch-sigma-um"}) {
+    if (!options.calibrate && line.isGiven(name)) {
+      throw vpApp::UsageError(std::string(name) + " is given without --calibrate, which it belongs to");
+    }
   }
   if (options.calibrate && !options.calibration.empty()) {
     throw vpApp::UsageError("--calibrate makes a calibration and --calibration uses one: not both in one run");
   }
-  if (options.calibrate) {
-    if (pitch.size() != 2) {
-      throw vpApp::UsageError("--calibrate needs --pitch-um X Y, the distances of columns and of rows");
-    }
-    for (const double value : pitch) {
-      if (!(value > 0. && value < 1e9)) {
-        throw vpApp::UsageError("--pitch-um is " + std::to_string(value) + " um, must be > 0");
-      }
-    }
-    if (!(sigma >= 0. && sigma < 1e9)) {
-      throw vpApp::UsageError("--pitch-sigma-um is " + std::to_string(sigma) + " um, must be >= 0");
-    }
-    if (!std::isnan(axes) && !(axes >= 30. && axes <= 150.)) {
-      throw vpApp::UsageError("--axes-deg is " + std::to_string(axes) + ", must be 30..150");
-    }
-    options.pitch.angle = vpMath::rad(axes);
-    options.pitch.columns = 1e-6 * pitch[0];
-    options.pitch.rows = 1e-6 * pitch[1];
-    options.pitch.sigmaPlane = 1e-6 * sigma;
+  if (options.calibrate && !line.isGiven("--pitch-um")) {
+    throw vpApp::UsageError("--calibrate needs --pitch-um X Y, the distances of columns and of rows");
   }
 }
 
@@ -244,29 +189,15 @@ void findCamera(Options &options)
 
 bool readOptions(int argc, const char *const *argv, Options &options)
 {
-  CLI::App app(ABOUT, "visp-track-pattern");
-  app.get_formatter()->column_width(NAME_COLUMN);
-  app.footer(EXAMPLES);
-  std::string roi;
-  std::vector<double> pitch;
-  double sigma = 0., axes = std::numeric_limits<double>::quiet_NaN(); // NaN: as detected
-  addInput(app, options, roi);
-  addOutput(app, options);
-  addMethod(app, options);
-  addScale(app, options, pitch, sigma, axes);
-  if (!vpApp::parseCommandLine(app, argc, argv)) {
+  vpApp::CommandLine line("visp-track-pattern", ABOUT, EXAMPLES);
+  addInput(line, options);
+  addOutput(line, options);
+  addMethod(line, options.tracker);
+  addScale(line, options);
+  if (!line.parse(argc, argv)) {
     return false;
   }
-  if (app.count("--frames") > 0 && (options.frames < 1 || options.frames > 10000000)) {
-    throw vpApp::UsageError("--frames is " + std::to_string(options.frames) + ", must be 1..10000000");
-  }
-  if (app.count("--roi") > 0) {
-    options.roi = roiOf(roi);
-  }
-  if (!(options.videoRate >= 1. && options.videoRate <= 240.)) {
-    throw vpApp::UsageError("--video-rate is " + std::to_string(options.videoRate) + ", must be 1..240");
-  }
-  checkScale(options, pitch, sigma, axes);
+  checkScale(line, options);
   findCamera(options);
   return true;
 }

@@ -93,7 +93,7 @@ void addTruthTable(const RunResults &results, vpApp::HtmlReport &page)
                           {"number"},
                           {"mean (px)"},
                           {"sigma (px)"},
-                          {"error / told sigma"},
+                          {"error / reported sigma"},
                           {"number"},
                           {"sigma (px)"},
                           {"2 px off"},
@@ -120,8 +120,8 @@ void addTruthTable(const RunResults &results, vpApp::HtmlReport &page)
   row("Acquiring", results.acquiring);
   row("Tracking", results.tracking);
   page.table(table,
-             "Found against true. The errors over the standard deviations that the tracker told are 1 (rms) when "
-             "it tells them rightly. Wrong: centres more than 2 px off, which are not in the other figures; cells "
+             "Found against true. The errors over the standard deviations that the tracker reports are 1 (rms) when "
+             "these are right. Wrong: centres more than 2 px off, which are not in the other figures; cells "
              "where there is none; cells that had another row and column before.");
 }
 

@@ -197,7 +197,7 @@ TEST_CASE("who loses the view with much friction", "[comparison]")
   }
 }
 
-TEST_CASE("who loses the view hangs on the size of the object, the rest does not", "[comparison]")
+TEST_CASE("which law loses the view depends on the size of the object, the rest does not", "[comparison]")
 {
   // 0.18 m was chosen because with it the losses are near the prototype's. With 0.16 m nearly all of them vanish.
   std::printf("Out of view on plant D with an object of 0.16 / 0.18 m:\n");

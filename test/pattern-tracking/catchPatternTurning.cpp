@@ -325,7 +325,7 @@ TEST_CASE("cells that leave their place unseen while the product turns are looke
   CHECK(o.rmsX() < 0.015);
 }
 
-TEST_CASE("a jump by less than half a pitch is seen through, or told by a new epoch", "[pattern][turning]")
+TEST_CASE("a jump by less than half a pitch is recognised, or reported by a new epoch", "[pattern][turning]")
 {
   CAPTURE(vpTestSupport::seed());
   const auto jump = GENERATE(std::make_pair(0.38, -0.2), std::make_pair(-0.35, 0.1), std::make_pair(0.25, 0.25),

@@ -158,7 +158,7 @@ TEST_CASE("errors of three textures are near the bound of the image, and as larg
   }
 }
 
-TEST_CASE("the covariance holds with blurs of 0.3 to 1.5 px that nobody told", "[planar_target]")
+TEST_CASE("the covariance holds with blurs of 0.3 to 1.5 px that are unknown", "[planar_target]")
 {
   CAPTURE(vpTestSupport::seed());
   for (const Photo &photo : photos()) {

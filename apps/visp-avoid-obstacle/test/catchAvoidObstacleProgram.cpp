@@ -89,7 +89,7 @@ TEST_CASE("A wrong command line ends with status 2", "[visp-avoid-obstacle]")
       {"--noise 101", "--noise is 101, must be a number >= 0 and <= 100"},
       {"--friction many", "--friction is many, must be a number"},
       {"--forget -2", "--forget is -2, must be a number"},
-      {"--seed 0", "--seed is 0, must be a number >= 1"},
+      {"--seed 0", "--seed is 0, must be a whole number from 1 to 1000000"},
       {"--seed 1.5", "--seed is 1.5, must be a whole number"},
       {"--scene ''", "--scene is given without a value"}};
   for (const auto &[arguments, sentence] : cases) {

@@ -46,6 +46,6 @@ std::string textOf(const Design &design)
   return vpApp::fixed(design.frameRate, 0) + " Hz, " + std::to_string(design.width) + " x " +
          std::to_string(design.height) + " px, " + number(design.pixelSize, 3) + " um/px, " +
          number(design.exposure, 3) + " us, " + nameOf(design.controller) + ", " + number(design.dropVelocity, 4) +
-         " mm/s at the centres and " + number(design.dropVelocity * design.speedUp, 4) + " in the mean";
+         " mm/s at the centres and " + number(design.dropVelocity * design.speedUp, 4) + " on average";
 }
 } // namespace printExplore

@@ -193,14 +193,14 @@ TEST_CASE("Wrong command lines are told in a sentence", "[visp-print-pattern]")
 {
   ProgramRun run(PRINT_PATTERN);
   const std::vector<std::pair<std::string, std::string>> wrong = {
-      {"--controller lqr", "--controller is lqr, must be one of observer, pid and pid-ff"},
-      {"--sensor eye", "--sensor is eye, must be one of image, thesis and tracker"},
-      {"--reference best", "--reference is best, must be one of arrival, centres, constant and limited"},
-      {"--trigger later", "--trigger is later, must be one of horizon and thesis"},
-      {"--axis z", "--axis is z, must be one of x and xy"},
+      {"--controller lqr", "--controller is lqr, must be observer, pid or pid-ff"},
+      {"--sensor eye", "--sensor is eye, must be image, tracker or thesis"},
+      {"--reference best", "--reference is best, must be centres, arrival, limited or constant"},
+      {"--trigger later", "--trigger is later, must be horizon or thesis"},
+      {"--axis z", "--axis is z, must be x or xy"},
       {"--rows 3", "--rows is 3, more than one row needs --axis xy"},
-      {"--runs 0", "--runs is 0, must be 1..10000"},
-      {"--cells 0", "cellsPerRow"},
+      {"--runs 0", "--runs is 0, must be a whole number from 1 to 10000"},
+      {"--cells 0", "--cells is 0, must be a whole number from 1 to 10000"},
       {"--flex 30", "flex"},
       {"--filter 0.5 4", "beta"},
       {"--dropped 0.9", "dropped"},

@@ -252,7 +252,7 @@ TEST_CASE("A hexagonal grid is calibrated as one, and never as a square one", "[
   CHECK(run("hexagonal.png --calibrate --dot-grid --pitch-um 24 24 --axes-deg 60 --overlay none --out same") == OK);
   CHECK(run("hexagonal.png --calibrate --dot-grid --pitch-um 24 24 --axes-deg 90 --overlay none --out square") == DATA);
   CHECK(run.err().find("--calibrate: the points do not fit, no calibration is written. ") != std::string::npos);
-  CHECK(run.err().find("the cells are on another lattice than told") != std::string::npos);
+  CHECK(run.err().find("the cells are on another lattice than specified") != std::string::npos);
   CHECK_FALSE(std::filesystem::exists(run.path("square/calibration.json")));
   CHECK(run("hexagonal.png --calibrate --dot-grid --pitch-um 24 24 --axes-deg 9 --out square") == USAGE);
 }
@@ -437,23 +437,23 @@ TEST_CASE("Bad use ends with a sentence and nothing written", "[visp-track-patte
   };
   const std::vector<Case> cases = {
       {"--nonsense", USAGE, "--nonsense"},
-      {"--frames 0", USAGE, "--frames is 0, must be 1..10000000"},
+      {"--frames 0", USAGE, "--frames is 0, must be a whole number from 1 to 10000000"},
       {"--frames few", USAGE, "--frames"},
       {"--roi 1,2,3", USAGE, "--roi is 1,2,3, must be X,Y,WIDTH,HEIGHT in whole pixels, at least 16 x 16"},
       {"--roi 0,0,8,8", USAGE, "--roi is 0,0,8,8"},
       {"--roi ' 0,0,20,20'", USAGE, "--roi is 0,0,20,20, must be"},
       {"--roi -1,0,20,20", USAGE, "--roi"},
       {"--method best", USAGE, "--method is best, must be gauss-newton, half-maximum, thesis or thesis-fixed"},
-      {"--threshold 128", USAGE, "--threshold is 128, must be isodata, minimum-error or otsu"},
-      {"--derivative scharr", USAGE, "--derivative is scharr, must be prewitt, roberts, sobel or symmetric"},
+      {"--threshold 128", USAGE, "--threshold is 128, must be otsu, isodata or minimum-error"},
+      {"--derivative scharr", USAGE, "--derivative is scharr, must be symmetric, roberts, prewitt or sobel"},
       {"--polarity grey", USAGE, "--polarity is grey, must be automatic, bright or dark"},
-      {"--overlay gif", USAGE, "--overlay is gif, must be mp4, none or png"},
+      {"--overlay gif", USAGE, "--overlay is gif, must be none, png or mp4"},
       {"--video-rate 0", USAGE, "--video-rate is 0"},
       {"--out ''", USAGE, "--out"},
       {"--calibrate", USAGE, "--calibrate needs --pitch-um X Y"},
-      {"--calibrate --pitch-um 220 -80", USAGE, "--pitch-um is -80.000000 um, must be > 0"},
-      {"--calibrate --pitch-um 220 80 --pitch-sigma-um -1", USAGE, "--pitch-sigma-um is -1.000000 um, must be >= 0"},
-      {"--pitch-um 220 80", USAGE, "--dot-grid, --pitch-um, --axes-deg and --pitch-sigma-um belong"},
+      {"--calibrate --pitch-um 220 -80", USAGE, "--pitch-um is -80, must be a number > 0"},
+      {"--calibrate --pitch-um 220 80 --pitch-sigma-um -1", USAGE, "--pitch-sigma-um is -1, must be a number >= 0"},
+      {"--pitch-um 220 80", USAGE, "--pitch-um is given without --calibrate"},
       {"--calibrate --pitch-um 1 1 --calibration x.json", USAGE, "not both in one run"},
       {"--camera 0 good.png", USAGE, "--camera and the input good.png are both given"},
       {"--camera front", USAGE, "--camera is front, must be a number or /dev/videoN"},

@@ -58,7 +58,7 @@ void checkObject(const std::string &source, const vpCollisionObject &object)
     fail(source, "pose of object " + object.name + " is not a rotation and a finite translation");
   }
   if (!vpIsPlace(object.pose)) {
-    fail(source, "object " + object.name + " stands " + text(object.pose.p.cwiseAbs().maxCoeff()) +
+    fail(source, "object " + object.name + " is " + text(object.pose.p.cwiseAbs().maxCoeff()) +
                      " m away, must be within " + text(vpLargestLength) + " m");
   }
   if (!isPlausible(object.velocity)) {

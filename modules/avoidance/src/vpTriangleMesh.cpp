@@ -76,11 +76,11 @@ void judge(vpTriangleMeshData &data)
   data.watertight = topology.openEdges == 0 && topology.otherEdges == 0;
   if (topology.openEdges > 0) {
     data.sentence = data.label + ": the surface has holes (" + std::to_string(topology.openEdges) +
-                    " edges with one triangle), it counts as a sheet without inside";
+                    " edges with one triangle), it is a surface without an inside";
   }
   else if (topology.otherEdges > 0) {
     data.sentence = data.label + ": " + std::to_string(topology.otherEdges) +
-                    " edges have more than two triangles or no two sides, it counts as a sheet without inside";
+                    " edges have more than two triangles or no two sides, it is a surface without an inside";
   }
 }
 

@@ -111,8 +111,8 @@ TEST_CASE("Meshes from files", "[files]")
                               "endloop\nendfacet\nendsolid\n");
   const vpTriangleMesh one = vpTriangleMesh::load(text.name());
   CHECK(one.triangles().size() == 1);
-  CHECK(one.sentence() == text.name() + ": the surface has holes (3 edges with one triangle), it counts as a sheet "
-                                        "without inside");
+  CHECK(one.sentence() == text.name() + ": the surface has holes (3 edges with one triangle), it is a surface without "
+                                        "an inside");
 }
 
 TEST_CASE("A closed mesh is a solid, however its file repeats corners and turns triangles", "[files]")
@@ -210,7 +210,7 @@ TEST_CASE("A mesh that stays open is refused as a solid, by name, unless a surfa
   const vpTriangleMesh mesh = vpTriangleMesh::load(obj.name());
   CHECK_FALSE(mesh.isWatertight());
   CHECK_THROWS_WITH(vpCollisionShape::mesh(mesh),
-                    obj.name() + ": the surface has holes (4 edges with one triangle), it counts as a sheet without "
+                    obj.name() + ": the surface has holes (4 edges with one triangle), it is a surface without an "
                                  "inside; close it, or say that a surface is enough (\"surface\": true in a scene, "
                                  "vpMeshUse::Surface)");
   CHECK(vpCollisionShape::mesh(mesh, vpMeshUse::Surface).type() == vpShapeType::Mesh);

@@ -156,7 +156,7 @@ TEST_CASE("Meshes: every triangle by search, and the sign by the winding number"
   const vpTriangleMesh sheet(solid.vertices(), sheetTriangles, "torn");
   CHECK_FALSE(sheet.isWatertight());
   CHECK(sheet.sentence() ==
-        "torn: the surface has holes (3 edges with one triangle), it counts as a sheet without inside");
+        "torn: the surface has holes (3 edges with one triangle), it is a surface without an inside");
   auto turnedTriangles = solid.triangles();
   std::swap(turnedTriangles[0][0], turnedTriangles[0][1]);
   const vpTriangleMesh turned(solid.vertices(), turnedTriangles, "turned");

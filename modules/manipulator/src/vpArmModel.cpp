@@ -106,7 +106,7 @@ void checkJoint(const vpArmSpec &spec, const vpArmJointSpec &joint, std::set<std
     fail(spec, "a joint has no name");
   }
   if (!names.insert(joint.name).second) {
-    fail(spec, "joint " + joint.name + " stands twice");
+    fail(spec, "duplicate joint name " + joint.name);
   }
   const std::string of = " of joint " + joint.name;
   rigid(spec, "frame before" + of, joint.before);

@@ -161,7 +161,7 @@ TEST_CASE("Errors in JSON name the file and the field", "[files]")
   CHECK(jsonError("\"lower_deg\": -15, ", "") == file + "joints[1].lower_deg is missing");
   CHECK(jsonError("\"velocity\": 1.5", "\"velocity\": -1.5") ==
         file + "velocity limit of joint q1 is -1.5, must be > 0");
-  CHECK(jsonError("\"name\": \"q2\"", "\"name\": \"q1\"") == file + "joint q1 stands twice");
+  CHECK(jsonError("\"name\": \"q2\"", "\"name\": \"q1\"") == file + "duplicate joint name q1");
   CHECK(jsonError("\"link\": 3", "\"link\": 9") == file + "a capsule belongs to link 9, must be 0 to 7");
   CHECK(jsonError("[0, 0, 0.1755]", "[0, 0.1755]") ==
         file + "tool.translation_m is [0,0.1755], must be a list of 3 numbers");

@@ -87,7 +87,7 @@ std::string vpMicroscopeMessage(const vpMicroscopeCalibrationResult &result, con
   if (result.looksTiltedTooFar) {
     text += sentence(
         " The product looks as if tilted by %.3g degrees: it is, or a pitch is wrong, or the cells are on another "
-        "lattice than told.",
+        "lattice than specified.",
         vpMath::deg(decision.looksTilted));
   }
   return text + " " + result.fit.message(result.varianceFactor);

@@ -18,7 +18,7 @@ const char *vpPatternFrame::message() const
   case vpPatternReason::WrongSize:
     return "Lost: the image has not the size that the tracker was made for.";
   case vpPatternReason::NoContrast:
-    return "No lock: the image has no contrast, or not the two grey levels that cells are told from.";
+    return "No lock: the image has no contrast, or not two grey levels that separate cells from their surroundings.";
   case vpPatternReason::NoCells:
     return "No lock: there are no spots of equal size.";
   case vpPatternReason::TooMuchNoise:

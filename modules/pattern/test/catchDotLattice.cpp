@@ -91,7 +91,7 @@ TEST_CASE("random spots are no lattice", "[lattice]")
   CHECK_THROWS_WITH(vpFindDotLattice(vpImage<unsigned char>(15, 100)), Catch::Contains("the image has 100 x 15 px"));
 }
 
-TEST_CASE("dots of a grid of any kind calibrate a microscope, and one of another kind than told is refused",
+TEST_CASE("dots of a grid of any kind calibrate a microscope, and one of another kind than specified is refused",
           "[lattice][calibration]")
 {
   auto rng = vpTestSupport::generator(830);
@@ -124,7 +124,7 @@ TEST_CASE("dots of a grid of any kind calibrate a microscope, and one of another
       CAPTURE(result.message);
       CHECK_FALSE(result.reliable);
       CHECK(result.message.find("The product looks as if tilted by 5") != std::string::npos);
-      CHECK(result.message.find("the cells are on another lattice than told") != std::string::npos);
+      CHECK(result.message.find("the cells are on another lattice than specified") != std::string::npos);
       pitch.angle = M_PI / 3.;
       CHECK(calibrate().calibration.scaleX == Approx(scale).epsilon(3e-3));
     }
