@@ -37,15 +37,19 @@ void printList()
   std::cout << "  S5: " << selfMotionSentence() << "\n";
 }
 
-void compare(const Options &options, const std::string &commandLine)
+void compare(const Options &options, const std::string &commandLine, const vpApp::Ranks &ranks)
 {
   const auto start = std::chrono::steady_clock::now();
   const std::string startedAt = timeText();
   const Plan plan = makePlan(options);
+  if (!ranks.isFirst()) {
+    static_cast<void>(runAll(plan, ranks, options.jobs));
+    return;
+  }
   vpApp::requireGnuplot();
   vpApp::OutputFolder out("visp-plan-compare", options.out);
 
-  const Results results = runAll(plan, options.jobs);
+  const Results results = runAll(plan, ranks, options.jobs);
   Extras extras;
   extras.validators = compareValidators(plan);
   extras.selfMotion = runSelfMotion(plan);
@@ -57,7 +61,7 @@ void compare(const Options &options, const std::string &commandLine)
   for (const SceneInfo &scene : plan.scenes) {
     out.write("arena/" + vpApp::fileName(scene.id) + ".log", arenaLog(plan, results, scene, startedAt));
   }
-  const std::vector<Figure> figures = drawFigures(plan, results, extras.selfMotion, options.jobs);
+  const std::vector<Figure> figures = drawFigures(plan, results, extras.selfMotion, ranks.threads(options.jobs));
   for (const Figure &figure : figures) {
     if (!figure.svg.empty()) {
       out.write("figure/" + figure.name + ".svg", figure.svg);
@@ -74,16 +78,16 @@ void compare(const Options &options, const std::string &commandLine)
 
 int main(int argc, char **argv)
 {
-  return vpApp::runMain("visp-plan-compare", [&]() -> int {
+  return vpApp::runRanks("visp-plan-compare", [&](const vpApp::Ranks &ranks) {
     Options options;
-    if (!readOptions(argc, argv, options)) {
-      return vpApp::ExitOk;
+    if (!vpApp::readOnFirst(ranks, [&] { return readOptions(argc, argv, options); })) {
+      return;
     }
-    if (options.list) {
+    if (!options.list) {
+      compare(options, vpApp::commandLine("visp-plan-compare", argc, argv), ranks);
+    }
+    else if (ranks.isFirst()) {
       printList();
-      return vpApp::ExitOk;
     }
-    compare(options, vpApp::commandLine("visp-plan-compare", argc, argv));
-    return vpApp::ExitOk;
   });
 }

@@ -6,7 +6,6 @@
 
 #include "appMain.h"
 #include "commandLine.h"
-#include "jobs.h"
 
 namespace planCompare
 {
@@ -32,6 +31,8 @@ Examples:
       two methods among obstacles that move
   visp-plan-compare --scene my-scene.json --seeds 10
       your own scene: data/scene/README.md has the fields
+  mpirun -n 8 visp-plan-compare --scene S2,S3 --seeds 1000
+      on 8 processes, on a cluster too, with the same result
 
 Exit status: 0 done, 1 the data do not allow it, 2 the command line is wrong. Nothing is written unless all succeeded.)";
 } // namespace
@@ -39,7 +40,6 @@ Exit status: 0 done, 1 the data do not allow it, 2 the command line is wrong. No
 bool readOptions(int argc, const char *const *argv, Options &options)
 {
   vpApp::CommandLine line("visp-plan-compare", ABOUT, EXAMPLES);
-  options.jobs = vpApp::coreCount();
   line.list("--scene", options.scenes, "SCENE,...", "Scenes to run, S1 to S7 or files (default: all)");
   line.list("--method", options.methods, "NAME,...", "Methods to compare (default: all)");
   line.whole("--seeds", options.seeds, {1, 100000}, "N", "Seeds of each scene (default: 5 to 200, see --list)");

@@ -24,7 +24,7 @@ struct Options {
   std::string arm;      //!< JSON file; empty for AMOR.
   double friction = 0.; //!< Joint friction relative to the arm's file; 0: ideal drives.
   std::string out = "out/plan-compare";
-  unsigned int jobs = 1;
+  unsigned int jobs = 0; //!< Runs at a time; 0: one for each core.
   bool list = false;
 };
 

@@ -5,8 +5,7 @@
 #include "results.h"
 
 #include "appMain.h"
-#include "jobs.h"
-#include "progress.h"
+#include "sweep.h"
 
 #include <algorithm>
 #include <chrono>
@@ -123,12 +122,11 @@ Pairing pairUp(const Results &results, const std::string &scene, const std::stri
   return pairing;
 }
 
-Results runAll(const Plan &plan, unsigned int jobs)
+Results runAll(const Plan &plan, const vpApp::Ranks &ranks, unsigned int jobs)
 {
   const auto start = std::chrono::steady_clock::now();
   Results results;
   const std::size_t methods = plan.methods.size();
-  results.records.resize(plan.problems.size() * methods);
   std::vector<std::size_t> slots; // slots of the shown problems
   for (std::size_t i = 0; i < plan.problems.size(); ++i) {
     slots.push_back(results.shownScenes.size());
@@ -138,25 +136,31 @@ Results runAll(const Plan &plan, unsigned int jobs)
   }
   results.shown.resize(results.shownScenes.size());
 
-  vpApp::Progress progress("running " + std::to_string(results.records.size()) + " motions",
-                           static_cast<double>(std::max<std::size_t>(1, results.records.size())));
-  vpApp::runJobs(plan.problems.size(), jobs, [&](std::size_t i) {
+  vpApp::Sweep sweep;
+  sweep.title = "running " + std::to_string(plan.problems.size() * methods) + " motions";
+  sweep.count = plan.problems.size();
+  sweep.onFirst = [&plan](std::size_t i) { return plan.problems[i].shown; };
+  const auto solve = [&](std::size_t i, const std::function<void(double)> &done) {
     const Problem &problem = plan.problems[i];
     const vpAvoidanceScenario scenario = problem.make();
+    std::vector<Record> records;
     for (std::size_t m = 0; m < methods; ++m) {
       vpAvoidanceRunSpec spec = scenario.run;
       spec.method = plan.methods[m];
       vpAvoidanceRun run = runAvoidanceExperiment(spec, [](double) { return !vpApp::interrupted(); });
       vpApp::throwIfInterrupted();
-      Record &record = results.records[i * methods + m];
-      record = {problem.scene, problem.variant, plan.methods[m], problem.seed,
-                run.startTime, run.lookTimes,   run.metrics};
+      records.push_back(
+          {problem.scene, problem.variant, plan.methods[m], problem.seed, run.startTime, run.lookTimes, run.metrics});
       if (problem.shown) {
         results.shown[slots[i] + m] = std::move(run);
       }
-      progress.add(1.);
+      done(static_cast<double>(m + 1) / static_cast<double>(methods));
     }
-  });
+    return records;
+  };
+  for (std::vector<Record> &records : vpApp::runSweep<std::vector<Record>>(ranks, sweep, jobs, solve)) {
+    std::move(records.begin(), records.end(), std::back_inserter(results.records));
+  }
   results.wallTime = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return results;
 }

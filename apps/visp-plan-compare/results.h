@@ -10,6 +10,7 @@
 #define planCompare_results_h
 
 #include "plan.h"
+#include "ranks.h"
 #include "statistics.h"
 
 #include "lab/avoidance/vpAvoidanceExperiment.h"
@@ -28,6 +29,16 @@ struct Record {
   std::vector<double> lookTimes; //!< Wall times of vpAvoidanceMethod::look(), s.
   vpAvoidanceMetrics metrics;
 };
+//! See archive.h.
+template <class Archive> void exchange(Archive &archive, Record &record)
+{
+  vpAvoidanceMetrics &m = record.metrics;
+  archive(record.scene, record.variant, record.method, record.seed, record.planTime, record.lookTimes, m.success,
+          m.min_clearance_m, m.goal_error_m, m.duration_s, m.peak_v, m.peak_a, m.peak_jerk, m.jerk_integral,
+          m.path_length, m.replan_ms_p50, m.replan_ms_p95, m.replan_ms_p99, m.stops, m.false_stops, m.collisions_moving,
+          m.collisions_standing, m.joint_v_violations, m.joint_a_violations, m.tool_v_violations, m.tool_a_violations,
+          m.status);
+}
 
 //! A field of vpAvoidanceMetrics.
 using Metric = double vpAvoidanceMetrics::*;
@@ -77,9 +88,10 @@ struct Pairing {
 
 /*!
  * Run everything, with a progress bar.
- * \param jobs : Problems run in parallel.
+ * \param jobs : Problems run in parallel on each rank; 0: its share of the cores.
+ * \return All of them on rank 0.
  */
-[[nodiscard]] Results runAll(const Plan &plan, unsigned int jobs);
+[[nodiscard]] Results runAll(const Plan &plan, const vpApp::Ranks &ranks, unsigned int jobs);
 } // namespace planCompare
 
 #endif

@@ -4,7 +4,7 @@
  */
 // visp-print-pattern: prints drops on a moving, flexible product, in a closed loop with the camera.
 #include "explore/explorationProgram.h"
-#include "explore/ranks.h"
+#include "ranks.h"
 #include "options.h"
 #include "pictures.h"
 #include "reportPage.h"
@@ -65,10 +65,10 @@ void print(const Options &options, const std::string &commandLine)
 
 int main(int argc, char **argv)
 {
-  return printExplore::runRanks("visp-print-pattern", [&](const printExplore::Ranks &ranks) {
+  return vpApp::runRanks("visp-print-pattern", [&](const vpApp::Ranks &ranks) {
     Options options;
     const std::string command = vpApp::commandLine("visp-print-pattern", argc, argv);
-    if (!printExplore::readOnFirst(ranks, [&] { return readOptions(argc, argv, options); })) {
+    if (!vpApp::readOnFirst(ranks, [&] { return readOptions(argc, argv, options); })) {
       return;
     }
     if (options.explore.empty()) {

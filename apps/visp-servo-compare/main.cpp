@@ -20,7 +20,10 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include <chrono>
+#include <filesystem>
 #include <iostream>
+
+#include <unistd.h>
 
 namespace
 {
@@ -49,10 +52,23 @@ std::string writeTarget(const Target &target, vpApp::OutputFolder &out)
   return file;
 }
 
-void compare(const Options &options, const std::string &commandLine)
+//! The share of a rank that does not write: its folder is gone with it.
+void help(const Plan &plan, unsigned int jobs, const vpApp::Ranks &ranks)
+{
+  const auto name = "visp-servo-compare-" + std::to_string(ranks.rank()) + "-" + std::to_string(getpid());
+  vpApp::OutputFolder out("visp-servo-compare", (std::filesystem::temp_directory_path() / name).string());
+  static_cast<void>(runAll(plan, writeTarget(plan.target, out), ranks, jobs, [](const vpServoRun &) {}));
+}
+
+void compare(const Options &options, const std::string &commandLine, const vpApp::Ranks &ranks)
 {
   const auto start = std::chrono::steady_clock::now();
   const Plan plan = makePlan(options);
+  if (!ranks.isFirst()) {
+    help(plan, options.jobs, ranks);
+    return;
+  }
+  const unsigned int threads = ranks.threads(options.jobs);
   vpApp::requireGnuplot();
   std::unique_ptr<vpApp::PictureWindow> window;
   if (options.display) {
@@ -60,11 +76,11 @@ void compare(const Options &options, const std::string &commandLine)
   }
   vpApp::OutputFolder out("visp-servo-compare", options.out);
 
-  const Results results = runAll(plan, writeTarget(plan.target, out), options.jobs,
+  const Results results = runAll(plan, writeTarget(plan.target, out), ranks, options.jobs,
                                  [&](const vpServoRun &run) { out.write(logName(run.spec), csvOf(run)); });
   ReportParts parts;
-  parts.videos = writeVideos(plan, results, out, options.jobs, window.get());
-  parts.figures = drawFigures(plan, results, options.jobs);
+  parts.videos = writeVideos(plan, results, out, threads, window.get());
+  parts.figures = drawFigures(plan, results, threads);
   parts.armFigures = drawArmFigures(plan, results);
   for (const Figure &figure : parts.armFigures) {
     out.write("figure/" + figure.name + ".svg", figure.svg);
@@ -93,16 +109,16 @@ void compare(const Options &options, const std::string &commandLine)
 
 int main(int argc, char **argv)
 {
-  return vpApp::runMain("visp-servo-compare", [&]() -> int {
+  return vpApp::runRanks("visp-servo-compare", [&](const vpApp::Ranks &ranks) {
     Options options;
-    if (!readOptions(argc, argv, options)) {
-      return vpApp::ExitOk;
+    if (!vpApp::readOnFirst(ranks, [&] { return readOptions(argc, argv, options); })) {
+      return;
     }
-    if (options.list) {
+    if (!options.list) {
+      compare(options, vpApp::commandLine("visp-servo-compare", argc, argv), ranks);
+    }
+    else if (ranks.isFirst()) {
       printList();
-      return vpApp::ExitOk;
     }
-    compare(options, vpApp::commandLine("visp-servo-compare", argc, argv));
-    return vpApp::ExitOk;
   });
 }

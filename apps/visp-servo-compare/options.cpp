@@ -7,7 +7,6 @@
 #include "appMain.h"
 #include "commandLine.h"
 #include "format.h"
-#include "jobs.h"
 #include "scenario.h"
 
 namespace servoCompare
@@ -31,7 +30,7 @@ constexpr const char *EXAMPLES = R"(Examples:
   visp-servo-compare --target my-photo.jpg --measure image --law ff-lookat-pi --plant B
       with rendered views of your own photo, measured by the vision of visp-direct
   visp-servo-compare --monte-carlo 20 --measure points
-      20 seeds of every run; the report shows median and range
+      20 seeds of every run; the report shows median and range; also under mpirun
   visp-servo-compare --law pbvs1,ff-lookat-pi --plant A --shape
       what it takes to start without a step in velocity, and what that costs
   visp-servo-compare --robot amor --measure points
@@ -60,7 +59,6 @@ bool readOptions(int argc, const char *const *argv, Options &options)
 {
   vpApp::CommandLine line("visp-servo-compare", ABOUT, EXAMPLES);
   RobotOptions &robot = options.robot;
-  options.jobs = vpApp::coreCount();
   line.list("--law", options.laws, "LAW,...", "Laws to compare; append +cbf for the view filter (default: all)");
   line.list("--plant", options.plants, "NAME,...", "Robots to compare on (default: A,B,D, or those of the task file)");
   line.list("--measure", options.measures, "KIND,...",

@@ -38,7 +38,7 @@ struct Options {
   unsigned int seed = 1;             //!< The first seed.
   std::string out = "out/servo-compare";
   bool display = false;
-  unsigned int jobs = 1;
+  unsigned int jobs = 0; //!< Runs at a time; 0: one for each core.
   bool list = false;
   RobotOptions robot;
 };

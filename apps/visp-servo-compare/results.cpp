@@ -5,13 +5,31 @@
 #include "results.h"
 
 #include "appMain.h"
-#include "jobs.h"
-#include "progress.h"
+#include "sweep.h"
 
 #include <visp3/direct_core/vpQuantile.h>
 
 #include <algorithm>
-#include <numeric>
+
+// What ranks send, see archive.h: a run without its specification and samples.
+BEGIN_VISP_NAMESPACE
+template <class Archive> void exchange(Archive &archive, vpArmMetrics &m)
+{
+  std::vector<double> rms(m.joint_rms.data(), m.joint_rms.data() + m.joint_rms.size());
+  archive(rms, m.least_limit_margin, m.least_margin_joint, m.peak_velocity_share, m.peak_acceleration_share,
+          m.least_manipulability, m.self_motion_rad, m.limited_s, m.blocked_s, m.status);
+  m.joint_rms = Eigen::Map<const Eigen::VectorXd>(rms.data(), static_cast<Eigen::Index>(rms.size()));
+}
+template <class Archive> void exchange(Archive &archive, vpServoRun &run)
+{
+  vpServoMetrics &m = run.metrics;
+  archive(m.max_image_error_px, m.rms_image_error_px, m.end_rotation_deg, m.end_translation_mm,
+          m.expected_end_rotation_deg, m.expected_end_translation_mm, m.left_end_rotation_deg,
+          m.left_end_translation_mm, m.yaw_range_deg, m.ideal_yaw_range_deg, m.out_of_view_s, m.settle_s,
+          m.path_length_m, m.peak_linear_mps, m.peak_angular_radps, m.peak_linear_acceleration_mps2,
+          m.peak_angular_acceleration_radps2, m.deadlock_cycles, m.status, run.armMetrics);
+}
+END_VISP_NAMESPACE
 
 namespace servoCompare
 {
@@ -61,40 +79,38 @@ const vpServoRun *Results::find(const std::string &law, const std::string &plant
   return nullptr;
 }
 
-Results runAll(const Plan &plan, const std::string &targetFile, unsigned int jobs,
+Results runAll(const Plan &plan, const std::string &targetFile, const vpApp::Ranks &ranks, unsigned int jobs,
                const std::function<void(const vpServoRun &)> &finished)
 {
-  std::vector<std::size_t> order(plan.runs.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return costOf(plan.runs[a]) > costOf(plan.runs[b]); });
-  double total = 0.;
-  for (const vpServoRunSpec &spec : plan.runs) {
-    total += costOf(spec);
-  }
-
-  Results results(plan.runs.size());
-  vpApp::Progress progress("simulating " + std::to_string(plan.runs.size()) + " runs", total);
-  vpApp::runJobs(order.size(), jobs, [&](std::size_t i) {
-    vpServoRunSpec spec = plan.runs[order[i]];
+  vpApp::Sweep sweep;
+  sweep.title = "simulating " + std::to_string(plan.runs.size()) + " runs";
+  sweep.count = plan.runs.size();
+  sweep.effort = [&plan](std::size_t i) { return costOf(plan.runs[i]); };
+  sweep.onFirst = [&plan](std::size_t i) { return plan.runs[i].seed == plan.seed; };
+  const auto specOf = [&](std::size_t i) {
+    vpServoRunSpec spec = plan.runs[i];
     spec.target = targetFile;
-    double shown = 0.;
-    vpServoRun run = runServoExperiment(spec, [&](double share) {
-      progress.add((share - shown) * costOf(spec));
-      shown = share;
+    return spec;
+  };
+  const auto simulate = [&](std::size_t i, const std::function<void(double)> &done) {
+    vpServoRun run = runServoExperiment(specOf(i), [&](double share) {
+      done(share);
       return !vpApp::interrupted();
     });
     vpApp::throwIfInterrupted();
-    progress.add((1. - shown) * costOf(spec));
-    if (spec.seed == plan.seed) {
+    if (sweep.onFirst(i)) {
       finished(run);
     }
     else {
       run.samples = {};
       run.arm = {};
     }
-    results.set(order[i], std::move(run));
-  });
-  return results;
+    return run;
+  };
+  std::vector<vpServoRun> runs = vpApp::runSweep<vpServoRun>(ranks, sweep, jobs, simulate);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    runs[i].spec = specOf(i); // not sent between ranks
+  }
+  return Results(std::move(runs));
 }
 } // namespace servoCompare

@@ -10,6 +10,7 @@
 #define servoCompare_results_h
 
 #include "plan.h"
+#include "ranks.h"
 
 #include "lab/servo/vpServoExperiment.h"
 
@@ -35,9 +36,7 @@ enum class Command { Raw, Shaped };
 class Results
 {
 public:
-  explicit Results(std::size_t count) : m_runs(count) {}
-  //! Store run number \e index. Thread-safe for different indices.
-  void set(std::size_t index, vpServoRun run) { m_runs[index] = std::move(run); }
+  explicit Results(std::vector<vpServoRun> runs) : m_runs(std::move(runs)) {}
   [[nodiscard]] const std::vector<vpServoRun> &runs() const { return m_runs; }
 
   //! The run with the first seed, with its samples; nullptr if it was not requested.
@@ -58,12 +57,12 @@ private:
 /*!
  * Run everything, the slow runs first, with a progress bar.
  * \param plan : What to run. \param targetFile : The photo as an image file that ViSP reads.
- * \param jobs : Parallel runs.
+ * \param jobs : Parallel runs of each rank; 0: its share of the cores.
  * \param finished : Called with each finished run of the first seed, from several threads. The samples of all other
- * seeds are dropped to save memory.
+ * seeds are dropped to save memory; on several ranks, rank 0 makes those of the first seed.
  */
-[[nodiscard]] Results runAll(const Plan &plan, const std::string &targetFile, unsigned int jobs,
-                             const std::function<void(const vpServoRun &)> &finished);
+[[nodiscard]] Results runAll(const Plan &plan, const std::string &targetFile, const vpApp::Ranks &ranks,
+                             unsigned int jobs, const std::function<void(const vpServoRun &)> &finished);
 } // namespace servoCompare
 
 #endif

@@ -38,12 +38,16 @@ std::string suffixOf(const std::string &mime)
   return mime == "image/png" ? ".png" : mime == "image/jpeg" ? ".jpg" : ".svg";
 }
 
-void report(const Options &options, const std::string &commandLine)
+void report(const Options &options, const std::string &commandLine, const vpApp::Ranks &ranks)
 {
   const auto start = std::chrono::steady_clock::now();
   vpApp::requireGnuplot();
+  if (!ranks.isFirst()) {
+    static_cast<void>(playAll(options, ranks));
+    return;
+  }
   vpApp::OutputFolder out("visp-thesis-report", options.out);
-  const std::vector<Played> all = playAll(options);
+  const std::vector<Played> all = playAll(options, ranks);
   for (const Played &played : all) {
     for (const Item &item : played.items) {
       for (const Figure &figure : item.figures) {
@@ -69,16 +73,16 @@ void report(const Options &options, const std::string &commandLine)
 
 int main(int argc, char **argv)
 {
-  return vpApp::runMain("visp-thesis-report", [&]() -> int {
+  return vpApp::runRanks("visp-thesis-report", [&](const vpApp::Ranks &ranks) {
     Options options;
-    if (!readOptions(argc, argv, options)) {
-      return vpApp::ExitOk;
+    if (!vpApp::readOnFirst(ranks, [&] { return readOptions(argc, argv, options); })) {
+      return;
     }
-    if (options.list) {
+    if (!options.list) {
+      report(options, vpApp::commandLine("visp-thesis-report", argc, argv), ranks);
+    }
+    else if (ranks.isFirst()) {
       printList();
-      return vpApp::ExitOk;
     }
-    report(options, vpApp::commandLine("visp-thesis-report", argc, argv));
-    return vpApp::ExitOk;
   });
 }

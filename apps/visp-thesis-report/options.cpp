@@ -8,7 +8,6 @@
 
 #include "appMain.h"
 #include "commandLine.h"
-#include "jobs.h"
 #include "numberText.h"
 
 #include <algorithm>
@@ -30,6 +29,8 @@ constexpr const char *EXAMPLES = R"(Examples:
       two of them
   visp-thesis-report --only chapter7
       a chapter
+  mpirun -n 4 visp-thesis-report
+      on 4 processes, on a cluster too
   visp-thesis-report --list
       what can be asked for
 
@@ -62,7 +63,6 @@ bool readOptions(int argc, const char *const *argv, Options &options)
 {
   vpApp::CommandLine line("visp-thesis-report", ABOUT, EXAMPLES);
   std::vector<std::string> only;
-  options.jobs = vpApp::coreCount();
   line.list("--only", only, "ID,...", "Only these figures, tables and chapters (default: all)");
   line.text("--out", options.out, "DIR", "Result folder");
   line.whole("--jobs", options.jobs, {1, 256}, "N", "Parts at a time (default: one for each core)");

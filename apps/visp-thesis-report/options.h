@@ -18,7 +18,7 @@ namespace thesisReport
 struct Options {
   std::vector<std::string> only; //!< Requested ids; all of them by default.
   std::string out = "out/thesis-report";
-  unsigned int jobs = 1; //!< Parallel parts.
+  unsigned int jobs = 0; //!< Parts at a time; 0: one for each core.
   unsigned int seed = 1;
   bool list = false;
 };

@@ -32,6 +32,12 @@ public:
   //! In words: "within a factor 1.1".
   [[nodiscard]] std::string text() const;
 
+  //! See archive.h.
+  template <class Archive> friend void exchange(Archive &archive, Tolerance &tolerance)
+  {
+    archive(tolerance.m_kind, tolerance.m_size);
+  }
+
 private:
   enum class Kind { Factor, Distance, AtMost, AtLeast };
   Tolerance(Kind kind, double size) : m_kind(kind), m_size(size) {}

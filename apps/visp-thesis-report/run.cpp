@@ -5,15 +5,29 @@
 #include "run.h"
 
 #include "appMain.h"
-#include "jobs.h"
-#include "progress.h"
+#include "sweep.h"
 
 #include <algorithm>
 #include <chrono>
-#include <numeric>
 
 namespace thesisReport
 {
+// What ranks send, see archive.h.
+template <class Archive> void exchange(Archive &archive, Quantity &q)
+{
+  archive(q.name, q.unit, q.thesis, q.ours, q.tolerance, q.good, q.reason, q.note);
+}
+template <class Archive> void exchange(Archive &archive, Figure &figure)
+{
+  archive(figure.name, figure.title, figure.caption, figure.picture, figure.mime);
+}
+template <class Archive> void exchange(Archive &archive, DataFile &file) { archive(file.name, file.content); }
+template <class Archive> void exchange(Archive &archive, Item &item)
+{
+  archive(item.id, item.quantities, item.figures, item.data, item.parameters, item.remarks);
+}
+template <class Archive> void exchange(Archive &archive, Played &played) { archive(played.items, played.seconds); }
+
 namespace
 {
 double secondsSince(std::chrono::steady_clock::time_point start)
@@ -45,48 +59,46 @@ bool needed(const Part &part, const Setting &setting)
 }
 } // namespace
 
-std::vector<Played> playAll(const Options &options)
+std::vector<Played> playAll(const Options &options, const vpApp::Ranks &ranks)
 {
   Setting common;
   common.seed = options.seed;
   common.wanted.insert(options.only.begin(), options.only.end());
-  std::vector<Played> all;
-  double total = 0.;
+  std::vector<const Part *> parts;
   for (const Part &part : catalogue()) {
     if (needed(part, common)) {
-      all.push_back({&part, {}, 0.});
-      total += part.cost;
+      parts.push_back(&part);
     }
   }
-  std::vector<std::size_t> order(all.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return all[a].part->cost > all[b].part->cost; });
-  vpApp::Progress progress("repeating " + std::to_string(common.wanted.size()) + " figures and tables", total);
-  vpApp::runJobs(order.size(), options.jobs, [&](std::size_t i) {
-    Played &played = all[order[i]];
+  vpApp::Sweep sweep;
+  sweep.title = "repeating " + std::to_string(common.wanted.size()) + " figures and tables";
+  sweep.count = parts.size();
+  sweep.effort = [&parts](std::size_t i) { return parts[i]->cost; };
+  const auto play = [&](std::size_t i, const std::function<void(double)> &done) {
+    const Part &part = *parts[i];
     const auto start = std::chrono::steady_clock::now();
-    double shown = 0.;
     Setting setting = common;
-    setting.progress = [&](double share) {
+    setting.progress = [&done](double share) {
       vpApp::throwIfInterrupted();
-      const double now = std::clamp(share, shown, 1.);
-      progress.add((now - shown) * played.part->cost);
-      shown = now;
+      done(share);
     };
+    Played played;
     try {
-      played.items = sorted(*played.part, setting, played.part->play(setting));
+      played.items = sorted(part, setting, part.play(setting));
     }
     catch (const vpApp::Interrupted &) {
       throw;
     }
     catch (const std::exception &error) {
-      throw std::runtime_error(played.part->entries.front().id + " and what goes with it: " + vpApp::sentenceOf(error));
+      throw std::runtime_error(part.entries.front().id + " and what goes with it: " + vpApp::sentenceOf(error));
     }
-    setting.progress(1.);
     played.seconds = secondsSince(start);
-  });
-  vpApp::throwIfInterrupted();
+    return played;
+  };
+  std::vector<Played> all = vpApp::runSweep<Played>(ranks, sweep, options.jobs, play);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    all[i].part = parts[i];
+  }
   return all;
 }
 } // namespace thesisReport

@@ -10,6 +10,7 @@
 #define thesisReport_run_h
 
 #include "options.h"
+#include "ranks.h"
 #include "part.h"
 
 namespace thesisReport
@@ -23,10 +24,10 @@ struct Played {
 
 /*!
  * Run the required parts, the long ones first, with a progress bar.
- * \return Finished parts in the order of the catalogue.
+ * \return Finished parts in the order of the catalogue, on rank 0.
  * \throw std::runtime_error naming the id when a part fails or omits an item; vpApp::Interrupted.
  */
-[[nodiscard]] std::vector<Played> playAll(const Options &options);
+[[nodiscard]] std::vector<Played> playAll(const Options &options, const vpApp::Ranks &ranks);
 } // namespace thesisReport
 
 #endif

@@ -35,7 +35,7 @@ using Value = std::function<double(const vpServoRun &)>;
 class Runs
 {
 public:
-  Runs(const Setting &setting, double share) : m_results(0)
+  Runs(const Setting &setting, double share) : m_results({})
   {
     servoCompare::Options options;
     options.laws = {PBVS, KYRKI, "kyrki", FEEDFORWARD, OURS};
@@ -44,11 +44,12 @@ public:
     options.seed = setting.seed;
     options.repetitions = SEEDS;
     m_plan = servoCompare::makePlan(options);
-    m_results = Results(m_plan.runs.size());
-    for (std::size_t i = 0; i < m_plan.runs.size(); ++i) {
-      m_results.set(i, runServoExperiment(m_plan.runs[i]));
-      setting.progress(share * static_cast<double>(i + 1) / static_cast<double>(m_plan.runs.size()));
+    std::vector<vpServoRun> runs;
+    for (const vpServoRunSpec &spec : m_plan.runs) {
+      runs.push_back(runServoExperiment(spec));
+      setting.progress(share * static_cast<double>(runs.size()) / static_cast<double>(m_plan.runs.size()));
     }
+    m_results = Results(std::move(runs));
   }
 
   [[nodiscard]] const Plan &plan() const { return m_plan; }

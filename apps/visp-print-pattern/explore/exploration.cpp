@@ -5,14 +5,10 @@
 #include "exploration.h"
 
 #include "appMain.h"
-#include "jobs.h"
 #include "outcomeText.h"
 #include "pareto.h"
-#include "progress.h"
 
 #include <algorithm>
-#include <iostream>
-#include <numeric>
 
 namespace printExplore
 {
@@ -48,46 +44,15 @@ bool keeps(const Outcome &outcome, const std::vector<Requirement> &requirements)
     return figure.more ? value >= requirement.bound : value <= requirement.bound;
   });
 }
-
-std::vector<Outcome> evaluateShare(const Setup &setup, const std::vector<std::size_t> &share, const Ranks &ranks,
-                                   unsigned int jobs)
-{
-  double effort = 0.;
-  for (const std::size_t index : share) {
-    effort += effortOf(setup.designs[index], setup);
-  }
-  const auto style = ranks.rank() == 0 ? vpApp::Progress::detect() : vpApp::Progress::Style::Silent;
-  vpApp::Progress progress("exploring " + std::to_string(setup.designs.size()) + " designs", std::max(1., effort),
-                           std::cerr, style);
-  std::vector<Outcome> outcomes(share.size());
-  const unsigned int cores = std::max(1u, vpApp::coreCount() / static_cast<unsigned int>(ranks.local()));
-  vpApp::runJobs(share.size(), jobs == 0 ? cores : jobs, [&](std::size_t k) {
-    vpApp::throwIfInterrupted();
-    outcomes[k] = evaluate(setup.designs[share[k]], share[k], setup, [] { return !vpApp::interrupted(); });
-    progress.add(effortOf(setup.designs[share[k]], setup));
-  });
-  vpApp::throwIfInterrupted();
-  return outcomes;
-}
 } // namespace
 
-std::vector<std::vector<std::size_t>> shareOut(const Setup &setup, int ranks)
+vpApp::Sweep sweepOf(const Setup &setup)
 {
-  std::vector<double> effort;
-  for (const Design &design : setup.designs) {
-    effort.push_back(effortOf(design, setup));
-  }
-  std::vector<std::size_t> order(effort.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return effort[a] > effort[b]; });
-  std::vector<std::vector<std::size_t>> shares(static_cast<std::size_t>(ranks));
-  std::vector<double> load(shares.size(), 0.);
-  for (const std::size_t index : order) {
-    const auto least = static_cast<std::size_t>(std::min_element(load.begin(), load.end()) - load.begin());
-    shares[least].push_back(index);
-    load[least] += effort[index];
-  }
-  return shares;
+  vpApp::Sweep sweep;
+  sweep.title = "exploring " + std::to_string(setup.designs.size()) + " designs";
+  sweep.count = setup.designs.size();
+  sweep.effort = [&setup](std::size_t index) { return effortOf(setup.designs[index], setup); };
+  return sweep;
 }
 
 Exploration judge(const Setup &setup, std::vector<Outcome> outcomes)
@@ -118,20 +83,17 @@ Exploration judge(const Setup &setup, std::vector<Outcome> outcomes)
   return result;
 }
 
-Exploration explore(const Setup &setup, const Ranks &ranks, unsigned int jobs)
+Exploration explore(const Setup &setup, const vpApp::Ranks &ranks, unsigned int jobs)
 {
-  const auto shares = shareOut(setup, ranks.size());
-  const std::vector<std::size_t> &mine = shares[static_cast<std::size_t>(ranks.rank())];
-  const std::vector<std::string> texts = ranks.gather(packed(evaluateShare(setup, mine, ranks, jobs)));
-  if (ranks.rank() != 0) {
+  std::vector<Outcome> outcomes = vpApp::runSweep<Outcome>(
+      ranks, sweepOf(setup), jobs, [&](std::size_t index, const std::function<void(double)> &) {
+        return evaluate(setup.designs[index], index, setup, [] { return !vpApp::interrupted(); });
+      });
+  if (!ranks.isFirst()) {
     return {};
   }
-  std::vector<Outcome> outcomes(setup.designs.size());
-  for (std::size_t rank = 0; rank < texts.size(); ++rank) {
-    const std::vector<Outcome> part = unpacked(texts[rank], shares[rank], setup);
-    for (std::size_t k = 0; k < part.size(); ++k) {
-      outcomes[shares[rank][k]] = part[k];
-    }
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    outcomes[i].describe(setup.designs[i], setup);
   }
   return judge(setup, std::move(outcomes));
 }

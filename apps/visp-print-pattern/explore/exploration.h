@@ -10,7 +10,7 @@
 #define printExplore_exploration_h
 
 #include "outcome.h"
-#include "ranks.h"
+#include "sweep.h"
 
 #include <cstddef>
 #include <vector>
@@ -26,11 +26,8 @@ struct Exploration {
   std::size_t required = 0;       //!< Number of feasible designs that meet the requirements.
 };
 
-/*!
- * Distributes the designs: the longest ones first, each to the least loaded rank. The same on every rank.
- * \return Indices of the designs of each rank.
- */
-[[nodiscard]] std::vector<std::vector<std::size_t>> shareOut(const Setup &setup, int ranks);
+//! The designs as cases; refers to \e setup.
+[[nodiscard]] vpApp::Sweep sweepOf(const Setup &setup);
 
 /*!
  * Evaluate all designs, with progress on stderr. The result does not depend on the number of ranks or threads.
@@ -38,7 +35,7 @@ struct Exploration {
  * \return The result on rank 0; empty elsewhere.
  * \throw vpApp::Interrupted after Ctrl-C.
  */
-[[nodiscard]] Exploration explore(const Setup &setup, const Ranks &ranks, unsigned int jobs);
+[[nodiscard]] Exploration explore(const Setup &setup, const vpApp::Ranks &ranks, unsigned int jobs);
 
 //! Front, requirements and compromise of outcomes.
 [[nodiscard]] Exploration judge(const Setup &setup, std::vector<Outcome> outcomes);

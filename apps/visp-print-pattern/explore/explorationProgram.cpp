@@ -56,34 +56,13 @@ void writeResult(vpApp::OutputFolder &out, const Setup &setup, const Exploration
 }
 } // namespace
 
-int runRanks(const std::string &program, const std::function<void(const Ranks &)> &body)
-{
-  std::unique_ptr<Ranks> ranks;
-  const int status = vpApp::runMain(program, [&]() -> int {
-    ranks = std::make_unique<Ranks>();
-    body(*ranks);
-    return vpApp::ExitOk;
-  });
-  return status == vpApp::ExitOk || !ranks ? status : ranks->endAll(status);
-}
-
-bool readOnFirst(const Ranks &ranks, const std::function<bool()> &read)
-{
-  if (ranks.rank() == 0) {
-    const bool goOn = read();
-    static_cast<void>(ranks.broadcast(goOn ? "go on" : ""));
-    return goOn;
-  }
-  return !ranks.broadcast("").empty() && read();
-}
-
 void exploreFile(const std::string &file, const std::string &out, unsigned int jobs, const std::string &commandLine,
-                 const Ranks &ranks)
+                 const vpApp::Ranks &ranks)
 {
   const auto start = std::chrono::steady_clock::now();
   std::string text;
   std::unique_ptr<vpApp::OutputFolder> folder;
-  if (ranks.rank() == 0) {
+  if (ranks.isFirst()) {
     vpApp::requireGnuplot();
     text = vpReadFileText(file);
     static_cast<void>(readSetup(text, file)); // complains before the others wait for work

@@ -11,25 +11,10 @@
 
 #include "ranks.h"
 
-#include <functional>
 #include <string>
 
 namespace printExplore
 {
-/*!
- * Run the body of a program on every rank like vpApp::runMain(). A failure is reported by its rank in one
- * sentence and ends all ranks.
- * \return The exit status.
- */
-[[nodiscard]] int runRanks(const std::string &program, const std::function<void(const Ranks &)> &body);
-
-/*!
- * Read the command line on rank 0 first, so that errors and help are printed once.
- * \param read : Returns false when nothing is left to do.
- * \return The result of \e read, on all ranks.
- */
-[[nodiscard]] bool readOnFirst(const Ranks &ranks, const std::function<bool()> &read);
-
 /*!
  * Explore and write report.html, explore.csv, front.csv, front.json and summary.json; rank 0 reads and writes.
  * \param file : Exploration file. \param out : Result folder. \param jobs : Threads of each rank; 0: its share of the
@@ -38,7 +23,7 @@ namespace printExplore
  * \throw std::runtime_error naming file, field and value.
  */
 void exploreFile(const std::string &file, const std::string &out, unsigned int jobs, const std::string &commandLine,
-                 const Ranks &ranks);
+                 const vpApp::Ranks &ranks);
 } // namespace printExplore
 
 #endif

@@ -121,12 +121,17 @@ const Figure &figureCalled(const std::string &name)
   throw std::out_of_range(name);
 }
 
+void Outcome::describe(const Design &which, const Setup &setup)
+{
+  design = which;
+  thesis = design == Design::thesis(design.controller);
+  timing = timingOf(design, setup);
+}
+
 Outcome evaluate(const Design &design, std::size_t index, const Setup &setup, bool (*goOn)())
 {
   Outcome outcome;
-  outcome.design = design;
-  outcome.thesis = design == Design::thesis(design.controller);
-  outcome.timing = timingOf(design, setup);
+  outcome.describe(design, setup);
   outcome.verdict = checkTiming(design, setup, outcome.timing);
   if (outcome.verdict.feasible()) {
     try {

@@ -30,7 +30,16 @@ struct Outcome {
   bool thesis = false;      //!< The camera and velocity of the thesis.
   bool front = false;       //!< #required, and no such design is better in one objective and as good in all others.
   bool required = false;    //!< Feasible, and meets the requirements.
+
+  //! Sets what follows from the design alone.
+  void describe(const Design &which, const Setup &setup);
 };
+//! What does not, see archive.h.
+template <class Archive> void exchange(Archive &archive, Outcome &o)
+{
+  archive(o.sensorX, o.sensorY, o.landingRms, o.landing95, o.landingWorst, o.throughput, o.cells, o.missed, o.doubled,
+          o.verdict.kind, o.verdict.sentence);
+}
 
 //! \brief A metric of an outcome, usable as objective or requirement.
 struct Figure {

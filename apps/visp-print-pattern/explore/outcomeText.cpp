@@ -8,7 +8,6 @@
 
 #include <locale>
 #include <sstream>
-#include <stdexcept>
 
 namespace printExplore
 {
@@ -74,42 +73,6 @@ std::string field(const Json &value)
   return content.find(',') == std::string::npos ? content : '"' + content + '"'; // our sentences have no quotes
 }
 } // namespace
-
-std::string packed(const std::vector<Outcome> &outcomes)
-{
-  Json list = Json::array();
-  for (const Outcome &o : outcomes) {
-    list.push_back({o.sensorX, o.sensorY, o.landingRms, o.landing95, o.landingWorst, o.throughput, o.cells, o.missed,
-                    o.doubled, o.verdict.kind, o.verdict.sentence});
-  }
-  return list.dump(); // shortest digits that restore the same number
-}
-
-std::vector<Outcome> unpacked(const std::string &text, const std::vector<std::size_t> &share, const Setup &setup)
-{
-  const Json list = Json::parse(text);
-  if (list.size() != share.size()) {
-    throw std::runtime_error("a rank answered for " + std::to_string(list.size()) + " designs, must be " +
-                             std::to_string(share.size()));
-  }
-  std::vector<Outcome> outcomes(share.size());
-  for (std::size_t k = 0; k < share.size(); ++k) {
-    const Json &from = list[k];
-    Outcome &o = outcomes[k];
-    o.design = setup.designs[share[k]];
-    o.thesis = o.design == Design::thesis(o.design.controller);
-    o.timing = timingOf(o.design, setup);
-    std::size_t i = 0;
-    for (double *value : {&o.sensorX, &o.sensorY, &o.landingRms, &o.landing95, &o.landingWorst, &o.throughput}) {
-      *value = from[i++].get<double>();
-    }
-    for (int *value : {&o.cells, &o.missed, &o.doubled}) {
-      *value = from[i++].get<int>();
-    }
-    o.verdict = {from[i].get<std::string>(), from[i + 1].get<std::string>()};
-  }
-  return outcomes;
-}
 
 std::string exploreCsv(const Exploration &result, bool frontOnly)
 {

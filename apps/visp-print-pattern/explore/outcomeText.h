@@ -18,12 +18,6 @@
 
 namespace printExplore
 {
-//! Closed-loop results without loss, for unpacked().
-[[nodiscard]] std::string packed(const std::vector<Outcome> &outcomes);
-//! \param share : Indices of the packed designs. \throw std::runtime_error if the text has others.
-[[nodiscard]] std::vector<Outcome> unpacked(const std::string &text, const std::vector<std::size_t> &share,
-                                            const Setup &setup);
-
 //! explore.csv: all designs; front.csv: those of the front.
 [[nodiscard]] std::string exploreCsv(const Exploration &result, bool frontOnly);
 //! summary.json without the fields that OutputFolder adds.

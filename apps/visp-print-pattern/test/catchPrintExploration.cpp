@@ -316,7 +316,7 @@ TEST_CASE("Every design goes to one rank, whatever their number, and the work is
   const Setup setup =
       setupOf(R"({"design": {"frame_rate_hz": [400, 800, 1600, 3200], "image_px": [[64, 48], [160, 100]],
     "um_per_px": [3, 5, 7], "drop_velocity_mm_s": [20, 40]}})");
-  const auto shares = shareOut(setup, ranks);
+  const auto shares = vpApp::shareOut(sweepOf(setup), ranks);
   REQUIRE(shares.size() == static_cast<std::size_t>(ranks));
   std::vector<int> times(setup.designs.size(), 0);
   for (const auto &share : shares) {
@@ -343,7 +343,11 @@ TEST_CASE("Outcomes pass between ranks to the last digit", "[explore]")
     o.missed = static_cast<int>(random() % 10);
     o.verdict = {"cells", "of 40 cells, \"some\" got none"};
   }
-  const std::vector<Outcome> back = unpacked(packed(outcomes), {2, 0, 1}, setup);
+  vpApp::Writer writer;
+  writer(outcomes);
+  std::vector<Outcome> back;
+  vpApp::Reader(writer.text())(back);
+  REQUIRE(back.size() == 3);
   for (std::size_t i = 0; i < 3; ++i) {
     CHECK(back[i].landingRms == outcomes[i].landingRms);
     CHECK(back[i].landing95 == outcomes[i].landing95);
@@ -353,10 +357,15 @@ TEST_CASE("Outcomes pass between ranks to the last digit", "[explore]")
     CHECK(back[i].missed == outcomes[i].missed);
     CHECK(back[i].verdict.sentence == outcomes[i].verdict.sentence);
   }
+  back[0].describe(setup.designs[2], setup);
+  back[1].describe(setup.designs[0], setup);
   CHECK(back[0].design.frameRate == 1600.);
   CHECK(back[0].thesis);
   CHECK_FALSE(back[1].thesis);
-  CHECK_THROWS_WITH(unpacked(packed(outcomes), {0, 1}, setup), "a rank answered for 3 designs, must be 2");
+  for (const std::size_t size : {writer.text().size() - 1, std::size_t{9}, std::size_t{0}}) {
+    CHECK_THROWS_WITH(vpApp::Reader(writer.text().substr(0, size))(back),
+                      "the results of another process are cut short");
+  }
 }
 
 TEST_CASE("Only designs that work are on the front, and the best keeps what is required", "[explore]")

@@ -7,13 +7,14 @@
  * \brief The processes started by mpirun, or a single process. Built from ranksMpi.cpp with MPI, else from
  * ranksSingle.cpp.
  */
-#ifndef printExplore_ranks_h
-#define printExplore_ranks_h
+#ifndef vpApp_ranks_h
+#define vpApp_ranks_h
 
+#include <functional>
 #include <string>
 #include <vector>
 
-namespace printExplore
+namespace vpApp
 {
 /*!
  * \brief MPI for the lifetime of a program. MPI is initialised only if the environment shows that mpirun started the
@@ -28,9 +29,11 @@ public:
   Ranks(const Ranks &) = delete;
   Ranks &operator=(const Ranks &) = delete;
 
-  [[nodiscard]] int rank() const { return m_rank; }   //!< Rank of this process, 0..size() - 1.
-  [[nodiscard]] int size() const { return m_size; }   //!< Number of processes; 1 without mpirun.
-  [[nodiscard]] int local() const { return m_local; } //!< Number of processes on this machine, including this one.
+  [[nodiscard]] int rank() const { return m_rank; }          //!< Rank of this process, 0..size() - 1.
+  [[nodiscard]] int size() const { return m_size; }          //!< Number of processes; 1 without mpirun.
+  [[nodiscard]] bool isFirst() const { return m_rank == 0; } //!< The rank that talks to the user and writes.
+  //! \e jobs, or this rank's share of the cores of its machine if \e jobs is 0.
+  [[nodiscard]] unsigned int threads(unsigned int jobs) const;
   //! The text of rank 0, on all ranks.
   [[nodiscard]] std::string broadcast(const std::string &text) const;
   //! The texts of all ranks in rank order, on rank 0; empty elsewhere.
@@ -43,6 +46,11 @@ private:
   int m_size = 1;
   int m_local = 1;
 };
-} // namespace printExplore
+
+//! runMain() with all ranks: an error of one ends all with its status.
+[[nodiscard]] int runRanks(const std::string &program, const std::function<void(const Ranks &)> &body);
+//! Read the command line on rank 0, then on the others: help and mistakes are printed once. \return That of \e read.
+[[nodiscard]] bool readOnFirst(const Ranks &ranks, const std::function<bool()> &read);
+} // namespace vpApp
 
 #endif

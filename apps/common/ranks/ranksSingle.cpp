@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
-namespace printExplore
+namespace vpApp
 {
 Ranks::Ranks()
 {
@@ -26,4 +26,4 @@ std::string Ranks::broadcast(const std::string &text) const { return text; }
 std::vector<std::string> Ranks::gather(const std::string &text) const { return {text}; }
 
 int Ranks::endAll(int status) const { return status; }
-} // namespace printExplore
+} // namespace vpApp

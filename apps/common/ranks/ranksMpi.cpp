@@ -11,7 +11,7 @@
 #include <cstdlib>
 #include <numeric>
 
-namespace printExplore
+namespace vpApp
 {
 Ranks::Ranks()
 {
@@ -77,4 +77,4 @@ int Ranks::endAll(int status) const
   }
   return status;
 }
-} // namespace printExplore
+} // namespace vpApp
