@@ -25,14 +25,12 @@ namespace
 //! Results with given metrics instead of simulated ones.
 Results resultsOf(const Plan &plan, const std::function<vpServoMetrics(const vpServoRunSpec &)> &metrics)
 {
-  Results results(plan.runs.size());
-  for (std::size_t i = 0; i < plan.runs.size(); ++i) {
-    vpServoRun run;
-    run.spec = plan.runs[i];
-    run.metrics = metrics(run.spec);
-    results.set(i, run);
+  std::vector<vpServoRun> runs(plan.runs.size());
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    runs[i].spec = plan.runs[i];
+    runs[i].metrics = metrics(runs[i].spec);
   }
-  return results;
+  return Results(std::move(runs));
 }
 
 Plan planOf(const std::vector<std::string> &laws, unsigned int repetitions = 1)
