@@ -262,7 +262,7 @@ TEST_CASE("Magnitudes that no workplace has are refused in a sentence", "[files]
       sceneError(R"("shape": "box", "size_m": [1, 2147483648, 1])").find("size of the box along y is 2.14748e+09 m") !=
       std::string::npos);
   CHECK(sceneError(R"("shape": "sphere", "radius_m": 0.1, "pose": {"translation_m": [0, 0, 1e155]})")
-            .find("object a stands 1e+155 m away, must be within 10000 m") != std::string::npos);
+            .find("object a is 1e+155 m away, must be within 10000 m") != std::string::npos);
   CHECK(sceneError(R"("shape": "sphere", "radius_m": 0.1, "inflation_m": 1e9)")
             .find("inflation of object a is 1e+09 m, must be 0 to 10000") != std::string::npos);
   CHECK(sceneError(R"("shape": "sphere", "radius_m": 0.1, "velocity": {"linear_m_s": [0, 1e9, 0]})")

@@ -7,6 +7,7 @@
 
 #include <visp3/planar_target/vpPlanarTarget.h>
 
+#include <cmath>
 #include <iostream>
 
 namespace
@@ -69,7 +70,7 @@ TEST_CASE("noise 6, blur 1.5, gain 0.8, 25 % occluded: 3 sigma of every angle is
   const vpPlanarScene::Image occluder = vpPlanarScene::photo("starry-night.jpg");
   vpPlanarTarget tracker(target.image, target.width, target.height, vpPlanarScene::camera());
   Spread spread;
-  int refused = 0;
+  int refused = 0, unsure = 0;
   for (unsigned int i = 0; i < 40; ++i) {
     auto rng = vpTestSupport::generator(200 + i);
     CAPTURE(i);
@@ -86,12 +87,18 @@ TEST_CASE("noise 6, blur 1.5, gain 0.8, 25 % occluded: 3 sigma of every angle is
       std::cout << "spoiled, pose " << i << ": " << toString(r.status) << ", " << r.message << std::endl;
       continue;
     }
-    spread.add(vpPlanarScene::rotationError(cMo, r.cMo));
     CHECK(r.correlation > 0.8);
+    if (!std::isfinite(
+            r.covariance.rotationDeviation())) { // the last stage did not converge: keypoints and a few pixels
+      ++unsure;
+      continue;
+    }
+    spread.add(vpPlanarScene::rotationError(cMo, r.cMo));
   }
   spread.print("spoiled");
+  std::cout << "spoiled: " << refused << " refused, " << unsure << " without covariance" << std::endl;
   for (unsigned int axis = 0; axis < 3; ++axis) {
     CHECK(spread.threeSigma(axis) <= 0.25);
   }
-  CHECK(refused <= 10); // of 40; one in twenty would exceed it once in 100,000 runs
+  CHECK(refused + unsure <= 10); // of 40; one in twenty would exceed it once in 100,000 runs
 }

@@ -39,6 +39,10 @@ public:
       if (peak && m_sampled[i] > good) {
         best = std::max(best, refine(std::max(i - 1., 0.) / samples, std::min(i + 1., 1. * samples) / samples, T));
       }
+      // A low peak between two samples, neither of which is one.
+      if (i < samples && std::max(m_sampled[i], m_sampled[i + 1]) > 0.999 * best) {
+        best = std::max(best, refine(static_cast<double>(i) / samples, (i + 1.) / samples, T));
+      }
     }
     return best;
   }
