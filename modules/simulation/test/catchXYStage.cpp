@@ -201,7 +201,9 @@ TEST_CASE("The same commands give the same motion, finer steps nearly so", "[sta
     worst = std::max({worst, std::fabs(a.state().velocity[0] - fine.state().velocity[0]),
                       std::fabs(a.state().velocity[1] - fine.state().velocity[1])});
   }
-  CHECK(worst < 5e-3);
+  // It sticks or breaks away up to a part (1/32) late: 1/32 of an acceleration of 0.04 + 0.5 / 0.3 / 32 each time, and several
+  // of them add up.
+  CHECK(worst < 5 * 2.9e-3);
   a.reset();
   CHECK(a.state().velocity[0] == 0.);
   vpXYStage c(spec);
