@@ -220,7 +220,7 @@ TEST_CASE("Shaped runs stand beside the raw ones", "[visp-servo-compare]")
   CHECK(page.find("The step at the start</h2>") != std::string::npos);
   CHECK(page.find("0.8 m/s^2 and 2.5 rad/s^2, with a jerk of at most 5 m/s^3 and 30 rad/s^3") != std::string::npos);
   CHECK(page.find("what PBVS-1 commands on plant P") != std::string::npos);
-  CHECK(page.find("The view filter stands before the shaper") != std::string::npos);
+  CHECK(page.find("The view filter comes before the shaper") != std::string::npos);
   CHECK(countOf(page, ">shaped</th>") == 7);
   const std::string figure = vpApp::readFile(run.path("result/figure/figure-6.1.svg"));
   for (const char *piece : {"Linear speed", "Linear acceleration", "Angular speed", "Angular acceleration", "shaped"}) {

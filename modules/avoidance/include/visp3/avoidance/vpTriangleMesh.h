@@ -56,17 +56,16 @@ public:
   [[nodiscard]] const std::vector<Eigen::Vector3d> &vertices() const &noexcept;
   //! Indices into vertices(); for a solid, counter-clockwise seen from outside.
   [[nodiscard]] const std::vector<std::array<int, 3>> &triangles() const &noexcept;
-  //! Copies, for a loop over the vertices or triangles of a temporary.
-  //! @{
+  //! A copy, for a loop over the vertices of a temporary.
   [[nodiscard]] std::vector<Eigen::Vector3d> vertices() &&
   {
     return static_cast<const vpTriangleMesh &>(*this).vertices();
   }
+  //! A copy, for a loop over the triangles of a temporary.
   [[nodiscard]] std::vector<std::array<int, 3>> triangles() &&
   {
     return static_cast<const vpTriangleMesh &>(*this).triangles();
   }
-  //! @}
   //! True for a solid: a closed orientable surface.
   [[nodiscard]] bool isWatertight() const noexcept;
   //! Defect in one sentence with its label ("cup.obj: the surface has holes, ..."); empty if none.
