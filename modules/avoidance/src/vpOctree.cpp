@@ -29,7 +29,7 @@ vpOctree::vpOctree(const std::vector<vpOctreeCell> &cells, const std::string &la
   m_data = data;
 }
 
-const std::vector<vpOctreeCell> &vpOctree::cells() const & noexcept { return m_data->cells; }
+const std::vector<vpOctreeCell> &vpOctree::cells() const &noexcept { return m_data->cells; }
 const std::string &vpOctree::label() const noexcept { return m_data->label; }
 
 vpNearestPoints vpOctreeData::nearest(const Eigen::Vector3d &from, const Eigen::Vector3d &to,

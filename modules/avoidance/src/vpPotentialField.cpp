@@ -6,7 +6,6 @@
 
 #include <visp3/avoidance/vpPotentialField.h>
 
-
 #include <algorithm>
 #include <cmath>
 

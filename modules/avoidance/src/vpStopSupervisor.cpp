@@ -7,7 +7,6 @@
 #include "vpFieldCheck.h"
 #include "vpStopPlan.h"
 
-
 #include <algorithm>
 #include <cmath>
 

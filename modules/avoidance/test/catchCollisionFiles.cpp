@@ -291,7 +291,8 @@ TEST_CASE("Errors in meshes name the file and the place", "[files]")
   cut[0] = ' ';
   CHECK(meshError(".stl", cut) == stl + "says 4 triangles and ends in triangle 2");
   CHECK(meshError(".ply", "ply") == "catchCollisionFiles-mesh.ply: is no .obj and no .stl file");
-  CHECK(errorOf([] { return vpTriangleMesh::load("nowhere.obj"); }) == "nowhere.obj: cannot be read (there is no such file)");
+  CHECK(errorOf([] { return vpTriangleMesh::load("nowhere.obj"); }) ==
+        "nowhere.obj: cannot be read (there is no such file)");
   CHECK(errorOf([] { return vpTriangleMesh::load("nowhere.obj", -1.); }) ==
         "nowhere.obj: scale is -1, must be > 0 and finite");
   CHECK(errorOf([] { return vpOctree::load("nowhere.bt"); }) == "nowhere.bt: cannot be read (there is no such file)");
@@ -453,7 +454,8 @@ TEST_CASE("Errors in scenes name the file and the element", "[files]")
   CHECK(objectError(box + "3").find(file + "objects[0].photo") == 0);
   CHECK(objectError(box + "\"klimt\"}, {\"name\": \"p\", " + box + "\"klimt\"") ==
         file + "objects[1].photo is \"klimt\", must be another one than object o carries");
-  CHECK(errorOf([] { return vpLoadCollisionScene("nowhere.json"); }) == "nowhere.json: cannot be read (there is no such file)");
+  CHECK(errorOf([] { return vpLoadCollisionScene("nowhere.json"); }) ==
+        "nowhere.json: cannot be read (there is no such file)");
 }
 
 TEST_CASE("The scenes of data/scene load, and their tasks start and end free", "[files]")

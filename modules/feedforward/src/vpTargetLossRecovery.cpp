@@ -6,7 +6,6 @@
 
 #include <visp3/feedforward/vpTargetLossRecovery.h>
 
-
 #include <algorithm>
 #include <cmath>
 

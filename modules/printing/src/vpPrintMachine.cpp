@@ -6,7 +6,6 @@
 
 #include <visp3/printing/vpPrintMachine.h>
 
-
 #include <algorithm>
 #include <cmath>
 

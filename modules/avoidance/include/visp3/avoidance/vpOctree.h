@@ -52,7 +52,7 @@ public:
   [[nodiscard]] static vpOctree load(const std::string &file);
 
   //! The cubes.
-  [[nodiscard]] const std::vector<vpOctreeCell> &cells() const & noexcept;
+  [[nodiscard]] const std::vector<vpOctreeCell> &cells() const &noexcept;
   //! A copy, for a loop over the cubes of a temporary: `for (const auto &cell : map.snapshot().cells())`.
   [[nodiscard]] std::vector<vpOctreeCell> cells() && { return static_cast<const vpOctree &>(*this).cells(); }
   //! The label given at construction.
