@@ -94,8 +94,13 @@ int main(int argc, char *argv[])
   const char *seeds = std::getenv("VISP_DIRECT_SEED");
   if (!seedGiven && !s_random.empty() && seeds != nullptr) {
     std::istringstream list(seeds);
-    for (unsigned int seed; failed == 0 && list >> seed;) {
-      failed = runAgain(session, seed);
+    for (unsigned int seed = 0; failed == 0 && !(list >> std::ws).eof();) {
+      if (list >> seed) {
+        failed = runAgain(session, seed);
+        continue;
+      }
+      std::cerr << "VISP_DIRECT_SEED is \"" << seeds << "\", must be whole numbers from 0 to 4294967295\n";
+      failed = 1;
     }
   }
   return failed == 0 && s_skipped ? skipped : failed;
