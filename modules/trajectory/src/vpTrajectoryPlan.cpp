@@ -22,6 +22,18 @@ constexpr int segmentsAfter = 8;
 // Rounding difference of times that are sums of different durations but equal in theory.
 double rounding(double t) { return 1e-14 * t; }
 
+// Coefficients in time of a polynomial in 0 ... 1.
+std::vector<double> inTime(const vpPolynomial &p, double duration)
+{
+  std::vector<double> c(p.data(), p.data() + p.degree() + 1);
+  double power = 1.;
+  for (double &x : c) {
+    x /= power;
+    power *= duration;
+  }
+  return c;
+}
+
 vpAxisState jetInTime(const vpPolynomial &p, double s, double duration)
 {
   const auto x = p.jet(s);
@@ -302,7 +314,7 @@ std::vector<vpTrajectoryPiece> vpTrajectoryPlan::pieces(double until) const
     const int i = next[static_cast<std::size_t>(axis)];
     return i < countOf(axis) && endOf(axis, i) <= t + same;
   };
-  bool pending = until > 0.;
+  bool pending = until > 0. && std::isfinite(until);
   for (double t = 0.; pending;) {
     vpTrajectoryPiece piece;
     piece.begin = t;
@@ -335,13 +347,7 @@ std::vector<vpTrajectoryPiece> vpTrajectoryPlan::pieces(double until) const
         // Exact at the start of the motion, and later where a segment ends.
         p = s.p.composed((ends && !pieces.empty()) || justEnded ? 1. - ratio : first, ratio);
       }
-      std::vector<double> c(p.data(), p.data() + p.degree() + 1);
-      double power = 1.;
-      for (double &x : c) {
-        x /= power;
-        power *= piece.duration;
-      }
-      piece.coefficients.push_back(std::move(c));
+      piece.coefficients.push_back(inTime(p, piece.duration));
       i += ends ? 1 : 0;
       pending = pending || hasEnded(axis, until);
     }

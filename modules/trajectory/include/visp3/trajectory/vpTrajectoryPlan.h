@@ -114,7 +114,7 @@ public:
   [[nodiscard]] double peakNorm(unsigned long long axes, int order, double from = 0.) const noexcept;
   //! The plan split at every change of polynomial of any axis. Allocates.
   [[nodiscard]] std::vector<vpTrajectoryPiece> pieces() const { return pieces(m_duration); }
-  //! The plan split as in pieces(), until the time \e until, s > 0, instead of the arrival. Allocates.
+  //! The plan split as in pieces(), until the time \e until, s, finite and > 0 (otherwise there is none), instead of the arrival. Allocates.
   [[nodiscard]] std::vector<vpTrajectoryPiece> pieces(double until) const;
 
   /*! \name For planners */
