@@ -8,7 +8,6 @@
 #include "testFolder.h"
 
 #include "appMain.h"
-#include "commandLine.h"
 #include "dataFile.h"
 #include "htmlReport.h"
 #include "jobs.h"
@@ -105,88 +104,6 @@ TEST_CASE("A program whose output is not taken says so", "[apps]")
   std::cout.rdbuf(before);
   CHECK(status == 1);
   CHECK(complained.text() == "prog: standard output: cannot be written\n");
-}
-
-TEST_CASE("a command line tells help from mistakes", "[apps]")
-{
-  enum class Colour { Red, Blue };
-  struct Read {
-    bool flag = false;
-    std::string file;
-    std::vector<std::string> names{"a", "b"};
-    double rate = 25.;
-    unsigned int count = 3;
-    Colour colour = Colour::Blue;
-    std::vector<double> pair;
-    std::vector<std::string> given;
-    bool run = false;
-  };
-  const auto parse = [](std::vector<const char *> arguments) {
-    Read read;
-    vpApp::CommandLine line("prog", "About.", "Examples.");
-    line.text("FILE", read.file, " ", "An input");
-    line.group("Values");
-    line.flag("--flag", read.flag, "A flag");
-    line.list("--names", read.names, "NAME,...", "Some names");
-    line.number("--rate", read.rate, {0., 240., true}, "HZ", "A rate");
-    line.whole("--count", read.count, {1, 256}, "N", "A count (default: that of the file)");
-    line.choice("--colour", read.colour, {{"red", Colour::Red}, {"blue", Colour::Blue}}, "A colour");
-    line.add(
-        "--pair", "X Y", "A pair", "",
-        [&read](const auto &values) {
-          read.pair = {vpApp::numberIn("--pair", values[0], {}), vpApp::numberIn("--pair", values[1], {})};
-        },
-        2);
-    arguments.insert(arguments.begin(), "prog");
-    read.run = line.parse(static_cast<int>(arguments.size()), arguments.data());
-    read.given = line.given();
-    return read;
-  };
-  const Read all = parse({"in.txt", "--flag", "--names", "x,y", "--names", "z", "--rate", "1e2", "--count", "256",
-                          "--colour", "red", "--pair", "-1", "2.5"});
-  CHECK(all.run);
-  CHECK(all.flag);
-  CHECK(all.file == "in.txt");
-  CHECK(all.names == std::vector<std::string>{"x", "y", "z"});
-  CHECK(all.rate == 100.);
-  CHECK(all.count == 256);
-  CHECK(all.colour == Colour::Red);
-  CHECK(all.pair == std::vector<double>{-1., 2.5});
-  CHECK(parse({"--rate", "5", "--colour=blue"}).given == std::vector<std::string>{"--rate", "--colour"});
-  CHECK(parse({}).names.size() == 2);
-  {
-    const Captured printed(std::cout);
-    CHECK_FALSE(parse({"--help"}).run);
-    for (const char *part :
-         {"About.", "Examples.", "Values", "Some names (default: a,b)", "A rate (default: 25)",
-          "A count (default: that of the file)\n", "A colour: red or blue (default: blue)", "A pair\n", "--version"}) {
-      CAPTURE(part, printed.text());
-      CHECK(printed.text().find(part) != std::string::npos);
-    }
-  }
-  const std::vector<std::pair<std::vector<const char *>, std::string>> mistakes = {
-      {{"--rate", "0"}, "--rate is 0, must be a number > 0 and <= 240"},
-      {{"--rate", "nan"}, "--rate is nan, must be a number > 0 and <= 240"},
-      {{"--rate", "1e999"}, "--rate is 1e999, must be a number > 0 and <= 240"},
-      {{"--rate", " 5"}, "--rate is  5, must be a number > 0 and <= 240"},
-      {{"--rate", "5x"}, "--rate is 5x, must be a number > 0 and <= 240"},
-      {{"--rate", ""}, "--rate is given without a value"},
-      {{"--rate"}, "--rate is given without a value"},
-      {{"--rate", "--flag"}, "--rate is given without a value"},
-      {{"--names", "--rate", "5"}, "--names is given without a value"},
-      {{"--rate", "1", "--rate", "2"}, "--rate is given more than once"},
-      {{"--count", "257"}, "--count is 257, must be a whole number from 1 to 256"},
-      {{"--count", "2.5"}, "--count is 2.5, must be a whole number from 1 to 256"},
-      {{"--count", "99999999999999999999"}, "--count is 99999999999999999999, must be a whole number from 1 to 256"},
-      {{"--colour", "green"}, "--colour is green, must be red or blue"},
-      {{"--names", "a,,b"}, "--names is a,,b, which has an empty name"},
-      {{"--pair", "1"}, "--pair is given without its 2 values"},
-      {{"--pair", "1", "x"}, "--pair is x, must be a number"},
-      {{"--nonsense"}, "The following argument was not expected: --nonsense"}};
-  for (const auto &[arguments, sentence] : mistakes) {
-    CHECK(complaint([&arguments = arguments, &parse] { (void)parse(arguments); }) == sentence);
-  }
-  CHECK_THROWS_AS(parse({"--nonsense"}), vpApp::UsageError);
 }
 
 TEST_CASE("Progress shows a bar, plain lines or nothing", "[apps]")
