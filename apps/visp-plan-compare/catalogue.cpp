@@ -27,7 +27,7 @@ MethodInfo methodInfo(const std::string &id)
       {"planner", "(iv)", "planner", "A path of OMPL on proven motions, timed within all limits, driven as planned.",
        "#ff7f0e"},
       {"planner-dtg", "(v)", "planner + DTG",
-       "The same path, tracked by direct trajectories and planned anew on the fly when something was seen.", "#2ca02c"},
+       "The same path, tracked by direct trajectories and replanned on the fly when something was seen.", "#2ca02c"},
   };
   const auto found = std::find_if(all.begin(), all.end(), [&](const MethodInfo &m) { return m.id == id; });
   return found != all.end() ? *found : MethodInfo{id, "", id, "", "#9467bd"};

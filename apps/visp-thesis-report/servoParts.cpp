@@ -338,9 +338,10 @@ std::vector<Item> play(const Setting &setting)
   }
   if (setting.wants("fig5.11")) {
     const servoCompare::FilmStrip strip = servoCompare::drawFilmStrip(runs.plan(), runs.results());
-    items.back().figures.push_back({"views", "What the camera sees on the way to pose 2",
-                                    "Yellow the object, blue where it shall be seen. Rendered views of a photograph.",
-                                    strip.jpeg, "image/jpeg"});
+    items.back().figures.push_back(
+        {"views", "What the camera sees on the way to pose 2",
+         "The object in yellow, its desired image position in blue. Rendered views of a photograph.", strip.jpeg,
+         "image/jpeg"});
   }
   return items;
 }

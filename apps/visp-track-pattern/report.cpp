@@ -214,7 +214,7 @@ std::vector<std::string> findings(const RunResults &results)
   }
   if (epochsOf(results) > 0) {
     const std::size_t epochs = epochsOf(results);
-    lines.push_back(text("The identities of the cells started anew %zu time%s: rows and columns of different epochs do "
+    lines.push_back(text("The identities of the cells restarted %zu time%s: rows and columns of different epochs do "
                          "not compare.",
                          epochs, plural(epochs)));
   }
@@ -254,7 +254,7 @@ std::string reportPage(const RunResults &results, const Options &options, const 
   page.picture(
       svg(statusFigure(results)), "status of every image",
       "Acquiring: looking for the lattice, or learning what a cell looks like; cells are measured by their edges "
-      "meanwhile. Tracking: all holds. Degraded: fewer cells than there should be, or names that started anew. "
+      "meanwhile. Tracking: all holds. Degraded: fewer cells than there should be, or restarted identities. "
       "Lost: nothing in that image is valid.");
   const bool moves = std::isfinite(quantile(column(results, &FrameRecord::dx), 0.5));
   if (moves) {

@@ -392,7 +392,7 @@ TEST_CASE("Only designs that work are on the front, and the best keeps what is r
   CHECK(judge(setup, outcomes).front == std::vector<std::size_t>{0, 1});
 }
 
-TEST_CASE("What is wrong in a file is told with field and value", "[explore]")
+TEST_CASE("An error in a file names field and value", "[explore]")
 {
   const std::vector<std::pair<std::string, std::string>> wrong = {
       {"[1]", "spec.json: the content is [1], must be an object { }"},

@@ -189,7 +189,7 @@ TEST_CASE("The same command gives the same result, another seed another", "[visp
   CHECK(vpApp::readFile(run.path("a/drops.csv")) != vpApp::readFile(run.path("c/drops.csv")));
 }
 
-TEST_CASE("Wrong command lines are told in a sentence", "[visp-print-pattern]")
+TEST_CASE("A wrong command line ends with one sentence", "[visp-print-pattern]")
 {
   ProgramRun run(PRINT_PATTERN);
   const std::vector<std::pair<std::string, std::string>> wrong = {

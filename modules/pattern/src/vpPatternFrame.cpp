@@ -36,13 +36,13 @@ const char *vpPatternFrame::message() const
   case vpPatternReason::CellsMissing:
     return "Degraded: less than half of the cells in view fit the pattern.";
   case vpPatternReason::AmbiguousMotion:
-    return "Degraded: the motion is near or above half a pitch, the identities started anew.";
+    return "Degraded: the motion is near or above half a pitch, the identities restarted.";
   case vpPatternReason::IdentitySlip:
-    return "Degraded: the cells do not deviate from the lattice as before, the identities started anew.";
+    return "Degraded: the cells do not deviate from the lattice as before, the identities restarted.";
   case vpPatternReason::Restarted:
-    return "Degraded: found again after a long loss, the identities started anew.";
+    return "Degraded: found again after a long loss, the identities restarted.";
   case vpPatternReason::ImagesMissing:
-    return "Degraded: images are missing before this one, the identities started anew.";
+    return "Degraded: images are missing before this one, the identities restarted.";
   case vpPatternReason::NoMatch:
     return "Lost: the image does not show the pattern where it can be.";
   case vpPatternReason::None:

@@ -40,11 +40,11 @@ enum class vpPatternReason {
   CellTooSmall,    //!< The cells or their pitch are below the minimum size.
   Learning,        //!< The lattice is known, the template is being learned.
   CellsMissing,    //!< Less than half of the cells that should be seen are valid.
-  AmbiguousMotion, //!< The motion is near or above half a pitch: identities started anew.
-  IdentitySlip,    //!< The cells do not deviate from the lattice as before: identities started anew.
-  Restarted,       //!< Found again after too many frames: identities started anew.
+  AmbiguousMotion, //!< The motion is near or above half a pitch: identities restarted.
+  IdentitySlip,    //!< The cells do not deviate from the lattice as before: identities restarted.
+  Restarted,       //!< Found again after too many frames: identities restarted.
   NoMatch,         //!< The image does not show the pattern where it can be.
-  ImagesMissing,   //!< vpPatternTracker::interrupt(): identities started anew.
+  ImagesMissing,   //!< vpPatternTracker::interrupt(): identities restarted.
   SingleRow,       //!< Instead of NoLattice: all spots are on one line.
   TurnedTooFar     //!< Instead of NoLattice: rows that are turned by more than 30 degrees.
 };
