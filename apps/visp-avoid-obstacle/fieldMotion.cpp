@@ -32,7 +32,7 @@ FieldMotion followField(const FieldTask &task, const vpFieldWeightSpec &weight, 
       const Eigen::Vector3d v = blendAsPrinted(weight, {u, noWeight}, avoid, {wish.x(), wish.y(), 0.});
       motion.times.push_back(now);
       motion.way.push_back(x);
-      motion.weights.push_back(seen ? fieldWeight(weight, vpFieldForm::Thesis, u) : 0.);
+      motion.weights.push_back(seen ? vpFieldWeight(weight, vpFieldForm::Thesis, u) : 0.);
       motion.peakSpeed = std::max(motion.peakSpeed, v.norm());
       x += task.period * v.head<2>();
       now += task.period;

@@ -179,7 +179,7 @@ bool makeFilm(const Episode &episode, const std::string &file, vpApp::PictureWin
     const std::vector<vpCollisionObject> believed = believedAt(episode, frame.time);
     cv::Mat picture = cameraPicture(frame);
     cv::resize(picture, picture, cv::Size(picture.cols * VIEW_HEIGHT / picture.rows, VIEW_HEIGHT));
-    write(picture, std::string(s.stopping ? "protective stop, " : "") + toString(s.status), cv::Point(10, 22), WHITE);
+    write(picture, std::string(s.stopping ? "protective stop, " : "") + vpToString(s.status), cv::Point(10, 22), WHITE);
     const cv::Mat parts[] = {picture, top.draw(s, believed), side.draw(s, believed)};
     cv::hconcat(parts, 3, picture);
     picture = evened(picture);

@@ -72,7 +72,7 @@ public:
       if (truth.find(obstacle.object.name) >= 0) {
         frame.sights.emplace_back();
         frame.sights.back().object = obstacle.object.name;
-        frame.sights.back().sentence = frame.covered ? "the camera is covered" : "not in view or not recognised";
+        frame.sights.back().message = frame.covered ? "the camera is covered" : "not in view or not recognised";
       }
     }
     result.clear();
@@ -149,7 +149,7 @@ protected:
       if (sight == nullptr) {
         continue;
       }
-      sight->sentence = detections[i].sentence;
+      sight->message = detections[i].message;
       sight->outlined = detections[i].seen;
       for (std::size_t k = 0; k < 4 && sight->outlined; ++k) {
         const vpImagePoint &corner = targets[i].result.corners[k];
@@ -188,7 +188,7 @@ protected:
     m_sensor.look(onlyObstacles(scene(), truth), arm, frame.time, result);
     frame.jpeg = jpegOf(pictureOf(m_sensor.depth()));
     for (Sight &sight : frame.sights) {
-      sight.sentence = "depths go into the map, objects are not distinguished";
+      sight.message = "depths go into the map, objects are not distinguished";
     }
     result.erase(
         std::remove_if(result.begin(), result.end(), [](const auto &s) { return s.shape.octree().cells().empty(); }),
@@ -227,7 +227,7 @@ protected:
     frame.jpeg = jpegOf(picture);
     for (const vpObjectSighting &sighting : result) {
       if (Sight *sight = find(frame, sighting.name)) {
-        sight->sentence = "in range";
+        sight->message = "in range";
       }
     }
   }

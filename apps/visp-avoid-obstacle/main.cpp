@@ -28,8 +28,8 @@ using Clock = std::chrono::steady_clock;
 void printList()
 {
   std::cout << "Methods (--method):\n";
-  for (const std::string &name : avoidanceMethodNames()) {
-    std::cout << "  " << name << ": " << avoidanceMethodSentence(name) << "\n";
+  for (const std::string &name : vpAvoidanceMethodNames()) {
+    std::cout << "  " << name << ": " << vpAvoidanceMethodMessage(name) << "\n";
   }
   std::cout << "Replicas (--replica):\n";
   for (const std::string &name : replicaNames()) {

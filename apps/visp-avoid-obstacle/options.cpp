@@ -70,7 +70,7 @@ void requireNothingElse(const vpApp::CommandLine &line)
 
 void addOptions(vpApp::CommandLine &line, Options &options)
 {
-  line.text("--method", options.method, "NAME", "How to avoid: " + vpApp::enumerate(avoidanceMethodNames()));
+  line.text("--method", options.method, "NAME", "How to avoid: " + vpApp::enumerate(vpAvoidanceMethodNames()));
   line.text("--scene", options.scene, "FILE.json", "Obstacles and motion (default: data/scene/photo-box.json)");
   line.text("--arm", options.arm, "FILE.json", "Another arm than AMOR, see data/robot/README.md");
   line.text("--targets", options.targets, "DIR", "Photographs that are known (default: data/target)");
@@ -115,7 +115,7 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   if (!line.parse(argc, argv)) {
     return false;
   }
-  requireKnown("--method", options.method, avoidanceMethodNames());
+  requireKnown("--method", options.method, vpAvoidanceMethodNames());
   if (!options.replica.empty()) {
     requireKnown("--replica", options.replica, replicaNames());
     requireNothingElse(line);

@@ -27,10 +27,10 @@ vpTrajectoryInput<2> inputOf(const PointTask &task)
   input.goal.q = task.goal;
   input.maxVelocity.setConstant(task.maxSpeed);
   input.maxAcceleration.setConstant(task.maxAcceleration);
-  input.options.groups[0] = vpAxisGroup({0, 1}, task.maxSpeed, task.maxAcceleration);
-  input.options.minimumDuration = task.floor;
+  input.spec.groups[0] = vpAxisGroup({0, 1}, task.maxSpeed, task.maxAcceleration);
+  input.spec.minimumDuration = task.floor;
   if (task.told) {
-    input.options.policy = vpReplanPolicy::KeepArrival;
+    input.spec.policy = vpReplanPolicy::KeepArrival;
   }
   return input;
 }
@@ -73,7 +73,7 @@ PointMotion follow(const PointTask &task)
     for (; next < task.events.size() && task.events[next].time <= now + 0.5 * pointPeriod; ++next) {
       take(task.events[next], task.viaShare, input);
     }
-    const vpTrajectoryResult result = trajectory.update(input, output, pointPeriod);
+    const vpTrajectoryResult result = trajectory.step(input, output, pointPeriod);
     if (!output.status.isGood()) {
       throw std::runtime_error("the trajectory refuses its task at " + std::to_string(now) +
                                " s: " + output.status.message());

@@ -28,7 +28,7 @@ PrescribedMotion::PrescribedMotion(const vpCollisionScene &scene, const vpAvoida
   m_input.vias.reserve(1);
   m_input.maxVelocity.setConstant(spec.maxVelocity);
   m_input.maxAcceleration.setConstant(spec.maxAcceleration);
-  m_input.options.groups[0] = vpAxisGroup({0, 1, 2}, spec.maxVelocity, spec.maxAcceleration);
+  m_input.spec.groups[0] = vpAxisGroup({0, 1, 2}, spec.maxVelocity, spec.maxAcceleration);
   m_wish.frame = vpArmFrame::Base;
   m_wish.free = {false, false, false, true, true, true};
 }
@@ -63,7 +63,7 @@ void PrescribedMotion::step(const vpJointVector &q, vpAvoidanceOutput &output) n
     take(m_events[m_next]);
   }
   const Eigen::Vector3d before = m_cycle == 1 ? m_input.start.q : m_output.state.q; // desired tool position now
-  const vpTrajectoryResult result = m_trajectory.update(m_input, m_output, m_spec.period);
+  const vpTrajectoryResult result = m_trajectory.step(m_input, m_output, m_spec.period);
   vpArmKinematics::forward(*m_arm, q, m_data);
   vpArmKinematics::jacobian(*m_arm, m_data);
   Eigen::Vector3d v = (m_output.state.q - before) / m_spec.period + FOLLOWING_GAIN * (before - m_data.tool.p);

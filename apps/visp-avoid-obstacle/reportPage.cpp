@@ -55,8 +55,8 @@ void addTurns(HtmlReport &page, const vpAvoidanceRun &run)
   for (const StatusChange &turn : statusChangesOf(run)) {
     table.rows.push_back(
         {HtmlCell(fixed(turn.time, 2)),
-         HtmlCell(std::string(toString(turn.status)) + (turn.stopping ? ", protective stop" : ""), "left"),
-         HtmlCell(sentence(turn.status), "left")});
+         HtmlCell(std::string(vpToString(turn.status)) + (turn.stopping ? ", protective stop" : ""), "left"),
+         HtmlCell(vpMessage(turn.status), "left")});
   }
   page.table(table, "What the method did; changes shorter than 50 ms are left out");
 }

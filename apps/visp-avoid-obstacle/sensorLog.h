@@ -21,7 +21,7 @@ namespace avoidObstacle
 struct Sight {
   std::string object;                     //!< Name in the scene.
   bool seen = false;                      //!< It was detected.
-  std::string sentence;                   //!< Result of the detection, or why it failed.
+  std::string message;                    //!< Result of the detection, or why it failed.
   double error = 0.;                      //!< Position error, m.
   double angleError = 0.;                 //!< Rotation error, rad.
   double sigma = 0.;                      //!< Reported standard deviation of the position, m.

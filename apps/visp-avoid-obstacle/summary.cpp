@@ -87,7 +87,7 @@ Json summaryOf(const PhotoScene &scene, const Options &options, const Episode &e
     obstacles.push_back(jsonOf(a));
   }
   for (const StatusChange &turn : statusChangesOf(episode.run)) {
-    turns.push_back({{"time_s", turn.time}, {"status", toString(turn.status)}, {"stopping", turn.stopping}});
+    turns.push_back({{"time_s", turn.time}, {"status", vpToString(turn.status)}, {"stopping", turn.stopping}});
   }
   const JointUse use = jointUseOf(episode.run);
   return {{"program", "visp-avoid-obstacle"},
@@ -101,7 +101,7 @@ Json summaryOf(const PhotoScene &scene, const Options &options, const Episode &e
           {"task", scene.task.name},
           {"settings", settings(options, episode.run)},
           {"metrics", metricsJson(episode.run.metrics)},
-          {"ended_as", toString(episode.run.samples.back().status)},
+          {"ended_as", vpToString(episode.run.samples.back().status)},
           {"joint_velocity_share", use.velocity},
           {"joint_acceleration_share", use.acceleration},
           {"obstacles", obstacles},

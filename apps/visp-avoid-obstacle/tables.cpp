@@ -65,7 +65,7 @@ std::string samplesCsv(const vpAvoidanceRun &run)
   for (const vpAvoidanceSample &s : run.samples) {
     Row row;
     row << s.time << s.q << s.commanded << s.command << s.tool << s.wanted << s.goal << s.goalDistance
-        << s.clearance.distance << s.nearest << toString(s.status) << s.stopping << s.newImage << 1000. * s.lookTime;
+        << s.clearance.distance << s.nearest << vpToString(s.status) << s.stopping << s.newImage << 1000. * s.lookTime;
     csv += row.line();
   }
   return csv;
@@ -78,7 +78,7 @@ std::string tracksCsv(const SensorLog &sensorLog)
   for (const TrackRow &r : sensorLog.tracks) {
     const vpObjectTrack &t = r.track;
     Row row;
-    row << r.time << t.name << toString(t.status) << t.resting << t.pose.p
+    row << r.time << t.name << vpToString(t.status) << t.resting << t.pose.p
         << Eigen::Vector3d(t.velocity[0], t.velocity[1], t.velocity[2]) << t.positionSigma << t.velocitySigma
         << t.inflation << t.confidence << t.age << t.sightings << t.restarts << r.error;
     csv += row.line();
@@ -93,7 +93,7 @@ std::string framesCsv(const SensorLog &sensorLog)
     for (const Sight &s : frame.sights) {
       Row row;
       row << frame.time << frame.covered << s.object << s.seen << (s.seen ? s.error : NAN)
-          << (s.seen ? s.angleError : NAN) << (s.seen ? s.sigma : NAN) << s.sentence;
+          << (s.seen ? s.angleError : NAN) << (s.seen ? s.sigma : NAN) << s.message;
       csv += row.line();
     }
   }

@@ -66,7 +66,7 @@ std::string Field::nameWith(char separator) const
 vpProductShape shapeOf(const std::string &name)
 {
   for (const vpProductShape shape : {vpProductShape::Rectangle, vpProductShape::Rounded, vpProductShape::Dot}) {
-    if (toString(shape) == name) {
+    if (vpToString(shape) == name) {
       return shape;
     }
   }

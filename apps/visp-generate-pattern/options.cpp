@@ -75,9 +75,9 @@ void addTask(vpApp::CommandLine &line, Task &task)
   addPair(line, "--start", task.motion.start, "X Y", "Displacement in frame 0, px");
   line.group(headingOf("cells"));
   line.choice<vpProductShape>("--shape", task.product.shape,
-                              {{toString(vpProductShape::Rectangle), vpProductShape::Rectangle},
-                               {toString(vpProductShape::Rounded), vpProductShape::Rounded},
-                               {toString(vpProductShape::Dot), vpProductShape::Dot}},
+                              {{vpToString(vpProductShape::Rectangle), vpProductShape::Rectangle},
+                               {vpToString(vpProductShape::Rounded), vpProductShape::Rounded},
+                               {vpToString(vpProductShape::Dot), vpProductShape::Dot}},
                               "Shape of an opening");
   line.add("--rotation", "DEGREES", "Of the product in the image, clockwise, -180 to 180", "0",
            [&task](const auto &values) {

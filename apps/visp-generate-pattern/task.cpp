@@ -101,7 +101,7 @@ void readGroup(vpApp::JsonObject object, const std::string &group, vpProductPatt
   }
   if (group == "cells") {
     try {
-      product.shape = shapeOf(object.text("shape", toString(product.shape)));
+      product.shape = shapeOf(object.text("shape", vpToString(product.shape)));
     }
     catch (const std::runtime_error &) {
       throw object.wrong("shape", object.value("shape"), "rectangle, rounded or dot");
@@ -159,7 +159,7 @@ nlohmann::ordered_json jsonOf(const Task &task)
     nlohmann::ordered_json &group = json[field.group];
     std::visit([&](auto pointer) { group[field.nameWith('_')] = task.product.*pointer; }, field.member);
   }
-  json["cells"]["shape"] = toString(task.product.shape);
+  json["cells"]["shape"] = vpToString(task.product.shape);
   json["cells"]["rotation_deg"] = vpMath::deg(task.product.rotation);
   json["motion"] = {{"start", task.motion.start},
                     {"velocity", task.motion.velocity},

@@ -26,7 +26,7 @@ using namespace planCompare;
 void printList()
 {
   std::cout << "Methods (--method):\n";
-  for (const std::string &id : avoidanceMethodNames()) {
+  for (const std::string &id : vpAvoidanceMethodNames()) {
     const MethodInfo info = methodInfo(id);
     std::cout << "  " << info.number << " " << id << ": " << info.sentence << "\n";
   }

@@ -25,7 +25,7 @@ bool endsWith(const std::string &text, const std::string &end)
 
 std::vector<std::string> chooseMethods(const std::vector<std::string> &asked)
 {
-  const std::vector<std::string> &known = avoidanceMethodNames();
+  const std::vector<std::string> &known = vpAvoidanceMethodNames();
   for (const std::string &name : asked) {
     if (std::find(known.begin(), known.end(), name) == known.end()) {
       throw vpApp::UsageError("--method: unknown method \"" + name + "\"; known are " + vpApp::enumerate(known));

@@ -80,7 +80,7 @@ std::string logCsv(const vpAvoidanceRun &run)
     place(row, s.goal);
     cell(row, s.goalDistance);
     cell(row, s.clearance.distance);
-    row += "," + quoted(s.nearest) + "," + toString(s.status) + (s.stopping ? ",1" : ",0") + (s.newImage ? ",1" : ",0");
+    row += "," + quoted(s.nearest) + "," + vpToString(s.status) + (s.stopping ? ",1" : ",0") + (s.newImage ? ",1" : ",0");
     cell(row, 1000. * s.lookTime);
     csv += row + "\n";
   }

@@ -37,8 +37,8 @@ Json plansOf(const Motion &motion)
   for (const PlanInForce &plan : motion.plans) {
     plans.push_back({{"t", plan.begin},
                      {"arrival", plan.begin + plan.plan.duration()},
-                     {"form", toString(plan.plan.form())},
-                     {"status", toString(plan.status.result)}});
+                     {"form", vpToString(plan.plan.form())},
+                     {"status", vpToString(plan.status.result)}});
   }
   return plans;
 }
@@ -46,7 +46,7 @@ Json plansOf(const Motion &motion)
 
 std::string answerLine(const Problem &problem, const Motion &motion)
 {
-  Json answer = begun(problem.line, problem.id, toString(motion.result), motion.message);
+  Json answer = begun(problem.line, problem.id, vpToString(motion.result), motion.message);
   Json velocity = Json::array();
   Json acceleration = Json::array();
   Json jerk = Json::array();
@@ -59,9 +59,9 @@ std::string answerLine(const Problem &problem, const Motion &motion)
   answer["peak_velocity"] = velocity;
   answer["peak_acceleration"] = acceleration;
   answer["peak_jerk"] = jerk;
-  answer["form"] = toString(motion.form);
+  answer["form"] = vpToString(motion.form);
   if (motion.excess.limit != vpTrajectoryLimit::None) {
-    answer["excess"] = {{"limit", toString(motion.excess.limit)},
+    answer["excess"] = {{"limit", vpToString(motion.excess.limit)},
                         {"index", motion.excess.index},
                         {"value", motion.excess.value},
                         {"bound", motion.excess.bound},
@@ -81,7 +81,7 @@ std::string answerLine(const Problem &problem, const Motion &motion)
 
 std::string refusalLine(std::size_t line, const Json &id, const std::string &sentence)
 {
-  return oneLine(begun(line, id, toString(vpTrajectoryResult::InvalidInput), sentence));
+  return oneLine(begun(line, id, vpToString(vpTrajectoryResult::InvalidInput), sentence));
 }
 
 std::string csvOf(const Problem &problem, const Motion &motion)

@@ -104,7 +104,7 @@ std::vector<PlanInForce> planCycleByCycle(const Problem &problem)
       then = problem.events[next].t;
     }
     cycle += then == cycle * problem.dt ? 1. : 0.;
-    trajectory.update(*input, output, then - now);
+    trajectory.step(*input, output, then - now);
     if (output.status.result == vpTrajectoryResult::InvalidInput) {
       throw invalid(problem, (next > 0 ? nameOf(problem, next - 1) : "") + output.status.message());
     }
@@ -159,7 +159,7 @@ std::string sentenceOf(const PlanInForce &plan)
 
 std::string reached(const Problem &problem)
 {
-  return problem.input.options.method == vpDurationMethod::Exact
+  return problem.input.spec.method == vpDurationMethod::Exact
              ? "the goal is reached within the limits"
              : "the goal is reached within the limits, which the thesis's iteration does not guarantee";
 }
@@ -176,8 +176,8 @@ vpAxisState Motion::at(int axis, double t) const
 
 Motion execute(const Problem &problem)
 {
-  const bool plain = problem.events.empty() && problem.input.options.replanPeriod == 0. &&
-                     problem.input.options.method == vpDurationMethod::Exact;
+  const bool plain = problem.events.empty() && problem.input.spec.replanPeriod == 0. &&
+                     problem.input.spec.method == vpDurationMethod::Exact;
   Motion motion;
   motion.plans = plain ? planAtOnce(problem) : planCycleByCycle(problem);
   const PlanInForce *worst = nullptr;

@@ -99,19 +99,19 @@ void readVias(JsonObject &object, Input &input)
   }
 }
 
-void readGroups(JsonObject &object, vpTrajectoryOptions &options)
+void readGroups(JsonObject &object, vpTrajectorySpec &spec)
 {
   if (!object.has("groups")) {
     return;
   }
   std::vector<JsonObject> groups = object.objects("groups");
-  if (groups.size() > options.groups.size()) {
+  if (groups.size() > spec.groups.size()) {
     throw object.error("there are " + std::to_string(groups.size()) + " groups, at most " +
-                       std::to_string(options.groups.size()) + " are possible");
+                       std::to_string(spec.groups.size()) + " are possible");
   }
-  options.groups.fill({});
+  spec.groups.fill({});
   for (std::size_t k = 0; k < groups.size(); ++k) {
-    vpAxisGroup &group = options.groups[k];
+    vpAxisGroup &group = spec.groups[k];
     const json &axes = groups[k].value("axes");
     if (!axes.is_array() || axes.empty()) {
       throw groups[k].wrong("axes", axes, "a list of axis numbers, from 0");
@@ -128,28 +128,28 @@ void readGroups(JsonObject &object, vpTrajectoryOptions &options)
   }
 }
 
-void readOptions(JsonObject &object, vpTrajectoryOptions &options)
+void readSpec(JsonObject &object, vpTrajectorySpec &spec)
 {
   const bool timed = object.has("duration");
-  if (timed && !object.has("policy") && options.policy == vpReplanPolicy::EventMinTime) {
-    options.policy = vpReplanPolicy::FixedArrival;
+  if (timed && !object.has("policy") && spec.policy == vpReplanPolicy::EventMinTime) {
+    spec.policy = vpReplanPolicy::FixedArrival;
   }
-  readWord(object, "policy", options.policy,
+  readWord(object, "policy", spec.policy,
            {{"EventMinTime", vpReplanPolicy::EventMinTime},
             {"KeepArrival", vpReplanPolicy::KeepArrival},
             {"FixedArrival", vpReplanPolicy::FixedArrival}});
   if (timed) {
-    const bool fixed = options.policy == vpReplanPolicy::FixedArrival;
-    (fixed ? options.arrivalTime : options.minimumDuration) = object.number("duration");
+    const bool fixed = spec.policy == vpReplanPolicy::FixedArrival;
+    (fixed ? spec.arrivalTime : spec.minimumDuration) = object.number("duration");
   }
-  readWord(object, "synchronisation", options.synchronisation,
+  readWord(object, "synchronisation", spec.synchronisation,
            {{"Time", vpSynchronisation::Time},
             {"Straight", vpSynchronisation::Straight},
             {"None", vpSynchronisation::None}});
-  readWord(object, "late", options.lateArrival,
+  readWord(object, "late", spec.lateArrival,
            {{"Extend", vpLateArrival::Extend}, {"ExceedLimits", vpLateArrival::ExceedLimits}});
-  options.cruise = object.flag("cruise", options.cruise);
-  readGroups(object, options);
+  spec.cruise = object.flag("cruise", spec.cruise);
+  readGroups(object, spec);
 }
 
 //! Fields that events may also change.
@@ -165,25 +165,25 @@ void readTask(JsonObject &object, Input &input)
   readVector(object, "q_min", input.minPosition, Null::NoLowerLimit);
   readVector(object, "q_max", input.maxPosition, Null::NoUpperLimit);
   readVias(object, input);
-  readOptions(object, input.options);
+  readSpec(object, input.spec);
 }
 
 //! Fields of the whole motion.
-void readMethod(JsonObject &object, vpTrajectoryOptions &options)
+void readMethod(JsonObject &object, vpTrajectorySpec &spec)
 {
   readWord(
-      object, "continuity", options.continuity,
+      object, "continuity", spec.continuity,
       {{"C1", vpTrajectoryContinuity::C1}, {"C2", vpTrajectoryContinuity::C2}, {"C3", vpTrajectoryContinuity::C3}});
-  readWord(object, "method", options.method,
+  readWord(object, "method", spec.method,
            {{"Exact", vpDurationMethod::Exact}, {"ThesisIteration", vpDurationMethod::ThesisIteration}});
   if (object.has("thesis_steps_per_cycle")) {
     const unsigned int most = 1000000;
-    options.thesisStepsPerCycle = static_cast<int>(std::min(object.count("thesis_steps_per_cycle", 1), most));
+    spec.thesisStepsPerCycle = static_cast<int>(std::min(object.count("thesis_steps_per_cycle", 1), most));
   }
-  options.thesisVelocityGain = object.number("thesis_velocity_gain", options.thesisVelocityGain);
-  options.thesisAccelerationGain = object.number("thesis_acceleration_gain", options.thesisAccelerationGain);
-  options.replanPeriod = object.number("replan_period", options.replanPeriod);
-  options.freeze = object.number("freeze", options.freeze);
+  spec.thesisVelocityGain = object.number("thesis_velocity_gain", spec.thesisVelocityGain);
+  spec.thesisAccelerationGain = object.number("thesis_acceleration_gain", spec.thesisAccelerationGain);
+  spec.replanPeriod = object.number("replan_period", spec.replanPeriod);
+  spec.freeze = object.number("freeze", spec.freeze);
 }
 
 void readEvents(JsonObject &object, Problem &problem)
@@ -235,7 +235,7 @@ Problem readProblem(const std::string &text, const std::string &place, std::size
   readVector(object, "a0", problem.input.start.a);
   readVector(object, "j0", problem.input.start.j);
   readTask(object, problem.input);
-  readMethod(object, problem.input.options);
+  readMethod(object, problem.input.spec);
   problem.dt = object.number("dt", problem.dt);
   if (!(problem.dt > 0.)) {
     throw object.wrong("dt", object.value("dt"), "> 0");

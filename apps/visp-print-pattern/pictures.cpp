@@ -138,7 +138,7 @@ cv::Mat detection(const vpPrintExperimentSpec &spec)
 {
   constexpr int scale = 4;
   const vpProductPattern product(spec.product);
-  vpPatternOptions options;
+  vpPatternTrackerSpec options;
   options.method = vpPatternMethod::ThesisAlgorithm;
   vpPatternTracker tracker(spec.product.width, spec.product.height, options);
   vpImage<unsigned char> image;
@@ -147,7 +147,7 @@ cv::Mat detection(const vpPrintExperimentSpec &spec)
   for (unsigned int k = 0; k < 5; ++k) { // until the standard deviations are known
     x = 4. * k;
     product.render(x, 0., 4., 0., k, image);
-    frame = &tracker.track(image);
+    frame = &tracker.process(image);
   }
   vpPatternHistogram histogram{};
   for (unsigned int i = 0; i < image.getSize(); ++i) {

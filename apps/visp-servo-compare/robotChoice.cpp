@@ -31,7 +31,7 @@ vpArmModel loadArm(const RobotOptions &options)
   if (suffix != ".urdf") {
     throw vpApp::UsageError("--robot is " + options.robot + ", must be camera, amor, a .urdf or a .json file");
   }
-  vpArmUrdfOptions urdf;
+  vpArmUrdfSpec urdf;
   urdf.base = options.base;
   urdf.tip = options.tip;
   urdf.camera = options.camera;

@@ -55,7 +55,7 @@ void appendArm(std::string &csv, const vpArmSample &s)
   append(csv, s.limitMargin);
   append(csv, s.manipulability);
   append(csv, s.selfMotion);
-  csv += toString(s.status);
+  csv += vpToString(s.status);
 }
 } // namespace
 
@@ -91,7 +91,7 @@ std::string csvOf(const vpServoRun &run)
     csv += s.inView ? "1," : "0,";
     csv += s.measured ? "1," : "0,";
     csv += s.newFrame ? "1," : "0,";
-    csv += toString(s.status);
+    csv += vpToString(s.status);
     if (row < run.arm.size()) {
       appendArm(csv, run.arm[row]);
     }

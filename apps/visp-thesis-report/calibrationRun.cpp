@@ -78,15 +78,15 @@ void seen(const vpProductPattern &pattern, double x, double y, const cv::Mat &ma
 std::vector<vpCalibrationPoint> pointsOf(const vpImage<unsigned char> &image, const CalibrationPattern &pattern,
                                          vpPatternMethod method)
 {
-  vpPatternOptions options;
+  vpPatternTrackerSpec options;
   options.method = method;
   vpPatternTracker tracker(WIDTH, HEIGHT, options);
-  return vpCalibrationPoints(tracker.track(image), pattern.pitch);
+  return vpCalibrationPoints(tracker.process(image), pattern.pitch);
 }
 
 void addExperiment(const std::vector<vpCalibrationPoint> &points, CalibrationOutcome &outcome)
 {
-  vpMicroscopeCalibrationOptions options;
+  vpMicroscopeCalibrationSpec options;
   options.sigmaFromResiduals = true;
   vpPlanarMicroscopeCalibration careful(WIDTH, HEIGHT, options);
   careful.addView(points);

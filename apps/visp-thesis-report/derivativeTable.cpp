@@ -36,9 +36,9 @@ struct Outcome {
 };
 using Outcomes = std::array<Outcome, OPERATORS>;
 
-vpPatternOptions optionsFor(vpPatternDerivative derivative)
+vpPatternTrackerSpec optionsFor(vpPatternDerivative derivative)
 {
-  vpPatternOptions options;
+  vpPatternTrackerSpec options;
   options.method = vpPatternMethod::ThesisAlgorithm;
   options.derivative = derivative;
   return options;
@@ -55,7 +55,7 @@ double noiseOf(const vpProductPattern &product, vpPatternDerivative derivative)
     std::map<std::pair<int, int>, Spread> cells;
     for (int k = 0; k < REPETITIONS; ++k) {
       product.render(x, y, 0., 0., static_cast<unsigned int>(place * REPETITIONS + k), image);
-      for (const vpPatternCell &cell : tracker.track(image).cells) {
+      for (const vpPatternCell &cell : tracker.process(image).cells) {
         if (cell.valid) {
           cells[{cell.row, cell.column}].add(cell.y);
         }
@@ -121,7 +121,7 @@ std::string csvOf(const Outcomes &all)
       "operator,rms error of y (px),deviation of y (px),bias of y (px),deviation of y by noise alone (px)\n";
   for (std::size_t i = 0; i < OPERATORS; ++i) {
     const Spread &y = all[i].moving.y;
-    csv += std::string(toString(derivativesOfTable[i])) + "," + number(y.rms(), 4) + "," + number(y.sigma(), 4) + "," +
+    csv += std::string(vpToString(derivativesOfTable[i])) + "," + number(y.rms(), 4) + "," + number(y.sigma(), 4) + "," +
            number(y.mean(), 3) + "," + number(all[i].noise, 4) + "\n";
   }
   return csv;
@@ -137,7 +137,7 @@ void draw(Item &item, const Outcomes &all)
   vpApp::PlotCurve error{"rms error, product in motion", colour(0), vpApp::PlotStyle::Points, 6., {}, {}};
   vpApp::PlotCurve noise{"deviation by noise alone", colour(1), vpApp::PlotStyle::Points, 6., {}, {}};
   for (std::size_t i = 0; i < OPERATORS; ++i) {
-    plot.categories.emplace_back(toString(derivativesOfTable[i]));
+    plot.categories.emplace_back(vpToString(derivativesOfTable[i]));
     error.x.push_back(static_cast<double>(i) - 0.06); // side by side: the two are nearly equal
     noise.x.push_back(static_cast<double>(i) + 0.06);
     error.y.push_back(all[i].moving.y.rms());
@@ -157,7 +157,7 @@ std::vector<Item> derivatives(const Setting &setting)
   item.id = "table7.2";
   item.quantities = comparisons(all);
   for (std::size_t i = 0; i < OPERATORS; ++i) {
-    const std::string name = toString(derivativesOfTable[i]);
+    const std::string name = vpToString(derivativesOfTable[i]);
     item.quantities.push_back(
         {"deviation of y, " + name, "px", std::nullopt, all[i].moving.y.sigma(), Tolerance::factor(1.1), Good::Neither,
          "", "Bias " + number(all[i].moving.y.mean(), 2) + " px; by noise alone " + number(all[i].noise, 3) + " px."});

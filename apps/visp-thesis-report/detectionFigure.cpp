@@ -21,7 +21,7 @@ constexpr double SIGMA = 0.18, SIGMA_UM = 0.85, THREE_SIGMA_UM = 2.55; // from t
 
 CentreErrors errorsOf(vpPatternMethod method, const Setting &setting, double from)
 {
-  vpPatternOptions options;
+  vpPatternTrackerSpec options;
   options.method = method;
   return centreErrors(vpProductPattern(thesisProduct(setting.seed)), options, IMAGES,
                       [&](double share) { setting.progress(from + 0.25 * share); });

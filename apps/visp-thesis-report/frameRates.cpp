@@ -65,7 +65,7 @@ vpProductPatternSpec productAt(unsigned int width, unsigned int height, unsigned
   return spec;
 }
 
-TrackingTime timeAt(unsigned int width, unsigned int height, unsigned int seed, const vpPatternOptions &options,
+TrackingTime timeAt(unsigned int width, unsigned int height, unsigned int seed, const vpPatternTrackerSpec &options,
                     std::size_t least)
 {
   const double amplitude = width < FEW_PIXELS ? 0.5 * SWING : SWING;
@@ -83,7 +83,7 @@ const char *const HOW = "1 over the 99 % quantile of the time of an image, time 
 void compareRates(Item &item, vpApp::Plot &plot, const Setting &setting)
 {
   for (const System &system : systems()) {
-    const TrackingTime time = timeAt(system.width, system.height, setting.seed, vpPatternOptions(), SMALL_RUN);
+    const TrackingTime time = timeAt(system.width, system.height, setting.seed, vpPatternTrackerSpec(), SMALL_RUN);
     item.quantities.push_back({"frame rate that the tracker sustains at " + sizeText(system.width, system.height), "Hz",
                                system.rate, time.sustainedRate(), Tolerance::atLeast(), Good::Larger,
                                "This machine is slower than those that it was tried on.",
@@ -124,12 +124,12 @@ struct Scaling {
 //! Both methods on the same images.
 void scale(const Setting &setting, Scaling &tracker, Scaling &thesis)
 {
-  vpPatternOptions literal;
+  vpPatternTrackerSpec literal;
   literal.method = vpPatternMethod::ThesisAlgorithm;
   for (const unsigned int unit : {2U, 3U, 4U, 6U, 8U, 12U, 16U}) {
     const unsigned int width = 80 * unit, height = 50 * unit;
     const auto images = roundTrip(productAt(width, height, setting.seed), SWING);
-    tracker.add(images.front().getSize(), timeTracking(images, vpPatternOptions(), LARGE_RUN));
+    tracker.add(images.front().getSize(), timeTracking(images, vpPatternTrackerSpec(), LARGE_RUN));
     if (setting.wants("eq7.2")) {
       thesis.add(images.front().getSize(), timeTracking(images, literal, LARGE_RUN));
     }

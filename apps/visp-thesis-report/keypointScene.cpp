@@ -51,18 +51,18 @@ vpHomogeneousMatrix poseOf(double x, double y, double z, double roll, double pit
 
 vpPlaneMatcher matcherWith(const vpImage<unsigned char> &reference, vpKeypointType type, unsigned int keypoints)
 {
-  vpPlanarTargetConfig config;
-  config.keypoints = type;
-  config.maxKeypoints = keypoints;
-  vpPlaneMatcher matcher(reference, config);
+  vpPlanarTargetSpec spec;
+  spec.keypoints = type;
+  spec.maxKeypoints = keypoints;
+  vpPlaneMatcher matcher(reference, spec);
   for (int i = 0; i < 4; ++i) {
     const auto found = static_cast<double>(matcher.result().referenceKeypoints);
     if (found >= keypoints) {
       break;
     }
-    const auto more = static_cast<unsigned int>(std::lround(config.maxKeypoints + std::max(1., keypoints - found)));
-    config.maxKeypoints = more;
-    vpPlaneMatcher next(reference, config);
+    const auto more = static_cast<unsigned int>(std::lround(spec.maxKeypoints + std::max(1., keypoints - found)));
+    spec.maxKeypoints = more;
+    vpPlaneMatcher next(reference, spec);
     if (next.result().referenceKeypoints == matcher.result().referenceKeypoints) {
       break; // no more keypoints
     }

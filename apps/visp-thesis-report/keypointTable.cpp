@@ -35,7 +35,7 @@ struct Column {
   double current, matches, ms; // of the thesis
   Spread reference{}, found{}, matched{}, inliers{}, time{};
   int recognised = 0;
-  [[nodiscard]] std::string name() const { return std::string(toString(type)) + " " + std::to_string(budget); }
+  [[nodiscard]] std::string name() const { return std::string(vpToString(type)) + " " + std::to_string(budget); }
 };
 
 std::vector<Column> columns()

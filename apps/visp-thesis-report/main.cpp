@@ -65,7 +65,7 @@ void report(const Options &options, const std::string &commandLine, const vpApp:
   vpApp::throwIfInterrupted();
   out.commit();
   for (const auto &count : countVerdicts(all)) {
-    std::cout << count.second << " " << toString(count.first) << ", ";
+    std::cout << count.second << " " << vpToString(count.first) << ", ";
   }
   std::cout << "report: " << (out.path() / "report.html").string() << std::endl;
 }

@@ -55,7 +55,7 @@ double ratioOfPlan(vpTrajectoryContinuity continuity)
   vpTrajectoryInput<1> input;
   input.goal.q[0] = 1.;
   input.maxAcceleration[0] = std::numeric_limits<double>::infinity();
-  input.options.continuity = continuity;
+  input.spec.continuity = continuity;
   vpTrajectoryPlan plan(1);
   static_cast<void>(vpDirectTrajectory<1>::calculate(input, plan));
   return plan.peaks(0).velocity * plan.duration();

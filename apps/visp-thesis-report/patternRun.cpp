@@ -48,7 +48,7 @@ vpProductPatternSpec thesisProduct(unsigned int seed)
   return spec;
 }
 
-CentreErrors centreErrors(const vpProductPattern &product, const vpPatternOptions &options, int images,
+CentreErrors centreErrors(const vpProductPattern &product, const vpPatternTrackerSpec &options, int images,
                           const std::function<void(double)> &progress)
 {
   vpPatternTracker tracker(product.spec().width, product.spec().height, options);
@@ -61,7 +61,7 @@ CentreErrors centreErrors(const vpProductPattern &product, const vpPatternOption
     x += vx;
     y += vy;
     product.render(x, y, vx, vy, static_cast<unsigned int>(k), image);
-    const vpPatternFrame &frame = tracker.track(image);
+    const vpPatternFrame &frame = tracker.process(image);
     learned = learned || frame.status == vpPatternStatus::Tracking || k > 2 * images;
     if (learned) {
       compare(product.cells(x, y), frame.cells, errors);
@@ -83,7 +83,7 @@ std::vector<vpImage<unsigned char>> roundTrip(const vpProductPatternSpec &spec, 
   return images;
 }
 
-TrackingTime timeTracking(const std::vector<vpImage<unsigned char>> &images, const vpPatternOptions &options,
+TrackingTime timeTracking(const std::vector<vpImage<unsigned char>> &images, const vpPatternTrackerSpec &options,
                           std::size_t least)
 {
   vpPatternTracker tracker(images.front().getWidth(), images.front().getHeight(), options);
@@ -91,7 +91,7 @@ TrackingTime timeTracking(const std::vector<vpImage<unsigned char>> &images, con
   TrackingTime time;
   for (std::size_t k = 0; k < rounds * images.size(); ++k) {
     const double begin = coreSeconds();
-    const vpPatternFrame &frame = tracker.track(images[k % images.size()]);
+    const vpPatternFrame &frame = tracker.process(images[k % images.size()]);
     const double end = coreSeconds();
     if (k >= WARM_UP * images.size()) {
       time.us.add(1e6 * (end - begin));

@@ -39,7 +39,7 @@ struct CentreErrors {
  * images count from the first with a learned template.
  * \param images : Number of images. \param product : Rendered product. \param progress : Called with the fraction done.
  */
-[[nodiscard]] CentreErrors centreErrors(const vpProductPattern &product, const vpPatternOptions &options, int images,
+[[nodiscard]] CentreErrors centreErrors(const vpProductPattern &product, const vpPatternTrackerSpec &options, int images,
                                         const std::function<void(double)> &progress);
 
 //! Image loop of a product that oscillates with \e amplitude px and returns to its start.
@@ -55,9 +55,9 @@ struct TrackingTime {
   [[nodiscard]] double sustainedRate() const { return 1e6 / us.quantile(0.99); }
 };
 
-//! Time of vpPatternTracker::track() alone, once the template is learned.
+//! Time of vpPatternTracker::process() alone, once the template is learned.
 [[nodiscard]] TrackingTime timeTracking(const std::vector<vpImage<unsigned char>> &images,
-                                        const vpPatternOptions &options, std::size_t least);
+                                        const vpPatternTrackerSpec &options, std::size_t least);
 } // namespace thesisReport
 
 #endif

@@ -73,9 +73,9 @@ vpCameraFaults faults(unsigned int view, double hidden)
 }
 vpTwoViewResult motionOf(const vpPlaneMatch &match, const vpCameraParameters &camera)
 {
-  vpTwoViewConfig config;
-  config.minTranslation = config.normalTolerance = NEVER;
-  vpTwoViewDecomposition decomposition(config);
+  vpTwoViewSpec spec;
+  spec.minTranslation = spec.normalTolerance = NEVER;
+  vpTwoViewDecomposition decomposition(spec);
   vpColVector ahead(3);
   ahead[2] = 1.;
   decomposition.setNormalPrior(ahead);

@@ -45,7 +45,7 @@ std::string Tolerance::text() const
   return m_size > 0. ? "at least, within " + size : "at least";
 }
 
-const char *toString(Verdict verdict)
+const char *vpToString(Verdict verdict)
 {
   switch (verdict) {
   case Verdict::Agrees:

@@ -57,7 +57,7 @@ enum class Verdict {
 };
 
 //! "agrees", "better", "differs", "no value in the thesis".
-[[nodiscard]] const char *toString(Verdict verdict);
+[[nodiscard]] const char *vpToString(Verdict verdict);
 
 //! \brief One row of results.json.
 struct Quantity {

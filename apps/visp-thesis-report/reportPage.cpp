@@ -67,7 +67,7 @@ std::string overview(const std::vector<Played> &all)
       const Verdict verdict = verdictOf(item);
       html += "<tr><td class=\"left\"><a href=\"#" + item.id + "\">" + labelOf(item.id) +
               "</a></td><td class=\"left\">" + vpApp::escapeHtml(titleOf(played, item)) + "</td><td class=\"" +
-              styleOf(verdict) + "\">" + toString(verdict) + "</td><td class=\"left wrap\">" +
+              styleOf(verdict) + "\">" + vpToString(verdict) + "</td><td class=\"left wrap\">" +
               vpApp::escapeHtml(whyOf(item)) + "</td></tr>\n";
     }
   }
@@ -86,7 +86,7 @@ HtmlTable tableOf(const Item &item)
                           HtmlCell(q.thesis ? number(*q.thesis, DIGITS) : "-"), HtmlCell(number(q.ours, DIGITS)),
                           HtmlCell(ratio ? number(*ratio, 3) : ""),
                           HtmlCell(q.thesis ? q.tolerance.text() : "", "left"),
-                          HtmlCell(toString(verdict), styleOf(verdict)), HtmlCell(remarkOf(q), "left wrap")});
+                          HtmlCell(vpToString(verdict), styleOf(verdict)), HtmlCell(remarkOf(q), "left wrap")});
   }
   return table;
 }

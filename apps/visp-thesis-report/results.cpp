@@ -31,7 +31,7 @@ Json resultsJson(const std::vector<Played> &all)
                         {"ours", numberOrNull(q.ours)},
                         {"ratio", numberOrNull(ratioOf(q))},
                         {"tolerance", q.thesis ? Json(q.tolerance.text()) : Json(nullptr)},
-                        {"verdict", toString(verdictOf(q))},
+                        {"verdict", vpToString(verdictOf(q))},
                         {"note", remarkOf(q)}});
       }
     }
@@ -55,11 +55,11 @@ Json summaryJson(const std::vector<Played> &all, const Options &options, const s
 {
   Json verdicts = Json::object(), seconds = Json::object(), counts = Json::object();
   for (const auto &count : countVerdicts(all)) {
-    counts[toString(count.first)] = count.second;
+    counts[vpToString(count.first)] = count.second;
   }
   for (const Played &played : all) {
     for (const Item &item : played.items) {
-      verdicts[item.id] = toString(verdictOf(item));
+      verdicts[item.id] = vpToString(verdictOf(item));
     }
     seconds[played.part->entries.front().id] = played.seconds;
   }

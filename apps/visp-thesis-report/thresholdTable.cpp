@@ -91,11 +91,11 @@ vpProductPatternSpec inSomeLight(std::mt19937_64 &rng)
 void count(const vpProductPattern &product, double x, const vpImage<unsigned char> &image, vpPatternThreshold method,
            Outcome &outcome)
 {
-  vpPatternOptions options;
+  vpPatternTrackerSpec options;
   options.method = vpPatternMethod::ThesisAlgorithm;
   options.threshold = method;
   vpPatternTracker tracker(product.spec().width, product.spec().height, options);
-  const vpPatternFrame &frame = tracker.track(image);
+  const vpPatternFrame &frame = tracker.process(image);
   for (const vpPatternTruthCell &cell : product.cells(x, 0.)) {
     if (!cell.complete) {
       continue;
@@ -157,7 +157,7 @@ std::string csvOf(const Outcomes &all)
       "method,time (ns),deviation in constant light (grey),distance from the middle in changing light (share "
       "of the contrast),cells found (share)\n";
   for (std::size_t m = 0; m < METHODS; ++m) {
-    csv += std::string(toString(methods[m])) + "," + number(all[m].ns.median(), 4) + "," +
+    csv += std::string(vpToString(methods[m])) + "," + number(all[m].ns.median(), 4) + "," +
            number(all[m].still.sigma(), 4) + "," + number(all[m].off.rms(), 4) + "," + number(all[m].share(), 5) + "\n";
   }
   return csv;
@@ -172,8 +172,8 @@ vpApp::Plot bars(const std::string &title, const std::string &label, const std::
   plot.fromZero = true;
   for (std::size_t m = 0; m < METHODS; ++m) { // a bar as an outline
     const double x = static_cast<double>(m), y = values[m];
-    plot.categories.emplace_back(toString(methods[m]));
-    addCurve(plot, toString(methods[m]), {x - 0.3, x - 0.3, x + 0.3, x + 0.3}, {0., y, y, 0.});
+    plot.categories.emplace_back(vpToString(methods[m]));
+    addCurve(plot, vpToString(methods[m]), {x - 0.3, x - 0.3, x + 0.3, x + 0.3}, {0., y, y, 0.});
   }
   plot.xRange = {-0.6, METHODS - 0.4};
   return plot;
@@ -186,7 +186,7 @@ Item itemOf(const Outcomes &all)
   item.quantities = ratios(all);
   for (std::size_t m = 0; m < METHODS; ++m) {
     item.quantities.push_back(
-        {std::string("time of a threshold, ") + toString(methods[m]), "us", std::nullopt, 1e-3 * all[m].ns.median(),
+        {std::string("time of a threshold, ") + vpToString(methods[m]), "us", std::nullopt, 1e-3 * all[m].ns.median(),
          Tolerance::factor(2.), Good::Neither, "",
          "From a histogram of 160 x 100 px; making the histogram is not in it. Time of the core; it "
          "differs from run to run."});

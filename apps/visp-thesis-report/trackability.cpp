@@ -60,7 +60,7 @@ Item play(const Setting &setting)
   const Velocity pid = velocityOf(vpPrintExperimentSpec::thesisFeedforward(), setting);
   const Velocity observer = velocityOf(vpPrintExperimentSpec::withObserver(vpPrintSensorModel::tracker()), setting);
   const vpProductPatternSpec product = thesisProduct(setting.seed);
-  const TrackingTime time = timeTracking(roundTrip(product, 40.), vpPatternOptions(), 3000);
+  const TrackingTime time = timeTracking(roundTrip(product, 40.), vpPatternTrackerSpec(), 3000);
   const double pitch = time.pitchX * product.pixelSize * 1e-6;
   const double seen = pid.atCentres.mean();
   Item item;

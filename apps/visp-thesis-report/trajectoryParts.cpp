@@ -52,22 +52,22 @@ vpTrajectoryInput<1> inputOf(const Case &task)
   input.goal.q[0] = FIRST_GOAL;
   input.maxVelocity[0] = task.maxVelocity;
   input.maxAcceleration[0] = task.maxAcceleration;
-  input.options.minimumDuration = FIRST_DURATION;
-  input.options.freeze = 0.; // replan in every cycle
+  input.spec.minimumDuration = FIRST_DURATION;
+  input.spec.freeze = 0.; // replan in every cycle
   return input;
 }
 
 void change(const Case &task, vpTrajectoryInput<1> &input)
 {
   input.goal.q[0] = SECOND_GOAL;
-  input.options.minimumDuration = 0.;
-  input.options.method = task.method;
-  input.options.thesisStepsPerCycle = task.stepsPerCycle;
-  input.options.thesisVelocityGain = ITERATION_GAIN;
+  input.spec.minimumDuration = 0.;
+  input.spec.method = task.method;
+  input.spec.thesisStepsPerCycle = task.stepsPerCycle;
+  input.spec.thesisVelocityGain = ITERATION_GAIN;
   if (task.keepTime) {
-    input.options.policy = vpReplanPolicy::FixedArrival;
-    input.options.lateArrival = vpLateArrival::ExceedLimits;
-    input.options.arrivalTime = FIRST_DURATION - CHANGE;
+    input.spec.policy = vpReplanPolicy::FixedArrival;
+    input.spec.lateArrival = vpLateArrival::ExceedLimits;
+    input.spec.arrivalTime = FIRST_DURATION - CHANGE;
   }
 }
 
@@ -83,7 +83,7 @@ Motion follow(const Case &task)
     if (i == std::lround(CHANGE / PERIOD)) {
       change(task, input);
     }
-    const vpTrajectoryResult result = trajectory.update(input, output, PERIOD);
+    const vpTrajectoryResult result = trajectory.step(input, output, PERIOD);
     const double end =
         output.remaining > 0. || motion.end.empty() ? now + PERIOD + output.remaining : motion.end.back();
     if (now > CHANGE && output.remaining > 0. && std::fabs(end - motion.end.back()) > SETTLED) {

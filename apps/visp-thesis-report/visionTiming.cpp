@@ -53,9 +53,9 @@ void draw(Item &item, double processing)
 std::vector<Item> visionTiming(const Setting &setting)
 {
   const auto images = roundTrip(thesisProduct(setting.seed), 40.);
-  const TrackingTime tracker = timeTracking(images, vpPatternOptions(), IMAGES);
+  const TrackingTime tracker = timeTracking(images, vpPatternTrackerSpec(), IMAGES);
   setting.progress(0.5);
-  vpPatternOptions literal;
+  vpPatternTrackerSpec literal;
   literal.method = vpPatternMethod::ThesisAlgorithm;
   const TrackingTime thesis = timeTracking(images, literal, IMAGES);
   const double p99 = tracker.us.quantile(0.99);

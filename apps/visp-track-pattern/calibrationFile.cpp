@@ -52,7 +52,7 @@ vpMicroscopeCalibration readJson(const std::string &file)
 //! Probability, null if not computed.
 nlohmann::ordered_json jsonOf(const vpFitTest &fit)
 {
-  return {{"verdict", toString(fit.verdict)},
+  return {{"verdict", vpToString(fit.verdict)},
           {"level", fit.level},
           {"whole_probability", fit.wholeProbability},
           {"view_probability", fit.viewProbability},
@@ -107,7 +107,7 @@ nlohmann::ordered_json jsonOf(const vpMicroscopeCalibrationResult &result, std::
           {"quality",
            {{"reliable", result.reliable},
             {"fit", jsonOf(result.fit)},
-            {"kappa1_status", toString(result.kappa1Status)},
+            {"kappa1_status", vpToString(result.kappa1Status)},
             {"kappa1_effect_px", result.kappa1Effect},
             {"standard_deviations", sigma},
             {"covariance_of",

@@ -82,7 +82,7 @@ vpMicroscopeCalibrationResult CalibrationRun::compute(unsigned int width, unsign
     throw std::runtime_error("--calibrate: in no image the product was tracked with at least 6 cells; it takes some 60 "
                              "images of a product that moves (for still images of a grid add --dot-grid)");
   }
-  vpMicroscopeCalibrationOptions options;
+  vpMicroscopeCalibrationSpec options;
   options.sigmaFromResiduals = true; // a real product is not exactly regular
   vpPlanarMicroscopeCalibration calibration(width, height, options);
   try {

@@ -183,7 +183,7 @@ std::string statusFigure(const RunResults &results)
                 "%s</title></rect>",
                 left + step * static_cast<double>(i), top, step * static_cast<double>(end - i), height,
                 colourOf(results.frames[i].status), results.frames[i].number, results.frames[end - 1].number,
-                toString(results.frames[i].status));
+                vpToString(results.frames[i].status));
     i = end;
   }
   svg += text("<text x=\"%.0f\" y=\"66\">image %u</text><text x=\"%.0f\" y=\"66\" text-anchor=\"end\">image %u</text>",

@@ -93,7 +93,7 @@ void addOutput(vpApp::CommandLine &line, Options &options)
   line.flag("--display", options.display, "Show the overlay in a window; a click ends the run");
 }
 
-void addMethod(vpApp::CommandLine &line, vpPatternOptions &tracker)
+void addMethod(vpApp::CommandLine &line, vpPatternTrackerSpec &tracker)
 {
   line.group("Method");
   line.choice("--method", tracker.method,

@@ -10,7 +10,7 @@
 #define trackPattern_options_h
 
 #include <visp3/pattern/vpCalibrationPoint.h>
-#include <visp3/pattern/vpPatternOptions.h>
+#include <visp3/pattern/vpPatternTrackerSpec.h>
 
 #include <array>
 #include <optional>
@@ -37,7 +37,7 @@ struct Options {
   std::string out = "out/track-pattern";
   unsigned int frames = 0; //!< Maximum number of frames; 0: all (own sequence: 200, camera: 300).
   std::optional<Roi> roi;
-  vpPatternOptions tracker;
+  vpPatternTrackerSpec tracker;
   OverlayKind overlay = OverlayKind::Mp4;
   double videoRate = 25.;                //!< Frames per second of the overlay video, 1..240.
   std::string calibration;               //!< File; empty: none.

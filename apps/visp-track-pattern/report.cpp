@@ -133,7 +133,7 @@ void addSettings(const RunResults &results, const Options &options, const std::s
       {"Input", results.input},
       {"Image size", text("%u x %u px", results.width, results.height)},
       {"Method, threshold",
-       std::string(toString(options.tracker.method)) + ", " + toString(options.tracker.threshold)}};
+       std::string(vpToString(options.tracker.method)) + ", " + vpToString(options.tracker.threshold)}};
   if (options.roi) {
     facts.emplace_back("Looked only at", text("%u x %u px from (%u, %u)", options.roi->width, options.roi->height,
                                               options.roi->x, options.roi->y));
@@ -305,8 +305,8 @@ nlohmann::ordered_json summaryOf(const RunResults &results, const Options &optio
                                  {"command", commandLine},
                                  {"input", results.input},
                                  {"image", {{"width", results.width}, {"height", results.height}}},
-                                 {"method", toString(options.tracker.method)},
-                                 {"threshold", toString(options.tracker.threshold)},
+                                 {"method", vpToString(options.tracker.method)},
+                                 {"threshold", vpToString(options.tracker.threshold)},
                                  {"images", results.frames.size()},
                                  {"images_by_status",
                                   {{"acquiring", results.count(vpPatternStatus::Acquiring)},
@@ -333,7 +333,7 @@ nlohmann::ordered_json summaryOf(const RunResults &results, const Options &optio
   if (results.calibrated) {
     json["calibrated"] = {{"um_per_px", results.calibrated->calibration.pixelSizeUm()},
                           {"reliable", results.calibrated->reliable},
-                          {"kappa1_status", toString(results.calibrated->kappa1Status)},
+                          {"kappa1_status", vpToString(results.calibrated->kappa1Status)},
                           {"views", results.calibrationViews}};
   }
   json["remarks"] = results.remarks;

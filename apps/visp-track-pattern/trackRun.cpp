@@ -100,7 +100,7 @@ public:
     }
     std::string line =
         text("%u,%.5f,%.5f,%.5f,%s,%.2f,%.5f,%.5f,%s,%u,%d", record.number, plain(record.dx), plain(record.dy),
-             plain(std::hypot(record.sigmaDx, record.sigmaDy)), toString(record.status), record.microseconds,
+             plain(std::hypot(record.sigmaDx, record.sigmaDy)), vpToString(record.status), record.microseconds,
              plain(record.sigmaDx), plain(record.sigmaDy), reasonWord(record.reason), record.epoch, record.validCells);
     if (m_um) {
       line += text(",%.5f,%.5f", plain(record.dxUm), plain(record.dyUm));
@@ -199,7 +199,7 @@ public:
       m_comparison.skip();
     }
     const auto start = std::chrono::steady_clock::now();
-    const vpPatternFrame &frame = m_tracker.track(part);
+    const vpPatternFrame &frame = m_tracker.process(part);
     const double microseconds =
         std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
     FrameRecord record = recordOf(frame, source.number(), microseconds);
@@ -269,7 +269,7 @@ private:
     m_results.calibrated->calibration.saveXml(out.file("calibration.xml"));
   }
 
-  static vpPatternTracker makeTracker(const Window &window, const vpPatternOptions &options, const std::string &name)
+  static vpPatternTracker makeTracker(const Window &window, const vpPatternTrackerSpec &options, const std::string &name)
   {
     try {
       return vpPatternTracker(window.width(), window.height(), options);

@@ -162,7 +162,7 @@ void evaluateEnd(const vpAvoidanceRun &run, vpAvoidanceMetrics &m)
   }
   else {
     std::snprintf(text, sizeof(text), "%.1f mm from the goal after %.2f s: %s", 1000. * m.goal_error_m, m.duration_s,
-                  sentence(run.samples.back().status));
+                  vpMessage(run.samples.back().status));
   }
   m.status = text;
 }

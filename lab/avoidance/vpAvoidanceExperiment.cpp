@@ -95,7 +95,7 @@ public:
   //! The last row: the final state.
   void finish(double t)
   {
-    m_run->sentence = sentence(m_output, m_perceived.scene(), m_spec->methodSpec.margin);
+    m_run->message = vpMessage(m_output, m_perceived.scene(), m_spec->methodSpec.margin);
     if (!m_run->samples.empty() && m_run->samples.back().time == t) {
       m_run->samples.back().command.setZero();
       return;

@@ -84,7 +84,7 @@ struct vpAvoidanceRun {
   std::vector<double> lookTimes;                       //!< Wall times of all calls of vpAvoidanceMethod::look(), s.
   vpAvoidanceStatus start = vpAvoidanceStatus::Moving; //!< Result of vpAvoidanceMethod::start().
   double startTime = 0.;                               //!< Wall time of start(), s.
-  std::string sentence;                                //!< Final sentence of the method, with pair and margin.
+  std::string message;                                 //!< Final sentence of the method, with pair and margin.
   vpAvoidanceMetrics metrics;                          //!< Metrics.
 };
 

@@ -73,7 +73,7 @@ void vpPrintCellSensor::seeModel(double x, double y)
 void vpPrintCellSensor::seeImage(double x, double y, double vx, double vy, unsigned int frame)
 {
   m_product.render(x, y, vx, vy, frame, m_image);
-  const vpPatternFrame &seen = m_tracker.track(m_image);
+  const vpPatternFrame &seen = m_tracker.process(m_image);
   m_cells.clear();
   const bool locked = seen.status == vpPatternStatus::Tracking || seen.status == vpPatternStatus::Degraded;
   if (!locked) {

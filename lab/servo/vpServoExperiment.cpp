@@ -41,14 +41,14 @@ std::unique_ptr<vpServoSensor> makeSensor(const vpServoRunSpec &spec)
 // Filter and plant share the speed limits and the view, so that the filter never requests what the robot cannot do.
 vpServoController makeController(const vpServoRunSpec &spec)
 {
-  vpServoControllerConfig config;
-  config.gains = spec.gains;
-  config.view = vpViewConstraintConfig::fromCamera(spec.task.camera, spec.task.width, spec.task.height);
-  config.view.period = 1. / spec.plant.loopRate;
-  config.view.imageUncertainty = 3. * spec.plant.pixelNoise / spec.task.camera.get_px();
-  config.view.maxLinear = spec.plant.maxLinear;
-  config.view.maxAngular = spec.plant.maxAngular;
-  return vpServoController::create(spec.law, config);
+  vpServoControllerSpec spec;
+  spec.gains = spec.gains;
+  spec.view = vpViewConstraintSpec::fromCamera(spec.task.camera, spec.task.width, spec.task.height);
+  spec.view.period = 1. / spec.plant.loopRate;
+  spec.view.imageUncertainty = 3. * spec.plant.pixelNoise / spec.task.camera.get_px();
+  spec.view.maxLinear = spec.plant.maxLinear;
+  spec.view.maxAngular = spec.plant.maxAngular;
+  return vpServoController::create(spec.law, spec);
 }
 
 // Number of the first cycle after each segment.
@@ -191,11 +191,11 @@ vpServoRun runServoExperiment(const vpServoRunSpec &spec, const std::function<bo
       s.newFrame = odometry.correct(result);
     }
     odometry.predict(measurement);
-    const vpServoCommand command = servo.update(measurement, dt);
+    const vpServoCommand command = servo.step(measurement, dt);
     vpTwist asked = command.v;
     if (shaper) {
       // The plant's speed limits come first: after the shaper they would cause a kink in its smooth twist.
-      asked = shaper->update(limitTwist(asked, spec.plant.maxLinear, spec.plant.maxAngular), dt);
+      asked = shaper->step(vpLimitTwist(asked, spec.plant.maxLinear, spec.plant.maxAngular), dt);
     }
     robot->move(asked);
     odometry.move(robot->actual(), (cycle + 1) * dt);

@@ -52,7 +52,7 @@ std::string describeEnd(const vpServoRunSpec &spec, const std::vector<vpServoSam
   while (since != samples.begin() && (since - 1)->status == last) {
     --since;
   }
-  std::snprintf(text, sizeof(text), "ended in %s since %.2f s: %s", toString(last), since->time, message(last));
+  std::snprintf(text, sizeof(text), "ended in %s since %.2f s: %s", vpToString(last), since->time, vpMessage(last));
   return text;
 }
 
@@ -96,7 +96,7 @@ vpServoMetrics evaluateServoRun(const vpServoRunSpec &spec, const std::vector<vp
     m.path_length_m += s->actual.linearNorm() * cycle;
     m.peak_linear_mps = std::max(m.peak_linear_mps, s->actual.linearNorm());
     m.peak_angular_radps = std::max(m.peak_angular_radps, s->actual.angularNorm());
-    const vpTwist asked = limitTwist(s->commanded, spec.plant.maxLinear, spec.plant.maxAngular);
+    const vpTwist asked = vpLimitTwist(s->commanded, spec.plant.maxLinear, spec.plant.maxAngular);
     const vpTwist change = minus(asked, before);
     m.peak_linear_acceleration_mps2 = std::max(m.peak_linear_acceleration_mps2, change.linearNorm() / cycle);
     m.peak_angular_acceleration_radps2 = std::max(m.peak_angular_acceleration_radps2, change.angularNorm() / cycle);

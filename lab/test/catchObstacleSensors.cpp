@@ -228,7 +228,7 @@ TEST_CASE("A covered camera sees nothing; what it has seen is still there", "[se
     CHECK(sightings.size() == (k >= 12 && k < 24 ? 0 : 3));
     for (const vpObstacleDetection &detection : eye.detector().detections()) {
       CHECK(detection.seen != (k >= 12 && k < 24));
-      CHECK_FALSE(detection.sentence.empty());
+      CHECK_FALSE(detection.message.empty());
     }
     for (const vpObjectSighting &sighting : sightings) {
       tracks.add(sighting);

@@ -88,7 +88,7 @@ std::map<std::string, Count> runAll(unsigned int problems, const std::string &fi
     count.deadlocked += run.metrics.deadlock_cycles > 0;
     count.reached += run.metrics.end_rotation_deg < 5. && run.metrics.end_translation_mm < 30.;
     const vpServoStatus status = run.samples.back().status;
-    count.stuck += isStuck(run.samples.back()) && status != vpServoStatus::Deadlock && isWorking(status);
+    count.stuck += isStuck(run.samples.back()) && status != vpServoStatus::Deadlock && vpIsWorking(status);
   }
   std::printf("%-22s %5s %9s %11s %15s %21s\n", "law", "runs", "view lost", "deadlocked", "near after 4 s",
               "stuck without a word");

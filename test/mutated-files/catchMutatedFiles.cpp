@@ -112,7 +112,7 @@ TEST_CASE("Damaged arms", "[files][mutated]")
 {
   tell("arm.json", readMutated({data + "/robot/amor.json"}, ".json", mutationCount(400),
                                [](const std::string &file) { static_cast<void>(vpLoadArmJson(file)); }));
-  vpArmUrdfOptions options;
+  vpArmUrdfSpec options;
   options.tip = "tool";
   tell("arm.urdf", readMutated({data + "/robot/generic-6r.urdf"}, ".urdf", mutationCount(400),
                                [&](const std::string &file) { static_cast<void>(vpLoadArmUrdf(file, options)); }));
@@ -190,7 +190,7 @@ TEST_CASE("Damaged lists of targets", "[files][mutated]")
     pixels += static_cast<char>(blocks[i / 160 / 8 * 20 + i % 160 / 8]);
   }
   std::ofstream(folder / "a.pgm", std::ios::binary) << pixels;
-  vpPlanarTargetConfig config;
+  vpPlanarTargetSpec config;
   config.minInliers = 8;
   const vpCameraParameters camera(600., 600., 320., 240.);
   const File good("targets.json", R"({"comment": "x", "targets": [

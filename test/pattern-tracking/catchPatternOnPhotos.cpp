@@ -67,12 +67,12 @@ TEST_CASE("printed grids seen at an angle are found whole and followed", "[patte
   }
   const int number = GENERATE(1, 2, 3, 4);
   const auto method = GENERATE(vpPatternMethod::GaussNewton, vpPatternMethod::HalfMaximumEdges);
-  CAPTURE(number, toString(method));
+  CAPTURE(number, vpToString(method));
   vpImage<unsigned char> photo, image;
   vpImageIo::read(photo, folder + "/calibration/grid36-0" + std::to_string(number) + ".pgm");
-  vpPatternOptions options;
-  options.method = method;
-  vpPatternTracker tracker(photo.getWidth() - 24, photo.getHeight() - 24, options);
+  vpPatternTrackerSpec spec;
+  spec.method = method;
+  vpPatternTracker tracker(photo.getWidth() - 24, photo.getHeight() - 24, spec);
   int tracked = 0;
   for (int k = 0; k < 150; ++k) {
     // The camera goes round: another part of the photograph each time, by whole pixels, so that the motion is known.
@@ -80,7 +80,7 @@ TEST_CASE("printed grids seen at an angle are found whole and followed", "[patte
     const int top = 12 + static_cast<int>(std::lround(11. * std::sin(0.1 * k)));
     const int lastLeft = 12 + static_cast<int>(std::lround(11. * std::cos(0.1 * (k - 1))));
     vpImageTools::crop(photo, top, left, photo.getHeight() - 24, photo.getWidth() - 24, image);
-    const vpPatternFrame &frame = tracker.track(image);
+    const vpPatternFrame &frame = tracker.process(image);
     CAPTURE(k, frame.message());
     CHECK(frame.status != vpPatternStatus::Lost);
     CHECK(frame.epoch == 0);
@@ -95,7 +95,7 @@ TEST_CASE("printed grids seen at an angle are found whole and followed", "[patte
   CHECK(tracked >= 90);
   // Edges give the centre of each dot in its own shape; one template for dots of different sizes is worse.
   const Residual residual = gridResidual(tracker.frame());
-  std::cout << "grid36-0" << number << ", " << toString(method) << ": " << residual.cells
+  std::cout << "grid36-0" << number << ", " << vpToString(method) << ": " << residual.cells
             << " dots, residual of the homography " << residual.rms << " px rms\n";
   CHECK(residual.rms < (method == vpPatternMethod::GaussNewton ? 0.8 : 0.4));
 }
@@ -134,18 +134,18 @@ TEST_CASE("four dots on a box in a hand are followed while it turns, tilts and c
   // distances go from 135 x 80 to 170 x 50 to 110 x 65 px.
   const bool anew = GENERATE(true, false);
   CAPTURE(anew);
-  vpPatternOptions options;
-  options.refreshEvery = anew ? options.refreshEvery : 0;
+  vpPatternTrackerSpec spec;
+  spec.refreshEvery = anew ? spec.refreshEvery : 0;
   constexpr int width = 235, height = 178;
   vpImage<unsigned char> photo, image;
-  vpPatternTracker tracker(width, height, options);
+  vpPatternTracker tracker(width, height, spec);
   int lost = 0, degraded = 0, cells = 0, locked = 0, wrong = 0, left = 55, top = 110, last = 0;
   double squares = 0.;
   for (int k = 20; k <= 501; ++k) {
     const std::string digits = std::to_string(k);
     vpImageIo::read(photo, folder + "/mire-2/image." + std::string(4 - digits.size(), '0') + digits + ".pgm");
     vpImageTools::crop(photo, top, left, height, width, image);
-    const vpPatternFrame &frame = tracker.track(image);
+    const vpPatternFrame &frame = tracker.process(image);
     lost += frame.status == vpPatternStatus::Lost ? 1 : 0;
     if (frame.templates == 0) {
       continue;

@@ -30,10 +30,10 @@ struct Outcome {
   double sigmaY() const { return std::sqrt(yy / static_cast<double>(count) - meanY() * meanY()); }
 };
 
-Outcome run(const vpProductPatternSpec &spec, int frames, const vpPatternOptions &options = vpPatternOptions())
+Outcome run(const vpProductPatternSpec &spec, int frames, const vpPatternTrackerSpec &spec = vpPatternTrackerSpec())
 {
   const vpProductPattern product(spec);
-  vpPatternTracker tracker(spec.width, spec.height, options);
+  vpPatternTracker tracker(spec.width, spec.height, spec);
   vpImage<unsigned char> image;
   Outcome o;
   std::map<std::pair<int, int>, std::pair<int, int>> names;
@@ -43,7 +43,7 @@ Outcome run(const vpProductPatternSpec &spec, int frames, const vpPatternOptions
     x += vx;
     y += vy;
     product.render(x, y, vx, vy, static_cast<unsigned int>(k), image);
-    const vpPatternFrame &frame = tracker.track(image);
+    const vpPatternFrame &frame = tracker.process(image);
     if (o.locked < 0) {
       if (frame.status != vpPatternStatus::Tracking) {
         continue;
@@ -225,7 +225,7 @@ TEST_CASE("cells that move by a pitch at once are known to be others when they a
   for (int k = 0; k < 130; ++k) {
     x += k == 100 ? share * spec.pitchX : 3.;
     product.render(x, 0., 3., 0., static_cast<unsigned int>(k), image);
-    const vpPatternFrame &frame = tracker.track(image);
+    const vpPatternFrame &frame = tracker.process(image);
     CAPTURE(k, frame.message());
     if (k < 95) {
       continue;
@@ -260,7 +260,7 @@ TEST_CASE("the end of learning is no motion", "[pattern]")
   bool wasTracking = false;
   for (int k = 0; k < 80; ++k) {
     product.render(3. * k, 0., 3., 0., static_cast<unsigned int>(k), image);
-    const vpPatternFrame &frame = tracker.track(image);
+    const vpPatternFrame &frame = tracker.process(image);
     if (frame.status == vpPatternStatus::Tracking && !wasTracking) {
       REQUIRE(frame.hasMotion);
       CHECK(std::abs(frame.dx - 3.) < 0.03);
@@ -283,7 +283,7 @@ TEST_CASE("a motion above half a pitch is never Tracking when the cells are unev
   for (int k = 0; k < 150; ++k) {
     const double v = share * spec.pitchX;
     product.render(k * v, 0., v, 0., static_cast<unsigned int>(k), image);
-    const vpPatternFrame &frame = tracker.track(image);
+    const vpPatternFrame &frame = tracker.process(image);
     CAPTURE(k, frame.message());
     if (k > 60) { // with one frame or two more for the deviations to become known
       CHECK(frame.status != vpPatternStatus::Tracking);
@@ -331,7 +331,7 @@ TEST_CASE("cells under dirt are left out while the template is learned, too", "[
       const double x = 500. * start + 4. * k;
       product.render(x, 0., 4., 0., static_cast<unsigned int>(k), image);
       const auto truth = product.cells(x, 0.);
-      for (const vpPatternCell &cell : tracker.track(image).cells) {
+      for (const vpPatternCell &cell : tracker.process(image).cells) {
         double nearest = HUGE_VAL;
         for (const vpPatternTruthCell &t : truth) {
           nearest = std::min(nearest, std::hypot(t.x - cell.x, t.y - cell.y));
@@ -362,14 +362,14 @@ TEST_CASE("a flexible, turned product is followed", "[pattern]")
 TEST_CASE("Algorithm 7.4 as printed has the published errors on the product", "[pattern][baseline]")
 {
   CAPTURE(vpTestSupport::seed());
-  vpPatternOptions options;
-  options.method = vpPatternMethod::ThesisAlgorithm;
-  const Outcome literal = run(product(454), 400, options);
+  vpPatternTrackerSpec spec;
+  spec.method = vpPatternMethod::ThesisAlgorithm;
+  const Outcome literal = run(product(454), 400, spec);
   CHECK(literal.meanX() == Approx(0.5).margin(0.02));
   CHECK(literal.sigmaX() == Approx(0.183).margin(0.015));
   CHECK(literal.sigmaY() == Approx(0.035).margin(0.005));
-  options.method = vpPatternMethod::ThesisAlgorithmFixed;
-  const Outcome mended = run(product(454), 400, options);
+  spec.method = vpPatternMethod::ThesisAlgorithmFixed;
+  const Outcome mended = run(product(454), 400, spec);
   CHECK(std::abs(mended.meanX()) < 0.01);
   CHECK(mended.sigmaX() == Approx(0.049).margin(0.006));
   CHECK(mended.sigmaY() == Approx(0.035).margin(0.005));

@@ -24,11 +24,11 @@ vpProductPatternSpec product(unsigned int index)
   return spec;
 }
 
-vpPatternOptions withRefresh(int every)
+vpPatternTrackerSpec withRefresh(int every)
 {
-  vpPatternOptions options;
-  options.refreshEvery = every;
-  return options;
+  vpPatternTrackerSpec spec;
+  spec.refreshEvery = every;
+  return spec;
 }
 
 //! Mean and deviation of errors.
@@ -69,10 +69,10 @@ struct LongRun {
   unsigned long allocations = 0;
 };
 
-LongRun longRun(const vpProductPatternSpec &spec, const vpPatternOptions &options)
+LongRun longRun(const vpProductPatternSpec &spec, const vpPatternTrackerSpec &spec)
 {
   const vpProductPattern pattern(spec);
-  vpPatternTracker tracker(spec.width, spec.height, options);
+  vpPatternTracker tracker(spec.width, spec.height, spec);
   vpImage<unsigned char> image;
   LongRun result;
   double x = 0., y = 0.;
@@ -82,7 +82,7 @@ LongRun longRun(const vpProductPatternSpec &spec, const vpPatternOptions &option
     y += vy;
     pattern.render(x, y, vx, vy, static_cast<unsigned int>(k), image);
     const unsigned long before = vpTestSupport::allocationCount();
-    const vpPatternFrame &frame = tracker.track(image);
+    const vpPatternFrame &frame = tracker.process(image);
     result.allocations += vpTestSupport::allocationCount() - before;
     if (k < settling) {
       continue;
@@ -139,7 +139,7 @@ TEST_CASE("optics that go out of focus are followed by the template", "[pattern]
   CAPTURE(vpTestSupport::seed());
   constexpr int steps = 30, framesPerStep = 60;
   double noise[2] = {}, sigma[2] = {};
-  const int byDefault = vpPatternOptions().refreshEvery;
+  const int byDefault = vpPatternTrackerSpec().refreshEvery;
   for (const int every : {0, byDefault}) {
     vpProductPatternSpec spec = product(471);
     vpPatternTracker tracker(spec.width, spec.height, withRefresh(every));
@@ -153,7 +153,7 @@ TEST_CASE("optics that go out of focus are followed by the template", "[pattern]
       for (int i = 0; i < (step == 0 ? 150 : framesPerStep); ++i, ++k) {
         x += 3.1;
         pattern.render(x, 0., 3.1, 0., k, image);
-        const vpPatternFrame &frame = tracker.track(image);
+        const vpPatternFrame &frame = tracker.process(image);
         CHECK((k < 100 || frame.status == vpPatternStatus::Tracking));
         if (step > steps - 5) {
           compare(frame, pattern.cells(x, 0.), ex, ey);
@@ -210,7 +210,7 @@ TEST_CASE("dirt is not learned, wherever it grows", "[pattern][refresh]")
         }
       }
     }
-    const vpPatternFrame &frame = tracker.track(image);
+    const vpPatternFrame &frame = tracker.process(image);
     if (k >= 500 && k < 600) {
       compare(frame, pattern.cells(x, y), before[0], before[1]);
     }

@@ -250,7 +250,7 @@ Outcome follow(Scene &scene, unsigned int width, unsigned int height, int images
   for (int k = -settling; k < images; ++k) {
     const View view = motion(k);
     scene.render(view, image);
-    const vpPatternFrame &frame = tracker.track(image);
+    const vpPatternFrame &frame = tracker.process(image);
     if (k >= 0) {
       judge.add(frame, scene.cells(view), width, height);
     }

@@ -26,10 +26,10 @@ struct Scene {
   vpFineRenderer fine;
   vpPlanarTarget target;
 
-  explicit Scene(const std::string &file, const vpPlanarTargetConfig &config = {})
+  explicit Scene(const std::string &file, const vpPlanarTargetSpec &spec = {})
     : photo(read(file)), height(width * photo.getHeight() / photo.getWidth()),
       renderer(photo, width, height, camera(), cols, rows), fine(photo, width, height, focal, cols, rows),
-      target(photo, width, height, camera(), config)
+      target(photo, width, height, camera(), spec)
   {}
 
   static Image read(const std::string &file)
@@ -223,10 +223,10 @@ TEST_CASE("blank ground does not decide which edges are rejected", "[planar_targ
 {
   // The refinement alone: it was 0.53 deg off at a bound of 0.02, and stayed there when started at the right pose.
   CAPTURE(vpTestSupport::seed());
-  vpPlanarTargetConfig config;
-  config.exact = false;
+  vpPlanarTargetSpec spec;
+  spec.exact = false;
   for (const Photo &photo : photos()) {
-    Scene scene(photo.file, config);
+    Scene scene(photo.file, spec);
     double sum = 0.;
     const int n = views(8);
     for (int i = 0; i < n; ++i) {

@@ -27,11 +27,11 @@ inline const vpArmModel &amor()
 inline const vpArmModel &sixAxes()
 {
   static const vpArmModel model = [] {
-    vpArmUrdfOptions options;
-    options.tip = "tool";
-    options.camera = "camera";
-    options.acceleration = 12.;
-    return vpLoadArmUrdf(std::string(VISP_DIRECT_DATA_DIR) + "/robot/generic-6r.urdf", options);
+    vpArmUrdfSpec spec;
+    spec.tip = "tool";
+    spec.camera = "camera";
+    spec.acceleration = 12.;
+    return vpLoadArmUrdf(std::string(VISP_DIRECT_DATA_DIR) + "/robot/generic-6r.urdf", spec);
   }();
   return model;
 }

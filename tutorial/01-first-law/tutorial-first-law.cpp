@@ -60,11 +60,11 @@ int main(int argc, char **argv)
     vpImage<vpRGBa> panel, picture(480, 1280); // first image beside the last one
     vpServoMeasurement seen;
     vpServoCommand command{vpTwist(), vpServoStatus::Holding};
-    for (int k = 0; k < 160 && isWorking(command.status); ++k) { // an error ends the loop
+    for (int k = 0; k < 160 && vpIsWorking(command.status); ++k) { // an error ends the loop
       view.render(robot.getPosition().inverse(), {}, 1, image);
       plate.measure(target.process(image), 0.05 * k, seen);
-      command = law->update(seen, 0.05); // zero twist and Holding if the photograph was not found
-      robot.setVelocity(vpRobot::CAMERA_FRAME, limitTwist(command.v, 0.2, 0.7).toColVector()); // m/s, rad/s
+      command = law->step(seen, 0.05); // zero twist and Holding if the photograph was not found
+      robot.setVelocity(vpRobot::CAMERA_FRAME, vpLimitTwist(command.v, 0.2, 0.7).toColVector()); // m/s, rad/s
       //! [Loop]
       vpImageConvert::convert(image, panel);
       drawOutline(panel, goal.points, vpColor::blue, 6);

@@ -35,7 +35,7 @@ public:
 
 protected:
   // The base class has checked the measurement: valid, finite, fits the goal. Do not throw or allocate here.
-  vpServoCommand step(const vpServoMeasurement &seen, double /*dt*/) noexcept override
+  vpServoCommand compute(const vpServoMeasurement &seen, double /*dt*/) noexcept override
   {
     const Eigen::Vector4d e = errorOf(seen.cMo, m_goal.cdMo);
     const Eigen::Vector3d v = -m_gains.lambda * e.head<3>(); // along the axes of the desired camera;
@@ -67,7 +67,7 @@ int main()
   for (int i = 0; i < 1000; ++i) {
     seen.cMo = vpHomogeneousMatrix(random.uniform(-1., 1.), random.uniform(-1., 1.), random.uniform(0.2, 2.), 0.,
                                    random.uniform(-3., 3.), 0.);
-    const vpColVector v = law.update(seen, 0.01).v.toColVector();
+    const vpColVector v = law.step(seen, 0.01).v.toColVector();
     const auto at = [&](double t) { return errorOf(vpExponentialMap::direct(v, t).inverse() * seen.cMo, goal.cdMo); };
     const Eigen::Vector4d derivative = (at(1e-5) - at(-1e-5)) / 2e-5;
     worst = std::max(worst, (derivative + k.cwiseProduct(errorOf(seen.cMo, goal.cdMo))).cwiseAbs().maxCoeff());
@@ -82,7 +82,7 @@ int main()
   for (double t = 0.; t < 5.; t += 0.02) {
     const Eigen::Vector4d promised = start.array() * (-t * k.array()).exp();
     plot << t << ' ' << errorOf(seen.cMo, goal.cdMo).transpose() << ' ' << promised.transpose() << '\n';
-    seen.cMo = vpExponentialMap::direct(law.update(seen, 0.02).v.toColVector(), 0.02).inverse() * seen.cMo;
+    seen.cMo = vpExponentialMap::direct(law.step(seen, 0.02).v.toColVector(), 0.02).inverse() * seen.cMo;
   }
   //! [Run]
   plot << "end\nset terminal pngcairo size 800,480; set output 'tutorial-own-law.png'\n"

@@ -59,7 +59,7 @@ Run servo(bool isShaped)
     }
     vpColVector v = task.computeControlLaw();
     if (isShaped) {
-      v = shaper.update(vpTwist::fromColVector(v), dt).toColVector(); // the line that bounds the motion
+      v = shaper.step(vpTwist::fromColVector(v), dt).toColVector(); // the line that bounds the motion
     }
     robot.setVelocity(vpRobot::CAMERA_FRAME, v);
     //! [Loop]

@@ -26,11 +26,11 @@ vpArmModel loadArm(int argc, char **argv)
   if (argc == 2) { // a DH table, including the data that a URDF lacks
     return vpLoadArmJson(argv[1]);
   }
-  vpArmUrdfOptions options;
-  options.tip = argc == 4 ? argv[2] : "tool";      // end-effector link
-  options.camera = argc == 4 ? argv[3] : "camera"; // camera link, z along the optical axis
-  options.acceleration = 10.;                      // rad/s^2, all joints: URDF has none
-  return vpLoadArmUrdf(argc == 4 ? argv[1] : VISP_DIRECT_DATA_DIR "/robot/generic-6r.urdf", options);
+  vpArmUrdfSpec spec;
+  spec.tip = argc == 4 ? argv[2] : "tool";      // end-effector link
+  spec.camera = argc == 4 ? argv[3] : "camera"; // camera link, z along the optical axis
+  spec.acceleration = 10.;                      // rad/s^2, all joints: URDF has none
+  return vpLoadArmUrdf(argc == 4 ? argv[1] : VISP_DIRECT_DATA_DIR "/robot/generic-6r.urdf", spec);
 }
 //! [Load]
 void draw(vpImage<vpRGBa> &picture, const vpFeaturePoint &p, const vpColor &color, bool isGoal)

@@ -69,7 +69,7 @@ int main(int argc, char **argv)
     for (unsigned int i = 0; argc > 1 ? !reader.end() : i < 300; ++i) {
       truth = 5. * i + 10. * std::sin(0.1 * i);
       argc > 1 ? reader.acquire(image) : product.render(truth, 0., 5. + std::cos(0.1 * i), 0., i, image);
-      const vpPatternFrame &frame = tracker.track(image);
+      const vpPatternFrame &frame = tracker.process(image);
       moved += frame.hasMotion ? frame.dx : 0.; // since the previous image
       tracked += frame.status == vpPatternStatus::Tracking ? 1 : 0;
     }

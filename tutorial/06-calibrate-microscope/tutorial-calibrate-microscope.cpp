@@ -48,9 +48,9 @@ vpImage<unsigned char> throughTheLens()
 //! [Calibrate]
 vpMicroscopeCalibrationResult calibrate(const vpImage<unsigned char> &image, const vpCalibrationPitch &pitch)
 {
-  vpMicroscopeCalibrationOptions options;
-  options.sigmaFromResiduals = true; // the accuracy of the dots is unknown for a single image
-  vpPlanarMicroscopeCalibration microscope(image.getWidth(), image.getHeight(), options);
+  vpMicroscopeCalibrationSpec spec;
+  spec.sigmaFromResiduals = true; // the accuracy of the dots is unknown for a single image
+  vpPlanarMicroscopeCalibration microscope(image.getWidth(), image.getHeight(), spec);
   microscope.addView(vpCalibrationPoints(image, pitch)); // more views of the same microscope improve the result
   return microscope.compute();
 }

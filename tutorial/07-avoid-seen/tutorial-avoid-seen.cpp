@@ -50,7 +50,7 @@ double drive(bool isCovered, vpImage<vpRGBa> &picture)
   vpAvoidanceOutput output;
   vpCollisionData data;
   vpImage<unsigned char> image;
-  for (int cycle = 0; cycle < 1000 && (cycle == 0 || isWorking(output)); ++cycle) {
+  for (int cycle = 0; cycle < 1000 && (cycle == 0 || vpIsWorking(output)); ++cycle) {
     truth.place(q, data);
     least = std::min(least, truth.clearance(data).distance);
     const vpImagePoint tool = fromAbove(data.arm.tool.p.x(), data.arm.tool.p.y());
@@ -60,7 +60,7 @@ double drive(bool isCovered, vpImage<vpRGBa> &picture)
       const vpRigidTransform fMc = vpArmKinematics::camera(arm, data.arm);
       camera.picture(truth, fMc, {}, 1, image);
       for (const vpObstacleDetection &detection : detector.process(image, fMc, 0.005 * cycle)) {
-        detection.seen &&tracks.add(detection.sighting); // else detection.sentence explains why
+        detection.seen &&tracks.add(detection.sighting); // else detection.message explains why
       }
       tracks.advance(0.005 * cycle);
       tracks.applyTo(known);

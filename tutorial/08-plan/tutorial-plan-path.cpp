@@ -62,7 +62,7 @@ int main(int argc, char **argv)
       return EXIT_FAILURE; // the sentence explains why
     }
     const vpTimedPath motion(scene, found.path);
-    std::cout << motion.sentence(scene) << std::endl;
+    std::cout << motion.message(scene) << std::endl;
     //! [Plan]
     //! [Drive]
     vpImage<vpRGBa> picture(500, 860, vpRGBa(255, 255, 255));

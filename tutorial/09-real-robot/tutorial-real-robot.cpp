@@ -26,13 +26,13 @@ using Grab = std::function<void(vpImage<unsigned char> &)>;
 // All motion code, the same for simulated and real robots. True if the target was lost on the way.
 bool servo(vpRobot &robot, const Grab &grab, vpPlanarTarget &target, std::ostream &log)
 {
-  vpServoControllerConfig config;
-  config.gains.lambda = 2.;                                           // 1/s
-  config.view = vpViewConstraintConfig::fromCamera(camera, 320, 240); // "+cbf" keeps the target's centre in it
-  config.view.maxLinear = 0.1;           // m/s; use a fifth of it for the first run on a real robot
-  config.view.maxAngular = 0.3;          // rad/s
-  config.recovery = {0.3, 2., 0.1, 0.3}; // target lost: wait 0.3 s, then undo the last 2 s; m/s, rad/s
-  vpServoController controller = vpServoController::create("ff-lookat+cbf", config);
+  vpServoControllerSpec spec;
+  spec.gains.lambda = 2.;                                           // 1/s
+  spec.view = vpViewConstraintSpec::fromCamera(camera, 320, 240); // "+cbf" keeps the target's centre in it
+  spec.view.maxLinear = 0.1;           // m/s; use a fifth of it for the first run on a real robot
+  spec.view.maxAngular = 0.3;          // rad/s
+  spec.recovery = {0.3, 2., 0.1, 0.3}; // target lost: wait 0.3 s, then undo the last 2 s; m/s, rad/s
+  vpServoController controller = vpServoController::create("ff-lookat+cbf", spec);
   const vpServoTarget centre({Eigen::Vector3d::Zero()}); // object origin: look-at point, kept in view
   controller.setGoal(centre.goal(cdMo));
   robot.setMaxTranslationVelocity(0.11); // the robot's own limits back up those of the controller
@@ -47,11 +47,11 @@ bool servo(vpRobot &robot, const Grab &grab, vpPlanarTarget &target, std::ostrea
     const bool fresh = vpTime::measureTimeMs() - before < 200.; // watchdog: ignore images of a stalled camera
     centre.measure(target.process(image), 0.04 * k, seen);
     seen.valid = seen.valid && fresh;
-    const auto [v, status] = controller.update(seen, 0.04);
+    const auto [v, status] = controller.step(seen, 0.04);
     robot.setVelocity(vpRobot::CAMERA_FRAME, v.toColVector());
     wasLost = wasLost || status == vpServoStatus::Retreating;
-    isGoing = isWorking(status); // an error or a permanent loss ends the loop: the robot stops
-    log << 0.04 * k << ' ' << v.linearNorm() << ' ' << v.angularNorm() << ' ' << toString(status) << std::endl;
+    isGoing = vpIsWorking(status); // an error or a permanent loss ends the loop: the robot stops
+    log << 0.04 * k << ' ' << v.linearNorm() << ' ' << v.angularNorm() << ' ' << vpToString(status) << std::endl;
   }
   robot.setRobotState(vpRobot::STATE_STOP);
   return wasLost;
@@ -64,7 +64,7 @@ int main(int argc, char **argv)
     //! [Parts]
     vpImage<unsigned char> photo;
     vpImageIo::read(photo, VISP_DIRECT_DATA_DIR "/target/klimt.jpg");
-    vpPlanarTargetConfig fast;
+    vpPlanarTargetSpec fast;
     fast.refinementSize = 120;                                                    // px: fast enough for the camera rate
     vpPlanarTarget target(photo, 0.12, 0.12, camera, fast);                       // m
     vpSimulatedArm robot(vpLoadArmJson(VISP_DIRECT_DATA_DIR "/robot/amor.json")); // 40 ms per cycle; any vpRobot works

@@ -35,7 +35,7 @@ int main()
   vpPatternCell first;              // under the nozzle at the start; printing begins after it
   for (int i = -100; i <= 0; ++i) { // in slow motion the tracker learns the template of the cell
     product.render(0.5 * i, 0., 0.5, 0., 100 + i, image);
-    for (const vpPatternCell &cell : tracker.track(image).cells) {
+    for (const vpPatternCell &cell : tracker.process(image).cells) {
       first = std::hypot(cell.x - 79.5, cell.y - 49.5) < 8. ? cell : first;
     }
   }
@@ -47,7 +47,7 @@ int main()
     //! [Loop]
     const vpXYStage::State seen = log[log.size() - 5]; // the camera is one frame late
     product.render(seen.position[0], 0., seen.velocity[0], 0., static_cast<unsigned int>(now), image);
-    const vpPatternFrame &frame = tracker.track(image);
+    const vpPatternFrame &frame = tracker.process(image);
     const vpPrintMachineOutput &out = machine.step({now, frame.cells.data(), frame.cells.size(), frame.epoch});
     shots.insert(shots.end(), out.trigger->shots.begin(), out.trigger->shots.begin() + out.trigger->shotCount);
     for (std::size_t i = 0; i < 4; ++i) {

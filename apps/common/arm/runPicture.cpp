@@ -106,7 +106,7 @@ ArmAnimation runAnimation(const vpAvoidanceRun &run, const std::string &title)
       frame.objects.push_back(objectAt(obstacle, s.time).pose);
       frame.visible.push_back(obstacle.isThere(s.time));
     }
-    frame.caption = std::string(s.stopping ? "protective stop, " : "") + toString(s.status);
+    frame.caption = std::string(s.stopping ? "protective stop, " : "") + vpToString(s.status);
     animation.frames.push_back(frame);
   }
   return animation;

@@ -112,7 +112,7 @@ TEST_CASE("An answer says what the motion is", "[visp-plan-trajectory]")
   CHECK(answer["duration"] == motion.duration());
   CHECK(answer["plans"].size() == 3);
   CHECK(answer["plans"][1]["t"] == 0.8);
-  CHECK(answer["form"] == toString(motion.form));
+  CHECK(answer["form"] == vpToString(motion.form));
   REQUIRE(answer["segments"].size() == motion.pieces.size());
   CHECK(answer["segments"].front()["t0"] == 0.);
   CHECK(answer["segments"].back()["t1"].get<double>() == Approx(motion.duration()).epsilon(1e-14));
@@ -291,7 +291,7 @@ TEST_CASE("The example files are answered, and have a picture", "[visp-plan-traj
       const Problem problem = readProblem(text, name, line);
       const Motion motion = execute(problem);
       // The thesis's iteration does not guarantee the limits, which is reported.
-      const bool exact = problem.input.options.method == vpDurationMethod::Exact;
+      const bool exact = problem.input.spec.method == vpDurationMethod::Exact;
       CHECK((!exact || motion.result != vpTrajectoryResult::NoFeasibleDuration));
       CHECK(motion.duration() > 0.);
       if (line == 1) {

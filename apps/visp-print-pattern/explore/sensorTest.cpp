@@ -72,7 +72,7 @@ SensorTest testSensor(const vpProductPatternSpec &spec, double velocity)
   for (int k = learningFrames; k > 0; --k) {
     const double place = -learningVelocity * k;
     product.render(place, place, learningVelocity, learningVelocity, number++, image);
-    static_cast<void>(tracker.track(image));
+    static_cast<void>(tracker.process(image));
   }
   Errors errors;
   double held = 0.;
@@ -83,7 +83,7 @@ SensorTest testSensor(const vpProductPatternSpec &spec, double velocity)
     v += gain * (velocity - v);
     place += v;
     product.render(place, across * place, v, across * v, number++, image);
-    const vpPatternFrame &seen = tracker.track(image);
+    const vpPatternFrame &seen = tracker.process(image);
     const bool locked = seen.status == vpPatternStatus::Tracking || seen.status == vpPatternStatus::Degraded;
     if (!locked || seen.validCells == 0) {
       continue;

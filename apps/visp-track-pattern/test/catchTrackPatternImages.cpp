@@ -130,7 +130,7 @@ TEST_CASE("a real grid that is moved is tracked", "[images]")
       for (unsigned int row = 0; row < height; ++row) {
         std::copy_n(whole[row + static_cast<unsigned int>(v)] + u, width, image[row]);
       }
-      const vpPatternFrame &frame = tracker.track(image);
+      const vpPatternFrame &frame = tracker.process(image);
       tracking += frame.status == vpPatternStatus::Tracking ? 1 : 0;
       lost += frame.status == vpPatternStatus::Lost ? 1 : 0;
       valid += frame.validCells;
@@ -176,7 +176,7 @@ TEST_CASE("a real film without a lattice is not tracked", "[images]")
     if (!tracker) {
       tracker = std::make_unique<vpPatternTracker>(image.getWidth(), image.getHeight());
     }
-    const vpPatternFrame &frame = tracker->track(image);
+    const vpPatternFrame &frame = tracker->process(image);
     tracking += frame.status == vpPatternStatus::Tracking ? 1 : 0;
     withCells += frame.validCells > 0 ? 1 : 0;
   }

@@ -40,7 +40,7 @@ void motions(benchmark::State &state, const char *name)
     static_cast<void>(method->start(q, goal));
     starts.push_back(since(begin));
     output.status = vpAvoidanceStatus::Moving;
-    for (int k = 1; k < 3000 && isWorking(output); ++k) {
+    for (int k = 1; k < 3000 && vpIsWorking(output); ++k) {
       if (k % 7 == 0) {
         begin = Clock::now();
         method->look();

@@ -50,7 +50,7 @@ vpAvoidanceGoal vpAvoidanceGoal::at(const vpArmModel &model, const vpJointVector
   return goal;
 }
 
-bool isWorking(const vpAvoidanceOutput &output) noexcept
+bool vpIsWorking(const vpAvoidanceOutput &output) noexcept
 {
   switch (output.status) {
   case vpAvoidanceStatus::Moving:
@@ -67,7 +67,7 @@ bool isWorking(const vpAvoidanceOutput &output) noexcept
   }
 }
 
-const char *toString(vpAvoidanceStatus status)
+const char *vpToString(vpAvoidanceStatus status)
 {
   switch (status) {
   case vpAvoidanceStatus::Moving:
@@ -94,7 +94,7 @@ const char *toString(vpAvoidanceStatus status)
   return "InvalidInput";
 }
 
-const char *sentence(vpAvoidanceStatus status)
+const char *vpMessage(vpAvoidanceStatus status)
 {
   switch (status) {
   case vpAvoidanceStatus::Moving:
@@ -121,9 +121,9 @@ const char *sentence(vpAvoidanceStatus status)
   return "The configuration or the goal is not finite, out of range or of a wrong size; the arm brakes.";
 }
 
-std::string sentence(const vpAvoidanceOutput &output, const vpCollisionScene &scene, double margin)
+std::string vpMessage(const vpAvoidanceOutput &output, const vpCollisionScene &scene, double margin)
 {
-  const std::string plain = sentence(output.status);
+  const std::string plain = vpMessage(output.status);
   const std::size_t colon = plain.find(':');
   const bool aboutPair =
       output.status == vpAvoidanceStatus::StartInCollision || output.status == vpAvoidanceStatus::GoalInCollision;

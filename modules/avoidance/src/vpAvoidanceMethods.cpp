@@ -29,7 +29,7 @@ constexpr std::array<Known, 6> known{
      {"planner-dtg", "plans anew from the moving state, and brakes only if there is no way"}}};
 } // namespace
 
-const std::vector<std::string> &avoidanceMethodNames()
+const std::vector<std::string> &vpAvoidanceMethodNames()
 {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all;
@@ -41,7 +41,7 @@ const std::vector<std::string> &avoidanceMethodNames()
   return names;
 }
 
-const char *avoidanceMethodSentence(const std::string &name) noexcept
+const char *vpAvoidanceMethodMessage(const std::string &name) noexcept
 {
   const auto found = std::find_if(known.begin(), known.end(), [&name](const Known &m) { return name == m.name; });
   return found == known.end() ? "" : found->sentence;
@@ -66,7 +66,7 @@ std::unique_ptr<vpAvoidanceMethod> makeAvoidanceMethod(const std::string &name, 
     return std::make_unique<vpDirectTrajectoryAvoidance>(scene, full);
   }
   std::string names;
-  for (const std::string &other : avoidanceMethodNames()) {
+  for (const std::string &other : vpAvoidanceMethodNames()) {
     names += (names.empty() ? "" : ", ") + other;
   }
   throw vpException(vpException::badValue, "unknown avoidance method '%s', known are %s", name.c_str(), names.c_str());

@@ -100,8 +100,8 @@ vpCollisionShape shape(vpJsonObject &object, std::vector<std::string> &warnings)
   if (kind == "mesh") {
     const bool sheet = object.flag("surface", false);
     const vpTriangleMesh surface = mesh(object);
-    if (sheet && !surface.sentence().empty()) {
-      warnings.push_back(object.file() + ": " + object.path() + ": " + surface.sentence());
+    if (sheet && !surface.message().empty()) {
+      warnings.push_back(object.file() + ": " + object.path() + ": " + surface.message());
     }
     return located(object,
                    [&] { return vpCollisionShape::mesh(surface, sheet ? vpMeshUse::Surface : vpMeshUse::Solid); });

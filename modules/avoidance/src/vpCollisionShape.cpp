@@ -65,7 +65,7 @@ vpCollisionShape vpCollisionShape::mesh(const vpTriangleMesh &mesh, vpMeshUse us
     throw vpException(
         vpException::badValue,
         "%s; close it, or say that a surface is enough (\"surface\": true in a scene, vpMeshUse::Surface)",
-        mesh.sentence().c_str());
+        mesh.message().c_str());
   }
   vpCollisionShape shape;
   shape.m_type = vpShapeType::Mesh;

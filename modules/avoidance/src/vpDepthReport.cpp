@@ -6,7 +6,7 @@
 
 BEGIN_VISP_NAMESPACE
 
-const char *vpDepthReport::sentence() const noexcept
+const char *vpDepthReport::message() const noexcept
 {
   switch (status) {
   case vpDepthStatus::Ok:

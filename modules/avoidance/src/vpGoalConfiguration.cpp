@@ -51,7 +51,7 @@ std::optional<vpJointVector> reach(vpClosedLoopKinematics &kinematics, const vpA
 }
 } // namespace
 
-vpGoalConfiguration goalConfiguration(const vpCollisionScene &scene, const vpJointVector &from,
+vpGoalConfiguration vpFindGoalConfiguration(const vpCollisionScene &scene, const vpJointVector &from,
                                       const Eigen::Vector3d &position, double margin, int attempts, unsigned int seed)
 {
   const vpArmModel &arm = scene.arm();

@@ -6,7 +6,7 @@
 
 BEGIN_VISP_NAMESPACE
 
-const char *vpMotionResult::sentence() const noexcept
+const char *vpMotionResult::message() const noexcept
 {
   switch (status) {
   case vpMotionStatus::Free:

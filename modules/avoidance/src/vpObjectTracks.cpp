@@ -109,7 +109,7 @@ void vpObjectTrackSpec::validate() const
   require(forget > 0., "forget", forget, "> 0 s");
 }
 
-const char *toString(vpTrackStatus status)
+const char *vpToString(vpTrackStatus status)
 {
   switch (status) {
   case vpTrackStatus::New:

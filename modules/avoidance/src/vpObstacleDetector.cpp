@@ -84,13 +84,13 @@ void vpObstacleDetectorSpec::validate() const
   require(maxPositionSigma > 0., "maxPositionSigma", maxPositionSigma, "> 0 m");
 }
 
-vpPlanarTargetConfig vpObstacleDetector::fastTargets()
+vpPlanarTargetSpec vpObstacleDetector::fastTargets()
 {
-  vpPlanarTargetConfig config;
-  config.fallback = false;
-  config.refinementSize = 120;
-  config.exact = false; // this class has its own, larger error estimates
-  return config;
+  vpPlanarTargetSpec spec;
+  spec.fallback = false;
+  spec.refinementSize = 120;
+  spec.exact = false; // this class has its own, larger error estimates
+  return spec;
 }
 
 vpObstacleDetector::vpObstacleDetector(vpPlanarTargetDatabase targets, const vpCameraParameters &camera,
@@ -105,7 +105,7 @@ vpObstacleDetector::vpObstacleDetector(vpPlanarTargetDatabase targets, const vpC
     vpObstacleDetection detection;
     detection.sighting.name = target.name;
     detection.sighting.shape = body(target, m_spec);
-    detection.sentence = "No picture was taken yet.";
+    detection.message = "No picture was taken yet.";
     m_detections.push_back(detection);
   }
   m_memory.resize(m_detections.size());
@@ -118,7 +118,7 @@ void vpObstacleDetector::reset()
   for (vpObstacleDetection &detection : m_detections) {
     detection.seen = false;
     detection.status = vpPlanarTargetStatus::NoFrame;
-    detection.sentence = "No picture was taken yet.";
+    detection.message = "No picture was taken yet.";
   }
 }
 
@@ -134,7 +134,7 @@ const std::vector<vpObstacleDetection> &vpObstacleDetector::process(const vpImag
     vpObstacleDetection &detection = m_detections[i];
     detection.seen = false;
     detection.status = targets[i].result.status;
-    detection.sentence = targets[i].result.message;
+    detection.message = targets[i].result.message;
     if (!targets[i].result.found() || !known) {
       m_memory[i].isKnown = false;
     }
@@ -142,7 +142,7 @@ const std::vector<vpObstacleDetection> &vpObstacleDetector::process(const vpImag
       continue;
     }
     if (!known) {
-      detection.sentence = "Where the camera was, or when, is not finite or out of range.";
+      detection.message = "Where the camera was, or when, is not finite or out of range.";
       continue;
     }
     remember(fMc * vpRigidTransform::fromHomogeneous(targets[i].result.cMo), time, m_memory[i]);
@@ -205,7 +205,7 @@ void vpObstacleDetector::conclude(const vpPlanarTargetSighting &target, const vp
     char text[128];
     std::snprintf(text, sizeof(text), "Its place is uncertain by %.0f mm, at most %.0f mm are used.",
                   1e3 * sighting.positionSigma, 1e3 * m_spec.maxPositionSigma);
-    detection.sentence = text;
+    detection.message = text;
   }
 }
 

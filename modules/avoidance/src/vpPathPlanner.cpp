@@ -323,9 +323,9 @@ const vpPathPlannerSpec &vpPathPlanner::spec() const noexcept { return m_impl->s
 vpPathResult vpPathPlanner::plan(const vpJointVector &start, const vpJointVector &goal)
 {
   vpPathResult result;
-  result.status = m_impl->judge(start, true, result.sentence);
+  result.status = m_impl->judge(start, true, result.message);
   if (result.status == vpPathStatus::Solved) {
-    result.status = m_impl->judge(goal, false, result.sentence);
+    result.status = m_impl->judge(goal, false, result.message);
   }
   if (result.status != vpPathStatus::Solved) {
     return result;
@@ -337,11 +337,11 @@ vpPathResult vpPathPlanner::plan(const vpJointVector &start, const vpJointVector
     result.path.points = {from, to};
     result.motions = 1;
     result.planningTime = since(begin);
-    result.sentence = "The straight motion is free.";
+    result.message = "The straight motion is free.";
     return result;
   }
   m_impl->search(from, to, result);
-  result.sentence =
+  result.message =
       result.status == vpPathStatus::Solved
           ? "A path was found."
           : m_impl->spec.planner + " found no path in " + m_impl->limits() + "; that does not mean that there is none.";

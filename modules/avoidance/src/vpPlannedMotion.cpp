@@ -148,7 +148,7 @@ void vpPlannedMotion::look()
     const State here = state(m_clock);
     if (m_goal.q.size() == 0) {
       // One in collision is planned to all the same: the planner says GoalInCollision until what is there has gone.
-      m_goal.q = goalConfiguration(*m_scene, here.q, m_goal.position, m_spec.common.margin + m_spec.clearance).q;
+      m_goal.q = vpFindGoalConfiguration(*m_scene, here.q, m_goal.position, m_spec.common.margin + m_spec.clearance).q;
     }
     m_goalChanged = false;
     m_toGoal = false;

@@ -25,10 +25,10 @@ void vpFieldWeightSpec::validate(vpFieldForm form) const
                  "0.5 in the corrected form");
 }
 
-double fieldWeight(const vpFieldWeightSpec &spec, vpFieldForm form, double distance) noexcept
+double vpFieldWeight(const vpFieldWeightSpec &spec, vpFieldForm form, double distance) noexcept
 {
   if (std::isnan(distance)) { // as in contact
-    return fieldWeight(spec, form, 0.);
+    return vpFieldWeight(spec, form, 0.);
   }
   const double d = form == vpFieldForm::Thesis ? distance : std::max(0., distance);
   const double w =
@@ -41,7 +41,7 @@ Eigen::Vector3d blendAsPrinted(const vpFieldWeightSpec &spec, const Eigen::Vecto
 {
   Eigen::Vector3d result = task;
   for (int l = 0; l < 2; ++l) {
-    const double w = fieldWeight(spec, vpFieldForm::Thesis, offset(l));
+    const double w = vpFieldWeight(spec, vpFieldForm::Thesis, offset(l));
     result(l) = w * avoid(l) + (1. - w) * task(l);
   }
   return result;
@@ -50,7 +50,7 @@ Eigen::Vector3d blendAsPrinted(const vpFieldWeightSpec &spec, const Eigen::Vecto
 Eigen::Vector3d blendRadial(const vpFieldWeightSpec &spec, double distance, const Eigen::Vector3d &normal, double speed,
                             const Eigen::Vector3d &task) noexcept
 {
-  const double w = fieldWeight(spec, vpFieldForm::Corrected, distance);
+  const double w = vpFieldWeight(spec, vpFieldForm::Corrected, distance);
   const double along = task.dot(normal); // < 0: towards the obstacle
   const double blended = w * speed + (1. - w) * along;
   return task + (std::max(along, blended) - along) * normal;

@@ -122,7 +122,7 @@ public:
       }
       const double distance = pair->distance - spec.common.margin;
       velocity = blendRadial(spec.metres, distance, pair->normal, spec.avoidSpeed, velocity);
-      avoiding = avoiding || fieldWeight(spec.metres, spec.form, distance) > 0.05;
+      avoiding = avoiding || vpFieldWeight(spec.metres, spec.form, distance) > 0.05;
       nearest = *pair;
     }
     return velocity * std::min(1., limit / std::max(1e-9, velocity.norm()));

@@ -30,7 +30,7 @@ void vpStopSupervisorSpec::validate() const
   fields.require(looks >= 60, "looks", looks, ">= 60");
 }
 
-const char *vpSupervisedVelocity::sentence() const noexcept
+const char *vpSupervisedVelocity::message() const noexcept
 {
   switch (status) {
   case vpSupervision::Passed:

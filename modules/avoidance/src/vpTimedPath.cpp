@@ -92,7 +92,7 @@ vpTrajectoryStatus planWithinBounds(const vpArmModel &arm, Input &input, const v
       input.maxAcceleration /= 1.001 * stretch * stretch;
     }
     else {
-      input.options.minimumDuration = 1.001 * stretch * plan.duration();
+      input.spec.minimumDuration = 1.001 * stretch * plan.duration();
     }
     status = vpDirectTrajectory<Eigen::Dynamic>::calculate(input, plan);
   }
@@ -110,8 +110,8 @@ Input inputOf(const vpArmModel &arm, const vpJointPath &path, std::size_t first,
   input.maxAcceleration = spec.acceleration * arm.acceleration();
   input.minPosition = arm.lower();
   input.maxPosition = arm.upper();
-  input.options.cruise = false; // the same shape for every duration, so that stretching it stretches the tool's motion
-  input.options.synchronisation = last <= first + 1 ? vpSynchronisation::Straight : vpSynchronisation::Time;
+  input.spec.cruise = false; // the same shape for every duration, so that stretching it stretches the tool's motion
+  input.spec.synchronisation = last <= first + 1 ? vpSynchronisation::Straight : vpSynchronisation::Time;
   if (first == 0 && spec.startVelocity.size() != 0) {
     input.start.v = spec.startVelocity;
   }
@@ -236,7 +236,7 @@ vpAxisState vpTimedPath::at(int joint, double t) const noexcept
   return part.plan.at(joint, t - part.begin);
 }
 
-std::string vpTimedPath::sentence(const vpCollisionScene &scene) const
+std::string vpTimedPath::message(const vpCollisionScene &scene) const
 {
   char text[128];
   if (!isFree()) {

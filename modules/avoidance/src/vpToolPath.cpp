@@ -24,14 +24,14 @@ vpToolPath::vpToolPath(double maxVelocity, double maxAcceleration)
     m_planner(3, vpToolTask::maxVias)
 {
   std::fill_n(m_problem.field(vpTrajectoryProblem::MaxAcceleration), 3, maxAcceleration);
-  m_problem.options.groups[0] = vpAxisGroup({0, 1, 2}, maxVelocity, maxAcceleration);
+  m_problem.spec.groups[0] = vpAxisGroup({0, 1, 2}, maxVelocity, maxAcceleration);
 }
 
 bool vpToolPath::plan(const vpToolState &from, const vpToolTask &task, vpTrajectoryPlan &plan) noexcept
 {
   const double limit = m_maxVelocity * task.speed;
   std::fill_n(m_problem.field(vpTrajectoryProblem::MaxVelocity), 3, limit);
-  m_problem.options.groups[0].maxSpeed = limit;
+  m_problem.spec.groups[0].maxSpeed = limit;
   for (int i = 0; i < 3; ++i) {
     m_problem.setStart(i, {from.x(i), from.v(i), from.a(i), 0.});
     m_problem.field(vpTrajectoryProblem::GoalQ)[i] = task.goal(i);
@@ -48,7 +48,7 @@ bool vpToolPath::plan(const vpToolState &from, const vpToolTask &task, vpTraject
     m_problem.setVia(k, way / length, via.data(), nullptr, nullptr);
   }
   // A straight motion stays on its line.
-  m_problem.options.synchronisation = task.viaCount == 0 ? vpSynchronisation::Straight : vpSynchronisation::Time;
+  m_problem.spec.synchronisation = task.viaCount == 0 ? vpSynchronisation::Straight : vpSynchronisation::Time;
   return m_problem.validate(true).isGood() && m_planner.plan(m_problem, 0., plan).isGood();
 }
 

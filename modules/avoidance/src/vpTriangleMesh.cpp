@@ -75,11 +75,11 @@ void judge(vpTriangleMeshData &data)
   const vpMeshTopology topology = vpOrientMesh(data.vertices, data.triangles);
   data.watertight = topology.openEdges == 0 && topology.otherEdges == 0;
   if (topology.openEdges > 0) {
-    data.sentence = data.label + ": the surface has holes (" + std::to_string(topology.openEdges) +
+    data.message = data.label + ": the surface has holes (" + std::to_string(topology.openEdges) +
                     " edges with one triangle), it is a surface without an inside";
   }
   else if (topology.otherEdges > 0) {
-    data.sentence = data.label + ": " + std::to_string(topology.otherEdges) +
+    data.message = data.label + ": " + std::to_string(topology.otherEdges) +
                     " edges have more than two triangles or no two sides, it is a surface without an inside";
   }
 }
@@ -183,7 +183,7 @@ vpTriangleMesh::vpTriangleMesh(const std::vector<Eigen::Vector3d> &vertices,
 const std::vector<Eigen::Vector3d> &vpTriangleMesh::vertices() const &noexcept { return m_data->vertices; }
 const std::vector<std::array<int, 3>> &vpTriangleMesh::triangles() const &noexcept { return m_data->triangles; }
 bool vpTriangleMesh::isWatertight() const noexcept { return m_data->watertight; }
-const std::string &vpTriangleMesh::sentence() const noexcept { return m_data->sentence; }
+const std::string &vpTriangleMesh::message() const noexcept { return m_data->sentence; }
 const std::string &vpTriangleMesh::label() const noexcept { return m_data->label; }
 
 END_VISP_NAMESPACE

@@ -12,7 +12,7 @@
 BEGIN_VISP_NAMESPACE
 
 struct vpTriangleMeshData {
-  std::string label, sentence;
+  std::string label, message;
   std::vector<Eigen::Vector3d> vertices;
   std::vector<std::array<int, 3>> triangles;
   bool watertight = false;

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The loop of the documentation, do { step() } while (isWorking(output)), ends with the arm at rest, for every method.
+// The loop of the documentation, do { step() } while (vpIsWorking(output)), ends with the arm at rest, for every method.
 #include "vpAvoidanceTestKit.h"
 #include "vpCatch.h"
 
@@ -46,7 +46,7 @@ Loop run(const std::string &id, const vpAvoidanceGoal &goal, int when, const vpA
     }
     method->step(q, loop.output);
     q += 0.005 * loop.output.velocity;
-  } while (++loop.cycles < most && isWorking(loop.output));
+  } while (++loop.cycles < most && vpIsWorking(loop.output));
   return loop;
 }
 } // namespace
@@ -65,7 +65,7 @@ TEST_CASE("a loop of any method ends at the goal and at every error, at its star
   far.position = Vector3d(5., 0., 5.); // out of the arm's reach
   huge.q.setConstant(1e200);
   huge.position.setConstant(1e200);
-  for (const std::string &id : avoidanceMethodNames()) {
+  for (const std::string &id : vpAvoidanceMethodNames()) {
     CAPTURE(id);
     const Loop arrives = run(id, good, most, good);
     CHECK(arrives.cycles < most);
@@ -78,7 +78,7 @@ TEST_CASE("a loop of any method ends at the goal and at every error, at its star
       }
       const Loop atStart = run(id, *bad, most, good), onTheWay = run(id, good, 20, *bad);
       for (const Loop *loop : {&atStart, &onTheWay}) {
-        CAPTURE(loop == &atStart, std::string(toString(loop->output.status)), loop->cycles);
+        CAPTURE(loop == &atStart, std::string(vpToString(loop->output.status)), loop->cycles);
         CHECK(loop->cycles < most);
         CHECK(loop->output.velocity.allFinite());
         CHECK(loop->output.velocity.norm() < 1e-2);
@@ -105,7 +105,7 @@ TEST_CASE("Arrived is told of an arm that stands, whatever posture is asked for"
     }
     for (const std::string id : {"potential", "potential-corrected", "dtg", "dtg-via"}) {
       const Loop loop = run(id, goal, most, goal);
-      CAPTURE(k, id, loop.cycles, std::string(toString(loop.output.status)));
+      CAPTURE(k, id, loop.cycles, std::string(vpToString(loop.output.status)));
       CHECK((loop.output.status != vpAvoidanceStatus::Arrived || loop.output.velocity.norm() < 1e-2));
       arrived += loop.output.status == vpAvoidanceStatus::Arrived;
     }

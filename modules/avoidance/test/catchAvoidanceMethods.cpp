@@ -98,7 +98,7 @@ vpJointVector goalNear(std::mt19937_64 &rng, const vpCollisionScene &scene)
     if (place.z() < 0.1 || place.norm() > 0.95 || place.norm() < 0.4) {
       continue;
     }
-    const vpGoalConfiguration goal = goalConfiguration(scene, home(), place, 0.03, 1);
+    const vpGoalConfiguration goal = vpFindGoalConfiguration(scene, home(), place, 0.03, 1);
     if (goal.isFree()) {
       return goal.q;
     }
@@ -120,7 +120,7 @@ TEST_CASE("Every method reaches goals in an empty scene", "[methods]")
 {
   auto rng = vpTestSupport::generator(961);
   CAPTURE(vpTestSupport::seed());
-  for (const std::string &name : avoidanceMethodNames()) {
+  for (const std::string &name : vpAvoidanceMethodNames()) {
     vpCollisionScene scene(amor());
     for (int problem = 0; problem < 6; ++problem) {
       const vpJointVector goal = goalNear(rng, scene);
@@ -151,7 +151,7 @@ TEST_CASE("Among obstacles that stand, methods that foresee keep the margin and 
   auto rng = vpTestSupport::generator(962);
   CAPTURE(vpTestSupport::seed());
   vpCollisionScene empty(amor());
-  for (const std::string &name : avoidanceMethodNames()) {
+  for (const std::string &name : vpAvoidanceMethodNames()) {
     if (isReactive(name)) {
       continue;
     }
@@ -181,7 +181,7 @@ TEST_CASE("Among obstacles that stand, methods that foresee keep the margin and 
       const auto method = makeAvoidanceMethod(name, scene);
       static_cast<void>(method->start(home(), vpAvoidanceGoal::at(amor(), goal)));
       const Drive run = drive(scene, *method, home(), 40.);
-      CAPTURE(name, problem, toString(run.last.status));
+      CAPTURE(name, problem, vpToString(run.last.status));
       CHECK(run.least > 0.009);
       CHECK_FALSE(run.unsafe);
       CHECK(run.worstVelocity <= 1. + 1e-9);
@@ -205,7 +205,7 @@ TEST_CASE("No method that foresees touches what moves while it moves itself", "[
   auto rng = vpTestSupport::generator(963);
   CAPTURE(vpTestSupport::seed());
   vpCollisionScene empty(amor());
-  for (const std::string &name : avoidanceMethodNames()) {
+  for (const std::string &name : vpAvoidanceMethodNames()) {
     if (isReactive(name)) {
       continue;
     }
@@ -234,7 +234,7 @@ TEST_CASE("No method that foresees touches what moves while it moves itself", "[
       const auto method = makeAvoidanceMethod(name, scene);
       static_cast<void>(method->start(home(), vpAvoidanceGoal::at(amor(), goal)));
       const Drive run = drive(scene, *method, home(), 40.);
-      CAPTURE(name, problem, toString(run.last.status), run.time);
+      CAPTURE(name, problem, vpToString(run.last.status), run.time);
       // An obstacle that approaches a standing arm may be within the margin when it leaves; nothing is touched.
       CHECK(run.least > 0.);
       arrived += run.last.status == vpAvoidanceStatus::Arrived ? 1 : 0;
@@ -248,7 +248,7 @@ TEST_CASE("A goal that is taken, then free: the arm waits, says so, and goes", "
 {
   auto rng = vpTestSupport::generator(964);
   CAPTURE(vpTestSupport::seed());
-  for (const std::string &name : avoidanceMethodNames()) {
+  for (const std::string &name : vpAvoidanceMethodNames()) {
     if (isReactive(name)) {
       continue;
     }
@@ -272,7 +272,7 @@ TEST_CASE("A goal that is taken, then free: the arm waits, says so, and goes", "
     CHECK((waiting.q - home()).norm() < 0.05);
     REQUIRE(waiting.last.pair.kind == vpCollisionKind::Object);
     CHECK(waiting.last.pair.other == index);
-    CHECK(std::string(sentence(waiting.last.status)).find("goal") != std::string::npos);
+    CHECK(std::string(vpMessage(waiting.last.status)).find("goal") != std::string::npos);
     scene.remove(index);
     CHECK(drive(scene, *method, waiting.q, 12.).last.status == vpAvoidanceStatus::Arrived);
   }
@@ -280,7 +280,7 @@ TEST_CASE("A goal that is taken, then free: the arm waits, says so, and goes", "
 
 TEST_CASE("Goals out of reach, an arm that touches, nonsense: a status, and the arm stands", "[methods]")
 {
-  for (const std::string &name : avoidanceMethodNames()) {
+  for (const std::string &name : vpAvoidanceMethodNames()) {
     vpCollisionScene scene(amor());
     CAPTURE(name);
     const auto method = makeAvoidanceMethod(name, scene);
@@ -321,8 +321,8 @@ TEST_CASE("Goals out of reach, an arm that touches, nonsense: a status, and the 
       const Drive run = drive(tight, *held, home(), 0.5);
       CHECK((run.q - home()).norm() < 1e-6);
       CHECK(run.last.status == vpAvoidanceStatus::StartInCollision);
-      CHECK(sentence(run.last, tight, 0.01) == "The arm stands: link 7 and object cuff touch.");
-      CHECK_FALSE(isWorking(run.last)); // a loop ends
+      CHECK(vpMessage(run.last, tight, 0.01) == "The arm stands: link 7 and object cuff touch.");
+      CHECK_FALSE(vpIsWorking(run.last)); // a loop ends
     }
   }
 }
@@ -341,11 +341,11 @@ TEST_CASE("An arm within the margin is told the pair, the clearance and the marg
   there(0) += 0.5;
   CHECK(method->start(home(), vpAvoidanceGoal::at(amor(), there)) == vpAvoidanceStatus::StartInCollision);
   method->step(home(), output);
-  CHECK(sentence(output, scene, 0.01) ==
+  CHECK(vpMessage(output, scene, 0.01) ==
         "The arm stands: link 7 and object ball are 9.85 mm apart, the margin is 10 mm.");
   CHECK(method->start(there, vpAvoidanceGoal::at(amor(), home())) == vpAvoidanceStatus::GoalInCollision);
   method->step(there, output);
-  CHECK(sentence(output, scene, 0.01) ==
+  CHECK(vpMessage(output, scene, 0.01) ==
         "The arm waits: at the goal link 7 and object ball are 9.85 mm apart, the margin is 10 mm.");
 }
 
@@ -354,7 +354,7 @@ TEST_CASE("The step of no method allocates", "[methods]")
   auto rng = vpTestSupport::generator(965);
   vpArmData data;
   vpArmKinematics::forward(amor(), home(), data);
-  for (const std::string &name : avoidanceMethodNames()) {
+  for (const std::string &name : vpAvoidanceMethodNames()) {
     vpCollisionScene scene(amor());
     const vpJointVector goal = goalNear(rng, scene);
     scene.add(ball("near", data.tool.p + Vector3d(0.15, 0., 0.), 0.05));
@@ -385,12 +385,12 @@ TEST_CASE("Names and parameters of methods are checked", "[methods]")
                     Catch::Contains("unknown avoidance method 'teleport', known are potential, potential-corrected"));
   vpAvoidanceMethodSpec spec;
   spec.maxVelocity = 0.;
-  for (const std::string &name : avoidanceMethodNames()) {
+  for (const std::string &name : vpAvoidanceMethodNames()) {
     CHECK_THROWS_WITH(makeAvoidanceMethod(name, scene, spec),
                       Catch::Contains("maxVelocity of the avoidance method is 0"));
   }
   CHECK_THROWS_WITH(vpAvoidanceGoal::at(amor(), vpJointVector::Zero(3)), Catch::Contains("a goal of 3 numbers"));
-  CHECK_THROWS_WITH(goalConfiguration(scene, vpJointVector::Zero(2), Vector3d::Zero()),
+  CHECK_THROWS_WITH(vpFindGoalConfiguration(scene, vpJointVector::Zero(2), Vector3d::Zero()),
                     Catch::Contains("is sought from 2 numbers"));
 }
 
@@ -406,7 +406,7 @@ TEST_CASE("A goal configuration is free, or its status says that none is, or tha
     if (problem % 3 == 0) { // nothing can be there
       scene.add(ball("plug", place, 0.05));
     }
-    const vpGoalConfiguration goal = goalConfiguration(scene, home(), place, 0.01, 3, 1 + rng() % 1000);
+    const vpGoalConfiguration goal = vpFindGoalConfiguration(scene, home(), place, 0.01, 3, 1 + rng() % 1000);
     ++counts[static_cast<int>(goal.status)];
     CAPTURE(problem, place.transpose(), static_cast<int>(goal.status));
     CHECK(goal.isFree() == (goal.status == vpGoalConfigurationStatus::Free));
@@ -428,6 +428,6 @@ TEST_CASE("A goal configuration is free, or its status says that none is, or tha
   for (const int count : counts) {
     CHECK(count > 0);
   }
-  const vpGoalConfiguration far = goalConfiguration(vpCollisionScene(amor()), home(), Vector3d(0., 3., 0.), 0., 3);
+  const vpGoalConfiguration far = vpFindGoalConfiguration(vpCollisionScene(amor()), home(), Vector3d(0., 3., 0.), 0., 3);
   CHECK(far.status == vpGoalConfigurationStatus::Unreachable);
 }

@@ -246,12 +246,12 @@ TEST_CASE("Planners and paths refuse wild configurations in a sentence", "[numbe
     CAPTURE(place, values[value]);
     for (const vpPathResult &result : {planner.plan(home(), q), planner.plan(q, home())}) {
       REQUIRE((result.status == vpPathStatus::BadInput || result.status == vpPathStatus::OutsideLimits));
-      REQUIRE_FALSE(result.sentence.empty());
+      REQUIRE_FALSE(result.message.empty());
     }
     vpJointPath path;
     path.points = {home(), q};
     REQUIRE_THROWS_AS(vpTimedPath(scene, path), vpException);
-    REQUIRE_THROWS_AS(goalConfiguration(scene, q, Vector3d(0.3, 0.3, 0.3), 0.), vpException);
+    REQUIRE_THROWS_AS(vpFindGoalConfiguration(scene, q, Vector3d(0.3, 0.3, 0.3), 0.), vpException);
   });
   vpJointPath path;
   CHECK(path.at(0.5).size() == 0);

@@ -47,7 +47,7 @@ TEST_CASE("The supervisor answers every number with a command within the limits,
       const unsigned long before = vpTestSupport::allocationCount();
       supervisor.step(said, wish, answer);
       REQUIRE(vpTestSupport::allocationCount() == before);
-      CAPTURE(problem, k, said.transpose(), wish.transpose(), answer.sentence());
+      CAPTURE(problem, k, said.transpose(), wish.transpose(), answer.message());
       REQUIRE(answer.velocity.size() == 7);
       for (int j = 0; j < 7; ++j) {
         REQUIRE(atMost(answer.velocity(j), amor().velocity()(j)));
@@ -94,7 +94,7 @@ TEST_CASE("Every method commands numbers within the joints' limits, whatever it 
   vpJointVector end = home();
   end(0) += 0.6;
   const vpAvoidanceGoal goal = vpAvoidanceGoal::at(amor(), end);
-  for (const std::string &name : avoidanceMethodNames()) {
+  for (const std::string &name : vpAvoidanceMethodNames()) {
     CAPTURE(name);
     const auto method = makeAvoidanceMethod(name, scene);
     vpAvoidanceOutput output;
@@ -105,7 +105,7 @@ TEST_CASE("Every method commands numbers within the joints' limits, whatever it 
         method->step(q, output);
         REQUIRE(output.status == vpAvoidanceStatus::InvalidInput);
         REQUIRE(output.velocity.norm() == 0.);
-        REQUIRE_FALSE(isWorking(output));
+        REQUIRE_FALSE(vpIsWorking(output));
       }
     });
     for (const double value : values) {
@@ -155,7 +155,7 @@ TEST_CASE("Weights and blends of wild distances stay within what they blend", "[
   for (const double distance : values) {
     CAPTURE(distance);
     for (const vpFieldForm form : {vpFieldForm::Thesis, vpFieldForm::Corrected}) {
-      const double w = fieldWeight(spec, form, distance);
+      const double w = vpFieldWeight(spec, form, distance);
       REQUIRE((w >= 0. && w <= 1.));
       REQUIRE((!std::isnan(distance) || w > 0.7)); // as in contact
     }

@@ -276,7 +276,7 @@ TEST_CASE("Bad inputs, empty scenes, motions of length zero, scenes that change"
   broken(3) = std::nan("");
   CHECK(certified.check(home, broken, scratch).status == vpMotionStatus::BadInput);
   CHECK(certified.check(home, vpJointVector::Zero(6), scratch).status == vpMotionStatus::BadInput);
-  CHECK(std::string(certified.check(home, broken, scratch).sentence()) ==
+  CHECK(std::string(certified.check(home, broken, scratch).message()) ==
         "a configuration has the wrong size, is not finite or is out of all range");
   vpJointVector away = home;
   away(0) += 1.;

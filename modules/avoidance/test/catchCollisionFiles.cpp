@@ -111,7 +111,7 @@ TEST_CASE("Meshes from files", "[files]")
                               "endloop\nendfacet\nendsolid\n");
   const vpTriangleMesh one = vpTriangleMesh::load(text.name());
   CHECK(one.triangles().size() == 1);
-  CHECK(one.sentence() == text.name() + ": the surface has holes (3 edges with one triangle), it is a surface without "
+  CHECK(one.message() == text.name() + ": the surface has holes (3 edges with one triangle), it is a surface without "
                                         "an inside");
 }
 

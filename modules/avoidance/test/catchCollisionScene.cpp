@@ -150,12 +150,12 @@ TEST_CASE("Meshes: every triangle by search, and the sign by the winding number"
   CAPTURE(vpTestSupport::seed());
   const vpTriangleMesh solid = tetrahedron(0.2);
   CHECK(solid.isWatertight());
-  CHECK(solid.sentence().empty());
+  CHECK(solid.message().empty());
   auto sheetTriangles = solid.triangles();
   sheetTriangles.pop_back();
   const vpTriangleMesh sheet(solid.vertices(), sheetTriangles, "torn");
   CHECK_FALSE(sheet.isWatertight());
-  CHECK(sheet.sentence() ==
+  CHECK(sheet.message() ==
         "torn: the surface has holes (3 edges with one triangle), it is a surface without an inside");
   auto turnedTriangles = solid.triangles();
   std::swap(turnedTriangles[0][0], turnedTriangles[0][1]);

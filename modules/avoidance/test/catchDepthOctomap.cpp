@@ -198,7 +198,7 @@ TEST_CASE("Images without use say so; files; bad parameters", "[octomap]")
   const vpDepthReport nothing = map.insert(depth, camera, view());
   CHECK(nothing.status == vpDepthStatus::NoPoint);
   CHECK(nothing.invalid == 120 * 160);
-  CHECK(std::string(nothing.sentence()) == "the depth image has no depth in range that is not the arm");
+  CHECK(std::string(nothing.message()) == "the depth image has no depth in range that is not the arm");
   depth = 10.F;
   CHECK(map.insert(depth, camera, view()).beyond == 120 * 160);
   CHECK(map.snapshot().cells().empty());

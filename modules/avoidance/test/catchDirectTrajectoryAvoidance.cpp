@@ -77,7 +77,7 @@ TEST_CASE("The detour takes the side that is nearer, round the extent of the obs
       spec.detour = kind;
       vpDirectTrajectoryAvoidance method(scene, spec);
       const vpAvoidanceStatus status = method.start(amor().home(), goal);
-      UNSCOPED_INFO(toString(status));
+      UNSCOPED_INFO(vpToString(status));
       if (status != vpAvoidanceStatus::Detouring) {
         continue;
       }

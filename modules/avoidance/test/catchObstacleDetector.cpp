@@ -64,7 +64,7 @@ TEST_CASE("Three obstacles of one picture are boxes behind their photographs, in
   CAPTURE(vpTestSupport::seed());
   vpObstacleDetector eye = detector(3);
   CHECK_FALSE(eye.detections()[0].seen);
-  CHECK(eye.detections()[0].sentence == "No picture was taken yet.");
+  CHECK(eye.detections()[0].message == "No picture was taken yet.");
   const double x[3] = {-0.17, 0.13, -0.10}, y[3] = {-0.11, -0.11, 0.13};
   vpRigidTransform fMc = someCamera(rng);
   std::vector<vpRigidTransform> truth;
@@ -83,7 +83,7 @@ TEST_CASE("Three obstacles of one picture are boxes behind their photographs, in
     const std::vector<vpObstacleDetection> &seen = eye.process(I, fMc, 0.1 * frame);
     REQUIRE(seen.size() == 3);
     for (std::size_t i = 0; i < 3; ++i) {
-      CAPTURE(frame, seen[i].sighting.name, seen[i].sentence);
+      CAPTURE(frame, seen[i].sighting.name, seen[i].message);
       REQUIRE(seen[i].seen);
       CHECK(seen[i].status == (frame == 0 ? vpPlanarTargetStatus::Acquired : vpPlanarTargetStatus::Tracked));
       const vpObjectSighting &sighting = seen[i].sighting;
@@ -119,7 +119,7 @@ TEST_CASE("Deviations are those of a pose from four corners with that noise, see
     vpPlanarScene::draw(I, target, vpPlanarScene::camera(), cMo);
     vpObstacleDetector eye = detector(1, spec);
     const vpObstacleDetection seen = eye.process(I, vpRigidTransform(), 0.)[0];
-    CAPTURE(problem, seen.sentence);
+    CAPTURE(problem, seen.message);
     REQUIRE(seen.seen);
     const double noise = spec.pixelSigma / eye.targets()[0].result.visible;
     const vpRigidTransform truth = vpRigidTransform::fromHomogeneous(cMo);
@@ -165,18 +165,18 @@ TEST_CASE("What is not seen has a sentence that says why", "[detector]")
   CHECK(seen[0].seen);
   CHECK_FALSE(seen[1].seen); // not in the picture
   CHECK(seen[1].status == vpPlanarTargetStatus::TooFewInliers);
-  CHECK_THAT(seen[1].sentence, Catch::Contains("matches agree on one plane"));
+  CHECK_THAT(seen[1].message, Catch::Contains("matches agree on one plane"));
 
   vpRigidTransform nowhere;
   nowhere.p.x() = std::nan("");
   eye.process(I, nowhere, 0.1);
   CHECK_FALSE(seen[0].seen);
-  CHECK(seen[0].sentence == "Where the camera was, or when, is not finite or out of range.");
+  CHECK(seen[0].message == "Where the camera was, or when, is not finite or out of range.");
   eye.process(I, vpRigidTransform(), 0.2);
   CHECK(seen[0].seen);
   eye.process(vpPlanarScene::Image(8, 8), vpRigidTransform(), 0.3);
   CHECK_FALSE(seen[0].seen);
-  CHECK_THAT(seen[0].sentence, Catch::Contains("The image is 8x8 px"));
+  CHECK_THAT(seen[0].message, Catch::Contains("The image is 8x8 px"));
   eye.reset();
   CHECK(seen[0].status == vpPlanarTargetStatus::NoFrame);
 
@@ -184,7 +184,7 @@ TEST_CASE("What is not seen has a sentence that says why", "[detector]")
   strict.maxPositionSigma = 1e-4;
   vpObstacleDetector doubting = detector(1, strict);
   CHECK_FALSE(doubting.process(I, vpRigidTransform(), 0.)[0].seen);
-  CHECK_THAT(doubting.detections()[0].sentence, Catch::Contains("Its place is uncertain by 1 mm"));
+  CHECK_THAT(doubting.detections()[0].message, Catch::Contains("Its place is uncertain by 1 mm"));
 }
 
 TEST_CASE("A worse picture and a worse known camera make an obstacle less certain", "[detector]")

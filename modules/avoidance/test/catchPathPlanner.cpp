@@ -66,7 +66,7 @@ TEST_CASE("RRTConnect with certified motions solves pillar and shelf, free at ev
         spec.seed = static_cast<unsigned int>(k + 1);
         vpPathPlanner planner(scene, spec);
         const vpPathResult result = planner.plan(task.start, task.goal);
-        CAPTURE(name, task.name, k, result.sentence);
+        CAPTURE(name, task.name, k, result.message);
         REQUIRE(result.status == vpPathStatus::Solved);
         requireEnds(amor(), result, task.start, task.goal);
         REQUIRE(recheck(scene, file.spec, result.path, 10000) >= spec.margin - 1e-9);
@@ -94,7 +94,7 @@ TEST_CASE("Every planner finds a free path round the pillar", "[planner]")
       spec.timeLimit = 10.; // slow machines; most need milliseconds
       vpPathPlanner planner(scene, spec);
       const vpPathResult result = planner.plan(file.tasks[0].start, file.tasks[0].goal);
-      CAPTURE(name, seed, result.sentence);
+      CAPTURE(name, seed, result.message);
       if (result.status == vpPathStatus::Solved) {
         ++solved;
         requireEnds(amor(), result, file.tasks[0].start, file.tasks[0].goal);
@@ -193,7 +193,7 @@ TEST_CASE("What cannot be planned is said", "[planner]")
   beyond(1) = 3.;
   vpPathResult result = planner.plan(start, beyond);
   CHECK(result.status == vpPathStatus::OutsideLimits);
-  CHECK(result.sentence == "Joint q2 of the goal is at 3, beyond its limit 2.3561944901923448.");
+  CHECK(result.message == "Joint q2 of the goal is at 3, beyond its limit 2.3561944901923448.");
   // A limit rounded in a file counts as the limit; a slightly larger value does not, and is printed differently.
   const vpCollisionScene nothing(amor());
   vpPathPlanner free(nothing, spec);
@@ -201,14 +201,14 @@ TEST_CASE("What cannot be planned is said", "[planner]")
   beyond = amor().home();
   beyond(5) = std::nextafter(limit, 10.);
   result = free.plan(amor().home(), beyond);
-  CAPTURE(result.sentence);
+  CAPTURE(result.message);
   REQUIRE(result.status == vpPathStatus::Solved);
   CHECK(result.path.points.back()(5) == limit);
   CHECK(free.plan(beyond, amor().home()).status == vpPathStatus::Solved);
   beyond(5) = limit + 5e-6;
   result = free.plan(amor().home(), beyond);
   CHECK(result.status == vpPathStatus::OutsideLimits);
-  const std::size_t at = result.sentence.find("is at 1.527168"), than = result.sentence.find("limit 1.5271630");
+  const std::size_t at = result.message.find("is at 1.527168"), than = result.message.find("limit 1.5271630");
   CHECK((at != std::string::npos && than != std::string::npos));
   CHECK(planner.plan(vpJointVector::Zero(3), goal).status == vpPathStatus::BadInput);
   CHECK(planner.plan(start, vpJointVector::Constant(7, NAN)).status == vpPathStatus::BadInput);
@@ -226,7 +226,7 @@ TEST_CASE("What cannot be planned is said", "[planner]")
   const int index = scene.add(ball);
   result = planner.plan(start, goal);
   CHECK(result.status == vpPathStatus::GoalInCollision);
-  CHECK(result.sentence == "In the goal the arm is nearer than the margin: link 7 and object ball touch.");
+  CHECK(result.message == "In the goal the arm is nearer than the margin: link 7 and object ball touch.");
   CHECK(planner.plan(goal, start).status == vpPathStatus::StartInCollision);
   // Beside it, within the margin.
   vpCollisionData placed;
@@ -237,11 +237,11 @@ TEST_CASE("What cannot be planned is said", "[planner]")
   REQUIRE(scene.moveObject(index, beside));
   spec.margin = 0.01;
   CHECK(
-      vpPathPlanner(scene, spec).plan(goal, start).sentence ==
+      vpPathPlanner(scene, spec).plan(goal, start).message ==
       "In the start the arm is nearer than the margin: link 7 and object ball are 9.85 mm apart, the margin is 10 mm.");
   beside.p = hand.to + (hand.radius + 0.05 + 0.0099999999) * (hand.to - hand.from).normalized();
   REQUIRE(scene.moveObject(index, beside));
-  CHECK(vpPathPlanner(scene, spec).plan(goal, start).sentence.find("are 9.9999999") != std::string::npos);
+  CHECK(vpPathPlanner(scene, spec).plan(goal, start).message.find("are 9.9999999") != std::string::npos);
   scene.remove(index);
   for (int side = 0; side < 6; ++side) {
     vpCollisionObject wall;
@@ -254,9 +254,9 @@ TEST_CASE("What cannot be planned is said", "[planner]")
     scene.add(wall);
   }
   result = planner.plan(start, goal);
-  CAPTURE(result.sentence);
+  CAPTURE(result.message);
   CHECK(result.status != vpPathStatus::Solved);
-  CHECK(!result.sentence.empty());
+  CHECK(!result.message.empty());
 
   spec.planner = "RRTX";
   CHECK_THROWS_WITH(
@@ -345,7 +345,7 @@ TEST_CASE("A limit of iterations ends a search that has no end", "[planner]")
   goal(0) = -1.6;
   vpPathPlanner planner(scene, spec);
   const vpPathResult result = planner.plan(start, goal);
-  CAPTURE(result.sentence);
+  CAPTURE(result.message);
   CHECK(result.status == vpPathStatus::TimedOut);
-  CHECK(result.sentence.find(" or 20 iterations;") != std::string::npos);
+  CHECK(result.message.find(" or 20 iterations;") != std::string::npos);
 }

@@ -16,11 +16,11 @@ using namespace vpAvoidanceTestKit;
 TEST_CASE("Weights (8.2): as printed 0.76 in contact, corrected 1, both fall with distance", "[potential]")
 {
   vpFieldWeightSpec spec{0.1, 0.1, 0.5};
-  CHECK(fieldWeight(spec, vpFieldForm::Thesis, 0.) == Approx(std::tanh(1.)));
-  CHECK(fieldWeight(spec, vpFieldForm::Thesis, 0.) == Approx(0.7616).epsilon(1e-4));
-  CHECK(fieldWeight(spec, vpFieldForm::Corrected, 0.) == Approx(1.));
-  CHECK(fieldWeight(spec, vpFieldForm::Corrected, -0.5) == Approx(1.)); // deep inside it still is
-  CHECK(fieldWeight(spec, vpFieldForm::Thesis, -0.5) < 0.01);           // as printed it fades behind the centre
+  CHECK(vpFieldWeight(spec, vpFieldForm::Thesis, 0.) == Approx(std::tanh(1.)));
+  CHECK(vpFieldWeight(spec, vpFieldForm::Thesis, 0.) == Approx(0.7616).epsilon(1e-4));
+  CHECK(vpFieldWeight(spec, vpFieldForm::Corrected, 0.) == Approx(1.));
+  CHECK(vpFieldWeight(spec, vpFieldForm::Corrected, -0.5) == Approx(1.)); // deep inside it still is
+  CHECK(vpFieldWeight(spec, vpFieldForm::Thesis, -0.5) < 0.01);           // as printed it fades behind the centre
   auto rng = vpTestSupport::generator(971);
   CAPTURE(vpTestSupport::seed());
   for (int k = 0; k < 2000; ++k) {
@@ -28,11 +28,11 @@ TEST_CASE("Weights (8.2): as printed 0.76 in contact, corrected 1, both fall wit
     spec.width = uniform(rng, 0.01, 0.3);
     const double d = uniform(rng, 0., 1.), e = d + uniform(rng, 1e-3, 0.2);
     for (const vpFieldForm form : {vpFieldForm::Thesis, vpFieldForm::Corrected}) {
-      const double near = fieldWeight(spec, form, d), far = fieldWeight(spec, form, e);
+      const double near = vpFieldWeight(spec, form, d), far = vpFieldWeight(spec, form, e);
       REQUIRE(near >= far);
       REQUIRE(far >= 0.);
       REQUIRE(near <= 1.);
-      REQUIRE(fieldWeight(spec, vpFieldForm::Thesis, -d) == Approx(fieldWeight(spec, vpFieldForm::Thesis, d)));
+      REQUIRE(vpFieldWeight(spec, vpFieldForm::Thesis, -d) == Approx(vpFieldWeight(spec, vpFieldForm::Thesis, d)));
     }
   }
 }

@@ -169,7 +169,7 @@ TEST_CASE("The arm stops before a post, says so, and leaves at full speed", "[su
     clearance = scene.clearance(placed, 1.).distance;
     REQUIRE(clearance >= 0.01 - 1.1e-4);
   }
-  CAPTURE(answer.sentence(), clearance);
+  CAPTURE(answer.message(), clearance);
   CHECK(fastest == Approx(1.));
   CHECK(clearance < 0.0105);
   CHECK(answer.velocity.norm() < 0.01);

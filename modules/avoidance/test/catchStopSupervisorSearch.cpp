@@ -168,7 +168,7 @@ void drive(const vpArmModel &arm, std::mt19937_64 &rng, int steps, Count &count)
       last =
           IndependentClearance(arm, after(scene, spec.latency + t)).clearance(q + t * command, scene.selfPairs(), 0.1);
       const double kept = i == parts || !retreats ? margin - rounding : std::max(0., margin - slack - off);
-      CAPTURE(k, i, last, margin, off, T, speed, answer.sentence());
+      CAPTURE(k, i, last, margin, off, T, speed, answer.message());
       REQUIRE((!moves || last >= kept));
     }
     q += T * command;

@@ -143,7 +143,7 @@ TEST_CASE("Timed paths keep limits, ends and freedom", "[path]")
         vpTimedPathSpec spec;
         spec.margin = 0.8 * how.margin;
         const vpTimedPath timed(scene, found.path, spec);
-        CAPTURE(name, seed, task.name, timed.sentence(scene));
+        CAPTURE(name, seed, task.name, timed.message(scene));
         REQUIRE(timed.isFree());
         const IndependentClearance oracle(amor(), file.spec);
         vpJointVector q(7);
@@ -209,7 +209,7 @@ TEST_CASE("A straight motion is timed as a straight line, and a path through an 
   scene.add(ball);
   const vpTimedPath blocked(scene, path);
   CHECK_FALSE(blocked.isFree());
-  CHECK(blocked.sentence(scene).find("ball") != std::string::npos);
+  CHECK(blocked.message(scene).find("ball") != std::string::npos);
   CHECK(blocked.clearance().time < 0.5 * blocked.duration());
 
   vpTimedPathSpec spec;
@@ -255,7 +255,7 @@ TEST_CASE("Obstacles move on while the arm is under way, behind a rest too", "[p
       const vpCollisionSceneSpec then = at(spec, t);
       touches = touches || IndependentClearance(amor(), then).clearance(q, scene.selfPairs(), 0.1) < 0.;
     }
-    CAPTURE(late, timed.parts().size(), timed.sentence(scene));
+    CAPTURE(late, timed.parts().size(), timed.message(scene));
     CHECK(timed.isFree() == !touches);
     CHECK(touches == (late == 0.));
   }

@@ -64,7 +64,7 @@ vpTwist vpTwist::scaled(double factor) const
   return out;
 }
 
-vpTwist limitTwist(const vpTwist &twist, double maxLinear, double maxAngular)
+vpTwist vpLimitTwist(const vpTwist &twist, double maxLinear, double maxAngular)
 {
   if (!twist.isFinite() || !(maxLinear > 0.) || !(maxAngular > 0.)) {
     return {};

@@ -127,7 +127,7 @@ TEST_CASE("the length and the limit of a twist hold for every number", "[twist][
       REQUIRE((v.linearNorm() == Approx(static_cast<double>(length)).epsilon(1e-15).margin(1e-323) ||
                v.linearNorm() == static_cast<double>(length)));
     }
-    const vpTwist limited = limitTwist(v, x[6], x[7]);
+    const vpTwist limited = vpLimitTwist(v, x[6], x[7]);
     REQUIRE(limited.isFinite());
     // Denormals have fewer digits: three components with an error of one unit.
     const double least = 3. * std::numeric_limits<double>::denorm_min();
@@ -141,10 +141,10 @@ TEST_CASE("the length and the limit of a twist hold for every number", "[twist][
 TEST_CASE("twist converts, limits uniformly and rejects wrong sizes", "[twist]")
 {
   const vpTwist v(3., 0., 4., 0., 0., 1.);
-  const vpTwist limited = limitTwist(v, 1., 10.);
+  const vpTwist limited = vpLimitTwist(v, 1., 10.);
   CHECK(limited.linearNorm() == Approx(1.));
   CHECK(limited[5] == Approx(0.2)); // one factor for all six components
-  CHECK(limitTwist(v, 5., 1.)[0] == 3.);
+  CHECK(vpLimitTwist(v, 5., 1.)[0] == 3.);
   CHECK(vpTwist::fromColVector(v.toColVector())[2] == 4.);
   CHECK_FALSE(vpTwist(0., NAN, 0., 0., 0., 0.).isFinite());
   CHECK_THROWS_WITH(vpTwist::fromColVector(vpColVector(5)),
@@ -164,7 +164,7 @@ TEST_CASE("rotation kernel and twist allocate nothing", "[so3][twist][realtime]"
   for (int i = 0; i < 100; ++i) {
     const Eigen::Matrix3d R = vpSO3::exp(e * i * 0.03);
     sink += vpSO3::log(R).x() + vpSO3::rightJacobianInverse(e)(0, 1) +
-            limitTwist(vpTwist(1., 2., 3., 4., 5., 6.), 1., 1.)[0];
+            vpLimitTwist(vpTwist(1., 2., 3., 4., 5., 6.), 1., 1.)[0];
     vpTwist(1., 2., 3., 4., 5., sink).copyTo(column);
   }
   REQUIRE(vpTestSupport::allocationCount() == before);

@@ -56,9 +56,9 @@ void stepOf(benchmark::State &state, const std::string &id, double aside)
   auto servo = vpServoController::create(id);
   servo.setGoal(task.goal);
   for (auto _ : state) {
-    benchmark::DoNotOptimize(servo.update(task.measurement, 0.01));
+    benchmark::DoNotOptimize(servo.step(task.measurement, 0.01));
   }
-  state.SetLabel(toString(servo.update(task.measurement, 0.01).status));
+  state.SetLabel(vpToString(servo.step(task.measurement, 0.01).status));
 }
 
 void prepare(vpServo &task)

@@ -32,7 +32,7 @@ Eigen::Vector3d sphereSample(unsigned int i, unsigned int count)
 }
 } // namespace
 
-double feedforwardSumStabilityMargin(double bearing, double rotation, double kappa, unsigned int samples)
+double vpFeedforwardSumStabilityMargin(double bearing, double rotation, double kappa, unsigned int samples)
 {
   fields.require(bearing >= 0. && bearing < M_PI / 2., "bearing", bearing, "in [0, pi/2) rad");
   fields.require(rotation >= 0. && rotation <= M_PI, "rotation", rotation, "in [0, pi] rad");

@@ -6,7 +6,7 @@
 
 BEGIN_VISP_NAMESPACE
 
-const char *message(vpServoStatus status)
+const char *vpMessage(vpServoStatus status)
 {
   switch (status) {
   case vpServoStatus::Servoing:
@@ -33,7 +33,7 @@ const char *message(vpServoStatus status)
   return "Unknown status.";
 }
 
-const char *toString(vpServoStatus status)
+const char *vpToString(vpServoStatus status)
 {
   switch (status) {
   case vpServoStatus::Servoing:

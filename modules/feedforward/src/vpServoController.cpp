@@ -19,7 +19,7 @@ namespace
 constexpr std::string_view filterSuffix = "+cbf";
 } // namespace
 
-void vpServoControllerConfig::validate() const
+void vpServoControllerSpec::validate() const
 {
   gains.validate();
   view.validate();
@@ -27,21 +27,21 @@ void vpServoControllerConfig::validate() const
 }
 
 vpServoController::vpServoController(const std::string &id, std::unique_ptr<vpServoLaw> law, bool withFilter,
-                                     const vpServoControllerConfig &config)
-  : m_id(id), m_config(config), m_law(std::move(law)), m_recovery(config.recovery)
+                                     const vpServoControllerSpec &spec)
+  : m_id(id), m_spec(spec), m_law(std::move(law)), m_recovery(spec.recovery)
 {
   if (withFilter) {
-    m_filter.emplace(config.view);
+    m_filter.emplace(spec.view);
   }
 }
 
-vpServoController vpServoController::create(const std::string &id, const vpServoControllerConfig &config)
+vpServoController vpServoController::create(const std::string &id, const vpServoControllerSpec &spec)
 {
-  config.validate();
+  spec.validate();
   const bool withFilter = id.size() > filterSuffix.size() &&
                           id.compare(id.size() - filterSuffix.size(), filterSuffix.size(), filterSuffix) == 0;
   const std::string lawId = withFilter ? id.substr(0, id.size() - filterSuffix.size()) : id;
-  return vpServoController(id, vpServoLaw::create(lawId, config.gains), withFilter, config);
+  return vpServoController(id, vpServoLaw::create(lawId, spec.gains), withFilter, spec);
 }
 
 void vpServoController::reset()
@@ -50,13 +50,13 @@ void vpServoController::reset()
   m_recovery.reset();
 }
 
-vpServoCommand vpServoController::update(const vpServoMeasurement &measurement, double dt) noexcept
+vpServoCommand vpServoController::step(const vpServoMeasurement &measurement, double dt) noexcept
 {
-  vpServoCommand command = m_law->update(measurement, dt);
+  vpServoCommand command = m_law->step(measurement, dt);
   if (m_filter) {
     command = m_filter->filter(command, measurement.outline, dt);
   }
-  command = m_recovery.update(command, dt);
+  command = m_recovery.step(command, dt);
   if (command.status != vpServoStatus::Servoing) {
     m_law->notifyInterrupted();
   }

@@ -23,7 +23,7 @@ public:
   {}
 
 protected:
-  vpServoCommand step(const vpServoMeasurement &measurement, double) noexcept VP_OVERRIDE
+  vpServoCommand compute(const vpServoMeasurement &measurement, double) noexcept VP_OVERRIDE
   {
     const vpMeanPoint mean(measurement.points, m_goal.points);
     if (mean.count == 0) {

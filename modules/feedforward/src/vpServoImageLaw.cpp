@@ -35,7 +35,7 @@ public:
   double rotationGain() const noexcept VP_OVERRIDE { return m_gains.lambda; } // one gain for the whole image error
 
 protected:
-  vpServoCommand step(const vpServoMeasurement &measurement, double) noexcept VP_OVERRIDE
+  vpServoCommand compute(const vpServoMeasurement &measurement, double) noexcept VP_OVERRIDE
   {
     const vpMeanPoint mean(measurement.points, m_goal.points);
     if (mean.count == 0) {

@@ -139,7 +139,7 @@ void vpServoLaw::reset()
 
 double vpServoLaw::rotationGain() const noexcept { return m_gains.lambda * m_rotationFactor * m_gains.rotation; }
 
-vpServoCommand vpServoLaw::update(const vpServoMeasurement &measurement, double dt) noexcept
+vpServoCommand vpServoLaw::step(const vpServoMeasurement &measurement, double dt) noexcept
 {
   vpServoCommand command;
   const bool timeUsable = std::isfinite(dt) && dt > 0.;
@@ -153,7 +153,7 @@ vpServoCommand vpServoLaw::update(const vpServoMeasurement &measurement, double 
     command.status = vpServoStatus::InvalidInput;
   }
   else {
-    command = step(measurement, std::min(dt, longestStep));
+    command = compute(measurement, std::min(dt, longestStep));
     if (!command.v.isFinite()) {
       command = {vpTwist(), vpServoStatus::Degenerate};
     }

@@ -51,7 +51,7 @@ public:
   {}
 
 protected:
-  vpServoCommand step(const vpServoMeasurement &measurement, double dt) noexcept VP_OVERRIDE
+  vpServoCommand compute(const vpServoMeasurement &measurement, double dt) noexcept VP_OVERRIDE
   {
     const Gaze gaze(m_goal.cdMo, measurement.cMo);
     if (!gaze.lookAt.defined) {

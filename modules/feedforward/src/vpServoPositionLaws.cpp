@@ -22,7 +22,7 @@ public:
   {}
 
 protected:
-  vpServoCommand step(const vpServoMeasurement &measurement, double) noexcept VP_OVERRIDE
+  vpServoCommand compute(const vpServoMeasurement &measurement, double) noexcept VP_OVERRIDE
   {
     const vpServoPose::Error error = vpServoPose::error(m_goal.cdMo, measurement.cMo);
     const Eigen::Vector3d v = -m_gains.lambda * (error.R.transpose() * error.t);
@@ -41,7 +41,7 @@ public:
   {}
 
 protected:
-  vpServoCommand step(const vpServoMeasurement &measurement, double) noexcept VP_OVERRIDE
+  vpServoCommand compute(const vpServoMeasurement &measurement, double) noexcept VP_OVERRIDE
   {
     const vpServoPose::Error error = vpServoPose::error(m_goal.cdMo, measurement.cMo);
     const Eigen::Vector3d origin = vpServoPose::translation(measurement.cMo);

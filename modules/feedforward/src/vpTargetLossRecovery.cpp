@@ -23,7 +23,7 @@ constexpr double timeTolerance = 1e-9;
 
 } // namespace
 
-void vpTargetLossConfig::validate() const
+void vpTargetLossSpec::validate() const
 {
   fields.require(std::isfinite(holdTime) && holdTime >= 0., "holdTime", holdTime, "finite and >= 0 s");
   fields.require(std::isfinite(retreatTime) && retreatTime >= 0., "retreatTime", retreatTime, "finite and >= 0 s");
@@ -32,10 +32,10 @@ void vpTargetLossConfig::validate() const
   fields.require(capacity >= 1 && capacity <= 100000, "capacity", capacity, "in 1..100000");
 }
 
-vpTargetLossRecovery::vpTargetLossRecovery(const vpTargetLossConfig &config) : m_config(config)
+vpTargetLossRecovery::vpTargetLossRecovery(const vpTargetLossSpec &spec) : m_spec(spec)
 {
-  config.validate();
-  m_samples.resize(config.capacity);
+  spec.validate();
+  m_samples.resize(spec.capacity);
 }
 
 void vpTargetLossRecovery::reset() noexcept
@@ -60,13 +60,13 @@ vpServoCommand vpTargetLossRecovery::retreat(double dt) noexcept
 {
   vpTwist sum; // twist times time
   double budget = dt;
-  while (budget > timeTolerance && m_count > 0 && m_undone < m_config.retreatTime - timeTolerance) {
+  while (budget > timeTolerance && m_count > 0 && m_undone < m_spec.retreatTime - timeTolerance) {
     const std::size_t last = (m_next + m_samples.size() - 1) % m_samples.size();
     Sample &sample = m_samples[last];
     const double stretch =
-        std::max({1., sample.v.linearNorm() / m_config.maxLinear, sample.v.angularNorm() / m_config.maxAngular});
+        std::max({1., sample.v.linearNorm() / m_spec.maxLinear, sample.v.angularNorm() / m_spec.maxAngular});
     // In recorded time; the camera takes stretch times as long.
-    const double piece = std::min({sample.duration, budget / stretch, m_config.retreatTime - m_undone});
+    const double piece = std::min({sample.duration, budget / stretch, m_spec.retreatTime - m_undone});
     for (std::size_t i = 0; i < 6; ++i) {
       sum[i] -= sample.v[i] * piece;
     }
@@ -84,7 +84,7 @@ vpServoCommand vpTargetLossRecovery::retreat(double dt) noexcept
   return {sum.scaled(1. / dt), vpServoStatus::Retreating};
 }
 
-vpServoCommand vpTargetLossRecovery::update(const vpServoCommand &command, double dt) noexcept
+vpServoCommand vpTargetLossRecovery::step(const vpServoCommand &command, double dt) noexcept
 {
   if (!(std::isfinite(dt) && dt > 0.) || !command.v.isFinite()) {
     return {vpTwist(), vpServoStatus::InvalidInput};
@@ -94,7 +94,7 @@ vpServoCommand vpTargetLossRecovery::update(const vpServoCommand &command, doubl
     remember(command.v, dt);
     return command;
   }
-  const bool holding = m_lostFor < m_config.holdTime - timeTolerance;
+  const bool holding = m_lostFor < m_spec.holdTime - timeTolerance;
   m_lostFor += dt;
   return holding ? vpServoCommand{vpTwist(), vpServoStatus::Holding} : retreat(dt);
 }

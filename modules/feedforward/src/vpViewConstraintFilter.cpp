@@ -31,23 +31,23 @@ double speed(const vpTwist &twist, double maxLinear, double maxAngular)
 }
 } // namespace
 
-vpViewConstraintConfig vpViewConstraintConfig::fromCamera(const vpCameraParameters &camera, unsigned int width,
+vpViewConstraintSpec vpViewConstraintSpec::fromCamera(const vpCameraParameters &camera, unsigned int width,
                                                           unsigned int height)
 {
   if (width == 0 || height == 0) {
     throw vpException(vpException::badValue, "the view constraint's image is %u x %u px, must not be empty", width,
                       height);
   }
-  vpViewConstraintConfig config;
-  config.left = -camera.get_u0() / camera.get_px();
-  config.right = (width - 1. - camera.get_u0()) / camera.get_px();
-  config.top = -camera.get_v0() / camera.get_py();
-  config.bottom = (height - 1. - camera.get_v0()) / camera.get_py();
-  config.validate();
-  return config;
+  vpViewConstraintSpec spec;
+  spec.left = -camera.get_u0() / camera.get_px();
+  spec.right = (width - 1. - camera.get_u0()) / camera.get_px();
+  spec.top = -camera.get_v0() / camera.get_py();
+  spec.bottom = (height - 1. - camera.get_v0()) / camera.get_py();
+  spec.validate();
+  return spec;
 }
 
-void vpViewConstraintConfig::validate() const
+void vpViewConstraintSpec::validate() const
 {
   fields.require(std::isfinite(left) && left < 0., "left border", left, "finite and < 0");
   fields.require(std::isfinite(right) && right > 0., "right border", right, "finite and > 0");
@@ -63,24 +63,24 @@ void vpViewConstraintConfig::validate() const
   fields.require(std::isfinite(maxAngular) && maxAngular > 0., "maxAngular", maxAngular, "finite and > 0 rad/s");
 }
 
-vpViewConstraintFilter::vpViewConstraintFilter(const vpViewConstraintConfig &config) : m_config(config), m_inside(true)
+vpViewConstraintFilter::vpViewConstraintFilter(const vpViewConstraintSpec &spec) : m_spec(spec), m_inside(true)
 {
-  config.validate();
-  m_radius = std::hypot(std::max(-config.left, config.right), std::max(-config.top, config.bottom));
+  spec.validate();
+  m_radius = std::hypot(std::max(-spec.left, spec.right), std::max(-spec.top, spec.bottom));
 }
 
 vpViewConstraintFilter::Bounds vpViewConstraintFilter::bounds(double Z, const Speeds &speeds,
                                                               double period) const noexcept
 {
   // The names of the proof in the header.
-  const double T = period, V = speeds.linear, W = speeds.angular, u = m_config.imageUncertainty;
-  const double nearest = Z * (1. - m_config.depthUncertainty);
+  const double T = period, V = speeds.linear, W = speeds.angular, u = m_spec.imageUncertainty;
+  const double nearest = Z * (1. - m_spec.depthUncertainty);
   const double zeta = (nearest - V * T) * std::exp(-W * m_radius * T);
   const double rho1 = std::hypot(1., m_radius);
   const double C = rho1 * W * (V / zeta + W * rho1);
   const double kappa = V / zeta + W * m_radius;
   const double D = u * (V / nearest + W * (1. + 3. * m_radius + 2. * u));
-  const double gamma = std::min(m_config.gamma, 0.5 * std::exp(-2. * kappa * T) / T);
+  const double gamma = std::min(m_spec.gamma, 0.5 * std::exp(-2. * kappa * T) / T);
   return {gamma, std::exp(4. * kappa * T) * (C * T + 2. * D) / gamma};
 }
 
@@ -93,15 +93,15 @@ bool vpViewConstraintFilter::addRows(const vpServoPoint &point, const Speeds &li
                                      double period) noexcept
 {
   const Bounds bound = bounds(point.Z, {share * limits.linear, share * limits.angular}, period);
-  const double inset = bound.margin + m_config.imageUncertainty;
+  const double inset = bound.margin + m_spec.imageUncertainty;
   const double x = point.x, y = point.y;
-  const double distance[4] = {x - m_config.left, m_config.right - x, y - m_config.top, m_config.bottom - y};
+  const double distance[4] = {x - m_spec.left, m_spec.right - x, y - m_spec.top, m_spec.bottom - y};
   for (double b : distance) {
-    m_inside = m_inside && b >= m_config.imageUncertainty;
+    m_inside = m_inside && b >= m_spec.imageUncertainty;
   }
-  const int ends = m_config.depthUncertainty > 0. ? 2 : 1;
+  const int ends = m_spec.depthUncertainty > 0. ? 2 : 1;
   for (int end = 0; end < ends; ++end) {
-    const double inverseZ = 1. / (point.Z * (1. + (end == 0 ? -1. : 1.) * m_config.depthUncertainty));
+    const double inverseZ = 1. / (point.Z * (1. + (end == 0 ? -1. : 1.) * m_spec.depthUncertainty));
     Eigen::Matrix<double, 2, 6> L;
     L << -inverseZ, 0., x * inverseZ, x * y, -1. - x * x, y, //
         0., -inverseZ, y * inverseZ, 1. + y * y, -x * y, -x;
@@ -128,8 +128,8 @@ vpServoCommand vpViewConstraintFilter::filter(const vpServoCommand &wanted, cons
     return invalid;
   }
   int visible = 0;
-  const double period = std::max(dt, m_config.period);
-  Speeds limits{m_config.maxLinear, m_config.maxAngular};
+  const double period = std::max(dt, m_spec.period);
+  Speeds limits{m_spec.maxLinear, m_spec.maxAngular};
   for (const vpServoPoint &point : outline) {
     if (!point.visible) {
       continue;
@@ -139,14 +139,14 @@ vpServoCommand vpViewConstraintFilter::filter(const vpServoCommand &wanted, cons
       return invalid;
     }
     // The margin requires a camera that neither approaches the point nor rotates far within one period.
-    limits.linear = std::min(limits.linear, mostPerPeriod * point.Z * (1. - m_config.depthUncertainty) / period);
+    limits.linear = std::min(limits.linear, mostPerPeriod * point.Z * (1. - m_spec.depthUncertainty) / period);
     limits.angular = std::min(limits.angular, mostPerPeriod / (std::hypot(1., m_radius) * period));
   }
   if (visible > maxPoints) {
     return invalid;
   }
 
-  const vpTwist start = limitTwist(wanted.v, limits.linear, limits.angular);
+  const vpTwist start = vpLimitTwist(wanted.v, limits.linear, limits.angular);
   const double startSpeed = speed(start, limits.linear, limits.angular);
   m_projection.clear();
   m_inside = true;

@@ -52,16 +52,16 @@ TEST_CASE("the controller example of the README reaches its goal", "[readme]")
   };
   vpServoMeasurement seen;
   // clang-format off
-vpServoControllerConfig config;
-config.view = vpViewConstraintConfig::fromCamera(camera, 640, 480);
-vpServoController servo = vpServoController::create("ff-lookat-pi+cbf", config);
+vpServoControllerSpec spec;
+spec.view = vpViewConstraintSpec::fromCamera(camera, 640, 480);
+vpServoController servo = vpServoController::create("ff-lookat-pi+cbf", spec);
 servo.setGoal(goal);       // cdMo and the object's points in the desired camera
 vpServoCommand command;
 do {
   seen = look();           // seen.valid = false when the target was not found
-  command = servo.update(seen, 0.01);
+  command = servo.step(seen, 0.01);
   robot.setVelocity(vpRobot::CAMERA_FRAME, command.v.toColVector());
-} while (isWorking(command.status) && !closeEnough(seen)); // message(command.status) gives any other reason
+} while (vpIsWorking(command.status) && !closeEnough(seen)); // vpMessage(command.status) gives any other reason
 robot.setVelocity(vpRobot::CAMERA_FRAME, vpColVector(6));
   // clang-format on
   CHECK(cycles < 2000);

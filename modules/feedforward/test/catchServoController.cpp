@@ -36,7 +36,7 @@ Segment runSegment(vpServoController &servo, Plant &plant, const vpHomogeneousMa
       servo.setGoal(goal(cdMo, points));
     }
     plant.measure(points, measurement);
-    plant.run(servo.update(measurement, 0.01).v);
+    plant.run(servo.step(measurement, 0.01).v);
     result.pastDegrees = std::max(result.pastDegrees, -error().dot(first));
     const Eigen::Vector3d o = translation(plant.cMo()), wanted = translation(cdMo);
     result.imageError = std::max(result.imageError, (o.head<2>() / o.z() - wanted.head<2>() / wanted.z()).norm());
@@ -111,7 +111,7 @@ TEST_CASE("the integral is bounded and does not grow while its output is not exe
     l->setGoal(goal(cdMo, points));
   }
   const auto added = [&]() {
-    const vpTwist a = law->update(measurement, 0.01).v, b = plain->update(measurement, 0.01).v;
+    const vpTwist a = law->step(measurement, 0.01).v, b = plain->step(measurement, 0.01).v;
     return Eigen::Vector3d(a[3] - b[3], a[4] - b[4], a[5] - b[5]).norm();
   };
   for (int i = 0; i < 1000; ++i) { // a camera that does not move: each step is reported as not executed
@@ -133,10 +133,10 @@ TEST_CASE("the controller tells the law when the filter limits its twist", "[con
 {
   auto rng = vpTestSupport::generator(56);
   const auto points = object(rng, 0.16, 4);
-  vpServoControllerConfig config;
-  config.view.maxAngular = 0.05;
-  auto servo = vpServoController::create("ff-lookat-pi+cbf", config),
-       fresh = vpServoController::create("ff-lookat-pi+cbf", config);
+  vpServoControllerSpec spec;
+  spec.view.maxAngular = 0.05;
+  auto servo = vpServoController::create("ff-lookat-pi+cbf", spec),
+       fresh = vpServoController::create("ff-lookat-pi+cbf", spec);
   const vpHomogeneousMatrix cdMo = facing(0., 0.);
   vpServoMeasurement far, near;
   measure(pose(turn(0.1, Eigen::Vector3d::UnitX()), Eigen::Vector3d::Zero()) * cdMo, points, far);
@@ -144,26 +144,26 @@ TEST_CASE("the controller tells the law when the filter limits its twist", "[con
   servo.setGoal(goal(cdMo, points));
   fresh.setGoal(goal(cdMo, points));
   for (int i = 0; i < 500; ++i) { // slower than commanded for seconds: no reason to integrate
-    REQUIRE(servo.update(far, 0.01).status == vpServoStatus::ViewLimited);
+    REQUIRE(servo.step(far, 0.01).status == vpServoStatus::ViewLimited);
   }
-  CHECK(servo.update(near, 0.01).v[3] == Approx(fresh.update(near, 0.01).v[3]).epsilon(1e-9));
+  CHECK(servo.step(near, 0.01).v[3] == Approx(fresh.step(near, 0.01).v[3]).epsilon(1e-9));
 }
 
 TEST_CASE("the pipeline goes through its statuses", "[controller]")
 {
   auto rng = vpTestSupport::generator(55);
   const auto points = object(rng, 0.26, 8);
-  vpServoControllerConfig config;
-  config.recovery.holdTime = 0.03;
-  auto servo = vpServoController::create("pbvs1-rot2+cbf", config);
+  vpServoControllerSpec spec;
+  spec.recovery.holdTime = 0.03;
+  auto servo = vpServoController::create("pbvs1-rot2+cbf", spec);
   CHECK(servo.id() == "pbvs1-rot2+cbf");
   CHECK(servo.law().id() == "pbvs1-rot2");
   vpServoMeasurement measurement, nothing;
   std::set<vpServoStatus> met;
   const auto step = [&](const vpServoMeasurement &m) {
-    const vpServoCommand command = servo.update(m, 0.01);
+    const vpServoCommand command = servo.step(m, 0.01);
     met.insert(command.status);
-    CHECK(std::string(message(command.status)).back() == '.');
+    CHECK(std::string(vpMessage(command.status)).back() == '.');
     return command;
   };
   vpHomogeneousMatrix cMo = facing(0., 0.);
@@ -198,14 +198,14 @@ TEST_CASE("controller set-up names what is wrong", "[controller][errors]")
     CAPTURE(id);
     CHECK_THROWS_WITH(vpServoController::create(id), Contains("is unknown, known laws are: pbvs1, "));
   }
-  vpServoControllerConfig config;
-  config.gains.rotation = -1.;
-  CHECK_THROWS_WITH(vpServoController::create("pbvs1", config), Contains("servo gain rotation is -1"));
-  config = {};
-  config.view.top = 1.;
-  CHECK_THROWS_WITH(vpServoController::create("pbvs1", config), Contains("top border of the view constraint is 1"));
-  config = {};
-  config.recovery.maxLinear = -2.;
-  CHECK_THROWS_WITH(vpServoController::create("pbvs1", config),
+  vpServoControllerSpec spec;
+  spec.gains.rotation = -1.;
+  CHECK_THROWS_WITH(vpServoController::create("pbvs1", spec), Contains("servo gain rotation is -1"));
+  spec = {};
+  spec.view.top = 1.;
+  CHECK_THROWS_WITH(vpServoController::create("pbvs1", spec), Contains("top border of the view constraint is 1"));
+  spec = {};
+  spec.recovery.maxLinear = -2.;
+  CHECK_THROWS_WITH(vpServoController::create("pbvs1", spec),
                     Contains("maxLinear of the target-loss recovery is -2"));
 }

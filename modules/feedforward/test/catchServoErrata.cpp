@@ -57,7 +57,7 @@ vpTwist answer(const std::string &id, const Situation &s)
   law->setGoal(goal(s.cdMo, origin));
   vpServoMeasurement measurement;
   measure(s.cMo, origin, measurement);
-  const vpServoCommand command = law->update(measurement, 0.01);
+  const vpServoCommand command = law->step(measurement, 0.01);
   REQUIRE(command.status == vpServoStatus::Servoing);
   return command.v;
 }

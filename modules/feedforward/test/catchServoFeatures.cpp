@@ -88,7 +88,7 @@ vpTwist answer(const std::string &id, const vpServoGains &gains, const Situation
   law->setGoal(goal(s.cdMo, points));
   vpServoMeasurement measurement;
   measure(s.cMo, points, measurement);
-  const vpServoCommand command = law->update(measurement, 0.01);
+  const vpServoCommand command = law->step(measurement, 0.01);
   REQUIRE(command.status == vpServoStatus::Servoing);
   return command.v;
 }
@@ -272,19 +272,19 @@ TEST_CASE("ff-sum is stable around the goal, and not everywhere", "[stability]")
   for (double bearing = 0.; bearing <= 60.; bearing += 10.) {
     for (double rotation = 0.; rotation <= 90.; rotation += 15.) {
       CAPTURE(bearing, rotation);
-      REQUIRE(feedforwardSumStabilityMargin(bearing * degree, rotation * degree, 1.) > 0.);
+      REQUIRE(vpFeedforwardSumStabilityMargin(bearing * degree, rotation * degree, 1.) > 0.);
     }
   }
-  CHECK(feedforwardSumStabilityMargin(0., 0., 1.) == Approx(1.));
-  CHECK(feedforwardSumStabilityMargin(70. * degree, 150. * degree, 1.) < 0.);
-  CHECK(feedforwardSumStabilityMargin(60. * degree, 90. * degree, 4.) < 0.); // a large kappa destabilises
+  CHECK(vpFeedforwardSumStabilityMargin(0., 0., 1.) == Approx(1.));
+  CHECK(vpFeedforwardSumStabilityMargin(70. * degree, 150. * degree, 1.) < 0.);
+  CHECK(vpFeedforwardSumStabilityMargin(60. * degree, 90. * degree, 4.) < 0.); // a large kappa destabilises
   // Without the image term the margin is that of L_theta_u alone: theta/2 cot(theta/2).
-  CHECK(feedforwardSumStabilityMargin(0.5, 1.2, 0., 20000) == Approx(0.6 / std::tan(0.6)).epsilon(1e-3));
-  CHECK_THROWS_WITH(feedforwardSumStabilityMargin(2., 0., 1.), Catch::Contains("bearing of the stability margin is 2"));
-  CHECK_THROWS_WITH(feedforwardSumStabilityMargin(0., -1., 1.),
+  CHECK(vpFeedforwardSumStabilityMargin(0.5, 1.2, 0., 20000) == Approx(0.6 / std::tan(0.6)).epsilon(1e-3));
+  CHECK_THROWS_WITH(vpFeedforwardSumStabilityMargin(2., 0., 1.), Catch::Contains("bearing of the stability margin is 2"));
+  CHECK_THROWS_WITH(vpFeedforwardSumStabilityMargin(0., -1., 1.),
                     Catch::Contains("rotation of the stability margin is -1"));
-  CHECK_THROWS_WITH(feedforwardSumStabilityMargin(0., 0., std::numeric_limits<double>::quiet_NaN()),
+  CHECK_THROWS_WITH(vpFeedforwardSumStabilityMargin(0., 0., std::numeric_limits<double>::quiet_NaN()),
                     Catch::Contains("kappa of the stability margin is nan"));
-  CHECK_THROWS_WITH(feedforwardSumStabilityMargin(0., 0., 1., 0),
+  CHECK_THROWS_WITH(vpFeedforwardSumStabilityMargin(0., 0., 1., 0),
                     Catch::Contains("samples of the stability margin is 0"));
 }

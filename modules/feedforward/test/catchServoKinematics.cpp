@@ -75,7 +75,7 @@ vpTwist answer(vpServoLaw &law, const Situation &s, const vpHomogeneousMatrix &c
 {
   vpServoMeasurement measurement;
   measure(cMo, s.points, measurement);
-  const vpServoCommand command = law.update(measurement, dt);
+  const vpServoCommand command = law.step(measurement, dt);
   REQUIRE(command.status == vpServoStatus::Servoing);
   return command.v;
 }
@@ -125,7 +125,7 @@ TEST_CASE("each law makes its own errors decay exponentially", "[laws][kinematic
       CAPTURE(id);
       vpServoMeasurement measurement;
       measure(s.cMo, s.points, measurement);
-      const vpServoCommand command = law->update(measurement, 1e-3);
+      const vpServoCommand command = law->step(measurement, 1e-3);
       if (command.status == vpServoStatus::Degenerate && id.compare(0, 5, "kyrki") == 0) {
         return; // large rotations only, see the test below
       }
@@ -205,7 +205,7 @@ TEST_CASE("points that are not visible are not read, and are left out of the goa
     for (int i : {0, 3, 4}) {
       measurement.points[i] = {1e9, -1e9, -3., false};
     }
-    const vpTwist v = law->update(measurement, 0.01).v;
+    const vpTwist v = law->step(measurement, 0.01).v;
     CAPTURE(id);
     CHECK(v.linearNorm() + v.angularNorm() < 1e-12);
   }
@@ -227,7 +227,7 @@ TEST_CASE("Kyrki's matrix with row 3 of L_theta_u is singular far from the goal,
     law->setGoal(goal(cdMo, point));
     vpServoMeasurement measurement;
     measure(cMo, point, measurement);
-    degenerate = degenerate || law->update(measurement, 0.01).status == vpServoStatus::Degenerate;
+    degenerate = degenerate || law->step(measurement, 0.01).status == vpServoStatus::Degenerate;
   }
   CHECK(degenerate);
 }
@@ -244,10 +244,10 @@ TEST_CASE("the reference orientation is the goal for pbvs1, and beyond it while 
     CHECK(sum.referenceRotation(measurement, vpServoCommand()).isIdentity(0.)); // no goal yet
     pbvs.setGoal(goal(s.cdMo, s.points));
     sum.setGoal(goal(s.cdMo, s.points));
-    const Eigen::Matrix3d goalRotation = pbvs.referenceRotation(measurement, pbvs.update(measurement, 0.01));
+    const Eigen::Matrix3d goalRotation = pbvs.referenceRotation(measurement, pbvs.step(measurement, 0.01));
     REQUIRE(goalRotation.isIdentity(1e-9));
     const Eigen::Matrix3d R = rotation(s.cdMo) * rotation(s.cMo).transpose();
-    const Eigen::Matrix3d reference = sum.referenceRotation(measurement, sum.update(measurement, 0.01));
+    const Eigen::Matrix3d reference = sum.referenceRotation(measurement, sum.step(measurement, 0.01));
     REQUIRE((thetaU(R.transpose() * reference) + thetaU(R)).norm() > 1e-6);
   }
 }

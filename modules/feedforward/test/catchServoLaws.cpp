@@ -65,9 +65,9 @@ TEST_CASE("every law converges from all over its domain on a perfect camera", "[
       law->setGoal(goal(cdMo, points));
       for (int i = 0; i < 220; ++i) {
         measure(cMo, points, measurement);
-        const vpServoCommand command = law->update(measurement, dt);
+        const vpServoCommand command = law->step(measurement, dt);
         if (command.status != vpServoStatus::Servoing) {
-          FAIL(message(command.status));
+          FAIL(vpMessage(command.status));
         }
         cMo = move(cMo, command.v, dt);
       }
@@ -88,8 +88,8 @@ TEST_CASE("every law answers bad input with a status and zero twist", "[laws]")
     vpServoMeasurement good;
     measure(pose(turn(0.2, Eigen::Vector3d::UnitY()), {0.05, 0., 0.6}), points, good);
     const auto check = [&](const vpServoMeasurement &measurement, double dt, vpServoStatus status) {
-      const vpServoCommand command = law->update(measurement, dt);
-      REQUIRE(toString(command.status) == std::string(toString(status)));
+      const vpServoCommand command = law->step(measurement, dt);
+      REQUIRE(vpToString(command.status) == std::string(vpToString(status)));
       REQUIRE((status == vpServoStatus::Servoing) == (command.v.linearNorm() + command.v.angularNorm() > 0.));
     };
     check(good, 0.01, vpServoStatus::NoGoal);
@@ -144,7 +144,7 @@ TEST_CASE("laws without enough points are degenerate, not wild", "[laws]")
     for (std::size_t i = visible; i < measurement.points.size(); ++i) {
       measurement.points[i].visible = false;
     }
-    const vpServoCommand command = law->update(measurement, 0.01);
+    const vpServoCommand command = law->step(measurement, 0.01);
     if (command.status != vpServoStatus::Servoing) {
       REQUIRE(command.v.linearNorm() + command.v.angularNorm() == 0.);
     }
@@ -167,7 +167,7 @@ TEST_CASE("laws without enough points are degenerate, not wild", "[laws]")
       law->setGoal(goal(cdMo, points));
       vpServoMeasurement measurement;
       measure(seenFrom, points, measurement);
-      return law->update(measurement, 0.01).status;
+      return law->step(measurement, 0.01).status;
     };
     REQUIRE(status({-along, 0.3 * along, along, 1.7 * along}) == vpServoStatus::Degenerate);
     const double half = 0.0025;
@@ -189,7 +189,7 @@ TEST_CASE("laws without enough points are degenerate, not wild", "[laws]")
   vpServoMeasurement behind;
   measure(pose(turn(M_PI, Eigen::Vector3d::UnitY()), {0., 0., 0.5}), square, behind);
   behind.cMo = pose(Eigen::Matrix3d::Identity(), {0., 0., -0.5});
-  CHECK(law->update(behind, 0.01).status == vpServoStatus::Degenerate);
+  CHECK(law->step(behind, 0.01).status == vpServoStatus::Degenerate);
 }
 
 TEST_CASE("set-up errors say what is wrong", "[laws][errors]")
@@ -244,7 +244,7 @@ TEST_CASE("no step of any law or controller allocates", "[laws][realtime]")
       double sink = 0.;
       const unsigned long before = vpTestSupport::allocationCount();
       for (int i = 0; i < 400; ++i) {
-        sink += servo.update(i < 100 ? seen : lost, 0.01).v[4];
+        sink += servo.step(i < 100 ? seen : lost, 0.01).v[4];
         sink += servo.referenceRotation(seen, vpServoCommand())(0, 2);
       }
       REQUIRE(vpTestSupport::allocationCount() == before);

@@ -41,7 +41,7 @@ public:
 
   Eigen::Vector3d operator()(const vpServoMeasurement &seen)
   {
-    const vpTwist a = m_pi->update(seen, 0.01).v, b = m_plain->update(seen, 0.01).v;
+    const vpTwist a = m_pi->step(seen, 0.01).v, b = m_plain->step(seen, 0.01).v;
     return {a[3] - b[3], a[4] - b[4], a[5] - b[5]};
   }
 
@@ -151,7 +151,7 @@ TEST_CASE("a wrong integral of a biased spell is gone in seconds", "[integral][c
           const Eigen::Matrix3d turned = turn(bias * degree, Eigen::Vector3d(1., 2., 0.5).normalized());
           for (int i = 0; i < 100. * seconds; ++i) {
             plant.measure(points, seen, turned);
-            plant.run(servo.update(seen, 0.01).v);
+            plant.run(servo.step(seen, 0.01).v);
           }
           return degreesOff(cdMo, plant.cMo());
         };

@@ -64,7 +64,7 @@ void put(const Numbers &x, vpServoMeasurement &m, double &dt)
 void check(const vpServoCommand &command)
 {
   REQUIRE(command.v.isFinite());
-  if (!isWorking(command.status) && command.status != vpServoStatus::Deadlock) {
+  if (!vpIsWorking(command.status) && command.status != vpServoStatus::Deadlock) {
     REQUIRE(command.v.linearNorm() + command.v.angularNorm() == 0.);
   }
 }
@@ -93,11 +93,11 @@ TEST_CASE("no wild number gets through a law or a controller, and it goes on aft
         double dt = 0.;
         seen = good;
         put(x, seen, dt);
-        const vpServoCommand command = servo.update(seen, dt);
+        const vpServoCommand command = servo.step(seen, dt);
         check(command);
         if (filtered) {
-          REQUIRE(vpWildNumbers::atMost(command.v.linearNorm(), servo.config().view.maxLinear));
-          REQUIRE(vpWildNumbers::atMost(command.v.angularNorm(), servo.config().view.maxAngular));
+          REQUIRE(vpWildNumbers::atMost(command.v.linearNorm(), servo.spec().view.maxLinear));
+          REQUIRE(vpWildNumbers::atMost(command.v.angularNorm(), servo.spec().view.maxAngular));
         }
         REQUIRE(servo.referenceRotation(seen, command).allFinite());
       };
@@ -113,8 +113,8 @@ TEST_CASE("no wild number gets through a law or a controller, and it goes on aft
       }
       servo.reset();
       servo.setGoal(goal(cdMo, points));
-      const vpServoCommand after = servo.update(good, 0.01);
-      REQUIRE(isWorking(after.status));
+      const vpServoCommand after = servo.step(good, 0.01);
+      REQUIRE(vpIsWorking(after.status));
       REQUIRE(after.v.linearNorm() < 10.);
     }
   }
@@ -142,7 +142,7 @@ TEST_CASE("a wild goal is refused, or harmless", "[wild]")
       put(x, wild, dt);
       try {
         law->setGoal({wild.cMo, wild.points});
-        check(law->update(seen, 0.01));
+        check(law->step(seen, 0.01));
         ++taken;
       }
       catch (const vpException &) {
@@ -209,16 +209,16 @@ TEST_CASE("recovery of a lost target remembers nothing wild", "[wild][recovery]"
       std::array<double, 6> v{0.1, 0., 0.05, 0., 0.1, 0.};
       vpWildNumbers::mix(rng, v, 0.1);
       const vpServoCommand command{{v[0], v[1], v[2], v[3], v[4], v[5]}, vpServoStatus::Servoing};
-      REQUIRE(recovery.update(command, vpWildNumbers::mixed(rng, 0.01, 0.1)).v.isFinite());
+      REQUIRE(recovery.step(command, vpWildNumbers::mixed(rng, 0.01, 0.1)).v.isFinite());
     }
     int cycles = 0;
     vpServoCommand back;
     do { // ends
-      back = recovery.update({vpTwist(), vpServoStatus::Holding}, 0.01);
+      back = recovery.step({vpTwist(), vpServoStatus::Holding}, 0.01);
       REQUIRE(back.v.isFinite());
-      REQUIRE(vpWildNumbers::atMost(back.v.linearNorm(), recovery.config().maxLinear));
-      REQUIRE(vpWildNumbers::atMost(back.v.angularNorm(), recovery.config().maxAngular));
-    } while (isWorking(back.status) && ++cycles < 10000);
+      REQUIRE(vpWildNumbers::atMost(back.v.linearNorm(), recovery.spec().maxLinear));
+      REQUIRE(vpWildNumbers::atMost(back.v.angularNorm(), recovery.spec().maxAngular));
+    } while (vpIsWorking(back.status) && ++cycles < 10000);
     REQUIRE(back.status == vpServoStatus::Lost);
   }
 }
@@ -239,19 +239,19 @@ TEST_CASE("ibvs that runs away from the target says so and stops; a roll it can 
     double farthest = 0.;
     do { // the loop of the documentation
       measure(cMo, points, seen);
-      command = law->update(seen, 0.01);
+      command = law->step(seen, 0.01);
       cMo = move(cMo, command.v, 0.01);
       farthest = std::max(farthest, translation(cMo).z());
-    } while (isWorking(command.status) && rotationError(cdMo, cMo) + translationError(cdMo, cMo) > 1e-3 &&
+    } while (vpIsWorking(command.status) && rotationError(cdMo, cMo) + translationError(cdMo, cMo) > 1e-3 &&
              ++cycles < 5000);
     CHECK(cycles < 5000);
     CHECK(farthest < 2.6);
     CHECK(command.status == (degrees < 157. ? vpServoStatus::Servoing : vpServoStatus::Diverging));
     if (degrees > 157.) {
       CHECK(command.v.linearNorm() == 0.);
-      CHECK(std::string(toString(command.status)) == "Diverging");
+      CHECK(std::string(vpToString(command.status)) == "Diverging");
       law->setGoal(goal(cMo, points)); // a nearby goal: it continues
-      CHECK(law->update(seen, 0.01).status == vpServoStatus::Servoing);
+      CHECK(law->step(seen, 0.01).status == vpServoStatus::Servoing);
     }
   }
 }

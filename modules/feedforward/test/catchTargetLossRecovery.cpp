@@ -28,12 +28,12 @@ TEST_CASE("the retreat undoes the last motion exactly, at the recorded speed or 
   const unsigned int seed = vpTestSupport::seed();
   for (int run = 0; run < 300; ++run) {
     auto rng = vpTestSupport::generator(200 + run);
-    vpTargetLossConfig config;
-    config.holdTime = 0.2;
-    config.retreatTime = 1.;
-    config.maxLinear = 0.3;
-    config.maxAngular = 0.4;
-    vpTargetLossRecovery recovery(config);
+    vpTargetLossSpec spec;
+    spec.holdTime = 0.2;
+    spec.retreatTime = 1.;
+    spec.maxLinear = 0.3;
+    spec.maxAngular = 0.4;
+    vpTargetLossRecovery recovery(spec);
     const double dt = 0.01;
     vpHomogeneousMatrix cMo = pose(Eigen::Matrix3d::Identity(), {0., 0., 1.}), passed;
     for (int i = 0; i < 150; ++i) { // the last 100 of these are 1 s
@@ -41,7 +41,7 @@ TEST_CASE("the retreat undoes the last motion exactly, at the recorded speed or 
         passed = cMo;
       }
       const vpTwist v = randomTwist(rng, run % 2 == 0 ? 0.2 : 0.6, run % 3 == 0 ? 0.3 : 1.);
-      const vpServoCommand command = recovery.update(seen(v), dt);
+      const vpServoCommand command = recovery.step(seen(v), dt);
       REQUIRE(command.status == vpServoStatus::Servoing);
       REQUIRE(command.v[4] == v[4]);
       cMo = move(cMo, command.v, dt);
@@ -50,13 +50,13 @@ TEST_CASE("the retreat undoes the last motion exactly, at the recorded speed or 
     const double slowest = std::max({1., run % 2 == 0 ? 1. : 0.6 / 0.3, run % 3 == 0 ? 1. : 1. / 0.4});
     CAPTURE(seed, run, slowest);
     for (;;) {
-      const vpServoCommand command = recovery.update(lost, dt);
+      const vpServoCommand command = recovery.step(lost, dt);
       if (command.status == vpServoStatus::Lost) {
         REQUIRE(command.v.linearNorm() + command.v.angularNorm() == 0.);
         break;
       }
-      REQUIRE(command.v.linearNorm() <= config.maxLinear * (1. + 1e-9));
-      REQUIRE(command.v.angularNorm() <= config.maxAngular * (1. + 1e-9));
+      REQUIRE(command.v.linearNorm() <= spec.maxLinear * (1. + 1e-9));
+      REQUIRE(command.v.angularNorm() <= spec.maxAngular * (1. + 1e-9));
       holding += command.status == vpServoStatus::Holding;
       retreating += command.status == vpServoStatus::Retreating;
       cMo = move(cMo, command.v, dt);
@@ -65,73 +65,73 @@ TEST_CASE("the retreat undoes the last motion exactly, at the recorded speed or 
     REQUIRE(std::abs(retreating - 100. * slowest) <= 1.);
     // A cycle that ends one piece and begins the next averages the two: exact when cycles and pieces coincide.
     REQUIRE(distance(cMo, passed) < (slowest == 1. ? 1e-12 : 5e-3));
-    REQUIRE(recovery.update(lost, dt).status == vpServoStatus::Lost); // and so it stays
+    REQUIRE(recovery.step(lost, dt).status == vpServoStatus::Lost); // and so it stays
   }
 }
 
 TEST_CASE("a target that is seen again is followed at once, and the way back is then shorter", "[recovery]")
 {
-  vpTargetLossConfig config;
-  config.holdTime = 0.05;
-  config.retreatTime = 10.;
-  vpTargetLossRecovery recovery(config);
+  vpTargetLossSpec spec;
+  spec.holdTime = 0.05;
+  spec.retreatTime = 10.;
+  vpTargetLossRecovery recovery(spec);
   const vpTwist forward(0.1, 0., 0., 0., 0., 0.);
   for (int i = 0; i < 100; ++i) {
-    (void)recovery.update(seen(forward), 0.01);
+    (void)recovery.step(seen(forward), 0.01);
   }
   for (int i = 0; i < 5; ++i) {
-    CHECK(recovery.update(lost, 0.01).status == vpServoStatus::Holding);
+    CHECK(recovery.step(lost, 0.01).status == vpServoStatus::Holding);
   }
   for (int i = 0; i < 30; ++i) {
-    const vpServoCommand command = recovery.update(lost, 0.01);
+    const vpServoCommand command = recovery.step(lost, 0.01);
     REQUIRE(command.status == vpServoStatus::Retreating);
     REQUIRE(command.v[0] == Approx(-0.1));
   }
-  CHECK(recovery.update(seen(forward), 0.01).status == vpServoStatus::Servoing);
+  CHECK(recovery.step(seen(forward), 0.01).status == vpServoStatus::Servoing);
   for (int i = 0; i < 5; ++i) { // the clock starts again
-    CHECK(recovery.update(lost, 0.01).status == vpServoStatus::Holding);
+    CHECK(recovery.step(lost, 0.01).status == vpServoStatus::Holding);
   }
   int retreating = 0;
-  while (recovery.update(lost, 0.01).status == vpServoStatus::Retreating) {
+  while (recovery.step(lost, 0.01).status == vpServoStatus::Retreating) {
     ++retreating;
   }
   CHECK(retreating == 71);
   recovery.reset();
-  (void)recovery.update(seen(forward), 0.01);
+  (void)recovery.step(seen(forward), 0.01);
   recovery.reset(); // forgets the motion
   for (int i = 0; i < 5; ++i) {
-    (void)recovery.update(lost, 0.01);
+    (void)recovery.step(lost, 0.01);
   }
-  CHECK(recovery.update(lost, 0.01).status == vpServoStatus::Lost);
+  CHECK(recovery.step(lost, 0.01).status == vpServoStatus::Lost);
 }
 
 TEST_CASE("memory is bounded, standing still takes none of it, other answers pass through", "[recovery]")
 {
-  vpTargetLossConfig config;
-  config.holdTime = 0.;
-  config.capacity = 20;
-  vpTargetLossRecovery recovery(config);
+  vpTargetLossSpec spec;
+  spec.holdTime = 0.;
+  spec.capacity = 20;
+  vpTargetLossRecovery recovery(spec);
   for (int i = 0; i < 50; ++i) {
-    (void)recovery.update(seen(vpTwist(0., 0.1, 0., 0., 0., 0.)), 0.01);
-    (void)recovery.update(seen(vpTwist()), 0.01);
+    (void)recovery.step(seen(vpTwist(0., 0.1, 0., 0., 0., 0.)), 0.01);
+    (void)recovery.step(seen(vpTwist()), 0.01);
   }
   int retreating = 0;
-  while (recovery.update(lost, 0.01).status == vpServoStatus::Retreating) {
+  while (recovery.step(lost, 0.01).status == vpServoStatus::Retreating) {
     ++retreating;
   }
   CHECK(retreating == 20);
 
-  config.retreatTime = 0.;
-  vpTargetLossRecovery noWayBack(config);
-  (void)noWayBack.update(seen(vpTwist(0., 0.1, 0., 0., 0., 0.)), 0.01);
-  CHECK(noWayBack.update(lost, 0.01).status == vpServoStatus::Lost);
+  spec.retreatTime = 0.;
+  vpTargetLossRecovery noWayBack(spec);
+  (void)noWayBack.step(seen(vpTwist(0., 0.1, 0., 0., 0., 0.)), 0.01);
+  CHECK(noWayBack.step(lost, 0.01).status == vpServoStatus::Lost);
 
   for (vpServoStatus status : {vpServoStatus::NoGoal, vpServoStatus::InvalidInput, vpServoStatus::Degenerate,
                                vpServoStatus::Deadlock, vpServoStatus::ViewLimited}) {
-    CHECK(recovery.update({vpTwist(), status}, 0.01).status == status);
+    CHECK(recovery.step({vpTwist(), status}, 0.01).status == status);
   }
   for (double dt : {0., -1., std::numeric_limits<double>::quiet_NaN()}) {
-    const vpServoCommand command = recovery.update(seen(vpTwist(1., 0., 0., 0., 0., 0.)), dt);
+    const vpServoCommand command = recovery.step(seen(vpTwist(1., 0., 0., 0., 0., 0.)), dt);
     CHECK(command.status == vpServoStatus::InvalidInput);
     CHECK(command.v.linearNorm() == 0.);
   }
@@ -140,21 +140,21 @@ TEST_CASE("memory is bounded, standing still takes none of it, other answers pas
 TEST_CASE("recovery set-up errors say what is wrong", "[recovery][errors]")
 {
   using Catch::Contains;
-  vpTargetLossConfig config;
-  config.holdTime = -0.1;
-  CHECK_THROWS_WITH(vpTargetLossRecovery(config),
+  vpTargetLossSpec spec;
+  spec.holdTime = -0.1;
+  CHECK_THROWS_WITH(vpTargetLossRecovery(spec),
                     Contains("holdTime of the target-loss recovery is -0.1, must be finite and >= 0 s"));
-  config = {};
-  config.retreatTime = std::numeric_limits<double>::infinity();
-  CHECK_THROWS_WITH(vpTargetLossRecovery(config), Contains("retreatTime of the target-loss recovery is inf"));
-  config = {};
-  config.maxLinear = 0.;
-  CHECK_THROWS_WITH(vpTargetLossRecovery(config), Contains("maxLinear"));
-  config = {};
-  config.maxAngular = std::numeric_limits<double>::quiet_NaN();
-  CHECK_THROWS_WITH(vpTargetLossRecovery(config), Contains("maxAngular"));
-  config = {};
-  config.capacity = 0;
-  CHECK_THROWS_WITH(vpTargetLossRecovery(config),
+  spec = {};
+  spec.retreatTime = std::numeric_limits<double>::infinity();
+  CHECK_THROWS_WITH(vpTargetLossRecovery(spec), Contains("retreatTime of the target-loss recovery is inf"));
+  spec = {};
+  spec.maxLinear = 0.;
+  CHECK_THROWS_WITH(vpTargetLossRecovery(spec), Contains("maxLinear"));
+  spec = {};
+  spec.maxAngular = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THROWS_WITH(vpTargetLossRecovery(spec), Contains("maxAngular"));
+  spec = {};
+  spec.capacity = 0;
+  CHECK_THROWS_WITH(vpTargetLossRecovery(spec),
                     Contains("capacity of the target-loss recovery is 0, must be in 1..100000"));
 }

@@ -13,14 +13,14 @@ namespace
 {
 using namespace vpServoScene;
 
-vpViewConstraintConfig vga()
+vpViewConstraintSpec vga()
 {
-  vpViewConstraintConfig config;
-  config.left = -halfWidth;
-  config.right = halfWidth;
-  config.top = -halfHeight;
-  config.bottom = halfHeight;
-  return config;
+  vpViewConstraintSpec spec;
+  spec.left = -halfWidth;
+  spec.right = halfWidth;
+  spec.top = -halfHeight;
+  spec.bottom = halfHeight;
+  return spec;
 }
 
 // Distance of the outline to the nearest border, normalised; negative when a point is outside.
@@ -63,15 +63,15 @@ struct Outcome {
 Outcome runTasks(const std::string &suffix, int count)
 {
   const std::vector<std::string> &ids = vpServoController::ids();
-  vpServoControllerConfig config;
-  config.view = vga();
-  config.recovery.holdTime = 1e3;
+  vpServoControllerSpec spec;
+  spec.view = vga();
+  spec.recovery.holdTime = 1e3;
   Outcome outcome;
   vpServoMeasurement measurement;
   for (int run = 0; run < count; ++run) {
     auto rng = vpTestSupport::generator(5000 + run);
     const Task task = randomTask(rng);
-    auto servo = vpServoController::create(ids[run % ids.size()] + suffix, config);
+    auto servo = vpServoController::create(ids[run % ids.size()] + suffix, spec);
     servo.setGoal(goal(task.cdMo, task.points));
     vpHomogeneousMatrix cMo = task.start;
     bool reached = false, violated = false;
@@ -79,9 +79,9 @@ Outcome runTasks(const std::string &suffix, int count)
     for (int i = 0; i < 2000 && !reached && stuck < 100; ++i) {
       measure(cMo, task.points, measurement);
       violated = violated || !(clearance(measurement.outline) >= 0.);
-      const vpServoCommand command = servo.update(measurement, 0.01);
+      const vpServoCommand command = servo.step(measurement, 0.01);
       stuck = command.status == vpServoStatus::Deadlock || command.status == vpServoStatus::Degenerate ? stuck + 1 : 0;
-      cMo = move(cMo, limitTwist(command.v, config.view.maxLinear, config.view.maxAngular), 0.01);
+      cMo = move(cMo, vpLimitTwist(command.v, spec.view.maxLinear, spec.view.maxAngular), 0.01);
       reached = translationError(task.cdMo, cMo) < 2e-3 && rotationError(task.cdMo, cMo) < 4e-3;
     }
     outcome.reached += reached;
@@ -111,12 +111,12 @@ TEST_CASE("no twist whatever takes a point over the border", "[filter]")
 {
   // Hostile input: twists far beyond the limits, new ones at random times, all at full speed near the border.
   const unsigned int seed = vpTestSupport::seed();
-  const vpViewConstraintConfig config = vga();
+  const vpViewConstraintSpec spec = vga();
   std::vector<vpServoPoint> outline;
   double closest = 1e9;
   for (int run = 0; run < 200; ++run) {
     auto rng = vpTestSupport::generator(7000 + run);
-    vpViewConstraintFilter filter(config);
+    vpViewConstraintFilter filter(spec);
     Task task = randomTask(rng);
     task.points.resize(4);
     vpHomogeneousMatrix cMo = task.start;
@@ -126,15 +126,15 @@ TEST_CASE("no twist whatever takes a point over the border", "[filter]")
         v = randomTwist(rng, uniform(rng, 0., 3.), uniform(rng, 0., 4.));
       }
       project(cMo, task.points, outline);
-      const vpServoCommand command = filter.filter(wanted(v), outline, config.period);
+      const vpServoCommand command = filter.filter(wanted(v), outline, spec.period);
       CAPTURE(seed, run, i, clearance(outline));
-      const bool within = command.v.linearNorm() <= config.maxLinear * (1. + 1e-9) &&
-                          command.v.angularNorm() <= config.maxAngular * (1. + 1e-9);
+      const bool within = command.v.linearNorm() <= spec.maxLinear * (1. + 1e-9) &&
+                          command.v.angularNorm() <= spec.maxAngular * (1. + 1e-9);
       if (!within || !(clearance(outline) >= 0.)) {
         FAIL("limits or view broken");
       }
       closest = std::min(closest, clearance(outline));
-      cMo = move(cMo, command.v, config.period);
+      cMo = move(cMo, command.v, spec.period);
     }
   }
   CHECK(closest < 0.005); // the border was approached: 4 px
@@ -143,12 +143,12 @@ TEST_CASE("no twist whatever takes a point over the border", "[filter]")
 TEST_CASE("wrong depths within their bound do no harm", "[filter]")
 {
   const unsigned int seed = vpTestSupport::seed();
-  vpViewConstraintConfig config = vga();
-  config.depthUncertainty = 0.3;
+  vpViewConstraintSpec spec = vga();
+  spec.depthUncertainty = 0.3;
   std::vector<vpServoPoint> outline;
   for (int run = 0; run < 100; ++run) {
     auto rng = vpTestSupport::generator(8000 + run);
-    vpViewConstraintFilter filter(config);
+    vpViewConstraintFilter filter(spec);
     Task task = randomTask(rng);
     task.points.resize(4);
     vpHomogeneousMatrix cMo = task.start;
@@ -169,7 +169,7 @@ TEST_CASE("wrong depths within their bound do no harm", "[filter]")
       for (int k = 0; k < 4; ++k) {
         outline[k].Z *= factor[k];
       }
-      cMo = move(cMo, filter.filter(wanted(v), outline, config.period).v, config.period);
+      cMo = move(cMo, filter.filter(wanted(v), outline, spec.period).v, spec.period);
     }
   }
 }
@@ -177,12 +177,12 @@ TEST_CASE("wrong depths within their bound do no harm", "[filter]")
 TEST_CASE("a point outside the view comes back and never goes farther out", "[filter]")
 {
   const unsigned int seed = vpTestSupport::seed();
-  const vpViewConstraintConfig config = vga();
+  const vpViewConstraintSpec spec = vga();
   std::vector<vpServoPoint> outline;
   int outside = 0, back = 0;
   for (int run = 0; run < 300; ++run) {
     auto rng = vpTestSupport::generator(9000 + run);
-    vpViewConstraintFilter filter(config);
+    vpViewConstraintFilter filter(spec);
     const auto points = object(rng, 0.1, 4);
     vpHomogeneousMatrix cMo = randomPose(rng, 0.4, 1., 0.55, 0.5);
     project(cMo, points, outline);
@@ -193,8 +193,8 @@ TEST_CASE("a point outside the view comes back and never goes farther out", "[fi
     const vpTwist v = randomTwist(rng, 0.3, 0.3);
     double before = clearance(outline);
     for (int i = 0; i < 400; ++i) {
-      const vpServoCommand command = filter.filter(wanted(v), outline, config.period);
-      cMo = move(cMo, command.v, config.period);
+      const vpServoCommand command = filter.filter(wanted(v), outline, spec.period);
+      cMo = move(cMo, command.v, spec.period);
       project(cMo, points, outline);
       CAPTURE(seed, run, i, before);
       if (before < 0.) {
@@ -210,10 +210,10 @@ TEST_CASE("a point outside the view comes back and never goes farther out", "[fi
 
 TEST_CASE("a point outside the view comes back however little motion is wanted", "[filter]")
 {
-  const vpViewConstraintConfig config = vga();
-  vpViewConstraintFilter filter(config);
-  const vpServoPoint gone{config.left - 0.1, 0., 0.5, true};
-  const vpServoCommand command = filter.filter(wanted(vpTwist(1e-5, 0., 0., 0., 0., 0.)), {gone}, config.period);
+  const vpViewConstraintSpec spec = vga();
+  vpViewConstraintFilter filter(spec);
+  const vpServoPoint gone{spec.left - 0.1, 0., 0.5, true};
+  const vpServoCommand command = filter.filter(wanted(vpTwist(1e-5, 0., 0., 0., 0., 0.)), {gone}, spec.period);
   CHECK(command.status == vpServoStatus::ViewLimited);
   const double x = gone.x;
   const double xDot = -command.v[0] / gone.Z + x * command.v[2] / gone.Z - (1. + x * x) * command.v[4];
@@ -226,18 +226,18 @@ TEST_CASE("a point on the very border stays inside during the next period at ful
   // same time, so that its path curves outwards.
   const unsigned int seed = vpTestSupport::seed();
   auto rng = vpTestSupport::generator(71);
-  const vpViewConstraintConfig config = vga();
-  vpViewConstraintFilter filter(config);
+  const vpViewConstraintSpec spec = vga();
+  vpViewConstraintFilter filter(spec);
   for (int run = 0; run < 20000; ++run) {
     const double x = run & 1 ? halfWidth : -halfWidth, Z = uniform(rng, 0.1, 2.);
     const std::vector<vpServoPoint> point = {{x, uniform(rng, -0.9, 0.9) * halfHeight, Z, true}};
     const vpTwist curve(0., run & 2 ? 1. : -1., 0., 0., 0., run & 4 ? 1.5 : -1.5);
     const vpTwist v = run & 8 ? curve : randomTwist(rng, 1., 1.5);
-    const vpServoCommand command = filter.filter(wanted(v), point, config.period);
+    const vpServoCommand command = filter.filter(wanted(v), point, spec.period);
     const vpHomogeneousMatrix cMo = pose(Eigen::Matrix3d::Identity(), {x * Z, point[0].y * Z, Z});
     CAPTURE(seed, run, Z, command.v[1], command.v[5]);
     for (double part : {0.25, 0.5, 1.}) {
-      const Eigen::Vector3d P = translation(move(cMo, command.v, part * config.period));
+      const Eigen::Vector3d P = translation(move(cMo, command.v, part * spec.period));
       REQUIRE(std::abs(P.x() / P.z()) <= halfWidth);
     }
   }

@@ -28,20 +28,20 @@ double logUniform(std::mt19937_64 &rng, double low, double high)
 }
 
 // A view and the parameters of a request.
-vpViewConstraintConfig randomConfig(std::mt19937_64 &rng)
+vpViewConstraintSpec randomConfig(std::mt19937_64 &rng)
 {
-  vpViewConstraintConfig config;
-  config.left = -uniform(rng, 0.1, 1.2);
-  config.right = uniform(rng, 0.1, 1.2);
-  config.top = -uniform(rng, 0.1, 0.9);
-  config.bottom = uniform(rng, 0.1, 0.9);
-  config.period = logUniform(rng, 1e-3, 0.1);
-  config.gamma = uniform(rng, 0.05, 1.) * 0.5 / config.period;
-  config.maxLinear = logUniform(rng, 0.05, 20.);
-  config.maxAngular = logUniform(rng, 0.05, 20.);
-  config.imageUncertainty = rng() % 3 == 0 ? uniform(rng, 0., 0.01) : 0.;
-  config.depthUncertainty = rng() % 3 == 0 ? uniform(rng, 0., 0.9) : 0.;
-  return config;
+  vpViewConstraintSpec spec;
+  spec.left = -uniform(rng, 0.1, 1.2);
+  spec.right = uniform(rng, 0.1, 1.2);
+  spec.top = -uniform(rng, 0.1, 0.9);
+  spec.bottom = uniform(rng, 0.1, 0.9);
+  spec.period = logUniform(rng, 1e-3, 0.1);
+  spec.gamma = uniform(rng, 0.05, 1.) * 0.5 / spec.period;
+  spec.maxLinear = logUniform(rng, 0.05, 20.);
+  spec.maxAngular = logUniform(rng, 0.05, 20.);
+  spec.imageUncertainty = rng() % 3 == 0 ? uniform(rng, 0., 0.01) : 0.;
+  spec.depthUncertainty = rng() % 3 == 0 ? uniform(rng, 0., 0.9) : 0.;
+  return spec;
 }
 
 // A coordinate inside the view; on its border in a third of the cases.
@@ -59,7 +59,7 @@ double inside(std::mt19937_64 &rng, double low, double high)
 
 // Maximum distance of a point outside the view under a constant twist, at 16 times up to T: P' = -v - w x P, by
 // Runge-Kutta.
-double farthest(const vpServoPoint &start, const vpTwist &twist, double T, const vpViewConstraintConfig &config)
+double farthest(const vpServoPoint &start, const vpTwist &twist, double T, const vpViewConstraintSpec &spec)
 {
   const Eigen::Vector3d v(twist[0], twist[1], twist[2]), w(twist[3], twist[4], twist[5]);
   const auto rate = [&](const Eigen::Vector3d &P) { return Eigen::Vector3d(-v - w.cross(P)); };
@@ -73,7 +73,7 @@ double farthest(const vpServoPoint &start, const vpTwist &twist, double T, const
       return 1e9; // behind the camera
     }
     const double x = P.x() / P.z(), y = P.y() / P.z();
-    worst = std::max({worst, config.left - x, x - config.right, config.top - y, y - config.bottom});
+    worst = std::max({worst, spec.left - x, x - spec.right, spec.top - y, y - spec.bottom});
   }
   return worst;
 }
@@ -87,44 +87,44 @@ TEST_CASE("10^6 random cases: no point in the view leaves it while the answer is
   int moving = 0, long_ = 0, borders = 0;
   const int cases = problems(100000);
   for (int k = 0; k < cases; ++k) {
-    const vpViewConstraintConfig config = randomConfig(rng);
-    vpViewConstraintFilter filter(config);
-    const double u = config.imageUncertainty, d = config.depthUncertainty;
+    const vpViewConstraintSpec spec = randomConfig(rng);
+    vpViewConstraintFilter filter(spec);
+    const double u = spec.imageUncertainty, d = spec.depthUncertainty;
     const int count = 1 + static_cast<int>(rng() % 4);
     outline.clear();
     truth.clear();
     for (int i = 0; i < count; ++i) {
-      const vpServoPoint told{inside(rng, config.left + u, config.right - u),
-                              inside(rng, config.top + u, config.bottom - u), logUniform(rng, 0.02, 20.), true};
+      const vpServoPoint told{inside(rng, spec.left + u, spec.right - u),
+                              inside(rng, spec.top + u, spec.bottom - u), logUniform(rng, 0.02, 20.), true};
       outline.push_back(told);
       truth.push_back(
           {told.x + uniform(rng, -u, u), told.y + uniform(rng, -u, u), told.Z * (1. + uniform(rng, -d, d)), true});
     }
     // Fast and slow; every fourth one slides along a border and rolls or pans, so that the path curves outwards.
     vpTwist v =
-        randomTwist(rng, logUniform(rng, 0.01, 3.) * config.maxLinear, logUniform(rng, 0.01, 3.) * config.maxAngular);
+        randomTwist(rng, logUniform(rng, 0.01, 3.) * spec.maxLinear, logUniform(rng, 0.01, 3.) * spec.maxAngular);
     if (k % 4 == 0) {
       v = vpTwist(rng() % 2 ? v[0] : 0., rng() % 2 ? v[1] : 0., rng() % 2 ? v[2] : 0., rng() % 2 ? v[3] : 0.,
                   rng() % 2 ? v[4] : 0., v[5]);
     }
-    const double dt = k % 3 == 0 ? logUniform(rng, 1e-3, 10.) : uniform(rng, 0.1, 1.) * config.period;
-    const double T = std::max(dt, config.period);
+    const double dt = k % 3 == 0 ? logUniform(rng, 1e-3, 10.) : uniform(rng, 0.1, 1.) * spec.period;
+    const double T = std::max(dt, spec.period);
     const vpServoCommand command = filter.filter({v, vpServoStatus::Servoing}, outline, dt);
-    if (!(command.v.linearNorm() <= config.maxLinear * (1. + 1e-12)) ||
-        !(command.v.angularNorm() <= config.maxAngular * (1. + 1e-12)) ||
+    if (!(command.v.linearNorm() <= spec.maxLinear * (1. + 1e-12)) ||
+        !(command.v.angularNorm() <= spec.maxAngular * (1. + 1e-12)) ||
         command.status == vpServoStatus::InvalidInput) {
       FAIL("the speed limit is broken, or good input refused");
     }
     for (int i = 0; i < count; ++i) {
-      const double out = farthest(truth[static_cast<std::size_t>(i)], command.v, T, config);
+      const double out = farthest(truth[static_cast<std::size_t>(i)], command.v, T, spec);
       if (!(out <= 1e-9)) {
-        CAPTURE(k, i, count, out, dt, config.period, u, d);
+        CAPTURE(k, i, count, out, dt, spec.period, u, d);
         FAIL("a point left the view");
       }
       borders += out > -1e-3 ? 1 : 0;
     }
     moving += command.v.linearNorm() + command.v.angularNorm() > 1e-3 ? 1 : 0;
-    long_ += dt > config.period && command.v.linearNorm() > 0. ? 1 : 0;
+    long_ += dt > spec.period && command.v.linearNorm() > 0. ? 1 : 0;
   }
   CAPTURE(moving, long_, borders);
   CHECK(moving > cases / 3);   // it does not just stand still,
@@ -137,14 +137,14 @@ TEST_CASE("wild numbers do not get through the view filter", "[filter][wild]")
   auto rng = vpTestSupport::generator(92);
   CAPTURE(vpTestSupport::seed());
   const auto run = [](const std::array<double, 13> &x) {
-    const vpViewConstraintConfig config;
-    vpViewConstraintFilter filter(config);
+    const vpViewConstraintSpec spec;
+    vpViewConstraintFilter filter(spec);
     const std::vector<vpServoPoint> outline{{x[0], x[1], x[2], true}, {x[3], x[4], x[5], true}};
     const vpServoCommand command =
         filter.filter({{x[6], x[7], x[8], x[9], x[10], x[11]}, vpServoStatus::Servoing}, outline, x[12]);
     REQUIRE(command.v.isFinite());
-    REQUIRE(vpWildNumbers::atMost(command.v.linearNorm(), config.maxLinear));
-    REQUIRE(vpWildNumbers::atMost(command.v.angularNorm(), config.maxAngular));
+    REQUIRE(vpWildNumbers::atMost(command.v.linearNorm(), spec.maxLinear));
+    REQUIRE(vpWildNumbers::atMost(command.v.angularNorm(), spec.maxAngular));
     if (!vpWildNumbers::allFinite(x) || !(x[2] > 0.) || !(x[5] > 0.) || !(x[12] > 0.)) {
       REQUIRE(command.status == vpServoStatus::InvalidInput);
       REQUIRE(command.v.linearNorm() + command.v.angularNorm() == 0.);

@@ -17,8 +17,8 @@ vpServoCommand wanted(const vpTwist &v) { return {v, vpServoStatus::Servoing}; }
 
 TEST_CASE("untouched, limited and stuck are told apart", "[filter]")
 {
-  const vpViewConstraintConfig config;
-  vpViewConstraintFilter filter(config);
+  const vpViewConstraintSpec spec;
+  vpViewConstraintFilter filter(spec);
   const std::vector<vpServoPoint> centre = {{0., 0., 0.5, true}};
   const vpTwist slow(0.01, 0., 0., 0., 0., 0.01);
   vpServoCommand command = filter.filter(wanted(slow), centre, 0.01);
@@ -32,7 +32,7 @@ TEST_CASE("untouched, limited and stuck are told apart", "[filter]")
 
   // Two opposite borders reached: the only motion for vz > 0 is blocked, and no other is desired.
   const double inset = filter.margin(0.5, 0.1, 0.15, 0.01);
-  const std::vector<vpServoPoint> wide = {{config.left + inset, 0., 0.5, true}, {config.right - inset, 0., 0.5, true}};
+  const std::vector<vpServoPoint> wide = {{spec.left + inset, 0., 0.5, true}, {spec.right - inset, 0., 0.5, true}};
   command = filter.filter(wanted(vpTwist(0., 0., 0.1, 0., 0., 0.)), wide, 0.01);
   CHECK(command.status == vpServoStatus::Deadlock);
   CHECK(command.v.linearNorm() < 2e-3);
@@ -56,26 +56,26 @@ TEST_CASE("untouched, limited and stuck are told apart", "[filter]")
 TEST_CASE("view constraint set-up errors say what is wrong", "[filter][errors]")
 {
   using Catch::Contains;
-  const auto with = [](double vpViewConstraintConfig::*field, double value) {
-    vpViewConstraintConfig config;
-    config.*field = value;
-    return config;
+  const auto with = [](double vpViewConstraintSpec::*field, double value) {
+    vpViewConstraintSpec spec;
+    spec.*field = value;
+    return spec;
   };
-  CHECK_THROWS_WITH(vpViewConstraintFilter(with(&vpViewConstraintConfig::left, 0.1)),
+  CHECK_THROWS_WITH(vpViewConstraintFilter(with(&vpViewConstraintSpec::left, 0.1)),
                     Contains("left border of the view constraint is 0.1, must be finite and < 0"));
-  CHECK_THROWS_WITH(vpViewConstraintFilter(with(&vpViewConstraintConfig::gamma, 80.)),
+  CHECK_THROWS_WITH(vpViewConstraintFilter(with(&vpViewConstraintSpec::gamma, 80.)),
                     Contains("gamma of the view constraint is 80, must be > 0 and at most 0.5 / period"));
-  CHECK_THROWS_WITH(vpViewConstraintFilter(with(&vpViewConstraintConfig::depthUncertainty, 1.)),
+  CHECK_THROWS_WITH(vpViewConstraintFilter(with(&vpViewConstraintSpec::depthUncertainty, 1.)),
                     Contains("is 1, must be in 0..0.9"));
-  CHECK_THROWS_WITH(vpViewConstraintFilter(with(&vpViewConstraintConfig::maxAngular, -1.)), Contains("maxAngular"));
-  CHECK_THROWS_WITH(vpViewConstraintFilter(with(&vpViewConstraintConfig::imageUncertainty, 0.5)),
+  CHECK_THROWS_WITH(vpViewConstraintFilter(with(&vpViewConstraintSpec::maxAngular, -1.)), Contains("maxAngular"));
+  CHECK_THROWS_WITH(vpViewConstraintFilter(with(&vpViewConstraintSpec::imageUncertainty, 0.5)),
                     Contains("imageUncertainty"));
-  const auto camera = vpViewConstraintConfig::fromCamera(vpCameraParameters(800., 800., 320., 240.), 640, 480);
-  CHECK(camera.left == Approx(vpViewConstraintConfig().left));
-  CHECK(camera.right == Approx(vpViewConstraintConfig().right));
-  CHECK(camera.top == Approx(vpViewConstraintConfig().top));
-  CHECK(camera.bottom == Approx(vpViewConstraintConfig().bottom));
-  CHECK_THROWS_WITH(vpViewConstraintConfig::fromCamera(vpCameraParameters(800., 800., 700., 240.), 640, 480),
+  const auto camera = vpViewConstraintSpec::fromCamera(vpCameraParameters(800., 800., 320., 240.), 640, 480);
+  CHECK(camera.left == Approx(vpViewConstraintSpec().left));
+  CHECK(camera.right == Approx(vpViewConstraintSpec().right));
+  CHECK(camera.top == Approx(vpViewConstraintSpec().top));
+  CHECK(camera.bottom == Approx(vpViewConstraintSpec().bottom));
+  CHECK_THROWS_WITH(vpViewConstraintSpec::fromCamera(vpCameraParameters(800., 800., 700., 240.), 640, 480),
                     Contains("right border of the view constraint is -0.07"));
-  CHECK_THROWS_WITH(vpViewConstraintConfig::fromCamera(vpCameraParameters(), 0, 480), Contains("image is 0 x 480 px"));
+  CHECK_THROWS_WITH(vpViewConstraintSpec::fromCamera(vpCameraParameters(), 0, 480), Contains("image is 0 x 480 px"));
 }

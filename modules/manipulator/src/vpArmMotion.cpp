@@ -141,7 +141,7 @@ void vpArmMotion::followTwist(const vpJointVector &q, const vpJointVector &veloc
 
 void vpArmMotion::followPath(const vpJointVector &q, const vpJointVector &velocity) noexcept
 {
-  const vpTrajectoryResult result = m_path.update(m_pathInput, m_pathOutput, period());
+  const vpTrajectoryResult result = m_path.step(m_pathInput, m_pathOutput, period());
   m_failed = !m_pathOutput.status.isGood();
   if (m_failed) { // no next state
     m_finished = true;

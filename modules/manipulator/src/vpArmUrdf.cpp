@@ -248,7 +248,7 @@ std::vector<urdf::JointSharedPtr> path(const urdf::ModelInterface &tree, const s
   return joints;
 }
 
-vpArmJointSpec moving(const urdf::Joint &from, const std::string &file, const vpArmUrdfOptions &options)
+vpArmJointSpec moving(const urdf::Joint &from, const std::string &file, const vpArmUrdfSpec &spec)
 {
   vpArmJointSpec joint;
   joint.name = from.name;
@@ -282,18 +282,18 @@ vpArmJointSpec moving(const urdf::Joint &from, const std::string &file, const vp
     joint.velocity = from.limits->velocity;
     joint.torque = from.limits->effort;
   }
-  joint.acceleration = options.acceleration;
+  joint.acceleration = spec.acceleration;
   if (from.dynamics) {
     joint.viscous = from.dynamics->damping;
     joint.coulomb = from.dynamics->friction;
   }
   return joint;
 }
-vpArmModel load(const std::string &file, const vpArmUrdfOptions &options)
+vpArmModel load(const std::string &file, const vpArmUrdfSpec &spec)
 {
   const urdf::ModelInterfaceSharedPtr tree = parseTree(file);
-  const std::string base = options.base.empty() ? tree->getRoot()->name : options.base;
-  const std::string tip = options.tip.empty() ? onlyLeaf(*tree, file) : options.tip;
+  const std::string base = spec.base.empty() ? tree->getRoot()->name : spec.base;
+  const std::string tip = spec.tip.empty() ? onlyLeaf(*tree, file) : spec.tip;
   vpArmSpec spec;
   spec.source = file;
   spec.name = tree->getName();
@@ -312,7 +312,7 @@ vpArmModel load(const std::string &file, const vpArmUrdfOptions &options)
       }
     }
     else {
-      vpArmJointSpec joint = moving(*from, file, options);
+      vpArmJointSpec joint = moving(*from, file, spec);
       joint.before = fixed * joint.before;
       fixed = {};
       spec.joints.push_back(joint);
@@ -321,7 +321,7 @@ vpArmModel load(const std::string &file, const vpArmUrdfOptions &options)
     surface(*child, static_cast<int>(spec.joints.size()), fixed, spec.capsules);
   }
   spec.tool = fixed;
-  if (!options.camera.empty()) {
+  if (!spec.camera.empty()) {
     // Up or down from the end effector through fixed joints only.
     const auto toCommon = [&](const std::string &from) {
       vpRigidTransform T;
@@ -335,15 +335,15 @@ vpArmModel load(const std::string &file, const vpArmUrdfOptions &options)
       }
       return T;
     };
-    spec.camera = toCommon(tip).inverse() * toCommon(options.camera);
+    spec.camera = toCommon(tip).inverse() * toCommon(spec.camera);
   }
   return vpArmModel(spec);
 }
 } // namespace
 
-vpArmModel vpLoadArmUrdf(const std::string &file, const vpArmUrdfOptions &options)
+vpArmModel vpLoadArmUrdf(const std::string &file, const vpArmUrdfSpec &spec)
 {
-  return vpReading([&] { return load(file, options); });
+  return vpReading([&] { return load(file, spec); });
 }
 
 END_VISP_NAMESPACE

@@ -8,7 +8,7 @@
 
 BEGIN_VISP_NAMESPACE
 
-vpArmModel vpLoadArmUrdf(const std::string &file, const vpArmUrdfOptions &)
+vpArmModel vpLoadArmUrdf(const std::string &file, const vpArmUrdfSpec &)
 {
   vpMissingLibrary((file + ": an arm by URDF").c_str(), "urdfdom");
 }

@@ -62,11 +62,11 @@ void vpClosedLoopSpec::validate(double period) const
   }
 }
 
-const char *vpClosedLoopOutput::sentence() const noexcept
+const char *vpClosedLoopOutput::message() const noexcept
 {
   switch (status) {
   case vpClosedLoopStatus::Moving:
-    return solver.sentence();
+    return solver.message();
   case vpClosedLoopStatus::Reached:
     return "The end effector is at the goal.";
   case vpClosedLoopStatus::StoppedByLimits:
@@ -135,7 +135,7 @@ void vpClosedLoopKinematics::motion(const vpClosedLoopInput &input, vpClosedLoop
   wanted << m_data.tool.R.transpose() * Eigen::Vector3d(input.twist[0], input.twist[1], input.twist[2]),
       m_data.tool.R.transpose() * Eigen::Vector3d(input.twist[3], input.twist[4], input.twist[5]);
   wanted += m_spec.gain * output.error;
-  const vpTwist limited = limitTwist(twistOf(wanted), m_spec.maxLinear, m_spec.maxAngular);
+  const vpTwist limited = vpLimitTwist(twistOf(wanted), m_spec.maxLinear, m_spec.maxAngular);
   for (int k = 0; k < 6; ++k) {
     wanted(k) = stopped ? 0. : limited[static_cast<std::size_t>(k)];
   }

@@ -128,7 +128,7 @@ vpArmTask vpArmTask::pointVelocity(const vpArmModel &model, const vpArmData &dat
   return task;
 }
 
-const char *vpRedundancyOutput::sentence() const noexcept
+const char *vpRedundancyOutput::message() const noexcept
 {
   switch (status) {
   case vpRedundancyStatus::Exact:

@@ -62,10 +62,10 @@ std::string jsonError(const std::string &from, const std::string &to)
 std::string urdfError(const std::string &from, const std::string &to, const std::string &tip = "tool")
 {
   const Broken file("generic-6r.urdf", from, to);
-  vpArmUrdfOptions options;
-  options.tip = tip;
+  vpArmUrdfSpec spec;
+  spec.tip = tip;
   try {
-    static_cast<void>(vpLoadArmUrdf(file.name(), options));
+    static_cast<void>(vpLoadArmUrdf(file.name(), spec));
   }
   catch (const vpException &e) {
     return e.getStringMessage();
@@ -126,9 +126,9 @@ TEST_CASE("The URDF's chain is read with limits, masses, capsules and camera", "
   CHECK(model.spec().joints[2].viscous == 2.);
   CHECK(model.spec().links[5].mass == Approx(0.8)); // flange and tool
   CHECK(model.spec().capsules.size() == 5);
-  vpArmUrdfOptions options;
-  options.tip = "camera";
-  const vpArmModel camera = vpLoadArmUrdf(dataFile("generic-6r.urdf"), options);
+  vpArmUrdfSpec spec;
+  spec.tip = "camera";
+  const vpArmModel camera = vpLoadArmUrdf(dataFile("generic-6r.urdf"), spec);
   vpArmData a, b;
   const vpJointVector q = vector({0.3, 0.2, -0.4, 0.5, 0.6, 0.7});
   vpArmKinematics::forward(model, q, a);
@@ -196,10 +196,10 @@ TEST_CASE("Errors in URDF name the file and the element", "[files]")
   says(urdfError("tool_mount", "tool_mount", "hand"), "there is no link hand");
   says(urdfError("lower=\"-1.9\"", "lower=\"2.9\""), "limits of joint shoulder are 2.9 and 2.2");
   CHECK_THROWS_WITH(vpLoadArmUrdf("nowhere.urdf"), Catch::Contains("nowhere.urdf: cannot be read"));
-  vpArmUrdfOptions options;
-  options.base = "tool";
-  options.tip = "forearm";
-  CHECK_THROWS_WITH(vpLoadArmUrdf(dataFile("generic-6r.urdf"), options),
+  vpArmUrdfSpec spec;
+  spec.base = "tool";
+  spec.tip = "forearm";
+  CHECK_THROWS_WITH(vpLoadArmUrdf(dataFile("generic-6r.urdf"), spec),
                     Catch::Contains("link forearm is not below link tool"));
 }
 
@@ -294,10 +294,10 @@ TEST_CASE("The public broken URDF files are refused in a sentence, the sound one
           "[files][hostile]")
 {
   const auto errorOf = [](const std::string &name, const std::string &tip) {
-    vpArmUrdfOptions options;
-    options.tip = tip;
+    vpArmUrdfSpec spec;
+    spec.tip = tip;
     try {
-      static_cast<void>(vpLoadArmUrdf(name, options));
+      static_cast<void>(vpLoadArmUrdf(name, spec));
     }
     catch (const vpException &e) {
       return e.getStringMessage();
@@ -334,10 +334,10 @@ TEST_CASE("JSON of an arm is read as strictly as that of a task", "[files][hosti
 TEST_CASE("A continuous joint without a limit of velocity is refused where one is needed", "[files]")
 {
   const Broken file("generic-6r.urdf", "<limit effort=\"200\" velocity=\"2.6\"/>", "");
-  vpArmUrdfOptions options;
-  options.tip = "tool";
-  options.acceleration = 5.;
-  const vpArmModel model = vpLoadArmUrdf(file.name(), options);
+  vpArmUrdfSpec spec;
+  spec.tip = "tool";
+  spec.acceleration = 5.;
+  const vpArmModel model = vpLoadArmUrdf(file.name(), spec);
   CHECK_THROWS_WITH(model.requireMotionLimits("the redundancy solver"),
                     Catch::Contains("velocity limit of joint base_yaw is infinite, the redundancy solver needs one"));
 }

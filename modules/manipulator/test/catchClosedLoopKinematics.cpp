@@ -253,7 +253,7 @@ TEST_CASE("A spherical wrist turns about the axis that it has lost, and a stretc
         input.goal.R = input.goal.R * vpSO3::exp(angle * Eigen::Vector3d::Unit(axis));
         Watch watch(arm);
         const vpClosedLoopOutput output = run(arm, loop, input, state, 30., &watch);
-        CAPTURE(bend, angle, axis, output.sentence(), output.error.transpose());
+        CAPTURE(bend, angle, axis, output.message(), output.error.transpose());
         CHECK(output.status == vpClosedLoopStatus::Reached);
         CHECK(watch.overVelocity <= 0.);
       }
@@ -267,7 +267,7 @@ TEST_CASE("A spherical wrist turns about the axis that it has lost, and a stretc
   input.goal = toolAt(amor(), state.q);
   input.goal.p *= 0.9;
   const vpClosedLoopOutput output = run(amor(), loop, input, state, 30.);
-  CAPTURE(output.sentence());
+  CAPTURE(output.message());
   CHECK(output.status == vpClosedLoopStatus::Reached);
 }
 
@@ -326,7 +326,7 @@ TEST_CASE("Any motion ends at the goal or says why it stopped, within all limits
           CHECK(distanceBetween(toolAt(*model, state.q), input.goal) < 1e-4);
         }
         else {
-          CHECK(std::string(output.sentence()).size() > 20);
+          CHECK(std::string(output.message()).size() > 20);
         }
       }
       std::cout << model->spec().name << ", policy " << static_cast<int>(policy) << ": reached "

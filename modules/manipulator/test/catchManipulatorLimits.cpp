@@ -184,7 +184,7 @@ TEST_CASE("Solver: limits, task, self-motion and status hold in every random ste
       }
       solver.step(data, in, out);
     }
-    CAPTURE(problem, model.label(), out.sentence(), q.transpose(), twist.transpose(), in.previous.transpose(),
+    CAPTURE(problem, model.label(), out.message(), q.transpose(), twist.transpose(), in.previous.transpose(),
             out.velocity.transpose());
     ++statuses[static_cast<std::size_t>(out.status)];
     REQUIRE(out.status != vpRedundancyStatus::InvalidInput);

@@ -262,7 +262,7 @@ TEST_CASE("Only the joint at its limit stops, and the spare joint takes over", "
     scaling.step(data, in, out);
     REQUIRE(out.velocity.norm() == 0.);
     REQUIRE(out.status == vpRedundancyStatus::BlockedByLimits);
-    REQUIRE(std::string(out.sentence()).find("position limits") != std::string::npos);
+    REQUIRE(std::string(out.message()).find("position limits") != std::string::npos);
   }
   CHECK(stopped > 200);
   CHECK(exact > 3 * stopped / 4);
@@ -395,7 +395,7 @@ TEST_CASE("A planar arm stretched straight cannot reach farther, and says so", "
         in.previous = out.velocity;
         q += 0.005 * out.velocity;
       }
-      CAPTURE(bend, sign, out.sentence(), q.transpose());
+      CAPTURE(bend, sign, out.message(), q.transpose());
       if (sign > 0.) {
         CHECK(out.status == vpRedundancyStatus::BlockedBySingularity);
         CHECK(out.velocity.norm() < 0.01);
@@ -436,7 +436,7 @@ TEST_CASE("A straight arm whose elbow bends one way only comes in that way", "[s
       in.previous = out.velocity;
       q += 0.005 * out.velocity;
     }
-    CAPTURE(side, out.sentence(), q.transpose());
+    CAPTURE(side, out.message(), q.transpose());
     CHECK(at(arm, q).tool.p(0) < 1. - 0.05);
     CHECK(q(1) * side > 0.3);
   }
@@ -505,7 +505,7 @@ TEST_CASE("The step takes nonsense and does not allocate", "[solver]")
   broken.indexCount = 100;
   solver.step(data, broken, out);
   CHECK(out.status == vpRedundancyStatus::InvalidInput);
-  CHECK(std::string(out.sentence()) == "An input is not finite, beyond 1e9 or of a wrong size; the arm brakes.");
+  CHECK(std::string(out.message()) == "An input is not finite, beyond 1e9 or of a wrong size; the arm brakes.");
 
   const auto says = [](const vpRedundancySpec &spec, const char *sentence) {
     CHECK_THROWS_WITH(vpRedundancySolver(amor(), spec), Catch::Contains(sentence));

@@ -120,15 +120,15 @@ template <typename Call> void measure(benchmark::State &state, std::size_t count
   state.counters["p99_us"] = us[us.size() * 99 / 100];
 }
 
-void track(benchmark::State &state, const Sequence &s, const vpPatternOptions &options)
+void track(benchmark::State &state, const Sequence &s, const vpPatternTrackerSpec &spec)
 {
-  vpPatternTracker tracker(s.images[0].getWidth(), s.images[0].getHeight(), options);
+  vpPatternTracker tracker(s.images[0].getWidth(), s.images[0].getHeight(), spec);
   for (const auto &image : s.images) { // acquire and learn
-    static_cast<void>(tracker.track(image));
+    static_cast<void>(tracker.process(image));
   }
   Accuracy accuracy;
   for (std::size_t k = 0; k < s.images.size(); ++k) {
-    for (const vpPatternCell &cell : tracker.track(s.images[k]).cells) {
+    for (const vpPatternCell &cell : tracker.process(s.images[k]).cells) {
       if (cell.valid) {
         accuracy.add(s, k, cell.x, cell.y);
       }
@@ -136,7 +136,7 @@ void track(benchmark::State &state, const Sequence &s, const vpPatternOptions &o
   }
   std::size_t cells = 0, locked = 0, all = 0;
   measure(state, s.images.size(), s.images[0].getSize() > 100000 ? 1 : 30, [&](std::size_t k) {
-    const vpPatternFrame &frame = tracker.track(s.images[k]);
+    const vpPatternFrame &frame = tracker.process(s.images[k]);
     cells += static_cast<std::size_t>(frame.validCells);
     locked += frame.status == vpPatternStatus::Tracking ? 1 : 0;
     ++all;
@@ -146,14 +146,14 @@ void track(benchmark::State &state, const Sequence &s, const vpPatternOptions &o
   accuracy.tell(state, s);
 }
 
-void tracking(benchmark::State &state) { track(state, small(), vpPatternOptions()); }
+void tracking(benchmark::State &state) { track(state, small(), vpPatternTrackerSpec()); }
 
 // A unit of relearning in each image instead of each 128th.
 void trackingRefreshedAlways(benchmark::State &state)
 {
-  vpPatternOptions options;
-  options.refreshEvery = 1;
-  track(state, small(), options);
+  vpPatternTrackerSpec spec;
+  spec.refreshEvery = 1;
+  track(state, small(), spec);
 }
 
 // To and fro by 8 degrees, 0.08 from image to image, and to and fro along the rows: the template is relearned at full
@@ -175,10 +175,10 @@ void trackingTurning(benchmark::State &state)
   unsigned int templates = 0;
   std::size_t locked = 0, all = 0;
   for (int i = 0; i < toLearn; ++i) {
-    templates = tracker.track(s.images[static_cast<std::size_t>(i)]).templates;
+    templates = tracker.process(s.images[static_cast<std::size_t>(i)]).templates;
   }
   measure(state, images, 30, [&](std::size_t k) {
-    const vpPatternFrame &frame = tracker.track(s.images[toLearn + k]);
+    const vpPatternFrame &frame = tracker.process(s.images[toLearn + k]);
     locked += frame.status == vpPatternStatus::Tracking ? 1 : 0;
     ++all;
   });
@@ -189,17 +189,17 @@ void trackingTurning(benchmark::State &state)
 void baseline(benchmark::State &state, vpPatternMethod method, vpPatternThreshold threshold,
               vpPatternDerivative derivative)
 {
-  vpPatternOptions options;
-  options.method = method;
-  options.threshold = threshold;
-  options.derivative = derivative;
-  track(state, small(), options);
+  vpPatternTrackerSpec spec;
+  spec.method = method;
+  spec.threshold = threshold;
+  spec.derivative = derivative;
+  track(state, small(), spec);
 }
 
 void scaling(benchmark::State &state)
 {
   const auto size = static_cast<unsigned int>(state.range(0));
-  track(state, sequence(size, size, 4.), vpPatternOptions());
+  track(state, sequence(size, size, 4.), vpPatternTrackerSpec());
 }
 
 // The same view of the product with larger or smaller pixels, in percent of 160 x 100.
@@ -212,18 +212,18 @@ void magnified(benchmark::State &state)
     *length *= scale;
   }
   const auto width = static_cast<unsigned int>(160. * scale), height = static_cast<unsigned int>(100. * scale);
-  track(state, sequence(width, height, 40. * std::min(1., scale), pattern), vpPatternOptions());
+  track(state, sequence(width, height, 40. * std::min(1., scale), pattern), vpPatternTrackerSpec());
 }
 
 // The first image after a reset: threshold, labels, edges, lattice, identities.
 void coldAcquisition(benchmark::State &state)
 {
-  vpPatternOptions options;
-  options.method = vpPatternMethod::HalfMaximumEdges;
-  vpPatternTracker tracker(160, 100, options);
+  vpPatternTrackerSpec spec;
+  spec.method = vpPatternMethod::HalfMaximumEdges;
+  vpPatternTracker tracker(160, 100, spec);
   measure(state, small().images.size(), 30, [&](std::size_t k) {
     tracker.reset();
-    benchmark::DoNotOptimize(tracker.track(small().images[k]).validCells);
+    benchmark::DoNotOptimize(tracker.process(small().images[k]).validCells);
   });
 }
 
@@ -234,7 +234,7 @@ void learning(benchmark::State &state)
     if (k == 0) {
       tracker.reset();
     }
-    benchmark::DoNotOptimize(tracker.track(small().images[k]).validCells);
+    benchmark::DoNotOptimize(tracker.process(small().images[k]).validCells);
   });
 }
 
@@ -281,16 +281,16 @@ void opencvMatchTemplate(benchmark::State &state)
 // One dot per cell completely in view, each tracked from its position in the previous image.
 void vispDot2(benchmark::State &state)
 {
-  vpPatternOptions options;
-  options.method = vpPatternMethod::HalfMaximumEdges;
-  vpPatternTracker finder(160, 100, options);
+  vpPatternTrackerSpec spec;
+  spec.method = vpPatternMethod::HalfMaximumEdges;
+  vpPatternTracker finder(160, 100, spec);
   std::vector<vpDot2> dots;
   std::size_t lost = 0, all = 0;
   Accuracy accuracy;
   measure(state, small().images.size(), 3, [&](std::size_t k) {
     if (k % 20 == 0) { // cells leave and enter: restart
       dots.clear();
-      for (const vpPatternCell &cell : finder.track(small().images[k]).cells) {
+      for (const vpPatternCell &cell : finder.process(small().images[k]).cells) {
         dots.emplace_back(vpImagePoint(cell.y, cell.x));
         dots.back().setGraphics(false);
         dots.back().setGrayLevelMin(115);

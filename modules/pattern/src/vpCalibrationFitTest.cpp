@@ -243,7 +243,7 @@ private:
   vpFitTest m_test;
 };
 
-template <class... Values> std::string sentence(const char *format, Values... values)
+template <class... Values> std::string message(const char *format, Values... values)
 {
   char text[400];
   std::snprintf(text, sizeof text, format, values...);
@@ -263,21 +263,21 @@ std::string vpFitTest::message(double varianceFactor) const
   }
   const bool stated = !std::isnan(wholeProbability);
   if (verdict == vpFitVerdict::Fits) {
-    return sentence("The fit holds%s, tested at level %g.", stated ? " against the stated deviations" : "", level);
+    return message("The fit holds%s, tested at level %g.", stated ? " against the stated deviations" : "", level);
   }
   std::string text = "The model does not fit the points:";
   text += stated && wholeProbability < level
-              ? sentence(" the residuals are %.3g times what the stated deviations allow.", std::sqrt(varianceFactor))
+              ? message(" the residuals are %.3g times what the stated deviations allow.", std::sqrt(varianceFactor))
               : " the residuals are not noise.";
-  text += sentence(" View %d fits worst (%.3g px rms)", worstView, worstViewRms);
+  text += message(" View %d fits worst (%.3g px rms)", worstView, worstViewRms);
   if (worstPoint >= 0) {
-    text += sentence("; the worst point is %d of view %d, %.3g px from where the others put it", worstPoint,
+    text += message("; the worst point is %d of view %d, %.3g px from where the others put it", worstPoint,
                      worstPointView, worstPointDistance);
   }
   return text + ". Check them, or leave them out.";
 }
 
-const char *toString(vpFitVerdict verdict)
+const char *vpToString(vpFitVerdict verdict)
 {
   switch (verdict) {
   case vpFitVerdict::Fits:

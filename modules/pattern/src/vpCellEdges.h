@@ -8,7 +8,7 @@
 
 #include "vpRunLabels.h"
 
-#include <visp3/pattern/vpPatternOptions.h>
+#include <visp3/pattern/vpPatternTrackerSpec.h>
 
 BEGIN_VISP_NAMESPACE
 

@@ -20,7 +20,7 @@ struct vpMicroscopeDecision {
 
 [[nodiscard]] std::string vpMicroscopeMessage(const vpMicroscopeCalibrationResult &result,
                                               const vpMicroscopeDecision &decision,
-                                              const vpMicroscopeCalibrationOptions &options);
+                                              const vpMicroscopeCalibrationSpec &spec);
 
 END_VISP_NAMESPACE
 #endif

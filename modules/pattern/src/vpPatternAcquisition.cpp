@@ -40,12 +40,12 @@ vpPatternReason vpPatternTracker::Impl::detectPolarity(const vpImage<unsigned ch
   for (std::size_t i = 0; i < spots.size(); ++i) {
     vpPatternSpot spot = spots[i];
     bool good = false;
-    switch (m_options.method) {
+    switch (m_spec.method) {
     case vpPatternMethod::ThesisAlgorithm:
-      good = vpThesisCentre(image, m_options.derivative, spot);
+      good = vpThesisCentre(image, m_spec.derivative, spot);
       break;
     case vpPatternMethod::ThesisAlgorithmFixed:
-      good = vpThesisCentreFixed(image, m_options.derivative, spot);
+      good = vpThesisCentreFixed(image, m_spec.derivative, spot);
       break;
     case vpPatternMethod::GaussNewton:
     case vpPatternMethod::HalfMaximumEdges:
@@ -65,7 +65,7 @@ vpPatternReason vpPatternTracker::Impl::detectPolarity(const vpImage<unsigned ch
   if (kept < 4) {
     return vpPatternReason::NoLattice;
   }
-  if (!m_fitter.fit(spots, m_options.minPitch, lattice)) {
+  if (!m_fitter.fit(spots, m_spec.minPitch, lattice)) {
     return m_fitter.trouble(spots);
   }
   vpLatticeFit::removeDirty(spots);
@@ -74,13 +74,13 @@ vpPatternReason vpPatternTracker::Impl::detectPolarity(const vpImage<unsigned ch
 
 vpPatternReason vpPatternTracker::Impl::detect(const vpImage<unsigned char> &image, vpLattice &lattice)
 {
-  const vpPatternThresholdResult level = vpFindThreshold(vpSubsampledHistogram(image), m_options.threshold);
-  if (level.threshold < 0 || level.brightMean - level.darkMean < m_options.minContrast ||
+  const vpPatternThresholdResult level = vpFindThreshold(vpSubsampledHistogram(image), m_spec.threshold);
+  if (level.threshold < 0 || level.brightMean - level.darkMean < m_spec.minContrast ||
       level.separability < leastSeparability) {
     return vpPatternReason::NoContrast;
   }
-  if (m_options.polarity != vpPatternPolarity::Automatic) {
-    return detectPolarity(image, level, m_options.polarity == vpPatternPolarity::Bright, lattice);
+  if (m_spec.polarity != vpPatternPolarity::Automatic) {
+    return detectPolarity(image, level, m_spec.polarity == vpPatternPolarity::Bright, lattice);
   }
   vpPatternReason reason = detectPolarity(image, level, m_bright, lattice);
   if (reason != vpPatternReason::None && !m_known) {
@@ -99,7 +99,7 @@ vpPatternReason vpPatternTracker::Impl::adopt(const vpLattice &found)
   const double dbx = found.bx - m_lattice.bx, dby = found.by - m_lattice.by;
   const bool same = m_known && std::hypot(dax, day) < 0.05 * std::hypot(found.ax, found.ay) &&
                     std::hypot(dbx, dby) < 0.08 * std::hypot(found.bx, found.by);
-  if (!same || m_lostFrames > m_options.maxLostFrames) {
+  if (!same || m_lostFrames > m_spec.maxLostFrames) {
     const bool again = m_known;
     m_known = true;
     m_lattice = found;
@@ -167,7 +167,7 @@ void vpPatternTracker::Impl::acquire(const vpImage<unsigned char> &image)
   if (m_stage == Stage::Learning && m_learned == 0) {
     m_share = 0.;
   }
-  const bool baseline = m_options.method != vpPatternMethod::GaussNewton;
+  const bool baseline = m_spec.method != vpPatternMethod::GaussNewton;
   if (note != vpPatternReason::None) {
     m_frame.status = vpPatternStatus::Degraded;
     m_frame.reason = note;
@@ -236,7 +236,7 @@ void vpPatternTracker::Impl::learn(const vpImage<unsigned char> &image)
       taken += cell.valid && m_learner.add(image, cell.x, cell.y) ? 1 : 0;
     }
     m_rotate += windowsPerFrame;
-    if (m_learned >= m_options.learningFrames && m_learner.count() >= std::min(16, m_options.learningFrames * 2)) {
+    if (m_learned >= m_spec.learningFrames && m_learner.count() >= std::min(16, m_spec.learningFrames * 2)) {
       m_stage = m_learner.finish() ? Stage::Refining : Stage::Learning;
       m_learned = m_refined = 0;
     }
@@ -250,7 +250,7 @@ void vpPatternTracker::Impl::learn(const vpImage<unsigned char> &image)
       taken += cell.valid && m_learner.addResidual(image, cell.x, cell.y) ? 1 : 0;
     }
     m_rotate += windowsPerFrame;
-    if (m_learner.residuals() >= windowsPerFrame * m_options.learningFrames) {
+    if (m_learner.residuals() >= windowsPerFrame * m_spec.learningFrames) {
       m_stage = m_learner.refine() ? m_stage : Stage::Learning;
       if (m_stage == Stage::Refining && ++m_refined == 2) {
         m_bank.begin(m_learner);
@@ -258,7 +258,7 @@ void vpPatternTracker::Impl::learn(const vpImage<unsigned char> &image)
       }
     }
   }
-  else if (m_stage == Stage::Preparing && m_bank.prepare(m_learner, m_options.phasesPerFrame)) {
+  else if (m_stage == Stage::Preparing && m_bank.prepare(m_learner, m_spec.phasesPerFrame)) {
     m_stage = Stage::Locked;
     m_slopes = {};
     m_slopeWeight = 0.;

@@ -218,8 +218,8 @@ void vpPatternTracker::Impl::validate(const vpImage<unsigned char> &image)
     const double hidden = fit.masked ? maskedSigma * maskedSigma : 0.;
     const double sx = std::sqrt(fit.variance * fit.xx + hidden), sy = std::sqrt(fit.variance * fit.yy + hidden);
     cell.valid = fit.ok && fit.variance < hopeless * usual + allowance() && fit.contrast > 0.5 * contrast &&
-                 fit.contrast < 2. * contrast && near(fit) && sx < m_options.maxCellSigma &&
-                 sy < m_options.maxCellSigma;
+                 fit.contrast < 2. * contrast && near(fit) && sx < m_spec.maxCellSigma &&
+                 sy < m_spec.maxCellSigma;
     if (cell.valid) {
       cell.x = fit.x;
       cell.y = fit.y;
@@ -278,7 +278,7 @@ void vpPatternTracker::Impl::follow(const vpImage<unsigned char> &image)
   m_lattice.oy += m_vy * (m_lostFrames + 1);
   turnOn();
   vpPatternReason note = vpPatternReason::None;
-  const bool late = m_lostFrames > m_options.maxLostFrames;
+  const bool late = m_lostFrames > m_spec.maxLostFrames;
   if (late || !alignAll(image)) {
     // Not at the expected position: search the whole image.
     m_lattice = last;

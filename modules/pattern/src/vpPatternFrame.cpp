@@ -51,7 +51,7 @@ const char *vpPatternFrame::message() const
   return status == vpPatternStatus::Tracking ? "Tracking." : "Acquiring: no image yet.";
 }
 
-const char *toString(vpPatternStatus status)
+const char *vpToString(vpPatternStatus status)
 {
   switch (status) {
   case vpPatternStatus::Tracking:

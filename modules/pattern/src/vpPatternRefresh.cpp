@@ -41,7 +41,7 @@ void vpPatternTracker::Impl::beginRefresh()
 
 void vpPatternTracker::Impl::refresh(const vpImage<unsigned char> &image)
 {
-  if (m_options.refreshEvery == 0) {
+  if (m_spec.refreshEvery == 0) {
     return;
   }
   if (++m_sinceFit == settling && m_fitNoise == 0.) {
@@ -51,7 +51,7 @@ void vpPatternTracker::Impl::refresh(const vpImage<unsigned char> &image)
     m_hurry = hurryFor;
   }
   m_hurry = std::max(0, m_hurry - 1);
-  const bool now = m_hurry > 0 || m_frame.index % static_cast<unsigned int>(m_options.refreshEvery) == 0;
+  const bool now = m_hurry > 0 || m_frame.index % static_cast<unsigned int>(m_spec.refreshEvery) == 0;
   int taken = 0;
   for (int pieces = !now ? 0 : m_hurry > 0 ? piecesInHurry : 1; pieces > 0; --pieces) {
     switch (m_refresh) {

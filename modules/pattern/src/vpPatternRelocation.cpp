@@ -41,7 +41,7 @@ const vpPatternSpot *vpPatternTracker::Impl::spotAt(double x, double y, double r
 
 bool vpPatternTracker::Impl::findSpots(const vpImage<unsigned char> &image)
 {
-  const vpPatternThresholdResult level = vpFindThreshold(vpSubsampledHistogram(image), m_options.threshold);
+  const vpPatternThresholdResult level = vpFindThreshold(vpSubsampledHistogram(image), m_spec.threshold);
   return level.threshold >= 0 && m_labels.find(image, level.threshold, m_bright, vpRunLabels::leastArea);
 }
 

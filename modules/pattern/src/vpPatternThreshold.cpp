@@ -129,7 +129,7 @@ vpPatternThresholdResult vpFindThreshold(const vpPatternHistogram &histogram, vp
   return result;
 }
 
-const char *toString(vpPatternThreshold method)
+const char *vpToString(vpPatternThreshold method)
 {
   switch (method) {
   case vpPatternThreshold::Isodata:

@@ -37,18 +37,18 @@ unsigned int checkedSize(const char *name, unsigned int value)
   return value;
 }
 
-const vpPatternOptions &checkedOptions(const vpPatternOptions &options)
+const vpPatternTrackerSpec &checkedOptions(const vpPatternTrackerSpec &spec)
 {
-  options.check();
-  return options;
+  spec.check();
+  return spec;
 }
 } // namespace
 
-vpPatternTracker::Impl::Impl(unsigned int width, unsigned int height, const vpPatternOptions &options)
-  : m_options(checkedOptions(options)), m_width(checkedSize("width", width)), m_height(checkedSize("height", height)),
-    m_maxCells(roomForCells(width, height, options.minPitch)), m_labels(width, height, m_maxCells),
+vpPatternTracker::Impl::Impl(unsigned int width, unsigned int height, const vpPatternTrackerSpec &spec)
+  : m_spec(checkedOptions(spec)), m_width(checkedSize("width", width)), m_height(checkedSize("height", height)),
+    m_maxCells(roomForCells(width, height, spec.minPitch)), m_labels(width, height, m_maxCells),
     m_fitter(m_maxCells), m_learner(roomForPixels(width, height)), m_bank(roomForPixels(width, height)),
-    m_nextBank(options.refreshEvery > 0 ? roomForPixels(width, height) : 0), m_aligner(roomForPixels(width, height)),
+    m_nextBank(spec.refreshEvery > 0 ? roomForPixels(width, height) : 0), m_aligner(roomForPixels(width, height)),
     m_memory(4 * m_maxCells + 64), m_meanX(m_maxCells), m_meanY(m_maxCells)
 {
   m_frame.cells.reserve(m_maxCells);
@@ -79,10 +79,10 @@ void vpPatternTracker::Impl::reset()
 void vpPatternTracker::Impl::interrupt()
 {
   m_interrupted = m_known;
-  m_lostFrames = m_known ? std::max(m_lostFrames, m_options.maxLostFrames + 1) : m_lostFrames;
+  m_lostFrames = m_known ? std::max(m_lostFrames, m_spec.maxLostFrames + 1) : m_lostFrames;
 }
 
-const vpPatternFrame &vpPatternTracker::Impl::track(const vpImage<unsigned char> &image)
+const vpPatternFrame &vpPatternTracker::Impl::process(const vpImage<unsigned char> &image)
 {
   m_frame.index = m_images++;
   m_frame.cells.clear();
@@ -195,7 +195,7 @@ void vpPatternTracker::Impl::updateLattice()
 void vpPatternTracker::Impl::measureMotion()
 {
   // Centres from edges get their deviation from the spread of their motion; before that, any equal value works.
-  const bool edges = m_stage != Stage::Locked || m_options.method != vpPatternMethod::GaussNewton;
+  const bool edges = m_stage != Stage::Locked || m_spec.method != vpPatternMethod::GaussNewton;
   m_meanX.clear();
   m_meanY.clear();
   double squaresX = 0., squaresY = 0., sumX = 0., sumY = 0.;
@@ -299,16 +299,16 @@ void vpPatternTracker::Impl::publish()
   }
 }
 
-vpPatternTracker::vpPatternTracker(unsigned int width, unsigned int height, const vpPatternOptions &options)
-  : m_impl(std::make_unique<Impl>(width, height, options))
+vpPatternTracker::vpPatternTracker(unsigned int width, unsigned int height, const vpPatternTrackerSpec &spec)
+  : m_impl(std::make_unique<Impl>(width, height, spec))
 {}
 vpPatternTracker::~vpPatternTracker() = default;
 vpPatternTracker::vpPatternTracker(vpPatternTracker &&) noexcept = default;
 vpPatternTracker &vpPatternTracker::operator=(vpPatternTracker &&) noexcept = default;
 
-const vpPatternFrame &vpPatternTracker::track(const vpImage<unsigned char> &image) { return m_impl->track(image); }
+const vpPatternFrame &vpPatternTracker::process(const vpImage<unsigned char> &image) { return m_impl->process(image); }
 const vpPatternFrame &vpPatternTracker::frame() const { return m_impl->m_frame; }
-const vpPatternOptions &vpPatternTracker::options() const { return m_impl->m_options; }
+const vpPatternTrackerSpec &vpPatternTracker::spec() const { return m_impl->m_spec; }
 void vpPatternTracker::interrupt() { m_impl->interrupt(); }
 void vpPatternTracker::reset() { m_impl->reset(); }
 

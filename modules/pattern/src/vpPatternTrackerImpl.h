@@ -19,12 +19,12 @@ BEGIN_VISP_NAMESPACE
 class vpPatternTracker::Impl
 {
 public:
-  Impl(unsigned int width, unsigned int height, const vpPatternOptions &options);
-  const vpPatternFrame &track(const vpImage<unsigned char> &image);
+  Impl(unsigned int width, unsigned int height, const vpPatternTrackerSpec &spec);
+  const vpPatternFrame &process(const vpImage<unsigned char> &image);
   void interrupt();
   void reset();
 
-  vpPatternOptions m_options;
+  vpPatternTrackerSpec m_spec;
   vpPatternFrame m_frame;
 
 private:

@@ -61,12 +61,12 @@ std::vector<vpFitTestView> linearised(const vpMicroscopeProblem &problem, const 
 class Calibrator
 {
 public:
-  Calibrator(const std::vector<std::vector<vpCalibrationPoint>> &points, const vpMicroscopeCalibrationOptions &options,
+  Calibrator(const std::vector<std::vector<vpCalibrationPoint>> &points, const vpMicroscopeCalibrationSpec &spec,
              unsigned int width, unsigned int height)
-    : m_points(points), m_options(options), m_width(width), m_height(height)
+    : m_points(points), m_spec(spec), m_width(width), m_height(height)
   {
     for (const std::vector<vpCalibrationPoint> &view : points) {
-      m_views.push_back(vpMakePlanarView(view, options.u0, options.v0, options.aspect));
+      m_views.push_back(vpMakePlanarView(view, spec.u0, spec.v0, spec.aspect));
       m_starts.push_back(vpStartPlanarView(m_views.back()));
       if (m_views.back().mirrored != m_views.front().mirrored) {
         const auto word = [](const vpPlanarView &v) { return v.mirrored ? "mirrored" : "as it is"; };
@@ -81,14 +81,14 @@ public:
   {
     // Without distortion first: it is the result where kappa1 is unobservable, and the reference for its effect.
     Fit best = fit(false, false, start(false));
-    if (m_options.estimateKappa1) {
+    if (m_spec.estimateKappa1) {
       Fit bent = fit(true, false, start(true));
       if (!(bent.solution.chi2 <= best.solution.chi2)) { // an initial value that no pixel allows
         bent = fit(true, false, best.solution.state);
       }
       if (judgeKappa1(bent, best)) {
         best = bent;
-        if (m_options.estimatePrincipalPoint) {
+        if (m_spec.estimatePrincipalPoint) {
           best = fit(true, true, bent.solution.state);
           takeKappa1(best);
           m_result.principalPointEstimated = true;
@@ -112,7 +112,7 @@ private:
   {
     const vpPlanarScale scale = vpStartPlanarScale(m_views, m_starts, withKappa1);
     State state;
-    state.shared = {{scale.scale, m_options.aspect, scale.kappa1, m_options.u0, m_options.v0, 0., 0., 0., 0.}};
+    state.shared = {{scale.scale, m_spec.aspect, scale.kappa1, m_spec.u0, m_spec.v0, 0., 0., 0., 0.}};
     for (const vpPlanarStart &view : m_starts) {
       state.local.emplace_back(view.rotation, scale.scale * view.t.x(), scale.scale * view.t.y());
     }
@@ -121,7 +121,7 @@ private:
 
   [[nodiscard]] Fit fit(bool kappa1, bool principalPoint, const State &from) const
   {
-    const bool tilt = m_options.estimateTilt, aspect = m_options.estimateAspect;
+    const bool tilt = m_spec.estimateTilt, aspect = m_spec.estimateAspect;
     // Aspect and stretch are equivalent except for the distortion.
     const std::array<bool, State::SharedCount> isFree = {
         {true, aspect, kappa1, principalPoint, principalPoint, tilt, tilt, tilt && !aspect, tilt}};
@@ -147,7 +147,7 @@ private:
   // Factor of the covariance.
   [[nodiscard]] double factorOf(const Fit &fitted) const
   {
-    return m_options.sigmaFromResiduals ? varianceFactorOf(fitted) : 1.;
+    return m_spec.sigmaFromResiduals ? varianceFactorOf(fitted) : 1.;
   }
 
   [[nodiscard]] vpMicroscopeCalibration calibration(const Fit &fitted) const
@@ -183,9 +183,9 @@ private:
   {
     takeKappa1(bent);
     m_result.kappa1Effect = differenceAtCorners(calibration(bent), calibration(straight));
-    const bool isThere = bent.solution.converged && m_decision.significance >= m_options.minSignificance &&
-                         m_result.kappa1Effect >= m_options.minEffect;
-    const bool isKnown = m_result.kappa1CornerSigma <= m_options.maxCornerSigma;
+    const bool isThere = bent.solution.converged && m_decision.significance >= m_spec.minSignificance &&
+                         m_result.kappa1Effect >= m_spec.minEffect;
+    const bool isKnown = m_result.kappa1CornerSigma <= m_spec.maxCornerSigma;
     m_decision.hiddenDistortion = isThere && !isKnown;
     m_result.kappa1Status = isThere && isKnown ? vpKappa1Status::Estimated : vpKappa1Status::Unobservable;
     return isThere && isKnown;
@@ -225,13 +225,13 @@ private:
     m_result.degreesOfFreedom = degreesOf(best);
     m_result.varianceFactor = varianceFactorOf(best);
     judgeFit(best);
-    m_result.message = vpMicroscopeMessage(m_result, m_decision, m_options);
+    m_result.message = vpMicroscopeMessage(m_result, m_decision, m_spec);
   }
 
   void judgeFit(const Fit &best)
   {
     const std::vector<vpFitTestView> views = linearised(best.problem, best.solution, m_points);
-    m_result.fit = vpTestFit(views, m_options.falseAlarm, !m_options.sigmaFromResiduals);
+    m_result.fit = vpTestFit(views, m_spec.falseAlarm, !m_spec.sigmaFromResiduals);
     double squares = 0., count = 0.;
     for (const vpFitTestView &view : views) {
       squares += view.linear.residual.cwiseProduct(view.sigma.reshaped()).squaredNorm();
@@ -243,13 +243,13 @@ private:
     const double sigma = std::hypot(m_result.sigma(vpMicroscopeStretch), m_result.sigma(vpMicroscopeShear));
     m_decision.looksTilted = std::acos(std::max(-1., (1. - s) / (1. + s)));
     const double sure = std::max(0., s - 3. * sigma);
-    m_result.looksTiltedTooFar = (1. - sure) / (1. + sure) < std::cos(m_options.maxTilt);
+    m_result.looksTiltedTooFar = (1. - sure) / (1. + sure) < std::cos(m_spec.maxTilt);
     m_result.reliable = m_result.converged && m_result.fit.verdict == vpFitVerdict::Fits &&
                         !m_decision.hiddenDistortion && !m_result.looksTiltedTooFar;
   }
 
   const std::vector<std::vector<vpCalibrationPoint>> &m_points; // owned by the caller
-  const vpMicroscopeCalibrationOptions &m_options;              // owned by the caller
+  const vpMicroscopeCalibrationSpec &m_spec;              // owned by the caller
   unsigned int m_width;
   unsigned int m_height;
   std::vector<vpPlanarView> m_views;
@@ -261,7 +261,7 @@ private:
 };
 } // namespace
 
-void vpMicroscopeCalibrationOptions::check() const
+void vpMicroscopeCalibrationSpec::check() const
 {
   vpCheckPrincipalPoint("u0", u0);
   vpCheckPrincipalPoint("v0", v0);
@@ -279,16 +279,16 @@ double vpMicroscopeCalibrationResult::sigma(vpMicroscopeParameter parameter) con
 }
 
 vpPlanarMicroscopeCalibration::vpPlanarMicroscopeCalibration(unsigned int width, unsigned int height,
-                                                             const vpMicroscopeCalibrationOptions &options)
-  : m_width(width), m_height(height), m_options(options)
+                                                             const vpMicroscopeCalibrationSpec &spec)
+  : m_width(width), m_height(height), m_spec(spec)
 {
   vpCheckCalibrationImage(width, height);
-  options.check();
-  if (std::isnan(options.u0)) {
-    m_options.u0 = 0.5 * (width - 1.);
+  spec.check();
+  if (std::isnan(spec.u0)) {
+    m_spec.u0 = 0.5 * (width - 1.);
   }
-  if (std::isnan(options.v0)) {
-    m_options.v0 = 0.5 * (height - 1.);
+  if (std::isnan(spec.v0)) {
+    m_spec.v0 = 0.5 * (height - 1.);
   }
 }
 
@@ -315,10 +315,10 @@ vpMicroscopeCalibrationResult vpPlanarMicroscopeCalibration::compute() const
   if (m_views.empty()) {
     throw vpException(vpException::badValue, "there is no view to calibrate from");
   }
-  return Calibrator(m_views, m_options, m_width, m_height).run();
+  return Calibrator(m_views, m_spec, m_width, m_height).run();
 }
 
-const char *toString(vpKappa1Status status)
+const char *vpToString(vpKappa1Status status)
 {
   switch (status) {
   case vpKappa1Status::Estimated:

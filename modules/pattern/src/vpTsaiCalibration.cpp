@@ -103,7 +103,7 @@ bool start(const std::vector<vpTsaiView> &views, const std::vector<std::vector<v
   return std::isfinite(least);
 }
 
-template <class... Values> std::string sentence(const char *format, Values... values)
+template <class... Values> std::string message(const char *format, Values... values)
 {
   char text[400];
   std::snprintf(text, sizeof text, format, values...);
@@ -112,7 +112,7 @@ template <class... Values> std::string sentence(const char *format, Values... va
 
 std::string messageOf(const vpTsaiCalibrationResult &result)
 {
-  std::string text = sentence("The focal length is %.6g +- %.2g px, the principal point (%.6g +- %.2g, %.6g +- %.2g) px"
+  std::string text = message("The focal length is %.6g +- %.2g px, the principal point (%.6g +- %.2g, %.6g +- %.2g) px"
                               ", kappa1 %.4g +- %.2g px^-2. The residuals are %.3g px (rms).",
                               result.px, result.sigma(vpTsaiPx), result.u0, result.sigma(vpTsaiU0), result.v0,
                               result.sigma(vpTsaiV0), result.kappa1, result.sigma(vpTsaiKappa1), result.residualRms);
@@ -165,7 +165,7 @@ std::vector<vpFitTestView> linearised(const vpTsaiProblem &problem, const vpBund
 
 vpTsaiCalibrationResult resultOf(const vpTsaiProblem &problem, const vpBundleSolution<State> &solution,
                                  const std::vector<std::vector<vpCalibrationPoint>> &points,
-                                 const std::vector<vpTsaiView> &views, const vpTsaiCalibrationOptions &options)
+                                 const std::vector<vpTsaiView> &views, const vpTsaiCalibrationSpec &spec)
 {
   vpTsaiCalibrationResult result;
   const std::array<double, State::SharedCount> &s = solution.state.shared;
@@ -188,18 +188,18 @@ vpTsaiCalibrationResult resultOf(const vpTsaiProblem &problem, const vpBundleSol
   result.degreesOfFreedom = 2 * count - static_cast<int>(problem.shared()) - 6 * static_cast<int>(views.size());
   result.varianceFactor = result.degreesOfFreedom > 0 ? solution.chi2 / result.degreesOfFreedom : 1.;
   result.covariance =
-      (options.sigmaFromResiduals ? result.varianceFactor : 1.) * covarianceOf(solution, problem.freeParameters());
+      (spec.sigmaFromResiduals ? result.varianceFactor : 1.) * covarianceOf(solution, problem.freeParameters());
   result.condition = solution.condition;
   result.iterations = solution.iterations;
   result.converged = solution.converged;
-  result.fit = vpTestFit(linear, options.falseAlarm, !options.sigmaFromResiduals);
+  result.fit = vpTestFit(linear, spec.falseAlarm, !spec.sigmaFromResiduals);
   result.reliable = solution.converged && result.sigma(vpTsaiPx) < largestDoubt * result.px &&
                     result.fit.verdict == vpFitVerdict::Fits;
   return result;
 }
 } // namespace
 
-void vpTsaiCalibrationOptions::check() const
+void vpTsaiCalibrationSpec::check() const
 {
   vpCheckPrincipalPoint("u0", u0);
   vpCheckPrincipalPoint("v0", v0);
@@ -220,16 +220,16 @@ vpCameraParameters vpTsaiCalibrationResult::toCamera() const
   return camera;
 }
 
-vpTsaiCalibration::vpTsaiCalibration(unsigned int width, unsigned int height, const vpTsaiCalibrationOptions &options)
-  : m_width(width), m_height(height), m_options(options)
+vpTsaiCalibration::vpTsaiCalibration(unsigned int width, unsigned int height, const vpTsaiCalibrationSpec &spec)
+  : m_width(width), m_height(height), m_spec(spec)
 {
   vpCheckCalibrationImage(width, height);
-  options.check();
-  if (std::isnan(options.u0)) {
-    m_options.u0 = 0.5 * (width - 1.);
+  spec.check();
+  if (std::isnan(spec.u0)) {
+    m_spec.u0 = 0.5 * (width - 1.);
   }
-  if (std::isnan(options.v0)) {
-    m_options.v0 = 0.5 * (height - 1.);
+  if (std::isnan(spec.v0)) {
+    m_spec.v0 = 0.5 * (height - 1.);
   }
 }
 
@@ -291,7 +291,7 @@ vpTsaiCalibrationResult vpTsaiCalibration::solve(const std::vector<std::vector<v
   std::vector<vpTsaiView> views;
   std::vector<std::vector<vpTsaiPose>> candidates;
   for (const std::vector<vpCalibrationPoint> &view : points) {
-    views.push_back(vpMakeTsaiView(view, m_options.u0, m_options.v0, m_options.aspect));
+    views.push_back(vpMakeTsaiView(view, m_spec.u0, m_spec.v0, m_spec.aspect));
     candidates.push_back(vpAlignTsaiView(views.back()));
     if (candidates.back().empty()) {
       throw vpException(vpException::fatalError,
@@ -300,21 +300,21 @@ vpTsaiCalibrationResult vpTsaiCalibration::solve(const std::vector<std::vector<v
     }
   }
   State state;
-  state.shared = {{0., m_options.aspect, 0., m_options.u0, m_options.v0}};
+  state.shared = {{0., m_spec.aspect, 0., m_spec.u0, m_spec.v0}};
   if (!start(views, candidates, m_width, state)) {
     throw vpException(vpException::fatalError, "no camera sees the points so: are they mirrored, or is y or z turned?");
   }
   const bool onePlane = views.size() == 1 && views[0].planar;
-  const bool aspect = m_options.estimateAspect && !onePlane, principal = m_options.estimatePrincipalPoint && !onePlane;
+  const bool aspect = m_spec.estimateAspect && !onePlane, principal = m_spec.estimatePrincipalPoint && !onePlane;
   // From few parameters to many: far from the solution weakly determined ones diverge.
   const vpTsaiProblem few(points, views, {{true, false, false, false, false}});
   state = vpSolveBundle(few, state).state;
-  if (m_options.estimateKappa1) {
+  if (m_spec.estimateKappa1) {
     const vpTsaiProblem more(points, views, {{true, false, true, false, false}});
     state = vpSolveBundle(more, state).state;
   }
-  const vpTsaiProblem problem(points, views, {{true, aspect, m_options.estimateKappa1, principal, principal}});
-  return resultOf(problem, vpSolveBundle(problem, state), points, views, m_options);
+  const vpTsaiProblem problem(points, views, {{true, aspect, m_spec.estimateKappa1, principal, principal}});
+  return resultOf(problem, vpSolveBundle(problem, state), points, views, m_spec);
 }
 
 END_VISP_NAMESPACE

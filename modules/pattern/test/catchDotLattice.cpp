@@ -102,9 +102,9 @@ TEST_CASE("dots of a grid of any kind calibrate a microscope, and one of another
     const double scale = 2e5; // px/m
     vpCalibrationPitch pitch{scene.a.norm() / scale, scene.b.norm() / scale, 0.};
     const auto calibrate = [&scene, &pitch] {
-      vpMicroscopeCalibrationOptions options;
-      options.sigmaFromResiduals = true;
-      vpPlanarMicroscopeCalibration calibration(320, 240, options);
+      vpMicroscopeCalibrationSpec spec;
+      spec.sigmaFromResiduals = true;
+      vpPlanarMicroscopeCalibration calibration(320, 240, spec);
       calibration.addView(vpCalibrationPoints(scene.image, pitch));
       return calibration.compute();
     };
@@ -148,10 +148,10 @@ TEST_CASE("calibrations from pictures of random lattices err as they say", "[lat
     auto rng = vpTestSupport::generator(850 + static_cast<unsigned int>(i));
     const DotShape shape = i % 2 == 0 ? DotShape::Hexagonal : DotShape::Rectangular;
     const DotScene scene = makeDots({"", shape, false, false, false, 0.1, 0.}, rng);
-    vpMicroscopeCalibrationOptions options;
-    options.sigmaFromResiduals = true;
-    options.estimateKappa1 = false; // there is none; what is not seen of it would be allowed for
-    vpPlanarMicroscopeCalibration calibration(320, 240, options);
+    vpMicroscopeCalibrationSpec spec;
+    spec.sigmaFromResiduals = true;
+    spec.estimateKappa1 = false; // there is none; what is not seen of it would be allowed for
+    vpPlanarMicroscopeCalibration calibration(320, 240, spec);
     calibration.addView(vpCalibrationPoints(scene.image, {scene.a.norm() / truth, scene.b.norm() / truth, 0.,
                                                           shape == DotShape::Hexagonal ? M_PI / 3. : M_PI / 2.}));
     const vpMicroscopeCalibrationResult result = calibration.compute();

@@ -48,10 +48,10 @@ std::vector<Points> fiveViews(std::mt19937_64 &rng)
 
 vpTsaiCalibrationResult calibrate(const std::vector<Points> &views, bool stated, double level = 0.01)
 {
-  vpTsaiCalibrationOptions options;
-  options.sigmaFromResiduals = !stated;
-  options.falseAlarm = level;
-  vpTsaiCalibration calibration(640, 480, options);
+  vpTsaiCalibrationSpec spec;
+  spec.sigmaFromResiduals = !stated;
+  spec.falseAlarm = level;
+  vpTsaiCalibration calibration(640, 480, spec);
   for (Points view : views) {
     for (vpCalibrationPoint &point : view) {
       point.sigmaU = point.sigmaV = stated ? noise : 1.;
@@ -64,10 +64,10 @@ vpTsaiCalibrationResult calibrate(const std::vector<Points> &views, bool stated,
 vpMicroscopeCalibrationResult calibrate(const vpPatternTest::Problem &problem, const std::vector<Points> &views,
                                         bool stated, double level = 0.01)
 {
-  vpMicroscopeCalibrationOptions options;
-  options.sigmaFromResiduals = !stated;
-  options.falseAlarm = level;
-  vpPlanarMicroscopeCalibration calibration(problem.truth.width, problem.truth.height, options);
+  vpMicroscopeCalibrationSpec spec;
+  spec.sigmaFromResiduals = !stated;
+  spec.falseAlarm = level;
+  vpPlanarMicroscopeCalibration calibration(problem.truth.width, problem.truth.height, spec);
   for (const Points &view : views) {
     calibration.addView(view);
   }

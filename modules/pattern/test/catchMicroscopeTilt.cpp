@@ -41,9 +41,9 @@ Points tiltedGrid(double span, double tilt, std::mt19937_64 &rng)
   return points;
 }
 
-vpMicroscopeCalibrationResult calibrate(const Points &points, const vpMicroscopeCalibrationOptions &options)
+vpMicroscopeCalibrationResult calibrate(const Points &points, const vpMicroscopeCalibrationSpec &spec)
 {
-  vpPlanarMicroscopeCalibration calibration(width, height, options);
+  vpPlanarMicroscopeCalibration calibration(width, height, spec);
   calibration.addView(points);
   return calibration.compute();
 }
@@ -65,8 +65,8 @@ TEST_CASE("a tilt of two degrees is not taken for distortion, whatever part of t
     double sigma = 0., worstCorner = 0.;
     for (int trial = 0; trial < trials; ++trial) {
       const Points points = tiltedGrid(line.span, 0.0349, rng);
-      vpMicroscopeCalibrationOptions options;
-      const vpMicroscopeCalibrationResult result = calibrate(points, options);
+      vpMicroscopeCalibrationSpec spec;
+      const vpMicroscopeCalibrationResult result = calibrate(points, spec);
       CAPTURE(line.span, trial, result.message);
       given += result.kappa1Status == vpKappa1Status::Estimated ? 1 : 0;
       reliable += result.reliable ? 1 : 0;
@@ -77,11 +77,11 @@ TEST_CASE("a tilt of two degrees is not taken for distortion, whatever part of t
       if (result.kappa1Sigma * std::pow(std::hypot(edge, 1027.), 3) > 0.55) {
         CHECK(result.message.find("the points cover so little of the image") != std::string::npos);
       }
-      options.minSignificance = options.minEffect = 0.; // whatever comes out
-      options.maxCornerSigma = 1e6;
-      with.add(calibrate(points, options).calibration.kappa1 * std::pow(edge, 3));
-      options.estimateTilt = false;
-      const vpMicroscopeCalibrationResult old = calibrate(points, options);
+      spec.minSignificance = spec.minEffect = 0.; // whatever comes out
+      spec.maxCornerSigma = 1e6;
+      with.add(calibrate(points, spec).calibration.kappa1 * std::pow(edge, 3));
+      spec.estimateTilt = false;
+      const vpMicroscopeCalibrationResult old = calibrate(points, spec);
       without.add(old.calibration.kappa1 * std::pow(edge, 3));
       factor.add(old.varianceFactor);
     }

@@ -19,9 +19,9 @@ double worstAcross(vpPatternMethod method, std::mt19937_64 &rng)
   Pattern pattern;
   pattern.noise = 16.;
   pattern.blur = 2.;
-  vpPatternOptions options;
-  options.method = method;
-  vpPatternTracker tracker(160, 100, options);
+  vpPatternTrackerSpec spec;
+  spec.method = method;
+  vpPatternTracker tracker(160, 100, spec);
   vpImage<unsigned char> image;
   double worst = 0.;
   int count = 0;
@@ -29,7 +29,7 @@ double worstAcross(vpPatternMethod method, std::mt19937_64 &rng)
     pattern.x += 3.37;
     pattern.y += 0.21;
     pattern.render(rng, image);
-    for (const vpPatternCell &cell : tracker.track(image).cells) {
+    for (const vpPatternCell &cell : tracker.process(image).cells) {
       if (!cell.valid) {
         continue;
       }

@@ -78,7 +78,7 @@ TEST_CASE("cells behind things of like grey are invalid, right or say how far of
     }
     vpPatternTracker tracker(160, 100);
     for (int i = 0; i < 3 * phases; ++i) {
-      tracker.track(pictures[static_cast<std::size_t>(i % phases)]);
+      tracker.process(pictures[static_cast<std::size_t>(i % phases)]);
     }
     std::vector<Occluder> occluders;
     for (int i = 0; i < images; ++i) {
@@ -99,7 +99,7 @@ TEST_CASE("cells behind things of like grey are invalid, right or say how far of
       }
       occluders.erase(std::remove_if(occluders.begin(), occluders.end(), [](const Occluder &o) { return o.life <= 0; }),
                       occluders.end());
-      for (const vpPatternCell &cell : tracker.track(image).cells) {
+      for (const vpPatternCell &cell : tracker.process(image).cells) {
         if (cell.valid) {
           const double error = errorOf(cell, place);
           const double told = 4. * std::max(cell.sigmaX, cell.sigmaY);

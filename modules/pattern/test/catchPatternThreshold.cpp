@@ -67,7 +67,7 @@ TEST_CASE("thresholds agree with ViSP's and with the definition", "[threshold]")
     const vpPatternHistogram h = histogram(image);
     for (const vpPatternThreshold method :
          {vpPatternThreshold::Otsu, vpPatternThreshold::Isodata, vpPatternThreshold::MinimumError}) {
-      CAPTURE(toString(method));
+      CAPTURE(vpToString(method));
       const vpPatternThresholdResult r = vpFindThreshold(h, method);
       // Whatever the value itself, it lies between the classes and gives their means.
       CHECK(r.threshold > m.dark);

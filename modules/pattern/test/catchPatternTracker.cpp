@@ -67,7 +67,7 @@ bool lock(Pattern &pattern, vpPatternTracker &tracker, std::mt19937_64 &rng, dou
     pattern.x += vx;
     pattern.y += vy;
     pattern.render(rng, image);
-    if (tracker.track(image).status == vpPatternStatus::Tracking) {
+    if (tracker.process(image).status == vpPatternStatus::Tracking) {
       return true;
     }
   }
@@ -82,7 +82,7 @@ Statistics run(Pattern &pattern, vpPatternTracker &tracker, std::mt19937_64 &rng
     pattern.x += vx;
     pattern.y += vy;
     pattern.render(rng, image);
-    const vpPatternFrame &frame = tracker.track(image);
+    const vpPatternFrame &frame = tracker.process(image);
     REQUIRE(frame.status == vpPatternStatus::Tracking);
     statistics.add(pattern, frame, vx);
   }
@@ -145,7 +145,7 @@ TEST_CASE("cells keep their row and column over a long way, forth and back", "[p
     pattern.x += vx;
     pattern.y += vy;
     pattern.render(rng, image);
-    const vpPatternFrame &frame = tracker.track(image);
+    const vpPatternFrame &frame = tracker.process(image);
     CAPTURE(i, frame.message(), frame.validCells, frame.cells.size());
     REQUIRE(frame.status == vpPatternStatus::Tracking);
     s.add(pattern, frame, vx);
@@ -177,7 +177,7 @@ TEST_CASE("after a gap the same cells have the same names", "[pattern]")
   Statistics s = run(pattern, tracker, rng, 5, 4.2, 0.2);
   const vpImage<unsigned char> black(100, 160, 0);
   for (int i = 0; i < 6; ++i) {
-    const vpPatternFrame &frame = tracker.track(black);
+    const vpPatternFrame &frame = tracker.process(black);
     CHECK(frame.status == vpPatternStatus::Lost);
     CHECK(frame.cells.empty());
     CHECK(!frame.hasMotion);
@@ -189,7 +189,7 @@ TEST_CASE("after a gap the same cells have the same names", "[pattern]")
     pattern.x += 4.2;
     pattern.y += 0.2;
     pattern.render(rng, image);
-    const vpPatternFrame &frame = tracker.track(image);
+    const vpPatternFrame &frame = tracker.process(image);
     CHECK(frame.validCells > 0);
     s.add(pattern, frame, 4.2);
   }
@@ -211,7 +211,7 @@ TEST_CASE("a sudden move below half a pitch is followed, one near half a pitch i
   CAPTURE(share);
   pattern.x += share * pattern.pitchX;
   pattern.render(rng, image);
-  const vpPatternFrame &frame = tracker.track(image);
+  const vpPatternFrame &frame = tracker.process(image);
   if (std::abs(share) < 0.4) {
     CHECK(frame.status == vpPatternStatus::Tracking);
     CHECK(frame.epoch == 0);
@@ -261,7 +261,7 @@ TEST_CASE("images without a pattern are never tracked", "[pattern]")
   CAPTURE(kind);
   vpPatternTracker tracker(160, 100);
   for (int i = 0; i < 60; ++i) {
-    const vpPatternFrame &frame = tracker.track(fill(kind));
+    const vpPatternFrame &frame = tracker.process(fill(kind));
     CHECK(frame.status == vpPatternStatus::Acquiring);
     CHECK(frame.reason != vpPatternReason::None);
     CHECK(frame.validCells == 0);
@@ -272,26 +272,26 @@ TEST_CASE("images without a pattern are never tracked", "[pattern]")
   vpPatternTracker locked(160, 100);
   REQUIRE(lock(pattern, locked, rng, 1., 0.));
   for (int i = 0; i < 30; ++i) {
-    CHECK(locked.track(fill(kind)).status != vpPatternStatus::Tracking);
+    CHECK(locked.process(fill(kind)).status != vpPatternStatus::Tracking);
   }
 }
 
-TEST_CASE("images of another size and bad options are refused in words", "[pattern]")
+TEST_CASE("images of another size and bad spec are refused in words", "[pattern]")
 {
   vpPatternTracker tracker(160, 100);
   const vpImage<unsigned char> image(99, 160, 0), empty;
-  CHECK(tracker.track(image).status == vpPatternStatus::Lost);
+  CHECK(tracker.process(image).status == vpPatternStatus::Lost);
   CHECK(std::string(tracker.frame().message()) == "Lost: the image has not the size that the tracker was made for.");
-  CHECK(tracker.track(empty).reason == vpPatternReason::WrongSize);
-  vpPatternOptions options;
-  options.minPitch = 2.;
-  CHECK_THROWS_WITH(vpPatternTracker(160, 100, options), Catch::Contains("minPitch is 2, must be in [4, 1000]"));
-  options = vpPatternOptions();
-  options.refreshEvery = -1;
-  CHECK_THROWS_WITH(vpPatternTracker(160, 100, options), Catch::Contains("refreshEvery is -1, must be in [0, 1e+06]"));
-  options = vpPatternOptions();
-  options.maxCellSigma = NAN;
-  CHECK_THROWS_WITH(vpPatternTracker(160, 100, options), Catch::Contains("maxCellSigma is nan"));
+  CHECK(tracker.process(empty).reason == vpPatternReason::WrongSize);
+  vpPatternTrackerSpec spec;
+  spec.minPitch = 2.;
+  CHECK_THROWS_WITH(vpPatternTracker(160, 100, spec), Catch::Contains("minPitch is 2, must be in [4, 1000]"));
+  spec = vpPatternTrackerSpec();
+  spec.refreshEvery = -1;
+  CHECK_THROWS_WITH(vpPatternTracker(160, 100, spec), Catch::Contains("refreshEvery is -1, must be in [0, 1e+06]"));
+  spec = vpPatternTrackerSpec();
+  spec.maxCellSigma = NAN;
+  CHECK_THROWS_WITH(vpPatternTracker(160, 100, spec), Catch::Contains("maxCellSigma is nan"));
   CHECK_THROWS_WITH(vpPatternTracker(8, 100), Catch::Contains("width is 8 px, must be in [16, 16384]"));
 }
 
@@ -304,7 +304,7 @@ TEST_CASE("no image makes the tracker allocate", "[pattern][realtime]")
   auto rng = vpTestSupport::generator(406);
   CAPTURE(vpTestSupport::seed());
   const auto method = static_cast<vpPatternMethod>(GENERATE(0, 1, 2, 3));
-  CAPTURE(toString(method));
+  CAPTURE(vpToString(method));
   Pattern pattern;
   pattern.jitter = 0.3;
   std::vector<vpImage<unsigned char>> images(120);
@@ -326,15 +326,15 @@ TEST_CASE("no image makes the tracker allocate", "[pattern][realtime]")
     images[85].bitmap[i] = static_cast<unsigned char>(any(rng));
   }
   images[86].resize(20, 20);
-  vpPatternOptions options;
-  options.method = method;
-  vpPatternTracker tracker(160, 100, options);
+  vpPatternTrackerSpec spec;
+  spec.method = method;
+  vpPatternTracker tracker(160, 100, spec);
   const unsigned long before = vpTestSupport::allocationCount();
   for (const vpImage<unsigned char> &image : images) {
-    static_cast<void>(tracker.track(image));
+    static_cast<void>(tracker.process(image));
   }
   tracker.reset();
-  static_cast<void>(tracker.track(images[0]));
+  static_cast<void>(tracker.process(images[0]));
   CHECK(vpTestSupport::allocationCount() == before);
 }
 
@@ -343,13 +343,13 @@ TEST_CASE("Algorithm 7.4 has the errors that were published, its correction has 
   auto rng = vpTestSupport::generator(407);
   CAPTURE(vpTestSupport::seed());
   const auto derivative = static_cast<vpPatternDerivative>(GENERATE(0, 1, 2, 3));
-  CAPTURE(toString(derivative));
+  CAPTURE(vpToString(derivative));
   Pattern pattern;
-  vpPatternOptions options;
-  options.derivative = derivative;
+  vpPatternTrackerSpec spec;
+  spec.derivative = derivative;
   for (const bool literal : {true, false}) {
-    options.method = literal ? vpPatternMethod::ThesisAlgorithm : vpPatternMethod::ThesisAlgorithmFixed;
-    vpPatternTracker tracker(160, 100, options);
+    spec.method = literal ? vpPatternMethod::ThesisAlgorithm : vpPatternMethod::ThesisAlgorithmFixed;
+    vpPatternTracker tracker(160, 100, spec);
     REQUIRE(lock(pattern, tracker, rng, 3.37, 0.21));
     const Statistics s = run(pattern, tracker, rng, 150, 3.37, 0.21);
     CAPTURE(literal, s.sigmaX(), s.sigmaY());
@@ -379,7 +379,7 @@ TEST_CASE("a lattice that cannot be tracked is named: a single row, rows turned 
       kind.shape = shape;
       const DotScene scene = makeDots(kind, rng);
       vpPatternTracker tracker(scene.image.getWidth(), scene.image.getHeight());
-      const vpPatternFrame &frame = tracker.track(scene.image);
+      const vpPatternFrame &frame = tracker.process(scene.image);
       // Of all directions of the lattice: that of a, of b, each both ways, within 45 degrees of the image's rows.
       const double turn = std::abs(std::remainder(std::atan2(scene.a.y(), scene.a.x()), 0.5 * M_PI)) * 180. / M_PI;
       CAPTURE(static_cast<int>(shape), i, turn, frame.message());

@@ -73,9 +73,9 @@ TEST_CASE("without noise every calibration is found exactly", "[calibration]")
     const int views = 1 + trial % 3;
     const double size = uniform(rng, 3e-8, 3e-7); // without distortion there is no principal point
     Problem problem = randomProblem(rng, views, trial % 2 == 0 ? size : -size, 640, 480, 0.035);
-    vpMicroscopeCalibrationOptions options;
-    options.minSignificance = options.minEffect = 0.;
-    options.maxCornerSigma = 1e6;
+    vpMicroscopeCalibrationSpec spec;
+    spec.minSignificance = spec.minEffect = 0.;
+    spec.maxCornerSigma = 1e6;
     const bool everything = trial % 4 == 3;
     if (everything) { // aspect and principal point too
       const double aspect = uniform(rng, 0.95, 1.05), u0 = uniform(rng, 290., 350.), v0 = uniform(rng, 210., 270.);
@@ -89,9 +89,9 @@ TEST_CASE("without noise every calibration is found exactly", "[calibration]")
         view.u0 = u0;
         view.v0 = v0;
       }
-      options.estimateAspect = options.estimatePrincipalPoint = true;
+      spec.estimateAspect = spec.estimatePrincipalPoint = true;
     }
-    vpPlanarMicroscopeCalibration calibration(640, 480, options);
+    vpPlanarMicroscopeCalibration calibration(640, 480, spec);
     for (std::size_t k = 0; k < problem.views.size(); ++k) {
       calibration.addView(pointsOf(problem, k, 0., 0., rng));
     }
@@ -135,10 +135,10 @@ TEST_CASE("scale, kappa1 and placement have the errors that the covariance says"
       problem.views[0].ty *= 0.1;
       problem.truth = problem.views[0];
     }
-    vpMicroscopeCalibrationOptions options;
-    options.minSignificance = 0.; // minimum 0, so that nothing is selected
-    options.minEffect = 0.;
-    vpPlanarMicroscopeCalibration calibration(640, 480, options);
+    vpMicroscopeCalibrationSpec spec;
+    spec.minSignificance = 0.; // minimum 0, so that nothing is selected
+    spec.minEffect = 0.;
+    vpPlanarMicroscopeCalibration calibration(640, 480, spec);
     Points first;
     for (std::size_t k = 0; k < problem.views.size(); ++k) {
       const Points points = pointsOf(problem, k, 0.06, 0.03, rng);
@@ -206,9 +206,9 @@ TEST_CASE("the result is the minimum, in every direction", "[calibration]")
     problem.views[0].ty *= 0.1;
     problem.truth = problem.views[0];
     const Points points = pointsOf(problem, 0, 0.1, 0.05, rng);
-    vpMicroscopeCalibrationOptions options;
-    options.estimateAspect = options.estimatePrincipalPoint = true;
-    vpPlanarMicroscopeCalibration calibration(640, 480, options);
+    vpMicroscopeCalibrationSpec spec;
+    spec.estimateAspect = spec.estimatePrincipalPoint = true;
+    vpPlanarMicroscopeCalibration calibration(640, 480, spec);
     calibration.addView(points);
     const vpMicroscopeCalibrationResult result = calibration.compute();
     CAPTURE(trial, result.message);
@@ -245,9 +245,9 @@ TEST_CASE("the covariance also holds for points at the edge of the image", "[cal
         points.push_back(point);
       }
     }
-    vpMicroscopeCalibrationOptions options;
-    options.estimateKappa1 = false;
-    vpPlanarMicroscopeCalibration calibration(640, 480, options);
+    vpMicroscopeCalibrationSpec spec;
+    spec.estimateKappa1 = false;
+    vpPlanarMicroscopeCalibration calibration(640, 480, spec);
     calibration.addView(points);
     const vpMicroscopeCalibrationResult result = calibration.compute();
     const Parameters best = parametersOf(result.calibration);
@@ -338,10 +338,10 @@ TEST_CASE("unknown deviations come from the residuals, a product that is not exa
   for (int trial = 0; trial < 400; ++trial) {
     const Problem problem = randomProblem(rng, 1, 0., 640, 480);
     Points points = pointsOf(problem, 0, 0.1, 0.1, rng);
-    vpMicroscopeCalibrationOptions options;
-    options.estimateKappa1 = false;
-    options.sigmaFromResiduals = true;
-    vpPlanarMicroscopeCalibration first(640, 480, options);
+    vpMicroscopeCalibrationSpec spec;
+    spec.estimateKappa1 = false;
+    spec.sigmaFromResiduals = true;
+    vpPlanarMicroscopeCalibration first(640, 480, spec);
     for (vpCalibrationPoint &point : points) {
       point.sigmaU = point.sigmaV = 3.; // invalid
     }
@@ -358,8 +358,8 @@ TEST_CASE("unknown deviations come from the residuals, a product that is not exa
       point.x += 1e-6 * normal(rng);
       point.y += 1e-6 * normal(rng);
     }
-    options.sigmaFromResiduals = false;
-    vpPlanarMicroscopeCalibration second(640, 480, options);
+    spec.sigmaFromResiduals = false;
+    vpPlanarMicroscopeCalibration second(640, 480, spec);
     second.addView(points);
     const vpMicroscopeCalibrationResult b = second.compute();
     CHECK(b.varianceFactor == Approx(1.).margin(0.25));
@@ -392,9 +392,9 @@ TEST_CASE("two rows of cells, which lie on a conic, are enough", "[calibration]"
       }
     }
     for (const bool tilt : {true, false}) { // with tilt six points far from the centre give little information
-      vpMicroscopeCalibrationOptions options;
-      options.estimateTilt = tilt;
-      vpPlanarMicroscopeCalibration calibration(640, 480, options);
+      vpMicroscopeCalibrationSpec spec;
+      spec.estimateTilt = tilt;
+      vpPlanarMicroscopeCalibration calibration(640, 480, spec);
       calibration.addView(points);
       const vpMicroscopeCalibrationResult result = calibration.compute();
       CAPTURE(result.message);
@@ -418,7 +418,7 @@ TEST_CASE("the product is its own ruler", "[calibration]")
     pattern.x += 2.7;
     pattern.y += 0.3;
     pattern.render(rng, image);
-    const vpPatternFrame &frame = tracker.track(image);
+    const vpPatternFrame &frame = tracker.process(image);
     if (frame.status == vpPatternStatus::Tracking && i % 4 == 0) {
       calibration.addView(vpCalibrationPoints(frame, pitch));
     }
@@ -511,18 +511,18 @@ TEST_CASE("bad input to the planar calibration is refused in words", "[calibrati
   CHECK_THROWS_WITH(vpPlanarMicroscopeCalibration(640, 480).compute(),
                     Catch::Contains("there is no view to calibrate from"));
   CHECK_THROWS_WITH(vpPlanarMicroscopeCalibration(640, 4), Catch::Contains("height is 4 px, must be in [8, 65536]"));
-  vpMicroscopeCalibrationOptions options;
-  options.aspect = 0.;
-  CHECK_THROWS_WITH(vpPlanarMicroscopeCalibration(640, 480, options),
+  vpMicroscopeCalibrationSpec spec;
+  spec.aspect = 0.;
+  CHECK_THROWS_WITH(vpPlanarMicroscopeCalibration(640, 480, spec),
                     Catch::Contains("aspect is 0, must be in [0.1, 10]"));
-  options = vpMicroscopeCalibrationOptions();
-  options.u0 = HUGE_VAL;
-  CHECK_THROWS_WITH(vpPlanarMicroscopeCalibration(640, 480, options), Catch::Contains("u0 is inf px, must be within"));
-  options = vpMicroscopeCalibrationOptions();
-  options.minEffect = -1.;
-  CHECK_THROWS_WITH(vpPlanarMicroscopeCalibration(640, 480, options), Catch::Contains("minEffect is -1 px"));
-  options = vpMicroscopeCalibrationOptions();
-  options.minSignificance = NAN;
-  CHECK_THROWS_WITH(vpPlanarMicroscopeCalibration(640, 480, options), Catch::Contains("minSignificance is nan"));
-  CHECK(std::string(toString(vpKappa1Status::Unobservable)) == "Unobservable");
+  spec = vpMicroscopeCalibrationSpec();
+  spec.u0 = HUGE_VAL;
+  CHECK_THROWS_WITH(vpPlanarMicroscopeCalibration(640, 480, spec), Catch::Contains("u0 is inf px, must be within"));
+  spec = vpMicroscopeCalibrationSpec();
+  spec.minEffect = -1.;
+  CHECK_THROWS_WITH(vpPlanarMicroscopeCalibration(640, 480, spec), Catch::Contains("minEffect is -1 px"));
+  spec = vpMicroscopeCalibrationSpec();
+  spec.minSignificance = NAN;
+  CHECK_THROWS_WITH(vpPlanarMicroscopeCalibration(640, 480, spec), Catch::Contains("minSignificance is nan"));
+  CHECK(std::string(vpToString(vpKappa1Status::Unobservable)) == "Unobservable");
 }

@@ -120,11 +120,11 @@ private:
 
 void acquire(benchmark::State &state, vpKeypointType type, bool refine)
 {
-  vpPlanarTargetConfig config;
-  config.keypoints = type;
-  config.refine = refine;
-  config.fallback = false;
-  vpPlanarTarget target(klimt().image, klimt().width, klimt().height, vpPlanarScene::camera(), config);
+  vpPlanarTargetSpec spec;
+  spec.keypoints = type;
+  spec.refine = refine;
+  spec.fallback = false;
+  vpPlanarTarget target(klimt().image, klimt().width, klimt().height, vpPlanarScene::camera(), spec);
   Error error;
   std::size_t i = 0;
   for (auto _ : state) {
@@ -230,7 +230,7 @@ template <typename Tracker> void trackVispTemplate(benchmark::State &state)
   for (auto _ : state) {
     const View &frame = sequence()[i++ % sequence().size()];
     try {
-      tracker.track(frame.image);
+      tracker.process(frame.image);
     }
     catch (const vpException &) {
       ++lost;

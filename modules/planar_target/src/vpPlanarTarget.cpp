@@ -11,8 +11,8 @@
 BEGIN_VISP_NAMESPACE
 
 vpPlanarTarget::vpPlanarTarget(const vpImage<unsigned char> &reference, double width, double height,
-                               const vpCameraParameters &camera, const vpPlanarTargetConfig &config)
-  : m_impl(std::make_unique<Impl>(reference, width, height, camera, config))
+                               const vpCameraParameters &camera, const vpPlanarTargetSpec &spec)
+  : m_impl(std::make_unique<Impl>(reference, width, height, camera, spec))
 {}
 
 vpPlanarTarget::~vpPlanarTarget() = default;

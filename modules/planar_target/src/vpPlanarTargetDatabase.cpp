@@ -18,22 +18,22 @@ BEGIN_VISP_NAMESPACE
 class vpPlanarTargetDatabase::Store
 {
 public:
-  Store(const vpCameraParameters &camera, const vpPlanarTargetConfig &config)
-    : m_camera(camera), m_config(config), m_frame(config.maxKeypoints, camera.get_px() / camera.get_py())
+  Store(const vpCameraParameters &camera, const vpPlanarTargetSpec &spec)
+    : m_camera(camera), m_spec(spec), m_frame(spec.maxKeypoints, camera.get_px() / camera.get_py())
   {}
 
   vpCameraParameters m_camera;
-  vpPlanarTargetConfig m_config;
+  vpPlanarTargetSpec m_spec;
   vpTargetFrame m_frame; // of all targets
   std::vector<std::unique_ptr<vpPlanarTarget::Impl>> m_targets;
   std::vector<vpPlanarTargetSighting> m_sightings; // one for each target
   vpTargetSearch m_search;
 };
 
-vpPlanarTargetDatabase::vpPlanarTargetDatabase(const vpCameraParameters &camera, const vpPlanarTargetConfig &config)
+vpPlanarTargetDatabase::vpPlanarTargetDatabase(const vpCameraParameters &camera, const vpPlanarTargetSpec &spec)
 {
-  config.validate();
-  m_store = std::make_unique<Store>(camera, config);
+  spec.validate();
+  m_store = std::make_unique<Store>(camera, spec);
 }
 
 vpPlanarTargetDatabase::~vpPlanarTargetDatabase() = default;
@@ -41,9 +41,9 @@ vpPlanarTargetDatabase::vpPlanarTargetDatabase(vpPlanarTargetDatabase &&) noexce
 vpPlanarTargetDatabase &vpPlanarTargetDatabase::operator=(vpPlanarTargetDatabase &&) noexcept = default;
 
 vpPlanarTargetDatabase vpPlanarTargetDatabase::fromFolder(const std::string &folder, const vpCameraParameters &camera,
-                                                          const vpPlanarTargetConfig &config)
+                                                          const vpPlanarTargetSpec &spec)
 {
-  vpPlanarTargetDatabase database(camera, config);
+  vpPlanarTargetDatabase database(camera, spec);
   for (const vpTargetListEntry &entry : readTargetList(folder)) {
     vpImage<unsigned char> reference;
     readReference(entry.file, reference);
@@ -74,7 +74,7 @@ void vpPlanarTargetDatabase::add(const std::string &name, const vpImage<unsigned
   }
   try {
     m_store->m_targets.push_back(
-        std::make_unique<vpPlanarTarget::Impl>(reference, width, height, m_store->m_camera, m_store->m_config));
+        std::make_unique<vpPlanarTarget::Impl>(reference, width, height, m_store->m_camera, m_store->m_spec));
   }
   catch (const vpException &error) {
     throw vpException(error.getCode(), "target '" + name + "': " + error.getStringMessage());

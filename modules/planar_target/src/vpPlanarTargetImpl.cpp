@@ -38,7 +38,7 @@ constexpr double smallestFrontality = 0.17; // 80 deg from the normal
 constexpr double smallestInImage = 0.25;    // share of the target
 constexpr double smallestUnhidden = 0.4;    // share of the part in the image; half is the limit of robust estimation
 
-template <typename... Args> std::string sentence(const char *format, Args... args)
+template <typename... Args> std::string message(const char *format, Args... args)
 {
   char text[256];
   std::snprintf(text, sizeof(text), format, args...);
@@ -101,20 +101,20 @@ vpTargetPlane makePlane(const vpImage<unsigned char> &reference, double width, d
 } // namespace
 
 vpPlanarTarget::Impl::Impl(const vpImage<unsigned char> &reference, double width, double height,
-                           const vpCameraParameters &camera, const vpPlanarTargetConfig &config)
-  : m_config(config), m_viewer(camera), m_camera(vpPinhole::fromCamera(camera)),
-    m_plane(makePlane(reference, width, height)), m_ownFrame(config.maxKeypoints, pixelAspect(camera))
+                           const vpCameraParameters &camera, const vpPlanarTargetSpec &spec)
+  : m_spec(spec), m_viewer(camera), m_camera(vpPinhole::fromCamera(camera)),
+    m_plane(makePlane(reference, width, height)), m_ownFrame(spec.maxKeypoints, pixelAspect(camera))
 {
-  config.validate();
+  spec.validate();
   const cv::Mat image = view(reference);
-  m_model = std::make_unique<vpPhotometricModel>(image, m_plane, static_cast<int>(config.refinementSize));
+  m_model = std::make_unique<vpPhotometricModel>(image, m_plane, static_cast<int>(spec.refinementSize));
   if (m_model->contrast() < smallestContrast) {
     throw vpException(vpException::badValue,
                       "reference image is blank: its grey values deviate by %.1f from their mean, must be at "
                       "least %.0f",
                       m_model->contrast(), smallestContrast);
   }
-  const bool exact = config.exact && config.refine;
+  const bool exact = spec.exact && spec.refine;
   m_refiner = std::make_unique<vpPhotometricRefiner>(*m_model, m_plane, m_camera, !exact);
   if (exact) {
     m_texture = std::make_unique<vpTargetTexture>(image, m_plane);
@@ -123,14 +123,14 @@ vpPlanarTarget::Impl::Impl(const vpImage<unsigned char> &reference, double width
 
   const cv::Mat reduced = keypointImage(image, width, height);
   const vpTargetPlane reducedPlane{width, height, reduced.cols, reduced.rows};
-  std::vector<vpKeypointType> types{config.keypoints};
-  if (config.fallback && config.keypoints != vpKeypointType::AKAZE) {
+  std::vector<vpKeypointType> types{spec.keypoints};
+  if (spec.fallback && spec.keypoints != vpKeypointType::AKAZE) {
     types.push_back(vpKeypointType::AKAZE);
   }
   unsigned int most = 0;
   for (vpKeypointType type : types) {
     Reference r{type, {}, {}, {}};
-    makeKeypointExtractor(type, config.maxKeypoints)->extract(reduced, r.keypoints);
+    makeKeypointExtractor(type, spec.maxKeypoints)->extract(reduced, r.keypoints);
     r.telling = tellingKeypoints(r.keypoints, tellingCount);
     for (const cv::Point2f &p : r.keypoints.points) {
       r.plane.push_back(reducedPlane.metric(p.x, p.y));
@@ -138,10 +138,10 @@ vpPlanarTarget::Impl::Impl(const vpImage<unsigned char> &reference, double width
     most = std::max(most, static_cast<unsigned int>(r.plane.size()));
     m_references.push_back(std::move(r));
   }
-  if (most < config.minInliers) {
+  if (most < spec.minInliers) {
     throw vpException(vpException::badValue,
                       "reference image has too little texture: %u %s keypoints, at least %u are needed", most,
-                      toString(types.front()), config.minInliers);
+                      vpToString(types.front()), spec.minInliers);
   }
 }
 
@@ -150,7 +150,7 @@ bool vpPlanarTarget::Impl::refuse(const vpImage<unsigned char> &image)
   if (image.getWidth() >= smallestImage && image.getHeight() >= smallestImage) {
     return false;
   }
-  fail(vpPlanarTargetStatus::NoTexture, sentence("The image is %ux%u px, at least %ux%u are needed.", image.getWidth(),
+  fail(vpPlanarTargetStatus::NoTexture, message("The image is %ux%u px, at least %ux%u are needed.", image.getWidth(),
                                                  image.getHeight(), smallestImage, smallestImage));
   return true;
 }
@@ -211,10 +211,10 @@ void vpPlanarTarget::Impl::acquireWith(const Reference &reference, const vpKeypo
                                        const vpTargetFrame &frame)
 {
   m_result = vpPlanarTargetResult();
-  if (current.points.size() < m_config.minInliers) {
+  if (current.points.size() < m_spec.minInliers) {
     fail(vpPlanarTargetStatus::NoTexture,
-         sentence("The image has %zu %s keypoints, at least %u are needed.", current.points.size(),
-                  toString(reference.type), m_config.minInliers));
+         message("The image has %zu %s keypoints, at least %u are needed.", current.points.size(),
+                  vpToString(reference.type), m_spec.minInliers));
     return;
   }
   vpPlaneMatches matches;
@@ -227,25 +227,25 @@ void vpPlanarTarget::Impl::acquireWith(const Reference &reference, const vpKeypo
   }
   const double pixels = std::sqrt(m_camera.px * m_camera.py);
   const vpPlanePoses poses =
-      planePoses(matches, m_plane.cols / m_plane.width, pixels, m_config.inlierThreshold, m_config.minInliers);
+      planePoses(matches, m_plane.cols / m_plane.width, pixels, m_spec.inlierThreshold, m_spec.minInliers);
   m_result.inliers = static_cast<unsigned int>(poses.inliers.size());
-  if (m_result.inliers < m_config.minInliers) {
+  if (m_result.inliers < m_spec.minInliers) {
     fail(vpPlanarTargetStatus::TooFewInliers,
-         sentence("%u of %zu %s matches agree on one plane, at least %u must.", m_result.inliers, matches.plane.size(),
-                  toString(reference.type), m_config.minInliers));
+         message("%u of %zu %s matches agree on one plane, at least %u must.", m_result.inliers, matches.plane.size(),
+                  vpToString(reference.type), m_spec.minInliers));
     return;
   }
   if (!checkView(poses.best)) {
     return;
   }
   vpRigidPose pose = poses.best;
-  if (m_config.refine) {
+  if (m_spec.refine) {
     double best = 0.;
     for (const vpRigidPose &start : {poses.best, poses.rival.value_or(poses.best)}) {
       vpRigidPose refined = start;
       // Two independent checks: a refinement that leaves the keypoints has found something else.
-      if (m_refiner->refine(frame.pyramid(), refined, keypointReach, m_config.maxIterations) &&
-          pixels * medianError(matches, poses.inliers, refined) < 2. * m_config.inlierThreshold) {
+      if (m_refiner->refine(frame.pyramid(), refined, keypointReach, m_spec.maxIterations) &&
+          pixels * medianError(matches, poses.inliers, refined) < 2. * m_spec.inlierThreshold) {
         const double correlation = m_refiner->verify(frame.pyramid(), refined).correlation;
         if (correlation > best) {
           best = correlation;
@@ -258,7 +258,7 @@ void vpPlanarTarget::Impl::acquireWith(const Reference &reference, const vpKeypo
     }
     if (best == 0.) {
       fail(vpPlanarTargetStatus::LowCorrelation,
-           sentence("%u keypoints agree on a pose that the grey values do not confirm.", m_result.inliers));
+           message("%u keypoints agree on a pose that the grey values do not confirm.", m_result.inliers));
       return;
     }
   }
@@ -300,7 +300,7 @@ void vpPlanarTarget::Impl::track(vpTargetFrame &frame, const vpRigidPose &guess)
 bool vpPlanarTarget::Impl::trackFrom(const vpTargetFrame &frame, const vpRigidPose &guess, double reach)
 {
   vpRigidPose pose = guess;
-  if (!m_refiner->refine(frame.pyramid(), pose, reach, m_config.maxIterations)) {
+  if (!m_refiner->refine(frame.pyramid(), pose, reach, m_spec.maxIterations)) {
     fail(vpPlanarTargetStatus::LowCorrelation,
          "The refinement did not converge: the grey values do not lead to the target.");
     return false;
@@ -308,7 +308,7 @@ bool vpPlanarTarget::Impl::trackFrom(const vpTargetFrame &frame, const vpRigidPo
   const double turn = vpSO3::log(pose.R * guess.R.transpose()).norm();
   if (turn > largestTurn) {
     fail(vpPlanarTargetStatus::LowCorrelation,
-         sentence("The target would have turned by %.0f deg in one frame, at most %.0f deg can be tracked.",
+         message("The target would have turned by %.0f deg in one frame, at most %.0f deg can be tracked.",
                   turn * 180. / M_PI, largestTurn * 180. / M_PI));
     return false;
   }
@@ -325,7 +325,7 @@ void vpPlanarTarget::Impl::preferRival(const vpTargetFrame &frame, vpRigidPose &
   vpRigidPose rival = rivalPose(pose);
   const double correlation = m_refiner->verify(frame.pyramid(), pose).correlation;
   if (nearestCornerDepth(m_plane, rival) > 0. &&
-      m_refiner->refine(frame.pyramid(), rival, std::max(reach, rivalReach), m_config.maxIterations) &&
+      m_refiner->refine(frame.pyramid(), rival, std::max(reach, rivalReach), m_spec.maxIterations) &&
       m_refiner->verify(frame.pyramid(), rival).correlation > correlation) {
     pose = rival;
   }
@@ -337,12 +337,12 @@ bool vpPlanarTarget::Impl::checkView(const vpRigidPose &pose)
   const double depth = nearestCornerDepth(m_plane, pose), facing = frontality(pose);
   if (!(depth > 0.)) {
     fail(vpPlanarTargetStatus::OutOfView,
-         sentence("A corner of the target is at depth %.3g m, behind the camera.", depth));
+         message("A corner of the target is at depth %.3g m, behind the camera.", depth));
     return false;
   }
   if (!(facing > smallestFrontality)) {
     fail(vpPlanarTargetStatus::OutOfView,
-         sentence("The target is seen at %.0f deg from its normal, at most %.0f deg can be used.",
+         message("The target is seen at %.0f deg from its normal, at most %.0f deg can be used.",
                   std::acos(facing) * 180. / M_PI, std::acos(smallestFrontality) * 180. / M_PI));
     return false;
   }
@@ -374,20 +374,20 @@ bool vpPlanarTarget::Impl::confirm(const vpTargetFrame &frame, const vpRigidPose
   m_result.correlation = fit.correlation;
   m_result.visible = fit.visible;
   if (fit.inImage < smallestInImage) {
-    fail(vpPlanarTargetStatus::OutOfView, sentence("%.0f %% of the target is in the image, at least %.0f %% must be.",
+    fail(vpPlanarTargetStatus::OutOfView, message("%.0f %% of the target is in the image, at least %.0f %% must be.",
                                                    100. * fit.inImage, 100. * smallestInImage));
     return false;
   }
   if (fit.visible < smallestUnhidden * fit.inImage) {
     fail(vpPlanarTargetStatus::LowCorrelation,
-         sentence("%.0f %% of the target in the image fits the reference, at least %.0f %% must.",
+         message("%.0f %% of the target in the image fits the reference, at least %.0f %% must.",
                   100. * fit.visible / fit.inImage, 100. * smallestUnhidden));
     return false;
   }
-  if (!(fit.correlation >= m_config.minCorrelation)) {
+  if (!(fit.correlation >= m_spec.minCorrelation)) {
     fail(vpPlanarTargetStatus::LowCorrelation,
-         sentence("Correlation with the reference is %.2f, must be at least %.2f.", fit.correlation,
-                  m_config.minCorrelation));
+         message("Correlation with the reference is %.2f, must be at least %.2f.", fit.correlation,
+                  m_spec.minCorrelation));
     return false;
   }
   return true;
@@ -425,18 +425,18 @@ void vpPlanarTarget::Impl::report(const vpRigidPose &pose, const vpPoseDecision 
   }
   switch (success) {
   case vpPlanarTargetStatus::Acquired:
-    m_result.message = sentence("Acquired with %u inliers, correlation %.2f, %.0f %% visible.", m_result.inliers,
+    m_result.message = message("Acquired with %u inliers, correlation %.2f, %.0f %% visible.", m_result.inliers,
                                 m_result.correlation, 100. * m_result.visible);
     break;
   case vpPlanarTargetStatus::Ambiguous:
-    m_result.message = sentence("Two poses %.1f deg apart fit, residuals %.2f and %.2f: the odds are e^%.1f, e^9.2 and "
+    m_result.message = message("Two poses %.1f deg apart fit, residuals %.2f and %.2f: the odds are e^%.1f, e^9.2 and "
                                 "3 deviations decide.",
                                 vpSO3::log(pose.R * decision.rival->pose.R.transpose()).norm() * 180. / M_PI,
                                 m_result.residual, m_result.rival->residual, m_result.evidence);
     break;
   default:
     m_result.message =
-        sentence("Tracked, correlation %.2f, %.0f %% visible.", m_result.correlation, 100. * m_result.visible);
+        message("Tracked, correlation %.2f, %.0f %% visible.", m_result.correlation, 100. * m_result.visible);
   }
 }
 

@@ -20,7 +20,7 @@ class vpPlanarTarget::Impl
 {
 public:
   Impl(const vpImage<unsigned char> &reference, double width, double height, const vpCameraParameters &camera,
-       const vpPlanarTargetConfig &config);
+       const vpPlanarTargetSpec &spec);
 
   //! One detector with its keypoints on the reference.
   struct Reference {
@@ -44,7 +44,7 @@ public:
   //! Result for a frame that is too small to be processed.
   bool refuse(const vpImage<unsigned char> &image);
 
-  vpPlanarTargetConfig m_config;
+  vpPlanarTargetSpec m_spec;
   vpCameraParameters m_viewer; //!< as given, for undistortion
   vpPinhole m_camera;
   vpTargetPlane m_plane;

@@ -34,19 +34,19 @@ cv::Mat view(const vpImage<unsigned char> &image)
 class vpPlaneMatcher::Impl
 {
 public:
-  Impl(const vpImage<unsigned char> &reference, const vpPlanarTargetConfig &config) : m_config(config)
+  Impl(const vpImage<unsigned char> &reference, const vpPlanarTargetSpec &spec) : m_spec(spec)
   {
-    config.validate();
+    spec.validate();
     if (reference.getWidth() < smallestImage || reference.getHeight() < smallestImage) {
       throw vpException(vpException::dimensionError, "reference image is %ux%u px, must be at least %ux%u",
                         reference.getWidth(), reference.getHeight(), smallestImage, smallestImage);
     }
-    m_extractor = makeKeypointExtractor(config.keypoints, config.maxKeypoints);
+    m_extractor = makeKeypointExtractor(spec.keypoints, spec.maxKeypoints);
     m_extractor->extract(view(reference), m_reference);
-    if (m_reference.points.size() < config.minInliers) {
+    if (m_reference.points.size() < spec.minInliers) {
       throw vpException(
           vpException::badValue, "reference image has too little texture: %u %s keypoints, at least %u are needed",
-          static_cast<unsigned int>(m_reference.points.size()), toString(config.keypoints), config.minInliers);
+          static_cast<unsigned int>(m_reference.points.size()), vpToString(spec.keypoints), spec.minInliers);
     }
     m_width = reference.getWidth();
     m_height = reference.getHeight();
@@ -63,9 +63,9 @@ public:
     }
     m_extractor->extract(view(image), m_current);
     m_result.frameKeypoints = m_current.points.size();
-    if (m_current.points.size() < m_config.minInliers) {
+    if (m_current.points.size() < m_spec.minInliers) {
       fail(vpPlanarTargetStatus::NoTexture, "The image has " + std::to_string(m_current.points.size()) +
-                                                " keypoints, at least " + std::to_string(m_config.minInliers) +
+                                                " keypoints, at least " + std::to_string(m_spec.minInliers) +
                                                 " are needed.");
       return;
     }
@@ -78,8 +78,8 @@ public:
     std::vector<unsigned char> mask;
     std::vector<cv::Point2f> inlierFrom, inlierTo;
     cv::Mat H;
-    if (from.size() >= m_config.minInliers) {
-      H = cv::findHomography(from, to, cv::USAC_MAGSAC, m_config.inlierThreshold, mask, 5000, 0.999);
+    if (from.size() >= m_spec.minInliers) {
+      H = cv::findHomography(from, to, cv::USAC_MAGSAC, m_spec.inlierThreshold, mask, 5000, 0.999);
     }
     for (std::size_t i = 0; !H.empty() && i < from.size(); ++i) {
       if (mask[i]) {
@@ -88,10 +88,10 @@ public:
         m_result.inliers.emplace_back(vpImagePoint(from[i].y, from[i].x), vpImagePoint(to[i].y, to[i].x));
       }
     }
-    if (m_result.inliers.size() < m_config.minInliers) {
+    if (m_result.inliers.size() < m_spec.minInliers) {
       fail(vpPlanarTargetStatus::TooFewInliers,
            std::to_string(m_result.inliers.size()) + " of " + std::to_string(from.size()) +
-               " matches agree on one plane, at least " + std::to_string(m_config.minInliers) + " must.");
+               " matches agree on one plane, at least " + std::to_string(m_spec.minInliers) + " must.");
       return;
     }
     conclude(vpHomographySpread(inlierFrom, inlierTo, H, m_width, m_height), cv::boundingRect(inlierFrom));
@@ -130,7 +130,7 @@ private:
     }
     m_result.message =
         std::to_string(m_result.inliers.size()) + " of " + std::to_string(m_result.matches) + " matches agree.";
-    if (m_result.cornerDeviation <= 3. * m_config.inlierThreshold) {
+    if (m_result.cornerDeviation <= 3. * m_spec.inlierThreshold) {
       m_result.status = vpPlanarTargetStatus::Acquired;
       return;
     }
@@ -138,7 +138,7 @@ private:
     std::snprintf(
         text, sizeof(text),
         " They lie within %d x %d of %u x %u px; a corner of the image is uncertain by %.3g px, at most %.3g may be.",
-        box.width, box.height, m_width, m_height, m_result.cornerDeviation, 3. * m_config.inlierThreshold);
+        box.width, box.height, m_width, m_height, m_result.cornerDeviation, 3. * m_spec.inlierThreshold);
     m_result.message += text;
   }
 
@@ -148,14 +148,14 @@ private:
     m_result.message = message;
   }
 
-  vpPlanarTargetConfig m_config;
+  vpPlanarTargetSpec m_spec;
   unsigned int m_width = 0, m_height = 0; // of the reference
   std::unique_ptr<vpKeypointExtractor> m_extractor;
   vpKeypointSet m_reference, m_current;
 };
 
-vpPlaneMatcher::vpPlaneMatcher(const vpImage<unsigned char> &reference, const vpPlanarTargetConfig &config)
-  : m_impl(std::make_unique<Impl>(reference, config))
+vpPlaneMatcher::vpPlaneMatcher(const vpImage<unsigned char> &reference, const vpPlanarTargetSpec &spec)
+  : m_impl(std::make_unique<Impl>(reference, spec))
 {}
 
 vpPlaneMatcher::~vpPlaneMatcher() = default;

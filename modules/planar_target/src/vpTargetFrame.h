@@ -24,7 +24,7 @@ class vpTargetFrame
 {
 public:
   /*!
-   * \param maxKeypoints : As in vpPlanarTargetConfig.
+   * \param maxKeypoints : As in vpPlanarTargetSpec.
    * \param pixelAspect : Height of a pixel over its width, px / py of the camera. Keypoints are extracted from an image
    *   with square pixels, as detectors and descriptors assume.
    */

@@ -103,7 +103,7 @@ bool normalise(const vpHomography &H, double x, double y, vpHomography &scaled, 
 }
 } // namespace
 
-const char *toString(vpTwoViewStatus status)
+const char *vpToString(vpTwoViewStatus status)
 {
   switch (status) {
   case vpTwoViewStatus::Unique:
@@ -118,7 +118,7 @@ const char *toString(vpTwoViewStatus status)
   return "unknown";
 }
 
-void vpTwoViewConfig::validate() const
+void vpTwoViewSpec::validate() const
 {
   if (!(minTranslation > 0.) || !std::isfinite(minTranslation)) {
     throw vpException(vpException::badValue,
@@ -130,7 +130,7 @@ void vpTwoViewConfig::validate() const
   }
 }
 
-vpTwoViewDecomposition::vpTwoViewDecomposition(const vpTwoViewConfig &config) : m_config(config) { config.validate(); }
+vpTwoViewDecomposition::vpTwoViewDecomposition(const vpTwoViewSpec &spec) : m_spec(spec) { spec.validate(); }
 
 void vpTwoViewDecomposition::setNormalPrior(const vpColVector &normal)
 {
@@ -182,11 +182,11 @@ const vpTwoViewResult &vpTwoViewDecomposition::process(const vpHomography &c2Hc1
     return m_result;
   }
   const double moved = sigma[0] - sigma[2]; // = |t| / d
-  if (moved < m_config.minTranslation) {
+  if (moved < m_spec.minTranslation) {
     char text[160];
     std::snprintf(text, sizeof(text),
                   "The camera moved by %.4f of the plane's distance, at least %.4f are needed: it only turned.", moved,
-                  m_config.minTranslation);
+                  m_spec.minTranslation);
     conclude(vpTwoViewStatus::PureRotation, text);
     return m_result;
   }
@@ -237,7 +237,7 @@ void vpTwoViewDecomposition::chooseByPrior()
   });
   const double nearest = angleBetween(candidates[0].normal, m_hypotheses[0]);
   const double rival = candidates.size() == 2 ? angleBetween(candidates[1].normal, m_hypotheses[0]) : M_PI;
-  if (rival - nearest < m_config.normalTolerance) {
+  if (rival - nearest < m_spec.normalTolerance) {
     conclude(vpTwoViewStatus::Ambiguous,
              "Both planes are about as far from the prior, " + degrees(nearest) + " and " + degrees(rival) + ".");
     return;
@@ -256,7 +256,7 @@ void vpTwoViewDecomposition::chooseByHistory()
                              });
   };
   const auto refuted = [&](const vpColVector &normal) {
-    return angleBetween(nearest(normal).normal, normal) > m_config.normalTolerance;
+    return angleBetween(nearest(normal).normal, normal) > m_spec.normalTolerance;
   };
   m_hypotheses.erase(std::remove_if(m_hypotheses.begin(), m_hypotheses.end(), refuted), m_hypotheses.end());
   if (m_hypotheses.size() == 1) {

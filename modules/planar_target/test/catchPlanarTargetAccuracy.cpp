@@ -84,7 +84,7 @@ TEST_CASE("noise 6, blur 1.5, gain 0.8, 25 % occluded: 3 sigma of every angle is
     CAPTURE(r.message);
     if (!r.found()) { // a status is allowed, a wrong pose is not
       ++refused;
-      std::cout << "spoiled, pose " << i << ": " << toString(r.status) << ", " << r.message << std::endl;
+      std::cout << "spoiled, pose " << i << ": " << vpToString(r.status) << ", " << r.message << std::endl;
       continue;
     }
     CHECK(r.correlation > 0.8);

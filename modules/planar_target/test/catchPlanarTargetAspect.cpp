@@ -25,9 +25,9 @@ TEST_CASE("a target is found by cameras with pixels that are not square", "[plan
       vpPlanarScene::Image view = vpPosters::wall(rng);
       vpPlanarScene::draw(view, target, camera, cMo, 3);
       vpPlanarScene::spoil(view, 0.5, 0.95, 2., rng);
-      vpPlanarTargetConfig config;
-      config.fallback = false;
-      vpPlanarTarget finder(target.image, target.width, target.height, camera, config);
+      vpPlanarTargetSpec spec;
+      spec.fallback = false;
+      vpPlanarTarget finder(target.image, target.width, target.height, camera, spec);
       const vpPlanarTargetResult &result = finder.acquire(view);
       CAPTURE(aspect, trial, result.message);
       if (result.found()) {
@@ -63,9 +63,9 @@ TEST_CASE("a photograph with pixels that are not square serves as a target", "[p
           vpPlanarScene::pose(0.02 * u(rng), 0.02 * u(rng), 0.45, 1.5 * u(rng), 0.4 * u(rng), 0.4 * u(rng));
       vpPlanarScene::Image view = vpPosters::wall(rng);
       vpPlanarScene::draw(view, target, vpPlanarScene::camera(), cMo, 3);
-      vpPlanarTargetConfig config;
-      config.fallback = false;
-      vpPlanarTarget finder(photo, target.width, target.height, vpPlanarScene::camera(), config);
+      vpPlanarTargetSpec spec;
+      spec.fallback = false;
+      vpPlanarTarget finder(photo, target.width, target.height, vpPlanarScene::camera(), spec);
       const vpPlanarTargetResult &result = finder.acquire(view);
       CAPTURE(narrow, trial, result.message);
       if (result.found()) {

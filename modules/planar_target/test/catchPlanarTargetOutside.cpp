@@ -62,14 +62,14 @@ TEST_CASE("graf1 to graf3: homography of real photographs against the measured o
   const std::array<double, 9> truth = readHomography(opencvFile("H1to3p.xml"));
   for (vpKeypointType type : {vpKeypointType::ORB, vpKeypointType::SIFT, vpKeypointType::AKAZE, vpKeypointType::KAZE,
                               vpKeypointType::BRISK, vpKeypointType::SURF}) {
-    vpPlanarTargetConfig config;
-    config.keypoints = type;
-    config.maxKeypoints = 3000;
-    vpPlaneMatcher matcher(first, config);
+    vpPlanarTargetSpec spec;
+    spec.keypoints = type;
+    spec.maxKeypoints = 3000;
+    vpPlaneMatcher matcher(first, spec);
     const vpPlaneMatch &match = matcher.match(third);
-    CAPTURE(toString(type), match.message);
+    CAPTURE(vpToString(type), match.message);
     if (!match.found()) { // 40 deg of view change: too much for SURF of dlib; no homography is better than a wrong one
-      std::cout << "graf1/graf3 " << toString(type) << ": " << toString(match.status) << ", " << match.message
+      std::cout << "graf1/graf3 " << vpToString(type) << ": " << vpToString(match.status) << ", " << match.message
                 << std::endl;
       CHECK((type == vpKeypointType::SURF || type == vpKeypointType::BRISK || type == vpKeypointType::KAZE));
       continue;
@@ -83,7 +83,7 @@ TEST_CASE("graf1 to graf3: homography of real photographs against the measured o
         ++count;
       }
     }
-    std::cout << "graf1/graf3 " << toString(type) << ": mean distance from the measured homography " << sum / count
+    std::cout << "graf1/graf3 " << vpToString(type) << ": mean distance from the measured homography " << sum / count
               << " px, " << match.inliers.size() << " inliers" << std::endl;
     CHECK(sum / count < 5.);
   }
@@ -130,16 +130,16 @@ TEST_CASE("AprilTag scene: pose of each tag against the renderer's", "[planar_ta
         reference[i][j] = grey[i / cellSize][j / cellSize] > 0.5 * (low + high) ? 255 : 0;
       }
     }
-    vpPlanarTargetConfig config;
-    config.refinementSize = 60;
-    vpPlanarTarget target(reference, width, width, camera, config);
+    vpPlanarTargetSpec spec;
+    spec.refinementSize = 60;
+    vpPlanarTarget target(reference, width, width, camera, spec);
     // From an initial value as a tracker has it: some pixels and degrees away.
     const double Z = truth[2][3];
     const vpHomogeneousMatrix shift(0.003 * Z, -0.003 * Z, 0.01 * Z, 0., 0., 0.), turn(0., 0., 0., 0.03, -0.03, 0.04);
     const vpPlanarTargetResult &result = target.track(I, shift * truth * turn);
     CAPTURE(tag, result.message);
     if (!result.found()) {
-      std::cout << "AprilTag scene, tag " << tag << " at " << Z << " m: " << toString(result.status) << ", "
+      std::cout << "AprilTag scene, tag " << tag << " at " << Z << " m: " << vpToString(result.status) << ", "
                 << result.message << std::endl;
       continue;
     }

@@ -147,9 +147,9 @@ TEST_CASE("two photographs of one plane to motion up to scale", "[planar_target]
 {
   const vpHomogeneousMatrix c1Mo = vpPlanarScene::pose(0., 0., 0.5, 0., 0.1, 0.2);
   const vpHomogeneousMatrix c2Mo = vpPlanarScene::pose(0.02, 0.01, 0.45, 0.1, -0.1, -0.2);
-  vpPlanarTargetConfig config;
-  config.keypoints = vpKeypointType::SIFT;
-  vpPlaneMatcher matcher(viewOf(c1Mo), config);
+  vpPlanarTargetSpec spec;
+  spec.keypoints = vpKeypointType::SIFT;
+  vpPlaneMatcher matcher(viewOf(c1Mo), spec);
   const vpPlaneMatch &match = matcher.match(viewOf(c2Mo));
   REQUIRE(match.found());
   vpTwoViewDecomposition decomposition;
@@ -174,11 +174,11 @@ TEST_CASE("a match says how many keypoints and pairs it came from", "[planar_tar
 {
   const vpHomogeneousMatrix c1Mo = vpPlanarScene::pose(0., 0., 0.5, 0., 0., 0.);
   const Image first = viewOf(c1Mo), second = viewOf(vpPlanarScene::pose(0.02, 0., 0.5, 0.1, 0., 0.));
-  vpPlanarTargetConfig config;
+  vpPlanarTargetSpec spec;
   for (const unsigned int budget : {100U, 400U}) { // SIFT keeps as many when there are more, and equals of the last
-    config.keypoints = vpKeypointType::SIFT;
-    config.maxKeypoints = budget;
-    vpPlaneMatcher matcher(first, config);
+    spec.keypoints = vpKeypointType::SIFT;
+    spec.maxKeypoints = budget;
+    vpPlaneMatcher matcher(first, spec);
     const std::size_t ofReference = matcher.result().referenceKeypoints;
     CHECK(matcher.result().frameKeypoints == 0);
     const vpPlaneMatch &match = matcher.match(second);
@@ -205,8 +205,8 @@ TEST_CASE("set-up errors name the thing and its value", "[planar_target][errors]
 {
   using Catch::Contains;
   const vpCameraParameters camera = vpPlanarScene::camera();
-  const auto make = [&](const Image &image, double width, const vpPlanarTargetConfig &config = {}) {
-    return vpPlanarTarget(image, width, 0.1, camera, config);
+  const auto make = [&](const Image &image, double width, const vpPlanarTargetSpec &spec = {}) {
+    return vpPlanarTarget(image, width, 0.1, camera, spec);
   };
   CHECK_THROWS_WITH(make(Image(1, 1, 0), 0.1), Contains("reference image is 1x1 px, must be at least 32x32"));
   CHECK_THROWS_WITH(make(Image(100, 100, 90), 0.1), Contains("reference image is blank"));
@@ -214,11 +214,11 @@ TEST_CASE("set-up errors name the thing and its value", "[planar_target][errors]
   CHECK_THROWS_WITH(make(klimt().image, 1e308), Contains("size of the target is 1e+308 x 0.1 m, must be > 0"));
   CHECK_THROWS_WITH(make(klimt().image, 1e4), Contains("times as wide as high, must be from 0.1 to 10 times"));
   CHECK_THROWS_WITH(make(klimt().image, -1.), Contains("-1 x 0.1 m"));
-  vpPlanarTargetConfig config;
-  config.inlierThreshold = 0.;
-  CHECK_THROWS_WITH(make(klimt().image, 0.1, config), Contains("inlierThreshold is 0 px, must be > 0"));
-  CHECK_THROWS_WITH(keypointTypeFromString("FAST"), Contains("'FAST' is not known, choose one of ORB, SIFT, AKAZE"));
-  CHECK(keypointTypeFromString("SURF") == vpKeypointType::SURF);
+  vpPlanarTargetSpec spec;
+  spec.inlierThreshold = 0.;
+  CHECK_THROWS_WITH(make(klimt().image, 0.1, spec), Contains("inlierThreshold is 0 px, must be > 0"));
+  CHECK_THROWS_WITH(vpKeypointTypeFromString("FAST"), Contains("'FAST' is not known, choose one of ORB, SIFT, AKAZE"));
+  CHECK(vpKeypointTypeFromString("SURF") == vpKeypointType::SURF);
   CHECK_THROWS_WITH(vpPlanarTarget(klimt().image, 0.1, 0.1, vpCameraParameters(0., 800., 1., 1.)), Contains("px = 0"));
   CHECK_THROWS_WITH(vpPlaneMatcher(Image(64, 64, 3)), Contains("too little texture"));
 }

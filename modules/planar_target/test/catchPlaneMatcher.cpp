@@ -125,9 +125,9 @@ TEST_CASE("whiteboard: matches in a corner of a real photograph are said to extr
   vpImageIo::read(first, a);
   vpImageIo::read(second, b);
   for (const vpKeypointType type : {vpKeypointType::ORB, vpKeypointType::AKAZE, vpKeypointType::SIFT}) {
-    vpPlanarTargetConfig config;
-    config.keypoints = type;
-    vpPlaneMatcher matcher(first, config);
+    vpPlanarTargetSpec spec;
+    spec.keypoints = type;
+    vpPlaneMatcher matcher(first, spec);
     const vpPlaneMatch &match = matcher.match(second);
     std::ifstream file(known);
     double error = 0.;
@@ -144,8 +144,8 @@ TEST_CASE("whiteboard: matches in a corner of a real photograph are said to extr
       }
     }
     REQUIRE(count == 8);
-    CAPTURE(toString(type), match.message, error / count);
-    WARN(toString(type) << ": " << toString(match.status) << ", " << match.message << " Largest deviation "
+    CAPTURE(vpToString(type), match.message, error / count);
+    WARN(vpToString(type) << ": " << vpToString(match.status) << ", " << match.message << " Largest deviation "
                         << match.cornerDeviation << " px, mean error at the known points " << error / count << " px");
     // A homography reported as valid everywhere has small errors everywhere.
     CHECK((!match.found() || error / count < 9.));

@@ -186,7 +186,7 @@ TEST_CASE("further motions decide between the two planes, and never for the fals
     }
     // Planes within the tolerance of normals confirm each other forever.
     CAPTURE(i, apart);
-    CHECK((done || apart < vpTwoViewConfig().normalTolerance));
+    CHECK((done || apart < vpTwoViewSpec().normalTolerance));
     decided += done;
   }
   std::cout << "several views: " << decided << " of 500 decided, after " << frames / decided << " frames on average"
@@ -261,9 +261,9 @@ TEST_CASE("what cannot be decomposed is refused", "[two-view][errors]")
     CHECK(decomposition.result().message.find(", must be finite.") != std::string::npos);
   }
 
-  vpTwoViewConfig config;
-  config.minTranslation = -1.;
-  CHECK_THROWS_WITH(vpTwoViewDecomposition(config),
+  vpTwoViewSpec spec;
+  spec.minTranslation = -1.;
+  CHECK_THROWS_WITH(vpTwoViewDecomposition(spec),
                     Catch::Contains("minTranslation of the two-view decomposition is -1"));
   CHECK_THROWS_WITH(decomposition.setNormalPrior(vpColVector(3)), Catch::Contains("must be finite and not zero"));
   CHECK_THROWS_WITH(decomposition.setNormalPrior(vpColVector(2)), Catch::Contains("has 2 components"));

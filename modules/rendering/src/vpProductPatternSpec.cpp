@@ -37,7 +37,7 @@ void requireGap(const char *field, double opening, double pitch, double jitter, 
 }
 } // namespace
 
-std::string toString(vpProductShape shape)
+std::string vpToString(vpProductShape shape)
 {
   switch (shape) {
   case vpProductShape::Rectangle:

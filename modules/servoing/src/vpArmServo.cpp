@@ -77,8 +77,8 @@ const vpArmServoOutput &vpArmServo::step(const vpJointVector &q, double time) no
     m_camera = fMc;
     m_time = time;
     m_started = true;
-    const vpServoCommand command = m_controller.update(m_measurement, dt);
-    m_output.twist = limitTwist(command.v, m_spec.maxLinear, m_spec.maxAngular);
+    const vpServoCommand command = m_controller.step(m_measurement, dt);
+    m_output.twist = vpLimitTwist(command.v, m_spec.maxLinear, m_spec.maxAngular);
     m_output.servo = command.status;
     m_output.age = m_odometry.age();
     m_motion.twist(m_output.twist, vpArmTwistFrame::Camera);

@@ -49,8 +49,8 @@ struct Bench {
 
   bool told = true; // true: time of exposure reported; otherwise that of arrival
 
-  explicit Bench(const std::string &law, const vpServoControllerConfig &config = {})
-    : servo(amor(), vpServoController::create(law, config), spec()),
+  explicit Bench(const std::string &law, const vpServoControllerSpec &spec = {})
+    : servo(amor(), vpServoController::create(law, spec), spec()),
       fMo(cameraAt(amor().home()).toHomogeneous() * vpHomogeneousMatrix(0.06, 0.04, 0.45, 0.2, -0.3, 0.4))
   {
     servo.setGoal(plate.goal(cdMo));
@@ -105,7 +105,7 @@ TEST_CASE("An arm servo reaches its goal through a latency of 100 ms", "[servoin
 TEST_CASE("A measurement that is late and told as new makes the loop swing, one told with its time does not",
           "[servoing]")
 {
-  vpServoControllerConfig quick;
+  vpServoControllerSpec quick;
   quick.gains.lambda = 8.;
   double worst[2] = {0., 0.};
   for (const bool told : {true, false}) {
@@ -204,7 +204,7 @@ TEST_CASE("Wild configurations, times and measurements leave the arm's velocitie
 
 TEST_CASE("The camera's twist keeps its limits", "[servoing]")
 {
-  vpServoControllerConfig quick;
+  vpServoControllerSpec quick;
   quick.gains.lambda = 8.;
   quick.gains.rotation = 8.;
   Bench bench("pbvs1", quick);

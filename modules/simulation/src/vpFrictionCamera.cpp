@@ -38,7 +38,7 @@ void vpFrictionCamera::setVelocity(const vpRobot::vpControlFrameType frame, cons
   }
   setRobotFrame(frame);
 
-  const vpTwist limited = limitTwist(asked, getMaxTranslationVelocity(), getMaxRotationVelocity());
+  const vpTwist limited = vpLimitTwist(asked, getMaxTranslationVelocity(), getMaxRotationVelocity());
   // The command is constant over the cycle, so this blend is the exact response of y' = (v - y) / lag.
   const double share = m_lag > 0. ? -std::expm1(-getSamplingTime() / m_lag) : 1.;
   for (unsigned int i = 0; i < 6; ++i) {

@@ -108,7 +108,7 @@ const char *sentenceOf(vpClosedLoopStatus status)
 {
   vpClosedLoopOutput output;
   output.status = status;
-  return output.sentence();
+  return output.message();
 }
 } // namespace
 
@@ -283,7 +283,7 @@ void vpSimulatedArm::setVelocity(const vpRobot::vpControlFrameType frame, const 
     }
   }
   else {
-    const vpTwist twist = limitTwist(twistOf(v), getMaxTranslationVelocity(), getMaxRotationVelocity());
+    const vpTwist twist = vpLimitTwist(twistOf(v), getMaxTranslationVelocity(), getMaxRotationVelocity());
     const vpArmTwistFrame in = frame == vpRobot::CAMERA_FRAME         ? vpArmTwistFrame::Camera
                                : frame == vpRobot::END_EFFECTOR_FRAME ? vpArmTwistFrame::EndEffector
                                : frame == vpRobot::REFERENCE_FRAME    ? vpArmTwistFrame::Base
@@ -312,7 +312,7 @@ void vpSimulatedArm::setPosition(const vpRobot::vpControlFrameType frame, const 
   const vpJointVector here = core.drives().wanted(), moving = core.drives().command();
   const bool byJoints = frame == vpRobot::JOINT_STATE;
   if (core.status() == vpSimulatedArmStatus::NotFollowing) {
-    throw vpRobotException(vpRobotException::lowLevelError, "%s", core.sentence().c_str());
+    throw vpRobotException(vpRobotException::lowLevelError, "%s", core.message().c_str());
   }
   if (byJoints) {
     const vpJointVector goal = jointsOf(q, core.model.size());
@@ -332,7 +332,7 @@ void vpSimulatedArm::setPosition(const vpRobot::vpControlFrameType frame, const 
     throw vpRobotException(vpRobotException::lowLevelError, "another call ended the motion before its goal");
   }
   if (core.status() == vpSimulatedArmStatus::NotFollowing) {
-    throw vpRobotException(vpRobotException::lowLevelError, "%s", core.sentence().c_str());
+    throw vpRobotException(vpRobotException::lowLevelError, "%s", core.message().c_str());
   }
   if (!byJoints && core.motion().poseStatus() != vpClosedLoopStatus::Reached) {
     throw vpRobotException(vpRobotException::lowLevelError, "%s", sentenceOf(core.motion().poseStatus()));
@@ -502,12 +502,12 @@ vpSimulatedArmState vpSimulatedArm::getState() const
 std::string vpSimulatedArm::getSentence() const
 {
   const std::lock_guard<std::mutex> lock(m_impl->mutex);
-  return m_impl->core.sentence();
+  return m_impl->core.message();
 }
 
 const vpArmModel &vpSimulatedArm::getModel() const { return m_impl->core.model; }
 
-const char *toString(vpSimulatedArmStatus status)
+const char *vpToString(vpSimulatedArmStatus status)
 {
   switch (status) {
   case vpSimulatedArmStatus::Stopped:

@@ -109,7 +109,7 @@ vpSimulatedArmState vpSimulatedArmCore::state() const
           m_status};
 }
 
-std::string vpSimulatedArmCore::sentence() const
+std::string vpSimulatedArmCore::message() const
 {
   switch (m_status) {
   case vpSimulatedArmStatus::Stopped:
@@ -122,7 +122,7 @@ std::string vpSimulatedArmCore::sentence() const
     return "joint " + model.spec().joints[static_cast<std::size_t>(m_lost)].name +
            " did not follow its command, the arm holds until it is stopped";
   default:
-    return m_motion.solver().sentence();
+    return m_motion.solver().message();
   }
 }
 

@@ -27,7 +27,7 @@ public:
   [[nodiscard]] bool atRest() const noexcept;
 
   [[nodiscard]] vpSimulatedArmState state() const;
-  [[nodiscard]] std::string sentence() const;
+  [[nodiscard]] std::string message() const;
   [[nodiscard]] double time() const noexcept { return m_periods * m_motion.period(); }
   [[nodiscard]] double period() const noexcept { return m_motion.period(); }
   [[nodiscard]] vpArmMotion &motion() noexcept { return m_motion; }

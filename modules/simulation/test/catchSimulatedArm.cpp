@@ -333,7 +333,7 @@ TEST_CASE("A blocked arm says what is in the way", "[arm]")
   }
   CHECK(robot.getState().status == vpSimulatedArmStatus::Blocked);
   CAPTURE(robot.getSentence());
-  CHECK(robot.getSentence() == robot.getState().solver.sentence());
+  CHECK(robot.getSentence() == robot.getState().solver.message());
   CHECK(robot.get_fMe()[1][3] < 1.11);
   for (int k = 0; k < 20; ++k) {
     robot.setVelocity(vpRobot::REFERENCE_FRAME, column({0., -0.1, 0., 0., 0., 0.}));

@@ -116,7 +116,7 @@ void forms(benchmark::State &state, bool cruise)
       input.start.v[i] = 0.9 * input.maxVelocity[i] * uniform(rng, -1., 1.) * std::min(1., length);
       input.goal.q[i] = length * uniform(rng, -1., 1.);
     }
-    input.options.cruise = cruise;
+    input.spec.cruise = cruise;
     vpTrajectoryProblem problem(7);
     static_cast<void>(input.copyTo(problem));
     static_cast<void>(planner.plan(problem, 0., plan));
@@ -178,7 +178,7 @@ template <int N> void cycle(benchmark::State &state)
         input.goal.q[axis] = uniform(rng, -1., 1.);
       }
     }
-    benchmark::DoNotOptimize(trajectory.update(input, output, 1e-3));
+    benchmark::DoNotOptimize(trajectory.step(input, output, 1e-3));
   });
 }
 
@@ -242,7 +242,7 @@ void poseRetarget(benchmark::State &state)
   }
   measure(state, goals.size(), [&](std::size_t k) {
     static_cast<void>(trajectory.setGoal(goals[k]));
-    benchmark::DoNotOptimize(trajectory.update(0.05));
+    benchmark::DoNotOptimize(trajectory.step(0.05));
   });
 }
 
@@ -252,7 +252,7 @@ void shaperStep(benchmark::State &state)
   std::mt19937_64 rng(5);
   measure(state, 5000, [&](std::size_t) {
     benchmark::DoNotOptimize(
-        shaper.update(vpTwist(uniform(rng, -1., 1.), 0.2, 0.1, uniform(rng, -1., 1.), 0., 0.1), 1e-3));
+        shaper.step(vpTwist(uniform(rng, -1., 1.), 0.2, 0.1, uniform(rng, -1., 1.), 0., 0.1), 1e-3));
   });
 }
 } // namespace

@@ -11,7 +11,7 @@
 
 #include "vpAxisForms.h"
 
-#include <visp3/trajectory/vpTrajectoryOptions.h>
+#include <visp3/trajectory/vpTrajectorySpec.h>
 
 #include <vector>
 

@@ -52,7 +52,7 @@ double vpGoalJitter::floor(const vpTrajectoryProblem &problem) const noexcept
     const vpAxisLimits limits = problem.limits(i);
     least = std::max(least, restDuration(level(i), limits.velocity, limits.acceleration, limits.jerk));
   }
-  for (const vpAxisGroup &group : problem.options.groups) {
+  for (const vpAxisGroup &group : problem.spec.groups) {
     double norm = 0.;
     for (int i = 0; i < problem.axes(); ++i) {
       norm = group.contains(i) ? std::hypot(norm, level(i)) : norm;

@@ -101,7 +101,7 @@ vpLimitExcess vpLimitCheck::worst(double from, Wanted wanted, bool groupsBrake) 
 void vpLimitCheck::checkAxis(int axis, double from, Wanted wanted, Worst &worst) const noexcept
 {
   const vpAxisLimits limits = m_problem.limits(axis);
-  const bool jerk = std::isfinite(limits.jerk) && m_problem.options.continuity != vpTrajectoryContinuity::C1;
+  const bool jerk = std::isfinite(limits.jerk) && m_problem.spec.continuity != vpTrajectoryContinuity::C1;
   // Positions are rounded relative to the largest of them.
   const double place = std::max(std::abs(m_problem.start(axis)[0]), std::abs(m_problem.goal(axis)[0]));
   const int count = m_plan.segments(axis) + m_plan.coasting(axis);
@@ -163,9 +163,9 @@ void vpLimitCheck::checkAxis(int axis, double from, Wanted wanted, Worst &worst)
 
 void vpLimitCheck::checkGroups(double from, Worst &worst) const noexcept
 {
-  for (int g = 0; g < vpTrajectoryOptions::maxGroups; ++g) {
+  for (int g = 0; g < vpTrajectorySpec::maxGroups; ++g) {
     const vpNormLimits limits = m_problem.groupLimits(g);
-    const std::uint64_t axes = m_problem.options.groups[static_cast<std::size_t>(g)].axes;
+    const std::uint64_t axes = m_problem.spec.groups[static_cast<std::size_t>(g)].axes;
     for (int order = 1; order <= 2 && axes != 0; ++order) {
       const double bound = order == 1 ? limits.velocity : limits.acceleration;
       if (!std::isfinite(bound)) {
@@ -194,7 +194,7 @@ bool vpLimitCheck::startsOutside(int axis, vpTrajectoryLimit limit) const noexce
     return task.from[0] > limits.maxPosition;
   }
   task.limits = limits;
-  task.order = 2 + static_cast<int>(m_problem.options.continuity);
+  task.order = 2 + static_cast<int>(m_problem.spec.continuity);
   return needsBraking(task);
 }
 

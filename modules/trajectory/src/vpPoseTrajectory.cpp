@@ -94,7 +94,7 @@ void requirePositive(const char *name, double value, const char *unit)
 }
 } // namespace
 
-void vpPoseTrajectoryOptions::validate() const
+void vpPoseTrajectorySpec::validate() const
 {
   requirePositive("linear velocity limit", linearVelocity, "m/s");
   requirePositive("linear acceleration limit", linearAcceleration, "m/s^2");
@@ -121,42 +121,42 @@ void vpCameraState::copyTo(vpHomogeneousMatrix &pose) const
   }
 }
 
-vpPoseTrajectory::vpPoseTrajectory(const vpPoseTrajectoryOptions &options)
+vpPoseTrajectory::vpPoseTrajectory(const vpPoseTrajectorySpec &spec)
   : m_problem(6), m_planner(6), m_plan(6), m_jitter(6)
 {
-  setOptions(options);
+  setSpec(spec);
   static_cast<void>(reset(vpHomogeneousMatrix()));
 }
 
-void vpPoseTrajectory::setOptions(const vpPoseTrajectoryOptions &options)
+void vpPoseTrajectory::setSpec(const vpPoseTrajectorySpec &spec)
 {
-  options.validate();
-  if (options.policy == vpReplanPolicy::FixedArrival &&
-      (m_options.policy != options.policy || m_options.arrivalTime != options.arrivalTime)) {
+  spec.validate();
+  if (spec.policy == vpReplanPolicy::FixedArrival &&
+      (m_spec.policy != spec.policy || m_spec.arrivalTime != spec.arrivalTime)) {
     m_arrival = -1.; // starts now
   }
-  m_options = options;
+  m_spec = spec;
   m_event = true;
   fillLimits();
 }
 
 void vpPoseTrajectory::fillLimits() noexcept
 {
-  const bool norm = m_options.rotation == vpRotationPath::Geodesic;
-  vpTrajectoryOptions &o = m_problem.options;
-  o = vpTrajectoryOptions();
-  o.policy = m_options.policy;
-  o.cruise = m_options.cruise;
+  const bool norm = m_spec.rotation == vpRotationPath::Geodesic;
+  vpTrajectorySpec &o = m_problem.spec;
+  o = vpTrajectorySpec();
+  o.policy = m_spec.policy;
+  o.cruise = m_spec.cruise;
   o.synchronisation = norm ? vpSynchronisation::Straight : vpSynchronisation::Time;
-  o.groups[0] = vpAxisGroup({0, 1, 2}, m_options.linearVelocity, m_options.linearAcceleration);
+  o.groups[0] = vpAxisGroup({0, 1, 2}, m_spec.linearVelocity, m_spec.linearAcceleration);
   if (norm) {
-    o.groups[1] = vpAxisGroup({3, 4, 5}, m_options.angularVelocity, m_options.angularAcceleration);
+    o.groups[1] = vpAxisGroup({3, 4, 5}, m_spec.angularVelocity, m_spec.angularAcceleration);
   }
   for (int i = 0; i < 6; ++i) {
     const bool position = i < 3;
-    m_problem.field(P::MaxVelocity)[i] = position ? m_options.linearVelocity : m_options.angularVelocity;
-    m_problem.field(P::MaxAcceleration)[i] = position ? m_options.linearAcceleration : m_options.angularAcceleration;
-    m_problem.field(P::MaxJerk)[i] = position ? m_options.linearJerk : m_options.angularJerk;
+    m_problem.field(P::MaxVelocity)[i] = position ? m_spec.linearVelocity : m_spec.angularVelocity;
+    m_problem.field(P::MaxAcceleration)[i] = position ? m_spec.linearAcceleration : m_spec.angularAcceleration;
+    m_problem.field(P::MaxJerk)[i] = position ? m_spec.linearJerk : m_spec.angularJerk;
   }
 }
 
@@ -205,8 +205,8 @@ vpTrajectoryStatus vpPoseTrajectory::setGoal(const vpHomogeneousMatrix &fMcd, co
     }
     same = same && goalTwist[i] == m_goalTwist[i];
   }
-  if (!(goalTwist.linearNorm() <= m_options.linearVelocity && goalTwist.angularNorm() <= m_options.angularVelocity)) {
-    const bool position = !(goalTwist.linearNorm() <= m_options.linearVelocity);
+  if (!(goalTwist.linearNorm() <= m_spec.linearVelocity && goalTwist.angularNorm() <= m_spec.angularVelocity)) {
+    const bool position = !(goalTwist.linearNorm() <= m_spec.linearVelocity);
     return {vpTrajectoryResult::InvalidInput, vpTrajectoryFault::GoalOutsideGroup, position ? 0 : 1,
             position ? goalTwist.linearNorm() : goalTwist.angularNorm()};
   }
@@ -264,12 +264,12 @@ void vpPoseTrajectory::replan() noexcept
 {
   Eigen::Matrix3d fRd = m_fRd;
   Eigen::Vector3d ftd = m_ftd;
-  double floor = m_options.minimumDuration;
-  if (m_options.policy == vpReplanPolicy::FixedArrival) {
-    m_arrival = m_arrival >= 0. && remaining() > 0. ? std::max(m_arrival - m_clock, 0.) : m_options.arrivalTime;
+  double floor = m_spec.minimumDuration;
+  if (m_spec.policy == vpReplanPolicy::FixedArrival) {
+    m_arrival = m_arrival >= 0. && remaining() > 0. ? std::max(m_arrival - m_clock, 0.) : m_spec.arrivalTime;
     floor = m_arrival;
   }
-  else if (m_options.policy == vpReplanPolicy::KeepArrival) {
+  else if (m_spec.policy == vpReplanPolicy::KeepArrival) {
     floor = meet(floor, fRd, ftd);
   }
   const vpCameraState &x = m_state;
@@ -280,12 +280,12 @@ void vpPoseTrajectory::replan() noexcept
   const Eigen::Matrix3d inverse = vpSO3::rightJacobianInverse(goal);
   Eigen::Vector3d goal1 = inverse * w;
   // Near pi the rates of the rotation vector exceed those of the rotation; the limits are on the former.
-  goal1 *= std::min(1., m_options.angularVelocity / std::max(goal1.norm(), 1e-300));
+  goal1 *= std::min(1., m_spec.angularVelocity / std::max(goal1.norm(), 1e-300));
   Eigen::Vector3d goal2 = -inverse * jacobianRateTerm(goal, goal1);
-  goal2 *= std::min(1., m_options.angularAcceleration / std::max(goal2.norm(), 1e-300));
+  goal2 *= std::min(1., m_spec.angularAcceleration / std::max(goal2.norm(), 1e-300));
   const Eigen::Vector3d goalP1 = fRd * linear(m_goalTwist);
   Eigen::Vector3d goalP2 = fRd * w.cross(linear(m_goalTwist));
-  goalP2 *= std::min(1., m_options.linearAcceleration / std::max(goalP2.norm(), 1e-300));
+  goalP2 *= std::min(1., m_spec.linearAcceleration / std::max(goalP2.norm(), 1e-300));
   for (int i = 0; i < 3; ++i) {
     m_problem.setStart(i, {x.ftc[i], p1[i], p2[i], 0.});
     m_problem.setStart(i + 3, {0., e1[i], e2[i], 0.});
@@ -300,7 +300,7 @@ void vpPoseTrajectory::replan() noexcept
   m_clock = 0.;
 }
 
-vpTrajectoryStatus vpPoseTrajectory::update(double dt) noexcept
+vpTrajectoryStatus vpPoseTrajectory::step(double dt) noexcept
 {
   if (!(dt > 0. && dt <= longestStep)) {
     return {vpTrajectoryResult::InvalidInput, vpTrajectoryFault::TimeStep, -1, dt};

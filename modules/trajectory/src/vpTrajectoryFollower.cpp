@@ -22,7 +22,7 @@ bool sameLimits(const vpTrajectoryProblem &a, const vpTrajectoryProblem &b)
     same = same && x.velocity == y.velocity && x.acceleration == y.acceleration && x.jerk == y.jerk &&
            x.minPosition == y.minPosition && x.maxPosition == y.maxPosition;
   }
-  for (int g = 0; g < vpTrajectoryOptions::maxGroups; ++g) {
+  for (int g = 0; g < vpTrajectorySpec::maxGroups; ++g) {
     const vpNormLimits x = a.groupLimits(g), y = b.groupLimits(g);
     same = same && x.velocity == y.velocity && x.acceleration == y.acceleration;
   }
@@ -34,7 +34,7 @@ vpTrajectoryFollower::vpTrajectoryFollower(int axes, int maxVias)
   : m_task(axes, maxVias), m_rest(axes, maxVias), m_planner(axes, maxVias), m_plan(axes, maxVias), m_jitter(axes)
 {}
 
-vpTrajectoryStatus vpTrajectoryFollower::update(const vpTrajectoryProblem &problem, double dt) noexcept
+vpTrajectoryStatus vpTrajectoryFollower::step(const vpTrajectoryProblem &problem, double dt) noexcept
 {
   m_newPlan = false;
   if (problem.axes() != m_plan.axes()) {
@@ -89,16 +89,16 @@ vpTrajectoryFollower::Event vpTrajectoryFollower::detect(const vpTrajectoryProbl
   if (!m_started) {
     return Event::Task;
   }
-  const vpTrajectoryOptions &options = problem.options;
-  const bool frozen = remaining() > 0. && remaining() < options.freeze;
+  const vpTrajectorySpec &spec = problem.spec;
+  const bool frozen = remaining() > 0. && remaining() < spec.freeze;
   if (!problem.sameTask(m_task)) {
     // A fixed arrival cannot be delayed, and close to it no sensible change fits: the change waits for the arrival.
     // Other limits do not wait, because the status would not report them.
-    const bool wait = options.policy == vpReplanPolicy::FixedArrival &&
-                      options.arrivalTime == m_task.options.arrivalTime && sameLimits(problem, m_task);
+    const bool wait = spec.policy == vpReplanPolicy::FixedArrival &&
+                      spec.arrivalTime == m_task.spec.arrivalTime && sameLimits(problem, m_task);
     return wait && frozen ? Event::None : Event::Task;
   }
-  const bool due = options.replanPeriod > 0. && m_sinceReplan >= options.replanPeriod * (1. - 1e-9);
+  const bool due = spec.replanPeriod > 0. && m_sinceReplan >= spec.replanPeriod * (1. - 1e-9);
   return due && !frozen && remaining() > 0. ? Event::Rate : Event::None;
 }
 
@@ -159,29 +159,29 @@ void vpTrajectoryFollower::noteGoal(const vpTrajectoryProblem &problem) noexcept
 
 double vpTrajectoryFollower::floorOf(const vpTrajectoryProblem &problem, Event event) noexcept
 {
-  const vpTrajectoryOptions &options = problem.options;
-  if (options.policy == vpReplanPolicy::FixedArrival) {
+  const vpTrajectorySpec &spec = problem.spec;
+  if (spec.policy == vpReplanPolicy::FixedArrival) {
     // The arrival time stays while the goal is refined; when it could not be kept: as early as possible.
-    const bool goesOn = m_started && remaining() > 0. && m_task.options.policy == options.policy &&
-                        m_task.options.arrivalTime == options.arrivalTime;
-    m_arrival = goesOn ? std::max(m_arrival - m_clock, 0.) : options.arrivalTime;
+    const bool goesOn = m_started && remaining() > 0. && m_task.spec.policy == spec.policy &&
+                        m_task.spec.arrivalTime == spec.arrivalTime;
+    m_arrival = goesOn ? std::max(m_arrival - m_clock, 0.) : spec.arrivalTime;
     return m_arrival;
   }
   double left = m_started ? remaining() : 0.;
-  if (options.policy != vpReplanPolicy::KeepArrival) {
-    return std::max(options.minimumDuration, event == Event::Rate ? left : 0.);
+  if (spec.policy != vpReplanPolicy::KeepArrival) {
+    return std::max(spec.minimumDuration, event == Event::Rate ? left : 0.);
   }
   if (m_goalMoves) {
     left = std::max(left - vpGoalJitter::hurry * m_goalInterval, 0.);
   }
-  return std::max({options.minimumDuration, left, m_jitter.floor(problem)});
+  return std::max({spec.minimumDuration, left, m_jitter.floor(problem)});
 }
 
 // Predicted position of a moving goal at the end of the plan, within the position limits.
 void vpTrajectoryFollower::aim() noexcept
 {
   using P = vpTrajectoryProblem;
-  const double ahead = m_goalAge + std::max(m_task.options.minimumDuration, m_jitter.floor(m_task));
+  const double ahead = m_goalAge + std::max(m_task.spec.minimumDuration, m_jitter.floor(m_task));
   for (int i = 0; i < m_rest.axes(); ++i) {
     const double there = m_task.field(P::GoalQ)[i] + m_task.field(P::GoalV)[i] * ahead;
     m_rest.field(P::GoalQ)[i] = std::clamp(there, m_task.field(P::MinPosition)[i], m_task.field(P::MaxPosition)[i]);
@@ -207,7 +207,7 @@ void vpTrajectoryFollower::replan(const vpTrajectoryProblem &problem, Event even
   m_started = true;
   m_newPlan = true;
   m_clock = m_sinceReplan = 0.;
-  m_thesisBusy = problem.options.method == vpDurationMethod::ThesisIteration;
+  m_thesisBusy = problem.spec.method == vpDurationMethod::ThesisIteration;
   if (m_thesisBusy) {
     // (6.9) at the beginning, the remaining time at an event (6.8).
     m_thesisT = left;
@@ -221,7 +221,7 @@ void vpTrajectoryFollower::replan(const vpTrajectoryProblem &problem, Event even
     iterateThesis();
     return;
   }
-  if (problem.options.policy == vpReplanPolicy::KeepArrival && m_goalMoves) {
+  if (problem.spec.policy == vpReplanPolicy::KeepArrival && m_goalMoves) {
     aim();
   }
   // Without an event, a single polynomial is replanned in the same form.
@@ -237,11 +237,11 @@ void vpTrajectoryFollower::iterateThesis() noexcept
     m_thesisT = remaining();
     m_clock = 0.;
   }
-  const vpTrajectoryOptions &options = m_rest.options;
-  const vpThesisDuration::Gains gains{options.thesisVelocityGain, options.thesisAccelerationGain};
-  const int order = 2 + static_cast<int>(options.continuity);
+  const vpTrajectorySpec &spec = m_rest.spec;
+  const vpThesisDuration::Gains gains{spec.thesisVelocityGain, spec.thesisAccelerationGain};
+  const int order = 2 + static_cast<int>(spec.continuity);
   bool converged = false;
-  for (int step = 0; step < options.thesisStepsPerCycle && !converged; ++step) {
+  for (int step = 0; step < spec.thesisStepsPerCycle && !converged; ++step) {
     double extra = -0.5 * m_thesisT;
     for (int i = 0; i < m_rest.axes(); ++i) {
       const vpMotionFamily motion = vpMotionFamily::pointToPoint(m_rest.start(i), m_rest.goal(i), order);
@@ -251,7 +251,7 @@ void vpTrajectoryFollower::iterateThesis() noexcept
     m_thesisT = std::min(longestThesis, std::max(shortestThesis, m_thesisT + extra));
     converged = std::abs(extra) < 1e-10 * m_thesisT;
   }
-  m_thesisBusy = !converged && m_thesisT > options.freeze;
+  m_thesisBusy = !converged && m_thesisT > spec.freeze;
   m_newPlan = true;
   m_planStatus = m_planner.planDirect(m_rest, m_thesisT, m_plan);
 }

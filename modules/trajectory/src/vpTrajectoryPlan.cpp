@@ -42,7 +42,7 @@ vpAxisState jetInTime(const vpPolynomial &p, double s, double duration)
 }
 } // namespace
 
-const char *toString(vpTrajectoryForm form)
+const char *vpToString(vpTrajectoryForm form)
 {
   switch (form) {
   case vpTrajectoryForm::Hold:

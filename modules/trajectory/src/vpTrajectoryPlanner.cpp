@@ -21,7 +21,7 @@ int orderOf(vpTrajectoryContinuity continuity) { return 2 + static_cast<int>(con
 
 vpTrajectoryPlanner::Impl::Impl(int count, int maxVias)
   : n(count), from(static_cast<std::size_t>(count)), to(from),
-    axes(static_cast<std::size_t>(count) + 1 + vpTrajectoryOptions::maxGroups), units(static_cast<std::size_t>(count)),
+    axes(static_cast<std::size_t>(count) + 1 + vpTrajectorySpec::maxGroups), units(static_cast<std::size_t>(count)),
     lines(static_cast<std::size_t>(count)), unitDurations(static_cast<std::size_t>(count)),
     direction(static_cast<std::size_t>(count)), spline(maxVias),
     chain(static_cast<std::size_t>(count) * (static_cast<std::size_t>(maxVias) + 1)),
@@ -37,16 +37,16 @@ void vpTrajectoryPlanner::Impl::setTasks(const vpTrajectoryProblem &problem)
   for (int i = 0; i < n; ++i) {
     const auto k = static_cast<std::size_t>(i);
     vpAxisTask &task = axis(i).task;
-    task.order = orderOf(problem.options.continuity);
+    task.order = orderOf(problem.spec.continuity);
     task.limits = problem.limits(i);
     // Positions are relative to the start of the leg: differences of near numbers are exact, and the digits stay.
     task.minPosition = task.limits.minPosition -= from[k][0];
     task.maxPosition = task.limits.maxPosition -= from[k][0];
-    if (problem.options.continuity == vpTrajectoryContinuity::C1) {
+    if (problem.spec.continuity == vpTrajectoryContinuity::C1) {
       task.limits.jerk = infinity; // the acceleration jumps anyway
     }
-    if (problem.options.policy == vpReplanPolicy::FixedArrival) {
-      task.timeUnit = std::min(0.05, 0.1 * problem.options.arrivalTime);
+    if (problem.spec.policy == vpReplanPolicy::FixedArrival) {
+      task.timeUnit = std::min(0.05, 0.1 * problem.spec.arrivalTime);
     }
     task.from = from[k];
     task.to = to[k];
@@ -61,13 +61,13 @@ void vpTrajectoryPlanner::Impl::makeUnits(const vpTrajectoryProblem &problem)
 {
   unitCount = 0;
   straight = false;
-  if (problem.options.synchronisation == vpSynchronisation::Straight && addLine(problem, nullptr, axis(n))) {
+  if (problem.spec.synchronisation == vpSynchronisation::Straight && addLine(problem, nullptr, axis(n))) {
     straight = true;
     return;
   }
   std::uint64_t grouped = 0;
-  for (int g = 0; g < vpTrajectoryOptions::maxGroups; ++g) {
-    const vpAxisGroup &group = problem.options.groups[static_cast<std::size_t>(g)];
+  for (int g = 0; g < vpTrajectorySpec::maxGroups; ++g) {
+    const vpAxisGroup &group = problem.spec.groups[static_cast<std::size_t>(g)];
     if (group.axes == 0) {
       continue;
     }
@@ -151,11 +151,11 @@ bool vpTrajectoryPlanner::Impl::addLine(const vpTrajectoryProblem &problem, cons
   if (!onLine || length == 0.) {
     return false;
   }
-  for (int g = 0; g < vpTrajectoryOptions::maxGroups; ++g) {
+  for (int g = 0; g < vpTrajectorySpec::maxGroups; ++g) {
     const vpNormLimits limits = problem.groupLimits(g);
     double share = 0.;
     for (int i = 0; i < n; ++i) {
-      const bool counts = members.contains(i) && problem.options.groups[static_cast<std::size_t>(g)].contains(i);
+      const bool counts = members.contains(i) && problem.spec.groups[static_cast<std::size_t>(g)].contains(i);
       share = counts ? std::hypot(share, direction[static_cast<std::size_t>(i)]) : share;
     }
     if (share > 0.) {
@@ -192,10 +192,10 @@ bool vpTrajectoryPlanner::Impl::isAcross(const vpAxisTask &task, const vpAxisTas
   return false;
 }
 
-double vpTrajectoryPlanner::Impl::searchLeg(const vpTrajectoryOptions &options, double floor, bool independent)
+double vpTrajectoryPlanner::Impl::searchLeg(const vpTrajectorySpec &spec, double floor, bool independent)
 {
   for (int u = 0; u < unitCount; ++u) {
-    units[static_cast<std::size_t>(u)].prepare(options.cruise);
+    units[static_cast<std::size_t>(u)].prepare(spec.cruise);
   }
   double T = floor;
   if (independent) {
@@ -284,7 +284,7 @@ void vpTrajectoryPlanner::Impl::finish(const vpTrajectoryProblem &problem, vpTra
   for (int i = 0; i < n; ++i) {
     vpAxisState goal = problem.goal(i);
     const vpAxisState &planned = axis(straight ? n : i).task.to;
-    const int given = 2 + static_cast<int>(problem.options.continuity);
+    const int given = 2 + static_cast<int>(problem.spec.continuity);
     for (int k = 2; k < 4; ++k) { // beyond the continuity, or dropped
       double &x = goal[static_cast<std::size_t>(k)];
       x = k >= given || planned[static_cast<std::size_t>(k)] == 0. ? 0. : x;
@@ -305,15 +305,15 @@ double vpTrajectoryPlanner::Impl::coastingRamp(const vpTrajectoryProblem &proble
     return goal[2] != 0. ? std::max(rampDuration(goal, task), 0.) : infinity;
   };
   double longest = own(i);
-  for (int g = 0; g < vpTrajectoryOptions::maxGroups; ++g) {
+  for (int g = 0; g < vpTrajectorySpec::maxGroups; ++g) {
     const double limit = problem.groupLimits(g).velocity;
-    if (!problem.options.groups[static_cast<std::size_t>(g)].contains(i) || !std::isfinite(limit)) {
+    if (!problem.spec.groups[static_cast<std::size_t>(g)].contains(i) || !std::isfinite(limit)) {
       continue;
     }
     double vv = 0., va = 0., aa = 0.;
     for (int m = 0; m < n; ++m) {
       const vpAxisState x = problem.goal(m);
-      if (problem.options.groups[static_cast<std::size_t>(g)].contains(m)) {
+      if (problem.spec.groups[static_cast<std::size_t>(g)].contains(m)) {
         vv += x[1] * x[1];
         va += x[1] * x[2];
         aa += x[2] * x[2];
@@ -361,7 +361,7 @@ void vpTrajectoryPlanner::Impl::coast(const vpTrajectoryProblem &problem, int i,
     return;
   }
   // No room for that: at once, and as hard as is needed. The norm of a group is for the usual stop only.
-  const auto &groups = problem.options.groups;
+  const auto &groups = problem.spec.groups;
   const bool grouped = std::any_of(groups.begin(), groups.end(), [i](const vpAxisGroup &g) { return g.contains(i); });
   vpAxisTask hard = task;
   hard.order = 3;
@@ -384,7 +384,7 @@ void vpTrajectoryPlanner::Impl::stopAll(const vpTrajectoryProblem &problem, vpTr
   for (int i = 0; i < n; ++i) {
     vpAxisTask task;
     task.limits = problem.limits(i);
-    task.order = orderOf(problem.options.continuity);
+    task.order = orderOf(problem.spec.continuity);
     task.from = problem.start(i);
     plan.begin(i, task.from[0], vpTrajectoryForm::StopAndGo);
     const vpVelocityRamp stop(task.from[1], task.from[2], 0., task.brakeAcceleration(), task.brakeJerk(task.from));
@@ -419,7 +419,7 @@ double vpTrajectoryPlanner::Impl::planPointToPoint(const vpTrajectoryProblem &pr
     to[static_cast<std::size_t>(i)] = problem.goal(i);
   }
   setTasks(problem);
-  const double T = searchLeg(problem.options, floor, problem.options.synchronisation == vpSynchronisation::None);
+  const double T = searchLeg(problem.spec, floor, problem.spec.synchronisation == vpSynchronisation::None);
   emitLeg(plan, 0., false);
   braking = groupBraking();
   return T;
@@ -454,8 +454,8 @@ vpTrajectoryStatus vpTrajectoryPlanner::plan(const vpTrajectoryProblem &problem,
   d.begin();
   const double T = problem.vias() > 0 ? d.planVias(problem, floor, plan) : d.planPointToPoint(problem, floor, plan);
   d.finish(problem, plan);
-  if (problem.options.policy == vpReplanPolicy::FixedArrival && T > floor * (1. + 1e-9)) {
-    vpTrajectoryStatus status = problem.options.lateArrival == vpLateArrival::ExceedLimits
+  if (problem.spec.policy == vpReplanPolicy::FixedArrival && T > floor * (1. + 1e-9)) {
+    vpTrajectoryStatus status = problem.spec.lateArrival == vpLateArrival::ExceedLimits
                                     ? planDirect(problem, floor, plan)
                                     : d.judge(problem, plan);
     if (d.fault.isGood()) { // an unreachable goal is worse

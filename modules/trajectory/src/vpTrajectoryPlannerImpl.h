@@ -41,7 +41,7 @@ struct vpTrajectoryPlanner::Impl {
   bool addLine(const vpTrajectoryProblem &problem, const vpAxisGroup *group, vpMotionAxis &carrier);
   [[nodiscard]] int firstAxis(int unit) const;
   [[nodiscard]] bool isAcross(const vpAxisTask &task, const vpAxisTask &line, int i);
-  double searchLeg(const vpTrajectoryOptions &options, double floor, bool independent);
+  double searchLeg(const vpTrajectorySpec &spec, double floor, bool independent);
   void emitLeg(vpTrajectoryPlan &plan, double begin, bool viaLeg);
   void noteFaults();
   [[nodiscard]] double groupBraking() const;

@@ -74,7 +74,7 @@ double vpTrajectoryPlanner::Impl::searchChain(const vpTrajectoryProblem &problem
         limits.maxPosition -= place;
         candidate = std::max(candidate, vpMinimumDuration::nextCandidate(segment(k, i), limits, T));
       }
-      for (const vpAxisGroup &group : problem.options.groups) {
+      for (const vpAxisGroup &group : problem.spec.groups) {
         int members = 0;
         for (int i = 0; i < n; ++i) {
           if (group.contains(i)) {
@@ -125,7 +125,7 @@ double vpTrajectoryPlanner::Impl::planLegs(const vpTrajectoryProblem &problem, b
     }
     setTasks(problem);
     double &leg = legs[static_cast<std::size_t>(k)];
-    leg = searchLeg(problem.options, withFloors ? leg : 0., false);
+    leg = searchLeg(problem.spec, withFloors ? leg : 0., false);
     emitLeg(plan, total, true);
     braking = k == 0 ? groupBraking() : braking;
     total += leg;
@@ -139,7 +139,7 @@ double vpTrajectoryPlanner::Impl::planLegs(const vpTrajectoryProblem &problem, b
 
 double vpTrajectoryPlanner::Impl::planVias(const vpTrajectoryProblem &problem, double floor, vpTrajectoryPlan &plan)
 {
-  if (problem.options.synchronisation != vpSynchronisation::Straight) {
+  if (problem.spec.synchronisation != vpSynchronisation::Straight) {
     makeChain(problem);
     const double T = searchChain(problem, floor);
     if (T < infinity) {

@@ -13,7 +13,7 @@
 
 BEGIN_VISP_NAMESPACE
 
-bool operator==(const vpTrajectoryOptions &a, const vpTrajectoryOptions &b)
+bool operator==(const vpTrajectorySpec &a, const vpTrajectorySpec &b)
 {
   const auto sameGroup = [](const vpAxisGroup &x, const vpAxisGroup &y) {
     return x.axes == y.axes && x.maxSpeed == y.maxSpeed && x.maxAcceleration == y.maxAcceleration;
@@ -85,7 +85,7 @@ void vpTrajectoryProblem::dropVias(int count, double done)
 void vpTrajectoryProblem::takeTask(const vpTrajectoryProblem &other)
 {
   m_values = other.m_values;
-  options = other.options;
+  spec = other.spec;
 }
 
 void vpTrajectoryProblem::setStart(int axis, const vpAxisState &x)
@@ -133,7 +133,7 @@ vpAxisLimits vpTrajectoryProblem::limits(int axis) const
 
 vpNormLimits vpTrajectoryProblem::groupLimits(int g) const
 {
-  const vpAxisGroup &group = options.groups[static_cast<std::size_t>(g)];
+  const vpAxisGroup &group = spec.groups[static_cast<std::size_t>(g)];
   vpNormLimits limits{group.maxSpeed, group.maxAcceleration};
   double norms[4] = {0., 0., 0., 0.};
   constexpr Field fields[4] = {StartV, GoalV, StartA, GoalA};
@@ -165,7 +165,7 @@ bool vpTrajectoryProblem::sameTask(const vpTrajectoryProblem &other) const
   // Bitwise comparison, so that a NaN is not an event in every cycle.
   const std::size_t count = index(FieldCount, 0) - index(GoalQ, 0);
   return m_axes == other.m_axes && std::memcmp(field(GoalQ), other.field(GoalQ), count * sizeof(double)) == 0 &&
-         options == other.options && sameVias(other);
+         spec == other.spec && sameVias(other);
 }
 
 END_VISP_NAMESPACE

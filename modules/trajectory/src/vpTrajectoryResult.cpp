@@ -13,7 +13,7 @@ BEGIN_VISP_NAMESPACE
 namespace
 {
 // Sentence of a fault; %d is the index, %s the value, in this order.
-const char *sentence(vpTrajectoryFault fault)
+const char *sentenceOf(vpTrajectoryFault fault)
 {
   switch (fault) {
   case vpTrajectoryFault::None:
@@ -111,7 +111,7 @@ bool isOfGroup(vpTrajectoryLimit limit)
   return limit == vpTrajectoryLimit::GroupSpeed || limit == vpTrajectoryLimit::GroupAcceleration;
 }
 
-const char *sentence(vpTrajectoryResult result)
+const char *sentenceOf(vpTrajectoryResult result)
 {
   switch (result) {
   case vpTrajectoryResult::Working:
@@ -135,10 +135,10 @@ const char *sentence(vpTrajectoryResult result)
 
 std::string vpTrajectoryStatus::message() const
 {
-  std::string text = sentence(result);
+  std::string text = sentenceOf(result);
   if (fault != vpTrajectoryFault::None) {
     char buffer[256];
-    const char *form = sentence(fault);
+    const char *form = sentenceOf(fault);
     const Digits digits(value);
     if (std::strstr(form, "%d") != nullptr) {
       std::snprintf(buffer, sizeof(buffer), form, index, digits.text);
@@ -151,14 +151,14 @@ std::string vpTrajectoryStatus::message() const
   if (excess.limit != vpTrajectoryLimit::None) {
     char amount[32];
     std::snprintf(amount, sizeof(amount), "%.3g", excess.amount());
-    text += std::string(": the ") + toString(excess.limit) + " of " + (isOfGroup(excess.limit) ? "group " : "axis ") +
+    text += std::string(": the ") + vpToString(excess.limit) + " of " + (isOfGroup(excess.limit) ? "group " : "axis ") +
             std::to_string(excess.index) + " is " + Digits(excess.value).text + ", its limit " +
             Digits(excess.bound).text + ", exceeded by " + amount;
   }
   return text;
 }
 
-const char *toString(vpTrajectoryResult result)
+const char *vpToString(vpTrajectoryResult result)
 {
   switch (result) {
   case vpTrajectoryResult::Working:
@@ -179,7 +179,7 @@ const char *toString(vpTrajectoryResult result)
   return "";
 }
 
-const char *toString(vpTrajectoryLimit limit)
+const char *vpToString(vpTrajectoryLimit limit)
 {
   switch (limit) {
   case vpTrajectoryLimit::None:

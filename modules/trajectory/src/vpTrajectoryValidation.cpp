@@ -88,7 +88,7 @@ vpTrajectoryStatus vpTrajectoryProblem::validateAxis(int i) const noexcept
       return fault(vpTrajectoryFault::OutOfRange, i, limit);
     }
   }
-  if (!std::isfinite(v) && !std::isfinite(a) && options.policy != vpReplanPolicy::FixedArrival) {
+  if (!std::isfinite(v) && !std::isfinite(a) && spec.policy != vpReplanPolicy::FixedArrival) {
     return fault(vpTrajectoryFault::NoLimit, i, v);
   }
   const double low = at(MinPosition, i), high = at(MaxPosition, i);
@@ -109,11 +109,11 @@ vpTrajectoryStatus vpTrajectoryProblem::validateAxis(int i) const noexcept
   if (!vpLimit::isBelow(std::abs(to[1]), v)) {
     return outside(vpTrajectoryFault::GoalOutsideVelocity, to[1], {vpTrajectoryLimit::Velocity, i, std::abs(to[1]), v});
   }
-  if (options.continuity != vpTrajectoryContinuity::C1 && !vpLimit::isBelow(std::abs(to[2]), a)) {
+  if (spec.continuity != vpTrajectoryContinuity::C1 && !vpLimit::isBelow(std::abs(to[2]), a)) {
     return outside(vpTrajectoryFault::GoalOutsideAcceleration, to[2],
                    {vpTrajectoryLimit::Acceleration, i, std::abs(to[2]), a});
   }
-  if (options.continuity == vpTrajectoryContinuity::C3 && !vpLimit::isBelow(std::abs(to[3]), j)) {
+  if (spec.continuity == vpTrajectoryContinuity::C3 && !vpLimit::isBelow(std::abs(to[3]), j)) {
     return outside(vpTrajectoryFault::GoalOutsideJerk, to[3], {vpTrajectoryLimit::Jerk, i, std::abs(to[3]), j});
   }
   return good;
@@ -122,8 +122,8 @@ vpTrajectoryStatus vpTrajectoryProblem::validateAxis(int i) const noexcept
 vpTrajectoryStatus vpTrajectoryProblem::validateGroups() const noexcept
 {
   std::uint64_t used = 0;
-  for (int g = 0; g < vpTrajectoryOptions::maxGroups; ++g) {
-    const vpAxisGroup &group = options.groups[static_cast<std::size_t>(g)];
+  for (int g = 0; g < vpTrajectorySpec::maxGroups; ++g) {
+    const vpAxisGroup &group = spec.groups[static_cast<std::size_t>(g)];
     if (group.axes == 0) {
       continue;
     }
@@ -162,9 +162,9 @@ vpTrajectoryStatus vpTrajectoryProblem::validateVias() const noexcept
   if (m_vias > m_maxVias || m_vias < 0) {
     return fault(vpTrajectoryFault::TooManyVias, m_maxVias, m_vias);
   }
-  if (m_vias > 0 && options.continuity != vpTrajectoryContinuity::C2) {
+  if (m_vias > 0 && spec.continuity != vpTrajectoryContinuity::C2) {
     return fault(vpTrajectoryFault::ViaContinuity, m_vias - 1,
-                 options.continuity == vpTrajectoryContinuity::C1 ? 1. : 3.);
+                 spec.continuity == vpTrajectoryContinuity::C1 ? 1. : 3.);
   }
   double before = 0.;
   for (int k = 0; k < m_vias; ++k) {
@@ -202,7 +202,7 @@ vpTrajectoryStatus vpTrajectoryProblem::validateVias() const noexcept
 
 vpTrajectoryStatus vpTrajectoryProblem::validateOptions() const noexcept
 {
-  const vpTrajectoryOptions &o = options;
+  const vpTrajectorySpec &o = spec;
   if (o.policy == vpReplanPolicy::FixedArrival && !(o.arrivalTime >= shortestArrival && o.arrivalTime <= largest)) {
     return fault(vpTrajectoryFault::ArrivalTime, -1, o.arrivalTime);
   }

@@ -150,7 +150,7 @@ void vpTwistShaper::setLimits(const vpTwistShaperLimits &limits)
   m_limits = limits;
 }
 
-vpTwist vpTwistShaper::update(const vpTwist &raw, double dt) noexcept
+vpTwist vpTwistShaper::step(const vpTwist &raw, double dt) noexcept
 {
   if (!(dt > 0.) || !std::isfinite(dt)) {
     return m_twist;

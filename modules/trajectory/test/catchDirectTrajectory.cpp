@@ -25,10 +25,10 @@ template <typename Event> double arrivalAfter(vpTrajectoryInput<1> input, Event 
   vpDirectTrajectory<1> trajectory;
   vpTrajectoryOutput<1> output;
   for (int i = 0; i < 1200; ++i) {
-    REQUIRE(trajectory.update(input, output, 1e-3) == vpTrajectoryResult::Working);
+    REQUIRE(trajectory.step(input, output, 1e-3) == vpTrajectoryResult::Working);
   }
   event(input);
-  static_cast<void>(trajectory.update(input, output, 1e-3));
+  static_cast<void>(trajectory.step(input, output, 1e-3));
   REQUIRE(output.newPlan);
   return 1.2 + output.duration;
 }
@@ -69,16 +69,16 @@ TEST_CASE("figures 6.3 to 6.5: the goal moves to 0.8 at 1.2 s", "[reference]")
 
   // Figure 6.5: the time is kept, so the limits are exceeded, and this is reported.
   auto input = figureInput(0.5, 0.5, 1.);
-  input.options.policy = vpReplanPolicy::FixedArrival;
-  input.options.arrivalTime = 1.875;
-  input.options.lateArrival = vpLateArrival::ExceedLimits;
+  input.spec.policy = vpReplanPolicy::FixedArrival;
+  input.spec.arrivalTime = 1.875;
+  input.spec.lateArrival = vpLateArrival::ExceedLimits;
   vpDirectTrajectory<1> trajectory;
   vpTrajectoryOutput<1> output;
   for (int i = 0; i < 1200; ++i) {
-    REQUIRE(trajectory.update(input, output, 1e-3) == vpTrajectoryResult::Working);
+    REQUIRE(trajectory.step(input, output, 1e-3) == vpTrajectoryResult::Working);
   }
   input.goal.q[0] = 0.8;
-  CHECK(trajectory.update(input, output, 1e-3) == vpTrajectoryResult::ArrivalInfeasible);
+  CHECK(trajectory.step(input, output, 1e-3) == vpTrajectoryResult::ArrivalInfeasible);
   CHECK(output.duration == Approx(0.675).margin(1e-12));
   CHECK(std::abs(trajectory.plan().peaks(0).velocity - 1.018928653) < 1e-9);
   CHECK(std::abs(trajectory.plan().peaks(0).acceleration - 4.321256684) < 1e-8);
@@ -90,8 +90,8 @@ TEST_CASE("figures 6.3 to 6.5: the goal moves to 0.8 at 1.2 s", "[reference]")
   kept.start = output.state;
   const double fig65 = arrivalAfter(figureInput(0.5, 0.5, 1.), [](vpTrajectoryInput<1> &i) {
     i.goal.q[0] = 0.8;
-    i.options.policy = vpReplanPolicy::FixedArrival;
-    i.options.arrivalTime = 0.675;
+    i.spec.policy = vpReplanPolicy::FixedArrival;
+    i.spec.arrivalTime = 0.675;
   });
   CHECK(fig65 - 1.2 == Approx(earliest).margin(1e-9));
 }
@@ -123,8 +123,8 @@ TEST_CASE("sixth order and printing", "[reference]")
   // Printing: a pitch of 48.8889 px, 4 px/frame at both ends, 5 on average.
   auto print = figureInput(48.8889, none, none);
   print.start.v[0] = print.goal.v[0] = 4.;
-  print.options.policy = vpReplanPolicy::FixedArrival;
-  print.options.arrivalTime = 48.8889 / 5.;
+  print.spec.policy = vpReplanPolicy::FixedArrival;
+  print.spec.arrivalTime = 48.8889 / 5.;
   REQUIRE(vpDirectTrajectory<1>::calculate(print, plan).isGood());
   CHECK(plan.duration() == Approx(9.777778).margin(1e-5));
   CHECK(plan.peaks(0).velocity == Approx(5.875).margin(1e-9));
@@ -136,10 +136,10 @@ TEST_CASE("replaying a plan cycle by cycle stays on it, with any dt", "[cycle]")
   CAPTURE(vpTestSupport::seed());
   for (int k = 0; k < 300; ++k) {
     auto input = randomInput<3>(rng, static_cast<Class>(k % 4), k % 8 >= 4);
-    input.options.replanPeriod = k % 3 == 0 ? 0.01 : 0.; // rate-based: the same polynomial again and again
+    input.spec.replanPeriod = k % 3 == 0 ? 0.01 : 0.; // rate-based: the same polynomial again and again
     vpTrajectoryPlan plan(3);
     REQUIRE(vpDirectTrajectory<3>::calculate(input, plan).isGood());
-    if (input.options.replanPeriod > 0. && plan.form() != vpTrajectoryForm::Direct) {
+    if (input.spec.replanPeriod > 0. && plan.form() != vpTrajectoryForm::Direct) {
       continue; // other forms are not unique
     }
     vpDirectTrajectory<3> trajectory;
@@ -148,7 +148,7 @@ TEST_CASE("replaying a plan cycle by cycle stays on it, with any dt", "[cycle]")
     int plans = 0;
     while (t < plan.duration() + 0.1) {
       const double dt = uniform(rng, 1e-4, 0.02) * std::max(plan.duration() / 3., 0.1);
-      static_cast<void>(trajectory.update(input, output, dt));
+      static_cast<void>(trajectory.step(input, output, dt));
       t += dt;
       plans += output.newPlan;
       for (int i = 0; i < 3; ++i) {
@@ -160,8 +160,8 @@ TEST_CASE("replaying a plan cycle by cycle stays on it, with any dt", "[cycle]")
                       std::abs(output.state.v[i] - x[1]) / scale[1], std::abs(output.state.a[i] - x[2]) / scale[2]});
       }
     }
-    CAPTURE(k, plans, plan.duration(), toString(plan.form()), worst);
-    CHECK((input.options.replanPeriod > 0. || plans == 1));
+    CAPTURE(k, plans, plan.duration(), vpToString(plan.form()), worst);
+    CHECK((input.spec.replanPeriod > 0. || plans == 1));
     REQUIRE(worst < (plans == 1 ? 1e-12 : 1e-9)); // each new polynomial rounds a little
     CHECK(output.remaining == 0.);
   }
@@ -173,7 +173,7 @@ TEST_CASE("finished once, then holding, then on to the next goal", "[cycle]")
   vpDirectTrajectory<1> trajectory;
   vpTrajectoryOutput<1> output;
   int finished = 0, cycles = 0;
-  while (trajectory.update(input, output, 1e-3) != vpTrajectoryResult::Holding) {
+  while (trajectory.step(input, output, 1e-3) != vpTrajectoryResult::Holding) {
     finished += output.status.result == vpTrajectoryResult::Finished;
     ++cycles;
   }
@@ -183,7 +183,7 @@ TEST_CASE("finished once, then holding, then on to the next goal", "[cycle]")
   CHECK(output.state.v[0] == 0.);
   CHECK(output.status.message() == "the goal was reached before, nothing changed");
   input.goal.q[0] = 0.;
-  CHECK(trajectory.update(input, output, 1e-3) == vpTrajectoryResult::Working);
+  CHECK(trajectory.step(input, output, 1e-3) == vpTrajectoryResult::Working);
   CHECK(output.newPlan);
   CHECK(output.state.q[0] < 0.5);
 
@@ -195,7 +195,7 @@ TEST_CASE("finished once, then holding, then on to the next goal", "[cycle]")
   vpAxisState before{};
   double jump = 0.;
   for (int i = 0; i < 8000; ++i) {
-    static_cast<void>(trajectory.update(moving, output, 1e-3));
+    static_cast<void>(trajectory.step(moving, output, 1e-3));
     jump = i > 0 ? std::max(jump, std::abs(output.state.a[0] - before[2])) : 0.;
     before = {output.state.q[0], output.state.v[0], output.state.a[0], 0.};
   }
@@ -223,16 +223,16 @@ TEST_CASE("run-time and compile-time numbers of axes give the same motion", "[cy
   vpTrajectoryOutput<3> x;
   vpTrajectoryOutput<Eigen::Dynamic> y(3);
   for (int i = 0; i < 500; ++i) {
-    static_cast<void>(a.update(fixed, x, 1e-2));
-    static_cast<void>(b.update(dynamic, y, 1e-2));
+    static_cast<void>(a.step(fixed, x, 1e-2));
+    static_cast<void>(b.step(dynamic, y, 1e-2));
     REQUIRE((x.state.q - y.state.q).norm() == 0.);
   }
   // A copy carries the whole state of the motion.
   vpDirectTrajectory<3> copy = a;
   vpTrajectoryOutput<3> z;
   for (int i = 0; i < 100; ++i) {
-    static_cast<void>(a.update(fixed, x, 1e-2));
-    static_cast<void>(copy.update(fixed, z, 1e-2));
+    static_cast<void>(a.step(fixed, x, 1e-2));
+    static_cast<void>(copy.step(fixed, z, 1e-2));
     REQUIRE((x.state.q - z.state.q).norm() == 0.);
   }
 }

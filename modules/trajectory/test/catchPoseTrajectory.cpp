@@ -61,16 +61,16 @@ TEST_CASE("the camera twist is the derivative of the pose, for turns up to pi", 
   CAPTURE(vpTestSupport::seed());
   std::uniform_real_distribution<double> angle(0., M_PI);
   for (int k = 0; k < 600; ++k) {
-    vpPoseTrajectoryOptions options;
-    options.rotation = k % 2 == 0 ? vpRotationPath::Geodesic : vpRotationPath::RotationVector;
-    options.cruise = k % 3 == 0;
-    vpPoseTrajectory trajectory(options);
+    vpPoseTrajectorySpec spec;
+    spec.rotation = k % 2 == 0 ? vpRotationPath::Geodesic : vpRotationPath::RotationVector;
+    spec.cruise = k % 3 == 0;
+    vpPoseTrajectory trajectory(spec);
     const double theta = k % 5 == 0 ? M_PI - 1e-9 : angle(rng);
     const vpTwist v(0.05, -0.1, 0.02, 0.1, -0.2, 0.15), a(0.1, 0., -0.1, 0.2, 0.1, -0.3);
     const vpHomogeneousMatrix start = randomPose(rng, angle(rng)), goal = randomPose(rng, theta);
     REQUIRE(trajectory.reset(start, k % 2 == 0 ? v : vpTwist(), k % 2 == 0 ? a : vpTwist()).isGood());
     REQUIRE(trajectory.setGoal(goal).isGood());
-    REQUIRE(trajectory.update(1e-3).isGood());
+    REQUIRE(trajectory.step(1e-3).isGood());
     CAPTURE(k, theta, trajectory.duration());
     const double T = trajectory.duration();
     const vpCameraState begin = trajectory.at(0.), end = trajectory.at(T);
@@ -90,11 +90,11 @@ TEST_CASE("the camera twist is the derivative of the pose, for turns up to pi", 
     for (int s = 1; s < 40; ++s) {
       const double t = T * (s + 0.1) / 40.;
       const vpCameraState x = trajectory.at(t);
-      REQUIRE(x.v.linearNorm() <= options.linearVelocity * (k % 2 == 0 ? 1. : std::sqrt(3.)) + 1e-9);
-      REQUIRE(x.v.angularNorm() <= options.angularVelocity * (k % 2 == 0 ? 1. : std::sqrt(3.)) + 1e-9);
-      REQUIRE(linear(x.a).norm() <= options.linearAcceleration * (k % 2 == 0 ? 1. : std::sqrt(3.)) + 1e-9);
+      REQUIRE(x.v.linearNorm() <= spec.linearVelocity * (k % 2 == 0 ? 1. : std::sqrt(3.)) + 1e-9);
+      REQUIRE(x.v.angularNorm() <= spec.angularVelocity * (k % 2 == 0 ? 1. : std::sqrt(3.)) + 1e-9);
+      REQUIRE(linear(x.a).norm() <= spec.linearAcceleration * (k % 2 == 0 ? 1. : std::sqrt(3.)) + 1e-9);
       const double curved = 0.32 * std::pow(x.v.angularNorm(), 2);
-      REQUIRE(angular(x.a).norm() <= options.angularAcceleration * (k % 2 == 0 ? 1. : std::sqrt(3.)) + curved + 1e-9);
+      REQUIRE(angular(x.a).norm() <= spec.angularAcceleration * (k % 2 == 0 ? 1. : std::sqrt(3.)) + curved + 1e-9);
     }
     for (const double t : {0.137, 0.421, 0.77, 0.93}) {
       bool joint = false; // differences across a joint of the polynomials are meaningless
@@ -120,7 +120,7 @@ TEST_CASE("from rest the rotation follows the geodesic and position a straight l
     const double theta = angle(rng);
     const Eigen::Vector3d axis = gaussian(rng).normalized(), way = 0.3 * gaussian(rng);
     REQUIRE(trajectory.setGoal(pose(vpSO3::exp(theta * axis), way)).isGood());
-    REQUIRE(trajectory.update(1e-3).isGood());
+    REQUIRE(trajectory.step(1e-3).isGood());
     for (int s = 0; s <= 20; ++s) {
       const vpCameraState x = trajectory.at(trajectory.duration() * s / 20.);
       REQUIRE(vpSO3::log(x.fRc).cross(axis).norm() < 1e-9);
@@ -136,17 +136,17 @@ TEST_CASE("a new goal at any moment: twist and its rate go on without a jump", "
   CAPTURE(vpTestSupport::seed());
   std::uniform_real_distribution<double> angle(0.2, M_PI - 0.05);
   for (const auto policy : {vpReplanPolicy::EventMinTime, vpReplanPolicy::KeepArrival}) {
-    vpPoseTrajectoryOptions options;
-    options.policy = policy;
-    options.minimumDuration = 0.3;
-    vpPoseTrajectory trajectory(options);
+    vpPoseTrajectorySpec spec;
+    spec.policy = policy;
+    spec.minimumDuration = 0.3;
+    vpPoseTrajectory trajectory(spec);
     REQUIRE(trajectory.reset(randomPose(rng, 1.)).isGood());
     vpCameraState before = trajectory.state();
     for (int i = 0; i < 20000; ++i) {
       if (i % 400 == 0) {
         REQUIRE(trajectory.setGoal(randomPose(rng, angle(rng))).isGood());
       }
-      const vpTrajectoryStatus status = trajectory.update(1e-3);
+      const vpTrajectoryStatus status = trajectory.step(1e-3);
       REQUIRE(status.isGood());
       const vpCameraState &x = trajectory.state();
       CAPTURE(i, status.message());
@@ -163,8 +163,8 @@ TEST_CASE("a new goal at any moment: twist and its rate go on without a jump", "
         REQUIRE(std::abs(x.v[k] - before.v[k] - 0.5e-3 * (x.a[k] + before.a[k])) <
                 1e-3 * std::abs(x.a[k] - before.a[k]) + 1e-4);
       }
-      REQUIRE(x.v.linearNorm() <= options.linearVelocity + 1e-9);
-      REQUIRE(x.v.angularNorm() <= options.angularVelocity + 1e-9);
+      REQUIRE(x.v.linearNorm() <= spec.linearVelocity + 1e-9);
+      REQUIRE(x.v.angularNorm() <= spec.angularVelocity + 1e-9);
       REQUIRE((x.fRc * x.fRc.transpose() - Eigen::Matrix3d::Identity()).norm() < 1e-13);
       before = x;
     }
@@ -180,7 +180,7 @@ TEST_CASE("a goal with a twist is met with that twist", "[pose]")
     const vpTwist twist(0.05, 0.02, -0.04, 0.1, -0.05, 0.08);
     const vpHomogeneousMatrix goal = randomPose(rng, 2.);
     REQUIRE(trajectory.setGoal(goal, twist).isGood());
-    REQUIRE(trajectory.update(1e-3).isGood());
+    REQUIRE(trajectory.step(1e-3).isGood());
     const vpCameraState end = trajectory.at(trajectory.duration());
     CHECK((linear(end.v) - linear(twist)).norm() < 1e-12);
     CHECK((angular(end.v) - angular(twist)).norm() < 1e-12);
@@ -192,19 +192,19 @@ TEST_CASE("a goal with a twist is met with that twist", "[pose]")
 
 TEST_CASE("finished, holding, fixed arrival and bad poses", "[pose]")
 {
-  vpPoseTrajectoryOptions options;
-  options.policy = vpReplanPolicy::FixedArrival;
-  options.arrivalTime = 4.;
-  vpPoseTrajectory trajectory(options);
+  vpPoseTrajectorySpec spec;
+  spec.policy = vpReplanPolicy::FixedArrival;
+  spec.arrivalTime = 4.;
+  vpPoseTrajectory trajectory(spec);
   REQUIRE(trajectory.setGoal(pose(vpSO3::exp({0., 0.4, 0.}), {0.1, 0., 0.})).isGood());
   int cycles = 1;
-  while (trajectory.update(1e-2).result == vpTrajectoryResult::Working) {
+  while (trajectory.step(1e-2).result == vpTrajectoryResult::Working) {
     ++cycles;
   }
   CHECK(cycles == 400);
-  CHECK(trajectory.update(1e-2).result == vpTrajectoryResult::Holding);
+  CHECK(trajectory.step(1e-2).result == vpTrajectoryResult::Holding);
   CHECK(trajectory.state().v.linearNorm() == 0.);
-  CHECK(trajectory.update(-1.).result == vpTrajectoryResult::InvalidInput);
+  CHECK(trajectory.step(-1.).result == vpTrajectoryResult::InvalidInput);
 
   vpHomogeneousMatrix bad;
   bad[1][3] = NAN;
@@ -215,9 +215,9 @@ TEST_CASE("finished, holding, fixed arrival and bad poses", "[pose]")
              Catch::Contains("the rotation of the pose differs from an orthonormal one by 0.1899999"));
   CHECK_THAT(trajectory.setGoal(vpHomogeneousMatrix(), vpTwist(9., 0., 0., 0., 0., 0.)).message(),
              Catch::Contains("has the norm 9"));
-  CHECK(trajectory.update(1e-2).result == vpTrajectoryResult::Holding); // nothing of it was taken
-  options.angularVelocity = -1.;
-  CHECK_THROWS_WITH(trajectory.setOptions(options),
+  CHECK(trajectory.step(1e-2).result == vpTrajectoryResult::Holding); // nothing of it was taken
+  spec.angularVelocity = -1.;
+  CHECK_THROWS_WITH(trajectory.setSpec(spec),
                     Catch::Contains("angular velocity limit of the pose trajectory is -1 rad/s, must be > 0"));
 }
 
@@ -231,13 +231,13 @@ TEST_CASE("KeepArrival of a pose meets an object on its way that is measured wit
   const vpTwist twist(0.2 * w, 0., 0., 0., 0., w); // in its own frame
   double rms[2] = {0., 0.}, jerk[2] = {0., 0.};
   for (const bool keep : {false, true}) {
-    vpPoseTrajectoryOptions options;
-    options.linearVelocity = 1.;
-    options.linearAcceleration = 3.;
-    options.angularVelocity = 2.;
-    options.angularAcceleration = 6.;
-    options.policy = keep ? vpReplanPolicy::KeepArrival : vpReplanPolicy::EventMinTime;
-    vpPoseTrajectory trajectory(options);
+    vpPoseTrajectorySpec spec;
+    spec.linearVelocity = 1.;
+    spec.linearAcceleration = 3.;
+    spec.angularVelocity = 2.;
+    spec.angularAcceleration = 6.;
+    spec.policy = keep ? vpReplanPolicy::KeepArrival : vpReplanPolicy::EventMinTime;
+    vpPoseTrajectory trajectory(spec);
     const auto poseAt = [&](double t, double noise) {
       const Eigen::Vector3d e(noise * gauss(rng), noise * gauss(rng), w * t + noise * gauss(rng));
       return vpHomogeneousMatrix(0.2 * std::sin(w * t) + noise * gauss(rng),
@@ -250,7 +250,7 @@ TEST_CASE("KeepArrival of a pose meets an object on its way that is measured wit
     for (int k = 0; k < 350; ++k) {
       const double t = 0.01 * k;
       REQUIRE(trajectory.setGoal(poseAt(t, 5e-4), twist).isGood());
-      static_cast<void>(trajectory.update(0.01));
+      static_cast<void>(trajectory.step(0.01));
       const vpHomogeneousMatrix truth = poseAt(t + 0.01, 0.);
       const Eigen::Vector3d a(trajectory.state().a[0], trajectory.state().a[1], trajectory.state().a[2]);
       if (k > 150) {
@@ -280,10 +280,10 @@ TEST_CASE("no wild number gets through a pose trajectory", "[pose][wild]")
   std::array<double, 31> ordinary{1., 0., 0., 0.1, 0., 1., 0., -0.1, 0., 0., 1., 0.2, 0.01, 0., 0., 0., 0.02};
   ordinary[30] = 0.01;
   const auto run = [&](const std::array<double, 31> &x, vpReplanPolicy policy) {
-    vpPoseTrajectoryOptions options;
-    options.policy = policy;
-    options.arrivalTime = 5.;
-    vpPoseTrajectory trajectory(options);
+    vpPoseTrajectorySpec spec;
+    spec.policy = policy;
+    spec.arrivalTime = 5.;
+    vpPoseTrajectory trajectory(spec);
     static_cast<void>(trajectory.reset(vpHomogeneousMatrix(), twistOf(&x[18]), twistOf(&x[24])));
     for (int k = 0; k < 6; ++k) {
       vpHomogeneousMatrix goal;
@@ -291,7 +291,7 @@ TEST_CASE("no wild number gets through a pose trajectory", "[pose][wild]")
         goal.data[i] = k % 2 == 0 ? x[i] : ordinary[i];
       }
       static_cast<void>(trajectory.setGoal(goal, twistOf(&x[12])));
-      static_cast<void>(trajectory.update(k % 3 == 2 ? 0.01 : x[30]));
+      static_cast<void>(trajectory.step(k % 3 == 2 ? 0.01 : x[30]));
       REQUIRE(isSafe(trajectory.state()));
     }
   };

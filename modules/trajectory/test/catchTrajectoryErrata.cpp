@@ -138,7 +138,7 @@ TEST_CASE("Algorithm 6.2: a goal that moves back is an event, and without events
   for (int i = 0; i < 5000; ++i) {
     const double before = output.state.q[0];
     input.goal.q[0] = i < 600 ? 0.5 : 0.35; // q_s = -0.15: not detected by the printed "q_s > 0"
-    static_cast<void>(trajectory.update(input, output, 1e-3));
+    static_cast<void>(trajectory.step(input, output, 1e-3));
     plans += output.newPlan;
     if (i > 10 && i < 600) {
       REQUIRE_FALSE(output.newPlan);

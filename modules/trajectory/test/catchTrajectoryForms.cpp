@@ -43,14 +43,14 @@ TEST_CASE("a start outside the limits comes back inside and says so", "[forms]")
   vpDirectTrajectory<1> trajectory;
   vpTrajectoryOutput<1> output;
   while (output.state.v[0] < 0.9) {
-    static_cast<void>(trajectory.update(input, output, 1e-3));
+    static_cast<void>(trajectory.step(input, output, 1e-3));
   }
   input.maxVelocity[0] = 0.3;
-  CHECK(trajectory.update(input, output, 1e-3) == vpTrajectoryResult::Braking);
+  CHECK(trajectory.step(input, output, 1e-3) == vpTrajectoryResult::Braking);
   CHECK_THAT(output.status.message(),
              Catch::Contains("the start is outside the limits, coming back inside: the velocity"));
   double before = output.state.v[0];
-  while (trajectory.update(input, output, 1e-3) == vpTrajectoryResult::Braking) {
+  while (trajectory.step(input, output, 1e-3) == vpTrajectoryResult::Braking) {
     REQUIRE(output.state.v[0] <= before + 2e-3);
     before = output.state.v[0];
   }
@@ -82,7 +82,7 @@ TEST_CASE("position limits are kept, by stopping and going when nothing else doe
     }
     vpTrajectoryPlan plan(2);
     const vpTrajectoryStatus status = vpDirectTrajectory<2>::calculate(input, plan);
-    CAPTURE(k, status.message(), toString(plan.form()));
+    CAPTURE(k, status.message(), vpToString(plan.form()));
     REQUIRE(worstMismatch(input, plan) <= 1e-11);
     if (status.result == vpTrajectoryResult::NoFeasibleDuration) {
       ++unreachable;
@@ -135,10 +135,10 @@ TEST_CASE("the norm over a group of axes stays below its limits", "[forms]")
     }
     group.maxSpeed = std::max(group.maxSpeed, 1.001 * std::max(v, w));
     group.maxAcceleration = std::max(group.maxAcceleration, 1.001 * std::max(a, b));
-    input.options.groups[0] = group;
+    input.spec.groups[0] = group;
     vpTrajectoryPlan plan(5);
     const vpTrajectoryStatus status = vpDirectTrajectory<5>::calculate(input, plan);
-    CAPTURE(k, status.message(), toString(plan.form(0)), group.maxSpeed);
+    CAPTURE(k, status.message(), vpToString(plan.form(0)), group.maxSpeed);
     REQUIRE(status.result == vpTrajectoryResult::Working);
     REQUIRE(worstViolation(input, plan) <= 1e-12);
     REQUIRE(worstMismatch(input, plan) <= 1e-11);
@@ -156,11 +156,11 @@ TEST_CASE("cruise brings long moves close to the trapezoid", "[forms]")
   vpTrajectoryInput<1> input;
   input.goal.q[0] = 10.;
   const double trapezoid = 10. + 1.; // h/v + v/a
-  input.options.cruise = false;
+  input.spec.cruise = false;
   vpTrajectoryPlan plan(1);
   REQUIRE(vpDirectTrajectory<1>::calculate(input, plan).isGood());
   const double direct = plan.duration();
-  input.options.cruise = true;
+  input.spec.cruise = true;
   REQUIRE(vpDirectTrajectory<1>::calculate(input, plan).isGood());
   CHECK(plan.form() == vpTrajectoryForm::Cruise);
   CHECK(plan.duration() == Approx(10. + 1.5));
@@ -182,9 +182,9 @@ TEST_CASE("a group at rest cruises along its line", "[forms]")
       input.maxAcceleration[i] = 0.5;
     }
     if (group) {
-      input.options.groups[0] = vpAxisGroup({0, 1, 2}, 0.25, 0.5);
+      input.spec.groups[0] = vpAxisGroup({0, 1, 2}, 0.25, 0.5);
     }
-    input.options.cruise = cruise;
+    input.spec.cruise = cruise;
     vpTrajectoryPlan plan(3);
     REQUIRE(vpDirectTrajectory<3>::calculate(input, plan).result == vpTrajectoryResult::Working);
     REQUIRE(plan.form(0) == (cruise ? vpTrajectoryForm::Cruise : vpTrajectoryForm::Direct));
@@ -206,10 +206,10 @@ TEST_CASE("a group at rest cruises along its line", "[forms]")
     for (int i = 0; i < 6; ++i) {
       input.goal.q[i] = input.start.q[i] + length * uniform(rng, -1., 1.);
     }
-    input.options.groups[0] = vpAxisGroup({0, 2, 4}, logUniform(rng, 0.1, 10.), logUniform(rng, 0.1, 10.));
-    input.options.groups[1] = vpAxisGroup({1, 5}, logUniform(rng, 0.1, 10.), logUniform(rng, 0.1, 10.));
+    input.spec.groups[0] = vpAxisGroup({0, 2, 4}, logUniform(rng, 0.1, 10.), logUniform(rng, 0.1, 10.));
+    input.spec.groups[1] = vpAxisGroup({1, 5}, logUniform(rng, 0.1, 10.), logUniform(rng, 0.1, 10.));
     if (k % 3 == 0) {
-      input.start.v[5] = 0.5 * std::min(input.maxVelocity[5], input.options.groups[1].maxSpeed);
+      input.start.v[5] = 0.5 * std::min(input.maxVelocity[5], input.spec.groups[1].maxSpeed);
     }
     vpTrajectoryPlan plan(6);
     const vpTrajectoryStatus status = vpDirectTrajectory<6>::calculate(input, plan);
@@ -237,14 +237,14 @@ TEST_CASE("a group that moves at the start or the goal cruises too", "[forms]")
   example.goal.v << 0., 0., 0.1;
   example.maxVelocity.setConstant(0.25);
   example.maxAcceleration.setConstant(0.5);
-  example.options.groups[0] = vpAxisGroup({0, 1, 2}, 0.25, 0.5);
+  example.spec.groups[0] = vpAxisGroup({0, 1, 2}, 0.25, 0.5);
   const double h = 10. * std::sqrt(0.5);
   vpTrajectoryPlan motion(3);
   REQUIRE(vpDirectTrajectory<3>::calculate(example, motion).result == vpTrajectoryResult::Working);
   CHECK(motion.form(0) == vpTrajectoryForm::Cruise);
   CHECK(worstViolation(example, motion) < 1e-9);
   CHECK(motion.duration() < h / 0.25 + 1.); // 28.3 s at full speed, and the ramps; 45 without a cruise
-  example.options.cruise = false;
+  example.spec.cruise = false;
   REQUIRE(vpDirectTrajectory<3>::calculate(example, motion).result == vpTrajectoryResult::Working);
   CHECK(motion.duration() > 1.5 * h / 0.25);
 
@@ -263,19 +263,19 @@ TEST_CASE("a group that moves at the start or the goal cruises too", "[forms]")
       a[g][0] = std::hypot(a[g][0], input.start.a[i]), a[g][1] = std::hypot(a[g][1], input.goal.a[i]);
     }
     for (int g = 0; g < 2; ++g) { // well above: acceleration at the start may add to the velocity
-      vpAxisGroup &group = input.options.groups[static_cast<std::size_t>(g)];
+      vpAxisGroup &group = input.spec.groups[static_cast<std::size_t>(g)];
       group = members[g];
       group.maxSpeed = 2. * std::max(v[g][0], v[g][1]) + logUniform(rng, 0.1, 1.);
       group.maxAcceleration = 1.1 * std::max(a[g][0], a[g][1]) + logUniform(rng, 0.1, 1.);
     }
     vpTrajectoryPlan plan(5), single(5);
     const vpTrajectoryStatus status = vpDirectTrajectory<5>::calculate(input, plan);
-    CAPTURE(k, status.message(), toString(plan.form()));
+    CAPTURE(k, status.message(), vpToString(plan.form()));
     const bool cruise = plan.form(0) == vpTrajectoryForm::Cruise || plan.form(1) == vpTrajectoryForm::Cruise;
     if (cruise && status.result == vpTrajectoryResult::Working) {
       REQUIRE(worstViolation(input, plan) < 1e-9);
       REQUIRE(worstMismatch(input, plan) < 1e-12);
-      input.options.cruise = false;
+      input.spec.cruise = false;
       static_cast<void>(vpDirectTrajectory<5>::calculate(input, single));
       longer += plan.duration() > single.duration() * (1. + 1e-9);
     }
@@ -292,9 +292,9 @@ TEST_CASE("straight lines are straight, in every form", "[forms]")
   CAPTURE(vpTestSupport::seed());
   for (int k = 0; k < 1000; ++k) {
     auto input = randomInput<3>(rng, Class::RestToRest, k % 2 == 0);
-    input.options.synchronisation = vpSynchronisation::Straight;
-    input.options.cruise = k % 4 < 2;
-    input.options.groups[0] = vpAxisGroup({0, 1, 2}, 1.);
+    input.spec.synchronisation = vpSynchronisation::Straight;
+    input.spec.cruise = k % 4 < 2;
+    input.spec.groups[0] = vpAxisGroup({0, 1, 2}, 1.);
     vpTrajectoryPlan plan(3);
     REQUIRE(vpDirectTrajectory<3>::calculate(input, plan).isGood());
     REQUIRE(worstViolation(input, plan) <= 1e-12);
@@ -326,7 +326,7 @@ TEST_CASE("independent axes arrive as early as each can", "[forms]")
 {
   vpTrajectoryInput<2> input;
   input.goal.q << 1., 0.1;
-  input.options.synchronisation = vpSynchronisation::None;
+  input.spec.synchronisation = vpSynchronisation::None;
   vpTrajectoryPlan plan(2), alone(1);
   REQUIRE(vpDirectTrajectory<2>::calculate(input, plan).isGood());
   vpTrajectoryInput<1> single;
@@ -346,7 +346,7 @@ TEST_CASE("C1 and C3 motions from any state keep the limits", "[forms]")
     int forms[6] = {};
     for (int k = 0; k < problems(3000); ++k) {
       auto input = randomInput<3>(rng, k % 2 == 0 ? Class::AnyToAny : Class::RestToRest, false);
-      input.options.continuity = continuity;
+      input.spec.continuity = continuity;
       for (int i = 0; i < 3 && continuity == vpTrajectoryContinuity::C3; ++i) {
         const double j = std::pow(input.maxAcceleration[i], 2) / input.maxVelocity[i];
         input.start.j[i] = k % 2 == 0 ? uniform(rng, -j, j) : 0.;
@@ -354,7 +354,7 @@ TEST_CASE("C1 and C3 motions from any state keep the limits", "[forms]")
       }
       vpTrajectoryPlan plan(3);
       const vpTrajectoryStatus status = vpDirectTrajectory<3>::calculate(input, plan);
-      CAPTURE(k, static_cast<int>(continuity), status.message(), toString(plan.form()), worstViolation(input, plan));
+      CAPTURE(k, static_cast<int>(continuity), status.message(), vpToString(plan.form()), worstViolation(input, plan));
       REQUIRE(status.result == vpTrajectoryResult::Working);
       REQUIRE(worstViolation(input, plan) <= 1e-12);
       REQUIRE(worstMismatch(input, plan) <= 1e-10);

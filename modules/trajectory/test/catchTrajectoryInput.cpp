@@ -57,28 +57,28 @@ const std::vector<Case> cases = {
     {[](Input &i) { i.vias[0].q[1] = NAN; }, "via 0 has the value nan, must be finite"},
     {[](Input &i) { i.vias[0].v[1] = 9., i.vias[0].hasVelocity = true; }, "via 0 has the value 9, outside the limits"},
     {[](Input &i) { i.vias.push_back(i.vias[0]); }, "room was made for 2 vias, got 3"},
-    {[](Input &i) { i.options.continuity = vpTrajectoryContinuity::C3; }, "vias need continuity C2"},
+    {[](Input &i) { i.spec.continuity = vpTrajectoryContinuity::C3; }, "vias need continuity C2"},
     {[](Input &i) { i.goal.q.resize(4); }, "a vector must have 3 numbers, one per axis, got 4"},
     {[](Input &i) { i.vias[0].q.resize(1); }, "a vector must have 3 numbers, one per axis, got 1"},
     {[](Input &i) {
-       i.options.groups[1] = vpAxisGroup({0, 1}, -1.);
+       i.spec.groups[1] = vpAxisGroup({0, 1}, -1.);
      },
      "limit of axis group 1 is -1, must be > 0"},
     {[](Input &i) {
-       i.options.groups[0] = vpAxisGroup({0, 5}, 1.);
+       i.spec.groups[0] = vpAxisGroup({0, 5}, 1.);
      },
      "axis group 0 names axis 5"},
-    {[](Input &i) { i.options.groups[0] = i.options.groups[1] = vpAxisGroup({0}, 1.); }, "axis group 1 names axis 0"},
+    {[](Input &i) { i.spec.groups[0] = i.spec.groups[1] = vpAxisGroup({0}, 1.); }, "axis group 1 names axis 0"},
     {[](Input &i) {
        i.goal.v.setConstant(0.9);
-       i.options.groups[0] = vpAxisGroup({0, 1, 2}, 1.);
+       i.spec.groups[0] = vpAxisGroup({0, 1, 2}, 1.);
      },
      "axis group 0 has the norm 1.5588457268119895, above the limit"},
-    {[](Input &i) { i.options.policy = vpReplanPolicy::FixedArrival; }, "arrival time is 0 s, must be > 0"},
-    {[](Input &i) { i.options.freeze = -1.; }, "is -1 s, must be >= 0"},
-    {[](Input &i) { i.options.minimumDuration = NAN; }, "is nan s, must be >= 0"},
-    {[](Input &i) { i.options.thesisVelocityGain = 0.; }, "gain of the thesis's iteration is 0"},
-    {[](Input &i) { i.options.thesisStepsPerCycle = 0; }, "steps per cycle of the thesis's iteration are 0"},
+    {[](Input &i) { i.spec.policy = vpReplanPolicy::FixedArrival; }, "arrival time is 0 s, must be > 0"},
+    {[](Input &i) { i.spec.freeze = -1.; }, "is -1 s, must be >= 0"},
+    {[](Input &i) { i.spec.minimumDuration = NAN; }, "is nan s, must be >= 0"},
+    {[](Input &i) { i.spec.thesisVelocityGain = 0.; }, "gain of the thesis's iteration is 0"},
+    {[](Input &i) { i.spec.thesisStepsPerCycle = 0; }, "steps per cycle of the thesis's iteration are 0"},
 };
 } // namespace
 
@@ -90,7 +90,7 @@ TEST_CASE("every bad number is named with its axis and value", "[input]")
     CAPTURE(c.sentence);
     vpDirectTrajectory<Eigen::Dynamic> trajectory(3, 2);
     vpTrajectoryOutput<Eigen::Dynamic> output(3);
-    CHECK(trajectory.update(input, output, 1e-3) == vpTrajectoryResult::InvalidInput);
+    CHECK(trajectory.step(input, output, 1e-3) == vpTrajectoryResult::InvalidInput);
     CHECK_THAT(output.status.message(), Catch::Contains(c.sentence));
     CHECK(output.state.q.allFinite());
   }
@@ -112,8 +112,8 @@ TEST_CASE("bad input in mid-motion: the motion goes on as planned", "[input]")
     vpTrajectoryOutput<Eigen::Dynamic> output(3), expected(3);
     for (int i = 0; i < 600; ++i) {
       const bool spoiled = i >= 200 && i < 300;
-      const vpTrajectoryResult result = trajectory.update(spoiled ? bad : input, output, 1e-2);
-      static_cast<void>(reference.update(input, expected, 1e-2));
+      const vpTrajectoryResult result = trajectory.step(spoiled ? bad : input, output, 1e-2);
+      static_cast<void>(reference.step(input, expected, 1e-2));
       REQUIRE((result == vpTrajectoryResult::InvalidInput) == spoiled);
       REQUIRE((output.state.q - expected.state.q).norm() == 0.);
     }
@@ -127,14 +127,14 @@ TEST_CASE("dt and sizes are checked", "[input]")
   vpTrajectoryOutput<2> output;
   input.goal.q.setOnes();
   for (const double dt : {0., -1e-3, std::nan(""), none}) {
-    CHECK(trajectory.update(input, output, dt) == vpTrajectoryResult::InvalidInput);
+    CHECK(trajectory.step(input, output, dt) == vpTrajectoryResult::InvalidInput);
     CHECK_THAT(output.status.message(), Catch::Contains("must be > 0 and finite"));
   }
-  CHECK(trajectory.update(input, output, 1e-3) == vpTrajectoryResult::Working);
+  CHECK(trajectory.step(input, output, 1e-3) == vpTrajectoryResult::Working);
   CHECK_THROWS_WITH(vpDirectTrajectory<Eigen::Dynamic>(0),
                     Catch::Contains("a trajectory has 0 axes") || Catch::Contains("axes, must be >= 1"));
   CHECK_THROWS_WITH(vpDirectTrajectory<2>(2, -1), Catch::Contains("room for -1 vias"));
   CHECK_THROWS_AS(vpDirectTrajectory<2>(3), vpException);
-  CHECK(std::string(toString(vpTrajectoryResult::ArrivalInfeasible)) == "ArrivalInfeasible");
-  CHECK(std::string(toString(vpTrajectoryForm::StopAndGo)) == "StopAndGo");
+  CHECK(std::string(vpToString(vpTrajectoryResult::ArrivalInfeasible)) == "ArrivalInfeasible");
+  CHECK(std::string(vpToString(vpTrajectoryForm::StopAndGo)) == "StopAndGo");
 }

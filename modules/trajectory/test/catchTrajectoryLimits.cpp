@@ -23,7 +23,7 @@ Input anyProblem(std::mt19937_64 &rng)
   const int n = counts[rng() % 6];
   Input input(n);
   const double second = logUniform(rng, 1e-6, 1e6);
-  vpTrajectoryOptions &o = input.options;
+  vpTrajectorySpec &o = input.spec;
   o.continuity = chance(rng, 0.8)   ? vpTrajectoryContinuity::C2
                  : chance(rng, 0.5) ? vpTrajectoryContinuity::C1
                                     : vpTrajectoryContinuity::C3;
@@ -135,7 +135,7 @@ struct Limits {
 
 Limits limitsOf(const Input &input, int i)
 {
-  const bool jerk = input.options.continuity != vpTrajectoryContinuity::C1;
+  const bool jerk = input.spec.continuity != vpTrajectoryContinuity::C1;
   return {input.maxVelocity[i], input.maxAcceleration[i], jerk ? input.maxJerk[i] : none, input.minPosition[i],
           input.maxPosition[i]};
 }
@@ -169,11 +169,11 @@ std::string describe(const Input &x)
   list("q1", x.goal.q), list("v1", x.goal.v), list("a1", x.goal.a), list("j1", x.goal.j);
   list("v_max", x.maxVelocity), list("a_max", x.maxAcceleration), list("j_max", x.maxJerk);
   list("q_min", x.minPosition), list("q_max", x.maxPosition);
-  s << "\"continuity\":\"C" << 1 + static_cast<int>(x.options.continuity) << "\",\"cruise\":" << x.options.cruise
-    << ",\"synchronisation\":" << static_cast<int>(x.options.synchronisation)
-    << ",\"floor\":" << x.options.minimumDuration << ",\"arrival\":" << x.options.arrivalTime
-    << ",\"group\":" << x.options.groups[0].axes << ',' << x.options.groups[0].maxSpeed << ','
-    << x.options.groups[0].maxAcceleration;
+  s << "\"continuity\":\"C" << 1 + static_cast<int>(x.spec.continuity) << "\",\"cruise\":" << x.spec.cruise
+    << ",\"synchronisation\":" << static_cast<int>(x.spec.synchronisation)
+    << ",\"floor\":" << x.spec.minimumDuration << ",\"arrival\":" << x.spec.arrivalTime
+    << ",\"group\":" << x.spec.groups[0].axes << ',' << x.spec.groups[0].maxSpeed << ','
+    << x.spec.groups[0].maxAcceleration;
   return s.str();
 }
 
@@ -181,7 +181,7 @@ void judge(const Input &input, const vpTrajectoryPlan &plan, const vpTrajectoryS
 {
   const bool silent = status.isGood() && status.result != vpTrajectoryResult::Braking;
   // Braking and hard stops are C2 for every continuity.
-  const int n = plan.axes(), order = 2 + static_cast<int>(input.options.continuity);
+  const int n = plan.axes(), order = 2 + static_cast<int>(input.spec.continuity);
   const int given = silent && plan.form() != vpTrajectoryForm::StopAndGo ? order : std::min(order, 3);
   const auto pieces = plan.pieces(), onwards = plan.pieces(1.3 * plan.duration());
   double worst = -1.;
@@ -209,7 +209,7 @@ void judge(const Input &input, const vpTrajectoryPlan &plan, const vpTrajectoryS
     const double scale[4] = {std::max({place, x.high - x.low}), std::max(x.peak[0], std::abs(goal[1])),
                              std::max(x.peak[1], std::abs(goal[2])), std::max(x.peak[2], std::abs(goal[3]))};
     const vpAxisState end = plan.at(i, plan.duration());
-    for (int k = 0; k < given && !pieces.empty() && input.options.synchronisation != vpSynchronisation::None; ++k) {
+    for (int k = 0; k < given && !pieces.empty() && input.spec.synchronisation != vpSynchronisation::None; ++k) {
       const auto d = static_cast<std::size_t>(k);
       const vpTrajectoryPiece &last = pieces.back();
       const double printed = derivativeAt(last.coefficients[axis], k, last.duration);
@@ -223,9 +223,9 @@ void judge(const Input &input, const vpTrajectoryPlan &plan, const vpTrajectoryS
 
     // Detours: beyond the braking distance only where that is faster than stopping first.
     const bool defined = std::isfinite(limits.a) && std::isfinite(limits.v) &&
-                         input.options.continuity == vpTrajectoryContinuity::C2 &&
-                         !input.options.groups[0].contains(i) && (plan.form(i) != vpTrajectoryForm::Vias) &&
-                         !(input.options.synchronisation == vpSynchronisation::Straight);
+                         input.spec.continuity == vpTrajectoryContinuity::C2 &&
+                         !input.spec.groups[0].contains(i) && (plan.form(i) != vpTrajectoryForm::Vias) &&
+                         !(input.spec.synchronisation == vpSynchronisation::Straight);
     if (defined && !dropped && plan.segments(i) > 0) {
       const double J = std::min(limits.j, 10. * limits.a * limits.a / limits.v);
       const double out = std::max(std::min(q0, q1) - x.low, x.high - std::max(q0, q1));
@@ -237,7 +237,7 @@ void judge(const Input &input, const vpTrajectoryPlan &plan, const vpTrajectoryS
             std::max({1.875 * h / limits.v, std::sqrt(5.7735026919 * h / limits.a), std::cbrt(60. * h / limits.j)});
         const double stopFirst = stopTime(input.start.v[i], input.start.a[i], limits.a, J) +
                                  stopTime(-input.goal.v[i], input.goal.a[i], limits.a, J) + quintic;
-        CAPTURE(i, out, d, stopFirst, plan.duration(i), toString(plan.form(i)));
+        CAPTURE(i, out, d, stopFirst, plan.duration(i), vpToString(plan.form(i)));
         const bool told = !status.isGood() || status.result == vpTrajectoryResult::Braking;
         REQUIRE((told || (plan.form(i) != vpTrajectoryForm::StopAndGo && plan.duration(i) <= stopFirst)));
         tally.detour = std::max(tally.detour, out / d);
@@ -270,7 +270,7 @@ TEST_CASE("any problem: exact ends, limits kept or told, no detours, all finite"
         status.fault == vpTrajectoryFault::OutOfRange || status.fault == vpTrajectoryFault::GroupLimit) {
       continue;
     }
-    CAPTURE(k, status.message(), toString(plan.form()), plan.duration(), describe(input));
+    CAPTURE(k, status.message(), vpToString(plan.form()), plan.duration(), describe(input));
     REQUIRE(status.result != vpTrajectoryResult::InvalidInput);
     judge(input, plan, status, tally);
   }

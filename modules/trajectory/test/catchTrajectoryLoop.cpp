@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The loop of the documentation, while (isWorking(update(...))), ends: at the goal, and at every error.
+// The loop of the documentation, while (vpIsWorking(update(...))), ends: at the goal, and at every error.
 #include "vpTrajectoryTestKit.h"
 #include "vpWildNumbers.h"
 
@@ -30,7 +30,7 @@ template <class Bad> int cyclesOf(int when, vpTrajectoryOutput<2> &output, Bad b
       bad(input, dt);
     }
     ++cycles;
-  } while (cycles < most && isWorking(trajectory.update(input, output, dt)));
+  } while (cycles < most && vpIsWorking(trajectory.step(input, output, dt)));
   return cycles;
 }
 } // namespace
@@ -48,7 +48,7 @@ TEST_CASE("a loop ends at the goal and at every error, at its start and on the w
       {"NaN limit", [](Input &input, double &) { input.maxAcceleration[1] = NAN; }},
       {"goal outside its position limits", [](Input &input, double &) { input.goal.q[0] = 1.5; }},
       {"goal velocity above its limit", [](Input &input, double &) { input.goal.v[0] = 1.1; }},
-      {"no arrival time", [](Input &input, double &) { input.options.policy = vpReplanPolicy::FixedArrival; }},
+      {"no arrival time", [](Input &input, double &) { input.spec.policy = vpReplanPolicy::FixedArrival; }},
       {"too many vias", [](Input &input, double &) { input.vias.resize(3); }},
       {"no time", [](Input &, double &dt) { dt = 0.; }},
       {"NaN time", [](Input &, double &dt) { dt = NAN; }},
@@ -76,9 +76,9 @@ TEST_CASE("the loop of a pose trajectory ends likewise", "[loop]")
     static_cast<void>(trajectory.reset(vpHomogeneousMatrix()));
     static_cast<void>(trajectory.setGoal(vpHomogeneousMatrix(0.1, 0., 0.2, 0., 0.3, 0.)));
     int cycles = 1;
-    vpTrajectoryStatus status = trajectory.update(1e-3);
-    for (; cycles < most && isWorking(status.result); ++cycles) {
-      status = trajectory.update(isBad && cycles > 300 ? NAN : 1e-3);
+    vpTrajectoryStatus status = trajectory.step(1e-3);
+    for (; cycles < most && vpIsWorking(status.result); ++cycles) {
+      status = trajectory.step(isBad && cycles > 300 ? NAN : 1e-3);
     }
     CHECK(cycles < (isBad ? 310 : 5000));
     CHECK(status.result == (isBad ? vpTrajectoryResult::InvalidInput : vpTrajectoryResult::Finished));

@@ -35,8 +35,8 @@ Scene follow(double goalNoise, vpReplanPolicy policy, bool reminimiseEachCycle, 
   vpTrajectoryInput<2> input;
   input.maxVelocity.setConstant(none);
   input.maxAcceleration.setConstant(1.);
-  input.options.policy = policy;
-  input.options.minimumDuration = floor;
+  input.spec.policy = policy;
+  input.spec.minimumDuration = floor;
   vpDirectTrajectory<2> trajectory;
   vpTrajectoryOutput<2> output;
   Scene scene;
@@ -50,7 +50,7 @@ Scene follow(double goalNoise, vpReplanPolicy policy, bool reminimiseEachCycle, 
       input.start = output.state;
       trajectory.reset();
     }
-    static_cast<void>(trajectory.update(input, output, 1e-3));
+    static_cast<void>(trajectory.step(input, output, 1e-3));
     scene.peakAcceleration = std::max(scene.peakAcceleration, output.state.a.cwiseAbs().maxCoeff());
     scene.peakJerk = std::max(scene.peakJerk, (output.state.a - before).cwiseAbs().maxCoeff() / 1e-3);
     scene.rmsError += (output.state.q - object(t)).squaredNorm() / 3000.;
@@ -101,7 +101,7 @@ Scene track(const Object &object, double maxVelocity, double maxAcceleration, in
   vpTrajectoryInput<1> input;
   input.maxVelocity[0] = maxVelocity;
   input.maxAcceleration[0] = maxAcceleration;
-  input.options.policy = policy;
+  input.spec.policy = policy;
   vpDirectTrajectory<1> trajectory;
   vpTrajectoryOutput<1> output;
   Scene scene;
@@ -115,7 +115,7 @@ Scene track(const Object &object, double maxVelocity, double maxAcceleration, in
       input.start = output.state;
       trajectory.reset();
     }
-    REQUIRE(isWorking(trajectory.update(input, output, 1e-3)) + output.status.isGood() >= 1);
+    REQUIRE(vpIsWorking(trajectory.step(input, output, 1e-3)) + output.status.isGood() >= 1);
     scene.peakAcceleration = std::max(scene.peakAcceleration, std::abs(output.state.a[0]));
     if (k >= settled) {
       const double jerk = std::abs(output.state.a[0] - before) / 1e-3;
@@ -201,14 +201,14 @@ TEST_CASE("no policy lets the acceleration jump at the end", "[policy]")
         vpTrajectoryInput<1> input;
         input.goal.q[0] = 0.5;
         input.maxVelocity[0] = 0.5;
-        input.options.policy = policy;
-        input.options.arrivalTime = 1.9;
-        input.options.replanPeriod = period;
+        input.spec.policy = policy;
+        input.spec.arrivalTime = 1.9;
+        input.spec.replanPeriod = period;
         vpDirectTrajectory<1> trajectory;
         vpTrajectoryOutput<1> output;
         double before = 0., worst = 0.;
         for (int i = 0; i < 2.5 / dt; ++i) {
-          static_cast<void>(trajectory.update(input, output, dt));
+          static_cast<void>(trajectory.step(input, output, dt));
           worst = std::max(worst, std::abs(output.state.a[0] - before));
           before = output.state.a[0];
         }
@@ -225,7 +225,7 @@ TEST_CASE("KeepArrival puts the arrival off, never forward", "[policy]")
 {
   vpTrajectoryInput<1> input;
   input.goal.q[0] = 1.;
-  input.options.policy = vpReplanPolicy::KeepArrival;
+  input.spec.policy = vpReplanPolicy::KeepArrival;
   vpDirectTrajectory<1> trajectory;
   vpTrajectoryOutput<1> output;
   auto rng = vpTestSupport::generator(71);
@@ -235,7 +235,7 @@ TEST_CASE("KeepArrival puts the arrival off, never forward", "[policy]")
     if (i % 20 == 0 && i < 1500) {
       input.goal.q[0] = 1. + uniform(rng, -0.05, 0.05);
     }
-    static_cast<void>(trajectory.update(input, output, 1e-3));
+    static_cast<void>(trajectory.step(input, output, 1e-3));
     REQUIRE(1e-3 * (i + 1) + output.remaining >= arrival - 1e-9);
     arrival = 1e-3 * (i + 1) + output.remaining;
     REQUIRE(std::abs(output.state.a[0]) <= 1. + 1e-12);
@@ -248,8 +248,8 @@ TEST_CASE("FixedArrival keeps the date while the goal is refined, and freezes at
 {
   vpTrajectoryInput<1> input;
   input.goal.q[0] = 0.5;
-  input.options.policy = vpReplanPolicy::FixedArrival;
-  input.options.arrivalTime = 3.;
+  input.spec.policy = vpReplanPolicy::FixedArrival;
+  input.spec.arrivalTime = 3.;
   vpDirectTrajectory<1> trajectory;
   vpTrajectoryOutput<1> output;
   auto rng = vpTestSupport::generator(72);
@@ -257,7 +257,7 @@ TEST_CASE("FixedArrival keeps the date while the goal is refined, and freezes at
   double goal = 0.;
   for (; cycles < 4000 && output.status.result != vpTrajectoryResult::Finished; ++cycles) {
     input.goal.q[0] = 0.5 + uniform(rng, -1e-4, 1e-4); // refined in every cycle
-    static_cast<void>(trajectory.update(input, output, 1e-3));
+    static_cast<void>(trajectory.step(input, output, 1e-3));
     lastPlan = output.newPlan ? cycles : lastPlan;
     goal = output.newPlan ? input.goal.q[0] : goal;
     REQUIRE(output.status.isGood());
@@ -268,8 +268,8 @@ TEST_CASE("FixedArrival keeps the date while the goal is refined, and freezes at
   CHECK(std::abs(output.state.q[0] - goal) < 1e-9);
 
   input.goal.q[0] = 5.;
-  input.options.arrivalTime = 0.1;
-  CHECK(trajectory.update(input, output, 1e-3) == vpTrajectoryResult::ArrivalInfeasible);
+  input.spec.arrivalTime = 0.1;
+  CHECK(trajectory.step(input, output, 1e-3) == vpTrajectoryResult::ArrivalInfeasible);
   CHECK(output.duration == Approx(output.status.value)); // the limits are kept, the earliest arrival is reported
   CHECK(trajectory.plan().peaks(0).velocity <= 1. + 1e-12);
 }
@@ -281,18 +281,18 @@ TEST_CASE("the thesis's iteration converges in figure 6.6 and is no substitute",
   input.goal.q[0] = 0.5;
   input.maxVelocity[0] = 0.5;
   input.maxAcceleration[0] = none;
-  input.options.method = vpDurationMethod::ThesisIteration;
-  input.options.thesisVelocityGain = 1.;
+  input.spec.method = vpDurationMethod::ThesisIteration;
+  input.spec.thesisVelocityGain = 1.;
   double arrivals[2] = {0., 0.};
   for (int spread = 0; spread < 2; ++spread) {
     vpTrajectoryInput<1> task = input;
-    task.options.thesisStepsPerCycle = spread == 1 ? 1 : 1000;
+    task.spec.thesisStepsPerCycle = spread == 1 ? 1 : 1000;
     vpDirectTrajectory<1> trajectory;
     vpTrajectoryOutput<1> output;
     double t = 0., peak = 0.;
     for (int i = 0; i < 3000 && output.status.result != vpTrajectoryResult::Finished; ++i, t += 1e-3) {
       task.goal.q[0] = i < 1200 ? 0.5 : 0.8;
-      static_cast<void>(trajectory.update(task, output, 1e-3));
+      static_cast<void>(trajectory.step(task, output, 1e-3));
       peak = std::max(peak, std::abs(output.state.v[0]));
       arrivals[spread] = output.remaining > 0. ? t + 1e-3 + output.remaining : arrivals[spread];
     }

@@ -19,7 +19,7 @@ unsigned long allocationsOf(vpDirectTrajectory<N> &trajectory, std::vector<vpTra
   vpTrajectoryOutput<N> output(axes);
   const unsigned long before = vpTestSupport::allocationCount();
   for (int i = 0; i < 20000; ++i) {
-    static_cast<void>(trajectory.update(inputs[static_cast<std::size_t>(i / 37) % inputs.size()], output, 1e-2));
+    static_cast<void>(trajectory.step(inputs[static_cast<std::size_t>(i / 37) % inputs.size()], output, 1e-2));
   }
   return vpTestSupport::allocationCount() - before;
 }
@@ -37,14 +37,14 @@ TEST_CASE("no step allocates", "[realtime]")
   std::vector<vpTrajectoryInput<Eigen::Dynamic>> dynamic;
   for (int k = 0; k < 40; ++k) {
     auto input = randomInput<7>(rng, Class::AnyToAny, k % 2 == 0);
-    input.options.cruise = k % 3 == 0;
-    input.options.policy = static_cast<vpReplanPolicy>(k % 3);
-    input.options.arrivalTime = 5.;
-    input.options.method = k % 11 == 0 ? vpDurationMethod::ThesisIteration : vpDurationMethod::Exact;
-    input.options.thesisStepsPerCycle = 20;
-    input.options.synchronisation = static_cast<vpSynchronisation>(k % 3);
+    input.spec.cruise = k % 3 == 0;
+    input.spec.policy = static_cast<vpReplanPolicy>(k % 3);
+    input.spec.arrivalTime = 5.;
+    input.spec.method = k % 11 == 0 ? vpDurationMethod::ThesisIteration : vpDurationMethod::Exact;
+    input.spec.thesisStepsPerCycle = 20;
+    input.spec.synchronisation = static_cast<vpSynchronisation>(k % 3);
     if (k % 4 == 0) {
-      input.options.groups[0] = vpAxisGroup({0, 1, 2}, 30.);
+      input.spec.groups[0] = vpAxisGroup({0, 1, 2}, 30.);
     }
     if (k % 5 == 0) {
       vpTrajectoryVia<7> via;
@@ -75,8 +75,8 @@ TEST_CASE("no step allocates", "[realtime]")
   const unsigned long before = vpTestSupport::allocationCount();
   for (int i = 0; i < 5000; ++i) {
     static_cast<void>(poses.setGoal(goals[i / 300 % 2]));
-    static_cast<void>(poses.update(1e-3));
-    sink += shaper.update(poses.state().v, 1e-3)[0];
+    static_cast<void>(poses.step(1e-3));
+    sink += shaper.step(poses.state().v, 1e-3)[0];
   }
   CHECK(vpTestSupport::allocationCount() == before);
   CHECK(std::isfinite(sink));

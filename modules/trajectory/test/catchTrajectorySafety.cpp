@@ -26,7 +26,7 @@ template <int N, typename Make> Tally run(unsigned int stream, int count, Make m
     const vpTrajectoryStatus status = vpDirectTrajectory<N>::calculate(problem, plan);
     const double violation = worstViolation(problem, plan), mismatch = worstMismatch(problem, plan);
     if (status.result != vpTrajectoryResult::Working || !(violation <= 1e-12) || !(mismatch <= 1e-12)) {
-      CAPTURE(k, status.message(), toString(plan.form()), violation, mismatch, plan.duration());
+      CAPTURE(k, status.message(), vpToString(plan.form()), violation, mismatch, plan.duration());
       CAPTURE(problem.start.q.transpose(), problem.start.v.transpose(), problem.start.a.transpose());
       CAPTURE(problem.goal.q.transpose(), problem.goal.v.transpose(), problem.goal.a.transpose());
       CAPTURE(problem.maxVelocity.transpose(), problem.maxAcceleration.transpose(), problem.maxJerk.transpose());
@@ -48,7 +48,7 @@ template <int N> void requireAllSafe(unsigned int stream, bool jerk)
   const int count = problems(100000 / (jerk ? 4 : 1));
   const Tally tally = run<N>(stream, count, [jerk](std::mt19937_64 &rng, int k) {
     auto input = randomInput<N>(rng, static_cast<Class>(k % 4), jerk);
-    input.options.cruise = (k / 4) % 2 == 1;
+    input.spec.cruise = (k / 4) % 2 == 1;
     return input;
   });
   WARN(N << " axes, " << count << " problems" << (jerk ? " with jerk limits" : "") << ": worst violation "

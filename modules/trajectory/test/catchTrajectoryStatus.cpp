@@ -74,17 +74,17 @@ TEST_CASE("a start outside its position limits comes back, and says so", "[statu
   input.start.q << -147.964, 0.;
   input.goal.q << -147.7, 300.; // the second axis takes its time
   input.minPosition[0] = -147.823;
-  input.options.cruise = false;
+  input.spec.cruise = false;
   vpDirectTrajectory<2> trajectory;
   vpTrajectoryOutput<2> output;
-  CHECK(trajectory.update(input, output, 1e-3) == vpTrajectoryResult::Braking);
+  CHECK(trajectory.step(input, output, 1e-3) == vpTrajectoryResult::Braking);
   CHECK_THAT(output.status.message(),
              Catch::Contains("the start is outside the limits, coming back inside: the lowest position of axis 0"));
   const double end = trajectory.plan().brakingEnd();
   CHECK(trajectory.plan().at(0, end)[0] == Approx(-147.823).margin(1e-9));
   CHECK(end < 1.2); // 0.141 from rest to rest take 0.9 s
   int cycles = 1;
-  while (trajectory.update(input, output, 1e-3) == vpTrajectoryResult::Braking) {
+  while (trajectory.step(input, output, 1e-3) == vpTrajectoryResult::Braking) {
     REQUIRE(output.state.q[0] < -147.823 + 1e-6);
     ++cycles;
   }
@@ -130,7 +130,7 @@ TEST_CASE("an axis that waits for another makes no detour", "[status]")
     vpTrajectoryInput<2> input;
     input.start.v << 0.5, 0.;
     input.goal.q << 0.1, 10.;
-    input.options.cruise = cruise;
+    input.spec.cruise = cruise;
     vpTrajectoryPlan plan(2);
     const vpTrajectoryStatus status = vpDirectTrajectory<2>::calculate(input, plan);
     CHECK(status.result == vpTrajectoryResult::Working);
@@ -143,7 +143,7 @@ TEST_CASE("Straight that cannot be straight says so", "[status]")
 {
   vpTrajectoryInput<2> input;
   input.goal.q << 1., 1.;
-  input.options.synchronisation = vpSynchronisation::Straight;
+  input.spec.synchronisation = vpSynchronisation::Straight;
   vpTrajectoryPlan plan(2);
   CHECK(vpDirectTrajectory<2>::calculate(input, plan).fault == vpTrajectoryFault::None);
   input.start.v << 0.1, -0.1;
@@ -183,7 +183,7 @@ TEST_CASE("a goal velocity does not lead out of the position limits after the ar
   vpTrajectoryOutput<1> output;
   double highest = 0.;
   for (int k = 0; k < 10000; ++k) {
-    static_cast<void>(trajectory.update(input, output, 1e-3));
+    static_cast<void>(trajectory.step(input, output, 1e-3));
     highest = std::max(highest, output.state.q[0]);
   }
   CHECK(highest <= 1. + 1e-12);
@@ -205,14 +205,14 @@ TEST_CASE("limits that change within the freeze of a fixed arrival are not passe
   input.goal.q[0] = 1.;
   input.maxVelocity[0] = 5.;
   input.maxAcceleration[0] = 20.;
-  input.options.policy = vpReplanPolicy::FixedArrival;
-  input.options.arrivalTime = 2.;
-  input.options.freeze = 1.5;
+  input.spec.policy = vpReplanPolicy::FixedArrival;
+  input.spec.arrivalTime = 2.;
+  input.spec.freeze = 1.5;
   for (int k = 0; k < 100; ++k) {
-    REQUIRE(trajectory.update(input, output, 0.01) == vpTrajectoryResult::Working);
+    REQUIRE(trajectory.step(input, output, 0.01) == vpTrajectoryResult::Working);
   }
   REQUIRE(output.state.v[0] > 0.5);
   input.maxVelocity[0] = 0.1;
-  CHECK(trajectory.update(input, output, 0.01) != vpTrajectoryResult::Working);
+  CHECK(trajectory.step(input, output, 0.01) != vpTrajectoryResult::Working);
   CHECK(output.status.excess.limit == vpTrajectoryLimit::Velocity);
 }

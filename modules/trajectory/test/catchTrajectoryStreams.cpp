@@ -18,7 +18,7 @@ bool chance(std::mt19937_64 &rng, double p) { return uniform(rng, 0., 1.) < p; }
 template <int N> void randomEvent(std::mt19937_64 &rng, vpTrajectoryInput<N> &input, double metre, double second)
 {
   const int i = static_cast<int>(rng() % static_cast<unsigned int>(N));
-  vpTrajectoryOptions &o = input.options;
+  vpTrajectorySpec &o = input.spec;
   switch (rng() % 8) {
   case 0:
   case 1:
@@ -77,9 +77,9 @@ template <int N> void stream(std::mt19937_64 &rng, double &worst)
     if (chance(rng, 0.2)) {
       randomEvent(rng, input, metre, second);
     }
-    const vpTrajectoryResult result = trajectory.update(input, output, dt);
+    const vpTrajectoryResult result = trajectory.step(input, output, dt);
     const vpTrajectoryState<N> &x = output.state;
-    CAPTURE(k, output.status.message(), toString(trajectory.plan().form()), output.time, output.duration);
+    CAPTURE(k, output.status.message(), vpToString(trajectory.plan().form()), output.time, output.duration);
     REQUIRE((x.q.allFinite() && x.v.allFinite() && x.a.allFinite() && x.j.allFinite()));
     REQUIRE((std::isfinite(output.remaining) && std::isfinite(output.duration)));
     if (result != vpTrajectoryResult::InvalidInput) {
@@ -90,8 +90,8 @@ template <int N> void stream(std::mt19937_64 &rng, double &worst)
             std::max({std::abs(x.v[i]) / input.maxVelocity[i] - 1., std::abs(x.a[i]) / input.maxAcceleration[i] - 1.,
                       (x.q[i] - input.maxPosition[i]) / place, (input.minPosition[i] - x.q[i]) / place});
         CAPTURE(i, x.q[i], x.v[i], x.a[i], excess, input.maxVelocity[i], input.maxAcceleration[i], input.minPosition[i],
-                input.maxPosition[i], input.options.freeze, static_cast<int>(input.options.policy),
-                static_cast<int>(input.options.method), output.newPlan, trajectory.plan().brakingEnd(),
+                input.maxPosition[i], input.spec.freeze, static_cast<int>(input.spec.policy),
+                static_cast<int>(input.spec.method), output.newPlan, trajectory.plan().brakingEnd(),
                 output.remaining);
         // A start beyond a limit by at most vpLimit::tolerance counts as on it.
         REQUIRE((excess <= vpLimit::tolerance || saysSo(output.status)));
@@ -149,20 +149,20 @@ TEST_CASE("numbers that no robot has: refused, or a finite motion", "[streams]")
     vpTrajectoryInput<2> input;
     input.goal.q << 0.5, -0.3;
     input.start.v << 0.2, 0.;
-    vpTrajectoryOptions &o = input.options;
-    double options[] = {1., 0., 0.05, 0., 0.5, 0.1, none, none};
+    vpTrajectorySpec &o = input.spec;
+    double spec[] = {1., 0., 0.05, 0., 0.5, 0.1, none, none};
     vpAxisVector<2> *fields[] = {&input.start.q,     &input.start.v,         &input.start.a, &input.start.j,
                                  &input.goal.q,      &input.goal.v,          &input.goal.a,  &input.goal.j,
                                  &input.maxVelocity, &input.maxAcceleration, &input.maxJerk, &input.minPosition,
                                  &input.maxPosition};
     for (int s = 1 + static_cast<int>(rng() % 3); s > 0; --s) {
       const auto field = rng() % 21;
-      (field < 13 ? (*fields[field])[static_cast<Eigen::Index>(rng() % 2)] : options[field - 13]) = pick();
+      (field < 13 ? (*fields[field])[static_cast<Eigen::Index>(rng() % 2)] : spec[field - 13]) = pick();
     }
-    o.arrivalTime = options[0], o.minimumDuration = options[1], o.freeze = options[2], o.replanPeriod = options[3];
-    o.thesisVelocityGain = options[4], o.thesisAccelerationGain = options[5];
+    o.arrivalTime = spec[0], o.minimumDuration = spec[1], o.freeze = spec[2], o.replanPeriod = spec[3];
+    o.thesisVelocityGain = spec[4], o.thesisAccelerationGain = spec[5];
     if (chance(rng, 0.2)) {
-      o.groups[0] = vpAxisGroup({0, 1}, options[6], options[7]);
+      o.groups[0] = vpAxisGroup({0, 1}, spec[6], spec[7]);
     }
     o.continuity = static_cast<vpTrajectoryContinuity>(rng() % 3);
     o.policy = static_cast<vpReplanPolicy>(rng() % 3);
@@ -174,7 +174,7 @@ TEST_CASE("numbers that no robot has: refused, or a finite motion", "[streams]")
     vpTrajectoryOutput<2> output;
     for (int cycle = 0; cycle < 6; ++cycle) {
       const double dt = cycle == 2 || cycle == 4 ? pick() : 0.01;
-      const vpTrajectoryResult result = trajectory.update(input, output, dt);
+      const vpTrajectoryResult result = trajectory.step(input, output, dt);
       const vpTrajectoryState<2> &x = output.state;
       CAPTURE(k, cycle, dt, output.status.message(), x.q.transpose(), x.v.transpose(), x.a.transpose());
       REQUIRE((x.q.allFinite() && x.v.allFinite() && x.a.allFinite() && x.j.allFinite()));

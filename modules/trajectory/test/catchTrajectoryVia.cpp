@@ -65,7 +65,7 @@ TEST_CASE("vias are met, joints are C2, limits kept, for any number of vias", "[
     auto input = randomVias<3>(rng, count, k % 3 == 0 ? Class::AnyToAny : Class::RestToRest);
     vpTrajectoryPlan plan(3);
     const vpTrajectoryStatus status = vpDirectTrajectory<3>::calculate(input, plan);
-    CAPTURE(k, count, status.message(), toString(plan.form()), plan.duration());
+    CAPTURE(k, count, status.message(), vpToString(plan.form()), plan.duration());
     REQUIRE(status.result == vpTrajectoryResult::Working);
     REQUIRE(worstViolation(input, plan) <= 1e-12 + roundingOf(input, plan));
     REQUIRE(worstMismatch(input, plan) <= 1e-10); // short segments amplify errors at the joints of a chain
@@ -103,8 +103,8 @@ TEST_CASE("the chain has the least integrated squared jerk of all chains through
     vpTrajectoryInput<1> input;
     input.goal.q[0] = 1.;
     input.maxVelocity[0] = input.maxAcceleration[0] = 1e3;
-    input.options.policy = vpReplanPolicy::FixedArrival;
-    input.options.arrivalTime = 2.;
+    input.spec.policy = vpReplanPolicy::FixedArrival;
+    input.spec.arrivalTime = 2.;
     for (int v = 0; v < 3; ++v) {
       vpTrajectoryVia<1> via;
       via.tau = 0.25 * (v + 1) + uniform(rng, -0.1, 0.1);
@@ -154,7 +154,7 @@ TEST_CASE("figure 8.9: the via appears under way and is dropped once passed", "[
     if (plans == 2 && output.remaining < 0.3 * output.duration) {
       input.goal.q[0] = 0.13; // a new goal after the via: the via must not return
     }
-    static_cast<void>(trajectory.update(input, output, 1e-3));
+    static_cast<void>(trajectory.step(input, output, 1e-3));
     plans += output.newPlan;
     closest = std::min(closest, (output.state.q - Eigen::Vector2d(0.18, 0.15)).norm());
     jump = std::max(jump, (output.state.a - before).norm());
@@ -181,14 +181,14 @@ TEST_CASE("a new goal before the via keeps the via at its share of what is left"
   input.vias.push_back(via);
   vpDirectTrajectory<1> trajectory(1, 1);
   vpTrajectoryOutput<1> output;
-  static_cast<void>(trajectory.update(input, output, 1e-3));
+  static_cast<void>(trajectory.step(input, output, 1e-3));
   const double T = output.duration;
   while (output.time < 0.3 * T) {
-    static_cast<void>(trajectory.update(input, output, 1e-3));
+    static_cast<void>(trajectory.step(input, output, 1e-3));
   }
   const double done = output.time / T;
   input.goal.q[0] = 1.02;
-  static_cast<void>(trajectory.update(input, output, 1e-3));
+  static_cast<void>(trajectory.step(input, output, 1e-3));
   REQUIRE(output.newPlan);
   REQUIRE(trajectory.plan().vias() == 1);
   CHECK(trajectory.plan().viaTime(0) / output.duration == Approx((0.6 - done) / (1. - done)).margin(1e-9));
@@ -204,7 +204,7 @@ TEST_CASE("straight lines from via to via, and a fixed arrival over vias", "[via
     for (auto &via : input.vias) {
       via.hasVelocity = via.hasAcceleration = false;
     }
-    input.options.synchronisation = vpSynchronisation::Straight;
+    input.spec.synchronisation = vpSynchronisation::Straight;
     vpTrajectoryPlan plan(3);
     REQUIRE(vpDirectTrajectory<3>::calculate(input, plan).isGood());
     Eigen::Vector3d from = input.start.q;
@@ -220,9 +220,9 @@ TEST_CASE("straight lines from via to via, and a fixed arrival over vias", "[via
       from = to;
       begin = end;
     }
-    input.options.policy = vpReplanPolicy::FixedArrival;
-    input.options.arrivalTime = 1.7 * plan.duration();
+    input.spec.policy = vpReplanPolicy::FixedArrival;
+    input.spec.arrivalTime = 1.7 * plan.duration();
     REQUIRE(vpDirectTrajectory<3>::calculate(input, plan).isGood());
-    CHECK(plan.duration() == Approx(input.options.arrivalTime).epsilon(1e-9));
+    CHECK(plan.duration() == Approx(input.spec.arrivalTime).epsilon(1e-9));
   }
 }

@@ -64,7 +64,7 @@ TEST_CASE("shaped twists keep their limits for any input", "[shaper]")
           raw[c] = uniform(rng, -1., 1.);
         }
       }
-      const vpTwist v = shaper.update(raw, dt);
+      const vpTwist v = shaper.step(raw, dt);
       double worst[4] = {0., 0., 0., 0.}, sum[4] = {0., 0., 0., 0.};
       for (std::size_t c = 0; c < 6; ++c) {
         const double a = std::isfinite(limits.linearJerk) ? shaper.acceleration()[c] : (v[c] - before[c]) / dt;
@@ -90,7 +90,7 @@ TEST_CASE("shaped twists keep their limits for any input", "[shaper]")
       rate = shaper.acceleration();
     }
     for (int i = 0; i < 3000; ++i) { // constant input: arrives exactly, and stays
-      before = shaper.update(raw, 0.01);
+      before = shaper.step(raw, 0.01);
     }
     for (std::size_t c = 0; c < 6; ++c) {
       CAPTURE(k, c);
@@ -168,7 +168,7 @@ vpTwist randomWish(std::mt19937_64 &rng, int kind, int step, const vpTwist &befo
       raw[c] = (step / 40 % 2 == 0 ? 1. : -1.) * (c % 3 == 0 ? 1. : 0.2) + uniform(rng, -0.1, 0.1);
     }
   }
-  return limitTwist(raw, 0.25, 0.9);
+  return vpLimitTwist(raw, 0.25, 0.9);
 }
 } // namespace
 
@@ -192,7 +192,7 @@ TEST_CASE("10^6 random steps: speed, acceleration and jerk, rechecked by differe
       const double dt = k % 2 == 0 ? 0.01 : uniform(rng, 1e-3, 0.04);
       raw = randomWish(rng, k / 2 % 4, i, raw);
       recheck.wish(raw);
-      const vpTwist v = shaper.update(raw, dt);
+      const vpTwist v = shaper.step(raw, dt);
       const double worst = recheck.step(v, dt);
       CAPTURE(k, i, worst);
       if (!vpWildNumbers::atMost(worst, 1.)) {
@@ -215,8 +215,8 @@ TEST_CASE("a wish that turns on the speed limit is followed on it, not beyond", 
       for (int k = 0; k < 3000; ++k) {
         const double angle = 0.01 * k * rate;
         const vpTwist raw =
-            limitTwist(vpTwist(0.25 * std::cos(angle), 0.25 * std::sin(angle), 0., 0., 0., 0.), 0.25, 1.);
-        const vpTwist v = shaper.update(raw, 0.01);
+            vpLimitTwist(vpTwist(0.25 * std::cos(angle), 0.25 * std::sin(angle), 0., 0., 0., 0.), 0.25, 1.);
+        const vpTwist v = shaper.step(raw, 0.01);
         fastest = std::max(fastest, v.linearNorm() / 0.25);
         error = k > 1000 ? std::max(error, std::hypot(v[0] - raw[0], v[1] - raw[1])) : 0.;
       }
@@ -252,7 +252,7 @@ TEST_CASE("wild numbers do not get through the shaper", "[shaper][wild]")
         x = vpWildNumbers::mixed(rng, uniform(rng, -1., 1.), 0.1);
       }
       const double dt = vpWildNumbers::mixed(rng, 0.01, 0.3);
-      const vpTwist before = shaper.twist(), v = shaper.update(twistOf(raw), dt);
+      const vpTwist before = shaper.twist(), v = shaper.step(twistOf(raw), dt);
       CAPTURE(k, i, dt);
       REQUIRE(v.isFinite());
       REQUIRE(shaper.acceleration().isFinite());
@@ -268,7 +268,7 @@ TEST_CASE("wild numbers do not get through the shaper", "[shaper][wild]")
     try {
       vpTwistShaper shaper(wild);
       for (int i = 0; i < 100; ++i) {
-        REQUIRE(shaper.update(vpTwist(1., -1., 0.5, 1., 0., 0.), 0.01).isFinite());
+        REQUIRE(shaper.step(vpTwist(1., -1., 0.5, 1., 0., 0.), 0.01).isFinite());
       }
     }
     catch (const vpException &) { // a limit out of its range
@@ -283,7 +283,7 @@ TEST_CASE("the step of exponential visual servoing at t = 0 is gone, and the goa
   double e = 0.5, previous = 0., jump = 0., rawJump = lambda * 0.5;
   vpTwistShaper shaper;
   for (int i = 0; i < 15000; ++i) {
-    const vpTwist v = shaper.update(vpTwist(-lambda * e, 0., 0., 0., 0., 0.), dt);
+    const vpTwist v = shaper.step(vpTwist(-lambda * e, 0., 0., 0., 0., 0.), dt);
     jump = std::max(jump, std::abs(v[0] - previous));
     if (i == 0) {
       CHECK(std::abs(v[0]) <= 0.5 * 10. * dt * dt * (1. + 1e-9)); // jerk dt^2/2
@@ -301,7 +301,7 @@ TEST_CASE("from rest a change keeps its direction under norm limits", "[shaper]"
   vpTwistShaper shaper;
   const vpTwist raw(0.3, -0.6, 0.2, 0.1, 0.2, -0.4);
   for (int i = 0; i < 2000; ++i) {
-    const vpTwist v = shaper.update(raw, 1e-3);
+    const vpTwist v = shaper.step(raw, 1e-3);
     REQUIRE(std::abs(v[0] * raw[1] - v[1] * raw[0]) < 1e-12);
     REQUIRE(std::abs(v[3] * raw[5] - v[5] * raw[3]) < 1e-12);
   }
@@ -311,10 +311,10 @@ TEST_CASE("the shaper starts from the present twist, brakes on bad input and che
 {
   vpTwistShaper shaper;
   shaper.reset(vpTwist(0.2, 0., 0., 0., 0., 0.), vpTwist(0.5, 0., 0., 0., 0., 0.));
-  CHECK(shaper.update(vpTwist(), 1e-3)[0] == Approx(0.2005).margin(1e-5));
-  CHECK(shaper.update(vpTwist(1., 0., 0., 0., 0., 0.), -1.)[0] == shaper.twist()[0]);
+  CHECK(shaper.step(vpTwist(), 1e-3)[0] == Approx(0.2005).margin(1e-5));
+  CHECK(shaper.step(vpTwist(1., 0., 0., 0., 0., 0.), -1.)[0] == shaper.twist()[0]);
   for (int i = 0; i < 2000; ++i) {
-    static_cast<void>(shaper.update(vpTwist(NAN, 0., 0., 0., 0., 0.), 1e-3));
+    static_cast<void>(shaper.step(vpTwist(NAN, 0., 0., 0., 0., 0.), 1e-3));
   }
   CHECK(shaper.twist()[0] == 0.);
   vpTwistShaperLimits limits;

@@ -98,14 +98,14 @@ template <int N> double worstViolation(const vpTrajectoryInput<N> &input, const 
   for (int i = 0; i < plan.axes(); ++i) {
     const vpTrajectoryPeaks peaks = plan.peaks(i);
     worst = std::max({worst, peaks.velocity / input.maxVelocity[i] - 1., peaks.jerk / input.maxJerk[i] - 1.});
-    if (input.options.continuity != vpTrajectoryContinuity::C1 || std::isfinite(input.maxAcceleration[i])) {
+    if (input.spec.continuity != vpTrajectoryContinuity::C1 || std::isfinite(input.maxAcceleration[i])) {
       worst = std::max(worst, peaks.acceleration / input.maxAcceleration[i] - 1.);
     }
     const double size = std::max(std::abs(peaks.maxPosition), std::abs(peaks.minPosition)) + 1e-300;
     worst = std::max(
         {worst, (peaks.maxPosition - input.maxPosition[i]) / size, (input.minPosition[i] - peaks.minPosition) / size});
   }
-  for (const vpAxisGroup &group : input.options.groups) {
+  for (const vpAxisGroup &group : input.spec.groups) {
     if (group.axes != 0) {
       worst = std::max({worst, plan.peakNorm(group.axes, 1) / group.maxSpeed - 1.,
                         plan.peakNorm(group.axes, 2) / group.maxAcceleration - 1.});
@@ -125,7 +125,7 @@ inline vpAxisState onSegment(const vpTrajectorySegment &segment, double s)
 template <int N> double worstMismatch(const vpTrajectoryInput<N> &input, const vpTrajectoryPlan &plan)
 {
   double worst = 0.;
-  const int given = 2 + static_cast<int>(input.options.continuity);
+  const int given = 2 + static_cast<int>(input.spec.continuity);
   const auto compare = [&](int i, const vpAxisState &x, const vpAxisState &y) {
     // Relative to the rounding scale: positions to the distance covered, accelerations to v/T when that is larger.
     const vpTrajectoryPeaks peaks = plan.peaks(i);

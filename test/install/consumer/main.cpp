@@ -25,12 +25,12 @@ int main()
 
   auto law = vpServoLaw::create("ff-lookat");
   law->setGoal(goal);
-  const vpServoCommand command = law->update(seen, 0.01);
-  std::cout << law->id() << ": " << toString(command.status);
+  const vpServoCommand command = law->step(seen, 0.01);
+  std::cout << law->id() << ": " << vpToString(command.status);
   for (std::size_t i = 0; i < 6; ++i) {
     std::cout << ' ' << command.v[i];
   }
-  std::cout << ", keypoints " << toString(vpKeypointType::ORB) << std::endl;
+  std::cout << ", keypoints " << vpToString(vpKeypointType::ORB) << std::endl;
   // The object is too far and too far right: the camera must go forward and right.
   return command.v[0] > 0. && command.v[2] > 0. ? 0 : 1;
 }

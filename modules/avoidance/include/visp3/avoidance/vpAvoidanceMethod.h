@@ -42,10 +42,10 @@ enum class vpAvoidanceStatus {
 
 //! \ingroup group_avoidance
 //! \brief Status as a word ("Moving"), for files; static text.
-[[nodiscard]] VISP_EXPORT const char *toString(vpAvoidanceStatus status);
+[[nodiscard]] VISP_EXPORT const char *vpToString(vpAvoidanceStatus status);
 //! \ingroup group_avoidance
 //! \brief Status as a readable sentence; static text.
-[[nodiscard]] VISP_EXPORT const char *sentence(vpAvoidanceStatus status);
+[[nodiscard]] VISP_EXPORT const char *vpMessage(vpAvoidanceStatus status);
 
 /*!
  * \ingroup group_avoidance
@@ -68,7 +68,7 @@ struct VISP_EXPORT vpAvoidanceOutput {
  * InvalidInput). To wait until a goal becomes free, continue at GoalInCollision. The two potential fields do not detect
  * unreachable goals: they stay Moving or Waiting forever.
  */
-[[nodiscard]] VISP_EXPORT bool isWorking(const vpAvoidanceOutput &output) noexcept;
+[[nodiscard]] VISP_EXPORT bool vpIsWorking(const vpAvoidanceOutput &output) noexcept;
 
 /*!
  * \ingroup group_avoidance
@@ -101,7 +101,7 @@ struct VISP_EXPORT vpAvoidanceMethodSpec {
  *   }
  *   method.step(q, output);
  *   q += period * output.velocity;  // or the position commanded to the drives
- * } while (isWorking(output));
+ * } while (vpIsWorking(output));
  * \endcode
  */
 class VISP_EXPORT vpAvoidanceMethod
@@ -135,7 +135,7 @@ public:
  * 10 mm." Allocates.
  * \param output : Output of a step. \param scene : Scene of the method. \param margin : Margin of the method, m.
  */
-[[nodiscard]] VISP_EXPORT std::string sentence(const vpAvoidanceOutput &output, const vpCollisionScene &scene,
+[[nodiscard]] VISP_EXPORT std::string vpMessage(const vpAvoidanceOutput &output, const vpCollisionScene &scene,
                                                double margin);
 
 END_VISP_NAMESPACE

@@ -15,15 +15,15 @@ BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_avoidance
 //! \brief Method names for makeAvoidanceMethod().
-[[nodiscard]] VISP_EXPORT const std::vector<std::string> &avoidanceMethodNames();
+[[nodiscard]] VISP_EXPORT const std::vector<std::string> &vpAvoidanceMethodNames();
 //! \ingroup group_avoidance
 //! Describes how the named method reacts to obstacles, for menus; static text, empty for an unknown name.
-[[nodiscard]] VISP_EXPORT const char *avoidanceMethodSentence(const std::string &name) noexcept;
+[[nodiscard]] VISP_EXPORT const char *vpAvoidanceMethodMessage(const std::string &name) noexcept;
 
 /*!
  * \ingroup group_avoidance
  * Creates a method by name, with its own parameters at their defaults.
- * \param name : One of avoidanceMethodNames().
+ * \param name : One of vpAvoidanceMethodNames().
  * \param scene : Must outlive the method.
  * \param spec : Parameters common to all methods.
  * \throw vpException (badValue) naming an unknown method and the known ones, or a field out of range;

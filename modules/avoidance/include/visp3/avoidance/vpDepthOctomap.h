@@ -51,7 +51,7 @@ struct VISP_EXPORT vpDepthReport {
   int beyond = 0;                                 //!< Farther than maxRange: mark free space only.
 
   //! Status as a sentence.
-  [[nodiscard]] const char *sentence() const noexcept;
+  [[nodiscard]] const char *message() const noexcept;
 };
 
 /*!

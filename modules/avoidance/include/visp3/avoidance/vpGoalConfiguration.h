@@ -42,7 +42,7 @@ struct VISP_EXPORT vpGoalConfiguration {
  * \return The first configuration that keeps the margin, or a status that says what is missing.
  * \throw vpException (badValue) when \e from does not fit the arm or \e position is not finite.
  */
-[[nodiscard]] VISP_EXPORT vpGoalConfiguration goalConfiguration(const vpCollisionScene &scene,
+[[nodiscard]] VISP_EXPORT vpGoalConfiguration vpFindGoalConfiguration(const vpCollisionScene &scene,
                                                                 const vpJointVector &from,
                                                                 const Eigen::Vector3d &position, double margin = 0.,
                                                                 int attempts = 20, unsigned int seed = 1);

@@ -35,7 +35,7 @@ struct VISP_EXPORT vpMotionResult {
   //! True if the motion is free.
   [[nodiscard]] bool isFree() const noexcept { return status == vpMotionStatus::Free; }
   //! Status as a sentence.
-  [[nodiscard]] const char *sentence() const noexcept;
+  [[nodiscard]] const char *message() const noexcept;
 };
 
 END_VISP_NAMESPACE

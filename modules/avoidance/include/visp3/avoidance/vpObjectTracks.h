@@ -72,7 +72,7 @@ enum class vpTrackStatus {
 
 //! \ingroup group_avoidance
 //! \brief Status as a word ("Tracked"), for files; static text.
-[[nodiscard]] VISP_EXPORT const char *toString(vpTrackStatus status);
+[[nodiscard]] VISP_EXPORT const char *vpToString(vpTrackStatus status);
 
 /*!
  * \ingroup group_avoidance

@@ -42,7 +42,7 @@ struct VISP_EXPORT vpObstacleDetection {
   vpObjectSighting sighting; //!< Sighting; name and shape are always set, the rest only if seen.
   bool seen = false;         //!< True if the sighting is valid.
   vpPlanarTargetStatus status = vpPlanarTargetStatus::NoFrame; //!< Status of its target.
-  std::string sentence;                                        //!< Result, or why it was not seen.
+  std::string message;                                         //!< Result, or why it was not seen.
 };
 
 /*!
@@ -69,7 +69,7 @@ public:
    * Target settings for a control loop: no second kind of keypoints, which takes longer than a frame, and refinement at
    * 120 px, which is as accurate as 200 px in a third of the time.
    */
-  [[nodiscard]] static vpPlanarTargetConfig fastTargets();
+  [[nodiscard]] static vpPlanarTargetSpec fastTargets();
   /*!
    * \param targets : The photographs; created for \e camera. \param camera : Intrinsics of the images.
    * \param spec : Parameters; copied.

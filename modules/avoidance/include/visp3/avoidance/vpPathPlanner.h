@@ -71,7 +71,7 @@ struct VISP_EXPORT vpPathResult {
   double planningTime = 0.;                     //!< Planning time, s.
   double shortenTime = 0.;                      //!< Time for shortening, s.
   long motions = 0;                             //!< Number of motions checked.
-  std::string sentence;                         //!< Readable result, with the obstructing pair.
+  std::string message;                          //!< Readable result, with the obstructing pair.
 };
 
 /*!

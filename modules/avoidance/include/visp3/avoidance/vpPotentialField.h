@@ -41,7 +41,7 @@ struct VISP_EXPORT vpFieldWeightSpec {
  * \param spec : Parameters. \param form : Variant.
  * \param distance : In the unit of the spec; signed as printed, corrected: negative counts as 0.
  */
-[[nodiscard]] VISP_EXPORT double fieldWeight(const vpFieldWeightSpec &spec, vpFieldForm form, double distance) noexcept;
+[[nodiscard]] VISP_EXPORT double vpFieldWeight(const vpFieldWeightSpec &spec, vpFieldForm form, double distance) noexcept;
 
 /*!
  * \ingroup group_avoidance

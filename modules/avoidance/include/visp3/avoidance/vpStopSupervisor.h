@@ -53,7 +53,7 @@ struct VISP_EXPORT vpSupervisedVelocity {
   int looks = 0;                                      //!< Number of configurations evaluated.
 
   //! Status as a readable sentence.
-  [[nodiscard]] const char *sentence() const noexcept;
+  [[nodiscard]] const char *message() const noexcept;
 };
 
 /*!

@@ -87,7 +87,7 @@ public:
    */
   [[nodiscard]] vpAxisState at(int joint, double t) const noexcept;
   //! Result as a sentence: duration, rests, or what is in the way and when.
-  [[nodiscard]] std::string sentence(const vpCollisionScene &scene) const;
+  [[nodiscard]] std::string message(const vpCollisionScene &scene) const;
 
 private:
   void build(const vpCollisionScene &scene, const vpJointPath &path, const vpTimedPathSpec &spec,

@@ -30,7 +30,7 @@ struct vpTriangleMeshData;
  * Vertices at the same position are merged, since formats repeat them: per triangle, or at texture seams. A closed
  * surface (every edge in two triangles) is a solid: points inside have a negative distance, whatever the orientation of
  * the triangles; an inner shell of opposite orientation is a cavity. A surface with holes has no inside, which
- * sentence() reports; vpCollisionShape::mesh() rejects it unless a sheet is requested.
+ * message() reports; vpCollisionShape::mesh() rejects it unless a sheet is requested.
  */
 class VISP_EXPORT vpTriangleMesh
 {
@@ -69,7 +69,7 @@ public:
   //! True for a solid: a closed orientable surface.
   [[nodiscard]] bool isWatertight() const noexcept;
   //! Defect in one sentence with its label ("cup.obj: the surface has holes, ..."); empty if none.
-  [[nodiscard]] const std::string &sentence() const noexcept;
+  [[nodiscard]] const std::string &message() const noexcept;
   //! The label given at construction.
   [[nodiscard]] const std::string &label() const noexcept;
   //! For this module's own use.

@@ -77,7 +77,7 @@ private:
  * \return The scaled twist; the input itself when it is within both limits; zero when a component is
  *   not finite or a limit is not > 0.
  */
-[[nodiscard]] VISP_EXPORT vpTwist limitTwist(const vpTwist &twist, double maxLinear, double maxAngular);
+[[nodiscard]] VISP_EXPORT vpTwist vpLimitTwist(const vpTwist &twist, double maxLinear, double maxAngular);
 
 END_VISP_NAMESPACE
 #endif

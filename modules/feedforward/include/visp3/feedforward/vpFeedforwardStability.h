@@ -33,7 +33,7 @@ BEGIN_VISP_NAMESPACE
  * \return The margin; 1 at the goal, at most 1.
  * \throw vpException (badValue) naming the argument and its value when one is out of its range.
  */
-[[nodiscard]] VISP_EXPORT double feedforwardSumStabilityMargin(double bearing, double rotation, double kappa,
+[[nodiscard]] VISP_EXPORT double vpFeedforwardSumStabilityMargin(double bearing, double rotation, double kappa,
                                                                unsigned int samples = 500);
 
 END_VISP_NAMESPACE

@@ -36,7 +36,7 @@ enum class vpServoStatus {
  * False ends the loop: message() gives the reason. The twist is zero then, or near zero (Deadlock). No status reports
  * that the goal is reached, because the required accuracy is the caller's choice and part of the caller's condition.
  */
-[[nodiscard]] constexpr bool isWorking(vpServoStatus status)
+[[nodiscard]] constexpr bool vpIsWorking(vpServoStatus status)
 {
   return status == vpServoStatus::Servoing || status == vpServoStatus::ViewLimited ||
          status == vpServoStatus::Holding || status == vpServoStatus::Retreating;
@@ -44,10 +44,10 @@ enum class vpServoStatus {
 
 //! \ingroup group_feedforward
 //! \brief Status as a sentence for users, static text.
-[[nodiscard]] VISP_EXPORT const char *message(vpServoStatus status);
+[[nodiscard]] VISP_EXPORT const char *vpMessage(vpServoStatus status);
 //! \ingroup group_feedforward
 //! \brief Status as a word ("Servoing"), for files; static text.
-[[nodiscard]] VISP_EXPORT const char *toString(vpServoStatus status);
+[[nodiscard]] VISP_EXPORT const char *vpToString(vpServoStatus status);
 
 //! \ingroup group_feedforward
 //! \brief Result of one servo step.

@@ -24,10 +24,10 @@ BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_feedforward
 //! \brief Parameters of all parts of a vpServoController.
-struct VISP_EXPORT vpServoControllerConfig {
+struct VISP_EXPORT vpServoControllerSpec {
   vpServoGains gains;          //!< Gains of the law.
-  vpViewConstraintConfig view; //!< Parameters of the view filter; used by ids ending in `+cbf`.
-  vpTargetLossConfig recovery; //!< Parameters of the target loss recovery.
+  vpViewConstraintSpec view; //!< Parameters of the view filter; used by ids ending in `+cbf`.
+  vpTargetLossSpec recovery; //!< Parameters of the target loss recovery.
 
   //! \throw vpException (badValue) naming the field and its value when one is out of its range or not finite.
   void validate() const;
@@ -39,15 +39,15 @@ struct VISP_EXPORT vpServoControllerConfig {
  * \brief The servo pipeline: law, optional view filter, recovery. One per camera; one call per cycle.
  *
  * \code
- * vpServoControllerConfig config;
- * config.view = vpViewConstraintConfig::fromCamera(camera, 640, 480);
+ * vpServoControllerSpec config;
+ * spec.view = vpViewConstraintSpec::fromCamera(camera, 640, 480);
  * vpServoController servo = vpServoController::create("ff-lookat-pi+cbf", config);
  * servo.setGoal(goal);
  * vpServoCommand command;
  * do {
- *   command = servo.update(measurement, dt); // measurement.valid = false when the target is not seen
+ *   command = servo.step(measurement, dt); // measurement.valid = false when the target is not seen
  *   robot.setVelocity(vpRobot::CAMERA_FRAME, command.v.toColVector());
- * } while (isWorking(command.status) && !closeEnough(measurement));
+ * } while (vpIsWorking(command.status) && !closeEnough(measurement));
  * \endcode
  */
 class VISP_EXPORT vpServoController
@@ -56,10 +56,10 @@ public:
   /*!
    * Make a controller by name.
    * \param id : An id of vpServoLaw::ids(), optionally followed by `+cbf` for the view filter.
-   * \param config : Parameters; all of them are validated here.
+   * \param spec : Parameters; all of them are validated here.
    * \throw vpException (badValue) naming the unknown id and listing the known ones, or naming the bad field.
    */
-  [[nodiscard]] static vpServoController create(const std::string &id, const vpServoControllerConfig &config = {});
+  [[nodiscard]] static vpServoController create(const std::string &id, const vpServoControllerSpec &spec = {});
   //! The ids of the laws; each can be followed by `+cbf`.
   [[nodiscard]] static const std::vector<std::string> &ids() { return vpServoLaw::ids(); }
 
@@ -71,9 +71,9 @@ public:
   //! The id of the controller, including `+cbf`.
   [[nodiscard]] const std::string &id() const { return m_id; }
   //! Current parameters.
-  [[nodiscard]] const vpServoControllerConfig &config() const { return m_config; }
+  [[nodiscard]] const vpServoControllerSpec &spec() const { return m_spec; }
   //! Current gains.
-  [[nodiscard]] const vpServoGains &gains() const { return m_config.gains; }
+  [[nodiscard]] const vpServoGains &gains() const { return m_spec.gains; }
   //! The servo law.
   [[nodiscard]] const vpServoLaw &law() const { return *m_law; }
 
@@ -83,13 +83,13 @@ public:
    * \param dt : Time since the last call and until the next one, s, > 0.
    * \return The twist to execute, safe in every case, and its status.
    */
-  [[nodiscard]] vpServoCommand update(const vpServoMeasurement &measurement, double dt) noexcept;
+  [[nodiscard]] vpServoCommand step(const vpServoMeasurement &measurement, double dt) noexcept;
 
   /*!
    * Orientation that a command aims at: where the camera would end if only the rotation continued, R
    * exp(w / rotationGain). For `pbvs1` this is the goal (the identity); with the term added by `ff-*` it is the
    * reference of figures 5.6 and 5.8 of the thesis.
-   * \param measurement : The valid measurement of the command. \param command : Result of update().
+   * \param measurement : The valid measurement of the command. \param command : Result of step().
    * \return Orientation in the desired camera frame. The identity without a goal or with a non-finite measurement.
    */
   [[nodiscard]] Eigen::Matrix3d referenceRotation(const vpServoMeasurement &measurement,
@@ -97,10 +97,10 @@ public:
 
 private:
   vpServoController(const std::string &id, std::unique_ptr<vpServoLaw> law, bool withFilter,
-                    const vpServoControllerConfig &config);
+                    const vpServoControllerSpec &spec);
 
   std::string m_id;
-  vpServoControllerConfig m_config;
+  vpServoControllerSpec m_spec;
   std::unique_ptr<vpServoLaw> m_law;
   std::optional<vpViewConstraintFilter> m_filter;
   vpTargetLossRecovery m_recovery;

@@ -41,7 +41,7 @@ struct VISP_EXPORT vpServoGains {
  * \ingroup group_feedforward
  * \brief A servo law: measurement and goal in, camera twist out.
  *
- * Set-up (create(), setGoal()) validates and throws. The step update() never throws and never allocates for the laws of
+ * Set-up (create(), setGoal()) validates and throws. The step step() never throws and never allocates for the laws of
  * this module; invalid input gives a status and zero twist. The `ff-*` laws implement FF-PBVS, feedforward
  * position-based visual servoing.
  *
@@ -50,9 +50,9 @@ struct VISP_EXPORT vpServoGains {
  * law->setGoal(goal);
  * vpServoCommand command;
  * do {
- *   command = law->update(measurement, dt);
+ *   command = law->step(measurement, dt);
  *   robot.setVelocity(vpRobot::CAMERA_FRAME, command.v.toColVector());
- * } while (isWorking(command.status) && !closeEnough(measurement));
+ * } while (vpIsWorking(command.status) && !closeEnough(measurement));
  * \endcode
  */
 class VISP_EXPORT vpServoLaw
@@ -103,7 +103,7 @@ public:
    *   a lost target is up to vpTargetLossRecovery. Numbers beyond 1e6 (m; x and y of points) count as not finite.
    * \param dt : Time since the last call, s, > 0; used by integrals only, which use at most 0.5 s per call.
    */
-  [[nodiscard]] vpServoCommand update(const vpServoMeasurement &measurement, double dt) noexcept;
+  [[nodiscard]] vpServoCommand step(const vpServoMeasurement &measurement, double dt) noexcept;
 
 protected:
   //! \param id : Id of the law. \param gains : Validated here.
@@ -115,7 +115,7 @@ protected:
   //! Called by reset(): forget internal state.
   virtual void stateReset() {}
   //! The law itself. The measurement is valid, finite, and has the goal's number of points. Must not throw or allocate.
-  virtual vpServoCommand step(const vpServoMeasurement &measurement, double dt) noexcept = 0;
+  virtual vpServoCommand compute(const vpServoMeasurement &measurement, double dt) noexcept = 0;
 
   std::string m_id;        //!< The id of the law.
   vpServoGains m_gains;    //!< Validated gains.

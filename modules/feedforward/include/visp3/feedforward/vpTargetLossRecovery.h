@@ -18,7 +18,7 @@ BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_feedforward
 //! \brief Parameters of vpTargetLossRecovery.
-struct VISP_EXPORT vpTargetLossConfig {
+struct VISP_EXPORT vpTargetLossSpec {
   double holdTime = 0.5;        //!< Time to stand still before the retreat, s, >= 0.
   double retreatTime = 2.;      //!< Maximum of recorded motion to undo, s, >= 0 (0: no retreat).
   double maxLinear = 0.2;       //!< Limit of the linear speed of the retreat, m/s, > 0.
@@ -43,10 +43,10 @@ class VISP_EXPORT vpTargetLossRecovery
 {
 public:
   //! \throw vpException (badValue) naming the field and its value.
-  explicit vpTargetLossRecovery(const vpTargetLossConfig &config = {});
+  explicit vpTargetLossRecovery(const vpTargetLossSpec &spec = {});
 
   //! Current parameters.
-  [[nodiscard]] const vpTargetLossConfig &config() const { return m_config; }
+  [[nodiscard]] const vpTargetLossSpec &spec() const { return m_spec; }
   //! Forget the recorded motion and the loss.
   void reset() noexcept;
 
@@ -58,7 +58,7 @@ public:
    *   and when the command is not finite.
    * \return The command itself; or, while the target is lost, Holding (zero twist), Retreating, and Lost (zero twist).
    */
-  [[nodiscard]] vpServoCommand update(const vpServoCommand &command, double dt) noexcept;
+  [[nodiscard]] vpServoCommand step(const vpServoCommand &command, double dt) noexcept;
 
 private:
   struct Sample {
@@ -69,7 +69,7 @@ private:
   void remember(const vpTwist &v, double duration) noexcept;
   vpServoCommand retreat(double dt) noexcept;
 
-  vpTargetLossConfig m_config;
+  vpTargetLossSpec m_spec;
   std::vector<Sample> m_samples; // ring of fixed size
   std::size_t m_next = 0;        // index of the next sample
   std::size_t m_count = 0;

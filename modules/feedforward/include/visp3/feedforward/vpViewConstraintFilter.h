@@ -18,7 +18,7 @@ BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_feedforward
 //! \brief Parameters of vpViewConstraintFilter. The default view is 640x480 px with f = 800 px.
-struct VISP_EXPORT vpViewConstraintConfig {
+struct VISP_EXPORT vpViewConstraintSpec {
   double left = -0.4;      //!< Left border of the image, normalised (x = X/Z), < 0.
   double right = 0.39875;  //!< Right border, > 0.
   double top = -0.3;       //!< Upper border, < 0.
@@ -35,7 +35,7 @@ struct VISP_EXPORT vpViewConstraintConfig {
    * distortion is ignored, so with a distorting lens pass the undistorted camera.
    * \throw vpException (badValue) when the size is 0 or the principal point is not inside the image.
    */
-  [[nodiscard]] static vpViewConstraintConfig fromCamera(const vpCameraParameters &camera, unsigned int width,
+  [[nodiscard]] static vpViewConstraintSpec fromCamera(const vpCameraParameters &camera, unsigned int width,
                                                          unsigned int height);
   //! \throw vpException (badValue) naming the field and its value when one is out of its range or not finite.
   void validate() const;
@@ -49,15 +49,15 @@ struct VISP_EXPORT vpViewConstraintConfig {
  * For each outline point and each of the four borders, with b the distance to the border, h = b - m the distance to a
  * line inside it by a margin m, and L the row of the point's interaction matrix, it requires L v >= -gamma h (a control
  * barrier function: near the border the point slows down exponentially) and solves min |v - v0|^2, with speeds in units
- * of #vpViewConstraintConfig::maxLinear and #vpViewConstraintConfig::maxAngular.
+ * of #vpViewConstraintSpec::maxLinear and #vpViewConstraintSpec::maxAngular.
  *
  * **Limits.** v0 is first scaled, as a whole, to the speed limits V0 and W0, and the solution is scaled back to the
  * share of them used by v0, s0 = max(|v0| / V0, |w0| / W0). One factor for all six components: a twist that satisfies
  * L v >= -gamma h with h >= 0 does so at every smaller speed too, while clipping by axis would violate it. V0, W0 are
- * #vpViewConstraintConfig::maxLinear and #vpViewConstraintConfig::maxAngular, and while a point is visible at most an
+ * #vpViewConstraintSpec::maxLinear and #vpViewConstraintSpec::maxAngular, and while a point is visible at most an
  * eighth of the smallest depth, and 1 / (8 rho1) rad, in a period T.
  *
- * **Guarantee.** T is the longer of \e dt and #vpViewConstraintConfig::period; a longer dt makes the motion slower, not
+ * **Guarantee.** T is the longer of \e dt and #vpViewConstraintSpec::period; a longer dt makes the motion slower, not
  * unsafe. If every visible point is initially inside the view (by imageUncertainty), and the camera executes the
  * constant twist returned, then no point is outside at any time from 0 to T.
  *
@@ -95,10 +95,10 @@ public:
   static constexpr int maxPoints = vpTwistProjection::capacity / 8;
 
   //! \throw vpException (badValue) naming the field and its value.
-  explicit vpViewConstraintFilter(const vpViewConstraintConfig &config = {});
+  explicit vpViewConstraintFilter(const vpViewConstraintSpec &spec = {});
 
   //! Current parameters.
-  [[nodiscard]] const vpViewConstraintConfig &config() const { return m_config; }
+  [[nodiscard]] const vpViewConstraintSpec &spec() const { return m_spec; }
 
   /*!
    * One cycle.
@@ -130,7 +130,7 @@ private:
   [[nodiscard]] Bounds bounds(double Z, const Speeds &speeds, double period) const noexcept;
   bool addRows(const vpServoPoint &point, const Speeds &limits, double share, double period) noexcept;
 
-  vpViewConstraintConfig m_config;
+  vpViewConstraintSpec m_spec;
   double m_radius; // radius of the view's farthest corner, normalised
   bool m_inside;   // all points of this cycle are within the true borders
   vpTwistProjection m_projection;

@@ -40,7 +40,7 @@ enum class vpArmTwistFrame { Base, EndEffector, Camera, Mixt };
  * The request may change at any time. Set it in the thread that calls step(), or lock both.
  * \code
  * vpArmMotion motion(model, vpRedundancySpec(), vpClosedLoopSpec());
- * motion.twist(law->update(measurement, motion.period()).v, vpArmTwistFrame::Camera);
+ * motion.twist(law->step(measurement, motion.period()).v, vpArmTwistFrame::Camera);
  * velocity = motion.step(q, velocity); // every vpRedundancySpec::period; send it to the drives
  * \endcode
  */

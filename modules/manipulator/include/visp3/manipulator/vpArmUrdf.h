@@ -17,7 +17,7 @@ BEGIN_VISP_NAMESPACE
  * \ingroup group_manipulator
  * \brief Options for data that a URDF file does not contain.
  */
-struct VISP_EXPORT vpArmUrdfOptions {
+struct VISP_EXPORT vpArmUrdfSpec {
   std::string base;   //!< First link of the chain; empty: the root.
   std::string tip;    //!< Last link, whose frame is the end effector; empty: the only leaf.
   std::string camera; //!< Camera link, fixed to the end effector's link; empty: the end effector itself.
@@ -34,7 +34,7 @@ struct VISP_EXPORT vpArmUrdfOptions {
  * tip is not unique or not below the base, a joint type is unsupported (floating, planar, mimic), or
  * vpArmModel rejects a value; one sentence with the file and the element.
  */
-[[nodiscard]] VISP_EXPORT vpArmModel vpLoadArmUrdf(const std::string &file, const vpArmUrdfOptions &options = {});
+[[nodiscard]] VISP_EXPORT vpArmModel vpLoadArmUrdf(const std::string &file, const vpArmUrdfSpec &spec = {});
 
 END_VISP_NAMESPACE
 #endif

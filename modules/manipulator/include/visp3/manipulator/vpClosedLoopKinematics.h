@@ -84,7 +84,7 @@ struct VISP_EXPORT vpClosedLoopOutput {
   vpRedundancyOutput solver; //!< Solver output of the step.
 
   //! Status as a readable sentence.
-  [[nodiscard]] const char *sentence() const noexcept;
+  [[nodiscard]] const char *message() const noexcept;
 };
 
 /*!

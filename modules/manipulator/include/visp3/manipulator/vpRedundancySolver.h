@@ -118,7 +118,7 @@ struct VISP_EXPORT vpRedundancyOutput {
   double scale = 1.;              //!< Factor due to velocity (ScaleMotion: and position) limits, 0..1.
 
   //! Status as a readable sentence.
-  [[nodiscard]] const char *sentence() const noexcept;
+  [[nodiscard]] const char *message() const noexcept;
 };
 
 /*!

@@ -59,7 +59,7 @@ struct VISP_EXPORT vpCalibrationPitch {
  * The columns are those that vpPatternTracker counts to the right in the image and the rows those that it counts
  * downwards, so a product rotated by a quarter turn has its pitches exchanged. The standard deviations are those of the
  * cells; 0.1 px where the tracker does not know them, as in its first image: then set
- * vpMicroscopeCalibrationOptions::sigmaFromResiduals.
+ * vpMicroscopeCalibrationSpec::sigmaFromResiduals.
  * \throw vpException (badValue) naming a pitch that is not > 0.
  */
 [[nodiscard]] VISP_EXPORT std::vector<vpCalibrationPoint> vpCalibrationPoints(const vpPatternFrame &frame,

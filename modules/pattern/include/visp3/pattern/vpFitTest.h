@@ -58,7 +58,7 @@ struct VISP_EXPORT vpFitTest {
 
 //! \ingroup group_pattern
 //! \brief Verdict as a word ("Misfit"), for files; static text.
-[[nodiscard]] VISP_EXPORT const char *toString(vpFitVerdict verdict);
+[[nodiscard]] VISP_EXPORT const char *vpToString(vpFitVerdict verdict);
 
 END_VISP_NAMESPACE
 #endif

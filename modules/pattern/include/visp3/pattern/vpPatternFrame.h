@@ -107,7 +107,7 @@ struct VISP_EXPORT vpPatternFrame {
 
 //! \ingroup group_pattern
 //! \brief Status as a word ("Tracking"), for files; static text.
-[[nodiscard]] VISP_EXPORT const char *toString(vpPatternStatus status);
+[[nodiscard]] VISP_EXPORT const char *vpToString(vpPatternStatus status);
 
 END_VISP_NAMESPACE
 #endif

@@ -48,7 +48,7 @@ struct VISP_EXPORT vpPatternThresholdResult {
 
 //! \ingroup group_pattern
 //! \brief The method as a word ("Otsu"), for files; static text.
-[[nodiscard]] VISP_EXPORT const char *toString(vpPatternThreshold method);
+[[nodiscard]] VISP_EXPORT const char *vpToString(vpPatternThreshold method);
 
 END_VISP_NAMESPACE
 #endif

@@ -10,7 +10,7 @@
 #define vpPatternTracker_h
 
 #include <visp3/pattern/vpPatternFrame.h>
-#include <visp3/pattern/vpPatternOptions.h>
+#include <visp3/pattern/vpPatternTrackerSpec.h>
 
 #include <visp3/core/vpImage.h>
 
@@ -29,17 +29,17 @@ BEGIN_VISP_NAMESPACE
  * The motion must stay below half a pitch per frame: a motion of a pattern without deviations by 0.8 pitch cannot be
  * distinguished from one by -0.2. Motion near half a pitch and sudden jumps start a new epoch.
  *
- * All memory is allocated in the constructor. track() does not allocate, throw, lock or print.
+ * All memory is allocated in the constructor. process() does not allocate, throw, lock or print.
  */
 class VISP_EXPORT vpPatternTracker
 {
 public:
   /*!
    * \param width, height Size of the images, px, each in [16, 16384].
-   * \param options Validated here.
+   * \param spec Validated here.
    * \throw vpException (badValue) that names what is out of range, and its value.
    */
-  vpPatternTracker(unsigned int width, unsigned int height, const vpPatternOptions &options = vpPatternOptions());
+  vpPatternTracker(unsigned int width, unsigned int height, const vpPatternTrackerSpec &spec = vpPatternTrackerSpec());
   ~vpPatternTracker();
   vpPatternTracker(vpPatternTracker &&) noexcept;            //!< Moves; the source can only be destroyed or assigned.
   vpPatternTracker &operator=(vpPatternTracker &&) noexcept; //!< Moves; the source can only be destroyed or assigned.
@@ -51,12 +51,12 @@ public:
    * \param image 8-bit image of the size given to the constructor; another size gives Lost with WrongSize.
    * \return The result, valid until the next call.
    */
-  const vpPatternFrame &track(const vpImage<unsigned char> &image);
+  const vpPatternFrame &process(const vpImage<unsigned char> &image);
 
   //! The result of the last image.
   [[nodiscard]] const vpPatternFrame &frame() const;
   //! The options in use.
-  [[nodiscard]] const vpPatternOptions &options() const;
+  [[nodiscard]] const vpPatternTrackerSpec &spec() const;
   /*!
    * \brief Notify the tracker of missing images, during which the motion of the product is unknown.
    *

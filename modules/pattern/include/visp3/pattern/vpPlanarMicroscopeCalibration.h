@@ -23,7 +23,7 @@ BEGIN_VISP_NAMESPACE
  * \ingroup group_pattern
  * \brief Parameters to estimate and given values of vpPlanarMicroscopeCalibration.
  */
-struct VISP_EXPORT vpMicroscopeCalibrationOptions {
+struct VISP_EXPORT vpMicroscopeCalibrationSpec {
   double u0 = std::numeric_limits<double>::quiet_NaN(); //!< Principal point, px; NaN: the centre of the image.
   double v0 = std::numeric_limits<double>::quiet_NaN(); //!< Principal point, px; NaN: the centre of the image.
   double aspect = 1.;          //!< scaleY / scaleX, in [0.1, 10]; initial value when it is estimated.
@@ -47,7 +47,7 @@ struct VISP_EXPORT vpMicroscopeCalibrationOptions {
 enum class vpKappa1Status {
   Estimated,    //!< Estimated; its standard deviation is in the covariance.
   Unobservable, //!< Not determined by the points, or without effect: 0, and the covariance covers its uncertainty.
-  NotAsked      //!< vpMicroscopeCalibrationOptions::estimateKappa1 was false: it is 0.
+  NotAsked      //!< vpMicroscopeCalibrationSpec::estimateKappa1 was false: it is 0.
 };
 
 //! \ingroup group_pattern
@@ -99,7 +99,7 @@ struct VISP_EXPORT vpMicroscopeCalibrationResult {
   double condition = 1.;      //!< Condition of the common parameters, scaled to equal columns; above 1e3 correlated.
   int iterations = 0;         //!< Iterations of the refinement.
   bool converged = false;     //!< The refinement converged.
-  bool looksTiltedTooFar = false; //!< More than vpMicroscopeCalibrationOptions::maxTilt, and not explained by noise.
+  bool looksTiltedTooFar = false; //!< More than vpMicroscopeCalibrationSpec::maxTilt, and not explained by noise.
   vpFitTest fit;                  //!< Tests whether the calibration fits the points.
   //! Converged, the points fit, and distortion and tilt are neither missing nor implausible; see #message.
   bool reliable = false;
@@ -147,11 +147,11 @@ class VISP_EXPORT vpPlanarMicroscopeCalibration
 public:
   /*!
    * \param width, height : Size of the images, px, each in [8, 65536].
-   * \param options : What to estimate and how.
+   * \param spec : What to estimate and how.
    * \throw vpException (badValue) naming the value that is out of range.
    */
   vpPlanarMicroscopeCalibration(unsigned int width, unsigned int height,
-                                const vpMicroscopeCalibrationOptions &options = vpMicroscopeCalibrationOptions());
+                                const vpMicroscopeCalibrationSpec &spec = vpMicroscopeCalibrationSpec());
 
   /*!
    * Add the points of one image, at least 6 per view and not collinear.
@@ -167,13 +167,13 @@ public:
 private:
   unsigned int m_width;
   unsigned int m_height;
-  vpMicroscopeCalibrationOptions m_options;
+  vpMicroscopeCalibrationSpec m_spec;
   std::vector<std::vector<vpCalibrationPoint>> m_views;
 };
 
 //! \ingroup group_pattern
 //! \brief Status as a word ("Estimated"), for files; static text.
-[[nodiscard]] VISP_EXPORT const char *toString(vpKappa1Status status);
+[[nodiscard]] VISP_EXPORT const char *vpToString(vpKappa1Status status);
 
 END_VISP_NAMESPACE
 #endif

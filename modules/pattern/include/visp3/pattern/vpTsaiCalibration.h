@@ -27,7 +27,7 @@ BEGIN_VISP_NAMESPACE
  * \ingroup group_pattern
  * \brief Parameters to estimate and given values of vpTsaiCalibration.
  */
-struct VISP_EXPORT vpTsaiCalibrationOptions {
+struct VISP_EXPORT vpTsaiCalibrationSpec {
   double u0 = std::numeric_limits<double>::quiet_NaN(); //!< Principal point, px; NaN: the centre. Initial if estimated.
   double v0 = std::numeric_limits<double>::quiet_NaN(); //!< Principal point, px; NaN: the centre. Initial if estimated.
   double aspect = 1.;                                   //!< py / px, in [0.1, 10]; initial value when estimated.
@@ -96,11 +96,11 @@ class VISP_EXPORT vpTsaiCalibration
 public:
   /*!
    * \param width, height : Size of the images, px, each in [8, 65536].
-   * \param options : What to estimate and how.
+   * \param spec : What to estimate and how.
    * \throw vpException (badValue) naming the value that is out of range.
    */
   vpTsaiCalibration(unsigned int width, unsigned int height,
-                    const vpTsaiCalibrationOptions &options = vpTsaiCalibrationOptions());
+                    const vpTsaiCalibrationSpec &spec = vpTsaiCalibrationSpec());
 
   /*!
    * Add the points of one image; sigmaPlane is not used. At least 6 in a plane, or 8 not in a plane; none may be behind
@@ -121,7 +121,7 @@ private:
 
   unsigned int m_width;
   unsigned int m_height;
-  vpTsaiCalibrationOptions m_options;
+  vpTsaiCalibrationSpec m_spec;
   std::vector<std::vector<vpCalibrationPoint>> m_views;
 };
 

@@ -31,14 +31,14 @@ enum class vpKeypointType {
 
 //! \ingroup group_planar_target
 //! \brief Name of the detector ("ORB"), static text.
-[[nodiscard]] VISP_EXPORT const char *toString(vpKeypointType type);
+[[nodiscard]] VISP_EXPORT const char *vpToString(vpKeypointType type);
 //! \ingroup group_planar_target
 //! \throw vpException (badValue) naming an unknown detector and the known ones.
-[[nodiscard]] VISP_EXPORT vpKeypointType keypointTypeFromString(const std::string &name);
+[[nodiscard]] VISP_EXPORT vpKeypointType vpKeypointTypeFromString(const std::string &name);
 
 //! \ingroup group_planar_target
 //! \brief Settings of a target. The defaults suit 640x480 images with a target that fills at least a third of the view.
-struct VISP_EXPORT vpPlanarTargetConfig {
+struct VISP_EXPORT vpPlanarTargetSpec {
   vpKeypointType keypoints = vpKeypointType::ORB; //!< Detector for acquisition.
   bool fallback = true;                           //!< Try AKAZE when the detector above gives too few inliers.
   unsigned int maxKeypoints = 1500; //!< More find smaller targets but take longer; detectors without a bound ignore it.
@@ -91,12 +91,12 @@ public:
    * \param reference : Fronto-parallel image of the target.
    * \param width, height : Metric size of the area shown in the reference image, m, > 0.
    * \param camera : Intrinsics of the images given to process(). Distortion (perspectiveProjWithDistortion) is removed.
-   * \param config : Settings.
+   * \param spec : Settings.
    * \throw vpException (badValue / dimensionError) naming the error: image under 32x32 px, blank image (too little
    *   texture for keypoints and for the refinement), size not positive, invalid setting.
    */
   vpPlanarTarget(const vpImage<unsigned char> &reference, double width, double height, const vpCameraParameters &camera,
-                 const vpPlanarTargetConfig &config = {});
+                 const vpPlanarTargetSpec &spec = {});
   ~vpPlanarTarget();
   vpPlanarTarget(vpPlanarTarget &&) noexcept;            //!< Moves.
   vpPlanarTarget &operator=(vpPlanarTarget &&) noexcept; //!< Moves.

@@ -55,8 +55,8 @@ struct VISP_EXPORT vpPlanarTargetSighting {
 class VISP_EXPORT vpPlanarTargetDatabase
 {
 public:
-  //! An empty database. \param camera : As for vpPlanarTarget. \param config : Settings of every target.
-  explicit vpPlanarTargetDatabase(const vpCameraParameters &camera, const vpPlanarTargetConfig &config = {});
+  //! An empty database. \param camera : As for vpPlanarTarget. \param spec : Settings of every target.
+  explicit vpPlanarTargetDatabase(const vpCameraParameters &camera, const vpPlanarTargetSpec &spec = {});
   ~vpPlanarTargetDatabase();
   vpPlanarTargetDatabase(vpPlanarTargetDatabase &&) noexcept;            //!< Moves.
   vpPlanarTargetDatabase &operator=(vpPlanarTargetDatabase &&) noexcept; //!< Moves.
@@ -66,7 +66,7 @@ public:
    * \throw vpException (ioError, badValue) naming the file, and the invalid field and its value.
    */
   [[nodiscard]] static vpPlanarTargetDatabase fromFolder(const std::string &folder, const vpCameraParameters &camera,
-                                                         const vpPlanarTargetConfig &config = {});
+                                                         const vpPlanarTargetSpec &spec = {});
   /*!
    * Add a target.
    * \param name : Not empty, unique. \param reference, width, height : As for vpPlanarTarget.

@@ -36,7 +36,7 @@ enum class vpPlanarTargetStatus {
 
 //! \ingroup group_planar_target
 //! \brief Status as a word ("Tracked"), static text.
-[[nodiscard]] VISP_EXPORT const char *toString(vpPlanarTargetStatus status);
+[[nodiscard]] VISP_EXPORT const char *vpToString(vpPlanarTargetStatus status);
 
 //! \ingroup group_planar_target
 //! \brief Second pose with nearly the same image, which a plane has at weak perspective.
@@ -52,7 +52,7 @@ struct VISP_EXPORT vpPlanarTargetResult {
   vpPlanarTargetStatus status = vpPlanarTargetStatus::NoFrame; //!< Result of the frame.
   std::string message;                                         //!< One sentence for users, with the relevant numbers.
   vpHomogeneousMatrix cMo;     //!< Pose of the target in the camera, m; the target's plane is z = 0, x right, y down.
-  vpPoseCovariance covariance; //!< Covariance of cMo, if it is the right pose. See vpPlanarTargetConfig::exact.
+  vpPoseCovariance covariance; //!< Covariance of cMo, if it is the right pose. See vpPlanarTargetSpec::exact.
   std::array<double, 9> homography{}; //!< Row-major: reference image pixels to frame pixels, H(2,2) = 1.
   //! The reference image's corners in the frame: top left, top right, bottom right, bottom left; px.
   std::array<vpImagePoint, 4> corners;

@@ -82,11 +82,11 @@ class VISP_EXPORT vpPlaneMatcher
 {
 public:
   /*!
-   * \param reference : Reference view, at least 32x32 px. \param config : Its keypoints, maxKeypoints, minInliers and
+   * \param reference : Reference view, at least 32x32 px. \param spec : Its keypoints, maxKeypoints, minInliers and
    * inlierThreshold are used.
    * \throw vpException (dimensionError, badValue) naming the error: small image, too few keypoints, invalid setting.
    */
-  explicit vpPlaneMatcher(const vpImage<unsigned char> &reference, const vpPlanarTargetConfig &config = {});
+  explicit vpPlaneMatcher(const vpImage<unsigned char> &reference, const vpPlanarTargetSpec &spec = {});
   ~vpPlaneMatcher();
   vpPlaneMatcher(vpPlaneMatcher &&) noexcept;            //!< Moves.
   vpPlaneMatcher &operator=(vpPlaneMatcher &&) noexcept; //!< Moves.

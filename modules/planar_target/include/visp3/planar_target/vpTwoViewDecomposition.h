@@ -33,7 +33,7 @@ enum class vpTwoViewStatus {
 
 //! \ingroup group_planar_target
 //! \brief Status as a word ("Unique"), static text.
-[[nodiscard]] VISP_EXPORT const char *toString(vpTwoViewStatus status);
+[[nodiscard]] VISP_EXPORT const char *vpToString(vpTwoViewStatus status);
 
 //! \ingroup group_planar_target
 //! \brief One physically possible motion.
@@ -54,7 +54,7 @@ struct VISP_EXPORT vpTwoViewResult {
 
 //! \ingroup group_planar_target
 //! \brief Settings of vpTwoViewDecomposition.
-struct VISP_EXPORT vpTwoViewConfig {
+struct VISP_EXPORT vpTwoViewSpec {
   double minTranslation = 0.02;    //!< Shorter motions, as a fraction of the plane's distance, are PureRotation, > 0.
   double normalTolerance = 0.0873; //!< Angle up to which normals are equal, rad, 0..0.5 (5 deg). Raise with the noise.
   //! \throw vpException (badValue) naming the field and its value.
@@ -75,7 +75,7 @@ struct VISP_EXPORT vpTwoViewConfig {
  *    changes with it. Hypotheses that no candidate of a new frame confirms are dropped; while more than one is left the
  *    status is Ambiguous. A decided normal then serves as the prior.
  *
- * Degenerate: with sigma1 - sigma3 = |t| / d below vpTwoViewConfig::minTranslation the camera has only rotated; the
+ * Degenerate: with sigma1 - sigma3 = |t| / d below vpTwoViewSpec::minTranslation the camera has only rotated; the
  * decomposition would return noise, so the status is PureRotation. With t parallel to n both planes coincide, and the
  * motion is immediately Unique.
  *
@@ -85,7 +85,7 @@ class VISP_EXPORT vpTwoViewDecomposition
 {
 public:
   //! \throw vpException (badValue) naming the setting that is out of its range.
-  explicit vpTwoViewDecomposition(const vpTwoViewConfig &config = {});
+  explicit vpTwoViewDecomposition(const vpTwoViewSpec &spec = {});
 
   /*!
    * Set the approximate plane normal, in the reference camera frame: decides between the two planes at once.
@@ -110,7 +110,7 @@ private:
   void chooseByPrior();
   void chooseByHistory();
 
-  vpTwoViewConfig m_config;
+  vpTwoViewSpec m_spec;
   vpTwoViewResult m_result;
   std::vector<vpColVector> m_hypotheses; // normals confirmed by every frame so far; one: decided, or the prior
   bool m_hasPrior = false;

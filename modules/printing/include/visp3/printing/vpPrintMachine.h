@@ -116,7 +116,7 @@ struct VISP_EXPORT vpPrintMachineOutput {
  * vpPrintMachine machine(spec);
  * machine.reset(0, -1); // the first cell to print
  * for (double frame = 0;; ++frame) {
- *   const vpPatternFrame &seen = tracker.track(grab());
+ *   const vpPatternFrame &seen = tracker.process(grab());
  *   const vpPrintMachineOutput &out = machine.step({frame, seen.cells.data(), seen.cells.size(), seen.epoch});
  *   send(out.forceX, out.forceY, out.commandCount); // to the drives
  *   fire(out.trigger->shots, out.trigger->shotCount);

@@ -25,7 +25,7 @@ enum class vpProductShape {
 
 //! \ingroup group_rendering
 //! \return "rectangle", "rounded" or "dot".
-[[nodiscard]] VISP_EXPORT std::string toString(vpProductShape shape);
+[[nodiscard]] VISP_EXPORT std::string vpToString(vpProductShape shape);
 
 /*!
  * \ingroup group_rendering

@@ -27,7 +27,7 @@ BEGIN_VISP_NAMESPACE
  * const vpServoTarget plate = vpServoTarget::rectangle(0.16, 0.11); // m
  * law->setGoal(plate.goal(cdMo));
  * plate.measure(target.process(image), time, measurement); // each frame
- * command = law->update(measurement, dt);
+ * command = law->step(measurement, dt);
  * \endcode
  */
 class VISP_EXPORT vpServoTarget

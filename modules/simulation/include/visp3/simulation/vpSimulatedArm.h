@@ -201,7 +201,7 @@ private:
 
 //! \ingroup group_simulation
 //! \brief Status as a word, for tables.
-[[nodiscard]] VISP_EXPORT const char *toString(vpSimulatedArmStatus status);
+[[nodiscard]] VISP_EXPORT const char *vpToString(vpSimulatedArmStatus status);
 
 END_VISP_NAMESPACE
 #endif

@@ -30,7 +30,7 @@ BEGIN_VISP_NAMESPACE
  * vpTrajectoryOutput<3> output;
  * input.goal.q << 0.5, 0.2, -0.1;
  * input.maxVelocity.setConstant(0.5);
- * while (isWorking(trajectory.update(input, output, 0.001))) {
+ * while (vpIsWorking(trajectory.step(input, output, 0.001))) {
  *   robot.setPosition(output.state.q);   // input.goal or the limits may change here, at any cycle
  * }
  * if (output.status.result == vpTrajectoryResult::Finished) {
@@ -41,7 +41,7 @@ BEGIN_VISP_NAMESPACE
  * }
  * \endcode
  *
- * Units are free but must be consistent for each axis. update() never allocates, throws, locks or prints. Copyable: a
+ * Units are free but must be consistent for each axis. step() never allocates, throws, locks or prints. Copyable: a
  * copy carries the whole state of the motion.
  */
 template <int N> class vpDirectTrajectory
@@ -57,10 +57,10 @@ public:
   {}
 
   //! One cycle of \e dt seconds (may vary): replan if something changed, then advance.
-  vpTrajectoryResult update(const vpTrajectoryInput<N> &input, vpTrajectoryOutput<N> &output, double dt) noexcept
+  vpTrajectoryResult step(const vpTrajectoryInput<N> &input, vpTrajectoryOutput<N> &output, double dt) noexcept
   {
     const vpTrajectoryStatus read = input.copyTo(m_problem);
-    output.status = read.isGood() ? m_follower.update(m_problem, dt) : m_follower.advance(read, dt);
+    output.status = read.isGood() ? m_follower.step(m_problem, dt) : m_follower.advance(read, dt);
     for (int i = 0; i < m_problem.axes() && i < output.state.q.size(); ++i) {
       const vpAxisState x = m_follower.state(i);
       output.state.q[i] = x[0];
@@ -75,7 +75,7 @@ public:
     return output.status.result;
   }
 
-  //! The next update() starts from input.start.
+  //! The next step() starts from input.start.
   void reset() noexcept { m_follower.reset(); }
   //! The current plan: at(axis, t), peaks(axis), segments(axis), pieces().
   [[nodiscard]] const vpTrajectoryPlan &plan() const { return m_follower.plan(); }
@@ -96,9 +96,9 @@ public:
     status = status.isGood() ? problem.validate(true) : status;
     if (status.isGood()) {
       plan = vpTrajectoryPlan(axes, vias);
-      const bool fixed = input.options.policy == vpReplanPolicy::FixedArrival;
+      const bool fixed = input.spec.policy == vpReplanPolicy::FixedArrival;
       status = vpTrajectoryPlanner(axes, vias)
-                   .plan(problem, fixed ? input.options.arrivalTime : input.options.minimumDuration, plan);
+                   .plan(problem, fixed ? input.spec.arrivalTime : input.spec.minimumDuration, plan);
     }
     return status;
   }

@@ -28,7 +28,7 @@ enum class vpRotationPath {
 
 //! \ingroup group_trajectory
 //! \brief Limits and choices of vpPoseTrajectory.
-struct VISP_EXPORT vpPoseTrajectoryOptions {
+struct VISP_EXPORT vpPoseTrajectorySpec {
   double linearVelocity = 0.25;    //!< Bound on |v_c|, m/s, > 0.
   double linearAcceleration = 0.5; //!< Bound on the norm of the acceleration of the camera's origin, m/s^2, > 0.
   double linearJerk = std::numeric_limits<double>::infinity(); //!< Jerk limit per axis, m/s^3, > 0.
@@ -78,11 +78,11 @@ struct VISP_EXPORT vpCameraState {
  * bounds |w_c|. Position and rotation arrive together.
  *
  * \code
- * vpPoseTrajectory trajectory(options);
+ * vpPoseTrajectory trajectory(spec);
  * trajectory.reset(fMc);
  * trajectory.setGoal(fMcd);                       // at every image, if it moves
- * vpTrajectoryStatus status = trajectory.update(dt);
- * for (; isWorking(status.result); status = trajectory.update(dt)) {
+ * vpTrajectoryStatus status = trajectory.step(dt);
+ * for (; vpIsWorking(status.result); status = trajectory.step(dt)) {
  *   robot.setVelocity(vpRobot::CAMERA_FRAME, trajectory.state().v.toColVector());
  * }
  * robot.setVelocity(vpRobot::CAMERA_FRAME, vpColVector(6)); // at the goal, or status.message() gives the error
@@ -95,13 +95,13 @@ public:
    * Starts at rest at the identity.
    * \throw vpException (badValue) when an option is out of its range.
    */
-  explicit vpPoseTrajectory(const vpPoseTrajectoryOptions &options = {});
+  explicit vpPoseTrajectory(const vpPoseTrajectorySpec &spec = {});
 
   /*!
    * Change limits and choices; triggers a replan.
    * \throw vpException (badValue) when an option is out of its range.
    */
-  void setOptions(const vpPoseTrajectoryOptions &options);
+  void setSpec(const vpPoseTrajectorySpec &spec);
   /*!
    * Restart at this pose; it is also the goal until setGoal() is called.
    * \param fMc : Pose of the camera in the reference frame.
@@ -117,7 +117,7 @@ public:
    */
   vpTrajectoryStatus setGoal(const vpHomogeneousMatrix &fMcd, const vpTwist &twist = {}) noexcept;
   //! One cycle of \e dt seconds, at most 1e9. Never throws, never allocates.
-  vpTrajectoryStatus update(double dt) noexcept;
+  vpTrajectoryStatus step(double dt) noexcept;
 
   [[nodiscard]] const vpCameraState &state() const { return m_state; } //!< Commanded state.
   //! Commanded state at \e t, s from the start of the current plan.
@@ -137,7 +137,7 @@ private:
   [[nodiscard]] double meet(double floor, Eigen::Matrix3d &R, Eigen::Vector3d &t) noexcept;
   void replan() noexcept;
 
-  vpPoseTrajectoryOptions m_options;
+  vpPoseTrajectorySpec m_spec;
   vpTrajectoryProblem m_problem;
   vpTrajectoryPlanner m_planner;
   vpTrajectoryPlan m_plan;

@@ -38,10 +38,10 @@ public:
   explicit vpTrajectoryFollower(int axes, int maxVias = 0);
 
   //! One cycle of \e dt seconds, at most 1e9. Never throws, never allocates.
-  vpTrajectoryStatus update(const vpTrajectoryProblem &problem, double dt) noexcept;
+  vpTrajectoryStatus step(const vpTrajectoryProblem &problem, double dt) noexcept;
   //! One cycle with an input that could not be read: the motion continues, the result is \e fault.
   vpTrajectoryStatus advance(const vpTrajectoryStatus &fault, double dt) noexcept;
-  //! The next update() starts from the problem's start state.
+  //! The next step() starts from the problem's start state.
   void reset() noexcept { m_started = false; }
 
   [[nodiscard]] vpAxisState state(int axis) const noexcept { return m_plan.at(axis, m_clock); } //!< Commanded state.

@@ -65,7 +65,7 @@ template <int N> struct vpTrajectoryInput {
   vpAxisVector<N> minPosition;          //!< unit; -infinity (the default): none.
   vpAxisVector<N> maxPosition;          //!< unit; infinity (the default): none.
   std::vector<vpTrajectoryVia<N>> vias; //!< Vias, at most the maxVias of the trajectory.
-  vpTrajectoryOptions options;          //!< All other options.
+  vpTrajectorySpec spec;          //!< All other options.
 
   //! At rest at zero with velocity and acceleration limits of 1.
   explicit vpTrajectoryInput(int axes = N == Eigen::Dynamic ? 0 : N)
@@ -122,7 +122,7 @@ template <int N> vpTrajectoryStatus vpTrajectoryInput<N>::copyTo(vpTrajectoryPro
   copy(maxJerk, P::MaxJerk);
   copy(minPosition, P::MinPosition);
   copy(maxPosition, P::MaxPosition);
-  problem.options = options;
+  problem.spec = spec;
   problem.setViaCount(static_cast<int>(vias.size()));
   for (int k = 0; k < static_cast<int>(vias.size()) && k < problem.maxVias(); ++k) {
     const vpTrajectoryVia<N> &via = vias[static_cast<std::size_t>(k)];

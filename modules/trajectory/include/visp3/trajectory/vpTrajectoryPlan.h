@@ -29,7 +29,7 @@ enum class vpTrajectoryForm {
 
 //! \ingroup group_trajectory
 //! \brief The form as a word ("Direct"), for files; static text.
-[[nodiscard]] VISP_EXPORT const char *toString(vpTrajectoryForm form);
+[[nodiscard]] VISP_EXPORT const char *vpToString(vpTrajectoryForm form);
 
 //! \ingroup group_trajectory
 //! \brief A polynomial in its own normalised time: q(t) = p((t - begin)/duration).

@@ -10,7 +10,7 @@
 #define vpTrajectoryProblem_h
 
 #include <visp3/trajectory/vpMinimumDuration.h>
-#include <visp3/trajectory/vpTrajectoryOptions.h>
+#include <visp3/trajectory/vpTrajectorySpec.h>
 #include <visp3/trajectory/vpTrajectoryResult.h>
 
 #include <vector>
@@ -105,7 +105,7 @@ public:
    */
   [[nodiscard]] vpTrajectoryStatus validate(bool startToo) const noexcept;
 
-  vpTrajectoryOptions options; //!< Everything that is not one number per axis.
+  vpTrajectorySpec spec; //!< Everything that is not one number per axis.
 
 private:
   [[nodiscard]] double at(Field f, int axis) const { return m_values[index(f, axis)]; }

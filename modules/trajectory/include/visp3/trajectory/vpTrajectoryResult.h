@@ -35,7 +35,7 @@ enum class vpTrajectoryResult {
  * (InvalidInput, NoFeasibleDuration, ArrivalInfeasible); vpTrajectoryStatus::message() names it. An error does not stop
  * the motion: further cycles follow the current plan, so a program may also correct the input, or brake, and go on.
  */
-[[nodiscard]] constexpr bool isWorking(vpTrajectoryResult result)
+[[nodiscard]] constexpr bool vpIsWorking(vpTrajectoryResult result)
 {
   return result == vpTrajectoryResult::Working || result == vpTrajectoryResult::Braking;
 }
@@ -141,10 +141,10 @@ struct VISP_EXPORT vpTrajectoryStatus {
 
 //! \ingroup group_trajectory
 //! \brief The result as a word ("Working"), for files; static text.
-[[nodiscard]] VISP_EXPORT const char *toString(vpTrajectoryResult result);
+[[nodiscard]] VISP_EXPORT const char *vpToString(vpTrajectoryResult result);
 //! \ingroup group_trajectory
 //! \brief The limit as words ("velocity"), for messages; static text.
-[[nodiscard]] VISP_EXPORT const char *toString(vpTrajectoryLimit limit);
+[[nodiscard]] VISP_EXPORT const char *vpToString(vpTrajectoryLimit limit);
 
 END_VISP_NAMESPACE
 #endif

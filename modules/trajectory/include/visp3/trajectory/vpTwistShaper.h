@@ -43,7 +43,7 @@ struct VISP_EXPORT vpTwistShaperLimits {
  * time.
  *
  * **Speed.** The output is never faster than the fastest input so far (norms of the linear and of the angular part
- * separately; the twist given to reset() counts as an input), however the input turns: inputs limited by limitTwist()
+ * separately; the twist given to reset() counts as an input), however the input turns: inputs limited by vpLimitTwist()
  * give outputs within its limits. Ramps per component alone do not guarantee that: combined, they overshoot when the
  * input turns. Proof: from velocity v and acceleration a, braking with the full jerk J against a leads straight to
  * p = v + a |a| / (2 J). While |v| and |p| are at most V, a ball being convex, braking never leaves the ball of radius
@@ -54,7 +54,7 @@ struct VISP_EXPORT vpTwistShaperLimits {
  * \code
  * vpTwistShaper shaper(limits);
  * while (task.getError().sumSquare() > small) {
- *   v = shaper.update(vpTwist::fromColVector(task.computeControlLaw()), dt);
+ *   v = shaper.step(vpTwist::fromColVector(task.computeControlLaw()), dt);
  * }
  * \endcode
  */
@@ -89,7 +89,7 @@ public:
    *   #longestStep counts as #longestStep, so that the twist does not step after a pause or with a wrong clock.
    * \return The twist to command.
    */
-  [[nodiscard]] vpTwist update(const vpTwist &raw, double dt) noexcept;
+  [[nodiscard]] vpTwist step(const vpTwist &raw, double dt) noexcept;
 
   //! The commanded twist.
   [[nodiscard]] const vpTwist &twist() const { return m_twist; }

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-#include <visp3/pattern/vpPatternOptions.h>
+#include <visp3/pattern/vpPatternTrackerSpec.h>
 
 #include <visp3/core/vpException.h>
 
@@ -13,13 +13,13 @@ namespace
 void inRange(const char *field, double value, double low, double high)
 {
   if (!(value >= low && value <= high)) {
-    throw vpException(vpException::badValue, "vpPatternOptions: %s is %g, must be in [%g, %g]", field, value, low,
+    throw vpException(vpException::badValue, "vpPatternTrackerSpec: %s is %g, must be in [%g, %g]", field, value, low,
                       high);
   }
 }
 } // namespace
 
-void vpPatternOptions::check() const
+void vpPatternTrackerSpec::check() const
 {
   inRange("minContrast", minContrast, 1., 255.);
   inRange("minPitch", minPitch, 4., 1000.);
@@ -30,7 +30,7 @@ void vpPatternOptions::check() const
   inRange("maxLostFrames", maxLostFrames, 0, 1000000);
 }
 
-const char *toString(vpPatternMethod method)
+const char *vpToString(vpPatternMethod method)
 {
   switch (method) {
   case vpPatternMethod::HalfMaximumEdges:
@@ -45,7 +45,7 @@ const char *toString(vpPatternMethod method)
   return "GaussNewton";
 }
 
-const char *toString(vpPatternDerivative derivative)
+const char *vpToString(vpPatternDerivative derivative)
 {
   switch (derivative) {
   case vpPatternDerivative::Roberts:

@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 /*!
- * \file vpTrajectoryOptions.h
+ * \file vpTrajectorySpec.h
  * \brief The choices of section 6.2 of the thesis: continuity, replanning policy, synchronisation, timing.
  */
 #ifndef vpTrajectoryOptions_h
@@ -31,7 +31,7 @@ enum class vpTrajectoryContinuity {
 enum class vpReplanPolicy {
   EventMinTime, //!< Smallest duration, recomputed at events only: in between it would spoil the final approach.
   KeepArrival,  //!< The arrival time stays unless the limits or the goal's noise delay it; see vpTrajectoryFollower.
-  FixedArrival  //!< The arrival time is given: vpTrajectoryOptions::arrivalTime.
+  FixedArrival  //!< The arrival time is given: vpTrajectorySpec::arrivalTime.
 };
 
 //! \ingroup group_trajectory
@@ -78,7 +78,7 @@ struct VISP_EXPORT vpAxisGroup {
 
 //! \ingroup group_trajectory
 //! \brief Everything about a trajectory that is not one number per axis.
-struct VISP_EXPORT vpTrajectoryOptions {
+struct VISP_EXPORT vpTrajectorySpec {
   static constexpr int maxGroups = 4; //!< Largest number of groups.
 
   vpTrajectoryContinuity continuity = vpTrajectoryContinuity::C2; //!< Continuity across replans.
@@ -103,10 +103,10 @@ struct VISP_EXPORT vpTrajectoryOptions {
 
 //! \ingroup group_trajectory
 //! \brief True when both describe the same choices.
-[[nodiscard]] VISP_EXPORT bool operator==(const vpTrajectoryOptions &a, const vpTrajectoryOptions &b);
+[[nodiscard]] VISP_EXPORT bool operator==(const vpTrajectorySpec &a, const vpTrajectorySpec &b);
 //! \ingroup group_trajectory
 //! \brief True when a choice differs.
-[[nodiscard]] inline bool operator!=(const vpTrajectoryOptions &a, const vpTrajectoryOptions &b) { return !(a == b); }
+[[nodiscard]] inline bool operator!=(const vpTrajectorySpec &a, const vpTrajectorySpec &b) { return !(a == b); }
 
 END_VISP_NAMESPACE
 #endif

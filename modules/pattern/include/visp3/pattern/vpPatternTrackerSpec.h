@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 /*!
- * \file vpPatternOptions.h
+ * \file vpPatternTrackerSpec.h
  * \brief Options of vpPatternTracker; all are optional.
  */
 #ifndef vpPatternOptions_h
@@ -43,7 +43,7 @@ enum class vpPatternPolarity {
  * \ingroup group_pattern
  * \brief Options of vpPatternTracker. The defaults suit every pattern with two visible periods in both directions.
  */
-struct VISP_EXPORT vpPatternOptions {
+struct VISP_EXPORT vpPatternTrackerSpec {
   vpPatternMethod method = vpPatternMethod::GaussNewton;           //!< Method that measures a centre.
   vpPatternThreshold threshold = vpPatternThreshold::Otsu;         //!< Threshold for the acquisition and the baselines.
   vpPatternDerivative derivative = vpPatternDerivative::Symmetric; //!< Derivative for both variants of Algorithm 7.4.
@@ -65,10 +65,10 @@ struct VISP_EXPORT vpPatternOptions {
 
 //! \ingroup group_pattern
 //! \brief The method as a word ("GaussNewton"), for files; static text.
-[[nodiscard]] VISP_EXPORT const char *toString(vpPatternMethod method);
+[[nodiscard]] VISP_EXPORT const char *vpToString(vpPatternMethod method);
 //! \ingroup group_pattern
 //! \brief The derivative as a word ("Symmetric"), for files; static text.
-[[nodiscard]] VISP_EXPORT const char *toString(vpPatternDerivative derivative);
+[[nodiscard]] VISP_EXPORT const char *vpToString(vpPatternDerivative derivative);
 
 END_VISP_NAMESPACE
 #endif

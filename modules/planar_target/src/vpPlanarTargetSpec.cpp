@@ -21,7 +21,7 @@ constexpr std::array<std::pair<vpKeypointType, const char *>, 6> keypointNames =
                                                                                    {vpKeypointType::SURF, "SURF"}}};
 } // namespace
 
-const char *toString(vpKeypointType type)
+const char *vpToString(vpKeypointType type)
 {
   for (const auto &entry : keypointNames) {
     if (entry.first == type) {
@@ -31,7 +31,7 @@ const char *toString(vpKeypointType type)
   return "unknown";
 }
 
-vpKeypointType keypointTypeFromString(const std::string &name)
+vpKeypointType vpKeypointTypeFromString(const std::string &name)
 {
   std::string known;
   for (const auto &entry : keypointNames) {
@@ -44,7 +44,7 @@ vpKeypointType keypointTypeFromString(const std::string &name)
                     known.c_str());
 }
 
-const char *toString(vpPlanarTargetStatus status)
+const char *vpToString(vpPlanarTargetStatus status)
 {
   switch (status) {
   case vpPlanarTargetStatus::Acquired:
@@ -69,9 +69,9 @@ const char *toString(vpPlanarTargetStatus status)
   return "unknown";
 }
 
-void vpPlanarTargetConfig::validate() const
+void vpPlanarTargetSpec::validate() const
 {
-  if (toString(keypoints) == std::string("unknown")) {
+  if (vpToString(keypoints) == std::string("unknown")) {
     throw vpException(vpException::badValue, "keypoint type %d is not known", static_cast<int>(keypoints));
   }
   if (minInliers < 8) {
