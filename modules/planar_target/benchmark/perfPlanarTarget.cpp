@@ -230,7 +230,7 @@ template <typename Tracker> void trackVispTemplate(benchmark::State &state)
   for (auto _ : state) {
     const View &frame = sequence()[i++ % sequence().size()];
     try {
-      tracker.process(frame.image);
+      tracker.track(frame.image);
     }
     catch (const vpException &) {
       ++lost;
