@@ -243,7 +243,7 @@ private:
   vpFitTest m_test;
 };
 
-template <class... Values> std::string message(const char *format, Values... values)
+template <class... Values> std::string formatted(const char *format, Values... values)
 {
   char text[400];
   std::snprintf(text, sizeof text, format, values...);
@@ -263,15 +263,15 @@ std::string vpFitTest::message(double varianceFactor) const
   }
   const bool stated = !std::isnan(wholeProbability);
   if (verdict == vpFitVerdict::Fits) {
-    return message("The fit holds%s, tested at level %g.", stated ? " against the stated deviations" : "", level);
+    return formatted("The fit holds%s, tested at level %g.", stated ? " against the stated deviations" : "", level);
   }
   std::string text = "The model does not fit the points:";
   text += stated && wholeProbability < level
-              ? message(" the residuals are %.3g times what the stated deviations allow.", std::sqrt(varianceFactor))
+              ? formatted(" the residuals are %.3g times what the stated deviations allow.", std::sqrt(varianceFactor))
               : " the residuals are not noise.";
-  text += message(" View %d fits worst (%.3g px rms)", worstView, worstViewRms);
+  text += formatted(" View %d fits worst (%.3g px rms)", worstView, worstViewRms);
   if (worstPoint >= 0) {
-    text += message("; the worst point is %d of view %d, %.3g px from where the others put it", worstPoint,
+    text += formatted("; the worst point is %d of view %d, %.3g px from where the others put it", worstPoint,
                      worstPointView, worstPointDistance);
   }
   return text + ". Check them, or leave them out.";
