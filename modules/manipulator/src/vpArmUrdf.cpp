@@ -294,39 +294,39 @@ vpArmModel load(const std::string &file, const vpArmUrdfSpec &spec)
   const urdf::ModelInterfaceSharedPtr tree = parseTree(file);
   const std::string base = spec.base.empty() ? tree->getRoot()->name : spec.base;
   const std::string tip = spec.tip.empty() ? onlyLeaf(*tree, file) : spec.tip;
-  vpArmSpec spec;
-  spec.source = file;
-  spec.name = tree->getName();
-  surface(*find(*tree, file, base), 0, {}, spec.capsules);
+  vpArmSpec arm;
+  arm.source = file;
+  arm.name = tree->getName();
+  surface(*find(*tree, file, base), 0, {}, arm.capsules);
   vpRigidTransform fixed; // from the last moving link to the current one
   for (const urdf::JointSharedPtr &from : path(*tree, file, base, tip)) {
     const urdf::LinkConstSharedPtr child = find(*tree, file, from->child_link_name);
     if (from->type == urdf::Joint::FIXED) {
       fixed = fixed * pose(from->parent_to_joint_origin_transform);
-      if (!spec.links.empty()) {
+      if (!arm.links.empty()) {
         const vpArmLinkSpec part = massOf(*child);
         if (part.hasMass && !(part.mass > 0.)) {
           fail(file, "mass of link " + part.name + " is " + std::to_string(part.mass) + ", must be > 0");
         }
-        carry(spec.links.back(), part, fixed);
+        carry(arm.links.back(), part, fixed);
       }
     }
     else {
       vpArmJointSpec joint = moving(*from, file, spec);
       joint.before = fixed * joint.before;
       fixed = {};
-      spec.joints.push_back(joint);
-      spec.links.push_back(massOf(*child));
+      arm.joints.push_back(joint);
+      arm.links.push_back(massOf(*child));
     }
-    surface(*child, static_cast<int>(spec.joints.size()), fixed, spec.capsules);
+    surface(*child, static_cast<int>(arm.joints.size()), fixed, arm.capsules);
   }
-  spec.tool = fixed;
+  arm.tool = fixed;
   if (!spec.camera.empty()) {
     // Up or down from the end effector through fixed joints only.
     const auto toCommon = [&](const std::string &from) {
       vpRigidTransform T;
       for (const urdf::JointSharedPtr &joint :
-           path(*tree, file, spec.joints.empty() ? base : tree->getJoint(spec.joints.back().name)->child_link_name,
+           path(*tree, file, arm.joints.empty() ? base : tree->getJoint(arm.joints.back().name)->child_link_name,
                 from)) {
         if (joint->type != urdf::Joint::FIXED) {
           fail(file, "joint " + joint->name + " between the end effector and the camera is not fixed");
@@ -335,9 +335,9 @@ vpArmModel load(const std::string &file, const vpArmUrdfSpec &spec)
       }
       return T;
     };
-    spec.camera = toCommon(tip).inverse() * toCommon(spec.camera);
+    arm.camera = toCommon(tip).inverse() * toCommon(spec.camera);
   }
-  return vpArmModel(spec);
+  return vpArmModel(arm);
 }
 } // namespace
 
