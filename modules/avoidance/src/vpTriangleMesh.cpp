@@ -183,7 +183,7 @@ vpTriangleMesh::vpTriangleMesh(const std::vector<Eigen::Vector3d> &vertices,
 const std::vector<Eigen::Vector3d> &vpTriangleMesh::vertices() const &noexcept { return m_data->vertices; }
 const std::vector<std::array<int, 3>> &vpTriangleMesh::triangles() const &noexcept { return m_data->triangles; }
 bool vpTriangleMesh::isWatertight() const noexcept { return m_data->watertight; }
-const std::string &vpTriangleMesh::message() const noexcept { return m_data->sentence; }
+const std::string &vpTriangleMesh::message() const noexcept { return m_data->message; }
 const std::string &vpTriangleMesh::label() const noexcept { return m_data->label; }
 
 END_VISP_NAMESPACE
