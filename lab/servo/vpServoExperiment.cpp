@@ -41,14 +41,14 @@ std::unique_ptr<vpServoSensor> makeSensor(const vpServoRunSpec &spec)
 // Filter and plant share the speed limits and the view, so that the filter never requests what the robot cannot do.
 vpServoController makeController(const vpServoRunSpec &spec)
 {
-  vpServoControllerSpec spec;
-  spec.gains = spec.gains;
-  spec.view = vpViewConstraintSpec::fromCamera(spec.task.camera, spec.task.width, spec.task.height);
-  spec.view.period = 1. / spec.plant.loopRate;
-  spec.view.imageUncertainty = 3. * spec.plant.pixelNoise / spec.task.camera.get_px();
-  spec.view.maxLinear = spec.plant.maxLinear;
-  spec.view.maxAngular = spec.plant.maxAngular;
-  return vpServoController::create(spec.law, spec);
+  vpServoControllerSpec controller;
+  controller.gains = spec.gains;
+  controller.view = vpViewConstraintSpec::fromCamera(spec.task.camera, spec.task.width, spec.task.height);
+  controller.view.period = 1. / spec.plant.loopRate;
+  controller.view.imageUncertainty = 3. * spec.plant.pixelNoise / spec.task.camera.get_px();
+  controller.view.maxLinear = spec.plant.maxLinear;
+  controller.view.maxAngular = spec.plant.maxAngular;
+  return vpServoController::create(spec.law, controller);
 }
 
 // Number of the first cycle after each segment.

@@ -30,10 +30,10 @@ struct Outcome {
   double sigmaY() const { return std::sqrt(yy / static_cast<double>(count) - meanY() * meanY()); }
 };
 
-Outcome run(const vpProductPatternSpec &spec, int frames, const vpPatternTrackerSpec &spec = vpPatternTrackerSpec())
+Outcome run(const vpProductPatternSpec &spec, int frames, const vpPatternTrackerSpec &tracking = vpPatternTrackerSpec())
 {
   const vpProductPattern product(spec);
-  vpPatternTracker tracker(spec.width, spec.height, spec);
+  vpPatternTracker tracker(spec.width, spec.height, tracking);
   vpImage<unsigned char> image;
   Outcome o;
   std::map<std::pair<int, int>, std::pair<int, int>> names;

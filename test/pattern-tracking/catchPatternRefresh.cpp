@@ -69,10 +69,10 @@ struct LongRun {
   unsigned long allocations = 0;
 };
 
-LongRun longRun(const vpProductPatternSpec &spec, const vpPatternTrackerSpec &spec)
+LongRun longRun(const vpProductPatternSpec &spec, const vpPatternTrackerSpec &tracking)
 {
   const vpProductPattern pattern(spec);
-  vpPatternTracker tracker(spec.width, spec.height, spec);
+  vpPatternTracker tracker(spec.width, spec.height, tracking);
   vpImage<unsigned char> image;
   LongRun result;
   double x = 0., y = 0.;

@@ -49,8 +49,8 @@ struct Bench {
 
   bool told = true; // true: time of exposure reported; otherwise that of arrival
 
-  explicit Bench(const std::string &law, const vpServoControllerSpec &spec = {})
-    : servo(amor(), vpServoController::create(law, spec), spec()),
+  explicit Bench(const std::string &law, const vpServoControllerSpec &controller = {})
+    : servo(amor(), vpServoController::create(law, controller), spec()),
       fMo(cameraAt(amor().home()).toHomogeneous() * vpHomogeneousMatrix(0.06, 0.04, 0.45, 0.2, -0.3, 0.4))
   {
     servo.setGoal(plate.goal(cdMo));
