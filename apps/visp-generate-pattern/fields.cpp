@@ -4,8 +4,9 @@
  */
 #include "fields.h"
 
-#include <cctype>
+#include <algorithm>
 #include <cstdio>
+#include <map>
 #include <stdexcept>
 
 namespace generatePattern
@@ -17,50 +18,34 @@ std::string shortNumber(double value)
   return text;
 }
 
-const std::vector<Field> &fields()
+const std::vector<FieldGroup> &fieldGroups()
 {
-  using Spec = vpProductPatternSpec;
-  static const std::vector<Field> all = {
-      {"image", "width", "PX", "Columns", &Spec::width},
-      {"image", "height", "PX", "Rows", &Spec::height},
-      {"image", "pixelSize", "UM", "Size of a pixel on the product; noted, changes no picture", &Spec::pixelSize},
-      {"cells", "pitchX", "PX", "From cell to cell along a row", &Spec::pitchX},
-      {"cells", "pitchY", "PX", "From row to row", &Spec::pitchY},
-      {"cells", "openingX", "PX", "Length of an opening along its row", &Spec::openingX},
-      {"cells", "openingY", "PX", "Length of an opening across its row", &Spec::openingY},
-      {"cells", "cornerRadius", "PX", "Radius of the corners of a rounded opening", &Spec::cornerRadius},
-      {"flexible", "jitter", "PX", "Standard deviation of each cell's place, each axis", &Spec::jitter},
-      {"flexible", "flexAmplitudeX", "PX", "Cells lie up to this far off their place along the row",
-       &Spec::flexAmplitudeX},
-      {"flexible", "flexAmplitudeY", "PX", "The same across the rows", &Spec::flexAmplitudeY},
-      {"flexible", "flexPeriodX", "CELLS", "Period of that deviation, a sine, along the row", &Spec::flexPeriodX},
-      {"flexible", "flexPeriodY", "CELLS", "The same across the rows", &Spec::flexPeriodY},
-      {"camera", "dark", "GREY", "Grey value between the openings, 0..255", &Spec::dark},
-      {"camera", "bright", "GREY", "Grey value of the openings, 0..255", &Spec::bright},
-      {"camera", "illuminationX", "SHARE", "Light varies by this share to either side, left to right",
-       &Spec::illuminationX},
-      {"camera", "illuminationY", "SHARE", "The same, top to bottom", &Spec::illuminationY},
-      {"camera", "psf", "PX", "Standard deviation of the blur of the optics", &Spec::psf},
-      {"camera", "noise", "SCALE", "ns of the variance ns^2 (0.36 + I/157); 4: the camera of the thesis", &Spec::noise},
-      {"camera", "exposure", "SHARE", "Part of a frame's time in which motion blurs, 0..1", &Spec::exposure},
-      {"defects", "dust", "COUNT", "Specks per 100 x 100 px", &Spec::dust},
-      {"defects", "cracks", "COUNT", "Cracks per 100 x 100 px", &Spec::cracks},
-      {"defects", "missing", "SHARE", "Cells without an opening", &Spec::missing},
-      {"defects", "damaged", "SHARE", "Cells of which a part is closed", &Spec::damaged},
-      {"random", "seed", "N", "Another seed is another product and another noise", &Spec::seed},
-  };
+  static const std::vector<FieldGroup> all = []() {
+    // The first field of each group; the fields of vpProductPatternSpec are in this order.
+    const std::map<std::string, std::pair<const char *, const char *>> first = {
+        {"width", {"image", "Image"}},    {"pitchX", {"cells", "Cells"}},
+        {"dark", {"camera", "Camera"}},   {"jitter", {"flexible", "Flexible product"}},
+        {"dust", {"defects", "Defects"}}, {"seed", {"random", "Randomness"}}};
+    std::vector<FieldGroup> groups;
+    for (const auto &field : vpProductPatternSpec::fields()) {
+      const auto starts = first.find(field.name);
+      if (starts != first.end()) {
+        groups.push_back({starts->second.first, starts->second.second, {}});
+      }
+      groups.back().fields.push_back(field);
+    }
+    return groups;
+  }();
   return all;
 }
 
-std::string Field::nameWith(char separator) const
+std::string fileNameOf(const vpField<vpProductPatternSpec> &field) { return vpFieldFileName(field.name, ""); }
+
+std::string optionNameOf(const vpField<vpProductPatternSpec> &field)
 {
-  std::string text;
-  for (const char *c = name; *c != '\0'; ++c) {
-    const auto letter = static_cast<unsigned char>(*c);
-    text +=
-        std::isupper(letter) != 0 ? std::string{separator, static_cast<char>(std::tolower(letter))} : std::string{*c};
-  }
-  return text;
+  std::string name = fileNameOf(field);
+  std::replace(name.begin(), name.end(), '_', '-');
+  return name;
 }
 
 vpProductShape shapeOf(const std::string &name)

@@ -4,7 +4,7 @@
  */
 /*!
  * \file fields.h
- * \brief Numerical parameters of a product, with their names on the command line and in files.
+ * \brief The numbers of a product in groups, with their names on the command line and in files.
  */
 #ifndef generatePattern_fields_h
 #define generatePattern_fields_h
@@ -12,30 +12,25 @@
 #include <visp3/rendering/vpProductPatternSpec.h>
 
 #include <string>
-#include <variant>
 #include <vector>
 
 VISP_DIRECT_USING_NAMESPACE
 
 namespace generatePattern
 {
-/*!
- * \brief A number of vpProductPatternSpec with its names in C++ ("pitchX"), on the command line ("--pitch-x") and in a
- * file ("pitch_x").
- */
-struct Field {
-  const char *group;    //!< Object in the file; heading in the help.
-  const char *name;     //!< Name in C++.
-  const char *unit;     //!< Unit, for the help.
-  const char *sentence; //!< Description.
-  std::variant<double vpProductPatternSpec::*, unsigned int vpProductPatternSpec::*> member;
-
-  //! "pitch-x" with '-', "pitch_x" with '_'.
-  [[nodiscard]] std::string nameWith(char separator) const;
+//! \brief Fields that belong together: an object of the file, a heading of the help.
+struct FieldGroup {
+  std::string name;                                  //!< Name of the object in the file.
+  std::string heading;                               //!< In the help.
+  std::vector<vpField<vpProductPatternSpec>> fields; //!< Of vpProductPatternSpec::fields(), all but the angle.
 };
 
-//! All numbers of the product except the angle, which users give in degrees.
-[[nodiscard]] const std::vector<Field> &fields();
+//! All groups, in the order of the help.
+[[nodiscard]] const std::vector<FieldGroup> &fieldGroups();
+//! Name of a field in the file, "pitch_x".
+[[nodiscard]] std::string fileNameOf(const vpField<vpProductPatternSpec> &field);
+//! Name of a field on the command line, "pitch-x".
+[[nodiscard]] std::string optionNameOf(const vpField<vpProductPatternSpec> &field);
 //! The shape of that name. \throw std::runtime_error "NAME, must be rectangle, rounded or dot".
 [[nodiscard]] vpProductShape shapeOf(const std::string &name);
 //! Number as text, six digits.

@@ -9,6 +9,9 @@
 
 #include <visp3/core/vpMath.h>
 
+#include <algorithm>
+#include <cctype>
+
 namespace generatePattern
 {
 namespace
@@ -29,29 +32,18 @@ constexpr const char *EXAMPLES =
 
 Exit status: 0 done, 1 the file or the disk does not allow it, 2 the command line is wrong.)";
 
-std::string headingOf(const std::string &group)
+void addField(vpApp::CommandLine &line, const vpField<vpProductPatternSpec> &field, vpProductPatternSpec &product)
 {
-  static const std::vector<std::pair<std::string, std::string>> headings = {
-      {"image", "Image"},   {"cells", "Cells"},     {"flexible", "Flexible product"},
-      {"camera", "Camera"}, {"defects", "Defects"}, {"random", "Randomness"}};
-  for (const auto &[name, heading] : headings) {
-    if (name == group) {
-      return heading;
-    }
-  }
-  return group;
-}
-
-void addField(vpApp::CommandLine &line, const Field &field, vpProductPatternSpec &product)
-{
-  line.group(headingOf(field.group));
-  const std::string name = "--" + field.nameWith('-');
+  const std::string name = "--" + optionNameOf(field),
+                    description = std::string(field.description) + ", " + field.range.text();
+  std::string unit = *field.unit == '\0' ? "N" : field.unit;
+  std::transform(unit.begin(), unit.end(), unit.begin(), [](unsigned char c) { return std::toupper(c); });
   if (const auto *real = std::get_if<double vpProductPatternSpec::*>(&field.member)) {
-    line.number(name, product.**real, {}, field.unit, field.sentence); // check() has the ranges
+    line.number(name, product.**real, {}, unit, description); // check() has the ranges
   }
   else {
-    line.whole(name, product.*std::get<unsigned int vpProductPatternSpec::*>(field.member), {0, 4294967295.},
-               field.unit, field.sentence);
+    line.whole(name, product.*std::get<unsigned int vpProductPatternSpec::*>(field.member), {0, 4294967295.}, unit,
+               description);
   }
 }
 
@@ -73,7 +65,7 @@ void addTask(vpApp::CommandLine &line, Task &task)
   addPair(line, "--swing", task.motion.swing, "AX AY", "Amplitude of a sine that is added, px");
   line.number("--swing-period", task.motion.period, {}, "FRAMES", "Period of that sine");
   addPair(line, "--start", task.motion.start, "X Y", "Displacement in frame 0, px");
-  line.group(headingOf("cells"));
+  line.group("Cells");
   line.choice<vpProductShape>("--shape", task.product.shape,
                               {{vpToString(vpProductShape::Rectangle), vpProductShape::Rectangle},
                                {vpToString(vpProductShape::Rounded), vpProductShape::Rounded},
@@ -83,8 +75,11 @@ void addTask(vpApp::CommandLine &line, Task &task)
            [&task](const auto &values) {
              task.product.rotation = vpMath::rad(vpApp::numberIn("--rotation", values[0], {-180., 180.}));
            });
-  for (const Field &field : fields()) {
-    addField(line, field, task.product);
+  for (const FieldGroup &group : fieldGroups()) {
+    line.group(group.heading);
+    for (const auto &field : group.fields) {
+      addField(line, field, task.product);
+    }
   }
 }
 

@@ -67,11 +67,12 @@ void check(const Task &task, Naming naming)
   }
   catch (const vpException &error) { // "pitchX is ..."
     const std::string &sentence = error.getStringMessage();
-    for (const Field &field : fields()) {
-      const std::string start = std::string(field.name) + " is ";
-      if (sentence.compare(0, start.size(), start) == 0) {
-        complain(naming, field.nameWith('-'), std::string(field.group) + "." + field.nameWith('_'),
-                 sentence.substr(start.size()));
+    for (const FieldGroup &group : fieldGroups()) {
+      for (const auto &field : group.fields) {
+        const std::string start = std::string(field.name) + " is ";
+        if (sentence.compare(0, start.size(), start) == 0) {
+          complain(naming, optionNameOf(field), group.name + "." + fileNameOf(field), sentence.substr(start.size()));
+        }
       }
     }
     throw std::runtime_error(sentence);
@@ -80,26 +81,10 @@ void check(const Task &task, Naming naming)
 
 namespace
 {
-void readField(vpApp::JsonObject &object, const Field &field, vpProductPatternSpec &product)
+void readGroup(vpApp::JsonObject object, const FieldGroup &group, vpProductPatternSpec &product)
 {
-  const std::string name = field.nameWith('_');
-  if (const auto *real = std::get_if<double vpProductPatternSpec::*>(&field.member)) {
-    product.*(*real) = object.number(name, product.*(*real));
-  }
-  else {
-    unsigned int &value = product.*std::get<unsigned int vpProductPatternSpec::*>(field.member);
-    value = object.count(name, value);
-  }
-}
-
-void readGroup(vpApp::JsonObject object, const std::string &group, vpProductPatternSpec &product)
-{
-  for (const Field &field : fields()) {
-    if (field.group == group) {
-      readField(object, field, product);
-    }
-  }
-  if (group == "cells") {
+  readFields(object, group.fields, product, vpApp::Units::Omitted);
+  if (group.name == "cells") {
     try {
       product.shape = shapeOf(object.text("shape", vpToString(product.shape)));
     }
@@ -132,9 +117,9 @@ Task readTask(const std::string &file)
   const nlohmann::json json = vpApp::readJsonFile(file);
   vpApp::JsonObject top(json, file);
   Task task;
-  for (const char *group : {"image", "cells", "flexible", "camera", "defects", "random"}) {
-    if (top.has(group)) {
-      readGroup(top.object(group), group, task.product);
+  for (const FieldGroup &group : fieldGroups()) {
+    if (top.has(group.name)) {
+      readGroup(top.object(group.name), group, task.product);
     }
   }
   if (top.has("motion")) {
@@ -155,9 +140,10 @@ Task readTask(const std::string &file)
 nlohmann::ordered_json jsonOf(const Task &task)
 {
   nlohmann::ordered_json json;
-  for (const Field &field : fields()) {
-    nlohmann::ordered_json &group = json[field.group];
-    std::visit([&](auto pointer) { group[field.nameWith('_')] = task.product.*pointer; }, field.member);
+  for (const FieldGroup &group : fieldGroups()) {
+    for (const auto &field : group.fields) {
+      std::visit([&](auto pointer) { json[group.name][fileNameOf(field)] = task.product.*pointer; }, field.member);
+    }
   }
   json["cells"]["shape"] = vpToString(task.product.shape);
   json["cells"]["rotation_deg"] = vpMath::deg(task.product.rotation);

@@ -64,17 +64,6 @@ void readSegments(JsonObject &file, vpServoTask &task)
   }
 }
 
-void readGains(JsonObject object, vpServoGains &gains)
-{
-  gains.lambda = object.number("lambda", gains.lambda);
-  gains.rotation = object.number("rotation", gains.rotation);
-  gains.kappa = object.number("kappa", gains.kappa);
-  gains.saturation = object.number("saturation_rad", gains.saturation);
-  gains.integral = object.number("integral", gains.integral);
-  gains.integralLimit = object.number("integral_limit_radps", gains.integralLimit);
-  object.finish();
-}
-
 vpServoPlant readPlant(JsonObject &object)
 {
   vpServoPlant plant;
@@ -88,14 +77,7 @@ vpServoPlant readPlant(JsonObject &object)
     }
   }
   plant.name = object.text("name", plant.name);
-  plant.loopRate = object.number("loop_rate_hz", plant.loopRate);
-  plant.visionRate = object.number("vision_rate_hz", plant.visionRate);
-  plant.latency = object.number("latency_s", plant.latency);
-  plant.pixelNoise = object.number("pixel_noise_px", plant.pixelNoise);
-  plant.lag = object.number("lag_s", plant.lag);
-  plant.deadband = object.number("deadband_radps", plant.deadband);
-  plant.maxLinear = object.number("max_linear_mps", plant.maxLinear);
-  plant.maxAngular = object.number("max_angular_radps", plant.maxAngular);
+  readFields(object, vpServoPlant::fields(), plant);
   object.finish();
   return plant;
 }
@@ -118,30 +100,6 @@ void readPlants(JsonObject &file, std::vector<vpServoPlant> &plants)
     }
     plants.push_back(plant);
   }
-}
-
-void readFaults(JsonObject object, vpCameraFaults &faults)
-{
-  faults.noise = object.number("noise", faults.noise);
-  faults.blur = object.number("blur_px", faults.blur);
-  faults.gain = object.number("gain", faults.gain);
-  faults.bias = object.number("bias", faults.bias);
-  faults.occlusion = object.number("occlusion", faults.occlusion);
-  object.finish();
-}
-void readShape(JsonObject object, vpTwistShaperLimits &limits)
-{
-  const auto read = [&object](const char *field, double &limit) {
-    limit = object.number(field, limit);
-    if (limit <= 0.) { // the shaper's message would not name the field
-      throw object.error(std::string(field) + " is " + number(limit, 6) + ", must be > 0");
-    }
-  };
-  read("linear_acceleration_mps2", limits.linearAcceleration);
-  read("linear_jerk_mps3", limits.linearJerk);
-  read("angular_acceleration_radps2", limits.angularAcceleration);
-  read("angular_jerk_radps3", limits.angularJerk);
-  object.finish();
 }
 } // namespace
 
@@ -169,21 +127,15 @@ Scenario readScenario(const std::string &file)
   scenario.task.initial = readPose(start);
   start.finish();
   readSegments(top, scenario.task);
-  if (top.has("gains")) {
-    readGains(top.object("gains"), scenario.gains);
-  }
+  top.optional("gains", [&](JsonObject &object) { readFields(object, vpServoGains::fields(), scenario.gains); });
   if (top.has("plants")) {
     readPlants(top, scenario.plants);
   }
-  if (top.has("image_faults")) {
-    readFaults(top.object("image_faults"), scenario.faults);
-  }
-  if (top.has("shape")) {
-    readShape(top.object("shape"), scenario.shape);
-  }
+  top.optional("image_faults",
+               [&](JsonObject &object) { readFields(object, vpCameraFaults::fields(), scenario.faults); });
+  top.optional("shape", [&](JsonObject &object) { readFields(object, vpTwistShaperLimits::fields(), scenario.shape); });
   top.finish();
   try {
-    scenario.gains.validate();
     scenario.task.validate();
   }
   catch (const std::exception &error) {

@@ -302,7 +302,7 @@ TEST_CASE("Sensors that cannot work are refused", "[sensor]")
   CHECK_THROWS_WITH(image.validate(), Catch::Contains("angleSigma of the obstacle sensor is -1, must be >= 0 rad"));
   image = vpImageObstacleSensorSpec();
   image.faults.blur = 9.;
-  CHECK_THROWS_WITH(image.validate(), Catch::Contains("blur of the camera's faults is 9, must be 0 to 5 px"));
+  CHECK_THROWS_WITH(image.validate(), Catch::Contains("blur of the camera's faults is 9 px, must be 0..5"));
   vpDepthObstacleSensorSpec depth;
   depth.name.clear();
   CHECK_THROWS_WITH(depth.validate(), Catch::Contains("name of the depth sensor's sighting is empty"));

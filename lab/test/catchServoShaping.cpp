@@ -238,6 +238,6 @@ TEST_CASE("a bad limit of the shaper is refused before the run starts", "[shapin
   spec.shape = limits;
   bool started = false;
   CHECK_THROWS_WITH(runServoExperiment(spec, [&started](double) { return started = true; }),
-                    Catch::Contains("angular acceleration limit of the twist shaper is -2 rad/s^2, must be > 0"));
+                    Catch::Contains("angularAcceleration of the twist shaper is -2 rad/s^2, must be 1e-06..1e+09"));
   CHECK_FALSE(started);
 }

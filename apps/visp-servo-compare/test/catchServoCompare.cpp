@@ -4,6 +4,7 @@
  */
 // The parts of visp-servo-compare: catalogue, task files, plan, findings.
 #include "vpCatch.h"
+#include "vpFieldRows.h"
 
 #include "appMain.h"
 #include "catalogue.h"
@@ -12,6 +13,7 @@
 #include "plan.h"
 #include "results.h"
 #include "runLog.h"
+#include "scenario.h"
 #include "stepTable.h"
 
 #include <visp3/feedforward/vpServoLaw.h>
@@ -253,4 +255,14 @@ TEST_CASE("Median and range over the seeds", "[visp-servo-compare]")
   CHECK(spread->largest == 10.);
   CHECK_FALSE(results.spread("ibvs", "A", "image", &vpServoMetrics::settle_s));
   CHECK(results.find("ibvs", "A", "points")->spec.seed == 1);
+}
+
+TEST_CASE("The page of task files has the ranges and defaults of the program", "[visp-servo-compare]")
+{
+  const std::string page = vpApp::readFile(std::string(VISP_DIRECT_DATA_DIR) + "/scenario/README.md");
+  const Scenario defaults;
+  CHECK(vpTestSupport::missingRows(page, "gains.", vpServoGains::fields(), defaults.gains, true) == "");
+  CHECK(vpTestSupport::missingRows(page, "plants[].", vpServoPlant::fields(), vpServoPlant(), true) == "");
+  CHECK(vpTestSupport::missingRows(page, "shape.", vpTwistShaperLimits::fields(), defaults.shape, true) == "");
+  CHECK(vpTestSupport::missingRows(page, "image_faults.", vpCameraFaults::fields(), defaults.faults, true) == "");
 }

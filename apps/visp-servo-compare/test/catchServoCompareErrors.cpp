@@ -148,9 +148,9 @@ TEST_CASE("A bad task file ends with status 1 and names the field", "[visp-servo
   with(task("\"lambda\": 1", "\"lambda\": NaN"), "line 6, column ");
   with(task("\"lambda\": 1", "\"lambda\": 1e999"), "line 6, column 27: number overflow parsing '1e999'");
   with(task("\"lambda\": 1", "\"lambda\": \"NaN\""), "gains.lambda is \"NaN\", must be a number");
-  with(task("\"lambda\": 1", "\"lambda\": -1"), "servo gain lambda is -1");
+  with(task("\"lambda\": 1", "\"lambda\": -1"), "gains.lambda is -1, must be > 0, <= 1000000 1/s");
   with(task("\"lambda\": 1", "\"lamda\": 1"), "unknown field gains.lamda; known are ");
-  with(task("\"vision_rate_hz\": 10", "\"vision_rate_hz\": -10"), "plants[0]: visionRate of the plant is -10 Hz");
+  with(task("\"vision_rate_hz\": 10", "\"vision_rate_hz\": -10"), "plants[0].vision_rate_hz is -10, must be > 0 Hz");
   with(task("\"vision_rate_hz\": 10", "\"vision_rate_hz\": 1000"), "plants[0]: visionRate of the plant is 1000 Hz");
   with(task("\"vision_rate_hz\": 10", "\"like\": \"Q\""), "plants[0]: unknown plant 'Q'");
   with(task("[{\"name\": \"P\"", "[{\"name\": \"P\"}, {\"name\": \"P\""), "plants[1]: there is a plant \"P\" before");
@@ -162,10 +162,10 @@ TEST_CASE("A bad task file ends with status 1 and names the field", "[visp-servo
   with(task("\"object\"", "\"objekt\""), "object is missing");
   // The shaper's limits are checked with and without --shape.
   const std::string jerk = "\"linear_jerk_mps3\": 20";
-  with(task(jerk, "\"linear_jerk_mps3\": 0"), "shape: linear_jerk_mps3 is 0, must be > 0");
-  with(task(jerk, "\"linear_acceleration_mps2\": -1"), "shape: linear_acceleration_mps2 is -1, must be > 0");
-  with(task(jerk, "\"angular_acceleration_radps2\": -0.5"), "shape: angular_acceleration_radps2 is -0.5, must be > 0");
-  with(task(jerk, "\"angular_jerk_radps3\": -25"), "shape: angular_jerk_radps3 is -25, must be > 0");
+  with(task(jerk, "\"linear_jerk_mps3\": 0"), "shape.linear_jerk_mps3 is 0, must be 1e-06..1e+12 or infinite m/s^3");
+  with(task(jerk, "\"linear_acceleration_mps2\": -1"), "shape.linear_acceleration_mps2 is -1, must be 1e-06..1e+09");
+  with(task(jerk, "\"angular_acceleration_radps2\": -0.5"), "shape.angular_acceleration_radps2 is -0.5, must be");
+  with(task(jerk, "\"angular_jerk_radps3\": -25"), "shape.angular_jerk_radps3 is -25, must be");
   with(task(jerk, "\"angular_jerk_radps3\": \"inf\""), "shape.angular_jerk_radps3 is \"inf\", must be a number");
   with(task(jerk, "\"linear_jerk\": 20"), "unknown field shape.linear_jerk; known are ");
   with(task("{" + jerk + "}", "[1, 10]"), "shape is [1,10], must be ");

@@ -32,7 +32,6 @@ const Entry entries[] = {
     {"ff-lookat-pi", vpServoLaws::makeLookAtPi, 2.},
 };
 
-constexpr double largestGain = 1e6;
 // Maximum integration step, s: after a pause, or with a wrong clock, an integral would jump to its limit.
 constexpr double longestStep = 0.5;
 
@@ -48,26 +47,26 @@ bool isUsable(const vpServoMeasurement &measurement, const vpServoGoal &goal)
   }
   return true;
 }
-
-void requireGain(bool ok, const char *name, double value, const char *unit, const char *range)
-{
-  if (!ok) {
-    throw vpException(vpException::badValue, "servo gain %s is %g%s, must be %s", name, value, unit, range);
-  }
-}
 } // namespace
 
-void vpServoGains::validate() const
+const vpFields<vpServoGains> &vpServoGains::fields()
 {
-  const auto notNegative = [](double value) { return value >= 0. && value <= largestGain; };
-  const auto positive = [&](double value) { return notNegative(value) && value > 0.; };
-  requireGain(positive(lambda), "lambda", lambda, " 1/s", "finite and > 0, at most 1e6");
-  requireGain(positive(rotation), "rotation", rotation, "", "finite and > 0, at most 1e6");
-  requireGain(notNegative(kappa), "kappa", kappa, "", "finite and >= 0, at most 1e6");
-  requireGain(positive(saturation), "saturation", saturation, " rad", "finite and > 0, at most 1e6");
-  requireGain(notNegative(integral), "integral", integral, " 1/s^2", "finite and >= 0, at most 1e6");
-  requireGain(positive(integralLimit), "integralLimit", integralLimit, " rad/s", "finite and > 0, at most 1e6");
+  using Gains = vpServoGains;
+  const vpFieldRange positive = vpFieldRange::positive(1e6), notNegative = vpFieldRange::notNegative(1e6);
+  static const vpFields<Gains> all = {
+      {"lambda", &Gains::lambda, positive, "1/s", "Gain on the translation and on image errors"},
+      {"rotation", &Gains::rotation, positive, "", "Factor on the gain of the rotation, beside the law's own"},
+      {"kappa", &Gains::kappa, notNegative, "", "Weight of the image term of `ff-sum`"},
+      {"saturation", &Gains::saturation, positive, "rad", "Bound c of c tanh(D/c) in `ff-sum`"},
+      {"integral", &Gains::integral, notNegative, "1/s^2",
+       "Gain on the integral of the rotation error in `ff-lookat-pi`"},
+      {"integralLimit", &Gains::integralLimit, positive, "rad/s",
+       "Largest angular velocity contributed by the integral"},
+  };
+  return all;
 }
+
+void vpServoGains::validate() const { vpCheckFields(*this, fields(), "the servo gains"); }
 
 vpServoLaw::vpServoLaw(std::string id, const vpServoGains &gains, double rotationFactor)
   : m_id(std::move(id)), m_gains(gains), m_rotationFactor(rotationFactor)

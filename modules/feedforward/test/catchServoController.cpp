@@ -200,12 +200,11 @@ TEST_CASE("controller set-up names what is wrong", "[controller][errors]")
   }
   vpServoControllerSpec spec;
   spec.gains.rotation = -1.;
-  CHECK_THROWS_WITH(vpServoController::create("pbvs1", spec), Contains("servo gain rotation is -1"));
+  CHECK_THROWS_WITH(vpServoController::create("pbvs1", spec), Contains("rotation of the servo gains is -1"));
   spec = {};
   spec.view.top = 1.;
   CHECK_THROWS_WITH(vpServoController::create("pbvs1", spec), Contains("top border of the view constraint is 1"));
   spec = {};
   spec.recovery.maxLinear = -2.;
-  CHECK_THROWS_WITH(vpServoController::create("pbvs1", spec),
-                    Contains("maxLinear of the target-loss recovery is -2"));
+  CHECK_THROWS_WITH(vpServoController::create("pbvs1", spec), Contains("maxLinear of the target-loss recovery is -2"));
 }

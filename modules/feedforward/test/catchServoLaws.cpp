@@ -197,13 +197,13 @@ TEST_CASE("set-up errors say what is wrong", "[laws][errors]")
   using Catch::Contains;
   vpServoGains gains;
   gains.lambda = 0.;
-  CHECK_THROWS_WITH(vpServoLaw::create("pbvs1", gains), Contains("servo gain lambda is 0 1/s, must be finite and > 0"));
+  CHECK_THROWS_WITH(vpServoLaw::create("pbvs1", gains), Contains("lambda of the servo gains is 0 1/s, must be > 0"));
   gains = {};
   gains.kappa = std::numeric_limits<double>::quiet_NaN();
-  CHECK_THROWS_WITH(vpServoLaw::create("pbvs1", gains), Contains("servo gain kappa is nan"));
+  CHECK_THROWS_WITH(vpServoLaw::create("pbvs1", gains), Contains("kappa of the servo gains is nan"));
   gains = {};
   gains.integralLimit = -1.;
-  CHECK_THROWS_WITH(vpServoLaw::create("pbvs1", gains), Contains("servo gain integralLimit is -1 rad/s"));
+  CHECK_THROWS_WITH(vpServoLaw::create("pbvs1", gains), Contains("integralLimit of the servo gains is -1 rad/s"));
   CHECK_THROWS_WITH(
       vpServoLaw::create("pvbs"),
       Contains("servo law \"pvbs\" is unknown, known laws are: pbvs1, pbvs1-rot2, pbvs2, ibvs, hybrid25d, "

@@ -4,7 +4,6 @@
  */
 #include "vpCameraFaultModel.h"
 
-#include <visp3/core/vpException.h>
 #include <visp3/core/vpGaussRand.h>
 #include <visp3/core/vpImageFilter.h>
 #include <visp3/core/vpUniRand.h>
@@ -19,19 +18,22 @@ namespace
 constexpr unsigned int poolSize = 1u << 16;
 } // namespace
 
-void vpCameraFaults::validate() const
+const vpFields<vpCameraFaults> &vpCameraFaults::fields()
 {
-  const auto require = [](bool good, const char *field, double value, const char *range) {
-    if (!good || !std::isfinite(value)) {
-      throw vpException(vpException::badValue, "%s of the camera's faults is %g, must be %s", field, value, range);
-    }
+  using Faults = vpCameraFaults;
+  static const vpFields<Faults> all = {
+      {"noise", &Faults::noise, vpFieldRange::notNegative(), "",
+       "Standard deviation of the grey value, whose scale is 0 to 255"},
+      {"blur", &Faults::blur, vpFieldRange::notNegative(5.), "px", "Standard deviation of a Gaussian blur"},
+      {"gain", &Faults::gain, vpFieldRange::positive(), "", "Factor on the grey value"},
+      {"bias", &Faults::bias, {}, "", "Offset added to the grey value"},
+      {"occlusion", &Faults::occlusion, vpFieldRange::notNegative(0.9), "",
+       "Fraction of the target's image area that a textured blob hides"},
   };
-  require(noise >= 0., "noise", noise, ">= 0 and finite");
-  require(blur >= 0. && blur <= 5., "blur", blur, "0 to 5 px");
-  require(gain > 0., "gain", gain, "> 0 and finite");
-  require(true, "bias", bias, "finite");
-  require(occlusion >= 0. && occlusion <= 0.9, "occlusion", occlusion, "0 to 0.9");
+  return all;
 }
+
+void vpCameraFaults::validate() const { vpCheckFields(*this, fields(), "the camera's faults"); }
 
 vpCameraFaultModel::vpCameraFaultModel() : m_pool(poolSize)
 {

@@ -13,18 +13,12 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
+// A range that depends on other fields.
 void require(bool good, const char *field, double value, const char *unit, const std::string &range)
 {
-  if (!good || !std::isfinite(value)) {
+  if (!good) {
     throw vpException(vpException::badValue, "%s is %.10g%s, must be %s", field, value, unit, range.c_str());
   }
-}
-
-void requireBetween(const char *field, double value, const char *unit, double low, double high)
-{
-  char range[64];
-  std::snprintf(range, sizeof range, "%.7g..%.7g", low, high);
-  require(value >= low && value <= high, field, value, unit, range);
 }
 
 // Neighbouring openings must not touch at any displacement.
@@ -50,41 +44,58 @@ std::string vpToString(vpProductShape shape)
   return "unknown";
 }
 
+const vpFields<vpProductPatternSpec> &vpProductPatternSpec::fields()
+{
+  using Spec = vpProductPatternSpec;
+  const vpFieldRange size{8., 16384.}, pitch{2., 1e5}, opening{1., 1024.}, grey{0., 255.}, gradient{-1., 1.};
+  const vpFieldRange length{0., 1e5}, period{4., 1e6}, density{0., 100.}, share{0., 1.};
+  static const vpFields<Spec> all = {
+      {"width", &Spec::width, size, "px", "Columns of the image"},
+      {"height", &Spec::height, size, "px", "Rows of the image"},
+      {"pixelSize", &Spec::pixelSize, vpFieldRange::positive(), "um",
+       "Size of a pixel on the product, for reports only"},
+      {"pitchX", &Spec::pitchX, pitch, "px", "Pitch of the cells along a row"},
+      {"pitchY", &Spec::pitchY, pitch, "px", "Pitch of the rows"},
+      {"openingX", &Spec::openingX, opening, "px", "Length of an opening along its row"},
+      {"openingY", &Spec::openingY, opening, "px", "Length of an opening across its row"},
+      {"cornerRadius", &Spec::cornerRadius, {0., 512.}, "px", "Corner radius of a rounded opening"},
+      {"dark", &Spec::dark, grey, "", "Grey value between the openings"},
+      {"bright", &Spec::bright, grey, "", "Grey value of the openings"},
+      {"illuminationX", &Spec::illuminationX, gradient, "",
+       "Illumination gradient along u: factor 1 - x at the left, 1 + x at the right"},
+      {"illuminationY", &Spec::illuminationY, gradient, "",
+       "Illumination gradient along v: 1 - y at the top, 1 + y at the bottom"},
+      {"psf", &Spec::psf, {0., 5.}, "px", "Standard deviation of the Gaussian blur of the optics"},
+      {"noise", &Spec::noise, {0., 50.}, "", "Noise scale ns: variance = ns^2 (0.6^2 + I / 157) at the grey value I"},
+      {"exposure", &Spec::exposure, share, "", "Exposure time as a fraction of the frame period"},
+      {"jitter", &Spec::jitter, length, "px", "Standard deviation of a cell's position per axis"},
+      {"flexAmplitudeX", &Spec::flexAmplitudeX, length, "px",
+       "Flexible pitch: amplitude of the displacement along the rows"},
+      {"flexAmplitudeY", &Spec::flexAmplitudeY, length, "px",
+       "Flexible pitch: amplitude of the displacement across the rows"},
+      {"flexPeriodX", &Spec::flexPeriodX, period, "cells", "Period of the sinusoidal displacement over the columns"},
+      {"flexPeriodY", &Spec::flexPeriodY, period, "cells", "Period of the sinusoidal displacement over the rows"},
+      {"dust", &Spec::dust, density, "", "Dark specks, 2 to 8 px wide, per 100 x 100 px of product, on average"},
+      {"cracks", &Spec::cracks, density, "", "Dark crooked lines, 20 to 70 px long, per 100 x 100 px, on average"},
+      {"missing", &Spec::missing, share, "", "Fraction of cells without an opening"},
+      {"damaged", &Spec::damaged, share, "", "Fraction of cells that are partly closed"},
+      {"seed", &Spec::seed, vpFieldRange::notNegative(), "", "Seed of product and noise"},
+  };
+  return all;
+}
+
 void vpProductPatternSpec::validate() const
 {
-  constexpr double largest = 1e5; // px
-  requireBetween("width", width, " px", 8., 16384.);
-  requireBetween("height", height, " px", 8., 16384.);
-  require(pixelSize > 0., "pixelSize", pixelSize, " um", "> 0");
-  requireBetween("pitchX", pitchX, " px", 2., largest);
-  requireBetween("pitchY", pitchY, " px", 2., largest);
-  requireBetween("openingX", openingX, " px", 1., 1024.);
-  requireBetween("openingY", openingY, " px", 1., 1024.);
+  vpCheckFields(*this, fields(), "");
   if (shape == vpProductShape::Rounded) {
-    requireBetween("cornerRadius", cornerRadius, " px", 0., std::min(openingX, openingY) / 2.);
+    vpCheckField("cornerRadius", "", cornerRadius, "px", {0., std::min(openingX, openingY) / 2.});
   }
-  requireBetween("rotation", rotation, " rad", -M_PI, M_PI);
-  requireBetween("dark", dark, "", 0., 255.);
-  requireBetween("bright", bright, "", 0., 255.);
-  requireBetween("illuminationX", illuminationX, "", -1., 1.);
-  requireBetween("illuminationY", illuminationY, "", -1., 1.);
+  vpCheckField("rotation", "", rotation, "rad", {-M_PI, M_PI});
   require(std::fabs(illuminationX) + std::fabs(illuminationY) < 1., "illuminationY", illuminationY, "",
           "such that |illuminationX| + |illuminationY| < 1");
-  requireBetween("psf", psf, " px", 0., 5.);
-  requireBetween("noise", noise, "", 0., 50.);
-  requireBetween("exposure", exposure, "", 0., 1.);
-  requireBetween("jitter", jitter, " px", 0., largest);
-  requireBetween("flexAmplitudeX", flexAmplitudeX, " px", 0., largest);
-  requireBetween("flexAmplitudeY", flexAmplitudeY, " px", 0., largest);
-  requireBetween("flexPeriodX", flexPeriodX, " cells", 4., 1e6);
-  requireBetween("flexPeriodY", flexPeriodY, " cells", 4., 1e6);
   requireGap("openingX", openingX, pitchX, jitter, flexAmplitudeX, flexPeriodX);
   requireGap("openingY", openingY, pitchY, jitter, flexAmplitudeY, flexPeriodY);
-  requireBetween("dust", dust, "", 0., 100.);
-  requireBetween("cracks", cracks, "", 0., 100.);
-  requireBetween("missing", missing, "", 0., 1.);
-  requireBetween("damaged", damaged, "", 0., 1.);
-  requireBetween("missing + damaged", missing + damaged, "", 0., 1.);
+  vpCheckField("missing + damaged", "", missing + damaged, "", {0., 1.});
 }
 
 END_VISP_NAMESPACE

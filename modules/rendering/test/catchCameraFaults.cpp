@@ -150,10 +150,10 @@ TEST_CASE("faults are what they say", "[faults]")
       double value;
       const char *sentence;
     } wrong[] = {{&vpCameraFaults::noise, -1., "noise of the camera's faults is -1, must be >= 0"},
-                 {&vpCameraFaults::blur, 6., "blur of the camera's faults is 6, must be 0 to 5 px"},
+                 {&vpCameraFaults::blur, 6., "blur of the camera's faults is 6 px, must be 0..5"},
                  {&vpCameraFaults::gain, 0., "gain of the camera's faults is 0, must be > 0"},
                  {&vpCameraFaults::bias, NAN, "bias of the camera's faults is"},
-                 {&vpCameraFaults::occlusion, 0.95, "occlusion of the camera's faults is 0.95, must be 0 to 0.9"}};
+                 {&vpCameraFaults::occlusion, 0.95, "occlusion of the camera's faults is 0.95, must be 0..0.9"}};
     for (const auto &w : wrong) {
       vpCameraFaults faults;
       faults.*w.field = w.value;

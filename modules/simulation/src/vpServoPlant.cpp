@@ -6,27 +6,7 @@
 
 #include <visp3/core/vpException.h>
 
-#include <cmath>
-
 BEGIN_VISP_NAMESPACE
-
-namespace
-{
-// NaN fails every comparison, so each check tests for validity, never for invalidity.
-void requirePositive(const char *field, double value, const char *unit)
-{
-  if (!(value > 0.) || !std::isfinite(value)) {
-    throw vpException(vpException::badValue, "%s of the plant is %g %s, must be > 0 and finite", field, value, unit);
-  }
-}
-
-void requireNotNegative(const char *field, double value, const char *unit)
-{
-  if (!(value >= 0.) || !std::isfinite(value)) {
-    throw vpException(vpException::badValue, "%s of the plant is %g %s, must be >= 0 and finite", field, value, unit);
-  }
-}
-} // namespace
 
 vpServoPlant vpServoPlant::byName(const std::string &name)
 {
@@ -46,20 +26,30 @@ vpServoPlant vpServoPlant::byName(const std::string &name)
   throw vpException(vpException::badValue, "unknown plant '%s', known are A, B and D", name.c_str());
 }
 
+const vpFields<vpServoPlant> &vpServoPlant::fields()
+{
+  using Plant = vpServoPlant;
+  const vpFieldRange positive = vpFieldRange::positive(), notNegative = vpFieldRange::notNegative();
+  static const vpFields<Plant> all = {
+      {"loopRate", &Plant::loopRate, positive, "Hz", "Rate of the inner loop that runs the law"},
+      {"visionRate", &Plant::visionRate, positive, "Hz", "Rate of the camera"},
+      {"latency", &Plant::latency, notNegative, "s", "Latency from exposure to result"},
+      {"pixelNoise", &Plant::pixelNoise, notNegative, "px", "Standard deviation of the image points"},
+      {"lag", &Plant::lag, notNegative, "s", "Time constant of the velocity response"},
+      {"deadband", &Plant::deadband, notNegative, "rad/s", "Coulomb friction of the rotation axes, as lost velocity"},
+      {"maxLinear", &Plant::maxLinear, positive, "m/s", "Limit of the linear speed"},
+      {"maxAngular", &Plant::maxAngular, positive, "rad/s", "Limit of the angular speed"},
+  };
+  return all;
+}
+
 void vpServoPlant::validate() const
 {
-  requirePositive("loopRate", loopRate, "Hz");
-  requirePositive("visionRate", visionRate, "Hz");
+  vpCheckFields(*this, fields(), "the plant");
   if (visionRate > loopRate) {
     throw vpException(vpException::badValue, "visionRate of the plant is %g Hz, must be <= loopRate, which is %g Hz",
                       visionRate, loopRate);
   }
-  requireNotNegative("latency", latency, "s");
-  requireNotNegative("pixelNoise", pixelNoise, "px");
-  requireNotNegative("lag", lag, "s");
-  requireNotNegative("deadband", deadband, "rad/s");
-  requirePositive("maxLinear", maxLinear, "m/s");
-  requirePositive("maxAngular", maxAngular, "rad/s");
 }
 
 END_VISP_NAMESPACE

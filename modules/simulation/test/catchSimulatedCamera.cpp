@@ -176,11 +176,11 @@ TEST_CASE("plants have the values of the comparison and refuse others", "[plant]
     double value;
     const char *sentence;
   } wrong[] = {
-      {&vpServoPlant::loopRate, 0., "loopRate of the plant is 0 Hz, must be > 0 and finite"},
+      {&vpServoPlant::loopRate, 0., "loopRate of the plant is 0 Hz, must be > 0"},
       {&vpServoPlant::loopRate, INFINITY, "loopRate of the plant is inf Hz"},
-      {&vpServoPlant::visionRate, -10., "visionRate of the plant is -10 Hz, must be > 0 and finite"},
+      {&vpServoPlant::visionRate, -10., "visionRate of the plant is -10 Hz, must be > 0"},
       {&vpServoPlant::visionRate, 200., "visionRate of the plant is 200 Hz, must be <= loopRate, which is 100 Hz"},
-      {&vpServoPlant::latency, -0.1, "latency of the plant is -0.1 s, must be >= 0 and finite"},
+      {&vpServoPlant::latency, -0.1, "latency of the plant is -0.1 s, must be >= 0"},
       {&vpServoPlant::pixelNoise, NAN, "pixelNoise of the plant is"},
       {&vpServoPlant::lag, -1., "lag of the plant is -1 s"},
       {&vpServoPlant::deadband, -0.2, "deadband of the plant is -0.2 rad/s, must be >= 0"},

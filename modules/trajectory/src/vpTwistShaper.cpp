@@ -5,8 +5,6 @@
 #include <visp3/trajectory/vpTwistShaper.h>
 #include <visp3/trajectory/vpVelocityRamp.h>
 
-#include <visp3/core/vpException.h>
-
 #include <Eigen/Core>
 
 #include <algorithm>
@@ -20,21 +18,6 @@ using Eigen::Vector3d;
 
 // Rounding must not keep a ramp from arriving at the bound.
 constexpr double rounding = 1e-12;
-
-void requireRange(const char *name, double value, double largest, const char *unit)
-{
-  if (!(value >= 1e-6 && value <= largest)) {
-    throw vpException(vpException::badValue, "%s of the twist shaper is %g %s, must be > 0, from 1e-06 to %g", name,
-                      value, unit, largest);
-  }
-}
-
-void requireJerk(const char *name, double value, const char *unit)
-{
-  if (!std::isinf(value) || value < 0.) {
-    requireRange(name, value, 1e12, unit);
-  }
-}
 
 // Finite and within the range of a machine.
 bool isPlausible(const vpTwist &twist)
@@ -127,13 +110,21 @@ double peak(const Motion &motion, const Bounds &bounds)
 }
 } // namespace
 
-void vpTwistShaperLimits::validate() const
+const vpFields<vpTwistShaperLimits> &vpTwistShaperLimits::fields()
 {
-  requireRange("linear acceleration limit", linearAcceleration, 1e9, "m/s^2");
-  requireJerk("linear jerk limit", linearJerk, "m/s^3");
-  requireRange("angular acceleration limit", angularAcceleration, 1e9, "rad/s^2");
-  requireJerk("angular jerk limit", angularJerk, "rad/s^3");
+  using Limits = vpTwistShaperLimits;
+  const vpFieldRange acceleration{1e-6, 1e9}, jerk{1e-6, 1e12, false, true};
+  static const vpFields<Limits> all = {
+      {"linearAcceleration", &Limits::linearAcceleration, acceleration, "m/s^2", "Limit of the linear acceleration"},
+      {"linearJerk", &Limits::linearJerk, jerk, "m/s^3", "Limit of the linear jerk"},
+      {"angularAcceleration", &Limits::angularAcceleration, acceleration, "rad/s^2",
+       "Limit of the angular acceleration"},
+      {"angularJerk", &Limits::angularJerk, jerk, "rad/s^3", "Limit of the angular jerk"},
+  };
+  return all;
 }
+
+void vpTwistShaperLimits::validate() const { vpCheckFields(*this, fields(), "the twist shaper"); }
 
 vpTwistShaper::vpTwistShaper(const vpTwistShaperLimits &limits) { setLimits(limits); }
 

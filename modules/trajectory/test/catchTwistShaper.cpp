@@ -320,5 +320,5 @@ TEST_CASE("the shaper starts from the present twist, brakes on bad input and che
   vpTwistShaperLimits limits;
   limits.angularJerk = 0.;
   CHECK_THROWS_WITH(vpTwistShaper(limits),
-                    Catch::Contains("angular jerk limit of the twist shaper is 0 rad/s^3, must be > 0"));
+                    Catch::Contains("angularJerk of the twist shaper is 0 rad/s^3, must be 1e-06..1e+12 or infinite"));
 }

@@ -9,6 +9,7 @@
 #ifndef vpServoLaw_h
 #define vpServoLaw_h
 
+#include <visp3/direct_core/vpField.h>
 #include <visp3/feedforward/vpServoCommand.h>
 #include <visp3/feedforward/vpServoMeasurement.h>
 
@@ -20,19 +21,19 @@ BEGIN_VISP_NAMESPACE
 
 /*!
  * \ingroup group_feedforward
- * \brief Gains of the laws. One set for all laws, so that comparisons tune none individually. None may be above 1e6.
+ * \brief Gains of the laws. One set for all laws, so that comparisons tune none individually.
  */
 struct VISP_EXPORT vpServoGains {
-  double lambda = 1.;      //!< Gain on the translation and on image errors, 1/s, > 0.
-  double rotation = 1.;    //!< Factor on the gain of the rotation, > 0; 2 in the ids with `-rot2` and in `ff-lookat*`.
-  double kappa = 1.;       //!< Weight of the image term of `ff-sum`, >= 0.
-  double saturation = 0.5; //!< Bound c of c tanh(D/c) in `ff-sum`, rad, > 0.
-  double integral = 1.;    //!< Gain on the integral of the rotation error in `ff-lookat-pi`, 1/s^2, >= 0.
-  double integralLimit = 0.5; //!< Largest angular velocity contributed by the integral, rad/s, > 0 (anti-windup).
+  double lambda = 1.;         //!< Gain on the translation and on image errors, 1/s, > 0, <= 1000000.
+  double rotation = 1.;       //!< Factor on the gain of the rotation, beside the law's own, > 0, <= 1000000.
+  double kappa = 1.;          //!< Weight of the image term of `ff-sum`, 0..1000000.
+  double saturation = 0.5;    //!< Bound c of c tanh(D/c) in `ff-sum`, rad, > 0, <= 1000000.
+  double integral = 1.;       //!< Gain on the integral of the rotation error in `ff-lookat-pi`, 1/s^2, 0..1000000.
+  double integralLimit = 0.5; //!< Largest angular velocity contributed by the integral, rad/s, > 0, <= 1000000.
 
-  /*!
-   * \throw vpException (badValue) naming the gain and its value when one is out of its range or not finite.
-   */
+  //! The gains with their ranges and units.
+  [[nodiscard]] static const vpFields<vpServoGains> &fields();
+  //! \throw vpException (badValue) naming the gain and its value when one is out of its range.
   void validate() const;
 };
 

@@ -12,7 +12,7 @@
 #include <visp3/core/vpCameraParameters.h>
 #include <visp3/core/vpHomogeneousMatrix.h>
 #include <visp3/core/vpImage.h>
-#include <visp3/direct_core/vpDirectCompat.h>
+#include <visp3/direct_core/vpField.h>
 
 #include <memory>
 
@@ -21,14 +21,16 @@ BEGIN_VISP_NAMESPACE
 //! \ingroup group_rendering
 //! \brief Imperfections of a real camera, applied to an ideal image. The defaults change nothing.
 struct VISP_EXPORT vpCameraFaults {
-  double noise = 0.;         //!< Standard deviation of the grey value, 0..255 scale, >= 0.
+  double noise = 0.;         //!< Standard deviation of the grey value, whose scale is 0 to 255, >= 0.
   double blur = 0.;          //!< Standard deviation of a Gaussian blur, px, 0..5.
   double gain = 1.;          //!< Factor on the grey value, > 0.
-  double bias = 0.;          //!< Offset added to the grey value.
+  double bias = 0.;          //!< Offset added to the grey value, finite.
   double occlusion = 0.;     //!< Fraction of the target's image area that a textured blob hides, 0..0.9.
   unsigned int occluder = 0; //!< Seed of the blob's position, fixed on the target, and of its texture.
 
-  //! \throw vpException (badValue) naming the field and its value if one is out of range or not finite.
+  //! The numbers with their ranges and units; #occluder may be any.
+  [[nodiscard]] static const vpFields<vpCameraFaults> &fields();
+  //! \throw vpException (badValue) naming the field and its value if one is out of range.
   void validate() const;
 };
 

@@ -9,7 +9,7 @@
 #ifndef vpServoPlant_h
 #define vpServoPlant_h
 
-#include <visp3/direct_core/vpDirectCompat.h>
+#include <visp3/direct_core/vpField.h>
 
 #include <string>
 
@@ -22,7 +22,7 @@ BEGIN_VISP_NAMESPACE
 struct VISP_EXPORT vpServoPlant {
   std::string name = "A";   //!< Name for reports.
   double loopRate = 100.;   //!< Rate of the inner loop that runs the law, Hz, > 0.
-  double visionRate = 100.; //!< Rate of the camera, Hz, > 0 and <= #loopRate.
+  double visionRate = 100.; //!< Rate of the camera, Hz, > 0. At most #loopRate.
   double latency = 0.;      //!< Latency from exposure to result, s, >= 0. The inner loop compensates it by odometry.
   double pixelNoise = 0.;   //!< Standard deviation of the image points, px, >= 0.
   double lag = 0.;          //!< Time constant of the velocity response, s, >= 0.
@@ -36,7 +36,9 @@ struct VISP_EXPORT vpServoPlant {
    * \throw vpException (badValue) naming an unknown plant and the known ones.
    */
   [[nodiscard]] static vpServoPlant byName(const std::string &name);
-  //! \throw vpException (badValue) naming the field and its value if one is out of range or not finite.
+  //! The numbers with their ranges and units.
+  [[nodiscard]] static const vpFields<vpServoPlant> &fields();
+  //! \throw vpException (badValue) naming the field and its value if one is out of range.
   void validate() const;
 };
 

@@ -9,6 +9,7 @@
 #ifndef vpTwistShaper_h
 #define vpTwistShaper_h
 
+#include <visp3/direct_core/vpField.h>
 #include <visp3/direct_core/vpTwist.h>
 
 BEGIN_VISP_NAMESPACE
@@ -16,19 +17,19 @@ BEGIN_VISP_NAMESPACE
 //! \ingroup group_trajectory
 //! \brief Limits of vpTwistShaper, for the linear and the angular part.
 struct VISP_EXPORT vpTwistShaperLimits {
-  double linearAcceleration = 1.;  //!< m/s^2, 1e-6 to 1e9.
-  double linearJerk = 10.;         //!< m/s^3, 1e-6 to 1e12; infinity switches the jerk limit off.
-  double angularAcceleration = 1.; //!< rad/s^2, 1e-6 to 1e9.
-  double angularJerk = 10.;        //!< rad/s^3, 1e-6 to 1e12; infinity switches the jerk limit off.
+  double linearAcceleration = 1.;  //!< Limit of the linear acceleration, m/s^2, 1e-06..1e+09.
+  double linearJerk = 10.;         //!< Limit of the linear jerk, m/s^3, 1e-06..1e+12 or infinite.
+  double angularAcceleration = 1.; //!< Limit of the angular acceleration, rad/s^2, 1e-06..1e+09.
+  double angularJerk = 10.;        //!< Limit of the angular jerk, rad/s^3, 1e-06..1e+12 or infinite.
   /*!
    * True: the limits bound the Euclidean norm of the linear and of the angular part, and a change from rest keeps its
    * direction. False: they bound each of the six components.
    */
   bool norm = true;
 
-  /*!
-   * \throw vpException (badValue) naming the limit and its value when one is out of its range.
-   */
+  //! The limits with their ranges and units.
+  [[nodiscard]] static const vpFields<vpTwistShaperLimits> &fields();
+  //! \throw vpException (badValue) naming the limit and its value when one is out of its range.
   void validate() const;
 };
 
