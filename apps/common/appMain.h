@@ -41,7 +41,7 @@ public:
 /*!
  * Run a program's body and turn any exception into one sentence on stderr, "program: what is wrong", and an exit
  * status. Also makes Ctrl-C and SIGTERM end the program through throwIfInterrupted(), so that destructors remove
- * temporary files; makes all output printable (PrintableStream); and reports incomplete writes to standard output.
+ * temporary files; makes all output printable, so that no control character from a file reaches the terminal; and reports incomplete writes to standard output.
  * \param program : Name at the beginning of the sentence.
  * \param body : The program; its exit status is returned.
  */

@@ -4,7 +4,9 @@
  */
 #include "outputFile.h"
 
+#include <array>
 #include <cerrno>
+#include <fstream>
 #include <stdexcept>
 #include <system_error>
 
@@ -19,6 +21,9 @@ namespace vpApp
 {
 namespace
 {
+constexpr const char *MARK = ".visp-direct-run";
+constexpr int PATIENCE = 100; // retries when another process removes the folder while we enter it
+
 std::runtime_error cannot(const fs::path &file, int reason)
 {
   return std::runtime_error(file.string() + ": cannot be written (" + std::generic_category().message(reason) + ")");
@@ -92,6 +97,33 @@ void replace(const fs::path &target, const std::string &content, const fs::path 
     throw;
   }
 }
+
+bool isRealFolder(const fs::path &path)
+{
+  std::error_code ignored;
+  return fs::symlink_status(path, ignored).type() == fs::file_type::directory;
+}
+
+bool isMarked(const fs::path &folder)
+{
+  std::error_code ignored;
+  return isRealFolder(folder) && fs::symlink_status(folder / MARK, ignored).type() == fs::file_type::regular;
+}
+
+std::string ownerOf(const fs::path &folder) // empty if it was killed before writing its name
+{
+  std::array<char, 256> line{};
+  std::ifstream(folder / MARK).getline(line.data(), line.size());
+  return line.data();
+}
+
+// False if the mark was removed after opening, because its owner had ended.
+bool stillThere(int descriptor)
+{
+  struct stat status {
+  };
+  return fstat(descriptor, &status) == 0 && status.st_nlink > 0;
+}
 } // namespace
 
 void requireWritable(const fs::path &file)
@@ -120,5 +152,105 @@ void writeWholeFile(const fs::path &file, const std::string &content)
     throw cannot(file, errno);
   }
   writeAll(device.number(), content, file);
+}
+
+FolderLock::FolderLock(const fs::path &folder, const std::string &owner) : m_folder(folder)
+{
+  try {
+    lock(owner);
+    clear();
+    writeMark(owner);
+  }
+  catch (...) {
+    if (m_mark >= 0) {
+      close(m_mark);
+    }
+    throw;
+  }
+}
+
+FolderLock::~FolderLock()
+{
+  if (m_mark >= 0) {
+    close(m_mark);
+  }
+}
+
+void FolderLock::lock(const std::string &owner)
+{
+  for (int attempt = 0; attempt < PATIENCE; ++attempt) {
+    const bool made = mkdir(m_folder.c_str(), 0777) == 0;
+    if (!made && errno != EEXIST) {
+      throw cannot(m_folder.parent_path(), errno);
+    }
+    if (!made && !isLeftoverOf(owner, m_folder)) {
+      throw std::runtime_error(m_folder.string() + ": is not a leftover of " + owner +
+                               ", so it is left alone; move it away or name another folder");
+    }
+    m_mark = open((m_folder / MARK).c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+    if (m_mark < 0 && errno == ENOENT) {
+      continue;
+    }
+    if (m_mark < 0) {
+      throw cannot(m_folder.parent_path(), errno);
+    }
+    if (flock(m_mark, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+      const std::string holder = ownerOf(m_folder);
+      throw std::runtime_error(m_folder.parent_path().string() + ": another run" +
+                               (holder.empty() ? "" : " of " + holder) +
+                               " is writing into it; wait for its end or name another folder");
+    }
+    if (stillThere(m_mark)) { // also on file systems without locks
+      return;
+    }
+    close(m_mark);
+    m_mark = -1;
+  }
+  throw std::runtime_error(m_folder.string() + ": is made and removed by other runs all the time");
+}
+
+void FolderLock::clear() const
+{
+  for (const fs::directory_entry &entry : fs::directory_iterator(m_folder)) {
+    if (!isMark(entry.path())) {
+      fs::remove_all(entry.path());
+    }
+  }
+}
+
+// Enough bytes to detect a full disk before any computation.
+void FolderLock::writeMark(const std::string &owner) const
+{
+  constexpr std::size_t SIZE = 4096;
+  std::string text = owner + "\nA run that has not ended, or was killed. The next run into this folder removes it.\n";
+  text.resize(SIZE, '\n');
+  const bool written = ftruncate(m_mark, 0) == 0 && pwrite(m_mark, text.data(), SIZE, 0) == SIZE && fsync(m_mark) == 0;
+  if (!written) {
+    const int reason = errno;
+    unlink((m_folder / MARK).c_str());
+    rmdir(m_folder.c_str());
+    throw cannot(m_folder.parent_path(), reason != 0 ? reason : ENOSPC);
+  }
+}
+
+void FolderLock::remove()
+{
+  std::error_code ignored;
+  for (const fs::directory_entry &entry : fs::directory_iterator(m_folder, ignored)) {
+    if (!isMark(entry.path())) {
+      fs::remove_all(entry.path(), ignored);
+    }
+  }
+  unlink((m_folder / MARK).c_str());
+  rmdir(m_folder.c_str()); // fails if the next run already uses it
+}
+
+bool FolderLock::isMark(const fs::path &file) { return file.filename() == MARK; }
+
+bool FolderLock::isLeftoverOf(const std::string &owner, const fs::path &folder)
+{
+  std::error_code ignored;
+  return isMarked(folder) ? ownerOf(folder).empty() || ownerOf(folder) == owner
+                          : isRealFolder(folder) && fs::is_empty(folder, ignored);
 }
 } // namespace vpApp

@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include "outputFolder.h"
-#include "folderLock.h"
+#include "outputFile.h"
 
 #include "vpFileText.h"
 #include "vpStrictJson.h"

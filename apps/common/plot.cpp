@@ -4,6 +4,7 @@
  */
 #include "plot.h"
 #include "outputFolder.h"
+#include "timePlot.h"
 
 #include "vpPrintable.h"
 
@@ -28,6 +29,8 @@ namespace vpApp
 namespace
 {
 namespace fs = std::filesystem;
+
+constexpr std::size_t CURVE_POINTS = 800; // more would not be visible
 
 //! A folder under the system's temporary folder, removed at the end.
 class ScratchFolder
@@ -282,5 +285,57 @@ std::string renderPanels(const std::vector<Plot> &panels, PlotFormat format)
     throw std::runtime_error("a picture needs at least one plot");
   }
   return render(panels, format);
+}
+
+Plot timePlot(const std::string &title, const std::string &yLabel, unsigned int height)
+{
+  Plot plot;
+  plot.title = title;
+  plot.xLabel = "time (s)";
+  plot.yLabel = yLabel;
+  plot.height = height;
+  return plot;
+}
+
+void addLevel(Plot &plot, double level, const std::string &label)
+{
+  std::pair<double, double> range = plot.xRange;
+  for (const PlotCurve &curve : plot.curves) {
+    if (!curve.x.empty()) {
+      const auto ends = std::minmax_element(curve.x.begin(), curve.x.end());
+      range = range.first < range.second
+                  ? std::make_pair(std::min(range.first, *ends.first), std::max(range.second, *ends.second))
+                  : std::make_pair(*ends.first, *ends.second);
+    }
+  }
+  plot.curves.push_back({label, "#555555", PlotStyle::Dashed, 1., {range.first, range.second}, {level, level}});
+}
+
+PlotCurve timeCurve(const std::string &label, const std::string &colour, std::size_t count,
+                    const std::function<double(std::size_t)> &time, const std::function<double(std::size_t)> &value,
+                    Keep keep)
+{
+  PlotCurve curve;
+  curve.label = label;
+  curve.colour = colour;
+  curve.width = 1.6;
+  const std::size_t stride = std::max<std::size_t>(1, count / CURVE_POINTS);
+  for (std::size_t i = 0; i < count; i += stride) {
+    double shown = value(i);
+    for (std::size_t k = i + 1; k < std::min(i + stride, count); ++k) {
+      shown = keep == Keep::Least ? std::min(shown, value(k)) : std::max(shown, value(k));
+    }
+    curve.x.push_back(time(i));
+    curve.y.push_back(shown);
+  }
+  return curve;
+}
+
+PlotCurve timeCurve(const std::string &label, const std::string &colour, const std::vector<double> &times,
+                    const std::vector<double> &values, Keep keep)
+{
+  return timeCurve(
+      label, colour, times.size(), [&](std::size_t i) { return times[i]; }, [&](std::size_t i) { return values[i]; },
+      keep);
 }
 } // namespace vpApp

@@ -11,7 +11,7 @@
 
 #include <algorithm>
 
-// What ranks send, see archive.h: a run without its specification and samples.
+// What ranks send, see sweep.h: a run without its specification and samples.
 BEGIN_VISP_NAMESPACE
 template <class Archive> void exchange(Archive &archive, vpArmMetrics &m)
 {

@@ -65,6 +65,9 @@ private:
   std::string m_elements;
 };
 
+//! Pixels as text, to a tenth.
+[[nodiscard]] std::string px(double value);
+
 //! Capsules and tool of an arm at a configuration, in the base frame.
 struct PlacedArm {
   std::vector<vpPlacedCapsule> capsules;

@@ -3,12 +3,11 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include "ranks.h"
-
-#include "appMain.h"
-#include "jobs.h"
+#include "sweep.h"
 
 #include <algorithm>
 #include <memory>
+#include <numeric>
 
 namespace vpApp
 {
@@ -36,5 +35,28 @@ bool readOnFirst(const Ranks &ranks, const std::function<bool()> &read)
     return goOn;
   }
   return !ranks.broadcast("").empty() && read();
+}
+
+std::vector<std::vector<std::size_t>> shareOut(const Sweep &sweep, int ranks)
+{
+  std::vector<double> effort(sweep.count, 1.);
+  for (std::size_t i = 0; i < sweep.count && sweep.effort; ++i) {
+    effort[i] = sweep.effort(i);
+  }
+  std::vector<std::size_t> order(sweep.count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return effort[a] > effort[b]; });
+  if (sweep.onFirst) {
+    std::stable_partition(order.begin(), order.end(), sweep.onFirst);
+  }
+  std::vector<std::vector<std::size_t>> shares(static_cast<std::size_t>(ranks));
+  std::vector<double> load(shares.size(), 0.);
+  for (const std::size_t index : order) {
+    const bool first = sweep.onFirst && sweep.onFirst(index);
+    const auto rank = first ? 0 : static_cast<std::size_t>(std::min_element(load.begin(), load.end()) - load.begin());
+    shares[rank].push_back(index);
+    load[rank] += effort[index];
+  }
+  return shares;
 }
 } // namespace vpApp

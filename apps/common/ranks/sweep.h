@@ -5,23 +5,123 @@
 /*!
  * \file sweep.h
  * \brief Many independent cases on the cores of all ranks. The results do not depend on the number of ranks or threads.
+ *
+ * Results pass between processes of the same program on machines of the same kind as bytes. A structure names its
+ * fields once, for both directions, in a function of its namespace:
+ * \code
+ * template <class Archive> void exchange(Archive &archive, Run &run) { archive(run.name, run.duration, run.peaks); }
+ * \endcode
  */
 #ifndef vpApp_sweep_h
 #define vpApp_sweep_h
 
 #include "appMain.h"
-#include "archive.h"
 #include "jobs.h"
 #include "progress.h"
 #include "ranks.h"
 
+#include <cstddef>
+#include <cstring>
 #include <functional>
 #include <iostream>
+#include <optional>
+#include <stdexcept>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace vpApp
 {
+//! \brief What Writer and Reader have in common: numbers, texts, lists, pairs, options, structures with exchange().
+template <class Derived> class Archive
+{
+public:
+  template <class... Values> void operator()(Values &...values) { (one(values), ...); }
+
+private:
+  template <class T> void one(T &value)
+  {
+    if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) {
+      self().bytes(reinterpret_cast<char *>(&value), sizeof value);
+    }
+    else {
+      exchange(self(), value);
+    }
+  }
+  void one(std::string &text)
+  {
+    std::size_t size = text.size();
+    one(size);
+    self().resize(text, size);
+    self().bytes(text.data(), size);
+  }
+  template <class T> void one(std::vector<T> &list)
+  {
+    std::size_t size = list.size();
+    one(size);
+    self().resize(list, size);
+    for (T &value : list) {
+      one(value);
+    }
+  }
+  template <class A, class B> void one(std::pair<A, B> &pair)
+  {
+    one(pair.first);
+    one(pair.second);
+  }
+  template <class T> void one(std::optional<T> &option)
+  {
+    bool has = option.has_value();
+    one(has);
+    if (has && !option) {
+      option.emplace();
+    }
+    if (has) {
+      one(*option);
+    }
+  }
+  Derived &self() { return static_cast<Derived &>(*this); }
+};
+
+//! \brief Values to bytes.
+class Writer : public Archive<Writer>
+{
+public:
+  [[nodiscard]] const std::string &text() const { return m_text; } //!< The bytes so far.
+  void bytes(const char *data, std::size_t size) { m_text.append(data, size); }
+  template <class List> void resize(List &, std::size_t) {}
+
+private:
+  std::string m_text;
+};
+
+//! \brief Bytes to values, in the order in which they were written. \throw std::runtime_error when the bytes end early.
+class Reader : public Archive<Reader>
+{
+public:
+  explicit Reader(std::string text) : m_text(std::move(text)) {}
+  void bytes(char *data, std::size_t size)
+  {
+    if (size > m_text.size() - m_at) {
+      throw std::runtime_error("the results of another process are cut short");
+    }
+    std::memcpy(data, m_text.data() + m_at, size);
+    m_at += size;
+  }
+  template <class List> void resize(List &list, std::size_t size)
+  {
+    if (size > m_text.size() - m_at) { // every element takes at least a byte
+      throw std::runtime_error("the results of another process are cut short");
+    }
+    list.resize(size);
+  }
+
+private:
+  std::string m_text;
+  std::size_t m_at = 0;
+};
+
 //! \brief Cases 0 .. count - 1. The functions must give the same on every rank.
 struct Sweep {
   std::string title;                         //!< For the progress bar: "running 42 motions".
@@ -40,7 +140,7 @@ struct Sweep {
  * \param work : `Result work(std::size_t index, const std::function<void(double)> &done)`, safe to call at the same time
  * for different cases; may report the fraction done, 0..1.
  * \return On rank 0 the results of all cases, elsewhere those of its own share; results pass between ranks by
- * exchange(), see archive.h.
+ * exchange(), see above.
  * \throw Interrupted after Ctrl-C; whatever \e work throws.
  */
 template <class Result, class Work>
