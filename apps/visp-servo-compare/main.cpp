@@ -3,22 +3,20 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 // visp-servo-compare: all servo laws on one task, with a report.
-#include "armFigures.h"
 #include "catalogue.h"
 #include "options.h"
-#include "plan.h"
 #include "reportPage.h"
 #include "runLog.h"
-#include "stepFigure.h"
-#include "summary.h"
 
 #include "appMain.h"
 #include "plot.h"
 
 #include <visp3/feedforward/vpServoLaw.h>
 
+#include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <iostream>
@@ -78,20 +76,18 @@ void compare(const Options &options, const std::string &commandLine, const vpApp
 
   const Results results = runAll(plan, writeTarget(plan.target, out), ranks, options.jobs,
                                  [&](const vpServoRun &run) { out.write(logName(run.spec), csvOf(run)); });
+  const auto writeFigure = [&out](const Figure &figure) { out.write("figure/" + figure.name + ".svg", figure.svg); };
   ReportParts parts;
   parts.videos = writeVideos(plan, results, out, threads, window.get());
   parts.figures = drawFigures(plan, results, threads);
   parts.armFigures = drawArmFigures(plan, results);
-  for (const Figure &figure : parts.armFigures) {
-    out.write("figure/" + figure.name + ".svg", figure.svg);
-  }
   if (plan.shaped) {
     parts.step = drawStep(plan, results);
-    out.write("figure/" + parts.step->name + ".svg", parts.step->svg);
+    writeFigure(*parts.step);
   }
   parts.filmStrip = drawFilmStrip(plan, results);
-  for (const Figure &figure : parts.figures) {
-    out.write("figure/" + figure.name + ".svg", figure.svg);
+  for (const std::vector<Figure> *figures : {&parts.figures, &parts.armFigures}) {
+    std::for_each(figures->begin(), figures->end(), writeFigure);
   }
   out.write("figure/figure-5.11.jpg", parts.filmStrip.jpeg);
   parts.commandLine = commandLine;

@@ -53,6 +53,9 @@ struct Plan {
  * file for a bad task file or photo.
  */
 [[nodiscard]] Plan makePlan(const Options &options);
+
+//! The arm in a sentence: joints, start, self-motion.
+[[nodiscard]] std::string sentenceOf(const vpServoArm &arm);
 } // namespace servoCompare
 
 #endif

@@ -5,7 +5,6 @@
 #include "replay.h"
 
 #include "appMain.h"
-#include "cameraView.h"
 #include "catalogue.h"
 #include "figures.h"
 #include "format.h"
@@ -13,10 +12,13 @@
 #include "progress.h"
 #include "videoFile.h"
 
+#include <visp3/rendering/vpPlaneRenderer.h>
+
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace servoCompare
@@ -29,6 +31,108 @@ constexpr int VIDEO_WIDTH = 480;
 constexpr int STRIP_VIEW_WIDTH = 220;
 constexpr int STRIP_LABEL_WIDTH = 150;
 constexpr int STRIP_COLUMNS = 5;
+constexpr int TITLE_HEIGHT = 44;
+const cv::Scalar OBJECT(60, 220, 255); // BGR
+const cv::Scalar GOAL(255, 210, 60);
+const cv::Scalar WARNING(60, 60, 235);
+const cv::Scalar WHITE(245, 245, 245);
+
+// Pixel centres are at whole numbers, so the corner of the image is at (-0.5, -0.5).
+vpCameraParameters scaled(const vpCameraParameters &camera, double scale)
+{
+  vpCameraParameters result;
+  result.initPersProjWithoutDistortion(camera.get_px() * scale, camera.get_py() * scale,
+                                       (camera.get_u0() + 0.5) * scale - 0.5, (camera.get_v0() + 0.5) * scale - 0.5);
+  return result;
+}
+
+void write(cv::Mat &picture, const std::string &text, const cv::Point &at, double size, const cv::Scalar &colour)
+{
+  cv::putText(picture, text, at, cv::FONT_HERSHEY_SIMPLEX, size, cv::Scalar(0, 0, 0), 3, cv::LINE_AA);
+  cv::putText(picture, text, at, cv::FONT_HERSHEY_SIMPLEX, size, colour, 1, cv::LINE_AA);
+}
+
+/*!
+ * \brief Renders logged poses as images: the photo as seen by the camera, the outline of the object (yellow) and its
+ * desired image position (cyan), and a warning when a corner is out of the image.
+ *
+ * Not thread-safe.
+ */
+class CameraView
+{
+public:
+  //! \param plan : Task and photo. \param width : Width of the images, px; the height follows from the camera.
+  CameraView(const Plan &plan, int width);
+
+  //! The view of a sample, 8-bit BGR.
+  [[nodiscard]] cv::Mat draw(const vpServoSample &sample);
+  //! The view below a line of text: law, plant, time, segment. Width and height are even, as videos require.
+  [[nodiscard]] cv::Mat drawWithTitle(const vpServoRun &run, const vpServoSample &sample, const std::string &title);
+
+private:
+  void drawOutline(cv::Mat &picture, const vpHomogeneousMatrix &cMo, const cv::Scalar &colour) const;
+
+  vpServoTask m_task;
+  double m_scale; //!< Image pixels per camera pixel.
+  vpCameraParameters m_camera;
+  cv::Size m_size;
+  vpPlaneRenderer m_renderer;
+  vpImage<unsigned char> m_grey;
+};
+
+CameraView::CameraView(const Plan &plan, int width)
+  : m_task(plan.scenario.task), m_scale(double(width) / m_task.width), m_camera(scaled(m_task.camera, m_scale)),
+    m_size(width, static_cast<int>(std::lround(m_task.height * m_scale))),
+    m_renderer(plan.target.photo, m_task.objectWidth, m_task.objectHeight, m_camera, m_size.width, m_size.height)
+{}
+
+cv::Mat CameraView::draw(const vpServoSample &sample)
+{
+  m_renderer.render(sample.cMo, vpCameraFaults(), 0, m_grey);
+  const cv::Mat grey(m_size.height, m_size.width, CV_8UC1, m_grey.bitmap);
+  cv::Mat picture;
+  cv::cvtColor(grey, picture, cv::COLOR_GRAY2BGR);
+  drawOutline(picture, m_task.segments[sample.segment].cdMo, GOAL);
+  drawOutline(picture, sample.cMo, OBJECT);
+  if (!sample.inView) {
+    cv::rectangle(picture, cv::Point(0, 0), cv::Point(m_size.width - 1, m_size.height - 1), WARNING, 3);
+    write(picture, "OUT OF VIEW", cv::Point(10, m_size.height - 12), std::max(0.55, 0.0016 * m_size.width), WARNING);
+  }
+  return picture;
+}
+
+cv::Mat CameraView::drawWithTitle(const vpServoRun &run, const vpServoSample &sample, const std::string &title)
+{
+  const cv::Mat view = draw(sample);
+  cv::Mat picture((view.rows + TITLE_HEIGHT + 1) / 2 * 2, (view.cols + 1) / 2 * 2, CV_8UC3, cv::Scalar(40, 34, 30));
+  view.copyTo(picture(cv::Rect(0, TITLE_HEIGHT, view.cols, view.rows)));
+  write(picture, title, cv::Point(8, 17), 0.5, WHITE);
+  const std::string &segment = run.spec.task.segments[sample.segment].name;
+  write(picture, "t = " + fixed(sample.time, 1) + " s, to pose " + segment, cv::Point(8, 37), 0.45, WHITE);
+  write(picture, "object", cv::Point(picture.cols - 118, 37), 0.45, OBJECT);
+  write(picture, "goal", cv::Point(picture.cols - 48, 37), 0.45, GOAL);
+  return picture;
+}
+
+void CameraView::drawOutline(cv::Mat &picture, const vpHomogeneousMatrix &cMo, const cv::Scalar &colour) const
+{
+  constexpr int SUBPIXEL = 4; // bits
+  std::array<cv::Point, 4> corners;
+  for (int i = 0; i < 4; ++i) {
+    const double x = (i == 0 || i == 3 ? -0.5 : 0.5) * m_task.objectWidth;
+    const double y = (i < 2 ? -0.5 : 0.5) * m_task.objectHeight;
+    const double Z = cMo[2][0] * x + cMo[2][1] * y + cMo[2][3];
+    if (Z < 1e-3) {
+      return;
+    }
+    const double u = m_camera.get_u0() + m_camera.get_px() * (cMo[0][0] * x + cMo[0][1] * y + cMo[0][3]) / Z;
+    const double v = m_camera.get_v0() + m_camera.get_py() * (cMo[1][0] * x + cMo[1][1] * y + cMo[1][3]) / Z;
+    corners[i] = cv::Point(cvRound(u * (1 << SUBPIXEL)), cvRound(v * (1 << SUBPIXEL)));
+  }
+  for (int i = 0; i < 4; ++i) {
+    cv::line(picture, corners[i], corners[(i + 1) % 4], colour, 1, cv::LINE_AA, SUBPIXEL);
+  }
+}
 
 double durationOf(const vpServoTask &task)
 {

@@ -5,16 +5,11 @@
 #include "reportPage.h"
 #include "appMain.h"
 
-#include "armFigures.h"
-#include "armTable.h"
 #include "catalogue.h"
 #include "findings.h"
 #include "format.h"
 #include "htmlReport.h"
-#include "options.h"
-#include "resultTable.h"
-#include "robotChoice.h"
-#include "stepTable.h"
+#include "tables.h"
 
 #include <visp3/core/vpMath.h>
 #include <visp3/core/vpPoseVector.h>
@@ -147,13 +142,18 @@ void writeTables(HtmlReport &page, const Plan &plan, const Results &results)
   page.endDetails();
 }
 
+void addFigure(HtmlReport &page, const Figure &figure)
+{
+  page.picture(vpApp::dataUri("image/svg+xml", figure.svg), figure.title, figure.title + ". " + figure.caption);
+}
+
 void writeFigures(HtmlReport &page, const ReportParts &parts)
 {
   page.section("Figures");
   page.paragraph(
       "Numbered as in the thesis where they repeat one of its figures. A law has the same colour everywhere.");
   for (const Figure &figure : parts.figures) {
-    page.picture(vpApp::dataUri("image/svg+xml", figure.svg), figure.title, figure.title + ". " + figure.caption);
+    addFigure(page, figure);
   }
 }
 
@@ -180,7 +180,7 @@ void writeArm(HtmlReport &page, const Plan &plan, const Results &results, const 
   page.table(jointErrorTable(plan, results, armLaw(plan)),
              "How well the joints follow their commands, with " + armLaw(plan) + " (mm for sliding joints).");
   for (const Figure &figure : figures) {
-    page.picture(vpApp::dataUri("image/svg+xml", figure.svg), figure.title, figure.title + ". " + figure.caption);
+    addFigure(page, figure);
   }
 }
 
@@ -198,7 +198,7 @@ void writeStep(HtmlReport &page, const Plan &plan, const Results &results, const
       " rad/s^3. Every run was made twice, with the law's own twist (raw) and with the shaper (shaped). Only this "
       "section describes the shaped runs.");
   page.list(stepFindings(plan, results));
-  page.picture(vpApp::dataUri("image/svg+xml", figure.svg), figure.title, figure.title + ". " + figure.caption);
+  addFigure(page, figure);
   bool first = true;
   for (const std::string &measure : plan.measures) {
     for (const vpServoPlant &plant : plan.scenario.plants) {

@@ -6,7 +6,10 @@
 
 #include "format.h"
 
+#include <visp3/core/vpMath.h>
 #include <visp3/core/vpPoseVector.h>
+
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <cstdio>
@@ -57,6 +60,150 @@ void appendArm(std::string &csv, const vpArmSample &s)
   append(csv, s.selfMotion);
   csv += vpToString(s.status);
 }
+
+using Json = nlohmann::ordered_json;
+
+Json jsonOf(const vpHomogeneousMatrix &M)
+{
+  const vpPoseVector pose(M);
+  return {{"position_m", {pose[0], pose[1], pose[2]}},
+          {"rotation_deg", {vpMath::deg(pose[3]), vpMath::deg(pose[4]), vpMath::deg(pose[5])}}};
+}
+
+Json jsonOf(const vpServoGains &gains)
+{
+  return {{"lambda", gains.lambda},     {"rotation", gains.rotation},
+          {"kappa", gains.kappa},       {"saturation_rad", gains.saturation},
+          {"integral", gains.integral}, {"integral_limit_radps", gains.integralLimit}};
+}
+
+Json jsonOf(const vpServoPlant &plant)
+{
+  return {{"name", plant.name},
+          {"loop_rate_hz", plant.loopRate},
+          {"vision_rate_hz", plant.visionRate},
+          {"latency_s", plant.latency},
+          {"pixel_noise_px", plant.pixelNoise},
+          {"lag_s", plant.lag},
+          {"deadband_radps", plant.deadband},
+          {"max_linear_mps", plant.maxLinear},
+          {"max_angular_radps", plant.maxAngular}};
+}
+
+Json jsonOf(const vpCameraFaults &faults)
+{
+  return {{"noise", faults.noise},
+          {"blur_px", faults.blur},
+          {"gain", faults.gain},
+          {"bias", faults.bias},
+          {"occlusion", faults.occlusion}};
+}
+
+Json jsonOf(const vpTwistShaperLimits &limits)
+{
+  return {{"linear_acceleration_mps2", limits.linearAcceleration},
+          {"linear_jerk_mps3", limits.linearJerk},
+          {"angular_acceleration_radps2", limits.angularAcceleration},
+          {"angular_jerk_radps3", limits.angularJerk}};
+}
+
+Json jsonOf(const vpServoTask &task)
+{
+  Json segments = Json::array();
+  for (const vpServoSegment &segment : task.segments) {
+    Json item = jsonOf(segment.cdMo);
+    item["name"] = segment.name;
+    item["duration_s"] = segment.duration;
+    segments.push_back(item);
+  }
+  return {{"name", task.name},
+          {"camera",
+           {{"px", task.camera.get_px()},
+            {"py", task.camera.get_py()},
+            {"u0", task.camera.get_u0()},
+            {"v0", task.camera.get_v0()},
+            {"width", task.width},
+            {"height", task.height}}},
+          {"object", {{"width_m", task.objectWidth}, {"height_m", task.objectHeight}, {"points", task.pointCount}}},
+          {"start", jsonOf(task.initial)},
+          {"segments", segments}};
+}
+
+Json jsonOf(const vpJointVector &joints) { return std::vector<double>(joints.data(), joints.data() + joints.size()); }
+
+Json jsonOf(const vpArmModel &model, const vpArmMetrics &m)
+{
+  Json item = {{"joint_rms", jsonOf(m.joint_rms)},
+               {"peak_velocity_share", m.peak_velocity_share},
+               {"peak_acceleration_share", m.peak_acceleration_share},
+               {"least_manipulability", m.least_manipulability},
+               {"self_motion_rad", m.self_motion_rad},
+               {"limited_s", m.limited_s},
+               {"blocked_s", m.blocked_s},
+               {"status", m.status}};
+  if (m.least_margin_joint >= 0) {
+    item["least_limit_margin"] = m.least_limit_margin;
+    item["least_margin_joint"] = model.spec().joints[static_cast<std::size_t>(m.least_margin_joint)].name;
+  }
+  return item;
+}
+
+Json jsonOf(const vpServoArm &arm)
+{
+  Json joints = Json::array();
+  for (const vpArmJointSpec &joint : arm.model.spec().joints) {
+    joints.push_back(joint.name);
+  }
+  return {{"name", arm.model.spec().name},
+          {"file", arm.model.spec().source},
+          {"joints", joints},
+          {"start", jsonOf(arm.spec.start)},
+          {"limits", arm.spec.redundancy.policy == vpLimitPolicy::StopJoints ? "stop" : "scale"}};
+}
+
+Json jsonOf(const Plan &plan, const vpServoRun &run)
+{
+  const vpServoMetrics &m = run.metrics;
+  Json item = {{"law", run.spec.law},
+               {"plant", run.spec.plant.name},
+               {"measure", run.spec.measure},
+               {"seed", run.spec.seed},
+               {"shaped", run.spec.shape.has_value()},
+               {"max_image_error_px", m.max_image_error_px},
+               {"rms_image_error_px", m.rms_image_error_px},
+               {"end_rotation_deg", m.end_rotation_deg},
+               {"end_translation_mm", m.end_translation_mm},
+               {"expected_end_rotation_deg", m.expected_end_rotation_deg},
+               {"expected_end_translation_mm", m.expected_end_translation_mm},
+               {"left_end_rotation_deg", m.left_end_rotation_deg},
+               {"left_end_translation_mm", m.left_end_translation_mm},
+               {"yaw_range_deg", m.yaw_range_deg},
+               {"ideal_yaw_range_deg", m.ideal_yaw_range_deg},
+               {"out_of_view_s", m.out_of_view_s},
+               {"settle_s", m.settle_s},
+               {"path_length_m", m.path_length_m},
+               {"peak_linear_mps", m.peak_linear_mps},
+               {"peak_angular_radps", m.peak_angular_radps},
+               {"peak_linear_acceleration_mps2", m.peak_linear_acceleration_mps2},
+               {"peak_angular_acceleration_radps2", m.peak_angular_acceleration_radps2},
+               {"deadlock_cycles", m.deadlock_cycles},
+               {"status", m.status},
+               {"gains", jsonOf(run.spec.gains)},
+               {"plant_parameters", jsonOf(run.spec.plant)}};
+  if (run.spec.measure == "image") {
+    item["image_faults"] = jsonOf(run.spec.faults);
+  }
+  if (run.spec.shape) {
+    item["shape"] = jsonOf(*run.spec.shape);
+  }
+  if (run.armMetrics) {
+    item["arm"] = jsonOf(run.spec.arm->model, *run.armMetrics);
+  }
+  if (run.spec.seed == plan.seed) {
+    item["log"] = logName(run.spec);
+  }
+  return item;
+}
 } // namespace
 
 std::string logName(const vpServoRunSpec &spec)
@@ -98,5 +245,27 @@ std::string csvOf(const vpServoRun &run)
     csv += '\n';
   }
   return csv;
+}
+
+Json summaryOf(const Plan &plan, const Results &results, const std::string &commandLine, double wallTime)
+{
+  Json runs = Json::array();
+  for (const vpServoRun &run : results.runs()) {
+    runs.push_back(jsonOf(plan, run));
+  }
+  Json summary = {{"program", "visp-servo-compare"},
+                  {"version", VISP_DIRECT_VERSION},
+                  {"visp_version", std::to_string(VISP_VERSION_MAJOR) + "." + std::to_string(VISP_VERSION_MINOR) + "." +
+                                       std::to_string(VISP_VERSION_PATCH)},
+                  {"command_line", commandLine},
+                  {"wall_time_s", wallTime},
+                  {"data", "simulated robots; the target is a photograph, its views are rendered"},
+                  {"target", plan.target.file},
+                  {"task", jsonOf(plan.scenario.task)},
+                  {"runs", runs}};
+  if (plan.arm) {
+    summary["robot"] = jsonOf(*plan.arm);
+  }
+  return summary;
 }
 } // namespace servoCompare

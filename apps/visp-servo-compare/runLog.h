@@ -4,16 +4,16 @@
  */
 /*!
  * \file runLog.h
- * \brief The log of a run as CSV.
+ * \brief The runs for other programs: the log of each as CSV, the metrics of all as JSON.
  */
 #ifndef servoCompare_runLog_h
 #define servoCompare_runLog_h
 
-#include "lab/servo/vpServoExperiment.h"
+#include "results.h"
+
+#include <nlohmann/json_fwd.hpp>
 
 #include <string>
-
-VISP_DIRECT_USING_NAMESPACE
 
 namespace servoCompare
 {
@@ -25,6 +25,11 @@ namespace servoCompare
  * (initial camera frame), translation and theta u. Twists: camera frame. All in m, rad, s and px.
  */
 [[nodiscard]] std::string csvOf(const vpServoRun &run);
+/*!
+ * The content of summary.json. \param commandLine : Command line of the program. \param wallTime : s.
+ */
+[[nodiscard]] nlohmann::ordered_json summaryOf(const Plan &plan, const Results &results, const std::string &commandLine,
+                                               double wallTime);
 } // namespace servoCompare
 
 #endif

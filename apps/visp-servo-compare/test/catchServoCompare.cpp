@@ -14,7 +14,7 @@
 #include "results.h"
 #include "runLog.h"
 #include "scenario.h"
-#include "stepTable.h"
+#include "tables.h"
 
 #include <visp3/feedforward/vpServoLaw.h>
 
