@@ -4,12 +4,13 @@
  */
 /*!
  * \file answer.h
- * \brief A motion as one line of JSON, and as samples.
+ * \brief A motion as one line of JSON, as samples, and as a plot.
  */
 #ifndef planTrajectory_answer_h
 #define planTrajectory_answer_h
 
 #include "motion.h"
+#include "plot.h"
 
 #include <string>
 
@@ -26,6 +27,14 @@ namespace planTrajectory
  * \throw std::runtime_error naming dt when that would be more than maxCycles rows.
  */
 [[nodiscard]] std::string csvOf(const Problem &problem, const Motion &motion);
+
+/*!
+ * Draw a motion. Solid: executed motion; thin: continuation of a plan without the next event; dashed: current
+ * limits; dotted: goal; grey vertical lines: events; dots: vias.
+ * \param title : First line of the figure.
+ */
+[[nodiscard]] std::string drawMotion(const Problem &problem, const Motion &motion, const std::string &title,
+                                     vpApp::PlotFormat format);
 } // namespace planTrajectory
 
 #endif

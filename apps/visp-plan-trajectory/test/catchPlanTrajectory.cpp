@@ -6,7 +6,6 @@
 #include "vpCaseFile.h"
 
 #include "answer.h"
-#include "figure.h"
 #include "outputFolder.h"
 
 #include <cmath>
