@@ -10,6 +10,7 @@
 #define generatePattern_motion_h
 
 #include <array>
+#include <cmath>
 
 namespace generatePattern
 {
@@ -29,6 +30,18 @@ struct Motion {
   //! Velocity of the product in a frame, px/frame.
   [[nodiscard]] Pair velocityAt(double frame) const;
 };
+
+inline Pair Motion::placeAt(double frame) const
+{
+  const double sine = std::sin(2. * M_PI * frame / period);
+  return {{start[0] + velocity[0] * frame + swing[0] * sine, start[1] + velocity[1] * frame + swing[1] * sine}};
+}
+
+inline Pair Motion::velocityAt(double frame) const
+{
+  const double slope = 2. * M_PI / period * std::cos(2. * M_PI * frame / period);
+  return {{velocity[0] + swing[0] * slope, velocity[1] + swing[1] * slope}};
+}
 } // namespace generatePattern
 
 #endif
