@@ -10,10 +10,10 @@
 #define vpApp_test_programRun_h
 
 #include "outputFolder.h"
+#include "testFolder.h"
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -24,14 +24,7 @@ class ProgramRun
 {
 public:
   //! \param program : Path of the program.
-  explicit ProgramRun(std::string program) : m_program(std::move(program))
-  {
-    std::string name = (std::filesystem::temp_directory_path() / "visp-direct-program-XXXXXX").string();
-    m_folder = mkdtemp(name.data());
-  }
-  ~ProgramRun() { std::filesystem::remove_all(m_folder); }
-  ProgramRun(const ProgramRun &) = delete;
-  ProgramRun &operator=(const ProgramRun &) = delete;
+  explicit ProgramRun(std::string program) : m_program(std::move(program)) {}
 
   //! Run with arguments (shell syntax), optionally with environment variables; returns the exit status.
   int operator()(const std::string &arguments, const std::string &environment = "")
@@ -51,17 +44,14 @@ public:
   }
   [[nodiscard]] const std::string &out() const { return m_out; }
   [[nodiscard]] const std::string &err() const { return m_err; }
-  [[nodiscard]] std::filesystem::path path(const std::string &name) const { return m_folder / name; }
+  [[nodiscard]] std::filesystem::path path(const std::string &name) const { return m_folder.path / name; }
 
-  void write(const std::string &name, const std::string &content) const
-  {
-    std::ofstream(path(name), std::ios::binary) << content;
-  }
+  void write(const std::string &name, const std::string &content) const { m_folder.write(name, content); }
   //! Names in the folder, unsorted.
   [[nodiscard]] std::vector<std::string> entries() const
   {
     std::vector<std::string> names;
-    for (const auto &entry : std::filesystem::directory_iterator(m_folder)) {
+    for (const auto &entry : std::filesystem::directory_iterator(m_folder.path)) {
       names.push_back(entry.path().filename().string());
     }
     return names;
@@ -70,7 +60,7 @@ public:
 private:
   int call(const std::string &command) const
   {
-    const int status = std::system(("cd '" + m_folder.string() + "' && " + command).c_str());
+    const int status = std::system(("cd '" + m_folder.path.string() + "' && " + command).c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
   std::string take(const std::string &name) const
@@ -81,7 +71,7 @@ private:
   }
 
   std::string m_program;
-  std::filesystem::path m_folder;
+  TestFolder m_folder;
   std::string m_out;
   std::string m_err;
 };

@@ -25,6 +25,8 @@ struct TestFolder {
     path = mkdtemp(name.data());
   }
   ~TestFolder() { std::filesystem::remove_all(path); }
+  TestFolder(const TestFolder &) = delete;
+  TestFolder &operator=(const TestFolder &) = delete;
   std::string write(const std::string &name, const std::string &content) const
   {
     std::filesystem::create_directories((path / name).parent_path());
