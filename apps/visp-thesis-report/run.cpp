@@ -12,7 +12,7 @@
 
 namespace thesisReport
 {
-// What ranks send, see archive.h.
+// What ranks send, see sweep.h.
 template <class Archive> void exchange(Archive &archive, Quantity &q)
 {
   archive(q.name, q.unit, q.thesis, q.ours, q.tolerance, q.good, q.reason, q.note);

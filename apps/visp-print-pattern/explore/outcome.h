@@ -34,7 +34,7 @@ struct Outcome {
   //! Sets what follows from the design alone.
   void describe(const Design &which, const Setup &setup);
 };
-//! What does not, see archive.h.
+//! What does not, see sweep.h.
 template <class Archive> void exchange(Archive &archive, Outcome &o)
 {
   archive(o.sensorX, o.sensorY, o.landingRms, o.landing95, o.landingWorst, o.throughput, o.cells, o.missed, o.doubled,

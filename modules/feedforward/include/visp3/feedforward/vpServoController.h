@@ -39,9 +39,9 @@ struct VISP_EXPORT vpServoControllerSpec {
  * \brief The servo pipeline: law, optional view filter, recovery. One per camera; one call per cycle.
  *
  * \code
- * vpServoControllerSpec config;
+ * vpServoControllerSpec spec;
  * spec.view = vpViewConstraintSpec::fromCamera(camera, 640, 480);
- * vpServoController servo = vpServoController::create("ff-lookat-pi+cbf", config);
+ * vpServoController servo = vpServoController::create("ff-lookat-pi+cbf", spec);
  * servo.setGoal(goal);
  * vpServoCommand command;
  * do {
