@@ -4,10 +4,9 @@
  */
 #include <visp3/avoidance/vpObjectTracks.h>
 
+#include "vpFieldCheck.h"
 #include "vpPlausible.h"
 #include "vpTrackFilter.h"
-
-#include <visp3/core/vpException.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,16 +15,14 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-constexpr double farAhead = 60.;  // s: longest plausible gap between images
-constexpr double eternity = 1e11; // s: largest plausible time
+constexpr vpFieldCheck fields("the object tracks");
+constexpr double farAhead = 60.; // s: longest plausible gap between images
 
-bool isPositive(double value) { return std::isfinite(value) && value > 0.; }
-bool isTime(double value) { return std::fabs(value) <= eternity; }   // false for NaN
 bool isSigma(double value) { return value >= 1e-9 && value <= 1e3; } // its square and the inverse of that are usable
 
 bool isGood(const vpObjectSighting &sighting)
 {
-  return !sighting.name.empty() && isTime(sighting.time) && vpIsPlace(sighting.pose) &&
+  return !sighting.name.empty() && vpIsTime(sighting.time) && vpIsPlace(sighting.pose) &&
          isSigma(sighting.positionSigma) && isSigma(sighting.angleSigma);
 }
 
@@ -80,33 +77,22 @@ vpCollisionObject toObject(const vpObjectTrack &track)
 
 void vpObjectTrackSpec::validate() const
 {
-  const auto require = [](bool good, const char *field, double value, const char *range) {
-    if (!good) {
-      throw vpException(vpException::badValue, "%s of the object tracks is %g, must be %s", field, value, range);
-    }
-  };
-  const auto positive = [&](const char *field, double value, const char *range) {
-    require(isPositive(value), field, value, range);
-  };
-  const auto notNegative = [&](const char *field, double value, const char *range) {
-    require(std::isfinite(value) && value >= 0., field, value, range);
-  };
-  positive("acceleration", acceleration, "> 0 m/s^2 and finite");
-  positive("angularAcceleration", angularAcceleration, "> 0 rad/s^2 and finite");
-  positive("persistence", persistence, "> 0 s and finite");
-  notNegative("restAcceleration", restAcceleration, ">= 0 m/s^2 and finite");
-  positive("startVelocity", startVelocity, "> 0 m/s and finite");
-  positive("startTurn", startTurn, "> 0 rad/s and finite");
-  positive("gate", gate, "> 0 and finite");
-  require(doubts >= 1, "doubts", doubts, ">= 1");
-  notNegative("restSigmas", restSigmas, ">= 0 and finite");
-  positive("restSpeed", restSpeed, "> 0 m/s and finite");
-  positive("restTurn", restTurn, "> 0 rad/s and finite");
-  notNegative("inflationSigmas", inflationSigmas, ">= 0 and finite");
-  notNegative("maxInflation", maxInflation, ">= 0 m and finite");
-  notNegative("fresh", fresh, ">= 0 s and finite");
-  notNegative("coast", coast, ">= 0 s and finite");
-  require(forget > 0., "forget", forget, "> 0 s");
+  fields.positive("acceleration", acceleration, "m/s^2 and finite");
+  fields.positive("angularAcceleration", angularAcceleration, "rad/s^2 and finite");
+  fields.positive("persistence", persistence, "s and finite");
+  fields.notNegative("restAcceleration", restAcceleration, "m/s^2 and finite");
+  fields.positive("startVelocity", startVelocity, "m/s and finite");
+  fields.positive("startTurn", startTurn, "rad/s and finite");
+  fields.positive("gate", gate, "and finite");
+  fields.require(doubts >= 1, "doubts", doubts, ">= 1");
+  fields.notNegative("restSigmas", restSigmas, "and finite");
+  fields.positive("restSpeed", restSpeed, "m/s and finite");
+  fields.positive("restTurn", restTurn, "rad/s and finite");
+  fields.notNegative("inflationSigmas", inflationSigmas, "and finite");
+  fields.notNegative("maxInflation", maxInflation, "m and finite");
+  fields.notNegative("fresh", fresh, "s and finite");
+  fields.notNegative("coast", coast, "s and finite");
+  fields.require(forget > 0., "forget", forget, "> 0 s");
 }
 
 const char *vpToString(vpTrackStatus status)
@@ -183,7 +169,7 @@ void vpObjectTracks::refresh(std::size_t i) noexcept
 
 bool vpObjectTracks::advance(double now)
 {
-  if (!isTime(now) || now < m_now) {
+  if (!vpIsTime(now) || now < m_now) {
     return false;
   }
   const bool agrees = now > m_doubted && now <= m_doubted + farAhead; // not a stopped clock

@@ -4,6 +4,7 @@
  */
 #include <visp3/avoidance/vpObstacleDetector.h>
 
+#include "vpFieldCheck.h"
 #include "vpPlausible.h"
 
 #include <visp3/core/vpException.h>
@@ -22,8 +23,8 @@ namespace
 {
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
+constexpr vpFieldCheck fields("the obstacle detector");
 constexpr double longestMotion = 0.2; // s; velocities over longer times are not meaningful
-constexpr double eternity = 1e11;     // s: largest plausible time
 
 double square(double x) { return x * x; }
 
@@ -70,18 +71,13 @@ vpCollisionShape body(const vpPlanarTargetSighting &target, const vpObstacleDete
 
 void vpObstacleDetectorSpec::validate() const
 {
-  const auto require = [](bool good, const char *field, double value, const char *range) {
-    if (!good || !std::isfinite(value)) {
-      throw vpException(vpException::badValue, "%s of the obstacle detector is %g, must be %s", field, value, range);
-    }
-  };
-  require(thickness > 0., "thickness", thickness, "> 0 m");
-  require(pixelSigma > 0., "pixelSigma", pixelSigma, "> 0 px");
-  require(greySigma >= 0., "greySigma", greySigma, ">= 0 px");
-  require(cameraPositionSigma >= 0., "cameraPositionSigma", cameraPositionSigma, ">= 0 m");
-  require(cameraAngleSigma >= 0., "cameraAngleSigma", cameraAngleSigma, ">= 0 rad");
-  require(scaleSigma >= 0., "scaleSigma", scaleSigma, ">= 0");
-  require(maxPositionSigma > 0., "maxPositionSigma", maxPositionSigma, "> 0 m");
+  fields.positive("thickness", thickness, "m");
+  fields.positive("pixelSigma", pixelSigma, "px");
+  fields.notNegative("greySigma", greySigma, "px");
+  fields.notNegative("cameraPositionSigma", cameraPositionSigma, "m");
+  fields.notNegative("cameraAngleSigma", cameraAngleSigma, "rad");
+  fields.notNegative("scaleSigma", scaleSigma);
+  fields.positive("maxPositionSigma", maxPositionSigma, "m");
 }
 
 vpPlanarTargetSpec vpObstacleDetector::fastTargets()
@@ -125,7 +121,7 @@ void vpObstacleDetector::reset()
 const std::vector<vpObstacleDetection> &vpObstacleDetector::process(const vpImage<unsigned char> &image,
                                                                     const vpRigidTransform &fMc, double time)
 {
-  const bool known = vpIsPlace(fMc) && std::fabs(time) <= eternity;
+  const bool known = vpIsPlace(fMc) && vpIsTime(time);
   if (known) {
     predict(fMc, time);
   }

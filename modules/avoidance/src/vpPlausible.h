@@ -10,6 +10,8 @@
 
 #include <Eigen/LU>
 
+#include <cmath>
+
 BEGIN_VISP_NAMESPACE
 
 //! True for a rotation (to 1e-6) and any finite translation.
@@ -24,6 +26,9 @@ inline bool vpIsPlace(const vpRigidTransform &T)
 {
   return vpIsRigid(T) && (T.p.cwiseAbs().array() <= vpLargestLength).all();
 }
+
+//! True for a time of at most 1e11 s, before or after 0.
+inline bool vpIsTime(double time) { return std::fabs(time) <= 1e11; }
 
 END_VISP_NAMESPACE
 #endif

@@ -4,6 +4,8 @@
  */
 #include <visp3/avoidance/vpTimedPath.h>
 
+#include "vpFieldCheck.h"
+
 #include <visp3/core/vpException.h>
 #include <visp3/trajectory/vpDirectTrajectory.h>
 
@@ -15,16 +17,10 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
+constexpr vpFieldCheck fields("the timed path");
 using Input = vpTrajectoryInput<Eigen::Dynamic>;
 constexpr double sampleTime = 0.005; // s, for the bounds of the tool
 constexpr double reserve = 0.99;     // fraction of these bounds used
-
-void requireShare(const char *field, double value)
-{
-  if (!(value > 0. && value <= 1.)) {
-    throw vpException(vpException::badValue, "%s of the timed path is %g, must be > 0 and <= 1", field, value);
-  }
-}
 
 void requireSize(const char *field, const vpJointVector &value, int n)
 {
@@ -32,13 +28,6 @@ void requireSize(const char *field, const vpJointVector &value, int n)
     throw vpException(vpException::badValue,
                       "%s at the start of the timed path has %d numbers, must have %d finite ones", field,
                       static_cast<int>(value.size()), n);
-  }
-}
-
-void requireBound(const char *field, double value)
-{
-  if (!(value > 0.)) {
-    throw vpException(vpException::badValue, "%s of the timed path is %g, must be > 0", field, value);
   }
 }
 
@@ -162,10 +151,10 @@ void vpTimedPath::build(const vpCollisionScene &scene, const vpJointPath &path, 
                         vpCertifiedTrajectory &certificate)
 {
   const vpArmModel &arm = scene.arm();
-  requireShare("speed", spec.speed);
-  requireShare("acceleration", spec.acceleration);
-  requireBound("toolVelocity", spec.toolVelocity);
-  requireBound("toolAcceleration", spec.toolAcceleration);
+  fields.require(spec.speed > 0. && spec.speed <= 1., "speed", spec.speed, "> 0 and <= 1");
+  fields.require(spec.acceleration > 0. && spec.acceleration <= 1., "acceleration", spec.acceleration, "> 0 and <= 1");
+  fields.require(spec.toolVelocity > 0., "toolVelocity", spec.toolVelocity, "> 0");
+  fields.require(spec.toolAcceleration > 0., "toolAcceleration", spec.toolAcceleration, "> 0");
   requireSize("velocity", spec.startVelocity, arm.size());
   requireSize("acceleration", spec.startAcceleration, arm.size());
   arm.requireMotionLimits("a timed path");
