@@ -9,6 +9,32 @@
 
 BEGIN_VISP_NAMESPACE
 
+const char *vpMotionResult::message() const noexcept
+{
+  switch (status) {
+  case vpMotionStatus::Free:
+    return "the motion is free";
+  case vpMotionStatus::Collision:
+    return "the motion collides";
+  case vpMotionStatus::Undecided:
+    return "the motion comes so near to the margin that it cannot be decided";
+  default:
+    return "a configuration has the wrong size, is not finite or is out of all range";
+  }
+}
+
+bool vpSceneChecker::inCollision(const vpJointVector &q, double margin)
+{
+  m_scene->place(q, m_data);
+  return m_scene->inCollision(m_data, margin);
+}
+
+vpClearance vpSceneChecker::clearance(const vpJointVector &q, double cutoff)
+{
+  m_scene->place(q, m_data);
+  return m_scene->clearance(m_data, cutoff);
+}
+
 vpDiscreteMotion::vpDiscreteMotion(vpCollisionChecker &checker, double step, double margin)
   : m_checker(&checker), m_step(step), m_margin(margin)
 {

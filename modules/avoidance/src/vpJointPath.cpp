@@ -2,11 +2,22 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
+// A path of joints, and the parameters of its planner, which exist without OMPL too.
 #include <visp3/avoidance/vpJointPath.h>
+
+#include "vpFieldCheck.h"
+
+#include <visp3/avoidance/vpPathPlanner.h>
+#include <visp3/core/vpException.h>
 
 #include <algorithm>
 
 BEGIN_VISP_NAMESPACE
+
+namespace
+{
+constexpr vpFieldCheck fields("the path planner");
+} // namespace
 
 double vpJointPath::length() const noexcept
 {
@@ -31,6 +42,30 @@ vpJointVector vpJointPath::at(double s) const noexcept
     left -= way;
   }
   return points.back();
+}
+
+const std::vector<std::string> &vpPathPlanner::names()
+{
+  static const std::vector<std::string> all{"RRT", "RRTConnect", "RRTstar", "PRM", "BITstar", "KPIECE"};
+  return all;
+}
+
+void vpPathPlannerSpec::validate() const
+{
+  const std::vector<std::string> &names = vpPathPlanner::names();
+  if (std::find(names.begin(), names.end(), planner) == names.end()) {
+    std::string known;
+    for (const std::string &name : names) {
+      known += (known.empty() ? "" : ", ") + name;
+    }
+    throw vpException(vpException::badValue, "unknown path planner '%s', known are %s", planner.c_str(), known.c_str());
+  }
+  fields.notNegative("margin", margin, "and finite");
+  fields.positive("step", step, "and finite");
+  fields.positive("timeLimit", timeLimit, "and finite");
+  fields.notNegative("range", range, "and finite");
+  fields.notNegative("shortenTime", shortenTime, "and finite");
+  fields.require(seed >= 1, "seed", seed, ">= 1 and finite");
 }
 
 END_VISP_NAMESPACE

@@ -7,13 +7,38 @@
 
 #include <visp3/avoidance/vpCollisionScene.h>
 
+#include <cmath>
+#include <cstdio>
 #include <string>
 
 BEGIN_VISP_NAMESPACE
 
+//! A number with so many significant digits; 17 print different numbers differently.
+inline std::string vpDigits(double value, int digits)
+{
+  char result[40];
+  std::snprintf(result, sizeof(result), "%.*g", digits, value);
+  return result;
+}
+
 //! "link 5 and object pillar are 9.85 mm apart, the margin is 10 mm"; "touch" if they do. Different numbers stay
 //! distinguishable.
-std::string vpPairText(const vpCollisionScene &scene, const vpClearance &pair, double margin);
+inline std::string vpPairText(const vpCollisionScene &scene, const vpClearance &pair, double margin)
+{
+  const std::string who = scene.describe(pair);
+  if (!std::isfinite(pair.distance)) {
+    return who;
+  }
+  if (pair.distance <= 0.) {
+    return who + " touch";
+  }
+  const double apart = 1e3 * pair.distance, kept = 1e3 * margin; // mm
+  int digits = 3;
+  while (digits < 17 && apart != kept && vpDigits(apart, digits) == vpDigits(kept, digits)) {
+    ++digits;
+  }
+  return who + " are " + vpDigits(apart, digits) + " mm apart, the margin is " + vpDigits(kept, digits) + " mm";
+}
 
 END_VISP_NAMESPACE
 #endif

@@ -4,10 +4,11 @@
  */
 #include <visp3/avoidance/vpPathPlanner.h>
 
-#include "vpMotionCheck.h"
 #include "vpPairText.h"
 
-#include <visp3/core/vpException.h>
+#include <visp3/avoidance/vpCertifiedMotion.h>
+#include <visp3/avoidance/vpDiscreteMotion.h>
+#include <visp3/avoidance/vpFclChecker.h>
 #include <visp3/direct_core/vpLimit.h>
 
 #include <ompl/base/MotionValidator.h>
@@ -27,7 +28,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
+#include <memory>
 #include <mutex>
 
 namespace ob = ompl::base;
@@ -47,11 +48,69 @@ vpJointVector jointsOf(const ob::State *state, int n)
   return Eigen::Map<const Eigen::VectorXd>(state->as<Space::StateType>()->values, n);
 }
 
+// Common interface of the three motion checks.
+class MotionCheck
+{
+public:
+  virtual ~MotionCheck() = default;
+  [[nodiscard]] virtual vpMotionResult motion(const vpJointVector &from, const vpJointVector &to) = 0;
+  [[nodiscard]] virtual bool inCollision(const vpJointVector &q) = 0;
+};
+
+class Certified : public MotionCheck
+{
+public:
+  Certified(const vpCollisionScene &scene, const vpPathPlannerSpec &spec)
+    : m_checker(scene), m_margin(spec.margin), m_motion(scene, {spec.margin})
+  {}
+  vpMotionResult motion(const vpJointVector &from, const vpJointVector &to) VP_OVERRIDE
+  {
+    return m_motion.check(from, to, m_scratch);
+  }
+  bool inCollision(const vpJointVector &q) VP_OVERRIDE { return m_checker.inCollision(q, m_margin); }
+
+private:
+  vpSceneChecker m_checker;
+  double m_margin;
+  vpCertifiedMotion m_motion;
+  vpMotionScratch m_scratch;
+};
+
+class Discrete : public MotionCheck
+{
+public:
+  Discrete(std::unique_ptr<vpCollisionChecker> checker, const vpPathPlannerSpec &spec)
+    : m_checker(std::move(checker)), m_margin(spec.margin), m_motion(*m_checker, spec.step, spec.margin)
+  {}
+  vpMotionResult motion(const vpJointVector &from, const vpJointVector &to) VP_OVERRIDE
+  {
+    return m_motion.check(from, to);
+  }
+  bool inCollision(const vpJointVector &q) VP_OVERRIDE { return m_checker->inCollision(q, m_margin); }
+
+private:
+  std::unique_ptr<vpCollisionChecker> m_checker;
+  double m_margin;
+  vpDiscreteMotion m_motion;
+};
+
+std::unique_ptr<MotionCheck> makeCheck(const vpCollisionScene &scene, const vpPathPlannerSpec &spec)
+{
+  switch (spec.validation) {
+  case vpMotionValidation::Discrete:
+    return std::make_unique<Discrete>(std::make_unique<vpSceneChecker>(scene), spec);
+  case vpMotionValidation::DiscreteFcl:
+    return std::make_unique<Discrete>(std::make_unique<vpFclChecker>(scene), spec);
+  default:
+    return std::make_unique<Certified>(scene, spec);
+  }
+}
+
 // Adapter of the motion checks for OMPL.
 class Validity : public ob::StateValidityChecker
 {
 public:
-  Validity(const ob::SpaceInformationPtr &si, vpMotionCheck &check, int n)
+  Validity(const ob::SpaceInformationPtr &si, MotionCheck &check, int n)
     : ob::StateValidityChecker(si), m_check(&check), m_n(n)
   {}
   bool isValid(const ob::State *state) const VP_OVERRIDE
@@ -60,14 +119,14 @@ public:
   }
 
 private:
-  vpMotionCheck *m_check;
+  MotionCheck *m_check;
   int m_n;
 };
 
 class Motions : public ob::MotionValidator
 {
 public:
-  Motions(const ob::SpaceInformationPtr &si, vpMotionCheck &check, int n)
+  Motions(const ob::SpaceInformationPtr &si, MotionCheck &check, int n)
     : ob::MotionValidator(si), m_check(&check), m_n(n)
   {}
   bool checkMotion(const ob::State *from, const ob::State *to) const VP_OVERRIDE { return check(from, to).isFree(); }
@@ -93,7 +152,7 @@ private:
     return result;
   }
 
-  vpMotionCheck *m_check;
+  MotionCheck *m_check;
   int m_n;
 };
 
@@ -148,14 +207,6 @@ vpJointVector withinLimits(const vpArmModel &arm, const vpJointVector &q)
   return q.cwiseMax(arm.lower()).cwiseMin(arm.upper());
 }
 
-//! With all digits, so that different numbers are printed differently.
-std::string exactly(double value)
-{
-  char text[40];
-  std::snprintf(text, sizeof(text), "%.17g", value);
-  return text;
-}
-
 // The goal with continuous joints by the shorter way from the start.
 vpJointVector nearGoal(const vpArmModel &arm, const vpJointVector &start, const vpJointVector &goal)
 {
@@ -207,7 +258,7 @@ public:
   Impl(const vpCollisionScene &s, const vpPathPlannerSpec &p) : scene(&s), spec(p)
   {
     spec.validate();
-    check = vpMotionCheck::create(s, p);
+    check = makeCheck(s, p);
     ompl::msg::noOutputHandler(); // its messages are part of the result
   }
 
@@ -226,7 +277,7 @@ public:
       if (!vpLimit::isBetween(arm.lower()(i), q(i), arm.upper()(i))) {
         const double limit = q(i) < 0.5 * (arm.lower()(i) + arm.upper()(i)) ? arm.lower()(i) : arm.upper()(i);
         sentence = "Joint " + arm.spec().joints[static_cast<std::size_t>(i)].name + " of the " + end + " is at " +
-                   exactly(q(i)) + ", beyond its limit " + exactly(limit) + ".";
+                   vpDigits(q(i), 17) + ", beyond its limit " + vpDigits(limit, 17) + ".";
         return vpPathStatus::OutsideLimits;
       }
     }
@@ -300,7 +351,7 @@ public:
 
   const vpCollisionScene *scene;
   vpPathPlannerSpec spec;
-  std::unique_ptr<vpMotionCheck> check;
+  std::unique_ptr<MotionCheck> check;
   vpCollisionData data;
 };
 

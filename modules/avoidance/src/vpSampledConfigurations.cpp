@@ -2,12 +2,15 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
+// What random configurations tell: one that reaches a goal, and which capsules of an arm touch.
 #include <visp3/avoidance/vpGoalConfiguration.h>
-
+#include <visp3/avoidance/vpSelfCollisionStatistics.h>
 #include <visp3/core/vpException.h>
 #include <visp3/manipulator/vpClosedLoopKinematics.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <random>
 
@@ -18,6 +21,7 @@ namespace
 constexpr double period = 0.02; // s, of a virtual motion of which only the end is used
 constexpr int longest = 1500;   // periods
 
+//! Evenly distributed between the position limits; a continuous joint in one full turn.
 vpJointVector randomConfiguration(const vpArmModel &arm, std::mt19937_64 &random)
 {
   vpJointVector q(arm.size());
@@ -52,7 +56,8 @@ std::optional<vpJointVector> reach(vpClosedLoopKinematics &kinematics, const vpA
 } // namespace
 
 vpGoalConfiguration vpFindGoalConfiguration(const vpCollisionScene &scene, const vpJointVector &from,
-                                      const Eigen::Vector3d &position, double margin, int attempts, unsigned int seed)
+                                            const Eigen::Vector3d &position, double margin, int attempts,
+                                            unsigned int seed)
 {
   const vpArmModel &arm = scene.arm();
   if (from.size() != arm.size() || !(from.cwiseAbs().array() <= vpLargestCoordinate).all() ||
@@ -86,6 +91,28 @@ vpGoalConfiguration vpFindGoalConfiguration(const vpCollisionScene &scene, const
     }
   }
   return found;
+}
+
+std::vector<vpSelfPairStatistics> vpSampleSelfPairs(const vpCollisionScene &scene, int samples, unsigned int seed)
+{
+  if (samples <= 0) {
+    throw vpException(vpException::badValue, "number of samples is %d, must be > 0", samples);
+  }
+  std::vector<vpSelfPairStatistics> all;
+  for (const vpSelfPair &pair : scene.selfPairs()) {
+    all.push_back({pair, samples, 0, std::numeric_limits<double>::infinity()});
+  }
+  std::mt19937_64 generator(seed);
+  vpCollisionData data;
+  for (int k = 0; k < samples; ++k) {
+    scene.place(randomConfiguration(scene.arm(), generator), data);
+    for (vpSelfPairStatistics &one : all) {
+      const double clearance = scene.selfPair(data, one.pair.first, one.pair.second).distance;
+      one.touching += clearance <= 0. ? 1 : 0;
+      one.least = std::min(one.least, clearance);
+    }
+  }
+  return all;
 }
 
 END_VISP_NAMESPACE
