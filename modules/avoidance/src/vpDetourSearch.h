@@ -5,11 +5,12 @@
 #ifndef vpDetourSearch_h
 #define vpDetourSearch_h
 
-#include "vpDetour.h"
+#include "vpToolMotion.h"
 
 #include <visp3/avoidance/vpDirectTrajectoryAvoidance.h>
 
 #include <optional>
+#include <vector>
 
 BEGIN_VISP_NAMESPACE
 
