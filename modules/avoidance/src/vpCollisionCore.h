@@ -6,11 +6,9 @@
 #ifndef vpCollisionCore_h
 #define vpCollisionCore_h
 
-#include "vpOctreeData.h"
-#include "vpTriangleMeshData.h"
+#include "vpSegmentNearest.h"
 
-#include <visp3/avoidance/vpCollisionData.h>
-#include <visp3/avoidance/vpCollisionObject.h>
+#include <visp3/avoidance/vpCollisionScene.h>
 
 BEGIN_VISP_NAMESPACE
 
@@ -45,11 +43,14 @@ struct vpCollisionCore {
    */
   [[nodiscard]] vpNearestPoints nearest(const Eigen::Vector3d &from, const Eigen::Vector3d &to,
                                         double cutoff) const noexcept;
+  // Clearance of a capsule of the arm, within the cutoff; may be negative (see nearest()).
+  [[nodiscard]] vpClearance clearance(const vpPlacedCapsule &c, double cutoff) const noexcept;
 };
 
-// Clearance of two rounded cores from the nearest points of the cores; the distance may be negative (see nearest()).
-vpClearance vpRounded(const vpNearestPoints &cores, double radius, double otherRadius,
-                      const Eigen::Vector3d &otherCentre) noexcept;
+// Clearance of two capsules of the arm.
+vpClearance vpSelfClearance(const vpPlacedCapsule &a, const vpPlacedCapsule &b) noexcept;
+// Clearance of a capsule of the arm from the ground.
+vpClearance vpGroundClearance(const vpHalfSpace &ground, const vpPlacedCapsule &c) noexcept;
 
 END_VISP_NAMESPACE
 #endif

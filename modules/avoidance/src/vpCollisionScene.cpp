@@ -131,32 +131,6 @@ void checkLinks(const vpArmModel &arm, const vpCollisionSceneSpec &spec)
   }
 }
 
-vpClearance capsulePair(const vpPlacedCapsule &a, const vpPlacedCapsule &b) noexcept
-{
-  return vpRounded(vpSegmentNearest::segment(a.from, a.to, b.from, b.to), a.radius, b.radius, b.centre);
-}
-
-vpClearance groundClearance(const vpHalfSpace &ground, const vpPlacedCapsule &c) noexcept
-{
-  const double from = ground.normal.dot(c.from) - ground.offset, to = ground.normal.dot(c.to) - ground.offset;
-  const double height = std::min(from, to);
-  vpClearance clearance;
-  clearance.distance = height - c.radius;
-  clearance.kind = vpCollisionKind::Ground;
-  clearance.normal = ground.normal;
-  clearance.onArm = (from <= to ? c.from : c.to) - c.radius * ground.normal;
-  clearance.onOther = clearance.onArm - clearance.distance * ground.normal;
-  return clearance;
-}
-
-vpClearance objectClearance(const vpCollisionCore &core, const vpPlacedCapsule &c, double cutoff) noexcept
-{
-  const double radii = c.radius + core.radius;
-  vpClearance clearance = vpRounded(core.nearest(c.from, c.to, cutoff + radii), c.radius, core.radius, core.centre);
-  clearance.kind = vpCollisionKind::Object;
-  return clearance;
-}
-
 vpClearance unknownClearance() noexcept
 {
   vpClearance clearance;
@@ -424,7 +398,7 @@ bool vpCollisionScene::visitObject(const vpCollisionData &data, int j, const vpC
     if (!isChecked(i, j) || areApart(c.centre, core.centre, radii, visitor.cutoff())) {
       continue;
     }
-    vpClearance pair = objectClearance(core, c, visitor.cutoff());
+    vpClearance pair = core.clearance(c, visitor.cutoff());
     pair.capsule = i;
     pair.other = j;
     if (visitor.take(pair)) {
@@ -476,7 +450,7 @@ vpClearance vpCollisionScene::pair(const vpCollisionData &data, int capsule, int
   }
   vpCollisionCore core = m_cores[at(object)];
   core.move(m_objects[at(object)].poseAt(time));
-  vpClearance clearance = objectClearance(core, data.capsules[at(capsule)], std::numeric_limits<double>::infinity());
+  vpClearance clearance = core.clearance(data.capsules[at(capsule)], std::numeric_limits<double>::infinity());
   clearance.capsule = capsule;
   clearance.other = object;
   return clearance;
@@ -487,8 +461,7 @@ vpClearance vpCollisionScene::selfPair(const vpCollisionData &data, int first, i
   if (!data.placed) {
     return unknownClearance();
   }
-  vpClearance clearance = capsulePair(data.capsules[at(first)], data.capsules[at(second)]);
-  clearance.kind = vpCollisionKind::Self;
+  vpClearance clearance = vpSelfClearance(data.capsules[at(first)], data.capsules[at(second)]);
   clearance.capsule = first;
   clearance.other = second;
   return clearance;
@@ -499,7 +472,7 @@ vpClearance vpCollisionScene::groundPair(const vpCollisionData &data, int capsul
   if (!data.placed) {
     return unknownClearance();
   }
-  vpClearance clearance = groundClearance(*m_ground, data.capsules[at(capsule)]);
+  vpClearance clearance = vpGroundClearance(*m_ground, data.capsules[at(capsule)]);
   clearance.capsule = capsule;
   return clearance;
 }

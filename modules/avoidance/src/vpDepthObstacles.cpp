@@ -5,6 +5,7 @@
 #include <visp3/avoidance/vpDepthObstacles.h>
 
 #include "vpCollisionCore.h"
+#include "vpFieldCheck.h"
 #include "vpPlausible.h"
 
 #include <visp3/core/vpException.h>
@@ -17,6 +18,8 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
+constexpr vpFieldCheck fields("the depth obstacles");
+
 bool isNear(const vpCollisionCore &core, const Eigen::Vector3d &point, double margin)
 {
   const double reach = core.radius + margin;
@@ -46,6 +49,18 @@ bool isSame(const std::vector<vpOctreeCell> &a, const std::vector<vpOctreeCell> 
 }
 } // namespace
 
+const char *vpDepthReport::message() const noexcept
+{
+  switch (status) {
+  case vpDepthStatus::Ok:
+    return "the depth image was used";
+  case vpDepthStatus::NoPoint:
+    return "the depth image has no depth in range that is not the arm";
+  default:
+    return "the camera's pose is no rotation and place in range, or its focal lengths are 0";
+  }
+}
+
 vpDepthOctomapSpec vpDepthObstaclesSpec::defaultMap() noexcept
 {
   vpDepthOctomapSpec spec;
@@ -55,16 +70,11 @@ vpDepthOctomapSpec vpDepthObstaclesSpec::defaultMap() noexcept
 
 void vpDepthObstaclesSpec::validate() const
 {
-  const auto require = [](const char *field, double value) {
-    if (!std::isfinite(value) || value < 0.) {
-      throw vpException(vpException::badValue, "%s of the depth obstacles is %g, must be >= 0 m", field, value);
-    }
-  };
   if (name.empty()) {
     throw vpException(vpException::badValue, "name of the depth obstacles is empty");
   }
-  require("inflation", inflation);
-  require("knownMargin", knownMargin);
+  fields.notNegative("inflation", inflation, "m");
+  fields.notNegative("knownMargin", knownMargin, "m");
 }
 
 vpDepthObstacles::vpDepthObstacles(const vpDepthObstaclesSpec &spec) : m_spec(spec), m_map(spec.map)

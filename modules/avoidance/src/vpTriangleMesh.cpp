@@ -2,8 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-#include "vpMeshTopology.h"
-#include "vpTriangleMeshData.h"
+#include "vpSegmentNearest.h"
 
 #include <visp3/core/vpException.h>
 #include <visp3/manipulator/vpArmTypes.h>
@@ -19,6 +18,8 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
 double angleAt(const Eigen::Vector3d &corner, const Eigen::Vector3d &a, const Eigen::Vector3d &b)
 {
   return std::atan2((a - corner).cross(b - corner).norm(), (a - corner).dot(b - corner));
@@ -56,11 +57,10 @@ void takeTriangles(const std::vector<std::array<int, 3>> &triangles, const std::
         throw vpException(vpException::badValue, "%s: triangle %lu uses vertex %d of %d", data.label.c_str(),
                           static_cast<unsigned long>(i), index, n);
       }
-      t[k] = joined[static_cast<std::size_t>(index)];
+      t[k] = joined[at(index)];
     }
     const auto &v = data.vertices;
-    const Eigen::Vector3d a = v[static_cast<std::size_t>(t[0])], b = v[static_cast<std::size_t>(t[1])],
-                          c = v[static_cast<std::size_t>(t[2])];
+    const Eigen::Vector3d a = v[at(t[0])], b = v[at(t[1])], c = v[at(t[2])];
     if ((b - a).cross(c - a).norm() > 1e-30) {
       data.triangles.push_back(t);
     }
@@ -70,42 +70,146 @@ void takeTriangles(const std::vector<std::array<int, 3>> &triangles, const std::
   }
 }
 
-void judge(vpTriangleMeshData &data)
+using Triangles = std::vector<std::array<int, 3>>;
+
+//! Edges, their ends in ascending order, and the triangles that have them.
+using Edges = std::map<std::pair<int, int>, std::vector<int>>;
+
+struct Shell {
+  std::vector<int> triangles;
+  bool turned = false; // some of its triangles were reversed
+  double volume = 0.;  // times 6; > 0: outwards
+  Eigen::AlignedBox3d box;
+};
+
+std::pair<int, int> edgeOf(const std::array<int, 3> &t, std::size_t k) { return std::minmax({t[k], t[(k + 1) % 3]}); }
+
+void turn(std::array<int, 3> &t) { std::swap(t[1], t[2]); }
+
+// All triangles connected to the first one by edges of two triangles, with the same orientation.
+Shell spread(int first, const Edges &edges, Triangles &triangles, std::vector<bool> &seen, int &twisted)
 {
-  const vpMeshTopology topology = vpOrientMesh(data.vertices, data.triangles);
-  data.watertight = topology.openEdges == 0 && topology.otherEdges == 0;
-  if (topology.openEdges > 0) {
-    data.message = data.label + ": the surface has holes (" + std::to_string(topology.openEdges) +
-                    " edges with one triangle), it is a surface without an inside";
+  Shell shell;
+  shell.triangles.push_back(first);
+  seen[at(first)] = true;
+  for (std::size_t i = 0; i < shell.triangles.size(); ++i) {
+    const int here = shell.triangles[i];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int from = triangles[at(here)][k], to = triangles[at(here)][(k + 1) % 3];
+      const std::vector<int> &uses = edges.at(edgeOf(triangles[at(here)], k));
+      if (uses.size() != 2) {
+        continue;
+      }
+      const int other = uses[0] == here ? uses[1] : uses[0];
+      std::array<int, 3> &t = triangles[at(other)];
+      // The neighbour should have the edge in the opposite direction.
+      const bool same = (t[0] == from && t[1] == to) || (t[1] == from && t[2] == to) || (t[2] == from && t[0] == to);
+      if (!seen[at(other)]) {
+        seen[at(other)] = true;
+        shell.turned = shell.turned || same;
+        same ? turn(t) : void();
+        shell.triangles.push_back(other);
+      }
+      else {
+        twisted += same ? 1 : 0;
+      }
+    }
   }
-  else if (topology.otherEdges > 0) {
-    data.message = data.label + ": " + std::to_string(topology.otherEdges) +
-                    " edges have more than two triangles or no two sides, it is a surface without an inside";
+  return shell;
+}
+
+void measure(const std::vector<Eigen::Vector3d> &vertices, const Triangles &triangles, Shell &shell)
+{
+  const Eigen::Vector3d origin = vertices[at(triangles[at(shell.triangles[0])][0])];
+  for (const int i : shell.triangles) {
+    const std::array<int, 3> &t = triangles[at(i)];
+    const Eigen::Vector3d a = vertices[at(t[0])], b = vertices[at(t[1])], c = vertices[at(t[2])];
+    shell.volume += (a - origin).dot((b - origin).cross(c - origin));
+    shell.box.extend(a).extend(b).extend(c);
   }
 }
 
-using Edge = std::pair<int, int>;
+bool isCavity(const Shell &shell, const std::vector<Shell> &all)
+{
+  return !shell.turned && std::any_of(all.begin(), all.end(), [&shell](const Shell &other) {
+    return &other != &shell && other.volume > 0. && other.box.contains(shell.box) && !shell.box.contains(other.box);
+  });
+}
 
-Edge sorted(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
+// Whether the triangles are a solid.
+struct Topology {
+  int openEdges = 0;  // edges of one triangle
+  int otherEdges = 0; // edges of more than two, or between triangles that cannot be oriented consistently
+};
+
+/*
+ * Orients the triangles of each closed shell consistently outwards. A shell that is oriented inwards as a whole is
+ * kept, as a cavity, if it lies within the bounds of another one; oriented outwards it would count as filled.
+ */
+Topology orient(const std::vector<Eigen::Vector3d> &vertices, Triangles &triangles)
+{
+  Edges edges;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      edges[edgeOf(triangles[i], k)].push_back(static_cast<int>(i));
+    }
+  }
+  Topology topology;
+  for (const auto &edge : edges) {
+    topology.openEdges += edge.second.size() == 1 ? 1 : 0;
+    topology.otherEdges += edge.second.size() > 2 ? 1 : 0;
+  }
+  if (topology.openEdges > 0 || topology.otherEdges > 0) {
+    return topology;
+  }
+  std::vector<bool> seen(triangles.size(), false);
+  std::vector<Shell> shells;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    if (!seen[i]) {
+      shells.push_back(spread(static_cast<int>(i), edges, triangles, seen, topology.otherEdges));
+      measure(vertices, triangles, shells.back());
+    }
+  }
+  for (const Shell &shell : shells) {
+    if (shell.volume < 0. && !isCavity(shell, shells)) {
+      for (const int i : shell.triangles) {
+        turn(triangles[at(i)]);
+      }
+    }
+  }
+  return topology;
+}
+
+void judge(vpTriangleMeshData &data)
+{
+  const Topology topology = orient(data.vertices, data.triangles);
+  data.watertight = topology.openEdges == 0 && topology.otherEdges == 0;
+  if (topology.openEdges > 0) {
+    data.message = data.label + ": the surface has holes (" + std::to_string(topology.openEdges) +
+                   " edges with one triangle), it is a surface without an inside";
+  }
+  else if (topology.otherEdges > 0) {
+    data.message = data.label + ": " + std::to_string(topology.otherEdges) +
+                   " edges have more than two triangles or no two sides, it is a surface without an inside";
+  }
+}
 
 void addNormals(vpTriangleMeshData &data)
 {
-  std::map<Edge, Eigen::Vector3d> edges;
+  std::map<std::pair<int, int>, Eigen::Vector3d> edges;
   data.vertexNormals.assign(data.vertices.size(), Eigen::Vector3d::Zero());
   for (const auto &t : data.triangles) {
-    const std::array<Eigen::Vector3d, 3> corner = {data.vertices[static_cast<std::size_t>(t[0])],
-                                                   data.vertices[static_cast<std::size_t>(t[1])],
-                                                   data.vertices[static_cast<std::size_t>(t[2])]};
+    const std::array<Eigen::Vector3d, 3> corner = {data.vertices[at(t[0])], data.vertices[at(t[1])],
+                                                   data.vertices[at(t[2])]};
     const Eigen::Vector3d n = (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalized();
     data.faceNormals.push_back(n);
     for (std::size_t k = 0; k < 3; ++k) {
-      edges.emplace(sorted(t[k], t[(k + 1) % 3]), Eigen::Vector3d::Zero()).first->second += n;
-      data.vertexNormals[static_cast<std::size_t>(t[k])] +=
-          angleAt(corner[k], corner[(k + 1) % 3], corner[(k + 2) % 3]) * n;
+      edges.emplace(edgeOf(t, k), Eigen::Vector3d::Zero()).first->second += n;
+      data.vertexNormals[at(t[k])] += angleAt(corner[k], corner[(k + 1) % 3], corner[(k + 2) % 3]) * n;
     }
   }
   for (const auto &t : data.triangles) {
-    data.edgeNormals.push_back({edges[sorted(t[0], t[1])], edges[sorted(t[1], t[2])], edges[sorted(t[2], t[0])]});
+    data.edgeNormals.push_back({edges[edgeOf(t, 0)], edges[edgeOf(t, 1)], edges[edgeOf(t, 2)]});
   }
 }
 
@@ -114,9 +218,7 @@ Eigen::Vector3d normalAt(const vpTriangleMeshData &data, int triangle, const Eig
 {
   const std::size_t i = static_cast<std::size_t>(triangle);
   const auto &t = data.triangles[i];
-  const Eigen::Vector3d &a = data.vertices[static_cast<std::size_t>(t[0])],
-                        &b = data.vertices[static_cast<std::size_t>(t[1])],
-                        &c = data.vertices[static_cast<std::size_t>(t[2])];
+  const Eigen::Vector3d &a = data.vertices[at(t[0])], &b = data.vertices[at(t[1])], &c = data.vertices[at(t[2])];
   const Eigen::Vector3d n = (b - a).cross(c - a);
   const double area = n.squaredNorm();
   // Barycentric weights; weight k vanishes on the edge opposite to vertex k.
@@ -125,7 +227,7 @@ Eigen::Vector3d normalAt(const vpTriangleMeshData &data, int triangle, const Eig
   constexpr double on = 1e-9;
   for (std::size_t k = 0; k < 3; ++k) {
     if (weight[k] > 1. - on) {
-      return data.vertexNormals[static_cast<std::size_t>(t[k])];
+      return data.vertexNormals[at(t[k])];
     }
   }
   for (std::size_t k = 0; k < 3; ++k) {
@@ -142,10 +244,8 @@ vpNearestPoints vpTriangleMeshData::nearest(const Eigen::Vector3d &from, const E
 {
   int index = -1;
   const auto exact = [&](int i) {
-    const auto &t = triangles[static_cast<std::size_t>(i)];
-    return vpSegmentNearest::triangle(from, to, vertices[static_cast<std::size_t>(t[0])],
-                                      vertices[static_cast<std::size_t>(t[1])],
-                                      vertices[static_cast<std::size_t>(t[2])]);
+    const auto &t = triangles[at(i)];
+    return vpSegmentNearest::triangle(from, to, vertices[at(t[0])], vertices[at(t[1])], vertices[at(t[2])]);
   };
   // A segment inside a solid may be farther from the surface than the cutoff, which must then be ignored.
   const bool mayBeInside = watertight && tree.contains(from);
@@ -171,9 +271,7 @@ vpTriangleMesh::vpTriangleMesh(const std::vector<Eigen::Vector3d> &vertices,
   addNormals(*data);
   std::vector<vpBoxTree::Item> items;
   for (const auto &t : data->triangles) {
-    const Eigen::Vector3d &a = data->vertices[static_cast<std::size_t>(t[0])],
-                          &b = data->vertices[static_cast<std::size_t>(t[1])],
-                          &c = data->vertices[static_cast<std::size_t>(t[2])];
+    const Eigen::Vector3d &a = data->vertices[at(t[0])], &b = data->vertices[at(t[1])], &c = data->vertices[at(t[2])];
     items.push_back({a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)});
   }
   data->tree = vpBoxTree(items);
