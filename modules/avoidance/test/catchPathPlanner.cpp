@@ -114,7 +114,8 @@ TEST_CASE("Discrete validation calls paths free that are not", "[planner]")
   auto rng = vpTestSupport::generator(901);
   CAPTURE(vpTestSupport::seed());
   int certified = 0, discrete = 0, lies = 0;
-  for (int problem = 0; problem < times(15); ++problem) {
+  // In 18 % of the problems the samples miss: among 60 none of them once in 1e5 runs.
+  for (int problem = 0; problem < times(15) || (lies == 0 && problem < 60); ++problem) {
     vpCollisionSceneSpec spec;
     for (int k = 0; k < 8; ++k) {
       vpCollisionObject board;
