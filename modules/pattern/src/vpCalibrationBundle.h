@@ -4,10 +4,16 @@
  */
 // Levenberg-Marquardt over parameters shared by all views and others that belong to one view each. The normal matrix is
 // an arrow; the views are eliminated one by one, so that the effort grows with their number and not with its cube.
+//
+// Radial distortion d (1 + kappa |d|^2) = w of (4.5) and (7.5): from the ideal position w to the observed one, d.
+//
+// Tests of a bundle by its residuals, from its linearisation at the solution.
 #ifndef vpCalibrationBundle_h
 #define vpCalibrationBundle_h
 
 #include <visp3/direct_core/vpDirectCompat.h>
+#include <visp3/pattern/vpCalibrationPoint.h>
+#include <visp3/pattern/vpFitTest.h>
 
 #include <Eigen/Core>
 #include <Eigen/Dense>
@@ -16,6 +22,14 @@
 #include <vector>
 
 BEGIN_VISP_NAMESPACE
+
+struct vpDistortedPoint {
+  Eigen::Vector2d d;        // observed position; NaN where the distortion has no inverse
+  Eigen::Matrix2d byIdeal;  // derivative of d with respect to w
+  Eigen::Vector2d byKappa1; // derivative of d with respect to kappa
+};
+
+[[nodiscard]] vpDistortedPoint vpDistort(const Eigen::Vector2d &ideal, double kappa1);
 
 // Residuals of one view in standard deviations, (measured - predicted) / sigma, and derivatives of predicted / sigma.
 struct vpBundleView {
@@ -180,6 +194,46 @@ template <class Problem, class State> vpBundleSolution<State> vpSolveBundle(cons
   }
   normal.covariances(solution);
   return solution;
+}
+
+struct vpFitTestView {
+  vpBundleView linear;        // residuals (two per point) and derivatives, in standard deviations
+  Eigen::MatrixXd covariance; // of (shared, local of this view)
+  Eigen::Matrix2Xd sigma;     // of the points, px
+  Eigen::Matrix2Xd place;     // image positions of the points, px
+};
+
+// stated: the deviations are absolute, not only ratios.
+[[nodiscard]] vpFitTest vpTestFit(const std::vector<vpFitTestView> &views, double level, bool stated);
+
+// The joint covariance of the shared and one view's own parameters.
+template <class State>
+[[nodiscard]] Eigen::MatrixXd vpJointCovariance(const vpBundleSolution<State> &solution, std::size_t k)
+{
+  const Eigen::Index s = solution.sharedCovariance.rows(), l = solution.localCovariance[k].rows();
+  Eigen::MatrixXd joint(s + l, s + l);
+  joint << solution.sharedCovariance, solution.crossCovariance[k], solution.crossCovariance[k].transpose(),
+      solution.localCovariance[k];
+  return joint;
+}
+
+// Input of vpTestFit(), at the solution. Problem: also sigma(k, i), the deviations of the residuals of a point, px.
+template <class Problem, class State>
+[[nodiscard]] std::vector<vpFitTestView> vpLinearised(const Problem &problem, const vpBundleSolution<State> &solution,
+                                                      const std::vector<std::vector<vpCalibrationPoint>> &points)
+{
+  std::vector<vpFitTestView> views(problem.views());
+  for (std::size_t k = 0; k < views.size(); ++k) {
+    const auto n = static_cast<Eigen::Index>(points[k].size());
+    views[k] = {problem.view(solution.state, k), vpJointCovariance(solution, k), Eigen::Matrix2Xd(2, n),
+                Eigen::Matrix2Xd(2, n)};
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const auto point = static_cast<std::size_t>(i);
+      views[k].sigma.col(i) = problem.sigma(k, point);
+      views[k].place.col(i) << points[k][point].u, points[k][point].v;
+    }
+  }
+  return views;
 }
 
 END_VISP_NAMESPACE

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Input checks common to all calibrations, with messages.
+// Input checks and messages common to all calibrations.
 #ifndef vpCalibrationInput_h
 #define vpCalibrationInput_h
 
@@ -10,6 +10,8 @@
 
 #include <Eigen/Core>
 
+#include <cstdio>
+#include <string>
 #include <vector>
 
 BEGIN_VISP_NAMESPACE
@@ -37,6 +39,14 @@ struct vpCalibrationSpread {
 
 // Distribution of the image positions, likewise; sigma[2] is 0.
 [[nodiscard]] vpCalibrationSpread vpImageSpreadOf(const std::vector<vpCalibrationPoint> &points);
+
+// A sentence of a message, with values as in printf.
+template <class... Values> [[nodiscard]] std::string vpSentence(const char *format, Values... values)
+{
+  char text[400];
+  std::snprintf(text, sizeof text, format, values...);
+  return text;
+}
 
 END_VISP_NAMESPACE
 #endif

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-#include "vpCalibrationDistortion.h"
+#include "vpCalibrationBundle.h"
 #include "vpCalibrationInput.h"
 #include "vpPrintable.h"
 #include "vpReading.h"

@@ -2,14 +2,12 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-#include "vpCalibrationFitTest.h"
 #include "vpCalibrationInput.h"
-#include "vpMicroscopeCalibrationCovariance.h"
-#include "vpMicroscopeCalibrationMessage.h"
-
-#include <visp3/pattern/vpPlanarMicroscopeCalibration.h>
+#include "vpMicroscopeCalibrationProblem.h"
 
 #include <visp3/core/vpException.h>
+#include <visp3/core/vpMath.h>
+#include <visp3/pattern/vpPlanarMicroscopeCalibration.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,6 +23,88 @@ using Solution = vpBundleSolution<State>;
 constexpr std::size_t leastPoints = 6;
 constexpr double largestUnseen = 0.01; // share of the distance that an unseen distortion moves the farthest corner by
 
+// Internal results and decisions.
+struct Decision {
+  double kappa1 = 0.;            // estimate, px^-2, whether it is used or not
+  double significance = 0.;      // of kappa1, standard deviations
+  bool hiddenDistortion = false; // distortion is present, but the points cover too little of the image to estimate it
+  double looksTilted = 0.;       // from foreshortening, rad
+};
+
+std::string aboutKappa1(const vpMicroscopeCalibrationResult &result, const Decision &decision,
+                        const vpMicroscopeCalibrationSpec &spec)
+{
+  switch (result.kappa1Status) {
+  case vpKappa1Status::NotAsked:
+    return "The distortion was not asked for.";
+  case vpKappa1Status::Estimated:
+    return vpSentence("The distortion kappa1 is %.4g +- %.2g px^-2 and moves the worst corner of the image by %.2g px.",
+                      decision.kappa1, result.kappa1Sigma, result.kappa1Effect);
+  case vpKappa1Status::Unobservable:
+    break;
+  }
+  if (result.kappa1CornerSigma > spec.maxCornerSigma) {
+    return vpSentence(
+        "The distortion kappa1 is unobservable and taken as 0: the points cover so little of the image that "
+        "its deviation of %.2g px^-2 is %.3g px at the farthest corner, more than %g px.",
+        result.kappa1Sigma, result.kappa1CornerSigma, spec.maxCornerSigma);
+  }
+  if (decision.significance < spec.minSignificance) {
+    return vpSentence("The distortion kappa1 is unobservable and taken as 0: the points say %.2g +- %.2g px^-2, %.1f "
+                      "standard deviations from zero, less than %g.",
+                      decision.kappa1, result.kappa1Sigma, decision.significance, spec.minSignificance);
+  }
+  return vpSentence(
+      "The distortion kappa1 is unobservable and taken as 0: in this field of view it would move the worst "
+      "corner by %.2g px, less than %g px.",
+      result.kappa1Effect, spec.minEffect);
+}
+
+std::string aboutTilt(const vpMicroscopeCalibrationResult &result, const vpMicroscopeCalibrationSpec &spec)
+{
+  if (!spec.estimateTilt) {
+    return "";
+  }
+  const vpMicroscopeCalibration &c = result.calibration;
+  const double tilt = std::hypot(c.tiltX, c.tiltY);
+  const double sigma = std::hypot(result.sigma(vpMicroscopeTiltX), result.sigma(vpMicroscopeTiltY)) / std::sqrt(2.);
+  return vpSentence(" By a tilt the scale changes by %.2g +- %.1g %% over the width of the image.",
+                    100. * tilt * c.width, 100. * sigma * c.width);
+}
+
+std::string messageOf(const vpMicroscopeCalibrationResult &result, const Decision &decision,
+                      const vpMicroscopeCalibrationSpec &spec)
+{
+  const vpMicroscopeCalibration &c = result.calibration;
+  std::string text = vpSentence("The scale is %.8g +- %.2g px/m (%.6g um a pixel)", c.scaleX,
+                                result.sigma(vpMicroscopeScaleX), c.pixelSizeUm());
+  if (c.scaleY != c.scaleX) {
+    text += vpSentence(" along u and %.8g +- %.2g px/m along v", c.scaleY, result.sigma(vpMicroscopeScaleY));
+  }
+  text += ". " + aboutKappa1(result, decision, spec) + aboutTilt(result, spec);
+  text += vpSentence(" The residuals are %.3g px (rms), %.3g times what the points' deviations say.",
+                     result.residualRms, std::sqrt(result.varianceFactor));
+  if (!result.converged) {
+    text += " The refinement did not come to its end.";
+  }
+  if (!result.reliable) {
+    text += " This is not reliable.";
+  }
+  if (decision.hiddenDistortion) {
+    text +=
+        vpSentence(" There is a distortion (%.1f standard deviations from zero) that the points cannot tell for the "
+                   "whole image: cover more of it.",
+                   decision.significance);
+  }
+  if (result.looksTiltedTooFar) {
+    text += vpSentence(
+        " The product looks as if tilted by %.3g degrees: it is, or a pitch is wrong, or the cells are on another "
+        "lattice than specified.",
+        vpMath::deg(decision.looksTilted));
+  }
+  return text + " " + result.fit.message(result.varianceFactor);
+}
+
 // Largest distance between the two at the corners of the image, px. Infinite where one of them has no inverse.
 double differenceAtCorners(const vpMicroscopeCalibration &a, const vpMicroscopeCalibration &b)
 {
@@ -37,24 +117,6 @@ double differenceAtCorners(const vpMicroscopeCalibration &a, const vpMicroscopeC
     }
   }
   return worst;
-}
-
-// Input of the fit test, at the solution.
-std::vector<vpFitTestView> linearised(const vpMicroscopeProblem &problem, const Solution &solution,
-                                      const std::vector<std::vector<vpCalibrationPoint>> &points)
-{
-  std::vector<vpFitTestView> views(problem.views());
-  for (std::size_t k = 0; k < views.size(); ++k) {
-    const auto n = static_cast<Eigen::Index>(points[k].size());
-    views[k] = {problem.view(solution.state, k), vpJointCovariance(solution, k), Eigen::Matrix2Xd(2, n),
-                Eigen::Matrix2Xd(2, n)};
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const auto point = static_cast<std::size_t>(i);
-      views[k].sigma.col(i) = problem.sigma(k, point);
-      views[k].place.col(i) << points[k][point].u, points[k][point].v;
-    }
-  }
-  return views;
 }
 
 // One run: closed-form initial value, fit without distortion, fit with it, choice between the two.
@@ -225,12 +287,12 @@ private:
     m_result.degreesOfFreedom = degreesOf(best);
     m_result.varianceFactor = varianceFactorOf(best);
     judgeFit(best);
-    m_result.message = vpMicroscopeMessage(m_result, m_decision, m_spec);
+    m_result.message = messageOf(m_result, m_decision, m_spec);
   }
 
   void judgeFit(const Fit &best)
   {
-    const std::vector<vpFitTestView> views = linearised(best.problem, best.solution, m_points);
+    const std::vector<vpFitTestView> views = vpLinearised(best.problem, best.solution, m_points);
     m_result.fit = vpTestFit(views, m_spec.falseAlarm, !m_spec.sigmaFromResiduals);
     double squares = 0., count = 0.;
     for (const vpFitTestView &view : views) {
@@ -249,13 +311,13 @@ private:
   }
 
   const std::vector<std::vector<vpCalibrationPoint>> &m_points; // owned by the caller
-  const vpMicroscopeCalibrationSpec &m_spec;              // owned by the caller
+  const vpMicroscopeCalibrationSpec &m_spec;                    // owned by the caller
   unsigned int m_width;
   unsigned int m_height;
   std::vector<vpPlanarView> m_views;
   std::vector<vpPlanarStart> m_starts;
   double m_weightScale = 0.; // px/m
-  vpMicroscopeDecision m_decision;
+  Decision m_decision;
   std::optional<Fit> m_unseen; // with the distortion that the result omits
   vpMicroscopeCalibrationResult m_result;
 };

@@ -2,31 +2,123 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-#include "vpCalibrationFitTest.h"
+#include "vpCalibrationBundle.h"
 #include "vpCalibrationInput.h"
-#include "vpTsaiCalibrationProblem.h"
-
-#include <visp3/direct_core/vpQuantile.h>
-#include <visp3/pattern/vpTsaiCalibration.h>
+#include "vpTsaiCalibrationStart.h"
 
 #include <visp3/core/vpException.h>
 #include <visp3/core/vpRotationMatrix.h>
 #include <visp3/core/vpTranslationVector.h>
+#include <visp3/direct_core/vpQuantile.h>
+#include <visp3/direct_core/vpSO3.h>
+#include <visp3/pattern/vpTsaiCalibration.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdio>
+#include <limits>
 
 BEGIN_VISP_NAMESPACE
 
 namespace
 {
-using State = vpTsaiState;
-
 constexpr std::size_t leastPoints = 6;
 constexpr std::size_t leastOfBody = 8;
 constexpr std::size_t mostLeftOut = 30; // views left out in turn after a misfit
 constexpr double largestDoubt = 0.1;    // standard deviation of f over f in a reliable result
+
+struct State {
+  // f (px, columns), aspect, kappa1 (px^-2), u0, v0 (px).
+  enum Shared { F, Aspect, Kappa1, U0, V0, SharedCount };
+  std::array<double, SharedCount> shared{};
+  std::vector<vpTsaiPose> poses;
+};
+
+// Step 2 of Tsai's calibration: distances in the image, for vpSolveBundle().
+class Problem
+{
+public:
+  Problem(const std::vector<std::vector<vpCalibrationPoint>> &points, const std::vector<vpTsaiView> &views,
+          const std::array<bool, State::SharedCount> &isFree)
+    : m_points(&points), m_views(&views)
+  {
+    for (int i = 0; i < State::SharedCount; ++i) {
+      if (isFree[static_cast<std::size_t>(i)]) {
+        m_free.push_back(i);
+      }
+    }
+  }
+  [[nodiscard]] Eigen::Index shared() const { return static_cast<Eigen::Index>(m_free.size()); }
+  [[nodiscard]] std::size_t views() const { return m_views->size(); }
+  [[nodiscard]] const std::vector<int> &freeParameters() const { return m_free; }
+  // Local parameters: a rotation of the camera frame (rad), then t (m).
+  [[nodiscard]] vpBundleView view(const State &state, std::size_t k) const;
+  // Standard deviation of a residual, px.
+  [[nodiscard]] Eigen::Vector2d sigma(std::size_t k, std::size_t i) const
+  {
+    return {(*m_points)[k][i].sigmaU, (*m_points)[k][i].sigmaV};
+  }
+  [[nodiscard]] State plus(const State &state, const Eigen::VectorXd &shared,
+                           const std::vector<Eigen::VectorXd> &local) const;
+
+private:
+  const std::vector<std::vector<vpCalibrationPoint>> *m_points; // owned by the caller
+  const std::vector<vpTsaiView> *m_views;                       // owned by the caller
+  std::vector<int> m_free;
+};
+
+vpBundleView Problem::view(const State &state, std::size_t k) const
+{
+  const std::vector<vpCalibrationPoint> &points = (*m_points)[k];
+  const auto n = static_cast<Eigen::Index>(points.size());
+  vpBundleView result;
+  result.byShared.setZero(2 * n, shared());
+  result.byLocal.setZero(2 * n, 6);
+  result.residual.resize(2 * n);
+  const double f = state.shared[State::F], aspect = state.shared[State::Aspect];
+  const vpTsaiPose &pose = state.poses[k];
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Eigen::Vector3d turned = pose.R * (*m_views)[k].p.col(i), p = turned + pose.t;
+    if (!(f > 0. && aspect > 0. && p.z() > 0.)) {
+      result.residual.setConstant(std::numeric_limits<double>::quiet_NaN());
+      return result;
+    }
+    const Eigen::Vector2d normalised = p.head<2>() / p.z();
+    const vpDistortedPoint seen = vpDistort(f * normalised, state.shared[State::Kappa1]);
+    const vpCalibrationPoint &point = points[static_cast<std::size_t>(i)];
+    result.residual[2 * i] = (point.u - state.shared[State::U0] - seen.d.x()) / point.sigmaU;
+    result.residual[2 * i + 1] = (point.v - state.shared[State::V0] - aspect * seen.d.y()) / point.sigmaV;
+    const Eigen::Vector2d toPixel(1. / point.sigmaU, aspect / point.sigmaV); // of d
+    Eigen::Matrix<double, 2, State::SharedCount> byAll;
+    byAll.col(State::F) = toPixel.asDiagonal() * seen.byIdeal * normalised;
+    byAll.col(State::Aspect) << 0., seen.d.y() / point.sigmaV;
+    byAll.col(State::Kappa1) = toPixel.asDiagonal() * seen.byKappa1;
+    byAll.col(State::U0) << 1. / point.sigmaU, 0.;
+    byAll.col(State::V0) << 0., 1. / point.sigmaV;
+    for (std::size_t j = 0; j < m_free.size(); ++j) {
+      result.byShared.block<2, 1>(2 * i, static_cast<Eigen::Index>(j)) = byAll.col(m_free[j]);
+    }
+    Eigen::Matrix<double, 2, 3> projection;
+    projection << 1., 0., -normalised.x(), 0., 1., -normalised.y();
+    const Eigen::Matrix<double, 2, 3> byPoint = toPixel.asDiagonal() * seen.byIdeal * (f / p.z()) * projection;
+    result.byLocal.block<2, 3>(2 * i, 0) = -byPoint * vpSO3::skew(turned);
+    result.byLocal.block<2, 3>(2 * i, 3) = byPoint;
+  }
+  return result;
+}
+
+State Problem::plus(const State &state, const Eigen::VectorXd &shared, const std::vector<Eigen::VectorXd> &local) const
+{
+  State next = state;
+  for (std::size_t j = 0; j < m_free.size(); ++j) {
+    next.shared[static_cast<std::size_t>(m_free[j])] += shared[static_cast<Eigen::Index>(j)];
+  }
+  for (std::size_t k = 0; k < local.size(); ++k) {
+    next.poses[k].R = vpSO3::exp(local[k].head<3>()) * next.poses[k].R;
+    next.poses[k].t += local[k].tail<3>();
+  }
+  return next;
+}
 
 vpHomogeneousMatrix poseOf(const vpTsaiPose &pose, const Eigen::Vector3d &origin)
 {
@@ -103,19 +195,13 @@ bool start(const std::vector<vpTsaiView> &views, const std::vector<std::vector<v
   return std::isfinite(least);
 }
 
-template <class... Values> std::string message(const char *format, Values... values)
-{
-  char text[400];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
-}
-
 std::string messageOf(const vpTsaiCalibrationResult &result)
 {
-  std::string text = message("The focal length is %.6g +- %.2g px, the principal point (%.6g +- %.2g, %.6g +- %.2g) px"
-                              ", kappa1 %.4g +- %.2g px^-2. The residuals are %.3g px (rms).",
-                              result.px, result.sigma(vpTsaiPx), result.u0, result.sigma(vpTsaiU0), result.v0,
-                              result.sigma(vpTsaiV0), result.kappa1, result.sigma(vpTsaiKappa1), result.residualRms);
+  std::string text =
+      vpSentence("The focal length is %.6g +- %.2g px, the principal point (%.6g +- %.2g, %.6g +- %.2g) px"
+                 ", kappa1 %.4g +- %.2g px^-2. The residuals are %.3g px (rms).",
+                 result.px, result.sigma(vpTsaiPx), result.u0, result.sigma(vpTsaiU0), result.v0,
+                 result.sigma(vpTsaiV0), result.kappa1, result.sigma(vpTsaiKappa1), result.residualRms);
   if (!result.converged) {
     text += " The refinement did not come to its end.";
   }
@@ -145,25 +231,7 @@ Eigen::Matrix<double, vpTsaiParameterCount, vpTsaiParameterCount> covarianceOf(c
   return by * all * by.transpose();
 }
 
-// Input of the fit test, at the solution.
-std::vector<vpFitTestView> linearised(const vpTsaiProblem &problem, const vpBundleSolution<State> &solution,
-                                      const std::vector<std::vector<vpCalibrationPoint>> &points)
-{
-  std::vector<vpFitTestView> views(points.size());
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const auto n = static_cast<Eigen::Index>(points[k].size());
-    views[k] = {problem.view(solution.state, k), vpJointCovariance(solution, k), Eigen::Matrix2Xd(2, n),
-                Eigen::Matrix2Xd(2, n)};
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const vpCalibrationPoint &point = points[k][static_cast<std::size_t>(i)];
-      views[k].sigma.col(i) << point.sigmaU, point.sigmaV;
-      views[k].place.col(i) << point.u, point.v;
-    }
-  }
-  return views;
-}
-
-vpTsaiCalibrationResult resultOf(const vpTsaiProblem &problem, const vpBundleSolution<State> &solution,
+vpTsaiCalibrationResult resultOf(const Problem &problem, const vpBundleSolution<State> &solution,
                                  const std::vector<std::vector<vpCalibrationPoint>> &points,
                                  const std::vector<vpTsaiView> &views, const vpTsaiCalibrationSpec &spec)
 {
@@ -174,7 +242,7 @@ vpTsaiCalibrationResult resultOf(const vpTsaiProblem &problem, const vpBundleSol
   result.kappa1 = s[State::Kappa1];
   result.u0 = s[State::U0];
   result.v0 = s[State::V0];
-  const std::vector<vpFitTestView> linear = linearised(problem, solution, points);
+  const std::vector<vpFitTestView> linear = vpLinearised(problem, solution, points);
   double squares = 0.;
   int count = 0;
   for (std::size_t k = 0; k < views.size(); ++k) {
@@ -307,13 +375,13 @@ vpTsaiCalibrationResult vpTsaiCalibration::solve(const std::vector<std::vector<v
   const bool onePlane = views.size() == 1 && views[0].planar;
   const bool aspect = m_spec.estimateAspect && !onePlane, principal = m_spec.estimatePrincipalPoint && !onePlane;
   // From few parameters to many: far from the solution weakly determined ones diverge.
-  const vpTsaiProblem few(points, views, {{true, false, false, false, false}});
+  const Problem few(points, views, {{true, false, false, false, false}});
   state = vpSolveBundle(few, state).state;
   if (m_spec.estimateKappa1) {
-    const vpTsaiProblem more(points, views, {{true, false, true, false, false}});
+    const Problem more(points, views, {{true, false, true, false, false}});
     state = vpSolveBundle(more, state).state;
   }
-  const vpTsaiProblem problem(points, views, {{true, aspect, m_spec.estimateKappa1, principal, principal}});
+  const Problem problem(points, views, {{true, aspect, m_spec.estimateKappa1, principal, principal}});
   return resultOf(problem, vpSolveBundle(problem, state), points, views, m_spec);
 }
 
