@@ -6,7 +6,7 @@
 #ifndef vpLatticeFit_h
 #define vpLatticeFit_h
 
-#include "vpRunLabels.h"
+#include "vpPatternSpot.h"
 
 #include <visp3/pattern/vpPatternFrame.h>
 

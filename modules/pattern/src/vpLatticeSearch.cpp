@@ -3,7 +3,6 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include "vpLatticeSearch.h"
-#include "vpLatticeWalk.h"
 
 #include <visp3/direct_core/vpQuantile.h>
 #include <visp3/direct_core/vpTailProbability.h>
@@ -12,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 BEGIN_VISP_NAMESPACE
 
@@ -25,6 +25,10 @@ constexpr int seeds = 40;
 constexpr std::size_t mostVectors = 7;
 constexpr double leastPrecision = 0.05; // of the pitch: no dot counts as more precise
 constexpr double mostChance = 1e-6;     // that random spots lie so; some 1000 lattices are tried per image
+constexpr double walkReach = 0.3;       // of the shorter step
+constexpr double nextReach = 0.2;       // of the step, for the occupancy
+constexpr double gain = 0.4;            // share of the observed step error that is corrected
+constexpr double strayShare = 0.1;      // of the pitch: perspective of third order is no outlier
 
 using Vectors = std::vector<Eigen::Vector2d>;
 
@@ -32,6 +36,154 @@ using Vectors = std::vector<Eigen::Vector2d>;
 Eigen::Vector2d folded(const Eigen::Vector2d &v, const Eigen::Vector2d &like) { return v.dot(like) < 0. ? -v : v; }
 
 double cross(const Eigen::Vector2d &a, const Eigen::Vector2d &b) { return a.x() * b.y() - a.y() * b.x(); }
+
+using Terms = Eigen::Matrix<double, 6, 1>;
+
+Terms termsOf(double row, double column)
+{
+  Terms terms;
+  terms << 1., column, row, column * column, column * row, row * row;
+  return terms;
+}
+
+// From spot to spot by the steps of a lattice, and the resulting measures of the lattice.
+class Walk
+{
+public:
+  struct Node {
+    bool on = false;
+    int row = 0, column = 0;
+    Eigen::Vector2d a = Eigen::Vector2d::Zero(), b = Eigen::Vector2d::Zero(); // steps to the neighbours here
+  };
+
+  // From a seed, with local steps, also over one missing spot.
+  Walk(const vpSpotIndex &index, std::size_t seed, const Eigen::Vector2d &a, const Eigen::Vector2d &b);
+  // Share of the single steps to positions in view that end at a spot.
+  [[nodiscard]] double occupancy() const;
+  // Fits a lattice bent to second order and removes outliers. False when it is not determined. Steps at a position: a,
+  // b.
+  bool fit(const Eigen::Vector2d &middle, Eigen::Vector2d &a, Eigen::Vector2d &b, double &rms);
+  // Whether most nodes lie in one row or column: a row among outliers.
+  [[nodiscard]] bool isRow() const;
+  [[nodiscard]] int count() const;
+  [[nodiscard]] const std::vector<Node> &nodes() const { return m_nodes; }
+
+private:
+  const vpSpotIndex &m_index; // owned by the caller
+  std::vector<Node> m_nodes;  // one for each spot
+};
+
+Walk::Walk(const vpSpotIndex &index, std::size_t seed, const Eigen::Vector2d &a, const Eigen::Vector2d &b)
+  : m_index(index), m_nodes(index.count())
+{
+  m_nodes[seed] = {true, 0, 0, a, b};
+  std::vector<std::size_t> reached = {seed};
+  for (std::size_t k = 0; k < reached.size(); ++k) {
+    const Node from = m_nodes[reached[k]];
+    const double reach = walkReach * std::sqrt(std::min(from.a.squaredNorm(), from.b.squaredNorm()));
+    for (int step = 0; step < 8; ++step) {
+      const bool along = step < 4;
+      const int sign = step % 2 == 0 ? 1 : -1, length = step % 4 < 2 ? 1 : 2;
+      const Eigen::Vector2d vector = sign * length * (along ? from.a : from.b);
+      const int found = m_index.nearest(m_index.place(reached[k]) + vector, reach);
+      if (found < 0 || m_nodes[static_cast<std::size_t>(found)].on) {
+        continue;
+      }
+      const auto i = static_cast<std::size_t>(found);
+      Node &to = m_nodes[i];
+      to = from;
+      (along ? to.column : to.row) += sign * length;
+      (along ? to.a : to.b) += gain * sign / length * (m_index.place(i) - m_index.place(reached[k]) - vector);
+      reached.push_back(i);
+    }
+  }
+}
+
+double Walk::occupancy() const
+{
+  int inView = 0, met = 0;
+  for (std::size_t i = 0; i < m_nodes.size(); ++i) {
+    for (const Eigen::Vector2d &step : {m_nodes[i].a, m_nodes[i].b}) {
+      for (const double sign : {1., -1.}) {
+        const Eigen::Vector2d place = m_index.place(i) + sign * step;
+        if (m_nodes[i].on && m_index.inView(place)) {
+          ++inView;
+          met += m_index.nearest(place, nextReach * step.norm()) >= 0 ? 1 : 0;
+        }
+      }
+    }
+  }
+  return inView > 0 ? static_cast<double>(met) / inView : 0.;
+}
+
+bool Walk::fit(const Eigen::Vector2d &middle, Eigen::Vector2d &a, Eigen::Vector2d &b, double &rms)
+{
+  const double pitch = std::min(a.norm(), b.norm());
+  Eigen::Matrix<double, 6, 2> bent;
+  std::vector<char> good(m_nodes.size());
+  for (std::size_t i = 0; i < m_nodes.size(); ++i) {
+    good[i] = m_nodes[i].on ? 1 : 0;
+  }
+  for (int round = 0; round < 3; ++round) { // without the outliers of the previous round
+    Eigen::Matrix<double, 6, 6> normal = 1e-9 * Eigen::Matrix<double, 6, 6>::Identity();
+    Eigen::Matrix<double, 6, 2> right = Eigen::Matrix<double, 6, 2>::Zero();
+    for (std::size_t i = 0; i < m_nodes.size(); ++i) {
+      if (good[i] != 0) {
+        const Terms terms = termsOf(m_nodes[i].row, m_nodes[i].column);
+        normal += terms * terms.transpose();
+        right += terms * m_index.place(i).transpose();
+      }
+    }
+    if (std::count(good.begin(), good.end(), 1) < 6) {
+      return false;
+    }
+    bent = normal.ldlt().solve(right);
+    std::vector<double> misses(m_nodes.size(), -1.), some;
+    for (std::size_t i = 0; i < m_nodes.size(); ++i) {
+      if (m_nodes[i].on) {
+        const Eigen::RowVector2d expected = termsOf(m_nodes[i].row, m_nodes[i].column).transpose() * bent;
+        misses[i] = (expected.transpose() - m_index.place(i)).norm();
+        some.push_back(misses[i]);
+      }
+    }
+    const double limit = std::max({0.5, 4. * vpMedian(some), strayShare * pitch});
+    double squares = 0.;
+    for (std::size_t i = 0; i < m_nodes.size(); ++i) {
+      good[i] = misses[i] >= 0. && misses[i] < limit ? 1 : 0;
+      squares += good[i] != 0 ? misses[i] * misses[i] : 0.;
+    }
+    rms = std::sqrt(squares / std::max<double>(1., static_cast<double>(std::count(good.begin(), good.end(), 1))));
+  }
+  double least = 1e18;
+  for (std::size_t i = 0; i < m_nodes.size(); ++i) {
+    m_nodes[i].on = good[i] != 0;
+    const double distance = (m_index.place(i) - middle).squaredNorm();
+    if (m_nodes[i].on && distance < least) {
+      least = distance;
+      const double row = m_nodes[i].row, column = m_nodes[i].column;
+      a = (bent.row(1) + 2. * bent.row(3) * column + bent.row(4) * row).transpose();
+      b = (bent.row(2) + bent.row(4) * column + 2. * bent.row(5) * row).transpose();
+    }
+  }
+  return true;
+}
+
+bool Walk::isRow() const
+{
+  std::map<int, int> rows, columns;
+  int most = 0;
+  for (const Node &node : m_nodes) {
+    if (node.on) {
+      most = std::max({most, ++rows[node.row], ++columns[node.column]});
+    }
+  }
+  return most > 0.7 * count();
+}
+
+int Walk::count() const
+{
+  return static_cast<int>(std::count_if(m_nodes.begin(), m_nodes.end(), [](const Node &node) { return node.on; }));
+}
 
 class Search
 {
@@ -236,7 +388,7 @@ private:
   void judge(std::size_t seed, Eigen::Vector2d a, Eigen::Vector2d b, vpLatticeFound &best) const
   {
     const double pitch = std::min(a.norm(), b.norm());
-    vpLatticeWalk walk(m_index, seed, a, b);
+    Walk walk(m_index, seed, a, b);
     vpLatticeFound found;
     found.kind = vpDotLatticeKind::Plane;
     found.occupancy = walk.occupancy();

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-#include "vpLatticeSpots.h"
+#include "vpLatticeSearch.h"
 
 #include <visp3/direct_core/vpQuantile.h>
 
@@ -18,6 +18,7 @@ constexpr double share = 0.38;          // of the contrast, from the background:
 constexpr double overNoise = 6.;        // contrast in standard deviations of the noise
 constexpr double flattest = 8.;         // skewness of a window with hardly a spot
 constexpr std::size_t candidates = 300; // for the most common size
+constexpr double margin = 2.;           // px around the box of all spots
 
 // Sums over a window of columns of f, f^2 and f^3, f being the grey value less 128.
 using Sums = std::array<double, 3>;
@@ -173,6 +174,55 @@ std::vector<vpLatticeSpot> vpLatticeSpots::find(bool bright, double alike)
                              }),
               spots.end());
   return spots;
+}
+
+vpSpotIndex::vpSpotIndex(const std::vector<vpLatticeSpot> &spots) : m_spots(spots)
+{
+  m_low.setConstant(1e9);
+  m_high.setConstant(-1e9);
+  for (const vpLatticeSpot &spot : spots) {
+    m_low = m_low.cwiseMin(Eigen::Vector2d(spot.x, spot.y));
+    m_high = m_high.cwiseMax(Eigen::Vector2d(spot.x, spot.y));
+  }
+  m_low.array() -= margin;
+  m_high.array() += margin;
+  m_cell = std::max(4., std::sqrt(size().prod() / static_cast<double>(std::max<std::size_t>(1, spots.size()))));
+  for (const int axis : {0, 1}) {
+    m_cells[axis] = static_cast<int>(size()[axis] / m_cell) + 1;
+  }
+  m_lists.resize(static_cast<std::size_t>(m_cells[0]) * static_cast<std::size_t>(m_cells[1]));
+  for (std::size_t i = 0; i < spots.size(); ++i) {
+    m_lists[static_cast<std::size_t>(cell(spots[i].y, 1) * m_cells[0] + cell(spots[i].x, 0))].push_back(
+        static_cast<int>(i));
+  }
+}
+
+int vpSpotIndex::cell(double x, int axis) const
+{
+  return static_cast<int>(std::clamp((x - m_low[axis]) / m_cell, 0., m_cells[axis] - 1.));
+}
+
+int vpSpotIndex::nearest(const Eigen::Vector2d &place, double reach) const
+{
+  int best = -1;
+  double least = reach * reach;
+  for (int v = cell(place.y() - reach, 1); v <= cell(place.y() + reach, 1); ++v) {
+    for (int u = cell(place.x() - reach, 0); u <= cell(place.x() + reach, 0); ++u) {
+      for (const int i : m_lists[static_cast<std::size_t>(v * m_cells[0] + u)]) {
+        const double d = (this->place(static_cast<std::size_t>(i)) - place).squaredNorm();
+        if (d < least) {
+          least = d;
+          best = i;
+        }
+      }
+    }
+  }
+  return best;
+}
+
+bool vpSpotIndex::inView(const Eigen::Vector2d &place) const
+{
+  return (place.array() >= m_low.array()).all() && (place.array() <= m_high.array()).all();
 }
 
 END_VISP_NAMESPACE

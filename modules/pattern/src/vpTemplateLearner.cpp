@@ -4,7 +4,6 @@
  */
 #include "vpTemplateLearner.h"
 
-#include "vpCubicFilter.h"
 #include "vpPatternSimd.h"
 
 #include <Eigen/Dense>

@@ -5,7 +5,6 @@
 // Residuals of a template at the cells, collected and added back to it.
 #include "vpTemplateLearner.h"
 
-#include "vpCubicFilter.h"
 #include "vpPatternSimd.h"
 
 #include <algorithm>

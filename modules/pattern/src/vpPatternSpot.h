@@ -2,12 +2,13 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Spots of a threshold image by run-length labels; storage of fixed size.
-#ifndef vpRunLabels_h
-#define vpRunLabels_h
+// Spots of a threshold image by run-length labels; storage of fixed size. The centre of a spot from its edges: half maximum, and Algorithm 7.4 as printed and corrected.
+#ifndef vpPatternSpot_h
+#define vpPatternSpot_h
 
 #include <visp3/core/vpImage.h>
 #include <visp3/direct_core/vpDirectCompat.h>
+#include <visp3/pattern/vpPatternTrackerSpec.h>
 
 #include <vector>
 
@@ -50,6 +51,13 @@ private:
   std::vector<vpPatternSpot> m_boxes; // one per label
   std::vector<vpPatternSpot> m_spots;
 };
+
+//! Crossings of the grey value with \e level on all four sides. False when a side has no crossing.
+bool vpHalfMaximumCentre(const vpImage<unsigned char> &image, double level, vpPatternSpot &spot);
+//! Algorithm 7.4 as printed: (7.12) with the width of the box, parabola (7.14), crossing of the diagonals (7.17).
+bool vpThesisCentre(const vpImage<unsigned char> &image, vpPatternDerivative derivative, vpPatternSpot &spot);
+//! Algorithm 7.4 with w - 1 for w in (7.12), a guarded parabola, and the left and right edges measured too.
+bool vpThesisCentreFixed(const vpImage<unsigned char> &image, vpPatternDerivative derivative, vpPatternSpot &spot);
 
 END_VISP_NAMESPACE
 #endif
