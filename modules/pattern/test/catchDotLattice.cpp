@@ -2,12 +2,14 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The lattice of dots of every kind, and none where there is none.
+// The lattice of dots of every kind, and none where there is none. Calibrations from images of dots and of the product.
+#include "vpAnalyticPattern.h"
 #include "vpCatch.h"
 #include "vpDotScene.h"
 
 #include <visp3/core/vpException.h>
 #include <visp3/pattern/vpDotLattice.h>
+#include <visp3/pattern/vpPatternTracker.h>
 #include <visp3/pattern/vpPlanarMicroscopeCalibration.h>
 
 #include <cstdlib>
@@ -166,6 +168,53 @@ TEST_CASE("calibrations from pictures of random lattices err as they say", "[lat
   // Variance of the mean of squares of normal numbers, 2 / n, and of the deviation from some 100 residuals, as much as
   // 1 / 100; not exceeded once in 100,000 times.
   CHECK(nees == Approx(1.).margin(0.1 + 4.42 * std::sqrt(2.1 / scenes)));
+}
+
+TEST_CASE("the product is its own ruler", "[calibration]")
+{
+  auto rng = vpTestSupport::generator(519);
+  CAPTURE(vpTestSupport::seed());
+  Pattern pattern;
+  vpPatternTracker tracker(160, 100);
+  vpPlanarMicroscopeCalibration calibration(160, 100);
+  vpImage<unsigned char> image;
+  const vpCalibrationPitch pitch{220e-6, 220e-6 / pattern.pitchX * pattern.pitchY, 0.};
+  for (int i = 0; i < 120; ++i) {
+    pattern.x += 2.7;
+    pattern.y += 0.3;
+    pattern.render(rng, image);
+    const vpPatternFrame &frame = tracker.process(image);
+    if (frame.status == vpPatternStatus::Tracking && i % 4 == 0) {
+      calibration.addView(vpCalibrationPoints(frame, pitch));
+    }
+  }
+  REQUIRE(calibration.viewCount() > 5);
+  const vpMicroscopeCalibrationResult result = calibration.compute();
+  CAPTURE(result.message);
+  CHECK(result.kappa1Status == vpKappa1Status::Unobservable);
+  CHECK(result.calibration.scaleX == Approx(pattern.pitchX / 220e-6).epsilon(3e-4));
+  CHECK(std::abs(result.calibration.scaleX - pattern.pitchX / 220e-6) < 5. * result.sigma(vpMicroscopeScaleX));
+  CHECK(std::abs(result.calibration.rotation) < 1e-3);
+  CHECK_FALSE(result.calibration.mirrored);
+  CHECK(result.varianceFactor == Approx(1.).margin(0.4));
+
+  // One image of a grid.
+  pattern.noise = 1.;
+  pattern.pitchX = pattern.pitchY = 20.;
+  pattern.cellX = pattern.cellY = 10.;
+  pattern.render(rng, image);
+  vpPlanarMicroscopeCalibration fromGrid(160, 100);
+  fromGrid.addView(vpCalibrationPoints(image, {100e-6, 100e-6, 0.}));
+  CHECK(fromGrid.compute().calibration.scaleX == Approx(20. / 100e-6).epsilon(1e-3));
+  image = 77;
+  CHECK_THROWS_WITH(vpCalibrationPoints(image, {100e-6, 100e-6, 0.}),
+                    Catch::Contains("no dots of a grid were found: "));
+  CHECK_THROWS_WITH(vpCalibrationPoints(image, {-1., 100e-6, 0.}),
+                    Catch::Contains("the pitch of the columns is -1 m, must be > 0"));
+  CHECK_THROWS_WITH(vpCalibrationPoints(tracker.frame(), {1., NAN, 0.}),
+                    Catch::Contains("the pitch of the rows is nan m, must be > 0"));
+  CHECK_THROWS_WITH(vpCalibrationPoints(tracker.frame(), {1., 1., -1.}),
+                    Catch::Contains("sigmaPlane of the pitch is -1 m, must be >= 0"));
 }
 
 TEST_CASE("centres are those of the dots", "[lattice]")

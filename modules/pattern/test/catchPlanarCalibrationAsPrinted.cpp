@@ -4,7 +4,7 @@
  */
 // Loss of accuracy of the planar calibration as printed in the thesis, where it works and where it fails.
 #include "vpCatch.h"
-#include "vpPrintedCalibration.h"
+#include "vpPlanarProblem.h"
 
 VISP_DIRECT_USING_NAMESPACE
 using namespace vpPatternTest;

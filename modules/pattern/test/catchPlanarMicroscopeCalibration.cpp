@@ -3,13 +3,11 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 // The planar calibration against random truths: exactness, correct covariance, observability of kappa1, invalid input.
-#include "vpAnalyticPattern.h"
 #include "vpCatch.h"
-#include "vpPrintedCalibration.h"
+#include "vpPlanarProblem.h"
 
 #include <visp3/core/vpException.h>
 #include <visp3/core/vpMath.h>
-#include <visp3/pattern/vpPatternTracker.h>
 
 #include <Eigen/Dense>
 
@@ -403,53 +401,6 @@ TEST_CASE("two rows of cells, which lie on a conic, are enough", "[calibration]"
       CHECK(result.calibration.mirrored == problem.truth.mirrored);
     }
   }
-}
-
-TEST_CASE("the product is its own ruler", "[calibration]")
-{
-  auto rng = vpTestSupport::generator(519);
-  CAPTURE(vpTestSupport::seed());
-  vpPatternTest::Pattern pattern;
-  vpPatternTracker tracker(160, 100);
-  vpPlanarMicroscopeCalibration calibration(160, 100);
-  vpImage<unsigned char> image;
-  const vpCalibrationPitch pitch{220e-6, 220e-6 / pattern.pitchX * pattern.pitchY, 0.};
-  for (int i = 0; i < 120; ++i) {
-    pattern.x += 2.7;
-    pattern.y += 0.3;
-    pattern.render(rng, image);
-    const vpPatternFrame &frame = tracker.process(image);
-    if (frame.status == vpPatternStatus::Tracking && i % 4 == 0) {
-      calibration.addView(vpCalibrationPoints(frame, pitch));
-    }
-  }
-  REQUIRE(calibration.viewCount() > 5);
-  const vpMicroscopeCalibrationResult result = calibration.compute();
-  CAPTURE(result.message);
-  CHECK(result.kappa1Status == vpKappa1Status::Unobservable);
-  CHECK(result.calibration.scaleX == Approx(pattern.pitchX / 220e-6).epsilon(3e-4));
-  CHECK(std::abs(result.calibration.scaleX - pattern.pitchX / 220e-6) < 5. * result.sigma(vpMicroscopeScaleX));
-  CHECK(std::abs(result.calibration.rotation) < 1e-3);
-  CHECK_FALSE(result.calibration.mirrored);
-  CHECK(result.varianceFactor == Approx(1.).margin(0.4));
-
-  // One image of a grid.
-  pattern.noise = 1.;
-  pattern.pitchX = pattern.pitchY = 20.;
-  pattern.cellX = pattern.cellY = 10.;
-  pattern.render(rng, image);
-  vpPlanarMicroscopeCalibration fromGrid(160, 100);
-  fromGrid.addView(vpCalibrationPoints(image, {100e-6, 100e-6, 0.}));
-  CHECK(fromGrid.compute().calibration.scaleX == Approx(20. / 100e-6).epsilon(1e-3));
-  image = 77;
-  CHECK_THROWS_WITH(vpCalibrationPoints(image, {100e-6, 100e-6, 0.}),
-                    Catch::Contains("no dots of a grid were found: "));
-  CHECK_THROWS_WITH(vpCalibrationPoints(image, {-1., 100e-6, 0.}),
-                    Catch::Contains("the pitch of the columns is -1 m, must be > 0"));
-  CHECK_THROWS_WITH(vpCalibrationPoints(tracker.frame(), {1., NAN, 0.}),
-                    Catch::Contains("the pitch of the rows is nan m, must be > 0"));
-  CHECK_THROWS_WITH(vpCalibrationPoints(tracker.frame(), {1., 1., -1.}),
-                    Catch::Contains("sigmaPlane of the pitch is -1 m, must be >= 0"));
 }
 
 TEST_CASE("bad input to the planar calibration is refused in words", "[calibration]")
