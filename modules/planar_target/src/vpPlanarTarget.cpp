@@ -6,9 +6,20 @@
 
 #include <visp3/core/vpException.h>
 
-#include <cmath>
+#include <array>
+#include <utility>
 
 BEGIN_VISP_NAMESPACE
+
+namespace
+{
+constexpr std::array<std::pair<vpKeypointType, const char *>, 6> keypointNames = {{{vpKeypointType::ORB, "ORB"},
+                                                                                   {vpKeypointType::SIFT, "SIFT"},
+                                                                                   {vpKeypointType::AKAZE, "AKAZE"},
+                                                                                   {vpKeypointType::KAZE, "KAZE"},
+                                                                                   {vpKeypointType::BRISK, "BRISK"},
+                                                                                   {vpKeypointType::SURF, "SURF"}}};
+} // namespace
 
 vpPlanarTarget::vpPlanarTarget(const vpImage<unsigned char> &reference, double width, double height,
                                const vpCameraParameters &camera, const vpPlanarTargetSpec &spec)
@@ -65,5 +76,79 @@ void vpPlanarTarget::reset()
 const vpPlanarTargetResult &vpPlanarTarget::result() const { return m_impl->m_result; }
 double vpPlanarTarget::width() const { return m_impl->m_plane.width; }
 double vpPlanarTarget::height() const { return m_impl->m_plane.height; }
+
+const char *vpToString(vpKeypointType type)
+{
+  for (const auto &entry : keypointNames) {
+    if (entry.first == type) {
+      return entry.second;
+    }
+  }
+  return "unknown";
+}
+
+vpKeypointType vpKeypointTypeFromString(const std::string &name)
+{
+  std::string known;
+  for (const auto &entry : keypointNames) {
+    if (name == entry.second) {
+      return entry.first;
+    }
+    known += std::string(known.empty() ? "" : ", ") + entry.second;
+  }
+  throw vpException(vpException::badValue, "keypoint detector '%s' is not known, choose one of %s", name.c_str(),
+                    known.c_str());
+}
+
+const char *vpToString(vpPlanarTargetStatus status)
+{
+  switch (status) {
+  case vpPlanarTargetStatus::Acquired:
+    return "Acquired";
+  case vpPlanarTargetStatus::Tracked:
+    return "Tracked";
+  case vpPlanarTargetStatus::Ambiguous:
+    return "Ambiguous";
+  case vpPlanarTargetStatus::Extrapolated:
+    return "Extrapolated";
+  case vpPlanarTargetStatus::NoTexture:
+    return "NoTexture";
+  case vpPlanarTargetStatus::TooFewInliers:
+    return "TooFewInliers";
+  case vpPlanarTargetStatus::OutOfView:
+    return "OutOfView";
+  case vpPlanarTargetStatus::LowCorrelation:
+    return "LowCorrelation";
+  case vpPlanarTargetStatus::NoFrame:
+    return "NoFrame";
+  }
+  return "unknown";
+}
+
+void vpPlanarTargetSpec::validate() const
+{
+  if (vpToString(keypoints) == std::string("unknown")) {
+    throw vpException(vpException::badValue, "keypoint type %d is not known", static_cast<int>(keypoints));
+  }
+  if (minInliers < 8) {
+    throw vpException(vpException::badValue, "minInliers is %u, must be >= 8", minInliers);
+  }
+  if (maxKeypoints < minInliers || maxKeypoints > 100000) {
+    throw vpException(vpException::badValue, "maxKeypoints is %u, must be between minInliers (%u) and 100000",
+                      maxKeypoints, minInliers);
+  }
+  if (!(inlierThreshold > 0. && inlierThreshold < 1e3)) {
+    throw vpException(vpException::badValue, "inlierThreshold is %g px, must be > 0 and < 1000", inlierThreshold);
+  }
+  if (!(minCorrelation >= 0. && minCorrelation <= 1.)) {
+    throw vpException(vpException::badValue, "minCorrelation is %g, must be within 0 and 1", minCorrelation);
+  }
+  if (refinementSize < 32 || refinementSize > 4096) {
+    throw vpException(vpException::badValue, "refinementSize is %u px, must be within 32 and 4096", refinementSize);
+  }
+  if (maxIterations < 1 || maxIterations > 1000) {
+    throw vpException(vpException::badValue, "maxIterations is %u, must be within 1 and 1000", maxIterations);
+  }
+}
 
 END_VISP_NAMESPACE

@@ -4,16 +4,132 @@
  */
 #include <visp3/planar_target/vpPlanarTargetDatabase.h>
 
+#include "vpJsonObject.h"
+#include "vpPictureFile.h"
 #include "vpPlanarTargetImpl.h"
-#include "vpTargetList.h"
+#include "vpReading.h"
 #include "vpTargetSearch.h"
 
 #include <visp3/core/vpException.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
 BEGIN_VISP_NAMESPACE
+
+namespace
+{
+namespace fs = std::filesystem;
+
+// One entry of targets.json in a folder of reference photographs.
+struct TargetListEntry {
+  std::string name;
+  std::string file; //!< including the folder
+  double width;     //!< m
+  std::optional<double> height;
+  double depth = 0.; //!< m; 0: not given
+};
+
+[[noreturn]] void fail(const std::string &file, const std::string &sentence)
+{
+  throw vpException(vpException::badValue, file + ": " + sentence);
+}
+
+double length(vpJsonObject &entry, const char *field)
+{
+  const double value = entry.number(field);
+  if (!(value > 0.)) {
+    throw entry.wrong(field, value, "a number > 0");
+  }
+  return value;
+}
+
+std::string text(vpJsonObject &entry, const char *field)
+{
+  std::string value = entry.text(field);
+  if (value.empty()) {
+    throw entry.wrong(field, value, "a text");
+  }
+  return value;
+}
+
+void requireAllListed(const std::string &folder, const std::vector<TargetListEntry> &entries)
+{
+  std::set<std::string> listed;
+  for (const TargetListEntry &entry : entries) {
+    listed.insert(fs::path(entry.file).filename().string());
+  }
+  std::error_code error;
+  for (fs::directory_iterator item(folder, error), end; !error && item != end; item.increment(error)) {
+    const std::string name = item->path().filename().string();
+    if (name[0] != '.' && vpPictures::isImageName(name) && listed.count(name) == 0) {
+      fail(folder + "/targets.json", "does not list the photograph " + name + " of its folder");
+    }
+  }
+  if (error) {
+    throw vpFileError(folder + ": cannot be read (" + error.message() + ")", vpFileError::Kind::Unreadable);
+  }
+}
+
+std::vector<TargetListEntry> read(const std::string &folder)
+{
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored)) {
+    throw vpException(vpException::ioError, folder + ": is not a folder");
+  }
+  const std::string file = folder + "/targets.json";
+  const nlohmann::json content = vpReadJson(file);
+  vpJsonObject top(content, file);
+  std::vector<TargetListEntry> entries;
+  for (vpJsonObject &entry : top.objects("targets")) {
+    TargetListEntry target{text(entry, "name"), folder + "/" + text(entry, "image"), length(entry, "width_m"),
+                           std::nullopt, 0.};
+    if (entry.has("height_m")) {
+      target.height = length(entry, "height_m");
+    }
+    if (entry.has("depth_m")) {
+      target.depth = length(entry, "depth_m");
+    }
+    entry.finish();
+    entries.push_back(target);
+  }
+  top.ignore("comment");
+  top.finish();
+  requireAllListed(folder, entries);
+  return entries;
+}
+
+//! \throw vpException (ioError, badValue) naming the file, the field and its value, or an unlisted photograph.
+std::vector<TargetListEntry> readTargetList(const std::string &folder)
+{
+  return vpReading([&] { return read(folder); });
+}
+
+//! Read a photograph as grey values. \throw vpException (ioError) naming the file.
+void readReference(const std::string &file, vpImage<unsigned char> &reference)
+{
+  cv::Mat image;
+  try {
+    vpPictures::GreyScale scale;
+    image = vpPictures::readGreyPicture(file, scale);
+  }
+  catch (const std::runtime_error &error) {
+    throw vpException(vpException::ioError, error.what());
+  }
+  reference.resize(static_cast<unsigned int>(image.rows), static_cast<unsigned int>(image.cols));
+  for (int row = 0; row < image.rows; ++row) {
+    std::memcpy(reference[static_cast<unsigned int>(row)], image.ptr(row), static_cast<std::size_t>(image.cols));
+  }
+}
+} // namespace
 
 class vpPlanarTargetDatabase::Store
 {
@@ -44,7 +160,7 @@ vpPlanarTargetDatabase vpPlanarTargetDatabase::fromFolder(const std::string &fol
                                                           const vpPlanarTargetSpec &spec)
 {
   vpPlanarTargetDatabase database(camera, spec);
-  for (const vpTargetListEntry &entry : readTargetList(folder)) {
+  for (const TargetListEntry &entry : readTargetList(folder)) {
     vpImage<unsigned char> reference;
     readReference(entry.file, reference);
     const double height = entry.height.value_or(entry.width * reference.getHeight() / reference.getWidth());

@@ -4,7 +4,7 @@
  */
 #include "vpPlanarTargetImpl.h"
 
-#include "vpKeypointMatcher.h"
+#include "vpKeypoints.h"
 
 #include <visp3/core/vpException.h>
 #include <visp3/core/vpPixelMeterConversion.h>
@@ -24,11 +24,9 @@ namespace
 {
 constexpr double smallestTarget = 1e-6, largestTarget = 1e6; // m
 constexpr double mostAspect = 10.;                           // of a pixel of the reference
-constexpr unsigned int smallestImage = 32;                   // px, reference and frame
 constexpr double smallestContrast = 4.;                      // standard deviation of the reference, grey levels
 constexpr int keypointReferenceSize =
     400; // px; a larger reference is reduced so that its keypoints have a frame's scale
-constexpr float loweRatio = 0.8f;
 constexpr std::size_t tellingCount = 128;   // keypoints that show whether a target may be visible
 constexpr double keypointReach = 2.;        // px; error of a pose from keypoints
 constexpr double motionReach = 14.;         // px; error of a pose from the previous frame
@@ -43,11 +41,6 @@ template <typename... Args> std::string message(const char *format, Args... args
   char text[256];
   std::snprintf(text, sizeof(text), format, args...);
   return text;
-}
-
-cv::Mat view(const vpImage<unsigned char> &image)
-{
-  return cv::Mat(static_cast<int>(image.getHeight()), static_cast<int>(image.getWidth()), CV_8UC1, image.bitmap);
 }
 
 vpPoseCovariance covarianceOf(const vpPixelFit &fit)
@@ -106,7 +99,7 @@ vpPlanarTarget::Impl::Impl(const vpImage<unsigned char> &reference, double width
     m_plane(makePlane(reference, width, height)), m_ownFrame(spec.maxKeypoints, pixelAspect(camera))
 {
   spec.validate();
-  const cv::Mat image = view(reference);
+  const cv::Mat image = pixelsOf(reference);
   m_model = std::make_unique<vpPhotometricModel>(image, m_plane, static_cast<int>(spec.refinementSize));
   if (m_model->contrast() < smallestContrast) {
     throw vpException(vpException::badValue,
@@ -187,7 +180,7 @@ void vpPlanarTarget::Impl::process(vpTargetFrame &frame)
 
 std::size_t vpPlanarTarget::Impl::matchesOf(const vpKeypointSet &part, const vpKeypointSet &current)
 {
-  return matchKeypoints(part, current, loweRatio).size();
+  return matchKeypoints(part, current).size();
 }
 
 void vpPlanarTarget::Impl::acquire(vpTargetFrame &frame)
@@ -218,7 +211,7 @@ void vpPlanarTarget::Impl::acquireWith(const Reference &reference, const vpKeypo
     return;
   }
   vpPlaneMatches matches;
-  for (const auto &pair : matchKeypoints(reference.keypoints, current, loweRatio)) {
+  for (const auto &pair : matchKeypoints(reference.keypoints, current)) {
     const cv::Point2f &p = current.points[static_cast<std::size_t>(pair.second)];
     Eigen::Vector2d x;
     vpPixelMeterConversion::convertPoint(m_viewer, p.x, p.y, x.x(), x.y());

@@ -11,7 +11,6 @@
 
 #include "vpPhotometricRefiner.h"
 #include "vpPoseChoice.h"
-#include "vpTargetFrame.h"
 #include "vpTargetSearch.h"
 
 BEGIN_VISP_NAMESPACE

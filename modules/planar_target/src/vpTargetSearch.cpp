@@ -4,15 +4,21 @@
  */
 #include "vpTargetSearch.h"
 
-#include "vpKeypointMatcher.h"
 #include "vpPlanarTargetImpl.h"
 
+#include <opencv2/imgproc.hpp>
+
 #include <algorithm>
+#include <cmath>
 
 BEGIN_VISP_NAMESPACE
 
 namespace
 {
+constexpr std::size_t maxLevels = 5;
+constexpr double smoothing = 1.;   // px; against noise, and so that the reference can be made as soft as the frame
+constexpr int minSideToHalve = 48; // a smaller level could not contain the coarsest template
+
 constexpr unsigned int fallbackEvery = 3; // frames; so that its nine parts take 27, less than a second at 30 Hz
 constexpr std::uint64_t waited = 30;      // frames, of a target just lost: soon, but not before all others
 // Of 128 telling keypoints 0 to 7 match in views without the target, by chance, and 11 or more in most that show it.
@@ -22,6 +28,89 @@ constexpr std::size_t few =
 constexpr std::size_t mostComparisons =
     20'000'000; // 64-bit words; 6 ms. 130 keypoints of ORB with 1500 take 0.8 million
 } // namespace
+
+vpTargetFrame::vpTargetFrame(unsigned int maxKeypoints, double pixelAspect)
+  : m_maxKeypoints(maxKeypoints), m_stretchX(1. / std::sqrt(pixelAspect)), m_stretchY(std::sqrt(pixelAspect))
+{
+  constexpr double nearlySquare = 0.02;
+  if (std::abs(pixelAspect - 1.) < nearlySquare) {
+    m_stretchX = m_stretchY = 1.;
+  }
+}
+
+void vpTargetFrame::assign(const vpImage<unsigned char> &image)
+{
+  for (auto &entry : m_keypoints) {
+    entry.second.valid = false;
+  }
+  if (m_pyramid.empty()) {
+    m_pyramid.emplace_back();
+  }
+  pixelsOf(image).copyTo(m_image);
+  m_square.release();
+  cv::GaussianBlur(m_image, m_pyramid[0], cv::Size(5, 5), smoothing, 0., cv::BORDER_REPLICATE);
+  std::size_t levels = 1;
+  while (levels < maxLevels && std::min(m_pyramid[levels - 1].cols, m_pyramid[levels - 1].rows) >= minSideToHalve) {
+    if (m_pyramid.size() == levels) {
+      m_pyramid.emplace_back();
+    }
+    cv::pyrDown(m_pyramid[levels - 1], m_pyramid[levels]);
+    ++levels;
+  }
+  m_pyramid.resize(levels);
+}
+
+vpKeypointExtractor &vpTargetFrame::extractor(vpKeypointType type)
+{
+  Keypoints &entry = m_keypoints[type];
+  if (!entry.extractor) {
+    entry.extractor = makeKeypointExtractor(type, m_maxKeypoints);
+  }
+  return *entry.extractor;
+}
+
+// In a part of the image with square pixels; positions are in the frame.
+void vpTargetFrame::extract(vpKeypointType type, const cv::Rect &where, vpKeypointSet &set)
+{
+  extractor(type).extract(m_square(where), set);
+  for (cv::Point2f &point : set.points) {
+    point.x = static_cast<float>((point.x + where.x + 0.5) / m_stretchX - 0.5);
+    point.y = static_cast<float>((point.y + where.y + 0.5) / m_stretchY - 0.5);
+  }
+}
+
+void vpTargetFrame::makeSquare()
+{
+  if (!m_square.empty()) {
+    return;
+  }
+  if (m_stretchX == 1.) {
+    m_square = m_image;
+  }
+  else {
+    cv::resize(m_image, m_square, cv::Size(), m_stretchX, m_stretchY, cv::INTER_LINEAR);
+  }
+}
+
+const vpKeypointSet &vpTargetFrame::keypoints(vpKeypointType type)
+{
+  Keypoints &entry = m_keypoints[type];
+  if (!entry.valid) {
+    makeSquare();
+    extract(type, cv::Rect(0, 0, m_square.cols, m_square.rows), entry.set);
+    entry.valid = true;
+  }
+  return entry.set;
+}
+
+const vpKeypointSet &vpTargetFrame::keypointsOfPart(vpKeypointType type, unsigned int part)
+{
+  makeSquare();
+  const int column = static_cast<int>(part % 3U), row = static_cast<int>(part / 3U % 3U);
+  const cv::Size size(m_square.cols / 2, m_square.rows / 2);
+  extract(type, cv::Rect(cv::Point(column * m_square.cols / 4, row * m_square.rows / 4), size), m_part);
+  return m_part;
+}
 
 void vpTargetSearch::process(vpTargetFrame &frame, const std::vector<vpPlanarTarget::Impl *> &targets)
 {

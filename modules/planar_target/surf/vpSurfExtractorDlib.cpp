@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-#include "vpKeypointExtractor.h"
+#include "vpKeypoints.h"
 
 #include <dlib/image_keypoint.h>
 #include <dlib/opencv/cv_image.h>

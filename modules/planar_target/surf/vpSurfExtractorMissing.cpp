@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-#include "vpKeypointExtractor.h"
+#include "vpKeypoints.h"
 
 #include <visp3/core/vpException.h>
 

@@ -3,11 +3,12 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 /*!
- * \file vpKeypointExtractor.h
- * \brief Internal: common interface of the keypoint detectors of OpenCV and dlib.
+ * \file vpKeypoints.h
+ * \brief Internal: common interface of the keypoint detectors of OpenCV and dlib, and the matches of two keypoint
+ * sets: pairs that are each other's best and clearly better than the second.
  */
-#ifndef vpKeypointExtractor_h
-#define vpKeypointExtractor_h
+#ifndef vpKeypoints_h
+#define vpKeypoints_h
 
 #include <visp3/planar_target/vpPlanarTarget.h>
 
@@ -15,9 +16,18 @@
 
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 BEGIN_VISP_NAMESPACE
+
+constexpr unsigned int smallestImage = 32; //!< Smallest side of a reference or a frame, px.
+
+//! The pixels of an image, not copied.
+[[nodiscard]] inline cv::Mat pixelsOf(const vpImage<unsigned char> &image)
+{
+  return cv::Mat(static_cast<int>(image.getHeight()), static_cast<int>(image.getWidth()), CV_8UC1, image.bitmap);
+}
 
 //! Keypoints of one image, strongest first; row i of the descriptors belongs to point i. Pixel (0,0) is the centre of
 //! the top-left pixel.
@@ -50,6 +60,18 @@ std::unique_ptr<vpKeypointExtractor> makeKeypointExtractor(vpKeypointType type, 
 
 //! SURF, in surf/: by dlib, or an exception that tells how to get it.
 std::unique_ptr<vpKeypointExtractor> makeSurfExtractor(unsigned int maxKeypoints);
+
+/*!
+ * Pairs (index in \e reference, index in \e current). Each is the mutual nearest neighbour, and nearer than
+ * 0.8 times the second nearest in the current image (Lowe). One pass over the distances serves both tests.
+ */
+std::vector<std::pair<int, int>> matchKeypoints(const vpKeypointSet &reference, const vpKeypointSet &current);
+
+/*!
+ * The most distinctive keypoints of a reference, at most \e most of them: half the strongest, half those of the strong
+ * ones that are least similar to any other of the image, which pass the ratio test of matchKeypoints().
+ */
+vpKeypointSet tellingKeypoints(const vpKeypointSet &set, std::size_t most);
 
 END_VISP_NAMESPACE
 #endif

@@ -2,10 +2,15 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-#include "vpKeypointMatcher.h"
+#include "vpKeypoints.h"
+
+#include <visp3/core/vpException.h>
+
+#include <opencv2/features2d.hpp>
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <iterator>
 #include <limits>
 #include <numeric>
@@ -24,6 +29,45 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
+// The default of 20 loses corners of a blurred or dim target; 15 keeps them, within the bound on their number.
+constexpr int fastThreshold = 15;
+
+constexpr float loweRatio = 0.8f; // nearest over second nearest, of a match
+
+class OpenCvExtractor : public vpKeypointExtractor
+{
+public:
+  OpenCvExtractor(cv::Ptr<cv::Feature2D> feature, unsigned int maxKeypoints)
+    : m_feature(std::move(feature)), m_maxKeypoints(maxKeypoints)
+  {}
+
+  void extract(const cv::Mat &image, vpKeypointSet &keypoints) override
+  {
+    // Detection and description together: AKAZE, KAZE and SIFT would build their scale space twice.
+    m_feature->detectAndCompute(image, cv::noArray(), m_found, m_descriptors);
+    m_order.resize(m_found.size());
+    std::iota(m_order.begin(), m_order.end(), 0);
+    std::stable_sort(m_order.begin(), m_order.end(), [this](int a, int b) {
+      return m_found[static_cast<std::size_t>(a)].response > m_found[static_cast<std::size_t>(b)].response;
+    });
+    m_order.resize(std::min<std::size_t>(m_order.size(), m_maxKeypoints));
+    keypoints.points.clear();
+    keypoints.descriptors.create(static_cast<int>(m_order.size()), m_descriptors.cols, m_descriptors.type());
+    for (std::size_t i = 0; i < m_order.size(); ++i) {
+      keypoints.points.push_back(m_found[static_cast<std::size_t>(m_order[i])].pt);
+      m_descriptors.row(m_order[i]).copyTo(keypoints.descriptors.row(static_cast<int>(i)));
+    }
+    keypoints.pack();
+  }
+
+private:
+  cv::Ptr<cv::Feature2D> m_feature;
+  unsigned int m_maxKeypoints;
+  std::vector<cv::KeyPoint> m_found;
+  std::vector<int> m_order; // indices of m_found, by strength
+  cv::Mat m_descriptors;
+};
+
 // A distance and its index in one number: the smallest is the nearest and, of equals, the first.
 constexpr int placeBits = 21; // for two million keypoints
 constexpr int far = std::numeric_limits<int>::max();
@@ -118,11 +162,11 @@ std::vector<int> compareAll(const vpKeypointSet &reference, const vpKeypointSet 
   return columns;
 }
 
-std::vector<std::pair<int, int>> matchBinary(const vpKeypointSet &reference, const vpKeypointSet &current, float ratio)
+std::vector<std::pair<int, int>> matchBinary(const vpKeypointSet &reference, const vpKeypointSet &current)
 {
   std::vector<std::pair<int, int>> candidates, mutual;
   const std::vector<int> columns = compareAll(reference, current, [&](int row, const Nearest &nearest) {
-    if (static_cast<float>(distanceOf(nearest.best)) < ratio * static_cast<float>(distanceOf(nearest.second))) {
+    if (static_cast<float>(distanceOf(nearest.best)) < loweRatio * static_cast<float>(distanceOf(nearest.second))) {
       candidates.emplace_back(row, placeOf(nearest.best));
     }
   });
@@ -137,8 +181,7 @@ std::vector<std::pair<int, int>> matchBinary(const vpKeypointSet &reference, con
 class MutualMatches
 {
 public:
-  MutualMatches(std::size_t cols, float ratio) : m_ratio(ratio), m_rowOfColumn(cols, -1), m_bestOfColumn(cols, infinity)
-  {}
+  explicit MutualMatches(std::size_t cols) : m_rowOfColumn(cols, -1), m_bestOfColumn(cols, infinity) {}
 
   void add(int row, const float *distances)
   {
@@ -159,7 +202,7 @@ public:
         m_rowOfColumn[j] = row;
       }
     }
-    if (nearest >= 0 && best < m_ratio * second) {
+    if (nearest >= 0 && best < loweRatio * second) {
       m_candidates.emplace_back(row, nearest);
     }
   }
@@ -177,17 +220,16 @@ public:
 
 private:
   static constexpr float infinity = std::numeric_limits<float>::max();
-  float m_ratio;
   std::vector<int> m_rowOfColumn;
   std::vector<float> m_bestOfColumn;
   std::vector<std::pair<int, int>> m_candidates;
 };
 
-std::vector<std::pair<int, int>> matchReal(const vpKeypointSet &reference, const vpKeypointSet &current, float ratio)
+std::vector<std::pair<int, int>> matchReal(const vpKeypointSet &reference, const vpKeypointSet &current)
 {
   cv::Mat distances;
   cv::batchDistance(reference.descriptors, current.descriptors, distances, CV_32F, cv::noArray(), cv::NORM_L2);
-  MutualMatches matches(current.points.size(), ratio);
+  MutualMatches matches(current.points.size());
   for (int i = 0; i < distances.rows; ++i) {
     matches.add(i, distances.ptr<float>(i));
   }
@@ -216,13 +258,63 @@ std::vector<float> isolation(const vpKeypointSet &set)
 }
 } // namespace
 
-std::vector<std::pair<int, int>> matchKeypoints(const vpKeypointSet &reference, const vpKeypointSet &current,
-                                                float ratio)
+std::size_t vpKeypointSet::words() const
+{
+  return (static_cast<std::size_t>(descriptors.cols) * descriptors.elemSize() + 31) / 32 * 4;
+}
+
+void vpKeypointSet::pack()
+{
+  packed.clear();
+  if (descriptors.empty() || descriptors.depth() != CV_8U) {
+    return;
+  }
+  const std::size_t n = static_cast<std::size_t>(descriptors.rows);
+  std::vector<std::uint64_t> row(words(), 0); // padded with zeros: AKAZE has 61 bytes
+  packed.resize(n * row.size());
+  for (std::size_t i = 0; i < n; ++i) {
+    std::memcpy(row.data(), descriptors.ptr(static_cast<int>(i)), static_cast<std::size_t>(descriptors.cols));
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      packed[k * n + i] = row[k];
+    }
+  }
+}
+
+std::unique_ptr<vpKeypointExtractor> makeKeypointExtractor(vpKeypointType type, unsigned int maxKeypoints)
+{
+  cv::Ptr<cv::Feature2D> feature;
+  switch (type) {
+  case vpKeypointType::ORB:
+    feature =
+        cv::ORB::create(static_cast<int>(maxKeypoints), 1.2f, 8, 31, 0, 2, cv::ORB::HARRIS_SCORE, 31, fastThreshold);
+    break;
+  case vpKeypointType::SIFT:
+    feature = cv::SIFT::create(static_cast<int>(maxKeypoints));
+    break;
+  case vpKeypointType::AKAZE:
+    feature = cv::AKAZE::create();
+    break;
+  case vpKeypointType::KAZE:
+    feature = cv::KAZE::create();
+    break;
+  case vpKeypointType::BRISK:
+    feature = cv::BRISK::create();
+    break;
+  case vpKeypointType::SURF:
+    return makeSurfExtractor(maxKeypoints);
+  }
+  if (!feature) {
+    throw vpException(vpException::badValue, "keypoint type %d is not known", static_cast<int>(type));
+  }
+  return std::make_unique<OpenCvExtractor>(feature, maxKeypoints);
+}
+
+std::vector<std::pair<int, int>> matchKeypoints(const vpKeypointSet &reference, const vpKeypointSet &current)
 {
   if (reference.points.empty() || current.points.empty()) {
     return {};
   }
-  return (reference.packed.empty() ? matchReal : matchBinary)(reference, current, ratio);
+  return (reference.packed.empty() ? matchReal : matchBinary)(reference, current);
 }
 
 vpKeypointSet tellingKeypoints(const vpKeypointSet &set, std::size_t most)
