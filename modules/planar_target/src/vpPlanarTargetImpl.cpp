@@ -144,7 +144,7 @@ bool vpPlanarTarget::Impl::refuse(const vpImage<unsigned char> &image)
     return false;
   }
   fail(vpPlanarTargetStatus::NoTexture, message("The image is %ux%u px, at least %ux%u are needed.", image.getWidth(),
-                                                 image.getHeight(), smallestImage, smallestImage));
+                                                image.getHeight(), smallestImage, smallestImage));
   return true;
 }
 
@@ -207,7 +207,7 @@ void vpPlanarTarget::Impl::acquireWith(const Reference &reference, const vpKeypo
   if (current.points.size() < m_spec.minInliers) {
     fail(vpPlanarTargetStatus::NoTexture,
          message("The image has %zu %s keypoints, at least %u are needed.", current.points.size(),
-                  vpToString(reference.type), m_spec.minInliers));
+                 vpToString(reference.type), m_spec.minInliers));
     return;
   }
   vpPlaneMatches matches;
@@ -225,7 +225,7 @@ void vpPlanarTarget::Impl::acquireWith(const Reference &reference, const vpKeypo
   if (m_result.inliers < m_spec.minInliers) {
     fail(vpPlanarTargetStatus::TooFewInliers,
          message("%u of %zu %s matches agree on one plane, at least %u must.", m_result.inliers, matches.plane.size(),
-                  vpToString(reference.type), m_spec.minInliers));
+                 vpToString(reference.type), m_spec.minInliers));
     return;
   }
   if (!checkView(poses.best)) {
@@ -302,7 +302,7 @@ bool vpPlanarTarget::Impl::trackFrom(const vpTargetFrame &frame, const vpRigidPo
   if (turn > largestTurn) {
     fail(vpPlanarTargetStatus::LowCorrelation,
          message("The target would have turned by %.0f deg in one frame, at most %.0f deg can be tracked.",
-                  turn * 180. / M_PI, largestTurn * 180. / M_PI));
+                 turn * 180. / M_PI, largestTurn * 180. / M_PI));
     return false;
   }
   if (m_choice && !m_choice->follows(pose)) {
@@ -336,7 +336,7 @@ bool vpPlanarTarget::Impl::checkView(const vpRigidPose &pose)
   if (!(facing > smallestFrontality)) {
     fail(vpPlanarTargetStatus::OutOfView,
          message("The target is seen at %.0f deg from its normal, at most %.0f deg can be used.",
-                  std::acos(facing) * 180. / M_PI, std::acos(smallestFrontality) * 180. / M_PI));
+                 std::acos(facing) * 180. / M_PI, std::acos(smallestFrontality) * 180. / M_PI));
     return false;
   }
   return true;
@@ -368,19 +368,18 @@ bool vpPlanarTarget::Impl::confirm(const vpTargetFrame &frame, const vpRigidPose
   m_result.visible = fit.visible;
   if (fit.inImage < smallestInImage) {
     fail(vpPlanarTargetStatus::OutOfView, message("%.0f %% of the target is in the image, at least %.0f %% must be.",
-                                                   100. * fit.inImage, 100. * smallestInImage));
+                                                  100. * fit.inImage, 100. * smallestInImage));
     return false;
   }
   if (fit.visible < smallestUnhidden * fit.inImage) {
     fail(vpPlanarTargetStatus::LowCorrelation,
          message("%.0f %% of the target in the image fits the reference, at least %.0f %% must.",
-                  100. * fit.visible / fit.inImage, 100. * smallestUnhidden));
+                 100. * fit.visible / fit.inImage, 100. * smallestUnhidden));
     return false;
   }
   if (!(fit.correlation >= m_spec.minCorrelation)) {
-    fail(vpPlanarTargetStatus::LowCorrelation,
-         message("Correlation with the reference is %.2f, must be at least %.2f.", fit.correlation,
-                  m_spec.minCorrelation));
+    fail(vpPlanarTargetStatus::LowCorrelation, message("Correlation with the reference is %.2f, must be at least %.2f.",
+                                                       fit.correlation, m_spec.minCorrelation));
     return false;
   }
   return true;
@@ -419,13 +418,13 @@ void vpPlanarTarget::Impl::report(const vpRigidPose &pose, const vpPoseDecision 
   switch (success) {
   case vpPlanarTargetStatus::Acquired:
     m_result.message = message("Acquired with %u inliers, correlation %.2f, %.0f %% visible.", m_result.inliers,
-                                m_result.correlation, 100. * m_result.visible);
+                               m_result.correlation, 100. * m_result.visible);
     break;
   case vpPlanarTargetStatus::Ambiguous:
     m_result.message = message("Two poses %.1f deg apart fit, residuals %.2f and %.2f: the odds are e^%.1f, e^9.2 and "
-                                "3 deviations decide.",
-                                vpSO3::log(pose.R * decision.rival->pose.R.transpose()).norm() * 180. / M_PI,
-                                m_result.residual, m_result.rival->residual, m_result.evidence);
+                               "3 deviations decide.",
+                               vpSO3::log(pose.R * decision.rival->pose.R.transpose()).norm() * 180. / M_PI,
+                               m_result.residual, m_result.rival->residual, m_result.evidence);
     break;
   default:
     m_result.message =
