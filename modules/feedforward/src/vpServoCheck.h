@@ -4,20 +4,54 @@
  */
 /*!
  * \file vpServoCheck.h
- * \brief Valid numbers for a law: finite, and within bounds that no camera or object exceeds.
+ * \brief Poses as fixed-size Eigen values, and which numbers a law accepts.
  */
 #ifndef vpServoCheck_h
 #define vpServoCheck_h
 
-#include "vpServoPose.h"
-
+#include <visp3/core/vpHomogeneousMatrix.h>
+#include <visp3/direct_core/vpDirectCompat.h>
+#include <visp3/direct_core/vpTwist.h>
 #include <visp3/feedforward/vpServoMeasurement.h>
 
+#include <Eigen/Core>
 #include <Eigen/LU>
 
 #include <cmath>
 
 BEGIN_VISP_NAMESPACE
+
+namespace vpServoPose
+{
+inline Eigen::Matrix3d rotation(const vpHomogeneousMatrix &M)
+{
+  Eigen::Matrix3d R;
+  R << M[0][0], M[0][1], M[0][2], M[1][0], M[1][1], M[1][2], M[2][0], M[2][1], M[2][2];
+  return R;
+}
+
+inline Eigen::Vector3d translation(const vpHomogeneousMatrix &M) { return {M[0][3], M[1][3], M[2][3]}; }
+
+//! cdMc as rotation and translation: R' = R [w]x and t' = R v under the camera twist (v, w).
+struct Error {
+  Eigen::Matrix3d R;
+  Eigen::Vector3d t;
+};
+
+//! cdMc = cdMo cMo^-1.
+inline Error error(const vpHomogeneousMatrix &cdMo, const vpHomogeneousMatrix &cMo)
+{
+  Error e;
+  e.R = rotation(cdMo) * rotation(cMo).transpose();
+  e.t = translation(cdMo) - e.R * translation(cMo);
+  return e;
+}
+
+inline vpTwist twist(const Eigen::Vector3d &v, const Eigen::Vector3d &w)
+{
+  return {v.x(), v.y(), v.z(), w.x(), w.y(), w.z()};
+}
+} // namespace vpServoPose
 
 // Every comparison is written so that NaN fails it.
 namespace vpServoCheck

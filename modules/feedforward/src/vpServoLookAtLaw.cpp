@@ -2,9 +2,9 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-#include "vpLookAt.h"
+#include "vpFeedforwardErrors.h"
 #include "vpServoLaws.h"
-#include "vpServoPose.h"
+#include "vpServoCheck.h"
 
 #include <cmath>
 

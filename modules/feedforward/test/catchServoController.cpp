@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include "vpCatch.h"
-#include "vpServoPlantOfTests.h"
+#include "vpServoScene.h"
 
 #include <visp3/feedforward/vpServoController.h>
 

@@ -4,7 +4,7 @@
  */
 // Effect of inexact measurements on the integral of ff-lookat-pi, with and without their covariance.
 #include "vpCatch.h"
-#include "vpServoPlantOfTests.h"
+#include "vpServoScene.h"
 
 #include <visp3/feedforward/vpServoController.h>
 
