@@ -19,6 +19,7 @@
 
 BEGIN_VISP_NAMESPACE
 
+// The bearing angle of an image point: the rotation vector that takes the optical axis to its ray.
 namespace vpBearing
 {
 //! atan(r) / r, accurate at r = 0.
@@ -66,6 +67,8 @@ inline Eigen::Vector3d saturateSlope(const Eigen::Vector3d &D, double c)
 } // namespace vpBearing
 
 /*!
+ * \brief The orientation that keeps an object at its image position while the camera translates, and its rate.
+ *
  * With O* the object's origin in the desired camera frame and t the camera's position in it, d = O* - t points from the
  * camera to the object, and R_la is the rotation of smallest angle from d* = O* to d. A camera with that orientation
  * sees the object in the direction d*, as the desired camera does.

@@ -21,6 +21,7 @@
 
 BEGIN_VISP_NAMESPACE
 
+// ViSP's poses as fixed-size Eigen values: vpHomogeneousMatrix allocates on every product.
 namespace vpServoPose
 {
 inline Eigen::Matrix3d rotation(const vpHomogeneousMatrix &M)
@@ -53,7 +54,8 @@ inline vpTwist twist(const Eigen::Vector3d &v, const Eigen::Vector3d &w)
 }
 } // namespace vpServoPose
 
-// Every comparison is written so that NaN fails it.
+// Valid numbers for a law: finite, and within bounds that no camera or object exceeds. Every comparison is written so
+// that NaN fails it.
 namespace vpServoCheck
 {
 constexpr double largest = 1e6;  // m; also of x and y, which is 90 deg off the axis to within 1e-6

@@ -23,6 +23,8 @@ BEGIN_VISP_NAMESPACE
 namespace
 {
 /*!
+ * \brief The mean of the visible points as an image feature, with its exact interaction matrix.
+ *
  * The mean of image points is not the image of a point of the object, so the interaction matrix of one point at the
  * mean is only approximate. The mean of the points' interaction matrices is exact, and costs a few sums. Rows: mean x,
  * mean y, mean Z. For a single point these are the textbook rows.
