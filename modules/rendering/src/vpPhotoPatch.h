@@ -4,18 +4,76 @@
  */
 /*!
  * \file vpPhotoPatch.h
- * \brief A photograph on a rectangle in space, pixel by pixel.
+ * \brief A photograph on a rectangle in space, pixel by pixel, and the wall behind it.
  */
 #ifndef vpPhotoPatch_h
 #define vpPhotoPatch_h
 
-#include "vpPhotoPyramid.h"
-#include "vpPlaneOutline.h"
+#include <visp3/core/vpCameraParameters.h>
+#include <visp3/core/vpHomogeneousMatrix.h>
+#include <visp3/core/vpImage.h>
+#include <visp3/direct_core/vpDirectCompat.h>
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 BEGIN_VISP_NAMESPACE
+
+/*!
+ * Image of the rectangle |x| <= width / 2, |y| <= height / 2 in the plane z = 0, clipped just in front of the camera: a
+ * convex polygon in pixels, empty if the front side of the rectangle is not visible.
+ */
+class vpPlaneOutline
+{
+public:
+  vpPlaneOutline(const vpHomogeneousMatrix &cMo, double width, double height, const vpCameraParameters &camera);
+
+  //! True if nothing is visible.
+  bool empty() const { return m_u.size() < 3; }
+  //! Area of the polygon, px^2, including parts outside the image.
+  double area() const;
+  //! Smallest box around the polygon, px.
+  void box(double &left, double &top, double &right, double &bottom) const;
+  /*!
+   * Intersection of the polygon with the line of constant \e v, px.
+   * \return False if there is none; otherwise the points with left <= u < right are inside.
+   */
+  bool span(double v, double &left, double &right) const;
+
+private:
+  std::vector<double> m_u, m_v;
+};
+
+/*!
+ * \brief A photograph on a plane at several resolutions.
+ *
+ * A warp samples the photograph at one point per pixel, which aliases if the photograph is finer than the image. So
+ * there are halved copies of it, and draw() uses the one with about the resolution of the image.
+ *
+ * Not vpImageSimulator, which takes 4 times as long, truncates its interpolated values, maps the centres of the corner
+ * pixels instead of their outer edges to the object's corners, and never draws the last row and column of its image. A
+ * test compares the two where they must agree.
+ */
+class vpPhotoPyramid
+{
+public:
+  //! \param photo : At least 8x8 px. \param width, height : Size of the object, m.
+  vpPhotoPyramid(const vpImage<unsigned char> &photo, double width, double height);
+
+  /*!
+   * Draws into \e image, slightly beyond the photograph's edge; the caller clips that (vpPlaneOutline).
+   * \param cMo : Pose of the object, front side visible. \param camera : Intrinsics of \e image, which may be a crop.
+   * \param area : Area of the object in \e image, px^2.
+   */
+  void draw(const vpHomogeneousMatrix &cMo, const vpCameraParameters &camera, double area,
+            vpImage<unsigned char> &image) const;
+
+private:
+  double m_width, m_height;                     // of the object, m
+  unsigned int m_photoWidth, m_photoHeight;     // px
+  std::vector<vpImage<unsigned char>> m_levels; // with a margin; a texel of level k is 2^k photograph pixels wide
+};
 
 /*!
  * Draws a rectangle |x| <= width / 2, |y| <= height / 2, z = 0 with a photograph edge to edge, sampled 2x2 times per
@@ -99,6 +157,9 @@ private:
   double m_width, m_height;      // m
   vpImage<unsigned char> m_fine; // the box around the rectangle at twice the resolution
 };
+
+//! A wall far behind the object: smooth and faint, so that it neither resembles the object nor offers keypoints.
+vpImage<unsigned char> vpFaintWall(unsigned int width, unsigned int height);
 
 END_VISP_NAMESPACE
 #endif

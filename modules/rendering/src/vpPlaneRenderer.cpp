@@ -8,7 +8,6 @@
 #include <visp3/core/vpUniRand.h>
 
 #include "vpCameraFaultModel.h"
-#include "vpFaintWall.h"
 #include "vpPhotoPatch.h"
 
 #include <Eigen/LU>

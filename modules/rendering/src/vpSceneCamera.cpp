@@ -5,7 +5,6 @@
 #include <visp3/rendering/vpSceneCamera.h>
 
 #include "vpCameraFaultModel.h"
-#include "vpFaintWall.h"
 #include "vpHashRandom.h"
 #include "vpPhotoPatch.h"
 #include "vpSceneRaster.h"
