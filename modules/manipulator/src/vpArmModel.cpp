@@ -2,9 +2,11 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
+#include <visp3/manipulator/vpArmModel.h>
+
 #include <visp3/core/vpException.h>
 #include <visp3/direct_core/vpLimit.h>
-#include <visp3/manipulator/vpArmModel.h>
+#include <visp3/manipulator/vpArmTypes.h>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -16,6 +18,30 @@
 #include <sstream>
 
 BEGIN_VISP_NAMESPACE
+
+vpHomogeneousMatrix vpRigidTransform::toHomogeneous() const
+{
+  vpHomogeneousMatrix M;
+  for (unsigned int i = 0; i < 3; ++i) {
+    for (unsigned int j = 0; j < 3; ++j) {
+      M[i][j] = R(i, j);
+    }
+    M[i][3] = p(i);
+  }
+  return M;
+}
+
+vpRigidTransform vpRigidTransform::fromHomogeneous(const vpHomogeneousMatrix &M)
+{
+  vpRigidTransform T;
+  for (unsigned int i = 0; i < 3; ++i) {
+    for (unsigned int j = 0; j < 3; ++j) {
+      T.R(i, j) = M[i][j];
+    }
+    T.p(i) = M[i][3];
+  }
+  return T;
+}
 
 namespace
 {

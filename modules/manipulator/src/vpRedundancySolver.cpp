@@ -2,7 +2,6 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-#include "vpSingularityEscape.h"
 #include "vpTaskLevel.h"
 
 #include <visp3/core/vpException.h>

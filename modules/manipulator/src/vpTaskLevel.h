@@ -2,15 +2,20 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// One level of a hierarchy of tasks B y = r in weighted joint coordinates: inverse, damping, and the remaining space
-// for the next level.
+/*!
+ * \file vpTaskLevel.h
+ * \brief What the redundancy solver computes at one level of its hierarchy of tasks, and at a singularity.
+ */
 #ifndef vpTaskLevel_h
 #define vpTaskLevel_h
 
+#include <visp3/manipulator/vpArmKinematics.h>
 #include <visp3/manipulator/vpArmTypes.h>
 
 BEGIN_VISP_NAMESPACE
 
+// One level of a hierarchy of tasks B y = r in weighted joint coordinates: inverse, damping, and the remaining space
+// for the next level.
 namespace vpTaskLevel
 {
 // Matrices have the full capacity, padded with zeros: fixed sizes are several times faster than dynamic ones.
@@ -57,6 +62,36 @@ struct Info {
 //! Adds to y the motion in the free space that brings B y nearest to r, and extends the basis by the space used.
 Info solve(const Rows &B, const Task &r, int rows, const Options &options, Basis &basis, Joints &y);
 } // namespace vpTaskLevel
+
+// Self-motion that leads out of a singularity.
+namespace vpSingularityEscape
+{
+/*!
+ * H(k, l) = lost . dJ_l/dq_k in weighted coordinates: after a time t of the motion y the task velocity in the lost
+ * direction is t y^T H y, because lost . J is about zero.
+ */
+vpTaskLevel::Square curvature(const vpArmModel &model, const vpArmData &data, vpArmFrame frame,
+                              const Eigen::Matrix<double, 6, 1> &lost, const vpTaskLevel::Joints &scale);
+
+//! Orthonormal basis of the usable self-motion: the first count columns.
+struct Room {
+  vpTaskLevel::Square vectors = vpTaskLevel::Square::Zero();
+  int count = 0;
+};
+
+//! Complement of a set of orthonormal vectors in the space of the movable joints.
+Room room(const vpTaskLevel::Basis &taken, const vpTaskLevel::Joints &mayMove);
+
+/*!
+ * Unit vector z in the space that makes the lost direction reachable in the sense of the demand.
+ * \param sense : +1 or -1, sign of the demand along the lost direction.
+ * \param slope : Remaining reachability lost . J.
+ * \param motion : Motion for the rest of the task.
+ * \return False if there is none: the demand points out of the workspace.
+ */
+bool direction(const Room &space, const vpTaskLevel::Square &H, double sense, const vpTaskLevel::Joints &slope,
+               const vpTaskLevel::Joints &motion, vpTaskLevel::Joints &z);
+} // namespace vpSingularityEscape
 
 END_VISP_NAMESPACE
 #endif
