@@ -4,7 +4,6 @@
  */
 #include "vpAxisForms.h"
 
-#include "vpHardStop.h"
 #include "vpRootKernel.h"
 
 #include <algorithm>
@@ -36,115 +35,6 @@ bool isBounded(const vpAxisLimits &limits)
   return std::isfinite(limits.minPosition) || std::isfinite(limits.maxPosition);
 }
 } // namespace
-
-double vpAxisTask::rampUnit() const
-{
-  const double scale = limits.velocity / limits.acceleration;
-  return std::isfinite(scale) && scale > 0. ? 0.1 * scale : timeUnit;
-}
-
-double vpAxisTask::brakeAcceleration() const
-{
-  if (std::isfinite(limits.acceleration)) {
-    return limits.acceleration;
-  }
-  // Without a limit: stop within the ramp unit.
-  const double fast = std::isfinite(limits.velocity) ? limits.velocity : std::max(std::abs(from[1]), std::abs(to[1]));
-  const double needed =
-      std::max({std::abs(from[2]), std::abs(to[2]), std::abs(from[1]) / rampUnit(), fast / rampUnit()});
-  return needed > 0. ? needed : 1.;
-}
-
-double vpAxisTask::brakeJerk(const vpAxisState &x, double hardness) const
-{
-  // While the acceleration ramps down, it adds a^2/(2 j) to the velocity. A margin that a ramp of a millionth of the
-  // usual duration exceeds counts as zero; rampDuration() agrees.
-  const double usual = brakeAcceleration() / rampUnit(), room = limits.velocity - std::copysign(1., x[2]) * x[1];
-  const double least = 1e-6 * std::min(limits.velocity, x[2] * x[2] / (2. * usual));
-  const bool near = order > 2 && x[2] != 0. && room > 0. && std::isfinite(room);
-  return std::min(limits.jerk, std::max(hardness * usual, near ? x[2] * x[2] / (2. * std::max(room, least)) : 0.));
-}
-
-vpAxisTask vpAxisTask::harder(double hardness) const
-{
-  vpAxisTask task = *this;
-  double &a = task.limits.acceleration;
-  a = std::isfinite(a) ? a : brakeAcceleration() * std::sqrt(hardness);
-  return task;
-}
-
-double vpAxisTask::brakingDistance() const
-{
-  const auto stop = [this](double v, double a) {
-    if (order == 2) {
-      return v * v / (2. * brakeAcceleration());
-    }
-    if (v == 0. && a == 0.) {
-      return 0.;
-    }
-    const vpVelocityRamp ramp(v, a, 0., brakeAcceleration(), brakeJerk({0., v, a, 0.}));
-    return std::abs(ramp.at(0., ramp.duration())[0]);
-  };
-  return std::max(stop(from[1], from[2]), stop(-to[1], to[2]));
-}
-
-bool vpAxisTask::isMoving() const
-{
-  for (std::size_t k = 1; k < static_cast<std::size_t>(order); ++k) {
-    if (from[k] != 0. || to[k] != 0.) {
-      return true;
-    }
-  }
-  return false;
-}
-
-vpAxisLimits vpAxisTask::withoutPosition() const
-{
-  vpAxisLimits free = limits;
-  free.minPosition = -infinity;
-  free.maxPosition = infinity;
-  return free;
-}
-
-double rampDuration(const vpAxisState &x, const vpAxisTask &task) noexcept
-{
-  const double a = std::abs(x[2]);
-  if (task.order == 2 || (a == 0. && (task.order == 3 || x[3] == 0.))) {
-    return 0.;
-  }
-  if (task.order == 4) {
-    // Cubic acceleration: any sufficiently short ramp keeps an inside start; take the longest of a few.
-    const vpMotionFamily ramp = vpMotionFamily::accelerationStep(x, {x[0], x[1], 0., 0.}, 2);
-    double r = 4. * task.rampUnit();
-    for (int i = 0; i < 40; ++i, r *= 0.5) {
-      if (vpMinimumDuration::isFeasible(ramp, task.withoutPosition(), r)) {
-        return r;
-      }
-    }
-    return -1.;
-  }
-  const double room = task.limits.velocity - std::copysign(1., x[2]) * x[1];
-  // Without an acceleration limit for comparison: change the velocity by a tenth of its limit.
-  const double gentle = std::isfinite(task.limits.acceleration)
-                            ? a / std::min(task.limits.jerk, task.brakeAcceleration() / task.rampUnit())
-                            : std::max(0.2 * task.limits.velocity / a, a / task.limits.jerk);
-  const double r = std::min(gentle, 2. * room / a);
-  const bool tooHard = r < a / task.limits.jerk * (1. - 1e-9);
-  return tooHard || r < 1e-6 * gentle ? -1. : r;
-}
-
-bool needsBraking(const vpAxisTask &task) noexcept
-{
-  const double slack = 1. + 1e-12;
-  if (std::abs(task.from[1]) > task.limits.velocity * slack ||
-      (task.order == 4 && std::abs(task.from[3]) > task.limits.jerk * slack)) {
-    return true;
-  }
-  vpAxisTask quintic = task;
-  quintic.order = 3;
-  return task.order > 2 &&
-         (std::abs(task.from[2]) > task.limits.acceleration * slack || rampDuration(task.from, quintic) < 0.);
-}
 
 void vpFramedMotion::open(const vpAxisTask &task) noexcept
 {

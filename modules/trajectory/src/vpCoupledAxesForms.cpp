@@ -3,7 +3,6 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 // How the members of a unit ramp, brake, stop and launch together.
-#include "vpHardStop.h"
 #include "vpCoupledAxes.h"
 
 #include <algorithm>

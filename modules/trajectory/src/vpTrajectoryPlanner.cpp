@@ -4,7 +4,6 @@
  */
 #include "vpTrajectoryPlannerImpl.h"
 
-#include "vpHardStop.h"
 #include "vpLimitCheck.h"
 
 #include <algorithm>

@@ -2,7 +2,6 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Motions through vias: one duration over all of them, otherwise leg by leg.
 #include "vpTrajectoryPlannerImpl.h"
 
 #include <algorithm>
@@ -12,8 +11,153 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
+using Columns = std::array<double, 3>;
+
+// x -= m y for a 2x2 block m on the pair y.
+void subtract(const double (&m)[2][2], const Columns (&y)[2], Columns (&x)[2])
+{
+  for (int i = 0; i < 2; ++i) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      x[i][c] -= m[i][0] * y[0][c] + m[i][1] * y[1][c];
+    }
+  }
+}
+
+void invert(const double (&m)[2][2], double (&out)[2][2])
+{
+  const double determinant = m[0][0] * m[1][1] - m[0][1] * m[1][0];
+  out[0][0] = m[1][1] / determinant;
+  out[0][1] = -m[0][1] / determinant;
+  out[1][0] = -m[1][0] / determinant;
+  out[1][1] = m[0][0] / determinant;
+}
+} // namespace
+
+vpViaSpline::vpViaSpline(int maxVias)
+  : m_nodes(static_cast<std::size_t>(maxVias) + 2), m_rows(static_cast<std::size_t>(maxVias) + 1)
+{}
+
+// Continuity of the third (row 0) and fourth (row 1) derivative at a via between segments of length l and r; rows of
+// given values become identities. Unknowns are ordered so that row 0 belongs to d2 and row 1 to d1: a given value
+// replaces its dual condition (d1 given: the fourth derivative may jump; d2 given: the third may).
+void vpViaSpline::assemble(Row &row, const Node &before, const Node &here, const Node &after, int order) const
+{
+  const double l = here.time - before.time, r = after.time - here.time;
+  const double l2 = l * l, r2 = r * r, l3 = l2 * l, r3 = r2 * r;
+  Row full{};
+  full.below[0][0] = -24. / l2;
+  full.below[0][1] = -3. / l;
+  full.diagonal[0][0] = 36. * (1. / r2 - 1. / l2);
+  full.diagonal[0][1] = 9. * (1. / l + 1. / r);
+  full.above[0][0] = 24. / r2;
+  full.above[0][1] = -3. / r;
+  full.below[1][0] = -168. / l3;
+  full.below[1][1] = -24. / l2;
+  full.diagonal[1][0] = -192. * (1. / l3 + 1. / r3);
+  full.diagonal[1][1] = 36. * (1. / l2 - 1. / r2);
+  full.above[1][0] = -168. / r3;
+  full.above[1][1] = 24. / r2;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double left = here.p[c] - before.p[c], right = after.p[c] - here.p[c];
+    full.right[0][c] = -60. * (left / l3 - right / r3);
+    full.right[1][c] = -360. * (left / (l3 * l) + right / (r3 * r));
+  }
+  row = full;
+  const auto give = [&row](int equation, int unknown, const Columns &value) {
+    for (int k = 0; k < 2; ++k) {
+      row.below[equation][k] = row.above[equation][k] = 0.;
+      row.diagonal[equation][k] = k == unknown ? 1. : 0.;
+    }
+    row.right[equation] = value;
+  };
+  if (order >= 2) {
+    give(1, 0, here.d1);
+  }
+  if (order >= 3) {
+    give(0, 1, here.d2);
+  }
+}
+
+void vpViaSpline::solve(const vpTrajectoryProblem &problem, int axis, const vpAxisState &from,
+                        const vpAxisState &to) noexcept
+{
+  const int n = problem.vias();
+  const auto node = [this](int i) -> Node & { return m_nodes[static_cast<std::size_t>(i)]; };
+  for (int i = 0; i <= n + 1; ++i) {
+    vpAxisState x = i == 0 ? from : (i > n ? to : problem.viaState(i - 1, axis));
+    if (i > 0 && i <= n) {
+      x[0] -= problem.start(axis)[0];
+    }
+    node(i).time = i == 0 ? 0. : (i > n ? 1. : problem.viaTime(i - 1));
+    node(i).p = {x[0] - from[0], 0., 0.};
+    node(i).d1 = {0., x[1], 0.};
+    node(i).d2 = {0., 0., x[2]};
+  }
+  // Block elimination downwards; `above` becomes diagonal^-1 above.
+  for (int i = 1; i <= n; ++i) {
+    Row &row = m_rows[static_cast<std::size_t>(i)];
+    assemble(row, node(i - 1), node(i), node(i + 1), problem.viaOrder(i - 1));
+    if (i == 1) {
+      const Columns known[2] = {node(0).d1, node(0).d2};
+      subtract(row.below, known, row.right);
+    }
+    else {
+      const Row &previous = m_rows[static_cast<std::size_t>(i - 1)];
+      subtract(row.below, previous.right, row.right);
+      for (int r = 0; r < 2; ++r) {
+        for (int c = 0; c < 2; ++c) {
+          row.diagonal[r][c] -= row.below[r][0] * previous.above[0][c] + row.below[r][1] * previous.above[1][c];
+        }
+      }
+    }
+    if (i == n) {
+      const Columns known[2] = {node(n + 1).d1, node(n + 1).d2};
+      subtract(row.above, known, row.right);
+    }
+    double inverse[2][2];
+    invert(row.diagonal, inverse);
+    const Row kept = row;
+    for (int r = 0; r < 2; ++r) {
+      for (int c = 0; c < 2; ++c) {
+        row.above[r][c] = inverse[r][0] * kept.above[0][c] + inverse[r][1] * kept.above[1][c];
+      }
+      for (std::size_t c = 0; c < 3; ++c) {
+        row.right[r][c] = inverse[r][0] * kept.right[0][c] + inverse[r][1] * kept.right[1][c];
+      }
+    }
+  }
+  for (int i = n; i >= 1; --i) {
+    Row &row = m_rows[static_cast<std::size_t>(i)];
+    if (i < n) {
+      subtract(row.above, m_rows[static_cast<std::size_t>(i + 1)].right, row.right);
+    }
+    node(i).d1 = row.right[0];
+    node(i).d2 = row.right[1];
+  }
+}
+
+vpMotionFamily vpViaSpline::segment(int k) const noexcept
+{
+  const Node &a = m_nodes[static_cast<std::size_t>(k)], &b = m_nodes[static_cast<std::size_t>(k) + 1];
+  const double share = b.time - a.time;
+  const auto end = [&a, share](const Node &x) {
+    std::array<std::array<double, 3>, 3> e{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      e[0][c] = x.p[c] - a.p[c];
+      e[1][c] = x.d1[c] * share;
+      e[2][c] = x.d2[c] * share * share;
+    }
+    return e;
+  };
+  return vpMotionFamily::chained(end(a), end(b), share);
+}
+
+namespace
+{
 constexpr double infinity = std::numeric_limits<double>::infinity();
 }
+
+// Motions through vias: one duration over all of them, otherwise leg by leg.
 
 // One polynomial for no via, for one position (degree 6) and for one position with velocity and acceleration (degree
 // 8).

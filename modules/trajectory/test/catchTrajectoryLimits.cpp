@@ -3,15 +3,92 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 // For any input: ends are exact, no limit is exceeded without a status that reports it, no axis makes a detour while
-// waiting, and everything is finite. Checked from the printed pieces by vpMotionJudge.h.
-#include "vpMotionJudge.h"
+// waiting, and everything is finite. Checked from the printed pieces, by definition, independently of the module.
 #include "vpTrajectoryTestKit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
 
 VISP_DIRECT_USING_NAMESPACE
 using namespace vpTrajectoryTest;
 
 namespace
 {
+// Value of the derivative \e d of c[0] + c[1] t + ..., term by term.
+double derivativeAt(const std::vector<double> &c, int d, double t)
+{
+  long double sum = 0.L, power = 1.L;
+  for (std::size_t k = static_cast<std::size_t>(d); k < c.size(); ++k, power *= t) {
+    long double factor = c[k];
+    for (int i = 0; i < d; ++i) {
+      factor *= static_cast<long double>(k) - i;
+    }
+    sum += factor * power;
+  }
+  return static_cast<double>(sum);
+}
+
+// Sign changes of the derivative \e d in [0, T], by bisection between the sign changes of the next one.
+std::vector<double> signChanges(const std::vector<double> &c, int d, double T)
+{
+  std::vector<double> out;
+  if (d + 1 >= static_cast<int>(c.size())) {
+    return out;
+  }
+  std::vector<double> between = signChanges(c, d + 1, T);
+  between.push_back(T);
+  double from = 0.;
+  for (double to : between) {
+    const bool rising = derivativeAt(c, d, from) < 0.;
+    if (rising != (derivativeAt(c, d, to) < 0.)) {
+      double low = from, high = to;
+      for (int i = 0; i < 60; ++i) {
+        const double middle = 0.5 * (low + high);
+        ((derivativeAt(c, d, middle) < 0.) == rising ? low : high) = middle;
+      }
+      out.push_back(0.5 * (low + high));
+    }
+    from = to;
+  }
+  return out;
+}
+
+// Extremes of one axis over a motion.
+struct Extremes {
+  double low = std::numeric_limits<double>::infinity();   // Lowest position.
+  double high = -std::numeric_limits<double>::infinity(); // Highest position.
+  std::array<double, 3> peak{};                           // Largest |v|, |a|, |j|.
+  bool finite = true;                                     // All coefficients are finite.
+
+  // Add a piece of duration T: its ends, its exact extrema, and some times in between.
+  void include(const std::vector<double> &c, double T)
+  {
+    for (double x : c) {
+      finite = finite && std::isfinite(x);
+    }
+    for (int d = 0; d <= 3 && finite; ++d) {
+      std::vector<double> times = signChanges(c, d + 1, T);
+      for (int i = 0; i <= 4; ++i) {
+        times.push_back(T * i / 4.);
+      }
+      for (double t : times) {
+        const double x = derivativeAt(c, d, t);
+        if (d == 0) {
+          low = std::min(low, x);
+          high = std::max(high, x);
+        }
+        else {
+          double &most = peak[static_cast<std::size_t>(d) - 1];
+          most = std::max(most, std::abs(x));
+        }
+      }
+    }
+  }
+};
+
 using Input = vpTrajectoryInput<Eigen::Dynamic>;
 
 bool chance(std::mt19937_64 &rng, double p) { return uniform(rng, 0., 1.) < p; }
@@ -170,10 +247,9 @@ std::string describe(const Input &x)
   list("v_max", x.maxVelocity), list("a_max", x.maxAcceleration), list("j_max", x.maxJerk);
   list("q_min", x.minPosition), list("q_max", x.maxPosition);
   s << "\"continuity\":\"C" << 1 + static_cast<int>(x.spec.continuity) << "\",\"cruise\":" << x.spec.cruise
-    << ",\"synchronisation\":" << static_cast<int>(x.spec.synchronisation)
-    << ",\"floor\":" << x.spec.minimumDuration << ",\"arrival\":" << x.spec.arrivalTime
-    << ",\"group\":" << x.spec.groups[0].axes << ',' << x.spec.groups[0].maxSpeed << ','
-    << x.spec.groups[0].maxAcceleration;
+    << ",\"synchronisation\":" << static_cast<int>(x.spec.synchronisation) << ",\"floor\":" << x.spec.minimumDuration
+    << ",\"arrival\":" << x.spec.arrivalTime << ",\"group\":" << x.spec.groups[0].axes << ','
+    << x.spec.groups[0].maxSpeed << ',' << x.spec.groups[0].maxAcceleration;
   return s.str();
 }
 
@@ -223,8 +299,8 @@ void judge(const Input &input, const vpTrajectoryPlan &plan, const vpTrajectoryS
 
     // Detours: beyond the braking distance only where that is faster than stopping first.
     const bool defined = std::isfinite(limits.a) && std::isfinite(limits.v) &&
-                         input.spec.continuity == vpTrajectoryContinuity::C2 &&
-                         !input.spec.groups[0].contains(i) && (plan.form(i) != vpTrajectoryForm::Vias) &&
+                         input.spec.continuity == vpTrajectoryContinuity::C2 && !input.spec.groups[0].contains(i) &&
+                         (plan.form(i) != vpTrajectoryForm::Vias) &&
                          !(input.spec.synchronisation == vpSynchronisation::Straight);
     if (defined && !dropped && plan.segments(i) > 0) {
       const double J = std::min(limits.j, 10. * limits.a * limits.a / limits.v);
