@@ -91,14 +91,6 @@ vpHomogeneousMatrix poseOf(const vpColVector &v, bool euler)
                : vpHomogeneousMatrix(t, vpThetaUVector(p[3], p[4], p[5]));
 }
 
-void requireInside(const vpArmModel &model, const vpJointVector &q)
-{
-  const std::string wrong = model.outsideLimits(q);
-  if (!wrong.empty()) {
-    throw vpRobotException(vpRobotException::positionOutOfRangeError, "%s", wrong.c_str());
-  }
-}
-
 [[noreturn]] void throwNoFrame(int frame)
 {
   throw vpRobotException(vpRobotException::wrongStateError, "the simulated arm does not do this in frame %d", frame);
@@ -192,32 +184,6 @@ private:
   std::condition_variable m_wake, m_ticked;
   std::thread m_thread;
 };
-
-void vpSimulatedArmSpec::validate(const vpArmModel &model) const
-{
-  redundancy.validate(model);
-  closedLoop.validate(redundancy.period);
-  drives.validate(model);
-  if (start.size() != 0 && (start.size() != model.size() || !start.allFinite())) {
-    throw vpException(vpException::badValue, "start of the simulated arm has %d numbers, must have %d finite ones",
-                      static_cast<int>(start.size()), model.size());
-  }
-  if (start.size() != 0) {
-    requireInside(model, start);
-  }
-  if (indices.size() > static_cast<std::size_t>(vpMaxArmIndices)) {
-    throw vpException(vpException::badValue, "%d indices for the simulated arm, must be at most %d",
-                      static_cast<int>(indices.size()), vpMaxArmIndices);
-  }
-  for (const vpSelfMotionIndex &index : indices) {
-    index.validate(model);
-  }
-  for (const auto &field : {std::make_pair("watchdog", watchdog), std::make_pair("followingError", followingError)}) {
-    if (!(field.second > 0.)) {
-      throw vpException(vpException::badValue, "%s of the simulated arm is %g, must be > 0", field.first, field.second);
-    }
-  }
-}
 
 vpSimulatedArm::vpSimulatedArm(const vpArmModel &model, const vpSimulatedArmSpec &spec)
   : m_impl(std::make_unique<Impl>(model, spec))
@@ -316,7 +282,7 @@ void vpSimulatedArm::setPosition(const vpRobot::vpControlFrameType frame, const 
   }
   if (byJoints) {
     const vpJointVector goal = jointsOf(q, core.model.size());
-    requireInside(core.model, goal);
+    vpRequireInside(core.model, goal);
     core.motion().jointPath(goal, here, moving, m_impl->positioning);
   }
   else {
@@ -506,24 +472,5 @@ std::string vpSimulatedArm::getSentence() const
 }
 
 const vpArmModel &vpSimulatedArm::getModel() const { return m_impl->core.model; }
-
-const char *vpToString(vpSimulatedArmStatus status)
-{
-  switch (status) {
-  case vpSimulatedArmStatus::Stopped:
-    return "stopped";
-  case vpSimulatedArmStatus::Moving:
-    return "moving";
-  case vpSimulatedArmStatus::Limited:
-    return "limited";
-  case vpSimulatedArmStatus::Blocked:
-    return "blocked";
-  case vpSimulatedArmStatus::Stale:
-    return "stale";
-  case vpSimulatedArmStatus::NotFollowing:
-    return "not following";
-  }
-  return "";
-}
 
 END_VISP_NAMESPACE

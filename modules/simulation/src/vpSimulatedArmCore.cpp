@@ -5,6 +5,7 @@
 #include "vpSimulatedArmCore.h"
 
 #include <visp3/core/vpException.h>
+#include <visp3/robot/vpRobotException.h>
 
 #include <cmath>
 
@@ -25,6 +26,40 @@ const vpArmModel &checked(const vpArmModel &model, const vpSimulatedArmSpec &spe
   return model;
 }
 } // namespace
+
+void vpRequireInside(const vpArmModel &model, const vpJointVector &q)
+{
+  const std::string wrong = model.outsideLimits(q);
+  if (!wrong.empty()) {
+    throw vpRobotException(vpRobotException::positionOutOfRangeError, "%s", wrong.c_str());
+  }
+}
+
+void vpSimulatedArmSpec::validate(const vpArmModel &model) const
+{
+  redundancy.validate(model);
+  closedLoop.validate(redundancy.period);
+  drives.validate(model);
+  if (start.size() != 0 && (start.size() != model.size() || !start.allFinite())) {
+    throw vpException(vpException::badValue, "start of the simulated arm has %d numbers, must have %d finite ones",
+                      static_cast<int>(start.size()), model.size());
+  }
+  if (start.size() != 0) {
+    vpRequireInside(model, start);
+  }
+  if (indices.size() > static_cast<std::size_t>(vpMaxArmIndices)) {
+    throw vpException(vpException::badValue, "%d indices for the simulated arm, must be at most %d",
+                      static_cast<int>(indices.size()), vpMaxArmIndices);
+  }
+  for (const vpSelfMotionIndex &index : indices) {
+    index.validate(model);
+  }
+  for (const auto &field : {std::make_pair("watchdog", watchdog), std::make_pair("followingError", followingError)}) {
+    if (!(field.second > 0.)) {
+      throw vpException(vpException::badValue, "%s of the simulated arm is %g, must be > 0", field.first, field.second);
+    }
+  }
+}
 
 vpSimulatedArmCore::vpSimulatedArmCore(const vpArmModel &arm, const vpSimulatedArmSpec &armSpec)
   : model(checked(arm, armSpec)), spec(armSpec), m_motion(model, spec.redundancy, spec.closedLoop),
@@ -138,6 +173,25 @@ vpArmData vpSimulatedArmCore::measuredKinematics() const
   vpArmData data;
   vpArmKinematics::update(model, m_drives.measured(), data);
   return data;
+}
+
+const char *vpToString(vpSimulatedArmStatus status)
+{
+  switch (status) {
+  case vpSimulatedArmStatus::Stopped:
+    return "stopped";
+  case vpSimulatedArmStatus::Moving:
+    return "moving";
+  case vpSimulatedArmStatus::Limited:
+    return "limited";
+  case vpSimulatedArmStatus::Blocked:
+    return "blocked";
+  case vpSimulatedArmStatus::Stale:
+    return "stale";
+  case vpSimulatedArmStatus::NotFollowing:
+    return "not following";
+  }
+  return "";
 }
 
 END_VISP_NAMESPACE

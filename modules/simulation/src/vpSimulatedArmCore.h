@@ -12,6 +12,9 @@
 
 BEGIN_VISP_NAMESPACE
 
+//! \throw vpRobotException naming the joint that is outside its limits.
+void vpRequireInside(const vpArmModel &model, const vpJointVector &q);
+
 class vpSimulatedArmCore
 {
 public:
