@@ -5,7 +5,6 @@
 #include <visp3/printing/vpPrintTrigger.h>
 
 #include "vpPrintingCheck.h"
-#include "vpUsableCell.h"
 
 #include <algorithm>
 
