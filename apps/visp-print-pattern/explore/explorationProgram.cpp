@@ -29,7 +29,7 @@ nlohmann::ordered_json frontOf(const Setup &setup, const Exploration &result)
   nlohmann::ordered_json designs = nlohmann::ordered_json::array();
   for (const std::size_t index : result.front) {
     nlohmann::ordered_json design = {{"design", index}};
-    design.step(jsonOf(result.outcomes[index]));
+    design.update(jsonOf(result.outcomes[index]));
     designs.push_back(design);
   }
   return {{"name", setup.name}, {"objectives", setup.objectives}, {"front", designs}};
