@@ -8,7 +8,6 @@
 #include "options.h"
 #include "pictures.h"
 #include "reportPage.h"
-#include "results.h"
 #include "tables.h"
 
 #include "appMain.h"

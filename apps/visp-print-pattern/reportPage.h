@@ -4,15 +4,33 @@
  */
 /*!
  * \file reportPage.h
- * \brief The report page of visp-print-pattern.
+ * \brief The report page of visp-print-pattern, and its plots.
  */
 #ifndef printPattern_reportPage_h
 #define printPattern_reportPage_h
 
-#include "figures.h"
+#include "results.h"
+
+#include <string>
+#include <vector>
 
 namespace printPattern
 {
+//! \brief A plot as SVG.
+struct Figure {
+  std::string name;    //!< File name without extension, "figure-7.13".
+  std::string alt;     //!< Alternative text.
+  std::string caption; //!< Caption.
+  std::string svg;
+};
+
+//! Plots of the user's run: velocity, landing errors from cell to cell, their histogram.
+[[nodiscard]] std::vector<Figure> ownFigures(const Results &results);
+//! Figures 7.12 to 7.15, and their task with the observer.
+[[nodiscard]] std::vector<Figure> thesisFigures(const Results &results);
+//! Figure 7.10: displacement of a pixel by radial distortion.
+[[nodiscard]] Figure distortionFigure();
+
 //! \brief Content of the page besides the numbers.
 struct ReportParts {
   std::vector<Figure> own;    //!< Figures of the user's run.

@@ -4,21 +4,28 @@
  */
 /*!
  * \file results.h
- * \brief The runs of visp-print-pattern, and their metrics.
+ * \brief The runs of visp-print-pattern, the user's and those of the thesis, and their metrics.
  */
 #ifndef printPattern_results_h
 #define printPattern_results_h
 
-#include "identification.h"
 #include "options.h"
 
-#include <optional>
+#include <visp3/printing/vpFrictionIdentification.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace printPattern
 {
+//! \brief Identified and true parameters of the simulated stage.
+struct Identification {
+  vpFrictionIdentification found; //!< Identified from the camera's positions.
+  vpFrictionModel truth;          //!< True model of the stage, near the start.
+  int frames = 0;                 //!< Length of the ramp.
+};
+
 //! \brief Distribution of the landing errors over all drops of all runs, um from the true centre of the cell.
 struct Landing {
   std::vector<double> errors; //!< Distances, ascending.
@@ -54,14 +61,20 @@ struct Results {
  * \throw vpApp::Interrupted after Ctrl-C.
  */
 [[nodiscard]] Results runAll(const Options &options);
-//! Landing errors of some runs.
-[[nodiscard]] Landing landingOf(const std::vector<vpPrintRun> &runs);
 //! Root mean square of a metric over the runs.
 [[nodiscard]] double rmsOf(const std::vector<vpPrintRun> &runs, double vpPrintMetrics::*figure);
 //! Mean of a metric over the runs.
 [[nodiscard]] double meanOf(const std::vector<vpPrintRun> &runs, double vpPrintMetrics::*figure);
 //! Sum of a count over the runs.
 [[nodiscard]] int sumOf(const std::vector<vpPrintRun> &runs, int vpPrintMetrics::*count);
+
+/*!
+ * The experiments of section 7.3.4 of the thesis: figures 7.12 to 7.15, and their task with the observer;
+ * specifications with seeds, not yet run.
+ */
+[[nodiscard]] std::vector<Replica> thesisReplicas();
+//! Compute the metrics over all finished runs.
+void summarise(Replica &replica);
 } // namespace printPattern
 
 #endif

@@ -72,19 +72,6 @@ Json jsonOf(const vpPrintExperimentSpec &spec, const std::string &sensor)
 }
 } // namespace
 
-std::string nameOf(vpPrintController controller)
-{
-  switch (controller) {
-  case vpPrintController::Pid:
-    return "pid";
-  case vpPrintController::PidFeedforward:
-    return "pid-ff";
-  case vpPrintController::Observer:
-    break;
-  }
-  return "observer";
-}
-
 std::string nameOf(vpPrintReferenceMode mode)
 {
   switch (mode) {

@@ -9,6 +9,7 @@
 #ifndef printPattern_tables_h
 #define printPattern_tables_h
 
+#include "design.h"
 #include "results.h"
 
 #include <nlohmann/json.hpp>
@@ -25,7 +26,7 @@ namespace printPattern
 [[nodiscard]] nlohmann::ordered_json summaryOf(const Options &options, const Results &results,
                                                const std::string &commandLine, double wallTime);
 //! Names on the command line.
-[[nodiscard]] std::string nameOf(vpPrintController controller);
+using printExplore::nameOf;
 [[nodiscard]] std::string nameOf(vpPrintReferenceMode mode);
 } // namespace printPattern
 

@@ -10,13 +10,13 @@
 
 #include "appMain.h"
 #include "calibrationFile.h"
+#include "design.h"
 #include "greyPicture.h"
 #include "lineReader.h"
 #include "outputFolder.h"
 #include "problemLine.h"
 #include "quietLibraries.h"
 #include "scenario.h"
-#include "setupReader.h"
 #include "task.h"
 #include "truth.h"
 

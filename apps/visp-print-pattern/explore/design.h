@@ -4,14 +4,14 @@
  */
 /*!
  * \file design.h
- * \brief A design of a printing machine's vision and control, and its evaluation task.
+ * \brief Designs of a printing machine's vision and control, their evaluation task, and the file that has both.
  */
 #ifndef printExplore_design_h
 #define printExplore_design_h
 
 #include "lab/printing/vpPrintExperiment.h"
 
-#include <map>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -101,6 +101,49 @@ struct Setup {
 [[nodiscard]] std::string nameOf(vpPrintController controller);
 //! "1600 Hz, 160 x 100 px, 4.5 um/px, 50 us, observer, 28.8 mm/s (+25 %)".
 [[nodiscard]] std::string textOf(const Design &design);
+
+//! \brief Values of a variable: a list, or a range.
+struct Axis {
+  std::vector<double> values; //!< Values for a grid; at least one.
+  double from = 0.;           //!< Start of a range, else unused.
+  double to = 0.;             //!< End of the range, > from; if equal, #values are a list.
+  bool logarithmic = false;   //!< Geometric instead of arithmetic steps; from > 0.
+
+  //! Make a list.
+  [[nodiscard]] static Axis list(const std::vector<double> &values);
+  //! Make a range of \e steps values, including both ends.
+  [[nodiscard]] static Axis range(double from, double to, int steps, bool logarithmic);
+  //! The value at a fraction 0..1: interpolated in a range, or one of a list.
+  [[nodiscard]] double at(double share) const;
+};
+
+//! \brief The variables of a Design. Images and controllers are chosen from lists.
+struct DesignSpace {
+  Axis frameRate = Axis::list({1600.});
+  std::vector<std::array<unsigned int, 2>> images{{{160, 100}}};
+  Axis pixelSize = Axis::list({4.5});
+  Axis exposure = Axis::list({50.});
+  std::vector<vpPrintController> controllers{vpPrintController::Observer};
+  Axis dropVelocity = Axis::list({28.8});
+  Axis speedUp = Axis::list({1.25});
+
+  //! Number of designs of grid().
+  [[nodiscard]] double gridSize() const;
+  //! Every combination; the last variable here changes fastest.
+  [[nodiscard]] std::vector<Design> grid() const;
+  /*!
+   * Halton sequence in the bases 2, 3, 5, 7, 11, 13, 17, from its 20th point on, shifted by the seed (Cranley and
+   * Patterson 1976). Any initial part fills the space evenly, so more samples only add designs.
+   */
+  [[nodiscard]] std::vector<Design> samples(unsigned int count, unsigned int seed) const;
+};
+
+/*!
+ * Read an exploration from its JSON file; data/explore/README.md describes the format.
+ * \param text : File content. \param file : File name, the prefix of every message.
+ * \throw std::runtime_error naming the file, the field and the value.
+ */
+[[nodiscard]] Setup readSetup(const std::string &text, const std::string &file);
 } // namespace printExplore
 
 #endif

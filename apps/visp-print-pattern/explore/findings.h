@@ -4,12 +4,14 @@
  */
 /*!
  * \file findings.h
- * \brief Results of an exploration in sentences.
+ * \brief Results of an exploration: in sentences, as tables and as JSON.
  */
 #ifndef printExplore_findings_h
 #define printExplore_findings_h
 
 #include "exploration.h"
+
+#include <nlohmann/json.hpp>
 
 #include <map>
 #include <string>
@@ -23,8 +25,14 @@ namespace printExplore
 [[nodiscard]] std::string meaningOf(const std::string &kind);
 //! Main result: number of feasible designs, best compromise, position of the thesis's camera.
 [[nodiscard]] std::vector<std::string> findingsOf(const Setup &setup, const Exploration &result);
-//! "95 % of the drops within 0.31 um, worst 0.40 um, 163.6 cells/s, 2.7 % of a core".
-[[nodiscard]] std::string figuresText(const Outcome &outcome);
+
+//! explore.csv: all designs; front.csv: those of the front.
+[[nodiscard]] std::string exploreCsv(const Exploration &result, bool frontOnly);
+//! summary.json without the fields that OutputFolder adds.
+[[nodiscard]] nlohmann::ordered_json summaryOf(const Setup &setup, const Exploration &result,
+                                               const std::string &commandLine, double wallTime);
+//! A design with all its metrics, by the column names of the CSV.
+[[nodiscard]] nlohmann::ordered_json jsonOf(const Outcome &outcome);
 } // namespace printExplore
 
 #endif

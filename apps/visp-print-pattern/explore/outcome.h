@@ -4,15 +4,31 @@
  */
 /*!
  * \file outcome.h
- * \brief Evaluation of a design.
+ * \brief Evaluation of a design: accuracy of its camera, then the closed loop.
  */
 #ifndef printExplore_outcome_h
 #define printExplore_outcome_h
 
-#include "cameraTiming.h"
+#include "machine.h"
 
 namespace printExplore
 {
+//! \brief Errors of a sensor, px.
+struct SensorTest {
+  vpPrintSensorModel model; //!< Standard deviations of a cell, and number of independent cells; for the estimators.
+  double held = 0.;         //!< Fraction of frames in which the tracker had cells, 0..1.
+  double cells = 0.;        //!< Measured cells per frame.
+  //! True if the tracker hardly ever lost the product, and measured enough cells to estimate its errors.
+  [[nodiscard]] bool good() const { return held >= 0.95 && cells >= 1.; }
+};
+
+/*!
+ * Accuracy of a camera for the cells: rendered images through vpPatternTracker, against the ground truth.
+ * The tracker learns the product at slow motion, as in the print experiment, then sees it at the drop velocity.
+ * \param product : Product seen by the camera. \param velocity : px/frame.
+ */
+[[nodiscard]] SensorTest testSensor(const vpProductPatternSpec &product, double velocity);
+
 //! \brief A design with its metrics. Closed-loop metrics are 0 unless it was simulated.
 struct Outcome {
   Design design;

@@ -2,9 +2,8 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-#include "setupReader.h"
+#include "design.h"
 
-#include "designSpace.h"
 #include "jsonReader.h"
 #include "numberText.h"
 #include "outcome.h"

@@ -6,13 +6,6 @@
 #include "vpCatch.h"
 
 #include "findings.h"
-#include "machine.h"
-#include "outcomeText.h"
-#include "pareto.h"
-#include "sensorTest.h"
-
-#include "designSpace.h"
-#include "setupReader.h"
 
 #include <visp3/rendering/vpProductPattern.h>
 
