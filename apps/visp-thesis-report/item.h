@@ -4,21 +4,84 @@
  */
 /*!
  * \file item.h
- * \brief A reproduced figure or table of the thesis.
+ * \brief A reproduced figure or table of the thesis: its values beside ours, its plots, and the statistics of what was measured.
  */
 #ifndef thesisReport_item_h
 #define thesisReport_item_h
 
-#include "quantity.h"
+#include "timePlot.h"
 
-#include "plot.h"
-
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace thesisReport
 {
+//! \brief Tolerance relative to the thesis's value, set before any measurement and part of the report.
+class Tolerance
+{
+public:
+  //! Within a factor: thesis / size <= ours <= thesis * size, both of the same sign. \param size : > 1.
+  [[nodiscard]] static Tolerance factor(double size) { return {Kind::Factor, size}; }
+  //! |ours - thesis| <= size. \param size : In the unit of the quantity, >= 0.
+  [[nodiscard]] static Tolerance distance(double size) { return {Kind::Distance, size}; }
+  //! A bound, or a claim that something is not larger: ours <= thesis + size.
+  [[nodiscard]] static Tolerance atMost(double size = 0.) { return {Kind::AtMost, size}; }
+  //! A claim that something is not smaller: ours >= thesis - size.
+  [[nodiscard]] static Tolerance atLeast(double size = 0.) { return {Kind::AtLeast, size}; }
+
+  //! True if \e ours is within the tolerance; false for non-finite values.
+  [[nodiscard]] bool holds(double thesis, double ours) const;
+  //! In words: "within a factor 1.1".
+  [[nodiscard]] std::string text() const;
+
+  //! See archive.h.
+  template <class Archive> friend void exchange(Archive &archive, Tolerance &tolerance)
+  {
+    archive(tolerance.m_kind, tolerance.m_size);
+  }
+
+private:
+  enum class Kind { Factor, Distance, AtMost, AtLeast };
+  Tolerance(Kind kind, double size) : m_kind(kind), m_size(size) {}
+  Kind m_kind;
+  double m_size;
+};
+
+//! Direction in which a value is better.
+enum class Good { Neither, Smaller, Larger };
+
+//! Result of a comparison.
+enum class Verdict {
+  Agrees,  //!< Within the tolerance.
+  Better,  //!< Outside the tolerance, on the good side.
+  Differs, //!< Outside the tolerance.
+  NoValue  //!< The thesis gives no value.
+};
+
+//! "agrees", "better", "differs", "no value in the thesis".
+[[nodiscard]] const char *vpToString(Verdict verdict);
+
+//! \brief One row of results.json.
+struct Quantity {
+  std::string name;             //!< "rms velocity error".
+  std::string unit;             //!< "px/frame"; "1" for a ratio or a count.
+  std::optional<double> thesis; //!< Value or claimed bound of the thesis; none: not given.
+  double ours = 0.;             //!< Measured in this run.
+  Tolerance tolerance = Tolerance::factor(1.1);
+  Good good = Good::Neither;
+  std::string reason; //!< Reason for a difference; shown only then.
+  std::string note;   //!< Measurement method; always shown.
+};
+
+//! Comparison, computed only from the numbers.
+[[nodiscard]] Verdict verdictOf(const Quantity &quantity);
+//! ours / thesis; nullopt without a value or if the thesis's is 0.
+[[nodiscard]] std::optional<double> ratioOf(const Quantity &quantity);
+//! Note and, if the values disagree, the reason; "not explained" if it is missing.
+[[nodiscard]] std::string remarkOf(const Quantity &quantity);
+
 //! \brief A figure of the report.
 struct Figure {
   std::string name;    //!< Name within its item: "velocity".
@@ -53,6 +116,39 @@ struct Item {
 //! Draw panels below each other and add the figure and its data to the item.
 void addPlot(Item &item, const std::string &name, const std::string &title, const std::string &caption,
              const std::vector<vpApp::Plot> &panels);
+
+//! Colours distinguishable with colour blindness, in order of use.
+[[nodiscard]] const std::string &colour(std::size_t i);
+
+//! Add a curve in the next colour.
+void addCurve(vpApp::Plot &plot, const std::string &label, std::vector<double> x, std::vector<double> y,
+              vpApp::PlotStyle style = vpApp::PlotStyle::Solid);
+
+//! A dashed grey line at \e value (and at -value when \e both) over the width of the curves so far.
+void addBound(vpApp::Plot &plot, double value, bool both, const std::string &label = "bound");
+
+//! \brief Collects values. All statistics are 0 without values.
+class Spread
+{
+public:
+  void add(double value) { m_values.push_back(value); }
+  [[nodiscard]] std::size_t count() const { return m_values.size(); }
+  [[nodiscard]] double mean() const;
+  //! Standard deviation about the mean, of a sample (n - 1); 0 for a single value.
+  [[nodiscard]] double sigma() const;
+  [[nodiscard]] double rms() const; //!< Root mean square, about 0.
+  [[nodiscard]] double largest() const;
+  //! Quantile: the value not exceeded by the fraction \e share. \param share : 0..1.
+  [[nodiscard]] double quantile(double share) const;
+  [[nodiscard]] double median() const { return quantile(0.5); }
+
+private:
+  std::vector<double> m_values;
+};
+
+//! CPU time of this thread, s; waiting for a core does not count, as parts of the report and other programs run in
+//! parallel.
+[[nodiscard]] double coreSeconds();
 } // namespace thesisReport
 
 #endif

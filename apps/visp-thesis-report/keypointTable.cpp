@@ -3,14 +3,9 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 // Table 4.2: SURF and SIFT with the thesis's numbers of keypoints, on the same views.
-#include "coreTime.h"
-#include "curves.h"
 #include "keypointItems.h"
-#include "spread.h"
 
 #include "numberText.h"
-
-#include <visp3/planar_target/vpPlaneMatcher.h>
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>

@@ -43,13 +43,6 @@ struct Part {
   std::function<std::vector<Item>(const Setting &)> play;
 };
 
-//! All parts, in the order of the thesis.
-[[nodiscard]] const std::vector<Part> &catalogue();
-//! Name of a chapter on the command line: "chapter4", "appendixA".
-[[nodiscard]] std::string chapterName(const Part &part);
-//! All ids, in the order of the thesis.
-[[nodiscard]] std::vector<std::string> allIds();
-
 // The parts, by chapter.
 [[nodiscard]] std::vector<Part> keypointParts();   //!< Tables 4.2 and 4.3.
 [[nodiscard]] std::vector<Part> servoParts();      //!< Figures 5.6 to 5.11.
@@ -57,8 +50,7 @@ struct Part {
 [[nodiscard]] std::vector<Part> patternParts();    //!< Figure 7.1, (7.1), (7.2), tables 7.1 to 7.4, figures 7.10, 7.11.
 [[nodiscard]] std::vector<Part> printingParts();   //!< Figures 7.12 to 7.15.
 [[nodiscard]] std::vector<Part> avoidanceParts();  //!< Figures 8.6 to 8.10 and 8.13.
-[[nodiscard]] std::vector<Part> armTrackingParts(); //!< Table 8.1.
-[[nodiscard]] std::vector<Part> selfMotionParts();  //!< Figures 8.14 to 8.17.
+[[nodiscard]] std::vector<Part> armParts();        //!< Table 8.1, figures 8.14 to 8.17.
 [[nodiscard]] std::vector<Part> minimumJerkParts(); //!< Table A.1.
 } // namespace thesisReport
 

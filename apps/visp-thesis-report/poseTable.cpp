@@ -3,9 +3,6 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 // Table 4.3: offsets of a photograph, estimated from SURF matches by decomposition of their homography.
-#include "poseAccuracy.h"
-
-#include "curves.h"
 #include "keypointItems.h"
 
 #include "numberText.h"

@@ -5,9 +5,8 @@
 // Figures 7.12 to 7.15: velocity of the stage, by the experiments of visp-print-pattern.
 #include "part.h"
 
-#include "visp-print-pattern/figures.h"
+#include "visp-print-pattern/reportPage.h"
 #include "visp-print-pattern/tables.h"
-#include "visp-print-pattern/thesisReplicas.h"
 
 #include <visp3/direct_core/vpQuantile.h>
 

@@ -8,6 +8,7 @@
 #include "sweep.h"
 
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 
 namespace thesisReport
@@ -58,6 +59,43 @@ bool needed(const Part &part, const Setting &setting)
                      [&](const Entry &entry) { return setting.wants(entry.id); });
 }
 } // namespace
+
+const std::vector<Part> &catalogue()
+{
+  static const std::vector<Part> all = [] {
+    std::vector<Part> parts;
+    for (const auto make : {keypointParts, servoParts, trajectoryParts, patternParts, printingParts, avoidanceParts,
+                            armParts, minimumJerkParts}) {
+      for (Part &part : make()) {
+        parts.push_back(std::move(part));
+      }
+    }
+    return parts;
+  }();
+  return all;
+}
+
+std::string chapterName(const Part &part)
+{
+  std::string name;
+  for (const char c : part.chapter.substr(0, part.chapter.find(':'))) {
+    if (c != ' ') {
+      name += name.empty() ? static_cast<char>(std::tolower(static_cast<unsigned char>(c))) : c;
+    }
+  }
+  return name;
+}
+
+std::vector<std::string> allIds()
+{
+  std::vector<std::string> ids;
+  for (const Part &part : catalogue()) {
+    for (const Entry &entry : part.entries) {
+      ids.push_back(entry.id);
+    }
+  }
+  return ids;
+}
 
 std::vector<Played> playAll(const Options &options, const vpApp::Ranks &ranks)
 {

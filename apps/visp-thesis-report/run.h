@@ -4,17 +4,35 @@
  */
 /*!
  * \file run.h
- * \brief Parts in, items out.
+ * \brief All parts, and the run of those that are asked for: parts in, items out.
  */
 #ifndef thesisReport_run_h
 #define thesisReport_run_h
 
-#include "options.h"
-#include "ranks.h"
 #include "part.h"
+#include "ranks.h"
+
+#include <string>
+#include <vector>
 
 namespace thesisReport
 {
+//! All parts, in the order of the thesis.
+[[nodiscard]] const std::vector<Part> &catalogue();
+//! Name of a chapter on the command line: "chapter4", "appendixA".
+[[nodiscard]] std::string chapterName(const Part &part);
+//! All ids, in the order of the thesis.
+[[nodiscard]] std::vector<std::string> allIds();
+
+//! \brief User options.
+struct Options {
+  std::vector<std::string> only; //!< Requested ids; all of them by default.
+  std::string out = "out/thesis-report";
+  unsigned int jobs = 0; //!< Parts at a time; 0: one for each core.
+  unsigned int seed = 1;
+  bool list = false;
+};
+
 //! \brief A finished part.
 struct Played {
   const Part *part = nullptr; //!< In the catalogue.

@@ -9,7 +9,6 @@
 #include "outcome.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace printExplore
 {

@@ -3,9 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 // Verdicts follow from the numbers; the catalogue covers the results of the thesis.
-#include "item.h"
-#include "part.h"
-#include "results.h"
+#include "report.h"
 
 #include "vpCatch.h"
 

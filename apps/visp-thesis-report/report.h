@@ -3,11 +3,11 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 /*!
- * \file results.h
- * \brief results.json and the summary.
+ * \file report.h
+ * \brief Finished parts as results.json, summary.json and report.html.
  */
-#ifndef thesisReport_results_h
-#define thesisReport_results_h
+#ifndef thesisReport_report_h
+#define thesisReport_report_h
 
 #include "run.h"
 
@@ -24,6 +24,8 @@ namespace thesisReport
                                                  const std::string &commandLine, double wallTime);
 //! Number of items with each verdict.
 [[nodiscard]] std::map<Verdict, int> countVerdicts(const std::vector<Played> &all);
+//! The page, with embedded figures.
+[[nodiscard]] std::string reportPage(const std::vector<Played> &all, const std::string &commandLine, double wallTime);
 } // namespace thesisReport
 
 #endif

@@ -1,0 +1,303 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// Table 8.1: tracking errors of joints and tool of the arm. Figures 8.14 to 8.17: self-motion while the tool follows its
+// path.
+#include "part.h"
+
+#include "dataFile.h"
+#include "numberText.h"
+
+#include <visp3/manipulator/vpArmJson.h>
+#include <visp3/manipulator/vpClosedLoopKinematics.h>
+#include <visp3/simulation/vpArmDrives.h>
+#include "lab/arm/vpSelfMotionExperiment.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+VISP_DIRECT_USING_NAMESPACE
+
+namespace thesisReport
+{
+namespace
+{
+constexpr const char *CHAPTER = "Chapter 8: obstacle avoidance";
+constexpr double PERIOD = 0.005; // s, 200 Hz as in the thesis
+constexpr int PERIODS = 2000;    // 10 s
+constexpr int JOINTS = 7;
+
+std::shared_ptr<const vpArmModel> amor()
+{
+  return std::make_shared<const vpArmModel>(vpLoadArmJson(vpApp::dataFile("robot/amor.json")));
+}
+
+//! Desired and actual motion.
+struct Tracking {
+  std::vector<double> time;
+  std::array<std::vector<double>, JOINTS> joints; //!< Desired minus actual, rad.
+  std::array<std::vector<double>, 6> tool;        //!< x y z m, roll pitch yaw rad.
+};
+
+double rms(const std::vector<double> &values)
+{
+  Spread spread;
+  for (const double value : values) {
+    spread.add(value);
+  }
+  return spread.rms();
+}
+
+//! Roll, pitch, yaw: about x, y and z of the base, R = Rz Ry Rx.
+Eigen::Vector3d rollPitchYaw(const Eigen::Matrix3d &R)
+{
+  return {std::atan2(R(2, 1), R(2, 2)), std::atan2(-R(2, 0), std::hypot(R(2, 1), R(2, 2))),
+          std::atan2(R(1, 0), R(0, 0))};
+}
+
+//! Along the line of figure 8.8, 0.8 of its length in 4.5 s, minimum jerk, and back.
+Tracking follow(const vpArmModel &arm, bool compensated, const Setting &setting, double done)
+{
+  vpArmDriveSpec spec;
+  spec.compensateFriction = compensated;
+  vpArmDrives drives(arm, spec);
+  vpClosedLoopKinematics loop(arm);
+  vpClosedLoopState state;
+  vpClosedLoopInput input;
+  vpClosedLoopOutput output;
+  state.q = arm.home();
+  vpArmData wanted, actual;
+  vpArmKinematics::forward(arm, arm.home(), wanted);
+  const vpRigidTransform start = wanted.tool;
+  const Eigen::Vector3d way = Eigen::Vector3d(0.225, 0.93, start.p(2)) - start.p;
+  constexpr int half = PERIODS / 2;
+  Tracking tracking;
+  for (int k = 0; k < PERIODS; ++k) {
+    const double t = std::min(1., (k < half ? k : PERIODS - 1 - k) / (0.9 * half));
+    input.goal = start;
+    input.goal.p += 0.8 * t * t * t * (10. - 15. * t + 6. * t * t) * way;
+    loop.step(input, state, output);
+    drives.move(state.velocity, PERIOD);
+    vpArmKinematics::forward(arm, drives.wanted(), wanted);
+    vpArmKinematics::forward(arm, drives.q(), actual);
+    tracking.time.push_back((k + 1) * PERIOD);
+    for (int i = 0; i < JOINTS; ++i) {
+      tracking.joints[static_cast<std::size_t>(i)].push_back(drives.wanted()[i] - drives.q()[i]);
+    }
+    const Eigen::Vector3d place = wanted.tool.p - actual.tool.p;
+    const Eigen::Vector3d turn = rollPitchYaw(wanted.tool.R) - rollPitchYaw(actual.tool.R);
+    for (int i = 0; i < 3; ++i) {
+      tracking.tool[static_cast<std::size_t>(i)].push_back(place[i]);
+      tracking.tool[static_cast<std::size_t>(3 + i)].push_back(std::remainder(turn[i], 2. * M_PI));
+    }
+    if (k % 100 == 0) {
+      setting.progress(done + 0.45 * k / PERIODS);
+    }
+  }
+  return tracking;
+}
+
+const std::array<std::string, 6> &toolNames()
+{
+  static const std::array<std::string, 6> names = {"X", "Y", "Z", "roll", "pitch", "yaw"};
+  return names;
+}
+
+std::vector<Item> trackingErrors(const Setting &setting)
+{
+  constexpr std::array<double, JOINTS> thesisJoints = {0.0064, 0.0086, 0.0052, 0.0125, 0.0082, 0.0085, 0.0064};
+  constexpr std::array<double, 6> thesisTool = {0.0030, 0.0056, 0.0052, 0.0062, 0.0039, 0.0072};
+  const auto arm = amor();
+  const Tracking plain = follow(*arm, false, setting, 0.), compensated = follow(*arm, true, setting, 0.45);
+  const std::string reason = "Masses, gains and friction of the arm are not given; those of the model are assumed.";
+  Item item;
+  item.id = "table8.1";
+  std::string csv = "axis,unit,thesis,pd_and_gravity,with_friction_compensation\n";
+  const auto add = [&](const std::string &name, const std::string &unit, double thesis, const std::vector<double> &ours,
+                       const std::vector<double> &better) {
+    item.quantities.push_back({name + ", rms", unit, thesis, rms(ours), Tolerance::factor(2.), Good::Smaller, reason,
+                               "PD with gravity, as in the thesis."});
+    item.quantities.push_back({name + ", rms, with friction compensation", unit, std::nullopt, rms(better),
+                               Tolerance::factor(2.), Good::Neither, "", ""});
+    csv += name + "," + unit + "," + vpApp::number(thesis, 6) + "," + vpApp::number(rms(ours), 6) + "," +
+           vpApp::number(rms(better), 6) + "\n";
+  };
+  vpApp::Plot joints = vpApp::timePlot("Errors of the joints", "wanted - true (rad)"),
+              tool = vpApp::timePlot("Errors of the tool", "wanted - true (m)");
+  for (std::size_t i = 0; i < JOINTS; ++i) {
+    const std::string name = "q" + std::to_string(i + 1);
+    add(name, "rad", thesisJoints[i], plain.joints[i], compensated.joints[i]);
+    addCurve(joints, name, plain.time, plain.joints[i]);
+  }
+  for (std::size_t i = 0; i < 6; ++i) {
+    add(toolNames()[i], i < 3 ? "m" : "rad", thesisTool[i], plain.tool[i], compensated.tool[i]);
+    if (i < 3) {
+      addCurve(tool, toolNames()[i], plain.time, plain.tool[i]);
+    }
+  }
+  item.data.push_back({"rms.csv", csv});
+  item.remarks = {"The thesis does not say on which motion its errors were taken."};
+  item.parameters = {{"arm", "AMOR, 7 joints, by torques: PD with gravity at 1 kHz, references at 200 Hz"},
+                     {"motion", "0.8 of the way of figure 8.8, there and back in 10 s, least jerk"},
+                     {"friction", "viscous, Coulomb and static, of the arm's file"}};
+  addPlot(item, "errors", "Errors of joints and tool without friction compensation",
+          "Friction holds every joint some mrad back, against its direction of motion.", {joints, tool});
+  return {item};
+}
+
+constexpr int JOINT_4 = 3;
+constexpr double WEAK = 0.3, STRONG = 0.6; // |k_0|
+constexpr double DRIFT = 1e-4;             // m: tolerance of the tool's task
+
+using MakeIndex = std::function<vpSelfMotionIndex(vpIndexSense)>;
+
+//! The run with a gain: k0 > 0 attracts, < 0 repels, as in the figures.
+struct Runs {
+  std::vector<std::pair<double, vpSelfMotionRun>> runs;
+  [[nodiscard]] const vpSelfMotionRun &with(double k0) const
+  {
+    return std::find_if(runs.begin(), runs.end(), [&](const auto &run) { return run.first == k0; })->second;
+  }
+};
+
+Runs runsOf(const std::shared_ptr<const vpArmModel> &arm, const MakeIndex &index, const std::vector<double> &gains)
+{
+  Runs all;
+  vpSelfMotionRunSpec spec = vpSelfMotionRunSpec::thesis(arm);
+  for (const double k0 : gains) {
+    spec.index = index(k0 > 0. ? vpIndexSense::Attract : vpIndexSense::Repel);
+    spec.share = std::fabs(k0);
+    all.runs.emplace_back(k0, runSelfMotionExperiment(spec));
+  }
+  return all;
+}
+
+Quantity meanRatio(const Runs &runs, double strong, double weak, bool larger)
+{
+  return {"mean distance with k_0 = " + vpApp::number(strong, 2) + " over that with " + vpApp::number(weak, 2),
+          "1",
+          1.,
+          runs.with(strong).mean_distance_m / runs.with(weak).mean_distance_m,
+          larger ? Tolerance::atLeast() : Tolerance::atMost(),
+          larger ? Good::Larger : Good::Smaller,
+          "",
+          ""};
+}
+
+double leastDifference(const vpSelfMotionRun &a, const vpSelfMotionRun &b)
+{
+  double least = 0.;
+  for (std::size_t i = 0; i < a.samples.size(); ++i) {
+    least = std::min(least, a.samples[i].distance - b.samples[i].distance);
+  }
+  return least;
+}
+
+Quantity toolKept(const Runs &runs)
+{
+  double drift = 0.;
+  for (const auto &run : runs.runs) {
+    drift = std::max(drift, run.second.tcp_drift_m);
+  }
+  return {"largest error of the tool", "m",           0., drift,
+          Tolerance::distance(DRIFT),  Good::Neither, "", "Self-motion must not move the tool."};
+}
+
+void illustrate(const Runs &runs, const std::string &distance, Item &item)
+{
+  vpApp::Plot plot = vpApp::timePlot("Distance of joint q_4 from " + distance, "distance (m)");
+  plot.height = 420;
+  for (const auto &run : runs.runs) {
+    std::vector<double> t, d;
+    for (const vpSelfMotionSample &s : run.second.samples) {
+      t.push_back(s.time);
+      d.push_back(s.distance);
+    }
+    addCurve(plot, "k_0 = " + vpApp::number(run.first, 2), t, d);
+  }
+  addPlot(item, "distance", "Distance of joint q_4 from " + distance,
+          "The sign of k_0 as in the figures: positive attracts, negative repels.", {plot});
+  item.parameters = {
+      {"arm", "AMOR, ideal drives, 200 Hz"},
+      {"tool", "two vias and a final place, 2 s each, orientation kept; the thesis gives no positions"},
+      {"gain", "k_0 as a share of the speed that the spare joints may take (our form of k_0 is bounded)"}};
+}
+
+Item point(const char *id, const Eigen::Vector3d &place, const std::string &name)
+{
+  const Runs runs =
+      runsOf(amor(), [&](vpIndexSense sense) { return vpSelfMotionIndex::pointDistance(JOINT_4, place, sense); },
+             {0., -WEAK, -STRONG});
+  Item item;
+  item.id = id;
+  item.quantities = {meanRatio(runs, -WEAK, 0., true),
+                     meanRatio(runs, -STRONG, 0., true),
+                     meanRatio(runs, -STRONG, -WEAK, true),
+                     {"least of the distance with k_0 = -0.6 minus that with 0", "m", std::nullopt,
+                      leastDifference(runs.with(-STRONG), runs.with(0.)), Tolerance::factor(1.1), Good::Neither, "",
+                      "Below 0 the joint would be nearer for a time, for the sake of the rest, as the thesis sees in "
+                      "figure 8.14; that depends on the path of the tool."},
+                     toolKept(runs)};
+  illustrate(runs, name, item);
+  item.parameters.emplace_back("point", "[" + vpApp::number(place.x(), 3) + ", " + vpApp::number(place.y(), 3) + ", " +
+                                            vpApp::number(place.z(), 3) + "] m, ours: the thesis does not tell it");
+  return item;
+}
+
+Item besideJoint() { return point("fig8.14", {0.45, 0.1, 0.4}, "the point beside it"); }
+
+//! Point below joint 4 of the first posture.
+Item underJoint()
+{
+  const auto arm = amor();
+  vpArmData data;
+  vpArmKinematics::forward(*arm, arm->home(), data);
+  return point("fig8.15", data.joint[JOINT_4].p - Eigen::Vector3d(0., 0., 0.1), "the point 0.1 m under it");
+}
+
+Item line()
+{
+  const Runs runs = runsOf(amor(), [](vpIndexSense sense) { return vpSelfMotionIndex::lineDistance(JOINT_4, sense); },
+                           {0., WEAK, STRONG});
+  Item item;
+  item.id = "fig8.16";
+  item.quantities = {meanRatio(runs, WEAK, 0., false),
+                     meanRatio(runs, STRONG, WEAK, false),
+                     {"way of all joints, k_0 = 0.6 over k_0 = 0", "1", 1.,
+                      runs.with(STRONG).joint_travel_rad / runs.with(0.).joint_travel_rad, Tolerance::atLeast(),
+                      Good::Neither, "", "The thesis: d_total is larger with a larger gain."},
+                     toolKept(runs)};
+  illustrate(runs, "the line from base to tool", item);
+  return item;
+}
+
+Item plane()
+{
+  const auto arm = amor();
+  const Runs runs = runsOf(arm, [&](vpIndexSense sense) { return vpSelfMotionRunSpec::thesisPlane(*arm, sense); },
+                           {-STRONG, -WEAK, 0., WEAK, STRONG});
+  Item item;
+  item.id = "fig8.17";
+  item.quantities = {meanRatio(runs, STRONG, WEAK, false), meanRatio(runs, WEAK, 0., false),
+                     meanRatio(runs, -WEAK, 0., true), meanRatio(runs, -STRONG, -WEAK, true), toolKept(runs)};
+  illustrate(runs, "the plane through base, the point above it and [1, 1, 0.5]", item);
+  return item;
+}
+} // namespace
+
+std::vector<Part> armParts()
+{
+  const auto part = [](const char *id, const char *title, Item (*make)()) {
+    return Part{CHAPTER, {{id, title}}, 1.5, [make](const Setting &) { return std::vector<Item>{make()}; }};
+  };
+  return {{CHAPTER, {{"table8.1", "tracking errors of joints and tool"}}, 3., trackingErrors},
+          part("fig8.14", "self-motion away from a point", besideJoint),
+          part("fig8.15", "self-motion away from a point under the joint", underJoint),
+          part("fig8.16", "self-motion towards the line from base to tool", line),
+          part("fig8.17", "self-motion away from a plane and towards it", plane)};
+}
+} // namespace thesisReport
