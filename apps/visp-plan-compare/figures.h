@@ -10,7 +10,8 @@
 #define planCompare_figures_h
 
 #include "results.h"
-#include "selfMotion.h"
+
+#include "extras.h"
 
 namespace planCompare
 {

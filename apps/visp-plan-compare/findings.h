@@ -9,7 +9,8 @@
 #ifndef planCompare_findings_h
 #define planCompare_findings_h
 
-#include "summary.h"
+#include "extras.h"
+#include "results.h"
 
 namespace planCompare
 {

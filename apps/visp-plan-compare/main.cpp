@@ -3,13 +3,9 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 // visp-plan-compare: avoidance methods for an arm on the same scenes, with a report.
-#include "arenaLog.h"
 #include "figures.h"
-#include "options.h"
-#include "plan.h"
 #include "reportPage.h"
-#include "summary.h"
-#include "tables.h"
+#include "resultFiles.h"
 
 #include "appMain.h"
 #include "numberText.h"

@@ -4,20 +4,47 @@
  */
 /*!
  * \file plan.h
- * \brief From the user's options to the list of scenes.
+ * \brief Names and descriptions of methods and scenes, and from the user's options to the list of scenes.
  */
 #ifndef planCompare_plan_h
 #define planCompare_plan_h
 
-#include "catalogue.h"
 #include "options.h"
 
 #include "lab/avoidance/vpAvoidanceScenes.h"
 
 #include <functional>
+#include <string>
+#include <vector>
 
 namespace planCompare
 {
+//! \brief Description of a method.
+struct MethodInfo {
+  std::string id;       //!< Id for makeAvoidanceMethod().
+  std::string number;   //!< "(iii)".
+  std::string name;     //!< Short, for tables.
+  std::string sentence; //!< Description.
+  std::string colour;   //!< #rrggbb
+};
+
+//! Description of any method; an unknown method is named by its id.
+[[nodiscard]] MethodInfo methodInfo(const std::string &id);
+
+//! \brief Description of a scene.
+struct SceneInfo {
+  std::string id;         //!< "S4b".
+  std::string name;       //!< Short, for tables.
+  std::string sentence;   //!< Description.
+  unsigned int seeds = 0; //!< Number of seeds by default.
+  unsigned int quick = 0; //!< Number of seeds with --quick.
+};
+
+//! S1, S2, S3, S4a, S4b, S6, S7. S5 is not included, as it has no goal.
+[[nodiscard]] const std::vector<SceneInfo> &standardScenes();
+//! Description of S5.
+[[nodiscard]] const char *selfMotionSentence();
+
 //! \brief One scene with one seed; all methods run on it.
 struct Problem {
   std::string scene;   //!< Id.

@@ -10,7 +10,6 @@
 #define planCompare_reportPage_h
 
 #include "figures.h"
-#include "summary.h"
 
 namespace planCompare
 {

@@ -9,9 +9,32 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 namespace planCompare
 {
+Interval wilson(int successes, int total)
+{
+  if (total <= 0) {
+    return {};
+  }
+  constexpr double z = 1.959963984540054; // 97.5 % of the normal distribution
+  const double n = total, p = successes / n, z2 = z * z;
+  const double centre = (p + 0.5 * z2 / n) / (1. + z2 / n);
+  const double half = z / (1. + z2 / n) * std::sqrt(p * (1. - p) / n + 0.25 * z2 / (n * n));
+  return {successes == 0 ? 0. : centre - half, successes == total ? 1. : centre + half};
+}
+
+double mcNemar(int onlyFirst, int onlySecond)
+{
+  const int n = onlyFirst + onlySecond, few = std::min(onlyFirst, onlySecond);
+  double p = 0.;
+  for (int k = 0; k <= few; ++k) {
+    p += std::exp(std::lgamma(n + 1.) - std::lgamma(k + 1.) - std::lgamma(n - k + 1.) - n * std::log(2.));
+  }
+  return std::min(1., 2. * p);
+}
+
 int Cell::successes() const
 {
   return static_cast<int>(std::count_if(runs.begin(), runs.end(), [](const Record *r) { return r->metrics.success; }));
@@ -120,6 +143,18 @@ Pairing pairUp(const Results &results, const std::string &scene, const std::stri
   }
   pairing.p = mcNemar(pairing.onlyFirst, pairing.onlySecond);
   return pairing;
+}
+
+std::vector<std::pair<std::string, std::string>> pairsOf(const Plan &plan)
+{
+  const auto has = [&](const char *name) {
+    return std::find(plan.methods.begin(), plan.methods.end(), name) != plan.methods.end();
+  };
+  std::vector<std::pair<std::string, std::string>> pairs;
+  if (has("planner-dtg") && has("dtg-via")) {
+    pairs.emplace_back("planner-dtg", "dtg-via");
+  }
+  return pairs;
 }
 
 Results runAll(const Plan &plan, const vpApp::Ranks &ranks, unsigned int jobs)

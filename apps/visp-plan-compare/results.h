@@ -10,12 +10,13 @@
 #define planCompare_results_h
 
 #include "plan.h"
+
 #include "ranks.h"
-#include "statistics.h"
 
 #include "lab/avoidance/vpAvoidanceExperiment.h"
 
 #include <optional>
+#include <vector>
 
 namespace planCompare
 {
@@ -39,6 +40,24 @@ template <class Archive> void exchange(Archive &archive, Record &record)
           m.collisions_standing, m.joint_v_violations, m.joint_a_violations, m.tool_v_violations, m.tool_a_violations,
           m.status);
 }
+
+//! \brief Interval of a proportion, 0..1.
+struct Interval {
+  double low = 0.;
+  double high = 1.;
+};
+
+/*!
+ * Wilson's score interval without continuity correction, 95 %. \cite Wilson 1927, J. Am. Stat. Assoc. 22, 209-212
+ * \param successes : 0..total. \param total : >= 0; for 0 trials the interval is [0, 1].
+ */
+[[nodiscard]] Interval wilson(int successes, int total);
+
+/*!
+ * McNemar's exact test, two-sided: probability of a split at least this uneven if both perform equally well.
+ * \param onlyFirst, onlySecond : Pairs in which only one of the two succeeded; >= 0. \return p, 1 when there are none.
+ */
+[[nodiscard]] double mcNemar(int onlyFirst, int onlySecond);
 
 //! A field of vpAvoidanceMetrics.
 using Metric = double vpAvoidanceMetrics::*;
@@ -85,6 +104,9 @@ struct Pairing {
 //! \param scene : Empty for all.
 [[nodiscard]] Pairing pairUp(const Results &results, const std::string &scene, const std::string &first,
                              const std::string &second);
+
+//! Pairs of methods whose successes are compared: (v) with (iii) if both were run; else none.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> pairsOf(const Plan &plan);
 
 /*!
  * Run everything, with a progress bar.

@@ -5,10 +5,9 @@
 // The parts of visp-plan-compare: statistics against published values, the log for Planner Arena, outlines.
 #include "vpCatch.h"
 
-#include "arenaLog.h"
 #include "findings.h"
+#include "resultFiles.h"
 #include "shapeOutline.h"
-#include "statistics.h"
 
 #include <visp3/direct_core/vpSO3.h>
 
