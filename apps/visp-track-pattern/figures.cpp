@@ -2,8 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-#include "figures.h"
-#include "tableFile.h"
+#include "report.h"
 
 #include "plot.h"
 

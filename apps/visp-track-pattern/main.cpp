@@ -3,8 +3,6 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 // visp-track-pattern: cell centres and motion of a repetitive product, from images, a video or a camera.
-#include "imageSource.h"
-#include "options.h"
 #include "report.h"
 #include "trackRun.h"
 

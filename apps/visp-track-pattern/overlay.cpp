@@ -4,8 +4,9 @@
  */
 #include "overlay.h"
 
+#include "results.h"
+
 #include "outputFolder.h"
-#include "tableFile.h"
 #include "videoFile.h"
 
 #include <opencv2/imgcodecs.hpp>

@@ -3,8 +3,6 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include "report.h"
-#include "figures.h"
-#include "tableFile.h"
 
 #include "htmlReport.h"
 

@@ -7,6 +7,8 @@
 #include <visp3/direct_core/vpQuantile.h>
 
 #include <algorithm>
+#include <cstdarg>
+#include <cstdio>
 
 namespace trackPattern
 {
@@ -41,5 +43,15 @@ std::vector<double> column(const RunResults &results, double FrameRecord::*membe
     values.push_back(frame.*member);
   }
   return values;
+}
+
+std::string text(const char *format, ...)
+{
+  char buffer[512];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(buffer, sizeof buffer, format, arguments);
+  va_end(arguments);
+  return buffer;
 }
 } // namespace trackPattern

@@ -117,6 +117,9 @@ struct RunResults {
 [[nodiscard]] double quantile(std::vector<double> values, double p);
 //! One field of every frame.
 [[nodiscard]] std::vector<double> column(const RunResults &results, double FrameRecord::*member);
+
+//! Like printf, as a string.
+[[nodiscard]] std::string text(const char *format, ...) __attribute__((format(printf, 1, 2)));
 } // namespace trackPattern
 
 #endif

@@ -3,11 +3,10 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include "trackRun.h"
-#include "calibrationFile.h"
-#include "calibrationRun.h"
-#include "comparison.h"
+
+#include "calibration.h"
 #include "overlay.h"
-#include "tableFile.h"
+#include "truth.h"
 
 #include "appMain.h"
 #include "pictureWindow.h"
@@ -18,6 +17,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <fstream>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
@@ -74,6 +74,32 @@ private:
 
 // printf distinguishes negative and positive NaN; a table must not.
 double plain(double value) { return std::isnan(value) ? NOTHING : value; }
+
+//! A table in the result folder, written line by line; it may exceed the memory.
+class TableFile
+{
+public:
+  TableFile(vpApp::OutputFolder &out, const std::string &name, const std::string &heading)
+    : m_name((out.path() / name).string()), m_stream(out.file(name), std::ios::binary)
+  {
+    add(heading);
+  }
+  void add(const std::string &line) { m_stream << line << '\n'; }
+  //! Flush added lines to disk, in case the program is killed.
+  void flush() { m_stream.flush(); }
+  //! \throw std::runtime_error naming the file when writing fails.
+  void close()
+  {
+    m_stream.close();
+    if (!m_stream) {
+      throw std::runtime_error(m_name + ": cannot be written");
+    }
+  }
+
+private:
+  std::string m_name;
+  std::ofstream m_stream;
+};
 
 //! cells.csv and motion.csv.
 class Tables
@@ -269,7 +295,8 @@ private:
     m_results.calibrated->calibration.saveXml(out.file("calibration.xml"));
   }
 
-  static vpPatternTracker makeTracker(const Window &window, const vpPatternTrackerSpec &options, const std::string &name)
+  static vpPatternTracker makeTracker(const Window &window, const vpPatternTrackerSpec &options,
+                                      const std::string &name)
   {
     try {
       return vpPatternTracker(window.width(), window.height(), options);

@@ -4,16 +4,21 @@
  */
 /*!
  * \file truth.h
- * \brief Ground truth of the cells, if known.
+ * \brief Ground truth of the cells, if known, and results compared with it.
  */
 #ifndef trackPattern_truth_h
 #define trackPattern_truth_h
 
+#include "results.h"
+
 #include <visp3/rendering/vpProductPattern.h>
 
 #include <filesystem>
+#include <map>
 #include <optional>
+#include <tuple>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 VISP_DIRECT_USING_NAMESPACE
@@ -40,6 +45,23 @@ public:
 
 private:
   std::unordered_map<unsigned int, FrameTruth> m_frames;
+};
+
+/*!
+ * \brief Compares frame by frame; stores which true cell each name belongs to.
+ */
+class Comparison
+{
+public:
+  //! \param left, top : Corner of the tracked region, px. Sets the true displacement in \e record.
+  void add(const vpPatternFrame &frame, const FrameTruth &truth, double left, double top, FrameRecord &record,
+           RunResults &results);
+  //! A frame without truth interrupts the displacements.
+  void skip() { m_before.reset(); }
+
+private:
+  std::optional<FrameTruth> m_before;
+  std::map<std::tuple<unsigned int, int, int>, std::pair<int, int>> m_names;
 };
 } // namespace trackPattern
 

@@ -9,7 +9,7 @@
 #include "testFolder.h"
 
 #include "appMain.h"
-#include "calibrationFile.h"
+#include "calibration.h"
 #include "design.h"
 #include "greyPicture.h"
 #include "lineReader.h"

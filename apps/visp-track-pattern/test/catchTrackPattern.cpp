@@ -5,11 +5,10 @@
 // The parts: truth, calibrations as files, comparison, figures.
 #include "vpCatch.h"
 
-#include "calibrationFile.h"
-#include "calibrationRun.h"
-#include "comparison.h"
-#include "figures.h"
+#include "calibration.h"
+#include "report.h"
 #include "testFolder.h"
+#include "truth.h"
 
 #include <cmath>
 #include <filesystem>

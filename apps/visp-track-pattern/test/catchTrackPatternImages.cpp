@@ -5,7 +5,7 @@
 // Real images: the dot grids and the film of marks of visp-images-data.
 #include "vpCatch.h"
 
-#include "fileNames.h"
+#include "sources.h"
 
 #include "greyPicture.h"
 

@@ -23,9 +23,7 @@ namespace
 {
 using nlohmann::json;
 
-constexpr int OK = 0;
-constexpr int DATA = 1;
-constexpr int USAGE = 2;
+constexpr int OK = 0, DATA = 1, USAGE = 2; // exit status
 
 //! \brief A table with a heading.
 struct Table {
@@ -43,10 +41,11 @@ std::vector<std::string> split(const std::string &line)
   return parts;
 }
 
-Table tableOf(const std::string &csv)
+//! A CSV file in the folder of \e run.
+Table tableIn(const ProgramRun &run, const std::string &file)
 {
   Table table;
-  std::istringstream stream(csv);
+  std::istringstream stream(vpApp::readFile(run.path(file)));
   std::string line;
   std::getline(stream, line);
   table.heading = split(line);
@@ -66,10 +65,11 @@ double number(const std::map<std::string, std::string> &line, const std::string 
   return std::stod(line.at(name));
 }
 
-json summaryIn(const ProgramRun &run, const std::string &folder)
-{
-  return json::parse(vpApp::readFile(run.path(folder + "/summary.json")));
-}
+json jsonIn(const ProgramRun &run, const std::string &file) { return json::parse(vpApp::readFile(run.path(file))); }
+json summaryIn(const ProgramRun &run, const std::string &folder) { return jsonIn(run, folder + "/summary.json"); }
+
+//! Name of an image of visp-generate-pattern.
+std::string imageName(int i) { return (i < 10 ? "00000" : "0000") + std::to_string(i) + ".png"; }
 
 //! A sequence of visp-generate-pattern in the folder of \e run.
 void generate(const ProgramRun &run, const std::string &arguments)
@@ -108,14 +108,14 @@ TEST_CASE("Without input it tracks its own sequence and says how far it is from 
                            "Settings", "data:video/mp4", "data:image/svg+xml"}) {
     CHECK(page.find(part) != std::string::npos);
   }
-  const Table motion = tableOf(vpApp::readFile(run.path("out/track-pattern/motion.csv")));
+  const Table motion = tableIn(run, "out/track-pattern/motion.csv");
   CHECK(motion.heading == split("frame,dx,dy,sigma,status,microseconds,sigma_dx,sigma_dy,reason,epoch,valid_cells"));
   REQUIRE(motion.lines.size() == 130);
   CHECK(motion.lines[0].at("dx") == "nan");
   CHECK(motion.lines[129].at("status") == "Tracking");
   CHECK(number(motion.lines[129], "sigma") ==
         Approx(std::hypot(number(motion.lines[129], "sigma_dx"), number(motion.lines[129], "sigma_dy"))).margin(2e-5));
-  const Table cells = tableOf(vpApp::readFile(run.path("out/track-pattern/cells.csv")));
+  const Table cells = tableIn(run, "out/track-pattern/cells.csv");
   CHECK(cells.heading == split("frame,row,column,x,y,sigma_x,sigma_y,valid,epoch"));
   CHECK(cells.lines.size() > 130 * 6);
 }
@@ -124,15 +124,12 @@ TEST_CASE("The folder of visp-generate-pattern brings its truth, a region keeps 
 {
   ProgramRun run(TRACK_PATTERN);
   generate(run, "--noise 4 --frames 90 --motion 3.3 0.4 --width 200 --height 120 --out d");
-  struct Case {
-    std::string arguments;
-    std::size_t images;
-  };
-  for (const Case &c : {Case{"d", 90}, Case{"d/frames --roi 20,10,160,100", 90}, Case{"d/ --frames 80", 80}}) {
-    CAPTURE(c.arguments);
-    REQUIRE(run(c.arguments + " --overlay none --out t") == OK);
+  for (const auto &[arguments, images] : std::vector<std::pair<std::string, std::size_t>>{
+           {"d", 90}, {"d/frames --roi 20,10,160,100", 90}, {"d/ --frames 80", 80}}) {
+    CAPTURE(arguments);
+    REQUIRE(run(arguments + " --overlay none --out t") == OK);
     const json summary = summaryIn(run, "t");
-    CHECK(summary["images"] == c.images);
+    CHECK(summary["images"] == images);
     const json &errors = summary["errors"]["tracking"];
     CHECK(errors["x"]["number"].get<int>() > 100);
     CHECK(std::abs(errors["x"]["mean_px"].get<double>()) < 0.01);
@@ -140,8 +137,8 @@ TEST_CASE("The folder of visp-generate-pattern brings its truth, a region keeps 
     CHECK(errors["dx"]["sigma_px"].get<double>() < 0.02);
     CHECK_FALSE(std::filesystem::exists(run.path("t/overlay.mp4")));
     // Checks the table itself, not only the program's comparison.
-    const Table truth = tableOf(vpApp::readFile(run.path("d/truth.csv")));
-    const Table cells = tableOf(vpApp::readFile(run.path("t/cells.csv")));
+    const Table truth = tableIn(run, "d/truth.csv");
+    const Table cells = tableIn(run, "t/cells.csv");
     const std::string last = cells.lines.back().at("frame");
     int compared = 0;
     for (const auto &cell : cells.lines) {
@@ -195,7 +192,7 @@ TEST_CASE("The product calibrates the microscope, and then places are micrometre
   generate(run, "--noise 4 --frames 100 --motion 3.3 0.4 --out d");
   REQUIRE(run("d --calibrate --pitch-um 220 80 --overlay none --out scale") == OK);
   CHECK(run.out().find("The distortion kappa1 is unobservable and taken as 0") != std::string::npos);
-  const json calibration = json::parse(vpApp::readFile(run.path("scale/calibration.json")));
+  const json calibration = jsonIn(run, "scale/calibration.json");
   CHECK(1e6 / calibration["scale_x_px_per_m"].get<double>() == Approx(4.5).epsilon(2e-3));
   CHECK(calibration["quality"]["kappa1_status"] == "Unobservable");
   for (const std::string file : {"scale/calibration.json", "scale/calibration.xml"}) {
@@ -203,9 +200,9 @@ TEST_CASE("The product calibrates the microscope, and then places are micrometre
     REQUIRE(run("d --overlay none --out um --calibration " + file) == OK);
     CHECK(run.out().find("In micrometres: 4.5") != std::string::npos);
     CHECK(vpApp::readFile(run.path("um/motion.csv")).find("-nan") == std::string::npos);
-    const Table motion = tableOf(vpApp::readFile(run.path("um/motion.csv")));
+    const Table motion = tableIn(run, "um/motion.csv");
     CHECK(number(motion.lines.back(), "dx_um") == Approx(4.5 * number(motion.lines.back(), "dx")).epsilon(5e-3));
-    const Table cells = tableOf(vpApp::readFile(run.path("um/cells.csv")));
+    const Table cells = tableIn(run, "um/cells.csv");
     const auto &a = cells.lines[cells.lines.size() - 2], &b = cells.lines.back();
     CHECK(number(b, "x_um") - number(a, "x_um") ==
           Approx(4.5 * (number(b, "x") - number(a, "x"))).epsilon(0.01).margin(0.5));
@@ -220,7 +217,7 @@ TEST_CASE("A still grid of dots calibrates by single images", "[visp-track-patte
            "--shape dot --pitch-x 30 --pitch-y 30 --opening-x 14 --opening-y 14 --width 320 --height 240 --noise 2 "
            "--frames 3 --motion 0 0 --rotation 3 --out d");
   REQUIRE(run("d --calibrate --dot-grid --pitch-um 90 90 --overlay none --out scale") == OK);
-  const json calibration = json::parse(vpApp::readFile(run.path("scale/calibration.json")));
+  const json calibration = jsonIn(run, "scale/calibration.json");
   CHECK(1e6 / calibration["scale_x_px_per_m"].get<double>() == Approx(3.).epsilon(1e-3));
   CHECK(calibration["rotation_deg"].get<double>() == Approx(3.).margin(0.05));
   CHECK(calibration["quality"]["views"] == 3);
@@ -234,8 +231,8 @@ TEST_CASE("A hexagonal grid is calibrated as one, and never as a square one", "[
   for (int row = -40; row <= 40; ++row) {
     for (int column = -60; column <= 60; ++column) {
       const double x = pitch * (column + 0.5 * row), y = pitch * 0.5 * std::sqrt(3.) * row;
-      const double u = 320. + std::cos(angle) * x - std::sin(angle) * y;
-      const double v = 240. + std::sin(angle) * x + std::cos(angle) * y;
+      const double u = 320. + std::cos(angle) * x - std::sin(angle) * y,
+                   v = 240. + std::sin(angle) * x + std::cos(angle) * y;
       constexpr double fine = 16.; // of cv::circle's shift
       cv::circle(grid, cv::Point(cvRound(fine * u), cvRound(fine * v)), cvRound(fine * 6.), cv::Scalar(200), cv::FILLED,
                  cv::LINE_AA, 4);
@@ -245,10 +242,9 @@ TEST_CASE("A hexagonal grid is calibrated as one, and never as a square one", "[
   REQUIRE(run("hexagonal.png --calibrate --dot-grid --pitch-um 24 24 --overlay none --out scale") == OK);
   CHECK(run.out().find("are on a hexagonal lattice") != std::string::npos);
   CHECK(run.out().find("whose axes are at ") != std::string::npos);
-  const json calibration = json::parse(vpApp::readFile(run.path("scale/calibration.json")));
+  const json calibration = jsonIn(run, "scale/calibration.json");
   CHECK(calibration["scale_x_px_per_m"].get<double>() == Approx(1e6).epsilon(1e-3));
-  const json summary = json::parse(vpApp::readFile(run.path("scale/summary.json")));
-  CHECK(summary["calibrated"]["reliable"] == calibration["quality"]["reliable"]);
+  CHECK(summaryIn(run, "scale")["calibrated"]["reliable"] == calibration["quality"]["reliable"]);
   CHECK(run("hexagonal.png --calibrate --dot-grid --pitch-um 24 24 --axes-deg 60 --overlay none --out same") == OK);
   CHECK(run("hexagonal.png --calibrate --dot-grid --pitch-um 24 24 --axes-deg 90 --overlay none --out square") == DATA);
   CHECK(run.err().find("--calibrate: the points do not fit, no calibration is written. ") != std::string::npos);
@@ -279,9 +275,8 @@ TEST_CASE("Videos and colour images are read", "[visp-track-pattern]")
   CHECK(summary["lattice"]["column_pitch_px"].get<double>() == Approx(220. / 4.5).epsilon(0.01));
   std::filesystem::create_directory(run.path("colour"));
   for (int i = 0; i < 3; ++i) {
-    const std::string name = "/00000" + std::to_string(i) + ".png";
-    cv::Mat grey = cv::imread(run.path("d/frames" + name).string(), cv::IMREAD_COLOR);
-    cv::imwrite(run.path("colour" + name).string(), grey);
+    cv::Mat grey = cv::imread(run.path("d/frames/" + imageName(i)).string(), cv::IMREAD_COLOR);
+    cv::imwrite(run.path("colour/" + imageName(i)).string(), grey);
   }
   REQUIRE(run("colour --overlay none --out t") == OK);
   CHECK(run.out().find("The images are in colour; they were made grey.") != std::string::npos);
@@ -296,7 +291,7 @@ TEST_CASE("Images without a pattern end with status 1 and a whole report", "[vis
   CHECK(run.err().find("visp-track-pattern: no pattern was found; the report shows the images as they were read") !=
         std::string::npos);
   CHECK(std::filesystem::exists(run.path("t/report.html")));
-  CHECK(tableOf(vpApp::readFile(run.path("t/motion.csv"))).lines.size() == 1);
+  CHECK(tableIn(run, "t/motion.csv").lines.size() == 1);
 }
 
 TEST_CASE("Across a gap in the numbers there is no displacement, a new epoch begins, and it is said",
@@ -308,8 +303,7 @@ TEST_CASE("Across a gap in the numbers there is no displacement, a new epoch beg
   std::filesystem::create_directory(run.path("gap"));
   for (int i = 0; i < 100; ++i) {
     if (i < 70 || i >= 79) {
-      const std::string name = (i < 10 ? "00000" : "0000") + std::to_string(i) + ".png";
-      std::filesystem::copy_file(run.path("d/frames/" + name), run.path("gap/" + name));
+      std::filesystem::copy_file(run.path("d/frames/" + imageName(i)), run.path("gap/" + imageName(i)));
     }
   }
   REQUIRE(run("gap --overlay none --out t") == OK);
@@ -318,7 +312,7 @@ TEST_CASE("Across a gap in the numbers there is no displacement, a new epoch beg
   CHECK(run.out().find(remark) != std::string::npos);
   CHECK(summaryIn(run, "t")["remarks"] == json::array({remark}));
   CHECK(vpApp::readFile(run.path("t/report.html")).find(remark) != std::string::npos);
-  const Table motion = tableOf(vpApp::readFile(run.path("t/motion.csv")));
+  const Table motion = tableIn(run, "t/motion.csv");
   REQUIRE(motion.lines.size() == 91);
   for (std::size_t i = 1; i < motion.lines.size(); ++i) {
     const auto &line = motion.lines[i];
@@ -352,7 +346,7 @@ TEST_CASE("Ctrl-C ends a run with a report of what was seen", "[visp-track-patte
   CHECK(summary["status"] == "interrupted");
   const auto images = summary["images"].get<std::size_t>();
   CHECK(images >= 70);
-  CHECK(tableOf(vpApp::readFile(run.path("t/motion.csv"))).lines.size() == images);
+  CHECK(tableIn(run, "t/motion.csv").lines.size() == images);
   const std::string sentence =
       "The run was interrupted after " + std::to_string(images) + " of 5000000 images; all below holds for these.";
   CHECK(summary["findings"][0] == sentence);
@@ -376,7 +370,7 @@ TEST_CASE("After a failure what was measured stays, marked as incomplete", "[vis
   const json unfinished = summaryIn(run, "t/unfinished-run");
   CHECK(unfinished["status"] == "unfinished");
   CHECK(unfinished["reason"] == "sizes/5.png: has 161 x 100 px, sizes/0.png has 160 x 100 px");
-  CHECK(tableOf(vpApp::readFile(run.path("t/unfinished-run/motion.csv"))).lines.size() == 5);
+  CHECK(tableIn(run, "t/unfinished-run/motion.csv").lines.size() == 5);
 
   // A failed calibration does not discard the measurement.
   for (const auto &[arguments, reason] : std::vector<std::pair<std::string, std::string>>{
@@ -390,7 +384,7 @@ TEST_CASE("After a failure what was measured stays, marked as incomplete", "[vis
     CHECK(run.out().find("Incomplete: " + reason) == 0);
     const json summary = summaryIn(run, "u");
     CHECK(summary["status"] == "incomplete");
-    CHECK(tableOf(vpApp::readFile(run.path("u/motion.csv"))).lines.size() == summary["images"].get<std::size_t>());
+    CHECK(tableIn(run, "u/motion.csv").lines.size() == summary["images"].get<std::size_t>());
     CHECK_FALSE(std::filesystem::exists(run.path("u/calibration.json")));
   }
 }
@@ -402,10 +396,8 @@ TEST_CASE("Images of 16 bits are scaled by the range of their data, and it is sa
   generate(run, "--noise 4 --frames 70 --motion 3.3 0.4 --out d");
   std::vector<cv::Mat> pages;
   for (int i = 0; i < 70; ++i) {
-    const std::string name = (i < 10 ? "00000" : "0000") + std::to_string(i) + ".png";
-    const cv::Mat grey = cv::imread(run.path("d/frames/" + name).string(), cv::IMREAD_GRAYSCALE);
-    pages.emplace_back();
-    grey.convertTo(pages.back(), CV_16U, 4095. / 255.);
+    const cv::Mat grey = cv::imread(run.path("d/frames/" + imageName(i)).string(), cv::IMREAD_GRAYSCALE);
+    grey.convertTo(pages.emplace_back(), CV_16U, 4095. / 255.);
   }
   cv::imwrite(run.path("stack.tif").string(), pages);
   REQUIRE(run("stack.tif --overlay none --out t") == OK);

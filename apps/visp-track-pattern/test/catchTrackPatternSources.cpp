@@ -5,9 +5,8 @@
 // Files, stacks, videos and cameras: gaps, unreadable images, depth.
 #include "vpCatch.h"
 
-#include "fileSource.h"
+#include "sources.h"
 #include "testFolder.h"
-#include "videoSource.h"
 
 #include <opencv2/imgcodecs.hpp>
 

@@ -3,18 +3,19 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 /*!
- * \file calibrationRun.h
- * \brief Collects views of the product during tracking, and calibrates the microscope from them.
+ * \file calibration.h
+ * \brief Calibration of the microscope from views of the product collected during tracking, and calibrations as files.
  */
-#ifndef trackPattern_calibrationRun_h
-#define trackPattern_calibrationRun_h
+#ifndef trackPattern_calibration_h
+#define trackPattern_calibration_h
 
 #include "options.h"
 
+#include <visp3/core/vpImage.h>
 #include <visp3/pattern/vpPatternFrame.h>
 #include <visp3/pattern/vpPlanarMicroscopeCalibration.h>
 
-#include <visp3/core/vpImage.h>
+#include <nlohmann/json.hpp>
 
 #include <string>
 #include <vector>
@@ -45,6 +46,17 @@ private:
   std::string m_complaint; // message of the last image without a grid
   std::string m_grid;      // description of the last image with a grid
 };
+
+//! A result as the content of calibration.json.
+[[nodiscard]] nlohmann::ordered_json jsonOf(const vpMicroscopeCalibrationResult &result, std::size_t views);
+
+/*!
+ * Read a file written by jsonOf(), or a ViSP camera file if the name ends in .xml.
+ * \param cameraName : Name of the camera in an XML file. \param width, height : Size of the images, px.
+ * \throw std::runtime_error naming the file and the field; also if it is for images of another size.
+ */
+[[nodiscard]] vpMicroscopeCalibration readCalibration(const std::string &file, const std::string &cameraName,
+                                                      unsigned int width, unsigned int height);
 } // namespace trackPattern
 
 #endif
