@@ -11,6 +11,8 @@
 
 #include "episode.h"
 
+#include "plot.h"
+
 namespace avoidObstacle
 {
 //! \brief A figure for the page: a drawing, an image, or an HTML fragment.
@@ -42,6 +44,17 @@ struct Rates {
 [[nodiscard]] Rates ratesOf(const std::vector<Eigen::Vector3d> &places, double period);
 //! Tool positions at the commanded configurations, m.
 [[nodiscard]] std::vector<Eigen::Vector3d> commandedWay(const vpAvoidanceRun &run);
+
+// Motions in the plane, as in the figures of chapter 8.
+
+//! Path as a curve. \param thin : Keep every thin-th point.
+[[nodiscard]] vpApp::PlotCurve wayCurve(const std::string &label, const std::string &colour,
+                                        const std::vector<Eigen::Vector2d> &way, std::size_t thin = 1);
+//! Single positions as points.
+[[nodiscard]] vpApp::PlotCurve placeCurve(const std::string &label, const std::string &colour,
+                                          const std::vector<Eigen::Vector2d> &places);
+//! Map: x to the right, y up, to scale.
+[[nodiscard]] vpApp::Plot wayPlot(const std::string &title);
 } // namespace avoidObstacle
 
 #endif

@@ -7,8 +7,7 @@
 #include "options.h"
 #include "replicas.h"
 #include "reportPage.h"
-#include "summary.h"
-#include "tables.h"
+#include "results.h"
 
 #include "appMain.h"
 #include "outputFolder.h"
@@ -44,6 +43,27 @@ std::vector<Figure> drawAll(const PhotoScene &scene, const Options &options, con
           animate(episode.run, title), drawViews(episode), drawTracks(scene, episode), drawTimes(episode.run)};
 }
 
+//! Writes figures, page and summary, and prints the findings.
+void finish(vpApp::OutputFolder &out, const std::vector<Figure> &figures, const std::string &page,
+            const nlohmann::ordered_json &summary, const std::vector<std::string> &findings)
+{
+  for (const Figure &figure : figures) {
+    if (!figure.svg.empty()) {
+      out.write("figure/" + figure.name + ".svg", figure.svg);
+    }
+  }
+  out.write("report.html", page);
+  out.writeSummary(summary);
+  vpApp::throwIfInterrupted();
+  out.commit();
+  for (const std::string &sentence : findings) {
+    std::cout << sentence << "\n";
+  }
+  std::cout << "Report: " << (out.path() / "report.html").string() << std::endl;
+}
+
+double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
 void repeat(const Options &options, const std::string &commandLine)
 {
   const auto start = Clock::now();
@@ -53,20 +73,8 @@ void repeat(const Options &options, const std::string &commandLine)
   for (const auto &[name, content] : replica.tables) {
     out.write(name, content);
   }
-  for (const Figure &figure : replica.figures) {
-    if (!figure.svg.empty()) {
-      out.write("figure/" + figure.name + ".svg", figure.svg);
-    }
-  }
-  out.write("report.html", replicaPage(replica, commandLine));
-  const double wallTime = std::chrono::duration<double>(Clock::now() - start).count();
-  out.writeSummary(summaryOf(replica, options, commandLine, wallTime));
-  vpApp::throwIfInterrupted();
-  out.commit();
-  for (const std::string &sentence : replica.findings) {
-    std::cout << sentence << "\n";
-  }
-  std::cout << "Report: " << (out.path() / "report.html").string() << std::endl;
+  const std::string page = replicaPage(replica, commandLine);
+  finish(out, replica.figures, page, summaryOf(replica, options, commandLine, secondsSince(start)), replica.findings);
 }
 
 //! \return False when the moving arm hit something.
@@ -89,20 +97,9 @@ bool avoid(const Options &options, const std::string &commandLine)
     film.bytes = options.record ? vpApp::readFile(out.file(film.name)) : "";
   }
   const std::vector<Figure> figures = drawAll(scene, options, episode);
-  for (const Figure &figure : figures) {
-    if (!figure.svg.empty()) {
-      out.write("figure/" + figure.name + ".svg", figure.svg);
-    }
-  }
-  out.write("report.html", reportPage(scene, options, episode, figures, film, commandLine));
-  const double wallTime = std::chrono::duration<double>(Clock::now() - start).count();
-  out.writeSummary(summaryOf(scene, options, episode, commandLine, wallTime));
-  vpApp::throwIfInterrupted();
-  out.commit();
-  for (const std::string &sentence : findingsOf(scene, options, episode)) {
-    std::cout << sentence << "\n";
-  }
-  std::cout << "Report: " << (out.path() / "report.html").string() << std::endl;
+  const std::string page = reportPage(scene, options, episode, figures, film, commandLine);
+  finish(out, figures, page, summaryOf(scene, options, episode, commandLine, secondsSince(start)),
+         findingsOf(scene, options, episode));
   return episode.run.metrics.collisions_moving == 0;
 }
 } // namespace

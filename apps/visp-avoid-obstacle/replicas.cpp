@@ -4,7 +4,16 @@
  */
 #include "replicas.h"
 
+#include "planeMotion.h"
+
+#include "numberText.h"
+#include "timePlot.h"
+
+#include <algorithm>
+#include <cmath>
 #include <map>
+#include <memory>
+#include <random>
 
 namespace avoidObstacle
 {
@@ -40,4 +49,343 @@ const std::vector<std::string> &replicaNames()
 const std::string &replicaTitle(const std::string &name) { return entries().at(name).title; }
 
 Replica playReplica(const Options &options) { return entries().at(options.replica).play(options); }
+
+// Figure 8.6: a potential field as printed, with two sets of parameters.
+
+namespace
+{
+using Eigen::Vector2d;
+using vpApp::number;
+
+constexpr double REACHED = 0.005; // m
+constexpr int CIRCLE_POINTS = 90;
+
+std::vector<Vector2d> circle(const Vector2d &centre, double radius)
+{
+  std::vector<Vector2d> points;
+  for (int i = 0; i <= CIRCLE_POINTS; ++i) {
+    const double angle = 2. * M_PI * i / CIRCLE_POINTS;
+    points.emplace_back(centre + radius * Vector2d(std::cos(angle), std::sin(angle)));
+  }
+  return points;
+}
+
+vpApp::Plot draw(const FieldTask &task, const FieldMotion &motion, const FieldMotion &undisturbed,
+                 const std::string &title)
+{
+  vpApp::Plot plot = wayPlot(title);
+  plot.curves = {wayCurve("way", "#d62728", motion.way, 4), wayCurve("without obstacle", "#999999", undisturbed.way, 4),
+                 placeCurve("vias and end", "#1f77b4", task.places), placeCurve("obstacle", "#000000", {task.obstacle}),
+                 wayCurve("distance d_0: half the weight", "#000000", circle(task.obstacle, motion.weight.centre))};
+  plot.curves[1].style = plot.curves.back().style = vpApp::PlotStyle::Dashed;
+  plot.curves.back().width = 1.;
+  return plot;
+}
+
+std::string csvOf(const FieldMotion &motion)
+{
+  std::string csv = "time_s,x_m,y_m,weight\n";
+  for (std::size_t i = 0; i < motion.times.size(); ++i) {
+    csv += number(motion.times[i], 7) + "," + number(motion.way[i].x(), 9) + "," + number(motion.way[i].y(), 9) + "," +
+           number(motion.weights[i], 9) + "\n";
+  }
+  return csv;
+}
+
+std::string missedText(const FieldMotion &motion)
+{
+  std::vector<std::string> parts;
+  for (const double m : motion.missed) {
+    parts.push_back(number(1000. * m, 3));
+  }
+  return vpApp::enumerate(parts) + " mm";
+}
+
+void add(const char *name, const FieldMotion &motion, Replica &replica)
+{
+  replica.tables.emplace_back(std::string("samples-") + name + ".csv", csvOf(motion));
+  replica.numbers[name] = {{"d0_m", motion.weight.centre},
+                           {"ks_m", motion.weight.width},
+                           {"missed_m", motion.missed},
+                           {"end_m", {motion.way.back().x(), motion.way.back().y()}},
+                           {"end_reached", motion.missed.back() < REACHED},
+                           {"peak_v", motion.peakSpeed}};
+}
+} // namespace
+
+Replica playFieldReplica(const Options &options)
+{
+  Replica replica;
+  replica.name = options.replica;
+  replica.title = replicaTitle(options.replica);
+  const FieldTask task;
+  const FieldMotion strict = followField(task, strictField()), mild = followField(task, mildField()),
+                    undisturbed = followField(task, mildField(), false);
+  const bool strictFails = strict.missed.back() >= REACHED, mildReaches = mild.missed.back() < REACHED;
+  replica.findings = {"With the strict parameters the point ends " + number(1000. * strict.missed.back(), 3) +
+                          " mm from its end and " + (strictFails ? "does not reach it" : "reaches it") +
+                          ", with the mild ones " + number(1000. * mild.missed.back(), 3) +
+                          " mm from it, which counts as " + (mildReaches ? "reached." : "missed."),
+                      "Nothing is known of speeds beforehand: they go up to " + number(strict.peakSpeed, 3) + " and " +
+                          number(mild.peakSpeed, 3) +
+                          " m/s and jump where a new position is given or the obstacle comes into view."};
+  replica.comparisons = {{"strict (upper): end reached", "no", strictFails ? "no" : "yes", strictFails},
+                         {"mild (lower): end reached", "yes", mildReaches ? "yes" : "no", mildReaches},
+                         {"strict: vias reached", "no", "missed by " + missedText(strict) + " (the end last)",
+                          strict.missed[1] >= REACHED},
+                         {"mild stays closer to the way without obstacle", "yes",
+                          "missed by " + missedText(mild) + " (the end last)", mild.missed[1] < strict.missed[1]},
+                         {"bounds on speed and acceleration", "none", "none"},
+                         {"clearance", "not given",
+                          number(1000. * (strict.way.back() - task.obstacle).norm(), 3) + " and " +
+                              number(1000. * (mild.way.back() - task.obstacle).norm(), 3) +
+                              " mm from the obstacle's centre in the end"}};
+  replica.choices = {
+      "The thesis gives no numbers: places, obstacle, d_0 = 0.12 and 0.06 m, k_s = 0.06 and 0.03 m, w_s = 0.5, gain 2 "
+      "/s "
+      "and x'_oa = 0.25 m/s are ours. Distances are in m instead of px, which is a matter of scale.",
+      "As in the text only x is affected by the obstacle; the camera sees it while it is within 0.2 m along y."};
+  add("strict", strict, replica);
+  add("mild", mild, replica);
+  vpApp::Plot weights = vpApp::timePlot("Weight of avoidance", "0..1");
+  weights.curves = {vpApp::timeCurve("strict", "#d62728", strict.times, strict.weights),
+                    vpApp::timeCurve("mild", "#1f77b4", mild.times, mild.weights)};
+  Figure figure;
+  figure.name = "motion";
+  figure.title = "The ways with strict (top) and mild (middle) parameters, and the weights";
+  figure.caption = "The circle is where the weight has fallen by half.";
+  figure.svg = vpApp::renderPanels(
+      {draw(task, strict, undisturbed, "Strict parameters"), draw(task, mild, undisturbed, "Mild parameters"), weights},
+      vpApp::PlotFormat::Svg);
+  replica.figures = {figure};
+  return replica;
+}
+
+// Figures 8.7, 8.9 and 8.13: simulations of a point in the plane.
+
+namespace
+{
+using Eigen::Vector2d;
+using vpApp::fixed;
+using vpApp::number;
+
+constexpr double ROUNDING = 1e-9;   // relative tolerance of a bound
+constexpr double GOAL_NOISE = 0.01; // m
+constexpr std::size_t THIN = 4;
+
+std::string text(const Vector2d &p) { return "[" + number(p.x(), 4) + ", " + number(p.y(), 4) + "] m"; }
+
+std::vector<Vector2d> wayOf(const PointMotion &motion)
+{
+  std::vector<Vector2d> way;
+  for (const PointSample &s : motion.samples) {
+    way.push_back(s.place);
+  }
+  return way;
+}
+
+double distanceFrom(const PointMotion &motion, const Vector2d &place)
+{
+  double least = HUGE_VAL;
+  for (const PointSample &s : motion.samples) {
+    least = std::min(least, (s.place - place).norm());
+  }
+  return least;
+}
+
+Figure draw(const PointTask &task, const PointMotion &motion)
+{
+  std::vector<double> times, x, y, goalX, goalY, speed, acceleration;
+  for (const PointSample &s : motion.samples) {
+    times.push_back(s.time);
+    x.push_back(s.place.x());
+    y.push_back(s.place.y());
+    goalX.push_back(s.goal.x());
+    goalY.push_back(s.goal.y());
+    speed.push_back(s.velocity.norm());
+    acceleration.push_back(s.acceleration.norm());
+  }
+  vpApp::Plot way = wayPlot("The way");
+  std::vector<Vector2d> vias, changes;
+  for (const PointEvent &event : task.events) {
+    changes.push_back(motion.samples[static_cast<std::size_t>(std::lround(event.time / pointPeriod))].place);
+    if (event.via) {
+      vias.push_back(*event.via);
+    }
+  }
+  way.curves = {wayCurve("way", "#d62728", wayOf(motion), THIN), placeCurve("start", "#555555", {task.start})};
+  if (!task.told) {
+    way.curves.push_back(wayCurve("straight on", "#999999", {task.start, task.goal}));
+    way.curves.back().style = vpApp::PlotStyle::Dashed;
+    way.curves.push_back(placeCurve("goal", "#1f77b4", {motion.samples.back().goal}));
+    way.curves.push_back(placeCurve("where it changed", "#2ca02c", changes));
+  }
+  if (!vias.empty()) {
+    way.curves.push_back(placeCurve("via", "#ff7f0e", vias));
+  }
+  vpApp::Plot place = vpApp::timePlot("Place", "m"), rate = vpApp::timePlot("Speed", "m/s"),
+              change = vpApp::timePlot("Acceleration", "m/s^2");
+  place.curves = {vpApp::timeCurve("x", "#1f77b4", times, x), vpApp::timeCurve("y", "#d62728", times, y),
+                  vpApp::timeCurve("goal x as given", "#9ecae1", times, goalX),
+                  vpApp::timeCurve("goal y as given", "#fcae91", times, goalY)};
+  rate.curves = {vpApp::timeCurve("speed", "#1f77b4", times, speed)};
+  change.curves = {vpApp::timeCurve("acceleration", "#1f77b4", times, acceleration)};
+  if (std::isfinite(task.maxSpeed)) {
+    vpApp::addLevel(rate, task.maxSpeed, "bound");
+  }
+  if (std::isfinite(task.maxAcceleration)) {
+    vpApp::addLevel(change, task.maxAcceleration, "bound");
+  }
+  Figure figure;
+  figure.name = "motion";
+  figure.title = "Way, place, speed and acceleration";
+  figure.caption = "Norms over both axes, of the point as commanded at 1 kHz.";
+  figure.svg = vpApp::renderPanels({way, place, rate, change}, vpApp::PlotFormat::Svg);
+  return figure;
+}
+
+std::string csvOf(const PointMotion &motion)
+{
+  std::string csv = "time_s,x_m,y_m,vx_mps,vy_mps,ax_mps2,ay_mps2,goal_x_m,goal_y_m\n";
+  for (const PointSample &s : motion.samples) {
+    csv += number(s.time, 7);
+    for (const Vector2d &v : {s.place, s.velocity, s.acceleration, s.goal}) {
+      csv += "," + number(v.x(), 9) + "," + number(v.y(), 9);
+    }
+    csv += "\n";
+  }
+  return csv;
+}
+
+void finish(const PointTask &task, const PointMotion &motion, Replica &replica)
+{
+  const Vector2d end = motion.samples.back().place, goal = motion.samples.back().goal;
+  replica.comparisons.push_back({"ends at", text(goal), text(end), (end - goal).norm() < 1e-6});
+  replica.comparisons.push_back({"duration", "not given", fixed(motion.arrival, 3) + " s"});
+  replica.comparisons.push_back(
+      {"clearance", "not given", "not known: the thesis does not say where the obstacle was"});
+  replica.figures.push_back(draw(task, motion));
+  replica.tables.emplace_back("samples.csv", csvOf(motion));
+  replica.numbers = {
+      {"arrived", motion.arrived},         {"arrival_s", motion.arrival},      {"peak_v", motion.peakSpeed},
+      {"peak_a", motion.peakAcceleration}, {"largest_step_of_a", motion.jump}, {"plans", motion.plans},
+      {"end_m", {end.x(), end.y()}},       {"goal_m", {goal.x(), goal.y()}},   {"clearance_m", nullptr}};
+}
+
+void compareSpeed(const PointTask &task, const PointMotion &motion, Replica &replica)
+{
+  const bool kept = motion.peakSpeed <= task.maxSpeed * (1. + ROUNDING);
+  replica.comparisons.push_back({"speed", "at most 0.5 m/s, not violated",
+                                 "at most " + number(motion.peakSpeed, 6) + " m/s, looked at every 0.1 ms", kept});
+  replica.comparisons.push_back(
+      {"acceleration", "no limit given", "up to " + number(motion.peakAcceleration, 3) + " m/s^2, continuous"});
+  replica.findings.push_back(
+      "The point went at no more than " + number(motion.peakSpeed, 6) + " m/s where " + number(task.maxSpeed, 3) +
+      " m/s are allowed, arrived after " + fixed(motion.arrival, 3) +
+      " s, and its acceleration was continuous: from one millisecond to the next it changed by " +
+      number(motion.jump, 3) + " m/s^2 at most.");
+}
+
+PointTask interrupted()
+{
+  PointTask task;
+  task.goal = {0., 0.3};
+  task.maxSpeed = 0.5;
+  task.events = {{0.1, {0.2, 0.3}, std::nullopt}};
+  task.duration = 0.;
+  return task;
+}
+
+PointTask throughVia()
+{
+  PointTask task;
+  task.goal = {0., 0.3};
+  task.maxSpeed = 0.5;
+  task.events = {{0.55, {0.125, 0.3}, Vector2d(0.18, 0.15)}};
+  task.duration = 0.;
+  return task;
+}
+
+//! Position of the object of figure 8.13.
+Vector2d objectAt(double t)
+{
+  const Vector2d a(0.1, 0.3), b(0.23, 0.13), c(0.14, 0.04);
+  return t < 0.9 ? Vector2d(a + std::clamp((t - 0.5) / 0.4, 0., 1.) * (b - a))
+                 : Vector2d(b + std::clamp((t - 1.7) / 0.2, 0., 1.) * (c - b));
+}
+
+PointTask following(unsigned int seed)
+{
+  PointTask task;
+  task.goal = objectAt(0.);
+  task.maxAcceleration = 1.;
+  task.floor = 0.4;
+  task.duration = 3.;
+  const auto random = std::make_shared<std::mt19937_64>(seed);
+  task.told = [random](double t) {
+    std::normal_distribution<double> noise(0., GOAL_NOISE);
+    const double dx = noise(*random), dy = noise(*random);
+    return Vector2d(objectAt(t) + (t < 1.9 ? Vector2d(dx, dy) : Vector2d::Zero()));
+  };
+  return task;
+}
+
+void compareFollowing(const PointTask &task, const PointMotion &motion, Replica &replica)
+{
+  const bool kept = motion.peakAcceleration <= task.maxAcceleration * (1. + ROUNDING);
+  double sum = 0., after = 0.;
+  for (const PointSample &s : motion.samples) {
+    sum += (s.place - objectAt(s.time)).squaredNorm();
+    after = s.time <= 1.7 ? (s.place - objectAt(s.time)).norm() : after;
+  }
+  const double rms = std::sqrt(sum / static_cast<double>(motion.samples.size()));
+  replica.comparisons.push_back({"acceleration", "at most 1 m/s^2, guaranteed",
+                                 "at most " + number(motion.peakAcceleration, 6) + " m/s^2, looked at every 0.1 ms",
+                                 kept});
+  replica.comparisons.push_back(
+      {"goal", "50 Hz of a 1 kHz loop, noise \"50 % standard deviation\"",
+       "50 Hz of a 1 kHz loop, noise of " + number(1000. * GOAL_NOISE, 3) + " mm (standard deviation of each axis)"});
+  replica.comparisons.push_back({"continuity", "place and acceleration continuous",
+                                 "acceleration changes by at most " + number(motion.jump, 3) + " m/s^2 in 1 ms"});
+  replica.findings.push_back("The point followed the object with no more than " + number(motion.peakAcceleration, 6) +
+                             " m/s^2 where " + number(task.maxAcceleration, 3) + " m/s^2 are allowed; it was off by " +
+                             number(1000. * rms, 3) + " mm (rms over all of it, setting out included) and by " +
+                             number(1000. * after, 3) + " mm when the object moved for the second time.");
+  replica.numbers["goal_noise_m"] = GOAL_NOISE;
+  replica.numbers["rms_distance_m"] = rms;
+}
+} // namespace
+
+Replica playPointReplica(const Options &options)
+{
+  Replica replica;
+  replica.name = options.replica;
+  replica.title = replicaTitle(options.replica);
+  const PointTask task = options.replica == "fig8.7"   ? interrupted()
+                         : options.replica == "fig8.9" ? throughVia()
+                                                       : following(options.seed);
+  const PointMotion motion = follow(task);
+  finish(task, motion, replica);
+  if (options.replica == "fig8.13") {
+    compareFollowing(task, motion, replica);
+    replica.choices = {
+        "\"50 % standard deviation\" has no unit; the noise here is 10 mm until the object rests at 1.9 s.",
+        "The time of arrival is kept from one goal to the next (KeepArrival), at least 0.4 s ahead."};
+    return replica;
+  }
+  compareSpeed(task, motion, replica);
+  const PointEvent &event = task.events.front();
+  replica.comparisons.insert(replica.comparisons.begin(),
+                             {"interrupted at", number(event.time, 3) + " s", number(event.time, 3) + " s"});
+  replica.choices = {"The first goal is not in the text; it is [0, 0.3] m, straight on.",
+                     "The text gives no bound on the acceleration, so there is none here."};
+  if (event.via) {
+    const double missed = distanceFrom(motion, *event.via);
+    replica.comparisons.push_back(
+        {"goes through", text(*event.via), "passes it at " + number(1000. * missed, 2) + " mm", missed < 1e-3});
+    replica.numbers["via_distance_m"] = missed;
+    replica.choices.emplace_back("When to be at the via is not given; it is half way in time from the event on.");
+  }
+  return replica;
+}
 } // namespace avoidObstacle

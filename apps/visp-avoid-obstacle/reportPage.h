@@ -9,9 +9,7 @@
 #ifndef avoidObstacle_reportPage_h
 #define avoidObstacle_reportPage_h
 
-#include "figures.h"
-#include "replicas.h"
-#include "findings.h"
+#include "results.h"
 
 #include "htmlReport.h"
 

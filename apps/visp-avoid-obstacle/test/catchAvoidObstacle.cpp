@@ -5,11 +5,8 @@
 // The parts of the program: replicas against independently computed values, and the findings of a run.
 #include "vpCatch.h"
 
-#include "fieldMotion.h"
-#include "figures.h"
-#include "pointMotion.h"
-#include "replicas.h"
-#include "findings.h"
+#include "planeMotion.h"
+#include "results.h"
 
 #include <array>
 #include <cmath>

@@ -3,13 +3,16 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 /*!
- * \file findings.h
- * \brief Course of a run, in numbers and in words.
+ * \file results.h
+ * \brief Course of a run in words and numbers: findings, the content of summary.json, CSV files.
  */
-#ifndef avoidObstacle_findings_h
-#define avoidObstacle_findings_h
+#ifndef avoidObstacle_results_h
+#define avoidObstacle_results_h
 
 #include "episode.h"
+#include "replicas.h"
+
+#include <nlohmann/json.hpp>
 
 #include <optional>
 
@@ -54,6 +57,22 @@ struct JointUse {
 //! Result in a few sentences: arrived or not and why, clearance, detections.
 [[nodiscard]] std::vector<std::string> findingsOf(const PhotoScene &scene, const Options &options,
                                                   const Episode &episode);
+
+//! Metrics of a run by the names of vpAvoidanceMetrics.
+[[nodiscard]] nlohmann::ordered_json metricsJson(const vpAvoidanceMetrics &metrics);
+//! Summary of a run, without the fields added by OutputFolder.
+[[nodiscard]] nlohmann::ordered_json summaryOf(const PhotoScene &scene, const Options &options, const Episode &episode,
+                                               const std::string &commandLine, double wallTime);
+//! Summary of a reproduced figure, without the fields added by OutputFolder.
+[[nodiscard]] nlohmann::ordered_json summaryOf(const Replica &replica, const Options &options,
+                                               const std::string &commandLine, double wallTime);
+
+//! samples.csv: one row per period of the loop.
+[[nodiscard]] std::string samplesCsv(const vpAvoidanceRun &run);
+//! tracks.csv: the track table of every period, one row per obstacle.
+[[nodiscard]] std::string tracksCsv(const SensorLog &sensorLog);
+//! frames.csv: one row per obstacle and image.
+[[nodiscard]] std::string framesCsv(const SensorLog &sensorLog);
 } // namespace avoidObstacle
 
 #endif
