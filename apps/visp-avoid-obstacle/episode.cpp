@@ -7,9 +7,7 @@
 #include "appMain.h"
 #include "progress.h"
 
-#include "lab/avoidance/vpDepthObstacleSensor.h"
-#include "lab/avoidance/vpImageObstacleSensor.h"
-#include "lab/avoidance/vpPoseSensor.h"
+#include "lab/avoidance/vpCameraObstacleSensors.h"
 #include <visp3/avoidance/vpDirectTrajectoryAvoidance.h>
 #include <visp3/direct_core/vpSO3.h>
 

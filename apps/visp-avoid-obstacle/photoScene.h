@@ -13,8 +13,8 @@
 
 #include <visp3/avoidance/vpCollisionSceneJson.h>
 #include <visp3/planar_target/vpPlanarTargetDatabase.h>
-#include "lab/avoidance/vpMovingObstacle.h"
 #include <visp3/rendering/vpSceneCamera.h>
+#include "lab/avoidance/vpAvoidanceRunSpec.h"
 
 #include <memory>
 

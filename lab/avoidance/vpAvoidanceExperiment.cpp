@@ -5,18 +5,141 @@
 #include "lab/avoidance/vpAvoidanceExperiment.h"
 
 #include "lab/avoidance/vpAvoidanceEvaluation.h"
-#include "lab/avoidance/vpMovingGoal.h"
-#include "lab/avoidance/vpPerceivedScene.h"
+#include "lab/avoidance/vpTrueScene.h"
 
 #include <visp3/core/vpException.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <deque>
 
 BEGIN_VISP_NAMESPACE
 
 namespace
 {
+constexpr double rounding = 1e-9; // s
+
+std::unique_ptr<vpObstacleSensor> makeSensor(const vpAvoidanceRunSpec &spec)
+{
+  if (spec.sight == vpObstacleSight::Custom) {
+    auto sensor = spec.makeSensor(spec.seed);
+    if (!sensor) {
+      throw vpException(vpException::badValue, "makeSensor of the avoidance experiment made no sensor");
+    }
+    return sensor;
+  }
+  std::vector<std::string> names;
+  for (const vpMovingObstacle &obstacle : spec.obstacles) {
+    names.push_back(obstacle.object.name);
+  }
+  return std::make_unique<vpPoseSensor>(names, spec.poses, spec.seed);
+}
+
+//! \brief Sensor, latency and tracks: converts the true scene to the one read by the method.
+class PerceivedScene
+{
+public:
+  explicit PerceivedScene(const vpAvoidanceRunSpec &spec);
+
+  /*!
+   * One period: exposes when due, processes arrived results, and updates the scene to the time \e t, s.
+   * \param q : True current configuration. \return True if a result arrived, even one without objects.
+   */
+  bool update(double t, const vpTrueScene &truth, const vpJointVector &q);
+  //! Perceived scene for the method.
+  [[nodiscard]] const vpCollisionScene &scene() const noexcept { return m_scene; }
+
+private:
+  struct Result {
+    double arrival = 0.;
+    std::vector<vpObjectSighting> sightings;
+  };
+  [[nodiscard]] bool isExposed(double t);
+  [[nodiscard]] bool isCovered(double t) const;
+  void copyExactly(const vpTrueScene &truth);
+
+  const vpAvoidanceRunSpec *m_spec;
+  vpCollisionScene m_scene;
+  std::unique_ptr<vpObstacleSensor> m_sensor;
+  vpObjectTracks m_tracks;
+  vpCollisionData m_data;
+  std::deque<Result> m_pending;
+  double m_nextFrame = 0.; // number of the next exposure
+  double m_now = 0.;
+};
+
+PerceivedScene::PerceivedScene(const vpAvoidanceRunSpec &spec)
+  : m_spec(&spec), m_scene(*spec.arm, spec.scene), m_sensor(makeSensor(spec)), m_tracks(spec.tracks)
+{}
+
+bool PerceivedScene::isExposed(double t)
+{
+  if (t < m_nextFrame / m_spec->visionRate - rounding) {
+    return false;
+  }
+  m_nextFrame += 1.;
+  return !isCovered(t);
+}
+
+bool PerceivedScene::isCovered(double t) const
+{
+  return std::any_of(m_spec->covered.begin(), m_spec->covered.end(),
+                     [t](const std::pair<double, double> &c) { return t >= c.first && t < c.second; });
+}
+
+void PerceivedScene::copyExactly(const vpTrueScene &truth)
+{
+  for (const vpMovingObstacle &obstacle : m_spec->obstacles) {
+    const int from = truth.scene().find(obstacle.object.name);
+    int to = m_scene.find(obstacle.object.name);
+    if (from >= 0 && to < 0) {
+      to = m_scene.add(truth.scene().object(from));
+    }
+    else if (from < 0 && to >= 0) {
+      m_scene.remove(to);
+    }
+    if (from >= 0) {
+      static_cast<void>(m_scene.moveObject(to, truth.scene().object(from).pose));
+      static_cast<void>(m_scene.setVelocity(to, truth.scene().object(from).velocity));
+    }
+  }
+}
+
+bool PerceivedScene::update(double t, const vpTrueScene &truth, const vpJointVector &q)
+{
+  const bool exposed = isExposed(t);
+  if (m_spec->sight == vpObstacleSight::Exact) {
+    m_scene.advance(t - m_now);
+    m_now = t;
+    if (exposed) {
+      copyExactly(truth);
+    }
+    return exposed;
+  }
+  if (exposed) {
+    Result result;
+    result.arrival = t + m_spec->latency;
+    truth.scene().place(q, m_data);
+    m_sensor->look(truth.scene(), m_data, t, result.sightings);
+    m_pending.push_back(std::move(result));
+  }
+  bool arrived = false;
+  while (!m_pending.empty() && m_pending.front().arrival <= t + rounding) {
+    for (const vpObjectSighting &sighting : m_pending.front().sightings) {
+      m_tracks.add(sighting);
+    }
+    m_pending.pop_front();
+    arrived = true;
+  }
+  m_tracks.advance(t);
+  static_cast<void>(m_tracks.applyTo(m_scene));
+  if (m_spec->watchTracks) {
+    m_spec->watchTracks(t, m_tracks.tracks());
+  }
+  return arrived;
+}
+
 constexpr double holdTime = 0.2;     // s that the arm must rest at the goal
 constexpr double patience = 1.;      // s that a method may report Arrived away from the goal
 constexpr double stuckTime = 3.;     // s without any motion
@@ -141,7 +264,7 @@ private:
   vpAvoidanceRun *m_run;
   const vpAvoidanceRunSpec *m_spec;
   vpTrueScene m_truth;
-  vpPerceivedScene m_perceived;
+  PerceivedScene m_perceived;
   vpMovingGoal m_goal;
   vpArmDrives m_drives;
   std::unique_ptr<vpAvoidanceMethod> m_method;

@@ -12,6 +12,70 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
+void requireGood(const std::string &name, const char *field, double value, bool good, const char *range)
+{
+  if (!good) {
+    throw vpException(vpException::badValue, "%s of obstacle %s is %g, must be %s", field, name.c_str(), value, range);
+  }
+}
+
+//! Travelled distance, as a time at full speed, and fraction of the speed; a reversal is centred on phase 0.
+struct Shuttle {
+  double way = 0.;
+  double speed = 1.;
+};
+
+Shuttle shuttleAt(double phase, double half, double turn)
+{
+  const double period = 2. * half;
+  phase -= period * std::floor(phase / period);
+  const bool back = phase > half;
+  const double p = back ? period - phase : phase;
+  Shuttle s;
+  if (p < 0.5 * turn) {
+    s = {p * p / turn, 2. * p / turn};
+  }
+  else if (p < half - 0.5 * turn) {
+    s = {p - 0.25 * turn, 1.};
+  }
+  else {
+    const double left = half - p;
+    s = {half - 0.5 * turn - left * left / turn, 2. * left / turn};
+  }
+  s.speed = back ? -s.speed : s.speed;
+  return s;
+}
+} // namespace
+
+void vpMovingObstacle::validate() const
+{
+  const std::string &name = object.name;
+  const double turning = object.velocity.angularNorm();
+  requireGood(name, "angular speed", turning, turning == 0., "0 rad/s");
+  requireGood(name, "turnTime", turnTime, turnTime > 0. && std::isfinite(turnTime), "> 0 s and finite");
+  requireGood(name, "turnAfter", turnAfter, turnAfter == 0. || (turnAfter > turnTime && std::isfinite(turnAfter)),
+              "0 or > turnTime, and finite");
+  requireGood(name, "appears", appears, appears >= 0. && std::isfinite(appears), ">= 0 s and finite");
+  requireGood(name, "vanishes", vanishes, vanishes > appears, "later than it appears");
+}
+
+void vpMovingObstacle::stateAt(double t, vpRigidTransform &pose, vpTwist &velocity) const noexcept
+{
+  double way = t, speed = 1.;
+  if (turnAfter > 0.) {
+    const double start = 0.5 * turnTime; // at full speed
+    const Shuttle now = shuttleAt(t + start, turnAfter, turnTime);
+    way = now.way - shuttleAt(start, turnAfter, turnTime).way;
+    speed = now.speed;
+  }
+  const Eigen::Vector3d v(object.velocity[0], object.velocity[1], object.velocity[2]);
+  pose = object.pose;
+  pose.p += way * v;
+  velocity = vpTwist(speed * v.x(), speed * v.y(), speed * v.z(), 0., 0., 0.);
+}
+
+namespace
+{
 void requireGood(const char *field, double value, bool good, const char *range)
 {
   if (!good || !std::isfinite(value)) {

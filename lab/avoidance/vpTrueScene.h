@@ -4,12 +4,16 @@
  */
 /*!
  * \file vpTrueScene.h
- * \brief True scene of an avoidance experiment.
+ * \brief True scene of an avoidance experiment, its true and reported goal, and a way to reach it.
  */
 #ifndef vpTrueScene_h
 #define vpTrueScene_h
 
 #include "lab/avoidance/vpAvoidanceRunSpec.h"
+
+#include <visp3/manipulator/vpArmKinematics.h>
+
+#include <random>
 
 BEGIN_VISP_NAMESPACE
 
@@ -39,6 +43,34 @@ private:
   std::vector<Obstacle> m_obstacles;
   double m_fastest = 0.;
 };
+
+//! \brief Goal moving along vpAvoidanceRunSpec::goalMoves.
+class vpMovingGoal
+{
+public:
+  explicit vpMovingGoal(const vpAvoidanceRunSpec &spec);
+
+  //! True goal at time \e t, s; its velocity counts as 0.
+  [[nodiscard]] vpAvoidanceGoal at(double t) const;
+  //! True if a goal update is due at time \e t; the first is at 0. Call once per period.
+  [[nodiscard]] bool isDue(double t);
+  //! Reported goal: with noise, and with matching joints.
+  [[nodiscard]] vpAvoidanceGoal told(double t);
+  //! Time at which the goal comes to rest finally, s.
+  [[nodiscard]] double end() const noexcept { return m_end; }
+
+private:
+  const vpAvoidanceRunSpec *m_spec;
+  std::mt19937_64 m_random;
+  double m_end;
+  double m_next = 0.; // number of the next update
+};
+
+/*!
+ * Finds a configuration near another one with the tool at a given position: damped Newton iteration on the end-effector position alone, within the position limits.
+ * \param q : Start; receives the result. \return False if the error exceeds 1e-9 m after 200 steps.
+ */
+[[nodiscard]] bool vpReachPoint(const vpArmModel &model, const Eigen::Vector3d &place, vpJointVector &q);
 
 END_VISP_NAMESPACE
 #endif

@@ -7,8 +7,7 @@
 
 #include <visp3/io/vpImageIo.h>
 #include <visp3/manipulator/vpArmJson.h>
-#include "lab/avoidance/vpDepthObstacleSensor.h"
-#include "lab/avoidance/vpImageObstacleSensor.h"
+#include "lab/avoidance/vpCameraObstacleSensors.h"
 
 #include <string>
 #include <vector>

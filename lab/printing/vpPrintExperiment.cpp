@@ -5,17 +5,159 @@
 #include "lab/printing/vpPrintExperiment.h"
 
 #include "lab/printing/vpPrintCellSensor.h"
-#include "lab/printing/vpPrintEvaluation.h"
-#include "lab/printing/vpPrintTruth.h"
+
+#include <visp3/simulation/vpXYStage.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
+#include <vector>
 
 BEGIN_VISP_NAMESPACE
 
 namespace
 {
+//! \brief True motion, stored for exposures and landings.
+class Truth
+{
+public:
+  //! \brief State at a time.
+  struct Point {
+    double t, x, y, vx, vy;
+  };
+  explicit Truth(const vpXYStageSpec &spec) : m_stage(spec) { remember(); }
+  void step(double fx, double fy, int share)
+  {
+    for (int i = 0; i < partsPerFrame / share; ++i) {
+      m_stage.step(1. / partsPerFrame, {{fx, fy}});
+      remember();
+    }
+  }
+  [[nodiscard]] double now() const { return m_points.back().t; }
+  [[nodiscard]] const Point &last() const { return m_points.back(); }
+  //! State at time \e t, cubic interpolation; at rest before the start.
+  [[nodiscard]] Point at(double t) const
+  {
+    if (t <= 0.) {
+      return {t, m_points[0].x, m_points[0].y, 0., 0.};
+    }
+    const auto i = std::min(static_cast<std::size_t>(t * partsPerFrame), m_points.size() - 2);
+    const Point &a = m_points[i], &b = m_points[i + 1];
+    const double h = b.t - a.t, s = (t - a.t) / h;
+    const auto cubic = [&](double p, double v, double q, double w) {
+      const double d = q - p, c = 3. * d - h * (2. * v + w), e = -2. * d + h * (v + w);
+      return p + s * (h * v + s * (c + s * e));
+    };
+    return {t, cubic(a.x, a.vx, b.x, b.vx), cubic(a.y, a.vy, b.y, b.vy), a.vx + s * (b.vx - a.vx),
+            a.vy + s * (b.vy - a.vy)};
+  }
+
+private:
+  static constexpr int partsPerFrame = 32;
+
+  void remember()
+  {
+    const vpXYStage::State &s = m_stage.state();
+    m_points.push_back({static_cast<double>(m_points.size()) / partsPerFrame, s.position[0], s.position[1],
+                        s.velocity[0], s.velocity[1]});
+  }
+  vpXYStage m_stage;
+  std::vector<Point> m_points;
+};
+
+//! \brief Passage of a cell at the nozzle.
+struct Pass {
+  int row, column;
+  double time;     //!< Time, frames.
+  double velocity; //!< Velocity in the printing direction, px/frame.
+  double x;        //!< True position of the cell at displacement 0, px.
+};
+
+void evaluateVelocities(vpPrintRun &run, const std::vector<Pass> &passes)
+{
+  const vpPrintExperimentSpec &spec = run.spec;
+  vpPrintMetrics &m = run.metrics;
+  double measured = 0., truth = 0.;
+  int count = 0;
+  for (std::size_t i = std::max<std::size_t>(1, static_cast<std::size_t>(spec.evaluateFrom)); i < run.samples.size();
+       ++i) {
+    const vpPrintSample &s = run.samples[i];
+    measured += std::pow(s.measuredVelocity - run.samples[i - 1].referenceVelocity, 2);
+    truth += std::pow(s.vx - s.referenceVelocity, 2);
+    ++count;
+  }
+  m.rms_velocity_error = std::sqrt(measured / std::max(1, count));
+  m.rms_true_velocity_error = std::sqrt(truth / std::max(1, count));
+  double centre = 0.;
+  count = 0;
+  for (const Pass &pass : passes) {
+    if (pass.time >= spec.evaluateFrom) {
+      const double error = std::fabs(pass.velocity - spec.dropVelocity);
+      centre += error * error;
+      m.centre_velocity_worst = std::max(m.centre_velocity_worst, error);
+      ++count;
+    }
+  }
+  m.centre_velocity_error = std::sqrt(centre / std::max(1, count));
+}
+
+void evaluateDrops(vpPrintRun &run, const std::vector<Pass> &passes, double end)
+{
+  const vpPrintExperimentSpec &spec = run.spec;
+  vpPrintMetrics &m = run.metrics;
+  std::sort(run.drops.begin(), run.drops.end(),
+            [](const vpPrintDrop &a, const vpPrintDrop &b) { return a.landTime < b.landTime; });
+  std::map<std::pair<int, int>, int> drops;
+  double sum = 0.;
+  int within = 0;
+  for (const vpPrintDrop &drop : run.drops) {
+    const double distance = std::hypot(drop.errorX, drop.errorY);
+    sum += distance * distance;
+    m.landing_worst_um = std::max(m.landing_worst_um, distance);
+    within += distance <= 10. ? 1 : 0;
+    ++drops[{drop.row, drop.column}];
+  }
+  const double n = static_cast<double>(run.drops.size());
+  m.landing_rms_um = n > 0. ? std::sqrt(sum / n) : 0.;
+  m.landed_within_10um = n > 0. ? within / n : 0.;
+  for (const auto &cell : drops) {
+    ++m.printed;
+    m.doubled += cell.second > 1 ? 1 : 0;
+  }
+  // The drop of a cell that passed in the last frames may still be pending.
+  for (const Pass &pass : passes) {
+    const bool over = pass.time + 4. + spec.travelTime + spec.electronicsDelay <= end;
+    m.missed += over && drops.count({pass.row, pass.column}) == 0 ? 1 : 0;
+  }
+  if (run.drops.size() > 1) {
+    const double time = run.drops.back().landTime - run.drops.front().landTime;
+    m.throughput_cells_per_s = (n - 1.) / time * spec.frameRate;
+  }
+  double constant = 0., taken = 0.;
+  for (std::size_t i = 1; i < passes.size(); ++i) {
+    if (passes[i].row == passes[i - 1].row) {
+      const double way = passes[i].x - passes[i - 1].x;
+      constant += std::fabs(way) / spec.dropVelocity;
+      taken += passes[i].time - passes[i - 1].time;
+    }
+  }
+  m.gain_over_constant = taken > 0. ? constant / taken - 1. : 0.;
+}
+
+/*!
+ * Computes the metrics of \e run, and sorts its drops by landing time.
+ * \param passes : Passages in printing order.
+ * \param end : End time of the run, frames.
+ */
+void evaluate(vpPrintRun &run, const std::vector<Pass> &passes, double end)
+{
+  run.metrics.frames = static_cast<int>(run.samples.size());
+  run.metrics.complete = static_cast<long>(passes.size()) == static_cast<long>(run.spec.rows) * run.spec.cellsPerRow;
+  evaluateVelocities(run, passes);
+  evaluateDrops(run, passes, end);
+}
+
 constexpr double longestTurn = 0.25;  // s that a row may take in addition to its cells
 constexpr double landedWithin = 10.;  // um: a late drop is still fired if it lands within this
 constexpr double rowOfNozzle = 0.225; // pitches across: a row passes the nozzle if it is nearer
@@ -60,7 +202,7 @@ public:
         break;
       }
     }
-    vpEvaluatePrintRun(m_run, m_passes, m_truth.now());
+    evaluate(m_run, m_passes, m_truth.now());
     return std::move(m_run);
   }
 
@@ -118,7 +260,7 @@ private:
     const double exposure = frame - m_spec.visionDelay + m_spec.captureJitter * m_normal(random);
     sample.dropped = std::uniform_real_distribution<double>(0., 1.)(random) < m_spec.dropped && frame > 2;
     if (!sample.dropped) {
-      const vpPrintTruth::Point truth = m_truth.at(std::min(exposure, m_truth.now()));
+      const Truth::Point truth = m_truth.at(std::min(exposure, m_truth.now()));
       m_sensor.see(truth.x, truth.y, truth.vx, truth.vy, static_cast<unsigned int>(frame));
       sample.cells = static_cast<int>(m_sensor.cells().size());
     }
@@ -126,7 +268,7 @@ private:
 
   void log(const vpPrintMachineOutput &out, vpPrintSample &sample)
   {
-    const vpPrintTruth::Point truth = m_truth.last();
+    const Truth::Point truth = m_truth.last();
     sample.x = truth.x;
     sample.y = truth.y;
     sample.vx = truth.vx;
@@ -150,7 +292,7 @@ private:
         ++i;
         continue;
       }
-      const vpPrintTruth::Point truth = m_truth.at(landing);
+      const Truth::Point truth = m_truth.at(landing);
       const vpPatternTruthCell cell = truthOf(shot.row, shot.column);
       vpPrintDrop drop;
       drop.row = shot.row;
@@ -169,7 +311,7 @@ private:
   // Cells that pass the nozzle.
   void pass()
   {
-    const vpPrintTruth::Point before = m_truth.at(m_truth.now() - 1.), after = m_truth.last();
+    const Truth::Point before = m_truth.at(m_truth.now() - 1.), after = m_truth.last();
     while (m_passing < static_cast<long>(m_spec.rows) * m_spec.cellsPerRow) {
       const int row = static_cast<int>(m_passing / m_spec.cellsPerRow);
       const int column = m_machine.columnOf(row, static_cast<int>(m_passing % m_spec.cellsPerRow));
@@ -198,11 +340,11 @@ private:
   const vpPrintExperimentSpec m_spec;
   vpProductPattern m_product;
   vpPrintCellSensor m_sensor;
-  vpPrintTruth m_truth;
+  Truth m_truth;
   vpPrintMachine m_machine;
   std::normal_distribution<double> m_normal{0., 1.};
   std::vector<vpPrintShot> m_flying;
-  std::vector<vpPrintPass> m_passes;
+  std::vector<Pass> m_passes;
   long m_passing = 0; // cells that have passed, in printing order
   std::map<std::pair<int, int>, vpPatternTruthCell> m_truths;
   vpPrintRun m_run;

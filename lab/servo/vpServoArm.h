@@ -4,13 +4,16 @@
  */
 /*!
  * \file vpServoArm.h
- * \brief Arm that carries the camera of a servo experiment, and its log.
+ * \brief What carries the camera of a servo experiment: an arm, with its log, or a free-flying robot.
  */
 #ifndef vpServoArm_h
 #define vpServoArm_h
 
+#include <visp3/direct_core/vpTwist.h>
 #include <visp3/simulation/vpServoPlant.h>
 #include <visp3/simulation/vpSimulatedArm.h>
+
+#include <memory>
 
 BEGIN_VISP_NAMESPACE
 
@@ -64,6 +67,26 @@ struct vpArmMetrics {
 //! \brief Metrics of a log. \param model : The arm. \param samples : The log. \param cycle : Sample period, s.
 [[nodiscard]] vpArmMetrics evaluateArmRun(const vpArmModel &model, const std::vector<vpArmSample> &samples,
                                           double cycle);
+
+struct vpServoRunSpec;
+
+//! \brief Robot that carries the camera of a servo experiment: free-flying with friction, or an arm.
+class vpServoRobot
+{
+public:
+  //! Creates a free-flying camera, or the arm of the spec. \throw vpException naming the invalid parameter.
+  [[nodiscard]] static std::unique_ptr<vpServoRobot> create(const vpServoRunSpec &spec);
+  virtual ~vpServoRobot() = default;
+
+  //! Moves for one cycle of the plant with a twist in the camera frame.
+  virtual void move(const vpTwist &twist) = 0;
+  //! True pose of the camera in its frame at the start.
+  [[nodiscard]] virtual vpHomogeneousMatrix wMc() = 0;
+  //! Twist executed in the last cycle, as measured by encoders, camera frame.
+  [[nodiscard]] virtual vpTwist actual() const = 0;
+  //! Current state of the arm, with the command of the last cycle; false for a free-flying camera.
+  virtual bool sample(vpArmSample &) const { return false; }
+};
 
 END_VISP_NAMESPACE
 #endif

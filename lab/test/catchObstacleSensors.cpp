@@ -9,8 +9,7 @@
 #include <visp3/core/vpException.h>
 #include <visp3/direct_core/vpSO3.h>
 #include <visp3/io/vpImageIo.h>
-#include "lab/avoidance/vpDepthObstacleSensor.h"
-#include "lab/avoidance/vpImageObstacleSensor.h"
+#include "lab/avoidance/vpCameraObstacleSensors.h"
 
 #include <Eigen/Geometry>
 

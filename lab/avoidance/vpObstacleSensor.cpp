@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-#include "lab/avoidance/vpPoseSensor.h"
+#include "lab/avoidance/vpObstacleSensor.h"
 
 #include <visp3/core/vpException.h>
 #include <visp3/direct_core/vpSO3.h>
