@@ -4,7 +4,7 @@
  */
 #include "task.h"
 
-#include "jsonReader.h"
+#include "fieldReader.h"
 
 #include <visp3/core/vpException.h>
 #include <visp3/core/vpMath.h>
@@ -83,7 +83,7 @@ namespace
 {
 void readGroup(vpApp::JsonObject object, const FieldGroup &group, vpProductPatternSpec &product)
 {
-  readFields(object, group.fields, product, vpApp::Units::Omitted);
+  vpApp::readFields(object, group.fields, product, vpApp::Units::Omitted);
   if (group.name == "cells") {
     try {
       product.shape = shapeOf(object.text("shape", vpToString(product.shape)));

@@ -6,7 +6,7 @@
 
 #include "catalogue.h"
 #include "format.h"
-#include "jsonReader.h"
+#include "fieldReader.h"
 
 #include <visp3/core/vpMath.h>
 #include <visp3/core/vpThetaUVector.h>
@@ -77,7 +77,7 @@ vpServoPlant readPlant(JsonObject &object)
     }
   }
   plant.name = object.text("name", plant.name);
-  readFields(object, vpServoPlant::fields(), plant);
+  vpApp::readFields(object, vpServoPlant::fields(), plant);
   object.finish();
   return plant;
 }
@@ -127,13 +127,14 @@ Scenario readScenario(const std::string &file)
   scenario.task.initial = readPose(start);
   start.finish();
   readSegments(top, scenario.task);
-  top.optional("gains", [&](JsonObject &object) { readFields(object, vpServoGains::fields(), scenario.gains); });
+  top.optional("gains", [&](JsonObject &object) { vpApp::readFields(object, vpServoGains::fields(), scenario.gains); });
   if (top.has("plants")) {
     readPlants(top, scenario.plants);
   }
   top.optional("image_faults",
-               [&](JsonObject &object) { readFields(object, vpCameraFaults::fields(), scenario.faults); });
-  top.optional("shape", [&](JsonObject &object) { readFields(object, vpTwistShaperLimits::fields(), scenario.shape); });
+               [&](JsonObject &object) { vpApp::readFields(object, vpCameraFaults::fields(), scenario.faults); });
+  top.optional("shape",
+               [&](JsonObject &object) { vpApp::readFields(object, vpTwistShaperLimits::fields(), scenario.shape); });
   top.finish();
   try {
     scenario.task.validate();

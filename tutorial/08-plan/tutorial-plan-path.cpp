@@ -56,7 +56,7 @@ int main(int argc, char **argv)
     //! [Plan]
     vpPathPlanner planner(scene); // RRTConnect with certified motions
     const vpPathResult found = planner.plan(file.tasks.back().start, file.tasks.back().goal);
-    std::cout << found.sentence << " " << found.path.points.size() << " points, " << found.path.length() << " rad, "
+    std::cout << found.message << " " << found.path.points.size() << " points, " << found.path.length() << " rad, "
               << found.motions << " motions checked" << std::endl;
     if (found.status != vpPathStatus::Solved) {
       return EXIT_FAILURE; // the sentence explains why

@@ -10,6 +10,7 @@
 #include "catalogue.h"
 #include "findings.h"
 #include "format.h"
+#include "outputFolder.h"
 #include "plan.h"
 #include "results.h"
 #include "runLog.h"
