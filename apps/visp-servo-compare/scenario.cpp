@@ -5,8 +5,8 @@
 #include "scenario.h"
 
 #include "catalogue.h"
-#include "format.h"
 #include "fieldReader.h"
+#include "format.h"
 
 #include <visp3/core/vpMath.h>
 #include <visp3/core/vpThetaUVector.h>
