@@ -11,6 +11,7 @@
 
 #include "vpStrictJson.h"
 
+#include <algorithm>
 #include <limits>
 #include <set>
 #include <string>
@@ -100,6 +101,15 @@ public:
       throw wrong(field, value, "true or false");
     }
     return value.get<bool>();
+  }
+  //! A list of strings.
+  [[nodiscard]] std::vector<std::string> texts(const std::string &field)
+  {
+    const json &value = list(field);
+    if (!std::all_of(value.begin(), value.end(), [](const json &item) { return item.is_string(); })) {
+      throw wrong(field, value, "a list of texts");
+    }
+    return value.get<std::vector<std::string>>();
   }
   //! A list of numbers of any size.
   [[nodiscard]] std::vector<double> numbers(const std::string &field)

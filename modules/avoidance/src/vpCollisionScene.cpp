@@ -109,6 +109,27 @@ std::vector<vpSelfPair> findSelfPairs(const std::vector<vpArmCapsule> &capsules,
   return pairs;
 }
 
+// A body that no check sees must be ignored by name.
+void checkBodies(const vpArmModel &arm, const vpCollisionSceneSpec &spec)
+{
+  const std::vector<std::string> &uncovered = arm.spec().uncovered;
+  const auto has = [](const std::vector<std::string> &names, const std::string &name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  for (const std::string &body : uncovered) {
+    if (!has(spec.ignoredBodies, body)) {
+      fail(spec.source,
+           "body " + body + " of " + arm.label() +
+               " has a shape that no capsule covers and no check would see; cover it or ignore it by name");
+    }
+  }
+  for (const std::string &body : spec.ignoredBodies) {
+    if (!has(uncovered, body)) {
+      fail(spec.source, "ignored body " + body + " is not one of the uncovered bodies of " + arm.label());
+    }
+  }
+}
+
 void checkLinks(const vpArmModel &arm, const vpCollisionSceneSpec &spec)
 {
   const auto inRange = [&arm](int link, int low) { return link >= low && link <= arm.size(); };
@@ -210,6 +231,7 @@ vpCollisionScene::vpCollisionScene(const vpArmModel &arm, const vpCollisionScene
                        std::to_string(vpArmMaxCapsules));
   }
   m_revision = nextRevision();
+  checkBodies(arm, spec);
   checkLinks(arm, spec);
   m_selfPairs = findSelfPairs(m_capsules, spec);
   if (spec.ground) {

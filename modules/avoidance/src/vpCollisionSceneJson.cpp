@@ -191,6 +191,9 @@ vpCollisionSceneFile load(const std::string &file)
                                            whole(top, "allowed_link_pairs", row[1]));
     }
   }
+  if (top.has("ignored_bodies")) {
+    scene.spec.ignoredBodies = top.texts("ignored_bodies");
+  }
   top.each("objects", [&](vpJsonObject &object) { scene.spec.objects.push_back(obstacle(object, scene)); });
   if (top.has("tasks")) {
     top.each("tasks", [&](vpJsonObject &object) { scene.tasks.push_back(task(object)); });

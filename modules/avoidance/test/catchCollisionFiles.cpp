@@ -413,7 +413,9 @@ TEST_CASE("Errors in scenes name the file and the element", "[files]")
   CHECK(sceneError("").find(file + "line 1, column 1") == 0);
   CHECK(sceneError("{\"name\": \"s\"}") == file + "objects is missing");
   CHECK(sceneError("{\"name\": \"s\", \"objects\": [], \"obstacles\": []}") ==
-        file + "unknown field obstacles; known are allowed_link_pairs, comment, ground, name, objects, tasks");
+        file + "unknown field obstacles; known are allowed_link_pairs, comment, ground, ignored_bodies, name, objects, tasks");
+  CHECK(sceneError("{\"name\": \"s\", \"objects\": [], \"ignored_bodies\": [1]}") ==
+        file + "ignored_bodies is [1], must be a list of texts");
   CHECK(sceneError("{\"name\": \"s\", \"objects\": {}}") == file + "objects is {}, must be a list");
   CHECK(sceneError("{\"name\": \"s\", \"objects\": [], \"allowed_link_pairs\": [[1]]}") ==
         file + "allowed_link_pairs[0] is [1], must be a list of 2 numbers");

@@ -435,9 +435,19 @@ TEST_CASE("Mistakes in a scene are named", "[scene]")
   spec.allowedContacts.clear();
   spec.ground = vpHalfSpace{Vector3d::Zero(), 0., 2};
   CHECK(errorOf(spec) == "here: ground has no normal");
+  spec.ground.reset();
+  vpArmSpec handed = amor().spec();
+  handed.uncovered = {"hand", "finger"};
+  spec.ignoredBodies = {"hand"};
+  CHECK_THROWS_WITH(vpCollisionScene(vpArmModel(handed), spec),
+                    Catch::Contains("here: body finger of ") && Catch::Contains("no capsule covers"));
+  spec.ignoredBodies = {"finger", "hand"};
+  CHECK_NOTHROW(vpCollisionScene(vpArmModel(handed), spec));
+  spec.ignoredBodies = {"finger", "hand", "thumb"};
+  CHECK_THROWS_WITH(vpCollisionScene(vpArmModel(handed), spec), Catch::Contains("ignored body thumb is not one of"));
+  spec.ignoredBodies.clear();
   vpArmSpec bare = amor().spec();
   bare.capsules.clear();
-  spec.ground.reset();
   CHECK(errorOf(spec, vpArmModel(bare)).find("has 0 capsules, must have 1 to 32") != std::string::npos);
   vpCollisionScene scene(amor());
   CHECK_THROWS_WITH(scene.remove(0), Catch::Contains("there is no object 0 to remove, there are 0"));

@@ -168,10 +168,13 @@ void carry(vpArmLinkSpec &link, const vpArmLinkSpec &part, const vpRigidTransfor
   link.com = both;
 }
 
-void surface(const urdf::Link &link, int number, const vpRigidTransform &at, std::vector<vpArmCapsule> &capsules)
+// Adds the capsules of a body. False if it has a shape that they do not cover: a mesh, or one that is only seen.
+bool addCapsules(const urdf::Link &link, int number, const vpRigidTransform &at, std::vector<vpArmCapsule> &capsules)
 {
+  bool covered = !link.collision_array.empty() || link.visual_array.empty();
   for (const urdf::CollisionSharedPtr &collision : link.collision_array) {
     if (!collision->geometry) {
+      covered = false;
       continue;
     }
     const vpRigidTransform T = at * pose(collision->origin);
@@ -194,6 +197,7 @@ void surface(const urdf::Link &link, int number, const vpRigidTransform &at, std
       direction = T.R.col(k);
     }
     else {
+      covered = false;
       continue;
     }
     capsule.link = number;
@@ -201,6 +205,7 @@ void surface(const urdf::Link &link, int number, const vpRigidTransform &at, std
     capsule.to = T.p + half * direction;
     capsules.push_back(capsule);
   }
+  return covered;
 }
 
 urdf::LinkConstSharedPtr find(const urdf::ModelInterface &tree, const std::string &file, const std::string &name)
@@ -289,37 +294,111 @@ vpArmJointSpec moving(const urdf::Joint &from, const std::string &file, const vp
   }
   return joint;
 }
+// Makes the arm from the links of a chain and what is fixed to them.
+class ArmBuilder
+{
+public:
+  ArmBuilder(const std::string &file, const std::string &name, const std::vector<urdf::JointSharedPtr> &chain)
+    : m_file(file)
+  {
+    m_arm.source = file;
+    m_arm.name = name;
+    for (const urdf::JointSharedPtr &joint : chain) {
+      m_chain.insert(joint->name);
+    }
+  }
+  //! Adds a link of the chain, with what is fixed to it beside the chain. \param at : Link in the last moving one.
+  void add(const urdf::Link &link, const vpRigidTransform &at)
+  {
+    if (!addCapsules(link, static_cast<int>(m_arm.joints.size()), at, m_arm.capsules)) {
+      m_arm.uncovered.push_back(link.name);
+    }
+    for (const urdf::JointSharedPtr &joint : link.child_joints) {
+      const urdf::LinkConstSharedPtr child = childOf(link, *joint);
+      if (m_chain.count(joint->name) == 0 && child) {
+        const vpRigidTransform there = at * pose(joint->parent_to_joint_origin_transform);
+        if (joint->type == urdf::Joint::FIXED) {
+          const vpArmLinkSpec part = massOf(*child);
+          if (part.mass > 0.) { // frames may have none
+            addMass(part, there);
+          }
+          add(*child, there);
+        }
+        else {
+          leaveOut(*child);
+        }
+      }
+    }
+  }
+  void addJoint(const vpArmJointSpec &joint, const urdf::Link &link)
+  {
+    m_arm.joints.push_back(joint);
+    m_arm.links.push_back(massOf(link));
+  }
+  //! Adds a body that is fixed to the last moving link.
+  void addMass(const vpArmLinkSpec &part, const vpRigidTransform &at)
+  {
+    if (part.hasMass && !(part.mass > 0.)) {
+      fail(m_file, "mass of link " + part.name + " is " + std::to_string(part.mass) + ", must be > 0");
+    }
+    if (!m_arm.links.empty()) { // else it is fixed to the base
+      carry(m_arm.links.back(), part, at);
+    }
+  }
+  vpArmSpec &arm() { return m_arm; }
+
+private:
+  static urdf::LinkConstSharedPtr childOf(const urdf::Link &link, const urdf::Joint &joint)
+  {
+    for (const urdf::LinkSharedPtr &child : link.child_links) {
+      if (child->name == joint.child_link_name) {
+        return child;
+      }
+    }
+    return nullptr;
+  }
+  // Everything below a joint that moves beside the chain.
+  void leaveOut(const urdf::Link &link)
+  {
+    if (!link.collision_array.empty() || !link.visual_array.empty()) {
+      m_arm.uncovered.push_back(link.name);
+    }
+    for (const urdf::LinkSharedPtr &child : link.child_links) {
+      leaveOut(*child);
+    }
+  }
+
+  std::string m_file;
+  std::set<std::string> m_chain; // names of its joints
+  vpArmSpec m_arm;
+};
+
 vpArmModel load(const std::string &file, const vpArmUrdfSpec &spec)
 {
   const urdf::ModelInterfaceSharedPtr tree = parseTree(file);
   const std::string base = spec.base.empty() ? tree->getRoot()->name : spec.base;
   const std::string tip = spec.tip.empty() ? onlyLeaf(*tree, file) : spec.tip;
-  vpArmSpec arm;
-  arm.source = file;
-  arm.name = tree->getName();
-  surface(*find(*tree, file, base), 0, {}, arm.capsules);
+  const std::vector<urdf::JointSharedPtr> chain = path(*tree, file, base, tip);
+  ArmBuilder builder(file, tree->getName(), chain);
+  builder.add(*find(*tree, file, base), {});
   vpRigidTransform fixed; // from the last moving link to the current one
-  for (const urdf::JointSharedPtr &from : path(*tree, file, base, tip)) {
+  for (const urdf::JointSharedPtr &from : chain) {
     const urdf::LinkConstSharedPtr child = find(*tree, file, from->child_link_name);
     if (from->type == urdf::Joint::FIXED) {
       fixed = fixed * pose(from->parent_to_joint_origin_transform);
-      if (!arm.links.empty()) {
-        const vpArmLinkSpec part = massOf(*child);
-        if (part.hasMass && !(part.mass > 0.)) {
-          fail(file, "mass of link " + part.name + " is " + std::to_string(part.mass) + ", must be > 0");
-        }
-        carry(arm.links.back(), part, fixed);
+      if (!builder.arm().links.empty()) {
+        builder.addMass(massOf(*child), fixed);
       }
     }
     else {
       vpArmJointSpec joint = moving(*from, file, spec);
       joint.before = fixed * joint.before;
       fixed = {};
-      arm.joints.push_back(joint);
-      arm.links.push_back(massOf(*child));
+      builder.addJoint(joint, *child);
     }
-    surface(*child, static_cast<int>(arm.joints.size()), fixed, arm.capsules);
+    builder.add(*child, fixed);
   }
+  vpArmSpec &arm = builder.arm();
   arm.tool = fixed;
   if (!spec.camera.empty()) {
     // Up or down from the end effector through fixed joints only.

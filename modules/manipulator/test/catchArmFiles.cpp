@@ -203,6 +203,43 @@ TEST_CASE("Errors in URDF name the file and the element", "[files]")
                     Catch::Contains("link forearm is not below link tool"));
 }
 
+TEST_CASE("Bodies beside the chain belong to the arm, and what no capsule covers is named", "[files]")
+{
+  const std::string name = "catchArmFiles-bodies.urdf";
+  std::ofstream(name) << R"(<robot name="r">
+  <link name="base"><collision><geometry><mesh filename="base.stl"/></geometry></collision></link>
+  <link name="arm"><inertial><mass value="2"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>
+    <collision><geometry><sphere radius="0.1"/></geometry></collision></link>
+  <link name="cover"><visual><geometry><sphere radius="0.1"/></geometry></visual></link>
+  <link name="hand"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>
+    <collision><geometry><box size="0.1 0.2 0.4"/></geometry></collision></link>
+  <link name="frame"><inertial><mass value="0"/><inertia ixx="0" iyy="0" izz="0" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <link name="finger"><collision><geometry><sphere radius="0.01"/></geometry></collision></link>
+  <link name="tip"/>
+  <joint name="turn" type="revolute"><parent link="base"/><child link="arm"/><axis xyz="0 0 1"/>
+    <limit lower="-1" upper="1" velocity="1" effort="1"/></joint>
+  <joint name="j1" type="fixed"><parent link="arm"/><child link="tip"/><origin xyz="0 0 1"/></joint>
+  <joint name="j2" type="fixed"><parent link="arm"/><child link="cover"/></joint>
+  <joint name="j3" type="fixed"><parent link="tip"/><child link="hand"/><origin xyz="0 0.5 0"/></joint>
+  <joint name="j4" type="fixed"><parent link="hand"/><child link="frame"/></joint>
+  <joint name="grip" type="prismatic"><parent link="hand"/><child link="finger"/><axis xyz="0 0 1"/>
+    <limit lower="0" upper="0.1" velocity="1" effort="1"/></joint>
+</robot>)";
+  vpArmUrdfSpec spec;
+  spec.tip = "tip";
+  const vpArmModel model = vpLoadArmUrdf(name, spec);
+  std::remove(name.c_str());
+  const vpArmSpec &arm = model.spec();
+  CHECK(arm.uncovered == std::vector<std::string>{"base", "cover", "finger"});
+  REQUIRE(arm.capsules.size() == 2); // the sphere, and the box at (0, 0.5, 1) along z
+  CHECK(arm.capsules[1].link == 1);
+  CHECK((arm.capsules[1].from - Eigen::Vector3d(0., 0.5, 0.8)).norm() < 1e-12);
+  CHECK((arm.capsules[1].to - Eigen::Vector3d(0., 0.5, 1.2)).norm() < 1e-12);
+  REQUIRE(arm.links.size() == 1);
+  CHECK(arm.links[0].mass == Approx(3.));
+  CHECK((arm.links[0].com - Eigen::Vector3d(0., 0.5, 1.) / 3.).norm() < 1e-12);
+}
+
 namespace
 {
 std::string errorOfUrdf(const std::string &content)

@@ -50,6 +50,7 @@ struct VISP_EXPORT vpCollisionSceneSpec {
   bool allowAdjacent = true;                     //!< Adjacent links may touch, see vpCollisionScene.
   std::vector<std::pair<int, int>> allowedLinks; //!< Further pairs of links (0..n) that may touch.
   std::vector<vpAllowedContact> allowedContacts; //!< Links that may touch an object.
+  std::vector<std::string> ignoredBodies;        //!< Bodies of vpArmSpec::uncovered that are not checked.
 };
 
 /*!
@@ -80,7 +81,7 @@ class VISP_EXPORT vpCollisionScene
 public:
   /*!
    * \throw vpException (badValue) naming the source, the element and the value: an arm without capsules or with more
-   * than 32, an object without a name or with a duplicate name, an invalid pose, lengths that are not finite,
+   * than 32, a body of vpArmSpec::uncovered that is not ignored, an ignored one that is not among them, an object without a name or with a duplicate name, an invalid pose, lengths that are not finite,
    * negative or above vpLargestLength, velocities above 1000 m/s or rad/s, a ground without normal, links or objects
    * that do not exist.
    */

@@ -86,6 +86,11 @@ struct VISP_EXPORT vpArmSpec {
   std::vector<vpArmJointSpec> joints; //!< Joints from the base on, 1..8.
   std::vector<vpArmLinkSpec> links;   //!< Links, as many as joints, or none.
   std::vector<vpArmCapsule> capsules; //!< Capsules for collision checks; may be empty.
+  /*!
+   * Names of bodies whose shape is unknown or only partly covered by #capsules: a collision check would not see them.
+   * vpCollisionScene refuses the arm unless each is in vpCollisionSceneSpec::ignoredBodies.
+   */
+  std::vector<std::string> uncovered;
   vpRigidTransform tool;              //!< End effector in the frame of the last link.
   vpRigidTransform camera;            //!< eMc: camera in the end effector's frame.
   vpJointVector home;                 //!< Home configuration, rad or m, within the limits; empty: unknown.

@@ -28,8 +28,10 @@ struct VISP_EXPORT vpArmUrdfSpec {
 /*!
  * \ingroup group_manipulator
  * \brief Reads the chain from base to tip. Fixed joints are merged into their neighbours with the masses they carry;
- * cylinders, spheres and boxes of the collision geometry become enclosing capsules (meshes give none); damping and
- * friction become viscous and Coulomb friction. Other branches of the tree are ignored, including their masses.
+ * cylinders, spheres and boxes of the collision geometry become enclosing capsules; damping and friction become viscous
+ * and Coulomb friction. Bodies on side branches that are fixed to a link of the chain belong to it, with mass and
+ * shape. A body that has a mesh as collision geometry, or none at all but something to be seen, and a body with a shape
+ * that a joint outside the chain moves, is named in vpArmSpec::uncovered; the mass of the latter is ignored.
  * \throw vpException (ioError) if the file cannot be read, (badValue) if it is malformed, a link is missing, the
  * tip is not unique or not below the base, a joint type is unsupported (floating, planar, mimic), or
  * vpArmModel rejects a value; one sentence with the file and the element.
