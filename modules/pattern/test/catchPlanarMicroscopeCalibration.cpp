@@ -360,7 +360,8 @@ TEST_CASE("unknown deviations come from the residuals, a product that is not exa
     vpPlanarMicroscopeCalibration second(640, 480, spec);
     second.addView(points);
     const vpMicroscopeCalibrationResult b = second.compute();
-    CHECK(b.varianceFactor == Approx(1.).margin(0.25));
+    // Times its degrees of freedom it is a chi-squared: in 400 trials 5.5 deviations are left once in 1e4 runs.
+    CHECK(b.varianceFactor == Approx(1.).margin(5.5 * std::sqrt(2. / (2. * static_cast<double>(points.size()) - 8.))));
     byPlane.add((b.calibration.scaleX - problem.truth.scaleX) / b.sigma(vpMicroscopeScaleX));
   }
   CHECK(byResiduals.rms() == Approx(1.).margin(0.2));
