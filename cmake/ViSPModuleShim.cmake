@@ -2,9 +2,11 @@
 # Same names and arguments as cmake/VISPModule.cmake of ViSP 3.5, so one module CMakeLists.txt serves both builds.
 
 # Installed libraries and programs find each other even if the install folder is moved.
-file(RELATIVE_PATH _vispdirect_bin_to_lib "/${CMAKE_INSTALL_BINDIR}" "/${CMAKE_INSTALL_LIBDIR}")
-set(CMAKE_INSTALL_RPATH "$ORIGIN;$ORIGIN/${_vispdirect_bin_to_lib}")
-unset(_vispdirect_bin_to_lib)
+if(VISP_DIRECT_INSTALL)
+  file(RELATIVE_PATH _vispdirect_bin_to_lib "/${CMAKE_INSTALL_BINDIR}" "/${CMAKE_INSTALL_LIBDIR}")
+  set(CMAKE_INSTALL_RPATH "$ORIGIN;$ORIGIN/${_vispdirect_bin_to_lib}")
+  unset(_vispdirect_bin_to_lib)
+endif()
 
 # Modules are visited once, in the order of the add_subdirectory() calls in the root CMakeLists.txt.
 macro(vp_add_module _name)
@@ -23,7 +25,6 @@ macro(vp_add_module _name)
     endif()
   endforeach()
   set(VISP_MODULE_${the_module}_DEPS ${_vispdirect_deps})
-  set(HAVE_${the_module} TRUE CACHE INTERNAL "")
 endmacro()
 
 macro(vp_module_disable _name)
@@ -59,9 +60,11 @@ macro(vp_create_module)
   target_compile_definitions(${the_module} PRIVATE visp_EXPORTS)
   set_target_properties(${the_module} PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION}
                         SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
-  install(TARGETS ${the_module} EXPORT VispDirectTargets
-          LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-  install(DIRECTORY "${CMAKE_CURRENT_LIST_DIR}/include/visp3" DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+  if(VISP_DIRECT_INSTALL)
+    install(TARGETS ${the_module} EXPORT VispDirectTargets
+            LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+    install(DIRECTORY "${CMAKE_CURRENT_LIST_DIR}/include/visp3" DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+  endif()
 endmacro()
 
 # Every test/*.cpp becomes a program and a ctest entry, as in ViSP.

@@ -1,15 +1,7 @@
 # Installs a build tree, builds a project against it, moves the installed folder and does so again.
 # -DBUILD_DIR -DSOURCE_DIR -DWORK_DIR -DCONFIG -DGENERATOR -DCXX_COMPILER -DCXX_FLAGS
+include("${CMAKE_CURRENT_LIST_DIR}/run.cmake")
 set(consumer "${CMAKE_CURRENT_LIST_DIR}/consumer")
-
-function(run)
-  execute_process(COMMAND ${ARGV} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
-  if(NOT status EQUAL 0)
-    string(REPLACE ";" " " command "${ARGV}")
-    message(FATAL_ERROR "${command}\nended with ${status}:\n${output}")
-  endif()
-  set(output "${output}" PARENT_SCOPE)
-endfunction()
 
 function(use prefix build)
   run(${CMAKE_COMMAND} -S "${consumer}" -B "${build}" -G "${GENERATOR}" "-DCMAKE_CXX_COMPILER=${CXX_COMPILER}"
