@@ -44,8 +44,19 @@ endmacro()
 
 # vp_create_module([libraries] [LINK_PRIVATE libraries]): as in ViSP; here all libraries are private.
 macro(vp_create_module)
-  set(_vispdirect_libraries ${ARGN})
-  list(REMOVE_ITEM _vispdirect_libraries LINK_PRIVATE)
+  set(_vispdirect_libraries "")
+  foreach(_vispdirect_library ${ARGN})
+    if(IS_ABSOLUTE "${_vispdirect_library}")
+      # An installed static library must not name a file of this machine: the package config searches it again.
+      get_filename_component(_vispdirect_file "${_vispdirect_library}" NAME_WE)
+      string(REGEX REPLACE "^lib" "" _vispdirect_file "${_vispdirect_file}")
+      set_property(GLOBAL APPEND PROPERTY VISP_DIRECT_EXTERNAL_LIBRARIES ${_vispdirect_file})
+      list(APPEND _vispdirect_libraries "$<BUILD_INTERFACE:${_vispdirect_library}>"
+           "$<INSTALL_INTERFACE:VispDirect::external_${_vispdirect_file}>")
+    elseif(NOT _vispdirect_library STREQUAL "LINK_PRIVATE")
+      list(APPEND _vispdirect_libraries ${_vispdirect_library})
+    endif()
+  endforeach()
   add_library(${the_module} ${VISP_MODULE_${the_module}_HEADERS} ${VISP_MODULE_${the_module}_SOURCES})
   add_library(VispDirect::${name} ALIAS ${the_module})
   target_include_directories(${the_module}
@@ -57,14 +68,11 @@ macro(vp_create_module)
   target_link_libraries(${the_module} PUBLIC ${VISP_MODULE_${the_module}_DEPS} $<INSTALL_INTERFACE:Eigen3::Eigen>
                         PRIVATE ${_vispdirect_libraries})
   unset(_vispdirect_libraries)
+  unset(_vispdirect_library)
+  unset(_vispdirect_file)
   target_compile_definitions(${the_module} PRIVATE visp_EXPORTS)
   set_target_properties(${the_module} PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION}
                         SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
-  if(VISP_DIRECT_INSTALL)
-    install(TARGETS ${the_module} EXPORT VispDirectTargets
-            LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-    install(DIRECTORY "${CMAKE_CURRENT_LIST_DIR}/include/visp3" DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
-  endif()
 endmacro()
 
 # Every test/*.cpp becomes a program and a ctest entry, as in ViSP.

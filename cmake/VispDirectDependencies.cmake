@@ -1,12 +1,12 @@
-# Optional libraries. Each is searched in every configuration, unless VISP_DIRECT_WITH_<NAME>=OFF, and sets VISP_DIRECT_HAVE_<NAME>,
+# Optional libraries. Each is searched in every configuration, unless WITH_<NAME>=OFF, and sets VISP_DIRECT_HAVE_<NAME>,
 # VISP_DIRECT_<NAME>_INCLUDES and VISP_DIRECT_<NAME>_LIBRARIES, once for all components.
 # Without one, code that needs it throws vpException::notImplementedError and names it (sources *Missing.cpp).
 # Found by path where a package's own target or variable cannot be used inside a ViSP tree.
 
 # vispdirect_optional(NAME PURPOSE INCLUDES LIBRARIES): from the results of find_path() and find_library().
 function(vispdirect_optional name purpose includes libraries)
-  option(VISP_DIRECT_WITH_${name} "Use ${name}: ${purpose}" ON)
-  set(have ${VISP_DIRECT_WITH_${name}})
+  option(WITH_${name} "Use ${name}: ${purpose}" ON)
+  set(have ${WITH_${name}})
   foreach(path ${includes} ${libraries})
     if(NOT path)
       set(have OFF)
@@ -18,7 +18,7 @@ function(vispdirect_optional name purpose includes libraries)
     get_property(said GLOBAL PROPERTY VISP_DIRECT_SAID_${name})
     if(NOT said) # once, not for every component
       set(why "is missing")
-      if(NOT VISP_DIRECT_WITH_${name})
+      if(NOT WITH_${name})
         set(why "is switched off")
       endif()
       message(STATUS "visp-direct: ${name} ${why}: no ${purpose}")

@@ -18,6 +18,8 @@ macro(vispdirect_module_settings)
   target_compile_features(${the_module} PUBLIC cxx_std_17)
   set_target_properties(${the_module} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
   target_compile_options(${the_module} PRIVATE "$<$<CXX_COMPILER_ID:GNU,Clang>:-Wall;-Wextra;-Wshadow;-Wnon-virtual-dtor>")
+  # ViSP's flags switch OpenMP on, and Eigen's products would start threads that wait for each other by spinning.
+  target_compile_definitions(${the_module} PRIVATE EIGEN_DONT_PARALLELIZE)
   target_include_directories(${the_module} PRIVATE "${VISP_DIRECT_ROOT}/support")
   vispdirect_precompile(${the_module} support/vpModuleHeaders.h)
   get_target_property(_vispdirect_type ${the_module} TYPE)

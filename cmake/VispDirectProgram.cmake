@@ -36,9 +36,7 @@ macro(vispdirect_add_program vispdirect_program)
   target_link_libraries(${vispdirect_program} PRIVATE ${vispdirect_library})
 
   if(VISP_DIRECT_STANDALONE)
-    if(VISP_DIRECT_INSTALL)
-      install(TARGETS ${vispdirect_program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-    endif()
+    set_property(GLOBAL APPEND PROPERTY VISP_DIRECT_PROGRAMS ${vispdirect_program}) # see Install.cmake
     if(BUILD_TESTS)
       add_subdirectory(test)
     endif()

@@ -15,7 +15,8 @@ namespace vpApp
 {
 /*!
  * Path of a file of visp-direct's data folder: in the folder named by the environment variable `VISP_DIRECT_DATA` if it
- * is set, else where the package installs its data, else in the source tree that the program was built from.
+ * is set, else in the installation that the running program is a part of (found from the program, so a moved one works),
+ * else in the source tree that it was built from.
  * \param name : Path inside data/, for example "target/klimt.jpg".
  * \throw std::runtime_error naming the searched folders.
  */

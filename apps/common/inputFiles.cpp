@@ -22,14 +22,31 @@
 
 namespace vpApp
 {
+namespace
+{
+// In the order in which they are searched. An installation is found from its program, so it can be moved, and a program of
+// a build folder never takes the data of another version that is installed.
+std::vector<std::string> dataFolders()
+{
+  const char *named = std::getenv("VISP_DIRECT_DATA");
+  if (named != nullptr) {
+    return {named};
+  }
+  std::vector<std::string> folders;
+  std::error_code ignored;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", ignored);
+  if (!program.empty()) {
+    folders.push_back((program.parent_path() / VISP_DIRECT_DATA_FROM_PROGRAM).lexically_normal().string());
+  }
+  folders.push_back(VISP_DIRECT_SOURCE_DATA);
+  return folders;
+}
+} // namespace
+
 std::string dataFile(const std::string &name)
 {
-  std::vector<std::string> folders{VISP_DIRECT_INSTALLED_DATA, VISP_DIRECT_SOURCE_DATA};
-  if (const char *folder = std::getenv("VISP_DIRECT_DATA")) {
-    folders = {folder};
-  }
   std::string searched;
-  for (const std::string &folder : folders) {
+  for (const std::string &folder : dataFolders()) {
     const std::filesystem::path file = std::filesystem::path(folder) / name;
     std::error_code ignored;
     if (std::filesystem::is_regular_file(file, ignored)) {

@@ -31,7 +31,7 @@ for name; do
   out=$(mktemp -d)
   echo "== without $name"
   cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DVISP_DIRECT_BUILD_TESTS=OFF \
-    -DVISP_DIRECT_BUILD_BENCHMARKS=OFF "-DVISP_DIRECT_WITH_$name=OFF" "${launcher[@]}" >"$build.log" 2>&1 || { cat "$build.log" >&2; exit 1; }
+    -DVISP_DIRECT_BUILD_BENCHMARKS=OFF "-DWITH_$name=OFF" "${launcher[@]}" >"$build.log" 2>&1 || { cat "$build.log" >&2; exit 1; }
   grep -q "$name is switched off\|no programs are built" "$build.log" || { echo "dependencies: no word about $name" >&2; exit 1; }
   cmake --build "$build" -j "${JOBS:-$(nproc)}" >"$build.log" 2>&1 || { tail -40 "$build.log" >&2; exit 1; }
   bin=$build/bin

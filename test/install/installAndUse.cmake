@@ -1,5 +1,6 @@
 # Installs a build tree, builds a project against it, moves the installed folder and does so again.
 # -DBUILD_DIR -DSOURCE_DIR -DWORK_DIR -DCONFIG -DGENERATOR -DCXX_COMPILER -DCXX_FLAGS
+cmake_minimum_required(VERSION 3.18)
 include("${CMAKE_CURRENT_LIST_DIR}/run.cmake")
 set(consumer "${CMAKE_CURRENT_LIST_DIR}/consumer")
 
@@ -19,26 +20,44 @@ file(REMOVE_RECURSE "${WORK_DIR}")
 set(first "${WORK_DIR}/first")
 set(moved "${WORK_DIR}/moved to here")
 run(${CMAKE_COMMAND} --install "${BUILD_DIR}" --prefix "${first}" --config "${CONFIG}")
-
-# Nothing of this machine may be written into what is installed.
-file(GLOB_RECURSE texts "${first}/*.cmake" "${first}/*.h")
-foreach(text ${texts})
-  file(READ "${text}" content)
-  foreach(folder "${SOURCE_DIR}" "${BUILD_DIR}" "${WORK_DIR}")
-    string(FIND "${content}" "${folder}" place)
-    if(NOT place EQUAL -1)
-      message(FATAL_ERROR "${text} names the folder ${folder}")
-    endif()
-  endforeach()
-endforeach()
+forbid_folders("${first}" "${SOURCE_DIR}" "${BUILD_DIR}" "${WORK_DIR}")
 
 use("${first}" "${WORK_DIR}/consumer-of-first")
 file(RENAME "${first}" "${moved}")
 use("${moved}" "${WORK_DIR}/consumer-of-moved")
 
-# Programs must run from the moved folder as well: their libraries are found relative to them.
+# The same without CMake.
+by_pkg_config("${moved}" "${consumer}/main.cpp" "${WORK_DIR}/consumer-of-pc")
+if(built)
+  run("${WORK_DIR}/consumer-of-pc")
+  message(STATUS "by pkg-config: ${output}")
+  unset(ENV{LD_LIBRARY_PATH})
+endif()
+
+# Programs must run from the moved folder as well: they find their libraries and data relative to themselves. What --help says of
+# data/ is there.
+set(data "${moved}/share/visp-direct")
 file(GLOB programs "${moved}/bin/*")
 foreach(program ${programs})
   run("${program}" --help)
-  message(STATUS "runs: ${program}")
+  string(REGEX MATCHALL "(data|doc|apps|lab|modules|test|tutorial)/[A-Za-z0-9_./-]*[A-Za-z0-9]" files "${output}")
+  foreach(file ${files})
+    string(REGEX REPLACE "^data/" "" inside "${file}")
+    if(NOT file MATCHES "^data/" OR NOT EXISTS "${data}/${inside}")
+      message(FATAL_ERROR "${program} --help names ${file}, which is not installed")
+    endif()
+  endforeach()
+  list(LENGTH files count)
+  message(STATUS "runs: ${program}, whose help names ${count} files of data/")
 endforeach()
+
+# The data are those of this installation, not of the source tree, also where the program is called by a link.
+set(plan "${moved}/bin/visp-plan-trajectory")
+if(EXISTS "${plan}")
+  file(CREATE_LINK "${plan}" "${WORK_DIR}/plan" SYMBOLIC)
+  run("${WORK_DIR}/plan" --csv sample.csv --plot sample.svg WORKING_DIRECTORY "${WORK_DIR}")
+  string(FIND "${output}" "${data}/trajectory/figure-6.3.jsonl" place)
+  if(place EQUAL -1)
+    message(FATAL_ERROR "not planned from the installed data: ${output}")
+  endif()
+endif()

@@ -1,0 +1,73 @@
+# What is installed: libraries, headers, programs, data, the CMake package and the file for pkg-config.
+include(CMakePackageConfigHelpers)
+set(libraries ${VISP_DIRECT_BUILT_MODULES})
+list(TRANSFORM libraries PREPEND visp_)
+get_property(programs GLOBAL PROPERTY VISP_DIRECT_PROGRAMS)
+
+# Nothing is copied before all of it is built (demo.sh builds one program): half a package would not be found by anyone.
+add_custom_target(vispdirect_installable)
+add_dependencies(vispdirect_installable ${libraries} ${programs})
+set(files "")
+foreach(target ${libraries} ${programs})
+  string(APPEND files "\n  \"$<TARGET_FILE:${target}>\"")
+endforeach()
+install(CODE "
+set(missing \"\")
+foreach(file ${files})
+  if(NOT EXISTS \"\${file}\")
+    get_filename_component(file \"\${file}\" NAME)
+    list(APPEND missing \"\${file}\")
+  endif()
+endforeach()
+if(missing)
+  list(LENGTH missing count)
+  list(GET missing 0 first)
+  message(FATAL_ERROR \"visp-direct is not installed, it is not built yet (missing: \${first}, in all \${count} libraries and \"
+    \"programs); first: cmake --build \\\"${CMAKE_BINARY_DIR}\\\" --target vispdirect_installable\")
+endif()")
+
+set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/VispDirect)
+install(TARGETS ${libraries} EXPORT VispDirectTargets
+        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+foreach(module ${VISP_DIRECT_BUILT_MODULES})
+  install(DIRECTORY "${PROJECT_SOURCE_DIR}/modules/${module}/include/visp3" DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+          FILES_MATCHING PATTERN "*.h")
+endforeach()
+if(programs)
+  install(TARGETS ${programs} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+set(VISP_DIRECT_DATA_FOLDER ${CMAKE_INSTALL_DATAROOTDIR}/visp-direct)
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/data/" DESTINATION ${VISP_DIRECT_DATA_FOLDER})
+
+# Only static libraries pass on what they are linked with.
+set(VISP_DIRECT_EXTERNAL_LIBRARIES "")
+get_target_property(type visp_direct_core TYPE)
+if(type STREQUAL "STATIC_LIBRARY")
+  get_property(VISP_DIRECT_EXTERNAL_LIBRARIES GLOBAL PROPERTY VISP_DIRECT_EXTERNAL_LIBRARIES)
+  list(REMOVE_DUPLICATES VISP_DIRECT_EXTERNAL_LIBRARIES)
+endif()
+install(EXPORT VispDirectTargets NAMESPACE VispDirect:: DESTINATION ${package_folder})
+configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/VispDirectConfig.cmake.in" "${PROJECT_BINARY_DIR}/VispDirectConfig.cmake"
+                              INSTALL_DESTINATION ${package_folder} PATH_VARS VISP_DIRECT_DATA_FOLDER)
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/VispDirectConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
+install(FILES "${PROJECT_BINARY_DIR}/VispDirectConfig.cmake" "${PROJECT_BINARY_DIR}/VispDirectConfigVersion.cmake"
+        DESTINATION ${package_folder})
+
+# One file for pkg-config with all modules, those that need others first. Its prefix is found from where it lies.
+file(RELATIVE_PATH VISP_DIRECT_PC_TO_PREFIX "${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig" "${CMAKE_INSTALL_PREFIX}")
+string(REGEX REPLACE "/$" "" VISP_DIRECT_PC_TO_PREFIX "${VISP_DIRECT_PC_TO_PREFIX}")
+file(RELATIVE_PATH VISP_DIRECT_PC_LIBRARIES "${CMAKE_INSTALL_PREFIX}" "${CMAKE_INSTALL_FULL_LIBDIR}")
+file(RELATIVE_PATH VISP_DIRECT_PC_HEADERS "${CMAKE_INSTALL_PREFIX}" "${CMAKE_INSTALL_FULL_INCLUDEDIR}")
+file(RELATIVE_PATH VISP_DIRECT_PC_DATA "${CMAKE_INSTALL_PREFIX}" "${CMAKE_INSTALL_FULL_DATAROOTDIR}/visp-direct")
+list(REVERSE libraries)
+list(TRANSFORM libraries PREPEND -l)
+set(externals ${VISP_DIRECT_EXTERNAL_LIBRARIES})
+list(TRANSFORM externals PREPEND -l)
+list(JOIN libraries " " VISP_DIRECT_PC_LIBS)
+list(JOIN externals " " VISP_DIRECT_PC_EXTERNALS)
+set(VISP_DIRECT_PC_REQUIRES "visp, eigen3")
+if(type STREQUAL "STATIC_LIBRARY" AND TARGET visp_planar_target)
+  string(APPEND VISP_DIRECT_PC_REQUIRES ", opencv4")
+endif()
+configure_file("${PROJECT_SOURCE_DIR}/cmake/visp-direct.pc.in" "${PROJECT_BINARY_DIR}/visp-direct.pc" @ONLY)
+install(FILES "${PROJECT_BINARY_DIR}/visp-direct.pc" DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
