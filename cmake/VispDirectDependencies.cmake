@@ -1,12 +1,15 @@
-# Optional libraries. Each is searched in every configuration, unless WITH_<NAME>=OFF, and sets VISP_DIRECT_HAVE_<NAME>,
+# Optional libraries. Each is searched in every configuration, unless WITH_<NAME>=OFF (VISP_DIRECT_WITH_<NAME>=OFF), and sets VISP_DIRECT_HAVE_<NAME>,
 # VISP_DIRECT_<NAME>_INCLUDES and VISP_DIRECT_<NAME>_LIBRARIES, once for all components.
 # Without one, code that needs it throws vpException::notImplementedError and names it (sources *Missing.cpp).
 # Found by path where a package's own target or variable cannot be used inside a ViSP tree.
 
 # vispdirect_optional(NAME PURPOSE INCLUDES LIBRARIES): from the results of find_path() and find_library().
 function(vispdirect_optional name purpose includes libraries)
-  option(WITH_${name} "Use ${name}: ${purpose}" ON)
-  set(have ${WITH_${name}})
+  option(VISP_DIRECT_WITH_${name} "Use ${name}: ${purpose}" ON)
+  if(DEFINED WITH_${name}) # the short form, on the command line
+    set(VISP_DIRECT_WITH_${name} ${WITH_${name}} CACHE BOOL "Use ${name}: ${purpose}" FORCE)
+  endif()
+  set(have ${VISP_DIRECT_WITH_${name}})
   foreach(path ${includes} ${libraries})
     if(NOT path)
       set(have OFF)
@@ -18,7 +21,7 @@ function(vispdirect_optional name purpose includes libraries)
     get_property(said GLOBAL PROPERTY VISP_DIRECT_SAID_${name})
     if(NOT said) # once, not for every component
       set(why "is missing")
-      if(NOT WITH_${name})
+      if(NOT VISP_DIRECT_WITH_${name})
         set(why "is switched off")
       endif()
       message(STATUS "visp-direct: ${name} ${why}: no ${purpose}")
