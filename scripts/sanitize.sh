@@ -41,7 +41,9 @@ memory)
   shift
   if [ $# -eq 0 ]; then set -- trajectory feedforward manipulator avoidance; fi
   tests=$(tests_of "$@")
+  # shellcheck disable=SC2086 # names of tests, one word each
   build asan $tests
+  # shellcheck disable=SC2086
   run asan $tests
   ;;
 files)

@@ -11,6 +11,7 @@ mkdir -p "$logs"
 packages=(g++ cmake ninja-build libvisp-dev libopencv-dev libeigen3-dev libdlib-dev catch2 libbenchmark-dev
   libcli11-dev nlohmann-json3-dev liborocos-kdl-dev liburdfdom-dev libfcl-dev liboctomap-dev
   libompl-dev gnuplot-nox)
+case ${CXX:-} in *clang*) packages+=(clang libomp-dev) ;; esac # ViSP is built with OpenMP
 # Real images for some tests, which are skipped if the images are missing. Documentation tools, as the documentation is also
 # a test: doxygen, and bibtex for the bibliography. Open MPI, for the program that can run on several processes.
 test_packages=(visp-images-data opencv-doc doxygen texlive-binaries libopenmpi-dev openmpi-bin)

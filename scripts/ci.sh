@@ -1,0 +1,63 @@
+#!/usr/bin/env bash
+# The jobs of .github/workflows/ci.yml, each also for any Debian or Ubuntu machine.
+set -euo pipefail
+
+usage() {
+  cat <<'TEXT'
+usage: scripts/ci.sh tests|style|sanitizers|documentation|packages|seeds
+
+  tests           everything, with a seed of the day (test.sh)
+  style           clang-format, and shellcheck on all scripts
+  sanitizers      memory, damaged files, threads (scripts/sanitize.sh)
+  documentation   doxygen without a warning, links, groups
+  packages        installed, static and guest builds, with the long part
+  seeds           all tests at five seeds that change every day
+
+Missing packages are installed. CXX=clang++ selects the compiler; JOBS=N sets the number of compilers at work.
+TEXT
+}
+
+case ${1:-} in
+-h | --help)
+  usage
+  exit 0
+  ;;
+tests | style | sanitizers | documentation | packages | seeds) [ $# -eq 1 ] || { usage >&2; exit 2; } ;;
+*)
+  usage >&2
+  exit 2
+  ;;
+esac
+# shellcheck source=scripts/setup.sh
+source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
+cd "$root"
+
+case $1 in
+tests) ./test.sh ;;
+style)
+  install_packages clang-format shellcheck
+  scripts/lint.sh format
+  mapfile -t shell < <(find . -path ./build -prune -o -path ./out -prune -o -name '*.sh' -print | sort)
+  shellcheck -x "${shell[@]}"
+  echo "style: ${#shell[@]} scripts are as shellcheck wants them"
+  ;;
+sanitizers)
+  install_packages "${packages[@]}" "${test_packages[@]}"
+  scripts/sanitize.sh memory
+  scripts/sanitize.sh files
+  scripts/sanitize.sh threads
+  ;;
+documentation)
+  install_packages "${packages[@]}" "${test_packages[@]}"
+  build_tree doc
+  ;;
+packages)
+  install_packages "${packages[@]}" "${test_packages[@]}" pkg-config
+  build_tree vispdirect_installable
+  VISP_DIRECT_LONG_TESTS=1 ctest --preset release --no-tests=error -R '^(exportedSymbols|installedPackage|staticPackage|guestProject)$'
+  ;;
+seeds)
+  day=$(date +%Y%m%d)
+  VISP_DIRECT_SEED="${day}1 ${day}2 ${day}3 ${day}4 ${day}5" ./test.sh -LE doc
+  ;;
+esac
