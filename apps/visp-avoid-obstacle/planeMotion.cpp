@@ -30,7 +30,7 @@ FieldMotion followField(const FieldTask &task, const vpFieldWeightSpec &weight, 
       const double u = seen ? offset.x() : noWeight;
       const Eigen::Vector2d wish = task.gain * (task.places[i] - x);
       const Eigen::Vector3d avoid(offset.x() < 0. ? task.avoidSpeed : -task.avoidSpeed, 0., 0.);
-      const Eigen::Vector3d v = blendAsPrinted(weight, {u, noWeight}, avoid, {wish.x(), wish.y(), 0.});
+      const Eigen::Vector3d v = vpBlendAsPrinted(weight, {u, noWeight}, avoid, {wish.x(), wish.y(), 0.});
       motion.times.push_back(now);
       motion.way.push_back(x);
       motion.weights.push_back(seen ? vpFieldWeight(weight, vpFieldForm::Thesis, u) : 0.);

@@ -21,7 +21,7 @@ namespace planCompare
 {
 //! \brief Description of a method.
 struct MethodInfo {
-  std::string id;       //!< Id for makeAvoidanceMethod().
+  std::string id;       //!< Id for vpMakeAvoidanceMethod().
   std::string number;   //!< "(iii)".
   std::string name;     //!< Short, for tables.
   std::string sentence; //!< Description.

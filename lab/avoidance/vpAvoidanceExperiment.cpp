@@ -153,7 +153,7 @@ double secondsSince(std::chrono::steady_clock::time_point start)
 std::unique_ptr<vpAvoidanceMethod> makeMethod(const vpAvoidanceRunSpec &spec, const vpCollisionScene &scene)
 {
   auto method = spec.makeMethod ? spec.makeMethod(scene, spec.methodSpec)
-                                : makeAvoidanceMethod(spec.method, scene, spec.methodSpec);
+                                : vpMakeAvoidanceMethod(spec.method, scene, spec.methodSpec);
   if (!method) {
     throw vpException(vpException::badValue, "makeMethod of the avoidance experiment made no method");
   }

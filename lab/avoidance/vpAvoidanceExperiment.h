@@ -26,7 +26,7 @@ struct vpAvoidanceSample {
   Eigen::Vector3d goal = Eigen::Vector3d::Zero();             //!< True position of the goal, m.
   vpAvoidanceStatus status = vpAvoidanceStatus::InvalidInput; //!< Status of the method.
   bool stopping = false;                                      //!< vpAvoidanceOutput::stopping.
-  bool newImage = false;    //!< A sensor result arrived, or the goal was updated.
+  bool newImage = false;                                      //!< A sensor result arrived, or the goal was updated.
   double lookTime = 0.;     //!< Wall time of vpAvoidanceMethod::look(), s; does not affect the run.
   double goalDistance = 0.; //!< Distance of the true tool from the true goal, m.
   vpClearance clearance;    //!< True nearest pair, within 1 m; other is an index of \e objects.
@@ -98,7 +98,7 @@ struct vpAvoidanceRun {
  * \throw vpException naming the error in the spec.
  */
 [[nodiscard]] vpAvoidanceRun runAvoidanceExperiment(const vpAvoidanceRunSpec &spec,
-                                                                const std::function<bool(double)> &progress = {});
+                                                    const std::function<bool(double)> &progress = {});
 
 END_VISP_NAMESPACE
 #endif

@@ -68,9 +68,9 @@ enum class vpObstacleSight {
  */
 struct vpAvoidanceRunSpec {
   std::shared_ptr<const vpArmModel> arm; //!< The arm; not null.
-  std::string method = "dtg";            //!< Name for makeAvoidanceMethod(), unless #makeMethod is set.
+  std::string method = "dtg";            //!< Name for vpMakeAvoidanceMethod(), unless #makeMethod is set.
   vpAvoidanceMethodSpec methodSpec;      //!< Period of the loop, bounds of the tool, margin, seed of planners.
-  //! Creates the method instead of makeAvoidanceMethod(); empty: not used. The scene outlives the method.
+  //! Creates the method instead of vpMakeAvoidanceMethod(); empty: not used. The scene outlives the method.
   std::function<std::unique_ptr<vpAvoidanceMethod>(const vpCollisionScene &, const vpAvoidanceMethodSpec &)> makeMethod;
 
   vpCollisionSceneSpec scene;              //!< Static scene, known from the start.

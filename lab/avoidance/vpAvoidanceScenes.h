@@ -60,27 +60,24 @@ constexpr double feasibleMargin = 0.03;
  * goal are random configurations with tool positions 0.3 to 0.8 m apart. Neither the straight joint motion nor the
  * straight tool motion is free, and a path is known. Needs OMPL.
  */
-[[nodiscard]] vpAvoidanceScenario randomStatic(const std::shared_ptr<const vpArmModel> &arm,
-                                                           unsigned int seed);
+[[nodiscard]] vpAvoidanceScenario randomStatic(const std::shared_ptr<const vpArmModel> &arm, unsigned int seed);
 /*!
  * S3: a ball and a capsule at constant speed cross the path of the arm, seen with noise of 3 mm. An arm that ignores
  * them is hit while moving, both on a straight joint motion at half speed and on a straight tool motion at 0.25 m/s on
  * average; one that waits at the start until they have passed, and then moves its joints straight, is not.
  */
 [[nodiscard]] vpAvoidanceScenario crossing(const std::shared_ptr<const vpArmModel> &arm, unsigned int seed,
-                                                       const vpCrossingSpec &spec = {});
+                                           const vpCrossingSpec &spec = {});
 /*!
  * S4, S6 and user files: task number \e task of a scene, completely known from the start. The seed is for methods.
  */
 [[nodiscard]] vpAvoidanceScenario fromTask(const std::shared_ptr<const vpArmModel> &arm,
-                                                       const vpCollisionSceneFile &file, std::size_t task,
-                                                       unsigned int seed);
+                                           const vpCollisionSceneFile &file, std::size_t task, unsigned int seed);
 /*!
  * S7, figure 8.13: no obstacle, but a moving goal: (0.1, 0.3) m from the start of the tool, between 0.5 and
  * 0.9 s to (0.23, 0.13), between 1.7 and 1.9 s to (0.14, 0.04); reported at 50 Hz with noise of 10 mm until it rests.
  */
-[[nodiscard]] vpAvoidanceScenario movingGoal(const std::shared_ptr<const vpArmModel> &arm,
-                                                         unsigned int seed);
+[[nodiscard]] vpAvoidanceScenario movingGoal(const std::shared_ptr<const vpArmModel> &arm, unsigned int seed);
 } // namespace vpAvoidanceScenes
 
 END_VISP_NAMESPACE

@@ -5,7 +5,6 @@
 #include "vpFieldCheck.h"
 #include "lab/printing/vpPrintExperiment.h"
 
-
 #include <cmath>
 
 BEGIN_VISP_NAMESPACE

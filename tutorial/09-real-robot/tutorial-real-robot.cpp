@@ -27,7 +27,7 @@ using Grab = std::function<void(vpImage<unsigned char> &)>;
 bool servo(vpRobot &robot, const Grab &grab, vpPlanarTarget &target, std::ostream &log)
 {
   vpServoControllerSpec spec;
-  spec.gains.lambda = 2.;                                           // 1/s
+  spec.gains.lambda = 2.;                                         // 1/s
   spec.view = vpViewConstraintSpec::fromCamera(camera, 320, 240); // "+cbf" keeps the target's centre in it
   spec.view.maxLinear = 0.1;           // m/s; use a fifth of it for the first run on a real robot
   spec.view.maxAngular = 0.3;          // rad/s

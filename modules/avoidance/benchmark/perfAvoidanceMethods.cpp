@@ -30,7 +30,7 @@ void motions(benchmark::State &state, const char *name)
       vpLoadCollisionScene(std::string(VISP_DIRECT_DATA_DIR) + "/scene/s4a-pillar.json");
   const vpCollisionScene scene(arm, file.spec);
   const vpAvoidanceGoal goal = vpAvoidanceGoal::at(arm, file.tasks[0].goal);
-  const auto method = makeAvoidanceMethod(name, scene);
+  const auto method = vpMakeAvoidanceMethod(name, scene);
   std::vector<double> starts, looks, steps;
   vpAvoidanceOutput output;
   for (auto loop : state) {

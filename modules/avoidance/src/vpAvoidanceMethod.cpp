@@ -170,8 +170,8 @@ const char *vpAvoidanceMethodMessage(const std::string &name) noexcept
   return found == known.end() ? "" : found->sentence;
 }
 
-std::unique_ptr<vpAvoidanceMethod> makeAvoidanceMethod(const std::string &name, const vpCollisionScene &scene,
-                                                       const vpAvoidanceMethodSpec &spec)
+std::unique_ptr<vpAvoidanceMethod> vpMakeAvoidanceMethod(const std::string &name, const vpCollisionScene &scene,
+                                                         const vpAvoidanceMethodSpec &spec)
 {
   if (name == "planner" || name == "planner-dtg") {
     vpPlannedMotionSpec full;

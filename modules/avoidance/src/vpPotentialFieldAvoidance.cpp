@@ -55,8 +55,8 @@ double vpFieldWeight(const vpFieldWeightSpec &spec, vpFieldForm form, double dis
   return form == vpFieldForm::Thesis ? w : std::min(1., w / std::tanh(spec.centre / spec.width));
 }
 
-Eigen::Vector3d blendAsPrinted(const vpFieldWeightSpec &spec, const Eigen::Vector2d &offset,
-                               const Eigen::Vector3d &avoid, const Eigen::Vector3d &task) noexcept
+Eigen::Vector3d vpBlendAsPrinted(const vpFieldWeightSpec &spec, const Eigen::Vector2d &offset,
+                                 const Eigen::Vector3d &avoid, const Eigen::Vector3d &task) noexcept
 {
   Eigen::Vector3d result = task;
   for (int l = 0; l < 2; ++l) {
@@ -66,8 +66,8 @@ Eigen::Vector3d blendAsPrinted(const vpFieldWeightSpec &spec, const Eigen::Vecto
   return result;
 }
 
-Eigen::Vector3d blendRadial(const vpFieldWeightSpec &spec, double distance, const Eigen::Vector3d &normal, double speed,
-                            const Eigen::Vector3d &task) noexcept
+Eigen::Vector3d vpBlendRadial(const vpFieldWeightSpec &spec, double distance, const Eigen::Vector3d &normal,
+                              double speed, const Eigen::Vector3d &task) noexcept
 {
   const double w = vpFieldWeight(spec, vpFieldForm::Corrected, distance);
   const double along = task.dot(normal); // < 0: towards the obstacle
@@ -146,7 +146,7 @@ public:
     }
     avoiding = true;
     const Vector3d away(-spec.avoidSpeed * signOf(nearest.x()), -spec.avoidSpeed * signOf(nearest.y()), 0.);
-    return fMc.R * blendAsPrinted(spec.pixels, nearest, away, fMc.R.transpose() * task);
+    return fMc.R * vpBlendAsPrinted(spec.pixels, nearest, away, fMc.R.transpose() * task);
   }
 
   //! All obstacles near the last link, the nearest last: it decides.
@@ -163,7 +163,7 @@ public:
         continue;
       }
       const double distance = pair->distance - spec.common.margin;
-      velocity = blendRadial(spec.metres, distance, pair->normal, spec.avoidSpeed, velocity);
+      velocity = vpBlendRadial(spec.metres, distance, pair->normal, spec.avoidSpeed, velocity);
       avoiding = avoiding || vpFieldWeight(spec.metres, spec.form, distance) > 0.05;
       nearest = *pair;
     }

@@ -33,7 +33,7 @@ Loop run(const std::string &id, const vpAvoidanceGoal &goal, int when, const vpA
   ball.pose.p = Vector3d(0., 0., 3.); // far from everything
   around.objects = {ball};
   const vpCollisionScene scene(amor(), around);
-  const auto method = makeAvoidanceMethod(id, scene);
+  const auto method = vpMakeAvoidanceMethod(id, scene);
   vpJointVector q = amor().home();
   method->start(q, goal);
   Loop loop;

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Common tests for every method of makeAvoidanceMethod().
+// Common tests for every method of vpMakeAvoidanceMethod().
 #include "vpAvoidanceTestKit.h"
 #include "vpCatch.h"
 #include "vpIndependentClearance.h"
@@ -129,7 +129,7 @@ TEST_CASE("Every method reaches goals in an empty scene", "[methods]")
       if (problem % 2 == 1) {
         wish.q.resize(0); // the position alone
       }
-      const auto method = makeAvoidanceMethod(name, scene);
+      const auto method = vpMakeAvoidanceMethod(name, scene);
       CAPTURE(name, problem, goal.transpose());
       CHECK(method->start(home(), wish) == vpAvoidanceStatus::Moving);
       const Drive run = drive(scene, *method, home(), 12.);
@@ -178,7 +178,7 @@ TEST_CASE("Among obstacles that stand, methods that foresee keep the margin and 
         --problem;
         continue;
       }
-      const auto method = makeAvoidanceMethod(name, scene);
+      const auto method = vpMakeAvoidanceMethod(name, scene);
       static_cast<void>(method->start(home(), vpAvoidanceGoal::at(amor(), goal)));
       const Drive run = drive(scene, *method, home(), 40.);
       CAPTURE(name, problem, vpToString(run.last.status));
@@ -231,7 +231,7 @@ TEST_CASE("No method that foresees touches what moves while it moves itself", "[
         --problem;
         continue;
       }
-      const auto method = makeAvoidanceMethod(name, scene);
+      const auto method = vpMakeAvoidanceMethod(name, scene);
       static_cast<void>(method->start(home(), vpAvoidanceGoal::at(amor(), goal)));
       const Drive run = drive(scene, *method, home(), 40.);
       CAPTURE(name, problem, vpToString(run.last.status), run.time);
@@ -264,7 +264,7 @@ TEST_CASE("A goal that is taken, then free: the arm waits, says so, and goes", "
       index = scene.add(ball("guest", wish.position, 0.05));
       scene.place(home(), data);
     } while (scene.inCollision(data, 0.03));
-    const auto method = makeAvoidanceMethod(name, scene);
+    const auto method = vpMakeAvoidanceMethod(name, scene);
     CAPTURE(name);
     CHECK(method->start(home(), wish) == vpAvoidanceStatus::GoalInCollision);
     const Drive waiting = drive(scene, *method, home(), 1.);
@@ -283,7 +283,7 @@ TEST_CASE("Goals out of reach, an arm that touches, nonsense: a status, and the 
   for (const std::string &name : vpAvoidanceMethodNames()) {
     vpCollisionScene scene(amor());
     CAPTURE(name);
-    const auto method = makeAvoidanceMethod(name, scene);
+    const auto method = vpMakeAvoidanceMethod(name, scene);
     vpAvoidanceGoal far;
     far.position = Vector3d(0., 2., 0.3);
     vpAvoidanceOutput output;
@@ -313,7 +313,7 @@ TEST_CASE("Goals out of reach, an arm that touches, nonsense: a status, and the 
     vpArmKinematics::forward(amor(), home(), data);
     tight.add(ball("cuff", data.tool.p, 0.05));
     if (!isReactive(name)) {
-      const auto held = makeAvoidanceMethod(name, tight);
+      const auto held = vpMakeAvoidanceMethod(name, tight);
       vpAvoidanceGoal wish = vpAvoidanceGoal::at(amor(), home());
       wish.position += Vector3d(0., 0., 0.2);
       wish.q.resize(0);
@@ -336,7 +336,7 @@ TEST_CASE("An arm within the margin is told the pair, the clearance and the marg
   scene.place(home(), placed);
   const vpPlacedCapsule &hand = placed.capsules[3];
   scene.add(ball("ball", hand.to + (hand.radius + 0.05 + 0.00985) * (hand.to - hand.from).normalized(), 0.05));
-  const auto method = makeAvoidanceMethod("planner", scene);
+  const auto method = vpMakeAvoidanceMethod("planner", scene);
   vpJointVector there = home();
   there(0) += 0.5;
   CHECK(method->start(home(), vpAvoidanceGoal::at(amor(), there)) == vpAvoidanceStatus::StartInCollision);
@@ -358,7 +358,7 @@ TEST_CASE("The step of no method allocates", "[methods]")
     vpCollisionScene scene(amor());
     const vpJointVector goal = goalNear(rng, scene);
     scene.add(ball("near", data.tool.p + Vector3d(0.15, 0., 0.), 0.05));
-    const auto method = makeAvoidanceMethod(name, scene);
+    const auto method = vpMakeAvoidanceMethod(name, scene);
     static_cast<void>(method->start(home(), vpAvoidanceGoal::at(amor(), goal)));
     vpAvoidanceOutput output;
     vpJointVector q = home();
@@ -381,12 +381,12 @@ TEST_CASE("The step of no method allocates", "[methods]")
 TEST_CASE("Names and parameters of methods are checked", "[methods]")
 {
   const vpCollisionScene scene(amor());
-  CHECK_THROWS_WITH(makeAvoidanceMethod("teleport", scene),
+  CHECK_THROWS_WITH(vpMakeAvoidanceMethod("teleport", scene),
                     Catch::Contains("unknown avoidance method 'teleport', known are potential, potential-corrected"));
   vpAvoidanceMethodSpec spec;
   spec.maxVelocity = 0.;
   for (const std::string &name : vpAvoidanceMethodNames()) {
-    CHECK_THROWS_WITH(makeAvoidanceMethod(name, scene, spec),
+    CHECK_THROWS_WITH(vpMakeAvoidanceMethod(name, scene, spec),
                       Catch::Contains("maxVelocity of the avoidance method is 0"));
   }
   CHECK_THROWS_WITH(vpAvoidanceGoal::at(amor(), vpJointVector::Zero(3)), Catch::Contains("a goal of 3 numbers"));
@@ -428,6 +428,7 @@ TEST_CASE("A goal configuration is free, or its status says that none is, or tha
   for (const int count : counts) {
     CHECK(count > 0);
   }
-  const vpGoalConfiguration far = vpFindGoalConfiguration(vpCollisionScene(amor()), home(), Vector3d(0., 3., 0.), 0., 3);
+  const vpGoalConfiguration far =
+      vpFindGoalConfiguration(vpCollisionScene(amor()), home(), Vector3d(0., 3., 0.), 0., 3);
   CHECK(far.status == vpGoalConfigurationStatus::Unreachable);
 }

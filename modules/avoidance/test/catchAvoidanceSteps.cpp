@@ -96,7 +96,7 @@ TEST_CASE("Every method commands numbers within the joints' limits, whatever it 
   const vpAvoidanceGoal goal = vpAvoidanceGoal::at(amor(), end);
   for (const std::string &name : vpAvoidanceMethodNames()) {
     CAPTURE(name);
-    const auto method = makeAvoidanceMethod(name, scene);
+    const auto method = vpMakeAvoidanceMethod(name, scene);
     vpAvoidanceOutput output;
     everyPlace(home(), [&](const vpJointVector &q, std::size_t place, std::size_t value) {
       if (!isInRange(q)) {
@@ -160,9 +160,9 @@ TEST_CASE("Weights and blends of wild distances stay within what they blend", "[
       REQUIRE((!std::isnan(distance) || w > 0.7)); // as in contact
     }
     const Vector3d task(0.1, -0.2, 0.3);
-    const Vector3d radial = blendRadial(spec, distance, Vector3d::UnitX(), 0.2, task);
+    const Vector3d radial = vpBlendRadial(spec, distance, Vector3d::UnitX(), 0.2, task);
     REQUIRE((radial.x() >= 0.1 && radial.x() <= 0.2));
-    const Vector3d printed = blendAsPrinted(spec, {distance, 0.05}, {0.2, 0.2, 0.2}, task);
+    const Vector3d printed = vpBlendAsPrinted(spec, {distance, 0.05}, {0.2, 0.2, 0.2}, task);
     REQUIRE((printed.allFinite() && printed.norm() < 1.));
   }
 }

@@ -112,7 +112,7 @@ TEST_CASE("Meshes from files", "[files]")
   const vpTriangleMesh one = vpTriangleMesh::load(text.name());
   CHECK(one.triangles().size() == 1);
   CHECK(one.message() == text.name() + ": the surface has holes (3 edges with one triangle), it is a surface without "
-                                        "an inside");
+                                       "an inside");
 }
 
 TEST_CASE("A closed mesh is a solid, however its file repeats corners and turns triangles", "[files]")
@@ -413,7 +413,8 @@ TEST_CASE("Errors in scenes name the file and the element", "[files]")
   CHECK(sceneError("").find(file + "line 1, column 1") == 0);
   CHECK(sceneError("{\"name\": \"s\"}") == file + "objects is missing");
   CHECK(sceneError("{\"name\": \"s\", \"objects\": [], \"obstacles\": []}") ==
-        file + "unknown field obstacles; known are allowed_link_pairs, comment, ground, ignored_bodies, name, objects, tasks");
+        file + "unknown field obstacles; known are allowed_link_pairs, comment, ground, ignored_bodies, name, objects, "
+               "tasks");
   CHECK(sceneError("{\"name\": \"s\", \"objects\": [], \"ignored_bodies\": [1]}") ==
         file + "ignored_bodies is [1], must be a list of texts");
   CHECK(sceneError("{\"name\": \"s\", \"objects\": {}}") == file + "objects is {}, must be a list");

@@ -42,14 +42,14 @@ TEST_CASE("As printed the axes act by themselves and more height reverses the ta
   const vpFieldWeightSpec spec{120., 60., 0.5};
   const Vector3d task(0.2, 0., 0.), avoid(-0.25, -0.25, 0.);
   // An obstacle far away on u, but level with the image's centre on v: pushed on v all the same.
-  const Vector3d pushed = blendAsPrinted(spec, {400., 0.}, avoid, task);
+  const Vector3d pushed = vpBlendAsPrinted(spec, {400., 0.}, avoid, task);
   CHECK(pushed.x() == Approx(0.2).margin(1e-3));
   CHECK(pushed.y() < -0.2);
   vpFieldWeightSpec high = spec;
   high.height = 1.;
   const Vector3d none(0., 0., 0.);
-  CHECK(blendAsPrinted(high, {0., 400.}, none, task).x() < -0.1); // (1 - w) < 0
-  CHECK(blendAsPrinted(spec, {0., 400.}, none, task).x() > 0.);
+  CHECK(vpBlendAsPrinted(high, {0., 400.}, none, task).x() < -0.1); // (1 - w) < 0
+  CHECK(vpBlendAsPrinted(spec, {0., 400.}, none, task).x() > 0.);
 }
 
 TEST_CASE("Corrected, contact never comes nearer, and ways along or away stay", "[potential]")
@@ -60,12 +60,12 @@ TEST_CASE("Corrected, contact never comes nearer, and ways along or away stay", 
   for (int k = 0; k < 2000; ++k) {
     const Vector3d normal = point(rng, 1.).normalized(), task = point(rng, 0.5);
     const double speed = uniform(rng, 0., 0.5), d = uniform(rng, 0., 0.3);
-    const Vector3d v = blendRadial(spec, d, normal, speed, task);
-    REQUIRE((v - task).cross(normal).norm() < 1e-12);                          // only along the normal
-    REQUIRE(v.dot(normal) >= task.dot(normal) - 1e-12);                        // never nearer than wished
-    REQUIRE(blendRadial(spec, 0., normal, speed, task).dot(normal) >= -1e-12); // in contact never nearer at all
+    const Vector3d v = vpBlendRadial(spec, d, normal, speed, task);
+    REQUIRE((v - task).cross(normal).norm() < 1e-12);                            // only along the normal
+    REQUIRE(v.dot(normal) >= task.dot(normal) - 1e-12);                          // never nearer than wished
+    REQUIRE(vpBlendRadial(spec, 0., normal, speed, task).dot(normal) >= -1e-12); // in contact never nearer at all
     const Vector3d away = task - std::min(0., task.dot(normal) - speed) * normal;
-    REQUIRE((blendRadial(spec, d, normal, speed, away) - away).norm() < 1e-12);
+    REQUIRE((vpBlendRadial(spec, d, normal, speed, away) - away).norm() < 1e-12);
   }
 }
 

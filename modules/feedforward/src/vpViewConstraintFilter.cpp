@@ -32,7 +32,7 @@ double speed(const vpTwist &twist, double maxLinear, double maxAngular)
 } // namespace
 
 vpViewConstraintSpec vpViewConstraintSpec::fromCamera(const vpCameraParameters &camera, unsigned int width,
-                                                          unsigned int height)
+                                                      unsigned int height)
 {
   if (width == 0 || height == 0) {
     throw vpException(vpException::badValue, "the view constraint's image is %u x %u px, must not be empty", width,

@@ -280,7 +280,8 @@ TEST_CASE("ff-sum is stable around the goal, and not everywhere", "[stability]")
   CHECK(vpFeedforwardSumStabilityMargin(60. * degree, 90. * degree, 4.) < 0.); // a large kappa destabilises
   // Without the image term the margin is that of L_theta_u alone: theta/2 cot(theta/2).
   CHECK(vpFeedforwardSumStabilityMargin(0.5, 1.2, 0., 20000) == Approx(0.6 / std::tan(0.6)).epsilon(1e-3));
-  CHECK_THROWS_WITH(vpFeedforwardSumStabilityMargin(2., 0., 1.), Catch::Contains("bearing of the stability margin is 2"));
+  CHECK_THROWS_WITH(vpFeedforwardSumStabilityMargin(2., 0., 1.),
+                    Catch::Contains("bearing of the stability margin is 2"));
   CHECK_THROWS_WITH(vpFeedforwardSumStabilityMargin(0., -1., 1.),
                     Catch::Contains("rotation of the stability margin is -1"));
   CHECK_THROWS_WITH(vpFeedforwardSumStabilityMargin(0., 0., std::numeric_limits<double>::quiet_NaN()),

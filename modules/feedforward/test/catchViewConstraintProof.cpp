@@ -94,8 +94,8 @@ TEST_CASE("10^6 random cases: no point in the view leaves it while the answer is
     outline.clear();
     truth.clear();
     for (int i = 0; i < count; ++i) {
-      const vpServoPoint told{inside(rng, spec.left + u, spec.right - u),
-                              inside(rng, spec.top + u, spec.bottom - u), logUniform(rng, 0.02, 20.), true};
+      const vpServoPoint told{inside(rng, spec.left + u, spec.right - u), inside(rng, spec.top + u, spec.bottom - u),
+                              logUniform(rng, 0.02, 20.), true};
       outline.push_back(told);
       truth.push_back(
           {told.x + uniform(rng, -u, u), told.y + uniform(rng, -u, u), told.Z * (1. + uniform(rng, -d, d)), true});
@@ -111,8 +111,7 @@ TEST_CASE("10^6 random cases: no point in the view leaves it while the answer is
     const double T = std::max(dt, spec.period);
     const vpServoCommand command = filter.filter({v, vpServoStatus::Servoing}, outline, dt);
     if (!(command.v.linearNorm() <= spec.maxLinear * (1. + 1e-12)) ||
-        !(command.v.angularNorm() <= spec.maxAngular * (1. + 1e-12)) ||
-        command.status == vpServoStatus::InvalidInput) {
+        !(command.v.angularNorm() <= spec.maxAngular * (1. + 1e-12)) || command.status == vpServoStatus::InvalidInput) {
       FAIL("the speed limit is broken, or good input refused");
     }
     for (int i = 0; i < count; ++i) {

@@ -218,8 +218,7 @@ void vpPatternTracker::Impl::validate(const vpImage<unsigned char> &image)
     const double hidden = fit.masked ? maskedSigma * maskedSigma : 0.;
     const double sx = std::sqrt(fit.variance * fit.xx + hidden), sy = std::sqrt(fit.variance * fit.yy + hidden);
     cell.valid = fit.ok && fit.variance < hopeless * usual + allowance() && fit.contrast > 0.5 * contrast &&
-                 fit.contrast < 2. * contrast && near(fit) && sx < m_spec.maxCellSigma &&
-                 sy < m_spec.maxCellSigma;
+                 fit.contrast < 2. * contrast && near(fit) && sx < m_spec.maxCellSigma && sy < m_spec.maxCellSigma;
     if (cell.valid) {
       cell.x = fit.x;
       cell.y = fit.y;

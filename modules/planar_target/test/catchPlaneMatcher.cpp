@@ -146,7 +146,7 @@ TEST_CASE("whiteboard: matches in a corner of a real photograph are said to extr
     REQUIRE(count == 8);
     CAPTURE(vpToString(type), match.message, error / count);
     WARN(vpToString(type) << ": " << vpToString(match.status) << ", " << match.message << " Largest deviation "
-                        << match.cornerDeviation << " px, mean error at the known points " << error / count << " px");
+                          << match.cornerDeviation << " px, mean error at the known points " << error / count << " px");
     // A homography reported as valid everywhere has small errors everywhere.
     CHECK((!match.found() || error / count < 9.));
     if (type == vpKeypointType::ORB) {

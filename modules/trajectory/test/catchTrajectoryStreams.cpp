@@ -91,8 +91,7 @@ template <int N> void stream(std::mt19937_64 &rng, double &worst)
                       (x.q[i] - input.maxPosition[i]) / place, (input.minPosition[i] - x.q[i]) / place});
         CAPTURE(i, x.q[i], x.v[i], x.a[i], excess, input.maxVelocity[i], input.maxAcceleration[i], input.minPosition[i],
                 input.maxPosition[i], input.spec.freeze, static_cast<int>(input.spec.policy),
-                static_cast<int>(input.spec.method), output.newPlan, trajectory.plan().brakingEnd(),
-                output.remaining);
+                static_cast<int>(input.spec.method), output.newPlan, trajectory.plan().brakingEnd(), output.remaining);
         // A start beyond a limit by at most vpLimit::tolerance counts as on it.
         REQUIRE((excess <= vpLimit::tolerance || saysSo(output.status)));
         worst = saysSo(output.status) ? worst : std::max(worst, excess);

@@ -136,7 +136,7 @@ public:
  * \param output : Output of a step. \param scene : Scene of the method. \param margin : Margin of the method, m.
  */
 [[nodiscard]] VISP_EXPORT std::string vpMessage(const vpAvoidanceOutput &output, const vpCollisionScene &scene,
-                                               double margin);
+                                                double margin);
 
 END_VISP_NAMESPACE
 #endif

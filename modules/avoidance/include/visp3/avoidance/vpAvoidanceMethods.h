@@ -14,7 +14,7 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_avoidance
-//! \brief Method names for makeAvoidanceMethod().
+//! \brief Method names for vpMakeAvoidanceMethod().
 [[nodiscard]] VISP_EXPORT const std::vector<std::string> &vpAvoidanceMethodNames();
 //! \ingroup group_avoidance
 //! Describes how the named method reacts to obstacles, for menus; static text, empty for an unknown name.
@@ -30,7 +30,7 @@ BEGIN_VISP_NAMESPACE
  * (notImplementedError) for planners if built without OMPL.
  */
 [[nodiscard]] VISP_EXPORT std::unique_ptr<vpAvoidanceMethod>
-makeAvoidanceMethod(const std::string &name, const vpCollisionScene &scene, const vpAvoidanceMethodSpec &spec = {});
+vpMakeAvoidanceMethod(const std::string &name, const vpCollisionScene &scene, const vpAvoidanceMethodSpec &spec = {});
 
 END_VISP_NAMESPACE
 #endif

@@ -43,9 +43,10 @@ struct VISP_EXPORT vpGoalConfiguration {
  * \throw vpException (badValue) when \e from does not fit the arm or \e position is not finite.
  */
 [[nodiscard]] VISP_EXPORT vpGoalConfiguration vpFindGoalConfiguration(const vpCollisionScene &scene,
-                                                                const vpJointVector &from,
-                                                                const Eigen::Vector3d &position, double margin = 0.,
-                                                                int attempts = 20, unsigned int seed = 1);
+                                                                      const vpJointVector &from,
+                                                                      const Eigen::Vector3d &position,
+                                                                      double margin = 0., int attempts = 20,
+                                                                      unsigned int seed = 1);
 
 END_VISP_NAMESPACE
 #endif

@@ -41,7 +41,8 @@ struct VISP_EXPORT vpFieldWeightSpec {
  * \param spec : Parameters. \param form : Variant.
  * \param distance : In the unit of the spec; signed as printed, corrected: negative counts as 0.
  */
-[[nodiscard]] VISP_EXPORT double vpFieldWeight(const vpFieldWeightSpec &spec, vpFieldForm form, double distance) noexcept;
+[[nodiscard]] VISP_EXPORT double vpFieldWeight(const vpFieldWeightSpec &spec, vpFieldForm form,
+                                               double distance) noexcept;
 
 /*!
  * \ingroup group_avoidance
@@ -50,9 +51,9 @@ struct VISP_EXPORT vpFieldWeightSpec {
  * \param offset : Offset of the obstacle from the image's centre, px. \param avoid : Avoidance velocity x'_oa.
  * \param task : Task velocity x'_t; both of the tool in the axes of the camera, m/s.
  */
-[[nodiscard]] VISP_EXPORT Eigen::Vector3d blendAsPrinted(const vpFieldWeightSpec &spec, const Eigen::Vector2d &offset,
-                                                         const Eigen::Vector3d &avoid,
-                                                         const Eigen::Vector3d &task) noexcept;
+[[nodiscard]] VISP_EXPORT Eigen::Vector3d vpBlendAsPrinted(const vpFieldWeightSpec &spec, const Eigen::Vector2d &offset,
+                                                           const Eigen::Vector3d &avoid,
+                                                           const Eigen::Vector3d &task) noexcept;
 
 /*!
  * \ingroup group_avoidance
@@ -62,9 +63,9 @@ struct VISP_EXPORT vpFieldWeightSpec {
  * \param distance : Distance from the obstacle's surface, m. \param normal : Unit vector from obstacle to tool.
  * \param speed : Avoidance speed |x'_oa|, m/s, >= 0. \param task : Task velocity x'_t, m/s, in the frame of the normal.
  */
-[[nodiscard]] VISP_EXPORT Eigen::Vector3d blendRadial(const vpFieldWeightSpec &spec, double distance,
-                                                      const Eigen::Vector3d &normal, double speed,
-                                                      const Eigen::Vector3d &task) noexcept;
+[[nodiscard]] VISP_EXPORT Eigen::Vector3d vpBlendRadial(const vpFieldWeightSpec &spec, double distance,
+                                                        const Eigen::Vector3d &normal, double speed,
+                                                        const Eigen::Vector3d &task) noexcept;
 
 END_VISP_NAMESPACE
 #endif

@@ -60,7 +60,7 @@ template <class Spec> struct vpField {
   {
     return std::visit([&spec](auto pointer) { return static_cast<double>(spec.*pointer); }, member);
   }
-  //! Sets the field; not validated. \param value : Whole and >= 0 where the member is unsigned.
+  //! Sets the field to \e value, which is whole and >= 0 where the member is unsigned; not validated.
   void set(Spec &spec, double value) const
   {
     std::visit(
@@ -84,15 +84,17 @@ template <class Spec> using vpFields = std::vector<vpField<Spec>>;
 /*!
  * \ingroup group_direct_core
  * \brief Requires a value to be in its range.
+ * \param name : Name of the field. \param owner : As in "of the servo gains"; empty: not mentioned.
+ * \param value : Value of the field. \param unit : Its unit, for the message. \param range : Allowed values.
  * \throw vpException (badValue): "integralLimit of the servo gains is -1 rad/s, must be > 0".
- * \param owner : As in "of the servo gains"; empty: not mentioned.
  */
 VISP_EXPORT void vpCheckField(const char *name, const char *owner, double value, const char *unit,
                               const vpFieldRange &range);
 
 /*!
  * \ingroup group_direct_core
- * \brief Requires all fields of \e spec to be in their ranges. \throw vpException (badValue), see vpCheckField().
+ * \brief Requires all fields of \e spec to be in their ranges; \e owner as for vpCheckField().
+ * \throw vpException (badValue), see vpCheckField().
  */
 template <class Spec> void vpCheckFields(const Spec &spec, const vpFields<Spec> &fields, const char *owner)
 {

@@ -34,7 +34,7 @@ BEGIN_VISP_NAMESPACE
  * \throw vpException (badValue) naming the argument and its value when one is out of its range.
  */
 [[nodiscard]] VISP_EXPORT double vpFeedforwardSumStabilityMargin(double bearing, double rotation, double kappa,
-                                                               unsigned int samples = 500);
+                                                                 unsigned int samples = 500);
 
 END_VISP_NAMESPACE
 #endif

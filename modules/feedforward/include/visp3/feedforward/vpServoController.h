@@ -25,7 +25,7 @@ BEGIN_VISP_NAMESPACE
 //! \ingroup group_feedforward
 //! \brief Parameters of all parts of a vpServoController.
 struct VISP_EXPORT vpServoControllerSpec {
-  vpServoGains gains;          //!< Gains of the law.
+  vpServoGains gains;        //!< Gains of the law.
   vpViewConstraintSpec view; //!< Parameters of the view filter; used by ids ending in `+cbf`.
   vpTargetLossSpec recovery; //!< Parameters of the target loss recovery.
 

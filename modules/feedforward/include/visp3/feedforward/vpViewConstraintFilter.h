@@ -36,7 +36,7 @@ struct VISP_EXPORT vpViewConstraintSpec {
    * \throw vpException (badValue) when the size is 0 or the principal point is not inside the image.
    */
   [[nodiscard]] static vpViewConstraintSpec fromCamera(const vpCameraParameters &camera, unsigned int width,
-                                                         unsigned int height);
+                                                       unsigned int height);
   //! \throw vpException (badValue) naming the field and its value when one is out of its range or not finite.
   void validate() const;
 };

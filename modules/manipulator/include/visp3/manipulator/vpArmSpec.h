@@ -91,9 +91,9 @@ struct VISP_EXPORT vpArmSpec {
    * vpCollisionScene refuses the arm unless each is in vpCollisionSceneSpec::ignoredBodies.
    */
   std::vector<std::string> uncovered;
-  vpRigidTransform tool;              //!< End effector in the frame of the last link.
-  vpRigidTransform camera;            //!< eMc: camera in the end effector's frame.
-  vpJointVector home;                 //!< Home configuration, rad or m, within the limits; empty: unknown.
+  vpRigidTransform tool;   //!< End effector in the frame of the last link.
+  vpRigidTransform camera; //!< eMc: camera in the end effector's frame.
+  vpJointVector home;      //!< Home configuration, rad or m, within the limits; empty: unknown.
 };
 
 END_VISP_NAMESPACE

@@ -65,7 +65,7 @@ template <int N> struct vpTrajectoryInput {
   vpAxisVector<N> minPosition;          //!< unit; -infinity (the default): none.
   vpAxisVector<N> maxPosition;          //!< unit; infinity (the default): none.
   std::vector<vpTrajectoryVia<N>> vias; //!< Vias, at most the maxVias of the trajectory.
-  vpTrajectorySpec spec;          //!< All other options.
+  vpTrajectorySpec spec;                //!< All other options.
 
   //! At rest at zero with velocity and acceleration limits of 1.
   explicit vpTrajectoryInput(int axes = N == Eigen::Dynamic ? 0 : N)
