@@ -198,7 +198,7 @@ vpAvoidanceScenario vpAvoidanceScenes::figure88(const std::shared_ptr<const vpAr
       scenario.run.obstacles.push_back(ball);
       scenario.run.goalMoves = {{when, when, aside}};
       scenario.run.visionRate = 10.;
-      scenario.run.poses.eye = Eigen::Vector3d(0., 0., 2.); // a camera above
+      scenario.run.poses.viewpoint = Eigen::Vector3d(0., 0., 2.); // a camera above
       scenario.run.poses.range = 5.;
       scenario.draws = draw + 1;
       return scenario;

@@ -50,14 +50,15 @@ void vpPoseSensor::look(const vpCollisionScene &truth, const vpCollisionData &ar
                         std::vector<vpObjectSighting> &result)
 {
   result.clear();
-  const Eigen::Vector3d eye = m_spec.eye ? *m_spec.eye : vpArmKinematics::camera(truth.arm(), arm.arm).p;
+  const Eigen::Vector3d viewpoint =
+      m_spec.viewpoint ? *m_spec.viewpoint : vpArmKinematics::camera(truth.arm(), arm.arm).p;
   for (Object &seen : m_objects) {
     // Always drawn: an object's noise does not depend on what was seen before.
     const Eigen::Vector3d shift = noise(seen.random, m_spec.positionNoise);
     const Eigen::Vector3d turn = noise(seen.random, m_spec.angleNoise);
     const bool failed = std::uniform_real_distribution<double>(0., 1.)(seen.random) < m_spec.missed;
     const int i = truth.find(seen.name);
-    if (i < 0 || failed || (truth.object(i).pose.p - eye).norm() > m_spec.range) {
+    if (i < 0 || failed || (truth.object(i).pose.p - viewpoint).norm() > m_spec.range) {
       continue;
     }
     vpObjectSighting sighting;

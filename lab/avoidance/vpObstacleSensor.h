@@ -38,11 +38,11 @@ public:
  * \brief Parameters of vpPoseSensor.
  */
 struct vpPoseSensorSpec {
-  double positionNoise = 0.002;       //!< Standard deviation of each coordinate, m, > 0; reported in the sightings.
-  double angleNoise = 0.01;           //!< Sigma of each rotation component, rad, > 0; reported in the sightings.
-  double range = 2.;                  //!< Maximum distance of an object's origin from the eye, m, > 0.
-  double missed = 0.;                 //!< Fraction of the sightings in range that are missed at random, 0..1.
-  std::optional<Eigen::Vector3d> eye; //!< Fixed position in the base, m; none: the camera in the hand.
+  double positionNoise = 0.002; //!< Standard deviation of each coordinate, m, > 0; reported in the sightings.
+  double angleNoise = 0.01;     //!< Sigma of each rotation component, rad, > 0; reported in the sightings.
+  double range = 2.;            //!< Maximum distance of an object's origin from the viewpoint, m, > 0.
+  double missed = 0.;           //!< Fraction of the sightings in range that are missed at random, 0..1.
+  std::optional<Eigen::Vector3d> viewpoint; //!< Fixed position in the base, m; none: the camera in the hand.
 
   //! \throw vpException (badValue) naming the field that is out of range, and its value.
   void validate() const;

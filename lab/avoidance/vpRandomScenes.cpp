@@ -258,7 +258,7 @@ vpAvoidanceScenario vpAvoidanceScenes::crossing(const std::shared_ptr<const vpAr
       scenario.run.visionRate = spec.visionRate;
       scenario.run.latency = spec.latency;
       scenario.run.poses.positionNoise = 0.003;
-      scenario.run.poses.eye = Eigen::Vector3d(0., 0., 2.); // a camera above
+      scenario.run.poses.viewpoint = Eigen::Vector3d(0., 0., 2.); // a camera above
       scenario.run.poses.range = 5.;
       scenario.run.maxDuration = 30.;
       scenario.draws = draw + 1;

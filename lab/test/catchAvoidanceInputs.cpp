@@ -215,7 +215,7 @@ TEST_CASE("A pose sensor sees what is in range, and misses some of it", "[pose-s
   scene.place(amor().home(), data);
   std::vector<vpObjectSighting> seen;
   vpPoseSensorSpec spec;
-  spec.eye = Vector3d(0.5, 0.3, 0.9);
+  spec.viewpoint = Vector3d(0.5, 0.3, 0.9);
   spec.range = 0.6; // the other is 1.09 m away
   vpPoseSensor near({"ball", "other", "nothing"}, spec, 1);
   near.look(scene, data, 0., seen);
@@ -230,7 +230,7 @@ TEST_CASE("A pose sensor sees what is in range, and misses some of it", "[pose-s
   CHECK(seen[0].pose.p == first); // the noise of objects is independent
 
   // From the hand the distance is that of the camera.
-  spec.eye.reset();
+  spec.viewpoint.reset();
   const Vector3d camera = vpArmKinematics::camera(amor(), data.arm).p;
   for (const double more : {-1e-6, 1e-6}) {
     spec.range = (camera - scene.object(0).pose.p).norm() + more;

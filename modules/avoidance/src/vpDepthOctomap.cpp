@@ -104,10 +104,10 @@ vpDepthReport vpDepthOctomap::insert(const vpImage<float> &depth, const vpCamera
   report.status = report.used > 0 ? vpDepthStatus::Ok : vpDepthStatus::NoPoint;
   octomap::OcTree &tree = m_map->tree;
   if (m_spec.carve) {
-    const octomap::point3d eye(static_cast<float>(fMc.p.x()), static_cast<float>(fMc.p.y()),
-                               static_cast<float>(fMc.p.z()));
+    const octomap::point3d viewpoint(static_cast<float>(fMc.p.x()), static_cast<float>(fMc.p.y()),
+                                     static_cast<float>(fMc.p.z()));
     // Every ray separately: one ray per end cube would leave cubes on the way uncleared.
-    tree.insertPointCloud(cloud, eye, m_spec.maxRange, true, false);
+    tree.insertPointCloud(cloud, viewpoint, m_spec.maxRange, true, false);
   }
   else {
     for (const octomap::point3d &point : cloud) {
