@@ -245,7 +245,10 @@ TEST_CASE("What is in front hides a photograph, what is behind does not", "[scen
     Fronted fronted(rng);
     vpSceneCamera camera(fronted.spec);
     const vpCollisionShape ball = vpCollisionShape::sphere(0.03);
-    const auto put = [](double z) { return vpRigidTransform{Eigen::Matrix3d::Identity(), Vector3d(0., 0., z)}; };
+    // On the ray through the centre of the face.
+    const auto put = [&fronted](double z) {
+      return vpRigidTransform{Eigen::Matrix3d::Identity(), z / fronted.cMface.p.z() * fronted.cMface.p};
+    };
     vpImage<unsigned char> alone, front, back;
     vpCollisionSceneSpec spec;
     spec.objects = {fronted.box};
