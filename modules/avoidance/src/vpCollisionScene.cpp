@@ -4,6 +4,7 @@
  */
 #include "vpCollisionCore.h"
 #include "vpPlausible.h"
+#include "vpPrintable.h"
 
 #include <visp3/avoidance/vpCollisionScene.h>
 #include <visp3/core/vpException.h>
@@ -28,7 +29,8 @@ unsigned long nextRevision()
 
 [[noreturn]] void fail(const std::string &source, const std::string &sentence)
 {
-  throw vpException(vpException::badValue, "%s: %s", source.empty() ? "scene" : source.c_str(), sentence.c_str());
+  // Names may come from a file.
+  throw vpException(vpException::badValue, vpPrintable((source.empty() ? "scene" : source) + ": " + sentence));
 }
 
 std::string text(double value)

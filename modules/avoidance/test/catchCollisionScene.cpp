@@ -414,6 +414,9 @@ TEST_CASE("Mistakes in a scene are named", "[scene]")
   spec.source = "here";
   spec.objects = {object("a", vpCollisionShape::sphere(0.1)), object("a", vpCollisionShape::sphere(0.1))};
   CHECK(errorOf(spec) == "here: object a: duplicate name");
+  spec.objects[0].name = spec.objects[1].name = "\x1b[2J";
+  CHECK(errorOf(spec) == "here: object \\u001b[2J: duplicate name"); // a terminal would be cleared
+  spec.objects[0].name = spec.objects[1].name = "a";
   spec.objects.pop_back();
   spec.objects[0].inflation = -0.1;
   CHECK(errorOf(spec) == "here: inflation of object a is -0.1 m, must be 0 to 10000");

@@ -2,6 +2,8 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
+#include "vpPrintable.h"
+
 #include <visp3/manipulator/vpArmModel.h>
 
 #include <visp3/core/vpException.h>
@@ -51,7 +53,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 {
   const std::string where =
       spec.source.empty() ? "arm " + (spec.name.empty() ? "without a name" : spec.name) : spec.source;
-  throw vpException(vpException::badValue, "%s: %s", where.c_str(), sentence.c_str());
+  throw vpException(vpException::badValue, vpPrintable(where + ": " + sentence)); // names may come from a file
 }
 
 std::string text(double value, int digits = 6)

@@ -167,8 +167,8 @@ vpPlanarTargetDatabase vpPlanarTargetDatabase::fromFolder(const std::string &fol
     try {
       database.add(entry.name, reference, entry.width, height, entry.depth);
     }
-    catch (const vpException &error) {
-      throw vpException(error.getCode(), entry.file + ": " + error.getStringMessage());
+    catch (const vpException &error) { // the name comes from the file, too
+      throw vpException(error.getCode(), vpPrintable(entry.file + ": " + error.getStringMessage()));
     }
   }
   return database;

@@ -116,6 +116,8 @@ TEST_CASE("what is wrong with a folder of targets is said in a sentence", "[data
   list(R"({ "name": "b", "image": "b.png", "width_m": 0.1 }, { "name": "b", "image": "b.png", "width_m": 0.1 })");
   fs::remove(folder.path() + "/a.png");
   CHECK_THROWS_WITH(load(), Contains("has a target 'b' already"));
+  list(R"({ "name": "\u202eb", "image": "b.png", "width_m": 1e19 })"); // would turn the direction of the text
+  CHECK_THROWS_WITH(load(), Contains("target '\\u202eb': size of the target is 1e+19 x"));
   list(R"({ "name": "b", "image": "b.png", "width_m": 0.324 })");
   CHECK(load().sightings()[0].height == Approx(0.223)); // from the aspect ratio of 324 x 223 px
   CHECK(load().sightings()[0].depth == 0.);
