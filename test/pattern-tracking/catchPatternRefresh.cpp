@@ -126,9 +126,10 @@ TEST_CASE("over 10,000 images nothing creeps while the template is learned anew"
             << "\n";
   CHECK(std::abs(anew.motionX.mean()) < 1e-4);
   CHECK(anew.motionX.sigma() < 0.008);
-  CHECK(std::abs(anew.walkX - once.walkX) < 0.02);
-  CHECK(std::abs(anew.walkY - once.walkY) < 0.02);
-  CHECK(anew.farthest < 0.5);
+  // Over 20 seeds the walks differ by 0.0147 and 0.0049 px rms, and end 0.17 px off: five of these.
+  CHECK(std::abs(anew.walkX - once.walkX) < 0.075);
+  CHECK(std::abs(anew.walkY - once.walkY) < 0.025);
+  CHECK(anew.farthest < 0.85);
   CHECK(anew.notTracking == 0);
   CHECK(anew.epochs == 0);
   CHECK(anew.allocations == 0);
