@@ -33,7 +33,7 @@ enum class vpServoStatus {
  * \brief Loop condition: true while the camera moves to the goal or may recover (Servoing, ViewLimited, Holding,
  * Retreating).
  *
- * False ends the loop: message() gives the reason. The twist is zero then, or near zero (Deadlock). No status reports
+ * False ends the loop: vpMessage() gives the reason. The twist is zero then, or near zero (Deadlock). No status reports
  * that the goal is reached, because the required accuracy is the caller's choice and part of the caller's condition.
  */
 [[nodiscard]] constexpr bool vpIsWorking(vpServoStatus status)

@@ -15,7 +15,7 @@ BEGIN_VISP_NAMESPACE
 
 /*!
  * \ingroup group_manipulator
- * \brief Options for data that a URDF file does not contain.
+ * \brief Data that a URDF file does not contain.
  */
 struct VISP_EXPORT vpArmUrdfSpec {
   std::string base;   //!< First link of the chain; empty: the root.

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpPatternTrackerSpec.h
- * \brief Options of vpPatternTracker; all are optional.
+ * \brief Parameters of vpPatternTracker; all are optional.
  */
 #ifndef vpPatternOptions_h
 #define vpPatternOptions_h
@@ -41,7 +41,7 @@ enum class vpPatternPolarity {
 
 /*!
  * \ingroup group_pattern
- * \brief Options of vpPatternTracker. The defaults suit every pattern with two visible periods in both directions.
+ * \brief Parameters of vpPatternTracker. The defaults suit every pattern with two visible periods in both directions.
  */
 struct VISP_EXPORT vpPatternTrackerSpec {
   vpPatternMethod method = vpPatternMethod::GaussNewton;           //!< Method that measures a centre.

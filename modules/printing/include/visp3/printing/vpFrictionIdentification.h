@@ -25,7 +25,7 @@ struct VISP_EXPORT vpFrictionSample {
 };
 
 //! \ingroup group_printing
-//! \brief Options of the identification.
+//! \brief Parameters of the identification.
 struct VISP_EXPORT vpFrictionIdentificationSpec {
   bool stribeck = true;      //!< Also stiction and Stribeck velocity; otherwise stiction = Coulomb.
   double minVelocity = 0.;   //!< Slower samples are not used (they may stick), L/T, >= 0.
