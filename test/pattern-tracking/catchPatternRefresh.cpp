@@ -223,6 +223,9 @@ TEST_CASE("dirt is not learned, wherever it grows", "[pattern][refresh]")
   CHECK(tracker.frame().templates > templates + 5);
   CHECK(std::abs(after[0].mean()) < 0.003);
   CHECK(std::abs(after[1].mean()) < 0.003);
-  CHECK(after[0].sigma() < 1.05 * before[0].sigma());
+  // Of some 900 cells each, so the ratio has a deviation of a thirtieth; five of these.
+  const double spread =
+      std::sqrt(0.5 / static_cast<double>(before[0].count) + 0.5 / static_cast<double>(after[0].count));
+  CHECK(after[0].sigma() < (1. + 5. * spread) * before[0].sigma());
   CHECK(tracker.frame().noise < 4.3);
 }
