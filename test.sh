@@ -22,5 +22,7 @@ if [ ! -f "$report" ]; then
   exit $((status ? status : 1))
 fi
 total=$(count tests) failed=$(count failures) skipped=$(($(count skipped) + $(count disabled)))
-echo "test.sh: $((total - failed - skipped)) passed, $failed failed, $skipped skipped, $SECONDS s in all"
+times >"$logs/times.txt" # of this shell, then of all that it ran
+cpu=$(awk 'NR == 2 { split($1, user, "m"); split($2, sys, "m"); print int(60 * (user[1] + sys[1]) + user[2] + sys[2]) }' "$logs/times.txt")
+echo "test.sh: $((total - failed - skipped)) passed, $failed failed, $skipped skipped, $SECONDS s in all, $cpu s of processor time"
 exit "$status"
