@@ -30,7 +30,7 @@ struct Record {
   std::vector<double> lookTimes; //!< Wall times of vpAvoidanceMethod::look(), s.
   vpAvoidanceMetrics metrics;
 };
-//! See archive.h.
+//! See sweep.h.
 template <class Archive> void exchange(Archive &archive, Record &record)
 {
   vpAvoidanceMetrics &m = record.metrics;

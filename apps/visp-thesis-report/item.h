@@ -36,7 +36,7 @@ public:
   //! In words: "within a factor 1.1".
   [[nodiscard]] std::string text() const;
 
-  //! See archive.h.
+  //! See sweep.h.
   template <class Archive> friend void exchange(Archive &archive, Tolerance &tolerance)
   {
     archive(tolerance.m_kind, tolerance.m_size);
