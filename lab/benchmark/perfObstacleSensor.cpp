@@ -134,7 +134,7 @@ static void detect(benchmark::State &state)
   }
   state.counters["seen"] = static_cast<double>(seen) / frames;
 }
-BENCHMARK(detect)->ArgName("anew")->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
+BENCHMARK(detect)->ArgName("fresh")->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 
 //! Rendering and detection: from the true scene to sightings.
 static void look(benchmark::State &state)

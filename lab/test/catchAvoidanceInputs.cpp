@@ -81,7 +81,7 @@ TEST_CASE("Frames come at their rate, after their latency, and not while the cam
   CHECK(run.lookTimes.size() == diary->looks.size());
 }
 
-TEST_CASE("A goal that moves is told at its rate", "[avoidance-experiment]")
+TEST_CASE("A moving goal is updated at its own rate", "[avoidance-experiment]")
 {
   auto diary = std::make_shared<BlindMethod::Diary>();
   vpAvoidanceRunSpec spec = sledgeRun(0., 0.5, {}, diary);
@@ -100,7 +100,7 @@ TEST_CASE("A goal that moves is told at its rate", "[avoidance-experiment]")
   auto noisy = std::make_shared<BlindMethod::Diary>();
   spec.goalNoise = 0.01;
   spec.makeMethod = sledgeRun(0., 0.5, {}, noisy).makeMethod;
-  CHECK(runAvoidanceExperiment(spec).metrics.success); // in the end the goal is told without noise
+  CHECK(runAvoidanceExperiment(spec).metrics.success); // at the end the goal has no noise
   double squares = 0.;
   for (std::size_t i = 0; i < 59; ++i) {
     squares += std::pow(noisy->goals[i].position.y(), 2);

@@ -331,7 +331,7 @@ TEST_CASE("A filter keeps its answer in seconds, and stays stable", "[print-unit
   CHECK(std::log(std::fabs(1. - other.alpha)) * rate == Approx(decay).epsilon(1e-6));
 }
 
-TEST_CASE("Units that are none are told in a sentence", "[print-units]")
+TEST_CASE("Invalid units are refused in a sentence", "[print-units]")
 {
   const vpPrintExperimentSpec spec;
   CHECK_THROWS_WITH(vpInUnits(spec, {0., 1600.}), Catch::Contains("pixelSize of the units is 0, must be > 0"));

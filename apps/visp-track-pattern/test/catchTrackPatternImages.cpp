@@ -150,7 +150,7 @@ TEST_CASE("a real grid that is moved is tracked", "[images]")
     REQUIRE(motions > 0);
     const double rms = std::sqrt(squares / motions);
     WARN("grid36-0" << number << " moved: " << tracking << " of 160 images tracked, " << lost << " lost, "
-                    << valid / 160. << " dots in the mean, displacement off by " << rms << " px (rms), at most "
+                    << valid / 160. << " dots on average, displacement off by " << rms << " px (rms), at most "
                     << largest << " px in image " << at << ", where it says " << told
                     << " px; at the end: " << tracker.frame().message());
     CHECK(motions > 140);

@@ -34,8 +34,8 @@ constexpr std::array<Known, 6> known{
      {"potential-corrected", "is pushed away from the obstacle, within bounds of speed and joints"},
      {"dtg", "takes another final position beside the obstacle until the way to the goal is free"},
      {"dtg-via", "takes via positions round the obstacle, the shortest way first"},
-     {"planner", "brakes, and plans anew when it stands"},
-     {"planner-dtg", "plans anew from the moving state, and brakes only if there is no way"}}};
+     {"planner", "brakes, and replans at rest"},
+     {"planner-dtg", "replans from the moving state, and brakes only if there is no way"}}};
 } // namespace
 
 void vpAvoidanceMethodSpec::validate() const

@@ -13,7 +13,7 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! A number with so many significant digits; 17 print different numbers differently.
+//! A number with \e digits significant digits; 17 distinguish any two numbers.
 inline std::string vpDigits(double value, int digits)
 {
   char result[40];

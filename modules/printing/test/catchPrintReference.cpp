@@ -30,7 +30,7 @@ std::vector<vpPrintTarget> lattice(int n, std::mt19937_64 &rng, double scatter)
 }
 } // namespace
 
-TEST_CASE("4 px/frame at the centres, 5 in the mean: the ripple of the closed form", "[reference]")
+TEST_CASE("4 px/frame at the centres, 5 on average: the ripple of the closed form", "[reference]")
 {
   auto rng = vpTestSupport::generator(60);
   const auto targets = lattice(40, rng, 0.);
