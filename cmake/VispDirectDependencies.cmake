@@ -52,6 +52,11 @@ find_library(VISP_DIRECT_OCTOMATH_LIBRARY octomath)
 vispdirect_optional(OCTOMAP "octrees from files and depth images (vpDepthOctomap)" "${VISP_DIRECT_OCTOMAP_INCLUDE_DIR}"
   "${VISP_DIRECT_OCTOMAP_LIBRARY};${VISP_DIRECT_OCTOMATH_LIBRARY}")
 
+find_path(VISP_DIRECT_ASSIMP_INCLUDE_DIR assimp/Importer.hpp)
+find_library(VISP_DIRECT_ASSIMP_LIBRARY assimp)
+vispdirect_optional(ASSIMP "mesh files of arms and obstacles (vpTriangleMesh::load)" "${VISP_DIRECT_ASSIMP_INCLUDE_DIR}"
+  "${VISP_DIRECT_ASSIMP_LIBRARY}")
+
 find_path(VISP_DIRECT_FCL_INCLUDE_DIR fcl/fcl.h)
 find_path(VISP_DIRECT_CCD_INCLUDE_DIR ccd/ccd.h)
 find_library(VISP_DIRECT_FCL_LIBRARY fcl)

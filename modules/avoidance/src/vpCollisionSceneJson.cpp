@@ -160,7 +160,7 @@ vpJointVector joints(vpJsonObject &object, const char *field)
 {
   const std::vector<double> numbers = object.numbers(field);
   if (numbers.empty() || numbers.size() > static_cast<std::size_t>(vpArmMaxJoints)) {
-    throw object.wrong(field, object.value(field), "a list of 1 to 8 numbers");
+    throw object.wrong(field, object.value(field), "a list of 1 to " + std::to_string(vpArmMaxJoints) + " numbers");
   }
   return Eigen::Map<const Eigen::VectorXd>(numbers.data(), static_cast<Eigen::Index>(numbers.size()));
 }

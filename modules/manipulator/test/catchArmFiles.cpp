@@ -387,7 +387,7 @@ TEST_CASE("A model by hand is checked as one from a file", "[files]")
   vpArmSpec spec = mixed().spec();
   spec.joints.clear();
   spec.links.clear();
-  says(spec, "0 moving joints, must be 1 to 8");
+  says(spec, "0 moving joints, must be 1 to 16");
   spec = mixed().spec();
   spec.links.pop_back();
   says(spec, "3 links for 4 joints, must be as many");

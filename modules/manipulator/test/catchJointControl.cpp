@@ -135,8 +135,8 @@ TEST_CASE("Joint control says what is wrong and does not allocate", "[control]")
   pi.maxTorque = vector({0.});
   CHECK_THROWS_WITH(vpJointVelocityControl(pi),
                     Catch::Contains("maxTorque of joint 1 of the joint velocity control is 0, must be > 0"));
-  CHECK_THROWS_WITH(vpJointVelocityEstimator(9, 0.001, 10.),
-                    Catch::Contains("size of the joint velocity estimator is 9, must be 1 to 8"));
+  CHECK_THROWS_WITH(vpJointVelocityEstimator(17, 0.001, 10.),
+                    Catch::Contains("size of the joint velocity estimator is 17, must be 1 to 16"));
   CHECK_THROWS_WITH(vpJointVelocityEstimator(2, 0.001, -10.),
                     Catch::Contains("bandwidth of the joint velocity estimator is -10"));
 

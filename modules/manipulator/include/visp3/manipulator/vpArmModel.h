@@ -18,7 +18,7 @@ BEGIN_VISP_NAMESPACE
 /*!
  * \class vpArmModel
  * \ingroup group_manipulator
- * \brief Immutable serial arm of 1 to 8 joints; results of a control cycle are kept in vpArmData.
+ * \brief Immutable serial arm of 1 to vpArmMaxJoints joints; results of a control cycle are kept in vpArmData.
  *
  * Created from a vpArmSpec, by vpLoadArmJson() or by vpLoadArmUrdf(). Copy it during set-up, not in a control loop.
  */
@@ -26,8 +26,8 @@ class VISP_EXPORT vpArmModel
 {
 public:
   /*!
-   * \throw vpException (badValue) naming the arm or its file, the joint or link, and the value: no joint or more than
-   * 8, empty or duplicate names, limits that are not lower < upper, velocity, acceleration or torque limits not > 0,
+   * \throw vpException (badValue) naming the arm or its file, the joint or link, and the value: no joint or more than vpArmMaxJoints,
+   * empty or duplicate names, limits that are not lower < upper, velocity, acceleration or torque limits not > 0,
    * masses not > 0, physically impossible inertias, invalid rotations, capsules of a link that does not exist or
    * with a radius not > 0; positions, links and capsules beyond 10 km, other numbers beyond vpArmLargest.
    */

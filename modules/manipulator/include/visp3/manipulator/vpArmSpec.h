@@ -13,6 +13,7 @@
 
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 BEGIN_VISP_NAMESPACE
@@ -66,6 +67,36 @@ struct VISP_EXPORT vpArmLinkSpec {
 
 /*!
  * \ingroup group_manipulator
+ * \brief Rigid body of a description (a link of a URDF). Several bodies may be fixed to one link of the arm.
+ */
+struct VISP_EXPORT vpArmBody {
+  std::string name; //!< Name in the description.
+  int link = 0;     //!< Link that carries it, 1..n; 0: the base.
+};
+
+//! \ingroup group_manipulator
+//! \brief Kind of a vpArmShape, with the meaning of its size.
+enum class vpArmShapeKind {
+  Sphere,   //!< size(0): radius, m.
+  Cylinder, //!< size(0): radius, size(1): length along z, m; centred.
+  Box,      //!< size: edges along x, y, z, m; centred.
+  Mesh      //!< size: metres per unit of the file along x, y, z; any sign but not 0.
+};
+
+/*!
+ * \ingroup group_manipulator
+ * \brief Exact collision geometry of a body; capsules cover it.
+ */
+struct VISP_EXPORT vpArmShape {
+  int body = 0;                                   //!< Index into vpArmSpec::bodies.
+  vpArmShapeKind kind = vpArmShapeKind::Mesh;     //!< Kind.
+  Eigen::Vector3d size = Eigen::Vector3d::Ones(); //!< See vpArmShapeKind.
+  std::string file;                               //!< Path of the mesh on this machine; empty for other kinds.
+  vpRigidTransform pose;                          //!< Frame of the shape in the link frame.
+};
+
+/*!
+ * \ingroup group_manipulator
  * \brief Part of the arm's surface for collision checks: all points within radius of a segment; a sphere if both ends
  * coincide.
  */
@@ -74,6 +105,7 @@ struct VISP_EXPORT vpArmCapsule {
   Eigen::Vector3d from = Eigen::Vector3d::Zero(); //!< One end of the axis, in the link frame, m.
   Eigen::Vector3d to = Eigen::Vector3d::Zero();   //!< The other end, in the link frame, m.
   double radius = 0.;                             //!< Radius, m, > 0.
+  int body = -1;                                  //!< Index into vpArmSpec::bodies; -1: not of a named body.
 };
 
 /*!
@@ -83,17 +115,22 @@ struct VISP_EXPORT vpArmCapsule {
 struct VISP_EXPORT vpArmSpec {
   std::string name;                   //!< Name for messages.
   std::string source;                 //!< Source file, for messages; may be empty.
-  std::vector<vpArmJointSpec> joints; //!< Joints from the base on, 1..8.
+  std::vector<vpArmJointSpec> joints; //!< Joints from the base on, 1..vpArmMaxJoints.
   std::vector<vpArmLinkSpec> links;   //!< Links, as many as joints, or none.
   std::vector<vpArmCapsule> capsules; //!< Capsules for collision checks; may be empty.
+  std::vector<vpArmBody> bodies;      //!< Bodies of the description; may be empty.
+  std::vector<vpArmShape> shapes;     //!< Exact collision geometry, as far as known; may be empty.
+  //! Pairs of bodies that need no check against each other (disable_collisions of an SRDF), by name.
+  std::vector<std::pair<std::string, std::string>> allowedBodies;
   /*!
    * Names of bodies whose shape is unknown or only partly covered by #capsules: a collision check would not see them.
    * vpCollisionScene refuses the arm unless each is in vpCollisionSceneSpec::ignoredBodies.
    */
   std::vector<std::string> uncovered;
-  vpRigidTransform tool;   //!< End effector in the frame of the last link.
-  vpRigidTransform camera; //!< eMc: camera in the end effector's frame.
-  vpJointVector home;      //!< Home configuration, rad or m, within the limits; empty: unknown.
+  vpRigidTransform tool;             //!< End effector in the frame of the last link.
+  vpRigidTransform camera;           //!< eMc: camera in the end effector's frame.
+  vpJointVector home;                //!< Home configuration, rad or m, within the limits; empty: unknown.
+  std::vector<std::string> warnings; //!< What the reader took as unknown, or assumed: one sentence each.
 };
 
 END_VISP_NAMESPACE

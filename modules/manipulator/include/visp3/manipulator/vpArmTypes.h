@@ -18,7 +18,7 @@ BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_manipulator
 //! \brief Maximum number of joints of an arm.
-constexpr int vpArmMaxJoints = 8;
+constexpr int vpArmMaxJoints = 16;
 
 /*!
  * \ingroup group_manipulator
@@ -31,7 +31,7 @@ constexpr double vpLargestLength = 1e4;
 constexpr double vpLargestCoordinate = 1e6;
 
 //! \ingroup group_manipulator
-//! \brief One number per joint: rad, rad/s, Nm, ... (revolute) or m, m/s, N, ... (prismatic). Size n <= 8.
+//! \brief One number per joint: rad, rad/s, Nm, ... (revolute) or m, m/s, N, ... (prismatic). Size n <= vpArmMaxJoints.
 using vpJointVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, vpArmMaxJoints, 1>;
 //! \ingroup group_manipulator
 //! \brief Jacobian, 6 x n, linear part (rows 0-2) first, then angular.

@@ -24,7 +24,7 @@ class VISP_EXPORT vpJointVelocityEstimator
 {
 public:
   /*!
-   * \param size : Number of joints, 1..8.
+   * \param size : Number of joints, 1..vpArmMaxJoints.
    * \param period : Control period, s, > 0.
    * \param bandwidth : Bandwidth, rad/s, > 0: low is smooth, high is fast.
    * \throw vpException (badValue) naming the parameter that is out of range, and its value.
