@@ -88,6 +88,8 @@ function(vispdirect_test_support)
   target_link_libraries(vispdirect_test_support PUBLIC ${vispdirect_catch})
   target_compile_features(vispdirect_test_support PUBLIC cxx_std_17)
   target_compile_definitions(vispdirect_test_support PUBLIC VISP_DIRECT_DATA_DIR="${VISP_DIRECT_ROOT}/data")
+  # What takes time in a test is in the modules: -O1 saves a quarter of the tests' own compile time.
+  target_compile_options(vispdirect_test_support PUBLIC "$<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU,Clang>>:-O1>")
   # Precompile the headers of every test: a quarter to a third of its compile time.
   if(VISP_DIRECT_STANDALONE AND NOT CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache")
     file(WRITE "${PROJECT_BINARY_DIR}/vispdirect_test_pch.cpp" "int main() { return 0; }\n")
