@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include "lab/arm/vpSelfMotionExperiment.h"
+#include "vpFieldCheck.h"
 
 #include <visp3/core/vpException.h>
 #include <visp3/direct_core/vpSO3.h>
@@ -18,13 +19,7 @@ namespace
 {
 constexpr double period = 0.005; // s
 
-void requireGood(const char *field, double value, bool good, const char *range)
-{
-  if (!good || !std::isfinite(value)) {
-    throw vpException(vpException::badValue, "%s of the self-motion experiment is %g, must be %s and finite", field,
-                      value, range);
-  }
-}
+constexpr vpFieldCheck fields("the self-motion experiment");
 
 //! Desired tool position and velocity at time t: between positions by minimum jerk.
 void reference(const vpSelfMotionRunSpec &spec, const Eigen::Vector3d &start, double t, Eigen::Vector3d &place,
@@ -93,11 +88,13 @@ void vpSelfMotionRunSpec::validate() const
                       static_cast<int>(start.size()), arm->size());
   }
   for (const Eigen::Vector3d &place : places) {
-    requireGood("a place", place.sum(), place.allFinite(), "a number");
+    for (const double value : {place.x(), place.y(), place.z()}) {
+      fields.finite("a place", value);
+    }
   }
-  requireGood("legTime", legTime, legTime > 0., "> 0 s");
-  requireGood("restTime", restTime, restTime >= 0., ">= 0 s");
-  requireGood("share", share, share >= 0. && share <= 1., "0 to 1");
+  fields.positive("legTime", legTime, "s");
+  fields.notNegative("restTime", restTime, "s");
+  fields.in("share", share, {0., 1.});
   index.validate(*arm);
 }
 

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include "lab/avoidance/vpAvoidanceRunSpec.h"
+#include "vpFieldCheck.h"
 
 #include <visp3/core/vpException.h>
 
@@ -12,13 +13,6 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-void requireGood(const std::string &name, const char *field, double value, bool good, const char *range)
-{
-  if (!good) {
-    throw vpException(vpException::badValue, "%s of obstacle %s is %g, must be %s", field, name.c_str(), value, range);
-  }
-}
-
 //! Travelled distance, as a time at full speed, and fraction of the speed; a reversal is centred on phase 0.
 struct Shuttle {
   double way = 0.;
@@ -49,14 +43,15 @@ Shuttle shuttleAt(double phase, double half, double turn)
 
 void vpMovingObstacle::validate() const
 {
-  const std::string &name = object.name;
+  const std::string name = "obstacle " + object.name;
+  const vpFieldCheck fields(name.c_str());
   const double turning = object.velocity.angularNorm();
-  requireGood(name, "angular speed", turning, turning == 0., "0 rad/s");
-  requireGood(name, "turnTime", turnTime, turnTime > 0. && std::isfinite(turnTime), "> 0 s and finite");
-  requireGood(name, "turnAfter", turnAfter, turnAfter == 0. || (turnAfter > turnTime && std::isfinite(turnAfter)),
-              "0 or > turnTime, and finite");
-  requireGood(name, "appears", appears, appears >= 0. && std::isfinite(appears), ">= 0 s and finite");
-  requireGood(name, "vanishes", vanishes, vanishes > appears, "later than it appears");
+  fields.require(turning == 0., "angular speed", turning, "0 rad/s");
+  fields.positive("turnTime", turnTime, "s");
+  fields.require(turnAfter == 0. || (turnAfter > turnTime && std::isfinite(turnAfter)), "turnAfter", turnAfter,
+                 "0 or > turnTime, and finite");
+  fields.notNegative("appears", appears, "s");
+  fields.require(vanishes > appears, "vanishes", vanishes, "later than it appears");
 }
 
 void vpMovingObstacle::stateAt(double t, vpRigidTransform &pose, vpTwist &velocity) const noexcept
@@ -76,13 +71,7 @@ void vpMovingObstacle::stateAt(double t, vpRigidTransform &pose, vpTwist &veloci
 
 namespace
 {
-void requireGood(const char *field, double value, bool good, const char *range)
-{
-  if (!good || !std::isfinite(value)) {
-    throw vpException(vpException::badValue, "%s of the avoidance experiment is %g, must be %s and finite", field,
-                      value, range);
-  }
-}
+constexpr vpFieldCheck fields("the avoidance experiment");
 
 void requireFit(const char *field, const vpJointVector &q, int size, bool mayBeEmpty)
 {
@@ -96,7 +85,7 @@ void requireFit(const char *field, const vpJointVector &q, int size, bool mayBeE
 void requirePlace(const char *field, const Eigen::Vector3d &place)
 {
   for (const double value : {place.x(), place.y(), place.z()}) {
-    requireGood(field, value, true, "a number");
+    fields.finite(field, value);
   }
 }
 
@@ -104,15 +93,15 @@ void requireInOrder(const vpAvoidanceRunSpec &spec)
 {
   double before = 0.;
   for (const vpGoalMove &move : spec.goalMoves) {
-    requireGood("begin of a goal's move", move.begin, move.begin >= before, ">= 0 s and after the move before");
-    requireGood("end of a goal's move", move.end, move.end >= move.begin, ">= its begin");
+    fields.in("begin of a goal's move", move.begin, vpFieldRange{before}, "s");
+    fields.in("end of a goal's move", move.end, vpFieldRange{move.begin}, "s");
     requireFit("the goal", move.to.q, spec.arm->size(), true);
     requirePlace("the goal", move.to.position);
     before = move.end;
   }
   for (const auto &[from, to] : spec.covered) {
-    requireGood("begin of a covered interval", from, from >= 0., ">= 0 s");
-    requireGood("end of a covered interval", to, to >= from, ">= its begin");
+    fields.notNegative("begin of a covered interval", from, "s");
+    fields.in("end of a covered interval", to, vpFieldRange{from}, "s");
   }
 }
 } // namespace
@@ -136,12 +125,12 @@ void vpAvoidanceRunSpec::validate() const
   requireFit("the start", start, arm->size(), false);
   requireFit("the goal", goal.q, arm->size(), true);
   requirePlace("the goal", goal.position);
-  requireGood("goalRate", goalRate, goalRate > 0., "> 0 Hz");
-  requireGood("goalNoise", goalNoise, goalNoise >= 0., ">= 0 m");
-  requireGood("visionRate", visionRate, visionRate > 0., "> 0 Hz");
-  requireGood("latency", latency, latency >= 0., ">= 0 s");
-  requireGood("maxDuration", maxDuration, maxDuration > 0., "> 0 s");
-  requireGood("goalTolerance", goalTolerance, goalTolerance > 0., "> 0 m");
+  fields.positive("goalRate", goalRate, "Hz");
+  fields.notNegative("goalNoise", goalNoise, "m");
+  fields.positive("visionRate", visionRate, "Hz");
+  fields.notNegative("latency", latency, "s");
+  fields.positive("maxDuration", maxDuration, "s");
+  fields.positive("goalTolerance", goalTolerance, "m");
   requireInOrder(*this);
 }
 

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include "lab/avoidance/vpCameraObstacleSensors.h"
+#include "vpFieldCheck.h"
 
 #include "vpHashRandom.h"
 
@@ -38,19 +39,14 @@ vpRigidTransform noisyCamera(const vpRigidTransform &fMc, double positionSigma, 
   return {vpSO3::exp(turn) * fMc.R, fMc.p + place};
 }
 
-void requireNotNegative(const char *field, double value, const char *unit)
-{
-  if (!std::isfinite(value) || value < 0.) {
-    throw vpException(vpException::badValue, "%s is %g, must be >= 0 %s", field, value, unit);
-  }
-}
+constexpr vpFieldCheck fields("the obstacle sensor");
 } // namespace
 
 void vpImageObstacleSensorSpec::validate() const
 {
   faults.validate();
-  requireNotNegative("positionSigma of the obstacle sensor", positionSigma, "m");
-  requireNotNegative("angleSigma of the obstacle sensor", angleSigma, "rad");
+  fields.notNegative("positionSigma", positionSigma, "m");
+  fields.notNegative("angleSigma", angleSigma, "rad");
 }
 
 vpImageObstacleSensor::vpImageObstacleSensor(vpSceneCamera camera, vpObstacleDetector detector,
@@ -86,8 +82,8 @@ void vpDepthObstacleSensorSpec::validate() const
     throw vpException(vpException::badValue, "name of the depth sensor's sighting is empty");
   }
   faults.validate();
-  requireNotNegative("positionSigma of the depth sensor", positionSigma, "m");
-  requireNotNegative("angleSigma of the depth sensor", angleSigma, "rad");
+  vpFieldCheck("the depth sensor").notNegative("positionSigma", positionSigma, "m");
+  vpFieldCheck("the depth sensor").notNegative("angleSigma", angleSigma, "rad");
 }
 
 vpDepthObstacleSensor::vpDepthObstacleSensor(vpSceneCamera camera, const vpDepthObstacleSensorSpec &spec)

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include "lab/avoidance/vpObstacleSensor.h"
+#include "vpFieldCheck.h"
 
 #include <visp3/core/vpException.h>
 #include <visp3/direct_core/vpSO3.h>
@@ -13,12 +14,7 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-void requireGood(const char *field, double value, bool good, const char *range)
-{
-  if (!good || !std::isfinite(value)) {
-    throw vpException(vpException::badValue, "%s of the pose sensor is %g, must be %s and finite", field, value, range);
-  }
-}
+constexpr vpFieldCheck fields("the pose sensor");
 
 Eigen::Vector3d noise(std::mt19937_64 &random, double sigma)
 {
@@ -30,10 +26,10 @@ Eigen::Vector3d noise(std::mt19937_64 &random, double sigma)
 
 void vpPoseSensorSpec::validate() const
 {
-  requireGood("positionNoise", positionNoise, positionNoise > 0., "> 0 m");
-  requireGood("angleNoise", angleNoise, angleNoise > 0., "> 0 rad");
-  requireGood("range", range, range > 0., "> 0 m");
-  requireGood("missed", missed, missed >= 0. && missed <= 1., "0 to 1");
+  fields.positive("positionNoise", positionNoise, "m");
+  fields.positive("angleNoise", angleNoise, "rad");
+  fields.positive("range", range, "m");
+  fields.in("missed", missed, {0., 1.});
 }
 
 vpPoseSensor::vpPoseSensor(const std::vector<std::string> &names, const vpPoseSensorSpec &spec, unsigned int seed)

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include "lab/avoidance/vpSceneDraw.h"
+#include "vpFieldCheck.h"
 
 #include "lab/avoidance/vpTrueScene.h"
 
@@ -216,21 +217,15 @@ bool isFreeAlone(const vpCollisionScene &empty, const Blind &blind)
   });
 }
 
-void requirePositive(const char *field, double value, bool good)
-{
-  if (!good || !std::isfinite(value)) {
-    throw vpException(vpException::badValue, "%s of the crossing obstacles is %g, must be > 0 and finite", field,
-                      value);
-  }
-}
+constexpr vpFieldCheck fields("the crossing obstacles");
 } // namespace
 
 vpAvoidanceScenario vpAvoidanceScenes::crossing(const std::shared_ptr<const vpArmModel> &arm, unsigned int seed,
                                                 const vpCrossingSpec &spec)
 {
   vpSceneDraw::requireArm(arm);
-  requirePositive("speed", spec.speed, spec.speed > 0.);
-  requirePositive("visionRate", spec.visionRate, spec.visionRate > 0.);
+  fields.positive("speed", spec.speed, "m/s");
+  fields.positive("visionRate", spec.visionRate, "Hz");
   for (int draw = 0; draw < vpSceneDraw::mostDraws; ++draw) {
     vpHashRandom random = vpSceneDraw::random(crossingNumber, seed, draw);
     const vpJointVector start = vpSceneDraw::configuration(*arm, random);

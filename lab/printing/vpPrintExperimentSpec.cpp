@@ -96,12 +96,12 @@ void vpPrintExperimentSpec::validate() const
   product.validate();
   fields.positive("sigmaX", sensorModel.sigmaX);
   fields.positive("sigmaY", sensorModel.sigmaY);
-  fields.require(sensorModel.effectiveCells >= 1., "effectiveCells", sensorModel.effectiveCells, ">= 1");
-  fields.require(captureJitter >= 0. && captureJitter <= 2., "captureJitter", captureJitter, "in [0, 2]");
-  fields.require(dropped >= 0. && dropped <= 0.5, "dropped", dropped, "in [0, 0.5]");
+  fields.in("effectiveCells", sensorModel.effectiveCells, {1});
+  fields.in("captureJitter", captureJitter, {0., 2.});
+  fields.in("dropped", dropped, {0., 0.5});
   fields.finite("nozzleOffset", nozzleOffset);
-  fields.require(frames >= 0, "frames", frames, ">= 0");
-  fields.require(evaluateFrom >= 0, "evaluateFrom", evaluateFrom, ">= 0");
+  fields.in("frames", frames, {0});
+  fields.in("evaluateFrom", evaluateFrom, {0});
   fields.positive("frameRate", frameRate);
   fields.require(product.rotation == 0., "rotation", product.rotation, "0: the axes of stage and product are the same");
 }

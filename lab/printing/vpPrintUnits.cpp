@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include "lab/printing/vpPrintUnits.h"
+#include "vpFieldCheck.h"
 
 #include <visp3/core/vpException.h>
 
@@ -133,12 +134,9 @@ vpPrintUnits vpPrintUnits::of(const vpPrintExperimentSpec &spec) { return {spec.
 
 void vpPrintUnits::validate() const
 {
-  if (!(pixelSize > 0.) || !std::isfinite(pixelSize)) {
-    throw vpException(vpException::badValue, "pixelSize of the units is %g, must be > 0", pixelSize);
-  }
-  if (!(frameRate > 0.) || !std::isfinite(frameRate)) {
-    throw vpException(vpException::badValue, "frameRate of the units is %g, must be > 0", frameRate);
-  }
+  constexpr vpFieldCheck fields("the units");
+  fields.positive("pixelSize", pixelSize);
+  fields.positive("frameRate", frameRate);
 }
 
 vpXYStageSpec vpInUnits(const vpXYStageSpec &spec, const vpPrintUnits &from, const vpPrintUnits &to)

@@ -249,6 +249,5 @@ TEST_CASE("A pose sensor sees what is in range, and misses some of it", "[pose-s
   }
   CHECK(count == Approx(1400).margin(5. * std::sqrt(2000 * 0.3 * 0.7)));
   spec.missed = 1.2;
-  CHECK_THROWS_WITH(vpPoseSensor({"ball"}, spec, 1),
-                    Catch::Contains("missed of the pose sensor is 1.2, must be 0 to 1 and finite"));
+  CHECK_THROWS_WITH(vpPoseSensor({"ball"}, spec, 1), Catch::Contains("missed of the pose sensor is 1.2, must be 0..1"));
 }

@@ -299,7 +299,7 @@ TEST_CASE("Sensors that cannot work are refused", "[sensor]")
 {
   vpImageObstacleSensorSpec image;
   image.angleSigma = -1.;
-  CHECK_THROWS_WITH(image.validate(), Catch::Contains("angleSigma of the obstacle sensor is -1, must be >= 0 rad"));
+  CHECK_THROWS_WITH(image.validate(), Catch::Contains("angleSigma of the obstacle sensor is -1 rad, must be >= 0"));
   image = vpImageObstacleSensorSpec();
   image.faults.blur = 9.;
   CHECK_THROWS_WITH(image.validate(), Catch::Contains("blur of the camera's faults is 9 px, must be 0..5"));

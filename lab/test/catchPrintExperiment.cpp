@@ -194,9 +194,9 @@ TEST_CASE("A print experiment says what is wrong", "[print]")
     std::string sentence;
   };
   const std::vector<Case> cases = {
-      {[](auto &s) { s.rows = 0; }, "rows of the print machine is 0, must be in [1, 1000]"},
-      {[](auto &s) { s.dropped = 0.9; }, "dropped of the print experiment is 0.9, must be in [0, 0.5]"},
-      {[](auto &s) { s.visionDelay = -1.; }, "visionDelay of the print machine is -1, must be in [0, 8]"},
+      {[](auto &s) { s.rows = 0; }, "rows of the print machine is 0, must be 1..1000"},
+      {[](auto &s) { s.dropped = 0.9; }, "dropped of the print experiment is 0.9, must be 0..0.5"},
+      {[](auto &s) { s.visionDelay = -1.; }, "visionDelay of the print machine is -1, must be 0..8"},
       {[](auto &s) { s.commandsPerFrame = 3; }, "commandsPerFrame of the print machine is 3, must be 1, 2, 4, 8 or 16"},
       {[](auto &s) { s.sensorModel.sigmaX = 0.; }, "sigmaX of the print experiment is 0, must be > 0"},
       {[](auto &s) { s.controller = vpPrintController::PidFeedforward; }, "pid.feedforward of the print machine is 0"},

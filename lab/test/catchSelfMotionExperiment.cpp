@@ -68,7 +68,7 @@ TEST_CASE("Errors of the self-motion experiment name the field", "[self-motion-e
   vpSelfMotionRunSpec spec = task();
   spec.share = 1.5;
   CHECK_THROWS_WITH(runSelfMotionExperiment(spec),
-                    Catch::Contains("share of the self-motion experiment is 1.5, must be 0 to 1 and finite"));
+                    Catch::Contains("share of the self-motion experiment is 1.5, must be 0..1"));
   spec = task();
   spec.start = at(1.);
   CHECK_THROWS_WITH(runSelfMotionExperiment(spec), Catch::Contains("has 1 numbers, must have 7 finite ones"));

@@ -459,7 +459,7 @@ TEST_CASE("Bad use ends with a sentence and nothing written", "[visp-track-patte
       {"'x%s.png'", DATA, "x%s.png: is no pattern"},
       {"cut.png", DATA, "cut.png: is not an image that can be read, or is cut short"},
       {"film.mp4", DATA, "film.mp4: is not a video that can be read"},
-      {"tiny.png", DATA, "width is 8 px, must be in [16, 16384]"},
+      {"tiny.png", DATA, "width of the pattern tracker's image is 8 px, must be 16..16384"},
       {"good.png --roi 100,0,100,50", DATA, "--roi 100,0,100,50 does not lie in good.png of 160 x 100 px"},
       {"good.png --calibration none.json", DATA, "none.json: cannot be read"},
       {"good.png --calibration none.xml", DATA, "none.xml: cannot be read"},

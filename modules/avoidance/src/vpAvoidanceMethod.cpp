@@ -40,11 +40,11 @@ constexpr std::array<Known, 6> known{
 
 void vpAvoidanceMethodSpec::validate() const
 {
-  fields.require(period > 0. && period <= 1., "period", period, "> 0 s and at most 1 s");
+  fields.in("period", period, vpFieldRange::positive(1.), "s");
   fields.positive("maxVelocity", maxVelocity, "m/s");
   fields.positive("maxAcceleration", maxAcceleration, "m/s^2");
   fields.notNegative("margin", margin, "m");
-  fields.require(seed >= 1, "seed", seed, ">= 1");
+  fields.in("seed", seed, {1});
 }
 
 bool vpAvoidanceGoal::fits(const vpArmModel &model) const noexcept

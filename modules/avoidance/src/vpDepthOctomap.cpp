@@ -41,7 +41,7 @@ vpDepthOctomap::vpDepthOctomap(const vpDepthOctomapSpec &spec) : m_spec(spec)
   fields.notNegative("minRange", spec.minRange, "m");
   fields.require(spec.maxRange > spec.minRange && spec.maxRange <= vpLargestLength, "maxRange", spec.maxRange,
                  "> minRange and at most 10 km");
-  fields.require(spec.stride >= 1, "stride", spec.stride, ">= 1");
+  fields.in("stride", spec.stride, {1});
   fields.notNegative("bodyInflation", spec.bodyInflation, "m");
   m_map = std::make_unique<Map>(spec.resolution);
 }

@@ -43,8 +43,8 @@ void vpDirectTrajectoryAvoidanceSpec::validate() const
   common.validate();
   fields.notNegative("clearance", clearance, "m");
   fields.notNegative("toolClearance", toolClearance, "m");
-  fields.require(sides >= 2 && sides <= 32, "sides", sides, "2 to 32");
-  fields.require(forecasts >= 1, "forecasts", forecasts, ">= 1");
+  fields.in("sides", sides, {2, 32});
+  fields.in("forecasts", forecasts, {1});
 }
 
 class vpDirectTrajectoryAvoidance::Impl

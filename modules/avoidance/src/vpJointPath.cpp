@@ -60,12 +60,12 @@ void vpPathPlannerSpec::validate() const
     }
     throw vpException(vpException::badValue, "unknown path planner '%s', known are %s", planner.c_str(), known.c_str());
   }
-  fields.notNegative("margin", margin, "and finite");
-  fields.positive("step", step, "and finite");
-  fields.positive("timeLimit", timeLimit, "and finite");
-  fields.notNegative("range", range, "and finite");
-  fields.notNegative("shortenTime", shortenTime, "and finite");
-  fields.require(seed >= 1, "seed", seed, ">= 1 and finite");
+  fields.notNegative("margin", margin);
+  fields.positive("step", step);
+  fields.positive("timeLimit", timeLimit);
+  fields.notNegative("range", range);
+  fields.notNegative("shortenTime", shortenTime);
+  fields.in("seed", seed, {1});
 }
 
 END_VISP_NAMESPACE

@@ -77,21 +77,21 @@ vpCollisionObject toObject(const vpObjectTrack &track)
 
 void vpObjectTrackSpec::validate() const
 {
-  fields.positive("acceleration", acceleration, "m/s^2 and finite");
-  fields.positive("angularAcceleration", angularAcceleration, "rad/s^2 and finite");
-  fields.positive("persistence", persistence, "s and finite");
-  fields.notNegative("restAcceleration", restAcceleration, "m/s^2 and finite");
-  fields.positive("startVelocity", startVelocity, "m/s and finite");
-  fields.positive("startTurn", startTurn, "rad/s and finite");
-  fields.positive("gate", gate, "and finite");
-  fields.require(doubts >= 1, "doubts", doubts, ">= 1");
-  fields.notNegative("restSigmas", restSigmas, "and finite");
-  fields.positive("restSpeed", restSpeed, "m/s and finite");
-  fields.positive("restTurn", restTurn, "rad/s and finite");
-  fields.notNegative("inflationSigmas", inflationSigmas, "and finite");
-  fields.notNegative("maxInflation", maxInflation, "m and finite");
-  fields.notNegative("fresh", fresh, "s and finite");
-  fields.notNegative("coast", coast, "s and finite");
+  fields.positive("acceleration", acceleration, "m/s^2");
+  fields.positive("angularAcceleration", angularAcceleration, "rad/s^2");
+  fields.positive("persistence", persistence, "s");
+  fields.notNegative("restAcceleration", restAcceleration, "m/s^2");
+  fields.positive("startVelocity", startVelocity, "m/s");
+  fields.positive("startTurn", startTurn, "rad/s");
+  fields.positive("gate", gate);
+  fields.in("doubts", doubts, {1});
+  fields.notNegative("restSigmas", restSigmas);
+  fields.positive("restSpeed", restSpeed, "m/s");
+  fields.positive("restTurn", restTurn, "rad/s");
+  fields.notNegative("inflationSigmas", inflationSigmas);
+  fields.notNegative("maxInflation", maxInflation, "m");
+  fields.notNegative("fresh", fresh, "s");
+  fields.notNegative("coast", coast, "s");
   fields.require(forget > 0., "forget", forget, "> 0 s");
 }
 

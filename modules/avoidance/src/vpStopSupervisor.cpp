@@ -61,12 +61,12 @@ bool planStop(const vpArmModel &arm, const vpJointVector &q, const vpJointVector
 
 void vpStopSupervisorSpec::validate() const
 {
-  fields.require(period > 0. && period <= 1., "period", period, "> 0 and at most 1 s");
+  fields.in("period", period, vpFieldRange::positive(1.), "s");
   fields.notNegative("margin", margin, "m");
   fields.notNegative("latency", latency, "s");
   fields.positive("resolution", resolution, "m");
-  fields.require(attempts >= 1 && attempts <= 16, "attempts", attempts, "1 to 16");
-  fields.require(looks >= 60, "looks", looks, ">= 60");
+  fields.in("attempts", attempts, {1, 16});
+  fields.in("looks", looks, {60});
 }
 
 const char *vpSupervisedVelocity::message() const noexcept

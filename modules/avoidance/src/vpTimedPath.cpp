@@ -151,8 +151,8 @@ void vpTimedPath::build(const vpCollisionScene &scene, const vpJointPath &path, 
                         vpCertifiedTrajectory &certificate)
 {
   const vpArmModel &arm = scene.arm();
-  fields.require(spec.speed > 0. && spec.speed <= 1., "speed", spec.speed, "> 0 and <= 1");
-  fields.require(spec.acceleration > 0. && spec.acceleration <= 1., "acceleration", spec.acceleration, "> 0 and <= 1");
+  fields.in("speed", spec.speed, vpFieldRange::positive(1.));
+  fields.in("acceleration", spec.acceleration, vpFieldRange::positive(1.));
   fields.require(spec.toolVelocity > 0., "toolVelocity", spec.toolVelocity, "> 0");
   fields.require(spec.toolAcceleration > 0., "toolAcceleration", spec.toolAcceleration, "> 0");
   requireSize("velocity", spec.startVelocity, arm.size());

@@ -279,7 +279,7 @@ TEST_CASE("Images without use say so; files; bad parameters", "[octomap]")
   CHECK(map.snapshot().cells().empty());
   vpDepthOctomapSpec spec;
   spec.resolution = 0.;
-  CHECK_THROWS_WITH(vpDepthOctomap(spec), Catch::Contains("resolution of the depth octomap is 0, must be > 0 m"));
+  CHECK_THROWS_WITH(vpDepthOctomap(spec), Catch::Contains("resolution of the depth octomap is 0 m, must be > 0"));
   spec = vpDepthOctomapSpec();
   spec.maxRange = 0.05;
   CHECK_THROWS_WITH(vpDepthOctomap(spec), Catch::Contains("maxRange of the depth octomap is 0.05"));
@@ -372,7 +372,7 @@ TEST_CASE("The ground is known; a camera that is nowhere and names that are take
                     Catch::Contains("the scene has an object depth that does not come from depth images"));
   vpDepthObstaclesSpec bad;
   bad.knownMargin = -1.;
-  CHECK_THROWS_WITH(vpDepthObstacles(bad), Catch::Contains("knownMargin of the depth obstacles is -1, must be >= 0 m"));
+  CHECK_THROWS_WITH(vpDepthObstacles(bad), Catch::Contains("knownMargin of the depth obstacles is -1 m, must be >= 0"));
   bad = vpDepthObstaclesSpec();
   bad.name.clear();
   CHECK_THROWS_WITH(vpDepthObstacles(bad), Catch::Contains("name of the depth obstacles is empty"));

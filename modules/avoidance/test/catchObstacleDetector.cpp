@@ -212,11 +212,11 @@ TEST_CASE("A detector that cannot work is refused", "[detector]")
                     Catch::Contains("the database of the obstacle detector has no target"));
   vpObstacleDetectorSpec spec;
   spec.thickness = 0.;
-  CHECK(errorOf(spec) == "thickness of the obstacle detector is 0, must be > 0 m");
+  CHECK(errorOf(spec) == "thickness of the obstacle detector is 0 m, must be > 0");
   spec = vpObstacleDetectorSpec();
   spec.cameraAngleSigma = -1.;
-  CHECK(errorOf(spec) == "cameraAngleSigma of the obstacle detector is -1, must be >= 0 rad");
+  CHECK(errorOf(spec) == "cameraAngleSigma of the obstacle detector is -1 rad, must be >= 0");
   spec = vpObstacleDetectorSpec();
   spec.pixelSigma = std::nan("");
-  CHECK(errorOf(spec) == "pixelSigma of the obstacle detector is nan, must be > 0 px");
+  CHECK(errorOf(spec) == "pixelSigma of the obstacle detector is nan px, must be > 0 and finite");
 }

@@ -266,13 +266,13 @@ TEST_CASE("The supervisor does not allocate, brakes on nonsense, and says what i
   vpStopSupervisorSpec spec;
   spec.attempts = 0;
   CHECK_THROWS_WITH(vpStopSupervisor(scene, spec),
-                    Catch::Contains("attempts of the stop supervisor is 0, must be 1 to 16"));
+                    Catch::Contains("attempts of the stop supervisor is 0, must be 1..16"));
   spec = vpStopSupervisorSpec();
   spec.resolution = 0.;
   CHECK_THROWS_WITH(vpStopSupervisor(scene, spec),
-                    Catch::Contains("resolution of the stop supervisor is 0, must be > 0"));
+                    Catch::Contains("resolution of the stop supervisor is 0 m, must be > 0"));
   spec = vpStopSupervisorSpec();
   spec.latency = -1.;
   CHECK_THROWS_WITH(vpStopSupervisor(scene, spec),
-                    Catch::Contains("latency of the stop supervisor is -1, must be >= 0"));
+                    Catch::Contains("latency of the stop supervisor is -1 s, must be >= 0"));
 }

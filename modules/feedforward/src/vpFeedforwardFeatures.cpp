@@ -62,14 +62,9 @@ inline void print(const char *name, const vpColVector &s, unsigned int select)
 vpFeatureFeedforwardSum::vpFeatureFeedforwardSum(double kappa, double saturation)
   : m_kappa(kappa), m_saturation(saturation)
 {
-  if (!(std::isfinite(kappa) && kappa >= 0.)) {
-    throw vpException(vpException::badValue, "kappa of the feedforward-sum feature is %g, must be finite and >= 0",
-                      kappa);
-  }
-  if (!(std::isfinite(saturation) && saturation > 0.)) {
-    throw vpException(vpException::badValue,
-                      "saturation of the feedforward-sum feature is %g rad, must be finite and > 0", saturation);
-  }
+  constexpr vpFieldCheck fields("the feedforward-sum feature");
+  fields.notNegative("kappa", kappa);
+  fields.positive("saturation", saturation, "rad");
   dim_s = 3;
   init();
 }
@@ -168,7 +163,7 @@ double vpFeedforwardSumStabilityMargin(double bearing, double rotation, double k
   fields.require(bearing >= 0. && bearing < M_PI / 2., "bearing", bearing, "in [0, pi/2) rad");
   fields.require(rotation >= 0. && rotation <= M_PI, "rotation", rotation, "in [0, pi] rad");
   fields.require(kappa >= 0. && kappa <= 1e6, "kappa", kappa, "finite and >= 0, at most 1e6");
-  fields.require(samples >= 1, "samples", samples, ">= 1");
+  fields.in("samples", samples, {1});
 
   double least = std::numeric_limits<double>::infinity();
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;

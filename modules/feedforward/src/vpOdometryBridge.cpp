@@ -2,6 +2,8 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
+#include "vpFieldCheck.h"
+
 #include <visp3/feedforward/vpOdometryBridge.h>
 
 #include <visp3/core/vpException.h>
@@ -44,13 +46,9 @@ void transport(const Eigen::Matrix3d &R, const Eigen::Vector3d &t, const std::ve
 
 vpOdometryBridge::vpOdometryBridge(double maxAge, double rate) : m_maxAge(maxAge)
 {
-  if (!(maxAge > 0. && std::isfinite(maxAge))) {
-    throw vpException(vpException::badValue, "greatest age of the odometry bridge is %g s, must be > 0 and finite",
-                      maxAge);
-  }
-  if (!(rate > 0. && std::isfinite(rate))) {
-    throw vpException(vpException::badValue, "rate of the odometry bridge is %g Hz, must be > 0 and finite", rate);
-  }
+  constexpr vpFieldCheck fields("the odometry bridge");
+  fields.positive("greatest age", maxAge, "s");
+  fields.positive("rate", rate, "Hz");
   m_ring.resize(static_cast<std::size_t>(std::min(std::ceil(maxAge * rate) + 2., 1. * longestPath)));
 }
 

@@ -25,11 +25,11 @@ constexpr double timeTolerance = 1e-9;
 
 void vpTargetLossSpec::validate() const
 {
-  fields.require(std::isfinite(holdTime) && holdTime >= 0., "holdTime", holdTime, "finite and >= 0 s");
-  fields.require(std::isfinite(retreatTime) && retreatTime >= 0., "retreatTime", retreatTime, "finite and >= 0 s");
-  fields.require(std::isfinite(maxLinear) && maxLinear > 0., "maxLinear", maxLinear, "finite and > 0 m/s");
-  fields.require(std::isfinite(maxAngular) && maxAngular > 0., "maxAngular", maxAngular, "finite and > 0 rad/s");
-  fields.require(capacity >= 1 && capacity <= 100000, "capacity", capacity, "in 1..100000");
+  fields.notNegative("holdTime", holdTime, "s");
+  fields.notNegative("retreatTime", retreatTime, "s");
+  fields.positive("maxLinear", maxLinear, "m/s");
+  fields.positive("maxAngular", maxAngular, "rad/s");
+  fields.in("capacity", capacity, {1, 100000});
 }
 
 vpTargetLossRecovery::vpTargetLossRecovery(const vpTargetLossSpec &spec) : m_spec(spec)

@@ -50,17 +50,17 @@ vpViewConstraintSpec vpViewConstraintSpec::fromCamera(const vpCameraParameters &
 void vpViewConstraintSpec::validate() const
 {
   fields.require(std::isfinite(left) && left < 0., "left border", left, "finite and < 0");
-  fields.require(std::isfinite(right) && right > 0., "right border", right, "finite and > 0");
+  fields.positive("right border", right);
   fields.require(std::isfinite(top) && top < 0., "top border", top, "finite and < 0");
-  fields.require(std::isfinite(bottom) && bottom > 0., "bottom border", bottom, "finite and > 0");
-  fields.require(std::isfinite(period) && period > 0., "period", period, "finite and > 0 s");
+  fields.positive("bottom border", bottom);
+  fields.positive("period", period, "s");
   fields.require(gamma > 0. && gamma * period <= 0.5, "gamma", gamma, "> 0 and at most 0.5 / period 1/s");
   fields.require(imageUncertainty >= 0. && imageUncertainty < std::min({-left, right, -top, bottom}),
                  "imageUncertainty", imageUncertainty,
                  ">= 0 and less than the distance from the principal point to each border");
-  fields.require(depthUncertainty >= 0. && depthUncertainty <= 0.9, "depthUncertainty", depthUncertainty, "in 0..0.9");
-  fields.require(std::isfinite(maxLinear) && maxLinear > 0., "maxLinear", maxLinear, "finite and > 0 m/s");
-  fields.require(std::isfinite(maxAngular) && maxAngular > 0., "maxAngular", maxAngular, "finite and > 0 rad/s");
+  fields.in("depthUncertainty", depthUncertainty, {0., 0.9});
+  fields.positive("maxLinear", maxLinear, "m/s");
+  fields.positive("maxAngular", maxAngular, "rad/s");
 }
 
 vpViewConstraintFilter::vpViewConstraintFilter(const vpViewConstraintSpec &spec) : m_spec(spec), m_inside(true)

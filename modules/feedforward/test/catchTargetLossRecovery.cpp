@@ -143,10 +143,10 @@ TEST_CASE("recovery set-up errors say what is wrong", "[recovery][errors]")
   vpTargetLossSpec spec;
   spec.holdTime = -0.1;
   CHECK_THROWS_WITH(vpTargetLossRecovery(spec),
-                    Contains("holdTime of the target-loss recovery is -0.1, must be finite and >= 0 s"));
+                    Contains("holdTime of the target-loss recovery is -0.1 s, must be >= 0"));
   spec = {};
   spec.retreatTime = std::numeric_limits<double>::infinity();
-  CHECK_THROWS_WITH(vpTargetLossRecovery(spec), Contains("retreatTime of the target-loss recovery is inf"));
+  CHECK_THROWS_WITH(vpTargetLossRecovery(spec), Contains("retreatTime of the target-loss recovery is inf s"));
   spec = {};
   spec.maxLinear = 0.;
   CHECK_THROWS_WITH(vpTargetLossRecovery(spec), Contains("maxLinear"));
@@ -156,5 +156,5 @@ TEST_CASE("recovery set-up errors say what is wrong", "[recovery][errors]")
   spec = {};
   spec.capacity = 0;
   CHECK_THROWS_WITH(vpTargetLossRecovery(spec),
-                    Contains("capacity of the target-loss recovery is 0, must be in 1..100000"));
+                    Contains("capacity of the target-loss recovery is 0, must be 1..100000"));
 }

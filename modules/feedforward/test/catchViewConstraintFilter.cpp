@@ -305,7 +305,7 @@ TEST_CASE("view constraint set-up errors say what is wrong", "[filter][errors]")
   CHECK_THROWS_WITH(vpViewConstraintFilter(with(&vpViewConstraintSpec::gamma, 80.)),
                     Contains("gamma of the view constraint is 80, must be > 0 and at most 0.5 / period"));
   CHECK_THROWS_WITH(vpViewConstraintFilter(with(&vpViewConstraintSpec::depthUncertainty, 1.)),
-                    Contains("is 1, must be in 0..0.9"));
+                    Contains("is 1, must be 0..0.9"));
   CHECK_THROWS_WITH(vpViewConstraintFilter(with(&vpViewConstraintSpec::maxAngular, -1.)), Contains("maxAngular"));
   CHECK_THROWS_WITH(vpViewConstraintFilter(with(&vpViewConstraintSpec::imageUncertainty, 0.5)),
                     Contains("imageUncertainty"));

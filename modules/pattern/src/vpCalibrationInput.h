@@ -18,7 +18,6 @@ BEGIN_VISP_NAMESPACE
 
 // Throws vpException (badValue) that names what is out of range.
 void vpCheckCalibrationImage(unsigned int width, unsigned int height);
-void vpCheckCalibrationRange(const char *field, double value, double least, double most, const char *unit);
 // NaN stands for "not given".
 void vpCheckPrincipalPoint(const char *field, double value);
 

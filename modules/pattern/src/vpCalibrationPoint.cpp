@@ -2,6 +2,8 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
+#include "vpFieldCheck.h"
+
 #include "vpCalibrationInput.h"
 
 #include <visp3/core/vpException.h>
@@ -84,18 +86,12 @@ vpCalibrationSpread spreadOf(const Eigen::Matrix<double, 3, Eigen::Dynamic> &all
 
 void vpCalibrationPitch::check() const
 {
-  const auto positive = [](const char *name, double value) {
-    if (!(value > 0. && std::isfinite(value))) {
-      throw vpException(vpException::badValue, "the pitch of the %s is %g m, must be > 0", name, value);
-    }
-  };
-  positive("columns", columns);
-  positive("rows", rows);
-  if (!(sigmaPlane >= 0. && std::isfinite(sigmaPlane))) {
-    throw vpException(vpException::badValue, "sigmaPlane of the pitch is %g m, must be >= 0", sigmaPlane);
-  }
-  if (!std::isnan(angle) && !(angle >= 0.5 && angle <= 2.7)) {
-    throw vpException(vpException::badValue, "the angle of the pitch is %g rad, must be in [0.5, 2.7]", angle);
+  constexpr vpFieldCheck fields("the pitch");
+  fields.positive("columns", columns, "m");
+  fields.positive("rows", rows, "m");
+  fields.notNegative("sigmaPlane", sigmaPlane, "m");
+  if (!std::isnan(angle)) { // NaN: unknown
+    fields.in("angle", angle, {0.5, 2.7}, "rad");
   }
 }
 
@@ -157,17 +153,10 @@ std::vector<vpCalibrationPoint> vpCalibrationPoints(const vpImage<unsigned char>
   return vpCalibrationPoints(vpFindDotLattice(image), pitch);
 }
 
-void vpCheckCalibrationRange(const char *field, double value, double least, double most, const char *unit)
-{
-  if (!(value >= least && value <= most)) {
-    throw vpException(vpException::badValue, "%s is %g%s, must be in [%g, %g]", field, value, unit, least, most);
-  }
-}
-
 void vpCheckCalibrationImage(unsigned int width, unsigned int height)
 {
-  vpCheckCalibrationRange("width", width, 8., 65536., " px");
-  vpCheckCalibrationRange("height", height, 8., 65536., " px");
+  vpCheckField("width", "the calibration", width, "px", {8., 65536.});
+  vpCheckField("height", "the calibration", height, "px", {8., 65536.});
 }
 
 void vpCheckPrincipalPoint(const char *field, double value)

@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-#include <visp3/core/vpException.h>
+#include <visp3/direct_core/vpField.h>
 #include <visp3/pattern/vpPatternFrame.h>
 #include <visp3/pattern/vpPatternTrackerSpec.h>
 
@@ -14,10 +14,7 @@ namespace
 {
 void inRange(const char *field, double value, double low, double high)
 {
-  if (!(value >= low && value <= high)) {
-    throw vpException(vpException::badValue, "vpPatternTrackerSpec: %s is %g, must be in [%g, %g]", field, value, low,
-                      high);
-  }
+  vpCheckField(field, "the pattern tracker", value, "", {low, high});
 }
 } // namespace
 

@@ -6,6 +6,7 @@
 #include "vpPatternTrackerImpl.h"
 
 #include <visp3/core/vpException.h>
+#include <visp3/direct_core/vpField.h>
 
 #include <algorithm>
 #include <cmath>
@@ -30,10 +31,7 @@ std::size_t roomForPixels(unsigned int width, unsigned int height)
 
 unsigned int checkedSize(const char *name, unsigned int value)
 {
-  if (value < 16 || value > 16384) {
-    throw vpException(vpException::badValue, "vpPatternTracker: the image %s is %u px, must be in [16, 16384]", name,
-                      value);
-  }
+  vpCheckField(name, "the pattern tracker's image", value, "px", {16., 16384.});
   return value;
 }
 

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include "vpCalibrationInput.h"
+#include "vpFieldCheck.h"
 #include "vpMicroscopeCalibrationProblem.h"
 
 #include <visp3/core/vpException.h>
@@ -325,14 +326,15 @@ private:
 
 void vpMicroscopeCalibrationSpec::check() const
 {
+  constexpr vpFieldCheck fields("the calibration");
   vpCheckPrincipalPoint("u0", u0);
   vpCheckPrincipalPoint("v0", v0);
-  vpCheckCalibrationRange("aspect", aspect, 0.1, 10., "");
-  vpCheckCalibrationRange("minSignificance", minSignificance, 0., 100., "");
-  vpCheckCalibrationRange("minEffect", minEffect, 0., 1e6, " px");
-  vpCheckCalibrationRange("maxCornerSigma", maxCornerSigma, 0., 1e6, " px");
-  vpCheckCalibrationRange("maxTilt", maxTilt, 0., 0.5, " rad");
-  vpCheckCalibrationRange("falseAlarm", falseAlarm, 1e-12, 0.5, "");
+  fields.in("aspect", aspect, {0.1, 10.});
+  fields.in("minSignificance", minSignificance, {0., 100.});
+  fields.in("minEffect", minEffect, {0., 1e6}, "px");
+  fields.in("maxCornerSigma", maxCornerSigma, {0., 1e6}, "px");
+  fields.in("maxTilt", maxTilt, {0., 0.5}, "rad");
+  fields.in("falseAlarm", falseAlarm, {1e-12, 0.5});
 }
 
 double vpMicroscopeCalibrationResult::sigma(vpMicroscopeParameter parameter) const

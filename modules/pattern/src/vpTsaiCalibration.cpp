@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include "vpCalibrationBundle.h"
+#include "vpFieldCheck.h"
 #include "vpCalibrationInput.h"
 #include "vpTsaiCalibrationStart.h"
 
@@ -269,10 +270,11 @@ vpTsaiCalibrationResult resultOf(const Problem &problem, const vpBundleSolution<
 
 void vpTsaiCalibrationSpec::check() const
 {
+  constexpr vpFieldCheck fields("the calibration");
   vpCheckPrincipalPoint("u0", u0);
   vpCheckPrincipalPoint("v0", v0);
-  vpCheckCalibrationRange("aspect", aspect, 0.1, 10., "");
-  vpCheckCalibrationRange("falseAlarm", falseAlarm, 1e-12, 0.5, "");
+  fields.in("aspect", aspect, {0.1, 10.});
+  fields.in("falseAlarm", falseAlarm, {1e-12, 0.5});
 }
 
 double vpTsaiCalibrationResult::sigma(vpTsaiParameter parameter) const

@@ -179,5 +179,5 @@ TEST_CASE("cameras without a scale are refused", "[calibration]")
   CHECK_THROWS_WITH(vpMicroscopeCalibration::fromCamera(camera, 640, 480),
                     Catch::Contains("px of the camera is -600, must be > 0"));
   CHECK_THROWS_WITH(vpMicroscopeCalibration::fromCamera(vpCameraParameters(), 4, 480),
-                    Catch::Contains("width is 4 px, must be in [8, 65536]"));
+                    Catch::Contains("width of the calibration is 4 px, must be 8..65536"));
 }

@@ -315,14 +315,17 @@ TEST_CASE("images of another size and bad spec are refused in words", "[pattern]
   CHECK(tracker.process(empty).reason == vpPatternReason::WrongSize);
   vpPatternTrackerSpec spec;
   spec.minPitch = 2.;
-  CHECK_THROWS_WITH(vpPatternTracker(160, 100, spec), Catch::Contains("minPitch is 2, must be in [4, 1000]"));
+  CHECK_THROWS_WITH(vpPatternTracker(160, 100, spec),
+                    Catch::Contains("minPitch of the pattern tracker is 2, must be 4..1000"));
   spec = vpPatternTrackerSpec();
   spec.refreshEvery = -1;
-  CHECK_THROWS_WITH(vpPatternTracker(160, 100, spec), Catch::Contains("refreshEvery is -1, must be in [0, 1e+06]"));
+  CHECK_THROWS_WITH(vpPatternTracker(160, 100, spec),
+                    Catch::Contains("refreshEvery of the pattern tracker is -1, must be 0..1000000"));
   spec = vpPatternTrackerSpec();
   spec.maxCellSigma = NAN;
-  CHECK_THROWS_WITH(vpPatternTracker(160, 100, spec), Catch::Contains("maxCellSigma is nan"));
-  CHECK_THROWS_WITH(vpPatternTracker(8, 100), Catch::Contains("width is 8 px, must be in [16, 16384]"));
+  CHECK_THROWS_WITH(vpPatternTracker(160, 100, spec), Catch::Contains("maxCellSigma of the pattern tracker is nan"));
+  CHECK_THROWS_WITH(vpPatternTracker(8, 100),
+                    Catch::Contains("width of the pattern tracker's image is 8 px, must be 16..16384"));
 }
 
 TEST_CASE("no image makes the tracker allocate", "[pattern][realtime]")

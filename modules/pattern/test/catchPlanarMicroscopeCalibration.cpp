@@ -459,22 +459,26 @@ TEST_CASE("bad input to the planar calibration is refused in words", "[calibrati
             p[i] = p[i % 2];
           }
         }) == "the points of view 1 lie on a line of the product");
-  CHECK_THROWS_WITH(vpPlanarMicroscopeCalibration(0, 0), Catch::Contains("width is 0 px, must be in [8, 65536]"));
+  CHECK_THROWS_WITH(vpPlanarMicroscopeCalibration(0, 0),
+                    Catch::Contains("width of the calibration is 0 px, must be 8..65536"));
   CHECK_THROWS_WITH(vpPlanarMicroscopeCalibration(640, 480).compute(),
                     Catch::Contains("there is no view to calibrate from"));
-  CHECK_THROWS_WITH(vpPlanarMicroscopeCalibration(640, 4), Catch::Contains("height is 4 px, must be in [8, 65536]"));
+  CHECK_THROWS_WITH(vpPlanarMicroscopeCalibration(640, 4),
+                    Catch::Contains("height of the calibration is 4 px, must be 8..65536"));
   vpMicroscopeCalibrationSpec spec;
   spec.aspect = 0.;
   CHECK_THROWS_WITH(vpPlanarMicroscopeCalibration(640, 480, spec),
-                    Catch::Contains("aspect is 0, must be in [0.1, 10]"));
+                    Catch::Contains("aspect of the calibration is 0, must be 0.1..10"));
   spec = vpMicroscopeCalibrationSpec();
   spec.u0 = HUGE_VAL;
   CHECK_THROWS_WITH(vpPlanarMicroscopeCalibration(640, 480, spec), Catch::Contains("u0 is inf px, must be within"));
   spec = vpMicroscopeCalibrationSpec();
   spec.minEffect = -1.;
-  CHECK_THROWS_WITH(vpPlanarMicroscopeCalibration(640, 480, spec), Catch::Contains("minEffect is -1 px"));
+  CHECK_THROWS_WITH(vpPlanarMicroscopeCalibration(640, 480, spec),
+                    Catch::Contains("minEffect of the calibration is -1 px"));
   spec = vpMicroscopeCalibrationSpec();
   spec.minSignificance = NAN;
-  CHECK_THROWS_WITH(vpPlanarMicroscopeCalibration(640, 480, spec), Catch::Contains("minSignificance is nan"));
+  CHECK_THROWS_WITH(vpPlanarMicroscopeCalibration(640, 480, spec),
+                    Catch::Contains("minSignificance of the calibration is nan"));
   CHECK(std::string(vpToString(vpKappa1Status::Unobservable)) == "Unobservable");
 }

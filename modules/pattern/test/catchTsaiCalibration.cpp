@@ -364,10 +364,11 @@ TEST_CASE("bad input to Tsai's calibration is refused in words", "[calibration][
             p[i] = p[i % 2];
           }
         }) == "the points of view 0 lie on a line of the object");
-  CHECK_THROWS_WITH(vpTsaiCalibration(0, 0), Catch::Contains("width is 0 px, must be in [8, 65536]"));
+  CHECK_THROWS_WITH(vpTsaiCalibration(0, 0), Catch::Contains("width of the calibration is 0 px, must be 8..65536"));
   CHECK_THROWS_WITH(vpTsaiCalibration(640, 480).compute(), Catch::Contains("there is no view to calibrate from"));
-  CHECK_THROWS_WITH(vpTsaiCalibration(1, 480), Catch::Contains("width is 1 px, must be in [8, 65536]"));
+  CHECK_THROWS_WITH(vpTsaiCalibration(1, 480), Catch::Contains("width of the calibration is 1 px, must be 8..65536"));
   vpTsaiCalibrationSpec spec;
   spec.aspect = NAN;
-  CHECK_THROWS_WITH(vpTsaiCalibration(640, 480, spec), Catch::Contains("aspect is nan, must be in [0.1, 10]"));
+  CHECK_THROWS_WITH(vpTsaiCalibration(640, 480, spec),
+                    Catch::Contains("aspect of the calibration is nan, must be 0.1..10"));
 }

@@ -2,6 +2,8 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
+#include "vpFieldCheck.h"
+
 #include "vpPlanarTargetImpl.h"
 
 #include <visp3/core/vpException.h>
@@ -130,25 +132,13 @@ void vpPlanarTargetSpec::validate() const
   if (vpToString(keypoints) == std::string("unknown")) {
     throw vpException(vpException::badValue, "keypoint type %d is not known", static_cast<int>(keypoints));
   }
-  if (minInliers < 8) {
-    throw vpException(vpException::badValue, "minInliers is %u, must be >= 8", minInliers);
-  }
-  if (maxKeypoints < minInliers || maxKeypoints > 100000) {
-    throw vpException(vpException::badValue, "maxKeypoints is %u, must be between minInliers (%u) and 100000",
-                      maxKeypoints, minInliers);
-  }
-  if (!(inlierThreshold > 0. && inlierThreshold < 1e3)) {
-    throw vpException(vpException::badValue, "inlierThreshold is %g px, must be > 0 and < 1000", inlierThreshold);
-  }
-  if (!(minCorrelation >= 0. && minCorrelation <= 1.)) {
-    throw vpException(vpException::badValue, "minCorrelation is %g, must be within 0 and 1", minCorrelation);
-  }
-  if (refinementSize < 32 || refinementSize > 4096) {
-    throw vpException(vpException::badValue, "refinementSize is %u px, must be within 32 and 4096", refinementSize);
-  }
-  if (maxIterations < 1 || maxIterations > 1000) {
-    throw vpException(vpException::badValue, "maxIterations is %u, must be within 1 and 1000", maxIterations);
-  }
+  constexpr vpFieldCheck fields("the planar target");
+  fields.in("minInliers", minInliers, {8.});
+  fields.in("maxKeypoints", maxKeypoints, {1. * minInliers, 100000.});
+  fields.in("inlierThreshold", inlierThreshold, vpFieldRange::positive(1e3), "px");
+  fields.in("minCorrelation", minCorrelation, {0., 1.});
+  fields.in("refinementSize", refinementSize, {32., 4096.}, "px");
+  fields.in("maxIterations", maxIterations, {1., 1000.});
 }
 
 END_VISP_NAMESPACE

@@ -216,7 +216,8 @@ TEST_CASE("set-up errors name the thing and its value", "[planar_target][errors]
   CHECK_THROWS_WITH(make(klimt().image, -1.), Contains("-1 x 0.1 m"));
   vpPlanarTargetSpec spec;
   spec.inlierThreshold = 0.;
-  CHECK_THROWS_WITH(make(klimt().image, 0.1, spec), Contains("inlierThreshold is 0 px, must be > 0"));
+  CHECK_THROWS_WITH(make(klimt().image, 0.1, spec),
+                    Contains("inlierThreshold of the planar target is 0 px, must be > 0"));
   CHECK_THROWS_WITH(vpKeypointTypeFromString("FAST"), Contains("'FAST' is not known, choose one of ORB, SIFT, AKAZE"));
   CHECK(vpKeypointTypeFromString("SURF") == vpKeypointType::SURF);
   CHECK_THROWS_WITH(vpPlanarTarget(klimt().image, 0.1, 0.1, vpCameraParameters(0., 800., 1., 1.)), Contains("px = 0"));

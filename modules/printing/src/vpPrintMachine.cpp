@@ -79,7 +79,7 @@ void vpPrintMachineSpec::validate() const
   requirePositive("sigmaX", sigmaX);
   requirePositive("sigmaY", sigmaY);
   filter.validate();
-  fields.require(filterAhead >= 0. && filterAhead <= 64., "filterAhead", filterAhead, "in [0, 64]");
+  fields.in("filterAhead", filterAhead, {0., 64.});
   pid.validate();
   forecast.validate();
   observer.validate();
@@ -92,10 +92,10 @@ void vpPrintMachineSpec::validate() const
   requirePositive("dropVelocity", dropVelocity);
   requirePositive("rowStepTime", rowStepTime);
   requirePositive("followTime", followTime);
-  fields.require(visionDelay >= 0. && visionDelay <= 8., "visionDelay", visionDelay, "in [0, 8]");
+  fields.in("visionDelay", visionDelay, {0., 8.});
   triggerOf(*this).validate();
-  fields.require(rows >= 1 && rows <= 1000, "rows", rows, "in [1, 1000]");
-  fields.require(cellsPerRow >= 1 && cellsPerRow <= 10000, "cellsPerRow", cellsPerRow, "in [1, 10000]");
+  fields.in("rows", rows, {1, 1000});
+  fields.in("cellsPerRow", cellsPerRow, {1, 10000});
   const bool wanted = controller == vpPrintController::PidFeedforward;
   fields.require(controller == vpPrintController::Observer || pid.feedforward == wanted, "pid.feedforward",
                  pid.feedforward ? 1. : 0., "1 with PidFeedforward and 0 with Pid");

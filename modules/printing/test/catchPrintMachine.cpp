@@ -149,7 +149,7 @@ TEST_CASE("A print machine names what is out of range", "[printing]")
       {[](auto &s) { s.pitchX = 0.; }, "pitchX of the print machine is 0, must be > 0"},
       {[](auto &s) { s.nozzle = NAN; }, "nozzle of the print machine is nan, must be finite"},
       {[](auto &s) { s.sigmaY = -1.; }, "sigmaY of the print machine is -1, must be > 0"},
-      {[](auto &s) { s.cellsPerRow = 0; }, "cellsPerRow of the print machine is 0, must be in [1, 10000]"},
+      {[](auto &s) { s.cellsPerRow = 0; }, "cellsPerRow of the print machine is 0, must be 1..10000"},
       {[](auto &s) { s.travelTime = -1.; }, "travelTime"}};
   for (const auto &[spoil, sentence] : cases) {
     vpPrintMachineSpec spec;

@@ -4,6 +4,7 @@
  */
 #include <visp3/rendering/vpSceneCamera.h>
 
+#include "vpFieldCheck.h"
 #include "vpCameraFaultModel.h"
 #include "vpHashRandom.h"
 #include "vpPhotoPatch.h"
@@ -51,15 +52,10 @@ void check(const vpSceneCameraSpec &spec)
 
 void vpDepthFaults::validate() const
 {
-  const auto require = [](bool good, const char *field, double value, const char *range) {
-    if (!good || !std::isfinite(value)) {
-      throw vpException(vpException::badValue, "%s of the depth camera's faults is %g, must be %s", field, value,
-                        range);
-    }
-  };
-  require(noise >= 0., "noise", noise, ">= 0 m");
-  require(dropout >= 0. && dropout <= 1., "dropout", dropout, "0 to 1");
-  require(maxDepth > 0., "maxDepth", maxDepth, "> 0 m");
+  constexpr vpFieldCheck fields("the depth camera's faults");
+  fields.notNegative("noise", noise, "m");
+  fields.in("dropout", dropout, {0., 1.});
+  fields.positive("maxDepth", maxDepth, "m");
 }
 
 class vpSceneCamera::Impl

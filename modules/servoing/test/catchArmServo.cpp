@@ -258,7 +258,7 @@ TEST_CASE("What is out of range is named", "[servoing]")
   bad = spec();
   bad.maxLinear = NAN;
   CHECK_THROWS_WITH(vpArmServo(amor(), vpServoController::create("pbvs1"), bad),
-                    "maxLinear of the arm servo is nan, must be > 0");
+                    "maxLinear of the arm servo is nan, must be > 0 and finite");
   CHECK_THROWS_WITH(vpServoTarget::rectangle(0., 1.), "width of the servo target is 0 m, must be > 0");
   CHECK_THROWS_WITH(vpServoTarget({}), "the servo target has no points, must have one or more");
   CHECK_THROWS_WITH(vpServoTarget({{0., NAN, 0.}}), "point 0 of the servo target is (0, nan, 0), must be finite");
