@@ -1,4 +1,5 @@
-# What is installed: libraries, headers, programs, data, the CMake package and the file for pkg-config.
+# What is installed: libraries, headers, programs, data, the CMake package and the file for pkg-config; cmake --install takes all
+# components, Packages.cmake makes a Debian package of each.
 include(CMakePackageConfigHelpers)
 set(libraries ${VISP_DIRECT_BUILT_MODULES})
 list(TRANSFORM libraries PREPEND visp_)
@@ -28,16 +29,17 @@ endif()")
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/VispDirect)
 install(TARGETS ${libraries} EXPORT VispDirectTargets
-        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime NAMELINK_COMPONENT development
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
 foreach(module ${VISP_DIRECT_BUILT_MODULES})
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/modules/${module}/include/visp3" DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-          FILES_MATCHING PATTERN "*.h")
+          COMPONENT development FILES_MATCHING PATTERN "*.h")
 endforeach()
 if(programs)
-  install(TARGETS ${programs} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(TARGETS ${programs} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
 endif()
 set(VISP_DIRECT_DATA_FOLDER ${CMAKE_INSTALL_DATAROOTDIR}/visp-direct)
-install(DIRECTORY "${PROJECT_SOURCE_DIR}/data/" DESTINATION ${VISP_DIRECT_DATA_FOLDER})
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/data/" DESTINATION ${VISP_DIRECT_DATA_FOLDER} COMPONENT programs)
 
 # Only static libraries pass on what they are linked with.
 set(VISP_DIRECT_EXTERNAL_LIBRARIES "")
@@ -46,12 +48,12 @@ if(type STREQUAL "STATIC_LIBRARY")
   get_property(VISP_DIRECT_EXTERNAL_LIBRARIES GLOBAL PROPERTY VISP_DIRECT_EXTERNAL_LIBRARIES)
   list(REMOVE_DUPLICATES VISP_DIRECT_EXTERNAL_LIBRARIES)
 endif()
-install(EXPORT VispDirectTargets NAMESPACE VispDirect:: DESTINATION ${package_folder})
+install(EXPORT VispDirectTargets NAMESPACE VispDirect:: DESTINATION ${package_folder} COMPONENT development)
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/VispDirectConfig.cmake.in" "${PROJECT_BINARY_DIR}/VispDirectConfig.cmake"
                               INSTALL_DESTINATION ${package_folder} PATH_VARS VISP_DIRECT_DATA_FOLDER)
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/VispDirectConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/VispDirectConfig.cmake" "${PROJECT_BINARY_DIR}/VispDirectConfigVersion.cmake"
-        DESTINATION ${package_folder})
+        DESTINATION ${package_folder} COMPONENT development)
 
 # One file for pkg-config with all modules, those that need others first. Its prefix is found from where it lies.
 file(RELATIVE_PATH VISP_DIRECT_PC_TO_PREFIX "${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig" "${CMAKE_INSTALL_PREFIX}")
@@ -70,4 +72,4 @@ if(type STREQUAL "STATIC_LIBRARY" AND TARGET visp_planar_target)
   string(APPEND VISP_DIRECT_PC_REQUIRES ", opencv4")
 endif()
 configure_file("${PROJECT_SOURCE_DIR}/cmake/visp-direct.pc.in" "${PROJECT_BINARY_DIR}/visp-direct.pc" @ONLY)
-install(FILES "${PROJECT_BINARY_DIR}/visp-direct.pc" DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+install(FILES "${PROJECT_BINARY_DIR}/visp-direct.pc" DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)

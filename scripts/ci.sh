@@ -10,7 +10,7 @@ usage: scripts/ci.sh tests|style|sanitizers|documentation|packages|seeds
   style           clang-format, and shellcheck on all scripts
   sanitizers      memory, damaged files, threads (scripts/sanitize.sh)
   documentation   doxygen without a warning, links, groups
-  packages        installed, static and guest builds, with the long part
+  packages        installed, static and guest builds; Debian packages, by lintian and installed (scripts/packages.sh --use)
   seeds           all tests at five seeds that change every day
 
 Missing packages are installed. CXX=clang++ selects the compiler; JOBS=N sets the number of compilers at work.
@@ -55,6 +55,7 @@ packages)
   install_packages "${packages[@]}" "${test_packages[@]}" pkg-config
   build_tree vispdirect_installable
   VISP_DIRECT_LONG_TESTS=1 ctest --preset release --no-tests=error -R '^(exportedSymbols|installedPackage|staticPackage|guestProject)$'
+  scripts/packages.sh --use
   ;;
 seeds)
   day=$(date +%Y%m%d)

@@ -86,8 +86,7 @@ TEST_CASE("from pictures the camera reaches its goal in spite of friction, laten
 TEST_CASE("ten photographs: the camera ends within 0.25 deg, and within three deviations of what is expected",
           "[image]")
 {
-  const char *factor = std::getenv("VISP_DIRECT_LONG_TESTS");
-  const unsigned int seeds = factor == nullptr ? 1U : static_cast<unsigned int>(std::max(1, std::atoi(factor)));
+  const auto seeds = static_cast<unsigned int>(vpTestSupport::longer(1));
   const std::vector<std::string> files = photographs();
   EndErrors rotation, position;
   for (const std::string &file : files) {

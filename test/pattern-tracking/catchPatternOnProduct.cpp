@@ -326,10 +326,9 @@ TEST_CASE("dust, cracks, rotation and uneven cells cost no lock", "[pattern]")
   spec.dust = 12. / 1.6; // 12 specks and 3 cracks in a view of 160 x 100 px
   spec.cracks = 3. / 1.6;
   // 2000 images; VISP_DIRECT_LONG_TESTS=5 makes them the 10,000 of the README.
-  const char *factor = std::getenv("VISP_DIRECT_LONG_TESTS");
-  const int frames = 2000 * std::max(1, factor == nullptr ? 1 : std::atoi(factor));
+  const int frames = vpTestSupport::longer(2000);
   const Outcome o = run(spec, frames);
-  if (factor != nullptr) {
+  if (frames > 2000) {
     std::cout << "dirty product: " << frames << " images, " << o.count << " valid cells, " << o.far
               << " of them off by over 1 px, " << o.noCell << " that are no cell, " << o.lost << " images lost, "
               << o.slips << " changed names; deviation " << o.sigmaX() << " px in x, " << o.sigmaY() << " in y\n";

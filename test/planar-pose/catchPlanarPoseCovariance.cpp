@@ -130,7 +130,7 @@ TEST_CASE("errors of three textures are near the bound of the image, and as larg
   unsigned int first = 0; // other noise for each, so that their sum has its degrees of freedom
   for (const Photo &photo : photos()) {
     Scene scene(photo.file);
-    const int n = views(3);
+    const int n = vpTestSupport::longer(3);
     const std::array<Tally, 2> tallies = measure(scene, n, first);
     first += 100000U;
     for (std::size_t k = 0; k < 2; ++k) {
@@ -164,7 +164,7 @@ TEST_CASE("the covariance holds with blurs of 0.3 to 1.5 px that are unknown", "
   for (const Photo &photo : photos()) {
     Scene scene(photo.file);
     double nees = 0., blurError = 0.;
-    const int n = views(8);
+    const int n = vpTestSupport::longer(8);
     for (int i = 0; i < n; ++i) {
       auto rng = vpTestSupport::generator(2000000U + static_cast<unsigned int>(i));
       const vpHomogeneousMatrix cMo = randomPose(rng);
@@ -197,7 +197,7 @@ TEST_CASE("the covariance holds on renders of another kind: cubic, 4x4 samples, 
   for (const Photo &photo : photos()) {
     Scene scene(photo.file);
     double nees = 0.;
-    const int n = views(3);
+    const int n = vpTestSupport::longer(3);
     for (int i = 0; i < n; ++i) {
       auto rng = vpTestSupport::generator(3000000U + static_cast<unsigned int>(i));
       const vpHomogeneousMatrix cMo = randomPose(rng);
@@ -228,7 +228,7 @@ TEST_CASE("blank ground does not decide which edges are rejected", "[planar_targ
   for (const Photo &photo : photos()) {
     Scene scene(photo.file, spec);
     double sum = 0.;
-    const int n = views(8);
+    const int n = vpTestSupport::longer(8);
     for (int i = 0; i < n; ++i) {
       auto rng = vpTestSupport::generator(4000000U + static_cast<unsigned int>(i));
       const vpHomogeneousMatrix cMo = randomPose(rng);

@@ -72,7 +72,7 @@ TEST_CASE("no wrong pose is called certain at weak perspective", "[planar_target
     for (const double tilt : {4. * M_PI / 180., 8. * M_PI / 180.}) {
       int certain = 0, wrong = 0, undecided = 0, found = 0;
       double nees = 0.;
-      const int n = views(8);
+      const int n = vpTestSupport::longer(8);
       for (int i = 0; i < n; ++i) {
         auto rng = vpTestSupport::generator(static_cast<unsigned int>(f + 1000. * tilt + 100000. * i));
         const vpHomogeneousMatrix cMo = scene.pose(uniform(rng, 0., 2. * M_PI), tilt, uniform(rng, 0., 2. * M_PI));
@@ -117,7 +117,7 @@ TEST_CASE("several frames decide what one cannot, and a wrong choice is given up
   Scene scene(klimt(), 20000.);
   const double tilt = 6. * M_PI / 180.;
   int decided = 0;
-  const int n = views(3);
+  const int n = vpTestSupport::longer(3);
   for (int i = 0; i < n; ++i) {
     auto rng = vpTestSupport::generator(7000000U + static_cast<unsigned int>(i));
     const double azimuth = uniform(rng, 0., 2. * M_PI), roll = uniform(rng, 0., 2. * M_PI);
@@ -146,7 +146,7 @@ TEST_CASE("a target of the usual perspective is never ambiguous, seen from the f
 {
   CAPTURE(vpTestSupport::seed());
   Scene scene(klimt(), 800.);
-  for (int i = 0; i < views(10); ++i) {
+  for (int i = 0; i < vpTestSupport::longer(10); ++i) {
     auto rng = vpTestSupport::generator(8000000U + static_cast<unsigned int>(i));
     const vpHomogeneousMatrix cMo = scene.pose(uniform(rng, 0., 2. * M_PI), 0.01 * i, uniform(rng, -0.5, 0.5));
     const vpPlanarTargetResult &r =
@@ -165,7 +165,7 @@ TEST_CASE("the mirrored pose at strong perspective, given as the pose to start f
   for (const double f : {800., 1500., 2500.}) {
     Scene scene(klimt(), f);
     int certain = 0;
-    const int n = views(6);
+    const int n = vpTestSupport::longer(6);
     for (int i = 0; i < n; ++i) {
       auto rng = vpTestSupport::generator(static_cast<unsigned int>(9000000. + f + 10000. * i));
       const double azimuth = uniform(rng, 0., 2. * M_PI), tilt = uniform(rng, 0.05, 0.5),

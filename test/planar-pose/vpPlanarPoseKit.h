@@ -265,13 +265,6 @@ using Image = vpImage<unsigned char>;
 
 constexpr unsigned int cols = 640, rows = 480;
 
-//! Number of random views: \e few in ctest; VISP_DIRECT_LONG_TESTS=50 makes them 50 times as many.
-inline int views(int few)
-{
-  const char *factor = std::getenv("VISP_DIRECT_LONG_TESTS");
-  return few * std::max(1, factor == nullptr ? 1 : std::atoi(factor));
-}
-
 struct Photo {
   std::string name, file;
 };
@@ -294,10 +287,7 @@ inline std::vector<Photo> photos()
   return there;
 }
 
-inline double uniform(std::mt19937_64 &rng, double from, double to)
-{
-  return std::uniform_real_distribution<double>(from, to)(rng);
-}
+using vpTestSupport::uniform;
 
 //! Within a quantile of the normal distribution that is exceeded once in 100,000 times.
 constexpr double deviations = 4.26;

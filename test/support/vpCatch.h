@@ -42,6 +42,15 @@ unsigned int seed();
 //! Generator of the random problem number \e index of this run: independent streams, repeatable one by one.
 std::mt19937_64 generator(unsigned int index = 0);
 
+//! Uniform random number.
+inline double uniform(std::mt19937_64 &rng, double low, double high)
+{
+  return std::uniform_real_distribution<double>(low, high)(rng);
+}
+
+//! Number of random problems: \e count in ctest; the environment variable VISP_DIRECT_LONG_TESTS=N makes it N times as many.
+int longer(int count);
+
 //! Skips a check with a reason ("image x is not installed"). If nothing failed, ctest then reports "Skipped".
 void skip(const std::string &why);
 

@@ -7,6 +7,7 @@
 #define CATCH_CONFIG_RUNNER
 #include "vpCatch.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <iostream>
@@ -51,6 +52,12 @@ int runAgain(Catch::Session &session, unsigned int seed)
 
 namespace vpTestSupport
 {
+int longer(int count)
+{
+  const char *factor = std::getenv("VISP_DIRECT_LONG_TESTS");
+  return count * std::max(1, factor == nullptr ? 1 : std::atoi(factor));
+}
+
 unsigned int seed()
 {
   noteRandomTest();

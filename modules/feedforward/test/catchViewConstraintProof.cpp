@@ -10,17 +10,10 @@
 #include <visp3/feedforward/vpViewConstraintFilter.h>
 
 #include <array>
-#include <cstdlib>
 
 namespace
 {
 using namespace vpServoScene;
-
-int problems(int ctest)
-{
-  const char *factor = std::getenv("VISP_DIRECT_LONG_TESTS");
-  return factor != nullptr ? ctest * std::max(std::atoi(factor), 1) : ctest;
-}
 
 double logUniform(std::mt19937_64 &rng, double low, double high)
 {
@@ -85,7 +78,7 @@ TEST_CASE("10^6 random cases: no point in the view leaves it while the answer is
   CAPTURE(vpTestSupport::seed());
   std::vector<vpServoPoint> outline, truth;
   int moving = 0, long_ = 0, borders = 0;
-  const int cases = problems(100000);
+  const int cases = vpTestSupport::longer(100000);
   for (int k = 0; k < cases; ++k) {
     const vpViewConstraintSpec spec = randomConfig(rng);
     vpViewConstraintFilter filter(spec);

@@ -10,6 +10,8 @@
 #ifndef vpServoScene_h
 #define vpServoScene_h
 
+#include "vpCatch.h"
+
 #include <visp3/core/vpExponentialMap.h>
 #include <visp3/feedforward/vpServoLaw.h>
 
@@ -45,10 +47,7 @@ inline Eigen::Matrix3d rotation(const vpHomogeneousMatrix &M)
 
 inline Eigen::Vector3d translation(const vpHomogeneousMatrix &M) { return {M[0][3], M[1][3], M[2][3]}; }
 
-inline double uniform(std::mt19937_64 &rng, double low, double high)
-{
-  return std::uniform_real_distribution<double>(low, high)(rng);
-}
+using vpTestSupport::uniform;
 
 inline Eigen::Vector3d direction(std::mt19937_64 &rng)
 {

@@ -20,12 +20,6 @@ using namespace vpPatternTest;
 
 namespace
 {
-int trials(int usual)
-{
-  const char *const factor = std::getenv("VISP_DIRECT_LONG_TESTS");
-  return factor == nullptr ? usual : static_cast<int>(usual * std::max(1., std::atof(factor)));
-}
-
 Eigen::Vector2d stepA(const vpDotLattice &lattice) { return {lattice.ax, lattice.ay}; }
 Eigen::Vector2d stepB(const vpDotLattice &lattice) { return {lattice.bx, lattice.by}; }
 } // namespace
@@ -54,7 +48,7 @@ TEST_CASE("lattices of every kind are found at any rotation, with gaps and stran
   unsigned int number = 800;
   for (const auto &line : kinds) {
     auto rng = vpTestSupport::generator(number++);
-    const int n = trials(10);
+    const int n = vpTestSupport::longer(10);
     int wrong = 0, refused = 0;
     for (int trial = 0; trial < n; ++trial) {
       const DotScene scene = makeDots(line.kind, rng);
@@ -76,7 +70,7 @@ TEST_CASE("random spots are no lattice", "[lattice]")
 {
   auto rng = vpTestSupport::generator(820);
   CAPTURE(vpTestSupport::seed());
-  const int n = trials(100);
+  const int n = vpTestSupport::longer(100);
   for (int trial = 0; trial < n; ++trial) {
     const DotKind kind = {"none", DotShape::Random, trial % 2 == 0, false, false, 1., between(rng, 0.05, 1.)};
     const vpDotLattice found = vpFindDotLattice(makeDots(kind, rng).image);
@@ -141,8 +135,7 @@ TEST_CASE("dots of a grid of any kind calibrate a microscope, and one of another
 TEST_CASE("calibrations from pictures of random lattices err as they say", "[lattice][calibration]")
 {
   CAPTURE(vpTestSupport::seed());
-  const char *const longer = std::getenv("VISP_DIRECT_LONG_TESTS");
-  const int scenes = longer == nullptr ? 60 : static_cast<int>(60 * std::max(1., std::atof(longer)));
+  const int scenes = vpTestSupport::longer(60);
   constexpr double truth = 2e5; // px/m
   double nees = 0., squares = 0., sigmas = 0.;
   int unreliable = 0;

@@ -54,8 +54,7 @@ double errorOf(const vpPatternCell &cell, const Pattern &pattern)
 
 TEST_CASE("cells behind things of like grey are invalid, right or say how far off they may be", "[tracker][occlusion]")
 {
-  const char *const longer = std::getenv("VISP_DIRECT_LONG_TESTS");
-  const int runs = longer == nullptr ? 3 : static_cast<int>(3 * std::max(1., std::atof(longer)));
+  const int runs = vpTestSupport::longer(3);
   CAPTURE(vpTestSupport::seed());
   constexpr int phases = 40, images = 4000; // the pattern goes to and fro, so that its pictures are made once
   long valid = 0, wide = 0, wrong = 0, far = 0;

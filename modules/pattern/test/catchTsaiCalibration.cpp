@@ -24,10 +24,7 @@ namespace
 {
 using Points = std::vector<vpCalibrationPoint>;
 
-double uniform(std::mt19937_64 &rng, double from, double to)
-{
-  return std::uniform_real_distribution<double>(from, to)(rng);
-}
+using vpTestSupport::uniform;
 
 struct Camera {
   double px = 700., py = 700., u0 = 319.5, v0 = 239.5, kappa1 = 0.;

@@ -7,6 +7,8 @@
 #ifndef vpPlanarProblem_h
 #define vpPlanarProblem_h
 
+#include "vpCatch.h"
+
 #include <visp3/pattern/vpPlanarMicroscopeCalibration.h>
 
 #include <Eigen/Dense>
@@ -28,10 +30,7 @@ struct Problem {
   double pitchX = 220e-6, pitchY = 80e-6; // m
 };
 
-inline double uniform(std::mt19937_64 &rng, double from, double to)
-{
-  return std::uniform_real_distribution<double>(from, to)(rng);
-}
+using vpTestSupport::uniform;
 
 // mostTilt: rad; the rest of the problem does not depend on it.
 inline Problem randomProblem(std::mt19937_64 &rng, int views, double kappa, unsigned int width = 640,

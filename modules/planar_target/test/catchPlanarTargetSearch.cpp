@@ -9,18 +9,10 @@
 #include <visp3/planar_target/vpPlanarTargetDatabase.h>
 
 #include <algorithm>
-#include <cstdlib>
 
 namespace
 {
 constexpr unsigned int second = 30; // frames
-
-//! \e count times the factor of long tests.
-std::size_t longer(std::size_t count)
-{
-  const char *factor = std::getenv("VISP_DIRECT_LONG_TESTS");
-  return count * static_cast<std::size_t>(std::max(1, factor == nullptr ? 1 : std::atoi(factor)));
-}
 
 struct Gallery {
   std::vector<vpPlanarScene::Target> posters;
@@ -65,7 +57,7 @@ TEST_CASE("the work of a frame is bounded however many targets are lost", "[sear
 {
   CAPTURE(vpTestSupport::seed());
   auto rng = vpTestSupport::generator(1);
-  const std::size_t count = longer(24);
+  const auto count = static_cast<std::size_t>(vpTestSupport::longer(24));
   Gallery gallery(count, rng);
   unsigned int mostProbed = 0;
   for (int frame = 0; frame < 24; ++frame) {
@@ -146,7 +138,7 @@ TEST_CASE("with all but one of 10 or 100 targets lost, each that comes back is f
   CAPTURE(count);
   auto rng = vpTestSupport::generator(2);
   Gallery gallery(count, rng);
-  const std::vector<unsigned int> found = framesUntilFound(gallery, static_cast<int>(longer(6)), rng);
+  const std::vector<unsigned int> found = framesUntilFound(gallery, vpTestSupport::longer(6), rng);
   REQUIRE_FALSE(found.empty());
   WARN(count << " targets: the slowest of " << found.size() << " after "
              << *std::max_element(found.begin(), found.end()) << " frames, "

@@ -16,10 +16,7 @@ VISP_DIRECT_USING_NAMESPACE
 // Against a direct simulation of the difference equations: stability, variances, damping, tracking.
 namespace
 {
-double uniform(std::mt19937_64 &rng, double low, double high)
-{
-  return std::uniform_real_distribution<double>(low, high)(rng);
-}
+using vpTestSupport::uniform;
 
 //! Largest |eigenvalue| of the error's recursion [(1 - a), (1 - a) T; -b / T, 1 - b].
 double spectralRadius(double alpha, double beta)

@@ -13,10 +13,7 @@ VISP_DIRECT_USING_NAMESPACE
 
 namespace
 {
-double uniform(std::mt19937_64 &rng, double low, double high)
-{
-  return std::uniform_real_distribution<double>(low, high)(rng);
-}
+using vpTestSupport::uniform;
 
 vpFrictionModel randomModel(std::mt19937_64 &rng)
 {

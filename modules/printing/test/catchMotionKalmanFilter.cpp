@@ -16,10 +16,7 @@ VISP_DIRECT_USING_NAMESPACE
 
 namespace
 {
-double uniform(std::mt19937_64 &rng, double low, double high)
-{
-  return std::uniform_real_distribution<double>(low, high)(rng);
-}
+using vpTestSupport::uniform;
 double logUniform(std::mt19937_64 &rng, double low, double high)
 {
   return std::exp(uniform(rng, std::log(low), std::log(high)));

@@ -16,10 +16,7 @@ VISP_DIRECT_USING_NAMESPACE
 
 namespace
 {
-double uniform(std::mt19937_64 &rng, double low, double high)
-{
-  return std::uniform_real_distribution<double>(low, high)(rng);
-}
+using vpTestSupport::uniform;
 
 //! Plant by 400 Euler steps per unit of time, moving forward only.
 struct Plant {

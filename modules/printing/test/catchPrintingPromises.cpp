@@ -17,15 +17,7 @@ VISP_DIRECT_USING_NAMESPACE
 
 namespace
 {
-int count(int inCtest)
-{
-  const char *factor = std::getenv("VISP_DIRECT_LONG_TESTS");
-  return factor != nullptr ? inCtest * std::max(std::atoi(factor), 1) : inCtest;
-}
-double uniform(std::mt19937_64 &rng, double low, double high)
-{
-  return std::uniform_real_distribution<double>(low, high)(rng);
-}
+using vpTestSupport::uniform;
 } // namespace
 
 TEST_CASE(
@@ -36,7 +28,7 @@ TEST_CASE(
   CAPTURE(vpTestSupport::seed());
   std::normal_distribution<double> normal(0., 1.);
   long fired = 0, missed = 0;
-  for (int problem = 0; problem < count(300); ++problem) {
+  for (int problem = 0; problem < vpTestSupport::longer(300); ++problem) {
     vpPrintTriggerSpec spec;
     spec.lead = uniform(rng, 0., 1.) < 0.5 ? 0. : uniform(rng, 0., 3.);
     spec.tolerance = uniform(rng, 0., 5.);
@@ -115,7 +107,7 @@ TEST_CASE("The velocity control's command is bounded, and at the bound its integ
   auto rng = vpTestSupport::generator(901);
   CAPTURE(vpTestSupport::seed());
   int saturated = 0;
-  for (int problem = 0; problem < count(200); ++problem) {
+  for (int problem = 0; problem < vpTestSupport::longer(200); ++problem) {
     vpPrintVelocityControlSpec spec;
     spec.kp = uniform(rng, 0., 1.);
     spec.ki = uniform(rng, 0., 0.2);

@@ -27,10 +27,7 @@ namespace
 constexpr int sequences = 400, steps = 60;
 constexpr double share = 0.2; // of wild numbers
 
-double uniform(std::mt19937_64 &rng, double low, double high)
-{
-  return std::uniform_real_distribution<double>(low, high)(rng);
-}
+using vpTestSupport::uniform;
 double wild(std::mt19937_64 &rng, double ordinary) { return vpWildNumbers::mixed(rng, ordinary, share); }
 
 bool finite(std::initializer_list<double> numbers)

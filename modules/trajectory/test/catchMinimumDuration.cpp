@@ -144,7 +144,7 @@ void report(const char *name, int count, const Counts &counts)
 TEST_CASE("no shorter duration exists than the one found", "[minimum]")
 {
   CAPTURE(vpTestSupport::seed());
-  const int count = problems(100000);
+  const int count = vpTestSupport::longer(100000);
   const char *names[] = {"rest to rest", "retarget mid-motion", "any to rest", "any to any"};
   for (int jerk = 0; jerk < 2; ++jerk) {
     for (int kind = 0; kind < 4; ++kind) {
@@ -172,7 +172,7 @@ TEST_CASE("no shorter duration exists than the one found", "[minimum]")
 TEST_CASE("no shorter duration exists with vias, cubics and septics", "[minimum]")
 {
   CAPTURE(vpTestSupport::seed());
-  const int count = problems(2000);
+  const int count = vpTestSupport::longer(2000);
   for (int kind = 0; kind < 4; ++kind) {
     auto rng = vpTestSupport::generator(static_cast<unsigned int>(30 + kind));
     Counts counts;

@@ -15,7 +15,7 @@ TEST_CASE("a start outside the limits comes back inside and says so", "[forms]")
 {
   auto rng = vpTestSupport::generator(90);
   CAPTURE(vpTestSupport::seed());
-  for (int k = 0; k < problems(3000); ++k) {
+  for (int k = 0; k < vpTestSupport::longer(3000); ++k) {
     auto input = randomInput<2>(rng, Class::AnyToRest, k % 2 == 0);
     const int i = k % 2;
     input.start.v[i] *= k % 3 != 0 ? 3. : 1.;
@@ -69,7 +69,7 @@ TEST_CASE("position limits are kept, by stopping and going when nothing else doe
   auto rng = vpTestSupport::generator(91);
   CAPTURE(vpTestSupport::seed());
   int stops = 0, unreachable = 0;
-  for (int k = 0; k < problems(4000); ++k) {
+  for (int k = 0; k < vpTestSupport::longer(4000); ++k) {
     auto input = randomInput<2>(rng, Class::AnyToRest, false);
     input.maxAcceleration *= 10.;
     for (int i = 0; i < 2; ++i) {
@@ -120,7 +120,7 @@ TEST_CASE("the norm over a group of axes stays below its limits", "[forms]")
   auto rng = vpTestSupport::generator(92);
   CAPTURE(vpTestSupport::seed());
   int fallback = 0;
-  for (int k = 0; k < problems(4000); ++k) {
+  for (int k = 0; k < vpTestSupport::longer(4000); ++k) {
     auto input = randomInput<5>(rng, static_cast<Class>(k % 4), false);
     vpAxisGroup group({0, 2, 3}, uniform(rng, 0.2, 2.));
     if (k % 3 == 0) {
@@ -200,7 +200,8 @@ TEST_CASE("a group at rest cruises along its line", "[forms]")
   auto rng = vpTestSupport::generator(44);
   CAPTURE(vpTestSupport::seed());
   int cruises = 0;
-  for (int k = 0; k < problems(10000); ++k) { // two groups and a separate axis; every third group moves at the start
+  for (int k = 0; k < vpTestSupport::longer(10000);
+       ++k) { // two groups and a separate axis; every third group moves at the start
     auto input = randomInput<6>(rng, Class::RestToRest, k % 2 == 1);
     const double length = logUniform(rng, 0.1, 100.);
     for (int i = 0; i < 6; ++i) {
@@ -224,7 +225,7 @@ TEST_CASE("a group at rest cruises along its line", "[forms]")
       REQUIRE(std::abs((plan.at(i, t)[0] - input.start.q[i]) / length - ratio * share) < 1e-9 * (1. + std::abs(ratio)));
     }
   }
-  CHECK(cruises > problems(10000) / 10);
+  CHECK(cruises > vpTestSupport::longer(10000) / 10);
 }
 
 TEST_CASE("a group that moves at the start or the goal cruises too", "[forms]")
@@ -251,7 +252,7 @@ TEST_CASE("a group that moves at the start or the goal cruises too", "[forms]")
   auto rng = vpTestSupport::generator(45);
   CAPTURE(vpTestSupport::seed());
   int cruises = 0, longer = 0;
-  for (int k = 0; k < problems(10000); ++k) {
+  for (int k = 0; k < vpTestSupport::longer(10000); ++k) {
     auto input = randomInput<5>(rng, static_cast<Class>(k % 4), k % 3 == 1);
     const double length = logUniform(rng, 0.1, 100.);
     double v[2][2] = {}, a[2][2] = {}; // norms at start and goal, of each group
@@ -282,7 +283,7 @@ TEST_CASE("a group that moves at the start or the goal cruises too", "[forms]")
     cruises += cruise && status.isGood();
   }
   WARN(cruises << " cruises, " << longer << " of them longer than without");
-  CHECK(cruises > problems(10000) / 5);
+  CHECK(cruises > vpTestSupport::longer(10000) / 5);
   CHECK(longer < cruises / 100 + 1); // units that wait for each other may change their forms
 }
 
@@ -344,7 +345,7 @@ TEST_CASE("C1 and C3 motions from any state keep the limits", "[forms]")
   CAPTURE(vpTestSupport::seed());
   for (const auto continuity : {vpTrajectoryContinuity::C1, vpTrajectoryContinuity::C3}) {
     int forms[6] = {};
-    for (int k = 0; k < problems(3000); ++k) {
+    for (int k = 0; k < vpTestSupport::longer(3000); ++k) {
       auto input = randomInput<3>(rng, k % 2 == 0 ? Class::AnyToAny : Class::RestToRest, false);
       input.spec.continuity = continuity;
       for (int i = 0; i < 3 && continuity == vpTrajectoryContinuity::C3; ++i) {

@@ -337,7 +337,7 @@ TEST_CASE("any problem: exact ends, limits kept or told, no detours, all finite"
   auto rng = vpTestSupport::generator(200);
   CAPTURE(vpTestSupport::seed());
   Tally tally;
-  const int count = problems(20000);
+  const int count = vpTestSupport::longer(20000);
   for (int k = 0; k < count; ++k) {
     const Input input = anyProblem(rng);
     vpTrajectoryPlan plan(1);

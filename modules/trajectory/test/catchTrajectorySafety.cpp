@@ -45,7 +45,7 @@ template <int N, typename Make> Tally run(unsigned int stream, int count, Make m
 
 template <int N> void requireAllSafe(unsigned int stream, bool jerk)
 {
-  const int count = problems(100000 / (jerk ? 4 : 1));
+  const int count = vpTestSupport::longer(100000 / (jerk ? 4 : 1));
   const Tally tally = run<N>(stream, count, [jerk](std::mt19937_64 &rng, int k) {
     auto input = randomInput<N>(rng, static_cast<Class>(k % 4), jerk);
     input.spec.cruise = (k / 4) % 2 == 1;
@@ -89,7 +89,7 @@ TEST_CASE("a motion next to its velocity limit, with some acceleration left, nev
   CAPTURE(vpTestSupport::seed());
   vpTrajectoryPlan plan(2);
   int stops = 0;
-  for (int k = 0; k < problems(20000); ++k) {
+  for (int k = 0; k < vpTestSupport::longer(20000); ++k) {
     auto input = randomInput<2>(rng, Class::RestToRest, false);
     const double v = input.maxVelocity[0], usual = 10. * std::pow(input.maxAcceleration[0], 2) / v;
     const double room = v * logUniform(rng, 1e-12, 1e-3);
@@ -103,5 +103,5 @@ TEST_CASE("a motion next to its velocity limit, with some acceleration left, nev
     REQUIRE(worstViolation(input, plan) <= 1e-12);
     stops += plan.form(0) == vpTrajectoryForm::StopAndGo;
   }
-  CHECK(stops > problems(20000) / 4);
+  CHECK(stops > vpTestSupport::longer(20000) / 4);
 }

@@ -137,7 +137,7 @@ TEST_CASE("under a jerk limit too, a position limit is exceeded as little as can
   CAPTURE(vpTestSupport::seed());
   Tally tally[3];
   vpTrajectoryPlan plan(1);
-  for (int k = 0; k < problems(1500); ++k) {
+  for (int k = 0; k < vpTestSupport::longer(1500); ++k) {
     const Axis axis = anyAxis(rng);
     const double side = k % 2 == 0 ? 1. : -1.;
     const auto extremes = [&](double low, double high) {
@@ -182,7 +182,7 @@ TEST_CASE("under a jerk limit too, a position limit is exceeded as little as can
   for (const Tally &t : tally) {
     WARN(t.exceeded << " exceed, of them " << t.bothWays << " as far as the other limit allows, at most by " << t.most
                     << " more than any motion must; " << t.kept << " keep the limits");
-    CHECK(t.exceeded > problems(1500) / 10);
+    CHECK(t.exceeded > vpTestSupport::longer(1500) / 10);
   }
   CHECK(tally[0].bothWays > 0);
 }

@@ -125,7 +125,7 @@ TEST_CASE("streams with events: finite, continuous, within the limits or told", 
 {
   auto rng = vpTestSupport::generator(210);
   CAPTURE(vpTestSupport::seed());
-  const int count = problems(500);
+  const int count = vpTestSupport::longer(500);
   double worst = -1.;
   for (int k = 0; k < count; ++k) {
     CAPTURE(k);
@@ -143,7 +143,7 @@ TEST_CASE("numbers that no robot has: refused, or a finite motion", "[streams]")
                             1e13,         1e-12,   1e-9,  1e9,   1e6,    -1.,    1.,    1e-300};
   const auto pick = [&] { return strange[rng() % (sizeof(strange) / sizeof(strange[0]))]; };
   int refused = 0;
-  const int count = problems(20000);
+  const int count = vpTestSupport::longer(20000);
   for (int k = 0; k < count; ++k) {
     vpTrajectoryInput<2> input;
     input.goal.q << 0.5, -0.3;

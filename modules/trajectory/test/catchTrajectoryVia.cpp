@@ -60,7 +60,7 @@ TEST_CASE("vias are met, joints are C2, limits kept, for any number of vias", "[
   auto rng = vpTestSupport::generator(80);
   CAPTURE(vpTestSupport::seed());
   int direct = 0, legs = 0;
-  for (int k = 0; k < problems(4000); ++k) {
+  for (int k = 0; k < vpTestSupport::longer(4000); ++k) {
     const int count = 1 + k % 6;
     auto input = randomVias<3>(rng, count, k % 3 == 0 ? Class::AnyToAny : Class::RestToRest);
     vpTrajectoryPlan plan(3);

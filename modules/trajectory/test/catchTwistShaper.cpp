@@ -176,7 +176,7 @@ TEST_CASE("10^6 random steps: speed, acceleration and jerk, rechecked by differe
 {
   auto rng = vpTestSupport::generator(112);
   CAPTURE(vpTestSupport::seed());
-  const int runs = problems(100), steps = 1000;
+  const int runs = vpTestSupport::longer(100), steps = 1000;
   double atLimit = 0.;
   for (int k = 0; k < runs; ++k) {
     vpTwistShaperLimits limits;

@@ -25,17 +25,7 @@ inline const bool allDigits = (Catch::StringMaker<double>::precision = 17) > 0;
 
 constexpr double none = std::numeric_limits<double>::infinity();
 
-//! Number of random problems: \e ctest by default; the environment variable VISP_DIRECT_LONG_TESTS multiplies it.
-inline int problems(int ctest)
-{
-  const char *factor = std::getenv("VISP_DIRECT_LONG_TESTS");
-  return factor != nullptr ? ctest * std::max(std::atoi(factor), 1) : ctest;
-}
-
-inline double uniform(std::mt19937_64 &rng, double low, double high)
-{
-  return std::uniform_real_distribution<double>(low, high)(rng);
-}
+using vpTestSupport::uniform;
 
 //! Between low and high, equally often in each decade.
 inline double logUniform(std::mt19937_64 &rng, double low, double high)
