@@ -16,15 +16,17 @@ namespace
 constexpr double degree = M_PI / 180.;
 
 // Limits in the file are in degrees for revolute joints, in metres for prismatic ones.
-vpArmJointSpec joint(vpJsonObject &object)
+vpArmJointSpec joint(vpJsonObject &object, bool isModified)
 {
   const std::string type = object.text("type");
   const bool slides = type == "prismatic";
   const double unit = slides ? 1. : degree;
-  vpArmJointSpec spec = vpArmJointSpec::standardDH(object.number("a_m"), degree * object.number("alpha_deg"),
-                                                   slides ? 0. : object.number("d_m"), 0.);
+  const auto row = isModified ? vpArmJointSpec::modifiedDH : vpArmJointSpec::standardDH;
+  vpArmJointSpec spec =
+      row(object.number("a_m"), degree * object.number("alpha_deg"), slides ? 0. : object.number("d_m"), 0.);
   if (slides) {
-    spec.before.R = Eigen::AngleAxisd(degree * object.number("theta_deg"), Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    spec.before.R *=
+        Eigen::AngleAxisd(degree * object.number("theta_deg"), Eigen::Vector3d::UnitZ()).toRotationMatrix();
     spec.offset = object.number("d_offset_m", 0.);
   }
   else {
@@ -89,12 +91,19 @@ vpArmModel load(const std::string &file)
   spec.source = file;
   spec.name = top.text("name");
   top.ignore("comment");
-  top.each("joints", [&](vpJsonObject &object) { spec.joints.push_back(joint(object)); });
+  const std::string convention = top.text("dh", "standard");
+  if (convention != "standard" && convention != "modified") {
+    throw top.wrong("dh", top.value("dh"), "standard or modified");
+  }
+  top.each("joints", [&](vpJsonObject &object) { spec.joints.push_back(joint(object, convention == "modified")); });
   if (top.has("links")) {
     top.each("links", [&](vpJsonObject &object) { spec.links.push_back(link(object)); });
   }
   if (top.has("capsules")) {
     top.each("capsules", [&](vpJsonObject &object) { spec.capsules.push_back(capsule(object)); });
+  }
+  if (top.has("uncovered")) {
+    spec.uncovered = top.texts("uncovered");
   }
   top.optional("tool", [&](vpJsonObject &object) { spec.tool = vpJsonTransform<vpRigidTransform>(object); });
   top.optional("camera", [&](vpJsonObject &object) { spec.camera = vpJsonTransform<vpRigidTransform>(object); });

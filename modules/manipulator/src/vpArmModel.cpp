@@ -2,6 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
+#include "vpPossibleInertia.h"
 #include "vpPrintable.h"
 
 #include <visp3/manipulator/vpArmModel.h>
@@ -10,7 +11,6 @@
 #include <visp3/direct_core/vpLimit.h>
 #include <visp3/manipulator/vpArmTypes.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
@@ -191,15 +191,99 @@ void checkLink(const vpArmSpec &spec, const vpArmLinkSpec &link)
   if (!std::isfinite(link.mass) || !vpIsPlausibleForArm(link.com) || !vpIsPlausibleForArm(link.inertia)) {
     fail(spec, "mass, centre of mass or inertia" + of + " is not finite or beyond 1e9");
   }
-  const Eigen::Vector3d moments = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(link.inertia).eigenvalues();
-  const double slack = 1e-9 * (1. + moments.cwiseAbs().maxCoeff());
-  if ((link.inertia - link.inertia.transpose()).cwiseAbs().maxCoeff() > slack || moments(0) < -slack ||
-      moments(0) + moments(1) < moments(2) - slack) {
+  Eigen::Vector3d moments;
+  if (!vpIsPossibleInertia(link.inertia, moments)) {
     fail(spec, "inertia" + of + " has the principal moments " + text(moments(0)) + ", " + text(moments(1)) + ", " +
                    text(moments(2)) + " kg m^2, which no body has");
   }
 }
+
+void checkCapsule(const vpArmSpec &spec, const vpArmCapsule &capsule)
+{
+  const int n = static_cast<int>(spec.joints.size()), bodies = static_cast<int>(spec.bodies.size());
+  const std::string link = std::to_string(capsule.link), of = " of a capsule of link " + link;
+  if (capsule.link < 0 || capsule.link > n) {
+    fail(spec, "a capsule belongs to link " + link + ", must be 0 to " + std::to_string(n));
+  }
+  positive(spec, "capsule radius of link " + link, capsule.radius);
+  if (!capsule.from.allFinite() || !capsule.to.allFinite() || !std::isfinite(capsule.radius)) {
+    fail(spec, "a capsule of link " + link + " is not finite");
+  }
+  length(spec, "radius" + of, capsule.radius);
+  lengths(spec, "end" + of, capsule.from);
+  lengths(spec, "end" + of, capsule.to);
+  if (capsule.body < -1 || capsule.body >= bodies) {
+    fail(spec, "body" + of + " is " + std::to_string(capsule.body) + ", must be -1 to " + std::to_string(bodies - 1));
+  }
+  if (capsule.body >= 0 && spec.bodies[static_cast<std::size_t>(capsule.body)].link != capsule.link) {
+    fail(spec, "body " + spec.bodies[static_cast<std::size_t>(capsule.body)].name + of + " belongs to another link");
+  }
+}
+
+void checkShape(const vpArmSpec &spec, const vpArmShape &shape)
+{
+  const int bodies = static_cast<int>(spec.bodies.size());
+  if (shape.body < 0 || shape.body >= bodies) {
+    fail(spec,
+         "a shape belongs to body " + std::to_string(shape.body) + ", must be 0 to " + std::to_string(bodies - 1));
+  }
+  const std::string of = "shape of body " + spec.bodies[static_cast<std::size_t>(shape.body)].name;
+  const bool isMesh = shape.kind == vpArmShapeKind::Mesh;
+  const int sizes = shape.kind == vpArmShapeKind::Sphere ? 1 : shape.kind == vpArmShapeKind::Cylinder ? 2 : 3;
+  for (int k = 0; k < sizes; ++k) {
+    positive(spec, "size of a " + of, isMesh ? std::fabs(shape.size(k)) : shape.size(k));
+    length(spec, "size of a " + of, shape.size(k));
+  }
+  if (shape.file.empty() == isMesh) {
+    fail(spec, "a " + of + (isMesh ? " is a mesh without a file" : " has the file " + shape.file + ", but is no mesh"));
+  }
+  rigid(spec, "pose of a " + of, shape.pose);
+}
+
+// Bodies, and what names them.
+void checkBodies(const vpArmSpec &spec)
+{
+  const int n = static_cast<int>(spec.joints.size());
+  std::set<std::string> names;
+  for (const vpArmBody &body : spec.bodies) {
+    if (body.name.empty() || !names.insert(body.name).second) {
+      fail(spec, body.name.empty() ? "a body has no name" : "duplicate body name " + body.name);
+    }
+    if (body.link < 0 || body.link > n) {
+      fail(spec, "body " + body.name + " belongs to link " + std::to_string(body.link) + ", must be 0 to " +
+                     std::to_string(n));
+    }
+  }
+  for (const vpArmShape &shape : spec.shapes) {
+    checkShape(spec, shape);
+  }
+  for (const auto &[first, second] : spec.allowedBodies) {
+    for (const std::string &name : {first, second}) {
+      if (names.count(name) == 0) {
+        fail(spec, "pair of bodies " + first + ", " + second + ": there is no body " + name);
+      }
+    }
+    if (first == second) {
+      fail(spec, "pair of bodies " + first + ", " + second + ": must be different ones");
+    }
+  }
+  std::set<std::string> uncovered;
+  for (const std::string &name : spec.uncovered) {
+    if (name.empty() || !uncovered.insert(name).second) {
+      fail(spec, name.empty() ? "an uncovered body has no name" : "uncovered body " + name + " is given twice");
+    }
+  }
+}
 } // namespace
+
+vpArmJointSpec vpArmJointSpec::modifiedDH(double a, double alpha, double d, double offset)
+{
+  vpArmJointSpec joint;
+  joint.offset = offset;
+  joint.before.R = Eigen::AngleAxisd(alpha, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  joint.before.p = Eigen::Vector3d(a, 0., 0.) + d * joint.before.R.col(2);
+  return joint;
+}
 
 vpArmJointSpec vpArmJointSpec::standardDH(double a, double alpha, double d, double offset)
 {
@@ -230,19 +314,9 @@ vpArmModel::vpArmModel(const vpArmSpec &spec) : m_spec(spec), m_size(static_cast
   checkHome(spec);
   rigid(spec, "tool", spec.tool);
   rigid(spec, "camera", spec.camera);
+  checkBodies(spec);
   for (const vpArmCapsule &capsule : spec.capsules) {
-    if (capsule.link < 0 || capsule.link > m_size) {
-      fail(spec,
-           "a capsule belongs to link " + std::to_string(capsule.link) + ", must be 0 to " + std::to_string(m_size));
-    }
-    positive(spec, "capsule radius of link " + std::to_string(capsule.link), capsule.radius);
-    if (!capsule.from.allFinite() || !capsule.to.allFinite() || !std::isfinite(capsule.radius)) {
-      fail(spec, "a capsule of link " + std::to_string(capsule.link) + " is not finite");
-    }
-    const std::string of = " of a capsule of link " + std::to_string(capsule.link);
-    length(spec, "radius" + of, capsule.radius);
-    lengths(spec, "end" + of, capsule.from);
-    lengths(spec, "end" + of, capsule.to);
+    checkCapsule(spec, capsule);
   }
 
   for (vpJointVector *vector : {&m_lower, &m_upper, &m_velocity, &m_acceleration, &m_torque}) {

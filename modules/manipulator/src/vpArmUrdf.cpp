@@ -2,427 +2,324 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
+#include "vpJointLimitsYaml.h"
 #include "vpReading.h"
-#include "vpXmlOutline.h"
+#include "vpUrdfBodies.h"
+#include "vpUrdfGroups.h"
 
-#include <visp3/manipulator/vpArmUrdf.h>
-
-#include <console_bridge/console.h>
-#include <urdf_model/model.h>
-#include <urdf_parser/urdf_parser.h>
+#include <visp3/direct_core/vpLimit.h>
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <map>
-#include <mutex>
-#include <set>
+#include <cmath>
 
 BEGIN_VISP_NAMESPACE
 
 namespace
 {
-[[noreturn]] void fail(const std::string &file, const std::string &sentence)
-{
-  throw vpFileError(file + ": " + sentence);
-}
+constexpr double unknown = std::numeric_limits<double>::infinity();
 
-// urdfdom reports errors to a process-wide handler and returns a null pointer. The first sentence is the error, the
-// second its location; further ones repeat it.
-class Listener : public console_bridge::OutputHandler
+using Joints = std::vector<urdf::JointConstSharedPtr>;
+
+class Loader
 {
 public:
-  Listener() { console_bridge::useOutputHandler(this); }
-  ~Listener() override { console_bridge::restorePreviousOutputHandler(); }
-  Listener(const Listener &) = delete;
-  Listener &operator=(const Listener &) = delete;
-  void log(const std::string &text, console_bridge::LogLevel level, const char *, int) override
-  {
-    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR && m_count++ < 2) {
-      m_text += (m_text.empty() ? "" : "; ") + text;
-    }
-  }
-  [[nodiscard]] const std::string &text() const { return m_text; }
-
-private:
-  std::string m_text;
-  int m_count = 0;
-};
-
-urdf::ModelInterfaceSharedPtr parse(const std::string &file)
-{
-  const std::string text = vpReadFileText(file);
-  vpRequireXmlOutline(text, file);
-  static std::mutex mutex; // the handler is process-wide
-  const std::lock_guard<std::mutex> lock(mutex);
-  const Listener listener;
-  urdf::ModelInterfaceSharedPtr tree;
-  try {
-    tree = urdf::parseURDF(text);
-  }
-  catch (const std::exception &e) {
-    fail(file, e.what());
-  }
-  // For a malformed element urdfdom reports an error, but may still return the tree without the element.
-  if (!tree || !listener.text().empty()) {
-    fail(file, listener.text().empty() ? "is no URDF" : listener.text());
-  }
-  return tree;
-}
-
-// urdfdom requires one root, but accepts additional cycles, and links with two parents.
-void requireTree(const urdf::ModelInterface &tree, const std::string &file)
-{
-  std::map<std::string, std::string> above; // the joint above a link
-  for (const auto &[name, joint] : tree.joints_) {
-    const auto other = above.emplace(joint->child_link_name, name);
-    if (!other.second) {
-      fail(file,
-           "link " + joint->child_link_name + " is the child of two joints, " + other.first->second + " and " + name);
-    }
-  }
-  std::set<std::string> below; // links known to be below the root
-  for (const auto &item : tree.links_) {
-    std::set<std::string> way;
-    for (std::string link = item.first; below.count(link) == 0;) {
-      if (!way.insert(link).second) {
-        fail(file, "the joints make a cycle through link " + link);
-      }
-      const auto joint = above.find(link);
-      if (joint == above.end()) {
-        break;
-      }
-      link = tree.getJoint(joint->second)->parent_link_name;
-    }
-    below.insert(way.begin(), way.end());
-  }
-}
-
-// Links own their children, so those of a cycle would never be freed.
-urdf::ModelInterfaceSharedPtr parseTree(const std::string &file)
-{
-  const urdf::ModelInterfaceSharedPtr tree = parse(file);
-  try {
-    requireTree(*tree, file);
-  }
-  catch (...) {
-    for (const auto &item : tree->links_) {
-      item.second->child_links.clear();
-    }
-    throw;
-  }
-  return tree;
-}
-
-vpRigidTransform pose(const urdf::Pose &from)
-{
-  vpRigidTransform T;
-  T.R = Eigen::Quaterniond(from.rotation.w, from.rotation.x, from.rotation.y, from.rotation.z)
-            .normalized()
-            .toRotationMatrix();
-  T.p << from.position.x, from.position.y, from.position.z;
-  return T;
-}
-
-vpArmLinkSpec massOf(const urdf::Link &link)
-{
-  vpArmLinkSpec spec;
-  spec.name = link.name;
-  spec.hasMass = link.inertial != nullptr;
-  if (spec.hasMass) {
-    const urdf::Inertial &from = *link.inertial;
-    const vpRigidTransform at = pose(from.origin);
-    spec.mass = from.mass;
-    spec.com = at.p;
-    Eigen::Matrix3d I;
-    I << from.ixx, from.ixy, from.ixz, from.ixy, from.iyy, from.iyz, from.ixz, from.iyz, from.izz;
-    spec.inertia = at.R * I * at.R.transpose();
-  }
-  return spec;
-}
-
-Eigen::Matrix3d steiner(double mass, const Eigen::Vector3d &r)
-{
-  return mass * (r.squaredNorm() * Eigen::Matrix3d::Identity() - r * r.transpose());
-}
-
-// Merges a body fixed to a link at a pose into the link.
-void carry(vpArmLinkSpec &link, const vpArmLinkSpec &part, const vpRigidTransform &at)
-{
-  if (!part.hasMass) {
-    return;
-  }
-  const Eigen::Vector3d com = at.R * part.com + at.p;
-  const Eigen::Matrix3d inertia = at.R * part.inertia * at.R.transpose();
-  if (!link.hasMass) {
-    link.hasMass = true;
-    link.mass = part.mass;
-    link.com = com;
-    link.inertia = inertia;
-    return;
-  }
-  const double mass = link.mass + part.mass;
-  const Eigen::Vector3d both = (link.mass * link.com + part.mass * com) / mass;
-  link.inertia += steiner(link.mass, link.com - both) + inertia + steiner(part.mass, com - both);
-  link.mass = mass;
-  link.com = both;
-}
-
-// Adds the capsules of a body. False if it has a shape that they do not cover: a mesh, or one that is only seen.
-bool addCapsules(const urdf::Link &link, int number, const vpRigidTransform &at, std::vector<vpArmCapsule> &capsules)
-{
-  bool covered = !link.collision_array.empty() || link.visual_array.empty();
-  for (const urdf::CollisionSharedPtr &collision : link.collision_array) {
-    if (!collision->geometry) {
-      covered = false;
-      continue;
-    }
-    const vpRigidTransform T = at * pose(collision->origin);
-    double half = 0.; // half length of the segment, along z
-    Eigen::Vector3d direction = T.R.col(2);
-    vpArmCapsule capsule;
-    if (const auto *cylinder = dynamic_cast<const urdf::Cylinder *>(collision->geometry.get())) {
-      // Encloses the rims, too, so it extends beyond the flat ends.
-      capsule.radius = cylinder->radius;
-      half = 0.5 * cylinder->length;
-    }
-    else if (const auto *sphere = dynamic_cast<const urdf::Sphere *>(collision->geometry.get())) {
-      capsule.radius = sphere->radius;
-    }
-    else if (const auto *box = dynamic_cast<const urdf::Box *>(collision->geometry.get())) {
-      const double size[3] = {box->dim.x, box->dim.y, box->dim.z};
-      const int k = static_cast<int>(std::max_element(size, size + 3) - size);
-      capsule.radius = 0.5 * std::hypot(size[(k + 1) % 3], size[(k + 2) % 3]);
-      half = 0.5 * size[k];
-      direction = T.R.col(k);
-    }
-    else {
-      covered = false;
-      continue;
-    }
-    capsule.link = number;
-    capsule.from = T.p - half * direction;
-    capsule.to = T.p + half * direction;
-    capsules.push_back(capsule);
-  }
-  return covered;
-}
-
-urdf::LinkConstSharedPtr find(const urdf::ModelInterface &tree, const std::string &file, const std::string &name)
-{
-  const urdf::LinkConstSharedPtr link = tree.getLink(name);
-  if (!link) {
-    fail(file, "there is no link " + name);
-  }
-  return link;
-}
-
-std::string onlyLeaf(const urdf::ModelInterface &tree, const std::string &file)
-{
-  std::vector<std::string> leaves;
-  for (const auto &item : tree.links_) {
-    if (item.second->child_links.empty()) {
-      leaves.push_back(item.first);
-    }
-  }
-  if (leaves.size() != 1) {
-    std::string names;
-    for (const std::string &name : leaves) {
-      names += (names.empty() ? "" : ", ") + name;
-    }
-    fail(file, "the end effector is not unique, name one of the links " + names);
-  }
-  return leaves.front();
-}
-
-// Joints from a link down to another one, in this order.
-std::vector<urdf::JointSharedPtr> path(const urdf::ModelInterface &tree, const std::string &file,
-                                       const std::string &base, const std::string &tip)
-{
-  std::vector<urdf::JointSharedPtr> joints;
-  urdf::LinkConstSharedPtr link = find(tree, file, tip);
-  static_cast<void>(find(tree, file, base));
-  while (link->name != base) {
-    if (!link->parent_joint) {
-      fail(file, "link " + tip + " is not below link " + base);
-    }
-    joints.push_back(link->parent_joint);
-    link = find(tree, file, link->parent_joint->parent_link_name);
-  }
-  std::reverse(joints.begin(), joints.end());
-  return joints;
-}
-
-vpArmJointSpec moving(const urdf::Joint &from, const std::string &file, const vpArmUrdfSpec &spec)
-{
-  vpArmJointSpec joint;
-  joint.name = from.name;
-  if (from.mimic) {
-    fail(file, "joint " + from.name + " mimics joint " + from.mimic->joint_name + ", which this model cannot express");
-  }
-  switch (from.type) {
-  case urdf::Joint::REVOLUTE:
-    joint.type = vpJointType::Revolute;
-    break;
-  case urdf::Joint::CONTINUOUS:
-    joint.type = vpJointType::Continuous;
-    break;
-  case urdf::Joint::PRISMATIC:
-    joint.type = vpJointType::Prismatic;
-    break;
-  default:
-    fail(file, "joint " + from.name + " is floating or planar, must be revolute, continuous, prismatic or fixed");
-  }
-  const Eigen::Vector3d axis(from.axis.x, from.axis.y, from.axis.z);
-  if (!(axis.norm() > 1e-9)) {
-    fail(file, "axis of joint " + from.name + " is zero");
-  }
-  // Joints of vpArmModel move about z: rotate z to the axis, and back after the motion.
-  const Eigen::Matrix3d turn = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis).toRotationMatrix();
-  joint.before = pose(from.parent_to_joint_origin_transform) * vpRigidTransform{turn, Eigen::Vector3d::Zero()};
-  joint.after.R = turn.transpose();
-  if (from.limits) {
-    joint.lower = from.limits->lower;
-    joint.upper = from.limits->upper;
-    joint.velocity = from.limits->velocity;
-    joint.torque = from.limits->effort;
-  }
-  joint.acceleration = spec.acceleration;
-  if (from.dynamics) {
-    joint.viscous = from.dynamics->damping;
-    joint.coulomb = from.dynamics->friction;
-  }
-  return joint;
-}
-// Makes the arm from the links of a chain and what is fixed to them.
-class ArmBuilder
-{
-public:
-  ArmBuilder(const std::string &file, const std::string &name, const std::vector<urdf::JointSharedPtr> &chain)
-    : m_file(file)
+  Loader(const std::string &file, const vpArmUrdfSpec &spec)
+    : m_spec(spec), m_tree(vpUrdfTree::read(file, m_warnings)),
+      m_srdf(spec.srdf.empty() ? vpSrdf() : vpLoadSrdf(spec.srdf)), m_posture(m_tree, spec.held)
   {
     m_arm.source = file;
-    m_arm.name = name;
-    for (const urdf::JointSharedPtr &joint : chain) {
-      m_chain.insert(joint->name);
-    }
+    m_arm.name = m_tree.model->getName();
+    vpCompleteEnds(m_tree, m_srdf, m_spec, m_warnings);
+    m_chain = m_tree.path(m_spec.base, m_spec.tip);
+    home();
+    readChain();
+    readLimits();
+    setHome();
+    setCamera();
+    setAllowedBodies();
+    m_arm.warnings = m_warnings.sentences();
   }
-  //! Adds a link of the chain, with what is fixed to it beside the chain. \param at : Link in the last moving one.
-  void add(const urdf::Link &link, const vpRigidTransform &at)
-  {
-    if (!addCapsules(link, static_cast<int>(m_arm.joints.size()), at, m_arm.capsules)) {
-      m_arm.uncovered.push_back(link.name);
-    }
-    for (const urdf::JointSharedPtr &joint : link.child_joints) {
-      const urdf::LinkConstSharedPtr child = childOf(link, *joint);
-      if (m_chain.count(joint->name) == 0 && child) {
-        const vpRigidTransform there = at * pose(joint->parent_to_joint_origin_transform);
-        if (joint->type == urdf::Joint::FIXED) {
-          const vpArmLinkSpec part = massOf(*child);
-          if (part.mass > 0.) { // frames may have none
-            addMass(part, there);
-          }
-          add(*child, there);
-        }
-        else {
-          leaveOut(*child);
-        }
-      }
-    }
-  }
-  void addJoint(const vpArmJointSpec &joint, const urdf::Link &link)
-  {
-    m_arm.joints.push_back(joint);
-    m_arm.links.push_back(massOf(link));
-  }
-  //! Adds a body that is fixed to the last moving link.
-  void addMass(const vpArmLinkSpec &part, const vpRigidTransform &at)
-  {
-    if (part.hasMass && !(part.mass > 0.)) {
-      fail(m_file, "mass of link " + part.name + " is " + std::to_string(part.mass) + ", must be > 0");
-    }
-    if (!m_arm.links.empty()) { // else it is fixed to the base
-      carry(m_arm.links.back(), part, at);
-    }
-  }
-  vpArmSpec &arm() { return m_arm; }
+  [[nodiscard]] const vpArmSpec &arm() const { return m_arm; }
 
 private:
-  static urdf::LinkConstSharedPtr childOf(const urdf::Link &link, const urdf::Joint &joint)
+  [[noreturn]] void fail(const std::string &sentence) const { vpUrdfFail(m_tree.file, sentence); }
+
+  // Finds the home state, and which joints stand there.
+  void home()
   {
-    for (const urdf::LinkSharedPtr &child : link.child_links) {
-      if (child->name == joint.child_link_name) {
-        return child;
+    std::vector<std::string> moving;
+    std::set<std::string> chain;
+    for (const urdf::JointConstSharedPtr &joint : m_chain) {
+      double ratio = 1., offset = 0.;
+      chain.insert({joint->name, m_posture.leader(*joint, ratio, offset).name});
+      if (!m_posture.stands(*joint)) {
+        moving.push_back(joint->name);
       }
     }
-    return nullptr;
-  }
-  // Everything below a joint that moves beside the chain.
-  void leaveOut(const urdf::Link &link)
-  {
-    if (!link.collision_array.empty() || !link.visual_array.empty()) {
-      m_arm.uncovered.push_back(link.name);
-    }
-    for (const urdf::LinkSharedPtr &child : link.child_links) {
-      leaveOut(*child);
+    m_state = vpHomeState(m_tree, m_srdf, m_spec, moving, m_stateName);
+    if (m_spec.holdOthers) {
+      m_posture.holdOthers(chain, m_state);
     }
   }
 
-  std::string m_file;
-  std::set<std::string> m_chain; // names of its joints
-  vpArmSpec m_arm;
-};
-
-vpArmModel load(const std::string &file, const vpArmUrdfSpec &spec)
-{
-  const urdf::ModelInterfaceSharedPtr tree = parseTree(file);
-  const std::string base = spec.base.empty() ? tree->getRoot()->name : spec.base;
-  const std::string tip = spec.tip.empty() ? onlyLeaf(*tree, file) : spec.tip;
-  const std::vector<urdf::JointSharedPtr> chain = path(*tree, file, base, tip);
-  ArmBuilder builder(file, tree->getName(), chain);
-  builder.add(*find(*tree, file, base), {});
-  vpRigidTransform fixed; // from the last moving link to the current one
-  for (const urdf::JointSharedPtr &from : chain) {
-    const urdf::LinkConstSharedPtr child = find(*tree, file, from->child_link_name);
-    if (from->type == urdf::Joint::FIXED) {
-      fixed = fixed * pose(from->parent_to_joint_origin_transform);
-      if (!builder.arm().links.empty()) {
-        builder.addMass(massOf(*child), fixed);
+  void readChain()
+  {
+    const vpMeshPath paths(m_tree.file, m_spec.packagePaths);
+    std::set<std::string> names;
+    for (const urdf::JointConstSharedPtr &joint : m_chain) {
+      names.insert(joint->name);
+    }
+    vpUrdfBodies bodies(m_tree, m_posture, paths, names, m_warnings);
+    bodies.addBase(m_spec.base);
+    vpRigidTransform fixed; // of the current link in the last moving one
+    for (const urdf::JointConstSharedPtr &from : m_chain) {
+      const urdf::LinkConstSharedPtr child = m_tree.link(from->child_link_name);
+      if (m_posture.stands(*from)) {
+        fixed = fixed * m_posture.frame(*from);
       }
+      else {
+        vpArmJointSpec joint = moving(*from);
+        joint.before = fixed * joint.before;
+        fixed = {};
+        m_arm.joints.push_back(joint);
+        bodies.nextLink(child->name);
+      }
+      bodies.add(*child, fixed);
     }
-    else {
-      vpArmJointSpec joint = moving(*from, file, spec);
-      joint.before = fixed * joint.before;
-      fixed = {};
-      builder.addJoint(joint, *child);
-    }
-    builder.add(*child, fixed);
+    m_arm.tool = fixed;
+    bodies.finish(m_arm);
   }
-  vpArmSpec &arm = builder.arm();
-  arm.tool = fixed;
-  if (!spec.camera.empty()) {
-    // Up or down from the end effector through fixed joints only.
-    const auto toCommon = [&](const std::string &from) {
-      vpRigidTransform T;
-      for (const urdf::JointSharedPtr &joint :
-           path(*tree, file, arm.joints.empty() ? base : tree->getJoint(arm.joints.back().name)->child_link_name,
-                from)) {
-        if (joint->type != urdf::Joint::FIXED) {
-          fail(file, "joint " + joint->name + " between the end effector and the camera is not fixed");
+
+  vpArmJointSpec moving(const urdf::Joint &from)
+  {
+    vpArmJointSpec joint;
+    joint.name = from.name;
+    switch (from.type) {
+    case urdf::Joint::REVOLUTE:
+      joint.type = vpJointType::Revolute;
+      break;
+    case urdf::Joint::CONTINUOUS:
+      joint.type = vpJointType::Continuous;
+      break;
+    case urdf::Joint::PRISMATIC:
+      joint.type = vpJointType::Prismatic;
+      break;
+    default:
+      fail("joint " + from.name + " is floating or planar, must be revolute, continuous, prismatic or fixed");
+    }
+    const Eigen::Vector3d axis(from.axis.x, from.axis.y, from.axis.z);
+    if (!(axis.norm() > 1e-9)) {
+      fail("axis of joint " + from.name + " is zero");
+    }
+    // Joints of vpArmModel move about z: rotate z to the axis, and back after the motion.
+    const Eigen::Matrix3d turn = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis).toRotationMatrix();
+    joint.before = vpUrdfPose(from.parent_to_joint_origin_transform) * vpRigidTransform{turn, Eigen::Vector3d::Zero()};
+    joint.after.R = turn.transpose();
+    joint.acceleration = m_spec.acceleration;
+    if (from.dynamics) {
+      joint.viscous = from.dynamics->damping;
+      joint.coulomb = from.dynamics->friction;
+    }
+    setLimits(from, joint);
+    followLeader(from, joint);
+    return joint;
+  }
+
+  // The limit, or infinity with a warning if the file has none.
+  double known(const std::string &what, const std::string &joint, double limit)
+  {
+    if (limit > 0. && limit <= vpArmLargest) {
+      return limit;
+    }
+    m_warnings.add("the " + what + " limit of ", joint, " is missing, not > 0 or beyond 1e9: taken as unknown");
+    return unknown;
+  }
+
+  void setLimits(const urdf::Joint &from, vpArmJointSpec &joint)
+  {
+    if (!from.limits) {
+      return;
+    }
+    joint.lower = from.limits->lower;
+    joint.upper = from.limits->upper;
+    joint.velocity = known("velocity", from.name, from.limits->velocity);
+    joint.torque = known("effort", from.name, from.limits->effort);
+    const auto given = m_tree.given.find(from.name);
+    if (joint.type == vpJointType::Continuous || given == m_tree.given.end()) {
+      return;
+    }
+    if (given->second.lower != given->second.upper) {
+      m_warnings.add("only one position limit is given of ", from.name, ": the other is 0 in this format");
+    }
+    if (m_spec.softLimits && from.safety) {
+      narrow(joint, given->second.softLower ? from.safety->soft_lower_limit : -unknown,
+             given->second.softUpper ? from.safety->soft_upper_limit : unknown, "soft limits");
+    }
+  }
+
+  void narrow(vpArmJointSpec &joint, double lower, double upper, const std::string &by)
+  {
+    lower = std::max(joint.lower, lower);
+    upper = std::min(joint.upper, upper);
+    if (!(lower < upper)) {
+      m_warnings.add("the " + by + " of ", joint.name, " leave no range: not used");
+    }
+    else if (lower > joint.lower || upper < joint.upper) {
+      joint.lower = lower;
+      joint.upper = upper;
+      m_warnings.add("the position limits of ", joint.name, " are narrowed by the " + by);
+    }
+  }
+
+  // A joint that mimics one beside the chain moves on its own, as far as the other can go with it.
+  void followLeader(const urdf::Joint &from, vpArmJointSpec &joint)
+  {
+    double ratio = 1., offset = 0.;
+    const urdf::Joint &leader = m_posture.leader(from, ratio, offset);
+    if (leader.name == from.name) {
+      return;
+    }
+    if (std::any_of(m_chain.begin(), m_chain.end(), [&](const auto &other) {
+          double otherRatio = 1., otherOffset = 0.;
+          return other->name != from.name && m_posture.leader(*other, otherRatio, otherOffset).name == leader.name;
+        })) {
+      fail("joint " + from.name + " mimics joint " + leader.name +
+           " and both move the tip, which this model cannot express; hold one of them or end the chain before");
+    }
+    m_warnings.add("joints of the chain that mimic one beside it move on their own: ", from.name, "");
+    if (leader.limits && leader.type != urdf::Joint::CONTINUOUS && joint.type != vpJointType::Continuous &&
+        leader.limits->lower < leader.limits->upper) {
+      const double a = ratio * leader.limits->lower + offset, b = ratio * leader.limits->upper + offset;
+      narrow(joint, std::min(a, b), std::max(a, b), "limits of " + leader.name);
+    }
+  }
+
+  void readLimits()
+  {
+    if (!m_spec.limits.empty()) {
+      std::map<std::string, vpJointLimits> limits = vpReadJointLimits(m_spec.limits);
+      for (vpArmJointSpec &joint : m_arm.joints) {
+        const vpJointLimits &own = limits[joint.name];
+        joint.velocity = own.velocity.value_or(joint.velocity);
+        joint.acceleration = own.acceleration.value_or(joint.acceleration);
+        joint.torque = own.torque.value_or(joint.torque);
+        if (joint.type != vpJointType::Continuous && own.lower) {
+          narrow(joint, *own.lower, *own.upper, "limits of " + m_spec.limits);
         }
-        T = T * pose(joint->parent_to_joint_origin_transform);
+      }
+      for (const auto &item : limits) {
+        if (!m_tree.model->getJoint(item.first)) {
+          m_warnings.add(m_spec.limits + " has joints that the URDF does not have: ", item.first, "");
+        }
+      }
+    }
+    if (m_spec.velocity.size() > 0) {
+      if (m_spec.velocity.size() != static_cast<Eigen::Index>(m_arm.joints.size())) {
+        fail(std::to_string(m_spec.velocity.size()) + " velocity limits for " + std::to_string(m_arm.joints.size()) +
+             " joints, must be as many");
+      }
+      for (std::size_t i = 0; i < m_arm.joints.size(); ++i) {
+        m_arm.joints[i].velocity = m_spec.velocity(static_cast<Eigen::Index>(i));
+      }
+    }
+  }
+
+  void setHome()
+  {
+    m_arm.home = m_spec.home;
+    if (m_spec.home.size() > 0 || m_state.empty() || m_arm.joints.size() > static_cast<std::size_t>(vpArmMaxJoints)) {
+      return;
+    }
+    vpJointVector home(static_cast<Eigen::Index>(m_arm.joints.size()));
+    for (std::size_t i = 0; i < m_arm.joints.size(); ++i) {
+      const vpArmJointSpec &joint = m_arm.joints[i];
+      const double q = m_state.at(joint.name);
+      if (m_spec.homeState.empty() && joint.type != vpJointType::Continuous &&
+          !vpLimit::isBetween(joint.lower, q, joint.upper)) {
+        m_warnings.add("state " + m_stateName + " of the SRDF is not taken as home: it is beyond the limits of ",
+                       joint.name, "");
+        return;
+      }
+      home(static_cast<Eigen::Index>(i)) = q;
+    }
+    m_arm.home = home;
+    if (m_spec.homeState.empty()) {
+      m_warnings.add("home is the state ", m_stateName, " of the SRDF");
+    }
+  }
+
+  void setCamera()
+  {
+    if (m_spec.camera.empty()) {
+      return;
+    }
+    const std::string last =
+        m_arm.joints.empty() ? m_spec.base : m_tree.model->getJoint(m_arm.joints.back().name)->child_link_name;
+    // Up or down from the end effector through joints that stand still only.
+    const auto fixedTo = [&](const std::string &link) {
+      vpRigidTransform T;
+      for (const urdf::JointConstSharedPtr &joint : m_tree.path(last, link)) {
+        if (!m_posture.stands(*joint)) {
+          fail("joint " + joint->name + " between the end effector and the camera is not fixed");
+        }
+        T = T * m_posture.frame(*joint);
       }
       return T;
     };
-    arm.camera = toCommon(tip).inverse() * toCommon(spec.camera);
+    requireBelow(m_spec.camera, last);
+    m_arm.camera = fixedTo(m_spec.tip).inverse() * fixedTo(m_spec.camera);
   }
-  return vpArmModel(arm);
-}
+
+  void requireBelow(const std::string &camera, const std::string &last) const
+  {
+    for (urdf::LinkConstSharedPtr link = m_tree.link(camera); link->name != last;) {
+      const urdf::JointConstSharedPtr joint = m_tree.above(*link);
+      if (!joint) {
+        fail("camera link " + camera + " is not below link " + last + ", to which the end effector " + m_spec.tip +
+             " is fixed; for a camera on an earlier link give that as the tip");
+      }
+      link = m_tree.link(joint->parent_link_name);
+    }
+  }
+
+  void setAllowedBodies()
+  {
+    std::set<std::string> bodies;
+    for (const vpArmBody &body : m_arm.bodies) {
+      bodies.insert(body.name);
+    }
+    for (const vpSrdfPair &pair : m_srdf.disabled) {
+      for (const std::string &name : {pair.first, pair.second}) {
+        if (!m_tree.model->getLink(name)) {
+          m_warnings.add("the SRDF has links that the URDF does not have: ", name, "");
+        }
+      }
+      if (bodies.count(pair.first) > 0 && bodies.count(pair.second) > 0 && pair.first != pair.second) {
+        m_arm.allowedBodies.emplace_back(pair.first, pair.second);
+      }
+    }
+    if (!m_srdf.robot.empty() && m_srdf.robot != m_arm.name) {
+      m_warnings.add("the SRDF is of the robot ", m_srdf.robot, ", the URDF of " + m_arm.name);
+    }
+  }
+
+  vpArmUrdfSpec m_spec; // completed
+  vpWarningList m_warnings;
+  vpUrdfTree m_tree;
+  vpSrdf m_srdf;
+  vpUrdfPosture m_posture;
+  Joints m_chain; // from base to tip
+  std::string m_stateName;
+  std::map<std::string, double> m_state; // home, by joint
+  vpArmSpec m_arm;
+};
 } // namespace
 
 vpArmModel vpLoadArmUrdf(const std::string &file, const vpArmUrdfSpec &spec)
 {
-  return vpReading([&] { return load(file, spec); });
+  return vpReading([&] { return vpArmModel(Loader(file, spec).arm()); });
 }
 
 END_VISP_NAMESPACE

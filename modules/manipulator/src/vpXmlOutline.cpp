@@ -6,11 +6,34 @@
 
 #include "vpFileText.h"
 
-#include <set>
-#include <vector>
+#include <array>
 
 namespace
 {
+constexpr std::size_t mostElements = 1000000; // a description of a robot has some thousands
+
+// With the five entities that XML defines as their characters.
+std::string decoded(const std::string &value)
+{
+  static const std::array<std::pair<const char *, char>, 5> entities = {
+      {{"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&apos;", '\''}}};
+  std::string text;
+  for (std::size_t i = 0; i < value.size();) {
+    std::size_t length = 1;
+    char character = value[i];
+    for (const auto &[name, meaning] : entities) {
+      const std::size_t size = std::char_traits<char>::length(name);
+      if (value.compare(i, size, name) == 0) {
+        length = size;
+        character = meaning;
+      }
+    }
+    text += character;
+    i += length;
+  }
+  return text;
+}
+
 class Outline
 {
 public:
@@ -21,7 +44,7 @@ public:
     }
   }
 
-  void check()
+  std::vector<vpXmlElement> read()
   {
     const std::size_t zero = m_text.find('\0');
     if (zero != std::string::npos) {
@@ -41,11 +64,12 @@ public:
       }
     }
     if (!m_open.empty()) {
-      fail(m_text.size(), "ends within the element " + m_open.back());
+      fail(m_text.size(), "ends within the element " + around());
     }
     if (!hasRoot) {
       fail(m_text.size(), "has no element");
     }
+    return std::move(m_elements);
   }
 
 private:
@@ -104,7 +128,7 @@ private:
     }
     m_at += 2;
     static_cast<void>(name());
-    attributes();
+    static_cast<void>(attributes());
     if (!begins("?>")) {
       fail(m_at, "the declaration does not end in ?>");
     }
@@ -139,13 +163,13 @@ private:
     }
     return m_text.substr(start, m_at - start);
   }
-  void attributes()
+  std::map<std::string, std::string> attributes()
   {
-    std::set<std::string> seen;
+    std::map<std::string, std::string> all;
     while (skipBlanks() && here() != '>' && here() != '/' && here() != '?') {
       const std::size_t start = m_at;
       const std::string field = name();
-      if (!seen.insert(field).second) {
+      if (all.count(field) > 0) {
         fail(start, "attribute " + field + " is given twice");
       }
       skipBlanks();
@@ -159,9 +183,12 @@ private:
       if (end == std::string::npos) {
         fail(m_at, "the value of attribute " + field + " is not in quotes");
       }
-      requireHarmless(field, m_text.substr(m_at + 1, end - m_at - 1));
+      const std::string value = m_text.substr(m_at + 1, end - m_at - 1);
+      requireHarmless(field, value);
+      all[field] = decoded(value);
       m_at = end + 1;
     }
+    return all;
   }
   void requireHarmless(const std::string &field, const std::string &value) const
   {
@@ -179,7 +206,8 @@ private:
   {
     const std::size_t start = m_at++;
     const std::string element = name();
-    attributes();
+    const std::size_t afterName = m_at;
+    std::map<std::string, std::string> fields = attributes();
     const bool ends = here() == '/';
     m_at += ends ? 1 : 0;
     if (here() != '>') {
@@ -189,8 +217,12 @@ private:
     if (m_open.size() >= static_cast<std::size_t>(vpDeepestNesting)) {
       fail(start, "is nested more than " + std::to_string(vpDeepestNesting) + " deep");
     }
+    if (m_elements.size() >= mostElements) {
+      fail(start, "has more than " + std::to_string(mostElements) + " elements");
+    }
+    m_elements.push_back({element, m_open.empty() ? -1 : m_open.back(), start, afterName, std::move(fields)});
     if (!ends) {
-      m_open.push_back(element);
+      m_open.push_back(static_cast<int>(m_elements.size()) - 1);
     }
   }
   void endTag()
@@ -199,18 +231,24 @@ private:
     m_at += 2;
     const std::string element = name();
     skipBlanks();
-    if (here() != '>' || m_open.empty() || m_open.back() != element) {
-      fail(start, "</" + element + " does not end " + (m_open.empty() ? "an element" : "element " + m_open.back()));
+    if (here() != '>' || m_open.empty() || around() != element) {
+      fail(start, "</" + element + " does not end " + (m_open.empty() ? "an element" : "element " + around()));
     }
     ++m_at;
     m_open.pop_back();
   }
 
+  [[nodiscard]] const std::string &around() const { return m_elements[static_cast<std::size_t>(m_open.back())].name; }
+
   const std::string &m_text;
   const std::string &m_file;
   std::size_t m_at = 0;
-  std::vector<std::string> m_open; // the elements around the current position
+  std::vector<vpXmlElement> m_elements;
+  std::vector<int> m_open; // the elements around the current position, by index
 };
 } // namespace
 
-void vpRequireXmlOutline(const std::string &text, const std::string &file) { Outline(text, file).check(); }
+std::vector<vpXmlElement> vpReadXmlOutline(const std::string &text, const std::string &file)
+{
+  return Outline(text, file).read();
+}

@@ -4,21 +4,33 @@
  */
 /*!
  * \file vpXmlOutline.h
- * \brief Checks an XML text before it is passed to urdfdom.
+ * \brief Checks an XML text before it is passed to urdfdom, and lists its elements.
  */
 #ifndef vpXmlOutline_h
 #define vpXmlOutline_h
 
+#include <cstddef>
+#include <map>
 #include <string>
+#include <vector>
+
+//! An element of an XML text.
+struct vpXmlElement {
+  std::string name;                              //!< As written, with a prefix.
+  int parent = -1;                               //!< Index of the element around it; -1: the outermost one.
+  std::size_t start = 0;                         //!< Its first byte.
+  std::size_t afterName = 0;                     //!< The byte after its name, where an attribute can be inserted.
+  std::map<std::string, std::string> attributes; //!< By name.
+};
 
 /*!
- * Checks an XML text in one pass, without recursion.
+ * Checks an XML text in one pass, without recursion, and lists its elements in their order.
  *
  * The parser of urdfdom recurses into nested elements without a bound and continues after some errors, and urdfdom
  * passes texts of the file to printf as a format. So the text must be well-formed, not nested deeper than
  * vpDeepestNesting, and without `%` in an attribute, except `filename`, which is never part of a message.
  * \throw vpFileError with the line of the error.
  */
-void vpRequireXmlOutline(const std::string &text, const std::string &file);
+std::vector<vpXmlElement> vpReadXmlOutline(const std::string &text, const std::string &file);
 
 #endif

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpArmJson.h
- * \brief Loads an arm from a JSON file with a standard DH table. Requires a build with nlohmann_json.
+ * \brief Loads an arm from a JSON file with a standard or modified DH table. Requires a build with nlohmann_json.
  */
 #ifndef vpArmJson_h
 #define vpArmJson_h

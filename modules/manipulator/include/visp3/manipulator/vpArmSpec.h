@@ -29,7 +29,8 @@ enum class vpJointType {
 /*!
  * \ingroup group_manipulator
  * \brief One joint, moving about or along z of its own frame. The frame of the moved link in the preceding link is
- * before * motion(q + offset) * after. Standard DH has before = I and after = Tz(d) Tx(a) Rx(alpha).
+ * before * motion(q + offset) * after. Standard DH has before = I and after = Tz(d) Tx(a) Rx(alpha), modified DH (Craig's)
+ * before = Rx(alpha) Tx(a) Tz(d) and after = I.
  */
 struct VISP_EXPORT vpArmJointSpec {
   std::string name;                         //!< Name for messages; not empty.
@@ -51,6 +52,8 @@ struct VISP_EXPORT vpArmJointSpec {
 
   //! Revolute joint from a row of a standard DH table: lengths in m, angles in rad.
   [[nodiscard]] static vpArmJointSpec standardDH(double a, double alpha, double d, double offset);
+  //! Revolute joint from a row of a modified DH table: lengths in m, angles in rad; a and alpha of the link before it.
+  [[nodiscard]] static vpArmJointSpec modifiedDH(double a, double alpha, double d, double offset);
 };
 
 /*!
@@ -119,7 +122,7 @@ struct VISP_EXPORT vpArmSpec {
   std::vector<vpArmLinkSpec> links;   //!< Links, as many as joints, or none.
   std::vector<vpArmCapsule> capsules; //!< Capsules for collision checks; may be empty.
   std::vector<vpArmBody> bodies;      //!< Bodies of the description; may be empty.
-  std::vector<vpArmShape> shapes;     //!< Exact collision geometry, as far as known; may be empty.
+  std::vector<vpArmShape> shapes;     //!< Exact collision geometry: all of a body or nothing; may be empty.
   //! Pairs of bodies that need no check against each other (disable_collisions of an SRDF), by name.
   std::vector<std::pair<std::string, std::string>> allowedBodies;
   /*!

@@ -11,30 +11,76 @@
 
 #include <visp3/manipulator/vpArmModel.h>
 
+#include <map>
+
 BEGIN_VISP_NAMESPACE
 
 /*!
  * \ingroup group_manipulator
- * \brief Data that a URDF file does not contain.
+ * \brief Which part of a URDF file is the arm, and data that the file does not contain.
  */
 struct VISP_EXPORT vpArmUrdfSpec {
-  std::string base;   //!< First link of the chain; empty: the root.
-  std::string tip;    //!< Last link, whose frame is the end effector; empty: the only leaf.
-  std::string camera; //!< Camera link, fixed to the end effector's link; empty: the end effector itself.
-  //! Acceleration limit of all joints, rad/s^2 or m/s^2, > 0; URDF has none.
+  std::string base; //!< First link of the chain; empty: that of the group, else the root (above the tip).
+  std::string tip;  //!< Last link, whose frame is the end effector; empty: that of the group, else the only leaf.
+  //! Camera link, fixed to the end effector's link; empty: the end effector itself.
+  std::string camera;
+  std::string srdf; //!< SRDF file with pairs that are not checked, groups and home configurations; empty: none.
+  /*!
+   * Group of the SRDF that gives base and tip if both are empty. Empty: the group that is one chain with more moving
+   * joints than any other such group; groups made of groups are not used.
+   */
+  std::string group;
+  //! Folders in which `package://` names are searched: packages, or what contains them; see vpLoadArmUrdf().
+  std::vector<std::string> packagePaths;
+  //! Joints that the caller promises to keep at a coordinate, rad or m: what they move is rigid.
+  std::map<std::string, double> held;
+  /*!
+   * True: the caller promises to keep all joints beside the chain, too: at their coordinate in the home state, else at 0
+   * or the limit next to it. Those that mimic a joint of the chain still move.
+   */
+  bool holdOthers = false;
+  //! Limits of joints in the format of MoveIt's joint_limits.yaml; velocity, acceleration and effort replace those of the
+  //! URDF, positions narrow them. Empty: none.
+  std::string limits;
+  vpJointVector velocity; //!< Velocity limits of the chain's joints, > 0, rad/s or m/s; empty: those of the files.
+  //! Acceleration limit of the joints for which #limits has none, rad/s^2 or m/s^2, > 0.
   double acceleration = std::numeric_limits<double>::infinity();
+  bool softLimits = true; //!< Narrow the position limits to the soft ones (`safety_controller`), as ros_control does.
+  vpJointVector home;     //!< Home configuration, rad or m; empty: that of #homeState.
+  std::string homeState;  //!< Group state of the SRDF. Empty: "home", "ready", "default" or the first, if complete.
 };
 
 /*!
  * \ingroup group_manipulator
- * \brief Reads the chain from base to tip. Fixed joints are merged into their neighbours with the masses they carry;
- * cylinders, spheres and boxes of the collision geometry become enclosing capsules; damping and friction become viscous
- * and Coulomb friction. Bodies on side branches that are fixed to a link of the chain belong to it, with mass and
- * shape. A body that has a mesh as collision geometry, or none at all but something to be seen, and a body with a shape
- * that a joint outside the chain moves, is named in vpArmSpec::uncovered; the mass of the latter is ignored.
- * \throw vpException (ioError) if the file cannot be read, (badValue) if it is malformed, a link is missing, the
- * tip is not unique or not below the base, a joint type is unsupported (floating, planar, mimic), or
- * vpArmModel rejects a value; one sentence with the file and the element.
+ * \brief Reads the chain from base to tip.
+ *
+ * **Bodies.** All links of the chain and all that joints connect with it, also above the base, are
+ * vpArmSpec::bodies. What is fixed to a link, by fixed joints and by held ones, belongs to it, with mass and shape.
+ * Collision geometry becomes vpArmSpec::shapes; spheres, cylinders and boxes also become enclosing capsules. In
+ * vpArmSpec::uncovered are:
+ * - bodies with a mesh, until it is covered;
+ * - bodies that can be seen but have no collision geometry, and those of which a mesh file is not found; these have no
+ *   shapes, except the capsules of what is known;
+ * - bodies with a shape that a joint beside the chain moves, also one that mimics a joint of the chain: they have no
+ *   shapes and no capsules, and their mass counts where they are with the joint at 0 or the limit next to it;
+ * - links of the arm without any shape that have a mass, and all if no link has a shape, each by its first body.
+ *
+ * **Meshes.** `package://NAME/...` is searched in vpArmUrdfSpec::packagePaths, then in the folders above the URDF file: a
+ * folder is the package if it is called NAME or has a package.xml with this name. Other names are relative to the file,
+ * or absolute, also after `file://`. The letter case of the suffix does not matter.
+ *
+ * **Joints.** Damping and friction become viscous and Coulomb friction. Joints that mimic one of the chain from beside it
+ * are carried along, see above; a joint of the chain that mimics a held joint is held, and one that mimics another joint
+ * beside the chain counts as independent within the limits of both.
+ *
+ * **Unknown values.** Effort or velocity limits that are missing, not > 0 or beyond vpArmLargest are infinite; a mass that
+ * is not > 0 (of a body with a shape) and an inertia that no body has make the mass of the link unknown; empty shapes
+ * are left out. vpArmSpec::warnings says so, and what else was assumed: names, roots, the group, soft limits, the home
+ * state, names of the other files that this one does not have.
+ * \throw vpException (ioError) if a file cannot be read, (badValue) if it is malformed or written in xacro, a link, joint,
+ * group or state is missing, the tip is not unique or not below the base, the camera moves relative to the tip, a joint
+ * of the chain is floating or planar or mimics another one of the chain, or vpArmModel rejects a value; one sentence with
+ * the file and the element.
  */
 [[nodiscard]] VISP_EXPORT vpArmModel vpLoadArmUrdf(const std::string &file, const vpArmUrdfSpec &spec = {});
 
