@@ -11,6 +11,7 @@
 #include <visp3/avoidance/vpCollisionSceneJson.h>
 #include <visp3/manipulator/vpArmJson.h>
 #include <visp3/manipulator/vpArmUrdf.h>
+#include <visp3/manipulator/vpSrdf.h>
 #include <visp3/pattern/vpMicroscopeCalibration.h>
 #include <visp3/planar_target/vpPlanarTargetDatabase.h>
 
@@ -116,6 +117,28 @@ TEST_CASE("Damaged arms", "[files][mutated]")
   options.tip = "tool";
   tell("arm.urdf", readMutated({data + "/robot/generic-6r.urdf"}, ".urdf", mutationCount(400),
                                [&](const std::string &file) { static_cast<void>(vpLoadArmUrdf(file, options)); }));
+  const File srdf("arm.srdf", R"(<?xml version="1.0"?><!-- pairs --><robot name="generic-6r">
+  <group name="arm"><chain base_link="base" tip_link="tool"/></group>
+  <group name="some"><joint name="elbow"/><link name="forearm"/><group name="arm"/></group>
+  <group_state name="home" group="arm"><joint name="base_yaw" value="0"/><joint name="shoulder" value="0.5"/>
+    <joint name="elbow" value="-1"/><joint name="forearm_roll" value="0"/><joint name="wrist_bend" value="1e-1"/>
+    <joint name="flange_roll" value="0"/></group_state>
+  <disable_collisions link1="turret" link2="upper_arm" reason="Adjacent"/></robot>)");
+  tell("arm.srdf", readMutated({srdf.name()}, ".srdf", mutationCount(400), [&](const std::string &file) {
+         static_cast<void>(vpLoadSrdf(file));
+         vpArmUrdfSpec withSrdf;
+         withSrdf.srdf = file;
+         static_cast<void>(vpLoadArmUrdf(data + "/robot/generic-6r.urdf", withSrdf));
+       }));
+  const File limits("limits.yaml",
+                    "joint_limits:\n  elbow:\n    has_velocity_limits: true # rad/s\n    max_velocity: 1.5\n"
+                    "    has_position_limits: true\n    min_position: -1\n    max_position: 1\n"
+                    "  shoulder:\n    has_acceleration_limits: false\n    max_acceleration: 0\n");
+  tell("limits.yaml", readMutated({limits.name()}, ".yaml", mutationCount(400), [&](const std::string &file) {
+         vpArmUrdfSpec withLimits = options;
+         withLimits.limits = file;
+         static_cast<void>(vpLoadArmUrdf(data + "/robot/generic-6r.urdf", withLimits));
+       }));
 }
 
 TEST_CASE("Damaged scenes", "[files][mutated]")

@@ -15,6 +15,8 @@ namespace
 {
 // A mass below is none: that of a frame.
 constexpr double smallestMass = 1e-12;
+// Travel of a prismatic joint beside the chain that capsules may enclose as a whole, m: a gripper's.
+constexpr double longestTravel = 0.1;
 
 vpArmLinkSpec massOf(const urdf::Link &link)
 {
@@ -120,12 +122,16 @@ void vpUrdfBodies::nextLink(const std::string &name)
 void vpUrdfBodies::addBase(const std::string &base)
 {
   // What is below the base's neighbour above, beside the base, is found from there.
-  std::vector<Part> parts{{m_tree.link(base), {}, false}};
+  std::vector<Part> parts(1);
+  parts[0].link = m_tree.link(base);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const Part part = parts[i];
     if (const urdf::JointConstSharedPtr joint = m_tree.above(*part.link)) {
-      parts.push_back({m_tree.link(joint->parent_link_name), part.at * m_posture.frame(*joint).inverse(),
-                       part.moves || !m_posture.stands(*joint)});
+      Part above;
+      above.link = m_tree.link(joint->parent_link_name);
+      above.at = part.at * m_posture.frame(*joint).inverse();
+      above.moves = part.moves || !m_posture.stands(*joint);
+      parts.push_back(above);
     }
   }
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -135,7 +141,10 @@ void vpUrdfBodies::addBase(const std::string &base)
 
 void vpUrdfBodies::add(const urdf::Link &link, const vpRigidTransform &at)
 {
-  addWithBranches({{m_tree.link(link.name), at, false}}, "");
+  Part part;
+  part.link = m_tree.link(link.name);
+  part.at = at;
+  addWithBranches({part}, "");
 }
 
 // Adds parts, and what is below them, without the branch to the link `from` and without the chain.
@@ -147,13 +156,35 @@ void vpUrdfBodies::addWithBranches(std::vector<Part> parts, const std::string &f
     addBody(part);
     addMass(part);
     for (auto joint = part.link->child_joints.rbegin(); joint != part.link->child_joints.rend(); ++joint) {
-      if (m_chain.count((*joint)->name) > 0 || (*joint)->child_link_name == from) {
-        continue;
+      if (m_chain.count((*joint)->name) == 0 && (*joint)->child_link_name != from) {
+        parts.push_back(below(part, **joint));
       }
-      parts.push_back({m_tree.link((*joint)->child_link_name), part.at * m_posture.frame(**joint),
-                       part.moves || !m_posture.stands(**joint)});
     }
   }
+}
+
+vpUrdfBodies::Part vpUrdfBodies::below(const Part &part, const urdf::Joint &joint) const
+{
+  Part child = part;
+  child.link = m_tree.link(joint.child_link_name);
+  child.at = part.at * m_posture.frame(joint);
+  if (m_posture.stands(joint)) {
+    return child;
+  }
+  child.moves = true;
+  child.isShort = false;
+  double ratio = 1., offset = 0.;
+  const urdf::Joint &leader = m_posture.leader(joint, ratio, offset);
+  const Eigen::Vector3d axis(joint.axis.x, joint.axis.y, joint.axis.z);
+  if (!part.moves && joint.type == urdf::Joint::PRISMATIC && leader.limits && leader.type != urdf::Joint::CONTINUOUS &&
+      axis.norm() > 1e-9) {
+    const double travel = ratio * (leader.limits->upper - leader.limits->lower);
+    const double middle = 0.5 * ratio * (leader.limits->upper + leader.limits->lower) - ratio * m_posture.home(leader);
+    child.isShort = std::fabs(travel) <= longestTravel;
+    child.half = 0.5 * std::fabs(travel);
+    child.middle = middle * (part.at.R * (vpUrdfPose(joint.parent_to_joint_origin_transform).R * axis.normalized()));
+  }
+  return child;
 }
 
 // False if the shape is not known.
@@ -184,8 +215,7 @@ bool vpUrdfBodies::addShape(const urdf::Collision &collision, const Part &part, 
 
 void vpUrdfBodies::addBody(const Part &part)
 {
-  const int number = static_cast<int>(m_links.size());
-  m_bodies.push_back({part.link->name, number});
+  m_bodies.push_back({part.link->name, static_cast<int>(m_links.size())});
   std::vector<vpArmShape> shapes;
   bool isComplete = true;
   for (const urdf::CollisionSharedPtr &collision : part.link->collision_array) {
@@ -195,19 +225,31 @@ void vpUrdfBodies::addBody(const Part &part)
   m_hasShape.push_back(!shapes.empty() || !isComplete || isOnlySeen);
   const bool hasMesh = std::any_of(shapes.begin(), shapes.end(),
                                    [](const vpArmShape &shape) { return shape.kind == vpArmShapeKind::Mesh; });
-  if (m_hasShape.back() && (part.moves || hasMesh || !isComplete || isOnlySeen)) {
+  const bool isCovered = isComplete && !hasMesh && !isOnlySeen && (!part.moves || part.isShort);
+  if (m_hasShape.back() && !isCovered) {
     m_uncovered.push_back(part.link->name);
   }
-  if (part.moves) {
+  addCapsules(part, shapes);
+  if (isComplete && !part.moves) {
+    m_shapes.insert(m_shapes.end(), shapes.begin(), shapes.end());
+  }
+}
+
+void vpUrdfBodies::addCapsules(const Part &part, const std::vector<vpArmShape> &shapes)
+{
+  if (part.moves && !part.isShort) {
     return;
   }
   for (const vpArmShape &shape : shapes) {
     if (shape.kind != vpArmShapeKind::Mesh) {
-      m_capsules.push_back(capsuleAround(shape, number));
+      vpArmCapsule capsule = capsuleAround(shape, static_cast<int>(m_links.size()));
+      if (part.moves) { // anywhere on its way
+        capsule.from += part.middle;
+        capsule.to += part.middle;
+        capsule.radius += part.half;
+      }
+      m_capsules.push_back(capsule);
     }
-  }
-  if (isComplete) {
-    m_shapes.insert(m_shapes.end(), shapes.begin(), shapes.end());
   }
 }
 

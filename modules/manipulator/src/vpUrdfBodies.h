@@ -44,10 +44,16 @@ private:
     urdf::LinkConstSharedPtr link;
     vpRigidTransform at; // in the link of the arm
     bool moves = false;  // relative to that link
+    // A short straight travel, if that is how it moves: all places are within half of the middle, seen from `at`, m.
+    bool isShort = false;
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    double half = 0.;
   };
+  [[nodiscard]] Part below(const Part &part, const urdf::Joint &joint) const;
   void addWithBranches(std::vector<Part> parts, const std::string &from);
   void addBody(const Part &part);
   void addMass(const Part &part);
+  void addCapsules(const Part &part, const std::vector<vpArmShape> &shapes);
   [[nodiscard]] bool addShape(const urdf::Collision &collision, const Part &part, std::vector<vpArmShape> &shapes);
 
   const vpUrdfTree &m_tree;

@@ -125,7 +125,9 @@ TEST_CASE("The URDF's chain is read with limits, masses, capsules and camera", "
   CHECK(model.torque()(5) == 15.);
   CHECK(model.spec().joints[2].viscous == 2.);
   CHECK(model.spec().links[5].mass == Approx(0.8)); // flange and tool
-  CHECK(model.spec().capsules.size() == 5);
+  CHECK(model.spec().capsules.size() == 6);
+  CHECK(model.spec().uncovered.empty());
+  CHECK(model.spec().warnings.empty());
   vpArmUrdfSpec spec;
   spec.tip = "camera";
   const vpArmModel camera = vpLoadArmUrdf(dataFile("generic-6r.urdf"), spec);
@@ -181,17 +183,17 @@ TEST_CASE("Errors in URDF name the file and the element", "[files]")
   };
   says(urdfError("</robot>", ""), "ends within the element robot");
   says(urdfError("<robot name", "<arm name"), "</robot does not end element arm");
+  says(urdfError("<dynamics damping=\"2.0\" friction=\"3.0\"/>", "<mimic joint=\"knee\"/>"),
+       "joint elbow mimics joint knee, which is not there");
   says(urdfError("<child link=\"forearm\"/>", "<child link=\"missing\"/>"), "missing");
   says(urdfError("<parent link=\"forearm\"/>", "<parent link=\"nobody\"/>"), "nobody");
   says(urdfError("<limit lower=\"-1.9\" upper=\"2.2\" effort=\"200\" velocity=\"2.4\"/>", ""), "shoulder");
-  says(urdfError("<mass value=\"7.2\"/>", "<mass value=\"-7.2\"/>"), "mass of link upper_arm is -7.2, must be > 0");
-  says(urdfError("<mass value=\"0.6\"/>", "<mass value=\"0\"/>"), "mass of link tool is 0");
   says(urdfError("<mass value=\"7.2\"/>", "<mass value=\"heavy\"/>"), "upper_arm");
   says(urdfError("<axis xyz=\"0 -1 0\"/>", "<axis xyz=\"0 0 0\"/>"), "axis of joint elbow is zero");
   says(urdfError("name=\"elbow\" type=\"revolute\"", "name=\"elbow\" type=\"floating\""),
        "joint elbow is floating or planar");
   says(urdfError("<dynamics damping=\"2.0\" friction=\"3.0\"/>", "<mimic joint=\"shoulder\"/>"),
-       "joint elbow mimics joint shoulder");
+       "joint elbow mimics joint shoulder and both move the tip");
   says(urdfError("tool_mount", "tool_mount", ""), "the end effector is not unique, name one of the links camera, tool");
   says(urdfError("tool_mount", "tool_mount", "hand"), "there is no link hand");
   says(urdfError("lower=\"-1.9\"", "lower=\"2.9\""), "limits of joint shoulder are 2.9 and 2.2");
@@ -223,7 +225,7 @@ TEST_CASE("Bodies beside the chain belong to the arm, and what no capsule covers
   <joint name="j3" type="fixed"><parent link="tip"/><child link="hand"/><origin xyz="0 0.5 0"/></joint>
   <joint name="j4" type="fixed"><parent link="hand"/><child link="frame"/></joint>
   <joint name="grip" type="prismatic"><parent link="hand"/><child link="finger"/><axis xyz="0 0 1"/>
-    <limit lower="0" upper="0.1" velocity="1" effort="1"/></joint>
+    <limit lower="0" upper="0.2" velocity="1" effort="1"/></joint>
 </robot>)";
   vpArmUrdfSpec spec;
   spec.tip = "tip";
@@ -231,6 +233,20 @@ TEST_CASE("Bodies beside the chain belong to the arm, and what no capsule covers
   std::remove(name.c_str());
   const vpArmSpec &arm = model.spec();
   CHECK(arm.uncovered == std::vector<std::string>{"base", "cover", "finger"});
+  std::string bodies;
+  for (const vpArmBody &body : arm.bodies) {
+    bodies += body.name + std::to_string(body.link) + " ";
+  }
+  CHECK(bodies == "base0 arm1 cover1 tip1 hand1 finger1 frame1 ");
+  REQUIRE(arm.shapes.size() == 2); // not the mesh, which is not there, and not the finger
+  CHECK(arm.bodies[static_cast<std::size_t>(arm.shapes[0].body)].name == "arm");
+  CHECK(arm.shapes[1].kind == vpArmShapeKind::Box);
+  CHECK(arm.shapes[1].size == Eigen::Vector3d(0.1, 0.2, 0.4));
+  CHECK((arm.shapes[1].pose.p - Eigen::Vector3d(0., 0.5, 1.)).norm() < 1e-12);
+  CHECK(arm.capsules[1].body == arm.shapes[1].body);
+  REQUIRE(arm.warnings.size() == 1);
+  CHECK(arm.warnings[0].find("a mesh is not found in ") == 0);
+  CHECK(arm.warnings[0].find(" and the folders above it: base.stl of base") != std::string::npos);
   REQUIRE(arm.capsules.size() == 2); // the sphere, and the box at (0, 0.5, 1) along z
   CHECK(arm.capsules[1].link == 1);
   CHECK((arm.capsules[1].from - Eigen::Vector3d(0., 0.5, 0.8)).norm() < 1e-12);
@@ -368,6 +384,37 @@ TEST_CASE("JSON of an arm is read as strictly as that of a task", "[files][hosti
   CHECK(jsonError("\"name\": \"q2\"", "\"name\": \"\\u001b]0;q1\\u0007\"").find('\x1b') == std::string::npos);
 }
 
+TEST_CASE("A table of modified DH gives Franka's published poses", "[files]")
+{
+  // Denavit-Hartenberg parameters of the Franka Emika Robot, from its documentation; flange at d = 0.107.
+  const std::string name = "catchArmFiles-franka.json";
+  std::string rows;
+  const double a[] = {0., 0., 0., .0825, -.0825, 0., .088}, d[] = {.333, 0., .316, 0., .384, 0., 0.};
+  const double alpha[] = {0., -90., 90., 90., -90., 90., 90.};
+  for (int i = 0; i < 7; ++i) {
+    std::ostringstream row;
+    row << R"({"name": "q)" << i << R"(", "type": "revolute", "a_m": )" << a[i] << R"(, "alpha_deg": )" << alpha[i]
+        << R"(, "d_m": )" << d[i] << R"(, "lower_deg": -170, "upper_deg": 170})";
+    rows += (i > 0 ? ", " : "") + row.str();
+  }
+  const std::string rest = R"(], "tool": {"translation_m": [0, 0, 0.107]}, "uncovered": ["hand"]})";
+  std::ofstream(name) << R"({"name": "franka", "dh": "modified", "joints": [)" << rows << rest;
+  const vpArmModel franka = vpLoadArmJson(name);
+  vpArmData data;
+  vpArmKinematics::update(franka, vector({.1, .2, .3, -.4, .5, .6, .7}), data);
+  CHECK((data.tool.p - Eigen::Vector3d(.322468068, .167418242, .897969511)).cwiseAbs().maxCoeff() < 1e-9);
+  CHECK(franka.spec().uncovered == std::vector<std::string>{"hand"});
+  std::ofstream(name) << R"({"name": "franka", "dh": "Craig", "joints": [)" << rows << rest;
+  CHECK_THROWS_WITH(vpLoadArmJson(name), "catchArmFiles-franka.json: dh is \"Craig\", must be standard or modified");
+  // A prismatic joint: Rx(alpha) Tx(a) Rz(theta) Tz(d).
+  std::ofstream(name) << R"({"name": "slide", "dh": "modified", "joints": [{"name": "s", "type": "prismatic", "a_m": 2,
+    "alpha_deg": 90, "theta_deg": 90, "lower_m": 0, "upper_m": 5}]})";
+  vpArmKinematics::update(vpLoadArmJson(name), vector({3.}), data);
+  std::remove(name.c_str());
+  CHECK((data.tool.p - Eigen::Vector3d(2., -3., 0.)).norm() < 1e-12);
+  CHECK((data.tool.R.col(0) - Eigen::Vector3d(0., 0., 1.)).norm() < 1e-12);
+}
+
 TEST_CASE("A continuous joint without a limit of velocity is refused where one is needed", "[files]")
 {
   const Broken file("generic-6r.urdf", "<limit effort=\"200\" velocity=\"2.6\"/>", "");
@@ -406,4 +453,45 @@ TEST_CASE("A model by hand is checked as one from a file", "[files]")
   spec = mixed().spec();
   spec.tool.R *= 2.;
   says(spec, "tool is not a rotation and a finite translation");
+}
+
+TEST_CASE("Bodies, shapes and pairs by hand are checked", "[files]")
+{
+  const vpArmSpec good = [] {
+    vpArmSpec spec = mixed().spec();
+    spec.bodies = {{"foot", 0}, {"hand", 4}};
+    vpArmShape mesh, ball;
+    mesh.body = 1;
+    mesh.file = "hand.stl";
+    mesh.size << 1e-3, -1e-3, 1e-3;
+    ball.kind = vpArmShapeKind::Sphere;
+    ball.size << 0.1, 0., 0.;
+    spec.shapes = {mesh, ball};
+    spec.capsules = {{4, {0., 0., 0.}, {0., 0., 1.}, 0.1, 1}};
+    spec.allowedBodies = {{"foot", "hand"}};
+    spec.uncovered = {"hand"};
+    return spec;
+  }();
+  CHECK(specError(good) == "no error");
+  const auto says = [&good](const std::function<void(vpArmSpec &)> &spoil, const std::string &sentence) {
+    vpArmSpec spec = good;
+    spoil(spec);
+    CHECK(specError(spec) == "arm mixed: " + sentence);
+  };
+  says([](vpArmSpec &s) { s.bodies[1].name = "foot"; }, "duplicate body name foot");
+  says([](vpArmSpec &s) { s.bodies[1].name = ""; }, "a body has no name");
+  says([](vpArmSpec &s) { s.bodies[0].link = 5; }, "body foot belongs to link 5, must be 0 to 4");
+  says([](vpArmSpec &s) { s.shapes[0].body = 2; }, "a shape belongs to body 2, must be 0 to 1");
+  says([](vpArmSpec &s) { s.shapes[0].file = ""; }, "a shape of body hand is a mesh without a file");
+  says([](vpArmSpec &s) { s.shapes[1].file = "a.stl"; }, "a shape of body foot has the file a.stl, but is no mesh");
+  says([](vpArmSpec &s) { s.shapes[0].size(1) = 0.; }, "size of a shape of body hand is 0, must be > 0");
+  says([](vpArmSpec &s) { s.shapes[1].size(0) = NAN; }, "size of a shape of body foot is nan, must be > 0");
+  says([](vpArmSpec &s) { s.shapes[1].pose.R *= 2.; },
+       "pose of a shape of body foot is not a rotation and a finite translation");
+  says([](vpArmSpec &s) { s.capsules[0].body = 2; }, "body of a capsule of link 4 is 2, must be -1 to 1");
+  says([](vpArmSpec &s) { s.capsules[0].body = 0; }, "body foot of a capsule of link 4 belongs to another link");
+  says([](vpArmSpec &s) { s.allowedBodies[0].second = "head"; }, "pair of bodies foot, head: there is no body head");
+  says([](vpArmSpec &s) { s.allowedBodies[0].second = "foot"; }, "pair of bodies foot, foot: must be different ones");
+  says([](vpArmSpec &s) { s.uncovered.push_back("hand"); }, "uncovered body hand is given twice");
+  says([](vpArmSpec &s) { s.uncovered[0] = ""; }, "an uncovered body has no name");
 }

@@ -61,9 +61,12 @@ struct VISP_EXPORT vpArmUrdfSpec {
  * - bodies with a mesh, until it is covered;
  * - bodies that can be seen but have no collision geometry, and those of which a mesh file is not found; these have no
  *   shapes, except the capsules of what is known;
- * - bodies with a shape that a joint beside the chain moves, also one that mimics a joint of the chain: they have no
- *   shapes and no capsules, and their mass counts where they are with the joint at 0 or the limit next to it;
+ * - bodies with a shape that a joint beside the chain moves, also one that mimics a joint of the chain. They have no
+ *   shapes and no capsules. Except: spheres, cylinders and boxes that one prismatic joint moves by at most 0.1 m (a
+ *   gripper's fingers) have capsules that enclose them wherever it is within its limits;
  * - links of the arm without any shape that have a mass, and all if no link has a shape, each by its first body.
+ *
+ * The mass of what moves beside the chain counts where it is with the joint at 0 or the limit next to it.
  *
  * **Meshes.** `package://NAME/...` is searched in vpArmUrdfSpec::packagePaths, then in the folders above the URDF file: a
  * folder is the package if it is called NAME or has a package.xml with this name. Other names are relative to the file,
