@@ -260,10 +260,14 @@ void vpUrdfBodies::addMass(const Part &part)
     return;
   }
   Eigen::Vector3d moments;
-  if (!(mass.mass >= smallestMass)) {
-    if (mass.mass < 0. || std::isnan(mass.mass) || m_hasShape.back()) { // else a frame
-      m_warnings.add("the mass of ", part.link->name, " is not > 0: taken as unknown");
-      m_massUnknown.back() = true;
+  const bool isFirst = m_bodies.size() < 2 || m_bodies[m_bodies.size() - 2].link != m_bodies.back().link;
+  if (!(mass.mass >= 0.) || (mass.mass < smallestMass && isFirst && m_hasShape.back())) {
+    m_warnings.add("the mass of ", part.link->name, " is not > 0: taken as unknown");
+    m_massUnknown.back() = true;
+  }
+  else if (mass.mass < smallestMass) {
+    if (m_hasShape.back()) { // else a frame
+      m_warnings.add("the mass of ", part.link->name, " is 0: taken as included in the body that carries it");
     }
   }
   else if (!vpIsPossibleInertia(mass.inertia, moments)) {

@@ -59,7 +59,9 @@ public:
         const vpXmlElement &element = m_elements[i];
         if (element.parent == 0 && (element.name == "link" || element.name == "joint")) {
           m_names.insert(attribute(element, "name"));
-          element.name == "link" ? m_links.push_back(attribute(element, "name")) : void();
+          if (element.name == "link") {
+            m_links.push_back(attribute(element, "name"));
+          }
         }
         else if (element.parent > 0 && parent(element).parent == 0 && parent(element).name == "joint") {
           partOfJoint(element, attribute(parent(element), "name"));

@@ -40,8 +40,11 @@ public:
     std::vector<std::string> all;
     for (const Warning &warning : m_warnings) {
       std::string names;
-      for (const std::string &name : warning.names) {
-        names += (names.empty() ? "" : ", ") + name;
+      for (std::size_t i = 0; i < std::min(warning.names.size(), mostNames); ++i) {
+        names += (names.empty() ? "" : ", ") + warning.names[i];
+      }
+      if (warning.names.size() > mostNames) {
+        names += " and " + std::to_string(warning.names.size() - mostNames) + " more";
       }
       all.push_back(vpPrintable(warning.before + names + warning.after));
     }
@@ -49,6 +52,7 @@ public:
   }
 
 private:
+  static constexpr std::size_t mostNames = 16; // in a sentence; an arm has as many joints
   struct Warning {
     std::string before;
     std::vector<std::string> names;

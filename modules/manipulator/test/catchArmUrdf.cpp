@@ -130,7 +130,10 @@ TEST_CASE("Masses and inertias that no body has are unknown, and frames have non
     CHECK_FALSE(arm.links[0].hasMass);
     CHECK(arm.warnings == Sentences{"the mass of arm is not > 0: taken as unknown"});
   }
-  CHECK(linkWith(mass, inertial("-1", "1")).warnings.size() == 1);
+  CHECK_FALSE(linkWith(mass, inertial("-1", "1")).links[0].hasMass);
+  const vpArmSpec carried = linkWith(mass, inertial("0", "0") + ball);
+  CHECK(carried.links[0].mass == 1.);
+  CHECK(carried.warnings == Sentences{"the mass of frame is 0: taken as included in the body that carries it"});
   const vpArmSpec arm = linkWith(inertial("1", "3"), mass);
   CHECK_FALSE(arm.links[0].hasMass);
   CHECK(arm.warnings == Sentences{"the inertia of arm is one that no body has: mass and inertia taken as unknown"});

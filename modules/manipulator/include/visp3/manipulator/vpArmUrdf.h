@@ -76,9 +76,9 @@ struct VISP_EXPORT vpArmUrdfSpec {
  * are carried along, see above; a joint of the chain that mimics a held joint is held, and one that mimics another joint
  * beside the chain counts as independent within the limits of both.
  *
- * **Unknown values.** Effort or velocity limits that are missing, not > 0 or beyond vpArmLargest are infinite; a mass that
- * is not > 0 (of a body with a shape) and an inertia that no body has make the mass of the link unknown; empty shapes
- * are left out. vpArmSpec::warnings says so, and what else was assumed: names, roots, the group, soft limits, the home
+ * **Unknown values.** Effort or velocity limits that are missing, not > 0 or beyond vpArmLargest are infinite; a negative
+ * mass, a mass of 0 of a link with a shape and an inertia that no body has make the mass of the whole link unknown; a mass
+ * of 0 of a body that is fixed to a link is taken as included in the link's; empty shapes are left out. vpArmSpec::warnings says so, and what else was assumed: names, roots, the group, soft limits, the home
  * state, names of the other files that this one does not have.
  * \throw vpException (ioError) if a file cannot be read, (badValue) if it is malformed or written in xacro, a link, joint,
  * group or state is missing, the tip is not unique or not below the base, the camera moves relative to the tip, a joint
