@@ -89,7 +89,9 @@ private:
       bodies.add(*child, fixed);
     }
     m_arm.tool = fixed;
-    bodies.finish(m_arm);
+    if (m_arm.joints.size() <= static_cast<std::size_t>(vpArmMaxJoints)) { // else vpArmModel refuses it
+      bodies.finish(m_arm);
+    }
   }
 
   vpArmJointSpec moving(const urdf::Joint &from)

@@ -19,9 +19,9 @@ struct vpJointLimits {
 };
 
 /*!
- * Reads the map `joint_limits`: per joint `has_velocity_limits`, `max_velocity`, and likewise `acceleration` and `effort`;
- * `has_position_limits` with `min_position` and `max_position`. `has_jerk_limits`, `max_jerk` and other maps of the file
- * are not used. A limit counts only if the file says that there is one; `false` leaves that of the URDF.
+ * Reads the map `joint_limits`: per joint `has_velocity_limits`, `max_velocity`, and likewise `acceleration` and
+ * `effort`; `has_position_limits` with `min_position` and `max_position`. `has_jerk_limits`, `max_jerk` and other maps
+ * of the file are not used. A limit counts only if the file says that there is one; `false` leaves that of the URDF.
  *
  * A subset of YAML: one `name: value` per line, joints and their fields indented by blanks, comments.
  * \return Limits by joint. \throw vpFileError naming the line or the joint and the field.

@@ -15,9 +15,9 @@
 /*!
  * \brief Paths of files from the names in a URDF.
  *
- * - `package://NAME/REST` and `model://NAME/REST`: REST in the package NAME. A folder is the package if it has this name
- *   or a package.xml with it. Searched: each given folder and the folders in it, then the folders above the URDF and
- *   what lies in them.
+ * - `package://NAME/REST` and `model://NAME/REST`: REST in the package NAME. A folder is the package if it has this
+ *   name or a package.xml with it. Searched: each given folder and the folder NAME in it, then likewise the folders
+ *   above the URDF.
  * - `file://PATH` and any other: absolute, or relative to the folder of the URDF.
  *
  * The suffix of the file may differ in its letter case (`arm.STL` for `arm.stl`).

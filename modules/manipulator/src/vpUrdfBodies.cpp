@@ -293,7 +293,7 @@ void vpUrdfBodies::finish(vpArmSpec &arm)
     }
     if (!hasShape && (isBlind || m_links[i].hasMass || m_massUnknown[i])) {
       m_uncovered.push_back(first);
-      m_warnings.add("", first, " has a mass but no shape, or the arm has none at all: nothing sees it");
+      m_warnings.add(isBlind ? "no link of the arm has a shape: " : "links have a mass but no shape: ", first, "");
     }
     if (m_massUnknown[i]) {
       vpArmLinkSpec unknown;

@@ -49,7 +49,8 @@ struct vpUrdfTree {
 };
 
 /*!
- * \brief Which joints stand still, and where: fixed ones, those that the caller holds, and those that mimic one of them.
+ * \brief Which joints stand still, and where: fixed ones, those that the caller holds, and those that mimic one of
+ * them.
  */
 class vpUrdfPosture
 {

@@ -12,6 +12,7 @@
 #include "vpPrintable.h"
 
 #include <algorithm>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -26,13 +27,13 @@ public:
   {
     for (Warning &warning : m_warnings) {
       if (warning.before == before && warning.after == after) {
-        if (std::find(warning.names.begin(), warning.names.end(), name) == warning.names.end()) {
+        if (warning.known.insert(name).second) {
           warning.names.push_back(name);
         }
         return;
       }
     }
-    m_warnings.push_back({before, {name}, after});
+    m_warnings.push_back({before, {name}, {name}, after});
   }
   //! The sentences, printable.
   [[nodiscard]] std::vector<std::string> sentences() const
@@ -56,6 +57,7 @@ private:
   struct Warning {
     std::string before;
     std::vector<std::string> names;
+    std::set<std::string> known; // the same
     std::string after;
   };
   std::vector<Warning> m_warnings;

@@ -167,6 +167,17 @@ TEST_CASE("Empty shapes are left out, and a link without a shape that weighs som
   CHECK(uncovered("", "") == Sentences{"arm"});
 }
 
+TEST_CASE("An arm with too many joints is refused soon", "[urdf][hostile]")
+{
+  std::string urdf = "<robot name='r'>" + link("l0", mass + ball);
+  for (int i = 0; i < 5000; ++i) {
+    const std::string now = std::to_string(i), next = std::to_string(i + 1);
+    urdf += link("l" + next, mass + ball) +
+            joint("j" + now, "revolute", "l" + now, "l" + next, limit("lower='-1' upper='1'"));
+  }
+  CHECK(errorOf(urdf + "</robot>").find("5000 moving joints, must be 1 to 16") != std::string::npos);
+}
+
 TEST_CASE("Soft limits narrow the others", "[urdf]")
 {
   const auto limits = [](const std::string &soft, bool use = true) {

@@ -198,8 +198,9 @@ TEST_CASE("Public arms are KDL's, and nothing of them is hidden", "[public]")
     CHECK(worstShape < 1e-12);
     requireNothingHidden(model.spec(), *tree);
     std::cout << arm.file << " to " << arm.tip << ": " << model.size() << " joints, difference from KDL " << worst
-              << ", " << model.spec().bodies.size() << " bodies, " << model.spec().shapes.size() << " shapes, "
-              << model.spec().uncovered.size() << " uncovered, " << model.spec().warnings.size() << " warnings\n";
+              << ", of shapes " << worstShape << ", " << model.spec().bodies.size() << " bodies, "
+              << model.spec().shapes.size() << " shapes, " << model.spec().uncovered.size() << " uncovered, "
+              << model.spec().warnings.size() << " warnings\n";
     for (const std::string &warning : model.spec().warnings) {
       CHECK(warning.find('\n') == std::string::npos);
     }

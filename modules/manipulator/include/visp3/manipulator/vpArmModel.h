@@ -26,11 +26,11 @@ class VISP_EXPORT vpArmModel
 {
 public:
   /*!
-   * \throw vpException (badValue) naming the arm or its file, the joint, link or body, and the value: no joint or more than
-   * vpArmMaxJoints, empty or duplicate names, limits that are not lower < upper, velocity, acceleration or torque limits
-   * not > 0, masses not > 0, physically impossible inertias, invalid rotations, bodies, shapes and capsules of a link or
-   * body that does not exist or with a size that is not > 0 (of a mesh: 0), a mesh without a file, pairs of bodies that do
-   * not exist; positions, links, shapes and capsules beyond 10 km, other numbers beyond vpArmLargest.
+   * \throw vpException (badValue) naming the arm or its file, the joint, link or body, and the value: no joint or more
+   * than vpArmMaxJoints, empty or duplicate names, limits that are not lower < upper, velocity, acceleration or torque
+   * limits not > 0, masses not > 0, physically impossible inertias, invalid rotations, bodies, shapes and capsules of a
+   * link or body that does not exist or with a size that is not > 0 (of a mesh: 0), a mesh without a file, pairs of
+   * bodies that do not exist; positions, links, shapes and capsules beyond 10 km, other numbers beyond vpArmLargest.
    */
   explicit vpArmModel(const vpArmSpec &spec);
 

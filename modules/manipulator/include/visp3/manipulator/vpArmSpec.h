@@ -29,8 +29,8 @@ enum class vpJointType {
 /*!
  * \ingroup group_manipulator
  * \brief One joint, moving about or along z of its own frame. The frame of the moved link in the preceding link is
- * before * motion(q + offset) * after. Standard DH has before = I and after = Tz(d) Tx(a) Rx(alpha), modified DH (Craig's)
- * before = Rx(alpha) Tx(a) Tz(d) and after = I.
+ * before * motion(q + offset) * after. Standard DH has before = I and after = Tz(d) Tx(a) Rx(alpha), modified DH
+ * (Craig's) before = Rx(alpha) Tx(a) Tz(d) and after = I.
  */
 struct VISP_EXPORT vpArmJointSpec {
   std::string name;                         //!< Name for messages; not empty.

@@ -35,12 +35,12 @@ struct VISP_EXPORT vpArmUrdfSpec {
   //! Joints that the caller promises to keep at a coordinate, rad or m: what they move is rigid.
   std::map<std::string, double> held;
   /*!
-   * True: the caller promises to keep all joints beside the chain, too: at their coordinate in the home state, else at 0
-   * or the limit next to it. Those that mimic a joint of the chain still move.
+   * True: the caller promises to keep all joints beside the chain, too: at their coordinate in the home state, else
+   * at 0 or the limit next to it. Those that mimic a joint of the chain still move.
    */
   bool holdOthers = false;
-  //! Limits of joints in the format of MoveIt's joint_limits.yaml; velocity, acceleration and effort replace those of the
-  //! URDF, positions narrow them. Empty: none.
+  //! File of limits in the format of MoveIt's joint_limits.yaml; velocity, acceleration and effort replace those of
+  //! the URDF, positions narrow them. Empty: none.
   std::string limits;
   vpJointVector velocity; //!< Velocity limits of the chain's joints, > 0, rad/s or m/s; empty: those of the files.
   //! Acceleration limit of the joints for which #limits has none, rad/s^2 or m/s^2, > 0.
@@ -54,10 +54,9 @@ struct VISP_EXPORT vpArmUrdfSpec {
  * \ingroup group_manipulator
  * \brief Reads the chain from base to tip.
  *
- * **Bodies.** All links of the chain and all that joints connect with it, also above the base, are
- * vpArmSpec::bodies. What is fixed to a link, by fixed joints and by held ones, belongs to it, with mass and shape.
- * Collision geometry becomes vpArmSpec::shapes; spheres, cylinders and boxes also become enclosing capsules. In
- * vpArmSpec::uncovered are:
+ * **Bodies.** All links of the chain and all that joints connect with it, also above the base, are vpArmSpec::bodies.
+ * What is fixed to a link, by fixed joints and by held ones, belongs to it, with mass and shape. Collision geometry
+ * becomes vpArmSpec::shapes; spheres, cylinders and boxes also become enclosing capsules. In vpArmSpec::uncovered are:
  * - bodies with a mesh, until it is covered;
  * - bodies that can be seen but have no collision geometry, and those of which a mesh file is not found; these have no
  *   shapes, except the capsules of what is known;
@@ -68,22 +67,23 @@ struct VISP_EXPORT vpArmUrdfSpec {
  *
  * The mass of what moves beside the chain counts where it is with the joint at 0 or the limit next to it.
  *
- * **Meshes.** `package://NAME/...` is searched in vpArmUrdfSpec::packagePaths, then in the folders above the URDF file: a
- * folder is the package if it is called NAME or has a package.xml with this name. Other names are relative to the file,
- * or absolute, also after `file://`. The letter case of the suffix does not matter.
+ * **Meshes.** `package://NAME/...` is searched in vpArmUrdfSpec::packagePaths, then in the folders above the URDF
+ * file: a folder is the package if it is called NAME or has a package.xml with this name. Other names are relative to
+ * the file, or absolute, also after `file://`. The letter case of the suffix does not matter.
  *
- * **Joints.** Damping and friction become viscous and Coulomb friction. Joints that mimic one of the chain from beside it
- * are carried along, see above; a joint of the chain that mimics a held joint is held, and one that mimics another joint
- * beside the chain counts as independent within the limits of both.
+ * **Joints.** Damping and friction become viscous and Coulomb friction. Joints that mimic one of the chain from beside
+ * it are carried along, see above; a joint of the chain that mimics a held joint is held, and one that mimics another
+ * joint beside the chain counts as independent within the limits of both.
  *
- * **Unknown values.** Effort or velocity limits that are missing, not > 0 or beyond vpArmLargest are infinite; a negative
- * mass, a mass of 0 of a link with a shape and an inertia that no body has make the mass of the whole link unknown; a mass
- * of 0 of a body that is fixed to a link is taken as included in the link's; empty shapes are left out. vpArmSpec::warnings says so, and what else was assumed: names, roots, the group, soft limits, the home
- * state, names of the other files that this one does not have.
- * \throw vpException (ioError) if a file cannot be read, (badValue) if it is malformed or written in xacro, a link, joint,
- * group or state is missing, the tip is not unique or not below the base, the camera moves relative to the tip, a joint
- * of the chain is floating or planar or mimics another one of the chain, or vpArmModel rejects a value; one sentence with
- * the file and the element.
+ * **Unknown values.** Effort or velocity limits that are missing, not > 0 or beyond vpArmLargest are infinite; a
+ * negative mass, a mass of 0 of a link with a shape and an inertia that no body has make the mass of the whole link
+ * unknown; a mass of 0 of a body that is fixed to a link is taken as included in the link's; empty shapes are left
+ * out. vpArmSpec::warnings says so, and what else was assumed: names, roots, the group, soft limits, the home state,
+ * names of the other files that this one does not have.
+ * \throw vpException (ioError) if a file cannot be read, (badValue) if it is malformed or written in xacro, a link,
+ * joint, group or state is missing, the tip is not unique or not below the base, the camera moves relative to the tip,
+ * a joint of the chain is floating or planar or mimics another one of the chain, or vpArmModel rejects a value; one
+ * sentence with the file and the element.
  */
 [[nodiscard]] VISP_EXPORT vpArmModel vpLoadArmUrdf(const std::string &file, const vpArmUrdfSpec &spec = {});
 
