@@ -238,8 +238,9 @@ private:
     for (std::size_t i = 0; i < m_arm.joints.size(); ++i) {
       const vpArmJointSpec &joint = m_arm.joints[i];
       const double q = m_state.at(joint.name);
-      if (m_spec.homeState.empty() && joint.type != vpJointType::Continuous &&
-          !vpLimit::isBetween(joint.lower, q, joint.upper)) {
+      const bool isInside = joint.type == vpJointType::Continuous ? std::fabs(q) <= vpArmLargest
+                                                                  : vpLimit::isBetween(joint.lower, q, joint.upper);
+      if (m_spec.homeState.empty() && !isInside) {
         m_warnings.add("state " + m_stateName + " of the SRDF is not taken as home: it is beyond the limits of ",
                        joint.name, "");
         return;

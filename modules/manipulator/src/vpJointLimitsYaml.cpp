@@ -153,8 +153,8 @@ private:
       return std::nullopt;
     }
     const double value = number(field);
-    if (!(value > 0.)) {
-      throw vpFileError(m_where + field + " is " + std::to_string(value) + ", must be > 0");
+    if (!(value >= 1e-12 && value <= 1e9)) {
+      throw vpFileError(m_where + field + " is " + std::to_string(value) + ", must be from 1e-12 to 1e9");
     }
     return value;
   }

@@ -212,7 +212,7 @@ TEST_CASE("Broken files of joint limits are refused with the line or the field",
            {head + "    has_velocity_limits: true\n    max_velocity: .inf\n",
             "joint_limits.j.max_velocity is .inf, must be a finite number"},
            {head + "    has_velocity_limits: true\n    max_velocity: -2\n",
-            "joint_limits.j.max_velocity is -2.000000, must be > 0"},
+            "joint_limits.j.max_velocity is -2.000000, must be from 1e-12 to 1e9"},
            {head + "    max_velocity: 2\n", "joint_limits.j.max_velocity counts only with has_velocity_limits"},
            {head + "    max_speed: 2\n", "joint_limits.j.max_speed is not known"}}) {
     CHECK(errorWith("", content) == file + sentence);
