@@ -5,7 +5,6 @@
 #include "vpUrdfGroups.h"
 
 #include <algorithm>
-#include <iterator>
 
 BEGIN_VISP_NAMESPACE
 
@@ -69,15 +68,13 @@ Ends endsOf(const vpUrdfTree &tree, const vpSrdfGroup &group)
     return {};
   }
   if (group.chains.size() == 1) {
-    const auto &[base, tip] = group.chains.front();
-    Ends ends = endsOf(tree, {jointAbove(tree, tip)});
-    const std::vector<urdf::JointConstSharedPtr> way =
-        ends.tip.empty() ? std::vector<urdf::JointConstSharedPtr>() : upwards(tree, tip);
-    ends.moving = 0;
-    for (const urdf::JointConstSharedPtr &joint : way) {
-      ends.moving += joint->type != urdf::Joint::FIXED ? 1 : 0;
-      if (joint->parent_link_name == base) {
-        return {base, tip, ends.moving};
+    Ends ends{group.chains.front().first, group.chains.front().second, 0};
+    if (jointAbove(tree, ends.tip)) {
+      for (const urdf::JointConstSharedPtr &joint : upwards(tree, ends.tip)) {
+        ends.moving += joint->type != urdf::Joint::FIXED ? 1 : 0;
+        if (joint->parent_link_name == ends.base) {
+          return ends;
+        }
       }
     }
     return {};
