@@ -208,6 +208,9 @@ private:
         joint.acceleration = own.acceleration.value_or(joint.acceleration);
         joint.torque = own.torque.value_or(joint.torque);
         if (joint.type != vpJointType::Continuous && own.lower) {
+          if (!(std::max(joint.lower, *own.lower) < std::min(joint.upper, *own.upper))) {
+            vpUrdfFail(m_spec.limits, "leaves joint " + joint.name + " no range of positions");
+          }
           narrow(joint, *own.lower, *own.upper, "limits of " + m_spec.limits);
         }
       }

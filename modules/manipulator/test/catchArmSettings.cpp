@@ -214,6 +214,8 @@ TEST_CASE("Broken files of joint limits are refused with the line or the field",
            {head + "    has_velocity_limits: true\n    max_velocity: -2\n",
             "joint_limits.j.max_velocity is -2.000000, must be from 1e-12 to 1e9"},
            {head + "    max_velocity: 2\n", "joint_limits.j.max_velocity counts only with has_velocity_limits"},
+           {"joint_limits:\n  elbow:\n    has_position_limits: true\n    min_position: 2\n    max_position: 3\n",
+            "leaves joint elbow no range of positions"},
            {head + "    max_speed: 2\n", "joint_limits.j.max_speed is not known"}}) {
     CHECK(errorWith("", content) == file + sentence);
   }
