@@ -2,6 +2,8 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
+#include "vpArmDriveGains.h"
+
 #include <visp3/simulation/vpArmDrives.h>
 #include <visp3/simulation/vpArmPlant.h>
 
@@ -11,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <random>
 
 BEGIN_VISP_NAMESPACE
@@ -115,59 +118,12 @@ void vpArmPlant::holdBack(const vpJointMatrix &compliance, double dt) noexcept
 
 namespace
 {
-constexpr double naturalFrequency = 12.;    // rad/s, minimum for derived gains
-constexpr double frictionError = 1. / 300.; // rad or m, largest error by Coulomb friction with such gains
-constexpr double estimatorBandwidth = 300.; // rad/s
-constexpr int inertiaSamples = 200;
-
 void requireGood(const char *field, double value, bool good, const char *range)
 {
   if (!good || !std::isfinite(value)) {
     throw vpException(vpException::badValue, "%s of the arm's drives is %g, must be %s and finite", field, value,
                       range);
   }
-}
-
-// Largest inertia seen by each drive, kg m^2.
-vpJointVector largestInertia(const vpArmModel &model)
-{
-  std::mt19937_64 rng(1);
-  std::uniform_real_distribution<double> share(0., 1.);
-  vpArmDynamics dynamics(model);
-  vpJointVector most = vpJointVector::Zero(model.size());
-  for (int sample = 0; sample < inertiaSamples; ++sample) {
-    vpJointVector q(model.size());
-    for (int i = 0; i < model.size(); ++i) {
-      const double lower = model.isContinuous(i) ? -M_PI : model.lower()(i);
-      const double upper = model.isContinuous(i) ? M_PI : model.upper()(i);
-      q(i) = lower + share(rng) * (upper - lower);
-    }
-    vpJointMatrix M;
-    dynamics.inertia(q, M);
-    most = most.cwiseMax(M.diagonal());
-  }
-  return most;
-}
-
-vpJointPositionControlSpec controlOf(const vpArmModel &model, const vpArmDriveSpec &spec)
-{
-  vpJointPositionControlSpec control;
-  const vpJointVector inertia = largestInertia(model);
-  control.kp.resize(model.size());
-  control.kd.resize(model.size());
-  for (int i = 0; i < model.size(); ++i) {
-    const vpArmJointSpec &joint = model.spec().joints[static_cast<std::size_t>(i)];
-    const bool given = joint.kp > 0.;
-    const double stiffness = std::max(inertia(i) * naturalFrequency * naturalFrequency, joint.coulomb / frictionError);
-    control.kp(i) = given ? joint.kp : stiffness;
-    control.kd(i) = given ? joint.kd : 2. * std::sqrt(stiffness * inertia(i));
-  }
-  control.kp = spec.kp.size() > 0 ? spec.kp : control.kp;
-  control.kd = spec.kd.size() > 0 ? spec.kd : control.kd;
-  control.maxTorque = model.torque();
-  control.compensateFriction = spec.compensateFriction;
-  control.friction = vpJointFriction::of(model);
-  return control;
 }
 } // namespace
 
@@ -184,13 +140,39 @@ void vpArmDriveSpec::validate(const vpArmModel &model) const
   }
 }
 
+double vpJointShortfall::missing() const noexcept
+{
+  return std::max(0., std::fabs(needed) - std::copysign(1., needed) * given);
+}
+
+std::string vpJointShortfall::message(const vpArmModel &model) const
+{
+  if (joint < 0 || joint >= model.size()) {
+    return "";
+  }
+  const char *unit = model.isPrismatic(joint) ? "N" : "Nm";
+  char text[160];
+  std::snprintf(text, sizeof(text), "the motion takes %.3g %s, the drive gives %.3g %s", std::fabs(needed), unit,
+                std::copysign(1., needed) * given, unit);
+  std::string sentence = text;
+  if (std::isfinite(model.torque()(joint))) {
+    std::snprintf(text, sizeof(text), " of at most %.3g %s", model.torque()(joint), unit);
+    sentence += text;
+  }
+  if (missing() > 0.) {
+    std::snprintf(text, sizeof(text), ", %.3g %s are missing", missing(), unit);
+    sentence += text;
+  }
+  return sentence;
+}
+
 vpArmDrives::vpArmDrives(const vpArmModel &model, const vpArmDriveSpec &spec) : m_model(&model), m_spec(spec)
 {
   spec.validate(model);
   if (!spec.ideal) {
     m_plant.emplace(model, spec.frictionScale);
     m_dynamics.emplace(model);
-    m_control.emplace(controlOf(model, spec));
+    m_control.emplace(vpDriveControlOf(model, spec));
   }
   reset(model.home());
 }
@@ -205,6 +187,7 @@ void vpArmDrives::reset(const vpJointVector &q)
   m_wanted = q;
   m_command.setZero(q.size());
   m_output.torque.setZero(q.size());
+  m_needed.setZero(q.size());
   m_saturated = 0;
   m_random.seed(m_spec.seed);
   m_noise = std::normal_distribution<double>(0., 1.);
@@ -213,7 +196,7 @@ void vpArmDrives::reset(const vpJointVector &q)
     m_dynamics->gravity(q, m_output.torque);
     m_estimator.reset();
     if (m_spec.encoderNoise > 0.) {
-      m_estimator.emplace(m_model->size(), m_spec.period, estimatorBandwidth);
+      m_estimator.emplace(m_model->size(), m_spec.period, vpDriveEstimatorBandwidth);
     }
   }
   measure();
@@ -225,6 +208,11 @@ bool vpArmDrives::move(const vpJointVector &velocity, double duration) noexcept
   if (!(duration > 0. && duration <= longestMove)) {
     m_command.setZero();
     return false;
+  }
+  const vpJointVector before = m_command;
+  if (m_spec.reference == vpDriveReference::Measured && m_plant && velocity.size() == m_wanted.size() &&
+      (velocity.array() != 0.).any()) {
+    m_wanted = m_input.q;
   }
   // As long as the desired position stays valid.
   const bool good = velocity.size() == m_wanted.size() && vpIsPlausibleForArm(velocity) &&
@@ -240,12 +228,27 @@ bool vpArmDrives::move(const vpJointVector &velocity, double duration) noexcept
     measure();
     return good;
   }
+  updateNeeded(before, duration);
   const int cycles = std::max(1, static_cast<int>(std::ceil(duration / m_spec.period - 1e-9)));
   bool moved = good;
   for (int i = 0; i < cycles; ++i) {
     moved = cycle(duration / cycles) && moved;
   }
   return moved;
+}
+
+void vpArmDrives::updateNeeded(const vpJointVector &before, double duration) noexcept
+{
+  vpJointMatrix M;
+  vpJointVector coriolis, gravity, friction;
+  m_needed.setZero();
+  if (m_dynamics->inertia(q(), M) && m_dynamics->coriolis(q(), m_command, coriolis) &&
+      m_dynamics->gravity(q(), gravity) && m_plant->friction().torque(m_command, friction)) {
+    m_needed = M * (m_command - before) / duration + coriolis + gravity + friction;
+  }
+  if (!vpIsPlausibleForArm(m_needed)) {
+    m_needed.setZero();
+  }
 }
 
 void vpArmDrives::holdHere() noexcept

@@ -74,7 +74,7 @@ void vpSimulatedArmCore::commandUntil(double deadline) { m_deadline = deadline; 
 void vpSimulatedArmCore::stop()
 {
   m_motion.hold();
-  m_lost = -1;
+  m_lost = vpJointShortfall();
 }
 
 bool vpSimulatedArmCore::atRest() const noexcept
@@ -89,7 +89,11 @@ void vpSimulatedArmCore::tick() noexcept
   if (stale) {
     m_motion.hold();
   }
-  m_drives.move(m_motion.step(m_drives.wanted(), m_drives.command()), m_motion.period());
+  // Paths to a position bring their own integral: their next point is the desired configuration.
+  const bool measured = byVelocity && spec.drives.reference == vpDriveReference::Measured && !spec.drives.ideal;
+  m_drives.setReference(measured ? vpDriveReference::Measured : vpDriveReference::Integrated);
+  m_drives.move(m_motion.step(measured ? m_drives.measured() : m_drives.wanted(), m_drives.command()),
+                m_motion.period());
   ++m_periods;
   superviseDrives();
   const bool wasStale = m_status == vpSimulatedArmStatus::Stale && m_motion.kind() == vpArmTaskKind::Hold;
@@ -98,12 +102,12 @@ void vpSimulatedArmCore::tick() noexcept
 
 void vpSimulatedArmCore::superviseDrives() noexcept
 {
-  if (m_lost >= 0) {
+  if (m_lost.joint >= 0) {
     return;
   }
   Eigen::Index joint = 0;
   if ((m_drives.wanted() - m_drives.measured()).cwiseAbs().maxCoeff(&joint) > spec.followingError) {
-    m_lost = static_cast<int>(joint);
+    m_lost = {static_cast<int>(joint), m_drives.needed()(joint), m_drives.torque()(joint)};
     m_motion.hold();
     m_drives.holdHere();
   }
@@ -111,7 +115,7 @@ void vpSimulatedArmCore::superviseDrives() noexcept
 
 vpSimulatedArmStatus vpSimulatedArmCore::judge() const noexcept
 {
-  if (m_lost >= 0) {
+  if (m_lost.joint >= 0) {
     return vpSimulatedArmStatus::NotFollowing;
   }
   if (atRest()) {
@@ -140,6 +144,9 @@ vpSimulatedArmState vpSimulatedArmCore::state() const
           m_drives.wanted(),
           m_drives.command(),
           m_drives.torque(),
+          m_drives.needed(),
+          m_drives.saturated(),
+          m_lost,
           m_motion.solver(),
           m_status};
 }
@@ -154,8 +161,8 @@ std::string vpSimulatedArmCore::message() const
   case vpSimulatedArmStatus::Stale:
     return "the last velocity is too old, the arm has braked and holds";
   case vpSimulatedArmStatus::NotFollowing:
-    return "joint " + model.spec().joints[static_cast<std::size_t>(m_lost)].name +
-           " did not follow its command, the arm holds until it is stopped";
+    return "joint " + model.spec().joints[static_cast<std::size_t>(m_lost.joint)].name +
+           " did not follow its command (" + m_lost.message(model) + "), the arm holds until it is stopped";
   default:
     return m_motion.solver().message();
   }

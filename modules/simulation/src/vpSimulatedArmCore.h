@@ -53,7 +53,7 @@ private:
   long m_periods = 0;
   double m_deadline = 0.; // of the velocity command, s
   vpSimulatedArmStatus m_status = vpSimulatedArmStatus::Stopped;
-  int m_lost = -1; // joint that did not follow
+  vpJointShortfall m_lost; // joint that did not follow
 };
 
 END_VISP_NAMESPACE

@@ -15,8 +15,16 @@
 
 #include <optional>
 #include <random>
+#include <string>
 
 BEGIN_VISP_NAMESPACE
+
+//! \ingroup group_simulation
+//! \brief What a commanded velocity is added to, to get the desired configuration of a drive.
+enum class vpDriveReference {
+  Integrated, //!< The last desired configuration: open loop. At rest friction leaves an error of at most F_c / K_p.
+  Measured    //!< The measured configuration, (3.18): friction suppresses small velocities, see vpArmDrives.
+};
 
 //! \ingroup group_simulation
 //! \brief Parameters of vpArmDrives.
@@ -29,10 +37,26 @@ struct VISP_EXPORT vpArmDriveSpec {
   unsigned int seed = 1;    //!< Seed of the noise.
   //! Position gains of (3.19), n numbers; empty: those of the arm model, else derived from its inertia.
   vpJointVector kp;
-  vpJointVector kd; //!< Velocity gains of (3.19), likewise.
+  vpJointVector kd;                                          //!< Velocity gains of (3.19), likewise.
+  vpDriveReference reference = vpDriveReference::Integrated; //!< Unused when ideal.
 
   //! \throw vpException (badValue) naming the field that is out of range, and its value.
   void validate(const vpArmModel &model) const;
+};
+
+/*!
+ * \ingroup group_simulation
+ * \brief A joint whose drive could not do what a command takes, and the torque that is missing.
+ */
+struct VISP_EXPORT vpJointShortfall {
+  int joint = -1;     //!< Index of the joint, from 0; -1: none.
+  double needed = 0.; //!< Torque that the command takes, see vpArmDrives::needed(), Nm or N.
+  double given = 0.;  //!< Torque of the drive, Nm or N.
+
+  //! Torque that is missing, Nm or N: |needed| minus the given torque in its direction; 0 if it suffices.
+  [[nodiscard]] double missing() const noexcept;
+  //! The torques in words: "the motion takes 26 Nm, the drive gives 12 Nm of at most 12 Nm, 14 Nm are missing".
+  [[nodiscard]] std::string message(const vpArmModel &model) const;
 };
 
 /*!
@@ -41,9 +65,17 @@ struct VISP_EXPORT vpArmDriveSpec {
  * \brief Joint control of section 8.2.3: the commanded velocity is integrated to a desired configuration, PD control
  * with gravity compensation (3.19) gives torques within the limits, and vpArmPlant moves.
  *
- * Gains missing in the arm model are derived from the largest diagonal of M over random configurations: natural
- * frequency at least 12 rad/s, position error by Coulomb friction at most 1/300 rad (as with AMOR's gains), critically
- * damped.
+ * vpDriveReference::Integrated: the error of a joint that sticks grows until the torque moves it, if the torque limit
+ * allows. vpDriveReference::Measured: each move() with a velocity v other than zero starts from the measured
+ * configuration, as in (3.18) with the duration T of move(). Against friction there is then a torque of at most
+ * K_p v T + K_d v: a resting joint with Coulomb friction F_c does not move unless |v| > F_c / (K_p T + K_d), with exact
+ * gravity compensation. A move() with zero velocity of all joints holds the last desired configuration.
+ *
+ * Gains missing in the arm model are derived from the diagonal of M, largest over random configurations: natural
+ * frequency at least 12 rad/s, position error at most 1/300 rad by Coulomb friction, and |v| / (200/s) by viscous
+ * friction at a velocity v (as with AMOR's gains), critically damped. They are reduced where the cycle or the
+ * estimation of velocities would make them unstable with the least inertia that a joint sees; errors by friction are
+ * larger then.
  */
 class VISP_EXPORT vpArmDrives
 {
@@ -70,6 +102,8 @@ public:
 
   //! Sets the desired configuration to the measured one, at rest.
   void holdHere() noexcept;
+  //! Changes vpArmDriveSpec::reference, from the next move() on.
+  void setReference(vpDriveReference reference) noexcept { m_spec.reference = reference; }
 
   //! Encoder positions, rad or m: the true configuration unless there is noise.
   [[nodiscard]] const vpJointVector &measured() const noexcept { return m_input.q; }
@@ -77,12 +111,18 @@ public:
   [[nodiscard]] const vpJointVector &q() const noexcept { return m_plant ? m_plant->q() : m_wanted; }
   //! True velocities, rad/s or m/s.
   [[nodiscard]] const vpJointVector &velocity() const noexcept { return m_plant ? m_plant->velocity() : m_command; }
-  //! Desired configuration: the integral of the commands, rad or m.
+  //! Desired configuration, rad or m: the integral of the commands, see vpDriveReference.
   [[nodiscard]] const vpJointVector &wanted() const noexcept { return m_wanted; }
   //! Last command, rad/s or m/s.
   [[nodiscard]] const vpJointVector &command() const noexcept { return m_command; }
   //! Torques of the last cycle, Nm or N; zero when ideal.
   [[nodiscard]] const vpJointVector &torque() const noexcept { return m_output.torque; }
+  /*!
+   * Torques that the last command takes, Nm or N: M(q) a + C(q, v) v + g(q) + friction of the plant at v, where v is
+   * the command and a its change over the duration of the last move(). Where they exceed the torque limit the joint
+   * cannot follow. Zero when ideal, before the first move(), and if they cannot be computed.
+   */
+  [[nodiscard]] const vpJointVector &needed() const noexcept { return m_needed; }
   //! Bit i: joint i was at its torque limit in the last move().
   [[nodiscard]] unsigned int saturated() const noexcept { return m_saturated; }
   //! Parameters of the drives.
@@ -91,6 +131,7 @@ public:
 private:
   bool cycle(double dt) noexcept;
   void measure() noexcept;
+  void updateNeeded(const vpJointVector &before, double duration) noexcept;
 
   const vpArmModel *m_model;
   vpArmDriveSpec m_spec;
@@ -100,7 +141,7 @@ private:
   std::optional<vpJointVelocityEstimator> m_estimator;
   std::mt19937_64 m_random;
   std::normal_distribution<double> m_noise;
-  vpJointVector m_wanted, m_command;
+  vpJointVector m_wanted, m_command, m_needed;
   vpJointPositionControl::Input m_input;
   vpJointPositionControl::Output m_output;
   unsigned int m_saturated = 0;

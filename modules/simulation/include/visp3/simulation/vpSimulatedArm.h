@@ -50,7 +50,11 @@ struct VISP_EXPORT vpSimulatedArmSpec {
   std::array<bool, 6> free{};
   //! Age beyond its sampling time (vpArmClock::RealTime: age) at which a command is too old, s, > 0; infinity: never.
   double watchdog = 0.2;
-  double followingError = 0.3;            //!< Largest joint following error, rad or m, > 0; beyond it the arm stops.
+  /*!
+   * Largest joint following error, rad or m, > 0; beyond it the arm stops. With vpDriveReference::Measured there is
+   * none during velocity commands: a joint that cannot follow is told by vpSimulatedArmState::saturated only.
+   */
+  double followingError = 0.3;
   vpArmClock clock = vpArmClock::Stepped; //!< Clock of the simulation.
 
   //! \throw vpException (badValue) naming the field that is out of range for this arm, and its value.
@@ -60,13 +64,16 @@ struct VISP_EXPORT vpSimulatedArmSpec {
 //! \ingroup group_simulation
 //! \brief State of the arm at one time.
 struct VISP_EXPORT vpSimulatedArmState {
-  double time = 0.;          //!< Time since the start, s.
-  vpJointVector q;           //!< Configuration, rad or m.
-  vpJointVector velocity;    //!< Joint velocities, rad/s or m/s.
-  vpJointVector wanted;      //!< Commanded configuration, rad or m.
-  vpJointVector command;     //!< Commanded joint velocities, rad/s or m/s.
-  vpJointVector torque;      //!< Torques of the drives, Nm or N; zero for ideal drives.
-  vpRedundancyOutput solver; //!< Solver output of the last control period.
+  double time = 0.;           //!< Time since the start, s.
+  vpJointVector q;            //!< Configuration, rad or m.
+  vpJointVector velocity;     //!< Joint velocities, rad/s or m/s.
+  vpJointVector wanted;       //!< Commanded configuration, rad or m.
+  vpJointVector command;      //!< Commanded joint velocities, rad/s or m/s.
+  vpJointVector torque;       //!< Torques of the drives, Nm or N; zero for ideal drives.
+  vpJointVector needed;       //!< Torques that the commands take, see vpArmDrives::needed().
+  unsigned int saturated = 0; //!< Bit i: the drive of joint i was at its torque limit in the last control period.
+  vpJointShortfall lost;      //!< The joint of vpSimulatedArmStatus::NotFollowing, when it was found.
+  vpRedundancyOutput solver;  //!< Solver output of the last control period.
   vpSimulatedArmStatus status = vpSimulatedArmStatus::Stopped; //!< Status of the arm.
 };
 
