@@ -19,7 +19,7 @@ namespace
 {
 constexpr double longestPeriod = 0.005;    // s, longest control period of the arm
 constexpr double deadbandOfFriction = 0.1; // rad/s: deadband of the plant equivalent to the friction of the arm model
-constexpr double noteworthy = 0.5;         // s of slowed motion that the status reports
+constexpr double noteworthy = 0.5;         // s of slowed motion, or of drives at their limits, that the status reports
 
 const vpArmSample *firstWith(const std::vector<vpArmSample> &samples, vpSimulatedArmStatus status)
 {
@@ -54,6 +54,24 @@ std::string reasonOf(const vpArmModel &model, const vpArmSample &s)
   }
 }
 
+std::string nameOf(const vpArmModel &model, const vpJointShortfall &of)
+{
+  return of.joint < 0 ? "" : model.spec().joints[static_cast<std::size_t>(of.joint)].name;
+}
+
+// Of the saturated drives the one that misses most; relative to the limits, which may be of two units.
+void updateShortfall(const vpArmModel &model, const vpArmSample &s, vpJointShortfall &worst)
+{
+  for (int i = 0; i < model.size(); ++i) {
+    const double limit = model.torque()(i);
+    const vpJointShortfall here{i, s.needed(i), std::copysign(limit, s.needed(i))};
+    const double before = worst.joint < 0 ? 0. : worst.missing() / model.torque()(worst.joint);
+    if ((s.saturated >> i & 1U) && here.missing() / limit > before) {
+      worst = here;
+    }
+  }
+}
+
 // The most severe limitation of the arm.
 std::string describe(const vpArmModel &model, const std::vector<vpArmSample> &samples, const vpArmMetrics &m,
                      double cycle)
@@ -61,12 +79,17 @@ std::string describe(const vpArmModel &model, const std::vector<vpArmSample> &sa
   char text[256];
   const auto timeOf = [&](const vpArmSample *s) { return static_cast<double>(s - samples.data()) * cycle; };
   if (const vpArmSample *s = firstWith(samples, vpSimulatedArmStatus::NotFollowing)) {
-    std::snprintf(text, sizeof(text), "a joint did not follow its command at %.2f s, the arm held from then on",
-                  timeOf(s));
-    return text;
+    std::snprintf(text, sizeof(text), "joint %s did not follow its command at %.2f s, the arm held from then on: ",
+                  nameOf(model, m.shortfall).c_str(), timeOf(s));
+    return text + m.shortfall.message(model);
   }
   const vpArmSample *s = firstWith(samples, vpSimulatedArmStatus::Blocked);
   const bool blocked = s != nullptr;
+  if (!blocked && m.saturated_s >= noteworthy && m.shortfall.missing() > 0.) {
+    std::snprintf(text, sizeof(text), "drives at their torque limits for %.2f s, joint %s most: ", m.saturated_s,
+                  nameOf(model, m.shortfall).c_str());
+    return text + m.shortfall.message(model);
+  }
   if (!blocked && m.limited_s >= noteworthy) {
     s = firstWith(samples, vpSimulatedArmStatus::Limited);
   }
@@ -120,6 +143,11 @@ vpArmMetrics evaluateArmRun(const vpArmModel &model, const std::vector<vpArmSamp
     m.self_motion_rad += s.selfMotion * cycle;
     m.limited_s += s.status == vpSimulatedArmStatus::Limited ? cycle : 0.;
     m.blocked_s += s.status == vpSimulatedArmStatus::Blocked ? cycle : 0.;
+    m.saturated_s += s.saturated != 0U ? cycle : 0.;
+    updateShortfall(model, s, m.shortfall);
+  }
+  if (const vpArmSample *s = firstWith(samples, vpSimulatedArmStatus::NotFollowing)) {
+    m.shortfall = s->lost;
   }
   m.joint_rms = (m.joint_rms / static_cast<double>(samples.size())).cwiseSqrt();
   m.status = describe(model, samples, m, cycle);
@@ -179,6 +207,9 @@ public:
     s.wanted = state.wanted;
     s.command = state.command;
     s.torque = state.torque;
+    s.needed = state.needed;
+    s.saturated = state.saturated;
+    s.lost = state.lost;
     s.limitMargin = std::min((state.q - model.lower()).minCoeff(), (model.upper() - state.q).minCoeff());
     vpArmData data;
     vpIndexValue index;

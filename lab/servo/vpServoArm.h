@@ -21,9 +21,9 @@ BEGIN_VISP_NAMESPACE
  * \brief Arm for vpServoRunSpec::arm.
  *
  * Its imperfections follow from a vpServoPlant. Without lag and deadband the drives are ideal. With either the arm is
- * torque-driven (PD with gravity compensation, (3.19), no friction compensation) with the friction of the arm model
- * times deadband / 0.10 rad/s: once on plant B, twice on plant D. Vision, latency, noise and twist limits are those of
- * the plant; lag and deadband of the twist result from the arm itself.
+ * torque-driven (PD with gravity compensation, (3.19), no friction compensation; reference and gains as in the spec)
+ * with the friction of the arm model times deadband / 0.10 rad/s: once on plant B, twice on plant D. Vision, latency,
+ * noise and twist limits are those of the plant; lag and deadband of the twist result from the arm itself.
  */
 struct vpServoArm {
   vpArmModel model;        //!< Joints, limits, masses, camera.
@@ -42,6 +42,9 @@ struct vpArmSample {
   vpJointVector wanted;           //!< Commanded configuration, rad or m.
   vpJointVector command;          //!< Commanded joint velocities, rad/s or m/s.
   vpJointVector torque;           //!< Torques, Nm or N; zero for ideal drives.
+  vpJointVector needed;           //!< Torques that the commands take, see vpArmDrives::needed().
+  unsigned int saturated = 0;     //!< Bit i: the drive of joint i is at its torque limit.
+  vpJointShortfall lost;          //!< The joint of vpSimulatedArmStatus::NotFollowing.
   double limitMargin = 0.;        //!< Distance from the nearest position limit, rad or m; infinite without limits.
   double manipulability = 0.;     //!< sqrt(det(J J^T)).
   double selfMotion = 0.;         //!< Norm of the self-motion velocity due to the indices, rad/s.
@@ -61,6 +64,8 @@ struct vpArmMetrics {
   double self_motion_rad = 0.;         //!< Joint travel due to the indices: integral of vpArmSample::selfMotion.
   double limited_s = 0.;               //!< Time with vpSimulatedArmStatus::Limited.
   double blocked_s = 0.;               //!< Time with vpSimulatedArmStatus::Blocked.
+  double saturated_s = 0.;             //!< Time with a drive at its torque limit.
+  vpJointShortfall shortfall;          //!< The joint that did not follow, or the drive at its limit that missed most.
   std::string status;                  //!< "ok", or a sentence on the limitation of the arm.
 };
 
