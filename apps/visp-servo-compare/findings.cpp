@@ -228,10 +228,11 @@ std::optional<std::string> unfinished(const Results &results)
 {
   std::vector<std::string> list;
   for (const vpServoRun &run : results.runs()) {
-    if (run.metrics.status != "ok" && list.size() < 5) {
+    const bool lacksTorque = run.armMetrics && run.armMetrics->shortfall.joint >= 0 && run.armMetrics->status != "ok";
+    if ((run.metrics.status != "ok" || lacksTorque) && list.size() < 5) {
       list.push_back(run.spec.law + " on " + run.spec.plant.name + " by " + run.spec.measure +
                      (run.spec.shape ? ", shaped" : "") + " (seed " + std::to_string(run.spec.seed) +
-                     "): " + run.metrics.status);
+                     "): " + (lacksTorque ? run.armMetrics->status : run.metrics.status));
     }
   }
   if (list.empty()) {

@@ -35,6 +35,8 @@ constexpr const char *EXAMPLES = R"(Examples:
       what it takes to start without a step in velocity, and what that costs
   visp-servo-compare --robot amor --measure points
       a seven-joint arm carries the camera; the report shows its joints
+  visp-servo-compare --robot amor --drive measured --plant D --measure points
+      the same arm with drives that let friction through to the law: the order of the thesis's figures 5.9 and 5.10
   visp-servo-compare --robot my-arm.urdf --robot-tip tool0 --robot-camera camera_link --plant A
       your own arm
   visp-servo-compare --task my-task.json
@@ -82,6 +84,11 @@ bool readOptions(int argc, const char *const *argv, Options &options)
             "none");
   line.choice("--limits", robot.limits, {{"stop", std::string("stop")}, {"scale", std::string("scale")}},
               "At a position limit stop only that joint, or scale the whole motion");
+  line.choice("--drive", robot.drive,
+              {{"integrated", std::string("integrated")}, {"measured", std::string("measured")}},
+              "What the drives of plants with friction add the commanded joint velocity to: the last desired position "
+              "(open loop; friction delays the joints), or the measured one, (3.18) of the thesis (friction suppresses "
+              "small velocities, which the law must overcome)");
   line.text(
       "--target", options.target, "IMAGE",
       "Photo of the flat object, 8 or 16 bits, turned as its EXIF orientation says (default: klimt.jpg of the data "

@@ -23,6 +23,7 @@ struct RobotOptions {
   double acceleration = 10.;    //!< Acceleration limit of all joints of a URDF, rad/s^2 or m/s^2.
   std::vector<std::string> selfMotion{"limits", "manipulability"}; //!< Indices maximised by self-motion.
   std::string limits = "stop";                                     //!< At position limits: "stop" or "scale".
+  std::string drive = "integrated"; //!< The drives' reference: "integrated" or "measured".
 };
 
 //! \brief User options, not yet resolved or checked for consistency.

@@ -176,6 +176,11 @@ vpLimitPolicy policyOf(const RobotOptions &options)
   return options.limits == "stop" ? vpLimitPolicy::StopJoints : vpLimitPolicy::ScaleMotion;
 }
 
+vpDriveReference referenceOf(const RobotOptions &options)
+{
+  return options.drive == "measured" ? vpDriveReference::Measured : vpDriveReference::Integrated;
+}
+
 std::string listOf(const vpArmModel &model, const vpJointVector &q)
 {
   std::string text;
@@ -199,6 +204,7 @@ std::shared_ptr<const vpServoArm> chooseArm(const RobotOptions &options, const v
   auto arm = std::make_shared<vpServoArm>(vpServoArm{loadArm(options), {}});
   arm->spec.indices = indicesOf(options, arm->model);
   arm->spec.redundancy.policy = policy;
+  arm->spec.drives.reference = referenceOf(options);
   arm->spec.validate(arm->model);
   arm->spec.start = findServoStart(arm->model, task);
   return arm;
@@ -300,6 +306,10 @@ std::string sentenceOf(const vpServoArm &arm)
                            : "the spare joint leads it " + wishes) +
          "; at position limits " +
          (arm.spec.redundancy.policy == vpLimitPolicy::StopJoints ? "only the joint concerned stops."
-                                                                  : "the whole motion is slowed down.");
+                                                                  : "the whole motion is slowed down.") +
+         (arm.spec.drives.reference == vpDriveReference::Measured
+              ? " Where there is friction, the drives add velocities to the measured position, (3.18) of the thesis: "
+                "friction suppresses small velocities."
+              : " Where there is friction, the drives integrate velocities in open loop: friction delays the joints.");
 }
 } // namespace servoCompare

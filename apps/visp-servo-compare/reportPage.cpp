@@ -167,16 +167,21 @@ void writeArm(HtmlReport &page, const Plan &plan, const Results &results, const 
       "the "
       "AMOR arm are assumed, the thesis does not give them.");
   page.paragraph(
-      "Such drives integrate the commanded velocity: a joint that sticks is pushed harder until it moves. A law "
-      "without "
-      "an integral of its own therefore ends nearer to the goal than on a robot whose friction swallows small "
-      "velocities, as plants B and D are without an arm.");
+      plan.arm->spec.drives.reference == vpDriveReference::Measured
+          ? "These drives (--drive measured) add the commanded velocity to the measured position, (3.18) of the "
+            "thesis: a velocity too small for friction does not move a joint, and the law has to raise it. Drives that "
+            "integrate in open loop (--drive integrated) hide friction from the law."
+          : "These drives (--drive integrated) integrate the commanded velocity in open loop: a joint that sticks is "
+            "pushed harder until it moves, and laws without an integral end about as near to the goal as those with "
+            "one. "
+            "This does not hold for drives that start from the measured position (--drive measured).");
   page.table(armTable(plan, results),
              "By law and plant, measured by " + plan.mainMeasure() +
                  ". limit margin: least distance of a joint from a position limit, and which; 0 means that it was held "
                  "there. speed, acceleration: largest part of a joint's limit that was commanded; 100 is the limit "
                  "itself, which is never exceeded. self-motion: way the joints made for their own good. slowed: less "
-                 "motion than asked for, by limits or near singularities; blocked: none.");
+                 "motion than asked for, by limits or near singularities; blocked: none. The status names a "
+                 "joint that did not follow or a drive at its limit, with the torque that is missing.");
   page.table(jointErrorTable(plan, results, armLaw(plan)),
              "How well the joints follow their commands, with " + armLaw(plan) + " (mm for sliding joints).");
   for (const Figure &figure : figures) {

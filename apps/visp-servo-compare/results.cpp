@@ -17,7 +17,8 @@ template <class Archive> void exchange(Archive &archive, vpArmMetrics &m)
 {
   std::vector<double> rms(m.joint_rms.data(), m.joint_rms.data() + m.joint_rms.size());
   archive(rms, m.least_limit_margin, m.least_margin_joint, m.peak_velocity_share, m.peak_acceleration_share,
-          m.least_manipulability, m.self_motion_rad, m.limited_s, m.blocked_s, m.status);
+          m.least_manipulability, m.self_motion_rad, m.limited_s, m.blocked_s, m.saturated_s, m.shortfall.joint,
+          m.shortfall.needed, m.shortfall.given, m.status);
   m.joint_rms = Eigen::Map<const Eigen::VectorXd>(rms.data(), static_cast<Eigen::Index>(rms.size()));
 }
 template <class Archive> void exchange(Archive &archive, vpServoRun &run)

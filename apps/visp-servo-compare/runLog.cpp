@@ -140,10 +140,15 @@ Json jsonOf(const vpArmModel &model, const vpArmMetrics &m)
                {"self_motion_rad", m.self_motion_rad},
                {"limited_s", m.limited_s},
                {"blocked_s", m.blocked_s},
+               {"saturated_s", m.saturated_s},
                {"status", m.status}};
   if (m.least_margin_joint >= 0) {
     item["least_limit_margin"] = m.least_limit_margin;
     item["least_margin_joint"] = model.spec().joints[static_cast<std::size_t>(m.least_margin_joint)].name;
+  }
+  if (m.shortfall.joint >= 0) {
+    item["missing_torque"] = m.shortfall.missing();
+    item["missing_torque_joint"] = model.spec().joints[static_cast<std::size_t>(m.shortfall.joint)].name;
   }
   return item;
 }
@@ -158,7 +163,8 @@ Json jsonOf(const vpServoArm &arm)
           {"file", arm.model.spec().source},
           {"joints", joints},
           {"start", jsonOf(arm.spec.start)},
-          {"limits", arm.spec.redundancy.policy == vpLimitPolicy::StopJoints ? "stop" : "scale"}};
+          {"limits", arm.spec.redundancy.policy == vpLimitPolicy::StopJoints ? "stop" : "scale"},
+          {"drive", arm.spec.drives.reference == vpDriveReference::Measured ? "measured" : "integrated"}};
 }
 
 Json jsonOf(const Plan &plan, const vpServoRun &run)
