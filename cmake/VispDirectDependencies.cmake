@@ -78,6 +78,12 @@ find_library(VISP_DIRECT_DLIB_LIBRARY dlib)
 find_library(VISP_DIRECT_BLAS_LIBRARY NAMES blas openblas) # dlib's headers use BLAS
 vispdirect_optional(DLIB "SURF keypoints" "${VISP_DIRECT_DLIB_INCLUDE_DIR}" "${VISP_DIRECT_DLIB_LIBRARY};${VISP_DIRECT_BLAS_LIBRARY}")
 
+# For tests only: no module, program or installed package needs it.
+find_path(VISP_DIRECT_MUJOCO_INCLUDE_DIR mujoco/mujoco.h)
+find_library(VISP_DIRECT_MUJOCO_LIBRARY mujoco)
+vispdirect_optional(MUJOCO "second opinion on arms (test catchMujocoOracle)" "${VISP_DIRECT_MUJOCO_INCLUDE_DIR}"
+  "${VISP_DIRECT_MUJOCO_LIBRARY}")
+
 # vispdirect_without(FILE...): excludes sources from the module. Call after vp_glob_module_sources().
 macro(vispdirect_without)
   foreach(vispdirect_file ${ARGN})
