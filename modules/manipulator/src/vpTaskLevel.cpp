@@ -9,18 +9,18 @@
 
 BEGIN_VISP_NAMESPACE
 
-namespace vpTaskLevel
-{
 namespace
 {
+using Task = Eigen::Matrix<double, 6, 1>;
+
 constexpr double rankless = 1e-6; // singular values below this count as zero
 constexpr double exactRate = 50.; // 1/s
 
 // B = L V with orthonormal rows V. False when a row depends on those before it.
-bool gramSchmidt(const Rows &B, int rows, Rows &V, Eigen::Matrix<double, 6, 6> &L)
+template <class Rows> bool gramSchmidt(const Rows &B, int rows, Rows &V, Eigen::Matrix<double, 6, 6> &L)
 {
   for (int i = 0; i < rows; ++i) {
-    Joints v = B.col(i);
+    typename Rows::ColXpr::PlainObject v = B.col(i);
     for (int j = 0; j < i; ++j) {
       L(i, j) = V.col(j).dot(v);
       v -= L(i, j) * V.col(j);
@@ -36,7 +36,7 @@ bool gramSchmidt(const Rows &B, int rows, Rows &V, Eigen::Matrix<double, 6, 6> &
 
 // One-sided Jacobi: rotates the rows of B until they are perpendicular, B = U^T ... ; their lengths are the singular
 // values.
-void jacobi(Rows &B, int rows, Eigen::Matrix<double, 6, 6> &U)
+template <class Rows> void jacobi(Rows &B, int rows, Eigen::Matrix<double, 6, 6> &U)
 {
   U.setIdentity();
   for (int sweep = 0; sweep < 12; ++sweep) {
@@ -51,7 +51,7 @@ void jacobi(Rows &B, int rows, Eigen::Matrix<double, 6, 6> &U)
         const double zeta = (b - a) / (2. * c);
         const double t = std::copysign(1., zeta) / (std::fabs(zeta) + std::sqrt(1. + zeta * zeta));
         const double cosine = 1. / std::sqrt(1. + t * t), sine = cosine * t;
-        const Joints x = B.col(i);
+        const typename Rows::ColXpr::PlainObject x = B.col(i);
         B.col(i) = cosine * x - sine * B.col(j);
         B.col(j) = sine * x + cosine * B.col(j);
         const Task u = U.col(i);
@@ -66,7 +66,9 @@ void jacobi(Rows &B, int rows, Eigen::Matrix<double, 6, 6> &U)
 }
 } // namespace
 
-Info solve(const Rows &B, const Task &r, int rows, const Options &options, Basis &basis, Joints &y)
+template <int N>
+typename vpTaskLevel<N>::Info vpTaskLevel<N>::solve(const Rows &B, const Task &r, int rows, const Options &options,
+                                                    Basis &basis, Joints &y)
 {
   Info info;
   if (rows == 0) {
@@ -136,16 +138,12 @@ Info solve(const Rows &B, const Task &r, int rows, const Options &options, Basis
   y = before + motion;
   return info;
 }
-} // namespace vpTaskLevel
 
 namespace
 {
-using vpTaskLevel::Joints;
-using vpTaskLevel::Square;
-
 // Eigenvectors (columns of V) and eigenvalues of the symmetric upper left d x d part, by Jacobi rotations: d is mostly
 // 2 or 3.
-void eigen(Square A, int d, Square &V, Joints &values)
+template <class Square, class Joints> void eigen(Square A, int d, Square &V, Joints &values)
 {
   V.setIdentity();
   for (int sweep = 0; sweep < 20; ++sweep) {
@@ -178,10 +176,10 @@ void eigen(Square A, int d, Square &V, Joints &values)
 }
 } // namespace
 
-namespace vpSingularityEscape
-{
-Square curvature(const vpArmModel &model, const vpArmData &data, vpArmFrame frame,
-                 const Eigen::Matrix<double, 6, 1> &lost, const Joints &scale)
+template <int N>
+typename vpSingularityEscape<N>::Square
+vpSingularityEscape<N>::curvature(const vpArmModel &model, const vpArmData &data, vpArmFrame frame,
+                                  const Eigen::Matrix<double, 6, 1> &lost, const Joints &scale)
 {
   Square H = Square::Zero();
   for (int k = 0; k < data.size; ++k) {
@@ -193,11 +191,13 @@ Square curvature(const vpArmModel &model, const vpArmData &data, vpArmFrame fram
   return H;
 }
 
-Room room(const vpTaskLevel::Basis &taken, const Joints &mayMove)
+template <int N>
+typename vpSingularityEscape<N>::Room vpSingularityEscape<N>::room(const typename Level::Basis &taken,
+                                                                   const Joints &mayMove)
 {
   constexpr double least = 0.01; // squared length of the remainder of a joint's own direction
   Room space;
-  vpTaskLevel::Basis all = taken;
+  typename Level::Basis all = taken;
   // The basis is orthonormal: the remainder of unit vector i has the squared length 1 - sum v_k(i)^2.
   Joints left = Joints::Ones();
   for (int k = 0; k < all.count; ++k) {
@@ -207,7 +207,7 @@ Room room(const vpTaskLevel::Basis &taken, const Joints &mayMove)
     // The joint with the largest remainder, so that the vectors are well defined.
     int joint = -1;
     double most = least;
-    for (int i = 0; i < vpArmMaxJoints; ++i) {
+    for (int i = 0; i < N; ++i) {
       if (mayMove(i) > 0. && left(i) > most) {
         most = left(i);
         joint = i;
@@ -223,7 +223,9 @@ Room room(const vpTaskLevel::Basis &taken, const Joints &mayMove)
   }
 }
 
-bool direction(const Room &space, const Square &H, double sense, const Joints &slope, const Joints &motion, Joints &z)
+template <int N>
+bool vpSingularityEscape<N>::direction(const Room &space, const Square &H, double sense, const Joints &slope,
+                                       const Joints &motion, Joints &z)
 {
   const int d = space.count;
   if (d == 0) {
@@ -258,7 +260,7 @@ bool direction(const Room &space, const Square &H, double sense, const Joints &s
   else {
     // The demand is the lost direction itself: turn it, with either sign.
     const Square change = neutral * (space.vectors.transpose() * H);
-    eigen(change * change.transpose(), d, V, values);
+    eigen<Square>(change * change.transpose(), d, V, values);
     top = 0;
     for (int i = 1; i < d; ++i) {
       top = values(i) > values(top) ? i : top;
@@ -277,6 +279,10 @@ bool direction(const Room &space, const Square &H, double sense, const Joints &s
   }
   return true;
 }
-} // namespace vpSingularityEscape
+
+template struct vpTaskLevel<8>;
+template struct vpTaskLevel<vpArmMaxJoints>;
+template struct vpSingularityEscape<8>;
+template struct vpSingularityEscape<vpArmMaxJoints>;
 
 END_VISP_NAMESPACE
