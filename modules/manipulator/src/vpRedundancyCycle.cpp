@@ -97,6 +97,77 @@ template <int N> typename vpRedundancyCycle<N>::Joints vpRedundancyCycle<N>::esc
   return speed / std::max(1e-9, m_scale.cwiseProduct(z).norm()) * z;
 }
 
+// Largest share of the task, y = share * a + b, at which no joint exceeds its velocity limit; negative if there is none.
+template <int N> double vpRedundancyCycle<N>::shareWithin(const Joints &a, const Joints &b) const
+{
+  double low = 0., top = 1.;
+  for (int i = 0; i < m_n; ++i) {
+    const double limit = m_bounds.velocityLimit(i) / m_scale(i), slope = std::fabs(a(i));
+    const double along = a(i) < 0. ? -b(i) : b(i);
+    if (isStopped(i) || isSaturated(i)) {
+      continue;
+    }
+    if (slope > 1e-12 * limit) {
+      low = std::max(low, (-limit - along) / slope);
+      top = std::min(top, (limit - along) / slope);
+    }
+    else if (std::fabs(along) > limit) {
+      return -1.;
+    }
+  }
+  return low <= top ? top : -1.;
+}
+
+/*!
+ * Saturation in the null space: the joint that exceeds its velocity limit most is held at it by a motion that leaves the
+ * task unchanged, and the next one, while the task's share grows. Returns this share of y.
+ */
+template <int N> double vpRedundancyCycle<N>::saturate(Joints &y)
+{
+  constexpr int rounds = 4;
+  constexpr double least = 1e-6; // squared length of the part of a joint's own direction that is free
+  m_saturated = 0;
+  double best = shareWithin(y, Joints::Zero());
+  if (best >= 1. || m_escaping || m_spec.policy == vpLimitPolicy::ScaleMotion) {
+    return 1.; // the limits scale the whole motion later
+  }
+  Joints a = y, b = Joints::Zero();
+  int count = m_basis.count;
+  unsigned int saturated = 0;
+  y *= best;
+  for (int round = 0; round < rounds; ++round) {
+    int worst = -1;
+    double most = 1.;
+    for (int i = 0; i < m_n; ++i) {
+      const double over = std::fabs(a(i) + b(i)) * m_scale(i) / m_bounds.velocityLimit(i);
+      if (!isStopped(i) && !isSaturated(i) && over > most) {
+        most = over;
+        worst = i;
+      }
+    }
+    const Joints v = worst < 0 ? Joints(Joints::Zero()) : m_basis.free(Joints::Unit(worst));
+    const double length2 = v.squaredNorm();
+    if (!(length2 > least)) {
+      break; // no joint, or the task needs it
+    }
+    const double limit = std::copysign(m_bounds.velocityLimit(worst) / m_scale(worst), a(worst) + b(worst));
+    a -= v * (a(worst) / length2);
+    b += v * ((limit - b(worst)) / length2);
+    m_basis.add(v / std::sqrt(length2));
+    m_saturated |= 1U << worst;
+    const double share = shareWithin(a, b);
+    if (share > best) {
+      best = share;
+      y = share * a + b;
+      count = m_basis.count;
+      saturated = m_saturated;
+    }
+  }
+  m_basis.count = count;
+  m_saturated = saturated;
+  return best;
+}
+
 // All tasks in order, with the stopped joints at their velocities.
 template <int N> void vpRedundancyCycle<N>::solveTasks()
 {
@@ -120,12 +191,14 @@ template <int N> void vpRedundancyCycle<N>::solveTasks()
   if (m_info.singular && m_spec.escapeSpeed > 0.) {
     y += escape(B, y);
   }
+  m_share = saturate(y);
+  held *= m_share;
   for (int t = 0; t < m_input.taskCount; ++t) {
     const vpArmTask &task = m_input.tasks[static_cast<std::size_t>(t)];
     Rows lower = Rows::Zero();
     Task wanted = Task::Zero();
     for (int k = 0; k < task.rows; ++k) {
-      wanted(k) = task.velocity(k);
+      wanted(k) = m_share * task.velocity(k);
       for (int i = 0; i < m_n; ++i) {
         lower(i, k) = task.J(k, i) * m_scale(i);
       }
@@ -165,7 +238,7 @@ template <int N> double vpRedundancyCycle<N>::scaleWithin() const
   double scale = 1.;
   for (int i = 0; i < m_n; ++i) {
     const double v = std::fabs(m_motion(i)), bound = m_bounds.velocityLimit(i);
-    scale = v > bound ? std::min(scale, bound / v) : scale;
+    scale = v > bound && !isSaturated(i) ? std::min(scale, bound / v) : scale;
   }
   if (m_spec.policy == vpLimitPolicy::ScaleMotion) {
     vpJointVector direction;
@@ -175,6 +248,16 @@ template <int N> double vpRedundancyCycle<N>::scaleWithin() const
   return scale;
 }
 
+// Joint velocities of the part of z that moves neither the tasks nor a joint that is held at a limit.
+template <int N> typename vpRedundancyCycle<N>::Joints vpRedundancyCycle<N>::freeMotion(const Joints &z) const
+{
+  Joints motion = m_scale.cwiseProduct(m_basis.free(z));
+  for (int i = 0; i < m_n; ++i) {
+    motion(i) = isSaturated(i) ? 0. : motion(i); // not even by rounding
+  }
+  return motion;
+}
+
 // Moves the last self-motion towards the new one with a fraction of the accelerations; the task has the rest.
 template <int N> typename vpRedundancyCycle<N>::Joints vpRedundancyCycle<N>::slowlyChanged(const Joints &wanted) const
 {
@@ -182,7 +265,7 @@ template <int N> typename vpRedundancyCycle<N>::Joints vpRedundancyCycle<N>::slo
   for (int i = 0; i < m_n; ++i) {
     before(i) = isStopped(i) ? 0. : m_input.previous(i) / m_scale(i);
   }
-  before = m_scale.cwiseProduct(m_basis.free(before));
+  before = freeMotion(before);
   double share = 1.;
   for (int i = 0; i < m_n; ++i) {
     const double change = std::fabs(wanted(i) - before(i));
@@ -208,7 +291,7 @@ template <int N> typename vpRedundancyCycle<N>::Joints vpRedundancyCycle<N>::sel
   for (int i = 0; i < m_n; ++i) {
     gradient(i) = isStopped(i) ? 0. : gradient(i) * m_scale(i);
   }
-  Joints motion = m_scale.cwiseProduct(m_basis.free(gradient));
+  Joints motion = freeMotion(gradient);
   const double length = motion.norm();
   if (!(length > 1e-12 * (1. + gradient.norm()))) {
     return Joints::Zero();
@@ -285,8 +368,9 @@ template <int N> bool vpRedundancyCycle<N>::run(vpRedundancyOutput &output) noex
   do {
     solveTasks();
   } while (m_spec.policy == vpLimitPolicy::StopJoints && stopWorst());
-  output.scale = scaleWithin();
-  m_motion *= output.scale;
+  const double scale = scaleWithin();
+  m_motion *= scale;
+  output.scale = scale * m_share;
   Joints motion = m_motion;
   if (m_input.indexCount > 0 && m_input.selfMotionShare > 0. && m_spec.selfMotion > 0.) {
     const Joints self = selfMotion();
@@ -314,6 +398,7 @@ template <int N> bool vpRedundancyCycle<N>::run(vpRedundancyOutput &output) noex
   const Likeness likeness = compare(output);
   output.smallestSingular = m_info.smallest;
   output.stoppedJoints = m_stopped;
+  output.saturatedJoints = m_saturated;
   output.status = judge(blend < 1., clamped, likeness, output);
   return true;
 }

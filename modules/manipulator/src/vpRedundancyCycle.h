@@ -47,11 +47,15 @@ private:
 
   void setMainTask();
   [[nodiscard]] bool isStopped(int i) const { return (m_stopped >> i & 1U) != 0U; }
+  [[nodiscard]] bool isSaturated(int i) const { return (m_saturated >> i & 1U) != 0U; }
   [[nodiscard]] Rows moving(Rows B) const;
   [[nodiscard]] Joints escape(const Rows &B, const Joints &y);
+  [[nodiscard]] double shareWithin(const Joints &a, const Joints &b) const;
+  [[nodiscard]] double saturate(Joints &y);
   void solveTasks();
   bool stopWorst();
   [[nodiscard]] double scaleWithin() const;
+  [[nodiscard]] Joints freeMotion(const Joints &z) const;
   [[nodiscard]] Joints slowlyChanged(const Joints &wanted) const;
   [[nodiscard]] Joints selfMotion() const;
   [[nodiscard]] Likeness compare(vpRedundancyOutput &output) const;
@@ -74,6 +78,8 @@ private:
   vpJointBounds m_bounds;
   unsigned int m_stopped = 0;       // joints held at a position limit
   Joints m_held = Joints::Zero();   // their velocities
+  unsigned int m_saturated = 0;     // joints held at a velocity limit
+  double m_share = 1.;              // of the main task, within the velocity limits
   Joints m_motion = Joints::Zero(); // joint velocities for the tasks
   typename Level::Basis m_basis;
   typename Level::Info m_info;

@@ -149,7 +149,7 @@ void vpRedundancySolver::step(const vpArmData &data, const vpRedundancyInput &in
 {
   const int n = m_model->size();
   output.selfMotion.setZero(n);
-  output.stoppedJoints = 0;
+  output.stoppedJoints = output.saturatedJoints = 0;
   output.taskShare = 0.;
   output.scale = 1.;
   output.smallestSingular = 0.;

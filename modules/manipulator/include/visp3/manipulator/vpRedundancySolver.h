@@ -116,6 +116,8 @@ struct VISP_EXPORT vpRedundancyOutput {
   double smallestSingular = 0.;   //!< Smallest singular value of the scaled task, m/rad; lower bound if regular.
   unsigned int stoppedJoints = 0; //!< Bit i: joint i is held at a position limit.
   double scale = 1.;              //!< Factor due to velocity (ScaleMotion: and position) limits, 0..1.
+  //! Bit i: joint i is held at its velocity limit, and the others take over its share of the task.
+  unsigned int saturatedJoints = 0;
 
   //! Status as a readable sentence.
   [[nodiscard]] const char *message() const noexcept;
