@@ -127,10 +127,14 @@ template <int N> double vpRedundancyCycle<N>::saturate(Joints &y)
   constexpr int rounds = 4;
   constexpr double least = 1e-6; // squared length of the part of a joint's own direction that is free
   m_saturated = 0;
-  double best = shareWithin(y, Joints::Zero());
-  if (best >= 1. || m_escaping || m_spec.policy == vpLimitPolicy::ScaleMotion) {
+  bool within = true;
+  for (int i = 0; i < m_n; ++i) {
+    within = within && std::fabs(y(i)) * m_scale(i) <= m_bounds.velocityLimit(i);
+  }
+  if (within || m_escaping || m_spec.policy == vpLimitPolicy::ScaleMotion) {
     return 1.; // the limits scale the whole motion later
   }
+  double best = shareWithin(y, Joints::Zero());
   Joints a = y, b = Joints::Zero();
   int count = m_basis.count;
   unsigned int saturated = 0;

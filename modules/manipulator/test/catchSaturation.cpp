@@ -203,7 +203,7 @@ TEST_CASE("The others take over the share of joints at their velocity limits", "
     shares.print(column ? "AMOR on a column" : "AMOR with random velocity limits");
     CHECK(shares.count > 700);
     CHECK(shares.solver > 0.97 * shares.most);
-    CHECK(shares.maximal > 0.9 * shares.count);
+    CHECK(shares.maximal > 0.75 * shares.count);
   }
 }
 
