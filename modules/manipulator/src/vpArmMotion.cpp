@@ -93,7 +93,7 @@ void vpArmMotion::clamped(const vpJointVector &q, const vpJointVector &velocity,
   m_bounds.update(*m_model, q, velocity, period(), 0.);
   vpRedundancyOutput &out = m_closed.solver;
   out.status = vpRedundancyStatus::Exact;
-  out.stoppedJoints = out.saturatedJoints = 0;
+  out.stoppedJoints = out.saturatedJoints = out.unreachableAxes = 0;
   out.selfMotion.setZero(m_model->size());
   for (int i = 0; i < m_model->size(); ++i) {
     m_velocity(i) = m_bounds.clamp(i, wanted(i));
@@ -152,6 +152,7 @@ void vpArmMotion::followPath(const vpJointVector &q, const vpJointVector &veloci
   m_velocity = (m_pathOutput.state.q - q) / period();
   m_closed.solver.status = vpRedundancyStatus::Exact;
   m_closed.solver.stoppedJoints = m_closed.solver.saturatedJoints = 0;
+  m_closed.solver.unreachableAxes = 0;
   m_closed.solver.selfMotion.setZero(m_model->size());
   if (result == vpTrajectoryResult::Finished || result == vpTrajectoryResult::Holding) {
     m_finished = true;

@@ -43,7 +43,7 @@ bool sameGoal(const vpRigidTransform &a, const vpRigidTransform &b)
 bool givenUp(vpClosedLoopStatus status)
 {
   return status == vpClosedLoopStatus::StoppedByLimits || status == vpClosedLoopStatus::StoppedBySingularity ||
-         status == vpClosedLoopStatus::Stalled;
+         status == vpClosedLoopStatus::StoppedByAxis || status == vpClosedLoopStatus::Stalled;
 }
 } // namespace
 
@@ -73,6 +73,8 @@ const char *vpClosedLoopOutput::message() const noexcept
     return "The motion stopped before the goal: joints are at their limits.";
   case vpClosedLoopStatus::StoppedBySingularity:
     return "The motion stopped before the goal: it lies beyond a singularity or outside the workspace.";
+  case vpClosedLoopStatus::StoppedByAxis:
+    return "The motion stopped before the goal: the arm has too few joints for all axes of it, free one of them.";
   case vpClosedLoopStatus::Stalled:
     return "The motion stopped before the goal without progress.";
   case vpClosedLoopStatus::InvalidInput:
@@ -246,7 +248,9 @@ void vpClosedLoopKinematics::step(const vpClosedLoopInput &input, vpClosedLoopSt
     if (state.waiting > m_spec.stallTime) {
       const bool limits = output.solver.stoppedJoints != 0U || output.solver.scale < 0.01;
       const bool singular = output.solver.smallestSingular < m_solver.spec().singularRegion;
+      const bool lacking = output.solver.status == vpRedundancyStatus::AxisUnreachable;
       state.status = limits     ? vpClosedLoopStatus::StoppedByLimits
+                     : lacking  ? vpClosedLoopStatus::StoppedByAxis
                      : singular ? vpClosedLoopStatus::StoppedBySingularity
                                 : vpClosedLoopStatus::Stalled;
     }

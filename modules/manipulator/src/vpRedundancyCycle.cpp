@@ -21,6 +21,7 @@ template <class Joints> void toVector(const Joints &from, int n, vpJointVector &
 template <int N> void vpRedundancyCycle<N>::setMainTask()
 {
   const vpArmJacobian J = vpArmKinematics::geometric(m_model, m_data, m_input.frame);
+  unsigned int axes = 0;
   for (int k = 0; k < 6; ++k) {
     const std::size_t component = static_cast<std::size_t>(k);
     if (!m_input.free[component]) {
@@ -30,8 +31,10 @@ template <int N> void vpRedundancyCycle<N>::setMainTask()
       }
       m_r(m_rows) = unit * m_input.twist[component];
       m_row[static_cast<std::size_t>(m_rows++)] = k;
+      axes |= 1U << k;
     }
   }
+  m_lacking = m_lackTable[64U * static_cast<unsigned int>(m_input.frame) + axes];
 }
 
 // Rows without the joints that are stopped.
@@ -43,6 +46,29 @@ template <int N> typename vpRedundancyCycle<N>::Rows vpRedundancyCycle<N>::movin
     }
   }
   return B;
+}
+
+/*!
+ * The axes whose unit vectors lie most in the directions that the arm lacks, by pivoted Gram-Schmidt: without them the
+ * rest of the task has full rank. Rotations count double: a camera rather leaves one of these than its place.
+ */
+template <int N> void vpRedundancyCycle<N>::findUnreachable()
+{
+  Eigen::Matrix<double, 6, 6> U = Eigen::Matrix<double, 6, 6>::Zero(); // a row for each row of the task
+  U.topLeftCorner(m_rows, m_lacking) = m_info.lacking.topLeftCorner(m_rows, m_lacking);
+  m_beyond = (U.transpose() * m_r).norm();
+  m_unreachable = 0;
+  for (int k = 0; k < m_lacking; ++k) {
+    Eigen::Index most = 0;
+    Task size = U.rowwise().squaredNorm();
+    for (int i = 0; i < m_rows; ++i) {
+      size(i) *= m_row[static_cast<std::size_t>(i)] < 3 ? 1. : 4.;
+    }
+    size.maxCoeff(&most);
+    const Task unit = U.row(most).transpose().normalized();
+    U -= (U * unit * unit.transpose()).eval();
+    m_unreachable |= 1U << m_row[static_cast<std::size_t>(most)];
+  }
 }
 
 // Joint motion out of a singularity, in weighted coordinates.
@@ -175,7 +201,8 @@ template <int N> double vpRedundancyCycle<N>::saturate(Joints &y)
 // All tasks in order, with the stopped joints at their velocities.
 template <int N> void vpRedundancyCycle<N>::solveTasks()
 {
-  const typename Level::Options options{m_spec.singularRegion, m_spec.damping};
+  const typename Level::Options options{m_spec.singularRegion, m_spec.damping, 0};
+  const typename Level::Options ofMain{m_spec.singularRegion, m_spec.damping, m_lacking};
   m_basis.count = 0;
   m_escaping = false;
   // Motion of the stopped joints; the other joints compensate its effect on the task.
@@ -191,7 +218,10 @@ template <int N> void vpRedundancyCycle<N>::solveTasks()
   }
   const Rows B = moving(m_B);
   Joints y = Joints::Zero();
-  m_info = Level::solve(B, r, m_rows, options, m_basis, y);
+  m_info = Level::solve(B, r, m_rows, ofMain, m_basis, y);
+  if (m_lacking > 0 && m_stopped == 0U) { // stopped joints would hide it
+    findUnreachable();
+  }
   if (m_info.singular && m_spec.escapeSpeed > 0.) {
     y += escape(B, y);
   }
@@ -347,6 +377,9 @@ vpRedundancyStatus vpRedundancyCycle<N>::judge(bool accelerating, bool clamped, 
   if (little && limits) {
     return vpRedundancyStatus::BlockedByLimits;
   }
+  if (m_beyond > exactness * (m_r.norm() + least)) {
+    return vpRedundancyStatus::AxisUnreachable;
+  }
   if (little && m_info.singular && !m_escaping) {
     return vpRedundancyStatus::BlockedBySingularity;
   }
@@ -403,6 +436,7 @@ template <int N> bool vpRedundancyCycle<N>::run(vpRedundancyOutput &output) noex
   output.smallestSingular = m_info.smallest;
   output.stoppedJoints = m_stopped;
   output.saturatedJoints = m_saturated;
+  output.unreachableAxes = m_unreachable;
   output.status = judge(blend < 1., clamped, likeness, output);
   return true;
 }

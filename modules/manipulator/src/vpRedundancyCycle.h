@@ -9,6 +9,7 @@
 #ifndef vpRedundancyCycle_h
 #define vpRedundancyCycle_h
 
+#include "vpLackingAxes.h"
 #include "vpTaskLevel.h"
 
 #include <visp3/manipulator/vpJointBounds.h>
@@ -25,10 +26,11 @@ public:
   using Level = vpTaskLevel<N>;
   using Joints = typename Level::Joints;
 
-  //! \param scale : W^-1/2, zero beyond the last joint.
-  vpRedundancyCycle(const vpArmModel &model, const vpRedundancySpec &spec, const Joints &scale, const vpArmData &data,
-                    const vpRedundancyInput &input)
-    : m_model(model), m_spec(spec), m_scale(scale), m_data(data), m_input(input), m_n(model.size())
+  //! \param scale : W^-1/2, zero beyond the last joint. \param lacking : See vpLackingAxes().
+  vpRedundancyCycle(const vpArmModel &model, const vpRedundancySpec &spec, const Joints &scale,
+                    const vpLackTable &lacking, const vpArmData &data, const vpRedundancyInput &input)
+    : m_model(model), m_spec(spec), m_scale(scale), m_lackTable(lacking), m_data(data), m_input(input),
+      m_n(model.size())
   {}
   //! Fills the output. False if the tasks have no finite solution: the arm has to brake.
   bool run(vpRedundancyOutput &output) noexcept;
@@ -49,6 +51,7 @@ private:
   [[nodiscard]] bool isStopped(int i) const { return (m_stopped >> i & 1U) != 0U; }
   [[nodiscard]] bool isSaturated(int i) const { return (m_saturated >> i & 1U) != 0U; }
   [[nodiscard]] Rows moving(Rows B) const;
+  void findUnreachable();
   [[nodiscard]] Joints escape(const Rows &B, const Joints &y);
   [[nodiscard]] double shareWithin(const Joints &a, const Joints &b) const;
   [[nodiscard]] double saturate(Joints &y);
@@ -65,6 +68,7 @@ private:
   const vpArmModel &m_model;
   const vpRedundancySpec &m_spec;
   const Joints m_scale;
+  const vpLackTable &m_lackTable;
   const vpArmData &m_data;
   const vpRedundancyInput &m_input;
   const int m_n;
@@ -74,6 +78,9 @@ private:
   Task m_r = Task::Zero();
   std::array<int, 6> m_row{}; // rows of the twist
   int m_rows = 0;
+  int m_lacking = 0;              // directions of it for which the arm has no joints
+  unsigned int m_unreachable = 0; // axes to free for a task without these
+  double m_beyond = 0.;           // part of the task in these directions
 
   vpJointBounds m_bounds;
   unsigned int m_stopped = 0;       // joints held at a position limit

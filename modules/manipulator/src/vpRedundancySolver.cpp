@@ -21,6 +21,24 @@ void check(const vpArmModel &model, bool good, const char *field, double value, 
   }
 }
 
+// Sentence about the first of the axes.
+const char *unreachable(unsigned int axes)
+{
+  static constexpr const char *sentences[] = {
+      "Translation along x cannot be commanded in this configuration: the arm has too few joints for the task.",
+      "Translation along y cannot be commanded in this configuration: the arm has too few joints for the task.",
+      "Translation along z cannot be commanded in this configuration: the arm has too few joints for the task.",
+      "Rotation about x cannot be commanded in this configuration: the arm has too few joints for the task.",
+      "Rotation about y cannot be commanded in this configuration: the arm has too few joints for the task.",
+      "Rotation about z cannot be commanded in this configuration: the arm has too few joints for the task."};
+  for (int k = 0; k < 6; ++k) {
+    if ((axes >> k & 1U) != 0U) {
+      return sentences[k];
+    }
+  }
+  return "The arm has too few joints for the task.";
+}
+
 bool isPlausible(const vpTwist &twist)
 {
   for (std::size_t i = 0; i < 6; ++i) {
@@ -112,6 +130,8 @@ const char *vpRedundancyOutput::message() const noexcept
   case vpRedundancyStatus::BlockedBySingularity:
     return "The wanted motion is impossible in this pose: the arm is singular and the motion leads out of its "
            "workspace.";
+  case vpRedundancyStatus::AxisUnreachable:
+    return unreachable(unreachableAxes);
   case vpRedundancyStatus::InvalidInput:
     return "An input is not finite, beyond 1e9 or of a wrong size; the arm brakes.";
   }
@@ -119,7 +139,7 @@ const char *vpRedundancyOutput::message() const noexcept
 }
 
 vpRedundancySolver::vpRedundancySolver(const vpArmModel &model, const vpRedundancySpec &spec)
-  : m_model(&model), m_spec(spec)
+  : m_model(&model), m_spec(spec), m_lacking(vpLackingAxes(model))
 {
   model.requireMotionLimits("the redundancy solver");
   spec.validate(model);
@@ -149,7 +169,7 @@ void vpRedundancySolver::step(const vpArmData &data, const vpRedundancyInput &in
 {
   const int n = m_model->size();
   output.selfMotion.setZero(n);
-  output.stoppedJoints = output.saturatedJoints = 0;
+  output.stoppedJoints = output.saturatedJoints = output.unreachableAxes = 0;
   output.taskShare = 0.;
   output.scale = 1.;
   output.smallestSingular = 0.;
@@ -159,8 +179,9 @@ void vpRedundancySolver::step(const vpArmData &data, const vpRedundancyInput &in
   }
 
   // A small capacity makes common arms faster.
-  const bool done = n <= 8 ? vpRedundancyCycle<8>(*m_model, m_spec, m_scale.head<8>(), data, input).run(output)
-                           : vpRedundancyCycle<vpArmMaxJoints>(*m_model, m_spec, m_scale, data, input).run(output);
+  const bool done =
+      n <= 8 ? vpRedundancyCycle<8>(*m_model, m_spec, m_scale.head<8>(), m_lacking, data, input).run(output)
+             : vpRedundancyCycle<vpArmMaxJoints>(*m_model, m_spec, m_scale, m_lacking, data, input).run(output);
   if (!done) {
     brake(input, output);
   }

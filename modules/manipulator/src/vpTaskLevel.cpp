@@ -5,6 +5,7 @@
 #include "vpTaskLevel.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 BEGIN_VISP_NAMESPACE
@@ -82,7 +83,7 @@ typename vpTaskLevel<N>::Info vpTaskLevel<N>::solve(const Rows &B, const Task &r
   }
   Rows V;
   Eigen::Matrix<double, 6, 6> L;
-  if (gramSchmidt(free, rows, V, L)) {
+  if (options.lacking == 0 && gramSchmidt(free, rows, V, L)) {
     // 1 / |L^-1|^2 is a lower bound of the smallest singular value squared.
     double sum = 0.;
     for (int j = 0; j < rows; ++j) {
@@ -114,10 +115,25 @@ typename vpTaskLevel<N>::Info vpTaskLevel<N>::solve(const Rows &B, const Task &r
   Eigen::Matrix<double, 6, 6> U;
   jacobi(free, rows, U);
   info.smallest = options.singularRegion;
+  std::array<bool, 6> lacks{};
+  for (int k = 0; k < options.lacking; ++k) {
+    int least = -1;
+    for (int i = 0; i < rows; ++i) {
+      if (!lacks[static_cast<std::size_t>(i)] &&
+          (least < 0 || free.col(i).squaredNorm() < free.col(least).squaredNorm())) {
+        least = i;
+      }
+    }
+    lacks[static_cast<std::size_t>(least)] = true;
+    info.lacking.col(k) = U.col(least);
+  }
   const Joints before = y;
   Joints motion = Joints::Zero();
   for (int i = 0; i < rows; ++i) {
     const double s = free.col(i).norm();
+    if (lacks[static_cast<std::size_t>(i)]) {
+      continue;
+    }
     if (s < info.smallest) {
       info.smallest = s;
       info.lost = U.col(i);

@@ -52,12 +52,15 @@ template <int N> struct vpTaskLevel {
   struct Options {
     double singularRegion; // s0: damping acts on singular values below it
     double damping;        // lambda at a singular value of 0
+    int lacking = 0;       // number of directions of the task for which the arm has no joints
   };
 
   struct Info {
     bool singular = false;    // a singular value was below s0
     double smallest = 0.;     // singular value; a lower bound when not singular
     Task lost = Task::Zero(); // its task direction, when singular
+    // Directions of the task that the arm lacks, as many as Options::lacking; not counted as singular.
+    Eigen::Matrix<double, 6, 6> lacking;
   };
 
   //! Adds to y the motion in the free space that brings B y nearest to r, and extends the basis by the space used.

@@ -132,7 +132,7 @@ TEST_CASE("Solver: limits, task, self-motion and status hold in every random ste
   CAPTURE(vpTestSupport::seed());
   const KDL::Chain chains[] = {kdlAmor(), kdlSixAxes()};
   KDL::ChainJntToJacSolver jacobians[] = {KDL::ChainJntToJacSolver(chains[0]), KDL::ChainJntToJacSolver(chains[1])};
-  std::array<int, 9> statuses{};
+  std::array<int, 10> statuses{};
   double worstResidual = 0., worstSelf = 0.;
   int whole = 0, slower = 0, stopped = 0;
   for (int problem = 0; problem < count(20000); ++problem) {

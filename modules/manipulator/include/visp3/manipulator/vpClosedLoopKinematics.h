@@ -41,7 +41,9 @@ enum class vpClosedLoopStatus {
   Reached,              //!< At the goal, within the tolerances; the self-motion continues.
   StoppedByLimits,      //!< Aborted: joints at their limits, the arm cannot get closer to the goal.
   StoppedBySingularity, //!< Aborted: the goal lies beyond a singularity or outside the workspace.
-  Stalled,              //!< Aborted without progress for another reason.
+  //! Aborted: the arm has too few joints for all axes of the goal, see vpRedundancyOutput::unreachableAxes.
+  StoppedByAxis,
+  Stalled, //!< Aborted without progress for another reason.
   //! An input was not finite, beyond vpArmLargest, of the wrong size or not a rotation; the arm brakes. If the
   //! configuration itself is invalid the status is permanent: start with a new one.
   InvalidInput

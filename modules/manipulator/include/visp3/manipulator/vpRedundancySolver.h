@@ -13,6 +13,7 @@
 #include <visp3/manipulator/vpSelfMotionIndex.h>
 
 #include <array>
+#include <cstdint>
 
 BEGIN_VISP_NAMESPACE
 
@@ -101,7 +102,9 @@ enum class vpRedundancyStatus {
   JointsStopped,   //!< Joints are held at their position limits; the others do not compensate fully.
   BlockedByLimits, //!< The requested motion is impossible due to position limits.
   BlockedBySingularity, //!< The requested motion is impossible in this configuration (stretched out).
-  InvalidInput          //!< An input was not finite, beyond vpArmLargest or of the wrong size; the arm brakes.
+  //! The arm has too few joints for the commanded axes, in any configuration: vpRedundancyOutput::unreachableAxes.
+  AxisUnreachable,
+  InvalidInput //!< An input was not finite, beyond vpArmLargest or of the wrong size; the arm brakes.
 };
 
 /*!
@@ -118,8 +121,13 @@ struct VISP_EXPORT vpRedundancyOutput {
   double scale = 1.;              //!< Factor due to velocity (ScaleMotion: and position) limits, 0..1.
   //! Bit i: joint i is held at its velocity limit, and the others take over its share of the task.
   unsigned int saturatedJoints = 0;
+  /*!
+   * Axes of the twist that the arm has too few joints for, as bits: without them the commanded axes are independent in this
+   * configuration, see vpAxesInWords(); they may differ in another one. A rotation is preferred to a translation. 0 if the arm has enough joints.
+   */
+  unsigned int unreachableAxes = 0;
 
-  //! Status as a readable sentence.
+  //! Status as a readable sentence; for AxisUnreachable it names the first of these axes.
   [[nodiscard]] const char *message() const noexcept;
 };
 
@@ -164,6 +172,7 @@ private:
   const vpArmModel *m_model;
   vpRedundancySpec m_spec;
   Eigen::Matrix<double, vpArmMaxJoints, 1> m_scale; // W^-1/2, zero beyond the last joint
+  std::array<std::uint8_t, 192> m_lacking;          // see vpLackingAxes()
 };
 
 END_VISP_NAMESPACE

@@ -1,0 +1,38 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpTwistAxes.h
+ * \brief Names of the components of a twist: free axes, and axes that an arm cannot command.
+ */
+#ifndef vpTwistAxes_h
+#define vpTwistAxes_h
+
+#include <visp3/direct_core/vpDirectCompat.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+BEGIN_VISP_NAMESPACE
+
+/*!
+ * \ingroup group_manipulator
+ * \brief Free axes by name, for vpRedundancyInput::free and others.
+ * \param names : x, y, z (translation along an axis) and rx, ry, rz (rotation about it), in any order.
+ * \return True for each named component of the twist.
+ * \throw vpException (badValue) naming an unknown or repeated name; also if all six are named, which leaves no task.
+ */
+[[nodiscard]] VISP_EXPORT std::array<bool, 6> vpFreeAxes(const std::vector<std::string> &names);
+
+/*!
+ * \ingroup group_manipulator
+ * \brief Axes in words.
+ * \param axes : Bit k: component k of a twist, as in vpRedundancyOutput::unreachableAxes; other bits are ignored.
+ * \return "translation along x, rotation about z"; empty for none.
+ */
+[[nodiscard]] VISP_EXPORT std::string vpAxesInWords(unsigned int axes);
+
+END_VISP_NAMESPACE
+#endif
