@@ -39,6 +39,8 @@ constexpr const char *EXAMPLES = R"(Examples:
       the same arm with drives that let friction through to the law: the order of the thesis's figures 5.9 and 5.10
   visp-servo-compare --robot my-arm.urdf --robot-tip tool0 --robot-camera camera_link --plant A
       your own arm
+  visp-servo-compare --robot data/robot/five-axis.json --free rz --plant A --measure points
+      an arm of five joints, which leaves the rotation about the optical axis as it comes
   visp-servo-compare --task my-task.json
       your own poses, camera, gains and robots; start from data/scenario/thesis-5.4.json
 
@@ -82,6 +84,10 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   line.list("--self-motion", robot.selfMotion, "WISH,...",
             "What spare joints do: limits (away from joint limits), manipulability, posture (stay near the start), or "
             "none");
+  line.list(
+      "--free", robot.free, "AXIS,...",
+      "Axes of the camera that the arm need not follow: x, y, z, rx, ry, rz; for arms with fewer than six joints. They "
+      "are not commanded, and the errors in the report are without them");
   line.choice("--limits", robot.limits, {{"stop", std::string("stop")}, {"scale", std::string("scale")}},
               "At a position limit stop only that joint, or scale the whole motion");
   line.choice("--drive", robot.drive,

@@ -22,6 +22,7 @@ struct RobotOptions {
   std::string camera;           //!< Camera link; empty for the tip itself.
   double acceleration = 10.;    //!< Acceleration limit of all joints of a URDF, rad/s^2 or m/s^2.
   std::vector<std::string> selfMotion{"limits", "manipulability"}; //!< Indices maximised by self-motion.
+  std::vector<std::string> free;                                   //!< Axes of the camera that are not commanded.
   std::string limits = "stop";                                     //!< At position limits: "stop" or "scale".
   std::string drive = "integrated"; //!< The drives' reference: "integrated" or "measured".
 };

@@ -13,6 +13,7 @@
 #include <visp3/core/vpMath.h>
 #include <visp3/manipulator/vpArmJson.h>
 #include <visp3/manipulator/vpArmUrdf.h>
+#include <visp3/manipulator/vpTwistAxes.h>
 #include <visp3/planar_target/vpPlanarTarget.h>
 
 #include "lab/servo/vpServoStart.h"
@@ -181,6 +182,19 @@ vpDriveReference referenceOf(const RobotOptions &options)
   return options.drive == "measured" ? vpDriveReference::Measured : vpDriveReference::Integrated;
 }
 
+std::array<bool, 6> freeAxesOf(const RobotOptions &options)
+{
+  if (!options.free.empty() && options.robot == "camera") {
+    throw vpApp::UsageError("--free needs an arm, given by --robot: a free-flying camera can follow all axes");
+  }
+  try {
+    return vpFreeAxes(options.free);
+  }
+  catch (const vpException &error) {
+    throw vpApp::UsageError("--free: " + vpApp::sentenceOf(error));
+  }
+}
+
 std::string listOf(const vpArmModel &model, const vpJointVector &q)
 {
   std::string text;
@@ -198,6 +212,7 @@ std::string listOf(const vpArmModel &model, const vpJointVector &q)
 std::shared_ptr<const vpServoArm> chooseArm(const RobotOptions &options, const vpServoTask &task)
 {
   const vpLimitPolicy policy = policyOf(options);
+  const std::array<bool, 6> free = freeAxesOf(options);
   if (options.robot == "camera") {
     return nullptr;
   }
@@ -205,8 +220,9 @@ std::shared_ptr<const vpServoArm> chooseArm(const RobotOptions &options, const v
   arm->spec.indices = indicesOf(options, arm->model);
   arm->spec.redundancy.policy = policy;
   arm->spec.drives.reference = referenceOf(options);
+  arm->spec.free = free;
   arm->spec.validate(arm->model);
-  arm->spec.start = findServoStart(arm->model, task);
+  arm->spec.start = findServoStart(arm->model, task, free);
   return arm;
 }
 
@@ -299,9 +315,11 @@ std::string sentenceOf(const vpServoArm &arm)
                                                                  : "away from singularities");
   }
   const int n = arm.model.size();
+  const auto commanded = std::count(arm.spec.free.begin(), arm.spec.free.end(), false);
+  const std::string free = vpAxesInWords(arm.spec.free);
   return arm.model.spec().name + ", " + std::to_string(n) + " joints, starts at (" + listOf(arm.model, arm.spec.start) +
          ") deg; " +
-         (n <= 6           ? "no joint is to spare"
+         (n <= commanded   ? "no joint is to spare"
           : wishes.empty() ? "the spare joint does nothing"
                            : "the spare joint leads it " + wishes) +
          "; at position limits " +
@@ -310,6 +328,9 @@ std::string sentenceOf(const vpServoArm &arm)
          (arm.spec.drives.reference == vpDriveReference::Measured
               ? " Where there is friction, the drives add velocities to the measured position, (3.18) of the thesis: "
                 "friction suppresses small velocities."
-              : " Where there is friction, the drives integrate velocities in open loop: friction delays the joints.");
+              : " Where there is friction, the drives integrate velocities in open loop: friction delays the joints.") +
+         (free.empty() ? ""
+                       : " Free axes of the camera: " + free +
+                             ". They are not commanded, and errors of the pose are without them.");
 }
 } // namespace servoCompare

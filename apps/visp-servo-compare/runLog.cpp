@@ -8,6 +8,7 @@
 
 #include <visp3/core/vpMath.h>
 #include <visp3/core/vpPoseVector.h>
+#include <visp3/manipulator/vpTwistAxes.h>
 
 #include <nlohmann/json.hpp>
 
@@ -164,7 +165,8 @@ Json jsonOf(const vpServoArm &arm)
           {"joints", joints},
           {"start", jsonOf(arm.spec.start)},
           {"limits", arm.spec.redundancy.policy == vpLimitPolicy::StopJoints ? "stop" : "scale"},
-          {"drive", arm.spec.drives.reference == vpDriveReference::Measured ? "measured" : "integrated"}};
+          {"drive", arm.spec.drives.reference == vpDriveReference::Measured ? "measured" : "integrated"},
+          {"free_axes", vpAxesInWords(arm.spec.free)}};
 }
 
 Json jsonOf(const Plan &plan, const vpServoRun &run)

@@ -7,6 +7,7 @@
 #include "lab/servo/vpServoExperiment.h"
 
 #include <visp3/core/vpExponentialMap.h>
+#include <visp3/manipulator/vpTwistAxes.h>
 #include <visp3/simulation/vpFrictionCamera.h>
 
 #include <algorithm>
@@ -44,6 +45,8 @@ std::string reasonOf(const vpArmModel &model, const vpArmSample &s)
   switch (s.solver) {
   case vpRedundancyStatus::BlockedBySingularity:
     return "the arm cannot move that way in this pose";
+  case vpRedundancyStatus::AxisUnreachable:
+    return vpAxesInWords(s.unreachableAxes) + " of the camera cannot be commanded, the arm has too few joints";
   case vpRedundancyStatus::Damped:
   case vpRedundancyStatus::Escaping:
     return "near a singularity";
@@ -218,6 +221,7 @@ public:
     s.manipulability = index.value;
     s.selfMotion = state.solver.selfMotion.norm();
     s.stoppedJoints = state.solver.stoppedJoints;
+    s.unreachableAxes = state.solver.unreachableAxes;
     s.status = state.status;
     s.solver = state.solver.status;
     return true;

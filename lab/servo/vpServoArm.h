@@ -23,7 +23,8 @@ BEGIN_VISP_NAMESPACE
  * Its imperfections follow from a vpServoPlant. Without lag and deadband the drives are ideal. With either the arm is
  * torque-driven (PD with gravity compensation, (3.19), no friction compensation; reference and gains as in the spec)
  * with the friction of the arm model times deadband / 0.10 rad/s: once on plant B, twice on plant D. Vision, latency,
- * noise and twist limits are those of the plant; lag and deadband of the twist result from the arm itself.
+ * noise and twist limits are those of the plant; lag and deadband of the twist result from the arm itself. Axes of the
+ * camera in vpSimulatedArmSpec::free are not commanded and not counted in vpServoSample::rotationError and other errors.
  */
 struct vpServoArm {
   vpArmModel model;        //!< Joints, limits, masses, camera.
@@ -37,18 +38,19 @@ struct vpServoArm {
 
 //! \brief State of the arm at the time of a vpServoSample.
 struct vpArmSample {
-  vpJointVector q;                //!< True configuration, rad or m.
-  vpJointVector velocity;         //!< True joint velocities, rad/s or m/s.
-  vpJointVector wanted;           //!< Commanded configuration, rad or m.
-  vpJointVector command;          //!< Commanded joint velocities, rad/s or m/s.
-  vpJointVector torque;           //!< Torques, Nm or N; zero for ideal drives.
-  vpJointVector needed;           //!< Torques that the commands take, see vpArmDrives::needed().
-  unsigned int saturated = 0;     //!< Bit i: the drive of joint i is at its torque limit.
-  vpJointShortfall lost;          //!< The joint of vpSimulatedArmStatus::NotFollowing.
-  double limitMargin = 0.;        //!< Distance from the nearest position limit, rad or m; infinite without limits.
-  double manipulability = 0.;     //!< sqrt(det(J J^T)).
-  double selfMotion = 0.;         //!< Norm of the self-motion velocity due to the indices, rad/s.
-  unsigned int stoppedJoints = 0; //!< Bit i: joint i is held at a position limit.
+  vpJointVector q;                  //!< True configuration, rad or m.
+  vpJointVector velocity;           //!< True joint velocities, rad/s or m/s.
+  vpJointVector wanted;             //!< Commanded configuration, rad or m.
+  vpJointVector command;            //!< Commanded joint velocities, rad/s or m/s.
+  vpJointVector torque;             //!< Torques, Nm or N; zero for ideal drives.
+  vpJointVector needed;             //!< Torques that the commands take, see vpArmDrives::needed().
+  unsigned int saturated = 0;       //!< Bit i: the drive of joint i is at its torque limit.
+  vpJointShortfall lost;            //!< The joint of vpSimulatedArmStatus::NotFollowing.
+  double limitMargin = 0.;          //!< Distance from the nearest position limit, rad or m; infinite without limits.
+  double manipulability = 0.;       //!< sqrt(det(J J^T)).
+  double selfMotion = 0.;           //!< Norm of the self-motion velocity due to the indices, rad/s.
+  unsigned int stoppedJoints = 0;   //!< Bit i: joint i is held at a position limit.
+  unsigned int unreachableAxes = 0; //!< See vpRedundancyOutput::unreachableAxes.
   vpSimulatedArmStatus status = vpSimulatedArmStatus::Stopped; //!< Status of the arm.
   vpRedundancyStatus solver = vpRedundancyStatus::Exact;       //!< Status of the redundancy solver.
 };

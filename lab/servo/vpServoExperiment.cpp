@@ -16,8 +16,11 @@
 #include <visp3/simulation/vpVisionChannel.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <tuple>
+#include <utility>
 
 BEGIN_VISP_NAMESPACE
 
@@ -122,14 +125,33 @@ bool allCornersInImage(const vpServoTask &task, const vpHomogeneousMatrix &cMo)
   return true;
 }
 
+using FreeAxes = std::array<bool, 6>;
+
+FreeAxes freeAxesOf(const vpServoRunSpec &spec) { return spec.arm ? spec.arm->spec.free : FreeAxes{}; }
+
+// Rotation vector (first) and translation of cdMc, without the free axes of the camera.
+std::pair<double, double> errorsOf(const vpHomogeneousMatrix &cdMc, const FreeAxes &free)
+{
+  if (free == FreeAxes{}) {
+    return {vpSO3::log(rotationOf(cdMc)).norm(), lengthOf(cdMc)};
+  }
+  const Eigen::Matrix3d R = rotationOf(cdMc);
+  Eigen::Vector3d w = vpSO3::log(R), t = R.transpose() * Eigen::Vector3d(cdMc[0][3], cdMc[1][3], cdMc[2][3]);
+  for (int k = 0; k < 3; ++k) {
+    const std::size_t axis = static_cast<std::size_t>(k);
+    t(k) = free[axis] ? 0. : t(k);
+    w(k) = free[axis + 3] ? 0. : w(k);
+  }
+  return {w.norm(), t.norm()};
+}
+
 // The true state at this instant, independent of the sensor.
-void fillTruth(const vpServoTask &task, const vpServoSegment &segment, vpServoSample &s)
+void fillTruth(const vpServoTask &task, const vpServoSegment &segment, const FreeAxes &free, vpServoSample &s)
 {
   const vpHomogeneousMatrix cdMc = segment.cdMo * s.cMo.inverse();
   s.yaw = yawOf(rotationOf(s.wMc));
   s.goalYaw = yawOf(rotationOf(task.initial * segment.cdMo.inverse()));
-  s.rotationError = vpSO3::log(rotationOf(cdMc)).norm();
-  s.translationError = lengthOf(cdMc);
+  std::tie(s.rotationError, s.translationError) = errorsOf(cdMc, free);
   bool centreInImage = false;
   double goalU = 0., goalV = 0.;
   project(task, segment.cdMo, 0., 0., goalU, goalV, centreInImage);
@@ -141,14 +163,14 @@ void fillTruth(const vpServoTask &task, const vpServoSegment &segment, vpServoSa
 
 // What the measurement and its own covariance say about cdMc. With errors (v, w) of cMo = (R, t) the rotation of cdMc errs by w, and
 // the camera's place, -R^T t in the object's frame, by v + t x w.
-void fillSeen(const vpServoSegment &segment, const vpServoMeasurement &measurement, vpServoSample &s)
+void fillSeen(const vpServoSegment &segment, const vpServoMeasurement &measurement, const FreeAxes &free,
+              vpServoSample &s)
 {
   if (!measurement.valid) {
     return;
   }
   const vpHomogeneousMatrix cdMc = segment.cdMo * measurement.cMo.inverse();
-  s.seenRotationError = vpSO3::log(rotationOf(cdMc)).norm();
-  s.seenTranslationError = lengthOf(cdMc);
+  std::tie(s.seenRotationError, s.seenTranslationError) = errorsOf(cdMc, free);
   if (!measurement.covariance.known) {
     return;
   }
@@ -182,6 +204,7 @@ vpServoRun runServoExperiment(const vpServoRunSpec &spec, const std::function<bo
   vpServoController servo = makeController(spec);
   const auto sensor = makeSensor(spec);
   const auto robot = vpServoRobot::create(spec);
+  const FreeAxes free = freeAxesOf(spec);
   std::optional<vpTwistShaper> shaper;
   if (spec.shape) {
     shaper.emplace(*spec.shape);
@@ -204,7 +227,7 @@ vpServoRun runServoExperiment(const vpServoRunSpec &spec, const std::function<bo
     s.segment = segment;
     s.wMc = robot->wMc();
     s.cMo = s.wMc.inverse() * spec.task.initial;
-    fillTruth(spec.task, spec.task.segments[segment], s);
+    fillTruth(spec.task, spec.task.segments[segment], free, s);
 
     if (vision.due(s.time)) {
       sensor->measure(s.cMo, s.time, frame);
@@ -216,6 +239,9 @@ vpServoRun runServoExperiment(const vpServoRunSpec &spec, const std::function<bo
     odometry.predict(measurement);
     const vpServoCommand command = servo.step(measurement, dt);
     vpTwist asked = command.v;
+    for (std::size_t k = 0; k < free.size(); ++k) {
+      asked[k] = free[k] ? 0. : asked[k]; // must not use up the speed limits of the others
+    }
     if (shaper) {
       // The plant's speed limits come first: after the shaper they would cause a kink in its smooth twist.
       asked = shaper->step(vpLimitTwist(asked, spec.plant.maxLinear, spec.plant.maxAngular), dt);
@@ -227,7 +253,7 @@ vpServoRun runServoExperiment(const vpServoRunSpec &spec, const std::function<bo
     s.actual = robot->actual();
     s.referenceYaw = referenceYaw(s.wMc, command.v, servo.law().rotationGain());
     s.measured = measurement.valid;
-    fillSeen(spec.task.segments[segment], measurement, s);
+    fillSeen(spec.task.segments[segment], measurement, free, s);
     s.status = command.status;
     run.samples.push_back(s);
     vpArmSample joints;

@@ -43,8 +43,8 @@ struct vpServoSample {
   double goalYaw = 0.;     //!< Yaw of the goal, rad.
   //! Reference yaw of the law: yaw of R exp(w / gain) with vpServoLaw::rotationGain(), rad; figures 5.6 and 5.8.
   double referenceYaw = 0.;
-  double rotationError = 0.;    //!< Angle of the true cdMc, rad.
-  double translationError = 0.; //!< Length of the true cdMc, m.
+  double rotationError = 0.;    //!< Angle of the true cdMc, rad; without free axes of the arm: of its rotation vector.
+  double translationError = 0.; //!< Length of the true cdMc, m; without free axes of the arm, in the camera's axes.
   /*!
    * Standard deviation of the rotation of cdMc, rad, from the covariance of the measurement in use; infinite if unknown
    * or nothing was measured.

@@ -9,6 +9,7 @@
 #include <visp3/core/vpException.h>
 #include <visp3/core/vpThetaUVector.h>
 #include <visp3/manipulator/vpClosedLoopKinematics.h>
+#include <visp3/manipulator/vpTwistAxes.h>
 
 #include <algorithm>
 #include <cmath>
@@ -127,14 +128,41 @@ double marginOf(const vpArmModel &model, const vpJointVector &q)
   return margin;
 }
 
+using FreeAxes = std::array<bool, 6>;
+
+// The arm with its camera as end effector, whose axes may be free.
+vpArmModel withCameraAsTool(const vpArmModel &model)
+{
+  vpArmSpec spec = model.spec();
+  spec.tool = spec.tool * spec.camera;
+  spec.camera = vpRigidTransform();
+  return vpArmModel(spec);
+}
+
+// Names axes that the arm cannot command for lack of joints, at mid-range; empty if there are none.
+std::string lackOf(const vpArmModel &model, const FreeAxes &free)
+{
+  vpArmData data;
+  vpArmKinematics::update(model, model.home(), data);
+  vpRedundancyInput input;
+  input.free = free;
+  input.previous = vpJointVector::Zero(model.size());
+  vpRedundancyOutput output;
+  vpRedundancySolver(model).step(data, input, output);
+  const std::string axes = vpAxesInWords(output.unreachableAxes);
+  return axes.empty() ? "" : "; the arm has too few joints for six axes, free one like " + axes;
+}
+
 // Ends early with its current value if that is not above a bound: such a start is not used.
-double rate(const vpArmModel &model, const vpServoTask &task, const vpJointVector &start, double bound)
+double rate(const vpArmModel &model, const vpServoTask &task, const vpJointVector &start, const FreeAxes &free,
+            double bound)
 {
   vpRedundancySpec redundancy;
   vpClosedLoopSpec spec;
   spec.linearTolerance = spec.angularTolerance = coarse;
   vpClosedLoopKinematics loop(model, redundancy, spec);
   vpClosedLoopInput input;
+  input.free = free;
   vpClosedLoopState state;
   vpClosedLoopOutput output;
   state.q = start;
@@ -161,16 +189,19 @@ double rate(const vpArmModel &model, const vpServoTask &task, const vpJointVecto
 }
 } // namespace
 
-double rateServoStart(const vpArmModel &model, const vpServoTask &task, const vpJointVector &start)
+double rateServoStart(const vpArmModel &model, const vpServoTask &task, const vpJointVector &start,
+                      const FreeAxes &free)
 {
-  return rate(model, task, start, -1.);
+  return free == FreeAxes{} ? rate(model, task, start, free, -1.)
+                            : rate(withCameraAsTool(model), task, start, free, -1.);
 }
 
-vpJointVector findServoStart(const vpArmModel &model, const vpServoTask &task)
+vpJointVector findServoStart(const vpArmModel &model, const vpServoTask &task, const FreeAxes &free)
 {
   if (model.spec().home.size() > 0) {
     return model.home();
   }
+  const vpArmModel arm = free == FreeAxes{} ? model : withCameraAsTool(model);
   std::mt19937_64 rng(1);
   vpJointVector best;
   double bestRating = -1.;
@@ -181,16 +212,17 @@ vpJointVector findServoStart(const vpArmModel &model, const vpServoTask &task)
       const double upper = model.isContinuous(i) ? M_PI : model.upper()(i);
       q(i) = std::uniform_real_distribution<double>(lower, upper)(rng);
     }
-    const double rating = rate(model, task, q, bestRating);
+    const double rating = rate(arm, task, q, free, bestRating);
     if (rating > bestRating) {
       bestRating = rating;
       best = q;
     }
   }
   if (bestRating < 0.) {
+    const std::string reason = lackOf(arm, free);
     throw vpException(vpException::badValue,
-                      "%s: from none of %d start configurations the camera reaches all poses of task %s",
-                      model.label().c_str(), candidates, task.name.c_str());
+                      "%s: from none of %d start configurations the camera reaches all poses of task %s%s",
+                      model.label().c_str(), candidates, task.name.c_str(), reason.c_str());
   }
   return best;
 }

@@ -387,6 +387,40 @@ TEST_CASE("A start is found where all poses can be reached, or it is said that t
                     Catch::Contains("from none of 200 start configurations the camera reaches all poses of task"));
 }
 
+TEST_CASE("An arm of five joints servos with a free axis, and without it names the axis", "[arm]")
+{
+  const vpArmModel model = vpLoadArmJson(std::string(VISP_DIRECT_DATA_DIR) + "/robot/five-axis.json");
+  auto arm = std::make_shared<vpServoArm>(vpServoArm{model, {}});
+  arm->spec.free[5] = true;
+  arm->spec.start = findServoStart(model, vpServoTask::thesis(), arm->spec.free);
+  vpArmSpec homeless = model.spec();
+  homeless.home.resize(0);
+  CHECK_NOTHROW(findServoStart(vpArmModel(homeless), vpServoTask::thesis(), arm->spec.free));
+  CHECK_THROWS_WITH(findServoStart(vpArmModel(homeless), vpServoTask::thesis()),
+                    Catch::Contains("the arm has too few joints for six axes, free one like rotation about"));
+  CHECK(rateServoStart(model, vpServoTask::thesis(), arm->spec.start, arm->spec.free) > 0.05);
+  for (const std::string law : {"pbvs1", "ff-lookat-pi"}) {
+    const vpServoRun free = run(law, "A", arm);
+    CAPTURE(law, free.armMetrics->status, free.metrics.end_rotation_deg, free.metrics.end_translation_mm);
+    CHECK(free.armMetrics->status == "ok");
+    CHECK(free.metrics.end_rotation_deg < 0.1);
+    CHECK(free.metrics.end_translation_mm < 1.);
+    // Independently: place and optical axis of the camera agree at the end, its rotation about the axis need not.
+    const vpServoSample &last = free.samples.back();
+    const vpHomogeneousMatrix cdMc = free.spec.task.segments.back().cdMo * last.cMo.inverse();
+    CHECK(std::hypot(cdMc[0][2], cdMc[1][2]) < 0.1 * M_PI / 180.);
+    CHECK(std::sqrt(cdMc[0][3] * cdMc[0][3] + cdMc[1][3] * cdMc[1][3] + cdMc[2][3] * cdMc[2][3]) < 1e-3);
+    for (const vpServoSample &s : free.samples) {
+      REQUIRE(s.commanded[5] == 0.);
+    }
+  }
+  auto all = std::make_shared<vpServoArm>(*arm);
+  all->spec.free = {};
+  const vpServoRun missed = run("pbvs1", "A", all);
+  CAPTURE(missed.armMetrics->status);
+  CHECK(missed.armMetrics->status.find("of the camera cannot be commanded") != std::string::npos);
+}
+
 TEST_CASE("The plant tells how good the drives are", "[arm]")
 {
   const vpServoArm arm{amor(), {}};

@@ -93,6 +93,8 @@ TEST_CASE("A bad robot ends with a sentence that names the file and the element"
   check(run, {"--robot spot", USAGE, "--robot is spot, must be camera, amor, a .urdf or a .json file"});
   check(run, {"--robot amor --self-motion dance", USAGE, "--self-motion: unknown wish \"dance\""});
   check(run, {"--robot amor --drive sliding", USAGE, "--drive"});
+  check(run, {"--robot amor --free yaw", USAGE, "--free: free axis \"yaw\" is unknown, must be x, y, z, rx, ry or rz"});
+  check(run, {"--free rz", USAGE, "--free needs an arm, given by --robot"});
   check(run, {"--robot amor --self-motion none,limits", USAGE, "--self-motion: unknown wish \"none\""});
   check(run, {"--limits bounce", USAGE, "--limits is bounce, must be stop or scale"});
   check(run, {"--robot-acceleration -1", USAGE, "--robot-acceleration"});

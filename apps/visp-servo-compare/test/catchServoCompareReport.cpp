@@ -272,6 +272,34 @@ TEST_CASE("Help, version and list are printed", "[visp-servo-compare]")
   CHECK(run.entries().empty());
 }
 
+TEST_CASE("With a free axis an arm of five joints reaches the poses, and the report says what is free",
+          "[visp-servo-compare]")
+{
+  ProgramRun run(SERVO_COMPARE);
+  const std::string robot = "--robot " + std::string(VISP_DIRECT_DATA_DIR) + "/robot/five-axis.json";
+  for (const bool free : {true, false}) {
+    const int status = run(robot + (free ? " --free rz" : "") + " --law pbvs1 --plant A --measure points --out " +
+                           (free ? "free" : "all"));
+    CAPTURE(run.err());
+    REQUIRE(status == 0);
+    const std::string folder = free ? "free" : "all";
+    const nlohmann::json summary = vpApp::readJsonFile(run.path(folder + "/summary.json"));
+    const nlohmann::json &result = summary["runs"][0];
+    const std::string arm = result["arm"]["status"], page = vpApp::readFile(run.path(folder + "/report.html"));
+    const bool inPage =
+        page.find("Free axes of the camera: rotation about z. They are not commanded, and errors of the "
+                  "pose are without them.") != std::string::npos;
+    CAPTURE(free, result);
+    CHECK(summary["robot"]["free_axes"] == (free ? "rotation about z" : ""));
+    CHECK((free ? arm == "ok" : arm.find("of the camera cannot be commanded") != std::string::npos));
+    CHECK(inPage == free);
+    if (free) {
+      CHECK(result["end_rotation_deg"] < 0.1);
+      CHECK(result["end_translation_mm"] < 1.);
+    }
+  }
+}
+
 TEST_CASE("On an arm the result has the joints", "[visp-servo-compare]")
 {
   const std::string sixAxes = std::string(VISP_DIRECT_DATA_DIR) + "/robot/generic-6r.urdf";

@@ -47,4 +47,13 @@ std::string vpAxesInWords(unsigned int axes)
   return words;
 }
 
+std::string vpAxesInWords(const std::array<bool, 6> &free)
+{
+  unsigned int axes = 0;
+  for (std::size_t k = 0; k < 6; ++k) {
+    axes |= free[k] ? 1U << k : 0U;
+  }
+  return vpAxesInWords(axes);
+}
+
 END_VISP_NAMESPACE

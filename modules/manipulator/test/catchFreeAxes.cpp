@@ -104,6 +104,7 @@ TEST_CASE("Axes have names", "[axes]")
   CHECK(vpAxesInWords(0).empty());
   CHECK(vpAxesInWords(1U << 4) == "rotation about y");
   CHECK(vpAxesInWords(0xffffff81U) == "translation along x");
+  CHECK(vpAxesInWords(vpFreeAxes({"rz"})) == "rotation about z");
   CHECK(vpAxesInWords(1U << 2 | 1U << 3) == "translation along z, rotation about x");
 }
 

@@ -18,10 +18,10 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_manipulator
-//! \brief Behaviour when a joint reaches its position limit.
+//! \brief Behaviour when a joint reaches its position or velocity limit.
 enum class vpLimitPolicy {
-  StopJoints, //!< Only that joint stops; the others take over its share as far as possible.
-  ScaleMotion //!< The whole motion is slowed down; the tool stays on its path.
+  StopJoints, //!< Only that joint stops; the others take over its share as far as possible. Likewise at a velocity limit.
+  ScaleMotion //!< The whole motion is slowed down, at velocity limits as well; the tool stays on its path.
 };
 
 /*!
@@ -30,7 +30,9 @@ enum class vpLimitPolicy {
  */
 struct VISP_EXPORT vpRedundancySpec {
   double period = 0.005; //!< Control period, s, > 0.
-  vpJointVector weights; //!< Diagonal of W in (3.23), n numbers > 0; empty: identity. Heavy joints move less.
+  //! Diagonal of W in (3.23), n numbers > 0; empty: identity. Heavy joints move less; 1/vmax^2 spares slow joints before they
+  //! are at their limits, but distorts singularRegion, which is in weighted coordinates.
+  vpJointVector weights;
   //! Length L of the task scaling diag(I, L I), m/rad, > 0: makes rad and m comparable, which W cannot do.
   double taskLength = 0.4;
   double singularRegion = 0.05; //!< s0, m/rad, > 0: singular values of the scaled Jacobian below it are damped.
@@ -96,7 +98,7 @@ struct VISP_EXPORT vpRedundancyInput {
 enum class vpRedundancyStatus {
   Exact,           //!< As requested: error at most 1e-6 of the request (of 1 mm/s for slower ones), in scaled units.
   Accelerating,    //!< Approaching the requested velocity (or its share by Scaled) at an acceleration limit.
-  Scaled,          //!< Slower than requested, on the same path, due to a velocity (ScaleMotion: or position) limit.
+  Scaled,          //!< Slower than requested, on the same path, due to velocity (ScaleMotion: or position) limits.
   Damped,          //!< Near a singularity: slower than requested in the direction being lost.
   Escaping,        //!< Near a singularity: self-motion leads out of it.
   JointsStopped,   //!< Joints are held at their position limits; the others do not compensate fully.
@@ -142,7 +144,10 @@ struct VISP_EXPORT vpRedundancyOutput {
  * max(|N v|, eps), which is never 0/0 and does not stop at rest. Singular values below s0 are damped one by one; if
  * the lost direction is requested, second derivatives of the kinematics give the self-motion that regains it, and if
  * there is none, the status reports it. Position limits become velocity bounds from which the joint can always brake;
- * velocity limits scale the motion, acceleration limits blend it with the last one; neither bends a path from rest.
+ * acceleration limits blend the motion with the last one. With vpLimitPolicy::StopJoints a joint at its velocity limit leaves
+ * its share to the others as long as this makes the task faster (saturation in the null space, at most four joints); beyond
+ * that velocity limits scale the motion. None of this bends a path from rest. Saturation applies to the main task: where only
+ * tasks of lower priority exceed a velocity limit the whole motion is scaled.
  */
 class VISP_EXPORT vpRedundancySolver
 {

@@ -33,6 +33,9 @@ BEGIN_VISP_NAMESPACE
  * \return "translation along x, rotation about z"; empty for none.
  */
 [[nodiscard]] VISP_EXPORT std::string vpAxesInWords(unsigned int axes);
+//! \ingroup group_manipulator
+//! \brief Axes in words. \param free : As in vpRedundancyInput::free. \return See the other one.
+[[nodiscard]] VISP_EXPORT std::string vpAxesInWords(const std::array<bool, 6> &free);
 
 END_VISP_NAMESPACE
 #endif
