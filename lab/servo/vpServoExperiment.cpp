@@ -13,6 +13,7 @@
 #include <visp3/direct_core/vpSO3.h>
 #include <visp3/feedforward/vpOdometryBridge.h>
 #include <visp3/feedforward/vpServoController.h>
+#include <visp3/manipulator/vpTwistAxes.h>
 #include <visp3/simulation/vpVisionChannel.h>
 
 #include <algorithm>
@@ -238,10 +239,7 @@ vpServoRun runServoExperiment(const vpServoRunSpec &spec, const std::function<bo
     }
     odometry.predict(measurement);
     const vpServoCommand command = servo.step(measurement, dt);
-    vpTwist asked = command.v;
-    for (std::size_t k = 0; k < free.size(); ++k) {
-      asked[k] = free[k] ? 0. : asked[k]; // must not use up the speed limits of the others
-    }
+    vpTwist asked = vpWithoutFreeAxes(command.v, free);
     if (shaper) {
       // The plant's speed limits come first: after the shaper they would cause a kink in its smooth twist.
       asked = shaper->step(vpLimitTwist(asked, spec.plant.maxLinear, spec.plant.maxAngular), dt);

@@ -8,6 +8,7 @@
 
 #include <visp3/core/vpException.h>
 #include <visp3/direct_core/vpSO3.h>
+#include <visp3/manipulator/vpTwistAxes.h>
 
 #include <cmath>
 #include <utility>
@@ -41,7 +42,7 @@ vpArmServo::vpArmServo(const vpArmModel &model, vpServoController controller, co
   : m_model(&model), m_spec(validated(spec, model)), m_controller(std::move(controller)),
     m_motion(model, spec.redundancy, vpClosedLoopSpec()), m_odometry(spec.maxAge, 1. / spec.redundancy.period)
 {
-  m_motion.setSelfMotion(spec.indices, {});
+  m_motion.setSelfMotion(spec.indices, spec.free);
   m_output.velocity.setZero(model.size());
 }
 
@@ -78,7 +79,7 @@ const vpArmServoOutput &vpArmServo::step(const vpJointVector &q, double time) no
     m_time = time;
     m_started = true;
     const vpServoCommand command = m_controller.step(m_measurement, dt);
-    m_output.twist = vpLimitTwist(command.v, m_spec.maxLinear, m_spec.maxAngular);
+    m_output.twist = vpLimitTwist(vpWithoutFreeAxes(command.v, m_spec.free), m_spec.maxLinear, m_spec.maxAngular);
     m_output.servo = command.status;
     m_output.age = m_odometry.age();
     m_motion.twist(m_output.twist, vpArmTwistFrame::Camera);

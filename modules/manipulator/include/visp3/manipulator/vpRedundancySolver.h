@@ -20,7 +20,7 @@ BEGIN_VISP_NAMESPACE
 //! \ingroup group_manipulator
 //! \brief Behaviour when a joint reaches its position or velocity limit.
 enum class vpLimitPolicy {
-  StopJoints, //!< Only that joint stops; the others take over its share as far as possible. Likewise at a velocity limit.
+  StopJoints, //!< Only that joint stops; the others take over its share as far as possible. Also at velocity limits.
   ScaleMotion //!< The whole motion is slowed down, at velocity limits as well; the tool stays on its path.
 };
 
@@ -30,8 +30,8 @@ enum class vpLimitPolicy {
  */
 struct VISP_EXPORT vpRedundancySpec {
   double period = 0.005; //!< Control period, s, > 0.
-  //! Diagonal of W in (3.23), n numbers > 0; empty: identity. Heavy joints move less; 1/vmax^2 spares slow joints before they
-  //! are at their limits, but distorts singularRegion, which is in weighted coordinates.
+  //! Diagonal of W in (3.23), n numbers > 0; empty: identity. Heavy joints move less; 1/vmax^2 spares slow joints
+  //! before they are at their limits, but distorts #singularRegion, which is in weighted coordinates.
   vpJointVector weights;
   //! Length L of the task scaling diag(I, L I), m/rad, > 0: makes rad and m comparable, which W cannot do.
   double taskLength = 0.4;
@@ -124,8 +124,9 @@ struct VISP_EXPORT vpRedundancyOutput {
   //! Bit i: joint i is held at its velocity limit, and the others take over its share of the task.
   unsigned int saturatedJoints = 0;
   /*!
-   * Axes of the twist that the arm has too few joints for, as bits: without them the commanded axes are independent in this
-   * configuration, see vpAxesInWords(); they may differ in another one. A rotation is preferred to a translation. 0 if the arm has enough joints.
+   * Axes of the twist that the arm has too few joints for, as bits: without them the commanded axes are independent
+   * in this configuration, see vpAxesInWords(); they may differ in another one. A rotation is preferred to a
+   * translation. 0 if the arm has enough joints.
    */
   unsigned int unreachableAxes = 0;
 
@@ -144,10 +145,10 @@ struct VISP_EXPORT vpRedundancyOutput {
  * max(|N v|, eps), which is never 0/0 and does not stop at rest. Singular values below s0 are damped one by one; if
  * the lost direction is requested, second derivatives of the kinematics give the self-motion that regains it, and if
  * there is none, the status reports it. Position limits become velocity bounds from which the joint can always brake;
- * acceleration limits blend the motion with the last one. With vpLimitPolicy::StopJoints a joint at its velocity limit leaves
- * its share to the others as long as this makes the task faster (saturation in the null space, at most four joints); beyond
- * that velocity limits scale the motion. None of this bends a path from rest. Saturation applies to the main task: where only
- * tasks of lower priority exceed a velocity limit the whole motion is scaled.
+ * acceleration limits blend the motion with the last one. With vpLimitPolicy::StopJoints a joint at its velocity limit
+ * leaves its share to the others as long as this makes the task faster (saturation in the null space, at most four
+ * joints); beyond that velocity limits scale the motion. None of this bends a path from rest. Saturation is for the
+ * main task: where tasks of lower priority exceed a velocity limit the whole motion is scaled.
  */
 class VISP_EXPORT vpRedundancySolver
 {

@@ -9,7 +9,7 @@
 #ifndef vpTwistAxes_h
 #define vpTwistAxes_h
 
-#include <visp3/direct_core/vpDirectCompat.h>
+#include <visp3/direct_core/vpTwist.h>
 
 #include <array>
 #include <string>
@@ -36,6 +36,18 @@ BEGIN_VISP_NAMESPACE
 //! \ingroup group_manipulator
 //! \brief Axes in words. \param free : As in vpRedundancyInput::free. \return See the other one.
 [[nodiscard]] VISP_EXPORT std::string vpAxesInWords(const std::array<bool, 6> &free);
+
+/*!
+ * \ingroup group_manipulator
+ * \brief A twist with zeros in its free components, so that these do not use up limits of speed.
+ */
+[[nodiscard]] inline vpTwist vpWithoutFreeAxes(vpTwist twist, const std::array<bool, 6> &free) noexcept
+{
+  for (std::size_t k = 0; k < free.size(); ++k) {
+    twist[k] = free[k] ? 0. : twist[k];
+  }
+  return twist;
+}
 
 END_VISP_NAMESPACE
 #endif

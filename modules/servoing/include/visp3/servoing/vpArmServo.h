@@ -14,6 +14,7 @@
 #include <visp3/feedforward/vpServoController.h>
 #include <visp3/manipulator/vpArmMotion.h>
 
+#include <array>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -27,9 +28,11 @@ BEGIN_VISP_NAMESPACE
 struct VISP_EXPORT vpArmServoSpec {
   vpRedundancySpec redundancy;            //!< Parameters of the arm; its period is that of step().
   std::vector<vpSelfMotionIndex> indices; //!< Indices that self-motion maximizes; at most vpMaxArmIndices.
-  double maxAge = 0.5;                    //!< Measurements older than this are not used, s, > 0.
-  double maxLinear = 0.25;                //!< Limit of the camera's linear speed, m/s, > 0.
-  double maxAngular = 1.;                 //!< Limit of the camera's angular speed, rad/s, > 0.
+  //! Free axes of the camera, see vpFreeAxes(): not commanded, for arms with fewer than six joints.
+  std::array<bool, 6> free{};
+  double maxAge = 0.5;     //!< Measurements older than this are not used, s, > 0.
+  double maxLinear = 0.25; //!< Limit of the camera's linear speed, m/s, > 0.
+  double maxAngular = 1.;  //!< Limit of the camera's angular speed, rad/s, > 0.
 
   //! \throw vpException (badValue) naming the field that is out of range, and its value.
   void validate(const vpArmModel &model) const;
@@ -40,8 +43,8 @@ struct VISP_EXPORT vpArmServoSpec {
  * \brief Velocities for the next period, and how they were obtained.
  */
 struct VISP_EXPORT vpArmServoOutput {
-  vpJointVector velocity;                               //!< Joint velocities to command, rad/s or m/s.
-  vpTwist twist;                                        //!< Camera twist of the law, camera frame, m/s and rad/s.
+  vpJointVector velocity; //!< Joint velocities to command, rad/s or m/s.
+  vpTwist twist;          //!< Camera twist of the law, camera frame, m/s and rad/s; 0 in free axes.
   vpServoStatus servo = vpServoStatus::Holding;         //!< Status of law, view filter and recovery.
   vpRedundancyStatus arm = vpRedundancyStatus::Exact;   //!< Status of the redundancy solver.
   vpSupervision supervision = vpSupervision::Passed;    //!< Status of the supervisor; Passed without one.
