@@ -139,7 +139,7 @@ vpJointVector insideLimits(const vpArmModel &model, double range, std::mt19937_6
 
 // Mean share of random twists in regular configurations, of scaling, of the solver, and of the oracle.
 struct Shares {
-  double scaling = 0., solver = 0., weighted = 0., most = 0.;
+  double scaling = 0., solver = 0., most = 0.;
   int count = 0, maximal = 0;
 
   void add(const vpArmModel &limited, const vpJointVector &q, double size, std::mt19937_64 &rng)
@@ -180,7 +180,6 @@ struct Shares {
     vpRedundancyOutput other;
     vpRedundancySolver(model, byLimits).step(data, twist.input, other);
     REQUIRE((other.velocity.cwiseAbs() - model.velocity()).maxCoeff() <= 0.);
-    weighted += other.taskShare;
     scaling += scaled;
     solver += out.scale;
     most += best;
@@ -190,8 +189,8 @@ struct Shares {
   void print(const char *name) const
   {
     std::cout << name << ": mean share of " << count << " twists " << scaling / count << " by scaling, "
-              << solver / count << " by saturation (" << weighted / count << " with weights by the limits), "
-              << most / count << " at most; maximal in " << 100. * maximal / count << " %\n";
+              << solver / count << " by saturation, " << most / count << " at most; maximal in "
+              << 100. * maximal / count << " %\n";
   }
 };
 } // namespace

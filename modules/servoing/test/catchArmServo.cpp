@@ -9,6 +9,7 @@
 #include "vpWildNumbers.h"
 
 #include <visp3/core/vpException.h>
+#include <visp3/manipulator/vpTwistAxes.h>
 #include <visp3/servoing/vpArmServo.h>
 #include <visp3/servoing/vpServoTarget.h>
 
@@ -100,6 +101,38 @@ TEST_CASE("An arm servo reaches its goal through a latency of 100 ms", "[servoin
     CHECK(bench.error() < 1e-5);
     CHECK(bench.velocity.norm() < 0.3); // the self-motion continues
   }
+}
+
+TEST_CASE("Five joints bring place and optical axis of the camera to the goal, with the rotation about it free",
+          "[servoing]")
+{
+  const vpArmModel model = vpLoadArmJson(std::string(VISP_DIRECT_DATA_DIR) + "/robot/five-axis.json");
+  vpArmServoSpec free;
+  free.redundancy.period = period;
+  free.free = vpFreeAxes({"rz"});
+  vpArmServo servo(model, vpServoController::create("pbvs1", {}), free);
+  servo.setGoal(plate.goal(cdMo));
+  vpJointVector q = model.home();
+  vpArmData data;
+  const auto camera = [&]() {
+    vpArmKinematics::update(model, q, data);
+    return vpArmKinematics::camera(model, data).toHomogeneous();
+  };
+  const vpHomogeneousMatrix fMo = camera() * vpHomogeneousMatrix(0.03, 0.02, 0.4, 0.1, -0.1, 0.2);
+  vpHomogeneousMatrix cMo;
+  for (int i = 0; i < 3000; ++i) {
+    cMo = camera().inverse() * fMo;
+    vpServoMeasurement seen;
+    plate.measure(cMo, i * period, seen);
+    static_cast<void>(servo.see(seen));
+    const vpArmServoOutput &out = servo.step(q, i * period);
+    REQUIRE(out.twist[5] == 0.);
+    q += period * out.velocity;
+  }
+  const vpHomogeneousMatrix cdMc = cdMo * cMo.inverse();
+  CHECK(cdMc.getTranslationVector().frobeniusNorm() < 1e-4);
+  CHECK(std::hypot(cdMc[0][2], cdMc[1][2]) < 1e-4);
+  CHECK(std::abs(cdMc[0][1]) > 1e-3); // turned about the optical axis
 }
 
 TEST_CASE("A measurement that is late and told as new makes the loop swing, one told with its time does not",
