@@ -99,6 +99,49 @@ std::string textStl()
   return text + "endsolid cube\n";
 }
 
+std::string plyFile()
+{
+  return "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+         "element face 5\nproperty list uchar int vertex_indices\nend_header\n"
+         "0 0 0\n1 0 0\n1 1 0\n0 1 0\n0.5 0.5 1\n4 0 3 2 1\n3 0 1 4\n3 1 2 4\n3 2 3 4\n3 3 0 4\n";
+}
+
+std::string binaryPly()
+{
+  std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+                      "property float z\nelement face 4\nproperty list uchar int vertex_indices\nend_header\n";
+  for (const float x : {0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F}) {
+    bytes += bytesOf(x);
+  }
+  for (const char *face : {"\x00\x02\x01", "\x00\x01\x03", "\x00\x03\x02", "\x01\x02\x03"}) {
+    bytes += '\x03';
+    for (int k = 0; k < 3; ++k) {
+      bytes += std::string(1, face[k]) + std::string(3, '\0');
+    }
+  }
+  return bytes;
+}
+
+std::string colladaFile()
+{
+  return R"(<?xml version="1.0" encoding="utf-8"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><unit name="centimeter" meter="0.01"/><up_axis>Z_UP</up_axis></asset>
+<library_effects><effect id="e"><profile_COMMON><technique sid="t"><phong/></technique></profile_COMMON></effect></library_effects>
+<library_geometries><geometry id="g"><mesh>
+<source id="p"><float_array id="pa" count="12">0 0 0 1 0 0 0 1 0 0 0 1</float_array><technique_common>
+<accessor source="#pa" count="4" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+<param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="3"><input semantic="VERTEX" source="#v" offset="0"/><p>0 2 1 0 1 3 0 3 2</p></triangles>
+<polylist count="1"><input semantic="VERTEX" source="#v" offset="0"/><vcount>3</vcount><p>1 2 3</p></polylist>
+</mesh></geometry></library_geometries>
+<library_nodes><node id="n"><rotate>0 0 1 90</rotate><instance_geometry url="#g"/></node></library_nodes>
+<library_visual_scenes><visual_scene id="s"><node id="a"><matrix>1 0 0 5 0 1 0 0 0 0 1 0 0 0 0 1</matrix>
+<instance_geometry url="#g"/><node id="b"><translate>0 0 9</translate><instance_node url="#n"/></node></node></visual_scene>
+</library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
+}
+
 //! A tree of octomap with its values: some leaves below some inner nodes.
 std::string fullOctree()
 {
@@ -175,6 +218,13 @@ TEST_CASE("Damaged meshes", "[files][mutated]")
   tell("binary .stl", readMutated({binary.name()}, ".stl", mutationCount(400), load));
   tell("text .stl", readMutated({text.name()}, ".stl", mutationCount(400), load));
   tell(".obj", readMutated({data + "/scene/bracket.obj"}, ".obj", mutationCount(400), load));
+  const File ply("text.ply", plyFile()), binaryOne("binary.ply", binaryPly()), collada("mesh.dae", colladaFile());
+  CHECK(vpTriangleMesh::load(ply.name()).isWatertight());
+  CHECK(vpTriangleMesh::load(binaryOne.name()).isWatertight());
+  CHECK(vpTriangleMesh::load(collada.name()).isWatertight());
+  tell("text .ply", readMutated({ply.name()}, ".ply", mutationCount(400), load));
+  tell("binary .ply", readMutated({binaryOne.name()}, ".ply", mutationCount(400), load));
+  tell(".dae", readMutated({collada.name()}, ".dae", mutationCount(400), load));
 }
 
 TEST_CASE("Damaged octrees", "[files][mutated]")

@@ -2,174 +2,157 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
+#include "vpMeshFileOutline.h"
 #include "vpReading.h"
 
 #include <visp3/avoidance/vpTriangleMesh.h>
 
+#include <Eigen/Geometry>
+
+#include <assimp/Importer.hpp>
+#include <assimp/config.h>
+#include <assimp/scene.h>
+
+#include <algorithm>
+#include <cctype>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
-#include <sstream>
 
 BEGIN_VISP_NAMESPACE
 
 namespace
 {
+constexpr std::size_t mostTriangles = 20000000; // a Collada file may repeat its meshes
+
 struct Soup {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<std::array<int, 3>> triangles;
 };
 
-[[noreturn]] void fail(const std::string &file, const std::string &why) { throw vpFileError(file + ": " + why); }
-
-// First number of "7", "7/1" or "7//3"; negative numbers count from the end.
-int objIndex(const std::string &word, std::size_t vertices, const std::string &file, const std::string &line)
+std::string lowerExtension(const std::string &file)
 {
-  int index = 0;
-  std::istringstream in(word);
-  if (!(in >> index) || index == 0) {
-    fail(file, "line " + line + ": \"" + word + "\" is no index of a vertex");
-  }
-  const int from0 = index > 0 ? index - 1 : static_cast<int>(vertices) + index;
-  if (from0 < 0 || from0 >= static_cast<int>(vertices)) {
-    fail(file, "line " + line + ": vertex " + word + " of " + std::to_string(vertices) + " does not exist");
-  }
-  return from0;
+  const std::size_t dot = file.rfind('.');
+  std::string extension = dot == std::string::npos ? "" : file.substr(dot + 1);
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
 }
 
-Soup readObj(const std::string &text, const std::string &file)
+Eigen::Affine3d placeOf(const aiMatrix4x4 &m)
 {
-  Soup soup;
-  std::istringstream in(text);
-  std::string line;
-  for (int number = 1; std::getline(in, line); ++number) {
-    std::istringstream words(line);
-    std::string kind;
-    words >> kind;
-    if (kind == "v") {
-      Eigen::Vector3d v;
-      if (!(words >> v.x() >> v.y() >> v.z())) {
-        fail(file, "line " + std::to_string(number) + ": a vertex needs three numbers");
-      }
-      soup.vertices.push_back(v);
-    }
-    else if (kind == "f") {
-      std::vector<int> polygon;
-      std::string word;
-      while (words >> word) {
-        polygon.push_back(objIndex(word, soup.vertices.size(), file, std::to_string(number)));
-      }
-      if (polygon.size() < 3) {
-        fail(file, "line " + std::to_string(number) + ": a face needs three vertices");
-      }
-      for (std::size_t i = 2; i < polygon.size(); ++i) {
-        soup.triangles.push_back({polygon[0], polygon[i - 1], polygon[i]});
-      }
-    }
-  }
-  return soup;
+  Eigen::Affine3d T;
+  T.matrix() << static_cast<double>(m.a1), static_cast<double>(m.a2), static_cast<double>(m.a3),
+      static_cast<double>(m.a4), static_cast<double>(m.b1), static_cast<double>(m.b2), static_cast<double>(m.b3),
+      static_cast<double>(m.b4), static_cast<double>(m.c1), static_cast<double>(m.c2), static_cast<double>(m.c3),
+      static_cast<double>(m.c4), 0., 0., 0., 1.;
+  return T;
 }
 
-void addTriangle(const std::array<Eigen::Vector3d, 3> &corners, Soup &soup)
+// A polygon becomes a fan, which holds all of it, also where it is not convex. Points and lines are left out.
+void add(const aiMesh &mesh, const aiFace &face, int first, Soup &soup, const std::string &file)
 {
+  for (unsigned int k = 0; k < face.mNumIndices; ++k) {
+    if (face.mIndices[k] >= mesh.mNumVertices) {
+      throw vpFileError(file + ": a face uses vertex " + std::to_string(face.mIndices[k]) + " of " +
+                        std::to_string(mesh.mNumVertices));
+    }
+  }
+  const auto at = [&](unsigned int k) { return first + static_cast<int>(face.mIndices[k]); };
+  for (unsigned int k = 2; k < face.mNumIndices; ++k) {
+    soup.triangles.push_back({at(0), at(k - 1), at(k)});
+  }
+  if (soup.triangles.size() > mostTriangles) {
+    throw vpFileError(file + ": has more than " + std::to_string(mostTriangles) + " triangles");
+  }
+}
+
+void add(const aiMesh &mesh, const Eigen::Affine3d &place, Soup &soup, const std::string &file)
+{
+  if (soup.vertices.size() + mesh.mNumVertices > 3 * mostTriangles) {
+    throw vpFileError(file + ": has more than " + std::to_string(3 * mostTriangles) + " vertices");
+  }
   const int first = static_cast<int>(soup.vertices.size());
-  soup.vertices.insert(soup.vertices.end(), corners.begin(), corners.end());
-  soup.triangles.push_back({first, first + 1, first + 2});
+  for (unsigned int i = 0; i < mesh.mNumVertices; ++i) {
+    const aiVector3D &v = mesh.mVertices[i];
+    soup.vertices.emplace_back(
+        place * Eigen::Vector3d(static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)));
+  }
+  for (unsigned int i = 0; i < mesh.mNumFaces; ++i) {
+    add(mesh, mesh.mFaces[i], first, soup, file);
+  }
 }
 
-Soup readTextStl(const std::string &text, const std::string &file)
+void add(const aiScene &scene, const aiNode &node, const Eigen::Affine3d &parent, Soup &soup, const std::string &file)
 {
-  Soup soup;
-  std::istringstream in(text);
-  std::string word;
-  std::array<Eigen::Vector3d, 3> corners;
-  std::size_t corner = 0;
-  while (in >> word) {
-    if (word == "vertex") {
-      if (!(in >> corners[corner].x() >> corners[corner].y() >> corners[corner].z())) {
-        fail(file, "triangle " + std::to_string(soup.triangles.size()) + ": a vertex needs three numbers");
-      }
-      if (++corner == 3) {
-        addTriangle(corners, soup);
-        corner = 0;
-      }
-    }
+  const Eigen::Affine3d place = parent * placeOf(node.mTransformation);
+  for (unsigned int i = 0; i < node.mNumMeshes; ++i) {
+    add(*scene.mMeshes[node.mMeshes[i]], place, soup, file);
   }
-  if (corner != 0) {
-    fail(file, "triangle " + std::to_string(soup.triangles.size()) + " is cut off");
+  for (unsigned int i = 0; i < node.mNumChildren; ++i) {
+    add(scene, *node.mChildren[i], place, soup, file);
+  }
+}
+
+Soup parse(const std::string &bytes, const std::string &extension, const std::string &file)
+{
+  Assimp::Importer importer;
+  // As RViz and MoveIt read Collada: its up axis is ignored, its unit is not.
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  // From memory: materials and pictures beside the file are not looked for.
+  const aiScene *scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0U, extension.c_str());
+  if (scene == nullptr) {
+    const std::string reason = importer.GetErrorString();
+    throw vpFileError(file + ": is no readable ." + extension + " file" + (reason.empty() ? "" : " (" + reason + ")"));
+  }
+  Soup soup;
+  if (scene->mRootNode != nullptr) {
+    add(*scene, *scene->mRootNode, Eigen::Affine3d::Identity(), soup, file);
   }
   return soup;
 }
 
-constexpr std::size_t stlHeader = 84, stlTriangle = 50;
-
-std::size_t binaryCount(const std::string &bytes)
+void requireScale(const std::string &file, const Eigen::Vector3d &scale)
 {
-  std::uint32_t count = 0;
-  std::memcpy(&count, bytes.data() + 80, sizeof(count));
-  return count;
-}
-
-Soup readBinaryStl(const std::string &bytes, const std::string &file)
-{
-  if (bytes.size() < stlHeader) {
-    fail(file, "is neither a text nor a binary STL file");
-  }
-  const std::size_t count = binaryCount(bytes);
-  if (bytes.size() < stlHeader + count * stlTriangle) {
-    fail(file, "says " + std::to_string(count) + " triangles and ends in triangle " +
-                   std::to_string((bytes.size() - stlHeader) / stlTriangle));
-  }
-  Soup soup;
-  for (std::size_t i = 0; i < count; ++i) {
-    float numbers[12];
-    std::memcpy(numbers, bytes.data() + stlHeader + i * stlTriangle, sizeof(numbers));
-    std::array<Eigen::Vector3d, 3> corners;
-    for (std::size_t k = 0; k < 3; ++k) {
-      corners[k] << numbers[3 + 3 * k], numbers[4 + 3 * k], numbers[5 + 3 * k];
+  for (int i = 0; i < 3; ++i) {
+    if (!std::isfinite(scale(i)) || scale(i) == 0.) {
+      throw vpException(vpException::badValue, "%s: scale along %c is %g, must be finite and not 0", file.c_str(),
+                        "xyz"[i], scale(i));
     }
-    addTriangle(corners, soup);
   }
-  return soup;
 }
 
-Soup readStl(const std::string &bytes, const std::string &file)
+vpTriangleMesh read(const std::string &file, const Eigen::Vector3d &scale)
 {
-  // Binary files may begin with "solid", too: the size decides.
-  const bool binary = bytes.size() >= stlHeader && bytes.size() == stlHeader + binaryCount(bytes) * stlTriangle;
-  return !binary && bytes.compare(0, 5, "solid") == 0 ? readTextStl(bytes, file) : readBinaryStl(bytes, file);
-}
-
-bool endsWith(const std::string &text, const char *end)
-{
-  const std::size_t n = std::strlen(end);
-  return text.size() >= n && text.compare(text.size() - n, n, end) == 0;
-}
-
-vpTriangleMesh read(const std::string &file, double scale)
-{
-  if (!std::isfinite(scale) || !(scale > 0.)) {
-    throw vpException(vpException::badValue, "%s: scale is %g, must be > 0 and finite", file.c_str(), scale);
+  requireScale(file, scale);
+  const std::string extension = lowerExtension(file);
+  if (extension != "stl" && extension != "obj" && extension != "dae" && extension != "ply") {
+    throw vpFileError(file + ": is no .stl, .obj, .dae or .ply file");
   }
-  const std::string bytes = vpReadFileText(file, vpLargestDataFile);
-  Soup soup;
-  if (endsWith(file, ".obj")) {
-    soup = readObj(bytes, file);
-  }
-  else if (endsWith(file, ".stl")) {
-    soup = readStl(bytes, file);
-  }
-  else {
-    fail(file, "is no .obj and no .stl file");
-  }
+  std::string bytes = vpReadFileText(file, vpLargestDataFile);
+  vpRequireMeshOutline(bytes, extension, file);
+  Soup soup = parse(bytes, extension, file);
   for (Eigen::Vector3d &v : soup.vertices) {
-    v *= scale;
+    v = v.cwiseProduct(scale);
+  }
+  if (scale.prod() < 0.) { // a mirrored triangle turns round
+    for (auto &t : soup.triangles) {
+      std::swap(t[1], t[2]);
+    }
   }
   return vpTriangleMesh(soup.vertices, soup.triangles, file);
 }
 } // namespace
 
 vpTriangleMesh vpTriangleMesh::load(const std::string &file, double scale)
+{
+  return vpReading([&] {
+    if (!(scale > 0.)) {
+      throw vpException(vpException::badValue, "%s: scale is %g, must be > 0 and finite", file.c_str(), scale);
+    }
+    return read(file, Eigen::Vector3d::Constant(scale));
+  });
+}
+
+vpTriangleMesh vpTriangleMesh::load(const std::string &file, const Eigen::Vector3d &scale)
 {
   return vpReading([&] { return read(file, scale); });
 }

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpTriangleMesh.h
- * \brief Triangle mesh, from memory or from an .obj or .stl file.
+ * \brief Triangle mesh, from memory or from a .stl, .obj, .dae or .ply file.
  */
 #ifndef vpTriangleMesh_h
 #define vpTriangleMesh_h
@@ -45,12 +45,16 @@ public:
   vpTriangleMesh(const std::vector<Eigen::Vector3d> &vertices, const std::vector<std::array<int, 3>> &triangles,
                  const std::string &label = "mesh");
   /*!
-   * Loads a mesh file.
-   * \param file : Wavefront .obj (only v and f lines are used; polygons become fans) or .stl, text or binary.
-   * \param scale : Metres per unit of the file, > 0: 0.001 for millimetres.
-   * \throw vpException (ioError) if the file cannot be read, (badValue) naming the file and its line or triangle.
+   * Loads a mesh file, read by assimp in single precision.
+   * \param file : STL (text or binary), Wavefront .obj, Collada .dae, .ply; upper or lower case. Only vertices, faces
+   * and, in Collada, their places and the unit are used; its up axis is ignored, as ROS does. Polygons become fans.
+   * \param scale : Metres per unit of the file (.dae: factor on its metres), > 0: 0.001 for millimetres.
+   * \throw vpException (ioError) if the file cannot be read, (badValue) naming the file and the reason,
+   * (notImplementedError) in a build without assimp.
    */
   [[nodiscard]] static vpTriangleMesh load(const std::string &file, double scale = 1.);
+  //! The same with a scale along each axis, not 0; negative ones mirror, and a solid stays one.
+  [[nodiscard]] static vpTriangleMesh load(const std::string &file, const Eigen::Vector3d &scale);
 
   //! Distinct vertices, m.
   [[nodiscard]] const std::vector<Eigen::Vector3d> &vertices() const &noexcept;

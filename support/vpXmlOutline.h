@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpXmlOutline.h
- * \brief Checks an XML text before it is passed to urdfdom, and lists its elements.
+ * \brief Checks an XML text before it is passed to another library, and lists its elements. Not installed.
  */
 #ifndef vpXmlOutline_h
 #define vpXmlOutline_h
@@ -26,11 +26,12 @@ struct vpXmlElement {
 /*!
  * Checks an XML text in one pass, without recursion, and lists its elements in their order.
  *
- * The parser of urdfdom recurses into nested elements without a bound and continues after some errors, and urdfdom
- * passes texts of the file to printf as a format. So the text must be well-formed, not nested deeper than
- * vpDeepestNesting, and without `%` in an attribute, except `filename`, which is never part of a message.
+ * The parsers of urdfdom and assimp recurse into nested elements without a bound and continue after some errors, and
+ * urdfdom passes texts of the file to printf as a format. So the text must be well-formed, not nested deeper than
+ * vpDeepestNesting, and, if \e forPrintf, without `%` in an attribute, except `filename`, which is never part of a
+ * message.
  * \throw vpFileError with the line of the error.
  */
-std::vector<vpXmlElement> vpReadXmlOutline(const std::string &text, const std::string &file);
+std::vector<vpXmlElement> vpReadXmlOutline(const std::string &text, const std::string &file, bool forPrintf = true);
 
 #endif

@@ -37,7 +37,8 @@ std::string decoded(const std::string &value)
 class Outline
 {
 public:
-  Outline(const std::string &text, const std::string &file) : m_text(text), m_file(file)
+  Outline(const std::string &text, const std::string &file, bool forPrintf)
+    : m_text(text), m_file(file), m_forPrintf(forPrintf)
   {
     if (text.compare(0, 3, "\xef\xbb\xbf") == 0) {
       m_at = 3;
@@ -195,7 +196,7 @@ private:
     if (value.find('<') != std::string::npos) {
       fail(m_at, "attribute " + field + " has a < in its value");
     }
-    if (value.find('%') != std::string::npos && field != "filename") {
+    if (m_forPrintf && value.find('%') != std::string::npos && field != "filename") {
       fail(m_at, "attribute " + field + " is " + vpPrintable(value, 60) + ", must be without %");
     }
     if (value.find("&#") != std::string::npos) { // character reference: could encode any of them
@@ -242,13 +243,14 @@ private:
 
   const std::string &m_text;
   const std::string &m_file;
+  bool m_forPrintf;
   std::size_t m_at = 0;
   std::vector<vpXmlElement> m_elements;
   std::vector<int> m_open; // the elements around the current position, by index
 };
 } // namespace
 
-std::vector<vpXmlElement> vpReadXmlOutline(const std::string &text, const std::string &file)
+std::vector<vpXmlElement> vpReadXmlOutline(const std::string &text, const std::string &file, bool forPrintf)
 {
-  return Outline(text, file).read();
+  return Outline(text, file, forPrintf).read();
 }
