@@ -154,14 +154,14 @@ TEST_CASE("Inertia, gravity and velocity torques are those of MuJoCo where masse
     for (const std::string &leaf : vpMujoco::Arm(file).leaves()) {
       if (const auto model = massive(file, leaf)) {
         vpMujoco::Arm oracle(file);
-        if (oracle.changesMassesOf(*model)) {
+        if (oracle.changesMassesOf(*model) || oracle.hasFollower(*model)) {
           continue;
         }
         oracle.keepMassesOf(*model);
         const auto [inertia, bias] = dynamicsDifference(*model, oracle, rng);
         CAPTURE(name, leaf, inertia, bias);
-        CHECK(inertia < 1e-8);
-        CHECK(bias < 1e-8);
+        CHECK(inertia < 1e-7); // MuJoCo brings inertias to their principal axes in steps: 1e-12 where they have no
+        CHECK(bias < 1e-7);    // products, up to 4e-8 where they have
         std::cout << name << ", " << leaf << ": M differs by " << inertia << ", C q' + g by " << bias << '\n';
         ++compared;
       }

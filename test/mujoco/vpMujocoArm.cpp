@@ -295,6 +295,17 @@ void Arm::keepMassesOf(const vpArmModel &model)
   }
 }
 
+bool Arm::hasFollower(const vpArmModel &model) const
+{
+  const std::vector<vpArmJointSpec> &joints = model.spec().joints;
+  const auto isOfChain = [&joints](const std::string &name) {
+    return std::any_of(joints.begin(), joints.end(),
+                       [&name](const vpArmJointSpec &joint) { return joint.name == name; });
+  };
+  return std::any_of(m_mimics.begin(), m_mimics.end(),
+                     [&isOfChain](const auto &mimic) { return isOfChain(mimic.second.of) && !isOfChain(mimic.first); });
+}
+
 bool Arm::changesMassesOf(const vpArmModel &model) const
 {
   return std::any_of(m_impossible.begin(), m_impossible.end(), [&](const std::string &name) {

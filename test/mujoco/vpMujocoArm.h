@@ -59,6 +59,8 @@ public:
   void keepMassesOf(const vpArmModel &model);
   //! True if MuJoCo changes an inertia that the joints of a model move, since no body has it.
   [[nodiscard]] bool changesMassesOf(const vpArmModel &model) const;
+  //! True if a joint beside the chain mimics one of it: its mass moves, where a vpArmModel takes it as fixed.
+  [[nodiscard]] bool hasFollower(const vpArmModel &model) const;
   //! Inertia matrix of the joints of a model, and C q' + g, after place().
   void dynamics(const vpArmModel &model, const vpJointVector &velocity, vpJointMatrix &M, vpJointVector &bias);
   //! Damping and friction of a joint.
