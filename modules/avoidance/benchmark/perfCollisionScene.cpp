@@ -34,29 +34,62 @@ const vpArmModel &arm()
   return model;
 }
 
-// Ten spheres, capsules, boxes and cylinders around the arm: 70 pairs, and 10 of 21 pairs of capsules.
+// The same arm with 30 thinner capsules about the seven, as a cover of its links by several has them.
+const vpArmModel &coveredArm()
+{
+  static const vpArmModel model = [] {
+    std::mt19937_64 rng(11);
+    std::uniform_real_distribution<double> u(-1., 1.);
+    vpArmSpec spec = arm().spec();
+    spec.capsules.clear();
+    for (int k = 0; k < 30; ++k) {
+      vpArmCapsule capsule = arm().spec().capsules[static_cast<std::size_t>(k % 7)];
+      const Eigen::Vector3d along = capsule.to - capsule.from, shift(u(rng), u(rng), u(rng));
+      const double begin = 0.3 * (k / 7 % 3), end = begin + 0.4;
+      capsule.to = capsule.from + end * along + 0.3 * capsule.radius * shift;
+      capsule.from = capsule.from + begin * along + 0.3 * capsule.radius * shift;
+      capsule.radius *= 0.9;
+      spec.capsules.push_back(capsule);
+    }
+    return vpArmModel(spec);
+  }();
+  return model;
+}
+
+// Spheres, capsules, boxes and cylinders around the arm; of the pairs of links ten are checked.
+vpCollisionScene makeScene(const vpArmModel &model, int objects)
+{
+  std::mt19937_64 rng(3);
+  std::uniform_real_distribution<double> u(-1., 1.);
+  vpCollisionSceneSpec spec;
+  for (int j = 0; j < objects; ++j) {
+    vpCollisionObject object;
+    object.name = "o" + std::to_string(j);
+    object.shape = j % 4 == 0   ? vpCollisionShape::sphere(0.08)
+                   : j % 4 == 1 ? vpCollisionShape::capsule(0.05, 0.3)
+                   : j % 4 == 2 ? vpCollisionShape::box({0.2, 0.1, 0.3})
+                                : vpCollisionShape::cylinder(0.06, 0.25);
+    Eigen::Vector3d p(u(rng), u(rng), u(rng));
+    object.pose.p = (0.7 + 0.3 * u(rng)) * p.normalized();
+    object.pose.R = vpSO3::exp(3. * Eigen::Vector3d(u(rng), u(rng), u(rng)));
+    spec.objects.push_back(object);
+  }
+  // 15 pairs are not adjacent; leave five out.
+  spec.allowedLinks = {{1, 3}, {2, 4}, {3, 5}, {4, 6}, {5, 7}};
+  return vpCollisionScene(model, spec);
+}
+
+// Ten objects: 70 pairs, and 10 of 21 pairs of capsules.
 const vpCollisionScene &scene()
 {
-  static const vpCollisionScene made = [] {
-    std::mt19937_64 rng(3);
-    std::uniform_real_distribution<double> u(-1., 1.);
-    vpCollisionSceneSpec spec;
-    for (int j = 0; j < 10; ++j) {
-      vpCollisionObject object;
-      object.name = "o" + std::to_string(j);
-      object.shape = j % 4 == 0   ? vpCollisionShape::sphere(0.08)
-                     : j % 4 == 1 ? vpCollisionShape::capsule(0.05, 0.3)
-                     : j % 4 == 2 ? vpCollisionShape::box({0.2, 0.1, 0.3})
-                                  : vpCollisionShape::cylinder(0.06, 0.25);
-      Eigen::Vector3d p(u(rng), u(rng), u(rng));
-      object.pose.p = (0.7 + 0.3 * u(rng)) * p.normalized();
-      object.pose.R = vpSO3::exp(3. * Eigen::Vector3d(u(rng), u(rng), u(rng)));
-      spec.objects.push_back(object);
-    }
-    // 15 pairs are not adjacent; leave five out.
-    spec.allowedLinks = {{1, 3}, {2, 4}, {3, 5}, {4, 6}, {5, 7}};
-    return vpCollisionScene(arm(), spec);
-  }();
+  static const vpCollisionScene made = makeScene(arm(), 10);
+  return made;
+}
+
+// 30 capsules and 20 objects: 600 pairs.
+const vpCollisionScene &coveredScene()
+{
+  static const vpCollisionScene made = makeScene(coveredArm(), 20);
   return made;
 }
 
@@ -82,26 +115,27 @@ const std::vector<vpJointVector> &configurations()
 struct Motion {
   vpJointVector from, to;
 };
+std::vector<Motion> makeMotions(const vpCollisionScene &among, bool free)
+{
+  std::vector<Motion> list;
+  const vpCertifiedMotion certified(among);
+  vpMotionScratch scratch;
+  for (std::size_t k = 0; list.size() < 256 && k + 1 < 16384; ++k) {
+    const vpJointVector from = configurations()[k % 1024], to = configurations()[(k * 7 + 1) % 1024];
+    const Motion m{from, from + (to - from) / (3. + static_cast<double>(k / 1024))};
+    if (!free || certified.check(m.from, m.to, scratch).isFree()) {
+      list.push_back(m);
+    }
+  }
+  return list;
+}
 const std::vector<Motion> &motions(bool onlyFree)
 {
-  static const auto make = [](bool free) {
-    std::vector<Motion> list;
-    const vpCertifiedMotion certified(scene());
-    vpMotionScratch scratch;
-    for (std::size_t k = 0; list.size() < 256 && k + 1 < 4096; ++k) {
-      const vpJointVector from = configurations()[k % 1024], to = configurations()[(k * 7 + 1) % 1024];
-      const Motion m{from, from + (to - from) / (3. + static_cast<double>(k / 1024))};
-      if (!free || certified.check(m.from, m.to, scratch).isFree()) {
-        list.push_back(m);
-      }
-    }
-    return list;
-  };
-  static const std::vector<Motion> all = make(false), free = make(true);
+  static const std::vector<Motion> all = makeMotions(scene(), false), free = makeMotions(scene(), true);
   return onlyFree ? free : all;
 }
 
-// Every one of the 80 distances, with nearest points.
+// The least distance of each link and object and of two links, with nearest points: here all of the 80.
 void allPairsOwn(benchmark::State &state)
 {
   vpCollisionData data;
@@ -129,6 +163,42 @@ void nearPairsOwn(benchmark::State &state)
   }
 }
 BENCHMARK(nearPairsOwn);
+
+void nearPairsOf30Capsules(benchmark::State &state)
+{
+  vpCollisionData data;
+  vpNearPairs near;
+  std::size_t k = 0, dropped = 0, pairs = 0;
+  for (auto _ : state) {
+    coveredScene().place(configurations()[k++ % 1024], data);
+    coveredScene().near(data, 0.35, near);
+    dropped += near.dropped ? 1 : 0;
+    pairs += static_cast<std::size_t>(near.count);
+    benchmark::DoNotOptimize(near.pairs.data());
+  }
+  state.counters["dropped_%"] = 100. * static_cast<double>(dropped) / static_cast<double>(k);
+  state.counters["pairs"] = static_cast<double>(pairs) / static_cast<double>(k);
+}
+BENCHMARK(nearPairsOf30Capsules);
+
+void reachBounds(benchmark::State &state)
+{
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(vpReachBounds(coveredArm()).holds(configurations()[0]));
+  }
+}
+BENCHMARK(reachBounds);
+
+// With reach bounds that the scene has already.
+void setUpOfCertifiedMotion(benchmark::State &state)
+{
+  for (auto _ : state) {
+    vpMotionScratch scratch;
+    benchmark::DoNotOptimize(
+        vpCertifiedMotion(coveredScene()).check(configurations()[0], configurations()[0], scratch).evaluated);
+  }
+}
+BENCHMARK(setUpOfCertifiedMotion);
 
 template <class Checker> void leastClearance(benchmark::State &state)
 {
@@ -171,6 +241,19 @@ void motionCertified(benchmark::State &state, bool free)
 }
 BENCHMARK_CAPTURE(motionCertified, free, true);
 BENCHMARK_CAPTURE(motionCertified, any, false);
+
+void motionOf30Capsules(benchmark::State &state)
+{
+  const vpCertifiedMotion certified(coveredScene());
+  vpMotionScratch scratch;
+  static const std::vector<Motion> list = makeMotions(coveredScene(), true);
+  std::size_t k = 0;
+  for (auto _ : state) {
+    const Motion &m = list[k++ % list.size()];
+    benchmark::DoNotOptimize(certified.check(m.from, m.to, scratch).evaluated);
+  }
+}
+BENCHMARK(motionOf30Capsules);
 
 template <class Checker> void motionDiscrete(benchmark::State &state, bool free)
 {

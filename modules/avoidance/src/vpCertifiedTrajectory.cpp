@@ -5,6 +5,7 @@
 #include <visp3/avoidance/vpCertifiedTrajectory.h>
 
 #include "vpCollisionCore.h"
+#include "vpLinkHull.h"
 
 #include <visp3/core/vpException.h>
 
@@ -30,7 +31,7 @@ double motionOf(const vpCollisionScene &scene, int object, double h)
 } // namespace
 
 vpCertifiedTrajectory::vpCertifiedTrajectory(const vpCollisionScene &scene, const vpCertifiedMotionSpec &spec)
-  : m_scene(&scene), m_spec(spec), m_reach(scene.arm())
+  : m_scene(&scene), m_spec(spec), m_reach(scene.reach())
 {
   if (!(spec.margin >= 0.) || !std::isfinite(spec.margin)) {
     throw vpException(vpException::badValue, "margin of the certified trajectory is %g m, must be >= 0 and finite",
@@ -93,7 +94,7 @@ bool vpCertifiedTrajectory::study(const vpTrajectoryPlan &plan) noexcept
 vpCertifiedTrajectory::Verdict vpCertifiedTrajectory::look(const vpTrajectoryPlan &plan, double middle, double half,
                                                            double objectTime, vpTrajectoryClearance &result) noexcept
 {
-  const int n = m_scene->arm().size(), capsules = m_scene->capsuleCount();
+  const int n = m_scene->arm().size();
   vpJointVector q(n), way(n);
   for (int j = 0; j < n; ++j) {
     const vpAxisState x = plan.at(j, middle);
@@ -101,17 +102,17 @@ vpCertifiedTrajectory::Verdict vpCertifiedTrajectory::look(const vpTrajectoryPla
     const double braked = std::fabs(x[1]) + m_kink(j) + 0.5 * m_acceleration(j) * half;
     way(j) = std::min(braked, m_speed(j)) * half + m_jump(j);
   }
-  const bool inRange = m_reach.holds(q, way);
-  if ((!inRange && !m_reach.holds(q)) || !(way.array() <= largestWay).all()) {
+  const bool inRange = m_reach->holds(q, way);
+  if ((!inRange && !m_reach->holds(q)) || !(way.array() <= largestWay).all()) {
     return Verdict::Bad;
   }
   double farthest = 0., objects = 0.;
-  for (int i = 0; i < capsules; ++i) {
+  for (const vpLinkHull &hull : m_scene->hulls()) {
     double sum = 0.;
-    for (int j = 0; j < n; ++j) {
-      sum += m_reach(i, j) * way(j);
+    for (int j = 0; j < hull.link; ++j) {
+      sum += m_reach->ofLink(hull.link, j) * way(j);
     }
-    m_motion[static_cast<std::size_t>(i)] = sum;
+    m_motion[static_cast<std::size_t>(hull.link)] = sum;
     farthest = std::max(farthest, sum);
   }
   for (int k = 0; k < m_scene->objectCount(); ++k) {
@@ -124,8 +125,10 @@ vpCertifiedTrajectory::Verdict vpCertifiedTrajectory::look(const vpTrajectoryPla
   Verdict verdict = m_near.dropped || !inRange ? Verdict::Split : Verdict::Free;
   for (int k = 0; k < m_near.count; ++k) {
     const vpClearance &pair = m_near.pairs[static_cast<std::size_t>(k)];
-    double moves = m_motion[static_cast<std::size_t>(pair.capsule)];
-    moves += pair.kind == vpCollisionKind::Self     ? m_motion[static_cast<std::size_t>(pair.other)]
+    // Of a link and an object, or of two links, it is the least: it proves the others, too.
+    const auto motionOfLink = [this](int i) { return m_motion[static_cast<std::size_t>(m_scene->capsule(i).link)]; };
+    double moves = motionOfLink(pair.capsule);
+    moves += pair.kind == vpCollisionKind::Self     ? motionOfLink(pair.other)
              : pair.kind == vpCollisionKind::Object ? motionOf(*m_scene, pair.other, half)
                                                     : 0.;
     result.least = std::min(result.least, pair.distance);

@@ -3,16 +3,16 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include "vpCollisionCore.h"
+#include "vpLinkHull.h"
 #include "vpPlausible.h"
-#include "vpPrintable.h"
+#include "vpSceneCheck.h"
 
 #include <visp3/avoidance/vpCollisionScene.h>
-#include <visp3/core/vpException.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <sstream>
+#include <mutex>
 
 BEGIN_VISP_NAMESPACE
 
@@ -27,50 +27,7 @@ unsigned long nextRevision()
   return ++last;
 }
 
-[[noreturn]] void fail(const std::string &source, const std::string &sentence)
-{
-  // Names may come from a file.
-  throw vpException(vpException::badValue, vpPrintable((source.empty() ? "scene" : source) + ": " + sentence));
-}
-
-std::string text(double value)
-{
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
-
-constexpr double fastest = 1e3; // m/s or rad/s: largest plausible object velocity
 constexpr double longest = 1e6; // s: largest prediction time
-
-// Written such that NaN is rejected, here and below.
-bool isPlausible(const vpTwist &velocity)
-{
-  return std::all_of(velocity.data(), velocity.data() + 6, [](double v) { return std::fabs(v) <= fastest; });
-}
-
-bool isLength(double value) { return value >= 0. && value <= vpLargestLength; }
-
-void checkObject(const std::string &source, const vpCollisionObject &object)
-{
-  if (object.name.empty()) {
-    fail(source, "an object has no name");
-  }
-  if (!vpIsRigid(object.pose)) {
-    fail(source, "pose of object " + object.name + " is not a rotation and a finite translation");
-  }
-  if (!vpIsPlace(object.pose)) {
-    fail(source, "object " + object.name + " is " + text(object.pose.p.cwiseAbs().maxCoeff()) +
-                     " m away, must be within " + text(vpLargestLength) + " m");
-  }
-  if (!isPlausible(object.velocity)) {
-    fail(source, "velocity of object " + object.name + " is not finite or above " + text(fastest) + " m/s or rad/s");
-  }
-  if (!isLength(object.inflation)) {
-    fail(source, "inflation of object " + object.name + " is " + text(object.inflation) + " m, must be 0 to " +
-                     text(vpLargestLength));
-  }
-}
 
 // In the moving frame of the joint that carries the link.
 std::vector<vpArmCapsule> placedOnJoints(const vpArmModel &arm)
@@ -84,74 +41,6 @@ std::vector<vpArmCapsule> placedOnJoints(const vpArmModel &arm)
     }
   }
   return capsules;
-}
-
-bool areAdjacent(const std::vector<vpArmCapsule> &capsules, int low, int high)
-{
-  return std::none_of(capsules.begin(), capsules.end(),
-                      [low, high](const vpArmCapsule &c) { return c.link > low && c.link < high; });
-}
-
-std::vector<vpSelfPair> findSelfPairs(const std::vector<vpArmCapsule> &capsules, const vpCollisionSceneSpec &spec)
-{
-  std::vector<vpSelfPair> pairs;
-  const int m = static_cast<int>(capsules.size());
-  for (int i = 0; i < m; ++i) {
-    for (int k = 0; k < m; ++k) {
-      const int low = capsules[at(i)].link, high = capsules[at(k)].link;
-      const auto isPair = [low, high](const std::pair<int, int> &p) {
-        return std::min(p.first, p.second) == low && std::max(p.first, p.second) == high;
-      };
-      if (low < high && !(spec.allowAdjacent && areAdjacent(capsules, low, high)) &&
-          std::none_of(spec.allowedLinks.begin(), spec.allowedLinks.end(), isPair)) {
-        pairs.push_back({i, k});
-      }
-    }
-  }
-  return pairs;
-}
-
-// A body that no check sees must be ignored by name.
-void checkBodies(const vpArmModel &arm, const vpCollisionSceneSpec &spec)
-{
-  const std::vector<std::string> &uncovered = arm.spec().uncovered;
-  const auto has = [](const std::vector<std::string> &names, const std::string &name) {
-    return std::find(names.begin(), names.end(), name) != names.end();
-  };
-  for (const std::string &body : uncovered) {
-    if (!has(spec.ignoredBodies, body)) {
-      fail(spec.source,
-           "body " + body + " of " + arm.label() +
-               " has a shape that no capsule covers and no check would see; cover it or ignore it by name");
-    }
-  }
-  for (const std::string &body : spec.ignoredBodies) {
-    if (!has(uncovered, body)) {
-      fail(spec.source, "ignored body " + body + " is not one of the uncovered bodies of " + arm.label());
-    }
-  }
-}
-
-void checkLinks(const vpArmModel &arm, const vpCollisionSceneSpec &spec)
-{
-  const auto inRange = [&arm](int link, int low) { return link >= low && link <= arm.size(); };
-  const std::string range = std::to_string(arm.size());
-  for (const auto &pair : spec.allowedLinks) {
-    if (!inRange(pair.first, 0) || !inRange(pair.second, 0) || pair.first == pair.second) {
-      fail(spec.source, "allowed pair of links " + std::to_string(pair.first) + " and " + std::to_string(pair.second) +
-                            ", must be two of 0 to " + range);
-    }
-  }
-  for (const vpAllowedContact &contact : spec.allowedContacts) {
-    if (!inRange(contact.link, 1)) {
-      fail(spec.source, "allowed contact of object " + contact.object + " with link " + std::to_string(contact.link) +
-                            ", must be 1 to " + range);
-    }
-  }
-  if (spec.ground && !inRange(spec.ground->firstLink, 1)) {
-    fail(spec.source,
-         "first link of the ground is " + std::to_string(spec.ground->firstLink) + ", must be 1 to " + range);
-  }
 }
 
 vpClearance unknownClearance() noexcept
@@ -178,6 +67,7 @@ bool areApart(const Eigen::Vector3d &a, const Eigen::Vector3d &b, double radii, 
 // Visitors of a query: they get the pairs below their cutoff and may stop.
 struct Any {
   double margin;
+  static void close() noexcept {}
   bool found = false;
   // Slightly more, so that a contact exactly at the margin is still found.
   [[nodiscard]] double cutoff() const noexcept { return margin + 1e-12; }
@@ -190,6 +80,7 @@ struct Any {
 
 struct Least {
   vpClearance best;
+  static void close() noexcept {}
   [[nodiscard]] double cutoff() const noexcept { return best.distance; }
   bool take(const vpClearance &pair) noexcept
   {
@@ -200,60 +91,77 @@ struct Least {
   }
 };
 
-struct All {
+// Of the pairs between two calls of close() the least.
+struct Nearest {
   vpNearPairs &list;
   double limit;
-  [[nodiscard]] double cutoff() const noexcept { return limit; }
+  vpClearance best;
+  Nearest(vpNearPairs &into, double cutoff) noexcept : list(into), limit(cutoff) { best.distance = cutoff; }
+  [[nodiscard]] double cutoff() const noexcept { return best.distance; }
   bool take(const vpClearance &pair) noexcept
   {
-    if (pair.distance >= limit) {
-      return false;
+    if (pair.distance < best.distance) {
+      best = pair;
     }
+    return false;
+  }
+  void close() noexcept
+  {
+    if (best.kind != vpCollisionKind::None) {
+      add();
+      best = vpClearance();
+      best.distance = limit;
+    }
+  }
+
+private:
+  void add() noexcept
+  {
     if (list.count < vpNearPairs::capacity) {
-      list.pairs[at(list.count++)] = pair;
-      return false;
+      list.pairs[at(list.count++)] = best;
+      return;
     }
     list.dropped = true;
     auto farthest =
         std::max_element(list.pairs.begin(), list.pairs.end(),
                          [](const vpClearance &a, const vpClearance &b) { return a.distance < b.distance; });
-    if (pair.distance < farthest->distance) {
-      *farthest = pair;
+    if (best.distance < farthest->distance) {
+      *farthest = best;
     }
-    return false;
   }
 };
 } // namespace
 
+struct vpCollisionScene::Reach {
+  std::once_flag made;
+  std::shared_ptr<const vpReachBounds> bounds;
+};
+
+struct vpCollisionScene::Links {
+  std::vector<vpLinkHull> hulls;
+  std::vector<vpLinkPair> pairs;
+};
+
 vpCollisionScene::vpCollisionScene(const vpArmModel &arm, const vpCollisionSceneSpec &spec)
-  : m_arm(arm), m_source(spec.source), m_capsules(placedOnJoints(arm)), m_contacts(spec.allowedContacts)
+  : m_arm(arm), m_source(spec.source), m_capsules(placedOnJoints(arm)), m_reach(std::make_shared<Reach>()),
+    m_exact(spec.exact), m_contacts(spec.allowedContacts)
 {
-  if (m_capsules.empty() || m_capsules.size() > at(vpArmMaxCapsules)) {
-    fail(m_source, arm.label() + " has " + std::to_string(m_capsules.size()) + " capsules, must have 1 to " +
-                       std::to_string(vpArmMaxCapsules));
-  }
   m_revision = nextRevision();
-  checkBodies(arm, spec);
-  checkLinks(arm, spec);
-  m_selfPairs = findSelfPairs(m_capsules, spec);
-  if (spec.ground) {
-    m_ground = spec.ground;
-    const double length = m_ground->normal.norm();
-    if (!std::isfinite(length) || !(length > 0.)) {
-      fail(m_source, "ground has no normal");
-    }
-    if (!(std::fabs(m_ground->offset) <= vpLargestLength)) {
-      fail(m_source,
-           "offset of the ground is " + text(m_ground->offset) + " m, must be within " + text(vpLargestLength) + " m");
-    }
-    m_ground->normal /= length;
+  vpCheckArm(arm, spec);
+  auto links = std::make_shared<Links>();
+  links->hulls = vpFindHulls(m_capsules);
+  links->pairs = vpFindPairs(arm, spec, links->hulls, m_selfPairs);
+  m_links = links;
+  m_ground = spec.ground;
+  if (m_ground) {
+    m_ground->normal.normalize();
   }
   for (const vpCollisionObject &object : spec.objects) {
     add(object);
   }
   for (const vpAllowedContact &contact : m_contacts) {
     if (find(contact.object) < 0) {
-      fail(m_source, "allowed contact with object " + contact.object + ", which does not exist");
+      vpSceneFail(m_source, "allowed contact with object " + contact.object + ", which does not exist");
     }
   }
 }
@@ -265,6 +173,14 @@ vpCollisionScene &vpCollisionScene::operator=(vpCollisionScene &&other) noexcept
 vpCollisionScene::~vpCollisionScene() = default;
 
 const vpCollisionCore &vpCollisionScene::core(int i) const noexcept { return m_cores[at(i)]; }
+const std::vector<vpLinkHull> &vpCollisionScene::hulls() const noexcept { return m_links->hulls; }
+const std::vector<vpLinkPair> &vpCollisionScene::linkPairs() const noexcept { return m_links->pairs; }
+
+std::shared_ptr<const vpReachBounds> vpCollisionScene::reach() const
+{
+  std::call_once(m_reach->made, [this] { m_reach->bounds = std::make_shared<vpReachBounds>(m_arm); });
+  return m_reach->bounds;
+}
 
 int vpCollisionScene::find(const std::string &name) const noexcept
 {
@@ -278,7 +194,7 @@ int vpCollisionScene::find(const std::string &name) const noexcept
 
 bool vpCollisionScene::isChecked(int capsule, int object) const noexcept
 {
-  return (m_checked[at(object)] >> capsule & 1U) != 0;
+  return (m_checked[at(object)] >> m_capsules[at(capsule)].link & 1U) != 0;
 }
 
 bool vpCollisionScene::isCheckedWithGround(int capsule) const noexcept
@@ -288,17 +204,16 @@ bool vpCollisionScene::isCheckedWithGround(int capsule) const noexcept
 
 int vpCollisionScene::add(const vpCollisionObject &object)
 {
-  checkObject(m_source, object);
+  vpCheckObject(m_source, object);
   if (find(object.name) >= 0) {
-    fail(m_source, "object " + object.name + ": duplicate name");
+    vpSceneFail(m_source, "object " + object.name + ": duplicate name");
   }
   std::uint32_t checked = 0;
-  for (std::size_t i = 0; i < m_capsules.size(); ++i) {
-    const int link = m_capsules[i].link;
+  for (int link = 1; link <= m_arm.size(); ++link) {
     const bool allowed = std::any_of(m_contacts.begin(), m_contacts.end(), [&](const vpAllowedContact &contact) {
       return contact.object == object.name && contact.link == link;
     });
-    checked |= link > 0 && !allowed ? 1U << i : 0U;
+    checked |= allowed ? 0U : 1U << link;
   }
   m_objects.push_back(object);
   m_cores.emplace_back(object);
@@ -310,8 +225,8 @@ int vpCollisionScene::add(const vpCollisionObject &object)
 void vpCollisionScene::remove(int i)
 {
   if (i < 0 || i >= objectCount()) {
-    fail(m_source,
-         "there is no object " + std::to_string(i) + " to remove, there are " + std::to_string(objectCount()));
+    vpSceneFail(m_source,
+                "there is no object " + std::to_string(i) + " to remove, there are " + std::to_string(objectCount()));
   }
   m_objects.erase(m_objects.begin() + i);
   m_cores.erase(m_cores.begin() + i);
@@ -331,7 +246,7 @@ bool vpCollisionScene::moveObject(int i, const vpRigidTransform &pose) noexcept
 
 bool vpCollisionScene::setVelocity(int i, const vpTwist &velocity) noexcept
 {
-  if (i < 0 || i >= objectCount() || !isPlausible(velocity)) {
+  if (i < 0 || i >= objectCount() || !vpIsPlausible(velocity)) {
     return false;
   }
   m_objects[at(i)].velocity = velocity;
@@ -340,7 +255,7 @@ bool vpCollisionScene::setVelocity(int i, const vpTwist &velocity) noexcept
 
 bool vpCollisionScene::setInflation(int i, double inflation) noexcept
 {
-  if (i < 0 || i >= objectCount() || !isLength(inflation)) {
+  if (i < 0 || i >= objectCount() || !vpIsLength(inflation)) {
     return false;
   }
   m_cores[at(i)].radius += inflation - m_objects[at(i)].inflation;
@@ -378,9 +293,18 @@ void vpCollisionScene::place(const vpJointVector &q, vpCollisionData &data) cons
     to.halfLength = 0.5 * (from.to - from.from).norm();
     to.radius = from.radius;
   }
+  for (const vpLinkHull &hull : m_links->hulls) {
+    Eigen::Vector3d &centre = data.centres[at(hull.link)];
+    centre = hull.centre;
+    if (hull.link > 0) {
+      const vpRigidTransform &joint = data.arm.joint[at(hull.link - 1)];
+      centre = joint.R * hull.centre + joint.p;
+    }
+  }
 }
 
-// Visits every pair that must not touch and whose bounding spheres are nearer than the visitor's cutoff.
+// Visits every pair that must not touch and whose bounding spheres are nearer than the visitor's cutoff; close() ends
+// those of a link and an object, of two links, or of a link and the ground.
 template <class Visit>
 void vpCollisionScene::visit(const vpCollisionData &data, double time, Visit &visitor) const noexcept
 {
@@ -397,18 +321,30 @@ void vpCollisionScene::visit(const vpCollisionData &data, double time, Visit &vi
       return;
     }
   }
-  for (const vpSelfPair &pair : m_selfPairs) {
-    const vpPlacedCapsule &a = data.capsules[at(pair.first)], &b = data.capsules[at(pair.second)];
-    const double radii = a.halfLength + a.radius + b.halfLength + b.radius;
-    if (!areApart(a.centre, b.centre, radii, visitor.cutoff()) &&
-        visitor.take(selfPair(data, pair.first, pair.second))) {
-      return;
+  for (const vpLinkPair &links : m_links->pairs) {
+    const vpLinkHull &first = m_links->hulls[at(links.first)], &second = m_links->hulls[at(links.second)];
+    if (areApart(data.centres[at(first.link)], data.centres[at(second.link)], first.radius + second.radius,
+                 visitor.cutoff())) {
+      continue;
     }
+    for (int k = links.begin; k < links.end; ++k) {
+      const vpSelfPair &pair = m_selfPairs[at(k)];
+      const vpPlacedCapsule &a = data.capsules[at(pair.first)], &b = data.capsules[at(pair.second)];
+      const double radii = a.halfLength + a.radius + b.halfLength + b.radius;
+      if (!areApart(a.centre, b.centre, radii, visitor.cutoff()) &&
+          visitor.take(selfPair(data, pair.first, pair.second))) {
+        return;
+      }
+    }
+    visitor.close();
   }
-  for (int i = 0; m_ground && i < capsuleCount(); ++i) {
-    if (isCheckedWithGround(i) && visitor.take(groundPair(data, i))) {
-      return;
+  for (const vpLinkHull &hull : m_links->hulls) {
+    for (const int i : hull.capsules) {
+      if (isCheckedWithGround(i) && visitor.take(groundPair(data, i))) {
+        return;
+      }
     }
+    visitor.close();
   }
 }
 
@@ -416,18 +352,35 @@ template <class Visit>
 bool vpCollisionScene::visitObject(const vpCollisionData &data, int j, const vpCollisionCore &core,
                                    Visit &visitor) const noexcept
 {
-  for (int i = 0; i < capsuleCount(); ++i) {
-    const vpPlacedCapsule &c = data.capsules[at(i)];
-    const double radii = c.halfLength + c.radius + core.bound + core.radius;
-    if (!isChecked(i, j) || areApart(c.centre, core.centre, radii, visitor.cutoff())) {
+  for (const vpLinkHull &hull : m_links->hulls) {
+    if ((m_checked[at(j)] >> hull.link & 1U) == 0 ||
+        areApart(data.centres[at(hull.link)], core.centre, hull.radius + core.bound + core.radius, visitor.cutoff())) {
       continue;
     }
-    vpClearance pair = core.clearance(c, visitor.cutoff());
-    pair.capsule = i;
-    pair.other = j;
-    if (visitor.take(pair)) {
-      return true;
+    // The one with the nearest centre first: it rules out most others.
+    const std::size_t count = hull.capsules.size();
+    std::size_t first = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; count > 1 && k < count; ++k) {
+      const double square = (data.capsules[at(hull.capsules[k])].centre - core.centre).squaredNorm();
+      first = square < least ? k : first;
+      least = std::min(least, square);
     }
+    for (std::size_t k = 0; k < count; ++k) {
+      const int i = hull.capsules[first + k < count ? first + k : first + k - count];
+      const vpPlacedCapsule &c = data.capsules[at(i)];
+      const double radii = c.halfLength + c.radius + core.bound + core.radius;
+      if (areApart(c.centre, core.centre, radii, visitor.cutoff())) {
+        continue;
+      }
+      vpClearance pair = core.clearance(c, visitor.cutoff());
+      pair.capsule = i;
+      pair.other = j;
+      if (visitor.take(pair)) {
+        return true;
+      }
+    }
+    visitor.close();
   }
   return false;
 }
@@ -463,8 +416,8 @@ void vpCollisionScene::near(const vpCollisionData &data, double cutoff, vpNearPa
   if (result.dropped) {
     return;
   }
-  All all{result, cutoff};
-  visit(data, time, all);
+  Nearest nearest(result, cutoff);
+  visit(data, time, nearest);
 }
 
 vpClearance vpCollisionScene::pair(const vpCollisionData &data, int capsule, int object, double time) const noexcept

@@ -69,13 +69,13 @@ constexpr int lanes = 8;
 } // namespace eight
 
 using Entry = void (*)(const vpEdgeMotion &, const vpEdgePair *, const std::uint32_t *, int, double, double,
-                       std::uint8_t *, vpEdgeBatch &);
+                       vpEdgeBatch &);
 
 void evaluateBaseline(const vpEdgeMotion &motion, const vpEdgePair *pairs, const std::uint32_t *list, int count,
-                      double start, double piece, std::uint8_t *unproven, vpEdgeBatch &batch)
+                      double start, double piece, vpEdgeBatch &batch)
 {
   for (int group = 0; group < 8; group += 2) {
-    if (!two::evaluate(motion, pairs, list, count, start, piece, group, unproven, batch)) {
+    if (!two::evaluate(motion, pairs, list, count, start, piece, group, batch)) {
       return;
     }
   }
@@ -83,10 +83,10 @@ void evaluateBaseline(const vpEdgeMotion &motion, const vpEdgePair *pairs, const
 
 VP_TARGET("avx2,fma")
 void evaluateAvx2(const vpEdgeMotion &motion, const vpEdgePair *pairs, const std::uint32_t *list, int count,
-                  double start, double piece, std::uint8_t *unproven, vpEdgeBatch &batch)
+                  double start, double piece, vpEdgeBatch &batch)
 {
   for (int group = 0; group < 8; group += 4) {
-    if (!four::evaluate(motion, pairs, list, count, start, piece, group, unproven, batch)) {
+    if (!four::evaluate(motion, pairs, list, count, start, piece, group, batch)) {
       return;
     }
   }
@@ -94,9 +94,9 @@ void evaluateAvx2(const vpEdgeMotion &motion, const vpEdgePair *pairs, const std
 
 VP_TARGET("avx512f,avx512dq,avx512vl,avx2,fma")
 void evaluateAvx512(const vpEdgeMotion &motion, const vpEdgePair *pairs, const std::uint32_t *list, int count,
-                    double start, double piece, std::uint8_t *unproven, vpEdgeBatch &batch)
+                    double start, double piece, vpEdgeBatch &batch)
 {
-  static_cast<void>(eight::evaluate(motion, pairs, list, count, start, piece, 0, unproven, batch));
+  static_cast<void>(eight::evaluate(motion, pairs, list, count, start, piece, 0, batch));
 }
 
 Entry chooseEntry()
@@ -119,15 +119,16 @@ std::atomic<Entry> chosen{nullptr};
 } // namespace
 
 void vpEvaluateEdge(const vpEdgeMotion &motion, const vpEdgePair *pairs, const std::uint32_t *list, int count,
-                    double start, double width, std::uint8_t *unproven, vpEdgeBatch &batch) noexcept
+                    double start, double width, vpEdgeBatch &batch) noexcept
 {
   batch.hitPair = -1;
+  batch.count = 0;
   Entry entry = chosen.load(std::memory_order_relaxed);
   if (!entry) {
     entry = chooseEntry();
     chosen.store(entry, std::memory_order_relaxed);
   }
-  entry(motion, pairs, list, count, start, width / 8., unproven, batch);
+  entry(motion, pairs, list, count, start, width / 8., batch);
 }
 
 END_VISP_NAMESPACE

@@ -56,7 +56,7 @@ VP_KERNEL_INLINE void turns(double first, double step, vpLane &c, vpLane &s)
 // vpArmKinematics::forward() for every lane, with the velocities of the links along the motion.
 VP_KERNEL_INLINE void placeArm(const vpEdgeMotion &motion, double first, double step, Frame *frames, Twist *twists)
 {
-  const vpArmModel &arm = motion.scene->arm();
+  const vpArmModel &arm = *motion.arm;
   Frame now = {filled(1., 0., 0.), filled(0., 1., 0.), filled(0., 0., 1.), filled(0., 0., 0.)};
   Twist twist = {now.p, now.p};
   for (int i = 0; i < arm.size(); ++i) {
@@ -86,27 +86,22 @@ VP_KERNEL_INLINE void placeArm(const vpEdgeMotion &motion, double first, double 
   }
 }
 
-VP_KERNEL_INLINE void placeCapsules(const vpCollisionScene &scene, const Frame *frames, const Twist *twists,
-                                    Capsule *capsules)
+VP_KERNEL_INLINE void placeCapsule(const vpEdgeCapsule &c, const Frame *frames, const Twist *twists, Capsule &to)
 {
-  for (int i = 0; i < scene.capsuleCount(); ++i) {
-    const vpArmCapsule &c = scene.capsule(i);
-    Capsule &to = capsules[i];
-    if (c.link == 0) {
-      to.from = filled(c.from);
-      to.to = filled(c.to);
-      to.fromRate = to.toRate = filled(0., 0., 0.);
-      to.centre = filled(0.5) * (to.from + to.to);
-      to.fastest = filled(0.);
-      continue;
-    }
-    to.from = place(frames[c.link - 1], c.from);
-    to.to = place(frames[c.link - 1], c.to);
-    to.fromRate = rate(twists[c.link - 1], to.from);
-    to.toRate = rate(twists[c.link - 1], to.to);
+  if (c.link == 0) {
+    to.from = filled(c.from);
+    to.to = filled(c.to);
+    to.fromRate = to.toRate = filled(0., 0., 0.);
     to.centre = filled(0.5) * (to.from + to.to);
-    to.fastest = larger(norm(to.fromRate), norm(to.toRate));
+    to.fastest = filled(0.);
+    return;
   }
+  to.from = place(frames[c.link - 1], c.from);
+  to.to = place(frames[c.link - 1], c.to);
+  to.fromRate = rate(twists[c.link - 1], to.from);
+  to.toRate = rate(twists[c.link - 1], to.to);
+  to.centre = filled(0.5) * (to.from + to.to);
+  to.fastest = larger(norm(to.fromRate), norm(to.toRate));
 }
 
 // Transforms into the axes of an object.
@@ -192,83 +187,136 @@ VP_KERNEL_INLINE bool all(const vpLane &slack)
   return yes;
 }
 
-VP_KERNEL_INLINE Verdict judgeObject(const Capsule &c, const vpEdgePair &pair, double half)
+//! Numbers of a pair that are the same for all lanes.
+struct Size {
+  double radii;  // Sum of both radii and the margin, m.
+  double bounds; // Sum of both bounding spheres of the cores, both radii and the margin, m.
+};
+
+VP_KERNEL_INLINE Verdict judgeObject(const vpCollisionCore &core, const Capsule &c, const Size &size,
+                                     const vpEdgeBound &bound, double half)
 {
-  const vpCollisionCore &core = *pair.core;
-  const double radii = pair.radii;
-  const vpLane need = smaller(filled(half * pair.speed), half * c.fastest + 0.5 * half * half * pair.acceleration);
+  const vpLane need = smaller(filled(half * bound.speed), half * c.fastest + 0.5 * half * half * bound.acceleration);
   // Bounding spheres first: sufficient for most pairs.
-  const vpLane apart = norm(c.centre - filled(core.centre)) - pair.bounds;
+  const vpLane apart = norm(c.centre - filled(core.centre)) - size.bounds;
   if (all(apart - need)) {
     return {apart, apart - need};
   }
-  return core.isConvex() ? judge(toCore(core, c), c, need, radii, half, pair.acceleration)
-                         : walk(core, c, need, apart, radii);
+  return core.isConvex() ? judge(toCore(core, c), c, need, size.radii, half, bound.acceleration)
+                         : walk(core, c, need, apart, size.radii);
 }
 
 // In the frame of the inner capsule's link, where that capsule is at rest.
 VP_KERNEL_INLINE Verdict judgeSelf(const Capsule &inner, const Twist &innerTwist, const Capsule &outer,
-                                   const vpEdgePair &pair, double half)
+                                   const Size &size, const vpEdgeBound &bound, double half)
 {
-  const double radii = pair.radii;
   Capsule seen = outer;
   seen.fromRate = outer.fromRate - rate(innerTwist, outer.from);
   seen.toRate = outer.toRate - rate(innerTwist, outer.to);
   const vpLane fastest = larger(norm(seen.fromRate), norm(seen.toRate));
-  const vpLane need = smaller(filled(half * pair.speed), half * fastest + 0.5 * half * half * pair.acceleration);
-  const vpLane apart = norm(outer.centre - inner.centre) - pair.bounds;
+  const vpLane need = smaller(filled(half * bound.speed), half * fastest + 0.5 * half * half * bound.acceleration);
+  const vpLane apart = norm(outer.centre - inner.centre) - size.bounds;
   if (all(apart - need)) {
     return {apart, apart - need};
   }
-  return judge(toSegment(outer.from, outer.to, inner.from, inner.to), seen, need, radii, half, pair.acceleration);
+  return judge(toSegment(outer.from, outer.to, inner.from, inner.to), seen, need, size.radii, half, bound.acceleration);
 }
 
-VP_KERNEL_INLINE Verdict judgeGround(const vpHalfSpace &ground, const Capsule &c, const vpEdgePair &pair, double half)
+VP_KERNEL_INLINE Verdict judgeGround(const vpHalfSpace &ground, const Capsule &c, const Size &size,
+                                     const vpEdgeBound &bound, double half)
 {
-  const double radii = pair.radii;
   const Vector normal = filled(ground.normal);
   const vpLane from = dot(normal, c.from) - ground.offset, to = dot(normal, c.to) - ground.offset;
-  return {smaller(from, to) - radii, smaller(leftOf(normal, from, c.fromRate, radii, half, pair.acceleration),
-                                             leftOf(normal, to, c.toRate, radii, half, pair.acceleration))};
+  return {smaller(from, to) - size.radii,
+          smaller(leftOf(normal, from, c.fromRate, size.radii, half, bound.acceleration),
+                  leftOf(normal, to, c.toRate, size.radii, half, bound.acceleration))};
+}
+
+//! The arm at the lanes; capsules are placed when they are needed.
+struct Arm {
+  Frame frames[vpArmMaxJoints];
+  Twist twists[vpArmMaxJoints];
+  Capsule capsules[vpEdgeMostCapsules];
+  bool placed[vpEdgeMostCapsules];
+};
+
+VP_KERNEL_INLINE const Capsule &capsuleAt(const vpEdgeMotion &motion, int i, Arm &arm)
+{
+  if (!arm.placed[i]) {
+    placeCapsule(motion.capsules[i], arm.frames, arm.twists, arm.capsules[i]);
+    arm.placed[i] = true;
+  }
+  return arm.capsules[i];
+}
+
+VP_KERNEL_INLINE Verdict judgePair(const vpEdgeMotion &motion, const vpEdgePair &pair, double half, Arm &arm)
+{
+  const vpEdgeCapsule &own = motion.capsules[pair.capsule];
+  const Capsule &c = capsuleAt(motion, pair.capsule, arm);
+  const vpEdgeBound &bound =
+      motion.bounds[static_cast<std::size_t>(own.link)][static_cast<std::size_t>(pair.innerLink)];
+  const double radius = own.radius + motion.margin;
+  if (pair.kind == vpCollisionKind::Object) {
+    const vpCollisionCore &core = motion.cores[pair.other];
+    const double radii = radius + core.radius;
+    return judgeObject(core, c, {radii, radii + own.halfLength + core.bound}, bound, half);
+  }
+  if (pair.kind == vpCollisionKind::Self) {
+    const vpEdgeCapsule &other = motion.capsules[pair.other];
+    const double radii = radius + other.radius;
+    const Twist still = {filled(0., 0., 0.), filled(0., 0., 0.)};
+    return judgeSelf(capsuleAt(motion, pair.other, arm), pair.innerLink > 0 ? arm.twists[pair.innerLink - 1] : still, c,
+                     {radii, radii + own.halfLength + other.halfLength}, bound, half);
+  }
+  return judgeGround(*motion.ground, c, {radius, radius}, bound, half);
+}
+
+// Bits of the lanes that the numbers do not exceed; written such that NaN exceeds nothing.
+VP_KERNEL_INLINE unsigned int lanesBelow(const vpLane &value, double limit)
+{
+  unsigned int mask = 0;
+  for (int l = 0; l < lanes; ++l) {
+    mask |= value[l] > limit ? 0U : 1U << l;
+  }
+  return mask;
 }
 
 // Lanes group..group + lanes - 1 of the eight. False when a pair collides.
 VP_KERNEL_INLINE bool evaluate(const vpEdgeMotion &motion, const vpEdgePair *pairs, const std::uint32_t *list,
-                               int count, double start, double piece, int group, std::uint8_t *unproven,
-                               vpEdgeBatch &batch)
+                               int count, double start, double piece, int group, vpEdgeBatch &batch)
 {
-  const vpCollisionScene &scene = *motion.scene;
-  Frame frames[vpArmMaxJoints];
-  Twist twists[vpArmMaxJoints];
-  Capsule capsules[vpArmMaxCapsules];
-  placeArm(motion, start + (group + 0.5) * piece, piece, frames, twists);
-  placeCapsules(scene, frames, twists, capsules);
-  const Twist still = {filled(0., 0., 0.), filled(0., 0., 0.)};
+  Arm arm;
+  std::fill_n(arm.placed, vpEdgeMostCapsules, false);
+  placeArm(motion, start + (group + 0.5) * piece, piece, arm.frames, arm.twists);
   const double half = 0.5 * piece;
   vpLane tightest = filled(std::numeric_limits<double>::infinity());
-  for (int k = 0; k < count; ++k) {
-    const vpEdgePair &pair = pairs[list[k]];
-    const Capsule &c = capsules[pair.capsule];
-    Verdict v;
-    if (pair.kind == vpCollisionKind::Object) {
-      v = judgeObject(c, pair, half);
-    }
-    else if (pair.kind == vpCollisionKind::Self) {
-      v = judgeSelf(capsules[pair.other], pair.innerLink > 0 ? twists[pair.innerLink - 1] : still, c, pair, half);
-    }
-    else {
-      v = judgeGround(*motion.ground, c, pair, half);
+  std::uint32_t child = 0, lastChild = 0; // those of a bounding pair come after it
+  for (int k = 0; k < count || child < lastChild;) {
+    const std::uint32_t index = child < lastChild ? child++ : list[k++];
+    const vpEdgePair &pair = pairs[index];
+    const Verdict v = judgePair(motion, pair, half, arm);
+    const unsigned int mask = lanesBelow(v.slack, rounding);
+    if (pair.begin < pair.end) {
+      if (mask != 0) {
+        child = pair.begin;
+        lastChild = pair.end;
+      }
+      continue;
     }
     tightest = smaller(tightest, v.slack);
-    unsigned int mask = 0;
-    for (int l = 0; l < lanes; ++l) {
-      // Written such that NaN proves nothing.
-      mask |= v.slack[l] > rounding ? 0U : 1U << l;
+    if (mask == 0) {
+      continue;
     }
-    unproven[k] = static_cast<std::uint8_t>((group == 0 ? 0U : unproven[k]) | mask << group);
-    for (int l = 0; mask != 0 && l < lanes; ++l) {
-      if ((mask >> l & 1U) != 0 && v.clearance[l] <= 0.) {
-        batch.hitPair = k;
+    if (batch.unproven[index] == 0) {
+      batch.open[batch.count++] = index;
+      batch.touched[index] = 0;
+    }
+    const unsigned int touched = mask & lanesBelow(v.clearance, 0.);
+    batch.unproven[index] = static_cast<std::uint8_t>(batch.unproven[index] | mask << group);
+    batch.touched[index] = static_cast<std::uint8_t>(batch.touched[index] | touched << group);
+    for (int l = 0; touched != 0 && pair.exact < 0 && l < lanes; ++l) {
+      if ((touched >> l & 1U) != 0) {
+        batch.hitPair = static_cast<int>(index);
         batch.hitLane = group + l;
         return false;
       }

@@ -8,6 +8,7 @@
 
 #include <visp3/avoidance/vpCertifiedMotion.h>
 #include <visp3/avoidance/vpDiscreteMotion.h>
+#include <visp3/avoidance/vpExactChecker.h>
 #include <visp3/avoidance/vpFclChecker.h>
 #include <visp3/direct_core/vpLimit.h>
 
@@ -55,6 +56,8 @@ public:
   virtual ~MotionCheck() = default;
   [[nodiscard]] virtual vpMotionResult motion(const vpJointVector &from, const vpJointVector &to) = 0;
   [[nodiscard]] virtual bool inCollision(const vpJointVector &q) = 0;
+  // The least clearance below the cutoff.
+  [[nodiscard]] virtual vpClearance clearance(const vpJointVector &q, double cutoff) = 0;
 };
 
 class Certified : public MotionCheck
@@ -68,9 +71,10 @@ public:
     return m_motion.check(from, to, m_scratch);
   }
   bool inCollision(const vpJointVector &q) VP_OVERRIDE { return m_checker.inCollision(q, m_margin); }
+  vpClearance clearance(const vpJointVector &q, double cutoff) VP_OVERRIDE { return m_checker.clearance(q, cutoff); }
 
 private:
-  vpSceneChecker m_checker;
+  vpExactChecker m_checker;
   double m_margin;
   vpCertifiedMotion m_motion;
   vpMotionScratch m_scratch;
@@ -87,6 +91,7 @@ public:
     return m_motion.check(from, to);
   }
   bool inCollision(const vpJointVector &q) VP_OVERRIDE { return m_checker->inCollision(q, m_margin); }
+  vpClearance clearance(const vpJointVector &q, double cutoff) VP_OVERRIDE { return m_checker->clearance(q, cutoff); }
 
 private:
   std::unique_ptr<vpCollisionChecker> m_checker;
@@ -98,7 +103,7 @@ std::unique_ptr<MotionCheck> makeCheck(const vpCollisionScene &scene, const vpPa
 {
   switch (spec.validation) {
   case vpMotionValidation::Discrete:
-    return std::make_unique<Discrete>(std::make_unique<vpSceneChecker>(scene), spec);
+    return std::make_unique<Discrete>(std::make_unique<vpExactChecker>(scene), spec);
   case vpMotionValidation::DiscreteFcl:
     return std::make_unique<Discrete>(std::make_unique<vpFclChecker>(scene), spec);
   default:
@@ -281,8 +286,7 @@ public:
         return vpPathStatus::OutsideLimits;
       }
     }
-    scene->place(inside, data);
-    const vpClearance pair = scene->clearance(data, spec.margin + 1e-12);
+    const vpClearance pair = check->clearance(inside, spec.margin + 1e-12);
     if (pair.kind != vpCollisionKind::None || check->inCollision(inside)) {
       sentence = "In the " + end + " the arm is nearer than the margin: " + vpPairText(*scene, pair, spec.margin) + ".";
       return isStart ? vpPathStatus::StartInCollision : vpPathStatus::GoalInCollision;
@@ -352,7 +356,6 @@ public:
   const vpCollisionScene *scene;
   vpPathPlannerSpec spec;
   std::unique_ptr<MotionCheck> check;
-  vpCollisionData data;
 };
 
 vpPathPlanner::vpPathPlanner(const vpCollisionScene &scene, const vpPathPlannerSpec &spec)

@@ -16,8 +16,9 @@ BEGIN_VISP_NAMESPACE
 namespace
 {
 using Eigen::Vector3d;
-constexpr int elevations = 180; // Steps of the support function from -pi/2 to pi/2.
-constexpr int turns = 180;      // Steps of half a turn about z.
+constexpr int elevations = 90; // Steps of the support function from -pi/2 to pi/2.
+constexpr int arcs = 8;        // First steps of the search about z,
+constexpr int halvings = 6;    // and how often those are halved that may hold the largest value.
 constexpr double pi = 3.14159265358979323846;
 constexpr double beyond = 0.05; // of a prismatic joint's range: tolerated distance outside its limits
 
@@ -79,7 +80,25 @@ private:
   std::array<double, elevations + 1> m_values{};
 };
 
-// Reach of a capsule relative to a joint: a body of revolution about an axis, at any of several positions (a prismatic
+// Directions about z.
+struct Circle {
+  static constexpr int samples = arcs << halvings;
+  std::array<double, samples> x, y;
+  static const Circle &table()
+  {
+    static const Circle made = [] {
+      Circle circle;
+      for (std::size_t i = 0; i < circle.x.size(); ++i) {
+        circle.x[i] = std::cos(2. * pi * static_cast<double>(i) / samples);
+        circle.y[i] = std::sin(2. * pi * static_cast<double>(i) / samples);
+      }
+      return circle;
+    }();
+    return made;
+  }
+};
+
+// Reach of a link's axes relative to a joint: a body of revolution about an axis, at any of several positions (a prismatic
 // joint gives two, its ends); before the first revolute joint just the points themselves.
 struct Reach {
   bool revolved = false;
@@ -116,42 +135,127 @@ double support(const Reach &reach, const Vector3d &u)
   return reach.revolved ? most + reach.body(std::clamp(u.dot(reach.axis), -1., 1.)) : most;
 }
 
-// All rotations about z.
-void turn(Reach &reach)
+// Largest absolute value of the support function, or more.
+double farthest(const Reach &reach)
 {
-  // A direction u between two neighbours u1 and u2 of a circle of one elevation is w1 u1 + w2 u2 and some of z, with w1
-  // + w2 <= 1 + e, e = 1 / cos(half a step) - 1: h(u) <= max(h(u1), h(u2)) + 2 e times the body's farthest point.
-  double farthest = 0., away = 0.;
+  double body = 0., away = 0.;
   for (int k = 0; reach.revolved && k <= elevations; ++k) {
-    farthest = std::max(farthest, std::fabs(reach.body.value(k)));
+    body = std::max(body, std::fabs(reach.body.value(k)));
   }
   for (const Vector3d &place : reach.places) {
     away = std::max(away, place.norm());
   }
-  const double between = 2. * (1. / std::cos(0.5 * pi / turns) - 1.) * (1.001 * farthest + away);
-  std::array<double, 2 * turns> x, y;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    x[i] = std::cos(pi * static_cast<double>(i) / turns);
-    y[i] = std::sin(pi * static_cast<double>(i) / turns);
+  return 1.001 * body + away;
+}
+
+/*
+ * Largest value of the support function in the directions of one elevation (cosine c, sine s), or slightly more.
+ *
+ * A direction u between two neighbours u1 and u2 of the circle is w1 u1 + w2 u2 and some of z, with w1 + w2 <= 1 + e,
+ * e = 1 / cos(half a step) - 1: h(u) <= max(h(u1), h(u2)) + 2 e times the largest |h|. Only arcs whose bound exceeds
+ * what is returned in the end are halved.
+ */
+double largestOnCircle(const Reach &reach, double c, double s, double most)
+{
+  struct Arc {
+    int begin, end; // samples of the circle
+    double atBegin, atEnd;
+  };
+  const Circle &circle = Circle::table();
+  const auto excess = [most](double half) { return 2. * (1. / std::cos(half) - 1.) * most; };
+  const auto value = [&](int i) {
+    const std::size_t k = static_cast<std::size_t>(i % Circle::samples);
+    return support(reach, Vector3d(c * circle.x[k], c * circle.y[k], s));
+  };
+  constexpr int step = Circle::samples / arcs;
+  std::array<Arc, 32 * arcs> open, next;
+  const double first = value(0);
+  double best = first, last = first;
+  for (int i = 0; i < arcs; ++i) {
+    const double now = i + 1 < arcs ? value(step * (i + 1)) : first;
+    open[static_cast<std::size_t>(i)] = {step * i, step * (i + 1), last, now};
+    best = std::max(best, now);
+    last = now;
   }
+  const double between = excess(pi / Circle::samples); // of the shortest arcs
+  std::size_t count = arcs;
+  double half = pi / arcs, missed = 0.;
+  for (int level = 0; level < halvings; ++level, half *= 0.5) {
+    const double more = excess(half);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Arc &arc = open[i];
+      if (std::max(arc.atBegin, arc.atEnd) + more <= best + between) {
+        continue;
+      }
+      if (kept + 2 > next.size()) { // a body that is nearly round: its bound is as good as its value
+        missed = std::max(missed, more);
+        continue;
+      }
+      const int middle = (arc.begin + arc.end) / 2;
+      const double there = value(middle);
+      best = std::max(best, there);
+      next[kept++] = {arc.begin, middle, arc.atBegin, there};
+      next[kept++] = {middle, arc.end, there, arc.atEnd};
+    }
+    std::copy_n(next.begin(), kept, open.begin());
+    count = kept;
+  }
+  return best + std::max(between, missed);
+}
+
+// All rotations about z.
+void turn(Reach &reach)
+{
+  const double most = farthest(reach);
   Profile profile;
   for (int k = 0; k <= elevations; ++k) {
     const double c = Profile::cosine(k), s = Profile::sine(k);
-    double most = -std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      most = std::max(most, support(reach, Vector3d(c * x[i], c * y[i], s)));
+    double value = -std::numeric_limits<double>::infinity();
+    if (reach.revolved) {
+      value = largestOnCircle(reach, c, s, most);
     }
-    profile.set(k, most + between);
+    for (const Vector3d &place : reach.places) { // a point goes round a circle
+      value = reach.revolved ? value : std::max(value, c * std::hypot(place.x(), place.y()) + s * place.z());
+    }
+    profile.set(k, value);
   }
   reach.revolved = true;
   reach.body = profile;
   reach.axis = Vector3d::UnitZ();
   reach.places = {Vector3d::Zero()};
 }
+
+// The largest distance from z, or slightly more.
+double distanceFromAxis(const Reach &reach)
+{
+  if (reach.revolved) {
+    return largestOnCircle(reach, 1., 0., farthest(reach));
+  }
+  double most = 0.;
+  for (const Vector3d &place : reach.places) {
+    most = std::max(most, std::hypot(place.x(), place.y()));
+  }
+  return most;
+}
+
+// Ends of the axes of a link's capsules, in the moving frame of its joint.
+std::vector<Vector3d> endsOn(const vpArmModel &arm, int link)
+{
+  const vpRigidTransform &after = arm.spec().joints[static_cast<std::size_t>(link - 1)].after;
+  std::vector<Vector3d> ends;
+  for (const vpArmCapsule &capsule : arm.spec().capsules) {
+    if (capsule.link == link) {
+      ends.push_back(after.R * capsule.from + after.p);
+      ends.push_back(after.R * capsule.to + after.p);
+    }
+  }
+  return ends;
+}
 } // namespace
 
 vpReachBounds::vpReachBounds(const vpArmModel &arm)
-  : m_joints(arm.size()), m_bounds(arm.spec().capsules.size() * static_cast<std::size_t>(arm.size()), 0.)
+  : m_joints(arm.size()), m_bounds(static_cast<std::size_t>((arm.size() + 1) * arm.size()), 0.)
 {
   m_low.setConstant(m_joints, -vpLargestCoordinate);
   m_high.setConstant(m_joints, vpLargestCoordinate);
@@ -162,28 +266,25 @@ vpReachBounds::vpReachBounds(const vpArmModel &arm)
       m_high(j) = arm.upper()(j) + more;
     }
   }
-  for (std::size_t i = 0; i < arm.spec().capsules.size(); ++i) {
-    const vpArmCapsule &capsule = arm.spec().capsules[i];
-    if (capsule.link == 0) {
-      continue;
-    }
-    const int last = capsule.link - 1;
+  for (const vpArmCapsule &capsule : arm.spec().capsules) {
+    m_links.push_back(capsule.link);
+  }
+  for (int link = 1; link <= m_joints; ++link) {
     Reach reach;
-    const vpRigidTransform &after = arm.spec().joints[static_cast<std::size_t>(last)].after;
-    reach.places = {after.R * capsule.from + after.p, after.R * capsule.to + after.p};
-    for (int j = last; j >= 0; --j) {
-      if (j < last) {
+    reach.places = endsOn(arm, link);
+    for (int j = link - 1; j >= 0 && !reach.places.empty(); --j) {
+      if (j < link - 1) {
         step(arm.step(j + 1), reach);
       }
-      double &bound = m_bounds[i * static_cast<std::size_t>(m_joints) + static_cast<std::size_t>(j)];
+      double &bound = m_bounds[static_cast<std::size_t>(link * m_joints + j)];
       if (arm.isPrismatic(j)) {
         bound = 1.;
         slide(m_low(j) + arm.offset(j), m_high(j) + arm.offset(j), reach);
+        continue;
       }
-      else {
+      bound = distanceFromAxis(reach) * (1. + 1e-12);
+      if (j > 0) {
         turn(reach);
-        // The body is now about z: its extent at elevation 0 is its distance from the axis.
-        bound = reach.body.value(elevations / 2) * (1. + 1e-12);
       }
     }
   }

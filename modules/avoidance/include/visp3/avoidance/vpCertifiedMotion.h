@@ -52,11 +52,17 @@ private:
  * q(s) = from + s (to - from), not a statement about samples.
  *
  * An interval of half-width h about s_m is free for a pair if its clearance at s_m minus the margin exceeds the largest
- * motion of its parts within the interval: the smaller of h sum_j R_ij |dq_j| (vpReachBounds) and h |v| + h^2 / 2
- * sum_jk |dq_j| |dq_k| R_i,max(j,k), with v the velocity of the capsule's ends along the motion at s_m; the second term
+ * motion of its parts within the interval: the smaller of h sum_j R_lj |dq_j| (vpReachBounds) and h |v| + h^2 / 2
+ * sum_jk |dq_j| |dq_k| R_l,max(j,k), with v the velocity of the capsule's ends along the motion at s_m; the second term
  * bounds the acceleration. Convex obstacles are also tested along the normal of the nearest points, where only the
- * velocity towards the obstacle counts. For pairs of two capsules only the joints between them count. Unproven
- * intervals are split into eight, for the unproven pairs only; eight configurations are evaluated at once.
+ * velocity towards the obstacle counts. For pairs of two capsules only the joints between them count. The capsules of a
+ * link are evaluated where one capsule around them is not proven free. Unproven intervals are split into eight, for the
+ * unproven pairs only; eight configurations are evaluated at once.
+ *
+ * Where capsules touch, or are still unproven at the resolution, and both parts have exact shapes
+ * (vpCollisionSceneSpec::exact), these decide: a shape whose surface is at most t from the axes of its capsules moves by at
+ * most h sum_j (R_lj + t) |dq_j|, and its distance (FCL) proves the part of the interval that it exceeds. Two shapes, or
+ * a shape and an obstacle, may not be inside each other either. A Collision of exact shapes has the distance 0.
  *
  * Immutable; may be shared by threads, each with its own vpMotionScratch.
  */
@@ -71,18 +77,18 @@ public:
    */
   explicit vpCertifiedMotion(const vpCollisionScene &scene, const vpCertifiedMotionSpec &spec = {});
 
-  //! Checks the motion, both ends included. Does not allocate unless the scratch has to grow.
+  //! Checks the motion, both ends included. Does not allocate unless the scratch has to grow, or exact shapes decide.
   [[nodiscard]] vpMotionResult check(const vpJointVector &from, const vpJointVector &to,
                                      vpMotionScratch &scratch) const;
   //! Margin and resolution.
   [[nodiscard]] const vpCertifiedMotionSpec &spec() const noexcept { return m_spec; }
-  //! Reach bounds R_ij of the scene's arm.
-  [[nodiscard]] const vpReachBounds &reach() const noexcept { return m_reach; }
+  //! Reach bounds of the scene's arm.
+  [[nodiscard]] const vpReachBounds &reach() const noexcept { return *m_reach; }
 
 private:
   const vpCollisionScene *m_scene;
   vpCertifiedMotionSpec m_spec;
-  vpReachBounds m_reach;
+  std::shared_ptr<const vpReachBounds> m_reach;
 };
 
 END_VISP_NAMESPACE

@@ -38,11 +38,12 @@ struct VISP_EXPORT vpTrajectoryClearance {
  * In an interval of half-width h about t_m joint j moves from its position at t_m by at most d_j + x_j, with d_j the
  * smaller of (|v_j(t_m)| + w_j) h + a_j h^2 / 2 and V_j h: V_j and a_j are its largest velocity and acceleration over
  * the plan, w_j and x_j the sums of its velocity and position jumps (only rounding in a plan of vpTrajectoryPlanner).
- * Capsule i moves by at most the sum over j of R_ij times that (vpReachBounds), an object by at most its speed times h
+ * A capsule of link l moves by at most the sum over j of R_lj times that (vpReachBounds), an object by at most its speed times h
  * plus its rotation times its extent. The interval is free if at t_m the distance of every pair exceeds the sum of the
  * margin, both motions and 1e-9 m for rounding; otherwise it is split. Values that are not finite, joints beyond
  * vpLargestCoordinate and prismatic joints where the bounds do not hold (vpReachBounds::holds()) give BadInput;
- * reaching the limit on evaluations gives Undecided.
+ * reaching the limit on evaluations gives Undecided. Capsules alone decide, also where the scene has exact shapes: a
+ * motion that vpCertifiedMotion calls free by these is a Collision here.
  */
 class VISP_EXPORT vpCertifiedTrajectory
 {
@@ -80,8 +81,8 @@ public:
 
   //! Sets the margin, m; negative and non-finite values count as 0. No exception.
   void setMargin(double margin) noexcept;
-  //! Reach bounds R_ij of the scene's arm.
-  [[nodiscard]] const vpReachBounds &reach() const noexcept { return m_reach; }
+  //! Reach bounds of the scene's arm.
+  [[nodiscard]] const vpReachBounds &reach() const noexcept { return *m_reach; }
 
 private:
   [[nodiscard]] vpTrajectoryClearance search(const vpTrajectoryPlan &plan, double from, double to, double age,
@@ -93,13 +94,13 @@ private:
 
   const vpCollisionScene *m_scene;
   vpCertifiedMotionSpec m_spec;
-  vpReachBounds m_reach;
+  std::shared_ptr<const vpReachBounds> m_reach;
   vpCollisionData m_data;
   vpNearPairs m_near;
   vpJointVector m_speed, m_acceleration; // maximum of each joint over the plan
   vpJointVector m_kink, m_jump; // sums of the velocity jumps and of the position jumps of each joint over the plan
-  std::array<double, vpArmMaxCapsules> m_motion{};
-  double m_largest = 0.; // largest capsule motion in the last interval, m
+  std::array<double, vpArmMaxJoints + 1> m_motion{}; // of each link in the last interval, m
+  double m_largest = 0.;                             // of all pairs, m
 };
 
 END_VISP_NAMESPACE

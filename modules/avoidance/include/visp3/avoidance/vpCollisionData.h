@@ -18,7 +18,7 @@ BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_avoidance
 //! \brief Maximum number of capsules of an arm in a vpCollisionScene.
-constexpr int vpArmMaxCapsules = 32;
+constexpr int vpArmMaxCapsules = 128;
 
 /*!
  * \ingroup group_avoidance
@@ -39,6 +39,8 @@ struct VISP_EXPORT vpPlacedCapsule {
 struct VISP_EXPORT vpCollisionData {
   vpArmData arm;                                          //!< Kinematics of the configuration.
   std::array<vpPlacedCapsule, vpArmMaxCapsules> capsules; //!< Capsules of the arm, in its order.
+  //! Centres of the links' bounding spheres, in the base; for this module's own use.
+  std::array<Eigen::Vector3d, vpArmMaxJoints + 1> centres;
   //! True if the last place() had a configuration of the arm's size with coordinates within vpLargestCoordinate.
   //! Otherwise, and before the first place(), every query reports a collision.
   bool placed = false;
@@ -80,10 +82,11 @@ struct VISP_EXPORT vpClearance {
 
 /*!
  * \ingroup group_avoidance
- * \brief Pairs near the arm, for a control cycle; fixed capacity.
+ * \brief Pairs near the arm, for a control cycle: of each link and object, of each two links, and of each link and the
+ * ground the pair with the least clearance. Fixed capacity: an arm of seven links among 32 objects cannot exceed it.
  */
 struct VISP_EXPORT vpNearPairs {
-  static constexpr int capacity = 128;     //!< Maximum number of pairs; the nearest are kept.
+  static constexpr int capacity = 256;     //!< Maximum number of pairs; the nearest are kept.
   std::array<vpClearance, capacity> pairs; //!< Pairs, unordered; only the first \e count are set.
   int count = 0;                           //!< Number of pairs set.
   bool dropped = false;                    //!< True if there were more.

@@ -11,14 +11,18 @@
 
 #include <visp3/avoidance/vpCollisionData.h>
 #include <visp3/avoidance/vpCollisionObject.h>
-#include <visp3/manipulator/vpArmModel.h>
+#include <visp3/avoidance/vpReachBounds.h>
 
 #include <cstdint>
+#include <memory>
 #include <utility>
 
 BEGIN_VISP_NAMESPACE
 
 struct vpCollisionCore;
+struct vpLinkHull;
+struct vpLinkPair;
+class vpExactShapes;
 
 /*!
  * \ingroup group_avoidance
@@ -47,10 +51,12 @@ struct VISP_EXPORT vpCollisionSceneSpec {
   std::string source;                            //!< Source file, for messages; may be empty.
   std::vector<vpCollisionObject> objects;        //!< Obstacles.
   std::optional<vpHalfSpace> ground;             //!< Ground plane, optional.
-  bool allowAdjacent = true;                     //!< Adjacent links may touch, see vpCollisionScene.
+  bool allowAdjacent = true;                     //!< Neighbouring links may touch, see vpCollisionScene.
   std::vector<std::pair<int, int>> allowedLinks; //!< Further pairs of links (0..n) that may touch.
   std::vector<vpAllowedContact> allowedContacts; //!< Links that may touch an object.
   std::vector<std::string> ignoredBodies;        //!< Bodies of vpArmSpec::uncovered that are not checked.
+  //! Exact shapes of the arm's bodies, which decide offline where capsules do not; none: capsules decide alone.
+  std::shared_ptr<const vpExactShapes> exact;
 };
 
 /*!
@@ -72,18 +78,27 @@ struct VISP_EXPORT vpSelfPair {
  * control cycle. No query may run while another thread changes the scene: give that thread its own copy.
  *
  * The arm is modelled by its capsules (vpArmSpec::capsules). Capsules of moving links are checked against all objects,
- * the ground, and each other (3.48). Two links are adjacent if no link between them carries a capsule: with
- * capsules on links 1, 3, 5 and 7 the pairs (1, 3), (3, 5) and (5, 7). Capsules of the base (link 0) are checked
- * against the arm only, since no motion frees the base from an obstacle.
+ * the ground, and each other (3.48). Two capsules are not checked against each other if they are
+ * - on the same link, or on neighbouring ones (allowAdjacent): no link between them has a capsule, a vpArmShape, or a
+ *   body of vpArmSpec::uncovered, ignored or not. With capsules on links 1, 3, 5 and 7 and nothing on the others these
+ *   are the links (1, 3), (3, 5) and (5, 7);
+ * - on links of vpCollisionSceneSpec::allowedLinks, or of two bodies of vpArmSpec::allowedBodies.
+ *
+ * Capsules of the base (link 0) are checked against the arm only, since no motion frees the base from an obstacle.
+ *
+ * All queries are about capsules. Where these enclose the arm's true shape they may touch while the shape does not; so
+ * a vpStopSupervisor may brake early. vpExactChecker and vpCertifiedMotion use the exact shapes where the scene has
+ * them. Capsules that touch in most configurations need an allowed pair, see vpSelfCollisionStatistics.
  */
 class VISP_EXPORT vpCollisionScene
 {
 public:
   /*!
    * \throw vpException (badValue) naming the source, the element and the value: an arm without capsules or with more
-   * than 32, a body of vpArmSpec::uncovered that is not ignored, an ignored one that is not among them, an object without a name or with a duplicate name, an invalid pose, lengths that are not finite,
-   * negative or above vpLargestLength, velocities above 1000 m/s or rad/s, a ground without normal, links or objects
-   * that do not exist.
+   * than vpArmMaxCapsules, a body of vpArmSpec::uncovered that is not ignored, an ignored one that is not among them, exact
+   * shapes of another arm, an object without a name or with a duplicate name, an invalid pose, lengths that are not
+   * finite, negative or above vpLargestLength, velocities above 1000 m/s or rad/s, a ground without normal, links or
+   * objects that do not exist.
    */
   explicit vpCollisionScene(const vpArmModel &arm, const vpCollisionSceneSpec &spec = {});
   vpCollisionScene(const vpCollisionScene &other);                //!< Copies.
@@ -98,7 +113,11 @@ public:
   [[nodiscard]] int capsuleCount() const noexcept { return static_cast<int>(m_capsules.size()); }
   //! Capsule \e i in the moving frame of its joint (vpArmData::joint), link 0: in the base.
   [[nodiscard]] const vpArmCapsule &capsule(int i) const noexcept { return m_capsules[static_cast<std::size_t>(i)]; }
-  //! Pairs of capsules that must not touch.
+  //! Exact shapes of the arm's bodies; null if there are none.
+  [[nodiscard]] const std::shared_ptr<const vpExactShapes> &exact() const noexcept { return m_exact; }
+  //! Reach bounds of the arm: computed by the first call, and shared by all copies of the scene. Allocates and locks.
+  [[nodiscard]] std::shared_ptr<const vpReachBounds> reach() const;
+  //! Pairs of capsules that must not touch, sorted by their links.
   [[nodiscard]] const std::vector<vpSelfPair> &selfPairs() const noexcept { return m_selfPairs; }
   //! The ground with a unit normal, if there is one.
   [[nodiscard]] const std::optional<vpHalfSpace> &ground() const noexcept { return m_ground; }
@@ -153,8 +172,8 @@ public:
   [[nodiscard]] vpClearance clearance(const vpCollisionData &data,
                                       double cutoff = std::numeric_limits<double>::infinity(),
                                       double time = 0.) const noexcept;
-  //! All pairs with a clearance below \e cutoff (m). Parameters as for inCollision(); invalid input gives an empty list
-  //! with \e dropped set.
+  //! The nearest pairs (see vpNearPairs) with a clearance below \e cutoff (m). Parameters as for inCollision(); invalid
+  //! input gives an empty list with \e dropped set.
   void near(const vpCollisionData &data, double cutoff, vpNearPairs &result, double time = 0.) const noexcept;
   //! Clearance of capsule \e capsule from object \e object, even if contact is allowed. After place().
   [[nodiscard]] vpClearance pair(const vpCollisionData &data, int capsule, int object, double time = 0.) const noexcept;
@@ -167,8 +186,14 @@ public:
 
   //! For this module's own use.
   [[nodiscard]] const vpCollisionCore &core(int i) const noexcept;
+  //! For this module's own use.
+  [[nodiscard]] const std::vector<vpLinkHull> &hulls() const noexcept;
+  //! For this module's own use.
+  [[nodiscard]] const std::vector<vpLinkPair> &linkPairs() const noexcept;
 
 private:
+  struct Reach;
+  struct Links;
   template <class Visit> void visit(const vpCollisionData &data, double time, Visit &visitor) const noexcept;
   template <class Visit>
   bool visitObject(const vpCollisionData &data, int j, const vpCollisionCore &core, Visit &visitor) const noexcept;
@@ -176,13 +201,16 @@ private:
   vpArmModel m_arm;
   std::string m_source;
   std::vector<vpArmCapsule> m_capsules;
+  std::shared_ptr<const Links> m_links;
+  std::shared_ptr<Reach> m_reach;
+  std::shared_ptr<const vpExactShapes> m_exact;
   std::vector<vpSelfPair> m_selfPairs;
   std::optional<vpHalfSpace> m_ground;
   std::vector<vpAllowedContact> m_contacts;
   std::vector<vpCollisionObject> m_objects;
   std::vector<vpCollisionCore> m_cores;
   unsigned long m_revision = 0;
-  std::vector<std::uint32_t> m_checked; // Bit i: capsule i must not touch the object.
+  std::vector<std::uint32_t> m_checked; // Bit i: link i must not touch the object.
 };
 
 END_VISP_NAMESPACE

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpReachBounds.h
- * \brief Largest distances of an arm's capsules from its joint axes.
+ * \brief Largest distances of an arm's links from its joint axes.
  */
 #ifndef vpReachBounds_h
 #define vpReachBounds_h
@@ -18,12 +18,13 @@ BEGIN_VISP_NAMESPACE
 /*!
  * \class vpReachBounds
  * \ingroup group_avoidance
- * \brief Reach bounds R(i, j), m: maximum distance of any point of the axis of capsule i from the axis of joint j.
+ * \brief Reach bounds R(l, j), m: maximum distance of any point of the axes of link l's capsules from the axis of joint j.
  *
- * Along dq the axis of capsule i thus moves by at most sum_j R(i, j) |dq_j| (R = 1 for a prismatic joint that
- * carries it, 0 for joints behind it).
+ * Along dq the axis of a capsule on link l thus moves by at most sum_j R(l, j) |dq_j| (R = 1 for a prismatic joint that
+ * carries it, 0 for joints behind it); so does any point of the convex hull of the link's axes. A point at a distance r
+ * of that hull may be r farther from a revolute axis: R + r.
  *
- * The positions that a capsule can take relative to joint j form a body; its convex hull is propagated from the capsule
+ * The positions that these axes can take relative to joint j form a body; its convex hull is propagated from the link
  * inwards through the joints by its support function, as a body of revolution about every revolute axis: position
  * limits of revolute joints are ignored, those of prismatic joints apply, slightly widened, so the bounds hold for any
  * angle and wherever holds() is true. Between samples the support function is bounded from above by its sublinearity.
@@ -32,13 +33,18 @@ BEGIN_VISP_NAMESPACE
 class VISP_EXPORT vpReachBounds
 {
 public:
-  //! Computes the bounds in some 10 ms; for set-up.
+  //! Computes the bounds, in some 1 ms for seven joints: for set-up. vpCollisionScene::reach() shares them.
   explicit vpReachBounds(const vpArmModel &arm);
 
-  //! R(capsule, joint), both from 0.
+  //! R(l, joint) of the link l of a capsule, both from 0.
   [[nodiscard]] double operator()(int capsule, int joint) const noexcept
   {
-    return m_bounds[static_cast<std::size_t>(capsule * m_joints + joint)];
+    return ofLink(m_links[static_cast<std::size_t>(capsule)], joint);
+  }
+  //! R(link, joint), link 0..n (0: the base), joint 0..n-1; 0 for a link without capsules.
+  [[nodiscard]] double ofLink(int link, int joint) const noexcept
+  {
+    return m_bounds[static_cast<std::size_t>(link * m_joints + joint)];
   }
 
   //! True if the bounds hold for all configurations within \e way (rad or m, >= 0) of \e q (of the arm's size): finite,
@@ -50,6 +56,7 @@ public:
 private:
   int m_joints = 0;
   vpJointVector m_low, m_high; // limits within which the bounds hold
+  std::vector<int> m_links;    // of the capsules
   std::vector<double> m_bounds;
 };
 

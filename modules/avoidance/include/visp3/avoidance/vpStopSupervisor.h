@@ -72,8 +72,8 @@ struct VISP_EXPORT vpSupervisedVelocity {
  * every command is the first period, or the next one, of a plan q(t) that was proven: constant velocity for a period T, then
  * constant deceleration, then rest. A command holds one velocity for T, the mean of the plan's over that period, so at the
  * ends of periods the arm is where the plan is. In between it goes on the chord: |q''_j| <= d_j almost everywhere, with d_j
- * the deceleration of joint j, so it is never farther from q_j(t) than min(d_j T / 8, |v_j|) T, and a point of capsule i by no
- * more than e_i = sum_j R_ij of that (vpReachBounds). A clearance is off by no more than e, the largest e_i: also that of two
+ * the deceleration of joint j, so it is never farther from q_j(t) than min(d_j T / 8, |v_j|) T, and a point of link l by no
+ * more than e_l = sum_j R_lj of that (vpReachBounds). A clearance is off by no more than e, the largest e_l: also that of two
  * capsules of the arm, which changes only with the joints between them, and by them as the outer one moves seen from the
  * inner one. That holds to the end of the last period, in which the plan comes to rest before the arm does. So the plan is
  * proven from its start to the end of the period in which it ends, with the margin enlarged by e and the resolution, and the
@@ -84,7 +84,8 @@ struct VISP_EXPORT vpSupervisedVelocity {
  *
  * What is beyond it: an object that comes faster than was told or appears (Unsafe says so), what runs into an arm that
  * stands, and drives that do not follow. An arm nearer to something than 0.1 mm, e and the resolution together has no
- * way that could be proven, and stands.
+ * way that could be proven, and stands. Capsules alone decide, also where the scene has exact shapes: capsules larger
+ * than the arm stop it early, and those that touch where the arm does not never let it move.
  */
 class VISP_EXPORT vpStopSupervisor
 {
