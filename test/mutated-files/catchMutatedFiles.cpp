@@ -9,6 +9,7 @@
 #include "fileMutator.h"
 
 #include <visp3/avoidance/vpCollisionSceneJson.h>
+#include <visp3/avoidance/vpSelfCollisionStatistics.h>
 #include <visp3/manipulator/vpArmJson.h>
 #include <visp3/manipulator/vpArmUrdf.h>
 #include <visp3/manipulator/vpSrdf.h>
@@ -207,6 +208,16 @@ TEST_CASE("Damaged scenes", "[files][mutated]")
   tell("scene.json",
        readMutated({everything.name(), data + "/scene/photo-box.json", data + "/scene/s4b-shelf.json"}, ".json",
                    mutationCount(400), [](const std::string &file) { static_cast<void>(vpLoadCollisionScene(file)); }));
+}
+
+TEST_CASE("Damaged statistics of self collisions", "[files][mutated]")
+{
+  const vpSelfCollisionStatistics pairs{"arm", 10000, 1, {{"a", "b", 9900, false, true}, {"a", "c", 0, true, false}}};
+  pairs.save("catchMutatedFiles-pairs.json");
+  tell("pairs.json",
+       readMutated({"catchMutatedFiles-pairs.json"}, ".json", mutationCount(400),
+                   [](const std::string &file) { static_cast<void>(vpSelfCollisionStatistics::load(file)); }));
+  std::remove("catchMutatedFiles-pairs.json");
 }
 
 TEST_CASE("Damaged meshes", "[files][mutated]")

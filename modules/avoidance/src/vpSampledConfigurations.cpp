@@ -2,7 +2,10 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// What random configurations tell: one that reaches a goal, and which capsules of an arm touch.
+// What random configurations tell: one that reaches a goal, and which capsules and bodies of an arm touch.
+#include "vpExactQuery.h"
+
+#include <visp3/avoidance/vpExactChecker.h>
 #include <visp3/avoidance/vpGoalConfiguration.h>
 #include <visp3/avoidance/vpSelfCollisionStatistics.h>
 #include <visp3/core/vpException.h>
@@ -75,15 +78,14 @@ vpGoalConfiguration vpFindGoalConfiguration(const vpCollisionScene &scene, const
   vpClosedLoopKinematics kinematics(arm, redundancy, spec);
   std::mt19937_64 random(seed);
   vpGoalConfiguration found;
-  vpCollisionData data;
+  vpExactChecker checker(scene);
   vpJointVector start = from;
   for (int attempt = 0; attempt < attempts; ++attempt, start = randomConfiguration(arm, random)) {
     const std::optional<vpJointVector> q = reach(kinematics, arm, position, start);
     if (!q) {
       continue;
     }
-    scene.place(*q, data);
-    if (!scene.inCollision(data, margin)) {
+    if (!checker.inCollision(*q, margin)) {
       return {vpGoalConfigurationStatus::Free, *q};
     }
     if (found.status == vpGoalConfigurationStatus::Unreachable) {
@@ -93,11 +95,92 @@ vpGoalConfiguration vpFindGoalConfiguration(const vpCollisionScene &scene, const
   return found;
 }
 
-std::vector<vpSelfPairStatistics> vpSampleSelfPairs(const vpCollisionScene &scene, int samples, unsigned int seed)
+namespace
+{
+void requireSamples(int samples)
 {
   if (samples <= 0) {
     throw vpException(vpException::badValue, "number of samples is %d, must be > 0", samples);
   }
+}
+
+// The scene of an arm without objects and without allowed pairs of bodies.
+vpCollisionScene sceneOf(const vpArmModel &arm, const std::shared_ptr<const vpExactShapes> &exact)
+{
+  vpArmSpec spec = arm.spec();
+  spec.allowedBodies.clear();
+  vpCollisionSceneSpec scene;
+  scene.ignoredBodies = spec.uncovered;
+  scene.exact = exact;
+  return vpCollisionScene(vpArmModel(spec), scene);
+}
+
+// Two bodies and their capsules.
+struct BodyPair {
+  int first, second;
+  std::vector<vpSelfPair> capsules;
+  vpExactPair exact;
+};
+
+std::vector<BodyPair> bodyPairs(const vpCollisionScene &scene)
+{
+  std::vector<BodyPair> pairs;
+  for (const vpSelfPair &pair : scene.selfPairs()) {
+    const int first = scene.capsule(pair.first).body, second = scene.capsule(pair.second).body;
+    if (first < 0 || second < 0) {
+      continue;
+    }
+    auto known = std::find_if(pairs.begin(), pairs.end(), [first, second](const BodyPair &other) {
+      return other.first == first && other.second == second;
+    });
+    if (known == pairs.end()) {
+      pairs.push_back({first, second, {}, vpExactQuery::pairOf(scene, vpCollisionKind::Self, pair.second, pair.first)});
+      known = pairs.end() - 1;
+    }
+    known->capsules.push_back(pair);
+  }
+  return pairs;
+}
+
+bool areTouching(const vpCollisionScene &scene, const vpCollisionData &data, const BodyPair &pair, vpExactQuery &query)
+{
+  const bool capsules = std::any_of(pair.capsules.begin(), pair.capsules.end(), [&](const vpSelfPair &one) {
+    return !(scene.selfPair(data, one.first, one.second).distance > 0.);
+  });
+  constexpr double nearly = 1e-9; // m: more makes no difference
+  return capsules && (pair.exact.kind == vpCollisionKind::None ||
+                      query.clearance(scene, data, pair.exact, nearly, true).distance <= 0.);
+}
+} // namespace
+
+vpSelfCollisionStatistics vpSampleBodyPairs(const vpArmModel &arm, const std::shared_ptr<const vpExactShapes> &exact,
+                                            int samples, unsigned int seed)
+{
+  requireSamples(samples);
+  const vpCollisionScene scene = sceneOf(arm, exact);
+  const std::vector<BodyPair> pairs = bodyPairs(scene);
+  vpSelfCollisionStatistics result{arm.label(), samples, seed, {}};
+  vpCollisionData data;
+  vpExactQuery query;
+  scene.place(vpJointVector::Zero(arm.size()).cwiseMax(arm.lower()).cwiseMin(arm.upper()), data);
+  for (const BodyPair &pair : pairs) {
+    const auto name = [&arm](int body) { return arm.spec().bodies[static_cast<std::size_t>(body)].name; };
+    result.pairs.push_back({name(pair.first), name(pair.second), 0, areTouching(scene, data, pair, query),
+                            pair.exact.kind != vpCollisionKind::None});
+  }
+  std::mt19937_64 generator(seed);
+  for (int k = 0; k < samples; ++k) {
+    scene.place(randomConfiguration(arm, generator), data);
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      result.pairs[i].touching += areTouching(scene, data, pairs[i], query) ? 1 : 0;
+    }
+  }
+  return result;
+}
+
+std::vector<vpSelfPairStatistics> vpSampleSelfPairs(const vpCollisionScene &scene, int samples, unsigned int seed)
+{
+  requireSamples(samples);
   std::vector<vpSelfPairStatistics> all;
   for (const vpSelfPair &pair : scene.selfPairs()) {
     all.push_back({pair, samples, 0, std::numeric_limits<double>::infinity()});

@@ -1,0 +1,146 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include <visp3/avoidance/vpSelfCollisionStatistics.h>
+
+#include "vpJsonObject.h"
+#include "vpReading.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+constexpr double nearlyAlways = 0.95; // of the samples
+
+const char *nameOf(vpContactRule rule)
+{
+  switch (rule) {
+  case vpContactRule::Always:
+    return "always";
+  case vpContactRule::Default:
+    return "default";
+  case vpContactRule::Never:
+    return "never";
+  default:
+    return "checked";
+  }
+}
+
+int countIn(vpJsonObject &object, const std::string &field, int most)
+{
+  const unsigned int value = object.count(field, 0);
+  if (value > static_cast<unsigned int>(most)) {
+    throw object.wrong(field, object.value(field), "at most " + std::to_string(most));
+  }
+  return static_cast<int>(value);
+}
+
+vpBodyPairStatistics readPair(vpJsonObject &object, int samples)
+{
+  vpBodyPairStatistics pair;
+  pair.first = object.text("first");
+  pair.second = object.text("second");
+  static_cast<void>(object.value("touching"));
+  pair.touching = countIn(object, "touching", samples);
+  pair.atZero = object.flag("at_zero", false);
+  pair.exact = object.flag("exact", false);
+  object.ignore("rule"); // for the reader's eye: it follows from the numbers
+  return pair;
+}
+} // namespace
+
+vpContactRule vpSelfCollisionStatistics::rule(const vpBodyPairStatistics &pair) const noexcept
+{
+  if (samples <= 0) {
+    return vpContactRule::Checked;
+  }
+  if (pair.touching >= nearlyAlways * samples) {
+    return vpContactRule::Always;
+  }
+  if (pair.atZero) {
+    return vpContactRule::Default;
+  }
+  return pair.touching == 0 ? vpContactRule::Never : vpContactRule::Checked;
+}
+
+std::vector<std::pair<std::string, std::string>> vpSelfCollisionStatistics::allowed(bool never) const
+{
+  std::vector<std::pair<std::string, std::string>> result;
+  for (const vpBodyPairStatistics &pair : pairs) {
+    const vpContactRule here = rule(pair);
+    if (here != vpContactRule::Checked && (never || here != vpContactRule::Never)) {
+      result.emplace_back(pair.first, pair.second);
+    }
+  }
+  return result;
+}
+
+void vpSelfCollisionStatistics::save(const std::string &file) const
+{
+  nlohmann::ordered_json content;
+  content["arm"] = arm;
+  content["samples"] = samples;
+  content["seed"] = seed;
+  std::ostringstream share;
+  share << 300. / samples;
+  content["never"] = "touches in less than " + share.str() + " % of random configurations, with 95 % confidence";
+  content["pairs"] = nlohmann::json::array();
+  for (const vpBodyPairStatistics &pair : pairs) {
+    nlohmann::ordered_json one;
+    one["first"] = pair.first;
+    one["second"] = pair.second;
+    one["touching"] = pair.touching;
+    one["at_zero"] = pair.atZero;
+    one["exact"] = pair.exact;
+    one["rule"] = nameOf(rule(pair));
+    content["pairs"].push_back(one);
+  }
+  // Beside the file, then renamed: a reader never gets half of it.
+  namespace fs = std::filesystem;
+  const fs::path target = file;
+  const fs::path part =
+      target.parent_path() / ("." + target.filename().string() + "." + std::to_string(getpid()) + ".partial");
+  errno = 0;
+  std::ofstream stream(part, std::ios::binary);
+  stream << content.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
+  stream.close();
+  std::error_code error, ignored;
+  if (stream) {
+    fs::rename(part, target, error);
+  }
+  if (!stream || error) {
+    const std::string reason = std::generic_category().message(error ? error.value() : errno);
+    fs::remove(part, ignored);
+    throw vpException(vpException::ioError, vpPrintable(file + ": the statistics cannot be written: " + reason));
+  }
+}
+
+vpSelfCollisionStatistics vpSelfCollisionStatistics::load(const std::string &file)
+{
+  return vpReading([&file] {
+    const nlohmann::json content = vpReadJson(file);
+    vpJsonObject top(content, file);
+    vpSelfCollisionStatistics result;
+    result.arm = top.text("arm");
+    result.samples = countIn(top, "samples", std::numeric_limits<int>::max());
+    if (result.samples == 0) {
+      throw top.wrong("samples", top.value("samples"), "> 0");
+    }
+    result.seed = top.count("seed", 1);
+    top.ignore("never");
+    top.each("pairs", [&result](vpJsonObject &object) { result.pairs.push_back(readPair(object, result.samples)); });
+    top.finish();
+    return result;
+  });
+}
+
+END_VISP_NAMESPACE
