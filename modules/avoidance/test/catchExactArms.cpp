@@ -1,0 +1,257 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// Public robots with meshes: covers first, exact shapes where they do not decide, and pairs from statistics.
+#include "vpCaseFile.h"
+#include "vpExactOracle.h"
+
+#include <visp3/avoidance/vpArmCover.h>
+#include <visp3/avoidance/vpCertifiedMotion.h>
+#include <visp3/avoidance/vpExactChecker.h>
+#include <visp3/avoidance/vpSelfCollisionStatistics.h>
+#include <visp3/manipulator/vpArmUrdf.h>
+#include <visp3/manipulator/vpSrdf.h>
+
+#include <filesystem>
+#include <iostream>
+#include <map>
+
+using namespace vpAvoidanceTestKit;
+
+namespace
+{
+struct Robot {
+  const char *name, *urdf, *srdf, *base, *tip;
+};
+const Robot panda = {"panda", "panda_description/urdf/panda.urdf", "panda_description/srdf/panda.srdf", "panda_link0",
+                     "panda_hand"};
+const Robot ur5 = {"ur5", "ur_description/urdf/ur5_robot.urdf", "ur_description/srdf/ur5.srdf", "base_link", "ee_link"};
+
+std::string fileOf(const std::string &name) { return vpTestSupport::caseFile("example-robot-data/robots/" + name); }
+
+//! VISP_DIRECT_LONG_TESTS=10 is the full number of poses and motions.
+int lengthOfTests()
+{
+  const char *factor = std::getenv("VISP_DIRECT_LONG_TESTS");
+  return std::max(1, factor ? std::atoi(factor) : 1);
+}
+
+// The robot with three capsules a body, and its exact shapes; nothing where the public files are missing.
+struct Loaded {
+  std::unique_ptr<vpArmModel> arm;
+  std::shared_ptr<const vpExactShapes> exact;
+};
+
+Loaded read(const Robot &robot, double gap, int capsules)
+{
+  Loaded loaded;
+  const std::string file = fileOf(robot.urdf);
+  if (!file.empty()) {
+    vpArmUrdfSpec spec;
+    spec.base = robot.base;
+    spec.tip = robot.tip;
+    spec.srdf = fileOf(robot.srdf);
+    if (robot.urdf == panda.urdf) {
+      spec.held = {{"panda_finger_joint1", gap}, {"panda_finger_joint2", gap}};
+    }
+    spec.acceleration = 10.;
+    spec.packagePaths = {vpTestSupport::caseFile("")};
+    vpArmCoverSpec cover;
+    cover.capsules = capsules;
+    cover.cacheFile =
+        (std::filesystem::temp_directory_path() / ("catchExactArms-covers-" + std::to_string(capsules) + ".json"))
+            .string();
+    loaded.arm = std::make_unique<vpArmModel>(vpCoverArm(vpLoadArmUrdf(file, spec), cover).arm);
+    loaded.exact = std::make_shared<vpExactShapes>(*loaded.arm);
+    CHECK(loaded.exact->warnings().empty());
+  }
+  return loaded;
+}
+
+const Loaded &load(const Robot &robot)
+{
+  static std::map<std::string, Loaded> known;
+  const auto found = known.find(robot.name);
+  return found != known.end() ? found->second : known.emplace(robot.name, read(robot, 0., 3)).first->second;
+}
+
+vpCollisionSceneSpec sceneOf(const Loaded &robot, std::mt19937_64 &rng, int objects)
+{
+  vpCollisionSceneSpec spec = randomScene(rng, objects, 1.);
+  for (vpCollisionObject &object : spec.objects) {
+    object.inflation = 0.;
+    object.pose.p += 0.3 * object.pose.p.normalized();
+  }
+  spec.ignoredBodies = robot.arm->spec().uncovered;
+  spec.exact = robot.exact;
+  return spec;
+}
+} // namespace
+
+TEST_CASE("A ball of 1 cm on the mesh of any link is seen", "[arms]")
+{
+  auto rng = vpTestSupport::generator(31);
+  CAPTURE(vpTestSupport::seed());
+  for (const Robot &robot : {panda, ur5}) {
+    const Loaded &loaded = load(robot);
+    if (!loaded.arm) {
+      return;
+    }
+    const vpArmModel &arm = *loaded.arm;
+    vpCollisionSceneSpec spec;
+    vpCollisionObject ball;
+    ball.name = "ball";
+    ball.shape = vpCollisionShape::sphere(0.01);
+    spec.objects = {ball};
+    spec.ignoredBodies = arm.spec().uncovered;
+    spec.exact = loaded.exact;
+    vpCollisionScene scene(arm, spec);
+    vpExactChecker checker(scene);
+    vpCollisionData data;
+    int placed = 0, missed = 0;
+    for (const vpArmShape &shape : arm.spec().shapes) {
+      const int link = arm.spec().bodies[static_cast<std::size_t>(shape.body)].link;
+      if (link == 0 || shape.kind != vpArmShapeKind::Mesh) {
+        continue;
+      }
+      const vpTriangleMesh mesh = vpTriangleMesh::load(shape.file, shape.size);
+      for (int k = 0; k < 100 * lengthOfTests(); ++k) {
+        const auto &t = mesh.triangles()[static_cast<std::size_t>(uniform(rng, 0., mesh.triangles().size() - 1e-9))];
+        const double a = uniform(rng, 0., 1.), b = uniform(rng, 0., 1. - a);
+        const auto corner = [&](std::size_t i) { return mesh.vertices()[static_cast<std::size_t>(t[i])]; };
+        const Vector3d p = (1. - a - b) * corner(0) + a * corner(1) + b * corner(2);
+        const vpJointVector q = configuration(arm, rng);
+        scene.place(q, data);
+        const vpRigidTransform at = vpArmKinematics::link(arm, data.arm, link) * shape.pose;
+        REQUIRE(scene.moveObject(0, {Eigen::Matrix3d::Identity(), at.R * p + at.p}));
+        ++placed;
+        missed += scene.inCollision(data) && checker.inCollision(q, 0.) ? 0 : 1;
+      }
+    }
+    std::cout << robot.name << ": " << placed << " balls on meshes, " << missed << " missed\n";
+    CHECK(missed == 0);
+    CHECK(placed > 500);
+  }
+}
+
+TEST_CASE("Certified motions of public robots are free on their meshes", "[arms]")
+{
+  auto rng = vpTestSupport::generator(32);
+  CAPTURE(vpTestSupport::seed());
+  for (const Robot &robot : {panda, ur5}) {
+    const Loaded &loaded = load(robot);
+    if (!loaded.arm) {
+      return;
+    }
+    int free = 0, byCovers = 0, contacts = 0, tried = 0;
+    vpMotionScratch scratch, plain;
+    while (free < 20 * lengthOfTests() && tried < 400 * lengthOfTests()) {
+      vpCollisionSceneSpec spec = sceneOf(loaded, rng, 8);
+      const vpCollisionScene scene(*loaded.arm, spec);
+      spec.exact.reset();
+      const vpCollisionScene bare(*loaded.arm, spec);
+      const vpCertifiedMotion certified(scene), covers(bare);
+      const ExactOracle oracle(*loaded.arm, scene);
+      for (int k = 0; k < 8; ++k, ++tried) {
+        const vpJointVector from = configuration(*loaded.arm, rng),
+                            to = from + 0.3 * (configuration(*loaded.arm, rng) - from);
+        byCovers += covers.check(from, to, plain).isFree() ? 1 : 0;
+        if (!certified.check(from, to, scratch).isFree()) {
+          continue;
+        }
+        ++free;
+        for (int i = 0; i <= 2000; ++i) {
+          contacts += oracle.touches(from + i / 2000. * (to - from)) ? 1 : 0;
+        }
+      }
+    }
+    std::cout << robot.name << ": of " << tried << " motions free " << free << ", by covers alone " << byCovers
+              << "; contacts at 2000 points each " << contacts << "\n";
+    CHECK(contacts == 0);
+    CHECK(free >= 20 * lengthOfTests());
+    CHECK(free >= byCovers);
+  }
+}
+
+TEST_CASE("Nearly all configurations that are free on the meshes are kept, and no others", "[arms]")
+{
+  auto rng = vpTestSupport::generator(33);
+  CAPTURE(vpTestSupport::seed());
+  for (const Robot &robot : {panda, ur5}) {
+    const Loaded &loaded = load(robot);
+    if (!loaded.arm) {
+      return;
+    }
+    int free = 0, kept = 0, byCovers = 0, wrong = 0;
+    for (int trial = 0; trial < 10 * lengthOfTests(); ++trial) {
+      const vpCollisionScene scene(*loaded.arm, sceneOf(loaded, rng, 8));
+      vpExactChecker checker(scene);
+      vpSceneChecker covers(scene);
+      const ExactOracle oracle(*loaded.arm, scene);
+      for (int k = 0; k < 100; ++k) {
+        const vpJointVector q = configuration(*loaded.arm, rng);
+        const bool isFree = !oracle.touches(q), isKept = !checker.inCollision(q, 0.);
+        free += isFree ? 1 : 0;
+        kept += isFree && isKept ? 1 : 0;
+        wrong += !isFree && isKept ? 1 : 0;
+        byCovers += isFree && !covers.inCollision(q, 0.) ? 1 : 0;
+      }
+    }
+    std::cout << robot.name << ": free on meshes " << free << ", kept " << kept << ", by covers alone " << byCovers
+              << ", wrongly free " << wrong << "\n";
+    CHECK(wrong == 0);
+    CHECK(kept >= 0.99 * free);
+  }
+}
+
+TEST_CASE("Statistics decide on pairs as the SRDF does", "[arms]")
+{
+  for (const Robot &robot : {panda, ur5}) {
+    const Loaded &loaded = load(robot);
+    if (!loaded.arm) {
+      return;
+    }
+    const vpArmSpec &spec = loaded.arm->spec();
+    vpSelfCollisionStatistics statistics = vpSampleBodyPairs(*loaded.arm, loaded.exact);
+    if (robot.urdf == panda.urdf) { // MoveIt moves the fingers, too: half of the samples with open ones
+      const Loaded open = read(robot, 0.04, 1);
+      const vpSelfCollisionStatistics more = vpSampleBodyPairs(*open.arm, open.exact);
+      REQUIRE(more.pairs.size() == statistics.pairs.size());
+      for (std::size_t i = 0; i < more.pairs.size(); ++i) {
+        REQUIRE(more.pairs[i].second == statistics.pairs[i].second);
+        statistics.pairs[i].touching += more.pairs[i].touching;
+      }
+      statistics.samples += more.samples;
+    }
+    const vpSrdf srdf = vpLoadSrdf(fileOf(robot.srdf));
+    std::set<std::pair<std::string, std::string>> checked, disabled;
+    for (const vpBodyPairStatistics &pair : statistics.pairs) {
+      if (statistics.rule(pair) == vpContactRule::Checked) {
+        checked.insert(std::minmax(pair.first, pair.second));
+      }
+    }
+    for (const vpSrdfPair &pair : srdf.disabled) {
+      disabled.insert(std::minmax(pair.first, pair.second));
+    }
+    std::set<std::string> shaped;
+    for (const vpArmShape &shape : spec.shapes) {
+      shaped.insert(spec.bodies[static_cast<std::size_t>(shape.body)].name);
+    }
+    int pairs = 0, same = 0;
+    std::string differ;
+    for (const std::string &a : shaped) {
+      for (const std::string &b : shaped) {
+        if (a < b) {
+          const bool agree = checked.count({a, b}) != disabled.count({a, b});
+          ++pairs;
+          same += agree ? 1 : 0;
+          differ += agree ? "" : " " + a + "-" + b;
+        }
+      }
+    }
+    std::cout << robot.name << ": " << same << " of " << pairs << " pairs as in the SRDF; others:" << differ << "\n";
+    CHECK(same >= (robot.srdf == panda.srdf ? pairs : 0.75 * pairs));
+    CHECK(pairs >= 28);
+  }
+}
