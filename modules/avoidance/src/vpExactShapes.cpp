@@ -122,8 +122,13 @@ double addShape(const vpArmModel &arm, const vpArmShape &shape, vpExactBody &bod
   for (const Vector3d &p : solid.vertices) {
     body.thickness = std::max(body.thickness, nearness(arm.spec(), shape.body, p).axis + solid.radius);
   }
-  for (const Vector3d &p : vpTriangleSolid::pointsOn(shape, solid)) {
-    outside = std::max(outside, nearness(arm.spec(), shape.body, p).outside + solid.radius);
+  if (shape.kind == vpArmShapeKind::Sphere) { // the sphere itself: its solid is slightly larger
+    outside = std::max(0., nearness(arm.spec(), shape.body, shape.pose.p).outside + shape.size(0));
+  }
+  else {
+    for (const Vector3d &p : vpTriangleSolid::pointsOn(shape, solid)) {
+      outside = std::max(outside, nearness(arm.spec(), shape.body, p).outside + solid.radius);
+    }
   }
   vpTriangleSolid placed = solid;
   if (body.link > 0) {

@@ -8,7 +8,9 @@
 
 #include <visp3/avoidance/vpArmCover.h>
 #include <visp3/avoidance/vpCertifiedMotion.h>
+#include <visp3/avoidance/vpCollisionSceneJson.h>
 #include <visp3/avoidance/vpExactChecker.h>
+#include <visp3/avoidance/vpPathPlanner.h>
 #include <visp3/avoidance/vpSelfCollisionStatistics.h>
 #include <visp3/manipulator/vpArmUrdf.h>
 #include <visp3/manipulator/vpSrdf.h>
@@ -27,15 +29,12 @@ struct Robot {
 const Robot panda = {"panda", "panda_description/urdf/panda.urdf", "panda_description/srdf/panda.srdf", "panda_link0",
                      "panda_hand"};
 const Robot ur5 = {"ur5", "ur_description/urdf/ur5_robot.urdf", "ur_description/srdf/ur5.srdf", "base_link", "ee_link"};
+const Robot tiago = {"tiago", "tiago_description/robots/tiago_no_hand.urdf", "", "torso_lift_link", "arm_tool_link"};
 
 std::string fileOf(const std::string &name) { return vpTestSupport::caseFile("example-robot-data/robots/" + name); }
 
 //! VISP_DIRECT_LONG_TESTS=10 is the full number of poses and motions.
-int lengthOfTests()
-{
-  const char *factor = std::getenv("VISP_DIRECT_LONG_TESTS");
-  return std::max(1, factor ? std::atoi(factor) : 1);
-}
+int lengthOfTests() { return vpTestSupport::longer(1); }
 
 // The robot with three capsules a body, and its exact shapes; nothing where the public files are missing.
 struct Loaded {
@@ -51,7 +50,8 @@ Loaded read(const Robot &robot, double gap, int capsules)
     vpArmUrdfSpec spec;
     spec.base = robot.base;
     spec.tip = robot.tip;
-    spec.srdf = fileOf(robot.srdf);
+    spec.srdf = *robot.srdf == '\0' ? "" : fileOf(robot.srdf);
+    spec.holdOthers = robot.urdf == tiago.urdf; // head, torso and wheels
     if (robot.urdf == panda.urdf) {
       spec.held = {{"panda_finger_joint1", gap}, {"panda_finger_joint2", gap}};
     }
@@ -93,7 +93,7 @@ TEST_CASE("A ball of 1 cm on the mesh of any link is seen", "[arms]")
 {
   auto rng = vpTestSupport::generator(31);
   CAPTURE(vpTestSupport::seed());
-  for (const Robot &robot : {panda, ur5}) {
+  for (const Robot &robot : {panda, ur5, tiago}) {
     const Loaded &loaded = load(robot);
     if (!loaded.arm) {
       return;
@@ -139,7 +139,7 @@ TEST_CASE("Certified motions of public robots are free on their meshes", "[arms]
 {
   auto rng = vpTestSupport::generator(32);
   CAPTURE(vpTestSupport::seed());
-  for (const Robot &robot : {panda, ur5}) {
+  for (const Robot &robot : {panda, ur5, tiago}) {
     const Loaded &loaded = load(robot);
     if (!loaded.arm) {
       return;
@@ -178,7 +178,7 @@ TEST_CASE("Nearly all configurations that are free on the meshes are kept, and n
 {
   auto rng = vpTestSupport::generator(33);
   CAPTURE(vpTestSupport::seed());
-  for (const Robot &robot : {panda, ur5}) {
+  for (const Robot &robot : {panda, ur5, tiago}) {
     const Loaded &loaded = load(robot);
     if (!loaded.arm) {
       return;
@@ -203,6 +203,47 @@ TEST_CASE("Nearly all configurations that are free on the meshes are kept, and n
     CHECK(wrong == 0);
     CHECK(kept >= 0.99 * free);
   }
+}
+
+// Public planning problems for the panda. By FCL on the meshes no more can be solved than have ends without a contact.
+TEST_CASE("All public planning problems whose ends are free on the meshes are solved", "[arms]")
+{
+  const Loaded open = read(panda, 0.04, 3);
+  if (!open.arm) {
+    return;
+  }
+  int tasks = 0, free = 0, solved = 0, byCovers = 0, contacts = 0;
+  for (const char *name : {"ok0", "ok1", "ok2", "in0", "in1"}) {
+    const std::string file = vpTestSupport::caseFile(std::string("scenes/") + name + ".json");
+    if (file.empty()) {
+      return;
+    }
+    vpCollisionSceneFile content = vpLoadCollisionScene(file);
+    content.spec.ignoredBodies = open.arm->spec().uncovered;
+    const vpCollisionScene covers(*open.arm, content.spec);
+    content.spec.exact = open.exact;
+    const vpCollisionScene scene(*open.arm, content.spec);
+    const ExactOracle oracle(*open.arm, scene);
+    vpPathPlannerSpec spec;
+    spec.timeLimit = 5.;
+    vpPathPlanner planner(scene, spec), coarse(covers, spec);
+    for (const vpMotionTask &task : content.tasks) {
+      const bool isFree = !oracle.touches(task.start) && !oracle.touches(task.goal);
+      const vpPathResult result = planner.plan(task.start, task.goal);
+      CAPTURE(name, task.name, result.message);
+      CHECK((result.status == vpPathStatus::Solved) == isFree);
+      ++tasks;
+      free += isFree ? 1 : 0;
+      solved += result.status == vpPathStatus::Solved ? 1 : 0;
+      byCovers += coarse.plan(task.start, task.goal).status == vpPathStatus::Solved ? 1 : 0;
+      for (int i = 0; i <= 1000 && !result.path.points.empty(); ++i) {
+        contacts += oracle.touches(result.path.at(i / 1000.)) ? 1 : 0;
+      }
+    }
+  }
+  std::cout << "panda: of " << tasks << " tasks " << free << " with free ends, solved " << solved
+            << ", by covers alone " << byCovers << "; contacts on the paths " << contacts << "\n";
+  CHECK(contacts == 0);
 }
 
 TEST_CASE("Statistics decide on pairs as the SRDF does", "[arms]")

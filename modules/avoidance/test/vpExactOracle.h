@@ -28,11 +28,16 @@ public:
       m_pairs.insert({scene.capsule(pair.first).body, scene.capsule(pair.second).body});
     }
     for (int j = 0; j < scene.objectCount(); ++j) {
+      for (int i = 0; i < scene.capsuleCount(); ++i) {
+        if (!scene.isChecked(i, j)) {
+          m_allowed.insert({scene.capsule(i).body, j}); // on the base, or an allowed contact
+        }
+      }
       m_objects.push_back({geometry(scene.object(j).shape), j, 0, scene.object(j).pose});
     }
   }
 
-  //! True if a body touches an object, or another body that it must not touch. Surfaces only: not what is inside.
+  //! True if a body touches an object that it must not touch, or another body that it must not touch. Surfaces only: not what is inside.
   [[nodiscard]] bool touches(const vpJointVector &q) const
   {
     vpArmData data;
@@ -40,7 +45,8 @@ public:
     for (std::size_t i = 0; i < m_shapes.size(); ++i) {
       const fcl::Transform3d at = place(data, m_shapes[i]);
       for (const Part &object : m_objects) {
-        if (m_shapes[i].link > 0 && collide(m_shapes[i], at, object, transform(object.pose))) {
+        if (m_allowed.count({m_shapes[i].body, object.body}) == 0 &&
+            collide(m_shapes[i], at, object, transform(object.pose))) {
           return true;
         }
       }
@@ -130,7 +136,7 @@ private:
 
   const vpArmModel *m_arm;
   std::vector<Part> m_shapes, m_objects;
-  std::set<std::pair<int, int>> m_pairs;
+  std::set<std::pair<int, int>> m_pairs, m_allowed;
 };
 } // namespace vpAvoidanceTestKit
 #endif
