@@ -115,6 +115,17 @@ long long wholeIn(const std::string &option, const std::string &text, const Rang
   return value;
 }
 
+std::vector<double> numbersIn(const std::string &option, const std::string &text, const Range &range)
+{
+  std::vector<double> numbers;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    numbers.push_back(numberIn(option, text.substr(begin, end - begin), range));
+    begin = end + 1;
+  }
+  return numbers;
+}
+
 CommandLine::CommandLine(const std::string &program, const std::string &about, const std::string &examples)
   : m_app(std::make_unique<CLI::App>(about, program))
 {
@@ -124,12 +135,13 @@ CommandLine::CommandLine(const std::string &program, const std::string &about, c
 
 CommandLine::~CommandLine() = default;
 
-void CommandLine::add(const std::string &name, const std::string &placeholder, const std::string &sentence,
+void CommandLine::add(const std::string &names, const std::string &placeholder, const std::string &sentence,
                       const std::string &preset, Reader read, int count)
 {
+  const std::string name = names.substr(0, names.find(','));
   const bool stated = preset.empty() || sentence.find("(default") != std::string::npos;
   CLI::Option *option = m_app->add_option(
-      name,
+      names,
       [name, read = std::move(read)](const CLI::results_t &values) {
         for (const std::string &value : values) {
           // A name that a script left empty would be taken as not given; CLI11 takes the next option for a value.

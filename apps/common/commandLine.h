@@ -35,6 +35,9 @@ struct Range {
 [[nodiscard]] double numberIn(const std::string &option, const std::string &text, const Range &range);
 //! A whole number. \throw UsageError "--jobs is 0, must be a whole number from 1 to 256".
 [[nodiscard]] long long wholeIn(const std::string &option, const std::string &text, const Range &range);
+//! Numbers separated by commas. \throw UsageError naming the first that is not one, as numberIn().
+[[nodiscard]] std::vector<double> numbersIn(const std::string &option, const std::string &text,
+                                            const Range &range = {});
 
 /*!
  * \brief Options of a program. A variable's value at the time of the call is the default, which the help states unless
@@ -84,8 +87,11 @@ public:
     }
     chooseFrom(name, names, preset, sentence, [&value, choices](std::size_t i) { value = choices[i].second; });
   }
-  //! Any option. \param count : Number of values; 0: one, and the option may be repeated; -1: any number.
-  void add(const std::string &name, const std::string &placeholder, const std::string &sentence,
+  /*!
+   * Any option. \param names : Its name; a former name may follow after a comma: "--robot,--arm". \param count : Number of values;
+   * 0: one, and the option may be repeated; -1: any number.
+   */
+  void add(const std::string &names, const std::string &placeholder, const std::string &sentence,
            const std::string &preset, Reader read, int count = 1);
 
   /*!

@@ -7,8 +7,13 @@
 #include "htmlReport.h"
 #include "numberText.h"
 
+#include <opencv2/imgproc.hpp>
+
+#include <visp3/manipulator/vpArmKinematics.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace vpApp
 {
@@ -63,6 +68,26 @@ std::string text(double x, double y, const std::string &what, const std::string 
   return "<text x=\"" + px(x) + "\" y=\"" + px(y) + "\" " + attributes + ">" + escapeHtml(what) + "</text>\n";
 }
 
+//! Mean of the vertices of a mesh, else the origin, in the base frame.
+Vector3d middle(const vpCollisionObject &object)
+{
+  Vector3d centre = Vector3d::Zero();
+  if (object.shape.type() == vpShapeType::Mesh) {
+    const vpTriangleMesh &mesh = object.shape.mesh();
+    for (const Vector3d &p : mesh.vertices()) {
+      centre += p / static_cast<double>(mesh.vertices().size());
+    }
+  }
+  return object.pose.R * centre + object.pose.p;
+}
+
+const char *nameOf(ArmView view)
+{
+  return view == ArmView::Top    ? "from above: x right, y up"
+         : view == ArmView::Side ? "from the side: y right, z up"
+                                 : "from the side: x right, z up";
+}
+
 std::string line(const Vector2d &a, const Vector2d &b, const std::string &attributes)
 {
   return "<line x1=\"" + px(a.x()) + "\" y1=\"" + px(a.y()) + "\" x2=\"" + px(b.x()) + "\" y2=\"" + px(b.y()) + "\" " +
@@ -72,7 +97,57 @@ std::string line(const Vector2d &a, const Vector2d &b, const std::string &attrib
 
 Vector2d project(const Vector3d &place, ArmView view)
 {
-  return view == ArmView::Top ? Vector2d(place.x(), place.y()) : Vector2d(place.y(), place.z());
+  switch (view) {
+  case ArmView::Top:
+    return {place.x(), place.y()};
+  case ArmView::Side:
+    return {place.y(), place.z()};
+  default:
+    return {place.x(), place.z()};
+  }
+}
+
+double nearness(const Vector3d &place, ArmView view)
+{
+  return view == ArmView::Top ? place.z() : view == ArmView::Side ? place.x() : -place.y();
+}
+
+std::vector<Polygon> silhouette(const std::vector<Polygon> &polygons, double step)
+{
+  Vector2d low = Vector2d::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (const Polygon &polygon : polygons) {
+    for (const Vector2d &p : polygon) {
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+  }
+  constexpr double largest = 4000.; // pixels across
+  if (!((high - low).maxCoeff() < largest * step)) {
+    return polygons;
+  }
+  low -= Vector2d::Constant(2. * step);
+  const Vector2d size = (high - low) / step;
+  cv::Mat mask(static_cast<int>(size.y()) + 3, static_cast<int>(size.x()) + 3, CV_8UC1, cv::Scalar(0));
+  for (const Polygon &polygon : polygons) {
+    std::vector<cv::Point> corners;
+    for (const Vector2d &p : polygon) {
+      corners.emplace_back(cvRound((p.x() - low.x()) / step), cvRound((p.y() - low.y()) / step));
+    }
+    cv::fillConvexPoly(mask, corners, cv::Scalar(255));
+  }
+  std::vector<std::vector<cv::Point>> contours;
+  cv::findContours(mask, contours, cv::RETR_CCOMP, cv::CHAIN_APPROX_NONE);
+  std::vector<Polygon> result;
+  for (const std::vector<cv::Point> &contour : contours) {
+    std::vector<cv::Point> fewer;
+    cv::approxPolyDP(contour, fewer, 0.7, true);
+    Polygon polygon;
+    for (const cv::Point &p : fewer) {
+      polygon.push_back(low + step * Vector2d(p.x, p.y));
+    }
+    result.push_back(polygon);
+  }
+  return result;
 }
 
 Polygon convexHull(std::vector<Vector2d> points)
@@ -133,12 +208,18 @@ std::string px(double value) { return number(std::round(10. * value) / 10., 6); 
 
 PlacedArm placeArm(const vpArmModel &arm, const vpJointVector &q)
 {
-  vpCollisionData data;
-  const vpCollisionScene scene(arm);
-  scene.place(q, data);
+  vpArmData data;
+  vpArmKinematics::forward(arm, q, data);
   PlacedArm placed;
-  placed.capsules.assign(data.capsules.begin(), data.capsules.begin() + scene.capsuleCount());
-  placed.tool = data.arm.tool.p;
+  for (const vpArmCapsule &capsule : arm.spec().capsules) {
+    const vpRigidTransform link = vpArmKinematics::link(arm, data, capsule.link);
+    vpPlacedCapsule at;
+    at.from = link.R * capsule.from + link.p;
+    at.to = link.R * capsule.to + link.p;
+    at.radius = capsule.radius;
+    placed.capsules.push_back(at);
+  }
+  placed.tool = data.tool.p;
   return placed;
 }
 
@@ -208,9 +289,9 @@ std::string ArmCanvas::points(const Polygon &polygon, ArmView view) const
 void ArmCanvas::heading(const std::string &title, bool ground)
 {
   add(text(GAP, 18., title, "font-size=\"15\" font-weight=\"600\""));
-  const char *names[] = {"from above: x right, y up", "from the side: y right, z up"};
   for (int i = 0; i < 2; ++i) {
-    add(text(m_frames[i].corner.x(), HEAD - 8., names[i], "font-size=\"12\" fill=\"#666666\""));
+    add(text(m_frames[i].corner.x(), HEAD - 8., nameOf(views[static_cast<std::size_t>(i)]),
+             "font-size=\"12\" fill=\"#666666\""));
   }
   for (int i = 0; i < 2; ++i) { // half the gap belongs to each view
     const Vector2d size = m_scale * (m_frames[i].high - m_frames[i].low) + Vector2d(GAP, 10.);
@@ -220,7 +301,7 @@ void ArmCanvas::heading(const std::string &title, bool ground)
   }
   const Frame &f = m_frames[1];
   if (ground) {
-    add(line(pixel(Vector2d(f.low.x(), 0.), ArmView::Side), pixel(Vector2d(f.high.x(), 0.), ArmView::Side),
+    add(line(pixel(Vector2d(f.low.x(), 0.), views[1]), pixel(Vector2d(f.high.x(), 0.), views[1]),
              "stroke=\"#999999\" stroke-width=\"1.5\""));
   }
   const Vector2d from(GAP, m_height - 10.); // scale bar of a decimetre
@@ -232,10 +313,30 @@ void ArmCanvas::object(const vpCollisionObject &object, const std::string &attri
 {
   for (int i = 0; i < 2; ++i) {
     add("<g clip-path=\"url(#" + escapeHtml(m_id) + std::to_string(i) + ")\">\n");
-    for (const Polygon &polygon : outline(object, views[i])) {
-      add("<polygon points=\"" + points(polygon, views[i]) + "\" " + attributes + "/>\n");
+    const ArmView view = views[static_cast<std::size_t>(i)];
+    for (const Polygon &polygon : outline(object, view)) {
+      add("<polygon points=\"" + points(polygon, view) + "\" " + attributes + "/>\n");
     }
     add("</g>\n");
+  }
+}
+
+void ArmCanvas::parts(const std::vector<ArmPart> &parts)
+{
+  for (const ArmView view : views) {
+    std::vector<std::pair<double, const ArmPart *>> order;
+    for (const ArmPart &part : parts) {
+      order.emplace_back(nearness(middle(part.object), view), &part);
+    }
+    std::stable_sort(order.begin(), order.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
+    for (const auto &[near, part] : order) {
+      std::string path;
+      for (const Polygon &polygon : silhouette(outline(part->object, view), 0.5 / m_scale)) {
+        path += "M" + points(polygon, view) + "Z";
+      }
+      add("<path d=\"" + path + "\" fill=\"" + escapeHtml(part->colour) +
+          "\" fill-rule=\"evenodd\" stroke=\"#44546a\" stroke-width=\"0.8\"/>\n");
+    }
   }
 }
 

@@ -17,10 +17,14 @@ namespace vpApp
 class ArmCanvas
 {
 public:
-  static constexpr ArmView views[2] = {ArmView::Top, ArmView::Side};
+  //! Left and right.
+  const std::array<ArmView, 2> views;
 
   //! \param id : Prefix of the names in the document; unique among the documents of a page.
-  explicit ArmCanvas(const vpArmModel &arm, std::string id = "view") : m_arm(&arm), m_id(std::move(id)) {}
+  explicit ArmCanvas(const vpArmModel &arm, std::string id = "view",
+                     std::array<ArmView, 2> both = {ArmView::Top, ArmView::Side})
+    : views(both), m_arm(&arm), m_id(std::move(id))
+  {}
 
   void show(const vpCollisionObject &object); //!< Extend the views to the object.
   void show(const Eigen::Vector3d &place);    //!< Extend the views to the point.
@@ -30,6 +34,8 @@ public:
   void heading(const std::string &title, bool ground);
   //! Draw an object; parts outside a view are clipped.
   void object(const vpCollisionObject &object, const std::string &attributes);
+  //! Draw parts, the nearest last.
+  void parts(const std::vector<ArmPart> &parts);
   void ghost(const ArmGhost &ghost);
   void trace(const ArmTrace &trace);
   void mark(const ArmMark &mark);
@@ -53,8 +59,8 @@ private:
                     high = Eigen::Vector2d::Constant(0.1); // m, contains at least the base
     Eigen::Vector2d corner = Eigen::Vector2d::Zero();      // px, top left
   };
-  [[nodiscard]] Frame &frame(ArmView view) { return m_frames[view == ArmView::Top ? 0 : 1]; }
-  [[nodiscard]] const Frame &frame(ArmView view) const { return m_frames[view == ArmView::Top ? 0 : 1]; }
+  [[nodiscard]] Frame &frame(ArmView view) { return m_frames[view == views[0] ? 0 : 1]; }
+  [[nodiscard]] const Frame &frame(ArmView view) const { return m_frames[view == views[0] ? 0 : 1]; }
   void include(const Eigen::Vector2d &p, ArmView view, double room);
 
   const vpArmModel *m_arm;

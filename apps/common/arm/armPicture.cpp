@@ -109,7 +109,7 @@ std::string frameData(const ArmCanvas &canvas, const vpArmModel &arm, const ArmA
 {
   const PlacedArm placed = placeArm(arm, frame.q);
   std::string lines, dots, objects;
-  for (const ArmView view : ArmCanvas::views) {
+  for (const ArmView view : canvas.views) {
     for (const vpPlacedCapsule &c : placed.capsules) {
       append(lines, canvas.pixel(c.from, view));
       append(lines, canvas.pixel(c.to, view));
@@ -120,7 +120,7 @@ std::string frameData(const ArmCanvas &canvas, const vpArmModel &arm, const ArmA
   }
   for (std::size_t i = 0; i < animation.objects.size(); ++i) {
     const Eigen::Vector3d place = animation.objects[i].pose.p;
-    for (const ArmView view : ArmCanvas::views) {
+    for (const ArmView view : canvas.views) {
       const Eigen::Vector2d shift = canvas.pixel(frame.objects[i].p, view) - canvas.pixel(place, view);
       const std::size_t count = outline(animation.objects[i], view).size();
       for (std::size_t k = 0; k < count; ++k) {
@@ -168,7 +168,7 @@ ArmCanvas layOut(const vpArmModel &arm, const ArmAnimation &animation, const std
 
 std::string armPictureSvg(const vpArmModel &arm, const ArmPicture &picture)
 {
-  ArmCanvas canvas(arm);
+  ArmCanvas canvas(arm, "view", picture.views);
   for (const std::vector<vpCollisionObject> *list : {&picture.objects, &picture.faint}) {
     for (const vpCollisionObject &object : *list) {
       canvas.show(object);
@@ -177,6 +177,9 @@ std::string armPictureSvg(const vpArmModel &arm, const ArmPicture &picture)
   for (const ArmGhost &ghost : picture.ghosts) {
     canvas.show(ghost.q);
   }
+  for (const ArmPart &part : picture.parts) {
+    canvas.show(part.object);
+  }
   showLabelled(canvas, picture.traces, picture.marks);
   canvas.layOut();
 
@@ -184,6 +187,7 @@ std::string armPictureSvg(const vpArmModel &arm, const ArmPicture &picture)
   for (const vpCollisionObject &object : picture.faint) {
     canvas.object(object, FAINT);
   }
+  canvas.parts(picture.parts);
   for (const ArmGhost &ghost : picture.ghosts) {
     canvas.ghost(ghost);
   }

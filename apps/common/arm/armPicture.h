@@ -11,6 +11,7 @@
 
 #include <visp3/avoidance/vpCollisionScene.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,9 @@ namespace vpApp
 {
 //! \brief View direction of an orthographic figure, along the axes of the base.
 enum class ArmView {
-  Top, //!< x to the right, y up.
-  Side //!< y to the right, z up: seen along -x.
+  Top,  //!< x to the right, y up.
+  Side, //!< y to the right, z up: seen along -x.
+  Front //!< x to the right, z up: seen along y.
 };
 
 //! \brief The arm at one configuration: its capsules, and a dot for the tool.
@@ -27,6 +29,12 @@ struct ArmGhost {
   vpJointVector q;
   std::string colour = "#44546a"; //!< #rrggbb
   double opacity = 1.;            //!< 0..1
+};
+
+//! \brief A solid part in one colour, drawn as its silhouette: the exact shape of a link.
+struct ArmPart {
+  vpCollisionObject object;
+  std::string colour = "#c9d1d9"; //!< #rrggbb
 };
 
 //! \brief Path of a point, such as the tool.
@@ -48,10 +56,12 @@ struct ArmPicture {
   std::string title;
   std::vector<vpCollisionObject> objects; //!< Obstacles at their poses, drawn with inflation.
   std::vector<vpCollisionObject> faint;   //!< Obstacles at other poses: at the start, as seen.
-  bool ground = false;                    //!< A line at z = 0 in the side view.
+  bool ground = false;                    //!< A line at z = 0 in the right view.
+  std::vector<ArmPart> parts;             //!< Below the ghosts, the nearest to the viewer on top.
   std::vector<ArmGhost> ghosts;           //!< Drawn in this order.
   std::vector<ArmTrace> traces;
   std::vector<ArmMark> marks;
+  std::array<ArmView, 2> views{ArmView::Top, ArmView::Side}; //!< Left and right.
 };
 
 //! Both views side by side at the same scale, as an SVG document.

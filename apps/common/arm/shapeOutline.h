@@ -17,6 +17,10 @@ using Polygon = std::vector<Eigen::Vector2d>;
 
 //! Projection of a point into the figure plane, m: right, up.
 [[nodiscard]] Eigen::Vector2d project(const Eigen::Vector3d &place, ArmView view);
+//! Distance of a point along the view direction, m; the nearer to the viewer, the larger.
+[[nodiscard]] double nearness(const Eigen::Vector3d &place, ArmView view);
+//! Boundaries of the union of polygons, outer ones and holes, to \e step.
+[[nodiscard]] std::vector<Polygon> silhouette(const std::vector<Polygon> &polygons, double step);
 //! Convex hull, anticlockwise.
 [[nodiscard]] Polygon convexHull(std::vector<Eigen::Vector2d> points);
 /*!

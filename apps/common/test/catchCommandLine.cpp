@@ -97,3 +97,30 @@ TEST_CASE("a command line tells help from mistakes", "[apps]")
   }
   CHECK_THROWS_AS(parse({"--nonsense"}), vpApp::UsageError);
 }
+
+TEST_CASE("lists of numbers, and former names of options", "[apps]")
+{
+  CHECK(vpApp::numbersIn("--q", "1,-2.5,3e-1") == std::vector<double>{1., -2.5, 0.3});
+  CHECK(vpApp::numbersIn("--q", "7") == std::vector<double>{7.});
+  for (const std::string text : {"", "1,", ",1", "1,,2", "1 2", "1,x", "nan", "1,inf"}) {
+    CAPTURE(text);
+    CHECK_THROWS_AS(vpApp::numbersIn("--q", text), vpApp::UsageError);
+  }
+  CHECK(complaint([] {
+          static_cast<void>(vpApp::numbersIn("--q", "1,-2", {0., 9., true}));
+        }) == "--q is -2, must be a number > 0 and <= 9");
+  for (const char *name : {"--robot", "--arm"}) {
+    std::string value;
+    vpApp::CommandLine line("prog", "About.", "Examples.");
+    line.text("--robot,--arm", value, "FILE", "A robot");
+    const char *arguments[] = {"prog", name, "x.urdf"};
+    CHECK(line.parse(3, arguments));
+    CHECK(value == "x.urdf");
+    CHECK(line.given() == std::vector<std::string>{"--robot"});
+    CHECK(line.isGiven("--robot"));
+    vpApp::CommandLine empty("prog", "About.", "Examples.");
+    empty.text("--robot,--arm", value, "FILE", "A robot");
+    const char *nothing[] = {"prog", name, ""};
+    CHECK(complaint([&] { static_cast<void>(empty.parse(3, nothing)); }) == "--robot is given without a value");
+  }
+}
