@@ -10,6 +10,7 @@
 #include <visp3/avoidance/vpCertifiedMotion.h>
 #include <visp3/avoidance/vpPathPlanner.h>
 #include <visp3/core/vpException.h>
+#include <visp3/direct_core/vpSO3.h>
 
 #include <algorithm>
 #include <cmath>
@@ -30,17 +31,8 @@ void vpSceneDraw::requireArm(const std::shared_ptr<const vpArmModel> &arm)
 
 void vpSceneDraw::giveUp(const char *scene, unsigned int seed)
 {
-  throw vpException(vpException::badValue,
-                    "scene %s with seed %u: none of %d draws meets the conditions, is the arm "
-                    "of AMOR's size?",
+  throw vpException(vpException::badValue, "scene %s with seed %u: none of %d draws meets the conditions for this arm",
                     scene, seed, mostDraws);
-}
-
-vpHalfSpace vpSceneDraw::ground()
-{
-  vpHalfSpace plane;
-  plane.firstLink = 3;
-  return plane;
 }
 
 vpAvoidanceRunSpec vpSceneDraw::between(const std::shared_ptr<const vpArmModel> &arm, const vpJointVector &start,
@@ -48,6 +40,7 @@ vpAvoidanceRunSpec vpSceneDraw::between(const std::shared_ptr<const vpArmModel> 
 {
   vpAvoidanceRunSpec run;
   run.arm = arm;
+  run.scene = vpIgnoreUncovered(*arm);
   run.start = start;
   run.goal = vpAvoidanceGoal::at(*arm, goal);
   run.seed = seed;
@@ -62,6 +55,10 @@ vpJointVector vpSceneDraw::configuration(const vpArmModel &arm, vpHashRandom &ra
   for (int i = 0; i < arm.size(); ++i) {
     const double lower = arm.isContinuous(i) ? -M_PI : arm.lower()(i);
     const double range = arm.isContinuous(i) ? 2. * M_PI : arm.upper()(i) - lower;
+    if (!arm.isPrismatic(i) && range > 2. * M_PI) { // a turn about the middle
+      q(i) = lower + 0.5 * range + random.uniform(-M_PI, M_PI);
+      continue;
+    }
     q(i) = lower + range * (arm.isContinuous(i) ? random.uniform() : random.uniform(away, 1. - away));
   }
   return q;
@@ -127,19 +124,75 @@ namespace
 {
 constexpr unsigned int number = 1;
 
-//! The nearby configuration with the tool at a position.
-vpAvoidanceGoal goalAt(const vpArmModel &arm, const vpJointVector &near, const Eigen::Vector3d &place)
-{
-  vpJointVector q = near;
-  if (!vpReachPoint(arm, place, q)) {
-    throw vpException(vpException::badValue, "arm %s does not reach (%g, %g, %g) m from its start", arm.label().c_str(),
-                      place.x(), place.y(), place.z());
+/*!
+ * \brief Start of the arm, and the plane of chapter 8 there. The thesis's start and directions if the arm is free and
+ * reaches all goals there; else the first of random ones.
+ */
+struct Stage {
+  vpJointVector start;
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero(); // tool at the start
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  double scale = 1.;
+
+  [[nodiscard]] Eigen::Vector3d way(double x, double y) const
+  {
+    return axes * Eigen::Vector3d(scale * x, scale * y, 0.);
   }
-  return vpAvoidanceGoal::at(arm, q);
+  [[nodiscard]] Eigen::Vector3d place(double x, double y) const { return origin + way(x, y); }
+  //! The nearby configuration with the tool at a place of the plane; false if there is none.
+  [[nodiscard]] bool reach(const vpArmModel &arm, double x, double y, vpJointVector &q) const
+  {
+    q = start;
+    return vpReachPoint(arm, place(x, y), q);
+  }
+  [[nodiscard]] vpAvoidanceGoal goal(const vpArmModel &arm, double x, double y) const
+  {
+    vpJointVector q;
+    static_cast<void>(reach(arm, x, y, q)); // isUsable() has tried it
+    return vpAvoidanceGoal::at(arm, q);
+  }
+};
+
+using Goals = std::vector<std::pair<double, double>>;
+
+bool isUsable(const vpCollisionScene &scene, const Stage &stage, const Goals &goals)
+{
+  vpJointVector q;
+  return vpSceneDraw::isFree(scene, stage.start, vpAvoidanceScenes::feasibleMargin) &&
+         std::all_of(goals.begin(), goals.end(), [&](const auto &goal) {
+           return stage.reach(scene.arm(), goal.first, goal.second, q) &&
+                  vpSceneDraw::isFree(scene, q, vpAvoidanceScenes::feasibleMargin);
+         });
 }
 
-//! AMOR's start of chapter 8, found from the arm's home.
-vpAvoidanceGoal thesisStart(const vpArmModel &arm) { return goalAt(arm, arm.home(), {0.05, 0.63, 0.35}); }
+Stage findStage(const vpArmModel &arm, const char *scene, unsigned int scenes, const Goals &goals)
+{
+  const vpSceneFrame frame = vpSceneFrame::of(arm);
+  vpCollisionSceneSpec spec = vpIgnoreUncovered(arm);
+  spec.ground = frame.floor();
+  const vpCollisionScene alone(arm, spec);
+  Stage stage;
+  stage.scale = frame.scale;
+  for (int draw = -1; draw < vpSceneDraw::mostDraws; ++draw) {
+    vpHashRandom random = vpSceneDraw::random(scenes, 0, draw);
+    double ahead = 0.63, above = 0.35;
+    stage.start = arm.home();
+    if (draw >= 0) {
+      stage.start = vpSceneDraw::configuration(arm, random);
+      stage.axes = vpSO3::exp(random.uniform(-M_PI, M_PI) * Eigen::Vector3d::UnitZ());
+      ahead = random.uniform(0.25, 0.63);
+      above = random.uniform(0.15, 0.6);
+    }
+    const Eigen::Vector3d place = frame.place(stage.axes * Eigen::Vector3d(0.05, ahead, above));
+    const bool reached = vpReachPoint(arm, place, stage.start);
+    stage.origin = vpSceneDraw::tool(arm, stage.start);
+    if (reached && isUsable(alone, stage, goals)) {
+      return stage;
+    }
+  }
+  throw vpException(vpException::badValue, "scene %s: arm %s is free and reaches all goals from none of %d starts",
+                    scene, arm.label().c_str(), vpSceneDraw::mostDraws);
+}
 
 //! Fraction of a path after which an arm can be at rest: it starts with minimum jerk and 1 m/s^2 and sees at \e t.
 double goneUntil(double t, double way)
@@ -175,25 +228,25 @@ bool isGood(const vpCollisionScene &scene, const vpJointVector &start, const Eig
 vpAvoidanceScenario vpAvoidanceScenes::figure88(const std::shared_ptr<const vpArmModel> &arm, unsigned int seed)
 {
   vpSceneDraw::requireArm(arm);
-  const vpAvoidanceGoal start = thesisStart(*arm);
-  const Eigen::Vector3d way(0., 0.3, 0.);
-  const vpAvoidanceGoal straight = goalAt(*arm, start.q, start.position + way);
-  const vpAvoidanceGoal aside = goalAt(*arm, start.q, start.position + Eigen::Vector3d(0.175, 0.3, 0.));
+  const Stage stage = findStage(*arm, "S1", number, {{0., 0.3}, {0.175, 0.3}});
+  const vpAvoidanceGoal straight = stage.goal(*arm, 0., 0.3), aside = stage.goal(*arm, 0.175, 0.3);
+  const Eigen::Vector3d way = stage.way(0., 0.3);
   for (int draw = 0; draw < vpSceneDraw::mostDraws; ++draw) {
     vpHashRandom random = vpSceneDraw::random(number, seed, draw);
     const double when = random.uniform(0.2, 0.45);
     vpMovingObstacle ball;
     ball.object.name = "ball";
-    ball.object.shape = vpCollisionShape::sphere(0.05);
-    ball.object.pose.p = start.position + Eigen::Vector3d(random.uniform(-0.1, 0.05), random.uniform(0.15, 0.35),
-                                                          random.uniform(-0.05, 0.05));
+    ball.object.shape = vpCollisionShape::sphere(stage.scale * 0.05);
+    const Eigen::Vector3d p(random.uniform(-0.1, 0.05), random.uniform(0.15, 0.35), random.uniform(-0.05, 0.05));
+    ball.object.pose.p = stage.place(p.x(), p.y());
+    ball.object.pose.p.z() += stage.scale * p.z();
     ball.appears = when;
     vpAvoidanceScenario scenario;
-    scenario.run = vpSceneDraw::between(arm, start.q, straight.q, seed);
-    scenario.run.scene.ground = vpSceneDraw::ground();
+    scenario.run = vpSceneDraw::between(arm, stage.start, straight.q, seed);
+    scenario.run.scene.ground = vpSceneFrame::of(*arm).floor();
     vpCollisionScene scene(*arm, scenario.run.scene);
     scene.add(ball.object);
-    if (isGood(scene, start.q, way, aside.q, goneUntil(when + 0.15, way.norm()), seed)) {
+    if (isGood(scene, stage.start, way, aside.q, goneUntil(when + 0.15, way.norm()), seed)) {
       scenario.name = "S1 number " + std::to_string(seed);
       scenario.run.obstacles.push_back(ball);
       scenario.run.goalMoves = {{when, when, aside}};
@@ -209,15 +262,13 @@ vpAvoidanceScenario vpAvoidanceScenes::figure88(const std::shared_ptr<const vpAr
 
 vpAvoidanceScenario vpAvoidanceScenes::movingGoal(const std::shared_ptr<const vpArmModel> &arm, unsigned int seed)
 {
+  constexpr unsigned int movingNumber = 7;
   vpSceneDraw::requireArm(arm);
-  const vpAvoidanceGoal start = thesisStart(*arm);
-  const auto place = [&](double x, double y) {
-    return goalAt(*arm, start.q, start.position + Eigen::Vector3d(x, y, 0.));
-  };
+  const Stage stage = findStage(*arm, "S7", movingNumber, {{0.1, 0.3}, {0.23, 0.13}, {0.14, 0.04}});
   vpAvoidanceScenario scenario;
   scenario.name = "S7 number " + std::to_string(seed);
-  scenario.run = vpSceneDraw::between(arm, start.q, place(0.1, 0.3).q, seed);
-  scenario.run.goalMoves = {{0.5, 0.9, place(0.23, 0.13)}, {1.7, 1.9, place(0.14, 0.04)}};
+  scenario.run = vpSceneDraw::between(arm, stage.start, stage.goal(*arm, 0.1, 0.3).q, seed);
+  scenario.run.goalMoves = {{0.5, 0.9, stage.goal(*arm, 0.23, 0.13)}, {1.7, 1.9, stage.goal(*arm, 0.14, 0.04)}};
   scenario.run.goalNoise = 0.01;
   scenario.run.maxDuration = 10.;
   return scenario;
@@ -239,7 +290,7 @@ vpAvoidanceScenario vpAvoidanceScenes::fromTask(const std::shared_ptr<const vpAr
   vpAvoidanceScenario scenario;
   scenario.name = file.name + ", " + motion.name;
   scenario.run = vpSceneDraw::between(arm, motion.start, motion.goal, seed);
-  scenario.run.scene = file.spec;
+  scenario.run.scene = vpIgnoreUncovered(*arm, file.spec);
   scenario.run.visionRate = 5.;
   return scenario;
 }

@@ -38,9 +38,9 @@ struct vpCrossingSpec {
  *
  * Random scenes are drawn until one is neither trivial nor infeasible; this is checked by
  * proofs (vpCertifiedMotion, vpPathPlanner with certified motions and an iteration limit instead of a time limit), with
- * a clearance of \ref feasibleMargin where methods keep 10 mm. Designed for AMOR; arms of similar size work, too. All
- * functions throw vpException (badValue) if there is no arm, if positions are unreachable, or if no draw meets the
- * conditions.
+ * a clearance of \ref feasibleMargin where methods keep 10 mm. Designed for AMOR; for another arm lengths and places follow
+ * vpSceneFrame, and bodies of vpArmSpec::uncovered are ignored, which the caller has to justify. All functions throw
+ * vpException (badValue) if there is no arm, if positions are unreachable, or if no draw meets the conditions.
  */
 namespace vpAvoidanceScenes
 {
@@ -52,7 +52,8 @@ constexpr double feasibleMargin = 0.03;
  * appears on the path, and the goal moves to (0.225, 0.93) m at the same time, as in figure 8.8. The thesis gives
  * position and time of the new goal, not of the obstacle: its radius is 50 mm, its position and time depend on the
  * seed; the straight path touches it, but not where the arm already is or can no longer stop, and a path from the start
- * to the new goal is known. Camera at 10 Hz.
+ * to the new goal is known. Camera at 10 Hz. An arm that is not free or does not reach the goals there starts elsewhere,
+ * with the plane of the figure turned about the vertical; so in S7.
  */
 [[nodiscard]] vpAvoidanceScenario figure88(const std::shared_ptr<const vpArmModel> &arm, unsigned int seed);
 /*!

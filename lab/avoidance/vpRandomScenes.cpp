@@ -20,13 +20,15 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
+constexpr double least = 0.3, most = 0.8; // m, distance of the tool positions
 constexpr unsigned int staticNumber = 2;
 
-vpCollisionShape randomShape(vpHashRandom &random)
+vpCollisionShape randomShape(vpHashRandom &random, double scale)
 {
   const auto kind = static_cast<int>(random.uniform(0., 4.));
-  const double radius = random.uniform(0.03, 0.12), length = random.uniform(0.06, 0.6);
-  const Eigen::Vector3d size(random.uniform(0.06, 0.4), random.uniform(0.06, 0.4), random.uniform(0.06, 0.4));
+  const double radius = scale * random.uniform(0.03, 0.12), length = scale * random.uniform(0.06, 0.6);
+  const Eigen::Vector3d size(scale * random.uniform(0.06, 0.4), scale * random.uniform(0.06, 0.4),
+                             scale * random.uniform(0.06, 0.4));
   switch (kind) {
   case 0:
     return vpCollisionShape::sphere(radius);
@@ -46,16 +48,16 @@ Eigen::Vector3d randomPlace(vpHashRandom &random)
   return {distance * std::cos(angle), distance * std::sin(angle), z};
 }
 
-vpCollisionSceneSpec randomScene(vpHashRandom &random)
+vpCollisionSceneSpec randomScene(const vpArmModel &arm, const vpSceneFrame &frame, vpHashRandom &random)
 {
-  vpCollisionSceneSpec spec;
-  spec.ground = vpSceneDraw::ground();
+  vpCollisionSceneSpec spec = vpIgnoreUncovered(arm);
+  spec.ground = frame.floor();
   const int count = 3 + static_cast<int>(random.uniform(0., 8.));
   for (int i = 0; i < count; ++i) {
     vpCollisionObject object;
     object.name = "obstacle " + std::to_string(i + 1);
-    object.shape = randomShape(random);
-    object.pose.p = randomPlace(random);
+    object.shape = randomShape(random, frame.scale);
+    object.pose.p = frame.place(randomPlace(random));
     object.pose.R = vpSO3::exp(random.uniform(0., M_PI) * vpSceneDraw::direction(random));
     spec.objects.push_back(object);
   }
@@ -83,11 +85,11 @@ bool toolTouches(const vpCollisionScene &scene, const vpJointVector &start, cons
 }
 
 //! Start and goal free and at some distance, neither straight motion free, a path known.
-bool isGood(const vpCollisionScene &scene, const vpJointVector &start, const vpJointVector &goal, unsigned int seed)
+bool isGood(const vpCollisionScene &scene, const vpJointVector &start, const vpJointVector &goal, double scale,
+            unsigned int seed)
 {
-  constexpr double least = 0.3, most = 0.8; // m, distance of the tool positions
   const vpArmModel &arm = scene.arm();
-  const double way = (vpSceneDraw::tool(arm, goal) - vpSceneDraw::tool(arm, start)).norm();
+  const double way = (vpSceneDraw::tool(arm, goal) - vpSceneDraw::tool(arm, start)).norm() / scale;
   if (way < least || way > most || !vpSceneDraw::isFree(scene, start, vpAvoidanceScenes::feasibleMargin) ||
       !vpSceneDraw::isFree(scene, goal, vpAvoidanceScenes::feasibleMargin)) {
     return false;
@@ -100,12 +102,13 @@ bool isGood(const vpCollisionScene &scene, const vpJointVector &start, const vpJ
 vpAvoidanceScenario vpAvoidanceScenes::randomStatic(const std::shared_ptr<const vpArmModel> &arm, unsigned int seed)
 {
   vpSceneDraw::requireArm(arm);
+  const vpSceneFrame frame = vpSceneFrame::of(*arm);
   for (int draw = 0; draw < vpSceneDraw::mostDraws; ++draw) {
     vpHashRandom random = vpSceneDraw::random(staticNumber, seed, draw);
-    const vpCollisionSceneSpec spec = randomScene(random);
+    const vpCollisionSceneSpec spec = randomScene(*arm, frame, random);
     const vpJointVector start = vpSceneDraw::configuration(*arm, random);
     const vpJointVector goal = vpSceneDraw::shortWay(*arm, start, vpSceneDraw::configuration(*arm, random));
-    if (isGood(vpCollisionScene(*arm, spec), start, goal, seed)) {
+    if (isGood(vpCollisionScene(*arm, spec), start, goal, frame.scale, seed)) {
       vpAvoidanceScenario scenario;
       scenario.name = "S2 number " + std::to_string(seed);
       scenario.run = vpSceneDraw::between(arm, start, goal, seed);
@@ -226,17 +229,18 @@ vpAvoidanceScenario vpAvoidanceScenes::crossing(const std::shared_ptr<const vpAr
   vpSceneDraw::requireArm(arm);
   fields.positive("speed", spec.speed, "m/s");
   fields.positive("visionRate", spec.visionRate, "Hz");
+  const vpSceneFrame frame = vpSceneFrame::of(*arm);
   for (int draw = 0; draw < vpSceneDraw::mostDraws; ++draw) {
     vpHashRandom random = vpSceneDraw::random(crossingNumber, seed, draw);
     const vpJointVector start = vpSceneDraw::configuration(*arm, random);
     const vpJointVector goal = vpSceneDraw::shortWay(*arm, start, vpSceneDraw::configuration(*arm, random));
-    const double way = (vpSceneDraw::tool(*arm, goal) - vpSceneDraw::tool(*arm, start)).norm();
+    const double way = (vpSceneDraw::tool(*arm, goal) - vpSceneDraw::tool(*arm, start)).norm() / frame.scale;
     vpAvoidanceScenario scenario;
     scenario.run = vpSceneDraw::between(arm, start, goal, seed);
-    scenario.run.scene.ground = vpSceneDraw::ground();
+    scenario.run.scene.ground = frame.floor();
     vpMotionScratch scratch;
     const vpCollisionScene empty(*arm, scenario.run.scene);
-    if (way < 0.3 || way > 0.8 ||
+    if (way < least || way > most ||
         !vpCertifiedMotion(empty, {feasibleMargin, 1e-4}).check(start, goal, scratch).isFree()) {
       continue;
     }

@@ -12,12 +12,13 @@
 #include "vpHashRandom.h"
 
 #include "lab/avoidance/vpAvoidanceScenes.h"
+#include "lab/avoidance/vpSceneFrame.h"
 
 BEGIN_VISP_NAMESPACE
 
 namespace vpSceneDraw
 {
-constexpr int mostDraws = 2000;
+constexpr int mostDraws = 20000;
 
 //! Random stream of a scene for draw number \e draw.
 [[nodiscard]] vpHashRandom random(unsigned int scene, unsigned int seed, int draw);
@@ -25,12 +26,11 @@ constexpr int mostDraws = 2000;
 void requireArm(const std::shared_ptr<const vpArmModel> &arm);
 //! \throw vpException (badValue): no draw met the conditions.
 [[noreturn]] void giveUp(const char *scene, unsigned int seed);
-//! Ground plane below the arm; links 1 and 2 are not checked.
-[[nodiscard]] vpHalfSpace ground();
-//! Run between two configurations, with seeds set.
+//! Run between two configurations, with seeds set; its scene has no object and no ground.
 [[nodiscard]] vpAvoidanceRunSpec between(const std::shared_ptr<const vpArmModel> &arm, const vpJointVector &start,
                                          const vpJointVector &goal, unsigned int seed);
-//! Random configuration at least 1/20 of the range inside the limits; continuous joints within +-pi.
+//! Random configuration at least 1/20 of the range inside the limits; continuous joints within +-pi, others of more than a
+//! turn within +-pi of their middle.
 [[nodiscard]] vpJointVector configuration(const vpArmModel &arm, vpHashRandom &random);
 //! Goal with continuous joints by the shorter way from the start.
 [[nodiscard]] vpJointVector shortWay(const vpArmModel &arm, const vpJointVector &start, const vpJointVector &goal);
