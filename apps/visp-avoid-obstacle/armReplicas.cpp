@@ -7,13 +7,12 @@
 #include "results.h"
 
 #include "armPicture.h"
-#include "dataFile.h"
 #include "numberText.h"
+#include "robot.h"
 #include "timePlot.h"
 
 #include "lab/avoidance/vpAvoidanceScenes.h"
 #include <visp3/avoidance/vpAvoidanceMethod.h>
-#include <visp3/manipulator/vpArmJson.h>
 #include <visp3/manipulator/vpRedundancySolver.h>
 #include <visp3/trajectory/vpDirectTrajectory.h>
 
@@ -170,9 +169,13 @@ Script scriptOf(bool multiPoint)
 
 vpAvoidanceRunSpec specOf(const Options &options, const Script &script)
 {
-  const auto arm = std::make_shared<const vpArmModel>(
-      vpLoadArmJson(options.arm.empty() ? vpApp::dataFile("robot/amor.json") : options.arm));
+  const auto arm = vpApp::loadUsableRobot(options.robot).arm;
   vpAvoidanceRunSpec spec = vpAvoidanceScenes::figure88(arm, 1).run; // start and ground of figure 8.8
+  vpArmData data;
+  vpArmKinematics::forward(*arm, spec.start, data);
+  if (!((data.tool.p - place(0.05, 0.63)).norm() < SETTLED)) {
+    throw std::runtime_error(arm->label() + ": does not start where the figure does, which is made for AMOR");
+  }
   spec.obstacles.clear();
   spec.goalMoves.clear();
   spec.goal = vpAvoidanceGoal();

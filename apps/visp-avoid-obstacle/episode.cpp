@@ -48,6 +48,7 @@ vpImage<unsigned char> pictureOf(const vpImage<float> &depth)
 vpCollisionScene onlyObstacles(const PhotoScene &scene, const vpCollisionScene &truth)
 {
   vpCollisionSceneSpec spec;
+  spec.ignoredBodies = scene.known.ignoredBodies;
   for (const vpMovingObstacle &obstacle : scene.obstacles) {
     const int i = truth.find(obstacle.object.name);
     if (i >= 0) {
@@ -342,7 +343,9 @@ vpAvoidanceRunSpec specOf(const PhotoScene &scene, const Options &options, Senso
   spec.goalTolerance = spec.drives.ideal ? spec.goalTolerance : DRIVEN_TOLERANCE;
   spec.maxDuration = options.duration;
   spec.seed = options.seed;
-  keepLooking(spec);
+  if (!scene.moved) { // the task of another arm is for its tool's position alone
+    keepLooking(spec);
+  }
   return spec;
 }
 

@@ -12,6 +12,7 @@
 #include "appMain.h"
 #include "outputFolder.h"
 #include "plot.h"
+#include "robot.h"
 
 #include <visp3/avoidance/vpAvoidanceMethods.h>
 
@@ -77,11 +78,27 @@ void repeat(const Options &options, const std::string &commandLine)
   finish(out, replica.figures, page, summaryOf(replica, options, commandLine, secondsSince(start)), replica.findings);
 }
 
+//! An arm without masses has ideal drives. \throw std::runtime_error if the user wants others.
+void chooseDrives(Options &options, PhotoScene &scene)
+{
+  if (options.friction <= 0. || scene.arm->hasMasses()) {
+    return;
+  }
+  const std::string unknown = scene.arm->label() + ": masses are unknown, ";
+  if (options.frictionGiven) {
+    throw std::runtime_error(unknown + "drives against friction need them, ideal ones (--friction 0) do not");
+  }
+  options.friction = 0.;
+  scene.warnings.push_back(unknown + "the drives are ideal");
+}
+
 //! \return False when the moving arm hit something.
-bool avoid(const Options &options, const std::string &commandLine)
+bool avoid(Options options, const std::string &commandLine)
 {
   const auto start = Clock::now();
-  const PhotoScene scene = loadPhotoScene(options);
+  PhotoScene scene = loadPhotoScene(options);
+  chooseDrives(options, scene);
+  vpApp::printWarnings("visp-avoid-obstacle", scene.warnings);
   vpApp::requireGnuplot();
   const auto window = options.display ? std::make_unique<vpApp::PictureWindow>("visp-avoid-obstacle") : nullptr;
   vpApp::OutputFolder out("visp-avoid-obstacle", options.out);

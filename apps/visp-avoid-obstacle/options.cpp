@@ -30,6 +30,8 @@ constexpr const char *EXAMPLES = R"(Examples:
       another method, the camera covered for a while, with a video
   visp-avoid-obstacle --scene my-scene.json --sensor depth
       your own scene: data/scene/README.md has the fields; depth and poses need no photographs
+  visp-avoid-obstacle --robot my-arm.urdf --robot-tip tool0 --camera-link camera --srdf my-arm.srdf
+      your own arm: the default scene stands in the view of its camera
   visp-avoid-obstacle --replica fig8.7
       a figure of the thesis; --list names them
 
@@ -58,11 +60,12 @@ void requireKnown(const char *option, const std::string &name, const std::vector
 }
 
 //! A replica follows the thesis: only its result folder, and values that the thesis leaves open, may be chosen.
-void requireNothingElse(const vpApp::CommandLine &line)
+void requireNoneOfScene(const vpApp::CommandLine &line)
 {
-  for (const std::string &name : line.given()) {
-    if (name != "--replica" && name != "--arm" && name != "--friction" && name != "--seed" && name != "--out" &&
-        name != "--list") {
+  for (const char *option : {"--method", "--scene", "--targets", "--sensor", "--hide", "--vision-rate", "--latency",
+                             "--forget", "--noise", "--duration", "--record", "--display"}) {
+    const std::string name = option;
+    if (line.isGiven(name)) {
       throw vpApp::UsageError(name + " cannot be combined with --replica, which has its own");
     }
   }
@@ -70,9 +73,10 @@ void requireNothingElse(const vpApp::CommandLine &line)
 
 void addOptions(vpApp::CommandLine &line, Options &options)
 {
-  line.text("--method", options.method, "NAME", "How to avoid: " + vpApp::enumerate(vpAvoidanceMethodNames()));
+  line.text("--method", options.method, "NAME",
+            "How to avoid: " + vpApp::enumerate(vpAvoidanceMethodNames()) +
+                " (default: dtg-via, planner-dtg for another arm)");
   line.text("--scene", options.scene, "FILE.json", "Obstacles and motion (default: data/scene/photo-box.json)");
-  line.text("--arm", options.arm, "FILE.json", "Another arm than AMOR, see data/robot/README.md");
   line.text("--targets", options.targets, "DIR", "Photographs that are known (default: data/target)");
   line.choice<SensorKind>("--sensor", options.sensor,
                           {{nameOf(SensorKind::Image), SensorKind::Image},
@@ -91,8 +95,9 @@ void addOptions(vpApp::CommandLine &line, Options &options)
   line.number("--latency", options.latency, {0., 10.}, "S", "From exposure to result");
   line.number("--forget", options.forget, {0., 1e4}, "S", "Forget obstacles unseen for S seconds; 0: never");
   line.number("--noise", options.noise, {0., 100.}, "GREY", "Noise of pictures, grey values");
-  line.number("--friction", options.friction, {0., 10.}, "F",
-              "Friction of the joints; 1: as in the arm's file, 0: ideal drives");
+  line.number(
+      "--friction", options.friction, {0., 10.}, "F",
+      "Friction of the joints; 1: as in the arm's file, 0: ideal drives (default: 1, of an arm without masses 0)");
   line.number("--duration", options.duration, {0., 600., true}, "S", "Maximum duration");
   line.whole("--seed", options.seed, {1, 1e6}, "N", "Seed of all noise and of planners");
   line.text("--replica", options.replica, "NAME", "A figure of the thesis, fig8.6 to fig8.13, see --list");
@@ -100,6 +105,8 @@ void addOptions(vpApp::CommandLine &line, Options &options)
   line.flag("--record", options.record, "Write a video: the camera's view beside the arm");
   line.flag("--display", options.display, "Show the same in a window; needs a screen");
   line.flag("--list", options.list, "Name the methods and replicas, a sentence each, and end");
+  vpApp::addRobotOptions(line, options.robot,
+                         "The arm: amor, or a .urdf or .json file, see data/robot/README.md; visp-arm tells more");
 }
 } // namespace
 
@@ -115,10 +122,14 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   if (!line.parse(argc, argv)) {
     return false;
   }
+  options.frictionGiven = line.isGiven("--friction");
+  if (options.method.empty()) {
+    options.method = options.robot.robot == "amor" ? "dtg-via" : "planner-dtg";
+  }
   requireKnown("--method", options.method, vpAvoidanceMethodNames());
   if (!options.replica.empty()) {
     requireKnown("--replica", options.replica, replicaNames());
-    requireNothingElse(line);
+    requireNoneOfScene(line);
   }
   return true;
 }

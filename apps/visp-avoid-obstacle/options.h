@@ -9,6 +9,8 @@
 #ifndef avoidObstacle_options_h
 #define avoidObstacle_options_h
 
+#include "robotOptions.h"
+
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,9 +26,9 @@ enum class SensorKind {
 
 //! \brief User options, not yet resolved.
 struct Options {
-  std::string method = "dtg-via";
-  std::string scene;   //!< JSON file; empty for the default scene.
-  std::string arm;     //!< JSON file; empty for AMOR.
+  std::string method; //!< Name; by default "dtg-via", of another arm than AMOR "planner-dtg".
+  std::string scene;  //!< JSON file; empty for the default scene.
+  vpApp::RobotOptions robot;
   std::string targets; //!< Folder with targets.json; empty for that of the data folder.
   SensorKind sensor = SensorKind::Image;
   std::vector<std::pair<double, double>> hidden; //!< Intervals with covered camera: from, until; s.
@@ -36,6 +38,7 @@ struct Options {
   double forget = 0.;                            //!< Forget obstacles unseen for this time, s; 0: never.
   double noise = 2.;                             //!< Image noise, grey values.
   double friction = 1.;                          //!< Joint friction relative to the arm's file; 0: ideal drives.
+  bool frictionGiven = false;                    //!< By the user; else an arm without masses has ideal drives.
   unsigned int seed = 1;
   std::string replica; //!< Name of a figure; empty for none.
   std::string out = "out/avoid-obstacle";

@@ -8,6 +8,10 @@
 #include "greyPicture.h"
 #include "jsonReader.h"
 #include "numberText.h"
+#include "otherArm.h"
+#include "robot.h"
+
+#include "lab/avoidance/vpSceneFrame.h"
 
 #include <visp3/avoidance/vpObstacleDetector.h>
 #include <visp3/manipulator/vpArmJson.h>
@@ -139,13 +143,19 @@ PhotoScene loadPhotoScene(const Options &options)
 {
   PhotoScene scene;
   const std::string file = options.scene.empty() ? vpApp::dataFile("scene/photo-box.json") : options.scene;
-  scene.arm = std::make_shared<const vpArmModel>(
-      vpLoadArmJson(options.arm.empty() ? vpApp::dataFile("robot/amor.json") : options.arm));
+  const vpApp::Robot robot = vpApp::loadUsableRobot(options.robot);
+  scene.arm = robot.arm;
   vpCollisionSceneFile content = vpLoadCollisionScene(file);
+  scene.moved = options.scene.empty() && options.robot.robot != "amor";
+  if (scene.moved) {
+    moveToArm(vpLoadArmJson(vpApp::dataFile("robot/amor.json")), *scene.arm, content);
+  }
+  content.spec = vpIgnoreUncovered(*scene.arm, content.spec);
   scene.name = content.name;
   scene.known = content.spec;
   scene.carriers = content.photos;
   scene.remarks = content.warnings;
+  scene.warnings = robot.warnings;
   scene.targets = options.targets.empty()
                       ? std::filesystem::path(vpApp::dataFile("target/targets.json")).parent_path().string()
                       : options.targets;

@@ -30,7 +30,9 @@ struct PhotoScene {
   vpSceneCameraSpec camera;                //!< Camera, with the photographs.
   std::string targets;                     //!< Folder of all known photographs.
   vpMotionTask task;                       //!< First task of the file.
+  bool moved = false;                      //!< By moveToArm().
   std::vector<std::string> remarks;        //!< One sentence each.
+  std::vector<std::string> warnings;       //!< On the robot, one sentence each.
 
   //! Name of the obstacle that carries a target; the target's own name if none does.
   [[nodiscard]] std::string carrierOf(const std::string &target) const;

@@ -110,6 +110,9 @@ void addSettings(HtmlReport &page, const PhotoScene &scene, const Options &optio
                                                    : std::string("stays where it was, and its uncertainty grows")},
        {"Seed", std::to_string(options.seed)}},
       "Settings");
+  if (!scene.warnings.empty()) {
+    page.list(scene.warnings);
+  }
 }
 } // namespace
 

@@ -273,7 +273,8 @@ Json summaryOf(const PhotoScene &scene, const Options &options, const Episode &e
           {"joint_acceleration_share", use.acceleration},
           {"obstacles", obstacles},
           {"turns", turns},
-          {"remarks", scene.remarks}};
+          {"remarks", scene.remarks},
+          {"warnings", scene.warnings}};
 }
 
 Json summaryOf(const Replica &replica, const Options &options, const std::string &commandLine, double wallTime)

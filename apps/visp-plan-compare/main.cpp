@@ -11,6 +11,7 @@
 #include "numberText.h"
 #include "outputFolder.h"
 #include "plot.h"
+#include "robot.h"
 
 #include <chrono>
 #include <iostream>
@@ -42,6 +43,7 @@ void compare(const Options &options, const std::string &commandLine, const vpApp
     static_cast<void>(runAll(plan, ranks, options.jobs));
     return;
   }
+  vpApp::printWarnings("visp-plan-compare", plan.remarks);
   vpApp::requireGnuplot();
   vpApp::OutputFolder out("visp-plan-compare", options.out);
 

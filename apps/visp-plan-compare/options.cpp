@@ -31,6 +31,8 @@ Examples:
       two methods among obstacles that move
   visp-plan-compare --scene my-scene.json --seeds 10
       your own scene: data/scene/README.md has the fields
+  visp-plan-compare --robot my-arm.urdf --robot-tip tool0 --srdf my-arm.srdf
+      your own arm: scenes are fitted to its reach, those with tasks for AMOR are left out
   mpirun -n 8 visp-plan-compare --scene S2,S3 --seeds 1000
       on 8 processes, on a cluster too, with the same result
 
@@ -45,12 +47,13 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   line.whole("--seeds", options.seeds, {1, 100000}, "N", "Seeds of each scene (default: 5 to 200, see --list)");
   line.whole("--seed", options.firstSeed, {1, 100000}, "S", "The first seed");
   line.flag("--quick", options.quick, "A few seeds of each scene: some seconds");
-  line.text("--arm", options.arm, "FILE.json", "Another arm than AMOR, see data/robot/README.md");
   line.number("--friction", options.friction, {0., 10.}, "F",
               "Drives by torques against this share of the arm's friction; 0: ideal drives");
   line.text("--out", options.out, "DIR", "Result folder");
   line.whole("--jobs", options.jobs, {1, 256}, "N", "Runs at a time (default: one for each core)");
   line.flag("--list", options.list, "Name the scenes and methods, a sentence each, and end");
+  vpApp::addRobotOptions(line, options.robot,
+                         "The arm: amor, or a .urdf or .json file, see data/robot/README.md; visp-arm tells more");
   if (!line.parse(argc, argv)) {
     return false;
   }

@@ -9,6 +9,8 @@
 #ifndef planCompare_options_h
 #define planCompare_options_h
 
+#include "robotOptions.h"
+
 #include <string>
 #include <vector>
 
@@ -20,8 +22,8 @@ struct Options {
   std::vector<std::string> methods; //!< Names; empty for all.
   unsigned int seeds = 0;           //!< Seeds per scene; 0: each scene's own number.
   unsigned int firstSeed = 1;
-  bool quick = false;   //!< A few seeds.
-  std::string arm;      //!< JSON file; empty for AMOR.
+  bool quick = false; //!< A few seeds.
+  vpApp::RobotOptions robot;
   double friction = 0.; //!< Joint friction relative to the arm's file; 0: ideal drives.
   std::string out = "out/plan-compare";
   unsigned int jobs = 0; //!< Runs at a time; 0: one for each core.

@@ -8,7 +8,9 @@
 #include "dataFile.h"
 #include "numberText.h"
 
-#include <visp3/manipulator/vpArmJson.h>
+#include "robot.h"
+
+#include "lab/avoidance/vpSceneFrame.h"
 
 #include <algorithm>
 
@@ -72,6 +74,11 @@ const char *selfMotionSentence()
 namespace
 {
 constexpr unsigned int OWN_SEEDS = 5; // seeds of a user scene
+
+bool contains(const std::vector<std::string> &names, const std::string &name)
+{
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
 
 bool endsWith(const std::string &text, const std::string &end)
 {
@@ -165,8 +172,59 @@ private:
   const Options *m_options;
 };
 
-void addScene(Plan &plan, Adder &adder, const SceneInfo &scene)
+//! Why a task is not for the arm; empty: it is.
+std::string misfitOf(const vpCollisionScene &scene, const vpMotionTask &task)
 {
+  const vpArmModel &arm = scene.arm();
+  if (task.start.size() != arm.size()) {
+    return "is for " + std::to_string(task.start.size()) + " joints, " + arm.label() + " has " +
+           std::to_string(arm.size());
+  }
+  vpCollisionData data;
+  for (const vpJointVector &q : {task.start, task.goal}) {
+    const std::string outside = arm.outsideLimits(q);
+    scene.place(q, data);
+    if (!outside.empty() || scene.inCollision(data)) {
+      return "is not for " + arm.label() + ": " + (outside.empty() ? "its start or goal touches something" : outside);
+    }
+  }
+  return "";
+}
+
+/*!
+ * Adds S4 or S6, whose tasks are for AMOR. An arm that they do not suit runs the others.
+ * \throw std::runtime_error if the scene was asked for by name.
+ */
+void addTasks(Plan &plan, Adder &adder, const SceneInfo &scene, bool byName)
+{
+  const std::string name = scene.id == "S4a" ? "s4a-pillar" : scene.id == "S4b" ? "s4b-shelf" : "s6-trap";
+  vpCollisionSceneFile file = vpLoadCollisionScene(vpApp::dataFile("scene/" + name + ".json"));
+  file.spec = vpIgnoreUncovered(*plan.arm, file.spec);
+  const vpCollisionScene checked(*plan.arm, file.spec);
+  for (const vpMotionTask &task : file.tasks) {
+    const std::string misfit = misfitOf(checked, task);
+    if (!misfit.empty()) {
+      const std::string sentence = "task " + task.name + " " + misfit;
+      if (byName) {
+        throw std::runtime_error("scene " + scene.id + ": " + sentence);
+      }
+      plan.remarks.push_back("scene " + scene.id + " is left out: " + sentence);
+      return;
+    }
+  }
+  plan.scenes.push_back(scene);
+  adder.addFile(scene, file);
+  if (scene.id != "S6") {
+    plan.planned.push_back(file);
+  }
+}
+
+void addScene(Plan &plan, Adder &adder, const SceneInfo &scene, bool byName)
+{
+  if (scene.id[1] == '4' || scene.id[1] == '6') {
+    addTasks(plan, adder, scene, byName);
+    return;
+  }
   plan.scenes.push_back(scene);
   if (scene.id == "S1") {
     adder.addSeeds(scene, vpAvoidanceScenes::figure88);
@@ -177,16 +235,8 @@ void addScene(Plan &plan, Adder &adder, const SceneInfo &scene)
   else if (scene.id == "S3") {
     adder.addCrossing(scene);
   }
-  else if (scene.id == "S7") {
-    adder.addSeeds(scene, vpAvoidanceScenes::movingGoal);
-  }
   else {
-    const std::string name = scene.id == "S4a" ? "s4a-pillar" : scene.id == "S4b" ? "s4b-shelf" : "s6-trap";
-    const vpCollisionSceneFile file = vpLoadCollisionScene(vpApp::dataFile("scene/" + name + ".json"));
-    adder.addFile(scene, file);
-    if (scene.id != "S6") {
-      plan.planned.push_back(file);
-    }
+    adder.addSeeds(scene, vpAvoidanceScenes::movingGoal);
   }
 }
 
@@ -231,8 +281,9 @@ Plan makePlan(const Options &options)
   Plan plan;
   plan.quick = options.quick;
   plan.methods = chooseMethods(options.methods);
-  plan.arm = std::make_shared<const vpArmModel>(
-      vpLoadArmJson(options.arm.empty() ? vpApp::dataFile("robot/amor.json") : options.arm));
+  const vpApp::Robot robot = vpApp::loadUsableRobot(options.robot);
+  plan.arm = robot.arm;
+  plan.remarks = robot.warnings;
   Adder adder(plan, options);
   std::vector<std::string> asked, files;
   for (const std::string &name : options.scenes) {
@@ -247,13 +298,13 @@ Plan makePlan(const Options &options)
   }
   for (const SceneInfo &scene : standardScenes()) {
     if (isAsked(asked, scene.id)) {
-      addScene(plan, adder, scene);
+      addScene(plan, adder, scene, !contains(asked, "all"));
     }
   }
   for (const std::string &file : files) {
     addOwnScene(plan, adder, file);
   }
-  plan.selfMotion = isAsked(asked, "S5");
+  plan.selfMotion = contains(asked, "S5") || (contains(asked, "all") && options.robot.robot == "amor");
   return plan;
 }
 } // namespace planCompare

@@ -62,6 +62,7 @@ struct Plan {
   std::vector<Problem> problems;             //!< Scene by scene.
   std::vector<vpCollisionSceneFile> planned; //!< S4: scenes for the table of validators.
   bool selfMotion = false;                   //!< S5.
+  std::vector<std::string> remarks;          //!< On the robot, and on scenes that are left out; one sentence each.
   bool quick = false;
 };
 

@@ -301,6 +301,9 @@ void writeHow(HtmlReport &page, const Plan &plan, const Results &results, const 
        "Stops for obstacles on other ways count as false.",
        "Intervals are Wilson's, 95 %; pairs are compared by McNemar's exact test.",
        "Planners that search have limits of time: on a slower machine their results may differ. All else repeats."});
+  if (!plan.remarks.empty()) {
+    page.list(plan.remarks);
+  }
   page.facts({{"Arm", plan.arm->label()},
               {"Runs", std::to_string(results.records.size())},
               {"Program", "visp-plan-compare " + vpApp::versionText()},

@@ -122,6 +122,7 @@ Json summaryOf(const Plan &plan, const Results &results, const Extras &extras)
           {"wall_time_s", extras.wallTime},
           {"data", "simulated arm, sensors and obstacles"},
           {"arm", plan.arm->label()},
+          {"remarks", plan.remarks},
           {"methods", plan.methods},
           {"results", cells},
           {"variants", variants},

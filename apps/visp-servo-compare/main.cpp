@@ -10,6 +10,7 @@
 
 #include "appMain.h"
 #include "plot.h"
+#include "robot.h"
 
 #include <visp3/feedforward/vpServoLaw.h>
 
@@ -66,6 +67,7 @@ void compare(const Options &options, const std::string &commandLine, const vpApp
     help(plan, options.jobs, ranks);
     return;
   }
+  vpApp::printWarnings("visp-servo-compare", plan.remarks);
   const unsigned int threads = ranks.threads(options.jobs);
   vpApp::requireGnuplot();
   std::unique_ptr<vpApp::PictureWindow> window;

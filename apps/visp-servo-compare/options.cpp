@@ -37,7 +37,7 @@ constexpr const char *EXAMPLES = R"(Examples:
       a seven-joint arm carries the camera; the report shows its joints
   visp-servo-compare --robot amor --drive measured --plant D --measure points
       the same arm with drives that let friction through to the law: the order of the thesis's figures 5.9 and 5.10
-  visp-servo-compare --robot my-arm.urdf --robot-tip tool0 --robot-camera camera_link --plant A
+  visp-servo-compare --robot my-arm.urdf --robot-tip tool0 --camera-link camera_link --plant A
       your own arm
   visp-servo-compare --robot data/robot/five-axis.json --free rz --plant A --measure points
       an arm of five joints, which leaves the rotation about the optical axis as it comes
@@ -72,15 +72,6 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   line.flag("--shape", options.shape, shapeHelp());
   line.text("--task", options.taskFile, "FILE.json",
             "Task file instead of the thesis' task; see data/scenario/README.md");
-  line.text("--robot", robot.robot, "ROBOT",
-            "What carries the camera: camera (flies freely), amor (the arm of the thesis), or an arm as .urdf or .json "
-            "file, see data/robot/README.md. On an arm plant A is ideal; B and D are driven by torques against joint "
-            "friction, on D twice that of the file");
-  line.text("--robot-base", robot.base, "LINK", "First link of the URDF's chain (default: the root)");
-  line.text("--robot-tip", robot.tip, "LINK", "Its last link (default: the only leaf)");
-  line.text("--robot-camera", robot.camera, "LINK", "Link that is the camera (default: the tip)");
-  line.number("--robot-acceleration", robot.acceleration, {0., 1e6, true}, "A",
-              "Acceleration limit of all joints of the URDF, which has none, rad/s^2 or m/s^2");
   line.list("--self-motion", robot.selfMotion, "WISH,...",
             "What spare joints do: limits (away from joint limits), manipulability, posture (stay near the start), or "
             "none");
@@ -105,6 +96,12 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   line.flag("--display", options.display, "Show the camera's view of each law in a window; click to skip to the next");
   line.whole("--jobs", options.jobs, {1, 256}, "N", "Runs at a time (default: one for each core)");
   line.flag("--list", options.list, "Name the laws and plants, a sentence each, and end");
+  vpApp::addRobotOptions(line, robot,
+                         "What carries the camera: camera (flies freely), amor (the arm of the thesis), or an arm as "
+                         ".urdf or .json file, see "
+                         "data/robot/README.md; visp-arm tells more. On an arm plant A is ideal; B and D are driven by "
+                         "torques against joint "
+                         "friction, on D twice that of the file. Collisions are not checked here");
   if (!line.parse(argc, argv)) {
     return false;
   }

@@ -9,18 +9,20 @@
 #ifndef servoCompare_options_h
 #define servoCompare_options_h
 
+#include "robotOptions.h"
+
 #include <string>
 #include <vector>
 
 namespace servoCompare
 {
-//! \brief The robot that carries the camera.
-struct RobotOptions {
-  std::string robot = "camera"; //!< "camera", "amor", or a .urdf or .json file.
-  std::string base;             //!< First link of a URDF's chain; empty for the root.
-  std::string tip;              //!< Last link; empty for the only leaf.
-  std::string camera;           //!< Camera link; empty for the tip itself.
-  double acceleration = 10.;    //!< Acceleration limit of all joints of a URDF, rad/s^2 or m/s^2.
+//! \brief The robot that carries the camera; "camera" flies freely.
+struct RobotOptions : vpApp::RobotOptions {
+  RobotOptions()
+  {
+    robot = "camera";
+    words = {"camera", "amor"};
+  }
   std::vector<std::string> selfMotion{"limits", "manipulability"}; //!< Indices maximised by self-motion.
   std::vector<std::string> free;                                   //!< Axes of the camera that are not commanded.
   std::string limits = "stop";                                     //!< At position limits: "stop" or "scale".

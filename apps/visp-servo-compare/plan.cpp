@@ -9,10 +9,9 @@
 #include "dataFile.h"
 #include "format.h"
 #include "greyPicture.h"
+#include "robot.h"
 
 #include <visp3/core/vpMath.h>
-#include <visp3/manipulator/vpArmJson.h>
-#include <visp3/manipulator/vpArmUrdf.h>
 #include <visp3/manipulator/vpTwistAxes.h>
 #include <visp3/planar_target/vpPlanarTarget.h>
 
@@ -128,26 +127,6 @@ void requireUsableTarget(const Target &target, const vpServoTask &task)
   }
 }
 
-vpArmModel loadArm(const RobotOptions &options)
-{
-  if (options.robot == "amor") {
-    return vpLoadArmJson(vpApp::dataFile("robot/amor.json"));
-  }
-  const std::string suffix = std::filesystem::path(options.robot).extension().string();
-  if (suffix == ".json") {
-    return vpLoadArmJson(options.robot);
-  }
-  if (suffix != ".urdf") {
-    throw vpApp::UsageError("--robot is " + options.robot + ", must be camera, amor, a .urdf or a .json file");
-  }
-  vpArmUrdfSpec urdf;
-  urdf.base = options.base;
-  urdf.tip = options.tip;
-  urdf.camera = options.camera;
-  urdf.acceleration = options.acceleration;
-  return vpLoadArmUrdf(options.robot, urdf);
-}
-
 std::vector<vpSelfMotionIndex> indicesOf(const RobotOptions &options, const vpArmModel &model)
 {
   std::vector<vpSelfMotionIndex> indices;
@@ -216,9 +195,13 @@ std::shared_ptr<const vpServoArm> chooseArm(const RobotOptions &options, const v
   if (options.robot == "camera") {
     return nullptr;
   }
-  auto arm = std::make_shared<vpServoArm>(vpServoArm{loadArm(options), {}});
+  auto arm = std::make_shared<vpServoArm>(vpServoArm{vpApp::loadArm(options), {}});
   arm->spec.indices = indicesOf(options, arm->model);
   arm->spec.redundancy.policy = policy;
+  const std::string missing = vpApp::missingLimitSentence(arm->model);
+  if (!missing.empty()) {
+    throw std::runtime_error(missing);
+  }
   arm->spec.drives.reference = referenceOf(options);
   arm->spec.free = free;
   arm->spec.validate(arm->model);
@@ -226,18 +209,40 @@ std::shared_ptr<const vpServoArm> chooseArm(const RobotOptions &options, const v
   return arm;
 }
 
-//! Check early that the arm supports the drives of a plant.
-void requireDrivable(const Plan &plan)
+//! Why the arm does not support the drives of a plant; empty: it does.
+std::string misfitOf(const vpServoArm &arm, const vpServoPlant &plant)
 {
-  for (const vpServoPlant &plant : plan.scenario.plants) {
-    try {
-      const vpArmDrives probe(plan.arm->model, plan.arm->forPlant(plant).drives);
-    }
-    catch (const vpException &error) {
-      throw std::runtime_error(vpApp::sentenceOf(error) + "; plant " + plant.name +
-                               " needs masses, plants without lag and deadband such as A do not");
-    }
+  try {
+    const vpArmDrives probe(arm.model, arm.forPlant(plant).drives);
+    return "";
   }
+  catch (const vpException &error) {
+    return vpApp::sentenceOf(error) + "; plant " + plant.name +
+           " needs masses, plants without lag and deadband such as A do not";
+  }
+}
+
+/*!
+ * Leaves out plants that the arm does not support.
+ * \throw std::runtime_error if they were asked for, or no other is left.
+ */
+void chooseDrivable(const Options &options, Plan &plan)
+{
+  std::vector<vpServoPlant> drivable;
+  std::string misfit;
+  for (const vpServoPlant &plant : plan.scenario.plants) {
+    const std::string sentence = misfitOf(*plan.arm, plant);
+    if (sentence.empty()) {
+      drivable.push_back(plant);
+      continue;
+    }
+    misfit = misfit.empty() ? sentence : misfit;
+    plan.remarks.push_back("plant " + plant.name + " is left out: " + sentence);
+  }
+  if (!misfit.empty() && (!options.plants.empty() || drivable.empty())) {
+    throw std::runtime_error(misfit);
+  }
+  plan.scenario.plants = drivable;
 }
 } // namespace
 
@@ -265,7 +270,8 @@ Plan makePlan(const Options &options)
   plan.shaped = options.shape;
   plan.arm = chooseArm(options.robot, task);
   if (plan.arm) {
-    requireDrivable(plan);
+    plan.remarks = plan.arm->model.spec().warnings;
+    chooseDrivable(options, plan);
   }
 
   for (const std::string &law : plan.laws) {

@@ -35,6 +35,7 @@ struct Plan {
       runs; //!< For each law, plant and measure all seeds in turn, raw and, if #shaped, then shaped.
             //!< vpServoRunSpec::target is still empty.
   std::shared_ptr<const vpServoArm> arm; //!< Carries the camera in all runs; null: free-flying camera.
+  std::vector<std::string> remarks;      //!< On the robot and the plants that it does not suit, one sentence each.
   bool shaped = false;                   //!< Every run is done raw and shaped.
   unsigned int seed = 1;
   unsigned int repetitions = 1;

@@ -131,13 +131,18 @@ struct Input {
   std::string program, arguments, file;
 };
 
-const std::vector<Input> inputs = {
+const std::vector<Input> ownInputs = {
+    {"visp-arm", "F", "arm.json"},
+    {"visp-arm", "F", "arm.urdf"},
+    {"visp-arm", "--at 0,0,0,0,0,0,0 --touches F", "scene.json"},
     {"visp-avoid-obstacle", "--sensor depth --scene F", "scene.json"},
-    {"visp-avoid-obstacle", "--arm F", "arm.json"},
+    {"visp-avoid-obstacle", "--robot F", "arm.json"},
+    {"visp-avoid-obstacle", "--robot F", "arm.urdf"},
     {"visp-avoid-obstacle", "--targets D", "targets.json"},
     {"visp-generate-pattern", "--config F", "product.json"},
     {"visp-plan-compare", "--scene F", "scene.json"},
-    {"visp-plan-compare", "--arm F", "arm.json"},
+    {"visp-plan-compare", "--robot F", "arm.json"},
+    {"visp-plan-compare", "--robot F", "arm.urdf"},
     {"visp-plan-trajectory", "F", "problems.jsonl"},
     {"visp-print-pattern", "--explore F", "setup.json"},
     {"visp-servo-compare", "--task F", "task.json"},
@@ -148,6 +153,22 @@ const std::vector<Input> inputs = {
     {"visp-track-pattern", "F", "video.mp4"},
     {"visp-track-pattern", VISP_DIRECT_DATA_DIR "/target/box.png --calibration F", "calibration.json"},
     {"visp-track-pattern", VISP_DIRECT_DATA_DIR "/target/box.png --calibration F", "calibration.xml"}};
+
+//! With the files of the robot, which several programs take in the same way.
+std::vector<Input> allInputs()
+{
+  std::vector<Input> all = ownInputs;
+  const std::string robot = "'" VISP_DIRECT_DATA_DIR "/robot/generic-6r.urdf' --robot-tip tool ";
+  for (const char *program : {"visp-arm", "visp-avoid-obstacle", "visp-plan-compare", "visp-servo-compare"}) {
+    const std::string before = (program == std::string("visp-arm") ? "" : "--robot ") + robot;
+    all.push_back({program, before + "--srdf F", "arm.srdf"});
+    all.push_back({program, before + "--joint-limits F", "limits.yaml"});
+    all.push_back({program, before + "--allowed-pairs F", "pairs.json"});
+  }
+  return all;
+}
+
+const std::vector<Input> inputs = allInputs();
 
 std::string replaced(std::string text, char mark, const std::string &by)
 {
@@ -275,7 +296,8 @@ TEST_CASE("Every option that reads a file is among those that are tried", "[prog
       std::string option, value;
       words >> option >> value;
       const bool reads = (value.find("FILE") == 0 || value == "DIR" || value == "IMAGE") && option.find("--") == 0 &&
-                         option != "--out" && option != "--csv" && option != "--plot";
+                         option != "--out" && option != "--write-pairs" && option != "--cover-file" &&
+                         option != "--csv" && option != "--plot";
       CAPTURE(program, line);
       CHECK((!reads || std::any_of(inputs.begin(), inputs.end(), [&](const Input &input) {
         return input.program == nameOf(program) && has(input.arguments, option + " ");

@@ -97,7 +97,7 @@ TEST_CASE("A bad robot ends with a sentence that names the file and the element"
   check(run, {"--free rz", USAGE, "--free needs an arm, given by --robot"});
   check(run, {"--robot amor --self-motion none,limits", USAGE, "--self-motion: unknown wish \"none\""});
   check(run, {"--limits bounce", USAGE, "--limits is bounce, must be stop or scale"});
-  check(run, {"--robot-acceleration -1", USAGE, "--robot-acceleration"});
+  check(run, {"--acceleration-limits -1", USAGE, "--acceleration-limits is -1, must be a number > 0"});
   check(run, {"--robot none.urdf", DATA, "none.urdf"});
   run.write("broken.urdf", "<robot name='b'><link");
   check(run, {"--robot broken.urdf", DATA, "broken.urdf"});
@@ -121,7 +121,8 @@ TEST_CASE("A bad robot ends with a sentence that names the file and the element"
   const std::string limit = "\"acceleration\": 6.0, ";
   amor.erase(amor.find(limit), limit.size());
   run.write("unlimited.json", amor);
-  check(run, {"--robot unlimited.json --plant A", DATA, "unlimited.json: acceleration limit of joint q1 is infinite"});
+  check(run, {"--robot unlimited.json --plant A", DATA,
+              "unlimited.json: joint q1 has no acceleration limit, --acceleration-limits"});
 }
 
 TEST_CASE("A bad photo ends with status 1", "[visp-servo-compare]")

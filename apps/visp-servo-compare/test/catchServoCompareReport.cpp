@@ -303,7 +303,7 @@ TEST_CASE("With a free axis an arm of five joints reaches the poses, and the rep
 TEST_CASE("On an arm the result has the joints", "[visp-servo-compare]")
 {
   const std::string sixAxes = std::string(VISP_DIRECT_DATA_DIR) + "/robot/generic-6r.urdf";
-  for (const std::string &robot : {std::string("amor"), sixAxes + " --robot-tip tool --robot-camera camera"}) {
+  for (const std::string &robot : {std::string("amor"), sixAxes + " --robot-tip tool --camera-link camera"}) {
     ProgramRun run(SERVO_COMPARE);
     const int status = run("--robot " + robot + " --law pbvs1,ff-lookat-pi --plant A,B --measure points --out result");
     CAPTURE(robot, run.err());

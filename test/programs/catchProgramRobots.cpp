@@ -1,0 +1,88 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// Three public robots from their URDFs in the three programs that move arms: each reaches its goals.
+#include "vpCaseFile.h"
+#include "vpCatch.h"
+
+#include "jsonReader.h"
+#include "programRun.h"
+
+namespace
+{
+using nlohmann::json;
+
+//! \brief A public description with the options that make it an arm.
+struct PublicArm {
+  const char *folder, *urdf, *srdf, *options;
+};
+
+// The cases have no meshes of Tiago's head and base; what is ignored of it is out of reach or only seen.
+const PublicArm arms[] = {
+    {"panda_description", "urdf/panda.urdf", "srdf/panda.srdf", "--robot-tip panda_link8 --hold all"},
+    {"ur_description", "urdf/ur5_robot.urdf", "srdf/ur5.srdf", "--robot-tip tool0"},
+    {"tiago_description", "robots/tiago_no_hand.urdf", "",
+     "--robot-base torso_lift_link --robot-tip wrist_ft_tool_link --hold all --ignore-link head_1_link,head_2_link,"
+     "base_link,base_cover_link,caster_back_left_1_link,caster_back_right_1_link,caster_front_left_1_link,"
+     "caster_front_right_1_link"}};
+
+//! Options that name the robot; empty when its files are missing.
+std::string filesOf(const PublicArm &arm)
+{
+  const std::string folder = "example-robot-data/robots/" + std::string(arm.folder) + "/";
+  const std::string urdf = vpTestSupport::caseFile(folder + arm.urdf);
+  const std::string srdf = *arm.srdf == '\0' || urdf.empty() ? "" : vpTestSupport::caseFile(folder + arm.srdf);
+  return urdf.empty() ? "" : "'" + urdf + "' " + (srdf.empty() ? "" : "--srdf '" + srdf + "' ") + arm.options;
+}
+
+//! Runs a program on each robot and hands its summary over. The covers of the meshes are fitted once.
+template <class Check> void onEach(const std::string &program, const std::string &arguments, const Check &check)
+{
+  const TestFolder folder;
+  const std::string cache = "XDG_CACHE_HOME='" + folder.path.string() + "'";
+  for (const PublicArm &arm : arms) {
+    const std::string robot = filesOf(arm);
+    if (robot.empty()) {
+      continue;
+    }
+    CAPTURE(arm.folder);
+    ProgramRun run(program);
+    const int status = run(arguments + " --out result --robot " + robot, cache);
+    CAPTURE(run.err(), run.out());
+    REQUIRE(status == 0);
+    check(vpApp::readJsonFile(run.path("result/summary.json").string()));
+  }
+}
+} // namespace
+
+TEST_CASE("visp-servo-compare reaches its goals on public arms", "[programs]")
+{
+  onEach(SERVO_COMPARE, "--law pbvs1,ff-lookat-pi --plant A --measure points", [](const json &summary) {
+    REQUIRE(summary["runs"].size() == 2);
+    for (const json &run : summary["runs"]) {
+      CAPTURE(run["law"]);
+      CHECK(run["arm"]["status"] == "ok");
+      CHECK(run["end_rotation_deg"] < 0.5);
+    }
+  });
+}
+
+TEST_CASE("visp-plan-compare reaches its goals on public arms", "[programs]")
+{
+  onEach(PLAN_COMPARE, "--scene S1,S2,S7 --method planner-dtg --seeds 2", [](const json &summary) {
+    REQUIRE(summary["results"].size() == 3);
+    for (const json &cell : summary["results"]) {
+      CAPTURE(cell);
+      CHECK(cell["success"] == 1.);
+    }
+  });
+}
+
+TEST_CASE("visp-avoid-obstacle reaches its goal on public arms", "[programs]")
+{
+  onEach(AVOID_OBSTACLE, "--method planner-dtg", [](const json &summary) {
+    CHECK(summary["metrics"]["success"] == true);
+    CHECK(summary["metrics"]["collisions_moving"] == 0);
+  });
+}
