@@ -46,6 +46,12 @@ constexpr const char *EXAMPLES = R"(Examples:
 
 Exit status: 0 done, 1 the data do not allow it, 2 the command line is wrong. Nothing is written unless all succeeded.)";
 
+constexpr const char *ROBOT = "What carries the camera: camera (flies freely), amor (the arm of the thesis), or an arm "
+                              "as .urdf or .json file, see "
+                              "data/robot/README.md; visp-arm tells more. On an arm plant A is ideal; B and D are "
+                              "driven by torques against joint "
+                              "friction, on D twice that of the file. Collisions are not checked here";
+
 std::string shapeHelp()
 {
   const vpTwistShaperLimits limits = Scenario().shape;
@@ -96,12 +102,7 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   line.flag("--display", options.display, "Show the camera's view of each law in a window; click to skip to the next");
   line.whole("--jobs", options.jobs, {1, 256}, "N", "Runs at a time (default: one for each core)");
   line.flag("--list", options.list, "Name the laws and plants, a sentence each, and end");
-  vpApp::addRobotOptions(line, robot,
-                         "What carries the camera: camera (flies freely), amor (the arm of the thesis), or an arm as "
-                         ".urdf or .json file, see "
-                         "data/robot/README.md; visp-arm tells more. On an arm plant A is ideal; B and D are driven by "
-                         "torques against joint "
-                         "friction, on D twice that of the file. Collisions are not checked here");
+  vpApp::addRobotOptions(line, robot, ROBOT);
   if (!line.parse(argc, argv)) {
     return false;
   }

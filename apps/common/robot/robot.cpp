@@ -133,7 +133,11 @@ void allowPairs(const RobotOptions &options, vpArmSpec &arm)
     return;
   }
   const std::vector<std::string> known = bodyNames(arm);
-  for (const auto &[first, second] : vpSelfCollisionStatistics::load(options.allowedPairs).allowed()) {
+  const vpSelfCollisionStatistics statistics = vpSelfCollisionStatistics::load(options.allowedPairs);
+  if (statistics.arm != arm.source) {
+    arm.warnings.push_back(options.allowedPairs + ": was made for " + statistics.arm + ", not for " + arm.source);
+  }
+  for (const auto &[first, second] : statistics.allowed()) {
     for (const std::string &name : {first, second}) {
       if (!contains(known, name)) {
         throw std::runtime_error(options.allowedPairs + ": " + arm.source + " has no link " + name);
