@@ -24,6 +24,7 @@ namespace
 namespace fs = std::filesystem;
 constexpr int SAMPLES = 10000;
 constexpr int CAPSULE_SAMPLES = 1000; // of the capsules alone
+constexpr double CLEARANCE = 0.03;    // m, the most that a program keeps from anything
 
 //! \brief FNV-1a over everything that decides contacts.
 class Fingerprint
@@ -125,6 +126,26 @@ vpSelfCollisionStatistics statisticsOf(const vpArmModel &arm, const std::shared_
   }
   return statistics;
 }
+//! Checked pairs of bodies whose capsules come within the clearance that planners keep, in random configurations.
+std::set<std::pair<std::string, std::string>> nearPairs(const vpArmModel &arm)
+{
+  vpCollisionSceneSpec spec;
+  spec.ignoredBodies = arm.spec().uncovered;
+  const vpCollisionScene scene(arm, spec);
+  const auto name = [&](int capsule) {
+    const int body = arm.spec().capsules[static_cast<std::size_t>(capsule)].body;
+    return body < 0 ? std::string() : arm.spec().bodies[static_cast<std::size_t>(body)].name;
+  };
+  std::set<std::pair<std::string, std::string>> pairs;
+  for (const vpSelfPairStatistics &statistics : vpSampleSelfPairs(scene, CAPSULE_SAMPLES)) {
+    if (statistics.least < CLEARANCE) {
+      const std::string first = name(statistics.pair.first), second = name(statistics.pair.second);
+      pairs.insert({first, second});
+      pairs.insert({second, first});
+    }
+  }
+  return pairs;
+}
 } // namespace
 
 SelfPairs findSelfPairs(const vpArmModel &arm, const std::filesystem::path &folder)
@@ -134,12 +155,7 @@ SelfPairs findSelfPairs(const vpArmModel &arm, const std::filesystem::path &fold
   if (exact == nullptr) {
     return pairs;
   }
-  std::set<std::pair<std::string, std::string>> touching; // by capsules
-  for (const vpBodyPairStatistics &pair : vpSampleBodyPairs(arm, nullptr, CAPSULE_SAMPLES).pairs) {
-    if (pair.touching > 0) {
-      touching.insert({pair.first, pair.second});
-    }
-  }
+  const std::set<std::pair<std::string, std::string>> touching = nearPairs(arm);
   if (touching.empty()) {
     return pairs;
   }
@@ -157,7 +173,7 @@ SelfPairs findSelfPairs(const vpArmModel &arm, const std::filesystem::path &fold
     pairs.warnings.push_back("not checked, as the bodies touch in nearly all" + samples + enumerate(always));
   }
   if (!never.empty()) {
-    pairs.warnings.push_back("not checked, as only the capsules touch, the bodies in none" + samples +
+    pairs.warnings.push_back("not checked, as only the capsules come near, the bodies touch in none" + samples +
                              enumerate(never) + "; so they touch in less than " + number(300. / shapes.samples, 2) +
                              " % of all, with 95 % confidence");
   }

@@ -28,7 +28,7 @@ struct SelfPairs {
 
 /*!
  * Pairs that need no check by 10,000 random configurations: those whose exact shapes touch in at least 95 % of them, and those
- * of which only capsules touch, the shapes in none. The latter is an estimate: below a share of 3e-4, with 95 % confidence.
+ * whose capsules come within 30 mm while the shapes touch in none. The latter is an estimate: below a share of 3e-4, with 95 % confidence.
  * Without exact shapes (FCL is missing, or the arm has none) there are no such pairs.
  * \param arm : With its covers.
  * \param folder : Where statistics are kept, in a file for the geometry and limits of the arm; empty: nowhere. What cannot be
