@@ -60,10 +60,10 @@ Eigen::Vector3d placeObject(const Meeting &meeting, const Views &start, vpCollis
   return object.pose.p + start.camera.R * (meeting.rest - meeting.beside);
 }
 
-//! Completes the task from its start; false if it is none.
-bool complete(const Meeting &meeting, const vpArmModel &arm, vpCollisionSceneSpec &spec, vpMotionTask &task)
+//! Completes the task from its start; false if it is none. \param room : About the object, m.
+bool complete(const Meeting &meeting, const vpArmModel &arm, double room, vpCollisionSceneSpec &spec,
+              vpMotionTask &task)
 {
-  constexpr double room = 0.04; // m, for the uncertainty with which the object is seen
   const Eigen::Vector3d goal = placeObject(meeting, viewsOf(arm, task.start), spec.objects.front());
   const vpCollisionScene scene(arm, spec);
   vpCollisionSceneSpec wider = spec;
@@ -87,11 +87,13 @@ void moveToArm(const vpArmModel &amor, const vpArmModel &arm, vpCollisionSceneFi
   file.spec.ground = vpSceneFrame::of(arm).floor();
   vpMotionTask &task = file.tasks.front();
   const Meeting meeting = meetingOf(amor, file.spec.objects.front(), task);
-  for (int draw = -1; draw < DRAWS; ++draw) {
-    vpHashRandom random = vpSceneDraw::random(PHOTO, 1, draw);
-    task.start = draw < 0 ? arm.home() : vpSceneDraw::configuration(arm, random);
-    if (complete(meeting, arm, file.spec, task)) {
-      return;
+  for (const double room : {0.06, 0.04}) { // for the uncertainty with which the object is seen
+    for (int draw = -1; draw < DRAWS; ++draw) {
+      vpHashRandom random = vpSceneDraw::random(PHOTO, 1, draw);
+      task.start = draw < 0 ? arm.home() : vpSceneDraw::configuration(arm, random);
+      if (complete(meeting, arm, room, file.spec, task)) {
+        return;
+      }
     }
   }
   throw std::runtime_error(arm.label() + ": from none of " + std::to_string(DRAWS) +
