@@ -10,6 +10,7 @@
 
 #include <visp3/avoidance/vpExactShapes.h>
 
+#include <Eigen/LU>
 #include <fcl/fcl.h>
 
 #include <set>
@@ -22,7 +23,11 @@ public:
   ExactOracle(const vpArmModel &arm, const vpCollisionScene &scene) : m_arm(&arm)
   {
     for (const vpArmShape &shape : arm.spec().shapes) {
-      m_shapes.push_back({geometry(shape), shape.body, arm.spec().bodies[index(shape.body)].link, shape.pose});
+      Part part{geometry(shape), shape.body, arm.spec().bodies[index(shape.body)].link, shape.pose, nullptr};
+      if (shape.kind == vpArmShapeKind::Mesh) {
+        part.mesh = std::make_shared<vpTriangleMesh>(vpTriangleMesh::load(shape.file, shape.size));
+      }
+      m_shapes.push_back(part);
     }
     for (const vpSelfPair &pair : scene.selfPairs()) {
       m_pairs.insert({scene.capsule(pair.first).body, scene.capsule(pair.second).body});
@@ -33,7 +38,7 @@ public:
           m_allowed.insert({scene.capsule(i).body, j}); // on the base, or an allowed contact
         }
       }
-      m_objects.push_back({geometry(scene.object(j).shape), j, 0, scene.object(j).pose});
+      m_objects.push_back({geometry(scene.object(j).shape), j, 0, scene.object(j).pose, nullptr});
     }
   }
 
@@ -60,12 +65,43 @@ public:
     return false;
   }
 
+  //! True if a body has a point inside the mesh of another one that it must not touch: by the parity of crossings.
+  [[nodiscard]] bool isHidden(const vpJointVector &q) const
+  {
+    vpArmData data;
+    vpArmKinematics::forward(*m_arm, q, data);
+    for (const Part &outer : m_shapes) {
+      for (const Part &inner : m_shapes) {
+        const bool checked = m_pairs.count({outer.body, inner.body}) > 0 || m_pairs.count({inner.body, outer.body}) > 0;
+        const Vector3d p = inner.mesh ? inner.mesh->vertices().front() : Vector3d(Vector3d::Zero());
+        if (outer.mesh && checked && isInside(*outer.mesh, place(data, outer).inverse() * (place(data, inner) * p))) {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
 private:
+  static bool isInside(const vpTriangleMesh &mesh, const Vector3d &p)
+  {
+    const Vector3d ray(0.31, 0.52, 0.79);
+    bool inside = false;
+    for (const auto &t : mesh.triangles()) {
+      Eigen::Matrix3d M; // p + s ray = a + u (b - a) + v (c - a)
+      const Vector3d &a = mesh.vertices()[index(t[0])];
+      M << -ray, mesh.vertices()[index(t[1])] - a, mesh.vertices()[index(t[2])] - a;
+      const Vector3d suv = M.fullPivLu().solve(p - a);
+      inside = inside != (suv.minCoeff() > 0. && suv(1) + suv(2) < 1.);
+    }
+    return inside;
+  }
   struct Part {
     std::shared_ptr<fcl::CollisionGeometryd> geometry;
     int body;
     int link;
     vpRigidTransform pose; // in the link
+    std::shared_ptr<vpTriangleMesh> mesh;
   };
 
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }

@@ -343,5 +343,5 @@ TEST_CASE("A scene camera that cannot work is refused", "[scene]")
   vpDepthFaults faults;
   faults.dropout = 2.;
   CHECK_THROWS_WITH(camera.depth(vpCollisionScene(amor(), scene), vpRigidTransform(), faults, 1, depth),
-                    Catch::Contains("dropout of the depth camera's faults is 2, must be 0 to 1"));
+                    Catch::Contains("dropout of the depth camera's faults is 2, must be 0..1"));
 }
