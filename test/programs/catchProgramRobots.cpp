@@ -36,11 +36,16 @@ std::string filesOf(const PublicArm &arm)
   return urdf.empty() ? "" : "'" + urdf + "' " + (srdf.empty() ? "" : "--srdf '" + srdf + "' ") + arm.options;
 }
 
-//! Runs a program on each robot and hands its summary over. The covers of the meshes are fitted once.
+std::string cacheFolder()
+{
+  static const TestFolder folder;
+  return folder.path.string();
+}
+
+//! Runs a program on each robot and hands its summary over. The covers of the meshes are fitted once for all.
 template <class Check> void onEach(const std::string &program, const std::string &arguments, const Check &check)
 {
-  const TestFolder folder;
-  const std::string cache = "XDG_CACHE_HOME='" + folder.path.string() + "'";
+  const std::string cache = "XDG_CACHE_HOME='" + cacheFolder() + "'";
   for (const PublicArm &arm : arms) {
     const std::string robot = filesOf(arm);
     if (robot.empty()) {
