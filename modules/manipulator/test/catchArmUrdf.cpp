@@ -226,6 +226,9 @@ TEST_CASE("xacro is refused with the command that expands it", "[urdf]")
     CHECK(errorOf(twoLinks(good, piece)).find("is written in xacro") != std::string::npos);
   }
   CHECK(errorOf("<robot name='r' xmlns:xacro='http://ros.org/wiki/xacro'>" + twoLinks(good).substr(16)) == "no error");
+  const File left("left.urdf", twoLinks(good, "<xacro:sensors side='left'/>"));
+  CHECK(vpLoadArmUrdf(left.name()).spec().warnings.front() ==
+        "calls of xacro macros that were never expanded are left out: xacro:sensors");
 }
 
 TEST_CASE("Meshes are found in packages, above the file and beside it", "[urdf]")
