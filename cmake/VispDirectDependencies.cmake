@@ -60,7 +60,7 @@ vispdirect_optional(ASSIMP "mesh files of arms and obstacles (vpTriangleMesh::lo
 find_path(VISP_DIRECT_FCL_INCLUDE_DIR fcl/fcl.h)
 find_path(VISP_DIRECT_CCD_INCLUDE_DIR ccd/ccd.h)
 find_library(VISP_DIRECT_FCL_LIBRARY fcl)
-vispdirect_optional(FCL "second opinion on collisions (vpFclChecker)"
+vispdirect_optional(FCL "exact shapes of arms, and a second opinion on collisions (vpExactShapes, vpFclChecker)"
   "${VISP_DIRECT_FCL_INCLUDE_DIR};${VISP_DIRECT_CCD_INCLUDE_DIR}" "${VISP_DIRECT_FCL_LIBRARY}")
 if(VISP_DIRECT_HAVE_FCL AND NOT VISP_DIRECT_HAVE_OCTOMAP) # FCL's headers include octomap
   message(STATUS "visp-direct: FCL is left out, for it needs OCTOMAP")
