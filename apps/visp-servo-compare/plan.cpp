@@ -311,6 +311,15 @@ Plan makePlan(const Options &options)
   return plan;
 }
 
+namespace
+{
+bool hasDryFriction(const vpArmModel &model)
+{
+  const std::vector<vpArmJointSpec> &joints = model.spec().joints;
+  return std::any_of(joints.begin(), joints.end(), [](const vpArmJointSpec &joint) { return joint.coulomb > 0.; });
+}
+} // namespace
+
 std::string sentenceOf(const vpServoArm &arm)
 {
   std::string wishes;
@@ -335,6 +344,9 @@ std::string sentenceOf(const vpServoArm &arm)
               ? " Where there is friction, the drives add velocities to the measured position, (3.18) of the thesis: "
                 "friction suppresses small velocities."
               : " Where there is friction, the drives integrate velocities in open loop: friction delays the joints.") +
+         (hasDryFriction(arm.model)
+              ? ""
+              : " Its file gives no Coulomb friction: plants that differ in friction alone are nearly the same.") +
          (free.empty() ? ""
                        : " Free axes of the camera: " + free +
                              ". They are not commanded, and errors of the pose are without them.");
