@@ -4,12 +4,11 @@
  */
 #include "vpArmCoverCache.h"
 
+#include "vpFileReplace.h"
 #include "vpJsonGeometry.h"
 #include "vpReading.h"
 
 #include <visp3/manipulator/vpArmTypes.h>
-
-#include <unistd.h>
 
 BEGIN_VISP_NAMESPACE
 
@@ -114,7 +113,6 @@ std::string toText(const std::string &body, const vpCachedCover &cached)
   return text + "]}";
 }
 
-std::string reasonOf(int error) { return error != 0 ? " (" + std::generic_category().message(error) + ")" : ""; }
 } // namespace
 
 std::string vpCoverKey(const vpTriangleMesh &mesh, int count, unsigned int seed)
@@ -188,24 +186,8 @@ std::string vpArmCoverCache::save() const
     separator = ",\n    ";
   }
   text += "]\n}\n";
-  namespace fs = std::filesystem;
-  const fs::path target = m_file;
-  const fs::path part =
-      target.parent_path() / ("." + target.filename().string() + "." + std::to_string(getpid()) + ".partial");
-  errno = 0;
-  std::ofstream stream(part, std::ios::binary);
-  stream << text;
-  stream.close();
-  std::error_code error, ignored;
-  if (stream) {
-    fs::rename(part, target, error);
-  }
-  if (stream && !error) {
-    return "";
-  }
-  const std::string reason = reasonOf(error ? error.value() : errno);
-  fs::remove(part, ignored);
-  return m_file + ": the covers cannot be written" + reason;
+  const std::string reason = vpReplaceFile(m_file, text);
+  return reason.empty() ? "" : m_file + ": the covers cannot be written" + reason;
 }
 
 END_VISP_NAMESPACE

@@ -4,16 +4,11 @@
  */
 #include <visp3/avoidance/vpSelfCollisionStatistics.h>
 
+#include "vpFileReplace.h"
 #include "vpJsonObject.h"
 #include "vpReading.h"
 
-#include <unistd.h>
-
-#include <cerrno>
-#include <filesystem>
-#include <fstream>
 #include <sstream>
-#include <system_error>
 
 BEGIN_VISP_NAMESPACE
 
@@ -104,23 +99,10 @@ void vpSelfCollisionStatistics::save(const std::string &file) const
     one["rule"] = nameOf(rule(pair));
     content["pairs"].push_back(one);
   }
-  // Beside the file, then renamed: a reader never gets half of it.
-  namespace fs = std::filesystem;
-  const fs::path target = file;
-  const fs::path part =
-      target.parent_path() / ("." + target.filename().string() + "." + std::to_string(getpid()) + ".partial");
-  errno = 0;
-  std::ofstream stream(part, std::ios::binary);
-  stream << content.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
-  stream.close();
-  std::error_code error, ignored;
-  if (stream) {
-    fs::rename(part, target, error);
-  }
-  if (!stream || error) {
-    const std::string reason = std::generic_category().message(error ? error.value() : errno);
-    fs::remove(part, ignored);
-    throw vpException(vpException::ioError, vpPrintable(file + ": the statistics cannot be written: " + reason));
+  const std::string text = content.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  const std::string reason = vpReplaceFile(file, text);
+  if (!reason.empty()) {
+    throw vpException(vpException::ioError, vpPrintable(file + ": the statistics cannot be written" + reason));
   }
 }
 

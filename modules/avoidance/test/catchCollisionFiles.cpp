@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 // File contents are read correctly, and errors are reported in one sentence with the file and the element.
+#include "vpTestFile.h"
 #include "vpAvoidanceTestKit.h"
 #include "vpCaseFile.h"
 #include "vpCatch.h"
@@ -21,21 +22,11 @@ using namespace vpAvoidanceTestKit;
 
 namespace
 {
-// A file in the working folder; removed again.
-class File
-{
-public:
-  File(const std::string &name, const std::string &text) : m_name("catchCollisionFiles-" + name)
-  {
-    std::ofstream(m_name, std::ios::binary) << text;
-  }
-  ~File() { std::remove(m_name.c_str()); }
-  File(const File &) = delete;
-  File &operator=(const File &) = delete;
-  [[nodiscard]] const std::string &name() const { return m_name; }
-
-private:
-  std::string m_name;
+// A file of this test.
+struct File : vpTestSupport::File {
+  File(const std::string &name, const std::string &content)
+    : vpTestSupport::File("catchCollisionFiles-" + name, content)
+  {}
 };
 
 template <class Call> std::string errorOf(Call call)

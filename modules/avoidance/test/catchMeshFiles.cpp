@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 // One solid through every mesh format, with scales, mirrors, units and places; what would crash the parser is refused.
+#include "vpTestFile.h"
 #include "vpAvoidanceTestKit.h"
 #include "vpCaseFile.h"
 #include "vpCatch.h"
@@ -20,21 +21,9 @@ using namespace vpAvoidanceTestKit;
 
 namespace
 {
-// A file in the working folder; removed again.
-class File
-{
-public:
-  File(const std::string &name, const std::string &text) : m_name("catchMeshFiles-" + name)
-  {
-    std::ofstream(m_name, std::ios::binary) << text;
-  }
-  ~File() { std::remove(m_name.c_str()); }
-  File(const File &) = delete;
-  File &operator=(const File &) = delete;
-  [[nodiscard]] const std::string &name() const { return m_name; }
-
-private:
-  std::string m_name;
+// A file of this test.
+struct File : vpTestSupport::File {
+  File(const std::string &name, const std::string &content) : vpTestSupport::File("catchMeshFiles-" + name, content) {}
 };
 
 template <class Call> std::string errorOf(Call call)

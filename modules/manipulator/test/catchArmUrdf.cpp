@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 // What the reader of URDF tolerates, assumes and refuses, each in a sentence; SRDF files and files of limits.
+#include "vpTestFile.h"
 #include "vpArmTestKit.h"
 #include "vpCatch.h"
 
@@ -19,21 +20,9 @@ namespace
 {
 namespace fs = std::filesystem;
 
-// A file in the working folder, removed again.
-class File
-{
-public:
-  File(const std::string &name, const std::string &content) : m_name("catchArmUrdf-" + name)
-  {
-    std::ofstream(m_name, std::ios::binary) << content;
-  }
-  ~File() { std::remove(m_name.c_str()); }
-  File(const File &) = delete;
-  File &operator=(const File &) = delete;
-  [[nodiscard]] const std::string &name() const { return m_name; }
-
-private:
-  std::string m_name;
+// A file of this test.
+struct File : vpTestSupport::File {
+  File(const std::string &name, const std::string &content) : vpTestSupport::File("catchArmUrdf-" + name, content) {}
 };
 
 std::string joint(const std::string &name, const std::string &type, const std::string &parent, const std::string &child,
