@@ -218,7 +218,7 @@ TEST_CASE("Ignored and unreadable bodies stay uncovered, by name", "[cover]")
         "capsules of the covers of an arm is 0, must be 1 to 8");
 }
 
-TEST_CASE("Covers from a file are the same to the last bit, and fitted anew when shapes or options change", "[cover]")
+TEST_CASE("Covers from a file are the same to the last bit, and fitted again when shapes or options change", "[cover]")
 {
   CAPTURE(vpTestSupport::seed());
   std::mt19937_64 rng = vpTestSupport::generator(2);
@@ -286,7 +286,7 @@ TEST_CASE("Edited covers are used if they enclose, else refused by name or taken
   CHECK(wider.bodies[1].overhang == Approx(entryOf(content, "upper")["overhang_m"].get<double>() + 0.01).margin(0.005));
   CHECK_FALSE(wider.bodies[0].edited);
   CHECK(wider.warnings.empty());
-  options.seed = 5; // an edited one is not fitted anew
+  options.seed = 5; // an edited one is not fitted again
   CHECK(vpCoverArm(arm, options).bodies[1].edited);
   options.seed = 1;
   content = fitted;

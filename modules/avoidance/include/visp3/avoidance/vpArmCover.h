@@ -60,8 +60,8 @@ struct VISP_EXPORT vpArmCover {
  * body of which only a part is known, or which moves relative to its link, the arm must have no shape. Bodies without
  * shapes stay as they are. A body of which a mesh cannot be read stays uncovered, with a warning.
  *
- * A cover from the file is verified by vpProveCover(). A cover that nobody edited is fitted anew when the shapes, the
- * number of capsules or the seed have changed. An edited or `unchecked` one is always used.
+ * A cover from the file is verified by vpProveCover(). An unedited cover is fitted again when the shapes,
+ * the number of capsules or the seed have changed. An edited or `unchecked` one is always used.
  *
  * \throw vpException (badValue) naming the body: edited capsules that are not proven to enclose it, with the point farthest
  * outside, unless the file says `unchecked`; an ignored name that is no body. (badValue, ioError) naming the file and

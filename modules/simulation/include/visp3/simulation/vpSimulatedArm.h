@@ -52,7 +52,7 @@ struct VISP_EXPORT vpSimulatedArmSpec {
   double watchdog = 0.2;
   /*!
    * Largest joint following error, rad or m, > 0; beyond it the arm stops. With vpDriveReference::Measured there is
-   * none during velocity commands: a joint that cannot follow is told by vpSimulatedArmState::saturated only.
+   * none during velocity commands: a joint that cannot follow is reported by vpSimulatedArmState::saturated only.
    */
   double followingError = 0.3;
   vpArmClock clock = vpArmClock::Stepped; //!< Clock of the simulation.
