@@ -24,6 +24,7 @@ constexpr std::string_view filterSuffix = "+cbf";
 void vpServoControllerSpec::validate() const
 {
   gains.validate();
+  motion.validate();
   view.validate();
   recovery.validate();
 }

@@ -10,6 +10,7 @@
 #define vpServoController_h
 
 #include <visp3/feedforward/vpServoLaw.h>
+#include <visp3/feedforward/vpServoMotionLimits.h>
 #include <visp3/feedforward/vpTargetLossRecovery.h>
 #include <visp3/feedforward/vpViewConstraintFilter.h>
 
@@ -25,9 +26,10 @@ BEGIN_VISP_NAMESPACE
 //! \ingroup group_feedforward
 //! \brief Parameters of all parts of a vpServoController.
 struct VISP_EXPORT vpServoControllerSpec {
-  vpServoGains gains;        //!< Gains of the law.
-  vpViewConstraintSpec view; //!< Parameters of the view filter; used by ids ending in `+cbf`.
-  vpTargetLossSpec recovery; //!< Parameters of the target loss recovery.
+  vpServoGains gains;         //!< Gains of the law.
+  vpServoMotionLimits motion; //!< Limits of laws that plan their motion; ignored by the others.
+  vpViewConstraintSpec view;  //!< Parameters of the view filter; used by ids ending in `+cbf`.
+  vpTargetLossSpec recovery;  //!< Parameters of the target loss recovery.
 
   //! \throw vpException (badValue) naming the field and its value when one is out of its range or not finite.
   void validate() const;

@@ -1,0 +1,28 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include <visp3/feedforward/vpServoMotionLimits.h>
+
+BEGIN_VISP_NAMESPACE
+
+const vpFields<vpServoMotionLimits> &vpServoMotionLimits::fields()
+{
+  using Limits = vpServoMotionLimits;
+  const vpFieldRange positive = vpFieldRange::positive(1e6);
+  vpFieldRange jerk = vpFieldRange::positive(1e9);
+  jerk.infinite = true;
+  static const vpFields<Limits> all = {
+      {"linearVelocity", &Limits::linearVelocity, positive, "m/s", "Limit of the linear speed"},
+      {"linearAcceleration", &Limits::linearAcceleration, positive, "m/s^2", "Limit of the linear acceleration"},
+      {"linearJerk", &Limits::linearJerk, jerk, "m/s^3", "Limit of the linear jerk"},
+      {"angularVelocity", &Limits::angularVelocity, positive, "rad/s", "Limit of the angular speed"},
+      {"angularAcceleration", &Limits::angularAcceleration, positive, "rad/s^2", "Limit of the angular acceleration"},
+      {"angularJerk", &Limits::angularJerk, jerk, "rad/s^3", "Limit of the angular jerk"},
+  };
+  return all;
+}
+
+void vpServoMotionLimits::validate() const { vpCheckFields(*this, fields(), "the servo motion limits"); }
+
+END_VISP_NAMESPACE
