@@ -44,7 +44,7 @@ vpServoController vpServoController::create(const std::string &id, const vpServo
   const bool withFilter = id.size() > filterSuffix.size() &&
                           id.compare(id.size() - filterSuffix.size(), filterSuffix.size(), filterSuffix) == 0;
   const std::string lawId = withFilter ? id.substr(0, id.size() - filterSuffix.size()) : id;
-  return vpServoController(id, vpServoLaw::create(lawId, spec.gains), withFilter, spec);
+  return vpServoController(id, vpServoLaw::create(lawId, spec.gains, spec.motion), withFilter, spec);
 }
 
 void vpServoController::reset()

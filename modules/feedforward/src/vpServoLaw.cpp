@@ -4,8 +4,9 @@
  */
 #include <visp3/feedforward/vpServoLaw.h>
 
-#include "vpServoLaws.h"
+#include "vpRegistry.h"
 #include "vpServoCheck.h"
+#include "vpServoLaws.h"
 
 #include <visp3/core/vpException.h>
 
@@ -17,20 +18,49 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-struct Entry {
-  const char *id;
-  vpServoLaws::Maker make;
-  double rotationFactor;
+vpServoLaw::Maker ours(const char *id, vpServoLaws::Maker make, double rotationFactor)
+{
+  return [=](const vpServoGains &gains, const vpServoMotionLimits &) { return make(id, gains, rotationFactor); };
+}
+
+struct Laws : vpRegistry<vpServoLaw::Maker> {
+  Laws() : vpRegistry("servo law")
+  {
+    using namespace vpServoLaws;
+    const auto addOurs = [this](const char *id, vpServoLaws::Maker make, double rotationFactor, const char *sentence) {
+      add(id, sentence, ours(id, make, rotationFactor));
+    };
+    addOurs("pbvs1", makePbvs1, 1.,
+            "Position-based on the camera's pose: a straight camera path, the view is not looked after.");
+    addOurs("pbvs1-rot2", makePbvs1, 2., "PBVS-1 with twice the rotation gain.");
+    addOurs("pbvs2", makePbvs2, 1.,
+            "Position-based on the object's pose: the object's origin goes straight in the camera frame.");
+    addOurs("ibvs", makeIbvs, 1.,
+            "Image-based on the feature points: straight lines in the image, no care for the path.");
+    addOurs("hybrid25d", makeHybrid25d, 1.,
+            "Hybrid of Malis: translation by an image point and depth, rotation by pose.");
+    addOurs(
+        "kyrki", makeKyrki, 1.,
+        "Kyrki as published: a straight camera path, the rotation holds the object in the image and compensates the "
+        "translation.");
+    addOurs("kyrki-rot2", makeKyrki, 2., "Kyrki as published with twice the rotation gain.");
+    addOurs("kyrki-decoupled", makeKyrkiDecoupled, 1.,
+            "Kyrki with the rotation driven by the image error alone, without compensation: what the thesis compares "
+            "with.");
+    addOurs("ff-sum", makeFeedforwardSum, 1.,
+            "The thesis' law, corrected: PBVS-1 plus the bearing of the object as a feedforward of the rotation.");
+    addOurs("ff-lookat", makeLookAt, 2.,
+            "Feedforward that keeps the camera turned to the object while it translates; rotation gain x2.");
+    addOurs("ff-lookat-pi", makeLookAtPi, 2.,
+            "FF look-at with an integral of the rotation error against friction; the default of visp-direct.");
+  }
 };
 
-const Entry entries[] = {
-    {"pbvs1", vpServoLaws::makePbvs1, 1.},           {"pbvs1-rot2", vpServoLaws::makePbvs1, 2.},
-    {"pbvs2", vpServoLaws::makePbvs2, 1.},           {"ibvs", vpServoLaws::makeIbvs, 1.},
-    {"hybrid25d", vpServoLaws::makeHybrid25d, 1.},   {"kyrki", vpServoLaws::makeKyrki, 1.},
-    {"kyrki-rot2", vpServoLaws::makeKyrki, 2.},      {"kyrki-decoupled", vpServoLaws::makeKyrkiDecoupled, 1.},
-    {"ff-sum", vpServoLaws::makeFeedforwardSum, 1.}, {"ff-lookat", vpServoLaws::makeLookAt, 2.},
-    {"ff-lookat-pi", vpServoLaws::makeLookAtPi, 2.},
-};
+Laws &laws()
+{
+  static Laws all; // at first use: static objects elsewhere may add laws
+  return all;
+}
 
 // Maximum integration step, s: after a pause, or with a wrong clock, an integral would jump to its limit.
 constexpr double longestStep = 0.5;
@@ -72,32 +102,26 @@ vpServoLaw::vpServoLaw(std::string id, const vpServoGains &gains, double rotatio
   : m_id(std::move(id)), m_gains(gains), m_rotationFactor(rotationFactor)
 {}
 
-std::unique_ptr<vpServoLaw> vpServoLaw::create(const std::string &id, const vpServoGains &gains)
+std::unique_ptr<vpServoLaw> vpServoLaw::create(const std::string &id, const vpServoGains &gains,
+                                               const vpServoMotionLimits &motion)
 {
   gains.validate();
-  for (const Entry &entry : entries) {
-    if (id == entry.id) {
-      return entry.make(id, gains, entry.rotationFactor);
-    }
+  motion.validate();
+  std::unique_ptr<vpServoLaw> law = laws().find(id)(gains, motion);
+  if (!law) {
+    throw vpException(vpException::badValue, "the maker of servo law \"%s\" returned none", id.c_str());
   }
-  std::string known;
-  for (const std::string &name : ids()) {
-    known += (known.empty() ? "" : ", ") + name;
-  }
-  throw vpException(vpException::badValue, "servo law \"%s\" is unknown, known laws are: %s", id.c_str(),
-                    known.c_str());
+  law->m_id = id;
+  return law;
 }
 
-const std::vector<std::string> &vpServoLaw::ids()
+std::vector<std::string> vpServoLaw::ids() { return laws().ids(); }
+
+std::string vpServoLaw::sentence(const std::string &id) { return laws().sentence(id); }
+
+void vpServoLaw::add(const std::string &id, const std::string &sentence, Maker maker)
 {
-  static const std::vector<std::string> all = []() {
-    std::vector<std::string> names;
-    for (const Entry &entry : entries) {
-      names.emplace_back(entry.id);
-    }
-    return names;
-  }();
-  return all;
+  laws().add(id, sentence, std::move(maker));
 }
 
 void vpServoLaw::setGoal(const vpServoGoal &goal)

@@ -196,7 +196,7 @@ TEST_CASE("controller set-up names what is wrong", "[controller][errors]")
   CHECK(vpServoController::ids() == vpServoLaw::ids());
   for (const char *id : {"ff-lookat+cbff", "+cbf", "ff-lookat-pi+cbf+cbf", "", "FF-SUM"}) {
     CAPTURE(id);
-    CHECK_THROWS_WITH(vpServoController::create(id), Contains("is unknown, known laws are: pbvs1, "));
+    CHECK_THROWS_WITH(vpServoController::create(id), Contains("is unknown, known are: pbvs1, "));
   }
   vpServoControllerSpec spec;
   spec.gains.rotation = -1.;

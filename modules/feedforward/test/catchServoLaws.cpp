@@ -204,10 +204,9 @@ TEST_CASE("set-up errors say what is wrong", "[laws][errors]")
   gains = {};
   gains.integralLimit = -1.;
   CHECK_THROWS_WITH(vpServoLaw::create("pbvs1", gains), Contains("integralLimit of the servo gains is -1 rad/s"));
-  CHECK_THROWS_WITH(
-      vpServoLaw::create("pvbs"),
-      Contains("servo law \"pvbs\" is unknown, known laws are: pbvs1, pbvs1-rot2, pbvs2, ibvs, hybrid25d, "
-               "kyrki, kyrki-rot2, kyrki-decoupled, ff-sum, ff-lookat, ff-lookat-pi"));
+  CHECK_THROWS_WITH(vpServoLaw::create("pvbs"),
+                    Contains("servo law \"pvbs\" is unknown, known are: pbvs1, pbvs1-rot2, pbvs2, ibvs, hybrid25d, "
+                             "kyrki, kyrki-rot2, kyrki-decoupled, ff-sum, ff-lookat, ff-lookat-pi"));
 
   auto law = vpServoLaw::create("pbvs1");
   auto rng = vpTestSupport::generator(14);

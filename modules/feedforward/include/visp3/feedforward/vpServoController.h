@@ -63,7 +63,7 @@ public:
    */
   [[nodiscard]] static vpServoController create(const std::string &id, const vpServoControllerSpec &spec = {});
   //! The ids of the laws; each can be followed by `+cbf`.
-  [[nodiscard]] static const std::vector<std::string> &ids() { return vpServoLaw::ids(); }
+  [[nodiscard]] static std::vector<std::string> ids() { return vpServoLaw::ids(); }
 
   //! Set or change the goal; see vpServoLaw::setGoal().
   void setGoal(const vpServoGoal &goal) { m_law->setGoal(goal); }

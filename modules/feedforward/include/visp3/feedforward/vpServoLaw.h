@@ -12,7 +12,9 @@
 #include <visp3/direct_core/vpField.h>
 #include <visp3/feedforward/vpServoCommand.h>
 #include <visp3/feedforward/vpServoMeasurement.h>
+#include <visp3/feedforward/vpServoMotionLimits.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -63,15 +65,33 @@ public:
   vpServoLaw(const vpServoLaw &) = delete;
   vpServoLaw &operator=(const vpServoLaw &) = delete;
 
+  //! Makes a law from valid gains and limits. May throw; may be called by several threads at once.
+  using Maker =
+      std::function<std::unique_ptr<vpServoLaw>(const vpServoGains &gains, const vpServoMotionLimits &motion)>;
+
   /*!
    * Make a law by name.
    * \param id : One of ids().
    * \param gains : Gains; validated here.
-   * \throw vpException (badValue) naming the unknown id and listing the known ones, or naming the bad gain.
+   * \param motion : Limits of laws that plan their motion; validated here, ignored by the other laws.
+   * \throw vpException (badValue) naming the unknown id and listing the known ones, or naming the bad gain or limit; and
+   * whatever the maker of the law throws.
    */
-  [[nodiscard]] static std::unique_ptr<vpServoLaw> create(const std::string &id, const vpServoGains &gains = {});
-  //! All ids known to create(), in the order used by reports.
-  [[nodiscard]] static const std::vector<std::string> &ids();
+  [[nodiscard]] static std::unique_ptr<vpServoLaw> create(const std::string &id, const vpServoGains &gains = {},
+                                                          const vpServoMotionLimits &motion = {});
+  //! All ids known to create(), in the order used by reports: our own, then those added.
+  [[nodiscard]] static std::vector<std::string> ids();
+  //! What a law does, one sentence. \throw vpException (badValue) naming the unknown id and listing the known ones.
+  [[nodiscard]] static std::string sentence(const std::string &id);
+  /*!
+   * Adds a law of your own, for create(), vpServoController and all programs. Any thread; cannot be undone, so a library
+   * that holds the maker must stay loaded.
+   * \param id : A letter and up to 63 more letters, digits, `-` or `_`; create() gives it to the law.
+   * \param sentence : What the law does, one printable line.
+   * \param maker : Returns a new law each time.
+   * \throw vpException (badValue) naming the id, when it is malformed or used already, or the sentence or maker is empty.
+   */
+  static void add(const std::string &id, const std::string &sentence, Maker maker);
 
   /*!
    * Set or change the goal, also every cycle. The integral of `ff-lookat-pi` is kept, except on axes whose direction of

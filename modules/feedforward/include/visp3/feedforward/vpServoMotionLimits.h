@@ -19,11 +19,11 @@ BEGIN_VISP_NAMESPACE
  * and of its first and second derivative, components in the camera frame.
  */
 struct VISP_EXPORT vpServoMotionLimits {
-  double linearVelocity = 0.25;    //!< Limit of the linear speed, m/s, > 0, <= 1e+06.
-  double linearAcceleration = 0.5; //!< Limit of the linear acceleration, m/s^2, > 0, <= 1e+06.
+  double linearVelocity = 0.25;    //!< Limit of the linear speed, m/s, > 0, <= 1000000.
+  double linearAcceleration = 0.5; //!< Limit of the linear acceleration, m/s^2, > 0, <= 1000000.
   double linearJerk = 5.;          //!< Limit of the linear jerk, m/s^3, > 0, <= 1e+09 or infinite.
-  double angularVelocity = 1.;     //!< Limit of the angular speed, rad/s, > 0, <= 1e+06.
-  double angularAcceleration = 2.; //!< Limit of the angular acceleration, rad/s^2, > 0, <= 1e+06.
+  double angularVelocity = 1.;     //!< Limit of the angular speed, rad/s, > 0, <= 1000000.
+  double angularAcceleration = 2.; //!< Limit of the angular acceleration, rad/s^2, > 0, <= 1000000.
   double angularJerk = 20.;        //!< Limit of the angular jerk, rad/s^3, > 0, <= 1e+09 or infinite.
 
   //! The limits with their ranges and units.
