@@ -5,7 +5,7 @@
 /*!
  * \file catchImageServo.cpp
  * \brief The whole chain from picture to motion: rendered views, vpPlanarTarget, law, plant with friction.
- * VISP_DIRECT_LONG_TESTS=10 runs each photograph with ten seeds.
+ * VISP_DIRECT_LONG_TESTS=10 runs each photograph with ten seeds; without it, even and odd seeds share the photographs.
  */
 #include "vpCatch.h"
 
@@ -89,7 +89,11 @@ TEST_CASE("ten photographs: the camera ends within 0.25 deg, and within three de
   const auto seeds = static_cast<unsigned int>(vpTestSupport::longer(1));
   const std::vector<std::string> files = photographs();
   EndErrors rotation, position;
-  for (const std::string &file : files) {
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    if (seeds == 1 && (i + vpTestSupport::seed()) % 2 != 0) {
+      continue;
+    }
+    const std::string &file = files[i];
     double worst = 0., vision = 0.;
     for (unsigned int seed = 1; seed <= seeds; ++seed) {
       vpServoRunSpec spec;

@@ -246,9 +246,10 @@ std::vector<Fault> pictureFaults()
 } // namespace
 
 // Whatever is wrong with a file is a matter of the data: status 1, one sentence that names it, in a bounded time, and nothing
-// written.
+// written. The readers have their own tests, so here every third fault in turn is enough; the seed shifts them.
 TEST_CASE("Files that are missing or wrong", "[programs]")
 {
+  unsigned int turn = vpTestSupport::seed();
   for (const Input &input : inputs) {
     const auto program = std::find_if(programs.begin(), programs.end(),
                                       [&](const std::string &path) { return nameOf(path) == input.program; });
@@ -261,6 +262,9 @@ TEST_CASE("Files that are missing or wrong", "[programs]")
       all.insert(all.end(), more.begin(), more.end());
     }
     for (const Fault &fault : all) {
+      if (++turn % 3 != 0) {
+        continue;
+      }
       if (input.program == "visp-plan-trajectory" && has(fault.sentence, "pipe")) {
         continue; // it reads them, until Ctrl-C; see catchPlanTrajectoryProgram
       }
