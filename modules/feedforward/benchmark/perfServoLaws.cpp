@@ -8,7 +8,7 @@
 #include "vpBenchmark.h"
 
 #include <visp3/core/vpQuadProg.h>
-#include <visp3/feedforward/vpFeatureLookAt.h>
+#include <visp3/feedforward/vpFeedforwardTask.h>
 #include <visp3/feedforward/vpServoController.h>
 #include <visp3/visual_features/vpFeaturePoint.h>
 #include <visp3/visual_features/vpFeatureThetaU.h>
@@ -89,19 +89,11 @@ void vpServoPbvs1(benchmark::State &state)
 void vpServoLookAt(benchmark::State &state)
 {
   const Task scene;
-  vpFeatureTranslation t(vpFeatureTranslation::cdMc);
-  vpFeatureLookAt gaze;
-  vpServo task;
-  prepare(task);
-  task.addFeature(t);
-  task.addFeature(gaze);
+  vpFeedforwardTask task("ff-lookat");
+  task.setGoal(scene.goal);
   for (auto _ : state) {
-    const vpHomogeneousMatrix cdMc = scene.cdMo * scene.cMo.inverse();
-    t.buildFrom(cdMc);
-    gaze.buildFrom(cdMc, scene.cdMo);
-    benchmark::DoNotOptimize(task.computeControlLaw());
+    benchmark::DoNotOptimize(task.computeControlLaw(scene.measurement));
   }
-  task.kill();
 }
 
 void vpServoIbvs(benchmark::State &state)

@@ -11,11 +11,14 @@
 
 #include <visp3/direct_core/vpDirectCompat.h>
 #include <visp3/direct_core/vpSO3.h>
+#include <visp3/feedforward/vpServoLaw.h>
 #include <visp3/feedforward/vpServoMeasurement.h>
 
 #include <Eigen/Core>
 
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 BEGIN_VISP_NAMESPACE
 
@@ -58,13 +61,36 @@ inline Eigen::Vector3d saturate(const Eigen::Vector3d &D, double c)
   return {c * std::tanh(D.x() / c), c * std::tanh(D.y() / c), c * std::tanh(D.z() / c)};
 }
 
-//! Derivative of saturate(), one factor per axis.
-inline Eigen::Vector3d saturateSlope(const Eigen::Vector3d &D, double c)
-{
-  const Eigen::Array3d s = saturate(D, c).array() / c;
-  return (1. - s * s).matrix();
-}
 } // namespace vpBearing
+
+/*!
+ * \brief Rotation error of `ff-sum`, e = theta u - kappa c tanh(D / c), D = th(p) - th(p*), rad (thesis (5.26)-(5.28),
+ * corrected): p and p* are the means of the points that are visible both now and in the goal.
+ */
+struct vpFeedforwardSum {
+  bool defined = false; //!< False when there is no such point.
+  Eigen::Vector3d e = Eigen::Vector3d::Zero();
+
+  //! \param R : Rotation of cdMc. \param points, goal : Of equal number.
+  vpFeedforwardSum(const Eigen::Matrix3d &R, const std::vector<vpServoPoint> &points,
+                   const std::vector<vpServoPoint> &goal, const vpServoGains &gains)
+  {
+    Eigen::Vector2d p(0., 0.), goalP(0., 0.);
+    double count = 0.;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (points[i].visible && goal[i].visible) {
+        p += Eigen::Vector2d(points[i].x, points[i].y);
+        goalP += Eigen::Vector2d(goal[i].x, goal[i].y);
+        ++count;
+      }
+    }
+    defined = count > 0.;
+    if (defined) {
+      const Eigen::Vector3d D = vpBearing::angle(p / count) - vpBearing::angle(goalP / count);
+      e = vpSO3::log(R) - gains.kappa * vpBearing::saturate(D, gains.saturation);
+    }
+  }
+};
 
 /*!
  * \brief The orientation that keeps an object at its image position while the camera translates, and its rate.

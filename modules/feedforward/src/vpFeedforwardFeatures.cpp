@@ -9,6 +9,7 @@
 #include "vpFeedforwardErrors.h"
 #include "vpFieldCheck.h"
 #include "vpServoCheck.h"
+#include "vpServoLaws.h"
 
 #include <visp3/core/vpException.h>
 #include <visp3/core/vpMatrix.h>
@@ -56,58 +57,68 @@ inline void print(const char *name, const vpColVector &s, unsigned int select)
   }
   std::cout << std::endl;
 }
+
+//! \throw vpException (badValue) naming the first visible point that is not valid.
+inline void requirePoints(const char *owner, const std::vector<vpServoPoint> &points)
+{
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].visible) {
+      vpServoCheck::requirePoint(owner, i, points[i]);
+    }
+  }
+}
 } // namespace vpFeatureRows
 } // namespace
 
-vpFeatureFeedforwardSum::vpFeatureFeedforwardSum(double kappa, double saturation)
-  : m_kappa(kappa), m_saturation(saturation)
+vpFeatureFeedforwardSum::vpFeatureFeedforwardSum(const vpServoGains &gains) : m_gains(gains)
 {
-  constexpr vpFieldCheck fields("the feedforward-sum feature");
-  fields.notNegative("kappa", kappa);
-  fields.positive("saturation", saturation, "rad");
+  m_gains.validate();
   dim_s = 3;
   init();
 }
 
-void vpFeatureFeedforwardSum::init()
-{
-  s.resize(dim_s);
-  m_interaction << Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Identity();
-}
+void vpFeatureFeedforwardSum::init() { s.resize(dim_s); }
 
-void vpFeatureFeedforwardSum::buildFrom(const vpHomogeneousMatrix &cdMc, const vpServoPoint &point,
-                                        const vpServoPoint &goal)
+void vpFeatureFeedforwardSum::buildFrom(const vpHomogeneousMatrix &cdMc, const std::vector<vpServoPoint> &points,
+                                        const std::vector<vpServoPoint> &goal)
 {
-  const Eigen::Vector2d p(point.x, point.y), pGoal(goal.x, goal.y);
-  if (!vpServoCheck::isPoint(point) || !vpServoCheck::isPoint({goal.x, goal.y, 1., true}) ||
-      !vpServoCheck::isPose(cdMc)) {
+  if (points.size() != goal.size()) {
+    throw vpException(vpException::badValue, "the feedforward-sum feature has %u points, its goal %u",
+                      static_cast<unsigned int>(points.size()), static_cast<unsigned int>(goal.size()));
+  }
+  vpFeatureRows::requirePoints("the feedforward-sum feature", points);
+  vpFeatureRows::requirePoints("the feedforward-sum feature's goal", goal);
+  if (!vpServoCheck::isPose(cdMc)) {
     throw vpException(
         vpException::badValue,
-        "point of the feedforward-sum feature is x = %g, y = %g, Z = %g m, must be finite with Z > 0, and cdMc a pose",
-        point.x, point.y, point.Z);
+        "cdMc of the feedforward-sum feature is not a finite rigid motion, its translation is (%g, %g, %g) m",
+        cdMc[0][3], cdMc[1][3], cdMc[2][3]);
   }
-  const Eigen::Vector3d thetaU = vpSO3::log(vpServoPose::rotation(cdMc));
-  const Eigen::Vector3d D = vpBearing::angle(p) - vpBearing::angle(pGoal);
-  const Eigen::Vector3d e = thetaU - m_kappa * vpBearing::saturate(D, m_saturation);
+  const vpFeedforwardSum sum(vpServoPose::rotation(cdMc), points, goal, m_gains);
+  if (!sum.defined) {
+    throw vpException(vpException::badValue,
+                      "the feedforward-sum feature has no point that is visible now and in the goal, of %u",
+                      static_cast<unsigned int>(points.size()));
+  }
   for (unsigned int i = 0; i < 3; ++i) {
-    s[i] = e[i];
+    s[i] = m_gains.rotation * sum.e[i];
   }
-  m_interaction << Eigen::Matrix3d::Zero(), vpSO3::rightJacobianInverse(thetaU);
-  m_interaction -= m_kappa * vpBearing::saturateSlope(D, m_saturation).asDiagonal() * vpBearing::jacobian(p) *
-                   vpPointInteraction(point);
 }
 
 vpMatrix vpFeatureFeedforwardSum::interaction(unsigned int select)
 {
-  return vpFeatureRows::select(m_interaction, select);
+  Eigen::Matrix<double, 3, 6> task;
+  task << Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Identity();
+  return vpFeatureRows::select(task, select);
 }
 
 void vpFeatureFeedforwardSum::print(unsigned int select) const { vpFeatureRows::print("feedforward-sum", s, select); }
 
 vpFeatureFeedforwardSum *vpFeatureFeedforwardSum::duplicate() const { return new vpFeatureFeedforwardSum(*this); }
 
-vpFeatureLookAt::vpFeatureLookAt()
+vpFeatureLookAt::vpFeatureLookAt(const vpServoGains &gains) : m_factor(vpServoLaws::lookAtFactor * gains.rotation)
 {
+  gains.validate();
   dim_s = 3;
   init();
 }
@@ -130,7 +141,7 @@ void vpFeatureLookAt::buildFrom(const vpHomogeneousMatrix &cdMc, const vpHomogen
   }
   const Eigen::Vector3d e = vpSO3::log(lookAt.rotation.transpose() * R);
   for (unsigned int i = 0; i < 3; ++i) {
-    s[i] = e[i];
+    s[i] = m_factor * e[i];
   }
   // d' = -R v: the direction to the object rotates against the camera's motion.
   const Eigen::Matrix3d inverseJacobian = vpSO3::rightJacobianInverse(e);

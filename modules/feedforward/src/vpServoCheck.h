@@ -9,6 +9,7 @@
 #ifndef vpServoCheck_h
 #define vpServoCheck_h
 
+#include <visp3/core/vpException.h>
 #include <visp3/core/vpHomogeneousMatrix.h>
 #include <visp3/direct_core/vpDirectCompat.h>
 #include <visp3/direct_core/vpTwist.h>
@@ -18,6 +19,7 @@
 #include <Eigen/LU>
 
 #include <cmath>
+#include <cstddef>
 
 BEGIN_VISP_NAMESPACE
 
@@ -71,6 +73,51 @@ inline bool isPose(const vpHomogeneousMatrix &M)
   const Eigen::Matrix3d R = vpServoPose::rotation(M);
   return (R * R.transpose() - Eigen::Matrix3d::Identity()).squaredNorm() < 1e-6 && R.determinant() > 0. &&
          vpServoPose::translation(M).cwiseAbs().sum() <= largest;
+}
+
+//! True if a measurement has the goal's number of points, and only numbers that are valid for a law.
+inline bool isUsable(const vpServoMeasurement &measurement, const vpServoGoal &goal)
+{
+  if (measurement.points.size() != goal.points.size() || !isPose(measurement.cMo)) {
+    return false;
+  }
+  for (const vpServoPoint &point : measurement.points) {
+    if (point.visible && !isPoint(point)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+//! \throw vpException (badValue) when a point is not valid for a law. \param owner : As in "of the servo goal".
+inline void requirePoint(const char *owner, std::size_t index, const vpServoPoint &point)
+{
+  if (!isPoint(point)) {
+    throw vpException(vpException::badValue,
+                      "point %u of %s is x = %g, y = %g, Z = %g m, must be finite with Z > 0, and at most 1e6",
+                      static_cast<unsigned int>(index), owner, point.x, point.y, point.Z);
+  }
+}
+
+//! \throw vpException (badValue) when the goal has no points, or a number that is not valid for a law.
+inline void requireGoal(const vpServoGoal &goal)
+{
+  if (goal.points.empty()) {
+    throw vpException(vpException::badValue, "the servo goal has 0 points, needs at least 1");
+  }
+  if (!isPose(goal.cdMo)) {
+    throw vpException(vpException::badValue,
+                      "the servo goal's cdMo is not a finite rigid motion, its translation is (%g, %g, %g) m",
+                      goal.cdMo[0][3], goal.cdMo[1][3], goal.cdMo[2][3]);
+  }
+  const Eigen::Vector3d origin = vpServoPose::translation(goal.cdMo);
+  if (origin.z() <= 0.) {
+    throw vpException(vpException::badValue, "the object's origin in the servo goal has depth %g m, must be > 0",
+                      origin.z());
+  }
+  for (std::size_t i = 0; i < goal.points.size(); ++i) {
+    requirePoint("the servo goal", i, goal.points[i]);
+  }
 }
 } // namespace vpServoCheck
 

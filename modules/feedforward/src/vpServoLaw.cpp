@@ -49,9 +49,9 @@ struct Laws : vpRegistry<vpServoLaw::Maker> {
             "with.");
     addOurs("ff-sum", makeFeedforwardSum, 1.,
             "The thesis' law, corrected: PBVS-1 plus the bearing of the object as a feedforward of the rotation.");
-    addOurs("ff-lookat", makeLookAt, 2.,
+    addOurs("ff-lookat", makeLookAt, lookAtFactor,
             "Feedforward that keeps the camera turned to the object while it translates; rotation gain x2.");
-    addOurs("ff-lookat-pi", makeLookAtPi, 2.,
+    addOurs("ff-lookat-pi", makeLookAtPi, lookAtFactor,
             "FF look-at with an integral of the rotation error against friction; the default of visp-direct.");
   }
 };
@@ -64,19 +64,6 @@ Laws &laws()
 
 // Maximum integration step, s: after a pause, or with a wrong clock, an integral would jump to its limit.
 constexpr double longestStep = 0.5;
-
-bool isUsable(const vpServoMeasurement &measurement, const vpServoGoal &goal)
-{
-  if (measurement.points.size() != goal.points.size() || !vpServoCheck::isPose(measurement.cMo)) {
-    return false;
-  }
-  for (const vpServoPoint &point : measurement.points) {
-    if (point.visible && !vpServoCheck::isPoint(point)) {
-      return false;
-    }
-  }
-  return true;
-}
 } // namespace
 
 const vpFields<vpServoGains> &vpServoGains::fields()
@@ -126,28 +113,7 @@ void vpServoLaw::add(const std::string &id, const std::string &sentence, Maker m
 
 void vpServoLaw::setGoal(const vpServoGoal &goal)
 {
-  if (goal.points.empty()) {
-    throw vpException(vpException::badValue, "the servo goal has 0 points, needs at least 1");
-  }
-  if (!vpServoCheck::isPose(goal.cdMo)) {
-    throw vpException(vpException::badValue,
-                      "the servo goal's cdMo is not a finite rigid motion, its translation is (%g, %g, %g) m",
-                      goal.cdMo[0][3], goal.cdMo[1][3], goal.cdMo[2][3]);
-  }
-  const Eigen::Vector3d origin = vpServoPose::translation(goal.cdMo);
-  if (origin.z() <= 0.) {
-    throw vpException(vpException::badValue, "the object's origin in the servo goal has depth %g m, must be > 0",
-                      origin.z());
-  }
-  for (std::size_t i = 0; i < goal.points.size(); ++i) {
-    const vpServoPoint &point = goal.points[i];
-    if (!vpServoCheck::isPoint(point)) {
-      throw vpException(
-          vpException::badValue,
-          "point %u of the servo goal is x = %g, y = %g, Z = %g m, must be finite with Z > 0, and at most 1e6",
-          static_cast<unsigned int>(i), point.x, point.y, point.Z);
-    }
-  }
+  vpServoCheck::requireGoal(goal);
   m_goal = goal;
   m_hasGoal = true;
   goalChanged();
@@ -172,7 +138,7 @@ vpServoCommand vpServoLaw::step(const vpServoMeasurement &measurement, double dt
   else if (timeUsable && !measurement.valid) {
     command.status = vpServoStatus::Holding;
   }
-  else if (!timeUsable || !isUsable(measurement, m_goal)) {
+  else if (!timeUsable || !vpServoCheck::isUsable(measurement, m_goal)) {
     command.status = vpServoStatus::InvalidInput;
   }
   else {

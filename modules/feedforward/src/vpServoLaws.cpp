@@ -268,16 +268,13 @@ public:
 protected:
   vpServoCommand compute(const vpServoMeasurement &measurement, double) noexcept VP_OVERRIDE
   {
-    const vpMeanPoint mean(measurement.points, m_goal.points);
-    if (mean.count == 0) {
+    const vpServoPose::Error error = vpServoPose::error(m_goal.cdMo, measurement.cMo);
+    const vpFeedforwardSum sum(error.R, measurement.points, m_goal.points, m_gains);
+    if (!sum.defined) {
       return {vpTwist(), vpServoStatus::Degenerate};
     }
-    const vpServoPose::Error error = vpServoPose::error(m_goal.cdMo, measurement.cMo);
-    const Eigen::Vector3d D = vpBearing::angle(mean.xy) - vpBearing::angle(mean.goalXy);
-    const Eigen::Vector3d rotationError =
-        vpSO3::log(error.R) - m_gains.kappa * vpBearing::saturate(D, m_gains.saturation);
     const Eigen::Vector3d v = -m_gains.lambda * (error.R.transpose() * error.t);
-    return {vpServoPose::twist(v, -rotationGain() * rotationError), vpServoStatus::Servoing};
+    return {vpServoPose::twist(v, -rotationGain() * sum.e), vpServoStatus::Servoing};
   }
 };
 } // namespace

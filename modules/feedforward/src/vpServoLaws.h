@@ -15,6 +15,9 @@ BEGIN_VISP_NAMESPACE
 
 namespace vpServoLaws
 {
+//! Rotation gain of the look-at laws relative to lambda, beside vpServoGains::rotation.
+constexpr double lookAtFactor = 2.;
+
 using Maker = std::unique_ptr<vpServoLaw> (*)(const std::string &id, const vpServoGains &gains, double rotationFactor);
 
 std::unique_ptr<vpServoLaw> makePbvs1(const std::string &id, const vpServoGains &gains, double rotationFactor);

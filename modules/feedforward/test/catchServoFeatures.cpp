@@ -2,7 +2,8 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The features for vpServo against finite differences, and our laws against vpServo with ViSP's own features.
+// The features for vpServo against finite differences, and our laws against vpServo with ViSP's own features; with ours:
+// catchFeedforwardTask.
 #include "vpCatch.h"
 #include "vpServoScene.h"
 
@@ -15,6 +16,9 @@
 #include <visp3/visual_features/vpFeatureTranslation.h>
 #include <visp3/vs/vpServo.h>
 
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
 #include <limits>
 
 namespace
@@ -101,34 +105,51 @@ void requireSame(const vpTwist &ours, const vpColVector &theirs)
 }
 } // namespace
 
-TEST_CASE("interaction matrices equal finite differences of the motion", "[features]")
+TEST_CASE("the look-at feature's matrix equals finite differences of its error", "[features]")
 {
   const unsigned int seed = vpTestSupport::seed();
   auto rng = vpTestSupport::generator(31);
   for (int run = 0; run < 1000; ++run) {
     CAPTURE(seed, run);
     const Situation s = randomSituation(rng, 2.5);
-    vpFeatureLookAt gaze;
+    vpServoGains gains;
+    gains.rotation = uniform(rng, 0.2, 3.);
+    vpFeatureLookAt gaze(gains);
     gaze.buildFrom(s.cdMc(), s.cdMo);
-    const vpMatrix gazeRates = numericInteraction(s, [&](const vpHomogeneousMatrix &cMo) {
-      vpFeatureLookAt moved;
+    const vpMatrix rates = numericInteraction(s, [&](const vpHomogeneousMatrix &cMo) {
+      vpFeatureLookAt moved(gains);
       moved.buildFrom(s.cdMo * cMo.inverse(), s.cdMo);
-      return moved.get_s();
+      return moved.get_s() / (2. * gains.rotation);
     });
-    REQUIRE(largest(gaze.interaction() - gazeRates) < 1e-7);
+    REQUIRE(largest(gaze.interaction() - rates) < 1e-7);
+  }
+}
 
-    const double kappa = uniform(rng, 0., 2.), c = uniform(rng, 0.1, 1.);
-    vpFeatureFeedforwardSum sum(kappa, c);
-    sum.buildFrom(s.cdMc(), origin(s.cMo), origin(s.cdMo));
-    const vpMatrix sumRates = numericInteraction(s, [&](const vpHomogeneousMatrix &cMo) {
-      vpFeatureFeedforwardSum moved(kappa, c);
-      moved.buildFrom(s.cdMo * cMo.inverse(), origin(cMo), origin(s.cdMo));
-      return moved.get_s();
-    });
-    // Central differences leave h^2 / 6 times the third derivative: 1 / Z^3 of a translation, times kappa / c^2 of the
-    // saturation.
-    const double Z = translation(s.cMo).z(), truncation = 1e-10 * (1. + kappa / (c * c)) / (Z * Z * Z);
-    REQUIRE(largest(sum.interaction() - sumRates) < 1e-7 + truncation);
+TEST_CASE("the motion of ff-sum at the goal has four eigenvalues -lambda and two -2 lambda", "[features]")
+{
+  auto rng = vpTestSupport::generator(36);
+  for (int run = 0; run < 20; ++run) {
+    CAPTURE(run);
+    vpServoGains gains;
+    gains.lambda = uniform(rng, 0.3, 3.);
+    const vpHomogeneousMatrix cdMo = pose(Eigen::Matrix3d::Identity(), {0., 0., uniform(rng, 0.3, 1.)});
+    const std::vector<Eigen::Vector3d> centre(1, Eigen::Vector3d::Zero());
+    Eigen::Matrix<double, 6, 6> flow; // d(camera twist) / d(its small displacement)
+    for (std::size_t k = 0; k < 6; ++k) {
+      vpTwist unit;
+      unit[k] = 1.;
+      const double h = 1e-5;
+      const vpTwist plus = answer("ff-sum", gains, {cdMo, move(cdMo, unit, h)}, centre),
+                    minus = answer("ff-sum", gains, {cdMo, move(cdMo, unit, -h)}, centre);
+      for (std::size_t i = 0; i < 6; ++i) {
+        flow(static_cast<int>(i), static_cast<int>(k)) = (plus[i] - minus[i]) / (2. * h);
+      }
+    }
+    Eigen::Matrix<double, 6, 1> values = flow.eigenvalues().real() / gains.lambda;
+    std::sort(values.data(), values.data() + 6);
+    for (int i = 0; i < 6; ++i) {
+      REQUIRE(values(i) == Approx(i < 2 ? -2. : -1.).epsilon(1e-4)); // a double eigenvalue: the root of the accuracy
+    }
   }
 }
 
@@ -146,55 +167,28 @@ TEST_CASE("features select rows, copy themselves and refuse bad input", "[featur
   CHECK(largest(copy->interaction() - gaze.interaction()) == 0.);
   CHECK_THROWS_WITH(gaze.buildFrom(pose(Eigen::Matrix3d::Identity(), translation(s.cdMo)), s.cdMo),
                     Catch::Contains("look-at feature is undefined"));
-  CHECK_THROWS_WITH(vpFeatureFeedforwardSum(-1.), Catch::Contains("kappa of the feedforward-sum feature is -1"));
-  CHECK_THROWS_WITH(vpFeatureFeedforwardSum(1., 0.),
-                    Catch::Contains("saturation of the feedforward-sum feature is 0 rad"));
-  vpFeatureFeedforwardSum sum;
-  CHECK_THROWS_WITH(sum.buildFrom(s.cdMc(), {0.1, 0., -1., true}, origin(s.cdMo)), Catch::Contains("Z = -1 m"));
-}
-
-TEST_CASE("vpServo with translation and look-at features is the law ff-lookat", "[features][vs]")
-{
-  auto rng = vpTestSupport::generator(33);
   vpServoGains gains;
-  gains.lambda = 0.8;
-  gains.rotation = 0.5; // the law's own factor is 2, and vpServo has one gain for both features
-  for (int run = 0; run < 200; ++run) {
-    const Situation s = randomSituation(rng, 2.5);
-    vpFeatureTranslation t(vpFeatureTranslation::cdMc);
-    t.buildFrom(s.cdMc());
-    vpFeatureLookAt gaze;
-    gaze.buildFrom(s.cdMc(), s.cdMo);
-    vpServo task;
-    task.addFeature(t);
-    task.addFeature(gaze);
-    requireSame(answer("ff-lookat", gains, s, object(rng, 0.1, 4)), compute(task, gains.lambda));
-  }
-}
-
-TEST_CASE("vpServo with translation and feedforward-sum features reaches the goal", "[features][vs]")
-{
-  auto rng = vpTestSupport::generator(34);
-  for (int run = 0; run < 20; ++run) {
-    Situation s = randomSituation(rng, 0.8);
-    vpFeatureTranslation t(vpFeatureTranslation::cdMc);
-    vpFeatureFeedforwardSum sum;
-    vpServo task;
-    task.setServo(vpServo::EYEINHAND_CAMERA);
-    task.setInteractionMatrixType(vpServo::CURRENT, vpServo::PSEUDO_INVERSE);
-    task.setLambda(1.);
-    task.addFeature(t);
-    task.addFeature(sum);
-    for (int i = 0; i < 200; ++i) {
-      t.buildFrom(s.cdMc());
-      sum.buildFrom(s.cdMc(), origin(s.cMo), origin(s.cdMo));
-      s.cMo = move(s.cMo, vpTwist::fromColVector(task.computeControlLaw()), 0.05);
-    }
-    task.kill();
-    CAPTURE(run);
-    REQUIRE(rotationError(s.cdMo, s.cMo) < 1e-3);
-    REQUIRE(translationError(s.cdMo, s.cMo) < 1e-3);
-  }
+  gains.kappa = -1.;
+  CHECK_THROWS_WITH(vpFeatureFeedforwardSum(gains), Catch::Contains("kappa of the servo gains is -1"));
+  gains = {};
+  gains.rotation = 0.;
+  CHECK_THROWS_WITH(vpFeatureLookAt(gains), Catch::Contains("rotation of the servo gains is 0"));
+  vpFeatureFeedforwardSum sum;
+  const std::vector<vpServoPoint> at = {origin(s.cMo)}, wanted = {origin(s.cdMo)};
+  sum.buildFrom(s.cdMc(), at, wanted);
+  const vpMatrix decoupled = sum.interaction(vpBasicFeature::FEATURE_LINE[2]);
+  REQUIRE(decoupled.getRows() == 1);
+  CHECK(decoupled[0][5] == 1.);
+  CHECK(decoupled.sumSquare() == 1.);
+  CHECK_THROWS_WITH(sum.buildFrom(s.cdMc(), {{0.1, 0., -1., true}}, wanted),
+                    Catch::Contains("point 0 of the feedforward-sum feature is x = 0.1, y = 0, Z = -1 m"));
+  CHECK_THROWS_WITH(sum.buildFrom(s.cdMc(), {}, wanted),
+                    Catch::Contains("the feedforward-sum feature has 0 points, its goal 1"));
+  CHECK_THROWS_WITH(sum.buildFrom(s.cdMc(), {{0., 0., 1., false}}, wanted),
+                    Catch::Contains("no point that is visible"));
+  vpHomogeneousMatrix bent;
+  bent[0][0] = 2.;
+  CHECK_THROWS_WITH(sum.buildFrom(bent, at, wanted), Catch::Contains("cdMc of the feedforward-sum feature is not"));
 }
 
 TEST_CASE("our laws equal vpServo with ViSP's features", "[features][vs]")

@@ -10,6 +10,7 @@
 #include <visp3/core/vpException.h>
 #include <visp3/feedforward/vpFeatureFeedforwardSum.h>
 #include <visp3/feedforward/vpFeatureLookAt.h>
+#include <visp3/feedforward/vpFeedforwardTask.h>
 #include <visp3/feedforward/vpServoController.h>
 #include <visp3/feedforward/vpTwistProjection.h>
 
@@ -120,6 +121,50 @@ TEST_CASE("no wild number gets through a law or a controller, and it goes on aft
   }
 }
 
+TEST_CASE("a task of vpServo refuses the measurements that its law refuses", "[wild]")
+{
+  auto rng = vpTestSupport::generator(83);
+  CAPTURE(vpTestSupport::seed());
+  const auto points = object(rng, 0.16, 4);
+  const vpServoGoal wanted = goal(pose(Eigen::Matrix3d::Identity(), {0., 0., 0.5}), points);
+  vpServoMeasurement seen;
+  measure(pose(turn(0.3, Eigen::Vector3d::UnitY()), {0.05, -0.03, 0.6}), points, seen);
+  const Numbers ordinary = numbersOf(seen, 0.01);
+  for (const std::string &id : vpFeedforwardTask::laws()) {
+    CAPTURE(id);
+    vpFeedforwardTask task(id);
+    task.setGoal(wanted);
+    const auto law = vpServoLaw::create(id);
+    law->setGoal(wanted);
+    int refused = 0;
+    const auto run = [&](const Numbers &x) {
+      double dt = 0.;
+      put(x, seen, dt);
+      const bool isTaken = law->step(seen, 0.01).status == vpServoStatus::Servoing;
+      refused += isTaken ? 0 : 1;
+      try {
+        const vpColVector v = task.computeControlLaw(seen);
+        REQUIRE(isTaken);
+        REQUIRE(std::isfinite(v.sumSquare()));
+      }
+      catch (const vpException &) {
+        REQUIRE_FALSE(isTaken);
+      }
+    };
+    vpWildNumbers::everyPlace(ordinary, [&](const Numbers &x, std::size_t place, std::size_t value) {
+      CAPTURE(place, value);
+      run(x);
+    });
+    for (int k = 0; k < 1000; ++k) {
+      Numbers x = ordinary;
+      vpWildNumbers::mix(rng, x, k % 2 == 0 ? 0.02 : 0.3);
+      CAPTURE(k);
+      run(x);
+    }
+    CHECK(refused > 500);
+  }
+}
+
 TEST_CASE("a wild goal is refused, or harmless", "[wild]")
 {
   auto rng = vpTestSupport::generator(82);
@@ -153,7 +198,7 @@ TEST_CASE("a wild goal is refused, or harmless", "[wild]")
       try {
         gaze.buildFrom(wild.cMo, cdMo);
         gaze.buildFrom(cdMo, wild.cMo);
-        sum.buildFrom(wild.cMo, wild.points[0], wild.points[1]);
+        sum.buildFrom(wild.cMo, {wild.points[0]}, {wild.points[1]});
         for (unsigned int i = 0; i < 3; ++i) {
           REQUIRE(std::isfinite(gaze[i]));
           REQUIRE(std::isfinite(sum[i]));

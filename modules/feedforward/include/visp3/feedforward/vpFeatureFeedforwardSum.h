@@ -10,44 +10,51 @@
 #define vpFeatureFeedforwardSum_h
 
 #include <visp3/core/vpHomogeneousMatrix.h>
+#include <visp3/feedforward/vpServoLaw.h>
 #include <visp3/feedforward/vpServoMeasurement.h>
 #include <visp3/visual_features/vpBasicFeature.h>
 
-#include <Eigen/Core>
+#include <vector>
 
 BEGIN_VISP_NAMESPACE
 
 /*!
  * \class vpFeatureFeedforwardSum
  * \ingroup group_feedforward
- * \brief Rotation error of the FF-PBVS law `ff-sum` as a feature of vpServo, 3 components, rad.
+ * \brief The rotation of the FF-PBVS law `ff-sum` as a feature of vpServo, 3 components, rad.
  *
- * s = theta u - kappa c tanh(D / c), D = th(p) - th(p*), th(x, y) = atan(r) / r (-y, x, 0), for one image point p
- * (thesis (5.26)-(5.28), corrected). Its desired value is zero. The interaction matrix is exact, L = [-kappa S J Lv,
- * L_theta_u - kappa S J Lw], so vpServo also compensates the image motion caused by the translation, which the law
- * `ff-sum` does not: the two share the error only and move differently.
+ * Beside vpFeatureTranslation of type cdMc, and with vpServo::CURRENT, vpServo commands the velocity of the law:
+ * vpFeedforwardTask sets this up. s = rotation (theta u - kappa c tanh(D / c)), D = th(p) - th(p*), th(x, y) = atan(r) / r
+ * (-y, x, 0), where p and p* are the means of the image points visible now and in the goal (thesis (5.26)-(5.28),
+ * corrected). Its desired value is zero.
+ *
+ * \note interaction() is the task matrix [0 I], not ds / dr: vpServo then commands w = -lambda s. No feature with its
+ * true interaction matrix moves like this law. For that s' = -lambda s, and the motion has six eigenvalues -lambda at the
+ * goal; with rotation and kappa 1 the law has four -lambda and two -2 lambda. So do not estimate the target's motion with
+ * it, and do not expect s to decay exponentially while the camera translates.
  */
 class VISP_EXPORT vpFeatureFeedforwardSum : public vpBasicFeature
 {
 public:
   /*!
    * The feature at the goal: zero.
-   * \param kappa : Weight of the image term, >= 0. \param saturation : Its bound c, rad, > 0.
-   * \throw vpException (badValue) naming the argument and its value.
+   * \param gains : Those of the law; rotation, kappa and saturation are used, lambda is vpServo::setLambda()'s.
+   * \throw vpException (badValue) naming the gain and its value when one is out of its range.
    */
-  explicit vpFeatureFeedforwardSum(double kappa = 1., double saturation = 0.5);
+  explicit vpFeatureFeedforwardSum(const vpServoGains &gains = {});
 
   /*!
    * \param cdMc : Pose of the current camera in the desired camera frame, m.
-   * \param point : Current image point of the object. \param goal : Image point in the desired camera.
-   * \throw vpException (badValue) when the depth of \e point is not positive, a number is not finite or above 1e6, or
-   *   \e cdMc is not a valid pose.
+   * \param points : Current image points of the object. \param goal : The same points in the desired camera.
+   * \throw vpException (badValue) when their numbers differ, none is visible in both, one that is visible has no positive
+   *   depth or a number that is not finite or above 1e6, or \e cdMc is not a valid pose.
    */
-  void buildFrom(const vpHomogeneousMatrix &cdMc, const vpServoPoint &point, const vpServoPoint &goal);
+  void buildFrom(const vpHomogeneousMatrix &cdMc, const std::vector<vpServoPoint> &points,
+                 const std::vector<vpServoPoint> &goal);
 
   //! Set the feature to zero, its desired value.
   void init() VP_OVERRIDE;
-  //! Rows of the interaction matrix chosen by \e select, n x 6.
+  //! Rows of the task matrix [0 I] chosen by \e select, n x 6.
   vpMatrix interaction(unsigned int select = FEATURE_ALL) VP_OVERRIDE;
   //! Print the chosen components to the standard output.
   void print(unsigned int select = FEATURE_ALL) const VP_OVERRIDE;
@@ -61,9 +68,7 @@ public:
   void display(const vpCameraParameters &, const vpImage<vpRGBa> &, const vpColor &, unsigned int) const VP_OVERRIDE {}
 
 private:
-  double m_kappa;
-  double m_saturation;
-  Eigen::Matrix<double, 3, 6> m_interaction;
+  vpServoGains m_gains;
 };
 
 END_VISP_NAMESPACE

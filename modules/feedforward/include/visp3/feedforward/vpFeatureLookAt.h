@@ -10,7 +10,7 @@
 #define vpFeatureLookAt_h
 
 #include <visp3/core/vpHomogeneousMatrix.h>
-#include <visp3/direct_core/vpDirectCompat.h>
+#include <visp3/feedforward/vpServoLaw.h>
 #include <visp3/visual_features/vpBasicFeature.h>
 
 #include <Eigen/Core>
@@ -20,35 +20,29 @@ BEGIN_VISP_NAMESPACE
 /*!
  * \class vpFeatureLookAt
  * \ingroup group_feedforward
- * \brief Error of the FF-PBVS law `ff-lookat` as a feature of vpServo, 3 components, rad.
+ * \brief The rotation of the FF-PBVS law `ff-lookat` as a feature of vpServo, 3 components, rad.
  *
  * With (R, t) of cdMc and O* the object's origin in the desired camera frame, R_la is the rotation of smallest angle
- * from O* to O* - t, the orientation in which the camera sees the object at its desired image position, and s = theta
- * u(R_la^T R). Its desired value is zero. The interaction matrix is exact: L = J_r^-1(s) [R^T W R, I], with W the rate
- * of R_la per rate of the direction O* - t.
+ * from O* to O* - t, the orientation in which the camera sees the object at its desired image position. With e = theta
+ * u(R_la^T R), s = rho e; its desired value is zero. rho = 2 vpServoGains::rotation is the law's gain on the rotation
+ * relative to that on the translation, which vpServo has not.
  *
- * Together with vpFeatureTranslation for cdMc and the current interaction matrix this gives the law `ff-lookat` with
- * equal gains on translation and rotation.
+ * Beside vpFeatureTranslation of type cdMc, and with vpServo::CURRENT, vpServo commands the velocity of the law;
+ * vpFeedforwardTask sets this up.
  *
- * \code
- * vpFeatureTranslation t(vpFeatureTranslation::cdMc);
- * vpFeatureLookAt gaze;
- * vpServo task;
- * task.setServo(vpServo::EYEINHAND_CAMERA);
- * task.setInteractionMatrixType(vpServo::CURRENT);
- * task.addFeature(t);
- * task.addFeature(gaze);
- * // each cycle:
- * t.buildFrom(cdMc);
- * gaze.buildFrom(cdMc, cdMo);
- * vpColVector v = task.computeControlLaw();
- * \endcode
+ * \note interaction() is the task matrix: the exact interaction matrix of e, L = J_r^-1(e) [R^T W R, I], with W the rate
+ * of R_la per rate of the direction O* - t. That of s is rho L, with which vpServo would divide by rho again. The camera
+ * must be farther than some millimetres from the object's origin: there vpServo's pseudo-inverse drops rows of L.
  */
 class VISP_EXPORT vpFeatureLookAt : public vpBasicFeature
 {
 public:
-  //! The feature at the goal: zero.
-  vpFeatureLookAt();
+  /*!
+   * The feature at the goal: zero.
+   * \param gains : Those of the law; rotation is used, lambda is vpServo::setLambda()'s.
+   * \throw vpException (badValue) naming the gain and its value when one is out of its range.
+   */
+  explicit vpFeatureLookAt(const vpServoGains &gains = {});
 
   /*!
    * \param cdMc : Pose of the current camera in the desired camera frame, m.
@@ -59,7 +53,7 @@ public:
 
   //! Set the feature to zero, its desired value.
   void init() VP_OVERRIDE;
-  //! Rows of the interaction matrix chosen by \e select, n x 6.
+  //! Rows of the task matrix L chosen by \e select, n x 6.
   vpMatrix interaction(unsigned int select = FEATURE_ALL) VP_OVERRIDE;
   //! Print the chosen components to the standard output.
   void print(unsigned int select = FEATURE_ALL) const VP_OVERRIDE;
@@ -73,6 +67,7 @@ public:
   void display(const vpCameraParameters &, const vpImage<vpRGBa> &, const vpColor &, unsigned int) const VP_OVERRIDE {}
 
 private:
+  double m_factor;
   Eigen::Matrix<double, 3, 6> m_interaction;
 };
 
