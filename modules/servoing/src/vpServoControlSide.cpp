@@ -1,0 +1,375 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "vpServoControlSide.h"
+
+#include "vpRigidMotion.h"
+
+#include <visp3/core/vpException.h>
+#include <visp3/manipulator/vpTwistAxes.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+using Status = vpVisualServoStatus;
+
+constexpr double timeTolerance = 1e-9; // s
+
+vpTwistShaperLimits shaperLimits(const vpServoMotionLimits &motion)
+{
+  vpTwistShaperLimits limits;
+  limits.linearAcceleration = motion.linearAcceleration;
+  limits.linearJerk = motion.linearJerk;
+  limits.angularAcceleration = motion.angularAcceleration;
+  limits.angularJerk = motion.angularJerk;
+  return limits;
+}
+
+vpVisualServoSpec checked(const vpVisualServoSpec &spec, const vpArmModel *arm)
+{
+  spec.validate();
+  vpVisualServoSpec result = spec;
+  result.redundancy.period = spec.period;
+  if (arm) {
+    result.redundancy.validate(*arm);
+  }
+  return result;
+}
+
+bool isPose(const vpRigidTransform &pose)
+{
+  return vpIsPlausibleForArm(pose.p) &&
+         (pose.R * pose.R.transpose() - Eigen::Matrix3d::Identity()).squaredNorm() < 1e-6 && pose.R.determinant() > 0.;
+}
+
+bool isZero(const vpTwist &twist) { return twist.linearNorm() == 0. && twist.angularNorm() == 0.; }
+} // namespace
+
+vpServoControlSide::vpServoControlSide(vpServoController controller, const vpVisualServoSpec &spec,
+                                       const vpArmModel *arm)
+  : m_spec(checked(spec, arm)), m_controller(std::move(controller)), m_arm(arm),
+    m_odometry(spec.imageTimeout, 1. / spec.period), m_shaper(shaperLimits(m_controller.spec().motion))
+{
+  if (arm) {
+    m_motion.emplace(*arm, m_spec.redundancy, vpClosedLoopSpec());
+    m_q = arm->home();
+    m_output.velocity.setZero(arm->size());
+  }
+  // Memory for all later measurements and goals.
+  vpServoMeasurement largest;
+  largest.points.resize(m_spec.maxPoints);
+  largest.outline.resize(m_spec.maxPoints);
+  m_measurement = largest;
+  m_measurement.valid = false;
+  static_cast<void>(m_odometry.correct(largest));
+  m_goal.points.resize(m_spec.maxPoints);
+  setController(std::move(m_controller));
+}
+
+void vpServoControlSide::supervise(const vpCollisionScene &scene, const vpStopSupervisorSpec &spec)
+{
+  if (!m_arm) {
+    throw vpException(vpException::badValue, "a supervisor needs an arm's model, and the visual servo has none");
+  }
+  vpStopSupervisorSpec stop = spec;
+  stop.period = m_spec.period;
+  m_supervisor.emplace(scene, stop);
+}
+
+void vpServoControlSide::setController(vpServoController controller)
+{
+  m_controller = std::move(controller);
+  m_shaper.setLimits(shaperLimits(m_controller.spec().motion));
+  vpServoGoal largest; // for its memory; without m_hasGoal the law is not stepped
+  largest.cdMo[2][3] = 1.;
+  largest.points.resize(m_spec.maxPoints);
+  m_controller.setGoal(largest);
+  if (m_hasGoal) {
+    m_controller.setGoal(m_goal);
+  }
+}
+
+void vpServoControlSide::follow(Request request, vpServoExchange &exchange) noexcept
+{
+  if (request == Start) {
+    m_isRunning = true;
+    m_fault = Status::Servoing;
+    m_within = 0.;
+    m_hasImage = m_isFrozen = m_isFuture = false;
+    m_notBefore = -std::numeric_limits<double>::infinity();
+    m_poseTime = m_time;
+    m_badStamps = exchange.badStamps.load(std::memory_order_relaxed);
+  }
+  else if (request == Stop) {
+    m_isRunning = false;
+  }
+}
+
+// Sets m_step. False: the clock is of no use in this step.
+bool vpServoControlSide::checkClock(double now, vpServoExchange &exchange) noexcept
+{
+  const double step = now - m_time;
+  const bool isFirst = !m_hasClock, isRight = std::isfinite(now) && (isFirst || step > 0.);
+  m_step = m_spec.period;
+  if (!isRight) {
+    m_fault = Status::ClockFault;
+  }
+  else if (!isFirst && step > m_spec.longestStep) {
+    m_notBefore = now;
+  }
+  else if (!isFirst) {
+    m_step = step;
+  }
+  if (!isRight || m_notBefore == now) {
+    exchange.history.clear();
+  }
+  if (isRight && !isFirst) {
+    exchange.timing.period.add(step);
+    exchange.timing.jitter.add(std::abs(step - m_spec.period));
+  }
+  if (std::isfinite(now)) {
+    m_time = now;
+    m_poseTime = isFirst || !isRight ? now : m_poseTime;
+    m_hasClock = true;
+  }
+  return isRight;
+}
+
+bool vpServoControlSide::readPose(const vpServoRobotState &state, vpRigidTransform &camera) noexcept
+{
+  const bool isStale = m_time - state.time > m_spec.stateTimeout; // NaN: not
+  if (m_spec.assumeExecuted && !m_arm) {
+    camera = m_camera * vpRigidMotion::exp(m_output.twist.scaled(m_step));
+    return true;
+  }
+  if (!state.valid || isStale) {
+    return false;
+  }
+  const bool isInHand = m_spec.place == vpServoCameraPlace::EyeInHand;
+  if (m_arm) {
+    if (!vpArmKinematics::update(*m_arm, state.q, m_data)) {
+      return false;
+    }
+    m_q = state.q;
+    camera = isInHand ? vpArmKinematics::camera(*m_arm, m_data) : m_data.tool.inverse() * m_spec.fMc;
+    return true;
+  }
+  camera = isInHand ? state.pose : state.pose.inverse() * m_spec.fMc;
+  return isPose(state.pose);
+}
+
+// The camera's pose, and its motion since the last one.
+bool vpServoControlSide::updatePose(const vpServoRobotState &state, vpServoExchange &exchange) noexcept
+{
+  vpRigidTransform camera;
+  if (!readPose(state, camera)) {
+    if (m_arm) {
+      m_q += m_spec.period * m_output.velocity;
+    }
+    if (m_time - m_poseTime > m_spec.stateTimeout) {
+      m_fault = Status::StateFault;
+    }
+    return false;
+  }
+  const double gap = m_time - m_poseTime;
+  const vpTwist executed =
+      m_hasPose && gap > 0. ? vpRigidMotion::log(m_camera.inverse() * camera).scaled(1. / gap) : vpTwist();
+  m_odometry.move(executed, m_time);
+  exchange.history.add(m_time, camera);
+  m_camera = camera;
+  m_poseTime = m_time;
+  m_hasPose = true;
+  return true;
+}
+
+// The goal was validated by the vision thread, and there is memory for it.
+void vpServoControlSide::setGoal(const vpServoGoal &goal) noexcept
+{
+  m_goal = goal;
+  m_hasGoal = true;
+  m_controller.setGoal(m_goal);
+}
+
+void vpServoControlSide::takeSight(vpServoExchange &exchange) noexcept
+{
+  if (!exchange.sights.fetch()) {
+    return;
+  }
+  const vpServoParcel &parcel = exchange.sights.front();
+  const double time = parcel.sight.measurement.time;
+  m_isFuture = time > m_time + timeTolerance;
+  m_isFrozen = parcel.isFrozen;
+  if (m_isFuture || m_isFrozen || !m_odometry.correct(parcel.sight.measurement)) {
+    return;
+  }
+  if (parcel.sight.hasGoal) {
+    setGoal(parcel.sight.goal);
+  }
+  m_hasImage = true;
+  m_imageTime = time;
+  m_badStamps = exchange.badStamps.load(std::memory_order_relaxed);
+  m_sightFactor = parcel.sight.speedFactor;
+  m_output.distance = parcel.sight.distance;
+  m_output.distanceSigma = parcel.sight.distanceSigma;
+  exchange.timing.latency.add(m_time - time);
+}
+
+// Whether the images allow to move.
+vpVisualServoStatus vpServoControlSide::judgeImages(const vpServoExchange &exchange) const noexcept
+{
+  if (m_isFrozen) {
+    return Status::FrozenImages;
+  }
+  if (!m_hasImage || !(m_time - m_imageTime <= m_spec.imageTimeout)) {
+    const bool isClock = m_isFuture || m_badStamps != exchange.badStamps.load(std::memory_order_relaxed);
+    return isClock ? Status::ImageClock : Status::NoImages;
+  }
+  return m_imageTime < m_notBefore ? Status::LateStep : Status::Servoing;
+}
+
+void vpServoControlSide::judgeError() noexcept
+{
+  m_output.positionError = m_output.rotationError = std::numeric_limits<double>::quiet_NaN();
+  m_output.age = m_odometry.age();
+  if (m_hasGoal && m_measurement.valid) {
+    const vpRigidTransform cdMc =
+        vpRigidTransform::fromHomogeneous(m_goal.cdMo) * vpRigidTransform::fromHomogeneous(m_measurement.cMo).inverse();
+    m_output.positionError = cdMc.p.norm();
+    m_output.rotationError = vpSO3::log(cdMc.R).norm();
+  }
+  const bool isWithin =
+      m_output.positionError <= m_spec.positionTolerance && m_output.rotationError <= m_spec.rotationTolerance;
+  m_within = isWithin ? m_within + m_step : 0.;
+}
+
+// The law's twist as one of what moves, within the limits of speed.
+vpTwist vpServoControlSide::lawTwist() noexcept
+{
+  const vpServoCommand command = m_controller.step(m_measurement, m_step);
+  m_output.servo = command.status;
+  vpTwist wish = command.v;
+  if (m_spec.place == vpServoCameraPlace::EyeToHand) {
+    wish = vpRigidMotion::changed(m_camera, command.v).scaled(-1.);
+  }
+  const vpServoMotionLimits &limits = m_controller.spec().motion;
+  return vpLimitTwist(vpWithoutFreeAxes(wish, m_spec.free), m_output.speedFactor * limits.linearVelocity,
+                      m_output.speedFactor * limits.angularVelocity);
+}
+
+void vpServoControlSide::moveArm(bool isAllowed) noexcept
+{
+  if (isAllowed || !isZero(m_output.twist)) {
+    m_motion->setSelfMotion(isAllowed ? m_spec.indices : m_noIndices, m_spec.free);
+    m_motion->twist(m_output.twist, m_spec.place == vpServoCameraPlace::EyeInHand ? vpArmTwistFrame::Camera
+                                                                                  : vpArmTwistFrame::EndEffector);
+  }
+  else {
+    m_motion->hold();
+  }
+  const vpJointVector &wish = m_motion->step(m_q, m_output.velocity);
+  m_output.arm = m_motion->solver().status;
+  if (m_supervisor) {
+    m_supervisor->step(m_q, wish, m_supervised);
+    m_output.supervision = m_supervised.status;
+    m_output.velocity = m_supervised.velocity;
+  }
+  else {
+    m_output.velocity = wish;
+  }
+}
+
+void vpServoControlSide::conclude(Status images) noexcept
+{
+  const bool isPassed = m_output.supervision == vpSupervision::Passed ||
+                        m_output.supervision == vpSupervision::Limited || m_output.supervision == vpSupervision::Slowed;
+  if (m_fault != Status::Servoing) {
+    m_output.status = m_fault;
+  }
+  else if (!m_isRunning) {
+    m_output.status = Status::Idle;
+  }
+  else if (images != Status::Servoing) {
+    m_output.status = images;
+  }
+  else if (!isPassed) {
+    m_output.status = Status::Obstructed;
+  }
+  else if (!vpIsWorking(m_output.servo)) {
+    m_output.status = Status::LawStopped;
+  }
+  else {
+    m_output.status = m_within >= m_spec.convergedTime && m_within > 0. ? Status::Converged : Status::Servoing;
+  }
+  m_output.message = message();
+}
+
+const char *vpServoControlSide::message() const noexcept
+{
+  switch (m_output.status) {
+  case Status::Servoing:
+    return m_output.arm >= vpRedundancyStatus::JointsStopped ? m_motion->solver().message() : vpMessage(m_output.servo);
+  case Status::Converged:
+    return "The goal is reached within the tolerances.";
+  case Status::Idle:
+    return "The servo is not started; the robot stands or brakes.";
+  case Status::LawStopped:
+    return vpMessage(m_output.servo);
+  case Status::Obstructed:
+    return m_supervised.message();
+  case Status::NoImages:
+    return m_hasImage ? "No new image within the timeout: the robot stops until one comes."
+                      : "There was no image yet: the robot waits for the first one.";
+  case Status::FrozenImages:
+    return "The image does not change although the camera moves: the robot stops until it does.";
+  case Status::ImageClock:
+    return m_isFuture ? "Images have times of capture in the future: the clocks of camera and control differ."
+                      : "Images have times of capture that do not increase: the robot stops until they do.";
+  case Status::LateStep:
+    return "The clock jumped or a step came too late: the robot stops until an image comes that was taken afterwards.";
+  case Status::ClockFault:
+    return "The clock of the control thread stood, went back or is not finite: the robot stops until it is started "
+           "again.";
+  case Status::StateFault:
+    return "The robot's state is missing, too old or not finite: the robot stops until it is started again.";
+  case Status::NotFollowing:
+    return "The robot does not move as commanded: it is stopped until it is started again.";
+  }
+  return "Unknown status.";
+}
+
+const vpVisualServoOutput &vpServoControlSide::step(const vpServoRobotState &state, double now,
+                                                    vpServoExchange &exchange) noexcept
+{
+  const auto begin = std::chrono::steady_clock::now();
+  follow(static_cast<Request>(exchange.request.exchange(None)), exchange);
+  if (exchange.goals.fetch()) {
+    setGoal(exchange.goals.front());
+  }
+  const bool isClockRight = checkClock(now, exchange);
+  if (updatePose(state, exchange) && isClockRight) {
+    takeSight(exchange);
+  }
+  m_odometry.predict(m_measurement);
+  judgeError();
+  const Status images = judgeImages(exchange);
+  const bool isAllowed = m_isRunning && m_fault == Status::Servoing && images == Status::Servoing;
+  m_rising = isAllowed ? m_rising + m_step : 0.;
+  m_output.speedFactor = m_sightFactor * (m_rising < m_spec.startTime ? m_rising / m_spec.startTime : 1.);
+  m_output.servo = m_hasGoal ? vpServoStatus::Holding : vpServoStatus::NoGoal;
+  m_output.twist = m_shaper.step(isAllowed && m_hasGoal ? lawTwist() : vpTwist(), m_step);
+  if (m_motion) {
+    moveArm(isAllowed);
+  }
+  conclude(images);
+  exchange.timing.step.add(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+  return m_output;
+}
+
+END_VISP_NAMESPACE
