@@ -14,6 +14,7 @@
 #include <visp3/manipulator/vpArmTypes.h>
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 
 BEGIN_VISP_NAMESPACE
 
@@ -45,6 +46,21 @@ inline vpTwist changed(const vpRigidTransform &aMb, const vpTwist &v)
 {
   const Eigen::Vector3d w = aMb.R * angular(v);
   return twist(aMb.R * linear(v) + aMb.p.cross(w), w);
+}
+
+inline vpTwist sum(vpTwist a, const vpTwist &b)
+{
+  for (std::size_t i = 0; i < 6; ++i) {
+    a[i] += b[i];
+  }
+  return a;
+}
+
+//! True for a rotation, to 1e-6, and a finite translation of a plausible length.
+inline bool isRigid(const vpRigidTransform &pose)
+{
+  const Eigen::Matrix3d rest = pose.R * pose.R.transpose() - Eigen::Matrix3d::Identity();
+  return vpIsPlausibleForArm(pose.p) && rest.squaredNorm() < 1e-12 && pose.R.determinant() > 0.;
 }
 } // namespace vpRigidMotion
 

@@ -4,6 +4,7 @@
  */
 #include "vpServoControlSide.h"
 
+#include "vpApproachSpeed.h"
 #include "vpRigidMotion.h"
 
 #include <visp3/core/vpException.h>
@@ -21,6 +22,9 @@ namespace
 using Status = vpVisualServoStatus;
 
 constexpr double timeTolerance = 1e-9; // s
+// A law's twist of which the bounds leave less counts as interrupted, for the laws with an integral.
+constexpr double toleratedShare = 0.1;
+constexpr double slowest = 1e-4; // m/s and rad/s
 
 vpTwistShaperLimits shaperLimits(const vpServoMotionLimits &motion)
 {
@@ -41,12 +45,6 @@ vpVisualServoSpec checked(const vpVisualServoSpec &spec, const vpArmModel *arm)
     result.redundancy.validate(*arm);
   }
   return result;
-}
-
-bool isPose(const vpRigidTransform &pose)
-{
-  return vpIsPlausibleForArm(pose.p) &&
-         (pose.R * pose.R.transpose() - Eigen::Matrix3d::Identity()).squaredNorm() < 1e-6 && pose.R.determinant() > 0.;
 }
 
 bool isZero(const vpTwist &twist) { return twist.linearNorm() == 0. && twist.angularNorm() == 0.; }
@@ -98,8 +96,10 @@ void vpServoControlSide::setController(vpServoController controller)
 
 void vpServoControlSide::follow(Request request, vpServoExchange &exchange) noexcept
 {
-  if (request == Start) {
+  if (request == Start && !(m_isRunning && m_fault == Status::Servoing)) {
     m_isRunning = true;
+    m_watchdog.reset();
+    m_object.isKnown = false;
     m_fault = Status::Servoing;
     m_within = 0.;
     m_hasImage = m_isFrozen = m_isFuture = false;
@@ -119,7 +119,7 @@ bool vpServoControlSide::checkClock(double now, vpServoExchange &exchange) noexc
   const bool isFirst = !m_hasClock, isRight = std::isfinite(now) && (isFirst || step > 0.);
   m_step = m_spec.period;
   if (!isRight) {
-    m_fault = Status::ClockFault;
+    fail(Status::ClockFault);
   }
   else if (!isFirst && step > m_spec.longestStep) {
     m_notBefore = now;
@@ -129,6 +129,9 @@ bool vpServoControlSide::checkClock(double now, vpServoExchange &exchange) noexc
   }
   if (!isRight || m_notBefore == now) {
     exchange.history.clear();
+  }
+  if (!isRight) {
+    m_odometry.move(vpTwist(), std::numeric_limits<double>::quiet_NaN()); // forgets its path
   }
   if (isRight && !isFirst) {
     exchange.timing.period.add(step);
@@ -162,27 +165,80 @@ bool vpServoControlSide::readPose(const vpServoRobotState &state, vpRigidTransfo
     return true;
   }
   camera = isInHand ? state.pose : state.pose.inverse() * m_spec.fMc;
-  return isPose(state.pose);
+  return vpRigidMotion::isRigid(state.pose);
+}
+
+// Motion of the camera expected from the last command, in its frame: a twist times the time.
+vpTwist vpServoControlSide::expectedMotion() const noexcept
+{
+  const bool isInHand = m_spec.place == vpServoCameraPlace::EyeInHand;
+  if (!m_arm) {
+    const vpTwist motion = m_output.twist.scaled(m_step);
+    return isInHand ? motion : vpRigidMotion::changed(m_camera.inverse(), motion).scaled(-1.);
+  }
+  vpArmData data;
+  if (!vpArmKinematics::forward(*m_arm, m_q + m_step * m_output.velocity, data)) {
+    return {};
+  }
+  const vpRigidTransform camera = isInHand ? vpArmKinematics::camera(*m_arm, data) : data.tool.inverse() * m_spec.fMc;
+  return vpRigidMotion::log(m_camera.inverse() * camera);
+}
+
+// Velocity of a camera that would move with the object, in the camera frame.
+vpTwist vpServoControlSide::objectInCamera() const noexcept
+{
+  if (!m_object.isKnown) {
+    return {};
+  }
+  const vpTwist &V = m_output.objectVelocity;
+  const Eigen::Vector3d w = vpRigidMotion::angular(V);
+  const vpHomogeneousMatrix &cMo = m_measurement.cMo;
+  const Eigen::Vector3d fromObject = -(m_camera.R * Eigen::Vector3d(cMo[0][3], cMo[1][3], cMo[2][3]));
+  const Eigen::Matrix3d cRf = m_camera.R.transpose();
+  return vpRigidMotion::twist(cRf * (vpRigidMotion::linear(V) + w.cross(fromObject)), cRf * w);
+}
+
+// The first fault stays.
+void vpServoControlSide::fail(Status fault) noexcept { m_fault = m_fault == Status::Servoing ? fault : m_fault; }
+
+void vpServoControlSide::watchMotion(const vpTwist &observed, bool isComplete) noexcept
+{
+  if (!m_isRunning || m_spec.assumeExecuted || !isComplete) {
+    m_watchdog.reset();
+    return;
+  }
+  m_watchdog.observe(observed);
+  if (!m_watchdog.isFollowing(m_spec.followLength, m_spec.followAngle)) {
+    fail(Status::NotFollowing);
+  }
 }
 
 // The camera's pose, and its motion since the last one.
-bool vpServoControlSide::updatePose(const vpServoRobotState &state, vpServoExchange &exchange) noexcept
+bool vpServoControlSide::updatePose(const vpServoRobotState &state, bool isClockRight,
+                                    vpServoExchange &exchange) noexcept
 {
+  m_watchdog.pass(m_step);
+  if (m_hasPose) {
+    m_watchdog.command(expectedMotion());
+  }
   vpRigidTransform camera;
   if (!readPose(state, camera)) {
     if (m_arm) {
-      m_q += m_spec.period * m_output.velocity;
+      m_q += m_step * m_output.velocity;
     }
     if (m_time - m_poseTime > m_spec.stateTimeout) {
-      m_fault = Status::StateFault;
+      fail(Status::StateFault);
     }
     return false;
   }
   const double gap = m_time - m_poseTime;
-  const vpTwist executed =
-      m_hasPose && gap > 0. ? vpRigidMotion::log(m_camera.inverse() * camera).scaled(1. / gap) : vpTwist();
-  m_odometry.move(executed, m_time);
-  exchange.history.add(m_time, camera);
+  const vpTwist moved = m_hasPose ? vpRigidMotion::log(m_camera.inverse() * camera) : vpTwist();
+  watchMotion(moved, gap <= 1.5 * m_step);
+  if (isClockRight) {
+    const vpTwist executed = gap > 0. ? moved.scaled(1. / gap) : vpTwist();
+    m_odometry.move(vpRigidMotion::sum(executed, objectInCamera().scaled(-1.)), m_time);
+    exchange.history.add(m_time, camera);
+  }
   m_camera = camera;
   m_poseTime = m_time;
   m_hasPose = true;
@@ -216,9 +272,23 @@ void vpServoControlSide::takeSight(vpServoExchange &exchange) noexcept
   m_imageTime = time;
   m_badStamps = exchange.badStamps.load(std::memory_order_relaxed);
   m_sightFactor = parcel.sight.speedFactor;
+  followObject(parcel.object);
   m_output.distance = parcel.sight.distance;
   m_output.distanceSigma = parcel.sight.distanceSigma;
   exchange.timing.latency.add(m_time - time);
+}
+
+// The share of the estimated velocity that its deviation leaves, so that the noise of an object at rest moves nothing.
+void vpServoControlSide::followObject(const vpObjectMotion &object) noexcept
+{
+  const auto share = [](double speed, double sigma) {
+    return speed > 0. ? std::max(0., 1. - 2. * sigma * sigma / (speed * speed)) : 0.;
+  };
+  m_object = object;
+  m_output.objectVelocity = vpRigidMotion::twist(share(object.v.norm(), object.vSigma) * object.v,
+                                                 share(object.w.norm(), object.wSigma) * object.w);
+  m_output.objectSigma = object.vSigma;
+  m_output.objectTurnSigma = object.wSigma;
 }
 
 // Whether the images allow to move.
@@ -227,11 +297,14 @@ vpVisualServoStatus vpServoControlSide::judgeImages(const vpServoExchange &excha
   if (m_isFrozen) {
     return Status::FrozenImages;
   }
-  if (!m_hasImage || !(m_time - m_imageTime <= m_spec.imageTimeout)) {
-    const bool isClock = m_isFuture || m_badStamps != exchange.badStamps.load(std::memory_order_relaxed);
-    return isClock ? Status::ImageClock : Status::NoImages;
+  if (m_hasImage && m_imageTime < m_notBefore && m_time - m_notBefore <= m_spec.imageTimeout) {
+    return Status::LateStep;
   }
-  return m_imageTime < m_notBefore ? Status::LateStep : Status::Servoing;
+  if (m_hasImage && m_imageTime >= m_notBefore && m_time - m_imageTime <= m_spec.imageTimeout) {
+    return Status::Servoing;
+  }
+  const bool isClock = m_isFuture || m_badStamps != exchange.badStamps.load(std::memory_order_relaxed);
+  return isClock ? Status::ImageClock : Status::NoImages;
 }
 
 void vpServoControlSide::judgeError() noexcept
@@ -249,7 +322,24 @@ void vpServoControlSide::judgeError() noexcept
   m_within = isWithin ? m_within + m_step : 0.;
 }
 
-// The law's twist as one of what moves, within the limits of speed.
+double vpServoControlSide::approachShare(const vpTwist &wish) const noexcept
+{
+  const auto along = [this, &wish](Eigen::Vector3d (*part)(const vpTwist &)) {
+    const Eigen::Vector3d direction = part(wish).normalized();
+    return vpCommandedAlong{direction.dot(part(m_shaper.twist())), direction.dot(part(m_shaper.acceleration()))};
+  };
+  const vpServoMotionLimits &limits = m_controller.spec().motion;
+  const double turnGain = m_controller.law().rotationGain();
+  // Before a fixed camera the rotation moves the end effector with its own gain, too.
+  const double gain = m_spec.place == vpServoCameraPlace::EyeInHand ? m_controller.gains().lambda
+                                                                    : std::max(m_controller.gains().lambda, turnGain);
+  return std::min(vpApproachShare(wish.linearNorm(), gain, limits.linearAcceleration, limits.linearJerk,
+                                  along(vpRigidMotion::linear)),
+                  vpApproachShare(wish.angularNorm(), turnGain, limits.angularAcceleration, limits.angularJerk,
+                                  along(vpRigidMotion::angular)));
+}
+
+// The law's twist as one of what moves, within the limits of speed, acceleration and jerk.
 vpTwist vpServoControlSide::lawTwist() noexcept
 {
   const vpServoCommand command = m_controller.step(m_measurement, m_step);
@@ -258,9 +348,20 @@ vpTwist vpServoControlSide::lawTwist() noexcept
   if (m_spec.place == vpServoCameraPlace::EyeToHand) {
     wish = vpRigidMotion::changed(m_camera, command.v).scaled(-1.);
   }
+  wish = vpWithoutFreeAxes(wish, m_spec.free);
+  const bool isSeen = command.status == vpServoStatus::Servoing || command.status == vpServoStatus::ViewLimited;
+  const vpTwist along = isSeen ? vpWithoutFreeAxes(objectInCamera(), m_spec.free) : vpTwist();
   const vpServoMotionLimits &limits = m_controller.spec().motion;
-  return vpLimitTwist(vpWithoutFreeAxes(wish, m_spec.free), m_output.speedFactor * limits.linearVelocity,
-                      m_output.speedFactor * limits.angularVelocity);
+  const vpTwist bounded =
+      vpLimitTwist(vpRigidMotion::sum(wish.scaled(approachShare(wish)), along),
+                   m_output.speedFactor * limits.linearVelocity, m_output.speedFactor * limits.angularVelocity);
+  const vpTwist twist = m_shaper.step(bounded, m_step);
+  const vpTwist missing = vpRigidMotion::sum(vpRigidMotion::sum(wish, along), twist.scaled(-1.));
+  if (missing.linearNorm() > toleratedShare * wish.linearNorm() + slowest ||
+      missing.angularNorm() > toleratedShare * wish.angularNorm() + slowest) {
+    m_controller.notifyInterrupted();
+  }
+  return twist;
 }
 
 void vpServoControlSide::moveArm(bool isAllowed) noexcept
@@ -353,7 +454,7 @@ const vpVisualServoOutput &vpServoControlSide::step(const vpServoRobotState &sta
     setGoal(exchange.goals.front());
   }
   const bool isClockRight = checkClock(now, exchange);
-  if (updatePose(state, exchange) && isClockRight) {
+  if (updatePose(state, isClockRight, exchange) && isClockRight) {
     takeSight(exchange);
   }
   m_odometry.predict(m_measurement);
@@ -363,7 +464,7 @@ const vpVisualServoOutput &vpServoControlSide::step(const vpServoRobotState &sta
   m_rising = isAllowed ? m_rising + m_step : 0.;
   m_output.speedFactor = m_sightFactor * (m_rising < m_spec.startTime ? m_rising / m_spec.startTime : 1.);
   m_output.servo = m_hasGoal ? vpServoStatus::Holding : vpServoStatus::NoGoal;
-  m_output.twist = m_shaper.step(isAllowed && m_hasGoal ? lawTwist() : vpTwist(), m_step);
+  m_output.twist = isAllowed && m_hasGoal ? lawTwist() : m_shaper.step(vpTwist(), m_step);
   if (m_motion) {
     moveArm(isAllowed);
   }

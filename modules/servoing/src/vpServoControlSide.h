@@ -9,6 +9,7 @@
 #ifndef vpServoControlSide_h
 #define vpServoControlSide_h
 
+#include "vpFollowWatchdog.h"
 #include "vpServoExchange.h"
 
 #include <visp3/feedforward/vpOdometryBridge.h>
@@ -40,12 +41,18 @@ private:
   void follow(Request request, vpServoExchange &exchange) noexcept;
   bool checkClock(double now, vpServoExchange &exchange) noexcept;
   bool readPose(const vpServoRobotState &state, vpRigidTransform &camera) noexcept;
-  bool updatePose(const vpServoRobotState &state, vpServoExchange &exchange) noexcept;
+  bool updatePose(const vpServoRobotState &state, bool isClockRight, vpServoExchange &exchange) noexcept;
+  void fail(vpVisualServoStatus fault) noexcept;
+  void watchMotion(const vpTwist &observed, bool isComplete) noexcept;
+  vpTwist expectedMotion() const noexcept;
+  vpTwist objectInCamera() const noexcept;
   void setGoal(const vpServoGoal &goal) noexcept;
+  void followObject(const vpObjectMotion &object) noexcept;
   void takeSight(vpServoExchange &exchange) noexcept;
   vpVisualServoStatus judgeImages(const vpServoExchange &exchange) const noexcept;
   void judgeError() noexcept;
   vpTwist lawTwist() noexcept;
+  double approachShare(const vpTwist &wish) const noexcept;
   void moveArm(bool isAllowed) noexcept;
   void conclude(vpVisualServoStatus images) noexcept;
   const char *message() const noexcept;
@@ -62,6 +69,8 @@ private:
   vpServoMeasurement m_measurement; // predicted to now
   vpArmData m_data;
   vpJointVector m_q;
+  vpFollowWatchdog m_watchdog;
+  vpObjectMotion m_object;
   vpRigidTransform m_camera; // in the frame in which the object is at rest
   vpServoGoal m_goal;
   const std::vector<vpSelfMotionIndex> m_noIndices;

@@ -9,6 +9,7 @@
 #ifndef vpServoExchange_h
 #define vpServoExchange_h
 
+#include "vpObjectMotionFilter.h"
 #include "vpPoseHistory.h"
 #include "vpTripleBuffer.h"
 
@@ -21,6 +22,7 @@ BEGIN_VISP_NAMESPACE
 //! A result on its way to the control thread.
 struct vpServoParcel {
   vpServoSight sight;
+  vpObjectMotion object;
   bool isFrozen = false; // the image did not change although the camera moved
 };
 

@@ -37,8 +37,9 @@ std::uint64_t hashOf(const vpImage<unsigned char> &image)
 }
 } // namespace
 
-vpServoVisionSide::vpServoVisionSide(unsigned int maxPoints)
-  : m_maxPoints(maxPoints), m_checker(vpServoLaw::create("pbvs1"))
+vpServoVisionSide::vpServoVisionSide(const vpVisualServoSpec &spec)
+  : m_maxPoints(spec.maxPoints), m_checker(vpServoLaw::create("pbvs1")),
+    m_object(spec.objectChange, spec.objectTurnChange, spec.imageTimeout), m_objectMoves(spec.objectMoves)
 {}
 
 void vpServoVisionSide::set(std::unique_ptr<vpServoVision> vision)
@@ -79,6 +80,7 @@ bool vpServoVisionSide::isNewer(double time, vpServoExchange &exchange)
   const unsigned int epoch = exchange.epoch.load(std::memory_order_relaxed);
   if (epoch != m_epoch) {
     m_epoch = epoch;
+    m_object.reset();
     m_lastTime = -std::numeric_limits<double>::infinity();
   }
   if (!(time > m_lastTime) || !std::isfinite(time)) {
@@ -108,7 +110,8 @@ bool vpServoVisionSide::isFrozen(const vpImage<unsigned char> &image, const vpRi
   return way.linearNorm() > movedLength || way.angularNorm() > movedAngle;
 }
 
-void vpServoVisionSide::publish(const vpServoSight &sight, bool isFrozen, vpServoExchange &exchange)
+void vpServoVisionSide::publish(const vpServoSight &sight, const vpRigidTransform *camera, bool isFrozen,
+                                vpServoExchange &exchange)
 {
   const std::size_t most = std::max(sight.measurement.points.size(), sight.measurement.outline.size());
   if (sight.measurement.valid && most > m_maxPoints) {
@@ -121,7 +124,12 @@ void vpServoVisionSide::publish(const vpServoSight &sight, bool isFrozen, vpServ
   if (!(sight.speedFactor > 0. && sight.speedFactor <= 1.)) {
     throw vpException(vpException::badValue, "speedFactor of the sight is %g, must be > 0, <= 1", sight.speedFactor);
   }
+  const vpServoMeasurement &seen = sight.measurement;
+  if (m_objectMoves && seen.valid && !isFrozen && camera) {
+    m_object.add(*camera, vpRigidTransform::fromHomogeneous(seen.cMo), seen.covariance, seen.time);
+  }
   vpServoParcel &parcel = exchange.sights.back();
+  parcel.object = m_object.motion();
   parcel.sight = sight;
   parcel.isFrozen = isFrozen;
   exchange.sights.publish();
@@ -137,20 +145,22 @@ const vpServoSight &vpServoVisionSide::see(const vpImage<unsigned char> &image, 
     return m_sight;
   }
   vpRigidTransform camera;
-  const bool isKnown = exchange.history.at(time, camera);
+  const vpRigidTransform *const known = exchange.history.at(time, camera) ? &camera : nullptr;
   const auto begin = std::chrono::steady_clock::now();
-  eyes.see(image, time, isKnown ? &camera : nullptr, m_sight);
+  eyes.see(image, time, known, m_sight);
   exchange.timing.vision.add(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   m_sight.measurement.time = time;
-  const bool isSame = isFrozen(image, isKnown ? &camera : nullptr);
-  publish(m_sight, isSame && m_sight.measurement.valid, exchange);
+  const bool isSame = isFrozen(image, known);
+  publish(m_sight, known, isSame && m_sight.measurement.valid, exchange);
   return m_sight;
 }
 
 void vpServoVisionSide::see(const vpServoSight &sight, vpServoExchange &exchange)
 {
   if (isNewer(sight.measurement.time, exchange)) {
-    publish(sight, false, exchange);
+    vpRigidTransform camera;
+    const bool isKnown = exchange.history.at(sight.measurement.time, camera);
+    publish(sight, isKnown ? &camera : nullptr, false, exchange);
   }
 }
 

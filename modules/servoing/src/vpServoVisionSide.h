@@ -21,7 +21,7 @@ BEGIN_VISP_NAMESPACE
 class vpServoVisionSide
 {
 public:
-  explicit vpServoVisionSide(unsigned int maxPoints);
+  explicit vpServoVisionSide(const vpVisualServoSpec &spec);
 
   void set(std::unique_ptr<vpServoVision> vision);
   [[nodiscard]] vpServoVision &vision() const;
@@ -32,12 +32,14 @@ public:
 private:
   [[nodiscard]] bool isNewer(double time, vpServoExchange &exchange);
   [[nodiscard]] bool isFrozen(const vpImage<unsigned char> &image, const vpRigidTransform *camera);
-  void publish(const vpServoSight &sight, bool isFrozen, vpServoExchange &exchange);
+  void publish(const vpServoSight &sight, const vpRigidTransform *camera, bool isFrozen, vpServoExchange &exchange);
   void checkGoal(const vpServoGoal &goal);
 
   unsigned int m_maxPoints;
   std::unique_ptr<vpServoVision> m_vision;
   std::unique_ptr<vpServoLaw> m_checker; // any law: its setGoal() validates
+  vpObjectMotionFilter m_object;
+  bool m_objectMoves;
   vpServoSight m_sight;
   double m_lastTime = -std::numeric_limits<double>::infinity();
   unsigned int m_epoch = 0;

@@ -4,6 +4,7 @@
  */
 #include <visp3/servoing/vpVisualServo.h>
 
+#include "vpRigidMotion.h"
 #include "vpServoControlSide.h"
 #include "vpServoExchange.h"
 #include "vpServoVisionSide.h"
@@ -19,7 +20,7 @@ class vpVisualServo::Impl
 public:
   Impl(vpServoController controller, const vpVisualServoSpec &spec, const vpArmModel *arm)
     : control(std::move(controller), spec, arm),
-      exchange(static_cast<std::size_t>(spec.imageTimeout / spec.period) + 4, spec.maxPoints), vision(spec.maxPoints)
+      exchange(static_cast<std::size_t>(spec.imageTimeout / spec.period) + 4, spec.maxPoints), vision(spec)
   {}
 
   vpServoControlSide control;
@@ -31,6 +32,7 @@ const vpFields<vpVisualServoSpec> &vpVisualServoSpec::fields()
 {
   using Spec = vpVisualServoSpec;
   const vpFieldRange positive = vpFieldRange::positive(), notNegative = vpFieldRange::notNegative();
+  const vpFieldRange orInfinite{0., std::numeric_limits<double>::infinity(), true, true};
   static const vpFields<Spec> all = {
       {"period", &Spec::period, vpFieldRange::positive(1.), "s", "Period of step()"},
       {"startTime", &Spec::startTime, notNegative, "s", "Time in which the limits of speed rise from 0 at each start"},
@@ -41,6 +43,11 @@ const vpFields<vpVisualServoSpec> &vpVisualServoSpec::fields()
       {"rotationTolerance", &Spec::rotationTolerance, positive, "rad", "Rotation error that counts as converged"},
       {"convergedTime", &Spec::convergedTime, notNegative, "s",
        "Time within both tolerances after which the task is converged"},
+      {"followLength", &Spec::followLength, orInfinite, "m", "Missing motion that counts as not following"},
+      {"followAngle", &Spec::followAngle, orInfinite, "rad", "Likewise for the rotation"},
+      {"objectChange", &Spec::objectChange, positive, "m/s",
+       "Standard deviation of the change of a moving object's velocity in one second"},
+      {"objectTurnChange", &Spec::objectTurnChange, positive, "rad/s", "Likewise for the angular velocity"},
       {"maxPoints", &Spec::maxPoints, {1., 100000.}, "", "Largest number of points of a measurement"},
   };
   return all;
@@ -48,13 +55,16 @@ const vpFields<vpVisualServoSpec> &vpVisualServoSpec::fields()
 
 void vpVisualServoSpec::validate() const
 {
-  constexpr const char *owner = "the visual servo";
+  const char *const owner = "the visual servo";
   vpCheckFields(*this, fields(), owner);
   vpCheckField("number of indices", owner, static_cast<double>(indices.size()), "", {0., vpMaxArmIndices});
   vpCheckField("number of poses to keep", owner, imageTimeout / period, "", {0., vpOdometryBridge::longestPath});
-  if (assumeExecuted && place == vpServoCameraPlace::EyeToHand) {
-    throw vpException(vpException::badValue,
-                      "assumeExecuted of the visual servo is for a camera on the robot, and place is EyeToHand");
+  if (place == vpServoCameraPlace::EyeToHand && (assumeExecuted || objectMoves)) {
+    throw vpException(vpException::badValue, "%s of the visual servo is true, must be false for a fixed camera",
+                      assumeExecuted ? "assumeExecuted" : "objectMoves");
+  }
+  if (!vpRigidMotion::isRigid(fMc)) {
+    throw vpException(vpException::badValue, "fMc of the visual servo is not a rotation and a finite translation");
   }
 }
 

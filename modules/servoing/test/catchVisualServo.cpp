@@ -243,24 +243,6 @@ TEST_CASE("Wild configurations, times and measurements leave the arm's velocitie
   }
 }
 
-TEST_CASE("The camera's twist keeps its limits", "[servoing]")
-{
-  vpServoControllerSpec quick;
-  quick.gains.lambda = 8.;
-  quick.gains.rotation = 8.;
-  Bench bench("pbvs1", quick);
-  const vpServoMotionLimits limits;
-  double linear = 0., angular = 0.;
-  for (int i = 0; i < 1000; ++i) {
-    const vpTwist &twist = bench.step().twist;
-    linear = std::max(linear, twist.linearNorm());
-    angular = std::max(angular, twist.angularNorm());
-  }
-  CHECK(linear <= limits.linearVelocity * (1. + 1e-9));
-  CHECK(angular <= limits.angularVelocity * (1. + 1e-9));
-  CHECK(std::max(linear / limits.linearVelocity, angular / limits.angularVelocity) == Approx(1.)); // a limit was met
-}
-
 TEST_CASE("A measurement has what was found and no more", "[servoing]")
 {
   const vpServoTarget target({{0., 0., 0.}, {0., 0., -1.}}, {{0.1, 0., 0.}});

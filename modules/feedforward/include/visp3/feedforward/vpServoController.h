@@ -87,6 +87,9 @@ public:
    */
   [[nodiscard]] vpServoCommand step(const vpServoMeasurement &measurement, double dt) noexcept;
 
+  //! Tells the law that its last twist was not executed as given: it was limited, say.
+  void notifyInterrupted() noexcept { m_law->notifyInterrupted(); }
+
   /*!
    * Orientation that a command aims at: where the camera would end if only the rotation continued, R
    * exp(w / rotationGain). For `pbvs1` this is the goal (the identity); with the term added by `ff-*` it is the

@@ -43,12 +43,20 @@ struct VISP_EXPORT vpVisualServoSpec {
   double positionTolerance = 0.001; //!< Position error that counts as converged, m, > 0.
   double rotationTolerance = 0.005; //!< Rotation error that counts as converged, rad, > 0.
   double convergedTime = 0.5;       //!< Time within both tolerances after which the task is converged, s, >= 0.
-  unsigned int maxPoints = 512;     //!< Largest number of points of a measurement, 1..100000: memory is allocated once.
+  //! Missing motion that counts as not following, m, > 0 or infinite; added to half of the motion commanded in the last second.
+  double followLength = 0.01;
+  double followAngle = 0.1; //!< Likewise for the rotation, rad, > 0 or infinite.
+  //! Standard deviation of the change of a moving object's velocity in one second, m/s, > 0.
+  double objectChange = 0.05;
+  double objectTurnChange = 0.1; //!< Likewise for the angular velocity, rad/s, > 0.
+  unsigned int maxPoints = 512;  //!< Largest number of points of a measurement, 1..100000: memory is allocated once.
 
   vpServoCameraPlace place = vpServoCameraPlace::EyeInHand; //!< Place of the camera.
   vpRigidTransform fMc;                                     //!< Pose of a fixed camera in the base (EyeToHand), m.
   //! Without an arm's model: there is no robot state, and the commanded motion counts as executed. EyeInHand only.
   bool assumeExecuted = false;
+  //! The object moves in the base frame with a velocity that changes little: it is estimated and followed. EyeInHand only.
+  bool objectMoves = false;
   //! Axes of the commanded twist that stay 0, see vpFreeAxes(), for arms with fewer than six joints.
   std::array<bool, 6> free{};
   vpRedundancySpec redundancy;            //!< Parameters of an arm; its period is replaced by #period.
@@ -111,6 +119,11 @@ struct VISP_EXPORT vpVisualServoOutput {
   double rotationError = std::numeric_limits<double>::quiet_NaN(); //!< Angle to the goal, rad; NaN likewise.
   double distance = 0., distanceSigma = 0.;                        //!< See vpServoSight, m.
   double speedFactor = 1.; //!< Factor on the limits of speed: vpServoSight's and that of the start, 0..1.
+  //! Velocity of the object's origin, and angular velocity, in the base frame, m/s and rad/s, as followed; 0 unless
+  //! vpVisualServoSpec::objectMoves.
+  vpTwist objectVelocity;
+  double objectSigma = 0.;     //!< Standard deviation of the estimated linear velocity, m/s.
+  double objectTurnSigma = 0.; //!< Standard deviation of the estimated angular velocity, rad/s.
 };
 
 /*!
@@ -127,6 +140,13 @@ struct VISP_EXPORT vpVisualServoOutput {
  * A fixed camera that looks at an object on the arm is the same problem: seen from the object it is the camera that moves.
  * Pose history, bridge and law use the camera's pose in the end effector; the law's twist v gives the end effector the
  * opposite one, -eVc v.
+ *
+ * Approach: a law may slow down faster than the bounds allow, v' = -lambda v. Where lambda v exceeds 0.7 of the bound of
+ * acceleration, or lambda^2 v half of that of jerk, the twist is scaled to v = sqrt(2 a (d - d0)) of constant deceleration, d
+ * = v / lambda being what the law has yet to go: it does not overshoot at any gain.
+ *
+ * Moving objects: a Kalman filter in the base frame estimates their velocity V with its deviation sigma; max(0, 1 - 2
+ * sigma^2 / V^2) of it is added to the law's twist while the law moves, so that an object at rest stays so.
  *
  * Threads: see() and setGoal() in one thread; step() and the accessors in another; start() and stop() in any.
  * Construction, setVision(), supervise() and setController() before both. step() does not allocate, throw, lock or print.

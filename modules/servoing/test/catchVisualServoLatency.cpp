@@ -1,0 +1,97 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// Every law behind bridge and bounds: latency and slow, jittering cameras make nothing swing.
+#include "vpServoBench.h"
+
+namespace
+{
+vpServoBench randomBench(const std::string &law, unsigned int index)
+{
+  std::mt19937_64 rng = vpTestSupport::generator(index);
+  vpServoControllerSpec controller;
+  controller.gains.lambda = vpTestSupport::uniform(rng, 0.5, 4.);
+  vpVisualServoSpec spec;
+  spec.period = vpTestSupport::uniform(rng, 0.001, 0.01);
+  spec.imageTimeout = 1.;
+  vpServoBench bench(law, controller, spec, index + 1000);
+  bench.rate = std::exp(bench.uniform(std::log(5.), std::log(200.)));
+  bench.latency = bench.uniform(0., 0.2);
+  bench.jitter = 0.3;
+  bench.placeAtRandom(0.6);
+  bench.servo.start();
+  return bench;
+}
+
+//! The largest error, as a share of the first one, after it has been below half a percent for the first time.
+struct Overshoot {
+  double first, after = 0.;
+  bool isReached = false;
+
+  explicit Overshoot(double error) : first(error) {}
+  void add(double error)
+  {
+    isReached = isReached || error < 0.005 * first;
+    after = isReached ? std::max(after, error / first) : 0.;
+  }
+};
+} // namespace
+
+TEST_CASE("No law overshoots by 2 %, with latencies to 200 ms, cameras from 5 to 200 Hz with jitter, and gains to 4/s",
+          "[servoing]")
+{
+  for (const std::string &law : vpServoLaw::ids()) {
+    for (unsigned int i = 0; i < static_cast<unsigned int>(vpTestSupport::longer(4)); ++i) {
+      vpServoBench bench = randomBench(law, i);
+      CAPTURE(law, i, bench.servo.spec().period, bench.rate, bench.latency, bench.servo.controller().gains().lambda);
+      Overshoot position(bench.positionError()), rotation(bench.rotationError());
+      while (bench.now < 25.) {
+        bench.step();
+        position.add(bench.positionError());
+        rotation.add(bench.rotationError());
+      }
+      CHECK(position.isReached);
+      CHECK(rotation.isReached);
+      CHECK(position.after < 0.02);
+      CHECK(rotation.after < 0.02);
+      CHECK(bench.servo.isConverged());
+    }
+  }
+}
+
+TEST_CASE("The commanded twist keeps its bounds of velocity, acceleration and jerk, and reaches them", "[servoing]")
+{
+  double most[3] = {0., 0., 0.};
+  for (unsigned int i = 0; i < static_cast<unsigned int>(vpTestSupport::longer(10)); ++i) {
+    vpServoBench bench = randomBench(i % 2 == 0 ? "ff-lookat-pi" : "pbvs1", i);
+    const vpServoMotionLimits limits;
+    const double dt = bench.servo.spec().period;
+    vpTwist before, change;
+    while (bench.now < 6.) {
+      if (bench.uniform(0., 1.) < dt) { // a goal or an object moves about once a second
+        bench.placeAtRandom(0.6);
+      }
+      const vpTwist twist = bench.step().twist;
+      vpTwist next, jerk;
+      for (std::size_t k = 0; k < 6; ++k) {
+        next[k] = (twist[k] - before[k]) / dt;
+        jerk[k] = (next[k] - change[k]) / dt;
+      }
+      REQUIRE(twist.linearNorm() <= limits.linearVelocity * (1. + 1e-9));
+      REQUIRE(twist.angularNorm() <= limits.angularVelocity * (1. + 1e-9));
+      REQUIRE(next.linearNorm() <= limits.linearAcceleration * (1. + 1e-6));
+      REQUIRE(next.angularNorm() <= limits.angularAcceleration * (1. + 1e-6));
+      REQUIRE(jerk.linearNorm() <= limits.linearJerk * (1. + 1e-6));
+      REQUIRE(jerk.angularNorm() <= limits.angularJerk * (1. + 1e-6));
+      most[0] = std::max(most[0], twist.linearNorm() / limits.linearVelocity);
+      most[1] = std::max(most[1], next.linearNorm() / limits.linearAcceleration);
+      most[2] = std::max(most[2], jerk.linearNorm() / limits.linearJerk);
+      before = twist;
+      change = next;
+    }
+  }
+  CHECK(most[0] > 0.99);
+  CHECK(most[1] > 0.99);
+  CHECK(most[2] > 0.99);
+}
