@@ -278,12 +278,11 @@ void vpServoControlSide::takeSight(vpServoExchange &exchange) noexcept
   exchange.timing.latency.add(m_time - time);
 }
 
-// The share of the estimated velocity that its deviation leaves, so that the noise of an object at rest moves nothing.
+// None of an estimated velocity within two standard deviations, so that the noise of an object at rest moves nothing, all of
+// it from four on.
 void vpServoControlSide::followObject(const vpObjectMotion &object) noexcept
 {
-  const auto share = [](double speed, double sigma) {
-    return speed > 0. ? std::max(0., 1. - 2. * sigma * sigma / (speed * speed)) : 0.;
-  };
+  const auto share = [](double speed, double sigma) { return std::clamp(0.5 * speed / sigma - 1., 0., 1.); };
   m_object = object;
   m_output.objectVelocity = vpRigidMotion::twist(share(object.v.norm(), object.vSigma) * object.v,
                                                  share(object.w.norm(), object.wSigma) * object.w);

@@ -47,8 +47,8 @@ struct VISP_EXPORT vpVisualServoSpec {
   double followLength = 0.01;
   double followAngle = 0.1; //!< Likewise for the rotation, rad, > 0 or infinite.
   //! Standard deviation of the change of a moving object's velocity in one second, m/s, > 0.
-  double objectChange = 0.05;
-  double objectTurnChange = 0.1; //!< Likewise for the angular velocity, rad/s, > 0.
+  double objectChange = 0.01;
+  double objectTurnChange = 0.02; //!< Likewise for the angular velocity, rad/s, > 0.
   unsigned int maxPoints = 512;  //!< Largest number of points of a measurement, 1..100000: memory is allocated once.
 
   vpServoCameraPlace place = vpServoCameraPlace::EyeInHand; //!< Place of the camera.
@@ -145,8 +145,8 @@ struct VISP_EXPORT vpVisualServoOutput {
  * acceleration, or lambda^2 v half of that of jerk, the twist is scaled to v = sqrt(2 a (d - d0)) of constant deceleration, d
  * = v / lambda being what the law has yet to go: it does not overshoot at any gain.
  *
- * Moving objects: a Kalman filter in the base frame estimates their velocity V with its deviation sigma; max(0, 1 - 2
- * sigma^2 / V^2) of it is added to the law's twist while the law moves, so that an object at rest stays so.
+ * Moving objects: a Kalman filter in the base frame estimates their velocity with its standard deviation. It is added to
+ * the law's twist while the law moves, none of it below two standard deviations, all of it from four on.
  *
  * Threads: see() and setGoal() in one thread; step() and the accessors in another; start() and stop() in any.
  * Construction, setVision(), supervise() and setController() before both. step() does not allocate, throw, lock or print.
