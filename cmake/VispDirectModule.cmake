@@ -137,3 +137,12 @@ macro(vispdirect_find_visp)
     find_package(VISP REQUIRED)
   endif()
 endmacro()
+
+# vispdirect_add_test_plugin(TARGET SOURCE LIBRARY...): a plug-in as a user builds one, for tests of --plugin.
+function(vispdirect_add_test_plugin target source)
+  add_library(${target} MODULE ${source})
+  target_compile_features(${target} PRIVATE cxx_std_17)
+  target_link_libraries(${target} PRIVATE ${ARGN})
+  target_include_directories(${target} SYSTEM PRIVATE ${VISP_INCLUDE_DIRS} ${VISP_DIRECT_EIGEN3_INCLUDE_DIR})
+  set_target_properties(${target} PROPERTIES LIBRARY_OUTPUT_DIRECTORY "${CMAKE_CURRENT_BINARY_DIR}")
+endfunction()

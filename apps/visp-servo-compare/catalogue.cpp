@@ -8,48 +8,46 @@
 
 #include <visp3/feedforward/vpServoLaw.h>
 
+#include <algorithm>
+#include <iterator>
+
 namespace servoCompare
 {
 namespace
 {
 constexpr const char *FILTER = "+cbf";
 
-const std::vector<LawInfo> &laws()
+//! How a law is shown.
+struct Look {
+  std::string id, name, colour;
+  GainGroup group;
+};
+
+const std::vector<Look> &looks()
 {
-  static const std::vector<LawInfo> all = {
-      {"pbvs1", "PBVS-1", "Position-based on the camera's pose: a straight camera path, the view is not looked after.",
-       "#1f77b4", GainGroup::Single},
-      {"pbvs1-rot2", "PBVS-1, rotation x2", "PBVS-1 with twice the rotation gain.", "#0b3c6f", GainGroup::Double},
-      {"pbvs2", "PBVS-2", "Position-based on the object's pose: the object's origin goes straight in the camera frame.",
-       "#17becf", GainGroup::Single},
-      {"ibvs", "IBVS", "Image-based on the feature points: straight lines in the image, no care for the path.",
-       "#8c564b", GainGroup::Single},
-      {"hybrid25d", "2 1/2 D", "Hybrid of Malis: translation by an image point and depth, rotation by pose.", "#7f7f7f",
-       GainGroup::Single},
-      {"kyrki", "Kyrki, full",
-       "Kyrki as published: a straight camera path, the rotation holds the object in the image "
-       "and compensates the translation.",
-       "#ff7f0e", GainGroup::Single},
-      {"kyrki-rot2", "Kyrki, full, rotation x2", "Kyrki as published with twice the rotation gain.", "#a84300",
-       GainGroup::Double},
-      {"kyrki-decoupled", "Kyrki, decoupled",
-       "Kyrki with the rotation driven by the image error alone, without "
-       "compensation: what the thesis compares with.",
-       "#d4ac0d", GainGroup::Single},
-      {"ff-sum", "FF sum (thesis)",
-       "The thesis' law, corrected: PBVS-1 plus the bearing of the object as a feedforward of "
-       "the rotation.",
-       "#2ca02c", GainGroup::Double},
-      {"ff-lookat", "FF look-at",
-       "Feedforward that keeps the camera turned to the object while it translates; rotation "
-       "gain x2.",
-       "#d62728", GainGroup::Double},
-      {"ff-lookat-pi", "FF look-at PI",
-       "FF look-at with an integral of the rotation error against friction; the "
-       "default of visp-direct.",
-       "#9467bd", GainGroup::Integral},
+  static const std::vector<Look> all = {
+      {"pbvs1", "PBVS-1", "#1f77b4", GainGroup::Single},
+      {"pbvs1-rot2", "PBVS-1, rotation x2", "#0b3c6f", GainGroup::Double},
+      {"pbvs2", "PBVS-2", "#17becf", GainGroup::Single},
+      {"ibvs", "IBVS", "#8c564b", GainGroup::Single},
+      {"hybrid25d", "2 1/2 D", "#7f7f7f", GainGroup::Single},
+      {"kyrki", "Kyrki, full", "#ff7f0e", GainGroup::Single},
+      {"kyrki-rot2", "Kyrki, full, rotation x2", "#a84300", GainGroup::Double},
+      {"kyrki-decoupled", "Kyrki, decoupled", "#d4ac0d", GainGroup::Single},
+      {"ff-sum", "FF sum (thesis)", "#2ca02c", GainGroup::Double},
+      {"ff-lookat", "FF look-at", "#d62728", GainGroup::Double},
+      {"ff-lookat-pi", "FF look-at PI", "#9467bd", GainGroup::Integral},
   };
   return all;
+}
+
+//! A law of a plug-in: in turn one of the colours that ours do not have.
+Look ownLook(const std::string &id)
+{
+  constexpr const char *colours[] = {"#e377c2", "#637939", "#393b79", "#8c6d31", "#00a087", "#000000"};
+  const std::vector<std::string> ids = vpServoLaw::ids();
+  const auto place = static_cast<std::size_t>(std::find(ids.begin(), ids.end(), id) - ids.begin());
+  return {id, id, colours[place % std::size(colours)], GainGroup::Own};
 }
 } // namespace
 
@@ -62,6 +60,8 @@ const char *titleOf(GainGroup group)
     return "Gain-matched rivals: effective rotation gain x2 near the goal, no integral";
   case GainGroup::Integral:
     return "Rotation gain x2 with integral (no rival has one)";
+  case GainGroup::Own:
+    return "Laws of plug-ins, whose gains are their own";
   }
   return "";
 }
@@ -79,14 +79,11 @@ std::string withoutFilter(const std::string &id)
 
 LawInfo lawInfo(const std::string &id)
 {
-  LawInfo info{id, id, "No description yet.", "#000000", GainGroup::Single};
-  for (const LawInfo &law : laws()) {
-    if (law.id == withoutFilter(id)) {
-      info = law;
-    }
-  }
+  const std::string law = withoutFilter(id);
+  const auto known = std::find_if(looks().begin(), looks().end(), [&](const Look &look) { return look.id == law; });
+  const Look look = known == looks().end() ? ownLook(law) : *known;
+  LawInfo info{id, look.name, vpServoLaw::sentence(law), look.colour, look.group};
   if (isFiltered(id)) {
-    info.id = id;
     info.name += " + filter";
     info.sentence +=
         " Behind it the filter that keeps the object's corners in the view of a robot that executes its twist.";

@@ -22,7 +22,8 @@ namespace servoCompare
 enum class GainGroup {
   Single,  //!< Rotation gain lambda.
   Double,  //!< Effective rotation gain 2 lambda near the goal.
-  Integral //!< Rotation gain 2 lambda and an integral term.
+  Integral, //!< Rotation gain 2 lambda and an integral term.
+  Own       //!< Laws of plug-ins: not known.
 };
 
 //! Title of a group, for tables.

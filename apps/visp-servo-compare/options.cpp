@@ -7,6 +7,7 @@
 #include "appMain.h"
 #include "commandLine.h"
 #include "format.h"
+#include "plugin.h"
 #include "scenario.h"
 
 namespace servoCompare
@@ -41,6 +42,8 @@ constexpr const char *EXAMPLES = R"(Examples:
       your own arm
   visp-servo-compare --robot data/robot/five-axis.json --free rz --plant A --measure points
       an arm of five joints, which leaves the rotation about the optical axis as it comes
+  visp-servo-compare --plugin ./libmine.so --law mine,mine+cbf,ff-lookat-pi --measure points
+      a law of your own, from a library that registers it (tutorial 02), beside ours
   visp-servo-compare --task my-task.json
       your own poses, camera, gains and robots; start from data/scenario/thesis-5.4.json
 
@@ -69,6 +72,7 @@ bool readOptions(int argc, const char *const *argv, Options &options)
 {
   vpApp::CommandLine line("visp-servo-compare", ABOUT, EXAMPLES);
   RobotOptions &robot = options.robot;
+  vpApp::addPluginOption(line, "laws");
   line.list("--law", options.laws, "LAW,...", "Laws to compare; append +cbf for the view filter (default: all)");
   line.list("--plant", options.plants, "NAME,...", "Robots to compare on (default: A,B,D, or those of the task file)");
   line.list("--measure", options.measures, "KIND,...",

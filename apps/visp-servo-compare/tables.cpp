@@ -138,7 +138,7 @@ HtmlTable tableOf(const Plan &plan, const Results &results, const std::string &m
   }
   table.header = {plants, titles};
 
-  for (const GainGroup group : {GainGroup::Single, GainGroup::Double, GainGroup::Integral}) {
+  for (const GainGroup group : {GainGroup::Single, GainGroup::Double, GainGroup::Integral, GainGroup::Own}) {
     std::vector<HtmlTable::Row> rows;
     for (const std::string &law : plan.laws) {
       const LawInfo info = lawInfo(law);
