@@ -12,6 +12,7 @@
 #include "vpPrintable.h"
 
 #include <visp3/core/vpException.h>
+#include <visp3/direct_core/vpDirectCompat.h>
 
 #include <algorithm>
 #include <cctype>
@@ -97,7 +98,7 @@ private:
     for (const Entry &entry : m_entries) {
       known += (known.empty() ? "" : ", ") + entry.id;
     }
-    throw vpException(vpException::badValue, nameOf(id) + " is unknown, known are: " + known);
+    throw vpException(vpException::badValue, nameOf(id) + " is unknown, " + (known.empty() ? "there is none" : "known are: " + known));
   }
 
   const char *m_kind;

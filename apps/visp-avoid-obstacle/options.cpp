@@ -7,6 +7,7 @@
 #include "appMain.h"
 #include "commandLine.h"
 #include "numberText.h"
+#include "plugin.h"
 #include "replicas.h"
 
 #include <visp3/avoidance/vpAvoidanceMethods.h>
@@ -73,6 +74,7 @@ void requireNoneOfScene(const vpApp::CommandLine &line)
 
 void addOptions(vpApp::CommandLine &line, Options &options)
 {
+  vpApp::addPluginOption(line, "avoidance methods and path planners");
   line.text("--method", options.method, "NAME",
             "How to avoid: " + vpApp::enumerate(vpAvoidanceMethodNames()) +
                 " (default: dtg-via, planner-dtg for another arm)");

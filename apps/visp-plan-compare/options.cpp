@@ -6,6 +6,7 @@
 
 #include "appMain.h"
 #include "commandLine.h"
+#include "plugin.h"
 
 namespace planCompare
 {
@@ -42,6 +43,7 @@ Exit status: 0 done, 1 the data do not allow it, 2 the command line is wrong. No
 bool readOptions(int argc, const char *const *argv, Options &options)
 {
   vpApp::CommandLine line("visp-plan-compare", ABOUT, EXAMPLES);
+  vpApp::addPluginOption(line, "avoidance methods and path planners");
   line.list("--scene", options.scenes, "SCENE,...", "Scenes to run, S1 to S7 or files (default: all)");
   line.list("--method", options.methods, "NAME,...", "Methods to compare (default: all)");
   line.whole("--seeds", options.seeds, {1, 100000}, "N", "Seeds of each scene (default: 5 to 200, see --list)");

@@ -38,7 +38,7 @@ MethodInfo methodInfo(const std::string &id)
        "The same path, tracked by direct trajectories and replanned on the fly when something was seen.", "#2ca02c"},
   };
   const auto found = std::find_if(all.begin(), all.end(), [&](const MethodInfo &m) { return m.id == id; });
-  return found != all.end() ? *found : MethodInfo{id, "", id, "", "#9467bd"};
+  return found != all.end() ? *found : MethodInfo{id, "plug-in", id, vpAvoidanceMethodMessage(id), "#9467bd"};
 }
 
 const std::vector<SceneInfo> &standardScenes()
@@ -87,7 +87,7 @@ bool endsWith(const std::string &text, const std::string &end)
 
 std::vector<std::string> chooseMethods(const std::vector<std::string> &asked)
 {
-  const std::vector<std::string> &known = vpAvoidanceMethodNames();
+  const std::vector<std::string> known = vpAvoidanceMethodNames();
   for (const std::string &name : asked) {
     if (std::find(known.begin(), known.end(), name) == known.end()) {
       throw vpApp::UsageError("--method: unknown method \"" + name + "\"; known are " + vpApp::enumerate(known));

@@ -10,6 +10,7 @@
 #include "dataFile.h"
 #include "lineReader.h"
 #include "outputFile.h"
+#include "plugin.h"
 
 #include <filesystem>
 #include <iostream>
@@ -61,6 +62,7 @@ struct Options {
 bool readOptions(int argc, const char *const *argv, Options &options)
 {
   vpApp::CommandLine line("visp-plan-trajectory", ABOUT, EXAMPLES);
+  vpApp::addPluginOption(line, "motion forms");
   line.text("FILE", options.file, " ", "Problems, one JSON object a line; - for standard input");
   line.text("--csv", options.csv, "FILE", "Write t, q, v, a, j of every control cycle");
   line.text("--plot", options.plot, "FILE.svg|png",

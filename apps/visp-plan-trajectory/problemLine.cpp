@@ -6,6 +6,9 @@
 
 #include "jsonReader.h"
 
+#include <visp3/core/vpException.h>
+#include <visp3/trajectory/vpMotionForm.h>
+
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -149,6 +152,14 @@ void readSpec(JsonObject &object, vpTrajectorySpec &spec)
   readWord(object, "late", spec.lateArrival,
            {{"Extend", vpLateArrival::Extend}, {"ExceedLimits", vpLateArrival::ExceedLimits}});
   spec.cruise = object.flag("cruise", spec.cruise);
+  if (object.has("form")) {
+    try {
+      spec.form = vpMotionForm::find(object.text("form"));
+    }
+    catch (const vpException &error) {
+      throw object.error(error.getStringMessage());
+    }
+  }
   readGroups(object, spec);
 }
 

@@ -1,13 +1,15 @@
 /*! \example tutorial-own-law.cpp
- * Write your own servo law, check its guarantee, and run it: a camera on four axes (a gantry, a drone) that can
- * translate freely and turn about the vertical, but neither tilt nor roll.
+ * Check the guarantee of a servo law of your own, level-law.cpp, and run it.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include <visp3/core/vpExponentialMap.h>
 #include <visp3/core/vpUniRand.h>
+#include <visp3/direct_core/vpPlugin.h>
 #include <visp3/feedforward/vpServoLaw.h>
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
@@ -16,35 +18,12 @@ VISP_DIRECT_USING_NAMESPACE
 
 namespace
 {
-//! [Error]
-// Error that the law drives to zero: camera position in the desired camera frame (m), and yaw about the y axis (rad).
+// The error once more, from ViSP's products: what the law promises to drive to zero.
 Eigen::Vector4d errorOf(const vpHomogeneousMatrix &cMo, const vpHomogeneousMatrix &cdMo)
 {
-  using Pose = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>; // ViSP's own products would allocate
-  const Pose o(cMo.data), d(cdMo.data);
-  const Eigen::Matrix3d cdRc = d.topLeftCorner<3, 3>() * o.topLeftCorner<3, 3>().transpose();
-  const Eigen::Vector3d cdtc = d.topRightCorner<3, 1>() - cdRc * o.topRightCorner<3, 1>();
-  return {cdtc.x(), cdtc.y(), cdtc.z(), std::atan2(cdRc(0, 2), cdRc(2, 2))};
+  const vpHomogeneousMatrix cdMc = cdMo * cMo.inverse();
+  return {cdMc[0][3], cdMc[1][3], cdMc[2][3], std::atan2(cdMc[0][2], cdMc[2][2])};
 }
-//! [Error]
-//! [Law]
-class LevelLaw : public vpServoLaw
-{
-public:
-  explicit LevelLaw(const vpServoGains &gains = {}) : vpServoLaw("level", gains) {}
-
-protected:
-  // The base class has checked the measurement: valid, finite, fits the goal. Do not throw or allocate here.
-  vpServoCommand compute(const vpServoMeasurement &seen, double /*dt*/) noexcept override
-  {
-    const Eigen::Vector4d e = errorOf(seen.cMo, m_goal.cdMo);
-    const Eigen::Vector3d v = -m_gains.lambda * e.head<3>(); // along the axes of the desired camera;
-    const double c = std::cos(e(3)), s = std::sin(e(3));     // rotated into the current frame below
-    const double wy = -m_gains.lambda * m_gains.rotation * e(3);
-    return {vpTwist(c * v.x() - s * v.z(), v.y(), s * v.x() + c * v.z(), 0., wy, 0.), vpServoStatus::Servoing};
-  }
-};
-//! [Law]
 } // namespace
 
 int main()
@@ -54,8 +33,11 @@ int main()
   goal.points = {{0., 0., 0.5}}; // at least one; this law uses only the pose
   vpServoGains gains;
   gains.rotation = 2.; // yaw twice as fast as the rest
-  LevelLaw law(gains);
-  law.setGoal(goal);
+  //! [Create]
+  vispDirectPlugin(); // here it is part of the program; programs call it in the library of --plugin
+  const auto law = vpServoLaw::create("level", gains);
+  law->setGoal(goal);
+  //! [Create]
   const Eigen::Vector4d k(gains.lambda, gains.lambda, gains.lambda, gains.lambda * gains.rotation);
 
   //! [Check]
@@ -67,7 +49,7 @@ int main()
   for (int i = 0; i < 1000; ++i) {
     seen.cMo = vpHomogeneousMatrix(random.uniform(-1., 1.), random.uniform(-1., 1.), random.uniform(0.2, 2.), 0.,
                                    random.uniform(-3., 3.), 0.);
-    const vpColVector v = law.step(seen, 0.01).v.toColVector();
+    const vpColVector v = law->step(seen, 0.01).v.toColVector();
     const auto at = [&](double t) { return errorOf(vpExponentialMap::direct(v, t).inverse() * seen.cMo, goal.cdMo); };
     const Eigen::Vector4d derivative = (at(1e-5) - at(-1e-5)) / 2e-5;
     worst = std::max(worst, (derivative + k.cwiseProduct(errorOf(seen.cMo, goal.cdMo))).cwiseAbs().maxCoeff());
@@ -82,7 +64,7 @@ int main()
   for (double t = 0.; t < 5.; t += 0.02) {
     const Eigen::Vector4d promised = start.array() * (-t * k.array()).exp();
     plot << t << ' ' << errorOf(seen.cMo, goal.cdMo).transpose() << ' ' << promised.transpose() << '\n';
-    seen.cMo = vpExponentialMap::direct(law.step(seen, 0.02).v.toColVector(), 0.02).inverse() * seen.cMo;
+    seen.cMo = vpExponentialMap::direct(law->step(seen, 0.02).v.toColVector(), 0.02).inverse() * seen.cMo;
   }
   //! [Run]
   plot << "end\nset terminal pngcairo size 800,480; set output 'tutorial-own-law.png'\n"

@@ -6,6 +6,7 @@
 
 #include "vpFieldCheck.h"
 #include "vpPairText.h"
+#include "vpRegistry.h"
 
 #include <visp3/avoidance/vpAvoidanceMethods.h>
 #include <visp3/avoidance/vpDirectTrajectoryAvoidance.h>
@@ -13,9 +14,9 @@
 #include <visp3/avoidance/vpPotentialFieldAvoidance.h>
 #include <visp3/core/vpException.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
+#include <memory>
+#include <utility>
 
 BEGIN_VISP_NAMESPACE
 
@@ -25,17 +26,51 @@ constexpr vpFieldCheck fields("the avoidance method");
 // rad/s or m/s: a braking arm slower than this counts as standing.
 constexpr double standing = 1e-3;
 
-//! Names and sentences of all methods.
-struct Known {
-  const char *name, *sentence;
+struct Methods : vpRegistry<vpAvoidanceMethodMaker> {
+  Methods() : vpRegistry("avoidance method")
+  {
+    const auto field = [](vpFieldForm form) {
+      return [form](const vpCollisionScene &scene, const vpAvoidanceMethodSpec &spec) {
+        vpPotentialFieldAvoidanceSpec full;
+        full.common = spec;
+        full.form = form;
+        return std::make_unique<vpPotentialFieldAvoidance>(scene, full);
+      };
+    };
+    const auto direct = [](vpDetourKind detour) {
+      return [detour](const vpCollisionScene &scene, const vpAvoidanceMethodSpec &spec) {
+        vpDirectTrajectoryAvoidanceSpec full;
+        full.common = spec;
+        full.detour = detour;
+        return std::make_unique<vpDirectTrajectoryAvoidance>(scene, full);
+      };
+    };
+    const auto planned = [](vpReplanning replanning) {
+      return [replanning](const vpCollisionScene &scene, const vpAvoidanceMethodSpec &spec) {
+        vpPlannedMotionSpec full;
+        full.common = spec;
+        full.replanning = replanning;
+        return std::make_unique<vpPlannedMotion>(scene, full);
+      };
+    };
+    add("potential", "is pushed aside in the image, as the thesis prints it (8.1)-(8.2): touches and overshoots",
+        field(vpFieldForm::Thesis));
+    add("potential-corrected", "is pushed away from the obstacle, within bounds of speed and joints",
+        field(vpFieldForm::Corrected));
+    add("dtg", "takes another final position beside the obstacle until the way to the goal is free",
+        direct(vpDetourKind::PointToPoint));
+    add("dtg-via", "takes via positions round the obstacle, the shortest way first", direct(vpDetourKind::Via));
+    add("planner", "brakes, and replans at rest", planned(vpReplanning::FromRest));
+    add("planner-dtg", "replans from the moving state, and brakes only if there is no way",
+        planned(vpReplanning::OnTheFly));
+  }
 };
-constexpr std::array<Known, 6> known{
-    {{"potential", "is pushed aside in the image, as the thesis prints it (8.1)-(8.2): touches and overshoots"},
-     {"potential-corrected", "is pushed away from the obstacle, within bounds of speed and joints"},
-     {"dtg", "takes another final position beside the obstacle until the way to the goal is free"},
-     {"dtg-via", "takes via positions round the obstacle, the shortest way first"},
-     {"planner", "brakes, and replans at rest"},
-     {"planner-dtg", "replans from the moving state, and brakes only if there is no way"}}};
+
+Methods &methods()
+{
+  static Methods all; // at first use: static objects elsewhere may add methods
+  return all;
+}
 } // namespace
 
 void vpAvoidanceMethodSpec::validate() const
@@ -152,50 +187,23 @@ std::string vpMessage(const vpAvoidanceOutput &output, const vpCollisionScene &s
   return plain.substr(0, colon + 1) + where + vpPairText(scene, output.pair, margin) + ".";
 }
 
-const std::vector<std::string> &vpAvoidanceMethodNames()
-{
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all;
-    for (const Known &method : known) {
-      all.emplace_back(method.name);
-    }
-    return all;
-  }();
-  return names;
-}
+std::vector<std::string> vpAvoidanceMethodNames() { return methods().ids(); }
 
-const char *vpAvoidanceMethodMessage(const std::string &name) noexcept
+std::string vpAvoidanceMethodMessage(const std::string &name) { return methods().sentence(name); }
+
+void vpAddAvoidanceMethod(const std::string &name, const std::string &sentence, vpAvoidanceMethodMaker maker)
 {
-  const auto found = std::find_if(known.begin(), known.end(), [&name](const Known &m) { return name == m.name; });
-  return found == known.end() ? "" : found->sentence;
+  methods().add(name, sentence, std::move(maker));
 }
 
 std::unique_ptr<vpAvoidanceMethod> vpMakeAvoidanceMethod(const std::string &name, const vpCollisionScene &scene,
                                                          const vpAvoidanceMethodSpec &spec)
 {
-  if (name == "planner" || name == "planner-dtg") {
-    vpPlannedMotionSpec full;
-    full.common = spec;
-    full.replanning = name == "planner-dtg" ? vpReplanning::OnTheFly : vpReplanning::FromRest;
-    return std::make_unique<vpPlannedMotion>(scene, full);
+  std::unique_ptr<vpAvoidanceMethod> method = methods().find(name)(scene, spec);
+  if (!method) {
+    throw vpException(vpException::badValue, "the maker of avoidance method \"%s\" returned none", name.c_str());
   }
-  if (name == "potential" || name == "potential-corrected") {
-    vpPotentialFieldAvoidanceSpec full;
-    full.common = spec;
-    full.form = name == "potential" ? vpFieldForm::Thesis : vpFieldForm::Corrected;
-    return std::make_unique<vpPotentialFieldAvoidance>(scene, full);
-  }
-  if (name == "dtg" || name == "dtg-via") {
-    vpDirectTrajectoryAvoidanceSpec full;
-    full.common = spec;
-    full.detour = name == "dtg" ? vpDetourKind::PointToPoint : vpDetourKind::Via;
-    return std::make_unique<vpDirectTrajectoryAvoidance>(scene, full);
-  }
-  std::string names;
-  for (const std::string &other : vpAvoidanceMethodNames()) {
-    names += (names.empty() ? "" : ", ") + other;
-  }
-  throw vpException(vpException::badValue, "unknown avoidance method '%s', known are %s", name.c_str(), names.c_str());
+  return method;
 }
 
 END_VISP_NAMESPACE

@@ -5,6 +5,7 @@
 #include <visp3/avoidance/vpPathPlanner.h>
 
 #include "vpPairText.h"
+#include "vpPathPlanners.h"
 
 #include <visp3/avoidance/vpCertifiedMotion.h>
 #include <visp3/avoidance/vpDiscreteMotion.h>
@@ -180,26 +181,6 @@ template <class Planner> ob::PlannerPtr withRange(const ob::SpaceInformationPtr 
   return planner;
 }
 
-ob::PlannerPtr makePlanner(const vpPathPlannerSpec &spec, const ob::SpaceInformationPtr &si)
-{
-  if (spec.planner == "RRT") {
-    return withRange<og::RRT>(si, spec.range);
-  }
-  if (spec.planner == "RRTstar") {
-    return withRange<og::RRTstar>(si, spec.range);
-  }
-  if (spec.planner == "KPIECE") {
-    return withRange<og::KPIECE1>(si, spec.range);
-  }
-  if (spec.planner == "PRM") {
-    return std::make_shared<og::PRM>(si);
-  }
-  if (spec.planner == "BITstar") {
-    return std::make_shared<og::BITstar>(si);
-  }
-  return withRange<og::RRTConnect>(si, spec.range);
-}
-
 // OMPL's seeds come from one process-wide generator.
 std::mutex &seedLock()
 {
@@ -256,6 +237,27 @@ vpJointPath pathOf(const og::PathGeometric &path, int n)
   return result;
 }
 } // namespace
+
+std::shared_ptr<ob::Planner> vpOwnPathPlanner(const std::string &name, const std::shared_ptr<ob::SpaceInformation> &si,
+                                              const vpPathPlannerSpec &spec)
+{
+  if (name == "RRT") {
+    return withRange<og::RRT>(si, spec.range);
+  }
+  if (name == "RRTstar") {
+    return withRange<og::RRTstar>(si, spec.range);
+  }
+  if (name == "KPIECE") {
+    return withRange<og::KPIECE1>(si, spec.range);
+  }
+  if (name == "PRM") {
+    return std::make_shared<og::PRM>(si);
+  }
+  if (name == "BITstar") {
+    return std::make_shared<og::BITstar>(si);
+  }
+  return withRange<og::RRTConnect>(si, spec.range);
+}
 
 class vpPathPlanner::Impl
 {
@@ -314,7 +316,10 @@ public:
       objective->setCostThreshold(ob::Cost(std::numeric_limits<double>::infinity()));
     }
     problem->setOptimizationObjective(objective);
-    const ob::PlannerPtr planner = makePlanner(spec, si);
+    const ob::PlannerPtr planner = vpPathPlanners().find(spec.planner)(si, spec);
+    if (!planner) {
+      throw vpException(vpException::badValue, "the maker of path planner \"%s\" returned none", spec.planner.c_str());
+    }
     planner->setProblemDefinition(problem);
     planner->setup();
     const auto begin = Clock::now();
@@ -333,7 +338,32 @@ public:
       result.path = pathOf(path, n);
     }
     result.motions = static_cast<long>(motions->getValidMotionCount() + motions->getInvalidMotionCount());
-    result.status = exact ? vpPathStatus::Solved : vpPathStatus::TimedOut;
+    result.status = !exact                             ? vpPathStatus::TimedOut
+                    : isFree(result.path, start, goal) ? vpPathStatus::Solved
+                                                       : vpPathStatus::NotFree;
+    if (result.status == vpPathStatus::NotFree) {
+      result.path.points.clear();
+    }
+  }
+
+  //! The whole path once more: a planner that was added may have left out checks. Either direction may have been checked.
+  bool isFree(const vpJointPath &path, const vpJointVector &start, const vpJointVector &goal)
+  {
+    bool free = path.points.size() > 1 && (path.points.front() - start).norm() < 1e-9 &&
+                (path.points.back() - goal).norm() < 1e-9;
+    for (std::size_t i = 1; i < path.points.size() && free; ++i) {
+      const vpJointVector &a = path.points[i - 1], &b = path.points[i];
+      free = check->motion(a, b).isFree() || check->motion(b, a).isFree();
+    }
+    return free;
+  }
+
+  [[nodiscard]] std::string messageOf(vpPathStatus status) const
+  {
+    return status == vpPathStatus::Solved ? "A path was found."
+           : status == vpPathStatus::NotFree
+               ? spec.planner + " returned a path that is not free; it is not used."
+               : spec.planner + " found no path in " + limits() + "; that does not mean that there is none.";
   }
 
   //! Description of a search, for messages.
@@ -395,10 +425,7 @@ vpPathResult vpPathPlanner::plan(const vpJointVector &start, const vpJointVector
     return result;
   }
   m_impl->search(from, to, result);
-  result.message =
-      result.status == vpPathStatus::Solved
-          ? "A path was found."
-          : m_impl->spec.planner + " found no path in " + m_impl->limits() + "; that does not mean that there is none.";
+  result.message = m_impl->messageOf(result.status);
   return result;
 }
 

@@ -3,10 +3,17 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include "vpMissingLibrary.h"
+#include "vpPathPlanners.h"
 
 #include <visp3/avoidance/vpPathPlanner.h>
 
 BEGIN_VISP_NAMESPACE
+
+std::shared_ptr<ompl::base::Planner>
+vpOwnPathPlanner(const std::string &, const std::shared_ptr<ompl::base::SpaceInformation> &, const vpPathPlannerSpec &)
+{
+  vpMissingLibrary("vpPathPlanner", "OMPL");
+}
 
 class vpPathPlanner::Impl
 {

@@ -382,7 +382,7 @@ TEST_CASE("Names and parameters of methods are checked", "[methods]")
 {
   const vpCollisionScene scene(amor());
   CHECK_THROWS_WITH(vpMakeAvoidanceMethod("teleport", scene),
-                    Catch::Contains("unknown avoidance method 'teleport', known are potential, potential-corrected"));
+                    Catch::Contains("avoidance method \"teleport\" is unknown, known are: potential, potential-corrected"));
   vpAvoidanceMethodSpec spec;
   spec.maxVelocity = 0.;
   for (const std::string &name : vpAvoidanceMethodNames()) {

@@ -262,7 +262,7 @@ TEST_CASE("What cannot be planned is said", "[planner]")
   spec.planner = "RRTX";
   CHECK_THROWS_WITH(
       vpPathPlanner(scene, spec),
-      Catch::Contains("unknown path planner 'RRTX', known are RRT, RRTConnect, RRTstar, PRM, BITstar, KPIECE"));
+      Catch::Contains("path planner \"RRTX\" is unknown, known are: RRT, RRTConnect, RRTstar, PRM, BITstar, KPIECE"));
   spec = vpPathPlannerSpec();
   spec.margin = -0.1;
   CHECK_THROWS_WITH(vpPathPlanner(scene, spec), Catch::Contains("margin of the path planner is -0.1, must be >= 0"));

@@ -156,5 +156,5 @@ TEST_CASE("Parameters of the planned motion are checked", "[planned]")
   CHECK_THROWS_WITH(vpPlannedMotion(scene, spec), Catch::Contains("clearance of the planned motion is -1"));
   spec = {};
   spec.planner = "A*";
-  CHECK_THROWS_WITH(vpPlannedMotion(scene, spec), Catch::Contains("unknown path planner 'A*'"));
+  CHECK_THROWS_WITH(vpPlannedMotion(scene, spec), Catch::Contains("path planner \"A*\" is unknown"));
 }

@@ -57,6 +57,8 @@ const char *vpToString(vpTrajectoryForm form)
     return "StopAndGo";
   case vpTrajectoryForm::Vias:
     return "Vias";
+  case vpTrajectoryForm::Own:
+    return "Own";
   }
   return "";
 }

@@ -6,6 +6,8 @@
 
 #include "vpLimitCheck.h"
 
+#include <visp3/trajectory/vpMotionForm.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -448,6 +450,9 @@ vpTrajectoryPlanner &vpTrajectoryPlanner::operator=(const vpTrajectoryPlanner &o
 vpTrajectoryStatus vpTrajectoryPlanner::plan(const vpTrajectoryProblem &problem, double floor,
                                              vpTrajectoryPlan &plan) noexcept
 {
+  if (problem.spec.form != nullptr && problem.spec.form->isValid(problem, floor, plan)) {
+    return {vpTrajectoryResult::Working, vpTrajectoryFault::None, -1, 0.};
+  }
   Impl &d = *m_impl;
   plan.clear();
   d.begin();

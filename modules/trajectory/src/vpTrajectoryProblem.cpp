@@ -19,7 +19,7 @@ bool operator==(const vpTrajectorySpec &a, const vpTrajectorySpec &b)
     return x.axes == y.axes && x.maxSpeed == y.maxSpeed && x.maxAcceleration == y.maxAcceleration;
   };
   return a.continuity == b.continuity && a.policy == b.policy && a.synchronisation == b.synchronisation &&
-         a.method == b.method && a.lateArrival == b.lateArrival && a.cruise == b.cruise &&
+         a.method == b.method && a.lateArrival == b.lateArrival && a.cruise == b.cruise && a.form == b.form &&
          a.arrivalTime == b.arrivalTime && a.minimumDuration == b.minimumDuration && a.freeze == b.freeze &&
          a.replanPeriod == b.replanPeriod && a.thesisVelocityGain == b.thesisVelocityGain &&
          a.thesisAccelerationGain == b.thesisAccelerationGain && a.thesisStepsPerCycle == b.thesisStepsPerCycle &&

@@ -7,6 +7,7 @@
 
 #include <visp3/avoidance/vpAvoidanceMethod.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,11 +15,30 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_avoidance
-//! \brief Method names for vpMakeAvoidanceMethod().
-[[nodiscard]] VISP_EXPORT const std::vector<std::string> &vpAvoidanceMethodNames();
+//! \brief Makes a method for a scene, which outlives it. May throw; may be called by several threads at once.
+using vpAvoidanceMethodMaker =
+    std::function<std::unique_ptr<vpAvoidanceMethod>(const vpCollisionScene &scene, const vpAvoidanceMethodSpec &spec)>;
+
 //! \ingroup group_avoidance
-//! Describes how the named method reacts to obstacles, for menus; static text, empty for an unknown name.
-[[nodiscard]] VISP_EXPORT const char *vpAvoidanceMethodMessage(const std::string &name) noexcept;
+//! \brief Method names for vpMakeAvoidanceMethod(): ours, then those added.
+[[nodiscard]] VISP_EXPORT std::vector<std::string> vpAvoidanceMethodNames();
+//! \ingroup group_avoidance
+//! \brief How the named method reacts to obstacles, for menus. \throw vpException (badValue) as vpMakeAvoidanceMethod().
+[[nodiscard]] VISP_EXPORT std::string vpAvoidanceMethodMessage(const std::string &name);
+/*!
+ * \ingroup group_avoidance
+ * Adds a method of your own, for vpMakeAvoidanceMethod() and all programs. Any thread; cannot be undone, so a library that
+ * holds the maker must stay loaded. Its motions are its own responsibility: vpStopSupervisor, behind it, stops the arm before
+ * obstacles.
+ * \param name : A letter and up to 63 more letters, digits, `-` or `_`.
+ * \param sentence : How it reacts to obstacles, one printable line.
+ * \param maker : Returns a new method each time; planned motions with a planner of your own are
+ *   vpPlannedMotionSpec::planner.
+ * \throw vpException (badValue) naming the method, when the name is malformed or used already, or the sentence or maker is
+ * empty.
+ */
+VISP_EXPORT void vpAddAvoidanceMethod(const std::string &name, const std::string &sentence,
+                                      vpAvoidanceMethodMaker maker);
 
 /*!
  * \ingroup group_avoidance
@@ -27,7 +47,7 @@ BEGIN_VISP_NAMESPACE
  * \param scene : Must outlive the method.
  * \param spec : Parameters common to all methods.
  * \throw vpException (badValue) naming an unknown method and the known ones, or a field out of range;
- * (notImplementedError) for planners if built without OMPL.
+ * (notImplementedError) for planners if built without OMPL; whatever the maker of an added method throws.
  */
 [[nodiscard]] VISP_EXPORT std::unique_ptr<vpAvoidanceMethod>
 vpMakeAvoidanceMethod(const std::string &name, const vpCollisionScene &scene, const vpAvoidanceMethodSpec &spec = {});

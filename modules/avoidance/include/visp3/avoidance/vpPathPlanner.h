@@ -12,8 +12,19 @@
 #include <visp3/avoidance/vpCollisionScene.h>
 #include <visp3/avoidance/vpJointPath.h>
 
+#include <functional>
 #include <memory>
 #include <string>
+#include <vector>
+
+namespace ompl
+{
+namespace base
+{
+class Planner;
+class SpaceInformation;
+} // namespace base
+} // namespace ompl
 
 BEGIN_VISP_NAMESPACE
 
@@ -58,6 +69,7 @@ enum class vpPathStatus {
   GoalInCollision,  //!< At the goal the arm is nearer to an obstacle, the ground or itself than the margin.
   OutsideLimits,    //!< Start or goal is outside the position limits.
   TimedOut,         //!< No path was found in time; one may still exist.
+  NotFree,          //!< A planner of the user's own returned a path that does not pass the check of motions.
   BadInput          //!< A configuration of the wrong size or not finite.
 };
 
@@ -88,8 +100,27 @@ struct VISP_EXPORT vpPathResult {
 class VISP_EXPORT vpPathPlanner
 {
 public:
-  //! Names of the planners: RRT, RRTConnect, RRTstar, PRM, BITstar, KPIECE.
-  [[nodiscard]] static const std::vector<std::string> &names();
+  /*!
+   * Makes a planner of OMPL for a space of joints that has the checks of states and motions; its problem is set afterwards.
+   * Called once for each search, by any thread, but never twice at the same time.
+   */
+  using Maker = std::function<std::shared_ptr<ompl::base::Planner>(
+      const std::shared_ptr<ompl::base::SpaceInformation> &space, const vpPathPlannerSpec &spec)>;
+
+  //! Names of the planners: RRT, RRTConnect, RRTstar, PRM, BITstar, KPIECE, then those added.
+  [[nodiscard]] static std::vector<std::string> names();
+  //! How a planner works, one sentence. \throw vpException (badValue) naming the unknown planner and the known ones.
+  [[nodiscard]] static std::string sentence(const std::string &name);
+  /*!
+   * Adds a planner of your own, for vpPathPlannerSpec::planner. Any thread; cannot be undone, so a library that holds the
+   * maker must stay loaded. Its paths are checked as a whole before they are used: NotFree.
+   * \param name : A letter and up to 63 more letters, digits, `-` or `_`.
+   * \param sentence : How it works, one printable line.
+   * \param maker : Uses the same OMPL as visp-direct.
+   * \throw vpException (badValue) naming the planner, when the name is malformed or used already, or the sentence or maker
+   * is empty.
+   */
+  static void add(const std::string &name, const std::string &sentence, Maker maker);
 
   /*!
    * \param scene : Must outlive the planner.
@@ -105,7 +136,7 @@ public:
   vpPathPlanner &operator=(const vpPathPlanner &) = delete;
 
   //! Plans from \e start to \e goal (n numbers each, rad or m). A value beyond a position limit L by at most
-  //! 1e-9 max(1, |L|) counts as at the limit. Allocates.
+  //! 1e-9 max(1, |L|) counts as at the limit. Allocates. \throw whatever the maker of an added planner throws.
   [[nodiscard]] vpPathResult plan(const vpJointVector &start, const vpJointVector &goal);
   //! Sets the maximum planning time, s; values that are not > 0 are ignored.
   void setTimeLimit(double seconds) noexcept;

@@ -24,7 +24,8 @@ enum class vpTrajectoryForm {
   Cruise,    //!< Ramp, constant velocity, ramp.
   Ramped,    //!< Acceleration ramps around a polynomial: no single polynomial keeps the limits.
   StopAndGo, //!< Stop, move, accelerate to the final velocity: keeps position and group limits when no other form does.
-  Vias       //!< Via by via, because no single duration keeps the limits over all of them.
+  Vias,      //!< Via by via, because no single duration keeps the limits over all of them.
+  Own        //!< A form that a user added: vpMotionForm.
 };
 
 //! \ingroup group_trajectory

@@ -18,6 +18,8 @@
 
 BEGIN_VISP_NAMESPACE
 
+class vpMotionForm;
+
 //! \ingroup group_trajectory
 //! \brief Highest derivative that is continuous across replans (6.2, "trajectory type").
 enum class vpTrajectoryContinuity {
@@ -91,6 +93,7 @@ struct VISP_EXPORT vpTrajectorySpec {
    * that has no feasible time. For C2; a group that moves at the start or the goal bends into its constant velocity.
    */
   bool cruise = true;
+  const vpMotionForm *form = nullptr; //!< Form of the user's own, tried first: vpMotionForm::find(); null: none.
   double arrivalTime = 0.;     //!< FixedArrival: arrival time, s from the event that set it, > 0.
   double minimumDuration = 0.; //!< Minimum duration of a plan, s, >= 0; the minimum of KeepArrival.
   double freeze = 0.05;        //!< Within this time before arrival a plan is recomputed for a new goal only, s, >= 0.
