@@ -149,3 +149,18 @@ TEST_CASE("A scene of one's own, on drives with friction", "[visp-plan-compare]"
   CHECK(run("--scene empty.json --out none") == 1);
   CHECK(run.err().find("empty.json: tasks is empty, there is nothing to compare") != std::string::npos);
 }
+
+TEST_CASE("A method of a plug-in runs beside ours", "[visp-plan-compare][plugin]")
+{
+  ProgramRun run(PLAN_COMPARE);
+  const std::string plugin = std::string("--plugin '") + PLUGIN + "' ";
+  REQUIRE(run(plugin + "--list") == 0);
+  CHECK(run.out().find("plug-in again: does what dtg does, from a plug-in\n") != std::string::npos);
+  const int status = run(plugin + "--scene S1 --seeds 1 --method again,dtg --out result");
+  CAPTURE(run.err());
+  REQUIRE(status == 0);
+  CHECK(vpApp::readFile(run.path("result/log/S1-again.csv")) == vpApp::readFile(run.path("result/log/S1-dtg.csv")));
+  CHECK(vpApp::readFile(run.path("result/report.html")).find("does what dtg does, from a plug-in") !=
+        std::string::npos);
+  CHECK(run("--method again") == 2);
+}

@@ -179,3 +179,24 @@ TEST_CASE("Samples are written with all their digits", "[visp-plan-trajectory]")
   const json answer = json::parse(run.out());
   CHECK(std::stod(last) == answer["duration"].get<double>());
 }
+
+TEST_CASE("A form of a plug-in is used where it keeps the limits", "[visp-plan-trajectory][plugin]")
+{
+  ProgramRun run(PLAN_TRAJECTORY);
+  const std::string rest = R"("q1": [0.5, 0.2], "v_max": [0.5, 1], "a_max": [1, 2]})";
+  run.write("p.jsonl", "{" + rest + "\n" + R"({"form": "slow", )" + rest + "\n" + R"({"form": "hasty", )" + rest);
+  REQUIRE(run(std::string("p.jsonl --plugin '") + PLUGIN + "'") == OK);
+  const std::vector<json> list = answers(run.out());
+  REQUIRE(list.size() == 3);
+  CHECK(list[1]["plans"][0]["form"] == "Own");
+  CHECK(list[1]["duration"].get<double>() == Approx(4.));
+  CHECK(list[2] == [&] { // ours, as without a form
+    json same = list[0];
+    same["line"] = list[2]["line"];
+    return same;
+  }());
+
+  run.write("p.jsonl", R"({"form": "slow", )" + rest);
+  CHECK(run("p.jsonl") == DATA);
+  CHECK(run.err().find("p.jsonl:1: motion form \"slow\" is unknown, there is none") != std::string::npos);
+}

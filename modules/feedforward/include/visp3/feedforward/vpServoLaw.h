@@ -135,7 +135,8 @@ protected:
   virtual void goalChanged() {}
   //! Called by reset(): forget internal state.
   virtual void stateReset() {}
-  //! The law itself. The measurement is valid, finite, and has the goal's number of points. Must not throw or allocate.
+  //! The law itself. The measurement is valid, finite, and has the goal's number of points. Must not allocate; an
+  //! exception ends the process by std::terminate().
   virtual vpServoCommand compute(const vpServoMeasurement &measurement, double dt) noexcept = 0;
 
   std::string m_id;        //!< The id of the law.
