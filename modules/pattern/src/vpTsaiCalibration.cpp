@@ -291,7 +291,7 @@ vpCameraParameters vpTsaiCalibrationResult::toCamera() const
 }
 
 vpTsaiCalibration::vpTsaiCalibration(unsigned int width, unsigned int height, const vpTsaiCalibrationSpec &spec)
-  : m_width(width), m_height(height), m_spec(spec)
+  : m_width(width), m_spec(spec)
 {
   vpCheckCalibrationImage(width, height);
   spec.check();

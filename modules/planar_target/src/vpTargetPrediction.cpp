@@ -21,7 +21,7 @@ namespace
 constexpr int smallestSide = 16;  // of a texture, texels
 constexpr double texelSize = 0.6; // px
 constexpr double reach = 3.;      // deviations of the blur: of the kernel,
-constexpr double margin = 2.;     // and from the edge of the target, beyond half a pixel and another half
+constexpr double edge = 2.;       // and from the edge of the target, beyond half a pixel and another half
 constexpr int undistortSteps = 4; // fixed point; each gains a factor of 3 kud r^2
 
 using Lanes = Eigen::Array<float, vpTargetPrediction::lanes, 1>;
@@ -283,7 +283,7 @@ bool vpTargetPrediction::predict(const vpTargetTexture &texture, const vpRigidPo
 {
   const Kernel kernel(blur);
   // Beyond the kernel's reach the frame mixes with what is behind the target.
-  if (!findArea(pose, camera, size, 1. + margin * blur)) {
+  if (!findArea(pose, camera, size, 1. + edge * blur)) {
     return false;
   }
   const cv::Mat &level = texture.at(pose, camera);

@@ -262,7 +262,6 @@ TEST_CASE("wild numbers do not get through the shaper", "[shaper][wild]")
       }
     }
   }
-  vpTwistShaperLimits limits;
   vpWildNumbers::everyPlace(std::array<double, 4>{1., 10., 1., 10.}, [&](const auto &x, std::size_t, std::size_t) {
     vpTwistShaperLimits wild{x[0], x[1], x[2], x[3], true};
     try {

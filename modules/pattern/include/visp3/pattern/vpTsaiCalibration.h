@@ -120,7 +120,6 @@ private:
   void findWorstView(vpTsaiCalibrationResult &result) const;
 
   unsigned int m_width;
-  unsigned int m_height;
   vpTsaiCalibrationSpec m_spec;
   std::vector<std::vector<vpCalibrationPoint>> m_views;
 };
