@@ -5,6 +5,7 @@
 #include "commandLine.h"
 
 #include "appMain.h"
+#include "dataFile.h"
 #include "numberText.h"
 
 #include <CLI/CLI.hpp>
@@ -31,7 +32,7 @@ public:
   {
     std::string lines;
     std::size_t column = 0;
-    std::istringstream words(option->get_description());
+    std::istringstream words(withDataPaths(option->get_description()));
     for (std::string word; words >> word;) {
       if (column > 0 && column + 1 + word.size() > HELP_COLUMN) {
         lines += '\n'; // CLI11 indents what follows
@@ -130,7 +131,7 @@ CommandLine::CommandLine(const std::string &program, const std::string &about, c
   : m_app(std::make_unique<CLI::App>(about, program))
 {
   m_app->formatter(std::make_shared<HelpFormatter>());
-  m_app->footer(examples);
+  m_app->footer(withDataPaths(examples));
 }
 
 CommandLine::~CommandLine() = default;

@@ -48,7 +48,8 @@ class CommandLine
 public:
   using Reader = std::function<void(const std::vector<std::string> &values)>;
 
-  //! \param program : Its name. \param about : Above the options. \param examples : Below them.
+  //! \param program : Its name. \param about : Above the options. \param examples : Below them. Files data/NAME, here and
+  //! in the sentences of options, are printed as withDataPaths() finds them.
   CommandLine(const std::string &program, const std::string &about, const std::string &examples);
   ~CommandLine();
   CommandLine(const CommandLine &) = delete;

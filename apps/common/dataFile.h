@@ -21,6 +21,12 @@ namespace vpApp
  * \throw std::runtime_error naming the searched folders.
  */
 [[nodiscard]] std::string dataFile(const std::string &name);
+
+/*!
+ * A text for the user in which each data/NAME is replaced by the path of that file or folder, found as in dataFile():
+ * relative to the current folder if it is inside it, else absolute. A name that is not found stays as it is.
+ */
+[[nodiscard]] std::string withDataPaths(const std::string &text);
 } // namespace vpApp
 
 #endif

@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
+#include <regex>
 #include <stdexcept>
 #include <system_error>
 #include <vector>
@@ -41,6 +42,20 @@ std::vector<std::string> dataFolders()
   folders.push_back(VISP_DIRECT_SOURCE_DATA);
   return folders;
 }
+
+// data/NAME as the user reaches it from the current folder; unchanged when there is no such file or folder.
+std::string reachable(const std::string &name)
+{
+  std::error_code ignored;
+  for (const std::string &folder : dataFolders()) {
+    const std::filesystem::path file = std::filesystem::path(folder) / name;
+    if (std::filesystem::exists(file, ignored)) {
+      const std::string near = std::filesystem::proximate(file, ignored).string();
+      return near.empty() || near.rfind("..", 0) == 0 ? file.string() : near;
+    }
+  }
+  return "data/" + name;
+}
 } // namespace
 
 std::string dataFile(const std::string &name)
@@ -56,6 +71,18 @@ std::string dataFile(const std::string &name)
   }
   throw std::runtime_error("data file " + name + " is not in " + searched +
                            "; set VISP_DIRECT_DATA to the data folder of visp-direct");
+}
+
+std::string withDataPaths(const std::string &text)
+{
+  const std::regex word(R"((^|[^\w./-])data/([\w./-]*\w))");
+  std::string result;
+  auto rest = text.begin();
+  for (std::sregex_iterator found(text.begin(), text.end(), word), end; found != end; ++found) {
+    result.append(rest, (*found)[1].second).append(reachable((*found)[2]));
+    rest = (*found)[0].second;
+  }
+  return result.append(rest, text.end());
 }
 
 LineReader::LineReader(const std::string &file) : m_name(file == "-" ? "standard input" : file)

@@ -378,6 +378,26 @@ TEST_CASE("Data files are found, and a missing one is named", "[apps]")
   unsetenv("VISP_DIRECT_DATA");
 }
 
+TEST_CASE("Texts name data files as the user reaches them", "[apps]")
+{
+  const fs::path folder = fs::path(vpApp::dataFile("target/klimt.jpg")).parent_path().parent_path(),
+                 before = fs::current_path();
+  const std::string text =
+      "data/target/klimt.jpg, (see data/target). Not data/none.txt, mydata/target, /data/target, data/.";
+  const auto expected = [](const fs::path &from) {
+    return (from / "target/klimt.jpg").string() + ", (see " + (from / "target").string() +
+           "). Not data/none.txt, mydata/target, /data/target, data/.";
+  };
+  fs::current_path(folder / "robot"); // beside them
+  const std::string beside = vpApp::withDataPaths(text);
+  fs::current_path(folder.parent_path());
+  const std::string above = vpApp::withDataPaths(text);
+  fs::current_path(before);
+  CHECK(beside == expected(folder));
+  CHECK(above == expected(folder.filename()));
+  CHECK(vpApp::withDataPaths("").empty());
+}
+
 TEST_CASE("gnuplot draws a plot with awkward labels and gaps", "[apps]")
 {
   vpApp::Plot plot;
