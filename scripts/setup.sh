@@ -14,8 +14,8 @@ packages=(g++ cmake ninja-build libvisp-dev libopencv-dev libeigen3-dev libdlib-
 case ${CXX:-} in *clang*) packages+=(clang libomp-dev) ;; esac # ViSP is built with OpenMP
 # Real images for some tests, which are skipped if the images are missing. Documentation tools, as the documentation is also
 # a test: doxygen, and bibtex for the bibliography. Open MPI, for the program that can run on several processes.
-# MuJoCo, a second opinion on arms.
-test_packages=(visp-images-data opencv-doc doxygen texlive-binaries libopenmpi-dev openmpi-bin libmujoco-dev)
+# MuJoCo, a second opinion on arms. libabigail, for the test of the binary interface.
+test_packages=(visp-images-data opencv-doc doxygen texlive-binaries libopenmpi-dev openmpi-bin libmujoco-dev abigail-tools)
 
 # run LOG SENTENCE COMMAND...
 run() {
