@@ -7,10 +7,21 @@
 #ifndef vpPatternSimd_h
 #define vpPatternSimd_h
 
-#if defined(__x86_64__) && defined(__ELF__) && defined(__GNUC__) && !defined(__clang__) &&                             \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+// Sanitizers are not ready yet when the choice is made.
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define VISP_PATTERN_SANITIZED
+#endif
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define VISP_PATTERN_SANITIZED
+#endif
+#if defined(__x86_64__) && defined(__ELF__) && defined(__has_attribute) && !defined(VISP_PATTERN_SANITIZED)
+#if __has_attribute(target_clones)
 #define VISP_PATTERN_CLONES __attribute__((target_clones("avx2", "default")))
-#else
+#endif
+#endif
+#ifndef VISP_PATTERN_CLONES
 #define VISP_PATTERN_CLONES
 #endif
 

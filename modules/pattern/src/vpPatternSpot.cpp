@@ -19,8 +19,17 @@ namespace
 {
 constexpr int block = 64; // pixels
 
-#if defined(__SSE2__)
 // Bit i is set when pixel i is above the threshold, 0..255.
+[[maybe_unused]] std::uint64_t blockAboveAnywhere(const unsigned char *pixels, int threshold)
+{
+  std::uint64_t bits = 0;
+  for (int i = 0; i < block; ++i) {
+    bits |= static_cast<std::uint64_t>(pixels[i] > threshold) << i;
+  }
+  return bits;
+}
+
+#if defined(__SSE2__)
 std::uint64_t blockAbove(const unsigned char *pixels, int threshold)
 {
   const __m128i limit = _mm_set1_epi8(static_cast<char>(threshold));
@@ -33,14 +42,7 @@ std::uint64_t blockAbove(const unsigned char *pixels, int threshold)
   return ~bits;
 }
 #else
-std::uint64_t blockAbove(const unsigned char *pixels, int threshold)
-{
-  std::uint64_t bits = 0;
-  for (int i = 0; i < block; ++i) {
-    bits |= static_cast<std::uint64_t>(pixels[i] > threshold) << i;
-  }
-  return bits;
-}
+std::uint64_t blockAbove(const unsigned char *pixels, int threshold) { return blockAboveAnywhere(pixels, threshold); }
 #endif
 
 // Number of the lowest bit that is set; there must be one.
