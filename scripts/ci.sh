@@ -4,9 +4,10 @@ set -euo pipefail
 
 usage() {
   cat <<'TEXT'
-usage: scripts/ci.sh tests|style|sanitizers|documentation|packages|seeds
+usage: scripts/ci.sh tests|warnings|style|sanitizers|documentation|packages|seeds
 
   tests           everything, with a seed of the day (test.sh)
+  warnings        everything by GCC and by Clang, a warning is an error (presets gcc and clang)
   style           clang-format, and shellcheck on all scripts
   sanitizers      memory, damaged files, threads (scripts/sanitize.sh)
   documentation   doxygen without a warning, links, groups
@@ -22,7 +23,7 @@ case ${1:-} in
   usage
   exit 0
   ;;
-tests | style | sanitizers | documentation | packages | seeds) [ $# -eq 1 ] || { usage >&2; exit 2; } ;;
+tests | warnings | style | sanitizers | documentation | packages | seeds) [ $# -eq 1 ] || { usage >&2; exit 2; } ;;
 *)
   usage >&2
   exit 2
@@ -34,6 +35,13 @@ cd "$root"
 
 case $1 in
 tests) ./test.sh ;;
+warnings)
+  install_packages "${packages[@]}" "${test_packages[@]}" clang libomp-dev
+  for compiler in gcc clang; do
+    cmake --preset "$compiler"
+    cmake --build --preset "$compiler" --parallel "$(job_count)"
+  done
+  ;;
 style)
   install_packages clang-format shellcheck
   scripts/lint.sh format
