@@ -3,91 +3,19 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 // Public robots with meshes: covers first, exact shapes where they do not decide, and pairs from statistics.
-#include "vpCaseFile.h"
 #include "vpExactOracle.h"
+#include "vpMeshArms.h"
 
-#include <visp3/avoidance/vpArmCover.h>
 #include <visp3/avoidance/vpCertifiedMotion.h>
 #include <visp3/avoidance/vpCollisionSceneJson.h>
 #include <visp3/avoidance/vpExactChecker.h>
 #include <visp3/avoidance/vpPathPlanner.h>
 #include <visp3/avoidance/vpSelfCollisionStatistics.h>
-#include <visp3/manipulator/vpArmUrdf.h>
 #include <visp3/manipulator/vpSrdf.h>
 
-#include <filesystem>
 #include <iostream>
-#include <map>
 
-using namespace vpAvoidanceTestKit;
-
-namespace
-{
-struct Robot {
-  const char *name, *urdf, *srdf, *base, *tip;
-};
-const Robot panda = {"panda", "panda_description/urdf/panda.urdf", "panda_description/srdf/panda.srdf", "panda_link0",
-                     "panda_hand"};
-const Robot ur5 = {"ur5", "ur_description/urdf/ur5_robot.urdf", "ur_description/srdf/ur5.srdf", "base_link", "ee_link"};
-const Robot tiago = {"tiago", "tiago_description/robots/tiago_no_hand.urdf", "", "torso_lift_link", "arm_tool_link"};
-
-std::string fileOf(const std::string &name) { return vpTestSupport::caseFile("example-robot-data/robots/" + name); }
-
-//! VISP_DIRECT_LONG_TESTS=10 is the full number of poses and motions.
-int lengthOfTests() { return vpTestSupport::longer(1); }
-
-// The robot with three capsules a body, and its exact shapes; nothing where the public files are missing.
-struct Loaded {
-  std::unique_ptr<vpArmModel> arm;
-  std::shared_ptr<const vpExactShapes> exact;
-};
-
-Loaded read(const Robot &robot, double gap, int capsules)
-{
-  Loaded loaded;
-  const std::string file = fileOf(robot.urdf);
-  if (!file.empty()) {
-    vpArmUrdfSpec spec;
-    spec.base = robot.base;
-    spec.tip = robot.tip;
-    spec.srdf = *robot.srdf == '\0' ? "" : fileOf(robot.srdf);
-    spec.holdOthers = robot.urdf == tiago.urdf; // head, torso and wheels
-    if (robot.urdf == panda.urdf) {
-      spec.held = {{"panda_finger_joint1", gap}, {"panda_finger_joint2", gap}};
-    }
-    spec.acceleration = 10.;
-    spec.packagePaths = {vpTestSupport::caseFile("")};
-    vpArmCoverSpec cover;
-    cover.capsules = capsules;
-    cover.cacheFile =
-        (std::filesystem::temp_directory_path() / ("catchExactArms-covers-" + std::to_string(capsules) + ".json"))
-            .string();
-    loaded.arm = std::make_unique<vpArmModel>(vpCoverArm(vpLoadArmUrdf(file, spec), cover).arm);
-    loaded.exact = std::make_shared<vpExactShapes>(*loaded.arm);
-    CHECK(loaded.exact->warnings().empty());
-  }
-  return loaded;
-}
-
-const Loaded &load(const Robot &robot)
-{
-  static std::map<std::string, Loaded> known;
-  const auto found = known.find(robot.name);
-  return found != known.end() ? found->second : known.emplace(robot.name, read(robot, 0., 3)).first->second;
-}
-
-vpCollisionSceneSpec sceneOf(const Loaded &robot, std::mt19937_64 &rng, int objects)
-{
-  vpCollisionSceneSpec spec = randomScene(rng, objects, 1.);
-  for (vpCollisionObject &object : spec.objects) {
-    object.inflation = 0.;
-    object.pose.p += 0.3 * object.pose.p.normalized();
-  }
-  spec.ignoredBodies = robot.arm->spec().uncovered;
-  spec.exact = robot.exact;
-  return spec;
-}
-} // namespace
+using namespace vpMeshArms;
 
 TEST_CASE("A ball of 1 cm on the mesh of any link is seen", "[arms]")
 {

@@ -42,7 +42,16 @@ public:
     }
   }
 
-  //! True if a body touches an object that it must not touch, or another body that it must not touch. Surfaces only: not what is inside.
+  //! Takes the poses of the objects from a scene with the same ones.
+  void follow(const vpCollisionScene &scene)
+  {
+    for (int j = 0; j < scene.objectCount(); ++j) {
+      m_objects[index(j)].pose = scene.object(j).pose;
+    }
+  }
+
+  //! True if a body touches an object that it must not touch, or another body that it must not touch. Surfaces only:
+  //! not what is inside.
   [[nodiscard]] bool touches(const vpJointVector &q) const
   {
     vpArmData data;
