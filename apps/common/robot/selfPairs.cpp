@@ -78,6 +78,14 @@ std::string fingerprintOf(const vpArmSpec &arm)
       print.add(value);
     }
   }
+  for (const vpArmFollower &follower : arm.followers) {
+    print.add(static_cast<double>(follower.type));
+    print.add(follower.before);
+    print.add(follower.after);
+    for (const double value : {1. * follower.joint, follower.ratio, follower.offset, 1. * follower.place}) {
+      print.add(value);
+    }
+  }
   for (const vpArmBody &body : arm.bodies) {
     print.add(body.name);
     print.add(static_cast<double>(body.link));
@@ -129,20 +137,15 @@ vpSelfCollisionStatistics statisticsOf(const vpArmModel &arm, const std::shared_
 //! Checked pairs of bodies whose capsules come within the clearance that planners keep, in random configurations.
 std::set<std::pair<std::string, std::string>> nearPairs(const vpArmModel &arm)
 {
-  vpCollisionSceneSpec spec;
-  spec.ignoredBodies = arm.spec().uncovered;
-  const vpCollisionScene scene(arm, spec);
-  const auto name = [&](int capsule) {
-    const int body = arm.spec().capsules[static_cast<std::size_t>(capsule)].body;
-    return body < 0 ? std::string() : arm.spec().bodies[static_cast<std::size_t>(body)].name;
-  };
   std::set<std::pair<std::string, std::string>> pairs;
-  for (const vpSelfPairStatistics &statistics : vpSampleSelfPairs(scene, CAPSULE_SAMPLES)) {
-    if (statistics.least < CLEARANCE) {
-      const std::string first = name(statistics.pair.first), second = name(statistics.pair.second);
-      pairs.insert({first, second});
-      pairs.insert({second, first});
+  for (const vpBodyPairStatistics &pair : vpSampleBodyPairs(arm, nullptr, CAPSULE_SAMPLES).pairs) {
+    if (pair.least < CLEARANCE) {
+      pairs.insert({pair.first, pair.second});
     }
+  }
+  for (const auto &[first, second] : arm.spec().allowedBodies) {
+    pairs.erase({first, second});
+    pairs.erase({second, first});
   }
   return pairs;
 }

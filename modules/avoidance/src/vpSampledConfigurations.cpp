@@ -97,13 +97,6 @@ vpGoalConfiguration vpFindGoalConfiguration(const vpCollisionScene &scene, const
 
 namespace
 {
-void requireSamples(int samples)
-{
-  if (samples <= 0) {
-    throw vpException(vpException::badValue, "number of samples is %d, must be > 0", samples);
-  }
-}
-
 // The scene of an arm without objects and without allowed pairs of bodies.
 vpCollisionScene sceneOf(const vpArmModel &arm, const std::shared_ptr<const vpExactShapes> &exact)
 {
@@ -142,21 +135,31 @@ std::vector<BodyPair> bodyPairs(const vpCollisionScene &scene)
   return pairs;
 }
 
-bool areTouching(const vpCollisionScene &scene, const vpCollisionData &data, const BodyPair &pair, vpExactQuery &query)
+double leastOf(const vpCollisionScene &scene, const vpCollisionData &data, const BodyPair &pair)
 {
-  const bool capsules = std::any_of(pair.capsules.begin(), pair.capsules.end(), [&](const vpSelfPair &one) {
-    return !(scene.selfPair(data, one.first, one.second).distance > 0.);
-  });
+  double least = std::numeric_limits<double>::infinity();
+  for (const vpSelfPair &one : pair.capsules) {
+    least = std::min(least, scene.selfPair(data, one.first, one.second).distance);
+  }
+  return least;
+}
+
+//! \param capsules : Least clearance of their capsules.
+bool areTouching(const vpCollisionScene &scene, const vpCollisionData &data, const BodyPair &pair, double capsules,
+                 vpExactQuery &query)
+{
   constexpr double nearly = 1e-9; // m: more makes no difference
-  return capsules && (pair.exact.kind == vpCollisionKind::None ||
-                      query.clearance(scene, data, pair.exact, nearly, true).distance <= 0.);
+  return !(capsules > 0.) && (pair.exact.kind == vpCollisionKind::None ||
+                              query.clearance(scene, data, pair.exact, nearly, true).distance <= 0.);
 }
 } // namespace
 
 vpSelfCollisionStatistics vpSampleBodyPairs(const vpArmModel &arm, const std::shared_ptr<const vpExactShapes> &exact,
                                             int samples, unsigned int seed)
 {
-  requireSamples(samples);
+  if (samples <= 0) {
+    throw vpException(vpException::badValue, "number of samples is %d, must be > 0", samples);
+  }
   const vpCollisionScene scene = sceneOf(arm, exact);
   const std::vector<BodyPair> pairs = bodyPairs(scene);
   vpSelfCollisionStatistics result{arm.label(), samples, seed, {}};
@@ -165,37 +168,20 @@ vpSelfCollisionStatistics vpSampleBodyPairs(const vpArmModel &arm, const std::sh
   scene.place(vpJointVector::Zero(arm.size()).cwiseMax(arm.lower()).cwiseMin(arm.upper()), data);
   for (const BodyPair &pair : pairs) {
     const auto name = [&arm](int body) { return arm.spec().bodies[static_cast<std::size_t>(body)].name; };
-    result.pairs.push_back({name(pair.first), name(pair.second), 0, areTouching(scene, data, pair, query),
+    result.pairs.push_back({name(pair.first), name(pair.second), 0,
+                            areTouching(scene, data, pair, leastOf(scene, data, pair), query),
                             pair.exact.kind != vpCollisionKind::None});
   }
   std::mt19937_64 generator(seed);
   for (int k = 0; k < samples; ++k) {
     scene.place(randomConfiguration(arm, generator), data);
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-      result.pairs[i].touching += areTouching(scene, data, pairs[i], query) ? 1 : 0;
+      const double least = leastOf(scene, data, pairs[i]);
+      result.pairs[i].least = std::min(result.pairs[i].least, least);
+      result.pairs[i].touching += areTouching(scene, data, pairs[i], least, query) ? 1 : 0;
     }
   }
   return result;
-}
-
-std::vector<vpSelfPairStatistics> vpSampleSelfPairs(const vpCollisionScene &scene, int samples, unsigned int seed)
-{
-  requireSamples(samples);
-  std::vector<vpSelfPairStatistics> all;
-  for (const vpSelfPair &pair : scene.selfPairs()) {
-    all.push_back({pair, samples, 0, std::numeric_limits<double>::infinity()});
-  }
-  std::mt19937_64 generator(seed);
-  vpCollisionData data;
-  for (int k = 0; k < samples; ++k) {
-    scene.place(randomConfiguration(scene.arm(), generator), data);
-    for (vpSelfPairStatistics &one : all) {
-      const double clearance = scene.selfPair(data, one.pair.first, one.pair.second).distance;
-      one.touching += clearance <= 0. ? 1 : 0;
-      one.least = std::min(one.least, clearance);
-    }
-  }
-  return all;
 }
 
 END_VISP_NAMESPACE

@@ -8,6 +8,7 @@
 #include "vpJsonObject.h"
 #include "vpReading.h"
 
+#include <cmath>
 #include <sstream>
 
 BEGIN_VISP_NAMESPACE
@@ -48,6 +49,9 @@ vpBodyPairStatistics readPair(vpJsonObject &object, int samples)
   pair.touching = countIn(object, "touching", samples);
   pair.atZero = object.flag("at_zero", false);
   pair.exact = object.flag("exact", false);
+  if (object.has("least_m")) {
+    pair.least = object.number("least_m");
+  }
   object.ignore("rule"); // for the reader's eye: it follows from the numbers
   return pair;
 }
@@ -96,6 +100,9 @@ void vpSelfCollisionStatistics::save(const std::string &file) const
     one["touching"] = pair.touching;
     one["at_zero"] = pair.atZero;
     one["exact"] = pair.exact;
+    if (std::isfinite(pair.least)) {
+      one["least_m"] = pair.least;
+    }
     one["rule"] = nameOf(rule(pair));
     content["pairs"].push_back(one);
   }

@@ -47,13 +47,6 @@ TEST_CASE("Which pairs are checked", "[scene]")
   CHECK(other.isChecked(1, 0));
   CHECK_FALSE(other.isChecked(4, 0));
   CHECK_FALSE(other.isChecked(5, 0));
-  spec = vpCollisionSceneSpec();
-  spec.allowAdjacent = false;
-  const auto statistics = vpSampleSelfPairs(vpCollisionScene(amor(), spec), 2000, 3);
-  REQUIRE(statistics.size() == 6);
-  CHECK(statistics[0].always()); // Links 1 and 3 share the shoulder.
-  CHECK_FALSE(statistics[2].always());
-  CHECK_THROWS_WITH(vpSampleSelfPairs(scene, 0), Catch::Contains("number of samples is 0, must be > 0"));
 }
 
 TEST_CASE("Links with a shape that no capsule covers count between others; bodies may be allowed", "[scene]")

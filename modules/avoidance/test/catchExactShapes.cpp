@@ -260,8 +260,8 @@ TEST_CASE("Distances of exact shapes from a ball are those of the solids", "[exa
       CHECK(found.distance > 0.29);
       continue;
     }
-    // A prism is up to 0.2 % of its radius larger than the cylinder, threads are 0.01 mm wide. Capsules that are farther
-    // away than the cutoff may say so.
+    // A prism is up to 0.2 % of its radius larger than the cylinder, threads are 0.01 mm wide. Capsules that are
+    // farther away than the cutoff may say so.
     ++near;
     CHECK(found.distance <= std::max(0., truth) + 1e-9);
     CHECK(found.distance >= std::max(0., truth) - 2e-4);
@@ -411,6 +411,8 @@ TEST_CASE("Statistics of bodies: by capsules and exactly, rules, and the file", 
       CHECK(covers.pairs[i].second == exactly.pairs[i].second);
       CHECK_FALSE(covers.pairs[i].exact);
       CHECK(exactly.pairs[i].exact);
+      CHECK((covers.pairs[i].least <= 0.) == (covers.pairs[i].touching > 0));
+      CHECK(covers.pairs[i].least == exactly.pairs[i].least);
       CHECK(covers.pairs[i].touching >= exactly.pairs[i].touching);
       more += covers.pairs[i].touching - exactly.pairs[i].touching;
     }

@@ -4,44 +4,18 @@
  */
 /*!
  * \file vpSelfCollisionStatistics.h
- * \brief Finds the pairs of an arm's bodies, or of its capsules, that always or never touch.
+ * \brief Finds the pairs of an arm's bodies that always or never touch.
  */
 #ifndef vpSelfCollisionStatistics_h
 #define vpSelfCollisionStatistics_h
 
 #include <visp3/avoidance/vpCollisionScene.h>
 
+#include <limits>
 #include <string>
 #include <vector>
 
 BEGIN_VISP_NAMESPACE
-
-/*!
- * \ingroup group_avoidance
- * \brief Contacts of two capsules in random configurations within the limits (continuous joints: within +-pi).
- */
-struct VISP_EXPORT vpSelfPairStatistics {
-  vpSelfPair pair;   //!< The capsules.
-  int samples = 0;   //!< Number of configurations.
-  int touching = 0;  //!< Number of configurations with a clearance <= 0.
-  double least = 0.; //!< Least clearance seen, m.
-
-  //! True if they touched in every sample: allow such a pair.
-  [[nodiscard]] bool always() const noexcept { return touching == samples; }
-  //! True if they never touched. An estimate, not a proof: keep checking the pair unless time is critical.
-  [[nodiscard]] bool never() const noexcept { return touching == 0; }
-};
-
-/*!
- * \ingroup group_avoidance
- * \brief Statistics of all self pairs of a scene; with allowAdjacent = false, of all pairs on different links.
- * \param scene : Provides arm, capsules and allowed contacts; its objects are ignored.
- * \param samples : Number of configurations, > 0.
- * \param seed : The same seed gives the same configurations.
- * \throw vpException (badValue) naming samples and its value.
- */
-[[nodiscard]] VISP_EXPORT std::vector<vpSelfPairStatistics>
-vpSampleSelfPairs(const vpCollisionScene &scene, int samples = 10000, unsigned int seed = 1);
 
 //! \ingroup group_avoidance
 //! \brief What statistics say of a pair of bodies.
@@ -62,6 +36,8 @@ struct VISP_EXPORT vpBodyPairStatistics {
   int touching = 0;    //!< Number of samples in which they touched.
   bool atZero = false; //!< They touch where all joints are at 0, or at the limit next to it.
   bool exact = false;  //!< By exact shapes; false: by capsules, which may touch where the bodies do not.
+  //! Least clearance of their capsules in the samples, m.
+  double least = std::numeric_limits<double>::infinity();
 };
 
 /*!
@@ -69,8 +45,9 @@ struct VISP_EXPORT vpBodyPairStatistics {
  * \brief How often the bodies of an arm touch each other in random configurations within the limits (continuous joints:
  * within +-pi); value type.
  *
- * An estimate, not a proof: of a pair that never touched in N samples, less than a share of 3/N of the configurations has a
- * contact, with 95 % confidence. Pairs that touch in one of 2000 configurations are known: take 10,000 samples or more.
+ * An estimate, not a proof: of a pair that never touched in N samples, less than a share of 3/N of the configurations
+ * has a contact, with 95 % confidence. Pairs that touch in one of 2000 configurations are known: take 10,000 samples or
+ * more.
  */
 struct VISP_EXPORT vpSelfCollisionStatistics {
   std::string arm;                         //!< Label of the arm.
