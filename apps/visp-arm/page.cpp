@@ -54,6 +54,12 @@ double massOf(const vpArmModel &arm)
   return mass;
 }
 
+//! Where a frame is that is not at the end.
+std::string carrierText(const std::string &what, int link)
+{
+  return link < 0 ? "" : "  the " + what + " is on link " + std::to_string(link) + "\n";
+}
+
 std::string jointTable(const vpArmModel &arm, const Description &description)
 {
   std::vector<Row> rows = {
@@ -67,7 +73,13 @@ std::string jointTable(const vpArmModel &arm, const Description &description)
                     from.velocity, limitText(joint.acceleration), from.acceleration, limitText(joint.torque),
                     vpApp::number(arm.home()(static_cast<int>(i)), 4)});
   }
-  return "Joints (rad or m, and s, Nm or N)\n" + table(rows);
+  std::string text = "Joints (rad or m, and s, Nm or N)\n" + table(rows);
+  for (const vpArmFollower &follower : arm.spec().followers) {
+    text += "  " + follower.name + " follows: " + vpApp::number(follower.ratio, 4) + " times " +
+            arm.spec().joints[static_cast<std::size_t>(follower.joint)].name + " plus " +
+            vpApp::number(follower.offset, 4) + "\n";
+  }
+  return text + carrierText("tool", arm.spec().toolLink) + carrierText("camera", arm.spec().cameraLink);
 }
 
 std::string massText(const vpArmModel &arm, int link)
@@ -193,6 +205,19 @@ Json jsonOf(const vpArmJointSpec &joint, const LimitSource &from, double home)
           {"from", {{"position", from.position}, {"velocity", from.velocity}, {"acceleration", from.acceleration}}}};
 }
 
+Json followersOf(const vpArmSpec &arm)
+{
+  Json list = Json::array();
+  for (const vpArmFollower &follower : arm.followers) {
+    list.push_back({{"name", follower.name},
+                    {"type", nameOf(follower.type)},
+                    {"follows", arm.joints[static_cast<std::size_t>(follower.joint)].name},
+                    {"ratio", follower.ratio},
+                    {"offset", follower.offset}});
+  }
+  return list;
+}
+
 Json jsonOf(const Link &link)
 {
   Json json = {{"name", link.name}, {"link", link.link}, {"geometry", link.geometry}, {"covers", link.covers}};
@@ -258,6 +283,9 @@ nlohmann::ordered_json jsonOf(const vpApp::Robot &robot, const Description &desc
   }
   Json json = {{"name", arm.spec().name},
                {"joints", joints},
+               {"followers", followersOf(arm.spec())},
+               {"tool_link", arm.toolLink()},
+               {"camera_link", arm.cameraLink()},
                {"links", links},
                {"checked_pairs", checked},
                {"skipped_pairs", skipped},

@@ -58,7 +58,7 @@ vpApp::ArmTrace throughJoints(const vpArmModel &arm, const vpArmData &data)
   trace.colour = "#1d3557";
   trace.label = "through the joints to the tool";
   trace.points.push_back(Eigen::Vector3d::Zero());
-  for (int i = 0; i < arm.size(); ++i) {
+  for (int i = 0; i < arm.links(); ++i) {
     trace.points.push_back(data.joint[static_cast<std::size_t>(i)].p);
   }
   trace.points.push_back(data.tool.p);

@@ -12,7 +12,9 @@
 
 BEGIN_VISP_NAMESPACE
 
-vpClearanceSearch::vpClearanceSearch(const vpAvoidanceRunSpec &spec) : m_truth(spec), m_reach(*spec.arm) {}
+vpClearanceSearch::vpClearanceSearch(const vpAvoidanceRunSpec &spec)
+  : m_truth(spec), m_reach(spec.arm->derived<vpReachBounds>())
+{}
 
 double vpClearanceSearch::at(double time, const vpJointVector &q)
 {
@@ -29,7 +31,7 @@ double vpClearanceSearch::motion(const vpJointVector &dq, double dt) const
   for (int i = 0; i < m_truth.scene().capsuleCount(); ++i) {
     double way = 0.;
     for (int j = 0; j < dq.size(); ++j) {
-      way += m_reach(i, j) * std::fabs(dq(j));
+      way += (*m_reach)(i, j) * std::fabs(dq(j));
     }
     arm = std::max(arm, way);
   }

@@ -63,7 +63,7 @@ private:
   void split(Interval &interval, double s0, double c0, double s1, double c1);
 
   vpTrueScene m_truth;
-  vpReachBounds m_reach;
+  std::shared_ptr<const vpReachBounds> m_reach;
   vpCollisionData m_data;
 };
 

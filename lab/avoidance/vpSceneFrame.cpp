@@ -25,8 +25,8 @@ vpRigidTransform firstRevolute(const vpArmModel &arm)
 {
   vpArmData data;
   vpArmKinematics::forward(arm, arm.home(), data);
-  for (int i = 0; i < arm.size(); ++i) {
-    if (!arm.isPrismatic(i)) {
+  for (int i = 0; i < arm.links(); ++i) {
+    if (!arm.chain(i).isPrismatic) {
       return data.joint[static_cast<std::size_t>(i)];
     }
   }

@@ -134,9 +134,17 @@ using FreeAxes = std::array<bool, 6>;
 vpArmModel withCameraAsTool(const vpArmModel &model)
 {
   vpArmSpec spec = model.spec();
-  spec.tool = spec.tool * spec.camera;
+  spec.tool = spec.cameraLink < 0 ? spec.tool * spec.camera : spec.camera;
+  spec.toolLink = spec.cameraLink < 0 ? spec.toolLink : spec.cameraLink;
+  spec.cameraLink = -1;
   spec.camera = vpRigidTransform();
   return vpArmModel(spec);
+}
+
+// The tool may stand for a camera that is fixed to it, unless axes of the camera are free.
+vpArmModel toBeRated(const vpArmModel &model, const FreeAxes &free)
+{
+  return free == FreeAxes{} && model.spec().cameraLink < 0 ? model : withCameraAsTool(model);
 }
 
 // Names axes that the arm cannot command for lack of joints, at mid-range; empty if there are none.
@@ -192,8 +200,7 @@ double rate(const vpArmModel &model, const vpServoTask &task, const vpJointVecto
 double rateServoStart(const vpArmModel &model, const vpServoTask &task, const vpJointVector &start,
                       const FreeAxes &free)
 {
-  return free == FreeAxes{} ? rate(model, task, start, free, -1.)
-                            : rate(withCameraAsTool(model), task, start, free, -1.);
+  return rate(toBeRated(model, free), task, start, free, -1.);
 }
 
 vpJointVector findServoStart(const vpArmModel &model, const vpServoTask &task, const FreeAxes &free)
@@ -201,7 +208,7 @@ vpJointVector findServoStart(const vpArmModel &model, const vpServoTask &task, c
   if (model.spec().home.size() > 0) {
     return model.home();
   }
-  const vpArmModel arm = free == FreeAxes{} ? model : withCameraAsTool(model);
+  const vpArmModel arm = toBeRated(model, free);
   std::mt19937_64 rng(1);
   vpJointVector best;
   double bestRating = -1.;

@@ -52,7 +52,7 @@ double frameDifference(const vpArmModel &model, const vpArmData &data, const vpM
                        const std::string &leaf)
 {
   double worst = difference(data.tool, oracle.pose(leaf));
-  for (int i = 1; i <= model.size() && !model.spec().links.empty(); ++i) {
+  for (int i = 1; i <= model.links() && !model.spec().links.empty(); ++i) {
     const std::string &name = model.spec().links[static_cast<std::size_t>(i - 1)].name;
     worst = std::max(worst, difference(vpArmKinematics::link(model, data, i), oracle.pose(name)));
   }
@@ -266,7 +266,7 @@ public:
       const Eigen::Vector3d size = Eigen::Vector3d::NullaryExpr([&] { return uniform(rng, 0.03, 0.15); });
       vpArmData frames;
       vpArmKinematics::forward(m_model, m_q, frames);
-      const int near = std::uniform_int_distribution<int>(1, m_model.size())(rng);
+      const int near = std::uniform_int_distribution<int>(1, m_model.links())(rng);
       pose.p = vpArmKinematics::link(m_model, frames, near).p +
                Eigen::Vector3d::NullaryExpr([&] { return uniform(rng, -0.35, 0.35); });
       m_oracle.obstacle(name, pose, size);
@@ -306,7 +306,7 @@ public:
   //! An obstacle that reaches the axis of a capsule, which lies inside of the primitive, must touch in MuJoCo.
   void requireReal()
   {
-    for (int link = 1; link <= m_model.size(); ++link) {
+    for (int link = 1; link <= m_model.links(); ++link) {
       for (int object = 0; object < m_scene.objectCount(); ++object) {
         const std::string &name = m_scene.object(object).name;
         const bool found = std::any_of(m_contacts.begin(), m_contacts.end(), [&](const vpMujoco::Contact &c) {

@@ -38,6 +38,7 @@ void requireNoUrdfOptions(const RobotOptions &options)
   const std::pair<const char *, bool> given[] = {{"--robot-base", !options.base.empty()},
                                                  {"--robot-tip", !options.tip.empty()},
                                                  {"--camera-link", !options.camera.empty()},
+                                                 {"--tool-link", !options.tool.empty()},
                                                  {"--srdf", !options.srdf.empty()},
                                                  {"--package-path", !options.packagePaths.empty()},
                                                  {"--hold", !options.held.empty() || options.holdOthers},
@@ -56,6 +57,7 @@ vpArmModel loadUrdf(const RobotOptions &options)
   urdf.base = options.base;
   urdf.tip = options.tip;
   urdf.camera = options.camera;
+  urdf.tool = options.tool;
   urdf.srdf = options.srdf;
   urdf.packagePaths = options.packagePaths;
   urdf.held = options.held;

@@ -47,7 +47,9 @@ void addFiles(CommandLine &line, RobotOptions &options)
 {
   line.text("--robot-base", options.base, "LINK", "First link of a URDF's chain (default: the root)");
   line.text("--robot-tip", options.tip, "LINK", "Its last link (default: the only leaf)");
-  line.text("--camera-link,--robot-camera", options.camera, "LINK", "Link that is the camera (default: the tip)");
+  line.text("--camera-link,--robot-camera", options.camera, "LINK",
+            "Link that is the camera, on any link of the chain (default: the tool)");
+  line.text("--tool-link", options.tool, "LINK", "Link that is the tool, on any link of the chain (default: the tip)");
   line.text("--srdf", options.srdf, "FILE.srdf", "Pairs of links that need no check, and states for --home");
   line.list("--package-path", options.packagePaths, "FOLDER,...",
             "Folders that hold the packages of package:// (the folders above the URDF are searched, too)");

@@ -24,7 +24,8 @@ struct RobotOptions {
   std::string option = "FILE";            //!< Name of the option or argument, for messages.
   std::string base;                       //!< First link of a URDF's chain; empty: the root.
   std::string tip;                        //!< Last link; empty: the only leaf.
-  std::string camera;                     //!< Camera link; empty: the tip itself.
+  std::string camera;                     //!< Camera link; empty: the tool itself.
+  std::string tool;                       //!< Link of the tool; empty: the tip.
   std::string srdf;                       //!< SRDF file: pairs that need no check, groups, states; empty: none.
   std::vector<std::string> packagePaths;  //!< Folders in which package:// is searched.
   std::string homeState;                  //!< Home: a group state of the SRDF; empty: #home.

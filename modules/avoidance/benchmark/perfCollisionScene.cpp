@@ -189,6 +189,16 @@ void reachBounds(benchmark::State &state)
 }
 BENCHMARK(reachBounds);
 
+// Of an arm whose reach bounds are known: a scene for each task of a planner.
+void setUpOfScene(benchmark::State &state)
+{
+  static_cast<void>(coveredScene().reach());
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(makeScene(coveredScene().arm(), 20).reach());
+  }
+}
+BENCHMARK(setUpOfScene);
+
 // With reach bounds that the scene has already.
 void setUpOfCertifiedMotion(benchmark::State &state)
 {

@@ -39,8 +39,8 @@ void boundLink(const vpArmModel &arm, const vpReachBounds &reach, int link, vpEd
   vpEdgeBound bound;
   motion.bounds[at(link)][at(link)] = bound;
   for (int j = link - 1; j >= 0; --j) {
-    const double dq = std::fabs(motion.change(j)), way = reach.ofLink(link, j) * dq;
-    bound.acceleration += arm.isPrismatic(j) ? 0. : dq * (2. * bound.speed + way);
+    const double dq = std::fabs(motion.change(j)), way = reach.ofChain(link, j) * dq;
+    bound.acceleration += arm.chain(j).isPrismatic ? 0. : dq * (2. * bound.speed + way);
     bound.speed += way;
     motion.bounds[at(link)][at(j)] = bound;
   }
@@ -176,6 +176,7 @@ struct vpMotionScratch::Memory {
   std::vector<unsigned long> decided; // by exact pair: the last lane in which it decided
   unsigned long lanes = 0;
   vpEdgeMotion motion;
+  vpJointVector start, change; // of the joints; those of the motion include their followers
   const vpReachBounds *reach = nullptr;
   double resolution = 0.;
   double fastest = 0.; // Maximum of all links, per unit of s.
@@ -209,8 +210,10 @@ struct vpMotionScratch::Memory {
     motion.capsules = all.capsules.data();
     motion.cores = scene->objectCount() > 0 ? &scene->core(0) : nullptr;
     motion.margin = spec.margin;
-    motion.from = from;
-    motion.change = to - from;
+    start = from;
+    change = to - from;
+    motion.from = scene->arm().coordinates(from);
+    motion.change = scene->arm().changes(change);
     resolution = spec.resolution;
     reach = &bounds;
     exactLooks = 0;
@@ -230,7 +233,7 @@ struct vpMotionScratch::Memory {
   }
   bool stop(vpMotionStatus status, double s, const vpEdgePair &pair)
   {
-    return stop(status, s, clearanceOf(*scene, pair, motion.from + s * motion.change));
+    return stop(status, s, clearanceOf(*scene, pair, start + s * change));
   }
 
   // Largest motion of the pair's exact shapes per unit of s, seen from the inner one.
@@ -240,20 +243,20 @@ struct vpMotionScratch::Memory {
     const double thickness = scene->exact()->thickness(pair.body);
     double speed = 0.;
     for (int j = inner; j < scene->capsule(pair.capsule).link; ++j) {
-      const double R = reach->ofLink(scene->capsule(pair.capsule).link, j);
-      speed += std::fabs(motion.change(j)) * (scene->arm().isPrismatic(j) ? R : R + thickness);
+      const double R = reach->ofChain(scene->capsule(pair.capsule).link, j);
+      speed += std::fabs(motion.change(j)) * (scene->arm().chain(j).isPrismatic ? R : R + thickness);
     }
     return speed;
   }
 
-  // True if the exact pair is proven free from s = begin to end: at the middle, as far as its clearance reaches, then on
-  // both sides of that.
+  // True if the exact pair is proven free from s = begin to end: at the middle, as far as its clearance reaches, then
+  // on both sides of that.
   bool proveExact(const vpExactPair &pair, double speed, double begin, double end, bool inside)
   {
     const double middle = 0.5 * (begin + end), half = 0.5 * (end - begin), need = half * speed;
     ++result.evaluated;
     ++exactLooks;
-    scene->place(motion.from + middle * motion.change, data);
+    scene->place(start + middle * change, data);
     const double cutoff = motion.margin + need + 2. * rounding;
     const vpClearance now = query.clearance(*scene, data, pair, cutoff, inside);
     const double free = std::min(now.distance, cutoff) - motion.margin - rounding;

@@ -109,7 +109,7 @@ vpCertifiedTrajectory::Verdict vpCertifiedTrajectory::look(const vpTrajectoryPla
   double farthest = 0., objects = 0.;
   for (const vpLinkHull &hull : m_scene->hulls()) {
     double sum = 0.;
-    for (int j = 0; j < hull.link; ++j) {
+    for (int j = 0; j < n; ++j) {
       sum += m_reach->ofLink(hull.link, j) * way(j);
     }
     m_motion[static_cast<std::size_t>(hull.link)] = sum;

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <mutex>
 
 BEGIN_VISP_NAMESPACE
 
@@ -35,7 +34,7 @@ std::vector<vpArmCapsule> placedOnJoints(const vpArmModel &arm)
   std::vector<vpArmCapsule> capsules = arm.spec().capsules;
   for (vpArmCapsule &capsule : capsules) {
     if (capsule.link > 0) {
-      const vpRigidTransform &after = arm.spec().joints[at(capsule.link - 1)].after;
+      const vpRigidTransform &after = arm.chain(capsule.link - 1).after;
       capsule.from = after.R * capsule.from + after.p;
       capsule.to = after.R * capsule.to + after.p;
     }
@@ -132,19 +131,14 @@ private:
 };
 } // namespace
 
-struct vpCollisionScene::Reach {
-  std::once_flag made;
-  std::shared_ptr<const vpReachBounds> bounds;
-};
-
 struct vpCollisionScene::Links {
   std::vector<vpLinkHull> hulls;
   std::vector<vpLinkPair> pairs;
 };
 
 vpCollisionScene::vpCollisionScene(const vpArmModel &arm, const vpCollisionSceneSpec &spec)
-  : m_arm(arm), m_source(spec.source), m_capsules(placedOnJoints(arm)), m_reach(std::make_shared<Reach>()),
-    m_exact(spec.exact), m_contacts(spec.allowedContacts)
+  : m_arm(arm), m_source(spec.source), m_capsules(placedOnJoints(arm)), m_exact(spec.exact),
+    m_contacts(spec.allowedContacts)
 {
   m_revision = nextRevision();
   vpCheckArm(arm, spec);
@@ -176,11 +170,7 @@ const vpCollisionCore &vpCollisionScene::core(int i) const noexcept { return m_c
 const std::vector<vpLinkHull> &vpCollisionScene::hulls() const noexcept { return m_links->hulls; }
 const std::vector<vpLinkPair> &vpCollisionScene::linkPairs() const noexcept { return m_links->pairs; }
 
-std::shared_ptr<const vpReachBounds> vpCollisionScene::reach() const
-{
-  std::call_once(m_reach->made, [this] { m_reach->bounds = std::make_shared<vpReachBounds>(m_arm); });
-  return m_reach->bounds;
-}
+std::shared_ptr<const vpReachBounds> vpCollisionScene::reach() const { return m_arm.derived<vpReachBounds>(); }
 
 int vpCollisionScene::find(const std::string &name) const noexcept
 {
@@ -209,7 +199,7 @@ int vpCollisionScene::add(const vpCollisionObject &object)
     vpSceneFail(m_source, "object " + object.name + ": duplicate name");
   }
   std::uint32_t checked = 0;
-  for (int link = 1; link <= m_arm.size(); ++link) {
+  for (int link = 1; link <= m_arm.links(); ++link) {
     const bool allowed = std::any_of(m_contacts.begin(), m_contacts.end(), [&](const vpAllowedContact &contact) {
       return contact.object == object.name && contact.link == link;
     });
@@ -274,7 +264,7 @@ bool vpCollisionScene::advance(double dt) noexcept
 
 void vpCollisionScene::place(const vpJointVector &q, vpCollisionData &data) const noexcept
 {
-  data.placed = q.size() == m_arm.size() && (q.cwiseAbs().array() <= vpLargestCoordinate).all();
+  data.placed = q.size() == m_arm.size() && (m_arm.coordinates(q).cwiseAbs().array() <= vpLargestCoordinate).all();
   if (!data.placed) {
     return;
   }

@@ -46,7 +46,7 @@ struct vpEdgeMotion {
   const vpEdgeCapsule *capsules = nullptr;
   const vpCollisionCore *cores = nullptr; // Of the objects.
   double margin = 0.;
-  vpJointVector from, change;
+  vpJointVector from, change; // Of all of the chain, followers included.
   // Of a link, seen from a link nearer to the base (0: the base).
   std::array<std::array<vpEdgeBound, vpArmMaxJoints + 1>, vpArmMaxJoints + 1> bounds;
 };

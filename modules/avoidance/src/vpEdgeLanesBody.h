@@ -59,13 +59,13 @@ VP_KERNEL_INLINE void placeArm(const vpEdgeMotion &motion, double first, double 
   const vpArmModel &arm = *motion.arm;
   Frame now = {filled(1., 0., 0.), filled(0., 1., 0.), filled(0., 0., 1.), filled(0., 0., 0.)};
   Twist twist = {now.p, now.p};
-  for (int i = 0; i < arm.size(); ++i) {
-    const vpRigidTransform &T = arm.step(i);
+  for (int i = 0; i < arm.links(); ++i) {
+    const vpRigidTransform &T = arm.chain(i).step;
     const Frame placed = {turn(now, T.R.col(0)), turn(now, T.R.col(1)), turn(now, T.R.col(2)), place(now, T.p)};
-    const double q = motion.from(i) + first * motion.change(i) + arm.offset(i), dq = step * motion.change(i);
+    const double q = motion.from(i) + first * motion.change(i), dq = step * motion.change(i);
     const vpLane speed = filled(motion.change(i));
     now = placed;
-    if (arm.isPrismatic(i)) {
+    if (arm.chain(i).isPrismatic) {
       vpLane travel;
       for (int l = 0; l < lanes; ++l) {
         travel[l] = q + l * dq;

@@ -21,8 +21,8 @@ struct vpExactPair {
 };
 
 /*
- * Distances of the arm's exact shapes, in the configuration of a vpCollisionData, from objects, the ground and each other.
- * Triangles of objects are made when they are needed first, and kept as long as the scene has the same objects.
+ * Distances of the arm's exact shapes, in the configuration of a vpCollisionData, from objects, the ground and each
+ * other. Triangles of objects are made when they are needed first, and kept as long as the scene has the same objects.
  */
 class vpExactQuery
 {

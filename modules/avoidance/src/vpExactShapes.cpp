@@ -132,7 +132,7 @@ double addShape(const vpArmModel &arm, const vpArmShape &shape, vpExactBody &bod
   }
   vpTriangleSolid placed = solid;
   if (body.link > 0) {
-    placed.move(arm.spec().joints[at(body.link - 1)].after);
+    placed.move(arm.chain(body.link - 1).after);
   }
   body.solids.emplace_back(placed);
   return outside;

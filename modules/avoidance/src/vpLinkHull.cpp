@@ -33,7 +33,8 @@ double radiusAbout(const Eigen::Vector3d &from, const Eigen::Vector3d &to, const
   return most;
 }
 
-// The one of least volume whose ends are ends or centres of the given ones: reach bounds of their axes hold for its axis.
+// The one of least volume whose ends are ends or centres of the given ones: reach bounds of their axes hold for its
+// axis.
 void boundCapsules(const Capsules &all, vpLinkHull &hull)
 {
   std::vector<Eigen::Vector3d> ends;

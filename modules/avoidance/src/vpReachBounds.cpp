@@ -98,8 +98,8 @@ struct Circle {
   }
 };
 
-// Reach of a link's axes relative to a joint: a body of revolution about an axis, at any of several positions (a prismatic
-// joint gives two, its ends); before the first revolute joint just the points themselves.
+// Reach of a link's axes relative to a joint: a body of revolution about an axis, at any of several positions (a
+// prismatic joint gives two, its ends); before the first revolute joint just the points themselves.
 struct Reach {
   bool revolved = false;
   Profile body;
@@ -242,7 +242,7 @@ double distanceFromAxis(const Reach &reach)
 // Ends of the axes of a link's capsules, in the moving frame of its joint.
 std::vector<Vector3d> endsOn(const vpArmModel &arm, int link)
 {
-  const vpRigidTransform &after = arm.spec().joints[static_cast<std::size_t>(link - 1)].after;
+  const vpRigidTransform &after = arm.chain(link - 1).after;
   std::vector<Vector3d> ends;
   for (const vpArmCapsule &capsule : arm.spec().capsules) {
     if (capsule.link == link) {
@@ -255,45 +255,67 @@ std::vector<Vector3d> endsOn(const vpArmModel &arm, int link)
 } // namespace
 
 vpReachBounds::vpReachBounds(const vpArmModel &arm)
-  : m_joints(arm.size()), m_bounds(static_cast<std::size_t>((arm.size() + 1) * arm.size()), 0.)
+  : m_joints(arm.size()), m_bounds(static_cast<std::size_t>((arm.links() + 1) * arm.size()), 0.),
+    m_alone(static_cast<std::size_t>((arm.links() + 1) * arm.links()), 0.)
 {
-  m_low.setConstant(m_joints, -vpLargestCoordinate);
-  m_high.setConstant(m_joints, vpLargestCoordinate);
-  for (int j = 0; j < m_joints; ++j) {
-    if (arm.isPrismatic(j)) {
-      const double more = beyond * (arm.upper()(j) - arm.lower()(j));
-      m_low(j) = arm.lower()(j) - more;
-      m_high(j) = arm.upper()(j) + more;
+  m_low.setConstant(arm.links(), -vpLargestCoordinate);
+  m_high.setConstant(arm.links(), vpLargestCoordinate);
+  for (int k = 0; k < arm.links(); ++k) {
+    const vpArmChainJoint &own = arm.chain(k);
+    m_chain.push_back(own);
+    if (own.isPrismatic) {
+      const double a = own.ratio * arm.lower()(own.joint) + own.offset,
+                   b = own.ratio * arm.upper()(own.joint) + own.offset, more = beyond * std::fabs(b - a);
+      m_low(k) = std::min(a, b) - more;
+      m_high(k) = std::max(a, b) + more;
     }
   }
   for (const vpArmCapsule &capsule : arm.spec().capsules) {
     m_links.push_back(capsule.link);
   }
-  for (int link = 1; link <= m_joints; ++link) {
-    Reach reach;
-    reach.places = endsOn(arm, link);
-    for (int j = link - 1; j >= 0 && !reach.places.empty(); --j) {
-      if (j < link - 1) {
-        step(arm.step(j + 1), reach);
-      }
-      double &bound = m_bounds[static_cast<std::size_t>(link * m_joints + j)];
-      if (arm.isPrismatic(j)) {
-        bound = 1.;
-        slide(m_low(j) + arm.offset(j), m_high(j) + arm.offset(j), reach);
-        continue;
-      }
+  for (int link = 1; link <= arm.links(); ++link) {
+    follow(arm, link);
+  }
+}
+
+// From the link inwards.
+void vpReachBounds::follow(const vpArmModel &arm, int link)
+{
+  Reach reach;
+  reach.places = endsOn(arm, link);
+  for (int k = link - 1; k >= 0 && !reach.places.empty(); --k) {
+    const vpArmChainJoint &own = arm.chain(k);
+    if (k < link - 1) {
+      step(arm.chain(k + 1).step, reach);
+    }
+    double &bound = m_alone[static_cast<std::size_t>(link * arm.links() + k)];
+    if (own.isPrismatic) {
+      bound = 1.;
+      slide(m_low(k), m_high(k), reach);
+    }
+    else {
       bound = distanceFromAxis(reach) * (1. + 1e-12);
-      if (j > 0) {
+      if (k > 0) {
         turn(reach);
       }
     }
+    m_bounds[static_cast<std::size_t>(link * m_joints + own.joint)] += std::fabs(own.ratio) * bound;
   }
 }
 
 bool vpReachBounds::holds(const vpJointVector &q, const vpJointVector &way) const noexcept
 {
-  return q.size() == m_joints && way.size() == m_joints && ((q - way).array() >= m_low.array()).all() &&
-         ((q + way).array() <= m_high.array()).all();
+  if (q.size() != m_joints || way.size() != m_joints) {
+    return false;
+  }
+  for (std::size_t k = 0; k < m_chain.size(); ++k) {
+    const vpArmChainJoint &own = m_chain[k];
+    const double at = own.ratio * q(own.joint) + own.offset, reach = std::fabs(own.ratio) * way(own.joint);
+    if (!(at - reach >= m_low(static_cast<int>(k)) && at + reach <= m_high(static_cast<int>(k)))) {
+      return false;
+    }
+  }
+  return true;
 }
 
 END_VISP_NAMESPACE

@@ -73,8 +73,8 @@ void checkBodies(const vpArmModel &arm, const vpCollisionSceneSpec &spec)
 
 void checkLinks(const vpArmModel &arm, const vpCollisionSceneSpec &spec)
 {
-  const auto inRange = [&arm](int link, int low) { return link >= low && link <= arm.size(); };
-  const std::string range = std::to_string(arm.size());
+  const auto inRange = [&arm](int link, int low) { return link >= low && link <= arm.links(); };
+  const std::string range = std::to_string(arm.links());
   for (const auto &pair : spec.allowedLinks) {
     if (!inRange(pair.first, 0) || !inRange(pair.second, 0) || pair.first == pair.second) {
       vpSceneFail(spec.source, "allowed pair of links " + std::to_string(pair.first) + " and " +

@@ -152,9 +152,9 @@ double vpStopSupervisor::offPlan(const vpTrajectoryPlan &plan) const noexcept
     off(j) = m_spec.period * v * std::min(1., 0.125 * m_spec.period / braking);
   }
   double most = 0.;
-  for (int link = 1; link <= n; ++link) {
+  for (int link = 1; link <= m_scene->arm().links(); ++link) {
     double sum = 0.;
-    for (int j = 0; j < link; ++j) {
+    for (int j = 0; j < n; ++j) {
       sum += m_certificate.reach().ofLink(link, j) * off(j);
     }
     most = std::max(most, sum);

@@ -161,8 +161,8 @@ void vpToolMotion::repel(const vpCollisionData &data, const vpNearPairs &near) n
     used[static_cast<std::size_t>(nearest)] = true;
     const vpClearance &pair = near.pairs[static_cast<std::size_t>(nearest)];
     const int link = m_model->spec().capsules[static_cast<std::size_t>(pair.capsule)].link;
-    int joint = std::min(link, m_model->size() - 1);
-    if (link >= 1 && link < m_model->size()) { // the nearer of its two ends
+    int joint = std::min(link, m_model->links() - 1);
+    if (link >= 1 && link < m_model->links()) { // the nearer of its two ends
       const double far = (data.arm.joint[static_cast<std::size_t>(link)].p - pair.onArm).norm();
       const double close = (data.arm.joint[static_cast<std::size_t>(link - 1)].p - pair.onArm).norm();
       joint = far <= close ? link : link - 1;

@@ -2,7 +2,8 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The loop of the documentation, do { step() } while (vpIsWorking(output)), ends with the arm at rest, for every method.
+// The loop of the documentation, do { step() } while (vpIsWorking(output)), ends with the arm at rest, for every
+// method.
 #include "vpAvoidanceTestKit.h"
 #include "vpCatch.h"
 

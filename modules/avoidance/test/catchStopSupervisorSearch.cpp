@@ -256,7 +256,8 @@ Stop stopOf(vpCollisionScene scene, const vpStopSupervisorSpec &spec, vpJointVec
   return stop;
 }
 
-//! Where the plan of a stop is, so long after the last wish: v t - v t^2 / (2 b) with the b that ends where the stop does.
+//! Where the plan of a stop is, so long after the last wish: v t - v t^2 / (2 b) with the b that ends where the stop
+//! does.
 vpJointVector planned(const Stop &stop, std::size_t periods, double period, double time)
 {
   const vpJointVector from = stop.places[periods], v = stop.commands[periods - 1];
@@ -269,10 +270,10 @@ vpJointVector planned(const Stop &stop, std::size_t periods, double period, doub
 }
 } // namespace
 
-// Where one joint brakes harder than the other the plan of a stop goes round a corner, which the arm cuts. A ball is put
-// just there, or comes there just then, so that the plan keeps about the margin; then the same is asked for again. In half of
-// the cases another ball is so near behind the start that only a retreat is allowed, and the ball at the corner so near that
-// cutting it touches.
+// Where one joint brakes harder than the other the plan of a stop goes round a corner, which the arm cuts. A ball is
+// put just there, or comes there just then, so that the plan keeps about the margin; then the same is asked for again.
+// In half of the cases another ball is so near behind the start that only a retreat is allowed, and the ball at the
+// corner so near that cutting it touches.
 TEST_CASE("A stop that cuts a corner keeps the margin, and a retreat that does so does not touch", "[supervisor]")
 {
   auto rng = vpTestSupport::generator(926);

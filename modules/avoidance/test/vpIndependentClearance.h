@@ -72,14 +72,12 @@ private:
   [[nodiscard]] std::vector<vpPlacedCapsule> place(const vpJointVector &q) const
   {
     std::vector<Eigen::Isometry3d> links = {Eigen::Isometry3d::Identity()};
-    for (int i = 0; i < m_arm->size(); ++i) {
-      const vpArmJointSpec &joint = m_arm->spec().joints[static_cast<std::size_t>(i)];
+    const auto add = [&links](const auto &joint, double value) {
       Eigen::Isometry3d before = Eigen::Isometry3d::Identity(), after = before, motion = before;
       before.linear() = joint.before.R;
       before.translation() = joint.before.p;
       after.linear() = joint.after.R;
       after.translation() = joint.after.p;
-      const double value = q(i) + joint.offset;
       if (joint.type == vpJointType::Prismatic) {
         motion.translation().z() = value;
       }
@@ -87,6 +85,17 @@ private:
         motion.linear() = Eigen::AngleAxisd(value, Vector3d::UnitZ()).toRotationMatrix();
       }
       links.push_back(links.back() * before * motion * after);
+    };
+    for (int i = 0; i <= m_arm->size(); ++i) {
+      for (const vpArmFollower &follower : m_arm->spec().followers) {
+        if (follower.place == i) {
+          add(follower, follower.ratio * q(follower.joint) + follower.offset);
+        }
+      }
+      if (i < m_arm->size()) {
+        const vpArmJointSpec &joint = m_arm->spec().joints[static_cast<std::size_t>(i)];
+        add(joint, q(i) + joint.offset);
+      }
     }
     std::vector<vpPlacedCapsule> capsules;
     for (const vpArmCapsule &c : m_arm->spec().capsules) {

@@ -33,14 +33,12 @@ KDL::RigidBodyInertia body(const vpArmLinkSpec &link, const vpRigidTransform &en
 KDL::Chain chainOf(const vpArmModel &model)
 {
   KDL::Chain chain;
-  const vpArmSpec &spec = model.spec();
-  chain.addSegment(KDL::Segment(KDL::Joint(KDL::Joint::None), frame(spec.joints.front().before)));
-  for (std::size_t i = 0; i < spec.joints.size(); ++i) {
-    const vpRigidTransform next = i + 1 < spec.joints.size() ? spec.joints[i + 1].before : vpRigidTransform();
-    const KDL::Joint::JointType type =
-        spec.joints[i].type == vpJointType::Prismatic ? KDL::Joint::TransZ : KDL::Joint::RotZ;
-    chain.addSegment(
-        KDL::Segment(KDL::Joint(type), frame(spec.joints[i].after * next), body(spec.links[i], next.inverse())));
+  chain.addSegment(KDL::Segment(KDL::Joint(KDL::Joint::None), frame(model.chain(0).step)));
+  for (int k = 0; k < model.links(); ++k) {
+    const vpArmChainJoint &own = model.chain(k);
+    const vpRigidTransform end = k + 1 < model.links() ? model.chain(k + 1).step : own.after;
+    chain.addSegment(KDL::Segment(KDL::Joint(own.isPrismatic ? KDL::Joint::TransZ : KDL::Joint::RotZ), frame(end),
+                                  body(model.spec().links[static_cast<std::size_t>(k)], end.inverse() * own.after)));
   }
   return chain;
 }
@@ -50,12 +48,11 @@ class vpArmDynamics::Impl
 {
 public:
   Impl(const vpArmModel &model, const Eigen::Vector3d &gravity)
-    : n(model.size()), offset(n), rotor(n), chain(chainOf(model)),
-      solver(chain, KDL::Vector(gravity(0), gravity(1), gravity(2))), q(static_cast<unsigned int>(n)),
-      v(static_cast<unsigned int>(n)), torque(static_cast<unsigned int>(n)), M(n)
+    : arm(model), n(model.size()), rotor(n), chain(chainOf(model)),
+      solver(chain, KDL::Vector(gravity(0), gravity(1), gravity(2))), q(chain.getNrOfJoints()),
+      v(chain.getNrOfJoints()), torque(chain.getNrOfJoints()), M(static_cast<int>(chain.getNrOfJoints()))
   {
     for (int i = 0; i < n; ++i) {
-      offset(i) = model.offset(i);
       rotor(i) = model.spec().joints[static_cast<std::size_t>(i)].rotorInertia;
     }
   }
@@ -68,22 +65,36 @@ public:
     if (!fits(position)) {
       return false;
     }
-    q.data = position + offset;
+    q.data = arm.coordinates(position);
     return true;
   }
-  //! The solver's torque, or zero.
+  //! The torques of the joints, with those that their followers pass on, or zero.
   bool give(bool good, vpJointVector &to) const
   {
     if (!good || !torque.data.allFinite()) {
       to.setZero(n);
       return false;
     }
-    to = torque.data;
+    to.setZero(n);
+    for (int k = 0; k < arm.links(); ++k) {
+      to(arm.chain(k).joint) += arm.chain(k).ratio * torque.data(k);
+    }
     return true;
   }
+  //! C^T M C, where C are the ratios of the chain's coordinates to the joints.
+  void giveInertia(vpJointMatrix &to) const
+  {
+    to = rotor.asDiagonal();
+    for (int a = 0; a < arm.links(); ++a) {
+      for (int b = 0; b < arm.links(); ++b) {
+        to(arm.chain(a).joint, arm.chain(b).joint) += arm.chain(a).ratio * arm.chain(b).ratio * M.data(a, b);
+      }
+    }
+  }
 
+  vpArmModel arm;
   int n;
-  vpJointVector offset, rotor;
+  vpJointVector rotor;
   KDL::Chain chain;
   KDL::ChainDynParam solver;
   KDL::JntArray q, v, torque;
@@ -114,8 +125,7 @@ bool vpArmDynamics::inertia(const vpJointVector &q, vpJointMatrix &M)
   const bool good = m_impl->take(q);
   if (good) {
     m_impl->solver.JntToMass(m_impl->q, m_impl->M);
-    M = m_impl->M.data;
-    M.diagonal() += m_impl->rotor;
+    m_impl->giveInertia(M);
   }
   if (!good || !M.allFinite()) {
     M.setZero(m_impl->n, m_impl->n);
@@ -128,7 +138,7 @@ bool vpArmDynamics::coriolis(const vpJointVector &q, const vpJointVector &veloci
 {
   const bool good = m_impl->take(q) && m_impl->fits(velocity);
   if (good) {
-    m_impl->v.data = velocity;
+    m_impl->v.data = m_impl->arm.changes(velocity);
     m_impl->solver.JntToCoriolis(m_impl->q, m_impl->v, m_impl->torque);
   }
   return m_impl->give(good, torque);

@@ -17,20 +17,56 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-Eigen::Vector3d axis(const vpArmData &data, int i) { return data.joint[at(i)].R.col(2); }
+Eigen::Vector3d axis(const vpArmData &data, int k) { return data.joint[at(k)].R.col(2); }
 
-// Rotation into the axes of a frame, and the lever from the end effector to its origin in the base.
-void view(const vpArmModel &model, const vpArmData &data, vpArmFrame frame, Eigen::Matrix3d &R, Eigen::Vector3d &lever)
+// Axes in which a velocity is expressed, its reference point in the base, and the number of links that move it.
+struct View {
+  Eigen::Matrix3d R;
+  Eigen::Vector3d point;
+  int links;
+};
+
+View view(const vpArmModel &model, const vpArmData &data, vpArmFrame frame)
 {
-  R.setIdentity();
-  lever.setZero();
-  if (frame == vpArmFrame::EndEffector) {
-    R = data.tool.R;
+  if (frame == vpArmFrame::Camera) {
+    const vpRigidTransform fMc = vpArmKinematics::camera(model, data);
+    return {fMc.R, fMc.p, model.cameraLink()};
   }
-  else if (frame == vpArmFrame::Camera) {
-    R = data.tool.R * model.spec().camera.R;
-    lever = data.tool.R * model.spec().camera.p;
+  return {frame == vpArmFrame::Base ? Eigen::Matrix3d(Eigen::Matrix3d::Identity()) : data.tool.R, data.tool.p,
+          model.toolLink()};
+}
+
+// Velocity of a point behind joint or follower k, per unit of its coordinate.
+Vector6 column(const vpArmModel &model, const vpArmData &data, int k, const Eigen::Vector3d &point)
+{
+  Vector6 column;
+  const Eigen::Vector3d z = axis(data, k);
+  if (model.chain(k).isPrismatic) {
+    column << z, Eigen::Vector3d::Zero();
   }
+  else {
+    column << z.cross(point - data.joint[at(k)].p), z;
+  }
+  return column;
+}
+
+// Derivative of column(i) by coordinate k of the chain: a revolute k <= i rotates it; for a revolute i < k the lever
+// arm changes by column(k).
+Vector6 derivativeOf(const vpArmModel &model, const vpArmData &data, int i, int k, const Eigen::Vector3d &point)
+{
+  Vector6 d = Vector6::Zero();
+  if (k <= i) {
+    if (!model.chain(k).isPrismatic) {
+      const Eigen::Vector3d z = axis(data, k);
+      const Vector6 c = column(model, data, i, point);
+      d.head<3>() = z.cross(c.head<3>());
+      d.tail<3>() = z.cross(c.tail<3>());
+    }
+  }
+  else if (!model.chain(i).isPrismatic) {
+    d.head<3>() = axis(data, i).cross(column(model, data, k, point).head<3>());
+  }
+  return d;
 }
 
 // For an unknown configuration everything is NaN, so that every comparison fails.
@@ -56,10 +92,11 @@ bool forward(const vpArmModel &model, const vpJointVector &q, vpArmData &data) n
   }
   data.q = q;
   vpRigidTransform now;
-  for (int i = 0; i < n; ++i) {
-    now = i == 0 ? model.step(0) : now * model.step(i);
-    const double coordinate = q(i) + model.offset(i);
-    if (model.isPrismatic(i)) {
+  for (int k = 0; k < model.links(); ++k) {
+    const vpArmChainJoint &own = model.chain(k);
+    now = k == 0 ? own.step : now * own.step;
+    const double coordinate = own.ratio * q(own.joint) + own.offset;
+    if (own.isPrismatic) {
       now.p += coordinate * now.R.col(2);
     }
     else {
@@ -68,23 +105,17 @@ bool forward(const vpArmModel &model, const vpJointVector &q, vpArmData &data) n
       now.R.col(0) = c * x + s * now.R.col(1);
       now.R.col(1) = c * now.R.col(1) - s * x;
     }
-    data.joint[at(i)] = now;
+    data.joint[at(k)] = now;
   }
-  data.tool = now * model.toolStep();
+  data.tool = data.joint[at(model.toolLink() - 1)] * model.toolStep();
   return true;
 }
 
 void jacobian(const vpArmModel &model, vpArmData &data) noexcept
 {
-  data.J.resize(6, data.size);
-  for (int i = 0; i < data.size; ++i) {
-    const Eigen::Vector3d z = axis(data, i);
-    if (model.isPrismatic(i)) {
-      data.J.col(i) << z, Eigen::Vector3d::Zero();
-    }
-    else {
-      data.J.col(i) << z.cross(data.tool.p - data.joint[at(i)].p), z;
-    }
+  data.J.setZero(6, data.size);
+  for (int k = 0; k < model.toolLink(); ++k) {
+    data.J.col(model.chain(k).joint) += model.chain(k).ratio * column(model, data, k, data.tool.p);
   }
 }
 
@@ -97,12 +128,13 @@ bool update(const vpArmModel &model, const vpJointVector &q, vpArmData &data) no
 
 vpRigidTransform link(const vpArmModel &model, const vpArmData &data, int i) noexcept
 {
-  return i == 0 ? vpRigidTransform() : data.joint[at(i - 1)] * model.spec().joints[at(i - 1)].after;
+  return i == 0 ? vpRigidTransform() : data.joint[at(i - 1)] * model.chain(i - 1).after;
 }
 
 vpRigidTransform camera(const vpArmModel &model, const vpArmData &data) noexcept
 {
-  return data.tool * model.spec().camera;
+  const int carrier = model.spec().cameraLink;
+  return (carrier < 0 ? data.tool : link(model, data, carrier)) * model.spec().camera;
 }
 
 vpArmJacobian geometric(const vpArmModel &model, const vpArmData &data, vpArmFrame frame) noexcept
@@ -110,14 +142,13 @@ vpArmJacobian geometric(const vpArmModel &model, const vpArmData &data, vpArmFra
   if (frame == vpArmFrame::Base) {
     return data.J;
   }
-  Eigen::Matrix3d R;
-  Eigen::Vector3d lever;
-  view(model, data, frame, R, lever);
-  vpArmJacobian J(6, data.size);
-  for (int i = 0; i < data.size; ++i) {
-    const Eigen::Vector3d w = data.J.col(i).tail<3>();
-    J.col(i).head<3>() = R.transpose() * (data.J.col(i).head<3>() + w.cross(lever));
-    J.col(i).tail<3>() = R.transpose() * w;
+  const View to = view(model, data, frame);
+  vpArmJacobian J = vpArmJacobian::Zero(6, data.size);
+  for (int k = 0; k < to.links; ++k) {
+    const vpArmChainJoint &own = model.chain(k);
+    const Vector6 c = column(model, data, k, to.point);
+    J.col(own.joint).head<3>() += own.ratio * (to.R.transpose() * c.head<3>());
+    J.col(own.joint).tail<3>() += own.ratio * (to.R.transpose() * c.tail<3>());
   }
   return J;
 }
@@ -138,55 +169,35 @@ Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, vpArmMaxJoints>
 pointJacobian(const vpArmModel &model, const vpArmData &data, int k) noexcept
 {
   Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, vpArmMaxJoints> J(3, data.size);
-  const Eigen::Vector3d point = k == data.size ? data.tool.p : data.joint[at(k)].p;
-  for (int i = 0; i < data.size; ++i) {
-    const Eigen::Vector3d z = axis(data, i);
-    if (model.isPrismatic(i)) {
-      // A prismatic joint moves the origin of its own frame.
-      J.col(i) = i <= k ? z : Eigen::Vector3d::Zero();
-    }
-    else {
-      J.col(i) = i < k ? Eigen::Vector3d(z.cross(point - data.joint[at(i)].p)) : Eigen::Vector3d::Zero();
-    }
+  J.setZero();
+  const bool isTool = k == model.links();
+  const Eigen::Vector3d point = isTool ? data.tool.p : data.joint[at(k)].p;
+  const int last = isTool ? model.toolLink() - 1 : k; // a joint moves the origin of its own frame if it is prismatic
+  for (int i = 0; i <= last; ++i) {
+    J.col(model.chain(i).joint) += model.chain(i).ratio * column(model, data, i, point).head<3>();
   }
   return J;
 }
 
-Vector6 columnDerivative(const vpArmModel &model, const vpArmData &data, int i, int k) noexcept
-{
-  Vector6 d = Vector6::Zero();
-  if (k <= i) {
-    if (!model.isPrismatic(k)) {
-      const Eigen::Vector3d z = axis(data, k);
-      d.head<3>() = z.cross(data.J.col(i).head<3>());
-      d.tail<3>() = z.cross(data.J.col(i).tail<3>());
-    }
-  }
-  else if (!model.isPrismatic(i)) {
-    d.head<3>() = axis(data, i).cross(data.J.col(k).head<3>());
-  }
-  return d;
-}
-
 vpArmJacobian derivative(const vpArmModel &model, const vpArmData &data, int k, vpArmFrame frame) noexcept
 {
-  vpArmJacobian D(6, data.size);
-  Eigen::Matrix3d R;
-  Eigen::Vector3d lever;
-  view(model, data, frame, R, lever);
-  const Eigen::Vector3d turn = data.J.col(k).tail<3>(); // angular velocity of the frame for q'_k = 1
-  for (int i = 0; i < data.size; ++i) {
-    const Vector6 d = columnDerivative(model, data, i, k);
-    const Eigen::Vector3d w = data.J.col(i).tail<3>(), dw = d.tail<3>();
-    if (frame == vpArmFrame::Base) {
-      D.col(i) = d;
+  vpArmJacobian D = vpArmJacobian::Zero(6, data.size);
+  const View to = view(model, data, frame);
+  for (int b = 0; b < to.links; ++b) {
+    if (model.chain(b).joint != k) {
       continue;
     }
-    const Eigen::Vector3d v = data.J.col(i).head<3>() + w.cross(lever);
-    const Eigen::Vector3d dv = d.head<3>() + dw.cross(lever) + w.cross(turn.cross(lever));
-    // The frame rotates as well: d(R^T a) = R^T (da - turn x a).
-    D.col(i).head<3>() = R.transpose() * (dv - turn.cross(v));
-    D.col(i).tail<3>() = R.transpose() * (dw - turn.cross(w));
+    const Eigen::Vector3d turn = model.chain(b).isPrismatic ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : axis(data, b);
+    for (int a = 0; a < to.links; ++a) {
+      const double ratio = model.chain(a).ratio * model.chain(b).ratio;
+      Vector6 d = ratio * derivativeOf(model, data, a, b, to.point);
+      if (frame != vpArmFrame::Base) { // which rotates as well: d(R^T a) = R^T (da - turn x a)
+        const Vector6 c = ratio * column(model, data, a, to.point);
+        d.head<3>() = (to.R.transpose() * (d.head<3>() - turn.cross(c.head<3>()))).eval();
+        d.tail<3>() = (to.R.transpose() * (d.tail<3>() - turn.cross(c.tail<3>()))).eval();
+      }
+      D.col(model.chain(a).joint) += d;
+    }
   }
   return D;
 }

@@ -162,6 +162,49 @@ void checkJoint(const vpArmSpec &spec, const vpArmJointSpec &joint, std::set<std
   notNegative(spec, "kd" + of, joint.kd);
 }
 
+constexpr double largestRatio = 100.; // of a follower to its joint
+
+void checkFollower(const vpArmSpec &spec, const vpArmFollower &follower, std::set<std::string> &names)
+{
+  const int n = static_cast<int>(spec.joints.size());
+  if (follower.name.empty() || !names.insert(follower.name).second) {
+    fail(spec, follower.name.empty() ? "a follower has no name" : "duplicate joint name " + follower.name);
+  }
+  const std::string of = " of follower " + follower.name;
+  rigid(spec, "frame before" + of, follower.before);
+  rigid(spec, "frame after" + of, follower.after);
+  if (follower.joint < 0 || follower.joint >= n || follower.place < 0 || follower.place > n) {
+    fail(spec, "joint and place" + of + " are " + std::to_string(follower.joint) + " and " +
+                   std::to_string(follower.place) + ", must be 0 to " + std::to_string(n - 1) + " and 0 to " +
+                   std::to_string(n));
+  }
+  const double ratio = std::fabs(follower.ratio), most = largestLimit(follower.type);
+  if (!(ratio >= 1e-9) || !(ratio <= largestRatio)) {
+    fail(spec, "ratio" + of + " is " + text(follower.ratio) + ", must not be 0 and be within " + text(largestRatio));
+  }
+  const vpArmJointSpec &joint = spec.joints[static_cast<std::size_t>(follower.joint)];
+  if (follower.type == vpJointType::Prismatic && joint.type == vpJointType::Continuous) {
+    fail(spec, "follower " + follower.name + " is prismatic and follows the continuous joint " + joint.name +
+                   ", must follow one with limits");
+  }
+  const double far = joint.type == vpJointType::Continuous
+                         ? std::fabs(follower.offset)
+                         : std::max(std::fabs(follower.ratio * joint.lower + follower.offset),
+                                    std::fabs(follower.ratio * joint.upper + follower.offset));
+  if (!(far <= most)) {
+    fail(spec, "follower " + follower.name + " reaches " + text(far) + ", must stay within " + text(most));
+  }
+}
+
+void checkCarrier(const vpArmSpec &spec, const std::string &what, int link)
+{
+  const int links = static_cast<int>(spec.joints.size() + spec.followers.size());
+  if (link != -1 && (link < 1 || link > links)) {
+    fail(spec,
+         "link of the " + what + " is " + std::to_string(link) + ", must be 1 to " + std::to_string(links) + ", or -1");
+  }
+}
+
 void checkHome(const vpArmSpec &spec)
 {
   if (spec.home.size() == 0) {
@@ -200,7 +243,8 @@ void checkLink(const vpArmSpec &spec, const vpArmLinkSpec &link)
 
 void checkCapsule(const vpArmSpec &spec, const vpArmCapsule &capsule)
 {
-  const int n = static_cast<int>(spec.joints.size()), bodies = static_cast<int>(spec.bodies.size());
+  const int n = static_cast<int>(spec.joints.size() + spec.followers.size());
+  const int bodies = static_cast<int>(spec.bodies.size());
   const std::string link = std::to_string(capsule.link), of = " of a capsule of link " + link;
   if (capsule.link < 0 || capsule.link > n) {
     fail(spec, "a capsule belongs to link " + link + ", must be 0 to " + std::to_string(n));
@@ -243,7 +287,7 @@ void checkShape(const vpArmSpec &spec, const vpArmShape &shape)
 // Bodies, and what names them.
 void checkBodies(const vpArmSpec &spec)
 {
-  const int n = static_cast<int>(spec.joints.size());
+  const int n = static_cast<int>(spec.joints.size() + spec.followers.size());
   std::set<std::string> names;
   for (const vpArmBody &body : spec.bodies) {
     if (body.name.empty() || !names.insert(body.name).second) {
@@ -294,17 +338,23 @@ vpArmJointSpec vpArmJointSpec::standardDH(double a, double alpha, double d, doub
   return joint;
 }
 
-vpArmModel::vpArmModel(const vpArmSpec &spec) : m_spec(spec), m_size(static_cast<int>(spec.joints.size()))
+vpArmModel::vpArmModel(const vpArmSpec &spec)
+  : m_spec(spec), m_size(static_cast<int>(spec.joints.size())),
+    m_links(m_size + static_cast<int>(spec.followers.size()))
 {
-  if (m_size < 1 || m_size > vpArmMaxJoints) {
-    fail(spec, std::to_string(m_size) + " moving joints, must be 1 to " + std::to_string(vpArmMaxJoints));
+  if (m_size < 1 || m_links > vpArmMaxJoints) {
+    fail(spec, std::to_string(m_links) + " moving joints, must be 1 to " + std::to_string(vpArmMaxJoints));
   }
-  if (!spec.links.empty() && spec.links.size() != spec.joints.size()) {
-    fail(spec, std::to_string(spec.links.size()) + " links for " + std::to_string(m_size) + " joints, must be as many");
+  if (!spec.links.empty() && spec.links.size() != static_cast<std::size_t>(m_links)) {
+    fail(spec,
+         std::to_string(spec.links.size()) + " links for " + std::to_string(m_links) + " joints, must be as many");
   }
   std::set<std::string> names;
   for (const vpArmJointSpec &joint : spec.joints) {
     checkJoint(spec, joint, names);
+  }
+  for (const vpArmFollower &follower : spec.followers) {
+    checkFollower(spec, follower, names);
   }
   m_hasMasses = !spec.links.empty();
   for (const vpArmLinkSpec &link : spec.links) {
@@ -314,6 +364,8 @@ vpArmModel::vpArmModel(const vpArmSpec &spec) : m_spec(spec), m_size(static_cast
   checkHome(spec);
   rigid(spec, "tool", spec.tool);
   rigid(spec, "camera", spec.camera);
+  checkCarrier(spec, "end effector", spec.toolLink);
+  checkCarrier(spec, "camera", spec.cameraLink);
   checkBodies(spec);
   for (const vpArmCapsule &capsule : spec.capsules) {
     checkCapsule(spec, capsule);
@@ -322,22 +374,18 @@ vpArmModel::vpArmModel(const vpArmSpec &spec) : m_spec(spec), m_size(static_cast
   for (vpJointVector *vector : {&m_lower, &m_upper, &m_velocity, &m_acceleration, &m_torque}) {
     vector->resize(m_size);
   }
-  vpRigidTransform previous;
   for (int i = 0; i < m_size; ++i) {
     const std::size_t k = static_cast<std::size_t>(i);
     const vpArmJointSpec &joint = spec.joints[k];
     m_continuous[k] = joint.type == vpJointType::Continuous;
     m_prismatic[k] = joint.type == vpJointType::Prismatic;
-    m_offset[k] = joint.offset;
-    m_step[k] = previous * joint.before;
-    previous = joint.after;
     m_lower(i) = m_continuous[k] ? -infinity : joint.lower;
     m_upper(i) = m_continuous[k] ? infinity : joint.upper;
     m_velocity(i) = joint.velocity;
     m_acceleration(i) = joint.acceleration;
     m_torque(i) = joint.torque;
   }
-  m_toolStep = previous * spec.tool;
+  makeChain();
   m_home = spec.home;
   if (m_home.size() == 0) {
     m_home.setZero(m_size);
@@ -345,6 +393,51 @@ vpArmModel::vpArmModel(const vpArmSpec &spec) : m_spec(spec), m_size(static_cast
       m_home(i) = isContinuous(i) ? 0. : 0.5 * (m_lower(i) + m_upper(i));
     }
   }
+}
+
+void vpArmModel::makeChain()
+{
+  std::size_t count = 0;
+  const auto add = [this, &count](const vpRigidTransform &before, const vpRigidTransform &after, vpJointType type,
+                                  int joint, double ratio, double offset) {
+    m_chain[count] = {count == 0 ? before : m_chain[count - 1].after * before,
+                      after,
+                      type == vpJointType::Prismatic,
+                      joint,
+                      ratio,
+                      offset};
+    ++count;
+  };
+  for (int i = 0; i <= m_size; ++i) {
+    for (const vpArmFollower &f : m_spec.followers) {
+      if (f.place == i) {
+        add(f.before, f.after, f.type, f.joint, f.ratio, f.offset);
+      }
+    }
+    if (i < m_size) {
+      const vpArmJointSpec &joint = m_spec.joints[static_cast<std::size_t>(i)];
+      add(joint.before, joint.after, joint.type, i, 1., joint.offset);
+    }
+  }
+  m_toolStep = chain(toolLink() - 1).after * m_spec.tool;
+}
+
+vpJointVector vpArmModel::coordinates(const vpJointVector &q) const noexcept
+{
+  vpJointVector all = changes(q);
+  for (int k = 0; k < m_links; ++k) {
+    all(k) += chain(k).offset;
+  }
+  return all;
+}
+
+vpJointVector vpArmModel::changes(const vpJointVector &change) const noexcept
+{
+  vpJointVector all(m_links);
+  for (int k = 0; k < m_links; ++k) {
+    all(k) = chain(k).ratio * change(chain(k).joint);
+  }
+  return all;
 }
 
 std::string vpArmModel::outsideLimits(const vpJointVector &q) const

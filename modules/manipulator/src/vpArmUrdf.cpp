@@ -22,6 +22,13 @@ constexpr double unknown = std::numeric_limits<double>::infinity();
 
 using Joints = std::vector<urdf::JointConstSharedPtr>;
 
+// A moving joint of the chain: it follows one of these, or decides itself (leader: its own index).
+struct Moving {
+  vpArmJointSpec joint;
+  std::size_t leader = 0;
+  double ratio = 1., offset = 0.;
+};
+
 class Loader
 {
 public:
@@ -36,7 +43,10 @@ public:
     home();
     readChain();
     readLimits();
+    follow();
+    setVelocity();
     setHome();
+    setTool();
     setCamera();
     setAllowedBodies();
     m_arm.warnings = m_warnings.sentences();
@@ -54,7 +64,7 @@ private:
     for (const urdf::JointConstSharedPtr &joint : m_chain) {
       double ratio = 1., offset = 0.;
       chain.insert({joint->name, m_posture.leader(*joint, ratio, offset).name});
-      if (!m_posture.stands(*joint)) {
+      if (!m_posture.stands(*joint) && &deciding(*joint) == joint.get()) {
         moving.push_back(joint->name);
       }
     }
@@ -62,6 +72,24 @@ private:
     if (m_spec.holdOthers) {
       m_posture.holdOthers(chain, m_state);
     }
+  }
+
+  // The joint of the chain that decides on the coordinate of this one: the one that it mimics, else the first that
+  // mimics the same one beside the chain.
+  [[nodiscard]] const urdf::Joint &deciding(const urdf::Joint &joint) const
+  {
+    double ratio = 1., offset = 0.;
+    const std::string leader = m_posture.leader(joint, ratio, offset).name;
+    const urdf::Joint *first = nullptr;
+    for (const urdf::JointConstSharedPtr &other : m_chain) {
+      if (other->name == leader) {
+        return *other;
+      }
+      if (!first && !m_posture.stands(*other) && m_posture.leader(*other, ratio, offset).name == leader) {
+        first = other.get();
+      }
+    }
+    return *first;
   }
 
   void readChain()
@@ -80,16 +108,16 @@ private:
         fixed = fixed * m_posture.frame(*from);
       }
       else {
-        vpArmJointSpec joint = moving(*from);
+        m_moving.push_back({moving(*from), m_moving.size()});
+        vpArmJointSpec &joint = m_moving.back().joint;
         joint.before = fixed * joint.before;
         fixed = {};
-        m_arm.joints.push_back(joint);
         bodies.nextLink(child->name);
       }
       bodies.add(*child, fixed);
     }
     m_arm.tool = fixed;
-    if (m_arm.joints.size() <= static_cast<std::size_t>(vpArmMaxJoints)) { // else vpArmModel refuses it
+    if (m_moving.size() <= static_cast<std::size_t>(vpArmMaxJoints)) { // else vpArmModel refuses it
       bodies.finish(m_arm);
     }
   }
@@ -125,7 +153,9 @@ private:
       joint.coulomb = from.dynamics->friction;
     }
     setLimits(from, joint);
-    followLeader(from, joint);
+    if (&deciding(from) == &from) {
+      narrowToLeader(from, joint);
+    }
     return joint;
   }
 
@@ -176,19 +206,12 @@ private:
   }
 
   // A joint that mimics one beside the chain moves on its own, as far as the other can go with it.
-  void followLeader(const urdf::Joint &from, vpArmJointSpec &joint)
+  void narrowToLeader(const urdf::Joint &from, vpArmJointSpec &joint)
   {
     double ratio = 1., offset = 0.;
     const urdf::Joint &leader = m_posture.leader(from, ratio, offset);
     if (leader.name == from.name) {
       return;
-    }
-    if (std::any_of(m_chain.begin(), m_chain.end(), [&](const auto &other) {
-          double otherRatio = 1., otherOffset = 0.;
-          return other->name != from.name && m_posture.leader(*other, otherRatio, otherOffset).name == leader.name;
-        })) {
-      fail("joint " + from.name + " mimics joint " + leader.name +
-           " and both move the tip, which this model cannot express; hold one of them or end the chain before");
     }
     m_warnings.add("joints of the chain that mimic one beside it move on their own: ", from.name, "");
     if (leader.limits && leader.type != urdf::Joint::CONTINUOUS && joint.type != vpJointType::Continuous &&
@@ -202,7 +225,8 @@ private:
   {
     if (!m_spec.limits.empty()) {
       std::map<std::string, vpJointLimits> limits = vpReadJointLimits(m_spec.limits);
-      for (vpArmJointSpec &joint : m_arm.joints) {
+      for (Moving &moved : m_moving) {
+        vpArmJointSpec &joint = moved.joint;
         const vpJointLimits &own = limits[joint.name];
         joint.velocity = own.velocity.value_or(joint.velocity);
         joint.acceleration = own.acceleration.value_or(joint.acceleration);
@@ -220,6 +244,70 @@ private:
         }
       }
     }
+  }
+
+  // Splits the moving joints into those that decide and those that follow one of them.
+  void follow()
+  {
+    for (Moving &moved : m_moving) {
+      const urdf::Joint &own = *m_tree.model->getJoint(moved.joint.name), &leader = deciding(own);
+      const auto found = std::find_if(m_moving.begin(), m_moving.end(),
+                                      [&leader](const Moving &other) { return other.joint.name == leader.name; });
+      double ratio = 1., offset = 0.; // of the leader to what both mimic
+      static_cast<void>(m_posture.leader(own, moved.ratio, moved.offset));
+      static_cast<void>(m_posture.leader(leader, ratio, offset));
+      moved.leader = static_cast<std::size_t>(found - m_moving.begin());
+      moved.ratio /= ratio;
+      moved.offset -= moved.ratio * offset;
+    }
+    std::vector<int> index(m_moving.size());
+    for (std::size_t k = 0; k < m_moving.size(); ++k) {
+      if (m_moving[k].leader != k) {
+        allowFor(m_moving[k], m_moving[m_moving[k].leader].joint);
+      }
+    }
+    for (std::size_t k = 0; k < m_moving.size(); ++k) {
+      if (m_moving[k].leader == k) {
+        index[k] = static_cast<int>(m_arm.joints.size());
+        m_arm.joints.push_back(m_moving[k].joint);
+      }
+    }
+    int place = 0;
+    for (std::size_t k = 0; k < m_moving.size(); ++k) {
+      const Moving &moved = m_moving[k];
+      if (moved.leader == k) {
+        ++place;
+        continue;
+      }
+      m_arm.followers.push_back({moved.joint.name, moved.joint.type, moved.joint.before, moved.joint.after,
+                                 index[moved.leader], moved.ratio, moved.offset, place});
+      m_warnings.add("joints of the chain that follow another one by a fixed ratio: ",
+                     moved.joint.name + " follows " + m_moving[moved.leader].joint.name, "");
+    }
+  }
+
+  // Limits and friction of a follower count for the joint that it follows.
+  void allowFor(const Moving &moved, vpArmJointSpec &leader)
+  {
+    const vpArmJointSpec &joint = moved.joint;
+    const double ratio = std::fabs(moved.ratio);
+    if (joint.type != vpJointType::Continuous) {
+      const double a = (joint.lower - moved.offset) / moved.ratio, b = (joint.upper - moved.offset) / moved.ratio;
+      if (leader.type == vpJointType::Continuous) {
+        leader.type = vpJointType::Revolute;
+        leader.lower = -vpLargestCoordinate;
+        leader.upper = vpLargestCoordinate;
+      }
+      narrow(leader, std::min(a, b), std::max(a, b), "limits of " + joint.name + ", which follows it");
+    }
+    leader.velocity = std::min(leader.velocity, joint.velocity / ratio);
+    leader.acceleration = std::min(leader.acceleration, joint.acceleration / ratio);
+    leader.viscous += ratio * ratio * joint.viscous;
+    leader.coulomb += ratio * joint.coulomb;
+  }
+
+  void setVelocity()
+  {
     if (m_spec.velocity.size() > 0) {
       if (m_spec.velocity.size() != static_cast<Eigen::Index>(m_arm.joints.size())) {
         fail(std::to_string(m_spec.velocity.size()) + " velocity limits for " + std::to_string(m_arm.joints.size()) +
@@ -256,37 +344,45 @@ private:
     }
   }
 
+  // The link of the arm that carries a link of the file, through joints that stand still only, and where.
+  int carrierOf(const std::string &what, const std::string &name, vpRigidTransform &at) const
+  {
+    at = {};
+    for (urdf::LinkConstSharedPtr link = m_tree.link(name);;) {
+      const urdf::JointConstSharedPtr joint = m_tree.above(*link);
+      if (!joint) {
+        fail(what + " link " + name + " is not below a moving joint of the arm");
+      }
+      for (std::size_t k = 0; k < m_moving.size(); ++k) {
+        if (m_moving[k].joint.name == joint->name) {
+          return static_cast<int>(k) + 1;
+        }
+      }
+      if (!m_posture.stands(*joint)) {
+        fail("joint " + joint->name + " between the arm and the " + what + " link " + name + " is not fixed");
+      }
+      at = m_posture.frame(*joint) * at;
+      link = m_tree.link(joint->parent_link_name);
+    }
+  }
+
+  void setTool()
+  {
+    if (!m_spec.tool.empty()) {
+      const int link = carrierOf("tool", m_spec.tool, m_arm.tool);
+      m_arm.toolLink = link == static_cast<int>(m_moving.size()) ? -1 : link;
+    }
+  }
+
   void setCamera()
   {
     if (m_spec.camera.empty()) {
       return;
     }
-    const std::string last =
-        m_arm.joints.empty() ? m_spec.base : m_tree.model->getJoint(m_arm.joints.back().name)->child_link_name;
-    // Up or down from the end effector through joints that stand still only.
-    const auto fixedTo = [&](const std::string &link) {
-      vpRigidTransform T;
-      for (const urdf::JointConstSharedPtr &joint : m_tree.path(last, link)) {
-        if (!m_posture.stands(*joint)) {
-          fail("joint " + joint->name + " between the end effector and the camera is not fixed");
-        }
-        T = T * m_posture.frame(*joint);
-      }
-      return T;
-    };
-    requireBelow(m_spec.camera, last);
-    m_arm.camera = fixedTo(m_spec.tip).inverse() * fixedTo(m_spec.camera);
-  }
-
-  void requireBelow(const std::string &camera, const std::string &last) const
-  {
-    for (urdf::LinkConstSharedPtr link = m_tree.link(camera); link->name != last;) {
-      const urdf::JointConstSharedPtr joint = m_tree.above(*link);
-      if (!joint) {
-        fail("camera link " + camera + " is not below link " + last + ", to which the end effector " + m_spec.tip +
-             " is fixed; for a camera on an earlier link give that as the tip");
-      }
-      link = m_tree.link(joint->parent_link_name);
+    m_arm.cameraLink = carrierOf("camera", m_spec.camera, m_arm.camera);
+    if (m_arm.cameraLink == (m_arm.toolLink < 0 ? static_cast<int>(m_moving.size()) : m_arm.toolLink)) {
+      m_arm.cameraLink = -1;
+      m_arm.camera = m_arm.tool.inverse() * m_arm.camera;
     }
   }
 
@@ -317,6 +413,7 @@ private:
   vpSrdf m_srdf;
   vpUrdfPosture m_posture;
   Joints m_chain; // from base to tip
+  std::vector<Moving> m_moving;
   std::string m_stateName;
   std::map<std::string, double> m_state; // home, by joint
   vpArmSpec m_arm;

@@ -53,15 +53,23 @@ vpLackTable vpLackingAxes(const vpArmModel &model)
     }
     vpArmData data;
     vpArmKinematics::update(model, q, data);
+    bool isFull = true; // in all frames: the end effector and the camera may be on different links
     for (const vpArmFrame frame : {vpArmFrame::Base, vpArmFrame::EndEffector, vpArmFrame::Camera}) {
       const vpArmJacobian J = vpArmKinematics::geometric(model, data, frame);
+      int *const most = &rank[64U * static_cast<unsigned int>(frame)];
       if (rankOf(J, allAxes) == 6) {
-        return lack;
+        for (unsigned int axes = 0; axes <= allAxes; ++axes) {
+          most[axes] = bits(axes);
+        }
+        continue;
       }
+      isFull = false;
       for (unsigned int axes = 0; axes <= allAxes; ++axes) {
-        int &most = rank[64U * static_cast<unsigned int>(frame) + axes];
-        most = std::max(most, rankOf(J, axes));
+        most[axes] = std::max(most[axes], rankOf(J, axes));
       }
+    }
+    if (isFull) {
+      return lack;
     }
   }
   for (unsigned int i = 0; i < lack.size(); ++i) {

@@ -20,8 +20,8 @@ BEGIN_VISP_NAMESPACE
  * Number of rows minus the largest rank of the Jacobian's rows over all configurations. Index: frame * 64 + bits of the
  * commanded axes. Zero everywhere for an arm that can command all six axes.
  *
- * The rank is that at a few random configurations within the limits: it is smaller than the largest one only on a set of
- * measure zero.
+ * The rank is that at a few random configurations within the limits: it is smaller than the largest one only on a set
+ * of measure zero.
  */
 using vpLackTable = std::array<std::uint8_t, 192>;
 [[nodiscard]] vpLackTable vpLackingAxes(const vpArmModel &model);

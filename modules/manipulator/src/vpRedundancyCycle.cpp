@@ -123,7 +123,8 @@ template <int N> typename vpRedundancyCycle<N>::Joints vpRedundancyCycle<N>::esc
   return speed / std::max(1e-9, m_scale.cwiseProduct(z).norm()) * z;
 }
 
-// Largest share of the task, y = share * a + b, at which no joint exceeds its velocity limit; negative if there is none.
+// Largest share of the task, y = share * a + b, at which no joint exceeds its velocity limit; negative if there is
+// none.
 template <int N> double vpRedundancyCycle<N>::shareWithin(const Joints &a, const Joints &b) const
 {
   double low = 0., top = 1.;
@@ -145,8 +146,8 @@ template <int N> double vpRedundancyCycle<N>::shareWithin(const Joints &a, const
 }
 
 /*!
- * Saturation in the null space: the joint that exceeds its velocity limit most is held at it by a motion that leaves the
- * task unchanged, and the next one, while the task's share grows. Returns this share of y.
+ * Saturation in the null space: the joint that exceeds its velocity limit most is held at it by a motion that leaves
+ * the task unchanged, and the next one, while the task's share grows. Returns this share of y.
  */
 template <int N> double vpRedundancyCycle<N>::saturate(Joints &y)
 {

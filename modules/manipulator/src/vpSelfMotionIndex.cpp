@@ -34,8 +34,8 @@ const char *complaint(const vpArmModel &model, const vpSelfMotionIndex &index)
     return "gain must be >= 0 and finite, at most 1e9";
   }
   if (pointwise(index.kind)) {
-    if (index.joint < 0 || index.joint >= model.size()) {
-      return "joint must be 0 to n - 1";
+    if (index.joint < 0 || index.joint >= model.links()) {
+      return "joint must be one of the chain, from 0 on";
     }
     if (!isUsual(index.range)) {
       return "range must be > 0 and finite, from 1e-9 to 1e9";
@@ -122,20 +122,31 @@ bool manipulability(const vpArmModel &model, const vpArmData &data, const vpSelf
   for (int i = 0; i < n; ++i) {
     G.col(i) = scale(i) * rows.cwiseProduct(G.col(i));
   }
-  // tr(dJ/dq_k G^T) with the two cases of vpArmKinematics::columnDerivative() summed over the columns first: a revolute
-  // k turns all columns from k on, and column k lengthens the arms of the revolute ones before it.
+  // tr(dJ/dq_k G^T) with the two cases of vpArmKinematics::derivative() summed over the columns first: a revolute
+  // k turns all columns from k on, and column k lengthens the arms of the revolute ones before it. Here k counts all of
+  // the chain: a follower has its share of the column of its joint.
+  const int links = model.toolLink();
+  vpArmJacobian C(6, links);
+  for (int k = 0; k < links; ++k) {
+    const Eigen::Vector3d z = data.joint[static_cast<std::size_t>(k)].R.col(2);
+    const Eigen::Vector3d lever = data.tool.p - data.joint[static_cast<std::size_t>(k)].p;
+    const bool slides = model.chain(k).isPrismatic;
+    C.col(k) << (slides ? z : Eigen::Vector3d(z.cross(lever))), (slides ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : z);
+  }
   Eigen::Vector3d turned = Eigen::Vector3d::Zero(), lengthened = Eigen::Vector3d::Zero();
-  for (int k = n - 1; k >= 0; --k) {
-    const Eigen::Vector3d v = data.J.col(k).head<3>(), w = data.J.col(k).tail<3>();
-    const Eigen::Vector3d gv = G.col(k).head<3>(), gw = G.col(k).tail<3>();
-    turned += v.cross(gv) + w.cross(gw);
-    result.gradient(k) = model.isPrismatic(k) ? 0. : turned.dot(w);
+  for (int k = links - 1; k >= 0; --k) {
+    const vpArmChainJoint &own = model.chain(k);
+    const Eigen::Vector3d v = C.col(k).head<3>(), w = C.col(k).tail<3>(); // w is zero for a prismatic joint
+    turned += own.ratio * (v.cross(G.col(own.joint).head<3>()) + w.cross(G.col(own.joint).tail<3>()));
+    result.gradient(own.joint) += own.ratio * turned.dot(w);
   }
-  for (int k = 0; k < n; ++k) {
-    const Eigen::Vector3d v = data.J.col(k).head<3>(), w = data.J.col(k).tail<3>(), gv = G.col(k).head<3>();
-    result.gradient(k) = result.value * (result.gradient(k) + lengthened.dot(v));
-    lengthened += gv.cross(w); // w is zero for a prismatic joint
+  for (int k = 0; k < links; ++k) {
+    const vpArmChainJoint &own = model.chain(k);
+    const Eigen::Vector3d v = C.col(k).head<3>(), w = C.col(k).tail<3>();
+    result.gradient(own.joint) += own.ratio * lengthened.dot(v);
+    lengthened += own.ratio * Eigen::Vector3d(G.col(own.joint).head<3>()).cross(w);
   }
+  result.gradient *= result.value;
   return true;
 }
 

@@ -21,8 +21,8 @@ std::string suffixOf(const std::string &file)
   return suffix;
 }
 
-// Refuses a file that xacro has to expand. Old versions of xacro left calls of unknown macros in their output: these are
-// told and left out; what they stood for is not in the file.
+// Refuses a file that xacro has to expand. Old versions of xacro left calls of unknown macros in their output: these
+// are told and left out; what they stood for is not in the file.
 void refuseXacro(const std::vector<vpXmlElement> &elements, const std::string &file, vpWarningList &warnings)
 {
   static const std::set<std::string> directives = {"include", "macro", "property",     "arg",     "if",

@@ -223,6 +223,9 @@ std::optional<double> vpUrdfPosture::stands(const urdf::Joint &joint) const
 {
   double ratio = 1., offset = 0.;
   const std::optional<double> value = standsAlone(leader(joint, ratio, offset));
+  if (ratio == 0.) {
+    return offset;
+  }
   return value ? std::optional<double>(ratio * *value + offset) : std::nullopt;
 }
 

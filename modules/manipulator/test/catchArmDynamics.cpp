@@ -6,6 +6,7 @@
 #include "vpArmTestKit.h"
 #include "vpCatch.h"
 
+#include <visp3/direct_core/vpSO3.h>
 #include <visp3/manipulator/vpArmDynamics.h>
 
 #include <kdl/chaindynparam.hpp>
@@ -52,10 +53,30 @@ double potential(const vpArmModel &model, const vpJointVector &q)
   vpArmData data;
   vpArmKinematics::forward(model, q, data);
   double energy = 0.;
-  for (int i = 1; i <= model.size(); ++i) {
+  for (int i = 1; i <= model.links(); ++i) {
     const vpArmLinkSpec &link = model.spec().links[static_cast<std::size_t>(i - 1)];
     const vpRigidTransform frame = vpArmKinematics::link(model, data, i);
     energy += 9.81 * link.mass * (frame.R * link.com + frame.p)(2);
+  }
+  return energy;
+}
+// Energy of all links that move by finite differences of their frames, and of the rotors.
+double kinetic(const vpArmModel &model, const vpJointVector &q, const vpJointVector &v)
+{
+  const double h = 1e-6;
+  vpArmData before, after;
+  vpArmKinematics::forward(model, q - h * v, before);
+  vpArmKinematics::forward(model, q + h * v, after);
+  double energy = 0.;
+  for (int i = 1; i <= model.links(); ++i) {
+    const vpArmLinkSpec &link = model.spec().links[static_cast<std::size_t>(i - 1)];
+    const vpRigidTransform a = vpArmKinematics::link(model, before, i), b = vpArmKinematics::link(model, after, i);
+    const Eigen::Vector3d speed = (b.R * link.com + b.p - a.R * link.com - a.p) / (2. * h);
+    const Eigen::Vector3d turn = vpSO3::log(a.R.transpose() * b.R) / (2. * h);
+    energy += 0.5 * link.mass * speed.squaredNorm() + 0.5 * turn.dot(link.inertia * turn);
+  }
+  for (int i = 0; i < model.size(); ++i) {
+    energy += 0.5 * model.spec().joints[static_cast<std::size_t>(i)].rotorInertia * v(i) * v(i);
   }
   return energy;
 }
@@ -68,11 +89,12 @@ TEST_CASE("Gravity is the gradient of the height, and a free arm keeps its energ
 {
   auto rng = vpTestSupport::generator(13);
   CAPTURE(vpTestSupport::seed());
-  for (const vpArmModel *model : {&amor(), &sixAxes(), &mixed()}) {
+  for (const vpArmModel &arm : fixedAndLinkedArms(rng)) {
+    const vpArmModel *model = &arm;
     CAPTURE(model->label());
     vpArmDynamics dynamics(*model);
     const int n = model->size();
-    for (int problem = 0; problem < 200; ++problem) {
+    for (int problem = 0; problem < (arm.spec().followers.empty() ? 200 : 10); ++problem) {
       const vpJointVector q = configuration(*model, rng), v = randomVector(n, rng);
       vpJointVector torque(n), expected(n), acceleration;
       dynamics.gravity(q, torque);
@@ -87,6 +109,7 @@ TEST_CASE("Gravity is the gradient of the height, and a free arm keeps its energ
       vpJointMatrix M, before, after;
       dynamics.inertia(q, M);
       REQUIRE(M.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff() > 0.);
+      REQUIRE(0.5 * v.dot(M * v) == Approx(kinetic(*model, q, v)).epsilon(1e-6));
       // d/dt (v' M v / 2 + V) = 0 without a torque.
       REQUIRE(dynamics.acceleration(q, v, vpJointVector::Zero(n), acceleration));
       dynamics.inertia(q - h * v, before);

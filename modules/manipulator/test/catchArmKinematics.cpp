@@ -53,6 +53,8 @@ void compareWithKDL(const vpArmModel &model, const KDL::Chain &chain, unsigned i
   CHECK(worstJacobian < 1e-12);
 }
 
+int problemsOf(const vpArmModel &model) { return model.spec().followers.empty() ? 1000 : 20; }
+
 vpArmData at(const vpArmModel &model, vpJointVector q, int joint, double step)
 {
   q(joint) += step;
@@ -108,9 +110,10 @@ TEST_CASE("Jacobians are the derivatives of the pose", "[kinematics]")
   auto rng = vpTestSupport::generator(3);
   CAPTURE(vpTestSupport::seed());
   const double h = 1e-6;
-  for (const vpArmModel *model : {&amor(), &sixAxes(), &mixed()}) {
+  for (const vpArmModel &arm : fixedAndLinkedArms(rng)) {
+    const vpArmModel *model = &arm;
     CAPTURE(model->label());
-    for (int problem = 0; problem < 1000; ++problem) {
+    for (int problem = 0; problem < problemsOf(arm); ++problem) {
       const vpJointVector q = configuration(*model, rng);
       vpArmData data;
       vpArmKinematics::update(*model, q, data);
@@ -137,9 +140,9 @@ TEST_CASE("Jacobians are the derivatives of the pose", "[kinematics]")
           column << after.tool.p - before.tool.p, vpSO3::log(after.tool.R) - vpSO3::log(before.tool.R);
           worstAnalytic = std::max(worstAnalytic, (analytic.col(i) - column / (2. * h)).cwiseAbs().maxCoeff());
         }
-        for (int k = 0; k <= model->size(); ++k) {
+        for (int k = 0; k <= model->links(); ++k) {
           const auto point = [&](const vpArmData &from) {
-            return k == model->size() ? from.tool.p : from.joint[static_cast<std::size_t>(k)].p;
+            return k == model->links() ? from.tool.p : from.joint[static_cast<std::size_t>(k)].p;
           };
           const Eigen::Vector3d column = (point(after) - point(before)) / (2. * h);
           worstPoint = std::max(
@@ -159,9 +162,10 @@ TEST_CASE("Derivatives of the Jacobians are exact", "[kinematics]")
   CAPTURE(vpTestSupport::seed());
   const double h = 1e-5;
   double all = 0.;
-  for (const vpArmModel *model : {&amor(), &sixAxes(), &mixed()}) {
+  for (const vpArmModel &arm : fixedAndLinkedArms(rng)) {
+    const vpArmModel *model = &arm;
     CAPTURE(model->label());
-    for (int problem = 0; problem < 1000; ++problem) {
+    for (int problem = 0; problem < problemsOf(arm); ++problem) {
       const vpJointVector q = configuration(*model, rng), velocity = randomVector(model->size(), rng);
       vpArmData data;
       vpArmKinematics::update(*model, q, data);
@@ -188,6 +192,102 @@ TEST_CASE("Derivatives of the Jacobians are exact", "[kinematics]")
     }
   }
   std::cout << "largest difference of a Jacobian's derivative from central differences: " << all << '\n';
+}
+
+TEST_CASE("A camera or a tool on an earlier link moves as KDL's chain to there", "[kinematics]")
+{
+  auto rng = vpTestSupport::generator(6);
+  CAPTURE(vpTestSupport::seed());
+  const KDL::Chain whole = kdlAmor(false);
+  double worst = 0.;
+  for (int carrier = 1; carrier <= 7; ++carrier) {
+    vpArmSpec spec = amor().spec();
+    spec.cameraLink = carrier;
+    spec.camera = {};
+    const vpArmModel eye(spec);
+    spec.cameraLink = -1;
+    spec.toolLink = carrier;
+    spec.tool = {};
+    const vpArmModel hand(spec);
+    KDL::Chain part;
+    for (int i = 0; i < carrier; ++i) {
+      part.addSegment(whole.getSegment(static_cast<unsigned int>(i)));
+    }
+    KDL::ChainFkSolverPos_recursive fk(part);
+    KDL::ChainJntToJacSolver jac(part);
+    KDL::JntArray q(part.getNrOfJoints());
+    KDL::Jacobian J(part.getNrOfJoints());
+    for (int problem = 0; problem < 200; ++problem) {
+      const vpJointVector all = configuration(eye, rng);
+      q.data = all.head(carrier);
+      KDL::Frame pose;
+      fk.JntToCart(q, pose);
+      jac.JntToJac(q, J);
+      vpArmData seen, held;
+      vpArmKinematics::update(eye, all, seen);
+      vpArmKinematics::update(hand, all, held);
+      const vpRigidTransform fMc = vpArmKinematics::camera(eye, seen);
+      vpArmJacobian own = vpArmKinematics::geometric(eye, seen, vpArmFrame::Camera);
+      own.topRows<3>() = (fMc.R * own.topRows<3>()).eval();
+      own.bottomRows<3>() = (fMc.R * own.bottomRows<3>()).eval();
+      worst = std::max(worst, difference(fMc, held.tool));
+      for (int i = 0; i < 3; ++i) {
+        worst = std::max({worst, std::fabs(fMc.p(i) - pose.p(i)), std::fabs(fMc.R(i, 2) - pose.M(i, 2))});
+      }
+      for (const vpArmJacobian &ours : {own, held.J}) {
+        worst = std::max(worst, (ours.leftCols(carrier) - J.data).cwiseAbs().maxCoeff());
+        REQUIRE(ours.rightCols(7 - carrier).norm() == 0.);
+      }
+    }
+  }
+  std::cout << "camera or tool on each link: largest difference from KDL " << worst << '\n';
+  CHECK(worst < 1e-12);
+}
+
+// Followers as joints of their own, at the coordinates that they should have.
+TEST_CASE("An arm with followers is the arm of independent joints at their coordinates", "[kinematics]")
+{
+  auto rng = vpTestSupport::generator(5);
+  CAPTURE(vpTestSupport::seed());
+  for (int problem = 0; problem < 500; ++problem) {
+    CAPTURE(problem);
+    const vpArmModel linked = randomLinkedArm(rng);
+    vpArmSpec spec = linked.spec();
+    std::vector<vpArmJointSpec> joints;
+    const vpJointVector q = configuration(linked, rng);
+    std::vector<double> coordinates;
+    for (int i = 0; i <= linked.size(); ++i) {
+      for (const vpArmFollower &f : spec.followers) {
+        if (f.place == i) {
+          vpArmJointSpec joint = spec.joints.front();
+          joint.name = f.name;
+          joint.type = f.type;
+          joint.before = f.before;
+          joint.after = f.after;
+          joint.offset = 0.;
+          joints.push_back(joint);
+          coordinates.push_back(f.ratio * q(f.joint) + f.offset);
+        }
+      }
+      if (i < linked.size()) {
+        joints.push_back(spec.joints[static_cast<std::size_t>(i)]);
+        coordinates.push_back(q(i));
+      }
+    }
+    spec.joints = joints;
+    spec.followers.clear();
+    const vpArmModel free(spec);
+    vpArmData a, b;
+    vpArmKinematics::update(linked, q, a);
+    vpArmKinematics::update(
+        free, Eigen::Map<const Eigen::VectorXd>(coordinates.data(), static_cast<Eigen::Index>(coordinates.size())), b);
+    REQUIRE(linked.links() == free.size());
+    REQUIRE(difference(a.tool, b.tool) < 1e-12);
+    REQUIRE(difference(vpArmKinematics::camera(linked, a), vpArmKinematics::camera(free, b)) < 1e-12);
+    for (int i = 0; i <= free.size(); ++i) {
+      REQUIRE(difference(vpArmKinematics::link(linked, a, i), vpArmKinematics::link(free, b, i)) < 1e-12);
+    }
+  }
 }
 
 TEST_CASE("Kinematics do not allocate", "[kinematics]")

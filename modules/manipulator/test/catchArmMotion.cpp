@@ -2,8 +2,8 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Wishes of all kinds to joint velocities: paths arrive, shares and limits are kept, broken wishes brake. The frames of twists
-// are tested on the simulated arm.
+// Wishes of all kinds to joint velocities: paths arrive, shares and limits are kept, broken wishes brake. The frames of
+// twists are tested on the simulated arm.
 #include "vpCatch.h"
 #include "vpTestArms.h"
 #include "vpWildNumbers.h"

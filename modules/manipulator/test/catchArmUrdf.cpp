@@ -3,83 +3,21 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 // What the reader of URDF tolerates, assumes and refuses, each in a sentence; SRDF files and files of limits.
-#include "vpTestFile.h"
-#include "vpArmTestKit.h"
+#define VP_URDF_TEST "catchArmUrdf"
 #include "vpCatch.h"
+#include "vpUrdfTestKit.h"
 
-#include <visp3/core/vpException.h>
 #include <visp3/manipulator/vpSrdf.h>
 
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 
-using namespace vpArmTestKit;
+using namespace vpUrdfTestKit;
 
 namespace
 {
 namespace fs = std::filesystem;
-
-// A file of this test.
-struct File : vpTestSupport::File {
-  File(const std::string &name, const std::string &content) : vpTestSupport::File("catchArmUrdf-" + name, content) {}
-};
-
-std::string joint(const std::string &name, const std::string &type, const std::string &parent, const std::string &child,
-                  const std::string &rest = "")
-{
-  return "<joint name='" + name + "' type='" + type + "'><parent link='" + parent + "'/><child link='" + child + "'/>" +
-         rest + "</joint>\n";
-}
-
-std::string limit(const std::string &fields) { return "<axis xyz='0 0 1'/><limit " + fields + "/>"; }
-
-const std::string good = limit("lower='-1' upper='2' velocity='3' effort='4'");
-const std::string ball = "<collision><geometry><sphere radius='0.1'/></geometry></collision>";
-const std::string mass =
-    "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial>";
-
-std::string link(const std::string &name, const std::string &content = ball)
-{
-  return "<link name='" + name + "'>" + content + "</link>\n";
-}
-
-// Two links with the given joint between them, and anything else.
-std::string twoLinks(const std::string &ofJoint, const std::string &more = "", const std::string &type = "revolute")
-{
-  return "<robot name='r'>" + link("base") + link("arm") + joint("j", type, "base", "arm", ofJoint) + more + "</robot>";
-}
-
-vpArmModel load(const std::string &urdf, vpArmUrdfSpec spec = {})
-{
-  const File file("own.urdf", urdf);
-  return vpLoadArmUrdf(file.name(), spec);
-}
-
-std::string errorOf(const std::function<void()> &action)
-{
-  try {
-    action();
-  }
-  catch (const vpException &e) {
-    return e.getStringMessage();
-  }
-  return "no error";
-}
-
-std::string errorOf(const std::string &urdf, const vpArmUrdfSpec &spec = {})
-{
-  return errorOf([&] { static_cast<void>(load(urdf, spec)); });
-}
-
-using Sentences = std::vector<std::string>;
-
-vpArmUrdfSpec toTip(const std::string &tip)
-{
-  vpArmUrdfSpec spec;
-  spec.tip = tip;
-  return spec;
-}
 } // namespace
 
 TEST_CASE("Limits that a URDF does not have are unknown", "[urdf]")
@@ -301,55 +239,6 @@ TEST_CASE("What is connected with the base belongs to the arm, above it as well"
   CHECK(errorOf(urdf, spec).find("held joint h must be revolute, continuous or prismatic") != std::string::npos);
   spec.held = {{"elbow", 0.}};
   CHECK(errorOf(urdf, spec).find("there is no joint elbow to be held") != std::string::npos);
-}
-
-TEST_CASE("Joints that mimic others are held, carried along or independent", "[urdf]")
-{
-  const std::string urdf =
-      "<robot name='r'>" + link("base") + link("arm") + link("left") + link("right") + link("cam") +
-      joint("j", "revolute", "base", "arm", good) + joint("l", "prismatic", "arm", "left", good) +
-      joint("r", "prismatic", "arm", "right", good + "<mimic joint='l' multiplier='-0.5' offset='0.1'/>") +
-      joint("c", "revolute", "base", "cam", good + "<mimic joint='j'/>") + "</robot>";
-  vpArmUrdfSpec spec = toTip("arm");
-  CHECK(load(urdf, spec).spec().uncovered == Sentences{"cam", "left", "right"});
-  spec.held = {{"l", 0.4}};
-  const vpArmSpec held = load(urdf, spec).spec();
-  CHECK(held.uncovered == Sentences{"cam"});
-  REQUIRE(held.capsules.size() == 4);
-  CHECK(held.capsules[2].from(2) == Approx(0.4));
-  CHECK(held.capsules[3].from(2) == Approx(-0.1));
-  spec.held.clear();
-  spec.holdOthers = true; // one that mimics a joint of the chain moves with it
-  CHECK(load(urdf, spec).spec().uncovered == Sentences{"cam"});
-  spec.tip = "right";
-  const vpArmModel finger = load(urdf, spec);
-  CHECK(finger.size() == 2);
-  CHECK(finger.lower()(1) == -0.9); // 0.1 - 0.5 * 2, 0.1 + 0.5 * 1
-  CHECK(finger.upper()(1) == 0.6);
-  CHECK(finger.spec().uncovered == Sentences{"cam", "left"});
-  CHECK(errorOf("<robot name='r'>" + link("base") + link("arm") + link("tip") +
-                joint("j", "revolute", "base", "arm", good) +
-                joint("k", "revolute", "arm", "tip", good + "<mimic joint='j'/>") + "</robot>")
-            .find("joint k mimics joint j and both move the tip, which this model cannot express") !=
-        std::string::npos);
-  CHECK(errorOf(twoLinks(good + "<mimic joint='j'/>")).find("joint j mimics itself") != std::string::npos);
-}
-
-TEST_CASE("The camera moves with the end effector, or is refused", "[urdf]")
-{
-  const std::string urdf = "<robot name='r'>" + link("base") + link("arm") + link("tip") + link("eye") + link("lens") +
-                           joint("j", "revolute", "base", "arm", good) + joint("k", "revolute", "arm", "tip", good) +
-                           joint("e", "fixed", "arm", "eye") +
-                           joint("l", "prismatic", "tip", "lens", "<origin xyz='1 0 0'/>" + good) + "</robot>";
-  vpArmUrdfSpec spec = toTip("tip");
-  spec.camera = "eye";
-  CHECK(errorOf(urdf, spec)
-            .find("camera link eye is not below link tip, to which the end effector tip is fixed; for a "
-                  "camera on an earlier link give that as the tip") != std::string::npos);
-  spec.camera = "lens";
-  CHECK(errorOf(urdf, spec).find("joint l between the end effector and the camera is not fixed") != std::string::npos);
-  spec.held = {{"l", 0.5}};
-  CHECK((load(urdf, spec).spec().camera.p - Eigen::Vector3d(1., 0., 0.5)).norm() < 1e-12);
 }
 
 TEST_CASE("Capsules of short fingers enclose them wherever they are", "[urdf]")

@@ -3,8 +3,8 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 // Arms with fewer joints than commanded axes: what they do, which axis they name, and free axes.
-#include "vpArmTestKit.h"
 #include "vpCatch.h"
+#include "vpSolverTestKit.h"
 
 #include <visp3/core/vpException.h>
 #include <visp3/manipulator/vpClosedLoopKinematics.h>
@@ -14,12 +14,10 @@
 
 #include <bitset>
 
-using namespace vpArmTestKit;
+using namespace vpSolverTestKit;
 
 namespace
 {
-using Vector6 = Eigen::Matrix<double, 6, 1>;
-
 // An arm with random links and joints that are never at a limit.
 vpArmModel randomArm(int n, std::mt19937_64 &rng)
 {
@@ -59,22 +57,7 @@ vpArmModel scara()
   return vpArmModel(spec);
 }
 
-Vector6 randomTwist(std::mt19937_64 &rng)
-{
-  Vector6 v;
-  for (int k = 0; k < 6; ++k) {
-    v(k) = uniform(rng, -0.3, 0.3);
-  }
-  return v;
-}
-
-vpRedundancyInput input(int n, const Vector6 &twist)
-{
-  vpRedundancyInput in;
-  in.twist = vpTwist(twist(0), twist(1), twist(2), twist(3), twist(4), twist(5));
-  in.previous = vpJointVector::Zero(n);
-  return in;
-}
+vpRedundancyInput ofCamera(int n, const Vector6 &twist) { return input(n, twist, vpArmFrame::Camera); }
 
 // Jacobian of the camera in the scaled units of the solver.
 Eigen::MatrixXd scaled(const vpArmModel &model, const vpArmData &data, double length)
@@ -84,12 +67,6 @@ Eigen::MatrixXd scaled(const vpArmModel &model, const vpArmData &data, double le
   return J;
 }
 
-vpArmData at(const vpArmModel &model, const vpJointVector &q)
-{
-  vpArmData data;
-  vpArmKinematics::update(model, q, data);
-  return data;
-}
 } // namespace
 
 TEST_CASE("Axes have names", "[axes]")
@@ -126,7 +103,7 @@ TEST_CASE("An arm of fewer than six joints does its best and names axes without 
       continue;
     }
     const Vector6 twist = randomTwist(rng);
-    vpRedundancyInput in = input(n, twist);
+    vpRedundancyInput in = ofCamera(n, twist);
     vpRedundancyOutput out;
     solver.step(data, in, out);
     Vector6 wish = twist;
@@ -149,7 +126,7 @@ TEST_CASE("An arm of fewer than six joints does its best and names axes without 
 
     // A twist that the joints can do is done, and no fault is found with it.
     const Vector6 possible = J * randomVector(n, rng);
-    vpRedundancyInput easy = input(n, possible);
+    vpRedundancyInput easy = ofCamera(n, possible);
     for (std::size_t k = 3; k < 6; ++k) {
       easy.twist[k] /= spec.taskLength;
     }
@@ -177,6 +154,47 @@ TEST_CASE("An arm of fewer than six joints does its best and names axes without 
   CHECK(freed > 250);
 }
 
+// The arm cut off behind the camera says what must come out.
+TEST_CASE("Joints behind the camera do not move it and are left to their own wishes", "[axes]")
+{
+  auto rng = vpTestSupport::generator(105);
+  CAPTURE(vpTestSupport::seed());
+  for (int problem = 0; problem < 300; ++problem) {
+    const int n = 7, carrier = 1 + problem % 6;
+    vpArmSpec spec = randomArm(n, rng).spec();
+    spec.cameraLink = carrier;
+    const vpArmModel model(spec);
+    spec.joints.resize(static_cast<std::size_t>(carrier));
+    spec.cameraLink = -1;
+    const vpArmModel cut(spec);
+    vpRedundancySpec redundancy;
+    redundancy.singularRegion = 1e-3;
+    const vpRedundancySolver solver(model, redundancy), alone(cut, redundancy);
+    const vpJointVector q = configuration(model, rng);
+    const vpArmData data = at(model, q), dataCut = at(cut, q.head(carrier));
+    if (scaled(cut, dataCut, redundancy.taskLength).jacobiSvd().singularValues()(carrier - 1) < 2e-3) {
+      continue;
+    }
+    vpRedundancyInput in = ofCamera(n, randomTwist(rng)), inCut = in;
+    inCut.previous = vpJointVector::Zero(carrier);
+    vpRedundancyOutput out, expected;
+    solver.step(data, in, out);
+    alone.step(dataCut, inCut, expected);
+    CAPTURE(problem, carrier, out.message(), expected.message());
+    REQUIRE(out.status == expected.status);
+    REQUIRE(out.unreachableAxes == expected.unreachableAxes);
+    REQUIRE((carrier >= 6 || out.status == vpRedundancyStatus::AxisUnreachable));
+    REQUIRE((out.velocity.head(carrier) - expected.velocity).norm() < 1e-9 * (1. + expected.velocity.norm()));
+    REQUIRE(out.velocity.tail(n - carrier).norm() < 1e-9);
+
+    in.indices[0] = vpSelfMotionIndex::posture(vpJointVector::Zero(n));
+    in.indexCount = 1;
+    solver.step(data, in, out);
+    REQUIRE((out.velocity.head(carrier) - expected.velocity).norm() < 1e-9 * (1. + expected.velocity.norm()));
+    REQUIRE(out.velocity.tail(n - carrier).dot(q.tail(n - carrier)) < 0.);
+  }
+}
+
 TEST_CASE("What counts is the rank of the commanded axes, not the number of joints", "[axes]")
 {
   auto rng = vpTestSupport::generator(102);
@@ -189,7 +207,7 @@ TEST_CASE("What counts is the rank of the commanded axes, not the number of join
     vpJointVector q = configuration(model, rng, 0.2);
     q(1) = std::copysign(std::max(0.3, std::fabs(q(1))), q(1));
     const vpArmData data = at(model, q);
-    vpRedundancyInput in = input(4, 0.1 * randomTwist(rng));
+    vpRedundancyInput in = ofCamera(4, 0.1 * randomTwist(rng));
     vpRedundancyOutput out;
     in.free = vpFreeAxes({"rx", "ry"});
     solver.step(data, in, out);
@@ -212,7 +230,7 @@ TEST_CASE("An arm with enough joints never lacks an axis, not even at a singular
     vpJointVector q = configuration(model, rng);
     q(model.size() - 2) = 0.;
     vpRedundancyOutput out;
-    vpRedundancySolver(model).step(at(model, q), input(model.size(), randomTwist(rng)), out);
+    vpRedundancySolver(model).step(at(model, q), ofCamera(model.size(), randomTwist(rng)), out);
     REQUIRE(out.unreachableAxes == 0U);
     REQUIRE(out.status != vpRedundancyStatus::AxisUnreachable);
   }
@@ -245,7 +263,7 @@ TEST_CASE("A pose with a free axis is reached by five joints; without, the reaso
     in.goal = data.tool;
     // Turned about the axis that matters least there.
     vpRedundancyOutput probe;
-    vpRedundancyInput all = input(5, randomTwist(rng));
+    vpRedundancyInput all = ofCamera(5, randomTwist(rng));
     all.frame = vpArmFrame::EndEffector;
     vpRedundancySolver(model).step(data, all, probe);
     int axis = 0;

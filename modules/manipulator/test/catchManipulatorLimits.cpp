@@ -225,8 +225,8 @@ TEST_CASE("Solver: limits, task, self-motion and status hold in every random ste
       REQUIRE((done - share * wish).norm() <= 1e-6 * wish.norm() + 1e-9);
       REQUIRE(out.scale < 1.);
     }
-    // Away from singularities of the joints that are not stopped these do the whole task, whatever the stopped ones still
-    // move, or a part of it in its direction; not before all have the velocities that they want.
+    // Away from singularities of the joints that are not stopped these do the whole task, whatever the stopped ones
+    // still move, or a part of it in its direction; not before all have the velocities that they want.
     Eigen::MatrixXd able(0, n); // rows of the task, columns of the joints, in the weighted coordinates
     for (int k = 0; k < 6; ++k) {
       if (!in.free[static_cast<std::size_t>(k)]) {

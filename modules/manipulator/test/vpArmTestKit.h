@@ -61,6 +61,16 @@ inline const vpArmModel &mixed()
   return model;
 }
 
+//! The three fixed arms, and random ones with followers, end effector and camera on any link.
+inline std::vector<vpArmModel> fixedAndLinkedArms(std::mt19937_64 &rng)
+{
+  std::vector<vpArmModel> arms = {amor(), sixAxes(), mixed()};
+  for (int i = 0; i < 50; ++i) {
+    arms.push_back(randomLinkedArm(rng));
+  }
+  return arms;
+}
+
 inline vpJointVector vector(std::initializer_list<double> values)
 {
   vpJointVector v(static_cast<Eigen::Index>(values.size()));

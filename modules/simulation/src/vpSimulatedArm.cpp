@@ -96,6 +96,16 @@ vpHomogeneousMatrix poseOf(const vpColVector &v, bool euler)
   throw vpRobotException(vpRobotException::wrongStateError, "the simulated arm does not do this in frame %d", frame);
 }
 
+// With the camera on an earlier link its pose in the end effector's frame is not constant.
+void requireCameraOnTool(const vpArmModel &model, const char *instead)
+{
+  if (model.spec().cameraLink >= 0) {
+    throw vpRobotException(vpRobotException::wrongStateError,
+                           "the camera of %s is on link %d, not on the end effector: the simulated arm %s only",
+                           model.label().c_str(), model.spec().cameraLink, instead);
+  }
+}
+
 const char *sentenceOf(vpClosedLoopStatus status)
 {
   vpClosedLoopOutput output;
@@ -288,6 +298,9 @@ void vpSimulatedArm::setPosition(const vpRobot::vpControlFrameType frame, const 
   else {
     const vpRigidTransform pose = vpRigidTransform::fromHomogeneous(poseOf(q, frame == vpRobot::REFERENCE_FRAME));
     const bool ofTool = frame == vpRobot::END_EFFECTOR_FRAME;
+    if (!ofTool) {
+      requireCameraOnTool(core.model, "moves to poses of its end effector");
+    }
     core.motion().posePath(ofTool ? pose : pose * core.model.spec().camera.inverse(), here, moving);
   }
   m_impl->waitUntil(lock, [this, &core, order] {
@@ -408,6 +421,7 @@ void vpSimulatedArm::get_fJe(vpMatrix &J)
 
 vpHomogeneousMatrix vpSimulatedArm::get_cMe() const
 {
+  requireCameraOnTool(m_impl->core.model, "gives cMe of a camera that is fixed to it");
   return m_impl->core.model.spec().camera.inverse().toHomogeneous();
 }
 

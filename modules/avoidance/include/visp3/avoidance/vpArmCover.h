@@ -63,9 +63,9 @@ struct VISP_EXPORT vpArmCover {
  * A cover from the file is verified by vpProveCover(). An unedited cover is fitted again when the shapes,
  * the number of capsules or the seed have changed. An edited or `unchecked` one is always used.
  *
- * \throw vpException (badValue) naming the body: edited capsules that are not proven to enclose it, with the point farthest
- * outside, unless the file says `unchecked`; an ignored name that is no body. (badValue, ioError) naming the file and
- * the field if the file exists and cannot be read. A file that cannot be written is only a warning.
+ * \throw vpException (badValue) naming the body: edited capsules that are not proven to enclose it, with the point
+ * farthest outside, unless the file says `unchecked`; an ignored name that is no body. (badValue, ioError) naming the
+ * file and the field if the file exists and cannot be read. A file that cannot be written is only a warning.
  */
 [[nodiscard]] VISP_EXPORT vpArmCover vpCoverArm(const vpArmModel &arm, const vpArmCoverSpec &spec = {});
 

@@ -36,7 +36,8 @@ struct VISP_EXPORT vpCapsuleCover {
   double overhang = 0.;
   //! Volume of the union of the capsules over that of the mesh's convex hull, to about 2 %; 0 if the hull is flat.
   double volumeRatio = 0.;
-  //! Half the least width of the mesh across any of its triangles, along an axis or in 600 directions, m: of a long cylinder its radius.
+  //! Half the least width of the mesh across any of its triangles, along an axis or in 600 directions, m: of a long
+  //! cylinder its radius.
   double radius = 0.;
 };
 

@@ -60,9 +60,10 @@ private:
  * unproven pairs only; eight configurations are evaluated at once.
  *
  * Where capsules touch, or are still unproven at the resolution, and both parts have exact shapes
- * (vpCollisionSceneSpec::exact), these decide: a shape whose surface is at most t from the axes of its capsules moves by at
- * most h sum_j (R_lj + t) |dq_j|, and its distance (FCL) proves the part of the interval that it exceeds. Two shapes, or
- * a shape and an obstacle, may not be inside each other either. A Collision of exact shapes has the distance 0.
+ * (vpCollisionSceneSpec::exact), these decide: a shape whose surface is at most t from the axes of its capsules moves
+ * by at most h sum_j (R_lj + t) |dq_j|, and its distance (FCL) proves the part of the interval that it exceeds. Two
+ * shapes, or a shape and an obstacle, may not be inside each other either. A Collision of exact shapes has the distance
+ * 0.
  *
  * Immutable; may be shared by threads, each with its own vpMotionScratch.
  */

@@ -38,12 +38,12 @@ struct VISP_EXPORT vpTrajectoryClearance {
  * In an interval of half-width h about t_m joint j moves from its position at t_m by at most d_j + x_j, with d_j the
  * smaller of (|v_j(t_m)| + w_j) h + a_j h^2 / 2 and V_j h: V_j and a_j are its largest velocity and acceleration over
  * the plan, w_j and x_j the sums of its velocity and position jumps (only rounding in a plan of vpTrajectoryPlanner).
- * A capsule of link l moves by at most the sum over j of R_lj times that (vpReachBounds), an object by at most its speed times h
- * plus its rotation times its extent. The interval is free if at t_m the distance of every pair exceeds the sum of the
- * margin, both motions and 1e-9 m for rounding; otherwise it is split. Values that are not finite, joints beyond
- * vpLargestCoordinate and prismatic joints where the bounds do not hold (vpReachBounds::holds()) give BadInput;
- * reaching the limit on evaluations gives Undecided. Capsules alone decide, also where the scene has exact shapes: a
- * motion that vpCertifiedMotion calls free by these is a Collision here.
+ * A capsule of link l moves by at most the sum over j of R_lj times that (vpReachBounds), an object by at most its
+ * speed times h plus its rotation times its extent. The interval is free if at t_m the distance of every pair exceeds
+ * the sum of the margin, both motions and 1e-9 m for rounding; otherwise it is split. Values that are not finite,
+ * joints beyond vpLargestCoordinate and prismatic joints where the bounds do not hold (vpReachBounds::holds()) give
+ * BadInput; reaching the limit on evaluations gives Undecided. Capsules alone decide, also where the scene has exact
+ * shapes: a motion that vpCertifiedMotion calls free by these is a Collision here.
  */
 class VISP_EXPORT vpCertifiedTrajectory
 {

@@ -95,10 +95,10 @@ class VISP_EXPORT vpCollisionScene
 public:
   /*!
    * \throw vpException (badValue) naming the source, the element and the value: an arm without capsules or with more
-   * than vpArmMaxCapsules, a body of vpArmSpec::uncovered that is not ignored, an ignored one that is not among them, exact
-   * shapes of another arm, an object without a name or with a duplicate name, an invalid pose, lengths that are not
-   * finite, negative or above vpLargestLength, velocities above 1000 m/s or rad/s, a ground without normal, links or
-   * objects that do not exist.
+   * than vpArmMaxCapsules, a body of vpArmSpec::uncovered that is not ignored, an ignored one that is not among them,
+   * exact shapes of another arm, an object without a name or with a duplicate name, an invalid pose, lengths that are
+   * not finite, negative or above vpLargestLength, velocities above 1000 m/s or rad/s, a ground without normal, links
+   * or objects that do not exist.
    */
   explicit vpCollisionScene(const vpArmModel &arm, const vpCollisionSceneSpec &spec = {});
   vpCollisionScene(const vpCollisionScene &other);                //!< Copies.
@@ -115,7 +115,7 @@ public:
   [[nodiscard]] const vpArmCapsule &capsule(int i) const noexcept { return m_capsules[static_cast<std::size_t>(i)]; }
   //! Exact shapes of the arm's bodies; null if there are none.
   [[nodiscard]] const std::shared_ptr<const vpExactShapes> &exact() const noexcept { return m_exact; }
-  //! Reach bounds of the arm: computed by the first call, and shared by all copies of the scene. Allocates and locks.
+  //! Reach bounds, computed once for all copies of the arm (vpArmModel::derived()). Allocates and locks.
   [[nodiscard]] std::shared_ptr<const vpReachBounds> reach() const;
   //! Pairs of capsules that must not touch, sorted by their links.
   [[nodiscard]] const std::vector<vpSelfPair> &selfPairs() const noexcept { return m_selfPairs; }
@@ -192,7 +192,6 @@ public:
   [[nodiscard]] const std::vector<vpLinkPair> &linkPairs() const noexcept;
 
 private:
-  struct Reach;
   struct Links;
   template <class Visit> void visit(const vpCollisionData &data, double time, Visit &visitor) const noexcept;
   template <class Visit>
@@ -202,7 +201,6 @@ private:
   std::string m_source;
   std::vector<vpArmCapsule> m_capsules;
   std::shared_ptr<const Links> m_links;
-  std::shared_ptr<Reach> m_reach;
   std::shared_ptr<const vpExactShapes> m_exact;
   std::vector<vpSelfPair> m_selfPairs;
   std::optional<vpHalfSpace> m_ground;

@@ -73,7 +73,8 @@ public:
   void look() override;
   void step(const vpJointVector &q, vpAvoidanceOutput &output) noexcept override;
 
-  //! Via positions or, for vpDetourKind::PointToPoint, the temporary final position, m; for display. Empty without a detour.
+  //! Via positions or, for vpDetourKind::PointToPoint, the temporary final position, m; for display. Empty without a
+  //! detour.
   [[nodiscard]] std::vector<Eigen::Vector3d> detour() const;
 
 private:

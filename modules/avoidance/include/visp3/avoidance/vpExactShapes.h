@@ -39,8 +39,8 @@ class VISP_EXPORT vpExactShapes
 public:
   /*!
    * Loads the meshes; for set-up.
-   * \throw vpException (notImplementedError) naming FCL if built without it; (ioError, badValue) naming a mesh file that
-   * cannot be read.
+   * \throw vpException (notImplementedError) naming FCL if built without it; (ioError, badValue) naming a mesh file
+   * that cannot be read.
    */
   explicit vpExactShapes(const vpArmModel &arm);
   ~vpExactShapes();
@@ -49,8 +49,8 @@ public:
 
   //! True if body \e i of vpArmSpec::bodies has an exact shape; false for -1.
   [[nodiscard]] bool has(int i) const noexcept;
-  //! Largest distance of the surface of body \e i from the convex hull of the axes of its capsules, m, or more: a joint that
-  //! turns by dq moves it by at most this distance times dq more than the axes.
+  //! Largest distance of the surface of body \e i from the convex hull of the axes of its capsules, m, or more: a joint
+  //! that turns by dq moves it by at most this distance times dq more than the axes.
   [[nodiscard]] double thickness(int i) const noexcept;
   //! True if the shapes were made for an arm of the same bodies and capsules.
   [[nodiscard]] bool isOf(const vpArmModel &arm) const noexcept;

@@ -21,8 +21,8 @@ enum class vpGoalConfigurationStatus {
 //! \brief A configuration and what it is worth.
 struct VISP_EXPORT vpGoalConfiguration {
   vpGoalConfigurationStatus status = vpGoalConfigurationStatus::Unreachable; //!< Look at it before q.
-  //! rad or m, within the position limits. InCollision: the first that was found, to tell what is in the way; Unreachable:
-  //! empty.
+  //! rad or m, within the position limits. InCollision: the first that was found, to tell what is in the way;
+  //! Unreachable: empty.
   vpJointVector q;
 
   //! True when q may be moved to.

@@ -93,9 +93,9 @@ struct VISP_EXPORT vpPathResult {
  *
  * Continuous joints take the shorter way to the goal's angle; the path never crosses position limits. A path found
  * with certified validation is free with the margin at every point, thesis (3.46), (3.48); with discrete validation
- * it may not be. Where the scene has exact shapes (vpCollisionSceneSpec::exact) they decide where capsules touch, except
- * with DiscreteFcl; a path that passes there cannot be proven by vpCertifiedTrajectory, nor timed by vpTimedPath. One object
- * per thread.
+ * it may not be. Where the scene has exact shapes (vpCollisionSceneSpec::exact) they decide where capsules touch,
+ * except with DiscreteFcl; a path that passes there cannot be proven by vpCertifiedTrajectory, nor timed by
+ * vpTimedPath. One object per thread.
  */
 class VISP_EXPORT vpPathPlanner
 {

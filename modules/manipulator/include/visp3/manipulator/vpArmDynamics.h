@@ -19,7 +19,8 @@ BEGIN_VISP_NAMESPACE
  * \class vpArmDynamics
  * \ingroup group_manipulator
  * \brief Dynamics M(q) q'' + C(q, q') q' + F_f(q') + g(q) = tau, thesis (3.1), without the friction term. Rotor
- * inertias are on the diagonal of M.
+ * inertias are on the diagonal of M. Followers take part with the coordinates and velocities of their joints, to which
+ * they pass on their torques by their ratios (virtual work).
  *
  * Each function returns false and a zero result if a vector has the wrong size, is not finite or exceeds vpArmLargest,
  * or if the result is not finite.

@@ -32,7 +32,7 @@ struct VISP_EXPORT vpArmData {
   int size = 0;    //!< Number of joints n of the arm; 0: not filled.
   vpJointVector q; //!< Configuration, rad or m.
   std::array<vpRigidTransform, vpArmMaxJoints>
-      joint;             //!< Joint frames in the base; z is the axis, the frame moves with its link.
+      joint;             //!< Frames of the l joints and followers in the base; z is the axis, each moves with its link.
   vpRigidTransform tool; //!< fMe: end effector in the base.
   vpArmJacobian J;       //!< Geometric Jacobian (3.9)-(3.13) in vpArmFrame::Base.
 };
@@ -41,7 +41,9 @@ struct VISP_EXPORT vpArmData {
  * \ingroup group_manipulator
  * \brief Kinematics of fixed capacity; no allocation, exception, lock or output. Joints are numbered from 0 here.
  *
- * In (3.12)-(3.13), as corrected, z_{i-1} is the third column of R^0_{i-1}, the axis in the base frame.
+ * A joint moves the end effector and the camera as far as their links are behind it, see vpArmSpec::toolLink and
+ * vpArmSpec::cameraLink; its other columns are 0. The columns of followers, times their ratios, are added to that of
+ * their joint. In (3.12)-(3.13), as corrected, z_{i-1} is the third column of R^0_{i-1}, the axis in the base frame.
  */
 namespace vpArmKinematics
 {
@@ -59,7 +61,7 @@ VISP_EXPORT void jacobian(const vpArmModel &model, vpArmData &data) noexcept;
 //! Calls forward() and jacobian(); returns the result of forward().
 VISP_EXPORT bool update(const vpArmModel &model, const vpJointVector &q, vpArmData &data) noexcept;
 
-//! Frame of link \e i (1..n; 0 is the base) in the base; after forward().
+//! Frame of link \e i (1..l; 0 is the base) in the base; after forward().
 [[nodiscard]] VISP_EXPORT vpRigidTransform link(const vpArmModel &model, const vpArmData &data, int i) noexcept;
 //! Camera frame in the base, fMc; after forward().
 [[nodiscard]] VISP_EXPORT vpRigidTransform camera(const vpArmModel &model, const vpArmData &data) noexcept;
@@ -74,19 +76,16 @@ VISP_EXPORT bool update(const vpArmModel &model, const vpJointVector &q, vpArmDa
  */
 [[nodiscard]] VISP_EXPORT vpArmJacobian analytic(const vpArmModel &model, const vpArmData &data) noexcept;
 /*!
- * Linear Jacobian of the origin of joint \e k (one column per joint, 0 from joint k on): the partial Jacobian used by
- * the distance indices. In the base frame; after forward(). \e k = n is the end effector.
+ * Linear Jacobian of the origin of joint or follower \e k of the chain (one column per joint): the partial Jacobian
+ * used by the distance indices. In the base frame; after forward(). \e k = l is the end effector.
  */
 [[nodiscard]] VISP_EXPORT Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, vpArmMaxJoints>
 pointJacobian(const vpArmModel &model, const vpArmData &data, int k) noexcept;
 
 /*!
- * Column \e i of dJ/dq_k in the base frame, exact: a revolute joint k <= i rotates column i; for a revolute joint i < k
- * the lever arm changes by column k; prismatic joints change nothing else. After jacobian().
+ * Derivative dJ/dq_k in the given frame, exact: in the base a revolute joint k <= i rotates column i; for a revolute
+ * joint i < k the lever arm changes by column k; prismatic joints change nothing else. After forward().
  */
-[[nodiscard]] VISP_EXPORT Eigen::Matrix<double, 6, 1> columnDerivative(const vpArmModel &model, const vpArmData &data,
-                                                                       int i, int k) noexcept;
-//! Derivative dJ/dq_k in the given frame; after jacobian().
 [[nodiscard]] VISP_EXPORT vpArmJacobian derivative(const vpArmModel &model, const vpArmData &data, int k,
                                                    vpArmFrame frame) noexcept;
 //! Derivative dJ/dt = sum_k dJ/dq_k q'_k in the given frame; after jacobian(). NaN for velocities of the wrong size,

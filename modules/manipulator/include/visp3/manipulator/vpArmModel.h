@@ -12,13 +12,33 @@
 #include <visp3/manipulator/vpArmSpec.h>
 
 #include <array>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <typeindex>
 
 BEGIN_VISP_NAMESPACE
+
+/*!
+ * \ingroup group_manipulator
+ * \brief Joint or follower of an arm, in the order of the chain.
+ */
+struct VISP_EXPORT vpArmChainJoint {
+  vpRigidTransform step;    //!< Frame at the coordinate 0 in the moving frame of the one before, or of the base.
+  vpRigidTransform after;   //!< Frame of the link that it moves, in its moving frame.
+  bool isPrismatic = false; //!< Moves along z; else it rotates about z.
+  int joint = 0;            //!< Joint that decides: this one, or the one that it follows.
+  double ratio = 1.;        //!< Its coordinate is ratio * q(joint) + offset, rad or m.
+  double offset = 0.;       //!< See ratio.
+};
 
 /*!
  * \class vpArmModel
  * \ingroup group_manipulator
  * \brief Immutable serial arm of 1 to vpArmMaxJoints joints; results of a control cycle are kept in vpArmData.
+ *
+ * It has n joints, which are commanded, and l >= n links: joints may have followers (vpArmSpec::followers). All vectors
+ * of configurations, velocities, limits and torques have n numbers.
  *
  * Created from a vpArmSpec, by vpLoadArmJson() or by vpLoadArmUrdf(). Copy it during set-up, not in a control loop.
  */
@@ -30,12 +50,16 @@ public:
    * than vpArmMaxJoints, empty or duplicate names, limits that are not lower < upper, velocity, acceleration or torque
    * limits not > 0, masses not > 0, physically impossible inertias, invalid rotations, bodies, shapes and capsules of a
    * link or body that does not exist or with a size that is not > 0 (of a mesh: 0), a mesh without a file, pairs of
-   * bodies that do not exist; positions, links, shapes and capsules beyond 10 km, other numbers beyond vpArmLargest.
+   * bodies that do not exist; followers of no joint, with a ratio out of range, or that would move without limits along
+   * z; an end effector or a camera on no link; positions, links, shapes and capsules beyond 10 km, other numbers beyond
+   * vpArmLargest.
    */
   explicit vpArmModel(const vpArmSpec &spec);
 
   //! Number of joints n.
   [[nodiscard]] int size() const noexcept { return m_size; }
+  //! Number of links l, without the base: of joints and followers.
+  [[nodiscard]] int links() const noexcept { return m_links; }
   //! The specification of the arm.
   [[nodiscard]] const vpArmSpec &spec() const noexcept { return m_spec; }
   //! The source file, or the name if there is none.
@@ -75,22 +99,49 @@ public:
    */
   void requireMotionLimits(const char *user) const;
 
-  //! Offset of joint \e i, added to its coordinate, rad or m.
-  [[nodiscard]] double offset(int i) const noexcept { return m_offset[static_cast<std::size_t>(i)]; }
-  //! Frame of joint \e i at q_i + offset = 0 in the moving frame of joint i - 1 (of the base for i = 0).
-  [[nodiscard]] const vpRigidTransform &step(int i) const noexcept { return m_step[static_cast<std::size_t>(i)]; }
-  //! Frame of the last link in the moving frame of the last joint, times the tool.
+  //! Joint or follower \e k (0..l-1) in the order of the chain; it moves link k + 1.
+  [[nodiscard]] const vpArmChainJoint &chain(int k) const noexcept { return m_chain[static_cast<std::size_t>(k)]; }
+  //! Coordinates of all of the chain, followers included: l numbers, rad or m. \param q : n numbers.
+  [[nodiscard]] vpJointVector coordinates(const vpJointVector &q) const noexcept;
+  //! The same change or velocity for all of the chain: l numbers. \param change : n numbers, rad or m, or their rates.
+  [[nodiscard]] vpJointVector changes(const vpJointVector &change) const noexcept;
+  //! Links that move the end effector: the number of the one that carries it, 1..l.
+  [[nodiscard]] int toolLink() const noexcept { return m_spec.toolLink < 0 ? m_links : m_spec.toolLink; }
+  //! Links that move the camera: the number of the one that carries it, 1..l.
+  [[nodiscard]] int cameraLink() const noexcept { return m_spec.cameraLink < 0 ? toolLink() : m_spec.cameraLink; }
+  //! Frame of the end effector in the moving frame of the joint that moves its link.
   [[nodiscard]] const vpRigidTransform &toolStep() const noexcept { return m_toolStep; }
 
+  /*!
+   * What follows from the arm alone and takes long to find: made as T(arm) by the first caller, then shared by all
+   * copies of the arm, in all threads. For set-up. T must not keep a copy of the arm.
+   */
+  template <class T> [[nodiscard]] std::shared_ptr<const T> derived() const
+  {
+    const std::lock_guard<std::mutex> lock(m_derived->mutex);
+    std::shared_ptr<const void> &value = m_derived->values[typeid(T)];
+    if (!value) {
+      value = std::make_shared<const T>(*this);
+    }
+    return std::static_pointer_cast<const T>(value);
+  }
+
 private:
+  struct Derived {
+    std::mutex mutex;
+    std::map<std::type_index, std::shared_ptr<const void>> values;
+  };
+
+  void makeChain();
+
   vpArmSpec m_spec;
-  int m_size = 0;
+  int m_size = 0, m_links = 0;
   bool m_hasMasses = false;
   std::array<bool, vpArmMaxJoints> m_prismatic{};
   std::array<bool, vpArmMaxJoints> m_continuous{};
-  std::array<double, vpArmMaxJoints> m_offset{};
-  std::array<vpRigidTransform, vpArmMaxJoints> m_step;
+  std::array<vpArmChainJoint, vpArmMaxJoints> m_chain;
   vpRigidTransform m_toolStep;
+  std::shared_ptr<Derived> m_derived = std::make_shared<Derived>();
   vpJointVector m_lower, m_upper, m_velocity, m_acceleration, m_torque, m_home;
 };
 

@@ -58,6 +58,23 @@ struct VISP_EXPORT vpArmJointSpec {
 
 /*!
  * \ingroup group_manipulator
+ * \brief Joint of the chain whose coordinate is ratio * q + offset of another one (a mimic joint, a parallel linkage).
+ *
+ * It has no limits, friction or inertia of its own: those of the joint that it follows must allow for them.
+ */
+struct VISP_EXPORT vpArmFollower {
+  std::string name;                         //!< Name for messages; not empty.
+  vpJointType type = vpJointType::Revolute; //!< Revolute or continuous: rotates about z; prismatic: moves along z.
+  vpRigidTransform before;                  //!< As vpArmJointSpec::before.
+  vpRigidTransform after;                   //!< As vpArmJointSpec::after.
+  int joint = 0;      //!< Joint that it follows, index into vpArmSpec::joints; at any place of the chain.
+  double ratio = 1.;  //!< Its coordinate per coordinate of that joint, not 0, within +-100.
+  double offset = 0.; //!< Its coordinate where that of the joint is 0, rad or m.
+  int place = 0;      //!< Number of vpArmSpec::joints between the base and this one; followers with the same in order.
+};
+
+/*!
+ * \ingroup group_manipulator
  * \brief Link moved by a joint, in the link frame (standard DH: frame i; URDF: frame of the child link).
  */
 struct VISP_EXPORT vpArmLinkSpec {
@@ -74,7 +91,7 @@ struct VISP_EXPORT vpArmLinkSpec {
  */
 struct VISP_EXPORT vpArmBody {
   std::string name; //!< Name in the description.
-  int link = 0;     //!< Link that carries it, 1..n; 0: the base.
+  int link = 0;     //!< Link that carries it, 1..l; 0: the base.
 };
 
 //! \ingroup group_manipulator
@@ -104,7 +121,7 @@ struct VISP_EXPORT vpArmShape {
  * coincide.
  */
 struct VISP_EXPORT vpArmCapsule {
-  int link = 0;                                   //!< Link that carries the capsule, 1..n; 0: the base.
+  int link = 0;                                   //!< Link that carries the capsule, 1..l; 0: the base.
   Eigen::Vector3d from = Eigen::Vector3d::Zero(); //!< One end of the axis, in the link frame, m.
   Eigen::Vector3d to = Eigen::Vector3d::Zero();   //!< The other end, in the link frame, m.
   double radius = 0.;                             //!< Radius, m, > 0.
@@ -114,12 +131,16 @@ struct VISP_EXPORT vpArmCapsule {
 /*!
  * \ingroup group_manipulator
  * \brief Specification of an arm; validated by vpArmModel.
+ *
+ * Links are numbered from the base (0) to the last one (l), one for each joint and follower in the order of the chain.
  */
 struct VISP_EXPORT vpArmSpec {
   std::string name;                   //!< Name for messages.
   std::string source;                 //!< Source file, for messages; may be empty.
-  std::vector<vpArmJointSpec> joints; //!< Joints from the base on, 1..vpArmMaxJoints.
-  std::vector<vpArmLinkSpec> links;   //!< Links, as many as joints, or none.
+  std::vector<vpArmJointSpec> joints; //!< Joints from the base on, at least one: the coordinates of the arm.
+  //! Joints that follow one of these; with them at most vpArmMaxJoints.
+  std::vector<vpArmFollower> followers;
+  std::vector<vpArmLinkSpec> links;   //!< Links 1..l, or none.
   std::vector<vpArmCapsule> capsules; //!< Capsules for collision checks; may be empty.
   std::vector<vpArmBody> bodies;      //!< Bodies of the description; may be empty.
   std::vector<vpArmShape> shapes;     //!< Exact collision geometry: all of a body or nothing; may be empty.
@@ -130,8 +151,10 @@ struct VISP_EXPORT vpArmSpec {
    * vpCollisionScene refuses the arm unless each is in vpCollisionSceneSpec::ignoredBodies.
    */
   std::vector<std::string> uncovered;
-  vpRigidTransform tool;             //!< End effector in the frame of the last link.
-  vpRigidTransform camera;           //!< eMc: camera in the end effector's frame.
+  int toolLink = -1;                 //!< Link that carries the end effector, 1..l; -1: the last one.
+  vpRigidTransform tool;             //!< End effector in the frame of its link.
+  int cameraLink = -1;               //!< Link that carries the camera, 1..l; -1: it is fixed to the end effector.
+  vpRigidTransform camera;           //!< Camera in the frame of its link; without one eMc, in the end effector's.
   vpJointVector home;                //!< Home configuration, rad or m, within the limits; empty: unknown.
   std::vector<std::string> warnings; //!< What the reader took as unknown, or assumed: one sentence each.
 };

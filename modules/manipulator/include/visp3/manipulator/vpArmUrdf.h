@@ -21,8 +21,9 @@ BEGIN_VISP_NAMESPACE
  */
 struct VISP_EXPORT vpArmUrdfSpec {
   std::string base; //!< First link of the chain; empty: that of the group, else the root (above the tip).
-  std::string tip;  //!< Last link, whose frame is the end effector; empty: that of the group, else the only leaf.
-  //! Camera link, fixed to the end effector's link; empty: the end effector itself.
+  std::string tip;  //!< Last link; empty: that of the group, else the only leaf.
+  std::string tool; //!< Link whose frame is the end effector, fixed to any link of the chain; empty: the last one.
+  //! Camera link, fixed to any link of the chain; empty: the end effector itself.
   std::string camera;
   std::string srdf; //!< SRDF file with pairs that are not checked, groups and home configurations; empty: none.
   /*!
@@ -42,7 +43,8 @@ struct VISP_EXPORT vpArmUrdfSpec {
   //! File of limits in the format of MoveIt's joint_limits.yaml; velocity, acceleration and effort replace those of
   //! the URDF, positions narrow them. Empty: none.
   std::string limits;
-  vpJointVector velocity; //!< Velocity limits of the chain's joints, > 0, rad/s or m/s; empty: those of the files.
+  //! Velocity limits of the arm's joints, > 0, rad/s or m/s; empty: those of the files and of followers.
+  vpJointVector velocity;
   //! Acceleration limit of the joints for which #limits has none, rad/s^2 or m/s^2, > 0.
   double acceleration = std::numeric_limits<double>::infinity();
   bool softLimits = true; //!< Narrow the position limits to the soft ones (`safety_controller`), as ros_control does.
@@ -72,8 +74,11 @@ struct VISP_EXPORT vpArmUrdfSpec {
  * the file, or absolute, also after `file://`. The letter case of the suffix does not matter.
  *
  * **Joints.** Damping and friction become viscous and Coulomb friction. Joints that mimic one of the chain from beside
- * it are carried along, see above; a joint of the chain that mimics a held joint is held, and one that mimics another
- * joint beside the chain counts as independent within the limits of both.
+ * it are carried along, see above; a joint of the chain that mimics a held joint, or any with the ratio 0, is held.
+ * One that mimics another joint of the chain is a follower (vpArmSpec::followers); so are all but the first of those
+ * that mimic the same joint beside the chain, of which the first counts as independent within the limits of both. The
+ * joint that is followed gets the followers' limits of position and velocity, also those of #vpArmUrdfSpec::limits, and
+ * their friction, by their ratios; efforts of followers are not used.
  *
  * **Unknown values.** Effort or velocity limits that are missing, not > 0 or beyond vpArmLargest are infinite; a
  * negative mass, a mass of 0 of a link with a shape and an inertia that no body has make the mass of the whole link
@@ -81,9 +86,9 @@ struct VISP_EXPORT vpArmUrdfSpec {
  * of xacro macros that were never expanded, are left out. vpArmSpec::warnings says so, and what else was assumed:
  * names, roots, the group, soft limits, the home state, names of the other files that this one does not have.
  * \throw vpException (ioError) if a file cannot be read, (badValue) if it is malformed or written in xacro, a link,
- * joint, group or state is missing, the tip is not unique or not below the base, the camera moves relative to the tip,
- * a joint of the chain is floating or planar or mimics another one of the chain, or vpArmModel rejects a value; one
- * sentence with the file and the element.
+ * joint, group or state is missing, the tip is not unique or not below the base, the camera or the tool is not fixed to
+ * a link of the chain, a joint of the chain is floating or planar, or vpArmModel rejects a value; one sentence with the
+ * file and the element.
  */
 [[nodiscard]] VISP_EXPORT vpArmModel vpLoadArmUrdf(const std::string &file, const vpArmUrdfSpec &spec = {});
 

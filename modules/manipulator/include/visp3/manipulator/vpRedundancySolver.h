@@ -64,7 +64,8 @@ struct VISP_EXPORT vpArmTask {
   vpArmJacobian J; //!< Jacobian, of which the first #rows rows are used; n columns.
   Eigen::Matrix<double, 6, 1> velocity = Eigen::Matrix<double, 6, 1>::Zero(); //!< Desired task velocity, m/s or rad/s.
 
-  //! Task: velocity of the origin of joint \e joint (0..n-1) in the base, m/s. After vpArmKinematics::forward().
+  //! Task: velocity of the origin of joint or follower \e joint of the chain (0..l-1) in the base, m/s. After
+  //! vpArmKinematics::forward().
   [[nodiscard]] static vpArmTask pointVelocity(const vpArmModel &model, const vpArmData &data, int joint,
                                                const Eigen::Vector3d &velocity) noexcept;
 };

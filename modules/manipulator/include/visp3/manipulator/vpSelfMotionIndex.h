@@ -43,10 +43,10 @@ enum class vpIndexKind {
  * figures 8.14 and 8.17 disagree.
  */
 struct VISP_EXPORT vpSelfMotionIndex {
-  vpIndexKind kind = vpIndexKind::Manipulability;    //!< Quantity measured.
-  double gain = 1.;                                  //!< Weight among the indices, >= 0.
-  vpIndexSense sense = vpIndexSense::Repel;          //!< Sense, for the three distance kinds.
-  int joint = 0;                                     //!< Joint whose origin is used, 0..n-1; q4 of the thesis is 3.
+  vpIndexKind kind = vpIndexKind::Manipulability; //!< Quantity measured.
+  double gain = 1.;                               //!< Weight among the indices, >= 0.
+  vpIndexSense sense = vpIndexSense::Repel;       //!< Sense, for the three distance kinds.
+  int joint = 0; //!< Joint or follower of the chain whose origin is used, from 0; q4 of the thesis is 3.
   Eigen::Vector3d point = Eigen::Vector3d::Zero();   //!< The point, or a point of the plane, in the base, m.
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ(); //!< Unit normal of the plane, towards the allowed side.
   double range = 0.2;                                //!< Length scale s of the distance function, m, > 0.

@@ -145,8 +145,8 @@ public:
    *   REFERENCE_FRAME: pose of the camera in the base as (m, Rxyz), as on ViSP's Viper robots.
    * \param q : n rows for JOINT_STATE, rad or m; else 6, m and rad.
    * \throw vpException (dimensionError), (badValue); vpRobotException (positionOutOfRangeError) naming the joint that
-   * would leave its limits, (wrongStateError) for MIXT_FRAME, (lowLevelError) with a sentence if the arm cannot reach
-   * the pose, or if another thread interrupts with another position, a stop or another state.
+   * would leave its limits, (wrongStateError) for MIXT_FRAME and for poses of a camera that is not fixed to the end
+   * effector, (lowLevelError) with a sentence if the arm cannot reach the pose, or if another thread interrupts with another position, a stop or another state.
    */
   void setPosition(const vpRobot::vpControlFrameType frame, const vpColVector &q) VP_OVERRIDE;
   using vpRobot::getPosition;
@@ -165,9 +165,10 @@ public:
   void get_eJe(vpMatrix &eJe) VP_OVERRIDE;
   //! Jacobian of the end effector along the axes of the base, 6 x n.
   void get_fJe(vpMatrix &fJe) VP_OVERRIDE;
-  //! Pose of the end effector in the camera's frame.
+  //! Pose of the end effector in the camera's frame. \throw vpRobotException (wrongStateError) if the camera is not
+  //! fixed to the end effector (vpArmSpec::cameraLink).
   [[nodiscard]] vpHomogeneousMatrix get_cMe() const;
-  //! Transforms twists of the end effector to the camera.
+  //! Transforms twists of the end effector to the camera. \throw vpRobotException as get_cMe().
   [[nodiscard]] vpVelocityTwistMatrix get_cVe() const;
   //! True pose of the camera in the base.
   [[nodiscard]] vpHomogeneousMatrix get_fMc() const;

@@ -1,0 +1,169 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// Joints of a URDF that follow others, and tools and cameras on any link.
+#define VP_URDF_TEST "catchArmFollowers"
+#include "vpCatch.h"
+#include "vpUrdfTestKit.h"
+
+#include <algorithm>
+
+using namespace vpUrdfTestKit;
+
+TEST_CASE("Joints that mimic others are held, carried along or independent", "[urdf]")
+{
+  const std::string urdf =
+      "<robot name='r'>" + link("base") + link("arm") + link("left") + link("right") + link("cam") +
+      joint("j", "revolute", "base", "arm", good) + joint("l", "prismatic", "arm", "left", good) +
+      joint("r", "prismatic", "arm", "right", good + "<mimic joint='l' multiplier='-0.5' offset='0.1'/>") +
+      joint("c", "revolute", "base", "cam", good + "<mimic joint='j'/>") + "</robot>";
+  vpArmUrdfSpec spec = toTip("arm");
+  CHECK(load(urdf, spec).spec().uncovered == Sentences{"cam", "left", "right"});
+  spec.held = {{"l", 0.4}};
+  const vpArmSpec held = load(urdf, spec).spec();
+  CHECK(held.uncovered == Sentences{"cam"});
+  REQUIRE(held.capsules.size() == 4);
+  CHECK(held.capsules[2].from(2) == Approx(0.4));
+  CHECK(held.capsules[3].from(2) == Approx(-0.1));
+  spec.held.clear();
+  spec.holdOthers = true; // one that mimics a joint of the chain moves with it
+  CHECK(load(urdf, spec).spec().uncovered == Sentences{"cam"});
+  spec.tip = "right";
+  const vpArmModel finger = load(urdf, spec);
+  CHECK(finger.size() == 2);
+  CHECK(finger.lower()(1) == -0.9); // 0.1 - 0.5 * 2, 0.1 + 0.5 * 1
+  CHECK(finger.upper()(1) == 0.6);
+  CHECK(finger.spec().uncovered == Sentences{"cam", "left"});
+  CHECK(errorOf(twoLinks(good + "<mimic joint='j'/>")).find("joint j mimics itself") != std::string::npos);
+}
+
+// Three joints a, b, c in a row between base and tip, and one beside them.
+std::string row(const std::string &a, const std::string &b, const std::string &c,
+                const std::string &typeOfB = "revolute")
+{
+  return "<robot name='r'>" + link("base") + link("one", ball + mass) + link("two", ball + mass) +
+         link("tip", ball + mass) + link("out") + joint("a", "revolute", "base", "one", "<origin xyz='0 0 1'/>" + a) +
+         joint("b", typeOfB, "one", "two", "<origin xyz='1 0 0'/>" + b) +
+         joint("c", "revolute", "two", "tip", "<origin xyz='0 1 0'/>" + c) +
+         joint("out", "revolute", "base", "out", good) + "</robot>";
+}
+
+TEST_CASE("Joints that mimic another one of the chain follow it, before and behind it", "[urdf]")
+{
+  const std::string wide = limit("lower='-9' upper='9' velocity='9' effort='4'"),
+                    friction = "<dynamics damping='2' friction='3'/>";
+  const std::string of = "<mimic joint='c' multiplier='-2' offset='0.5'/>";
+  const vpArmModel arm =
+      load(row(wide + of + friction, wide + "<mimic joint='a' multiplier='0.5'/>", good + friction), toTip("tip"));
+  REQUIRE(arm.size() == 1);
+  REQUIRE(arm.links() == 3);
+  CHECK(arm.spec().joints[0].name == "c");
+  const std::vector<vpArmFollower> &followers = arm.spec().followers;
+  REQUIRE(followers.size() == 2);
+  CHECK(followers[0].name == "a");
+  CHECK(followers[0].place == 0);
+  CHECK(followers[0].ratio == -2.);
+  CHECK(followers[0].offset == 0.5);
+  CHECK(followers[1].ratio == -1.); // half of a
+  CHECK(followers[1].offset == 0.25);
+  CHECK(arm.lower()(0) == -1.);
+  CHECK(arm.upper()(0) == 2.);
+  CHECK(arm.velocity()(0) == 3.);
+  CHECK(arm.spec().joints[0].viscous == 2. + 4. * 2.);
+  CHECK(arm.spec().joints[0].coulomb == 3. + 2. * 3.);
+  CHECK(arm.spec().bodies.back().link == 3);
+  CHECK(arm.hasMasses());
+  vpArmData data;
+  vpArmKinematics::update(arm, vector({0.3}), data);
+  const double a = -2. * 0.3 + 0.5, b = 0.5 * a; // of a and b
+  const Eigen::Vector3d tip(std::cos(a) - std::sin(a + b), std::sin(a) + std::cos(a + b), 1.);
+  CHECK((data.tool.p - tip).norm() < 1e-12);
+  CHECK(std::any_of(arm.spec().warnings.begin(), arm.spec().warnings.end(), [](const std::string &warning) {
+    return warning == "joints of the chain that follow another one by a fixed ratio: a follows c, b follows c";
+  }));
+
+  // Limits of a follower hold, and those of its velocity.
+  const std::string narrow = limit("lower='-0.2' upper='0.8' velocity='1' effort='4'");
+  const vpArmModel limited =
+      load(row(good, narrow + "<mimic joint='a' multiplier='-0.5' offset='0.1'/>", good), toTip("tip"));
+  REQUIRE(limited.size() == 2);
+  CHECK(limited.lower()(0) == Approx(-1.)); // -0.5 a + 0.1 <= 0.8 from -1.4 on
+  CHECK(limited.upper()(0) == Approx(0.6)); // -0.5 a + 0.1 >= -0.2 to there
+  CHECK(limited.velocity()(0) == Approx(2.));
+  CHECK(limited.lower()(1) == -1.);
+
+  // A continuous joint whose follower has limits has some, too.
+  const vpArmModel turning =
+      load("<robot name='r'>" + link("base") + link("one") + link("two") +
+               joint("a", "continuous", "base", "one", "<axis xyz='0 0 1'/>") +
+               joint("b", "prismatic", "one", "two", good + "<mimic joint='a' multiplier='0.1'/>") + "</robot>",
+           toTip("two"));
+  CHECK(turning.lower()(0) == Approx(-10.));
+  CHECK(turning.upper()(0) == Approx(20.));
+  CHECK_FALSE(turning.isContinuous(0));
+
+  // Two that mimic the same joint beside the chain: the second follows the first.
+  const std::string out = "<mimic joint='out' multiplier='";
+  const vpArmModel twins = load(row(good, wide + out + "2' offset='1'/>", wide + out + "-6'/>"), toTip("tip"));
+  REQUIRE(twins.size() == 2);
+  REQUIRE(twins.spec().followers.size() == 1);
+  CHECK(twins.spec().joints[1].name == "b");
+  CHECK(twins.spec().followers[0].ratio == -3.);
+  CHECK(twins.spec().followers[0].offset == 3.);
+  CHECK(twins.lower()(1) == Approx(-1.)); // of out, 2 q + 1, and of c, -3 b + 3 within 9
+  CHECK(twins.upper()(1) == Approx(4.));
+
+  // The ratio 0 holds a joint; one that is held holds what mimics it.
+  CHECK(load(row(good, wide + "<mimic joint='a' multiplier='0' offset='0.3'/>", good), toTip("tip")).links() == 2);
+  vpArmUrdfSpec held = toTip("tip");
+  held.held = {{"a", 0.3}};
+  CHECK(load(row(good, wide + "<mimic joint='a'/>", good), held).links() == 1);
+  vpArmUrdfSpec home = toTip("tip");
+  home.home = vector({0.1, 0.2});
+  CHECK(load(row(good, wide + "<mimic joint='a'/>", good), home).home()(1) == 0.2);
+}
+
+TEST_CASE("Tool and camera may be on any link of the chain", "[urdf]")
+{
+  const std::string urdf = row(good, good, good);
+  vpArmUrdfSpec spec = toTip("tip");
+  spec.camera = "one";
+  const vpArmModel arm = load(urdf, spec);
+  CHECK(arm.cameraLink() == 1);
+  CHECK(arm.toolLink() == 3);
+  const vpJointVector q = vector({0.3, 0.4, 0.5});
+  vpArmData data;
+  vpArmKinematics::update(arm, q, data);
+  CHECK((vpArmKinematics::camera(arm, data).p - Eigen::Vector3d(0., 0., 1.)).norm() < 1e-12);
+  const vpArmJacobian J = vpArmKinematics::geometric(arm, data, vpArmFrame::Camera);
+  CHECK(J.col(0)(5) == Approx(1.));
+  CHECK(J.rightCols(2).norm() == 0.);
+  spec.tool = "two";
+  const vpArmModel two = load(urdf, spec);
+  CHECK(two.toolLink() == 2);
+  vpArmKinematics::update(two, q, data);
+  CHECK((data.tool.p - Eigen::Vector3d(std::cos(0.3), std::sin(0.3), 1.)).norm() < 1e-12);
+  CHECK(data.J.col(2).norm() == 0.);
+  spec.camera = "two"; // with the tool
+  CHECK(load(urdf, spec).spec().cameraLink == -1);
+  spec.camera = "base";
+  CHECK(errorOf(urdf, spec).find("camera link base is not below a moving joint of the arm") != std::string::npos);
+  spec.tool = "out";
+  CHECK(errorOf(urdf, spec).find("joint out between the arm and the tool link out is not fixed") != std::string::npos);
+}
+
+TEST_CASE("The camera moves with a link of the arm, or is refused", "[urdf]")
+{
+  const std::string urdf = "<robot name='r'>" + link("base") + link("arm") + link("tip") + link("eye") + link("lens") +
+                           joint("j", "revolute", "base", "arm", good) + joint("k", "revolute", "arm", "tip", good) +
+                           joint("e", "fixed", "arm", "eye") +
+                           joint("l", "prismatic", "tip", "lens", "<origin xyz='1 0 0'/>" + good) + "</robot>";
+  vpArmUrdfSpec spec = toTip("tip");
+  spec.camera = "eye";
+  CHECK(load(urdf, spec).cameraLink() == 1);
+  spec.camera = "lens";
+  CHECK(errorOf(urdf, spec).find("joint l between the arm and the camera link lens is not fixed") != std::string::npos);
+  spec.held = {{"l", 0.5}};
+  CHECK((load(urdf, spec).spec().camera.p - Eigen::Vector3d(1., 0., 0.5)).norm() < 1e-12);
+}
