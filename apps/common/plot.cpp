@@ -223,12 +223,27 @@ void draw(const Plot &plot, std::size_t id, std::ostream &script)
   script << "\n";
 }
 
-// The margins leave room for the legend and are the same in all panels.
+//! Width of a panel's legend in characters: as many columns as its height needs.
+std::size_t legendWidth(const Plot &plot)
+{
+  constexpr unsigned int outside = 60, row = 19; // pixels: above and below the legend, and of one of its rows
+  constexpr std::size_t sample = 5;              // characters beside a label
+  const std::size_t rows = std::max(1U, plot.height > outside ? (plot.height - outside) / row : 1U);
+  std::size_t longest = 0;
+  for (const PlotCurve &curve : plot.curves) {
+    longest = std::max(longest, curve.label.size());
+  }
+  return (plot.curves.size() + rows - 1) / rows * (longest + sample);
+}
+
+// The margins leave room for the legends and are the same in all panels.
 std::string scriptOf(const std::vector<Plot> &panels, PlotFormat format, const std::string &output)
 {
   unsigned int width = 0;
   unsigned int height = 0;
+  std::size_t legend = 22;
   for (const Plot &plot : panels) {
+    legend = std::max(legend, legendWidth(plot));
     width = std::max(width, plot.width);
     height += plot.height;
   }
@@ -246,7 +261,7 @@ std::string scriptOf(const std::vector<Plot> &panels, PlotFormat format, const s
     if (panels.size() > 1) {
       below -= panels[i].height;
       script << "reset\nset origin 0, " << 1. * below / height << "\nset size 1, " << 1. * panels[i].height / height
-             << "\nset lmargin 11\nset rmargin 22\n";
+             << "\nset lmargin 11\nset rmargin " << legend << "\n";
     }
     draw(panels[i], i, script);
   }

@@ -176,7 +176,7 @@ struct vpMotionScratch::Memory {
   std::vector<unsigned long> decided; // by exact pair: the last lane in which it decided
   unsigned long lanes = 0;
   vpEdgeMotion motion;
-  vpJointVector start, change; // of the joints; those of the motion include their followers
+  vpJointVector jointsFrom, jointsChange; // of the joints; those of the motion include their followers
   const vpReachBounds *reach = nullptr;
   double resolution = 0.;
   double fastest = 0.; // Maximum of all links, per unit of s.
@@ -210,10 +210,10 @@ struct vpMotionScratch::Memory {
     motion.capsules = all.capsules.data();
     motion.cores = scene->objectCount() > 0 ? &scene->core(0) : nullptr;
     motion.margin = spec.margin;
-    start = from;
-    change = to - from;
+    jointsFrom = from;
+    jointsChange = to - from;
     motion.from = scene->arm().coordinates(from);
-    motion.change = scene->arm().changes(change);
+    motion.change = scene->arm().changes(jointsChange);
     resolution = spec.resolution;
     reach = &bounds;
     exactLooks = 0;
@@ -233,7 +233,7 @@ struct vpMotionScratch::Memory {
   }
   bool stop(vpMotionStatus status, double s, const vpEdgePair &pair)
   {
-    return stop(status, s, clearanceOf(*scene, pair, start + s * change));
+    return stop(status, s, clearanceOf(*scene, pair, jointsFrom + s * jointsChange));
   }
 
   // Largest motion of the pair's exact shapes per unit of s, seen from the inner one.
@@ -256,7 +256,7 @@ struct vpMotionScratch::Memory {
     const double middle = 0.5 * (begin + end), half = 0.5 * (end - begin), need = half * speed;
     ++result.evaluated;
     ++exactLooks;
-    scene->place(start + middle * change, data);
+    scene->place(jointsFrom + middle * jointsChange, data);
     const double cutoff = motion.margin + need + 2. * rounding;
     const vpClearance now = query.clearance(*scene, data, pair, cutoff, inside);
     const double free = std::min(now.distance, cutoff) - motion.margin - rounding;

@@ -452,7 +452,10 @@ std::string vpCollisionScene::describe(const vpClearance &pair) const
   if (pair.kind == vpCollisionKind::Unknown) {
     return "numbers that are not finite or out of all range";
   }
-  const auto link = [this](int capsule) { return "link " + std::to_string(m_capsules[at(capsule)].link); };
+  const auto link = [this](int capsule) {
+    const vpArmCapsule &of = m_capsules[at(capsule)];
+    return of.body < 0 ? "link " + std::to_string(of.link) : m_arm.spec().bodies[at(of.body)].name;
+  };
   const std::string first = link(pair.capsule) + " and ";
   if (pair.kind == vpCollisionKind::Ground) {
     return first + "the ground";

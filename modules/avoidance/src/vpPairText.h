@@ -21,11 +21,14 @@ inline std::string vpDigits(double value, int digits)
   return result;
 }
 
-//! "link 5 and object pillar are 9.85 mm apart, the margin is 10 mm"; "touch" if they do. Different numbers stay
-//! distinguishable.
+//! "link 5 and object pillar are 9.85 mm apart, the margin is 10 mm"; "touch" if they do; with the object's inflation.
+//! Different numbers stay distinguishable.
 inline std::string vpPairText(const vpCollisionScene &scene, const vpClearance &pair, double margin)
 {
-  const std::string who = scene.describe(pair);
+  std::string who = scene.describe(pair);
+  if (pair.kind == vpCollisionKind::Object && scene.object(pair.other).inflation > 0.) { // that may not touch in truth
+    who += ", inflated by " + vpDigits(1e3 * scene.object(pair.other).inflation, 3) + " mm,";
+  }
   if (!std::isfinite(pair.distance)) {
     return who;
   }

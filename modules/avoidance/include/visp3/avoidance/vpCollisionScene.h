@@ -181,7 +181,8 @@ public:
   [[nodiscard]] vpClearance selfPair(const vpCollisionData &data, int first, int second) const noexcept;
   //! Clearance of a capsule from the ground, which must exist. After place().
   [[nodiscard]] vpClearance groundPair(const vpCollisionData &data, int capsule) const noexcept;
-  //! Describes a pair for messages: "link 5 and object pillar". Allocates.
+  //! Describes a pair for messages: "link 5 and object pillar", with the names of bodies where they are known.
+  //! Allocates.
   [[nodiscard]] std::string describe(const vpClearance &pair) const;
 
   //! For this module's own use.
