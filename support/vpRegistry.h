@@ -98,7 +98,8 @@ private:
     for (const Entry &entry : m_entries) {
       known += (known.empty() ? "" : ", ") + entry.id;
     }
-    throw vpException(vpException::badValue, nameOf(id) + " is unknown, " + (known.empty() ? "there is none" : "known are: " + known));
+    throw vpException(vpException::badValue,
+                      nameOf(id) + " is unknown, " + (known.empty() ? "there is none" : "known are: " + known));
   }
 
   const char *m_kind;

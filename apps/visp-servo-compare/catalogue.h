@@ -20,8 +20,8 @@ namespace servoCompare
 {
 //! Groups of comparable laws: those of one group reduce the rotation error equally fast.
 enum class GainGroup {
-  Single,  //!< Rotation gain lambda.
-  Double,  //!< Effective rotation gain 2 lambda near the goal.
+  Single,   //!< Rotation gain lambda.
+  Double,   //!< Effective rotation gain 2 lambda near the goal.
   Integral, //!< Rotation gain 2 lambda and an integral term.
   Own       //!< Laws of plug-ins: not known.
 };

@@ -159,7 +159,16 @@ TEST_CASE("A method of a plug-in runs beside ours", "[visp-plan-compare][plugin]
   const int status = run(plugin + "--scene S1 --seeds 1 --method again,dtg --out result");
   CAPTURE(run.err());
   REQUIRE(status == 0);
-  CHECK(vpApp::readFile(run.path("result/log/S1-again.csv")) == vpApp::readFile(run.path("result/log/S1-dtg.csv")));
+  const auto logOf = [&run](const std::string &method) { // without the last column, the time of a look
+    std::istringstream lines(vpApp::readFile(run.path("result/log/S1-" + method + ".csv")));
+    std::string all;
+    for (std::string line; std::getline(lines, line);) {
+      all += line.substr(0, line.rfind(',')) + '\n';
+    }
+    return all;
+  };
+  CHECK(logOf("again").size() > 10000);
+  CHECK((logOf("again") == logOf("dtg")));
   CHECK(vpApp::readFile(run.path("result/report.html")).find("does what dtg does, from a plug-in") !=
         std::string::npos);
   CHECK(run("--method again") == 2);

@@ -381,8 +381,9 @@ TEST_CASE("The step of no method allocates", "[methods]")
 TEST_CASE("Names and parameters of methods are checked", "[methods]")
 {
   const vpCollisionScene scene(amor());
-  CHECK_THROWS_WITH(vpMakeAvoidanceMethod("teleport", scene),
-                    Catch::Contains("avoidance method \"teleport\" is unknown, known are: potential, potential-corrected"));
+  CHECK_THROWS_WITH(
+      vpMakeAvoidanceMethod("teleport", scene),
+      Catch::Contains("avoidance method \"teleport\" is unknown, known are: potential, potential-corrected"));
   vpAvoidanceMethodSpec spec;
   spec.maxVelocity = 0.;
   for (const std::string &name : vpAvoidanceMethodNames()) {

@@ -78,7 +78,10 @@ public:
       if (m_fault == Fault::HighDegree) {
         p.setDegree(9);
       }
-      writer.append(axis, p, m_fault == Fault::OneShort && i == 2 ? 0.99 * T : T);
+      const double duration = m_fault == Fault::OneShort && i == 2 ? 0.99 * T
+                              : m_fault == Fault::Endless          ? std::numeric_limits<double>::infinity()
+                                                                   : T;
+      writer.append(axis, p, duration);
     }
     return m_fault != Fault::Refuses;
   }
@@ -176,8 +179,9 @@ TEST_CASE("a form with any fault is refused", "[form]")
   auto rng = vpTestSupport::generator(92);
   vpTrajectoryPlanner planner(axes);
   vpTrajectoryPlan plan(axes), ours(axes);
-  for (const Fault fault : {Fault::Late, Fault::Jump, Fault::Kink, Fault::Elsewhere, Fault::TooFast, Fault::NotANumber,
-                            Fault::Crowded, Fault::WrongAxis, Fault::OneShort, Fault::HighDegree, Fault::Refuses}) {
+  for (const Fault fault :
+       {Fault::Late, Fault::Jump, Fault::Kink, Fault::Elsewhere, Fault::TooFast, Fault::NotANumber, Fault::Crowded,
+        Fault::WrongAxis, Fault::OneShort, Fault::HighDegree, Fault::Endless, Fault::Refuses}) {
     const Smooth form(fault);
     for (int run = 0; run < 100; ++run) {
       vpTrajectoryProblem problem = randomProblem(rng, true);
