@@ -243,6 +243,16 @@ TEST_CASE("What cannot be planned is said", "[planner]")
   beside.p = hand.to + (hand.radius + 0.05 + 0.0099999999) * (hand.to - hand.from).normalized();
   REQUIRE(scene.moveObject(index, beside));
   CHECK(vpPathPlanner(scene, spec).plan(goal, start).message.find("are 9.9999999") != std::string::npos);
+  // What is known of it to 10 mm only touches where it may be; bodies have their names.
+  vpArmSpec named = amor().spec();
+  named.bodies = {{"hand", 7}};
+  named.capsules[3].body = 0;
+  vpCollisionScene blurred{vpArmModel(named)};
+  ball.pose = beside;
+  ball.inflation = 0.0101;
+  blurred.add(ball);
+  CHECK(vpPathPlanner(blurred, spec).plan(goal, start).message ==
+        "In the start the arm is nearer than the margin: hand and object ball, inflated by 10.1 mm, touch.");
   scene.remove(index);
   for (int side = 0; side < 6; ++side) {
     vpCollisionObject wall;
