@@ -147,7 +147,7 @@ TEST_CASE("Free motions of arms with followers stay free when rechecked", "[moti
   CAPTURE(vpTestSupport::seed());
   int free = 0, colliding = 0, undecided = 0, wrong = 0;
   vpMotionScratch scratch;
-  for (int trial = 0; trial < vpTestSupport::longer(60); ++trial) {
+  for (int trial = 0; trial < vpTestSupport::longer(30); ++trial) {
     CAPTURE(trial);
     const vpArmModel arm = randomLinkedArm(rng);
     const vpCollisionSceneSpec spec = randomScene(rng, 8, 1.2);
