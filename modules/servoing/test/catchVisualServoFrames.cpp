@@ -148,7 +148,8 @@ TEST_CASE("A moving object is followed: the error of tracking falls by far again
       spec.objectMoves = isTold;
       vpServoBench bench(i % 2 == 0 ? "ff-lookat" : "pbvs1", {}, spec, i);
       bench.placeAtRandom(0.3);
-      bench.objectVelocity = vpRigidMotion::twist(0.05 * bench.vector(1.).normalized(), 0.04 * bench.vector(1.).normalized());
+      bench.objectVelocity =
+          vpRigidMotion::twist(0.05 * bench.vector(1.).normalized(), 0.04 * bench.vector(1.).normalized());
       bench.servo.start();
       bench.run(20.);
       for (int k = 0; k < 200; ++k) {
@@ -197,7 +198,8 @@ TEST_CASE("The estimated velocity of an object is as uncertain as told, and that
       bench.run(1.);
       const vpVisualServoOutput &out = bench.servo.output();
       // Of a vector with three equal components 95 % are within 1.61 deviations of the whole, whose square is the trace.
-      const double off = (vpRigidMotion::linear(out.objectVelocity) - vpRigidMotion::linear(bench.objectVelocity)).norm();
+      const double off =
+          (vpRigidMotion::linear(out.objectVelocity) - vpRigidMotion::linear(bench.objectVelocity)).norm();
       within += off <= 1.61 * out.objectSigma;
       ++count;
       CHECK(out.objectSigma < 0.05);

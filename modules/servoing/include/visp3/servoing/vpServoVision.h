@@ -73,6 +73,18 @@ public:
                                                                  const vpPlanarTargetSpec &spec = {});
 
   /*!
+   * Vision by an AprilTag (vpDetectorAprilTag); frame and points as photograph(), for the black square. The covariance of
+   * the pose follows from the noise of the corners. Where two poses of the square fit, the one nearer to the last is taken
+   * and vpServoSight::speedFactor is 0.3.
+   * \param family : "36h11", "25h9", "16h5", "Circle21h7" or "Standard41h12". \param id : Number of the tag.
+   * \param size : Side of the black square, m, > 0. \param camera : Intrinsics; distortion is removed.
+   * \param cornerSigma : Standard deviation of a corner's coordinate, px, > 0.
+   * \throw vpException (badValue) naming what is unknown or out of range; (notImplementedError) with a ViSP without AprilTag.
+   */
+  [[nodiscard]] static std::unique_ptr<vpServoVision> tag(const std::string &family, int id, double size,
+                                                          const vpCameraParameters &camera, double cornerSigma = 0.3);
+
+  /*!
    * Source of poses, for poses(): sets the pose cMo of the object in the camera, m, and its covariance if there is one.
    * False: the target was not found.
    */

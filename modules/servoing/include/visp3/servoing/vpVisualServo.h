@@ -49,7 +49,7 @@ struct VISP_EXPORT vpVisualServoSpec {
   //! Standard deviation of the change of a moving object's velocity in one second, m/s, > 0.
   double objectChange = 0.01;
   double objectTurnChange = 0.02; //!< Likewise for the angular velocity, rad/s, > 0.
-  unsigned int maxPoints = 512;  //!< Largest number of points of a measurement, 1..100000: memory is allocated once.
+  unsigned int maxPoints = 512;   //!< Largest number of points of a measurement, 1..100000: memory is allocated once.
 
   vpServoCameraPlace place = vpServoCameraPlace::EyeInHand; //!< Place of the camera.
   vpRigidTransform fMc;                                     //!< Pose of a fixed camera in the base (EyeToHand), m.

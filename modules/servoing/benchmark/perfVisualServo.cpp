@@ -1,0 +1,82 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// Time of one step of the servo at 1 kHz with images at 30 Hz: camera and arm, with and without supervisor; p50, p99 and the
+// longest of the servo's own histogram. Baseline: the law alone, with the same measurement.
+#include "vpBenchmark.h"
+
+#include <visp3/manipulator/vpArmJson.h>
+#include <visp3/servoing/vpVisualServo.h>
+
+#include <string>
+
+VISP_DIRECT_USING_NAMESPACE
+
+namespace
+{
+const vpServoTarget plate = vpServoTarget::rectangle(0.16, 0.11);
+const vpHomogeneousMatrix cdMo(0., 0., 0.35, 0., 0., 0.), cMo(0.06, 0.04, 0.45, 0.2, -0.3, 0.4);
+
+const vpArmModel &amor()
+{
+  static const vpArmModel model = vpLoadArmJson(VISP_DIRECT_DATA_DIR "/robot/amor.json");
+  return model;
+}
+
+void lawAlone(benchmark::State &state, const std::string &law)
+{
+  vpServoController controller = vpServoController::create(law);
+  controller.setGoal(plate.goal(cdMo));
+  vpServoMeasurement seen;
+  plate.measure(cMo, 0., seen);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(controller.step(seen, 0.001));
+  }
+}
+
+// The arm stands and the law always wants to move it: every part has work to do.
+void stepOf(benchmark::State &state, const std::string &law, bool hasArm, bool isSupervised)
+{
+  vpVisualServoSpec spec;
+  spec.period = 0.001;
+  spec.followLength = spec.followAngle = std::numeric_limits<double>::infinity();
+  if (hasArm) {
+    spec.indices = {vpSelfMotionIndex::jointLimits()};
+  }
+  vpVisualServo servo(vpServoController::create(law), spec, hasArm ? &amor() : nullptr);
+  const vpCollisionScene scene(amor(), {});
+  if (isSupervised) {
+    servo.supervise(scene);
+  }
+  servo.setGoal(plate.goal(cdMo));
+  servo.start();
+  vpServoRobotState robot;
+  robot.q = amor().home();
+  vpServoSight sight;
+  double now = 0.;
+  unsigned long cycle = 0;
+  for (auto _ : state) {
+    if (cycle++ % 33 == 0) {
+      state.PauseTiming();
+      plate.measure(cMo, now, sight.measurement);
+      servo.see(sight);
+      state.ResumeTiming();
+    }
+    now += spec.period;
+    benchmark::DoNotOptimize(servo.step(robot, now).twist);
+  }
+  const vpTimingStatistics &step = servo.timing().step;
+  state.counters["p50_us"] = 1e6 * step.quantile(0.5);
+  state.counters["p99_us"] = 1e6 * step.quantile(0.99);
+  state.counters["max_us"] = 1e6 * step.max();
+}
+
+BENCHMARK_CAPTURE(lawAlone, ff_lookat_pi, "ff-lookat-pi");
+BENCHMARK_CAPTURE(stepOf, camera, "ff-lookat-pi", false, false);
+BENCHMARK_CAPTURE(stepOf, camera_cbf, "ff-lookat-pi+cbf", false, false);
+BENCHMARK_CAPTURE(stepOf, arm, "ff-lookat-pi", true, false);
+BENCHMARK_CAPTURE(stepOf, arm_supervised, "ff-lookat-pi", true, true);
+} // namespace
+
+int main(int argc, char **argv) { return vpTestSupport::runBenchmarks(argc, argv); }
