@@ -15,6 +15,7 @@
 #include <visp3/manipulator/vpSrdf.h>
 #include <visp3/pattern/vpMicroscopeCalibration.h>
 #include <visp3/planar_target/vpPlanarTargetDatabase.h>
+#include <visp3/servoing/vpServoCalibration.h>
 
 #include <array>
 #include <cstring>
@@ -261,7 +262,19 @@ TEST_CASE("Damaged camera files of ViSP", "[files][mutated]")
   tell("camera.xml", readMutated({name}, ".xml", mutationCount(400), [](const std::string &file) {
          static_cast<void>(vpMicroscopeCalibration::loadXml(file, "microscope", 640, 480));
        }));
+  tell("camera.xml of the servo", readMutated({name}, ".xml", mutationCount(400), [](const std::string &file) {
+         static_cast<void>(vpLoadCalibratedCamera(file, "microscope", 640, 480));
+       }));
   std::remove(name.c_str());
+}
+
+TEST_CASE("Damaged poses", "[files][mutated]")
+{
+  const File vector("eMc.yaml",
+                    "rows: 6\ncols: 1\ndata: \n  - [0.1]\n  - [0.2]\n  - [0.3]\n  - [-1.5]\n  - [0]\n  - [1e-3]\n");
+  const File matrix("eMc.txt", "0 -1 0 0.1\n1 0 0 -0.2\n0 0 1 0.3\n0 0 0 1");
+  tell("eMc", readMutated({vector.name(), matrix.name()}, ".yaml", mutationCount(400),
+                          [](const std::string &file) { static_cast<void>(vpLoadPose(file)); }));
 }
 
 TEST_CASE("Damaged lists of targets", "[files][mutated]")

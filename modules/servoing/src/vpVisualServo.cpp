@@ -44,10 +44,9 @@ const vpFields<vpVisualServoSpec> &vpVisualServoSpec::fields()
       {"convergedTime", &Spec::convergedTime, notNegative, "s",
        "Time within both tolerances after which the task is converged"},
       {"followLength", &Spec::followLength, orInfinite, "m", "Missing motion that counts as not following"},
-      {"followAngle", &Spec::followAngle, orInfinite, "rad", "Likewise for the rotation"},
-      {"objectChange", &Spec::objectChange, positive, "m/s",
-       "Standard deviation of the change of a moving object's velocity in one second"},
-      {"objectTurnChange", &Spec::objectTurnChange, positive, "rad/s", "Likewise for the angular velocity"},
+      {"followAngle", &Spec::followAngle, orInfinite, "rad", "Missing rotation that counts as not following"},
+      {"objectChange", &Spec::objectChange, positive, "m/s", "Change of a moving object's velocity in one second"},
+      {"objectTurnChange", &Spec::objectTurnChange, positive, "rad/s", "Change of its angular velocity in one second"},
       {"maxPoints", &Spec::maxPoints, {1., 100000.}, "", "Largest number of points of a measurement"},
   };
   return all;

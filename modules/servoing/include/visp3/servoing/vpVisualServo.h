@@ -35,21 +35,20 @@ enum class vpServoCameraPlace {
  * of velocity, acceleration and jerk of what moves: the camera, or the end effector in front of a fixed camera.
  */
 struct VISP_EXPORT vpVisualServoSpec {
-  double period = 0.005;     //!< Period of step(), s, > 0, <= 1.
-  double startTime = 1.;     //!< Time in which the limits of speed rise from 0 at each start, s, >= 0.
-  double imageTimeout = 0.5; //!< Oldest image that may be acted on, s, > 0; without a newer one the robot stops.
-  double stateTimeout = 0.1; //!< Longest time without a robot state; then the robot stops for good, s, > 0.
-  double longestStep = 0.1;  //!< Longest time between two steps that does not count as a jump of the clock, s, > 0.
+  double period = 0.005;            //!< Period of step(), s, > 0, <= 1.
+  double startTime = 1.;            //!< Time in which the limits of speed rise from 0 at each start, s, >= 0.
+  double imageTimeout = 0.5;        //!< Oldest image that may be acted on, s, > 0. Without a newer one the robot stops.
+  double stateTimeout = 0.1;        //!< Longest time without a robot state, s, > 0.
+  double longestStep = 0.1;         //!< Longest time between two steps, s, > 0. Longer: the clock has jumped.
   double positionTolerance = 0.001; //!< Position error that counts as converged, m, > 0.
   double rotationTolerance = 0.005; //!< Rotation error that counts as converged, rad, > 0.
   double convergedTime = 0.5;       //!< Time within both tolerances after which the task is converged, s, >= 0.
-  //! Missing motion that counts as not following, m, > 0 or infinite; added to half of the motion commanded in the last second.
-  double followLength = 0.01;
-  double followAngle = 0.1; //!< Likewise for the rotation, rad, > 0 or infinite.
-  //! Standard deviation of the change of a moving object's velocity in one second, m/s, > 0.
-  double objectChange = 0.01;
-  double objectTurnChange = 0.02; //!< Likewise for the angular velocity, rad/s, > 0.
-  unsigned int maxPoints = 512;   //!< Largest number of points of a measurement, 1..100000: memory is allocated once.
+  double followLength = 0.01; //!< Missing motion that counts as not following, m, > 0 or infinite. More than half of
+                              //!< the motion commanded in the last second must be missing, too.
+  double followAngle = 0.1;   //!< Missing rotation that counts as not following, rad, > 0 or infinite. Likewise.
+  double objectChange = 0.01; //!< Change of a moving object's velocity in one second, m/s, > 0. Standard deviation.
+  double objectTurnChange = 0.02; //!< Change of its angular velocity in one second, rad/s, > 0. Standard deviation.
+  unsigned int maxPoints = 512;   //!< Largest number of points of a measurement, 1..100000. Memory is allocated once.
 
   vpServoCameraPlace place = vpServoCameraPlace::EyeInHand; //!< Place of the camera.
   vpRigidTransform fMc;                                     //!< Pose of a fixed camera in the base (EyeToHand), m.
