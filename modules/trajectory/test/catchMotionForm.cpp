@@ -34,6 +34,7 @@ enum class Fault {
   WrongAxis,
   OneShort,
   HighDegree,
+  Endless,
   Refuses
 };
 

@@ -31,8 +31,8 @@ BEGIN_VISP_NAMESPACE
  * vpFeedforwardTask sets this up.
  *
  * \note interaction() is the task matrix: the exact interaction matrix of e, L = J_r^-1(e) [R^T W R, I], with W the rate
- * of R_la per rate of the direction O* - t. That of s is rho L, with which vpServo would divide by rho again. The camera
- * must be farther than some millimetres from the object's origin: there vpServo's pseudo-inverse drops rows of L.
+ * of R_la per rate of the direction O* - t. That of s is rho L, with which vpServo would divide by rho again. Rounding
+ * grows towards the object's origin: at 1 mm the velocity differs from the law's by up to 1e-6 of the angular velocity.
  */
 class VISP_EXPORT vpFeatureLookAt : public vpBasicFeature
 {
