@@ -116,7 +116,8 @@ struct VISP_EXPORT vpVisualServoOutput {
   //! Distance of the camera from its goal as predicted for now, m; NaN without a measurement.
   double positionError = std::numeric_limits<double>::quiet_NaN();
   double rotationError = std::numeric_limits<double>::quiet_NaN(); //!< Angle to the goal, rad; NaN likewise.
-  double distance = 0., distanceSigma = 0.;                        //!< See vpServoSight, m.
+  double distance = 0.;                                            //!< See vpServoSight, m.
+  double distanceSigma = 0.;                                       //!< See vpServoSight, m.
   double speedFactor = 1.; //!< Factor on the limits of speed: vpServoSight's and that of the start, 0..1.
   //! Velocity of the object's origin, and angular velocity, in the base frame, m/s and rad/s, as followed; 0 unless
   //! vpVisualServoSpec::objectMoves.
