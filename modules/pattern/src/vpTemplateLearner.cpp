@@ -277,29 +277,41 @@ bool vpTemplateLearner::makeSpline()
   return m_good;
 }
 
+namespace
+{
+struct SplineTaps {
+  Taps x, y, xs, ys;
+};
+
+// No member: of a function that is declared before, clang makes no copies.
+VISP_PATTERN_CLONES void evaluateRows(const float *from, int stride, int columns, int rows, const SplineTaps &t,
+                                      float *smooth, float *slope, float *value, float *dx, float *dy)
+{
+  for (int r = 0; r < rows; ++r, from += stride, value += columns, dx += columns, dy += columns) {
+    filter(from, columns + 3, stride, t.y, smooth);
+    filter(from, columns + 3, stride, t.ys, slope);
+    filter(smooth, columns, 1, t.x, value);
+    filter(smooth, columns, 1, t.xs, dx);
+    filter(slope, columns, 1, t.x, dy);
+  }
+}
+} // namespace
+
 void vpTemplateLearner::evaluate(double px, double py, float *value, float *dx, float *dy) const
 {
   evaluateOn(m_hw, m_hh, px, py, value, dx, dy);
 }
 
-VISP_PATTERN_CLONES void vpTemplateLearner::evaluateOn(int halfWidth, int halfHeight, double px, double py,
-                                                       float *value, float *dx, float *dy) const
+void vpTemplateLearner::evaluateOn(int halfWidth, int halfHeight, double px, double py, float *value, float *dx,
+                                   float *dy) const
 {
   // Pixel u of the window shows the mean at u - p + centre.
   const double sx = m_centreX - px, sy = m_centreY - py, fx = std::floor(sx), fy = std::floor(sy);
-  const Taps x = spline(sx - fx), y = spline(sy - fy), xs = splineSlope(sx - fx), ys = splineSlope(sy - fy);
-  const int w = columns(), columnsOut = 2 * halfWidth + 1, rowsOut = 2 * halfHeight + 1;
+  const SplineTaps taps = {spline(sx - fx), spline(sy - fy), splineSlope(sx - fx), splineSlope(sy - fy)};
   const int first = static_cast<int>(fx) + margin - 1 + m_hw - halfWidth;
   const int firstRow = static_cast<int>(fy) + margin - 1 + m_hh - halfHeight;
-  float *smooth = m_scratch.data(), *slope = m_scratch.data() + m_capacity;
-  for (int r = 0; r < rowsOut; ++r) {
-    const float *from = &m_coefficients[static_cast<std::size_t>((r + firstRow) * w + first)];
-    filter(from, columnsOut + 3, w, y, smooth);
-    filter(from, columnsOut + 3, w, ys, slope);
-    filter(smooth, columnsOut, 1, x, value + r * columnsOut);
-    filter(smooth, columnsOut, 1, xs, dx + r * columnsOut);
-    filter(slope, columnsOut, 1, x, dy + r * columnsOut);
-  }
+  evaluateRows(&m_coefficients[static_cast<std::size_t>(firstRow * columns() + first)], columns(), 2 * halfWidth + 1,
+               2 * halfHeight + 1, taps, m_scratch.data(), m_scratch.data() + m_capacity, value, dx, dy);
 }
 
 END_VISP_NAMESPACE
