@@ -79,6 +79,7 @@ END {
         line = line "; virtual " virtual[type, i] ": " typeName(result[type, i])
       }
     }
+    sub(/^; /, "", line)
     line = type " {" line "}"
     gsub(/&lt;/, "<", line)
     gsub(/&gt;/, ">", line)
