@@ -9,6 +9,7 @@
 #include <visp3/feedforward/vpServoMotionLimits.h>
 #include <visp3/rendering/vpPlaneRenderer.h>
 #include <visp3/rendering/vpProductPatternSpec.h>
+#include <visp3/servoing/vpReferencePose.h>
 #include <visp3/servoing/vpVisualServo.h>
 #include <visp3/simulation/vpServoPlant.h>
 #include <visp3/trajectory/vpTwistShaper.h>
@@ -107,6 +108,7 @@ TEST_CASE("Header, table and validate() of a specification say the same", "[fiel
   check<vpServoPlant>("simulation/include/visp3/simulation/vpServoPlant.h", "vpServoPlant", 8);
   check<vpCameraFaults>("rendering/include/visp3/rendering/vpPlaneRenderer.h", "vpCameraFaults", 5);
   check<vpServoMotionLimits>("feedforward/include/visp3/feedforward/vpServoMotionLimits.h", "vpServoMotionLimits", 6);
+  check<vpReferencePoseSpec>("servoing/include/visp3/servoing/vpReferencePose.h", "vpReferencePoseSpec", 6);
   check<vpVisualServoSpec>("servoing/include/visp3/servoing/vpVisualServo.h", "vpVisualServoSpec", 13);
   check<vpTwistShaperLimits>("trajectory/include/visp3/trajectory/vpTwistShaper.h", "vpTwistShaperLimits", 4);
   check<vpProductPatternSpec>("rendering/include/visp3/rendering/vpProductPatternSpec.h", "vpProductPatternSpec", 25);
