@@ -37,6 +37,8 @@ const std::vector<Look> &looks()
       {"ff-sum", "FF sum (thesis)", "#2ca02c", GainGroup::Double},
       {"ff-lookat", "FF look-at", "#d62728", GainGroup::Double},
       {"ff-lookat-pi", "FF look-at PI", "#9467bd", GainGroup::Integral},
+      {"dtg", "DTG", "#e377c2", GainGroup::Integral},
+      {"ff-dtg", "FF DTG", "#bcbd22", GainGroup::Integral},
   };
   return all;
 }

@@ -34,6 +34,8 @@ constexpr const char *EXAMPLES = R"(Examples:
       20 seeds of every run; the report shows median and range; also under mpirun
   visp-servo-compare --law pbvs1,ff-lookat-pi --plant A --shape
       what it takes to start without a step in velocity, and what that costs
+  visp-servo-compare --law dtg,ff-dtg,pbvs1,ff-lookat-pi --measure points --bounded --lambda 3
+      planned motion against laws behind a shaper, within the same limits
   visp-servo-compare --robot amor --measure points
       a seven-joint arm carries the camera; the report shows its joints
   visp-servo-compare --robot amor --drive measured --plant D --measure points
@@ -80,6 +82,12 @@ bool readOptions(int argc, const char *const *argv, Options &options)
             "pbvs1, kyrki, ff-lookat-pi also by image where there is friction)");
   line.flag("--full", options.full, "Everything: all laws, all plants, points and image (takes long)");
   line.flag("--shape", options.shape, shapeHelp());
+  line.flag(
+      "--bounded", options.bounded,
+      "Every law within the same limits of the camera's speed, acceleration and jerk (\"motion\" of the task file), "
+      "the object's pose "
+      "averaged over images for all of them: laws that plan (dtg, ff-dtg) by themselves, the others behind a shaper");
+  line.number("--lambda", options.lambda, {0., 1e6}, "L", "Gain of every law, 1/s (default: 0, that of the task)");
   line.text("--task", options.taskFile, "FILE.json",
             "Task file instead of the thesis' task; see data/scenario/README.md");
   line.list("--self-motion", robot.selfMotion, "WISH,...",
@@ -112,6 +120,9 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   }
   if (options.full && !(options.laws.empty() && options.plants.empty() && options.measures.empty())) {
     throw vpApp::UsageError("--full means all laws, plants and measures, it cannot be combined with a choice of them");
+  }
+  if (options.bounded && options.shape) {
+    throw vpApp::UsageError("--bounded shapes every run by itself, it cannot be combined with --shape");
   }
   return true;
 }

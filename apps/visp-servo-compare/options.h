@@ -36,6 +36,8 @@ struct Options {
   std::vector<std::string> measures; //!< "points", "image"; empty for the default choice.
   bool full = false;                 //!< All combinations.
   bool shape = false;                //!< Repeat each run with a shaped twist.
+  bool bounded = false;              //!< Every law within the same limits of the motion, with the object averaged.
+  double lambda = 0.;                //!< Gain instead of that of the task, 1/s; 0: that of the task.
   std::string taskFile;              //!< Empty for the task of the thesis.
   std::string target;                //!< Photo of the object; empty for that of data/.
   unsigned int repetitions = 1;      //!< Seeds per run.

@@ -258,6 +258,9 @@ Plan makePlan(const Options &options)
   if (!options.taskFile.empty()) {
     plan.scenario = readScenario(options.taskFile);
   }
+  if (options.lambda > 0.) {
+    plan.scenario.gains.lambda = options.lambda;
+  }
   plan.scenario.plants = choosePlants(options.plants, plan.scenario.plants);
   plan.target = readTarget(options.target);
   vpServoTask &task = plan.scenario.task;
@@ -281,6 +284,10 @@ Plan makePlan(const Options &options)
         spec.law = law;
         spec.measure = measure;
         spec.gains = plan.scenario.gains;
+        spec.average = options.bounded;
+        if (options.bounded) {
+          spec.bounds = plan.scenario.motion;
+        }
         spec.plant = plant;
         spec.task = task;
         spec.arm = plan.arm;

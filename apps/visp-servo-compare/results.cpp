@@ -28,7 +28,9 @@ template <class Archive> void exchange(Archive &archive, vpServoRun &run)
           m.expected_end_rotation_deg, m.expected_end_translation_mm, m.left_end_rotation_deg,
           m.left_end_translation_mm, m.yaw_range_deg, m.ideal_yaw_range_deg, m.out_of_view_s, m.settle_s,
           m.path_length_m, m.peak_linear_mps, m.peak_angular_radps, m.peak_linear_acceleration_mps2,
-          m.peak_angular_acceleration_radps2, m.deadlock_cycles, m.status, run.armMetrics);
+          m.peak_angular_acceleration_radps2, m.peak_linear_jerk_mps3, m.peak_angular_jerk_radps3,
+          m.rms_linear_jerk_mps3, m.rms_angular_jerk_radps3, m.bounds_exceeded_cycles, m.view_losses, m.deadlock_cycles,
+          m.status, run.armMetrics);
 }
 END_VISP_NAMESPACE
 

@@ -135,6 +135,8 @@ Scenario readScenario(const std::string &file)
                [&](JsonObject &object) { vpApp::readFields(object, vpCameraFaults::fields(), scenario.faults); });
   top.optional("shape",
                [&](JsonObject &object) { vpApp::readFields(object, vpTwistShaperLimits::fields(), scenario.shape); });
+  top.optional("motion",
+               [&](JsonObject &object) { vpApp::readFields(object, vpServoMotionLimits::fields(), scenario.motion); });
   top.finish();
   try {
     scenario.task.validate();

@@ -10,6 +10,7 @@
 #define servoCompare_scenario_h
 
 #include <visp3/feedforward/vpServoLaw.h>
+#include <visp3/feedforward/vpServoMotionLimits.h>
 #include <visp3/rendering/vpPlaneRenderer.h>
 #include <visp3/simulation/vpServoPlant.h>
 #include "lab/servo/vpServoTask.h"
@@ -35,6 +36,7 @@ struct Scenario {
    * object in the image during sideways motion at a distance of 0.4 m.
    */
   vpTwistShaperLimits shape;
+  vpServoMotionLimits motion; //!< Limits of every law with --bounded.
 };
 
 /*!

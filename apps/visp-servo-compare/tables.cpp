@@ -58,6 +58,11 @@ const std::vector<Column> FURTHER = {
     {"path m", &vpServoMetrics::path_length_m, 3, "Length of the camera's path"},
     {"peak m/s", &vpServoMetrics::peak_linear_mps, 3, "Largest linear speed executed"},
     {"peak rad/s", &vpServoMetrics::peak_angular_radps, 3, "Largest angular speed executed"},
+    {"jerk", &vpServoMetrics::rms_linear_jerk_mps3, 2, "Root mean square of the linear jerk of the command, m/s^3"},
+    {"peak", &vpServoMetrics::peak_linear_jerk_mps3, 2, "Largest linear jerk of the command, m/s^3"},
+    {"losses", &vpServoMetrics::view_losses, 0, "How often a corner of the object left the image"},
+    {"above", &vpServoMetrics::bounds_exceeded_cycles, 0,
+     "With --bounded: cycles above a limit of the camera's motion"},
 };
 
 //! Rating of a median as displayed: smaller is better. A yaw beyond the ideal is as wrong as one below.

@@ -11,9 +11,11 @@
 #include <visp3/core/vpMath.h>
 #include <visp3/core/vpMeterPixelConversion.h>
 #include <visp3/direct_core/vpSO3.h>
+#include <visp3/feedforward/vpObjectAverage.h>
 #include <visp3/feedforward/vpOdometryBridge.h>
 #include <visp3/feedforward/vpServoController.h>
 #include <visp3/manipulator/vpTwistAxes.h>
+#include <visp3/servoing/vpArmMotionCheck.h>
 #include <visp3/simulation/vpVisionChannel.h>
 
 #include <algorithm>
@@ -70,12 +72,31 @@ vpServoController makeController(const vpServoRunSpec &spec)
 {
   vpServoControllerSpec controller;
   controller.gains = spec.gains;
+  controller.motion = spec.bounds.value_or(vpServoMotionLimits());
   controller.view = vpViewConstraintSpec::fromCamera(spec.task.camera, spec.task.width, spec.task.height);
   controller.view.period = 1. / spec.plant.loopRate;
   controller.view.imageUncertainty = 3. * spec.plant.pixelNoise / spec.task.camera.get_px();
   controller.view.maxLinear = spec.plant.maxLinear;
   controller.view.maxAngular = spec.plant.maxAngular;
   return vpServoController::create(spec.law, controller);
+}
+
+double speedLimit(const vpServoRunSpec &spec, double vpServoMotionLimits::*field, double plant)
+{
+  return spec.bounds ? std::min(plant, (*spec.bounds).*field) : plant;
+}
+
+std::optional<vpTwistShaperLimits> shapeOf(const vpServoRunSpec &spec)
+{
+  if (!spec.bounds) {
+    return spec.shape;
+  }
+  vpTwistShaperLimits limits;
+  limits.linearAcceleration = spec.bounds->linearAcceleration;
+  limits.linearJerk = spec.bounds->linearJerk;
+  limits.angularAcceleration = spec.bounds->angularAcceleration;
+  limits.angularJerk = spec.bounds->angularJerk;
+  return limits;
 }
 
 // Number of the first cycle after each segment.
@@ -206,9 +227,19 @@ vpServoRun runServoExperiment(const vpServoRunSpec &spec, const std::function<bo
   const auto sensor = makeSensor(spec);
   const auto robot = vpServoRobot::create(spec);
   const FreeAxes free = freeAxesOf(spec);
+  const bool plans = servo.law().plansMotion();
   std::optional<vpTwistShaper> shaper;
-  if (spec.shape) {
-    shaper.emplace(*spec.shape);
+  if (const auto shape = shapeOf(spec); shape && !plans) {
+    shaper.emplace(*shape);
+  }
+  const double maxLinear = speedLimit(spec, &vpServoMotionLimits::linearVelocity, spec.plant.maxLinear);
+  const double maxAngular = speedLimit(spec, &vpServoMotionLimits::angularVelocity, spec.plant.maxAngular);
+  vpObjectAverage object;
+  std::optional<vpArmMotionCheck> check;
+  if (spec.arm && plans) {
+    const vpSimulatedArmSpec arm = spec.arm->forPlant(spec.plant);
+    check.emplace(spec.arm->model, arm.redundancy, arm.indices, arm.free);
+    servo.setMotionCheck(&*check);
   }
   vpVisionChannel vision(spec.plant.visionRate, spec.plant.latency);
   vpOdometryBridge odometry(spec.plant.latency + framesMissed / spec.plant.visionRate, spec.plant.loopRate);
@@ -238,14 +269,24 @@ vpServoRun runServoExperiment(const vpServoRunSpec &spec, const std::function<bo
       s.newFrame = odometry.correct(result);
     }
     odometry.predict(measurement);
+    if (spec.average && !plans) {
+      static_cast<void>(object.see(measurement));
+      object.predict(measurement);
+    }
+    vpArmSample joints;
+    if (check && robot->sample(joints)) {
+      check->setState(joints.wanted, joints.command);
+    }
     const vpServoCommand command = servo.step(measurement, dt);
     vpTwist asked = vpWithoutFreeAxes(command.v, free);
     if (shaper) {
       // The plant's speed limits come first: after the shaper they would cause a kink in its smooth twist.
-      asked = shaper->step(vpLimitTwist(asked, spec.plant.maxLinear, spec.plant.maxAngular), dt);
+      asked = shaper->step(vpLimitTwist(asked, maxLinear, maxAngular), dt);
     }
     robot->move(asked);
     odometry.move(robot->actual(), (cycle + 1) * dt);
+    object.move(robot->actual(), dt);
+    servo.notifyExecuted(vpLimitTwist(asked, spec.plant.maxLinear, spec.plant.maxAngular), robot->actual());
 
     s.commanded = asked;
     s.actual = robot->actual();
@@ -254,7 +295,6 @@ vpServoRun runServoExperiment(const vpServoRunSpec &spec, const std::function<bo
     fillSeen(spec.task.segments[segment], measurement, free, s);
     s.status = command.status;
     run.samples.push_back(s);
-    vpArmSample joints;
     if (robot->sample(joints)) {
       run.arm.push_back(joints);
     }
@@ -315,6 +355,15 @@ vpTwist minus(const vpTwist &a, const vpTwist &b)
   return vpTwist(a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3], a[4] - b[4], a[5] - b[5]);
 }
 
+// Above the limits by more than rounding.
+bool exceeds(const vpServoMotionLimits &limits, const vpTwist &v, const vpTwist &a, const vpTwist &j)
+{
+  constexpr double rounding = 1e-6;
+  return std::max({v.linearNorm() / limits.linearVelocity, v.angularNorm() / limits.angularVelocity,
+                   a.linearNorm() / limits.linearAcceleration, a.angularNorm() / limits.angularAcceleration,
+                   j.linearNorm() / limits.linearJerk, j.angularNorm() / limits.angularJerk}) > 1. + rounding;
+}
+
 // Time from a segment's first sample until its errors stay small.
 double settlingTime(const vpServoSample *first, const vpServoSample *last, double cycle)
 {
@@ -337,7 +386,9 @@ vpServoMetrics evaluateServoRun(const vpServoRunSpec &spec, const std::vector<vp
   const double cycle = 1. / spec.plant.loopRate;
   double squares = 0., lowestYaw = samples.front().yaw, highestYaw = lowestYaw, settleSum = 0.;
   int segments = 0;
-  vpTwist before; // the camera starts at rest
+  vpTwist before, changeBefore; // the camera starts at rest
+  double jerks = 0., angularJerks = 0.;
+  bool wasInView = true;
   const vpServoSample *const end = samples.data() + samples.size();
   const vpServoSample *segmentBegin = samples.data();
   for (const vpServoSample *s = samples.data(); s != end; ++s) {
@@ -354,7 +405,16 @@ vpServoMetrics evaluateServoRun(const vpServoRunSpec &spec, const std::vector<vp
     const vpTwist change = minus(asked, before);
     m.peak_linear_acceleration_mps2 = std::max(m.peak_linear_acceleration_mps2, change.linearNorm() / cycle);
     m.peak_angular_acceleration_radps2 = std::max(m.peak_angular_acceleration_radps2, change.angularNorm() / cycle);
+    const vpTwist jerk = minus(change, changeBefore).scaled(1. / (cycle * cycle));
+    m.peak_linear_jerk_mps3 = std::max(m.peak_linear_jerk_mps3, jerk.linearNorm());
+    m.peak_angular_jerk_radps3 = std::max(m.peak_angular_jerk_radps3, jerk.angularNorm());
+    jerks += jerk.linearNorm() * jerk.linearNorm();
+    angularJerks += jerk.angularNorm() * jerk.angularNorm();
+    m.bounds_exceeded_cycles += spec.bounds && exceeds(*spec.bounds, asked, change.scaled(1. / cycle), jerk) ? 1. : 0.;
+    m.view_losses += wasInView && !s->inView ? 1. : 0.;
+    wasInView = s->inView;
     before = asked;
+    changeBefore = change;
     m.deadlock_cycles += s->status == vpServoStatus::Deadlock ? 1 : 0;
     if (s + 1 == end || (s + 1)->segment != s->segment) {
       m.end_rotation_deg = std::max(m.end_rotation_deg, vpMath::deg(s->rotationError));
@@ -371,6 +431,8 @@ vpServoMetrics evaluateServoRun(const vpServoRunSpec &spec, const std::vector<vp
     }
   }
   m.rms_image_error_px = std::sqrt(squares / samples.size());
+  m.rms_linear_jerk_mps3 = std::sqrt(jerks / samples.size());
+  m.rms_angular_jerk_radps3 = std::sqrt(angularJerks / samples.size());
   m.yaw_range_deg = vpMath::deg(highestYaw - lowestYaw);
   m.settle_s = settleSum / segments;
   m.status = describeEnd(spec, samples);

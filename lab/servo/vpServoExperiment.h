@@ -10,6 +10,7 @@
 #define vpServoExperiment_h
 
 #include <visp3/feedforward/vpServoLaw.h>
+#include <visp3/feedforward/vpServoMotionLimits.h>
 #include <visp3/rendering/vpPlaneRenderer.h>
 #include <visp3/simulation/vpServoPlant.h>
 #include "lab/servo/vpServoArm.h"
@@ -80,6 +81,13 @@ struct vpServoRunSpec {
    * unchanged. The shaper starts at rest and is never reset: a new goal, a lost target and the retreat also give ramps.
    */
   std::optional<vpTwistShaperLimits> shape;
+  /*!
+   * Limits of the camera's motion, the same for every law, instead of #shape: a law that plans gets them as its own; the twist of any
+   * other is limited and passes a vpTwistShaper. Without them a law that plans has its default limits.
+   */
+  std::optional<vpServoMotionLimits> bounds;
+  bool average =
+      false; //!< The law gets the pose of the object averaged over images (vpObjectAverage); planning laws always do.
   //! Arm that carries the camera; null: free-flying camera with the lag and friction of the plant.
   std::shared_ptr<const vpServoArm> arm;
 };
@@ -115,8 +123,15 @@ struct vpServoMetrics {
    */
   double peak_linear_acceleration_mps2 = 0.;
   double peak_angular_acceleration_radps2 = 0.; //!< Likewise for the angular part.
-  int deadlock_cycles = 0;                      //!< Number of cycles with vpServoStatus::Deadlock.
-  std::string status;                           //!< "ok", or a sentence on the failure (target lost, deadlock).
+  double peak_linear_jerk_mps3 = 0.;    //!< Largest second difference of the same commands over the cycle squared.
+  double peak_angular_jerk_radps3 = 0.; //!< Likewise for the angular part.
+  double rms_linear_jerk_mps3 = 0.;     //!< Root mean square of the linear jerk.
+  double rms_angular_jerk_radps3 = 0.;  //!< Likewise for the angular part.
+  double bounds_exceeded_cycles =
+      0.;                  //!< Cycles with speed, acceleration or jerk above vpServoRunSpec::bounds; 0 without.
+  double view_losses = 0.; //!< How often a corner of the object left the image.
+  int deadlock_cycles = 0; //!< Number of cycles with vpServoStatus::Deadlock.
+  std::string status;      //!< "ok", or a sentence on the failure (target lost, deadlock).
 };
 
 //! \brief A finished run.

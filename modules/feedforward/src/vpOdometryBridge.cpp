@@ -3,13 +3,11 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include "vpFieldCheck.h"
+#include "vpServoCheck.h"
 
 #include <visp3/feedforward/vpOdometryBridge.h>
 
 #include <visp3/core/vpException.h>
-#include <visp3/direct_core/vpSO3.h>
-
-#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -54,12 +52,9 @@ vpOdometryBridge::vpOdometryBridge(double maxAge, double rate) : m_maxAge(maxAge
 
 vpOdometryBridge::Pose vpOdometryBridge::moved(const Pose &pose, const vpTwist &twist, double dt) noexcept
 {
-  const Eigen::Vector3d v(twist[0], twist[1], twist[2]), e = dt * Eigen::Vector3d(twist[3], twist[4], twist[5]);
-  Pose next;
-  // Normalised, so that hours of small rotations remain a rotation.
-  next.R = Eigen::Quaterniond(pose.R * vpSO3::exp(e)).normalized().toRotationMatrix();
-  next.t = pose.t + pose.R * (vpSO3::rightJacobian(-e) * (dt * v));
-  return next;
+  const vpServoPose::Pose next =
+      vpServoPose::moved({pose.R, pose.t}, vpServoPose::linear(twist), vpServoPose::angular(twist), dt);
+  return {next.R, next.t};
 }
 
 // Restart the path here and now; older data cannot be predicted any more.

@@ -12,10 +12,12 @@
 #include <visp3/core/vpException.h>
 #include <visp3/core/vpHomogeneousMatrix.h>
 #include <visp3/direct_core/vpDirectCompat.h>
+#include <visp3/direct_core/vpSO3.h>
 #include <visp3/direct_core/vpTwist.h>
 #include <visp3/feedforward/vpServoMeasurement.h>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include <cmath>
@@ -35,11 +37,28 @@ inline Eigen::Matrix3d rotation(const vpHomogeneousMatrix &M)
 
 inline Eigen::Vector3d translation(const vpHomogeneousMatrix &M) { return {M[0][3], M[1][3], M[2][3]}; }
 
-//! cdMc as rotation and translation: R' = R [w]x and t' = R v under the camera twist (v, w).
-struct Error {
-  Eigen::Matrix3d R;
-  Eigen::Vector3d t;
+//! A frame in another one. As cdMc it moves by R' = R [w]x and t' = R v under the camera twist (v, w).
+struct Pose {
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d t = Eigen::Vector3d::Zero();
+
+  Pose inverse() const { return {R.transpose(), -(R.transpose() * t)}; }
+  Pose operator*(const Pose &other) const { return {R * other.R, R * other.t + t}; }
 };
+using Error = Pose;
+
+inline Pose pose(const vpHomogeneousMatrix &M) { return {rotation(M), translation(M)}; }
+
+//! The pose after a constant twist (own frame) for \e dt. Normalised: hours of small rotations remain a rotation.
+inline Pose moved(const Pose &pose, const Eigen::Vector3d &v, const Eigen::Vector3d &w, double dt)
+{
+  const Eigen::Vector3d e = dt * w;
+  return {Eigen::Quaterniond(pose.R * vpSO3::exp(e)).normalized().toRotationMatrix(),
+          pose.t + pose.R * (vpSO3::rightJacobian(-e) * (dt * v))};
+}
+
+inline Eigen::Vector3d linear(const vpTwist &twist) { return {twist[0], twist[1], twist[2]}; }
+inline Eigen::Vector3d angular(const vpTwist &twist) { return {twist[3], twist[4], twist[5]}; }
 
 //! cdMc = cdMo cMo^-1.
 inline Error error(const vpHomogeneousMatrix &cdMo, const vpHomogeneousMatrix &cMo)

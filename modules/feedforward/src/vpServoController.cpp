@@ -10,6 +10,8 @@
 #include <visp3/feedforward/vpServoCommand.h>
 #include <visp3/feedforward/vpServoMeasurement.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string_view>
 #include <utility>
 
@@ -19,6 +21,17 @@ namespace
 {
 // No std::string: a static object elsewhere may create a controller before its initialisation.
 constexpr std::string_view filterSuffix = "+cbf";
+constexpr double rounding = 1e-6;
+
+bool isSame(const vpTwist &a, const vpTwist &b) { return std::equal(a.data(), a.data() + 6, b.data()); }
+
+// Speed of what is not the law's own twist: with room for the law to end an acceleration, of which it knows the mean over a
+// cycle, before the limit.
+double belowLimit(double speed, double acceleration, double dt)
+{
+  constexpr double knot = 0.01; // s, of the laws' commands
+  return std::max(0.99 * speed - 0.5 * acceleration * (dt + knot), 0.5 * speed);
+}
 } // namespace
 
 void vpServoControllerSpec::validate() const
@@ -35,6 +48,14 @@ vpServoController::vpServoController(const std::string &id, std::unique_ptr<vpSe
 {
   if (withFilter) {
     m_filter.emplace(spec.view);
+  }
+  if (m_law->plansMotion()) {
+    vpTwistShaperLimits limits;
+    limits.linearAcceleration = spec.motion.linearAcceleration;
+    limits.linearJerk = spec.motion.linearJerk;
+    limits.angularAcceleration = spec.motion.angularAcceleration;
+    limits.angularJerk = spec.motion.angularJerk;
+    m_shaper.emplace(limits);
   }
 }
 
@@ -63,7 +84,42 @@ vpServoCommand vpServoController::step(const vpServoMeasurement &measurement, do
   if (command.status != vpServoStatus::Servoing) {
     m_law->notifyInterrupted();
   }
+  if (m_shaper) {
+    command = bounded(command, dt);
+  }
+  notifyExecuted(command.v, command.v);
   return command;
+}
+
+// What is not the law's own twist continues the last one within its limits.
+vpServoCommand vpServoController::bounded(vpServoCommand command, double dt) noexcept
+{
+  const bool timeUsable = std::isfinite(dt) && dt > 0.;
+  if (timeUsable && command.status != vpServoStatus::Servoing) {
+    const vpServoMotionLimits &limits = m_spec.motion;
+    if (!isSame(m_sent, m_shaper->twist())) {
+      vpTwist rate;
+      for (std::size_t i = 0; i < 6 && m_period > 0.; ++i) {
+        rate[i] = (m_sent[i] - m_before[i]) / m_period;
+      }
+      const bool isJump = !(rate.linearNorm() <= (1. + rounding) * limits.linearAcceleration &&
+                            rate.angularNorm() <= (1. + rounding) * limits.angularAcceleration);
+      m_shaper->reset(m_sent,
+                      isJump ? vpTwist() : rate); // after an emergency stop there is no acceleration to go on with
+    }
+    command.v = m_shaper->step(vpLimitTwist(command.v, belowLimit(limits.linearVelocity, limits.linearAcceleration, dt),
+                                            belowLimit(limits.angularVelocity, limits.angularAcceleration, dt)),
+                               dt);
+  }
+  m_before = m_sent;
+  m_period = timeUsable ? dt : 0.;
+  return command;
+}
+
+void vpServoController::notifyExecuted(const vpTwist &commanded, const vpTwist &moved) noexcept
+{
+  m_sent = commanded.isFinite() ? commanded : vpTwist();
+  m_law->notifyExecuted(commanded, moved);
 }
 
 Eigen::Matrix3d vpServoController::referenceRotation(const vpServoMeasurement &measurement,
@@ -98,7 +154,7 @@ const char *vpMessage(vpServoStatus status)
   case vpServoStatus::InvalidInput:
     return "The measurement is not usable: not finite, a depth that is not positive, or not the goal's points.";
   case vpServoStatus::Degenerate:
-    return "The law has no answer here: too few points or a singular interaction matrix.";
+    return "The law has no answer here: too few points, a singular interaction matrix, or no motion within the limits.";
   case vpServoStatus::Diverging:
     return "The law runs away from the target: this way does not lead to the goal.";
   }

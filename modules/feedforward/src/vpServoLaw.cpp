@@ -53,6 +53,12 @@ struct Laws : vpRegistry<vpServoLaw::Maker> {
             "Feedforward that keeps the camera turned to the object while it translates; rotation gain x2.");
     addOurs("ff-lookat-pi", makeLookAtPi, lookAtFactor,
             "FF look-at with an integral of the rotation error against friction; the default of visp-direct.");
+    add("dtg",
+        "Direct trajectory generation: a minimum-jerk motion to the goal within limits, the gaze on the object, "
+        "replanned when the measurement says so.",
+        makeDtg);
+    add("ff-dtg", "The motion of dtg as a feedforward, and a feedback that keeps the camera on it.",
+        makeFeedforwardDtg);
   }
 };
 
@@ -79,6 +85,8 @@ const vpFields<vpServoGains> &vpServoGains::fields()
        "Gain on the integral of the rotation error in `ff-lookat-pi`"},
       {"integralLimit", &Gains::integralLimit, positive, "rad/s",
        "Largest angular velocity contributed by the integral"},
+      {"replanPeriod", &Gains::replanPeriod, notNegative, "s",
+       "Period of planning anew in `dtg` and `ff-dtg`; 0: at events only"},
   };
   return all;
 }
@@ -132,6 +140,9 @@ vpServoCommand vpServoLaw::step(const vpServoMeasurement &measurement, double dt
 {
   vpServoCommand command;
   const bool timeUsable = std::isfinite(dt) && dt > 0.;
+  if (timeUsable) {
+    elapsed(std::min(dt, longestStep));
+  }
   if (!m_hasGoal) {
     command.status = vpServoStatus::NoGoal;
   }
@@ -150,6 +161,7 @@ vpServoCommand vpServoLaw::step(const vpServoMeasurement &measurement, double dt
   if (command.status != vpServoStatus::Servoing) {
     notifyInterrupted();
   }
+  notifyExecuted(command.v, command.v);
   return command;
 }
 

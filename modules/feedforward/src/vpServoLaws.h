@@ -29,6 +29,8 @@ std::unique_ptr<vpServoLaw> makeKyrkiDecoupled(const std::string &id, const vpSe
 std::unique_ptr<vpServoLaw> makeFeedforwardSum(const std::string &id, const vpServoGains &gains, double rotationFactor);
 std::unique_ptr<vpServoLaw> makeLookAt(const std::string &id, const vpServoGains &gains, double rotationFactor);
 std::unique_ptr<vpServoLaw> makeLookAtPi(const std::string &id, const vpServoGains &gains, double rotationFactor);
+std::unique_ptr<vpServoLaw> makeDtg(const vpServoGains &gains, const vpServoMotionLimits &motion);
+std::unique_ptr<vpServoLaw> makeFeedforwardDtg(const vpServoGains &gains, const vpServoMotionLimits &motion);
 } // namespace vpServoLaws
 
 END_VISP_NAMESPACE

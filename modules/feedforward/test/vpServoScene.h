@@ -17,7 +17,10 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <random>
+#include <string>
+#include <vector>
 
 VISP_DIRECT_USING_NAMESPACE
 
@@ -65,6 +68,15 @@ inline vpTwist randomTwist(std::mt19937_64 &rng, double linear, double angular)
 inline Eigen::Matrix3d turn(double angle, const Eigen::Vector3d &axis)
 {
   return Eigen::AngleAxisd(angle, axis).toRotationMatrix();
+}
+
+//! The laws whose twist follows from the measurement of the cycle alone.
+inline std::vector<std::string> lawsWithoutPlan()
+{
+  std::vector<std::string> ids = vpServoLaw::ids();
+  const auto plans = [](const std::string &id) { return vpServoLaw::create(id)->plansMotion(); };
+  ids.erase(std::remove_if(ids.begin(), ids.end(), plans), ids.end());
+  return ids;
 }
 
 //! Object points in the plane z = 0: the corners of a square first, then others; \e size is the side, m.

@@ -24,8 +24,8 @@ enum class vpServoStatus {
   Lost,   //!< The target is lost and the retreat is finished: standing still until it is seen or reset() is called.
   NoGoal, //!< No goal is set; zero twist.
   InvalidInput, //!< The measurement is not finite, has a depth <= 0 or not the goal's points; zero twist.
-  Degenerate,   //!< The law has no solution here (too few points, singular interaction matrix); zero twist.
-  Diverging     //!< The camera moves away without bound (`ibvs` after a roll of half a turn); zero twist.
+  Degenerate, //!< The law has no solution here (too few points, singular interaction matrix, no plan within the limits).
+  Diverging   //!< The camera moves away without bound (`ibvs` after a roll of half a turn); zero twist.
 };
 
 /*!
@@ -33,7 +33,8 @@ enum class vpServoStatus {
  * \brief Loop condition: true while the camera moves to the goal or may recover (Servoing, ViewLimited, Holding,
  * Retreating).
  *
- * False ends the loop: vpMessage() gives the reason. The twist is zero then, or near zero (Deadlock). No status reports
+ * False ends the loop: vpMessage() gives the reason. The twist is zero then, near zero (Deadlock), or
+ * brakes within the limits (laws that plan). No status reports
  * that the goal is reached, because the required accuracy is the caller's choice and part of the caller's condition.
  */
 [[nodiscard]] constexpr bool vpIsWorking(vpServoStatus status)

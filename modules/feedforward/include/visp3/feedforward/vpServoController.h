@@ -13,6 +13,7 @@
 #include <visp3/feedforward/vpServoMotionLimits.h>
 #include <visp3/feedforward/vpTargetLossRecovery.h>
 #include <visp3/feedforward/vpViewConstraintFilter.h>
+#include <visp3/trajectory/vpTwistShaper.h>
 
 #include <Eigen/Core>
 
@@ -89,6 +90,10 @@ public:
 
   //! Tells the law that its last twist was not executed as given: it was limited, say.
   void notifyInterrupted() noexcept { m_law->notifyInterrupted(); }
+  //! Tells the law what came of its twist, see vpServoLaw::notifyExecuted(); only needed where it was not that of step().
+  void notifyExecuted(const vpTwist &commanded, const vpTwist &moved) noexcept;
+  //! The robot's own limits for laws that plan, see vpServoLaw::setMotionCheck(); referenced, nullptr: none.
+  void setMotionCheck(vpServoMotionCheck *check) noexcept { m_law->setMotionCheck(check); }
 
   /*!
    * Orientation that a command aims at: where the camera would end if only the rotation continued, R
@@ -104,11 +109,16 @@ private:
   vpServoController(const std::string &id, std::unique_ptr<vpServoLaw> law, bool withFilter,
                     const vpServoControllerSpec &spec);
 
+  vpServoCommand bounded(vpServoCommand command, double dt) noexcept;
+
   std::string m_id;
   vpServoControllerSpec m_spec;
   std::unique_ptr<vpServoLaw> m_law;
   std::optional<vpViewConstraintFilter> m_filter;
   vpTargetLossRecovery m_recovery;
+  std::optional<vpTwistShaper> m_shaper; // of laws that plan
+  vpTwist m_sent, m_before;              // executed in the last cycle, and in the one before
+  double m_period = 0.;                  // of the last cycle, s
 };
 
 END_VISP_NAMESPACE

@@ -12,9 +12,11 @@
 #include <visp3/direct_core/vpField.h>
 #include <visp3/feedforward/vpServoCommand.h>
 #include <visp3/feedforward/vpServoMeasurement.h>
+#include <visp3/feedforward/vpServoMotionCheck.h>
 #include <visp3/feedforward/vpServoMotionLimits.h>
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -32,6 +34,7 @@ struct VISP_EXPORT vpServoGains {
   double saturation = 0.5;    //!< Bound c of c tanh(D/c) in `ff-sum`, rad, > 0, <= 1000000.
   double integral = 1.;       //!< Gain on the integral of the rotation error in `ff-lookat-pi`, 1/s^2, 0..1000000.
   double integralLimit = 0.5; //!< Largest angular velocity contributed by the integral, rad/s, > 0, <= 1000000.
+  double replanPeriod = 0.;   //!< Period of planning anew in `dtg` and `ff-dtg`, s, 0..1000000; 0: at events only.
 
   //! The gains with their ranges and units.
   [[nodiscard]] static const vpFields<vpServoGains> &fields();
@@ -117,6 +120,21 @@ public:
    * integrals do not wind up. Called by vpServoController.
    */
   virtual void notifyInterrupted() noexcept {}
+  /*!
+   * Tell the law what came of its last step(). Called by vpServoController, and by step() itself with its own twist;
+   * the last call before the next step() counts.
+   * \param commanded : Twist that was sent to the robot, after filters and limits: a law that plans continues from it.
+   * \param moved : Camera twist that the robot executes, by its encoders, m/s and rad/s; the same where it is not known.
+   */
+  virtual void notifyExecuted(const vpTwist & /*commanded*/, const vpTwist & /*moved*/) noexcept {}
+  //! True when the twists of this law, one after the other, stay within its vpServoMotionLimits: no shaper is needed.
+  [[nodiscard]] virtual bool plansMotion() const noexcept { return false; }
+  //! Time until the planned arrival, s; 0 when arrived; NaN for a law without a plan, or while there is none.
+  [[nodiscard]] virtual double timeToArrival() const noexcept { return std::numeric_limits<double>::quiet_NaN(); }
+  //! Number of plans followed since the law was made; 0 for a law without plans.
+  [[nodiscard]] virtual int plans() const noexcept { return 0; }
+  //! The robot's own limits, asked about each plan; referenced, nullptr: none. Ignored by laws that do not plan.
+  virtual void setMotionCheck(vpServoMotionCheck * /*check*/) noexcept {}
 
   /*!
    * One cycle.
@@ -135,6 +153,8 @@ protected:
   virtual void goalChanged() {}
   //! Called by reset(): forget internal state.
   virtual void stateReset() {}
+  //! Called first in each step(), whatever the measurement: the last twist was executed for \e dt, s.
+  virtual void elapsed(double /*dt*/) noexcept {}
   //! The law itself. The measurement is valid, finite, and has the goal's number of points. Must not allocate; an
   //! exception ends the process by std::terminate().
   virtual vpServoCommand compute(const vpServoMeasurement &measurement, double dt) noexcept = 0;

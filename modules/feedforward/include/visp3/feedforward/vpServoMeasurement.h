@@ -50,8 +50,8 @@ struct VISP_EXPORT vpServoGoal {
 struct VISP_EXPORT vpServoMeasurement {
   bool valid = false; //!< False when the target was not found; all other members except #time are then ignored.
   /*!
-   * Time of capture, s, on the clock of the caller. **No law reads it**: a measurement counts as current, and setting
-   * the time does not compensate latency. vpOdometryBridge uses it to predict a late measurement at the current time,
+   * Time of capture, s, on the clock of the caller. **A measurement counts as current**, and setting the time does not
+   * compensate latency; `dtg` and `ff-dtg` tell images apart by it, no other law reads it. vpOdometryBridge uses it to predict a late measurement at the current time,
    * as input for the law.
    */
   double time = 0.;

@@ -1,0 +1,144 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "vpGazePlan.h"
+
+#include "vpFeedforwardErrors.h"
+
+#include <visp3/direct_core/vpSO3.h>
+
+#include <algorithm>
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+using P = vpTrajectoryProblem;
+
+// Step of the central difference that gives e'' at the start, s.
+constexpr double differenceStep = 1e-4;
+
+// w = R^T (rate of R_la) + J_r(e) e', R_la turning by d' = -t'.
+Eigen::Vector3d gazeRate(const vpLookAt &lookAt, const Eigen::Vector3d &velocity)
+{
+  return lookAt.rotation.transpose() * (lookAt.rate * -velocity);
+}
+} // namespace
+
+vpGazePlan::vpGazePlan() : m_problem(6), m_planner(6), m_plan(6) {}
+
+// e and e' when the twist continues with its rate.
+vpGazePlan::Rest vpGazePlan::restAt(const Start &start, double time) const noexcept
+{
+  const vpServoPose::Pose now = vpServoPose::moved(start.pose, (start.twist + 0.5 * time * start.rate).head<3>(),
+                                                   (start.twist + 0.5 * time * start.rate).tail<3>(), time);
+  const Vector6 twist = start.twist + time * start.rate;
+  Rest rest;
+  rest.e = vpSO3::log(now.R);
+  Eigen::Vector3d w = twist.tail<3>();
+  if (m_gaze) {
+    const vpLookAt lookAt(m_origin, now.t);
+    rest.e = vpSO3::log(lookAt.rotation.transpose() * now.R);
+    w -= vpSO3::exp(rest.e).transpose() * gazeRate(lookAt, now.R * twist.head<3>());
+  }
+  rest.rate = vpSO3::rightJacobianInverse(rest.e) * w;
+  return rest;
+}
+
+bool vpGazePlan::set(const Start &start, const Eigen::Vector3d &origin, bool gaze,
+                     const vpServoMotionLimits &limits) noexcept
+{
+  m_origin = origin;
+  m_gaze = gaze;
+  if (gaze && !vpLookAt(origin, start.pose.t).defined) {
+    return false;
+  }
+  const Eigen::Vector3d v = start.twist.head<3>(), w = start.twist.tail<3>();
+  const Eigen::Vector3d velocity = start.pose.R * v, acceleration = start.pose.R * (start.rate.head<3>() + w.cross(v));
+  const Rest now = restAt(start, 0.);
+  const Eigen::Vector3d second =
+      (restAt(start, differenceStep).rate - restAt(start, -differenceStep).rate) / (2. * differenceStep);
+  for (int i = 0; i < 3; ++i) {
+    m_problem.setStart(i, {start.pose.t[i], velocity[i], acceleration[i], 0.});
+    m_problem.setStart(i + 3, {now.e[i], now.rate[i], second[i], 0.});
+    for (const int axis : {i, i + 3}) {
+      const bool position = axis < 3;
+      m_problem.field(P::MaxVelocity)[axis] = position ? limits.linearVelocity : limits.angularVelocity;
+      m_problem.field(P::MaxAcceleration)[axis] = position ? limits.linearAcceleration : limits.angularAcceleration;
+      m_problem.field(P::MaxJerk)[axis] = position ? limits.linearJerk : limits.angularJerk;
+    }
+  }
+  m_problem.spec.groups[0] = vpAxisGroup({0, 1, 2}, limits.linearVelocity, limits.linearAcceleration);
+  m_problem.spec.groups[1] = vpAxisGroup({3, 4, 5}, limits.angularVelocity, limits.angularAcceleration);
+  return m_problem.validate(true).isGood();
+}
+
+void vpGazePlan::slowDown(double factor) noexcept
+{
+  for (int i = 0; i < 6; ++i) {
+    m_problem.field(P::MaxVelocity)[i] /= factor;
+    m_problem.field(P::MaxAcceleration)[i] /= factor * factor;
+    m_problem.field(P::MaxJerk)[i] /= factor * factor * factor;
+  }
+  for (std::size_t g = 0; g < 2; ++g) {
+    m_problem.spec.groups[g].maxSpeed /= factor;
+    m_problem.spec.groups[g].maxAcceleration /= factor * factor;
+  }
+}
+
+bool vpGazePlan::plan(double floor) noexcept
+{
+  return m_planner.plan(m_problem, floor, m_plan).isGood() && m_plan.isFinite();
+}
+
+vpGazePlan::Vector6 vpGazePlan::twist(double time) const noexcept
+{
+  Vector6 twist = Vector6::Zero();
+  if (time >= m_plan.duration()) {
+    return twist;
+  }
+  Eigen::Vector3d t, velocity, e, rate;
+  for (int i = 0; i < 3; ++i) {
+    const vpAxisState place = m_plan.at(i, time), turn = m_plan.at(i + 3, time);
+    t[i] = place[0];
+    velocity[i] = place[1];
+    e[i] = turn[0];
+    rate[i] = turn[1];
+  }
+  Eigen::Matrix3d R = vpSO3::exp(e);
+  twist.tail<3>() = vpSO3::rightJacobian(e) * rate;
+  if (m_gaze) {
+    const vpLookAt lookAt(m_origin, t);
+    twist.tail<3>() += R.transpose() * gazeRate(lookAt, velocity);
+    R = lookAt.rotation * R;
+  }
+  twist.head<3>() = R.transpose() * velocity;
+  return twist;
+}
+
+std::size_t vpGazePlan::binOf(double time) const noexcept
+{
+  return static_cast<std::size_t>(std::clamp(time / m_plan.duration() * bins, 0., bins - 1.));
+}
+
+void vpGazePlan::noteSpeed(double time, const Vector6 &twist) noexcept
+{
+  std::pair<double, double> &bin = m_speeds[binOf(time)];
+  bin = {std::max(bin.first, twist.head<3>().norm()), std::max(bin.second, twist.tail<3>().norm())};
+}
+
+void vpGazePlan::finishSpeeds() noexcept
+{
+  for (std::size_t i = bins - 1; i-- > 0;) {
+    m_speeds[i] = {std::max(m_speeds[i].first, m_speeds[i + 1].first),
+                   std::max(m_speeds[i].second, m_speeds[i + 1].second)};
+  }
+}
+
+std::pair<double, double> vpGazePlan::speedsFrom(double time) const noexcept
+{
+  return time >= m_plan.duration() ? std::pair<double, double>() : m_speeds[binOf(time)];
+}
+
+END_VISP_NAMESPACE

@@ -1,0 +1,78 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpGazePlan.h
+ * \brief A planned camera motion to a goal: polynomials for the position and for what is left of the orientation.
+ */
+#ifndef vpGazePlan_h
+#define vpGazePlan_h
+
+#include "vpServoCheck.h"
+#include "vpTwistSpline.h"
+
+#include <visp3/trajectory/vpTrajectoryPlanner.h>
+
+#include <array>
+#include <utility>
+
+BEGIN_VISP_NAMESPACE
+
+/*!
+ * \brief Motion of the camera in the frame of the goal camera: t(time) to 0 and R = R_la(t) exp(e(time)), e to 0, or
+ * without gaze R = exp(e). Both are axes of a vpTrajectoryPlan.
+ *
+ * R_la is that of vpLookAt: while the camera translates, what remains of the image error is due to e. Nothing here
+ * allocates or throws after construction.
+ */
+class vpGazePlan
+{
+public:
+  using Vector6 = vpTwistSpline::Vector6;
+  //! Camera at the start: pose in the frame of the goal camera, twist and its rate in the camera's own frame.
+  struct Start {
+    vpServoPose::Pose pose;
+    Vector6 twist = Vector6::Zero(), rate = Vector6::Zero();
+  };
+
+  vpGazePlan();
+
+  //! A problem for the next plans. \param origin : Of the object in the goal camera. \param gaze : Use R_la.
+  //! \return False when the numbers allow no plan: R_la is not defined there.
+  bool set(const Start &start, const Eigen::Vector3d &origin, bool gaze, const vpServoMotionLimits &limits) noexcept;
+  //! Limits for a motion that is slower by \e factor.
+  void slowDown(double factor) noexcept;
+  //! Plan with a duration of at least \e floor, s. \return False when there is no such plan.
+  bool plan(double floor) noexcept;
+
+  //! Camera twist at \e time, s from the start; zero after the end.
+  Vector6 twist(double time) const noexcept;
+  double duration() const { return m_plan.duration(); } //!< s
+
+  /*! \name Largest speeds of what is left of the motion, from its control points */
+  //! @{
+  void forgetSpeeds() noexcept { m_speeds = {}; }
+  void noteSpeed(double time, const Vector6 &twist) noexcept; //!< In ascending order of \e time.
+  void finishSpeeds() noexcept;
+  std::pair<double, double> speedsFrom(double time) const noexcept; //!< m/s and rad/s
+  //! @}
+
+private:
+  struct Rest {
+    Eigen::Vector3d e, rate;
+  };
+  static constexpr int bins = 64;
+  std::size_t binOf(double time) const noexcept;
+  Rest restAt(const Start &start, double time) const noexcept;
+
+  vpTrajectoryProblem m_problem;
+  vpTrajectoryPlanner m_planner;
+  vpTrajectoryPlan m_plan;
+  Eigen::Vector3d m_origin = Eigen::Vector3d::Zero();
+  bool m_gaze = true;
+  std::array<std::pair<double, double>, bins> m_speeds{};
+};
+
+END_VISP_NAMESPACE
+#endif

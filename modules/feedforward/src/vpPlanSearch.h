@@ -1,0 +1,76 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpPlanSearch.h
+ * \brief Finds a vpGazePlan whose every command is within the limits, a bounded piece of work each cycle.
+ */
+#ifndef vpPlanSearch_h
+#define vpPlanSearch_h
+
+#include "vpGazePlan.h"
+
+#include <visp3/feedforward/vpServoMotionCheck.h>
+
+#include <array>
+
+BEGIN_VISP_NAMESPACE
+
+/*!
+ * \brief "Verify or keep": a candidate is evaluated at every control point that it would command, joined to the two
+ * before it; where it exceeds a limit, its duration is stretched by the excess and it is evaluated again.
+ */
+class vpPlanSearch
+{
+public:
+  using Vector6 = vpTwistSpline::Vector6;
+  static constexpr int maxTries = 8, maxDelay = 40;
+  enum class State { Idle, Busy, Found, Failed };
+  //! What to plan.
+  struct Task {
+    vpGazePlan::Start start;          //!< At the knot where the plan begins, half way between the two control points.
+    Vector6 before = Vector6::Zero(); //!< Control point before that knot, in #last the one after it.
+    Vector6 last = Vector6::Zero();
+    Eigen::Vector3d origin = Eigen::Vector3d::Zero(); //!< Of the object in the goal camera, m.
+    double floor = 0.;                                //!< Least duration, s.
+    bool gaze = true;
+    bool isAtRest = false;                 //!< The start: a plan with scaled limits is then the same motion, slower.
+    std::array<Vector6, maxDelay + 2> way; //!< Control points from now until #last, for the robot's check.
+    int wayCount = 0;
+  };
+
+  explicit vpPlanSearch(const vpServoMotionLimits &limits) : m_limits(limits), m_excess(limits) {}
+
+  void setCheck(vpServoMotionCheck *check) { m_check = check; }
+  void open(const Task &task) noexcept;
+  void close() { m_state = State::Idle; }
+  //! Work of about \e budget evaluations of a twist.
+  void work(int budget) noexcept;
+  //! Evaluations that a plan of this duration takes, s.
+  int effort(double duration) const;
+
+  State state() const { return m_state; }
+  vpGazePlan &found() { return m_plan; } //!< With State::Found; may be swapped.
+
+private:
+  // Costs in evaluations of a twist.
+  static constexpr int planCost = 40, checkCost = 8, coarse = 24;
+  bool stretch(double excess) noexcept;
+  bool propose() noexcept;
+  void verifyNext() noexcept;
+
+  vpServoMotionLimits m_limits;
+  vpTwistExcess m_excess;
+  vpServoMotionCheck *m_check = nullptr;
+  Task m_task;
+  vpGazePlan m_plan;
+  State m_state = State::Idle;
+  bool m_planned = false; // m_plan is being verified
+  double m_floor = 0., m_worst = 0.;
+  int m_tries = 0, m_index = 0, m_last = 0;
+  Vector6 m_a = Vector6::Zero(), m_b = Vector6::Zero();
+};
+
+END_VISP_NAMESPACE
+#endif

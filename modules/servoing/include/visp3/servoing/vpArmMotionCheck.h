@@ -1,0 +1,68 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file vpArmMotionCheck.h
+ * \brief Tells a law that plans which camera motions an arm can execute.
+ */
+#ifndef vpArmMotionCheck_h
+#define vpArmMotionCheck_h
+
+#include <visp3/feedforward/vpServoMotionCheck.h>
+#include <visp3/manipulator/vpRedundancySolver.h>
+
+#include <vector>
+
+BEGIN_VISP_NAMESPACE
+
+/*!
+ * \class vpArmMotionCheck
+ * \ingroup group_servoing
+ * \brief Executes planned twists on a copy of the arm, with the same redundancy resolution and limits as the arm itself.
+ *
+ * The periods differ, so a verified motion may be slowed a little where it is near an acceleration limit; the joints'
+ * limits are kept by the arm's own solver in any case. No function allocates after construction.
+ *
+ * \code
+ * vpArmMotionCheck check(model, redundancy, indices, free);
+ * controller.setMotionCheck(&check);
+ * // each cycle, before controller.step():
+ * check.setState(q, velocity);
+ * \endcode
+ */
+class VISP_EXPORT vpArmMotionCheck : public vpServoMotionCheck
+{
+public:
+  /*!
+   * \param model : The arm; referenced, must outlive this. \param spec : Parameters of its solver.
+   * \param indices : Indices that self-motion maximizes; of more than vpMaxArmIndices the first.
+   * \param free : Axes of the camera that are not commanded.
+   * \throw vpException (badValue) naming the field of \e spec that is out of range, or a joint without motion limits.
+   */
+  vpArmMotionCheck(const vpArmModel &model, const vpRedundancySpec &spec,
+                   const std::vector<vpSelfMotionIndex> &indices = {}, const std::array<bool, 6> &free = {});
+
+  //! Where the arm is now: positions, rad or m, and commanded velocities, rad/s or m/s.
+  void setState(const vpJointVector &q, const vpJointVector &velocity) noexcept;
+
+  void begin() noexcept VP_OVERRIDE;
+  /*!
+   * \return 1 or less when the arm executes the twist; 1 / share when acceleration or velocity limits allow only a share of it;
+   *   infinity when position limits or a singularity forbid it, and when the state is not finite. 
+   */
+  [[nodiscard]] double add(const vpTwist &twist, double dt) noexcept VP_OVERRIDE;
+
+private:
+  const vpArmModel *m_model;
+  vpRedundancySpec m_spec;
+  vpRedundancySolver m_solver;
+  vpRedundancyInput m_input;
+  vpRedundancyOutput m_output;
+  vpArmData m_data;
+  vpJointVector m_q, m_velocity; // now
+  vpJointVector m_place;         // of the copy
+};
+
+END_VISP_NAMESPACE
+#endif

@@ -1,0 +1,73 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include <visp3/servoing/vpArmMotionCheck.h>
+
+#include <algorithm>
+#include <limits>
+
+BEGIN_VISP_NAMESPACE
+
+namespace
+{
+// What may be missing of a twist; a singularity may take a little.
+constexpr double shortfall = 1e-3, dampedShortfall = 0.02;
+constexpr double step = 0.01; // s, the period of the copy's solver
+
+vpRedundancySpec withPeriod(vpRedundancySpec spec)
+{
+  spec.period = step;
+  return spec;
+}
+} // namespace
+
+vpArmMotionCheck::vpArmMotionCheck(const vpArmModel &model, const vpRedundancySpec &spec,
+                                   const std::vector<vpSelfMotionIndex> &indices, const std::array<bool, 6> &free)
+  : m_model(&model), m_spec(withPeriod(spec)), m_solver(model, m_spec), m_q(model.home()),
+    m_velocity(vpJointVector::Zero(model.size())), m_place(m_q)
+{
+  m_input.frame = vpArmFrame::Camera;
+  m_input.free = free;
+  m_input.indexCount = static_cast<int>(std::min<std::size_t>(indices.size(), vpMaxArmIndices));
+  std::copy_n(indices.begin(), m_input.indexCount, m_input.indices.begin());
+  m_input.previous = m_velocity;
+}
+
+void vpArmMotionCheck::setState(const vpJointVector &q, const vpJointVector &velocity) noexcept
+{
+  m_q = q;
+  m_velocity = velocity;
+}
+
+void vpArmMotionCheck::begin() noexcept
+{
+  m_place = m_q;
+  m_input.previous = m_velocity;
+}
+
+double vpArmMotionCheck::add(const vpTwist &twist, double dt) noexcept
+{
+  if (!vpArmKinematics::update(*m_model, m_place, m_data)) {
+    return std::numeric_limits<double>::infinity();
+  }
+  m_input.twist = twist;
+  m_solver.step(m_data, m_input, m_output);
+  m_place += dt * m_output.velocity;
+  m_input.previous = m_output.velocity;
+  switch (m_output.status) {
+  case vpRedundancyStatus::Exact:
+    return 0.;
+  case vpRedundancyStatus::Accelerating:
+  case vpRedundancyStatus::Scaled:
+    return m_output.taskShare >= 1. - shortfall ? 1. : 1. / std::max(m_output.taskShare, 0.5);
+  case vpRedundancyStatus::Damped:
+  case vpRedundancyStatus::Escaping:
+  case vpRedundancyStatus::JointsStopped:
+    return m_output.taskShare >= 1. - dampedShortfall ? 1. : std::numeric_limits<double>::infinity();
+  default:
+    return std::numeric_limits<double>::infinity();
+  }
+}
+
+END_VISP_NAMESPACE
