@@ -104,7 +104,7 @@ template <class Spec> void check(const std::string &header, const std::string &t
 
 TEST_CASE("Header, table and validate() of a specification say the same", "[fields]")
 {
-  check<vpServoGains>("feedforward/include/visp3/feedforward/vpServoLaw.h", "vpServoGains", 6);
+  check<vpServoGains>("feedforward/include/visp3/feedforward/vpServoLaw.h", "vpServoGains", 7);
   check<vpServoPlant>("simulation/include/visp3/simulation/vpServoPlant.h", "vpServoPlant", 8);
   check<vpCameraFaults>("rendering/include/visp3/rendering/vpPlaneRenderer.h", "vpCameraFaults", 5);
   check<vpServoMotionLimits>("feedforward/include/visp3/feedforward/vpServoMotionLimits.h", "vpServoMotionLimits", 6);
