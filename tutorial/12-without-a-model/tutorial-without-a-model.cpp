@@ -14,6 +14,7 @@
 #include <visp3/servoing/vpVisualServo.h>
 
 #include <iostream>
+#include <memory>
 
 VISP_DIRECT_USING_NAMESPACE
 
@@ -49,7 +50,7 @@ int main()
       view.render(cdMo, faults, k, image);
       teacher.add(image);
     }
-    const vpImage<unsigned char> reference = teacher.image();
+    const vpImage<unsigned char> reference = teacher.image(); // a PNG file keeps it
     //! [Teach]
     vpSimulatorCamera robot;
     robot.setPosition(vpHomogeneousMatrix(0.08, -0.04, 0.7, 0.35, -0.45, 0.7).inverse());
@@ -57,8 +58,7 @@ int main()
     robot.setRobotState(vpRobot::STATE_VELOCITY_CONTROL);
     //! [Homography]
     view.render(robot.getPosition().inverse(), faults, 100, image);
-    vpPlaneMatcher matcher(reference);
-    const vpPlaneMatch &match = matcher.match(image);
+    const vpPlaneMatch match = vpPlaneMatcher(reference).match(image);
     const vpHomography cHr = match.euclidean(camera); // from the reference image to this one, up to scale
     const vpTwoViewResult motions = vpTwoViewDecomposition().process(cHr, match.referencePoints(camera));
     std::cout << match.message << " " << motions.message << std::endl;

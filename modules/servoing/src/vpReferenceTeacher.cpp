@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 BEGIN_VISP_NAMESPACE

@@ -60,7 +60,10 @@ public:
 
   //! Finds the plane anywhere, by keypoints.
   const vpPlaneTrack &acquire(const vpImage<unsigned char> &image);
-  //! Finds it near a guess, to a tenth of the reference's width or so. \param guess : See vpPlaneTrack::homography.
+  /*!
+   * Finds the plane near a guess.
+   * \param image : The frame. \param guess : Homography as vpPlaneTrack::homography, right to some 30 px of the reference.
+   */
   const vpPlaneTrack &track(const vpImage<unsigned char> &image, const std::array<double, 9> &guess);
   //! The corners of the reference view, px.
   [[nodiscard]] const std::vector<vpImagePoint> &reference() const;
