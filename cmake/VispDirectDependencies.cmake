@@ -78,6 +78,17 @@ find_library(VISP_DIRECT_DLIB_LIBRARY dlib)
 find_library(VISP_DIRECT_BLAS_LIBRARY NAMES blas openblas) # dlib's headers use BLAS
 vispdirect_optional(DLIB "SURF keypoints" "${VISP_DIRECT_DLIB_INCLUDE_DIR}" "${VISP_DIRECT_DLIB_LIBRARY};${VISP_DIRECT_BLAS_LIBRARY}")
 
+find_path(VISP_DIRECT_ARAVIS_INCLUDE_DIR arv.h PATH_SUFFIXES aravis-0.8)
+find_library(VISP_DIRECT_ARAVIS_LIBRARY aravis-0.8)
+find_path(VISP_DIRECT_GLIB_INCLUDE_DIR glib.h PATH_SUFFIXES glib-2.0)
+find_library(VISP_DIRECT_GLIB_LIBRARY glib-2.0)
+find_library(VISP_DIRECT_GOBJECT_LIBRARY gobject-2.0)
+get_filename_component(vispdirect_glib_folder "${VISP_DIRECT_GLIB_LIBRARY}" DIRECTORY)
+find_path(VISP_DIRECT_GLIBCONFIG_INCLUDE_DIR glibconfig.h HINTS "${vispdirect_glib_folder}/glib-2.0/include")
+vispdirect_optional(ARAVIS "GigE and USB3 cameras (visp-servo)"
+  "${VISP_DIRECT_ARAVIS_INCLUDE_DIR};${VISP_DIRECT_GLIB_INCLUDE_DIR};${VISP_DIRECT_GLIBCONFIG_INCLUDE_DIR}"
+  "${VISP_DIRECT_ARAVIS_LIBRARY};${VISP_DIRECT_GOBJECT_LIBRARY};${VISP_DIRECT_GLIB_LIBRARY}")
+
 # For tests only: no module, program or installed package needs it.
 find_path(VISP_DIRECT_MUJOCO_INCLUDE_DIR mujoco/mujoco.h)
 find_library(VISP_DIRECT_MUJOCO_LIBRARY mujoco)

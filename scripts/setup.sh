@@ -10,7 +10,7 @@ mkdir -p "$logs"
 # Debian 12 packages needed by the build. ViSP depends on OpenCV and Eigen; they are listed because we use them directly.
 packages=(g++ cmake ninja-build libvisp-dev libopencv-dev libeigen3-dev libdlib-dev catch2 libbenchmark-dev
   libcli11-dev nlohmann-json3-dev liborocos-kdl-dev liburdfdom-dev libfcl-dev liboctomap-dev libassimp-dev
-  libompl-dev gnuplot-nox)
+  libompl-dev libaravis-dev gnuplot-nox)
 case ${CXX:-} in *clang*) packages+=(clang libomp-dev) ;; esac # ViSP is built with OpenMP
 # Real images for some tests, which are skipped if the images are missing. Documentation tools, as the documentation is also
 # a test: doxygen, and bibtex for the bibliography. Open MPI, for the program that can run on several processes.

@@ -46,11 +46,11 @@ void writeResult(const Options &options, const RunResults &results, vpApp::Outpu
 int track(const Options &options, const std::string &commandLine)
 {
   vpApp::requireGnuplot();
-  const std::unique_ptr<ImageSource> source = makeSource(options);
+  const Input input = openInput(options);
   vpApp::OutputFolder out("visp-track-pattern", options.out);
   RunResults results;
   try {
-    trackAll(options, *source, out, results);
+    trackAll(options, input, out, results);
     writeResult(options, results, out, commandLine);
   }
   catch (const std::exception &error) {

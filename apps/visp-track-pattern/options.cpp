@@ -6,6 +6,7 @@
 
 #include "appMain.h"
 #include "commandLine.h"
+#include "imageSource.h"
 
 #include <visp3/core/vpException.h>
 #include <visp3/core/vpMath.h>
@@ -166,23 +167,17 @@ void checkScale(const vpApp::CommandLine &line, const Options &options)
 //! A camera may be given as --camera N, --camera /dev/videoN or as the input itself.
 void findCamera(Options &options)
 {
-  if (!options.camera.empty()) {
-    if (!options.inputs.empty()) {
-      throw vpApp::UsageError("--camera and the input " + options.inputs[0] + " are both given");
-    }
-    if (options.camera.find_first_not_of("0123456789") == std::string::npos) {
-      options.camera = "/dev/video" + options.camera;
-    }
+  std::string given = options.camera;
+  if (!given.empty() && !options.inputs.empty()) {
+    throw vpApp::UsageError("--camera and the input " + options.inputs[0] + " are both given");
   }
-  else if (options.inputs.size() == 1 && options.inputs[0].rfind("/dev/video", 0) == 0) {
-    options.camera = options.inputs[0];
+  if (options.inputs.size() == 1 && options.inputs[0].rfind("/dev/video", 0) == 0) {
+    given = options.inputs[0];
     options.inputs.clear();
   }
-  if (!options.camera.empty()) {
-    const std::string number = options.camera.rfind("/dev/video", 0) == 0 ? options.camera.substr(10) : "";
-    if (number.empty() || number.size() > 4 || number.find_first_not_of("0123456789") != std::string::npos) {
-      throw vpApp::UsageError("--camera is " + options.camera + ", must be a number or /dev/videoN");
-    }
+  options.camera = vpApp::cameraDevice(given);
+  if (options.camera.empty() && !given.empty()) {
+    throw vpApp::UsageError("--camera is " + given + ", must be a number or /dev/videoN");
   }
 }
 } // namespace

@@ -217,10 +217,12 @@ public:
   }
 
   //! The overlay for the window; empty if not requested.
-  cv::Mat take(const vpImage<unsigned char> &image, const ImageSource &source, bool draw)
+  cv::Mat take(const vpImage<unsigned char> &image, const Input &input, bool draw)
   {
+    const vpApp::ImageSource &source = *input.images;
     const vpImage<unsigned char> &part = m_window.cut(image, source.name());
     if (source.isAfterGap()) {
+      m_hasGaps = true;
       m_tracker.interrupt();
       m_comparison.skip();
     }
@@ -232,7 +234,7 @@ public:
     if (m_results.calibration) {
       convertMotion(*m_results.calibration, record);
     }
-    const std::optional<FrameTruth> truth = source.truth();
+    const std::optional<FrameTruth> truth = input.truth();
     if (truth) {
       m_comparison.add(frame, *truth, m_window.left(), m_window.top(), record, m_results);
     }
@@ -266,12 +268,16 @@ public:
     return picture;
   }
 
-  void finish(const ImageSource &source, vpApp::OutputFolder &out)
+  void finish(const vpApp::ImageSource &source, vpApp::OutputFolder &out)
   {
     m_tables->close();
     m_overlays.close();
     m_results.input = source.description();
     m_results.remarks = source.remarks();
+    if (m_hasGaps) {
+      m_results.remarks.emplace_back("How far the product moved across a gap is not known: no displacement is given "
+                                     "there, and a new epoch begins.");
+    }
     m_results.picture = pngOf(m_picture);
     if (m_options.calibrate) {
       calibrate(out);
@@ -315,10 +321,10 @@ private:
   CalibrationRun m_collector;
   Comparison m_comparison;
   cv::Mat m_picture;
-  bool m_pictureHasCells = false;
+  bool m_pictureHasCells = false, m_hasGaps = false;
 };
 // False at the end, and after a failure if there are results.
-bool takeNext(ImageSource &source, vpImage<unsigned char> &image, RunResults &results)
+bool takeNext(vpApp::ImageSource &source, vpImage<unsigned char> &image, RunResults &results)
 {
   try {
     return source.next(image);
@@ -334,8 +340,9 @@ bool takeNext(ImageSource &source, vpImage<unsigned char> &image, RunResults &re
 }
 } // namespace
 
-void trackAll(const Options &options, ImageSource &source, vpApp::OutputFolder &out, RunResults &results)
+void trackAll(const Options &options, const Input &input, vpApp::OutputFolder &out, RunResults &results)
 {
+  vpApp::ImageSource &source = *input.images;
   std::unique_ptr<vpApp::PictureWindow> screen;
   if (options.display) {
     screen = std::make_unique<vpApp::PictureWindow>("visp-track-pattern: click to end");
@@ -353,7 +360,7 @@ void trackAll(const Options &options, ImageSource &source, vpApp::OutputFolder &
     if (!session) {
       session = std::make_unique<Session>(options, out, image, source.name(), results);
     }
-    const cv::Mat picture = session->take(image, source, screen != nullptr);
+    const cv::Mat picture = session->take(image, input, screen != nullptr);
     if (screen) {
       clicked = !screen->show(picture, options.camera.empty() ? 1. / options.videoRate : 0.);
     }

@@ -9,7 +9,7 @@
 #ifndef trackPattern_trackRun_h
 #define trackPattern_trackRun_h
 
-#include "imageSource.h"
+#include "input.h"
 #include "options.h"
 #include "results.h"
 
@@ -25,7 +25,7 @@ namespace trackPattern
  * \param results : Filled during the run; its frames remain valid after an exception.
  * \throw std::runtime_error naming the failing image, file or camera; vpApp::Interrupted before the first image.
  */
-void trackAll(const Options &options, ImageSource &source, vpApp::OutputFolder &out, RunResults &results);
+void trackAll(const Options &options, const Input &input, vpApp::OutputFolder &out, RunResults &results);
 } // namespace trackPattern
 
 #endif

@@ -6,12 +6,12 @@ usage() {
 usage: test/dependencies/run.sh [NAME...]
 
 Modules, programs and tutorials are built without tests, in build/without-NAME, once for each NAME: KDL, URDFDOM, OCTOMAP, ASSIMP, FCL,
-OMPL, DLIB or CLI11 (by default all of them). JOBS=N sets the number of compilers at work.
+OMPL, DLIB, ARAVIS or CLI11 (by default all of them). JOBS=N sets the number of compilers at work.
 TEXT
 }
 case ${1:-} in -h | --help) usage; exit 0 ;; esac
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
-[ $# -gt 0 ] || set -- KDL URDFDOM OCTOMAP ASSIMP FCL OMPL DLIB CLI11
+[ $# -gt 0 ] || set -- KDL URDFDOM OCTOMAP ASSIMP FCL OMPL DLIB ARAVIS CLI11
 launcher=()
 command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 

@@ -5,7 +5,7 @@
 // Real images: the dot grids and the film of marks of visp-images-data.
 #include "vpCatch.h"
 
-#include "sources.h"
+#include "fileSource.h"
 
 #include "greyPicture.h"
 
@@ -21,7 +21,7 @@
 
 namespace
 {
-using namespace trackPattern;
+using vpApp::imagesOfFolder;
 
 // Empty, and the test skipped, if the images are missing.
 std::string imageFolder(const std::string &name)

@@ -307,10 +307,12 @@ TEST_CASE("Across a gap in the numbers there is no displacement, a new epoch beg
     }
   }
   REQUIRE(run("gap --overlay none --out t") == OK);
-  const std::string remark = "1 gap: images are missing (after 000069.png comes 000079.png). How far the product moved "
-                             "meanwhile is not known: no displacement is given there, and a new epoch begins.";
-  CHECK(run.out().find(remark) != std::string::npos);
-  CHECK(summaryIn(run, "t")["remarks"] == json::array({remark}));
+  const std::string remark = "1 gap: images are missing (after 000069.png comes 000079.png).";
+  const std::string meaning =
+      "How far the product moved across a gap is not known: no displacement is given there, and "
+      "a new epoch begins.";
+  CHECK(run.out().find(remark + "\n" + meaning) != std::string::npos);
+  CHECK(summaryIn(run, "t")["remarks"] == json::array({remark, meaning}));
   CHECK(vpApp::readFile(run.path("t/report.html")).find(remark) != std::string::npos);
   const Table motion = tableIn(run, "t/motion.csv");
   REQUIRE(motion.lines.size() == 91);
@@ -448,6 +450,7 @@ TEST_CASE("Bad use ends with a sentence and nothing written", "[visp-track-patte
       {"--pitch-um 220 80", USAGE, "--pitch-um is given without --calibrate"},
       {"--calibrate --pitch-um 1 1 --calibration x.json", USAGE, "not both in one run"},
       {"--camera 0 good.png", USAGE, "--camera and the input good.png are both given"},
+      {"/dev/videofront", USAGE, "--camera is /dev/videofront, must be a number or /dev/videoN"},
       {"--camera front", USAGE, "--camera is front, must be a number or /dev/videoN"},
       {"--camera 9999", DATA, "/dev/video9999: the camera cannot be opened"},
       {"/dev/video9999", DATA, "/dev/video9999: the camera cannot be opened"},

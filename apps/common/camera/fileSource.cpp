@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-#include "sources.h"
+#include "fileSource.h"
 
 #include "greyPicture.h"
 #include "quietLibraries.h"
@@ -16,7 +16,7 @@
 
 namespace fs = std::filesystem;
 
-namespace trackPattern
+namespace vpApp
 {
 namespace
 {
@@ -174,10 +174,8 @@ std::size_t pagesOf(const fs::path &file)
 }
 } // namespace
 
-FileSource::FileSource(std::vector<fs::path> files, std::string description, std::size_t frames,
-                       std::unique_ptr<TruthFiles> truth)
-  : m_files(std::move(files)), m_numbers(m_files), m_description(std::move(description)), m_frames(frames),
-    m_truth(std::move(truth))
+FileSource::FileSource(std::vector<fs::path> files, std::string description, std::size_t frames)
+  : m_files(std::move(files)), m_numbers(m_files), m_description(std::move(description)), m_frames(frames)
 {
   for (const fs::path &file : m_files) {
     const std::size_t pages = pagesOf(file);
@@ -220,11 +218,11 @@ bool FileSource::next(vpImage<unsigned char> &image)
 bool FileSource::readNext(vpImage<unsigned char> &image)
 {
   try {
-    const vpApp::QuietLibraries quiet;
+    const QuietLibraries quiet;
     if (!m_open) {
       m_open = std::make_unique<vpPictures::File>(m_files[m_next.file].string());
     }
-    vpApp::copyGrey(m_scale.toGrey(m_open->read(m_next.page), m_open->white(), m_open->nameOf(m_next.page)), image);
+    copyGrey(m_scale.toGrey(m_open->read(m_next.page), m_open->white(), m_open->nameOf(m_next.page)), image);
   }
   catch (const std::runtime_error &error) {
     leaveOut(error.what());
@@ -281,10 +279,9 @@ std::vector<std::string> FileSource::remarks() const
 {
   std::vector<std::string> all;
   if (m_gapCount > 0) {
-    all.push_back(
-        std::to_string(m_gapCount) + (m_gapCount == 1 ? " gap: images are missing (" : " gaps: images are missing (") +
-        listOf(m_gaps, m_gapCount) +
-        "). How far the product moved meanwhile is not known: no displacement is given there, and a new epoch begins.");
+    all.push_back(std::to_string(m_gapCount) +
+                  (m_gapCount == 1 ? " gap: images are missing (" : " gaps: images are missing (") +
+                  listOf(m_gaps, m_gapCount) + ").");
   }
   if (m_leftOut > 0) {
     all.push_back(std::to_string(m_leftOut) + (m_leftOut == 1 ? " image was" : " images were") + " left out (" +
@@ -299,4 +296,4 @@ std::vector<std::string> FileSource::remarks() const
   }
   return all;
 }
-} // namespace trackPattern
+} // namespace vpApp

@@ -3,24 +3,22 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 /*!
- * \file sources.h
- * \brief Images from files, with all their pages, where unreadable ones are skipped and reported; from a video or a camera.
+ * \file fileSource.h
+ * \brief Images from files, with all their pages, where unreadable ones are skipped and reported.
  */
-#ifndef trackPattern_sources_h
-#define trackPattern_sources_h
+#ifndef vpApp_fileSource_h
+#define vpApp_fileSource_h
 
 #include "imageSource.h"
 
 #include "vpPictureFile.h"
-
-#include <opencv2/videoio.hpp>
 
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-namespace trackPattern
+namespace vpApp
 {
 /*!
  * The files matching a pattern such as "img%04d.png", by number.
@@ -70,10 +68,8 @@ class FileSource : public ImageSource
 public:
   /*!
    * \param files : At least one. \param description : For messages. \param frames : Maximum number of images; 0: all.
-   * \param truth : May be null.
    */
-  FileSource(std::vector<std::filesystem::path> files, std::string description, std::size_t frames,
-             std::unique_ptr<TruthFiles> truth);
+  FileSource(std::vector<std::filesystem::path> files, std::string description, std::size_t frames = 0);
   //! Count files that are not images as skipped, with the reason.
   void leaveOut(const std::vector<std::filesystem::path> &files, const std::string &reason);
 
@@ -82,10 +78,6 @@ public:
   [[nodiscard]] std::string name() const override;
   [[nodiscard]] unsigned int number() const override { return m_number; }
   [[nodiscard]] bool isAfterGap() const override { return m_afterGap; }
-  [[nodiscard]] std::optional<FrameTruth> truth() const override
-  {
-    return m_truth ? m_truth->at(m_number) : std::nullopt;
-  }
   [[nodiscard]] std::size_t count() const override { return m_count; }
   [[nodiscard]] std::string description() const override { return m_description; }
   [[nodiscard]] std::vector<std::string> remarks() const override;
@@ -104,7 +96,6 @@ private:
   FileNumbers m_numbers;
   std::string m_description;
   std::size_t m_frames;
-  std::unique_ptr<TruthFiles> m_truth;
   std::size_t m_count = 0;                  // expected number of images, at most m_frames
   bool m_several = false;                   // a file has several pages: images are numbered by their position
   std::unique_ptr<vpPictures::File> m_open; // m_next.file
@@ -119,52 +110,6 @@ private:
   std::vector<std::string> m_gaps;    // first few gaps
   std::size_t m_gapCount = 0;
 };
-
-/*!
- * \brief Images one by one from an OpenCV capture.
- *
- * A camera may fail to give an image twice in a row: the next one comes after a gap. Images dropped inside a camera
- * are not detected. For videos with more than 8 bits OpenCV gives the upper 8 bits; for a camera all bits are read.
- */
-class VideoSource : public ImageSource
-{
-public:
-  /*!
-   * \param capture : Open. \param name : File or device. \param isCamera : Camera, not a file of finite length.
-   * \param frames : Maximum number of images; 0: all of the file.
-   */
-  VideoSource(std::unique_ptr<cv::VideoCapture> capture, std::string name, bool isCamera, std::size_t frames);
-
-  [[nodiscard]] bool next(vpImage<unsigned char> &image) override;
-  [[nodiscard]] std::string name() const override { return "image " + std::to_string(number()) + " of " + m_name; }
-  [[nodiscard]] unsigned int number() const override { return static_cast<unsigned int>(m_read + m_failed - 1); }
-  [[nodiscard]] bool isAfterGap() const override { return m_afterGap; }
-  [[nodiscard]] std::size_t count() const override;
-  [[nodiscard]] std::string description() const override
-  {
-    return (m_isCamera ? "the camera " : "the video ") + m_name;
-  }
-  [[nodiscard]] std::vector<std::string> remarks() const override;
-
-private:
-  bool grab();
-
-  std::unique_ptr<cv::VideoCapture> m_capture;
-  std::string m_name;
-  bool m_isCamera;
-  std::size_t m_frames;
-  std::size_t m_promised = 0; // number of images stated by the file; 0: none
-  unsigned int m_bits = 8;    // bits per value in the file
-  std::size_t m_read = 0, m_failed = 0;
-  bool m_afterGap = false, m_short = false;
-  vpPictures::GreyScale m_scale;
-  cv::Mat m_picture;
-};
-
-//! Open a video file. \throw std::runtime_error naming it.
-[[nodiscard]] std::unique_ptr<ImageSource> openVideo(const std::string &file, std::size_t frames);
-//! Open /dev/videoN. \throw std::runtime_error naming it.
-[[nodiscard]] std::unique_ptr<ImageSource> openCamera(const std::string &device, std::size_t frames);
-} // namespace trackPattern
+} // namespace vpApp
 
 #endif
