@@ -44,7 +44,7 @@ bool isCut(const std::filesystem::path &path)
 }
 } // namespace
 
-void loadPlugin(const std::string &file)
+void *pluginFunction(const std::string &file, const std::string &function, const std::string &header)
 {
   const std::filesystem::path path = std::filesystem::absolute(file);
   if (!std::filesystem::is_regular_file(path)) {
@@ -57,10 +57,17 @@ void loadPlugin(const std::string &file)
   if (library == nullptr) {
     throw std::runtime_error(file + ": cannot be loaded: " + loaderSentence(path.string()));
   }
-  const auto add = reinterpret_cast<void (*)()>(dlsym(library, "vispDirectPlugin"));
-  if (add == nullptr) {
-    throw std::runtime_error(file + ": has no function vispDirectPlugin(), see visp3/direct_core/vpPlugin.h");
+  void *found = dlsym(library, function.c_str());
+  if (found == nullptr) {
+    throw std::runtime_error(file + ": has no function " + function + "(), see " + header);
   }
+  return found;
+}
+
+void loadPlugin(const std::string &file)
+{
+  const auto add =
+      reinterpret_cast<void (*)()>(pluginFunction(file, "vispDirectPlugin", "visp3/direct_core/vpPlugin.h"));
   try {
     add();
   }

@@ -28,6 +28,12 @@ void addPluginOption(CommandLine &line, const std::string &brings);
  * \throw std::runtime_error naming the file, and what is wrong with it or what the function threw.
  */
 void loadPlugin(const std::string &file);
+/*!
+ * Loads a library, never unloaded, and finds a C function in it. \param file : As above. \param function : Its name. \param header :
+ * That describes it.
+ * \throw std::runtime_error naming the file.
+ */
+[[nodiscard]] void *pluginFunction(const std::string &file, const std::string &function, const std::string &header);
 } // namespace vpApp
 
 #endif

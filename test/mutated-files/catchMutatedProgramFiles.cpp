@@ -15,6 +15,8 @@
 #include "lineReader.h"
 #include "outputFolder.h"
 #include "problemLine.h"
+#include "goal.h"
+#include "recorded.h"
 #include "quietLibraries.h"
 #include "scenario.h"
 #include "task.h"
@@ -82,6 +84,50 @@ TEST_CASE("Damaged descriptions of products, tasks and explorations", "[files][m
                                             [](const std::string &file) {
                                               static_cast<void>(printExplore::readSetup(vpApp::readFile(file), file));
                                             }));
+}
+
+TEST_CASE("Damaged goals and recordings of visp-servo", "[files][mutated]")
+{
+  const TestFolder folder, damaged;
+  const std::string goal = folder.write(
+      "goal.json",
+      "{\"position_m\": [0.01, 0, 0.3], \"rotation_deg\": [1, 2, 3], \"position_spread_m\": 1e-6, \"images\": 25}");
+  tell("goal.json", readMutatedAsPrinted({goal}, ".json", [](const std::string &file) {
+         static_cast<void>(visualServo::readGoal(file));
+       }));
+  // The readers take folders.
+  const auto tellOf = [&](const std::string &name, const std::string &content, const std::function<void()> &read) {
+    tell(name, readMutatedAsPrinted({folder.write(name, content)}, std::filesystem::path(name).extension().string(),
+                                    [&](const std::string &file) {
+                                      std::filesystem::copy_file(file, damaged.path / name,
+                                                                 std::filesystem::copy_options::overwrite_existing);
+                                      try {
+                                        read();
+                                      }
+                                      catch (const std::exception &error) { // the folder's file, not the copy
+                                        std::string sentence = error.what();
+                                        const std::string place = damaged.file(name);
+                                        const std::size_t at = sentence.find(place);
+                                        throw std::runtime_error(at == std::string::npos
+                                                                     ? sentence
+                                                                     : sentence.replace(at, place.size(), file));
+                                      }
+                                    }));
+  };
+  tellOf("recording.json", "{\"settings\": [\"--law\", \"pbvs1\", \"--lambda\", \"2\"]}",
+         [&] { static_cast<void>(visualServo::readSettings(damaged.path)); });
+  std::string heading = "time_s,status,position_error_m,rotation_error_rad";
+  for (const char *name :
+       {"fMc_tx", "fMc_ty", "fMc_tz", "fMc_tux", "fMc_tuy", "fMc_tuz", "v_x", "v_y", "v_z", "v_wx", "v_wy", "v_wz"}) {
+    heading += std::string(",") + name;
+  }
+  tellOf("log.csv",
+         heading + "\n0,Idle,,,1,2,3,0.1,0.2,0.3,0,0,0,0,0,0\n0.01,Servoing,0.1,0.2,1,2,3,0.1,0.2,0.3,1,0,0,0,0,0\n",
+         [&] { visualServo::readCycles(damaged.path, [](const visualServo::RecordedCycle &) {}); });
+  tellOf("images.csv",
+         "image,number,capture_s,seen_s,found,cMo_tx,cMo_ty,cMo_tz,cMo_tux,cMo_tuy,cMo_tuz,message\n0,0,0.1,0.2,1,1,2,"
+         "3,0.1,0.2,0.3,\"a\"\n",
+         [&] { static_cast<void>(visualServo::readImages(damaged.path)); });
 }
 
 TEST_CASE("Damaged calibrations and truth", "[files][mutated]")

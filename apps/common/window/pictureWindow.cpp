@@ -65,6 +65,13 @@ bool PictureWindow::show(const cv::Mat &picture, double duration)
   return !clicked;
 }
 
+std::string PictureWindow::key()
+{
+  std::string key;
+  const bool pressed = m_impl->open && vpDisplay::getKeyboardEvent(m_impl->image, key, false);
+  return pressed ? key : "";
+}
+
 #else
 
 PictureWindow::PictureWindow(const std::string &)
@@ -75,6 +82,8 @@ PictureWindow::PictureWindow(const std::string &)
 PictureWindow::~PictureWindow() = default;
 
 bool PictureWindow::show(const cv::Mat &, double) { return false; }
+
+std::string PictureWindow::key() { return ""; }
 
 #endif
 } // namespace vpApp

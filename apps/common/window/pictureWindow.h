@@ -38,6 +38,8 @@ public:
    * \return False when the user clicked into the window to stop.
    */
   [[nodiscard]] bool show(const cv::Mat &picture, double duration);
+  //! The key that was pressed in the window since the last call ("q", " "); empty: none.
+  [[nodiscard]] std::string key();
 
 private:
   class Impl;

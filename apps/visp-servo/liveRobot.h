@@ -1,0 +1,78 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file liveRobot.h
+ * \brief What moves the camera: a simulated robot, a robot of ViSP, or one of a plug-in.
+ */
+#ifndef visualServo_liveRobot_h
+#define visualServo_liveRobot_h
+
+#include "options.h"
+
+#include <visp3/manipulator/vpArmModel.h>
+#include <visp3/servoing/vpVisualServo.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace visualServo
+{
+/*!
+ * \brief A robot with a camera on its end effector. read() and command() are called by the control thread only; they may throw what the
+ * driver throws.
+ */
+class Robot
+{
+public:
+  virtual ~Robot() = default;
+  Robot() = default;
+  Robot(const Robot &) = delete;
+  Robot &operator=(const Robot &) = delete;
+
+  //! Current state. \throw std::exception of the driver.
+  [[nodiscard]] virtual vpServoRobotState read() = 0;
+  //! Moves until the next command. \param period : Time until then, s. \throw std::exception of the driver.
+  virtual void command(const vpVisualServoOutput &motion, double period) = 0;
+  //! Makes the robot ready for velocities. \throw std::exception of the driver.
+  virtual void begin() {}
+  //! Brings it to rest; called also after a failure. \throw std::exception of the driver.
+  virtual void end() {}
+  //! Model, whose joint velocities are commanded; null: twists of the camera are.
+  [[nodiscard]] virtual const vpArmModel *arm() const { return nullptr; }
+  //! False: read() tells nothing, and the commanded motion counts as executed.
+  [[nodiscard]] virtual bool tellsState() const { return true; }
+  //! Pose of the camera in the base now; any thread. Only for robots that have a rendered camera.
+  [[nodiscard]] virtual vpRigidTransform camera() const { return {}; }
+  //! "the simulated arm amor".
+  [[nodiscard]] virtual std::string description() const = 0;
+};
+
+//! \brief A robot of ViSP, by name.
+struct VispRobot {
+  std::string word;      //!< For --robot.
+  std::string className; //!< In ViSP.
+  bool isBuilt = false;  //!< The installed ViSP has it.
+};
+//! The robots of ViSP that this program knows.
+[[nodiscard]] const std::vector<VispRobot> &robotsOfVisp();
+
+/*!
+ * The robot of the options.
+ * \throw vpApp::UsageError for options that do not suit it; std::runtime_error or vpException naming the file, the robot, or what its
+ * driver says.
+ */
+[[nodiscard]] std::unique_ptr<Robot> openRobot(const Options &options);
+//! The arm of the options, with the camera of --eMc. \throw As openRobot().
+[[nodiscard]] vpArmModel loadModel(const MotionOptions &options);
+//! A robot that is not there: dry run.
+[[nodiscard]] std::unique_ptr<Robot> noRobot();
+//! The simulated robot of the options.
+[[nodiscard]] std::unique_ptr<Robot> simulatedRobot(const Options &options);
+//! A robot of ViSP or of a plug-in.
+[[nodiscard]] std::unique_ptr<Robot> realRobot(const Options &options);
+} // namespace visualServo
+
+#endif

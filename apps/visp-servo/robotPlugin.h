@@ -1,0 +1,45 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file robotPlugin.h
+ * \brief Robots of ViSP and of plug-ins.
+ */
+#ifndef visualServo_robotPlugin_h
+#define visualServo_robotPlugin_h
+
+#include "liveRobot.h"
+
+#include <visp3/robot/vpRobot.h>
+
+namespace visualServo
+{
+//! What getPosition() of a robot gives.
+enum class PoseOf {
+  Nothing, //!< No pose: the commanded motion counts as executed.
+  Camera,  //!< CAMERA_FRAME: pose of the camera in the base, (m, theta u); END_EFFECTOR_FRAME that of the end effector.
+  Reference //!< REFERENCE_FRAME: pose of the camera in the base, (m, Rxyz), as the Viper and Afma robots.
+};
+
+//! \brief A robot, connected.
+struct OpenedRobot {
+  std::shared_ptr<vpRobot> robot;
+  std::string name;
+  PoseOf pose = PoseOf::Camera;
+  bool hasMount = false; //!< It knows eMc.
+};
+
+/*!
+ * A robot of ViSP. \param word : See robotsOfVisp(). \param arguments : Address. \param eMc : File.
+ * \throw vpApp::UsageError for an unknown word; std::runtime_error if ViSP was built without it.
+ */
+[[nodiscard]] OpenedRobot openVispRobot(const std::string &word, const std::string &arguments, const std::string &eMc);
+/*!
+ * A robot of a library, see visp3/servoing/vpRobotPlugin.h.
+ * \throw std::runtime_error naming the library and what is wrong.
+ */
+[[nodiscard]] OpenedRobot openPlugin(const std::string &library, const std::string &arguments);
+} // namespace visualServo
+
+#endif

@@ -1,0 +1,279 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "session.h"
+
+#include "camera.h"
+#include "goal.h"
+#include "report.h"
+#include "servoRun.h"
+#include "target.h"
+#include "view.h"
+
+#include "appMain.h"
+#include "greyPicture.h"
+#include "numberText.h"
+#include "outputFile.h"
+#include "pictureWindow.h"
+#include "plot.h"
+#include "videoFile.h"
+
+#include <visp3/core/vpMath.h>
+#include <visp3/core/vpXmlParserCamera.h>
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include <filesystem>
+#include <iostream>
+#include <limits>
+#include <stdexcept>
+
+namespace visualServo
+{
+namespace
+{
+constexpr std::size_t TAUGHT = 25, MOST_TAUGHT = 150;      // images
+constexpr std::uintmax_t LARGEST_SHOWN_VIDEO = 12U << 20U; // bytes; a larger one would make the page slow
+
+Wish wishOf(const std::string &key, bool isOpen)
+{
+  return !isOpen || key == "q" ? Wish::Quit : key == " " ? Wish::StartStop : key == "l" ? Wish::NextLaw : Wish::None;
+}
+
+//! Draws view.mp4 from the recording. \return The last picture.
+cv::Mat filmRecording(const Recording &recording, const Eye &eye, const Options &options,
+                      const std::vector<vpServoPoint> &goal, vpApp::OutputFolder &out)
+{
+  View view(eye.intrinsics, eye.width, eye.height, options.law.motion);
+  view.setGoal(goal);
+  cv::VideoCapture film(out.file(Recording::VIDEO), cv::CAP_FFMPEG);
+  std::unique_ptr<vpApp::VideoFile> file;
+  const std::vector<ImageRow> &images = recording.images();
+  const std::vector<CycleRow> &cycles = recording.cycles();
+  cv::Mat picture, grey;
+  vpImage<unsigned char> image;
+  std::size_t cycle = 0, position = 0;
+  for (const ImageRow &row : images) {
+    if (!row.isRecorded) {
+      continue;
+    }
+    for (; position <= row.index; ++position) {
+      if (!film.read(grey)) {
+        return picture;
+      }
+    }
+    cv::Mat single;
+    cv::extractChannel(grey, single, 0);
+    vpApp::copyGrey(single, image);
+    while (cycle + 1 < cycles.size() && cycles[cycle + 1].time <= row.capture) {
+      ++cycle;
+    }
+    Moment moment;
+    moment.image = &image;
+    moment.seen = &row;
+    moment.cycle = cycles.empty() ? nullptr : &cycles[cycle];
+    moment.images = row.index + 1;
+    moment.law = options.laws.front();
+    picture = view.draw(moment, false);
+    if (!file) {
+      file = std::make_unique<vpApp::VideoFile>(out.file("view.mp4"), picture.cols, picture.rows, eye.rate);
+    }
+    file->write(picture);
+  }
+  if (file) {
+    file->close();
+  }
+  return picture;
+}
+
+cv::Mat matOf(const vpImage<unsigned char> &image)
+{
+  return cv::Mat(static_cast<int>(image.getHeight()), static_cast<int>(image.getWidth()), CV_8UC1, image.bitmap);
+}
+
+//! What --replay needs besides the recording.
+void keepSettings(Options &options, const Eye &eye, const vpHomogeneousMatrix &cdMo, vpApp::OutputFolder &out)
+{
+  if (!options.target.reference.empty()) {
+    cv::imwrite(out.file("reference.png"), matOf(readReference(options.target)));
+  }
+  else if (options.target.tagFamily.empty()) {
+    const Photo photo = readPhoto(options.target);
+    options.target.width = photo.width;
+    options.target.height = photo.height;
+    cv::imwrite(out.file("target.png"), matOf(photo.image));
+  }
+  vpXmlParserCamera parser;
+  if (parser.save(eye.intrinsics, out.file("camera.xml"), "Camera", eye.width, eye.height) !=
+      vpXmlParserCamera::SEQUENCE_OK) {
+    throw std::runtime_error((out.path() / "camera.xml").string() + ": cannot be written");
+  }
+  out.write(SETTINGS_FILE, settingsText(settingsOf(options, cdMo)));
+}
+
+std::string pngOf(const cv::Mat &picture)
+{
+  std::vector<unsigned char> bytes;
+  return !picture.empty() && cv::imencode(".png", picture, bytes) ? std::string(bytes.begin(), bytes.end()) : "";
+}
+
+void writeResult(const Outcome &outcome, const cv::Mat &picture, const std::string &commandLine,
+                 vpApp::OutputFolder &out)
+{
+  std::error_code ignored;
+  const std::string file = out.file("view.mp4");
+  const std::uintmax_t size = std::filesystem::file_size(file, ignored);
+  const std::string video = !ignored && size < LARGEST_SHOWN_VIDEO ? vpApp::readFile(file) : "";
+  out.write("report.html", reportPage(outcome, video, pngOf(picture), commandLine));
+  out.writeSummary(summaryOf(outcome, commandLine));
+  out.commit();
+  for (const std::string &line : findings(outcome)) {
+    std::cout << line << "\n";
+  }
+  std::cout << "Report: " << (out.path() / "report.html").string() << std::endl;
+}
+
+int statusOf(const Outcome &outcome)
+{
+  if (outcome.ending == Ending::Failed) {
+    throw std::runtime_error(outcome.failure + "; the report shows the run until then");
+  }
+  if (outcome.ending == Ending::Interrupted) {
+    return vpApp::ExitInterrupted;
+  }
+  const bool wasToArrive = outcome.hasStarted && !outcome.options->motion.dryRun && !outcome.options->stay;
+  if (outcome.ending == Ending::Duration && wasToArrive) {
+    throw std::runtime_error("the goal was not reached in " + vpApp::number(outcome.options->duration, 6) +
+                             " s; the report shows the way");
+  }
+  return vpApp::ExitOk;
+}
+} // namespace
+
+vpServoController controllerOf(Options &options, const Eye &eye)
+{
+  vpServoControllerSpec &law = options.law;
+  law.view = vpViewConstraintSpec::fromCamera(eye.intrinsics, eye.width, eye.height);
+  law.view.period = options.servo.period;
+  law.view.maxLinear = law.motion.linearVelocity;
+  law.view.maxAngular = law.motion.angularVelocity;
+  for (const std::string &id : options.laws) { // all of them must be known before anything moves
+    static_cast<void>(vpServoController::create(id, law));
+  }
+  return vpServoController::create(options.laws.front(), law);
+}
+
+int servo(const Options &given, const std::string &commandLine)
+{
+  vpApp::requireGnuplot();
+  Options options = given;
+  const std::unique_ptr<Robot> robot = openRobot(options);
+  const Camera camera = openCamera(options, *robot);
+  const Eye &eye = camera.eye;
+  options.servo.assumeExecuted = !robot->tellsState();
+  if (options.motion.dryRun) {
+    options.servo.followLength = options.servo.followAngle = std::numeric_limits<double>::infinity();
+  }
+  vpVisualServo servo(controllerOf(options, eye), options.servo, robot->arm());
+  servo.setVision(makeVision(options, eye.intrinsics));
+  vpHomogeneousMatrix cdMo;
+  vpServoGoal goal; // that of a reference image comes with its sights
+  if (options.target.reference.empty()) {
+    cdMo = goalPose(options, eye);
+    goal = servo.vision().goal(cdMo);
+    servo.setGoal(goal);
+  }
+  std::unique_ptr<vpApp::PictureWindow> window;
+  View view(eye.intrinsics, eye.width, eye.height, options.law.motion);
+  view.setGoal(goal.points);
+  Screen screen;
+  if (options.display) {
+    window = std::make_unique<vpApp::PictureWindow>("visp-servo");
+    screen = [&window, &view](const Moment &moment) {
+      const bool isOpen = window->show(view.draw(moment, true), 0.);
+      return wishOf(window->key(), isOpen);
+    };
+  }
+  vpApp::OutputFolder out("visp-servo", options.out);
+  keepSettings(options, eye, cdMo, out);
+  Recording recording(out, robot->arm(), eye.rate);
+  ServoRun run(options, *camera.source, *robot, servo, recording, screen);
+  Outcome outcome;
+  try {
+    run.run();
+    recording.close();
+    outcome.options = &options;
+    outcome.recording = &recording;
+    outcome.timing = &servo.timing();
+    outcome.ending = run.ending();
+    outcome.failure = run.failure();
+    outcome.camera = camera.source->description();
+    outcome.clock = camera.source->clock();
+    outcome.robot = robot->description();
+    outcome.target = describeTarget(options.target);
+    outcome.isAssumedCamera = eye.isAssumed;
+    outcome.hasStarted = run.hasStarted();
+    outcome.lostImages = camera.source->lost();
+    outcome.lostRows = run.lostRows();
+    outcome.unrecorded = run.unrecorded();
+    outcome.realTime = run.realTime();
+    outcome.laws = run.lawsUsed();
+    outcome.remarks = camera.source->remarks();
+    writeResult(outcome, filmRecording(recording, eye, options, goal.points, out), commandLine, out);
+  }
+  catch (const std::exception &error) {
+    if (recording.cycleCount() == 0) { // nothing to keep
+      throw;
+    }
+    const std::string sentence = vpApp::sentenceOf(error);
+    throw std::runtime_error(sentence + "; " + out.keepUnfinished(sentence));
+  }
+  return statusOf(outcome);
+}
+
+int teach(const Options &given)
+{
+  Options options = given;
+  options.motion.dryRun = true;
+  const std::unique_ptr<Robot> robot = openRobot(options);
+  const Camera camera = openCamera(options, *robot);
+  const std::unique_ptr<vpServoVision> vision = makeVision(options, camera.eye.intrinsics);
+  const std::filesystem::path file = options.teach;
+  vpApp::requireWritable(file);
+  vpImage<unsigned char> image;
+  vpServoSight sight;
+  std::vector<vpHomogeneousMatrix> poses;
+  cv::Mat sum = cv::Mat::zeros(static_cast<int>(camera.eye.height), static_cast<int>(camera.eye.width), CV_64FC1);
+  for (std::size_t i = 0; i < MOST_TAUGHT && poses.size() < TAUGHT && camera.source->next(image); ++i) {
+    vision->see(image, camera.source->time(), nullptr, sight);
+    if (sight.measurement.valid) {
+      poses.push_back(sight.measurement.cMo);
+      cv::accumulate(matOf(image), sum);
+    }
+  }
+  vpApp::throwIfInterrupted();
+  const Goal goal = [&] {
+    try {
+      return meanGoal(poses);
+    }
+    catch (const std::runtime_error &error) {
+      throw std::runtime_error(std::string(error.what()) +
+                               (poses.size() < 2 ? "; the last: " + vision->message() : ""));
+    }
+  }();
+  cv::Mat mean;
+  sum.convertTo(mean, CV_8UC1, 1. / static_cast<double>(poses.size()));
+  const std::filesystem::path picture = std::filesystem::path(file).replace_extension(".png");
+  vpApp::writeWholeFile(picture, pngOf(mean));
+  vpApp::writeWholeFile(file, goalText(goal));
+  std::cout << "Goal: the target is at (" << vpApp::fixed(goal.cdMo[0][3], 4) << ", "
+            << vpApp::fixed(goal.cdMo[1][3], 4) << ", " << vpApp::fixed(goal.cdMo[2][3], 4)
+            << ") m in the camera, mean of " << goal.images << " images that scatter by "
+            << vpApp::number(1e3 * goal.positionSpread, 2) << " mm and "
+            << vpApp::number(vpMath::deg(goal.rotationSpread), 2) << " degrees.\n"
+            << "Written: " << file.string() << " for --goal, " << picture.string() << " for --reference." << std::endl;
+  return vpApp::ExitOk;
+}
+} // namespace visualServo

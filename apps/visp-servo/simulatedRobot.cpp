@@ -1,0 +1,127 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "liveRobot.h"
+
+#include "appMain.h"
+#include "robot.h"
+
+#include <visp3/servoing/vpServoCalibration.h>
+#include <visp3/simulation/vpFrictionCamera.h>
+#include <visp3/simulation/vpSimulatedArm.h>
+
+#include <algorithm>
+#include <mutex>
+#include <stdexcept>
+
+namespace visualServo
+{
+namespace
+{
+//! The camera stands, or somebody carries it.
+class NoRobot : public Robot
+{
+public:
+  [[nodiscard]] vpServoRobotState read() override { return {}; }
+  void command(const vpVisualServoOutput &, double) override {}
+  [[nodiscard]] std::string description() const override { return "no robot"; }
+};
+
+//! A camera that flies freely.
+class FlyingCamera : public Robot
+{
+public:
+  FlyingCamera() { m_camera.setRobotState(vpRobot::STATE_VELOCITY_CONTROL); }
+  [[nodiscard]] vpServoRobotState read() override
+  {
+    vpServoRobotState state;
+    state.pose = camera();
+    return state;
+  }
+  void command(const vpVisualServoOutput &motion, double period) override
+  {
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    m_camera.setSamplingTime(period);
+    m_camera.setVelocity(vpRobot::CAMERA_FRAME, motion.twist.toColVector());
+  }
+  [[nodiscard]] vpRigidTransform camera() const override
+  {
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    return vpRigidTransform::fromHomogeneous(m_camera.getPosition());
+  }
+  [[nodiscard]] std::string description() const override { return "a simulated camera that flies freely"; }
+
+private:
+  mutable std::mutex m_mutex;
+  vpFrictionCamera m_camera; // without lag and friction
+};
+
+class SimulatedArm : public Robot
+{
+public:
+  SimulatedArm(const vpArmModel &model, const Options &options) : m_arm(model, specOf(options)) {}
+  void begin() override { m_arm.setRobotState(vpRobot::STATE_VELOCITY_CONTROL); }
+  void end() override { m_arm.setRobotState(vpRobot::STATE_STOP); }
+  [[nodiscard]] vpServoRobotState read() override
+  {
+    vpServoRobotState state;
+    state.q = m_arm.getState().q;
+    return state;
+  }
+  void command(const vpVisualServoOutput &motion, double period) override
+  {
+    m_velocity.resize(static_cast<unsigned int>(motion.velocity.size()), false);
+    std::copy_n(motion.velocity.data(), motion.velocity.size(), m_velocity.data);
+    m_arm.setSamplingTime(period);
+    m_arm.setVelocity(vpRobot::JOINT_STATE, m_velocity);
+  }
+  [[nodiscard]] const vpArmModel *arm() const override { return &m_arm.getModel(); }
+  [[nodiscard]] vpRigidTransform camera() const override { return vpRigidTransform::fromHomogeneous(m_arm.get_fMc()); }
+  [[nodiscard]] std::string description() const override
+  {
+    return "the simulated arm " + m_arm.getModel().spec().name + " of " + std::to_string(m_arm.getModel().size()) +
+           " joints";
+  }
+
+private:
+  static vpSimulatedArmSpec specOf(const Options &options)
+  {
+    vpSimulatedArmSpec spec;
+    spec.redundancy.period = std::min(spec.redundancy.period, options.servo.period);
+    spec.clock = options.realTime ? vpArmClock::RealTime : vpArmClock::Stepped;
+    return spec;
+  }
+  vpSimulatedArm m_arm;
+  vpColVector m_velocity;
+};
+} // namespace
+
+std::unique_ptr<Robot> noRobot() { return std::make_unique<NoRobot>(); }
+
+std::unique_ptr<Robot> simulatedRobot(const Options &options)
+{
+  if (options.motion.robot.robot == "camera") {
+    if (!options.motion.eMc.empty()) {
+      throw vpApp::UsageError("--eMc is for a camera on an arm, the robot is a camera that flies freely");
+    }
+    return std::make_unique<FlyingCamera>();
+  }
+  return std::make_unique<SimulatedArm>(loadModel(options.motion), options);
+}
+
+vpArmModel loadModel(const MotionOptions &options)
+{
+  vpArmModel model = vpApp::loadArm(options.robot);
+  const std::string missing = vpApp::missingLimitSentence(model);
+  if (!missing.empty()) {
+    throw std::runtime_error(missing);
+  }
+  if (!options.eMc.empty()) {
+    vpArmSpec spec = model.spec();
+    spec.camera = vpLoadPose(options.eMc);
+    model = vpArmModel(spec);
+  }
+  return model;
+}
+} // namespace visualServo

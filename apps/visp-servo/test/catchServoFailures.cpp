@@ -1,0 +1,92 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// Wrong input of visp-servo: one sentence, the right exit status, and nothing left behind.
+#include "vpCatch.h"
+
+#include "programRun.h"
+
+#include <opencv2/imgcodecs.hpp>
+
+#include <string>
+#include <vector>
+
+namespace
+{
+constexpr int DATA = 1, USAGE = 2;
+
+struct Case {
+  std::string arguments;
+  int status;
+  std::string sentence;
+};
+} // namespace
+
+TEST_CASE("wrong input is one sentence", "[visp-servo][errors]")
+{
+  ProgramRun run(SERVO);
+  run.write("text.png", "no picture");
+  run.write("wrong.xml", "<root><camera></root>");
+  run.write("other.xml", "<?xml version=\"1.0\"?>\n<root></root>\n");
+  run.write("noRotation.yaml",
+            "rows: 4\ncols: 4\ndata:\n  - [1, 0, 0, 0]\n  - [0, 2, 0, 0]\n  - [0, 0, 1, 0]\n  - [0, 0, 0, 1]\n");
+  run.write("busy/mine.txt", "do not touch");
+  run.write("notes.txt", "x");
+  cv::imwrite(run.path("blank.png").string(), cv::Mat(100, 100, CV_8UC1, cv::Scalar(128)));
+  cv::imwrite(run.path("frame.png").string(), cv::Mat(100, 120, CV_8UC1, cv::Scalar(128)));
+  const std::string real = "--robot-plugin '" ROBOT_ARM "' ";
+  const std::vector<Case> cases = {
+      {"--target missing.png --size 0.1", DATA, "missing.png: cannot be read"},
+      {"--target text.png --size 0.1", DATA, "text.png: is not an image"},
+      {"--target blank.png --size 0.1", DATA, "blank.png: "},
+      {"--target frame.png", USAGE, "--target is given without --size"},
+      {"--size 0", USAGE, "--size is 0, must be a number > 0"},
+      {"--size 0.1,0.1,0.1", USAGE, "--size is 0.1,0.1,0.1, must be WIDTH or WIDTH,HEIGHT"},
+      {"--size nan", USAGE, "--size is nan"},
+      {"--eMc missing.yaml", DATA, "missing.yaml"},
+      {"--eMc noRotation.yaml", DATA, "noRotation.yaml"},
+      {"--camera frame.png --camera-xml missing.xml", DATA, "missing.xml"},
+      {"--camera frame.png --camera-xml wrong.xml", DATA, "wrong.xml"},
+      {"--camera frame.png --camera-xml other.xml", DATA, "other.xml"},
+      {"--camera none.mp4", DATA, "none.mp4: there is no such file or folder"},
+      {"--camera notes.txt", DATA, "notes.txt: is not a video that can be read"},
+      {"--camera 9999", DATA, "/dev/video9999: the camera cannot be opened"},
+      {"--robot franka --camera sim --eMc x.yaml", DATA, "the installed ViSP was built without vpRobotFranka"},
+      {"--robot robbie --eMc x.yaml", USAGE, "--robot is robbie, which is no robot of ViSP"},
+      {"--robot franka --camera frame.png", USAGE, "needs --camera-xml"},
+      {"--robot-plugin missing.so --camera sim", DATA, "missing.so: no such file"},
+      {"--robot-plugin '" ROBOT_NULL "' --camera sim", DATA, "gave no robot"},
+      {"--robot-plugin '" ROBOT_THROWS "' --camera sim --robot-arguments 10.0.0.1", DATA,
+       "no robot answers at 10.0.0.1"},
+      {"--robot none --camera sim", USAGE, "--camera sim needs a robot that carries it"},
+      {"--law nonsense", DATA, "nonsense"},
+      {"--law pbvs1,nonsense", DATA, "nonsense"},
+      {"--lambda 0", USAGE, "--lambda is 0, must be a number > 0"},
+      {"--max-linear inf", USAGE, "--max-linear is inf"},
+      {"--goal missing.json", DATA, "missing.json: cannot be read"},
+      {"--goal-pose 0,0,-1,0,0,0", USAGE, "--goal-pose must have Z > 0"},
+      {"--goal-pose 0,0,1", USAGE, "--goal-pose is 0,0,1, must be six numbers"},
+      {"--goal g.json --goal-pose 0,0,1,0,0,0", USAGE, "--goal and --goal-pose are both given"},
+      {"--tag 36h11:0", USAGE, "--tag is given without --size"},
+      {"--tag nothing --size 0.1", USAGE, "--tag is nothing, must be FAMILY:ID"},
+      {"--reference r.png --goal g.json", USAGE, "--reference is the goal itself"},
+      {"--reference missing.png", DATA, "missing.png: cannot be read"},
+      {"--distance 2,1 --reference r.png", USAGE, "--distance is 2,1, must be MIN,MAX"},
+      {"--start --dry-run", USAGE, "--start and --dry-run are both given"},
+      {"--replay none", DATA, "none/recording.json: cannot be read"},
+      {"--teach none/goal.json", DATA, "none"},
+      {"--out busy", DATA, "busy"},
+      {"--out notes.txt", DATA, "notes.txt"},
+      {"--display", DATA, "--display needs a screen"}};
+  for (const Case &one : cases) {
+    CAPTURE(one.arguments, run.err());
+    CHECK(run(one.arguments + (one.arguments.find("--out") == std::string::npos ? " --out new" : ""), "DISPLAY=") ==
+          one.status);
+    CHECK(run.err().rfind("visp-servo: ", 0) == 0);
+    CHECK(run.err().find(one.sentence) != std::string::npos);
+    CHECK(run.err().find('\n') == run.err().size() - 1);
+    CHECK(!std::filesystem::exists(run.path("new")));
+  }
+  CHECK(vpApp::readFile(run.path("busy/mine.txt")) == "do not touch");
+}

@@ -1,0 +1,236 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// visp-servo as it is run by users: the simulation, replay, teaching, recorded images, plug-ins, and its ends.
+#include "vpCatch.h"
+
+#include "programRun.h"
+
+#include "recorded.h"
+
+#include <visp3/core/vpIoTools.h>
+#include <visp3/core/vpMath.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <thread>
+
+#include <csignal>
+#include <sys/types.h>
+#include <unistd.h>
+
+namespace
+{
+using nlohmann::json;
+constexpr int OK = 0, DATA = 1;
+// Near the goal, so that runs are short.
+const std::string NEAR = " --object-pose 0.004,-0.003,0.305,1,-1,1 --start-time 0.2 --lambda 3";
+
+json summaryIn(const ProgramRun &run, const std::string &folder)
+{
+  return json::parse(vpApp::readFile(run.path(folder + "/summary.json")));
+}
+
+std::size_t linesOf(const std::filesystem::path &file)
+{
+  const std::string text = vpApp::readFile(file);
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+} // namespace
+
+TEST_CASE("the simulation reaches the goal; replay finds the same, and tells what another law would do", "[visp-servo]")
+{
+  ProgramRun run(SERVO);
+  REQUIRE(run("--out a" + NEAR) == OK);
+  CHECK(run.out().find("The goal was reached.") == 0);
+  const json summary = summaryIn(run, "a");
+  CHECK(summary["end"]["status"] == "Converged");
+  CHECK(summary["end"]["position_error_mm"].get<double>() < 1.);
+  CHECK(summary["images_found"] == summary["images"]);
+  CHECK(linesOf(run.path("a/log.csv")) == summary["cycles"].get<std::size_t>() + 1);
+  CHECK(linesOf(run.path("a/images.csv")) == summary["images"].get<std::size_t>() + 1);
+  for (const char *word : {"image_period", "latency", "vision", "step_period", "step_jitter", "step"}) {
+    CHECK(summary["times"][word]["median_ms"].get<double>() >= 0.);
+  }
+  CHECK(summary["times"]["latency"]["median_ms"].get<double>() ==
+        Approx(45.).epsilon(0.06)); // 40 ms and a step of 5 ms
+  for (const char *file : {"report.html", "view.mp4", "camera.mkv", "camera.xml", "target.png", "recording.json"}) {
+    CHECK(std::filesystem::file_size(run.path(std::string("a/") + file)) > 100);
+  }
+  // The camera moved in the simulation as the log says it did.
+  double moved = 0.;
+  vpRigidTransform first, last;
+  visualServo::readCycles(run.path("a"), [&](const visualServo::RecordedCycle &cycle) {
+    (moved == 0. ? first : last) = cycle.fMc;
+    moved += 1.;
+  });
+  CHECK((last.p - first.p).norm() > 0.003);
+
+  REQUIRE(run("--replay a --out same") == OK);
+  const json same = summaryIn(run, "same");
+  CHECK(same["found_now"] == same["found_then"]);
+  CHECK(same["velocity_largest_mps"].get<double>() < 1e-5);
+  CHECK(same["angular_velocity_largest_radps"].get<double>() < 1e-5);
+  REQUIRE(run("--replay a --out other --law pbvs1 --lambda 1") == OK);
+  CHECK(summaryIn(run, "other")["velocity_largest_mps"].get<double>() > 1e-3);
+  CHECK(run("--replay a --out a") == 2);
+  CHECK(run.err().find("--out is a, the recording itself") != std::string::npos);
+
+  // The recorded video as a camera, dry.
+  REQUIRE(run("--camera a/camera.mkv --camera-xml a/camera.xml --dry-run --out film") == OK);
+  CHECK(summaryIn(run, "film")["images_found"] == summary["images"]);
+  CHECK(summaryIn(run, "film")["dry_run"] == true);
+}
+
+TEST_CASE("a taught goal is where the robot goes", "[visp-servo]")
+{
+  ProgramRun run(SERVO);
+  REQUIRE(run("--teach goal.json --object-pose 0.01,0,0.32,0,3,0") == OK);
+  CHECK(std::filesystem::file_size(run.path("goal.png")) > 10000);
+  const json goal = json::parse(vpApp::readFile(run.path("goal.json")));
+  CHECK(goal["position_m"][2].get<double>() == Approx(0.32).epsilon(1e-3));
+  REQUIRE(run("--goal goal.json --out a --object-pose 0.012,0.002,0.323,0,4,1 --start-time 0.2 --lambda 3") == OK);
+  CHECK(run.out().find("The goal was reached.") == 0);
+}
+
+TEST_CASE("a reference image alone leads back to where it was taken", "[visp-servo]")
+{
+  ProgramRun run(SERVO);
+  REQUIRE(run("--teach goal.json --object-pose 0,0,0.3,0,0,0") == OK);
+  REQUIRE(run("--reference goal.png --out a --object-pose 0.02,0.01,0.34,2,-3,4 --start-time 0.2 --lambda 2") == OK);
+  CHECK(run.out().find("The goal was reached.") == 0);
+  vpRigidTransform last;
+  visualServo::readCycles(run.path("a"), [&last](const visualServo::RecordedCycle &cycle) { last = cycle.fMc; });
+  vpRigidTransform first;
+  bool isFirst = true;
+  visualServo::readCycles(run.path("a"), [&](const visualServo::RecordedCycle &cycle) {
+    first = isFirst ? cycle.fMc : first;
+    isFirst = false;
+  });
+  // Where the camera should be is known here: the object was at (0.02, 0.01, 0.34), is to be at (0, 0, 0.3).
+  const vpHomogeneousMatrix c1Mo(vpTranslationVector(0.02, 0.01, 0.34),
+                                 vpThetaUVector(vpMath::rad(2.), vpMath::rad(-3.), vpMath::rad(4.)));
+  const vpHomogeneousMatrix moved = (first.inverse() * last).toHomogeneous();
+  const vpHomogeneousMatrix cMo = moved.inverse() * c1Mo;
+  CHECK(std::fabs(cMo[0][3]) < 0.005);
+  CHECK(std::fabs(cMo[1][3]) < 0.005);
+  CHECK(std::fabs(cMo[2][3] - 0.3) < 0.005);
+}
+
+TEST_CASE("a robot of a plug-in moves when it is told to, by the clock", "[visp-servo][plugin]")
+{
+  ProgramRun run(SERVO);
+  const std::string robot =
+      "--camera sim --robot-plugin '" ROBOT_ARM "' --robot-arguments '" VISP_DIRECT_DATA_DIR "/robot/amor.json'" + NEAR;
+  REQUIRE(run(robot + " --start --out a") == OK);
+  CHECK(run.out().find("The goal was reached.") == 0);
+  CHECK(summaryIn(run, "a")["times"]["step_period"]["median_ms"].get<double>() == Approx(5.).epsilon(0.2));
+  REQUIRE(run(robot + " --duration 1 --out b") == OK);
+  CHECK(run.out().find("The robot was not told to move") != std::string::npos);
+  CHECK(summaryIn(run, "b")["end"]["status"] == "Idle");
+}
+
+namespace
+{
+//! Starts the program in the folder of \e run.
+pid_t start(const ProgramRun &run, const std::vector<std::string> &arguments)
+{
+  const pid_t child = fork();
+  if (child == 0) {
+    std::vector<char *> argv;
+    std::string program = SERVO;
+    argv.push_back(program.data());
+    std::vector<std::string> copies = arguments;
+    for (std::string &argument : copies) {
+      argv.push_back(argument.data());
+    }
+    argv.push_back(nullptr);
+    if (chdir(run.path("").c_str()) != 0 || std::freopen("/dev/null", "w", stdout) == nullptr ||
+        std::freopen("/dev/null", "w", stderr) == nullptr) {
+      _exit(99);
+    }
+    execv(SERVO, argv.data());
+    _exit(98);
+  }
+  return child;
+}
+
+//! Waits until a file has so many lines.
+bool waitForLines(const std::filesystem::path &file, std::size_t lines)
+{
+  for (int i = 0; i < 600; ++i) {
+    if (std::filesystem::exists(file) && linesOf(file) >= lines) {
+      return true;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  return false;
+}
+} // namespace
+
+TEST_CASE("Ctrl-C ends with a report; a killed program leaves what it recorded, and that can be replayed",
+          "[visp-servo]")
+{
+  ProgramRun run(SERVO);
+  for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
+    CAPTURE(signal);
+    const std::string out = "s" + std::to_string(signal);
+    const pid_t child = start(run, {"--real-time", "--stay", "--duration", "60", "--out", out});
+    REQUIRE(waitForLines(run.path(out + "/unfinished-run/log.csv"), signal == SIGKILL ? 800 : 200));
+    REQUIRE(kill(child, signal) == 0);
+    int status = 0;
+    REQUIRE(waitpid(child, &status, 0) == child);
+    if (signal != SIGKILL) {
+      CHECK(WIFEXITED(status));
+      CHECK(WEXITSTATUS(status) == 130);
+      CHECK(summaryIn(run, out)["status"] == "interrupted");
+      CHECK(std::filesystem::file_size(run.path(out + "/report.html")) > 10000);
+      CHECK(linesOf(run.path(out + "/log.csv")) > 200);
+    }
+    else {
+      CHECK(WIFSIGNALED(status));
+      REQUIRE(run("--replay " + out + "/unfinished-run --out again") == OK);
+      CHECK(summaryIn(run, "again")["cycles"].get<int>() >= 700);
+      CHECK(summaryIn(run, "again")["velocity_largest_mps"].get<double>() < 1e-2);
+    }
+  }
+}
+
+TEST_CASE("the goal that is not reached in time is status 1, with the report", "[visp-servo]")
+{
+  ProgramRun run(SERVO);
+  CHECK(run("--duration 0.5 --out a") == DATA);
+  CHECK(run.err().find("the goal was not reached in 0.5 s; the report shows the way") != std::string::npos);
+  CHECK(std::filesystem::exists(run.path("a/report.html")));
+}
+
+TEST_CASE("an AprilTag of ViSP's images is found", "[visp-servo]")
+{
+  const std::string image = vpIoTools::getViSPImagesDataPath() + "/AprilTag/benchmark/640x480/tag36_11_640x480.png";
+  if (!std::filesystem::exists(image)) {
+    vpTestSupport::skip("visp-images-data is not installed");
+    return;
+  }
+  ProgramRun run(SERVO);
+  REQUIRE(run("--camera '" + image + "' --tag 36h11:0 --size 0.25 --out a") == OK);
+  CHECK(summaryIn(run, "a")["images_found"] == 1);
+  REQUIRE(run("--camera '" + image + "' --tag 36h11:500 --size 0.25 --out b") == OK);
+  CHECK(summaryIn(run, "b")["images_found"] == 0);
+}
+
+TEST_CASE("laws and robots are listed", "[visp-servo]")
+{
+  ProgramRun run(SERVO);
+  REQUIRE(run("--list") == OK);
+  for (const char *word : {"ff-lookat-pi: ", "vpRobotFranka", "vpRobotUniversalRobots", "vpRobotViper850"}) {
+    CHECK(run.out().find(word) != std::string::npos);
+  }
+}

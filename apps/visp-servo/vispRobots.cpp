@@ -1,0 +1,121 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "robotPlugin.h"
+
+#include "appMain.h"
+
+#include <visp3/core/vpConfig.h>
+#include <visp3/robot/vpRobotAfma6.h>
+#include <visp3/robot/vpRobotFranka.h>
+#include <visp3/robot/vpRobotViper650.h>
+#include <visp3/robot/vpRobotViper850.h>
+#include <visp3/servoing/vpServoCalibration.h>
+#if __has_include(<visp3/robot/vpRobotUniversalRobots.h>)
+#include <visp3/robot/vpRobotUniversalRobots.h>
+#endif
+
+#include <algorithm>
+#include <stdexcept>
+
+// Each function is empty where the installed ViSP was built without the robot's driver: its header then declares nothing.
+namespace visualServo
+{
+namespace
+{
+using Maker = OpenedRobot (*)(const std::string &address, const std::string &eMc);
+
+vpHomogeneousMatrix mountOf(const std::string &file)
+{
+  return file.empty() ? vpHomogeneousMatrix() : vpLoadPose(file).toHomogeneous();
+}
+
+template <class Driver, class Tool> OpenedRobot openWithTool(Tool tool, const std::string &eMc)
+{
+  auto robot = std::make_shared<Driver>();
+  if (!eMc.empty()) {
+    robot->init(tool, mountOf(eMc));
+  }
+  return {robot, "", PoseOf::Reference, true};
+}
+
+template <class Driver> OpenedRobot openByAddress(const std::string &address, const std::string &eMc)
+{
+  auto robot = std::make_shared<Driver>();
+  robot->connect(address);
+  robot->set_eMc(mountOf(eMc));
+  return {robot, "", PoseOf::Camera, true};
+}
+
+#if defined(VISP_HAVE_FRANKA)
+constexpr Maker openFranka = openByAddress<vpRobotFranka>;
+#else
+constexpr Maker openFranka = nullptr;
+#endif
+#if defined(VISP_HAVE_UR_RTDE)
+constexpr Maker openUr = openByAddress<vpRobotUniversalRobots>;
+#else
+constexpr Maker openUr = nullptr;
+#endif
+#if defined(VISP_HAVE_VIPER650)
+constexpr Maker openViper650 = [](const std::string &, const std::string &eMc) {
+  return openWithTool<vpRobotViper650>(vpViper650::TOOL_CUSTOM, eMc);
+};
+#else
+constexpr Maker openViper650 = nullptr;
+#endif
+#if defined(VISP_HAVE_VIPER850)
+constexpr Maker openViper850 = [](const std::string &, const std::string &eMc) {
+  return openWithTool<vpRobotViper850>(vpViper850::TOOL_CUSTOM, eMc);
+};
+#else
+constexpr Maker openViper850 = nullptr;
+#endif
+#if defined(VISP_HAVE_AFMA6)
+constexpr Maker openAfma6 = [](const std::string &, const std::string &eMc) {
+  return openWithTool<vpRobotAfma6>(vpAfma6::TOOL_CUSTOM, eMc);
+};
+#else
+constexpr Maker openAfma6 = nullptr;
+#endif
+
+struct Entry {
+  const char *word, *className;
+  Maker open;
+};
+constexpr Entry ENTRIES[] = {{"franka", "vpRobotFranka", openFranka},
+                             {"ur", "vpRobotUniversalRobots", openUr},
+                             {"viper650", "vpRobotViper650", openViper650},
+                             {"viper850", "vpRobotViper850", openViper850},
+                             {"afma6", "vpRobotAfma6", openAfma6}};
+} // namespace
+
+const std::vector<VispRobot> &robotsOfVisp()
+{
+  static const std::vector<VispRobot> all = [] {
+    std::vector<VispRobot> robots;
+    for (const Entry &entry : ENTRIES) {
+      robots.push_back({entry.word, entry.className, entry.open != nullptr});
+    }
+    return robots;
+  }();
+  return all;
+}
+
+OpenedRobot openVispRobot(const std::string &word, const std::string &arguments, const std::string &eMc)
+{
+  const auto *entry =
+      std::find_if(std::begin(ENTRIES), std::end(ENTRIES), [&word](const Entry &one) { return word == one.word; });
+  if (entry == std::end(ENTRIES)) {
+    throw vpApp::UsageError("--robot is " + word + ", which is no robot of ViSP; --list names them");
+  }
+  if (entry->open == nullptr) {
+    throw std::runtime_error(std::string("--robot ") + word + ": the installed ViSP was built without " +
+                             entry->className);
+  }
+  OpenedRobot opened = entry->open(arguments, eMc);
+  opened.name = std::string("the robot ") + entry->className;
+  return opened;
+}
+} // namespace visualServo
