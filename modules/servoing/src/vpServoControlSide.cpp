@@ -92,6 +92,12 @@ void vpServoControlSide::setController(vpServoController controller)
   if (m_hasGoal) {
     m_controller.setGoal(m_goal);
   }
+  // Before a fixed camera the plan is not one of what moves: it is bounded like any other law.
+  m_plans = m_controller.law().plansMotion() && m_spec.place == vpServoCameraPlace::EyeInHand;
+  if (m_plans && m_arm) {
+    m_check.emplace(*m_arm, m_spec.redundancy, m_spec.indices, m_spec.free);
+    m_controller.setMotionCheck(&*m_check);
+  }
 }
 
 void vpServoControlSide::follow(Request request, vpServoExchange &exchange) noexcept
@@ -236,7 +242,8 @@ bool vpServoControlSide::updatePose(const vpServoRobotState &state, bool isClock
   watchMotion(moved, gap <= 1.5 * m_step);
   if (isClockRight) {
     const vpTwist executed = gap > 0. ? moved.scaled(1. / gap) : vpTwist();
-    m_odometry.move(vpRigidMotion::sum(executed, objectInCamera().scaled(-1.)), m_time);
+    m_executed = vpRigidMotion::sum(executed, objectInCamera().scaled(-1.));
+    m_odometry.move(m_executed, m_time);
     exchange.history.add(m_time, camera);
   }
   m_camera = camera;
@@ -341,26 +348,62 @@ double vpServoControlSide::approachShare(const vpTwist &wish) const noexcept
 // The law's twist as one of what moves, within the limits of speed, acceleration and jerk.
 vpTwist vpServoControlSide::lawTwist() noexcept
 {
+  if (m_check) {
+    m_check->setState(m_q, m_output.velocity);
+  }
   const vpServoCommand command = m_controller.step(m_measurement, m_step);
   m_output.servo = command.status;
+  m_ofLaw = command.v;
   vpTwist wish = command.v;
   if (m_spec.place == vpServoCameraPlace::EyeToHand) {
     wish = vpRigidMotion::changed(m_camera, command.v).scaled(-1.);
   }
   wish = vpWithoutFreeAxes(wish, m_spec.free);
+  if (m_plans && !m_object.isKnown) {
+    return planned(wish);
+  }
   const bool isSeen = command.status == vpServoStatus::Servoing || command.status == vpServoStatus::ViewLimited;
-  const vpTwist along = isSeen ? vpWithoutFreeAxes(objectInCamera(), m_spec.free) : vpTwist();
+  return bounded(wish, isSeen ? vpWithoutFreeAxes(objectInCamera(), m_spec.free) : vpTwist());
+}
+
+// Within the limits already. The shaper goes along, to brake from here. In its first step after a pause a law learns only
+// that the robot stands.
+vpTwist vpServoControlSide::planned(const vpTwist &wish) noexcept
+{
+  if (!m_wasAllowed) {
+    return m_shaper.step(vpTwist(), m_step);
+  }
+  m_output.speedFactor = 1.;
+  m_shaper.reset(wish, vpRigidMotion::sum(wish, m_output.twist.scaled(-1.)).scaled(1. / m_step));
+  return wish;
+}
+
+// \param along : Motion of the object, which the camera goes along with.
+vpTwist vpServoControlSide::bounded(const vpTwist &wish, const vpTwist &along) noexcept
+{
   const vpServoMotionLimits &limits = m_controller.spec().motion;
-  const vpTwist bounded =
+  const vpTwist within =
       vpLimitTwist(vpRigidMotion::sum(wish.scaled(approachShare(wish)), along),
                    m_output.speedFactor * limits.linearVelocity, m_output.speedFactor * limits.angularVelocity);
-  const vpTwist twist = m_shaper.step(bounded, m_step);
+  const vpTwist twist = m_shaper.step(within, m_step);
   const vpTwist missing = vpRigidMotion::sum(vpRigidMotion::sum(wish, along), twist.scaled(-1.));
   if (missing.linearNorm() > toleratedShare * wish.linearNorm() + slowest ||
       missing.angularNorm() > toleratedShare * wish.angularNorm() + slowest) {
     m_controller.notifyInterrupted();
   }
   return twist;
+}
+
+// Tells the law what was sent, as a twist of the camera relative to the object, and what the camera did.
+void vpServoControlSide::report() noexcept
+{
+  vpTwist sent = m_spec.place == vpServoCameraPlace::EyeInHand
+                     ? vpRigidMotion::sum(m_output.twist, objectInCamera().scaled(-1.))
+                     : vpRigidMotion::changed(m_camera.inverse(), m_output.twist).scaled(-1.);
+  for (std::size_t k = 0; k < 6; ++k) {
+    sent[k] = m_spec.free[k] ? m_ofLaw[k] : sent[k]; // or it would count as disturbed
+  }
+  m_controller.notifyExecuted(sent, m_executed);
 }
 
 void vpServoControlSide::moveArm(bool isAllowed) noexcept
@@ -385,65 +428,6 @@ void vpServoControlSide::moveArm(bool isAllowed) noexcept
   }
 }
 
-void vpServoControlSide::conclude(Status images) noexcept
-{
-  const bool isPassed = m_output.supervision == vpSupervision::Passed ||
-                        m_output.supervision == vpSupervision::Limited || m_output.supervision == vpSupervision::Slowed;
-  if (m_fault != Status::Servoing) {
-    m_output.status = m_fault;
-  }
-  else if (!m_isRunning) {
-    m_output.status = Status::Idle;
-  }
-  else if (images != Status::Servoing) {
-    m_output.status = images;
-  }
-  else if (!isPassed) {
-    m_output.status = Status::Obstructed;
-  }
-  else if (!vpIsWorking(m_output.servo)) {
-    m_output.status = Status::LawStopped;
-  }
-  else {
-    m_output.status = m_within >= m_spec.convergedTime && m_within > 0. ? Status::Converged : Status::Servoing;
-  }
-  m_output.message = message();
-}
-
-const char *vpServoControlSide::message() const noexcept
-{
-  switch (m_output.status) {
-  case Status::Servoing:
-    return m_output.arm >= vpRedundancyStatus::JointsStopped ? m_motion->solver().message() : vpMessage(m_output.servo);
-  case Status::Converged:
-    return "The goal is reached within the tolerances.";
-  case Status::Idle:
-    return "The servo is not started; the robot stands or brakes.";
-  case Status::LawStopped:
-    return vpMessage(m_output.servo);
-  case Status::Obstructed:
-    return m_supervised.message();
-  case Status::NoImages:
-    return m_hasImage ? "No new image within the timeout: the robot stops until one comes."
-                      : "There was no image yet: the robot waits for the first one.";
-  case Status::FrozenImages:
-    return "The image does not change although the camera moves: the robot stops until it does.";
-  case Status::ImageClock:
-    return m_isFuture ? "Images have times of capture in the future: the clocks of camera and control differ."
-                      : "Images have times of capture that do not increase: the robot stops until they do.";
-  case Status::LateStep:
-    return "The clock jumped or a step came too late: the robot stops until an image comes that was taken afterwards.";
-  case Status::ClockFault:
-    return "The clock of the control thread stood, went back or is not finite: the robot stops until it is started "
-           "again.";
-  case Status::StateFault:
-    return "The robot's state is missing, too old or not finite: the robot stops until it is started again.";
-  case Status::NotFollowing:
-    return "The robot does not move as commanded: it is stopped until it is started again.";
-  }
-  return "Unknown status.";
-}
-
 const vpVisualServoOutput &vpServoControlSide::step(const vpServoRobotState &state, double now,
                                                     vpServoExchange &exchange) noexcept
 {
@@ -459,11 +443,18 @@ const vpVisualServoOutput &vpServoControlSide::step(const vpServoRobotState &sta
   m_odometry.predict(m_measurement);
   judgeError();
   const Status images = judgeImages(exchange);
-  const bool isAllowed = m_isRunning && m_fault == Status::Servoing && images == Status::Servoing;
+  // A plan begins at rest: the law knows the last twist, but not its rate of change while it was not asked.
+  m_isBraking = m_isBraking && !(isZero(m_shaper.twist()) && isZero(m_shaper.acceleration()));
+  const bool isWanted = m_isRunning && m_fault == Status::Servoing && images == Status::Servoing;
+  const bool isAllowed = isWanted && !(m_plans && m_isBraking);
+  m_isBraking = m_isBraking || !isAllowed;
   m_rising = isAllowed ? m_rising + m_step : 0.;
   m_output.speedFactor = m_sightFactor * (m_rising < m_spec.startTime ? m_rising / m_spec.startTime : 1.);
   m_output.servo = m_hasGoal ? vpServoStatus::Holding : vpServoStatus::NoGoal;
+  m_ofLaw = vpTwist();
   m_output.twist = isAllowed && m_hasGoal ? lawTwist() : m_shaper.step(vpTwist(), m_step);
+  report();
+  m_wasAllowed = isAllowed;
   if (m_motion) {
     moveArm(isAllowed);
   }

@@ -14,6 +14,7 @@
 
 #include <visp3/feedforward/vpOdometryBridge.h>
 #include <visp3/manipulator/vpArmMotion.h>
+#include <visp3/servoing/vpArmMotionCheck.h>
 #include <visp3/trajectory/vpTwistShaper.h>
 
 #include <optional>
@@ -52,6 +53,9 @@ private:
   vpVisualServoStatus judgeImages(const vpServoExchange &exchange) const noexcept;
   void judgeError() noexcept;
   vpTwist lawTwist() noexcept;
+  vpTwist planned(const vpTwist &wish) noexcept;
+  vpTwist bounded(const vpTwist &wish, const vpTwist &along) noexcept;
+  void report() noexcept;
   double approachShare(const vpTwist &wish) const noexcept;
   void moveArm(bool isAllowed) noexcept;
   void conclude(vpVisualServoStatus images) noexcept;
@@ -69,6 +73,9 @@ private:
   vpServoMeasurement m_measurement; // predicted to now
   vpArmData m_data;
   vpJointVector m_q;
+  std::optional<vpArmMotionCheck> m_check; // for laws that plan
+  vpTwist m_ofLaw;                         // twist of the law in this step, camera frame
+  vpTwist m_executed;                      // motion of the camera relative to the object since the last step
   vpFollowWatchdog m_watchdog;
   vpObjectMotion m_object;
   vpRigidTransform m_camera; // in the frame in which the object is at rest
@@ -85,6 +92,9 @@ private:
   double m_sightFactor = 1.;
   unsigned int m_badStamps = 0; // when the newest image came
   bool m_hasClock = false, m_hasPose = false, m_hasGoal = false, m_isRunning = false;
+  bool m_plans = false;      // the law keeps the bounds itself
+  bool m_wasAllowed = false; // the law was asked in the last step
+  bool m_isBraking = false;  // the law was not asked, and the robot does not stand yet
   bool m_hasImage = false, m_isFrozen = false, m_isFuture = false;
 };
 

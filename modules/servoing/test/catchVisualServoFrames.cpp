@@ -47,8 +47,8 @@ struct ArmBench {
   vpRigidTransform objectAt; // in the base, or in the end effector
   double now = 0.;
 
-  ArmBench(const vpArmModel &arm, const vpVisualServoSpec &spec)
-    : model(arm), servo(vpServoController::create("ff-lookat"), spec, &arm), q(arm.home())
+  ArmBench(const vpArmModel &arm, const vpVisualServoSpec &spec, const std::string &law = "ff-lookat")
+    : model(arm), servo(vpServoController::create(law), spec, &arm), q(arm.home())
   {
     servo.setGoal(plate.goal(cdMo));
     servo.start();
@@ -206,4 +206,44 @@ TEST_CASE("The estimated velocity of an object is as uncertain as told, and that
     }
   }
   CHECK(within >= 0.9 * count); // less often for the share that is followed where the velocity is near 0: never more
+}
+
+TEST_CASE("Laws that plan their motion keep the bounds of camera and joints by themselves, and reach the goal",
+          "[servoing]")
+{
+  for (unsigned int i = 0; i < static_cast<unsigned int>(vpTestSupport::longer(6)); ++i) {
+    std::mt19937_64 rng = vpTestSupport::generator(i);
+    const vpArmModel &model = i % 2 == 0 ? vpTestArms::amor() : vpTestArms::sixAxes();
+    const vpJointVector goal = dexterous(model, rng);
+    vpArmData data;
+    vpArmKinematics::update(model, goal, data);
+    const vpRigidTransform cdMo{Eigen::Matrix3d::Identity(), Eigen::Vector3d(0., 0., 0.35)};
+    ArmBench bench(model, quick(), i % 4 < 2 ? "dtg" : "ff-dtg");
+    bench.objectAt = vpArmKinematics::camera(model, data) * cdMo;
+    bench.q = goal + 0.05 * vpTestArms::randomVector(model.size(), rng);
+    const vpServoMotionLimits limits;
+    vpTwist before, change;
+    const double dt = quick().period;
+    CAPTURE(i);
+    for (int k = 0; k < 1500; ++k) {
+      const bool isStopped = k >= 100 && k < 150; // by the user, in mid-motion
+      isStopped ? bench.servo.stop() : bench.servo.start();
+      bench.step();
+      const vpTwist twist = bench.servo.output().twist;
+      const vpTwist next = vpRigidMotion::sum(twist, before.scaled(-1.)).scaled(1. / dt);
+      const vpTwist jerk = vpRigidMotion::sum(next, change.scaled(-1.)).scaled(1. / dt);
+      CAPTURE(k);
+      REQUIRE(twist.linearNorm() <= limits.linearVelocity * (1. + 1e-6));
+      REQUIRE(twist.angularNorm() <= limits.angularVelocity * (1. + 1e-6));
+      REQUIRE(next.linearNorm() <= limits.linearAcceleration * (1. + 1e-6));
+      REQUIRE(next.angularNorm() <= limits.angularAcceleration * (1. + 1e-6));
+      REQUIRE(jerk.linearNorm() <= limits.linearJerk * (1. + 1e-4));
+      REQUIRE(jerk.angularNorm() <= limits.angularJerk * (1. + 1e-4));
+      before = twist;
+      change = next;
+    }
+    INFO(bench.servo.output().message);
+    CHECK(bench.servo.isConverged());
+    CHECK(bench.error().p.norm() < 1e-3);
+  }
 }
