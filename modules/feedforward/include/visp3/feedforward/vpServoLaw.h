@@ -34,7 +34,7 @@ struct VISP_EXPORT vpServoGains {
   double saturation = 0.5;    //!< Bound c of c tanh(D/c) in `ff-sum`, rad, > 0, <= 1000000.
   double integral = 1.;       //!< Gain on the integral of the rotation error in `ff-lookat-pi`, 1/s^2, 0..1000000.
   double integralLimit = 0.5; //!< Largest angular velocity contributed by the integral, rad/s, > 0, <= 1000000.
-  double replanPeriod = 0.;   //!< Period of planning anew in `dtg` and `ff-dtg`, s, 0..1000000; 0: at events only.
+  double replanPeriod = 0.;   //!< Period of planning anew in `dtg` and `ff-dtg` (0: at events only), s, 0..1000000.
 
   //! The gains with their ranges and units.
   [[nodiscard]] static const vpFields<vpServoGains> &fields();
