@@ -95,6 +95,31 @@ find_library(VISP_DIRECT_MUJOCO_LIBRARY mujoco)
 vispdirect_optional(MUJOCO "second opinion on arms (test catchMujocoOracle)" "${VISP_DIRECT_MUJOCO_INCLUDE_DIR}"
   "${VISP_DIRECT_MUJOCO_LIBRARY}")
 
+# The Python package: pybind11, and an interpreter that has numpy. Another python3 (pyenv, conda) may stand before the one that
+# the system's packages belong to; -DPython3_EXECUTABLE decides.
+if(NOT VISP_DIRECT_PYTHON_SOUGHT)
+  set(VISP_DIRECT_PYTHON_SOUGHT TRUE CACHE INTERNAL "")
+  find_program(VISP_DIRECT_PYTHON_OF_PATH python3)
+  foreach(candidate "${Python3_EXECUTABLE}" "${VISP_DIRECT_PYTHON_OF_PATH}" /usr/bin/python3)
+    if(candidate AND NOT Python3_EXECUTABLE)
+      execute_process(COMMAND "${candidate}" -c "import numpy" RESULT_VARIABLE without_numpy OUTPUT_QUIET ERROR_QUIET)
+      if(without_numpy)
+        message(STATUS "visp-direct: ${candidate} has no numpy, and is not used")
+      else()
+        message(STATUS "visp-direct: Python is ${candidate}, the first that has numpy; -DPython3_EXECUTABLE chooses another one")
+        set(Python3_EXECUTABLE "${candidate}" CACHE FILEPATH "Interpreter of the Python package and of the reports")
+      endif()
+    endif()
+  endforeach()
+  if(Python3_EXECUTABLE)
+    execute_process(COMMAND "${Python3_EXECUTABLE}" -c "import sysconfig; print(sysconfig.get_path('include'))"
+                    OUTPUT_VARIABLE python_include OUTPUT_STRIP_TRAILING_WHITESPACE)
+    find_path(VISP_DIRECT_PYTHON_INCLUDE_DIR Python.h PATHS "${python_include}" NO_DEFAULT_PATH)
+  endif()
+endif()
+find_path(VISP_DIRECT_PYBIND11_INCLUDE_DIR pybind11/pybind11.h)
+vispdirect_optional(PYTHON "Python package (visp_direct)" "${VISP_DIRECT_PYBIND11_INCLUDE_DIR};${VISP_DIRECT_PYTHON_INCLUDE_DIR}" "")
+
 # vispdirect_without(FILE...): excludes sources from the module. Call after vp_glob_module_sources().
 macro(vispdirect_without)
   foreach(vispdirect_file ${ARGN})

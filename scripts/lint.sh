@@ -17,7 +17,7 @@ cd "$root"
 
 sources=("$@")
 if [ $# -eq 0 ]; then
-  mapfile -t sources < <(find modules apps support test tutorial -name '*.cpp' -o -name '*.h' 2>/dev/null | sort)
+  mapfile -t sources < <(find modules apps support test tutorial python -name '*.cpp' -o -name '*.h' 2>/dev/null | sort)
 fi
 
 case $what in

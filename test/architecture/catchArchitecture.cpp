@@ -51,7 +51,7 @@ bool isTest(const fs::path &file)
 std::vector<fs::path> sources()
 {
   std::vector<fs::path> files;
-  for (const char *top : {"modules", "lab", "apps", "support", "tutorial"}) {
+  for (const char *top : {"modules", "lab", "apps", "support", "tutorial", "python"}) {
     for (const auto &entry : fs::recursive_directory_iterator(root / top)) {
       if (entry.path().extension() == ".h" || entry.path().extension() == ".cpp") {
         files.push_back(fs::relative(entry.path(), root));

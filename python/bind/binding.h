@@ -1,0 +1,121 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file binding.h
+ * \brief Classes of the package: structs and enums from what python/bind/headers.py reads in the headers, docstrings too.
+ */
+#ifndef binding_h
+#define binding_h
+
+#include "casters.h"
+#include "reflection.h" // generated
+
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace visp_python
+{
+using Unlocked = py::call_guard<py::gil_scoped_release>; //!< For calls that take long.
+
+//! Docstring of "vpServoLaw::setGoal" in the headers. \throw std::logic_error when there is none, at import.
+const char *doc(const std::string &name);
+//! \throw IndexError "axis 7 does not exist, there are 6".
+int checkedIndex(int i, int count, const char *what);
+//! \throw ValueError "q has 3 numbers, the arm has 7 joints".
+void checkJoints(const char *name, Eigen::Index size, int joints);
+//! Sets the fields of \e self by name. \throw TypeError "ServoGains has no field lamda".
+void setFields(const py::object &self, const py::kwargs &values);
+//! "ServoGains(lambda_=1.0, rotation=1.0)".
+std::string represented(const py::object &self);
+
+template <class M> struct IsTuple : std::false_type {};
+template <class M> struct IsTuple<std::vector<M>> : std::negation<std::is_base_of<Eigen::MatrixBase<M>, M>> {};
+template <std::size_t N> struct IsTuple<std::array<bool, N>> : std::true_type {};
+template <class M> struct IsShared : std::false_type {};
+template <class M> struct IsShared<std::shared_ptr<const M>> : std::true_type {
+  using type = M;
+};
+//! Left out: they need the number of valid elements beside them, and their structs are bound with it by hand.
+template <class M> struct IsLeftOut : std::is_pointer<M> {};
+template <class M, std::size_t N>
+struct IsLeftOut<std::array<M, N>> : std::bool_constant<!std::is_arithmetic_v<M> && !std::is_same_v<M, vpImagePoint>> {
+};
+
+/*!
+ * A field. Lists are tuples, so that append() is an error and not without effect.
+ */
+template <class Class, class T, class M> void bindField(Class &bound, const char *name, M T::*member, const char *text)
+{
+  if constexpr (IsLeftOut<M>::value) {
+    return;
+  }
+  else if constexpr (IsTuple<M>::value) {
+    const auto get = [member](const T &self) {
+      return py::tuple(py::cast(self.*member, py::return_value_policy::copy));
+    };
+    bound.def_property(
+        name, get, [member](T &self, const M &value) { self.*member = value; }, text);
+  }
+  else if constexpr (IsShared<M>::value) {
+    using Shared = std::shared_ptr<typename IsShared<M>::type>;
+    const auto get = [member](const T &self) {
+      return std::const_pointer_cast<typename IsShared<M>::type>(self.*member);
+    };
+    bound.def_property(
+        name, get, [member](T &self, const Shared &value) { self.*member = value; }, text);
+  }
+  else {
+    bound.def_readwrite(name, member, text);
+  }
+  bound.attr("_fields").template cast<py::list>().append(name);
+}
+
+//! A struct with all its public fields, made by no arguments or by fields as keywords.
+template <class T, class... Options> py::class_<T, Options...> bindStruct(py::module_ &m, bool constructible = true)
+{
+  py::class_<T, Options...> bound(m, Reflect<T>::name, Reflect<T>::doc);
+  bound.attr("_fields") = py::list();
+  Reflect<T>::each([&bound](const char *name, auto member, const char *text) { bindField(bound, name, member, text); });
+  bound.def("__repr__", &represented);
+  if constexpr (std::is_default_constructible_v<T>) {
+    if (constructible) {
+      bound.def(py::init([](const py::kwargs &values) {
+                  auto made = std::make_unique<T>();
+                  setFields(py::cast(made.get(), py::return_value_policy::reference), values);
+                  return made;
+                }),
+                "Fields by keyword; those left out have their defaults.");
+    }
+  }
+  return bound;
+}
+
+//! An enum with all its values, and no others: none is made from a number.
+template <class E> py::enum_<E> bindEnum(py::module_ &m)
+{
+  py::enum_<E> bound(m, Reflect<E>::name, Reflect<E>::doc);
+  Reflect<E>::each([&bound](const char *name, E value, const char *text) { bound.value(name, value, text); });
+  py::delattr(bound, "__init__");
+  py::delattr(bound, "__setstate__");
+  return bound;
+}
+
+//! A class whose methods are bound by hand.
+template <class T, class... Options> py::class_<T, Options...> bindClass(py::module_ &m)
+{
+  return py::class_<T, Options...>(m, Reflect<T>::name, Reflect<T>::doc);
+}
+
+void bindTrajectory(py::module_ &m);
+void bindServo(py::module_ &m);
+void bindVision(py::module_ &m);
+void bindPrinting(py::module_ &m);
+void bindArm(py::module_ &m);
+void bindScene(py::module_ &m);
+void bindMotion(py::module_ &m);
+} // namespace visp_python
+#endif

@@ -1,0 +1,211 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "binding.h"
+
+#include <visp3/feedforward/vpOdometryBridge.h>
+#include <visp3/feedforward/vpServoController.h>
+#include <visp3/servoing/vpServoTarget.h>
+
+#include <exception>
+#include <utility>
+
+namespace visp_python
+{
+namespace
+{
+// A law written in Python: compute(measurement, dt) returns a twist or a ServoCommand. The step of a law does not throw, so
+// an exception of compute() is kept, the twist is zero, and the binding of step() raises it.
+class PythonLaw : public vpServoLaw
+{
+public:
+  PythonLaw(const std::string &id, const vpServoGains &gains) : vpServoLaw(id, gains) {}
+
+  void raise()
+  {
+    if (m_error) {
+      std::rethrow_exception(std::exchange(m_error, nullptr));
+    }
+  }
+
+protected:
+  vpServoCommand compute(const vpServoMeasurement &measurement, double dt) noexcept override
+  {
+    const py::gil_scoped_acquire locked;
+    try {
+      const py::function written = py::get_override(static_cast<const vpServoLaw *>(this), "compute");
+      if (!written) {
+        throw py::type_error("the law " + m_id + " has no method compute(measurement, dt)");
+      }
+      return command(written(py::cast(measurement, py::return_value_policy::copy), dt));
+    }
+    catch (...) {
+      m_error = std::current_exception();
+      return {vpTwist(), vpServoStatus::Degenerate};
+    }
+  }
+  void goalChanged() override { call("goalChanged"); }
+  void stateReset() override { call("stateReset"); }
+
+private:
+  void call(const char *name)
+  {
+    const py::gil_scoped_acquire locked;
+    if (const py::function written = py::get_override(static_cast<const vpServoLaw *>(this), name)) {
+      written();
+    }
+  }
+  vpServoCommand command(const py::object &result) const
+  {
+    const vpServoCommand command = py::isinstance<vpServoCommand>(result)
+                                       ? result.cast<vpServoCommand>()
+                                       : vpServoCommand{result.cast<vpTwist>(), vpServoStatus::Servoing};
+    if (!command.v.isFinite()) {
+      throw py::value_error("the law " + m_id + " returned a twist that is not finite");
+    }
+    return command;
+  }
+
+  std::exception_ptr m_error;
+};
+
+vpServoCommand stepOf(vpServoLaw &law, const vpServoMeasurement &measurement, double dt)
+{
+  const vpServoCommand command = law.step(measurement, dt);
+  if (auto *python = dynamic_cast<PythonLaw *>(&law)) {
+    python->raise();
+  }
+  return command;
+}
+
+struct Gains : vpServoLaw { // gives a Python law its gains
+  static const vpServoGains &of(const vpServoLaw &law) { return law.*(&Gains::m_gains); }
+};
+
+void bindLaw(py::module_ &m)
+{
+  using Law = vpServoLaw;
+  bindStruct<vpServoGains>(m).def("validate", &vpServoGains::validate, doc("vpServoGains::validate"));
+  py::class_<Law, PythonLaw>(
+      m, "ServoLaw",
+      "A servo law: measurement and goal in, camera twist out. ServoLaw.create() makes one of ids(). A law of\n"
+      "your own derives from it and has a method compute(measurement, dt) that returns a twist or a\n"
+      "ServoCommand; the measurement is valid, finite and has the goal's number of points. It may have\n"
+      "goalChanged() and stateReset(), called by setGoal() and reset().")
+      .def(py::init<const std::string &, const vpServoGains &>(), py::arg("id"), py::arg("gains") = vpServoGains(),
+           "For a law of your own. id: its name. gains: validated here.")
+      .def_static("create", &Law::create, py::arg("id"), py::arg("gains") = vpServoGains(), doc("vpServoLaw::create"))
+      .def_static("ids", &Law::ids, doc("vpServoLaw::ids"))
+      .def("setGoal", &Law::setGoal, py::arg("goal"), doc("vpServoLaw::setGoal"))
+      .def("reset", &Law::reset, doc("vpServoLaw::reset"))
+      .def("id", &Law::id, doc("vpServoLaw::id"))
+      .def("goal", &Law::goal, py::return_value_policy::copy, doc("vpServoLaw::goal"))
+      .def("gains", &Gains::of, py::return_value_policy::copy, "The gains of the law.")
+      .def("rotationGain", &Law::rotationGain, doc("vpServoLaw::rotationGain"))
+      .def("notifyInterrupted", &Law::notifyInterrupted, doc("vpServoLaw::notifyInterrupted"))
+      .def("step", &stepOf, py::arg("measurement"), py::arg("dt"), doc("vpServoLaw::step"));
+}
+
+void bindController(py::module_ &m)
+{
+  using Controller = vpServoController;
+  bindStruct<vpServoMotionLimits>(m).def("validate", &vpServoMotionLimits::validate,
+                                         doc("vpServoMotionLimits::validate"));
+  bindStruct<vpViewConstraintSpec>(m)
+      .def_static("fromCamera", &vpViewConstraintSpec::fromCamera, py::arg("camera"), py::arg("width"),
+                  py::arg("height"), doc("vpViewConstraintSpec::fromCamera"))
+      .def("validate", &vpViewConstraintSpec::validate, doc("vpViewConstraintSpec::validate"));
+  bindStruct<vpTargetLossSpec>(m).def("validate", &vpTargetLossSpec::validate, doc("vpTargetLossSpec::validate"));
+  bindStruct<vpServoControllerSpec>(m).def("validate", &vpServoControllerSpec::validate,
+                                           doc("vpServoControllerSpec::validate"));
+  bindClass<Controller>(m)
+      .def_static("create", &Controller::create, py::arg("id"), py::arg("spec") = vpServoControllerSpec(),
+                  doc("vpServoController::create"))
+      .def_static("ids", &Controller::ids, doc("vpServoController::ids"))
+      .def("setGoal", &Controller::setGoal, py::arg("goal"), doc("vpServoController::setGoal"))
+      .def("reset", &Controller::reset, doc("vpServoController::reset"))
+      .def("id", &Controller::id, doc("vpServoController::id"))
+      .def("spec", &Controller::spec, py::return_value_policy::copy, doc("vpServoController::spec"))
+      .def("step", &Controller::step, py::arg("measurement"), py::arg("dt"), doc("vpServoController::step"))
+      .def("referenceRotation", &Controller::referenceRotation, py::arg("measurement"), py::arg("command"),
+           doc("vpServoController::referenceRotation"));
+  bindClass<vpViewConstraintFilter>(m)
+      .def(py::init<const vpViewConstraintSpec &>(), py::arg("spec") = vpViewConstraintSpec(),
+           doc("vpViewConstraintFilter::vpViewConstraintFilter"))
+      .def("filter", &vpViewConstraintFilter::filter, py::arg("wanted"), py::arg("outline"), py::arg("dt"),
+           doc("vpViewConstraintFilter::filter"))
+      .def("margin", &vpViewConstraintFilter::margin, py::arg("Z"), py::arg("linear"), py::arg("angular"),
+           py::arg("period"), doc("vpViewConstraintFilter::margin"));
+  bindClass<vpTargetLossRecovery>(m)
+      .def(py::init<const vpTargetLossSpec &>(), py::arg("spec") = vpTargetLossSpec(),
+           doc("vpTargetLossRecovery::vpTargetLossRecovery"))
+      .def("reset", &vpTargetLossRecovery::reset, doc("vpTargetLossRecovery::reset"))
+      .def("step", &vpTargetLossRecovery::step, py::arg("command"), py::arg("dt"), doc("vpTargetLossRecovery::step"));
+}
+
+void bindOdometry(py::module_ &m)
+{
+  bindClass<vpOdometryBridge>(m)
+      .def(py::init<double, double>(), py::arg("maxAge") = 1., py::arg("rate") = 1000.,
+           doc("vpOdometryBridge::vpOdometryBridge"))
+      .def("move", &vpOdometryBridge::move, py::arg("twist"), py::arg("time"), doc("vpOdometryBridge::move"))
+      .def("correct", &vpOdometryBridge::correct, py::arg("result"), doc("vpOdometryBridge::correct"))
+      .def(
+          "predict",
+          [](const vpOdometryBridge &self) {
+            vpServoMeasurement now;
+            self.predict(now);
+            return now;
+          },
+          doc("vpOdometryBridge::predict"))
+      .def("age", &vpOdometryBridge::age, doc("vpOdometryBridge::age"));
+}
+
+void bindTarget(py::module_ &m)
+{
+  using Target = vpServoTarget;
+  using Points = std::vector<Eigen::Vector3d>;
+  const auto measured = [](const Target &self, const auto &seen, double time) {
+    vpServoMeasurement result;
+    self.measure(seen, time, result);
+    return result;
+  };
+  bindClass<Target>(m)
+      .def(py::init<Points, Points>(), py::arg("points"), py::arg("outline") = Points(),
+           doc("vpServoTarget::vpServoTarget"))
+      .def_static("rectangle", &Target::rectangle, py::arg("width"), py::arg("height"), doc("vpServoTarget::rectangle"))
+      .def("goal", &Target::goal, py::arg("cdMo"), doc("vpServoTarget::goal"))
+      .def(
+          "measure",
+          [measured](const Target &self, const vpPlanarTargetResult &seen, double time) {
+            return measured(self, seen, time);
+          },
+          py::arg("seen"), py::arg("time") = 0., "Measurement from a target found in an image, with its covariance.")
+      .def(
+          "measure",
+          [measured](const Target &self, const vpHomogeneousMatrix &cMo, double time) {
+            return measured(self, cMo, time);
+          },
+          py::arg("cMo"), py::arg("time") = 0., doc("vpServoTarget::measure"))
+      .def("points", &Target::points, py::return_value_policy::copy, doc("vpServoTarget::points"))
+      .def("outline", &Target::outline, py::return_value_policy::copy, doc("vpServoTarget::outline"));
+}
+} // namespace
+
+void bindServo(py::module_ &m)
+{
+  bindEnum<vpServoStatus>(m);
+  bindStruct<vpServoPoint>(m);
+  bindStruct<vpServoGoal>(m).def("mean", &vpServoGoal::mean, doc("vpServoGoal::mean"));
+  bindStruct<vpServoMeasurement>(m);
+  bindStruct<vpServoCommand>(m).def(
+      "message", [](const vpServoCommand &command) { return vpMessage(command.status); }, doc("vpMessage"));
+  m.def(
+      "isWorking", [](vpServoStatus status) { return vpIsWorking(status); }, py::arg("status"), doc("vpIsWorking"));
+  bindLaw(m);
+  bindController(m);
+  bindOdometry(m);
+  bindTarget(m);
+}
+} // namespace visp_python

@@ -1,0 +1,234 @@
+# visp-direct: direct methods for vision-based robot control, for ViSP.
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Scenes, certificates, planners and the servo of an arm; distances by brute force over points of the arm's capsules."""
+import copy
+import threading
+import time
+
+import numpy as np
+import pytest
+import visp_direct as vd
+from conftest import DATA, longer, pose
+from test_servo import plate
+
+PILLAR = str(DATA / "scene/s4a-pillar.json")
+
+
+def scene_of(arm, **fields):
+    return vd.CollisionScene(arm, vd.CollisionSceneSpec(**fields))
+
+
+def distance_by_points(scene, q, centre, radius):
+    """Least distance of the arm's moving capsules from a sphere, by 100 points on each axis."""
+    ends = scene.capsuleEnds(q).reshape(-1, 2, 3)
+    s = np.linspace(0, 1, 100)[:, None]
+    moving = [(e, c) for e, c in zip(ends, scene.arm().spec().capsules) if c.link > 0]
+    return min(np.linalg.norm(e[0] + s * (e[1] - e[0]) - centre, axis=1).min() - c.radius for e, c in moving) - radius
+
+
+def test_clearance_of_a_sphere(arm, random):
+    for _ in range(longer(30)):
+        centre, radius = random.uniform(-0.8, 0.8, 3), random.uniform(0.05, 0.2)
+        scene = scene_of(arm, objects=[vd.CollisionObject(name="ball", shape=vd.CollisionShape.sphere(radius), pose=pose(centre))])
+        q = random.uniform(np.maximum(arm.lower(), -3), np.minimum(arm.upper(), 3))
+        pairs = [p for p in scene.near(q, 10) if p.kind == vd.CollisionKind.Object]
+        least = min(p.distance for p in pairs)
+        assert least == pytest.approx(distance_by_points(scene, q, centre, radius), abs=2e-3)
+        nearest = scene.clearance(q)
+        assert nearest.distance <= least + 1e-12 and scene.describe(nearest)
+        assert scene.inCollision(q, nearest.distance + 1e-9) and not scene.inCollision(q, nearest.distance - 1e-9)
+
+
+def test_objects_come_move_and_go(arm):
+    scene = scene_of(arm, ground=vd.HalfSpace(firstLink=3))
+    other = copy.copy(scene)
+    box = vd.CollisionObject(name="box", shape=vd.CollisionShape.box([0.1, 0.2, 0.3]), velocity=[1, 0, 0, 0, 0, 0])
+    np.testing.assert_allclose(box.poseAt(2)[:3, 3], [2, 0, 0])
+    assert scene.add(box) == 0 and scene.find("box") == 0 and scene.objectCount() == 1 and other.objectCount() == 0
+    assert scene.moveObject(0, pose([1, 0, 0])) and scene.setInflation(0, 0.01)
+    assert scene.setVelocity(0, [0, 0, 0.5, 0, 0, 0]) and scene.advance(2)
+    np.testing.assert_allclose(scene.object(0).pose[:3, 3], [1, 0, 1])
+    assert scene.object(0).inflation == 0.01 and scene.capsuleCount() == len(arm.spec().capsules)
+    assert len(scene.selfPairs()) > 0 and scene.ground().firstLink == 3 and scene.arm().size() == arm.size()
+    scene.remove(0)
+    assert scene.objectCount() == 0 and not scene.setInflation(0, 0.1)
+    for call, sentence in ((lambda: scene.remove(3), "3"), (lambda: scene.add(vd.CollisionObject(name="")), "name"),
+                           (lambda: scene.inCollision([0, 0]), "q has 2 numbers, the arm has 7 joints")):
+        with pytest.raises(ValueError, match=sentence):
+            call()
+    with pytest.raises(IndexError, match="object 5 does not exist, there are 0"):
+        scene.object(5)
+    assert scene.inCollision(np.full(7, np.nan)) and scene.clearance(np.full(7, np.nan)).kind == vd.CollisionKind.Unknown
+    assert len(scene.capsuleEnds(np.full(7, np.nan))) == 0
+    with pytest.raises(IndexError):
+        scene.describe(vd.Clearance(kind=vd.CollisionKind.Object, capsule=0, other=99))
+
+
+def test_shapes_and_meshes(tmp_path):
+    Shape = vd.CollisionShape
+    shapes = [Shape.sphere(0.1), Shape.capsule(0.1, 0.2), Shape.box([1, 2, 3]), Shape.cylinder(0.1, 0.2)]
+    assert [s.type() for s in shapes] == [vd.ShapeType.Sphere, vd.ShapeType.Capsule, vd.ShapeType.Box, vd.ShapeType.Cylinder]
+    assert shapes[1].radius() == 0.1 and shapes[1].length() == 0.2 and (shapes[2].size() == [1, 2, 3]).all()
+    assert shapes[0].triangles() is None
+    vertices = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], float)
+    mesh = vd.TriangleMesh(vertices, [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]], "corner")
+    assert mesh.isWatertight() and mesh.message() == "" and mesh.label() == "corner"
+    np.testing.assert_array_equal(np.sort(mesh.vertices(), axis=0), np.sort(vertices, axis=0))
+    assert mesh.triangles().shape == (4, 3) and Shape.mesh(mesh).triangles().label() == "corner"
+    assert len(vd.TriangleMesh.load(str(DATA / "scene/bracket.obj")).triangles()) > 4
+    for call, sentence in ((lambda: Shape.sphere(-1), "radius"), (lambda: Shape.mesh(vd.TriangleMesh(vertices, [[0, 1, 2]])), "holes"),
+                           (lambda: vd.TriangleMesh(vertices, [[0, 1, 9]]), "9"), (lambda: Shape.box([1, 2]), "must be 3 numbers")):
+        with pytest.raises(ValueError, match=sentence):
+            call()
+
+
+def test_certificate_is_a_proof(arm, random):
+    loaded = vd.loadCollisionScene(PILLAR)
+    scene = vd.CollisionScene(arm, loaded.spec)
+    motion = vd.CertifiedMotion(scene, vd.CertifiedMotionSpec(margin=0.01))
+    assert motion.spec().margin == 0.01
+    free = 0
+    for _ in range(longer(100)):
+        start, end = (random.uniform(np.maximum(arm.lower(), -3), np.minimum(arm.upper(), 3)) for _ in range(2))
+        end = start + 0.3 * (end - start)
+        result = motion.check(start, end)
+        sampled = [scene.inCollision(start + s * (end - start), 0.01) for s in np.linspace(0, 1, 200)]
+        assert not (result.isFree() and any(sampled)), result.message()
+        free += result.isFree()
+        if result.status == vd.MotionStatus.Collision:
+            assert scene.inCollision(start + result.s * (end - start), 0.01)
+    assert 5 < free < longer(100)
+    assert motion.check([0.0], [1.0]).status == vd.MotionStatus.BadInput
+
+
+def test_planner_and_timed_path(arm):
+    loaded = vd.loadCollisionScene(PILLAR)
+    scene, task = vd.CollisionScene(arm, loaded.spec), loaded.tasks[0]
+    spec = vd.PathPlannerSpec(timeLimit=20, margin=0.01)
+    spec.validate()
+    planner = vd.PathPlanner(scene, spec)
+    planner.setSeed(3)
+    planner.setTimeLimit(20)
+    result = planner.plan(task.start, task.goal)
+    assert result.status == vd.PathStatus.Solved and planner.spec().margin == 0.01, result.message
+    points = result.path.points
+    assert result.path.length() == pytest.approx(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
+    np.testing.assert_allclose(result.path.at(1), task.goal)
+    for s in np.linspace(0, 1, 200):
+        assert not scene.inCollision(result.path.at(s), 0.01)
+    timed = vd.TimedPath(scene, result.path, vd.TimedPathSpec(margin=0.005))
+    assert timed.isFree(), timed.message(scene)
+    assert timed.clearance().isFree() and timed.duration() > 0
+    np.testing.assert_allclose([timed.at(j, timed.duration())[0] for j in range(7)], task.goal, atol=1e-9)
+    certificate = vd.CertifiedTrajectory(scene, vd.CertifiedMotionSpec(margin=0.005))
+    for _, plan in timed.parts():
+        assert certificate.check(plan).isFree() and certificate.check(plan, 0, plan.duration() / 2).isFree()
+    certificate.setMargin(0.5)
+    assert not certificate.check(timed.parts()[0][1]).isFree()
+    assert "RRTConnect" in vd.PathPlanner.names()
+    with pytest.raises(ValueError, match="the path is empty"):
+        vd.JointPath().at(0.5)
+    with pytest.raises(ValueError, match="RRTConnect"):
+        vd.PathPlanner(scene, vd.PathPlannerSpec(planner="none"))
+    assert planner.plan([0.0], [1.0]).status == vd.PathStatus.BadInput
+
+
+def test_planning_does_not_hold_the_interpreter(arm):
+    loaded = vd.loadCollisionScene(PILLAR)
+    scene, task = vd.CollisionScene(arm, loaded.spec), loaded.tasks[0]
+    planner = vd.PathPlanner(scene, vd.PathPlannerSpec(planner="RRTstar", stopAtFirst=False, timeLimit=1))
+    thread = threading.Thread(target=lambda: planner.plan(task.start, task.goal))
+    thread.start()
+    turns = 0
+    while thread.is_alive():
+        time.sleep(0.01)
+        turns += 1
+    assert turns > 10
+
+
+def test_goal_configuration(arm):
+    scene = scene_of(arm)
+    wanted = vd.ArmKinematics(arm, arm.home()).tool[:3, 3] + [0, 0, -0.05]
+    goal = vd.findGoalConfiguration(scene, arm.home(), wanted, attempts=50)
+    assert goal.isFree()
+    np.testing.assert_allclose(vd.ArmKinematics(arm, goal.q).tool[:3, 3], wanted, atol=1e-3)
+    assert vd.findGoalConfiguration(scene, arm.home(), [9, 9, 9], attempts=1).status == vd.GoalConfigurationStatus.Unreachable
+
+
+def test_avoidance_methods_arrive(arm):
+    scene = scene_of(arm)
+    goal = vd.AvoidanceGoal.at(arm, np.clip(arm.home() + 0.3, arm.lower() + 0.1, arm.upper() - 0.1))
+    assert goal.fits(arm)
+    for name in ("dtg", "planner"):
+        if name not in vd.avoidanceMethodNames():
+            name = vd.avoidanceMethodNames()[-1]
+        spec = vd.AvoidanceMethodSpec(period=0.01)
+        spec.validate()
+        method = vd.makeAvoidanceMethod(name, scene, spec)
+        q = arm.home()
+        method.start(q, goal)
+        method.setGoal(goal)
+        for k in range(3000):
+            if k % 10 == 0:
+                method.look()
+            output = method.step(q)
+            q = q + 0.01 * output.velocity
+            if not vd.isWorking(output):
+                break
+        assert output.status == vd.AvoidanceStatus.Arrived, (name, output.message())
+        np.testing.assert_allclose(vd.ArmKinematics(arm, q).tool[:3, 3], goal.position, atol=2e-3)
+    with pytest.raises(ValueError, match="none"):
+        vd.makeAvoidanceMethod("none", scene)
+
+
+def test_supervisor_stops_before_an_obstacle(arm, random):
+    q, stopped = vd.loadCollisionScene(PILLAR).tasks[0].start, False
+    reach = vd.ArmKinematics(arm, q).tool[:3, 3]
+    wall = vd.CollisionObject(name="wall", shape=vd.CollisionShape.box([4, 0.02, 4]), pose=pose([0, reach[1] + 0.3, 0]))
+    scene = scene_of(arm, objects=[wall])
+    assert not scene.inCollision(q, 0.05)
+    spec = vd.StopSupervisorSpec(period=0.01, margin=0.02)
+    spec.validate()
+    supervisor = vd.StopSupervisor(scene, spec)
+    supervisor.reset()
+    for _ in range(600):
+        now = vd.ArmKinematics(arm, q)
+        wish = np.linalg.pinv(now.geometric()[:3], rcond=0.05) @ [0, 0.3, 0]
+        output = supervisor.step(q, wish)
+        stopped |= output.status in (vd.Supervision.Slowed, vd.Supervision.Stopping, vd.Supervision.Standing)
+        q = q + 0.01 * output.velocity
+        assert not scene.inCollision(q, 0.02 - 1e-6), output.message()
+    assert stopped
+
+
+def test_arm_servo_arrives(arm):
+    spec = vd.ArmServoSpec(redundancy=vd.RedundancySpec(period=0.01))
+    spec.validate(arm)
+    servo = vd.ArmServo(arm, "ff-lookat-pi", vd.ServoControllerSpec(), spec)
+    q = np.clip(arm.home(), arm.lower() + 0.2, arm.upper() - 0.2)
+    fMo = vd.ArmKinematics(arm, q).camera @ pose([0, 0, 0.4])
+    cdMo = pose([0, 0, 0.38], [0, 0, 0.1])
+    servo.setGoal(plate().goal(cdMo))
+    servo.supervise(scene_of(arm))
+    for k in range(1500):
+        t = 0.01 * k
+        if k % 3 == 0 and k > 0:  # a camera of 33 Hz whose results are late by one period
+            servo.see(plate().measure(late, t - 0.01))
+        output = servo.step(q, t)
+        late = np.linalg.inv(vd.ArmKinematics(arm, q).camera) @ fMo
+        q = q + 0.01 * output.velocity
+    assert output.servo == vd.ServoStatus.Servoing and output.age < 0.05
+    np.testing.assert_allclose(late, cdMo, atol=2e-3)
+    with pytest.raises(ValueError, match="maxAge"):
+        vd.ArmServoSpec(maxAge=-1).validate(arm)
+
+
+def test_covers_and_exact_shapes():
+    arm = vd.loadArmUrdf(str(DATA / "robot/generic-6r.urdf"), vd.ArmUrdfSpec(tip="tool", acceleration=5.))
+    cover = vd.coverArm(arm, vd.ArmCoverSpec(capsules=2))
+    assert len(cover.arm.spec().capsules) >= len(arm.spec().capsules) and isinstance(cover.warnings, tuple)
+    shapes = vd.ExactShapes(cover.arm)
+    assert isinstance(shapes.has(0), bool) and isinstance(shapes.warnings(), list)
+    spec = vd.CollisionSceneSpec(exact=shapes)
+    del shapes
+    assert spec.exact is not None and vd.CollisionScene(cover.arm, spec).capsuleCount() > 0

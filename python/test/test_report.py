@@ -1,0 +1,227 @@
+# visp-direct: direct methods for vision-based robot control, for ViSP.
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Reports: numbers, schema, meshes, plots, and the pages of the programs, opened by a browser."""
+import json
+import os
+import pathlib
+import re
+import shutil
+import struct
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from conftest import DATA, longer
+from visp_direct.report.data import SCHEMA, DataError, Result, check, read_results
+from visp_direct.report.page import Page, number
+from visp_direct.report.plots import COLUMN, STYLE, WIDTH, Figure, legend_above, logarithmic_if_flat
+from visp_direct.report.view3d import clustered, read_stl
+
+BIN = pathlib.Path(os.environ.get("VISP_DIRECT_BIN", "."))
+OUT = pathlib.Path(os.environ.get("VISP_DIRECT_TEST_OUT", "."))
+CHROMIUM = shutil.which("chromium")
+
+
+def value_of(text):
+    digits = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹−", "-0123456789-")
+    mantissa, _, power = text.partition("·10")
+    return float(mantissa.translate(digits)) * 10.0 ** int(power.translate(digits) or 0)
+
+
+def test_numbers_have_three_digits_and_no_e(random):
+    for _ in range(longer(2000)):
+        x = random.choice([-1, 1]) * 10.0 ** random.uniform(-12, 12)
+        text = number(float(x))
+        assert "e" not in text and value_of(text) == pytest.approx(x, rel=5.1e-3), text
+        assert len(re.sub(r"·10.*|[−.]", "", text).strip("0")) <= 3, text
+    assert [number(x) for x in (0, 24300.0, 0.00123, 999.9, float("nan"), float("-inf"), None)] == \
+        ["0", "24300", "0.00123", "1000", "–", "−∞", "–"]
+
+
+def damaged(value, random):
+    """The value with one field removed, renamed, or of another kind; None when nothing in it is required."""
+    if isinstance(value, dict) and value:
+        key = list(value)[random.integers(len(value))]
+        inner = damaged(value[key], random) if isinstance(value[key], (dict, list)) and random.random() < 0.7 else None
+        if inner is not None:
+            return {**value, key: inner}
+        return {**{k: v for k, v in value.items() if k != key}, key + "x": value[key]}
+    if isinstance(value, list) and value:
+        i = random.integers(len(value))
+        inner = damaged(value[i], random)
+        return None if inner is None else [*value[:i], inner, *value[i + 1:]]
+    return None
+
+
+def run(program, *arguments, **environment):
+    """Runs a program in OUT; its result folder."""
+    if not (BIN / program).is_file():
+        pytest.skip(f"{program} is not built")
+    folder = OUT / f"{program}-{abs(hash(arguments)) % 1000}"
+    shutil.rmtree(folder, ignore_errors=True)
+    done = subprocess.run([BIN / program, *arguments, "--out", folder], capture_output=True, text=True, env={**os.environ, **environment})
+    assert done.returncode == 0, done.stderr
+    return folder, done.stderr
+
+
+PROGRAMS = [("visp-plan-trajectory", str(DATA / "trajectory/examples.jsonl")), ("visp-plan-trajectory", str(DATA / "trajectory/figure-6.3.jsonl")),
+            ("visp-arm", "amor"), ("visp-arm", str(DATA / "robot/generic-6r.urdf"), "--robot-tip", "tool", "--acceleration-limits", "5,5,5,5,5,5")]
+
+
+@pytest.mark.parametrize("call", PROGRAMS, ids=lambda call: f"{call[0]}-{pathlib.Path(call[1]).stem}")
+def test_data_is_as_the_schema_says(call, random):
+    folder, _ = run(*call)
+    result = Result(folder)
+    for name in result.schema:
+        if name.endswith(".json") and name != "summary.json":
+            value = result.json(name)
+            for _ in range(longer(50)):
+                bad = damaged(value, random)
+                if bad is not None:
+                    with pytest.raises(DataError, match=re.escape(name)):
+                        check(bad, SCHEMA[call[0]][name], name)
+
+
+@pytest.mark.parametrize("call", PROGRAMS, ids=lambda call: f"{call[0]}-{pathlib.Path(call[1]).stem}")
+@pytest.mark.parametrize("width", [1200, 390])
+def test_report_opens_without_an_error(call, width):
+    """No message in the console; the 3D canvas has a picture that a slider changes; nothing is wider than the window."""
+    if CHROMIUM is None:
+        pytest.skip("chromium is missing")
+    folder, said = run(*call)
+    assert said.count("\n") <= 1 and "without a report" not in said
+    page = (folder / "report.html").read_text()
+    assert len(page) < 6e6 and "http" not in re.sub(r"http://www.w3.org/\S+|<script>.*?</script>", "", page, flags=re.S)
+    probe = """<pre id="verdict"></pre><script>
+window.addEventListener("load", () => setTimeout(() => {
+  const seen = (canvas) => {
+    const small = Object.assign(document.createElement("canvas"), {width: 80, height: 60}), c = small.getContext("2d");
+    c.drawImage(canvas, 0, 0, 80, 60);
+    return [...c.getImageData(0, 0, 80, 60).data];
+  };
+  const views = [...document.querySelectorAll(".view")].map((view) => {
+    const canvas = view.querySelector("canvas"), before = seen(canvas), slider = view.querySelector("input[type=range]");
+    slider.value = Number(slider.min) + 0.8 * (slider.max - slider.min);
+    slider.dispatchEvent(new Event("input"));
+    const after = seen(canvas);
+    return {colours: new Set(before.map((v, i) => i % 4 ? 0 : before.slice(i, i + 3).join())).size,
+            moved: before.filter((v, i) => Math.abs(v - after[i]) > 8).length};
+  });
+  const table = document.querySelector("table.sorts"), rows = () => [...table.tBodies[0].rows].map((r) => r.cells[1].textContent);
+  const unsorted = rows();
+  table.querySelectorAll("th")[1].click();
+  document.getElementById("verdict").textContent = JSON.stringify({views, sorted: rows(), unsorted,
+    wide: document.documentElement.scrollWidth - window.innerWidth, figures: document.querySelectorAll("figure.plot svg").length});
+}, 500));</script></body>"""
+    probed = folder / "probe.html"
+    probed.write_text(page.replace("</body>", probe))
+    browser = [CHROMIUM, "--headless", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+               "--enable-logging=stderr", "--hide-scrollbars", f"--window-size={width},1600", "--virtual-time-budget=20000"]
+    dumped = subprocess.run([*browser, "--dump-dom", probed.as_uri()], capture_output=True, text=True, timeout=300)
+    assert "CONSOLE" not in dumped.stderr, re.findall(r".*CONSOLE.*", dumped.stderr)
+    verdict = json.loads(re.search(r'<pre id="verdict">(.*?)</pre>', dumped.stdout, re.S).group(1).replace("&gt;", ">").replace("&lt;", "<"))
+    assert verdict["wide"] <= 0 and len(verdict["sorted"]) == len(verdict["unsorted"]) and sorted(verdict["sorted"]) == sorted(verdict["unsorted"])
+    if call[0] == "visp-arm":
+        assert verdict["views"] and all(view["colours"] > 20 and view["moved"] > 20 for view in verdict["views"]), verdict
+    else:
+        values = [value_of(text) for text in verdict["sorted"]]
+        assert values == sorted(values) and verdict["figures"] >= 1
+    subprocess.run([*browser, f"--screenshot={folder / f'report-{width}.png'}", (folder / "report.html").as_uri()], capture_output=True, timeout=300)
+    assert (folder / f"report-{width}.png").stat().st_size > 10000
+    probed.unlink()
+
+
+def test_without_python_the_data_stays():
+    folder, said = run("visp-plan-trajectory", str(DATA / "trajectory/figure-6.3.jsonl"), VISP_DIRECT_PYTHON="/nowhere/python3")
+    assert re.search(r"The data is in .*, without a report, which needs Python: /nowhere/python3 was not found; make it later by: "
+                     r"python3 -m visp_direct.report ", said), said
+    assert (folder / "motions.json").is_file() and not (folder / "report.html").exists()
+    made = subprocess.run([sys.executable, "-m", "visp_direct.report", folder, "--paper"], capture_output=True, text=True)
+    assert made.returncode == 0 and (folder / "report.html").is_file(), made.stderr
+    assert [file.read_bytes()[:5] for file in (folder / "paper").iterdir()] == [b"%PDF-"]
+
+
+def test_results_side_by_side(tmp_path):
+    first, _ = run("visp-plan-trajectory", str(DATA / "trajectory/examples.jsonl"))
+    second, _ = run("visp-plan-trajectory", str(DATA / "trajectory/figure-6.3.jsonl"))
+    made = subprocess.run([sys.executable, "-m", "visp_direct.report", first, second], capture_output=True, text=True)
+    assert made.returncode == 0, made.stderr
+    page = (first / "report.html").read_text()
+    assert first.name in page and second.name in page
+    (tmp_path / "summary.json").write_text('{"program": "visp-arm", "command": "", "robot": "", "problems": []}')
+    with pytest.raises(DataError, match="is a result of visp-arm"):
+        read_results([first, tmp_path])
+    (tmp_path / "summary.json").write_text("{")
+    made = subprocess.run([sys.executable, "-m", "visp_direct.report", tmp_path], capture_output=True, text=True)
+    assert made.returncode == 1 and "summary.json: is not valid JSON" in made.stderr and made.stderr.count("\n") == 1
+
+
+def test_meshes_keep_their_shape(random):
+    for _ in range(longer(5)):
+        angle = random.uniform(0, 2 * np.pi, (4000, 2))
+        ring = np.stack([(1 + 0.3 * np.cos(angle[:, 1])) * np.cos(angle[:, 0]), (1 + 0.3 * np.cos(angle[:, 1])) * np.sin(angle[:, 0]),
+                         0.3 * np.sin(angle[:, 1])], axis=1)
+        triangles = random.integers(0, 4000, (9000, 3))
+        vertices, fewer = clustered(ring, triangles, 2000)
+        assert 0 < len(fewer) <= 2000 and fewer.max() < len(vertices)
+        assert np.abs(np.ptp(vertices, axis=0) - np.ptp(ring, axis=0)).max() < 0.5
+        same, kept = clustered(ring, triangles[:1000], 2000)
+        assert len(kept) == 1000 and len(same) == 4000
+    corners = random.uniform(-1, 1, (3, 3)).astype("<f4")
+    data = b" " * 80 + struct.pack("<I", 2) + 2 * (struct.pack("<3f", 0, 0, 0) + corners.tobytes() + b"\0\0")
+    vertices, triangles = read_stl(data)
+    assert len(vertices) == 3 and (np.sort(triangles) == [0, 1, 2]).all()
+    np.testing.assert_array_equal(vertices[triangles[0]], corners)
+    for bad in (b"", data[:-1], b"solid x" + data):
+        with pytest.raises(ValueError, match="no binary STL"):
+            read_stl(bad)
+
+
+def test_legend_is_clear_of_the_curves():
+    import matplotlib
+    from matplotlib import pyplot
+    with matplotlib.rc_context(STYLE):
+        for width in (WIDTH, COLUMN):
+            figure, axes = pyplot.subplots(figsize=(width, 2))
+            for i in range(6):
+                axes.plot([0, 1], [i, 5 - i], label=f"curve {i}")
+            legend_above(axes)
+            figure.canvas.draw()
+            assert axes.get_legend().get_window_extent().y0 >= axes.get_window_extent().y1
+            pyplot.close(figure)
+        axes = pyplot.subplots()[1]
+        logarithmic_if_flat(axes, [1, 2, 1000, 1])
+        assert axes.get_yscale() == "symlog"
+        axes = pyplot.subplots()[1]
+        logarithmic_if_flat(axes, [1, 2, 10, 1])
+        assert axes.get_yscale() == "linear"
+        pyplot.close("all")
+
+
+def test_text_of_a_page_is_escaped():
+    page = Page("<script>alert(1)</script>", "a & b")
+    page.answers("</p><script>")
+    page.section("<b>")
+    page.paragraph("<i>x</i>")
+    page.table(["<h>"], [["<td>"]])
+    page.facts([("<n>", "<v>")])
+    page.figure(Figure(lambda axes: axes[0].plot([0, 1], [0, 1], label="<l>")), "f", '"><script>', "<c>")
+    html = page.html()
+    assert "<script>alert" not in html and "</p><script>" not in html and "<i>x" not in html and '"><script>' not in html
+    assert page.html().count("<svg") == 1
+
+
+def test_show_makes_a_page(tmp_path):
+    vd = pytest.importorskip("visp_direct")
+    if not hasattr(vd, "show"):
+        pytest.skip("the compiled part is missing")
+    arm = vd.loadArmJson(str(DATA / "robot/amor.json"))
+    loaded = vd.loadCollisionScene(str(DATA / "scene/s4a-pillar.json"))
+    scene, task = vd.CollisionScene(arm, loaded.spec), loaded.tasks[0]
+    file = vd.show(arm, scene, np.array([task.start, task.goal]), tmp_path / "arm.html")
+    page = file.read_text()
+    assert "vispView" in page and '"kind": "cylinder"' in page and "capsule" in page
+    assert vd.show(arm, file=tmp_path / "home.html").is_file()
+    with pytest.raises(ValueError, match=r"a path of shape \(2, 3\) was given, must be n x 7"):
+        vd.show(arm, scene, np.zeros((2, 3)), tmp_path / "bad.html")

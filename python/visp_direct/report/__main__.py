@@ -1,0 +1,38 @@
+# visp-direct: direct methods for vision-based robot control, for ViSP.
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""python3 -m visp_direct.report OUT [OUT2...] [--paper]"""
+import argparse
+import importlib
+import pathlib
+import sys
+
+from . import __doc__ as about
+from .data import DataError, read_results
+
+PROGRAMS = {"visp-plan-trajectory": "plan_trajectory", "visp-arm": "arm", "visp-print-pattern": "print_pattern"}
+
+
+def main(arguments):
+    parser = argparse.ArgumentParser(prog="python3 -m visp_direct.report", description=about.split("\n\n")[1])
+    parser.add_argument("folders", metavar="OUT", nargs="+", type=pathlib.Path, help="result folder of a program")
+    parser.add_argument("--paper", action="store_true", help="write each figure as PDF into OUT/paper, too")
+    options = parser.parse_args(arguments)
+    results = read_results(options.folders)
+    if results[0].program not in PROGRAMS:
+        raise DataError(f"{options.folders[0]}: is a result of {results[0].program}, which makes its report itself")
+    page = importlib.import_module(f"visp_direct.report.{PROGRAMS[results[0].program]}").page(results)
+    file = options.folders[0] / "report.html"
+    file.write_text(page.html(), encoding="utf-8")
+    if options.paper:
+        page.write_paper(options.folders[0] / "paper")
+    print(file)
+
+
+if __name__ == "__main__":
+    try:
+        main(sys.argv[1:])
+    except (DataError, OSError) as error:
+        sys.exit(f"visp_direct.report: {error}")
+    except ImportError as error:
+        sys.exit(f"visp_direct.report: {error}; Debian has jinja2, matplotlib and numpy as python3-jinja2, python3-matplotlib and "
+                 "python3-numpy")

@@ -1,0 +1,279 @@
+// visp-direct: direct methods for vision-based robot control, for ViSP.
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A 3D view by three.js: arms with their shapes and covers, obstacles, the ground, paths of tools; a slider for time, or for each
+// joint when nothing moves. view3d.py describes the scene. Poses are row-major 4 x 4, lengths m, z is up.
+"use strict";
+
+function vispMatrix(rows) { return new THREE.Matrix4().set(...rows.flat()); }
+
+function vispNumbers(text, Type) {
+  const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+  return new Type(bytes.buffer);
+}
+
+// A geometry for each kind of shape.
+const vispGeometries = {
+  sphere: (s) => new THREE.SphereBufferGeometry(s.radius, 32, 20),
+  box: (s) => new THREE.BoxBufferGeometry(...s.size),
+  cylinder: (s) => new THREE.CylinderBufferGeometry(s.radius, s.radius, s.length, 40).rotateX(Math.PI / 2),
+  mesh: (s) => {
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", new THREE.BufferAttribute(vispNumbers(s.vertices, Float32Array), 3));
+    geometry.setIndex(new THREE.BufferAttribute(vispNumbers(s.triangles, Uint32Array), 1));
+    geometry.computeVertexNormals();
+    return geometry;
+  },
+};
+
+function vispCapsule(s, material) {
+  const group = new THREE.Group(), from = new THREE.Vector3(...s.from), to = new THREE.Vector3(...s.to);
+  for (const end of [from, to]) {
+    const ball = new THREE.Mesh(new THREE.SphereBufferGeometry(s.radius, 24, 16), material);
+    ball.position.copy(end);
+    group.add(ball);
+  }
+  const axis = to.clone().sub(from);
+  if (axis.length() > 1e-9) {
+    const tube = new THREE.Mesh(new THREE.CylinderBufferGeometry(s.radius, s.radius, axis.length(), 32, 1, true), material);
+    tube.position.copy(from).add(to).multiplyScalar(0.5);
+    tube.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), axis.normalize());
+    group.add(tube);
+  }
+  return group;
+}
+
+function vispPart(s, material) {
+  if (s.kind === "capsule") {
+    return vispCapsule(s, material);
+  }
+  const part = new THREE.Mesh(vispGeometries[s.kind](s), material);
+  if (s.pose) {
+    part.applyMatrix(vispMatrix(s.pose));
+  }
+  return part;
+}
+
+// An arm: groups of its links, which place() moves by the kinematics of its joints.
+function vispArm(arm, colour, base) {
+  const root = new THREE.Group(), covers = [], links = [];
+  const palette = ["#d9dee3", "#a9c1d9", "#f2d0a4", "#b7d3b0"];
+  arm.links.forEach((link, i) => {
+    const group = new THREE.Group();
+    group.matrixAutoUpdate = false;
+    const solid = new THREE.MeshStandardMaterial({color: colour || palette[i % palette.length], roughness: 0.7, flatShading: true, side: THREE.DoubleSide});
+    const cover = new THREE.MeshStandardMaterial({color: "#3b6ea5", transparent: true, opacity: link.shapes.length ? 0.25 : 0.9,
+                                                  depthWrite: !link.shapes.length});
+    link.shapes.forEach((s) => group.add(vispPart(s, solid)));
+    link.capsules.forEach((s) => {
+      const part = vispPart(s, cover);
+      part.visible = !link.shapes.length;
+      if (link.shapes.length) {
+        covers.push(part);
+      }
+      group.add(part);
+    });
+    links.push(group);
+    root.add(group);
+  });
+  const start = base ? vispMatrix(base) : new THREE.Matrix4();
+  const joints = arm.joints.map((j) => ({...j, before: vispMatrix(j.before), after: vispMatrix(j.after)}));
+  const tool = vispMatrix(arm.tool);
+  const frames = (q) => { // base, links, then the tool
+    const list = [start];
+    joints.forEach((joint, i) => {
+      const value = q[i] + joint.offset;
+      const motion = joint.type === "prismatic" ? new THREE.Matrix4().makeTranslation(0, 0, value) : new THREE.Matrix4().makeRotationZ(value);
+      list.push(list[i].clone().multiply(joint.before).multiply(motion).multiply(joint.after));
+    });
+    list.push(list[joints.length].clone().multiply(tool));
+    return list;
+  };
+  const place = (q) => frames(q).slice(0, links.length).forEach((frame, i) => links[i].matrix.copy(frame));
+  const toolAt = (q) => new THREE.Vector3().setFromMatrixPosition(frames(q)[joints.length + 1]);
+  place(arm.home);
+  return {root, covers, place, toolAt};
+}
+
+function vispLabel(text, child) {
+  const label = document.createElement("label");
+  label.append(child, " " + text);
+  return label;
+}
+
+function vispInput(type, properties) { return Object.assign(document.createElement("input"), {type, ...properties}); }
+
+function vispView(figure, scene) {
+  const canvas = figure.querySelector("canvas"), controls = figure.querySelector(".controls");
+  let renderer;
+  try {
+    renderer = new THREE.WebGLRenderer({canvas, antialias: true, preserveDrawingBuffer: true});
+  } catch (error) {
+    canvas.replaceWith("This browser shows no 3D: WebGL is missing or switched off.");
+    return;
+  }
+  const world = new THREE.Scene(), camera = new THREE.PerspectiveCamera(40, 1.6, 0.01, 200);
+  world.background = new THREE.Color("#f7f9fb");
+  world.add(new THREE.HemisphereLight("#ffffff", "#b5c0cb", 1.5));
+  const sun = new THREE.DirectionalLight("#ffffff", 0.9);
+  sun.position.set(2, -3, 5);
+  world.add(sun);
+
+  const content = new THREE.Group();
+  const arms = scene.runs.length ? scene.runs.map((run) => vispArm(scene.arms[run.arm], scene.runs.length > 1 ? run.colour : null, run.base))
+                                 : scene.arms.map((arm) => vispArm(arm));
+  arms.forEach((arm) => content.add(arm.root));
+  const moving = [];
+  scene.objects.forEach((object) => {
+    const material = new THREE.MeshStandardMaterial({color: object.colour || "#c46a4a", transparent: true, opacity: 0.75, roughness: 0.9,
+                                                     side: THREE.DoubleSide, flatShading: object.kind === "mesh"});
+    const group = new THREE.Group();
+    group.matrixAutoUpdate = false;
+    group.add(vispPart({...object, pose: null}, material));
+    group.matrix.copy(vispMatrix(object.pose));
+    if (object.track) {
+      moving.push({group, track: object.track});
+    }
+    content.add(group);
+  });
+  world.add(content);
+  scene.runs.forEach((run, i) => {
+    const points = run.q.map((q) => arms[i].toolAt(q));
+    const line = new THREE.BufferGeometry().setFromPoints(points);
+    world.add(new THREE.Line(line, new THREE.LineBasicMaterial({color: run.colour})));
+  });
+
+  // What there is fills the picture, seen from the front, the right and above.
+  world.updateMatrixWorld(true);
+  const box = new THREE.Box3().setFromObject(content);
+  const centre = box.getCenter(new THREE.Vector3()), size = Math.max(0.2, box.getSize(new THREE.Vector3()).length());
+  const grid = new THREE.GridHelper(Math.max(1, Math.ceil(size)) * 2, Math.max(1, Math.ceil(size)) * 20, "#9aa7b4", "#dde3e9");
+  grid.rotateX(Math.PI / 2);
+  grid.position.z = scene.ground === null ? Math.min(0, box.min.z) : scene.ground;
+  world.add(grid);
+  world.add(new THREE.AxesHelper(0.12 * size));
+  camera.up.set(0, 0, 1);
+  camera.position.copy(centre).add(new THREE.Vector3(0.75, -0.95, 0.55).multiplyScalar(size));
+  const orbit = new THREE.OrbitControls(camera, canvas);
+  orbit.target.copy(centre);
+  orbit.enableKeys = false;
+  orbit.update();
+
+  const draw = () => renderer.render(world, camera);
+  const fit = () => {
+    const width = figure.clientWidth, height = Math.round(Math.min(560, Math.max(260, 0.62 * width)));
+    renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
+    renderer.setSize(width, height, false);
+    canvas.style.height = height + "px";
+    camera.aspect = width / height;
+    camera.updateProjectionMatrix();
+    draw();
+  };
+  orbit.addEventListener("change", draw);
+  window.addEventListener("resize", fit);
+
+  const setCovers = (shown) => {
+    arms.forEach((arm) => arm.covers.forEach((cover) => { cover.visible = shown; }));
+    draw();
+  };
+  const setJoints = (i, q) => {
+    arms[i].place(q);
+    draw();
+  };
+  const between = (times, t) => { // index and fraction
+    let k = 0;
+    while (k < times.length - 2 && times[k + 1] < t) {
+      ++k;
+    }
+    const span = times.length > 1 ? times[k + 1] - times[k] : 0;
+    return [k, span > 0 ? Math.min(1, Math.max(0, (t - times[k]) / span)) : 0];
+  };
+  const setTime = (t) => {
+    scene.runs.forEach((run, i) => {
+      const [k, s] = between(run.t, t), next = run.q[Math.min(k + 1, run.q.length - 1)];
+      arms[i].place(run.q[k].map((value, j) => value + s * (next[j] - value)));
+    });
+    moving.forEach(({group, track}) => {
+      const [k, s] = between(track.t, t);
+      group.matrix.copy(vispMatrix(track.pose[Math.min(track.pose.length - 1, Math.round(k + s))]));
+    });
+    draw();
+  };
+  if (arms.some((arm) => arm.covers.length)) {
+    const tick = vispInput("checkbox", {});
+    tick.addEventListener("change", () => setCovers(tick.checked));
+    controls.append(vispLabel("covers of the collision check", tick));
+  }
+  if (scene.runs.length) {
+    vispTimeControls(controls, scene, setTime);
+  } else if (scene.arms.length) {
+    vispJointControls(controls, scene.arms[0], (q) => setJoints(0, q));
+  }
+  fit();
+  figure.vispView = {setTime, setJoints, setCovers, renderer};
+}
+
+function vispTimeControls(controls, scene, setTime) {
+  const end = Math.max(...scene.runs.map((run) => run.t[run.t.length - 1]));
+  const slider = vispInput("range", {min: 0, max: end, step: end / 1000 || 1, value: 0});
+  slider.setAttribute("aria-label", "time");
+  const shown = document.createElement("span"), play = document.createElement("button");
+  const set = (t) => {
+    slider.value = t;
+    shown.textContent = Number(t).toFixed(2) + " s";
+    setTime(Number(t));
+  };
+  let before = null;
+  const tick = (now) => {
+    if (before === null) {
+      return;
+    }
+    set(Math.min(end, Number(slider.value) + (now - before) / 1000));
+    before = now;
+    if (Number(slider.value) < end) {
+      requestAnimationFrame(tick);
+    } else {
+      pause();
+    }
+  };
+  const pause = () => { before = null; play.textContent = "Play"; };
+  play.textContent = "Play";
+  play.addEventListener("click", () => {
+    if (before !== null) {
+      pause();
+      return;
+    }
+    set(Number(slider.value) >= end ? 0 : slider.value);
+    play.textContent = "Pause";
+    before = performance.now();
+    requestAnimationFrame(tick);
+  });
+  slider.addEventListener("input", () => { pause(); set(slider.value); });
+  controls.append(play, slider, shown);
+  if (scene.runs.length > 1) {
+    scene.runs.forEach((run) => {
+      const key = document.createElement("span");
+      key.className = "key";
+      key.style.background = run.colour;
+      controls.append(vispLabel(run.name, key));
+    });
+  }
+  set(0);
+}
+
+function vispJointControls(controls, arm, place) {
+  const q = [...arm.home], box = document.createElement("div");
+  box.className = "joints";
+  box.style.flex = "1 1 100%";
+  arm.joints.forEach((joint, i) => {
+    const range = joint.limits || (joint.type === "prismatic" ? [-1, 1] : [-Math.PI, Math.PI]);
+    const slider = vispInput("range", {min: range[0], max: range[1], step: (range[1] - range[0]) / 1000, value: q[i]});
+    const label = document.createElement("label"), name = document.createElement("span");
+    slider.setAttribute("aria-label", joint.name);
+    const tell = () => { name.textContent = joint.name + " " + q[i].toFixed(2); };
+    slider.addEventListener("input", () => { q[i] = Number(slider.value); tell(); place(q); });
+    tell();
+    label.append(name, slider);
+    box.append(label);
+  });
+  controls.append(box);
+}
