@@ -25,9 +25,6 @@ for ((i = 1; i <= $#; i++)); do
     --out=*) out=${!i#--out=} arguments=("$@") ;;
   esac
 done
-if [ "$program" = visp-plan-trajectory ]; then # reads problems and prints answers, without a result folder
-  arguments=("$@")
-fi
 
 install_packages "${packages[@]}"
 build_tree "$program"

@@ -7,6 +7,7 @@
 
 #include "appMain.h"
 #include "outputFolder.h"
+#include "report.h"
 
 #include <visp3/avoidance/vpCollisionSceneJson.h>
 #include <visp3/avoidance/vpExactShapes.h>
@@ -54,9 +55,9 @@ void writeFolder(vpApp::OutputFolder &out, const vpApp::Robot &robot, const nloh
                  const std::string &commandLine)
 {
   out.write("robot.json", json.dump(2) + "\n");
-  out.write("picture.svg", pictureOf(robot));
-  out.writeSummary({{"command", commandLine}, {"robot", robot.arm->label()}, {"problems", json.at("problems")}});
-  out.commit();
+  writeArm(out, robot);
+  vpApp::finishWithReport(out,
+                          {{"command", commandLine}, {"robot", robot.arm->label()}, {"problems", json.at("problems")}});
 }
 
 //! \throw vpException naming the file that cannot be written.

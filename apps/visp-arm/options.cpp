@@ -18,7 +18,7 @@ constexpr const char *EXAMPLES = R"(Examples:
   visp-arm
       AMOR, the arm of the thesis
   visp-arm my-arm.urdf --robot-tip tool0 --srdf my-arm.srdf --out out/my-arm
-      with a picture from two sides
+      with a report that shows the robot in 3D
   visp-arm my-arm.urdf --robot-tip tool0 --hold left_finger=0.02,right_finger=0.02 --json
       for another program; the fingers are promised to stay where they are
   visp-arm my-arm.urdf --robot-tip tool0 --fk 0,-1.57,1.57,0,0,0
@@ -39,7 +39,7 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   line.text("FILE", options.robot.robot, " ", "The robot: a .urdf or .json file, see data/robot/README.md, or amor");
   vpApp::addRobotOptions(line, options.robot, "");
   line.flag("--json", options.json, "Print JSON on standard output");
-  line.text("--out", options.out, "DIR", "Result folder for the same as JSON and a picture from two sides");
+  line.text("--out", options.out, "DIR", "Result folder for the same as JSON, and a report with the robot in 3D");
   numbers("--fk", options.fk, "Tell the pose of the tool in the base at this configuration, rad or m");
   line.text("--touches", options.touches, "FILE.json", "Tell what touches in this scene, with --at");
   numbers("--at", options.at, "Configuration for --touches, rad or m");

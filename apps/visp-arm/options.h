@@ -20,7 +20,7 @@ namespace armProgram
 struct Options {
   vpApp::RobotOptions robot;
   bool json = false;        //!< JSON instead of text on standard output.
-  std::string out;          //!< Folder for picture and JSON; empty: none.
+  std::string out;          //!< Folder for data and report; empty: none.
   std::vector<double> fk;   //!< Configuration whose pose is asked for, rad or m; empty: none.
   std::string touches;      //!< Scene whose contacts with the arm are asked for; empty: none.
   std::vector<double> at;   //!< Configuration for #touches.

@@ -17,11 +17,6 @@ namespace
 using Json = nlohmann::ordered_json;
 using Row = std::vector<std::string>;
 
-const char *nameOf(vpJointType type)
-{
-  return type == vpJointType::Revolute ? "revolute" : type == vpJointType::Continuous ? "continuous" : "prismatic";
-}
-
 std::string limitText(double value) { return std::isfinite(value) ? vpApp::number(value, 4) : "unknown"; }
 
 //! Columns aligned, two spaces between them.
@@ -237,8 +232,14 @@ Json jsonOf(const std::set<Names> &pairs)
   }
   return list;
 }
+} // namespace
 
-Json rowsOf(const vpRigidTransform &pose)
+const char *nameOf(vpJointType type)
+{
+  return type == vpJointType::Revolute ? "revolute" : type == vpJointType::Continuous ? "continuous" : "prismatic";
+}
+
+nlohmann::ordered_json rowsOf(const vpRigidTransform &pose)
 {
   Json rows = Json::array();
   for (int i = 0; i < 3; ++i) {
@@ -247,8 +248,6 @@ Json rowsOf(const vpRigidTransform &pose)
   rows.push_back({0., 0., 0., 1.});
   return rows;
 }
-} // namespace
-
 std::string textOf(const vpApp::Robot &robot, const Description &description, const Answers &answers)
 {
   const vpArmModel &arm = *robot.arm;

@@ -4,13 +4,15 @@
  */
 /*!
  * \file page.h
- * \brief What is understood of a robot, as text, JSON and picture.
+ * \brief What is understood of a robot, as text and as data.
  */
 #ifndef armProgram_page_h
 #define armProgram_page_h
 
 #include "description.h"
 #include "options.h"
+
+#include "outputFolder.h"
 
 #include <nlohmann/json.hpp>
 
@@ -29,8 +31,12 @@ struct Answers {
                                             const Answers &answers);
 //! The same of a robot that could not be loaded.
 [[nodiscard]] nlohmann::ordered_json jsonOf(const std::string &problem);
-//! From the side and from above at home: shapes as silhouettes, capsules and the line through the joints on top.
-[[nodiscard]] std::string pictureOf(const vpApp::Robot &robot);
+//! "revolute", "continuous" or "prismatic".
+[[nodiscard]] const char *nameOf(vpJointType type);
+//! The four rows of a pose.
+[[nodiscard]] nlohmann::ordered_json rowsOf(const vpRigidTransform &pose);
+//! The arm for a 3D view: arm.json, and its meshes as mesh/N.stl. See schema.json in python/visp_direct/report.
+void writeArm(vpApp::OutputFolder &out, const vpApp::Robot &robot);
 } // namespace armProgram
 
 #endif

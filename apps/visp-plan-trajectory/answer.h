@@ -4,13 +4,12 @@
  */
 /*!
  * \file answer.h
- * \brief A motion as one line of JSON, as samples, and as a plot.
+ * \brief A motion as one line of JSON, as samples, and as data of a report.
  */
 #ifndef planTrajectory_answer_h
 #define planTrajectory_answer_h
 
 #include "motion.h"
-#include "plot.h"
 
 #include <string>
 
@@ -28,13 +27,8 @@ namespace planTrajectory
  */
 [[nodiscard]] std::string csvOf(const Problem &problem, const Motion &motion);
 
-/*!
- * Draw a motion. Solid: executed motion; thin: continuation of a plan without the next event; dashed: current
- * limits; dotted: goal; grey vertical lines: events; dots: vias.
- * \param title : First line of the figure.
- */
-[[nodiscard]] std::string drawMotion(const Problem &problem, const Motion &motion, const std::string &title,
-                                     vpApp::PlotFormat format);
+//! All of a motion for its report, see schema.json in python/visp_direct/report.
+[[nodiscard]] nlohmann::ordered_json dataOf(const Problem &problem, const Motion &motion);
 } // namespace planTrajectory
 
 #endif

@@ -11,9 +11,11 @@
 #include "lineReader.h"
 #include "outputFile.h"
 #include "plugin.h"
+#include "report.h"
 
 #include <filesystem>
 #include <iostream>
+#include <memory>
 
 namespace
 {
@@ -32,9 +34,9 @@ constexpr const char *EXAMPLES =
 Examples:
   visp-plan-trajectory
       figure 6.3 of the thesis: half way to its goal, an axis gets another one
-  visp-plan-trajectory problems.jsonl --csv motion.csv --plot motion.svg > answers.jsonl
-      with the samples of each control cycle, and a picture; where there are several problems, their line numbers are
-      put into the names: motion-3.svg
+  visp-plan-trajectory problems.jsonl --csv motion.csv --out report > answers.jsonl
+      with the samples of each control cycle, where there are several problems in files with their line numbers,
+      motion-3.csv, and a report: report/report.html
   echo '{"q1": 1, "v_max": 0.5, "a_max": 1}' | visp-plan-trajectory -
       one axis, from standard input
 
@@ -45,13 +47,7 @@ Exit status: 0 every problem was answered, 1 some line was refused (the others a
 struct Options {
   std::string file; //!< Problems; "-": standard input; empty: figure 6.3 of the thesis.
   std::string csv;  //!< File for the samples; empty: none.
-  std::string plot; //!< File for the plot, ends in .svg or .png; empty: none.
-
-  //! File format of #plot.
-  [[nodiscard]] vpApp::PlotFormat plotFormat() const
-  {
-    return fs::path(plot).extension() == ".png" ? vpApp::PlotFormat::Png : vpApp::PlotFormat::Svg;
-  }
+  std::string out;  //!< Folder for data and report; empty: none.
 };
 
 /*!
@@ -65,16 +61,9 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   vpApp::addPluginOption(line, "motion forms");
   line.text("FILE", options.file, " ", "Problems, one JSON object a line; - for standard input");
   line.text("--csv", options.csv, "FILE", "Write t, q, v, a, j of every control cycle");
-  line.text("--plot", options.plot, "FILE.svg|png",
-            "Draw position, velocity, acceleration, jerk, with limits and events");
-  if (!line.parse(argc, argv)) {
-    return false;
-  }
-  const std::string extension = fs::path(options.plot).extension().string();
-  if (!options.plot.empty() && extension != ".svg" && extension != ".png") {
-    throw vpApp::UsageError("--plot is " + options.plot + ", must end in .svg or .png");
-  }
-  return true;
+  line.text("--out", options.out, "DIR",
+            "Folder for a report with position, velocity, acceleration, jerk, limits, events");
+  return line.parse(argc, argv);
 }
 
 //! \brief A problem and its motion, kept until the files are written.
@@ -149,55 +138,57 @@ fs::path nameFor(const std::string &file, const Problem &problem, bool several)
                  : path;
 }
 
-std::string titleOf(const Problem &problem)
-{
-  if (problem.id.is_null()) {
-    return problem.place;
-  }
-  return problem.id.is_string() ? problem.id.get<std::string>() : problem.id.dump();
-}
-
-void writeFiles(const Options &options, const std::vector<Planned> &planned, bool several)
+void writeSamples(const Options &options, const std::vector<Planned> &planned, bool several)
 {
   for (const Planned &p : planned) {
     requireTime();
-    if (!options.csv.empty()) {
-      vpApp::writeWholeFile(nameFor(options.csv, p.problem, several), csvOf(p.problem, p.motion));
-    }
-    if (!options.plot.empty()) {
-      vpApp::writeWholeFile(nameFor(options.plot, p.problem, several),
-                            drawMotion(p.problem, p.motion, titleOf(p.problem), options.plotFormat()));
-    }
+    vpApp::writeWholeFile(nameFor(options.csv, p.problem, several), csvOf(p.problem, p.motion));
   }
 }
 
-int plan(Options options)
+void writeReport(vpApp::OutputFolder &out, const std::vector<Planned> &planned, const Count &count,
+                 const std::string &command)
+{
+  nlohmann::ordered_json motions = nlohmann::ordered_json::array();
+  for (const Planned &p : planned) {
+    motions.push_back(dataOf(p.problem, p.motion));
+  }
+  out.write("motions.json", motions.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+  vpApp::finishWithReport(out, {{"version", VISP_DIRECT_VERSION},
+                                {"command", command},
+                                {"problems", count.all},
+                                {"refused", count.refused},
+                                {"first_refusal", count.firstComplaint}});
+}
+
+int plan(Options options, const std::string &command)
 {
   if (options.file.empty()) {
     options.file = vpApp::dataFile("trajectory/figure-6.3.jsonl");
-    if (options.plot.empty()) {
-      options.plot = "out/plan-trajectory/figure-6.3.svg";
-      fs::create_directories(fs::path(options.plot).parent_path());
+    if (options.out.empty()) {
+      options.out = "out/plan-trajectory";
     }
     std::cerr << "visp-plan-trajectory: no problems given, so this is figure 6.3 of the thesis (" << options.file
-              << "), drawn in " << options.plot << "; --help shows more" << std::endl;
+              << "), with a report in " << options.out << "; --help shows more" << std::endl;
   }
   vpApp::LineReader lines(options.file);
-  for (const std::string &output : {options.csv, options.plot}) {
-    if (!output.empty()) {
-      vpApp::requireWritable(output);
-    }
+  if (!options.csv.empty()) {
+    vpApp::requireWritable(options.csv);
   }
-  if (!options.plot.empty()) {
-    vpApp::requireGnuplot();
-  }
-  const bool keep = !options.csv.empty() || !options.plot.empty();
+  const auto out =
+      options.out.empty() ? nullptr : std::make_unique<vpApp::OutputFolder>("visp-plan-trajectory", options.out);
+  const bool keep = !options.csv.empty() || out != nullptr;
   std::vector<Planned> planned;
   const Count count = answerAll(lines, keep ? &planned : nullptr);
   if (count.all == 0) {
     throw std::runtime_error(lines.name() + ": has no problem, must have one JSON object a line");
   }
-  writeFiles(options, planned, count.all > 1);
+  if (!options.csv.empty()) {
+    writeSamples(options, planned, count.all > 1);
+  }
+  if (out != nullptr) {
+    writeReport(*out, planned, count, command);
+  }
   if (count.refused > 0) {
     throw std::runtime_error(std::to_string(count.refused) + " of " + std::to_string(count.all) +
                              (count.all == 1 ? " problem was refused: " : " problems were refused, the first: ") +
@@ -211,6 +202,7 @@ int main(int argc, char **argv)
 {
   return vpApp::runMain("visp-plan-trajectory", [&]() -> int {
     Options options;
-    return readOptions(argc, argv, options) ? plan(options) : vpApp::ExitOk;
+    return readOptions(argc, argv, options) ? plan(options, vpApp::commandLine("visp-plan-trajectory", argc, argv))
+                                            : vpApp::ExitOk;
   });
 }

@@ -7,12 +7,11 @@
 #include "ranks.h"
 #include "options.h"
 #include "pictures.h"
-#include "reportPage.h"
 #include "tables.h"
 
 #include "appMain.h"
 #include "outputFolder.h"
-#include "plot.h"
+#include "report.h"
 
 #include <chrono>
 #include <iostream>
@@ -21,44 +20,40 @@ namespace
 {
 using namespace printPattern;
 
+//! The first run of each experiment, and figures 7.10 and 7.11.
+void writeThesis(vpApp::OutputFolder &out, const Results &results)
+{
+  std::size_t number = 0;
+  for (const auto *list : {&results.replicas, &results.observers}) {
+    for (const Replica &replica : *list) {
+      out.write(fileOf(replica, number++), motionCsv(replica.runs.front()));
+    }
+  }
+  out.write("thesis/figure-7.10.csv", distortionCsv());
+  out.write("thesis/figure-7.11.png", pngOf(detection(vpPrintExperimentSpec::thesisPid())));
+}
+
 void print(const Options &options, const std::string &commandLine)
 {
   const auto start = std::chrono::steady_clock::now();
-  vpApp::requireGnuplot();
   vpApp::OutputFolder out("visp-print-pattern", options.out);
   const Results results = runAll(options);
   const vpPrintRun &run = results.runs.front();
-  ReportParts parts;
-  parts.commandLine = commandLine;
-  parts.own = ownFigures(results);
-  parts.printed = pngOf(printedProduct(run));
-  out.write("product.png", parts.printed);
+  out.write("product.png", pngOf(printedProduct(run)));
   if (options.replicas) {
-    parts.thesis = thesisFigures(results);
-    parts.thesis.insert(parts.thesis.begin(), distortionFigure());
-    parts.detection = pngOf(detection(vpPrintExperimentSpec::thesisPid()));
-    out.write("figure/figure-7.11.png", parts.detection);
-  }
-  for (const auto *figures : {&parts.own, &parts.thesis}) {
-    for (const Figure &figure : *figures) {
-      out.write("figure/" + figure.name + ".svg", figure.svg);
-    }
+    writeThesis(out, results);
   }
   if (options.video) {
-    parts.video = "camera.mp4";
-    writeVideo(run, out.file(parts.video));
+    writeVideo(run, out.file("camera.mp4"));
   }
   out.write("motion.csv", motionCsv(run));
   out.write("drops.csv", dropsCsv(run));
-  out.write("report.html", reportPage(options, results, parts));
+  out.write("landing.csv", landingCsv(results.landing));
   const double wallTime = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  out.writeSummary(summaryOf(options, results, commandLine, wallTime));
-  vpApp::throwIfInterrupted();
-  out.commit();
+  vpApp::finishWithReport(out, summaryOf(options, results, commandLine, wallTime));
   std::cout << sumOf(results.runs, &vpPrintMetrics::printed) << " cells printed, "
             << sumOf(results.runs, &vpPrintMetrics::missed) << " missed, "
-            << sumOf(results.runs, &vpPrintMetrics::doubled) << " doubled: " << (out.path() / "report.html").string()
-            << std::endl;
+            << sumOf(results.runs, &vpPrintMetrics::doubled) << " doubled: " << out.path().string() << std::endl;
 }
 } // namespace
 

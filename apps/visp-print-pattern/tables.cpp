@@ -4,6 +4,8 @@
  */
 #include "tables.h"
 
+#include <visp3/pattern/vpMicroscopeCalibration.h>
+
 #include <locale>
 #include <sstream>
 
@@ -22,10 +24,15 @@ std::ostringstream table(const char *heading)
   return text;
 }
 
-Json jsonOf(const Replica &replica)
+Json jsonOf(const Replica &replica, std::size_t number)
 {
+  const vpPrintExperimentSpec &spec = replica.runs.front().spec;
   Json json = {{"figure", replica.figure},
                {"name", replica.name},
+               {"file", fileOf(replica, number)},
+               {"frame_rate_hz", spec.frameRate},
+               {"evaluate_from_frame", spec.evaluateFrom},
+               {"mm_per_px", 1e-3 * spec.product.pixelSize},
                {"seeds", replica.runs.size()},
                {"rms_velocity_error", replica.rms_velocity_error}};
   if (replica.thesis > 0.) {
@@ -60,7 +67,10 @@ Json jsonOf(const vpPrintExperimentSpec &spec, const std::string &sensor)
           {"rows", spec.rows},
           {"cells_per_row", spec.cellsPerRow},
           {"drop_velocity_px_per_frame", spec.dropVelocity},
+          {"pitch_px", {spec.product.pitchX, spec.product.pitchY}},
           {"flex_px", spec.product.flexAmplitudeX},
+          {"flex_period_cells", spec.product.flexPeriodX},
+          {"evaluate_from_frame", spec.evaluateFrom},
           {"jitter_px", spec.product.jitter},
           {"dust_per_view", spec.product.dust * 1.6},
           {"noise", spec.product.noise},
@@ -109,12 +119,46 @@ std::string dropsCsv(const vpPrintRun &run)
   return text.str();
 }
 
+std::string landingCsv(const Landing &landing)
+{
+  std::ostringstream text = table("error_um");
+  for (const double error : landing.errors) {
+    text << error << "\n";
+  }
+  return text.str();
+}
+
+std::string distortionCsv()
+{
+  constexpr double pixel = 4.5, reference = 200.; // um; px, where the share is meant
+  std::ostringstream text = table("distance_px,mismatch_1_px,mismatch_0.5_px,mismatch_0.2_px,mismatch_0.1_px");
+  vpMicroscopeCalibration microscope;
+  microscope.scaleX = microscope.scaleY = 1e6 / pixel;
+  for (double r = 0.; r <= reference; r += 4.) {
+    text << r;
+    for (const double share : {0.01, 0.005, 0.002, 0.001}) {
+      microscope.kappa1 = share / (reference * reference);
+      text << ',' << microscope.toPlane(r, 0.)[0] * microscope.scaleX - r;
+    }
+    text << "\n";
+  }
+  return text.str();
+}
+
+std::string fileOf(const Replica &replica, std::size_t number)
+{
+  return "thesis/" + (replica.figure.empty() ? "run-" + std::to_string(number + 1) : "figure-" + replica.figure) +
+         ".csv";
+}
+
 Json summaryOf(const Options &options, const Results &results, const std::string &commandLine, double wallTime)
 {
   const std::vector<vpPrintRun> &runs = results.runs;
   bool complete = true;
+  int left = 0; // cells that never came to the nozzle
   for (const vpPrintRun &run : runs) {
     complete = complete && run.metrics.complete;
+    left += run.spec.rows * run.spec.cellsPerRow - run.metrics.printed - run.metrics.missed;
   }
   Json summary = {
       {"version", VISP_DIRECT_VERSION},
@@ -128,6 +172,7 @@ Json summaryOf(const Options &options, const Results &results, const std::string
       {"printed", sumOf(runs, &vpPrintMetrics::printed)},
       {"missed", sumOf(runs, &vpPrintMetrics::missed)},
       {"doubled", sumOf(runs, &vpPrintMetrics::doubled)},
+      {"left", left},
       {"throughput_cells_per_s", meanOf(runs, &vpPrintMetrics::throughput_cells_per_s)},
       {"gain_over_constant", meanOf(runs, &vpPrintMetrics::gain_over_constant)},
       {"complete", complete},
@@ -138,7 +183,7 @@ Json summaryOf(const Options &options, const Results &results, const std::string
   Json replicas = Json::array();
   for (const auto *list : {&results.replicas, &results.observers}) {
     for (const Replica &replica : *list) {
-      replicas.push_back(jsonOf(replica));
+      replicas.push_back(jsonOf(replica, replicas.size()));
     }
   }
   if (!replicas.empty()) {

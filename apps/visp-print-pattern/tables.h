@@ -22,6 +22,12 @@ namespace printPattern
 [[nodiscard]] std::string motionCsv(const vpPrintRun &run);
 //! Landing position of each drop.
 [[nodiscard]] std::string dropsCsv(const vpPrintRun &run);
+//! Landing errors of all drops of all runs.
+[[nodiscard]] std::string landingCsv(const Landing &landing);
+//! Figure 7.10: displacement of a pixel by radial distortion.
+[[nodiscard]] std::string distortionCsv();
+//! Name of the file with the first run of an experiment of the thesis: "thesis/figure-7.13.csv".
+[[nodiscard]] std::string fileOf(const Replica &replica, std::size_t number);
 //! summary.json without the fields that OutputFolder adds.
 [[nodiscard]] nlohmann::ordered_json summaryOf(const Options &options, const Results &results,
                                                const std::string &commandLine, double wallTime);

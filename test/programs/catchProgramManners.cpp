@@ -306,7 +306,7 @@ TEST_CASE("Every option that reads a file is among those that are tried", "[prog
       words >> option >> value;
       const bool reads = (value.find("FILE") == 0 || value == "DIR" || value == "IMAGE") && option.find("--") == 0 &&
                          option != "--out" && option != "--write-pairs" && option != "--cover-file" &&
-                         option != "--csv" && option != "--plot";
+                         option != "--csv";
       CAPTURE(program, line);
       CHECK((!reads || std::any_of(inputs.begin(), inputs.end(), [&](const Input &input) {
         return input.program == nameOf(program) && has(input.arguments, option + " ");

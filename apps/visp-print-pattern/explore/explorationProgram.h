@@ -16,7 +16,7 @@
 namespace printExplore
 {
 /*!
- * Explore and write report.html, explore.csv, front.csv, front.json and summary.json; rank 0 reads and writes.
+ * Explore and write explore.csv, front.csv, front.json, setup.json, summary.json and the report; rank 0 reads and writes.
  * \param file : Exploration file. \param out : Result folder. \param jobs : Threads of each rank; 0: its share of the
  * cores.
  * \param commandLine : For report and summary.

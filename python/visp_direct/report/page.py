@@ -38,7 +38,7 @@ class Cell:
         self.sort = value if isinstance(value, (int, float)) and not isinstance(value, bool) else None
         self.text = {True: "yes", False: "no"}[value] if isinstance(value, bool) else (
             str(value) if isinstance(value, (str, int)) else number(value))
-        self.style = style or ("" if self.sort is not None or value is None else "text")
+        self.style = style or ("" if self.sort is not None or value is None else "text wrap" if len(self.text) > 45 else "text")
 
 
 class Page:

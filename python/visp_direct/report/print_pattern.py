@@ -133,9 +133,9 @@ def add_thesis(page, result):
                  "Figure 7.11: on the left the image after Otsu's threshold, on the right boxes and centres that algorithm 7.4 finds, as printed; "
                  "crosses are the true centres. Its centres are half a pixel to the right.")
     for i, e in enumerate(experiments):
-        title = f"Figure {e['figure']}: {e['name']}" if "thesis" in e else e["name"]
+        title = f"Figure {e['figure']}: {e['name']}" if e["figure"] else e["name"]
         speed = e["rms_velocity_error"] * e["mm_per_px"] * e["frame_rate_hz"]
-        page.figure(velocity_figure(result.table(e["file"], MOTION), e["frame_rate_hz"]), f"figure-{e['figure']}" if "thesis" in e else f"run-{i + 1}",
+        page.figure(velocity_figure(result.table(e["file"], MOTION), e["frame_rate_hz"]), f"figure-{e['figure']}" if e["figure"] else f"run-{i + 1}",
                     title, f"{title}. Velocity error from frame {e['evaluate_from_frame']} on, rms of {e['seeds']} runs: "
                     f"{number(e['rms_velocity_error'])} px/frame = {number(speed)} mm/s as measured"
                     + (f", {number(e['thesis'])} px/frame in the thesis" if "thesis" in e else "")

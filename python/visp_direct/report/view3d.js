@@ -61,7 +61,7 @@ function vispArm(arm, colour, base) {
     const group = new THREE.Group();
     group.matrixAutoUpdate = false;
     const solid = new THREE.MeshStandardMaterial({color: colour || palette[i % palette.length], roughness: 0.7, flatShading: true, side: THREE.DoubleSide});
-    const cover = new THREE.MeshStandardMaterial({color: "#3b6ea5", transparent: true, opacity: link.shapes.length ? 0.25 : 0.9,
+    const cover = new THREE.MeshStandardMaterial({color: "#6f9bc8", roughness: 0.9, transparent: link.shapes.length > 0, opacity: 0.35,
                                                   depthWrite: !link.shapes.length});
     link.shapes.forEach((s) => group.add(vispPart(s, solid)));
     link.capsules.forEach((s) => {

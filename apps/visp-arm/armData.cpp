@@ -1,0 +1,117 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "page.h"
+
+#include <visp3/avoidance/vpTriangleMesh.h>
+#include <visp3/core/vpException.h>
+
+#include <array>
+#include <cstdint>
+
+namespace armProgram
+{
+namespace
+{
+using Json = nlohmann::ordered_json;
+
+template <class Vector> Json listOf(const Vector &numbers)
+{
+  return std::vector<double>(numbers.data(), numbers.data() + numbers.size());
+}
+
+void append(std::string &bytes, const void *data, std::size_t size)
+{
+  bytes.append(static_cast<const char *>(data), size);
+}
+
+//! Binary STL, in metres.
+std::string stlOf(const vpTriangleMesh &mesh)
+{
+  std::string bytes(80, ' ');
+  const auto count = static_cast<std::uint32_t>(mesh.triangles().size());
+  append(bytes, &count, sizeof count);
+  for (const std::array<int, 3> &triangle : mesh.triangles()) {
+    std::array<float, 12> numbers{}; // the normal stays 0: it follows from the corners
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const Eigen::Vector3d &vertex = mesh.vertices()[static_cast<std::size_t>(triangle[corner])];
+      for (std::size_t k = 0; k < 3; ++k) {
+        numbers[3 + 3 * corner + k] = static_cast<float>(vertex[static_cast<Eigen::Index>(k)]);
+      }
+    }
+    append(bytes, numbers.data(), sizeof numbers);
+    bytes.append(2, '\0');
+  }
+  return bytes;
+}
+
+const char *shapeName(vpArmShapeKind kind)
+{
+  constexpr std::array<const char *, 4> names = {"sphere", "cylinder", "box", "mesh"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+Json jointsOf(const vpArmModel &arm)
+{
+  Json joints = Json::array();
+  for (const vpArmJointSpec &joint : arm.spec().joints) {
+    const bool bounded = joint.type != vpJointType::Continuous;
+    joints.push_back({{"name", joint.name},
+                      {"type", nameOf(joint.type)},
+                      {"before", rowsOf(joint.before)},
+                      {"after", rowsOf(joint.after)},
+                      {"offset", joint.offset},
+                      {"limits", bounded ? Json{joint.lower, joint.upper} : Json(nullptr)}});
+  }
+  return joints;
+}
+
+Json capsulesOf(const vpArmModel &arm)
+{
+  Json capsules = Json::array();
+  for (const vpArmCapsule &capsule : arm.spec().capsules) {
+    capsules.push_back({{"link", capsule.link},
+                        {"from", listOf(capsule.from)},
+                        {"to", listOf(capsule.to)},
+                        {"radius", capsule.radius}});
+  }
+  return capsules;
+}
+} // namespace
+
+void writeArm(vpApp::OutputFolder &out, const vpApp::Robot &robot)
+{
+  const vpArmSpec &spec = robot.arm->spec();
+  Json shapes = Json::array(), missing = Json::array();
+  for (const vpArmShape &shape : spec.shapes) {
+    Json json = {{"link", spec.bodies[static_cast<std::size_t>(shape.body)].link},
+                 {"kind", shapeName(shape.kind)},
+                 {"size", listOf(shape.size)},
+                 {"file", nullptr},
+                 {"pose", rowsOf(shape.pose)}};
+    if (shape.kind == vpArmShapeKind::Mesh) {
+      try {
+        const std::string file = "mesh/" + std::to_string(shapes.size()) + ".stl";
+        out.write(file, stlOf(vpTriangleMesh::load(shape.file, shape.size)));
+        json["file"] = file;
+        json["size"] = {1., 1., 1.};
+      }
+      catch (const vpException &error) {
+        missing.push_back(error.what());
+        continue;
+      }
+    }
+    shapes.push_back(json);
+  }
+  const Json arm = {{"name", spec.name},
+                    {"home", listOf(robot.arm->home())},
+                    {"tool", rowsOf(spec.tool)},
+                    {"camera", rowsOf(spec.camera)},
+                    {"joints", jointsOf(*robot.arm)},
+                    {"shapes", shapes},
+                    {"capsules", capsulesOf(*robot.arm)},
+                    {"missing", missing}};
+  out.write("arm.json", arm.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+} // namespace armProgram
