@@ -59,12 +59,25 @@ Json jointsOf(const vpArmModel &arm)
     const bool bounded = joint.type != vpJointType::Continuous;
     joints.push_back({{"name", joint.name},
                       {"type", nameOf(joint.type)},
-                      {"before", rowsOf(joint.before)},
-                      {"after", rowsOf(joint.after)},
-                      {"offset", joint.offset},
                       {"limits", bounded ? Json{joint.lower, joint.upper} : Json(nullptr)}});
   }
   return joints;
+}
+
+//! Joints and followers, which move the links one after the other.
+Json chainOf(const vpArmModel &arm)
+{
+  Json chain = Json::array();
+  for (int k = 0; k < arm.links(); ++k) {
+    const vpArmChainJoint &joint = arm.chain(k);
+    chain.push_back({{"step", rowsOf(joint.step)},
+                     {"after", rowsOf(joint.after)},
+                     {"prismatic", joint.isPrismatic},
+                     {"joint", joint.joint},
+                     {"ratio", joint.ratio},
+                     {"offset", joint.offset}});
+  }
+  return chain;
 }
 
 Json capsulesOf(const vpArmModel &arm)
@@ -106,9 +119,11 @@ void writeArm(vpApp::OutputFolder &out, const vpApp::Robot &robot)
   }
   const Json arm = {{"name", spec.name},
                     {"home", listOf(robot.arm->home())},
+                    {"tool_link", robot.arm->toolLink()},
                     {"tool", rowsOf(spec.tool)},
-                    {"camera", rowsOf(spec.camera)},
+
                     {"joints", jointsOf(*robot.arm)},
+                    {"chain", chainOf(*robot.arm)},
                     {"shapes", shapes},
                     {"capsules", capsulesOf(*robot.arm)},
                     {"missing", missing}};

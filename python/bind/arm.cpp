@@ -31,6 +31,8 @@ void bindSpec(py::module_ &m)
                   py::arg("offset"), doc("vpArmJointSpec::standardDH"))
       .def_static("modifiedDH", &vpArmJointSpec::modifiedDH, py::arg("a"), py::arg("alpha"), py::arg("d"),
                   py::arg("offset"), doc("vpArmJointSpec::modifiedDH"));
+  bindStruct<vpArmFollower>(m);
+  bindStruct<vpArmChainJoint>(m);
   bindStruct<vpArmLinkSpec>(m);
   bindStruct<vpArmBody>(m);
   bindStruct<vpArmShape>(m);
@@ -46,6 +48,13 @@ void bindModel(py::module_ &m)
   bindClass<Model>(m)
       .def(py::init<const vpArmSpec &>(), py::arg("spec"), doc("vpArmModel::vpArmModel"))
       .def("size", &Model::size, doc("vpArmModel::size"))
+      .def("links", &Model::links, doc("vpArmModel::links"))
+      .def(
+          "chain",
+          [](const Model &self, int k) { return self.chain(checkedIndex(k, self.links(), "joint of the chain")); },
+          py::arg("k"), doc("vpArmModel::chain"))
+      .def("toolLink", &Model::toolLink, doc("vpArmModel::toolLink"))
+      .def("cameraLink", &Model::cameraLink, doc("vpArmModel::cameraLink"))
       .def("spec", &Model::spec, copy, doc("vpArmModel::spec"))
       .def("label", &Model::label, doc("vpArmModel::label"))
       .def("lower", &Model::lower, copy, doc("vpArmModel::lower"))
@@ -99,13 +108,14 @@ void bindKinematics(py::module_ &m)
       .def(
           "joint",
           [](const K &self, int i) {
-            return self.data.joint[static_cast<std::size_t>(checkedIndex(i, self.model->size(), "joint"))];
+            return self.data.joint[static_cast<std::size_t>(checkedIndex(i, self.model->links(), "joint"))];
           },
-          py::arg("i"), "Frame of joint i in the base; z is its axis, the frame moves with its link.")
+          py::arg("i"),
+          "Frame of joint or follower i of the chain in the base; z is its axis, the frame moves with its link.")
       .def(
           "link",
           [](const K &self, int i) {
-            return kinematics::link(*self.model, self.data, checkedIndex(i, self.model->size() + 1, "link"));
+            return kinematics::link(*self.model, self.data, checkedIndex(i, self.model->links() + 1, "link"));
           },
           py::arg("i"), doc(in + "link"))
       .def(
@@ -117,7 +127,7 @@ void bindKinematics(py::module_ &m)
       .def(
           "pointJacobian",
           [](const K &self, int k) {
-            return kinematics::pointJacobian(*self.model, self.data, checkedIndex(k, self.model->size() + 1, "joint"));
+            return kinematics::pointJacobian(*self.model, self.data, checkedIndex(k, self.model->links() + 1, "joint"));
           },
           py::arg("k"), doc(in + "pointJacobian"))
       .def(

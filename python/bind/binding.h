@@ -110,6 +110,9 @@ template <class T, class... Options> py::class_<T, Options...> bindClass(py::mod
   return py::class_<T, Options...>(m, Reflect<T>::name, Reflect<T>::doc);
 }
 
+//! Raises what a law written in Python has raised in its last step.
+void raiseErrorOf(const vpServoLaw &law);
+
 void bindTrajectory(py::module_ &m);
 void bindServo(py::module_ &m);
 void bindVision(py::module_ &m);
@@ -117,5 +120,6 @@ void bindPrinting(py::module_ &m);
 void bindArm(py::module_ &m);
 void bindScene(py::module_ &m);
 void bindMotion(py::module_ &m);
+void bindServoing(py::module_ &m);
 } // namespace visp_python
 #endif

@@ -97,4 +97,5 @@ PYBIND11_MODULE(_core, m)
   bindArm(m);
   bindScene(m);
   bindMotion(m);
+  bindServoing(m);
 }

@@ -2,13 +2,12 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-#include "arm.h"
+#include "binding.h"
 
 #include <visp3/avoidance/vpAvoidanceMethods.h>
 #include <visp3/avoidance/vpGoalConfiguration.h>
 #include <visp3/avoidance/vpPathPlanner.h>
 #include <visp3/avoidance/vpTimedPath.h>
-#include <visp3/servoing/vpArmServo.h>
 
 #include <utility>
 
@@ -171,28 +170,6 @@ void bindSupervisor(py::module_ &m)
           py::arg("q"), py::arg("wish"), doc("vpStopSupervisor::step"))
       .def("reset", &Supervisor::reset, doc("vpStopSupervisor::reset"));
 }
-
-void bindArmServo(py::module_ &m)
-{
-  using Servo = vpArmServo;
-  bindStruct<vpArmServoSpec>(m).def("validate", &vpArmServoSpec::validate, py::arg("model"),
-                                    doc("vpArmServoSpec::validate"));
-  bindStruct<vpArmServoOutput>(m);
-  bindClass<Servo>(m)
-      .def(py::init([](const vpArmModel &model, const std::string &controller, const vpServoControllerSpec &parameters,
-                       const vpArmServoSpec &spec) {
-             return Servo(model, vpServoController::create(controller, parameters), spec);
-           }),
-           py::arg("model"), py::arg("controller"), py::arg("controllerSpec") = vpServoControllerSpec(),
-           py::arg("spec") = vpArmServoSpec(), py::keep_alive<1, 2>(),
-           "model: the arm. controller: id for ServoController.create(), with controllerSpec as its parameters. spec: "
-           "the other ones.")
-      .def("supervise", &Servo::supervise, py::arg("scene"), py::arg("spec") = vpStopSupervisorSpec(),
-           py::keep_alive<1, 2>(), doc("vpArmServo::supervise"))
-      .def("setGoal", &Servo::setGoal, py::arg("goal"), doc("vpArmServo::setGoal"))
-      .def("see", &Servo::see, py::arg("result"), doc("vpArmServo::see"))
-      .def("step", &Servo::step, py::arg("q"), py::arg("time"), py::return_value_policy::copy, doc("vpArmServo::step"));
-}
 } // namespace
 
 void bindMotion(py::module_ &m)
@@ -201,6 +178,5 @@ void bindMotion(py::module_ &m)
   bindPlanners(m);
   bindAvoidance(m);
   bindSupervisor(m);
-  bindArmServo(m);
 }
 } // namespace visp_python

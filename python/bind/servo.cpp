@@ -70,13 +70,68 @@ private:
   std::exception_ptr m_error;
 };
 
+// A law in Python where C++ wants one of its own: it keeps the Python object and passes everything on.
+class HeldLaw : public vpServoLaw
+{
+public:
+  HeldLaw(py::object law, const std::string &id, const vpServoGains &gains)
+    : vpServoLaw(id, gains), m_object(std::move(law)), m_law(m_object.cast<vpServoLaw *>())
+  {}
+  ~HeldLaw() override
+  {
+    const py::gil_scoped_acquire locked;
+    m_object.release().dec_ref();
+  }
+  [[nodiscard]] double rotationGain() const noexcept override { return m_law->rotationGain(); }
+  void notifyInterrupted() noexcept override { m_law->notifyInterrupted(); }
+  [[nodiscard]] vpServoLaw &inner() const { return *m_law; }
+
+protected:
+  void goalChanged() override { m_law->setGoal(m_goal); }
+  void stateReset() override { m_law->reset(); }
+  vpServoCommand compute(const vpServoMeasurement &measurement, double dt) noexcept override
+  {
+    return m_law->step(measurement, dt);
+  }
+
+private:
+  py::object m_object;
+  vpServoLaw *m_law;
+};
+
+} // namespace
+
+void raiseErrorOf(const vpServoLaw &law)
+{
+  if (const auto *held = dynamic_cast<const HeldLaw *>(&law)) {
+    raiseErrorOf(held->inner());
+  }
+  else if (const auto *python = dynamic_cast<const PythonLaw *>(&law)) {
+    const_cast<PythonLaw *>(python)->raise();
+  }
+}
+
+namespace
+{
 vpServoCommand stepOf(vpServoLaw &law, const vpServoMeasurement &measurement, double dt)
 {
   const vpServoCommand command = law.step(measurement, dt);
-  if (auto *python = dynamic_cast<PythonLaw *>(&law)) {
-    python->raise();
-  }
+  raiseErrorOf(law);
   return command;
+}
+
+// The class stays for the rest of the process, as what add() adds does.
+void addLaw(const std::string &id, const std::string &sentence, const py::object &law)
+{
+  const py::handle kept = law.inc_ref();
+  vpServoLaw::add(id, sentence, [kept, id](const vpServoGains &gains, const vpServoMotionLimits &) {
+    const py::gil_scoped_acquire locked;
+    py::object made = kept(gains);
+    if (!py::isinstance<vpServoLaw>(made)) {
+      throw py::type_error("the law " + id + " is " + described(made) + ", must be a ServoLaw");
+    }
+    return std::unique_ptr<vpServoLaw>(new HeldLaw(std::move(made), id, gains));
+  });
 }
 
 struct Gains : vpServoLaw { // gives a Python law its gains
@@ -86,6 +141,8 @@ struct Gains : vpServoLaw { // gives a Python law its gains
 void bindLaw(py::module_ &m)
 {
   using Law = vpServoLaw;
+  bindStruct<vpServoMotionLimits>(m).def("validate", &vpServoMotionLimits::validate,
+                                         doc("vpServoMotionLimits::validate"));
   bindStruct<vpServoGains>(m).def("validate", &vpServoGains::validate, doc("vpServoGains::validate"));
   py::class_<Law, PythonLaw>(
       m, "ServoLaw",
@@ -95,7 +152,13 @@ void bindLaw(py::module_ &m)
       "goalChanged() and stateReset(), called by setGoal() and reset().")
       .def(py::init<const std::string &, const vpServoGains &>(), py::arg("id"), py::arg("gains") = vpServoGains(),
            "For a law of your own. id: its name. gains: validated here.")
-      .def_static("create", &Law::create, py::arg("id"), py::arg("gains") = vpServoGains(), doc("vpServoLaw::create"))
+      .def_static("create", &Law::create, py::arg("id"), py::arg("gains") = vpServoGains(),
+                  py::arg("motion") = vpServoMotionLimits(), doc("vpServoLaw::create"))
+      .def_static("sentence", &Law::sentence, py::arg("id"), doc("vpServoLaw::sentence"))
+      .def_static("add", &addLaw, py::arg("id"), py::arg("sentence"), py::arg("law"),
+                  "Adds a law of your own for create(), ServoController and VisualServo: law(gains) makes a ServoLaw, "
+                  "as its class does. The\n"
+                  "controller calls it where the interpreter can be had, which is no real time.")
       .def_static("ids", &Law::ids, doc("vpServoLaw::ids"))
       .def("setGoal", &Law::setGoal, py::arg("goal"), doc("vpServoLaw::setGoal"))
       .def("reset", &Law::reset, doc("vpServoLaw::reset"))
@@ -127,7 +190,15 @@ void bindController(py::module_ &m)
       .def("reset", &Controller::reset, doc("vpServoController::reset"))
       .def("id", &Controller::id, doc("vpServoController::id"))
       .def("spec", &Controller::spec, py::return_value_policy::copy, doc("vpServoController::spec"))
-      .def("step", &Controller::step, py::arg("measurement"), py::arg("dt"), doc("vpServoController::step"))
+      .def("notifyInterrupted", &Controller::notifyInterrupted, doc("vpServoController::notifyInterrupted"))
+      .def(
+          "step",
+          [](Controller &self, const vpServoMeasurement &measurement, double dt) {
+            const vpServoCommand command = self.step(measurement, dt);
+            raiseErrorOf(self.law());
+            return command;
+          },
+          py::arg("measurement"), py::arg("dt"), doc("vpServoController::step"))
       .def("referenceRotation", &Controller::referenceRotation, py::arg("measurement"), py::arg("command"),
            doc("vpServoController::referenceRotation"));
   bindClass<vpViewConstraintFilter>(m)

@@ -155,6 +155,23 @@ def test_models_from_files_and_tables():
         vd.ClosedLoopSpec(gain=-1).validate(0.01)
 
 
+def test_followers_move_with_their_joint(random):
+    joint = vd.ArmJointSpec.standardDH(0.3, 0, 0, 0)
+    joint.name, joint.lower, joint.upper = "crank", -2, 2
+    follower = vd.ArmFollower(name="rod", after=pose([0.2, 0, 0]), joint=0, ratio=-0.5, offset=0.1, place=1)
+    arm = vd.ArmModel(vd.ArmSpec(name="linkage", joints=[joint], followers=[follower]))
+    assert (arm.size(), arm.links(), arm.toolLink(), arm.cameraLink()) == (1, 2, 2, 2)
+    part = arm.chain(1)
+    assert (part.joint, part.ratio, part.offset, part.isPrismatic) == (0, -0.5, 0.1, False)
+    for _ in range(longer(20)):
+        q = random.uniform(-2, 2)
+        second = q - 0.5 * q + 0.1
+        tool = vd.ArmKinematics(arm, [q]).tool
+        np.testing.assert_allclose(tool[:2, 3], [0.3 * np.cos(q) + 0.2 * np.cos(second), 0.3 * np.sin(q) + 0.2 * np.sin(second)], atol=1e-12)
+    with pytest.raises(IndexError, match="joint of the chain 2 does not exist, there are 2"):
+        arm.chain(2)
+
+
 def test_axes_by_name():
     assert vd.freeAxes(["rz"]) == [False] * 5 + [True]
     assert vd.axesInWords(32) == "rotation about z"

@@ -108,7 +108,7 @@ for thing in classes:
             pass
 pool += [vd.DirectTrajectory(7), vd.PatternTracker(64, 64), vd.ServoController.create("pbvs1"), vd.ServoLaw.create("ibvs"), vd.TrajectoryPlan(7),
          vd.ArmMotion(arm), vd.RedundancySolver(arm), vd.StopSupervisor(scene), vd.CertifiedMotion(scene), vd.CertifiedTrajectory(scene),
-         vd.ArmServo(arm, "pbvs1"), vd.PathPlanner(scene, vd.PathPlannerSpec(timeLimit=0.01, shortenTime=0)), vd.PrintTrigger(), vd.PrintReference(),
+         vd.VisualServo("pbvs1"), vd.VisualServo("pbvs1", arm=arm), vd.PathPlanner(scene, vd.PathPlannerSpec(timeLimit=0.01, shortenTime=0)), vd.PrintTrigger(), vd.PrintReference(),
          vd.makeAvoidanceMethod(vd.avoidanceMethodNames()[0], scene), vd.TriangleMesh(np.eye(3), [[0, 1, 2]]),
          vd.PlanarMicroscopeCalibration(64, 64), vd.TsaiCalibration(64, 64), vd.PlanarTargetDatabase(vd.CameraParameters(600, 600, 320, 240))]
 SLOW = {"coverArm", "setTimeLimit"}

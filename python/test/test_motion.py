@@ -201,26 +201,91 @@ def test_supervisor_stops_before_an_obstacle(arm, random):
     assert stopped
 
 
-def test_arm_servo_arrives(arm):
-    spec = vd.ArmServoSpec(redundancy=vd.RedundancySpec(period=0.01))
-    spec.validate(arm)
-    servo = vd.ArmServo(arm, "ff-lookat-pi", vd.ServoControllerSpec(), spec)
+def servo_of(arm, **fields):
+    spec = vd.VisualServoSpec(period=0.01, **fields)
+    spec.validate()
+    return vd.VisualServo("ff-lookat-pi", vd.ServoControllerSpec(), spec, arm)
+
+
+def test_servo_of_an_arm_converges(arm):
+    servo = servo_of(arm)
     q = np.clip(arm.home(), arm.lower() + 0.2, arm.upper() - 0.2)
     fMo = vd.ArmKinematics(arm, q).camera @ pose([0, 0, 0.4])
     cdMo = pose([0, 0, 0.38], [0, 0, 0.1])
-    servo.setGoal(plate().goal(cdMo))
+    poses = {}  # of the object in the camera, by the time of the image
+
+    def source(image):
+        return poses[int(image[0, 0])], vd.PoseCovariance(known=True, C=1e-10 * np.eye(6))
+
+    servo.setPoseSource(source, plate())
+    servo.setGoal(servo.goal(cdMo))
     servo.supervise(scene_of(arm))
-    for k in range(1500):
+    assert servo.step(q, 0.0).status == vd.VisualServoStatus.Idle
+    servo.start()
+    for k in range(1, 1500):
         t = 0.01 * k
-        if k % 3 == 0 and k > 0:  # a camera of 33 Hz whose results are late by one period
-            servo.see(plate().measure(late, t - 0.01))
-        output = servo.step(q, t)
-        late = np.linalg.inv(vd.ArmKinematics(arm, q).camera) @ fMo
-        q = q + 0.01 * output.velocity
-    assert output.servo == vd.ServoStatus.Servoing and output.age < 0.05
-    np.testing.assert_allclose(late, cdMo, atol=2e-3)
-    with pytest.raises(ValueError, match="maxAge"):
-        vd.ArmServoSpec(maxAge=-1).validate(arm)
+        camera = vd.ArmKinematics(arm, q).camera
+        if k % 3 == 0:  # a camera of 33 Hz whose results are late by a period
+            poses[k % 256] = np.linalg.inv(before) @ fMo
+            sight = servo.see(np.full((4, 4), k % 256, np.uint8), t - 0.01)
+            assert sight.measurement.valid and servo.cameraAt(t - 0.01) is not None
+        output = servo.step(vd.ServoRobotState(q=q), t) if k % 2 else servo.step(q, t)
+        before, q = camera, q + 0.01 * output.velocity
+        if servo.isConverged():
+            break
+    assert output.status == vd.VisualServoStatus.Converged and output.message, output
+    np.testing.assert_allclose(np.linalg.inv(vd.ArmKinematics(arm, q).camera) @ fMo, cdMo, atol=2e-3)
+    assert servo.output().positionError < 0.002 and servo.measurement().valid and servo.spec().period == 0.01
+    timing = servo.timing()
+    assert timing.period.count() > 100 and timing.period.quantile(0.5) == pytest.approx(0.01, rel=0.05)
+    assert timing.step.invalid() == 0 and timing.step.max() >= timing.step.quantile(0.9) > 0
+    servo.stop()
+    assert servo.step(q, t + 0.01).status == vd.VisualServoStatus.Idle
+    with pytest.raises(ValueError, match="imageTimeout"):
+        vd.VisualServoSpec(imageTimeout=-1).validate()
+
+
+def test_servo_without_an_arm_takes_sights_and_laws_of_ones_own():
+    class Broken(vd.ServoLaw):
+        def __init__(self, gains):
+            vd.ServoLaw.__init__(self, "broken", gains)
+
+        def compute(self, measurement, dt):
+            raise RuntimeError("nobody knows")
+
+    from test_servo import Straight, moved
+    for id, law in (("straight-servo", Straight), ("broken-servo", Broken)):
+        vd.ServoLaw.add(id, "For this test.", law)
+        servo = vd.VisualServo(id, spec=vd.VisualServoSpec(assumeExecuted=True, period=0.01, startTime=0))
+        cdMo, cMo = pose([0, 0, 0.4]), pose([0.02, 0, 0.45])
+        servo.setGoal(plate().goal(cdMo))
+        servo.start()
+        for k in range(1, 1200):
+            if k > 1:
+                servo.take(vd.ServoSight(measurement=plate().measure(cMo, 0.01 * (k - 1))))
+            if id == "broken-servo" and k > 1:
+                with pytest.raises(RuntimeError, match="nobody knows"):
+                    servo.step(vd.ServoRobotState(), 0.01 * k)
+                break
+            output = servo.step(vd.ServoRobotState(), 0.01 * k)
+            cMo = moved(cMo, output.twist, 0.01)
+        else:
+            np.testing.assert_allclose(cMo, cdMo, atol=2e-3)
+    with pytest.raises(RuntimeError, match="vision"):
+        servo.see(np.zeros((4, 4), np.uint8), 1.0)
+    with pytest.raises(ValueError, match="unknown|nothing"):
+        vd.VisualServo("nothing")
+
+
+def test_servo_with_a_photograph(random):
+    from test_vision import CAMERA, rendered, texture
+    photo = texture(random)
+    servo = vd.VisualServo("pbvs1", spec=vd.VisualServoSpec(assumeExecuted=True))
+    servo.setPhotograph(photo, 0.16, 0.12, CAMERA)
+    cMo = pose([0.01, 0, 0.3], [0.1, -0.2, 0])
+    sight = servo.see(rendered(photo, 0.16, 0.12, cMo, random), 0.5)
+    assert sight.measurement.valid
+    np.testing.assert_allclose(sight.measurement.cMo[:3, 3], cMo[:3, 3], atol=1e-3)
 
 
 def test_covers_and_exact_shapes():

@@ -54,27 +54,40 @@ def damaged(value, random):
     return None
 
 
+def name_of(call):
+    return f"{call[0]}-{pathlib.Path(call[1].split('=')[-1]).stem}"
+
+
 def run(program, *arguments, **environment):
     """Runs a program in OUT; its result folder."""
     if not (BIN / program).is_file():
         pytest.skip(f"{program} is not built")
-    folder = OUT / f"{program}-{abs(hash(arguments)) % 1000}"
+    folder = OUT / f"{name_of((program, *arguments))}-{len(environment)}"
     shutil.rmtree(folder, ignore_errors=True)
     done = subprocess.run([BIN / program, *arguments, "--out", folder], capture_output=True, text=True, env={**os.environ, **environment})
     assert done.returncode == 0, done.stderr
     return folder, done.stderr
 
 
+SMALL = OUT / "small.json"
+SMALL.write_text(json.dumps({"seed": 4, "design": {"frame_rate_hz": [300, 1600, 2400], "image_px": [[96, 72], [160, 100]], "um_per_px": [2, 6],
+                                                   "drop_velocity_mm_s": 40, "controller": ["observer", "pid"]},
+                             "task": {"cells": 8, "runs": 1}, "require": {"landing_worst_um": 10}}))
 PROGRAMS = [("visp-plan-trajectory", str(DATA / "trajectory/examples.jsonl")), ("visp-plan-trajectory", str(DATA / "trajectory/figure-6.3.jsonl")),
-            ("visp-arm", "amor"), ("visp-arm", str(DATA / "robot/generic-6r.urdf"), "--robot-tip", "tool", "--acceleration-limits", "5,5,5,5,5,5")]
+            ("visp-arm", "amor", "--fk", "0.1,0.2,0.3,-0.4,0.5,0.6,0.7"),
+            ("visp-arm", str(DATA / "robot/generic-6r.urdf"), "--robot-tip", "tool", "--acceleration-limits", "5,5,5,5,5,5", "--fk",
+             "0.3,-0.2,0.1,0.4,0.5,0.6"), ("visp-print-pattern", "--cells=6", "--sensor=tracker", "--identify"),
+            ("visp-print-pattern", f"--explore={SMALL}")]
 
 
-@pytest.mark.parametrize("call", PROGRAMS, ids=lambda call: f"{call[0]}-{pathlib.Path(call[1]).stem}")
+@pytest.mark.parametrize("call", PROGRAMS, ids=name_of)
 def test_data_is_as_the_schema_says(call, random):
     folder, _ = run(*call)
     result = Result(folder)
     for name in result.schema:
-        if name.endswith(".json") and name != "summary.json":
+        if name.endswith(".csv"):
+            assert len({len(column) for column in result.table(name).values()}) == 1
+        elif name != "summary.json":
             value = result.json(name)
             for _ in range(longer(50)):
                 bad = damaged(value, random)
@@ -83,7 +96,7 @@ def test_data_is_as_the_schema_says(call, random):
                         check(bad, SCHEMA[call[0]][name], name)
 
 
-@pytest.mark.parametrize("call", PROGRAMS, ids=lambda call: f"{call[0]}-{pathlib.Path(call[1]).stem}")
+@pytest.mark.parametrize("call", PROGRAMS, ids=name_of)
 @pytest.mark.parametrize("width", [1200, 390])
 def test_report_opens_without_an_error(call, width):
     """No message in the console; the 3D canvas has a picture that a slider changes; nothing is wider than the window."""
@@ -105,7 +118,8 @@ window.addEventListener("load", () => setTimeout(() => {
     slider.value = Number(slider.min) + 0.8 * (slider.max - slider.min);
     slider.dispatchEvent(new Event("input"));
     const after = seen(canvas);
-    return {colours: new Set(before.map((v, i) => i % 4 ? 0 : before.slice(i, i + 3).join())).size,
+    const q = FK;
+    return {tool: q.length && view.vispView ? view.vispView.toolAt(0, q) : [], colours: new Set(before.map((v, i) => i % 4 ? 0 : before.slice(i, i + 3).join())).size,
             moved: before.filter((v, i) => Math.abs(v - after[i]) > 8).length};
   });
   const table = document.querySelector("table.sorts"), rows = () => [...table.tBodies[0].rows].map((r) => r.cells[1].textContent);
@@ -115,7 +129,8 @@ window.addEventListener("load", () => setTimeout(() => {
     wide: document.documentElement.scrollWidth - window.innerWidth, figures: document.querySelectorAll("figure.plot svg").length});
 }, 500));</script></body>"""
     probed = folder / "probe.html"
-    probed.write_text(page.replace("</body>", probe))
+    q = [float(x) for x in call[-1].split(",")] if "--fk" in call else []
+    probed.write_text(page.replace("</body>", probe.replace("FK", json.dumps(q))))
     browser = [CHROMIUM, "--headless", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
                "--enable-logging=stderr", "--hide-scrollbars", f"--window-size={width},1600", "--virtual-time-budget=20000"]
     dumped = subprocess.run([*browser, "--dump-dom", probed.as_uri()], capture_output=True, text=True, timeout=300)
@@ -124,7 +139,9 @@ window.addEventListener("load", () => setTimeout(() => {
     assert verdict["wide"] <= 0 and len(verdict["sorted"]) == len(verdict["unsorted"]) and sorted(verdict["sorted"]) == sorted(verdict["unsorted"])
     if call[0] == "visp-arm":
         assert verdict["views"] and all(view["colours"] > 20 and view["moved"] > 20 for view in verdict["views"]), verdict
-    else:
+        pose = json.loads((folder / "robot.json").read_text())["pose"]  # the page moves the arm as the library does
+        np.testing.assert_allclose(verdict["views"][0]["tool"], [row[3] for row in pose[:3]], atol=1e-9)
+    elif call[0] == "visp-plan-trajectory":
         values = [value_of(text) for text in verdict["sorted"]]
         assert values == sorted(values) and verdict["figures"] >= 1
     subprocess.run([*browser, f"--screenshot={folder / f'report-{width}.png'}", (folder / "report.html").as_uri()], capture_output=True, timeout=300)

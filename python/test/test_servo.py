@@ -7,6 +7,9 @@ import visp_direct as vd
 from conftest import longer, pose, rotation
 
 
+LAWS = vd.ServoLaw.ids()  # before a test adds its own
+
+
 def moved(cMo, twist, dt):
     """Pose of a static object after the camera has moved with a twist in its own frame: exp of se(3)."""
     v, w = twist[:3] * dt, twist[3:] * dt
@@ -62,7 +65,7 @@ def start(random):
 
 def test_all_laws_arrive(random):
     goal = pose([0, 0, 0.4])
-    for id in [*vd.ServoLaw.ids(), "ff-lookat-pi+cbf"]:
+    for id in [*LAWS, "ff-lookat-pi+cbf"]:
         for _ in range(longer(3)):
             law = vd.ServoController.create(id)
             assert law.id() == id
@@ -108,6 +111,27 @@ def test_exceptions_of_a_law_come_out_of_step(random):
         for _ in range(2):
             with pytest.raises(error, match=sentence):
                 law.step(seen, 0.02)
+
+
+def test_laws_of_ones_own_by_name(random):
+    vd.ServoLaw.add("straight-by-name", "Straight to the goal.", Straight)
+    assert "straight-by-name" in vd.ServoLaw.ids() and vd.ServoLaw.sentence("straight-by-name") == "Straight to the goal."
+    controller = vd.ServoController.create("straight-by-name+cbf")
+    controller.notifyInterrupted()
+    cMo, command = drive(controller, pose([0.02, 0, 0.5]), pose([0, 0, 0.4]))
+    np.testing.assert_allclose(cMo, pose([0, 0, 0.4]), atol=1e-3)
+    law = vd.ServoLaw.create("straight-by-name", vd.ServoGains(lambda_=2))
+    own = Straight(vd.ServoGains(lambda_=2))
+    for each in (law, own):
+        each.setGoal(plate().goal(pose([0, 0, 0.4])))
+    seen = plate().measure(start(random))
+    np.testing.assert_array_equal(law.step(seen, 0.02).v, own.step(seen, 0.02).v)
+    for id, maker, sentence in (("straight-by-name", Straight, "straight-by-name"), ("two words", Straight, "two words")):
+        with pytest.raises(ValueError, match=sentence):
+            vd.ServoLaw.add(id, "Again.", maker)
+    vd.ServoLaw.add("no-law", "Makes something else.", lambda gains: 3)
+    with pytest.raises(TypeError, match="the law no-law is an int, must be a ServoLaw"):
+        vd.ServoLaw.create("no-law")
 
 
 def test_a_law_keeps_its_state():

@@ -16,7 +16,7 @@ def _arm(arm, missing):
     from .report.view3d import MOST_TRIANGLES, mesh_part
     spec, kinds = arm.spec(), core.ArmShapeKind
     most = MOST_TRIANGLES // max(1, sum(shape.kind == kinds.Mesh for shape in spec.shapes))
-    links = [{"shapes": [], "capsules": []} for _ in range(arm.size() + 1)]
+    links = [{"shapes": [], "capsules": []} for _ in range(arm.links() + 1)]
     for shape in spec.shapes:
         size = shape.size.tolist()
         if shape.kind == kinds.Mesh:
@@ -36,10 +36,12 @@ def _arm(arm, missing):
     for capsule in spec.capsules:
         links[capsule.link]["capsules"].append({"kind": "capsule", "from": capsule.from_.tolist(), "to": capsule.to.tolist(),
                                                 "radius": capsule.radius})
-    joints = [{"name": joint.name, "type": JOINT[joint.type], "before": joint.before.tolist(), "after": joint.after.tolist(),
-               "offset": joint.offset, "limits": None if joint.type == core.JointType.Continuous else [joint.lower, joint.upper]}
-              for joint in spec.joints]
-    return {"name": spec.name, "joints": joints, "links": links, "tool": spec.tool.tolist(), "home": arm.home().tolist()}
+    joints = [{"name": joint.name, "type": JOINT[joint.type],
+               "limits": None if joint.type == core.JointType.Continuous else [joint.lower, joint.upper]} for joint in spec.joints]
+    chain = [{"step": part.step.tolist(), "after": part.after.tolist(), "prismatic": part.isPrismatic, "joint": part.joint,
+              "ratio": part.ratio, "offset": part.offset} for part in map(arm.chain, range(arm.links()))]
+    return {"name": spec.name, "joints": joints, "chain": chain, "links": links, "tool_link": arm.toolLink(), "tool": spec.tool.tolist(),
+            "home": arm.home().tolist()}
 
 
 def _object(item, seconds, missing):

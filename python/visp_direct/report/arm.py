@@ -30,6 +30,10 @@ def add_robot(page, result, robot):
     page.section(f"Joints of {robot['name']}")
     page.table(["joint", "type", "lower", "upper", "from", "velocity", "from", "acceleration", "from", "torque", "home"], joint_rows(robot),
                "rad or m, and s, Nm or N. From: which file or option gave the limit. –: none, or unknown.")
+    if robot["followers"]:
+        page.table(["follower", "type", "follows", "ratio", "offset (rad or m)"],
+                   [[f["name"], f["type"], f["follows"], f["ratio"], f["offset"]] for f in robot["followers"]],
+                   "Joints that move with another one: their coordinate is ratio times its coordinate, plus offset.")
     page.section("What collision checks see")
     page.table(["body", "on link", "checked as", "capsules", "overhang (mm)", "of radius (mm)", "volume / hull"], link_rows(robot),
                "cover: capsules; mesh: known, not covered; none: no shape is known. Overhang: how far the capsules reach beyond the shape.")

@@ -76,20 +76,20 @@ function vispArm(arm, colour, base) {
     root.add(group);
   });
   const start = base ? vispMatrix(base) : new THREE.Matrix4();
-  const joints = arm.joints.map((j) => ({...j, before: vispMatrix(j.before), after: vispMatrix(j.after)}));
+  const chain = arm.chain.map((part) => ({...part, step: vispMatrix(part.step), after: vispMatrix(part.after)}));
   const tool = vispMatrix(arm.tool);
-  const frames = (q) => { // base, links, then the tool
-    const list = [start];
-    joints.forEach((joint, i) => {
-      const value = q[i] + joint.offset;
-      const motion = joint.type === "prismatic" ? new THREE.Matrix4().makeTranslation(0, 0, value) : new THREE.Matrix4().makeRotationZ(value);
-      list.push(list[i].clone().multiply(joint.before).multiply(motion).multiply(joint.after));
+  const frames = (q) => { // of the base and of the links
+    const list = [start], moving = start.clone();
+    chain.forEach((part) => {
+      const value = part.ratio * q[part.joint] + part.offset;
+      moving.multiply(part.step).multiply(part.prismatic ? new THREE.Matrix4().makeTranslation(0, 0, value)
+                                                         : new THREE.Matrix4().makeRotationZ(value));
+      list.push(moving.clone().multiply(part.after));
     });
-    list.push(list[joints.length].clone().multiply(tool));
     return list;
   };
-  const place = (q) => frames(q).slice(0, links.length).forEach((frame, i) => links[i].matrix.copy(frame));
-  const toolAt = (q) => new THREE.Vector3().setFromMatrixPosition(frames(q)[joints.length + 1]);
+  const place = (q) => frames(q).forEach((frame, i) => links[i].matrix.copy(frame));
+  const toolAt = (q) => new THREE.Vector3().setFromMatrixPosition(frames(q)[arm.tool_link].multiply(tool));
   place(arm.home);
   return {root, covers, place, toolAt};
 }
@@ -209,7 +209,7 @@ function vispView(figure, scene) {
     vispJointControls(controls, scene.arms[0], (q) => setJoints(0, q));
   }
   fit();
-  figure.vispView = {setTime, setJoints, setCovers, renderer};
+  figure.vispView = {setTime, setJoints, setCovers, toolAt: (i, q) => arms[i].toolAt(q).toArray()};
 }
 
 function vispTimeControls(controls, scene, setTime) {

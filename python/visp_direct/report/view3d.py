@@ -72,7 +72,7 @@ def _shape_part(shape, folder, most):
 def arm_of(data, folder):
     """An arm for view3d.js from arm.json of a program; its meshes are in the folder. Also sentences about what is missing."""
     most = MOST_TRIANGLES // max(1, sum(shape["kind"] == "mesh" for shape in data["shapes"]))
-    links, missing = [{"shapes": [], "capsules": []} for _ in range(len(data["joints"]) + 1)], []
+    links, missing = [{"shapes": [], "capsules": []} for _ in range(len(data["chain"]) + 1)], []
     for shape in data["shapes"]:
         try:
             links[shape["link"]]["shapes"].append({**_shape_part(shape, folder, most), "pose": shape["pose"]})
@@ -80,7 +80,7 @@ def arm_of(data, folder):
             missing.append(f"{shape['file']}: is not shown: {error}")
     for capsule in data["capsules"]:
         links[capsule["link"]]["capsules"].append({"kind": "capsule", **{k: capsule[k] for k in ("from", "to", "radius")}})
-    return {key: data[key] for key in ("name", "joints", "tool", "home")} | {"links": links}, missing
+    return {key: data[key] for key in ("name", "joints", "chain", "tool_link", "tool", "home")} | {"links": links}, missing
 
 
 def scene(arms, runs=(), objects=(), ground=None):
