@@ -45,6 +45,9 @@ def tracked_frame():
 
 if __name__ == "__main__":
     print(f"{'':36}{'Python':>10}{'C++':>10}{'above':>10}  us")
-    for name, measure in (("trajectory update, 7 axes", trajectory_update), ("tracked frame of 240 x 160 px", tracked_frame)):
+    for name, measure in (
+        ("trajectory update, 7 axes", trajectory_update),
+        ("tracked frame of 240 x 160 px", tracked_frame),
+    ):
         python, cpp = measure()
         print(f"{name:36}{python:10.2f}{cpp:10.2f}{python - cpp:10.2f}")

@@ -52,8 +52,13 @@ private:
   void call(const char *name)
   {
     const py::gil_scoped_acquire locked;
-    if (const py::function written = py::get_override(static_cast<const vpServoLaw *>(this), name)) {
-      written();
+    try {
+      if (const py::function written = py::get_override(static_cast<const vpServoLaw *>(this), name)) {
+        written();
+      }
+    }
+    catch (...) { // vpVisualServo sets goals in its step, too
+      m_error = std::current_exception();
     }
   }
   vpServoCommand command(const py::object &result) const
@@ -113,6 +118,21 @@ void raiseErrorOf(const vpServoLaw &law)
 
 namespace
 {
+const vpServoLaw &lawOf(const vpServoLaw &law) { return law; }
+const vpServoLaw &lawOf(const vpServoController &controller) { return controller.law(); }
+
+template <class T> void setGoalOf(T &self, const vpServoGoal &goal)
+{
+  self.setGoal(goal);
+  raiseErrorOf(lawOf(self));
+}
+
+template <class T> void resetOf(T &self)
+{
+  self.reset();
+  raiseErrorOf(lawOf(self));
+}
+
 vpServoCommand stepOf(vpServoLaw &law, const vpServoMeasurement &measurement, double dt)
 {
   const vpServoCommand command = law.step(measurement, dt);
@@ -160,8 +180,8 @@ void bindLaw(py::module_ &m)
                   "as its class does. The\n"
                   "controller calls it where the interpreter can be had, which is no real time.")
       .def_static("ids", &Law::ids, doc("vpServoLaw::ids"))
-      .def("setGoal", &Law::setGoal, py::arg("goal"), doc("vpServoLaw::setGoal"))
-      .def("reset", &Law::reset, doc("vpServoLaw::reset"))
+      .def("setGoal", &setGoalOf<Law>, py::arg("goal"), doc("vpServoLaw::setGoal"))
+      .def("reset", &resetOf<Law>, doc("vpServoLaw::reset"))
       .def("id", &Law::id, doc("vpServoLaw::id"))
       .def("goal", &Law::goal, py::return_value_policy::copy, doc("vpServoLaw::goal"))
       .def("gains", &Gains::of, py::return_value_policy::copy, "The gains of the law.")
@@ -186,8 +206,8 @@ void bindController(py::module_ &m)
       .def_static("create", &Controller::create, py::arg("id"), py::arg("spec") = vpServoControllerSpec(),
                   doc("vpServoController::create"))
       .def_static("ids", &Controller::ids, doc("vpServoController::ids"))
-      .def("setGoal", &Controller::setGoal, py::arg("goal"), doc("vpServoController::setGoal"))
-      .def("reset", &Controller::reset, doc("vpServoController::reset"))
+      .def("setGoal", &setGoalOf<Controller>, py::arg("goal"), doc("vpServoController::setGoal"))
+      .def("reset", &resetOf<Controller>, doc("vpServoController::reset"))
       .def("id", &Controller::id, doc("vpServoController::id"))
       .def("spec", &Controller::spec, py::return_value_policy::copy, doc("vpServoController::spec"))
       .def("notifyInterrupted", &Controller::notifyInterrupted, doc("vpServoController::notifyInterrupted"))

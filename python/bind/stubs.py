@@ -11,9 +11,11 @@ import visp_direct._core as core
 
 OBJECT = re.compile(r"<[^<>]*>|array\([^()]*\)(?:, dtype=\w+)?|\b[A-Z]\w+\((?:[^()]|\([^()]*\))*\)")
 
+
 def annotation(text):
     """A type of pybind11 as Python writes it."""
     return re.sub(r"visp_direct\._core\.", "", text).replace("numpy.dtype[void]", "numpy.dtype")
+
 
 def signatures(function):
     """The signatures that pybind11 puts into a docstring, as `def` lines without the name of the class."""
@@ -22,7 +24,11 @@ def signatures(function):
     lines = [re.sub(r"^\d+\. ", "", line) for line in lines if "*args, **kwargs) -> Any" not in line]
     result = []
     for line in lines or [f"{name}(*args, **kwargs)"]:
-        line = re.sub(r"=\s*(?:[^,()\[\]]|\[[^\]]*\]|\((?:[^()]|\((?:[^()]|\([^()]*\))*\))*\))+(?=[,)])", "= ...", annotation(line))
+        line = re.sub(
+            r"=\s*(?:[^,()\[\]]|\[[^\]]*\]|\((?:[^()]|\((?:[^()]|\([^()]*\))*\))*\))+(?=[,)])",
+            "= ...",
+            annotation(line),
+        )
         try:
             ast.parse(f"def {line}: ...")
         except SyntaxError:
@@ -30,11 +36,15 @@ def signatures(function):
         result.append(line)
     return result
 
+
 def docstring(thing, indent):
     """The docstring without signatures, as a statement."""
-    lines = [line for line in (inspect.getdoc(thing) or "").split("\n") if not re.match(r"(\d+\. )?\w+\(.*\) -> ", line)]
+    lines = [
+        line for line in (inspect.getdoc(thing) or "").split("\n") if not re.match(r"(\d+\. )?\w+\(.*\) -> ", line)
+    ]
     text = "\n".join(lines).strip().replace("\\", "\\\\").replace('"""', "'''")
     return f'{indent}"""{text}"""' if text else ""
+
 
 def function_stub(name, function, indent, decorator=""):
     found = signatures(function)
@@ -48,20 +58,32 @@ def function_stub(name, function, indent, decorator=""):
         lines.append(f"{indent}def {line}:" + (f"\n{body}\n{indent}    ..." if body else " ..."))
     return lines
 
+
 def property_stub(name, member, indent):
     getter = re.search(r"-> (.+)", member.fget.__doc__ or "")
     kind = annotation(getter.group(1)) if getter else "Any"
-    lines = [f"{indent}@property", f"{indent}def {name}(self) -> {kind}:", docstring(member, indent + "    ") or f"{indent}    ..."]
+    lines = [
+        f"{indent}@property",
+        f"{indent}def {name}(self) -> {kind}:",
+        docstring(member, indent + "    ") or f"{indent}    ...",
+    ]
     if member.fset:
         lines += [f"{indent}@{name}.setter", f"{indent}def {name}(self, value: Any) -> None: ..."]
     return lines
+
 
 def class_stub(name, cls):
     lines = [f"class {name}:", docstring(cls, "    ")]
     values = getattr(cls, "__members__", None)
     if values:
-        return [*lines, *(f"    {value}: ClassVar[{name}]" for value in values), "    name: str", "    value: int",
-                "    def __init__(self, value: int) -> None: ...", ""]
+        return [
+            *lines,
+            *(f"    {value}: ClassVar[{name}]" for value in values),
+            "    name: str",
+            "    value: int",
+            "    def __init__(self, value: int) -> None: ...",
+            "",
+        ]
     for key, member in vars(cls).items():
         if isinstance(member, property):
             lines += property_stub(key, member, "    ")
@@ -71,9 +93,14 @@ def class_stub(name, cls):
             lines += function_stub(key, member, "    ")
     return [*lines, "    ...", ""]
 
+
 def main(output):
-    lines = ['"""Types of visp_direct, made from the compiled module."""', "from typing import Any, Callable, ClassVar, Dict, List, "
-             "Optional, Tuple, overload", "import numpy", ""]
+    lines = [
+        '"""Types of visp_direct, made from the compiled module."""',
+        "from typing import Any, Callable, ClassVar, Dict, List, " "Optional, Tuple, overload",
+        "import numpy",
+        "",
+    ]
     for name, thing in vars(core).items():
         if name.startswith("_"):
             continue
@@ -87,6 +114,7 @@ def main(output):
     ast.parse(text)
     with open(output, "w", encoding="utf-8") as file:
         file.write(text)
+
 
 if __name__ == "__main__":
     main(sys.argv[1])

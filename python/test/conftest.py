@@ -44,4 +44,5 @@ def pose(translation, vector=(0, 0, 0)):
 @pytest.fixture(scope="session")
 def arm():
     import visp_direct as vd
+
     return vd.loadArmJson(str(DATA / "robot/amor.json"))

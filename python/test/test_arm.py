@@ -49,11 +49,15 @@ def test_kinematics(arm, random):
 
 
 def test_indices_have_exact_gradients(arm, random):
-    indices = [vd.SelfMotionIndex.manipulability(), vd.SelfMotionIndex.weightedManipulability(np.full(arm.size(), 2.), 0.5),
-               vd.SelfMotionIndex.pointDistance(3, [0.2, 0.3, 0.4], vd.IndexSense.Repel),
-               vd.SelfMotionIndex.lineDistance(3, vd.IndexSense.Attract),
-               vd.SelfMotionIndex.planeDistance(3, [0, 0, 0.1], [0, 0, 1], vd.IndexSense.Repel),
-               vd.SelfMotionIndex.jointLimits(), vd.SelfMotionIndex.posture(arm.home())]
+    indices = [
+        vd.SelfMotionIndex.manipulability(),
+        vd.SelfMotionIndex.weightedManipulability(np.full(arm.size(), 2.0), 0.5),
+        vd.SelfMotionIndex.pointDistance(3, [0.2, 0.3, 0.4], vd.IndexSense.Repel),
+        vd.SelfMotionIndex.lineDistance(3, vd.IndexSense.Attract),
+        vd.SelfMotionIndex.planeDistance(3, [0, 0, 0.1], [0, 0, 1], vd.IndexSense.Repel),
+        vd.SelfMotionIndex.jointLimits(),
+        vd.SelfMotionIndex.posture(arm.home()),
+    ]
     for _ in range(longer(10)):
         q = configuration(random, arm)
         for index in indices:
@@ -72,7 +76,9 @@ def test_redundancy_gives_the_twist_within_limits(arm, random):
     exact = 0
     for _ in range(longer(50)):
         now = vd.ArmKinematics(arm, 0.8 * configuration(random, arm))
-        given = vd.RedundancyInput(twist=random.uniform(-0.01, 0.01, 6), frame=vd.ArmFrame.Base, previous=np.zeros(arm.size()))
+        given = vd.RedundancyInput(
+            twist=random.uniform(-0.01, 0.01, 6), frame=vd.ArmFrame.Base, previous=np.zeros(arm.size())
+        )
         given.indices = [vd.SelfMotionIndex.jointLimits()]
         given.tasks = [vd.ArmTask.pointVelocity(now, 3, [0.01, 0, 0])]
         assert given.indexCount == given.taskCount == 1 and len(given.indices) == 1
@@ -126,11 +132,13 @@ def test_motion_reaches_a_configuration_and_a_pose(arm, random):
 
 
 def test_models_from_files_and_tables():
-    urdf = vd.loadArmUrdf(str(DATA / "robot/generic-6r.urdf"), vd.ArmUrdfSpec(tip="tool", acceleration=5.))
+    urdf = vd.loadArmUrdf(str(DATA / "robot/generic-6r.urdf"), vd.ArmUrdfSpec(tip="tool", acceleration=5.0))
     assert urdf.size() == 6 and isinstance(urdf.hasMasses(), bool) and (urdf.acceleration() <= 5).all()
     urdf.requireMotionLimits("this test")
-    assert not urdf.isPrismatic(0) and isinstance(urdf.isContinuous(0), bool) and len(urdf.torque()) == 6 and urdf.label()
-    assert urdf.outsideLimits(urdf.home()) == "" and "outside" in urdf.outsideLimits(np.full(6, 100.))
+    assert (
+        not urdf.isPrismatic(0) and isinstance(urdf.isContinuous(0), bool) and len(urdf.torque()) == 6 and urdf.label()
+    )
+    assert urdf.outsideLimits(urdf.home()) == "" and "outside" in urdf.outsideLimits(np.full(6, 100.0))
     joints = [vd.ArmJointSpec.standardDH(0.4, 0, 0, 0), vd.ArmJointSpec.modifiedDH(0.4, 0, 0, 0)]
     for i, joint in enumerate(joints):
         joint.name, joint.lower, joint.upper = f"joint {i}", -1, 1
@@ -167,7 +175,9 @@ def test_followers_move_with_their_joint(random):
         q = random.uniform(-2, 2)
         second = q - 0.5 * q + 0.1
         tool = vd.ArmKinematics(arm, [q]).tool
-        np.testing.assert_allclose(tool[:2, 3], [0.3 * np.cos(q) + 0.2 * np.cos(second), 0.3 * np.sin(q) + 0.2 * np.sin(second)], atol=1e-12)
+        np.testing.assert_allclose(
+            tool[:2, 3], [0.3 * np.cos(q) + 0.2 * np.cos(second), 0.3 * np.sin(q) + 0.2 * np.sin(second)], atol=1e-12
+        )
     with pytest.raises(IndexError, match="joint of the chain 2 does not exist, there are 2"):
         arm.chain(2)
 

@@ -36,7 +36,10 @@ def test_everything_has_a_docstring():
             text = inspect.getdoc(thing.__func__ if isinstance(thing, staticmethod) else thing) or ""
             lines = [line for line in text.split("\n") if line and not re.match(r"(\d+\. )?\w+\(.*\) -> ", line)]
             assert [line for line in lines if line != "Overloaded function."], name
-            assert "\\" not in text and not re.search(r"\bvp[A-Z]", text.replace("vpCameraParameters of ViSP", "")), (name, text)
+            assert "\\" not in text and not re.search(r"\bvp[A-Z]", text.replace("vpCameraParameters of ViSP", "")), (
+                name,
+                text,
+            )
 
 
 def test_stubs_have_the_same_names():
@@ -48,7 +51,11 @@ def test_stubs_have_the_same_names():
         elif isinstance(node, (ast.FunctionDef, ast.ClassDef)):
             stubbed.add(node.name)
         if isinstance(node, ast.ClassDef) and not hasattr(getattr(core, node.name), "__members__"):
-            stubbed |= {f"{node.name}.{m.name}" for m in node.body if isinstance(m, ast.FunctionDef) and not m.name.startswith("_")}
+            stubbed |= {
+                f"{node.name}.{m.name}"
+                for m in node.body
+                if isinstance(m, ast.FunctionDef) and not m.name.startswith("_")
+            }
     assert stubbed == {name for name, _ in public()}
     text = (pathlib.Path(core.__file__).parent / "_core.pyi").read_text()
     assert "::" not in text and "*args: Any, **kwargs: Any" not in text  # C++ types, signatures that are no Python
@@ -56,8 +63,13 @@ def test_stubs_have_the_same_names():
 
 def test_every_function_is_in_a_test():
     tests = "".join(file.read_text() for file in HERE.glob("test_*.py") if file.name != "test_interface.py")
-    untested = [name for name, thing in public() if (callable(thing) or isinstance(thing, staticmethod)) and not inspect.isclass(thing)
-                and f".{name.split('.')[-1]}(" not in tests]
+    untested = [
+        name
+        for name, thing in public()
+        if (callable(thing) or isinstance(thing, staticmethod))
+        and not inspect.isclass(thing)
+        and f".{name.split('.')[-1]}(" not in tests
+    ]
     assert untested == []
 
 
@@ -154,8 +166,13 @@ print(done, good)
 def test_no_argument_crashes(seed):
     """Random calls with arguments of all kinds, in a process of its own: an exception is right, a crash is not."""
     environment = {"PYTHONPATH": f"{pathlib.Path(core.__file__).parents[1]}:{HERE}", "OMP_NUM_THREADS": "1"}
-    run = subprocess.run([sys.executable, "-W", "ignore", "-c", FUZZ, str(seed), str(longer(4000))], env=environment,
-                         capture_output=True, text=True, timeout=1000)
+    run = subprocess.run(
+        [sys.executable, "-W", "ignore", "-c", FUZZ, str(seed), str(longer(4000))],
+        env=environment,
+        capture_output=True,
+        text=True,
+        timeout=1000,
+    )
     assert run.returncode == 0, run.stderr[-3000:]
 
 
@@ -177,9 +194,17 @@ def test_nothing_leaks(arm):
         with pytest.raises(ValueError):
             problem.goal.q = [[1, 2]]
 
-    calls = [lambda: trajectory.step(problem, 0.01).state.q, lambda: setattr(problem.goal, "q", q), lambda: law.step(seen, 0.02).v,
-             lambda: target.measure(cMo).points, lambda: tracker.process(image).cells, lambda: vd.ArmKinematics(arm, q).geometric(),
-             lambda: scene.clearance(q), lambda: vd.PrintTriggerInput(cells=cells, along=forecast), refused]
+    calls = [
+        lambda: trajectory.step(problem, 0.01).state.q,
+        lambda: setattr(problem.goal, "q", q),
+        lambda: law.step(seen, 0.02).v,
+        lambda: target.measure(cMo).points,
+        lambda: tracker.process(image).cells,
+        lambda: vd.ArmKinematics(arm, q).geometric(),
+        lambda: scene.clearance(q),
+        lambda: vd.PrintTriggerInput(cells=cells, along=forecast),
+        refused,
+    ]
     for call in calls:
         for _ in range(1000):
             call()

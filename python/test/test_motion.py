@@ -29,7 +29,9 @@ def distance_by_points(scene, q, centre, radius):
 def test_clearance_of_a_sphere(arm, random):
     for _ in range(longer(30)):
         centre, radius = random.uniform(-0.8, 0.8, 3), random.uniform(0.05, 0.2)
-        scene = scene_of(arm, objects=[vd.CollisionObject(name="ball", shape=vd.CollisionShape.sphere(radius), pose=pose(centre))])
+        scene = scene_of(
+            arm, objects=[vd.CollisionObject(name="ball", shape=vd.CollisionShape.sphere(radius), pose=pose(centre))]
+        )
         q = random.uniform(np.maximum(arm.lower(), -3), np.minimum(arm.upper(), 3))
         pairs = [p for p in scene.near(q, 10) if p.kind == vd.CollisionKind.Object]
         least = min(p.distance for p in pairs)
@@ -52,13 +54,18 @@ def test_objects_come_move_and_go(arm):
     assert len(scene.selfPairs()) > 0 and scene.ground().firstLink == 3 and scene.arm().size() == arm.size()
     scene.remove(0)
     assert scene.objectCount() == 0 and not scene.setInflation(0, 0.1)
-    for call, sentence in ((lambda: scene.remove(3), "3"), (lambda: scene.add(vd.CollisionObject(name="")), "name"),
-                           (lambda: scene.inCollision([0, 0]), "q has 2 numbers, the arm has 7 joints")):
+    for call, sentence in (
+        (lambda: scene.remove(3), "3"),
+        (lambda: scene.add(vd.CollisionObject(name="")), "name"),
+        (lambda: scene.inCollision([0, 0]), "q has 2 numbers, the arm has 7 joints"),
+    ):
         with pytest.raises(ValueError, match=sentence):
             call()
     with pytest.raises(IndexError, match="object 5 does not exist, there are 0"):
         scene.object(5)
-    assert scene.inCollision(np.full(7, np.nan)) and scene.clearance(np.full(7, np.nan)).kind == vd.CollisionKind.Unknown
+    assert (
+        scene.inCollision(np.full(7, np.nan)) and scene.clearance(np.full(7, np.nan)).kind == vd.CollisionKind.Unknown
+    )
     assert len(scene.capsuleEnds(np.full(7, np.nan))) == 0
     with pytest.raises(IndexError):
         scene.describe(vd.Clearance(kind=vd.CollisionKind.Object, capsule=0, other=99))
@@ -67,7 +74,12 @@ def test_objects_come_move_and_go(arm):
 def test_shapes_and_meshes(tmp_path):
     Shape = vd.CollisionShape
     shapes = [Shape.sphere(0.1), Shape.capsule(0.1, 0.2), Shape.box([1, 2, 3]), Shape.cylinder(0.1, 0.2)]
-    assert [s.type() for s in shapes] == [vd.ShapeType.Sphere, vd.ShapeType.Capsule, vd.ShapeType.Box, vd.ShapeType.Cylinder]
+    assert [s.type() for s in shapes] == [
+        vd.ShapeType.Sphere,
+        vd.ShapeType.Capsule,
+        vd.ShapeType.Box,
+        vd.ShapeType.Cylinder,
+    ]
     assert shapes[1].radius() == 0.1 and shapes[1].length() == 0.2 and (shapes[2].size() == [1, 2, 3]).all()
     assert shapes[0].triangles() is None
     vertices = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], float)
@@ -76,8 +88,12 @@ def test_shapes_and_meshes(tmp_path):
     np.testing.assert_array_equal(np.sort(mesh.vertices(), axis=0), np.sort(vertices, axis=0))
     assert mesh.triangles().shape == (4, 3) and Shape.mesh(mesh).triangles().label() == "corner"
     assert len(vd.TriangleMesh.load(str(DATA / "scene/bracket.obj")).triangles()) > 4
-    for call, sentence in ((lambda: Shape.sphere(-1), "radius"), (lambda: Shape.mesh(vd.TriangleMesh(vertices, [[0, 1, 2]])), "holes"),
-                           (lambda: vd.TriangleMesh(vertices, [[0, 1, 9]]), "9"), (lambda: Shape.box([1, 2]), "must be 3 numbers")):
+    for call, sentence in (
+        (lambda: Shape.sphere(-1), "radius"),
+        (lambda: Shape.mesh(vd.TriangleMesh(vertices, [[0, 1, 2]])), "holes"),
+        (lambda: vd.TriangleMesh(vertices, [[0, 1, 9]]), "9"),
+        (lambda: Shape.box([1, 2]), "must be 3 numbers"),
+    ):
         with pytest.raises(ValueError, match=sentence):
             call()
 
@@ -152,7 +168,10 @@ def test_goal_configuration(arm):
     goal = vd.findGoalConfiguration(scene, arm.home(), wanted, attempts=50)
     assert goal.isFree()
     np.testing.assert_allclose(vd.ArmKinematics(arm, goal.q).tool[:3, 3], wanted, atol=1e-3)
-    assert vd.findGoalConfiguration(scene, arm.home(), [9, 9, 9], attempts=1).status == vd.GoalConfigurationStatus.Unreachable
+    assert (
+        vd.findGoalConfiguration(scene, arm.home(), [9, 9, 9], attempts=1).status
+        == vd.GoalConfigurationStatus.Unreachable
+    )
 
 
 def test_avoidance_methods_arrive(arm):
@@ -254,6 +273,7 @@ def test_servo_without_an_arm_takes_sights_and_laws_of_ones_own():
             raise RuntimeError("nobody knows")
 
     from test_servo import Straight, moved
+
     for id, law in (("straight-servo", Straight), ("broken-servo", Broken)):
         vd.ServoLaw.add(id, "For this test.", law)
         servo = vd.VisualServo(id, spec=vd.VisualServoSpec(assumeExecuted=True, period=0.01, startTime=0))
@@ -279,6 +299,7 @@ def test_servo_without_an_arm_takes_sights_and_laws_of_ones_own():
 
 def test_servo_with_a_photograph(random):
     from test_vision import CAMERA, rendered, texture
+
     photo = texture(random)
     servo = vd.VisualServo("pbvs1", spec=vd.VisualServoSpec(assumeExecuted=True))
     servo.setPhotograph(photo, 0.16, 0.12, CAMERA)
@@ -289,7 +310,7 @@ def test_servo_with_a_photograph(random):
 
 
 def test_covers_and_exact_shapes():
-    arm = vd.loadArmUrdf(str(DATA / "robot/generic-6r.urdf"), vd.ArmUrdfSpec(tip="tool", acceleration=5.))
+    arm = vd.loadArmUrdf(str(DATA / "robot/generic-6r.urdf"), vd.ArmUrdfSpec(tip="tool", acceleration=5.0))
     cover = vd.coverArm(arm, vd.ArmCoverSpec(capsules=2))
     assert len(cover.arm.spec().capsules) >= len(arm.spec().capsules) and isinstance(cover.warnings, tuple)
     shapes = vd.ExactShapes(cover.arm)

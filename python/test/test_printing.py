@@ -67,9 +67,13 @@ def test_trigger_fires_once_at_each_cell(random):
         trigger.spec().validate()
         fired = {}
         for now in range(150):
-            given = vd.PrintTriggerInput(time=now, captureTime=now - delay, cells=cells_at(velocity * (now - delay), random),
-                                         captureAlong=velocity * (now - delay),
-                                         along=vd.MotionForecast(time=now, position=velocity * now, velocity=velocity))
+            given = vd.PrintTriggerInput(
+                time=now,
+                captureTime=now - delay,
+                cells=cells_at(velocity * (now - delay), random),
+                captureAlong=velocity * (now - delay),
+                along=vd.MotionForecast(time=now, position=velocity * now, velocity=velocity),
+            )
             output = trigger.step(given)
             assert output.status == vd.PrintTriggerStatus.Good and not output.overflow
             for shot in output.shots:

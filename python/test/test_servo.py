@@ -105,8 +105,19 @@ def test_exceptions_of_a_law_come_out_of_step(random):
     class Without(vd.ServoLaw):
         pass
 
-    for law, error, sentence in ((Broken(), RuntimeError, "nobody knows"), (NotFinite(), ValueError, "straight .*not finite"),
-                                 (Short(), ValueError, "must be 6 numbers"), (Without("none"), TypeError, "no method compute")):
+    class BadGoal(Straight):
+        def goalChanged(self):
+            raise RuntimeError("no such goal")
+
+    with pytest.raises(RuntimeError, match="no such goal"):
+        BadGoal().setGoal(plate().goal(pose([0, 0, 0.4])))
+
+    for law, error, sentence in (
+        (Broken(), RuntimeError, "nobody knows"),
+        (NotFinite(), ValueError, "straight .*not finite"),
+        (Short(), ValueError, "must be 6 numbers"),
+        (Without("none"), TypeError, "no method compute"),
+    ):
         law.setGoal(plate().goal(pose([0, 0, 0.4])))
         for _ in range(2):
             with pytest.raises(error, match=sentence):
@@ -115,7 +126,9 @@ def test_exceptions_of_a_law_come_out_of_step(random):
 
 def test_laws_of_ones_own_by_name(random):
     vd.ServoLaw.add("straight-by-name", "Straight to the goal.", Straight)
-    assert "straight-by-name" in vd.ServoLaw.ids() and vd.ServoLaw.sentence("straight-by-name") == "Straight to the goal."
+    assert (
+        "straight-by-name" in vd.ServoLaw.ids() and vd.ServoLaw.sentence("straight-by-name") == "Straight to the goal."
+    )
     controller = vd.ServoController.create("straight-by-name+cbf")
     controller.notifyInterrupted()
     cMo, command = drive(controller, pose([0.02, 0, 0.5]), pose([0, 0, 0.4]))
@@ -126,7 +139,10 @@ def test_laws_of_ones_own_by_name(random):
         each.setGoal(plate().goal(pose([0, 0, 0.4])))
     seen = plate().measure(start(random))
     np.testing.assert_array_equal(law.step(seen, 0.02).v, own.step(seen, 0.02).v)
-    for id, maker, sentence in (("straight-by-name", Straight, "straight-by-name"), ("two words", Straight, "two words")):
+    for id, maker, sentence in (
+        ("straight-by-name", Straight, "straight-by-name"),
+        ("two words", Straight, "two words"),
+    ):
         with pytest.raises(ValueError, match=sentence):
             vd.ServoLaw.add(id, "Again.", maker)
     vd.ServoLaw.add("no-law", "Makes something else.", lambda gains: 3)
@@ -160,8 +176,12 @@ def test_bad_arguments_have_a_sentence():
         vd.ServoLaw.create("pbvs1").setGoal(vd.ServoGoal())
     with pytest.raises(ValueError, match="not finite"):
         plate().measure(np.full((4, 4), np.nan))
-    for spec in (vd.ServoMotionLimits(linearJerk=-1), vd.ViewConstraintSpec(left=1), vd.TargetLossSpec(holdTime=-1),
-                 vd.ServoControllerSpec(recovery=vd.TargetLossSpec(holdTime=-1))):
+    for spec in (
+        vd.ServoMotionLimits(linearJerk=-1),
+        vd.ViewConstraintSpec(left=1),
+        vd.TargetLossSpec(holdTime=-1),
+        vd.ServoControllerSpec(recovery=vd.TargetLossSpec(holdTime=-1)),
+    ):
         with pytest.raises(ValueError, match="must be"):
             spec.validate()
 
@@ -184,11 +204,15 @@ def test_controller_and_its_parts(random):
     controller.reset()
     view = vd.ViewConstraintFilter(spec.view)
     outline = [vd.ServoPoint(x=0.39, y=0, Z=0.5)]
-    towards = vd.ServoCommand(v=[-1, 0, 0, 0, 0, 0], status=vd.ServoStatus.Servoing)  # the point would leave to the right
+    towards = vd.ServoCommand(
+        v=[-1, 0, 0, 0, 0, 0], status=vd.ServoStatus.Servoing
+    )  # the point would leave to the right
     filtered = view.filter(towards, outline, 0.01)
     v, x, Z = filtered.v, 0.39, 0.5
     assert filtered.status == vd.ServoStatus.ViewLimited
-    assert (-v[0] + x * v[2]) / Z - (1 + x * x) * v[4] <= spec.view.gamma * (spec.view.right - x)  # its velocity in the image
+    assert (-v[0] + x * v[2]) / Z - (1 + x * x) * v[4] <= spec.view.gamma * (
+        spec.view.right - x
+    )  # its velocity in the image
     assert view.margin(0.5, 0.1, 0.1, 0.01) > 0
 
 
@@ -225,8 +249,9 @@ def test_target_points_and_measurement_of_an_image(random):
     cMo = start(random)
     seen = target.measure(cMo)
     projected = (cMo @ np.c_[points, np.ones(5)].T)[:3]
-    np.testing.assert_allclose([[p.x, p.y, p.Z] for p in seen.points], projected.T / np.c_[
-        projected[2], projected[2], np.ones(5)], atol=1e-12)
+    np.testing.assert_allclose(
+        [[p.x, p.y, p.Z] for p in seen.points], projected.T / np.c_[projected[2], projected[2], np.ones(5)], atol=1e-12
+    )
     assert not target.measure(vd.PlanarTargetResult()).valid
     with pytest.raises(ValueError, match="must be n x 3 numbers"):
         vd.ServoTarget(np.zeros((4, 2)))

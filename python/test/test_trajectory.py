@@ -79,8 +79,10 @@ def test_vias_groups_and_options(random):
     problem.spec.groups = [vd.AxisGroup(axes=3, maxSpeed=0.3)]
     assert problem.spec.groups[0].contains(1) and not problem.spec.groups[0].contains(2)
     status, plan = vd.DirectTrajectory.calculate(problem)
-    speed = np.hypot(plan.sample(0, np.linspace(0, plan.duration(), 500))[:, 1],
-                     plan.sample(1, np.linspace(0, plan.duration(), 500))[:, 1])
+    speed = np.hypot(
+        plan.sample(0, np.linspace(0, plan.duration(), 500))[:, 1],
+        plan.sample(1, np.linspace(0, plan.duration(), 500))[:, 1],
+    )
     assert speed.max() <= 0.3 + 1e-9 and speed.max() > 0.29
     assert plan.peakNorm(3, 1) == pytest.approx(speed.max(), rel=1e-3)
     with pytest.raises(ValueError, match="5 groups were given, must be at most 4"):
@@ -90,9 +92,11 @@ def test_vias_groups_and_options(random):
 def test_bad_input_has_a_sentence():
     problem = vd.TrajectoryInput(2)
     trajectory = vd.DirectTrajectory(2)
-    for change, sentence in ((lambda p: setattr(p, "maxVelocity", [1, -1]), "velocity limit of axis 1 is -1, must be > 0"),
-                             (lambda p: setattr(p.goal, "q", [1, np.nan]), "goal"),
-                             (lambda p: setattr(p.goal, "q", [1, 2, 3]), "3")):
+    for change, sentence in (
+        (lambda p: setattr(p, "maxVelocity", [1, -1]), "velocity limit of axis 1 is -1, must be > 0"),
+        (lambda p: setattr(p.goal, "q", [1, np.nan]), "goal"),
+        (lambda p: setattr(p.goal, "q", [1, 2, 3]), "3"),
+    ):
         bad = vd.TrajectoryInput(2)
         change(bad)
         status = trajectory.step(bad, 0.01).status
@@ -146,9 +150,13 @@ def test_poses_are_checked():
     trajectory = vd.PoseTrajectory()
     bad = pose([0, 0, 0])
     bad[0, 3] = np.nan
-    for given, sentence in ((np.eye(3), r"an array of shape \(3, 3\) was given, must be 4 x 4 numbers"), (bad, "not finite"),
-                            (2 * np.eye(4), "last row"), (np.diag([2., 1, 1, 1]), "off by 3, must be orthonormal"),
-                            (np.diag([-1., 1, 1, 1]), "reflection")):
+    for given, sentence in (
+        (np.eye(3), r"an array of shape \(3, 3\) was given, must be 4 x 4 numbers"),
+        (bad, "not finite"),
+        (2 * np.eye(4), "last row"),
+        (np.diag([2.0, 1, 1, 1]), "off by 3, must be orthonormal"),
+        (np.diag([-1.0, 1, 1, 1]), "reflection"),
+    ):
         with pytest.raises(ValueError, match=sentence):
             trajectory.setGoal(given)
     trajectory.setGoal(pose([0, 0, 0.1]).tolist())  # numbers are numbers
@@ -181,7 +189,6 @@ def test_limit_twist(random):
         np.testing.assert_allclose(limited, factor * twist, rtol=1e-12)
     with pytest.raises(ValueError, match=r"an array of shape \(5,\) was given, must be 6 numbers"):
         vd.limitTwist(np.zeros(5), 1, 1)
-
 
 
 def test_plan_of_bad_size():

@@ -51,14 +51,24 @@ def test_planar_target_finds_its_pose(random):
         cMo = pose([*random.uniform(-0.03, 0.03, 2), random.uniform(0.25, 0.35)], random.uniform(-0.4, 0.4, 3))
         image = rendered(reference, 0.16, 0.12, cMo, random)
         target.reset()
-        for result in (target.acquire(image), target.process(image), target.track(image), target.track(image, cMo), target.result()):
+        for result in (
+            target.acquire(image),
+            target.process(image),
+            target.track(image),
+            target.track(image, cMo),
+            target.result(),
+        ):
             assert result.found(), result.message
             np.testing.assert_allclose(result.cMo[:3, 3], cMo[:3, 3], atol=1e-3)
             np.testing.assert_allclose(result.cMo[:3, :3], cMo[:3, :3], atol=1e-2)
         assert result.covariance.known and 0 < result.covariance.positionDeviation() < 1e-3
         assert 0 < result.covariance.rotationDeviation() < 1e-2
         np.testing.assert_allclose(result.covariance.C, result.covariance.C.T)
-        corners = K @ cMo[:3] @ np.array([[-.08, -.06, 0, 1], [.08, -.06, 0, 1], [.08, .06, 0, 1], [-.08, .06, 0, 1]]).T
+        corners = (
+            K
+            @ cMo[:3]
+            @ np.array([[-0.08, -0.06, 0, 1], [0.08, -0.06, 0, 1], [0.08, 0.06, 0, 1], [-0.08, 0.06, 0, 1]]).T
+        )
         np.testing.assert_allclose(result.corners, (corners[:2] / corners[2]).T, atol=1)
         mapped = result.homography @ [-0.5, -0.5, 1]
         np.testing.assert_allclose(mapped[:2] / mapped[2], result.corners[0], atol=1)
@@ -89,7 +99,7 @@ def test_database_finds_each_of_its_targets(random):
 
 def dots(shift=(0.0, 0.0), pitch=(22.0, 18.0), size=(160, 240), noise=None):
     """Round bright cells on a lattice, their true centres, and the image."""
-    v, u = np.mgrid[0:size[0], 0:size[1]].astype(float)
+    v, u = np.mgrid[0 : size[0], 0 : size[1]].astype(float)
     x = (u - shift[0] + pitch[0] / 2) % pitch[0] - pitch[0] / 2
     y = (v - shift[1] + pitch[1] / 2) % pitch[1] - pitch[1] / 2
     image = 60 + 120 / (1 + np.exp((np.hypot(x, y) - 5.5) / 0.7))
@@ -121,11 +131,13 @@ def test_pattern_tracker_measures_motion_and_places(random):
 
 def test_images_are_checked_and_not_copied():
     tracker = vd.PatternTracker(240, 160)
-    for given, error, sentence in ((np.zeros((160, 240)), TypeError, "an image of float64 was given, must be uint8"),
-                                   (np.zeros((160, 240), np.uint16), TypeError, "an image of uint16 was given, must be uint8"),
-                                   (np.zeros((160, 240, 3), np.uint8), ValueError, r"shape \(160, 240, 3\) was given, an image has 2"),
-                                   (np.zeros((0, 240), np.uint8), ValueError, "is not empty"),
-                                   ([[1, 2]], TypeError, "a list was given, an image is a 2-D array of uint8")):
+    for given, error, sentence in (
+        (np.zeros((160, 240)), TypeError, "an image of float64 was given, must be uint8"),
+        (np.zeros((160, 240), np.uint16), TypeError, "an image of uint16 was given, must be uint8"),
+        (np.zeros((160, 240, 3), np.uint8), ValueError, r"shape \(160, 240, 3\) was given, an image has 2"),
+        (np.zeros((0, 240), np.uint8), ValueError, "is not empty"),
+        ([[1, 2]], TypeError, "a list was given, an image is a 2-D array of uint8"),
+    ):
         with pytest.raises(error, match=sentence):
             tracker.process(given)
     image = dots()
@@ -139,7 +151,9 @@ def test_images_are_checked_and_not_copied():
 def test_microscope_calibration_finds_the_scale(random):
     pitch = vd.CalibrationPitch(columns=220e-6, rows=180e-6)
     pitch.check()
-    calibration = vd.PlanarMicroscopeCalibration(240, 160, vd.MicroscopeCalibrationSpec(estimateKappa1=False, estimateTilt=False))
+    calibration = vd.PlanarMicroscopeCalibration(
+        240, 160, vd.MicroscopeCalibrationSpec(estimateKappa1=False, estimateTilt=False)
+    )
     tracker = vd.PatternTracker(240, 160, vd.PatternTrackerSpec(learningFrames=2))
     for _ in range(12):
         frame = tracker.process(dots((3.2, 4.4), noise=random))
@@ -164,7 +178,9 @@ def test_tsai_calibration_finds_the_camera(random):
     calibration = vd.TsaiCalibration(640, 480, spec)
     for _ in range(6):
         cMo = pose([*random.uniform(-0.05, 0.05, 2), random.uniform(0.5, 0.7)], random.uniform(-0.6, 0.6, 3))
-        plane = np.c_[np.array(np.meshgrid(np.linspace(-0.1, 0.1, 7), np.linspace(-0.1, 0.1, 7))).reshape(2, -1).T, np.zeros(49)]
+        plane = np.c_[
+            np.array(np.meshgrid(np.linspace(-0.1, 0.1, 7), np.linspace(-0.1, 0.1, 7))).reshape(2, -1).T, np.zeros(49)
+        ]
         points = np.zeros(49, vd.CalibrationPoint)
         projected = K @ (cMo @ np.c_[plane, np.ones(49)].T)[:3]
         points["u"], points["v"] = projected[:2] / projected[2] + random.normal(0, 0.1, (2, 49))
@@ -173,7 +189,10 @@ def test_tsai_calibration_finds_the_camera(random):
         calibration.addView(points)
     result = calibration.compute()
     assert calibration.viewCount() == 6 and result.reliable, result.message
-    for value, true, parameter in ((result.px, 600, vd.TsaiParameter.TsaiPx), (result.u0, 319.5, vd.TsaiParameter.TsaiU0)):
+    for value, true, parameter in (
+        (result.px, 600, vd.TsaiParameter.TsaiPx),
+        (result.u0, 319.5, vd.TsaiParameter.TsaiU0),
+    ):
         assert abs(value - true) < 5 * result.sigma(parameter) and result.sigma(parameter) < 5
     assert result.toCamera().px == result.px and len(result.cMo) == 6
     points["sigmaU"] = 0
@@ -189,7 +208,11 @@ def test_camera_is_checked():
         vd.CameraParameters(np.nan, 600, 320, 240)
     with pytest.raises(ValueError, match="minCorrelation"):
         vd.PlanarTargetSpec(minCorrelation=2).validate()
-    for spec in (vd.PatternTrackerSpec(minPitch=-1), vd.MicroscopeCalibrationSpec(aspect=-1), vd.CalibrationPitch(columns=-1),
-                 vd.TsaiCalibrationSpec(aspect=-1)):
+    for spec in (
+        vd.PatternTrackerSpec(minPitch=-1),
+        vd.MicroscopeCalibrationSpec(aspect=-1),
+        vd.CalibrationPitch(columns=-1),
+        vd.TsaiCalibrationSpec(aspect=-1),
+    ):
         with pytest.raises(ValueError, match="must be|is -1"):
             spec.check()

@@ -9,11 +9,16 @@ import numpy as np
 
 from . import _core as core
 
-JOINT = {core.JointType.Revolute: "revolute", core.JointType.Continuous: "continuous", core.JointType.Prismatic: "prismatic"}
+JOINT = {
+    core.JointType.Revolute: "revolute",
+    core.JointType.Continuous: "continuous",
+    core.JointType.Prismatic: "prismatic",
+}
 
 
 def _arm(arm, missing):
     from .report.view3d import MOST_TRIANGLES, mesh_part
+
     spec, kinds = arm.spec(), core.ArmShapeKind
     most = MOST_TRIANGLES // max(1, sum(shape.kind == kinds.Mesh for shape in spec.shapes))
     links = [{"shapes": [], "capsules": []} for _ in range(arm.links() + 1)]
@@ -34,18 +39,42 @@ def _arm(arm, missing):
             part = {"kind": "box", "size": size}
         links[spec.bodies[shape.body].link]["shapes"].append({**part, "pose": shape.pose.tolist()})
     for capsule in spec.capsules:
-        links[capsule.link]["capsules"].append({"kind": "capsule", "from": capsule.from_.tolist(), "to": capsule.to.tolist(),
-                                                "radius": capsule.radius})
-    joints = [{"name": joint.name, "type": JOINT[joint.type],
-               "limits": None if joint.type == core.JointType.Continuous else [joint.lower, joint.upper]} for joint in spec.joints]
-    chain = [{"step": part.step.tolist(), "after": part.after.tolist(), "prismatic": part.isPrismatic, "joint": part.joint,
-              "ratio": part.ratio, "offset": part.offset} for part in map(arm.chain, range(arm.links()))]
-    return {"name": spec.name, "joints": joints, "chain": chain, "links": links, "tool_link": arm.toolLink(), "tool": spec.tool.tolist(),
-            "home": arm.home().tolist()}
+        links[capsule.link]["capsules"].append(
+            {"kind": "capsule", "from": capsule.from_.tolist(), "to": capsule.to.tolist(), "radius": capsule.radius}
+        )
+    joints = [
+        {
+            "name": joint.name,
+            "type": JOINT[joint.type],
+            "limits": None if joint.type == core.JointType.Continuous else [joint.lower, joint.upper],
+        }
+        for joint in spec.joints
+    ]
+    chain = [
+        {
+            "step": part.step.tolist(),
+            "after": part.after.tolist(),
+            "prismatic": part.isPrismatic,
+            "joint": part.joint,
+            "ratio": part.ratio,
+            "offset": part.offset,
+        }
+        for part in map(arm.chain, range(arm.links()))
+    ]
+    return {
+        "name": spec.name,
+        "joints": joints,
+        "chain": chain,
+        "links": links,
+        "tool_link": arm.toolLink(),
+        "tool": spec.tool.tolist(),
+        "home": arm.home().tolist(),
+    }
 
 
 def _object(item, seconds, missing):
     from .report.view3d import MOST_TRIANGLES, mesh_part
+
     shape, types = item.shape, core.ShapeType
     if shape.type() == types.Sphere:
         part = {"kind": "sphere", "radius": shape.radius()}
@@ -92,6 +121,7 @@ def show(arm, scene=None, path=None, file=None):
     None: a temporary file, opened in the browser. Returns the path of the file."""
     from .report.page import Page
     from .report.view3d import scene as view
+
     missing, runs, seconds = [], [], 0.0
     if path is not None:
         t, q = _motion(arm, path)
@@ -100,7 +130,10 @@ def show(arm, scene=None, path=None, file=None):
     ground = None if scene is None or scene.ground() is None else scene.ground().offset
     page = Page(arm.spec().name, "Drag to turn, the wheel or two fingers to zoom. The grid has squares of 10 cm.")
     page.section("The arm")
-    page.view(view([_arm(arm, missing)], runs, [item for item in objects if item], ground), "Covers: the capsules of collision checks.")
+    page.view(
+        view([_arm(arm, missing)], runs, [item for item in objects if item], ground),
+        "Covers: the capsules of collision checks.",
+    )
     page.items(missing)
     target = pathlib.Path(file or tempfile.mkstemp(suffix=".html")[1])
     target.write_text(page.html(), encoding="utf-8")

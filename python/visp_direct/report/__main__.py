@@ -34,5 +34,7 @@ if __name__ == "__main__":
     except (DataError, OSError) as error:
         sys.exit(f"visp_direct.report: {error}")
     except ImportError as error:
-        sys.exit(f"visp_direct.report: {error}; Debian has jinja2, matplotlib and numpy as python3-jinja2, python3-matplotlib and "
-                 "python3-numpy")
+        sys.exit(
+            f"visp_direct.report: {error}; Debian has jinja2, matplotlib and numpy as python3-jinja2, python3-matplotlib and "
+            "python3-numpy"
+        )

@@ -12,8 +12,16 @@ class DataError(Exception):
 
 
 SCHEMA = json.loads((pathlib.Path(__file__).parent / "schema.json").read_text(encoding="utf-8"))
-KINDS = {"number": (int, float), "text": str, "yes or no": bool, "list": list, "object": dict, "number or null": (int, float, type(None)),
-         "text or null": (str, type(None)), "any": object}
+KINDS = {
+    "number": (int, float),
+    "text": str,
+    "yes or no": bool,
+    "list": list,
+    "object": dict,
+    "number or null": (int, float, type(None)),
+    "text or null": (str, type(None)),
+    "any": object,
+}
 
 
 def check(value, schema, place):
@@ -46,7 +54,11 @@ class Result:
     def __init__(self, folder):
         self.folder = pathlib.Path(folder)
         self.summary = self._load("summary.json")
-        self.program = self.summary.get("program", "an unknown program") if isinstance(self.summary, dict) else "an unknown program"
+        self.program = (
+            self.summary.get("program", "an unknown program")
+            if isinstance(self.summary, dict)
+            else "an unknown program"
+        )
         explored = self.program == "visp-print-pattern" and "objectives" in self.summary
         self.kind = f"{self.program} --explore" if explored else self.program
         self.schema = SCHEMA.get(self.kind, {})
@@ -80,7 +92,9 @@ class Result:
         schema = columns or self.schema[name]
         wanted = list(schema)
         if not rows or rows[0] != wanted:
-            raise DataError(f"{path}: has the columns {','.join(rows[0]) if rows else ''}, must have {','.join(wanted)}")
+            raise DataError(
+                f"{path}: has the columns {','.join(rows[0]) if rows else ''}, must have {','.join(wanted)}"
+            )
         read = {key: [] for key in wanted}
         for number, row in enumerate(rows[1:], 2):
             if len(row) != len(wanted):
@@ -107,5 +121,7 @@ def read_results(folders):
     results = [Result(folder) for folder in folders]
     for result in results[1:]:
         if result.program != results[0].program:
-            raise DataError(f"{result.folder}: is a result of {result.program}, {results[0].folder} is one of {results[0].program}")
+            raise DataError(
+                f"{result.folder}: is a result of {result.program}, {results[0].folder} is one of {results[0].program}"
+            )
     return results

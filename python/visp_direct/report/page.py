@@ -27,7 +27,7 @@ def number(value, digits=3):
 
 
 def counted(count, word):
-    """"1 motion", "2 motions"."""
+    """ "1 motion", "2 motions"."""
     return f"{count} {word}" + ("" if count == 1 else "s")
 
 
@@ -36,9 +36,14 @@ class Cell:
 
     def __init__(self, value, style=""):
         self.sort = value if isinstance(value, (int, float)) and not isinstance(value, bool) else None
-        self.text = {True: "yes", False: "no"}[value] if isinstance(value, bool) else (
-            str(value) if isinstance(value, (str, int)) else number(value))
-        self.style = style or ("" if self.sort is not None or value is None else "text wrap" if len(self.text) > 45 else "text")
+        self.text = (
+            {True: "yes", False: "no"}[value]
+            if isinstance(value, bool)
+            else (str(value) if isinstance(value, (str, int)) else number(value))
+        )
+        self.style = style or (
+            "" if self.sort is not None or value is None else "text wrap" if len(self.text) > 45 else "text"
+        )
 
 
 class Page:
@@ -71,7 +76,11 @@ class Page:
 
     def facts(self, facts, caption=""):
         """Names and values below each other."""
-        self._add(kind="facts", rows=[(name, value if isinstance(value, str) else number(value)) for name, value in facts], caption=caption)
+        self._add(
+            kind="facts",
+            rows=[(name, value if isinstance(value, str) else number(value)) for name, value in facts],
+            caption=caption,
+        )
 
     def figure(self, figure, name, alt, caption):
         """A Figure of plots.py. name: of its PDF."""
@@ -92,11 +101,17 @@ class Page:
         self.scripts.append(scene)
 
     def html(self):
-        environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, trim_blocks=True, lstrip_blocks=True,
-                                         undefined=jinja2.StrictUndefined)
+        environment = jinja2.Environment(
+            loader=jinja2.FileSystemLoader(HERE),
+            autoescape=True,
+            trim_blocks=True,
+            lstrip_blocks=True,
+            undefined=jinja2.StrictUndefined,
+        )
         scripts = ""
         if self.scripts:
             from .view3d import scripts as view_scripts
+
             scripts = view_scripts()
         return environment.get_template("template.html").render(page=self, scripts=scripts)
 

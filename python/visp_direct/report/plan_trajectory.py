@@ -39,7 +39,9 @@ def draw_limits(axes, motion, derivative):
     label = "limit"
     for axis in range(1 if same else count):
         for sign, name in ((1, LIMITS[derivative][-1]), (1 if derivative == 0 else -1, LIMITS[derivative][0])):
-            times, values = steps(motion["inputs"], lambda given: None if given[name][axis] is None else sign * given[name][axis])
+            times, values = steps(
+                motion["inputs"], lambda given: None if given[name][axis] is None else sign * given[name][axis]
+            )
             if np.isfinite(np.asarray(values, float)).any():
                 axes.plot(times, values, "--", color="#333333" if same else colour(axis), linewidth=1, label=label)
                 label = None
@@ -51,7 +53,14 @@ def draw(panels, motion):
         for axis in range(count):
             for i, former in enumerate(motion["former"]):
                 times, values = curve(former["segments"], axis, derivative, former["end_s"])
-                axes.plot(times, values, color=colour(axis), linewidth=0.7, alpha=0.7, label="without the event" if axis == i == 0 else None)
+                axes.plot(
+                    times,
+                    values,
+                    color=colour(axis),
+                    linewidth=0.7,
+                    alpha=0.7,
+                    label="without the event" if axis == i == 0 else None,
+                )
         drawn = []
         for axis in range(count):
             times, values = curve(motion["segments"], axis, derivative)
@@ -62,10 +71,22 @@ def draw(panels, motion):
         draw_limits(axes, motion, derivative)
         if derivative == 0:
             for axis in range(count):
-                axes.plot(*steps(motion["inputs"], lambda given: given["goal"][axis]), ":", color=colour(axis), linewidth=1.2,
-                          label="goal" if axis == 0 else None)
+                axes.plot(
+                    *steps(motion["inputs"], lambda given: given["goal"][axis]),
+                    ":",
+                    color=colour(axis),
+                    linewidth=1.2,
+                    label="goal" if axis == 0 else None,
+                )
                 for i, via in enumerate(motion["vias"]):
-                    axes.plot([via["t_s"]], [via["q"][axis]], "o", color=colour(axis), markersize=4, label="via" if axis == i == 0 else None)
+                    axes.plot(
+                        [via["t_s"]],
+                        [via["q"][axis]],
+                        "o",
+                        color=colour(axis),
+                        markersize=4,
+                        label="via" if axis == i == 0 else None,
+                    )
         if derivative == 3:
             logarithmic_if_flat(axes, *drawn)
         marks(axes, motion["events_s"], "event" if derivative == 0 else None)
@@ -91,25 +112,47 @@ def page(results):
     count = sum(result.summary["problems"] for result in results)
     refused = sum(result.summary["refused"] for result in results)
     page.answers(f"{counted(count, 'motion')} planned" + (f", {refused} of them refused." if refused else "."))
-    page.answers(*(f"{result.name}: the first refusal: {result.summary['first_refusal']}" for result in results if result.summary["refused"]))
+    page.answers(
+        *(
+            f"{result.name}: the first refusal: {result.summary['first_refusal']}"
+            for result in results
+            if result.summary["refused"]
+        )
+    )
     if len(motions) == 1:
         page.answers(f"It takes {number(motions[0][1]['duration_s'])} s. {motions[0][1]['message']}")
     page.section("All motions")
     several = len(results) > 1
-    page.table([*(["result"] if several else []), "motion", "duration (s)", "form", "largest velocity (unit/s)", "acceleration (unit/s²)",
-                "jerk (unit/s³)", "status"],
-               [[*([result.name] if several else []), *row_of(motion)] for result, motion in motions],
-               "Largest values are of the axis where they are largest, exact. A click on a heading sorts.")
+    page.table(
+        [
+            *(["result"] if several else []),
+            "motion",
+            "duration (s)",
+            "form",
+            "largest velocity (unit/s)",
+            "acceleration (unit/s²)",
+            "jerk (unit/s³)",
+            "status",
+        ],
+        [[*([result.name] if several else []), *row_of(motion)] for result, motion in motions],
+        "Largest values are of the axis where they are largest, exact. A click on a heading sorts.",
+    )
     for i, (result, motion) in enumerate(motions[:MOST_FIGURES]):
         page.section((f"{result.name}: " if several else "") + title_of(motion))
         if motion["message"]:
             page.paragraph(motion["message"])
-        page.figure(Figure(lambda panels, m=motion: draw(panels, m), 4, 1.7), f"motion-{i + 1}",
-                    f"Position, velocity, acceleration and jerk of {title_of(motion)}",
-                    "Dashed: limits; dotted: goal; grey lines: events; thin: how a plan would have gone on without the next event."
-                    if motion["events_s"] else "Dashed: limits; dotted: goal; dots: vias.")
+        page.figure(
+            Figure(lambda panels, m=motion: draw(panels, m), 4, 1.7),
+            f"motion-{i + 1}",
+            f"Position, velocity, acceleration and jerk of {title_of(motion)}",
+            "Dashed: limits; dotted: goal; grey lines: events; thin: how a plan would have gone on without the next event."
+            if motion["events_s"]
+            else "Dashed: limits; dotted: goal; dots: vias.",
+        )
     page.section("How it was made")
     if len(motions) > MOST_FIGURES:
         page.paragraph(f"The first {MOST_FIGURES} of {len(motions)} motions have a figure.")
-    page.facts([(result.name, f"{result.summary['command']} (version {result.summary['version']})") for result in results])
+    page.facts(
+        [(result.name, f"{result.summary['command']} (version {result.summary['version']})") for result in results]
+    )
     return page

@@ -12,10 +12,26 @@ from matplotlib import pyplot  # noqa: E402
 
 # Okabe and Ito: also distinguishable for colour-blind readers.
 COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"]
-STYLE = {"font.family": "sans-serif", "font.sans-serif": ["DejaVu Sans"], "font.size": 9, "axes.spines.top": False, "axes.spines.right": False,
-         "axes.grid": True, "grid.color": "#e3e7ec", "grid.linewidth": 0.6, "axes.edgecolor": "#888888", "axes.labelsize": 9,
-         "legend.frameon": False, "legend.fontsize": 8, "lines.linewidth": 1.5, "svg.fonttype": "none", "svg.hashsalt": "visp-direct",
-         "pdf.fonttype": 42, "axes.axisbelow": True, "figure.constrained_layout.use": True}
+STYLE = {
+    "font.family": "sans-serif",
+    "font.sans-serif": ["DejaVu Sans"],
+    "font.size": 9,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "grid.color": "#e3e7ec",
+    "grid.linewidth": 0.6,
+    "axes.edgecolor": "#888888",
+    "axes.labelsize": 9,
+    "legend.frameon": False,
+    "legend.fontsize": 8,
+    "lines.linewidth": 1.5,
+    "svg.fonttype": "none",
+    "svg.hashsalt": "visp-direct",
+    "pdf.fonttype": 42,
+    "axes.axisbelow": True,
+    "figure.constrained_layout.use": True,
+}
 WIDTH, COLUMN = 8.6, 3.4  # inch, of a page and of a column of a paper
 
 
@@ -34,8 +50,13 @@ class Figure:
     def _render(self, width, **options):
         with matplotlib.rc_context(STYLE):
             scale = 1 if width == WIDTH else 0.62
-            figure, axes = pyplot.subplots(self.rows, 1, sharex=self.shared, squeeze=False,
-                                           figsize=(width, scale * (self.height * self.rows + 0.5)))
+            figure, axes = pyplot.subplots(
+                self.rows,
+                1,
+                sharex=self.shared,
+                squeeze=False,
+                figsize=(width, scale * (self.height * self.rows + 0.5)),
+            )
             try:
                 self.draw([row[0] for row in axes])
                 buffer = io.BytesIO()
@@ -47,7 +68,7 @@ class Figure:
     def svg(self):
         """For a page: without prolog, with ids of its own."""
         text = self._render(WIDTH, format="svg", metadata={"Date": None}).decode()
-        text = text[text.index("<svg"):]
+        text = text[text.index("<svg") :]
         Figure._count += 1
         prefix = f"f{Figure._count}-"
         text = re.sub(r'\bid="', f'id="{prefix}', text)
@@ -62,8 +83,16 @@ def legend_above(axes, columns=4):
     """Legend between title and axes."""
     handles, labels = axes.get_legend_handles_labels()
     if handles:
-        axes.legend(handles, labels, loc="lower left", bbox_to_anchor=(0, 1.0), ncol=min(columns, len(labels)), borderaxespad=0.2,
-                    columnspacing=1.2, handlelength=1.8)
+        axes.legend(
+            handles,
+            labels,
+            loc="lower left",
+            bbox_to_anchor=(0, 1.0),
+            ncol=min(columns, len(labels)),
+            borderaxespad=0.2,
+            columnspacing=1.2,
+            handlelength=1.8,
+        )
 
 
 def logarithmic_if_flat(axes, *curves):

@@ -10,9 +10,26 @@ TOLERANCE = 10.0  # um, as in the thesis
 FIRST_FRAMES = 160  # of the first velocity plot
 SMALL = 0.3  # share of the tolerance below which it is not drawn: it would flatten the drops
 CONTROLLERS = {"observer": "observer with preview control", "pid": "PID", "pid-ff": "PID with feedforward"}
-SENSORS = {"image": "rendered pictures, measured by vpPatternTracker", "tracker": "true places with the errors of vpPatternTracker",
-           "thesis": "true places with the errors of the thesis's sensor"}
-MOTION = ["frame", "row", "x", "y", "vx", "vy", "reference_x", "reference_vx", "measured_vx", "estimated_vx", "force", "cells", "dropped"]
+SENSORS = {
+    "image": "rendered pictures, measured by vpPatternTracker",
+    "tracker": "true places with the errors of vpPatternTracker",
+    "thesis": "true places with the errors of the thesis's sensor",
+}
+MOTION = [
+    "frame",
+    "row",
+    "x",
+    "y",
+    "vx",
+    "vy",
+    "reference_x",
+    "reference_vx",
+    "measured_vx",
+    "estimated_vx",
+    "force",
+    "cells",
+    "dropped",
+]
 
 
 def velocity_figure(motion, rate, frames=None):
@@ -20,11 +37,14 @@ def velocity_figure(motion, rate, frames=None):
 
     def draw(panels):
         axes = panels[0]
-        axes.plot(t, motion["measured_vx"][:frames], ".", color="#9ecae1", markersize=3, label="measured, before any filter")
+        axes.plot(
+            t, motion["measured_vx"][:frames], ".", color="#9ecae1", markersize=3, label="measured, before any filter"
+        )
         axes.plot(t, motion["vx"][:frames], color=COLOURS[1], label="true")
         axes.plot(t, motion["reference_vx"][:frames], "--", color="#000000", linewidth=1.1, label="reference")
         axes.set(xlabel="time (s)", ylabel="velocity (px/frame)", xlim=(t[0], t[-1]))
         legend_above(axes)
+
     return Figure(draw)
 
 
@@ -36,9 +56,12 @@ def landing_figure(drops, worst):
         axes.plot(order, drops["error_y_um"], ".", color=COLOURS[4], label="across")
         if worst >= SMALL * TOLERANCE:
             for i, limit in enumerate((TOLERANCE, -TOLERANCE)):
-                axes.axhline(limit, color=COLOURS[2], linestyle="--", linewidth=1, label="tolerance" if i == 0 else None)
+                axes.axhline(
+                    limit, color=COLOURS[2], linestyle="--", linewidth=1, label="tolerance" if i == 0 else None
+                )
         axes.set(xlabel="drop", ylabel="landing place − centre (µm)")
         legend_above(axes)
+
     return Figure(draw)
 
 
@@ -52,6 +75,7 @@ def histogram_figure(errors):
             marks(axes, [TOLERANCE], "tolerance")
         axes.set(xlabel="distance from the centre of the cell (µm)", ylabel="drops", xlim=(0, top))
         legend_above(axes)
+
     return Figure(draw)
 
 
@@ -59,103 +83,178 @@ def distortion_figure(table):
     def draw(panels):
         axes = panels[0]
         for i, share in enumerate(("1", "0.5", "0.2", "0.1")):
-            axes.plot(table["distance_px"], table[f"mismatch_{share}_px"], color=COLOURS[i], label=f"{share} % at 200 px")
+            axes.plot(
+                table["distance_px"], table[f"mismatch_{share}_px"], color=COLOURS[i], label=f"{share} % at 200 px"
+            )
         axes.axvline(80, color="#999999", linewidth=0.9, label="edge of a 160 px image")
-        axes.set(xlabel="distance from the middle of the image (px)", ylabel="mismatch (px)", xlim=(0, 200), ylim=(0, None))
+        axes.set(
+            xlabel="distance from the middle of the image (px)", ylabel="mismatch (px)", xlim=(0, 200), ylim=(0, None)
+        )
         legend_above(axes, 5)
+
     return Figure(draw)
 
 
 def answer(page, summary, name):
     spec, landing = summary["spec"], summary["landing_error_um"]
     start = f"{name}: " if name else ""
-    page.answers(f"{start}{counted(summary['printed'], 'cell')} printed, {summary['missed']} missed, {summary['doubled']} printed twice.")
+    page.answers(
+        f"{start}{counted(summary['printed'], 'cell')} printed, {summary['missed']} missed, {summary['doubled']} printed twice."
+    )
     if summary["printed"]:
-        page.answers(f"Drops land {number(landing['p50'])} µm from the centre (median), 99 % within {number(landing['p99'])} µm, the worst "
-                     f"{number(landing['max'])} µm off; {number(100 * summary['landed_within_10um'])} % within the tolerance of 10 µm.")
+        page.answers(
+            f"Drops land {number(landing['p50'])} µm from the centre (median), 99 % within {number(landing['p99'])} µm, the worst "
+            f"{number(landing['max'])} µm off; {number(100 * summary['landed_within_10um'])} % within the tolerance of 10 µm."
+        )
     if summary["left"] > 0:
-        page.answers(f"{counted(summary['left'], 'cell')} never came to the nozzle: the run was ended by --frames, or the controller stopped "
-                     "short of the last cell.")
+        page.answers(
+            f"{counted(summary['left'], 'cell')} never came to the nozzle: the run was ended by --frames, or the controller stopped "
+            "short of the last cell."
+        )
     gain = summary["gain_over_constant"]
-    page.answers(f"{number(summary['throughput_cells_per_s'])} cells a second, {number(100 * abs(gain))} % {'faster' if gain >= 0 else 'slower'} "
-                 "between the cells of a row than at the constant velocity at which the drops fall.")
+    page.answers(
+        f"{number(summary['throughput_cells_per_s'])} cells a second, {number(100 * abs(gain))} % {'faster' if gain >= 0 else 'slower'} "
+        "between the cells of a row than at the constant velocity at which the drops fall."
+    )
     return spec
 
 
 def add_run(page, result):
     summary = result.summary
     spec, landing = summary["spec"], summary["landing_error_um"]
-    page.table(["", "rms (px/frame)"], [["velocity error as measured", summary["rms_velocity_error"]],
-                                        ["velocity error, true", summary["rms_true_velocity_error"]],
-                                        ["true velocity error at the centres", summary["centre_velocity_error"]]],
-               f"From frame {spec['evaluate_from_frame']} on. The first compares what the camera sees before any filter with the reference, "
-               "as the thesis does.")
-    page.picture(result.bytes("product.png"), "image/png", "The product with the drops on it",
-                 "The printed product (first run): drops are circles of 50 µm, green within 10 µm of the centre, red beyond; the cross is the "
-                 "true centre of the cell.")
-    motion, drops, errors = result.table("motion.csv"), result.table("drops.csv"), result.table("landing.csv")["error_um"]
-    page.figure(velocity_figure(motion, spec["frame_rate_hz"], FIRST_FRAMES), "velocity", "Reference, true and measured velocity of the product",
-                "The beginning of the first run. Slowest at the centres of the cells, where the drops land. The measured velocity is that of "
-                "the last two frames that arrived, so it comes later than the true one.")
-    page.figure(landing_figure(drops, landing["max"]), "landing", "Landing errors of the drops along and across the row",
-                "Each drop of the first run, in the order of landing. The tolerance of the thesis is 10 µm.")
-    page.figure(histogram_figure(errors), "landing-histogram", "Histogram of the landing errors",
-                f"{counted(len(errors), 'drop')} of all runs: median {number(landing['p50'])} µm, 99 % within {number(landing['p99'])} µm, "
-                f"largest {number(landing['max'])} µm.")
+    page.table(
+        ["", "rms (px/frame)"],
+        [
+            ["velocity error as measured", summary["rms_velocity_error"]],
+            ["velocity error, true", summary["rms_true_velocity_error"]],
+            ["true velocity error at the centres", summary["centre_velocity_error"]],
+        ],
+        f"From frame {spec['evaluate_from_frame']} on. The first compares what the camera sees before any filter with the reference, "
+        "as the thesis does.",
+    )
+    page.picture(
+        result.bytes("product.png"),
+        "image/png",
+        "The product with the drops on it",
+        "The printed product (first run): drops are circles of 50 µm, green within 10 µm of the centre, red beyond; the cross is the "
+        "true centre of the cell.",
+    )
+    motion, drops, errors = (
+        result.table("motion.csv"),
+        result.table("drops.csv"),
+        result.table("landing.csv")["error_um"],
+    )
+    page.figure(
+        velocity_figure(motion, spec["frame_rate_hz"], FIRST_FRAMES),
+        "velocity",
+        "Reference, true and measured velocity of the product",
+        "The beginning of the first run. Slowest at the centres of the cells, where the drops land. The measured velocity is that of "
+        "the last two frames that arrived, so it comes later than the true one.",
+    )
+    page.figure(
+        landing_figure(drops, landing["max"]),
+        "landing",
+        "Landing errors of the drops along and across the row",
+        "Each drop of the first run, in the order of landing. The tolerance of the thesis is 10 µm.",
+    )
+    page.figure(
+        histogram_figure(errors),
+        "landing-histogram",
+        "Histogram of the landing errors",
+        f"{counted(len(errors), 'drop')} of all runs: median {number(landing['p50'])} µm, 99 % within {number(landing['p99'])} µm, "
+        f"largest {number(landing['max'])} µm.",
+    )
     if result.bytes("camera.mp4"):
         page.video("camera.mp4", "What the camera sees, 64 times slower than real; yellow marks: the nozzle.")
 
 
 def add_identification(page, found):
     page.section("Mass and friction of the stage")
-    names = [("mass", "mass"), ("viscous", "viscous friction, per px/frame"), ("coulomb", "Coulomb friction, px/frame²"),
-             ("stiction", "stiction, px/frame²")]
-    page.table(["", "found", "standard deviation", "true"],
-               [[text, found[key]["found"], found[key]["sigma"], found[key]["true"]] for key, text in names],
-               f"{found['message']} From {found['frames']} frames of a force that swings with growing strength, open loop, watched by the camera; "
-               "the run used what was found. The standard deviations know of noise only; smoothing leaves about 1 % of the mass. Stiction is "
-               "what a fit of slow motion says, which is the hardest to see.")
+    names = [
+        ("mass", "mass"),
+        ("viscous", "viscous friction, per px/frame"),
+        ("coulomb", "Coulomb friction, px/frame²"),
+        ("stiction", "stiction, px/frame²"),
+    ]
+    page.table(
+        ["", "found", "standard deviation", "true"],
+        [[text, found[key]["found"], found[key]["sigma"], found[key]["true"]] for key, text in names],
+        f"{found['message']} From {found['frames']} frames of a force that swings with growing strength, open loop, watched by the camera; "
+        "the run used what was found. The standard deviations know of noise only; smoothing leaves about 1 % of the mass. Stiction is "
+        "what a fit of slow motion says, which is the hardest to see.",
+    )
 
 
 def add_thesis(page, result):
     experiments = result.summary["thesis"]
     page.section("The experiments of the thesis")
-    page.table(["figure", "control", "velocity error (px/frame)", "the thesis", "ratio", "at the centres (px/frame)"],
-               [[e["figure"], e["name"], e["rms_velocity_error"], e.get("thesis"), e.get("ratio"), e["centre_velocity_error"]] for e in experiments],
-               "Root mean square over 8 seeds, as measured and before any filter. Stage and gains are one set that shows the thesis's figures: "
-               "it was searched for, is not unique and not robust. With the thesis's sensor the measured error of any controller is mostly "
-               "noise; what matters for a drop is the true velocity at the centre, in the last column.")
-    page.figure(distortion_figure(result.table("thesis/figure-7.10.csv")), "figure-7.10",
-                "Figure 7.10: mismatch of pixel locations for several radial distortions",
-                "Figure 7.10. It grows with the cube of the distance: 1 % at 200 px is 2 px there and 0.13 px at the edge of a 160 px image, 0.1 % is "
-                "0.013 px there, less than the tracker's error of a cell. From the calibration's own model.")
-    page.picture(result.bytes("thesis/figure-7.11.png"), "image/png", "Threshold image and detected cells",
-                 "Figure 7.11: on the left the image after Otsu's threshold, on the right boxes and centres that algorithm 7.4 finds, as printed; "
-                 "crosses are the true centres. Its centres are half a pixel to the right.")
+    page.table(
+        ["figure", "control", "velocity error (px/frame)", "the thesis", "ratio", "at the centres (px/frame)"],
+        [
+            [
+                e["figure"],
+                e["name"],
+                e["rms_velocity_error"],
+                e.get("thesis"),
+                e.get("ratio"),
+                e["centre_velocity_error"],
+            ]
+            for e in experiments
+        ],
+        "Root mean square over 8 seeds, as measured and before any filter. Stage and gains are one set that shows the thesis's figures: "
+        "it was searched for, is not unique and not robust. With the thesis's sensor the measured error of any controller is mostly "
+        "noise; what matters for a drop is the true velocity at the centre, in the last column.",
+    )
+    page.figure(
+        distortion_figure(result.table("thesis/figure-7.10.csv")),
+        "figure-7.10",
+        "Figure 7.10: mismatch of pixel locations for several radial distortions",
+        "Figure 7.10. It grows with the cube of the distance: 1 % at 200 px is 2 px there and 0.13 px at the edge of a 160 px image, 0.1 % is "
+        "0.013 px there, less than the tracker's error of a cell. From the calibration's own model.",
+    )
+    page.picture(
+        result.bytes("thesis/figure-7.11.png"),
+        "image/png",
+        "Threshold image and detected cells",
+        "Figure 7.11: on the left the image after Otsu's threshold, on the right boxes and centres that algorithm 7.4 finds, as printed; "
+        "crosses are the true centres. Its centres are half a pixel to the right.",
+    )
     for i, e in enumerate(experiments):
         title = f"Figure {e['figure']}: {e['name']}" if e["figure"] else e["name"]
         speed = e["rms_velocity_error"] * e["mm_per_px"] * e["frame_rate_hz"]
-        page.figure(velocity_figure(result.table(e["file"], MOTION), e["frame_rate_hz"]), f"figure-{e['figure']}" if e["figure"] else f"run-{i + 1}",
-                    title, f"{title}. Velocity error from frame {e['evaluate_from_frame']} on, rms of {e['seeds']} runs: "
-                    f"{number(e['rms_velocity_error'])} px/frame = {number(speed)} mm/s as measured"
-                    + (f", {number(e['thesis'])} px/frame in the thesis" if "thesis" in e else "")
-                    + f"; at the centres of the cells {number(e['centre_velocity_error'])} px/frame. The first run is drawn.")
+        page.figure(
+            velocity_figure(result.table(e["file"], MOTION), e["frame_rate_hz"]),
+            f"figure-{e['figure']}" if e["figure"] else f"run-{i + 1}",
+            title,
+            f"{title}. Velocity error from frame {e['evaluate_from_frame']} on, rms of {e['seeds']} runs: "
+            f"{number(e['rms_velocity_error'])} px/frame = {number(speed)} mm/s as measured"
+            + (f", {number(e['thesis'])} px/frame in the thesis" if "thesis" in e else "")
+            + f"; at the centres of the cells {number(e['centre_velocity_error'])} px/frame. The first run is drawn.",
+        )
 
 
 def settings(summary):
     spec = summary["spec"]
-    return [("controller", CONTROLLERS.get(spec["controller"], spec["controller"])), ("sensor", SENSORS[spec["sensor"]]),
-            ("reference", f"{spec['reference']}, {number(spec['drop_velocity_px_per_frame'])} px/frame at the centres"),
-            ("trigger", "on a horizon, each cell once" if spec["trigger"] == "horizon" else "algorithm 7.5 as printed"),
-            ("cells", f"{spec['rows']} × {spec['cells_per_row']}, pitch {' × '.join(map(number, spec['pitch_px']))} px"),
-            ("flexible pitch", f"{number(spec['flex_px'])} px over {number(spec['flex_period_cells'])} cells"),
-            ("camera", f"{number(spec['frame_rate_hz'])} frames a second, {number(spec['vision_delay_frames'])} frames late, noise {number(spec['noise'])}"),
-            ("runs", summary["runs"]), ("command", summary["command"])]
+    return [
+        ("controller", CONTROLLERS.get(spec["controller"], spec["controller"])),
+        ("sensor", SENSORS[spec["sensor"]]),
+        ("reference", f"{spec['reference']}, {number(spec['drop_velocity_px_per_frame'])} px/frame at the centres"),
+        ("trigger", "on a horizon, each cell once" if spec["trigger"] == "horizon" else "algorithm 7.5 as printed"),
+        ("cells", f"{spec['rows']} × {spec['cells_per_row']}, pitch {' × '.join(map(number, spec['pitch_px']))} px"),
+        ("flexible pitch", f"{number(spec['flex_px'])} px over {number(spec['flex_period_cells'])} cells"),
+        (
+            "camera",
+            f"{number(spec['frame_rate_hz'])} frames a second, {number(spec['vision_delay_frames'])} frames late, noise {number(spec['noise'])}",
+        ),
+        ("runs", summary["runs"]),
+        ("command", summary["command"]),
+    ]
 
 
 def page(results):
     if results[0].kind.endswith("--explore"):
         from .print_explore import page as explored
+
         return explored(results)
     several = len(results) > 1
     page = Page("Printing on the fly", "Drops on a moving, flexible product, with the camera as the only encoder.")
@@ -169,13 +268,19 @@ def page(results):
         if "thesis" in result.summary:
             add_thesis(page, result)
     page.section("What to know")
-    page.items(["Stage, product, camera and drops are simulated; a drop flies straight and takes the same time always.",
-                "The stage's friction is known to the observer but for the 30 % more beyond the fifth cell, which it estimates.",
-                "The throughput counts from the first drop to the last and includes turning between rows."])
+    page.items(
+        [
+            "Stage, product, camera and drops are simulated; a drop flies straight and takes the same time always.",
+            "The stage's friction is known to the observer but for the 30 % more beyond the fifth cell, which it estimates.",
+            "The throughput counts from the first drop to the last and includes turning between rows.",
+        ]
+    )
     page.section("What was run")
-    page.paragraph("A product with repeated cells moves under a camera and a nozzle. There is no other encoder than the cells: each frame gives "
-                   "their places, the motion follows from it, and a drop is fired into each cell on the fly. Everything is simulated: the "
-                   "pictures are rendered, the stage has friction, stiction, lag and delay.")
+    page.paragraph(
+        "A product with repeated cells moves under a camera and a nozzle. There is no other encoder than the cells: each frame gives "
+        "their places, the motion follows from it, and a drop is fired into each cell on the fly. Everything is simulated: the "
+        "pictures are rendered, the stage has friction, stiction, lag and delay."
+    )
     for result in results:
         page.facts(settings(result.summary), result.name if several else "")
     return page

@@ -18,8 +18,13 @@ def scripts():
     files = [folder / "three.min.js", folder / "examples/js/controls/OrbitControls.js", HERE / "view3d.js"]
     missing = [file for file in files if not file.is_file()]
     if missing:
-        raise OSError(f"{missing[0]}: the 3D view needs three.js; Debian has it as libjs-three, or VISP_DIRECT_THREE names its folder")
-    return "\n".join(f"<script>\n{file.read_text(encoding='utf-8').replace('</script', '<' + chr(92) + '/script')}\n</script>" for file in files)
+        raise OSError(
+            f"{missing[0]}: the 3D view needs three.js; Debian has it as libjs-three, or VISP_DIRECT_THREE names its folder"
+        )
+    return "\n".join(
+        f"<script>\n{file.read_text(encoding='utf-8').replace('</script', '<' + chr(92) + '/script')}\n</script>"
+        for file in files
+    )
 
 
 def _packed(array, kind):
@@ -27,22 +32,18 @@ def _packed(array, kind):
 
 
 def clustered(vertices, triangles, most):
-    """The mesh with at most about `most` triangles: vertices in one cell of a grid become one, their mean."""
+    """The mesh with at most `most` triangles, as far as a grid of 4 cells goes: vertices in one cell become one, their mean."""
     vertices, triangles = np.asarray(vertices, float), np.asarray(triangles)
-    size = np.ptp(vertices, axis=0).max()
-    cells = 256
-    while len(triangles) > most and cells >= 4:
-        grid = np.floor((vertices - vertices.min(axis=0)) / size * cells).astype(int)
-        _, index = np.unique(grid, axis=0, return_inverse=True)
-        index = index.ravel()
+    merged, kept, cells = vertices, triangles, 256
+    while len(kept) > most and cells >= 4:
+        grid = np.floor((vertices - vertices.min(axis=0)) / np.ptp(vertices, axis=0).max() * cells).astype(int)
+        index = np.unique(grid, axis=0, return_inverse=True)[1].ravel()
         count = np.bincount(index)
         merged = np.stack([np.bincount(index, vertices[:, k]) / count for k in range(3)], axis=1)
         kept = index[triangles]
         kept = kept[(kept[:, 0] != kept[:, 1]) & (kept[:, 1] != kept[:, 2]) & (kept[:, 0] != kept[:, 2])]
-        if len(kept) <= most:
-            return merged, kept
         cells = int(cells * 0.8)
-    return vertices, triangles
+    return merged, kept
 
 
 def mesh_part(vertices, triangles, most):
@@ -65,8 +66,12 @@ def _shape_part(shape, folder, most):
     size = shape["size"]
     if shape["kind"] == "mesh":
         return mesh_part(*read_stl((folder / shape["file"]).read_bytes()), most)
-    return {"kind": shape["kind"], **{"sphere": {"radius": size[0]}, "cylinder": {"radius": size[0], "length": size[1]},
-                                      "box": {"size": size}}[shape["kind"]]}
+    return {
+        "kind": shape["kind"],
+        **{"sphere": {"radius": size[0]}, "cylinder": {"radius": size[0], "length": size[1]}, "box": {"size": size}}[
+            shape["kind"]
+        ],
+    }
 
 
 def arm_of(data, folder):
@@ -79,8 +84,12 @@ def arm_of(data, folder):
         except (OSError, ValueError) as error:
             missing.append(f"{shape['file']}: is not shown: {error}")
     for capsule in data["capsules"]:
-        links[capsule["link"]]["capsules"].append({"kind": "capsule", **{k: capsule[k] for k in ("from", "to", "radius")}})
-    return {key: data[key] for key in ("name", "joints", "chain", "tool_link", "tool", "home")} | {"links": links}, missing
+        links[capsule["link"]]["capsules"].append(
+            {"kind": "capsule", **{k: capsule[k] for k in ("from", "to", "radius")}}
+        )
+    return {key: data[key] for key in ("name", "joints", "chain", "tool_link", "tool", "home")} | {
+        "links": links
+    }, missing
 
 
 def scene(arms, runs=(), objects=(), ground=None):
