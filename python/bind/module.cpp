@@ -59,6 +59,7 @@ std::string represented(const py::object &self)
     text += separator + std::string(py::str(name)) + "=" + std::string(py::repr(self.attr(name)));
     separator = ", ";
   }
+  std::replace(text.begin(), text.end(), '\n', ' '); // of arrays: signatures with such defaults are one line
   return text + ")";
 }
 

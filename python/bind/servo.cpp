@@ -193,8 +193,6 @@ void bindLaw(py::module_ &m)
 void bindController(py::module_ &m)
 {
   using Controller = vpServoController;
-  bindStruct<vpServoMotionLimits>(m).def("validate", &vpServoMotionLimits::validate,
-                                         doc("vpServoMotionLimits::validate"));
   bindStruct<vpViewConstraintSpec>(m)
       .def_static("fromCamera", &vpViewConstraintSpec::fromCamera, py::arg("camera"), py::arg("width"),
                   py::arg("height"), doc("vpViewConstraintSpec::fromCamera"))

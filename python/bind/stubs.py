@@ -17,6 +17,20 @@ def annotation(text):
     return re.sub(r"visp_direct\._core\.", "", text).replace("numpy.dtype[void]", "numpy.dtype")
 
 
+def without_defaults(line):
+    """A signature with ... in place of each default, which pybind11 shows as repr() does."""
+    result, depth, skipped = "", 0, False
+    for i, character in enumerate(line):
+        depth += (character in "([{") - (character in ")]}")
+        if skipped and ((character == "," and depth == 1) or (character == ")" and depth == 0)):
+            skipped = False
+        if character == "=" and depth == 1 and not skipped:
+            result, skipped = result + "= ...", True
+        if not skipped:
+            result += character
+    return result
+
+
 def signatures(function):
     """The signatures that pybind11 puts into a docstring, as `def` lines without the name of the class."""
     name = function.__name__
@@ -24,11 +38,7 @@ def signatures(function):
     lines = [re.sub(r"^\d+\. ", "", line) for line in lines if "*args, **kwargs) -> Any" not in line]
     result = []
     for line in lines or [f"{name}(*args, **kwargs)"]:
-        line = re.sub(
-            r"=\s*(?:[^,()\[\]]|\[[^\]]*\]|\((?:[^()]|\((?:[^()]|\([^()]*\))*\))*\))+(?=[,)])",
-            "= ...",
-            annotation(line),
-        )
+        line = without_defaults(annotation(line))
         try:
             ast.parse(f"def {line}: ...")
         except SyntaxError:
