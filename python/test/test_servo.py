@@ -124,30 +124,29 @@ def test_exceptions_of_a_law_come_out_of_step(random):
                 law.step(seen, 0.02)
 
 
-def test_laws_of_ones_own_by_name(random):
-    vd.ServoLaw.add("straight-by-name", "Straight to the goal.", Straight)
-    assert (
-        "straight-by-name" in vd.ServoLaw.ids() and vd.ServoLaw.sentence("straight-by-name") == "Straight to the goal."
-    )
-    controller = vd.ServoController.create("straight-by-name+cbf")
+def test_laws_of_ones_own_by_name(random, seed):
+    name, other = f"straight-{seed}", f"no-law-{seed}"  # what is added stays
+    vd.ServoLaw.add(name, "Straight to the goal.", Straight)
+    assert name in vd.ServoLaw.ids() and vd.ServoLaw.sentence(name) == "Straight to the goal."
+    controller = vd.ServoController.create(f"{name}+cbf")
     controller.notifyInterrupted()
     cMo, command = drive(controller, pose([0.02, 0, 0.5]), pose([0, 0, 0.4]))
     np.testing.assert_allclose(cMo, pose([0, 0, 0.4]), atol=1e-3)
-    law = vd.ServoLaw.create("straight-by-name", vd.ServoGains(lambda_=2))
+    law = vd.ServoLaw.create(name, vd.ServoGains(lambda_=2))
     own = Straight(vd.ServoGains(lambda_=2))
     for each in (law, own):
         each.setGoal(plate().goal(pose([0, 0, 0.4])))
     seen = plate().measure(start(random))
     np.testing.assert_array_equal(law.step(seen, 0.02).v, own.step(seen, 0.02).v)
     for id, maker, sentence in (
-        ("straight-by-name", Straight, "straight-by-name"),
+        (name, Straight, name),
         ("two words", Straight, "two words"),
     ):
         with pytest.raises(ValueError, match=sentence):
             vd.ServoLaw.add(id, "Again.", maker)
-    vd.ServoLaw.add("no-law", "Makes something else.", lambda gains: 3)
-    with pytest.raises(TypeError, match="the law no-law is an int, must be a ServoLaw"):
-        vd.ServoLaw.create("no-law")
+    vd.ServoLaw.add(other, "Makes something else.", lambda gains: 3)
+    with pytest.raises(TypeError, match=f"the law {other} is an int, must be a ServoLaw"):
+        vd.ServoLaw.create(other)
 
 
 def test_a_law_keeps_its_state():
