@@ -13,7 +13,7 @@ import sys
 import numpy as np
 import pytest
 from conftest import DATA, longer
-from visp_direct.report.data import SCHEMA, DataError, Result, check, read_results
+from visp_direct.report.data import DataError, Result, check, read_results
 from visp_direct.report.page import Page, number
 from visp_direct.report.plots import COLUMN, STYLE, WIDTH, Figure, legend_above, logarithmic_if_flat
 from visp_direct.report.view3d import clustered, read_stl
@@ -127,7 +127,7 @@ def test_data_is_as_the_schema_says(call, random):
                 bad = damaged(value, random)
                 if bad is not None:
                     with pytest.raises(DataError, match=re.escape(name)):
-                        check(bad, SCHEMA[call[0]][name], name)
+                        check(bad, result.schema[name], name)
 
 
 @pytest.mark.parametrize("call", PROGRAMS, ids=name_of)
@@ -137,7 +137,7 @@ def test_report_opens_without_an_error(call, width):
     if CHROMIUM is None:
         pytest.skip("chromium is missing")
     folder, said = run(*call)
-    assert said.count("\n") <= 1 and "without a report" not in said
+    assert "without a report" not in said
     page = (folder / "report.html").read_text()
     assert len(page) < 6e6 and "http" not in re.sub(r"http://www.w3.org/\S+|<script>.*?</script>", "", page, flags=re.S)
     probe = """<pre id="verdict"></pre><script>

@@ -64,9 +64,11 @@ TEST_CASE("A bad line does not stop the others", "[visp-plan-trajectory]")
   CHECK(list[2]["id"] == 7);
   CHECK(list[3]["status"] == "Finished");
   CHECK(list[3]["duration"] == list[0]["duration"]);
-  CHECK(run.err().find(
-            "The data is in r, without a report, which needs Python: none was not found; make it later by: python3 -m "
-            "visp_direct.report r\nvisp-plan-trajectory: 2 of 4 problems were refused, the first: p.jsonl:2: ") == 0);
+  const std::string place = run.path("r").string();
+  CHECK(run.err().find("The data is in " + place +
+                       ", without a report, which needs Python: none was not found; make it later by: "
+                       "python3 -m visp_direct.report " +
+                       place + "\nvisp-plan-trajectory: 2 of 4 problems were refused, the first: p.jsonl:2: ") == 0);
   std::vector<std::string> names = run.entries();
   std::sort(names.begin(), names.end());
   CHECK(names == std::vector<std::string>{"c-1.csv", "c-5.csv", "p.jsonl", "r"});
@@ -98,7 +100,7 @@ TEST_CASE("Bad use ends with a sentence and nothing written", "[visp-plan-trajec
   };
   const std::vector<Case> cases = {
       {"--nonsense", USAGE, "--nonsense"},
-      {"p.jsonl --out p.jsonl", DATA, "p.jsonl: is a file, must be a folder"},
+      {"p.jsonl --out p.jsonl", DATA, "p.jsonl: exists and is not a folder"},
       {"none.jsonl", DATA, "none.jsonl: cannot be read"},
       {". ", DATA, ".: cannot be read"},
       {"empty.jsonl", DATA, "empty.jsonl: has no problem"},
