@@ -8,7 +8,9 @@ import matplotlib
 import numpy as np
 
 matplotlib.use("Agg")
-from matplotlib import pyplot  # noqa: E402
+from matplotlib import pyplot, ticker  # noqa: E402
+
+from .page import number  # noqa: E402
 
 # Okabe and Ito: also distinguishable for colour-blind readers.
 COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"]
@@ -101,6 +103,15 @@ def logarithmic_if_flat(axes, *curves):
     values = values[np.isfinite(values) & (values > 0)]
     if len(values) and np.median(values) < values.max() / 50:
         axes.set_yscale("symlog", linthresh=float(f"{np.median(values):.0e}"))
+
+
+def logarithmic(*axis):
+    """Logarithmic axes (axes.xaxis, axes.yaxis) with plain numbers at 1, 2, 5 of each decade."""
+    for each in axis:
+        getattr(each.axes, f"set_{each.axis_name}scale")("log")
+        each.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)))
+        each.set_major_formatter(ticker.FuncFormatter(lambda x, _: number(float(x))))
+        each.set_minor_formatter(ticker.NullFormatter())
 
 
 def marks(axes, times, label):

@@ -4,7 +4,7 @@
 import numpy as np
 
 from .page import Cell, Page, number
-from .plots import COLOURS, Figure, legend_above
+from .plots import COLOURS, Figure, legend_above, logarithmic
 
 MOST_ROWS = 60  # of the front's table; front.csv has all
 MOST_CLASSES = 8  # of a variable
@@ -99,7 +99,8 @@ def front_figure(designs, summary, metrics, groups):
                     markeredgewidth=1.2,
                     label=label,
                 )
-        axes.set(xlabel=metrics[x]["text"], ylabel=metrics[y]["text"], yscale="log")
+        axes.set(xlabel=metrics[x]["text"], ylabel=metrics[y]["text"])
+        logarithmic(axes.yaxis)
         legend_above(axes, 6)
 
     return Figure(draw, height=3.6)
@@ -155,7 +156,8 @@ def influence_figure(designs, objective, metric):
             best = max if metric["more"] else min
             axes.plot(order, [best(members[k]) for k in order], "o-", color=COLOURS[1], markersize=3, label="best")
             ticks = sorted(names)
-            axes.set(yscale="log", ylabel=metric["text"], xlabel=text, xticks=ticks, xlim=(-0.5, max(ticks) + 0.5))
+            axes.set(ylabel=metric["text"], xlabel=text, xticks=ticks, xlim=(-0.5, max(ticks) + 0.5))
+            logarithmic(axes.yaxis)
             axes.set_xticklabels([a if a == b else f"{a} to {b}" for a, b in (names[k] for k in ticks)])
         legend_above(panels[0])
 
@@ -192,7 +194,8 @@ def camera_figure(designs, setup):
             label=f"readout, exposure of {number(shortest)} µs",
         )
         axes.plot(rate, setup["link_mb_s"] * 1e6 / rate, "--", color=COLOURS[2], label="link")
-        axes.set(xscale="log", yscale="log", xlabel="frame rate (Hz)", ylabel="image size (px)")
+        axes.set(xlabel="frame rate (Hz)", ylabel="image size (px)")
+        logarithmic(axes.xaxis, axes.yaxis)
         legend_above(axes, 5)
 
     return Figure(draw, height=3.2)
