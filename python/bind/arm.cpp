@@ -179,9 +179,11 @@ void bindIndex(py::module_ &m)
 
 // A fixed array with a count, as a list.
 template <class Input, class T, std::size_t N>
-void bindList(py::class_<Input> &bound, const char *name, std::array<T, N> Input::*values, int Input::*count,
-              const char *text)
+void bindList(py::class_<Input> &bound, const char *name, std::array<T, N> Input::*values, const char *countName,
+              int Input::*count, const char *text)
 {
+  bound.def_property_readonly(
+      countName, [count](const Input &self) { return self.*count; }, "Set by the list.");
   bound.def_property(
       name,
       [=](const Input &self) {
@@ -214,9 +216,9 @@ void bindRedundancy(py::module_ &m)
       },
       py::arg("kinematics"), py::arg("joint"), py::arg("velocity"), doc("vpArmTask::pointVelocity"));
   auto input = bindStruct<vpRedundancyInput>(m);
-  bindList(input, "tasks", &vpRedundancyInput::tasks, &vpRedundancyInput::taskCount,
+  bindList(input, "tasks", &vpRedundancyInput::tasks, "taskCount", &vpRedundancyInput::taskCount,
            "Tasks below the main one, in order of priority, at most 3.");
-  bindList(input, "indices", &vpRedundancyInput::indices, &vpRedundancyInput::indexCount,
+  bindList(input, "indices", &vpRedundancyInput::indices, "indexCount", &vpRedundancyInput::indexCount,
            "The remaining redundancy maximizes the sum of gain times index; at most 8.");
   bindStruct<vpRedundancyOutput>(m).def("message", &vpRedundancyOutput::message, doc("vpRedundancyOutput::message"));
   bindClass<Solver>(m)

@@ -20,6 +20,12 @@ struct TriggerInput : vpPrintTriggerInput {
   std::vector<vpPatternCell> kept;
 };
 
+// A count may have been changed.
+std::size_t countOf(int count)
+{
+  return static_cast<std::size_t>(std::clamp(count, 0, vpPrintTriggerOutput::capacity));
+}
+
 void bindForecast(py::module_ &m)
 {
   bindStruct<vpMotionForecast>(m)
@@ -38,7 +44,18 @@ void bindForecast(py::module_ &m)
           },
           "Pieces of the plan in sequence, at most 4, on the clock of time; sets pieces, too.")
       .def("isPlausible", &vpMotionForecast::isPlausible, doc("vpMotionForecast::isPlausible"))
-      .def("at", &vpMotionForecast::at, py::arg("t"), doc("vpMotionForecast::at"));
+      .def_property_readonly(
+          "pieces", [](const vpMotionForecast &self) { return self.pieces; }, doc("vpMotionForecast::pieces"))
+      .def(
+          "at",
+          [](const vpMotionForecast &self, double t) {
+            if (!self.isPlausible()) {
+              throw py::value_error(
+                  "the forecast is not plausible: a number is not finite, too large or out of its range");
+            }
+            return self.at(t);
+          },
+          py::arg("t"), doc("vpMotionForecast::at"));
 }
 
 void bindReference(py::module_ &m)
@@ -105,16 +122,13 @@ void bindTrigger(py::module_ &m)
           "Cells of the newest frame, an array of dtype PatternCell; empty: no frame, only the motion continues.");
   bindStruct<Output>(m, false)
       .def_property_readonly(
-          "shots",
-          [](const Output &self) { return records(self.shots.data(), static_cast<std::size_t>(self.shotCount)); },
+          "shots", [](const Output &self) { return records(self.shots.data(), countOf(self.shotCount)); },
           "Shots to fire, an array of dtype PrintShot; each cell once.")
       .def_property_readonly(
-          "missed",
-          [](const Output &self) { return records(self.missed.data(), static_cast<std::size_t>(self.missedCount)); },
+          "missed", [](const Output &self) { return records(self.missed.data(), countOf(self.missedCount)); },
           "Cells that can no longer be hit; each once.")
       .def_property_readonly(
-          "planned",
-          [](const Output &self) { return records(self.planned.data(), static_cast<std::size_t>(self.plannedCount)); },
+          "planned", [](const Output &self) { return records(self.planned.data(), countOf(self.plannedCount)); },
           "Future shots within the horizon, unordered; they may still change.");
   bindClass<Trigger>(m)
       .def(py::init<const vpPrintTriggerSpec &>(), py::arg("spec") = vpPrintTriggerSpec(),

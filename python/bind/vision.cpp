@@ -170,6 +170,12 @@ py::class_<Calibration> bindCalibration(py::module_ &m, const std::string &name)
       .def("compute", &Calibration::compute, Unlocked(), doc(name + "::compute"));
 }
 
+// The enums name their number of parameters, too.
+template <class Parameter> Parameter checkedParameter(Parameter parameter, Parameter count)
+{
+  return static_cast<Parameter>(checkedIndex(parameter, count, "parameter"));
+}
+
 void bindCalibrations(py::module_ &m)
 {
   bindEnum<vpFitVerdict>(m);
@@ -199,14 +205,23 @@ void bindCalibrations(py::module_ &m)
       .def("toCamera", &vpMicroscopeCalibration::toCamera, doc("vpMicroscopeCalibration::toCamera"));
   bindStruct<vpMicroscopePlacement>(m);
   bindEnum<vpMicroscopeParameter>(m);
-  bindStruct<vpMicroscopeCalibrationResult>(m).def("sigma", &vpMicroscopeCalibrationResult::sigma, py::arg("parameter"),
-                                                   doc("vpMicroscopeCalibrationResult::sigma"));
+  bindStruct<vpMicroscopeCalibrationResult>(m).def(
+      "sigma",
+      [](const vpMicroscopeCalibrationResult &self, vpMicroscopeParameter parameter) {
+        return self.sigma(checkedParameter(parameter, vpMicroscopeParameterCount));
+      },
+      py::arg("parameter"), doc("vpMicroscopeCalibrationResult::sigma"));
   bindCalibration<vpPlanarMicroscopeCalibration, vpMicroscopeCalibrationSpec>(m, "vpPlanarMicroscopeCalibration");
 
   bindStruct<vpTsaiCalibrationSpec>(m).def("check", &vpTsaiCalibrationSpec::check, doc("vpTsaiCalibrationSpec::check"));
   bindEnum<vpTsaiParameter>(m);
   bindStruct<vpTsaiCalibrationResult>(m)
-      .def("sigma", &vpTsaiCalibrationResult::sigma, py::arg("parameter"), doc("vpTsaiCalibrationResult::sigma"))
+      .def(
+          "sigma",
+          [](const vpTsaiCalibrationResult &self, vpTsaiParameter parameter) {
+            return self.sigma(checkedParameter(parameter, vpTsaiParameterCount));
+          },
+          py::arg("parameter"), doc("vpTsaiCalibrationResult::sigma"))
       .def("toCamera", &vpTsaiCalibrationResult::toCamera, doc("vpTsaiCalibrationResult::toCamera"));
   bindCalibration<vpTsaiCalibration, vpTsaiCalibrationSpec>(m, "vpTsaiCalibration");
 }

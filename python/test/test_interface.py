@@ -126,7 +126,9 @@ pool += [vd.DirectTrajectory(7), vd.PatternTracker(64, 64), vd.ServoController.c
 SLOW = {"coverArm", "setTimeLimit"}
 allowed = (TypeError, ValueError, IndexError, OSError, RuntimeError, NotImplementedError, OverflowError, AttributeError, UnicodeError)
 def call(function, count):
-    function(*[pool[i] for i in random.integers(0, len(pool), count)])
+    arguments = [pool[i] for i in random.integers(0, len(pool), count)]
+    print(trial, function, [type(a).__name__ for a in arguments], file=sys.stderr)  # the last line names what crashed
+    function(*arguments)
 done = good = 0
 functions = [f for n, f in inspect.getmembers(core, inspect.isbuiltin) if n not in SLOW]
 for trial in range(int(sys.argv[2])):
@@ -146,6 +148,8 @@ for trial in range(int(sys.argv[2])):
             except allowed:
                 continue
         if not callable(function):
+            if inspect.isclass(owner):
+                continue  # a class is no struct whose fields can be set
             try:
                 setattr(owner, name, pool[random.integers(len(pool))])
             except allowed:
