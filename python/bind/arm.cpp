@@ -94,9 +94,8 @@ void bindKinematics(py::module_ &m)
   namespace kinematics = vpArmKinematics;
   const std::string in = "vpArmKinematics::";
   bindEnum<vpArmFrame>(m);
-  py::class_<K>(
-      m, "ArmKinematics",
-      "Kinematics of an arm in one configuration. Joints are numbered from 0, links from 1; link 0 is the base.")
+  Bound<K>(m, "ArmKinematics",
+           "Kinematics of an arm in one configuration. Joints are numbered from 0, links from 1; link 0 is the base.")
       .def(py::init<const vpArmModel &, const vpJointVector &>(), py::arg("model"), py::arg("q"),
            py::keep_alive<1, 2>(), "model: the arm. q: configuration, n finite numbers, rad or m.")
       .def_property_readonly(
@@ -179,7 +178,7 @@ void bindIndex(py::module_ &m)
 
 // A fixed array with a count, as a list.
 template <class Input, class T, std::size_t N>
-void bindList(py::class_<Input> &bound, const char *name, std::array<T, N> Input::*values, const char *countName,
+void bindList(Bound<Input> &bound, const char *name, std::array<T, N> Input::*values, const char *countName,
               int Input::*count, const char *text)
 {
   bound.def_property_readonly(
@@ -245,7 +244,7 @@ void bindArmMotion(py::module_ &m)
   bindEnum<vpArmTaskKind>(m);
   bindEnum<vpArmTwistFrame>(m);
   const std::string in = "vpArmMotion::";
-  py::class_<ArmMotion>(m, "ArmMotion", doc("vpArmMotion"))
+  Bound<ArmMotion>(m, "ArmMotion", doc("vpArmMotion"))
       .def(py::init<const vpArmModel &, const vpRedundancySpec &, const vpClosedLoopSpec &>(), py::arg("model"),
            py::arg("redundancy") = vpRedundancySpec(), py::arg("closedLoop") = vpClosedLoopSpec(),
            py::keep_alive<1, 2>(), doc(in + "vpArmMotion"))

@@ -15,10 +15,57 @@
 #include <memory>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace visp_python
 {
+//! For methods without arguments: a call with None in place of the object, T.method(None), is a TypeError.
+struct NotNone {
+};
+} // namespace visp_python
+
+namespace pybind11
+{
+namespace detail
+{
+template <> struct process_attribute<visp_python::NotNone> : process_attribute_default<visp_python::NotNone> {
+  static void init(const visp_python::NotNone &, function_record *record) { append_self_arg_if_needed(record); }
+};
+} // namespace detail
+} // namespace pybind11
+
+namespace visp_python
+{
+//! A class whose methods have all NotNone.
+template <class T, class... Options> class Bound : public py::class_<T, Options...>
+{
+public:
+  using Base = py::class_<T, Options...>;
+  using Base::Base;
+
+  template <class... Args> Bound &def(Args &&...args)
+  {
+    Base::def(std::forward<Args>(args)..., NotNone());
+    return *this;
+  }
+  template <class... Args> Bound &def_static(Args &&...args)
+  {
+    Base::def_static(std::forward<Args>(args)...);
+    return *this;
+  }
+  template <class... Args> Bound &def_property(Args &&...args)
+  {
+    Base::def_property(std::forward<Args>(args)...);
+    return *this;
+  }
+  template <class... Args> Bound &def_property_readonly(Args &&...args)
+  {
+    Base::def_property_readonly(std::forward<Args>(args)...);
+    return *this;
+  }
+};
+
 using Unlocked = py::call_guard<py::gil_scoped_release>; //!< For calls that take long.
 
 //! Docstring of "vpServoLaw::setGoal" in the headers. \throw std::logic_error when there is none, at import.
@@ -75,9 +122,9 @@ template <class Class, class T, class M> void bindField(Class &bound, const char
 }
 
 //! A struct with all its public fields, made by no arguments or by fields as keywords.
-template <class T, class... Options> py::class_<T, Options...> bindStruct(py::module_ &m, bool constructible = true)
+template <class T, class... Options> Bound<T, Options...> bindStruct(py::module_ &m, bool constructible = true)
 {
-  py::class_<T, Options...> bound(m, Reflect<T>::name, Reflect<T>::doc);
+  Bound<T, Options...> bound(m, Reflect<T>::name, Reflect<T>::doc);
   bound.attr("_fields") = py::list();
   Reflect<T>::each([&bound](const char *name, auto member, const char *text) { bindField(bound, name, member, text); });
   bound.def("__repr__", &represented);
@@ -105,9 +152,9 @@ template <class E> py::enum_<E> bindEnum(py::module_ &m)
 }
 
 //! A class whose methods are bound by hand.
-template <class T, class... Options> py::class_<T, Options...> bindClass(py::module_ &m)
+template <class T, class... Options> Bound<T, Options...> bindClass(py::module_ &m)
 {
-  return py::class_<T, Options...>(m, Reflect<T>::name, Reflect<T>::doc);
+  return Bound<T, Options...>(m, Reflect<T>::name, Reflect<T>::doc);
 }
 
 //! Raises what a law written in Python has raised in its last step.

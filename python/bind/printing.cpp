@@ -97,7 +97,7 @@ void bindTrigger(py::module_ &m)
   bindEnum<vpPrintAxis>(m);
   bindEnum<vpPrintTriggerStatus>(m);
   bindStruct<vpPrintTriggerSpec>(m).def("validate", &vpPrintTriggerSpec::validate, doc("vpPrintTriggerSpec::validate"));
-  py::class_<TriggerInput> input(m, "PrintTriggerInput", Reflect<vpPrintTriggerInput>::doc);
+  Bound<TriggerInput> input(m, "PrintTriggerInput", Reflect<vpPrintTriggerInput>::doc);
   input.attr("_fields") = py::list();
   Reflect<vpPrintTriggerInput>::each([&input](const char *name, auto member, const char *text) {
     if (std::string(name) != "cellCount") {

@@ -82,7 +82,7 @@ void bindShapes(py::module_ &m)
             return self.type() == vpShapeType::Mesh ? std::optional<Mesh>(self.mesh()) : std::nullopt;
           },
           "The mesh of a shape of type Mesh; None for the others.");
-  py::class_<vpExactShapes, std::shared_ptr<vpExactShapes>>(m, "ExactShapes", doc("vpExactShapes"))
+  Bound<vpExactShapes, std::shared_ptr<vpExactShapes>>(m, "ExactShapes", doc("vpExactShapes"))
       .def(py::init<const vpArmModel &>(), py::arg("arm"), Unlocked(), doc("vpExactShapes::vpExactShapes"))
       .def("has", &vpExactShapes::has, py::arg("i"), doc("vpExactShapes::has"))
       .def("warnings", &vpExactShapes::warnings, copy, doc("vpExactShapes::warnings"));

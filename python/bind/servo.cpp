@@ -164,7 +164,7 @@ void bindLaw(py::module_ &m)
   bindStruct<vpServoMotionLimits>(m).def("validate", &vpServoMotionLimits::validate,
                                          doc("vpServoMotionLimits::validate"));
   bindStruct<vpServoGains>(m).def("validate", &vpServoGains::validate, doc("vpServoGains::validate"));
-  py::class_<Law, PythonLaw>(
+  Bound<Law, PythonLaw>(
       m, "ServoLaw",
       "A servo law: measurement and goal in, camera twist out. ServoLaw.create() makes one of ids(). A law of\n"
       "your own derives from it and has a method compute(measurement, dt) that returns a twist or a\n"

@@ -55,12 +55,12 @@ template <class State> vpVisualServoOutput stepOf(Servo &self, const State &stat
 void bindTiming(py::module_ &m)
 {
   using Statistics = vpTimingStatistics;
-  py::class_<Statistics>(m, "TimingStatistics", doc("vpTimingStatistics"))
+  Bound<Statistics>(m, "TimingStatistics", doc("vpTimingStatistics"))
       .def("count", &Statistics::count, doc("vpTimingStatistics::count"))
       .def("invalid", &Statistics::invalid, doc("vpTimingStatistics::invalid"))
       .def("max", &Statistics::max, doc("vpTimingStatistics::max"))
       .def("quantile", &Statistics::quantile, py::arg("share"), doc("vpTimingStatistics::quantile"));
-  py::class_<vpServoTiming> timing(m, "ServoTiming", doc("vpServoTiming"));
+  Bound<vpServoTiming> timing(m, "ServoTiming", doc("vpServoTiming"));
   Reflect<vpServoTiming>::each(
       [&timing](const char *name, auto member, const char *text) { timing.def_readonly(name, member, text); });
 }

@@ -42,8 +42,8 @@ vpCameraParameters camera(double px, double py, double u0, double v0, double kud
 void bindCamera(py::module_ &m)
 {
   using Camera = vpCameraParameters;
-  py::class_<Camera>(m, "CameraParameters",
-                     "Intrinsics of a camera, px: vpCameraParameters of ViSP. kud and kdu, px^-2: its distortion.")
+  Bound<Camera>(m, "CameraParameters",
+                "Intrinsics of a camera, px: vpCameraParameters of ViSP. kud and kdu, px^-2: its distortion.")
       .def(py::init(&camera), py::arg("px"), py::arg("py"), py::arg("u0"), py::arg("v0"), py::arg("kud") = 0.,
            py::arg("kdu") = 0.,
            "Focal length over the width and height of a pixel, and principal point, px; without kud and kdu no "
@@ -156,8 +156,7 @@ void bindTracker(py::module_ &m)
       .def("reset", &Tracker::reset, doc("vpPatternTracker::reset"));
 }
 
-template <class Calibration, class Spec>
-py::class_<Calibration> bindCalibration(py::module_ &m, const std::string &name)
+template <class Calibration, class Spec> Bound<Calibration> bindCalibration(py::module_ &m, const std::string &name)
 {
   return bindClass<Calibration>(m)
       .def(py::init<unsigned int, unsigned int, const Spec &>(), py::arg("width"), py::arg("height"),
