@@ -55,13 +55,13 @@ vpTwist difference(const vpTwist &a, const vpTwist &b)
 
 //! \brief What differs between recording and replay.
 struct Differences {
+  std::size_t missing = 0; //!< Images of images.csv that the video lacks.
   std::size_t images = 0, foundThen = 0, foundNow = 0;
   std::vector<double> positions, rotations; //!< Of the target's poses in images where both found it, m and rad.
   std::size_t cycles = 0;
   double linearSquares = 0., angularSquares = 0., largestLinear = 0., largestAngular = 0.;
   double firstTime = NOTHING; //!< When the speeds first differed by more than a tenth of the limits, s.
   Thinned<Compared> rows{4000};
-  std::string lastMessage;
 
   void add(const RecordedImage &then, const vpServoMeasurement &now)
   {
@@ -133,6 +133,10 @@ std::vector<std::string> findings(const Differences &d, const Options &options)
   lines.push_back("Of " + std::to_string(d.images) + " recorded images the target is found in " +
                   std::to_string(d.foundNow) + "; when they were recorded it was found in " +
                   std::to_string(d.foundThen) + ".");
+  if (d.missing > 0) {
+    lines.push_back("The video lacks the last " + std::to_string(d.missing) +
+                    " images, as after a kill: from there on the replayed law has none.");
+  }
   if (!d.positions.empty()) {
     lines.push_back("Where both found it, its poses differ by " + mm(vpMedian(d.positions)) + " mm and " +
                     degrees(vpMedian(d.rotations)) + " degrees (medians), at most " +
@@ -238,7 +242,9 @@ private:
   {
     if (m_film.read(image.index, m_picture)) {
       m_differences.add(image, m_servo.see(m_picture, image.capture).measurement);
-      m_differences.lastMessage = m_servo.vision().message();
+    }
+    else {
+      ++m_differences.missing;
     }
   }
 
@@ -275,6 +281,7 @@ nlohmann::ordered_json summaryOf(const Differences &d, const Options &options, c
           {"recording", options.replay},
           {"law", options.laws.front()},
           {"images", d.images},
+          {"images_missing", d.missing},
           {"found_then", d.foundThen},
           {"found_now", d.foundNow},
           {"cycles", d.cycles},

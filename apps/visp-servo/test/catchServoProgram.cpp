@@ -199,7 +199,10 @@ TEST_CASE("Ctrl-C ends with a report; a killed program leaves what it recorded, 
       CHECK(WIFSIGNALED(status));
       REQUIRE(run("--replay " + out + "/unfinished-run --out again") == OK);
       CHECK(summaryIn(run, "again")["cycles"].get<int>() >= 700);
-      CHECK(summaryIn(run, "again")["velocity_largest_mps"].get<double>() < 1e-2);
+      const json again = summaryIn(run, "again"); // the video lacks what was not yet flushed
+      CHECK(again["images"].get<int>() > 0);
+      CHECK(again["found_now"] == again["images"]);
+      CHECK(again["found_then"] == again["images"]);
     }
   }
 }
