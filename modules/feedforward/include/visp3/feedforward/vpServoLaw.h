@@ -126,7 +126,8 @@ public:
    * \param commanded : Twist that was sent to the robot, after filters and limits: a law that plans continues from it.
    * \param moved : Camera twist that the robot executes, by its encoders, m/s and rad/s; the same where it is not known.
    */
-  virtual void notifyExecuted(const vpTwist & /*commanded*/, const vpTwist & /*moved*/) noexcept {}
+  virtual void notifyExecuted([[maybe_unused]] const vpTwist &commanded, [[maybe_unused]] const vpTwist &moved) noexcept
+  {}
   //! True when the twists of this law, one after the other, stay within its vpServoMotionLimits: no shaper is needed.
   [[nodiscard]] virtual bool plansMotion() const noexcept { return false; }
   //! Time until the planned arrival, s; 0 when arrived; NaN for a law without a plan, or while there is none.
