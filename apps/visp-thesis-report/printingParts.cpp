@@ -5,7 +5,8 @@
 // Figures 7.12 to 7.15: velocity of the stage, by the experiments of visp-print-pattern.
 #include "part.h"
 
-#include "visp-print-pattern/reportPage.h"
+#include "numberText.h"
+#include "plot.h"
 #include "visp-print-pattern/tables.h"
 
 #include <visp3/direct_core/vpQuantile.h>
@@ -21,6 +22,38 @@ using printPattern::Replica;
 
 constexpr const char *CHAPTER = "Chapter 7: product pattern-based visual servoing";
 constexpr double DROP_VELOCITY = 4.; // px/frame
+
+//! Velocities against time.
+std::string velocitySvg(const vpPrintRun &run, const std::string &title)
+{
+  vpApp::PlotCurve measured{"measured, before any filter", "#9ecae1", vpApp::PlotStyle::Points, 1.5, {}, {}};
+  vpApp::PlotCurve truth{"true", "#d62728", vpApp::PlotStyle::Solid, 1.8, {}, {}};
+  vpApp::PlotCurve reference{"reference", "#000000", vpApp::PlotStyle::Dashed, 1.5, {}, {}};
+  for (const vpPrintSample &s : run.samples) {
+    for (vpApp::PlotCurve *curve : {&measured, &truth, &reference}) {
+      curve->x.push_back(s.frame / run.spec.frameRate);
+    }
+    measured.y.push_back(s.measuredVelocity);
+    truth.y.push_back(s.vx);
+    reference.y.push_back(s.referenceVelocity);
+  }
+  vpApp::Plot plot;
+  plot.title = title;
+  plot.xLabel = "time (s)";
+  plot.yLabel = "velocity (px/frame)";
+  plot.curves = {measured, truth, reference};
+  return vpApp::renderSvg(plot);
+}
+
+std::string captionOf(const Replica &replica)
+{
+  std::string text = "Velocity error from frame " + std::to_string(replica.runs.front().spec.evaluateFrom) +
+                     " on, rms of " + std::to_string(replica.runs.size()) +
+                     " runs: " + vpApp::fixed(replica.rms_velocity_error, 3) + " px/frame as measured";
+  text += replica.thesis > 0. ? ", " + vpApp::fixed(replica.thesis, 2) + " px/frame in the thesis" : "";
+  return text + "; at the centres of the cells " + vpApp::fixed(replica.centre_velocity_error, 3) +
+         " px/frame. The first run is drawn.";
+}
 
 //! The finished replicas of the figures.
 class Replicas
@@ -44,7 +77,6 @@ public:
       }
       printPattern::summarise(replica);
     }
-    m_figures = printPattern::thesisFigures(m_results);
   }
   [[nodiscard]] const Replica &of(const std::string &figure) const
   {
@@ -56,12 +88,9 @@ public:
   {
     Item item;
     item.id = "fig" + figure;
-    for (const printPattern::Figure &drawn : m_figures) {
-      if (drawn.name == "figure-" + figure) {
-        item.figures.push_back({"velocity", drawn.alt, drawn.caption, drawn.svg});
-      }
-    }
     const Replica &replica = of(figure);
+    const std::string title = "Figure " + figure + ": " + replica.name;
+    item.figures.push_back({"velocity", title, captionOf(replica), velocitySvg(replica.runs.front(), title)});
     item.data.push_back({"motion.csv", printPattern::motionCsv(replica.runs.front())});
     item.parameters = {
         {"runs", std::to_string(replica.runs.size()) + " seeds; the picture and the data show the first"},
@@ -74,7 +103,6 @@ public:
 
 private:
   printPattern::Results m_results;
-  std::vector<printPattern::Figure> m_figures;
 };
 
 //! Mean of a field of the samples between two times, over all runs.

@@ -97,22 +97,22 @@ TEST_CASE("Damaged goals and recordings of visp-servo", "[files][mutated]")
        }));
   // The readers take folders.
   const auto tellOf = [&](const std::string &name, const std::string &content, const std::function<void()> &read) {
-    tell(name, readMutatedAsPrinted({folder.write(name, content)}, std::filesystem::path(name).extension().string(),
-                                    [&](const std::string &file) {
-                                      std::filesystem::copy_file(file, damaged.path / name,
-                                                                 std::filesystem::copy_options::overwrite_existing);
-                                      try {
-                                        read();
-                                      }
-                                      catch (const std::exception &error) { // the folder's file, not the copy
-                                        std::string sentence = error.what();
-                                        const std::string place = damaged.file(name);
-                                        const std::size_t at = sentence.find(place);
-                                        throw std::runtime_error(at == std::string::npos
-                                                                     ? sentence
-                                                                     : sentence.replace(at, place.size(), file));
-                                      }
-                                    }));
+    tell(name.c_str(),
+         readMutatedAsPrinted({folder.write(name, content)}, std::filesystem::path(name).extension().string(),
+                              [&](const std::string &file) {
+                                std::filesystem::copy_file(file, damaged.path / name,
+                                                           std::filesystem::copy_options::overwrite_existing);
+                                try {
+                                  read();
+                                }
+                                catch (const std::exception &error) { // the folder's file, not the copy
+                                  std::string sentence = error.what();
+                                  const std::string place = damaged.file(name);
+                                  const std::size_t at = sentence.find(place);
+                                  throw std::runtime_error(
+                                      at == std::string::npos ? sentence : sentence.replace(at, place.size(), file));
+                                }
+                              }));
   };
   tellOf("recording.json", "{\"settings\": [\"--law\", \"pbvs1\", \"--lambda\", \"2\"]}",
          [&] { static_cast<void>(visualServo::readSettings(damaged.path)); });
