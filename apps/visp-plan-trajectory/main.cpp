@@ -163,13 +163,12 @@ void writeReport(vpApp::OutputFolder &out, const std::vector<Planned> &planned, 
 
 int plan(Options options, const std::string &command)
 {
-  if (options.file.empty()) {
+  const bool isExample = options.file.empty();
+  if (isExample) {
     options.file = vpApp::dataFile("trajectory/figure-6.3.jsonl");
     if (options.out.empty()) {
       options.out = "out/plan-trajectory";
     }
-    std::cerr << "visp-plan-trajectory: no problems given, so this is figure 6.3 of the thesis (" << options.file
-              << "), with a report in " << options.out << "; --help shows more" << std::endl;
   }
   vpApp::LineReader lines(options.file);
   if (!options.csv.empty()) {
@@ -177,6 +176,10 @@ int plan(Options options, const std::string &command)
   }
   const auto out =
       options.out.empty() ? nullptr : std::make_unique<vpApp::OutputFolder>("visp-plan-trajectory", options.out);
+  if (isExample) {
+    std::cerr << "visp-plan-trajectory: no problems given, so this is figure 6.3 of the thesis (" << options.file
+              << "), with a report in " << options.out << "; --help shows more" << std::endl;
+  }
   const bool keep = !options.csv.empty() || out != nullptr;
   std::vector<Planned> planned;
   const Count count = answerAll(lines, keep ? &planned : nullptr);

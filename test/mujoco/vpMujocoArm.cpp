@@ -246,12 +246,19 @@ void Arm::place(const vpArmModel &model, const vpJointVector &q)
     }
     m_data->qpos[m_model->jnt_qposadr[id]] = q(i);
   }
-  for (const auto &[follower, mimic] : m_mimics) {
-    const int id = joint(follower), of = joint(mimic.of);
-    const auto &own = model.spec().joints;
-    const bool placed = std::any_of(own.begin(), own.end(), [&](const auto &j) { return j.name == follower; });
-    if (id >= 0 && of >= 0 && !placed) {
-      m_data->qpos[m_model->jnt_qposadr[id]] = mimic.ratio * m_data->qpos[m_model->jnt_qposadr[of]] + mimic.offset;
+  const auto &own = model.spec().joints;
+  const auto isOwn = [&own](const std::string &name) {
+    return std::any_of(own.begin(), own.end(), [&name](const auto &j) { return j.name == name; });
+  };
+  // A joint of the arm that mimics one beside the chain moves that one, and with it all others that mimic it.
+  for (const bool isLeading : {true, false}) {
+    for (const auto &[follower, mimic] : m_mimics) {
+      const int id = joint(follower), of = joint(mimic.of);
+      if (id < 0 || of < 0 || isOwn(isLeading ? mimic.of : follower) || (isLeading && !isOwn(follower))) {
+        continue;
+      }
+      mjtNum &led = m_data->qpos[m_model->jnt_qposadr[id]], &leader = m_data->qpos[m_model->jnt_qposadr[of]];
+      (isLeading ? leader : led) = isLeading ? (led - mimic.offset) / mimic.ratio : mimic.ratio * leader + mimic.offset;
     }
   }
   mj_kinematics(m_model.get(), m_data.get());

@@ -23,6 +23,7 @@ namespace
 constexpr std::size_t largestFile = 1U << 20U; // bytes
 constexpr double worstRotation = 1e-3;
 constexpr double longest = 1000.; // m
+constexpr double shortest = 1e-3; // px: vpCameraParameters refuses a focal length near 0
 
 [[noreturn]] void refuse(const std::string &file, const std::string &what) { throw vpFileError(file + ": " + what); }
 
@@ -100,8 +101,9 @@ vpCameraParameters readModel(const CameraFile &xml, int model, bool isDistorting
 {
   const double px = xml.number(model, "px"), py = xml.number(model, "py");
   const double u0 = xml.number(model, "u0"), v0 = xml.number(model, "v0");
-  if (!(px > 0. && py > 0.)) {
-    refuse(xml.file(), "px and py are " + xml.text(model, "px") + " and " + xml.text(model, "py") + ", must be > 0");
+  if (!(px >= shortest && py >= shortest)) {
+    refuse(xml.file(),
+           "px and py are " + xml.text(model, "px") + " and " + xml.text(model, "py") + ", must be >= 0.001");
   }
   vpCameraParameters camera(px, py, u0, v0);
   if (isDistorting) {

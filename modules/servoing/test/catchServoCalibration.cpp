@@ -159,7 +159,7 @@ TEST_CASE("A file that has no camera is refused with a sentence", "[servoing]")
   CHECK_THAT(message(twoCameras, twoCameras, "<root></root>"), Catch::EndsWith("has no camera with the name left"));
   CHECK_THAT(message(twoCameras, "</model>", ""), Catch::Contains("does not end element model"));
   CHECK_THAT(message(twoCameras, "<px>610</px>", "<px>-610</px>"),
-             Catch::EndsWith("px and py are -610 and 611, must be > 0"));
+             Catch::EndsWith("px and py are -610 and 611, must be >= 0.001"));
   CHECK_THAT(message(twoCameras, "<py>611</py>", ""), Catch::EndsWith("py is \"\", must be a finite number"));
   CHECK_THAT(message(twoCameras, "<image_width>640<", "<image_width>0<"),
              Catch::EndsWith("image_width is 0, must be whole and 1..1000000"));
