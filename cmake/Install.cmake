@@ -40,6 +40,21 @@ if(programs)
 endif()
 set(VISP_DIRECT_DATA_FOLDER ${CMAKE_INSTALL_DATAROOTDIR}/visp-direct)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/data/" DESTINATION ${VISP_DIRECT_DATA_FOLDER} COMPONENT programs)
+# The reports are a part of the programs; the compiled part of the Python package is a component of its own.
+if(VISP_DIRECT_PYTHON_FOLDER)
+  install(DIRECTORY "${PROJECT_SOURCE_DIR}/python/visp_direct" DESTINATION "${VISP_DIRECT_PYTHON_FOLDER}" COMPONENT programs
+          PATTERN "__pycache__" EXCLUDE)
+endif()
+# Not a part of vispdirect_installable: who builds that alone gets no compiled part.
+foreach(target visp_direct_python visp_direct_laws)
+  if(TARGET ${target})
+    install(TARGETS ${target} LIBRARY DESTINATION "${VISP_DIRECT_PYTHON_FOLDER}/visp_direct" COMPONENT python OPTIONAL)
+  endif()
+endforeach()
+if(TARGET visp_direct_python)
+  install(FILES "${PROJECT_BINARY_DIR}/python/visp_direct/_core.pyi" DESTINATION "${VISP_DIRECT_PYTHON_FOLDER}/visp_direct"
+          COMPONENT python OPTIONAL)
+endif()
 
 # Only static libraries pass on what they are linked with.
 set(VISP_DIRECT_EXTERNAL_LIBRARIES "")

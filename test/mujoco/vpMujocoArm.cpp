@@ -246,19 +246,22 @@ void Arm::place(const vpArmModel &model, const vpJointVector &q)
     }
     m_data->qpos[m_model->jnt_qposadr[id]] = q(i);
   }
-  const auto &own = model.spec().joints;
-  const auto isOwn = [&own](const std::string &name) {
-    return std::any_of(own.begin(), own.end(), [&name](const auto &j) { return j.name == name; });
+  const auto isAmong = [](const auto &list, const std::string &name) {
+    return std::any_of(list.begin(), list.end(), [&name](const auto &one) { return one.name == name; });
   };
-  // A joint of the arm that mimics one beside the chain moves that one, and with it all others that mimic it.
-  for (const bool isLeading : {true, false}) {
-    for (const auto &[follower, mimic] : m_mimics) {
-      const int id = joint(follower), of = joint(mimic.of);
-      if (id < 0 || of < 0 || isOwn(isLeading ? mimic.of : follower) || (isLeading && !isOwn(follower))) {
-        continue;
-      }
-      mjtNum &led = m_data->qpos[m_model->jnt_qposadr[id]], &leader = m_data->qpos[m_model->jnt_qposadr[of]];
-      (isLeading ? leader : led) = isLeading ? (led - mimic.offset) / mimic.ratio : mimic.ratio * leader + mimic.offset;
+  const auto &own = model.spec().joints;
+  std::map<std::string, double> implied; // positions of joints beside the chain that joints of the arm mimic
+  for (const auto &[follower, mimic] : m_mimics) {
+    if (isAmong(own, follower)) {
+      implied[mimic.of] = (m_data->qpos[m_model->jnt_qposadr[joint(follower)]] - mimic.offset) / mimic.ratio;
+    }
+  }
+  for (const auto &[follower, mimic] : m_mimics) {
+    const int id = joint(follower), of = joint(mimic.of);
+    if (id >= 0 && of >= 0 && !isAmong(own, follower)) {
+      const bool isImplied = isAmong(model.spec().followers, follower) && implied.count(mimic.of) > 0;
+      const double leader = isImplied ? implied[mimic.of] : m_data->qpos[m_model->jnt_qposadr[of]];
+      m_data->qpos[m_model->jnt_qposadr[id]] = mimic.ratio * leader + mimic.offset;
     }
   }
   mj_kinematics(m_model.get(), m_data.get());

@@ -39,6 +39,7 @@ vpFeedforwardTask::vpFeedforwardTask(const std::string &law, const vpServoGains 
     m_sum(gains), m_gaze(gains)
 {
   setServo(type);
+  setPseudoInverseThreshold(1e-6); // the documented default; this constructor of ViSP 3.5 leaves it uninitialised
   setInteractionMatrixType(CURRENT, PSEUDO_INVERSE);
   setLambda(gains.lambda);
   addFeature(m_position);
