@@ -237,7 +237,7 @@ TEST_CASE("noise makes neither plans nor jerk", "[plan][noise]")
     }
     CHECK(plansEarly <= 20);                       // of 100 images
     CHECK(servo.law().plans() - plansEarly <= 12); // of 100 more, at the goal
-    CHECK(judge.squares - early <= 0.35 * early); // 0.22 in 480 runs
+    CHECK(judge.squares - early <= 0.35 * early);  // 0.22 in 480 runs
     CHECK(translationError(cdMo, cMo) < 0.006);
     CHECK(rotationError(cdMo, cMo) < 0.012);
   }
