@@ -186,7 +186,8 @@ TEST_CASE("What is said of public robots", "[visp-arm]")
     CHECK(shown["joints"].size() == names.size());
     for (const json &shape : shown["shapes"]) {
       CHECK((shape["kind"] == "mesh") == shape["file"].is_string());
-      CHECK((shape["file"].is_null() || std::filesystem::exists(run.path("result") / shape["file"].get<std::string>())));
+      CHECK(
+          (shape["file"].is_null() || std::filesystem::exists(run.path("result") / shape["file"].get<std::string>())));
     }
     CHECK(vpApp::readJsonFile(run.path("result/robot.json").string())["links"] == answer["links"]);
   }

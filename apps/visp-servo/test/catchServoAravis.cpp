@@ -28,7 +28,7 @@ TEST_CASE("visp-servo watches a GigE camera", "[visp-servo][aravis]")
   const auto summary = nlohmann::json::parse(vpApp::readFile(run.path("a/summary.json")));
   CHECK(summary["clock"] == "time stamps of the camera");
   CHECK(summary["images"].get<int>() > 20); // of 60; the machine may be busy
-  CHECK(summary["times"]["image_period"]["median_ms"].get<double>() == Approx(50.).epsilon(0.1));
+  CHECK(summary["times"]["image_period"]["median_ms"].get<double>() == Approx(50.).epsilon(0.3)); // likewise
   CHECK(summary["images_found"] == 0);
   CHECK(summary["images_lost"].get<int>() >= 0);
   CHECK(run.out().find("At the end the target was not seen") != std::string::npos);
