@@ -67,7 +67,7 @@ TEST_CASE("A tag is found at its pose, as uncertain as told, and no other number
 #else
   constexpr double size = 0.08; // m, of the black square: 8 of 10 cells
   vpPlaneRenderer view(tag36h11(), 1.25 * size, 1.25 * size, camera, 320, 240);
-  const auto vision = vpServoVision::tag("36h11", 0, size, camera, 0.05);
+  const auto vision = vpServoVision::tag("36h11", 0, size, camera, 0.07); // px, from the errors of the pose here
   const auto other = vpServoVision::tag("36h11", 1, size, camera);
   vpCameraFaults faults;
   faults.noise = 2.;
@@ -102,6 +102,7 @@ TEST_CASE("A tag is found at its pose, as uncertain as told, and no other number
   INFO(found << " of " << count << " found, " << within << " of " << axes << " numbers within two deviations");
   CHECK(found >= 0.95 * count);
   CHECK(within > 0.9 * axes);
+  CHECK(within < axes); // not told as larger than it is
   CHECK_THROWS_WITH(vpServoVision::tag("36h12", 0, size, camera),
                     "the family of tags \"36h12\" is unknown, known are: 16h5, 25h9, 36h11, Circle21h7, Standard41h12");
   CHECK_THROWS_WITH(vpServoVision::tag("36h11", -1, size, camera), "id of the tag is -1, must be >= 0");
