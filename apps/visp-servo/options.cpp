@@ -25,7 +25,7 @@ constexpr const char *ABOUT =
 options everything is simulated: the arm, and its camera, which sees rendered images of a photograph. With your camera and robot the
 same program moves them.
 
-A real robot moves only when it is told to, by --start or by the space bar in the window of --display, and slowly: 0.05 m/s unless
+A real robot moves only when started, by --start or by the space bar in the window of --display, and slowly: 0.05 m/s unless
 --max-linear says otherwise. When the target is lost it stops, waits, goes back the way it came, and stops. It stops for good when
 images or the robot's state stay away, when the clock jumps, and when it does not move as commanded.)";
 

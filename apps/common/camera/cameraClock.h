@@ -68,7 +68,7 @@ public:
     constexpr std::uint64_t largest = 65535;
     std::uint64_t step = number - last;
     if (number < last) {
-      if (last > largest || last - number < largest / 2) { // counts anew
+      if (last > largest || last - number < largest / 2) { // the counter restarted
         return 0;
       }
       step = number + largest - last;

@@ -125,7 +125,7 @@ TEST_CASE("a reference image alone leads back to where it was taken", "[visp-ser
   CHECK(std::fabs(cMo[2][3] - 0.3) < 0.005);
 }
 
-TEST_CASE("a robot of a plug-in moves when it is told to, by the clock", "[visp-servo][plugin]")
+TEST_CASE("a robot of a plug-in moves after --start, by the clock", "[visp-servo][plugin]")
 {
   ProgramRun run(SERVO);
   const std::string robot =
@@ -163,7 +163,7 @@ pid_t start(const ProgramRun &run, const std::vector<std::string> &arguments)
   return child;
 }
 
-//! Waits until a file has so many lines.
+//! Waits until a file has at least this number of lines.
 bool waitForLines(const std::filesystem::path &file, std::size_t lines)
 {
   for (int i = 0; i < 600; ++i) {

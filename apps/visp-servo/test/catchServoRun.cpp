@@ -31,7 +31,7 @@ struct Script {
   double speed = 0., speedAtEnd = 0.; // commanded last, m/s
 };
 
-//! A point-like robot that moves exactly as it is told.
+//! A point-like robot that executes every command exactly.
 class ScriptedRobot : public Robot
 {
 public:
