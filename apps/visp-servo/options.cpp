@@ -10,6 +10,7 @@
 #include "plugin.h"
 #include "recorded.h"
 
+#include <visp3/core/vpException.h>
 #include <visp3/core/vpMath.h>
 #include <visp3/core/vpPoseVector.h>
 
@@ -318,6 +319,14 @@ bool parse(const std::vector<std::string> &arguments, Options &options)
     return false;
   }
   complete(line, options);
+  try {
+    for (const std::string &law : options.laws) {
+      static_cast<void>(vpServoController::create(law, options.law));
+    }
+  }
+  catch (const vpException &error) {
+    throw vpApp::UsageError(std::string("--law: ") + error.getStringMessage());
+  }
   return true;
 }
 
