@@ -17,7 +17,7 @@ case ${CXX:-} in *clang*) packages+=(clang libomp-dev) ;; esac # ViSP is built w
 # Real images for some tests, which are skipped if the images are missing. Documentation tools, as the documentation is also
 # a test: doxygen, and bibtex for the bibliography. Open MPI, for the program that can run on several processes.
 # MuJoCo, a second opinion on arms. libabigail, for the test of the binary interface. pytest, and a browser that opens the reports.
-test_packages=(visp-images-data opencv-doc doxygen texlive-binaries libopenmpi-dev openmpi-bin libmujoco-dev abigail-tools
+test_packages=(visp-images-data opencv-doc doxygen doxygen-awesome-css texlive-binaries libopenmpi-dev openmpi-bin libmujoco-dev abigail-tools
   python3-pytest chromium)
 
 # run LOG SENTENCE COMMAND...
