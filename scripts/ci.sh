@@ -8,7 +8,7 @@ usage: scripts/ci.sh tests|warnings|style|sanitizers|documentation|packages|seed
 
   tests           everything, with a seed of the day (test.sh)
   warnings        everything by GCC and by Clang, a warning is an error (presets gcc and clang)
-  style           clang-format, and shellcheck on all scripts
+  style           clang-format, spelling, and shellcheck on all scripts
   sanitizers      memory, damaged files, threads (scripts/sanitize.sh)
   documentation   doxygen without a warning, links, groups
   packages        installed, static and guest builds; Debian packages, by lintian and installed (scripts/packages.sh --use)
@@ -45,6 +45,7 @@ warnings)
 style)
   install_packages clang-format shellcheck
   scripts/lint.sh format
+  scripts/lint.sh spell
   mapfile -t shell < <(find . -path ./build -prune -o -path ./out -prune -o -name '*.sh' -print | sort)
   shellcheck -x "${shell[@]}"
   echo "style: ${#shell[@]} scripts are as shellcheck wants them"

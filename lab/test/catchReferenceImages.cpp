@@ -109,7 +109,8 @@ TEST_CASE("images lead the camera to where the reference image was taken", "[ref
   CHECK(vpMedian(translation) < 0.2);
 }
 
-TEST_CASE("an image file alone serves as reference, without odometry, and a lost plane is reported", "[reference][images]")
+TEST_CASE("an image file alone serves as reference, without odometry, and a lost plane is reported",
+          "[reference][images]")
 {
   auto rng = generator(1);
   const vpReferenceStart start = vpReferenceStart::draw(rng);
