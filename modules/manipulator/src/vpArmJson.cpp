@@ -7,6 +7,7 @@
 #include "vpJsonGeometry.h"
 #include "vpReading.h"
 
+#include <algorithm>
 #include <cmath>
 
 BEGIN_VISP_NAMESPACE
@@ -15,12 +16,22 @@ namespace
 {
 constexpr double degree = M_PI / 180.;
 
-// Limits in the file are in degrees for revolute joints, in metres for prismatic ones.
-vpArmJointSpec joint(vpJsonObject &object, bool isModified)
+vpJointType typeOf(vpJsonObject &object)
 {
   const std::string type = object.text("type");
-  const bool slides = type == "prismatic";
-  const double unit = slides ? 1. : degree;
+  if (type != "continuous" && type != "revolute" && type != "prismatic") {
+    throw object.wrong("type", object.value("type"), "revolute, continuous or prismatic");
+  }
+  return type == "prismatic"    ? vpJointType::Prismatic
+         : type == "continuous" ? vpJointType::Continuous
+                                : vpJointType::Revolute;
+}
+
+// Name, type, frames and offset: all that a joint and a follower have in common.
+vpArmJointSpec tableRow(vpJsonObject &object, bool isModified)
+{
+  const vpJointType type = typeOf(object);
+  const bool slides = type == vpJointType::Prismatic;
   const auto row = isModified ? vpArmJointSpec::modifiedDH : vpArmJointSpec::standardDH;
   vpArmJointSpec spec =
       row(object.number("a_m"), degree * object.number("alpha_deg"), slides ? 0. : object.number("d_m"), 0.);
@@ -32,17 +43,20 @@ vpArmJointSpec joint(vpJsonObject &object, bool isModified)
   else {
     spec.offset = degree * object.number("theta_offset_deg", 0.);
   }
+  spec.type = type;
   spec.name = object.text("name");
-  if (type == "continuous") {
-    spec.type = vpJointType::Continuous;
-  }
-  else if (type == "revolute" || slides) {
-    spec.type = slides ? vpJointType::Prismatic : vpJointType::Revolute;
+  return spec;
+}
+
+// Position limits in the file are in degrees for revolute joints, in metres for prismatic ones.
+vpArmJointSpec joint(vpJsonObject &object, bool isModified)
+{
+  vpArmJointSpec spec = tableRow(object, isModified);
+  if (spec.type != vpJointType::Continuous) {
+    const bool slides = spec.type == vpJointType::Prismatic;
+    const double unit = slides ? 1. : degree;
     spec.lower = unit * object.number(slides ? "lower_m" : "lower_deg");
     spec.upper = unit * object.number(slides ? "upper_m" : "upper_deg");
-  }
-  else {
-    throw object.wrong("type", object.value("type"), "revolute, continuous or prismatic");
   }
   const double infinity = std::numeric_limits<double>::infinity();
   spec.velocity = object.number("velocity", infinity);
@@ -54,6 +68,31 @@ vpArmJointSpec joint(vpJsonObject &object, bool isModified)
   spec.kp = object.number("kp", 0.);
   spec.kd = object.number("kd", 0.);
   return spec;
+}
+
+// Joints and followers in the order of the chain. A follower may name a joint that comes after it.
+void readChain(vpJsonObject &top, bool isModified, vpArmSpec &spec)
+{
+  std::vector<std::string> followed, places;
+  top.each("joints", [&](vpJsonObject &object) {
+    if (!object.has("follows")) {
+      spec.joints.push_back(joint(object, isModified));
+      return;
+    }
+    const vpArmJointSpec row = tableRow(object, isModified);
+    spec.followers.push_back({row.name, row.type, row.before, row.after, -1, object.number("ratio", 1.), row.offset,
+                              static_cast<int>(spec.joints.size())});
+    followed.push_back(object.text("follows"));
+    places.push_back(object.wrong("follows", object.value("follows"), "the name of a joint that follows none").what());
+  });
+  for (std::size_t i = 0; i < followed.size(); ++i) {
+    const auto at = std::find_if(spec.joints.begin(), spec.joints.end(),
+                                 [&](const vpArmJointSpec &joint) { return joint.name == followed[i]; });
+    if (at == spec.joints.end()) {
+      throw vpException(vpException::badValue, places[i]);
+    }
+    spec.followers[i].joint = static_cast<int>(at - spec.joints.begin());
+  }
 }
 
 vpArmLinkSpec link(vpJsonObject &object)
@@ -83,6 +122,7 @@ vpArmCapsule capsule(vpJsonObject &object)
   spec.radius = object.number("radius_m");
   return spec;
 }
+
 vpArmModel load(const std::string &file)
 {
   const nlohmann::json content = vpReadJson(file);
@@ -95,7 +135,7 @@ vpArmModel load(const std::string &file)
   if (convention != "standard" && convention != "modified") {
     throw top.wrong("dh", top.value("dh"), "standard or modified");
   }
-  top.each("joints", [&](vpJsonObject &object) { spec.joints.push_back(joint(object, convention == "modified")); });
+  readChain(top, convention == "modified", spec);
   if (top.has("links")) {
     top.each("links", [&](vpJsonObject &object) { spec.links.push_back(link(object)); });
   }

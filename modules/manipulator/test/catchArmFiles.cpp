@@ -11,6 +11,7 @@
 
 #include <cstdio>
 #include <fstream>
+#include <iomanip>
 #include <sstream>
 
 using namespace vpArmTestKit;
@@ -411,6 +412,57 @@ TEST_CASE("A table of modified DH gives Franka's published poses", "[files]")
   std::remove(name.c_str());
   CHECK((data.tool.p - Eigen::Vector3d(2., -3., 0.)).norm() < 1e-12);
   CHECK((data.tool.R.col(0) - Eigen::Vector3d(0., 0., 1.)).norm() < 1e-12);
+}
+
+TEST_CASE("A table of DH may hold joints that follow others", "[files]")
+{
+  const std::string name = "catchArmFiles-linkage.json";
+  const auto load = [&name](const std::string &follower) {
+    const auto joint = [](const std::string &joint, double length, const std::string &rest) {
+      std::ostringstream row;
+      row << std::setprecision(17) << R"({"name": ")" << joint << R"(", "a_m": )" << length
+          << R"(, "alpha_deg": 0, "d_m": 0, "type": )" << rest << "}";
+      return row.str();
+    };
+    const std::string limits = R"("revolute", "lower_deg": -90, "upper_deg": 90)";
+    std::ofstream(name) << R"({"name": "palletizer", "joints": [)" << joint("first", 0.4, limits) << ", "
+                        << joint("level", 0.1, R"("revolute", "theta_offset_deg": 20, )" + follower) << ", "
+                        << joint("second", 0.3, limits) << "]}";
+    const vpArmModel arm = vpLoadArmJson(name);
+    std::remove(name.c_str());
+    return arm;
+  };
+  // The plane arm by hand: angles add up, whether they are free or follow. The follower names a joint behind it.
+  std::mt19937_64 rng = vpTestSupport::generator(0);
+  for (int i = 0; i < vpTestSupport::longer(50); ++i) {
+    const double ratio = vpTestSupport::uniform(rng, 0.1, 2.) * (rng() % 2 == 0 ? 1. : -1.);
+    std::ostringstream follows;
+    follows << std::setprecision(17) << R"("follows": "second", "ratio": )" << ratio;
+    const vpArmModel arm = load(follows.str());
+    REQUIRE(arm.size() == 2);
+    const vpJointVector q = vector({vpTestSupport::uniform(rng, -1.5, 1.5), vpTestSupport::uniform(rng, -1.5, 1.5)});
+    vpArmData data;
+    vpArmKinematics::forward(arm, q, data);
+    Eigen::Vector3d tip = Eigen::Vector3d::Zero();
+    double angle = 0.;
+    for (const auto &[turn, length] :
+         {std::make_pair(q(0), 0.4), std::make_pair(ratio * q(1) + pi / 9., 0.1), std::make_pair(q(1), 0.3)}) {
+      angle += turn;
+      tip += length * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.);
+    }
+    CHECK((data.tool.p - tip).norm() < 1e-14);
+  }
+  CHECK(load(R"("follows": "first")").spec().followers[0].ratio == 1.);
+
+  const auto error = [&](const std::string &follower, const std::string &sentence) {
+    CHECK_THROWS_WITH(load(follower), Catch::Contains(name + ": " + sentence));
+  };
+  error(R"("follows": "third")", "joints[1].follows is \"third\", must be the name of a joint that follows none");
+  error(R"("follows": "level")", "joints[1].follows is \"level\", must be the name of a joint that follows none");
+  error(R"("follows": 2)", "joints[1].follows is 2, must be a text");
+  error(R"("follows": "first", "ratio": 0)", "ratio of follower level is 0, must not be 0 and be within 100");
+  error(R"("follows": "first", "lower_deg": 0)", "unknown field joints[1].lower_deg; known are ");
+  std::remove(name.c_str());
 }
 
 TEST_CASE("A continuous joint without a limit of velocity is refused where one is needed", "[files]")
