@@ -8,6 +8,7 @@
 #include "appMain.h"
 #include "outputFolder.h"
 #include "report.h"
+#include "viewData.h"
 
 #include <visp3/avoidance/vpCollisionSceneJson.h>
 #include <visp3/avoidance/vpExactShapes.h>
@@ -55,7 +56,7 @@ void writeFolder(vpApp::OutputFolder &out, const vpApp::Robot &robot, const nloh
                  const std::string &commandLine)
 {
   out.write("robot.json", json.dump(2) + "\n");
-  writeArm(out, robot);
+  vpApp::writeArm(out, *robot.arm);
   vpApp::finishWithReport(out,
                           {{"command", commandLine}, {"robot", robot.arm->label()}, {"problems", json.at("problems")}});
 }

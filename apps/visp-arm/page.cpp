@@ -5,6 +5,7 @@
 #include "page.h"
 
 #include "numberText.h"
+#include "viewData.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +17,7 @@ namespace
 {
 using Json = nlohmann::ordered_json;
 using Row = std::vector<std::string>;
+using vpApp::nameOf;
 
 std::string limitText(double value) { return std::isfinite(value) ? vpApp::number(value, 4) : "unknown"; }
 
@@ -234,20 +236,6 @@ Json jsonOf(const std::set<Names> &pairs)
 }
 } // namespace
 
-const char *nameOf(vpJointType type)
-{
-  return type == vpJointType::Revolute ? "revolute" : type == vpJointType::Continuous ? "continuous" : "prismatic";
-}
-
-nlohmann::ordered_json rowsOf(const vpRigidTransform &pose)
-{
-  Json rows = Json::array();
-  for (int i = 0; i < 3; ++i) {
-    rows.push_back({pose.R(i, 0), pose.R(i, 1), pose.R(i, 2), pose.p(i)});
-  }
-  rows.push_back({0., 0., 0., 1.});
-  return rows;
-}
 std::string textOf(const vpApp::Robot &robot, const Description &description, const Answers &answers)
 {
   const vpArmModel &arm = *robot.arm;
@@ -294,7 +282,7 @@ nlohmann::ordered_json jsonOf(const vpApp::Robot &robot, const Description &desc
                {"warnings", description.warnings},
                {"problems", description.problems}};
   if (answers.pose) {
-    json["pose"] = rowsOf(*answers.pose);
+    json["pose"] = vpApp::rowsOf(*answers.pose);
   }
   if (answers.touches) {
     json["touches"] = jsonOf(*answers.touches);

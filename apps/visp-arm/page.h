@@ -12,8 +12,6 @@
 #include "description.h"
 #include "options.h"
 
-#include "outputFolder.h"
-
 #include <nlohmann/json.hpp>
 
 namespace armProgram
@@ -31,12 +29,6 @@ struct Answers {
                                             const Answers &answers);
 //! The same of a robot that could not be loaded.
 [[nodiscard]] nlohmann::ordered_json jsonOf(const std::string &problem);
-//! "revolute", "continuous" or "prismatic".
-[[nodiscard]] const char *nameOf(vpJointType type);
-//! The four rows of a pose.
-[[nodiscard]] nlohmann::ordered_json rowsOf(const vpRigidTransform &pose);
-//! The arm for a 3D view: arm.json, and its meshes as mesh/N.stl. See schema.json in python/visp_direct/report.
-void writeArm(vpApp::OutputFolder &out, const vpApp::Robot &robot);
 } // namespace armProgram
 
 #endif

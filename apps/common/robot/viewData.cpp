@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-#include "page.h"
+#include "viewData.h"
 
 #include <visp3/avoidance/vpTriangleMesh.h>
 #include <visp3/core/vpException.h>
@@ -10,12 +10,12 @@
 #include <array>
 #include <cstdint>
 
-namespace armProgram
-{
-namespace
+namespace vpApp
 {
 using Json = nlohmann::ordered_json;
 
+namespace
+{
 template <class Vector> Json listOf(const Vector &numbers)
 {
   return std::vector<double>(numbers.data(), numbers.data() + numbers.size());
@@ -50,6 +50,12 @@ const char *shapeName(vpArmShapeKind kind)
 {
   constexpr std::array<const char *, 4> names = {"sphere", "cylinder", "box", "mesh"};
   return names[static_cast<std::size_t>(kind)];
+}
+
+const char *kindOf(vpShapeType type)
+{
+  constexpr std::array<const char *, 6> names = {"sphere", "capsule", "box", "cylinder", "mesh", "octree"};
+  return names[static_cast<std::size_t>(type)];
 }
 
 Json jointsOf(const vpArmModel &arm)
@@ -93,9 +99,24 @@ Json capsulesOf(const vpArmModel &arm)
 }
 } // namespace
 
-void writeArm(vpApp::OutputFolder &out, const vpApp::Robot &robot)
+const char *nameOf(vpJointType type)
 {
-  const vpArmSpec &spec = robot.arm->spec();
+  return type == vpJointType::Revolute ? "revolute" : type == vpJointType::Continuous ? "continuous" : "prismatic";
+}
+
+Json rowsOf(const vpRigidTransform &pose)
+{
+  Json rows = Json::array();
+  for (int i = 0; i < 3; ++i) {
+    rows.push_back({pose.R(i, 0), pose.R(i, 1), pose.R(i, 2), pose.p(i)});
+  }
+  rows.push_back({0., 0., 0., 1.});
+  return rows;
+}
+
+void writeArm(OutputFolder &out, const vpArmModel &model)
+{
+  const vpArmSpec &spec = model.spec();
   Json shapes = Json::array(), missing = Json::array();
   for (const vpArmShape &shape : spec.shapes) {
     Json json = {{"link", spec.bodies[static_cast<std::size_t>(shape.body)].link},
@@ -118,15 +139,44 @@ void writeArm(vpApp::OutputFolder &out, const vpApp::Robot &robot)
     shapes.push_back(json);
   }
   const Json arm = {{"name", spec.name},
-                    {"home", listOf(robot.arm->home())},
-                    {"tool_link", robot.arm->toolLink()},
+                    {"home", listOf(model.home())},
+                    {"tool_link", model.toolLink()},
                     {"tool", rowsOf(spec.tool)},
-
-                    {"joints", jointsOf(*robot.arm)},
-                    {"chain", chainOf(*robot.arm)},
+                    {"camera_link", model.cameraLink()},
+                    {"camera", rowsOf(spec.cameraLink < 0 ? spec.tool * spec.camera : spec.camera)},
+                    {"joints", jointsOf(model)},
+                    {"chain", chainOf(model)},
                     {"shapes", shapes},
-                    {"capsules", capsulesOf(*robot.arm)},
+                    {"capsules", capsulesOf(model)},
                     {"missing", missing}};
   out.write("arm.json", arm.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
-} // namespace armProgram
+
+Json objectData(OutputFolder &out, const vpCollisionObject &object, const std::string &file)
+{
+  const vpCollisionShape &shape = object.shape;
+  const double more = object.inflation;
+  Json json = {{"name", object.name}, {"kind", kindOf(shape.type())}, {"pose", rowsOf(object.pose)}};
+  switch (shape.type()) {
+  case vpShapeType::Box:
+    json["size"] = listOf(Eigen::Vector3d(shape.size().array() + 2. * more));
+    break;
+  case vpShapeType::Mesh:
+    json["file"] = file + ".stl";
+    out.write(file + ".stl", stlOf(shape.mesh()));
+    break;
+  case vpShapeType::Octree:
+    json["cells"] = Json::array();
+    for (const vpOctreeCell &cell : shape.octree().cells()) {
+      json["cells"].push_back({cell.centre.x(), cell.centre.y(), cell.centre.z(), cell.size});
+    }
+    break;
+  default:
+    json["radius"] = shape.radius() + more;
+    if (shape.type() != vpShapeType::Sphere) {
+      json["length"] = shape.length() + (shape.type() == vpShapeType::Cylinder ? 2. * more : 0.);
+    }
+  }
+  return json;
+}
+} // namespace vpApp
