@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Result folders: summary.json, JSON and CSV, checked against schema.json, which describes each file once."""
 import csv
+import fnmatch
 import json
 import math
 import pathlib
@@ -12,6 +13,10 @@ class DataError(Exception):
 
 
 SCHEMA = json.loads((pathlib.Path(__file__).parent / "schema.json").read_text(encoding="utf-8"))
+for _files in SCHEMA.values():  # "like visp-arm/arm.json": the same fields
+    for _name, _fields in _files.items():
+        if isinstance(_fields, str):
+            _files[_name] = SCHEMA[_fields.removeprefix("like ").split("/")[0]][_fields.split("/", 1)[1]]
 KINDS = {
     "number": (int, float),
     "text": str,
@@ -48,6 +53,9 @@ def check(value, schema, place):
                 raise DataError(f"{place}.{name} is not in the schema")
 
 
+MODES = {"objectives": "--explore", "replica": "--replica"}  # field of summary.json and option
+
+
 class Result:
     """One result folder of a program."""
 
@@ -59,8 +67,8 @@ class Result:
             if isinstance(self.summary, dict)
             else "an unknown program"
         )
-        explored = self.program == "visp-print-pattern" and "objectives" in self.summary
-        self.kind = f"{self.program} --explore" if explored else self.program
+        mode = [word for key, word in MODES.items() if isinstance(self.summary, dict) and key in self.summary]
+        self.kind = " ".join([self.program, *mode])
         self.schema = SCHEMA.get(self.kind, {})
         if "summary.json" in self.schema:
             own = {k: v for k, v in self.summary.items() if k not in ("program", "status", "files")}
@@ -78,8 +86,22 @@ class Result:
 
     def json(self, name):
         value = self._load(name)
-        check(value, self.schema[name], str(self.folder / name))
+        check(value, self._described(name), str(self.folder / name))
         return value
+
+    def _described(self, name):
+        """The schema of a file, whose name may stand for several (*) or be optional (?)."""
+        return next(fields for key, fields in self.schema.items() if fnmatch.fnmatchcase(name, key.rstrip("?")))
+
+    def files(self):
+        """Names of the described files that are there, without summary.json. Raises DataError for one that is missing."""
+        names = []
+        for key in self.schema:
+            found = sorted(str(path.relative_to(self.folder)) for path in self.folder.glob(key.rstrip("?")))
+            if not found and not key.endswith("?"):
+                raise DataError(f"{self.folder / key}: is missing")
+            names += [name for name in found if name != "summary.json"]
+        return names
 
     def table(self, name, columns=None):
         """Columns of a CSV file as lists of numbers, NaN where a cell is empty or no number; of text where the schema says so."""
@@ -89,7 +111,7 @@ class Result:
                 rows = list(csv.reader(file))
         except OSError as error:
             raise DataError(f"{path}: cannot be read: {error.strerror}") from None
-        schema = columns or self.schema[name]
+        schema = dict.fromkeys(columns, "number") if columns else _expanded(self._described(name), rows[0] if rows else [])
         wanted = list(schema)
         if not rows or rows[0] != wanted:
             raise DataError(
@@ -100,13 +122,24 @@ class Result:
             if len(row) != len(wanted):
                 raise DataError(f"{path}:{number}: has {len(row)} cells, must have {len(wanted)}")
             for key, cell in zip(wanted, row):
-                read[key].append(cell if schema is not columns and schema[key].startswith("text") else _number(cell))
+                read[key].append(cell if schema[key].startswith("text") else _number(cell))
         return read
 
     def bytes(self, name):
         """A file as it is; None when there is none."""
         path = self.folder / name
         return path.read_bytes() if path.is_file() else None
+
+
+def _expanded(schema, header):
+    """The columns that a header should have: "q_*" stands for one of each joint, "x_um?" may be missing."""
+    columns = {}
+    for key, kind in schema.items():
+        if "*" in key:
+            columns |= {name: kind for name in header if fnmatch.fnmatchcase(name, key) and name not in schema}
+        elif not key.endswith("?") or key[:-1] in header:
+            columns[key.rstrip("?")] = kind
+    return columns
 
 
 def _number(cell):

@@ -52,7 +52,7 @@ class Page:
     def __init__(self, title, lead):
         self.title, self.lead = title, lead
         self.answer, self.sections, self.figures = [], [], []
-        self.scripts = []
+        self.scripts, self.arms = [], []
 
     def answers(self, *sentences):
         self.answer += sentences
@@ -91,14 +91,24 @@ class Page:
         uri = f"data:{mime};base64,{base64.b64encode(data).decode()}"
         self._add(kind="picture", uri=uri, alt=alt, caption=caption)
 
+    def pictures(self, pictures, caption):
+        """Small ones beside each other: (label, data URI)."""
+        self._add(kind="pictures", pictures=pictures, caption=caption)
+
     def video(self, file, caption):
         """A video beside the page: too large to be in it."""
         self._add(kind="video", file=file, caption=caption)
 
     def view(self, scene, caption):
-        """A 3D view, see view3d.py."""
+        """A 3D view, see view3d.py. An arm of several views is in the page once."""
+        scene = {**scene, "arms": [self._shared(arm) for arm in scene["arms"]]}
         self._add(kind="view", scene=scene, caption=caption, id=f"view{len(self.scripts)}")
         self.scripts.append(scene)
+
+    def _shared(self, arm):
+        if not any(arm is other for other in self.arms):
+            self.arms.append(arm)
+        return next(i for i, other in enumerate(self.arms) if arm is other)
 
     def html(self):
         environment = jinja2.Environment(

@@ -1,7 +1,8 @@
 // visp-direct: direct methods for vision-based robot control, for ViSP.
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A 3D view by three.js: arms with their shapes and covers, obstacles, the ground, paths of tools; a slider for time, or for each
-// joint when nothing moves. view3d.py describes the scene. Poses are row-major 4 x 4, lengths m, z is up.
+// joint when nothing moves. view3d.py describes the scene. Poses are row-major 4 x 4, lengths m, z is up. What is done over time is
+// in a list of functions of time, so that a new thing to show adds its own.
 "use strict";
 
 function vispMatrix(rows) { return new THREE.Matrix4().set(...rows.flat()); }
@@ -53,28 +54,8 @@ function vispPart(s, material) {
   return part;
 }
 
-// An arm: groups of its links, which place() moves by the kinematics of its joints.
-function vispArm(arm, colour, base) {
-  const root = new THREE.Group(), covers = [], links = [];
-  const palette = ["#d9dee3", "#a9c1d9", "#f2d0a4", "#b7d3b0"];
-  arm.links.forEach((link, i) => {
-    const group = new THREE.Group();
-    group.matrixAutoUpdate = false;
-    const solid = new THREE.MeshStandardMaterial({color: colour || palette[i % palette.length], roughness: 0.7, flatShading: true, side: THREE.DoubleSide});
-    const cover = new THREE.MeshStandardMaterial({color: "#6f9bc8", roughness: 0.9, transparent: link.shapes.length > 0, opacity: 0.35,
-                                                  depthWrite: !link.shapes.length});
-    link.shapes.forEach((s) => group.add(vispPart(s, solid)));
-    link.capsules.forEach((s) => {
-      const part = vispPart(s, cover);
-      part.visible = !link.shapes.length;
-      if (link.shapes.length) {
-        covers.push(part);
-      }
-      group.add(part);
-    });
-    links.push(group);
-    root.add(group);
-  });
+// Frames of the base and of the links, and the place of the tool, at given joints.
+function vispKinematics(arm, base) {
   const start = base ? vispMatrix(base) : new THREE.Matrix4();
   const chain = arm.chain.map((part) => ({...part, step: vispMatrix(part.step), after: vispMatrix(part.after)}));
   const tool = vispMatrix(arm.tool);
@@ -88,8 +69,34 @@ function vispArm(arm, colour, base) {
     });
     return list;
   };
-  const place = (q) => frames(q).forEach((frame, i) => links[i].matrix.copy(frame));
   const toolAt = (q) => new THREE.Vector3().setFromMatrixPosition(frames(q)[arm.tool_link].multiply(tool));
+  return {frames, toolAt};
+}
+
+// An arm: groups of its links, which place() moves by the kinematics of its joints.
+function vispArm(arm, colour, base) {
+  const root = new THREE.Group(), covers = [], links = [];
+  const palette = ["#d9dee3", "#a9c1d9", "#f2d0a4", "#b7d3b0"];
+  arm.links.forEach((link, i) => {
+    const group = new THREE.Group();
+    group.matrixAutoUpdate = false;
+    const solid = new THREE.MeshStandardMaterial({color: colour || palette[i % palette.length], roughness: 0.7, flatShading: true, side: THREE.DoubleSide});
+    const cover = new THREE.MeshStandardMaterial({color: !link.shapes.length && colour || "#6f9bc8", roughness: 0.9, transparent: link.shapes.length > 0, opacity: 0.35,
+                                                  depthWrite: !link.shapes.length});
+    link.shapes.forEach((s) => group.add(vispPart(s, solid)));
+    link.capsules.forEach((s) => {
+      const part = vispPart(s, cover);
+      part.visible = !link.shapes.length;
+      if (link.shapes.length) {
+        covers.push(part);
+      }
+      group.add(part);
+    });
+    links.push(group);
+    root.add(group);
+  });
+  const {frames, toolAt} = vispKinematics(arm, base);
+  const place = (q) => frames(q).forEach((frame, i) => links[i].matrix.copy(frame));
   place(arm.home);
   return {root, covers, place, toolAt};
 }
@@ -102,7 +109,8 @@ function vispLabel(text, child) {
 
 function vispInput(type, properties) { return Object.assign(document.createElement("input"), {type, ...properties}); }
 
-function vispView(figure, scene) {
+function vispView(figure, given) {
+  const scene = {...given, arms: given.arms.map((arm) => vispArms[arm])};
   const canvas = figure.querySelector("canvas"), controls = figure.querySelector(".controls");
   let renderer;
   try {
@@ -118,29 +126,45 @@ function vispView(figure, scene) {
   sun.position.set(2, -3, 5);
   world.add(sun);
 
+  // The runs that are shown: all of them, or one on each side, which the reader chooses.
+  const shown = scene.sides ? scene.sides.map((side) => ({...scene.runs[side.run], base: side.base})) : scene.runs;
+  const several = shown.length > 1;
   const content = new THREE.Group();
-  const arms = scene.runs.length ? scene.runs.map((run) => vispArm(scene.arms[run.arm], scene.runs.length > 1 ? run.colour : null, run.base))
-                                 : scene.arms.map((arm) => vispArm(arm));
+  const armOf = (run) => vispArm(scene.arms[run.arm], several ? run.colour : null, run.base);
+  const arms = scene.runs.length ? shown.map(armOf) : scene.arms.map((arm) => vispArm(arm));
   arms.forEach((arm) => content.add(arm.root));
-  const moving = [];
+  const moving = [];  // functions of time
   scene.objects.forEach((object) => {
-    const material = new THREE.MeshStandardMaterial({color: object.colour || "#c46a4a", transparent: true, opacity: 0.75, roughness: 0.9,
-                                                     side: THREE.DoubleSide, flatShading: object.kind === "mesh"});
+    const material = new THREE.MeshStandardMaterial({color: object.colour || "#c46a4a", transparent: true, opacity: object.wire ? 0.5 : 0.75,
+                                                     roughness: 0.9, side: THREE.DoubleSide, flatShading: object.kind === "mesh",
+                                                     wireframe: Boolean(object.wire)});
     const group = new THREE.Group();
     group.matrixAutoUpdate = false;
     group.add(vispPart({...object, pose: null}, material));
     group.matrix.copy(vispMatrix(object.pose));
-    if (object.track) {
-      moving.push({group, track: object.track});
+    if (object.track && object.track.pose) {
+      moving.push((t) => {
+        const [k, s] = between(object.track.t, t);
+        group.matrix.copy(vispMatrix(object.track.pose[Math.min(object.track.pose.length - 1, Math.round(k + s))]));
+      });
+    }
+    if (object.track && object.track.p) {
+      moving.push((t) => {
+        const [k, s] = between(object.track.t, t), from = object.track.p[k], to = object.track.p[Math.min(k + 1, object.track.p.length - 1)];
+        group.matrix.setPosition(...from.map((value, i) => value + s * (to[i] - value)));
+      });
+    }
+    if (object.there) { // from, until
+      moving.push((t) => { group.visible = t >= object.there[0] && (object.there[1] === null || t < object.there[1]); });
     }
     content.add(group);
   });
   world.add(content);
-  scene.runs.forEach((run, i) => {
-    const points = run.q.map((q) => arms[i].toolAt(q));
-    const line = new THREE.BufferGeometry().setFromPoints(points);
-    world.add(new THREE.Line(line, new THREE.LineBasicMaterial({color: run.colour})));
-  });
+  const pathOf = (run, base) => {
+    const points = run.q.map(vispKinematics(scene.arms[run.arm], base).toolAt);
+    return new THREE.Line(new THREE.BufferGeometry().setFromPoints(points), new THREE.LineBasicMaterial({color: run.colour}));
+  };
+  (scene.sides || [{}]).forEach((side) => scene.runs.forEach((run) => world.add(pathOf(run, side.base || run.base))));
 
   // What there is fills the picture, seen from the front, the right and above.
   world.updateMatrixWorld(true);
@@ -188,38 +212,87 @@ function vispView(figure, scene) {
     return [k, span > 0 ? Math.min(1, Math.max(0, (t - times[k]) / span)) : 0];
   };
   const setTime = (t) => {
-    scene.runs.forEach((run, i) => {
+    shown.forEach((run, i) => {
       const [k, s] = between(run.t, t), next = run.q[Math.min(k + 1, run.q.length - 1)];
       arms[i].place(run.q[k].map((value, j) => value + s * (next[j] - value)));
     });
-    moving.forEach(({group, track}) => {
-      const [k, s] = between(track.t, t);
-      group.matrix.copy(vispMatrix(track.pose[Math.min(track.pose.length - 1, Math.round(k + s))]));
-    });
+    moving.forEach((move) => move(t));
     draw();
   };
+  const tick = vispInput("checkbox", {});
   if (arms.some((arm) => arm.covers.length)) {
-    const tick = vispInput("checkbox", {});
     tick.addEventListener("change", () => setCovers(tick.checked));
     controls.append(vispLabel("covers of the collision check", tick));
   }
-  if (scene.runs.length) {
-    vispTimeControls(controls, scene, setTime);
+  const show = (i, run) => { // on a side
+    shown[i] = {...scene.runs[run], base: shown[i].base};
+    content.remove(arms[i].root);
+    arms[i] = armOf(shown[i]);
+    content.add(arms[i].root);
+    setCovers(tick.checked);
+  };
+  if (scene.pictures) {
+    moving.push(vispPictures(figure, scene.pictures, between));
+  }
+  if (scene.runs.length && Math.max(...scene.runs.map((run) => run.t[run.t.length - 1])) > 0) {
+    const now = vispTimeControls(controls, scene, shown, setTime);
+    if (scene.sides) {
+      vispChoices(controls, scene, (i, run) => { show(i, run); now(); });
+    }
+  } else if (scene.runs.length) {
+    setTime(0);
   } else if (scene.arms.length) {
     vispJointControls(controls, scene.arms[0], (q) => setJoints(0, q));
   }
   fit();
-  figure.vispView = {setTime, setJoints, setCovers, toolAt: (i, q) => arms[i].toolAt(q).toArray()};
+  figure.vispView = {setTime, setJoints, setCovers, show, toolAt: (i, q) => arms[i].toolAt(q).toArray()};
 }
 
-function vispTimeControls(controls, scene, setTime) {
+// What a camera sees, in a corner of the view. Returns a function of time.
+function vispPictures(figure, pictures, between) {
+  const image = document.createElement("img");
+  image.alt = "what the camera sees";
+  image.className = "seen";
+  figure.style.position = "relative";
+  figure.append(image);
+  return (t) => { // the latest
+    const [k, s] = between(pictures.t, t);
+    image.src = pictures.uri[Math.min(pictures.uri.length - 1, k + Math.floor(s))];
+  };
+}
+
+// A menu for each side.
+function vispChoices(controls, scene, choose) {
+  scene.sides.forEach((side, i) => {
+    const menu = document.createElement("select");
+    menu.setAttribute("aria-label", "run");
+    scene.runs.forEach((run, k) => menu.add(new Option(run.name, k, k === side.run, k === side.run)));
+    menu.style.borderLeft = "1em solid " + scene.runs[side.run].colour;
+    menu.addEventListener("change", () => {
+      menu.style.borderLeftColor = scene.runs[Number(menu.value)].colour;
+      choose(i, Number(menu.value));
+    });
+    controls.append(menu);
+  });
+}
+
+// The last of [[time, text], ...] that has begun.
+function vispState(states, t) {
+  let text = "";
+  states.forEach(([time, now]) => { text = time <= t + 1e-9 ? now : text; });
+  return text;
+}
+
+// Returns a function that shows the current time again.
+function vispTimeControls(controls, scene, shown, setTime) {
   const end = Math.max(...scene.runs.map((run) => run.t[run.t.length - 1]));
   const slider = vispInput("range", {min: 0, max: end, step: end / 1000 || 1, value: 0});
   slider.setAttribute("aria-label", "time");
-  const shown = document.createElement("span"), play = document.createElement("button");
+  const clock = document.createElement("span"), play = document.createElement("button");
   const set = (t) => {
     slider.value = t;
-    shown.textContent = Number(t).toFixed(2) + " s";
+    const states = shown.filter((run) => run.states).map((run) => (shown.length > 1 ? run.name + ": " : "") + vispState(run.states, Number(t)));
+    clock.textContent = [Number(t).toFixed(2) + " s", ...states].join(" · ");
     setTime(Number(t));
   };
   let before = null;
@@ -248,8 +321,8 @@ function vispTimeControls(controls, scene, setTime) {
     requestAnimationFrame(tick);
   });
   slider.addEventListener("input", () => { pause(); set(slider.value); });
-  controls.append(play, slider, shown);
-  if (scene.runs.length > 1) {
+  controls.append(play, slider, clock);
+  if (scene.runs.length > 1 && !scene.sides) {
     scene.runs.forEach((run) => {
       const key = document.createElement("span");
       key.className = "key";
@@ -258,6 +331,7 @@ function vispTimeControls(controls, scene, setTime) {
     });
   }
   set(0);
+  return () => set(slider.value);
 }
 
 function vispJointControls(controls, arm, place) {

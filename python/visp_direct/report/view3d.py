@@ -10,6 +10,7 @@ import numpy as np
 
 HERE = pathlib.Path(__file__).parent
 MOST_TRIANGLES = 80000  # of all meshes of a page: about 2.5 MB
+KNOWN, SEEN = "#9aa7b4", "#c46a4a"
 
 
 def scripts():
@@ -92,6 +93,70 @@ def arm_of(data, folder):
     }, missing
 
 
-def scene(arms, runs=(), objects=(), ground=None):
-    """What vispView() gets. runs: name, colour, arm (index), t, q, base. objects: kind and its numbers, pose, colour, track."""
-    return {"arms": list(arms), "runs": list(runs), "objects": list(objects), "ground": ground}
+def objects_of(data, folder, shift=None):
+    """Obstacles for view3d.js from scene.json of a program: grey what was known from the start. shift: of all, m. Also sentences."""
+    parts, missing = [], []
+    for item in data["objects"]:
+        try:
+            parts.append(shifted({**object_of(item, folder), "colour": KNOWN if item["known"] else SEEN}, shift))
+        except (OSError, ValueError) as error:
+            missing.append(f"{item['name']}: is not shown: {error}")
+    return parts, missing
+
+
+def object_of(item, folder):
+    part = {"pose": item["pose"], "kind": item["kind"]} | {key: item[key] for key in ("size", "radius", "length", "track") if key in item}
+    if "there_s" in item:
+        part["there"] = item["there_s"]
+    if item["kind"] == "capsule":
+        part |= {"from": [0, 0, -item["length"] / 2], "to": [0, 0, item["length"] / 2]}
+    elif item["kind"] == "mesh":
+        part |= mesh_part(*read_stl((folder / item["file"]).read_bytes()), MOST_TRIANGLES // 8)
+    elif item["kind"] == "octree":
+        part |= mesh_part(*cubes(item["cells"]), MOST_TRIANGLES // 4)
+    return part
+
+
+def cubes(cells):
+    """A mesh of cubes, each given by its centre and the length of its edges."""
+    cells = np.asarray(cells, float).reshape(-1, 4)
+    corners = np.stack(np.meshgrid(*3 * [[-0.5, 0.5]], indexing="ij"), axis=-1).reshape(-1, 3)
+    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    triangles = np.array([triangle for a, b, c, d in quads for triangle in ((a, b, c), (a, c, d))])
+    vertices = cells[:, None, :3] + cells[:, None, 3:] * corners
+    return vertices.reshape(-1, 3), (8 * np.arange(len(cells))[:, None, None] + triangles).reshape(-1, 3)
+
+
+def shifted(part, shift):
+    """A copy elsewhere; shift None: the same."""
+    if shift is None:
+        return part
+    moved = {**part, "pose": [[*row[:3], row[3] + d] for row, d in zip(part["pose"], [*shift, 0])]}
+    if "track" in part:
+        moved["track"] = {"t": part["track"]["t"], "p": [[x + d for x, d in zip(p, shift)] for p in part["track"]["p"]]}
+    return moved
+
+
+def ball(place, radius, colour, track=None):
+    """A mark."""
+    pose = np.eye(4)
+    pose[:3, 3] = place
+    return {"kind": "sphere", "radius": radius, "colour": colour, "pose": pose.tolist()} | ({"track": track} if track else {})
+
+
+def base_at(shift):
+    """Base of a run that stands elsewhere, or None."""
+    return None if shift is None else [[1, 0, 0, shift[0]], [0, 1, 0, shift[1]], [0, 0, 1, shift[2]], [0, 0, 0, 1]]
+
+
+def beside(distance):
+    """A shift to the right of the first picture."""
+    return [0.785 * distance, 0.62 * distance, 0.0]
+
+
+def scene(arms, runs=(), objects=(), ground=None, **more):
+    """What vispView() gets.
+
+    runs: name, colour, arm (index), t, q, base, states ([[time, text]...]). objects: kind and its numbers, pose, colour, wire, there (from, until),
+    track (t, and pose or p). more: sides ([{base, run}, ...]: one run on each, chosen by the reader), pictures (t and uri: what a camera sees)."""
+    return {"arms": list(arms), "runs": list(runs), "objects": list(objects), "ground": ground} | more
