@@ -108,14 +108,16 @@ std::string reasonIn(std::string said, const std::string &folder, const std::str
 }
 } // namespace
 
-void finishWithReport(OutputFolder &out, const nlohmann::ordered_json &summary)
+std::string finishWithReport(OutputFolder &out, const nlohmann::ordered_json &summary, bool isKeptAfterCtrlC)
 {
   out.writeSummary(summary);
   const fs::path report = out.file("report.html");
   const std::string folder = report.parent_path().string();
   std::string said;
   const bool made = runPython(folder, said) == 0 && fs::exists(report);
-  throwIfInterrupted();
+  if (!isKeptAfterCtrlC) {
+    throwIfInterrupted();
+  }
   out.writeSummary(summary); // whose list of files has the report now
   out.commit();
   if (!made) {
@@ -123,5 +125,6 @@ void finishWithReport(OutputFolder &out, const nlohmann::ordered_json &summary)
               << ", without a report, which needs Python: " << reasonIn(said, folder, out.path().string())
               << "; make it later by: python3 -m visp_direct.report " << out.path().string() << std::endl;
   }
+  return made ? "Report: " + (out.path() / "report.html").string() : "Data: " + out.path().string();
 }
 } // namespace vpApp

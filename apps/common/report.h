@@ -13,6 +13,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <string>
+
 namespace vpApp
 {
 /*!
@@ -20,9 +22,11 @@ namespace vpApp
  * place. The interpreter is that of the build, or the one named by the environment variable `VISP_DIRECT_PYTHON`.
  * Where it or a package is missing the result is complete without report.html, and a sentence on the standard error says why.
  * \param summary : As for OutputFolder::writeSummary().
- * \throw std::runtime_error as OutputFolder::commit(); Interrupted after Ctrl-C.
+ * \param isKeptAfterCtrlC : The result counts although Ctrl-C ended the run.
+ * \return For the user: "Report: OUT/report.html", or "Data: OUT".
+ * \throw std::runtime_error as OutputFolder::commit(); Interrupted after Ctrl-C, unless \e isKeptAfterCtrlC.
  */
-void finishWithReport(OutputFolder &out, const nlohmann::ordered_json &summary);
+std::string finishWithReport(OutputFolder &out, const nlohmann::ordered_json &summary, bool isKeptAfterCtrlC = false);
 } // namespace vpApp
 
 #endif

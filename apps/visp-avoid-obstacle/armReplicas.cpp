@@ -2,14 +2,12 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Figures 8.8 and 8.10: experiments, here run by the arm with its drives; 8.11 and 8.12 are snapshots of them.
+// Figures 8.8 and 8.10: experiments, here run by the arm with its drives; 8.11 and 8.12 are snapshots of them, which the report takes.
 #include "replicas.h"
-#include "results.h"
 
-#include "armPicture.h"
 #include "numberText.h"
 #include "robot.h"
-#include "timePlot.h"
+#include "runData.h"
 
 #include "lab/avoidance/vpAvoidanceScenes.h"
 #include <visp3/avoidance/vpAvoidanceMethod.h>
@@ -145,7 +143,6 @@ constexpr double MOST_ACCELERATION = 2.; // m/s^2
 constexpr double SETTLED = 0.008;        // m: table 8.1 has 3.0, 5.6 and 5.2 mm rms, 8.2 mm in total
 constexpr double HEIGHT = 0.35;          // m
 constexpr double ROUNDING = 1e-6;        // relative tolerance of a bound
-constexpr int SNAPSHOTS = 6;
 
 Vector3d place(double x, double y) { return {x, y, HEIGHT}; }
 std::string text(const Vector3d &p) { return "[" + number(p.x(), 3) + ", " + number(p.y(), 3) + "] m"; }
@@ -209,75 +206,16 @@ double passes(const vpAvoidanceRun &run, const Vector3d &via)
   return least;
 }
 
-Figure draw(const vpAvoidanceRun &run, const Script &script)
+nlohmann::ordered_json eventsOf(const Script &script)
 {
-  std::vector<Eigen::Vector2d> wanted, true_, changes, vias;
-  std::vector<double> times;
-  for (const vpAvoidanceSample &s : run.samples) {
-    wanted.emplace_back(s.wanted.head<2>());
-    true_.emplace_back(s.tool.head<2>());
-    times.push_back(s.time);
-  }
+  nlohmann::ordered_json events = nlohmann::ordered_json::array();
   for (const ToolEvent &event : script.events) {
-    const auto i = static_cast<std::size_t>(std::lround(event.time / run.spec.methodSpec.period));
-    changes.push_back(true_[std::min(i, true_.size() - 1)]);
+    events.push_back({{"time_s", event.time}, {"goal_m", {event.goal.x(), event.goal.y()}}, {"via_m", nullptr}});
     if (event.via) {
-      vias.emplace_back(event.via->head<2>());
+      events.back()["via_m"] = {event.via->x(), event.via->y()};
     }
   }
-  changes.erase(changes.begin()); // the start of the motion itself
-  const Rates rates = ratesOf(commandedWay(run), run.spec.methodSpec.period);
-  vpApp::Plot way = wayPlot("The way of the tool"), speed = vpApp::timePlot("Speed of the commanded tool", "m/s"),
-              acceleration = vpApp::timePlot("Acceleration of the commanded tool", "m/s^2");
-  way.curves = {
-      wayCurve("true", "#d62728", true_), wayCurve("planned", "#1f77b4", wanted),
-      wayCurve("straight on", "#999999", {true_.front(), Eigen::Vector2d(script.events.front().goal.head<2>())}),
-      placeCurve("where it changed", "#2ca02c", changes),
-      placeCurve("goal", "#000000", {Eigen::Vector2d(script.events.back().goal.head<2>())})};
-  way.curves[1].style = way.curves[2].style = vpApp::PlotStyle::Dashed;
-  if (!vias.empty()) {
-    way.curves.push_back(placeCurve("via", "#ff7f0e", vias));
-  }
-  speed.curves = {vpApp::timeCurve("speed", "#1f77b4", times, rates.speed)};
-  vpApp::addLevel(speed, run.spec.methodSpec.maxVelocity, "bound");
-  acceleration.curves = {vpApp::timeCurve("acceleration", "#1f77b4", times, rates.acceleration)};
-  Figure figure;
-  figure.name = "motion";
-  figure.title = "Way, speed and acceleration of the tool";
-  figure.caption = "Planned: of the trajectory; true: of the arm, whose drives follow with an error.";
-  figure.svg = vpApp::renderPanels({way, speed, acceleration}, vpApp::PlotFormat::Svg);
-  return figure;
-}
-
-//! The arm at times evenly spread over its motion.
-void addSnapshots(const vpAvoidanceRun &run, Replica &replica)
-{
-  const double end = run.metrics.duration_s > MOTION_BEGINS ? run.metrics.duration_s : run.samples.back().time;
-  for (int i = 0; i < SNAPSHOTS; ++i) {
-    const double t = MOTION_BEGINS + (end - MOTION_BEGINS) * i / (SNAPSHOTS - 1.);
-    const auto index = static_cast<std::size_t>(std::lround(t / run.spec.methodSpec.period));
-    const vpAvoidanceSample &s = run.samples[std::min(index, run.samples.size() - 1)];
-    vpApp::ArmPicture picture;
-    picture.title = "t = " + fixed(s.time, 2) + " s";
-    picture.ground = run.spec.scene.ground.has_value();
-    picture.ghosts = {
-        {run.samples.front().q, "#8d99ae", 0.15}, {run.samples.back().q, "#8d99ae", 0.15}, {s.q, "#1d3557", 0.7}};
-    vpApp::ArmTrace trace;
-    trace.colour = "#d62728";
-    for (const vpAvoidanceSample &before : run.samples) {
-      if (before.time <= s.time) {
-        trace.points.push_back(before.tool);
-      }
-    }
-    picture.traces = {trace};
-    picture.marks = {{run.samples.front().tool, "start"}, {run.samples.back().goal, "goal"}};
-    Figure figure;
-    figure.name = "snapshot-" + std::to_string(i + 1);
-    figure.title = "Snapshot at " + fixed(s.time, 2) + " s";
-    figure.caption = "The arm then, and faintly at the start and at the end.";
-    figure.svg = vpApp::armPictureSvg(*run.spec.arm, picture);
-    replica.figures.push_back(figure);
-  }
+  return events;
 }
 
 void compare(const vpAvoidanceRun &run, const Script &script, Replica &replica)
@@ -312,15 +250,16 @@ void compare(const vpAvoidanceRun &run, const Script &script, Replica &replica)
 Replica playArmReplica(const Options &options)
 {
   const bool multiPoint = options.replica == "fig8.10" || options.replica == "fig8.12";
-  const bool snapshots = options.replica == "fig8.11" || options.replica == "fig8.12";
   const Script script = scriptOf(multiPoint);
   const vpAvoidanceRun run = runAvoidanceExperiment(specOf(options, script));
   Replica replica;
   replica.name = options.replica;
   replica.title = replicaTitle(options.replica);
   compare(run, script, replica);
-  replica.numbers["metrics"] = metricsJson(run.metrics);
+  replica.numbers["metrics"] = vpApp::metricsJson(run.metrics);
   replica.numbers["motion_begins_s"] = MOTION_BEGINS;
+  replica.numbers["max_speed_mps"] = run.spec.methodSpec.maxVelocity;
+  replica.numbers["events"] = eventsOf(script);
   replica.choices = {
       "The clock of the experiments runs before the arm moves: 0.95 s of figure 8.10 and 0.55 s of figure 8.9 fit "
       "together when that is 0.4 s, which is our choice. Without it the motion were almost over at 0.95 s.",
@@ -332,15 +271,8 @@ Replica playArmReplica(const Options &options)
                                  "be at the via is not given; "
                                  "it is half way in time from its event on.");
   }
-  if (snapshots) {
-    addSnapshots(run, replica);
-  }
-  replica.figures.push_back(draw(run, script));
-  if (!snapshots) {
-    replica.figures.push_back(drawWay(run, replica.title));
-    replica.figures.push_back(animate(run, replica.title));
-  }
-  replica.tables.emplace_back("samples.csv", samplesCsv(run));
+  replica.tables.emplace_back("samples.csv", vpApp::samplesCsv(run));
+  replica.run = run;
   return replica;
 }
 } // namespace avoidObstacle

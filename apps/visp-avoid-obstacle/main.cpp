@@ -6,13 +6,13 @@
 #include "film.h"
 #include "options.h"
 #include "replicas.h"
-#include "reportPage.h"
 #include "results.h"
 
 #include "appMain.h"
 #include "outputFolder.h"
-#include "plot.h"
+#include "report.h"
 #include "robot.h"
+#include "viewData.h"
 
 #include <visp3/avoidance/vpAvoidanceMethods.h>
 
@@ -37,30 +37,32 @@ void printList()
   }
 }
 
-std::vector<Figure> drawAll(const PhotoScene &scene, const Options &options, const Episode &episode)
+//! Lets the report be made, and prints the findings.
+void finish(vpApp::OutputFolder &out, const nlohmann::ordered_json &summary)
 {
-  const std::string title = scene.name + ", " + options.method;
-  return {drawWay(episode.run, title, believedAt(episode, episode.run.samples.back().time)),
-          animate(episode.run, title), drawViews(episode), drawTracks(scene, episode), drawTimes(episode.run)};
+  const std::string made = vpApp::finishWithReport(out, summary);
+  for (const nlohmann::ordered_json &sentence : summary.at("findings")) {
+    std::cout << sentence.get<std::string>() << "\n";
+  }
+  std::cout << made << std::endl;
 }
 
-//! Writes figures, page and summary, and prints the findings.
-void finish(vpApp::OutputFolder &out, const std::vector<Figure> &figures, const std::string &page,
-            const nlohmann::ordered_json &summary, const std::vector<std::string> &findings)
+void writeJson(vpApp::OutputFolder &out, const std::string &name, const nlohmann::ordered_json &json)
 {
-  for (const Figure &figure : figures) {
-    if (!figure.svg.empty()) {
-      out.write("figure/" + figure.name + ".svg", figure.svg);
-    }
+  out.write(name, json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+}
+
+//! The obstacles as they were, and as the track table had them in the end.
+void writeScene(vpApp::OutputFolder &out, const Episode &episode)
+{
+  nlohmann::ordered_json scene =
+      vpApp::sceneData(out, episode.run.spec, episode.run.samples.back().time, "mesh/object-");
+  scene["believed"] = nlohmann::ordered_json::array();
+  for (const vpCollisionObject &object : believedAt(episode, episode.run.samples.back().time)) {
+    scene["believed"].push_back(
+        vpApp::objectData(out, object, "mesh/believed-" + std::to_string(scene["believed"].size())));
   }
-  out.write("report.html", page);
-  out.writeSummary(summary);
-  vpApp::throwIfInterrupted();
-  out.commit();
-  for (const std::string &sentence : findings) {
-    std::cout << sentence << "\n";
-  }
-  std::cout << "Report: " << (out.path() / "report.html").string() << std::endl;
+  writeJson(out, "scene.json", scene);
 }
 
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
@@ -68,14 +70,17 @@ double secondsSince(Clock::time_point start) { return std::chrono::duration<doub
 void repeat(const Options &options, const std::string &commandLine)
 {
   const auto start = Clock::now();
-  vpApp::requireGnuplot();
   vpApp::OutputFolder out("visp-avoid-obstacle", options.out);
   const Replica replica = playReplica(options);
   for (const auto &[name, content] : replica.tables) {
     out.write(name, content);
   }
-  const std::string page = replicaPage(replica, commandLine);
-  finish(out, replica.figures, page, summaryOf(replica, options, commandLine, secondsSince(start)), replica.findings);
+  if (replica.run) {
+    vpApp::writeArm(out, *replica.run->spec.arm);
+    const double end = replica.run->samples.back().time;
+    writeJson(out, "scene.json", vpApp::sceneData(out, replica.run->spec, end, "mesh/object-"));
+  }
+  finish(out, summaryOf(replica, options, commandLine, secondsSince(start)));
 }
 
 //! An arm without masses has ideal drives. \throw std::runtime_error if the user wants others.
@@ -99,24 +104,25 @@ bool avoid(Options options, const std::string &commandLine)
   PhotoScene scene = loadPhotoScene(options);
   chooseDrives(options, scene);
   vpApp::printWarnings("visp-avoid-obstacle", scene.warnings);
-  vpApp::requireGnuplot();
   const auto window = options.display ? std::make_unique<vpApp::PictureWindow>("visp-avoid-obstacle") : nullptr;
   vpApp::OutputFolder out("visp-avoid-obstacle", options.out);
 
   const Episode episode = play(scene, options);
-  out.write("samples.csv", samplesCsv(episode.run));
+  vpApp::writeArm(out, *scene.arm);
+  writeScene(out, episode);
+  out.write("samples.csv", vpApp::samplesCsv(episode.run));
   out.write("tracks.csv", tracksCsv(episode.sensorLog));
   out.write("frames.csv", framesCsv(episode.sensorLog));
-  FilmFile film;
+  writeViews(out, episode.sensorLog.frames);
+  nlohmann::ordered_json summary = summaryOf(scene, options, episode, commandLine);
   if (options.record || window) {
-    film.name = options.record ? "video.mp4" : "";
-    film.forBrowsers = makeFilm(episode, options.record ? out.file(film.name) : "", window.get());
-    film.bytes = options.record ? vpApp::readFile(out.file(film.name)) : "";
+    const bool forBrowsers = makeFilm(episode, options.record ? out.file("video.mp4") : "", window.get());
+    if (options.record) {
+      summary["video"] = {{"file", "video.mp4"}, {"for_browsers", forBrowsers}};
+    }
   }
-  const std::vector<Figure> figures = drawAll(scene, options, episode);
-  const std::string page = reportPage(scene, options, episode, figures, film, commandLine);
-  finish(out, figures, page, summaryOf(scene, options, episode, commandLine, secondsSince(start)),
-         findingsOf(scene, options, episode));
+  summary["wall_time_s"] = secondsSince(start);
+  finish(out, summary);
   return episode.run.metrics.collisions_moving == 0;
 }
 } // namespace

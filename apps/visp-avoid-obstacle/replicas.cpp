@@ -7,7 +7,6 @@
 #include "planeMotion.h"
 
 #include "numberText.h"
-#include "timePlot.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,29 +57,6 @@ using Eigen::Vector2d;
 using vpApp::number;
 
 constexpr double REACHED = 0.005; // m
-constexpr int CIRCLE_POINTS = 90;
-
-std::vector<Vector2d> circle(const Vector2d &centre, double radius)
-{
-  std::vector<Vector2d> points;
-  for (int i = 0; i <= CIRCLE_POINTS; ++i) {
-    const double angle = 2. * M_PI * i / CIRCLE_POINTS;
-    points.emplace_back(centre + radius * Vector2d(std::cos(angle), std::sin(angle)));
-  }
-  return points;
-}
-
-vpApp::Plot draw(const FieldTask &task, const FieldMotion &motion, const FieldMotion &undisturbed,
-                 const std::string &title)
-{
-  vpApp::Plot plot = wayPlot(title);
-  plot.curves = {wayCurve("way", "#d62728", motion.way, 4), wayCurve("without obstacle", "#999999", undisturbed.way, 4),
-                 placeCurve("vias and end", "#1f77b4", task.places), placeCurve("obstacle", "#000000", {task.obstacle}),
-                 wayCurve("distance d_0: half the weight", "#000000", circle(task.obstacle, motion.weight.centre))};
-  plot.curves[1].style = plot.curves.back().style = vpApp::PlotStyle::Dashed;
-  plot.curves.back().width = 1.;
-  return plot;
-}
 
 std::string csvOf(const FieldMotion &motion)
 {
@@ -103,7 +79,7 @@ std::string missedText(const FieldMotion &motion)
 
 void add(const char *name, const FieldMotion &motion, Replica &replica)
 {
-  replica.tables.emplace_back(std::string("samples-") + name + ".csv", csvOf(motion));
+  replica.tables.emplace_back(std::string("field-") + name + ".csv", csvOf(motion));
   replica.numbers[name] = {{"d0_m", motion.weight.centre},
                            {"ks_m", motion.weight.width},
                            {"missed_m", motion.missed},
@@ -147,17 +123,11 @@ Replica playFieldReplica(const Options &options)
       "As in the text only x is affected by the obstacle; the camera sees it while it is within 0.2 m along y."};
   add("strict", strict, replica);
   add("mild", mild, replica);
-  vpApp::Plot weights = vpApp::timePlot("Weight of avoidance", "0..1");
-  weights.curves = {vpApp::timeCurve("strict", "#d62728", strict.times, strict.weights),
-                    vpApp::timeCurve("mild", "#1f77b4", mild.times, mild.weights)};
-  Figure figure;
-  figure.name = "motion";
-  figure.title = "The ways with strict (top) and mild (middle) parameters, and the weights";
-  figure.caption = "The circle is where the weight has fallen by half.";
-  figure.svg = vpApp::renderPanels(
-      {draw(task, strict, undisturbed, "Strict parameters"), draw(task, mild, undisturbed, "Mild parameters"), weights},
-      vpApp::PlotFormat::Svg);
-  replica.figures = {figure};
+  replica.tables.emplace_back("field-alone.csv", csvOf(undisturbed));
+  replica.numbers["obstacle_m"] = {task.obstacle.x(), task.obstacle.y()};
+  for (const Vector2d &place : task.places) {
+    replica.numbers["places_m"].push_back({place.x(), place.y()});
+  }
   return replica;
 }
 
@@ -171,18 +141,8 @@ using vpApp::number;
 
 constexpr double ROUNDING = 1e-9;   // relative tolerance of a bound
 constexpr double GOAL_NOISE = 0.01; // m
-constexpr std::size_t THIN = 4;
 
 std::string text(const Vector2d &p) { return "[" + number(p.x(), 4) + ", " + number(p.y(), 4) + "] m"; }
-
-std::vector<Vector2d> wayOf(const PointMotion &motion)
-{
-  std::vector<Vector2d> way;
-  for (const PointSample &s : motion.samples) {
-    way.push_back(s.place);
-  }
-  return way;
-}
 
 double distanceFrom(const PointMotion &motion, const Vector2d &place)
 {
@@ -191,57 +151,6 @@ double distanceFrom(const PointMotion &motion, const Vector2d &place)
     least = std::min(least, (s.place - place).norm());
   }
   return least;
-}
-
-Figure draw(const PointTask &task, const PointMotion &motion)
-{
-  std::vector<double> times, x, y, goalX, goalY, speed, acceleration;
-  for (const PointSample &s : motion.samples) {
-    times.push_back(s.time);
-    x.push_back(s.place.x());
-    y.push_back(s.place.y());
-    goalX.push_back(s.goal.x());
-    goalY.push_back(s.goal.y());
-    speed.push_back(s.velocity.norm());
-    acceleration.push_back(s.acceleration.norm());
-  }
-  vpApp::Plot way = wayPlot("The way");
-  std::vector<Vector2d> vias, changes;
-  for (const PointEvent &event : task.events) {
-    changes.push_back(motion.samples[static_cast<std::size_t>(std::lround(event.time / pointPeriod))].place);
-    if (event.via) {
-      vias.push_back(*event.via);
-    }
-  }
-  way.curves = {wayCurve("way", "#d62728", wayOf(motion), THIN), placeCurve("start", "#555555", {task.start})};
-  if (!task.told) {
-    way.curves.push_back(wayCurve("straight on", "#999999", {task.start, task.goal}));
-    way.curves.back().style = vpApp::PlotStyle::Dashed;
-    way.curves.push_back(placeCurve("goal", "#1f77b4", {motion.samples.back().goal}));
-    way.curves.push_back(placeCurve("where it changed", "#2ca02c", changes));
-  }
-  if (!vias.empty()) {
-    way.curves.push_back(placeCurve("via", "#ff7f0e", vias));
-  }
-  vpApp::Plot place = vpApp::timePlot("Place", "m"), rate = vpApp::timePlot("Speed", "m/s"),
-              change = vpApp::timePlot("Acceleration", "m/s^2");
-  place.curves = {vpApp::timeCurve("x", "#1f77b4", times, x), vpApp::timeCurve("y", "#d62728", times, y),
-                  vpApp::timeCurve("goal x as given", "#9ecae1", times, goalX),
-                  vpApp::timeCurve("goal y as given", "#fcae91", times, goalY)};
-  rate.curves = {vpApp::timeCurve("speed", "#1f77b4", times, speed)};
-  change.curves = {vpApp::timeCurve("acceleration", "#1f77b4", times, acceleration)};
-  if (std::isfinite(task.maxSpeed)) {
-    vpApp::addLevel(rate, task.maxSpeed, "bound");
-  }
-  if (std::isfinite(task.maxAcceleration)) {
-    vpApp::addLevel(change, task.maxAcceleration, "bound");
-  }
-  Figure figure;
-  figure.name = "motion";
-  figure.title = "Way, place, speed and acceleration";
-  figure.caption = "Norms over both axes, of the point as commanded at 1 kHz.";
-  figure.svg = vpApp::renderPanels({way, place, rate, change}, vpApp::PlotFormat::Svg);
-  return figure;
 }
 
 std::string csvOf(const PointMotion &motion)
@@ -257,6 +166,23 @@ std::string csvOf(const PointMotion &motion)
   return csv;
 }
 
+nlohmann::ordered_json bound(double value)
+{
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
+
+nlohmann::ordered_json eventsOf(const PointTask &task)
+{
+  nlohmann::ordered_json events = nlohmann::ordered_json::array();
+  for (const PointEvent &event : task.events) {
+    events.push_back({{"time_s", event.time}, {"via_m", nullptr}});
+    if (event.via) {
+      events.back()["via_m"] = {event.via->x(), event.via->y()};
+    }
+  }
+  return events;
+}
+
 void finish(const PointTask &task, const PointMotion &motion, Replica &replica)
 {
   const Vector2d end = motion.samples.back().place, goal = motion.samples.back().goal;
@@ -264,12 +190,14 @@ void finish(const PointTask &task, const PointMotion &motion, Replica &replica)
   replica.comparisons.push_back({"duration", "not given", fixed(motion.arrival, 3) + " s"});
   replica.comparisons.push_back(
       {"clearance", "not given", "not known: the thesis does not say where the obstacle was"});
-  replica.figures.push_back(draw(task, motion));
-  replica.tables.emplace_back("samples.csv", csvOf(motion));
+  replica.tables.emplace_back("point.csv", csvOf(motion));
   replica.numbers = {
       {"arrived", motion.arrived},         {"arrival_s", motion.arrival},      {"peak_v", motion.peakSpeed},
       {"peak_a", motion.peakAcceleration}, {"largest_step_of_a", motion.jump}, {"plans", motion.plans},
       {"end_m", {end.x(), end.y()}},       {"goal_m", {goal.x(), goal.y()}},   {"clearance_m", nullptr}};
+  replica.numbers["max_speed_mps"] = bound(task.maxSpeed);
+  replica.numbers["max_acceleration_mps2"] = bound(task.maxAcceleration);
+  replica.numbers["events"] = eventsOf(task);
 }
 
 void compareSpeed(const PointTask &task, const PointMotion &motion, Replica &replica)

@@ -9,11 +9,13 @@
 #ifndef avoidObstacle_replicas_h
 #define avoidObstacle_replicas_h
 
-#include "figures.h"
 #include "options.h"
+
+#include "lab/avoidance/vpAvoidanceExperiment.h"
 
 #include <nlohmann/json.hpp>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,9 +36,9 @@ struct Replica {
   std::vector<std::string> findings; //!< Results; the first sentence is the main one.
   std::vector<std::string> choices;  //!< Choices made where the thesis leaves values open.
   std::vector<Comparison> comparisons;
-  std::vector<Figure> figures;
   std::vector<std::pair<std::string, std::string>> tables; //!< Names and content of CSV files.
   nlohmann::ordered_json numbers;                          //!< Results for summary.json.
+  std::optional<vpAvoidanceRun> run;                       //!< Of the arm; none where a point moves.
 };
 
 //! Names for --replica: "fig8.6" to "fig8.13".

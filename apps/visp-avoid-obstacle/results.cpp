@@ -211,6 +211,7 @@ Json settings(const Options &options, const vpAvoidanceRun &run)
           {"noise_grey", options.noise},
           {"forget_s", options.forget},
           {"friction", options.friction},
+          {"ideal_drives", run.spec.drives.ideal},
           {"seed", options.seed},
           {"max_duration_s", options.duration},
           {"period_s", run.spec.methodSpec.period},
@@ -221,58 +222,35 @@ Json settings(const Options &options, const vpAvoidanceRun &run)
 }
 } // namespace
 
-Json metricsJson(const vpAvoidanceMetrics &m)
-{
-  return {{"success", m.success},
-          {"min_clearance_m", m.min_clearance_m},
-          {"goal_error_m", m.goal_error_m},
-          {"duration_s", m.duration_s},
-          {"peak_v", m.peak_v},
-          {"peak_a", m.peak_a},
-          {"peak_jerk", m.peak_jerk},
-          {"jerk_integral", m.jerk_integral},
-          {"path_length", m.path_length},
-          {"replan_ms_p50", m.replan_ms_p50},
-          {"replan_ms_p95", m.replan_ms_p95},
-          {"replan_ms_p99", m.replan_ms_p99},
-          {"stops", m.stops},
-          {"false_stops", m.false_stops},
-          {"collisions_moving", m.collisions_moving},
-          {"collisions_standing", m.collisions_standing},
-          {"joint_v_violations", m.joint_v_violations},
-          {"joint_a_violations", m.joint_a_violations},
-          {"tool_v_violations", m.tool_v_violations},
-          {"tool_a_violations", m.tool_a_violations},
-          {"status", m.status}};
-}
-
-Json summaryOf(const PhotoScene &scene, const Options &options, const Episode &episode, const std::string &commandLine,
-               double wallTime)
+Json summaryOf(const PhotoScene &scene, const Options &options, const Episode &episode, const std::string &commandLine)
 {
   Json obstacles = Json::array(), turns = Json::array();
   for (const SightingSummary &a : sightingSummaries(scene, episode)) {
     obstacles.push_back(jsonOf(a));
   }
   for (const StatusChange &turn : statusChangesOf(episode.run)) {
-    turns.push_back({{"time_s", turn.time}, {"status", vpToString(turn.status)}, {"stopping", turn.stopping}});
+    turns.push_back({{"time_s", turn.time},
+                     {"status", vpToString(turn.status)},
+                     {"means", vpMessage(turn.status)},
+                     {"stopping", turn.stopping}});
   }
   const JointUse use = jointUseOf(episode.run);
   return {{"program", "visp-avoid-obstacle"},
           {"version", vpApp::versionText()},
           {"command_line", commandLine},
-          {"wall_time_s", wallTime},
           {"data", "simulated arm and camera; the obstacles' photographs are real, their views are rendered"},
           {"arm", scene.arm->label()},
           {"scene", scene.name},
           {"scene_file", scene.known.source},
           {"task", scene.task.name},
           {"settings", settings(options, episode.run)},
-          {"metrics", metricsJson(episode.run.metrics)},
+          {"metrics", vpApp::metricsJson(episode.run.metrics)},
           {"ended_as", vpToString(episode.run.samples.back().status)},
           {"joint_velocity_share", use.velocity},
           {"joint_acceleration_share", use.acceleration},
           {"obstacles", obstacles},
           {"turns", turns},
+          {"findings", findingsOf(scene, options, episode)},
           {"remarks", scene.remarks},
           {"warnings", scene.warnings}};
 }
@@ -292,69 +270,9 @@ Json summaryOf(const Replica &replica, const Options &options, const std::string
           {"title", replica.title},
           {"seed", options.seed},
           {"comparisons", comparisons},
+          {"findings", replica.findings},
           {"choices", replica.choices},
           {"numbers", replica.numbers}};
-}
-
-namespace
-{
-constexpr int DIGITS = 7;
-
-//! One row, cell by cell.
-class Row
-{
-public:
-  Row &operator<<(double value) { return add(std::isfinite(value) ? vpApp::number(value, DIGITS) : ""); }
-  Row &operator<<(const Eigen::Vector3d &p) { return *this << p.x() << p.y() << p.z(); }
-  Row &operator<<(const vpJointVector &q)
-  {
-    for (Eigen::Index i = 0; i < q.size(); ++i) {
-      *this << q(i);
-    }
-    return *this;
-  }
-  Row &operator<<(bool value) { return add(value ? "1" : "0"); }
-  Row &operator<<(int value) { return add(std::to_string(value)); }
-  Row &operator<<(const char *word) { return add(word); }
-  Row &operator<<(const std::string &text)
-  {
-    std::string quoted = "\"";
-    for (const char c : text) {
-      quoted += c == '"' ? "\"\"" : std::string(1, c);
-    }
-    return add(quoted + "\"");
-  }
-  [[nodiscard]] std::string line() const { return m_text + "\n"; }
-
-private:
-  Row &add(const std::string &cell)
-  {
-    m_text += m_begun ? "," + cell : cell;
-    m_begun = true;
-    return *this;
-  }
-  std::string m_text;
-  bool m_begun = false;
-};
-} // namespace
-
-std::string samplesCsv(const vpAvoidanceRun &run)
-{
-  std::string csv = "time_s";
-  for (const char *group : {"q_", "commanded_", "command_"}) {
-    for (const vpArmJointSpec &joint : run.spec.arm->spec().joints) {
-      csv += std::string(",") + group + joint.name;
-    }
-  }
-  csv += ",tool_x_m,tool_y_m,tool_z_m,wanted_x_m,wanted_y_m,wanted_z_m,goal_x_m,goal_y_m,goal_z_m,goal_distance_m,"
-         "clearance_m,nearest,status,stopping,new_image,look_ms\n";
-  for (const vpAvoidanceSample &s : run.samples) {
-    Row row;
-    row << s.time << s.q << s.commanded << s.command << s.tool << s.wanted << s.goal << s.goalDistance
-        << s.clearance.distance << s.nearest << vpToString(s.status) << s.stopping << s.newImage << 1000. * s.lookTime;
-    csv += row.line();
-  }
-  return csv;
 }
 
 std::string tracksCsv(const SensorLog &sensorLog)
@@ -363,7 +281,7 @@ std::string tracksCsv(const SensorLog &sensorLog)
                     "position_sigma_m,velocity_sigma_mps,inflation_m,confidence,age_s,sightings,restarts,error_m\n";
   for (const TrackRow &r : sensorLog.tracks) {
     const vpObjectTrack &t = r.track;
-    Row row;
+    vpApp::CsvRow row;
     row << r.time << t.name << vpToString(t.status) << t.resting << t.pose.p
         << Eigen::Vector3d(t.velocity[0], t.velocity[1], t.velocity[2]) << t.positionSigma << t.velocitySigma
         << t.inflation << t.confidence << t.age << t.sightings << t.restarts << r.error;
@@ -377,7 +295,7 @@ std::string framesCsv(const SensorLog &sensorLog)
   std::string csv = "time_s,covered,object,seen,error_m,angle_error_rad,sigma_m,sentence\n";
   for (const Frame &frame : sensorLog.frames) {
     for (const Sight &s : frame.sights) {
-      Row row;
+      vpApp::CsvRow row;
       row << frame.time << frame.covered << s.object << s.seen << (s.seen ? s.error : NAN)
           << (s.seen ? s.angleError : NAN) << (s.seen ? s.sigma : NAN) << s.message;
       csv += row.line();

@@ -12,6 +12,8 @@
 #include "episode.h"
 #include "replicas.h"
 
+#include "runData.h"
+
 #include <nlohmann/json.hpp>
 
 #include <optional>
@@ -58,17 +60,13 @@ struct JointUse {
 [[nodiscard]] std::vector<std::string> findingsOf(const PhotoScene &scene, const Options &options,
                                                   const Episode &episode);
 
-//! Metrics of a run by the names of vpAvoidanceMetrics.
-[[nodiscard]] nlohmann::ordered_json metricsJson(const vpAvoidanceMetrics &metrics);
-//! Summary of a run, without the fields added by OutputFolder.
+//! Summary of a run, without the fields added by OutputFolder, its video and its wall time.
 [[nodiscard]] nlohmann::ordered_json summaryOf(const PhotoScene &scene, const Options &options, const Episode &episode,
-                                               const std::string &commandLine, double wallTime);
+                                               const std::string &commandLine);
 //! Summary of a reproduced figure, without the fields added by OutputFolder.
 [[nodiscard]] nlohmann::ordered_json summaryOf(const Replica &replica, const Options &options,
                                                const std::string &commandLine, double wallTime);
 
-//! samples.csv: one row per period of the loop.
-[[nodiscard]] std::string samplesCsv(const vpAvoidanceRun &run);
 //! tracks.csv: the track table of every period, one row per obstacle.
 [[nodiscard]] std::string tracksCsv(const SensorLog &sensorLog);
 //! frames.csv: one row per obstacle and image.

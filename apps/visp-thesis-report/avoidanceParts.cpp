@@ -114,11 +114,6 @@ Item itemOf(const std::string &id, const Setting &setting,
   for (const std::string &choice : replica.choices) {
     item.parameters.emplace_back("our choice", choice);
   }
-  for (const avoidObstacle::Figure &figure : replica.figures) {
-    if (!figure.svg.empty()) {
-      item.figures.push_back({figure.name, figure.title, figure.caption, figure.svg});
-    }
-  }
   for (const auto &table : replica.tables) {
     item.data.push_back({table.first, table.second});
   }

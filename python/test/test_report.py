@@ -1,6 +1,7 @@
 # visp-direct: direct methods for vision-based robot control, for ViSP.
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Reports: numbers, schema, meshes, plots, and the pages of the programs, opened by a browser."""
+import functools
 import json
 import os
 import pathlib
@@ -62,11 +63,12 @@ def damaged(value, schema, random):
 
 
 def name_of(call):
-    return f"{call[0]}-{pathlib.Path(call[1].split('=')[-1]).stem}"
+    return f"{call[0]}-{pathlib.Path(call[1].split('=')[-1]).name}"
 
 
+@functools.cache
 def run(program, *arguments, **environment):
-    """Runs a program in OUT; its result folder."""
+    """Runs a program in OUT, once; its result folder, and what it said."""
     if not (BIN / program).is_file():
         pytest.skip(f"{program} is not built")
     folder = OUT / f"{name_of((program, *arguments))}-{len(environment)}"
@@ -111,6 +113,12 @@ PROGRAMS = [
     ),
     ("visp-print-pattern", "--cells=6", "--sensor=tracker", "--identify"),
     ("visp-print-pattern", f"--explore={SMALL}"),
+    ("visp-avoid-obstacle", "--sensor=poses", "--duration=0.6"),
+    ("visp-avoid-obstacle", "--replica=fig8.6"),
+    ("visp-avoid-obstacle", "--replica=fig8.9"),
+    ("visp-avoid-obstacle", "--replica=fig8.12"),
+    ("visp-plan-compare", "--scene=S3,S5", "--method=potential,dtg,dtg-via", "--seeds=2"),
+    ("visp-track-pattern", "--frames=90"),
 ]
 
 
@@ -118,16 +126,28 @@ PROGRAMS = [
 def test_data_is_as_the_schema_says(call, random):
     folder, _ = run(*call)
     result = Result(folder)
-    for name in result.schema:
+    for name in result.files():
         if name.endswith(".csv"):
             assert len({len(column) for column in result.table(name).values()}) == 1
-        elif name != "summary.json":
+        else:
             value = result.json(name)
             for _ in range(longer(50)):
-                bad = damaged(value, result.schema[name], random)
+                bad = damaged(value, result.described(name), random)
                 if bad is not None:
                     with pytest.raises(DataError, match=re.escape(name)):
-                        check(bad, result.schema[name], name)
+                        check(bad, result.described(name), name)
+
+
+def known_place(folder, call):
+    """A configuration, and where the tool is there by the program; [] without an arm."""
+    if "--fk" in call:
+        pose = json.loads((folder / "robot.json").read_text())["pose"]
+        return [float(x) for x in call[-1].split(",")], [row[3] for row in pose[:3]]
+    logs = [name for name in Result(folder).files() if name.startswith(("samples", "log/"))]
+    if not logs:
+        return [], []
+    table, joints = Result(folder).table(logs[0]), json.loads((folder / "arm.json").read_text())["joints"]
+    return [table[f"q_{joint['name']}"][-1] for joint in joints], [table[f"tool_{axis}_m"][-1] for axis in "xyz"]
 
 
 @pytest.mark.parametrize("call", PROGRAMS, ids=name_of)
@@ -139,7 +159,8 @@ def test_report_opens_without_an_error(call, width):
     folder, said = run(*call)
     assert "without a report" not in said
     page = (folder / "report.html").read_text()
-    assert len(page) < 6e6 and "http" not in re.sub(r"http://www.w3.org/\S+|<script>.*?</script>", "", page, flags=re.S)
+    assert len(page) < 6e6 and "e+0" not in re.sub(r"<script.*?</script>|<svg.*?</svg>|src=\"data:[^\"]*\"", "", page, flags=re.S)
+    assert "http" not in re.sub(r"http://www.w3.org/\S+|<script>.*?</script>", "", page, flags=re.S)
     probe = """<pre id="verdict"></pre><script>
 window.addEventListener("load", () => setTimeout(() => {
   const seen = (canvas) => {
@@ -147,14 +168,24 @@ window.addEventListener("load", () => setTimeout(() => {
     c.drawImage(canvas, 0, 0, 80, 60);
     return [...c.getImageData(0, 0, 80, 60).data];
   };
+  const differ = (a, b) => a.filter((v, i) => Math.abs(v - b[i]) > 8).length;
   const views = [...document.querySelectorAll(".view")].map((view) => {
     const canvas = view.querySelector("canvas"), before = seen(canvas), slider = view.querySelector("input[type=range]");
-    slider.value = Number(slider.min) + 0.8 * (slider.max - slider.min);
-    slider.dispatchEvent(new Event("input"));
-    const after = seen(canvas);
+    let moved = null, chosen = null;
+    if (slider) {
+      slider.value = Number(slider.min) + 0.8 * (slider.max - slider.min);
+      slider.dispatchEvent(new Event("input"));
+      moved = differ(before, seen(canvas));
+    }
+    const menu = view.querySelector("select");
+    if (menu) { // another run on the left, and back
+      const was = menu.value, first = seen(canvas);
+      const choose = (value) => { menu.value = value; menu.dispatchEvent(new Event("change")); return differ(first, seen(canvas)); };
+      chosen = [choose([...menu.options].map((o) => o.value).find((v) => v !== was)), choose(was)];
+    }
     const q = FK;
     return {tool: q.length && view.vispView ? view.vispView.toolAt(0, q) : [], colours: new Set(before.map((v, i) => i % 4 ? 0 : before.slice(i, i + 3).join())).size,
-            moved: before.filter((v, i) => Math.abs(v - after[i]) > 8).length};
+            moved, chosen};
   });
   const table = document.querySelector("table.sorts"), rows = () => [...table.tBodies[0].rows].map((r) => r.cells[1].textContent);
   const unsorted = rows();
@@ -163,7 +194,7 @@ window.addEventListener("load", () => setTimeout(() => {
     wide: document.documentElement.scrollWidth - window.innerWidth, figures: document.querySelectorAll("figure.plot svg").length});
 }, 500));</script></body>"""
     probed = folder / "probe.html"
-    q = [float(x) for x in call[-1].split(",")] if "--fk" in call else []
+    q, tool = known_place(folder, call)
     probed.write_text(page.replace("</body>", probe.replace("FK", json.dumps(q))))
     browser = [
         CHROMIUM,
@@ -190,13 +221,13 @@ window.addEventListener("load", () => setTimeout(() => {
         and len(verdict["sorted"]) == len(verdict["unsorted"])
         and sorted(verdict["sorted"]) == sorted(verdict["unsorted"])
     )
-    if call[0] == "visp-arm":
-        assert verdict["views"] and all(
-            view["colours"] > 20 and view["moved"] > 20 for view in verdict["views"]
-        ), verdict
-        pose = json.loads((folder / "robot.json").read_text())["pose"]  # the page moves the arm as the library does
-        np.testing.assert_allclose(verdict["views"][0]["tool"], [row[3] for row in pose[:3]], atol=1e-9)
-    elif call[0] == "visp-plan-trajectory":
+    if q:  # the page moves the arm as the library does
+        assert verdict["views"] and all(view["colours"] > 20 and view["moved"] in (None, *range(20, 5000)) for view in verdict["views"]), verdict
+        np.testing.assert_allclose(verdict["views"][0]["tool"], tool, atol=1e-9 if call[0] == "visp-arm" else 1e-5)
+    if call[0] == "visp-plan-compare":
+        changed, same = verdict["views"][0]["chosen"]
+        assert changed > 20 and same == 0
+    if call[0] == "visp-plan-trajectory":
         values = [value_of(text) for text in verdict["sorted"]]
         assert values == sorted(values) and verdict["figures"] >= 1
     subprocess.run(

@@ -8,6 +8,7 @@
 #include <visp3/core/vpException.h>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 namespace vpApp
@@ -65,7 +66,8 @@ Json jointsOf(const vpArmModel &arm)
     const bool bounded = joint.type != vpJointType::Continuous;
     joints.push_back({{"name", joint.name},
                       {"type", nameOf(joint.type)},
-                      {"limits", bounded ? Json{joint.lower, joint.upper} : Json(nullptr)}});
+                      {"limits", bounded ? Json{joint.lower, joint.upper} : Json(nullptr)},
+                      {"velocity", std::isfinite(joint.velocity) ? Json(joint.velocity) : Json(nullptr)}});
   }
   return joints;
 }

@@ -9,7 +9,14 @@ import sys
 from . import __doc__ as about
 from .data import DataError, read_results
 
-PROGRAMS = {"visp-plan-trajectory": "plan_trajectory", "visp-arm": "arm", "visp-print-pattern": "print_pattern"}
+PROGRAMS = {
+    "visp-arm": "arm",
+    "visp-avoid-obstacle": "avoid_obstacle",
+    "visp-plan-compare": "plan_compare",
+    "visp-plan-trajectory": "plan_trajectory",
+    "visp-print-pattern": "print_pattern",
+    "visp-track-pattern": "track_pattern",
+}
 
 
 def main(arguments):

@@ -86,10 +86,10 @@ class Result:
 
     def json(self, name):
         value = self._load(name)
-        check(value, self._described(name), str(self.folder / name))
+        check(value, self.described(name), str(self.folder / name))
         return value
 
-    def _described(self, name):
+    def described(self, name):
         """The schema of a file, whose name may stand for several (*) or be optional (?)."""
         return next(fields for key, fields in self.schema.items() if fnmatch.fnmatchcase(name, key.rstrip("?")))
 
@@ -111,7 +111,7 @@ class Result:
                 rows = list(csv.reader(file))
         except OSError as error:
             raise DataError(f"{path}: cannot be read: {error.strerror}") from None
-        schema = dict.fromkeys(columns, "number") if columns else _expanded(self._described(name), rows[0] if rows else [])
+        schema = dict.fromkeys(columns, "number") if columns else _expanded(self.described(name), rows[0] if rows else [])
         wanted = list(schema)
         if not rows or rows[0] != wanted:
             raise DataError(
