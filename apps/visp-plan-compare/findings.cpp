@@ -4,7 +4,6 @@
  */
 #include "findings.h"
 
-#include "figures.h"
 #include "numberText.h"
 
 #include <visp3/direct_core/vpQuantile.h>
@@ -99,6 +98,23 @@ std::string pairSentence(const Results &results, const std::string &scene,
               : nameOf(p.onlyFirst > p.onlySecond ? pair.first : pair.second) + " does significantly better.");
 }
 } // namespace
+
+std::string heroOf(const Plan &plan, const Results &results, const std::string &scene)
+{
+  std::string best = plan.methods.front();
+  int most = -1;
+  double shortest = 0.;
+  for (const std::string &method : plan.methods) {
+    const Cell cell = results.cell(scene, method);
+    const double duration = vpMedian(cell.values(&vpAvoidanceMetrics::duration_s, true));
+    if (cell.successes() > most || (cell.successes() == most && duration < shortest)) {
+      best = method;
+      most = cell.successes();
+      shortest = duration;
+    }
+  }
+  return best;
+}
 
 std::string countText(int part, std::size_t all) { return std::to_string(part) + " of " + std::to_string(all); }
 

@@ -4,7 +4,7 @@
  */
 /*!
  * \file findings.h
- * \brief Sentences computed from the results.
+ * \brief Sentences computed from the results, and the best method of a scene.
  */
 #ifndef planCompare_findings_h
 #define planCompare_findings_h
@@ -14,6 +14,8 @@
 
 namespace planCompare
 {
+//! The method that a scene is shown with: most successes, then the shortest median duration.
+[[nodiscard]] std::string heroOf(const Plan &plan, const Results &results, const std::string &scene);
 //! Main result in a few sentences.
 [[nodiscard]] std::vector<std::string> answerOf(const Plan &plan, const Results &results);
 //! Strengths and weaknesses of a method.

@@ -3,18 +3,20 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 // visp-plan-compare: avoidance methods for an arm on the same scenes, with a report.
-#include "figures.h"
-#include "reportPage.h"
 #include "resultFiles.h"
 
 #include "appMain.h"
 #include "numberText.h"
 #include "outputFolder.h"
-#include "plot.h"
+#include "report.h"
 #include "robot.h"
+#include "runData.h"
+#include "viewData.h"
 
+#include <algorithm>
 #include <chrono>
 #include <iostream>
+#include <map>
 
 namespace
 {
@@ -34,6 +36,26 @@ void printList()
   std::cout << "  S5: " << selfMotionSentence() << "\n";
 }
 
+void writeTables(vpApp::OutputFolder &out, const Plan &plan, const Results &results, const Extras &extras)
+{
+  out.write("runs.csv", runsCsv(results));
+  if (!extras.selfMotion.empty()) {
+    out.write("self-motion.csv", selfMotionCsv(extras.selfMotion));
+  }
+  vpApp::writeArm(out, *plan.arm);
+  std::map<std::string, double> ends; // of the longest run of each scene, s
+  for (std::size_t i = 0; i < results.shown.size(); ++i) {
+    double &end = ends[results.shownScenes[i]];
+    end = std::max(end, results.shown[i].samples.back().time);
+    out.write(logName(results.shownScenes[i], results.shown[i].spec.method), vpApp::samplesCsv(results.shown[i]));
+  }
+  for (const auto &[scene, end] : ends) { // the same for all methods
+    const vpAvoidanceRunSpec &spec = results.find(scene, plan.methods.front())->spec;
+    const nlohmann::ordered_json data = vpApp::sceneData(out, spec, end, "mesh/" + vpApp::fileName(scene) + "-object-");
+    out.write(sceneName(scene), data.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+  }
+}
+
 void compare(const Options &options, const std::string &commandLine, const vpApp::Ranks &ranks)
 {
   const auto start = std::chrono::steady_clock::now();
@@ -44,7 +66,6 @@ void compare(const Options &options, const std::string &commandLine, const vpApp
     return;
   }
   vpApp::printWarnings("visp-plan-compare", plan.remarks);
-  vpApp::requireGnuplot();
   vpApp::OutputFolder out("visp-plan-compare", options.out);
 
   const Results results = runAll(plan, ranks, options.jobs);
@@ -52,25 +73,17 @@ void compare(const Options &options, const std::string &commandLine, const vpApp
   extras.validators = compareValidators(plan);
   extras.selfMotion = runSelfMotion(plan);
   extras.commandLine = commandLine;
-  out.write("runs.csv", runsCsv(results));
-  for (std::size_t i = 0; i < results.shown.size(); ++i) {
-    out.write(logName(results.shownScenes[i], results.shown[i].spec.method), logCsv(results.shown[i]));
-  }
+  writeTables(out, plan, results, extras);
   for (const SceneInfo &scene : plan.scenes) {
     out.write("arena/" + vpApp::fileName(scene.id) + ".log", arenaLog(plan, results, scene, startedAt));
   }
-  const std::vector<Figure> figures = drawFigures(plan, results, extras.selfMotion, ranks.threads(options.jobs));
-  for (const Figure &figure : figures) {
-    if (!figure.svg.empty()) {
-      out.write("figure/" + figure.name + ".svg", figure.svg);
-    }
-  }
   extras.wallTime = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  out.write("report.html", reportPage(plan, results, extras, figures));
-  out.writeSummary(summaryOf(plan, results, extras));
-  vpApp::throwIfInterrupted();
-  out.commit();
-  std::cout << "Report: " << (out.path() / "report.html").string() << std::endl;
+  const nlohmann::ordered_json summary = summaryOf(plan, results, extras);
+  const std::string made = vpApp::finishWithReport(out, summary);
+  for (const nlohmann::ordered_json &sentence : summary.at("answer")) {
+    std::cout << sentence.get<std::string>() << "\n";
+  }
+  std::cout << made << std::endl;
 }
 } // namespace
 

@@ -25,7 +25,6 @@ struct MethodInfo {
   std::string number;   //!< "(iii)".
   std::string name;     //!< Short, for tables.
   std::string sentence; //!< Description.
-  std::string colour;   //!< #rrggbb
 };
 
 //! Description of any method; an unknown method is named by its id.

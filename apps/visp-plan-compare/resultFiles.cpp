@@ -4,8 +4,11 @@
  */
 #include "resultFiles.h"
 
+#include "findings.h"
+
 #include "appMain.h"
 #include "numberText.h"
+#include "runData.h"
 
 #include <visp3/direct_core/vpQuantile.h>
 
@@ -18,6 +21,8 @@ namespace planCompare
 namespace
 {
 using Json = nlohmann::ordered_json;
+
+constexpr std::size_t SELF_MOTION_STEP = 4; // samples; more would not be visible
 
 //! Median, 5th and 95th percentiles over the runs.
 Json spread(const std::vector<double> &values)
@@ -62,6 +67,62 @@ Json cellJson(const SceneInfo &scene, const std::string &method, const Cell &cel
           {"runs_over_tool_acceleration", cell.runsWith(&M::tool_a_violations)}};
 }
 
+//! Description of the shown run of a scene: "right to left, seed 1".
+std::string whichRun(const Plan &plan, const std::string &scene)
+{
+  for (const Problem &problem : plan.problems) {
+    if (problem.scene == scene && problem.shown) {
+      return (problem.variant.empty() ? "" : problem.variant + ", ") + "seed " + std::to_string(problem.seed);
+    }
+  }
+  return "";
+}
+
+Json sceneJson(const Plan &plan, const Results &results, const SceneInfo &scene)
+{
+  return {{"id", scene.id},
+          {"name", scene.name},
+          {"sentence", scene.sentence},
+          {"shown", whichRun(plan, scene.id)},
+          {"best", heroOf(plan, results, scene.id)},
+          {"findings", findingsOf(plan, results, scene)}};
+}
+
+Json methodJson(const Plan &plan, const Results &results, const std::string &method)
+{
+  const MethodInfo info = methodInfo(method);
+  return {{"id", info.id},
+          {"number", info.number},
+          {"name", info.name},
+          {"sentence", info.sentence},
+          {"verdict", verdictOf(plan, results, method)}};
+}
+
+//! Of the loop and the tool, the same in all runs; null without runs.
+Json limitsJson(const Results &results)
+{
+  if (results.shown.empty()) {
+    return nullptr;
+  }
+  const vpAvoidanceRunSpec &spec = results.shown.front().spec;
+  return {{"max_velocity_mps", spec.methodSpec.maxVelocity},
+          {"max_acceleration_mps2", spec.methodSpec.maxAcceleration},
+          {"goal_tolerance_m", spec.goalTolerance}};
+}
+
+Json logsJson(const Results &results)
+{
+  Json logs = Json::array();
+  for (std::size_t i = 0; i < results.shown.size(); ++i) {
+    const std::string &method = results.shown[i].spec.method;
+    logs.push_back({{"scene", results.shownScenes[i]},
+                    {"method", method},
+                    {"file", logName(results.shownScenes[i], method)},
+                    {"scene_file", sceneName(results.shownScenes[i])}});
+  }
+  return logs;
+}
+
 Json pairJson(const Results &results, const std::string &scene, const std::pair<std::string, std::string> &pair)
 {
   const Pairing p = pairUp(results, scene, pair.first, pair.second);
@@ -78,9 +139,14 @@ Json pairJson(const Results &results, const std::string &scene, const std::pair<
 
 Json summaryOf(const Plan &plan, const Results &results, const Extras &extras)
 {
-  Json cells = Json::array(), variants = Json::array(), pairs = Json::array();
+  Json cells = Json::array(), variants = Json::array(), pairs = Json::array(), scenes = Json::array(),
+       methods = Json::array();
+  for (const std::string &method : plan.methods) {
+    methods.push_back(methodJson(plan, results, method));
+  }
   for (const SceneInfo &scene : plan.scenes) {
     const std::vector<std::string> parts = results.variants(scene.id);
+    scenes.push_back(sceneJson(plan, results, scene));
     for (const std::string &method : plan.methods) {
       cells.push_back(cellJson(scene, method, results.cell(scene.id, method)));
       for (const std::string &variant : parts.size() > 1 ? parts : std::vector<std::string>()) {
@@ -123,40 +189,21 @@ Json summaryOf(const Plan &plan, const Results &results, const Extras &extras)
           {"data", "simulated arm, sensors and obstacles"},
           {"arm", plan.arm->label()},
           {"remarks", plan.remarks},
-          {"methods", plan.methods},
+          {"answer", answerOf(plan, results)},
+          {"methods", methods},
+          {"scenes", scenes},
+          {"problems", plan.problems.size()},
           {"results", cells},
           {"variants", variants},
           {"pairs", pairs},
           {"self_motion", selfMotion},
-          {"validators", validators}};
+          {"self_motion_finding", selfMotionFinding(extras.selfMotion)},
+          {"self_motion_sentence", selfMotionSentence()},
+          {"validators", validators},
+          {"validator_finding", validatorFinding(extras.validators)},
+          {"logs", logsJson(results)},
+          {"limits", limitsJson(results)}};
 }
-
-namespace
-{
-constexpr int DIGITS = 7;
-
-void cell(std::string &row, double value)
-{
-  row += ',';
-  row += vpApp::number(value, DIGITS);
-}
-
-void place(std::string &row, const Eigen::Vector3d &p)
-{
-  for (int i = 0; i < 3; ++i) {
-    cell(row, p(i));
-  }
-}
-
-std::string quoted(const std::string &text)
-{
-  std::string result = "\"";
-  for (const char c : text) {
-    result += c == '"' ? "\"\"" : std::string(1, c);
-  }
-  return result + "\"";
-}
-} // namespace
 
 std::string runsCsv(const Results &results)
 {
@@ -166,47 +213,27 @@ std::string runsCsv(const Results &results)
                     "tool_a_violations,status\n";
   for (const Record &r : results.records) {
     const vpAvoidanceMetrics &m = r.metrics;
-    std::string row = quoted(r.scene) + "," + quoted(r.variant) + "," + std::to_string(r.seed) + "," + r.method;
-    for (const double value :
-         {m.success ? 1. : 0., m.min_clearance_m, m.goal_error_m, m.duration_s, m.peak_v, m.peak_a, m.peak_jerk,
-          m.jerk_integral, m.path_length, m.replan_ms_p50, m.replan_ms_p95, m.replan_ms_p99, 1000. * r.planTime}) {
-      cell(row, value);
-    }
-    for (const int value : {m.stops, m.false_stops, m.collisions_moving, m.collisions_standing, m.joint_v_violations,
-                            m.joint_a_violations, m.tool_v_violations, m.tool_a_violations}) {
-      row += "," + std::to_string(value);
-    }
-    csv += row + "," + quoted(m.status) + "\n";
+    vpApp::CsvRow row;
+    row << r.scene << r.variant << r.seed << r.method.c_str() << m.success << m.min_clearance_m << m.goal_error_m
+        << m.duration_s << m.peak_v << m.peak_a << m.peak_jerk << m.jerk_integral << m.path_length << m.replan_ms_p50
+        << m.replan_ms_p95 << m.replan_ms_p99 << 1000. * r.planTime << m.stops << m.false_stops << m.collisions_moving
+        << m.collisions_standing << m.joint_v_violations << m.joint_a_violations << m.tool_v_violations
+        << m.tool_a_violations << m.status;
+    csv += row.line();
   }
   return csv;
 }
 
-std::string logCsv(const vpAvoidanceRun &run)
+std::string selfMotionCsv(const std::vector<SelfMotionRow> &rows)
 {
-  std::string csv = "time_s";
-  for (const char *group : {"q_", "command_"}) {
-    for (const vpArmJointSpec &joint : run.spec.arm->spec().joints) {
-      csv += std::string(",") + group + joint.name;
+  std::string csv = "index,sense,share,time_s,distance_m\n";
+  for (const SelfMotionRow &row : rows) {
+    for (std::size_t i = 0; i < row.run.samples.size(); i += SELF_MOTION_STEP) {
+      vpApp::CsvRow line;
+      line << row.index.c_str() << row.sense.c_str() << row.share << row.run.samples[i].time
+           << row.run.samples[i].distance;
+      csv += line.line();
     }
-  }
-  csv += ",tool_x_m,tool_y_m,tool_z_m,wanted_x_m,wanted_y_m,wanted_z_m,goal_x_m,goal_y_m,goal_z_m,goal_distance_m,"
-         "clearance_m,nearest,status,stopping,new_image,look_ms\n";
-  for (const vpAvoidanceSample &s : run.samples) {
-    std::string row = vpApp::number(s.time, DIGITS);
-    for (const vpJointVector *joints : {&s.q, &s.command}) {
-      for (Eigen::Index i = 0; i < joints->size(); ++i) {
-        cell(row, (*joints)(i));
-      }
-    }
-    place(row, s.tool);
-    place(row, s.wanted);
-    place(row, s.goal);
-    cell(row, s.goalDistance);
-    cell(row, s.clearance.distance);
-    row +=
-        "," + quoted(s.nearest) + "," + vpToString(s.status) + (s.stopping ? ",1" : ",0") + (s.newImage ? ",1" : ",0");
-    cell(row, 1000. * s.lookTime);
-    csv += row + "\n";
   }
   return csv;
 }
@@ -215,6 +242,8 @@ std::string logName(const std::string &scene, const std::string &method)
 {
   return "log/" + vpApp::fileName(scene) + "-" + vpApp::fileName(method) + ".csv";
 }
+
+std::string sceneName(const std::string &scene) { return "scene/" + vpApp::fileName(scene) + ".json"; }
 
 namespace
 {

@@ -4,7 +4,7 @@
  */
 /*!
  * \file resultFiles.h
- * \brief The files for other programs: summary.json, runs.csv, the logs of runs, and logs for Planner Arena.
+ * \brief The files for other programs: summary.json, the tables, and logs for Planner Arena.
  */
 #ifndef planCompare_resultFiles_h
 #define planCompare_resultFiles_h
@@ -21,10 +21,12 @@ namespace planCompare
 
 //! runs.csv: one row per run.
 [[nodiscard]] std::string runsCsv(const Results &results);
-//! Log of a run: one row per period.
-[[nodiscard]] std::string logCsv(const vpAvoidanceRun &run);
+//! self-motion.csv: the distances of S5 over time.
+[[nodiscard]] std::string selfMotionCsv(const std::vector<SelfMotionRow> &rows);
 //! File name of a log: "log/S3-planner-dtg.csv".
 [[nodiscard]] std::string logName(const std::string &scene, const std::string &method);
+//! File name of the obstacles of the shown runs of a scene: "scene/S3.json".
+[[nodiscard]] std::string sceneName(const std::string &scene);
 
 /*!
  * A log for Planner Arena: the text format of ompl::tools::Benchmark, which ompl_benchmark_statistics.py reads. The log

@@ -2,14 +2,11 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The parts of visp-plan-compare: statistics against published values, the log for Planner Arena, outlines.
+// The parts of visp-plan-compare: statistics against published values, the log for Planner Arena.
 #include "vpCatch.h"
 
 #include "findings.h"
 #include "resultFiles.h"
-#include "shapeOutline.h"
-
-#include <visp3/direct_core/vpSO3.h>
 
 #include <cmath>
 #include <random>
@@ -51,16 +48,6 @@ Results counted(Plan &plan, int both, int onlyFirst, int onlySecond, int neither
   add(onlySecond, false, true);
   add(neither, false, false);
   return results;
-}
-
-double area(const vpApp::Polygon &polygon)
-{
-  double twice = 0.;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Eigen::Vector2d &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-    twice += a.x() * b.y() - a.y() * b.x();
-  }
-  return 0.5 * twice;
 }
 } // namespace
 
@@ -201,38 +188,4 @@ TEST_CASE("The log is as OMPL's own reader wants it", "[arena]")
     CHECK(next() == ".");
   }
   CHECK_FALSE(std::getline(log, line));
-}
-
-TEST_CASE("An outline holds all of a shape and no more", "[outline]")
-{
-  auto rng = vpTestSupport::generator(5);
-  CAPTURE(vpTestSupport::seed());
-  std::uniform_real_distribution<double> uniform(-1., 1.);
-  for (int k = 0; k < 40; ++k) {
-    vpCollisionObject object;
-    object.name = "o";
-    const double radius = 0.1 + 0.05 * std::fabs(uniform(rng)), length = 0.3;
-    const Eigen::Vector3d size(0.1, 0.2, 0.3);
-    object.shape = k % 4 == 0   ? vpCollisionShape::sphere(radius)
-                   : k % 4 == 1 ? vpCollisionShape::capsule(radius, length)
-                   : k % 4 == 2 ? vpCollisionShape::box(size)
-                                : vpCollisionShape::cylinder(radius, length);
-    object.pose.p = {uniform(rng), uniform(rng), uniform(rng)};
-    object.pose.R = vpSO3::exp({2. * uniform(rng), 2. * uniform(rng), 2. * uniform(rng)});
-    for (const vpApp::ArmView view : {vpApp::ArmView::Top, vpApp::ArmView::Side}) {
-      const std::vector<vpApp::Polygon> polygons = vpApp::outline(object, view);
-      REQUIRE(polygons.size() == 1);
-      // The projected area of a convex body along the viewing direction, in closed form.
-      const Eigen::Vector3d look = view == vpApp::ArmView::Top ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX();
-      const Eigen::Vector3d d = object.pose.R.transpose() * look;
-      const double sine = std::hypot(d.x(), d.y()), cosine = std::fabs(d.z()), pi = std::acos(-1.);
-      const double shadow = k % 4 == 0   ? pi * radius * radius
-                            : k % 4 == 1 ? pi * radius * radius + 2. * radius * length * sine
-                            : k % 4 == 2 ? std::fabs(d.x()) * size.y() * size.z() +
-                                               std::fabs(d.y()) * size.x() * size.z() + cosine * size.x() * size.y()
-                                         : pi * radius * radius * cosine + 2. * radius * length * sine;
-      CAPTURE(k, shadow);
-      CHECK(area(polygons[0]) == Approx(shadow).epsilon(0.01)); // circles have 40 corners
-    }
-  }
 }

@@ -73,7 +73,8 @@ class Result:
         if "summary.json" in self.schema:
             own = {k: v for k, v in self.summary.items() if k not in ("program", "status", "files")}
             check(own, self.schema["summary.json"], str(self.folder / "summary.json"))
-        self.name = self.folder.name or str(self.folder)
+        place = self.folder.resolve()
+        self.name = place.parent.name if place.name == "unfinished-run" else place.name  # while the program writes
 
     def _load(self, name):
         path = self.folder / name

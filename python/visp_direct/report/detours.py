@@ -137,7 +137,7 @@ def add_snapshots(page, result, arm, part, table, data):
     end = max(numbers["metrics"]["duration_s"], numbers["motion_begins_s"])
     taken = [int(np.argmin(np.abs(t - time))) for time in np.linspace(numbers["motion_begins_s"], end, SNAPSHOTS)]
     rows = [
-        {"name": f"{number(t[i])} s", "colour": colour(k), "arm": 0, "t": [0], "q": [q[i].tolist()], "base": view3d.base_at(view3d.beside(0.7 * k))}
+        {"name": f"{number(t[i])} s", "colour": colour(k), "arm": 0, "t": [0], "q": [q[i].tolist()], "base": view3d.base_at(view3d.beside(0.5 * k))}
         for k, i in enumerate(taken)
     ]
     page.view(

@@ -125,7 +125,7 @@ def add_view(page, data, scene):
         sides = {"sides": [{"base": None, "run": order.index(best)}, {"base": view3d.base_at(shift), "run": order.index(worst)}]}
     page.view(
         view3d.scene([data.part], moves, parts, objects["ground"], **sides),
-        (f"{scene['shown'].capitalize()}. " if scene["shown"] else "")
+        (f"Shown: {scene['shown']}. " if scene["shown"] else "")
         + "Press Play, or move the slider"
         + ("; the menus choose the methods on the left and on the right. Lines: the ways of all methods' tools" if sides else ". Line: the way of the tool")
         + "; grey ball: start; black ball: goal. Obstacles: grey what was known from the start, brown what had to be seen. The grid has squares of 10 cm.",

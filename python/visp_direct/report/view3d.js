@@ -109,6 +109,17 @@ function vispLabel(text, child) {
 
 function vispInput(type, properties) { return Object.assign(document.createElement("input"), {type, ...properties}); }
 
+// From a centre to where all boxes are seen, in a direction. slope: half the height of the picture over its distance.
+function vispDistant(centre, direction, boxes, slope) {
+  const back = direction.clone().normalize(), right = new THREE.Vector3(0, 0, 1).cross(back).normalize(), up = back.clone().cross(right);
+  let distance = 0.3;
+  boxes.forEach(({min, max}) => [min.x, max.x].forEach((x) => [min.y, max.y].forEach((y) => [min.z, max.z].forEach((z) => {
+    const corner = new THREE.Vector3(x, y, z).sub(centre);
+    distance = Math.max(distance, corner.dot(back) + 1.1 * Math.max(Math.abs(corner.dot(up)) / slope, Math.abs(corner.dot(right)) / (1.38 * slope)));
+  }))));
+  return back.multiplyScalar(distance);
+}
+
 function vispView(figure, given) {
   const scene = {...given, arms: given.arms.map((arm) => vispArms[arm])};
   const canvas = figure.querySelector("canvas"), controls = figure.querySelector(".controls");
@@ -168,6 +179,7 @@ function vispView(figure, given) {
 
   // What there is fills the picture, seen from the front, the right and above.
   world.updateMatrixWorld(true);
+  const boxes = content.children.map((part) => new THREE.Box3().setFromObject(part)).filter((part) => !part.isEmpty());
   const box = new THREE.Box3().setFromObject(content);
   const centre = box.getCenter(new THREE.Vector3()), size = Math.max(0.2, box.getSize(new THREE.Vector3()).length());
   const grid = new THREE.GridHelper(Math.max(1, Math.ceil(size)) * 2, Math.max(1, Math.ceil(size)) * 20, "#9aa7b4", "#dde3e9");
@@ -176,7 +188,7 @@ function vispView(figure, given) {
   world.add(grid);
   world.add(new THREE.AxesHelper(0.12 * size));
   camera.up.set(0, 0, 1);
-  camera.position.copy(centre).add(new THREE.Vector3(0.75, -0.95, 0.55).multiplyScalar(size));
+  camera.position.copy(centre).add(vispDistant(centre, new THREE.Vector3(0.75, -0.95, 0.55), boxes, Math.tan(Math.PI / 9)));
   const orbit = new THREE.OrbitControls(camera, canvas);
   orbit.target.copy(centre);
   orbit.enableKeys = false;
