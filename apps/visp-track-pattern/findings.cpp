@@ -2,9 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-#include "report.h"
-
-#include "htmlReport.h"
+#include "findings.h"
 
 #include <visp3/core/vpMath.h>
 
@@ -80,67 +78,6 @@ std::string truthSentence(const RunResults &results)
     line += text(" %ld centres are more than 2 px off and not in these figures.", e.far);
   }
   return line;
-}
-
-void addTruthTable(const RunResults &results, vpApp::HtmlReport &page)
-{
-  vpApp::HtmlTable table;
-  table.header.push_back({vpApp::HtmlCell("", "left"), vpApp::HtmlCell("centres, x and y", "", 4),
-                          vpApp::HtmlCell("displacement, x and y", "", 2), vpApp::HtmlCell("wrong", "", 3)});
-  table.header.push_back({{"status"},
-                          {"number"},
-                          {"mean (px)"},
-                          {"sigma (px)"},
-                          {"error / reported sigma"},
-                          {"number"},
-                          {"sigma (px)"},
-                          {"2 px off"},
-                          {"no cell there"},
-                          {"other name"}});
-  const auto row = [&table](const char *name, const TruthErrors &e) {
-    if (e.x.n == 0) {
-      return;
-    }
-    const auto number = [](double value, const char *format) {
-      return std::isfinite(value) ? text(format, value) : std::string("-");
-    };
-    table.rows.push_back({vpApp::HtmlCell(name, "left"),
-                          {std::to_string(e.x.n)},
-                          {number(e.x.mean(), "%+.4f") + ", " + number(e.y.mean(), "%+.4f")},
-                          {number(e.x.sigma(), "%.4f") + ", " + number(e.y.sigma(), "%.4f")},
-                          {number(e.x.normalisedRms(), "%.2f") + ", " + number(e.y.normalisedRms(), "%.2f")},
-                          {std::to_string(e.dx.n)},
-                          {number(e.dx.sigma(), "%.4f") + ", " + number(e.dy.sigma(), "%.4f")},
-                          {std::to_string(e.far)},
-                          {std::to_string(e.noCell)},
-                          {std::to_string(e.slips)}});
-  };
-  row("Acquiring", results.acquiring);
-  row("Tracking", results.tracking);
-  page.table(table,
-             "Found against true. The errors over the standard deviations that the tracker reports are 1 (rms) when "
-             "these are right. Wrong: centres more than 2 px off, which are not in the other figures; cells "
-             "where there is none; cells that had another row and column before.");
-}
-
-void addSettings(const RunResults &results, const Options &options, const std::string &commandLine,
-                 vpApp::HtmlReport &page)
-{
-  std::vector<std::pair<std::string, std::string>> facts = {
-      {"Command", commandLine},
-      {"Input", results.input},
-      {"Image size", text("%u x %u px", results.width, results.height)},
-      {"Method, threshold",
-       std::string(vpToString(options.tracker.method)) + ", " + vpToString(options.tracker.threshold)}};
-  if (options.roi) {
-    facts.emplace_back("Looked only at", text("%u x %u px from (%u, %u)", options.roi->width, options.roi->height,
-                                              options.roi->x, options.roi->y));
-  }
-  if (results.calibration) {
-    facts.emplace_back("Calibration",
-                       options.calibration + text(", %.6g um a pixel", results.calibration->pixelSizeUm()));
-  }
-  page.facts(facts, "What was asked for.");
 }
 
 nlohmann::ordered_json jsonOf(const TruthErrors &e)
@@ -232,68 +169,14 @@ std::vector<std::string> findings(const RunResults &results)
   return lines;
 }
 
-std::string reportPage(const RunResults &results, const Options &options, const std::string &video,
-                       const std::string &commandLine)
+std::string deviationsCsv(const RunResults &results)
 {
-  const auto svg = [](const std::string &document) { return vpApp::dataUri("image/svg+xml", document); };
-  vpApp::HtmlReport page("Tracking of a repetitive product",
-                         text("%zu image%s of %u x %u px, %s%s", results.frames.size(), plural(results.frames.size()),
-                              results.width, results.height, results.input.c_str(),
-                              results.ending == Ending::Complete ? "" : text(" (%s)", results.endingWord()).c_str()));
-  page.section("What came out");
-  page.highlight(findings(results));
-  page.picture(vpApp::dataUri("image/png", results.picture), "an image with the cells that were found",
-               "One of the images, enlarged. Green crosses: centres of cells that were measured. Red: cells that are "
-               "there by the lattice but were not measured, because of dirt or because the pattern ends there.");
-  if (!video.empty()) {
-    page.videos({{vpApp::dataUri("video/mp4", video), "All images, as in overlay.mp4."}});
+  std::string csv = "epoch,row,column,x_px,y_px\n";
+  for (const auto &[name, deviation] : results.deviations) {
+    csv +=
+        text("%u,%d,%d,%.4f,%.4f\n", std::get<0>(name), std::get<1>(name), std::get<2>(name), deviation.x, deviation.y);
   }
-  page.section("Status");
-  page.picture(
-      svg(statusFigure(results)), "status of every image",
-      "Acquiring: looking for the lattice, or learning what a cell looks like; cells are measured by their edges "
-      "meanwhile. Tracking: all holds. Degraded: fewer cells than there should be, or restarted identities. "
-      "Lost: nothing in that image is valid.");
-  const bool moves = std::isfinite(quantile(column(results, &FrameRecord::dx), 0.5));
-  if (moves) {
-    page.section("Motion");
-    page.picture(svg(motionFigure(results)), "displacement of every image",
-                 "How far the product moved since the image before: x to the right, y down. A gap in the curve: not "
-                 "known, as where "
-                 "images are missing.");
-    if (results.hasTruth) {
-      page.picture(svg(errorFigure(results)), "error of the displacement", "The same, minus the truth.");
-    }
-  }
-  page.section("Accuracy");
-  if (results.hasTruth) {
-    addTruthTable(results, page);
-  }
-  if (std::isfinite(quantile(column(results, &FrameRecord::sigmaX), 0.5))) {
-    page.picture(svg(sigmaFigure(results)), "standard deviations per image",
-                 "What the tracker expects its errors to be, from the noise of each image, after learning. It knows "
-                 "nothing of errors that all images share, such as those of the lens.");
-  }
-  const DeviationMap map = deviationMap(results);
-  if (!map.svg.empty()) {
-    page.section("How regular the product is");
-    page.picture(svg(map.svg), "map of the deviations from the lattice",
-                 text("Where the %zu cells lie off the regular lattice. Grey dots: the lattice, as on the product, not "
-                      "turned. Blue: the cells, their deviations drawn %g times as long; the bar shows the scale. Root "
-                      "mean square: %.3f px along the rows, %.3f px across.",
-                      map.cells, map.factor, map.rmsX, map.rmsY));
-  }
-  page.section("Time");
-  page.picture(
-      svg(timeFigure(results)), "histogram of the time per image",
-      "Time of the tracker alone, without reading and drawing. The slow images are those in which it searches or "
-      "learns; the two per cent that took longest may lie outside.");
-  page.section("Settings");
-  addSettings(results, options, commandLine, page);
-  page.paragraph(
-      "Beside this page: cells.csv (every cell of every image), motion.csv (every image), summary.json. Their "
-      "columns are described in data/pattern/README.md.");
-  return page.html();
+  return csv;
 }
 
 nlohmann::ordered_json summaryOf(const RunResults &results, const Options &options, const std::string &commandLine)
@@ -305,6 +188,7 @@ nlohmann::ordered_json summaryOf(const RunResults &results, const Options &optio
                                  {"image", {{"width", results.width}, {"height", results.height}}},
                                  {"method", vpToString(options.tracker.method)},
                                  {"threshold", vpToString(options.tracker.threshold)},
+                                 {"roi", nullptr},
                                  {"images", results.frames.size()},
                                  {"images_by_status",
                                   {{"acquiring", results.count(vpPatternStatus::Acquiring)},
@@ -322,6 +206,9 @@ nlohmann::ordered_json summaryOf(const RunResults &results, const Options &optio
                                  {"sigma_dx_px", spread(column(results, &FrameRecord::sigmaDx))},
                                  {"sigma_dy_px", spread(column(results, &FrameRecord::sigmaDy))},
                                  {"microseconds", spread(column(results, &FrameRecord::microseconds))}};
+  if (options.roi) {
+    json["roi"] = {options.roi->x, options.roi->y, options.roi->width, options.roi->height};
+  }
   if (results.hasTruth) {
     json["errors"] = {{"acquiring", jsonOf(results.acquiring)}, {"tracking", jsonOf(results.tracking)}};
   }

@@ -3,14 +3,13 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 // visp-track-pattern: cell centres and motion of a repetitive product, from images, a video or a camera.
-#include "report.h"
+#include "findings.h"
 #include "trackRun.h"
 
 #include "appMain.h"
 #include "outputFolder.h"
-#include "plot.h"
+#include "report.h"
 
-#include <filesystem>
 #include <iostream>
 #include <stdexcept>
 
@@ -18,34 +17,20 @@ namespace
 {
 using namespace trackPattern;
 
-constexpr std::uintmax_t LARGEST_SHOWN_VIDEO = 12U << 20U; // bytes; a larger one would make the page slow
-
-std::string videoFor(const Options &options, vpApp::OutputFolder &out)
-{
-  if (options.overlay != OverlayKind::Mp4) {
-    return "";
-  }
-  const std::string file = out.file("overlay.mp4");
-  std::error_code ignored;
-  const std::uintmax_t size = std::filesystem::file_size(file, ignored);
-  return !ignored && size < LARGEST_SHOWN_VIDEO ? vpApp::readFile(file) : "";
-}
-
 void writeResult(const Options &options, const RunResults &results, vpApp::OutputFolder &out,
                  const std::string &commandLine)
 {
-  out.write("report.html", reportPage(results, options, videoFor(options, out), commandLine));
-  out.writeSummary(summaryOf(results, options, commandLine));
-  out.commit();
+  out.write("picture.png", results.picture);
+  out.write("deviations.csv", deviationsCsv(results));
+  const std::string made = vpApp::finishWithReport(out, summaryOf(results, options, commandLine), true);
   for (const std::string &line : findings(results)) {
     std::cout << line << "\n";
   }
-  std::cout << "Report: " << (std::filesystem::path(options.out) / "report.html").string() << std::endl;
+  std::cout << made << std::endl;
 }
 
 int track(const Options &options, const std::string &commandLine)
 {
-  vpApp::requireGnuplot();
   const Input input = openInput(options);
   vpApp::OutputFolder out("visp-track-pattern", options.out);
   RunResults results;

@@ -100,10 +100,9 @@ struct RunResults {
   TruthErrors acquiring, tracking;                                        //!< Before and after the template is learned.
   std::map<std::tuple<unsigned int, int, int>, CellDeviation> deviations; //!< By epoch, row, column.
   vpPatternLattice lattice;                                               //!< Lattice of the last image with one.
-  std::string picture; //!< PNG of the overlay of a typical image; empty: none.
-  std::string pictureCaption;
-  std::optional<vpMicroscopeCalibration> calibration;      //!< Calibration in use.
-  std::optional<vpMicroscopeCalibrationResult> calibrated; //!< Calibration made by this run.
+  std::string picture;                                                    //!< PNG of the overlay of a typical image.
+  std::optional<vpMicroscopeCalibration> calibration;                     //!< Calibration in use.
+  std::optional<vpMicroscopeCalibrationResult> calibrated;                //!< Calibration made by this run.
   std::size_t calibrationViews = 0;
 
   //! "complete", "interrupted" or "incomplete", for files.

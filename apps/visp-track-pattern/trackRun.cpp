@@ -109,7 +109,8 @@ public:
     : m_um(um), m_cells(out, "cells.csv",
                         std::string("frame,row,column,x,y,sigma_x,sigma_y,valid,epoch") + (um ? ",x_um,y_um" : "")),
       m_motion(out, "motion.csv",
-               std::string("frame,dx,dy,sigma,status,microseconds,sigma_dx,sigma_dy,reason,epoch,valid_cells") +
+               std::string("frame,dx,dy,sigma,status,microseconds,sigma_dx,sigma_dy,reason,epoch,valid_cells,sigma_x,"
+                           "sigma_y,true_dx,true_dy") +
                    (um ? ",dx_um,dy_um" : ""))
   {}
   void add(const vpPatternFrame &frame, const FrameRecord &record, double left, double top,
@@ -125,9 +126,10 @@ public:
       m_cells.add(line);
     }
     std::string line =
-        text("%u,%.5f,%.5f,%.5f,%s,%.2f,%.5f,%.5f,%s,%u,%d", record.number, plain(record.dx), plain(record.dy),
-             plain(std::hypot(record.sigmaDx, record.sigmaDy)), vpToString(record.status), record.microseconds,
-             plain(record.sigmaDx), plain(record.sigmaDy), reasonWord(record.reason), record.epoch, record.validCells);
+        text("%u,%.5f,%.5f,%.5f,%s,%.2f,%.5f,%.5f,%s,%u,%d,%.5f,%.5f,%.5f,%.5f", record.number, plain(record.dx),
+             plain(record.dy), plain(std::hypot(record.sigmaDx, record.sigmaDy)), vpToString(record.status),
+             record.microseconds, plain(record.sigmaDx), plain(record.sigmaDy), reasonWord(record.reason), record.epoch,
+             record.validCells, plain(record.sigmaX), plain(record.sigmaY), plain(record.trueDx), plain(record.trueDy));
     if (m_um) {
       line += text(",%.5f,%.5f", plain(record.dxUm), plain(record.dyUm));
     }

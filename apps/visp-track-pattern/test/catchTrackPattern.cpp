@@ -2,11 +2,11 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The parts: truth, calibrations as files, comparison, figures.
+// The parts: truth, calibrations as files, comparison, tables.
 #include "vpCatch.h"
 
 #include "calibration.h"
-#include "report.h"
+#include "findings.h"
 #include "testFolder.h"
 #include "truth.h"
 
@@ -185,25 +185,14 @@ TEST_CASE("views for a calibration are kept evenly, whatever the length", "[visp
         }).find("--calibrate: in no image the product was tracked with at least 6 cells") == 0);
 }
 
-TEST_CASE("quantiles and the map of deviations", "[visp-track-pattern]")
+TEST_CASE("quantiles, and the table of deviations", "[visp-track-pattern]")
 {
   CHECK(quantile({3., NAN, 1., 2.}, 0.5) == 2.);
   CHECK(quantile({3., 1., 2.}, 1.) == 3.);
   CHECK(quantile({10., 9., 8., 7., 6., 5., 4., 3., 2., 1.}, 0.5) == 5.5); // was 6
   CHECK(std::isnan(quantile({NAN}, 0.5)));
   RunResults results;
-  CHECK(deviationMap(results).svg.empty());
-  results.lattice.columnPitchX = 40.;
-  results.lattice.rowPitchY = 20.;
-  for (int i = 0; i < 12; ++i) {
-    results.deviations[{1U, i / 4, i % 4}] = {0.3, i % 2 == 0 ? 0.4 : -0.4};
-  }
-  results.deviations[{0U, 0, 0}] = {9., 9.}; // an epoch with fewer cells
-  const DeviationMap map = deviationMap(results);
-  CHECK(map.cells == 12);
-  CHECK(map.rmsX == Approx(0.3));
-  CHECK(map.rmsY == Approx(0.4));
-  CHECK(map.factor == 20.); // 0.8 * 20 / 0.4 = 40, and 1, 2 or 5 times a power of ten below
-  CHECK(map.svg.find("NaN") == std::string::npos);
-  CHECK(map.svg.find("nan") == std::string::npos);
+  results.deviations[{1U, -2, 3}] = {0.3, -0.4};
+  results.deviations[{0U, 0, 0}] = {9., 9.};
+  CHECK(deviationsCsv(results) == "epoch,row,column,x_px,y_px\n0,0,0,9.0000,9.0000\n1,-2,3,0.3000,-0.4000\n");
 }
