@@ -21,14 +21,14 @@ namespace
 constexpr const char *ABOUT =
     R"(Bring an arm to a goal past obstacles that the camera in its hand sees: pictures of real photographs are rendered,
 obstacles are found in them, tracked, put into the scene that the method knows, and the drives of a simulated arm follow
-what the method commands. The result is a folder with report.html (open it in a browser), samples.csv, tracks.csv,
-frames.csv and summary.json.)";
+what the method commands. The result is a folder with report.html (open it in a browser; python3 -m
+visp_direct.report A B shows several side by side), samples.csv, tracks.csv, frames.csv, views.csv and summary.json.)";
 
 constexpr const char *EXAMPLES = R"(Examples:
   visp-avoid-obstacle
       past a box that stands in the way of AMOR's tool
   visp-avoid-obstacle --method planner-dtg --hide 0.5:1.2 --record
-      another method, the camera covered for a while, with a video
+      another method, the camera covered for a while, with a video of its view
   visp-avoid-obstacle --scene my-scene.json --sensor depth
       your own scene: data/scene/README.md has the fields; depth and poses need no photographs
   visp-avoid-obstacle --robot my-arm.urdf --robot-tip tool0 --camera-link camera --srdf my-arm.srdf
@@ -104,7 +104,7 @@ void addOptions(vpApp::CommandLine &line, Options &options)
   line.whole("--seed", options.seed, {1, 1e6}, "N", "Seed of all noise and of planners");
   line.text("--replica", options.replica, "NAME", "A figure of the thesis, fig8.6 to fig8.13, see --list");
   line.text("--out", options.out, "DIR", "Result folder");
-  line.flag("--record", options.record, "Write a video: the camera's view beside the arm");
+  line.flag("--record", options.record, "Write a video of what the camera sees");
   line.flag("--display", options.display, "Show the same in a window; needs a screen");
   line.flag("--list", options.list, "Name the methods and replicas, a sentence each, and end");
   vpApp::addRobotOptions(line, options.robot,

@@ -128,7 +128,8 @@ def map_figure(places, deviations, factor):
         axes.invert_yaxis()
         legend_above(axes)
 
-    return Figure(draw, 1, 4.5)
+    width, height = np.maximum(np.ptp(places, axis=0), 1)
+    return Figure(draw, 1, float(np.clip(8 * height / width + 1, 2, 5)))
 
 
 def errors_row(name, e):
