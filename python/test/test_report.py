@@ -71,7 +71,7 @@ def run(program, *arguments, **environment):
     """Runs a program in OUT, once; its result folder, and what it said."""
     if not (BIN / program).is_file():
         pytest.skip(f"{program} is not built")
-    folder = OUT / f"{name_of((program, *arguments))}-{len(environment)}"
+    folder = OUT / f"{name_of((program, *arguments))}-{len(arguments)}-{len(environment)}"
     shutil.rmtree(folder, ignore_errors=True)
     done = subprocess.run(
         [BIN / program, *arguments, "--out", folder], capture_output=True, text=True, env={**os.environ, **environment}
@@ -269,6 +269,18 @@ def test_results_side_by_side(tmp_path):
     (tmp_path / "summary.json").write_text("{")
     made = subprocess.run([sys.executable, "-m", "visp_direct.report", tmp_path], capture_output=True, text=True)
     assert made.returncode == 1 and "summary.json: is not valid JSON" in made.stderr and made.stderr.count("\n") == 1
+
+
+def test_two_runs_stand_beside_each_other():
+    """One sees the obstacle, the other, whose camera is covered, knows none."""
+    folders = [run("visp-avoid-obstacle", "--sensor=poses", *more, "--duration=0.6")[0] for more in ((), ("--hide=0:9",))]
+    made = subprocess.run([sys.executable, "-m", "visp_direct.report", *folders, "--paper"], capture_output=True, text=True)
+    assert made.returncode == 0 and "Warning" not in made.stderr, made.stderr
+    page = (folders[0] / "report.html").read_text()
+    scene = json.loads(re.search(r"vispView\(document.getElementById\(\"view0\"\), (.*)\);</script>", page).group(1))
+    assert [name["name"] for name in scene["runs"]] == [folder.name for folder in folders]
+    assert len(scene["arms"]) == 2 and np.linalg.norm([row[3] for row in scene["runs"][1]["base"][:3]]) > 0.8
+    assert "nothing was ever seen" in page and len(list((folders[0] / "paper").iterdir())) == 8
 
 
 def test_meshes_keep_their_shape(random):

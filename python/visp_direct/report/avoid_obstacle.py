@@ -7,13 +7,13 @@ import numpy as np
 
 from . import runs, view3d
 from .page import Page, counted, number
-from .plots import Figure, colour, legend_above
+from .plots import Figure, colour, legend_above, logarithmic_if_flat
 
 SHEET = 6  # pictures of the camera in the page, beside those in the 3D view
 
 
 def scene_of(results):
-    """The runs beside each other, each with its obstacles, and what the camera of the first one saw. Also sentences."""
+    """The runs beside each other, each with its obstacles, and what the camera saw if there is one run. Also sentences."""
     datas = [(result.json("arm.json"), result.json("scene.json"), result.table("samples.csv")) for result in results]
     room = runs.room_of([table for *_, table in datas], [item for _, data, _ in datas for item in data["objects"]])
     arms, moves, objects, missing = [], [], [], []
@@ -28,7 +28,7 @@ def scene_of(results):
             if item["kind"] != "octree":  # a map is kept as a dot
                 objects.append(view3d.shifted({**view3d.object_of(item, result.folder), "colour": "#c00000", "wire": True}, shift))
         missing += lost + gone
-    return view3d.scene(arms, moves, objects, datas[0][1]["ground"], **pictures_of(results[0])), missing
+    return view3d.scene(arms, moves, objects, datas[0][1]["ground"], **(pictures_of(results[0]) if len(results) == 1 else {})), missing
 
 
 def pictures_of(result):
@@ -58,7 +58,8 @@ def tracks_figure(tracks, frames):
 
     def draw(panels):
         for i, name in enumerate(names):
-            rows, seen = columns["object"] == name, (sights["object"] == name) & (sights["seen"] == 1)
+            rows = np.array([other == name for other in tracks["object"]], bool)
+            seen = np.array([other == name and found == 1 for other, found in zip(frames["object"], frames["seen"])], bool)
             t, shade = columns["time_s"][rows].astype(float), colour(i)
             if seen.any():
                 panels[0].plot(
@@ -71,7 +72,10 @@ def tracks_figure(tracks, frames):
             panels[0].plot(*runs.thinned(t, 1000 * columns["inflation_m"][rows].astype(float)), "--", color=shade, linewidth=1, label=f"{name}, inflation")
             panels[1].plot(*runs.thinned(t, rate), color=shade)
             panels[2].plot(*runs.thinned(t, columns["confidence"][rows].astype(float), np.min), color=shade)
-        for axes, label in zip(panels, ("error, inflation (mm)", "speed (m/s)", "confidence")):
+        if not len(columns["time_s"]):
+            panels[0].plot([], [], " ", label="nothing was ever seen")
+        logarithmic_if_flat(panels[0], 1000 * columns["error_m"].astype(float), 1000 * columns["inflation_m"].astype(float))
+        for axes, label in zip(panels, ("error (mm)", "speed (m/s)", "confidence")):
             axes.set(ylabel=label, ylim=(0, None))
         panels[-1].set_xlabel("time (s)")
         legend_above(panels[0], 3)
@@ -243,8 +247,7 @@ def page(results):
         scene,
         "Press Play, or move the slider. Line: the way of the tool; grey ball: start; black ball: goal. Obstacles: grey what was known from the start, "
         "brown what had to be seen; red wire: as the track table had it in the end, with its uncertainty. The grid has squares of 10 cm."
-        + (" The picture is what the camera saw then." if "pictures" in scene and not several else
-           f" The picture is what the camera of {results[0].name} saw." if "pictures" in scene else ""),
+        + (" The picture is what the camera saw then." if "pictures" in scene else ""),
     )
     page.items(missing)
     for result in results:

@@ -82,8 +82,9 @@ class Figure:
 
 
 def legend_above(axes, columns=4):
-    """Legend between title and axes."""
+    """Legend between title and axes; half the columns in a narrow figure."""
     handles, labels = axes.get_legend_handles_labels()
+    columns = columns if axes.figure.get_figwidth() > 2 * COLUMN else max(1, columns // 2)
     if handles:
         axes.legend(
             handles,

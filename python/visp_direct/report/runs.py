@@ -89,7 +89,7 @@ def times_figure(curves, limits):
         level(panels[0], limits[0], "bound")
         level(panels[1], limits[1], None)
         level(panels[2], 0, None)
-        for axes, name in zip(panels, ("tool (m/s)", "tool (m/s²)", "clearance (mm)", "from the goal (mm)")):
+        for axes, name in zip(panels, ("tool (m/s)", "tool (m/s²)", "clearance (mm)", "to goal (mm)")):
             axes.set_ylabel(name)
         panels[-1].set_xlabel("time (s)")
         legend_above(panels[0])

@@ -35,7 +35,7 @@ def status_figure(motion):
         axes.grid(False)
         legend_above(axes)
 
-    return Figure(draw, 1, 0.7)
+    return Figure(draw, 1, 1.0)
 
 
 def motion_figure(motion):
