@@ -21,6 +21,9 @@ using M = vpAvoidanceMetrics;
 
 constexpr double SIGNIFICANT = 0.05;
 
+//! "17 of 20".
+std::string countText(int part, std::size_t all) { return std::to_string(part) + " of " + std::to_string(all); }
+
 std::string nameOf(const std::string &method)
 {
   const MethodInfo info = methodInfo(method);
@@ -115,8 +118,6 @@ std::string heroOf(const Plan &plan, const Results &results, const std::string &
   }
   return best;
 }
-
-std::string countText(int part, std::size_t all) { return std::to_string(part) + " of " + std::to_string(all); }
 
 std::vector<std::string> answerOf(const Plan &plan, const Results &results)
 {

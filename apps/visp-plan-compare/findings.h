@@ -26,8 +26,6 @@ namespace planCompare
 [[nodiscard]] std::string validatorFinding(const std::vector<ValidatorRow> &rows);
 //! Result of S5; empty without it.
 [[nodiscard]] std::string selfMotionFinding(const std::vector<SelfMotionRow> &rows);
-//! "17 of 20".
-[[nodiscard]] std::string countText(int part, std::size_t all);
 } // namespace planCompare
 
 #endif

@@ -90,21 +90,24 @@ def test_the_map_shows_the_epoch_with_most_cells(random):
 
 
 def test_schema_of_several_and_optional_files(tmp_path, monkeypatch):
-    schema = {"summary.json": {}, "log/*.csv": {"t": "number", "q_*": "number", "q_mean": "number", "word": "text", "um?": "number"}, "more.json?": {"x": "number"}}
+    schema = {"summary.json": {}, "log/*.csv": {"t": "number", "q_*": "number", "word": "text", "q_mean": "number", "um?": "number"}, "more.json?": {"x": "number"}}
     monkeypatch.setitem(data.SCHEMA, "visp-x", schema)
     (tmp_path / "summary.json").write_text('{"program": "visp-x"}')
     result = data.Result(tmp_path)
     with pytest.raises(data.DataError, match=r"log/\*\.csv: is missing"):
         result.files()
     (tmp_path / "log").mkdir()
-    (tmp_path / "log/a.csv").write_text("t,q_a,q_b,q_mean,word\n1,2,,4,yes\n")
-    (tmp_path / "log/b.csv").write_text("t,q_mean,word,um\n1,4,no,5\n")
+    (tmp_path / "log/a.csv").write_text("t,q_a,q_b,word,q_mean\n1,2,,yes,4\n")
+    (tmp_path / "log/b.csv").write_text("t,word,q_mean,um\n1,no,4,5\n")
     assert result.files() == ["log/a.csv", "log/b.csv"]
     first = result.table("log/a.csv")
-    assert list(first) == ["t", "q_a", "q_b", "q_mean", "word"] and np.isnan(first["q_b"][0]) and first["word"] == ["yes"]
+    assert list(first) == ["t", "q_a", "q_b", "word", "q_mean"] and np.isnan(first["q_b"][0]) and first["word"] == ["yes"]
     assert result.table("log/b.csv")["um"] == [5.0]
-    (tmp_path / "log/c.csv").write_text("t,q_a,word,q_mean\n")
-    with pytest.raises(data.DataError, match="has the columns t,q_a,word,q_mean, must have t,q_a,q_mean,word"):
+    (tmp_path / "log/c.csv").write_text("t,q_a,q_mean,word\n")
+    with pytest.raises(data.DataError, match="has the columns t,q_a,q_mean,word, must have t,q_a,word,q_mean"):
+        result.table("log/c.csv")
+    (tmp_path / "log/c.csv").write_text("t,word,q_mean\n1,no\n")
+    with pytest.raises(data.DataError, match="log/c.csv:2: has 2 cells, must have 3"):
         result.table("log/c.csv")
     (tmp_path / "more.json").write_text(json.dumps({"x": "1"}))
     with pytest.raises(data.DataError, match="more.json.x is \"1\", must be number"):
