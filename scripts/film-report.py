@@ -38,9 +38,16 @@ def main():
     page = options.report.read_text(encoding="utf-8")
     options.folder.mkdir(parents=True, exist_ok=True)
     probed = options.folder / "film.html"
-    probed.write_text(page.replace("</body>", PROBE.replace("RATE", str(options.rate)).replace("VIEW", str(options.view))), encoding="utf-8")
+    probed.write_text(
+        page.replace("</body>", PROBE.replace("RATE", str(options.rate)).replace("VIEW", str(options.view))),
+        encoding="utf-8",
+    )
     browser = "chromium --headless --no-sandbox --use-gl=angle --use-angle=swiftshader --enable-unsafe-swiftshader --virtual-time-budget=60000"
-    dumped = subprocess.run([*browser.split(), "--window-size=1000,900", "--dump-dom", probed.resolve().as_uri()], capture_output=True, text=True)
+    dumped = subprocess.run(
+        [*browser.split(), "--window-size=1000,900", "--dump-dom", probed.resolve().as_uri()],
+        capture_output=True,
+        text=True,
+    )
     probed.unlink()
     film = re.search(r'<pre id="film">(\[.*?\])</pre>', dumped.stdout, re.S)
     if not film:

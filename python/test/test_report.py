@@ -150,8 +150,13 @@ def known_place(folder, call):
     return [table[f"q_{joint['name']}"][-1] for joint in joints], [table[f"tool_{axis}_m"][-1] for axis in "xyz"]
 
 
-@pytest.mark.parametrize("call", PROGRAMS, ids=name_of)
-@pytest.mark.parametrize("width", [1200, 390])
+# On a phone once for each program.
+PAGES = [(call, 1200) for call in PROGRAMS] + [
+    (call, 390) for call in {call[0]: call for call in PROGRAMS[::-1]}.values()
+]
+
+
+@pytest.mark.parametrize("call, width", PAGES, ids=[f"{name_of(call)}-{width}" for call, width in PAGES])
 def test_report_opens_without_an_error(call, width):
     """No message in the console; the 3D canvas has a picture that a slider changes; nothing is wider than the window."""
     if CHROMIUM is None:
@@ -159,7 +164,9 @@ def test_report_opens_without_an_error(call, width):
     folder, said = run(*call)
     assert "without a report" not in said
     page = (folder / "report.html").read_text()
-    assert len(page) < 6e6 and "e+0" not in re.sub(r"<script.*?</script>|<svg.*?</svg>|src=\"data:[^\"]*\"", "", page, flags=re.S)
+    assert len(page) < 6e6 and "e+0" not in re.sub(
+        r"<script.*?</script>|<svg.*?</svg>|src=\"data:[^\"]*\"", "", page, flags=re.S
+    )
     assert "http" not in re.sub(r"http://www.w3.org/\S+|<script>.*?</script>", "", page, flags=re.S)
     probe = """<pre id="verdict"></pre><script>
 window.addEventListener("load", () => setTimeout(() => {
@@ -222,7 +229,9 @@ window.addEventListener("load", () => setTimeout(() => {
         and sorted(verdict["sorted"]) == sorted(verdict["unsorted"])
     )
     if q:  # the page moves the arm as the library does
-        assert verdict["views"] and all(view["colours"] > 20 and view["moved"] in (None, *range(20, 5000)) for view in verdict["views"]), verdict
+        assert verdict["views"] and all(
+            view["colours"] > 20 and view["moved"] in (None, *range(20, 5000)) for view in verdict["views"]
+        ), verdict
         np.testing.assert_allclose(verdict["views"][0]["tool"], tool, atol=1e-9 if call[0] == "visp-arm" else 1e-5)
     if call[0] == "visp-plan-compare":
         changed, same = verdict["views"][0]["chosen"]
@@ -273,8 +282,12 @@ def test_results_side_by_side(tmp_path):
 
 def test_two_runs_stand_beside_each_other():
     """One sees the obstacle, the other, whose camera is covered, knows none."""
-    folders = [run("visp-avoid-obstacle", "--sensor=poses", *more, "--duration=0.6")[0] for more in ((), ("--hide=0:9",))]
-    made = subprocess.run([sys.executable, "-m", "visp_direct.report", *folders, "--paper"], capture_output=True, text=True)
+    folders = [
+        run("visp-avoid-obstacle", "--sensor=poses", *more, "--duration=0.6")[0] for more in ((), ("--hide=0:9",))
+    ]
+    made = subprocess.run(
+        [sys.executable, "-m", "visp_direct.report", *folders, "--paper"], capture_output=True, text=True
+    )
     assert made.returncode == 0 and "Warning" not in made.stderr, made.stderr
     page = (folders[0] / "report.html").read_text()
     scene = json.loads(re.search(r"vispView\(document.getElementById\(\"view0\"\), (.*)\);</script>", page).group(1))

@@ -61,7 +61,16 @@ def test_cubes_are_closed_and_of_their_size(random):
 
 def test_obstacles_stand_beside_each_other():
     track = {"t": [0, 1], "p": [[0, 0, 0], [1, 0, 0]]}
-    item = {"name": "o", "kind": "capsule", "radius": 0.1, "length": 0.4, "pose": np.eye(4).tolist(), "known": False, "there_s": [0.5, None], "track": track}
+    item = {
+        "name": "o",
+        "kind": "capsule",
+        "radius": 0.1,
+        "length": 0.4,
+        "pose": np.eye(4).tolist(),
+        "known": False,
+        "there_s": [0.5, None],
+        "track": track,
+    }
     wall = {"name": "w", "kind": "mesh", "file": "no.stl", "pose": np.eye(4).tolist(), "known": True}
     parts, missing = view3d.objects_of({"objects": [item, wall]}, pathlib.Path("/nowhere"), [1, 2, 3])
     assert len(parts) == 1 and len(missing) == 1 and missing[0].startswith("w: is not shown: ")
@@ -72,7 +81,11 @@ def test_obstacles_stand_beside_each_other():
 
 def test_the_map_shows_the_epoch_with_most_cells(random):
     lattice = {"column_pitch_px": 40.0, "row_pitch_px": 20.0, "angle_deg": 0.0}
-    table = {"epoch": [1.0] * 12 + [0.0], "row": [i // 4 for i in range(12)] + [0], "column": [i % 4 for i in range(12)] + [0]}
+    table = {
+        "epoch": [1.0] * 12 + [0.0],
+        "row": [i // 4 for i in range(12)] + [0],
+        "column": [i % 4 for i in range(12)] + [0],
+    }
     table |= {"x_px": [0.3] * 12 + [9.0], "y_px": [0.4, -0.4] * 6 + [9.0]}
     places, deviations, factor = deviation_map(table, lattice)
     assert len(places) == 12 and np.abs(deviations).mean(axis=0) == pytest.approx([0.3, 0.4])
@@ -90,7 +103,11 @@ def test_the_map_shows_the_epoch_with_most_cells(random):
 
 
 def test_schema_of_several_and_optional_files(tmp_path, monkeypatch):
-    schema = {"summary.json": {}, "log/*.csv": {"t": "number", "q_*": "number", "word": "text", "q_mean": "number", "um?": "number"}, "more.json?": {"x": "number"}}
+    schema = {
+        "summary.json": {},
+        "log/*.csv": {"t": "number", "q_*": "number", "word": "text", "q_mean": "number", "um?": "number"},
+        "more.json?": {"x": "number"},
+    }
     monkeypatch.setitem(data.SCHEMA, "visp-x", schema)
     (tmp_path / "summary.json").write_text('{"program": "visp-x"}')
     result = data.Result(tmp_path)
@@ -101,7 +118,9 @@ def test_schema_of_several_and_optional_files(tmp_path, monkeypatch):
     (tmp_path / "log/b.csv").write_text("t,word,q_mean,um\n1,no,4,5\n")
     assert result.files() == ["log/a.csv", "log/b.csv"]
     first = result.table("log/a.csv")
-    assert list(first) == ["t", "q_a", "q_b", "word", "q_mean"] and np.isnan(first["q_b"][0]) and first["word"] == ["yes"]
+    assert (
+        list(first) == ["t", "q_a", "q_b", "word", "q_mean"] and np.isnan(first["q_b"][0]) and first["word"] == ["yes"]
+    )
     assert result.table("log/b.csv")["um"] == [5.0]
     (tmp_path / "log/c.csv").write_text("t,q_a,q_mean,word\n")
     with pytest.raises(data.DataError, match="has the columns t,q_a,q_mean,word, must have t,q_a,word,q_mean"):
@@ -110,5 +129,5 @@ def test_schema_of_several_and_optional_files(tmp_path, monkeypatch):
     with pytest.raises(data.DataError, match="log/c.csv:2: has 2 cells, must have 3"):
         result.table("log/c.csv")
     (tmp_path / "more.json").write_text(json.dumps({"x": "1"}))
-    with pytest.raises(data.DataError, match="more.json.x is \"1\", must be number"):
+    with pytest.raises(data.DataError, match='more.json.x is "1", must be number'):
         result.json("more.json")

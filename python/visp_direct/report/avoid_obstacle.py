@@ -14,10 +14,10 @@ SHEET = 6  # pictures of the camera in the page, beside those in the 3D view
 
 def scene_of(results):
     """The runs beside each other, each with its obstacles, and what the camera saw if there is one run. Also sentences."""
-    datas = [(result.json("arm.json"), result.json("scene.json"), result.table("samples.csv")) for result in results]
-    room = runs.room_of([table for *_, table in datas], [item for _, data, _ in datas for item in data["objects"]])
+    loaded = [(result.json("arm.json"), result.json("scene.json"), result.table("samples.csv")) for result in results]
+    room = runs.room_of([table for *_, table in loaded], [item for _, data, _ in loaded for item in data["objects"]])
     arms, moves, objects, missing = [], [], [], []
-    for i, (result, (arm, data, table)) in enumerate(zip(results, datas)):
+    for i, (result, (arm, data, table)) in enumerate(zip(results, loaded)):
         shift = view3d.beside(i * room) if i else None
         part, lost = view3d.arm_of(arm, result.folder)
         things, gone = view3d.objects_of(data, result.folder, shift)
@@ -26,9 +26,16 @@ def scene_of(results):
         objects += things + runs.marks_of(table, shift)
         for item in data.get("believed", []):
             if item["kind"] != "octree":  # a map is kept as a dot
-                objects.append(view3d.shifted({**view3d.object_of(item, result.folder), "colour": "#c00000", "wire": True}, shift))
+                objects.append(
+                    view3d.shifted({**view3d.object_of(item, result.folder), "colour": "#c00000", "wire": True}, shift)
+                )
         missing += lost + gone
-    return view3d.scene(arms, moves, objects, datas[0][1]["ground"], **(pictures_of(results[0]) if len(results) == 1 else {})), missing
+    return (
+        view3d.scene(
+            arms, moves, objects, loaded[0][1]["ground"], **(pictures_of(results[0]) if len(results) == 1 else {})
+        ),
+        missing,
+    )
 
 
 def pictures_of(result):
@@ -59,22 +66,41 @@ def tracks_figure(tracks, frames):
     def draw(panels):
         for i, name in enumerate(names):
             rows = np.array([other == name for other in tracks["object"]], bool)
-            seen = np.array([other == name and found == 1 for other, found in zip(frames["object"], frames["seen"])], bool)
+            seen = np.array(
+                [other == name and found == 1 for other, found in zip(frames["object"], frames["seen"])], bool
+            )
             t, shade = columns["time_s"][rows].astype(float), colour(i)
             if seen.any():
                 panels[0].plot(
-                    sights["time_s"][seen], 1000 * sights["error_m"][seen].astype(float), ".", color=shade, markersize=3, label=f"{name}, error of sightings"
+                    sights["time_s"][seen],
+                    1000 * sights["error_m"][seen].astype(float),
+                    ".",
+                    color=shade,
+                    markersize=3,
+                    label=f"{name}, error of sightings",
                 )
             if not rows.any():
                 continue
             rate = np.linalg.norm([columns[f"velocity_{axis}_mps"][rows].astype(float) for axis in "xyz"], axis=0)
-            panels[0].plot(*runs.thinned(t, 1000 * columns["error_m"][rows].astype(float)), color=shade, label=f"{name}, error of track")
-            panels[0].plot(*runs.thinned(t, 1000 * columns["inflation_m"][rows].astype(float)), "--", color=shade, linewidth=1, label=f"{name}, inflation")
+            panels[0].plot(
+                *runs.thinned(t, 1000 * columns["error_m"][rows].astype(float)),
+                color=shade,
+                label=f"{name}, error of track",
+            )
+            panels[0].plot(
+                *runs.thinned(t, 1000 * columns["inflation_m"][rows].astype(float)),
+                "--",
+                color=shade,
+                linewidth=1,
+                label=f"{name}, inflation",
+            )
             panels[1].plot(*runs.thinned(t, rate), color=shade)
             panels[2].plot(*runs.thinned(t, columns["confidence"][rows].astype(float), np.min), color=shade)
         if not len(columns["time_s"]):
             panels[0].plot([], [], " ", label="nothing was ever seen")
-        logarithmic_if_flat(panels[0], 1000 * columns["error_m"].astype(float), 1000 * columns["inflation_m"].astype(float))
+        logarithmic_if_flat(
+            panels[0], 1000 * columns["error_m"].astype(float), 1000 * columns["inflation_m"].astype(float)
+        )
         for axes, label in zip(panels, ("error (mm)", "speed (m/s)", "confidence")):
             axes.set(ylabel=label, ylim=(0, None))
         panels[-1].set_xlabel("time (s)")
@@ -99,7 +125,17 @@ def joints_figure(table, arm):
 
 def comparison(page, results):
     page.table(
-        ["result", "method", "arrived", "duration (s)", "from the goal (mm)", "least clearance (mm)", "speed (m/s)", "acceleration (m/s²)", "stops"],
+        [
+            "result",
+            "method",
+            "arrived",
+            "duration (s)",
+            "from the goal (mm)",
+            "least clearance (mm)",
+            "speed (m/s)",
+            "acceleration (m/s²)",
+            "stops",
+        ],
         [
             [
                 result.name,
@@ -122,7 +158,10 @@ def comparison(page, results):
 def add_turns(page, summary):
     page.table(
         ["from (s)", "status", "what it means"],
-        [[turn["time_s"], turn["status"] + (", protective stop" if turn["stopping"] else ""), turn["means"]] for turn in summary["turns"]],
+        [
+            [turn["time_s"], turn["status"] + (", protective stop" if turn["stopping"] else ""), turn["means"]]
+            for turn in summary["turns"]
+        ],
         "What the method did; changes shorter than 50 ms are left out.",
     )
 
@@ -132,12 +171,25 @@ def add_seen(page, result, several):
     if "views.csv" in result.files() and result.table("views.csv")["file"]:
         page.pictures(
             [(f"{number(t)} s", picture) for t, picture in shown_views(result)],
-            "The camera in the hand: from the first picture to the last one in which something was seen, and the last of all. What was found is outlined.",
+            "The camera in the hand: from the first picture to the last one in which something was seen, and the last "
+            "of all. What was found is outlined.",
         )
     mm = 1000.0
     page.table(
-        ["obstacle", "pictures", "seen in", "first seen (s)", "known from (s)", "last seen (s)", "longest gap (s)", "error (mm), median", "worst",
-         "reported sigma (mm)", "track: worst error (mm)", "least inflation − error (mm)"],
+        [
+            "obstacle",
+            "pictures",
+            "seen in",
+            "first seen (s)",
+            "known from (s)",
+            "last seen (s)",
+            "longest gap (s)",
+            "error (mm), median",
+            "worst",
+            "reported sigma (mm)",
+            "track: worst error (mm)",
+            "least inflation − error (mm)",
+        ],
         [
             [
                 o["object"],
@@ -147,8 +199,14 @@ def add_seen(page, result, several):
                 o["known_s"],
                 o["last_seen_s"],
                 o["longest_gap_s"],
-                *(None if o["first_seen_s"] is None or o[key] is None else mm * o[key] for key in ("median_error_m", "worst_error_m", "median_sigma_m")),
-                *(None if o["known_s"] is None or o[key] is None else mm * o[key] for key in ("worst_track_error_m", "least_inflation_less_error_m")),
+                *(
+                    None if o["first_seen_s"] is None or o[key] is None else mm * o[key]
+                    for key in ("median_error_m", "worst_error_m", "median_sigma_m")
+                ),
+                *(
+                    None if o["known_s"] is None or o[key] is None else mm * o[key]
+                    for key in ("worst_track_error_m", "least_inflation_less_error_m")
+                ),
             ]
             for o in result.summary["obstacles"]
         ],
@@ -158,7 +216,8 @@ def add_seen(page, result, several):
         tracks_figure(result.table("tracks.csv"), result.table("frames.csv")),
         f"tracks-{result.name}",
         "Errors, speeds and confidence of the track table",
-        "The track table. Points: sightings. The method inflates each obstacle (dashed), which must stay above the error of the track; it grows "
+        "The track table. Points: sightings. The method inflates each obstacle (dashed), which must stay above the "
+        "error of the track; it grows "
         "while the obstacle is out of view.",
     )
 
@@ -172,15 +231,27 @@ def add_motion(page, result, several):
             ("Ended", m["status"]),
             ("Duration", f"{number(m['duration_s'])} s"),
             ("Distance from the goal in the end", f"{number(1000 * m['goal_error_m'])} mm"),
-            ("Least clearance of the whole arm, true scene, at every instant", f"{number(1000 * m['min_clearance_m'])} mm"),
+            (
+                "Least clearance of the whole arm, true scene, at every instant",
+                f"{number(1000 * m['min_clearance_m'])} mm",
+            ),
             ("Commanded tool, speed", f"{number(m['peak_v'])} of {number(limits['max_velocity_mps'])} m/s"),
-            ("Commanded tool, acceleration", f"{number(m['peak_a'])} of {number(limits['max_acceleration_mps2'])} m/s²"),
-            ("Periods over these bounds without a protective stop", f"{m['tool_v_violations']} and {m['tool_a_violations']}"),
+            (
+                "Commanded tool, acceleration",
+                f"{number(m['peak_a'])} of {number(limits['max_acceleration_mps2'])} m/s²",
+            ),
+            (
+                "Periods over these bounds without a protective stop",
+                f"{m['tool_v_violations']} and {m['tool_a_violations']}",
+            ),
             ("Joints, part of their velocity limits", f"{number(100 * summary['joint_velocity_share'])} %"),
             ("Joints, part of their acceleration limits", f"{number(100 * summary['joint_acceleration_share'])} %"),
             ("Protective stops", f"{m['stops']}, {m['false_stops']} of them without a reason"),
             ("Way of the tool", f"{number(m['path_length'])} m"),
-            ("Time of a look at a new picture, median and 99 %", f"{number(m['replan_ms_p50'])} and {number(m['replan_ms_p99'])} ms"),
+            (
+                "Time of a look at a new picture, median and 99 %",
+                f"{number(m['replan_ms_p50'])} and {number(m['replan_ms_p99'])} ms",
+            ),
         ],
         "The run in numbers.",
     )
@@ -189,7 +260,8 @@ def add_motion(page, result, several):
         runs.times_figure([curve], (limits["max_velocity_mps"], limits["max_acceleration_mps2"])),
         f"times-{result.name}",
         "Speed and acceleration of the tool, clearance and distance from the goal over time",
-        f"Speed and acceleration of the commanded tool. {runs.CUT_SAYS} The clearance is the least of all pairs of parts that must not touch, "
+        f"Speed and acceleration of the commanded tool. {runs.CUT_SAYS} The clearance is the least of all pairs of "
+        "parts that must not touch, "
         "the arm's own among them.",
     )
     page.figure(
@@ -199,7 +271,12 @@ def add_motion(page, result, several):
         "Commanded speeds of the joints as parts of their limits.",
     )
     page.figure(
-        runs.way_figure([("tool", colour(1), runs.places_of(table))], result.json("scene.json"), result.folder, runs.places_of(table, "goal")[-1]),
+        runs.way_figure(
+            [("tool", colour(1), runs.places_of(table))],
+            result.json("scene.json"),
+            result.folder,
+            runs.places_of(table, "goal")[-1],
+        ),
         f"way-{result.name}",
         "The way of the tool from above and from the side",
         "The way of the tool from above (top) and from the side, and the obstacles where they are at the start.",
@@ -209,8 +286,13 @@ def add_motion(page, result, several):
 def settings(summary):
     s = summary["settings"]
     hidden = [f"{number(a)} to {number(b)} s" for a, b in s["hidden_s"]]
-    drives = "ideal" if s["ideal_drives"] else (
-        f"PD with gravity and friction compensation, torques at 1 kHz against {number(s['friction'])} times the friction of the file"
+    drives = (
+        "ideal"
+        if s["ideal_drives"]
+        else (
+            f"PD with gravity and friction compensation, torques at 1 kHz against {number(s['friction'])} times the "
+            "friction of the file"
+        )
     )
     return [
         ("Command", summary["command_line"]),
@@ -218,11 +300,20 @@ def settings(summary):
         ("Scene, motion", f"{summary['scene']}, {summary['task']}"),
         ("Method", s["method"]),
         ("Control", f"{number(1 / s['period_s'])} Hz"),
-        ("Sensor", f"{s['sensor']} at {number(s['vision_rate_hz'])} Hz, {number(1000 * s['latency_s'])} ms from exposure to result"),
+        (
+            "Sensor",
+            f"{s['sensor']} at {number(s['vision_rate_hz'])} Hz, {number(1000 * s['latency_s'])} ms from exposure to "
+            "result",
+        ),
         ("Camera covered", ", ".join(hidden) or "never"),
         ("Noise of pictures", f"{number(s['noise_grey'])} grey values"),
         ("Drives", drives),
-        ("What is out of view", f"is forgotten after {number(s['forget_s'])} s" if s["forget_s"] > 0 else "stays where it was, and its uncertainty grows"),
+        (
+            "What is out of view",
+            f"is forgotten after {number(s['forget_s'])} s"
+            if s["forget_s"] > 0
+            else "stays where it was, and its uncertainty grows",
+        ),
         ("Seed", str(s["seed"])),
     ]
 
@@ -238,16 +329,19 @@ def page(results):
         "Arm, drives and camera are simulated; the obstacles' photographs are real, their views rendered.",
     )
     for result in results:
-        page.answers(*(f"{result.name}: {sentence}" if several else sentence for sentence in result.summary["findings"]))
+        page.answers(
+            *(f"{result.name}: {sentence}" if several else sentence for sentence in result.summary["findings"])
+        )
     page.section("What happened")
     if several:
         comparison(page, results)
     scene, missing = scene_of(results)
     page.view(
         scene,
-        "Press Play, or move the slider. Line: the way of the tool; grey ball: start; black ball: goal. Obstacles: grey what was known from the start, "
-        "brown what had to be seen; red wire: as the track table had it in the end, with its uncertainty. The grid has squares of 10 cm."
-        + (" The picture is what the camera saw then." if "pictures" in scene else ""),
+        "Press Play, or move the slider. Line: the way of the tool; grey ball: start; black ball: goal. Obstacles: "
+        "grey what was known from the start, "
+        "brown what had to be seen; red wire: as the track table had it in the end, with its uncertainty. The grid has "
+        "squares of 10 cm." + (" The picture is what the camera saw then." if "pictures" in scene else ""),
     )
     page.items(missing)
     for result in results:
@@ -258,7 +352,10 @@ def page(results):
         if video and video["for_browsers"] and result is results[0]:
             page.video(video["file"], "What the camera saw, in real time.")
         elif video:
-            page.paragraph(f"Video of the camera: {video['file']} in {result.name}" + ("." if video["for_browsers"] else ", for players; browsers do not play it."))
+            page.paragraph(
+                f"Video of the camera: {video['file']} in {result.name}"
+                + ("." if video["for_browsers"] else ", for players; browsers do not play it.")
+            )
     for result in results:
         add_seen(page, result, several)
         add_motion(page, result, several)

@@ -112,7 +112,9 @@ class Result:
                 rows = list(csv.reader(file))
         except OSError as error:
             raise DataError(f"{path}: cannot be read: {error.strerror}") from None
-        schema = dict.fromkeys(columns, "number") if columns else _expanded(self.described(name), rows[0] if rows else [])
+        schema = (
+            dict.fromkeys(columns, "number") if columns else _expanded(self.described(name), rows[0] if rows else [])
+        )
         wanted = list(schema)
         if not rows or rows[0] != wanted:
             raise DataError(

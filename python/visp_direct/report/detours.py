@@ -37,7 +37,10 @@ def field_figure(numbers, tables):
             points(axes, numbers["places_m"], colour(0), "vias and end")
             points(axes, [numbers["obstacle_m"]], "#000000", "obstacle")
             turn = np.linspace(0, 2 * np.pi, 90)
-            circle = np.stack([np.cos(turn), np.sin(turn)]) * numbers[name]["d0_m"] + np.array(numbers["obstacle_m"])[:, None]
+            circle = (
+                np.stack([np.cos(turn), np.sin(turn)]) * numbers[name]["d0_m"]
+                + np.array(numbers["obstacle_m"])[:, None]
+            )
             axes.plot(*circle, "--", color="#000000", linewidth=0.8, label="half the weight")
             place_axes(axes)
         panels[2].plot(strict["time_s"], strict["weight"], color=colour(1), label="strict")
@@ -66,10 +69,16 @@ def point_figure(numbers, tables):
         points(panels[0], [event["via_m"] for event in numbers["events"] if event["via_m"]], colour(4), "via")
         place_axes(panels[0])
         for i, axis in enumerate("xy"):
-            panels[1].plot(*runs.thinned(t, goal[:, i]), color=colour(i), alpha=0.4, linewidth=1, label=f"goal {axis} as given")
+            panels[1].plot(
+                *runs.thinned(t, goal[:, i]), color=colour(i), alpha=0.4, linewidth=1, label=f"goal {axis} as given"
+            )
             panels[1].plot(*runs.thinned(t, way[:, i]), color=colour(i), label=axis)
-        panels[2].plot(*runs.thinned(t, np.hypot(table["vx_mps"], table["vy_mps"])), color=colour(0), label="norm over both axes")
-        panels[3].plot(*runs.thinned(t, np.hypot(table["ax_mps2"], table["ay_mps2"])), color=colour(0), label="norm over both axes")
+        panels[2].plot(
+            *runs.thinned(t, np.hypot(table["vx_mps"], table["vy_mps"])), color=colour(0), label="norm over both axes"
+        )
+        panels[3].plot(
+            *runs.thinned(t, np.hypot(table["ax_mps2"], table["ay_mps2"])), color=colour(0), label="norm over both axes"
+        )
         for axes, name in zip(panels[2:], ("max_speed_mps", "max_acceleration_mps2")):
             if numbers[name] is not None:
                 runs.level(axes, numbers[name], "bound")
@@ -88,13 +97,21 @@ def arm_figure(numbers, tables):
     def draw(panels):
         panels[0].plot(*tool.T, color=colour(1), label="true")
         panels[0].plot(*wanted.T, "--", color=colour(0), label="planned")
-        panels[0].plot(*np.stack([tool[0], numbers["events"][0]["goal_m"]]).T, "--", color="#999999", linewidth=1, label="straight on")
+        panels[0].plot(
+            *np.stack([tool[0], numbers["events"][0]["goal_m"]]).T,
+            "--",
+            color="#999999",
+            linewidth=1,
+            label="straight on",
+        )
         events = [int(np.argmin(np.abs(t - event["time_s"]))) for event in numbers["events"][1:]]
         points(panels[0], tool[events], colour(2), "where it changed")
         points(panels[0], [numbers["events"][-1]["goal_m"]], "#000000", "goal")
         points(panels[0], [event["via_m"] for event in numbers["events"] if event["via_m"]], colour(4), "via")
         place_axes(panels[0])
-        for axes, key, name in zip(panels[1:], ("commanded_speed_mps", "commanded_acceleration_mps2"), ("speed (m/s)", "acceleration (m/s²)")):
+        for axes, key, name in zip(
+            panels[1:], ("commanded_speed_mps", "commanded_acceleration_mps2"), ("speed (m/s)", "acceleration (m/s²)")
+        ):
             axes.plot(*runs.thinned(t, table[key]), color=colour(0), label="commanded tool")
             axes.set(xlabel="time (s)", ylabel=name)
         runs.level(panels[1], numbers["max_speed_mps"], "bound")
@@ -124,7 +141,8 @@ def add_arm(page, result):
     run = runs.run_of(table, arm, result.name, colour(1))
     page.view(
         view3d.scene([part], [run], [*objects, *runs.marks_of(table)], data["ground"]),
-        "The arm: press Play, or move the slider. Line: the way of the tool; grey ball: start; black ball: goal. The grid has squares of 10 cm.",
+        "The arm: press Play, or move the slider. Line: the way of the tool; grey ball: start; black ball: goal. The "
+        "grid has squares of 10 cm.",
     )
     page.items(missing + gone)
     if result.summary["replica"] in ("fig8.11", "fig8.12"):
@@ -137,12 +155,20 @@ def add_snapshots(page, result, arm, part, table, data):
     end = max(numbers["metrics"]["duration_s"], numbers["motion_begins_s"])
     taken = [int(np.argmin(np.abs(t - time))) for time in np.linspace(numbers["motion_begins_s"], end, SNAPSHOTS)]
     rows = [
-        {"name": f"{number(t[i])} s", "colour": colour(k), "arm": 0, "t": [0], "q": [q[i].tolist()], "base": view3d.base_at(view3d.beside(0.5 * k))}
+        {
+            "name": f"{number(t[i])} s",
+            "colour": colour(k),
+            "arm": 0,
+            "t": [0],
+            "q": [q[i].tolist()],
+            "base": view3d.base_at(view3d.beside(0.5 * k)),
+        }
         for k, i in enumerate(taken)
     ]
     page.view(
         view3d.scene([part], rows, [], data["ground"]),
-        f"Snapshots, from left to right at {', '.join(row['name'] for row in rows)}. Drag to turn, the wheel or two fingers to zoom.",
+        f"Snapshots, from left to right at {', '.join(row['name'] for row in rows)}. Drag to turn, the wheel or two "
+        "fingers to zoom.",
     )
 
 
@@ -151,7 +177,9 @@ def page(results):
     page = Page(f"Replica of figure {first['replica'].removeprefix('fig')}", f"{first['title']}.")
     several = len(results) > 1
     for result in results:
-        page.answers(*(f"{result.name}: {sentence}" if several else sentence for sentence in result.summary["findings"]))
+        page.answers(
+            *(f"{result.name}: {sentence}" if several else sentence for sentence in result.summary["findings"])
+        )
     for result in results:
         summary = result.summary
         page.section(f"Result of {result.name}" if several else "What came out")
@@ -162,7 +190,9 @@ def page(results):
         )
         tables = {name: result.table(name) for name in result.files() if name.endswith(".csv")}
         kind = next(name for name in KINDS if name in tables)
-        page.figure(figure(summary["numbers"], tables), f"{summary['replica']}-{result.name}", summary["title"], CAPTIONS[kind])
+        page.figure(
+            figure(summary["numbers"], tables), f"{summary['replica']}-{result.name}", summary["title"], CAPTIONS[kind]
+        )
         if kind == "samples.csv":
             add_arm(page, result)
     page.section("What was chosen here")

@@ -59,7 +59,13 @@ def marks_of(table, shift=None):
 def room_of(tables, objects):
     """How far apart two of them stand side by side, m."""
     reach = max(np.linalg.norm(places_of(table), axis=1).max() for table in tables)
-    return 1.6 * max([0.5, reach, *(np.linalg.norm([row[3] for row in item["pose"][:3]]) for item in objects if item["kind"] != "mesh")])
+    return 1.6 * max(
+        [
+            0.5,
+            reach,
+            *(np.linalg.norm([row[3] for row in item["pose"][:3]]) for item in objects if item["kind"] != "mesh"),
+        ]
+    )
 
 
 def thinned(t, y, keep=np.max):

@@ -10,7 +10,8 @@ from .plots import Figure, colour, legend_above, marks
 
 STATUSES = {"Acquiring": "#f0a030", "Tracking": "#3fa34d", "Degraded": "#e6d13a", "Lost": "#c8322b"}
 STATUSES_SAY = (
-    "Acquiring: looking for the lattice, or learning what a cell looks like; cells are measured by their edges meanwhile. Tracking: all holds. "
+    "Acquiring: looking for the lattice, or learning what a cell looks like; cells are measured by their edges "
+    "meanwhile. Tracking: all holds. "
     "Degraded: fewer cells than there should be, or restarted identities. Lost: nothing in that image is valid."
 )
 MANY = 400  # images: points become lines
@@ -44,7 +45,14 @@ def motion_figure(motion):
     def draw(panels):
         for axes, axis in zip(panels, "xy"):
             axes.plot(motion["frame"], motion[f"true_d{axis}"], color="#9aa5b1", label=f"true, {axis}")
-            axes.plot(motion["frame"], motion[f"d{axis}"], style, color=colour("xy".index(axis)), markersize=3, label=f"found, {axis}")
+            axes.plot(
+                motion["frame"],
+                motion[f"d{axis}"],
+                style,
+                color=colour("xy".index(axis)),
+                markersize=3,
+                label=f"found, {axis}",
+            )
             axes.set_ylabel(f"d{axis} (px)")
             legend_above(axes)
         panels[-1].set_xlabel("image")
@@ -72,8 +80,17 @@ def sigma_figure(motion):
     def draw(panels):
         axes, frames = panels[0], np.array(motion["frame"])[shown]
         for i, axis in enumerate("xy"):
-            axes.plot(frames, np.array(motion[f"sigma_{axis}"])[shown], color=colour(i), label=f"a cell, {axis} (median)")
-            axes.plot(frames, np.array(motion[f"sigma_d{axis}"])[shown], "--", color=colour(i), linewidth=1, label=f"displacement, {axis}")
+            axes.plot(
+                frames, np.array(motion[f"sigma_{axis}"])[shown], color=colour(i), label=f"a cell, {axis} (median)"
+            )
+            axes.plot(
+                frames,
+                np.array(motion[f"sigma_d{axis}"])[shown],
+                "--",
+                color=colour(i),
+                linewidth=1,
+                label=f"displacement, {axis}",
+            )
         axes.set(xlabel="image", ylabel="standard deviation (px)", ylim=(0, None))
         legend_above(axes)
 
@@ -117,12 +134,24 @@ def map_figure(places, deviations, factor):
         axes = panels[0]
         axes.plot(*places.T, ".", color="#9aa5b1", markersize=2, label="regular lattice")
         ends = places + factor * deviations
-        axes.plot(*np.stack([places, ends, np.full_like(ends, np.nan)], axis=1).reshape(-1, 2).T, color=colour(0), linewidth=0.8)
-        axes.plot(*ends.T, ".", color=colour(0), markersize=4, label=f"cells, deviations {number(float(factor))} times as long")
+        axes.plot(
+            *np.stack([places, ends, np.full_like(ends, np.nan)], axis=1).reshape(-1, 2).T,
+            color=colour(0),
+            linewidth=0.8,
+        )
+        axes.plot(
+            *ends.T,
+            ".",
+            color=colour(0),
+            markersize=4,
+            label=f"cells, deviations {number(float(factor))} times as long",
+        )
         sample = round_below(np.ptp(places[:, 0]) / 8 / factor) if np.ptp(places[:, 0]) > 0 else 0
         if sample > 0:  # below the map
             x, y = places[:, 0].min(), places[:, 1].max() + 0.08 * np.ptp(places, axis=0).max()
-            axes.plot([x, x + factor * sample], [y, y], color="#000000", linewidth=2, label=f"{number(float(sample))} px")
+            axes.plot(
+                [x, x + factor * sample], [y, y], color="#000000", linewidth=2, label=f"{number(float(sample))} px"
+            )
         axes.set(xlabel="along the rows (px)", ylabel="across (px)")
         axes.set_aspect("equal", "datalim")
         axes.invert_yaxis()
@@ -154,18 +183,35 @@ def add_accuracy(page, result, motion):
         page.section("Accuracy")
     if rows:
         page.table(
-            ["status", "centres", "mean x (px)", "mean y", "sigma x (px)", "sigma y", "error / reported sigma, x", "y", "displacements", "sigma x (px)", "sigma y",
-             "2 px off", "no cell there", "other name"],
+            [
+                "status",
+                "centres",
+                "mean x (px)",
+                "mean y",
+                "sigma x (px)",
+                "sigma y",
+                "error / reported sigma, x",
+                "y",
+                "displacements",
+                "sigma x (px)",
+                "sigma y",
+                "2 px off",
+                "no cell there",
+                "other name",
+            ],
             rows,
-            "Found against true. The errors over the standard deviations that the tracker reports are 1 (rms) when these are right. 2 px off: centres that are "
-            "not in the other figures; no cell there: where there is none; other name: cells that had another row and column before.",
+            "Found against true. The errors over the standard deviations that the tracker reports are 1 (rms) when "
+            "these are right. 2 px off: centres that are "
+            "not in the other figures; no cell there: where there is none; other name: cells that had another row and "
+            "column before.",
         )
     if np.isfinite(motion["sigma_x"]).any():
         page.figure(
             sigma_figure(motion),
             f"sigma-{result.name}",
             "Standard deviations per image",
-            "What the tracker expects its errors to be, from the noise of each image, after learning. It knows nothing of errors that all images share, "
+            "What the tracker expects its errors to be, from the noise of each image, after learning. It knows nothing "
+            "of errors that all images share, "
             "such as those of the lens.",
         )
 
@@ -176,7 +222,8 @@ def add_result(page, result):
         result.bytes("picture.png"),
         "image/png",
         "An image with the cells that were found",
-        "One of the images, enlarged. Green crosses: centres of cells that were measured. Red: cells that are there by the lattice but were not measured, "
+        "One of the images, enlarged. Green crosses: centres of cells that were measured. Red: cells that are there by "
+        "the lattice but were not measured, "
         "because of dirt or because the pattern ends there.",
     )
     page.section("Status")
@@ -187,10 +234,13 @@ def add_result(page, result):
             motion_figure(motion),
             f"motion-{result.name}",
             "Displacement of every image",
-            "How far the product moved since the image before: x to the right, y down. A gap in the curve: not known, as where images are missing.",
+            "How far the product moved since the image before: x to the right, y down. A gap in the curve: not known, "
+            "as where images are missing.",
         )
         if "errors" in summary:
-            page.figure(error_figure(motion), f"error-{result.name}", "Error of the displacement", "The same, minus the truth.")
+            page.figure(
+                error_figure(motion), f"error-{result.name}", "Error of the displacement", "The same, minus the truth."
+            )
     add_accuracy(page, result, motion)
     deviations = deviation_map(result.table("deviations.csv"), summary["lattice"])
     if deviations:
@@ -200,7 +250,8 @@ def add_result(page, result):
             map_figure(*deviations),
             f"deviations-{result.name}",
             "Map of the deviations from the lattice",
-            f"Where the {len(deviations[0])} cells lie off the regular lattice, as on the product, not turned. Root mean square: {number(float(rms[0]))} px along "
+            f"Where the {len(deviations[0])} cells lie off the regular lattice, as on the product, not turned. Root "
+            f"mean square: {number(float(rms[0]))} px along "
             f"the rows, {number(float(rms[1]))} px across.",
         )
     page.section("Time")
@@ -208,7 +259,8 @@ def add_result(page, result):
         time_figure(motion["microseconds"]),
         f"time-{result.name}",
         "Histogram of the time per image",
-        "Time of the tracker alone, without reading and drawing, on this machine as busy as it was. The slow images are those in which it searches or "
+        "Time of the tracker alone, without reading and drawing, on this machine as busy as it was. The slow images "
+        "are those in which it searches or "
         "learns; the two per cent that took longest may lie outside.",
     )
 
@@ -221,7 +273,16 @@ def settings(summary):
         ("Image size", f"{summary['image']['width']} × {summary['image']['height']} px"),
         ("Method, threshold", f"{summary['method']}, {summary['threshold']}"),
         *([("Looked only at", f"{roi[2]} × {roi[3]} px from ({roi[0]}, {roi[1]})")] if roi else []),
-        *([("Calibration", f"{summary['calibration']['file']}, {number(summary['calibration']['um_per_px'])} µm a pixel")] if "calibration" in summary else []),
+        *(
+            [
+                (
+                    "Calibration",
+                    f"{summary['calibration']['file']}, {number(summary['calibration']['um_per_px'])} µm a pixel",
+                )
+            ]
+            if "calibration" in summary
+            else []
+        ),
     ]
 
 
@@ -230,10 +291,13 @@ def page(results):
     ending = "" if first.get("status", "complete") == "complete" else f" ({first['status']})"
     page = Page(
         "Tracking of a repetitive product",
-        f"{counted(first['images'], 'image')} of {first['image']['width']} × {first['image']['height']} px, {first['input']}{ending}",
+        f"{counted(first['images'], 'image')} of {first['image']['width']} × {first['image']['height']} px, "
+        f"{first['input']}{ending}",
     )
     for result in results:
-        page.answers(*(f"{result.name}: {sentence}" if several else sentence for sentence in result.summary["findings"]))
+        page.answers(
+            *(f"{result.name}: {sentence}" if several else sentence for sentence in result.summary["findings"])
+        )
     for result in results:
         page.section(f"What was found by {result.name}" if several else "What was found")
         add_result(page, result)
@@ -241,7 +305,10 @@ def page(results):
             page.section("All images")
             page.video("overlay.mp4", "The file overlay.mp4 beside this page.")
     page.section("What was asked for")
-    page.paragraph("Beside this page: cells.csv (every cell of every image), motion.csv (every image), deviations.csv, summary.json.")
+    page.paragraph(
+        "Beside this page: cells.csv (every cell of every image), motion.csv (every image), deviations.csv, "
+        "summary.json."
+    )
     for result in results:
         page.facts(settings(result.summary), result.name if several else "")
     return page

@@ -105,7 +105,9 @@ def objects_of(data, folder, shift=None):
 
 
 def object_of(item, folder):
-    part = {"pose": item["pose"], "kind": item["kind"]} | {key: item[key] for key in ("size", "radius", "length", "track") if key in item}
+    part = {"pose": item["pose"], "kind": item["kind"]} | {
+        key: item[key] for key in ("size", "radius", "length", "track") if key in item
+    }
     if "there_s" in item:
         part["there"] = item["there_s"]
     if item["kind"] == "capsule":
@@ -141,7 +143,9 @@ def ball(place, radius, colour, track=None):
     """A mark."""
     pose = np.eye(4)
     pose[:3, 3] = place
-    return {"kind": "sphere", "radius": radius, "colour": colour, "pose": pose.tolist()} | ({"track": track} if track else {})
+    return {"kind": "sphere", "radius": radius, "colour": colour, "pose": pose.tolist()} | (
+        {"track": track} if track else {}
+    )
 
 
 def base_at(shift):
@@ -158,5 +162,6 @@ def scene(arms, runs=(), objects=(), ground=None, **more):
     """What vispView() gets.
 
     runs: name, colour, arm (index), t, q, base, states ([[time, text]...]). objects: kind and its numbers, pose, colour, wire, there (from, until),
-    track (t, and pose or p). more: sides ([{base, run}, ...]: one run on each, chosen by the reader), pictures (t and uri: what a camera sees)."""
+    track (t, and pose or p). more: sides ([{base, run}, ...]: one run on each, chosen by the reader), pictures (t and uri: what a camera sees).
+    """
     return {"arms": list(arms), "runs": list(runs), "objects": list(objects), "ground": ground} | more
