@@ -3,8 +3,10 @@
 """Result folders: summary.json, JSON and CSV, checked against schema.json, which describes each file once."""
 import csv
 import fnmatch
+import itertools
 import json
 import math
+import os
 import pathlib
 
 
@@ -30,7 +32,7 @@ KINDS = {
 
 
 def check(value, schema, place):
-    """Requires a value to be as its schema says: a kind, a list of one schema, or an object of schemas; "?" ends an optional name."""
+    """Requires a value to be as its schema says: a kind, a list of one schema, or an object of schemas; "?" ends an optional name, "*" is any other."""
     if isinstance(schema, str):
         kind = schema.split(":")[0]
         right = isinstance(value, KINDS[kind]) and not (isinstance(value, bool) and kind.startswith("number"))
@@ -42,6 +44,8 @@ def check(value, schema, place):
             check(element, schema[0], f"{place}[{i}]")
     else:
         check(value, "object", place)
+        others = schema.get("*")
+        schema = {name: sub for name, sub in schema.items() if name != "*"}
         names = {name.rstrip("?"): sub for name, sub in schema.items()}
         for name, sub in schema.items():
             if name.rstrip("?") in value:
@@ -49,11 +53,13 @@ def check(value, schema, place):
             elif not name.endswith("?"):
                 raise DataError(f"{place}.{name} is missing")
         for name in value:
-            if name not in names:
+            if name not in names and others is not None:
+                check(value[name], others, f"{place}.{name}")
+            elif name not in names:
                 raise DataError(f"{place}.{name} is not in the schema")
 
 
-MODES = {"objectives": "--explore", "replica": "--replica"}  # field of summary.json and option
+MODES = {"objectives": "--explore", "replica": "--replica", "recording": "--replay"}  # field of summary.json and option
 
 
 class Result:
@@ -104,12 +110,15 @@ class Result:
             names += [name for name in found if name != "summary.json"]
         return names
 
-    def table(self, name, columns=None):
-        """Columns of a CSV file as lists of numbers, NaN where a cell is empty or no number; of text where the schema says so."""
+    def table(self, name, columns=None, most=None):
+        """Columns of a CSV file as lists of numbers, NaN where a cell is empty or no number; of text where the schema says so.
+        most: of a longer file without line breaks in its cells only every k-th row, about so many."""
         path = self.folder / name
         try:
             with open(path, encoding="utf-8", newline="") as file:
-                rows = list(csv.reader(file))
+                step = max(1, sum(1 for _ in file) // most) if most else 1
+                file.seek(0)
+                rows = list(csv.reader(itertools.chain(itertools.islice(file, 1), itertools.islice(file, 0, None, step))))
         except OSError as error:
             raise DataError(f"{path}: cannot be read: {error.strerror}") from None
         schema = (
@@ -127,6 +136,10 @@ class Result:
             for key, cell in zip(wanted, row):
                 read[key].append(cell if schema[key].startswith("text") else _number(cell))
         return read
+
+    def beside(self, other, name):
+        """A file as it is called from the page of another result."""
+        return name if other is self else os.path.relpath((self.folder / name).resolve(), other.folder.resolve())
 
     def bytes(self, name):
         """A file as it is; None when there is none."""

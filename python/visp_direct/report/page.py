@@ -87,9 +87,10 @@ class Page:
         self.figures.append((name, figure))
         self._add(kind="figure", svg=figure.svg(), alt=alt, caption=caption)
 
-    def picture(self, data, mime, alt, caption):
+    def picture(self, data, mime, alt, caption, width=None):
+        """A picture as wide as the page, or at most so many px."""
         uri = f"data:{mime};base64,{base64.b64encode(data).decode()}"
-        self._add(kind="picture", uri=uri, alt=alt, caption=caption)
+        self._add(kind="picture", uri=uri, alt=alt, caption=caption, width=width)
 
     def pictures(self, pictures, caption):
         """Small ones beside each other: (label, data URI)."""
@@ -98,6 +99,10 @@ class Page:
     def video(self, file, caption):
         """A video beside the page: too large to be in it."""
         self._add(kind="video", file=file, caption=caption)
+
+    def videos(self, videos):
+        """Several beside each other: (file, caption)."""
+        self._add(kind="videos", videos=videos)
 
     def view(self, scene, caption):
         """A 3D view, see view3d.py. An arm of several views is in the page once."""

@@ -41,6 +41,11 @@ def colour(i):
     return COLOURS[i % len(COLOURS)]
 
 
+def plain(name):
+    """A name from a file as it stands, in a figure: without formulas."""
+    return name.replace("$", r"\$")
+
+
 class Figure:
     """A figure that is drawn when its size is known. draw(axes) gets the axes from top to bottom."""
 
@@ -51,7 +56,7 @@ class Figure:
 
     def _render(self, width, **options):
         with matplotlib.rc_context(STYLE):
-            scale = 1 if width == WIDTH else 0.62
+            scale = 1 if width == WIDTH else 0.62 if self.rows == 1 else 0.8
             figure, axes = pyplot.subplots(
                 self.rows,
                 1,

@@ -151,7 +151,8 @@ function vispView(figure, given) {
                                                      wireframe: Boolean(object.wire)});
     const group = new THREE.Group();
     group.matrixAutoUpdate = false;
-    group.add(vispPart({...object, pose: null}, material));
+    group.add(object.kind === "plate" ? vispPlate(object, () => draw()) : vispPart({...object, pose: null}, material));
+    group.userData.seen = true; // by cameras
     group.matrix.copy(vispMatrix(object.pose));
     if (object.track && object.track.pose) {
       moving.push((t) => {
@@ -171,11 +172,17 @@ function vispView(figure, given) {
     content.add(group);
   });
   world.add(content);
+  const eyes = vispEyes(shown, world, content, between);
+  if (eyes) {
+    moving.push(eyes.setTime);
+    eyes.setTime(0);
+  }
   const pathOf = (run, base) => {
     const points = run.q.map(vispKinematics(scene.arms[run.arm], base).toolAt);
     return new THREE.Line(new THREE.BufferGeometry().setFromPoints(points), new THREE.LineBasicMaterial({color: run.colour}));
   };
-  (scene.sides || [{}]).forEach((side) => scene.runs.forEach((run) => world.add(pathOf(run, side.base || run.base))));
+  const ways = scene.runs.filter((run) => !run.camera);
+  (scene.sides || [{}]).forEach((side) => ways.forEach((run) => world.add(pathOf(run, side.base || run.base))));
 
   // What there is fills the picture, seen from the front, the right and above.
   world.updateMatrixWorld(true);
@@ -194,7 +201,7 @@ function vispView(figure, given) {
   orbit.enableKeys = false;
   orbit.update();
 
-  const draw = () => renderer.render(world, camera);
+  const draw = () => eyes ? eyes.draw(renderer, camera) : renderer.render(world, camera);
   const fit = () => {
     const width = figure.clientWidth, height = Math.round(Math.min(560, Math.max(260, 0.62 * width)));
     renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
@@ -215,14 +222,14 @@ function vispView(figure, given) {
     arms[i].place(q);
     draw();
   };
-  const between = (times, t) => { // index and fraction
+  function between(times, t) { // index and fraction
     let k = 0;
     while (k < times.length - 2 && times[k + 1] < t) {
       ++k;
     }
     const span = times.length > 1 ? times[k + 1] - times[k] : 0;
     return [k, span > 0 ? Math.min(1, Math.max(0, (t - times[k]) / span)) : 0];
-  };
+  }
   const setTime = (t) => {
     shown.forEach((run, i) => {
       const [k, s] = between(run.t, t), next = run.q[Math.min(k + 1, run.q.length - 1)];
@@ -257,7 +264,8 @@ function vispView(figure, given) {
     vispJointControls(controls, scene.arms[0], (q) => setJoints(0, q));
   }
   fit();
-  figure.vispView = {setTime, setJoints, setCovers, show, toolAt: (i, q) => arms[i].toolAt(q).toArray()};
+  const see = eyes ? (i) => eyes.see(i, scene.objects[i].pose.slice(0, 3).map((row) => row[3])) : () => [];
+  figure.vispView = {scene, setTime, setJoints, setCovers, show, see, toolAt: (i, q) => arms[i].toolAt(q).toArray()};
 }
 
 // What a camera sees, in a corner of the view. Returns a function of time.

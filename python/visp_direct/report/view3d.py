@@ -14,9 +14,9 @@ KNOWN, SEEN = "#9aa7b4", "#c46a4a"
 
 
 def scripts():
-    """three.js, its mouse control and view3d.js as script elements."""
+    """three.js, its mouse control, camera3d.js and view3d.js as script elements."""
     folder = pathlib.Path(os.environ.get("VISP_DIRECT_THREE", "/usr/share/javascript/three"))
-    files = [folder / "three.min.js", folder / "examples/js/controls/OrbitControls.js", HERE / "view3d.js"]
+    files = [folder / "three.min.js", folder / "examples/js/controls/OrbitControls.js", HERE / "camera3d.js", HERE / "view3d.js"]
     missing = [file for file in files if not file.is_file()]
     if missing:
         raise OSError(
