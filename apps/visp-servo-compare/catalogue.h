@@ -4,7 +4,7 @@
  */
 /*!
  * \file catalogue.h
- * \brief Display data of each law and plant: name, description, colour.
+ * \brief The laws and plants that are known, a sentence each.
  */
 #ifndef servoCompare_catalogue_h
 #define servoCompare_catalogue_h
@@ -18,34 +18,12 @@ VISP_DIRECT_USING_NAMESPACE
 
 namespace servoCompare
 {
-//! Groups of comparable laws: those of one group reduce the rotation error equally fast.
-enum class GainGroup {
-  Single,   //!< Rotation gain lambda.
-  Double,   //!< Effective rotation gain 2 lambda near the goal.
-  Integral, //!< Rotation gain 2 lambda and an integral term.
-  Own       //!< Laws of plug-ins: not known.
-};
-
-//! Title of a group, for tables.
-[[nodiscard]] const char *titleOf(GainGroup group);
-
-//! \brief Display data of a law.
-struct LawInfo {
-  std::string id;       //!< Id as in vpServoLaw::ids(), with `+cbf` if filtered.
-  std::string name;     //!< Name in legends.
-  std::string sentence; //!< Description for --list and the report.
-  std::string colour;   //!< #rrggbb, the same in every figure.
-  GainGroup group = GainGroup::Single;
-};
-
-//! Display data of a law; `+cbf` adds the filter to name and sentence.
-[[nodiscard]] LawInfo lawInfo(const std::string &id);
+//! A law in a sentence; with `+cbf` also its filter.
+[[nodiscard]] std::string sentenceOf(const std::string &law);
 //! All ids of vpServoLaw::ids(), as `"a, b, c"`.
 [[nodiscard]] std::string knownLaws();
 //! The id without `+cbf`.
 [[nodiscard]] std::string withoutFilter(const std::string &id);
-//! True if the id ends in `+cbf`.
-[[nodiscard]] bool isFiltered(const std::string &id);
 
 //! Names of the plants of the comparison: A, B, D.
 [[nodiscard]] const std::vector<std::string> &standardPlants();

@@ -5,11 +5,12 @@
 // visp-servo-compare: all servo laws on one task, with a report.
 #include "catalogue.h"
 #include "options.h"
-#include "reportPage.h"
+#include "replay.h"
 #include "runLog.h"
 
 #include "appMain.h"
-#include "plot.h"
+#include "viewData.h"
+#include "report.h"
 #include "robot.h"
 
 #include <visp3/feedforward/vpServoLaw.h>
@@ -32,7 +33,7 @@ void printList()
 {
   std::cout << "Laws (--law), each also with +cbf for the filter that keeps the object in the view:\n";
   for (const std::string &id : vpServoLaw::ids()) {
-    std::cout << "  " << id << std::string(id.size() < 17 ? 17 - id.size() : 1, ' ') << lawInfo(id).sentence << "\n";
+    std::cout << "  " << id << std::string(id.size() < 17 ? 17 - id.size() : 1, ' ') << sentenceOf(id) << "\n";
   }
   std::cout << "Plants (--plant):\n";
   for (const std::string &name : standardPlants()) {
@@ -69,7 +70,6 @@ void compare(const Options &options, const std::string &commandLine, const vpApp
   }
   vpApp::printWarnings("visp-servo-compare", plan.remarks);
   const unsigned int threads = ranks.threads(options.jobs);
-  vpApp::requireGnuplot();
   std::unique_ptr<vpApp::PictureWindow> window;
   if (options.display) {
     window = std::make_unique<vpApp::PictureWindow>("visp-servo-compare: the camera's view");
@@ -78,30 +78,19 @@ void compare(const Options &options, const std::string &commandLine, const vpApp
 
   const Results results = runAll(plan, writeTarget(plan.target, out), ranks, options.jobs,
                                  [&](const vpServoRun &run) { out.write(logName(run.spec), csvOf(run)); });
-  const auto writeFigure = [&out](const Figure &figure) { out.write("figure/" + figure.name + ".svg", figure.svg); };
-  ReportParts parts;
-  parts.videos = writeVideos(plan, results, out, threads, window.get());
-  parts.figures = drawFigures(plan, results, threads);
-  parts.armFigures = drawArmFigures(plan, results);
-  if (plan.shaped) {
-    parts.step = drawStep(plan, results);
-    writeFigure(*parts.step);
+  if (plan.arm) {
+    vpApp::writeArm(out, plan.arm->model);
   }
-  parts.filmStrip = drawFilmStrip(plan, results);
-  for (const std::vector<Figure> *figures : {&parts.figures, &parts.armFigures}) {
-    std::for_each(figures->begin(), figures->end(), writeFigure);
-  }
-  out.write("figure/figure-5.11.jpg", parts.filmStrip.jpeg);
-  parts.commandLine = commandLine;
-  parts.wallTime = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  out.write("report.html", reportPage(plan, results, parts, out));
-  out.writeSummary(summaryOf(plan, results, commandLine, parts.wallTime));
-  vpApp::throwIfInterrupted();
-  out.commit();
+  const std::vector<ReplayVideo> videos = writeVideos(plan, results, out, threads, window.get());
+  const FilmStrip strip = drawFilmStrip(plan, results);
+  out.write("film-strip.jpg", strip.jpeg);
+  const double wallTime = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const std::string place =
+      vpApp::finishWithReport(out, summaryOf(plan, results, {commandLine, wallTime, videos, strip}));
   if (!plan.target.remark.empty()) {
     std::cout << plan.target.file << ": " << plan.target.remark << "\n";
   }
-  std::cout << "Report: " << (out.path() / "report.html").string() << std::endl;
+  std::cout << place << std::endl;
 }
 } // namespace
 

@@ -5,8 +5,6 @@
 #include "replay.h"
 
 #include "appMain.h"
-#include "catalogue.h"
-#include "figures.h"
 #include "format.h"
 #include "jobs.h"
 #include "progress.h"
@@ -29,7 +27,7 @@ constexpr double VIDEO_RATE = 10.;    // frames per second
 constexpr double VIDEO_DURATION = 8.; // s, about
 constexpr int VIDEO_WIDTH = 480;
 constexpr int STRIP_VIEW_WIDTH = 220;
-constexpr int STRIP_LABEL_WIDTH = 150;
+constexpr int STRIP_LABEL_WIDTH = 190;
 constexpr int STRIP_COLUMNS = 5;
 constexpr int TITLE_HEIGHT = 44;
 const cv::Scalar OBJECT(60, 220, 255); // BGR
@@ -152,13 +150,20 @@ std::size_t indexAt(const vpServoRun &run, double time)
   return std::min(index, run.samples.size() - 1);
 }
 
-std::string captionOf(const vpServoRun &run)
+//! The laws of the film strip: those that the thesis compares, or the first few.
+std::vector<std::string> stripLaws(const Plan &plan)
 {
-  const vpServoMetrics &m = run.metrics;
-  return lawInfo(run.spec.law).name + ", plant " + run.spec.plant.name + ", " + number(speedUp(run.spec.task), 2) +
-         " times as fast: ends " + fixed(m.end_rotation_deg, 1) + " deg off" +
-         (m.out_of_view_s > 0. ? ", object partly out of view for " + fixed(m.out_of_view_s, 1) + " s."
-                               : ", object always in view.");
+  constexpr std::size_t FEW = 5;
+  std::vector<std::string> chosen;
+  for (const char *law : {"pbvs1", "kyrki-decoupled", "kyrki", "ff-sum", "ff-lookat-pi"}) {
+    if (std::find(plan.laws.begin(), plan.laws.end(), law) != plan.laws.end()) {
+      chosen.emplace_back(law);
+    }
+  }
+  if (chosen.size() >= 2 && plan.laws.size() > FEW) {
+    return chosen;
+  }
+  return {plan.laws.begin(), plan.laws.begin() + static_cast<std::ptrdiff_t>(std::min(FEW, plan.laws.size()))};
 }
 
 //! Draws all frames of a run and passes them on; ends early when \e frame returns false.
@@ -167,7 +172,7 @@ void replay(const Plan &plan, const vpServoRun &run, const std::function<bool(co
   CameraView view(plan, VIDEO_WIDTH);
   const double step = speedUp(run.spec.task) / VIDEO_RATE;
   const std::string speed = number(speedUp(run.spec.task), 2);
-  const std::string title = lawInfo(run.spec.law).name + " - plant " + run.spec.plant.name + " - " + speed + "x speed";
+  const std::string title = run.spec.law + " - plant " + run.spec.plant.name + " - " + speed + "x speed";
   const auto frames = static_cast<int>(std::lround(run.samples.back().time / step));
   for (int i = 0; i <= frames; ++i) {
     vpApp::throwIfInterrupted();
@@ -186,8 +191,9 @@ std::vector<ReplayVideo> writeVideos(const Plan &plan, const Results &results, v
   for (const std::string &law : plan.laws) {
     if (const vpServoRun *run = results.find(law, plan.hardPlant().name, plan.mainMeasure())) {
       runs.push_back(run);
-      videos.push_back({"video/" + fileName(law + "-" + run->spec.plant.name) + ".mp4", captionOf(*run), true});
-      (void)out.file(videos.back().name); // creates the folder before the threads start
+      videos.push_back(
+          {"video/" + fileName(law + "-" + run->spec.plant.name) + ".mp4", law, speedUp(run->spec.task), true});
+      (void)out.file(videos.back().file); // creates the folder before the threads start
     }
   }
   vpApp::Progress progress("filming " + std::to_string(runs.size()) + " laws", static_cast<double>(runs.size()));
@@ -197,7 +203,7 @@ std::vector<ReplayVideo> writeVideos(const Plan &plan, const Results &results, v
     bool watching = window != nullptr;
     replay(plan, *runs[i], [&](const cv::Mat &frame) {
       if (!video) {
-        video.emplace(out.file(videos[i].name), frame.cols, frame.rows, VIDEO_RATE);
+        video.emplace(out.file(videos[i].file), frame.cols, frame.rows, VIDEO_RATE);
       }
       video->write(frame);
       watching = watching && window->show(frame, 1. / VIDEO_RATE);
@@ -213,7 +219,7 @@ std::vector<ReplayVideo> writeVideos(const Plan &plan, const Results &results, v
 FilmStrip drawFilmStrip(const Plan &plan, const Results &results)
 {
   FilmStrip strip;
-  strip.laws = figureLaws(plan, {"pbvs1", "kyrki-decoupled", "kyrki", "ff-sum", "ff-lookat-pi"});
+  strip.laws = stripLaws(plan);
   const double end = plan.scenario.task.segments.front().duration;
   for (int i = 0; i < STRIP_COLUMNS; ++i) {
     // Dense at first, when motion is fast, then sparse: 0.4, 1.2, 2.8, 5.2 and 8 s of 8 s.

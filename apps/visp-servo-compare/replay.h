@@ -18,8 +18,9 @@ namespace servoCompare
 {
 //! \brief The video of one law.
 struct ReplayVideo {
-  std::string name;    //!< File inside the result folder.
-  std::string caption; //!< Law, events, playback speed.
+  std::string file; //!< Inside the result folder.
+  std::string law;
+  double speedUp = 1.;
   bool forBrowsers = true;
 };
 

@@ -7,10 +7,6 @@
 #include "appMain.h"
 #include "sweep.h"
 
-#include <visp3/direct_core/vpQuantile.h>
-
-#include <algorithm>
-
 // What ranks send, see sweep.h: a run without its specification and samples.
 BEGIN_VISP_NAMESPACE
 template <class Archive> void exchange(Archive &archive, vpArmMetrics &m)
@@ -48,28 +44,6 @@ bool matches(const vpServoRunSpec &spec, const std::string &law, const std::stri
          spec.shape.has_value() == (command == Command::Shaped);
 }
 } // namespace
-
-std::vector<double> Results::values(const std::string &law, const std::string &plant, const std::string &measure,
-                                    Metric metric, Command command) const
-{
-  std::vector<double> list;
-  for (const vpServoRun &run : m_runs) {
-    if (matches(run.spec, law, plant, measure, command)) {
-      list.push_back(run.metrics.*metric);
-    }
-  }
-  return list;
-}
-
-std::optional<Spread> Results::spread(const std::string &law, const std::string &plant, const std::string &measure,
-                                      Metric metric, Command command) const
-{
-  const std::vector<double> list = values(law, plant, measure, metric, command);
-  if (list.empty()) {
-    return std::nullopt;
-  }
-  return Spread{vpMedian(list), vpQuantile(list, 0.), vpQuantile(list, 1.)};
-}
 
 const vpServoRun *Results::find(const std::string &law, const std::string &plant, const std::string &measure,
                                 Command command) const

@@ -15,20 +15,9 @@
 #include "lab/servo/vpServoExperiment.h"
 
 #include <functional>
-#include <optional>
 
 namespace servoCompare
 {
-//! Median, least and largest value over the seeds.
-struct Spread {
-  double median = 0.;
-  double least = 0.;
-  double largest = 0.;
-};
-
-//! A field of vpServoMetrics.
-using Metric = double vpServoMetrics::*;
-
 //! Command to the robot: the law's twist unchanged, or shaped (Plan::shaped).
 enum class Command { Raw, Shaped };
 
@@ -42,13 +31,6 @@ public:
   //! The run with the first seed, with its samples; nullptr if it was not requested.
   [[nodiscard]] const vpServoRun *find(const std::string &law, const std::string &plant, const std::string &measure,
                                        Command command = Command::Raw) const;
-  //! A metric over all seeds; nullopt if the run was not requested.
-  [[nodiscard]] std::optional<Spread> spread(const std::string &law, const std::string &plant,
-                                             const std::string &measure, Metric metric,
-                                             Command command = Command::Raw) const;
-  //! A metric of each seed.
-  [[nodiscard]] std::vector<double> values(const std::string &law, const std::string &plant, const std::string &measure,
-                                           Metric metric, Command command = Command::Raw) const;
 
 private:
   std::vector<vpServoRun> m_runs;

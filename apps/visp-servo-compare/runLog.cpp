@@ -4,10 +4,14 @@
  */
 #include "runLog.h"
 
+#include "catalogue.h"
 #include "format.h"
+
+#include "viewData.h"
 
 #include <visp3/core/vpMath.h>
 #include <visp3/core/vpPoseVector.h>
+#include <visp3/manipulator/vpArmKinematics.h>
 #include <visp3/manipulator/vpTwistAxes.h>
 
 #include <nlohmann/json.hpp>
@@ -160,10 +164,14 @@ Json jsonOf(const vpServoArm &arm)
   for (const vpArmJointSpec &joint : arm.model.spec().joints) {
     joints.push_back(joint.name);
   }
+  vpArmData data;
+  vpArmKinematics::forward(arm.model, arm.spec.start, data);
   return {{"name", arm.model.spec().name},
+          {"sentence", sentenceOf(arm)},
           {"file", arm.model.spec().source},
           {"joints", joints},
           {"start", jsonOf(arm.spec.start)},
+          {"camera_at_start", vpApp::rowsOf(vpArmKinematics::camera(arm.model, data))},
           {"limits", arm.spec.redundancy.policy == vpLimitPolicy::StopJoints ? "stop" : "scale"},
           {"drive", arm.spec.drives.reference == vpDriveReference::Measured ? "measured" : "integrated"},
           {"free_axes", vpAxesInWords(arm.spec.free)}};
@@ -261,22 +269,47 @@ std::string csvOf(const vpServoRun &run)
   return csv;
 }
 
-Json summaryOf(const Plan &plan, const Results &results, const std::string &commandLine, double wallTime)
+Json summaryOf(const Plan &plan, const Results &results, const Making &making)
 {
-  Json runs = Json::array();
+  const Scenario &scenario = plan.scenario;
+  Json runs = Json::array(), laws = Json::array(), plants = Json::array(), videos = Json::array();
   for (const vpServoRun &run : results.runs()) {
     runs.push_back(jsonOf(plan, run));
+  }
+  for (const std::string &law : plan.laws) {
+    laws.push_back({{"id", law}, {"sentence", sentenceOf(law)}});
+  }
+  for (const vpServoPlant &plant : scenario.plants) {
+    plants.push_back(jsonOf(plant));
+    plants.back()["sentence"] = sentenceOf(plant, plan.arm != nullptr);
+  }
+  for (const ReplayVideo &video : making.videos) {
+    videos.push_back(
+        {{"law", video.law}, {"file", video.file}, {"speed_up", video.speedUp}, {"for_browsers", video.forBrowsers}});
   }
   Json summary = {{"program", "visp-servo-compare"},
                   {"version", VISP_DIRECT_VERSION},
                   {"visp_version", std::to_string(VISP_VERSION_MAJOR) + "." + std::to_string(VISP_VERSION_MINOR) + "." +
                                        std::to_string(VISP_VERSION_PATCH)},
-                  {"command_line", commandLine},
-                  {"wall_time_s", wallTime},
+                  {"command_line", making.commandLine},
+                  {"wall_time_s", making.wallTime},
                   {"data", "simulated robots; the target is a photograph, its views are rendered"},
                   {"target", plan.target.file},
-                  {"task", jsonOf(plan.scenario.task)},
-                  {"runs", runs}};
+                  {"target_remark", plan.target.remark},
+                  {"description", scenario.description},
+                  {"seed", plan.seed},
+                  {"repetitions", plan.repetitions},
+                  {"task", jsonOf(scenario.task)},
+                  {"gains", jsonOf(scenario.gains)},
+                  {"image_faults", jsonOf(scenario.faults)},
+                  {"laws", laws},
+                  {"plants", plants},
+                  {"runs", runs},
+                  {"film_strip", {{"laws", making.strip.laws}, {"times_s", making.strip.times}}},
+                  {"videos", videos}};
+  if (plan.shaped) {
+    summary["shape"] = jsonOf(scenario.shape);
+  }
   if (plan.arm) {
     summary["robot"] = jsonOf(*plan.arm);
   }

@@ -9,11 +9,13 @@
 #ifndef servoCompare_runLog_h
 #define servoCompare_runLog_h
 
+#include "replay.h"
 #include "results.h"
 
 #include <nlohmann/json_fwd.hpp>
 
 #include <string>
+#include <vector>
 
 namespace servoCompare
 {
@@ -25,11 +27,15 @@ namespace servoCompare
  * (initial camera frame), translation and theta u. Twists: camera frame. All in m, rad, s and px.
  */
 [[nodiscard]] std::string csvOf(const vpServoRun &run);
-/*!
- * The content of summary.json. \param commandLine : Command line of the program. \param wallTime : s.
- */
-[[nodiscard]] nlohmann::ordered_json summaryOf(const Plan &plan, const Results &results, const std::string &commandLine,
-                                               double wallTime);
+//! \brief What summary.json says besides plan and results.
+struct Making {
+  std::string commandLine;
+  double wallTime; //!< s
+  std::vector<ReplayVideo> videos;
+  FilmStrip strip;
+};
+//! The content of summary.json, which schema.json of python/visp_direct/report describes.
+[[nodiscard]] nlohmann::ordered_json summaryOf(const Plan &plan, const Results &results, const Making &making);
 } // namespace servoCompare
 
 #endif

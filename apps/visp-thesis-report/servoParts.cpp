@@ -5,7 +5,6 @@
 // Figures 5.6 to 5.11: the laws on the task of section 5.4.2, by the runs of visp-servo-compare.
 #include "part.h"
 
-#include "visp-servo-compare/figures.h"
 #include "visp-servo-compare/replay.h"
 #include "visp-servo-compare/runLog.h"
 
@@ -304,15 +303,9 @@ std::vector<std::pair<std::string, std::string>> parameters(const Plan &plan)
           {"seeds", std::to_string(SEEDS) + ", medians; the pictures show the first"}};
 }
 
-//! The figure and the logs of its runs.
-void illustrate(const Runs &runs, const std::vector<servoCompare::Figure> &figures, Item &item)
+//! The logs of the runs of a figure, which Python draws.
+void addLogs(const Runs &runs, Item &item)
 {
-  const std::string number = item.id.substr(3);
-  for (const servoCompare::Figure &figure : figures) {
-    if (figure.name == "figure-" + number) {
-      item.figures.push_back({"curves", figure.title, figure.caption, figure.svg});
-    }
-  }
   const std::string plant = item.id == "fig5.6" || item.id == "fig5.7" ? PERFECT : HARD;
   for (const std::string &law : runs.plan().laws) {
     if (const vpServoRun *run = runs.results().find(law, plant, POINTS)) {
@@ -329,11 +322,10 @@ std::vector<Item> play(const Setting &setting)
   const std::vector<std::pair<const char *, Item (*)(const Runs &)>> makers = {
       {"fig5.6", reference}, {"fig5.7", performance},  {"fig5.8", hardReference},
       {"fig5.9", range},     {"fig5.10", imageErrors}, {"fig5.11", views}};
-  const std::vector<servoCompare::Figure> figures = servoCompare::drawFigures(runs.plan(), runs.results(), 1);
   for (const auto &maker : makers) {
     if (setting.wants(maker.first)) {
       items.push_back(maker.second(runs));
-      illustrate(runs, figures, items.back());
+      addLogs(runs, items.back());
     }
   }
   if (setting.wants("fig5.11")) {

@@ -47,8 +47,12 @@ def test_law_of_the_readme_in_the_comparison(tmp_path):
     environment = {**os.environ, "VISP_DIRECT_LAWS": str(tmp_path / "mine.py")}
     done = subprocess.run(call, capture_output=True, text=True, env=environment)
     assert done.returncode == 0, done.stderr
-    runs = json.dumps(json.loads((tmp_path / "out/summary.json").read_text()))
-    assert '"straight"' in runs and '"pbvs1"' in runs and "straight" in (tmp_path / "out/report.html").read_text()
+    runs = json.loads((tmp_path / "out/summary.json").read_text())["runs"]
+    ends = {run["law"]: run["end_rotation_deg"] for run in runs}
+    assert ends["straight"] == pytest.approx(ends["pbvs1"], abs=1e-6)  # the same law
+    page = (tmp_path / "out/report.html").read_text()
+    for law in ("straight", "pbvs1"):  # rows of one table
+        assert f'<tr><td class="text">{law}</td><td class="text">A</td><td class="text">' in page
     for text, sentence in (("raise ValueError('no')", "has not run to its end"), (None, "set VISP_DIRECT_LAWS to one")):
         bad = tmp_path / "bad.py"
         if text is None:

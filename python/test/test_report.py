@@ -97,6 +97,22 @@ SMALL.write_text(
         }
     )
 )
+SHORT = OUT / "short.json"  # a task of visp-servo-compare, with names that are no text of HTML or of a formula
+SHORT.write_text(
+    json.dumps(
+        {
+            "name": "a <b> & $\\frac{$",
+            "camera": {"px": 800, "py": 800, "u0": 320, "v0": 240},
+            "object": {"width_m": 0.18, "height_m": 0.18},
+            "start": {"position_m": [0, 0, 0.5], "rotation_deg": [0, 0, 0]},
+            "segments": [
+                {"name": "<i> $\\frac{$", "position_m": [0.02, 0, 0.4], "rotation_deg": [0, -20, 0], "duration_s": 1},
+                {"position_m": [0, 0, 0.5], "rotation_deg": [0, 0, 0], "duration_s": 1},
+            ],
+            "plants": [{"name": "slow one", "like": "D"}],
+        }
+    )
+)
 PROGRAMS = [
     ("visp-plan-trajectory", str(DATA / "trajectory/examples.jsonl")),
     ("visp-plan-trajectory", str(DATA / "trajectory/figure-6.3.jsonl")),
@@ -119,6 +135,9 @@ PROGRAMS = [
     ("visp-avoid-obstacle", "--replica=fig8.12"),
     ("visp-plan-compare", "--scene=S3,S5", "--method=potential,dtg,dtg-via", "--seeds=2"),
     ("visp-track-pattern", "--frames=90"),
+    ("visp-servo", "--lambda=3", "--object-pose=0.01,-0.005,0.31,1,-3,5", "--start-time=0.2"),
+    ("visp-servo-compare", f"--task={SHORT}", "--law=pbvs1,ff-lookat-pi+cbf", "--measure=points", "--monte-carlo=2"),
+    ("visp-servo-compare", "--robot=amor", f"--task={SHORT}", "--law=pbvs1,dtg", "--measure=points", "--shape"),
 ]
 
 
@@ -146,8 +165,26 @@ def known_place(folder, call):
     logs = [name for name in Result(folder).files() if name.startswith(("samples", "log/"))]
     if not logs:
         return [], []
-    table, joints = Result(folder).table(logs[0]), json.loads((folder / "arm.json").read_text())["joints"]
+    table = Result(folder).table(logs[0])
+    if "tool_x_m" not in table:
+        return [], []
+    joints = json.loads((folder / "arm.json").read_text())["joints"]
     return [table[f"q_{joint['name']}"][-1] for joint in joints], [table[f"tool_{axis}_m"][-1] for axis in "xyz"]
+
+
+def carried_camera(folder):
+    """The last configuration of a log of servoing, the camera in the base then, and its distance from the tool; [] without an arm."""
+    result = Result(folder)
+    if not result.program.startswith("visp-servo") or not (folder / "arm.json").is_file():
+        return [], None, None
+    log = result.table(next(name for name in result.files() if name == "log.csv" or name.startswith("log/")))
+    base = np.array(result.summary["robot"]["camera_at_start"]) if "robot" in result.summary and "tx_m" in log else np.eye(4)
+    place = [log[f"t{axis}_m" if "tx_m" in log else f"fMc_t{axis}"][-1] for axis in "xyz"]
+    arm = result.json("arm.json")
+    assert arm["camera_link"] in (-1, arm["tool_link"])
+    distance = np.linalg.norm(np.subtract(arm["camera"], arm["tool"])[:3, 3])
+    row = -2 if "tx_m" in log else -1  # joints are those at the end of a row's cycle, or of its time
+    return [log[f"q_{joint['name']}"][row] for joint in arm["joints"]], (base @ [*place, 1])[:3], distance
 
 
 # On a phone once for each program.
@@ -178,11 +215,12 @@ window.addEventListener("load", () => setTimeout(() => {
   const differ = (a, b) => a.filter((v, i) => Math.abs(v - b[i]) > 8).length;
   const views = [...document.querySelectorAll(".view")].map((view) => {
     const canvas = view.querySelector("canvas"), before = seen(canvas), slider = view.querySelector("input[type=range]");
-    let moved = null, chosen = null;
+    let moved = null, chosen = null, sight = [];
     if (slider) {
       slider.value = Number(slider.min) + 0.8 * (slider.max - slider.min);
       slider.dispatchEvent(new Event("input"));
       moved = differ(before, seen(canvas));
+      sight = view.vispView ? view.vispView.scene.runs.slice(0, 2).map((_, i) => view.vispView.see(i)) : [];
     }
     const menu = view.querySelector("select");
     if (menu) { // another run on the left, and back
@@ -191,8 +229,10 @@ window.addEventListener("load", () => setTimeout(() => {
       chosen = [choose([...menu.options].map((o) => o.value).find((v) => v !== was)), choose(was)];
     }
     const q = FK;
-    return {tool: q.length && view.vispView ? view.vispView.toolAt(0, q) : [], colours: new Set(before.map((v, i) => i % 4 ? 0 : before.slice(i, i + 3).join())).size,
-            moved, chosen};
+    const run = view.vispView && view.vispView.scene.runs[0], k = run ? Math.floor(0.1 * run.t.length) : 0;
+    const carried = run && run.camera && q.length ? [view.vispView.toolAt(0, run.q[k]), [3, 7, 11].map((i) => run.camera.pose[k][i])] : [];
+    return {carried, tool: q.length && view.vispView ? view.vispView.toolAt(0, q) : [], colours: new Set(before.map((v, i) => i % 4 ? 0 : before.slice(i, i + 3).join())).size,
+            moved, chosen, sight};
   });
   const table = document.querySelector("table.sorts"), rows = () => [...table.tBodies[0].rows].map((r) => r.cells[1].textContent);
   const unsorted = rows();
@@ -202,6 +242,8 @@ window.addEventListener("load", () => setTimeout(() => {
 }, 500));</script></body>"""
     probed = folder / "probe.html"
     q, tool = known_place(folder, call)
+    carrying, camera, distance = carried_camera(folder)
+    q = q or carrying
     probed.write_text(page.replace("</body>", probe.replace("FK", json.dumps(q))))
     browser = [
         CHROMIUM,
@@ -228,10 +270,22 @@ window.addEventListener("load", () => setTimeout(() => {
         and len(verdict["sorted"]) == len(verdict["unsorted"])
         and sorted(verdict["sorted"]) == sorted(verdict["unsorted"])
     )
-    if q:  # the page moves the arm as the library does
-        assert verdict["views"] and all(
-            view["colours"] > 20 and view["moved"] in (None, *range(20, 5000)) for view in verdict["views"]
-        ), verdict
+    if call[0].startswith("visp-servo"):
+        assert verdict["views"] and all(view["colours"] > 20 and view["moved"] > 20 for view in verdict["views"]), verdict
+    if call[0] == "visp-servo-compare":
+        changed, same = verdict["views"][0]["chosen"]
+        assert changed > 20 and same == 0
+        result = Result(folder)
+        for law, sight in zip(result.summary["laws"], verdict["views"][0]["sight"]):  # one on each side
+            log = result.table(next(run["log"] for run in result.summary["runs"] if run["law"] == law["id"] and "log" in run))
+            row = int(np.argmin(np.abs(np.array(log["time_s"]) - 0.8 * log["time_s"][-1])))  # where the slider is
+            pixel = np.array(sight) * [640, 480] - 0.5
+            np.testing.assert_allclose(pixel, [log["u_px"][row], log["v_px"][row]], atol=0.1)  # seen as by the simulated camera
+    if carrying:  # the arm of the page carries the camera as that of the program did
+        assert np.linalg.norm(np.subtract(verdict["views"][0]["tool"], camera)) == pytest.approx(distance, abs=1e-5)
+        assert np.linalg.norm(np.subtract(*verdict["views"][0]["carried"])) == pytest.approx(distance, abs=5e-4)
+    elif q:  # the page moves the arm as the library does
+        assert verdict["views"] and all(view["colours"] > 20 and view["moved"] in (None, *range(20, 5000)) for view in verdict["views"]), verdict
         np.testing.assert_allclose(verdict["views"][0]["tool"], tool, atol=1e-9 if call[0] == "visp-arm" else 1e-5)
     if call[0] == "visp-plan-compare":
         changed, same = verdict["views"][0]["chosen"]

@@ -19,6 +19,11 @@
 
 #include <sys/wait.h>
 
+//! For tests that look at data only: a report takes a second, and python/test opens those of all programs.
+inline bool withoutReports() { return setenv("VISP_DIRECT_PYTHON", "/nowhere", 1) == 0; }
+//! Environment of a run with a report after all.
+constexpr const char *WITH_REPORT = "VISP_DIRECT_PYTHON=";
+
 //! \brief Empty folder for one test, the working directory of the program; removed afterwards.
 class ProgramRun
 {

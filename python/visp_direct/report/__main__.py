@@ -15,6 +15,8 @@ PROGRAMS = {
     "visp-plan-compare": "plan_compare",
     "visp-plan-trajectory": "plan_trajectory",
     "visp-print-pattern": "print_pattern",
+    "visp-servo": "servo",
+    "visp-servo-compare": "servo_compare",
     "visp-track-pattern": "track_pattern",
 }
 
