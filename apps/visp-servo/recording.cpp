@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <cstring>
 #include <stdexcept>
+#include <utility>
 
 namespace visualServo
 {
@@ -68,8 +69,9 @@ std::string csvText(const std::string &sentence)
 
 Recording::Recording(vpApp::OutputFolder &out, const vpArmModel *arm, double rate)
   : m_out(out), m_arm(arm), m_rate(rate), m_log(out.file("log.csv"), std::ios::binary),
-    m_imageLog(out.file("images.csv"), std::ios::binary)
+    m_imageLog(out.file("images.csv"), std::ios::binary), m_eventLog(out.file("events.csv"), std::ios::binary)
 {
+  m_eventLog << "time_s,status,message\n";
   m_log << "time_s,status,law_status" << six("cMo_", "t", "tu") << six("sigma_", "t", "tu")
         << ",position_error_m,rotation_error_rad,image_age_s,speed_factor,distance_m,distance_sigma_m"
         << six("v_", "", "w") << six("fMc_", "t", "tu") << ",step_us";
@@ -129,6 +131,7 @@ void Recording::add(CycleRow row)
 
   if (cycleCount() == 0 || std::strcmp(m_last.message, row.message) != 0) {
     m_events.push_back({row.time, vpToString(row.status), row.message});
+    m_eventLog << vpApp::number(row.time, 9) << ',' << vpToString(row.status) << ',' << csvText(row.message) << '\n';
   }
   m_cycles.add(row);
   m_last = row;
@@ -178,11 +181,11 @@ void Recording::add(ImageRow row, const vpImage<unsigned char> *image)
 
 void Recording::flush()
 {
-  for (std::ofstream *file : {&m_log, &m_imageLog}) {
+  for (const auto &[name, file] :
+       {std::pair("log.csv", &m_log), std::pair("images.csv", &m_imageLog), std::pair("events.csv", &m_eventLog)}) {
     file->flush();
     if (!*file) {
-      throw std::runtime_error((m_out.path() / (file == &m_log ? "log.csv" : "images.csv")).string() +
-                               ": cannot be written, is the disk full?");
+      throw std::runtime_error((m_out.path() / name).string() + ": cannot be written, is the disk full?");
     }
   }
 }
@@ -192,6 +195,7 @@ void Recording::close()
   flush();
   m_log.close();
   m_imageLog.close();
+  m_eventLog.close();
   m_video.release();
 }
 } // namespace visualServo

@@ -4,7 +4,7 @@
  */
 /*!
  * \file recording.h
- * \brief What is kept while the program runs: log.csv, images.csv and the video, and what the report needs in memory.
+ * \brief What is kept while the program runs: log.csv, images.csv, events.csv and the video, and what the film needs in memory.
  */
 #ifndef visualServo_recording_h
 #define visualServo_recording_h
@@ -78,7 +78,7 @@ public:
   void flush();
   void close();
 
-  //! Some of the cycles, for figures.
+  //! Some of the cycles, for the video.
   [[nodiscard]] const std::vector<CycleRow> &cycles() const { return m_cycles.rows(); }
   //! Some of the images.
   [[nodiscard]] const std::vector<ImageRow> &images() const { return m_images.rows(); }
@@ -97,7 +97,7 @@ private:
   vpApp::OutputFolder &m_out;
   const vpArmModel *m_arm;
   double m_rate;
-  std::ofstream m_log, m_imageLog;
+  std::ofstream m_log, m_imageLog, m_eventLog;
   cv::VideoWriter m_video;
   cv::Size m_size;
   vpArmData m_data;

@@ -9,11 +9,10 @@
 
 #include "appMain.h"
 #include "greyPicture.h"
-#include "htmlReport.h"
 #include "numberText.h"
 #include "outputFolder.h"
 #include "recording.h"
-#include "timePlot.h"
+#include "report.h"
 #include "vpFileText.h"
 
 #include <visp3/core/vpMath.h>
@@ -61,7 +60,6 @@ struct Differences {
   std::size_t cycles = 0;
   double linearSquares = 0., angularSquares = 0., largestLinear = 0., largestAngular = 0.;
   double firstTime = NOTHING; //!< When the speeds first differed by more than a tenth of the limits, s.
-  Thinned<Compared> rows{4000};
 
   void add(const RecordedImage &then, const vpServoMeasurement &now)
   {
@@ -86,7 +84,6 @@ struct Differences {
     largestAngular = std::max(largestAngular, angular);
     const bool differs = linear > 0.1 * limits.linearVelocity || angular > 0.1 * limits.angularVelocity;
     firstTime = differs && std::isnan(firstTime) ? row.time : firstTime;
-    rows.add(row);
   }
   [[nodiscard]] double rms(double squares) const
   {
@@ -127,8 +124,9 @@ private:
 
 std::vector<std::string> findings(const Differences &d, const Options &options)
 {
-  const auto mm = [](double v) { return vpApp::number(1e3 * v, 3); };
-  const auto degrees = [](double v) { return vpApp::number(vpMath::deg(v), 3); };
+  const auto text = [](double v) { return v < 1e-3 ? "less than 0.001" : vpApp::number(v, 3); };
+  const auto mm = [&text](double v) { return text(1e3 * v); };
+  const auto degrees = [&text](double v) { return text(vpMath::deg(v)); };
   std::vector<std::string> lines;
   lines.push_back("Of " + std::to_string(d.images) + " recorded images the target is found in " +
                   std::to_string(d.foundNow) + "; when they were recorded it was found in " +
@@ -153,36 +151,6 @@ std::vector<std::string> findings(const Differences &d, const Options &options)
                             vpApp::fixed(d.firstTime, 2) +
                             " s; what the camera would have seen from there on is not in the recording.");
   return lines;
-}
-
-void pair(vpApp::Plot &plot, const Differences &d, double (*then)(const Compared &), double (*now)(const Compared &))
-{
-  const std::vector<Compared> &rows = d.rows.rows();
-  const auto add = [&](const char *label, const char *colour, double (*value)(const Compared &)) {
-    plot.curves.push_back(vpApp::timeCurve(
-        label, colour, rows.size(), [&](std::size_t i) { return rows[i].time; },
-        [&](std::size_t i) { return value(rows[i]); }));
-  };
-  add("recorded", "#999999", then);
-  add("replayed", "#1f77b4", now);
-  plot.fromZero = true;
-}
-
-std::string figure(const Differences &d)
-{
-  vpApp::Plot linear = vpApp::timePlot("Speed of the camera", "mm/s");
-  pair(
-      linear, d, [](const Compared &row) { return 1e3 * row.then.linearNorm(); },
-      [](const Compared &row) { return 1e3 * row.now.linearNorm(); });
-  vpApp::Plot angular = vpApp::timePlot("Angular speed", "degrees/s");
-  pair(
-      angular, d, [](const Compared &row) { return vpMath::deg(row.then.angularNorm()); },
-      [](const Compared &row) { return vpMath::deg(row.now.angularNorm()); });
-  vpApp::Plot position = vpApp::timePlot("Distance from the goal", "mm");
-  pair(
-      position, d, [](const Compared &row) { return 1e3 * row.positionThen; },
-      [](const Compared &row) { return 1e3 * row.positionNow; });
-  return vpApp::renderPanels({linear, angular, position}, vpApp::PlotFormat::Svg);
 }
 
 std::string rowText(const Compared &row)
@@ -295,7 +263,6 @@ nlohmann::ordered_json summaryOf(const Differences &d, const Options &options, c
 
 int replay(const Options &given, const std::string &commandLine)
 {
-  vpApp::requireGnuplot();
   Options options = given;
   std::error_code ignored;
   if (fs::equivalent(options.out, options.replay, ignored)) {
@@ -320,25 +287,11 @@ int replay(const Options &given, const std::string &commandLine)
     throw std::runtime_error((out.path() / "replay.csv").string() + ": cannot be written, is the disk full?");
   }
   const Differences &d = rerun.differences();
-  const std::vector<std::string> lines = findings(d, options);
-  vpApp::HtmlReport page("Visual servoing, replayed",
-                         "The images and the motion of " + options.replay + ", seen and steered once more");
-  page.section("What would have been different");
-  page.highlight(lines);
-  page.picture(vpApp::dataUri("image/svg+xml", figure(d)), "speeds and errors, recorded and replayed",
-               "The robot moves as it was recorded: the replayed law is asked at each recorded place what it would do "
-               "there. Where the "
-               "curves part, another way would have begun.");
-  page.section("Settings");
-  page.facts({{"law", options.laws.front()}, {"command", commandLine}, {"version", VISP_DIRECT_VERSION}},
-             "What was run.");
-  out.write("report.html", page.html());
-  out.writeSummary(summaryOf(d, options, commandLine));
-  out.commit();
-  for (const std::string &line : lines) {
+  const std::string place = vpApp::finishWithReport(out, summaryOf(d, options, commandLine));
+  for (const std::string &line : findings(d, options)) {
     std::cout << line << "\n";
   }
-  std::cout << "Report: " << (out.path() / "report.html").string() << std::endl;
+  std::cout << place << std::endl;
   return vpApp::ExitOk;
 }
 } // namespace visualServo

@@ -6,17 +6,18 @@
 
 #include "camera.h"
 #include "goal.h"
-#include "report.h"
+#include "outcome.h"
 #include "servoRun.h"
 #include "target.h"
 #include "view.h"
 
 #include "appMain.h"
+#include "viewData.h"
 #include "greyPicture.h"
 #include "numberText.h"
 #include "outputFile.h"
 #include "pictureWindow.h"
-#include "plot.h"
+#include "report.h"
 #include "videoFile.h"
 
 #include <visp3/core/vpMath.h>
@@ -34,8 +35,7 @@ namespace visualServo
 {
 namespace
 {
-constexpr std::size_t TAUGHT = 25, MOST_TAUGHT = 150;      // images
-constexpr std::uintmax_t LARGEST_SHOWN_VIDEO = 12U << 20U; // bytes; a larger one would make the page slow
+constexpr std::size_t TAUGHT = 25, MOST_TAUGHT = 150; // images
 
 Wish wishOf(const std::string &key, bool isOpen)
 {
@@ -122,17 +122,14 @@ std::string pngOf(const cv::Mat &picture)
 void writeResult(const Outcome &outcome, const cv::Mat &picture, const std::string &commandLine,
                  vpApp::OutputFolder &out)
 {
-  std::error_code ignored;
-  const std::string file = out.file("view.mp4");
-  const std::uintmax_t size = std::filesystem::file_size(file, ignored);
-  const std::string video = !ignored && size < LARGEST_SHOWN_VIDEO ? vpApp::readFile(file) : "";
-  out.write("report.html", reportPage(outcome, video, pngOf(picture), commandLine));
-  out.writeSummary(summaryOf(outcome, commandLine));
-  out.commit();
+  if (!picture.empty()) {
+    out.write("view.png", pngOf(picture));
+  }
+  const std::string place = vpApp::finishWithReport(out, summaryOf(outcome, commandLine), true);
   for (const std::string &line : findings(outcome)) {
     std::cout << line << "\n";
   }
-  std::cout << "Report: " << (out.path() / "report.html").string() << std::endl;
+  std::cout << place << std::endl;
 }
 
 int statusOf(const Outcome &outcome)
@@ -167,7 +164,6 @@ vpServoController controllerOf(Options &options, const Eye &eye)
 
 int servo(const Options &given, const std::string &commandLine)
 {
-  vpApp::requireGnuplot();
   Options options = given;
   const std::unique_ptr<Robot> robot = openRobot(options);
   const Camera camera = openCamera(options, *robot);
@@ -198,6 +194,9 @@ int servo(const Options &given, const std::string &commandLine)
   }
   vpApp::OutputFolder out("visp-servo", options.out);
   keepSettings(options, eye, cdMo, out);
+  if (robot->arm() != nullptr) {
+    vpApp::writeArm(out, *robot->arm());
+  }
   Recording recording(out, robot->arm(), eye.rate);
   ServoRun run(options, *camera.source, *robot, servo, recording, screen);
   Outcome outcome;
@@ -213,7 +212,8 @@ int servo(const Options &given, const std::string &commandLine)
     outcome.clock = camera.source->clock();
     outcome.robot = robot->description();
     outcome.target = describeTarget(options.target);
-    outcome.isAssumedCamera = eye.isAssumed;
+    outcome.eye = eye;
+    outcome.cdMo = cdMo;
     outcome.hasStarted = run.hasStarted();
     outcome.lostImages = camera.source->lost();
     outcome.lostRows = run.lostRows();

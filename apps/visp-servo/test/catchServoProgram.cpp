@@ -30,6 +30,7 @@
 namespace
 {
 using nlohmann::json;
+const bool s_quick = withoutReports();
 constexpr int OK = 0, DATA = 1;
 // Near the goal, so that runs are short.
 const std::string NEAR = " --object-pose 0.004,-0.003,0.305,1,-1,1 --start-time 0.2 --lambda 3";
@@ -49,7 +50,7 @@ std::size_t linesOf(const std::filesystem::path &file)
 TEST_CASE("the simulation reaches the goal; replay finds the same, and tells what another law would do", "[visp-servo]")
 {
   ProgramRun run(SERVO);
-  REQUIRE(run("--out a" + NEAR) == OK);
+  REQUIRE(run("--out a" + NEAR, WITH_REPORT) == OK);
   CHECK(run.out().find("The goal was reached.") == 0);
   const json summary = summaryIn(run, "a");
   CHECK(summary["end"]["status"] == "Converged");
@@ -157,6 +158,7 @@ pid_t start(const ProgramRun &run, const std::vector<std::string> &arguments)
         std::freopen("/dev/null", "w", stderr) == nullptr) {
       _exit(99);
     }
+    unsetenv("VISP_DIRECT_PYTHON"); // with a report
     execv(SERVO, argv.data());
     _exit(98);
   }
@@ -210,7 +212,7 @@ TEST_CASE("Ctrl-C ends with a report; a killed program leaves what it recorded, 
 TEST_CASE("the goal that is not reached in time is status 1, with the report", "[visp-servo]")
 {
   ProgramRun run(SERVO);
-  CHECK(run("--duration 0.5 --out a") == DATA);
+  CHECK(run("--duration 0.5 --out a", WITH_REPORT) == DATA);
   CHECK(run.err().find("the goal was not reached in 0.5 s; the report shows the way") != std::string::npos);
   CHECK(std::filesystem::exists(run.path("a/report.html")));
 }
