@@ -9,7 +9,7 @@ from conftest import longer, pose
 from visp_direct.report.camera3d import camera, chosen, columns, matrices, outline
 from visp_direct.report.data import Result
 from visp_direct.report.page import number
-from visp_direct.report.servo import stairs
+from visp_direct.report.servo import run_of, stairs
 from visp_direct.report.servo_compare import cell_of, marks, route_of
 from visp_direct.report.servo_figures import overshoot
 from visp_direct.report.servo_laws import LOOKS, Comparison, Medians, answers, findings, listed
@@ -232,6 +232,31 @@ def test_lens_has_the_corners_of_the_image(random):
     for count in (1, 2, 239, 240, 241, 5000):
         index = chosen(count)
         assert index[0] == 0 and index[-1] == count - 1 and len(index) == min(count, 240)
+
+
+@pytest.mark.parametrize("stands", [False, True])
+def test_camera_of_a_run_is_where_the_log_says(stands, tmp_path, random):
+    """A camera that moves, or one that stands and sees a target on the robot."""
+    count, place = 5, pose(random.normal(size=3), random.normal(size=3))
+    poses = [place if stands else pose(random.normal(size=3), random.normal(size=3)) for _ in range(count)]
+    cMo = [pose([0, 0, 0.4 + 0.01 * i], [0, 0.1, 0]) for i in range(count)]
+    six = {f"{name}_{kind}": [] for name in ("fMe" if stands else "fMc", "cMo") for kind in ("tx", "ty", "tz", "tux", "tuy", "tuz")}
+    for name, list_of in (("cMo", cMo), *([] if stands else [("fMc", poses)])):
+        for M in list_of:
+            angle = np.arccos(np.clip((np.trace(M[:3, :3]) - 1) / 2, -1, 1))
+            axis = np.array([M[2, 1] - M[1, 2], M[0, 2] - M[2, 0], M[1, 0] - M[0, 1]]) / (2 * np.sin(angle))
+            for kind, x in zip(("tx", "ty", "tz", "tux", "tuy", "tuz"), (*M[:3, 3], *(angle * axis))):
+                six[f"{name}_{kind}"].append(x)
+    intrinsics = {"px": 600, "py": 600, "u0": 320, "v0": 240, "width": 640, "height": 480}
+    scene = {"camera": intrinsics, "size_m": [0.1, 0.1], "goal": None, "picture": None} | ({"fMc": place.tolist()} if stands else {})
+    result = type("Made", (), {"summary": {"scene": scene}, "folder": tmp_path, "name": "made"})
+    log = six | {"time_s": list(range(count)), "distance_m": [0] * count}
+    run, _, target, _ = run_of(result, log, np.eye(4))
+    np.testing.assert_allclose(np.reshape(run["camera"]["pose"], (count, 3, 4)), np.array(poses)[:, :3], atol=1e-5)
+    np.testing.assert_allclose(target[0]["track"]["pose"], np.array(poses) @ np.array(cMo), atol=2e-5)
+    if stands:
+        del scene["fMc"]
+        assert run_of(result, log, np.eye(4)) is None  # not told
 
 
 def test_long_logs_are_thinned(tmp_path):

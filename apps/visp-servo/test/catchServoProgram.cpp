@@ -59,8 +59,22 @@ TEST_CASE("the simulation reaches the goal; replay finds the same, and tells wha
   CHECK(linesOf(run.path("a/log.csv")) == summary["cycles"].get<std::size_t>() + 1);
   CHECK(linesOf(run.path("a/images.csv")) == summary["images"].get<std::size_t>() + 1);
   for (const char *word : {"image_period", "latency", "vision", "step_period", "step_jitter", "step"}) {
-    CHECK(summary["times"][word]["median_ms"].get<double>() >= 0.);
+    const json &time = summary["times"][word];
+    CHECK(time["median_ms"].get<double>() >= 0.);
+    std::size_t count = 0;
+    for (const json &bin : time["histogram"]) {
+      CHECK(bin[0] < bin[1]);
+      count += bin[2].get<std::size_t>();
+    }
+    CHECK(count == time["count"]);
   }
+  const std::string events = vpApp::readFile(run.path("a/events.csv"));
+  CHECK(events.rfind("time_s,status,message\n0,NoImages,\"", 0) == 0);
+  CHECK(events.find(",Converged,\"The goal is reached within the tolerances.\"\n") != std::string::npos);
+  CHECK(summary["scene"]["camera"]["width"] == 640);
+  CHECK(summary["scene"]["size_m"][0] == 0.12);
+  CHECK(summary["scene"]["goal"][2][3].get<double>() == Approx(0.3).epsilon(0.1));
+  CHECK(json::parse(vpApp::readFile(run.path("a/arm.json")))["name"] == "AMOR");
   CHECK(summary["times"]["latency"]["median_ms"].get<double>() ==
         Approx(45.).epsilon(0.06)); // 40 ms and a step of 5 ms
   for (const char *file : {"report.html", "view.mp4", "camera.mkv", "camera.xml", "target.png", "recording.json"}) {

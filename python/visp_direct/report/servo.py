@@ -40,6 +40,7 @@ def panels_figure(t, panels):
 
 
 def add_motion(page, log, settings):
+    what = "camera" if "fMc_tx" in log else "end effector"  # which moves
     t = np.array(log["time_s"])
     if len(t) < 2:
         return
@@ -68,8 +69,8 @@ def add_motion(page, log, settings):
             ],
         ),
         "speeds",
-        "Commanded speed of the camera over time",
-        "Speed of the camera as it was given to the robot, within the limits.",
+        f"Commanded speed of the {what} over time",
+        f"Speed of the {what} as it was given to the robot, within the limits.",
     )
 
 
@@ -152,7 +153,11 @@ def seen_target(log, index, fMc, cMo, world, scene_data, picture):
 
 def run_of(result, log, base):
     """A run for the 3D view, its arm, its target and what is missing; None where no pose of the camera is known."""
-    fMc = columns(log, "fMc_")
+    data = result.summary["scene"]
+    if "fMc_tx" in log:
+        fMc = columns(log, "fMc_")
+    else:  # the camera stands
+        fMc = np.tile(data.get("fMc", np.full((4, 4), np.nan)), (len(log["time_s"]), 1, 1)).astype(float)
     known = np.flatnonzero(np.isfinite(fMc).all(axis=(1, 2)))
     if len(known) < 2:
         return None
@@ -164,7 +169,6 @@ def run_of(result, log, base):
     q = np.array([np.array(log[name])[index] for name in joints]).T.round(4).tolist() if has_arm else [[] for _ in index]
     from_start = not has_arm and np.abs(fMc[0] - np.eye(4)).max() < 1e-6  # then y is down
     world = Z_UP if from_start else np.eye(4)
-    data = result.summary["scene"]
     picture = photograph(result.bytes(data["picture"])) if data["picture"] else None
     goals = [[0, outline(data["goal"], data["size_m"])]] if data["goal"] else []
     depth = 0.3 * np.nanmedian(cMo[:, 2, 3]) if np.isfinite(cMo).any() else 0.1
