@@ -16,12 +16,6 @@
 
 namespace vpApp
 {
-//! An empty plot against time in s. \param yLabel : With unit.
-[[nodiscard]] Plot timePlot(const std::string &title, const std::string &yLabel, unsigned int height = 260);
-
-//! A dashed horizontal line over the width of the curves so far, and over Plot::xRange if set.
-void addLevel(Plot &plot, double level, const std::string &label);
-
 //! Value shown for merged neighbours, so that peaks or valleys are kept.
 enum class Keep { Largest, Least };
 
