@@ -292,9 +292,9 @@ Item plane()
 std::vector<Part> armParts()
 {
   const auto part = [](const char *id, const char *title, Item (*make)()) {
-    return Part{CHAPTER, {{id, title}}, 1.5, [make](const Setting &) { return std::vector<Item>{make()}; }};
+    return Part{CHAPTER, {{id, title}}, 1.5, [make](const Setting &) { return std::vector<Item>{make()}; }, false};
   };
-  return {{CHAPTER, {{"table8.1", "tracking errors of joints and tool"}}, 3., trackingErrors},
+  return {{CHAPTER, {{"table8.1", "tracking errors of joints and tool"}}, 3., trackingErrors, false},
           part("fig8.14", "self-motion away from a point", besideJoint),
           part("fig8.15", "self-motion away from a point under the joint", underJoint),
           part("fig8.16", "self-motion towards the line from base to tool", line),

@@ -388,6 +388,11 @@ std::vector<Item> calibrations(const Setting &setting)
   item.quantities.push_back({"image error, product over industrial grid, by the thesis's methods", "1", 1.,
                              display.outcomes[0].error.mean() / grid.outcomes[0].error.mean(), Tolerance::atLeast(),
                              Good::Neither, "", "The thesis: \"lesser accuracy for the product pattern\"."});
+  for (const Found *f : {&grid, &display}) {
+    item.quantities.push_back({"pixel by the calibration of the thesis, " + f->pattern.name, "um", PIXEL,
+                               f->pattern.umPerPixel, Tolerance::distance(0.05), Good::Neither, "",
+                               "Table 7.4 against the size that the thesis computes with."});
+  }
   addDots(item, dots);
   item.remarks = {
       "The thesis's kappa1 and magnification are the truth of the rendered pictures, each pattern with its own: rows "

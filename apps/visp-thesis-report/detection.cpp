@@ -152,10 +152,13 @@ std::vector<Item> detection(const Setting &setting)
   vpPrintExperimentSpec spec;
   spec.product = thesisProduct(setting.seed);
   item.figures.push_back(
-      {"detection", "Output of the centre detection",
+      {"detection",
+       "Output of the centre detection",
        "Left: after Otsu's threshold. Right: cells as Algorithm 7.4 finds them (box, circle) and their true "
        "centres (cross); the circles lie half a pixel to the right.",
-       printPattern::pngOf(printPattern::detection(spec)), "image/png"});
+       {},
+       printPattern::pngOf(printPattern::detection(spec)),
+       "png"});
   item.data.push_back({"deviations.csv",
                        "method,deviation x (px),bias x (px),deviation y (px),bias y (px),cells found (share)\n" + [&] {
                          std::string rows;

@@ -13,25 +13,10 @@
 #include <cmath>
 #include <ctime>
 #include <numeric>
+#include <stdexcept>
 
 namespace thesisReport
 {
-namespace
-{
-//! A CSV field, quoted if necessary.
-std::string field(const std::string &text)
-{
-  if (text.find_first_of(",\"\n") == std::string::npos) {
-    return text;
-  }
-  std::string result = "\"";
-  for (const char c : text) {
-    result += c == '"' ? "\"\"" : std::string(1, c);
-  }
-  return result + "\"";
-}
-} // namespace
-
 bool Tolerance::holds(double thesis, double ours) const
 {
   if (!std::isfinite(thesis) || !std::isfinite(ours)) {
@@ -76,6 +61,10 @@ const char *vpToString(Verdict verdict)
     return "better";
   case Verdict::Differs:
     return "differs";
+  case Verdict::ByConstruction:
+    return "by construction";
+  case Verdict::NotComparable:
+    return "not comparable";
   case Verdict::NoValue:
     break;
   }
@@ -87,12 +76,16 @@ Verdict verdictOf(const Quantity &quantity)
   if (!quantity.thesis) {
     return Verdict::NoValue;
   }
+  const RowKind kind = quantity.judgement.kind;
+  if (kind == RowKind::NotComparable) {
+    return Verdict::NotComparable;
+  }
   if (quantity.tolerance.holds(*quantity.thesis, quantity.ours)) {
-    return Verdict::Agrees;
+    return kind == RowKind::ByConstruction ? Verdict::ByConstruction : Verdict::Agrees;
   }
   const bool better = (quantity.good == Good::Smaller && std::fabs(quantity.ours) < std::fabs(*quantity.thesis)) ||
                       (quantity.good == Good::Larger && quantity.ours > *quantity.thesis);
-  return better ? Verdict::Better : Verdict::Differs;
+  return better && kind != RowKind::ByConstruction ? Verdict::Better : Verdict::Differs;
 }
 
 std::optional<double> ratioOf(const Quantity &quantity)
@@ -103,54 +96,75 @@ std::optional<double> ratioOf(const Quantity &quantity)
   return quantity.ours / *quantity.thesis;
 }
 
-std::string remarkOf(const Quantity &quantity)
+std::string reasonOf(const Quantity &quantity)
 {
   const Verdict verdict = verdictOf(quantity);
-  std::string reason;
-  if (verdict == Verdict::Differs) {
-    reason = quantity.reason.empty() ? "Not explained." : quantity.reason;
+  if (verdict == Verdict::Agrees || verdict == Verdict::NoValue) {
+    return "";
   }
-  else if (verdict == Verdict::Better) {
-    reason = quantity.reason;
+  const bool failed = verdict == Verdict::Differs || verdict == Verdict::Better;
+  const std::string &reason = failed && !quantity.reason.empty() ? quantity.reason : quantity.judgement.why;
+  return reason.empty() ? "Not explained." : reason;
+}
+
+std::string kindOf(const Quantity &quantity)
+{
+  if (!quantity.thesis) {
+    return "ours only";
   }
-  return quantity.note + (quantity.note.empty() || reason.empty() ? "" : " ") + reason;
+  const RowKind kind = quantity.judgement.kind;
+  return kind == RowKind::Compared && quantity.tolerance.isOneSided() ? "bound" : vpToString(kind);
+}
+
+bool couldFail(const Quantity &quantity)
+{
+  const RowKind kind = quantity.judgement.kind;
+  return quantity.thesis && (kind == RowKind::Compared || kind == RowKind::Arithmetic);
+}
+
+double shareOfSeeds(const Quantity &quantity)
+{
+  const Verdict verdict = verdictOf(quantity);
+  Quantity single = quantity;
+  const auto same = std::count_if(quantity.seeds.begin(), quantity.seeds.end(), [&](double ours) {
+    single.ours = ours;
+    return verdictOf(single) == verdict;
+  });
+  return quantity.seeds.empty() ? 1. : static_cast<double>(same) / static_cast<double>(quantity.seeds.size());
 }
 
 Verdict verdictOf(const Item &item)
 {
-  Verdict worst = Verdict::NoValue;
-  const auto rank = [](Verdict v) {
-    return v == Verdict::Differs ? 3 : v == Verdict::Better ? 2 : v == Verdict::Agrees ? 1 : 0;
-  };
-  for (const Quantity &quantity : item.quantities) {
-    const Verdict verdict = verdictOf(quantity);
-    worst = rank(verdict) > rank(worst) ? verdict : worst;
-  }
-  return worst;
-}
-
-std::string csvOf(const std::vector<vpApp::Plot> &panels)
-{
-  std::string csv = "panel,curve,x_label,y_label,x,y\n";
-  for (const vpApp::Plot &panel : panels) {
-    for (const vpApp::PlotCurve &curve : panel.curves) {
-      const std::string head =
-          field(panel.title) + "," + field(curve.label) + "," + field(panel.xLabel) + "," + field(panel.yLabel) + ",";
-      for (std::size_t i = 0; i < std::min(curve.x.size(), curve.y.size()); ++i) {
-        if (std::isfinite(curve.x[i]) && std::isfinite(curve.y[i])) {
-          csv += head + vpApp::number(curve.x[i], 9) + "," + vpApp::number(curve.y[i], 9) + "\n";
-        }
-      }
+  for (const Verdict verdict :
+       {Verdict::Differs, Verdict::Better, Verdict::Agrees, Verdict::ByConstruction, Verdict::NotComparable}) {
+    if (std::any_of(item.quantities.begin(), item.quantities.end(),
+                    [&](const Quantity &quantity) { return verdictOf(quantity) == verdict; })) {
+      return verdict;
     }
   }
-  return csv;
+  return Verdict::NoValue;
+}
+
+Item seedsMerged(std::vector<Item> seeds)
+{
+  Item merged = seeds.front();
+  for (std::size_t i = 0; i < merged.quantities.size(); ++i) {
+    Quantity &quantity = merged.quantities[i];
+    for (const Item &item : seeds) {
+      if (item.quantities.size() != merged.quantities.size() || item.quantities[i].name != quantity.name) {
+        throw std::runtime_error(item.id + ": not every seed has the row " + quantity.name);
+      }
+      quantity.seeds.push_back(item.quantities[i].ours);
+    }
+    quantity.ours = vpMedian(quantity.seeds);
+  }
+  return merged;
 }
 
 void addPlot(Item &item, const std::string &name, const std::string &title, const std::string &caption,
              const std::vector<vpApp::Plot> &panels)
 {
-  item.figures.push_back({name, title, caption, vpApp::renderPanels(panels, vpApp::PlotFormat::Svg)});
-  item.data.push_back({name + ".csv", csvOf(panels)});
+  item.figures.push_back({name, title, caption, panels});
 }
 
 const std::string &colour(std::size_t i)

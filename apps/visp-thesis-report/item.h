@@ -4,12 +4,13 @@
  */
 /*!
  * \file item.h
- * \brief A reproduced figure or table of the thesis: its values beside ours, its plots, and the statistics of what was measured.
+ * \brief A reproduced figure or table of the thesis: its values beside ours, its curves, and the statistics of what was measured.
  */
 #ifndef thesisReport_item_h
 #define thesisReport_item_h
 
-#include "timePlot.h"
+#include "judgement.h"
+#include "curves.h"
 
 #include <optional>
 #include <string>
@@ -35,6 +36,8 @@ public:
   [[nodiscard]] bool holds(double thesis, double ours) const;
   //! In words: "within a factor 1.1".
   [[nodiscard]] std::string text() const;
+  //! A bound or a claim: only one side is wrong.
+  [[nodiscard]] bool isOneSided() const { return m_kind == Kind::AtMost || m_kind == Kind::AtLeast; }
 
   //! See sweep.h.
   template <class Archive> friend void exchange(Archive &archive, Tolerance &tolerance)
@@ -52,15 +55,17 @@ private:
 //! Direction in which a value is better.
 enum class Good { Neither, Smaller, Larger };
 
-//! Result of a comparison.
+//! Result of a comparison. What cannot fail is not an agreement.
 enum class Verdict {
-  Agrees,  //!< Within the tolerance.
-  Better,  //!< Outside the tolerance, on the good side.
-  Differs, //!< Outside the tolerance.
-  NoValue  //!< The thesis gives no value.
+  Agrees,         //!< Within the tolerance.
+  Better,         //!< Outside the tolerance, on the good side.
+  Differs,        //!< Outside the tolerance.
+  ByConstruction, //!< Within the tolerance, as the thesis's value went into the run.
+  NotComparable,  //!< Conditions of the thesis that decide the value are not known, or others.
+  NoValue         //!< The thesis gives no value.
 };
 
-//! "agrees", "better", "differs", "no value in the thesis".
+//! "agrees", "better", "differs", "by construction", "not comparable", "no value in the thesis".
 [[nodiscard]] const char *vpToString(Verdict verdict);
 
 //! \brief One row of results.json.
@@ -68,30 +73,39 @@ struct Quantity {
   std::string name;             //!< "rms velocity error".
   std::string unit;             //!< "px/frame"; "1" for a ratio or a count.
   std::optional<double> thesis; //!< Value or claimed bound of the thesis; none: not given.
-  double ours = 0.;             //!< Measured in this run.
+  double ours = 0.;             //!< Measured in this run; of several seeds the median.
   Tolerance tolerance = Tolerance::factor(1.1);
   Good good = Good::Neither;
-  std::string reason; //!< Reason for a difference; shown only then.
-  std::string note;   //!< Measurement method; always shown.
+  std::string reason;          //!< Reason for a difference; shown only then.
+  std::string note;            //!< Measurement method; always shown. Of several seeds that of the first.
+  Judgement judgement{};       //!< What a second reader needs; see Judgements.
+  std::vector<double> seeds{}; //!< #ours of each seed; empty before seedsMerged().
 };
 
-//! Comparison, computed only from the numbers.
+//! Comparison, computed only from the numbers and Judgement::kind.
 [[nodiscard]] Verdict verdictOf(const Quantity &quantity);
 //! ours / thesis; nullopt without a value or if the thesis's is 0.
 [[nodiscard]] std::optional<double> ratioOf(const Quantity &quantity);
-//! Note and, if the values disagree, the reason; "not explained" if it is missing.
-[[nodiscard]] std::string remarkOf(const Quantity &quantity);
+//! Why the verdict is no agreement, empty for one; "not explained" if it is missing.
+[[nodiscard]] std::string reasonOf(const Quantity &quantity);
+//! What a row can say: "value", "bound", "arithmetic", "by construction", "not comparable", "ours only".
+[[nodiscard]] std::string kindOf(const Quantity &quantity);
+//! Whether another result was possible: a value, a bound, or arithmetic with numbers of the thesis.
+[[nodiscard]] bool couldFail(const Quantity &quantity);
+//! Fraction of the seeds that give verdictOf() alone; 1 without seeds.
+[[nodiscard]] double shareOfSeeds(const Quantity &quantity);
 
 //! \brief A figure of the report.
 struct Figure {
-  std::string name;    //!< Name within its item: "velocity".
-  std::string title;   //!< Alternative text.
-  std::string caption; //!< Explanation.
-  std::string picture; //!< SVG, PNG or JPEG data.
-  std::string mime = "image/svg+xml";
+  std::string name;                  //!< Name within its item: "velocity".
+  std::string title;                 //!< Alternative text.
+  std::string caption;               //!< Explanation.
+  std::vector<vpApp::Plot> panels{}; //!< Below each other, drawn by Python; empty for a picture.
+  std::string picture{};             //!< PNG or JPEG data; empty for panels.
+  std::string suffix = "png";        //!< "png" or "jpg".
 };
 
-//! \brief Data of a figure or a table.
+//! \brief A table that is kept beside the results.
 struct DataFile {
   std::string name;    //!< File name within its item: "velocity.csv".
   std::string content; //!< CSV with a line of names and units.
@@ -102,18 +116,21 @@ struct Item {
   std::string id;                                              //!< "fig6.3".
   std::vector<Quantity> quantities;                            //!< At least one with a value of the thesis.
   std::vector<Figure> figures;                                 //!< Figures.
-  std::vector<DataFile> data;                                  //!< Data files.
+  std::vector<DataFile> data;                                  //!< Tables beside the curves of the figures.
   std::vector<std::pair<std::string, std::string>> parameters; //!< Parameters of the run: name, value.
   std::vector<std::string> remarks;                            //!< Results, and choices left open by the thesis.
 };
 
-//! The verdict over all quantities: differs if one does, else better if one is, else agrees.
+//! The verdict over all quantities: differs if one does, else better, agrees, by construction, not comparable, whichever comes first.
 [[nodiscard]] Verdict verdictOf(const Item &item);
 
-//! Points of all curves of a figure as CSV: panel, curve, x, y; axis labels in a second line of names.
-[[nodiscard]] std::string csvOf(const std::vector<vpApp::Plot> &panels);
+/*!
+ * The same item from several seeds as one: values become medians and keep those of the seeds; all else is that of the first.
+ * \throw std::runtime_error naming the row that not all of them have.
+ */
+[[nodiscard]] Item seedsMerged(std::vector<Item> seeds);
 
-//! Draw panels below each other and add the figure and its data to the item.
+//! Add a figure of panels below each other to the item.
 void addPlot(Item &item, const std::string &name, const std::string &title, const std::string &caption,
              const std::vector<vpApp::Plot> &panels);
 

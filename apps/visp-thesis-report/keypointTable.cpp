@@ -249,10 +249,13 @@ std::vector<Item> keypointTable(const Setting &setting)
                      {"programs", "SURF of dlib, SIFT, ORB and AKAZE of OpenCV, one thread"}};
   item.data.push_back({"detectors.csv", csvOf(all)});
   item.figures.push_back(
-      {"view", "A view and the reference",
+      {"view",
+       "A view and the reference",
        "Left: a view of the photograph, partly hidden, before another one. Right: the photograph. Lines: "
        "matches of SURF (523) that agree on one plane.",
-       matchesPicture(scene, images[1]), "image/jpeg"});
+       {},
+       matchesPicture(scene, images[1]),
+       "jpg"});
   draw(item, all);
   return {item};
 }

@@ -3,13 +3,13 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 // visp-thesis-report: reproduces every result of the thesis, beside its value.
-#include "report.h"
+#include "results.h"
 
+#include "report.h"
 #include "appMain.h"
 #include "commandLine.h"
 #include "numberText.h"
 #include "outputFolder.h"
-#include "plot.h"
 
 #include <algorithm>
 #include <chrono>
@@ -21,13 +21,15 @@ using namespace thesisReport;
 
 constexpr const char *ABOUT =
     R"(Repeat the results of the thesis "Direct Methods for Vision-Based Robot Control" (R. Pieters, 2013) by simulation: every
-figure and table with results of chapters 4 to 8 and appendix A. Each value of the thesis stands beside ours, with the
-tolerance, a verdict, and the reason where they differ. The result is a folder with report.html (open it in a browser),
-results.json, and the data behind every picture as CSV.)";
+figure and table with results of chapters 4 to 8 and appendix A. Each value of the thesis stands beside the median and spread
+of ours over several seeds, with the tolerance, a verdict, and the reason where they differ. The result is a folder with
+report.html (open it in a browser), results.json, and the curves of every figure as CSV.)";
 
 constexpr const char *EXAMPLES = R"(Examples:
   visp-thesis-report
-      everything, some minutes on 2 cores
+      everything with ten seeds, some ten minutes on 2 cores
+  visp-thesis-report --seeds 1
+      quicker, without the spread
   visp-thesis-report --only fig6.3,table4.3
       two of them
   visp-thesis-report --only chapter7
@@ -73,7 +75,8 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   line.list("--only", only, "ID,...", "Only these figures, tables and chapters (default: all)");
   line.text("--out", options.out, "DIR", "Result folder");
   line.whole("--jobs", options.jobs, {1, 256}, "N", "Parts at a time (default: one for each core)");
-  line.whole("--seed", options.seed, {0, 4294967295.}, "S", "Seed of everything random");
+  line.whole("--seed", options.seed, {0, 4e9}, "S", "First seed of everything random");
+  line.whole("--seeds", options.seeds, {1, 200}, "N", "Seeds, for the spread of each value");
   line.flag("--list", options.list, "Name all figures and tables, and end");
   if (!line.parse(argc, argv)) {
     return false;
@@ -102,15 +105,9 @@ void printList()
   }
 }
 
-std::string suffixOf(const std::string &mime)
-{
-  return mime == "image/png" ? ".png" : mime == "image/jpeg" ? ".jpg" : ".svg";
-}
-
 void report(const Options &options, const std::string &commandLine, const vpApp::Ranks &ranks)
 {
   const auto start = std::chrono::steady_clock::now();
-  vpApp::requireGnuplot();
   if (!ranks.isFirst()) {
     static_cast<void>(playAll(options, ranks));
     return;
@@ -120,7 +117,9 @@ void report(const Options &options, const std::string &commandLine, const vpApp:
   for (const Played &played : all) {
     for (const Item &item : played.items) {
       for (const Figure &figure : item.figures) {
-        out.write("figure/" + item.id + "-" + figure.name + suffixOf(figure.mime), figure.picture);
+        if (!figure.picture.empty()) {
+          out.write(pictureFile(item, figure), figure.picture);
+        }
       }
       for (const DataFile &file : item.data) {
         out.write("data/" + item.id + "-" + file.name, file.content);
@@ -129,14 +128,13 @@ void report(const Options &options, const std::string &commandLine, const vpApp:
   }
   const double wallTime = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   out.write("results.json", resultsJson(all).dump(2) + "\n");
-  out.write("report.html", reportPage(all, commandLine, wallTime));
-  out.writeSummary(summaryJson(all, options, commandLine, wallTime));
-  vpApp::throwIfInterrupted();
-  out.commit();
-  for (const auto &count : countVerdicts(all)) {
+  out.write("items.json", itemsJson(all).dump(2) + "\n");
+  out.write("curves.csv", curvesCsv(all));
+  vpApp::finishWithReport(out, summaryJson(all, options, commandLine, wallTime));
+  for (const auto &count : countRows(all)) {
     std::cout << count.second << " " << vpToString(count.first) << ", ";
   }
-  std::cout << "report: " << (out.path() / "report.html").string() << std::endl;
+  std::cout << "rows; result: " << out.path().string() << std::endl;
 }
 } // namespace
 

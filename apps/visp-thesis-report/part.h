@@ -20,7 +20,7 @@ namespace thesisReport
 {
 //! \brief Input of every part.
 struct Setting {
-  unsigned int seed = 1;                //!< Seed of all random numbers.
+  unsigned int seed = 1;                //!< Seed of all random numbers; the next 999 are free as well.
   std::set<std::string> wanted;         //!< Requested ids.
   std::function<void(double)> progress; //!< Call with the fraction done, 0..1; throws on interruption by the user.
   [[nodiscard]] bool wants(const std::string &id) const { return wanted.count(id) != 0; }
@@ -41,17 +41,22 @@ struct Part {
    * Runs on one thread. Returns at least the items of Setting::wanted that are among the entries.
    */
   std::function<std::vector<Item>(const Setting &)> play;
+  bool random = true; //!< Depends on Setting::seed or on clocks; else one seed stands for all.
 };
 
 // The parts, by chapter.
-[[nodiscard]] std::vector<Part> keypointParts();   //!< Tables 4.2 and 4.3.
-[[nodiscard]] std::vector<Part> servoParts();      //!< Figures 5.6 to 5.11.
-[[nodiscard]] std::vector<Part> trajectoryParts(); //!< Figures 6.3 to 6.6.
-[[nodiscard]] std::vector<Part> patternParts();    //!< Figure 7.1, (7.1), (7.2), tables 7.1 to 7.4, figures 7.10, 7.11.
-[[nodiscard]] std::vector<Part> printingParts();   //!< Figures 7.12 to 7.15.
-[[nodiscard]] std::vector<Part> avoidanceParts();  //!< Figures 8.6 to 8.10 and 8.13.
-[[nodiscard]] std::vector<Part> armParts();        //!< Table 8.1, figures 8.14 to 8.17.
-[[nodiscard]] std::vector<Part> minimumJerkParts(); //!< Table A.1.
+[[nodiscard]] std::vector<Part> keypointParts();     //!< Tables 4.2 and 4.3.
+[[nodiscard]] std::vector<Part> referenceParts();    //!< Section 4.6 in a loop.
+[[nodiscard]] std::vector<Part> stabilityParts();    //!< (5.31).
+[[nodiscard]] std::vector<Part> servoParts();        //!< Figures 5.6 to 5.11.
+[[nodiscard]] std::vector<Part> plannedServoParts(); //!< Figure 6.1.
+[[nodiscard]] std::vector<Part> trajectoryParts();   //!< Figures 6.3 to 6.6.
+[[nodiscard]] std::vector<Part> patternParts();   //!< Figure 7.1, (7.1), (7.2), tables 7.1 to 7.4, figures 7.10, 7.11.
+[[nodiscard]] std::vector<Part> printingParts();  //!< Figures 7.12 to 7.15.
+[[nodiscard]] std::vector<Part> avoidanceParts(); //!< Figures 8.6 to 8.10 and 8.13.
+[[nodiscard]] std::vector<Part> armParts();       //!< Table 8.1, figures 8.14 to 8.17.
+[[nodiscard]] std::vector<Part> recommendationParts(); //!< Section 9.2.
+[[nodiscard]] std::vector<Part> minimumJerkParts();    //!< Table A.1.
 } // namespace thesisReport
 
 #endif

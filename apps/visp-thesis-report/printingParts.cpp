@@ -6,7 +6,6 @@
 #include "part.h"
 
 #include "numberText.h"
-#include "plot.h"
 #include "visp-print-pattern/tables.h"
 
 #include <visp3/direct_core/vpQuantile.h>
@@ -24,7 +23,7 @@ constexpr const char *CHAPTER = "Chapter 7: product pattern-based visual servoin
 constexpr double DROP_VELOCITY = 4.; // px/frame
 
 //! Velocities against time.
-std::string velocitySvg(const vpPrintRun &run, const std::string &title)
+vpApp::Plot velocityPlot(const vpPrintRun &run, const std::string &title)
 {
   vpApp::PlotCurve measured{"measured, before any filter", "#9ecae1", vpApp::PlotStyle::Points, 1.5, {}, {}};
   vpApp::PlotCurve truth{"true", "#d62728", vpApp::PlotStyle::Solid, 1.8, {}, {}};
@@ -42,7 +41,7 @@ std::string velocitySvg(const vpPrintRun &run, const std::string &title)
   plot.xLabel = "time (s)";
   plot.yLabel = "velocity (px/frame)";
   plot.curves = {measured, truth, reference};
-  return vpApp::renderSvg(plot);
+  return plot;
 }
 
 std::string captionOf(const Replica &replica)
@@ -90,8 +89,7 @@ public:
     item.id = "fig" + figure;
     const Replica &replica = of(figure);
     const std::string title = "Figure " + figure + ": " + replica.name;
-    item.figures.push_back({"velocity", title, captionOf(replica), velocitySvg(replica.runs.front(), title)});
-    item.data.push_back({"motion.csv", printPattern::motionCsv(replica.runs.front())});
+    addPlot(item, "velocity", title, captionOf(replica), {velocityPlot(replica.runs.front(), title)});
     item.parameters = {
         {"runs", std::to_string(replica.runs.size()) + " seeds; the picture and the data show the first"},
         {"camera", "1600 Hz, 4.5 um a pixel, 1.28 frames from exposure to control"},

@@ -5,22 +5,37 @@
 #include "run.h"
 
 #include "appMain.h"
+#include "dataFile.h"
 #include "sweep.h"
 
 #include <algorithm>
 #include <cctype>
 #include <chrono>
 
+namespace vpApp
+{
+template <class Archive> void exchange(Archive &archive, PlotCurve &curve)
+{
+  archive(curve.label, curve.colour, curve.style, curve.width, curve.x, curve.y);
+}
+template <class Archive> void exchange(Archive &archive, PlotMark &mark) { archive(mark.x, mark.label); }
+template <class Archive> void exchange(Archive &archive, Plot &plot)
+{
+  archive(plot.title, plot.xLabel, plot.yLabel, plot.curves, plot.marks, plot.categories, plot.xRange, plot.fromZero,
+          plot.equalAxes, plot.logX, plot.logY, plot.height);
+}
+} // namespace vpApp
+
 namespace thesisReport
 {
-// What ranks send, see sweep.h.
+// What ranks send, see sweep.h. Judgements are added on the first rank.
 template <class Archive> void exchange(Archive &archive, Quantity &q)
 {
   archive(q.name, q.unit, q.thesis, q.ours, q.tolerance, q.good, q.reason, q.note);
 }
 template <class Archive> void exchange(Archive &archive, Figure &figure)
 {
-  archive(figure.name, figure.title, figure.caption, figure.picture, figure.mime);
+  archive(figure.name, figure.title, figure.caption, figure.panels, figure.picture, figure.suffix);
 }
 template <class Archive> void exchange(Archive &archive, DataFile &file) { archive(file.name, file.content); }
 template <class Archive> void exchange(Archive &archive, Item &item)
@@ -36,7 +51,7 @@ double secondsSince(std::chrono::steady_clock::time_point start)
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-//! The wanted items in the order of the part's entries; each must be there and compare something.
+//! The wanted items in the order of the part's entries; each must be there and have a row.
 std::vector<Item> sorted(const Part &part, const Setting &setting, std::vector<Item> items)
 {
   std::vector<Item> result;
@@ -45,8 +60,8 @@ std::vector<Item> sorted(const Part &part, const Setting &setting, std::vector<I
       continue;
     }
     const auto found = std::find_if(items.begin(), items.end(), [&](const Item &item) { return item.id == entry.id; });
-    if (found == items.end() || verdictOf(*found) == Verdict::NoValue) {
-      throw std::runtime_error(entry.id + ": its part compared nothing with the thesis");
+    if (found == items.end() || found->quantities.empty()) {
+      throw std::runtime_error(entry.id + ": its part has no row of it");
     }
     result.push_back(std::move(*found));
   }
@@ -64,8 +79,9 @@ const std::vector<Part> &catalogue()
 {
   static const std::vector<Part> all = [] {
     std::vector<Part> parts;
-    for (const auto make : {keypointParts, servoParts, trajectoryParts, patternParts, printingParts, avoidanceParts,
-                            armParts, minimumJerkParts}) {
+    for (const auto make :
+         {keypointParts, referenceParts, stabilityParts, servoParts, plannedServoParts, trajectoryParts, patternParts,
+          printingParts, avoidanceParts, armParts, recommendationParts, minimumJerkParts}) {
       for (Part &part : make()) {
         parts.push_back(std::move(part));
       }
@@ -97,46 +113,105 @@ std::vector<std::string> allIds()
   return ids;
 }
 
+namespace
+{
+constexpr unsigned int SEED_STEP = 1000; // a part may use the seeds in between
+
+//! A part with one seed.
+struct Case {
+  const Part *part;
+  unsigned int seed;
+};
+
+//! Every wanted part with every seed, the seeds of a part one after another.
+std::vector<Case> casesOf(const Options &options, const Setting &common)
+{
+  std::vector<Case> cases;
+  for (const Part &part : catalogue()) {
+    for (unsigned int k = 0; needed(part, common) && k < (part.random ? options.seeds : 1U); ++k) {
+      cases.push_back({&part, options.seed + k * SEED_STEP});
+    }
+  }
+  return cases;
+}
+
+//! Figures and tables are those of the first seed.
+Played playCase(const Case &one, Setting setting, bool first)
+{
+  const auto start = std::chrono::steady_clock::now();
+  setting.seed = one.seed;
+  Played played;
+  try {
+    played.items = sorted(*one.part, setting, one.part->play(setting));
+  }
+  catch (const vpApp::Interrupted &) {
+    throw;
+  }
+  catch (const std::exception &error) {
+    throw std::runtime_error(one.part->entries.front().id + " and what goes with it: " + vpApp::sentenceOf(error));
+  }
+  for (Item &item : played.items) {
+    if (!first) {
+      item.figures.clear();
+      item.data.clear();
+    }
+  }
+  played.seconds = secondsSince(start);
+  return played;
+}
+
+//! The seeds of a part as one, each row with its judgement.
+Played merged(const std::vector<Played> &seeds, const Judgements &judgements)
+{
+  Played played = seeds.front();
+  played.seconds = 0.;
+  for (const Played &one : seeds) {
+    played.seconds += one.seconds;
+  }
+  for (std::size_t i = 0; i < played.items.size(); ++i) {
+    std::vector<Item> items;
+    for (const Played &one : seeds) {
+      items.push_back(one.items[i]);
+    }
+    played.items[i] = seedsMerged(std::move(items));
+    for (Quantity &quantity : played.items[i].quantities) {
+      if (quantity.thesis) {
+        quantity.judgement = judgements.of(played.items[i].id, quantity.name);
+      }
+    }
+  }
+  return played;
+}
+} // namespace
+
 std::vector<Played> playAll(const Options &options, const vpApp::Ranks &ranks)
 {
+  const Judgements judgements(vpApp::dataFile("thesis/rows.json"));
   Setting common;
-  common.seed = options.seed;
   common.wanted.insert(options.only.begin(), options.only.end());
-  std::vector<const Part *> parts;
-  for (const Part &part : catalogue()) {
-    if (needed(part, common)) {
-      parts.push_back(&part);
-    }
-  }
+  const std::vector<Case> cases = casesOf(options, common);
   vpApp::Sweep sweep;
   sweep.title = "repeating " + std::to_string(common.wanted.size()) + " figures and tables";
-  sweep.count = parts.size();
-  sweep.effort = [&parts](std::size_t i) { return parts[i]->cost; };
-  const auto play = [&](std::size_t i, const std::function<void(double)> &done) {
-    const Part &part = *parts[i];
-    const auto start = std::chrono::steady_clock::now();
-    Setting setting = common;
-    setting.progress = [&done](double share) {
-      vpApp::throwIfInterrupted();
-      done(share);
-    };
-    Played played;
-    try {
-      played.items = sorted(part, setting, part.play(setting));
+  sweep.count = cases.size();
+  sweep.effort = [&cases](std::size_t i) { return cases[i].part->cost; };
+  std::vector<Played> all =
+      vpApp::runSweep<Played>(ranks, sweep, options.jobs, [&](std::size_t i, const std::function<void(double)> &done) {
+        Setting setting = common;
+        setting.progress = [&done](double share) {
+          vpApp::throwIfInterrupted();
+          done(share);
+        };
+        return playCase(cases[i], setting, cases[i].seed == options.seed);
+      });
+  std::vector<Played> parts;
+  for (std::size_t i = 0, end = 0; ranks.isFirst() && i < cases.size(); i = end) {
+    while (end < cases.size() && cases[end].part == cases[i].part) {
+      ++end;
     }
-    catch (const vpApp::Interrupted &) {
-      throw;
-    }
-    catch (const std::exception &error) {
-      throw std::runtime_error(part.entries.front().id + " and what goes with it: " + vpApp::sentenceOf(error));
-    }
-    played.seconds = secondsSince(start);
-    return played;
-  };
-  std::vector<Played> all = vpApp::runSweep<Played>(ranks, sweep, options.jobs, play);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    all[i].part = parts[i];
+    const auto from = all.begin() + static_cast<std::ptrdiff_t>(i);
+    parts.push_back(merged({from, all.begin() + static_cast<std::ptrdiff_t>(end)}, judgements));
+    parts.back().part = cases[i].part;
   }
-  return all;
+  return parts;
 }
 } // namespace thesisReport

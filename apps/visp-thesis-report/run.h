@@ -28,22 +28,24 @@ namespace thesisReport
 struct Options {
   std::vector<std::string> only; //!< Requested ids; all of them by default.
   std::string out = "out/thesis-report";
-  unsigned int jobs = 0; //!< Parts at a time; 0: one for each core.
-  unsigned int seed = 1;
+  unsigned int jobs = 0;   //!< Parts at a time; 0: one for each core.
+  unsigned int seed = 1;   //!< The first one.
+  unsigned int seeds = 10; //!< Number of seeds for the spread of each value.
   bool list = false;
 };
 
 //! \brief A finished part.
 struct Played {
   const Part *part = nullptr; //!< In the catalogue.
-  std::vector<Item> items;    //!< Requested items, in the order of the part's entries.
-  double seconds = 0.;        //!< Computing time.
+  std::vector<Item> items;    //!< Requested items, in the order of the part's entries; each row with its judgement.
+  double seconds = 0.;        //!< Computing time of all seeds.
 };
 
 /*!
- * Run the required parts, the long ones first, with a progress bar.
- * \return Finished parts in the order of the catalogue, on rank 0.
- * \throw std::runtime_error naming the id when a part fails or omits an item; vpApp::Interrupted.
+ * Run the required parts with all seeds, the long ones first, with a progress bar.
+ * \return Finished parts in the order of the catalogue, the seeds of each merged, on rank 0.
+ * \throw std::runtime_error naming the id when a part fails, omits an item or has a row without judgement;
+ * vpApp::Interrupted.
  */
 [[nodiscard]] std::vector<Played> playAll(const Options &options, const vpApp::Ranks &ranks);
 } // namespace thesisReport

@@ -30,7 +30,6 @@ constexpr double MAX_VELOCITY = 0.5, MAX_ACCELERATION = 1.;      // rad/s, rad/s
 constexpr double FIRST_GOAL = 0.5, SECOND_GOAL = 0.8;            // rad
 constexpr double FIRST_DURATION = 1.875;                         // s, first motion at the velocity bound
 constexpr double NONE = std::numeric_limits<double>::infinity(); // no limit
-constexpr double ITERATION_GAIN = 1.;                            // d_v of (6.6), s/(rad/s)
 constexpr double SETTLED = 1e-6;                                 // s
 constexpr double LONGEST = 6.;                                   // s
 
@@ -40,6 +39,7 @@ struct Case {
   bool keepTime = false; // figure 6.5: t_f is kept
   vpDurationMethod method = vpDurationMethod::Exact;
   int stepsPerCycle = 1000;
+  double gain = 1.; // d_v of (6.6), s/(rad/s)
 };
 
 struct Motion {
@@ -66,7 +66,7 @@ void change(const Case &task, vpTrajectoryInput<1> &input)
   input.spec.minimumDuration = 0.;
   input.spec.method = task.method;
   input.spec.thesisStepsPerCycle = task.stepsPerCycle;
-  input.spec.thesisVelocityGain = ITERATION_GAIN;
+  input.spec.thesisVelocityGain = task.gain;
   if (task.keepTime) {
     input.spec.policy = vpReplanPolicy::FixedArrival;
     input.spec.lateArrival = vpLateArrival::ExceedLimits;
@@ -224,21 +224,38 @@ double largestDifference(const std::vector<double> &a, const std::vector<double>
   return largest;
 }
 
+//! The gain of (6.6) between 0.1 and 10 that settles in the fewest cycles, one step each.
+double tunedGain(Case spread)
+{
+  double best = spread.gain;
+  int fewest = std::numeric_limits<int>::max();
+  for (int k = -40; k <= 40; ++k) {
+    spread.gain = std::pow(10., k / 40.);
+    const int cycles = follow(spread).cyclesToSettle;
+    if (cycles < fewest) {
+      fewest = cycles;
+      best = spread.gain;
+    }
+  }
+  return best;
+}
+
 Item iterations()
 {
   Case exact, whole, spread;
   exact.maxVelocity = whole.maxVelocity = spread.maxVelocity = MAX_VELOCITY;
   whole.method = spread.method = vpDurationMethod::ThesisIteration;
   spread.stepsPerCycle = 1;
+  whole.gain = spread.gain = tunedGain(spread);
   const Motion byExact = follow(exact), byWhole = follow(whole), bySpread = follow(spread);
   Item item;
   item.id = "fig6.6";
   item.quantities = {
       {"iterations of (6.6), one each cycle, until t_f is settled", "1", 40.,
        static_cast<double>(bySpread.cyclesToSettle), Tolerance::atMost(), Good::Smaller,
-       "(6.6) is a proportional iteration; how many steps it takes depends on its gain, which the thesis does not give "
-       "(\"when tuned properly\"). Settled means here to 1 us.",
-       ""},
+       "(6.6) is a proportional iteration whose rate of convergence changes with the motion; what the thesis takes for "
+       "converged it does not say.",
+       "With the best of 81 gains from 0.1 to 10, as the thesis says \"when tuned properly\". Settled to 1 us."},
       {"largest difference of the velocity, spread or at once", "rad/s", 0., largestDifference(byWhole.v, bySpread.v),
        Tolerance::distance(0.01), Good::Neither,
        "While the iteration is under way the motion follows a time that is still too short.",
@@ -250,7 +267,7 @@ Item iterations()
       {"cycles of the exact method until t_f is settled", "1", 1., static_cast<double>(byExact.cyclesToSettle),
        Tolerance::atMost(), Good::Smaller, "", "The thesis: in one iteration for a quintic."}};
   item.parameters = parameters("velocity 0.5 rad/s");
-  item.parameters.emplace_back("gain of (6.6)", "d_v = " + number(ITERATION_GAIN, 2) + " s/(rad/s)");
+  item.parameters.emplace_back("gain of (6.6)", "d_v = " + number(spread.gain, 3) + " s/(rad/s)");
   vpApp::Plot end = vpApp::timePlot("Final time as planned", "t_f (s)"),
               velocity = vpApp::timePlot("Velocity", "velocity (rad/s)");
   for (const auto &motion : {std::make_pair("exact", &byExact), std::make_pair("(6.6) at once", &byWhole),
@@ -352,9 +369,11 @@ Item smoothestMotions()
 std::vector<Part> trajectoryParts()
 {
   const auto part = [](const char *id, const char *title, Item (*make)()) {
-    return Part{"Chapter 6: direct trajectory generation", {{id, title}}, 0.5, [make](const Setting &) {
-                  return std::vector<Item>{make()};
-                }};
+    return Part{"Chapter 6: direct trajectory generation",
+                {{id, title}},
+                0.5,
+                [make](const Setting &) { return std::vector<Item>{make()}; },
+                false};
   };
   return {part("fig6.3", "goal moved under way, velocity bounded", velocityBound),
           part("fig6.4", "goal moved under way, acceleration bounded", accelerationBound),
@@ -367,6 +386,7 @@ std::vector<Part> minimumJerkParts()
   return {{"Appendix A: minimum jerk",
            {{"tableA.1", "peak over mean velocity of the smoothest motions"}},
            0.5,
-           [](const Setting &) { return std::vector<Item>{smoothestMotions()}; }}};
+           [](const Setting &) { return std::vector<Item>{smoothestMotions()}; },
+           false}};
 }
 } // namespace thesisReport

@@ -2,11 +2,14 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Verdicts follow from the numbers; the catalogue covers the results of the thesis.
-#include "report.h"
+// Verdicts follow from the numbers and from what a row can say; the catalogue covers the results of the thesis.
+#include "results.h"
 
+#include "dataFile.h"
+#include "testFolder.h"
 #include "vpCatch.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -15,9 +18,12 @@ using namespace thesisReport;
 
 namespace
 {
-Quantity quantity(double thesis, double ours, const Tolerance &tolerance, Good good = Good::Neither)
+Quantity quantity(double thesis, double ours, const Tolerance &tolerance, Good good = Good::Neither,
+                  RowKind kind = RowKind::Compared)
 {
-  return {"q", "m", thesis, ours, tolerance, good, "because", "noted"};
+  Quantity q{"q", "m", thesis, ours, tolerance, good, "because", "noted"};
+  q.judgement.kind = kind;
+  return q;
 }
 } // namespace
 
@@ -50,70 +56,191 @@ TEST_CASE("A verdict is computed from value, tolerance and the good side", "[ver
   CHECK(verdictOf(unknown) == Verdict::NoValue);
 }
 
+TEST_CASE("What cannot fail is no agreement, and what fails although it cannot is said", "[verdict]")
+{
+  const auto kind = [](RowKind of, double ours) {
+    return quantity(2., ours, Tolerance::factor(1.1), Good::Smaller, of);
+  };
+  CHECK(verdictOf(kind(RowKind::ByConstruction, 2.)) == Verdict::ByConstruction);
+  CHECK(verdictOf(kind(RowKind::ByConstruction, 1.)) == Verdict::Differs); // never better
+  CHECK(verdictOf(kind(RowKind::ByConstruction, std::nan(""))) == Verdict::Differs);
+  for (const double ours : {2., 1., 9., std::nan("")}) {
+    CHECK(verdictOf(kind(RowKind::NotComparable, ours)) == Verdict::NotComparable);
+  }
+  CHECK(verdictOf(kind(RowKind::Arithmetic, 2.)) == Verdict::Agrees);
+  CHECK(couldFail(kind(RowKind::Compared, 2.)));
+  CHECK(couldFail(kind(RowKind::Arithmetic, 2.)));
+  CHECK_FALSE(couldFail(kind(RowKind::ByConstruction, 2.)));
+  CHECK_FALSE(couldFail(kind(RowKind::NotComparable, 2.)));
+  CHECK(kindOf(kind(RowKind::Compared, 2.)) == "value");
+  CHECK(kindOf(quantity(1., 1., Tolerance::atMost())) == "bound");
+  CHECK(kindOf(quantity(1., 1., Tolerance::atLeast(), Good::Neither, RowKind::NotComparable)) == "not comparable");
+}
+
 TEST_CASE("A reason is shown where it is owed, and its absence too", "[verdict]")
 {
   Quantity q = quantity(1., 1., Tolerance::factor(1.1));
-  CHECK(remarkOf(q) == "noted");
+  q.judgement.why = "why";
+  CHECK(reasonOf(q).empty());
   q.ours = 3.;
-  CHECK(remarkOf(q) == "noted because");
+  CHECK(reasonOf(q) == "because");
   q.reason.clear();
-  CHECK(remarkOf(q) == "noted Not explained.");
+  CHECK(reasonOf(q) == "why");
+  q.judgement.why.clear();
+  CHECK(reasonOf(q) == "Not explained.");
   CHECK(*ratioOf(q) == 3.);
   q.thesis = 0.;
   CHECK_FALSE(ratioOf(q).has_value());
+  q = quantity(1., 1., Tolerance::factor(1.1), Good::Neither, RowKind::ByConstruction);
+  q.judgement.why = "why";
+  CHECK(reasonOf(q) == "why"); // not the reason for a difference
 }
 
 TEST_CASE("An item is as its worst quantity", "[verdict]")
 {
   Item item;
   CHECK(verdictOf(item) == Verdict::NoValue);
-  item.quantities = {quantity(1., 1., Tolerance::factor(1.1))};
-  CHECK(verdictOf(item) == Verdict::Agrees);
-  item.quantities.push_back(quantity(1., 0.1, Tolerance::factor(1.1), Good::Smaller));
-  CHECK(verdictOf(item) == Verdict::Better);
-  item.quantities.push_back(quantity(1., 10., Tolerance::factor(1.1), Good::Smaller));
-  CHECK(verdictOf(item) == Verdict::Differs);
+  const auto add = [&](double ours, RowKind kind) {
+    item.quantities.push_back(quantity(1., ours, Tolerance::factor(1.1), Good::Smaller, kind));
+    return verdictOf(item);
+  };
+  CHECK(add(1., RowKind::NotComparable) == Verdict::NotComparable);
+  CHECK(add(1., RowKind::ByConstruction) == Verdict::ByConstruction);
+  CHECK(add(1., RowKind::Compared) == Verdict::Agrees);
+  CHECK(add(0.1, RowKind::Compared) == Verdict::Better);
+  CHECK(add(10., RowKind::Compared) == Verdict::Differs);
+}
+
+TEST_CASE("Seeds become a median, a spread and the share that agrees with its verdict", "[seeds]")
+{
+  const auto item = [](double ours) {
+    Item one;
+    one.id = "fig6.3";
+    one.quantities = {quantity(2., ours, Tolerance::factor(1.1))};
+    return one;
+  };
+  const Item merged = seedsMerged({item(2.1), item(9.), item(2.)});
+  REQUIRE(merged.quantities.size() == 1);
+  CHECK(merged.quantities[0].ours == 2.1);
+  CHECK(shareOfSeeds(merged.quantities[0]) == Approx(2. / 3.));
+  const Part part{"Chapter 6: x", {{"fig6.3", "t"}}, 1., {}};
+  const auto row = resultsJson({{&part, {merged}, 0.}})[0];
+  CHECK(row["spread"].get<double>() ==
+        Approx(4.012896).epsilon(1e-5)); // by hand: sqrt((2.267^2 + 4.633^2 + 2.367^2) / 2)
+  CHECK(row["least"] == 2.);
+  CHECK(row["largest"] == 9.);
+  CHECK(row["seeds"] == 3);
+  Item other = item(2.);
+  other.quantities[0].name = "p";
+  CHECK_THROWS_WITH(seedsMerged({item(2.), other}), "fig6.3: not every seed has the row q");
+  other.quantities.clear();
+  CHECK_THROWS_WITH(seedsMerged({item(2.), other}), "fig6.3: not every seed has the row q");
 }
 
 TEST_CASE("Rows of results.json are computed and null where there is nothing", "[results]")
 {
-  const Part part{"Chapter 6: x", {{"fig6.3", "t"}}, 1., {}};
+  const Part part{"Chapter 6: x", {{"fig6.3", "t"}}, 1., {}, false};
   Item item;
   item.id = "fig6.3";
   item.quantities = {quantity(2., 1., Tolerance::factor(1.1)), quantity(0., 1., Tolerance::distance(2.)),
                      quantity(1., std::nan(""), Tolerance::distance(2.))};
-  const auto rows = resultsJson({{&part, {item}, 0.}});
+  item.quantities[0].judgement.where = "here";
+  item.quantities[0].judgement.support = "that";
+  item.quantities[1].judgement.support = "that";
+  const std::vector<Played> all = {{&part, {seedsMerged({item})}, 0.}};
+  const auto rows = resultsJson(all);
   REQUIRE(rows.size() == 3);
   CHECK(rows[0]["id"] == "fig6.3");
   CHECK(rows[0]["ratio"] == 0.5);
   CHECK(rows[0]["verdict"] == "differs");
-  CHECK(rows[0]["note"] == "noted because");
+  CHECK(rows[0]["reason"] == "because");
+  CHECK(rows[0]["support"] == "that");
+  CHECK(rows[0]["where"] == "here");
   CHECK(rows[0]["tolerance"] == "within a factor 1.1");
+  CHECK(rows[0]["deterministic"] == true);
+  CHECK(rows[0]["spread"].is_null());
   CHECK(rows[1]["ratio"].is_null());
   CHECK(rows[1]["verdict"] == "agrees");
+  CHECK(rows[1]["support"] == "");
   CHECK(rows[2]["ours"].is_null());
   CHECK(rows[2]["verdict"] == "differs");
+  const auto summary = summaryJson(all, {}, "", 0.);
+  CHECK(summary["could_fail"]["value"] == nlohmann::ordered_json({{"agrees", 1}, {"better", 0}, {"differs", 2}}));
+  CHECK(summary["rows"]["differs"] == 2);
+  CHECK(summary["items"]["differs"] == 1);
 }
 
-TEST_CASE("Data behind a picture: every finite point, texts in quotes where they need them", "[data]")
+TEST_CASE("Curves: every point, gaps where the line is interrupted, texts apart from the numbers", "[data]")
 {
   vpApp::Plot plot;
   plot.title = "A, b";
-  plot.xLabel = "time (s)";
-  plot.yLabel = "y \"quoted\"";
-  plot.curves = {{"c", "#000000", vpApp::PlotStyle::Solid, 1., {0., 1., 2.}, {5., std::nan(""), 7.}}};
-  CHECK(csvOf({plot}) == "panel,curve,x_label,y_label,x,y\n\"A, b\",c,time (s),\"y \"\"quoted\"\"\",0,5\n"
-                         "\"A, b\",c,time (s),\"y \"\"quoted\"\"\",2,7\n");
+  plot.xRange = {0., 2.};
+  plot.curves = {{"c", "#000000", vpApp::PlotStyle::Dashed, 1., {0., 1., 2.}, {5., std::nan(""), 7.}}};
+  const Part part{"Chapter 6: x", {{"fig6.3", "t"}}, 1., {}};
+  Item item;
+  item.id = "fig6.3";
+  addPlot(item, "motion", "title", "caption", {vpApp::Plot(), plot});
+  const std::vector<Played> all = {{&part, {item}, 0.}};
+  CHECK(curvesCsv(all) == "item,figure,panel,curve,x,y\nfig6.3,motion,1,0,0,5\nfig6.3,motion,1,0,1,\n"
+                          "fig6.3,motion,1,0,2,7\n");
+  const auto panel = itemsJson(all)[0]["figures"][0]["panels"][1];
+  CHECK(panel["title"] == "A, b");
+  CHECK(panel["x_range"] == nlohmann::ordered_json({0., 2.}));
+  CHECK(panel["curves"][0]["style"] == "dashed");
+}
+
+TEST_CASE("A star in a row's name stands for any text", "[judgement]")
+{
+  CHECK(isLike("abc", "abc"));
+  CHECK(isLike("abc", "*"));
+  CHECK(isLike("", "*"));
+  CHECK(isLike("abc", "a*c"));
+  CHECK(isLike("abcbc", "a*bc"));
+  CHECK(isLike("aXbYc", "a*b*c"));
+  CHECK_FALSE(isLike("abc", "ab"));
+  CHECK_FALSE(isLike("ab", "abc"));
+  CHECK_FALSE(isLike("abcd", "a*c"));
+  CHECK_FALSE(isLike("ba", "a*"));
+}
+
+TEST_CASE("Judgements: each has a place and words of the thesis and a tolerance, and names what is wrong",
+          "[judgement]")
+{
+  const Judgements judgements(vpApp::dataFile("thesis/rows.json"));
+  const std::vector<std::string> ids = allIds();
+  for (const auto &item : judgements.all()) {
+    CAPTURE(item.first);
+    CHECK(std::count(ids.begin(), ids.end(), item.first) == 1);
+    for (const auto &row : item.second) {
+      CAPTURE(row.first);
+      CHECK_FALSE(row.second.where.empty());
+      CHECK_FALSE(row.second.quote.empty());
+      CHECK_FALSE(row.second.tolerance.empty());
+    }
+  }
+  CHECK(judgements.of("fig7.13", "mean velocity").kind == RowKind::ByConstruction);
+  CHECK_THROWS_WITH(judgements.of("fig7.13", "nothing"), Catch::Contains("fig7.13: the row \"nothing\""));
+  const auto wrong = [](const std::string &row) {
+    const TestFolder folder;
+    return Judgements(folder.write("rows.json", R"({"fig6.3": {"where": "w", "rows": [)" + row + "]}}")).all().size();
+  };
+  CHECK(wrong(R"({"row": "a"})") == 1);
+  CHECK_THROWS_WITH(wrong(R"({"row": "a", "kind": "sure"})"),
+                    Catch::Contains("rows[0].kind is \"sure\", must be value"));
+  CHECK_THROWS_WITH(wrong(R"({"row": "a", "kind": "by construction"})"), Catch::Contains("why is"));
+  CHECK_THROWS_WITH(wrong(R"({"row": "a", "why": "b"})"), Catch::Contains("support is"));
+  CHECK_THROWS_WITH(wrong(R"({"kind": "value"})"), Catch::Contains("rows[0].row is missing"));
+  CHECK_THROWS_WITH(wrong(R"({"row": "a", "quotation": "b"})"), Catch::Contains("unknown field"));
 }
 
 TEST_CASE("The catalogue has every figure and table with results, once", "[catalogue]")
 {
   const std::set<std::string> expected = {
-      "table4.2", "table4.3", "fig5.6",   "fig5.7",  "fig5.8",  "fig5.9",  "fig5.10", "fig5.11",
-      "fig6.3",   "fig6.4",   "fig6.5",   "fig6.6",  "fig7.1",  "eq7.1",   "eq7.2",   "table7.1",
-      "table7.2", "table7.3", "table7.4", "fig7.10", "fig7.11", "fig7.12", "fig7.13", "fig7.14",
-      "fig7.15",  "fig8.6",   "fig8.7",   "fig8.8",  "fig8.9",  "fig8.10", "fig8.13", "table8.1",
-      "fig8.14",  "fig8.15",  "fig8.16",  "fig8.17", "tableA.1"};
+      "table4.2", "table4.3", "sec4.6",   "eq5.31",   "fig6.1",   "sec9.2",  "fig5.6",  "fig5.7",  "fig5.8",
+      "fig5.9",   "fig5.10",  "fig5.11",  "fig6.3",   "fig6.4",   "fig6.5",  "fig6.6",  "fig7.1",  "eq7.1",
+      "eq7.2",    "table7.1", "table7.2", "table7.3", "table7.4", "fig7.10", "fig7.11", "fig7.12", "fig7.13",
+      "fig7.14",  "fig7.15",  "fig8.6",   "fig8.7",   "fig8.8",   "fig8.9",  "fig8.10", "fig8.13", "table8.1",
+      "fig8.14",  "fig8.15",  "fig8.16",  "fig8.17",  "tableA.1"};
   const std::vector<std::string> ids = allIds();
   CHECK(std::set<std::string>(ids.begin(), ids.end()) == expected);
   CHECK(ids.size() == expected.size());

@@ -17,6 +17,7 @@ PROGRAMS = {
     "visp-print-pattern": "print_pattern",
     "visp-servo": "servo",
     "visp-servo-compare": "servo_compare",
+    "visp-thesis-report": "thesis_report",
     "visp-track-pattern": "track_pattern",
 }
 

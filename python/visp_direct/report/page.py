@@ -63,6 +63,10 @@ class Page:
     def _add(self, **part):
         self.sections[-1]["parts"].append(part)
 
+    def heading(self, text):
+        """Below that of a section; not in the navigation."""
+        self._add(kind="heading", text=text)
+
     def paragraph(self, text):
         self._add(kind="paragraph", text=text)
 
