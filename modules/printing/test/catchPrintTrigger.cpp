@@ -418,3 +418,19 @@ TEST_CASE("A print trigger says what is wrong, survives nonsense and does not al
   CHECK(shots > 160);
   CHECK(trigger.remembered() == 16);
 }
+
+TEST_CASE("7.1.3: how fast the product may be at the centre, with and without foresight", "[errata]")
+{
+  constexpr double pixel = 4.5, tolerance = 10., drop = 4.; // um, um, px/frame
+  const auto bound = [&](double foreseen) {                 // largest deviation from the foreseen velocity, px/frame
+    double v = foreseen;
+    for (; std::fabs(v - foreseen) * travel * pixel <= tolerance; v += 1e-3) {
+    }
+    return v - foreseen;
+  };
+  CHECK(bound(0.) == Approx(drop + 2.9).margin(0.05)); // released at the centre: the thesis's upper bound
+  for (double v = 0.; v < drop - 2.9; v += 0.01) {      // below its lower bound all drops land within 10 um
+    CHECK(v * travel * pixel < tolerance);
+  }
+  CHECK(bound(drop) == Approx(6.94).margin(0.01)); // released ahead: +- 6.9
+}
