@@ -429,7 +429,7 @@ TEST_CASE("7.1.3: how fast the product may be at the centre, with and without fo
     return v - foreseen;
   };
   CHECK(bound(0.) == Approx(drop + 2.9).margin(0.05)); // released at the centre: the thesis's upper bound
-  for (double v = 0.; v < drop - 2.9; v += 0.01) {      // below its lower bound all drops land within 10 um
+  for (double v = 0.; v < drop - 2.9; v += 0.01) {     // below its lower bound all drops land within 10 um
     CHECK(v * travel * pixel < tolerance);
   }
   CHECK(bound(drop) == Approx(6.94).margin(0.01)); // released ahead: +- 6.9
