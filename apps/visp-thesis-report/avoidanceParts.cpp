@@ -162,6 +162,12 @@ void illustrate(const std::string &name, const std::string &csv, Item &item)
     norm("vx_mps", "vy_mps", "Speed", "m/s");
     norm("ax_mps2", "ay_mps2", "Acceleration", "m/s^2");
   }
+  if (has("commanded_speed_mps")) {
+    panels.push_back(vpApp::timePlot("Speed of the commanded tool", "m/s"));
+    addCurve(panels.back(), "", time, columns["commanded_speed_mps"]);
+    panels.push_back(vpApp::timePlot("Acceleration of the commanded tool", "m/s^2"));
+    addCurve(panels.back(), "", time, columns["commanded_acceleration_mps2"]);
+  }
   if (has("weight")) {
     panels.push_back(vpApp::timePlot("Weight of avoidance", "0..1"));
     addCurve(panels.back(), "", time, columns["weight"]);

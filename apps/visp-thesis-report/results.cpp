@@ -149,13 +149,14 @@ template <class Use> void eachItem(const std::vector<Played> &all, Use use)
   }
 }
 
-//! Rows of a kind that could have failed, by verdict.
+//! Rows of a kind that could have failed, by verdict. \param kind : "all" for all kinds.
 Json countsOf(const std::vector<Played> &all, const std::string &kind)
 {
-  std::map<std::string, int> counts = {{"agrees", 0}, {"better", 0}, {"differs", 0}};
+  std::map<std::string, int> counts = {{"rows", 0}, {"agrees", 0}, {"better", 0}, {"differs", 0}};
   eachItem(all, [&](const Played &, const Item &item) {
     for (const Quantity &q : item.quantities) {
-      if (couldFail(q) && kindOf(q) == kind) {
+      if (couldFail(q) && (kind == "all" || kindOf(q) == kind)) {
+        ++counts["rows"];
         ++counts[vpToString(verdictOf(q))];
       }
     }
@@ -252,7 +253,8 @@ Json summaryJson(const std::vector<Played> &all, const Options &options, const s
           {"seeds", options.seeds},
           {"rows", rows},
           {"could_fail",
-           {{"value", countsOf(all, "value")},
+           {{"all", countsOf(all, "all")},
+            {"value", countsOf(all, "value")},
             {"bound", countsOf(all, "bound")},
             {"arithmetic", countsOf(all, "arithmetic")}}},
           {"items", items},

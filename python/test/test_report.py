@@ -138,6 +138,7 @@ PROGRAMS = [
     ("visp-servo", "--lambda=3", "--object-pose=0.01,-0.005,0.31,1,-3,5", "--start-time=0.2"),
     ("visp-servo-compare", f"--task={SHORT}", "--law=pbvs1,ff-lookat-pi+cbf", "--measure=points", "--monte-carlo=2"),
     ("visp-servo-compare", "--robot=amor", f"--task={SHORT}", "--law=pbvs1,dtg", "--measure=points", "--shape"),
+    ("visp-thesis-report", "--only=fig6.3"),
 ]
 
 

@@ -165,7 +165,9 @@ TEST_CASE("Rows of results.json are computed and null where there is nothing", "
   CHECK(rows[2]["ours"].is_null());
   CHECK(rows[2]["verdict"] == "differs");
   const auto summary = summaryJson(all, {}, "", 0.);
-  CHECK(summary["could_fail"]["value"] == nlohmann::ordered_json({{"agrees", 1}, {"better", 0}, {"differs", 2}}));
+  CHECK(summary["could_fail"]["value"] ==
+        nlohmann::ordered_json({{"agrees", 1}, {"better", 0}, {"differs", 2}, {"rows", 3}}));
+  CHECK(summary["could_fail"]["all"] == summary["could_fail"]["value"]);
   CHECK(summary["rows"]["differs"] == 2);
   CHECK(summary["items"]["differs"] == 1);
 }
