@@ -6,7 +6,6 @@
 // and direct trajectory generation (chapter 6).
 #include "part.h"
 
-#include "visp-servo-compare/catalogue.h"
 #include "visp-servo-compare/plan.h"
 
 #include "lab/servo/vpReferenceExperiment.h"
@@ -121,8 +120,7 @@ std::vector<vpServoRun> visualRuns(const std::vector<std::string> &names, const 
 
 vpApp::PlotCurve speedOf(const vpServoRun &run)
 {
-  const servoCompare::LawInfo law = servoCompare::lawInfo(run.spec.law);
-  vpApp::PlotCurve curve{law.name, law.colour, vpApp::PlotStyle::Solid, 2., {}, {}};
+  vpApp::PlotCurve curve{run.spec.law, colourOf(run.spec.law), vpApp::PlotStyle::Solid, 2., {}, {}};
   for (const vpServoSample &s : run.samples) {
     if (s.segment == 0) {
       curve.x.push_back(s.time);

@@ -44,6 +44,9 @@ struct Part {
   bool random = true; //!< Depends on Setting::seed or on clocks; else one seed stands for all.
 };
 
+//! Colour of a law's curves, the same in every figure.
+[[nodiscard]] const std::string &colourOf(const std::string &law);
+
 // The parts, by chapter.
 [[nodiscard]] std::vector<Part> keypointParts();     //!< Tables 4.2 and 4.3.
 [[nodiscard]] std::vector<Part> referenceParts();    //!< Section 4.6 in a loop.

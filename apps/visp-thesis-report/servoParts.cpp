@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace thesisReport
 {
@@ -292,10 +291,8 @@ struct Curves {
 vpApp::PlotCurve curveOf(const vpServoRun &run, const Curves &what, const SampleValue &value)
 {
   constexpr std::size_t STRIDE = 10;
-  static const std::map<std::string, const char *> colours = {
-      {PBVS, "#1f77b4"}, {KYRKI, "#d4ac0d"}, {"kyrki", "#ff7f0e"}, {FEEDFORWARD, "#2ca02c"}, {OURS, "#9467bd"}};
   const std::string &law = run.spec.law;
-  vpApp::PlotCurve curve{law, colours.at(law), vpApp::PlotStyle::Solid, 2., {}, {}};
+  vpApp::PlotCurve curve{law, colourOf(law), vpApp::PlotStyle::Solid, 2., {}, {}};
   for (std::size_t i = 0; i < run.samples.size() && run.samples[i].segment <= what.last; i += STRIDE) {
     curve.x.push_back(run.samples[i].time);
     curve.y.push_back(value(run.samples[i]));
@@ -388,6 +385,12 @@ std::vector<Item> play(const Setting &setting)
   return items;
 }
 } // namespace
+
+const std::string &colourOf(const std::string &law)
+{
+  static const std::vector<std::string> laws = {PBVS, "kyrki", FEEDFORWARD, KYRKI, OURS, "dtg", "ff-dtg"};
+  return colour(static_cast<std::size_t>(std::find(laws.begin(), laws.end(), law) - laws.begin()));
+}
 
 std::vector<Part> servoParts()
 {
