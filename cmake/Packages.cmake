@@ -48,7 +48,7 @@ set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_SECTION doc)
 set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "${same}, libvisp-dev, libeigen3-dev")
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS "${same}")
-set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS "gnuplot-nox, python3-jinja2, python3-matplotlib, libjs-three")
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS "python3-jinja2, python3-matplotlib, libjs-three")
 set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "Direct methods for vision-based robot control - libraries
  Servo laws with feedforward, direct trajectory generation, tracking of planar
  targets and of repetitive products, redundant arms, certified avoidance: modules

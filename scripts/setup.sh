@@ -11,7 +11,7 @@ mkdir -p "$logs"
 # Python, numpy, matplotlib, jinja2 and three.js make the reports; pybind11 the Python package.
 packages=(g++ cmake ninja-build libvisp-dev libopencv-dev libeigen3-dev libdlib-dev catch2 libbenchmark-dev
   libcli11-dev nlohmann-json3-dev liborocos-kdl-dev liburdfdom-dev libfcl-dev liboctomap-dev libassimp-dev
-  libompl-dev libaravis-dev gnuplot-nox pybind11-dev python3-dev python3-numpy
+  libompl-dev libaravis-dev pybind11-dev python3-dev python3-numpy
   python3-matplotlib python3-jinja2 libjs-three)
 case ${CXX:-} in *clang*) packages+=(clang libomp-dev) ;; esac # ViSP is built with OpenMP
 # Real images for some tests, which are skipped if the images are missing. Documentation tools, as the documentation is also

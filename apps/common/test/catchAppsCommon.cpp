@@ -8,16 +8,14 @@
 #include "testFolder.h"
 
 #include "appMain.h"
+#include "curves.h"
 #include "dataFile.h"
-#include "htmlReport.h"
 #include "jobs.h"
 #include "jsonReader.h"
 #include "lineReader.h"
 #include "numberText.h"
 #include "outputFile.h"
 #include "outputFolder.h"
-#include "plot.h"
-#include "timePlot.h"
 #include "progress.h"
 #include "videoFile.h"
 
@@ -28,7 +26,6 @@
 #include <cmath>
 #include <fstream>
 #include <iostream>
-#include <regex>
 #include <sstream>
 #include <thread>
 
@@ -342,33 +339,6 @@ TEST_CASE("Texts of files are made printable", "[apps]")
   CHECK(vpPrintable("123456789\xc3\xa4zzzzzz", 10) == "123456789...");
 }
 
-TEST_CASE("HTML is escaped and self-contained", "[apps]")
-{
-  CHECK(vpApp::escapeHtml("<a href=\"x\">'&'</a>") == "&lt;a href=&quot;x&quot;&gt;&#39;&amp;&#39;&lt;/a&gt;");
-  CHECK(vpApp::dataUri("text/plain", "") == "data:text/plain;base64,");
-  CHECK(vpApp::dataUri("text/plain", "M") == "data:text/plain;base64,TQ==");
-  CHECK(vpApp::dataUri("text/plain", "Ma") == "data:text/plain;base64,TWE=");
-  CHECK(vpApp::dataUri("text/plain", "Man") == "data:text/plain;base64,TWFu");
-  CHECK(vpApp::dataUri("text/plain", std::string("\xff\x00\xfe", 3)) == "data:text/plain;base64,/wD+");
-
-  CHECK(vpApp::escapeHtml("a\n\x1b\xe2\x80\xae") == "a\n\\u001b\\u202e");
-  vpApp::HtmlReport report("A <title>", "lead & more");
-  report.section("First <section>");
-  report.paragraph("<script>");
-  vpApp::HtmlTable table;
-  table.header = {{vpApp::HtmlCell("law"), vpApp::HtmlCell("px", "", 2)}};
-  table.rows = {{vpApp::HtmlCell("group")},
-                {vpApp::HtmlCell("a<b", "left"), vpApp::HtmlCell("1", "best"), vpApp::HtmlCell("2")}};
-  report.table(table, "caption");
-  const std::string html = report.html();
-  CHECK(html.find("<title>A &lt;title&gt;</title>") != std::string::npos);
-  CHECK(html.find("<script>") == std::string::npos);
-  CHECK(html.find("<a href=\"#s1\">First &lt;section&gt;</a>") != std::string::npos);
-  CHECK(html.find("<td class=\"left\">a&lt;b</td><td class=\"best\">1</td>") != std::string::npos);
-  CHECK(html.find("<td colspan=\"3\">group</td>") != std::string::npos);
-  CHECK(html.find("src=\"http") == std::string::npos);
-}
-
 TEST_CASE("Data files are found, and a missing one is named", "[apps]")
 {
   CHECK(fs::exists(vpApp::dataFile("target/klimt.jpg")));
@@ -398,64 +368,6 @@ TEST_CASE("Texts name data files as the user reaches them", "[apps]")
   CHECK(vpApp::withDataPaths("").empty());
 }
 
-TEST_CASE("gnuplot draws a plot with awkward labels and gaps", "[apps]")
-{
-  vpApp::Plot plot;
-  plot.title = "it's \"quoted\" & <odd>";
-  plot.xLabel = "time (s)";
-  plot.yLabel = "error_px";
-  plot.marks = {{1., "to pose 2"}};
-  plot.curves = {{"a_b", "#d62728", vpApp::PlotStyle::Dashed, 2., {0., 1., 2., 3.}, {0., NAN, 1., 2.}},
-                 {"never", "#000000", vpApp::PlotStyle::Solid, 2., {}, {}}};
-  const std::string svg = vpApp::renderSvg(plot);
-  CHECK(svg.find("</svg>") != std::string::npos);
-  CHECK(svg.find("a_b") != std::string::npos);
-  CHECK(svg.find("&amp; &lt;odd") != std::string::npos);
-
-  const std::string path = std::getenv("PATH");
-  setenv("PATH", "/nowhere", 1);
-  CHECK(complaint([] { vpApp::requireGnuplot(); }).find("install it") != std::string::npos);
-  setenv("PATH", path.c_str(), 1);
-  vpApp::requireGnuplot();
-
-  const char *temporary = std::getenv("TMPDIR");
-  const std::string before = temporary == nullptr ? "" : temporary;
-  setenv("TMPDIR", "/nowhere", 1);
-  CHECK(complaint([] { vpApp::requireGnuplot(); }) ==
-        "/nowhere: is the folder for temporary files (TMPDIR) and cannot be "
-        "written in (No such file or directory)");
-  temporary == nullptr ? unsetenv("TMPDIR") : setenv("TMPDIR", before.c_str(), 1);
-
-  plot.title = "\x1b[31m";
-  CHECK(vpApp::renderSvg(plot).find("\\u001b[31m") != std::string::npos);
-}
-
-TEST_CASE("On logarithmic axes powers of ten are equally far apart", "[apps]")
-{
-  // Positions of the three points of a curve, from the SVG's point symbols.
-  const auto placesOf = [](bool logX, bool logY) {
-    vpApp::Plot plot;
-    plot.logX = logX;
-    plot.logY = logY;
-    plot.curves = {{"", "#d62728", vpApp::PlotStyle::Points, 8., {10., 100., 1000.}, {1., 10., 100.}}};
-    const std::string svg = vpApp::renderSvg(plot);
-    const std::regex point("<use xlink:href='#gpPt6' transform='translate\\(([0-9.]+),([0-9.]+)\\)");
-    std::vector<std::pair<double, double>> places;
-    for (std::sregex_iterator match(svg.begin(), svg.end(), point), end; match != end; ++match) {
-      places.emplace_back(std::stod((*match)[1]), std::stod((*match)[2]));
-    }
-    REQUIRE(places.size() == 3);
-    return places;
-  };
-  for (const auto &axes : {std::make_pair(false, false), std::make_pair(true, false), std::make_pair(false, true)}) {
-    const auto p = placesOf(axes.first, axes.second);
-    const double x = (p[1].first - p[0].first) / (p[2].first - p[0].first);
-    const double y = (p[1].second - p[0].second) / (p[2].second - p[0].second);
-    CHECK(x == Approx(axes.first ? 0.5 : 1. / 11.).margin(0.005));
-    CHECK(y == Approx(axes.second ? 0.5 : 1. / 11.).margin(0.005));
-  }
-}
-
 TEST_CASE("A video file can be read back", "[apps]")
 {
   const TestFolder folder;
@@ -471,30 +383,16 @@ TEST_CASE("A video file can be read back", "[apps]")
   CHECK(complaint([] { vpApp::VideoFile("/nowhere/a.mp4", 160, 120, 10.); }).find("/nowhere/a.mp4") == 0);
 }
 
-TEST_CASE("A thinned curve keeps its peaks or its valleys", "[plot]")
+TEST_CASE("A level spans the curves of a plot, or its range", "[apps]")
 {
-  std::vector<double> times, values;
-  for (int i = 0; i < 10000; ++i) {
-    times.push_back(0.001 * i);
-    values.push_back(i == 4321 ? 7. : i == 1234 ? -7. : 0.);
-  }
-  const vpApp::PlotCurve peaks = vpApp::timeCurve("c", "#000000", times, values);
-  const vpApp::PlotCurve valleys = vpApp::timeCurve("c", "#000000", times, values, vpApp::Keep::Least);
-  CHECK(peaks.x.size() < 1000);
-  CHECK(peaks.x.size() == peaks.y.size());
-  CHECK(*std::max_element(peaks.y.begin(), peaks.y.end()) == 7.);
-  CHECK(*std::min_element(peaks.y.begin(), peaks.y.end()) == 0.);
-  CHECK(*std::min_element(valleys.y.begin(), valleys.y.end()) == -7.);
-  CHECK(*std::max_element(valleys.y.begin(), valleys.y.end()) == 0.);
-
   vpApp::Plot plot = vpApp::timePlot("t", "m");
   vpApp::addLevel(plot, 1., "nothing yet");
   CHECK(plot.curves.back().x == std::vector<double>{0., 0.});
   plot.xRange = {0., 5.};
   vpApp::addLevel(plot, 1., "over the range");
   CHECK(plot.curves.back().x == std::vector<double>{0., 5.});
-  plot.curves.push_back(peaks);
+  plot.curves.push_back({"c", "#000000", vpApp::PlotStyle::Solid, 2., {0., 3., 9.}, {0., 1., 0.}});
   vpApp::addLevel(plot, 2., "over the curves");
-  CHECK(plot.curves.back().x.back() == peaks.x.back());
+  CHECK(plot.curves.back().x.back() == 9.);
   CHECK(plot.curves.back().y == std::vector<double>{2., 2.});
 }
