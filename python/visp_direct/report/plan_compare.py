@@ -151,7 +151,7 @@ def add_view(page, data, scene):
         )
         + "; grey ball: start; black ball: goal. Obstacles: grey what was known from the start, brown what had to be seen. The grid has squares of 10 cm.",
     )
-    page.items([*data.missing, *missing])
+    page.items(missing)
     return tables
 
 
@@ -308,7 +308,7 @@ def add_how(page, compared):
         ]
     )
     for data in compared:
-        page.items(data.summary["remarks"])
+        page.items([*data.summary["remarks"], *data.missing])
         page.facts(
             [
                 ("Arm", data.summary["arm"]),
