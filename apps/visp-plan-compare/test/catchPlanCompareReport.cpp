@@ -9,6 +9,8 @@
 #include "programRun.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdlib>
 #include <sstream>
 
@@ -110,7 +112,15 @@ TEST_CASE("The result has all its parts, and the same seed the same numbers", "[
   REQUIRE(scene["objects"].size() == 2); // that cross, so each has places over time
   for (const nlohmann::json &object : scene["objects"]) {
     CHECK(object["known"] == false);
-    CHECK(object["track"]["t"].size() == object["track"]["p"].size());
+    const auto times = object["track"]["t"].get<std::vector<double>>();
+    const auto places = object["track"]["p"].get<std::vector<std::array<double, 3>>>();
+    REQUIRE(times.size() == places.size());
+    REQUIRE(times.size() > 20);
+    for (std::size_t i = 1; i < 20; ++i) { // at the speed of the variant
+      const auto &a = places[i - 1], &b = places[i];
+      const double way = std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+      CHECK(way == Approx(0.3 * (times[i] - times[i - 1])).epsilon(1e-6));
+    }
   }
 
   // One job, different order of work: the same numbers, except measured times.
