@@ -122,26 +122,13 @@ def add_arm(page, c):
     results = [(law, plant, c.runs(law, plant)[0]["arm"]) for plant in c.plants for law in c.laws if c.runs(law, plant)]
     page.table(
         [
-            "law",
-            "plant",
-            "limit margin",
-            "speed (%)",
-            "acceleration (%)",
-            "worst joint rms (mrad)",
-            "least manipulability",
-            "self-motion (rad)",
-            "slowed (s)",
-            "blocked (s)",
-            "status",
+            *("law", "plant", "limit margin", "speed (%)", "acceleration (%)", "worst joint rms (mrad)", "least manipulability"),
+            *("self-motion (rad)", "slowed (s)", "blocked (s)", "status"),
         ],
         [
             [
-                law,
-                plant,
-                margin_text(a, arm["joints"]),
-                100 * a["peak_velocity_share"],
-                100 * a["peak_acceleration_share"],
-                1000 * max(a["joint_rms"]),
+                *(law, plant, margin_text(a, arm["joints"])),
+                *(100 * a["peak_velocity_share"], 100 * a["peak_acceleration_share"], 1000 * max(a["joint_rms"])),
                 *(a[key] for key in ("least_manipulability", "self_motion_rad", "limited_s", "blocked_s", "status")),
             ]
             for law, plant, a in results

@@ -33,15 +33,8 @@ def segment_marks(axes, c, last):
     for segment, end in list(zip(c.segments, ends(c)))[:last]:
         start = end - segment["duration_s"]
         axes.axvline(start, color="#999999", linewidth=0.9)
-        axes.annotate(
-            f"to pose {plain(segment['name'])}",
-            (start, 1),
-            xycoords=("data", "axes fraction"),
-            xytext=(3, -9),
-            textcoords="offset points",
-            fontsize=7,
-            color="#666666",
-        )
+        place = {"xy": (start, 1), "xycoords": ("data", "axes fraction"), "xytext": (3, -9), "textcoords": "offset points"}
+        axes.annotate(f"to pose {plain(segment['name'])}", fontsize=7, color="#666666", **place)
     axes.set(xlim=(0, ends(c)[last - 1]), xlabel="time (s)")
 
 
