@@ -111,6 +111,11 @@ def test_a_reason_without_support_is_told(folder):
     assert "2 reasons lack a run or test that shows them." in thesis_report.page(read_results([folder("a", rows)])).html()
 
 
+def test_what_was_fitted_and_fails_is_told(folder):
+    html = thesis_report.page(read_results([folder("a", [*ROWS, row("g", "differs", kind="by construction", **OWED)])])).html()
+    assert "In 1 row more what was fitted or given does not come out." in html and "3 rows of the comparison could have failed" in html
+
+
 def test_results_side_by_side_show_the_verdicts_that_differ(folder):
     other = [*ROWS[1:], row("a", "differs", ours=0.9, **OWED), row("new", "agrees")]
     html = thesis_report.page(read_results([folder("one", ROWS), folder("two", other)])).html()

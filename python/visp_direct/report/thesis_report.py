@@ -169,6 +169,9 @@ def answer(page, summary, rows):
     others = [row for row in rows if row["verdict"] in VERDICTS[3:]]
     if others:
         page.answers(f"Not counted: {verdicts_of(others)}.")
+    failed = [row for row in rows if row["kind"] == "by construction" and row["verdict"] == "differs"]
+    if failed:
+        page.answers(f"In {counted(len(failed), 'row')} more what was fitted or given does not come out.")
     shaky = [row for row in compared if row["share_of_seeds"] < 1]
     if summary["seeds"] > 1:
         page.answers(
