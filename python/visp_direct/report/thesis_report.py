@@ -9,6 +9,7 @@ from .page import Cell, Page, counted, number
 from .plots import Figure, legend_above, logarithmic
 
 CURVE_POINTS = 700  # of a curve; more cannot be seen
+LEGEND = 125  # letters in a row
 COULD_FAIL = ("value", "bound", "arithmetic")
 KINDS = {
     "value": "values, which could be missed on both sides",
@@ -130,8 +131,10 @@ def draw_panel(axes, panel, curves, key):
         axes.set_aspect("equal", adjustable="datalim")
     for mark in panel["marks"]:
         axes.axvline(mark["x"], color="#999999", linewidth=0.9, label=mark["label"])
-    axes.set_title(panel["title"], loc="left", pad=22, fontsize=9, fontweight="bold")
-    legend_above(axes, 5)
+    labels = axes.get_legend_handles_labels()[1]
+    columns = max(1, min(5, LEGEND // (max(map(len, labels), default=1) + 8)))
+    axes.set_title(panel["title"], loc="left", pad=6 + 15 * -(-len(labels) // columns), fontsize=9, fontweight="bold")
+    legend_above(axes, columns)
 
 
 def panels_figure(item, figure, curves):
