@@ -331,24 +331,30 @@ TEST_CASE("FCL and the fast path agree on collisions that are not grazing", "[sc
 {
   auto rng = vpTestSupport::generator(14);
   CAPTURE(vpTestSupport::seed());
-  int wrong = 0, clear = 0;
+  int wrong = 0, clear = 0, touching = 0;
   for (int trial = 0; trial < 100; ++trial) {
     vpCollisionSceneSpec spec = randomScene(rng, 10, 0.9);
-    for (vpCollisionObject &one : spec.objects) {
-      one.inflation = 0.;
+    for (vpCollisionObject &one : spec.objects) { // none, the same, or each its own
+      one.inflation = trial % 3 == 0 ? 0. : trial % 3 == 1 ? 0.03 : one.inflation;
     }
-    const vpCollisionScene scene(amor(), spec);
+    vpCollisionScene scene(amor(), spec);
     vpFclChecker fcl(scene);
     vpSceneChecker own(scene);
     for (int k = 0; k < 20; ++k) {
       const vpJointVector q = configuration(amor(), rng);
+      const double margin = k % 2 == 0 ? 0. : uniform(rng, 0., 0.1);
+      REQUIRE(scene.moveObject(k % scene.objectCount(), pose(rng, 0.9))); // the checker reads the poses
       const double clearance = own.clearance(q, 10.).distance;
-      if (std::fabs(clearance) > 2e-3) {
+      if (std::fabs(clearance - margin) > 2e-3) {
         ++clear;
-        wrong += fcl.inCollision(q, 0.) != own.inCollision(q, 0.) ? 1 : 0;
+        touching += clearance < margin ? 1 : 0;
+        wrong += fcl.inCollision(q, margin) != own.inCollision(q, margin) ? 1 : 0;
       }
+      CHECK(fcl.inCollision(q, HUGE_VAL));
     }
   }
+  CHECK(touching > 300);
+  CHECK(clear - touching > 300);
   std::cout << "FCL and the fast path disagree on " << wrong << " of " << clear << " configurations\n";
   CHECK(wrong == 0);
 }

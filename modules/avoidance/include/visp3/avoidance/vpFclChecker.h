@@ -22,8 +22,9 @@ BEGIN_VISP_NAMESPACE
  * the fast path.
  *
  * Its capsule-box distances err by up to 1 mm; meshes are surfaces without inside; penetrating
- * pairs have distance 0 (so do those whose axis is deeper than the inflation). Boolean checks use FCL's collide()
- * for a margin and inflation of 0, its distance otherwise. The ground is checked by the scene: FCL 0.7 has no
+ * pairs have distance 0 (so do those whose axis is deeper than the inflation). Boolean checks pad the
+ * capsules by margin and inflation and use FCL's broad phase and collide(); where objects have different inflations, its
+ * distance for all but the largest. The ground is checked by the scene: FCL 0.7 has no
  * half-space distance and crashes. Allocates.
  */
 class VISP_EXPORT vpFclChecker : public vpCollisionChecker
@@ -40,6 +41,7 @@ public:
   [[nodiscard]] vpClearance clearance(const vpJointVector &q, double cutoff) VP_OVERRIDE;
 
 private:
+  [[nodiscard]] bool touchesGround(double margin) const;
   struct Bodies;
   const vpCollisionScene *m_scene;
   vpCollisionData m_data;
