@@ -339,7 +339,6 @@ vpAvoidanceRunSpec specOf(const PhotoScene &scene, const Options &options, Senso
   };
   spec.drives.ideal = options.friction <= 0.;
   spec.drives.frictionScale = options.friction;
-  spec.drives.compensateFriction = true;
   spec.goalTolerance = spec.drives.ideal ? spec.goalTolerance : DRIVEN_TOLERANCE;
   spec.maxDuration = options.duration;
   spec.seed = options.seed;

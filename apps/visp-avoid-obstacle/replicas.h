@@ -52,6 +52,13 @@ struct Replica {
 [[nodiscard]] Replica playFieldReplica(const Options &options); //!< 8.6
 [[nodiscard]] Replica playPointReplica(const Options &options); //!< 8.7, 8.9, 8.13
 [[nodiscard]] Replica playArmReplica(const Options &options);   //!< 8.8, 8.10, 8.11, 8.12
+/*!
+ * Figure 8.8 or 8.10 with the image sensor: a box with a photograph appears 0.1 s before the change, which comes when the
+ * camera in the hand has found it. \return metrics, seen, seen_after_s, via_distance_m.
+ */
+[[nodiscard]] nlohmann::ordered_json playSeenArmReplica(const Options &options);
+//! Figure 8.6 by the arm, whose camera sees the obstacle. \return strict and mild as playFieldReplica().
+[[nodiscard]] nlohmann::ordered_json playSeenFieldReplica(const Options &options);
 } // namespace avoidObstacle
 
 #endif

@@ -187,7 +187,37 @@ TEST_CASE("Figures 8.8 and 8.10: the arm keeps all limits", "[visp-avoid-obstacl
     CHECK(metrics.at("joint_v_violations").get<int>() == 0);
     CHECK(metrics.at("joint_a_violations").get<int>() == 0);
     CHECK(metrics.at("min_clearance_m").get<double>() > 0.);
+    CHECK(metrics.at("goal_error_m").get<double>() < 0.005); // PD with gravity, as in section 8.2.3
   }
+}
+
+TEST_CASE("Figure 8.10 with the image sensor: the change comes when the box is seen", "[visp-avoid-obstacle]")
+{
+  for (const char *name : {"fig8.10"}) {
+    const nlohmann::ordered_json seen = playSeenArmReplica(replica(name));
+    CAPTURE(name, seen.dump());
+    REQUIRE(seen.at("seen").get<bool>());
+    CHECK(seen.at("seen_after_s").get<double>() >= 0.05); // the latency
+    CHECK(seen.at("seen_after_s").get<double>() < 0.3);
+    CHECK(seen.at("metrics").at("success").get<bool>());
+    CHECK(seen.at("metrics").at("peak_v").get<double>() <= 0.5 * (1. + 1e-6));
+    CHECK(seen.at("metrics").at("collisions_moving").get<int>() == 0);
+  }
+  Options late = replica("fig8.8");
+  late.latency = 60.; // longer than the motion: the change does not come by itself
+  CHECK_FALSE(playSeenArmReplica(late).at("seen").get<bool>());
+}
+
+TEST_CASE("Figure 8.6 by the arm and its camera: strict parameters miss the end, mild ones come nearer",
+          "[visp-avoid-obstacle]")
+{
+  const nlohmann::ordered_json seen = playSeenFieldReplica(replica("fig8.6"));
+  CAPTURE(seen.dump());
+  for (std::size_t i = 1; i < 3; ++i) {
+    CHECK(seen.at("mild").at("missed_m").at(i).get<double>() < seen.at("strict").at("missed_m").at(i).get<double>());
+  }
+  CHECK_FALSE(seen.at("strict").at("end_reached").get<bool>());
+  CHECK(seen.at("mild").at("collisions_moving").get<int>() == 0);
 }
 
 TEST_CASE("Rates are differences from rest", "[visp-avoid-obstacle]")

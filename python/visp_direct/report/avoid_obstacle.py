@@ -290,7 +290,7 @@ def settings(summary):
         "ideal"
         if s["ideal_drives"]
         else (
-            f"PD with gravity and friction compensation, torques at 1 kHz against {number(s['friction'])} times the "
+            f"PD with gravity, torques at 1 kHz against {number(s['friction'])} times the "
             "friction of the file"
         )
     )
