@@ -131,9 +131,8 @@ void complete(vpPrintExperimentSpec &spec, const Choices &choices, const std::st
   spec.sensor = sensor == "image" ? vpPrintSensor::Image : vpPrintSensor::Model;
   spec.controller = choices.controller;
   if (spec.controller != vpPrintController::Observer) {
-    const vpPrintExperimentSpec pid = spec.controller == vpPrintController::Pid
-                                          ? vpPrintExperimentSpec::thesisPid()
-                                          : vpPrintExperimentSpec::thesisFeedforward();
+    const vpPrintExperimentSpec pid =
+        vpPrintExperimentSpec::withPid(spec.controller == vpPrintController::PidFeedforward);
     spec.pid = pid.pid;
     spec.filter = pid.filter;
   }

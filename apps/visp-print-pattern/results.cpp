@@ -22,16 +22,6 @@ namespace
 {
 constexpr int REPLICA_SEEDS = 8; // number of seeds used for the results of the design
 
-//! Figure 7.12: a velocity step, PID.
-vpPrintExperimentSpec stepResponse()
-{
-  vpPrintExperimentSpec spec = vpPrintExperimentSpec::thesisPid();
-  spec.reference.mode = vpPrintReferenceMode::ConstantVelocity;
-  spec.cellsPerRow = 60;
-  spec.frames = 480; // 0.3 s
-  return spec;
-}
-
 vpPrintExperimentSpec observerOn(const vpPrintSensorModel &sensor)
 {
   vpPrintExperimentSpec spec = vpPrintExperimentSpec::withObserver(sensor);
@@ -197,7 +187,7 @@ std::vector<Replica> thesisReplicas()
     }
     return replica;
   };
-  return {make("7.12", "PID, step of the velocity", 0., stepResponse()),
+  return {make("7.12", "PID, step of the velocity", 0., vpPrintExperimentSpec::thesisStep()),
           make("7.13", "PID", 0.57, vpPrintExperimentSpec::thesisPid()),
           make("7.14", "PID and feedforward", 0.40, vpPrintExperimentSpec::thesisFeedforward()),
           make("7.15", "PID, poorly tuned filter", 0.64, vpPrintExperimentSpec::thesisPoorFilter()),

@@ -8,6 +8,7 @@
 #include "numberText.h"
 #include "visp-print-pattern/tables.h"
 
+#include <visp3/core/vpException.h>
 #include <visp3/direct_core/vpQuantile.h>
 
 #include <algorithm>
@@ -93,9 +94,10 @@ public:
     item.parameters = {
         {"runs", std::to_string(replica.runs.size()) + " seeds; the picture and the data show the first"},
         {"camera", "1600 Hz, 4.5 um a pixel, 1.28 frames from exposure to control"},
-        {"sensor", "true places of the cells with errors of 0.18 px, as algorithm 7.4 has"},
-        {"stage", "simulated: mass, viscous (30 % more beyond cell 5), Coulomb and static friction; found by a search "
-                  "for what reproduces figures 7.13 to 7.15, not measured on a stage, and not the only set that does"}};
+        {"sensor", "true places of the cells with errors of 0.18 px, as algorithm 7.4 has; cells scattered by 0.3 px"},
+        {"stage and gains",
+         "fitted to all statements of the thesis on figures 7.12 to 7.15 together, not measured on a "
+         "stage, and not the only set: data/thesis/print-fit.csv has values, ranges and residuals"}};
     return item;
   }
 
@@ -120,13 +122,13 @@ double meanBetween(const Replica &replica, double from, double to, double vpPrin
   return sum / count;
 }
 
-//! Frames until the stage moves, median over the runs.
-double framesAtRest(const Replica &replica)
+//! Frames until the true velocity exceeds a value, median over the runs.
+double framesUntil(const Replica &replica, double velocity)
 {
   std::vector<double> frames;
   for (const vpPrintRun &run : replica.runs) {
     const auto moves = std::find_if(run.samples.begin(), run.samples.end(),
-                                    [](const vpPrintSample &s) { return std::fabs(s.vx) > 1e-6; });
+                                    [&](const vpPrintSample &s) { return std::fabs(s.vx) > velocity; });
     frames.push_back(static_cast<double>(moves - run.samples.begin()));
   }
   return vpMedian(frames);
@@ -139,20 +141,21 @@ Item step(const Replicas &replicas)
   const Replica &replica = replicas.of("7.12");
   Item item = replicas.item("7.12");
   item.quantities = {
-      {"frames until the stage moves", "1", 2., framesAtRest(replica), Tolerance::atLeast(), Good::Neither, "",
-       "The thesis: several iterations, by stiction."},
+      {"frames until the stage moves", "1", 6.5, framesUntil(replica, 1e-6), Tolerance::distance(3.5), Good::Neither,
+       "", "The thesis: several iterations, by stiction; taken as 3 to 10."},
+      {"time until 95 % of the step", "s", 0.075, framesUntil(replica, 0.95 * DROP_VELOCITY) / 1600.,
+       Tolerance::atMost(), Good::Neither, "", "The thesis calls the motion from 0.075 s on the steady state."},
+      {"mean velocity from 0.075 to 0.15 s", "px/frame", DROP_VELOCITY,
+       meanBetween(replica, 0.075, 0.15, &vpPrintSample::vx), Tolerance::factor(1.05), Good::Neither, "", ""},
       {"mean velocity from 0.15 to 0.3 s", "px/frame", DROP_VELOCITY,
        meanBetween(replica, 0.15, 0.3, &vpPrintSample::vx), Tolerance::factor(1.05), Good::Neither, "", ""},
-      {"force from 0.15 to 0.3 s over that from 0.075 to 0.15 s", "1", 1.,
+      {"force from 0.15 to 0.3 s over that from 0.075 to 0.15 s", "1", 1.05,
        meanBetween(replica, 0.15, 0.3, &vpPrintSample::force) /
            meanBetween(replica, 0.075, 0.15, &vpPrintSample::force),
-       Tolerance::atLeast(0.01), Good::Neither,
-       "The friction of the simulated stage rises once, at its fifth cell, which is passed before 0.075 s.",
-       "The thesis: more viscous friction in the later range."},
-      {"force from 0.075 to 0.15 s over that before cell 5", "1", std::nullopt,
-       meanBetween(replica, 0.075, 0.15, &vpPrintSample::force) /
-           meanBetween(replica, 0.02, 0.035, &vpPrintSample::force),
-       Tolerance::factor(1.1), Good::Neither, "", "Friction depends on position here, too."}};
+       Tolerance::atLeast(), Good::Neither, "",
+       "The thesis: more viscous friction in the later range; so the stage is made, its friction rises where a motion "
+       "at "
+       "4 px/frame is after 0.15 s. That the control then needs a twentieth more force is a result."}};
   return item;
 }
 
@@ -160,17 +163,15 @@ Item tracking(const Replicas &replicas, const std::string &figure, double thesis
 {
   const Replica &replica = replicas.of(figure);
   Item item = replicas.item(figure);
-  item.quantities = {{"rms velocity error", "px/frame", thesis, replica.rms_velocity_error, Tolerance::factor(1.1),
-                      Good::Smaller, "",
-                      "Measured velocity, before any filter, minus the reference; from frame 60 on; rms over 8 seeds."},
-                     {"rms velocity error", "mm/s", thesisMm, millimetresPerSecond(replica.rms_velocity_error),
-                      Tolerance::factor(1.1), Good::Smaller, "", ""},
-                     {"mean velocity", "px/frame", 5., meanBetween(replica, 60. / 1600., 1., &vpPrintSample::vx),
-                      Tolerance::factor(1.1), Good::Neither,
-                      "The experiments that meet the thesis's errors go from centre to centre in 10.8 frames, 4.5 "
-                      "px/frame on average, "
-                      "and the stage lags behind that.",
-                      "The thesis: about 5, a quarter above the velocity at the centres."}};
+  item.quantities = {
+      {"rms velocity error", "px/frame", thesis, replica.rms_velocity_error, Tolerance::factor(1.1), Good::Smaller, "",
+       "Measured velocity, before any filter, minus the reference; from frame 60 on; rms over 8 seeds."},
+      {"rms velocity error", "mm/s", thesisMm, millimetresPerSecond(replica.rms_velocity_error), Tolerance::factor(1.1),
+       Good::Smaller, "", ""},
+      {"mean velocity", "px/frame", 5., meanBetween(replica, 60. / 1600., 1., &vpPrintSample::vx),
+       Tolerance::factor(1.05), Good::Neither, "",
+       "The thesis: about 5, a quarter above the velocity at the centres; the reference goes from centre to "
+       "centre in 9.78 frames."}};
   return item;
 }
 
@@ -199,6 +200,31 @@ double worstAtCentres(const Replica &replica)
   return worst;
 }
 
+double centreVelocity(const Replica &replica)
+{
+  double sum = 0.;
+  for (const vpPrintRun &run : replica.runs) {
+    sum += run.metrics.centre_velocity_mean / static_cast<double>(replica.runs.size());
+  }
+  return sum;
+}
+
+//! Rms true velocity error with the measured velocity itself, over that of the replica.
+double unfilteredOver(const Replica &replica, unsigned int seed)
+{
+  vpPrintExperimentSpec spec = replica.runs.front().spec;
+  spec.filter = {1., 1e-9};
+  spec.seed = spec.product.seed = seed;
+  constexpr double RUNAWAY = 1e3; // px/frame
+  double without = RUNAWAY;
+  try {
+    without = runPrintExperiment(spec).metrics.rms_true_velocity_error;
+  }
+  catch (const vpException &) { // beyond what the product can be seen at
+  }
+  return without / printPattern::rmsOf(replica.runs, &vpPrintMetrics::rms_true_velocity_error);
+}
+
 std::vector<Item> play(const Setting &setting)
 {
   const Replicas replicas(setting);
@@ -210,11 +236,14 @@ std::vector<Item> play(const Setting &setting)
        Good::Smaller, "", "True velocity; the bound that keeps drops within 10 um when they are shot at the centre."});
   feedforward.quantities.push_back({"velocity error at the centres over that without feedforward", "1", 1.,
                                     forward.centre_velocity_error / pid.centre_velocity_error, Tolerance::atMost(),
-                                    Good::Smaller,
-                                    "Without feedforward the stage hardly follows the velocity from centre to centre "
-                                    "(see the spread below) and goes at 4.1 px/frame all along, which happens to be "
-                                    "near the 4 wanted there.",
-                                    "The thesis: clearly lower. True velocity, rms."});
+                                    Good::Smaller, "", "The thesis: clearly lower. True velocity, rms."});
+  feedforward.quantities.push_back({"mean velocity at the centres", "px/frame", DROP_VELOCITY, centreVelocity(forward),
+                                    Tolerance::factor(1.05), Good::Neither, "", "True velocity."});
+  feedforward.quantities.push_back(
+      {"rms true velocity error without a filter over that with it", "1", 2., unfilteredOver(forward, setting.seed),
+       Tolerance::atLeast(), Good::Neither, "",
+       "The thesis: without the alpha-beta filter the motion becomes unstable; taken as an error at least twice as "
+       "large. The measured velocity itself instead of the filter's."});
   for (const auto &part : {std::make_pair("with feedforward", &forward), std::make_pair("without", &pid)}) {
     feedforward.quantities.push_back(
         {std::string("spread of the true velocity over that of the reference, ") + part.first, "1", std::nullopt,
@@ -223,11 +252,7 @@ std::vector<Item> play(const Setting &setting)
   }
   poor.quantities.push_back({"rms velocity error over that of figure 7.13", "1", 0.64 / 0.57,
                              badFilter.rms_velocity_error / pid.rms_velocity_error, Tolerance::factor(1.1),
-                             Good::Neither,
-                             "No plant was found in which the poor filter is worse than the published one by that much "
-                             "while all three values "
-                             "are met; 0.64 and 0.57 are one run each in the thesis.",
-                             ""});
+                             Good::Neither, "", ""});
   poor.quantities.push_back({"rms velocity error over that of figure 7.14", "1", 0.64 / 0.40,
                              badFilter.rms_velocity_error / forward.rms_velocity_error, Tolerance::factor(1.1),
                              Good::Neither, "As above.", ""});

@@ -26,11 +26,11 @@ public:
   struct Point {
     double t, x, y, vx, vy;
   };
-  explicit Truth(const vpXYStageSpec &spec) : m_stage(spec) { remember(); }
+  Truth(const vpXYStageSpec &spec, int parts) : m_parts(parts), m_stage(spec) { remember(); }
   void step(double fx, double fy, int share)
   {
-    for (int i = 0; i < partsPerFrame / share; ++i) {
-      m_stage.step(1. / partsPerFrame, {{fx, fy}});
+    for (int i = 0; i < m_parts / share; ++i) {
+      m_stage.step(1. / m_parts, {{fx, fy}});
       remember();
     }
   }
@@ -42,7 +42,7 @@ public:
     if (t <= 0.) {
       return {t, m_points[0].x, m_points[0].y, 0., 0.};
     }
-    const auto i = std::min(static_cast<std::size_t>(t * partsPerFrame), m_points.size() - 2);
+    const auto i = std::min(static_cast<std::size_t>(t * m_parts), m_points.size() - 2);
     const Point &a = m_points[i], &b = m_points[i + 1];
     const double h = b.t - a.t, s = (t - a.t) / h;
     const auto cubic = [&](double p, double v, double q, double w) {
@@ -54,14 +54,13 @@ public:
   }
 
 private:
-  static constexpr int partsPerFrame = 32;
-
   void remember()
   {
     const vpXYStage::State &s = m_stage.state();
-    m_points.push_back({static_cast<double>(m_points.size()) / partsPerFrame, s.position[0], s.position[1],
-                        s.velocity[0], s.velocity[1]});
+    m_points.push_back(
+        {static_cast<double>(m_points.size()) / m_parts, s.position[0], s.position[1], s.velocity[0], s.velocity[1]});
   }
+  int m_parts; // in a frame
   vpXYStage m_stage;
   std::vector<Point> m_points;
 };
@@ -95,11 +94,13 @@ void evaluateVelocities(vpPrintRun &run, const std::vector<Pass> &passes)
     if (pass.time >= spec.evaluateFrom) {
       const double error = std::fabs(pass.velocity - spec.dropVelocity);
       centre += error * error;
+      m.centre_velocity_mean += pass.velocity;
       m.centre_velocity_worst = std::max(m.centre_velocity_worst, error);
       ++count;
     }
   }
   m.centre_velocity_error = std::sqrt(centre / std::max(1, count));
+  m.centre_velocity_mean /= std::max(1, count);
 }
 
 void evaluateDrops(vpPrintRun &run, const std::vector<Pass> &passes, double end)
@@ -182,7 +183,8 @@ class Experiment
 {
 public:
   explicit Experiment(const vpPrintExperimentSpec &spec)
-    : m_spec(spec), m_product(spec.product), m_sensor(spec, m_product), m_truth(spec.stage), m_machine(machineOf(spec))
+    : m_spec(spec), m_product(spec.product), m_sensor(spec, m_product), m_truth(spec.stage, spec.stageParts),
+      m_machine(machineOf(spec))
   {
     m_run.spec = m_spec;
   }

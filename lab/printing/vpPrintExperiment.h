@@ -55,13 +55,20 @@ struct vpPrintExperimentSpec : vpPrintMachineSpec {
   int frames = 0;           //!< Maximum number of frames; 0: until all cells are printed.
   int evaluateFrom = 60;    //!< First frame for the velocity errors, >= 0.
   double frameRate = 1600.; //!< Frame rate, Hz, > 0.
+  int stageParts = 32;      //!< Steps of the stage in a frame: a power of 2 from commandsPerFrame to 32.
   unsigned int seed = 1;    //!< Seed of the sensor errors. The product has its own.
 
-  //! Figure 7.13: PID without feedforward, sensor of the thesis, cell period 10.8 frames, 120 frames.
+  /*!
+   * A PID, without or with feedforward, and its filter for the stage of vpXYStageSpec::thesis(): gains chosen by hand.
+   */
+  [[nodiscard]] static vpPrintExperimentSpec withPid(bool feedforward);
+  //! Figure 7.12: velocity step, PID; stage and gains fitted, see vpPrintFit, as for the following ones.
+  [[nodiscard]] static vpPrintExperimentSpec thesisStep();
+  //! Figure 7.13: PID without feedforward, sensor of the thesis, 5 px/frame on average, 120 frames.
   [[nodiscard]] static vpPrintExperimentSpec thesisPid();
   //! Figure 7.14: PID with feedforward.
   [[nodiscard]] static vpPrintExperimentSpec thesisFeedforward();
-  //! Figure 7.15: PID with a poorly tuned filter (0.80, 0.08).
+  //! Figure 7.15: the same with a poorly tuned filter.
   [[nodiscard]] static vpPrintExperimentSpec thesisPoorFilter();
   /*!
    * Observer and preview, velocity 4 px/frame at the centres and 5 px/frame on average.
@@ -109,6 +116,7 @@ struct vpPrintMetrics {
   double rms_true_velocity_error = 0.; //!< True velocity minus the simultaneous reference, rms, px/frame.
   double centre_velocity_error = 0.;   //!< |true velocity| minus dropVelocity with a cell at the nozzle, rms, px/frame.
   double centre_velocity_worst = 0.;   //!< Largest such error, px/frame.
+  double centre_velocity_mean = 0.;    //!< Mean |true velocity| with a cell at the nozzle, px/frame.
   double landing_rms_um = 0.;          //!< Distance of the drops from the centres, rms, um.
   double landing_worst_um = 0.;        //!< Largest distance of a drop from its centre, um.
   double landed_within_10um = 0.;      //!< Fraction of the drops, 0..1.

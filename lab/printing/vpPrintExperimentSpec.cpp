@@ -4,7 +4,9 @@
  */
 #include "vpFieldCheck.h"
 #include "lab/printing/vpPrintExperiment.h"
+#include "lab/printing/vpPrintFit.h"
 
+#include <algorithm>
 #include <cmath>
 
 BEGIN_VISP_NAMESPACE
@@ -13,19 +15,7 @@ namespace
 {
 constexpr vpFieldCheck fields("the print experiment");
 
-// The jitter of the cells is part of the parameters that reproduce the figures of the thesis.
-vpPrintExperimentSpec thesisRun()
-{
-  vpPrintExperimentSpec spec;
-  spec.sensorModel = vpPrintSensorModel::thesis();
-  spec.product.jitter = 0.3;
-  spec.product.noise = 4.;
-  spec.reference.mode = vpPrintReferenceMode::FixedArrival;
-  spec.reference.dropTime = 10.8;
-  spec.frames = 120;
-  spec.cellsPerRow = 40;
-  return spec;
-}
+vpPrintFit::Figures thesisFigures() { return vpPrintFit::figuresOf(vpPrintFit::stored(), vpPrintFit::storedPoor); }
 } // namespace
 
 vpPrintSensorModel vpPrintSensorModel::thesis() { return vpPrintSensorModel(); }
@@ -39,29 +29,21 @@ vpPrintSensorModel vpPrintSensorModel::tracker()
   return sensor;
 }
 
-vpPrintExperimentSpec vpPrintExperimentSpec::thesisPid()
+vpPrintExperimentSpec vpPrintExperimentSpec::withPid(bool feedforward)
 {
-  vpPrintExperimentSpec spec = thesisRun();
-  spec.controller = vpPrintController::Pid;
-  spec.pid = vpPrintVelocityControlSpec::thesisPid();
+  vpPrintExperimentSpec spec;
+  spec.controller = feedforward ? vpPrintController::PidFeedforward : vpPrintController::Pid;
+  spec.pid = feedforward ? vpPrintVelocityControlSpec::thesisFeedforward() : vpPrintVelocityControlSpec::thesisPid();
+  if (feedforward) {
+    spec.filter = {0.19, 1.17};
+  }
   return spec;
 }
 
-vpPrintExperimentSpec vpPrintExperimentSpec::thesisFeedforward()
-{
-  vpPrintExperimentSpec spec = thesisRun();
-  spec.controller = vpPrintController::PidFeedforward;
-  spec.pid = vpPrintVelocityControlSpec::thesisFeedforward();
-  spec.filter = {0.19, 1.17};
-  return spec;
-}
-
-vpPrintExperimentSpec vpPrintExperimentSpec::thesisPoorFilter()
-{
-  vpPrintExperimentSpec spec = thesisPid();
-  spec.filter = {0.80, 0.08};
-  return spec;
-}
+vpPrintExperimentSpec vpPrintExperimentSpec::thesisStep() { return thesisFigures().step; }
+vpPrintExperimentSpec vpPrintExperimentSpec::thesisPid() { return thesisFigures().pid; }
+vpPrintExperimentSpec vpPrintExperimentSpec::thesisFeedforward() { return thesisFigures().feedforward; }
+vpPrintExperimentSpec vpPrintExperimentSpec::thesisPoorFilter() { return thesisFigures().poor; }
 
 vpPrintExperimentSpec vpPrintExperimentSpec::withObserver(const vpPrintSensorModel &sensor)
 {
@@ -103,6 +85,8 @@ void vpPrintExperimentSpec::validate() const
   fields.in("frames", frames, {0});
   fields.in("evaluateFrom", evaluateFrom, {0});
   fields.positive("frameRate", frameRate);
+  fields.require(stageParts >= commandsPerFrame && stageParts <= 32 && 32 % std::max(1, stageParts) == 0, "stageParts",
+                 stageParts, "a power of 2 from commandsPerFrame to 32");
   fields.require(product.rotation == 0., "rotation", product.rotation, "0: the axes of stage and product are the same");
 }
 

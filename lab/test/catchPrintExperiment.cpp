@@ -47,8 +47,7 @@ vpPrintExperimentSpec withPerfectSensor(vpPrintController controller)
   vpPrintExperimentSpec spec = vpPrintExperimentSpec::withObserver(vpPrintSensorModel::tracker());
   if (controller != vpPrintController::Observer) {
     const bool ahead = controller == vpPrintController::PidFeedforward;
-    const vpPrintExperimentSpec pid =
-        ahead ? vpPrintExperimentSpec::thesisFeedforward() : vpPrintExperimentSpec::thesisPid();
+    const vpPrintExperimentSpec pid = vpPrintExperimentSpec::withPid(ahead);
     spec.controller = controller;
     spec.pid = pid.pid;
     spec.filter = pid.filter;
@@ -88,12 +87,10 @@ TEST_CASE("The velocity errors of figures 7.13, 7.14 and 7.15", "[print]")
   CHECK(pid.rms_velocity_error == Approx(0.57).epsilon(0.1));
   CHECK(ahead.rms_velocity_error == Approx(0.40).epsilon(0.1));
   CHECK(poor.rms_velocity_error == Approx(0.64).epsilon(0.1));
-  // What the figures do not show: the true velocity at the centres, and that the drops need the plan in their forecast.
-  for (const vpPrintMetrics &m : {pid, ahead, poor}) {
-    CHECK(m.centre_velocity_error > 0.1);
-    CHECK(m.centre_velocity_error < 0.3);
-  }
-  CHECK(ahead.landed_within_10um < 0.9);
+  // "At the centres this error is clearly lower"; and the fifth that the cells are passed faster than at constant velocity.
+  CHECK(ahead.centre_velocity_error < 0.3 * pid.centre_velocity_error);
+  CHECK(ahead.gain_over_constant > 0.2);
+  CHECK(ahead.landed_within_10um < 0.9); // the drops need the plan in their forecast
 }
 
 TEST_CASE("Observer and preview keep the velocity at the centres", "[print]")

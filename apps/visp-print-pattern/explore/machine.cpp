@@ -36,9 +36,8 @@ vpPrintExperimentSpec machineOf(const Design &design, const Setup &setup, const 
 {
   vpPrintExperimentSpec spec = vpPrintExperimentSpec::withObserver(sensor);
   if (design.controller != vpPrintController::Observer) {
-    const vpPrintExperimentSpec pid = design.controller == vpPrintController::Pid
-                                          ? vpPrintExperimentSpec::thesisPid()
-                                          : vpPrintExperimentSpec::thesisFeedforward();
+    const vpPrintExperimentSpec pid =
+        vpPrintExperimentSpec::withPid(design.controller == vpPrintController::PidFeedforward);
     spec.controller = design.controller;
     spec.pid = pid.pid;
     spec.filter = pid.filter;

@@ -243,8 +243,7 @@ TEST_CASE("The thesis's camera gets the thesis's machine", "[explore]")
     const vpPrintExperimentSpec spec = experimentOf(design, setup, timing, vpPrintSensorModel::tracker());
     vpPrintExperimentSpec known = vpPrintExperimentSpec::withObserver(vpPrintSensorModel::tracker());
     if (controller != vpPrintController::Observer) {
-      known = controller == vpPrintController::Pid ? vpPrintExperimentSpec::thesisPid()
-                                                   : vpPrintExperimentSpec::thesisFeedforward();
+      known = vpPrintExperimentSpec::withPid(controller == vpPrintController::PidFeedforward);
     }
     CHECK(spec.pid.kp == Approx(known.pid.kp));
     CHECK(spec.pid.ki == Approx(known.pid.ki));

@@ -1,0 +1,113 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+// Plant and gains of figures 7.12 to 7.15: the stored ones are those of the data file, which says what they miss.
+#include "vpCatch.h"
+
+#include "lab/printing/vpPrintFit.h"
+
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+
+using namespace vpPrintFit;
+
+namespace
+{
+int numberFrom(const char *name, int otherwise)
+{
+  const char *const text = std::getenv(name);
+  return text != nullptr ? std::atoi(text) : otherwise;
+}
+
+//! Cells of the lines that begin with a name; comments are left out.
+std::vector<std::vector<std::string>> linesOf(std::istream &text)
+{
+  std::vector<std::vector<std::string>> lines;
+  for (std::string line; std::getline(text, line);) {
+    if (line.empty() || line[0] == '#') {
+      continue;
+    }
+    lines.emplace_back();
+    std::istringstream cells(line);
+    for (std::string cell; std::getline(cells, cell, ';');) {
+      lines.back().push_back(cell);
+    }
+  }
+  return lines;
+}
+} // namespace
+
+TEST_CASE("The stored plant and gains are those of data/thesis/print-fit.csv, with its residuals", "[print]")
+{
+  std::ifstream file(VISP_DIRECT_DATA_DIR "/thesis/print-fit.csv");
+  REQUIRE(file.good());
+  std::istringstream now(csvOf(stored(), storedPoor, 8));
+  const auto kept = linesOf(file), made = linesOf(now);
+  REQUIRE(kept.size() == made.size());
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    CAPTURE(i, kept[i][0]);
+    REQUIRE(kept[i].size() == made[i].size());
+    for (std::size_t k = 0; k < kept[i].size(); ++k) {
+      char *end = nullptr;
+      const double number = std::strtod(kept[i][k].c_str(), &end);
+      if (end != kept[i][k].c_str() && *end == '\0') { // a number: friction amplifies rounding
+        CHECK(std::stod(made[i][k]) == Approx(number).epsilon(0.01).margin(0.05));
+      }
+      else {
+        CHECK(made[i][k] == kept[i][k]);
+      }
+    }
+  }
+}
+
+TEST_CASE("Other seeds than those of the search say the same", "[print]")
+{
+  auto rng = vpTestSupport::generator(771);
+  const auto first = std::uniform_int_distribution<unsigned int>(100, 100000)(rng);
+  CAPTURE(vpTestSupport::seed(), first);
+  for (const Statement &s : statementsOf(figuresOf(stored(), storedPoor), 6, first)) {
+    CAPTURE(s.name, s.thesis, s.ours, s.scale);
+    CHECK(std::fabs(s.residual) < 4.); // of six seeds; the search had two
+  }
+}
+
+TEST_CASE("A residual is the distance in units of its scale, and 0 on the good side of a bound", "[print]")
+{
+  const std::vector<Statement> all = statementsOf(figuresOf(stored(), storedPoor), 1);
+  double cost = 0.;
+  for (const Statement &s : all) {
+    CAPTURE(s.name, s.thesis, s.ours);
+    CHECK(s.scale > 0.);
+    CHECK(((s.residual == 0. && s.ours != s.thesis) ||
+           std::fabs(s.residual) == Approx(std::fabs(s.ours - s.thesis) / s.scale)));
+    cost += s.residual * s.residual;
+  }
+  CHECK(costOf(all) == Approx(cost));
+  // Another stage, other statements: the fit depends on what it fits.
+  Eigen::VectorXd other = stored();
+  other(0) *= 2.; // viscous friction
+  CHECK(costOf(statementsOf(figuresOf(other, storedPoor), 1)) > cost);
+  CHECK_THROWS_WITH(figuresOf(Eigen::VectorXd::Zero(3), storedPoor), Catch::Contains("has 3 numbers, must have 19"));
+}
+
+// FIT_GENERATIONS=150 FIT_SEEDS=2 bin/catchPrintFit "[.fit]"; FIT_SEED of the search, FIT_POOR (pid or feedforward).
+TEST_CASE("Search plant and gains of figures 7.12 to 7.15", "[.fit]")
+{
+  const char *const which = std::getenv("FIT_POOR");
+  const PoorFilter poor = which != nullptr && std::string(which) == "pid" ? PoorFilter::Pid : PoorFilter::Feedforward;
+  const int generations = numberFrom("FIT_GENERATIONS", 150), seeds = numberFrom("FIT_SEEDS", 2);
+  const Result result = search(poor, generations, seeds, static_cast<unsigned int>(numberFrom("FIT_SEED", 1)),
+                               [](int generation, double cost) {
+                                 if (generation % 10 == 0) {
+                                   std::cerr << "generation " << generation << ": " << cost << '\n';
+                                 }
+                                 return true;
+                               });
+  std::cout << "# figure 7.15 with the controller of figure " << (poor == PoorFilter::Pid ? "7.13" : "7.14") << ": "
+            << result.evaluations << " evaluations, cost " << result.cost << " with " << seeds << " seeds\n"
+            << csvOf(result.values, poor, 8);
+  CHECK(result.cost < 1e3);
+}
