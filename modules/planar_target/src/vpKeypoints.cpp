@@ -280,8 +280,9 @@ void vpKeypointSet::pack()
   }
 }
 
-std::unique_ptr<vpKeypointExtractor> makeKeypointExtractor(vpKeypointType type, unsigned int maxKeypoints)
+std::unique_ptr<vpKeypointExtractor> makeKeypointExtractor(vpKeypointType type, const vpPlanarTargetSpec &spec)
 {
+  const unsigned int maxKeypoints = spec.maxKeypoints;
   cv::Ptr<cv::Feature2D> feature;
   switch (type) {
   case vpKeypointType::ORB:
@@ -301,7 +302,7 @@ std::unique_ptr<vpKeypointExtractor> makeKeypointExtractor(vpKeypointType type, 
     feature = cv::BRISK::create();
     break;
   case vpKeypointType::SURF:
-    return makeSurfExtractor(maxKeypoints);
+    return makeSurfExtractor(spec);
   }
   if (!feature) {
     throw vpException(vpException::badValue, "keypoint type %d is not known", static_cast<int>(type));

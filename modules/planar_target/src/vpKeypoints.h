@@ -53,13 +53,13 @@ public:
 };
 
 /*!
- * \param maxKeypoints : Maximum number of keypoints; the strongest are kept.
+ * \param spec : Its maxKeypoints, the maximum number of keypoints (the strongest are kept), and its settings of SURF.
  * \throw vpException (fatalError) if \e type is SURF and this build has no dlib.
  */
-std::unique_ptr<vpKeypointExtractor> makeKeypointExtractor(vpKeypointType type, unsigned int maxKeypoints);
+std::unique_ptr<vpKeypointExtractor> makeKeypointExtractor(vpKeypointType type, const vpPlanarTargetSpec &spec);
 
 //! SURF, in surf/: by dlib, or an exception that tells how to get it.
-std::unique_ptr<vpKeypointExtractor> makeSurfExtractor(unsigned int maxKeypoints);
+std::unique_ptr<vpKeypointExtractor> makeSurfExtractor(const vpPlanarTargetSpec &spec);
 
 /*!
  * Pairs (index in \e reference, index in \e current). Each is the mutual nearest neighbour, and nearer than

@@ -135,6 +135,9 @@ void vpPlanarTargetSpec::validate() const
   constexpr vpFieldCheck fields("the planar target");
   fields.in("minInliers", minInliers, {8.});
   fields.in("maxKeypoints", maxKeypoints, {1. * minInliers, 100000.});
+  fields.notNegative("surfThreshold", surfThreshold);
+  fields.in("surfOctaves", surfOctaves, {1., 8.});
+  fields.in("surfLayers", surfLayers, {1., 16.});
   fields.in("inlierThreshold", inlierThreshold, vpFieldRange::positive(1e3), "px");
   fields.in("minCorrelation", minCorrelation, {0., 1.});
   fields.in("refinementSize", refinementSize, {32., 4096.}, "px");

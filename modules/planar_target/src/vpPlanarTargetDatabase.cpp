@@ -135,7 +135,7 @@ class vpPlanarTargetDatabase::Store
 {
 public:
   Store(const vpCameraParameters &camera, const vpPlanarTargetSpec &spec)
-    : m_camera(camera), m_spec(spec), m_frame(spec.maxKeypoints, camera.get_px() / camera.get_py())
+    : m_camera(camera), m_spec(spec), m_frame(spec, camera.get_px() / camera.get_py())
   {}
 
   vpCameraParameters m_camera;

@@ -96,7 +96,7 @@ vpTargetPlane makePlane(const vpImage<unsigned char> &reference, double width, d
 vpPlanarTarget::Impl::Impl(const vpImage<unsigned char> &reference, double width, double height,
                            const vpCameraParameters &camera, const vpPlanarTargetSpec &spec)
   : m_spec(spec), m_viewer(camera), m_camera(vpPinhole::fromCamera(camera)),
-    m_plane(makePlane(reference, width, height)), m_ownFrame(spec.maxKeypoints, pixelAspect(camera))
+    m_plane(makePlane(reference, width, height)), m_ownFrame(spec, pixelAspect(camera))
 {
   spec.validate();
   const cv::Mat image = pixelsOf(reference);
@@ -123,7 +123,7 @@ vpPlanarTarget::Impl::Impl(const vpImage<unsigned char> &reference, double width
   unsigned int most = 0;
   for (vpKeypointType type : types) {
     Reference r{type, {}, {}, {}};
-    makeKeypointExtractor(type, spec.maxKeypoints)->extract(reduced, r.keypoints);
+    makeKeypointExtractor(type, spec)->extract(reduced, r.keypoints);
     r.telling = tellingKeypoints(r.keypoints, tellingCount);
     for (const cv::Point2f &p : r.keypoints.points) {
       r.plane.push_back(reducedPlane.metric(p.x, p.y));

@@ -140,7 +140,7 @@ public:
       throw vpException(vpException::dimensionError, "reference image is %ux%u px, must be at least %ux%u",
                         reference.getWidth(), reference.getHeight(), smallestImage, smallestImage);
     }
-    m_extractor = makeKeypointExtractor(spec.keypoints, spec.maxKeypoints);
+    m_extractor = makeKeypointExtractor(spec.keypoints, spec);
     m_extractor->extract(pixelsOf(reference), m_reference);
     if (m_reference.points.size() < spec.minInliers) {
       throw vpException(

@@ -29,8 +29,8 @@ constexpr std::size_t mostComparisons =
     20'000'000; // 64-bit words; 6 ms. 130 keypoints of ORB with 1500 take 0.8 million
 } // namespace
 
-vpTargetFrame::vpTargetFrame(unsigned int maxKeypoints, double pixelAspect)
-  : m_maxKeypoints(maxKeypoints), m_stretchX(1. / std::sqrt(pixelAspect)), m_stretchY(std::sqrt(pixelAspect))
+vpTargetFrame::vpTargetFrame(const vpPlanarTargetSpec &spec, double pixelAspect)
+  : m_spec(spec), m_stretchX(1. / std::sqrt(pixelAspect)), m_stretchY(std::sqrt(pixelAspect))
 {
   constexpr double nearlySquare = 0.02;
   if (std::abs(pixelAspect - 1.) < nearlySquare) {
@@ -64,7 +64,7 @@ vpKeypointExtractor &vpTargetFrame::extractor(vpKeypointType type)
 {
   Keypoints &entry = m_keypoints[type];
   if (!entry.extractor) {
-    entry.extractor = makeKeypointExtractor(type, m_maxKeypoints);
+    entry.extractor = makeKeypointExtractor(type, m_spec);
   }
   return *entry.extractor;
 }

@@ -29,11 +29,11 @@ class vpTargetFrame
 {
 public:
   /*!
-   * \param maxKeypoints : As in vpPlanarTargetSpec.
+   * \param spec : Number and kind of the keypoints.
    * \param pixelAspect : Height of a pixel over its width, px / py of the camera. Keypoints are extracted from an image
    *   with square pixels, as detectors and descriptors assume.
    */
-  vpTargetFrame(unsigned int maxKeypoints, double pixelAspect);
+  vpTargetFrame(const vpPlanarTargetSpec &spec, double pixelAspect);
 
   //! Set a new frame (the pixels are copied) and forget the previous keypoints.
   void assign(const vpImage<unsigned char> &image);
@@ -59,7 +59,7 @@ private:
   vpKeypointExtractor &extractor(vpKeypointType type);
   void extract(vpKeypointType type, const cv::Rect &where, vpKeypointSet &set);
 
-  unsigned int m_maxKeypoints;
+  vpPlanarTargetSpec m_spec;
   double m_stretchX, m_stretchY; // from the frame to square pixels
   cv::Mat m_image, m_square;     // m_square: with square pixels, empty until asked for
   vpKeypointSet m_part;

@@ -8,7 +8,7 @@
 
 BEGIN_VISP_NAMESPACE
 
-std::unique_ptr<vpKeypointExtractor> makeSurfExtractor(unsigned int)
+std::unique_ptr<vpKeypointExtractor> makeSurfExtractor(const vpPlanarTargetSpec &)
 {
   throw vpException(
       vpException::fatalError,

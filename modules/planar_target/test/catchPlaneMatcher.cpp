@@ -154,3 +154,58 @@ TEST_CASE("whiteboard: matches in a corner of a real photograph are said to extr
     }
   }
 }
+
+TEST_CASE("SURF's threshold, octaves, scales and orientation are of choice", "[planar_target][plane-matcher]")
+{
+  CAPTURE(vpTestSupport::seed());
+  auto rng = vpTestSupport::generator(50);
+  const vpPlanarScene::Target target = vpPosters::poster(rng);
+  vpPlanarTargetSpec spec;
+  spec.keypoints = vpKeypointType::SURF;
+  spec.maxKeypoints = 5000;
+  const auto count = [&](const vpPlanarTargetSpec &with) {
+    return vpPlaneMatcher(target.image, with).result().referenceKeypoints;
+  };
+  std::size_t before = count(spec);
+  for (const double threshold : {20., 40., 80.}) { // a higher one keeps fewer
+    spec.surfThreshold = threshold;
+    const std::size_t now = count(spec);
+    CAPTURE(threshold, before, now);
+    CHECK(now < before);
+    before = now;
+  }
+  spec = vpPlanarTargetSpec();
+  spec.keypoints = vpKeypointType::SURF;
+  spec.maxKeypoints = 5000;
+  const std::size_t all = count(spec);
+  spec.surfOctaves = 1;
+  CHECK(count(spec) < all);
+  spec.surfOctaves = 4;
+  spec.surfLayers = 1;
+  CHECK(count(spec) < all);
+  spec.surfLayers = 4;
+
+  // A view turned by a right angle: the orientation of the keypoints is what finds them again.
+  Image turned(target.image.getWidth(), target.image.getHeight());
+  for (unsigned int i = 0; i < turned.getHeight(); ++i) {
+    for (unsigned int j = 0; j < turned.getWidth(); ++j) {
+      turned[i][j] = target.image[turned.getWidth() - 1 - j][i];
+    }
+  }
+  vpPlaneMatcher oriented(target.image, spec);
+  const std::size_t found = oriented.match(turned).inliers.size();
+  spec.surfUpright = true;
+  vpPlaneMatcher upright(target.image, spec);
+  CAPTURE(found, upright.result().referenceKeypoints);
+  CHECK(upright.match(target.image).found());
+  CHECK(upright.match(turned).inliers.size() < found / 4);
+
+  spec.surfThreshold = -1.;
+  CHECK_THROWS_WITH(vpPlaneMatcher(target.image, spec), Catch::Contains("surfThreshold") && Catch::Contains("-1"));
+  spec.surfThreshold = 10.;
+  spec.surfOctaves = 0;
+  CHECK_THROWS_WITH(vpPlaneMatcher(target.image, spec), Catch::Contains("surfOctaves"));
+  spec.surfOctaves = 4;
+  spec.surfLayers = 17;
+  CHECK_THROWS_WITH(vpPlaneMatcher(target.image, spec), Catch::Contains("surfLayers"));
+}

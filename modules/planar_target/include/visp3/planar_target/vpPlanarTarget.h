@@ -51,6 +51,10 @@ struct VISP_EXPORT vpPlanarTargetSpec {
   //! Last stage on the frame's own pixels: gives the covariance, the choice between two poses, and errors near the
   //! lower bound. False: none of these, in about half the time. Needs refine.
   bool exact = true;
+  double surfThreshold = 10.;   //!< SURF: least strength of a keypoint (determinant of dlib's box filters), >= 0.
+  unsigned int surfOctaves = 4; //!< SURF: octaves, 1 to 8.
+  unsigned int surfLayers = 4;  //!< SURF: scales of an octave in which keypoints are found, 1 to 16.
+  bool surfUpright = false;     //!< SURF: without orientation (U-SURF), for views that hardly roll.
 
   //! \throw vpException (badValue) naming the field and its value.
   void validate() const;
