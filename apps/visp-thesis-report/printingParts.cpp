@@ -142,7 +142,8 @@ Item step(const Replicas &replicas)
   Item item = replicas.item("7.12");
   item.quantities = {
       {"frames until the stage moves", "1", 6.5, framesUntil(replica, 1e-6), Tolerance::distance(3.5), Good::Neither,
-       "", "The thesis: several iterations, by stiction; taken as 3 to 10."},
+       "The fit weighs it against the other statements: data/thesis/print-fit.csv has the residual.",
+       "The thesis: several iterations, by stiction; taken as 3 to 10."},
       {"time until 95 % of the step", "s", 0.075, framesUntil(replica, 0.95 * DROP_VELOCITY) / 1600.,
        Tolerance::atMost(), Good::Neither, "", "The thesis calls the motion from 0.075 s on the steady state."},
       {"mean velocity from 0.075 to 0.15 s", "px/frame", DROP_VELOCITY,

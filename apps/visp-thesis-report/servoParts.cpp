@@ -4,12 +4,11 @@
  */
 // Figures 5.6 to 5.11: the laws on the task of section 5.4.2, by the runs of visp-servo-compare.
 #include "part.h"
+#include "servoRows.h"
 
 #include "numberText.h"
 
 #include "visp-servo-compare/replay.h"
-
-#include <visp3/core/vpMath.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,9 +22,8 @@ using servoCompare::Results;
 
 constexpr const char *POINTS = "points";
 constexpr const char *PERFECT = "A", *HARD = "D";
-constexpr double DIED_OUT = 0.5; // deg
-//! The law of the thesis, and the compared laws as meant by the thesis; then the successor of the first.
-constexpr const char *FEEDFORWARD = "ff-sum", *PBVS = "pbvs1", *KYRKI = "kyrki-decoupled", *OURS = "ff-lookat-pi";
+constexpr double DIED_OUT = 0.5;             // deg
+constexpr const char *OURS = "ff-lookat-pi"; // successor of the law of the thesis
 
 using Value = std::function<double(const vpServoRun &)>;
 
@@ -67,86 +65,6 @@ private:
   Plan m_plan;
   Results m_results;
 };
-
-// Quantities read from the curves. Angles in deg.
-
-double yawError(const vpServoRun &run)
-{
-  double sum = 0.;
-  for (const vpServoSample &s : run.samples) {
-    sum += std::pow(vpMath::deg(s.yaw - s.goalYaw), 2);
-  }
-  return std::sqrt(sum / static_cast<double>(run.samples.size()));
-}
-
-//! Largest rotation of the reference towards pose 2, relative to the rotation of the goal.
-double peakReference(const vpServoRun &run)
-{
-  double largest = 0.;
-  for (const vpServoSample &s : run.samples) {
-    largest = s.segment == 0 ? std::max(largest, s.referenceYaw / s.goalYaw) : largest;
-  }
-  return largest;
-}
-
-const vpServoSample &endOfPose2(const vpServoRun &run)
-{
-  const auto next =
-      std::find_if(run.samples.begin(), run.samples.end(), [](const vpServoSample &s) { return s.segment > 0; });
-  return *(next - 1);
-}
-
-//! Mean distance of the reference from the goal over the last second at pose 2.
-double referenceLeft(const vpServoRun &run)
-{
-  const double end = endOfPose2(run).time;
-  double sum = 0.;
-  int count = 0;
-  for (const vpServoSample &s : run.samples) {
-    if (s.segment == 0 && s.time > end - 1.) {
-      sum += vpMath::deg(s.referenceYaw - s.goalYaw);
-      ++count;
-    }
-  }
-  return std::fabs(sum / count);
-}
-
-double yawRange(const vpServoRun &run) { return run.metrics.yaw_range_deg; }
-double idealYawRange(const vpServoRun &run) { return run.metrics.ideal_yaw_range_deg; }
-double inView(const vpServoRun &run) { return endOfPose2(run).inView ? 1. : 0.; }
-double yawAtPose2(const vpServoRun &run) { return std::fabs(vpMath::deg(endOfPose2(run).yaw)); }
-
-//! Time out of view on the way to pose 2 and at pose 2, s.
-double lostAtPose2(const vpServoRun &run)
-{
-  const double cycle = 1. / run.spec.plant.loopRate;
-  return cycle * static_cast<double>(std::count_if(run.samples.begin(), run.samples.end(),
-                                                   [](const vpServoSample &s) { return s.segment == 0 && !s.inView; }));
-}
-
-//! Rms image error along u on the path 1 - 2 - 1, px.
-double imageError(const vpServoRun &run)
-{
-  double sum = 0.;
-  int count = 0;
-  for (const vpServoSample &s : run.samples) {
-    if (s.segment <= 1) {
-      sum += s.imageErrorU * s.imageErrorU;
-      ++count;
-    }
-  }
-  return std::sqrt(sum / count);
-}
-
-Quantity atMostOne(const std::string &name, double ours, const std::string &reason)
-{
-  return {name, "1", 1., ours, Tolerance::atMost(0.05), Good::Smaller, reason, ""};
-}
-
-Quantity atLeastOne(const std::string &name, double ours, const std::string &reason)
-{
-  return {name, "1", 1., ours, Tolerance::atLeast(), Good::Larger, reason, ""};
-}
 
 Item reference(const Runs &runs)
 {
@@ -361,7 +279,7 @@ void illustrate(const Runs &runs, Item &item)
 
 std::vector<Item> play(const Setting &setting)
 {
-  const Runs runs(setting, 0.8);
+  const Runs runs(setting, 0.4);
   std::vector<Item> items;
   const std::vector<std::pair<const char *, Item (*)(const Runs &)>> makers = {
       {"fig5.6", reference}, {"fig5.7", performance},  {"fig5.8", hardReference},
@@ -372,6 +290,7 @@ std::vector<Item> play(const Setting &setting)
       illustrate(runs, items.back());
     }
   }
+  addServoRows(setting, items, [&](double share) { setting.progress(0.45 + 0.5 * share); });
   if (setting.wants("fig5.11")) {
     const servoCompare::FilmStrip strip = servoCompare::drawFilmStrip(runs.plan(), runs.results());
     items.back().figures.push_back(
@@ -401,7 +320,7 @@ std::vector<Part> servoParts()
             {"fig5.9", "range of the yaw on the disturbed robot"},
             {"fig5.10", "image error from pose 1 to 2 and back"},
             {"fig5.11", "what the camera sees at the end of pose 2"}},
-           25.,
+           70.,
            play}};
 }
 } // namespace thesisReport

@@ -206,6 +206,20 @@ void fillSeen(const vpServoSegment &segment, const vpServoMeasurement &measureme
   s.translationDeviation = variance >= 0. ? std::sqrt(variance) : s.translationDeviation;
 }
 
+vpServoGoal goalOf(const vpServoRunSpec &spec, const vpServoSegment &segment, vpServoSensor &sensor)
+{
+  if (!spec.noisyReference) {
+    return sensor.goal(segment.cdMo);
+  }
+  vpServoMeasurement reference;
+  sensor.measure(segment.cdMo, 0., reference);
+  if (!reference.valid) {
+    throw vpException(vpException::badValue, "the view of the goal of segment '%s' cannot be measured",
+                      segment.name.c_str());
+  }
+  return sensor.goal(reference.cMo);
+}
+
 // Final rotation if this angular velocity decayed like the law's own rotation error.
 double referenceYaw(const vpHomogeneousMatrix &wMc, const vpTwist &command, double rotationGain)
 {
@@ -252,7 +266,7 @@ vpServoRun runServoExperiment(const vpServoRunSpec &spec, const std::function<bo
   for (long cycle = 0; cycle < cycles; ++cycle) {
     if (segment < 0 || cycle == ends[segment]) {
       ++segment;
-      servo.setGoal(sensor->goal(spec.task.segments[segment].cdMo));
+      servo.setGoal(goalOf(spec, spec.task.segments[segment], *sensor));
     }
     vpServoSample s;
     s.time = cycle * dt;

@@ -88,6 +88,8 @@ struct vpServoRunSpec {
   std::optional<vpServoMotionLimits> bounds;
   bool average =
       false; //!< The law gets the pose of the object averaged over images (vpObjectAverage); planning laws always do.
+  //! The goal of each segment is measured once in a view at its pose, with the sensor's noise; false: it is known exactly.
+  bool noisyReference = false;
   //! Arm that carries the camera; null: free-flying camera with the lag and friction of the plant.
   std::shared_ptr<const vpServoArm> arm;
 };

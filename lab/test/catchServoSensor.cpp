@@ -6,6 +6,7 @@
 
 #include <visp3/core/vpExponentialMap.h>
 #include <visp3/direct_core/vpSO3.h>
+#include "lab/servo/vpServoExperiment.h"
 #include "lab/servo/vpServoSensor.h"
 
 #include <Eigen/Cholesky>
@@ -208,4 +209,34 @@ TEST_CASE("the object is the same for every seed, the noise is not", "[sensor]")
   }
   CHECK(std::sqrt(squares / count) == Approx(0.5).epsilon(0.02));
   CHECK(std::fabs(sum / count) < 0.02);
+}
+
+TEST_CASE("A goal that is measured in a view with noise is off by the noise of that view", "[sensor]")
+{
+  CAPTURE(vpTestSupport::seed());
+  vpServoRunSpec spec;
+  spec.law = "pbvs1";
+  spec.gains.lambda = 4.; // there after 2 s
+  for (vpServoSegment &segment : spec.task.segments) {
+    segment.duration = 3.;
+  }
+  spec.noisyReference = true;
+  CHECK(runServoExperiment(spec).metrics.end_rotation_deg < 0.01); // without noise nothing changes
+  spec.plant.pixelNoise = 4.;
+  // The error of the goal, and of one view; what is left of all views is less, as the motion averages over them.
+  double exact = 0., measured = 0., one = 0.;
+  constexpr int runs = 4;
+  for (unsigned int seed = 1; seed <= runs; ++seed) {
+    spec.seed = vpTestSupport::seed() + seed;
+    for (const bool noisy : {false, true}) {
+      spec.noisyReference = noisy;
+      const vpServoRun run = runServoExperiment(spec);
+      (noisy ? measured : exact) += std::pow(run.samples.back().rotationError, 2) / runs;
+      one += noisy ? std::pow(run.samples.back().rotationDeviation, 2) / runs : 0.;
+    }
+  }
+  CAPTURE(std::sqrt(exact), std::sqrt(measured), std::sqrt(one));
+  CHECK(measured > 4. * exact);
+  CHECK(std::sqrt(measured) < 3. * std::sqrt(one));
+  CHECK(std::sqrt(measured) > std::sqrt(one) / 3.);
 }

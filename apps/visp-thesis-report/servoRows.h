@@ -1,0 +1,58 @@
+/*
+ * visp-direct: direct methods for vision-based robot control, for ViSP.
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+/*!
+ * \file servoRows.h
+ * \brief Quantities read from servo runs, and the rows of figures 5.6 to 5.11 on an arm and with noise on both views.
+ */
+#ifndef thesisReport_servoRows_h
+#define thesisReport_servoRows_h
+
+#include "part.h"
+
+#include "lab/servo/vpServoExperiment.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace thesisReport
+{
+VISP_DIRECT_USING_NAMESPACE
+
+//! The law of the thesis, and the compared laws as meant by the thesis.
+constexpr const char *FEEDFORWARD = "ff-sum", *PBVS = "pbvs1", *KYRKI = "kyrki-decoupled";
+
+// Quantities read from the curves. Angles in deg.
+[[nodiscard]] double yawError(const vpServoRun &run); //!< Rms.
+//! Largest distance of the reference from the goal during the first pose, after the first measurement.
+[[nodiscard]] double referenceDistance(const vpServoRun &run);
+//! Largest rotation of the reference towards pose 2, relative to the rotation of the goal.
+[[nodiscard]] double peakReference(const vpServoRun &run);
+//! Mean distance of the reference from the goal over the last second at pose 2.
+[[nodiscard]] double referenceLeft(const vpServoRun &run);
+[[nodiscard]] double yawRange(const vpServoRun &run);
+[[nodiscard]] double idealYawRange(const vpServoRun &run); //!< Range of the goals.
+[[nodiscard]] double inView(const vpServoRun &run);        //!< 1 if the object is in view at the end of pose 2.
+[[nodiscard]] double yawAtPose2(const vpServoRun &run);    //!< At its end, without sign.
+//! Time out of view on the way to pose 2 and at pose 2, s.
+[[nodiscard]] double lostAtPose2(const vpServoRun &run);
+//! Rms image error along u on the path 1 - 2 - 1, px.
+[[nodiscard]] double imageError(const vpServoRun &run);
+
+//! A ratio that the thesis claims to be at most, or at least, 1. \param note : Always shown.
+[[nodiscard]] Quantity atMostOne(const std::string &name, double ours, const std::string &reason,
+                                 const std::string &note = "");
+[[nodiscard]] Quantity atLeastOne(const std::string &name, double ours, const std::string &reason,
+                                  const std::string &note = "");
+
+/*!
+ * \brief Adds rows of further runs to the items: figures 5.8 to 5.11 on AMOR with both references of the drives,
+ * figures 5.6 and 5.7 with the noise of section 5.4.3.
+ * \param items : Those of servoParts() that are wanted. \param progress : Called with the fraction done.
+ */
+void addServoRows(const Setting &setting, std::vector<Item> &items, const std::function<void(double)> &progress);
+} // namespace thesisReport
+
+#endif
