@@ -31,9 +31,9 @@ enum class vpPrintReferenceMode {
  */
 struct VISP_EXPORT vpPrintReferenceSpec {
   vpPrintReferenceMode mode = vpPrintReferenceMode::CellVelocity; //!< How the time is determined.
-  double meanVelocity = 5.; //!< CellVelocity: mean between cells with their own velocity, px/frame, > 0.
+  double meanVelocity = 5.;          //!< CellVelocity: mean between cells with their own velocity, px/frame, > 0.
   double dropTime = 220. / 4.5 / 5.; //!< FixedArrival: time from target to target, frame, > 0.
-  double maxVelocity = 6.;  //!< LimitedVelocity: velocity limit, px/frame, > 0.
+  double maxVelocity = 6.;           //!< LimitedVelocity: velocity limit, px/frame, > 0.
   //! LimitedVelocity: acceleration limit, px/frame^2, > 0, may be infinite.
   double maxAcceleration = std::numeric_limits<double>::infinity();
   double freeze = 4.; //!< With less remaining time the polynomial is kept, frame, >= 0; see the note to (7.20).

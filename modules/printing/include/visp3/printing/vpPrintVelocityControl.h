@@ -27,9 +27,9 @@ struct VISP_EXPORT vpPrintVelocityControlSpec {
   vpFrictionModel model;    //!< Model of the axis, for the feedforward.
   double maxForce = std::numeric_limits<double>::infinity(); //!< |command| <= maxForce, F, > 0.
 
-  //! PID of figure 7.13: 0.038, 0.0011, 0, without feedforward.
+  //! A PID without feedforward, as in figure 7.13, for the stage of vpXYStageSpec::thesis(): 0.038, 0.0011, 0.
   [[nodiscard]] static vpPrintVelocityControlSpec thesisPid();
-  //! PID of figure 7.14: 0.177, 0.0003, 0.12, with feedforward (mass 1, viscous 0.02, Coulomb 0.08).
+  //! The same with feedforward, as in figure 7.14: 0.177, 0.0003, 0.12 (mass 1, viscous 0.02, Coulomb 0.08).
   [[nodiscard]] static vpPrintVelocityControlSpec thesisFeedforward();
   //! \throw vpException (badValue) naming the field that is out of range, and its value.
   void validate() const;

@@ -52,8 +52,8 @@ struct VISP_EXPORT vpXYStageSpec {
   /*!
    * The linear motors with dry bearings of thesis chapter 7, units px and frame (1/1600 s), mass 1: viscous friction
    * 0.02, 30 % more beyond the fifth cell; Coulomb 0.08, stiction 0.12, Stribeck velocity 0.3 px/frame, lag 0.3 frame.
-   * No delay: the 1.28 frames of that system are the camera's. The thesis does not give these numbers: they were fitted
-   * so that a simulation reproduces its velocity errors, and are not unique.
+   * No delay: the 1.28 frames of that system are the camera's. The thesis does not give these numbers: they are chosen.
+   * Those fitted to all that it states of its figures are in lab/printing/vpPrintFit.
    */
   [[nodiscard]] static vpXYStageSpec thesis();
   //! \throw vpException (badValue) naming axis, field and value if one is out of range or not finite.
