@@ -44,6 +44,19 @@ VISP_DIRECT_USING_NAMESPACE
 [[nodiscard]] vpPlaneMatcher matcherWith(const vpImage<unsigned char> &reference, vpKeypointType type,
                                          unsigned int keypoints);
 
+//! Octaves and scales of SURF in a column of table 4.2.
+struct SurfScales {
+  unsigned int octaves = 2, layers = 2; //!< Those of the second column, and of table 4.3.
+  bool upright = false;                 //!< U-SURF.
+};
+
+/*!
+ * A matcher by SURF with a threshold on the strength, as in the thesis, for reference and frames: the one with which the
+ * reference has this number of keypoints. The thesis's own numbers, 800 and 1200, are of another scale.
+ */
+[[nodiscard]] vpPlaneMatcher surfMatcher(const vpImage<unsigned char> &reference, unsigned int keypoints,
+                                         const SurfScales &scales = {});
+
 /*!
  * \brief Camera views of a real photograph (data/target/klimt.jpg, 0.2 m wide) in front of another one
  * (starry-night.jpg).

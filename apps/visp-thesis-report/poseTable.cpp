@@ -65,46 +65,39 @@ std::string place(const Row &row, std::size_t i)
 
 const char *const KNOWN = "The camera is known exactly here.";
 
+//! What is compared: angles of the motion, and the place of the object's centre.
+const Spread &comparedOf(const PoseErrors &e, PoseAxis axis) { return isAngle(axis) ? e.surf : e.centre; }
+
 //! Reason why an error of the mean is smaller, or larger, and whether more views would help.
-std::string reasonOf(const PoseErrors &e, double thesis, PoseAxis axis)
+std::string reasonOf(const Spread &errors, double thesis)
 {
-  if (std::fabs(e.surf.mean()) < thesis) {
+  if (std::fabs(errors.mean()) < thesis) {
     return KNOWN;
   }
-  const double standardError = e.surf.sigma() / std::sqrt(static_cast<double>(e.surf.count()));
-  if (std::fabs(e.surf.mean()) < 3. * standardError) {
+  const double standardError = errors.sigma() / std::sqrt(static_cast<double>(errors.count()));
+  if (std::fabs(errors.mean()) < 3. * standardError) {
     return "It is within three of its standard errors from 0: a matter of the number of views.";
   }
-  return "More views would not help: the reference with its noise is the same in all of them." +
-         std::string(axis == PoseAxis::X || axis == PoseAxis::Y
-                         ? " An error of 0.1 deg in pitch or yaw is 1.7 units here."
-                         : "");
+  return "More views would not help: the reference with its noise is the same in all of them.";
 }
 
 void addRow(Item &item, const Row &row, const Measured &measured)
 {
   const std::string unit = isAngle(row.axis) ? "deg" : "1";
-  const char *const lever = "The motion of the camera's origin: an error of 0.1 deg in pitch or yaw moves it by 1.7 "
-                            "units, though the object stays "
-                            "where it is. By its own 3 sigma of 0.7 deg the thesis would have 12 at 0 in this unit, so "
-                            "it took another unit or the "
-                            "place of the object, which is in the rows \"object's centre\".";
   for (std::size_t i = 0; i < row.offsets.size(); ++i) {
     const PoseErrors &e = measured.errors[i];
+    const Spread &errors = comparedOf(e, row.axis);
     const double thesisError = std::fabs(row.thesis[i].mean - row.offsets[i]), threeSigma = row.thesis[i].threeSigma;
     const bool slip = row.axis == PoseAxis::X && row.offsets[i] == 100.; // 90.41, possibly a misprint
     item.quantities.push_back(
-        {place(row, i) + ": error of the mean", unit, thesisError, std::fabs(e.surf.mean()), Tolerance::factor(3.),
-         Good::Smaller, reasonOf(e, thesisError, row.axis),
-         "Mean error " + number(e.surf.mean(), 2) + " over " + std::to_string(e.surf.count()) + " views with " +
+        {place(row, i) + ": error of the mean", unit, thesisError, std::fabs(errors.mean()), Tolerance::factor(3.),
+         Good::Smaller, reasonOf(errors, thesisError),
+         "Mean error " + number(errors.mean(), 2) + " over " + std::to_string(errors.count()) + " views with " +
              number(e.matches.mean(), 3) + " matches." +
              (slip ? " The thesis prints 90.41; with 99.41 or 100.41 its error would be 0.6 or 0.4." : "") +
              (e.lost > 0 ? " In " + std::to_string(e.lost) + " more no motion was found." : "")});
-    item.quantities.push_back({place(row, i) + ": 3 sigma", unit, threeSigma, 3. * e.surf.sigma(),
-                               Tolerance::factor(3.), Good::Smaller,
-                               3. * e.surf.sigma() < threeSigma               ? KNOWN
-                               : isAngle(row.axis) || row.axis == PoseAxis::Z ? ""
-                                                                              : lever,
+    item.quantities.push_back({place(row, i) + ": 3 sigma", unit, threeSigma, 3. * errors.sigma(),
+                               Tolerance::factor(3.), Good::Smaller, 3. * errors.sigma() < threeSigma ? KNOWN : "",
                                ""});
   }
 }
@@ -130,14 +123,16 @@ void addOthers(Item &item, const Row &row, const Measured &m)
       worst(m, [](const PoseErrors &e) { return std::fabs(e.wrongLens.mean()); }),
       "The same matches, decomposed with a wrong camera.");
   if (!isAngle(row.axis)) {
-    add("largest mean error, object's centre", worst(m, [](const PoseErrors &e) { return std::fabs(e.centre.mean()); }),
-        "The same matches: where the object's centre is, instead of how the camera moved.");
-    add("largest 3 sigma, object's centre", worst(m, [](const PoseErrors &e) { return 3. * e.centre.sigma(); }), "");
+    add("largest mean error, camera's origin", worst(m, [](const PoseErrors &e) { return std::fabs(e.surf.mean()); }),
+        "The same matches: t/d, how the camera moved, instead of where the object's centre is.");
+    add("largest 3 sigma, camera's origin", worst(m, [](const PoseErrors &e) { return 3. * e.surf.sigma(); }),
+        "An error of 0.1 deg in pitch or yaw moves it by 1.7 units, though the object stays where it is. By its own 3 "
+        "sigma of 0.7 deg the thesis would have 12 at 0 in this unit, so its positions are not these.");
   }
   add("3 sigma at " + number(row.offsets.front(), 4) + unitOf(row.axis) + ", before another photograph",
-      3. * m.busy.surf.sigma(),
+      3. * comparedOf(m.busy, row.axis).sigma(),
       number(m.busy.matches.mean(), 3) + " matches instead of " + number(m.errors.front().matches.mean(), 3) +
-          ": the strongest keypoints are shared with it.");
+          ": keypoints of it take part in the comparison.");
   add("largest mean error, vpPlanarTarget", worst(m, [](const PoseErrors &e) { return std::fabs(e.refined.mean()); }),
       "The product's way, which knows the size of the target: ORB and photometric refinement.");
   add("largest 3 sigma, vpPlanarTarget", worst(m, [](const PoseErrors &e) { return 3. * e.refined.sigma(); }), "");
@@ -197,8 +192,9 @@ vpApp::Plot plotOf(const Row &row, const Measured &measured)
       first ? "thesis" : "", "#999999", -1., [&](std::size_t i) { return row.thesis[i].mean - row.offsets[i]; },
       [&](std::size_t i) { return row.thesis[i].threeSigma; });
   add(
-      first ? "SURF here" : "", colour(0), 0., [&](std::size_t i) { return measured.errors[i].surf.mean(); },
-      [&](std::size_t i) { return 3. * measured.errors[i].surf.sigma(); });
+      first ? "SURF here" : "", colour(0), 0.,
+      [&](std::size_t i) { return comparedOf(measured.errors[i], row.axis).mean(); },
+      [&](std::size_t i) { return 3. * comparedOf(measured.errors[i], row.axis).sigma(); });
   add(
       first ? "vpPlanarTarget" : "", colour(1), 1., [&](std::size_t i) { return measured.errors[i].refined.mean(); },
       [&](std::size_t i) { return 3. * measured.errors[i].refined.sigma(); });
@@ -253,9 +249,8 @@ Item itemOf(const std::vector<Measured> &all)
                   "The decomposition gets the plane's normal (straight ahead in the reference view) as its prior. "
                   "Where the object only "
                   "turns about the optical axis or stays, the translation is noise, but the rotation is not.",
-                  "Positions are the t/d of the decomposition, which is the motion of the camera's origin. "
-                  "vpPlanarTarget is on the "
-                  "same views."};
+                  "Positions are those of the object's centre, from rotation and t/d of the decomposition; the t/d "
+                  "itself is the motion of the camera's origin. vpPlanarTarget is on the same views."};
   item.parameters = poseParameters();
   item.data.push_back({"offsets.csv", csvOf(all)});
   addPlot(item, "errors", "Mean error and 3 sigma by offset", "Dots: error of the mean. Bars: 3 sigma on either side.",
