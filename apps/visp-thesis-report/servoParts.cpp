@@ -10,6 +10,8 @@
 
 #include "visp-servo-compare/replay.h"
 
+#include <visp3/core/vpMath.h>
+
 #include <algorithm>
 #include <cmath>
 

@@ -24,16 +24,6 @@ double yawError(const vpServoRun &run)
   return std::sqrt(sum / static_cast<double>(run.samples.size()));
 }
 
-double referenceDistance(const vpServoRun &run)
-{
-  double largest = 0.;
-  for (const vpServoSample &s : run.samples) {
-    largest =
-        s.segment == 0 && s.measured ? std::max(largest, std::fabs(vpMath::deg(s.referenceYaw - s.goalYaw))) : largest;
-  }
-  return largest;
-}
-
 double peakReference(const vpServoRun &run)
 {
   double largest = 0.;

@@ -26,8 +26,6 @@ constexpr const char *FEEDFORWARD = "ff-sum", *PBVS = "pbvs1", *KYRKI = "kyrki-d
 
 // Quantities read from the curves. Angles in deg.
 [[nodiscard]] double yawError(const vpServoRun &run); //!< Rms.
-//! Largest distance of the reference from the goal during the first pose, after the first measurement.
-[[nodiscard]] double referenceDistance(const vpServoRun &run);
 //! Largest rotation of the reference towards pose 2, relative to the rotation of the goal.
 [[nodiscard]] double peakReference(const vpServoRun &run);
 //! Mean distance of the reference from the goal over the last second at pose 2.
