@@ -53,6 +53,10 @@ std::vector<std::string> chooseLaws(const std::vector<std::string> &asked)
     if (!contains(vpServoLaw::ids(), withoutFilter(id))) {
       throw vpApp::UsageError("--law: unknown law \"" + id + "\"; known are " + knownLaws() + ", each also with +cbf");
     }
+    if (isFiltered(id) && vpServoLaw::create(withoutFilter(id))->plansMotion()) {
+      throw vpApp::UsageError("--law: \"" + id +
+                              "\": the view filter (+cbf) cannot follow a law that plans its motion");
+    }
   }
   return asked.empty() ? vpServoLaw::ids() : withoutRepeats(asked);
 }

@@ -88,15 +88,7 @@ double speedLimit(const vpServoRunSpec &spec, double vpServoMotionLimits::*field
 
 std::optional<vpTwistShaperLimits> shapeOf(const vpServoRunSpec &spec)
 {
-  if (!spec.bounds) {
-    return spec.shape;
-  }
-  vpTwistShaperLimits limits;
-  limits.linearAcceleration = spec.bounds->linearAcceleration;
-  limits.linearJerk = spec.bounds->linearJerk;
-  limits.angularAcceleration = spec.bounds->angularAcceleration;
-  limits.angularJerk = spec.bounds->angularJerk;
-  return limits;
+  return spec.bounds ? std::optional(spec.bounds->shaperLimits()) : spec.shape;
 }
 
 // Number of the first cycle after each segment.

@@ -69,6 +69,7 @@ TEST_CASE("A wrong command line ends with status 2", "[visp-servo-compare]")
       {"surplus", USAGE, "surplus"},
       {"--law pbvs9", USAGE, "unknown law \"pbvs9\"; known are pbvs1, "},
       {"--law pbvs1+cbf+cbf", USAGE, "unknown law \"pbvs1+cbf+cbf\""},
+      {"--law pbvs1,ff-dtg+cbf", USAGE, "\"ff-dtg+cbf\": the view filter (+cbf) cannot follow a law that plans"},
       {"--plant Z", USAGE, "unknown plant \"Z\"; known are A, B and D"},
       {"--measure radar", USAGE, "unknown measure \"radar\"; known are points and image"},
       {"--jobs 0", USAGE, "--jobs is 0, must be"},

@@ -26,7 +26,7 @@ Eigen::Vector3d gazeRate(const vpLookAt &lookAt, const Eigen::Vector3d &velocity
 }
 } // namespace
 
-vpGazePlan::vpGazePlan() : m_problem(6), m_planner(6), m_plan(6) {}
+vpGazePlan::vpGazePlan() : m_problem(6), m_planner(6), m_plan(6) { forgetNorms(); }
 
 // e and e' when the twist continues with its rate.
 vpGazePlan::Rest vpGazePlan::restAt(const Start &start, double time) const noexcept
@@ -119,26 +119,25 @@ vpGazePlan::Vector6 vpGazePlan::twist(double time) const noexcept
 
 std::size_t vpGazePlan::binOf(double time) const noexcept
 {
-  return static_cast<std::size_t>(std::clamp(time / m_plan.duration() * bins, 0., bins - 1.));
+  return static_cast<std::size_t>(std::clamp(time / (m_plan.duration() + tail) * bins, 0., bins - 1.));
 }
 
-void vpGazePlan::noteSpeed(double time, const Vector6 &twist) noexcept
+void vpGazePlan::noteNorms(double end, const vpTwistNorms &norms) noexcept
 {
-  std::pair<double, double> &bin = m_speeds[binOf(time)];
-  bin = {std::max(bin.first, twist.head<3>().norm()), std::max(bin.second, twist.tail<3>().norm())};
+  vpTwistNorms &bin = m_norms[binOf(end)];
+  bin = bin.max(norms);
 }
 
-void vpGazePlan::finishSpeeds() noexcept
+void vpGazePlan::finishNorms() noexcept
 {
   for (std::size_t i = bins - 1; i-- > 0;) {
-    m_speeds[i] = {std::max(m_speeds[i].first, m_speeds[i + 1].first),
-                   std::max(m_speeds[i].second, m_speeds[i + 1].second)};
+    m_norms[i] = m_norms[i].max(m_norms[i + 1]);
   }
 }
 
-std::pair<double, double> vpGazePlan::speedsFrom(double time) const noexcept
+vpTwistNorms vpGazePlan::normsFrom(double time) const noexcept
 {
-  return time >= m_plan.duration() ? std::pair<double, double>() : m_speeds[binOf(time)];
+  return time < m_plan.duration() + tail ? m_norms[binOf(time)] : vpTwistNorms(vpTwistNorms::Zero());
 }
 
 END_VISP_NAMESPACE

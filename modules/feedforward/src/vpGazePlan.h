@@ -15,7 +15,6 @@
 #include <visp3/trajectory/vpTrajectoryPlanner.h>
 
 #include <array>
-#include <utility>
 
 BEGIN_VISP_NAMESPACE
 
@@ -50,12 +49,12 @@ public:
   Vector6 twist(double time) const noexcept;
   double duration() const { return m_plan.duration(); } //!< s
 
-  /*! \name Largest speeds of what is left of the motion, from its control points */
+  /*! \name Largest norms of what is left of the motion */
   //! @{
-  void forgetSpeeds() noexcept { m_speeds = {}; }
-  void noteSpeed(double time, const Vector6 &twist) noexcept; //!< In ascending order of \e time.
-  void finishSpeeds() noexcept;
-  std::pair<double, double> speedsFrom(double time) const noexcept; //!< m/s and rad/s
+  void forgetNorms() noexcept { m_norms.fill(vpTwistNorms::Zero()); }
+  void noteNorms(double end, const vpTwistNorms &norms) noexcept; //!< \param end : Until when they have an effect, s.
+  void finishNorms() noexcept;
+  vpTwistNorms normsFrom(double time) const noexcept;
   //! @}
 
 private:
@@ -63,6 +62,8 @@ private:
     Eigen::Vector3d e, rate;
   };
   static constexpr int bins = 64;
+  static constexpr double tail =
+      5. * vpTwistSpline::knot; // s after the end, in which control points still have an effect
   std::size_t binOf(double time) const noexcept;
   Rest restAt(const Start &start, double time) const noexcept;
 
@@ -71,7 +72,7 @@ private:
   vpTrajectoryPlan m_plan;
   Eigen::Vector3d m_origin = Eigen::Vector3d::Zero();
   bool m_gaze = true;
-  std::array<std::pair<double, double>, bins> m_speeds{};
+  std::array<vpTwistNorms, bins> m_norms;
 };
 
 END_VISP_NAMESPACE

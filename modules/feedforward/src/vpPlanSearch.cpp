@@ -18,16 +18,16 @@ constexpr double longest = 1e4;    // s; a plan of more control points is not ve
 int vpPlanSearch::effort(double duration) const
 {
   const double points = std::min(duration, longest) / h + 4.;
-  return 2 * (planCost + coarse) + static_cast<int>(points) * (m_check ? checkCost : 1);
+  return setCost + 2 * (planCost + coarse) + static_cast<int>(points) * (m_check ? checkCost : 1);
 }
 
 void vpPlanSearch::open(const Task &task) noexcept
 {
   m_task = task;
   m_floor = task.floor;
-  m_tries = 0;
-  m_planned = false;
-  m_state = m_plan.set(task.start, task.origin, task.gaze, m_limits) ? State::Busy : State::Failed;
+  m_tries = m_passed = 0;
+  m_step = Step::Set;
+  m_state = State::Busy;
 }
 
 // Try again with a longer duration. The excess may be that of the join, which no duration mends.
@@ -43,86 +43,132 @@ bool vpPlanSearch::stretch(double excess) noexcept
   else {
     m_floor = m_plan.duration() * factor;
   }
-  m_planned = false;
+  m_step = Step::Plan;
   return true;
 }
 
-// The next candidate. Differences over wider steps show at once most of what the verification would find.
+// The next candidate.
 bool vpPlanSearch::propose() noexcept
 {
   if (++m_tries > maxTries || !m_plan.plan(m_floor) || !(m_plan.duration() < longest)) {
     return false;
   }
   const double step = std::max(h, m_plan.duration() / coarse);
-  double excess = 0.;
-  Vector6 a = m_plan.twist(0.), b = m_plan.twist(step);
-  for (double time = 2. * step; time <= m_plan.duration() + step; time += step) {
-    const Vector6 next = m_plan.twist(time);
-    excess = std::max(excess, m_excess.of(a, b, next, step));
-    a = b;
-    b = next;
-  }
-  if (!(excess <= leastStretch)) {
-    return stretch(excess);
-  }
-  m_planned = true;
+  m_a = m_plan.twist(0.);
+  m_b = m_plan.twist(step);
   m_worst = 0.;
-  m_plan.forgetSpeeds();
-  m_plan.noteSpeed(0., m_task.before);
-  m_plan.noteSpeed(0., m_task.last);
-  m_index = m_check ? -m_task.wayCount : 0;
+  m_index = 2;
+  m_last = static_cast<int>(m_plan.duration() / step) + 1;
+  m_step = Step::Glance;
+  return true;
+}
+
+// Differences over wider steps show at once most of what the verification would find.
+bool vpPlanSearch::glanceNext() noexcept
+{
+  const double step = std::max(h, m_plan.duration() / coarse);
+  const Vector6 next = m_plan.twist(m_index * step);
+  m_worst = std::max(m_worst, m_excess.of(vpTwistExcess::normsOf(m_a, m_b, next, step)));
+  m_a = m_b;
+  m_b = next;
+  if (++m_index <= m_last) {
+    return true;
+  }
+  if (!(m_worst <= leastStretch)) {
+    return stretch(m_worst);
+  }
+  beginVerification();
+  return true;
+}
+
+void vpPlanSearch::beginVerification() noexcept
+{
+  m_step = Step::Verify;
+  m_worst = 0.;
+  m_plan.forgetNorms();
+  m_index = m_check ? -std::max(m_task.wayCount - m_passed, 0) : 0;
   m_last = static_cast<int>(std::ceil(m_plan.duration() / h)) + 1;
   m_a = m_task.before;
   m_b = m_task.last;
   if (m_check) {
     m_check->begin();
   }
-  return true;
 }
 
-void vpPlanSearch::verifyNext() noexcept
+bool vpPlanSearch::verifyNext() noexcept
 {
   if (m_index < 0) { // on the way to the start: for the robot only
     const double excess =
         m_check->add(vpTwistSpline::toTwist(m_task.way[static_cast<std::size_t>(m_task.wayCount + m_index)]), h);
     ++m_index;
-    if (!(excess < impossible)) {
-      m_state = State::Failed;
-    }
-    return;
+    return excess < impossible;
   }
   ++m_index;
   const Vector6 next = m_plan.twist((m_index + 0.5) * h);
-  double excess = m_excess.of(m_a, m_b, next, h);
+  const vpTwistNorms norms = vpTwistExcess::normsOf(m_a, m_b, next, h);
+  double excess = m_excess.of(norms);
   if (m_check) {
     const double robot = m_check->add(vpTwistSpline::toTwist(next), h);
     excess = robot <= excess ? excess : robot;
   }
   m_a = m_b;
   m_b = next;
-  m_plan.noteSpeed((m_index - 1) * h, next);      // it has an effect from there on
+  m_plan.noteNorms((m_index + 2) * h, norms);
   m_worst = excess <= m_worst ? m_worst : excess; // NaN stays
   if (!(m_worst < impossible)) {
-    m_state = State::Failed;
+    return false;
   }
-  else if (m_index >= m_last) {
-    m_plan.finishSpeeds();
-    m_state = m_worst <= 1. ? State::Found : stretch(m_worst) ? State::Busy : State::Failed;
+  if (m_index < m_last) {
+    return true;
+  }
+  m_plan.finishNorms();
+  if (m_worst <= 1.) {
+    m_state = State::Found;
+    return true;
+  }
+  return stretch(m_worst);
+}
+
+int vpPlanSearch::cost() const
+{
+  switch (m_step) {
+  case Step::Set:
+    return setCost;
+  case Step::Plan:
+    return planCost;
+  case Step::Glance:
+    return 1;
+  default:
+    return m_check ? checkCost : 1;
+  }
+}
+
+bool vpPlanSearch::advance() noexcept
+{
+  switch (m_step) {
+  case Step::Set:
+    m_step = Step::Plan;
+    return m_plan.set(m_task.start, m_task.origin, m_task.gaze, m_limits);
+  case Step::Plan:
+    return propose();
+  case Step::Glance:
+    return glanceNext();
+  default:
+    return verifyNext();
   }
 }
 
 void vpPlanSearch::work(int budget) noexcept
 {
-  while (m_state == State::Busy && budget > 0) {
-    if (m_planned) {
-      verifyNext();
-      budget -= m_check ? checkCost : 1;
+  do {
+    if (m_state != State::Busy) {
+      return;
     }
-    else {
-      m_state = propose() ? State::Busy : State::Failed;
-      budget -= planCost + coarse;
+    budget -= cost();
+    if (!advance()) {
+      m_state = State::Failed;
     }
-  }
+  } while (budget >= cost());
 }
 
 END_VISP_NAMESPACE

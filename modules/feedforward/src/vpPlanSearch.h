@@ -42,10 +42,18 @@ public:
 
   explicit vpPlanSearch(const vpServoMotionLimits &limits) : m_limits(limits), m_excess(limits) {}
 
+  //! For the next open().
+  void setLimits(const vpServoMotionLimits &limits)
+  {
+    m_limits = limits;
+    m_excess = vpTwistExcess(limits);
+  }
   void setCheck(vpServoMotionCheck *check) { m_check = check; }
   void open(const Task &task) noexcept;
   void close() { m_state = State::Idle; }
-  //! Work of about \e budget evaluations of a twist.
+  //! The robot is a control point further on its way.
+  void pass() { ++m_passed; }
+  //! Work of at most \e budget evaluations of a twist, or one step where it takes more: a call of the planner.
   void work(int budget) noexcept;
   //! Evaluations that a plan of this duration takes, s.
   int effort(double duration) const;
@@ -55,10 +63,16 @@ public:
 
 private:
   // Costs in evaluations of a twist.
-  static constexpr int planCost = 40, checkCost = 8, coarse = 24;
+  static constexpr int setCost = 8, planCost = 40, checkCost = 8, coarse = 24;
+  // What to do next with a candidate.
+  enum class Step { Set, Plan, Glance, Verify };
+  int cost() const;
+  bool advance() noexcept;
   bool stretch(double excess) noexcept;
   bool propose() noexcept;
-  void verifyNext() noexcept;
+  bool glanceNext() noexcept;
+  void beginVerification() noexcept;
+  bool verifyNext() noexcept;
 
   vpServoMotionLimits m_limits;
   vpTwistExcess m_excess;
@@ -66,9 +80,9 @@ private:
   Task m_task;
   vpGazePlan m_plan;
   State m_state = State::Idle;
-  bool m_planned = false; // m_plan is being verified
+  Step m_step = Step::Set;
   double m_floor = 0., m_worst = 0.;
-  int m_tries = 0, m_index = 0, m_last = 0;
+  int m_tries = 0, m_index = 0, m_last = 0, m_passed = 0;
   Vector6 m_a = Vector6::Zero(), m_b = Vector6::Zero();
 };
 

@@ -50,12 +50,7 @@ vpServoController::vpServoController(const std::string &id, std::unique_ptr<vpSe
     m_filter.emplace(spec.view);
   }
   if (m_law->plansMotion()) {
-    vpTwistShaperLimits limits;
-    limits.linearAcceleration = spec.motion.linearAcceleration;
-    limits.linearJerk = spec.motion.linearJerk;
-    limits.angularAcceleration = spec.motion.angularAcceleration;
-    limits.angularJerk = spec.motion.angularJerk;
-    m_shaper.emplace(limits);
+    m_shaper.emplace(spec.motion.shaperLimits());
   }
 }
 
@@ -65,7 +60,15 @@ vpServoController vpServoController::create(const std::string &id, const vpServo
   const bool withFilter = id.size() > filterSuffix.size() &&
                           id.compare(id.size() - filterSuffix.size(), filterSuffix.size(), filterSuffix) == 0;
   const std::string lawId = withFilter ? id.substr(0, id.size() - filterSuffix.size()) : id;
-  return vpServoController(id, vpServoLaw::create(lawId, spec.gains, spec.motion), withFilter, spec);
+  auto law = vpServoLaw::create(lawId, spec.gains, spec.motion);
+  if (withFilter && law->plansMotion()) {
+    throw vpException(
+        vpException::badValue,
+        "\"%s\": the view filter cannot follow a law that plans; its twists would exceed the limits of the plan, "
+        "and bounded ones would not keep the view. Use \"%s\", or the filter behind another law",
+        id.c_str(), lawId.c_str());
+  }
+  return vpServoController(id, std::move(law), withFilter, spec);
 }
 
 void vpServoController::reset()

@@ -25,4 +25,22 @@ const vpFields<vpServoMotionLimits> &vpServoMotionLimits::fields()
 
 void vpServoMotionLimits::validate() const { vpCheckFields(*this, fields(), "the servo motion limits"); }
 
+vpServoMotionLimits vpServoMotionLimits::scaled(double linear, double angular) const
+{
+  return {linear * linearVelocity,   linear * linearAcceleration,   linear * linearJerk,
+          angular * angularVelocity, angular * angularAcceleration, angular * angularJerk};
+}
+
+vpServoMotionLimits vpServoMotionLimits::slowed(double factor) const
+{
+  const double square = factor * factor, cube = square * factor;
+  return {factor * linearVelocity,  square * linearAcceleration,  cube * linearJerk,
+          factor * angularVelocity, square * angularAcceleration, cube * angularJerk};
+}
+
+vpTwistShaperLimits vpServoMotionLimits::shaperLimits() const
+{
+  return {linearAcceleration, linearJerk, angularAcceleration, angularJerk};
+}
+
 END_VISP_NAMESPACE

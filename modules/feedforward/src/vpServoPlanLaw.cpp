@@ -2,12 +2,12 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
+#include "vpPlanFeedback.h"
 #include "vpPlanSearch.h"
 #include "vpServoCheck.h"
 #include "vpServoLaws.h"
 
 #include <visp3/feedforward/vpObjectAverage.h>
-#include <visp3/trajectory/vpTwistShaper.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,12 +23,16 @@ constexpr double h = vpTwistSpline::knot;
 
 // Of the limits, the part for the plan in ff-dtg; the rest is for the feedback, which has to overcome friction.
 constexpr double planLinear = 0.94, planAngular = 0.65;
-// A goal nearer to the planned one, m and rad, is noise. While the camera of dtg moves, it may lag behind its plan.
-constexpr double zone = 0.002, zoneTurn = 0.006, lag = 0.1;
+// While the camera of dtg moves, it may lag behind its plan, s.
+constexpr double lag = 0.1;
+// Least factor on the speeds.
+constexpr double slowest = 0.01;
 // A goal that was moved by more than so many of these is another one: the shortest motion to it, whatever was planned.
 constexpr double jump = 5.;
 // Least duration of a plan for a better measurement of the same goal, s.
 constexpr double leastCorrection = 0.4;
+// A plan made for a lower factor on the speeds is replaced from this ratio on.
+constexpr double quicker = 1.25;
 // Nearer to the arrival than this, s, a plan is replaced only when it ends elsewhere.
 constexpr double freeze = 0.1;
 // dtg at rest: friction did not let it move; only this relative change of the error makes another try worthwhile.
@@ -38,36 +42,6 @@ constexpr double evaluationRate = 20000.;
 constexpr int leastWork = 16, mostWork = 800;
 // Part of the limits by which a command may differ from the law's and still count as executed.
 constexpr double tolerance = 1e-6;
-// Feedback: gains in units of lambda, the part of its acceleration with which it comes to rest.
-constexpr double linearGain = 4., angularGain = 4., integralGain = 4., braking = 0.7;
-// At the end of a plan the feedback rests while its error is below the first of these multiples of the zone, until it is beyond the other.
-constexpr double settled = 1., unsettled = 1.5;
-
-vpServoMotionLimits scaled(vpServoMotionLimits limits, double linear, double angular)
-{
-  for (double vpServoMotionLimits::*field :
-       {&vpServoMotionLimits::linearVelocity, &vpServoMotionLimits::linearAcceleration,
-        &vpServoMotionLimits::linearJerk}) {
-    limits.*field *= linear;
-  }
-  for (double vpServoMotionLimits::*field :
-       {&vpServoMotionLimits::angularVelocity, &vpServoMotionLimits::angularAcceleration,
-        &vpServoMotionLimits::angularJerk}) {
-    limits.*field *= angular;
-  }
-  return limits;
-}
-
-vpTwistShaperLimits shaperLimits(const vpServoMotionLimits &motion)
-{
-  vpTwistShaperLimits limits;
-  limits.linearAcceleration = motion.linearAcceleration;
-  limits.linearJerk = motion.linearJerk;
-  limits.angularAcceleration = motion.angularAcceleration;
-  limits.angularJerk = motion.angularJerk;
-  return limits;
-}
-
 Vector6 parts(double linear, double angular)
 {
   Vector6 x;
@@ -96,14 +70,17 @@ class vpServoPlanLaw : public vpServoLaw
 {
 public:
   vpServoPlanLaw(const char *id, const vpServoGains &gains, const vpServoMotionLimits &motion, bool feedback)
-    : vpServoLaw(id, gains, angularGain), m_feedback(feedback), m_motionLimits(motion),
-      m_share(feedback ? parts(planLinear, planAngular) : Vector6::Ones()),
-      m_rest(scaled(motion, 1. - planLinear, 1. - planAngular)), m_search(scaled(motion, m_share[0], m_share[3])),
-      m_brake(shaperLimits(scaled(motion, m_share[0], m_share[3]))), m_correction(shaperLimits(m_rest))
+    : vpServoLaw(id, gains, vpPlanFeedback::angularGain), m_hasFeedback(feedback), m_motionLimits(motion),
+      m_limits(motion), m_share(feedback ? parts(planLinear, planAngular) : Vector6::Ones()), m_search(ofPlan(motion)),
+      m_brake(ofPlan(motion).shaperLimits()), m_feedback(gains, ofFeedback(motion))
   {}
 
   bool plansMotion() const noexcept VP_OVERRIDE { return true; }
   void setMotionCheck(vpServoMotionCheck *check) noexcept VP_OVERRIDE { m_search.setCheck(check); }
+  void setSpeedFactor(double factor) noexcept VP_OVERRIDE
+  {
+    m_wantedFactor = factor >= slowest ? std::min(factor, 1.) : slowest;
+  }
 
   double timeToArrival() const noexcept VP_OVERRIDE
   {
@@ -128,7 +105,7 @@ protected:
   {
     m_object.reset();
     m_knotPose = Pose();
-    m_goalMoved = true;
+    m_goalMoved = m_isDisturbed = true;
     brakeFrom(m_spline.c1, m_spline.c2);
   }
 
@@ -143,7 +120,7 @@ protected:
     m_sentBefore = m_sent;
     m_period = dt;
     const Vector6 off = m_sent - m_own;
-    if (off.head<3>().norm() > tolerance * m_motionLimits.linearVelocity ||
+    if (m_isDisturbed || off.head<3>().norm() > tolerance * m_motionLimits.linearVelocity ||
         off.tail<3>().norm() > tolerance * m_motionLimits.angularVelocity) {
       restart(rate);
     }
@@ -157,7 +134,10 @@ protected:
     const Pose goal = Pose{m_object.fRo(), m_object.fto()} * vpServoPose::pose(m_goal.cdMo).inverse();
     m_sinceSearch += dt;
     const int work = std::clamp(static_cast<int>(evaluationRate * dt), leastWork, mostWork);
-    if (wantsPlan(goal, image)) {
+    changePace();
+    stayAt(goal);
+    m_isWanted = m_isWanted || wantsPlan(goal, image);
+    if (m_isWanted && (!m_hasFeedback || m_feedback.isSmall())) {
       openSearch(goal, work, dt);
     }
     m_search.work(work);
@@ -167,7 +147,7 @@ protected:
     const Pose before = reference();
     advance(dt);
     m_own = m_spline.at(m_phase);
-    if (m_feedback) {
+    if (m_hasFeedback) {
       m_own += correction(before, dt);
     }
     return {vpTwistSpline::toTwist(m_own), m_stuck ? vpServoStatus::Degenerate : vpServoStatus::Servoing};
@@ -178,6 +158,12 @@ private:
     Braking,  // or at rest without a plan
     Following // m_plan
   };
+
+  vpServoMotionLimits ofPlan(const vpServoMotionLimits &all) const { return all.scaled(m_share[0], m_share[3]); }
+  static vpServoMotionLimits ofFeedback(const vpServoMotionLimits &all)
+  {
+    return all.scaled(1. - planLinear, 1. - planAngular);
+  }
 
   Pose camera() const { return {m_object.fRc(), m_object.ftc()}; }
 
@@ -227,8 +213,39 @@ private:
     m_spline.c2 = generate();
     m_phase = 0.;
     m_knotPose = camera();
-    m_correction.reset(vpTwistSpline::toTwist(m_sent - value), vpTwistSpline::toTwist(rate - slope));
-    m_integral.setZero();
+    m_feedback.reset(m_sent - value, rate - slope);
+    m_isDisturbed = false;
+  }
+
+  // The limits for another factor on the speeds.
+  void changePace()
+  {
+    if (m_search.state() != vpPlanSearch::State::Idle || m_wantedFactor == m_factor) {
+      return;
+    }
+    m_factor = m_wantedFactor;
+    m_limits = m_motionLimits.slowed(m_factor);
+    m_search.setLimits(ofPlan(m_limits));
+    m_feedback.setRest(ofFeedback(m_limits));
+  }
+
+  // The speeds that are left of the plan exceed those of a lower factor.
+  bool isTooFast() const
+  {
+    const vpTwistNorms left = m_plan.normsFrom(planTime());
+    return m_factor < m_planFactor && (left[0] > m_limits.linearVelocity || left[3] > m_limits.angularVelocity);
+  }
+
+  // A higher factor makes another plan worthwhile.
+  bool isTooSlow() const { return m_factor > quicker * m_planFactor && timeToArrival() > leastCorrection; }
+
+  // After the plan the feedback follows the mean of the measurements, and a goal that is moved a little.
+  void stayAt(const Pose &goal)
+  {
+    if (m_hasFeedback && m_state == State::Following && isAtRest() && m_search.state() == vpPlanSearch::State::Idle &&
+        !m_isWanted && offBy(goal) <= jump) {
+      m_knotPose = m_planGoal = goal;
+    }
   }
 
   bool wantsPlan(const Pose &goal, bool image)
@@ -236,35 +253,40 @@ private:
     if (m_search.state() != vpPlanSearch::State::Idle) {
       return false;
     }
-    const bool moved = std::exchange(m_goalMoved, false);
-    m_fresh = true;
-    if (m_state == State::Braking) {
+    if (m_state == State::Braking || isTooFast()) {
       return true;
     }
     const double off = offBy(goal);
-    m_fresh = moved && off > jump;
     if (m_gains.replanPeriod > 0.) {
-      return m_fresh || (m_sinceSearch >= m_gains.replanPeriod && (off > 1. || timeToArrival() > freeze));
+      return isOther(off) || (m_sinceSearch >= m_gains.replanPeriod && (off > 1. || timeToArrival() > freeze));
     }
-    return (image || moved) && off > 1.;
+    return (image || m_goalMoved) && (off > 1. || isTooSlow());
   }
+
+  bool isOther(double off) const { return m_goalMoved && off > jump; }
 
   // How far from the goal the plan would end, in units of what is noise.
   double offBy(const Pose &goal) const
   {
-    if (m_feedback) {
+    if (m_hasFeedback) {
       const Distance off(goal, m_planGoal);
-      return std::max(off.shift / zone, off.turn / zoneTurn);
+      return vpPlanFeedback::size(off.shift, off.turn);
     }
     const Distance off(goal, camera() * reference().inverse() * m_planGoal);
-    const double share = std::max(off.shift / (zone + lag * m_speed.head<3>().norm()),
-                                  off.turn / (zoneTurn + lag * m_speed.tail<3>().norm()));
+    const double share = std::max(off.shift / (vpPlanFeedback::zone + lag * m_speed.head<3>().norm()),
+                                  off.turn / (vpPlanFeedback::zoneTurn + lag * m_speed.tail<3>().norm()));
     return isAtRest() && std::abs(share - m_tried) < worthTrying * m_tried ? 0. : share;
   }
 
   void openSearch(const Pose &goal, int work, double dt)
   {
+    m_isWanted = false;
     m_sinceSearch = 0.;
+    m_fresh = m_state == State::Braking || isTooFast() || isOther(offBy(goal));
+    m_goalMoved = false;
+    if (isTooFast() && m_state == State::Following) {
+      brakeFrom(m_spline.c1, m_spline.c2);
+    }
     vpPlanSearch::Task task;
     task.gaze = !m_gazeFailed;
     task.origin = vpServoPose::translation(m_goal.cdMo);
@@ -278,7 +300,7 @@ private:
       }
     }
     const double left = m_plan.duration() - (m_index - 1) * h; // when the new plan begins
-    task.floor = m_fresh ? 0. : offBy(goal) > 1. ? std::max(left, leastCorrection) : std::max(left, 0.);
+    task.floor = m_fresh || isTooSlow() ? 0. : offBy(goal) > 1. ? std::max(left, leastCorrection) : std::max(left, 0.);
     vpTwistSpline spline = m_spline;
     Pose place = m_knotPose;
     task.way[0] = spline.c1;
@@ -290,7 +312,7 @@ private:
         spline.push(queued(i));
       }
     }
-    m_startPose = m_feedback ? place : camera() * reference().inverse() * place;
+    m_startPose = m_hasFeedback ? place : camera() * reference().inverse() * place;
     task.before = spline.c1;
     task.last = spline.c2;
     task.isAtRest = m_rested;
@@ -311,6 +333,7 @@ private:
     if (m_fresh && m_state == State::Following) {
       brakeFrom(m_spline.c1, m_spline.c2);
     }
+    m_planFactor = m_factor; // a plan that is slower than necessary stays
     m_stuck = m_stuck || (m_rested && m_gazeFailed);
     m_gazeFailed = m_rested && !m_gazeFailed;
   }
@@ -325,24 +348,26 @@ private:
     m_knotPose = m_startPose;
     m_planGoal = m_searchGoal;
     m_expected = 1.2 * m_plan.duration();
+    m_planFactor = m_factor;
     m_stuck = m_gazeFailed = false;
     if (m_rested) {
       const Distance way(m_startPose, m_planGoal);
-      m_tried = std::max(way.shift / zone, way.turn / zoneTurn);
+      m_tried = vpPlanFeedback::size(way.shift, way.turn);
     }
   }
 
   void nextInterval()
   {
     m_knotPose = movedBy(m_knotPose, m_spline.mean(0., 1.), h);
+    m_search.pass();
     if (m_queued == 0) {
       const bool found = m_search.state() == vpPlanSearch::State::Found;
-      if (found && (!m_feedback || isCorrectionSmall())) {
+      if (found) {
         adopt();
       }
       else if (m_search.state() != vpPlanSearch::State::Idle && !m_rested) { // too late for its start
         m_search.close();
-        m_expected *= found ? 1. : 2.;
+        m_expected *= 2.;
         m_goalMoved = m_goalMoved || (m_fresh && m_state == State::Following);
       }
     }
@@ -373,66 +398,25 @@ private:
     const Eigen::Matrix3d toCamera = now.R.transpose();
     const Eigen::Vector3d shift = toCamera * (0.5 * (before.t + after.t) - now.t);
     const Eigen::Vector3d turn = 0.5 * (vpSO3::log(toCamera * before.R) + vpSO3::log(toCamera * after.R));
-    const double off = std::max(shift.norm() / zone, turn.norm() / zoneTurn);
-    m_settled = isAtRest() && off < (m_settled ? unsettled : settled);
-    if (m_settled) { // stiction makes smaller corrections a limit cycle
-      m_integral.setZero();
-      return vpTwistSpline::fromTwist(m_correction.step(vpTwist(), dt));
-    }
-    const Eigen::Vector3d w = m_own.tail<3>();
-    for (int i = 0; i < 3; ++i) {
-      if (w[i] * m_integral[i] < 0. && std::abs(w[i]) > std::abs(m_integral[i])) {
-        m_integral[i] = 0.; // friction has reversed
-      }
-    }
-    const auto [linearRoom, angularRoom] = room();
-    const Eigen::Vector3d v = wish(shift, linearGain * m_gains.lambda, m_rest.linearAcceleration);
-    const Eigen::Vector3d turnWish = wish(turn, rotationGain(), m_rest.angularAcceleration) + m_integral;
-    if (turnWish.norm() <= angularRoom || turn.dot(m_integral) < 0.) {
-      m_integral += integralGain * m_gains.integral * dt * turn;
-      m_integral *= std::min(1., m_gains.integralLimit / std::max(m_integral.norm(), 1e-300));
-    }
-    const vpTwist limited =
-        vpServoPose::twist(v * std::min(1., linearRoom / std::max(v.norm(), 1e-300)),
-                           turnWish * std::min(1., angularRoom / std::max(turnWish.norm(), 1e-300)));
-    return vpTwistSpline::fromTwist(m_correction.step(limited, dt));
+    const bool mustBeSmall = m_isWanted || m_state == State::Braking || m_search.state() != vpPlanSearch::State::Idle;
+    return m_feedback.step(shift, turn, m_own, isAtRest(), room(dt), mustBeSmall, dt);
   }
 
-  // In proportion to the error, but not faster than the camera can come to rest at its end.
-  static Eigen::Vector3d wish(const Eigen::Vector3d &error, double gain, double acceleration)
+  // What the rest of the plan leaves to the feedback, from two cycles ago on. Along a plan this only grows, and the shaper is
+  // never faster than its fastest input; another plan is looked for once the feedback is within what every plan leaves.
+  vpTwistNorms room(double dt) const
   {
-    const double length = error.norm();
-    return error * std::min(gain, std::sqrt(2. * braking * acceleration / std::max(length, 1e-300)));
-  }
-
-  // Speeds that the rest of the plan leaves to the feedback. They only grow along a plan, and the shaper is never faster than
-  // its fastest input; a new plan is followed once the feedback is within what every plan leaves.
-  std::pair<double, double> room() const
-  {
-    if (m_state == State::Braking || m_search.state() != vpPlanSearch::State::Idle) {
-      return {m_rest.linearVelocity, m_rest.angularVelocity};
+    const vpTwistNorms rest = vpTwistExcess::normsOf(ofFeedback(m_limits));
+    if (m_state == State::Braking) {
+      return rest;
     }
-    const auto [linear, angular] = m_plan.speedsFrom(planTime());
-    return {std::max(m_motionLimits.linearVelocity - linear, m_rest.linearVelocity),
-            std::max(m_motionLimits.angularVelocity - angular, m_rest.angularVelocity)};
+    return rest.max(vpTwistExcess::normsOf(m_limits) - m_plan.normsFrom(std::max(planTime() - 2. * dt, 0.)));
   }
 
-  // Now and at the end of its acceleration.
-  bool isCorrectionSmall() const
-  {
-    const Vector6 y = vpTwistSpline::fromTwist(m_correction.twist()),
-                  a = vpTwistSpline::fromTwist(m_correction.acceleration());
-    const auto within = [](const Eigen::Vector3d &v, const Eigen::Vector3d &slope, double jerk, double limit) {
-      return std::max(v.norm(), (v + 0.5 * slope.norm() / jerk * slope).norm()) <= limit * (1. + 1e-9);
-    };
-    return within(y.head<3>(), a.head<3>(), m_rest.linearJerk, m_rest.linearVelocity) &&
-           within(y.tail<3>(), a.tail<3>(), m_rest.angularJerk, m_rest.angularVelocity);
-  }
-
-  bool m_feedback;
-  vpServoMotionLimits m_motionLimits;
+  bool m_hasFeedback;
+  vpServoMotionLimits m_motionLimits, m_limits; // as given, and with the factor on the speeds
+  double m_wantedFactor = 1., m_factor = 1., m_planFactor = 1.;
   Vector6 m_share; // of the limits for the plan
-  vpServoMotionLimits m_rest;
   vpObjectAverage m_object;
   vpPlanSearch m_search;
 
@@ -451,13 +435,13 @@ private:
 
   // The search.
   Pose m_startPose, m_searchGoal;
-  bool m_goalMoved = true, m_fresh = true, m_rested = true, m_gazeFailed = false, m_stuck = false;
+  bool m_goalMoved = true, m_isWanted = false, m_fresh = true, m_rested = true;
+  bool m_gazeFailed = false, m_stuck = false;
   double m_sinceSearch = 0., m_expected = 3., m_tried = 0.;
 
   // Feedback and what was executed.
-  vpTwistShaper m_correction;
-  bool m_settled = false;
-  Eigen::Vector3d m_integral = Eigen::Vector3d::Zero();
+  vpPlanFeedback m_feedback;
+  bool m_isDisturbed = false; // the commands do not go on as planned
   Vector6 m_own = Vector6::Zero(), m_speed = m_own, m_sent = Vector6::Zero(), m_sentBefore = Vector6::Zero();
   vpTwist m_moved;
   double m_period = 0.;

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 BEGIN_VISP_NAMESPACE
 
@@ -58,29 +59,46 @@ struct vpTwistSpline {
   bool isAtRest() const { return c0.isZero(0.) && c1.isZero(0.) && c2.isZero(0.); }
 };
 
+//! Norms of velocity, acceleration and jerk of the linear part, then of the angular one.
+using vpTwistNorms = Eigen::Array<double, 6, 1>;
+
 /*!
  * \brief How far control points exceed the limits: the factor by which a motion would have to be slower.
  */
 class vpTwistExcess
 {
 public:
-  explicit vpTwistExcess(const vpServoMotionLimits &limits) : m_limits(limits) {}
+  explicit vpTwistExcess(const vpServoMotionLimits &limits) : m_limits(normsOf(limits)) {}
 
+  static vpTwistNorms normsOf(const vpServoMotionLimits &limits)
+  {
+    vpTwistNorms norms;
+    norms << limits.linearVelocity, limits.linearAcceleration, limits.linearJerk, limits.angularVelocity,
+        limits.angularAcceleration, limits.angularJerk;
+    return norms;
+  }
   //! Control points \e b, \e a (before it) and \e next, \e h seconds apart.
-  double of(const vpTwistSpline::Vector6 &a, const vpTwistSpline::Vector6 &b, const vpTwistSpline::Vector6 &next,
-            double h) const
+  static vpTwistNorms normsOf(const vpTwistSpline::Vector6 &a, const vpTwistSpline::Vector6 &b,
+                              const vpTwistSpline::Vector6 &next, double h)
   {
     const vpTwistSpline::Vector6 rate = (next - b) / h, jerk = (next - 2. * b + a) / (h * h);
-    const auto share = [](const vpTwistSpline::Vector6 &x, double linear, double angular) {
-      return std::max(x.head<3>().norm() / linear, x.tail<3>().norm() / angular);
-    };
-    return std::max({share(next, m_limits.linearVelocity, m_limits.angularVelocity),
-                     std::sqrt(share(rate, m_limits.linearAcceleration, m_limits.angularAcceleration)),
-                     std::cbrt(share(jerk, m_limits.linearJerk, m_limits.angularJerk))});
+    vpTwistNorms norms;
+    norms << next.head<3>().norm(), rate.head<3>().norm(), jerk.head<3>().norm(), next.tail<3>().norm(),
+        rate.tail<3>().norm(), jerk.tail<3>().norm();
+    return norms;
+  }
+  double of(const vpTwistNorms &norms) const
+  {
+    const vpTwistNorms share = norms / m_limits;
+    if (!(share.sum() < std::numeric_limits<double>::infinity())) {
+      return std::numeric_limits<double>::infinity(); // or a comparison might pass over a NaN
+    }
+    return std::max(
+        {share[0], std::sqrt(share[1]), std::cbrt(share[2]), share[3], std::sqrt(share[4]), std::cbrt(share[5])});
   }
 
 private:
-  vpServoMotionLimits m_limits;
+  vpTwistNorms m_limits;
 };
 
 END_VISP_NAMESPACE

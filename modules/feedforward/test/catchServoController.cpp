@@ -198,6 +198,10 @@ TEST_CASE("controller set-up names what is wrong", "[controller][errors]")
     CAPTURE(id);
     CHECK_THROWS_WITH(vpServoController::create(id), Contains("is unknown, known are: pbvs1, "));
   }
+  for (const std::string id : {"dtg", "ff-dtg"}) {
+    CHECK_THROWS_WITH(vpServoController::create(id + "+cbf"),
+                      Contains("\"" + id + "+cbf\": the view filter cannot follow a law that plans"));
+  }
   vpServoControllerSpec spec;
   spec.gains.rotation = -1.;
   CHECK_THROWS_WITH(vpServoController::create("pbvs1", spec), Contains("rotation of the servo gains is -1"));

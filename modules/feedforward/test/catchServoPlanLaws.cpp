@@ -103,12 +103,7 @@ double worstOfWildRun(const std::string &law, unsigned int problem)
   const double friction = uniform(rng, 0., 0.2), noise = uniform(rng, 0., 0.01);
   vpServoMeasurement seen;
   double lostUntil = -1., slowUntil = -1.;
-  vpTwistShaperLimits braking;
-  braking.linearAcceleration = limits.linearAcceleration;
-  braking.linearJerk = limits.linearJerk;
-  braking.angularAcceleration = limits.angularAcceleration;
-  braking.angularJerk = limits.angularJerk;
-  vpTwistShaper brake(braking);
+  vpTwistShaper brake(limits.shaperLimits());
   for (double t = 0.; t < 4.; t += dt) {
     const double event = uniform(rng, 0., 1.) / dt; // rates, 1/s
     if (event < 0.7) {
@@ -138,7 +133,7 @@ double worstOfWildRun(const std::string &law, unsigned int problem)
 
 TEST_CASE("planned commands keep every limit in every cycle, whatever happens", "[plan]")
 {
-  const std::string law = GENERATE("dtg", "ff-dtg", "ff-dtg+cbf");
+  const std::string law = GENERATE("dtg", "ff-dtg");
   double worst = 0.;
   for (int problem = 0; problem < longer(40); ++problem) {
     CAPTURE(seed(), law, problem);
@@ -360,6 +355,79 @@ TEST_CASE("a plan is as slow as the robot needs it, and none is followed that it
   else {
     CHECK(fastest == 0.);
     CHECK(status == vpServoStatus::Degenerate);
+  }
+}
+
+TEST_CASE("a speed factor gives the same motion, slower", "[plan][factor]")
+{
+  const std::string law = GENERATE("dtg", "ff-dtg");
+  for (unsigned int problem = 0; problem < static_cast<unsigned int>(longer(10)); ++problem) {
+    auto rng = generator(problem);
+    CAPTURE(seed(), law, problem);
+    const vpServoMotionLimits limits = randomLimits(rng);
+    const double factor = uniform(rng, 0.2, 0.9), dt = 0.004;
+    const vpHomogeneousMatrix start = randomPose(rng, 0.4, 1., 0.3, 1.);
+    const vpServoGoal wanted = goal(randomPose(rng, 0.4, 0.8, 0.2, 0.6), square);
+    double arrival[2];
+    for (const bool isSlow : {false, true}) {
+      vpServoController servo = makeServo(law, limits);
+      servo.setGoal(wanted);
+      servo.setSpeedFactor(isSlow ? factor : 1.);
+      Judge judge(isSlow ? limits.slowed(factor) : limits, dt);
+      vpHomogeneousMatrix cMo = start;
+      vpServoMeasurement seen;
+      double t = 0.;
+      for (; t < 200. && servo.law().timeToArrival() != 0.; t += dt) {
+        measure(cMo, square, seen);
+        judge.see(servo.step(seen, dt).v);
+        cMo = move(cMo, judge.v(), dt);
+      }
+      arrival[isSlow] = t;
+      CHECK(judge.worst <= 1. + 1e-6);
+      CHECK(translationError(wanted.cdMo, cMo) < 1e-3);
+    }
+    CHECK(arrival[1] * factor == Approx(arrival[0]).epsilon(0.03).margin(0.2));
+  }
+}
+
+TEST_CASE("a speed factor that changes on the way brakes a plan that is too fast, and quickens one that is too slow",
+          "[plan][factor]")
+{
+  const std::string law = GENERATE("dtg", "ff-dtg");
+  for (unsigned int problem = 0; problem < static_cast<unsigned int>(longer(10)); ++problem) {
+    auto rng = generator(problem);
+    CAPTURE(seed(), law, problem);
+    const vpServoMotionLimits limits; // 0.5 s to their speeds
+    const double low = uniform(rng, 0.3, 0.5), dt = 0.01;
+    vpServoController servo = makeServo(law, limits);
+    Judge judge(limits, dt);
+    vpHomogeneousMatrix cMo = pose(turn(0.2, direction(rng)), {0.1, 0., 2.});
+    const vpHomogeneousMatrix cdMo = pose(Eigen::Matrix3d::Identity(), {0., 0., 0.4});
+    servo.setGoal(goal(cdMo, square));
+    vpServoMeasurement seen;
+    double fastest = 0.;
+    const auto run = [&](double from, double to, double factor) {
+      servo.setSpeedFactor(factor);
+      fastest = 0.;
+      for (double t = from; t < to; t += dt) {
+        measure(cMo, square, seen);
+        seen.time = t + dt;
+        judge.see(servo.step(seen, dt).v);
+        cMo = move(cMo, judge.v(), dt);
+        fastest = std::max(fastest, judge.v().linearNorm());
+      }
+      return fastest / limits.linearVelocity;
+    };
+    CHECK(run(0., 2., 1.) > 0.9);
+    run(2., 3.5, low); // brakes
+    CHECK(run(3.5, 6., low) <= low * (1. + 1e-6));
+    CHECK(fastest > 0.6 * low * limits.linearVelocity);
+    CHECK(run(6., 9., 1.) > 0.9);
+    run(9., 16., std::numeric_limits<double>::quiet_NaN());
+    CHECK(judge.v().linearNorm() <= 0.01 * limits.linearVelocity * (1. + 1e-6)); // NaN is slow
+    run(16., 30., 1.);
+    CHECK(translationError(cdMo, cMo) < 0.0021);
+    CHECK(judge.worst <= 1. + 1e-6);
   }
 }
 

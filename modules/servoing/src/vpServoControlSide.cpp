@@ -26,16 +26,6 @@ constexpr double timeTolerance = 1e-9; // s
 constexpr double toleratedShare = 0.1;
 constexpr double slowest = 1e-4; // m/s and rad/s
 
-vpTwistShaperLimits shaperLimits(const vpServoMotionLimits &motion)
-{
-  vpTwistShaperLimits limits;
-  limits.linearAcceleration = motion.linearAcceleration;
-  limits.linearJerk = motion.linearJerk;
-  limits.angularAcceleration = motion.angularAcceleration;
-  limits.angularJerk = motion.angularJerk;
-  return limits;
-}
-
 vpVisualServoSpec checked(const vpVisualServoSpec &spec, const vpArmModel *arm)
 {
   spec.validate();
@@ -47,13 +37,21 @@ vpVisualServoSpec checked(const vpVisualServoSpec &spec, const vpArmModel *arm)
   return result;
 }
 
+// Factor for plans: motions from rest with its square as factor on the accelerations stay below speeds that rise in this time, s.
+double startFactor(const vpServoMotionLimits &motion, double time)
+{
+  const double rise =
+      std::min(motion.linearVelocity / motion.linearAcceleration, motion.angularVelocity / motion.angularAcceleration);
+  return time > rise ? std::sqrt(rise / time) : 1.;
+}
+
 bool isZero(const vpTwist &twist) { return twist.linearNorm() == 0. && twist.angularNorm() == 0.; }
 } // namespace
 
 vpServoControlSide::vpServoControlSide(vpServoController controller, const vpVisualServoSpec &spec,
                                        const vpArmModel *arm)
   : m_spec(checked(spec, arm)), m_controller(std::move(controller)), m_arm(arm),
-    m_odometry(spec.imageTimeout, 1. / spec.period), m_shaper(shaperLimits(m_controller.spec().motion))
+    m_odometry(spec.imageTimeout, 1. / spec.period), m_shaper(m_controller.spec().motion.shaperLimits())
 {
   if (arm) {
     m_motion.emplace(*arm, m_spec.redundancy, vpClosedLoopSpec());
@@ -84,7 +82,7 @@ void vpServoControlSide::supervise(const vpCollisionScene &scene, const vpStopSu
 void vpServoControlSide::setController(vpServoController controller)
 {
   m_controller = std::move(controller);
-  m_shaper.setLimits(shaperLimits(m_controller.spec().motion));
+  m_shaper.setLimits(m_controller.spec().motion.shaperLimits());
   vpServoGoal largest; // for its memory; without m_hasGoal the law is not stepped
   largest.cdMo[2][3] = 1.;
   largest.points.resize(m_spec.maxPoints);
@@ -93,6 +91,7 @@ void vpServoControlSide::setController(vpServoController controller)
     m_controller.setGoal(m_goal);
   }
   // Before a fixed camera the plan is not one of what moves: it is bounded like any other law.
+  m_startFactor = startFactor(m_controller.spec().motion, m_spec.startTime);
   m_plans = m_controller.law().plansMotion() && m_spec.place == vpServoCameraPlace::EyeInHand;
   if (m_plans && m_arm) {
     m_check.emplace(*m_arm, m_spec.redundancy, m_spec.indices, m_spec.free);
@@ -351,6 +350,7 @@ vpTwist vpServoControlSide::lawTwist() noexcept
   if (m_check) {
     m_check->setState(m_q, m_output.velocity);
   }
+  m_controller.setSpeedFactor(m_sightFactor * (m_rising < m_spec.startTime ? m_startFactor : 1.));
   const vpServoCommand command = m_controller.step(m_measurement, m_step);
   m_output.servo = command.status;
   m_ofLaw = command.v;
@@ -373,7 +373,6 @@ vpTwist vpServoControlSide::planned(const vpTwist &wish) noexcept
   if (!m_wasAllowed) {
     return m_shaper.step(vpTwist(), m_step);
   }
-  m_output.speedFactor = 1.;
   m_shaper.reset(wish, vpRigidMotion::sum(wish, m_output.twist.scaled(-1.)).scaled(1. / m_step));
   return wish;
 }

@@ -90,6 +90,7 @@ private:
   double m_notBefore = -std::numeric_limits<double>::infinity(); // images captured earlier are not acted on
   double m_within = 0.;                                          // time within the tolerances, s
   double m_sightFactor = 1.;
+  double m_startFactor = 1.;    // on the speeds of plans, see m_rising
   unsigned int m_badStamps = 0; // when the newest image came
   bool m_hasClock = false, m_hasPose = false, m_hasGoal = false, m_isRunning = false;
   bool m_plans = false;      // the law keeps the bounds itself

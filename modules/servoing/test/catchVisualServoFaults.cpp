@@ -56,7 +56,9 @@ TEST_CASE("Nothing moves before start(), speeds rise slowly after it, and stop()
 {
   vpVisualServoSpec slow = quick();
   slow.startTime = 1.; // slower than the limit of acceleration
-  vpServoBench bench("ff-lookat", {}, slow);
+  const std::string law = GENERATE("ff-lookat", "dtg", "ff-dtg");
+  CAPTURE(law);
+  vpServoBench bench(law, {}, slow);
   bench.place({Eigen::Matrix3d::Identity(), Eigen::Vector3d(0.15, 0.1, 0.9)});
   for (int i = 0; i < 100; ++i) {
     REQUIRE(bench.step().twist.linearNorm() == 0.);
@@ -78,6 +80,39 @@ TEST_CASE("Nothing moves before start(), speeds rise slowly after it, and stop()
   bench.run(15.);
   CHECK(bench.servo.isConverged());
   CHECK(bench.positionError() < 1e-3);
+}
+
+TEST_CASE("A sight's factor on the limits of speed slows laws and plans, from the start and in mid-motion",
+          "[servoing]")
+{
+  const std::string law = GENERATE("ff-lookat", "dtg", "ff-dtg");
+  for (unsigned int i = 0; i < static_cast<unsigned int>(vpTestSupport::longer(3)); ++i) {
+    vpServoBench bench(law, {}, quick(), i);
+    double factor = bench.uniform(0.3, 0.6), fastest = 0.;
+    bench.spoil = [&factor](vpServoSight &sight) { sight.speedFactor = factor; };
+    CAPTURE(law, i, factor);
+    bench.place({Eigen::Matrix3d::Identity(), Eigen::Vector3d(0.15, 0.1, 1.5)});
+    bench.servo.start();
+    const auto runWith = [&](double time) {
+      fastest = 0.;
+      for (const double end = bench.now + time; bench.now < end;) {
+        fastest = std::max(fastest, bench.step().twist.linearNorm());
+      }
+      return fastest;
+    };
+    const double slow = 0.25 * factor * (1. + 1e-9);
+    CHECK(runWith(2.5) <= slow);
+    CHECK(fastest > 0.8 * slow);
+    factor = 1.;
+    CHECK(runWith(2.) > 1.3 * slow);
+    factor = 0.3;
+    static_cast<void>(runWith(1.)); // brakes
+    CHECK(runWith(1.5) <= 0.3 * 0.25 * (1. + 1e-9));
+    CHECK(fastest > 0.3 * 0.15);
+    factor = 1.;
+    bench.run(12.);
+    CHECK(bench.servo.isConverged());
+  }
 }
 
 TEST_CASE("Without new images the robot stops and says so, and goes on with the next one", "[servoing]")

@@ -60,10 +60,11 @@ public:
    * Make a controller by name.
    * \param id : An id of vpServoLaw::ids(), optionally followed by `+cbf` for the view filter.
    * \param spec : Parameters; all of them are validated here.
-   * \throw vpException (badValue) naming the unknown id and listing the known ones, or naming the bad field.
+   * \throw vpException (badValue) naming the unknown id and listing the known ones, or naming the bad field; for `+cbf` behind
+   *   a law that plans, whose limits a filtered twist would leave.
    */
   [[nodiscard]] static vpServoController create(const std::string &id, const vpServoControllerSpec &spec = {});
-  //! The ids of the laws; each can be followed by `+cbf`.
+  //! The ids of the laws; each that does not plan its motion can be followed by `+cbf`.
   [[nodiscard]] static std::vector<std::string> ids() { return vpServoLaw::ids(); }
 
   //! Set or change the goal; see vpServoLaw::setGoal().
@@ -94,6 +95,8 @@ public:
   void notifyExecuted(const vpTwist &commanded, const vpTwist &moved) noexcept;
   //! The robot's own limits for laws that plan, see vpServoLaw::setMotionCheck(); referenced, nullptr: none.
   void setMotionCheck(vpServoMotionCheck *check) noexcept { m_law->setMotionCheck(check); }
+  //! Speed limits of laws that plan, see vpServoLaw::setSpeedFactor().
+  void setSpeedFactor(double factor) noexcept { m_law->setSpeedFactor(factor); }
 
   /*!
    * Orientation that a command aims at: where the camera would end if only the rotation continued, R

@@ -134,6 +134,13 @@ public:
   [[nodiscard]] virtual double timeToArrival() const noexcept { return std::numeric_limits<double>::quiet_NaN(); }
   //! Number of plans followed since the law was made; 0 for a law without plans.
   [[nodiscard]] virtual int plans() const noexcept { return 0; }
+  /*!
+   * Speed limits of the plans from now on, as a factor of vpServoMotionLimits: accelerations times its square, jerks its cube,
+   * so that motions from rest are the same, slower. A motion that is too fast for a new factor brakes and is planned anew. Ignored
+   * by laws that do not plan.
+   * \param factor : (0, 1]; below 0.01, and NaN, count as 0.01.
+   */
+  virtual void setSpeedFactor(double /*factor*/) noexcept {}
   //! The robot's own limits, asked about each plan; referenced, nullptr: none. Ignored by laws that do not plan.
   virtual void setMotionCheck(vpServoMotionCheck * /*check*/) noexcept {}
 

@@ -10,6 +10,7 @@
 #define vpServoMotionLimits_h
 
 #include <visp3/direct_core/vpField.h>
+#include <visp3/trajectory/vpTwistShaper.h>
 
 BEGIN_VISP_NAMESPACE
 
@@ -30,6 +31,12 @@ struct VISP_EXPORT vpServoMotionLimits {
   [[nodiscard]] static const vpFields<vpServoMotionLimits> &fields();
   //! \throw vpException (badValue) naming the limit and its value when one is out of its range.
   void validate() const;
+  //! Limits of a part of every motion: all of the linear part times \e linear, of the angular part times \e angular.
+  [[nodiscard]] vpServoMotionLimits scaled(double linear, double angular) const;
+  //! Limits of the same motions, slower by \e factor: speeds times factor, accelerations times its square, jerks its cube.
+  [[nodiscard]] vpServoMotionLimits slowed(double factor) const;
+  //! Accelerations and jerks as the limits of a vpTwistShaper.
+  [[nodiscard]] vpTwistShaperLimits shaperLimits() const;
 };
 
 END_VISP_NAMESPACE

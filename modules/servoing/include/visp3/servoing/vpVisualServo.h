@@ -36,7 +36,8 @@ enum class vpServoCameraPlace {
  */
 struct VISP_EXPORT vpVisualServoSpec {
   double period = 0.005;            //!< Period of step(), s, > 0, <= 1.
-  double startTime = 1.;            //!< Time in which the limits of speed rise from 0 at each start, s, >= 0.
+  double startTime = 1.;            //!< Time in which the limits of speed rise from 0 at each start, s, >= 0. A law
+                                    //!< that plans accelerates so much less that it stays below them.
   double imageTimeout = 0.5;        //!< Oldest image that may be acted on, s, > 0. Without a newer one the robot stops.
   double stateTimeout = 0.1;        //!< Longest time without a robot state, s, > 0.
   double longestStep = 0.1;         //!< Longest time between two steps, s, > 0. Longer: the clock has jumped.
