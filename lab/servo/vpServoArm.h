@@ -29,6 +29,7 @@ BEGIN_VISP_NAMESPACE
 struct vpServoArm {
   vpArmModel model;        //!< Joints, limits, masses, camera.
   vpSimulatedArmSpec spec; //!< Start, self-motion, limit policy; drives and control period are set by forPlant().
+  vpJointVector jerk{};    //!< Limits for laws that plan, see vpArmMotionCheck; empty: none.
 
   /*!
    * Parameters of the arm on a plant: drives as above, a control period of at most 5 ms that divides the plant's cycle.

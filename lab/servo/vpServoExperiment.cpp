@@ -244,7 +244,7 @@ vpServoRun runServoExperiment(const vpServoRunSpec &spec, const std::function<bo
   std::optional<vpArmMotionCheck> check;
   if (spec.arm && plans) {
     const vpSimulatedArmSpec arm = spec.arm->forPlant(spec.plant);
-    check.emplace(spec.arm->model, arm.redundancy, arm.indices, arm.free);
+    check.emplace(spec.arm->model, arm.redundancy, arm.indices, arm.free, spec.arm->jerk);
     servo.setMotionCheck(&*check);
   }
   vpVisionChannel vision(spec.plant.visionRate, spec.plant.latency);

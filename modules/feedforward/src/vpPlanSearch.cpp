@@ -86,6 +86,8 @@ void vpPlanSearch::beginVerification() noexcept
   m_step = Step::Verify;
   m_worst = 0.;
   m_plan.forgetNorms();
+  m_plan.noteNorms(3. * h,
+                   vpTwistExcess::normsOf(m_limits)); // control points of the motion before it still have an effect
   m_index = m_check ? -std::max(m_task.wayCount - m_passed, 0) : 0;
   m_last = static_cast<int>(std::ceil(m_plan.duration() / h)) + 1;
   m_a = m_task.before;

@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include "vpPlanFeedback.h"
-#include "vpPlanSearch.h"
+#include "vpPlanMotion.h"
 #include "vpServoCheck.h"
 #include "vpServoLaws.h"
 
@@ -42,6 +42,7 @@ constexpr double evaluationRate = 20000.;
 constexpr int leastWork = 16, mostWork = 800;
 // Part of the limits by which a command may differ from the law's and still count as executed.
 constexpr double tolerance = 1e-6;
+
 Vector6 parts(double linear, double angular)
 {
   Vector6 x;
@@ -63,8 +64,7 @@ struct Distance {
 /*
  * Direct trajectory generation in the visual loop (thesis 6.1.1, figure 6.1). The object is averaged in the odometry
  * frame; a vpPlanSearch finds a plan to the goal camera, from a knot of the commanded spline some cycles ahead; until a
- * verified plan is there, the motion goes on as verified before: along the old plan, which ends at rest, or braking.
- * Braking control points come from a vpTwistShaper, whose steps of a knot are within the limits by themselves.
+ * verified plan is there, vpPlanMotion goes on as verified before. In ff-dtg vpPlanFeedback keeps the camera on the plan.
  */
 class vpServoPlanLaw : public vpServoLaw
 {
@@ -72,7 +72,7 @@ public:
   vpServoPlanLaw(const char *id, const vpServoGains &gains, const vpServoMotionLimits &motion, bool feedback)
     : vpServoLaw(id, gains, vpPlanFeedback::angularGain), m_hasFeedback(feedback), m_motionLimits(motion),
       m_limits(motion), m_share(feedback ? parts(planLinear, planAngular) : Vector6::Ones()), m_search(ofPlan(motion)),
-      m_brake(ofPlan(motion).shaperLimits()), m_feedback(gains, ofFeedback(motion))
+      m_motion(ofPlan(motion)), m_feedback(gains, ofFeedback(motion))
   {}
 
   bool plansMotion() const noexcept VP_OVERRIDE { return true; }
@@ -84,10 +84,10 @@ public:
 
   double timeToArrival() const noexcept VP_OVERRIDE
   {
-    if (m_state != State::Following || m_goalMoved) {
+    if (!m_motion.isFollowing() || m_goalMoved) {
       return std::numeric_limits<double>::quiet_NaN();
     }
-    return std::max(m_plan.duration() - planTime(), 0.);
+    return std::max(m_motion.plan().duration() - m_motion.planTime(), 0.);
   }
 
   int plans() const noexcept VP_OVERRIDE { return m_plans; }
@@ -104,9 +104,8 @@ protected:
   void stateReset() VP_OVERRIDE
   {
     m_object.reset();
-    m_knotPose = Pose();
     m_goalMoved = m_isDisturbed = true;
-    brakeFrom(m_spline.c1, m_spline.c2);
+    m_search.close();
   }
 
   void elapsed(double dt) noexcept VP_OVERRIDE
@@ -144,9 +143,9 @@ protected:
     if (m_search.state() == vpPlanSearch::State::Failed) {
       refused();
     }
-    const Pose before = reference();
+    const Pose before = m_motion.reference();
     advance(dt);
-    m_own = m_spline.at(m_phase);
+    m_own = m_motion.twist();
     if (m_hasFeedback) {
       m_own += correction(before, dt);
     }
@@ -154,11 +153,6 @@ protected:
   }
 
 private:
-  enum class State {
-    Braking,  // or at rest without a plan
-    Following // m_plan
-  };
-
   vpServoMotionLimits ofPlan(const vpServoMotionLimits &all) const { return all.scaled(m_share[0], m_share[3]); }
   static vpServoMotionLimits ofFeedback(const vpServoMotionLimits &all)
   {
@@ -167,54 +161,20 @@ private:
 
   Pose camera() const { return {m_object.fRc(), m_object.ftc()}; }
 
-  // Where the commanded motion has led.
-  Pose reference() const
-  {
-    return m_phase > 0. ? movedBy(m_knotPose, m_spline.mean(0., m_phase), m_phase * h) : m_knotPose;
-  }
-  static Pose movedBy(const Pose &pose, const Vector6 &twist, double dt)
-  {
-    return vpServoPose::moved(pose, twist.head<3>(), twist.tail<3>(), dt);
-  }
-
-  // Time on m_plan, s.
-  double planTime() const { return (m_index - 2 - m_queued + m_phase) * h; }
-
-  bool isAtRest() const
-  {
-    return m_queued == 0 && m_spline.isAtRest() &&
-           (m_state == State::Braking || (m_index - 1) * h >= m_plan.duration());
-  }
-
-  // The next control point of the verified motion.
-  Vector6 generate()
-  {
-    if (m_state == State::Braking) {
-      return vpTwistSpline::fromTwist(m_brake.step(vpTwist(), h));
-    }
-    return m_plan.twist((m_index++ + 0.5) * h);
-  }
-
-  void brakeFrom(const Vector6 &before, const Vector6 &last)
-  {
-    m_brake.reset(vpTwistSpline::toTwist(last), vpTwistSpline::toTwist((last - before) / h));
-    m_state = State::Braking;
-    m_queued = 0;
-    m_search.close();
-  }
-
   // Something else was commanded than this law asked for: go on from there.
   void restart(const Vector6 &rate)
   {
     const Vector6 value = m_share.cwiseProduct(m_sent), slope = m_share.cwiseProduct(rate);
-    m_spline.c0 = value - 0.5 * h * slope;
-    m_spline.c1 = value + 0.5 * h * slope;
-    brakeFrom(m_spline.c0, m_spline.c1);
-    m_spline.c2 = generate();
-    m_phase = 0.;
-    m_knotPose = camera();
+    m_search.close();
+    m_motion.restart(value, slope, camera());
     m_feedback.reset(m_sent - value, rate - slope);
     m_isDisturbed = false;
+  }
+
+  void brake()
+  {
+    m_search.close();
+    m_motion.brake();
   }
 
   // The limits for another factor on the speeds.
@@ -232,8 +192,9 @@ private:
   // The speeds that are left of the plan exceed those of a lower factor.
   bool isTooFast() const
   {
-    const vpTwistNorms left = m_plan.normsFrom(planTime());
-    return m_factor < m_planFactor && (left[0] > m_limits.linearVelocity || left[3] > m_limits.angularVelocity);
+    const vpTwistNorms left = m_motion.plan().normsFrom(m_motion.planTime());
+    return m_motion.isFollowing() && m_factor < m_planFactor &&
+           (left[0] > m_limits.linearVelocity || left[3] > m_limits.angularVelocity);
   }
 
   // A higher factor makes another plan worthwhile.
@@ -242,9 +203,10 @@ private:
   // After the plan the feedback follows the mean of the measurements, and a goal that is moved a little.
   void stayAt(const Pose &goal)
   {
-    if (m_hasFeedback && m_state == State::Following && isAtRest() && m_search.state() == vpPlanSearch::State::Idle &&
-        !m_isWanted && offBy(goal) <= jump) {
-      m_knotPose = m_planGoal = goal;
+    if (m_hasFeedback && m_motion.isFollowing() && m_motion.isAtRest() &&
+        m_search.state() == vpPlanSearch::State::Idle && !m_isWanted && offBy(goal) <= jump) {
+      m_planGoal = goal;
+      m_motion.rebase(goal);
     }
   }
 
@@ -253,7 +215,7 @@ private:
     if (m_search.state() != vpPlanSearch::State::Idle) {
       return false;
     }
-    if (m_state == State::Braking || isTooFast()) {
+    if (!m_motion.isFollowing() || isTooFast()) {
       return true;
     }
     const double off = offBy(goal);
@@ -272,66 +234,47 @@ private:
       const Distance off(goal, m_planGoal);
       return vpPlanFeedback::size(off.shift, off.turn);
     }
-    const Distance off(goal, camera() * reference().inverse() * m_planGoal);
+    const Distance off(goal, camera() * m_motion.reference().inverse() * m_planGoal);
     const double share = std::max(off.shift / (vpPlanFeedback::zone + lag * m_speed.head<3>().norm()),
                                   off.turn / (vpPlanFeedback::zoneTurn + lag * m_speed.tail<3>().norm()));
-    return isAtRest() && std::abs(share - m_tried) < worthTrying * m_tried ? 0. : share;
+    return m_motion.isAtRest() && std::abs(share - m_tried) < worthTrying * m_tried ? 0. : share;
   }
 
   void openSearch(const Pose &goal, int work, double dt)
   {
     m_isWanted = false;
     m_sinceSearch = 0.;
-    m_fresh = m_state == State::Braking || isTooFast() || isOther(offBy(goal));
+    const double off = offBy(goal);
+    m_fresh = !m_motion.isFollowing() || isTooFast() || isOther(off);
     m_goalMoved = false;
-    if (isTooFast() && m_state == State::Following) {
-      brakeFrom(m_spline.c1, m_spline.c2);
+    if (isTooFast()) {
+      brake();
     }
     vpPlanSearch::Task task;
     task.gaze = !m_gazeFailed;
     task.origin = vpServoPose::translation(m_goal.cdMo);
-    m_rested = isAtRest();
+    m_rested = m_motion.isAtRest();
+    int points = 0;
     if (!m_rested) {
       const double cycles = std::ceil(m_search.effort(m_expected) / static_cast<double>(work)) + 1.;
-      const int delay = static_cast<int>(std::clamp(std::ceil(cycles * dt / h), 1., 1. * vpPlanSearch::maxDelay));
-      while (m_queued < delay) {
-        m_queue[static_cast<std::size_t>((m_first + m_queued) % vpPlanSearch::maxDelay)] = generate();
-        ++m_queued;
-      }
+      points = static_cast<int>(std::clamp(std::ceil(cycles * dt / h), 1., 1. * vpPlanSearch::maxDelay));
     }
-    const double left = m_plan.duration() - (m_index - 1) * h; // when the new plan begins
-    task.floor = m_fresh || isTooSlow() ? 0. : offBy(goal) > 1. ? std::max(left, leastCorrection) : std::max(left, 0.);
-    vpTwistSpline spline = m_spline;
-    Pose place = m_knotPose;
-    task.way[0] = spline.c1;
-    task.wayCount = 1;
-    for (int i = 0; i <= m_queued; ++i) {
-      place = movedBy(place, spline.mean(0., 1.), h);
-      task.way[static_cast<std::size_t>(task.wayCount++)] = spline.c2;
-      if (i < m_queued) {
-        spline.push(queued(i));
-      }
-    }
-    m_startPose = m_hasFeedback ? place : camera() * reference().inverse() * place;
-    task.before = spline.c1;
-    task.last = spline.c2;
+    const Pose place = m_motion.decide(points, task);
+    const double left = m_motion.left(); // when the new plan begins
+    task.floor = m_fresh || isTooSlow() ? 0. : off > 1. ? std::max(left, leastCorrection) : std::max(left, 0.);
+    m_startPose = m_hasFeedback ? place : camera() * m_motion.reference().inverse() * place;
     task.isAtRest = m_rested;
     task.start = {goal.inverse() * m_startPose, 0.5 * (task.before + task.last), (task.last - task.before) / h};
     m_searchGoal = goal;
     m_search.open(task);
   }
 
-  const Vector6 &queued(int i) const
-  {
-    return m_queue[static_cast<std::size_t>((m_first + i) % vpPlanSearch::maxDelay)];
-  }
-
   // No plan was found. Towards another goal, braking is better than going on to the old one.
   void refused()
   {
     m_search.close();
-    if (m_fresh && m_state == State::Following) {
-      brakeFrom(m_spline.c1, m_spline.c2);
+    if (m_fresh && m_motion.isFollowing()) {
+      brake();
     }
     m_planFactor = m_factor; // a plan that is slower than necessary stays
     m_stuck = m_stuck || (m_rested && m_gazeFailed);
@@ -340,14 +283,11 @@ private:
 
   void adopt()
   {
-    std::swap(m_plan, m_search.found());
+    m_motion.follow(m_search.found(), m_startPose);
     m_search.close();
     ++m_plans;
-    m_state = State::Following;
-    m_index = 1;
-    m_knotPose = m_startPose;
     m_planGoal = m_searchGoal;
-    m_expected = 1.2 * m_plan.duration();
+    m_expected = 1.2 * m_motion.plan().duration();
     m_planFactor = m_factor;
     m_stuck = m_gazeFailed = false;
     if (m_rested) {
@@ -356,37 +296,27 @@ private:
     }
   }
 
-  void nextInterval()
+  // At a knot without decided control points: the plan begins here that was found for it.
+  void takeFound()
   {
-    m_knotPose = movedBy(m_knotPose, m_spline.mean(0., 1.), h);
-    m_search.pass();
-    if (m_queued == 0) {
-      const bool found = m_search.state() == vpPlanSearch::State::Found;
-      if (found) {
-        adopt();
-      }
-      else if (m_search.state() != vpPlanSearch::State::Idle && !m_rested) { // too late for its start
-        m_search.close();
-        m_expected *= 2.;
-        m_goalMoved = m_goalMoved || (m_fresh && m_state == State::Following);
-      }
+    if (m_search.state() == vpPlanSearch::State::Found) {
+      adopt();
     }
-    if (m_queued > 0) {
-      m_spline.push(queued(0));
-      m_first = (m_first + 1) % vpPlanSearch::maxDelay;
-      --m_queued;
-    }
-    else {
-      m_spline.push(generate());
+    else if (m_search.state() != vpPlanSearch::State::Idle && !m_rested) { // too late for its start
+      m_search.close();
+      m_expected *= 2.;
+      m_goalMoved = m_goalMoved || (m_fresh && m_motion.isFollowing());
     }
   }
 
   void advance(double dt)
   {
-    m_phase += dt / h;
-    while (m_phase >= 1. - 1e-9) {
-      nextInterval();
-      m_phase = std::max(m_phase - 1., 0.);
+    for (bool isKnot = m_motion.pass(dt); isKnot; isKnot = m_motion.pass(0.)) {
+      m_search.pass();
+      if (!m_motion.hasDecided()) {
+        takeFound();
+      }
+      m_motion.pushNext();
     }
   }
 
@@ -394,12 +324,12 @@ private:
   // its middle is where a camera is that executes the last twist of each cycle for all of it.
   Vector6 correction(const Pose &before, double dt)
   {
-    const Pose now = camera(), after = reference();
+    const Pose now = camera(), after = m_motion.reference();
     const Eigen::Matrix3d toCamera = now.R.transpose();
     const Eigen::Vector3d shift = toCamera * (0.5 * (before.t + after.t) - now.t);
     const Eigen::Vector3d turn = 0.5 * (vpSO3::log(toCamera * before.R) + vpSO3::log(toCamera * after.R));
-    const bool mustBeSmall = m_isWanted || m_state == State::Braking || m_search.state() != vpPlanSearch::State::Idle;
-    return m_feedback.step(shift, turn, m_own, isAtRest(), room(dt), mustBeSmall, dt);
+    const bool mustBeSmall = m_isWanted || !m_motion.isFollowing() || m_search.state() != vpPlanSearch::State::Idle;
+    return m_feedback.step(shift, turn, m_own, m_motion.isAtRest(), room(dt), mustBeSmall, dt);
   }
 
   // What the rest of the plan leaves to the feedback, from two cycles ago on. Along a plan this only grows, and the shaper is
@@ -407,10 +337,11 @@ private:
   vpTwistNorms room(double dt) const
   {
     const vpTwistNorms rest = vpTwistExcess::normsOf(ofFeedback(m_limits));
-    if (m_state == State::Braking) {
+    if (!m_motion.isFollowing()) {
       return rest;
     }
-    return rest.max(vpTwistExcess::normsOf(m_limits) - m_plan.normsFrom(std::max(planTime() - 2. * dt, 0.)));
+    const double since = std::max(m_motion.planTime() - 2. * dt, 0.);
+    return rest.max(vpTwistExcess::normsOf(m_limits) - m_motion.plan().normsFrom(since));
   }
 
   bool m_hasFeedback;
@@ -420,16 +351,7 @@ private:
   vpObjectAverage m_object;
   vpPlanSearch m_search;
 
-  // The commanded motion: interval, fraction of it, pose at its first knot, control points after it.
-  vpTwistSpline m_spline;
-  double m_phase = 0.;
-  Pose m_knotPose;
-  std::array<Vector6, vpPlanSearch::maxDelay> m_queue;
-  int m_first = 0, m_queued = 0;
-  State m_state = State::Braking;
-  vpTwistShaper m_brake;
-  vpGazePlan m_plan;
-  int m_index = 1; // of the next control point of m_plan
+  vpPlanMotion m_motion;
   Pose m_planGoal;
   int m_plans = 0;
 

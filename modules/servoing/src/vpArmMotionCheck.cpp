@@ -4,8 +4,12 @@
  */
 #include <visp3/servoing/vpArmMotionCheck.h>
 
+#include <visp3/core/vpException.h>
+
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <utility>
 
 BEGIN_VISP_NAMESPACE
 
@@ -23,10 +27,21 @@ vpRedundancySpec withPeriod(vpRedundancySpec spec)
 } // namespace
 
 vpArmMotionCheck::vpArmMotionCheck(const vpArmModel &model, const vpRedundancySpec &spec,
-                                   const std::vector<vpSelfMotionIndex> &indices, const std::array<bool, 6> &free)
+                                   const std::vector<vpSelfMotionIndex> &indices, const std::array<bool, 6> &free,
+                                   const vpJointVector &jerk)
   : m_model(&model), m_spec(withPeriod(spec)), m_solver(model, m_spec), m_q(model.home()),
-    m_velocity(vpJointVector::Zero(model.size())), m_place(m_q)
+    m_velocity(vpJointVector::Zero(model.size())), m_place(m_q), m_jerk(jerk), m_acceleration(m_velocity)
 {
+  if (jerk.size() != 0 && jerk.size() != model.size()) {
+    throw vpException(vpException::badValue, "the arm has %d joints and %d limits of jerk, must have as many or none",
+                      model.size(), static_cast<int>(jerk.size()));
+  }
+  for (int i = 0; i < jerk.size(); ++i) {
+    if (!(jerk(i) > 0.)) {
+      throw vpException(vpException::badValue, "the limit of jerk of joint %s is %g, must be > 0",
+                        model.spec().joints[static_cast<std::size_t>(i)].name.c_str(), jerk(i));
+    }
+  }
   m_input.frame = vpArmFrame::Camera;
   m_input.free = free;
   m_input.indexCount = static_cast<int>(std::min<std::size_t>(indices.size(), vpMaxArmIndices));
@@ -44,6 +59,20 @@ void vpArmMotionCheck::begin() noexcept
 {
   m_place = m_q;
   m_input.previous = m_velocity;
+  m_isAccelerationKnown = false;
+}
+
+// Of the step of the copy that was taken last.
+double vpArmMotionCheck::jerkExcess(double dt) noexcept
+{
+  double excess = 0.;
+  for (int i = 0; i < m_jerk.size(); ++i) {
+    const double acceleration = (m_output.velocity(i) - m_input.previous(i)) / dt;
+    const double share = std::abs(acceleration - m_acceleration(i)) / dt / m_jerk(i);
+    m_acceleration(i) = acceleration;
+    excess = share <= excess ? excess : share;
+  }
+  return std::exchange(m_isAccelerationKnown, true) ? std::cbrt(excess) : 0.;
 }
 
 double vpArmMotionCheck::add(const vpTwist &twist, double dt) noexcept
@@ -54,7 +83,14 @@ double vpArmMotionCheck::add(const vpTwist &twist, double dt) noexcept
   m_input.twist = twist;
   m_solver.step(m_data, m_input, m_output);
   m_place += dt * m_output.velocity;
+  const double jerk = jerkExcess(dt);
   m_input.previous = m_output.velocity;
+  const double limits = armExcess();
+  return jerk <= limits ? limits : jerk;
+}
+
+double vpArmMotionCheck::armExcess() const noexcept
+{
   switch (m_output.status) {
   case vpRedundancyStatus::Exact:
     return 0.;

@@ -38,22 +38,29 @@ public:
    * \param model : The arm; referenced, must outlive this. \param spec : Parameters of its solver.
    * \param indices : Indices that self-motion maximizes; of more than vpMaxArmIndices the first.
    * \param free : Axes of the camera that are not commanded.
-   * \throw vpException (badValue) naming the field of \e spec that is out of range, or a joint without motion limits.
+   * \param jerk : Limits of the joints' jerks, differences of their accelerations at the control points of a plan, rad/s^3 or m/s^3;
+   *   empty: none. Self-motion jumps within the limits of acceleration: with \e indices no plan may be found.
+   * \throw vpException (badValue) naming the field of \e spec that is out of range, a joint without motion limits, or a
+   *   limit of jerk that is not > 0, or their number.
    */
   vpArmMotionCheck(const vpArmModel &model, const vpRedundancySpec &spec,
-                   const std::vector<vpSelfMotionIndex> &indices = {}, const std::array<bool, 6> &free = {});
+                   const std::vector<vpSelfMotionIndex> &indices = {}, const std::array<bool, 6> &free = {},
+                   const vpJointVector &jerk = {});
 
   //! Where the arm is now: positions, rad or m, and commanded velocities, rad/s or m/s.
   void setState(const vpJointVector &q, const vpJointVector &velocity) noexcept;
 
   void begin() noexcept VP_OVERRIDE;
   /*!
-   * \return 1 or less when the arm executes the twist; 1 / share when acceleration or velocity limits allow only a share of it;
-   *   infinity when position limits or a singularity forbid it, and when the state is not finite. 
+   * \return 1 or less when the arm executes the twist; 1 / share when acceleration or velocity limits allow only a share of it, or
+   *   the cube root of the excess over a limit of jerk; infinity when position limits or a singularity forbid it, and when the state is not finite. 
    */
   [[nodiscard]] double add(const vpTwist &twist, double dt) noexcept VP_OVERRIDE;
 
 private:
+  double jerkExcess(double dt) noexcept;
+  double armExcess() const noexcept;
+
   const vpArmModel *m_model;
   vpRedundancySpec m_spec;
   vpRedundancySolver m_solver;
@@ -62,6 +69,9 @@ private:
   vpArmData m_data;
   vpJointVector m_q, m_velocity; // now
   vpJointVector m_place;         // of the copy
+  vpJointVector m_jerk;          // limits, or none
+  vpJointVector m_acceleration;  // of the copy
+  bool m_isAccelerationKnown = false;
 };
 
 END_VISP_NAMESPACE
