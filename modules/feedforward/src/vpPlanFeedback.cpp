@@ -10,8 +10,9 @@ namespace
 {
 // Gains in units of lambda and of the integral's gain, the part of an acceleration with which the camera comes to rest.
 constexpr double linearGain = 4., integralGain = 4., braking = 0.7;
-// At rest the feedback stops below the first of these multiples of the zone, until the error is beyond the other.
-constexpr double settled = 1., unsettled = 1.5;
+// At rest the feedback stops below the first of these multiples of the zone, until the error is beyond the other, or beyond the
+// first for this time, s.
+constexpr double settled = 0.4, unsettled = 1., patience = 1.;
 
 // Of what a plan leaves, the parts in use: faster feedback arrives no sooner against stiction, and makes more jerk.
 constexpr double accelerationShare = 0.3, jerkShare = 0.15;
@@ -75,7 +76,9 @@ vpPlanFeedback::Vector6 vpPlanFeedback::step(const Eigen::Vector3d &shift, const
     }
   }
   const vpTwistNorms usable = m_rest.max(room * shares());
-  m_settled = isAtRest && size(shift.norm(), turn.norm()) < (m_settled ? unsettled : settled);
+  const double off = size(shift.norm(), turn.norm());
+  m_outside = off < settled ? 0. : m_outside + dt;
+  m_settled = isAtRest && (off < settled || (m_settled && off < unsettled && m_outside < patience));
   Vector6 wished = Vector6::Zero();
   if (m_settled) {
     m_integral.setZero();

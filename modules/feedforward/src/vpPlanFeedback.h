@@ -63,7 +63,8 @@ private:
   vpTwistShaper m_shaper;
   Eigen::Vector3d m_integral = Eigen::Vector3d::Zero(); // rad/s
   bool m_settled = false;
-  int m_small = 2; // cycles within the rest
+  double m_outside = 0.; // time with an error beyond the zone in which the feedback stops, s
+  int m_small = 2;       // cycles within the rest
 };
 
 END_VISP_NAMESPACE

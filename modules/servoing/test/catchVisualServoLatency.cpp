@@ -51,6 +51,7 @@ TEST_CASE("No law overshoots by 2 %, with latencies to 200 ms, cameras from 5 to
         position.add(bench.positionError());
         rotation.add(bench.rotationError());
       }
+      CAPTURE(bench.positionError(), bench.rotationError(), bench.servo.output().message);
       CHECK(position.isReached);
       CHECK(rotation.isReached);
       CHECK(position.after < 0.02);
