@@ -9,6 +9,7 @@
 #include <visp3/direct_core/vpSO3.h>
 
 #include <algorithm>
+#include <limits>
 
 BEGIN_VISP_NAMESPACE
 
@@ -26,7 +27,12 @@ Eigen::Vector3d gazeRate(const vpLookAt &lookAt, const Eigen::Vector3d &velocity
 }
 } // namespace
 
-vpGazePlan::vpGazePlan() : m_problem(6), m_planner(6), m_plan(6) { forgetNorms(); }
+vpGazePlan::vpGazePlan()
+  : m_problems{vpTrajectoryProblem(3), vpTrajectoryProblem(3)},
+    m_planner(3), m_plans{vpTrajectoryPlan(3), vpTrajectoryPlan(3)}
+{
+  forgetNorms();
+}
 
 // e and e' when the twist continues with its rate.
 vpGazePlan::Rest vpGazePlan::restAt(const Start &start, double time) const noexcept
@@ -60,47 +66,54 @@ bool vpGazePlan::set(const Start &start, const Eigen::Vector3d &origin, bool gaz
   const Eigen::Vector3d second =
       (restAt(start, differenceStep).rate - restAt(start, -differenceStep).rate) / (2. * differenceStep);
   for (int i = 0; i < 3; ++i) {
-    m_problem.setStart(i, {start.pose.t[i], velocity[i], acceleration[i], 0.});
-    m_problem.setStart(i + 3, {now.e[i], now.rate[i], second[i], 0.});
-    for (const int axis : {i, i + 3}) {
-      const bool position = axis < 3;
-      m_problem.field(P::MaxVelocity)[axis] = position ? limits.linearVelocity : limits.angularVelocity;
-      m_problem.field(P::MaxAcceleration)[axis] = position ? limits.linearAcceleration : limits.angularAcceleration;
-      m_problem.field(P::MaxJerk)[axis] = position ? limits.linearJerk : limits.angularJerk;
-    }
+    m_problems[Position].setStart(i, {start.pose.t[i], velocity[i], acceleration[i], 0.});
+    m_problems[Orientation].setStart(i, {now.e[i], now.rate[i], second[i], 0.});
   }
-  m_problem.spec.groups[0] = vpAxisGroup({0, 1, 2}, limits.linearVelocity, limits.linearAcceleration);
-  m_problem.spec.groups[1] = vpAxisGroup({3, 4, 5}, limits.angularVelocity, limits.angularAcceleration);
-  return m_problem.validate(true).isGood();
+  const vpTwistNorms norms = vpTwistExcess::normsOf(limits);
+  bool isGood = true;
+  for (const Part part : {Position, Orientation}) {
+    vpTrajectoryProblem &problem = m_problems[part];
+    const double *limit = norms.data() + 3 * part;
+    for (int i = 0; i < 3; ++i) {
+      problem.field(P::MaxVelocity)[i] = limit[0];
+      problem.field(P::MaxAcceleration)[i] = limit[1];
+      problem.field(P::MaxJerk)[i] = limit[2];
+    }
+    problem.spec.groups[0] = vpAxisGroup({0, 1, 2}, limit[0], limit[1]);
+    isGood = problem.validate(true).isGood() && isGood;
+  }
+  return isGood;
 }
 
 void vpGazePlan::slowDown(double factor) noexcept
 {
-  for (int i = 0; i < 6; ++i) {
-    m_problem.field(P::MaxVelocity)[i] /= factor;
-    m_problem.field(P::MaxAcceleration)[i] /= factor * factor;
-    m_problem.field(P::MaxJerk)[i] /= factor * factor * factor;
-  }
-  for (std::size_t g = 0; g < 2; ++g) {
-    m_problem.spec.groups[g].maxSpeed /= factor;
-    m_problem.spec.groups[g].maxAcceleration /= factor * factor;
+  for (vpTrajectoryProblem &problem : m_problems) {
+    for (int i = 0; i < 3; ++i) {
+      problem.field(P::MaxVelocity)[i] /= factor;
+      problem.field(P::MaxAcceleration)[i] /= factor * factor;
+      problem.field(P::MaxJerk)[i] /= factor * factor * factor;
+    }
+    problem.spec.groups[0].maxSpeed /= factor;
+    problem.spec.groups[0].maxAcceleration /= factor * factor;
   }
 }
 
-bool vpGazePlan::plan(double floor) noexcept
+double vpGazePlan::plan(Part part, double floor) noexcept
 {
-  return m_planner.plan(m_problem, floor, m_plan).isGood() && m_plan.isFinite();
+  vpTrajectoryPlan &plan = m_plans[part];
+  const bool isGood = m_planner.plan(m_problems[part], floor, plan).isGood() && plan.isFinite();
+  return isGood ? plan.duration() : std::numeric_limits<double>::quiet_NaN();
 }
 
 vpGazePlan::Vector6 vpGazePlan::twist(double time) const noexcept
 {
   Vector6 twist = Vector6::Zero();
-  if (time >= m_plan.duration()) {
+  if (time >= duration()) {
     return twist;
   }
   Eigen::Vector3d t, velocity, e, rate;
   for (int i = 0; i < 3; ++i) {
-    const vpAxisState place = m_plan.at(i, time), turn = m_plan.at(i + 3, time);
+    const vpAxisState place = m_plans[Position].at(i, time), turn = m_plans[Orientation].at(i, time);
     t[i] = place[0];
     velocity[i] = place[1];
     e[i] = turn[0];
@@ -119,7 +132,7 @@ vpGazePlan::Vector6 vpGazePlan::twist(double time) const noexcept
 
 std::size_t vpGazePlan::binOf(double time) const noexcept
 {
-  return static_cast<std::size_t>(std::clamp(time / (m_plan.duration() + tail) * bins, 0., bins - 1.));
+  return static_cast<std::size_t>(std::clamp(time / (duration() + tail) * bins, 0., bins - 1.));
 }
 
 void vpGazePlan::noteNorms(double end, const vpTwistNorms &norms) noexcept
@@ -137,7 +150,7 @@ void vpGazePlan::finishNorms() noexcept
 
 vpTwistNorms vpGazePlan::normsFrom(double time) const noexcept
 {
-  return time < m_plan.duration() + tail ? m_norms[binOf(time)] : vpTwistNorms(vpTwistNorms::Zero());
+  return time < duration() + tail ? m_norms[binOf(time)] : vpTwistNorms(vpTwistNorms::Zero());
 }
 
 END_VISP_NAMESPACE

@@ -14,6 +14,7 @@
 
 #include <visp3/trajectory/vpTrajectoryPlanner.h>
 
+#include <algorithm>
 #include <array>
 
 BEGIN_VISP_NAMESPACE
@@ -42,12 +43,14 @@ public:
   bool set(const Start &start, const Eigen::Vector3d &origin, bool gaze, const vpServoMotionLimits &limits) noexcept;
   //! Limits for a motion that is slower by \e factor.
   void slowDown(double factor) noexcept;
-  //! Plan with a duration of at least \e floor, s. \return False when there is no such plan.
-  bool plan(double floor) noexcept;
+  //! The two plans: of the position, and of what is left of the orientation.
+  enum Part { Position, Orientation };
+  //! Plan a part with a duration of at least \e floor, s: half of the work. \return Its duration; NaN when there is no such plan.
+  double plan(Part part, double floor) noexcept;
 
   //! Camera twist at \e time, s from the start; zero after the end.
   Vector6 twist(double time) const noexcept;
-  double duration() const { return m_plan.duration(); } //!< s
+  double duration() const { return std::max(m_plans[0].duration(), m_plans[1].duration()); } //!< s
 
   /*! \name Largest norms of what is left of the motion */
   //! @{
@@ -67,9 +70,9 @@ private:
   std::size_t binOf(double time) const noexcept;
   Rest restAt(const Start &start, double time) const noexcept;
 
-  vpTrajectoryProblem m_problem;
+  std::array<vpTrajectoryProblem, 2> m_problems;
   vpTrajectoryPlanner m_planner;
-  vpTrajectoryPlan m_plan;
+  std::array<vpTrajectoryPlan, 2> m_plans;
   Eigen::Vector3d m_origin = Eigen::Vector3d::Zero();
   bool m_gaze = true;
   std::array<vpTwistNorms, bins> m_norms;

@@ -18,7 +18,7 @@ constexpr double longest = 1e4;    // s; a plan of more control points is not ve
 int vpPlanSearch::effort(double duration) const
 {
   const double points = std::min(duration, longest) / h + 4.;
-  return setCost + 2 * (planCost + coarse) + static_cast<int>(points) * (m_check ? checkCost : 1);
+  return setCost + 2 * (2 * planCost + coarse) + static_cast<int>(points) * (m_check ? checkCost : 1);
 }
 
 void vpPlanSearch::open(const Task &task) noexcept
@@ -27,6 +27,7 @@ void vpPlanSearch::open(const Task &task) noexcept
   m_floor = task.floor;
   m_tries = m_passed = 0;
   m_step = Step::Set;
+  m_calls = 0;
   m_state = State::Busy;
 }
 
@@ -44,15 +45,31 @@ bool vpPlanSearch::stretch(double excess) noexcept
     m_floor = m_plan.duration() * factor;
   }
   m_step = Step::Plan;
+  m_calls = 0;
   return true;
 }
 
-// The next candidate.
-bool vpPlanSearch::propose() noexcept
+// The next candidate, part by part until both have the same duration: a longer one may be infeasible for the other part.
+bool vpPlanSearch::planNext() noexcept
 {
-  if (++m_tries > maxTries || !m_plan.plan(m_floor) || !(m_plan.duration() < longest)) {
+  if (m_calls++ == 0) {
+    ++m_tries;
+    m_common = m_floor;
+    m_content = 0;
+    m_part = vpGazePlan::Position;
+  }
+  const double T = m_plan.plan(m_part, m_common);
+  if (m_tries > maxTries || m_calls > mostCalls || !(T < longest)) {
     return false;
   }
+  m_content = T <= m_common * (1. + 1e-12) ? m_content + 1 : 1;
+  m_common = std::max(m_common, T);
+  m_part = m_part == vpGazePlan::Position ? vpGazePlan::Orientation : vpGazePlan::Position;
+  return m_content < 2 || beginGlance();
+}
+
+bool vpPlanSearch::beginGlance() noexcept
+{
   const double step = std::max(h, m_plan.duration() / coarse);
   m_a = m_plan.twist(0.);
   m_b = m_plan.twist(step);
@@ -152,7 +169,7 @@ bool vpPlanSearch::advance() noexcept
     m_step = Step::Plan;
     return m_plan.set(m_task.start, m_task.origin, m_task.gaze, m_limits);
   case Step::Plan:
-    return propose();
+    return planNext();
   case Step::Glance:
     return glanceNext();
   default:

@@ -63,13 +63,14 @@ public:
 
 private:
   // Costs in evaluations of a twist.
-  static constexpr int setCost = 8, planCost = 40, checkCost = 8, coarse = 24;
+  static constexpr int setCost = 8, planCost = 20, checkCost = 8, coarse = 24, mostCalls = 12;
   // What to do next with a candidate.
   enum class Step { Set, Plan, Glance, Verify };
   int cost() const;
   bool advance() noexcept;
   bool stretch(double excess) noexcept;
-  bool propose() noexcept;
+  bool planNext() noexcept;
+  bool beginGlance() noexcept;
   bool glanceNext() noexcept;
   void beginVerification() noexcept;
   bool verifyNext() noexcept;
@@ -81,6 +82,9 @@ private:
   vpGazePlan m_plan;
   State m_state = State::Idle;
   Step m_step = Step::Set;
+  vpGazePlan::Part m_part = vpGazePlan::Position; // to be planned next
+  double m_common = 0.;                           // duration of both parts so far, s
+  int m_calls = 0, m_content = 0;                 // of the planner for this candidate; parts with that duration
   double m_floor = 0., m_worst = 0.;
   int m_tries = 0, m_index = 0, m_last = 0, m_passed = 0;
   Vector6 m_a = Vector6::Zero(), m_b = Vector6::Zero();
