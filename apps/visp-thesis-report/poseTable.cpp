@@ -144,22 +144,22 @@ void addOrders(Item &item, const std::vector<Measured> &all)
   const auto sigma = [&](PoseAxis axis, std::size_t offset) {
     return 3. * all[static_cast<std::size_t>(axis)].errors[offset].surf.sigma();
   };
-  const auto atEnds = [&](PoseAxis axis) {
+  const auto meanOfEnds = [&](PoseAxis axis) {
     return 0.5 * (sigma(axis, 0) + sigma(axis, rows()[static_cast<std::size_t>(axis)].offsets.size() - 1));
   };
   const auto add = [&](const std::string &name, double ours, const Tolerance &tolerance, Good good) {
     item.quantities.push_back({name, "1", 1., ours, tolerance, good, "", "Means of the two ends of a row."});
   };
   for (const PoseAxis axis : {PoseAxis::Roll, PoseAxis::Pitch, PoseAxis::Yaw}) {
-    add(std::string(nameOf(axis)) + ", 3 sigma at 30 deg over that at 0", atEnds(axis) / sigma(axis, 3),
+    add(std::string(nameOf(axis)) + ", 3 sigma at 30 deg over that at 0", meanOfEnds(axis) / sigma(axis, 3),
         Tolerance::atLeast(), Good::Neither);
   }
   add("3 sigma at 30 deg, roll over pitch and yaw",
-      2. * atEnds(PoseAxis::Roll) / (atEnds(PoseAxis::Pitch) + atEnds(PoseAxis::Yaw)), Tolerance::atMost(),
+      2. * meanOfEnds(PoseAxis::Roll) / (meanOfEnds(PoseAxis::Pitch) + meanOfEnds(PoseAxis::Yaw)), Tolerance::atMost(),
       Good::Neither);
   for (const PoseAxis axis : {PoseAxis::X, PoseAxis::Y}) {
-    add(std::string("3 sigma at the largest offset, ") + nameOf(axis) + " over z", atEnds(axis) / atEnds(PoseAxis::Z),
-        Tolerance::atLeast(), Good::Neither);
+    add(std::string("3 sigma at the largest offset, ") + nameOf(axis) + " over z",
+        meanOfEnds(axis) / meanOfEnds(PoseAxis::Z), Tolerance::atLeast(), Good::Neither);
   }
 }
 
