@@ -142,7 +142,8 @@ void addOthers(Item &item, const Row &row, const Measured &m)
 void addOrders(Item &item, const std::vector<Measured> &all)
 {
   const auto sigma = [&](PoseAxis axis, std::size_t offset) {
-    return 3. * all[static_cast<std::size_t>(axis)].errors[offset].surf.sigma();
+    const PoseErrors &errors = all[static_cast<std::size_t>(axis)].errors[offset];
+    return 3. * (isAngle(axis) ? errors.surf : errors.centre).sigma(); // positions: of the object's centre
   };
   const auto meanOfEnds = [&](PoseAxis axis) {
     return 0.5 * (sigma(axis, 0) + sigma(axis, rows()[static_cast<std::size_t>(axis)].offsets.size() - 1));
