@@ -7,6 +7,7 @@
 #include "vpCatch.h"
 
 #include "fileMutator.h"
+#include "vpTestFile.h"
 
 #include <visp3/avoidance/vpCollisionSceneJson.h>
 #include <visp3/avoidance/vpSelfCollisionStatistics.h>
@@ -29,21 +30,10 @@ namespace
 {
 const std::string data = VISP_DIRECT_DATA_DIR;
 
-//! A file in the working folder; removed again.
-class File
-{
-public:
-  File(const std::string &name, const std::string &content) : m_name("catchMutatedFiles-" + name)
-  {
-    std::ofstream(m_name, std::ios::binary) << content;
-  }
-  ~File() { std::remove(m_name.c_str()); }
-  File(const File &) = delete;
-  File &operator=(const File &) = delete;
-  [[nodiscard]] const std::string &name() const { return m_name; }
-
-private:
-  std::string m_name;
+//! A file of this program.
+struct File : vpTestSupport::File {
+  File(const std::string &name, const std::string &content) : vpTestSupport::File("catchMutatedFiles-" + name, content)
+  {}
 };
 
 void tell(const char *format, const MutationCount &count)

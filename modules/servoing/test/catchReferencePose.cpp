@@ -39,6 +39,14 @@ Eigen::Vector3d randomVector(std::mt19937_64 &rng, double size)
   return {x, y, uniform(rng, -size, size)};
 }
 
+vpReferencePoseSpec wide()
+{
+  vpReferencePoseSpec spec;
+  spec.nearest = 0.2;
+  spec.farthest = 1.2;
+  return spec;
+}
+
 // A tilted plane with points, and a camera that goes from one place to another; the robot's base is anywhere.
 struct Scene {
   explicit Scene(std::mt19937_64 &random) : rng(random)
@@ -80,6 +88,25 @@ struct Scene {
     }
     return all;
   }
+  //! An estimator taught by an image of a tenth of a pixel.
+  [[nodiscard]] vpReferencePose taught(const vpReferencePoseSpec &spec = wide())
+  {
+    return vpReferencePose(reference(0.1 * pixel), 0.1 * pixel, spec);
+  }
+  //! One image, of half a pixel. \param hasOdometry : The robot tells where the camera is.
+  const vpReferencePoseResult &show(const vpRigidTransform &rMc, vpReferencePose &pose, bool hasOdometry = true)
+  {
+    const vpRigidTransform fMc = fMr * rMc;
+    return pose.add(image(rMc, 0.5 * pixel), 0.5 * pixel, hasOdometry ? &fMc : nullptr);
+  }
+  //! The whole way. \return Its end.
+  vpRigidTransform go(vpReferencePose &pose, bool hasOdometry = true)
+  {
+    for (int k = 0; k <= 40; ++k) {
+      show(camera(k / 40.), pose, hasOdometry);
+    }
+    return camera(1.);
+  }
   std::mt19937_64 &rng;
   double distance = 0.;
   Eigen::Vector3d normal;
@@ -87,24 +114,24 @@ struct Scene {
   vpRigidTransform fMr, from, to;
 };
 
-vpReferencePoseSpec wide()
-{
-  vpReferencePoseSpec spec;
-  spec.nearest = 0.2;
-  spec.farthest = 1.2;
-  return spec;
-}
-
 double angle(const Eigen::Matrix3d &A, const Eigen::Matrix3d &B) { return vpSO3::log(A.transpose() * B).norm(); }
+
+//! Many of them, each of its own seed.
+template <class Test> void onScenes(int count, const Test &test)
+{
+  CAPTURE(seed());
+  for (int i = 0; i < count; ++i) {
+    CAPTURE(i);
+    auto rng = generator(static_cast<unsigned int>(i));
+    Scene scene(rng);
+    test(scene);
+  }
+}
 } // namespace
 
 TEST_CASE("without noise a short way gives pose, plane and distance exactly", "[reference]")
 {
-  CAPTURE(seed());
-  for (int i = 0; i < longer(30); ++i) {
-    CAPTURE(i);
-    auto rng = generator(static_cast<unsigned int>(i));
-    Scene scene(rng);
+  onScenes(longer(30), [](Scene &scene) {
     vpReferencePose pose(scene.reference(0.), 0.01 * pixel, wide());
     vpRigidTransform rMc;
     for (int k = 0; k <= 10; ++k) {
@@ -120,34 +147,26 @@ TEST_CASE("without noise a short way gives pose, plane and distance exactly", "[
     CHECK((r.normal - scene.normal).norm() < 1e-4);
     CHECK(r.distance == Approx(scene.distance).epsilon(1e-3));
     CHECK(r.message.find("The reference plane is 0.") == 0);
-  }
+  });
 }
 
 TEST_CASE("the errors of pose and distance are as large as told", "[reference]")
 {
   // With the right covariance C of an error e the mean of e^T C^-1 e is the number of its components, within
   // sqrt(2 n / count); the wrong plane, where it is chosen, would show as a much larger one.
-  CAPTURE(seed());
   const int count = longer(200);
   double pose6 = 0.;
   int within = 0, unique = 0;
-  for (int i = 0; i < count; ++i) {
-    auto rng = generator(static_cast<unsigned int>(i));
-    Scene scene(rng);
-    vpReferencePose pose(scene.reference(0.1 * pixel), 0.1 * pixel, wide());
-    vpRigidTransform rMc;
-    for (int k = 0; k <= 40; ++k) {
-      rMc = scene.camera(k / 40.);
-      const vpRigidTransform fMc = scene.fMr * rMc;
-      pose.add(scene.image(rMc, 0.5 * pixel), 0.5 * pixel, &fMc);
-    }
+  onScenes(count, [&](Scene &scene) {
+    vpReferencePose pose = scene.taught();
+    const vpRigidTransform rMc = scene.go(pose);
     const vpReferencePoseResult &r = pose.result();
     unique += r.status == vpReferenceStatus::Unique ? 1 : 0;
     within += std::abs(r.distance - scene.distance) < 2. * r.distanceSigma ? 1 : 0;
     Eigen::Matrix<double, 6, 1> e;
     e << rMc.p / scene.distance - r.tau, vpSO3::log(r.R.transpose() * rMc.R);
     pose6 += e.dot(Eigen::Map<const Eigen::Matrix<double, 6, 6>>(r.covariance.data()).inverse() * e) / count;
-  }
+  });
   std::cout << "unique " << unique << ", d within 2 sigma " << within << " of " << count << ", pose " << pose6 << " (6)"
             << std::endl;
   CHECK(unique > 0.98 * count);
@@ -157,11 +176,7 @@ TEST_CASE("the errors of pose and distance are as large as told", "[reference]")
 
 TEST_CASE("a known plane gives the pose of ViSP's vpPose", "[reference]")
 {
-  CAPTURE(seed());
-  for (int i = 0; i < longer(20); ++i) {
-    CAPTURE(i);
-    auto rng = generator(static_cast<unsigned int>(i));
-    Scene scene(rng);
+  onScenes(longer(20), [](Scene &scene) {
     vpReferencePoseSpec spec;
     spec.nearest = spec.farthest = scene.distance;
     vpReferencePose pose(scene.reference(0.), 1e-4 * pixel, spec);
@@ -183,23 +198,19 @@ TEST_CASE("a known plane gives the pose of ViSP's vpPose", "[reference]")
     const vpRigidTransform rMc = vpRigidTransform::fromHomogeneous(cMr).inverse();
     CHECK(angle(r.R, rMc.R) < 5e-4); // the noise makes 1e-2; the steps end at 3 % of a standard deviation
     CHECK((scene.distance * r.tau - rMc.p).norm() < 5e-4 * scene.distance);
-  }
+  });
 }
 
 TEST_CASE("one image leaves two planes, motion decides", "[reference]")
 {
-  CAPTURE(seed());
   vpReferencePoseSpec spec = wide();
   spec.slowness = 0.01;
   int ambiguous = 0, right = 0, slow = 0;
   const int count = longer(50);
-  for (int i = 0; i < count; ++i) {
-    auto rng = generator(static_cast<unsigned int>(i));
-    Scene scene(rng);
-    vpReferencePose pose(scene.reference(0.1 * pixel), 0.1 * pixel, spec);
+  onScenes(count, [&](Scene &scene) {
+    vpReferencePose pose = scene.taught(spec);
     for (int k = 0; k <= 20; ++k) {
-      const vpRigidTransform rMc = scene.camera(k / 20.), fMc = scene.fMr * rMc;
-      const vpReferencePoseResult &r = pose.add(scene.image(rMc, 0.5 * pixel), 0.5 * pixel, &fMc);
+      const vpReferencePoseResult &r = scene.show(scene.camera(k / 20.), pose);
       if (k == 0 && r.status == vpReferenceStatus::Ambiguous) {
         ++ambiguous;
         slow += r.speedFactor < 0.05 ? 1 : 0; // without the slowness 0.1
@@ -207,7 +218,7 @@ TEST_CASE("one image leaves two planes, motion decides", "[reference]")
       }
     }
     right += pose.result().normal.dot(scene.normal) > std::cos(0.1) ? 1 : 0;
-  }
+  });
   std::cout << ambiguous << " starts of " << count << " ambiguous, " << right << " right at the end" << std::endl;
   CHECK(ambiguous > count / 2);
   CHECK(slow > ambiguous / 4); // where the planes differ by much
@@ -216,15 +227,11 @@ TEST_CASE("one image leaves two planes, motion decides", "[reference]")
 
 TEST_CASE("a camera that only turns keeps the stated range, and its rotation is right", "[reference]")
 {
-  CAPTURE(seed());
-  for (int i = 0; i < longer(20); ++i) {
-    CAPTURE(i);
-    auto rng = generator(static_cast<unsigned int>(i));
-    Scene scene(rng);
-    vpReferencePose pose(scene.reference(0.1 * pixel), 0.1 * pixel, wide());
+  onScenes(longer(20), [](Scene &scene) {
+    vpReferencePose pose = scene.taught();
     for (int k = 0; k <= 20; ++k) {
-      const vpRigidTransform rMc{scene.camera(k / 20.).R, Eigen::Vector3d::Zero()}, fMc = scene.fMr * rMc;
-      const vpReferencePoseResult &r = pose.add(scene.image(rMc, 0.5 * pixel), 0.5 * pixel, &fMc);
+      const vpRigidTransform rMc{scene.camera(k / 20.).R, Eigen::Vector3d::Zero()};
+      const vpReferencePoseResult &r = scene.show(rMc, pose);
       REQUIRE(r.found());
       CHECK(angle(r.R, rMc.R) < 0.06);
       CHECK(r.tau.norm() < 0.06);
@@ -233,29 +240,22 @@ TEST_CASE("a camera that only turns keeps the stated range, and its rotation is 
     }
     CHECK(pose.result().status == vpReferenceStatus::PureRotation);
     CHECK(pose.result().message.find("The camera has only turned") == 0);
-  }
+  });
 }
 
 TEST_CASE("without odometry the pose is right up to the stated range", "[reference]")
 {
-  CAPTURE(seed());
   int right = 0;
   const int count = longer(30);
-  for (int i = 0; i < count; ++i) {
-    auto rng = generator(static_cast<unsigned int>(i));
-    Scene scene(rng);
-    vpReferencePose pose(scene.reference(0.1 * pixel), 0.1 * pixel, wide());
-    vpRigidTransform rMc;
-    for (int k = 0; k <= 40; ++k) {
-      rMc = scene.camera(k / 40.);
-      pose.add(scene.image(rMc, 0.5 * pixel), 0.5 * pixel, nullptr);
-    }
+  onScenes(count, [&](Scene &scene) {
+    vpReferencePose pose = scene.taught();
+    const vpRigidTransform rMc = scene.go(pose, false);
     const vpReferencePoseResult &r = pose.result();
     REQUIRE(r.found());
     right += angle(r.R, rMc.R) < 0.03 && (r.tau - rMc.p / scene.distance).norm() < 0.03 ? 1 : 0;
     CHECK(r.scale == Approx(2. / (1. / 0.2 + 1. / 1.2)));
     CHECK(r.message.find("without the robot's motion nothing more is known") != std::string::npos);
-  }
+  });
   std::cout << right << " of " << count << " right without odometry" << std::endl;
   CHECK(right >= 0.9 * count);
 }
@@ -290,7 +290,7 @@ TEST_CASE("images that fit no plane are refused, and three of them restart", "[r
   CAPTURE(seed());
   auto rng = generator(4);
   Scene scene(rng);
-  vpReferencePose pose(scene.reference(0.1 * pixel), 0.1 * pixel, wide());
+  vpReferencePose pose = scene.taught();
   const auto add = [&](double share, double shift) {
     const vpRigidTransform rMc = scene.camera(share), fMc = scene.fMr * rMc;
     std::vector<vpServoPoint> seen = scene.image(rMc, 0.5 * pixel);
@@ -319,7 +319,7 @@ TEST_CASE("broken input gives a status or a sentence", "[reference]")
 {
   auto rng = generator(5);
   Scene scene(rng);
-  vpReferencePose pose(scene.reference(0.1 * pixel), 0.1 * pixel, wide());
+  vpReferencePose pose = scene.taught();
   const vpRigidTransform fMc = scene.fMr * scene.from;
   std::vector<vpServoPoint> seen = scene.image(scene.from, 0.5 * pixel), blind = seen;
   for (std::size_t i = 0; i < blind.size(); ++i) {
@@ -368,7 +368,7 @@ TEST_CASE("hours of images need no more memory or work than minutes", "[referenc
   }
   auto rng = generator(6);
   Scene scene(rng);
-  vpReferencePose pose(scene.reference(0.1 * pixel), 0.1 * pixel, wide());
+  vpReferencePose pose = scene.taught();
   std::vector<unsigned long> rounds;
   for (int round = 0; round < 8; ++round) {
     unsigned long sum = 0;
