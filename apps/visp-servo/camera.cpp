@@ -30,13 +30,16 @@ vpCameraParameters cameraOf(double focal, unsigned int width, unsigned int heigh
   return vpCameraParameters(focal, focal, 0.5 * (width - 1.), 0.5 * (height - 1.));
 }
 
-//! Sees the photograph from the pose of the robot's camera.
+//! A target on the end effector before a fixed camera faces away from the arm.
+const vpRigidTransform FACING{Eigen::Vector3d(1., -1., -1.).asDiagonal(), Eigen::Vector3d::Zero()};
+
+//! Sees the photograph from the pose of the robot's camera, or on its end effector.
 class RenderedSource : public vpApp::ImageSource
 {
 public:
-  RenderedSource(const Options &options, const Photo &photo, const vpCameraParameters &camera, const Robot &robot)
-    : m_robot(robot), m_renderer(photo.image, photo.width, photo.height, camera, RENDERED_WIDTH, RENDERED_HEIGHT),
-      m_fMo(robot.camera() * vpRigidTransform::fromHomogeneous(*options.camera.pose)),
+  RenderedSource(const Options &options, const Photo &photo, const Eye &eye, const Robot &robot)
+    : m_robot(robot), m_renderer(photo.image, photo.width, photo.height, eye.intrinsics, eye.width, eye.height),
+      m_isFixed(options.camera.isFixed), m_fMc(eye.fMc), m_objectAt(objectAt(*options.camera.pose)),
       m_period(1. / options.camera.rate), m_isByClock(options.realTime), m_seed(options.seed)
   {
     m_faults.noise = options.camera.noise;
@@ -50,7 +53,9 @@ public:
       wait(m_begin + m_time);
       m_time = vpApp::now();
     }
-    m_renderer.render((m_robot.camera().inverse() * m_fMo).toHomogeneous(), m_faults, m_seed + m_number, image);
+    const vpRigidTransform pose = m_robot.pose();
+    const vpRigidTransform cMo = m_isFixed ? m_fMc.inverse() * pose * m_objectAt : pose.inverse() * m_objectAt;
+    m_renderer.render(cMo.toHomogeneous(), m_faults, m_seed + m_number, image);
     ++m_number;
     return !vpApp::interrupted();
   }
@@ -63,6 +68,12 @@ public:
   [[nodiscard]] std::string description() const override { return "a rendered camera"; }
 
 private:
+  //! In the end effector before a fixed camera, else in the base.
+  [[nodiscard]] vpRigidTransform objectAt(const vpHomogeneousMatrix &cMo) const
+  {
+    const vpRigidTransform pose = m_robot.pose(), seen = vpRigidTransform::fromHomogeneous(cMo);
+    return m_isFixed ? pose.inverse() * m_fMc * seen : pose * seen;
+  }
   static void wait(double until)
   {
     const double left = until - vpApp::now();
@@ -73,7 +84,8 @@ private:
 
   const Robot &m_robot;
   vpPlaneRenderer m_renderer;
-  vpRigidTransform m_fMo;
+  bool m_isFixed;
+  vpRigidTransform m_fMc, m_objectAt;
   vpCameraFaults m_faults;
   double m_period;
   bool m_isByClock;
@@ -141,6 +153,11 @@ std::unique_ptr<vpApp::ImageSource> openSource(const CameraOptions &options)
 }
 } // namespace
 
+vpRigidTransform fixedCamera(const CameraOptions &options)
+{
+  return options.fMc.empty() ? vpRigidTransform() : vpLoadPose(options.fMc);
+}
+
 vpCameraParameters intrinsicsOf(const CameraOptions &options, unsigned int width, unsigned int height)
 {
   return options.xml.empty() ? cameraOf(0.5 * width / std::tan(0.5 * vpMath::rad(ASSUMED_VIEW)), width, height)
@@ -153,9 +170,16 @@ Camera openCamera(const Options &options, const Robot &robot)
   Eye &eye = camera.eye;
   const CameraOptions &wanted = options.camera;
   if (wanted.source == "sim") {
-    eye = {cameraOf(RENDERED_FOCAL, RENDERED_WIDTH, RENDERED_HEIGHT), RENDERED_WIDTH, RENDERED_HEIGHT, wanted.rate,
-           false};
-    camera.source = std::make_unique<RenderedSource>(options, readPhoto(options.target), eye.intrinsics, robot);
+    eye = {cameraOf(RENDERED_FOCAL, RENDERED_WIDTH, RENDERED_HEIGHT),
+           RENDERED_WIDTH,
+           RENDERED_HEIGHT,
+           wanted.rate,
+           false,
+           fixedCamera(wanted)};
+    if (wanted.isFixed && wanted.fMc.empty()) {
+      eye.fMc = robot.pose() * FACING * vpRigidTransform::fromHomogeneous(*wanted.pose).inverse();
+    }
+    camera.source = std::make_unique<RenderedSource>(options, readPhoto(options.target), eye, robot);
     return camera;
   }
   std::unique_ptr<vpApp::ImageSource> source = openSource(wanted);
@@ -169,6 +193,7 @@ Camera openCamera(const Options &options, const Robot &robot)
   eye.rate = wanted.rate > 0. ? wanted.rate : USUAL_RATE;
   eye.isAssumed = wanted.xml.empty();
   eye.intrinsics = intrinsicsOf(wanted, eye.width, eye.height);
+  eye.fMc = fixedCamera(wanted);
   camera.source = std::make_unique<TimedSource>(std::move(source), first, wanted.rate);
   return camera;
 }

@@ -4,13 +4,14 @@
  */
 /*!
  * \file liveRobot.h
- * \brief What moves the camera: a simulated robot, a robot of ViSP, or one of a plug-in.
+ * \brief What moves the camera, or the target before a fixed one: a simulated robot, a robot of ViSP, or one of a plug-in.
  */
 #ifndef visualServo_liveRobot_h
 #define visualServo_liveRobot_h
 
 #include "options.h"
 
+#include <visp3/avoidance/vpCollisionScene.h>
 #include <visp3/manipulator/vpArmModel.h>
 #include <visp3/servoing/vpVisualServo.h>
 
@@ -21,7 +22,7 @@
 namespace visualServo
 {
 /*!
- * \brief A robot with a camera on its end effector. read() and command() are called by the control thread only; they may throw what the
+ * \brief A robot with a camera on its end effector, or with the target before a fixed camera. read() and command() are called by the control thread only; they may throw what the
  * driver throws.
  */
 class Robot
@@ -40,12 +41,13 @@ public:
   virtual void begin() {}
   //! Brings it to rest; called also after a failure. \throw std::exception of the driver.
   virtual void end() {}
-  //! Model, whose joint velocities are commanded; null: twists of the camera are.
+  //! Model, whose joint velocities are commanded; null: twists of the camera, or of the end effector, are.
   [[nodiscard]] virtual const vpArmModel *arm() const { return nullptr; }
   //! False: read() tells nothing, and the commanded motion counts as executed.
   [[nodiscard]] virtual bool tellsState() const { return true; }
-  //! Pose of the camera in the base now; any thread. Only for robots that have a rendered camera.
-  [[nodiscard]] virtual vpRigidTransform camera() const { return {}; }
+  //! Pose in the base, now, of what moves: the camera, or the end effector before a fixed camera; any thread. Only for robots that
+  //! have a rendered camera.
+  [[nodiscard]] virtual vpRigidTransform pose() const { return {}; }
   //! "the simulated arm amor".
   [[nodiscard]] virtual std::string description() const = 0;
 };
@@ -65,8 +67,13 @@ struct VispRobot {
  * driver says.
  */
 [[nodiscard]] std::unique_ptr<Robot> openRobot(const Options &options);
-//! The arm of the options, with the camera of --eMc. \throw As openRobot().
+//! The arm of the options, with the camera of --eMc; among obstacles with all of its bodies covered. \throw As openRobot().
 [[nodiscard]] vpArmModel loadModel(const MotionOptions &options);
+/*!
+ * The obstacles of the options about the arm of \e robot; null without --scene.
+ * \throw vpException naming the file and the element.
+ */
+[[nodiscard]] std::unique_ptr<const vpCollisionScene> loadObstacles(const MotionOptions &options, const Robot &robot);
 //! A robot that is not there: dry run.
 [[nodiscard]] std::unique_ptr<Robot> noRobot();
 //! The simulated robot of the options.

@@ -8,11 +8,9 @@
 #include "commandLine.h"
 #include "numberText.h"
 #include "plugin.h"
-#include "recorded.h"
 
 #include <visp3/core/vpException.h>
 #include <visp3/core/vpMath.h>
-#include <visp3/core/vpPoseVector.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -34,6 +32,8 @@ constexpr const char *EXAMPLES =
     R"(Examples:
   visp-servo
       simulated arm and camera; open out/servo/report.html
+  visp-servo --eye-to-hand
+      the same before a fixed camera: the arm brings the target, which it holds, where the camera is to see it
   visp-servo --display --real-time
       the same to watch; keys: space start and stop, l next law, q quit
   visp-servo --camera 0 --camera-xml camera.xml --target poster.jpg --size 0.42,0.297 --dry-run --display
@@ -45,6 +45,8 @@ constexpr const char *EXAMPLES =
       the robot stands at the goal: remember it
   ... --goal goal.json --start
       from somewhere else: go there
+  ... --teach there.png; then, from somewhere else: ... --reference there.png --distance 0.2,1.2 --start
+      the same without knowing what the camera sees, its size or its distance
   visp-servo --replay out/servo --law pbvs1 --lambda 2
       the recorded images once more with another law: what would have been different?
   visp-servo --list
@@ -76,6 +78,11 @@ void addCamera(vpApp::CommandLine &line, CameraOptions &camera)
   line.add("--object-pose", "X,Y,Z,RX,RY,RZ",
            "Of the rendered camera: pose of the object at the start, m and degrees (theta u)", START,
            [&camera](const auto &values) { camera.pose = poseIn("--object-pose", values[0]); });
+  line.flag("--eye-to-hand", camera.isFixed,
+            "The camera is fixed and sees the target on the end effector, which moves (default: the camera moves)");
+  line.text("--fMc", camera.fMc, "FILE.yaml",
+            "Pose of the fixed camera in the robot's base, as ViSP's calibration writes poses; means --eye-to-hand "
+            "(default: a rendered camera stands where --object-pose is true)");
 }
 
 void readSize(const std::string &text, TargetOptions &target)
@@ -135,6 +142,11 @@ void addRobot(vpApp::CommandLine &line, MotionOptions &motion)
             "Library that gives any vpRobot, see visp3/servoing/vpRobotPlugin.h");
   line.text("--robot-arguments", motion.arguments, "TEXT", "Passed to it, such as an address");
   line.text("--eMc", motion.eMc, "FILE.yaml", "Camera in the end effector, as ViSP's hand-eye calibration writes it");
+  line.text(
+      "--scene", motion.scene, "FILE.json",
+      "Obstacles before which the arm stops, see data/scene/README.md; needs its model. Nothing that the end effector "
+      "carries is checked unless the model has it");
+  line.number("--margin", motion.margin, {0., 1.}, "M", "Clearance that the arm keeps from them and from itself");
   line.flag("--dry-run", motion.dryRun, "Vision and law as usual, but nothing is commanded to the robot");
   line.flag("--start", motion.start, "Move at once; without it the space bar in the window of --display starts");
 }
@@ -144,8 +156,10 @@ void addMotion(vpApp::CommandLine &line, Options &options)
   vpServoMotionLimits &limits = options.law.motion;
   line.group("Motion");
   vpApp::addPluginOption(line, "laws");
-  line.list("--law", options.laws, "LAW,...",
-            "Laws, each also with +cbf, which keeps the target in view; the first one moves");
+  line.list(
+      "--law", options.laws, "LAW,...",
+      "Laws, each also with +cbf, which keeps the target in view; the first one moves (default: ff-lookat-pi+cbf, "
+      "with --eye-to-hand pbvs1+cbf)");
   line.number("--lambda", options.law.gains.lambda, {0., 100., true}, "1/S", "Gain");
   line.number("--max-linear", limits.linearVelocity, {0., 10., true}, "M/S", "Speed of the camera at most");
   line.number("--max-angular", limits.angularVelocity, {0., 10., true}, "RAD/S", "Angular speed at most");
@@ -177,19 +191,15 @@ void addRun(vpApp::CommandLine &line, Options &options)
             "Simulation and recorded images by the clock, in threads, as with a camera (default: as fast as the "
             "machine can)");
   line.flag("--display", options.display, "Window; space: start and stop, l: next law, q: quit");
-  line.text("--teach", options.teach, "FILE.json",
-            "Write the goal, and the mean image beside it, from where the camera stands now; nothing moves");
+  line.text(
+      "--teach", options.teach, "FILE.json|FILE.png",
+      "Write the goal, and the mean image beside it, from where the camera stands now; .png: the image alone, for "
+      "--reference, of a target of which nothing is known. Nothing moves");
   line.text("--replay", options.replay, "FOLDER",
             "See and steer once more what is recorded in FOLDER; other options replace the recorded ones");
   line.flag("--list", options.list, "Name the laws and the robots of ViSP, and end");
   line.whole("--seed", options.seed, {0, 4294967295.}, "N", "Seed of the rendered camera's noise");
   line.text("--out", options.out, "DIR", "Folder for the result");
-}
-
-bool isModel(const std::string &robot)
-{
-  const std::string suffix = std::filesystem::path(robot).extension().string();
-  return robot == "amor" || suffix == ".urdf" || suffix == ".json" || suffix == ".xacro";
 }
 
 void checkTarget(const vpApp::CommandLine &line, const TargetOptions &target)
@@ -211,6 +221,17 @@ void checkTarget(const vpApp::CommandLine &line, const TargetOptions &target)
   }
 }
 
+void checkTeach(const Options &options)
+{
+  if (!options.teachesGoal() && std::filesystem::path(options.teach).extension() != ".png") {
+    throw vpApp::UsageError("--teach is " + options.teach +
+                            ", must be a .json file, for the goal and its image, or a .png file, for the image alone");
+  }
+  if (!options.target.reference.empty()) {
+    throw vpApp::UsageError("--teach and --reference are both given: a goal is taught by a known target");
+  }
+}
+
 void checkRobot(const vpApp::CommandLine &line, const Options &options)
 {
   const MotionOptions &motion = options.motion;
@@ -225,8 +246,28 @@ void checkRobot(const vpApp::CommandLine &line, const Options &options)
       options.camera.source != "sim") {
     throw vpApp::UsageError("a robot that moves needs --camera-xml, the calibration of its camera");
   }
-  if (isReal && motion.plugin.empty() && motion.eMc.empty() && options.task == Task::Servo && !motion.dryRun) {
+  const bool isFixed = options.camera.isFixed;
+  if (isFixed && !motion.eMc.empty()) {
+    throw vpApp::UsageError("--eMc is for a camera on the end effector, with --eye-to-hand the target is there");
+  }
+  if (isFixed && options.servo.objectMoves) {
+    throw vpApp::UsageError("--moving-target needs a camera on the robot, with --eye-to-hand the target is there");
+  }
+  if (isFixed && options.camera.fMc.empty() && options.camera.source != "sim" &&
+      motion.robot.robot + motion.plugin != "none") {
+    throw vpApp::UsageError("--eye-to-hand needs --fMc, the pose of the camera in the robot's base");
+  }
+  if (isReal && motion.plugin.empty() && motion.eMc.empty() && options.task == Task::Servo && !motion.dryRun &&
+      !isFixed) {
     throw vpApp::UsageError("--robot " + motion.robot.robot + " needs --eMc, the camera in its end effector");
+  }
+  if (!motion.scene.empty() && !(options.hasModel() && options.task == Task::Servo)) {
+    throw vpApp::UsageError(options.hasModel()
+                                ? "--scene is for a robot that moves, not for --teach and --replay"
+                                : "--scene needs the model of the arm, --robot is " + motion.robot.robot);
+  }
+  if (line.isGiven("--margin") && motion.scene.empty()) {
+    throw vpApp::UsageError("--margin is given without --scene");
   }
   if (options.camera.source == "sim" && motion.robot.robot == "none" && motion.plugin.empty()) {
     throw vpApp::UsageError("--camera sim needs a robot that carries it, --robot is none");
@@ -237,6 +278,10 @@ void checkRobot(const vpApp::CommandLine &line, const Options &options)
 void complete(const vpApp::CommandLine &line, Options &options)
 {
   MotionOptions &motion = options.motion;
+  options.camera.isFixed = options.camera.isFixed || !options.camera.fMc.empty();
+  if (options.camera.isFixed && !line.isGiven("--law")) { // laws that turn to the object hunt about friction there
+    options.laws = {"pbvs1+cbf"};
+  }
   if (!options.replay.empty() && !line.isGiven("--out")) {
     options.out = "out/servo-replay";
   }
@@ -248,6 +293,9 @@ void complete(const vpApp::CommandLine &line, Options &options)
                  : !options.teach.empty()  ? Task::Teach
                                            : Task::Servo;
   checkTarget(line, options.target);
+  if (options.task == Task::Teach) {
+    checkTeach(options);
+  }
   checkRobot(line, options);
   motion.dryRun = motion.dryRun || (motion.robot.robot == "none" && motion.plugin.empty());
   options.servo.period = 1. / options.controlRate;
@@ -279,23 +327,18 @@ vpHomogeneousMatrix poseIn(const std::string &option, const std::string &text)
                              vpThetaUVector(vpMath::rad(p[3]), vpMath::rad(p[4]), vpMath::rad(p[5])));
 }
 
-bool Options::isSimulated() const
+bool Options::isSimulated() const { return motion.plugin.empty() && (motion.robot.robot == "camera" || hasModel()); }
+
+bool Options::teachesGoal() const { return std::filesystem::path(teach).extension() == ".json"; }
+
+bool Options::hasModel() const
 {
-  return motion.plugin.empty() && (motion.robot.robot == "camera" || isModel(motion.robot.robot));
+  const std::string suffix = std::filesystem::path(motion.robot.robot).extension().string();
+  return motion.robot.robot == "amor" || suffix == ".urdf" || suffix == ".json" || suffix == ".xacro";
 }
 
 namespace
 {
-std::string poseText(const vpHomogeneousMatrix &M)
-{
-  const vpPoseVector p(M);
-  std::string text;
-  for (unsigned int i = 0; i < 6; ++i) {
-    text += (i > 0 ? "," : "") + vpApp::number(i < 3 ? p[i] : vpMath::deg(p[i]), 12);
-  }
-  return text;
-}
-
 bool parse(const std::vector<std::string> &arguments, Options &options)
 {
   options = Options();
@@ -321,7 +364,9 @@ bool parse(const std::vector<std::string> &arguments, Options &options)
   complete(line, options);
   try {
     for (const std::string &law : options.laws) {
-      static_cast<void>(vpServoController::create(law, options.law));
+      if (vpServoController::create(law, options.law).law().plansMotion() && law.find("+cbf") != std::string::npos) {
+        throw vpException(vpException::badValue, "%s plans its motion, which +cbf would not keep in view", law.c_str());
+      }
     }
   }
   catch (const vpException &error) {
@@ -330,68 +375,7 @@ bool parse(const std::vector<std::string> &arguments, Options &options)
   return true;
 }
 
-//! The recorded settings that the user did not replace, and after them what the user gave.
-std::vector<std::string> withRecorded(const std::string &folder, const std::vector<std::string> &arguments)
-{
-  const auto isGiven = [&arguments](const std::string &name) {
-    return std::any_of(arguments.begin(), arguments.end(),
-                       [&](const std::string &one) { return one.substr(0, one.find('=')) == name; });
-  };
-  // What the user looks for replaces the recorded target and its goal as a whole.
-  const bool isOther = isGiven("--target") || isGiven("--tag") || isGiven("--reference");
-  const bool hasGoal = isOther || isGiven("--goal") || isGiven("--goal-pose");
-  std::vector<std::string> all;
-  for (const auto &[name, value] : readSettings(folder)) {
-    const bool isTarget = name == "--target" || name == "--tag" || name == "--size" || name == "--reference";
-    const bool isFile = name == "--target" || name == "--reference" || name == "--camera-xml";
-    if (isGiven(name) || (isOther && isTarget) || (hasGoal && name == "--goal-pose")) {
-      continue;
-    }
-    all.push_back(name);
-    all.push_back(isFile ? (std::filesystem::path(folder) / value).string() : value);
-  }
-  all.insert(all.end(), arguments.begin(), arguments.end());
-  return all;
-}
 } // namespace
-
-Settings settingsOf(const Options &options, const vpHomogeneousMatrix &goal)
-{
-  const TargetOptions &target = options.target;
-  Settings settings{{"--camera-xml", "camera.xml"}};
-  if (!target.reference.empty()) {
-    settings.emplace_back("--reference", "reference.png");
-    settings.emplace_back("--distance", vpApp::number(target.nearest, 9) + "," + vpApp::number(target.farthest, 9));
-  }
-  else {
-    settings.emplace_back("--goal-pose", poseText(goal));
-  }
-  settings.emplace_back("--size", vpApp::number(target.width, 9) + "," +
-                                      vpApp::number(target.height > 0. ? target.height : target.width, 9));
-  if (target.tagFamily.empty() && target.reference.empty()) {
-    settings.emplace_back("--target", "target.png");
-  }
-  else if (!target.tagFamily.empty()) {
-    settings.emplace_back("--tag", target.tagFamily + ":" + std::to_string(target.tagId));
-  }
-  std::string laws;
-  for (const std::string &law : options.laws) {
-    laws += (laws.empty() ? "" : ",") + law;
-  }
-  const vpServoMotionLimits &limits = options.law.motion;
-  const std::pair<const char *, double> numbers[] = {
-      {"--lambda", options.law.gains.lambda},    {"--max-linear", limits.linearVelocity},
-      {"--max-angular", limits.angularVelocity}, {"--max-acceleration", limits.linearAcceleration},
-      {"--start-time", options.servo.startTime}, {"--image-timeout", options.servo.imageTimeout},
-      {"--control-rate", options.controlRate}};
-  settings.emplace_back("--law", laws);
-  for (const auto &[name, value] : numbers) {
-    settings.emplace_back(name, vpApp::number(value, 9));
-  }
-  settings.emplace_back("--tolerance", vpApp::number(1e3 * options.servo.positionTolerance, 9) + "," +
-                                           vpApp::number(vpMath::deg(options.servo.rotationTolerance), 9));
-  return settings;
-}
 
 bool readOptions(int argc, const char *const *argv, Options &options)
 {

@@ -36,6 +36,8 @@ struct CameraOptions {
   double latency = 0.04;                   //!< Latency of the rendered camera, s.
   double noise = 3.;                       //!< Noise of the rendered camera, standard deviation in grey levels.
   std::optional<vpHomogeneousMatrix> pose; //!< Pose of the rendered object in the camera at the start.
+  bool isFixed = false;                    //!< In the robot's base; the target is on the end effector.
+  std::string fMc; //!< File of the fixed camera in the base; empty: by #pose, for the rendered camera.
 };
 
 //! \brief What is looked at.
@@ -52,10 +54,12 @@ struct TargetOptions {
 
 //! \brief What moves.
 struct MotionOptions {
-  vpApp::RobotOptions robot; //!< Simulated robot, or model of a real one.
-  std::string plugin;        //!< Library with a robot; empty: none.
-  std::string arguments;     //!< Passed to the plug-in or to the robot of ViSP.
-  std::string eMc;           //!< File of the camera in the end effector; empty: by the robot.
+  vpApp::RobotOptions robot;                     //!< Simulated robot, or model of a real one.
+  std::string plugin;                            //!< Library with a robot; empty: none.
+  std::string arguments;                         //!< Passed to the plug-in or to the robot of ViSP.
+  std::string eMc;                               //!< File of the camera in the end effector; empty: by the robot.
+  std::string scene;                             //!< File of obstacles before which the arm stops; empty: none.
+  double margin = vpStopSupervisorSpec().margin; //!< Clearance from them and of the arm from itself, m.
   bool dryRun = false;
   bool start = false; //!< A real robot moves at once.
 };
@@ -79,12 +83,16 @@ struct Options {
   bool display = false;
   bool list = false;
   unsigned int seed = 1;
-  std::string teach;  //!< Goal file to write; empty: none.
+  std::string teach;  //!< Goal file, or reference image, to write; empty: none.
   std::string replay; //!< Folder of a recording; empty: none.
   std::string out = "out/servo";
 
   //! True for a robot that can hurt nobody.
   [[nodiscard]] bool isSimulated() const;
+  //! False: #teach is a reference image alone.
+  [[nodiscard]] bool teachesGoal() const;
+  //! True if there is a model of the arm: joint velocities are commanded.
+  [[nodiscard]] bool hasModel() const;
 };
 
 /*!
@@ -99,6 +107,13 @@ struct Options {
  * \param goal : Pose of the object at the goal.
  */
 [[nodiscard]] Settings settingsOf(const Options &options, const vpHomogeneousMatrix &goal);
+
+/*!
+ * The recorded settings that \e arguments do not replace, and after them \e arguments.
+ * \throw std::runtime_error if the recording in \e folder cannot be read.
+ */
+[[nodiscard]] std::vector<std::string> withRecorded(const std::string &folder,
+                                                    const std::vector<std::string> &arguments);
 
 //! Six numbers X,Y,Z,RX,RY,RZ (m, degrees, theta u) as a pose. \throw vpApp::UsageError naming the option.
 [[nodiscard]] vpHomogeneousMatrix poseIn(const std::string &option, const std::string &text);

@@ -84,18 +84,22 @@ Json sceneOf(const Outcome &outcome)
     size = {target.width, target.height > 0. ? target.height : target.width};
     goal = vpApp::rowsOf(vpRigidTransform::fromHomogeneous(outcome.cdMo));
   }
-  return {{"camera",
-           {{"px", camera.get_px()},
-            {"py", camera.get_py()},
-            {"u0", camera.get_u0()},
-            {"v0", camera.get_v0()},
-            {"width", outcome.eye.width},
-            {"height", outcome.eye.height}}},
-          {"size_m", size},
-          {"goal", goal},
-          {"picture", !isKnown                   ? Json("reference.png")
-                      : target.tagFamily.empty() ? Json("target.png")
-                                                 : Json(nullptr)}};
+  Json scene = {{"camera",
+                 {{"px", camera.get_px()},
+                  {"py", camera.get_py()},
+                  {"u0", camera.get_u0()},
+                  {"v0", camera.get_v0()},
+                  {"width", outcome.eye.width},
+                  {"height", outcome.eye.height}}},
+                {"size_m", size},
+                {"goal", goal},
+                {"picture", !isKnown                   ? Json("reference.png")
+                            : target.tagFamily.empty() ? Json("target.png")
+                                                       : Json(nullptr)}};
+  if (outcome.options->camera.isFixed) {
+    scene["fMc"] = vpApp::rowsOf(outcome.eye.fMc);
+  }
+  return scene;
 }
 } // namespace
 
@@ -119,6 +123,9 @@ std::vector<std::string> findings(const Outcome &outcome)
                         ? "At the end the camera was " + fixed(1e3 * row.positionError, 2) + " mm and " +
                               fixed(vpMath::deg(row.rotationError), 3) + " degrees from the goal, as it sees it."
                         : "At the end the target was not seen: " + std::string(row.message));
+    if (row.status == vpVisualServoStatus::Obstructed) {
+      lines.push_back(recording.sentenceOf(row));
+    }
   }
   if (outcome.options->motion.dryRun) {
     lines.emplace_back("Dry run: nothing was commanded to a robot.");
@@ -167,7 +174,7 @@ Json summaryOf(const Outcome &outcome, const std::string &commandLine)
     const CycleRow &row = recording.last();
     json["duration_s"] = row.time;
     json["end"] = {{"status", vpToString(row.status)},
-                   {"message", row.message},
+                   {"message", recording.sentenceOf(row)},
                    {"position_error_mm", row.hasPose ? Json(1e3 * row.positionError) : nullptr},
                    {"rotation_error_deg", row.hasPose ? Json(vpMath::deg(row.rotationError)) : nullptr}};
   }

@@ -40,12 +40,11 @@ class DrivenRobot : public Robot
 public:
   DrivenRobot(OpenedRobot opened, const Options &options) : m_opened(std::move(opened))
   {
-    const MotionOptions &motion = options.motion;
-    if (motion.robot.robot.find('.') != std::string::npos) {
-      m_arm.emplace(loadModel(motion));
+    if (options.hasModel()) {
+      m_arm.emplace(loadModel(options.motion));
     }
-    else if (!motion.eMc.empty() && !m_opened.hasMount) {
-      m_eMc = vpLoadPose(motion.eMc).toHomogeneous();
+    else if (!m_opened.hasMount) {
+      m_eMc = mountOf(options);
     }
     m_maxLinear = OWN_LIMITS * options.law.motion.linearVelocity;
     m_maxAngular = OWN_LIMITS * options.law.motion.angularVelocity;
@@ -94,11 +93,7 @@ public:
   [[nodiscard]] const vpArmModel *arm() const override { return m_arm ? &*m_arm : nullptr; }
   [[nodiscard]] bool tellsState() const override { return m_arm || m_opened.pose != PoseOf::Nothing; }
   // A rendered camera needs it of simulated robots in plug-ins, which must then allow two threads.
-  [[nodiscard]] vpRigidTransform camera() const override { return pose(); }
-  [[nodiscard]] std::string description() const override { return m_opened.name; }
-
-private:
-  [[nodiscard]] vpRigidTransform pose() const
+  [[nodiscard]] vpRigidTransform pose() const override
   {
     vpColVector p;
     if (m_eMc && m_opened.pose == PoseOf::Camera) {
@@ -109,7 +104,9 @@ private:
     m_opened.robot->getPosition(isReference ? vpRobot::REFERENCE_FRAME : vpRobot::CAMERA_FRAME, p);
     return poseOf(p, isReference);
   }
+  [[nodiscard]] std::string description() const override { return m_opened.name; }
 
+private:
   OpenedRobot m_opened;
   std::optional<vpArmModel> m_arm;
   std::optional<vpHomogeneousMatrix> m_eMc;
@@ -118,11 +115,23 @@ private:
 };
 } // namespace
 
+std::optional<vpHomogeneousMatrix> mountOf(const Options &options)
+{
+  if (options.camera.isFixed) {
+    return vpHomogeneousMatrix();
+  }
+  const std::string &file = options.motion.eMc;
+  return file.empty() ? std::optional<vpHomogeneousMatrix>() : vpLoadPose(file).toHomogeneous();
+}
+
 std::unique_ptr<Robot> realRobot(const Options &options)
 {
   const MotionOptions &motion = options.motion;
-  OpenedRobot opened = motion.plugin.empty() ? openVispRobot(motion.robot.robot, motion.arguments, motion.eMc)
-                                             : openPlugin(motion.plugin, motion.arguments);
+  const bool isAtFlange = options.camera.isFixed || !motion.eMc.empty();
+  OpenedRobot opened = motion.plugin.empty()
+                           ? openVispRobot(options)
+                           : openPlugin(motion.plugin, motion.arguments,
+                                        isAtFlange ? vpRobot::END_EFFECTOR_FRAME : vpRobot::CAMERA_FRAME);
   return std::make_unique<DrivenRobot>(std::move(opened), options);
 }
 

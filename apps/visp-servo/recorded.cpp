@@ -30,7 +30,8 @@ public:
     std::getline(m_stream, heading);
     m_names = split(heading);
     for (const std::string &name : wanted) {
-      const auto found = std::find(m_names.begin(), m_names.end(), name);
+      const auto found =
+          std::find_if(m_names.begin(), m_names.end(), [&name](const std::string &one) { return fits(one, name); });
       if (found == m_names.end()) {
         throw std::runtime_error(m_file + ": has no column " + name + ", so it is no recording of visp-servo");
       }
@@ -89,6 +90,11 @@ public:
   }
 
 private:
+  //! What moves before a fixed camera is the end effector.
+  static bool fits(const std::string &name, const std::string &wanted)
+  {
+    return name == wanted || (wanted.rfind("fMc_", 0) == 0 && name == "fMe_" + wanted.substr(4));
+  }
   [[nodiscard]] std::string place() const { return m_file + ":" + std::to_string(m_line + 1); }
   // A sentence in quotes is the last cell and not wanted.
   static Columns split(const std::string &line)

@@ -19,7 +19,7 @@
 
 namespace visualServo
 {
-//! Settings of a run as options of the command line, each with its value.
+//! Settings of a run as options of the command line, each with its value; a flag with an empty one.
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
 //! \brief A cycle of a recording, as far as it is needed again.
@@ -27,8 +27,8 @@ struct RecordedCycle {
   double time = 0.; //!< s
   bool isIdle = false;
   bool hasCamera = false;
-  vpRigidTransform fMc;
-  vpTwist twist;
+  vpRigidTransform fMc; //!< Camera in the base; of a fixed camera's run the end effector.
+  vpTwist twist;        //!< Of the same, in its frame.
   double positionError = NOTHING, rotationError = NOTHING; //!< m, rad.
 };
 
@@ -42,6 +42,8 @@ struct RecordedImage {
 
 //! File of the settings.
 constexpr const char *SETTINGS_FILE = "recording.json";
+//! File of a fixed camera's pose, for vpLoadPose().
+constexpr const char *FIXED_CAMERA_FILE = "fMc.txt";
 //! The settings of the recording in a folder. \throw std::runtime_error naming the file.
 [[nodiscard]] Settings readSettings(const std::filesystem::path &folder);
 //! Content of SETTINGS_FILE.

@@ -11,7 +11,6 @@
 #include <visp3/core/vpPoseVector.h>
 
 #include <cstdio>
-#include <cstring>
 #include <stdexcept>
 #include <utility>
 
@@ -67,36 +66,52 @@ std::string csvText(const std::string &sentence)
 }
 } // namespace
 
-Recording::Recording(vpApp::OutputFolder &out, const vpArmModel *arm, double rate)
-  : m_out(out), m_arm(arm), m_rate(rate), m_log(out.file("log.csv"), std::ios::binary),
-    m_imageLog(out.file("images.csv"), std::ios::binary), m_eventLog(out.file("events.csv"), std::ios::binary)
+Recording::Recording(vpApp::OutputFolder &out, const vpArmModel *arm, double rate, bool isFixed,
+                     const vpCollisionScene *scene)
+  : m_out(out), m_arm(arm), m_rate(rate), m_isFixed(isFixed), m_scene(scene),
+    m_log(out.file("log.csv"), std::ios::binary), m_imageLog(out.file("images.csv"), std::ios::binary),
+    m_eventLog(out.file("events.csv"), std::ios::binary)
 {
   m_eventLog << "time_s,status,message\n";
   m_log << "time_s,status,law_status" << six("cMo_", "t", "tu") << six("sigma_", "t", "tu")
         << ",position_error_m,rotation_error_rad,image_age_s,speed_factor,distance_m,distance_sigma_m"
-        << six("v_", "", "w") << six("fMc_", "t", "tu") << ",step_us";
+        << six("v_", "", "w") << six(m_isFixed ? "fMe_" : "fMc_", "t", "tu") << ",step_us";
   for (const char *quantity : {"q_", "velocity_"}) {
     for (int i = 0; m_arm != nullptr && i < m_arm->size(); ++i) {
       m_log << ',' << quantity << vpApp::fileName(m_arm->spec().joints[static_cast<std::size_t>(i)].name);
     }
   }
-  m_log << '\n';
+  m_log << (m_scene != nullptr ? ",obstacle\n" : "\n");
   m_imageLog << "image,number,capture_s,seen_s,vision_ms,found" << six("cMo_", "t", "tu") << six("sigma_", "t", "tu")
              << ",distance_m,distance_sigma_m,message\n";
 }
 
-// The pose of the camera, where the robot gives joints or nothing.
+// The pose of what moves, where the robot gives joints or nothing.
 void Recording::locate(CycleRow &row)
 {
   if (m_arm != nullptr && row.joints == m_arm->size()) {
     const vpJointVector q = Eigen::Map<const Eigen::VectorXd>(row.q.data(), row.joints);
     row.hasCamera = vpArmKinematics::update(*m_arm, q, m_data);
-    row.fMc = row.hasCamera ? vpArmKinematics::camera(*m_arm, m_data) : vpRigidTransform();
+    const vpRigidTransform moved = m_isFixed ? m_data.tool : vpArmKinematics::camera(*m_arm, m_data);
+    row.fMc = row.hasCamera ? moved : vpRigidTransform();
   }
   else if (m_arm == nullptr && !row.hasCamera) {
     row.fMc = m_moved;
     row.hasCamera = true;
   }
+}
+
+std::string Recording::obstacleOf(const CycleRow &row) const
+{
+  const bool isNone = m_scene == nullptr || row.obstacle.kind == vpCollisionKind::None;
+  return isNone ? "" : m_scene->describe(row.obstacle);
+}
+
+std::string Recording::sentenceOf(const CycleRow &row) const
+{
+  const bool isStopped = row.status == vpVisualServoStatus::Obstructed;
+  const std::string obstacle = isStopped ? obstacleOf(row) : "";
+  return row.message + (obstacle.empty() ? "" : " In the way: " + obstacle + ".");
 }
 
 void Recording::add(CycleRow row)
@@ -126,12 +141,16 @@ void Recording::add(CycleRow row)
       append(line, row.joints > 0 ? (*values)[static_cast<std::size_t>(i)] : NOTHING);
     }
   }
+  if (m_scene != nullptr) {
+    line += csvText(obstacleOf(row)) + ",";
+  }
   line.back() = '\n';
   m_log << line;
 
-  if (cycleCount() == 0 || std::strcmp(m_last.message, row.message) != 0) {
-    m_events.push_back({row.time, vpToString(row.status), row.message});
-    m_eventLog << vpApp::number(row.time, 9) << ',' << vpToString(row.status) << ',' << csvText(row.message) << '\n';
+  const std::string sentence = sentenceOf(row);
+  if (m_events.empty() || m_events.back().sentence != sentence) {
+    m_events.push_back({row.time, vpToString(row.status), sentence});
+    m_eventLog << vpApp::number(row.time, 9) << ',' << vpToString(row.status) << ',' << csvText(sentence) << '\n';
   }
   m_cycles.add(row);
   m_last = row;

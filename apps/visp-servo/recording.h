@@ -14,6 +14,7 @@
 #include "outputFolder.h"
 
 #include <visp3/core/vpImage.h>
+#include <visp3/avoidance/vpCollisionScene.h>
 #include <visp3/manipulator/vpArmModel.h>
 
 #include <opencv2/videoio.hpp>
@@ -69,8 +70,10 @@ private:
 class Recording
 {
 public:
-  //! \param arm : For the columns of the joints and the pose of the camera; may be null. \param rate : Images per second, for players.
-  Recording(vpApp::OutputFolder &out, const vpArmModel *arm, double rate);
+  //! \param arm : For the columns of the joints and the pose of what moves; may be null. \param rate : Images per second, for players.
+  //! \param isFixed : The camera is, the end effector moves. \param scene : Names what is in the way; may be null.
+  Recording(vpApp::OutputFolder &out, const vpArmModel *arm, double rate, bool isFixed = false,
+            const vpCollisionScene *scene = nullptr);
   void add(CycleRow row);
   //! \param image : Null: the video was recorded before.
   void add(ImageRow row, const vpImage<unsigned char> *image);
@@ -86,6 +89,10 @@ public:
   [[nodiscard]] std::size_t cycleCount() const { return m_cycles.count(); }
   [[nodiscard]] std::size_t imageCount() const { return m_images.count(); }
   [[nodiscard]] const CycleRow &last() const { return m_last; }
+  //! What is in the way of the arm, "link 5 and object pillar"; empty: nothing.
+  [[nodiscard]] std::string obstacleOf(const CycleRow &row) const;
+  //! The status of a cycle in sentences, with what stops the arm.
+  [[nodiscard]] std::string sentenceOf(const CycleRow &row) const;
   [[nodiscard]] std::size_t found() const { return m_found; }
   //! File name of the video.
   static constexpr const char *VIDEO = "camera.mkv";
@@ -97,6 +104,8 @@ private:
   vpApp::OutputFolder &m_out;
   const vpArmModel *m_arm;
   double m_rate;
+  bool m_isFixed;
+  const vpCollisionScene *m_scene;
   std::ofstream m_log, m_imageLog, m_eventLog;
   cv::VideoWriter m_video;
   cv::Size m_size;

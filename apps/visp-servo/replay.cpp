@@ -239,6 +239,7 @@ Eye eyeOf(const Options &options)
   eye.width = first.getWidth();
   eye.height = first.getHeight();
   eye.intrinsics = intrinsicsOf(options.camera, eye.width, eye.height);
+  eye.fMc = fixedCamera(options.camera);
   return eye;
 }
 

@@ -13,7 +13,7 @@
 
 namespace visualServo
 {
-OpenedRobot openPlugin(const std::string &library, const std::string &arguments)
+OpenedRobot openPlugin(const std::string &library, const std::string &arguments, vpRobot::vpControlFrameType frame)
 {
   const auto make = reinterpret_cast<decltype(&vispDirectRobot)>(
       vpApp::pluginFunction(library, "vispDirectRobot", "visp3/servoing/vpRobotPlugin.h"));
@@ -30,7 +30,7 @@ OpenedRobot openPlugin(const std::string &library, const std::string &arguments)
   opened.name = "the robot of " + library;
   try {
     vpColVector p;
-    opened.robot->getPosition(vpRobot::CAMERA_FRAME, p);
+    opened.robot->getPosition(frame, p);
     opened.pose = p.size() == 6 ? PoseOf::Camera : PoseOf::Nothing;
   }
   catch (const std::exception &) {

@@ -13,6 +13,8 @@
 
 #include <visp3/robot/vpRobot.h>
 
+#include <optional>
+
 namespace visualServo
 {
 //! What getPosition() of a robot gives.
@@ -31,15 +33,22 @@ struct OpenedRobot {
 };
 
 /*!
- * A robot of ViSP. \param word : See robotsOfVisp(). \param arguments : Address. \param eMc : File.
+ * Camera in the end effector; none: as the robot has it. Before a fixed camera the end effector itself takes the camera's place.
+ * \throw vpException as vpLoadPose().
+ */
+[[nodiscard]] std::optional<vpHomogeneousMatrix> mountOf(const Options &options);
+/*!
+ * The robot of ViSP that the options name.
  * \throw vpApp::UsageError for an unknown word; std::runtime_error if ViSP was built without it.
  */
-[[nodiscard]] OpenedRobot openVispRobot(const std::string &word, const std::string &arguments, const std::string &eMc);
+[[nodiscard]] OpenedRobot openVispRobot(const Options &options);
 /*!
- * A robot of a library, see visp3/servoing/vpRobotPlugin.h.
+ * A robot of a library, see visp3/servoing/vpRobotPlugin.h. \param frame : Of its pose; where it gives none, OpenedRobot::pose is
+ * Nothing.
  * \throw std::runtime_error naming the library and what is wrong.
  */
-[[nodiscard]] OpenedRobot openPlugin(const std::string &library, const std::string &arguments);
+[[nodiscard]] OpenedRobot openPlugin(const std::string &library, const std::string &arguments,
+                                     vpRobot::vpControlFrameType frame);
 } // namespace visualServo
 
 #endif

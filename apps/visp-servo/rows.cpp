@@ -28,6 +28,7 @@ CycleRow rowOf(const vpVisualServo &servo, const vpServoRobotState &state, bool 
   row.status = out.status;
   row.servo = out.servo;
   row.message = out.message;
+  row.obstacle = out.obstacle;
   row.hasPose = seen.valid;
   row.sigma.fill(NOTHING);
   if (seen.valid) {

@@ -30,6 +30,7 @@ struct CycleRow {
   vpVisualServoStatus status = vpVisualServoStatus::Idle;
   vpServoStatus servo = vpServoStatus::Holding;
   const char *message = ""; //!< Static text.
+  vpClearance obstacle;     //!< See vpVisualServoOutput.
   bool hasPose = false;     //!< The target's pose, predicted for now, is known.
   vpRigidTransform cMo;
   std::array<double, 6> sigma{}; //!< Standard deviations of its position (m) and rotation (rad); NaN: not known.
@@ -37,11 +38,11 @@ struct CycleRow {
   double age = NOTHING;                                    //!< Of the image in use, s.
   double speedFactor = 0.;
   double distance = 0., distanceSigma = 0.; //!< See vpServoSight, m.
-  vpTwist twist;                            //!< Of the camera, m/s and rad/s.
+  vpTwist twist;                            //!< See vpVisualServoOutput, m/s and rad/s.
   int joints = 0;
   std::array<double, vpArmMaxJoints> q{}, velocity{}; //!< rad or m, rad/s or m/s.
-  bool hasCamera = false;                             //!< The robot told the pose of the camera.
-  vpRigidTransform fMc;
+  bool hasCamera = false;                             //!< The robot told #fMc.
+  vpRigidTransform fMc; //!< Camera in the base; end effector in the base before a fixed camera.
   double stepTime = 0.; //!< Computing time of the step, s.
 };
 

@@ -45,6 +45,7 @@ struct Moment {
   const vpImage<unsigned char> *image; //!< Null: there was none yet.
   const ImageRow *seen;                //!< Of that image; null with it.
   const CycleRow *cycle;               //!< Null before the first.
+  std::string sentence;                //!< Of that cycle.
   std::string law;
   std::size_t images = 0, lost = 0;
   double imageRate = 0.; //!< Images per second of the last second.

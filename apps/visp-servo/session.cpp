@@ -5,8 +5,8 @@
 #include "session.h"
 
 #include "camera.h"
-#include "goal.h"
 #include "outcome.h"
+#include "picture.h"
 #include "servoRun.h"
 #include "target.h"
 #include "view.h"
@@ -20,7 +20,7 @@
 #include "report.h"
 #include "videoFile.h"
 
-#include <visp3/core/vpMath.h>
+#include <visp3/core/vpPoseVector.h>
 #include <visp3/core/vpXmlParserCamera.h>
 
 #include <opencv2/imgcodecs.hpp>
@@ -35,7 +35,6 @@ namespace visualServo
 {
 namespace
 {
-constexpr std::size_t TAUGHT = 25, MOST_TAUGHT = 150; // images
 
 Wish wishOf(const std::string &key, bool isOpen)
 {
@@ -74,6 +73,7 @@ cv::Mat filmRecording(const Recording &recording, const Eye &eye, const Options 
     moment.image = &image;
     moment.seen = &row;
     moment.cycle = cycles.empty() ? nullptr : &cycles[cycle];
+    moment.sentence = moment.cycle != nullptr ? recording.sentenceOf(*moment.cycle) : "";
     moment.images = row.index + 1;
     moment.law = options.laws.front();
     picture = view.draw(moment, false);
@@ -88,9 +88,15 @@ cv::Mat filmRecording(const Recording &recording, const Eye &eye, const Options 
   return picture;
 }
 
-cv::Mat matOf(const vpImage<unsigned char> &image)
+//! For vpLoadPose().
+std::string poseText(const vpRigidTransform &pose)
 {
-  return cv::Mat(static_cast<int>(image.getHeight()), static_cast<int>(image.getWidth()), CV_8UC1, image.bitmap);
+  const vpPoseVector numbers(pose.toHomogeneous());
+  std::string text;
+  for (unsigned int i = 0; i < 6; ++i) {
+    text += vpApp::number(numbers[i], 12) + "\n";
+  }
+  return text;
 }
 
 //! What --replay needs besides the recording.
@@ -110,13 +116,10 @@ void keepSettings(Options &options, const Eye &eye, const vpHomogeneousMatrix &c
       vpXmlParserCamera::SEQUENCE_OK) {
     throw std::runtime_error((out.path() / "camera.xml").string() + ": cannot be written");
   }
+  if (options.camera.isFixed) {
+    out.write(FIXED_CAMERA_FILE, poseText(eye.fMc));
+  }
   out.write(SETTINGS_FILE, settingsText(settingsOf(options, cdMo)));
-}
-
-std::string pngOf(const cv::Mat &picture)
-{
-  std::vector<unsigned char> bytes;
-  return !picture.empty() && cv::imencode(".png", picture, bytes) ? std::string(bytes.begin(), bytes.end()) : "";
 }
 
 void writeResult(const Outcome &outcome, const cv::Mat &picture, const std::string &commandLine,
@@ -142,8 +145,9 @@ int statusOf(const Outcome &outcome)
   }
   const bool wasToArrive = outcome.hasStarted && !outcome.options->motion.dryRun && !outcome.options->stay;
   if (outcome.ending == Ending::Duration && wasToArrive) {
-    throw std::runtime_error("the goal was not reached in " + vpApp::number(outcome.options->duration, 6) +
-                             " s; the report shows the way");
+    const std::string obstacle = outcome.recording->obstacleOf(outcome.recording->last());
+    throw std::runtime_error("the goal was not reached in " + vpApp::number(outcome.options->duration, 6) + " s" +
+                             (obstacle.empty() ? "" : ", in the way: " + obstacle) + "; the report shows the way");
   }
   return vpApp::ExitOk;
 }
@@ -156,6 +160,10 @@ vpServoController controllerOf(Options &options, const Eye &eye)
   law.view.period = options.servo.period;
   law.view.maxLinear = law.motion.linearVelocity;
   law.view.maxAngular = law.motion.angularVelocity;
+  if (options.camera.isFixed) {
+    options.servo.place = vpServoCameraPlace::EyeToHand;
+    options.servo.fMc = eye.fMc;
+  }
   for (const std::string &id : options.laws) { // all of them must be known before anything moves
     static_cast<void>(vpServoController::create(id, law));
   }
@@ -169,10 +177,20 @@ int servo(const Options &given, const std::string &commandLine)
   const Camera camera = openCamera(options, *robot);
   const Eye &eye = camera.eye;
   options.servo.assumeExecuted = !robot->tellsState();
+  if (options.servo.assumeExecuted && options.camera.isFixed) {
+    throw std::runtime_error("--eye-to-hand needs a robot that tells its pose, " + robot->description() +
+                             " tells none");
+  }
   if (options.motion.dryRun) {
     options.servo.followLength = options.servo.followAngle = std::numeric_limits<double>::infinity();
   }
+  const std::unique_ptr<const vpCollisionScene> scene = loadObstacles(options.motion, *robot);
   vpVisualServo servo(controllerOf(options, eye), options.servo, robot->arm());
+  if (scene) {
+    vpStopSupervisorSpec stop;
+    stop.margin = options.motion.margin;
+    servo.supervise(*scene, stop);
+  }
   servo.setVision(makeVision(options, eye.intrinsics));
   vpHomogeneousMatrix cdMo;
   vpServoGoal goal; // that of a reference image comes with its sights
@@ -197,7 +215,7 @@ int servo(const Options &given, const std::string &commandLine)
   if (robot->arm() != nullptr) {
     vpApp::writeArm(out, *robot->arm());
   }
-  Recording recording(out, robot->arm(), eye.rate);
+  Recording recording(out, robot->arm(), eye.rate, options.camera.isFixed, scene.get());
   ServoRun run(options, *camera.source, *robot, servo, recording, screen);
   Outcome outcome;
   try {
@@ -231,49 +249,5 @@ int servo(const Options &given, const std::string &commandLine)
     throw std::runtime_error(sentence + "; " + out.keepUnfinished(sentence));
   }
   return statusOf(outcome);
-}
-
-int teach(const Options &given)
-{
-  Options options = given;
-  options.motion.dryRun = true;
-  const std::unique_ptr<Robot> robot = openRobot(options);
-  const Camera camera = openCamera(options, *robot);
-  const std::unique_ptr<vpServoVision> vision = makeVision(options, camera.eye.intrinsics);
-  const std::filesystem::path file = options.teach;
-  vpApp::requireWritable(file);
-  vpImage<unsigned char> image;
-  vpServoSight sight;
-  std::vector<vpHomogeneousMatrix> poses;
-  cv::Mat sum = cv::Mat::zeros(static_cast<int>(camera.eye.height), static_cast<int>(camera.eye.width), CV_64FC1);
-  for (std::size_t i = 0; i < MOST_TAUGHT && poses.size() < TAUGHT && camera.source->next(image); ++i) {
-    vision->see(image, camera.source->time(), nullptr, sight);
-    if (sight.measurement.valid) {
-      poses.push_back(sight.measurement.cMo);
-      cv::accumulate(matOf(image), sum);
-    }
-  }
-  vpApp::throwIfInterrupted();
-  const Goal goal = [&] {
-    try {
-      return meanGoal(poses);
-    }
-    catch (const std::runtime_error &error) {
-      throw std::runtime_error(std::string(error.what()) +
-                               (poses.size() < 2 ? "; the last: " + vision->message() : ""));
-    }
-  }();
-  cv::Mat mean;
-  sum.convertTo(mean, CV_8UC1, 1. / static_cast<double>(poses.size()));
-  const std::filesystem::path picture = std::filesystem::path(file).replace_extension(".png");
-  vpApp::writeWholeFile(picture, pngOf(mean));
-  vpApp::writeWholeFile(file, goalText(goal));
-  std::cout << "Goal: the target is at (" << vpApp::fixed(goal.cdMo[0][3], 4) << ", "
-            << vpApp::fixed(goal.cdMo[1][3], 4) << ", " << vpApp::fixed(goal.cdMo[2][3], 4)
-            << ") m in the camera, mean of " << goal.images << " images that scatter by "
-            << vpApp::number(1e3 * goal.positionSpread, 2) << " mm and "
-            << vpApp::number(vpMath::deg(goal.rotationSpread), 2) << " degrees.\n"
-            << "Written: " << file.string() << " for --goal, " << picture.string() << " for --reference." << std::endl;
-  return vpApp::ExitOk;
 }
 } // namespace visualServo

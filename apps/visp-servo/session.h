@@ -17,7 +17,8 @@
 
 namespace visualServo
 {
-//! The controller of the first law, with the view of the camera. \throw vpException naming a law that is not known.
+//! The controller of the first law, with the view of the camera, whose place \e options get, too. \throw vpException naming a law
+//! that is not known.
 [[nodiscard]] vpServoController controllerOf(Options &options, const Eye &eye);
 //! Moves the robot and writes the result. \return Exit status. \throw std::exception with a sentence.
 [[nodiscard]] int servo(const Options &options, const std::string &commandLine);

@@ -7,6 +7,7 @@
 #include "appMain.h"
 #include "robot.h"
 
+#include <visp3/avoidance/vpCollisionSceneJson.h>
 #include <visp3/servoing/vpServoCalibration.h>
 #include <visp3/simulation/vpFrictionCamera.h>
 #include <visp3/simulation/vpSimulatedArm.h>
@@ -28,15 +29,15 @@ public:
   [[nodiscard]] std::string description() const override { return "no robot"; }
 };
 
-//! A camera that flies freely.
+//! A camera, or a target before a fixed one, that flies freely.
 class FlyingCamera : public Robot
 {
 public:
-  FlyingCamera() { m_camera.setRobotState(vpRobot::STATE_VELOCITY_CONTROL); }
+  explicit FlyingCamera(bool isFixed) : m_isFixed(isFixed) { m_camera.setRobotState(vpRobot::STATE_VELOCITY_CONTROL); }
   [[nodiscard]] vpServoRobotState read() override
   {
     vpServoRobotState state;
-    state.pose = camera();
+    state.pose = pose();
     return state;
   }
   void command(const vpVisualServoOutput &motion, double period) override
@@ -45,14 +46,18 @@ public:
     m_camera.setSamplingTime(period);
     m_camera.setVelocity(vpRobot::CAMERA_FRAME, motion.twist.toColVector());
   }
-  [[nodiscard]] vpRigidTransform camera() const override
+  [[nodiscard]] vpRigidTransform pose() const override
   {
     const std::lock_guard<std::mutex> lock(m_mutex);
     return vpRigidTransform::fromHomogeneous(m_camera.getPosition());
   }
-  [[nodiscard]] std::string description() const override { return "a simulated camera that flies freely"; }
+  [[nodiscard]] std::string description() const override
+  {
+    return std::string("a simulated ") + (m_isFixed ? "target" : "camera") + " that flies freely";
+  }
 
 private:
+  bool m_isFixed;
   mutable std::mutex m_mutex;
   vpFrictionCamera m_camera; // without lag and friction
 };
@@ -60,7 +65,9 @@ private:
 class SimulatedArm : public Robot
 {
 public:
-  SimulatedArm(const vpArmModel &model, const Options &options) : m_arm(model, specOf(options)) {}
+  SimulatedArm(const vpArmModel &model, const Options &options)
+    : m_arm(model, specOf(options)), m_isFixed(options.camera.isFixed)
+  {}
   void begin() override { m_arm.setRobotState(vpRobot::STATE_VELOCITY_CONTROL); }
   void end() override { m_arm.setRobotState(vpRobot::STATE_STOP); }
   [[nodiscard]] vpServoRobotState read() override
@@ -77,7 +84,10 @@ public:
     m_arm.setVelocity(vpRobot::JOINT_STATE, m_velocity);
   }
   [[nodiscard]] const vpArmModel *arm() const override { return &m_arm.getModel(); }
-  [[nodiscard]] vpRigidTransform camera() const override { return vpRigidTransform::fromHomogeneous(m_arm.get_fMc()); }
+  [[nodiscard]] vpRigidTransform pose() const override
+  {
+    return vpRigidTransform::fromHomogeneous(m_isFixed ? m_arm.get_fMe() : m_arm.get_fMc());
+  }
   [[nodiscard]] std::string description() const override
   {
     return "the simulated arm " + m_arm.getModel().spec().name + " of " + std::to_string(m_arm.getModel().size()) +
@@ -93,8 +103,16 @@ private:
     return spec;
   }
   vpSimulatedArm m_arm;
+  bool m_isFixed;
   vpColVector m_velocity;
 };
+
+vpArmModel loadCovered(const vpApp::RobotOptions &options)
+{
+  const vpApp::Robot robot = vpApp::loadUsableRobot(options);
+  vpApp::printWarnings("visp-servo", robot.warnings);
+  return *robot.arm;
+}
 } // namespace
 
 std::unique_ptr<Robot> noRobot() { return std::make_unique<NoRobot>(); }
@@ -105,14 +123,26 @@ std::unique_ptr<Robot> simulatedRobot(const Options &options)
     if (!options.motion.eMc.empty()) {
       throw vpApp::UsageError("--eMc is for a camera on an arm, the robot is a camera that flies freely");
     }
-    return std::make_unique<FlyingCamera>();
+    return std::make_unique<FlyingCamera>(options.camera.isFixed);
   }
   return std::make_unique<SimulatedArm>(loadModel(options.motion), options);
 }
 
+std::unique_ptr<const vpCollisionScene> loadObstacles(const MotionOptions &options, const Robot &robot)
+{
+  if (options.scene.empty()) {
+    return nullptr;
+  }
+  vpCollisionSceneFile file = vpLoadCollisionScene(options.scene);
+  vpApp::printWarnings("visp-servo", file.warnings);
+  const std::vector<std::string> &ignored = options.robot.ignored;
+  file.spec.ignoredBodies.insert(file.spec.ignoredBodies.end(), ignored.begin(), ignored.end());
+  return std::make_unique<vpCollisionScene>(*robot.arm(), file.spec);
+}
+
 vpArmModel loadModel(const MotionOptions &options)
 {
-  vpArmModel model = vpApp::loadArm(options.robot);
+  vpArmModel model = options.scene.empty() ? vpApp::loadArm(options.robot) : loadCovered(options.robot);
   const std::string missing = vpApp::missingLimitSentence(model);
   if (!missing.empty()) {
     throw std::runtime_error(missing);

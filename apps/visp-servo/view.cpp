@@ -119,7 +119,7 @@ void View::panel(cv::Mat &picture, const Moment &moment, bool isLive) const
   const CycleRow &row = *moment.cycle;
   const int top = m_size.height;
   const bool isGood = row.status <= vpVisualServoStatus::Idle;
-  const std::string sentence(row.message);
+  const std::string &sentence = moment.sentence;
   // Two lines of text where one is too short.
   const std::size_t room = static_cast<std::size_t>(picture.cols - BARS - 3 * MARGIN) / 8;
   const std::size_t cut = sentence.size() <= room ? sentence.size() : sentence.rfind(' ', room);

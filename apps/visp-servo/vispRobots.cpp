@@ -11,7 +11,6 @@
 #include <visp3/robot/vpRobotFranka.h>
 #include <visp3/robot/vpRobotViper650.h>
 #include <visp3/robot/vpRobotViper850.h>
-#include <visp3/servoing/vpServoCalibration.h>
 #if __has_include(<visp3/robot/vpRobotUniversalRobots.h>)
 #include <visp3/robot/vpRobotUniversalRobots.h>
 #endif
@@ -24,27 +23,23 @@ namespace visualServo
 {
 namespace
 {
-using Maker = OpenedRobot (*)(const std::string &address, const std::string &eMc);
+using Mount = std::optional<vpHomogeneousMatrix>;
+using Maker = OpenedRobot (*)(const std::string &address, const Mount &eMc);
 
-vpHomogeneousMatrix mountOf(const std::string &file)
-{
-  return file.empty() ? vpHomogeneousMatrix() : vpLoadPose(file).toHomogeneous();
-}
-
-template <class Driver, class Tool> OpenedRobot openWithTool(Tool tool, const std::string &eMc)
+template <class Driver, class Tool> OpenedRobot openWithTool(Tool tool, const Mount &eMc)
 {
   auto robot = std::make_shared<Driver>();
-  if (!eMc.empty()) {
-    robot->init(tool, mountOf(eMc));
+  if (eMc) {
+    robot->init(tool, *eMc);
   }
   return {robot, "", PoseOf::Reference, true};
 }
 
-template <class Driver> OpenedRobot openByAddress(const std::string &address, const std::string &eMc)
+template <class Driver> OpenedRobot openByAddress(const std::string &address, const Mount &eMc)
 {
   auto robot = std::make_shared<Driver>();
   robot->connect(address);
-  robot->set_eMc(mountOf(eMc));
+  robot->set_eMc(eMc.value_or(vpHomogeneousMatrix()));
   return {robot, "", PoseOf::Camera, true};
 }
 
@@ -59,21 +54,21 @@ constexpr Maker openUr = openByAddress<vpRobotUniversalRobots>;
 constexpr Maker openUr = nullptr;
 #endif
 #if defined(VISP_HAVE_VIPER650)
-constexpr Maker openViper650 = [](const std::string &, const std::string &eMc) {
+constexpr Maker openViper650 = [](const std::string &, const Mount &eMc) {
   return openWithTool<vpRobotViper650>(vpViper650::TOOL_CUSTOM, eMc);
 };
 #else
 constexpr Maker openViper650 = nullptr;
 #endif
 #if defined(VISP_HAVE_VIPER850)
-constexpr Maker openViper850 = [](const std::string &, const std::string &eMc) {
+constexpr Maker openViper850 = [](const std::string &, const Mount &eMc) {
   return openWithTool<vpRobotViper850>(vpViper850::TOOL_CUSTOM, eMc);
 };
 #else
 constexpr Maker openViper850 = nullptr;
 #endif
 #if defined(VISP_HAVE_AFMA6)
-constexpr Maker openAfma6 = [](const std::string &, const std::string &eMc) {
+constexpr Maker openAfma6 = [](const std::string &, const Mount &eMc) {
   return openWithTool<vpRobotAfma6>(vpAfma6::TOOL_CUSTOM, eMc);
 };
 #else
@@ -103,8 +98,9 @@ const std::vector<VispRobot> &robotsOfVisp()
   return all;
 }
 
-OpenedRobot openVispRobot(const std::string &word, const std::string &arguments, const std::string &eMc)
+OpenedRobot openVispRobot(const Options &options)
 {
+  const std::string &word = options.motion.robot.robot;
   const auto *entry =
       std::find_if(std::begin(ENTRIES), std::end(ENTRIES), [&word](const Entry &one) { return word == one.word; });
   if (entry == std::end(ENTRIES)) {
@@ -114,7 +110,7 @@ OpenedRobot openVispRobot(const std::string &word, const std::string &arguments,
     throw std::runtime_error(std::string("--robot ") + word + ": the installed ViSP was built without " +
                              entry->className);
   }
-  OpenedRobot opened = entry->open(arguments, eMc);
+  OpenedRobot opened = entry->open(options.motion.arguments, mountOf(options));
   opened.name = std::string("the robot ") + entry->className;
   return opened;
 }

@@ -35,7 +35,9 @@ TEST_CASE("wrong input is one sentence", "[visp-servo][errors]")
   run.write("notes.txt", "x");
   cv::imwrite(run.path("blank.png").string(), cv::Mat(100, 100, CV_8UC1, cv::Scalar(128)));
   cv::imwrite(run.path("frame.png").string(), cv::Mat(100, 120, CV_8UC1, cv::Scalar(128)));
-  const std::string real = "--robot-plugin '" ROBOT_ARM "' ";
+  cv::Mat texture(100, 120, CV_8UC1);
+  cv::randu(texture, 0, 255);
+  cv::imwrite(run.path("textured.png").string(), texture);
   const std::vector<Case> cases = {
       {"--target missing.png --size 0.1", DATA, "missing.png: cannot be read"},
       {"--target text.png --size 0.1", DATA, "text.png: is not an image"},
@@ -62,6 +64,7 @@ TEST_CASE("wrong input is one sentence", "[visp-servo][errors]")
       {"--robot none --camera sim", USAGE, "--camera sim needs a robot that carries it"},
       {"--law nonsense", USAGE, "--law: servo law \"nonsense\" is unknown"},
       {"--law pbvs1,nonsense", USAGE, "--law: servo law \"nonsense\" is unknown"},
+      {"--law ff-dtg+cbf", USAGE, "--law: ff-dtg+cbf plans its motion, which +cbf would not keep in view"},
       {"--lambda 0", USAGE, "--lambda is 0, must be a number > 0"},
       {"--max-linear inf", USAGE, "--max-linear is inf"},
       {"--goal missing.json", DATA, "missing.json: cannot be read"},
@@ -76,6 +79,21 @@ TEST_CASE("wrong input is one sentence", "[visp-servo][errors]")
       {"--start --dry-run", USAGE, "--start and --dry-run are both given"},
       {"--replay none", DATA, "none/recording.json: cannot be read"},
       {"--teach none/goal.json", DATA, "none"},
+      {"--teach goal.txt", USAGE, "--teach is goal.txt, must be a .json file"},
+      {"--teach goal.json --reference frame.png", USAGE, "--teach and --reference are both given"},
+      {"--teach none/there.png", DATA, "none"},
+      {"--teach there.png --camera blank.png", DATA, "blank.png: reference image has too little texture"},
+      {"--teach there.png --camera textured.png", DATA, "textured.png gave no 25 images in succession"},
+      {"--eye-to-hand --eMc x.yaml", USAGE, "--eMc is for a camera on the end effector"},
+      {"--eye-to-hand --moving-target", USAGE, "--moving-target needs a camera on the robot"},
+      {"--eye-to-hand --camera frame.png --robot amor", USAGE, "--eye-to-hand needs --fMc"},
+      {"--fMc missing.yaml", DATA, "missing.yaml: cannot be read"},
+      {"--fMc noRotation.yaml", DATA, "noRotation.yaml: its upper left 3 x 3 numbers are no rotation"},
+      {"--scene missing.json", DATA, "missing.json: cannot be read"},
+      {"--scene busy/mine.txt", DATA, "mine.txt: line 1"},
+      {"--scene s.json --robot camera", USAGE, "--scene needs the model of the arm, --robot is camera"},
+      {"--scene s.json --teach goal.json", USAGE, "--scene is for a robot that moves"},
+      {"--margin 0.02", USAGE, "--margin is given without --scene"},
       {"--out busy", DATA, "busy"},
       {"--out notes.txt", DATA, "notes.txt"},
       {"--display", DATA, "--display needs a screen"}};

@@ -284,10 +284,13 @@ TEST_CASE("recorded settings give the same options again, unless others are give
   const TestFolder folder;
   for (int k = 0; k < 50; ++k) {
     const auto text = [&rng](double low, double high) { return std::to_string(uniform(rng, low, high)); };
-    const Options first =
-        read({"--law", "ff-sum,pbvs1", "--lambda", text(0.1, 5.), "--max-linear", text(0.01, 1.), "--max-angular",
-              text(0.01, 1.), "--max-acceleration", text(0.1, 2.), "--control-rate", text(50., 1000.), "--size",
-              text(0.1, 1.), "--tolerance", text(0.1, 5.) + "," + text(0.1, 5.)});
+    std::vector<std::string> given{
+        "--law",          "ff-sum,pbvs1",   "--lambda",     text(0.1, 5.),        "--max-linear",
+        text(0.01, 1.),   "--max-angular",  text(0.01, 1.), "--max-acceleration", text(0.1, 2.),
+        "--control-rate", text(50., 1000.), "--start-time", text(0., 2.),         "--image-timeout",
+        text(0.1, 1.),    "--size",         text(0.1, 1.),  "--tolerance",        text(0.1, 5.) + "," + text(0.1, 5.)};
+    given.push_back(k % 2 == 0 ? "--eye-to-hand" : "--moving-target");
+    const Options first = read(given);
     const vpHomogeneousMatrix goal = poseOf(rng, 0.2, 1.).toHomogeneous() * vpHomogeneousMatrix(0., 0., 1., 0., 0., 0.);
     folder.write(SETTINGS_FILE, settingsText(settingsOf(first, goal)));
     const std::string place = folder.path.string();
@@ -302,6 +305,12 @@ TEST_CASE("recorded settings give the same options again, unless others are give
     CHECK(again.servo.period == Approx(first.servo.period).epsilon(1e-7));
     CHECK(again.servo.rotationTolerance == Approx(first.servo.rotationTolerance).epsilon(1e-7));
     CHECK(again.target.width == Approx(first.target.width).epsilon(1e-7));
+    CHECK(again.servo.startTime == Approx(first.servo.startTime).epsilon(1e-7));
+    CHECK(again.servo.imageTimeout == Approx(first.servo.imageTimeout).epsilon(1e-7));
+    CHECK(again.servo.positionTolerance == Approx(first.servo.positionTolerance).epsilon(1e-7));
+    CHECK(again.camera.isFixed == (k % 2 == 0));
+    CHECK(again.camera.fMc == (k % 2 == 0 ? place + "/" + FIXED_CAMERA_FILE : ""));
+    CHECK(again.servo.objectMoves == (k % 2 == 1));
     CHECK(again.target.photo == place + "/target.png");
     REQUIRE(again.target.goalPose);
     CHECK(distance(vpRigidTransform::fromHomogeneous(*again.target.goalPose), vpRigidTransform::fromHomogeneous(goal)) <
@@ -313,6 +322,12 @@ TEST_CASE("recorded settings give the same options again, unless others are give
     CHECK(!other.target.goalPose); // the goal was that of the other target
     CHECK(other.law.gains.lambda == Approx(first.law.gains.lambda).epsilon(1e-7));
   }
+  const Options first = read({"--reference", "image.png", "--distance", "0.3,0.9"}); // of unknown size
+  folder.write(SETTINGS_FILE, settingsText(settingsOf(first, vpHomogeneousMatrix())));
+  const Options again = read({"--replay", folder.path.string()});
+  CHECK(again.target.reference == folder.file("reference.png"));
+  CHECK(again.target.nearest == 0.3);
+  CHECK(again.target.farthest == 0.9);
 }
 
 TEST_CASE("the picture shows target and goal where the camera has them", "[visp-servo][view]")

@@ -9,10 +9,19 @@
 
 #include "recorded.h"
 
+#include <visp3/avoidance/vpCollisionScene.h>
 #include <visp3/core/vpIoTools.h>
 #include <visp3/core/vpMath.h>
+#include <visp3/direct_core/vpSO3.h>
+#include <visp3/io/vpImageIo.h>
+#include <visp3/manipulator/vpArmJson.h>
+#include <visp3/rendering/vpPlaneRenderer.h>
+#include <visp3/servoing/vpServoCalibration.h>
 
 #include <nlohmann/json.hpp>
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -20,6 +29,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <thread>
 
@@ -44,6 +54,26 @@ std::size_t linesOf(const std::filesystem::path &file)
 {
   const std::string text = vpApp::readFile(file);
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+//! Where what moves was first and last, in the base.
+struct Way {
+  explicit Way(const std::filesystem::path &folder)
+  {
+    bool isFirst = true;
+    visualServo::readCycles(folder, [&](const visualServo::RecordedCycle &cycle) {
+      first = isFirst ? cycle.fMc : first;
+      isFirst = false;
+      last = cycle.fMc;
+    });
+  }
+  [[nodiscard]] double length() const { return (last.p - first.p).norm(); }
+  vpRigidTransform first, last;
+};
+
+vpRigidTransform poseOf(const std::vector<double> &p) // m, degrees
+{
+  return {vpSO3::exp(vpMath::rad(1.) * Eigen::Vector3d(p[3], p[4], p[5])), {p[0], p[1], p[2]}};
 }
 } // namespace
 
@@ -81,13 +111,7 @@ TEST_CASE("the simulation reaches the goal; replay finds the same, and tells wha
     CHECK(std::filesystem::file_size(run.path(std::string("a/") + file)) > 100);
   }
   // The camera moved in the simulation as the log says it did.
-  double moved = 0.;
-  vpRigidTransform first, last;
-  visualServo::readCycles(run.path("a"), [&](const visualServo::RecordedCycle &cycle) {
-    (moved == 0. ? first : last) = cycle.fMc;
-    moved += 1.;
-  });
-  CHECK((last.p - first.p).norm() > 0.003);
+  CHECK(Way(run.path("a")).length() > 0.003);
 
   REQUIRE(run("--replay a --out same") == OK);
   const json same = summaryIn(run, "same");
@@ -116,28 +140,146 @@ TEST_CASE("a taught goal is where the robot goes", "[visp-servo]")
   CHECK(run.out().find("The goal was reached.") == 0);
 }
 
+namespace
+{
+//! The joint positions of AMOR in the log of a run.
+std::vector<vpJointVector> jointsOf(const std::filesystem::path &folder)
+{
+  std::istringstream lines(vpApp::readFile(folder / "log.csv"));
+  std::string line;
+  std::getline(lines, line);
+  const auto first = std::count(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(line.find("q_")), ',');
+  std::vector<vpJointVector> all;
+  while (std::getline(lines, line)) {
+    std::istringstream cells(line);
+    std::string cell;
+    for (std::ptrdiff_t i = 0; i < first; ++i) {
+      std::getline(cells, cell, ',');
+    }
+    vpJointVector q = vpJointVector::Zero(7);
+    for (int i = 0; i < 7; ++i) {
+      std::getline(cells, cell, ',');
+      q(i) = std::stod(cell);
+    }
+    all.push_back(q);
+  }
+  return all;
+}
+} // namespace
+
 TEST_CASE("a reference image alone leads back to where it was taken", "[visp-servo]")
 {
   ProgramRun run(SERVO);
   REQUIRE(run("--teach goal.json --object-pose 0,0,0.3,0,0,0") == OK);
   REQUIRE(run("--reference goal.png --out a --object-pose 0.02,0.01,0.34,2,-3,4 --start-time 0.2 --lambda 2") == OK);
   CHECK(run.out().find("The goal was reached.") == 0);
-  vpRigidTransform last;
-  visualServo::readCycles(run.path("a"), [&last](const visualServo::RecordedCycle &cycle) { last = cycle.fMc; });
-  vpRigidTransform first;
-  bool isFirst = true;
-  visualServo::readCycles(run.path("a"), [&](const visualServo::RecordedCycle &cycle) {
-    first = isFirst ? cycle.fMc : first;
-    isFirst = false;
-  });
   // Where the camera should be is known here: the object was at (0.02, 0.01, 0.34), is to be at (0, 0, 0.3).
-  const vpHomogeneousMatrix c1Mo(vpTranslationVector(0.02, 0.01, 0.34),
-                                 vpThetaUVector(vpMath::rad(2.), vpMath::rad(-3.), vpMath::rad(4.)));
-  const vpHomogeneousMatrix moved = (first.inverse() * last).toHomogeneous();
-  const vpHomogeneousMatrix cMo = moved.inverse() * c1Mo;
-  CHECK(std::fabs(cMo[0][3]) < 0.005);
-  CHECK(std::fabs(cMo[1][3]) < 0.005);
-  CHECK(std::fabs(cMo[2][3] - 0.3) < 0.005);
+  const Way way(run.path("a"));
+  const vpRigidTransform cMo = way.last.inverse() * way.first * poseOf({0.02, 0.01, 0.34, 2., -3., 4.});
+  CHECK((cMo.p - Eigen::Vector3d(0., 0., 0.3)).cwiseAbs().maxCoeff() < 0.005);
+  REQUIRE(run("--replay a --out same") == OK);
+  CHECK(summaryIn(run, "same")["found_now"] == summaryIn(run, "same")["found_then"]);
+  CHECK(summaryIn(run, "same")["velocity_largest_mps"].get<double>() < 1e-5);
+}
+
+TEST_CASE("a reference image alone is the mean of 25 images of a camera at rest", "[visp-servo][teach]")
+{
+  ProgramRun run(SERVO);
+  REQUIRE(run("--teach mean.png --noise 3 --object-pose 0,0,0.3,0,0,0") == OK);
+  CHECK(run.out().find("Reference image: mean of 25 images") == 0);
+  const cv::Mat mean = cv::imread(run.path("mean.png").string(), cv::IMREAD_GRAYSCALE);
+  vpImage<unsigned char> photo, clean;
+  vpImageIo::read(photo, VISP_DIRECT_DATA_DIR "/target/klimt.jpg");
+  const vpCameraParameters camera(600., 600., 319.5, 239.5);
+  vpPlaneRenderer(photo, 0.12, 0.12 * photo.getHeight() / photo.getWidth(), camera, 640, 480)
+      .render(vpHomogeneousMatrix(0., 0., 0.3, 0., 0., 0.), {}, 0, clean);
+  const double noise = cv::norm(mean, cv::Mat(480, 640, CV_8UC1, clean.bitmap)) / std::sqrt(640. * 480.);
+  CHECK(noise > 0.5); // 3 / sqrt(25), and rounding
+  CHECK(noise < 0.75);
+
+  const cv::Mat image = mean(cv::Rect(160, 120, 320, 240));
+  std::filesystem::create_directories(run.path("film"));
+  for (int i = 0; i < 30; ++i) { // at rest for 20 images
+    cv::Mat moved;
+    const double shift = 2. * std::max(0, i - 20);
+    cv::warpAffine(image, moved, cv::Matx23d(1., 0., shift, 0., 1., 0.), image.size());
+    cv::imwrite(run.path("film/" + std::to_string(100 + i) + ".png").string(), moved);
+  }
+  CHECK(run("--camera film --teach moved.png") == DATA);
+  INFO(run.err());
+  CHECK(run.err().find("gave no 25 images in succession of a camera and a scene at rest. The camera or the scene has "
+                       "moved by") != std::string::npos);
+  CHECK(!std::filesystem::exists(run.path("moved.png")));
+}
+
+TEST_CASE("before a fixed camera the arm brings the target to the goal; replay finds the same, a dry run moves nothing",
+          "[visp-servo][fixed]")
+{
+  ProgramRun run(SERVO);
+  const std::string near = NEAR + " --camera-rate 10";
+  REQUIRE(run("--eye-to-hand --out a" + near) == OK);
+  CHECK(run.out().find("The goal was reached.") == 0);
+  const Way way(run.path("a"));
+  CHECK(way.length() > 0.003);
+  // What the camera saw at first was the target's place on the end effector.
+  const vpRigidTransform fMc = vpLoadPose(run.path("a/fMc.txt").string());
+  const vpRigidTransform eMo = way.first.inverse() * fMc * poseOf({0.004, -0.003, 0.305, 1., -1., 1.});
+  const vpRigidTransform cMo = fMc.inverse() * way.last * eMo;
+  CHECK((cMo.p - Eigen::Vector3d(0., 0., 0.3)).norm() < 0.0015);
+  CHECK(vpSO3::log(cMo.R).norm() < vpMath::rad(0.4));
+  REQUIRE(run("--replay a --out same") == OK);
+  CHECK(summaryIn(run, "same")["velocity_largest_mps"].get<double>() < 1e-5);
+  CHECK(summaryIn(run, "same")["angular_velocity_largest_radps"].get<double>() < 1e-5);
+
+  REQUIRE(run("--fMc a/fMc.txt --dry-run --duration 0.5 --out dry" + near) == OK);
+  CHECK(Way(run.path("dry")).length() == 0.);
+  CHECK((Way(run.path("dry")).first.p - way.first.p).norm() < 1e-8);
+}
+
+TEST_CASE("the arm stops before an obstacle of --scene, and the status names it", "[visp-servo][scene]")
+{
+  ProgramRun run(SERVO);
+  const std::string task = " --object-pose 0.05,0.03,0.4,3,-5,4 --max-linear 0.5 --max-acceleration 2 --lambda 3 "
+                           "--start-time 0.2 --camera-rate 10 ";
+  CHECK(run(task + "--duration 1.2 --out free") == DATA); // on the way
+  const vpArmModel arm = vpLoadArmJson(VISP_DIRECT_DATA_DIR "/robot/amor.json");
+  const std::vector<vpJointVector> free = jointsOf(run.path("free"));
+  vpCollisionData placed;
+  vpCollisionScene(arm).place(free.back(), placed);
+  const Eigen::Vector3d at = placed.capsules[3].to; // the hand
+  vpCollisionObject ball;
+  ball.name = "ball";
+  ball.shape = vpCollisionShape::sphere(0.03);
+  ball.pose.p = at;
+  vpCollisionSceneSpec spec;
+  spec.objects.push_back(ball);
+  const vpCollisionScene scene(arm, spec);
+  const auto least = [&](const std::vector<vpJointVector> &way) {
+    double distance = 1.;
+    for (const vpJointVector &q : way) {
+      scene.place(q, placed);
+      distance = std::min(distance, scene.clearance(placed).distance);
+    }
+    return distance;
+  };
+  REQUIRE(least({free.front()}) > 0.03);
+  REQUIRE(least(free) < 0.);
+  run.write("ball.json", json{{"name", "one ball"},
+                              {"objects",
+                               {{{"name", "ball"},
+                                 {"shape", "sphere"},
+                                 {"radius_m", 0.03},
+                                 {"pose", {{"translation_m", {at.x(), at.y(), at.z()}}}}}}}}
+                             .dump());
+  CHECK(run(task + "--scene ball.json --margin 0.015 --duration 2 --out a") == DATA);
+  INFO(run.err());
+  CHECK(run.err().find("in the way: link 7 and object ball") != std::string::npos);
+  CHECK(run.out().find("In the way: link 7 and object ball.") != std::string::npos);
+  CHECK(summaryIn(run, "a")["end"]["status"] == "Obstructed");
+  CHECK(vpApp::readFile(run.path("a/log.csv")).find(",\"link 7 and object ball\"\n") != std::string::npos);
+  const std::vector<vpJointVector> stopped = jointsOf(run.path("a"));
+  CHECK(least(stopped) > 0.0149); // the margin less the resolution
+  CHECK(least(stopped) < 0.03);
 }
 
 TEST_CASE("a robot of a plug-in moves after --start, by the clock", "[visp-servo][plugin]")

@@ -42,7 +42,7 @@ public:
       throw std::runtime_error("the cable is out");
     }
     vpServoRobotState state;
-    state.pose = camera();
+    state.pose = pose();
     return state;
   }
   void command(const vpVisualServoOutput &motion, double period) override
@@ -62,7 +62,7 @@ public:
     ++m_script.ended;
     m_script.speedAtEnd = m_script.speed;
   }
-  [[nodiscard]] vpRigidTransform camera() const override
+  [[nodiscard]] vpRigidTransform pose() const override
   {
     const std::lock_guard<std::mutex> lock(m_mutex);
     return m_fMc;
@@ -137,7 +137,7 @@ Result run(Script &script, bool isByClock, const std::function<void(Options &)> 
   const vpRigidTransform fMo{vpSO3::exp({0.1, -0.1, 0.2}), {0.03, 0.02, 0.5}};
   servo.setVision(vpServoVision::poses(
       [&](const vpImage<unsigned char> &, vpHomogeneousMatrix &cMo, vpPoseCovariance &) {
-        cMo = (robot.camera().inverse() * fMo).toHomogeneous();
+        cMo = (robot.pose().inverse() * fMo).toHomogeneous();
         return true;
       },
       target));

@@ -420,6 +420,7 @@ void vpServoControlSide::moveArm(bool isAllowed) noexcept
   if (m_supervisor) {
     m_supervisor->step(m_q, wish, m_supervised);
     m_output.supervision = m_supervised.status;
+    m_output.obstacle = m_supervised.pair;
     m_output.velocity = m_supervised.velocity;
   }
   else {

@@ -31,10 +31,9 @@ class vpRobot;
  * - `setRobotState(STATE_VELOCITY_CONTROL)`, once, before the first motion, and `setRobotState(STATE_STOP)` at the end, and after a
  *   failure;
  * - `setVelocity()`: with a model of the arm (`--robot FILE`) JOINT_STATE, rad/s or m/s in the order of the model; else with `--eMc`
- *   END_EFFECTOR_FRAME, else CAMERA_FRAME: m/s and rad/s in that frame's axes, linear part first;
- * - `getPosition()`: with a model JOINT_STATE, rad or m; else with `--eMc` END_EFFECTOR_FRAME, else CAMERA_FRAME: pose of that frame in
- *   the robot's base as (m, theta u). A robot that throws at the first call of getPosition(CAMERA_FRAME) has no pose: its commanded
- *   motion counts as executed.
+ *   or `--eye-to-hand` END_EFFECTOR_FRAME, else CAMERA_FRAME: m/s and rad/s in that frame's axes, linear part first;
+ * - `getPosition()`: with a model JOINT_STATE, rad or m; else the frame of setVelocity(): its pose in the robot's base as (m, theta u).
+ *   A robot that throws at the first call with that frame has no pose: its commanded motion counts as executed.
  *
  * Neither may block for longer than the period. An exception stops the robot and ends the run with its sentence.
  * \param arguments : Text of `--robot-arguments`, such as an address; empty without.

@@ -113,6 +113,8 @@ struct VISP_EXPORT vpVisualServoOutput {
   vpServoStatus servo = vpServoStatus::Holding;       //!< Status of law, view filter and recovery.
   vpRedundancyStatus arm = vpRedundancyStatus::Exact; //!< Status of the redundancy solver.
   vpSupervision supervision = vpSupervision::Passed;  //!< Status of the supervisor; Passed without one.
+  vpClearance
+      obstacle; //!< The pair in the way, see vpCollisionScene::describe(); None where #supervision is Passed or Limited.
   double age = std::numeric_limits<double>::infinity(); //!< Time since the capture of the image in use, s.
   //! Distance of the camera from its goal as predicted for now, m; NaN without a measurement.
   double positionError = std::numeric_limits<double>::quiet_NaN();
