@@ -282,6 +282,13 @@ TEST_CASE("recorded settings give the same options again, unless others are give
     return options;
   };
   const TestFolder folder;
+  const vpServoMotionLimits usual, slow = read({"--max-acceleration", "0.1"}).law.motion;
+  CHECK(slow.linearVelocity == 0.05); // as the manual says
+  CHECK(slow.angularAcceleration == Approx(0.1 / usual.linearAcceleration * usual.angularAcceleration));
+  CHECK(slow.linearJerk == Approx(0.1 / usual.linearAcceleration * usual.linearJerk));
+  CHECK(slow.angularJerk == Approx(0.1 / usual.linearAcceleration * usual.angularJerk));
+  CHECK(read({"--tolerance", "2,90"}).servo.positionTolerance == Approx(0.002));
+  CHECK(read({"--tolerance", "2,90"}).servo.rotationTolerance == Approx(0.5 * M_PI));
   for (int k = 0; k < 50; ++k) {
     const auto text = [&rng](double low, double high) { return std::to_string(uniform(rng, low, high)); };
     std::vector<std::string> given{

@@ -29,6 +29,7 @@ struct Script {
   std::atomic<int> failRead{-1}, failCommand{-1}, failImage{-1}, endImage{-1}; // at this call; -1: never
   std::atomic<int> reads{0}, commands{0}, images{0}, begun{0}, ended{0};
   double speed = 0., speedAtEnd = 0.; // commanded last, m/s
+  int readsAtFailure = 0, readsAtEnd = 0;
 };
 
 //! A point-like robot that executes every command exactly.
@@ -48,6 +49,7 @@ public:
   void command(const vpVisualServoOutput &motion, double period) override
   {
     if (m_script.commands++ == m_script.failCommand) {
+      m_script.readsAtFailure = m_script.reads;
       throw std::runtime_error("refused");
     }
     m_script.speed = motion.twist.linearNorm();
@@ -61,6 +63,7 @@ public:
   {
     ++m_script.ended;
     m_script.speedAtEnd = m_script.speed;
+    m_script.readsAtEnd = m_script.reads;
   }
   [[nodiscard]] vpRigidTransform pose() const override
   {
@@ -220,6 +223,7 @@ TEST_CASE("a robot or camera that fails in mid-run ends the run with its sentenc
       CHECK(result.cycles >= (kind == 2 ? 1U : static_cast<std::size_t>(when)));
       if (kind == 1) { // nothing is commanded after a refusal
         CHECK(script.commands == when + 1);
+        CHECK(script.readsAtEnd == script.readsAtFailure); // stopped at once
       }
       else if (isByClock) { // it was braked before
         CHECK(script.speedAtEnd == 0.);

@@ -262,7 +262,6 @@ TEST_CASE("without odometry the pose is right up to the stated range", "[referen
 
 TEST_CASE("measurement and goal of a sight are the pose at one scale", "[reference]")
 {
-  CAPTURE(seed());
   auto rng = generator(3);
   Scene scene(rng);
   vpReferencePose pose(scene.reference(0.), 0.1 * pixel, wide());
@@ -279,6 +278,20 @@ TEST_CASE("measurement and goal of a sight are the pose at one scale", "[referen
   const vpRigidTransform cdMc = vpRigidTransform::fromHomogeneous(sight.goal.cdMo * sight.measurement.cMo.inverse());
   CHECK(angle(cdMc.R, r.R) < 1e-9);
   CHECK((cdMc.p - r.scale * r.tau).norm() < 1e-9);
+  // The covariance is that of small errors (a, e) of tau and R, by differences.
+  const vpRigidTransform cMo = vpRigidTransform::fromHomogeneous(sight.measurement.cMo);
+  const vpRigidTransform rMo = vpRigidTransform{r.R, r.scale * r.tau} * cMo;
+  Eigen::Matrix<double, 6, 6> J;
+  for (int k = 0; k < 6; ++k) {
+    constexpr double h = 1e-6;
+    const Eigen::Matrix<double, 6, 1> step = h * Eigen::Matrix<double, 6, 1>::Unit(k);
+    const vpRigidTransform rMc{r.R * vpSO3::exp(step.tail<3>()), r.scale * (r.tau + step.head<3>())};
+    const vpRigidTransform other = rMc.inverse() * rMo;
+    J.col(k) << (other.p - cMo.p) / h, vpSO3::log(other.R * cMo.R.transpose()) / h;
+  }
+  using Covariance = Eigen::Map<const Eigen::Matrix<double, 6, 6>>; // symmetric
+  const Eigen::Matrix<double, 6, 6> C = J * Covariance(r.covariance.data()) * J.transpose();
+  CHECK((Covariance(sight.measurement.covariance.C.data()) - C).norm() < 1e-4 * C.norm());
   for (std::size_t i = 0; i < sight.goal.points.size(); ++i) { // of a plane at the distance r.scale
     const vpServoPoint &p = sight.goal.points[i];
     CHECK(p.Z * r.normal.dot(Eigen::Vector3d(p.x, p.y, 1.)) == Approx(r.scale));
@@ -287,7 +300,6 @@ TEST_CASE("measurement and goal of a sight are the pose at one scale", "[referen
 
 TEST_CASE("images that fit no plane are refused, and three of them restart", "[reference]")
 {
-  CAPTURE(seed());
   auto rng = generator(4);
   Scene scene(rng);
   vpReferencePose pose = scene.taught();

@@ -187,7 +187,10 @@ TEST_CASE("A supervised arm servo stops before a ball in its way, which it hits 
     for (int i = 0; i < 3000; ++i) {
       scene.place(bench.q, placed);
       least[isSupervised] = std::min(least[isSupervised], scene.clearance(placed).distance);
-      isStopped = bench.step().supervision != vpSupervision::Passed || isStopped;
+      const vpVisualServoOutput &out = bench.step();
+      const bool isHeld = out.supervision != vpSupervision::Passed && out.supervision != vpSupervision::Limited;
+      isStopped = isHeld || isStopped;
+      REQUIRE(out.obstacle.kind == (isHeld ? vpCollisionKind::Object : vpCollisionKind::None));
     }
   }
   CHECK(isStopped);

@@ -68,9 +68,8 @@ TEST_CASE("Nothing moves before start(), speeds rise slowly after it, and stop()
   bench.servo.start();
   const double begin = bench.now;
   while (bench.now < begin + 2.) {
-    const double elapsed = bench.now - begin + 0.01;
-    const double speed = bench.step().twist.linearNorm();
-    REQUIRE(speed <= 0.25 * std::min(1., elapsed / slow.startTime) + 1e-9);
+    const double share = std::min(1., (bench.now - begin + 0.01) / slow.startTime);
+    REQUIRE(bench.step().twist.linearNorm() <= 0.25 * share + 1e-9);
   }
   CHECK(bench.servo.output().status == Status::Servoing);
   bench.servo.stop();
@@ -113,6 +112,23 @@ TEST_CASE("A sight's factor on the limits of speed slows laws and plans, from th
     bench.run(12.);
     CHECK(bench.servo.isConverged());
   }
+}
+
+TEST_CASE("A rotation begins as slowly", "[servoing]")
+{
+  vpVisualServoSpec slow = quick();
+  slow.startTime = 2.;
+  vpServoBench bench("pbvs1", {}, slow);
+  bench.place({vpSO3::exp({0., 0., 2.5}), Eigen::Vector3d(0., 0., 0.35)}); // nothing but a rotation
+  bench.servo.start();
+  const double limit = vpServoMotionLimits().angularVelocity;
+  double fastest = 0.;
+  while (bench.now < 2.5) {
+    const double share = std::min(1., (bench.now + 0.01) / slow.startTime), speed = bench.step().twist.angularNorm();
+    REQUIRE(speed <= limit * share + 1e-9);
+    fastest = std::max(fastest, speed);
+  }
+  CHECK(fastest > 0.5 * limit);
 }
 
 TEST_CASE("Without new images the robot stops and says so, and goes on with the next one", "[servoing]")
@@ -259,6 +275,46 @@ TEST_CASE("A robot that does not move as commanded is stopped, one that lags is 
   };
   CHECK(statusAfter(late, 20.) == Status::Converged);
   CHECK(statusAfter([](const vpTwist &v) { return v.scaled(0.8); }, 20.) == Status::Converged);
+}
+
+TEST_CASE("The goal is reached when the error was within both tolerances for the time of the spec", "[servoing]")
+{
+  for (const bool turns : {false, true}) { // within the tolerance of position first, or of rotation
+    vpVisualServoSpec spec = quick();
+    spec.positionTolerance = turns ? 1. : 0.002;
+    spec.rotationTolerance = turns ? 0.004 : 4.;
+    spec.convergedTime = 0.7;
+    vpServoBench bench("pbvs1", {}, spec);
+    bench.place({vpSO3::exp({0.1, -0.2, 0.3}), Eigen::Vector3d(0.1, 0.05, 0.5)});
+    bench.servo.start();
+    double since = NAN;
+    while (!bench.servo.isConverged() && bench.now < 20.) {
+      const vpVisualServoOutput &out = bench.step();
+      const bool isWithin = out.positionError <= spec.positionTolerance && out.rotationError <= spec.rotationTolerance;
+      since = !isWithin ? NAN : std::isnan(since) ? bench.now : since;
+    }
+    CHECK(bench.now - since == Approx(0.7).margin(0.021));
+  }
+}
+
+TEST_CASE("What vision tells of its certainty slows the robot and is passed on", "[servoing]")
+{
+  vpServoBench bench("ff-lookat", {}, quick());
+  bench.place({Eigen::Matrix3d::Identity(), Eigen::Vector3d(0.15, 0.1, 0.9)});
+  bench.spoil = [](vpServoSight &sight) {
+    sight.speedFactor = 0.2;
+    sight.distance = 0.4;
+    sight.distanceSigma = 0.03;
+  };
+  bench.servo.start();
+  double fastest = 0.;
+  while (bench.now < 3.) {
+    fastest = std::max(fastest, bench.step().twist.linearNorm());
+  }
+  CHECK(fastest == Approx(0.2 * 0.25).epsilon(1e-3));
+  CHECK(bench.servo.output().speedFactor == 0.2);
+  CHECK(bench.servo.output().distance == 0.4);
+  CHECK(bench.servo.output().distanceSigma == 0.03);
 }
 
 TEST_CASE("Laws that fail, and a goal that is missing, are told", "[servoing]")
