@@ -31,7 +31,8 @@ using namespace servoCompare;
 
 void printList()
 {
-  std::cout << "Laws (--law), each but those that plan also with +cbf for the filter that keeps the object in the view:\n";
+  std::cout
+      << "Laws (--law), each but those that plan also with +cbf for the filter that keeps the object in the view:\n";
   for (const std::string &id : vpServoLaw::ids()) {
     std::cout << "  " << id << std::string(id.size() < 17 ? 17 - id.size() : 1, ' ') << sentenceOf(id) << "\n";
   }

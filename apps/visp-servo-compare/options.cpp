@@ -75,7 +75,8 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   vpApp::CommandLine line("visp-servo-compare", ABOUT, EXAMPLES);
   RobotOptions &robot = options.robot;
   vpApp::addPluginOption(line, "laws");
-  line.list("--law", options.laws, "LAW,...", "Laws to compare; append +cbf for the view filter, not to laws that plan (default: all)");
+  line.list("--law", options.laws, "LAW,...",
+            "Laws to compare; append +cbf for the view filter, not to laws that plan (default: all)");
   line.list("--plant", options.plants, "NAME,...", "Robots to compare on (default: A,B,D, or those of the task file)");
   line.list("--measure", options.measures, "KIND,...",
             "points: noisy feature points; image: rendered views through the vision (default: all by points, and "

@@ -217,11 +217,10 @@ TEST_CASE("planned motion of a camera on an arm keeps the limits of camera and j
   CAPTURE(vpTestSupport::seed());
   // The last two without self-motion, within limits of the joints' jerk.
   for (const Case &which : {Case{"ff-dtg", "A", 1., 100., true}, Case{"ff-dtg", "D", 1., 100., true},
-                            Case{"dtg", "A", 1., 100., true, 1.5}, Case{"dtg", "D", 1., 100., true, 1.5}}) {
+                            Case{"dtg", "A", 1., 100., true, 0.6}, Case{"dtg", "D", 1., 100., true, 0.6}}) {
     CAPTURE(which.law, which.plant, which.jointJerk);
     const Sum planned = sumOver(which, 1);
     CHECK(planned.exceeded == 0.);
-    CHECK(planned.slowed == 0.);
     CHECK(planned.jointExcess <= 1. + 1e-6);
   }
 }

@@ -144,6 +144,41 @@ TEST_CASE("planned commands keep every limit in every cycle, whatever happens", 
   CHECK(worst > 0.8); // the limits are used
 }
 
+TEST_CASE("a push that the feedback takes back, and another goal meanwhile, keep every limit", "[plan]")
+{
+  for (int problem = 0; problem < longer(10); ++problem) {
+    auto rng = generator(static_cast<unsigned int>(problem));
+    const vpServoMotionLimits limits = randomLimits(rng);
+    const double dt = problem % 2 ? 0.004 : 0.01;
+    vpServoController servo = makeServo("ff-dtg", limits);
+    Judge judge(limits, dt);
+    vpHomogeneousMatrix cMo = randomPose(rng, 0.4, 0.6, 0.1, 0.3);
+    vpServoMeasurement seen;
+    vpTwist push;
+    double next = 0.;
+    for (double t = 0.; t < 8.; t += dt) {
+      if (t >= next) { // a goal nearby, then pushes
+        servo.setGoal(goal(randomPose(rng, 0.45, 0.55, 0.05, 0.1), square));
+        next = t + uniform(rng, 0.5, 3.);
+      }
+      if (uniform(rng, 0., 1.) < 5. * dt) {
+        push = uniform(rng, 0., 1.) < 0.5 ? vpTwist() : randomTwist(rng, 0.1, 0.2);
+      }
+      measure(cMo, square, seen);
+      seen.time = t + dt;
+      judge.see(servo.step(seen, dt).v);
+      vpTwist moved = judge.v();
+      for (std::size_t k = 0; k < 6; ++k) {
+        moved[k] += push[k];
+      }
+      servo.notifyExecuted(judge.v(), moved);
+      cMo = move(cMo, moved, dt);
+    }
+    CAPTURE(seed(), problem);
+    CHECK(judge.worst <= 1. + 1e-6);
+  }
+}
+
 TEST_CASE("the camera arrives when the law says", "[plan]")
 {
   const std::string law = GENERATE("dtg", "ff-dtg");
