@@ -2,18 +2,21 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Reports of visp-servo-compare and visp-servo: sentences, marks, times, and the cameras of the 3D view. test_report.py opens them."""
 import re
+import shutil
+import subprocess
 
 import numpy as np
 import pytest
 from conftest import longer, pose
-from visp_direct.report.camera3d import camera, chosen, columns, matrices, outline
+from visp_direct.report.camera3d import NO_ARM, camera, chosen, columns, matrices, outline, plate
 from visp_direct.report.data import Result
-from visp_direct.report.page import number
+from visp_direct.report.page import Page, number
 from visp_direct.report.servo import run_of, stairs
 from visp_direct.report.servo_compare import cell_of, marks, route_of
 from visp_direct.report.servo_figures import overshoot
 from visp_direct.report.servo_laws import LOOKS, Comparison, Medians, answers, findings, listed
 from visp_direct.report.servo_step import step_findings
+from visp_direct.report.view3d import scene
 
 try:
     import visp_direct as vd
@@ -248,15 +251,34 @@ def test_camera_of_a_run_is_where_the_log_says(stands, tmp_path, random):
             for kind, x in zip(("tx", "ty", "tz", "tux", "tuy", "tuz"), (*M[:3, 3], *(angle * axis))):
                 six[f"{name}_{kind}"].append(x)
     intrinsics = {"px": 600, "py": 600, "u0": 320, "v0": 240, "width": 640, "height": 480}
-    scene = {"camera": intrinsics, "size_m": [0.1, 0.1], "goal": None, "picture": None} | ({"fMc": place.tolist()} if stands else {})
-    result = type("Made", (), {"summary": {"scene": scene}, "folder": tmp_path, "name": "made"})
+    looked_at = {"camera": intrinsics, "size_m": [0.1, 0.1], "goal": None, "picture": None} | ({"fMc": place.tolist()} if stands else {})
+    result = type("Made", (), {"summary": {"scene": looked_at}, "folder": tmp_path, "name": "made"})
     log = six | {"time_s": list(range(count)), "distance_m": [0] * count}
     run, _, target, _ = run_of(result, log, np.eye(4))
     np.testing.assert_allclose(np.reshape(run["camera"]["pose"], (count, 3, 4)), np.array(poses)[:, :3], atol=1e-5)
     np.testing.assert_allclose(target[0]["track"]["pose"], np.array(poses) @ np.array(cMo), atol=2e-5)
     if stands:
-        del scene["fMc"]
+        del looked_at["fMc"]
         assert run_of(result, log, np.eye(4)) is None  # not told
+
+
+@pytest.mark.skipif(shutil.which("chromium") is None, reason="chromium is missing")
+def test_camera_without_goal_or_target_is_shown(tmp_path):
+    """As for a target of unknown size, or one that was never seen."""
+    intrinsics = {"px": 600, "py": 600, "u0": 320, "v0": 240, "width": 640, "height": 480}
+    page = Page("Cameras", "")
+    page.section("Views")
+    for objects in ([], [plate([0.1, 0.1], pose([0, 0, 0.4]))]):
+        seen = camera(intrinsics, [pose([0, 0, 0.1 * i]) for i in range(3)], 0.1, [])
+        run = {"name": "made", "colour": "#0072b2", "arm": 0, "t": [0, 1, 2], "q": [[]] * 3, "camera": seen}
+        page.view(scene([NO_ARM], [run], objects), "")
+    file = tmp_path / "page.html"
+    file.write_text(page.html())
+    flags = "--headless --no-sandbox --use-gl=angle --use-angle=swiftshader --enable-unsafe-swiftshader --enable-logging=stderr"
+    call = ["chromium", *flags.split(), "--virtual-time-budget=2000", "--dump-dom", file.as_uri()]
+    shown = subprocess.run(call, capture_output=True, text=True, timeout=100)
+    assert "CONSOLE" not in shown.stderr, shown.stderr[-500:]
+    assert shown.stdout.count('aria-label="time"') == 2
 
 
 def test_long_logs_are_thinned(tmp_path):

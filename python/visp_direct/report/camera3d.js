@@ -36,7 +36,7 @@ function vispEye(camera, base) {
   goal.renderOrder = 1;
   goal.frustumCulled = false;
   goal.userData.seen = true;
-  root.add(lines, picture, goal);
+  root.add(lines, picture); // the goal when there is one: an empty line has no extent
   const way = new THREE.Line(new THREE.BufferGeometry(), new THREE.LineBasicMaterial());
   way.frustumCulled = false;
   const eye = new THREE.Camera(), near = 0.005, flip = new THREE.Matrix4().makeScale(1, -1, -1);
@@ -56,7 +56,11 @@ function vispEye(camera, base) {
     eye.matrixWorldNeedsUpdate = true;
     const begun = run.camera.goals.filter(([from]) => from <= t + 1e-9);
     const points = begun.length ? begun[begun.length - 1][1] : [];
-    goal.geometry.setFromPoints(points.map(([x, y]) => new THREE.Vector3(x * depth, y * depth, depth)));
+    root.remove(goal);
+    if (points.length) {
+      goal.geometry.setFromPoints(points.map(([x, y]) => new THREE.Vector3(x * depth, y * depth, depth)));
+      root.add(goal);
+    }
   };
   return {root, way, goal, eye, target, show, setTime, ratio: (bottom - top) / (right - left)};
 }

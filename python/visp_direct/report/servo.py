@@ -197,10 +197,11 @@ def add_view(page, results, logs):
         objects += target
         missing += not_read
     if runs:
+        goal = "; blue: where the target is at the goal" if any(run["camera"]["goals"] for run in runs) else ""
         page.view(
             scene(arms, runs, objects),
             "The camera with its way; the slider moves time. The target is where the camera saw it. In the corner, and in front of the camera: "
-            "the image that it sees, rendered here without distortion; blue: where the target is at the goal. The grid has squares of 10 cm. "
+            f"the image that it sees, rendered here without distortion{goal}. The grid has squares of 10 cm. "
             "Drag to turn, the wheel or two fingers to zoom.",
         )
     page.items(missing)
