@@ -17,6 +17,8 @@ namespace
 {
 // What may be missing of a twist; a singularity may take a little.
 constexpr double shortfall = 1e-3, dampedShortfall = 0.02;
+// Of the limits of jerk, the part for the copy: the arm's period is another one.
+constexpr double jerkPart = 0.9;
 constexpr double step = 0.01; // s, the period of the copy's solver
 
 vpRedundancySpec withPeriod(vpRedundancySpec spec)
@@ -68,7 +70,7 @@ double vpArmMotionCheck::jerkExcess(double dt) noexcept
   double excess = 0.;
   for (int i = 0; i < m_jerk.size(); ++i) {
     const double acceleration = (m_output.velocity(i) - m_input.previous(i)) / dt;
-    const double share = std::abs(acceleration - m_acceleration(i)) / dt / m_jerk(i);
+    const double share = std::abs(acceleration - m_acceleration(i)) / dt / (jerkPart * m_jerk(i));
     m_acceleration(i) = acceleration;
     excess = share <= excess ? excess : share;
   }

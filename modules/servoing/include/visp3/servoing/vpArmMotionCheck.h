@@ -39,7 +39,7 @@ public:
    * \param indices : Indices that self-motion maximizes; of more than vpMaxArmIndices the first.
    * \param free : Axes of the camera that are not commanded.
    * \param jerk : Limits of the joints' jerks, differences of their accelerations at the control points of a plan, rad/s^3 or m/s^3;
-   *   empty: none. Self-motion jumps within the limits of acceleration: with \e indices no plan may be found.
+   *   empty: none. A tenth of them is left for the difference of the periods. Self-motion jumps within the limits of acceleration: with \e indices no plan may be found.
    * \throw vpException (badValue) naming the field of \e spec that is out of range, a joint without motion limits, or a
    *   limit of jerk that is not > 0, or their number.
    */
