@@ -142,6 +142,16 @@ double velocityError(Sensors sensors, double sigma, double processNoise, double 
   return std::sqrt(sum / count);
 }
 
+//! Standard deviation of the velocity between the centres, px/frame.
+double variation()
+{
+  Spread velocities;
+  for (double t = 0.; t < CELL; t += 0.01) {
+    velocities.add(stageAt(t).second);
+  }
+  return velocities.sigma();
+}
+
 //! With the process noise that suits these sensors best.
 double bestError(Sensors sensors, double sigma, double scale, unsigned int seed)
 {
@@ -169,6 +179,8 @@ std::vector<Item> encoder(const Setting &setting)
       "Rms at each frame, with what has arrived by then; every filter with the best of 19 process noises.";
   item.quantities = {{"velocity error, encoder and camera over camera alone, detection of the thesis", "1", 1.,
                       both / camera, Tolerance::atMost(), Good::Smaller, "", how},
+                     {"variation of the true velocity", "px/frame", std::nullopt, variation(), Tolerance::factor(1.1),
+                      Good::Neither, "", "Standard deviation: what an estimate that is always the mean would have."},
                      {"velocity error, camera alone, detection of the thesis", "px/frame", std::nullopt, camera,
                       Tolerance::factor(1.1), Good::Neither, "", how},
                      {"velocity error, encoder and camera, detection of the thesis", "px/frame", std::nullopt, both,
