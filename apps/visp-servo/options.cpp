@@ -146,7 +146,9 @@ void addRobot(vpApp::CommandLine &line, MotionOptions &motion)
       "--scene", motion.scene, "FILE.json",
       "Obstacles before which the arm stops, see data/scene/README.md; needs its model. Nothing that the end effector "
       "carries is checked unless the model has it");
-  line.number("--margin", motion.margin, {0., 1.}, "M", "Clearance that the arm keeps from them and from itself");
+  line.number(
+      "--margin", motion.margin, {0., 1.}, "M",
+      "Clearance that the arm keeps from them and from itself, if its drives follow at once; what they lag is missing");
   line.flag("--dry-run", motion.dryRun, "Vision and law as usual, but nothing is commanded to the robot");
   line.flag("--start", motion.start, "Move at once; without it the space bar in the window of --display starts");
 }
@@ -364,7 +366,12 @@ bool parse(const std::vector<std::string> &arguments, Options &options)
   complete(line, options);
   try {
     for (const std::string &law : options.laws) {
-      if (vpServoController::create(law, options.law).law().plansMotion() && law.find("+cbf") != std::string::npos) {
+      const bool plans = vpServoController::create(law, options.law).law().plansMotion();
+      if (plans && options.camera.isFixed) {
+        throw vpException(vpException::badValue, "%s plans the motion of a camera, and --eye-to-hand has a fixed one",
+                          law.c_str());
+      }
+      if (plans && law.find("+cbf") != std::string::npos) {
         throw vpException(vpException::badValue, "%s plans its motion, which +cbf would not keep in view", law.c_str());
       }
     }
