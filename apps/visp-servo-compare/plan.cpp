@@ -51,7 +51,8 @@ std::vector<std::string> chooseLaws(const std::vector<std::string> &asked)
 {
   for (const std::string &id : asked) {
     if (!contains(vpServoLaw::ids(), withoutFilter(id))) {
-      throw vpApp::UsageError("--law: unknown law \"" + id + "\"; known are " + knownLaws() + ", each also with +cbf");
+      throw vpApp::UsageError("--law: unknown law \"" + id + "\"; known are " + knownLaws() +
+                              ", each but those that plan also with +cbf");
     }
     if (isFiltered(id) && vpServoLaw::create(withoutFilter(id))->plansMotion()) {
       throw vpApp::UsageError("--law: \"" + id +

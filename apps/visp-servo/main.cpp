@@ -17,7 +17,7 @@ using namespace visualServo;
 
 int list()
 {
-  std::cout << "Laws (each also with +cbf, which keeps the target in view):\n";
+  std::cout << "Laws (each but those that plan also with +cbf, which keeps the target in view):\n";
   for (const std::string &id : vpServoLaw::ids()) {
     std::cout << "  " << id << ": " << vpServoLaw::sentence(id) << "\n";
   }

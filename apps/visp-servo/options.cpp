@@ -158,10 +158,9 @@ void addMotion(vpApp::CommandLine &line, Options &options)
   vpServoMotionLimits &limits = options.law.motion;
   line.group("Motion");
   vpApp::addPluginOption(line, "laws");
-  line.list(
-      "--law", options.laws, "LAW,...",
-      "Laws, each also with +cbf, which keeps the target in view; the first one moves (default: ff-lookat-pi+cbf, "
-      "with --eye-to-hand pbvs1+cbf)");
+  line.list("--law", options.laws, "LAW,...",
+            "Laws; each but those that plan also with +cbf, which keeps the target in view; the first one moves "
+            "(default: ff-lookat-pi+cbf, with --eye-to-hand pbvs1+cbf)");
   line.number("--lambda", options.law.gains.lambda, {0., 100., true}, "1/S", "Gain");
   line.number("--max-linear", limits.linearVelocity, {0., 10., true}, "M/S", "Speed of the camera at most");
   line.number("--max-angular", limits.angularVelocity, {0., 10., true}, "RAD/S", "Angular speed at most");
