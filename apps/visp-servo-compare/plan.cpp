@@ -54,7 +54,7 @@ std::vector<std::string> chooseLaws(const std::vector<std::string> &asked)
       throw vpApp::UsageError("--law: unknown law \"" + id + "\"; known are " + knownLaws() +
                               ", each but those that plan also with +cbf");
     }
-    if (isFiltered(id) && vpServoLaw::create(withoutFilter(id))->plansMotion()) {
+    if (withoutFilter(id) != id && vpServoLaw::create(withoutFilter(id))->plansMotion()) {
       throw vpApp::UsageError("--law: \"" + id +
                               "\": the view filter (+cbf) cannot follow a law that plans its motion");
     }
