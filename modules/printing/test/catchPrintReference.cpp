@@ -81,7 +81,7 @@ TEST_CASE("In every mode the centres are passed as wished and the motion is C2",
           REQUIRE(x[1] < 6. * (1. + 1e-9));
         }
         if (spec.mode == vpPrintReferenceMode::FixedArrival) {
-          REQUIRE(out.arrival == Approx(10.8 * static_cast<double>(out.target + 1)).margin(1e-9));
+          REQUIRE(out.arrival == Approx(spec.dropTime * static_cast<double>(out.target + 1)).margin(1e-9));
         }
         if (spec.mode == vpPrintReferenceMode::ConstantVelocity && out.target > 0) {
           REQUIRE(x[1] == Approx(4.).margin(1e-9));

@@ -140,7 +140,7 @@ public:
    * by laws that do not plan.
    * \param factor : (0, 1]; below 0.01, and NaN, count as 0.01.
    */
-  virtual void setSpeedFactor(double /*factor*/) noexcept {}
+  virtual void setSpeedFactor([[maybe_unused]] double factor) noexcept {}
   //! The robot's own limits, asked about each plan; referenced, nullptr: none. Ignored by laws that do not plan.
   virtual void setMotionCheck(vpServoMotionCheck * /*check*/) noexcept {}
 
