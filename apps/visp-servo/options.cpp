@@ -365,13 +365,9 @@ bool parse(const std::vector<std::string> &arguments, Options &options)
   complete(line, options);
   try {
     for (const std::string &law : options.laws) {
-      const bool plans = vpServoController::create(law, options.law).law().plansMotion();
-      if (plans && options.camera.isFixed) {
+      if (vpServoController::create(law, options.law).law().plansMotion() && options.camera.isFixed) {
         throw vpException(vpException::badValue, "%s plans the motion of a camera, and --eye-to-hand has a fixed one",
                           law.c_str());
-      }
-      if (plans && law.find("+cbf") != std::string::npos) {
-        throw vpException(vpException::badValue, "%s plans its motion, which +cbf would not keep in view", law.c_str());
       }
     }
   }

@@ -64,7 +64,7 @@ TEST_CASE("wrong input is one sentence", "[visp-servo][errors]")
       {"--robot none --camera sim", USAGE, "--camera sim needs a robot that carries it"},
       {"--law nonsense", USAGE, "--law: servo law \"nonsense\" is unknown"},
       {"--law pbvs1,nonsense", USAGE, "--law: servo law \"nonsense\" is unknown"},
-      {"--law ff-dtg+cbf", USAGE, "--law: ff-dtg+cbf plans its motion, which +cbf would not keep in view"},
+      {"--law ff-dtg+cbf", USAGE, "--law: \"ff-dtg+cbf\": the view filter cannot follow a law that plans"},
       {"--law dtg --eye-to-hand", USAGE, "--law: dtg plans the motion of a camera, and --eye-to-hand has a fixed one"},
       {"--lambda 0", USAGE, "--lambda is 0, must be a number > 0"},
       {"--max-linear inf", USAGE, "--max-linear is inf"},

@@ -161,9 +161,27 @@ private:
 
   Pose camera() const { return {m_object.fRc(), m_object.ftc()}; }
 
-  // Something else was commanded than this law asked for: go on from there.
-  void restart(const Vector6 &rate)
+  // The acceleration, at most that from which braking does not exceed the speed.
+  Vector6 withinSpeed(const Vector6 &rate) const
   {
+    Vector6 within = rate;
+    const auto limit = [&](int part, double speed, double jerk) {
+      const Eigen::Vector3d v = m_sent.segment<3>(part), a = rate.segment<3>(part);
+      const double left = std::max(speed - v.norm(), 0.); // = h / 2 most + most^2 / (2 jerk)
+      const double most = jerk * (std::sqrt(0.25 * h * h + 2. * left / jerk) - 0.5 * h);
+      if (v.dot(a) > 0. && a.norm() > most) {
+        within.segment<3>(part) *= most / a.norm();
+      }
+    };
+    limit(0, m_motionLimits.linearVelocity, m_motionLimits.linearJerk);
+    limit(3, m_motionLimits.angularVelocity, m_motionLimits.angularJerk);
+    return within;
+  }
+
+  // Something else was commanded than this law asked for: go on from there.
+  void restart(const Vector6 &moving)
+  {
+    const Vector6 rate = withinSpeed(moving);
     const Vector6 value = m_share.cwiseProduct(m_sent), slope = m_share.cwiseProduct(rate);
     m_search.close();
     m_motion.restart(value, slope, camera());

@@ -107,7 +107,7 @@ TEST_CASE("A sight's factor on the limits of speed slows laws and plans, from th
     factor = 0.3;
     static_cast<void>(runWith(1.)); // brakes
     CHECK(runWith(1.5) <= 0.3 * 0.25 * (1. + 1e-9));
-    CHECK(fastest > 0.3 * 0.1);
+    CHECK(fastest > 0.01); // it accelerates by 0.0225 m/s^2 at most
     factor = 1.;
     bench.run(12.);
     CHECK(bench.servo.isConverged());
