@@ -130,11 +130,11 @@ void report(const Options &options, const std::string &commandLine, const vpApp:
   out.write("results.json", resultsJson(all).dump(2) + "\n");
   out.write("items.json", itemsJson(all).dump(2) + "\n");
   out.write("curves.csv", curvesCsv(all));
-  vpApp::finishWithReport(out, summaryJson(all, options, commandLine, wallTime));
+  const std::string where = vpApp::finishWithReport(out, summaryJson(all, options, commandLine, wallTime));
   for (const auto &count : countRows(all)) {
     std::cout << count.second << " " << vpToString(count.first) << ", ";
   }
-  std::cout << "rows; result: " << out.path().string() << std::endl;
+  std::cout << "rows\n" << where << std::endl;
 }
 } // namespace
 

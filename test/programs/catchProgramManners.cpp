@@ -150,6 +150,8 @@ const std::vector<Input> ownInputs = {
     {"visp-servo", "--reference F", "photo.png"},
     {"visp-servo", "--camera F", "video.mp4"},
     {"visp-servo", "--eMc F", "eMc.yaml"},
+    {"visp-servo", "--fMc F", "fMc.yaml"},
+    {"visp-servo", "--scene F", "scene.json"},
     {"visp-servo", "--camera '" VISP_DIRECT_DATA_DIR "/target/box.png' --camera-xml F", "camera.xml"},
     {"visp-servo-compare", "--task F", "task.json"},
     {"visp-servo-compare", "--robot F", "arm.json"},

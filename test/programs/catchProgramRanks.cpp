@@ -132,16 +132,10 @@ TEST_CASE("visp-thesis-report runs its parts on all ranks", "[ranks]")
   REQUIRE(run(arguments + "--jobs 2 --out one") == 0);
   REQUIRE(run(arguments + "--out two", mpirun(2)) == 0);
   CAPTURE(run.err());
-  CHECK(occurrences(run.out(), "report: ") == 1);
+  CHECK(occurrences(run.out(), "Report: ") == 1);
   const json one = json::parse(vpApp::readFile(run.path("one/results.json")));
   CHECK((comparable(one) == comparable(json::parse(vpApp::readFile(run.path("two/results.json"))))));
-  for (const char *folder : {"figure", "data"}) {
-    for (const auto &entry : std::filesystem::directory_iterator(run.path(std::string("one/") + folder))) {
-      CAPTURE(entry.path());
-      CHECK(vpApp::readFile(entry.path()) ==
-            vpApp::readFile(run.path(std::string("two/") + folder) / entry.path().filename()));
-    }
-  }
+  CHECK(vpApp::readFile(run.path("one/curves.csv")) == vpApp::readFile(run.path("two/curves.csv")));
 }
 #endif
 

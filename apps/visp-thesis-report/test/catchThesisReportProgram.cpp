@@ -32,7 +32,7 @@ TEST_CASE("Two figures: rows, data, and nothing else", "[program]")
 {
   ProgramRun run(THESIS_REPORT);
   REQUIRE(run("--only fig6.3,tableA.1,fig6.3 --out out --jobs 2") == 0);
-  CHECK(run.out().find("rows; result: ") != std::string::npos);
+  CHECK(run.out().find("rows\n") != std::string::npos);
   const Json rows = Json::parse(vpApp::readFile(run.path("out/results.json")));
   int velocity = 0;
   for (const Json &row : rows) {
