@@ -49,7 +49,7 @@ void teachReference(const Options &options, vpApp::ImageSource &source)
   vpApp::writeWholeFile(options.teach, pngOf(matOf(teacher.image())));
   std::cout << "Reference image: mean of " << TAUGHT << " images, noise of a corner "
             << vpApp::number(teacher.pointNoise(), 2) << " px in one of them, "
-            << vpApp::number(teacher.averageNoise(), 2) << " px in the mean.\nWritten: " << options.teach
+            << vpApp::number(teacher.averageNoise(), 2) << " px in their mean.\nWritten: " << options.teach
             << " for --reference." << std::endl;
 }
 

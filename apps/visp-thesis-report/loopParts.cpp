@@ -170,8 +170,8 @@ std::vector<Item> plannedInLoop(const Setting &setting)
        Tolerance::factor(1.1), Good::Neither, "",
        "The open plan leaves what friction takes; ff-dtg adds the feedback of the measured pose."}};
   item.remarks = {
-      "Chapter 6 shows direct trajectory generation on one joint, with goals that are told. Here its goal is what "
-      "the camera measures, in the task of section 5.4.2, and position and rotation are planned within limits "
+      "Chapter 6 shows direct trajectory generation on one joint, with given goals. Here its goal is what the "
+      "camera measures, in the task of section 5.4.2, and position and rotation are planned within limits "
       "(visp-servo-compare --law dtg,ff-dtg --bounded)."};
   item.parameters = {{"limits", "0.25 m/s, 0.5 m/s^2, 5 m/s^3; 1 rad/s, 2 rad/s^2, 20 rad/s^3"},
                      {"object", "averaged over images for every law"}};

@@ -58,7 +58,7 @@ TEST_CASE("Help and version", "[programs]")
   }
 }
 
-TEST_CASE("What standard output does not take is told", "[programs]")
+TEST_CASE("A failing standard output is reported", "[programs]")
 {
   if (!std::filesystem::exists("/dev/full")) {
     vpTestSupport::skip("there is no /dev/full");

@@ -317,7 +317,7 @@ TEST_CASE("What vision tells of its certainty slows the robot and is passed on",
   CHECK(bench.servo.output().distanceSigma == 0.03);
 }
 
-TEST_CASE("Laws that fail, and a goal that is missing, are told", "[servoing]")
+TEST_CASE("Failing laws and a missing goal are reported", "[servoing]")
 {
   vpServoBench bench("pbvs1", {}, quick());
   vpVisualServo empty(vpServoController::create("pbvs1"), quick());

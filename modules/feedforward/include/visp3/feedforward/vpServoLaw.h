@@ -34,7 +34,7 @@ struct VISP_EXPORT vpServoGains {
   double saturation = 0.5;    //!< Bound c of c tanh(D/c) in `ff-sum`, rad, > 0, <= 1000000.
   double integral = 1.;       //!< Gain on the integral of the rotation error in `ff-lookat-pi`, 1/s^2, 0..1000000.
   double integralLimit = 0.5; //!< Largest angular velocity contributed by the integral, rad/s, > 0, <= 1000000.
-  double replanPeriod = 0.;   //!< Period of planning anew in `dtg` and `ff-dtg` (0: at events only), s, 0..1000000.
+  double replanPeriod = 0.;   //!< Replanning period of `dtg` and `ff-dtg` (0: at events only), s, 0..1000000.
 
   //! The gains with their ranges and units.
   [[nodiscard]] static const vpFields<vpServoGains> &fields();
@@ -136,7 +136,7 @@ public:
   [[nodiscard]] virtual int plans() const noexcept { return 0; }
   /*!
    * Speed limits of the plans from now on, as a factor of vpServoMotionLimits: accelerations times its square, jerks its cube,
-   * so that motions from rest are the same, slower. A motion that is too fast for a new factor brakes and is planned anew. Ignored
+   * so that motions from rest are the same, slower. A motion that is too fast for a new factor brakes and is replanned. Ignored
    * by laws that do not plan.
    * \param factor : (0, 1]; below 0.01, and NaN, count as 0.01.
    */
