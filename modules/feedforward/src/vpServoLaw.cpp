@@ -86,7 +86,7 @@ const vpFields<vpServoGains> &vpServoGains::fields()
       {"integralLimit", &Gains::integralLimit, positive, "rad/s",
        "Largest angular velocity contributed by the integral"},
       {"replanPeriod", &Gains::replanPeriod, notNegative, "s",
-       "Period of planning anew in `dtg` and `ff-dtg` (0: at events only)"},
+       "Replanning period of `dtg` and `ff-dtg` (0: at events only)"},
   };
   return all;
 }
