@@ -12,6 +12,10 @@
 #include <visp3/direct_core/vpSO3.h>
 #include <visp3/manipulator/vpArmJson.h>
 
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
 #include <random>
 
 VISP_DIRECT_USING_NAMESPACE
@@ -56,19 +60,20 @@ const vpArmModel &coveredArm()
   return model;
 }
 
-// Spheres, capsules, boxes and cylinders around the arm; of the pairs of links ten are checked.
+// Spheres, capsules, boxes and cylinders around the arm, smaller if they are many; of the pairs of links ten are checked.
 vpCollisionScene makeScene(const vpArmModel &model, int objects)
 {
+  const double size = std::min(1., std::sqrt(20. / objects)); // the same share of the view
   std::mt19937_64 rng(3);
   std::uniform_real_distribution<double> u(-1., 1.);
   vpCollisionSceneSpec spec;
   for (int j = 0; j < objects; ++j) {
     vpCollisionObject object;
     object.name = "o" + std::to_string(j);
-    object.shape = j % 4 == 0   ? vpCollisionShape::sphere(0.08)
-                   : j % 4 == 1 ? vpCollisionShape::capsule(0.05, 0.3)
-                   : j % 4 == 2 ? vpCollisionShape::box({0.2, 0.1, 0.3})
-                                : vpCollisionShape::cylinder(0.06, 0.25);
+    object.shape = j % 4 == 0   ? vpCollisionShape::sphere(size * 0.08)
+                   : j % 4 == 1 ? vpCollisionShape::capsule(size * 0.05, size * 0.3)
+                   : j % 4 == 2 ? vpCollisionShape::box({size * 0.2, size * 0.1, size * 0.3})
+                                : vpCollisionShape::cylinder(size * 0.06, size * 0.25);
     Eigen::Vector3d p(u(rng), u(rng), u(rng));
     object.pose.p = (0.7 + 0.3 * u(rng)) * p.normalized();
     object.pose.R = vpSO3::exp(3. * Eigen::Vector3d(u(rng), u(rng), u(rng)));
@@ -264,6 +269,57 @@ void motionOf30Capsules(benchmark::State &state)
   }
 }
 BENCHMARK(motionOf30Capsules);
+
+// The same among 10, 100 and 1000 obstacles.
+const vpCollisionScene &among(int objects)
+{
+  static std::map<int, std::unique_ptr<vpCollisionScene>> made;
+  auto &scene = made[objects];
+  if (!scene) {
+    scene = std::make_unique<vpCollisionScene>(makeScene(arm(), objects));
+  }
+  return *scene;
+}
+const std::vector<Motion> &motionsAmong(int objects, bool free)
+{
+  static std::map<std::pair<int, bool>, std::vector<Motion>> made;
+  std::vector<Motion> &list = made[{objects, free}];
+  if (list.empty()) {
+    list = makeMotions(among(objects), free);
+    const vpCertifiedMotion certified(among(objects));
+    vpMotionScratch scratch;
+    list.erase(std::remove_if(list.begin(), list.end(),
+                              [&](const Motion &m) { return certified.check(m.from, m.to, scratch).isFree() != free; }),
+               list.end());
+  }
+  return list;
+}
+void motionAmong(benchmark::State &state, bool free)
+{
+  const int objects = static_cast<int>(state.range(0));
+  const vpCertifiedMotion certified(among(objects));
+  vpMotionScratch scratch;
+  const std::vector<Motion> &list = motionsAmong(objects, free);
+  std::size_t k = 0;
+  for (auto _ : state) {
+    const Motion &m = list[k++ % list.size()];
+    benchmark::DoNotOptimize(certified.check(m.from, m.to, scratch).evaluated);
+  }
+  state.counters["motions"] = static_cast<double>(list.size());
+}
+BENCHMARK_CAPTURE(motionAmong, free, true)->Arg(10)->Arg(100)->Arg(1000);
+BENCHMARK_CAPTURE(motionAmong, colliding, false)->Arg(10)->Arg(100)->Arg(1000);
+
+template <class Checker> void collisionAmong(benchmark::State &state)
+{
+  Checker checker(among(static_cast<int>(state.range(0))));
+  std::size_t k = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(checker.inCollision(configurations()[k++ % 1024], 0.));
+  }
+}
+BENCHMARK_TEMPLATE(collisionAmong, vpSceneChecker)->Arg(10)->Arg(100)->Arg(1000);
+BENCHMARK_TEMPLATE(collisionAmong, vpFclChecker)->Arg(10)->Arg(100)->Arg(1000);
 
 template <class Checker> void motionDiscrete(benchmark::State &state, bool free)
 {

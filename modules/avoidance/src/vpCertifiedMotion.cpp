@@ -60,12 +60,14 @@ vpClearance clearanceOf(const vpCollisionScene &scene, const vpEdgePair &pair, c
   }
 }
 
-// The pairs of a scene: first those to start with, then the pairs that bounding capsules stand for.
+// The pairs of a scene: those of two links or with the ground, those with objects, then the pairs that bounding capsules
+// stand for.
 struct PairList {
   std::vector<vpEdgeCapsule> capsules; // then the bounding ones of the hulls
   std::vector<vpEdgePair> pairs;
+  std::vector<std::uint32_t> objects; // by object and hull
   std::vector<vpExactPair> exact;
-  std::size_t starts = 0;
+  std::size_t withoutObjects = 0; // number of the first pairs
 
   void make(const vpCollisionScene &scene)
   {
@@ -77,11 +79,6 @@ struct PairList {
       capsules.push_back(edgeCapsule(hull.bound));
     }
     const int hulls = static_cast<int>(scene.hulls().size());
-    for (int j = 0; j < scene.objectCount(); ++j) {
-      for (int h = 0; h < hulls; ++h) {
-        hullPairs(scene, h, vpCollisionKind::Object, j);
-      }
-    }
     for (const vpLinkPair &links : scene.linkPairs()) {
       const std::size_t first = m_fine.size();
       for (int k = links.begin; k < links.end; ++k) {
@@ -93,9 +90,17 @@ struct PairList {
     for (int h = 0; h < hulls; ++h) {
       hullPairs(scene, h, vpCollisionKind::Ground, -1);
     }
-    starts = pairs.size();
+    withoutObjects = pairs.size();
+    for (int j = 0; j < scene.objectCount(); ++j) {
+      for (int h = 0; h < hulls; ++h) {
+        const std::size_t before = pairs.size();
+        hullPairs(scene, h, vpCollisionKind::Object, j);
+        objects.push_back(pairs.size() > before ? static_cast<std::uint32_t>(before) : vpEdgeObjects::unchecked);
+      }
+    }
+    const std::size_t coarse = pairs.size();
     for (vpEdgePair &pair : pairs) {
-      const auto shift = static_cast<std::uint32_t>(pair.begin < pair.end ? starts : 0);
+      const auto shift = static_cast<std::uint32_t>(pair.begin < pair.end ? coarse : 0);
       pair.begin += shift;
       pair.end += shift;
     }
@@ -175,6 +180,7 @@ struct vpMotionScratch::Memory {
   std::array<Level, maxDepth + 1> levels;
   std::vector<unsigned long> decided; // by exact pair: the last lane in which it decided
   unsigned long lanes = 0;
+  vpEdgeObjects objects;
   vpEdgeMotion motion;
   vpJointVector jointsFrom, jointsChange; // of the joints; those of the motion include their followers
   const vpReachBounds *reach = nullptr;
@@ -209,6 +215,7 @@ struct vpMotionScratch::Memory {
     motion.ground = scene->ground() ? &*scene->ground() : nullptr;
     motion.capsules = all.capsules.data();
     motion.cores = scene->objectCount() > 0 ? &scene->core(0) : nullptr;
+    objects = {&scene->tree(), all.objects.data(), scene->capsuleCount(), static_cast<int>(scene->hulls().size())};
     motion.margin = spec.margin;
     jointsFrom = from;
     jointsChange = to - from;
@@ -316,6 +323,7 @@ struct vpMotionScratch::Memory {
   {
     Level &level = levels[at(depth)];
     vpEdgeBatch batch;
+    batch.objects = depth == 0 ? &objects : nullptr;
     batch.open = level.open.data();
     batch.unproven = level.unproven.data();
     batch.touched = level.touched.data();
@@ -369,9 +377,9 @@ vpMotionResult vpCertifiedMotion::check(const vpJointVector &from, const vpJoint
   }
   memory.fit(*m_scene);
   memory.prepare(m_spec, *m_reach, from, to);
-  std::iota(memory.levels[0].list.begin(), memory.levels[0].list.begin() + static_cast<long>(memory.all.starts),
-            std::uint32_t{0});
-  if (memory.prove(0, 0., 1., static_cast<int>(memory.all.starts))) {
+  const auto count = static_cast<long>(memory.all.withoutObjects);
+  std::iota(memory.levels[0].list.begin(), memory.levels[0].list.begin() + count, std::uint32_t{0});
+  if (memory.prove(0, 0., 1., static_cast<int>(count))) {
     memory.result.status = vpMotionStatus::Free;
   }
   return memory.result;

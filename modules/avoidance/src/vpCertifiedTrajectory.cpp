@@ -4,8 +4,8 @@
  */
 #include <visp3/avoidance/vpCertifiedTrajectory.h>
 
-#include "vpCollisionCore.h"
 #include "vpLinkHull.h"
+#include "vpObjectTree.h"
 
 #include <visp3/core/vpException.h>
 
@@ -21,13 +21,6 @@ constexpr double rounding = 1e-9;  // m, of distances
 constexpr double longest = 1e6;    // s: largest time of a plan
 constexpr double largestWay = 1e9; // rad or m, of a joint in an interval: implausible beyond
 
-// Largest motion of an object within h.
-double motionOf(const vpCollisionScene &scene, int object, double h)
-{
-  const vpTwist &v = scene.object(object).velocity;
-  const vpCollisionCore &core = scene.core(object);
-  return h * (v.linearNorm() + v.angularNorm() * (core.middle.norm() + core.bound + core.radius));
-}
 } // namespace
 
 vpCertifiedTrajectory::vpCertifiedTrajectory(const vpCollisionScene &scene, const vpCertifiedMotionSpec &spec)
@@ -106,31 +99,33 @@ vpCertifiedTrajectory::Verdict vpCertifiedTrajectory::look(const vpTrajectoryPla
   if ((!inRange && !m_reach->holds(q)) || !(way.array() <= largestWay).all()) {
     return Verdict::Bad;
   }
-  double farthest = 0., objects = 0.;
+  vpPartMotions motions;
+  motions.objects = half * vpFastestObject(m_scene->tree());
+  double farthest = 0.;
   for (const vpLinkHull &hull : m_scene->hulls()) {
     double sum = 0.;
     for (int j = 0; j < n; ++j) {
       sum += m_reach->ofLink(hull.link, j) * way(j);
     }
-    m_motion[static_cast<std::size_t>(hull.link)] = sum;
+    motions.links[static_cast<std::size_t>(hull.link)] = sum;
     farthest = std::max(farthest, sum);
   }
-  for (int k = 0; k < m_scene->objectCount(); ++k) {
-    objects = std::max(objects, motionOf(*m_scene, k, half));
-  }
-  m_largest = farthest + std::max(farthest, objects);
+  m_largest = farthest + std::max(farthest, motions.objects);
   m_scene->place(q, m_data);
-  m_scene->near(m_data, m_spec.margin + m_largest + 2. * rounding, m_near, objectTime);
+  m_scene->near(m_data, m_spec.margin + 2. * rounding, &motions, m_near, objectTime);
   ++result.evaluated;
   Verdict verdict = m_near.dropped || !inRange ? Verdict::Split : Verdict::Free;
   for (int k = 0; k < m_near.count; ++k) {
     const vpClearance &pair = m_near.pairs[static_cast<std::size_t>(k)];
     // Of a link and an object, or of two links, it is the least: it proves the others, too.
-    const auto motionOfLink = [this](int i) { return m_motion[static_cast<std::size_t>(m_scene->capsule(i).link)]; };
+    const auto motionOfLink = [this, &motions](int i) {
+      return motions.links[static_cast<std::size_t>(m_scene->capsule(i).link)];
+    };
     double moves = motionOfLink(pair.capsule);
-    moves += pair.kind == vpCollisionKind::Self     ? motionOfLink(pair.other)
-             : pair.kind == vpCollisionKind::Object ? motionOf(*m_scene, pair.other, half)
-                                                    : 0.;
+    moves += pair.kind == vpCollisionKind::Self ? motionOfLink(pair.other)
+             : pair.kind == vpCollisionKind::Object
+                 ? half * m_scene->tree()[static_cast<std::size_t>(pair.other)].fastest
+                 : 0.;
     result.least = std::min(result.least, pair.distance);
     if (!(pair.distance > m_spec.margin)) {
       result.pair = pair;

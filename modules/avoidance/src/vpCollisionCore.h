@@ -32,6 +32,8 @@ struct vpCollisionCore {
     pose = to;
     centre = to.R * middle + to.p;
   }
+  // Largest distance of a point from the origin of the object's frame.
+  [[nodiscard]] double reach() const noexcept { return middle.norm() + bound + radius; }
   // Neither mesh nor octree: the plane through the nearest point, perpendicular to the normal, separates.
   [[nodiscard]] bool isConvex() const noexcept { return !mesh && !octree; }
   // Ends of a capsule's core; for a sphere both are its centre.

@@ -4,6 +4,7 @@
  */
 #include "vpCollisionCore.h"
 #include "vpLinkHull.h"
+#include "vpObjectTree.h"
 #include "vpPlausible.h"
 #include "vpSceneCheck.h"
 
@@ -63,9 +64,11 @@ bool areApart(const Eigen::Vector3d &a, const Eigen::Vector3d &b, double radii, 
   return reach < 0. || (a - b).squaredNorm() > reach * reach;
 }
 
-// Visitors of a query: they get the pairs below their cutoff and may stop.
+// Visitors of a query: they get the pairs below their cutoff and may stop. select() begins the pairs of a link with
+// objects or the ground, or of two links; close() ends those of two parts.
 struct Any {
   double margin;
+  static void select(int /*link*/, int /*other*/ = -1) noexcept {}
   static void close() noexcept {}
   bool found = false;
   // Slightly more, so that a contact exactly at the margin is still found.
@@ -79,6 +82,7 @@ struct Any {
 
 struct Least {
   vpClearance best;
+  static void select(int /*link*/, int /*other*/ = -1) noexcept {}
   static void close() noexcept {}
   [[nodiscard]] double cutoff() const noexcept { return best.distance; }
   bool take(const vpClearance &pair) noexcept
@@ -94,8 +98,21 @@ struct Least {
 struct Nearest {
   vpNearPairs &list;
   double limit;
+  double least;                         // limit of parts that do not move
+  const vpPartMotions *moves = nullptr; // if given, added to it
   vpClearance best;
-  Nearest(vpNearPairs &into, double cutoff) noexcept : list(into), limit(cutoff) { best.distance = cutoff; }
+  Nearest(vpNearPairs &into, double cutoff, const vpPartMotions *motions = nullptr) noexcept
+    : list(into), limit(cutoff), least(cutoff), moves(motions)
+  {
+    best.distance = cutoff;
+  }
+  void select(int link, int other = -1) noexcept
+  {
+    if (moves != nullptr) {
+      limit = least + moves->links[at(link)] + (other < 0 ? moves->objects : moves->links[at(other)]);
+      best.distance = limit;
+    }
+  }
   [[nodiscard]] double cutoff() const noexcept { return best.distance; }
   bool take(const vpClearance &pair) noexcept
   {
@@ -151,8 +168,9 @@ vpCollisionScene::vpCollisionScene(const vpArmModel &arm, const vpCollisionScene
     m_ground->normal.normalize();
   }
   for (const vpCollisionObject &object : spec.objects) {
-    add(object);
+    append(object);
   }
+  vpBuildObjectTree(m_cores, m_objects, m_tree);
   for (const vpAllowedContact &contact : m_contacts) {
     if (find(contact.object) < 0) {
       vpSceneFail(m_source, "allowed contact with object " + contact.object + ", which does not exist");
@@ -167,6 +185,7 @@ vpCollisionScene &vpCollisionScene::operator=(vpCollisionScene &&other) noexcept
 vpCollisionScene::~vpCollisionScene() = default;
 
 const vpCollisionCore &vpCollisionScene::core(int i) const noexcept { return m_cores[at(i)]; }
+const std::vector<vpObjectNode> &vpCollisionScene::tree() const noexcept { return m_tree; }
 const std::vector<vpLinkHull> &vpCollisionScene::hulls() const noexcept { return m_links->hulls; }
 const std::vector<vpLinkPair> &vpCollisionScene::linkPairs() const noexcept { return m_links->pairs; }
 
@@ -194,6 +213,14 @@ bool vpCollisionScene::isCheckedWithGround(int capsule) const noexcept
 
 int vpCollisionScene::add(const vpCollisionObject &object)
 {
+  append(object);
+  vpBuildObjectTree(m_cores, m_objects, m_tree);
+  m_revision = nextRevision();
+  return objectCount() - 1;
+}
+
+void vpCollisionScene::append(const vpCollisionObject &object)
+{
   vpCheckObject(m_source, object);
   if (find(object.name) >= 0) {
     vpSceneFail(m_source, "object " + object.name + ": duplicate name");
@@ -208,8 +235,6 @@ int vpCollisionScene::add(const vpCollisionObject &object)
   m_objects.push_back(object);
   m_cores.emplace_back(object);
   m_checked.push_back(checked);
-  m_revision = nextRevision();
-  return objectCount() - 1;
 }
 
 void vpCollisionScene::remove(int i)
@@ -221,6 +246,7 @@ void vpCollisionScene::remove(int i)
   m_objects.erase(m_objects.begin() + i);
   m_cores.erase(m_cores.begin() + i);
   m_checked.erase(m_checked.begin() + i);
+  vpBuildObjectTree(m_cores, m_objects, m_tree);
   m_revision = nextRevision();
 }
 
@@ -231,6 +257,7 @@ bool vpCollisionScene::moveObject(int i, const vpRigidTransform &pose) noexcept
   }
   m_objects[at(i)].pose = pose;
   m_cores[at(i)].move(pose);
+  vpFitObject(i, m_cores[at(i)], m_objects[at(i)].velocity, m_tree);
   return true;
 }
 
@@ -240,6 +267,7 @@ bool vpCollisionScene::setVelocity(int i, const vpTwist &velocity) noexcept
     return false;
   }
   m_objects[at(i)].velocity = velocity;
+  vpFitObject(i, m_cores[at(i)], velocity, m_tree);
   return true;
 }
 
@@ -250,6 +278,7 @@ bool vpCollisionScene::setInflation(int i, double inflation) noexcept
   }
   m_cores[at(i)].radius += inflation - m_objects[at(i)].inflation;
   m_objects[at(i)].inflation = inflation;
+  vpFitObject(i, m_cores[at(i)], m_objects[at(i)].velocity, m_tree);
   return true;
 }
 
@@ -293,26 +322,20 @@ void vpCollisionScene::place(const vpJointVector &q, vpCollisionData &data) cons
   }
 }
 
-// Visits every pair that must not touch and whose bounding spheres are nearer than the visitor's cutoff; close() ends
-// those of a link and an object, of two links, or of a link and the ground.
+// Visits every pair that must not touch and is not surely farther apart than the visitor's cutoff; close() ends those
+// of a link and an object, of two links, or of a link and the ground.
 template <class Visit>
 void vpCollisionScene::visit(const vpCollisionData &data, double time, Visit &visitor) const noexcept
 {
-  for (int j = 0; j < objectCount(); ++j) {
-    if (time == 0.) {
-      if (visitObject(data, j, m_cores[at(j)], visitor)) {
-        return;
-      }
-      continue;
-    }
-    vpCollisionCore moved = m_cores[at(j)];
-    moved.move(m_objects[at(j)].poseAt(time));
-    if (visitObject(data, j, moved, visitor)) {
+  for (const vpLinkHull &hull : m_links->hulls) {
+    visitor.select(hull.link);
+    if (hull.link > 0 && visitObjects(data, hull, time, visitor)) {
       return;
     }
   }
   for (const vpLinkPair &links : m_links->pairs) {
     const vpLinkHull &first = m_links->hulls[at(links.first)], &second = m_links->hulls[at(links.second)];
+    visitor.select(first.link, second.link);
     if (areApart(data.centres[at(first.link)], data.centres[at(second.link)], first.radius + second.radius,
                  visitor.cutoff())) {
       continue;
@@ -329,6 +352,7 @@ void vpCollisionScene::visit(const vpCollisionData &data, double time, Visit &vi
     visitor.close();
   }
   for (const vpLinkHull &hull : m_links->hulls) {
+    visitor.select(hull.link);
     for (const int i : hull.capsules) {
       if (isCheckedWithGround(i) && visitor.take(groundPair(data, i))) {
         return;
@@ -339,39 +363,66 @@ void vpCollisionScene::visit(const vpCollisionData &data, double time, Visit &vi
 }
 
 template <class Visit>
-bool vpCollisionScene::visitObject(const vpCollisionData &data, int j, const vpCollisionCore &core,
-                                   Visit &visitor) const noexcept
+bool vpCollisionScene::visitObjects(const vpCollisionData &data, const vpLinkHull &hull, double time,
+                                    Visit &visitor) const noexcept
 {
-  for (const vpLinkHull &hull : m_links->hulls) {
-    if ((m_checked[at(j)] >> hull.link & 1U) == 0 ||
-        areApart(data.centres[at(hull.link)], core.centre, hull.radius + core.bound + core.radius, visitor.cutoff())) {
+  Eigen::AlignedBox3d box;
+  for (const int i : hull.capsules) {
+    const vpPlacedCapsule &c = data.capsules[at(i)];
+    const Eigen::Vector3d radius = Eigen::Vector3d::Constant(c.radius);
+    box.extend(c.from.cwiseMin(c.to) - radius).extend(c.from.cwiseMax(c.to) + radius);
+  }
+  vpObjectSearch search(m_tree, box, time);
+  for (int j = search.next(visitor.cutoff()); j >= 0; j = search.next(visitor.cutoff())) {
+    if ((m_checked[at(j)] >> hull.link & 1U) == 0) {
       continue;
     }
-    // The one with the nearest centre first: it rules out most others.
-    const std::size_t count = hull.capsules.size();
-    std::size_t first = 0;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; count > 1 && k < count; ++k) {
-      const double square = (data.capsules[at(hull.capsules[k])].centre - core.centre).squaredNorm();
-      first = square < least ? k : first;
-      least = std::min(least, square);
-    }
-    for (std::size_t k = 0; k < count; ++k) {
-      const int i = hull.capsules[first + k < count ? first + k : first + k - count];
-      const vpPlacedCapsule &c = data.capsules[at(i)];
-      const double radii = c.halfLength + c.radius + core.bound + core.radius;
-      if (areApart(c.centre, core.centre, radii, visitor.cutoff())) {
-        continue;
-      }
-      vpClearance pair = core.clearance(c, visitor.cutoff());
-      pair.capsule = i;
-      pair.other = j;
-      if (visitor.take(pair)) {
+    if (time == 0.) {
+      if (visitObject(data, hull, j, m_cores[at(j)], visitor)) {
         return true;
       }
+      continue;
     }
-    visitor.close();
+    vpCollisionCore moved = m_cores[at(j)];
+    moved.move(m_objects[at(j)].poseAt(time));
+    if (visitObject(data, hull, j, moved, visitor)) {
+      return true;
+    }
   }
+  return false;
+}
+
+template <class Visit>
+bool vpCollisionScene::visitObject(const vpCollisionData &data, const vpLinkHull &hull, int j,
+                                   const vpCollisionCore &core, Visit &visitor) const noexcept
+{
+  if (areApart(data.centres[at(hull.link)], core.centre, hull.radius + core.bound + core.radius, visitor.cutoff())) {
+    return false;
+  }
+  // The one with the nearest centre first: it rules out most others.
+  const std::size_t count = hull.capsules.size();
+  std::size_t first = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; count > 1 && k < count; ++k) {
+    const double square = (data.capsules[at(hull.capsules[k])].centre - core.centre).squaredNorm();
+    first = square < least ? k : first;
+    least = std::min(least, square);
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    const int i = hull.capsules[first + k < count ? first + k : first + k - count];
+    const vpPlacedCapsule &c = data.capsules[at(i)];
+    const double radii = c.halfLength + c.radius + core.bound + core.radius;
+    if (areApart(c.centre, core.centre, radii, visitor.cutoff())) {
+      continue;
+    }
+    vpClearance pair = core.clearance(c, visitor.cutoff());
+    pair.capsule = i;
+    pair.other = j;
+    if (visitor.take(pair)) {
+      return true;
+    }
+  }
+  visitor.close();
   return false;
 }
 
@@ -401,13 +452,18 @@ vpClearance vpCollisionScene::clearance(const vpCollisionData &data, double cuto
 
 void vpCollisionScene::near(const vpCollisionData &data, double cutoff, vpNearPairs &result, double time) const noexcept
 {
+  near(data, cutoff, nullptr, result, time);
+}
+
+void vpCollisionScene::near(const vpCollisionData &data, double cutoff, const vpPartMotions *motions,
+                            vpNearPairs &result, double time) const noexcept
+{
   result.count = 0;
   result.dropped = !isKnown(data, cutoff, time);
-  if (result.dropped) {
-    return;
+  if (!result.dropped) {
+    Nearest nearest(result, cutoff, motions);
+    visit(data, time, nearest);
   }
-  Nearest nearest(result, cutoff);
-  visit(data, time, nearest);
 }
 
 vpClearance vpCollisionScene::pair(const vpCollisionData &data, int capsule, int object, double time) const noexcept

@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <optional>
 
 // Vectors of two, four or eight doubles, for different register widths.
 using vpLane2 = double __attribute__((vector_size(16)));

@@ -6,7 +6,7 @@
 #ifndef vpEdgeLanes_h
 #define vpEdgeLanes_h
 
-#include "vpCollisionCore.h"
+#include "vpObjectTree.h"
 
 #include <visp3/avoidance/vpCollisionScene.h>
 
@@ -40,6 +40,14 @@ struct vpEdgeBound {
   double acceleration = 0.; // sum sum |dq_j| |dq_k| R: largest velocity change per unit of s, m.
 };
 
+//! Pairs of bounding capsules and objects.
+struct vpEdgeObjects {
+  static constexpr std::uint32_t unchecked = 0xffffffff;
+  const std::vector<vpObjectNode> *tree = nullptr;
+  const std::uint32_t *pairs = nullptr; // By object and hull: the pair, or unchecked.
+  int firstHull = 0, hulls = 0;         // Capsules of the hulls.
+};
+
 struct vpEdgeMotion {
   const vpArmModel *arm = nullptr;
   const vpHalfSpace *ground = nullptr;
@@ -55,6 +63,7 @@ struct vpEdgeMotion {
 constexpr int vpEdgeMostCapsules = vpArmMaxCapsules + vpArmMaxJoints + 1;
 
 struct vpEdgeBatch {
+  const vpEdgeObjects *objects = nullptr; // If given, their pairs are evaluated too, except those that are far apart.
   double slack[8];                  // Least of clearance - need over the pairs evaluated, m: small where it is tight.
   int hitPair = -1;                 // A colliding pair without exact shapes, -1: none.
   int hitLane = 0;                  // Its lane.

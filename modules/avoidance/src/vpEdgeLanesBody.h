@@ -193,10 +193,16 @@ struct Size {
   double bounds; // Sum of both bounding spheres of the cores, both radii and the margin, m.
 };
 
+//! Largest motion of a capsule around each lane.
+VP_KERNEL_INLINE vpLane motionOf(const Capsule &c, const vpEdgeBound &bound, double half)
+{
+  return smaller(filled(half * bound.speed), half * c.fastest + 0.5 * half * half * bound.acceleration);
+}
+
 VP_KERNEL_INLINE Verdict judgeObject(const vpCollisionCore &core, const Capsule &c, const Size &size,
                                      const vpEdgeBound &bound, double half)
 {
-  const vpLane need = smaller(filled(half * bound.speed), half * c.fastest + 0.5 * half * half * bound.acceleration);
+  const vpLane need = motionOf(c, bound, half);
   // Bounding spheres first: sufficient for most pairs.
   const vpLane apart = norm(c.centre - filled(core.centre)) - size.bounds;
   if (all(apart - need)) {
@@ -271,6 +277,55 @@ VP_KERNEL_INLINE Verdict judgePair(const vpEdgeMotion &motion, const vpEdgePair 
   return judgeGround(*motion.ground, c, {radius, radius}, bound, half);
 }
 
+// Box of a capsule at all lanes and, with its motion, around them.
+VP_KERNEL_INLINE Eigen::AlignedBox3d boxOf(const Capsule &c, double radius, const vpLane &moves)
+{
+  constexpr double slack = 1e-6; // m, more than all rounding
+  const vpLane out = moves + (radius + slack);
+  const vpLane *const from[3] = {&c.from.x, &c.from.y, &c.from.z}, *const to[3] = {&c.to.x, &c.to.y, &c.to.z};
+  Eigen::AlignedBox3d box;
+  for (int i = 0; i < 3; ++i) {
+    const vpLane low = smaller(*from[i], *to[i]) - out, high = larger(*from[i], *to[i]) + out;
+    for (int l = 0; l < lanes; ++l) {
+      box.min()[i] = low[l] < box.min()[i] ? low[l] : box.min()[i];
+      box.max()[i] = high[l] > box.max()[i] ? high[l] : box.max()[i];
+    }
+  }
+  return box;
+}
+
+//! The pairs with objects whose boxes meet those of the links. The outermost link first: it moves most.
+struct NearObjects {
+  const vpEdgeObjects *objects; // null: none
+  int hull;                     // of the search
+  std::optional<vpObjectSearch> search;
+};
+
+// The next pair, or unchecked at the end.
+VP_KERNEL_INLINE std::uint32_t nextPair(const vpEdgeMotion &motion, double half, Arm &arm, NearObjects &near)
+{
+  while (near.objects != nullptr) {
+    const vpEdgeObjects &objects = *near.objects;
+    for (int j = near.search ? near.search->next(0.) : -1; j >= 0; j = near.search->next(0.)) {
+      const std::uint32_t index = objects.pairs[j * objects.hulls + near.hull];
+      if (index != vpEdgeObjects::unchecked) {
+        return index;
+      }
+    }
+    near.search.reset();
+    if (--near.hull < 0) {
+      near.objects = nullptr;
+    }
+    else if (motion.capsules[objects.firstHull + near.hull].link > 0) {
+      const vpEdgeCapsule &own = motion.capsules[objects.firstHull + near.hull];
+      const Capsule &c = capsuleAt(motion, objects.firstHull + near.hull, arm);
+      const vpLane moves = motionOf(c, motion.bounds[static_cast<std::size_t>(own.link)][0], half);
+      near.search.emplace(*objects.tree, boxOf(c, own.radius + motion.margin, moves), 0.);
+    }
+  }
+  return vpEdgeObjects::unchecked;
+}
+
 // Bits of the lanes that the numbers do not exceed; written such that NaN exceeds nothing.
 VP_KERNEL_INLINE unsigned int lanesBelow(const vpLane &value, double limit)
 {
@@ -290,9 +345,16 @@ VP_KERNEL_INLINE bool evaluate(const vpEdgeMotion &motion, const vpEdgePair *pai
   placeArm(motion, start + (group + 0.5) * piece, piece, arm.frames, arm.twists);
   const double half = 0.5 * piece;
   vpLane tightest = filled(std::numeric_limits<double>::infinity());
+  NearObjects near = {batch.objects, batch.objects != nullptr ? batch.objects->hulls : 0, std::nullopt};
   std::uint32_t child = 0, lastChild = 0; // those of a bounding pair come after it
-  for (int k = 0; k < count || child < lastChild;) {
-    const std::uint32_t index = child < lastChild ? child++ : list[k++];
+  for (int k = 0;;) {
+    std::uint32_t index = child < lastChild ? child++ : nextPair(motion, half, arm, near);
+    if (index == vpEdgeObjects::unchecked) {
+      if (k == count) {
+        break;
+      }
+      index = list[k++];
+    }
     const vpEdgePair &pair = pairs[index];
     const Verdict v = judgePair(motion, pair, half, arm);
     const unsigned int mask = lanesBelow(v.slack, rounding);

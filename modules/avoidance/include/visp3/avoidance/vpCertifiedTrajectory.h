@@ -99,8 +99,7 @@ private:
   vpNearPairs m_near;
   vpJointVector m_speed, m_acceleration; // maximum of each joint over the plan
   vpJointVector m_kink, m_jump; // sums of the velocity jumps and of the position jumps of each joint over the plan
-  std::array<double, vpArmMaxJoints + 1> m_motion{}; // of each link in the last interval, m
-  double m_largest = 0.;                             // of all pairs, m
+  double m_largest = 0.;        // motion of any pair in the last interval, m
 };
 
 END_VISP_NAMESPACE

@@ -20,6 +20,8 @@
 BEGIN_VISP_NAMESPACE
 
 struct vpCollisionCore;
+struct vpObjectNode;
+struct vpPartMotions;
 struct vpLinkHull;
 struct vpLinkPair;
 class vpExactShapes;
@@ -188,15 +190,24 @@ public:
   //! For this module's own use.
   [[nodiscard]] const vpCollisionCore &core(int i) const noexcept;
   //! For this module's own use.
+  [[nodiscard]] const std::vector<vpObjectNode> &tree() const noexcept;
+  //! For this module's own use: near() with a cutoff that is enlarged for each pair by the motions of its parts.
+  void near(const vpCollisionData &data, double cutoff, const vpPartMotions *motions, vpNearPairs &result,
+            double time) const noexcept;
+  //! For this module's own use.
   [[nodiscard]] const std::vector<vpLinkHull> &hulls() const noexcept;
   //! For this module's own use.
   [[nodiscard]] const std::vector<vpLinkPair> &linkPairs() const noexcept;
 
 private:
   struct Links;
+  void append(const vpCollisionObject &object);
   template <class Visit> void visit(const vpCollisionData &data, double time, Visit &visitor) const noexcept;
   template <class Visit>
-  bool visitObject(const vpCollisionData &data, int j, const vpCollisionCore &core, Visit &visitor) const noexcept;
+  bool visitObjects(const vpCollisionData &data, const vpLinkHull &hull, double time, Visit &visitor) const noexcept;
+  template <class Visit>
+  bool visitObject(const vpCollisionData &data, const vpLinkHull &hull, int j, const vpCollisionCore &core,
+                   Visit &visitor) const noexcept;
 
   vpArmModel m_arm;
   std::string m_source;
@@ -208,6 +219,7 @@ private:
   std::vector<vpAllowedContact> m_contacts;
   std::vector<vpCollisionObject> m_objects;
   std::vector<vpCollisionCore> m_cores;
+  std::vector<vpObjectNode> m_tree;
   unsigned long m_revision = 0;
   std::vector<std::uint32_t> m_checked; // Bit i: link i must not touch the object.
 };
