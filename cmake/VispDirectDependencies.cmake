@@ -36,7 +36,7 @@ endfunction()
 
 find_path(VISP_DIRECT_KDL_INCLUDE_DIR kdl/chain.hpp)
 find_library(VISP_DIRECT_KDL_LIBRARY orocos-kdl)
-vispdirect_optional(KDL "dynamics of arms (vpArmDynamics)" "${VISP_DIRECT_KDL_INCLUDE_DIR}" "${VISP_DIRECT_KDL_LIBRARY}")
+vispdirect_optional(KDL "tests of kinematics and dynamics against KDL" "${VISP_DIRECT_KDL_INCLUDE_DIR}" "${VISP_DIRECT_KDL_LIBRARY}")
 
 find_path(VISP_DIRECT_URDF_MODEL_INCLUDE_DIR urdf_model/model.h PATH_SUFFIXES urdfdom_headers)
 find_path(VISP_DIRECT_URDF_PARSER_INCLUDE_DIR urdf_parser/urdf_parser.h PATH_SUFFIXES urdfdom)

@@ -10,14 +10,14 @@ mkdir -p "$logs"
 # Debian 12 packages needed by the build. ViSP depends on OpenCV and Eigen; they are listed because we use them directly.
 # Python, numpy, matplotlib, jinja2 and three.js make the reports; pybind11 the Python package.
 packages=(g++ cmake ninja-build libvisp-dev libopencv-dev libeigen3-dev libdlib-dev catch2 libbenchmark-dev
-  libcli11-dev nlohmann-json3-dev liborocos-kdl-dev liburdfdom-dev libfcl-dev liboctomap-dev libassimp-dev
+  libcli11-dev nlohmann-json3-dev liburdfdom-dev libfcl-dev liboctomap-dev libassimp-dev
   libompl-dev libaravis-dev pybind11-dev python3-dev python3-numpy
   python3-matplotlib python3-jinja2 libjs-three)
 case ${CXX:-} in *clang*) packages+=(clang libomp-dev) ;; esac # ViSP is built with OpenMP
 # Real images for some tests, which are skipped if the images are missing. Documentation tools, as the documentation is also
 # a test: doxygen, and bibtex for the bibliography. Open MPI, for the program that can run on several processes.
-# MuJoCo, a second opinion on arms. libabigail, for the test of the binary interface. pytest, and a browser that opens the reports.
-test_packages=(visp-images-data opencv-doc doxygen doxygen-awesome-css texlive-binaries libopenmpi-dev openmpi-bin libmujoco-dev abigail-tools
+# KDL and MuJoCo, second opinions on arms. libabigail, for the test of the binary interface. pytest, and a browser that opens the reports.
+test_packages=(visp-images-data opencv-doc doxygen doxygen-awesome-css texlive-binaries libopenmpi-dev openmpi-bin liborocos-kdl-dev libmujoco-dev abigail-tools
   python3-pytest chromium)
 
 # run LOG SENTENCE COMMAND...

@@ -11,7 +11,10 @@
 #include <visp3/manipulator/vpArmKinematics.h>
 #include <visp3/manipulator/vpClosedLoopKinematics.h>
 
+#include <Eigen/Cholesky>
+
 #include <kdl/chain.hpp>
+#include <kdl/chaindynparam.hpp>
 #include <kdl/chainfksolverpos_recursive.hpp>
 #include <kdl/chainiksolvervel_wdls.hpp>
 #include <kdl/chainjnttojacsolver.hpp>
@@ -36,8 +39,9 @@ KDL::Chain chain()
   const double a[] = {0.0623, 0., 0.097, 0., 0.0502, 0., 0.}, d[] = {0.155, 0., 0.41946, 0., 0.3582, 0., 0.2455};
   const double right = 1.57079632679489661923, alpha[] = {-right, -right, right, -right, right, -right, 0.};
   for (int i = 0; i < 7; ++i) {
-    result.addSegment(
-        KDL::Segment(KDL::Joint(KDL::Joint::RotZ), KDL::Frame::DH(a[i], alpha[i], d[i], i == 1 ? 2. * right : 0.)));
+    const KDL::RigidBodyInertia body(1., KDL::Vector(0., 0., 0.1), KDL::RotationalInertia(0.1, 0.1, 0.1));
+    result.addSegment(KDL::Segment(KDL::Joint(KDL::Joint::RotZ),
+                                   KDL::Frame::DH(a[i], alpha[i], d[i], i == 1 ? 2. * right : 0.), body));
   }
   return result;
 }
@@ -205,6 +209,25 @@ void dynamics(benchmark::State &state)
   }
 }
 BENCHMARK(dynamics);
+
+void kdlDynamics(benchmark::State &state)
+{
+  const KDL::Chain links = chain();
+  KDL::ChainDynParam of(links, KDL::Vector(0., 0., -9.81));
+  KDL::JntArray q(7), v(7), bend(7), weight(7);
+  KDL::JntSpaceInertiaMatrix M(7);
+  v.data.setConstant(0.3);
+  std::size_t k = 0;
+  for (auto _ : state) {
+    q.data = configurations()[k++ % 1024];
+    of.JntToMass(q, M);
+    of.JntToCoriolis(q, v, bend);
+    of.JntToGravity(q, weight);
+    const Eigen::LLT<vpJointMatrix> factor(vpJointMatrix(M.data));
+    benchmark::DoNotOptimize(vpJointVector(factor.solve(-bend.data - weight.data)).data());
+  }
+}
+BENCHMARK(kdlDynamics);
 } // namespace
 
 VP_BENCHMARK_MAIN();

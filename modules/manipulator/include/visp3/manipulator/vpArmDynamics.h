@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpArmDynamics.h
- * \brief Inertia matrix, Coriolis and gravity terms of an arm. Requires a build with Orocos KDL.
+ * \brief Inertia matrix, Coriolis and gravity terms of an arm.
  */
 #ifndef vpArmDynamics_h
 #define vpArmDynamics_h
@@ -25,7 +25,7 @@ BEGIN_VISP_NAMESPACE
  * Each function returns false and a zero result if a vector has the wrong size, is not finite or exceeds vpArmLargest,
  * or if the result is not finite.
  *
- * Recursions by Orocos KDL. An object holds scratch memory: use one per thread.
+ * Recursions of Newton and Euler (torques) and of composite rigid bodies (M). An object holds scratch memory: use one per thread.
  */
 class VISP_EXPORT vpArmDynamics
 {

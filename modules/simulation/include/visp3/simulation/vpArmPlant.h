@@ -19,7 +19,7 @@ BEGIN_VISP_NAMESPACE
  * \ingroup group_simulation
  * \brief Simulates M(q) q'' + C(q, q') q' + g(q) + friction + stops = tau in steps of about 1 ms.
  *
- * Dynamics by vpArmDynamics (Orocos KDL). Viscous friction is integrated implicitly. Coulomb friction and end stops are
+ * Dynamics by vpArmDynamics. Viscous friction is integrated implicitly. Coulomb friction and end stops are
  * impulses that at most bring a joint to rest (projected Gauss-Seidel): a joint whose load is below its friction does
  * not move at all, where an explicit sgn would chatter. A joint that reaches its position limit stops without
  * bouncing.
