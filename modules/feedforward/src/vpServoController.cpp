@@ -94,6 +94,21 @@ vpServoCommand vpServoController::step(const vpServoMeasurement &measurement, do
   return command;
 }
 
+// Without a measurement the law learns what was executed, and no more.
+void vpServoController::pass(double dt) noexcept
+{
+  if (std::isfinite(dt) && dt > 0.) {
+    static_cast<void>(m_law->step(m_unseen, dt));
+    remember(dt);
+  }
+}
+
+void vpServoController::remember(double dt) noexcept
+{
+  m_before = m_sent;
+  m_period = dt;
+}
+
 // What is not the law's own twist continues the last one within its limits.
 vpServoCommand vpServoController::bounded(vpServoCommand command, double dt) noexcept
 {
@@ -114,8 +129,7 @@ vpServoCommand vpServoController::bounded(vpServoCommand command, double dt) noe
                                             belowLimit(limits.angularVelocity, limits.angularAcceleration, dt)),
                                dt);
   }
-  m_before = m_sent;
-  m_period = timeUsable ? dt : 0.;
+  remember(timeUsable ? dt : 0.);
   return command;
 }
 

@@ -2,6 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
+#include "vpFeedforwardErrors.h"
 #include "vpPlanFeedback.h"
 #include "vpPlanMotion.h"
 #include "vpServoCheck.h"
@@ -119,7 +120,8 @@ protected:
     m_sentBefore = m_sent;
     m_period = dt;
     const Vector6 off = m_sent - m_own;
-    if (m_isDisturbed || off.head<3>().norm() > tolerance * m_motionLimits.linearVelocity ||
+    const bool isPassedOver = !std::exchange(m_isAsked, false) && !(m_motion.isAtRest() && m_sent.isZero(0.));
+    if (m_isDisturbed || isPassedOver || off.head<3>().norm() > tolerance * m_motionLimits.linearVelocity ||
         off.tail<3>().norm() > tolerance * m_motionLimits.angularVelocity) {
       restart(rate);
     }
@@ -129,6 +131,7 @@ protected:
 
   vpServoCommand compute(const vpServoMeasurement &measurement, double dt) noexcept VP_OVERRIDE
   {
+    m_isAsked = true;
     const bool image = m_object.see(measurement);
     const Pose goal = Pose{m_object.fRo(), m_object.fto()} * vpServoPose::pose(m_goal.cdMo).inverse();
     m_sinceSearch += dt;
@@ -269,8 +272,9 @@ private:
       brake();
     }
     vpPlanSearch::Task task;
-    task.gaze = !m_gazeFailed;
     task.origin = vpServoPose::translation(m_goal.cdMo);
+    // An object at the goal camera's own origin is in no direction.
+    task.gaze = !m_gazeFailed && vpLookAt(task.origin, Eigen::Vector3d::Zero()).defined;
     m_rested = m_motion.isAtRest();
     int points = 0;
     if (!m_rested) {
@@ -382,6 +386,7 @@ private:
   // Feedback and what was executed.
   vpPlanFeedback m_feedback;
   bool m_isDisturbed = false; // the commands do not go on as planned
+  bool m_isAsked = false;     // compute() made the last command
   Vector6 m_own = Vector6::Zero(), m_speed = m_own, m_sent = Vector6::Zero(), m_sentBefore = Vector6::Zero();
   vpTwist m_moved;
   double m_period = 0.;

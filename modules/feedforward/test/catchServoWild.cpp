@@ -85,7 +85,7 @@ TEST_CASE("no wild number gets through a law or a controller, and it goes on aft
     good.covariance(i, i) = 1e-6;
   }
   const Numbers ordinary = numbersOf(good, 0.01);
-  for (const std::string &id : lawsWithoutPlan()) { // the others: catchServoPlanLaws
+  for (const std::string &id : lawsWithoutPlan()) { // the others: catchServoPlanLimits
     for (const bool filtered : {false, true}) {
       CAPTURE(id, filtered);
       vpServoController servo = vpServoController::create(filtered ? id + "+cbf" : id);

@@ -89,6 +89,13 @@ public:
    */
   [[nodiscard]] vpServoCommand step(const vpServoMeasurement &measurement, double dt) noexcept;
 
+  /*!
+   * One cycle in which something else moves the robot, a supervisor that brakes, say: the law is not asked, but follows the
+   * motion, and the next step() goes on from it. notifyExecuted() has to follow with what is commanded instead.
+   * \param dt : Time since the last call and until the next one, s, > 0; otherwise nothing happens.
+   */
+  void pass(double dt) noexcept;
+
   //! Tells the law that its last twist was not executed as given: it was limited, say.
   void notifyInterrupted() noexcept { m_law->notifyInterrupted(); }
   //! Tells the law what came of its twist, see vpServoLaw::notifyExecuted(); only needed where it was not that of step().
@@ -113,6 +120,7 @@ private:
                     const vpServoControllerSpec &spec);
 
   vpServoCommand bounded(vpServoCommand command, double dt) noexcept;
+  void remember(double dt) noexcept;
 
   std::string m_id;
   vpServoControllerSpec m_spec;
@@ -122,6 +130,7 @@ private:
   std::optional<vpTwistShaper> m_shaper; // of laws that plan
   vpTwist m_sent, m_before;              // executed in the last cycle, and in the one before
   double m_period = 0.;                  // of the last cycle, s
+  vpServoMeasurement m_unseen;           // not valid
 };
 
 END_VISP_NAMESPACE
