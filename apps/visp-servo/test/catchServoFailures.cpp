@@ -65,7 +65,6 @@ TEST_CASE("wrong input is one sentence", "[visp-servo][errors]")
       {"--law nonsense", USAGE, "--law: servo law \"nonsense\" is unknown"},
       {"--law pbvs1,nonsense", USAGE, "--law: servo law \"nonsense\" is unknown"},
       {"--law ff-dtg+cbf", USAGE, "--law: \"ff-dtg+cbf\": the view filter cannot follow a law that plans"},
-      {"--law dtg --eye-to-hand", USAGE, "--law: dtg plans the motion of a camera, and --eye-to-hand has a fixed one"},
       {"--lambda 0", USAGE, "--lambda is 0, must be a number > 0"},
       {"--max-linear inf", USAGE, "--max-linear is inf"},
       {"--goal missing.json", DATA, "missing.json: cannot be read"},

@@ -30,7 +30,7 @@ vpRedundancySpec withPeriod(vpRedundancySpec spec)
 
 vpArmMotionCheck::vpArmMotionCheck(const vpArmModel &model, const vpRedundancySpec &spec,
                                    const std::vector<vpSelfMotionIndex> &indices, const std::array<bool, 6> &free,
-                                   const vpJointVector &jerk)
+                                   const vpJointVector &jerk, vpArmFrame frame)
   : m_model(&model), m_spec(withPeriod(spec)), m_solver(model, m_spec), m_q(model.home()),
     m_velocity(vpJointVector::Zero(model.size())), m_place(m_q), m_jerk(jerk), m_acceleration(m_velocity)
 {
@@ -44,7 +44,7 @@ vpArmMotionCheck::vpArmMotionCheck(const vpArmModel &model, const vpRedundancySp
                         model.spec().joints[static_cast<std::size_t>(i)].name.c_str(), jerk(i));
     }
   }
-  m_input.frame = vpArmFrame::Camera;
+  m_input.frame = frame;
   m_input.free = free;
   m_input.indexCount = static_cast<int>(std::min<std::size_t>(indices.size(), vpMaxArmIndices));
   std::copy_n(indices.begin(), m_input.indexCount, m_input.indices.begin());

@@ -87,14 +87,19 @@ void vpServoControlSide::setController(vpServoController controller)
   largest.cdMo[2][3] = 1.;
   largest.points.resize(m_spec.maxPoints);
   m_controller.setGoal(largest);
-  if (m_hasGoal) {
+  m_plans = m_controller.law().plansMotion();
+  m_tool.reset();
+  if (m_plans && !isInHand()) {
+    m_tool.emplace();
+    m_controller.setGoal(m_tool->goal());
+  }
+  else if (m_hasGoal) {
     m_controller.setGoal(m_goal);
   }
-  // Before a fixed camera the plan is not one of what moves: it is bounded like any other law.
   m_startFactor = startFactor(m_controller.spec().motion, m_spec.startTime);
-  m_plans = m_controller.law().plansMotion() && m_spec.place == vpServoCameraPlace::EyeInHand;
   if (m_plans && m_arm) {
-    m_check.emplace(*m_arm, m_spec.redundancy, m_spec.indices, m_spec.free);
+    m_check.emplace(*m_arm, m_spec.redundancy, m_spec.indices, m_spec.free, vpJointVector(),
+                    isInHand() ? vpArmFrame::Camera : vpArmFrame::EndEffector);
     m_controller.setMotionCheck(&*m_check);
   }
 }
@@ -160,32 +165,30 @@ bool vpServoControlSide::readPose(const vpServoRobotState &state, vpRigidTransfo
   if (!state.valid || isStale) {
     return false;
   }
-  const bool isInHand = m_spec.place == vpServoCameraPlace::EyeInHand;
   if (m_arm) {
     if (!vpArmKinematics::update(*m_arm, state.q, m_data)) {
       return false;
     }
     m_q = state.q;
-    camera = isInHand ? vpArmKinematics::camera(*m_arm, m_data) : m_data.tool.inverse() * m_spec.fMc;
+    camera = isInHand() ? vpArmKinematics::camera(*m_arm, m_data) : m_data.tool.inverse() * m_spec.fMc;
     return true;
   }
-  camera = isInHand ? state.pose : state.pose.inverse() * m_spec.fMc;
+  camera = isInHand() ? state.pose : state.pose.inverse() * m_spec.fMc;
   return vpRigidMotion::isRigid(state.pose);
 }
 
 // Motion of the camera expected from the last command, in its frame: a twist times the time.
 vpTwist vpServoControlSide::expectedMotion() const noexcept
 {
-  const bool isInHand = m_spec.place == vpServoCameraPlace::EyeInHand;
   if (!m_arm) {
     const vpTwist motion = m_output.twist.scaled(m_step);
-    return isInHand ? motion : vpRigidMotion::changed(m_camera.inverse(), motion).scaled(-1.);
+    return isInHand() ? motion : vpRigidMotion::changed(m_camera.inverse(), motion).scaled(-1.);
   }
   vpArmData data;
   if (!vpArmKinematics::forward(*m_arm, m_q + m_step * m_output.velocity, data)) {
     return {};
   }
-  const vpRigidTransform camera = isInHand ? vpArmKinematics::camera(*m_arm, data) : data.tool.inverse() * m_spec.fMc;
+  const vpRigidTransform camera = isInHand() ? vpArmKinematics::camera(*m_arm, data) : data.tool.inverse() * m_spec.fMc;
   return vpRigidMotion::log(m_camera.inverse() * camera);
 }
 
@@ -256,7 +259,9 @@ void vpServoControlSide::setGoal(const vpServoGoal &goal) noexcept
 {
   m_goal = goal;
   m_hasGoal = true;
-  m_controller.setGoal(m_goal);
+  if (!m_tool) {
+    m_controller.setGoal(m_goal);
+  }
 }
 
 void vpServoControlSide::takeSight(vpServoExchange &exchange) noexcept
@@ -336,8 +341,7 @@ double vpServoControlSide::approachShare(const vpTwist &wish) const noexcept
   const vpServoMotionLimits &limits = m_controller.spec().motion;
   const double turnGain = m_controller.law().rotationGain();
   // Before a fixed camera the rotation moves the end effector with its own gain, too.
-  const double gain = m_spec.place == vpServoCameraPlace::EyeInHand ? m_controller.gains().lambda
-                                                                    : std::max(m_controller.gains().lambda, turnGain);
+  const double gain = isInHand() ? m_controller.gains().lambda : std::max(m_controller.gains().lambda, turnGain);
   return std::min(vpApproachShare(wish.linearNorm(), gain, limits.linearAcceleration, limits.linearJerk,
                                   along(vpRigidMotion::linear)),
                   vpApproachShare(wish.angularNorm(), turnGain, limits.angularAcceleration, limits.angularJerk,
@@ -351,11 +355,12 @@ vpTwist vpServoControlSide::lawTwist() noexcept
     m_check->setState(m_q, m_output.velocity);
   }
   m_controller.setSpeedFactor(m_sightFactor * (m_rising < m_spec.startTime ? m_startFactor : 1.));
-  const vpServoCommand command = m_controller.step(m_measurement, m_step);
+  const vpServoCommand command =
+      m_controller.step(m_tool ? m_tool->of(m_measurement, m_camera, m_goal.cdMo) : m_measurement, m_step);
   m_output.servo = command.status;
   m_ofLaw = command.v;
   vpTwist wish = command.v;
-  if (m_spec.place == vpServoCameraPlace::EyeToHand) {
+  if (!isInHand() && !m_tool) {
     wish = vpRigidMotion::changed(m_camera, command.v).scaled(-1.);
   }
   wish = vpWithoutFreeAxes(wish, m_spec.free);
@@ -366,13 +371,9 @@ vpTwist vpServoControlSide::lawTwist() noexcept
   return bounded(wish, isSeen ? vpWithoutFreeAxes(objectInCamera(), m_spec.free) : vpTwist());
 }
 
-// Within the limits already. The shaper goes along, to brake from here. In its first step after a pause a law learns only
-// that the robot stands.
+// Within the limits already. The shaper goes along, to brake from here.
 vpTwist vpServoControlSide::planned(const vpTwist &wish) noexcept
 {
-  if (!m_wasAllowed) {
-    return m_shaper.step(vpTwist(), m_step);
-  }
   m_shaper.reset(wish, vpRigidMotion::sum(wish, m_output.twist.scaled(-1.)).scaled(1. / m_step));
   return wish;
 }
@@ -393,24 +394,35 @@ vpTwist vpServoControlSide::bounded(const vpTwist &wish, const vpTwist &along) n
   return twist;
 }
 
-// Tells the law what was sent, as a twist of the camera relative to the object, and what the camera did.
+vpTwist vpServoControlSide::braked() noexcept
+{
+  m_controller.pass(m_step);
+  return m_shaper.step(vpTwist(), m_step);
+}
+
+// Tells the law what was sent, as a twist of the camera relative to the object, and what the camera did; a law that plans
+// before a fixed camera moves the end effector.
 void vpServoControlSide::report() noexcept
 {
-  vpTwist sent = m_spec.place == vpServoCameraPlace::EyeInHand
-                     ? vpRigidMotion::sum(m_output.twist, objectInCamera().scaled(-1.))
-                     : vpRigidMotion::changed(m_camera.inverse(), m_output.twist).scaled(-1.);
+  vpTwist sent = m_output.twist, moved = m_executed;
+  if (m_tool) {
+    moved = vpRigidMotion::changed(m_camera, m_executed).scaled(-1.);
+  }
+  else {
+    sent = isInHand() ? vpRigidMotion::sum(sent, objectInCamera().scaled(-1.))
+                      : vpRigidMotion::changed(m_camera.inverse(), sent).scaled(-1.);
+  }
   for (std::size_t k = 0; k < 6; ++k) {
     sent[k] = m_spec.free[k] ? m_ofLaw[k] : sent[k]; // or it would count as disturbed
   }
-  m_controller.notifyExecuted(sent, m_executed);
+  m_controller.notifyExecuted(sent, moved);
 }
 
 void vpServoControlSide::moveArm(bool isAllowed) noexcept
 {
   if (isAllowed || !isZero(m_output.twist)) {
     m_motion->setSelfMotion(isAllowed ? m_spec.indices : m_noIndices, m_spec.free);
-    m_motion->twist(m_output.twist, m_spec.place == vpServoCameraPlace::EyeInHand ? vpArmTwistFrame::Camera
-                                                                                  : vpArmTwistFrame::EndEffector);
+    m_motion->twist(m_output.twist, isInHand() ? vpArmTwistFrame::Camera : vpArmTwistFrame::EndEffector);
   }
   else {
     m_motion->hold();
@@ -443,18 +455,13 @@ const vpVisualServoOutput &vpServoControlSide::step(const vpServoRobotState &sta
   m_odometry.predict(m_measurement);
   judgeError();
   const Status images = judgeImages(exchange);
-  // A plan begins at rest: the law knows the last twist, but not its rate of change while it was not asked.
-  m_isBraking = m_isBraking && !(isZero(m_shaper.twist()) && isZero(m_shaper.acceleration()));
-  const bool isWanted = m_isRunning && m_fault == Status::Servoing && images == Status::Servoing;
-  const bool isAllowed = isWanted && !(m_plans && m_isBraking);
-  m_isBraking = m_isBraking || !isAllowed;
+  const bool isAllowed = m_isRunning && m_fault == Status::Servoing && images == Status::Servoing;
   m_rising = isAllowed ? m_rising + m_step : 0.;
   m_output.speedFactor = m_sightFactor * (m_rising < m_spec.startTime ? m_rising / m_spec.startTime : 1.);
   m_output.servo = m_hasGoal ? vpServoStatus::Holding : vpServoStatus::NoGoal;
   m_ofLaw = vpTwist();
-  m_output.twist = isAllowed && m_hasGoal ? lawTwist() : m_shaper.step(vpTwist(), m_step);
+  m_output.twist = isAllowed && m_hasGoal ? lawTwist() : braked();
   report();
-  m_wasAllowed = isAllowed;
   if (m_motion) {
     moveArm(isAllowed);
   }

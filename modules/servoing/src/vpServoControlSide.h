@@ -11,6 +11,7 @@
 
 #include "vpFollowWatchdog.h"
 #include "vpServoExchange.h"
+#include "vpToolView.h"
 
 #include <visp3/feedforward/vpOdometryBridge.h>
 #include <visp3/manipulator/vpArmMotion.h>
@@ -39,6 +40,7 @@ public:
   const vpServoController &controller() const noexcept { return m_controller; }
 
 private:
+  bool isInHand() const noexcept { return m_spec.place == vpServoCameraPlace::EyeInHand; }
   void follow(Request request, vpServoExchange &exchange) noexcept;
   bool checkClock(double now, vpServoExchange &exchange) noexcept;
   bool readPose(const vpServoRobotState &state, vpRigidTransform &camera) noexcept;
@@ -55,6 +57,7 @@ private:
   vpTwist lawTwist() noexcept;
   vpTwist planned(const vpTwist &wish) noexcept;
   vpTwist bounded(const vpTwist &wish, const vpTwist &along) noexcept;
+  vpTwist braked() noexcept;
   void report() noexcept;
   double approachShare(const vpTwist &wish) const noexcept;
   void moveArm(bool isAllowed) noexcept;
@@ -74,7 +77,8 @@ private:
   vpArmData m_data;
   vpJointVector m_q;
   std::optional<vpArmMotionCheck> m_check; // for laws that plan
-  vpTwist m_ofLaw;                         // twist of the law in this step, camera frame
+  std::optional<vpToolView> m_tool;        // for laws that plan, before a fixed camera
+  vpTwist m_ofLaw;                         // twist of the law in this step
   vpTwist m_executed;                      // motion of the camera relative to the object since the last step
   vpFollowWatchdog m_watchdog;
   vpObjectMotion m_object;
@@ -93,9 +97,7 @@ private:
   double m_startFactor = 1.;    // on the speeds of plans, see m_rising
   unsigned int m_badStamps = 0; // when the newest image came
   bool m_hasClock = false, m_hasPose = false, m_hasGoal = false, m_isRunning = false;
-  bool m_plans = false;      // the law keeps the bounds itself
-  bool m_wasAllowed = false; // the law was asked in the last step
-  bool m_isBraking = false;  // the law was not asked, and the robot does not stand yet
+  bool m_plans = false; // the law keeps the bounds itself
   bool m_hasImage = false, m_isFrozen = false, m_isFuture = false;
 };
 

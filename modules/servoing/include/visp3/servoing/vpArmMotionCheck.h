@@ -37,15 +37,16 @@ public:
   /*!
    * \param model : The arm; referenced, must outlive this. \param spec : Parameters of its solver.
    * \param indices : Indices that self-motion maximizes; of more than vpMaxArmIndices the first.
-   * \param free : Axes of the camera that are not commanded.
+   * \param free : Axes of the twists that are not commanded.
    * \param jerk : Limits of the joints' jerks, differences of their accelerations at the control points of a plan, rad/s^3 or m/s^3;
    *   empty: none. A tenth of them is left for the difference of the periods. Self-motion jumps within the limits of acceleration: with \e indices no plan may be found.
+   * \param frame : Of the twists: those of the camera, or of the end effector before a fixed camera.
    * \throw vpException (badValue) naming the field of \e spec that is out of range, a joint without motion limits, or a
    *   limit of jerk that is not > 0, or their number.
    */
   vpArmMotionCheck(const vpArmModel &model, const vpRedundancySpec &spec,
                    const std::vector<vpSelfMotionIndex> &indices = {}, const std::array<bool, 6> &free = {},
-                   const vpJointVector &jerk = {});
+                   const vpJointVector &jerk = {}, vpArmFrame frame = vpArmFrame::Camera);
 
   //! Where the arm is now: positions, rad or m, and commanded velocities, rad/s or m/s.
   void setState(const vpJointVector &q, const vpJointVector &velocity) noexcept;

@@ -59,8 +59,10 @@ struct VISP_EXPORT vpVisualServoSpec {
   bool objectMoves = false;
   //! Axes of the commanded twist that stay 0, see vpFreeAxes(), for arms with fewer than six joints.
   std::array<bool, 6> free{};
-  vpRedundancySpec redundancy;            //!< Parameters of an arm; its period is replaced by #period.
-  std::vector<vpSelfMotionIndex> indices; //!< Indices that self-motion of an arm maximizes; at most vpMaxArmIndices.
+  vpRedundancySpec redundancy; //!< Parameters of an arm; its period is replaced by #period.
+  //! Indices that self-motion of an arm maximizes; at most vpMaxArmIndices. Self-motion keeps the joints' limits of position,
+  //! velocity and acceleration; its jerk is not bounded.
+  std::vector<vpSelfMotionIndex> indices;
 
   //! The numbers with their ranges and units.
   [[nodiscard]] static const vpFields<vpVisualServoSpec> &fields();
@@ -142,7 +144,8 @@ struct VISP_EXPORT vpVisualServoOutput {
  *
  * A fixed camera that looks at an object on the arm is the same problem: seen from the object it is the camera that moves.
  * Pose history, bridge and law use the camera's pose in the end effector; the law's twist v gives the end effector the
- * opposite one, -eVc v.
+ * opposite one, -eVc v. A law that plans moves the end effector itself, to its goal eMc cdMo eMo^-1 with eMo averaged over
+ * the images, in a straight line and turning the shortest way.
  *
  * Approach: a law may slow down faster than the bounds allow, v' = -lambda v. Where lambda v exceeds 0.7 of the bound of
  * acceleration, or lambda^2 v half of that of jerk, the twist is scaled to v = sqrt(2 a (d - d0)) of constant deceleration, d
