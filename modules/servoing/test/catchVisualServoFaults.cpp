@@ -245,6 +245,91 @@ TEST_CASE("A robot state that is missing, old or not finite for too long stops t
   }
 }
 
+TEST_CASE("After a gap in the robot's states the prediction has all of the motion in it", "[servoing]")
+{
+  vpServoBench bench = moving();
+  bench.nextFrame = 1e9;
+  bench.pending.clear();
+  for (int i = 0; i < 5; ++i, bench.now += 0.01) {
+    vpServoRobotState none;
+    none.valid = false;
+    const vpTwist twist = bench.servo.step(none, bench.now).twist;
+    bench.state.pose = bench.state.pose * vpRigidMotion::exp(twist.scaled(0.01));
+  }
+  const vpRigidTransform truth = bench.cMo();
+  bench.step();
+  const vpHomogeneousMatrix &cMo = bench.servo.measurement().cMo;
+  REQUIRE(bench.servo.measurement().valid);
+  CHECK((vpRigidTransform::fromHomogeneous(cMo).p - truth.p).norm() < 1e-6);
+  CHECK(vpSO3::log(vpRigidTransform::fromHomogeneous(cMo).R.transpose() * truth.R).norm() < 1e-6);
+}
+
+TEST_CASE("While the clock stands motion is not measured: nothing is predicted before the next image", "[servoing]")
+{
+  vpServoBench bench = moving();
+  bench.nextFrame = 1e9;
+  REQUIRE(bench.servo.measurement().valid);
+  bench.now -= 0.01; // the time of the last step
+  bench.step();
+  REQUIRE(bench.servo.output().status == Status::ClockFault);
+  bench.servo.start();
+  bench.step();
+  CHECK(!bench.servo.measurement().valid);
+  CHECK(bench.servo.output().status == Status::NoImages);
+  bench.pending.clear(); // from before the fault
+  bench.nextFrame = bench.now;
+  bench.run(20.);
+  CHECK(bench.servo.isConverged());
+}
+
+TEST_CASE("The same image again while the camera moves stops the robot, while it stands it does not", "[servoing]")
+{
+  vpServoBench bench("pbvs1", {}, quick());
+  bench.latency = 0.;
+  bench.place({vpSO3::exp({0.1, -0.2, 0.3}), Eigen::Vector3d(0.15, 0.1, 0.9)});
+  bench.servo.setVision(vpServoVision::poses(
+      [&bench](const vpImage<unsigned char> &, vpHomogeneousMatrix &cMo, vpPoseCovariance &) {
+        cMo = bench.cMo().toHomogeneous();
+        return true;
+      },
+      bench.plate));
+  unsigned char number = 0;
+  bool isFrozen = false;
+  const auto run = [&](double time) {
+    for (const double end = bench.now + time; bench.now < end;) {
+      if (bench.now + 1e-9 >= bench.nextFrame) {
+        number = static_cast<unsigned char>(number + (isFrozen ? 0 : 1));
+        bench.servo.see(vpImage<unsigned char>(48, 64, number), bench.now - 1e-6); // before the step of this time
+        bench.nextFrame = bench.now + 0.1;
+      }
+      const double next = bench.nextFrame;
+      bench.nextFrame = 1e9;
+      bench.step();
+      bench.nextFrame = next;
+    }
+  };
+  isFrozen = true;
+  run(1.); // before start() the camera stands
+  CHECK(bench.servo.output().status == Status::Idle);
+  isFrozen = false;
+  bench.servo.start();
+  run(1.2);
+  REQUIRE(bench.servo.output().status == Status::Servoing);
+  REQUIRE(bench.servo.output().twist.linearNorm() > 0.1);
+  isFrozen = true;
+  run(0.4); // shorter than the timeout
+  CHECK(bench.servo.output().status == Status::FrozenImages);
+  CHECK(messageOf(bench) == "The image does not change although the camera moves: the robot stops until it does.");
+  run(1.);
+  CHECK(bench.servo.output().twist.linearNorm() == 0.);
+  isFrozen = false;
+  run(20.);
+  CHECK(bench.servo.isConverged());
+  isFrozen = true;
+  run(2.); // at rest the image may stay the same
+  CHECK(bench.servo.isConverged());
+}
+
 TEST_CASE("A robot that does not move as commanded is stopped, one that lags is not", "[servoing]")
 {
   const auto statusAfter = [](const std::function<vpTwist(const vpTwist &)> &robot, double time) {

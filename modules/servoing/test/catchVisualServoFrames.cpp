@@ -249,3 +249,83 @@ TEST_CASE("Laws that plan their motion keep the bounds of camera and joints by t
     CHECK(bench.error().p.norm() < 1e-3);
   }
 }
+
+TEST_CASE("Before a fixed camera laws that plan keep the bounds of the end effector, and bring the object to its goal",
+          "[servoing]")
+{
+  const std::string law = GENERATE("dtg", "ff-dtg");
+  for (unsigned int i = 0; i < static_cast<unsigned int>(vpTestSupport::longer(6)); ++i) {
+    vpVisualServoSpec spec = quick();
+    spec.place = vpServoCameraPlace::EyeToHand;
+    std::mt19937_64 rng = vpTestSupport::generator(i);
+    spec.fMc = randomPose(rng, 1., 2.);
+    vpServoBench bench(law, {}, spec, i);
+    bench.latency = i % 2 == 0 ? 0. : 0.12;
+    bench.objectAt = randomPose(bench.rng, 0.2, 1.5);
+    bench.state.pose = spec.fMc * vpRigidTransform{vpSO3::exp(bench.vector(0.5)), Eigen::Vector3d(0.1, -0.05, 0.6)} *
+                       bench.objectAt.inverse();
+    bench.servo.start();
+    const vpServoMotionLimits limits;
+    const double dt = spec.period, changed = bench.uniform(0.5, 6.); // another goal, in mid-motion or after it
+    vpTwist before, change;
+    double fastest = 0.;
+    CAPTURE(vpTestSupport::seed(), law, i);
+    while (bench.now < 20.) {
+      if (std::abs(bench.now - changed) < 0.5 * dt) {
+        bench.cdMo = vpHomogeneousMatrix(0.03, -0.02, 0.45, 0.1, 0.2, -0.3);
+        bench.servo.setGoal(bench.plate.goal(bench.cdMo));
+      }
+      const vpTwist twist = bench.step().twist;
+      const vpTwist next = vpRigidMotion::sum(twist, before.scaled(-1.)).scaled(1. / dt);
+      const vpTwist jerk = vpRigidMotion::sum(next, change.scaled(-1.)).scaled(1. / dt);
+      CAPTURE(bench.now);
+      REQUIRE(twist.linearNorm() <= limits.linearVelocity * (1. + 1e-6));
+      REQUIRE(twist.angularNorm() <= limits.angularVelocity * (1. + 1e-6));
+      REQUIRE(next.linearNorm() <= limits.linearAcceleration * (1. + 1e-6));
+      REQUIRE(next.angularNorm() <= limits.angularAcceleration * (1. + 1e-6));
+      REQUIRE(jerk.linearNorm() <= limits.linearJerk * (1. + 1e-4));
+      REQUIRE(jerk.angularNorm() <= limits.angularJerk * (1. + 1e-4));
+      fastest =
+          std::max({fastest, twist.linearNorm() / limits.linearVelocity, twist.angularNorm() / limits.angularVelocity});
+      before = twist;
+      change = next;
+    }
+    INFO(bench.servo.output().message);
+    CHECK(fastest > 0.3);
+    CHECK(bench.servo.isConverged());
+    CHECK(bench.positionError() < 1e-3);
+    CHECK(bench.rotationError() < 2e-3);
+  }
+}
+
+TEST_CASE("Before a fixed camera an arm executes what laws plan for its end effector", "[servoing]")
+{
+  for (unsigned int i = 0; i < static_cast<unsigned int>(vpTestSupport::longer(4)); ++i) {
+    std::mt19937_64 rng = vpTestSupport::generator(i);
+    const vpArmModel &model = i % 2 == 0 ? vpTestArms::amor() : vpTestArms::sixAxes();
+    const vpJointVector goal = dexterous(model, rng);
+    vpArmData data;
+    vpArmKinematics::update(model, goal, data);
+    vpVisualServoSpec spec = quick();
+    spec.place = vpServoCameraPlace::EyeToHand;
+    const vpRigidTransform eMo = randomPose(rng, 0.1, 1.5);
+    spec.fMc = data.tool * eMo * vpRigidTransform{Eigen::Matrix3d::Identity(), Eigen::Vector3d(0., 0., 0.35)}.inverse();
+    ArmBench bench(model, spec, i % 4 < 2 ? "ff-dtg" : "dtg");
+    bench.objectAt = eMo;
+    bench.q = goal + 0.05 * vpTestArms::randomVector(model.size(), rng);
+    const double first = bench.error().p.norm();
+    int exact = 0, moving = 0;
+    for (int k = 0; k < 1500; ++k) {
+      bench.step();
+      const bool isMoving = bench.servo.output().twist.linearNorm() > 0.;
+      moving += isMoving;
+      exact += isMoving && bench.servo.output().arm <= vpRedundancyStatus::Accelerating;
+    }
+    CAPTURE(vpTestSupport::seed(), i, first);
+    INFO(bench.servo.output().message);
+    CHECK(moving > 50);
+    CHECK(exact > 0.9 * moving);
+    CHECK(bench.servo.isConverged());
+    CHECK(bench.error().p.norm() < 1e-3);
+  }
+}

@@ -61,6 +61,55 @@ TEST_CASE("No law overshoots by 2 %, with latencies to 200 ms, cameras from 5 to
   }
 }
 
+TEST_CASE("A rotation that the bounds make slow winds up no integral", "[servoing]")
+{
+  vpServoControllerSpec controller;
+  controller.motion.angularVelocity = 0.1;
+  controller.gains.integral = 4.;
+  vpVisualServoSpec spec;
+  spec.period = 0.01;
+  vpServoBench bench("ff-lookat-pi", controller, spec);
+  bench.place({vpSO3::exp({0., 0., 0.8}), Eigen::Vector3d(0., 0., 0.35)});
+  bench.servo.start();
+  const Eigen::Vector3d first = vpSO3::log(bench.error().R).normalized();
+  double past = 0.; // rad beyond the goal
+  while (bench.now < 20.) {
+    bench.step();
+    past = std::max(past, -first.dot(vpSO3::log(bench.error().R)));
+  }
+  CHECK(past < 0.005);
+  CHECK(bench.servo.isConverged());
+}
+
+TEST_CASE("A rotation about a far object before a fixed camera brings the end effector to its goal without overshoot",
+          "[servoing]")
+{
+  for (unsigned int i = 0; i < static_cast<unsigned int>(vpTestSupport::longer(4)); ++i) {
+    vpServoControllerSpec controller;
+    controller.gains.lambda = 3.;
+    vpVisualServoSpec spec;
+    spec.period = 0.005;
+    spec.place = vpServoCameraPlace::EyeToHand;
+    vpServoBench bench("ff-lookat", controller, spec, i);
+    const vpRigidTransform eMo{Eigen::Matrix3d::Identity(), 0.6 * bench.vector(1.).normalized()};
+    bench.objectAt = eMo;
+    bench.state.pose = vpRigidTransform::fromHomogeneous(bench.cdMo) *
+                       vpRigidTransform{vpSO3::exp(0.7 * bench.vector(1.).normalized()), Eigen::Vector3d::Zero()} *
+                       eMo.inverse();
+    bench.servo.start();
+    Overshoot position(bench.positionError()), rotation(bench.rotationError());
+    while (bench.now < 15.) {
+      bench.step();
+      position.add(bench.positionError());
+      rotation.add(bench.rotationError());
+    }
+    CAPTURE(i, bench.servo.output().message);
+    CHECK(rotation.isReached);
+    CHECK(rotation.after < 0.02);
+    CHECK(bench.servo.isConverged());
+  }
+}
+
 TEST_CASE("The commanded twist keeps its bounds of velocity, acceleration and jerk, and reaches them", "[servoing]")
 {
   double most[3] = {0., 0., 0.};
