@@ -408,7 +408,7 @@ def test_text_of_a_page_is_escaped():
     page.paragraph("<i>x</i>")
     page.table(["<h>"], [["<cell>"], ["<wrap>" * 10]])
     page.facts([("<n>", "<v>")])
-    page.figure(Figure(lambda axes: axes[0].plot([0, 1], [0, 1], label="<l>")), "f", '"><script>', "<c>")
+    page.figure(Figure(lambda axes: axes[0].plot([0, 1], [0, 1], label="<l>")).named("f", '"><script>'), "<c>")
     html = page.html()
     assert (
         "<script>alert" not in html

@@ -134,7 +134,7 @@ def show(arm, scene=None, path=None, file=None):
         view([_arm(arm, missing)], runs, [item for item in objects if item], ground),
         "Covers: the capsules of collision checks.",
     )
-    page.items(missing)
+    page.items(*missing)
     target = pathlib.Path(file or tempfile.mkstemp(suffix=".html")[1])
     target.write_text(page.html(), encoding="utf-8")
     if file is None:

@@ -7,19 +7,14 @@ import pathlib
 import sys
 
 from . import __doc__ as about
-from .data import DataError, read_results
+from .data import SCHEMA, DataError, read_results
 
-PROGRAMS = {
-    "visp-arm": "arm",
-    "visp-avoid-obstacle": "avoid_obstacle",
-    "visp-plan-compare": "plan_compare",
-    "visp-plan-trajectory": "plan_trajectory",
-    "visp-print-pattern": "print_pattern",
-    "visp-servo": "servo",
-    "visp-servo-compare": "servo_compare",
-    "visp-thesis-report": "thesis_report",
-    "visp-track-pattern": "track_pattern",
-}
+OTHERS = {"visp-avoid-obstacle --replica": "detours", "visp-print-pattern --explore": "print_explore"}
+
+
+def module_of(kind):
+    """Of a Result.kind: visp-arm has arm.py, unless it is told otherwise."""
+    return "visp_direct.report." + OTHERS.get(kind, kind.split(" ")[0].removeprefix("visp-").replace("-", "_"))
 
 
 def main(arguments):
@@ -28,9 +23,9 @@ def main(arguments):
     parser.add_argument("--paper", action="store_true", help="write each figure as PDF into OUT/paper, too")
     options = parser.parse_args(arguments)
     results = read_results(options.folders)
-    if results[0].program not in PROGRAMS:
+    if results[0].kind not in SCHEMA:
         raise DataError(f"{options.folders[0]}: is a result of {results[0].program}, which makes its report itself")
-    page = importlib.import_module(f"visp_direct.report.{PROGRAMS[results[0].program]}").page(results)
+    page = importlib.import_module(module_of(results[0].kind)).page(results)
     file = options.folders[0] / "report.html"
     file.write_text(page.html(), encoding="utf-8")
     if options.paper:

@@ -1,10 +1,11 @@
 # visp-direct: direct methods for vision-based robot control, for ViSP.
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Cameras and flat targets in the 3D view, as camera3d.js draws them."""
-import base64
 import io
 
 import numpy as np
+
+from .page import data_uri
 
 # For a camera that nothing carries: an arm without links, whose configuration is empty.
 NO_ARM = {
@@ -34,9 +35,9 @@ def matrices(translations, rotations):
     return M
 
 
-def columns(table, prefix, kinds=("tx", "ty", "tz", "tux", "tuy", "tuz"), suffixes=("",) * 6):
+def columns(table, prefix="", kinds=("tx", "ty", "tz", "tux", "tuy", "tuz")):
     """Poses of six columns of a log."""
-    six = np.array([table[prefix + kind + suffix] for kind, suffix in zip(kinds, suffixes)])
+    six = np.array([table[prefix + kind] for kind in kinds])
     return matrices(six[:3].T, six[3:].T)
 
 
@@ -88,4 +89,4 @@ def photograph(data):
     image.thumbnail((PICTURE, PICTURE))
     buffer = io.BytesIO()
     image.save(buffer, "JPEG", quality=80)
-    return "data:image/jpeg;base64," + base64.b64encode(buffer.getvalue()).decode()
+    return data_uri(buffer.getvalue())

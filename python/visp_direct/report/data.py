@@ -68,12 +68,9 @@ class Result:
     def __init__(self, folder):
         self.folder = pathlib.Path(folder)
         self.summary = self._load("summary.json")
-        self.program = (
-            self.summary.get("program", "an unknown program")
-            if isinstance(self.summary, dict)
-            else "an unknown program"
-        )
-        mode = [word for key, word in MODES.items() if isinstance(self.summary, dict) and key in self.summary]
+        said = self.summary if isinstance(self.summary, dict) else {}
+        self.program = said.get("program", "an unknown program")
+        mode = [word for key, word in MODES.items() if key in said]
         self.kind = " ".join([self.program, *mode])
         self.schema = SCHEMA.get(self.kind, {})
         if "summary.json" in self.schema:
@@ -121,14 +118,10 @@ class Result:
                 rows = list(csv.reader(itertools.chain(itertools.islice(file, 1), itertools.islice(file, 0, None, step))))
         except OSError as error:
             raise DataError(f"{path}: cannot be read: {error.strerror}") from None
-        schema = (
-            dict.fromkeys(columns, "number") if columns else _expanded(self.described(name), rows[0] if rows else [])
-        )
+        schema = dict.fromkeys(columns, "number") if columns else _expanded(self.described(name), rows[0] if rows else [])
         wanted = list(schema)
         if not rows or rows[0] != wanted:
-            raise DataError(
-                f"{path}: has the columns {','.join(rows[0]) if rows else ''}, must have {','.join(wanted)}"
-            )
+            raise DataError(f"{path}: has the columns {','.join(rows[0]) if rows else ''}, must have {','.join(wanted)}")
         read = {key: [] for key in wanted}
         for number, row in enumerate(rows[1:], 2):
             if len(row) != len(wanted):
@@ -170,7 +163,5 @@ def read_results(folders):
     results = [Result(folder) for folder in folders]
     for result in results[1:]:
         if result.program != results[0].program:
-            raise DataError(
-                f"{result.folder}: is a result of {result.program}, {results[0].folder} is one of {results[0].program}"
-            )
+            raise DataError(f"{result.folder}: is a result of {result.program}, {results[0].folder} is one of {results[0].program}")
     return results

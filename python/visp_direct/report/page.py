@@ -31,33 +31,66 @@ def counted(count, word):
     return f"{count} {word}" + ("" if count == 1 else "s")
 
 
+def data_uri(data, mime="image/jpeg"):
+    return f"data:{mime};base64,{base64.b64encode(data).decode()}"
+
+
 class Cell:
     """Text or number of a table; numbers are shown with three digits and sorted by all of them."""
 
     def __init__(self, value, style=""):
         self.sort = value if isinstance(value, (int, float)) and not isinstance(value, bool) else None
-        self.text = (
-            {True: "yes", False: "no"}[value]
-            if isinstance(value, bool)
-            else (str(value) if isinstance(value, (str, int)) else number(value))
-        )
-        self.style = style or (
-            "" if self.sort is not None or value is None else "text wrap" if len(self.text) > 45 else "text"
-        )
+        text = {True: "yes", False: "no"}[value] if isinstance(value, bool) else value
+        self.text = str(text) if isinstance(text, (str, int)) else number(text)
+        self.style = style or ("" if self.sort is not None or value is None else "text wrap" if len(self.text) > 45 else "text")
+
+
+def columns_of(described):
+    """Headers and functions of a record, for Page.records(). described: (header, key or function), or texts of several columns:
+    "header = key; name; mm = 1000 size.x_m". A name alone is both, a number is a factor; what is not there is None."""
+    for column in described:
+        texts = [each.rpartition(" = ")[::2] for each in column.split("; ")] if isinstance(column, str) else []
+        for header, value in [(header or path, path) for header, path in texts] or [column]:
+            yield header, value if callable(value) else getter(value)
+
+
+def getter(path):
+    """Of "1000 size.x_m"."""
+    *factors, path = path.split(" ")
+
+    def get(record):
+        for key in path.split("."):
+            record = None if record is None else record.get(key)
+        for factor in factors:
+            record = None if record is None else (int if factor.isdigit() else float)(factor) * record
+        return record
+
+    return get
 
 
 class Page:
-    """Built from top to bottom, then html()."""
+    """Built from top to bottom, then html(). results: those that it shows, whose findings are its answer; of several each is called by
+    its name."""
 
-    def __init__(self, title, lead):
-        self.title, self.lead = title, lead
-        self.answer, self.sections, self.figures = [], [], []
-        self.scripts, self.arms = [], []
+    def __init__(self, title, lead, results=()):
+        self.title, self.lead, self.results, self.several = title, lead, results, len(results) > 1
+        self.answer, self.sections, self.figures, self.scripts, self.arms = [], [], [], [], []
+        for result in results:
+            self.answers(*result.summary.get("findings", ()), of=result)
 
-    def answers(self, *sentences):
-        self.answer += sentences
+    def name(self, result, alone=""):
+        """Of a result among several; else what one alone is called."""
+        return result.name if self.several else alone
 
-    def section(self, title):
+    def answers(self, *sentences, of=None):
+        """of: the result that they are about."""
+        start = f"{of.name}: " if of and self.several else ""
+        self.answer += [start + sentence for sentence in sentences]
+
+    def section(self, title, among=None):
+        """among: among several results, its title, or the one that it is of."""
+        if among and self.several:
+            title = among if isinstance(among, str) else f"{title} of {among.name}"
         self.sections.append({"title": title, "id": f"s{len(self.sections) + 1}", "parts": []})
 
     def _add(self, **part):
@@ -70,31 +103,36 @@ class Page:
     def paragraph(self, text):
         self._add(kind="paragraph", text=text)
 
-    def items(self, texts):
-        self._add(kind="items", texts=list(texts))
+    def items(self, *texts):
+        self._add(kind="items", texts=texts)
 
     def table(self, header, rows, caption=""):
         """Rows of values or Cells; a click on a header sorts."""
         cells = [[value if isinstance(value, Cell) else Cell(value) for value in row] for row in rows]
         self._add(kind="table", header=header, rows=cells, caption=caption)
 
+    def records(self, records, columns, caption="", best=lambda record: False):
+        """A table with a row for each record. columns: as for columns_of(). best: whether a row is green."""
+        columns = list(columns_of(columns))
+        rows = [[get(record) for _, get in columns] for record in records]
+        for record, row in zip(records, rows):
+            if best(record):
+                row[:] = [Cell(value, f"{Cell(value).style} best") for value in row]
+        self.table([header for header, _ in columns], rows, caption)
+
     def facts(self, facts, caption=""):
         """Names and values below each other."""
-        self._add(
-            kind="facts",
-            rows=[(name, value if isinstance(value, str) else number(value)) for name, value in facts],
-            caption=caption,
-        )
+        rows = [(name, value if isinstance(value, str) else number(value)) for name, value in facts]
+        self._add(kind="facts", rows=rows, caption=caption)
 
-    def figure(self, figure, name, alt, caption):
-        """A Figure of plots.py. name: of its PDF."""
-        self.figures.append((name, figure))
-        self._add(kind="figure", svg=figure.svg(), alt=alt, caption=caption)
+    def figure(self, figure, caption):
+        """A Figure of plots.py."""
+        self.figures.append(figure)
+        self._add(kind="figure", svg=figure.svg(), alt=figure.alt, caption=caption)
 
     def picture(self, data, mime, alt, caption, width=None):
         """A picture as wide as the page, or at most so many px."""
-        uri = f"data:{mime};base64,{base64.b64encode(data).decode()}"
-        self._add(kind="picture", uri=uri, alt=alt, caption=caption, width=width)
+        self._add(kind="picture", uri=data_uri(data, mime), alt=alt, caption=caption, width=width)
 
     def pictures(self, pictures, caption):
         """Small ones beside each other: (label, data URI)."""
@@ -120,13 +158,8 @@ class Page:
         return next(i for i, other in enumerate(self.arms) if arm is other)
 
     def html(self):
-        environment = jinja2.Environment(
-            loader=jinja2.FileSystemLoader(HERE),
-            autoescape=True,
-            trim_blocks=True,
-            lstrip_blocks=True,
-            undefined=jinja2.StrictUndefined,
-        )
+        strict = {"autoescape": True, "undefined": jinja2.StrictUndefined}
+        environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), trim_blocks=True, lstrip_blocks=True, **strict)
         scripts = ""
         if self.scripts:
             from .view3d import scripts as view_scripts
@@ -137,5 +170,5 @@ class Page:
     def write_paper(self, folder):
         """Each figure as PDF, 3.4 inch wide."""
         folder.mkdir(exist_ok=True)
-        for name, figure in self.figures:
-            (folder / f"{name}.pdf").write_bytes(figure.pdf())
+        for figure in self.figures:
+            (folder / f"{figure.name}.pdf").write_bytes(figure.pdf())

@@ -1,6 +1,7 @@
 # visp-direct: direct methods for vision-based robot control, for ViSP.
 # SPDX-License-Identifier: GPL-2.0-or-later
 """One style for all plots: matplotlib as SVG, legends above the axes and never over a curve."""
+import functools
 import io
 import re
 
@@ -53,17 +54,18 @@ class Figure:
 
     def __init__(self, draw, rows=1, height=2.6, shared=True):
         self.draw, self.rows, self.height, self.shared = draw, rows, height, shared
+        self.name = self.alt = ""
+
+    def named(self, name, alt):
+        """Itself. name: of its PDF. alt: what it shows, for those who do not see it."""
+        self.name, self.alt = name, alt
+        return self
 
     def _render(self, width, **options):
         with matplotlib.rc_context(STYLE):
             scale = 1 if width == WIDTH else 0.62 if self.rows == 1 else 0.8
-            figure, axes = pyplot.subplots(
-                self.rows,
-                1,
-                sharex=self.shared,
-                squeeze=False,
-                figsize=(width, scale * (self.height * self.rows + 0.5)),
-            )
+            size = (width, scale * (self.height * self.rows + 0.5))
+            figure, axes = pyplot.subplots(self.rows, 1, sharex=self.shared, squeeze=False, figsize=size)
             try:
                 self.draw([row[0] for row in axes])
                 buffer = io.BytesIO()
@@ -86,21 +88,28 @@ class Figure:
         return self._render(COLUMN, format="pdf", metadata={"CreationDate": None})
 
 
-def legend_above(axes, columns=4):
-    """Legend between title and axes; half the columns in a narrow figure."""
-    handles, labels = axes.get_legend_handles_labels()
+def figure(rows=1, height=2.6, shared=True):
+    """Turns a function that draws data on axes, draw(axes, *data), or on a list of them from top to bottom, into one of the data that
+    makes a Figure."""
+
+    def made(draw):
+        @functools.wraps(draw)
+        def make(*data):
+            return Figure(lambda panels: draw(panels[0] if rows == 1 else panels, *data), rows, height, shared)
+
+        return make
+
+    return made
+
+
+def legend_above(axes, columns=4, **labels):
+    """Labels and limits, and the legend between title and axes; half the columns in a narrow figure."""
+    axes.set(**labels)
+    handles, texts = axes.get_legend_handles_labels()
     columns = columns if axes.figure.get_figwidth() > 2 * COLUMN else max(1, columns // 2)
     if handles:
-        axes.legend(
-            handles,
-            labels,
-            loc="lower left",
-            bbox_to_anchor=(0, 1.0),
-            ncol=min(columns, len(labels)),
-            borderaxespad=0.2,
-            columnspacing=1.2,
-            handlelength=1.8,
-        )
+        place = {"loc": "lower left", "bbox_to_anchor": (0, 1.0), "ncol": min(columns, len(texts))}
+        axes.legend(handles, texts, **place, borderaxespad=0.2, columnspacing=1.2, handlelength=1.8)
 
 
 def logarithmic_if_flat(axes, *curves):

@@ -4,7 +4,7 @@
 import numpy as np
 
 from .page import Page, counted, number
-from .plots import COLOURS, Figure, legend_above, marks
+from .plots import COLOURS, figure, legend_above, marks
 
 TOLERANCE = 10.0  # um, as in the thesis
 FIRST_FRAMES = 160  # of the first velocity plot
@@ -15,92 +15,62 @@ SENSORS = {
     "tracker": "true places with the errors of vpPatternTracker",
     "thesis": "true places with the errors of the thesis's sensor",
 }
-MOTION = [
-    "frame",
-    "row",
-    "x",
-    "y",
-    "vx",
-    "vy",
-    "reference_x",
-    "reference_vx",
-    "measured_vx",
-    "estimated_vx",
-    "force",
-    "cells",
-    "dropped",
+MOTION = ["frame", "row", "x", "y", "vx", "vy", "reference_x", "reference_vx", "measured_vx", "estimated_vx", "force", "cells", "dropped"]
+IDENTIFIED = [
+    ("mass", "mass"),
+    ("viscous", "viscous friction, per px/frame"),
+    ("coulomb", "Coulomb friction, px/frame²"),
+    ("stiction", "stiction, px/frame²"),
+]
+EXPERIMENTS = [
+    "figure; control = name; velocity error (px/frame) = rms_velocity_error; the thesis = thesis; ratio; at the centres (px/frame) = "
+    "centre_velocity_error"
 ]
 
 
-def velocity_figure(motion, rate, frames=None):
+@figure()
+def velocity_figure(axes, motion, rate, frames=None):
     t = np.array(motion["frame"][:frames]) / rate
-
-    def draw(panels):
-        axes = panels[0]
-        axes.plot(
-            t, motion["measured_vx"][:frames], ".", color="#9ecae1", markersize=3, label="measured, before any filter"
-        )
-        axes.plot(t, motion["vx"][:frames], color=COLOURS[1], label="true")
-        axes.plot(t, motion["reference_vx"][:frames], "--", color="#000000", linewidth=1.1, label="reference")
-        axes.set(xlabel="time (s)", ylabel="velocity (px/frame)", xlim=(t[0], t[-1]))
-        legend_above(axes)
-
-    return Figure(draw)
+    axes.plot(t, motion["measured_vx"][:frames], ".", color="#9ecae1", markersize=3, label="measured, before any filter")
+    axes.plot(t, motion["vx"][:frames], color=COLOURS[1], label="true")
+    axes.plot(t, motion["reference_vx"][:frames], "--", color="#000000", linewidth=1.1, label="reference")
+    legend_above(axes, xlabel="time (s)", ylabel="velocity (px/frame)", xlim=(t[0], t[-1]))
 
 
-def landing_figure(drops, worst):
-    def draw(panels):
-        axes = panels[0]
-        order = np.arange(1, len(drops["error_x_um"]) + 1)
-        axes.plot(order, drops["error_x_um"], ".", color=COLOURS[0], label="along the row")
-        axes.plot(order, drops["error_y_um"], ".", color=COLOURS[4], label="across")
-        if worst >= SMALL * TOLERANCE:
-            for i, limit in enumerate((TOLERANCE, -TOLERANCE)):
-                axes.axhline(
-                    limit, color=COLOURS[2], linestyle="--", linewidth=1, label="tolerance" if i == 0 else None
-                )
-        axes.set(xlabel="drop", ylabel="landing place − centre (µm)")
-        legend_above(axes)
-
-    return Figure(draw)
+@figure()
+def landing_figure(axes, drops, worst):
+    order = np.arange(1, len(drops["error_x_um"]) + 1)
+    axes.plot(order, drops["error_x_um"], ".", color=COLOURS[0], label="along the row")
+    axes.plot(order, drops["error_y_um"], ".", color=COLOURS[4], label="across")
+    if worst >= SMALL * TOLERANCE:
+        for limit, label in ((TOLERANCE, "tolerance"), (-TOLERANCE, None)):
+            axes.axhline(limit, color=COLOURS[2], linestyle="--", linewidth=1, label=label)
+    legend_above(axes, xlabel="drop", ylabel="landing place − centre (µm)")
 
 
-def histogram_figure(errors):
-    def draw(panels):
-        axes, largest = panels[0], max(errors, default=0)
-        small = largest < SMALL * TOLERANCE
-        top = 1.1 * largest + 0.01 if small else max(1.1 * TOLERANCE, largest)
-        axes.hist(errors, bins=40, range=(0, top), color=COLOURS[5], edgecolor=COLOURS[0], linewidth=0.6, label="drops")
-        if not small:
-            marks(axes, [TOLERANCE], "tolerance")
-        axes.set(xlabel="distance from the centre of the cell (µm)", ylabel="drops", xlim=(0, top))
-        legend_above(axes)
-
-    return Figure(draw)
+@figure()
+def histogram_figure(axes, errors):
+    largest = max(errors, default=0)
+    small = largest < SMALL * TOLERANCE
+    top = 1.1 * largest + 0.01 if small else max(1.1 * TOLERANCE, largest)
+    axes.hist(errors, bins=40, range=(0, top), color=COLOURS[5], edgecolor=COLOURS[0], linewidth=0.6, label="drops")
+    if not small:
+        marks(axes, [TOLERANCE], "tolerance")
+    legend_above(axes, xlabel="distance from the centre of the cell (µm)", ylabel="drops", xlim=(0, top))
 
 
-def distortion_figure(table):
-    def draw(panels):
-        axes = panels[0]
-        for i, share in enumerate(("1", "0.5", "0.2", "0.1")):
-            axes.plot(
-                table["distance_px"], table[f"mismatch_{share}_px"], color=COLOURS[i], label=f"{share} % at 200 px"
-            )
-        axes.axvline(80, color="#999999", linewidth=0.9, label="edge of a 160 px image")
-        axes.set(
-            xlabel="distance from the middle of the image (px)", ylabel="mismatch (px)", xlim=(0, 200), ylim=(0, None)
-        )
-        legend_above(axes, 5)
-
-    return Figure(draw)
+@figure()
+def distortion_figure(axes, table):
+    for i, share in enumerate(("1", "0.5", "0.2", "0.1")):
+        axes.plot(table["distance_px"], table[f"mismatch_{share}_px"], color=COLOURS[i], label=f"{share} % at 200 px")
+    axes.axvline(80, color="#999999", linewidth=0.9, label="edge of a 160 px image")
+    legend_above(axes, 5, xlabel="distance from the middle of the image (px)", ylabel="mismatch (px)", xlim=(0, 200), ylim=(0, None))
 
 
-def answer(page, summary, name):
-    spec, landing = summary["spec"], summary["landing_error_um"]
-    start = f"{name}: " if name else ""
-    page.answers(
-        f"{start}{counted(summary['printed'], 'cell')} printed, {summary['missed']} missed, {summary['doubled']} printed twice."
-    )
+def answer(page, result):
+    summary, landing = result.summary, result.summary["landing_error_um"]
+    printed = counted(summary["printed"], "cell")
+    page.answers(f"{printed} printed, {summary['missed']} missed, {summary['doubled']} printed twice.", of=result)
     if summary["printed"]:
         page.answers(
             f"Drops land {number(landing['p50'])} µm from the centre (median), 99 % within {number(landing['p99'])} µm, the worst "
@@ -116,19 +86,18 @@ def answer(page, summary, name):
         f"{number(summary['throughput_cells_per_s'])} cells a second, {number(100 * abs(gain))} % {'faster' if gain >= 0 else 'slower'} "
         "between the cells of a row than at the constant velocity at which the drops fall."
     )
-    return spec
 
 
 def add_run(page, result):
-    summary = result.summary
-    spec, landing = summary["spec"], summary["landing_error_um"]
+    summary, spec, landing = result.summary, result.summary["spec"], result.summary["landing_error_um"]
+    errors = {
+        "velocity error as measured": "rms_velocity_error",
+        "velocity error, true": "rms_true_velocity_error",
+        "true velocity error at the centres": "centre_velocity_error",
+    }
     page.table(
         ["", "rms (px/frame)"],
-        [
-            ["velocity error as measured", summary["rms_velocity_error"]],
-            ["velocity error, true", summary["rms_true_velocity_error"]],
-            ["true velocity error at the centres", summary["centre_velocity_error"]],
-        ],
+        [[text, summary[key]] for text, key in errors.items()],
         f"From frame {spec['evaluate_from_frame']} on. The first compares what the camera sees before any filter with the reference, "
         "as the thesis does.",
     )
@@ -139,28 +108,19 @@ def add_run(page, result):
         "The printed product (first run): drops are circles of 50 µm, green within 10 µm of the centre, red beyond; the cross is the "
         "true centre of the cell.",
     )
-    motion, drops, errors = (
-        result.table("motion.csv"),
-        result.table("drops.csv"),
-        result.table("landing.csv")["error_um"],
-    )
+    velocity = velocity_figure(result.table("motion.csv"), spec["frame_rate_hz"], FIRST_FRAMES)
     page.figure(
-        velocity_figure(motion, spec["frame_rate_hz"], FIRST_FRAMES),
-        "velocity",
-        "Reference, true and measured velocity of the product",
+        velocity.named("velocity", "Reference, true and measured velocity of the product"),
         "The beginning of the first run. Slowest at the centres of the cells, where the drops land. The measured velocity is that of "
         "the last two frames that arrived, so it comes later than the true one.",
     )
     page.figure(
-        landing_figure(drops, landing["max"]),
-        "landing",
-        "Landing errors of the drops along and across the row",
+        landing_figure(result.table("drops.csv"), landing["max"]).named("landing", "Landing errors of the drops along and across the row"),
         "Each drop of the first run, in the order of landing. The tolerance of the thesis is 10 µm.",
     )
+    errors = result.table("landing.csv")["error_um"]
     page.figure(
-        histogram_figure(errors),
-        "landing-histogram",
-        "Histogram of the landing errors",
+        histogram_figure(errors).named("landing-histogram", "Histogram of the landing errors"),
         f"{counted(len(errors), 'drop')} of all runs: median {number(landing['p50'])} µm, 99 % within {number(landing['p99'])} µm, "
         f"largest {number(landing['max'])} µm.",
     )
@@ -170,15 +130,9 @@ def add_run(page, result):
 
 def add_identification(page, found):
     page.section("Mass and friction of the stage")
-    names = [
-        ("mass", "mass"),
-        ("viscous", "viscous friction, per px/frame"),
-        ("coulomb", "Coulomb friction, px/frame²"),
-        ("stiction", "stiction, px/frame²"),
-    ]
     page.table(
         ["", "found", "standard deviation", "true"],
-        [[text, found[key]["found"], found[key]["sigma"], found[key]["true"]] for key, text in names],
+        [[text, found[key]["found"], found[key]["sigma"], found[key]["true"]] for key, text in IDENTIFIED],
         f"{found['message']} From {found['frames']} frames of a force that swings with growing strength, open loop, watched by the camera; "
         "the run used what was found. The standard deviations know of noise only; smoothing leaves about 1 % of the mass. Stiction is "
         "what a fit of slow motion says, which is the hardest to see.",
@@ -188,27 +142,16 @@ def add_identification(page, found):
 def add_thesis(page, result):
     experiments = result.summary["thesis"]
     page.section("The experiments of the thesis")
-    page.table(
-        ["figure", "control", "velocity error (px/frame)", "the thesis", "ratio", "at the centres (px/frame)"],
-        [
-            [
-                e["figure"],
-                e["name"],
-                e["rms_velocity_error"],
-                e.get("thesis"),
-                e.get("ratio"),
-                e["centre_velocity_error"],
-            ]
-            for e in experiments
-        ],
+    page.records(
+        experiments,
+        EXPERIMENTS,
         "Root mean square over 8 seeds, as measured and before any filter. Stage and gains are one set that shows the thesis's figures: "
         "it was searched for, is not unique and not robust. With the thesis's sensor the measured error of any controller is mostly "
         "noise; what matters for a drop is the true velocity at the centre, in the last column.",
     )
+    distortion = distortion_figure(result.table("thesis/figure-7.10.csv"))
     page.figure(
-        distortion_figure(result.table("thesis/figure-7.10.csv")),
-        "figure-7.10",
-        "Figure 7.10: mismatch of pixel locations for several radial distortions",
+        distortion.named("figure-7.10", "Figure 7.10: mismatch of pixel locations for several radial distortions"),
         "Figure 7.10. It grows with the cube of the distance: 1 % at 200 px is 2 px there and 0.13 px at the edge of a 160 px image, 0.1 % is "
         "0.013 px there, less than the tracker's error of a cell. From the calibration's own model.",
     )
@@ -222,10 +165,9 @@ def add_thesis(page, result):
     for i, e in enumerate(experiments):
         title = f"Figure {e['figure']}: {e['name']}" if e["figure"] else e["name"]
         speed = e["rms_velocity_error"] * e["mm_per_px"] * e["frame_rate_hz"]
+        drawn = velocity_figure(result.table(e["file"], MOTION), e["frame_rate_hz"])
         page.figure(
-            velocity_figure(result.table(e["file"], MOTION), e["frame_rate_hz"]),
-            f"figure-{e['figure']}" if e["figure"] else f"run-{i + 1}",
-            title,
+            drawn.named(f"figure-{e['figure']}" if e["figure"] else f"run-{i + 1}", title),
             f"{title}. Velocity error from frame {e['evaluate_from_frame']} on, rms of {e['seeds']} runs: "
             f"{number(e['rms_velocity_error'])} px/frame = {number(speed)} mm/s as measured"
             + (f", {number(e['thesis'])} px/frame in the thesis" if "thesis" in e else "")
@@ -252,16 +194,11 @@ def settings(summary):
 
 
 def page(results):
-    if results[0].kind.endswith("--explore"):
-        from .print_explore import page as explored
-
-        return explored(results)
-    several = len(results) > 1
-    page = Page("Printing on the fly", "Drops on a moving, flexible product, with the camera as the only encoder.")
+    page = Page("Printing on the fly", "Drops on a moving, flexible product, with the camera as the only encoder.", results)
     for result in results:
-        answer(page, result.summary, result.name if several else "")
+        answer(page, result)
     for result in results:
-        page.section(f"The result of {result.name}" if several else "The result")
+        page.section("The result", result)
         add_run(page, result)
         if "identification" in result.summary:
             add_identification(page, result.summary["identification"])
@@ -269,11 +206,9 @@ def page(results):
             add_thesis(page, result)
     page.section("What to know")
     page.items(
-        [
-            "Stage, product, camera and drops are simulated; a drop flies straight and takes the same time always.",
-            "The stage's friction is known to the observer but for the 30 % more beyond the fifth cell, which it estimates.",
-            "The throughput counts from the first drop to the last and includes turning between rows.",
-        ]
+        "Stage, product, camera and drops are simulated; a drop flies straight and takes the same time always.",
+        "The stage's friction is known to the observer but for the 30 % more beyond the fifth cell, which it estimates.",
+        "The throughput counts from the first drop to the last and includes turning between rows.",
     )
     page.section("What was run")
     page.paragraph(
@@ -282,5 +217,5 @@ def page(results):
         "pictures are rendered, the stage has friction, stiction, lag and delay."
     )
     for result in results:
-        page.facts(settings(result.summary), result.name if several else "")
+        page.facts(settings(result.summary), page.name(result))
     return page

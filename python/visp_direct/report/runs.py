@@ -4,11 +4,12 @@
 import numpy as np
 
 from . import view3d
-from .plots import Figure, legend_above
+from .plots import figure, legend_above
 
 VIEW_STEP, PLOT_POINTS = 0.04, 500  # s, of the 3D view; of a curve
 CUT, FAR = 3.0, 300.0  # accelerations, in units of their bound, and clearances, mm: larger ones are drawn there
 CUT_SAYS = "Accelerations above three times the bound and clearances above 300 mm are drawn there."
+CLEARANCE_SAYS = "The clearance is the least of all pairs of parts that must not touch, the arm's own among them."
 
 
 def joints_of(table, arm):
@@ -35,14 +36,9 @@ def run_of(table, arm, name, colour, index=0, shift=None):
     t, q = np.array(table["time_s"]), joints_of(table, arm)
     step = max(1, round(VIEW_STEP / max(np.median(np.diff(t)), 1e-6))) if len(t) > 1 else 1
     kept = np.unique(np.append(np.arange(0, len(t), step), len(t) - 1))
-    return {
-        "name": name,
-        "colour": colour,
-        "arm": index,
-        "t": t[kept].round(4).tolist(),
-        "q": q[kept].round(4).tolist(),
-        "states": states_of(table),
-    } | ({} if shift is None else {"base": view3d.base_at(shift)})
+    base = {} if shift is None else {"base": view3d.base_at(shift)}
+    moves = {"t": t[kept].round(4).tolist(), "q": q[kept].round(4).tolist(), "states": states_of(table)}
+    return {"name": name, "colour": colour, "arm": index} | moves | base
 
 
 def marks_of(table, shift=None):
@@ -50,22 +46,15 @@ def marks_of(table, shift=None):
     start, goals, t = places_of(table)[0], places_of(table, "goal"), np.array(table["time_s"])
     kept = np.unique(np.linspace(0, len(t) - 1, min(200, len(t))).round().astype(int))
     moves = {"t": t[kept].tolist(), "p": goals[kept].round(5).tolist()} if np.ptp(goals, axis=0).max() > 1e-9 else None
-    return [
-        view3d.shifted(part, shift)
-        for part in (view3d.ball(start, 0.012, "#888888"), view3d.ball(goals[0], 0.016, "#111111", moves))
-    ]
+    balls = view3d.ball(start, 0.012, "#888888"), view3d.ball(goals[0], 0.016, "#111111", moves)
+    return [view3d.shifted(ball, shift) for ball in balls]
 
 
 def room_of(tables, objects):
     """How far apart two of them stand side by side, m."""
-    reach = max(np.linalg.norm(places_of(table), axis=1).max() for table in tables)
-    return 1.6 * max(
-        [
-            0.5,
-            reach,
-            *(np.linalg.norm([row[3] for row in item["pose"][:3]]) for item in objects if item["kind"] != "mesh"),
-        ]
-    )
+    reaches = [np.linalg.norm(places_of(table), axis=1).max() for table in tables]
+    reaches += [np.linalg.norm([row[3] for row in item["pose"][:3]]) for item in objects if item["kind"] != "mesh"]
+    return 1.6 * max([0.5, *reaches])
 
 
 def thinned(t, y, keep=np.max):
@@ -82,25 +71,21 @@ def level(axes, value, label):
     axes.axhline(value, color="#333333", linestyle="--", linewidth=1, label=label)
 
 
-def times_figure(curves, limits):
+@figure(4, 1.6)
+def times_figure(panels, curves, limits):
     """Speed, acceleration, clearance and distance from the goal. curves: (label, colour, table, speed, acceleration). limits: v, a."""
-
-    def draw(panels):
-        for label, colour, table, speed, acceleration in curves:
-            t = table["time_s"]
-            panels[0].plot(*thinned(t, speed), color=colour, label=label)
-            panels[1].plot(*thinned(t, np.minimum(acceleration, CUT * limits[1])), color=colour)
-            panels[2].plot(*thinned(t, np.minimum(1000 * np.array(table["clearance_m"]), FAR), np.min), color=colour)
-            panels[3].plot(*thinned(t, 1000 * np.array(table["goal_distance_m"])), color=colour)
-        level(panels[0], limits[0], "bound")
-        level(panels[1], limits[1], None)
-        level(panels[2], 0, None)
-        for axes, name in zip(panels, ("tool (m/s)", "tool (m/s²)", "clearance (mm)", "to goal (mm)")):
-            axes.set_ylabel(name)
-        panels[-1].set_xlabel("time (s)")
-        legend_above(panels[0])
-
-    return Figure(draw, 4, 1.6)
+    for label, colour, table, speed, acceleration in curves:
+        t = table["time_s"]
+        panels[0].plot(*thinned(t, speed), color=colour, label=label)
+        panels[1].plot(*thinned(t, np.minimum(acceleration, CUT * limits[1])), color=colour)
+        panels[2].plot(*thinned(t, np.minimum(1000 * np.array(table["clearance_m"]), FAR), np.min), color=colour)
+        panels[3].plot(*thinned(t, 1000 * np.array(table["goal_distance_m"])), color=colour)
+    for axes, value, label in zip(panels, (*limits, 0), ("bound", None, None)):
+        level(axes, value, label)
+    for axes, name in zip(panels, ("tool (m/s)", "tool (m/s²)", "clearance (mm)", "to goal (mm)")):
+        axes.set_ylabel(name)
+    panels[-1].set_xlabel("time (s)")
+    legend_above(panels[0])
 
 
 def hull(points):
@@ -146,22 +131,34 @@ def outlines(item, axes, folder):
     return [hull(np.concatenate([end + radius * circle for end in ends]))]
 
 
-def way_figure(ways, scene, folder, goal):
+@figure(2, 3.0, shared=False)
+def way_figure(panels, ways, scene, folder, goal):
     """Ways of the tool from above and from the side, with the outlines of the obstacles at the start. ways: (label, colour, places)."""
+    for axes, pair, names in zip(panels, ((0, 1), (1, 2)), (("x", "y"), ("y", "z"))):
+        for item in scene["objects"]:
+            for polygon in outlines(item, pair, folder):
+                axes.fill(*polygon.T, color=view3d.KNOWN if item["known"] else view3d.SEEN, alpha=0.5, linewidth=0)
+        for label, colour, places in ways:
+            axes.plot(*places[:, pair].T, color=colour, label=label)
+        start = ways[0][2][0]
+        axes.plot(*np.stack([start, goal])[:, pair].T, ":", color="#777777", linewidth=1, label="straight on")
+        axes.plot(*start[list(pair)], "o", color="#888888", markersize=5, label="start")
+        axes.plot(*goal[list(pair)], "o", color="#111111", markersize=5, label="goal")
+        axes.set(xlabel=f"{names[0]} (m)", ylabel=f"{names[1]} (m)")
+        axes.set_aspect("equal", "datalim")
+    legend_above(panels[0])
 
-    def draw(panels):
-        for axes, pair, names in zip(panels, ((0, 1), (1, 2)), (("x", "y"), ("y", "z"))):
-            for item in scene["objects"]:
-                for polygon in outlines(item, pair, folder):
-                    axes.fill(*polygon.T, color=view3d.KNOWN if item["known"] else view3d.SEEN, alpha=0.5, linewidth=0)
-            for label, colour, places in ways:
-                axes.plot(*places[:, pair].T, color=colour, label=label)
-            start = ways[0][2][0]
-            axes.plot(*np.stack([start, goal])[:, pair].T, ":", color="#777777", linewidth=1, label="straight on")
-            axes.plot(*start[list(pair)], "o", color="#888888", markersize=5, label="start")
-            axes.plot(*goal[list(pair)], "o", color="#111111", markersize=5, label="goal")
-            axes.set(xlabel=f"{names[0]} (m)", ylabel=f"{names[1]} (m)")
-            axes.set_aspect("equal", "datalim")
-        legend_above(panels[0])
 
-    return Figure(draw, 2, 3.0, shared=False)
+class Logged:
+    """A run of arm.json among scene.json, as samples.csv has it."""
+
+    def __init__(self, result):
+        self.result, self.name = result, result.name
+        self.arm, self.scene, self.table = result.json("arm.json"), result.json("scene.json"), result.table("samples.csv")
+
+    def shown(self, colour, index=0, shift=None):
+        """For the 3D view: arm, run, objects, and sentences about what is missing. shift: it stands elsewhere, m."""
+        part, missing = view3d.arm_of(self.arm, self.result.folder)
+        objects, gone = view3d.objects_of(self.scene, self.result.folder, shift)
+        moves = run_of(self.table, self.arm, self.name, colour, index, shift)
+        return part, moves, objects + marks_of(self.table, shift), missing + gone

@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Report of visp-servo: how the run ended, its motion, what the camera saw, and its times; and of --replay."""
 import numpy as np
+from matplotlib import ticker
 
 from .camera3d import NO_ARM, Z_UP, camera, chosen, columns, outline, photograph, plate
 from .page import Page, number
-from .plots import COLOURS, Figure, legend_above
+from .plots import COLOURS, Figure, figure, legend_above
 from .servo_laws import listed
-from .view3d import arm_of, beside, scene
+from .view3d import arm_of, base_at, beside, scene
 
 ROWS = 4000  # of a log in figures
 SHORTEST = 1e-3  # ms, in the figure of times
@@ -46,30 +47,22 @@ def add_motion(page, log, settings):
         return
     distance, angle = np.array(log["position_error_m"]), np.array(log["rotation_error_rad"])
     if np.isfinite(distance).any():
+        panels = [
+            ("distance from goal (mm)", [(1e3 * distance, COLOURS[0], None)], None),
+            ("angle (°)", [(DEGREES * angle, COLOURS[1], None)], None),
+        ]
         page.figure(
-            panels_figure(
-                t,
-                [
-                    ("distance from goal (mm)", [(1e3 * distance, COLOURS[0], None)], None),
-                    ("angle (°)", [(DEGREES * angle, COLOURS[1], None)], None),
-                ],
-            ),
-            "errors",
-            "Distance and angle from the goal over time",
+            panels_figure(t, panels).named("errors", "Distance and angle from the goal over time"),
             "Distance and angle from the goal, from the last image, carried on to each cycle by the motion of the robot since its capture. A "
             "gap: the target was not seen.",
         )
     linear, angular = norm(log, "v_", LINEAR), norm(log, "v_", ANGULAR)
+    panels = [
+        ("speed (mm/s)", [(1e3 * linear, COLOURS[0], None)], 1e3 * settings["linear_velocity_mps"]),
+        ("angular speed (°/s)", [(DEGREES * angular, COLOURS[1], None)], DEGREES * settings["angular_velocity_radps"]),
+    ]
     page.figure(
-        panels_figure(
-            t,
-            [
-                ("speed (mm/s)", [(1e3 * linear, COLOURS[0], None)], 1e3 * settings["linear_velocity_mps"]),
-                ("angular speed (°/s)", [(DEGREES * angular, COLOURS[1], None)], DEGREES * settings["angular_velocity_radps"]),
-            ],
-        ),
-        "speeds",
-        f"Commanded speed of the {what} over time",
+        panels_figure(t, panels).named("speeds", f"Commanded speed of the {what} over time"),
         f"Speed of the {what} as it was given to the robot, within the limits.",
     )
 
@@ -86,36 +79,32 @@ def stairs(histogram):
     return edges, shares
 
 
-def times_figure(times):
-    def draw(panels):
-        from matplotlib import ticker
+@figure(height=3)
+def times_figure(axes, times):
+    drawn = [(name, time) for name, time in times.items() if time["max_ms"] > SHORTEST]
+    for (name, time), paint in zip(drawn, COLOURS):
+        edges, shares = stairs(time["histogram"])
+        axes.stairs(shares, edges, color=paint, linewidth=1.3, label=name.replace("_", " "))
+    axes.set_xscale("log")
+    axes.xaxis.set_major_formatter(ticker.FuncFormatter(lambda x, _: number(float(x))))
+    axes.set(xlabel="ms", ylabel="share (%)", ylim=(0, None))
+    axes.set_xlim(left=max(SHORTEST, axes.get_xlim()[0]))
+    legend_above(axes, 6)
 
-        axes = panels[0]
-        drawn = [(name, time) for name, time in times.items() if time["max_ms"] > SHORTEST]
-        for (name, time), paint in zip(drawn, COLOURS):
-            edges, shares = stairs(time["histogram"])
-            axes.stairs(shares, edges, color=paint, linewidth=1.3, label=name.replace("_", " "))
-        axes.set_xscale("log")
-        axes.xaxis.set_major_formatter(ticker.FuncFormatter(lambda x, _: number(float(x))))
-        axes.set(xlabel="ms", ylabel="share (%)", ylim=(0, None))
-        axes.set_xlim(left=max(SHORTEST, axes.get_xlim()[0]))
-        legend_above(axes, 6)
 
-    return Figure(draw, height=3)
+TIMES = [
+    ("", "sentence"),
+    ("in the figure", lambda time: time["name"].replace("_", " ")),
+    "number = count; median (ms) = median_ms; 99 % (ms) = p99_ms; largest (ms) = max_ms",
+]
 
 
 def add_times(page, summary):
     times = summary["times"]
-    page.table(
-        ["", "in the figure", "number", "median (ms)", "99 % (ms)", "largest (ms)"],
-        [[t["sentence"], name.replace("_", " "), t["count"], t["median_ms"], t["p99_ms"], t["max_ms"]] for name, t in times.items()],
-        "Quantiles are exact to 5 %.",
-    )
+    page.records([{"name": name, **time} for name, time in times.items()], TIMES, "Quantiles are exact to 5 %.")
     if times:
         page.figure(
-            times_figure(times),
-            "times",
-            "Histograms of the times",
+            times_figure(times).named("times", "Histograms of the times"),
             "How often each duration occurred, on a logarithmic axis. A narrow peak is a steady clock.",
         )
     page.paragraph(
@@ -128,12 +117,10 @@ def add_times(page, summary):
 
 def add_events(page, result):
     events = result.table("events.csv")
-    rows = list(zip(events["time_s"], events["status"], events["message"]))
-    page.table(
-        ["time (s)", "status", "message"],
-        rows[:MOST_EVENTS],
-        f"The first {MOST_EVENTS} of {len(rows)} changes; all are in events.csv." if len(rows) > MOST_EVENTS else "Every change of status.",
-    )
+    rows, said = list(zip(events["time_s"], events["status"], events["message"])), "Every change of status."
+    if len(rows) > MOST_EVENTS:
+        said = f"The first {MOST_EVENTS} of {len(rows)} changes; all are in events.csv."
+    page.table(["time (s)", "status", "message"], rows[:MOST_EVENTS], said)
 
 
 def seen_target(log, index, fMc, cMo, world, scene_data, picture):
@@ -185,8 +172,7 @@ def add_view(page, results, logs):
     """Several results beside each other."""
     arms, runs, objects, missing = [], [], [], []
     for result, log in zip(results, logs):
-        base = np.eye(4)
-        base[:3, 3] = beside(OTHER_SIDE * len(runs))
+        base = np.array(base_at(beside(OTHER_SIDE * len(runs))))
         made = run_of(result, log, base) if len(log["time_s"]) > 1 else None
         if made is None:
             missing.append(f"{result.name}: the robot told no pose of its camera, so it is not shown.")
@@ -204,43 +190,38 @@ def add_view(page, results, logs):
             f"the image that it sees, rendered here without distortion{goal}. The grid has squares of 10 cm. "
             "Drag to turn, the wheel or two fingers to zoom.",
         )
-    page.items(missing)
+    page.items(*missing)
 
 
 def settings_of(summary):
     s = summary["settings"]
+    limits = (
+        f"{number(1e3 * s['linear_velocity_mps'])} mm/s, {number(s['linear_acceleration_mps2'])} m/s², {number(s['linear_jerk_mps3'])} m/s³; "
+        f"{number(DEGREES * s['angular_velocity_radps'])}°/s, {number(s['angular_acceleration_radps2'])} rad/s², "
+        f"{number(s['angular_jerk_radps3'])} rad/s³"
+    )
     return [
         ("camera", f"{summary['camera']}, by {summary['clock']}"),
         ("target", summary["target"]),
         ("robot", summary["robot"] + (", not commanded (dry run)" if summary["dry_run"] else "")),
         ("laws used", listed(summary["laws"])),
         ("gain", f"{number(s['lambda'])} 1/s"),
-        (
-            "limits",
-            f"{number(1e3 * s['linear_velocity_mps'])} mm/s, {number(s['linear_acceleration_mps2'])} m/s², {number(s['linear_jerk_mps3'])} m/s³; "
-            f"{number(DEGREES * s['angular_velocity_radps'])}°/s, {number(s['angular_acceleration_radps2'])} rad/s², "
-            f"{number(s['angular_jerk_radps3'])} rad/s³",
-        ),
+        ("limits", limits),
         ("control period", f"{number(1e3 * s['period_s'])} ms"),
-        ("command", summary["command"]),
-        ("version", summary["version"]),
+        *((key, summary[key]) for key in ("command", "version")),
     ]
 
 
 def page(results):
     if results[0].kind.endswith("--replay"):
         return replayed(results)
-    several = len(results) > 1
     what = [", ".join(r.summary[key] for key in ("camera", "robot", "target")) for r in results]
-    page = Page("Visual servoing", "; ".join(what) + ".")
-    of = lambda result: f" of {result.name}" if several else ""  # noqa: E731
-    for result in results:
-        page.answers(*((f"{result.name}: " if several else "") + sentence for sentence in result.summary["findings"]))
+    page = Page("Visual servoing", "; ".join(what) + ".", results)
     logs = [result.table("log.csv", most=ROWS) for result in results]
     page.section("The way there")
     add_view(page, results, logs)
     for result, log in zip(results, logs):
-        page.section("What the camera saw" + of(result))
+        page.section("What the camera saw", result)
         if (result.folder / "view.mp4").is_file():
             page.video(
                 result.beside(results[0], "view.mp4"),
@@ -249,14 +230,14 @@ def page(results):
             )
         if result.bytes("view.png"):
             page.picture(result.bytes("view.png"), "image/png", "The last image", "The last image, marked in the same way.", 640)
-        page.section("Motion" + of(result))
+        page.section("Motion", result)
         add_motion(page, log, result.summary["settings"])
-        page.section("Status" + of(result))
+        page.section("Status", result)
         add_events(page, result)
-        page.section("Time" + of(result))
+        page.section("Time", result)
         add_times(page, result.summary)
     for result in results:
-        page.section("Settings" + of(result))
+        page.section("Settings", result)
         page.facts(settings_of(result.summary), "What was run.")
     page.paragraph(
         "Beside this page: log.csv (every cycle), images.csv (every image), events.csv (every change of status), camera.mkv (the images "
@@ -266,35 +247,28 @@ def page(results):
 
 
 def replay_figure(log):
-    t = np.array(log["time_s"])
+    panels = [
+        ("speed (mm/s)", lambda name: 1e3 * norm(log, f"{name}_v_", LINEAR)),
+        ("angular speed (°/s)", lambda name: DEGREES * norm(log, f"{name}_v_", ANGULAR)),
+        ("to the goal (mm)", lambda name: 1e3 * np.array(log[f"{name}_position_error_m"])),
+    ]
     pairs = [("recorded", "#999999"), ("replayed", COLOURS[0])]
-    return panels_figure(
-        t,
-        [
-            ("speed (mm/s)", [(1e3 * norm(log, f"{name}_v_", LINEAR), paint, name) for name, paint in pairs], None),
-            ("angular speed (°/s)", [(DEGREES * norm(log, f"{name}_v_", ANGULAR), paint, name) for name, paint in pairs], None),
-            ("to the goal (mm)", [(1e3 * np.array(log[f"{name}_position_error_m"]), paint, name) for name, paint in pairs], None),
-        ],
-    )
+    curves = [(label, [(values(name), paint, name) for name, paint in pairs], None) for label, values in panels]
+    return panels_figure(np.array(log["time_s"]), curves)
 
 
 def replayed(results):
-    several = len(results) > 1
     recordings = listed(r.summary["recording"] for r in results)
-    page = Page("Visual servoing, replayed", f"The images and the motion of {recordings}, seen and steered once more.")
+    page = Page("Visual servoing, replayed", f"The images and the motion of {recordings}, seen and steered once more.", results)
     for result in results:
-        page.answers(*((f"{result.name}: " if several else "") + sentence for sentence in result.summary["findings"]))
-    for result in results:
-        page.section("What would have been different" + (f" in {result.name}" if several else ""))
+        page.section("What would have been different", f"What would have been different in {result.name}")
         page.figure(
-            replay_figure(result.table("replay.csv", most=ROWS)),
-            "replay",
-            "Speeds and errors, recorded and replayed",
+            replay_figure(result.table("replay.csv", most=ROWS)).named("replay", "Speeds and errors, recorded and replayed"),
             "The robot moves as it was recorded: the replayed law is asked at each recorded place what it would do there. Where the curves "
             "part, another way would have begun.",
         )
     page.section("Settings")
     for result in results:
         s = result.summary
-        page.facts([("law", s["law"]), ("command", s["command"]), ("version", s["version"])], result.name if several else "What was run.")
+        page.facts([(key, s[key]) for key in ("law", "command", "version")], page.name(result, "What was run."))
     return page

@@ -32,6 +32,10 @@ FURTHER = [
     ("losses", "view_losses", ""),
     ("above", "bounds_exceeded_cycles", ""),
 ]
+PLANTS = [
+    "plant = name; loop (Hz) = loop_rate_hz; vision (Hz) = vision_rate_hz; latency (ms) = 1000 latency_s; noise (px) = pixel_noise_px; "
+    "lag (ms) = 1000 lag_s; friction (rad/s) = deadband_radps; limit (m/s) = max_linear_mps; limit (rad/s) = max_angular_radps"
+]
 THESIS_JOINT_RMS = [6.4, 8.6, 5.2, 12.5, 8.2, 8.5, 6.4]  # mrad, table 8.1
 
 
@@ -61,7 +65,8 @@ def laws_rows(c, measure, columns):
     """A row for each plant and law, the hardest plant first."""
     for plant in reversed(c.plants):
         laws = [law for law in c.laws if c.runs(law, plant, measure)]
-        styles = [marks(c, {law: c.median(law, plant, metric, measure) for law in laws}, best) if laws else {} for _, metric, best in columns]
+        medians = [{law: c.median(law, plant, metric, measure) for law in laws} for _, metric, _ in columns]
+        styles = [marks(c, found, best) if found else {} for found, (*_, best) in zip(medians, columns)]
         for law in laws:
             cells = [cell_of(c.values(law, plant, metric, measure), style.get(law, "")) for (_, metric, _), style in zip(columns, styles)]
             yield [law, plant, c.look(law)[2], *cells]
@@ -86,13 +91,11 @@ def add_tables(page, c):
             laws_rows(c, measure, FURTHER),
             f"Further figures, measured by {measure}. Settle: mean time of a segment until the error stays below 2° and 5 mm, its "
             "duration if never. End: largest translation error at the end of a segment. Speeds are those executed, jerks those of the "
-            "command. Losses: how often a corner left the image. Above: cycles above a limit of the camera's motion, with --bounded." + seeds,
+            "command. Losses: how often a corner left the image. Above: cycles above a limit of the camera's motion, with --bounded."
+            + seeds,
         )
-    page.table(
-        ["law", "name", "what it does"],
-        [[law["id"], c.name(law["id"]), law["sentence"]] for law in c.summary["laws"]],
-        "The same ids as in --law and summary.json.",
-    )
+    laws = ["law = id", ("name", lambda law: c.name(law["id"])), "what it does = sentence"]
+    page.records(c.summary["laws"], laws, "The same ids as in --law and summary.json.")
 
 
 def margin_text(arm, joints):
@@ -119,38 +122,33 @@ def add_arm(page, c):
         "from the measured position (--drive measured)."
     )
     arm = c.result.json("arm.json")
-    results = [(law, plant, c.runs(law, plant)[0]["arm"]) for plant in c.plants for law in c.laws if c.runs(law, plant)]
-    page.table(
-        [
-            *("law", "plant", "limit margin", "speed (%)", "acceleration (%)", "worst joint rms (mrad)", "least manipulability"),
-            *("self-motion (rad)", "slowed (s)", "blocked (s)", "status"),
-        ],
-        [
-            [
-                *(law, plant, margin_text(a, arm["joints"])),
-                *(100 * a["peak_velocity_share"], 100 * a["peak_acceleration_share"], 1000 * max(a["joint_rms"])),
-                *(a[key] for key in ("least_manipulability", "self_motion_rad", "limited_s", "blocked_s", "status")),
-            ]
-            for law, plant, a in results
-        ],
+    first = [c.runs(law, plant)[0] for plant in c.plants for law in c.laws if c.runs(law, plant)]
+    columns = [
+        "law; plant",
+        ("limit margin", lambda run: margin_text(run["arm"], arm["joints"])),
+        "speed (%) = 100 arm.peak_velocity_share; acceleration (%) = 100 arm.peak_acceleration_share",
+        ("worst joint rms (mrad)", lambda run: 1000 * max(run["arm"]["joint_rms"])),
+        "least manipulability = arm.least_manipulability; self-motion (rad) = arm.self_motion_rad; slowed (s) = arm.limited_s; "
+        "blocked (s) = arm.blocked_s; status = arm.status",
+    ]
+    page.records(
+        first,
+        columns,
         f"Measured by {c.measure}, first seed. Limit margin: least distance of a joint from a position limit, and which; 0: it was held "
         "there. Speed, acceleration: largest part of a joint's limit that was commanded; 100 is the limit itself, which is never exceeded. "
         "Self-motion: way the joints made for their own good. Slowed: less motion than asked for, by limits or near singularities; blocked: "
         "none. The status names a joint that did not follow or a drive at its limit, with the torque that is missing.",
     )
     law = arm_law(c)
-    rows = [[f"plant {plant}, {law}", *(1000 * rms for rms in a["joint_rms"])] for a_law, plant, a in results if a_law == law]
+    rows = [[f"plant {run['plant']}, {law}", *(1000 * rms for rms in run["arm"]["joint_rms"])] for run in first if run["law"] == law]
     if arm["name"] == "AMOR" and len(arm["joints"]) == len(THESIS_JOINT_RMS):
         rows.insert(0, ["thesis, table 8.1", *THESIS_JOINT_RMS])
-    page.table(
-        ["joint rms (mrad)", *(joint["name"] for joint in arm["joints"])],
-        rows,
-        f"How well the joints follow their commands, with {law} (mm for sliding joints).",
-    )
+    says = f"How well the joints follow their commands, with {law} (mm for sliding joints)."
+    page.table(["joint rms (mrad)", *(joint["name"] for joint in arm["joints"])], rows, says)
     add_joints(page, c, arm)
 
 
-def add_film(page, c, first):
+def add_film(page, c):
     strip = c.summary["film_strip"]
     page.picture(
         c.result.bytes("film-strip.jpg"),
@@ -162,10 +160,8 @@ def add_film(page, c, first):
     )
     videos = c.summary["videos"]
     if not all(video["for_browsers"] for video in videos):
-        page.paragraph(
-            "This FFmpeg has no H.264 encoder: the videos are MPEG-4 part 2, which browsers do not play; open the files in video/ with a "
-            "media player."
-        )
+        codec = "This FFmpeg has no H.264 encoder: the videos are MPEG-4 part 2, which browsers do not play"
+        page.paragraph(f"{codec}; open the files in video/ with a media player.")
 
     def caption(video):
         out = c.runs(video["law"], c.hard)[0]["out_of_view_s"]
@@ -173,7 +169,7 @@ def add_film(page, c, first):
         end = number(c.runs(video["law"], c.hard)[0]["end_rotation_deg"])
         return f"{c.name(video['law'])}, plant {c.hard}, {number(video['speed_up'])} times as fast: ends {end}° off, {seen}."
 
-    page.videos([(c.result.beside(first.result, video["file"]), caption(video)) for video in videos])
+    page.videos([(c.result.beside(page.results[0], video["file"]), caption(video)) for video in videos])
 
 
 def add_figures(page, c):
@@ -207,10 +203,8 @@ def add_what(page, c):
     )
     if s["description"]:
         page.paragraph(s["description"])
-    page.items(
-        ([f"The camera is in the hand of an arm: {s['robot']['sentence']}"] if c.on_arm else [])
-        + [f"Plant {name}: {plant['sentence']}" for name, plant in c.plants.items()]
-    )
+    carried = [f"The camera is in the hand of an arm: {s['robot']['sentence']}"] if c.on_arm else []
+    page.items(*carried, *(f"Plant {name}: {plant['sentence']}" for name, plant in c.plants.items()))
     page.paragraph(
         "Simulated and real: the robots, their friction and latency and all motions are simulated. The picture on the object is a real "
         f"photograph ({pathlib.PurePath(s['target']).name}). Every view of it is rendered from that photograph; no picture here was taken by "
@@ -227,83 +221,55 @@ def pose_text(pose):
 def add_parameters(page, c):
     s, task, gains, faults = c.summary, c.summary["task"], c.summary["gains"], c.summary["image_faults"]
     camera, thing = task["camera"], task["object"]
-    facts = [("task", f"{task['name']}: {route_of(task)}"), ("start, object in the camera", pose_text(task["start"]))]
-    facts += [(f"pose {p['name']}, object in the camera, {number(p['duration_s'])} s", pose_text(p)) for p in c.segments]
-    facts += [("robot", s["robot"]["sentence"])] if c.on_arm else []
-    facts += [
-        (
-            "camera",
-            f"f = ({number(camera['px'])}, {number(camera['py'])}) px, centre ({number(camera['u0'])}, {number(camera['v0'])}) px, "
-            f"{camera['width']} × {camera['height']} px, no distortion",
-        ),
-        (
-            "object",
-            f"{number(1000 * thing['width_m'])} × {number(1000 * thing['height_m'])} mm, {thing['points']} feature points; how soon it leaves "
-            "the view depends on this size, which the thesis does not give",
-        ),
-        ("photo (real)", s["target"] + (f". {s['target_remark']}" if s["target_remark"] else "")),
-        (
-            "rendered views for measure image",
-            f"grey noise {number(faults['noise'])}, blur {number(faults['blur_px'])} px, gain {number(faults['gain'])}, bias "
-            f"{number(faults['bias'])}, occlusion {number(faults['occlusion'])}; ideal on plants without pixel noise",
-        ),
-        (
-            "gains, the same for every law",
-            f"lambda {number(gains['lambda'])} 1/s, rotation factor {number(gains['rotation'])}, kappa {number(gains['kappa'])}, saturation "
-            f"{number(gains['saturation_rad'])} rad, integral {number(gains['integral'])} 1/s² up to {number(gains['integral_limit_radps'])} "
-            "rad/s; laws with -rot2 and ff-lookat have twice the rotation gain built in",
-        ),
-        (
-            "seed",
-            str(s["seed"])
-            if s["repetitions"] == 1
-            else f"{s['seed']} to {s['seed'] + s['repetitions'] - 1}; figures, videos and logs show the first, any other is repeated "
-            "with --seed",
-        ),
-        ("program", f"visp-servo-compare {s['version']}, ViSP {s['visp_version']}"),
-        ("command", s["command_line"]),
-        ("wall time", f"{number(s['wall_time_s'])} s"),
-    ]
-    page.facts(facts, "Rotations are theta u; frames as in ViSP: z along the optical axis, x right, y down.")
-    keys = ["loop_rate_hz", "vision_rate_hz", "latency_s", "pixel_noise_px", "lag_s", "deadband_radps", "max_linear_mps", "max_angular_radps"]
-    page.table(
-        ["plant", "loop (Hz)", "vision (Hz)", "latency (ms)", "noise (px)", "lag (ms)", "friction (rad/s)", "limit (m/s)", "limit (rad/s)"],
-        [[name, *(1000 * p[key] if key in ("latency_s", "lag_s") else p[key] for key in keys)] for name, p in c.plants.items()],
-        "The plants. "
-        + (
-            "On an arm lag and friction come from its joints: friction 0.1 stands for that of the arm's file, 0.2 for twice that."
-            if c.on_arm
-            else "Friction is seen as a velocity that each rotation axis loses."
-        )
-        + " Limits scale the whole twist.",
-    )
+    poses = [(f"pose {p['name']}, object in the camera, {number(p['duration_s'])} s", pose_text(p)) for p in c.segments]
+    first = [("task", f"{task['name']}: {route_of(task)}"), ("start, object in the camera", pose_text(task["start"])), *poses]
+    first += [("robot", s["robot"]["sentence"])] if c.on_arm else []
+    seeds = f"{s['seed']} to {s['seed'] + s['repetitions'] - 1}; figures, videos and logs show the first, any other is repeated with --seed"
+    facts = {
+        "camera": f"f = ({number(camera['px'])}, {number(camera['py'])}) px, centre ({number(camera['u0'])}, {number(camera['v0'])}) px, "
+        f"{camera['width']} × {camera['height']} px, no distortion",
+        "object": f"{number(1000 * thing['width_m'])} × {number(1000 * thing['height_m'])} mm, {thing['points']} feature points; how soon it leaves "
+        "the view depends on this size, which the thesis does not give",
+        "photo (real)": s["target"] + (f". {s['target_remark']}" if s["target_remark"] else ""),
+        "rendered views for measure image": f"grey noise {number(faults['noise'])}, blur {number(faults['blur_px'])} px, gain {number(faults['gain'])}, bias "
+        f"{number(faults['bias'])}, occlusion {number(faults['occlusion'])}; ideal on plants without pixel noise",
+        "gains, the same for every law": f"lambda {number(gains['lambda'])} 1/s, rotation factor {number(gains['rotation'])}, kappa {number(gains['kappa'])}, saturation "
+        f"{number(gains['saturation_rad'])} rad, integral {number(gains['integral'])} 1/s² up to {number(gains['integral_limit_radps'])} "
+        "rad/s; laws with -rot2 and ff-lookat have twice the rotation gain built in",
+        "seed": seeds if s["repetitions"] > 1 else str(s["seed"]),
+        "program": f"visp-servo-compare {s['version']}, ViSP {s['visp_version']}",
+        "command": s["command_line"],
+        "wall time": f"{number(s['wall_time_s'])} s",
+    }
+    page.facts([*first, *facts.items()], "Rotations are theta u; frames as in ViSP: z along the optical axis, x right, y down.")
+    arm = "On an arm lag and friction come from its joints: friction 0.1 stands for that of the arm's file, 0.2 for twice that."
+    friction = arm if c.on_arm else "Friction is seen as a velocity that each rotation axis loses."
+    page.records(s["plants"], PLANTS, f"The plants. {friction} Limits scale the whole twist.")
     page.paragraph("Beside this page: summary.json (all figures of all runs), log/ (one CSV file for each run), video/ (the films).")
+
+
+SECTIONS = [  # title, what adds its contents, a field of Comparison that must be true
+    ("What else came out", lambda page, c: page.items(*findings(c)), "laws"),
+    ("The way there", add_view, "laws"),
+    ("Laws and plants", add_tables, "laws"),
+    ("Figures", add_figures, "laws"),
+    ("The arm", add_arm, "on_arm"),
+    ("The step at the start", add_shaped, "shaped"),
+    ("What the camera sees", add_film, "laws"),
+    ("What was run", add_what, "laws"),
+    ("Parameters of every run", add_parameters, "laws"),
+]
 
 
 def page(results):
     comparisons = [Comparison(result) for result in results]
-    several = len(comparisons) > 1
-    page = Page(
-        "Visual servoing laws compared",
-        "; ".join(f"{c.result.name}: {counted(len(c.laws), 'law')} on {c.summary['task']['name']}" for c in comparisons) + ".",
-    )
-    of = lambda c: f" of {c.result.name}" if several else ""  # noqa: E731
+    lead = "; ".join(f"{c.result.name}: {counted(len(c.laws), 'law')} on {c.summary['task']['name']}" for c in comparisons) + "."
+    page = Page("Visual servoing laws compared", lead, results)
     for c in comparisons:
-        page.answers(*((f"{c.result.name}: " if several else "") + sentence for sentence in answers(c)))
-    sections = [
-        ("What else came out", lambda c: page.items(findings(c))),
-        ("The way there", lambda c: add_view(page, c)),
-        ("Laws and plants", lambda c: add_tables(page, c)),
-        ("Figures", lambda c: add_figures(page, c)),
-        ("The arm", lambda c: add_arm(page, c)),
-        ("The step at the start", lambda c: add_shaped(page, c)),
-        ("What the camera sees", lambda c: add_film(page, c, comparisons[0])),
-        ("What was run", lambda c: add_what(page, c)),
-        ("Parameters of every run", lambda c: add_parameters(page, c)),
-    ]
-    for title, add in sections:
+        page.answers(*answers(c), of=c.result)
+    for title, add, field in SECTIONS:
         for c in comparisons:
-            if (title != "The arm" or c.on_arm) and (title != "The step at the start" or c.shaped):
-                page.section(title + of(c))
-                add(c)
+            if getattr(c, field):
+                page.section(title, c.result)
+                add(page, c)
     return page

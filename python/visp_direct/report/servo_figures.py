@@ -5,11 +5,11 @@ import math
 
 import numpy as np
 
-from .camera3d import NO_ARM, Z_UP, camera, chosen, matrices, outline, photograph, plate
+from .camera3d import NO_ARM, Z_UP, camera, chosen, columns, matrices, outline, photograph, plate
 from .page import number
-from .plots import Figure, colour, legend_above, plain
+from .plots import colour, figure, legend_above, plain
 from .servo_laws import is_filtered
-from .view3d import arm_of, beside, scene
+from .view3d import arm_of, base_at, beside, scene
 
 POINTS = 600  # of a curve; more would not be visible
 RAW, SHAPED = "#d62728", "#1f77b4"
@@ -55,36 +55,23 @@ def goal(axes, c, plant, laws):
         axes.plot(log["time_s"], DEGREES * column(log, "goal_yaw_rad"), ":", color="#555555", linewidth=1.2, label="goal")
 
 
-def over_time(c, plant, laws, label, value, with_goal=False, last=None, thin=None):
-    """A Figure of a value of the logs. thin: a second value, of thin curves."""
+@figure(height=3)
+def over_time(axes, c, plant, laws, label, value, with_goal=False, last=None, thin=None):
+    """A value of the logs. thin: a second value, of thin curves."""
     last = last or len(c.segments)
-
-    def draw(panels):
-        axes = panels[0]
-        until = ends(c)[last - 1]
-        curves(axes, c, plant, laws, value, until, **({"linewidth": 2.2} if thin else {}))
-        if thin:
-            curves(axes, c, plant, laws, thin, until, linewidth=0.7, label=None)
-        if with_goal:
-            goal(axes, c, plant, laws)
-        axes.margins(y=0.12)  # room for the names of the segments
-        segment_marks(axes, c, last)
-        axes.set_ylabel(label)
-        legend_above(axes, 5)
-
-    return Figure(draw, height=3)
+    until = ends(c)[last - 1]
+    curves(axes, c, plant, laws, value, until, **({"linewidth": 2.2} if thin else {}))
+    if thin:
+        curves(axes, c, plant, laws, thin, until, linewidth=0.7, label=None)
+    if with_goal:
+        goal(axes, c, plant, laws)
+    axes.margins(y=0.12)  # room for the names of the segments
+    segment_marks(axes, c, last)
+    legend_above(axes, 5, ylabel=label)
 
 
-def reference_yaw(log):
-    return DEGREES * column(log, "reference_yaw_rad")
-
-
-def yaw(log):
-    return DEGREES * column(log, "yaw_rad")
-
-
-def image_error(log):
-    return column(log, "image_error_u_px")
+def degrees(name):
+    return lambda log: DEGREES * column(log, name)
 
 
 def overshoot(c, law, plant):
@@ -97,74 +84,66 @@ def overshoot(c, law, plant):
 
 
 def said(laws, *notes):
-    """Those sentences whose laws are in the figure: (needed laws, sentence or function of it)."""
-    return "".join(" " + (text() if callable(text) else text) for needed, text in notes if set(needed) <= set(laws))
+    """Those sentences whose laws are in the figure: laws with blanks between, a sentence or a function of it, and so on."""
+    pairs = zip(notes[::2], notes[1::2])
+    return "".join(" " + (text() if callable(text) else text) for needed, text in pairs if set(needed.split()) <= set(laws))
 
 
 def add_references(page, c):
     laws = c.preferred("pbvs1", "ff-sum", "ff-lookat")
+    drawn = over_time(c, c.easy, laws, "reference yaw (°)", degrees("reference_yaw_rad"), True)
     page.figure(
-        over_time(c, c.easy, laws, "reference yaw (°)", reference_yaw, True),
-        "figure-5.6",
-        f"Reference yaw on plant {c.easy}",
+        drawn.named("figure-5.6", f"Reference yaw on plant {c.easy}"),
         f"Figure 5.6 again, on plant {c.easy}: the yaw that a law aims at, where its angular velocity would lead if it decayed as its "
         "rotation error does."
         + said(
             laws,
-            (["pbvs1"], "PBVS aims at the goal from the first instant, a constant."),
-            (
-                ["ff-sum"],
-                lambda: "FF sum goes beyond the goal while the object is off its place in the image, by at most "
-                f"{number(overshoot(c, 'ff-sum', c.easy))}° here; in the thesis the overshoot is plain to see.",
-            ),
-            (
-                ["ff-lookat"],
-                "FF look-at, which is not in the thesis, turns no faster than the translation asks for, so its reference reaches the "
-                "goal later.",
-            ),
+            "pbvs1",
+            "PBVS aims at the goal from the first instant, a constant.",
+            "ff-sum",
+            lambda: "FF sum goes beyond the goal while the object is off its place in the image, by at most "
+            f"{number(overshoot(c, 'ff-sum', c.easy))}° here; in the thesis the overshoot is plain to see.",
+            "ff-lookat",
+            "FF look-at, which is not in the thesis, turns no faster than the translation asks for, so its reference reaches the "
+            "goal later.",
         ),
     )
     laws = c.preferred("pbvs1", "kyrki", "kyrki-decoupled", "ff-sum", "ff-lookat")
+    drawn = over_time(c, c.easy, laws, "goal yaw − yaw (°)", lambda log: degrees("goal_yaw_rad")(log) - degrees("yaw_rad")(log))
     page.figure(
-        over_time(c, c.easy, laws, "goal yaw − yaw (°)", lambda log: DEGREES * column(log, "goal_yaw_rad") - yaw(log)),
-        "figure-5.7",
-        f"Yaw error on plant {c.easy}",
+        drawn.named("figure-5.7", f"Yaw error on plant {c.easy}"),
         f"Figure 5.7 again, on plant {c.easy}: how far the camera still has to turn. Laws whose curves lie on each other turn equally "
         "fast; what differs is where the object is in the image meanwhile, at worst, px: "
         f"{c.per_law(laws, c.easy, 'max_image_error_px')}."
         + said(
             laws,
-            (
-                ["kyrki", "kyrki-decoupled"],
-                "The thesis shows one curve for Kyrki; here the full law and the decoupled one, which the thesis uses, are separate.",
-            ),
+            "kyrki kyrki-decoupled",
+            "The thesis shows one curve for Kyrki; here the full law and the decoupled one, which the thesis uses, are separate.",
         ),
     )
     laws = c.preferred("pbvs1", "kyrki", "kyrki-decoupled", "ff-sum", "ff-lookat-pi")
+    drawn = over_time(c, c.hard, laws, "reference yaw (°)", degrees("reference_yaw_rad"), True)
     page.figure(
-        over_time(c, c.hard, laws, "reference yaw (°)", reference_yaw, True),
-        "figure-5.8",
-        f"Reference yaw on plant {c.hard}",
+        drawn.named("figure-5.8", f"Reference yaw on plant {c.hard}"),
         f"Figure 5.8 again: the same on plant {c.hard}. Where friction stops the camera before the goal, an image error remains."
         + said(
             laws,
-            (
-                ["ff-sum"],
-                lambda: "It keeps the feedforward term of FF sum alive: its reference goes up to "
-                f"{number(overshoot(c, 'ff-sum', c.hard))}° beyond the goal, which the thesis shows too.",
-            ),
-            (["ff-lookat-pi"], "The reference of FF look-at PI rises with its integral until the camera turns."),
-            (["kyrki-decoupled"], "That of the decoupled Kyrki, the one of the thesis, follows from the image error alone."),
+            "ff-sum",
+            lambda: "It keeps the feedforward term of FF sum alive: its reference goes up to "
+            f"{number(overshoot(c, 'ff-sum', c.hard))}° beyond the goal, which the thesis shows too.",
+            "ff-lookat-pi",
+            "The reference of FF look-at PI rises with its integral until the camera turns.",
+            "kyrki-decoupled",
+            "That of the decoupled Kyrki, the one of the thesis, follows from the image error alone.",
         ),
     )
 
 
 def add_motion(page, c):
     laws = c.preferred("kyrki", "kyrki-decoupled", "ff-sum", "ff-lookat-pi")
+    drawn = over_time(c, c.hard, laws, "yaw (°)", degrees("yaw_rad"), True, thin=degrees("reference_yaw_rad"))
     page.figure(
-        over_time(c, c.hard, laws, "yaw (°)", yaw, True, thin=reference_yaw),
-        "figure-5.9",
-        f"Yaw and its reference on plant {c.hard}",
+        drawn.named("figure-5.9", f"Yaw and its reference on plant {c.hard}"),
         f"Figure 5.9 again, on plant {c.hard}: where each law wants to turn to (thin) and how the camera turns (thick). The camera moves "
         "smoothly although vision is slow. The range of yaw is what the thesis calls exploration: of "
         f"{number(c.ideal_yaw)}° between the goals, the laws reach, °: {c.per_law(laws, c.hard, 'yaw_range_deg')}. In the thesis the "
@@ -172,18 +151,21 @@ def add_motion(page, c):
     )
     laws = c.preferred("pbvs1", "kyrki", "kyrki-decoupled", "ff-sum", "ff-lookat-pi")
     page.figure(
-        over_time(c, c.hard, laws, "u of the object's centre − goal (px)", image_error, last=min(2, len(c.segments))),
-        "figure-5.10",
-        f"Image error on plant {c.hard}",
+        over_time(
+            c,
+            c.hard,
+            laws,
+            "u of the object's centre − goal (px)",
+            lambda log: column(log, "image_error_u_px"),
+            last=min(2, len(c.segments)),
+        ).named("figure-5.10", f"Image error on plant {c.hard}"),
         f"Figure 5.10 again, on plant {c.hard}: how far the object is from its desired image position, to the right positive, for the "
         "first two segments (1-2-1 in the thesis). A curve that ends a segment level but away from zero is held by friction. Root mean "
         f"square over the whole task, px: {c.per_law(laws, c.hard, 'rms_image_error_px')}."
-        + said(laws, (["kyrki", "kyrki-decoupled"], "The large error of Kyrki in the thesis is that of the decoupled law.")),
+        + said(laws, "kyrki kyrki-decoupled", "The large error of Kyrki in the thesis is that of the decoupled law."),
     )
     page.figure(
-        path_figure(c, laws),
-        "path",
-        f"The camera's path from above on plant {c.hard}",
+        path_figure(c, laws).named("path", f"The camera's path from above on plant {c.hard}"),
         f"The camera's way from above on plant {c.hard} (thick, from (0, 0)) and, thin in the same colour, where it looks when a segment "
         "ends; dashed, where it should look. A camera that friction keeps from turning to the end looks past the centre of the object. "
         f"Length of the way, m: {c.per_law(laws, c.hard, 'path_length_m')}. The thesis has no such figure.",
@@ -196,54 +178,45 @@ def pose_of(item):
 
 def poses_of(log, index=slice(None)):
     """Poses of the camera in the world, its first frame."""
-    six = np.array([column(log, name)[index] for name in ("tx_m", "ty_m", "tz_m", "tux_rad", "tuy_rad", "tuz_rad")])
-    return matrices(six[:3].T, six[3:].T)
+    return columns(log, kinds=("tx_m", "ty_m", "tz_m", "tux_rad", "tuy_rad", "tuz_rad"))[index]
 
 
-def path_figure(c, laws):
+@figure(height=4.4)
+def path_figure(axes, c, laws):
     task = c.summary["task"]
     start = pose_of(task["start"])
 
-    def gaze(axes, wMc, length, **style):
+    def gaze(wMc, length, **style):
         p = np.stack([wMc[:3, 3], wMc[:3, 3] + length * wMc[:3, 2]])
         axes.plot(p[:, 0], p[:, 2], **style)
 
-    def draw(panels):
-        axes = panels[0]
-        for law in laws:
-            log = c.log(law, c.hard)
-            if not log:
-                continue
-            part = stride(len(log["time_s"]))
-            axes.plot(column(log, "tx_m")[part], column(log, "tz_m")[part], color=c.look(law)[1], linewidth=2.2, label=plain(c.name(law)))
-            last = np.searchsorted(column(log, "time_s"), ends(c) - 1e-9) - 1
-            for wMc in poses_of(log, last):
-                gaze(axes, wMc, float(np.linalg.norm(start[:3, 3] - wMc[:3, 3])), color=c.look(law)[1], linewidth=0.8)
-        for i, segment in enumerate(c.segments):
-            cdMo = pose_of(segment)
-            dashed = {"color": "#888888", "linestyle": "--", "linewidth": 1, "label": None if i else "where goals look"}
-            gaze(axes, start @ np.linalg.inv(cdMo), cdMo[2, 3], **dashed)
-        sides = start @ np.array([[s * task["object"]["width_m"] / 2, 0, 0, 1] for s in (-1, 1)]).T
-        axes.plot(sides[0], sides[2], color="#111111", linewidth=4, solid_capstyle="butt", label="object")
-        axes.set(xlabel="to the right (m)", ylabel="towards the object (m)", aspect="equal")
-        legend_above(axes, 4)
-
-    return Figure(draw, height=4.4)
+    for law in laws:
+        log = c.log(law, c.hard)
+        if not log:
+            continue
+        part, paint = stride(len(log["time_s"])), c.look(law)[1]
+        axes.plot(column(log, "tx_m")[part], column(log, "tz_m")[part], color=paint, linewidth=2.2, label=plain(c.name(law)))
+        last = np.searchsorted(column(log, "time_s"), ends(c) - 1e-9) - 1
+        for wMc in poses_of(log, last):
+            gaze(wMc, float(np.linalg.norm(start[:3, 3] - wMc[:3, 3])), color=paint, linewidth=0.8)
+    for i, segment in enumerate(c.segments):
+        cdMo = pose_of(segment)
+        dashed = {"color": "#888888", "linestyle": "--", "linewidth": 1, "label": None if i else "where goals look"}
+        gaze(start @ np.linalg.inv(cdMo), cdMo[2, 3], **dashed)
+    sides = start @ np.array([[s * task["object"]["width_m"] / 2, 0, 0, 1] for s in (-1, 1)]).T
+    axes.plot(sides[0], sides[2], color="#111111", linewidth=4, solid_capstyle="butt", label="object")
+    legend_above(axes, 4, xlabel="to the right (m)", ylabel="towards the object (m)", aspect="equal")
 
 
-def seeds_figure(c, metric, label):
+@figure(height=3.6)
+def seeds_figure(axes, c, metric, label):
     """One dot per seed above each law."""
-
-    def draw(panels):
-        axes = panels[0]
-        for i, law in enumerate(c.laws):
-            values = np.array(c.values(law, c.hard, metric))
-            spread = 0.36 * (np.mod(0.618 * np.arange(len(values)), 1) - 0.5)  # so that equal values do not hide each other
-            axes.plot(i + spread, values, ".", color=c.look(law)[1], markersize=5)
-        axes.set_xticks(range(len(c.laws)), [plain(c.name(law)) for law in c.laws], rotation=35, ha="right", fontsize=8)
-        axes.set(ylabel=label, ylim=(0, None), xlim=(-0.6, len(c.laws) - 0.4))
-
-    return Figure(draw, height=3.6)
+    for i, law in enumerate(c.laws):
+        values = np.array(c.values(law, c.hard, metric))
+        spread = 0.36 * (np.mod(0.618 * np.arange(len(values)), 1) - 0.5)  # so that equal values do not hide each other
+        axes.plot(i + spread, values, ".", color=c.look(law)[1], markersize=5)
+    axes.set_xticks(range(len(c.laws)), [plain(c.name(law)) for law in c.laws], rotation=35, ha="right", fontsize=8)
+    axes.set(ylabel=label, ylim=(0, None), xlim=(-0.6, len(c.laws) - 0.4))
 
 
 def add_seeds(page, c):
@@ -253,10 +226,7 @@ def add_seeds(page, c):
         ("rms_image_error_px", "Root mean square of the image error", "px"),
     ):
         title = f"{what} on plant {c.hard}, {c.summary['repetitions']} seeds"
-        page.figure(seeds_figure(c, metric, f"{what.lower()} ({label})"), f"seeds-{metric}", title, f"{title}. {caption}")
-
-
-# The arm.
+        page.figure(seeds_figure(c, metric, f"{what.lower()} ({label})").named(f"seeds-{metric}", title), f"{title}. {caption}")
 
 
 def arm_law(c):
@@ -267,47 +237,38 @@ def joint_columns(log, quantity):
     return np.array([column(log, name) for name in log if name.startswith(quantity + "_")])
 
 
-def joints_figure(arm, log):
-    joints = arm["joints"]
+def each_joint(axes, joints, t, values, which, label):
+    part = stride(len(t))
+    for i in which:
+        line, name = "-" if i < 7 else "--", plain(joints[i]["name"])
+        axes.plot(t[part], values[i][part], color=colour(i), linestyle=line, linewidth=1.1, label=name)
+    axes.set_ylabel(label)
+
+
+@figure(4, 1.7)
+def joints_figure(panels, joints, log):
     unit = np.array([1000 if joint["type"] == "prismatic" else DEGREES for joint in joints])[:, None]
     t, q, command = np.asarray(log["time_s"]), joint_columns(log, "q"), joint_columns(log, "command")
     speeds = np.array([math.inf if joint["velocity"] is None else joint["velocity"] for joint in joints])[:, None]
-    part = stride(len(t))
-    limited = [i for i, joint in enumerate(joints) if joint["limits"]]
-
-    def each(axes, values, which, label):
-        for i in which:
-            axes.plot(t[part], values[i][part], color=colour(i), linestyle="-" if i < 7 else "--", linewidth=1.1, label=plain(joints[i]["name"]))
-        axes.set_ylabel(label)
-
-    def draw(panels):
-        everyone = range(len(joints))
-        each(panels[0], unit * q, everyone, "joints (°, mm)")
-        each(panels[1], 100 * command / speeds, everyone, "speed (% of limit)")
-        margins = np.array([np.minimum(q[i] - joints[i]["limits"][0], joints[i]["limits"][1] - q[i]) if i in limited else t for i in everyone])
-        each(panels[2], unit * margins, limited, "to the limit (°, mm)")
-        panels[3].plot(t[part], column(log, "self_motion_radps")[part], color=SHAPED, label="self-motion (rad/s)")
-        panels[3].plot(t[part], 10 * column(log, "manipulability")[part], color=RAW, label="manipulability × 10")
-        for axes in panels[2:]:
-            axes.set_ylim(bottom=0)
-        panels[3].set(xlabel="time (s)", xlim=(0, t[-1]))
-        legend_above(panels[0], 8)
-        legend_above(panels[3], 2)
-
-    return Figure(draw, 4, 1.7)
+    part, everyone = stride(len(t)), range(len(joints))
+    limited = [i for i in everyone if joints[i]["limits"]]
+    each_joint(panels[0], joints, t, unit * q, everyone, "joints (°, mm)")
+    each_joint(panels[1], joints, t, 100 * command / speeds, everyone, "speed (% of limit)")
+    margins = np.array([np.minimum(q[i] - joints[i]["limits"][0], joints[i]["limits"][1] - q[i]) if i in limited else t for i in everyone])
+    each_joint(panels[2], joints, t, unit * margins, limited, "to the limit (°, mm)")
+    panels[3].plot(t[part], column(log, "self_motion_radps")[part], color=SHAPED, label="self-motion (rad/s)")
+    panels[3].plot(t[part], 10 * column(log, "manipulability")[part], color=RAW, label="manipulability × 10")
+    for axes in panels[2:]:
+        axes.set_ylim(bottom=0)
+    legend_above(panels[0], 8)
+    legend_above(panels[3], 2, xlabel="time (s)", xlim=(0, t[-1]))
 
 
-def errors_figure(arm, log):
+@figure(height=3)
+def errors_figure(axes, joints, log):
     t, errors = np.asarray(log["time_s"]), 1000 * (joint_columns(log, "wanted") - joint_columns(log, "q"))
-    part = stride(len(t))
-
-    def draw(panels):
-        for i, joint in enumerate(arm["joints"]):
-            panels[0].plot(t[part], errors[i][part], color=colour(i), linestyle="-" if i < 7 else "--", linewidth=1.1, label=plain(joint["name"]))
-        panels[0].set(xlabel="time (s)", ylabel="wanted − true (mrad, mm)", xlim=(0, t[-1]))
-        legend_above(panels[0], 8)
-
-    return Figure(draw, height=3)
+    each_joint(axes, joints, t, errors, range(len(joints)), "wanted − true (mrad, mm)")
+    legend_above(axes, 8, xlabel="time (s)", xlim=(0, t[-1]))
 
 
 def add_joints(page, c, arm):
@@ -315,23 +276,16 @@ def add_joints(page, c, arm):
     log = c.log(law, c.hard)
     where = f"{c.name(law)} on plant {c.hard}"
     page.figure(
-        joints_figure(arm, log),
-        "arm-joints",
-        f"The joints: {where}",
+        joints_figure(arm["joints"], log).named("arm-joints", f"The joints: {where}"),
         f"{where}. From top to bottom: the joints; how much of their speed limits they use; how far the limited ones are from their nearer "
         "limit; self-motion, which turns joints without moving the camera, and the manipulability √det(J Jᵀ), 0 in a singularity.",
     )
     if max(c.runs(law, c.hard)[0]["arm"]["joint_rms"]) > 0:
         page.figure(
-            errors_figure(arm, log),
-            "arm-errors",
-            f"Joint errors: {where}",
+            errors_figure(arm["joints"], log).named("arm-errors", f"Joint errors: {where}"),
             f"{where}: commanded minus true joints. PD control with gravity; a joint that sticks keeps an error up to its friction over "
             "its gain.",
         )
-
-
-# The 3D view.
 
 
 def add_view(page, c):
@@ -350,28 +304,20 @@ def add_view(page, c):
             ended = np.maximum(index - 1, 0)  # joints are those at the end of a row's cycle
             q = joint_columns(log, "q")[:, ended].T.round(4).tolist() if c.on_arm else [[] for _ in index]
             poses = world @ poses_of(log, index)
-            runs.append(
-                {
-                    "name": c.name(law),
-                    "colour": c.look(law)[1],
-                    "arm": 0,
-                    "t": column(log, "time_s")[index].round(4).tolist(),
-                    "q": q,
-                    "camera": camera(task["camera"], poses, 0.3 * start[2, 3], goals),
-                }
-            )
+            run = {"name": c.name(law), "colour": c.look(law)[1], "arm": 0, "t": column(log, "time_s")[index].round(4).tolist(), "q": q}
+            runs.append(run | {"camera": camera(task["camera"], poses, 0.3 * start[2, 3], goals)})
     names = [run["name"] for run in runs]
     first = [names.index(c.name(law)) for law in ("pbvs1", "ff-lookat-pi") if c.name(law) in names]
     first = first if len(first) == 2 else list(range(min(2, len(runs))))
-    sides = [np.eye(4) for _ in first]
-    sides[-1][:3, 3] = beside(0 if len(first) < 2 else 1.4 if c.on_arm else 0.8)
+    sides = [np.eye(4), np.array(base_at(beside(1.4 if c.on_arm else 0.8)))][: len(first)]
     picture = photograph(c.result.bytes("target.png"))
     plates = [plate(size, base @ world @ start, picture) for base in sides]
     shown = scene([arm], runs, plates, sides=[{"base": base.tolist(), "run": run} for base, run in zip(sides, first)])
     page.view(
         shown,
-        f"Plant {c.hard}. " + ("Choose a law for each side; the" if len(first) > 1 else "The")
+        f"Plant {c.hard}. "
+        + ("Choose a law for each side; the" if len(first) > 1 else "The")
         + " slider moves time. In the corners, and in front of each camera: the image that it sees, rendered here from the photograph; "
         "blue: where the object should be. The grid has squares of 10 cm. Drag to turn, the wheel or two fingers to zoom.",
     )
-    page.items(missing)
+    page.items(*missing)

@@ -110,10 +110,8 @@ class Medians:
 
     def __init__(self, c, law, plant, measure=None):
         self.law, self.c = law, c
-        self.rotation, self.yaw, self.rms, self.out = (
-            c.median(law, plant, metric, measure)
-            for metric in ("end_rotation_deg", "yaw_range_deg", "rms_image_error_px", "out_of_view_s")
-        )
+        metrics = ("end_rotation_deg", "yaw_range_deg", "rms_image_error_px", "out_of_view_s")
+        self.rotation, self.yaw, self.rms, self.out = (c.median(law, plant, metric, measure) for metric in metrics)
 
     def __bool__(self):
         return self.rotation is not None
@@ -160,9 +158,8 @@ def matched_rival(c):
     if not feedforward.ties(rival):
         return f"{head} differ {numbers}."
     better = bool(integral) and integral.rotation < 0.5 * min(feedforward.rotation, rival.rotation)
-    return f"{head} tie {numbers}; at equal gain the form of the law makes no difference there" + (
-        ", what does is the integral of ff-lookat-pi." if better else "."
-    )
+    cause = ", what does is the integral of ff-lookat-pi" if better else ""
+    return f"{head} tie {numbers}; at equal gain the form of the law makes no difference there{cause}."
 
 
 def benefit(c):
@@ -181,9 +178,7 @@ def thesis_order(c):
     own, pbvs, kyrki = (Medians(c, law, c.hard) for law in ("ff-sum", "pbvs1", "kyrki-decoupled"))
     if not (own and pbvs and kyrki):
         return None
-    holds = all(
-        own.yaw >= m.yaw and own.rms <= m.rms and own.out <= m.out and own.rotation <= m.rotation for m in (pbvs, kyrki)
-    )
+    holds = all(own.yaw >= m.yaw and own.rms <= m.rms and own.out <= m.out and own.rotation <= m.rotation for m in (pbvs, kyrki))
     return (
         "The order of the thesis (its law at least as good as PBVS and Kyrki, figures 5.8 to 5.10) "
         f"{'holds' if holds else 'does not hold in all figures'} on {c.plant_name(c.hard)} against the rivals of the thesis: "
@@ -192,9 +187,13 @@ def thesis_order(c):
     )
 
 
+def losing(c, laws):
+    """Those that lose a corner on the hardest plant, and how long."""
+    return [f"{m.law} ({number(m.out)} s)" for m in (Medians(c, law, c.hard) for law in laws) if m and m.out > 0]
+
+
 def out_of_view(c):
-    where = f" on {c.plant_name(c.hard)}"
-    lost = [f"{m.law} ({number(m.out)} s)" for m in (Medians(c, law, c.hard) for law in c.laws) if m and m.out > 0]
+    where, lost = f" on {c.plant_name(c.hard)}", losing(c, c.laws)
     if not lost:
         return f"No law lets a corner of the object leave the image{where}."
     return f"A corner of the object leaves the image{where} with {listed(lost)}."
@@ -202,8 +201,7 @@ def out_of_view(c):
 
 def filter_against_friction(c):
     """The view filter's guarantee holds only for a robot that executes its commands exactly."""
-    laws = (Medians(c, law, c.hard) for law in c.laws if is_filtered(law))
-    lost = [f"{m.law} ({number(m.out)} s)" for m in laws if m and m.out > 0]
+    lost = losing(c, filter(is_filtered, c.laws))
     return lost and (
         f"The view filter takes the robot's obedience for granted; on {c.plant_name(c.hard)}, which does not execute all that is "
         f"commanded, a corner is lost in spite of it: {listed(lost)}."

@@ -1,6 +1,7 @@
 # visp-direct: direct methods for vision-based robot control, for ViSP.
 # SPDX-License-Identifier: GPL-2.0-or-later
 """visp-servo-compare --shape: every run raw and with a shaped command. What shaping brings and costs, and figure 6.1 of the thesis."""
+import itertools
 import math
 
 import numpy as np
@@ -119,9 +120,7 @@ def add_step(page, c):
 
     jumps = largest[0][0] > 2 * parts[0][3]
     page.figure(
-        Figure(draw, 4, 1.6),
-        "figure-6.1",
-        f"What {c.name(law)} commands in its first second on plant {c.easy}",
+        Figure(draw, 4, 1.6).named("figure-6.1", f"What {c.name(law)} commands in its first second on plant {c.easy}"),
         f"Figure 6.1, its first second: what {c.name(law)} commands on plant {c.easy}. "
         + (JUMPS if jumps else "")
         + f"In this second the raw command asks for accelerations of up to {number(largest[0][0])} m/s² and {number(largest[1][0])} rad/s² at "
@@ -140,17 +139,20 @@ def add_shaped(page, c):
         f"{number(limits['angular_jerk_radps3'])} rad/s³. Every run was made twice, with the law's own twist (raw) and with the shaper "
         "(shaped). Only this section describes the shaped runs."
     )
-    page.items(step_findings(c))
+    page.items(*step_findings(c))
     add_step(page, c)
     rows = []
-    for measure in c.measures:
-        for plant in c.plants:
-            for law in c.laws:
-                if c.runs(law, plant, measure):
-                    pairs = [c.median(law, plant, metric, measure, is_shaped) for _, metric in STEP for is_shaped in (False, True)]
-                    rows.append([law, plant, *([measure] if len(c.measures) > 1 else []), *pairs])
+    for measure, plant, law in itertools.product(c.measures, c.plants, c.laws):
+        if c.runs(law, plant, measure):
+            pairs = [c.median(law, plant, metric, measure, is_shaped) for _, metric in STEP for is_shaped in (False, True)]
+            rows.append([law, plant, *([measure] if len(c.measures) > 1 else []), *pairs])
     page.table(
-        ["law", "plant", *(["measure"] if len(c.measures) > 1 else []), *(f"{title} {kind}" for title, _ in STEP for kind in ("raw", "shaped"))],
+        [
+            "law",
+            "plant",
+            *(["measure"] if len(c.measures) > 1 else []),
+            *(f"{title} {kind}" for title, _ in STEP for kind in ("raw", "shaped")),
+        ],
         rows,
         "Raw and shaped. m/s², rad/s²: largest change of the commanded twist from one cycle to the next, divided by the cycle; the others "
         "as in the tables above." + (" Medians over the seeds." if c.summary["repetitions"] > 1 else ""),

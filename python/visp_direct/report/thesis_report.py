@@ -36,6 +36,8 @@ def ours_text(row):
 
 
 def verdict_cell(row):
+    if row["thesis"] is None:
+        return Cell("–", "text")
     same = round(row["share_of_seeds"] * row["seeds"])
     return Cell(row["verdict"] + (f", {same}/{row['seeds']} seeds" if same < row["seeds"] else ""), STYLES.get(row["verdict"], "text"))
 
@@ -50,21 +52,13 @@ def remark(row):
     return " ".join(filter(None, parts))
 
 
-def rows_table(page, rows, caption):
-    page.table(
-        ["quantity", "thesis", "ours", "verdict", "how it was measured, why it is so [what shows that]; the thesis's words"],
-        [
-            [
-                Cell(row["quantity"], "text wrap"),
-                Cell(thesis_text(row) if row["thesis"] is not None else "–", "text"),
-                Cell(ours_text(row), "text"),
-                verdict_cell(row) if row["thesis"] is not None else Cell("–", "text"),
-                Cell(remark(row), "text wrap"),
-            ]
-            for row in rows
-        ],
-        caption,
-    )
+ROWS = [
+    ("quantity", lambda row: Cell(row["quantity"], "text wrap")),
+    ("thesis", lambda row: Cell(thesis_text(row), "text")),
+    ("ours", lambda row: Cell(ours_text(row), "text")),
+    ("verdict", verdict_cell),
+    ("how it was measured, why it is so [what shows that]; the thesis's words", lambda row: Cell(remark(row), "text wrap")),
+]
 
 
 def verdicts_of(rows):
@@ -75,19 +69,15 @@ def verdicts_of(rows):
 
 def overview(page, items, rows):
     page.section("Overview")
+    records = []
+    for item in items:
+        mine = [row for row in rows if row["id"] == item["id"]]
+        could = [row["verdict"] for row in mine if row["kind"] in COULD_FAIL]
+        others = verdicts_of([row for row in mine if row["verdict"] in VERDICTS[3:]])
+        records.append([item["label"], Cell(item["title"], "text wrap"), len(could), could.count("differs"), Cell(others, "text")])
     page.table(
         ["in the thesis", "what it shows", "values and bounds that could have failed", "of them differ", "the others"],
-        [
-            [
-                item["label"],
-                Cell(item["title"], "text wrap"),
-                sum(row["kind"] in COULD_FAIL for row in mine),
-                sum(row["kind"] in COULD_FAIL and row["verdict"] == "differs" for row in mine),
-                Cell(verdicts_of([row for row in mine if row["verdict"] in VERDICTS[3:]]), "text"),
-            ]
-            for item in items
-            for mine in [[row for row in rows if row["id"] == item["id"]]]
-        ],
+        records,
         "A row that had the thesis's value as an input, or whose conditions are not known, is no agreement and not counted.",
     )
 
@@ -150,14 +140,14 @@ def add_item(page, result, item, rows, curves):
     page.heading(f"{item['label']}: {item['title']}")
     for remark in item["remarks"]:
         page.paragraph(remark)
-    rows_table(page, rows, "")
+    page.records(rows, ROWS)
     for figure in item["figures"]:
         caption = f"{figure['title']}. {figure['caption']}"
         if figure["picture"]:
             kind = "png" if figure["picture"].endswith("png") else "jpeg"
             page.picture(result.bytes(figure["picture"]), f"image/{kind}", figure["title"], caption)
         else:
-            page.figure(panels_figure(item, figure, curves), f"{item['id']}-{figure['name']}", figure["title"], caption)
+            page.figure(panels_figure(item, figure, curves).named(f"{item['id']}-{figure['name']}", figure["title"]), caption)
     if item["parameters"]:
         page.facts([(p["name"], p["value"]) for p in item["parameters"]], "")
 
@@ -177,10 +167,8 @@ def answer(page, summary, rows):
         page.answers(f"In {counted(len(failed), 'row')} more what was fitted or given does not come out.")
     shaky = [row for row in compared if row["share_of_seeds"] < 1]
     if summary["seeds"] > 1:
-        page.answers(
-            f"Values are medians of {summary['seeds']} seeds; "
-            + (f"in {counted(len(shaky), 'row')} not every seed gives the same verdict." if shaky else "every seed gives the same verdicts.")
-        )
+        said = f"in {counted(len(shaky), 'row')} not every seed gives the same verdict" if shaky else "every seed gives the same verdicts"
+        page.answers(f"Values are medians of {summary['seeds']} seeds; {said}.")
     missing = [row for row in rows if "Not explained" in row["reason"] or (row["reason"] and not row["support"])]
     if missing:
         page.answers(f"{counted(len(missing), 'reason')} lack a run or test that shows them.")
@@ -196,7 +184,8 @@ def differences(page, results):
             other = first.get((row["id"], row["quantity"]))
             common += other is not None
             if other and other["verdict"] != row["verdict"]:
-                table.append([row["id"], Cell(row["quantity"], "text wrap"), other["ours"], other["verdict"], result.name, row["ours"], row["verdict"]])
+                both = other["ours"], other["verdict"], result.name, row["ours"], row["verdict"]
+                table.append([row["id"], Cell(row["quantity"], "text wrap"), *both])
     if table:
         page.table(["in the thesis", "quantity", f"ours, {results[0].name}", "verdict", "result", "ours", "verdict"], table)
     page.paragraph(f"Of {counted(common, 'common row')} {len(table)} have another verdict. All below is {results[0].name}.")
@@ -217,7 +206,7 @@ def page(results):
     differing = [{**row, "quantity": f"{row['id']}: {row['quantity']}"} for row in rows if row["verdict"] == "differs"]
     if differing:
         page.section("Where it differs")
-        rows_table(page, differing, "The rows below with this verdict, together.")
+        page.records(differing, ROWS, "The rows below with this verdict, together.")
     chapter = ""
     for item in items:
         if item["chapter"] != chapter:
@@ -226,23 +215,18 @@ def page(results):
         add_item(page, result, item, [row for row in rows if row["id"] == item["id"]], curves)
     page.section("How to read it")
     page.items(
-        [
-            "Verdicts follow from thesis, ours and tolerance alone. By construction: the thesis's value was an input of the run, or a parameter was chosen for it. "
-            "Not comparable: what decides the value is not known or was another.",
-            "≤ and ≥ are bounds or orders, of which only one side can fail. Ours is the median of the seeds ± their standard deviation (none: deterministic, or one "
-            "seed); notes have the numbers of the first seed.",
-            "The thesis was read in a transcription: words are quoted to be found again, and marks lost in it may look like errors of the author.",
-            "In brackets: the command, the test (build/release/bin/catchNAME \"case\") or the row that shows a reason.",
-            "results.json has every row, curves.csv what is drawn.",
-        ]
+        "Verdicts follow from thesis, ours and tolerance alone. By construction: the thesis's value was an input of the run, or a parameter was chosen for it. "
+        "Not comparable: what decides the value is not known or was another.",
+        "≤ and ≥ are bounds or orders, of which only one side can fail. Ours is the median of the seeds ± their standard deviation (none: deterministic, or one "
+        "seed); notes have the numbers of the first seed.",
+        "The thesis was read in a transcription: words are quoted to be found again, and marks lost in it may look like errors of the author.",
+        'In brackets: the command, the test (build/release/bin/catchNAME "case") or the row that shows a reason.',
+        "results.json has every row, curves.csv what is drawn.",
     )
     page.section("How it was made")
+    summary = result.summary
+    seeds = f"{summary['seeds']}, from {summary['seed']} on in steps of 1000"
     page.facts(
-        [
-            ("command", result.summary["command"]),
-            ("version", result.summary["version"]),
-            ("seeds", f"{result.summary['seeds']}, from {result.summary['seed']} on in steps of 1000"),
-            ("time", f"{number(result.summary['wall_time_s'])} s"),
-        ]
+        [*((key, summary[key]) for key in ("command", "version")), ("seeds", seeds), ("time", f"{number(summary['wall_time_s'])} s")]
     )
     return page

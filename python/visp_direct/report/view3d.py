@@ -19,12 +19,9 @@ def scripts():
     files = [folder / "three.min.js", folder / "examples/js/controls/OrbitControls.js", HERE / "camera3d.js", HERE / "view3d.js"]
     missing = [file for file in files if not file.is_file()]
     if missing:
-        raise OSError(
-            f"{missing[0]}: the 3D view needs three.js; Debian has it as libjs-three, or VISP_DIRECT_THREE names its folder"
-        )
+        raise OSError(f"{missing[0]}: the 3D view needs three.js; Debian has it as libjs-three, or VISP_DIRECT_THREE names its folder")
     return "\n".join(
-        f"<script>\n{file.read_text(encoding='utf-8').replace('</script', '<' + chr(92) + '/script')}\n</script>"
-        for file in files
+        f"<script>\n{file.read_text(encoding='utf-8').replace('</script', '<' + chr(92) + '/script')}\n</script>" for file in files
     )
 
 
@@ -67,12 +64,8 @@ def _shape_part(shape, folder, most):
     size = shape["size"]
     if shape["kind"] == "mesh":
         return mesh_part(*read_stl((folder / shape["file"]).read_bytes()), most)
-    return {
-        "kind": shape["kind"],
-        **{"sphere": {"radius": size[0]}, "cylinder": {"radius": size[0], "length": size[1]}, "box": {"size": size}}[
-            shape["kind"]
-        ],
-    }
+    sizes = {"size": size} if shape["kind"] == "box" else dict(zip(("radius", "length")[: 1 + (shape["kind"] == "cylinder")], size))
+    return {"kind": shape["kind"], **sizes}
 
 
 def arm_of(data, folder):
@@ -85,12 +78,8 @@ def arm_of(data, folder):
         except (OSError, ValueError) as error:
             missing.append(f"{shape['file']}: is not shown: {error}")
     for capsule in data["capsules"]:
-        links[capsule["link"]]["capsules"].append(
-            {"kind": "capsule", **{k: capsule[k] for k in ("from", "to", "radius")}}
-        )
-    return {key: data[key] for key in ("name", "joints", "chain", "tool_link", "tool", "home")} | {
-        "links": links
-    }, missing
+        links[capsule["link"]]["capsules"].append({"kind": "capsule", **{k: capsule[k] for k in ("from", "to", "radius")}})
+    return {key: data[key] for key in ("name", "joints", "chain", "tool_link", "tool", "home")} | {"links": links}, missing
 
 
 def objects_of(data, folder, shift=None):
@@ -105,9 +94,7 @@ def objects_of(data, folder, shift=None):
 
 
 def object_of(item, folder):
-    part = {"pose": item["pose"], "kind": item["kind"]} | {
-        key: item[key] for key in ("size", "radius", "length", "track") if key in item
-    }
+    part = {"pose": item["pose"], "kind": item["kind"]} | {key: item[key] for key in ("size", "radius", "length", "track") if key in item}
     if "there_s" in item:
         part["there"] = item["there_s"]
     if item["kind"] == "capsule":
@@ -143,9 +130,7 @@ def ball(place, radius, colour, track=None):
     """A mark."""
     pose = np.eye(4)
     pose[:3, 3] = place
-    return {"kind": "sphere", "radius": radius, "colour": colour, "pose": pose.tolist()} | (
-        {"track": track} if track else {}
-    )
+    return {"kind": "sphere", "radius": radius, "colour": colour, "pose": pose.tolist()} | ({"track": track} if track else {})
 
 
 def base_at(shift):
