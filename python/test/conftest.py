@@ -25,6 +25,13 @@ def random(seed):
     return np.random.default_rng(seed)
 
 
+def value_of(text):
+    """The number that a report shows."""
+    digits = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹−", "-0123456789-")
+    mantissa, _, power = text.partition("·10")
+    return float(mantissa.translate(digits)) * 10.0 ** int(power.translate(digits) or 0)
+
+
 def rotation(vector):
     """exp([vector]x), by its own formula."""
     angle = np.linalg.norm(vector)

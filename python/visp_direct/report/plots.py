@@ -94,8 +94,8 @@ def figure(rows=1, height=2.6, shared=True):
 
     def made(draw):
         @functools.wraps(draw)
-        def make(*data):
-            return Figure(lambda panels: draw(panels[0] if rows == 1 else panels, *data), rows, height, shared)
+        def make(*data, **more):
+            return Figure(lambda panels: draw(panels[0] if rows == 1 else panels, *data, **more), rows, height, shared)
 
         return make
 
