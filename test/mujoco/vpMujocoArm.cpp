@@ -206,6 +206,15 @@ Arm::~Arm() = default;
 
 int Arm::joint(const std::string &name) const { return mj_name2id(m_model.get(), mjOBJ_JOINT, name.c_str()); }
 
+Arm::Mimic Arm::leader(const std::string &name) const
+{
+  Mimic all{name, 1., 0.};
+  for (auto next = m_mimics.find(name); next != m_mimics.end(); next = m_mimics.find(all.of)) {
+    all = {next->second.of, all.ratio * next->second.ratio, all.offset + all.ratio * next->second.offset};
+  }
+  return all;
+}
+
 int Arm::body(const std::string &name) const
 {
   const int id = mj_name2id(m_model.get(), mjOBJ_BODY, name.c_str());
@@ -249,19 +258,19 @@ void Arm::place(const vpArmModel &model, const vpJointVector &q)
   const auto isAmong = [](const auto &list, const std::string &name) {
     return std::any_of(list.begin(), list.end(), [&name](const auto &one) { return one.name == name; });
   };
-  const auto &own = model.spec().joints;
-  std::map<std::string, double> implied; // positions of joints beside the chain that joints of the arm mimic
-  for (const auto &[follower, mimic] : m_mimics) {
-    if (isAmong(own, follower)) {
-      implied[mimic.of] = (m_data->qpos[m_model->jnt_qposadr[joint(follower)]] - mimic.offset) / mimic.ratio;
-    }
+  std::map<std::string, double> decided; // by the joints of the arm: of what they mimic, in the end
+  for (int i = 0; i < model.size(); ++i) {
+    const Mimic own = leader(model.spec().joints[static_cast<std::size_t>(i)].name);
+    decided[own.of] = (q(i) - own.offset) / own.ratio;
   }
-  for (const auto &[follower, mimic] : m_mimics) {
+  for (const auto &item : m_mimics) {
+    const std::string &follower = item.first;
+    const Mimic mimic = leader(follower);
     const int id = joint(follower), of = joint(mimic.of);
-    if (id >= 0 && of >= 0 && !isAmong(own, follower)) {
-      const bool isImplied = isAmong(model.spec().followers, follower) && implied.count(mimic.of) > 0;
-      const double leader = isImplied ? implied[mimic.of] : m_data->qpos[m_model->jnt_qposadr[of]];
-      m_data->qpos[m_model->jnt_qposadr[id]] = mimic.ratio * leader + mimic.offset;
+    if (id >= 0 && of >= 0 && !isAmong(model.spec().joints, follower)) {
+      const bool isOfChain = isAmong(model.spec().followers, follower);
+      const double at = isOfChain ? decided.at(mimic.of) : m_data->qpos[m_model->jnt_qposadr[of]];
+      m_data->qpos[m_model->jnt_qposadr[id]] = mimic.ratio * at + mimic.offset;
     }
   }
   mj_kinematics(m_model.get(), m_data.get());
@@ -291,6 +300,9 @@ void Arm::keepMassesOf(const vpArmModel &model)
   for (const vpArmJointSpec &spec : model.spec().joints) {
     kept.insert(joint(spec.name));
   }
+  for (const vpArmFollower &spec : model.spec().followers) {
+    kept.insert(joint(spec.name));
+  }
   std::vector<bool> beside(static_cast<std::size_t>(m_model->nbody), false);
   for (int i = 1; i < m_model->nbody; ++i) {
     const bool own = m_model->body_jntnum[i] > 0 && kept.count(m_model->body_jntadr[i]) == 0;
@@ -305,15 +317,18 @@ void Arm::keepMassesOf(const vpArmModel &model)
   }
 }
 
-bool Arm::hasFollower(const vpArmModel &model) const
+bool Arm::hasFollowerBeside(const vpArmModel &model) const
 {
-  const std::vector<vpArmJointSpec> &joints = model.spec().joints;
-  const auto isOfChain = [&joints](const std::string &name) {
-    return std::any_of(joints.begin(), joints.end(),
-                       [&name](const vpArmJointSpec &joint) { return joint.name == name; });
-  };
-  return std::any_of(m_mimics.begin(), m_mimics.end(),
-                     [&isOfChain](const auto &mimic) { return isOfChain(mimic.second.of) && !isOfChain(mimic.first); });
+  std::set<std::string> chain;
+  for (const vpArmJointSpec &own : model.spec().joints) {
+    chain.insert(own.name);
+  }
+  for (const vpArmFollower &own : model.spec().followers) {
+    chain.insert(own.name);
+  }
+  return std::any_of(m_mimics.begin(), m_mimics.end(), [&chain](const auto &mimic) {
+    return chain.count(mimic.second.of) > 0 && chain.count(mimic.first) == 0;
+  });
 }
 
 bool Arm::changesMassesOf(const vpArmModel &model) const
@@ -338,27 +353,33 @@ std::vector<int> Arm::dofs(const vpArmModel &model) const
   return list;
 }
 
+Eigen::MatrixXd Arm::ratios(const vpArmModel &model) const
+{
+  Eigen::MatrixXd C = Eigen::MatrixXd::Zero(m_model->nv, model.size());
+  const std::vector<int> own = dofs(model);
+  for (int i = 0; i < model.size(); ++i) {
+    C(own[static_cast<std::size_t>(i)], i) = 1.;
+  }
+  for (const vpArmFollower &follower : model.spec().followers) { // both may mimic one beside the chain
+    C(m_model->jnt_dofadr[joint(follower.name)], follower.joint) =
+        leader(follower.name).ratio / leader(model.spec().joints[static_cast<std::size_t>(follower.joint)].name).ratio;
+  }
+  return C;
+}
+
 void Arm::dynamics(const vpArmModel &model, const vpJointVector &velocity, vpJointMatrix &M, vpJointVector &bias)
 {
-  const std::vector<int> at = dofs(model);
-  const int n = model.size(), all = m_model->nv;
-  std::fill_n(m_data->qvel, all, 0.);
-  for (int i = 0; i < n; ++i) {
-    m_data->qvel[at[static_cast<std::size_t>(i)]] = velocity(i);
-  }
+  const Eigen::MatrixXd C = ratios(model);
+  const int all = m_model->nv;
+  Eigen::VectorXd torque(all);
+  Eigen::Map<Eigen::VectorXd>(m_data->qvel, all) = C * velocity;
   mj_crb(m_model.get(), m_data.get());
-  std::vector<mjtNum> full(static_cast<std::size_t>(all) * all), torque(static_cast<std::size_t>(all));
+  Eigen::MatrixXd full(all, all); // symmetric
   mj_fullM(m_model.get(), full.data(), m_data->qM);
   mj_comVel(m_model.get(), m_data.get());
   mj_rne(m_model.get(), m_data.get(), 0, torque.data());
-  M.resize(n, n);
-  bias.resize(n);
-  for (int i = 0; i < n; ++i) {
-    bias(i) = torque[static_cast<std::size_t>(at[static_cast<std::size_t>(i)])];
-    for (int j = 0; j < n; ++j) {
-      M(i, j) = full[static_cast<std::size_t>(at[static_cast<std::size_t>(i)] * all + at[static_cast<std::size_t>(j)])];
-    }
-  }
+  M = C.transpose() * full * C;
+  bias = C.transpose() * torque;
 }
 
 std::pair<double, double> Arm::friction(const std::string &name) const

@@ -60,7 +60,7 @@ public:
   //! True if MuJoCo changes an inertia that the joints of a model move, since no body has it.
   [[nodiscard]] bool changesMassesOf(const vpArmModel &model) const;
   //! True if a joint beside the chain mimics one of it: its mass moves, where a vpArmModel takes it as fixed.
-  [[nodiscard]] bool hasFollower(const vpArmModel &model) const;
+  [[nodiscard]] bool hasFollowerBeside(const vpArmModel &model) const;
   //! Inertia matrix of the joints of a model, and C q' + g, after place().
   void dynamics(const vpArmModel &model, const vpJointVector &velocity, vpJointMatrix &M, vpJointVector &bias);
   //! Damping and friction of a joint.
@@ -83,6 +83,10 @@ private:
     std::string of;
     double ratio = 1., offset = 0.;
   };
+  //! The joint that a joint mimics in the end, or itself.
+  [[nodiscard]] Mimic leader(const std::string &joint) const;
+  //! Velocities of all joints of MuJoCo's per velocity of each joint of a model: itself and its followers.
+  [[nodiscard]] Eigen::MatrixXd ratios(const vpArmModel &model) const;
   std::map<std::string, Mimic> m_mimics; // by follower
   std::vector<std::string> m_impossible; // links whose inertia no body has
   std::unique_ptr<mjModel_, void (*)(mjModel_ *)> m_model;

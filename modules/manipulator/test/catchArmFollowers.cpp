@@ -5,9 +5,16 @@
 // Joints of a URDF that follow others, and tools and cameras on any link.
 #define VP_URDF_TEST "catchArmFollowers"
 #include "vpCatch.h"
-#include "vpUrdfTestKit.h"
+#include "vpRandomRow.h"
+
+#include <visp3/manipulator/vpArmDynamics.h>
+
+#include <kdl/chaindynparam.hpp>
+#include <kdl/chainfksolverpos_recursive.hpp>
+#include <kdl/chainjnttojacsolver.hpp>
 
 #include <algorithm>
+#include <iostream>
 
 using namespace vpUrdfTestKit;
 
@@ -122,6 +129,140 @@ TEST_CASE("Joints that mimic another one of the chain follow it, before and behi
   vpArmUrdfSpec home = toTip("tip");
   home.home = vector({0.1, 0.2});
   CHECK(load(row(good, wide + "<mimic joint='a'/>", good), home).home()(1) == 0.2);
+}
+
+namespace
+{
+// Coordinates of all moving joints of a chain as ratios * q + offsets, as urdfdom's tree says it.
+struct Linkage {
+  Linkage(const urdf::ModelInterface &tree, const KDL::Chain &chain, const vpArmModel &model)
+    : ratios(Eigen::MatrixXd::Zero(chain.getNrOfJoints(), model.size())),
+      offsets(Eigen::VectorXd::Zero(chain.getNrOfJoints()))
+  {
+    for (const KDL::Segment &segment : chain.segments) {
+      if (segment.getJoint().getType() == KDL::Joint::None) {
+        continue;
+      }
+      const auto row = static_cast<Eigen::Index>(joints.size());
+      joints.push_back(tree.getJoint(segment.getJoint().getName()));
+      urdf::JointConstSharedPtr leader = joints.back();
+      double ratio = 1.;
+      for (; leader->mimic; leader = tree.getJoint(leader->mimic->joint_name)) {
+        offsets(row) += ratio * leader->mimic->offset;
+        ratio *= leader->mimic->multiplier;
+      }
+      for (int i = 0; i < model.size(); ++i) {
+        if (model.spec().joints[static_cast<std::size_t>(i)].name == leader->name) {
+          ratios(row, i) = ratio;
+        }
+      }
+    }
+  }
+  std::vector<urdf::JointConstSharedPtr> joints;
+  Eigen::MatrixXd ratios;
+  Eigen::VectorXd offsets;
+};
+
+// All joints of the chain are within their limits exactly where those of the arm are within theirs.
+void checkLimits(const vpArmModel &model, const Linkage &all)
+{
+  for (int i = 0; i < model.size(); ++i) {
+    double lower = -std::numeric_limits<double>::infinity(), upper = -lower, velocity = upper;
+    double viscous = 0., coulomb = 0.;
+    for (std::size_t k = 0; k < all.joints.size(); ++k) {
+      const auto row = static_cast<Eigen::Index>(k);
+      const double ratio = all.ratios(row, i), offset = all.offsets(row);
+      if (ratio == 0.) {
+        continue;
+      }
+      const urdf::Joint &joint = *all.joints[k];
+      velocity = std::min(velocity, joint.limits->velocity / std::fabs(ratio));
+      viscous += ratio * ratio * joint.dynamics->damping;
+      coulomb += std::fabs(ratio) * joint.dynamics->friction;
+      if (joint.type != urdf::Joint::CONTINUOUS) {
+        const double a = (joint.limits->lower - offset) / ratio, b = (joint.limits->upper - offset) / ratio;
+        lower = std::max(lower, std::min(a, b));
+        upper = std::min(upper, std::max(a, b));
+      }
+    }
+    const vpArmJointSpec &joint = model.spec().joints[static_cast<std::size_t>(i)];
+    CAPTURE(joint.name);
+    REQUIRE(model.isContinuous(i) == std::isinf(lower));
+    REQUIRE((model.isContinuous(i) || std::fabs(model.lower()(i) - lower) < 1e-12));
+    REQUIRE((model.isContinuous(i) || std::fabs(model.upper()(i) - upper) < 1e-12));
+    REQUIRE(model.velocity()(i) == Approx(velocity).epsilon(1e-12));
+    REQUIRE(joint.viscous == Approx(viscous).epsilon(1e-12));
+    REQUIRE(joint.coulomb == Approx(coulomb).epsilon(1e-12));
+  }
+}
+
+// Largest difference of pose, Jacobian, inertia and torques in one state from those of the independent joints.
+double differenceFromKdl(const vpArmModel &model, const KDL::Chain &chain, const Linkage &all, std::mt19937_64 &rng)
+{
+  const unsigned int links = chain.getNrOfJoints();
+  const vpJointVector q = configuration(model, rng), velocity = randomVector(model.size(), rng);
+  KDL::JntArray at(links), rate(links), torque(links);
+  at.data = all.ratios * q + all.offsets;
+  rate.data = all.ratios * velocity;
+  KDL::Frame pose;
+  KDL::Jacobian J(links);
+  KDL::ChainFkSolverPos_recursive(chain).JntToCart(at, pose);
+  KDL::ChainJntToJacSolver(chain).JntToJac(at, J);
+  vpArmData data;
+  vpArmKinematics::update(model, q, data);
+  double worst = (data.J - J.data * all.ratios).cwiseAbs().maxCoeff();
+  for (int i = 0; i < 3; ++i) {
+    worst = std::max(worst, std::fabs(data.tool.p(i) - pose.p(i)));
+    for (int j = 0; j < 3; ++j) {
+      worst = std::max(worst, std::fabs(data.tool.R(i, j) - pose.M(i, j)));
+    }
+  }
+  KDL::ChainDynParam oracle(chain, KDL::Vector(0., 0., -9.81));
+  KDL::JntSpaceInertiaMatrix inertia(static_cast<int>(links));
+  vpArmDynamics dynamics(model);
+  vpJointMatrix M;
+  vpJointVector term;
+  oracle.JntToMass(at, inertia);
+  dynamics.inertia(q, M);
+  worst = std::max(worst, (M - all.ratios.transpose() * inertia.data * all.ratios).cwiseAbs().maxCoeff());
+  oracle.JntToCoriolis(at, rate, torque);
+  dynamics.coriolis(q, velocity, term);
+  worst = std::max(worst, (term - all.ratios.transpose() * torque.data).cwiseAbs().maxCoeff());
+  oracle.JntToGravity(at, torque);
+  dynamics.gravity(q, term);
+  return std::max(worst, (term - all.ratios.transpose() * torque.data).cwiseAbs().maxCoeff());
+}
+} // namespace
+
+TEST_CASE("Random URDFs with mimic joints in the chain are KDL's chain of independent joints", "[urdf]")
+{
+  auto rng = vpTestSupport::generator(7);
+  CAPTURE(vpTestSupport::seed());
+  int followers = 0;
+  double worst = 0.;
+  for (int problem = 0; problem < 300; ++problem) {
+    const std::string urdf = randomRow(rng);
+    CAPTURE(problem, urdf);
+    const urdf::ModelInterfaceSharedPtr tree = urdf::parseURDF(urdf);
+    REQUIRE(tree);
+    urdf::LinkConstSharedPtr tip = tree->getRoot();
+    while (!tip->child_links.empty()) {
+      tip = tip->child_links.front();
+    }
+    const KDL::Chain chain = kdlChain(*tree, "l0", tip->name);
+    const vpArmModel model = load(urdf);
+    REQUIRE(model.links() == static_cast<int>(chain.getNrOfJoints()));
+    const Linkage all(*tree, chain, model);
+    REQUIRE((all.ratios.array() != 0.).rowwise().count().isConstant(1));
+    checkLimits(model, all);
+    for (int state = 0; state < 5; ++state) {
+      worst = std::max(worst, differenceFromKdl(model, chain, all, rng));
+    }
+    followers += model.links() - model.size();
+  }
+  std::cout << followers << " followers in 300 rows: largest difference from KDL " << worst << '\n';
+  CHECK(followers > 300);
+  CHECK(worst < 1e-10);
 }
 
 TEST_CASE("Tool and camera may be on any link of the chain", "[urdf]")

@@ -60,24 +60,6 @@ urdf::ModelInterfaceSharedPtr treeOf(const std::string &file)
   return urdf::parseURDF(text.str());
 }
 
-// The chain as KDL knows it, straight from the tree.
-KDL::Chain kdlChain(const urdf::ModelInterface &tree, const std::string &base, const std::string &tip)
-{
-  std::vector<KDL::Segment> segments;
-  for (urdf::LinkConstSharedPtr link = tree.getLink(tip); link->name != base; link = link->getParent()) {
-    const urdf::Joint &joint = *link->parent_joint;
-    const KDL::Frame at = kdlFrame(joint.parent_to_joint_origin_transform);
-    const KDL::Vector axis = at.M * KDL::Vector(joint.axis.x, joint.axis.y, joint.axis.z);
-    segments.emplace_back(joint.type == urdf::Joint::FIXED       ? KDL::Joint(KDL::Joint::None)
-                          : joint.type == urdf::Joint::PRISMATIC ? KDL::Joint(at.p, axis, KDL::Joint::TransAxis)
-                                                                 : KDL::Joint(at.p, axis, KDL::Joint::RotAxis),
-                          at);
-  }
-  KDL::Chain chain;
-  std::for_each(segments.rbegin(), segments.rend(), [&](const KDL::Segment &segment) { chain.addSegment(segment); });
-  return chain;
-}
-
 double differenceFromKdl(const vpArmModel &model, const KDL::Chain &chain, std::mt19937_64 &rng)
 {
   KDL::ChainFkSolverPos_recursive fk(chain);

@@ -16,10 +16,12 @@
 #include <urdf_model/model.h>
 #include <urdf_parser/urdf_parser.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <random>
 #include <string>
+#include <vector>
 
 VISP_DIRECT_USING_NAMESPACE
 
@@ -128,26 +130,27 @@ inline KDL::RigidBodyInertia kdlBody(const urdf::Link &link)
   return at * KDL::RigidBodyInertia(from.mass, KDL::Vector::Zero(), I);
 }
 
-//! The six axes directly from urdfdom's tree: joints about their own axes, fixed segments unchanged.
-inline KDL::Chain kdlSixAxes()
+//! A chain directly from urdfdom's tree, with masses: moving joints about their own axes, fixed segments unchanged.
+inline KDL::Chain kdlChain(const urdf::ModelInterface &tree, const std::string &base, const std::string &tip)
 {
-  const urdf::ModelInterfaceSharedPtr tree = urdf::parseURDFFile(dataFile("generic-6r.urdf"));
-  KDL::Chain chain;
-  for (const char *name :
-       {"base_yaw", "shoulder", "elbow", "forearm_roll", "wrist_bend", "flange_roll", "tool_mount"}) {
-    const urdf::JointConstSharedPtr joint = tree->getJoint(name);
-    const KDL::Frame at = kdlFrame(joint->parent_to_joint_origin_transform);
-    const KDL::Vector axis(joint->axis.x, joint->axis.y, joint->axis.z);
-    const KDL::RigidBodyInertia body = kdlBody(*tree->getLink(joint->child_link_name));
-    if (joint->type == urdf::Joint::FIXED) {
-      chain.addSegment(KDL::Segment(KDL::Joint(KDL::Joint::None), at, body));
-    }
-    else {
-      chain.addSegment(KDL::Segment(KDL::Joint(at.p, at.M * axis, KDL::Joint::RotAxis), at, body));
-    }
+  std::vector<KDL::Segment> segments;
+  for (urdf::LinkConstSharedPtr link = tree.getLink(tip); link->name != base; link = link->getParent()) {
+    const urdf::Joint &joint = *link->parent_joint;
+    const KDL::Frame at = kdlFrame(joint.parent_to_joint_origin_transform);
+    const KDL::Vector axis = at.M * KDL::Vector(joint.axis.x, joint.axis.y, joint.axis.z);
+    segments.emplace_back(joint.name,
+                          joint.type == urdf::Joint::FIXED ? KDL::Joint(joint.name, KDL::Joint::None)
+                          : joint.type == urdf::Joint::PRISMATIC
+                              ? KDL::Joint(joint.name, at.p, axis, KDL::Joint::TransAxis)
+                              : KDL::Joint(joint.name, at.p, axis, KDL::Joint::RotAxis),
+                          at, kdlBody(*link));
   }
+  KDL::Chain chain;
+  std::for_each(segments.rbegin(), segments.rend(), [&](const KDL::Segment &segment) { chain.addSegment(segment); });
   return chain;
 }
+
+inline KDL::Chain kdlSixAxes() { return kdlChain(*urdf::parseURDFFile(dataFile("generic-6r.urdf")), "base", "tool"); }
 
 //! Pose error of b seen from a, in the base: position (m), then rotation vector (rad) by the closed form of small
 //! angles.
