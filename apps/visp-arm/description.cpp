@@ -6,9 +6,9 @@
 
 #include "appMain.h"
 #include "numberText.h"
+#include "selfPairs.h"
 
 #include "lab/avoidance/vpSceneFrame.h"
-#include <visp3/avoidance/vpSelfCollisionStatistics.h>
 #include <visp3/manipulator/vpSrdf.h>
 
 #include <algorithm>
@@ -91,7 +91,7 @@ Link describeBody(const vpApp::Robot &robot, std::size_t i)
 std::vector<Link> describeLinks(const vpArmModel &arm)
 {
   std::vector<Link> links;
-  for (int i = 0; i <= arm.size(); ++i) {
+  for (int i = 0; i <= arm.links(); ++i) {
     Link link;
     link.link = i;
     link.name = linkName(arm, i);
@@ -145,13 +145,12 @@ std::vector<Pair> pairsOf(const vpArmModel &arm, const vpCollisionScene &scene,
 }
 
 //! Checked pairs of bodies whose capsules touch in nearly all random configurations: "a and b".
-std::vector<std::string> alwaysTouching(const vpArmModel &arm, int configurations,
-                                        const std::map<Names, std::string> &allowed)
+std::vector<std::string> alwaysTouching(const vpArmModel &arm)
 {
   std::vector<std::string> pairs;
-  const vpSelfCollisionStatistics statistics = vpSampleBodyPairs(arm, nullptr, configurations);
+  const vpSelfCollisionStatistics statistics = vpApp::capsuleContacts(arm);
   for (const vpBodyPairStatistics &pair : statistics.pairs) {
-    if (statistics.rule(pair) == vpContactRule::Always && allowed.count(ordered(pair.first, pair.second)) == 0) {
+    if (statistics.rule(pair) == vpContactRule::Always) {
       pairs.push_back(pair.first + " and " + pair.second);
     }
   }
@@ -172,7 +171,7 @@ void examineContacts(const vpApp::Robot &robot, const vpApp::RobotOptions &optio
     touching.push_back(pair.first + " and " + pair.second);
   }
   const double share = vpSelfTouchShare(scene, poses);
-  const std::vector<std::string> always = alwaysTouching(arm, poses, allowed);
+  const std::vector<std::string> always = alwaysTouching(arm);
   const std::string inMany = arm.label() + ": capsules of the arm touch each other in " +
                              vpApp::fixed(100. * share, 1) + " % of " + std::to_string(poses) +
                              " random configurations" +

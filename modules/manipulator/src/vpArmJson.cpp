@@ -109,18 +109,32 @@ vpArmLinkSpec link(vpJsonObject &object)
   return spec;
 }
 
+int linkNumber(vpJsonObject &object, int least)
+{
+  const double link = object.number("link");
+  if (link != std::floor(link) || link < least || link > 100.) {
+    throw object.wrong("link", object.value("link"), "a whole number, at least " + std::to_string(least));
+  }
+  return static_cast<int>(link);
+}
+
 vpArmCapsule capsule(vpJsonObject &object)
 {
   vpArmCapsule spec;
-  const double link = object.number("link");
-  if (link != std::floor(link) || std::fabs(link) > 100.) {
-    throw object.wrong("link", object.value("link"), "a whole number");
-  }
-  spec.link = static_cast<int>(link);
+  spec.link = linkNumber(object, 0);
   spec.from = vpJsonVector<3>(object, "from_m");
   spec.to = vpJsonVector<3>(object, "to_m");
   spec.radius = object.number("radius_m");
   return spec;
+}
+
+// The end effector or the camera, and the link that carries it, if it is named.
+void frame(vpJsonObject &top, const char *name, vpRigidTransform &pose, int &link)
+{
+  top.optional(name, [&](vpJsonObject &object) {
+    pose = vpJsonTransform<vpRigidTransform>(object);
+    link = object.has("link") ? linkNumber(object, 1) : -1;
+  });
 }
 
 vpArmModel load(const std::string &file)
@@ -145,8 +159,8 @@ vpArmModel load(const std::string &file)
   if (top.has("uncovered")) {
     spec.uncovered = top.texts("uncovered");
   }
-  top.optional("tool", [&](vpJsonObject &object) { spec.tool = vpJsonTransform<vpRigidTransform>(object); });
-  top.optional("camera", [&](vpJsonObject &object) { spec.camera = vpJsonTransform<vpRigidTransform>(object); });
+  frame(top, "tool", spec.tool, spec.toolLink);
+  frame(top, "camera", spec.camera, spec.cameraLink);
   if (top.has("home")) {
     const std::vector<double> home = top.numbers("home");
     if (home.size() > static_cast<std::size_t>(vpArmMaxJoints)) {

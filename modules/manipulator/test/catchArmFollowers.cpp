@@ -2,12 +2,13 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Joints of a URDF that follow others, and tools and cameras on any link.
+// Joints that follow others, and tools and cameras on any link.
 #define VP_URDF_TEST "catchArmFollowers"
 #include "vpCatch.h"
 #include "vpRandomRow.h"
 
 #include <visp3/manipulator/vpArmDynamics.h>
+#include <visp3/manipulator/vpArmJson.h>
 
 #include <kdl/chaindynparam.hpp>
 #include <kdl/chainfksolverpos_recursive.hpp>
@@ -292,6 +293,33 @@ TEST_CASE("Tool and camera may be on any link of the chain", "[urdf]")
   CHECK(errorOf(urdf, spec).find("camera link base is not below a moving joint of the arm") != std::string::npos);
   spec.tool = "out";
   CHECK(errorOf(urdf, spec).find("joint out between the arm and the tool link out is not fixed") != std::string::npos);
+}
+
+TEST_CASE("A table of DH may have tool and camera on any link", "[files]")
+{
+  const auto table = [](const std::string &rest) {
+    const std::string row =
+        R"(, "type": "revolute", "a_m": 1, "alpha_deg": 0, "d_m": 0, "lower_deg": -90, "upper_deg": 90})";
+    const File file("own.json", R"({"name": "plane", "joints": [{"name": "a")" + row + R"(, {"name": "b")" + row +
+                                    R"(, {"name": "c")" + row + "], " + rest + "}");
+    return vpLoadArmJson(file.name());
+  };
+  const std::string at = R"("translation_m": [0, 0, 0.5], "link": )";
+  const vpArmModel arm = table(R"("tool": {)" + at + R"(2}, "camera": {)" + at + "1}");
+  CHECK(arm.toolLink() == 2);
+  CHECK(arm.cameraLink() == 1);
+  vpArmData data;
+  vpArmKinematics::update(arm, vector({0.3, 0.4, 0.5}), data);
+  const Eigen::Vector3d first(std::cos(0.3), std::sin(0.3), 0.5), second(std::cos(0.7), std::sin(0.7), 0.);
+  CHECK((vpArmKinematics::camera(arm, data).p - first).norm() < 1e-14);
+  CHECK((data.tool.p - first - second).norm() < 1e-14);
+  CHECK(table(R"("tool": {)" + at + "2}").cameraLink() == 2); // fixed to the end effector
+  for (const char *link : {"0", "1.5", "-1"}) {
+    CHECK(errorOf([&] {
+            static_cast<void>(table(R"("camera": {)" + at + link + "}"));
+          }).find(std::string("camera.link is ") + link + ", must be a whole number, at least 1") != std::string::npos);
+  }
+  CHECK(errorOf([&] { static_cast<void>(table(R"("tool": {)" + at + "4}")); }).find("4") != std::string::npos);
 }
 
 TEST_CASE("The camera moves with a link of the arm, or is refused", "[urdf]")
