@@ -134,22 +134,24 @@ vpSelfCollisionStatistics statisticsOf(const vpArmModel &arm, const std::shared_
   }
   return statistics;
 }
-//! Checked pairs of bodies whose capsules come within the clearance that planners keep, in random configurations.
-std::set<std::pair<std::string, std::string>> nearPairs(const vpArmModel &arm)
-{
-  std::set<std::pair<std::string, std::string>> pairs;
-  for (const vpBodyPairStatistics &pair : vpSampleBodyPairs(arm, nullptr, CAPSULE_SAMPLES).pairs) {
-    if (pair.least < CLEARANCE) {
-      pairs.insert({pair.first, pair.second});
-    }
-  }
-  for (const auto &[first, second] : arm.spec().allowedBodies) {
-    pairs.erase({first, second});
-    pairs.erase({second, first});
-  }
-  return pairs;
-}
 } // namespace
+
+vpSelfCollisionStatistics capsuleContacts(const vpArmModel &arm)
+{
+  vpSelfCollisionStatistics statistics = vpSampleBodyPairs(arm, nullptr, CAPSULE_SAMPLES);
+  std::set<std::pair<std::string, std::string>> allowed;
+  for (const auto &[first, second] : arm.spec().allowedBodies) {
+    allowed.insert({first, second});
+    allowed.insert({second, first});
+  }
+  std::vector<vpBodyPairStatistics> &pairs = statistics.pairs;
+  pairs.erase(std::remove_if(pairs.begin(), pairs.end(),
+                             [&allowed](const vpBodyPairStatistics &pair) {
+                               return allowed.count({pair.first, pair.second}) > 0;
+                             }),
+              pairs.end());
+  return statistics;
+}
 
 SelfPairs findSelfPairs(const vpArmModel &arm, const std::filesystem::path &folder)
 {
@@ -158,18 +160,35 @@ SelfPairs findSelfPairs(const vpArmModel &arm, const std::filesystem::path &fold
   if (exact == nullptr) {
     return pairs;
   }
-  const std::set<std::pair<std::string, std::string>> touching = nearPairs(arm);
-  if (touching.empty()) {
+  const vpSelfCollisionStatistics capsules = capsuleContacts(arm);
+  const auto isNear = [](const vpBodyPairStatistics &pair) { return pair.least < CLEARANCE; };
+  if (std::none_of(capsules.pairs.begin(), capsules.pairs.end(), isNear)) {
     return pairs;
   }
   const vpSelfCollisionStatistics shapes = statisticsOf(arm, exact, folder, pairs.warnings);
-  std::vector<std::string> always, never;
+  std::vector<std::string> always, never, meant;
   for (const vpBodyPairStatistics &pair : shapes.pairs) {
-    const bool isAlways = shapes.rule(pair) == vpContactRule::Always;
-    if (touching.count({pair.first, pair.second}) > 0 && (isAlways || (pair.exact && pair.touching == 0))) {
-      (isAlways ? always : never).push_back(pair.first + " - " + pair.second);
-      pairs.allowed.emplace_back(pair.first, pair.second);
+    const auto found = std::find_if(capsules.pairs.begin(), capsules.pairs.end(), [&pair](const auto &other) {
+      return other.first == pair.first && other.second == pair.second;
+    });
+    if (found == capsules.pairs.end() || !isNear(*found)) {
+      continue;
     }
+    const std::string names = pair.first + " - " + pair.second;
+    const vpContactRule rule = shapes.rule(pair);
+    if (rule == vpContactRule::Always) {
+      always.push_back(names);
+    }
+    else if (pair.exact && pair.touching == 0) {
+      never.push_back(names);
+    }
+    else if (pair.exact && rule == vpContactRule::Default && capsules.rule(*found) == vpContactRule::Always) {
+      meant.push_back(names + " (in " + number(100. * pair.touching / shapes.samples, 2) + " %)");
+    }
+    else {
+      continue;
+    }
+    pairs.allowed.emplace_back(pair.first, pair.second);
   }
   const std::string samples = " of " + std::to_string(shapes.samples) + " random configurations: ";
   if (!always.empty()) {
@@ -179,6 +198,12 @@ SelfPairs findSelfPairs(const vpArmModel &arm, const std::filesystem::path &fold
     pairs.warnings.push_back("not checked, as only the capsules come near, the bodies touch in none" + samples +
                              enumerate(never) + "; so they touch in less than " + number(300. / shapes.samples, 2) +
                              " % of all, with 95 % confidence");
+  }
+  if (!meant.empty()) {
+    pairs.warnings.push_back(
+        "not checked, as the bodies touch where all joints are at 0 or the limit next to it, which is taken as "
+        "meant, and their capsules nearly everywhere, although they touch in some only" +
+        samples + enumerate(meant) + "; --srdf or --allowed-pairs decides otherwise");
   }
   return pairs;
 }
