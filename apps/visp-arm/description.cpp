@@ -148,7 +148,7 @@ std::vector<Pair> pairsOf(const vpArmModel &arm, const vpCollisionScene &scene,
 std::vector<std::string> alwaysTouching(const vpArmModel &arm)
 {
   std::vector<std::string> pairs;
-  const vpSelfCollisionStatistics statistics = vpApp::capsuleContacts(arm);
+  const vpSelfCollisionStatistics statistics = vpApp::capsuleContacts(arm, 0.);
   for (const vpBodyPairStatistics &pair : statistics.pairs) {
     if (statistics.rule(pair) == vpContactRule::Always) {
       pairs.push_back(pair.first + " and " + pair.second);
@@ -161,7 +161,7 @@ std::vector<std::string> alwaysTouching(const vpArmModel &arm)
 void examineContacts(const vpApp::Robot &robot, const vpApp::RobotOptions &options, Description &description)
 {
   constexpr int poses = 1000;
-  constexpr double many = 0.5;
+  constexpr double many = 0.5, nearly = 0.95;
   const vpArmModel &arm = *robot.arm;
   const vpCollisionScene scene = sceneOf(robot);
   const std::map<Names, std::string> allowed = allowedOf(arm, options);
@@ -182,6 +182,10 @@ void examineContacts(const vpApp::Robot &robot, const vpApp::RobotOptions &optio
   }
   else if (share > many) {
     description.warnings.push_back(inMany + advice);
+  }
+  const std::string crowded = vpApp::crowdedSentence(arm, nearly);
+  if (!crowded.empty()) {
+    description.warnings.push_back(crowded);
   }
   if (!touching.empty()) {
     description.warnings.push_back(arm.label() + ": " + vpApp::enumerate(touching) + " touch at home" + advice);

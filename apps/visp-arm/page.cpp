@@ -52,9 +52,25 @@ double massOf(const vpArmModel &arm)
 }
 
 //! Where a frame is that is not at the end.
-std::string carrierText(const std::string &what, int link)
+//! \param link : Of the tool or the camera; -1: it is at the end.
+std::string carrierText(const vpArmModel &arm, const std::string &what, int link)
 {
-  return link < 0 ? "" : "  the " + what + " is on link " + std::to_string(link) + "\n";
+  if (link < 0) {
+    return "";
+  }
+  std::vector<std::string> behind;
+  for (int i = 0; i < arm.size(); ++i) {
+    const auto movesIt = [&](int k) { return arm.chain(k).joint == i; };
+    int k = 0;
+    while (k < link && !movesIt(k)) {
+      ++k;
+    }
+    if (k == link) {
+      behind.push_back(arm.spec().joints[static_cast<std::size_t>(i)].name);
+    }
+  }
+  return "  the " + what + " is on link " + std::to_string(link) +
+         (behind.empty() ? "" : "; not moved by " + vpApp::enumerate(behind)) + "\n";
 }
 
 std::string jointTable(const vpArmModel &arm, const Description &description)
@@ -76,7 +92,7 @@ std::string jointTable(const vpArmModel &arm, const Description &description)
             arm.spec().joints[static_cast<std::size_t>(follower.joint)].name + " plus " +
             vpApp::number(follower.offset, 4) + "\n";
   }
-  return text + carrierText("tool", arm.spec().toolLink) + carrierText("camera", arm.spec().cameraLink);
+  return text + carrierText(arm, "tool", arm.spec().toolLink) + carrierText(arm, "camera", arm.spec().cameraLink);
 }
 
 std::string massText(const vpArmModel &arm, int link)

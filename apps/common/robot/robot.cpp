@@ -261,7 +261,7 @@ std::string missingLimitSentence(const vpArmModel &arm)
 std::string crowdedSentence(const vpArmModel &arm, double share)
 {
   std::vector<std::string> names;
-  const vpSelfCollisionStatistics contacts = capsuleContacts(arm);
+  const vpSelfCollisionStatistics contacts = capsuleContacts(arm, keptClearance);
   for (const vpBodyPairStatistics &pair : contacts.pairs) {
     if (pair.touching >= share * contacts.samples) {
       names.push_back(pair.first + " and " + pair.second);
@@ -269,9 +269,10 @@ std::string crowdedSentence(const vpArmModel &arm, double share)
   }
   return names.empty()
              ? ""
-             : arm.label() + ": the capsules of " + enumerate(names) + " touch in at least " + number(100. * share, 3) +
-                   " % of " + std::to_string(contacts.samples) +
-                   " random configurations, where no motion is free; --covers 6 encloses meshes more closely, "
+             : arm.label() + ": the capsules of " + enumerate(names) + " are nearer than " +
+                   number(1000. * keptClearance, 2) + " mm in " + (share < 1. ? "nearly " : "") + "all of " +
+                   std::to_string(contacts.samples) +
+                   " random configurations, where nothing is planned; --covers 6 encloses meshes more closely, "
                    "--srdf or --allowed-pairs tells which pairs need no check, visp-arm --write-pairs finds them";
 }
 

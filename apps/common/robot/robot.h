@@ -53,13 +53,14 @@ struct Robot {
 //! The first joint without velocity or acceleration limit, and the options that supply it; empty: there is none.
 [[nodiscard]] std::string missingLimitSentence(const vpArmModel &arm);
 /*!
- * Which checked bodies touch by their capsules in at least a share of random configurations, and the options that help; empty: none.
+ * Which checked bodies have their capsules within keptClearance in at least a share of random configurations, and the options that help;
+ * empty: none.
  */
 [[nodiscard]] std::string crowdedSentence(const vpArmModel &arm, double share);
 /*!
- * A robot for programs that move it among obstacles. Bodies that touch by their capsules in nearly all configurations are a warning.
- * \throw As loadRobot(); std::runtime_error with unseenSentence(), missingLimitSentence(), or crowdedSentence() if two bodies
- * touch in all configurations: no motion would be free.
+ * A robot for programs that move it among obstacles; crowdedSentence() for nearly all configurations is a warning.
+ * \throw As loadRobot(); std::runtime_error with unseenSentence(), missingLimitSentence(), or crowdedSentence() for all
+ * configurations.
  */
 [[nodiscard]] Robot loadUsableRobot(const RobotOptions &options);
 

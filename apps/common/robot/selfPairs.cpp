@@ -24,7 +24,6 @@ namespace
 namespace fs = std::filesystem;
 constexpr int SAMPLES = 10000;
 constexpr int CAPSULE_SAMPLES = 1000; // of the capsules alone
-constexpr double CLEARANCE = 0.03;    // m, the most that a program keeps from anything
 
 //! \brief FNV-1a over everything that decides contacts.
 class Fingerprint
@@ -136,9 +135,13 @@ vpSelfCollisionStatistics statisticsOf(const vpArmModel &arm, const std::shared_
 }
 } // namespace
 
-vpSelfCollisionStatistics capsuleContacts(const vpArmModel &arm)
+vpSelfCollisionStatistics capsuleContacts(const vpArmModel &arm, double clearance)
 {
-  vpSelfCollisionStatistics statistics = vpSampleBodyPairs(arm, nullptr, CAPSULE_SAMPLES);
+  vpArmSpec grown = arm.spec();
+  for (vpArmCapsule &capsule : grown.capsules) {
+    capsule.radius += 0.5 * clearance;
+  }
+  vpSelfCollisionStatistics statistics = vpSampleBodyPairs(vpArmModel(grown), nullptr, CAPSULE_SAMPLES);
   std::set<std::pair<std::string, std::string>> allowed;
   for (const auto &[first, second] : arm.spec().allowedBodies) {
     allowed.insert({first, second});
@@ -160,8 +163,8 @@ SelfPairs findSelfPairs(const vpArmModel &arm, const std::filesystem::path &fold
   if (exact == nullptr) {
     return pairs;
   }
-  const vpSelfCollisionStatistics capsules = capsuleContacts(arm);
-  const auto isNear = [](const vpBodyPairStatistics &pair) { return pair.least < CLEARANCE; };
+  const vpSelfCollisionStatistics capsules = capsuleContacts(arm, keptClearance);
+  const auto isNear = [](const vpBodyPairStatistics &pair) { return pair.touching > 0; };
   if (std::none_of(capsules.pairs.begin(), capsules.pairs.end(), isNear)) {
     return pairs;
   }
@@ -200,10 +203,11 @@ SelfPairs findSelfPairs(const vpArmModel &arm, const std::filesystem::path &fold
                              " % of all, with 95 % confidence");
   }
   if (!meant.empty()) {
-    pairs.warnings.push_back(
-        "not checked, as the bodies touch where all joints are at 0 or the limit next to it, which is taken as "
-        "meant, and their capsules nearly everywhere, although they touch in some only" +
-        samples + enumerate(meant) + "; --srdf or --allowed-pairs decides otherwise");
+    pairs.warnings.push_back("not checked, as the bodies touch where all joints are at 0 or the limit next to it, "
+                             "which is taken as meant, and "
+                             "their capsules are nearly always within " +
+                             number(1000. * keptClearance, 2) + " mm, although they touch in some only" + samples +
+                             enumerate(meant) + "; --srdf or --allowed-pairs decides otherwise");
   }
   return pairs;
 }
