@@ -42,21 +42,26 @@ std::string cacheFolder()
   return folder.path.string();
 }
 
-//! Runs a program on each robot and hands its summary over. The covers of the meshes are fitted once for all.
+//! Runs a program on a robot and hands its summary over. The covers of the meshes are fitted once for all.
+template <class Check>
+void on(const PublicArm &arm, const std::string &program, const std::string &arguments, const Check &check)
+{
+  const std::string robot = filesOf(arm);
+  if (robot.empty()) {
+    return;
+  }
+  CAPTURE(arm.folder);
+  ProgramRun run(program);
+  const int status = run(arguments + " --out result --robot " + robot, "XDG_CACHE_HOME='" + cacheFolder() + "'");
+  CAPTURE(run.err(), run.out());
+  REQUIRE(status == 0);
+  check(vpApp::readJsonFile(run.path("result/summary.json").string()), run.err());
+}
+
 template <class Check> void onEach(const std::string &program, const std::string &arguments, const Check &check)
 {
-  const std::string cache = "XDG_CACHE_HOME='" + cacheFolder() + "'";
   for (const PublicArm &arm : arms) {
-    const std::string robot = filesOf(arm);
-    if (robot.empty()) {
-      continue;
-    }
-    CAPTURE(arm.folder);
-    ProgramRun run(program);
-    const int status = run(arguments + " --out result --robot " + robot, cache);
-    CAPTURE(run.err(), run.out());
-    REQUIRE(status == 0);
-    check(vpApp::readJsonFile(run.path("result/summary.json").string()));
+    on(arm, program, arguments, [&check](const json &summary, const std::string &) { check(summary); });
   }
 }
 } // namespace
@@ -90,4 +95,34 @@ TEST_CASE("visp-avoid-obstacle reaches its goal on public arms", "[programs]")
     CHECK(summary["metrics"]["success"] == true);
     CHECK(summary["metrics"]["collisions_moving"] == 0);
   });
+}
+
+TEST_CASE("visp-avoid-obstacle needs no SRDF for the panda", "[programs]")
+{
+  const PublicArm alone = {"panda_description", "urdf/panda.urdf", "", "--robot-tip panda_link8 --hold all"};
+  on(alone, AVOID_OBSTACLE, "--method planner-dtg", [](const json &summary, const std::string &warnings) {
+    CHECK(summary["metrics"]["success"] == true);
+    CHECK(summary["metrics"]["collisions_moving"] == 0);
+    CHECK_THAT(warnings,
+               Catch::Contains("which is taken as meant") && Catch::Contains("panda_link5 - panda_link7 (in "));
+  });
+}
+
+TEST_CASE("An arm of which two links are always too near is refused with their names", "[programs]")
+{
+  ProgramRun run(AVOID_OBSTACLE);
+  const auto link = [](const std::string &name) {
+    return "<link name='" + name + "'><collision><geometry><sphere radius='0.1'/></geometry></collision></link>";
+  };
+  const auto joint = [](const std::string &parent, const std::string &child) {
+    return "<joint name='of " + child + "' type='revolute'><origin xyz='0.105 0 0'/><parent link='" + parent +
+           "'/><child link='" + child +
+           "'/><axis xyz='0 0 1'/><limit lower='-1' upper='1' velocity='1' effort='1'/></joint>";
+  };
+  run.write("near.urdf", "<robot name='near'>" + link("base") + link("middle") + link("end") + joint("base", "middle") +
+                             joint("middle", "end") + "</robot>");
+  run.write("none.json", R"({"arm": "near.urdf", "samples": 1, "pairs": []})");
+  CHECK(run("--robot near.urdf --allowed-pairs none.json") == 1);
+  CHECK(run.err().find("near.urdf: the capsules of base and end are nearer than 30 mm in all of 1000 random "
+                       "configurations, where nothing is planned; --covers 6") != std::string::npos);
 }
