@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Install what is missing, build everything and run all tests. Arguments go to ctest: ./test.sh -R Servo
-# Random tests run twice: with their built-in seed and with a seed of the day; VISP_DIRECT_SEED="N ..." ./test.sh repeats other days.
+# Random tests do half of their problems with their built-in seed and half with a seed of the day; VISP_DIRECT_SEED="N ..." ./test.sh
+# repeats other days.
 set -euo pipefail
 # shellcheck source=scripts/setup.sh
 source "$(dirname "${BASH_SOURCE[0]}")/scripts/setup.sh"

@@ -68,6 +68,6 @@ packages)
   ;;
 seeds)
   day=$(date +%Y%m%d)
-  VISP_DIRECT_SEED="${day}1 ${day}2 ${day}3 ${day}4 ${day}5" ./test.sh -LE doc
+  VISP_DIRECT_LONG_TESTS=2 VISP_DIRECT_SEED="${day}1 ${day}2 ${day}3 ${day}4 ${day}5" ./test.sh -LE doc
   ;;
 esac

@@ -48,7 +48,10 @@ inline double uniform(std::mt19937_64 &rng, double low, double high)
   return std::uniform_real_distribution<double>(low, high)(rng);
 }
 
-//! Number of random problems: \e count in ctest; the environment variable VISP_DIRECT_LONG_TESTS=N makes it N times as many.
+/*!
+ * Number of random problems: \e count; the environment variable VISP_DIRECT_LONG_TESTS=N makes it N times as many. With
+ * VISP_DIRECT_SEED, which repeats the test at other seeds, each run does half of it.
+ */
 int longer(int count);
 
 //! Skips a check with a reason ("image x is not installed"). If nothing failed, ctest then reports "Skipped".

@@ -21,9 +21,52 @@ namespace
 constexpr int skipped = 77; // SKIP_RETURN_CODE of cmake/VispDirectModule.cmake
 unsigned int s_seed = 20240613;
 bool s_skipped = false;
+bool s_halved = false;          // see vpTestSupport::longer()
 std::set<std::string> s_random; // names of the tests that used the seed
 
 void noteRandomTest() { s_random.insert(Catch::getResultCapture().getCurrentTestName()); }
+
+// Adds a tag that tests must have: to each alternative of a filter; commas outside of quotes and brackets separate them.
+std::string withTag(const std::string &filter, const std::string &tag)
+{
+  std::string text;
+  char closing = '\0';
+  for (std::size_t i = 0; i < filter.size(); ++i) {
+    const char c = filter[i];
+    if (c == '\\' && i + 1 < filter.size()) {
+      text += c;
+      text += filter[++i];
+      continue;
+    }
+    if (closing != '\0') {
+      closing = c == closing ? '\0' : closing;
+    }
+    else if (c == '"' || c == '[') {
+      closing = c == '[' ? ']' : c;
+    }
+    else if (c == ',') {
+      text += tag;
+    }
+    text += c;
+  }
+  return text;
+}
+
+// A program that unites the tests of several files runs those of catchName.cpp alone when it is called catchName.
+void selectFile(Catch::ConfigData &config, const char *called)
+{
+  std::string name(called);
+  name.erase(0, name.find_last_of("/\\") + 1); // npos + 1 is 0
+  name.erase(std::min(name.find('.'), name.size()));
+  if (name.compare(0, 5, "catch") != 0) {
+    return;
+  }
+  config.filenamesAsTags = true;
+  const std::string tag = "[#" + name + "]";
+  std::vector<std::string> &filters = config.testsOrTags;
+  std::transform(filters.begin(), filters.end(), filters.begin(), [&](const auto &f) { return withTag(f, tag); });
+  filters.push_back(filters.empty() ? tag + "~[.]" : tag); // hidden tests run only when they are named
+}
 
 // Runs the random tests again, with a seed from the environment; a test that its filter does not find is a failure.
 int runAgain(Catch::Session &session, unsigned int seed)
@@ -55,7 +98,8 @@ namespace vpTestSupport
 int longer(int count)
 {
   const char *factor = std::getenv("VISP_DIRECT_LONG_TESTS");
-  return count * std::max(1, factor == nullptr ? 1 : std::atoi(factor));
+  const int all = count * std::max(1, factor == nullptr ? 1 : std::atoi(factor));
+  return s_halved ? (all + 1) / 2 : all;
 }
 
 unsigned int seed()
@@ -94,12 +138,14 @@ int main(int argc, char *argv[])
   if (status != 0) {
     return status;
   }
+  selectFile(session.configData(), argv[0]);
   if (seedGiven) {
-    s_seed = session.config().rngSeed();
+    s_seed = session.configData().rngSeed;
   }
-  int failed = session.run();
   const char *seeds = std::getenv("VISP_DIRECT_SEED");
-  if (!seedGiven && !s_random.empty() && seeds != nullptr) {
+  s_halved = !seedGiven && seeds != nullptr;
+  int failed = session.run();
+  if (s_halved && !s_random.empty()) {
     std::istringstream list(seeds);
     for (unsigned int seed = 0; failed == 0 && !(list >> std::ws).eof();) {
       if (list >> seed) {

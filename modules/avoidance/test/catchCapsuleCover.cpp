@@ -81,7 +81,7 @@ TEST_CASE("Fitted capsules enclose surface and inside of random solids", "[cover
   CAPTURE(vpTestSupport::seed());
   std::mt19937_64 rng = vpTestSupport::generator();
   double most = -1.;
-  for (int i = 0; i < 8; ++i) {
+  for (int i = 0; i < vpTestSupport::longer(8); ++i) {
     const vpTriangleMesh m = mesh(i, rng);
     REQUIRE(m.isWatertight());
     vpCapsuleCoverSpec spec;
@@ -105,7 +105,7 @@ TEST_CASE("Overhang and volumes against random points", "[cover]")
 {
   CAPTURE(vpTestSupport::seed());
   std::mt19937_64 rng = vpTestSupport::generator(1);
-  for (int i = 0; i < 6; ++i) {
+  for (int i = 0; i < vpTestSupport::longer(6); ++i) {
     const vpTriangleMesh m = mesh(i, rng);
     std::vector<vpArmCapsule> capsules;
     for (int k = 0; k <= i % 3; ++k) { // not enclosing

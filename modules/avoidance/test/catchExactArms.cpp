@@ -44,7 +44,7 @@ TEST_CASE("A ball of 1 cm on the mesh of any link is seen", "[arms]")
         continue;
       }
       const vpTriangleMesh mesh = vpTriangleMesh::load(shape.file, shape.size);
-      for (int k = 0; k < 100 * lengthOfTests(); ++k) {
+      for (int k = 0; k < vpTestSupport::longer(100); ++k) {
         const auto &t = mesh.triangles()[static_cast<std::size_t>(uniform(rng, 0., mesh.triangles().size() - 1e-9))];
         const double a = uniform(rng, 0., 1.), b = uniform(rng, 0., 1. - a);
         const auto corner = [&](std::size_t i) { return mesh.vertices()[static_cast<std::size_t>(t[i])]; };
@@ -74,7 +74,7 @@ TEST_CASE("Certified motions of public robots are free on their meshes", "[arms]
     }
     int free = 0, byCovers = 0, contacts = 0, tried = 0;
     vpMotionScratch scratch, plain;
-    while (free < 20 * lengthOfTests() && tried < 400 * lengthOfTests()) {
+    while (free < vpTestSupport::longer(20) && tried < vpTestSupport::longer(400)) {
       vpCollisionSceneSpec spec = sceneOf(loaded, rng, 8);
       const vpCollisionScene scene(*loaded.arm, spec);
       spec.exact.reset();
@@ -97,7 +97,7 @@ TEST_CASE("Certified motions of public robots are free on their meshes", "[arms]
     std::cout << robot.name << ": of " << tried << " motions free " << free << ", by covers alone " << byCovers
               << "; contacts at 2000 points each " << contacts << "\n";
     CHECK(contacts == 0);
-    CHECK(free >= 20 * lengthOfTests());
+    CHECK(free >= vpTestSupport::longer(20));
     CHECK(free >= byCovers);
   }
 }
@@ -112,7 +112,7 @@ TEST_CASE("Nearly all configurations that are free on the meshes are kept, and n
       return;
     }
     int free = 0, kept = 0, byCovers = 0, wrong = 0;
-    for (int trial = 0; trial < 10 * lengthOfTests(); ++trial) {
+    for (int trial = 0; trial < vpTestSupport::longer(10); ++trial) {
       const vpCollisionScene scene(*loaded.arm, sceneOf(loaded, rng, 8));
       vpExactChecker checker(scene);
       vpSceneChecker covers(scene);

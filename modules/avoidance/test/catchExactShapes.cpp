@@ -22,12 +22,6 @@ using namespace vpAvoidanceTestKit;
 
 namespace
 {
-int lengthOfTests()
-{
-  const char *factor = std::getenv("VISP_DIRECT_LONG_TESTS");
-  return std::max(1, factor ? std::atoi(factor) : 1);
-}
-
 // A frame of three bars, open in the middle: no single capsule is near it. Removed at the end.
 struct FrameFile {
   std::string name = (std::filesystem::temp_directory_path() / (std::to_string(getpid()) + "-frame.obj")).string();
@@ -125,7 +119,7 @@ TEST_CASE("Certified motions by exact shapes are free on the true shapes", "[exa
   CAPTURE(vpTestSupport::seed());
   int covers = 0, exactly = 0, contacts = 0, disputed = 0;
   vpMotionScratch scratch, plain;
-  for (int trial = 0; trial < 12 * lengthOfTests(); ++trial) {
+  for (int trial = 0; trial < vpTestSupport::longer(12); ++trial) {
     CAPTURE(trial);
     const vpArmModel arm = shapedArm(rng);
     const auto exact = std::make_shared<vpExactShapes>(arm);
@@ -172,7 +166,7 @@ TEST_CASE("A ball on the shape, or inside it, is always seen", "[exact]")
   auto rng = vpTestSupport::generator(22);
   CAPTURE(vpTestSupport::seed());
   int missed = 0;
-  for (int trial = 0; trial < 40 * lengthOfTests(); ++trial) {
+  for (int trial = 0; trial < vpTestSupport::longer(40); ++trial) {
     const vpArmModel arm = shapedArm(rng);
     const auto exact = std::make_shared<vpExactShapes>(arm);
     vpCollisionSceneSpec spec;

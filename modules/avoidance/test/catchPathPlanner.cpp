@@ -20,12 +20,6 @@ using namespace vpAvoidanceTestKit;
 
 namespace
 {
-int times(int plans)
-{
-  const char *factor = std::getenv("VISP_DIRECT_LONG_TESTS");
-  return factor == nullptr ? plans : plans * std::max(1, std::atoi(factor));
-}
-
 //! Least clearance at a number of path positions, by code independent of the planner.
 double recheck(const vpCollisionScene &scene, const vpCollisionSceneSpec &spec, const vpJointPath &path, int places)
 {
@@ -60,7 +54,7 @@ TEST_CASE("RRTConnect with certified motions solves pillar and shelf, free at ev
   for (const char *name : {"scene/s4a-pillar.json", "scene/s4b-shelf.json"}) {
     const vpCollisionSceneFile file = vpLoadCollisionScene(dataFile(name));
     const vpCollisionScene scene(amor(), file.spec);
-    for (int k = 0; k < times(10); ++k) {
+    for (int k = 0; k < vpTestSupport::longer(10); ++k) {
       for (const vpMotionTask &task : file.tasks) {
         vpPathPlannerSpec spec;
         spec.seed = static_cast<unsigned int>(k + 1);
@@ -115,7 +109,7 @@ TEST_CASE("Discrete validation calls paths free that are not", "[planner]")
   CAPTURE(vpTestSupport::seed());
   int certified = 0, discrete = 0, lies = 0;
   // In 18 % of the problems the samples miss: among 60 none of them once in 1e5 runs.
-  for (int problem = 0; problem < times(15) || (lies == 0 && problem < 60); ++problem) {
+  for (int problem = 0; problem < vpTestSupport::longer(15) || (lies == 0 && problem < 60); ++problem) {
     vpCollisionSceneSpec spec;
     for (int k = 0; k < 8; ++k) {
       vpCollisionObject board;

@@ -20,13 +20,6 @@ namespace
 constexpr double slack = 1e-4;    // m, that a retreat may lose between the ends of periods
 constexpr double rounding = 1e-8; // m
 
-//! 1 by default; a million steps in all by VISP_DIRECT_LONG_TESTS=50.
-int lengthOfTests()
-{
-  const char *factor = std::getenv("VISP_DIRECT_LONG_TESTS");
-  return std::max(1, factor ? std::atoi(factor) : 1);
-}
-
 //! 2 to 8 joints of any kind in skew frames, each with motion limits, a capsule on most links and on the base.
 vpArmModel randomArm(std::mt19937_64 &rng)
 {
@@ -189,7 +182,7 @@ TEST_CASE("No search finds a supervised arm that touches while it moves or excee
 {
   auto rng = vpTestSupport::generator(925);
   CAPTURE(vpTestSupport::seed());
-  const long wanted = 20000L * lengthOfTests();
+  const long wanted = vpTestSupport::longer(20000); // a million by VISP_DIRECT_LONG_TESTS=50
   Count count;
   for (int problem = 0; count.steps < wanted; ++problem) {
     CAPTURE(problem);
@@ -280,7 +273,7 @@ TEST_CASE("A stop that cuts a corner keeps the margin, and a retreat that does s
   CAPTURE(vpTestSupport::seed());
   long stops = 0, retreats = 0;
   double nearest = 1., nearestRetreat = 1.;
-  const int cases = 40000 * lengthOfTests();
+  const int cases = vpTestSupport::longer(40000);
   for (int problem = 0; problem < cases; ++problem) {
     const vpArmModel arm = gantry(rng);
     const double radius = arm.spec().capsules.front().radius;

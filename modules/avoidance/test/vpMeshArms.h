@@ -36,9 +36,6 @@ inline std::string fileOf(const std::string &name)
   return vpTestSupport::caseFile("example-robot-data/robots/" + name);
 }
 
-//! VISP_DIRECT_LONG_TESTS=10 is the full number of poses and motions.
-inline int lengthOfTests() { return vpTestSupport::longer(1); }
-
 // The robot with three capsules a body, and its exact shapes; nothing where the public files are missing.
 struct Loaded {
   std::unique_ptr<vpArmModel> arm;

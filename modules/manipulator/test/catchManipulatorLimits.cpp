@@ -24,12 +24,6 @@ namespace
 {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-int count(int inCtest)
-{
-  const char *factor = std::getenv("VISP_DIRECT_LONG_TESTS");
-  return factor != nullptr ? inCtest * std::max(std::atoi(factor), 1) : inCtest;
-}
-
 double logUniform(std::mt19937_64 &rng, double low, double high)
 {
   return std::exp(uniform(rng, std::log(low), std::log(high)));
@@ -87,7 +81,7 @@ TEST_CASE("Bounds: within velocity and acceleration, always able to brake inside
   auto rng = vpTestSupport::generator(70);
   CAPTURE(vpTestSupport::seed());
   constexpr int stepsOfOne = 100;
-  for (int problem = 0; problem < count(200); ++problem) {
+  for (int problem = 0; problem < vpTestSupport::longer(200); ++problem) {
     vpArmSpec spec;
     spec.name = "one";
     spec.joints.resize(1);
@@ -135,7 +129,7 @@ TEST_CASE("Solver: limits, task, self-motion and status hold in every random ste
   std::array<int, 10> statuses{};
   double worstResidual = 0., worstSelf = 0.;
   int whole = 0, slower = 0, stopped = 0;
-  for (int problem = 0; problem < count(20000); ++problem) {
+  for (int problem = 0; problem < vpTestSupport::longer(20000); ++problem) {
     const int which = problem % 2;
     const vpArmModel &model = which == 0 ? amor() : sixAxes();
     const int n = model.size();
@@ -269,9 +263,9 @@ TEST_CASE("Solver: limits, task, self-motion and status hold in every random ste
     std::cout << ' ' << statuses[i];
     CHECK((statuses[i] > 0 || i > 5)); // blocking ones are rare; catchRedundancySolver covers them
   }
-  CHECK(whole > count(20000) / 20);
-  CHECK(slower > count(20000) / 400);
-  CHECK(stopped > count(20000) / 400);
+  CHECK(whole > vpTestSupport::longer(20000) / 20);
+  CHECK(slower > vpTestSupport::longer(20000) / 400);
+  CHECK(stopped > vpTestSupport::longer(20000) / 400);
   std::cout << "; " << whole << " do all, " << slower << " are at a velocity limit, " << stopped
             << " with joints stopped; residual of Exact " << worstResidual << ", task by self-motion " << worstSelf
             << '\n';
