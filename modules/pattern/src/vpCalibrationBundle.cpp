@@ -45,6 +45,32 @@ constexpr double leastLeft =
     1e-4;                         // share of a direction that the fit leaves; less is lost in the covariance's rounding
 constexpr double rounding = 1e-6; // px: residuals below are not noise of a measurement
 
+constexpr double leastEigenvalue = 1e-15; // over the largest
+
+Eigen::MatrixXd raised(Eigen::MatrixXd matrix, double lambda)
+{
+  matrix.diagonal() *= 1. + lambda;
+  return matrix;
+}
+
+// Parameters have units from px^-2 to px/m; only after scaling are their magnitudes meaningful.
+Eigen::MatrixXd scaledInverse(const Eigen::MatrixXd &matrix, double *condition = nullptr)
+{
+  if (matrix.rows() == 0) {
+    return matrix;
+  }
+  const Eigen::VectorXd scale = matrix.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scale.asDiagonal() * matrix * scale.asDiagonal());
+  // Rounding may make the eigenvalue of an undetermined direction negative; its deviation must come out large.
+  const double most = solver.eigenvalues()[matrix.rows() - 1];
+  const Eigen::VectorXd values = solver.eigenvalues().cwiseMax(leastEigenvalue * most);
+  if (condition != nullptr) {
+    *condition = std::sqrt(most / values[0]);
+  }
+  return scale.asDiagonal() * solver.eigenvectors() * values.cwiseInverse().asDiagonal() *
+         solver.eigenvectors().transpose() * scale.asDiagonal();
+}
+
 // A part of the sum of squares and its degrees of freedom.
 struct Part {
   double squares = 0.;
@@ -285,6 +311,77 @@ vpDistortedPoint vpDistort(const Eigen::Vector2d &ideal, double kappa1)
   point.byIdeal = share * Eigen::Matrix2d::Identity() + (slope - share) * direction * direction.transpose();
   point.byKappa1 = -slope * r * r * r * direction;
   return point;
+}
+
+vpBundleNormal::vpBundleNormal(Eigen::Index shared, std::size_t views)
+  : m_shared(Eigen::MatrixXd::Zero(shared, shared)), m_gradient(Eigen::VectorXd::Zero(shared)), m_local(views),
+    m_mixed(views), m_localGradient(views)
+{}
+
+void vpBundleNormal::set(std::size_t k, const vpBundleView &view)
+{
+  m_shared += view.byShared.transpose() * view.byShared;
+  m_gradient += view.byShared.transpose() * view.residual;
+  m_local[k] = view.byLocal.transpose() * view.byLocal;
+  m_mixed[k] = view.byShared.transpose() * view.byLocal;
+  m_localGradient[k] = view.byLocal.transpose() * view.residual;
+}
+
+bool vpBundleNormal::solve(double lambda, Eigen::VectorXd &shared, std::vector<Eigen::VectorXd> &local) const
+{
+  Eigen::MatrixXd reduced = raised(m_shared, lambda);
+  Eigen::VectorXd right = m_gradient;
+  std::vector<Eigen::LDLT<Eigen::MatrixXd>> factors(m_local.size());
+  for (std::size_t k = 0; k < m_local.size(); ++k) {
+    factors[k].compute(raised(m_local[k], lambda));
+    reduced -= m_mixed[k] * factors[k].solve(m_mixed[k].transpose());
+    right -= m_mixed[k] * factors[k].solve(m_localGradient[k]);
+  }
+  shared = scaledInverse(reduced) * right;
+  local.resize(m_local.size());
+  bool finite = shared.allFinite();
+  for (std::size_t k = 0; k < m_local.size(); ++k) {
+    local[k] = factors[k].solve(m_localGradient[k] - m_mixed[k].transpose() * shared);
+    finite = finite && local[k].allFinite();
+  }
+  return finite;
+}
+
+double vpBundleNormal::length2(const Eigen::VectorXd &shared, const std::vector<Eigen::VectorXd> &local) const
+{
+  double sum = shared.dot(m_shared * shared);
+  for (std::size_t k = 0; k < local.size(); ++k) {
+    sum += 2. * shared.dot(m_mixed[k] * local[k]) + local[k].dot(m_local[k] * local[k]);
+  }
+  return sum;
+}
+
+void vpBundleNormal::covariances(vpBundleCovariance &solution) const
+{
+  Eigen::MatrixXd reduced = m_shared;
+  std::vector<Eigen::MatrixXd> inverse(m_local.size()), gain(m_local.size());
+  for (std::size_t k = 0; k < m_local.size(); ++k) {
+    inverse[k] = scaledInverse(m_local[k]);
+    gain[k] = m_mixed[k] * inverse[k];
+    reduced -= gain[k] * m_mixed[k].transpose();
+  }
+  solution.sharedCovariance = scaledInverse(reduced, &solution.condition);
+  solution.localCovariance.clear();
+  solution.crossCovariance.clear();
+  for (std::size_t k = 0; k < m_local.size(); ++k) {
+    const Eigen::MatrixXd cross = -solution.sharedCovariance * gain[k];
+    solution.crossCovariance.push_back(cross);
+    solution.localCovariance.push_back(inverse[k] - gain[k].transpose() * cross);
+  }
+}
+
+Eigen::MatrixXd vpJointCovariance(const vpBundleCovariance &solution, std::size_t k)
+{
+  const Eigen::Index s = solution.sharedCovariance.rows(), l = solution.localCovariance[k].rows();
+  Eigen::MatrixXd joint(s + l, s + l);
+  joint << solution.sharedCovariance, solution.crossCovariance[k], solution.crossCovariance[k].transpose(),
+      solution.localCovariance[k];
+  return joint;
 }
 
 vpFitTest vpTestFit(const std::vector<vpFitTestView> &views, double level, bool stated)

@@ -38,107 +38,33 @@ struct vpBundleView {
   Eigen::VectorXd residual;
 };
 
-template <class State> struct vpBundleSolution {
-  State state;
-  double chi2 = 0.;
-  int iterations = 0;
-  bool converged = false;
+struct vpBundleCovariance {
   double condition = 1.; // of the shared parameters, views eliminated, columns scaled
   Eigen::MatrixXd sharedCovariance;
   std::vector<Eigen::MatrixXd> localCovariance; // one for each view
   std::vector<Eigen::MatrixXd> crossCovariance; // of shared (rows) and local (columns) parameters
 };
 
+template <class State> struct vpBundleSolution : vpBundleCovariance {
+  State state;
+  double chi2 = 0.;
+  int iterations = 0;
+  bool converged = false;
+};
+
 // One linearisation, reduced to the shared parameters.
 class vpBundleNormal
 {
 public:
-  vpBundleNormal(Eigen::Index shared, std::size_t views)
-    : m_shared(Eigen::MatrixXd::Zero(shared, shared)), m_gradient(Eigen::VectorXd::Zero(shared)), m_local(views),
-      m_mixed(views), m_localGradient(views)
-  {}
-  void set(std::size_t k, const vpBundleView &view)
-  {
-    m_shared += view.byShared.transpose() * view.byShared;
-    m_gradient += view.byShared.transpose() * view.residual;
-    m_local[k] = view.byLocal.transpose() * view.byLocal;
-    m_mixed[k] = view.byShared.transpose() * view.byLocal;
-    m_localGradient[k] = view.byLocal.transpose() * view.residual;
-  }
+  vpBundleNormal(Eigen::Index shared, std::size_t views);
+  void set(std::size_t k, const vpBundleView &view);
   // Solves with the diagonal raised by the share lambda. Returns false when the matrix is singular.
-  bool solve(double lambda, Eigen::VectorXd &shared, std::vector<Eigen::VectorXd> &local) const
-  {
-    Eigen::MatrixXd reduced = raised(m_shared, lambda);
-    Eigen::VectorXd right = m_gradient;
-    std::vector<Eigen::LDLT<Eigen::MatrixXd>> factors(m_local.size());
-    for (std::size_t k = 0; k < m_local.size(); ++k) {
-      factors[k].compute(raised(m_local[k], lambda));
-      reduced -= m_mixed[k] * factors[k].solve(m_mixed[k].transpose());
-      right -= m_mixed[k] * factors[k].solve(m_localGradient[k]);
-    }
-    shared = scaledInverse(reduced) * right;
-    local.resize(m_local.size());
-    bool finite = shared.allFinite();
-    for (std::size_t k = 0; k < m_local.size(); ++k) {
-      local[k] = factors[k].solve(m_localGradient[k] - m_mixed[k].transpose() * shared);
-      finite = finite && local[k].allFinite();
-    }
-    return finite;
-  }
+  bool solve(double lambda, Eigen::VectorXd &shared, std::vector<Eigen::VectorXd> &local) const;
   // Squared length of a step, in standard deviations.
-  double length2(const Eigen::VectorXd &shared, const std::vector<Eigen::VectorXd> &local) const
-  {
-    double sum = shared.dot(m_shared * shared);
-    for (std::size_t k = 0; k < local.size(); ++k) {
-      sum += 2. * shared.dot(m_mixed[k] * local[k]) + local[k].dot(m_local[k] * local[k]);
-    }
-    return sum;
-  }
-  template <class State> void covariances(vpBundleSolution<State> &solution) const
-  {
-    Eigen::MatrixXd reduced = m_shared;
-    std::vector<Eigen::MatrixXd> inverse(m_local.size()), gain(m_local.size());
-    for (std::size_t k = 0; k < m_local.size(); ++k) {
-      inverse[k] = scaledInverse(m_local[k]);
-      gain[k] = m_mixed[k] * inverse[k];
-      reduced -= gain[k] * m_mixed[k].transpose();
-    }
-    solution.sharedCovariance = scaledInverse(reduced, &solution.condition);
-    solution.localCovariance.clear();
-    solution.crossCovariance.clear();
-    for (std::size_t k = 0; k < m_local.size(); ++k) {
-      const Eigen::MatrixXd cross = -solution.sharedCovariance * gain[k];
-      solution.crossCovariance.push_back(cross);
-      solution.localCovariance.push_back(inverse[k] - gain[k].transpose() * cross);
-    }
-  }
+  [[nodiscard]] double length2(const Eigen::VectorXd &shared, const std::vector<Eigen::VectorXd> &local) const;
+  void covariances(vpBundleCovariance &solution) const;
 
 private:
-  static constexpr double leastEigenvalue = 1e-15; // over the largest
-
-  static Eigen::MatrixXd raised(Eigen::MatrixXd matrix, double lambda)
-  {
-    matrix.diagonal() *= 1. + lambda;
-    return matrix;
-  }
-  // Parameters have units from px^-2 to px/m; only after scaling are their magnitudes meaningful.
-  static Eigen::MatrixXd scaledInverse(const Eigen::MatrixXd &matrix, double *condition = nullptr)
-  {
-    if (matrix.rows() == 0) {
-      return matrix;
-    }
-    const Eigen::VectorXd scale = matrix.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scale.asDiagonal() * matrix * scale.asDiagonal());
-    // Rounding may make the eigenvalue of an undetermined direction negative; its deviation must come out large.
-    const double most = solver.eigenvalues()[matrix.rows() - 1];
-    const Eigen::VectorXd values = solver.eigenvalues().cwiseMax(leastEigenvalue * most);
-    if (condition != nullptr) {
-      *condition = std::sqrt(most / values[0]);
-    }
-    return scale.asDiagonal() * solver.eigenvectors() * values.cwiseInverse().asDiagonal() *
-           solver.eigenvectors().transpose() * scale.asDiagonal();
-  }
-
   Eigen::MatrixXd m_shared;
   Eigen::VectorXd m_gradient;
   std::vector<Eigen::MatrixXd> m_local;
@@ -207,15 +133,7 @@ struct vpFitTestView {
 [[nodiscard]] vpFitTest vpTestFit(const std::vector<vpFitTestView> &views, double level, bool stated);
 
 // The joint covariance of the shared and one view's own parameters.
-template <class State>
-[[nodiscard]] Eigen::MatrixXd vpJointCovariance(const vpBundleSolution<State> &solution, std::size_t k)
-{
-  const Eigen::Index s = solution.sharedCovariance.rows(), l = solution.localCovariance[k].rows();
-  Eigen::MatrixXd joint(s + l, s + l);
-  joint << solution.sharedCovariance, solution.crossCovariance[k], solution.crossCovariance[k].transpose(),
-      solution.localCovariance[k];
-  return joint;
-}
+[[nodiscard]] Eigen::MatrixXd vpJointCovariance(const vpBundleCovariance &solution, std::size_t k);
 
 // Input of vpTestFit(), at the solution. Problem: also sigma(k, i), the deviations of the residuals of a point, px.
 template <class Problem, class State>

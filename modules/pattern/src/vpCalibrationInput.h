@@ -39,6 +39,10 @@ struct vpCalibrationSpread {
 // Distribution of the image positions, likewise; sigma[2] is 0.
 [[nodiscard]] vpCalibrationSpread vpImageSpreadOf(const std::vector<vpCalibrationPoint> &points);
 
+// The null vector of the rows; false when there may be more than one: the second smallest singular value is at most leastGap
+// times the largest.
+[[nodiscard]] bool vpNullVector(const Eigen::MatrixXd &rows, double leastGap, Eigen::VectorXd &h);
+
 // A sentence of a message, with values as in printf.
 template <class... Values> [[nodiscard]] std::string vpSentence(const char *format, Values... values)
 {

@@ -198,6 +198,18 @@ void vpCheckCalibrationView(std::size_t view, const std::vector<vpCalibrationPoi
   }
 }
 
+bool vpNullVector(const Eigen::MatrixXd &rows, double leastGap, Eigen::VectorXd &h)
+{
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows, Eigen::ComputeFullV);
+  const Eigen::VectorXd &s = svd.singularValues();
+  const Eigen::Index last = rows.cols() - 1;
+  if (rows.rows() < last || !(s[last - 1] > leastGap * s[0])) {
+    return false;
+  }
+  h = svd.matrixV().col(last);
+  return true;
+}
+
 vpCalibrationSpread vpSpreadOf(const std::vector<vpCalibrationPoint> &points)
 {
   Eigen::Matrix<double, 3, Eigen::Dynamic> all(3, points.size());

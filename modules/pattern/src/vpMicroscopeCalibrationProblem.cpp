@@ -4,6 +4,8 @@
  */
 #include "vpMicroscopeCalibrationProblem.h"
 
+#include "vpCalibrationInput.h"
+
 #include <Eigen/Dense>
 
 #include <cmath>
@@ -31,12 +33,10 @@ bool alignRadially(const vpPlanarView &view, double unitD, double unitP, Affine 
     const Eigen::Vector2d d = view.d.col(i) / unitD, p = view.p.col(i) / unitP;
     rows.row(i) << d.y() * p.x(), d.y() * p.y(), d.y(), -d.x() * p.x(), -d.x() * p.y(), -d.x();
   }
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows, Eigen::ComputeFullV);
-  const Eigen::VectorXd &s = svd.singularValues();
-  if (!(s[4] > leastGap * s[0])) {
+  Eigen::VectorXd h;
+  if (!vpNullVector(rows, leastGap, h)) {
     return false;
   }
-  const Eigen::VectorXd h = svd.matrixV().col(5);
   result.A << h[0] / unitP, h[1] / unitP, h[3] / unitP, h[4] / unitP;
   result.t << h[2], h[5];
   return std::abs(result.A.determinant()) > 0.05 * result.A.squaredNorm(); // a similarity has 0.5

@@ -15,19 +15,6 @@ namespace
 {
 constexpr double leastGap = 1e-6; // of the two smallest singular values of the radial alignment, over the largest
 
-// The null vector of the rows; false when there is more than one.
-bool nullVector(const Eigen::MatrixXd &rows, Eigen::VectorXd &h)
-{
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows, Eigen::ComputeFullV);
-  const Eigen::VectorXd &s = svd.singularValues();
-  const Eigen::Index last = rows.cols() - 1;
-  if (rows.rows() < last || !(s[last - 1] > leastGap * s[0])) {
-    return false;
-  }
-  h = svd.matrixV().col(last);
-  return true;
-}
-
 Eigen::Matrix3d nearestRotation(const Eigen::Matrix3d &M)
 {
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(M, Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -123,7 +110,7 @@ std::vector<vpTsaiPose> vpAlignTsaiView(const vpTsaiView &view)
     rows.row(i) << d.y() * p.transpose(), d.y(), -d.x() * p.transpose(), -d.x();
   }
   Eigen::VectorXd h;
-  if (!nullVector(rows, h)) {
+  if (!vpNullVector(rows, leastGap, h)) {
     return {};
   }
   if (view.planar) {
