@@ -42,23 +42,30 @@ function(vispdirect_precompile target header)
   endif()
 endfunction()
 
-# vispdirect_add_tests([DEPENDS_ON module...] [SOURCES_EXCLUDE file...]): every test/*.cpp of the module is one Catch2 program
-# with the shared main of test/support. Benchmarks are never tests: see vispdirect_add_benchmarks.
+# vispdirect_add_tests([DEPENDS_ON library...] [ALONE test...]): every test/*.cpp of the module is a test of Catch2 with the shared
+# main of test/support. In a ViSP tree each is a program; standalone, see vispdirect_unite_tests. ALONE are tests with libraries,
+# options or macros of their own. Benchmarks are never tests: see vispdirect_add_benchmarks.
 macro(vispdirect_add_tests)
   if(BUILD_TESTS)
     vispdirect_test_support()
-    vp_add_tests(DEPENDS_ON vispdirect_test_support ${ARGN})
-    file(GLOB_RECURSE _vispdirect_tests CONFIGURE_DEPENDS "${CMAKE_CURRENT_LIST_DIR}/test/*.cpp")
-    foreach(_vispdirect_test ${_vispdirect_tests})
-      get_filename_component(_vispdirect_test ${_vispdirect_test} NAME_WE)
-      if(TARGET ${_vispdirect_test})
-        target_compile_features(${_vispdirect_test} PRIVATE cxx_std_17)
-        # See vpTestSupport::skip(): parts of a test skipped for lack of data must not count as passed.
-        set_tests_properties(${_vispdirect_test} PROPERTIES SKIP_RETURN_CODE 77)
-      endif()
-    endforeach()
-    unset(_vispdirect_tests)
-    unset(_vispdirect_test)
+    cmake_parse_arguments(vispdirect "" "" "DEPENDS_ON;ALONE" ${ARGN})
+    file(GLOB_RECURSE vispdirect_tests CONFIGURE_DEPENDS "${CMAKE_CURRENT_LIST_DIR}/test/*.cpp")
+    list(TRANSFORM vispdirect_tests REPLACE ".*/(.+)[.]cpp$" "\\1")
+    if(VISP_DIRECT_STANDALONE)
+      list(REMOVE_ITEM vispdirect_tests ${vispdirect_ALONE} "") # the latter because a list of nothing is an error
+      foreach(vispdirect_test ${vispdirect_ALONE})
+        vispdirect_add_test(${vispdirect_test} SOURCE "test/${vispdirect_test}.cpp" LINK ${the_module} ${vispdirect_DEPENDS_ON})
+      endforeach()
+      vispdirect_unite_tests(vispdirect_tests_${name} FOLDER test TESTS ${vispdirect_tests} LINK ${the_module} ${vispdirect_DEPENDS_ON})
+    else()
+      vp_add_tests(DEPENDS_ON vispdirect_test_support ${vispdirect_DEPENDS_ON})
+      foreach(vispdirect_test ${vispdirect_tests})
+        if(TARGET ${vispdirect_test})
+          target_compile_features(${vispdirect_test} PRIVATE cxx_std_17)
+          set_tests_properties(${vispdirect_test} PROPERTIES SKIP_RETURN_CODE 77)
+        endif()
+      endforeach()
+    endif()
   endif()
 endmacro()
 
@@ -101,15 +108,53 @@ endfunction()
 
 # vispdirect_add_test(TEST [SOURCES file...] LINK library...): TEST.cpp of this folder is a program of Catch2 with the shared main.
 function(vispdirect_add_test test)
-  vispdirect_test_support()
-  cmake_parse_arguments(PARSE_ARGV 1 test "" "" "SOURCES;LINK")
-  add_executable(${test} ${test}.cpp ${test_SOURCES})
-  target_link_libraries(${test} PRIVATE ${test_LINK} vispdirect_test_support)
-  if(TARGET vispdirect_test_pch)
-    target_precompile_headers(${test} REUSE_FROM vispdirect_test_pch)
+  cmake_parse_arguments(PARSE_ARGV 1 test "" "SOURCE" "SOURCES;LINK")
+  if(NOT test_SOURCE)
+    set(test_SOURCE ${test}.cpp)
   endif()
+  vispdirect_add_test_program(${test} SOURCES ${test_SOURCE} ${test_SOURCES} LINK ${test_LINK})
   add_test(NAME ${test} COMMAND ${test})
   set_tests_properties(${test} PROPERTIES SKIP_RETURN_CODE 77)
+endfunction()
+
+function(vispdirect_add_test_program program)
+  vispdirect_test_support()
+  cmake_parse_arguments(PARSE_ARGV 1 program "" "" "SOURCES;LINK")
+  add_executable(${program} ${program_SOURCES})
+  target_link_libraries(${program} PRIVATE ${program_LINK} vispdirect_test_support)
+  if(TARGET vispdirect_test_pch)
+    target_precompile_headers(${program} REUSE_FROM vispdirect_test_pch)
+  endif()
+endfunction()
+
+# vispdirect_unite_tests(PROGRAM [FOLDER folder] TESTS test... LINK library...): tests of a folder that need the same libraries become
+# one program, compiled a few at a time: half the processor time of a program for each. bin/TEST remains, a link to the program, which
+# runs the tests of the file whose name it is called by; so does the target TEST.
+function(vispdirect_unite_tests program)
+  cmake_parse_arguments(PARSE_ARGV 1 unite "" "FOLDER" "TESTS;LINK")
+  get_filename_component(folder "${unite_FOLDER}" ABSOLUTE BASE_DIR "${CMAKE_CURRENT_SOURCE_DIR}")
+  set(sources "")
+  set(tests "")
+  while(unite_TESTS)
+    list(LENGTH sources number)
+    list(SUBLIST unite_TESTS 0 5 some) # more take too much memory
+    list(REMOVE_ITEM unite_TESTS ${some})
+    list(APPEND tests ${some})
+    list(TRANSFORM some REPLACE "(.+)" "${folder}/\\1.cpp")
+    set(source "${CMAKE_CURRENT_BINARY_DIR}/${program}_${number}.cpp")
+    add_custom_command(OUTPUT "${source}" DEPENDS ${some} "${VISP_DIRECT_ROOT}/cmake/uniteTests.cmake" VERBATIM
+                       COMMAND ${CMAKE_COMMAND} "-DOUTPUT=${source}" "-DSOURCES=${some}" -P "${VISP_DIRECT_ROOT}/cmake/uniteTests.cmake")
+    list(APPEND sources "${source}")
+  endwhile()
+  vispdirect_add_test_program(${program} SOURCES ${sources} LINK ${unite_LINK})
+  target_include_directories(${program} PRIVATE "${folder}")
+  foreach(test ${tests})
+    add_custom_command(TARGET ${program} POST_BUILD COMMAND ${CMAKE_COMMAND} -E create_symlink
+                       "$<TARGET_FILE_NAME:${program}>" "$<TARGET_FILE_DIR:${program}>/${test}")
+    add_custom_target(${test} DEPENDS ${program})
+    add_test(NAME ${test} COMMAND "$<TARGET_FILE_DIR:${program}>/${test}")
+    set_tests_properties(${test} PROPERTIES SKIP_RETURN_CODE 77)
+  endforeach()
 endfunction()
 
 # vispdirect_add_benchmarks([libraries]): every benchmark/*.cpp of the module is one Google Benchmark program.
