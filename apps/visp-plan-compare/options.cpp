@@ -50,7 +50,9 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   line.whole("--seed", options.firstSeed, {1, 100000}, "S", "The first seed");
   line.flag("--quick", options.quick, "A few seeds of each scene: some seconds");
   line.number("--friction", options.friction, {0., 10.}, "F",
-              "Drives by torques against this share of the arm's friction; 0: ideal drives");
+              "Drives by torques against this share of the arm's friction, not compensated; 0: ideal drives");
+  line.flag("--compensate-friction", options.compensateFriction,
+            "With --friction: the control of the drives adds the friction of the arm's file");
   line.text("--out", options.out, "DIR", "Result folder");
   line.whole("--jobs", options.jobs, {1, 256}, "N", "Runs at a time (default: one for each core)");
   line.flag("--list", options.list, "Name the scenes and methods, a sentence each, and end");
@@ -61,6 +63,9 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   }
   if (options.quick && line.isGiven("--seeds")) {
     throw vpApp::UsageError("--quick has its own number of seeds, it cannot be combined with --seeds");
+  }
+  if (options.compensateFriction && !(options.friction > 0.)) {
+    throw vpApp::UsageError("--compensate-friction is for drives with friction, --friction is 0");
   }
   return true;
 }

@@ -24,7 +24,8 @@ struct Options {
   unsigned int firstSeed = 1;
   bool quick = false; //!< A few seeds.
   vpApp::RobotOptions robot;
-  double friction = 0.; //!< Joint friction relative to the arm's file; 0: ideal drives.
+  double friction = 0.;            //!< Joint friction relative to the arm's file; 0: ideal drives.
+  bool compensateFriction = false; //!< The drives' control adds the friction of the arm's file.
   std::string out = "out/plan-compare";
   unsigned int jobs = 0; //!< Runs at a time; 0: one for each core.
   bool list = false;

@@ -120,12 +120,13 @@ public:
     problem.variant = variant;
     problem.seed = seed;
     problem.shown = m_plan->problems.empty() || m_plan->problems.back().scene != scene.id;
-    problem.make = [make, seed, arm = m_plan->arm, friction = m_options->friction] {
+    problem.make = [make, seed, arm = m_plan->arm, friction = m_options->friction,
+                    compensate = m_options->compensateFriction] {
       vpAvoidanceScenario scenario = make(arm, seed);
       if (friction > 0.) {
         scenario.run.drives.ideal = false;
         scenario.run.drives.frictionScale = friction;
-        scenario.run.drives.compensateFriction = true;
+        scenario.run.drives.compensateFriction = compensate;
         scenario.run.goalTolerance = 0.01; // PD drives alone do not reach 1 mm
       }
       return scenario;

@@ -124,6 +124,20 @@ TEST_CASE("Sentences follow the numbers", "[findings]")
   CHECK(verdictOf(plan, results, "planner-dtg").find("Good for none of these scenes") == 0);
 }
 
+TEST_CASE("Drives are ideal, or have friction that is compensated on demand only", "[plan]")
+{
+  Options options;
+  options.scenes = {"S4a"};
+  const auto drives = [&options] { return makePlan(options).problems.at(0).make().run.drives; };
+  CHECK(drives().ideal);
+  options.friction = 0.5;
+  CHECK_FALSE(drives().ideal);
+  CHECK(drives().frictionScale == 0.5);
+  CHECK_FALSE(drives().compensateFriction);
+  options.compensateFriction = true;
+  CHECK(drives().compensateFriction);
+}
+
 TEST_CASE("The log is as OMPL's own reader wants it", "[arena]")
 {
   Plan plan;

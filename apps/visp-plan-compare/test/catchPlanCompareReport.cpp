@@ -38,6 +38,7 @@ TEST_CASE("Wrong options end with a sentence that names them", "[visp-plan-compa
   says("--jobs -1", 2, "--jobs is -1, must be a whole number");
   says("--quick --seeds 3", 2, "--quick has its own number of seeds");
   says("--friction -1", 2, "--friction is -1, must be a number >= 0 and <= 10");
+  says("--compensate-friction", 2, "--compensate-friction is for drives with friction, --friction is 0");
   says("--out ''", 2, "--out is given without a value");
   says("--bogus", 2, "--bogus");
   says("--scene missing.json", 1, "missing.json");
