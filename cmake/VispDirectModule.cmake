@@ -175,6 +175,32 @@ macro(vispdirect_add_benchmarks)
   endif()
 endmacro()
 
+# vispdirect_benchmark_peer(BENCHMARK NAME SOURCE FILE...): adds to a benchmark the peer that no Debian package has, where
+# VISP_DIRECT_PEER_<NAME> is a folder with its source (include/ and the FILEs, which may be patterns). benchmark/peer/SOURCE
+# registers what is measured. Peers may need C++20.
+function(vispdirect_benchmark_peer benchmark name source)
+  if(NOT TARGET ${benchmark})
+    return()
+  endif()
+  set(VISP_DIRECT_PEER_${name} "" CACHE PATH "Folder with the source of ${name}, measured by ${benchmark}")
+  set(folder "${VISP_DIRECT_PEER_${name}}")
+  if(NOT folder)
+    return()
+  endif()
+  list(TRANSFORM ARGN PREPEND "${folder}/")
+  file(GLOB files ${ARGN})
+  list(FILTER files EXCLUDE REGEX "cloud_client")
+  if(NOT files)
+    message(FATAL_ERROR "VISP_DIRECT_PEER_${name} is ${folder}, which has none of ${ARGN}")
+  endif()
+  add_library(${benchmark}_peer OBJECT "${CMAKE_CURRENT_LIST_DIR}/benchmark/peer/${source}" ${files})
+  target_compile_features(${benchmark}_peer PRIVATE cxx_std_20)
+  target_include_directories(${benchmark}_peer SYSTEM PRIVATE "${folder}/include")
+  get_target_property(libraries ${benchmark} LINK_LIBRARIES)
+  target_link_libraries(${benchmark}_peer PRIVATE ${libraries})
+  target_sources(${benchmark} PRIVATE $<TARGET_OBJECTS:${benchmark}_peer>)
+endfunction()
+
 # Sets VISP_INCLUDE_DIRS for programs, which unlike modules get no include folders from vp_create_module. In a ViSP tree
 # the targets have none and ViSP's build tree config provides them; standalone the root has found ViSP, once.
 macro(vispdirect_find_visp)

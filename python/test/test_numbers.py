@@ -56,6 +56,37 @@ def test_rounding_is_that_of_the_page_and_times_have_a_ratio(compare):
     assert compare("0.9 us", loose)[0] == 1 and compare("0.13 us", loose)[0] == 1
 
 
+def test_numbers_of_every_form(compare):
+    for page, said, ok in [
+        ("2.1e-15", "2.14e-15", True),
+        ("2.1e-15", "2.2e-15", False),
+        ("102,402", "102402", True),
+        ("102,402", "102403", False),
+        ("-3e4", "-29999", True),
+    ]:
+        status, out = compare(f"at {page} m", claim("at {x} m", f"d={said}", {"x": r"re: d=(\S+)"}))
+        assert status == (0 if ok else 1), (page, said, out)
+    bound = {**claim("below {x} um", "d=3.1e-8", {"x": r"re: d=(\S+)"}), "scale": {"x": 1e6}}
+    assert compare("below 0.03 um", bound)[0] == 0 and compare("below 0.05 um", bound)[0] == 1
+    assert compare("below 0.05 um", {**bound, "at_most": ["x"]})[0] == 0
+    assert compare("below 0.02 um", {**bound, "at_most": ["x"]})[0] == 1
+
+
+def test_benchmarks_by_name(compare):
+    runs = [{"name": "a, 2 rows/iterations:5", "cpu_time": 1500.0, "p50": 3}, {"name": "a", "cpu_time": 1}]
+    c = {"text": "{t} us, {p}", "command": f"say OUT '{json.dumps({'benchmarks': runs}, indent=1)}' '' 0", "scale": {"t": 1e-3}}
+    c["from"] = {"t": "bench: a, 2 rows: cpu_time", "p": "bench: a, 2 rows: p50"}
+    assert compare("1.5 us, 3", c)[0] == 0
+    assert compare("1.4 us, 3", c)[0] == 1
+    assert "0 benchmarks have the name b" in compare("1.5 us, 3", {**c, "from": {"t": "bench: b: p50", "p": "bench: a: cpu_time"}})[1]
+
+
+def test_update_writes_what_is_measured(compare, tmp_path):
+    c = claim("{x} and {n} of {m}", "0.349 12345 7", {"x": r"re: ([\d.]+)", "n": r"re: \d (\d{5})", "m": r"re: (\d)$"})
+    assert compare("It is 0.31 and 1,234 of 7.", c, options=["--update"])[0] == 1
+    assert (tmp_path / "page.md").read_text() == "It is 0.35 and 12,345 of 7."
+
+
 def test_json_lists_loops_and_long_commands(compare):
     summary = {"runs": [{"law": "a", "plant": "A", "deg": 2}, {"law": "b", "plant": "A", "deg": 3}]}
     c = claim("| $ | {x} |", "", {"x": "summary.json runs law=$,plant=A deg"}, summary=summary, **{"for": ["a", "b"]})

@@ -7,8 +7,11 @@ A claim of claims.json:
   text       words of the page with {names} in place of numbers; spaces stand for any white space
   command    of build/release/bin, OUT is a result folder
   from       by name: "summary.json runs law=pbvs1,plant=D end_rotation_deg" (a path in a JSON file of OUT; name=value chooses in a
-             list), or "re: ..." (first group of a regular expression on the output)
+             list), "re: ..." (first group of a regular expression on the output), or "bench: NAME: COUNTER" (of Google Benchmark;
+             cpu_time is in the unit of the benchmark)
   factor     by name: the tolerance as a ratio, for times; without it the number must round to what the page says
+  at_most    names of bounds, which the measured number may stay below
+  scale      by name: what the measured number is multiplied by, for other units
   for        values of $ for which the claim stands, each by itself
   long       takes minutes
 """
@@ -23,7 +26,7 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-NUMBER = r"(-?\d+(?:\.\d+)?)"
+NUMBER = r"(-?(?:\d{1,3}(?:,\d{3})+|\d+)(?:\.\d+)?(?:e-?\d+)?)"
 
 
 class Stale(Exception):
@@ -43,12 +46,35 @@ def pattern_of(text):
     return parts[1::2], words[0] + "".join(NUMBER + word for word in words[1:])
 
 
-def printed_in(page, text):
+def found_in(page, text):
+    """Where the page has the numbers of the template: (start, end) by name."""
     names, pattern = pattern_of(text)
     found = re.search(pattern, page)
     if not found:
         raise Stale(f'the page does not say "{text}"')
-    return dict(zip(names, found.groups()))
+    return {name: found.span(i + 1) for i, name in enumerate(names)}
+
+
+def printed_in(page, text):
+    return {name: page[begin:end] for name, (begin, end) in found_in(page, text).items()}
+
+
+def like(printed, measured):
+    """The measured number with the digits of the printed one."""
+    mantissa, e, _ = printed.partition("e")
+    decimals = len(mantissa.partition(".")[2])
+    if e:
+        mantissa, _, exponent = f"{measured:.{decimals}e}".partition("e")
+        return f"{mantissa}e{int(exponent)}"
+    return f"{measured:,.{decimals}f}" if "," in printed else f"{measured:.{decimals}f}"
+
+
+def rewrite(page, text, stale):
+    """The page with other numbers; stale: measured ones by name."""
+    for name, (begin, end) in sorted(found_in(page, text).items(), key=lambda item: -item[1][0]):
+        if name in stale:
+            page = page[:begin] + like(page[begin:end], stale[name]) + page[end:]
+    return page
 
 
 def chosen(value, step):
@@ -69,6 +95,13 @@ def measured_in(source, output, out):
         if not found:
             raise Stale(f"the command does not print {source[3:].strip()}")
         return float(found.group(1))
+    if source.startswith("bench:"):
+        name, counter = (part.strip() for part in source[6:].rsplit(":", 1))
+        runs = json.loads(output[output.index("{\n") : output.rindex("}") + 1])["benchmarks"]
+        runs = [run for run in runs if re.sub("/(iterations:.*|process_time|real_time)$", "", run["name"]) == name]
+        if len(runs) != 1:
+            raise Stale(f"{len(runs)} benchmarks have the name {name}")
+        return float(chosen(runs[0], counter))
     file, *steps = source.split(" ")
     value = json.loads((out / file).read_text(encoding="utf-8"))
     for step in steps:
@@ -76,13 +109,14 @@ def measured_in(source, output, out):
     return float(value)
 
 
-def fits(printed, measured, factor):
-    """Within the factor; without one, whether the measured number rounds to the printed one."""
-    value = float(printed)
+def fits(printed, measured, factor, at_most=False):
+    """Within the factor; without one, whether the measured number rounds to the printed one, or stays below it."""
+    mantissa, _, exponent = printed.replace(",", "").partition("e")
+    value = float(printed.replace(",", ""))
     if factor:
         return value / factor <= measured <= value * factor
-    decimals = len(printed.partition(".")[2])
-    return abs(measured - value) <= 0.5 * 10.0**-decimals * (1 + 1e-9)
+    half = 0.5 * 10.0 ** (int(exponent or 0) - len(mantissa.partition(".")[2])) * (1 + 1e-9)
+    return measured <= value + half and (at_most or measured >= value - half)
 
 
 class Runner:
@@ -111,20 +145,22 @@ class Runner:
             )
             if ran.returncode != 0:
                 raise Stale(f"{command} ended with status {ran.returncode}: {ran.stderr.strip()[-200:]}")
-            self.done[command] = (ran.stdout + ran.stderr, out)
+            self.done[command] = (ran.stdout if "--benchmark_format" in command else ran.stdout + ran.stderr, out)
         return self.done[command]
 
 
 def check(claim, runner):
-    """One line for each number, stale ones first; raises Stale where nothing can be compared."""
+    """A line for each number, and the stale ones by name; raises Stale where nothing can be compared."""
     printed = printed_in((ROOT / claim["page"]).read_text(encoding="utf-8"), claim["text"])
-    output, out = runner.run(claim["command"])
-    lines, stale = [], 0
+    benchmark = any(source.startswith("bench:") for source in claim["from"].values())
+    output, out = runner.run(claim["command"] + (" --benchmark_format=json" if benchmark else ""))
+    lines, stale = [], {}
     for name, source in claim["from"].items():
-        measured = measured_in(source, output, out)
+        measured = measured_in(source, output, out) * claim.get("scale", {}).get(name, 1.0)
         factor = claim.get("factor", {}).get(name)
-        good = fits(printed[name], measured, factor)
-        stale += not good
+        good = fits(printed[name], measured, factor, name in claim.get("at_most", []))
+        if not good:
+            stale[name] = measured
         lines.append(f"{'ok   ' if good else 'STALE'} {claim['page']}: {name} {printed[name]}, now {measured:.4g}" + (f" (within {factor:g} times)" if factor else ""))
     return lines, stale
 
@@ -134,6 +170,7 @@ def main(arguments):
     parser.add_argument("--page", help="only claims of this page")
     parser.add_argument("--long", action="store_true", help="also commands that take minutes")
     parser.add_argument("--list", action="store_true", help="say which commands would run; only look whether the pages have the words")
+    parser.add_argument("--update", action="store_true", help="write what is measured now into the pages, where they are stale")
     parser.add_argument("--claims", default=ROOT / "scripts/numbers/claims.json")
     parser.add_argument("--bin", default=ROOT / "build/release/bin", type=pathlib.Path)
     options = parser.parse_args(arguments)
@@ -150,7 +187,11 @@ def main(arguments):
                     continue
                 if claim.get("long") and not options.long:
                     continue
-                lines, bad = check(claim, runner)
+                lines, measured = check(claim, runner)
+                bad = len(measured)
+                if options.update and measured:
+                    page = ROOT / claim["page"]
+                    page.write_text(rewrite(page.read_text(encoding="utf-8"), claim["text"], measured), encoding="utf-8")
             except Stale as reason:
                 lines, bad = [f"STALE {claim['page']}: {claim['text'][:60]}: {reason}"], 1
             compared, stale = compared + len(lines), stale + bad

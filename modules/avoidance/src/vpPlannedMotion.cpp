@@ -18,9 +18,10 @@ BEGIN_VISP_NAMESPACE
 namespace
 {
 constexpr vpFieldCheck fields("the planned motion");
-constexpr double ending = 0.5;  // s: the last part of a motion is not changed, to keep its smooth end
-constexpr double quicker = 0.9; // of the remaining time: faster new motions replace it
-constexpr double slack = 1e-4;  // m: reduction of the margin when proving the rest of a motion again
+constexpr double ending = 0.5;       // s: the last part of a motion is not changed, to keep its smooth end
+constexpr double quicker = 0.9;      // of the remaining time: faster new motions replace it
+constexpr double slack = 1e-4;       // m: reduction of the margin when proving the rest of a motion again
+constexpr std::size_t mostPlans = 6; // stops after which a path is looked for, in one look
 
 vpPathPlannerSpec plannerSpec(const vpPlannedMotionSpec &spec, double clearance)
 {
@@ -352,32 +353,57 @@ void vpPlannedMotion::hasten()
 // A free stop, and a free path after it.
 bool vpPlannedMotion::stopAndPlan()
 {
-  for (const vpTrajectoryPlan &stop : stops()) {
-    const double duration = stop.duration();
-    if (!m_now.check(stop, 0., duration).isFree()) {
-      continue;
-    }
+  const std::vector<Stop> stops = freeStops();
+  for (std::size_t i = 0; i < std::min(stops.size(), mostPlans); ++i) {
+    const double duration = stops[i].plan.duration();
     const int n = m_scene->arm().size();
     State rest{vpJointVector(n), vpJointVector::Zero(n), vpJointVector::Zero(n)};
     for (int j = 0; j < n; ++j) {
-      rest.q(j) = stop.at(j, duration)[0];
+      rest.q(j) = stops[i].plan.at(j, duration)[0];
     }
     const vpPathResult found = findPath(rest.q, duration);
     if (found.status != vpPathStatus::Solved) {
       continue;
     }
     if (auto parts = timed(found.path, rest, duration, 1.)) {
-      parts->insert(parts->begin(), {0., stop});
+      parts->insert(parts->begin(), {0., stops[i].plan});
       follow(std::move(*parts), true, vpAvoidanceStatus::Detouring);
-      m_stopping = duration;
+      m_stopping = stops[i].isHard ? duration : 0.;
       return true;
     }
   }
   return false;
 }
 
-// Stops straight on, and at the next points of the motion: all joints at rest there as soon as possible.
-std::vector<vpTrajectoryPlan> vpPlannedMotion::stops() const
+// Stops that are proven free: first those in which the end effector keeps its bounds, along the motion and straight on, the
+// shorter ones first; then the stops within the joint limits alone.
+std::vector<vpPlannedMotion::Stop> vpPlannedMotion::freeStops()
+{
+  const vpArmModel &arm = m_scene->arm();
+  const State here = state(m_clock);
+  std::vector<Stop> result;
+  vpJointPath way;
+  way.points = {here.q, here.q};
+  const auto tryStop = [&](const vpJointVector &end) {
+    way.points[1] = end.cwiseMax(arm.lower()).cwiseMin(arm.upper());
+    if (const auto parts = timed(way, here, 0., 1.)) {
+      result.push_back({parts->front().plan, false});
+    }
+  };
+  for (const double ahead : {0.15, 0.25, 0.4, 0.6, 0.9, 1.3}) {
+    tryStop(state(m_clock + ahead).q);
+    tryStop(here.q + 0.5 * ahead * here.v);
+  }
+  for (const vpTrajectoryPlan &plan : hardStops()) {
+    if (m_now.check(plan).isFree()) {
+      result.push_back({plan, true});
+    }
+  }
+  return result;
+}
+
+// Straight on, and at the next points of the motion: all joints at rest there as soon as possible.
+std::vector<vpTrajectoryPlan> vpPlannedMotion::hardStops() const
 {
   const vpArmModel &arm = m_scene->arm();
   const State here = state(m_clock);
@@ -411,15 +437,13 @@ void vpPlannedMotion::brake()
   if (isAtRest()) {
     return;
   }
-  std::vector<vpTrajectoryPlan> plans = stops();
-  const auto free = std::find_if(plans.begin(), plans.end(),
-                                 [&](const vpTrajectoryPlan &plan) { return m_now.check(plan).isFree(); });
-  const bool safe = free != plans.end();
-  const vpTrajectoryPlan &stop = safe ? *free : plans.front();
+  const std::vector<Stop> stops = freeStops();
+  const bool safe = !stops.empty();
+  const Stop stop = safe ? stops.front() : Stop{hardStops().front(), true};
   const vpClearance pair = m_pair;
-  follow({{0., stop}}, false, safe ? vpAvoidanceStatus::Waiting : vpAvoidanceStatus::Unsafe);
+  follow({{0., stop.plan}}, false, safe ? vpAvoidanceStatus::Waiting : vpAvoidanceStatus::Unsafe);
   m_pair = pair;
-  m_stopping = m_duration;
+  m_stopping = stop.isHard ? m_duration : 0.;
 }
 
 void vpPlannedMotion::step(const vpJointVector &q, vpAvoidanceOutput &output) noexcept

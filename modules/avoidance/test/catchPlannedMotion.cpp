@@ -21,8 +21,38 @@ constexpr double period = 0.005;
 
 //! Result of a motion in which a ball appeared on the remaining path.
 struct Outcome {
-  bool appeared = false, arrived = false, stood = false, unsafe = false;
-  double time = 0., least = 1.;
+  bool appeared = false, arrived = false, stood = false, unsafe = false, hard = false; // hard: beyond the tool's bounds
+  double time = 0., least = 1., velocity = 0., acceleration = 0.; // of the tool, largest while it keeps its bounds
+};
+
+//! Differences of the commanded tool positions.
+class ToolMotion
+{
+public:
+  explicit ToolMotion(const vpJointVector &q) : m_p(at(q)) {}
+
+  void step(const vpJointVector &q, bool stopping, Outcome &outcome)
+  {
+    const Eigen::Vector3d p = at(q), v = (p - m_p) / period;
+    if (!stopping && !m_stopping) {
+      outcome.velocity = std::max(outcome.velocity, v.norm());
+      outcome.acceleration = std::max(outcome.acceleration, (v - m_v).norm() / period);
+    }
+    outcome.hard = outcome.hard || stopping;
+    m_p = p;
+    m_v = v;
+    m_stopping = stopping;
+  }
+
+private:
+  static Eigen::Vector3d at(const vpJointVector &q)
+  {
+    vpArmData data;
+    vpArmKinematics::forward(amor(), q, data);
+    return data.tool.p;
+  }
+  Eigen::Vector3d m_p, m_v = Eigen::Vector3d::Zero();
+  bool m_stopping = false;
 };
 
 Outcome withSurprise(vpReplanning replanning, std::uint64_t problem)
@@ -45,6 +75,7 @@ Outcome withSurprise(vpReplanning replanning, std::uint64_t problem)
   const double share = uniform(rng, 0.2, 0.4), soon = 0.35;
   vpAvoidanceOutput output;
   vpJointVector q = start;
+  ToolMotion tool(start);
   vpCollisionSceneSpec objects;
   for (int k = 0; k < 16000 && !result.arrived; ++k) {
     if (!result.appeared && method.clock() > share * method.duration()) {
@@ -73,6 +104,7 @@ Outcome withSurprise(vpReplanning replanning, std::uint64_t problem)
     }
     method.step(q, output);
     q += period * output.velocity;
+    tool.step(q, output.stopping, result);
     result.time += period;
     result.arrived = output.status == vpAvoidanceStatus::Arrived;
     result.unsafe = result.unsafe || output.status == vpAvoidanceStatus::Unsafe;
@@ -88,7 +120,7 @@ Outcome withSurprise(vpReplanning replanning, std::uint64_t problem)
 TEST_CASE("Something appears on the way: both ways of replanning keep clear; on the fly is sooner there", "[planned]")
 {
   CAPTURE(vpTestSupport::seed());
-  int cases = 0, arrivedFromRest = 0, arrivedOnTheFly = 0, stoodFromRest = 0, stoodOnTheFly = 0;
+  int cases = 0, arrivedFromRest = 0, arrivedOnTheFly = 0, stoodFromRest = 0, stoodOnTheFly = 0, hard = 0;
   double timeFromRest = 0., timeOnTheFly = 0.;
   for (std::uint64_t problem = 0; problem < 20; ++problem) {
     const Outcome rest = withSurprise(vpReplanning::FromRest, problem);
@@ -101,6 +133,9 @@ TEST_CASE("Something appears on the way: both ways of replanning keep clear; on 
     for (const Outcome &outcome : {rest, fly}) {
       CHECK_FALSE(outcome.unsafe);
       CHECK(outcome.least > 0.0095);
+      CHECK(outcome.velocity <= 1.001 * vpAvoidanceMethodSpec().maxVelocity);
+      CHECK(outcome.acceleration <= 1.01 * vpAvoidanceMethodSpec().maxAcceleration);
+      hard += outcome.hard ? 1 : 0;
     }
     arrivedFromRest += rest.arrived ? 1 : 0;
     arrivedOnTheFly += fly.arrived ? 1 : 0;
@@ -110,12 +145,14 @@ TEST_CASE("Something appears on the way: both ways of replanning keep clear; on 
     timeOnTheFly += fly.time;
   }
   std::cout << cases << " surprises: from rest " << stoodFromRest << " stand, " << timeFromRest / cases
-            << " s; on the fly " << stoodOnTheFly << " stand, " << timeOnTheFly / cases << " s\n";
+            << " s; on the fly " << stoodOnTheFly << " stand, " << timeOnTheFly / cases << " s; " << hard
+            << " stops beyond the bounds of the tool\n";
   REQUIRE(cases > 8);
   CHECK(arrivedFromRest >= cases - 1); // within 80 s: a detour has no bound
   CHECK(arrivedOnTheFly >= cases - 1);
   CHECK(stoodOnTheFly < stoodFromRest);
   CHECK(timeOnTheFly < timeFromRest);
+  CHECK(hard <= cases / 4); // what appears is a third of the motion ahead: there is room to stop within the bounds
 }
 
 TEST_CASE("What is driven is what was proven: the same motion, state by state", "[planned]")

@@ -6,6 +6,7 @@
 // vpQuadProg.
 
 #include "vpBenchmark.h"
+#include "vpProjectionProblem.h"
 
 #include <visp3/core/vpQuadProg.h>
 #include <visp3/feedforward/vpFeedforwardTask.h>
@@ -116,59 +117,37 @@ void vpServoIbvs(benchmark::State &state)
   task.kill();
 }
 
-// 16 random rows, feasible at zero, about half of them violated by the start: more work than the filter usually has.
-struct Projection {
-  Eigen::Matrix<double, 16, 6> A;
-  Eigen::Matrix<double, 16, 1> b;
-  vpTwistProjection::Vector start;
-
-  Projection()
-  {
-    std::mt19937_64 rng(11);
-    std::normal_distribution<double> gauss;
-    for (int i = 0; i < 16; ++i) {
-      for (int k = 0; k < 6; ++k) {
-        A(i, k) = gauss(rng);
-      }
-      b[i] = -std::abs(gauss(rng)) * 0.2;
-    }
-    for (int k = 0; k < 6; ++k) {
-      start[k] = gauss(rng);
-    }
-  }
-};
-
 void projection16Rows(benchmark::State &state)
 {
-  const Projection problem;
   vpTwistProjection qp;
+  std::size_t i = 0;
   for (auto _ : state) {
-    qp.clear();
-    bool added = true;
-    for (int i = 0; i < 16; ++i) {
-      added = qp.addRow(problem.A.row(i).transpose(), problem.b[i]) && added;
-    }
-    benchmark::DoNotOptimize(added);
-    benchmark::DoNotOptimize(qp.solve(problem.start));
+    benchmark::DoNotOptimize(vpProjectionProblem::all()[i++ % vpProjectionProblem::all().size()].solve(qp));
   }
-  state.SetLabel("active rows: " + std::to_string(qp.activeCount()));
+  double active = 0.;
+  for (const vpProjectionProblem &problem : vpProjectionProblem::all()) {
+    static_cast<void>(problem.solve(qp));
+    active += qp.activeCount();
+  }
+  state.counters["active"] = active / static_cast<double>(vpProjectionProblem::all().size());
 }
 
 void vpQuadProg16Rows(benchmark::State &state)
 {
-  const Projection problem;
   vpMatrix Q(6, 6), C(16, 6);
   vpColVector r(6), d(16), x(6);
   Q.eye();
-  for (unsigned int i = 0; i < 16; ++i) {
-    for (unsigned int k = 0; k < 6; ++k) {
-      C[i][k] = -problem.A(i, k);
-      r[k] = problem.start[k];
-    }
-    d[i] = -problem.b[i];
-  }
+  std::size_t next = 0;
   for (auto _ : state) {
-    vpQuadProg qp; // fresh, so that no active set of the same problem helps
+    const vpProjectionProblem &problem = vpProjectionProblem::all()[next++ % vpProjectionProblem::all().size()];
+    for (unsigned int i = 0; i < 16; ++i) {
+      for (unsigned int k = 0; k < 6; ++k) {
+        C[i][k] = -problem.A(i, k);
+        r[k] = problem.start[k];
+      }
+      d[i] = -problem.b[i];
+    }
+    vpQuadProg qp; // fresh, so that no active set of the last problem is taken
     benchmark::DoNotOptimize(qp.solveQPi(Q, r, C, d, x));
   }
 }

@@ -52,7 +52,8 @@ struct VISP_EXPORT vpPlannedMotionSpec {
  * status is Unsafe.
  *
  * Joints keep their limits, and the end effector the bounds of vpAvoidanceMethodSpec: motions that would not are
- * slowed. Stops keep the joint limits only.
+ * slowed, stops are longer. Only where no stop within these bounds is proven free is there one within the joint limits
+ * alone, with vpAvoidanceOutput::stopping.
  */
 class VISP_EXPORT vpPlannedMotion : public vpAvoidanceMethod
 {
@@ -85,6 +86,10 @@ private:
     vpJointVector q, v, a;
   };
   using Parts = std::vector<vpTimedPath::Part>;
+  struct Stop {
+    vpTrajectoryPlan plan;
+    bool isHard; // within the joint limits alone
+  };
 
   [[nodiscard]] State state(double t) const;
   [[nodiscard]] bool isAtRest() const noexcept { return m_clock >= m_duration; }
@@ -98,7 +103,8 @@ private:
   void hasten();
   [[nodiscard]] bool stopAndPlan();
   void brake();
-  [[nodiscard]] std::vector<vpTrajectoryPlan> stops() const;
+  [[nodiscard]] std::vector<Stop> freeStops();
+  [[nodiscard]] std::vector<vpTrajectoryPlan> hardStops() const;
   void follow(Parts parts, bool toGoal, vpAvoidanceStatus status);
 
   const vpCollisionScene *m_scene;
