@@ -1,5 +1,5 @@
 # The documentation: target `doc`, into doc/html of the build folder, and the test `documentation`, which builds it and fails
-# on any warning, any class without a group and any dead link.
+# on any warning and any class without a group. Links are the matter of the test `pages`.
 find_package(Doxygen QUIET)
 find_program(VISP_DIRECT_BIBTEX bibtex)
 mark_as_advanced(VISP_DIRECT_BIBTEX)

@@ -59,6 +59,7 @@ sanitizers)
 documentation)
   install_packages "${packages[@]}" "${test_packages[@]}"
   build_tree doc
+  python3 test/pages/checkPages.py # without commands, which need the programs: they are checked by `tests`
   ;;
 packages)
   install_packages "${packages[@]}" "${test_packages[@]}" pkg-config
