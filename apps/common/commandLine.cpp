@@ -20,29 +20,76 @@ namespace vpApp
 {
 namespace
 {
-constexpr std::size_t NAME_COLUMN = 30; // width, characters
-constexpr std::size_t HELP_COLUMN = 90; // width, characters
+constexpr std::size_t NAME_COLUMN = 30; // where the sentences of options begin
+constexpr std::size_t HELP_COLUMNS = 80; // width of the help
 
-//! Breaks the sentence of an option into aligned lines.
+//! The words in lines of at most width characters, between them what separates lines. A longer word has a line of its own.
+std::string wrapped(const std::string &text, std::size_t width, const std::string &separator)
+{
+  std::string lines;
+  std::size_t column = 0;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    const bool fits = column + 1 + word.size() <= width;
+    lines += (column == 0 ? "" : fits ? " " : separator) + word;
+    column = (column > 0 && fits ? column + 1 : 0) + word.size();
+  }
+  return lines;
+}
+
+/*!
+ * The text above and below the options, its paragraphs wrapped. A line that begins with two blanks is a command; where it is too long it
+ * goes on after a backslash, so that it can be copied. Lines that begin with more blanks say what the command does.
+ */
+std::string wrappedText(const std::string &text)
+{
+  std::string all, paragraph;
+  std::size_t indent = 0;
+  const auto end = [&all, &paragraph, &indent] {
+    if (!paragraph.empty()) {
+      const std::string blanks(indent, ' ');
+      all += blanks + (indent == 2 ? wrapped(paragraph, HELP_COLUMNS - 6, " \\\n    ")
+                                   : wrapped(paragraph, HELP_COLUMNS - indent, "\n" + blanks)) +
+             "\n";
+      paragraph.clear();
+    }
+  };
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t begin = line.find_first_not_of(' ');
+    if (begin != indent || indent == 2) {
+      end();
+    }
+    if (begin == std::string::npos) {
+      all += '\n';
+      continue;
+    }
+    indent = begin;
+    paragraph += line + ' ';
+  }
+  end();
+  return all;
+}
+
+//! Wraps all text at the same width.
 class HelpFormatter : public CLI::Formatter
 {
 public:
-  HelpFormatter() { column_width(NAME_COLUMN); }
+  HelpFormatter()
+  {
+    column_width(NAME_COLUMN);
+    label("Positionals", "Arguments");
+  }
+  std::string make_description(const CLI::App *app) const override
+  {
+    return wrappedText(app->get_description()) + "\n";
+  }
   std::string make_option_desc(const CLI::Option *option) const override
   {
-    std::string lines;
-    std::size_t column = 0;
-    std::istringstream words(withDataPaths(option->get_description()));
-    for (std::string word; words >> word;) {
-      if (column > 0 && column + 1 + word.size() > HELP_COLUMN) {
-        lines += '\n'; // CLI11 indents what follows
-        column = 0;
-      }
-      lines += (column > 0 ? " " : "") + word;
-      column += (column > 0 ? 1 : 0) + word.size();
-    }
-    return lines;
+    // CLI11 indents what follows a line end.
+    return wrapped(withDataPaths(option->get_description()), HELP_COLUMNS - NAME_COLUMN, "\n");
   }
+  std::string make_footer(const CLI::App *app) const override { return wrappedText(app->get_footer()); }
 };
 
 [[noreturn]] void refuse(const std::string &option, const std::string &text, const std::string &wanted)

@@ -38,6 +38,7 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   };
   line.text("FILE", options.robot.robot, " ", "The robot: a .urdf or .json file, see data/robot/README.md, or amor");
   vpApp::addRobotOptions(line, options.robot, "");
+  line.group("Questions and results");
   line.flag("--json", options.json, "Print JSON on standard output");
   line.text("--out", options.out, "DIR", "Result folder for the same as JSON, and a report with the robot in 3D");
   numbers("--fk", options.fk, "Tell the pose of the tool in the base at this configuration, rad or m");

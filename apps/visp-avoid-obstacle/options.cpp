@@ -74,12 +74,14 @@ void requireNoneOfScene(const vpApp::CommandLine &line)
 
 void addOptions(vpApp::CommandLine &line, Options &options)
 {
+  line.group("Task");
   vpApp::addPluginOption(line, "avoidance methods and path planners");
   line.text("--method", options.method, "NAME",
             "How to avoid: " + vpApp::enumerate(vpAvoidanceMethodNames()) +
                 " (default: dtg-via, planner-dtg for another arm)");
   line.text("--scene", options.scene, "FILE.json", "Obstacles and motion (default: data/scene/photo-box.json)");
   line.text("--targets", options.targets, "DIR", "Photographs that are known (default: data/target)");
+  line.group("Camera and drives");
   line.choice<SensorKind>("--sensor", options.sensor,
                           {{nameOf(SensorKind::Image), SensorKind::Image},
                            {nameOf(SensorKind::Depth), SensorKind::Depth},
@@ -100,6 +102,7 @@ void addOptions(vpApp::CommandLine &line, Options &options)
   line.number(
       "--friction", options.friction, {0., 10.}, "F",
       "Friction of the joints; 1: as in the arm's file, 0: ideal drives (default: 1, of an arm without masses 0)");
+  line.group("Run");
   line.number("--duration", options.duration, {0., 600., true}, "S", "Maximum duration");
   line.whole("--seed", options.seed, {1, 1e6}, "N", "Seed of all noise and of planners");
   line.text("--replica", options.replica, "NAME", "A figure of the thesis, fig8.6 to fig8.13, see --list");

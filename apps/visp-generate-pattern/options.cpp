@@ -87,6 +87,7 @@ void addTask(vpApp::CommandLine &line, Task &task)
 bool parse(int argc, const char *const *argv, Options &options, std::string &config)
 {
   vpApp::CommandLine line("visp-generate-pattern", ABOUT, EXAMPLES);
+  line.group("Files");
   line.text("--config", config, "FILE.json", "Read the sequence from a file; other options go before it");
   line.text("--out", options.out, "DIR", "Folder for the result");
   line.choice("--format", options.format, {{"png", std::string("png")}, {"pgm", std::string("pgm")}},

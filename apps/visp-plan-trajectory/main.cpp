@@ -29,7 +29,7 @@ limits that change on the way. Reads one problem a line (JSON), writes one answe
 
 constexpr const char *EXAMPLES =
     R"(A problem; all numbers but q1 and a limit on velocity or acceleration may be left out:
-  {"q0": [0, 0], "q1": [0.5, 0.2], "v_max": [0.5, 1], "a_max": [1, 2], "events": [{"t": 0.6, "q1": [0.8, 0.1]}]}
+  {"q1": 0.5, "v_max": 0.5, "a_max": 1, "events": [{"t": 0.6, "q1": 0.8}]}
 
 Examples:
   visp-plan-trajectory
@@ -41,6 +41,7 @@ Examples:
       one axis, from standard input
 
 All fields are described in data/trajectory/README.md, with an example for each form of motion.
+
 Exit status: 0 every problem was answered, 1 some line was refused (the others are answered), 2 the command line is wrong.)";
 
 //! \brief User options.

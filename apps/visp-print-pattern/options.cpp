@@ -157,6 +157,7 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   Choices choices;
   options.spec = vpPrintExperimentSpec::withObserver(vpPrintSensorModel::tracker());
   options.spec.cellsPerRow = 40;
+  line.group("Run");
   line.text("--out", options.out, "DIR", "Folder for the result");
   line.text("--explore", options.explore, "FILE.json",
             "Explore the design space of a file (data/explore/README.md) instead: which frame rate, image, "

@@ -74,6 +74,7 @@ bool readOptions(int argc, const char *const *argv, Options &options)
 {
   vpApp::CommandLine line("visp-servo-compare", ABOUT, EXAMPLES);
   RobotOptions &robot = options.robot;
+  line.group("Comparison");
   vpApp::addPluginOption(line, "laws");
   line.list("--law", options.laws, "LAW,...",
             "Laws to compare; append +cbf for the view filter, not to laws that plan (default: all)");
@@ -91,6 +92,11 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   line.number("--lambda", options.lambda, {0., 1e6}, "L", "Gain of every law, 1/s (default: 0, that of the task)");
   line.text("--task", options.taskFile, "FILE.json",
             "Task file instead of the thesis' task; see data/scenario/README.md");
+  line.text(
+      "--target", options.target, "IMAGE",
+      "Photo of the flat object, 8 or 16 bits, turned as its EXIF orientation says (default: klimt.jpg of the data "
+      "folder)");
+  line.group("Arm that carries the camera");
   line.list("--self-motion", robot.selfMotion, "WISH,...",
             "What spare joints do: limits (away from joint limits), manipulability, posture (stay near the start), or "
             "none");
@@ -105,10 +111,7 @@ bool readOptions(int argc, const char *const *argv, Options &options)
               "What the drives of plants with friction add the commanded joint velocity to: the last desired position "
               "(open loop; friction delays the joints), or the measured one, (3.18) of the thesis (friction suppresses "
               "small velocities, which the law must overcome)");
-  line.text(
-      "--target", options.target, "IMAGE",
-      "Photo of the flat object, 8 or 16 bits, turned as its EXIF orientation says (default: klimt.jpg of the data "
-      "folder)");
+  line.group("Run");
   line.whole("--monte-carlo", options.repetitions, {1, 100000}, "N", "Repeat each run with N seeds");
   line.whole("--seed", options.seed, {0, 4294967295.}, "S", "First seed of noise and feature points");
   line.text("--out", options.out, "DIR", "Result folder");

@@ -40,8 +40,8 @@ constexpr const char *EXAMPLES =
       your camera and poster, without a robot: does it find the poster, which way would it go?
   visp-servo --camera film.mp4 --target postcard.jpg --size 0.148
       the same with a recorded film
-  visp-servo --camera 0 --camera-xml camera.xml --target poster.jpg --size 0.42 --robot franka --robot-arguments 192.168.1.1 \
-             --eMc eMc.yaml --teach goal.json
+  visp-servo --camera 0 --camera-xml camera.xml --target poster.jpg --size 0.42 --robot franka )"
+    R"(--robot-arguments 192.168.1.1 --eMc eMc.yaml --teach goal.json
       the robot stands at the goal: remember it
   ... --goal goal.json --start
       from somewhere else: go there
