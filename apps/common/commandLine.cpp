@@ -20,7 +20,7 @@ namespace vpApp
 {
 namespace
 {
-constexpr std::size_t NAME_COLUMN = 30; // where the sentences of options begin
+constexpr std::size_t NAME_COLUMN = 30;  // where the sentences of options begin
 constexpr std::size_t HELP_COLUMNS = 80; // width of the help
 
 //! The words in lines of at most width characters, between them what separates lines. A longer word has a line of its own.
@@ -48,8 +48,9 @@ std::string wrappedText(const std::string &text)
   const auto end = [&all, &paragraph, &indent] {
     if (!paragraph.empty()) {
       const std::string blanks(indent, ' ');
-      all += blanks + (indent == 2 ? wrapped(paragraph, HELP_COLUMNS - 6, " \\\n    ")
-                                   : wrapped(paragraph, HELP_COLUMNS - indent, "\n" + blanks)) +
+      all += blanks +
+             (indent == 2 ? wrapped(paragraph, HELP_COLUMNS - 6, " \\\n    ")
+                          : wrapped(paragraph, HELP_COLUMNS - indent, "\n" + blanks)) +
              "\n";
       paragraph.clear();
     }

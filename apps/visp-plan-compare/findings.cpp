@@ -24,12 +24,6 @@ constexpr double SIGNIFICANT = 0.05;
 //! "17 of 20".
 std::string countText(int part, std::size_t all) { return std::to_string(part) + " of " + std::to_string(all); }
 
-std::string nameOf(const std::string &method)
-{
-  const MethodInfo info = methodInfo(method);
-  return info.number.empty() ? info.name : info.number + " " + info.name;
-}
-
 std::string pText(double p) { return p < 0.001 ? "p < 0.001" : "p = " + number(p, 2); }
 
 //! Scenes in which the method succeeds, touches nothing, and no other is significantly better in paired tests.
@@ -79,7 +73,7 @@ std::vector<std::string> safest(const Plan &plan, const Results &results)
   std::vector<std::string> names;
   for (const std::string &method : plan.methods) {
     if (results.all(method).runsWith(&M::collisions_moving) == 0) {
-      names.push_back(nameOf(method));
+      names.push_back(method);
     }
   }
   return names;
@@ -90,15 +84,15 @@ std::string pairSentence(const Results &results, const std::string &scene,
 {
   const Pairing p = pairUp(results, scene, pair.first, pair.second);
   if (p.onlyFirst + p.onlySecond == 0) {
-    return nameOf(pair.first) + " and " + nameOf(pair.second) + " succeed in the same runs" + where + ".";
+    return pair.first + " and " + pair.second + " succeed in the same runs" + where + ".";
   }
-  const std::string counts = "only " + nameOf(pair.first) + " succeeds in " + std::to_string(p.onlyFirst) + ", only " +
-                             nameOf(pair.second) + " in " + std::to_string(p.onlySecond) + " of " +
+  const std::string counts = "only " + pair.first + " succeeds in " + std::to_string(p.onlyFirst) + ", only " +
+                             pair.second + " in " + std::to_string(p.onlySecond) + " of " +
                              std::to_string(p.both + p.onlyFirst + p.onlySecond + p.neither) + " paired runs" + where;
-  return "Pair by pair " + counts + " (McNemar's exact test, " + pText(p.p) + "): " +
-         (p.p >= SIGNIFICANT
-              ? std::string("no significant difference.")
-              : nameOf(p.onlyFirst > p.onlySecond ? pair.first : pair.second) + " does significantly better.");
+  const std::string verdict =
+      p.p >= SIGNIFICANT ? "no significant difference."
+                         : (p.onlyFirst > p.onlySecond ? pair.first : pair.second) + " does significantly better.";
+  return "Pair by pair " + counts + " (McNemar's exact test, " + pText(p.p) + "): " + verdict;
 }
 } // namespace
 
@@ -131,10 +125,10 @@ std::vector<std::string> answerOf(const Plan &plan, const Results &results)
   });
   const Cell best = results.all(order.front());
   const Interval interval = best.interval();
-  answer.push_back("Of " + std::to_string(best.runs.size()) + " scenes " + nameOf(order.front()) +
-                   " masters the most, " + std::to_string(best.successes()) + " (95 % interval " +
-                   fixed(100. * interval.low, 1) + " to " + fixed(100. * interval.high, 1) + " %)" +
-                   (order.size() > 1 ? "; " + nameOf(order.back()) + " the fewest, " +
+  answer.push_back("Of " + std::to_string(best.runs.size()) + " scenes " + order.front() + " masters the most, " +
+                   std::to_string(best.successes()) + " (95 % interval " + fixed(100. * interval.low, 1) + " to " +
+                   fixed(100. * interval.high, 1) + " %)" +
+                   (order.size() > 1 ? "; " + order.back() + " the fewest, " +
                                            std::to_string(results.all(order.back()).successes()) + "."
                                      : "."));
   const std::vector<std::string> safe = safest(plan, results);
@@ -188,14 +182,14 @@ std::vector<std::string> findingsOf(const Plan &plan, const Results &results, co
     findings.push_back("No method masters this scene.");
     return findings;
   }
-  findings.push_back(nameOf(hero) + " succeeds in " + countText(best.successes(), best.runs.size()) + " runs, in " +
+  findings.push_back(hero + " succeeds in " + countText(best.successes(), best.runs.size()) + " runs, in " +
                      fixed(vpMedian(best.values(&M::duration_s, true)), 2) + " s (median).");
   std::vector<std::string> touching;
   for (const std::string &method : plan.methods) {
     const Cell cell = results.cell(scene.id, method);
     const int touched = cell.runsWith(&M::collisions_moving);
     if (touched > 0) {
-      touching.push_back(nameOf(method) + " in " + countText(touched, cell.runs.size()));
+      touching.push_back(method + " in " + countText(touched, cell.runs.size()));
     }
   }
   findings.push_back(touching.empty() ? "No arm touched anything while it moved."

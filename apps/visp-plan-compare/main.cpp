@@ -26,8 +26,7 @@ void printList()
 {
   std::cout << "Methods (--method):\n";
   for (const std::string &id : vpAvoidanceMethodNames()) {
-    const MethodInfo info = methodInfo(id);
-    std::cout << "  " << info.number << " " << id << ": " << info.sentence << "\n";
+    std::cout << "  " << id << ": " << methodInfo(id).sentence << "\n";
   }
   std::cout << "Scenes (--scene), seeds by default and with --quick:\n";
   for (const SceneInfo &scene : standardScenes()) {

@@ -19,7 +19,8 @@ path tracked and replanned on the fly. All of them get the same scenes, the same
 its sensors and the obstacles are simulated. The result is a folder with report.html (open it in a browser),
 summary.json, runs.csv, a CSV file for each shown run, and logs for Planner Arena.)";
 
-constexpr const char *EXAMPLES = R"(Scenes: S1 the ball of figures 8.6 to 8.12, S2 random obstacles, S3 crossing obstacles, S4 pillar and shelf,
+constexpr const char *EXAMPLES =
+    R"(Scenes: S1 the ball of figures 8.6 to 8.12, S2 random obstacles, S3 crossing obstacles, S4 pillar and shelf,
 S5 self-motion, S6 a trap, S7 the moving goal of figure 8.13, FILE.json a scene of your own with tasks. --list says more.
 
 Examples:

@@ -19,23 +19,21 @@ namespace planCompare
 MethodInfo methodInfo(const std::string &id)
 {
   static const std::vector<MethodInfo> all = {
-      {"potential", "(i)", "potential, as printed",
+      {"potential",
        "The potential field of thesis 8.2.1 as it is printed: the nearer an obstacle, the more the way to the goal "
        "gives "
        "way to going away from it."},
-      {"potential-corrected", "(i)", "potential, corrected",
-       "The same with the corrected weights and radial distances, and limits."},
-      {"dtg", "(ii)", "DTG",
-       "Direct trajectory generation point to point, thesis 8.2.2: a new least-jerk motion of the tool whenever "
-       "something "
-       "was seen."},
-      {"dtg-via", "(iii)", "DTG with via", "The same with a via point beside the obstacle."},
-      {"planner", "(iv)", "planner", "A path of OMPL on proven motions, timed within all limits, driven as planned."},
-      {"planner-dtg", "(v)", "planner + DTG",
+      {"potential-corrected", "The same with the corrected weights and radial distances, and limits."},
+      {"dtg", "Direct trajectory generation point to point, thesis 8.2.2: a new least-jerk motion of the tool whenever "
+              "something "
+              "was seen."},
+      {"dtg-via", "The same with a via point beside the obstacle."},
+      {"planner", "A path of OMPL on proven motions, timed within all limits, driven as planned."},
+      {"planner-dtg",
        "The same path, tracked by direct trajectories and replanned on the fly when something was seen."},
   };
   const auto found = std::find_if(all.begin(), all.end(), [&](const MethodInfo &m) { return m.id == id; });
-  return found != all.end() ? *found : MethodInfo{id, "plug-in", id, vpAvoidanceMethodMessage(id)};
+  return found != all.end() ? *found : MethodInfo{id, vpAvoidanceMethodMessage(id)};
 }
 
 const std::vector<SceneInfo> &standardScenes()

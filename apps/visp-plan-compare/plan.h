@@ -22,12 +22,10 @@ namespace planCompare
 //! \brief Description of a method.
 struct MethodInfo {
   std::string id;       //!< Id for vpMakeAvoidanceMethod().
-  std::string number;   //!< "(iii)".
-  std::string name;     //!< Short, for tables.
   std::string sentence; //!< Description.
 };
 
-//! Description of any method; an unknown method is named by its id.
+//! Description of any method.
 [[nodiscard]] MethodInfo methodInfo(const std::string &id);
 
 //! \brief Description of a scene.

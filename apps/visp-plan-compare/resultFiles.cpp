@@ -91,11 +91,7 @@ Json sceneJson(const Plan &plan, const Results &results, const SceneInfo &scene)
 Json methodJson(const Plan &plan, const Results &results, const std::string &method)
 {
   const MethodInfo info = methodInfo(method);
-  return {{"id", info.id},
-          {"number", info.number},
-          {"name", info.name},
-          {"sentence", info.sentence},
-          {"verdict", verdictOf(plan, results, method)}};
+  return {{"id", info.id}, {"sentence", info.sentence}, {"verdict", verdictOf(plan, results, method)}};
 }
 
 //! Of the loop and the tool, the same in all runs; null without runs.

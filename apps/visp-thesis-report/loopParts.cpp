@@ -72,7 +72,7 @@ std::vector<Item> oneImage(const Setting &setting)
                       ideal[Forward].settled / ideal[Pbvs].settled, Tolerance::atMost(0.05), Good::Smaller,
                       "Both decay with the same gain of the translation, which decides.",
                       how + " Within 2 deg and 2 % of the distance."},
-                     {"figure 5.8 from one image: rotation error at the end, feedforward over Kyrki (image error only)",
+                     {"figure 5.8 from one image: rotation error at the end, feedforward over kyrki-decoupled",
                       "1", 1., disturbed[Forward].rotation / disturbed[Kyrki].rotation, Tolerance::atMost(),
                       Good::Smaller, "Friction of 0.2 rad/s on every axis stops both where their gain leaves it.", how},
                      {"figure 5.11 from one image: time out of view, feedforward minus PBVS", "s", 0.,

@@ -91,7 +91,7 @@ Item performance(const Runs &runs)
                           "that first leads the yaw beyond its goal.";
   item.quantities = {
       atMostOne("rms yaw error, feedforward over PBVS", runs.ratio(FEEDFORWARD, PBVS, PERFECT, yawError), tie),
-      atMostOne("rms yaw error, feedforward over Kyrki (image error only)",
+      atMostOne("rms yaw error, feedforward over kyrki-decoupled",
                 runs.ratio(FEEDFORWARD, KYRKI, PERFECT, yawError), tie),
       {"rms yaw error, feedforward over Kyrki's full law", "1", std::nullopt,
        runs.ratio(FEEDFORWARD, "kyrki", PERFECT, yawError), Tolerance::factor(1.1), Good::Neither, "",
@@ -107,7 +107,7 @@ Item hardReference(const Runs &runs)
   item.id = "fig5.8";
   item.quantities = {
       atLeastOne("peak reference, feedforward over PBVS", runs.ratio(FEEDFORWARD, PBVS, HARD, peakReference), ""),
-      atLeastOne("peak reference, feedforward over Kyrki (image error only)",
+      atLeastOne("peak reference, feedforward over kyrki-decoupled",
                  runs.ratio(FEEDFORWARD, KYRKI, HARD, peakReference), ""),
       {"feedforward: reference minus goal at the end of pose 2", "deg", DIED_OUT,
        runs.of(FEEDFORWARD, HARD, referenceLeft), Tolerance::atLeast(), Good::Neither, "",
@@ -121,7 +121,7 @@ Item range(const Runs &runs)
 {
   Item item;
   item.id = "fig5.9";
-  item.quantities = {atLeastOne("yaw range, feedforward over Kyrki (image error only)",
+  item.quantities = {atLeastOne("yaw range, feedforward over kyrki-decoupled",
                                 runs.ratio(FEEDFORWARD, KYRKI, HARD, yawRange), ""),
                      {"yaw range of the feedforward law", "deg", std::nullopt, runs.of(FEEDFORWARD, HARD, yawRange),
                       Tolerance::factor(1.1), Good::Larger, "",
@@ -141,7 +141,7 @@ Item imageErrors(const Runs &runs)
   Item item;
   item.id = "fig5.10";
   item.quantities = {
-      atMostOne("rms image error along u, feedforward over Kyrki (image error only)",
+      atMostOne("rms image error along u, feedforward over kyrki-decoupled",
                 runs.ratio(FEEDFORWARD, KYRKI, HARD, imageError), ""),
       atLeastOne("rms image error along u, PBVS over feedforward", runs.ratio(PBVS, FEEDFORWARD, HARD, imageError), ""),
       {"rms image error along u, feedforward over Kyrki's full law", "1", std::nullopt,
@@ -169,10 +169,10 @@ Item views(const Runs &runs)
   const std::string size = "The size of the object decides, 0.18 m here; the thesis does not give it.";
   item.quantities = {
       view(PBVS, "PBVS", 0., size + " PBVS leaves it off the middle, but within the image, at this pose."),
-      view(KYRKI, "Kyrki (image error only)", 1.,
+      view(KYRKI, "kyrki-decoupled", 1.,
            size + " With its rotation from the image error alone friction stops it short of the middle."),
       view(FEEDFORWARD, "feedforward", 1., size),
-      atLeastOne("yaw at the end of pose 2, feedforward over Kyrki (image error only)",
+      atLeastOne("yaw at the end of pose 2, feedforward over kyrki-decoupled",
                  runs.ratio(FEEDFORWARD, KYRKI, HARD, yawAtPose2), ""),
       {"time out of view until the end of pose 2, PBVS", "s", std::nullopt, runs.of(PBVS, HARD, lostAtPose2),
        Tolerance::factor(1.1), Good::Neither, "", "Of 8 s."},

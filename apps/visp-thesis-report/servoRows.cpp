@@ -171,7 +171,7 @@ void addArm(const std::string &drive, const Runs &runs, std::vector<Item> &items
   const std::string peaks = "Peak over goal: " + inWords(peak, "");
   add("fig5.8",
       {atLeastOne(on + "peak reference, feedforward over PBVS", peak[FEEDFORWARD] / peak[PBVS], reason, peaks),
-       atLeastOne(on + "peak reference, feedforward over Kyrki (image error only)", peak[FEEDFORWARD] / peak[KYRKI],
+       atLeastOne(on + "peak reference, feedforward over kyrki-decoupled", peak[FEEDFORWARD] / peak[KYRKI],
                   reason, peaks),
        {on + "feedforward: reference minus goal at the end of pose 2", "deg", 0.5, left[FEEDFORWARD],
         Tolerance::atLeast(), Good::Neither, reason,
@@ -179,13 +179,13 @@ void addArm(const std::string &drive, const Runs &runs, std::vector<Item> &items
       items);
   const std::string ranges = inWords(range, "deg of 56.8");
   add("fig5.9",
-      {atLeastOne(on + "yaw range, feedforward over Kyrki (image error only)", range[FEEDFORWARD] / range[KYRKI],
+      {atLeastOne(on + "yaw range, feedforward over kyrki-decoupled", range[FEEDFORWARD] / range[KYRKI],
                   reason, ranges),
        atLeastOne(on + "yaw range, feedforward over PBVS", range[FEEDFORWARD] / range[PBVS], reason, ranges)},
       items);
   const std::string errors = inWords(error, "px");
   add("fig5.10",
-      {atMostOne(on + "rms image error along u, feedforward over Kyrki (image error only)",
+      {atMostOne(on + "rms image error along u, feedforward over kyrki-decoupled",
                  error[FEEDFORWARD] / error[KYRKI], reason, errors),
        atLeastOne(on + "rms image error along u, PBVS over feedforward", error[PBVS] / error[FEEDFORWARD], reason,
                   errors)},
@@ -201,8 +201,8 @@ void addArm(const std::string &drive, const Runs &runs, std::vector<Item> &items
                     ""};
   };
   add("fig5.11",
-      {view(PBVS, "PBVS", 0.), view(KYRKI, "Kyrki (image error only)", 1.), view(FEEDFORWARD, "feedforward", 1.),
-       atLeastOne(on + "yaw at the end of pose 2, feedforward over Kyrki (image error only)",
+      {view(PBVS, "PBVS", 0.), view(KYRKI, "kyrki-decoupled", 1.), view(FEEDFORWARD, "feedforward", 1.),
+       atLeastOne(on + "yaw at the end of pose 2, feedforward over kyrki-decoupled",
                   yaw[FEEDFORWARD] / yaw[KYRKI], reason, inWords(yaw, "deg"))},
       items);
 }
@@ -235,7 +235,7 @@ void addNoise(const std::string &noise, double px, const Runs &runs, std::vector
   const std::string errors = "Rms yaw error: " + inWords(yaw, "deg") + " " + note;
   add("fig5.7",
       {atMostOne(with + "rms yaw error, feedforward over PBVS", yaw[FEEDFORWARD] / yaw[PBVS], tie, errors),
-       atMostOne(with + "rms yaw error, feedforward over Kyrki (image error only)", yaw[FEEDFORWARD] / yaw[KYRKI], tie,
+       atMostOne(with + "rms yaw error, feedforward over kyrki-decoupled", yaw[FEEDFORWARD] / yaw[KYRKI], tie,
                  errors)},
       items);
 }

@@ -46,7 +46,7 @@ struct vpServoTask {
    * The task 1 -> 2 -> 1 -> 3 of section 5.4.2 with the values of the comparison: 0.2 m sideways, 0.1 m forward, facing
    * the object, Z0 = 0.47 m (28.4 deg of yaw), f = 800 px, 640x480, 8 s per segment. The thesis does not give the size
    * of the object. 0.18 m was chosen from sizes of 0.16 to 0.20 m because it best reproduces the losses of view of an
-   * earlier prototype on plant D. The losses depend on it: with 0.16 m only decoupled Kyrki loses the view there.
+   * earlier prototype on plant D. The losses depend on it: with 0.16 m only kyrki-decoupled loses the view there.
    */
   [[nodiscard]] static vpServoTask thesis();
   /*!

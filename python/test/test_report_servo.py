@@ -56,7 +56,7 @@ def compared(laws, metrics, **more):
 def test_every_law_has_a_name_and_a_colour_of_its_own():
     assert len({name for name, *_ in LOOKS.values()}) == len({paint for _, paint, _ in LOOKS.values()}) == len(LOOKS)
     c = compared(["ibvs", "ibvs+cbf", "mine", "hers", "mine+cbf"], lambda *_: {})
-    assert c.name("ibvs+cbf") == "IBVS + filter" and c.look("ibvs+cbf")[1] == c.look("ibvs")[1]
+    assert c.name("ibvs+cbf") == "ibvs+cbf" and c.look("ibvs+cbf")[1] == c.look("ibvs")[1]
     assert c.name("mine") == "mine" and c.look("mine")[1] == c.look("mine+cbf")[1] != c.look("hers")[1]
     assert OURS is None or set(OURS) == set(LOOKS)
 
@@ -117,7 +117,7 @@ def test_findings_name_what_happened():
     laws = ["pbvs1", "pbvs1+cbf", "pbvs1-rot2", "kyrki-decoupled", "ff-sum", "ff-lookat", "ibvs"]
     said = "\n".join(findings(compared(laws, metrics, measures=("points", "image"))))
     for piece in (
-        "by up to 90 px with PBVS-1 and by up to 15 px with ff-lookat on plant A.",
+        "by up to 90 px with pbvs1-rot2 and by up to 15 px with ff-lookat on plant A.",
         "The order of the thesis (its law at least as good as PBVS and Kyrki, figures 5.8 to 5.10) holds on plant D",
         "leaves the image on plant D (friction 0.2 rad/s) with pbvs1+cbf (1.5 s) and ibvs (2.5 s).",
         "a corner is lost in spite of it: pbvs1+cbf (1.5 s).",

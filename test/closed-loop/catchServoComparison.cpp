@@ -8,7 +8,7 @@
  *
  * The prototype was another program, with other random points, an unknown cycle on plant A, and an object of unknown
  * size. The tolerances here are what these unknowns can change: on plant A, cycles of 10 to 100 Hz move the largest
- * image error by up to 3 px (PBVS with rotation gain 2 and decoupled Kyrki: 8 px), another set of points by about 1 px.
+ * image error by up to 3 px (pbvs1-rot2 and kyrki-decoupled: 8 px), another set of points by about 1 px.
  */
 #include "vpCatch.h"
 
@@ -172,7 +172,7 @@ TEST_CASE("with friction only the integral reaches the pose", "[comparison]")
   }
 }
 
-TEST_CASE("the benefit of the feedforward is the gain that it allows: full Kyrki at the same gain ties", "[comparison]")
+TEST_CASE("the benefit of the feedforward is the gain that it allows: kyrki-rot2 at the same gain ties", "[comparison]")
 {
   const std::string plant = GENERATE("B", "D");
   const vpServoMetrics &lookAt = figures("ff-lookat", plant), &kyrki = figures("kyrki-rot2", plant);

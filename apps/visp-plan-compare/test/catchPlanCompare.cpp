@@ -100,16 +100,16 @@ TEST_CASE("Sentences follow the numbers", "[findings]")
   CHECK(p.neither == 6);
   std::string text = joined(answerOf(plan, results));
   CAPTURE(text);
-  CHECK(text.find("Of 100 scenes (v) planner + DTG masters the most, 92 (95 % interval 85.0 to 95.9 %)") !=
+  CHECK(text.find("Of 100 scenes planner-dtg masters the most, 92 (95 % interval 85.0 to 95.9 %)") !=
         std::string::npos);
-  CHECK(text.find("p = 0.013): (v) planner + DTG does significantly better.") != std::string::npos);
+  CHECK(text.find("p = 0.013): planner-dtg does significantly better.") != std::string::npos);
   CHECK(text.find("never touched anything while moving, so none did.") != std::string::npos);
   CHECK(verdictOf(plan, results, "planner-dtg").find("Good for S2, ") == 0);
   CHECK(verdictOf(plan, results, "dtg-via").find("Good for none of these scenes") == 0);
 
   results = counted(plan, 80, 2, 12, 6); // reversed
   text = joined(answerOf(plan, results));
-  CHECK(text.find("p = 0.013): (iii) DTG with via does significantly better.") != std::string::npos);
+  CHECK(text.find("p = 0.013): dtg-via does significantly better.") != std::string::npos);
   results = counted(plan, 80, 5, 7, 6);
   CHECK(joined(answerOf(plan, results)).find("no significant difference.") != std::string::npos);
   CHECK(verdictOf(plan, results, "planner-dtg").find("Good for S2, ") == 0);
@@ -118,7 +118,7 @@ TEST_CASE("Sentences follow the numbers", "[findings]")
     r.metrics.collisions_moving = r.seed == 3 && r.method == "planner-dtg" ? 1 : 0;
   }
   text = joined(answerOf(plan, results));
-  CHECK(text.find("(iii) DTG with via never touched anything while moving; all others did.") != std::string::npos);
+  CHECK(text.find("dtg-via never touched anything while moving; all others did.") != std::string::npos);
   CHECK(verdictOf(plan, results, "planner-dtg").find("It touched something while moving in 1 of 98 runs.") !=
         std::string::npos);
   CHECK(verdictOf(plan, results, "planner-dtg").find("Good for none of these scenes") == 0);

@@ -108,7 +108,6 @@ TEST_CASE("The result has all its parts, and the same seed the same numbers", "[
     CHECK(std::filesystem::exists(run.path("result").append(file)));
   }
   CHECK(summary["scenes"][0]["shown"].get<std::string>().find("0.3 m/s at 30 Hz") == 0);
-  CHECK(summary["methods"][2]["number"] == "(iv)");
   const nlohmann::json scene = vpApp::readJsonFile(run.path("result/scene/S3.json"));
   REQUIRE(scene["objects"].size() == 2); // that cross, so each has places over time
   for (const nlohmann::json &object : scene["objects"]) {
@@ -171,7 +170,7 @@ TEST_CASE("A method of a plug-in runs beside ours", "[visp-plan-compare][plugin]
   ProgramRun run(PLAN_COMPARE);
   const std::string plugin = std::string("--plugin '") + PLUGIN + "' ";
   REQUIRE(run(plugin + "--list") == 0);
-  CHECK(run.out().find("plug-in again: does what dtg does, from a plug-in\n") != std::string::npos);
+  CHECK(run.out().find("  again: does what dtg does, from a plug-in\n") != std::string::npos);
   const int status = run(plugin + "--scene S1 --seeds 1 --method again,dtg --out result");
   CAPTURE(run.err());
   REQUIRE(status == 0);

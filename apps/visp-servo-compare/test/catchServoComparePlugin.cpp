@@ -49,14 +49,14 @@ TEST_CASE("A law of a plug-in runs beside ours, with filter and recovery", "[vis
   };
   CHECK(has("again", "Retreating"));
   CHECK(has("again+cbf", "ViewLimited"));
-  CHECK(summary["laws"][0]["sentence"] == "Does what PBVS-1 does, from a plug-in.");
+  CHECK(summary["laws"][0]["sentence"] == "Does what pbvs1 does, from a plug-in.");
 }
 
 TEST_CASE("The list has the laws of a plug-in", "[visp-servo-compare][plugin]")
 {
   ProgramRun run(SERVO_COMPARE);
   REQUIRE(run(PLUGIN_OPTION + "--list") == 0);
-  CHECK(run.out().find("  again            Does what PBVS-1 does, from a plug-in.\n") != std::string::npos);
+  CHECK(run.out().find("  again            Does what pbvs1 does, from a plug-in.\n") != std::string::npos);
   REQUIRE(run("--list") == 0);
   CHECK(run.out().find("again ") == std::string::npos);
 }

@@ -32,7 +32,7 @@ struct Laws : vpRegistry<vpServoLaw::Maker> {
     };
     addOurs("pbvs1", makePbvs1, 1.,
             "Position-based on the camera's pose: a straight camera path, the view is not looked after.");
-    addOurs("pbvs1-rot2", makePbvs1, 2., "PBVS-1 with twice the rotation gain.");
+    addOurs("pbvs1-rot2", makePbvs1, 2., "pbvs1 with twice the rotation gain.");
     addOurs("pbvs2", makePbvs2, 1.,
             "Position-based on the object's pose: the object's origin goes straight in the camera frame.");
     addOurs("ibvs", makeIbvs, 1.,
@@ -41,18 +41,18 @@ struct Laws : vpRegistry<vpServoLaw::Maker> {
             "Hybrid of Malis: translation by an image point and depth, rotation by pose.");
     addOurs(
         "kyrki", makeKyrki, 1.,
-        "Kyrki as published: a straight camera path, the rotation holds the object in the image and compensates the "
+        "Kyrki's law as published: a straight camera path, the rotation holds the object in the image and compensates the "
         "translation.");
-    addOurs("kyrki-rot2", makeKyrki, 2., "Kyrki as published with twice the rotation gain.");
+    addOurs("kyrki-rot2", makeKyrki, 2., "kyrki with twice the rotation gain.");
     addOurs("kyrki-decoupled", makeKyrkiDecoupled, 1.,
-            "Kyrki with the rotation driven by the image error alone, without compensation: what the thesis compares "
+            "Kyrki's law with the rotation driven by the image error alone, without compensation: what the thesis compares "
             "with.");
     addOurs("ff-sum", makeFeedforwardSum, 1.,
-            "The thesis' law, corrected: PBVS-1 plus the bearing of the object as a feedforward of the rotation.");
+            "The thesis' law, corrected: pbvs1 plus the bearing of the object as a feedforward of the rotation.");
     addOurs("ff-lookat", makeLookAt, lookAtFactor,
             "Feedforward that keeps the camera turned to the object while it translates; rotation gain x2.");
     addOurs("ff-lookat-pi", makeLookAtPi, lookAtFactor,
-            "FF look-at with an integral of the rotation error against friction; the default of visp-direct.");
+            "ff-lookat with an integral of the rotation error against friction; the default of visp-direct.");
     add("dtg",
         "Direct trajectory generation: a minimum-jerk motion to the goal within limits, the gaze on the object, "
         "replanned when the measurement says so.",

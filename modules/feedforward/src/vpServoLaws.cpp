@@ -210,7 +210,7 @@ protected:
 constexpr double smallestDeterminant = 1e-2;
 
 /*
- * Kyrki et al., thesis (5.22) corrected: e = (t, x - x*, y - y*, theta u_z). The translation is that of PBVS-1; pan and
+ * Kyrki et al., thesis (5.22) corrected: e = (t, x - x*, y - y*, theta u_z). The translation is that of pbvs1; pan and
  * tilt hold the mean point, roll comes from the pose. In the full law the image motion caused by the translation is
  * compensated, so the image error decays independently; the decoupled law, used for comparison in the thesis, does not.
  *
@@ -256,7 +256,7 @@ private:
   bool m_decoupled;
 };
 
-// The FF-PBVS law of thesis 5.3, corrected: (5.26) and (5.28) swap the image axes and lack a sign. PBVS-1 whose
+// The FF-PBVS law of thesis 5.3, corrected: (5.26) and (5.28) swap the image axes and lack a sign. pbvs1 whose
 // rotation error also contains the bearing error of the object relative to its desired image position.
 class vpServoFeedforwardSum : public vpServoLaw
 {

@@ -38,7 +38,7 @@ struct Gaze {
 };
 
 /*
- * The recommended FF-PBVS law. The camera translates as in PBVS-1 and rotates towards R_la (vpLookAt). With the error
+ * The recommended FF-PBVS law. The camera translates as in pbvs1 and rotates towards R_la (vpLookAt). With the error
  * e = log(R_la^T R) and the rate of R_la, caused by the commanded translation, fed forward, w = -k e + R^T rate d',
  * e' = J_r^-1(e) (w - R^T rate d') = -k e exactly. R_la becomes the identity when the translation is done, so the
  * commanded pose is reached.

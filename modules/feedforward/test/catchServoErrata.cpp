@@ -142,7 +142,7 @@ TEST_CASE("(5.26) and (5.28) as printed turn about the wrong axis: the object go
     }
     vpTwist law = answer("ff-sum", s);
     for (std::size_t i = 0; i < 3; ++i) {
-      law[i] = 0.; // the translation is PBVS-1's
+      law[i] = 0.; // the translation is that of pbvs1
     }
     const Eigen::Vector2d moved = rate(point, s.cMo, law);
     CHECK(u * moved.x() < -0.5 * u * u);

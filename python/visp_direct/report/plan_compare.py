@@ -17,7 +17,7 @@ SENSES = {"attract": 1, "none": 6, "repel": 0}  # colours
 
 
 def named(method):
-    return f"{method['number']} {method['name']}".strip()
+    return method["id"]
 
 
 class Data:

@@ -94,7 +94,7 @@ def add_tables(page, c):
             "command. Losses: how often a corner left the image. Above: cycles above a limit of the camera's motion, with --bounded."
             + seeds,
         )
-    laws = ["law = id", ("name", lambda law: c.name(law["id"])), "what it does = sentence"]
+    laws = ["law = id", "what it does = sentence"]
     page.records(c.summary["laws"], laws, "The same ids as in --law and summary.json.")
 
 

@@ -99,12 +99,12 @@ def add_references(page, c):
         + said(
             laws,
             "pbvs1",
-            "PBVS aims at the goal from the first instant, a constant.",
+            "pbvs1 aims at the goal from the first instant, a constant.",
             "ff-sum",
-            lambda: "FF sum goes beyond the goal while the object is off its place in the image, by at most "
+            lambda: "ff-sum goes beyond the goal while the object is off its place in the image, by at most "
             f"{number(overshoot(c, 'ff-sum', c.easy))}° here; in the thesis the overshoot is plain to see.",
             "ff-lookat",
-            "FF look-at, which is not in the thesis, turns no faster than the translation asks for, so its reference reaches the "
+            "ff-lookat, which is not in the thesis, turns no faster than the translation asks for, so its reference reaches the "
             "goal later.",
         ),
     )
@@ -118,7 +118,7 @@ def add_references(page, c):
         + said(
             laws,
             "kyrki kyrki-decoupled",
-            "The thesis shows one curve for Kyrki; here the full law and the decoupled one, which the thesis uses, are separate.",
+            "The thesis shows one curve for Kyrki; here kyrki, the full law, and kyrki-decoupled, which the thesis uses, are separate.",
         ),
     )
     laws = c.preferred("pbvs1", "kyrki", "kyrki-decoupled", "ff-sum", "ff-lookat-pi")
@@ -129,12 +129,12 @@ def add_references(page, c):
         + said(
             laws,
             "ff-sum",
-            lambda: "It keeps the feedforward term of FF sum alive: its reference goes up to "
+            lambda: "It keeps the feedforward term of ff-sum alive: its reference goes up to "
             f"{number(overshoot(c, 'ff-sum', c.hard))}° beyond the goal, which the thesis shows too.",
             "ff-lookat-pi",
-            "The reference of FF look-at PI rises with its integral until the camera turns.",
+            "The reference of ff-lookat-pi rises with its integral until the camera turns.",
             "kyrki-decoupled",
-            "That of the decoupled Kyrki, the one of the thesis, follows from the image error alone.",
+            "That of kyrki-decoupled, the law of the thesis, follows from the image error alone.",
         ),
     )
 

@@ -10,19 +10,19 @@ from .plots import colour
 # Name, colour and rotation gain of each law, near the goal and times the given one.
 AS_GIVEN, DOUBLE, INTEGRAL, OWN = "×1", "×2", "×2, integral", "its own"
 LOOKS = {
-    "pbvs1": ("PBVS-1", "#1f77b4", AS_GIVEN),
-    "pbvs1-rot2": ("PBVS-1, rotation ×2", "#0b3c6f", DOUBLE),
-    "pbvs2": ("PBVS-2", "#17becf", AS_GIVEN),
-    "ibvs": ("IBVS", "#8c564b", AS_GIVEN),
-    "hybrid25d": ("2 1/2 D", "#7f7f7f", AS_GIVEN),
-    "kyrki": ("Kyrki, full", "#ff7f0e", AS_GIVEN),
-    "kyrki-rot2": ("Kyrki, full, rotation ×2", "#a84300", DOUBLE),
-    "kyrki-decoupled": ("Kyrki, decoupled", "#d4ac0d", AS_GIVEN),
-    "ff-sum": ("FF sum (thesis)", "#2ca02c", DOUBLE),
-    "ff-lookat": ("FF look-at", "#d62728", DOUBLE),
-    "ff-lookat-pi": ("FF look-at PI", "#9467bd", INTEGRAL),
-    "dtg": ("DTG", "#e377c2", INTEGRAL),
-    "ff-dtg": ("FF DTG", "#bcbd22", INTEGRAL),
+    "pbvs1": ("pbvs1", "#1f77b4", AS_GIVEN),
+    "pbvs1-rot2": ("pbvs1-rot2", "#0b3c6f", DOUBLE),
+    "pbvs2": ("pbvs2", "#17becf", AS_GIVEN),
+    "ibvs": ("ibvs", "#8c564b", AS_GIVEN),
+    "hybrid25d": ("hybrid25d", "#7f7f7f", AS_GIVEN),
+    "kyrki": ("kyrki", "#ff7f0e", AS_GIVEN),
+    "kyrki-rot2": ("kyrki-rot2", "#a84300", DOUBLE),
+    "kyrki-decoupled": ("kyrki-decoupled", "#d4ac0d", AS_GIVEN),
+    "ff-sum": ("ff-sum", "#2ca02c", DOUBLE),
+    "ff-lookat": ("ff-lookat", "#d62728", DOUBLE),
+    "ff-lookat-pi": ("ff-lookat-pi", "#9467bd", INTEGRAL),
+    "dtg": ("dtg", "#e377c2", INTEGRAL),
+    "ff-dtg": ("ff-dtg", "#bcbd22", INTEGRAL),
 }
 ARRIVED = 0.2  # deg, at the end of every segment
 FEW = 5  # distinguishable curves
@@ -65,7 +65,7 @@ class Comparison:
         base = law.removesuffix("+cbf")
         own = (base, colour(self._own.index(base)) if base in self._own else "", OWN)
         name, paint, gain = LOOKS.get(base, own)
-        return (name + " + filter" if is_filtered(law) else name), paint, gain
+        return (name + "+cbf" if is_filtered(law) else name), paint, gain
 
     def name(self, law):
         return self.look(law)[0]
@@ -149,11 +149,11 @@ def arrival(c):
 
 
 def matched_rival(c):
-    """Feedforward and the full law of Kyrki at the same gain."""
+    """ff-lookat and kyrki-rot2, at the same gain."""
     feedforward, rival, integral = (Medians(c, law, c.hard) for law in ("ff-lookat", "kyrki-rot2", "ff-lookat-pi"))
     if not feedforward or not rival:
         return None
-    head = "At equal rotation gain and without integral, feedforward and the full law of Kyrki"
+    head = "At equal rotation gain and without integral, ff-lookat and kyrki-rot2"
     numbers = f"on {c.plant_name(c.hard)}: {feedforward.turning()}, {rival.turning()}"
     if not feedforward.ties(rival):
         return f"{head} differ {numbers}."
@@ -168,7 +168,7 @@ def benefit(c):
     if None in errors:
         return None
     return (
-        f"The doubled rotation gain moves the object in the image by up to {number(errors[0])} px with PBVS-1 and by up to "
+        f"The doubled rotation gain moves the object in the image by up to {number(errors[0])} px with pbvs1-rot2 and by up to "
         f"{number(errors[1])} px with ff-lookat on {c.plant_name(c.easy)}."
     )
 

@@ -28,7 +28,7 @@ private:
 extern "C" void vispDirectPlugin()
 {
   vpServoLaw::add(
-      "again", "Does what PBVS-1 does, from a plug-in.",
+      "again", "Does what pbvs1 does, from a plug-in.",
       [](const vpServoGains &gains, const vpServoMotionLimits &) { return std::make_unique<Again>(gains); });
   vpServoLaw::add("late", "Refuses to be made.",
                   [](const vpServoGains &, const vpServoMotionLimits &) -> std::unique_ptr<vpServoLaw> {
