@@ -159,7 +159,7 @@ class Checker:
             preset = words[words.index("--preset") + 1]
             if preset not in self.presets and not OWN.search(preset):
                 self.fault(f"there is no preset {preset}")
-        elif re.match(r"(catch|perf)[A-Z]|tutorial-", name):
+        elif re.fullmatch(r"(?:(?:catch|perf)[A-Z]\w*|tutorial-[a-z0-9-]+)(?:\.cpp)?", name):
             self.counts["commands"] += 1
             if re.sub(r"\.cpp$", "", name) not in self.sources and not OWN.search(name):
                 self.fault(f"there is no program {name}")
