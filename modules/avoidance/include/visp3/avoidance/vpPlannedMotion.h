@@ -43,12 +43,12 @@ struct VISP_EXPORT vpPlannedMotionSpec {
  * \class vpPlannedMotion
  * \ingroup group_avoidance
  * \brief Follows a path of vpPathPlanner as trajectories (vpTimedPath), re-timed or replanned when the scene changes:
- * methods (iv) and (v), thesis section 9.2.
+ * the methods `planner` and `planner-dtg`, proposed in section 9.2 of the thesis.
  *
  * Every commanded motion is proven free up to its end at rest (vpCertifiedTrajectory), with the objects
- * moving at their velocities; look() proves the remaining part again. If that fails, on the fly are tried: the same
- * path slower, another path from the moving state (moving obstacles fixed at their predicted near-future poses), and a
- * stop followed by a new path. Stops go straight on or along the path, whichever is proven free. If no stop is, the
+ * moving at their velocities; look() proves the remaining part again. If that fails, vpReplanning::OnTheFly tries the
+ * same path slower, then another path from the moving state (moving obstacles fixed at their predicted near-future poses),
+ * and at last a stop followed by a new path. Stops go straight on or along the path, whichever is proven free. If no stop is, the
  * status is Unsafe.
  *
  * Joints keep their limits, and the end effector the bounds of vpAvoidanceMethodSpec: motions that would not are

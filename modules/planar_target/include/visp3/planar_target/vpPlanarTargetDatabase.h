@@ -43,14 +43,16 @@ struct VISP_EXPORT vpPlanarTargetSighting {
  * body behind the picture, and 0 when not given. Nothing is skipped silently: an unusable file, an unknown field, or a
  * photograph in the folder that targets.json does not list is an error.
  *
- * The time of a frame is bounded by what is there, however many targets are not: each target that was seen in the frame
- * before is tracked, and needs no keypoints. The lost ones share one extraction of keypoints; as many as a fixed number of
- * comparisons allows, 25 or more, are compared with it by their most telling keypoints, in turn; the likeliest are searched
- * thoroughly, until the first in vain. With more than three lost targets a frame does one or the other, but for those that seem
- * to be there. See vpPlanarTargetEffort. So a target that comes into view is usually found within three frames, and within a second
- * at 30 Hz with 100 targets (catchPlanarTargetSearch); where it looks like nothing known at first, after at most three times as many
- * frames as there are lost targets; where only the fallback detector sees it, which looks at one of nine parts of the frame in
- * every third frame, after 27 or more.
+ * The time of a frame is bounded by the number of targets in view, however many are lost. Each target that was seen in the
+ * previous frame is tracked and needs no keypoints. The lost targets share one extraction of keypoints: in turn, as many of them
+ * as a fixed number of comparisons allows, 25 or more, are compared with it by their most distinctive keypoints. The most likely
+ * ones are then searched thoroughly, until the first search that fails. With more than three lost targets a frame either compares
+ * or searches, except for targets that are probably in view. See vpPlanarTargetEffort.
+ *
+ * So a target that comes into view is usually found within three frames, and within a second at 30 Hz with 100 targets
+ * (catchPlanarTargetSearch). A target that resembles no lost one at first is found after at most three times as many frames as there
+ * are lost targets, and one that only the fallback detector finds, which searches one of nine parts of the frame in every third
+ * frame, after 27 frames or more.
  */
 class VISP_EXPORT vpPlanarTargetDatabase
 {

@@ -42,9 +42,9 @@ struct VISP_EXPORT vpFrictionIdentificationSpec {
 enum class vpFrictionStatus {
   Good,          //!< All parameters hold.
   TooFewSamples, //!< Less than ten samples for each parameter.
-  NotExcited,    //!< Velocities or accelerations vary too little to tell the parameters apart; nothing holds.
+  NotExcited,    //!< Velocities or accelerations vary too little to tell the parameters apart; no value is valid.
   NoStribeck,    //!< The slow samples do not show a Stribeck term; stiction = Coulomb, the rest holds.
-  NotFinite,     //!< A sample is not finite or beyond vpPrintingLargest; nothing holds.
+  NotFinite,     //!< A sample is not finite or beyond vpPrintingLargest; no value is valid.
   //! The forces hold what neither the model nor independent noise has: the parameters are the best of this model, their
   //! standard deviations are too small.
   Misfit
@@ -77,10 +77,10 @@ struct VISP_EXPORT vpFrictionIdentification {
  *
  * Velocities and accelerations are taken as exact: filter them before, without delay between them and the forces.
  *
- * The fit is tested in two ways, which share spec.falseAlarm: whether the residuals hold an offset, or more of the velocity
- * than the model has (up to its third power, other in either direction; score test of an M-estimator, by Fisher's F), and
- * whether those that follow each other in the log are alike. vpFrictionStatus::Misfit says that they do. Samples that were
- * smoothed over windows that overlap are alike.
+ * The fit is tested in two ways, which share spec.falseAlarm. One tests whether the residuals contain an offset, or a dependence on the
+ * velocity that the model lacks (up to the third power, different in either direction; score test of an M-estimator, by Fisher's F).
+ * The other tests whether consecutive residuals of the log are correlated. If either finds something, the status is
+ * vpFrictionStatus::Misfit. Samples that were smoothed over overlapping windows are correlated.
  * Allocates; not for control loops.
  * \throw vpException (badValue) naming a field of \e spec that is out of range.
  */
