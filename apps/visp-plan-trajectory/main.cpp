@@ -59,6 +59,7 @@ struct Options {
 bool readOptions(int argc, const char *const *argv, Options &options)
 {
   vpApp::CommandLine line("visp-plan-trajectory", ABOUT, EXAMPLES);
+  line.group("Input and results");
   vpApp::addPluginOption(line, "motion forms");
   line.text("FILE", options.file, " ", "Problems, one JSON object a line; - for standard input");
   line.text("--csv", options.csv, "FILE", "Write t, q, v, a, j of every control cycle");

@@ -72,6 +72,7 @@ bool readOptions(int argc, const char *const *argv, Options &options)
 {
   vpApp::CommandLine line("visp-thesis-report", ABOUT, EXAMPLES);
   std::vector<std::string> only;
+  line.group("Run");
   line.list("--only", only, "ID,...", "Only these figures, tables and chapters (default: all)");
   line.text("--out", options.out, "DIR", "Result folder");
   line.whole("--jobs", options.jobs, {1, 256}, "N", "Parts at a time (default: one for each core)");

@@ -51,6 +51,15 @@ TEST_CASE("Help and version", "[programs]")
       CHECK(has(run.out(), piece));
     }
     CHECK(has(run.out(), nameOf(program)));
+    std::istringstream help(run.out());
+    for (std::string line; std::getline(help, line);) {
+      CAPTURE(line);
+      CHECK((line.size() <= 80 || has(line, VISP_DIRECT_DATA_DIR))); // paths are not broken
+    }
+    for (const char *lonely : {"\n  --seed", "\n  --law", "\n  --method", "\n  --robot"}) { // they have a heading
+      const std::size_t headings = run.out().find("\n\n", run.out().find("\nOptions:"));
+      CHECK(run.out().find(lonely) >= headings);
+    }
     REQUIRE(run("--version") == 0);
     CHECK(run.out().find(nameOf(program) + " " + VISP_DIRECT_VERSION + " (ViSP ") == 0);
     CHECK(std::count(run.out().begin(), run.out().end(), '\n') == 1);

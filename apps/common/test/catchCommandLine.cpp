@@ -98,6 +98,41 @@ TEST_CASE("a command line tells help from mistakes", "[apps]")
   CHECK_THROWS_AS(parse({"--nonsense"}), vpApp::UsageError);
 }
 
+TEST_CASE("the help is 80 columns wide, and its commands can be copied", "[apps]")
+{
+  std::string longWords, file;
+  for (int i = 0; i < 40; ++i) {
+    longWords += "word" + std::to_string(i) + " ";
+  }
+  const std::string command = "prog --file " + std::string(30, 'a') + " --file " + std::string(30, 'b') + " --other c";
+  vpApp::CommandLine line("prog", longWords + "\n\nSecond paragraph.",
+                          "Examples:\n  " + command + "\n      " + longWords + "\n  prog\n      short");
+  line.text("--file", file, "FILE", longWords);
+  std::ostringstream printed;
+  std::streambuf *before = std::cout.rdbuf(printed.rdbuf());
+  const char *arguments[] = {"prog", "--help"};
+  CHECK_FALSE(line.parse(2, arguments));
+  std::cout.rdbuf(before);
+  std::istringstream help(printed.str());
+  std::string words, copied;
+  bool goesOn = false;
+  for (std::string text; std::getline(help, text);) {
+    CAPTURE(text);
+    CHECK(text.size() <= 80);
+    words += text.substr(std::min(text.find_first_not_of(' '), text.size())) + " ";
+    if (goesOn || text.rfind("  prog --file", 0) == 0) {
+      goesOn = !text.empty() && text.back() == '\\';
+      copied += text.substr(text.find_first_not_of(' '), text.size() - text.find_first_not_of(' ') - (goesOn ? 1 : 0));
+    }
+  }
+  CHECK(copied == command);
+  for (const std::string &part :
+       {longWords + " Second paragraph.  Usage:", longWords + "prog short", "--file FILE " + longWords}) {
+    CAPTURE(part, words);
+    CHECK(words.find(part) != std::string::npos); // nothing is lost, in order
+  }
+}
+
 TEST_CASE("lists of numbers, and former names of options", "[apps]")
 {
   CHECK(vpApp::numbersIn("--q", "1,-2.5,3e-1") == std::vector<double>{1., -2.5, 0.3});
