@@ -11,7 +11,7 @@ namespace armProgram
 namespace
 {
 constexpr const char *ABOUT =
-    R"(Tell what is understood of a robot, before anything moves: joints with their limits, what collision checks see of
+    R"(Show how a robot file is understood, before anything moves: joints with their limits, what collision checks see of
 each link, the pairs of links that are checked against each other, masses, reach, and what the files leave open.)";
 
 constexpr const char *EXAMPLES = R"(Examples:

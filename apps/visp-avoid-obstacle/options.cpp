@@ -19,7 +19,7 @@ namespace avoidObstacle
 namespace
 {
 constexpr const char *ABOUT =
-    R"(Bring an arm to a goal past obstacles that the camera in its hand sees: pictures of real photographs are rendered,
+    R"(Bring an arm to a goal past obstacles that its eye-in-hand camera sees: views of real photographs are rendered,
 obstacles are found in them, tracked, put into the scene that the method knows, and the drives of a simulated arm follow
 what the method commands. The result is a folder with report.html (open it in a browser; python3 -m
 visp_direct.report A B shows several side by side), samples.csv, tracks.csv, frames.csv, views.csv and summary.json.)";
@@ -95,10 +95,10 @@ void addOptions(vpApp::CommandLine &line, Options &options)
         }
       },
       0);
-  line.number("--vision-rate", options.visionRate, {0., 200., true}, "HZ", "Pictures a second");
-  line.number("--latency", options.latency, {0., 10.}, "S", "From exposure to result");
+  line.number("--vision-rate", options.visionRate, {0., 200., true}, "HZ", "Images per second");
+  line.number("--latency", options.latency, {0., 10.}, "S", "Time from exposure to result");
   line.number("--forget", options.forget, {0., 1e4}, "S", "Forget obstacles unseen for S seconds; 0: never");
-  line.number("--noise", options.noise, {0., 100.}, "GREY", "Noise of pictures, grey values");
+  line.number("--noise", options.noise, {0., 100.}, "GREY", "Standard deviation of the noise of images, grey values");
   line.number(
       "--friction", options.friction, {0., 10.}, "F",
       "Friction of the joints; 1: as in the arm's file, 0: ideal drives (default: 1, of an arm without masses 0)");

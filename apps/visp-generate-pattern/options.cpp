@@ -17,16 +17,16 @@ namespace generatePattern
 namespace
 {
 constexpr const char *ABOUT =
-    R"(Write sequences of a repetitive, flexible product in motion, with the true places of its cells, to qualify optics
+    R"(Write sequences of a repetitive, flexible product in motion, with the true positions of its cells, to qualify optics
 and trackers. The defaults are the display of chapter 7 of the thesis: 160 x 100 px, 4.5 um a pixel, openings of
-178 x 52 um every 220 x 80 um. Places are pixels; (0, 0) is the centre of the top left one.)";
+178 x 52 um every 220 x 80 um. Positions are in pixels; (0, 0) is the centre of the top left one.)";
 
 constexpr const char *EXAMPLES =
     R"(Examples:
   visp-generate-pattern
       100 frames at 5 px/frame in out/generate-pattern
   visp-generate-pattern --noise 4 --dust 7.5 --cracks 2 --jitter 0.3 --rotation 1.5 --out hard --video
-      the thesis's noise on a dirty, turned product, and a video of it
+      the noise of the thesis on a dirty, rotated product, and a video
   visp-generate-pattern --config data/pattern/oled.json --width 2048 --height 2048 --frames 10
       a file, and options that go before it; data/pattern/README.md describes the file and what is written
 
@@ -71,7 +71,7 @@ void addTask(vpApp::CommandLine &line, Task &task)
                                {vpToString(vpProductShape::Rounded), vpProductShape::Rounded},
                                {vpToString(vpProductShape::Dot), vpProductShape::Dot}},
                               "Shape of an opening");
-  line.add("--rotation", "DEGREES", "Of the product in the image, clockwise, -180 to 180", "0",
+  line.add("--rotation", "DEGREES", "Rotation of the product in the image, clockwise, degrees, -180 to 180", "0",
            [&task](const auto &values) {
              task.product.rotation = vpMath::rad(vpApp::numberIn("--rotation", values[0], {-180., 180.}));
            });

@@ -25,7 +25,7 @@ constexpr const char *EXAMPLES =
   visp-print-pattern --axis xy --rows 4 --flex 2 --defects
       four rows of a flexible, dirty product, printed one after another
   visp-print-pattern --controller pid-ff --sensor thesis --trigger thesis --runs 50 --cells 200
-      the thesis's own way, 50 times
+      the method of the thesis, 50 times
   visp-print-pattern --reference constant --no-thesis
       constant velocity, for the throughput to compare with
   visp-print-pattern --explore data/explore/camera.json
@@ -63,10 +63,11 @@ void addControl(vpApp::CommandLine &line, Choices &choices, Options &options)
         choices.filter = {vpApp::numberIn("--filter", values[0], {}), vpApp::numberIn("--filter", values[1], {})};
       },
       2);
-  line.choice("--sensor", options.sensor,
-              {{"image", std::string("image")}, {"tracker", std::string("tracker")}, {"thesis", std::string("thesis")}},
-              "image: rendered pictures through vpPatternTracker; tracker, thesis: true places with the errors of that "
-              "tracker, or of the thesis's detection");
+  line.choice(
+      "--sensor", options.sensor,
+      {{"image", std::string("image")}, {"tracker", std::string("tracker")}, {"thesis", std::string("thesis")}},
+      "image: rendered images through vpPatternTracker; tracker, thesis: true positions with the errors of that "
+      "tracker, or of the thesis's detection");
   line.flag("--identify", options.identify,
             "First find mass and friction of the stage from a ramp that the camera watches, and use them");
   line.choice("--trigger", options.spec.trigger,
@@ -99,15 +100,15 @@ void addWorld(vpApp::CommandLine &line, Choices &choices, vpPrintExperimentSpec 
 {
   line.group("Product, camera and head");
   line.number("--flex", choices.flex, ANY, "PX",
-              "Flexible pitch: cells lie up to this far before or behind their place, in x and y");
+              "Flexible pitch: largest displacement of a cell from its regular position, in x and y");
   line.number("--flex-period", choices.flexPeriod, ANY, "CELLS", "Period of the flexible pitch");
-  line.number("--jitter", spec.product.jitter, ANY, "PX", "Standard deviation of a cell's place");
+  line.number("--jitter", spec.product.jitter, ANY, "PX", "Standard deviation of a cell's position");
   line.flag("--defects", choices.defects, "Dust and cracks: 12 and 3 in view");
   line.number("--noise", spec.product.noise, ANY, "NS", "Noise of the camera, see visp-generate-pattern");
-  line.number("--vision-delay", spec.visionDelay, ANY, "FRAMES", "From exposure to control");
+  line.number("--vision-delay", spec.visionDelay, ANY, "FRAMES", "Time from exposure to control");
   line.number("--dropped", spec.dropped, ANY, "SHARE", "Share of frames that never arrive");
   line.number("--travel-time", spec.travelTime, ANY, "FRAMES", "Travel time of a drop");
-  line.number("--nozzle", spec.nozzleOffset, ANY, "PX", "Place of the nozzle from the middle of the image");
+  line.number("--nozzle", spec.nozzleOffset, ANY, "PX", "Position of the nozzle from the middle of the image");
 }
 
 //! With --explore the file defines the runs: other options would be ignored.

@@ -29,7 +29,7 @@ constexpr const char *EXAMPLES = R"(Examples:
   visp-servo-compare --law kyrki-decoupled,kyrki-decoupled+cbf --plant A
       the same law without and with the filter that keeps the object in the view
   visp-servo-compare --target my-photo.jpg --measure image --law ff-lookat-pi --plant B
-      with rendered views of your own photo, measured by the vision of visp-direct
+      with rendered views of your own photograph, measured by the vision of visp-direct
   visp-servo-compare --monte-carlo 20 --measure points
       20 seeds of every run; the report shows median and range; also under mpirun
   visp-servo-compare --law pbvs1,ff-lookat-pi --plant A --shape
@@ -94,12 +94,13 @@ bool readOptions(int argc, const char *const *argv, Options &options)
             "Task file instead of the thesis' task; see data/scenario/README.md");
   line.text(
       "--target", options.target, "IMAGE",
-      "Photo of the flat object, 8 or 16 bits, turned as its EXIF orientation says (default: klimt.jpg of the data "
+      "Photograph of the flat object, 8 or 16 bits, rotated by its EXIF orientation (default: klimt.jpg of the data "
       "folder)");
   line.group("Arm that carries the camera");
-  line.list("--self-motion", robot.selfMotion, "WISH,...",
-            "What spare joints do: limits (away from joint limits), manipulability, posture (stay near the start), or "
-            "none");
+  line.list(
+      "--self-motion", robot.selfMotion, "WISH,...",
+      "What redundant joints do: limits (away from joint limits), manipulability, posture (stay near the start), or "
+      "none");
   line.list(
       "--free", robot.free, "AXIS,...",
       "Axes of the camera that the arm need not follow: x, y, z, rx, ry, rz; for arms with fewer than six joints. They "

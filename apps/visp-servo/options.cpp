@@ -73,10 +73,10 @@ void addCamera(vpApp::CommandLine &line, CameraOptions &camera)
             "Intrinsics, as ViSP's calibration writes them (default: a field of view of 60 degrees is assumed, for dry "
             "runs only)");
   line.text("--camera-name", camera.name, "NAME", "Name of the camera in that file (default: the only one that fits)");
-  line.number("--latency", camera.latency, {0., 1.}, "S", "Of the rendered camera: time from capture to result");
-  line.number("--noise", camera.noise, {0., 100.}, "GREY", "Of the rendered camera: standard deviation of grey values");
+  line.number("--latency", camera.latency, {0., 1.}, "S", "Rendered camera: time from capture to result");
+  line.number("--noise", camera.noise, {0., 100.}, "GREY", "Rendered camera: standard deviation of grey values");
   line.add("--object-pose", "X,Y,Z,RX,RY,RZ",
-           "Of the rendered camera: pose of the object at the start, m and degrees (theta u)", START,
+           "Rendered camera: pose of the object at the start, m and degrees (theta u)", START,
            [&camera](const auto &values) { camera.pose = poseIn("--object-pose", values[0]); });
   line.flag("--eye-to-hand", camera.isFixed,
             "The camera is fixed and sees the target on the end effector, which moves (default: the camera moves)");
@@ -146,9 +146,8 @@ void addRobot(vpApp::CommandLine &line, MotionOptions &motion)
       "--scene", motion.scene, "FILE.json",
       "Obstacles before which the arm stops, see data/scene/README.md; needs its model. Nothing that the end effector "
       "carries is checked unless the model has it");
-  line.number(
-      "--margin", motion.margin, {0., 1.}, "M",
-      "Clearance that the arm keeps from them and from itself, if its drives follow at once; what they lag is missing");
+  line.number("--margin", motion.margin, {0., 1.}, "M",
+              "Clearance that the arm keeps from them and from itself, less what its drives lag behind");
   line.flag("--dry-run", motion.dryRun, "Vision and law as usual, but nothing is commanded to the robot");
   line.flag("--start", motion.start, "Move at once; without it the space bar in the window of --display starts");
 }
@@ -197,7 +196,7 @@ void addRun(vpApp::CommandLine &line, Options &options)
       "Write the goal, and the mean image beside it, from where the camera stands now; .png: the image alone, for "
       "--reference, of a target of which nothing is known. Nothing moves");
   line.text("--replay", options.replay, "FOLDER",
-            "See and steer once more what is recorded in FOLDER; other options replace the recorded ones");
+            "Process again what is recorded in FOLDER; other options replace the recorded ones");
   line.flag("--list", options.list, "Name the laws and the robots of ViSP, and end");
   line.whole("--seed", options.seed, {0, 4294967295.}, "N", "Seed of the rendered camera's noise");
   line.text("--out", options.out, "DIR", "Folder for the result");

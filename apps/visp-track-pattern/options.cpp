@@ -22,19 +22,19 @@ namespace
 constexpr const char *ABOUT =
     R"(Find the cells of a repetitive product (openings of a display, dots of a grid, pads of a wafer) in every image, to
 hundredths of a pixel, and say how far the product moved since the image before. Nothing needs to be known of the
-product: its lattice and its looks are learned from the first images (some 60 of a product that moves). The images must
-show at least two cells each way. Colour is made grey; 16 bits a value are scaled to 8 by the range that they use; JPEG
-and TIFF images are turned as their orientation tag says; every page of a TIFF is an image.
+product: its lattice and its appearance are learned from the first images (some 60 of a product that moves). The images must
+show at least two cells each way. Colour is converted to grey; 16 bits per value are scaled to 8 by the range that they use;
+JPEG and TIFF images are rotated by their orientation tag; every page of a TIFF is an image.
 
 INPUT is a folder, image files, a pattern such as img%04d.png, a video file, or /dev/video0. Where the numbers in the names
-jump, images are missing, and no displacement is given. What cannot be read is left out. Without input the program
-makes a sequence of its own and says how far the answers are from the truth. It does so too for a folder that
+jump, images are missing, and no displacement is given. Images that cannot be read are skipped. Without input the program
+renders a sequence and reports the errors against its ground truth, as it does for a folder that
 visp-generate-pattern wrote.)";
 
 constexpr const char *EXAMPLES =
     R"(Examples:
   visp-track-pattern
-      its own sequence: what the method can do; open out/track-pattern/report.html
+      a rendered sequence: what the method can do; open out/track-pattern/report.html
   visp-generate-pattern --noise 4 --dust 7 --out hard && visp-track-pattern hard --out tracked
       a dirty product with known truth
   visp-track-pattern --camera 0 --frames 500 --display
@@ -46,7 +46,7 @@ constexpr const char *EXAMPLES =
 
 Written into the folder of --out: report.html (read this first), cells.csv, motion.csv, summary.json, and the overlay.
 data/pattern/README.md describes the files. Ctrl-C ends the run with the report of what was seen until
-then. Places are pixels; (0, 0) is the centre of the top left one.
+then. Positions are in pixels; (0, 0) is the centre of the top left one.
 
 Exit status: 0 done, 1 an image, a file or the camera does not allow it or shows no pattern, 2 the command line is wrong,
 130 ended by Ctrl-C.)";
@@ -72,15 +72,15 @@ Roi roiOf(const std::string &text)
 void addInput(vpApp::CommandLine &line, Options &options)
 {
   line.add(
-      "INPUT", " ", "Folder, image files, pattern, video file, or /dev/videoN (none: a sequence of its own)", "",
+      "INPUT", " ", "Folder, image files, pattern, video file, or /dev/videoN (default: a rendered sequence)", "",
       [&options](const auto &values) { options.inputs = values; }, -1);
   line.group("Input");
   line.text("--camera", options.camera, "N", "Read from the camera /dev/videoN");
   line.whole("--frames", options.frames, {1, 1e7}, "N",
-             "Maximum number of frames (default: all; 200 of its own sequence, 300 of a camera)");
-  line.add("--roi", "X,Y,W,H", "Look only here; places are still those in the whole image", "",
+             "Maximum number of frames (default: all; 200 of a rendered sequence, 300 of a camera)");
+  line.add("--roi", "X,Y,W,H", "Process only this region; positions still refer to the whole image", "",
            [&options](const auto &values) { options.roi = roiOf(values[0]); });
-  line.whole("--seed", options.seed, {0, 4294967295.}, "N", "Seed of its own sequence");
+  line.whole("--seed", options.seed, {0, 4294967295.}, "N", "Seed of the rendered sequence");
 }
 
 void addOutput(vpApp::CommandLine &line, Options &options)
@@ -89,7 +89,7 @@ void addOutput(vpApp::CommandLine &line, Options &options)
   line.text("--out", options.out, "DIR", "Folder for the result");
   line.choice("--overlay", options.overlay,
               {{"none", OverlayKind::None}, {"png", OverlayKind::Png}, {"mp4", OverlayKind::Mp4}},
-              "Pictures of what was found");
+              "Images with the cells that were found");
   line.number("--video-rate", options.videoRate, {1., 240.}, "HZ", "Frames per second of the overlay video");
   line.flag("--display", options.display, "Show the overlay in a window; a click ends the run");
 }
@@ -143,7 +143,7 @@ void addScale(vpApp::CommandLine &line, Options &options)
       "", [&pitch = options.pitch](const auto &values) {
         pitch.angle = vpMath::rad(vpApp::numberIn("--axes-deg", values[0], {30., 150.}));
       });
-  line.add("--pitch-sigma-um", "S", "For --calibrate: standard deviation of a cell's place on the product", "0",
+  line.add("--pitch-sigma-um", "S", "For --calibrate: standard deviation of a cell's position on the product", "0",
            [&pitch = options.pitch](const auto &values) {
              pitch.sigmaPlane = 1e-6 * vpApp::numberIn("--pitch-sigma-um", values[0], {0., 1e9});
            });
