@@ -77,7 +77,7 @@ def commands_in(line):
 class Checker:
     def __init__(self, root, bin_folder=None):
         self.root, self.bin, self.faults, self.counts = root, bin_folder, [], {"links": 0, "files": 0, "commands": 0}
-        self.helps, self.done, self.page, self.anywhere = {}, set(), "", []
+        self.helps, self.done, self.page, self.anywhere = {}, set(), "", []  # helps: what each call says
         names = (path.stem for folder in FOLDERS for path in (root / folder).rglob("*.cpp"))
         self.sources = {name for name in names if re.match(r"catch|perf|tutorial-", name)}
         presets = root / "CMakePresets.json"
@@ -129,8 +129,12 @@ class Checker:
                 self.fault(f"{name} is not built")
                 return
             self.check_options(name, [w for w in arguments if w.startswith("--")], self.options_of(name))
-            if not any(OWN.search(word) for word in arguments) and self.faults_of(name, arguments):
-                self.fault(self.faults_of(name, arguments))
+            if arguments and not any(OWN.search(word) for word in arguments):
+                call = (name, *arguments)
+                if call not in self.helps:
+                    self.helps[call] = self.faults_of(name, arguments)
+                if self.helps[call]:
+                    self.fault(self.helps[call])
 
     def faults_of(self, name, arguments):
         """What the program finds wrong with the command line itself. Files of the reader are not there: status 1."""
