@@ -47,7 +47,8 @@ struct Choices {
   double flex = 0., flexPeriod = 20.;
 };
 
-constexpr vpApp::Range ANY; // vpPrintExperimentSpec::validate() has the ranges
+// As vpPrintExperimentSpec::validate() has them, which also checks what depends on several options.
+constexpr vpApp::Range ANY, POSITIVE = {0., 1e9, true}, NOT_NEGATIVE = {0., 1e9};
 
 void addControl(vpApp::CommandLine &line, Choices &choices, Options &options)
 {
@@ -85,10 +86,10 @@ void addMotion(vpApp::CommandLine &line, Choices &choices, vpPrintExperimentSpec
                {"constant", vpPrintReferenceMode::ConstantVelocity}},
               "centres: drop velocity at the centres and faster between; arrival: a fixed time from cell to cell; "
               "limited: as fast as a limit allows; constant: drop velocity all the way");
-  line.number("--drop-velocity", spec.dropVelocity, ANY, "PX/FRAME", "Velocity at the centres");
-  line.number("--mean-velocity", spec.reference.meanVelocity, ANY, "PX/FRAME", "Mean velocity, for centres");
-  line.number("--drop-time", spec.reference.dropTime, ANY, "FRAMES", "Time from cell to cell, for arrival");
-  line.number("--max-velocity", spec.reference.maxVelocity, ANY, "PX/FRAME", "Limit of the velocity, for limited");
+  line.number("--drop-velocity", spec.dropVelocity, POSITIVE, "PX/FRAME", "Velocity at the centres");
+  line.number("--mean-velocity", spec.reference.meanVelocity, POSITIVE, "PX/FRAME", "Mean velocity, for centres");
+  line.number("--drop-time", spec.reference.dropTime, POSITIVE, "FRAMES", "Time from cell to cell, for arrival");
+  line.number("--max-velocity", spec.reference.maxVelocity, POSITIVE, "PX/FRAME", "Limit of the velocity, for limited");
   line.choice("--axis", choices.axes, {{"x", Axes::One}, {"xy", Axes::Both}},
               "x: one row; xy: rows one after another, to and fro");
   line.whole("--rows", choices.rows, {1, 10000}, "N", "Rows, with --axis xy (default: 3)");
@@ -99,15 +100,15 @@ void addMotion(vpApp::CommandLine &line, Choices &choices, vpPrintExperimentSpec
 void addWorld(vpApp::CommandLine &line, Choices &choices, vpPrintExperimentSpec &spec)
 {
   line.group("Product, camera and head");
-  line.number("--flex", choices.flex, ANY, "PX",
+  line.number("--flex", choices.flex, NOT_NEGATIVE, "PX",
               "Flexible pitch: largest displacement of a cell from its regular position, in x and y");
-  line.number("--flex-period", choices.flexPeriod, ANY, "CELLS", "Period of the flexible pitch");
-  line.number("--jitter", spec.product.jitter, ANY, "PX", "Standard deviation of a cell's position");
+  line.number("--flex-period", choices.flexPeriod, {4., 1e6}, "CELLS", "Period of the flexible pitch");
+  line.number("--jitter", spec.product.jitter, NOT_NEGATIVE, "PX", "Standard deviation of a cell's position");
   line.flag("--defects", choices.defects, "Dust and cracks: 12 and 3 in view");
-  line.number("--noise", spec.product.noise, ANY, "NS", "Noise of the camera, see visp-generate-pattern");
-  line.number("--vision-delay", spec.visionDelay, ANY, "FRAMES", "Time from exposure to control");
-  line.number("--dropped", spec.dropped, ANY, "SHARE", "Share of frames that never arrive");
-  line.number("--travel-time", spec.travelTime, ANY, "FRAMES", "Travel time of a drop");
+  line.number("--noise", spec.product.noise, {0., 50.}, "NS", "Noise of the camera, see visp-generate-pattern");
+  line.number("--vision-delay", spec.visionDelay, {0., 8.}, "FRAMES", "Time from exposure to control");
+  line.number("--dropped", spec.dropped, {0., 0.5}, "SHARE", "Share of frames that never arrive");
+  line.number("--travel-time", spec.travelTime, NOT_NEGATIVE, "FRAMES", "Travel time of a drop");
   line.number("--nozzle", spec.nozzleOffset, ANY, "PX", "Position of the nozzle from the middle of the image");
 }
 

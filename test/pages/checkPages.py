@@ -25,7 +25,7 @@ FOLDERS = ("apps", "cmake", "data", "doc", "lab", "modules", "python", "scripts"
 PATH = re.compile(rf"(?<![\w./-])(?:\./)?((?:{'|'.join(FOLDERS)})/[\w./-]*\w/?|demo\.sh|test\.sh|[A-Z]+\.md)(?![\w*{{<$-])")
 OWN = re.compile(r"\.\.\.|[<|*$]|(?<!\w)(?!README)[A-Z][A-Z_]*(?![\w-])")  # a place for the reader's own word
 OPTION = re.compile(r"(?<![\w-])--[a-z][\w-]*")
-FOREIGN = ["--bind-to", "--rng-seed"]  # of mpirun and Catch2
+FOREIGN = ["--bind-to", "--prefix", "--rng-seed"]  # of mpirun, CMake and Catch2
 PROGRAM = re.compile(r"visp-(?!direct$|images-data$)[a-z-]+[a-z]")
 
 
@@ -142,7 +142,8 @@ class Checker:
             arguments = arguments[:-1]
         with tempfile.TemporaryDirectory() as nowhere:
             ran = subprocess.run([self.bin / name, *arguments, "--help"], capture_output=True, text=True, cwd=nowhere)
-        return ran.stderr.strip() if ran.returncode == 2 else ""
+        mentioned = arguments[-1].startswith("--") and " is given without " in ran.stderr  # an option in a sentence, without its value
+        return ran.stderr.strip() if ran.returncode == 2 and not mentioned else ""
 
     def check_command(self, words):
         while words and words[0] in ("sudo", "nice", "time", "mpirun", "-n", "-np") or words and words[0].isdigit():

@@ -10,6 +10,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent))
 from checkPages import Checker  # noqa: E402
 
 PROGRAM = """#!/bin/sh
+case "$*" in *"--rate --help") echo "visp-see: --rate is given without a value" >&2; exit 2 ;; esac
 case "$*" in *"--rate -1"*) echo "visp-see: --rate is -1, must be a number > 0" >&2; exit 2 ;; esac
 cat <<'END'
 Options:
@@ -84,6 +85,7 @@ class Pages(unittest.TestCase):
             self.assert_fault(block.format("visp-see --rate -1"), "visp-see: --rate is -1, must be a number > 0", page)
             self.assert_fault(block.format("visp-saw --rate 5"), "there is no program visp-saw", page)
             self.assert_fault(block.format("./tutorial-saw"), "there is no program tutorial-saw", page)
+        self.assert_good("`visp-see --rate`")
         self.assert_fault("`visp-see --rat`", "visp-see has no option --rat")
         self.assert_fault("`./demo.sh visp-see --rat`", "visp-see has no option --rat")
 
