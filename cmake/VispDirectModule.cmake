@@ -142,8 +142,8 @@ function(vispdirect_unite_tests program)
     list(APPEND tests ${some})
     list(TRANSFORM some REPLACE "(.+)" "${folder}/\\1.cpp")
     set(source "${CMAKE_CURRENT_BINARY_DIR}/${program}_${number}.cpp")
-    add_custom_command(OUTPUT "${source}" DEPENDS ${some} "${VISP_DIRECT_ROOT}/cmake/uniteTests.cmake" VERBATIM
-                       COMMAND ${CMAKE_COMMAND} "-DOUTPUT=${source}" "-DSOURCES=${some}" -P "${VISP_DIRECT_ROOT}/cmake/uniteTests.cmake")
+    add_custom_command(OUTPUT "${source}" DEPENDS ${some} "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/uniteTests.cmake" VERBATIM
+                       COMMAND ${CMAKE_COMMAND} "-DOUTPUT=${source}" "-DSOURCES=${some}" -P "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/uniteTests.cmake")
     list(APPEND sources "${source}")
   endwhile()
   vispdirect_add_test_program(${program} SOURCES ${sources} LINK ${unite_LINK})
