@@ -44,6 +44,10 @@ class Cell:
         self.text = str(text) if isinstance(text, (str, int)) else number(text)
         self.style = style or ("" if self.sort is not None or value is None else "text wrap" if len(self.text) > 45 else "text")
 
+    @staticmethod
+    def of(value):
+        return value if isinstance(value, Cell) else Cell(value)
+
 
 def columns_of(described):
     """Headers and functions of a record, for Page.records(). described: (header, key or function), or texts of several columns:
@@ -108,16 +112,15 @@ class Page:
 
     def table(self, header, rows, caption=""):
         """Rows of values or Cells; a click on a header sorts."""
-        cells = [[value if isinstance(value, Cell) else Cell(value) for value in row] for row in rows]
+        cells = [[Cell.of(value) for value in row] for row in rows]
         self._add(kind="table", header=header, rows=cells, caption=caption)
 
     def records(self, records, columns, caption="", best=lambda record: False):
         """A table with a row for each record. columns: as for columns_of(). best: whether a row is green."""
         columns = list(columns_of(columns))
-        rows = [[get(record) for _, get in columns] for record in records]
-        for record, row in zip(records, rows):
-            if best(record):
-                row[:] = [Cell(value, f"{Cell(value).style} best") for value in row]
+        rows = [[Cell.of(get(record)) for _, get in columns] for record in records]
+        for cell in (cell for record, row in zip(records, rows) if best(record) for cell in row):
+            cell.style += " best"
         self.table([header for header, _ in columns], rows, caption)
 
     def facts(self, facts, caption=""):
