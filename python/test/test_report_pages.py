@@ -19,7 +19,7 @@ from visp_direct.report.data import DataError, Result, check, read_results
 BIN = pathlib.Path(os.environ.get("VISP_DIRECT_BIN", "."))
 ONLY = os.environ.get("VISP_DIRECT_PROGRAM", "")
 OUT = pathlib.Path(os.environ.get("VISP_DIRECT_TEST_OUT", ".")) / (ONLY or "all")
-OUT.mkdir(exist_ok=True)
+OUT.mkdir(parents=True, exist_ok=True)
 PROBE = (pathlib.Path(__file__).parent / "probe.js").read_text()
 
 
@@ -75,6 +75,8 @@ SMALL.write_text(
         }
     )
 )
+FEW = OUT / "few.jsonl"  # a figure takes a second
+FEW.write_text("".join((DATA / "trajectory/examples.jsonl").read_text().splitlines(keepends=True)[::4]))
 SHORT = OUT / "short.json"  # a task of visp-servo-compare, with names that are no text of HTML or of a formula
 SHORT.write_text(
     json.dumps(
@@ -92,7 +94,7 @@ SHORT.write_text(
     )
 )
 PROGRAMS = [
-    ("visp-plan-trajectory", str(DATA / "trajectory/examples.jsonl")),
+    ("visp-plan-trajectory", str(FEW)),
     ("visp-plan-trajectory", str(DATA / "trajectory/figure-6.3.jsonl")),
     ("visp-arm", "amor", "--fk", "0.1,0.2,0.3,-0.4,0.5,0.6,0.7"),
     (
@@ -237,7 +239,7 @@ def test_without_python_the_data_stays():
 
 @of("visp-plan-trajectory")
 def test_results_side_by_side(tmp_path):
-    first, _ = run("visp-plan-trajectory", str(DATA / "trajectory/examples.jsonl"))
+    first, _ = run("visp-plan-trajectory", str(FEW))
     second, _ = run("visp-plan-trajectory", str(DATA / "trajectory/figure-6.3.jsonl"))
     made = subprocess.run([sys.executable, "-m", "visp_direct.report", first, second], capture_output=True, text=True)
     assert made.returncode == 0, made.stderr
