@@ -39,14 +39,15 @@ struct Laws : vpRegistry<vpServoLaw::Maker> {
             "Image-based on the feature points: straight lines in the image, no care for the path.");
     addOurs("hybrid25d", makeHybrid25d, 1.,
             "Hybrid of Malis: translation by an image point and depth, rotation by pose.");
-    addOurs(
-        "kyrki", makeKyrki, 1.,
-        "Kyrki's law as published: a straight camera path, the rotation holds the object in the image and compensates the "
-        "translation.");
+    addOurs("kyrki", makeKyrki, 1.,
+            "Kyrki's law as published: a straight camera path, the rotation holds the object in the image and "
+            "compensates the "
+            "translation.");
     addOurs("kyrki-rot2", makeKyrki, 2., "kyrki with twice the rotation gain.");
-    addOurs("kyrki-decoupled", makeKyrkiDecoupled, 1.,
-            "Kyrki's law with the rotation driven by the image error alone, without compensation: what the thesis compares "
-            "with.");
+    addOurs(
+        "kyrki-decoupled", makeKyrkiDecoupled, 1.,
+        "Kyrki's law with the rotation driven by the image error alone, without compensation: what the thesis compares "
+        "with.");
     addOurs("ff-sum", makeFeedforwardSum, 1.,
             "The thesis' law, corrected: pbvs1 plus the bearing of the object as a feedforward of the rotation.");
     addOurs("ff-lookat", makeLookAt, lookAtFactor,
