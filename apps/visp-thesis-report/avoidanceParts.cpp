@@ -30,14 +30,13 @@ Quantity speedKept(double peak)
 
 Quantity arrived(double distance, double tolerance, const std::string &reason = "")
 {
-  return {"distance from the final point", "m",           0.,     distance,
-          Tolerance::distance(tolerance),  Good::Neither, reason, ""};
+  return {"distance from the final point", "m", 0., distance, Tolerance::atMost(tolerance), Good::Smaller, reason, ""};
 }
 
 Quantity throughVia(double distance, double tolerance)
 {
   return {"distance at which the via is passed", "m",           0., distance,
-          Tolerance::distance(tolerance),        Good::Neither, "", ""};
+          Tolerance::atMost(tolerance),          Good::Smaller, "", ""};
 }
 
 double distanceOf(const nlohmann::ordered_json &a, const nlohmann::ordered_json &b)
@@ -98,7 +97,7 @@ std::vector<Quantity> followingQuantities(const nlohmann::ordered_json &numbers)
   return {{"largest acceleration", "m/s^2", MAX_ACCELERATION, numbers.at("peak_a"), Tolerance::atMost(KEPT),
            Good::Smaller, "", "The thesis: guaranteed. Norm over both axes."},
           {"largest change of the acceleration within 1 ms", "m/s^2", 0., numbers.at("largest_step_of_a"),
-           Tolerance::distance(0.1), Good::Neither, "", "The thesis: continuous."},
+           Tolerance::atMost(0.1), Good::Smaller, "", "The thesis: continuous."},
           arrived(distanceOf(numbers.at("end_m"), numbers.at("goal_m")), 1e-6),
           {"distance from the object, rms", "m", std::nullopt, numbers.at("rms_distance_m"), Tolerance::factor(1.1),
            Good::Neither, "", "Setting out included."}};

@@ -27,12 +27,12 @@ RowKind kindIn(vpApp::JsonObject &row)
   return *kind;
 }
 
-//! The texts of an entry; what it does not have is that of its item.
-Judgement judgementIn(vpApp::JsonObject &row, const Judgement &item)
+//! The texts of an entry; what it does not have is that of its item. \param line : Of the item.
+Judgement judgementIn(vpApp::JsonObject &row, const Judgement &item, const std::string &line)
 {
   Judgement judgement;
   judgement.kind = kindIn(row);
-  judgement.where = row.text("where", item.where);
+  judgement.where = row.text("where", item.where) + ", line " + row.text("line", line) + " of the transcription";
   judgement.quote = row.text("quote", item.quote);
   judgement.tolerance = row.text("tolerance", item.tolerance);
   judgement.why = row.text("why", "");
@@ -89,10 +89,11 @@ Judgements::Judgements(const std::string &file)
     vpApp::JsonObject item = all.object(entry.key());
     Judgement common;
     common.where = item.text("where");
+    const std::string line = item.text("line");
     common.quote = item.text("quote", "");
     common.tolerance = item.text("tolerance", "");
     item.each("rows", [&](vpApp::JsonObject &row) {
-      m_all[entry.key()].emplace_back(row.text("row"), judgementIn(row, common));
+      m_all[entry.key()].emplace_back(row.text("row"), judgementIn(row, common, line));
     });
     item.finish();
   }

@@ -154,7 +154,8 @@ Item step(const Replicas &replicas)
        meanBetween(replica, 0.15, 0.3, &vpPrintSample::force) /
            meanBetween(replica, 0.075, 0.15, &vpPrintSample::force),
        Tolerance::atLeast(), Good::Neither, "",
-       "The thesis: more viscous friction in the later range; so the stage is made, its friction rises where a motion "
+       "The thesis supposes more viscous friction in the later range; so the stage is made, its friction rises where a "
+       "motion "
        "at "
        "4 px/frame is after 0.15 s. That the control then needs a twentieth more force is a result."}};
   return item;

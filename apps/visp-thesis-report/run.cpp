@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <cctype>
 #include <chrono>
+#include <map>
+#include <regex>
 
 namespace vpApp
 {
@@ -184,6 +186,56 @@ Played merged(const std::vector<Played> &seeds, const Judgements &judgements)
 }
 } // namespace
 
+std::vector<std::pair<std::string, std::string>> rowsNamedIn(const std::string &support)
+{
+  static const std::regex place(R"re(rows? of ([a-z]+A?[0-9.]+)((?:[^";]*"[^"]+")+))re"), quoted(R"re("([^"]+)")re");
+  std::vector<std::pair<std::string, std::string>> rows;
+  for (std::sregex_iterator i(support.begin(), support.end(), place), end; i != end; ++i) {
+    const std::string names = (*i)[2];
+    for (std::sregex_iterator k(names.begin(), names.end(), quoted); k != end; ++k) {
+      rows.emplace_back((*i)[1], (*k)[1]);
+    }
+  }
+  return rows;
+}
+
+namespace
+{
+//! Calls use(item, quantity) for each row.
+template <class Use> void eachRow(const std::vector<Played> &parts, Use use)
+{
+  for (const Played &played : parts) {
+    for (const Item &item : played.items) {
+      for (const Quantity &quantity : item.quantities) {
+        use(item, quantity);
+      }
+    }
+  }
+}
+
+/*!
+ * The rows that a support names must be there, as far as their figure or table was asked for.
+ * \throw std::runtime_error naming the row and what its support names.
+ */
+void requireNamedRows(const std::vector<Played> &parts)
+{
+  std::map<std::string, std::vector<std::string>> rows; // names by id
+  eachRow(parts, [&](const Item &item, const Quantity &quantity) { rows[item.id].push_back(quantity.name); });
+  const auto missing = [&](const std::string &id, const std::string &name) {
+    return rows.count(id) != 0 &&
+           std::none_of(rows[id].begin(), rows[id].end(), [&](const std::string &row) { return isLike(row, name); });
+  };
+  eachRow(parts, [&](const Item &item, const Quantity &quantity) {
+    for (const auto &[id, name] : rowsNamedIn(quantity.judgement.support)) {
+      if (missing(id, name)) {
+        throw std::runtime_error(item.id + ": the support of \"" + quantity.name + "\" names \"" + name +
+                                 "\", but there is no such row of " + id);
+      }
+    }
+  });
+}
+} // namespace
+
 std::vector<Played> playAll(const Options &options, const vpApp::Ranks &ranks)
 {
   const Judgements judgements(vpApp::dataFile("thesis/rows.json"));
@@ -212,6 +264,7 @@ std::vector<Played> playAll(const Options &options, const vpApp::Ranks &ranks)
     parts.push_back(merged({from, all.begin() + static_cast<std::ptrdiff_t>(end)}, judgements));
     parts.back().part = cases[i].part;
   }
+  requireNamedRows(parts);
   return parts;
 }
 } // namespace thesisReport

@@ -42,9 +42,16 @@ struct Played {
 };
 
 /*!
+ * The rows that Judgement::support names by `row of ID "NAME"` or `rows of ID "NAME" and "NAME"`.
+ * \return Id and name of each; a star in a name stands for any text.
+ */
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> rowsNamedIn(const std::string &support);
+
+/*!
  * Run the required parts with all seeds, the long ones first, with a progress bar.
  * \return Finished parts in the order of the catalogue, the seeds of each merged, on rank 0.
- * \throw std::runtime_error naming the id when a part fails, omits an item or has a row without judgement;
+ * \throw std::runtime_error naming the id when a part fails, omits an item or has a row without judgement, or when a support
+ * names a row that is not there;
  * vpApp::Interrupted.
  */
 [[nodiscard]] std::vector<Played> playAll(const Options &options, const vpApp::Ranks &ranks);

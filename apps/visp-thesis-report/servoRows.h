@@ -39,11 +39,15 @@ constexpr const char *FEEDFORWARD = "ff-sum", *PBVS = "pbvs1", *KYRKI = "kyrki-d
 //! Rms image error along u on the path 1 - 2 - 1, px.
 [[nodiscard]] double imageError(const vpServoRun &run);
 
-//! A ratio that the thesis claims to be at most, or at least, 1. \param note : Always shown.
-[[nodiscard]] Quantity atMostOne(const std::string &name, double ours, const std::string &reason,
-                                 const std::string &note = "");
-[[nodiscard]] Quantity atLeastOne(const std::string &name, double ours, const std::string &reason,
-                                  const std::string &note = "");
+constexpr double EQUAL = 0.05; //!< Two errors that differ by less are "equal"; "clear greater" is more than that.
+constexpr double SAME = 0.01;  //!< A ratio nearer to 1 is neither "greater" nor "bigger": seeds scatter it as far.
+
+//! A ratio of errors that the thesis claims to be "equal or better": at most 1. \param note : Always shown.
+[[nodiscard]] Quantity equalOrBetter(const std::string &name, double ours, const std::string &reason,
+                                     const std::string &note = "");
+//! A ratio that the thesis claims to be above 1. \param by : By how much at least: #EQUAL or #SAME.
+[[nodiscard]] Quantity greater(const std::string &name, double by, double ours, const std::string &reason,
+                               const std::string &note = "");
 
 /*!
  * \brief Adds rows of further runs to the items: figures 5.8 to 5.11 on AMOR with both references of the drives,

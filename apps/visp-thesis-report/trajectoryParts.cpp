@@ -146,8 +146,8 @@ Quantity continuous(const Motion &motion)
           "rad/s^2",
           0.,
           motion.jump,
-          Tolerance::distance(0.1),
-          Good::Neither,
+          Tolerance::atMost(0.1),
+          Good::Smaller,
           "",
           "The thesis: the acceleration is continuous. A step would be some rad/s^2."};
 }
@@ -257,7 +257,7 @@ Item iterations()
        "converged it does not say.",
        "With the best of 81 gains from 0.1 to 10, as the thesis says \"when tuned properly\". Settled to 1 us."},
       {"largest difference of the velocity, spread or at once", "rad/s", 0., largestDifference(byWhole.v, bySpread.v),
-       Tolerance::distance(0.01), Good::Neither,
+       Tolerance::atMost(0.01), Good::Smaller,
        "While the iteration is under way the motion follows a time that is still too short.",
        "The thesis: both give a similar velocity."},
       {"largest velocity, exact method in one cycle", "rad/s", MAX_VELOCITY, byExact.peakVelocity,
@@ -346,8 +346,8 @@ Item smoothestMotions()
          Good::Neither, "",
          "Least squares over all motions on a grid of " + std::to_string(INTERVALS) + " intervals."});
     item.quantities.push_back({label + ", polynomial of the module trajectory", "1", thesis[i],
-                               ratioOfPlan(continuities[i]), Tolerance::distance(0.002), Good::Neither, "",
-                               order == 4 ? "35/16 = 2.1875 exactly; the table is rounded down." : ""});
+                               ratioOfPlan(continuities[i]), Tolerance::distance(0.0005), Good::Neither,
+                               "The ratio is 35/16 = 2.1875 exactly, which rounds to 2.188 or 2.187.", ""});
     std::vector<double> t, v;
     const double step = 1. / (INTERVALS - (order - 1));
     for (Eigen::Index k = 0; k + 1 < motion.size(); ++k) {

@@ -205,6 +205,16 @@ TEST_CASE("A star in a row's name stands for any text", "[judgement]")
   CHECK_FALSE(isLike("ba", "a*"));
 }
 
+TEST_CASE("The rows that a support names", "[judgement]")
+{
+  using Rows = std::vector<std::pair<std::string, std::string>>;
+  CHECK(rowsNamedIn("`catchNothing`, \"case\"").empty());
+  CHECK(rowsNamedIn("rows of sec4.6; `catchNothing`, \"case\"").empty());
+  CHECK(rowsNamedIn("row of fig5.6 \"a: b\"") == Rows{{"fig5.6", "a: b"}});
+  CHECK(rowsNamedIn("rows of tableA.1 \"a\" and \"*b\", alike; row of eq7.2 \"c\"") ==
+        Rows{{"tableA.1", "a"}, {"tableA.1", "*b"}, {"eq7.2", "c"}});
+}
+
 TEST_CASE("Judgements: each has a place and words of the thesis and a tolerance, and names what is wrong",
           "[judgement]")
 {
@@ -216,6 +226,7 @@ TEST_CASE("Judgements: each has a place and words of the thesis and a tolerance,
     for (const auto &row : item.second) {
       CAPTURE(row.first);
       CHECK_FALSE(row.second.where.empty());
+      CHECK_THAT(row.second.where, Catch::Matches(".*, line [0-9]+( (to|and) [0-9]+)? of the transcription"));
       CHECK_FALSE(row.second.quote.empty());
       CHECK_FALSE(row.second.tolerance.empty());
     }
@@ -224,7 +235,9 @@ TEST_CASE("Judgements: each has a place and words of the thesis and a tolerance,
   CHECK_THROWS_WITH(judgements.of("fig7.13", "nothing"), Catch::Contains("fig7.13: the row \"nothing\""));
   const auto wrong = [](const std::string &row) {
     const TestFolder folder;
-    return Judgements(folder.write("rows.json", R"({"fig6.3": {"where": "w", "rows": [)" + row + "]}}")).all().size();
+    return Judgements(folder.write("rows.json", R"({"fig6.3": {"where": "w", "line": "7", "rows": [)" + row + "]}}"))
+        .all()
+        .size();
   };
   CHECK(wrong(R"({"row": "a"})") == 1);
   CHECK_THROWS_WITH(wrong(R"({"row": "a", "kind": "sure"})"),
