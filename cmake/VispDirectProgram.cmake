@@ -50,10 +50,25 @@ function(vispdirect_add_part_test test program)
   vispdirect_add_app_test(${test} ${library})
 endfunction()
 
-# vispdirect_add_program_test(TEST visp-NAME...): TEST.cpp runs programs. Their paths are the macros NAME, in upper case
-# with underscores.
+# vispdirect_add_program_test(TEST visp-NAME...): TEST.cpp runs programs.
 function(vispdirect_add_program_test test)
   vispdirect_add_app_test(${test} vispdirect_apps_common)
+  vispdirect_use_programs(${test} ${ARGN})
+endfunction()
+
+# vispdirect_unite_program_tests(visp-NAME TESTS test... [PROGRAMS visp-NAME...]): tests of the parts of a program, and others that run
+# it and further programs, as one program vispdirect_tests_NAME.
+function(vispdirect_unite_program_tests program)
+  cmake_parse_arguments(PARSE_ARGV 1 unite "" "" "TESTS;PROGRAMS")
+  string(REGEX REPLACE "^visp-" "" name "${program}")
+  string(REPLACE "-" "_" name "${name}")
+  vispdirect_unite_tests(vispdirect_tests_${name} TESTS ${unite_TESTS} LINK vispdirect_${name})
+  vispdirect_use_program_run(vispdirect_tests_${name})
+  vispdirect_use_programs(vispdirect_tests_${name} ${program} ${unite_PROGRAMS})
+endfunction()
+
+# vispdirect_use_programs(TEST visp-NAME...): the paths of programs as macros NAME, in upper case with underscores.
+function(vispdirect_use_programs test)
   foreach(program ${ARGN})
     string(REGEX REPLACE "^visp-" "" variable "${program}")
     string(REPLACE "-" "_" variable "${variable}")
@@ -66,5 +81,18 @@ endfunction()
 # Common to both kinds: the shared main, the support code of apps/common/test, the data folder, skipping.
 function(vispdirect_add_app_test test)
   vispdirect_add_test(${test} LINK ${ARGN})
-  target_include_directories(${test} PRIVATE "${VISP_DIRECT_ROOT}/apps/common/test")
+  vispdirect_use_program_run(${test})
+endfunction()
+
+# vispdirect_use_program_run(TEST): apps/common/test/programRun.h for a test. What is preloaded does not go with sanitizers.
+function(vispdirect_use_program_run test)
+  target_include_directories(${test} PRIVATE "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../apps/common/test")
+  if(CMAKE_SYSTEM_NAME STREQUAL "Linux" AND NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+    if(NOT TARGET vispdirect_program_server)
+      add_library(vispdirect_program_server MODULE "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../apps/common/test/programServer.cpp")
+      target_link_libraries(vispdirect_program_server PRIVATE ${CMAKE_DL_LIBS})
+    endif()
+    target_compile_definitions(${test} PRIVATE VISP_DIRECT_PROGRAM_SERVER="$<TARGET_FILE:vispdirect_program_server>")
+    add_dependencies(${test} vispdirect_program_server)
+  endif()
 endfunction()

@@ -3,85 +3,16 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 // The program as run by users: exit status, output streams, written files.
-#include "vpCaseFile.h"
-
-#include "programRun.h"
-
-#include <nlohmann/json.hpp>
+#include "trackPatternRun.h"
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
-#include <map>
-#include <sstream>
 
-namespace
-{
-using nlohmann::json;
-
-constexpr int OK = 0, DATA = 1, USAGE = 2; // exit status
-
-//! Reports are tested with Python; where this file asks for one it sets the variable back.
-[[maybe_unused]] const int withoutReports = setenv("VISP_DIRECT_PYTHON", "none", 1);
-
-//! \brief A table with a heading.
-struct Table {
-  std::vector<std::string> heading;
-  std::vector<std::map<std::string, std::string>> lines;
-};
-
-std::vector<std::string> split(const std::string &line)
-{
-  std::vector<std::string> parts;
-  std::istringstream stream(line);
-  for (std::string part; std::getline(stream, part, ',');) {
-    parts.push_back(part);
-  }
-  return parts;
-}
-
-//! A CSV file in the folder of \e run.
-Table tableIn(const ProgramRun &run, const std::string &file)
-{
-  Table table;
-  std::istringstream stream(vpApp::readFile(run.path(file)));
-  std::string line;
-  std::getline(stream, line);
-  table.heading = split(line);
-  while (std::getline(stream, line)) {
-    const std::vector<std::string> parts = split(line);
-    REQUIRE(parts.size() == table.heading.size());
-    table.lines.emplace_back();
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-      table.lines.back()[table.heading[i]] = parts[i];
-    }
-  }
-  return table;
-}
-
-double number(const std::map<std::string, std::string> &line, const std::string &name)
-{
-  return std::stod(line.at(name));
-}
-
-json jsonIn(const ProgramRun &run, const std::string &file) { return json::parse(vpApp::readFile(run.path(file))); }
-json summaryIn(const ProgramRun &run, const std::string &folder) { return jsonIn(run, folder + "/summary.json"); }
-
-//! Name of an image of visp-generate-pattern.
-std::string imageName(int i) { return (i < 10 ? "00000" : "0000") + std::to_string(i) + ".png"; }
-
-//! A sequence of visp-generate-pattern in the folder of \e run.
-void generate(const ProgramRun &run, const std::string &arguments)
-{
-  const std::string command =
-      "cd '" + run.path("").string() + "' && '" GENERATE_PATTERN "' " + arguments + " >/dev/null 2>&1";
-  REQUIRE(std::system(command.c_str()) == 0);
-}
-} // namespace
+using namespace trackPatternRun;
 
 TEST_CASE("Without input it tracks its own sequence and says how far it is from the truth", "[visp-track-pattern]")
 {
@@ -184,84 +115,6 @@ TEST_CASE("Methods, thresholds and derivatives are selectable; the printed algor
   CHECK(std::abs(biasOf("--method half-maximum --threshold isodata")) < 0.03);
   CHECK(std::abs(biasOf("--threshold minimum-error --polarity bright")) < 0.03);
   CHECK(summaryIn(run, "t")["threshold"] == "MinimumError");
-}
-
-TEST_CASE("The product calibrates the microscope, and then places are micrometres too", "[visp-track-pattern]")
-{
-  ProgramRun run(TRACK_PATTERN);
-  generate(run, "--noise 4 --frames 100 --motion 3.3 0.4 --out d");
-  REQUIRE(run("d --calibrate --pitch-um 220 80 --overlay none --out scale") == OK);
-  CHECK(run.out().find("The distortion kappa1 is unobservable and taken as 0") != std::string::npos);
-  const json calibration = jsonIn(run, "scale/calibration.json");
-  CHECK(1e6 / calibration["scale_x_px_per_m"].get<double>() == Approx(4.5).epsilon(2e-3));
-  CHECK(calibration["quality"]["kappa1_status"] == "Unobservable");
-  for (const std::string file : {"scale/calibration.json", "scale/calibration.xml"}) {
-    CAPTURE(file);
-    REQUIRE(run("d --overlay none --out um --calibration " + file) == OK);
-    CHECK(run.out().find("In micrometres: 4.5") != std::string::npos);
-    CHECK(vpApp::readFile(run.path("um/motion.csv")).find("-nan") == std::string::npos);
-    const Table motion = tableIn(run, "um/motion.csv");
-    CHECK(number(motion.lines.back(), "dx_um") == Approx(4.5 * number(motion.lines.back(), "dx")).epsilon(5e-3));
-    const Table cells = tableIn(run, "um/cells.csv");
-    const auto &a = cells.lines[cells.lines.size() - 2], &b = cells.lines.back();
-    CHECK(number(b, "x_um") - number(a, "x_um") ==
-          Approx(4.5 * (number(b, "x") - number(a, "x"))).epsilon(0.01).margin(0.5));
-  }
-  CHECK(run("d --frames 3 --overlay none --out um --roi 5,5,150,90 --calibration scale/calibration.json") == OK);
-}
-
-TEST_CASE("A still grid of dots calibrates by single images", "[visp-track-pattern]")
-{
-  ProgramRun run(TRACK_PATTERN);
-  generate(run,
-           "--shape dot --pitch-x 30 --pitch-y 30 --opening-x 14 --opening-y 14 --width 320 --height 240 --noise 2 "
-           "--frames 3 --motion 0 0 --rotation 3 --out d");
-  REQUIRE(run("d --calibrate --dot-grid --pitch-um 90 90 --overlay none --out scale") == OK);
-  const json calibration = jsonIn(run, "scale/calibration.json");
-  CHECK(1e6 / calibration["scale_x_px_per_m"].get<double>() == Approx(3.).epsilon(1e-3));
-  CHECK(calibration["rotation_deg"].get<double>() == Approx(3.).margin(0.05));
-  CHECK(calibration["quality"]["views"] == 3);
-}
-
-TEST_CASE("A hexagonal grid is calibrated as one, and never as a square one", "[visp-track-pattern]")
-{
-  ProgramRun run(TRACK_PATTERN);
-  cv::Mat grid(480, 640, CV_8UC1, cv::Scalar(40));
-  const double pitch = 24., angle = 0.6; // px; beyond the tracker's range
-  for (int row = -40; row <= 40; ++row) {
-    for (int column = -60; column <= 60; ++column) {
-      const double x = pitch * (column + 0.5 * row), y = pitch * 0.5 * std::sqrt(3.) * row;
-      const double u = 320. + std::cos(angle) * x - std::sin(angle) * y,
-                   v = 240. + std::sin(angle) * x + std::cos(angle) * y;
-      constexpr double fine = 16.; // of cv::circle's shift
-      cv::circle(grid, cv::Point(cvRound(fine * u), cvRound(fine * v)), cvRound(fine * 6.), cv::Scalar(200), cv::FILLED,
-                 cv::LINE_AA, 4);
-    }
-  }
-  cv::imwrite(run.path("hexagonal.png").string(), grid);
-  REQUIRE(run("hexagonal.png --calibrate --dot-grid --pitch-um 24 24 --overlay none --out scale") == OK);
-  CHECK(run.out().find("are on a hexagonal lattice") != std::string::npos);
-  CHECK(run.out().find("whose axes are at ") != std::string::npos);
-  const json calibration = jsonIn(run, "scale/calibration.json");
-  CHECK(calibration["scale_x_px_per_m"].get<double>() == Approx(1e6).epsilon(1e-3));
-  CHECK(summaryIn(run, "scale")["calibrated"]["reliable"] == calibration["quality"]["reliable"]);
-  CHECK(run("hexagonal.png --calibrate --dot-grid --pitch-um 24 24 --axes-deg 60 --overlay none --out same") == OK);
-  CHECK(run("hexagonal.png --calibrate --dot-grid --pitch-um 24 24 --axes-deg 90 --overlay none --out square") == DATA);
-  CHECK(run.err().find("--calibrate: the points do not fit, no calibration is written. ") != std::string::npos);
-  CHECK(run.err().find("the cells are on another lattice than specified") != std::string::npos);
-  CHECK_FALSE(std::filesystem::exists(run.path("square/calibration.json")));
-  CHECK(run("hexagonal.png --calibrate --dot-grid --pitch-um 24 24 --axes-deg 9 --out square") == USAGE);
-}
-
-TEST_CASE("A micrograph of a grid with dots of three levels is a grid", "[visp-track-pattern]")
-{
-  const std::string image = vpTestSupport::caseFile("images/three-level-dots.png");
-  if (image.empty()) {
-    return;
-  }
-  ProgramRun run(TRACK_PATTERN);
-  REQUIRE(run("'" + image + "' --calibrate --dot-grid --pitch-um 16 16 --overlay none --out scale") == OK);
-  CHECK(run.out().find("of 796 bright dots are on a square lattice of 15.98 and 15.97 px") != std::string::npos);
 }
 
 TEST_CASE("Videos and colour images are read", "[visp-track-pattern]")
@@ -408,85 +261,6 @@ TEST_CASE("Images of 16 bits are scaled by the range of their data, and it is sa
   CHECK(summary["images"] == 70);
   CHECK(summary["images_by_status"]["lost"] == 0);
   CHECK(summary["lattice"]["column_pitch_px"].get<double>() == Approx(220. / 4.5).epsilon(0.002));
-}
-
-TEST_CASE("Bad use ends with a sentence and nothing written", "[visp-track-pattern]")
-{
-  ProgramRun run(TRACK_PATTERN);
-  std::filesystem::create_directory(run.path("mine"));
-  run.write("mine/notes.txt", "precious");
-  cv::Mat small(100, 160, CV_8UC1);
-  cv::randu(small, 0, 255);
-  cv::imwrite(run.path("good.png").string(), small);
-  cv::imwrite(run.path("tiny.png").string(), small(cv::Rect(0, 0, 8, 8)));
-  run.write("cut.png", vpApp::readFile(run.path("good.png")).substr(0, 3000));
-  run.write("film.mp4", "no film");
-  run.write("bad.json", R"({"scale_x_px_per_m": 2e5, "width": 640, "height": 480})");
-  const std::size_t entries = run.entries().size();
-  struct Case {
-    std::string arguments;
-    int status;
-    std::string sentence;
-  };
-  const std::vector<Case> cases = {
-      {"--nonsense", USAGE, "--nonsense"},
-      {"--frames 0", USAGE, "--frames is 0, must be a whole number from 1 to 10000000"},
-      {"--frames few", USAGE, "--frames"},
-      {"--roi 1,2,3", USAGE, "--roi is 1,2,3, must be X,Y,WIDTH,HEIGHT in whole pixels, at least 16 x 16"},
-      {"--roi 0,0,8,8", USAGE, "--roi is 0,0,8,8"},
-      {"--roi ' 0,0,20,20'", USAGE, "--roi is 0,0,20,20, must be"},
-      {"--roi -1,0,20,20", USAGE, "--roi"},
-      {"--method best", USAGE, "--method is best, must be gauss-newton, half-maximum, thesis or thesis-fixed"},
-      {"--threshold 128", USAGE, "--threshold is 128, must be otsu, isodata or minimum-error"},
-      {"--derivative scharr", USAGE, "--derivative is scharr, must be symmetric, roberts, prewitt or sobel"},
-      {"--polarity grey", USAGE, "--polarity is grey, must be automatic, bright or dark"},
-      {"--overlay gif", USAGE, "--overlay is gif, must be none, png or mp4"},
-      {"--video-rate 0", USAGE, "--video-rate is 0"},
-      {"--out ''", USAGE, "--out"},
-      {"--calibrate", USAGE, "--calibrate needs --pitch-um X Y"},
-      {"--calibrate --pitch-um 220 -80", USAGE, "--pitch-um is -80, must be a number > 0"},
-      {"--calibrate --pitch-um 220 80 --pitch-sigma-um -1", USAGE, "--pitch-sigma-um is -1, must be a number >= 0"},
-      {"--pitch-um 220 80", USAGE, "--pitch-um is given without --calibrate"},
-      {"--calibrate --pitch-um 1 1 --calibration x.json", USAGE, "not both in one run"},
-      {"--camera 0 good.png", USAGE, "--camera and the input good.png are both given"},
-      {"/dev/videofront", USAGE, "--camera is /dev/videofront, must be a number or /dev/videoN"},
-      {"--camera front", USAGE, "--camera is front, must be a number or /dev/videoN"},
-      {"--camera 9999", DATA, "/dev/video9999: the camera cannot be opened"},
-      {"/dev/video9999", DATA, "/dev/video9999: the camera cannot be opened"},
-      {"none", DATA, "none: there is no such file or folder"},
-      {"none.png", DATA, "none.png: there is no such file or folder"},
-      {"good.png none.png", DATA, "none.png: cannot be read (there is no such file)"},
-      {"mine", DATA, "mine: the folder holds no images"},
-      {"'x%04d.png'", DATA, "x%04d.png: no file has such a name"},
-      {"'x%s.png'", DATA, "x%s.png: is no pattern"},
-      {"cut.png", DATA, "cut.png: is not an image that can be read, or is cut short"},
-      {"film.mp4", DATA, "film.mp4: is not a video that can be read"},
-      {"tiny.png", DATA, "width of the pattern tracker's image is 8 px, must be 16..16384"},
-      {"good.png --roi 100,0,100,50", DATA, "--roi 100,0,100,50 does not lie in good.png of 160 x 100 px"},
-      {"good.png --calibration none.json", DATA, "none.json: cannot be read"},
-      {"good.png --calibration none.xml", DATA, "none.xml: cannot be read"},
-      {"good.png --calibration bad.json", DATA, "bad.json: is for images of 640 x 480 px, these have 160 x 100 px"},
-      {"good.png --out mine", DATA, "mine: is not empty and not a result of visp-track-pattern"},
-      {"good.png --out bad.json", DATA, "bad.json: exists and is not a folder"},
-      {"good.png --out /proc/none/out", DATA, "/proc/none/out: cannot be written"},
-  };
-  for (const Case &bad : cases) {
-    CAPTURE(bad.arguments);
-    CHECK(run(bad.arguments) == bad.status);
-    CAPTURE(run.err());
-    const std::size_t sentence = run.err().rfind("visp-track-pattern: ");
-    CHECK((sentence == 0 || (sentence != std::string::npos && run.err()[sentence - 1] == '\n')));
-    CHECK(std::count(run.err().begin(), run.err().end(), '\n') <= 5); // the message, and progress at every quarter
-    CHECK(run.err().find(bad.sentence) != std::string::npos);
-    CHECK(run.out().empty());
-    CHECK(run.entries().size() == entries);
-  }
-  CHECK(run("good.png --display", "DISPLAY=") == DATA);
-  CHECK(run.err().find("--display needs") != std::string::npos);
-  CHECK(vpApp::readFile(run.path("mine/notes.txt")) == "precious");
-  CHECK(run("--help") == OK);
-  CHECK(run.out().find("--pitch-um") != std::string::npos);
-  CHECK(run("--version") == OK);
 }
 
 TEST_CASE("What is written is described", "[visp-track-pattern]")
