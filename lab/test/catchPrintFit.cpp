@@ -16,10 +16,53 @@ using namespace vpPrintFit;
 
 namespace
 {
-int numberFrom(const char *name, int otherwise)
+//! \brief What the search of data/thesis/print-fit.csv was started with; environment variables change it.
+struct SearchSpec {
+  PoorFilter poor = storedPoor;
+  int generations = 150, seeds = 2, seed = 1;
+
+  static SearchSpec fromEnvironment()
+  {
+    const auto number = [](const char *name, int otherwise) {
+      const char *const text = std::getenv(name);
+      return text != nullptr ? std::atoi(text) : otherwise;
+    };
+    SearchSpec spec;
+    spec.generations = number("FIT_GENERATIONS", spec.generations);
+    spec.seeds = number("FIT_SEEDS", spec.seeds);
+    spec.seed = number("FIT_SEED", spec.seed);
+    const char *const poor = std::getenv("FIT_POOR");
+    spec.poor = poor == nullptr                      ? storedPoor
+                : std::string(poor) == "feedforward" ? PoorFilter::Feedforward
+                                                     : PoorFilter::Pid;
+    return spec;
+  }
+  //! First line of the file: the command that writes it again.
+  [[nodiscard]] std::string command() const
+  {
+    return "# FIT_POOR=" + std::string(poor == PoorFilter::Pid ? "pid" : "feedforward") +
+           " FIT_GENERATIONS=" + std::to_string(generations) + " FIT_SEEDS=" + std::to_string(seeds) +
+           " FIT_SEED=" + std::to_string(seed) +
+           " FIT_OUT=data/thesis/print-fit.csv build/release/bin/catchPrintFit \"[.fit]\"\n";
+  }
+};
+
+//! Searches and returns the whole file.
+std::string searched(const SearchSpec &spec)
 {
-  const char *const text = std::getenv(name);
-  return text != nullptr ? std::atoi(text) : otherwise;
+  const Result result = search(spec.poor, spec.generations, spec.seeds, static_cast<unsigned int>(spec.seed),
+                               [](int generation, double cost) {
+                                 if (generation % 10 == 0) {
+                                   std::cerr << "generation " << generation << ": " << cost << '\n';
+                                 }
+                                 return true;
+                               });
+  std::ostringstream text;
+  text << spec.command() << "# figure 7.15 with the controller of figure "
+       << (spec.poor == PoorFilter::Pid ? "7.13" : "7.14") << ": " << result.evaluations << " evaluations, cost "
+       << result.cost << " with " << spec.seeds << " seeds; the statements below are with 8 seeds\n"
+       << csvOf(result.values, spec.poor, 8);
+  return text.str();
 }
 
 //! Cells of the lines that begin with a name; comments are left out.
@@ -44,7 +87,9 @@ TEST_CASE("The stored plant and gains are those of data/thesis/print-fit.csv, wi
 {
   std::ifstream file(VISP_DIRECT_DATA_DIR "/thesis/print-fit.csv");
   REQUIRE(file.good());
-  std::istringstream now(csvOf(stored(), storedPoor, 8));
+  const std::string text = csvOf(stored(), storedPoor, 8);
+  std::cout << text;
+  std::istringstream now(text);
   const auto kept = linesOf(file), made = linesOf(now);
   REQUIRE(kept.size() == made.size());
   for (std::size_t i = 0; i < kept.size(); ++i) {
@@ -93,21 +138,32 @@ TEST_CASE("A residual is the distance in units of its scale, and 0 on the good s
   CHECK_THROWS_WITH(figuresOf(Eigen::VectorXd::Zero(3), storedPoor), Catch::Contains("has 3 numbers, must have 19"));
 }
 
-// FIT_GENERATIONS=150 FIT_SEEDS=2 bin/catchPrintFit "[.fit]"; FIT_SEED of the search, FIT_POOR (pid or feedforward).
+TEST_CASE("The file's first line is the command that writes it", "[print]")
+{
+  std::ifstream file(VISP_DIRECT_DATA_DIR "/thesis/print-fit.csv");
+  std::string line;
+  REQUIRE(std::getline(file, line));
+  CHECK(line + '\n' == SearchSpec().command());
+  // A search that hardly searches is the same again, and has all lines of the file.
+  const SearchSpec brief{PoorFilter::Pid, 2, 1, 5};
+  const std::string text = searched(brief);
+  CHECK((searched(brief) == text));
+  std::istringstream made(text);
+  std::ifstream kept(VISP_DIRECT_DATA_DIR "/thesis/print-fit.csv");
+  CHECK(linesOf(made).size() == linesOf(kept).size());
+  CHECK(text.substr(0, text.find('\n') + 1) == brief.command());
+}
+
+// Minutes. FIT_OUT is the file to be written; without it the text is printed.
 TEST_CASE("Search plant and gains of figures 7.12 to 7.15", "[.fit]")
 {
-  const char *const which = std::getenv("FIT_POOR");
-  const PoorFilter poor = which != nullptr && std::string(which) == "pid" ? PoorFilter::Pid : PoorFilter::Feedforward;
-  const int generations = numberFrom("FIT_GENERATIONS", 150), seeds = numberFrom("FIT_SEEDS", 2);
-  const Result result = search(poor, generations, seeds, static_cast<unsigned int>(numberFrom("FIT_SEED", 1)),
-                               [](int generation, double cost) {
-                                 if (generation % 10 == 0) {
-                                   std::cerr << "generation " << generation << ": " << cost << '\n';
-                                 }
-                                 return true;
-                               });
-  std::cout << "# figure 7.15 with the controller of figure " << (poor == PoorFilter::Pid ? "7.13" : "7.14") << ": "
-            << result.evaluations << " evaluations, cost " << result.cost << " with " << seeds << " seeds\n"
-            << csvOf(result.values, poor, 8);
-  CHECK(result.cost < 1e3);
+  const std::string text = searched(SearchSpec::fromEnvironment());
+  if (const char *const name = std::getenv("FIT_OUT")) {
+    std::ofstream file(name);
+    file << text;
+    CHECK(file.flush().good());
+  }
+  else {
+    std::cout << text;
+  }
 }

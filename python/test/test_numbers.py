@@ -72,13 +72,23 @@ def test_numbers_of_every_form(compare):
     assert compare("below 0.02 um", {**bound, "at_most": ["x"]})[0] == 1
 
 
+def test_all_that_is_printed(compare):
+    c = claim("{x} m, {n} in all, first {f}", "d=3 d=7 d=5", {"x": r"max: d=(\d)", "n": r"sum: d=(\d)", "f": r"re: d=(\d)"})
+    assert compare("7 m, 15 in all, first 3", c)[0] == 0
+    assert compare("3 m, 15 in all, first 3", c)[0] == 1
+
+
 def test_benchmarks_by_name(compare):
     runs = [{"name": "a, 2 rows/iterations:5", "cpu_time": 1500.0, "p50": 3}, {"name": "a", "cpu_time": 1}]
     c = {"text": "{t} us, {p}", "command": f"say OUT '{json.dumps({'benchmarks': runs}, indent=1)}' '' 0", "scale": {"t": 1e-3}}
     c["from"] = {"t": "bench: a, 2 rows: cpu_time", "p": "bench: a, 2 rows: p50"}
     assert compare("1.5 us, 3", c)[0] == 0
     assert compare("1.4 us, 3", c)[0] == 1
-    assert "0 benchmarks have the name b" in compare("1.5 us, 3", {**c, "from": {"t": "bench: b: p50", "p": "bench: a: cpu_time"}})[1]
+    missing = {**c, "from": {"t": "bench: b: p50", "p": "bench: a: cpu_time"}}
+    status, said = compare("1.5 us, 3", missing)
+    assert status == 1 and "0 benchmarks have the name b" in said
+    status, said = compare("1.5 us, 3", {**missing, "needs": "PEER_B"})
+    assert status == 0 and "needs PEER_B" in said and "0 numbers compared" in said
 
 
 def test_update_writes_what_is_measured(compare, tmp_path):
@@ -93,9 +103,10 @@ def test_json_lists_loops_and_long_commands(compare):
     assert compare("| a | 2 |\n| b | 3 |", c)[0] == 0
     status, said = compare("| a | 2 |\n| b | 4 |", c)
     assert status == 1 and "2 numbers compared, 1 stale" in said
-    status, said = compare("| a | 7 |\n| b | 7 |", {**c, "long": True})
+    status, said = compare("| a | 7 |\n| b | 7 |", {**c, "long": 20})
     assert status == 0 and "0 numbers compared" in said
-    assert compare("| a | 7 |\n| b | 3 |", {**c, "long": True}, options=["--long"])[0] == 1
+    assert compare("| a | 7 |\n| b | 3 |", {**c, "long": 20}, options=["--long"])[0] == 0
+    assert compare("| a | 7 |\n| b | 3 |", {**c, "long": 20}, options=["--long", "20"])[0] == 1
 
 
 def test_what_cannot_be_compared_is_stale(compare):

@@ -7,13 +7,14 @@ A claim of claims.json:
   text       words of the page with {names} in place of numbers; spaces stand for any white space
   command    of build/release/bin, OUT is a result folder
   from       by name: "summary.json runs law=pbvs1,plant=D end_rotation_deg" (a path in a JSON file of OUT; name=value chooses in a
-             list), "re: ..." (first group of a regular expression on the output), or "bench: NAME: COUNTER" (of Google Benchmark;
-             cpu_time is in the unit of the benchmark)
+             list), "re: ..." (first group of a regular expression on the output; "max: ..." and "sum: ..." take all that it finds), or
+             "bench: NAME: COUNTER" (of Google Benchmark; cpu_time is in the unit of the benchmark)
   factor     by name: the tolerance as a ratio, for times; without it the number must round to what the page says
   at_most    names of bounds, which the measured number may stay below
   scale      by name: what the measured number is multiplied by, for other units
   for        values of $ for which the claim stands, each by itself
-  long       takes minutes
+  long       about how many minutes it takes, where it is more than one
+  needs      a build with this option: without it the benchmark is not there, and nothing is compared
 """
 import argparse
 import json
@@ -31,6 +32,10 @@ NUMBER = r"(-?(?:\d{1,3}(?:,\d{3})+|\d+)(?:\.\d+)?(?:e-?\d+)?)"
 
 class Stale(Exception):
     """A sentence that says what does not fit."""
+
+
+class Missing(Stale):
+    """The same, of a benchmark that is not built."""
 
 
 def claims(file):
@@ -90,17 +95,18 @@ def chosen(value, step):
 
 
 def measured_in(source, output, out):
-    if source.startswith("re:"):
-        found = re.search(source[3:].strip(), output)
-        if not found:
-            raise Stale(f"the command does not print {source[3:].strip()}")
-        return float(found.group(1))
+    kind, _, pattern = source.partition(": ")
+    if kind in ("re", "max", "sum"):
+        numbers = [float(found.group(1)) for found in re.finditer(pattern, output)]
+        if not numbers:
+            raise Stale(f"the command does not print {pattern}")
+        return {"re": numbers[0], "max": max(numbers), "sum": sum(numbers)}[kind]
     if source.startswith("bench:"):
         name, counter = (part.strip() for part in source[6:].rsplit(":", 1))
         runs = json.loads(output[output.index("{\n") : output.rindex("}") + 1])["benchmarks"]
         runs = [run for run in runs if re.sub("/(iterations:.*|process_time|real_time)$", "", run["name"]) == name]
         if len(runs) != 1:
-            raise Stale(f"{len(runs)} benchmarks have the name {name}")
+            raise (Stale if runs else Missing)(f"{len(runs)} benchmarks have the name {name}")
         return float(chosen(runs[0], counter))
     file, *steps = source.split(" ")
     value = json.loads((out / file).read_text(encoding="utf-8"))
@@ -168,7 +174,7 @@ def check(claim, runner):
 def main(arguments):
     parser = argparse.ArgumentParser(prog="scripts/numbers.sh")
     parser.add_argument("--page", help="only claims of this page")
-    parser.add_argument("--long", action="store_true", help="also commands that take minutes")
+    parser.add_argument("--long", nargs="?", const=10.0, default=0.0, type=float, metavar="MINUTES", help="also commands that take up to so many (10)")
     parser.add_argument("--list", action="store_true", help="say which commands would run; only look whether the pages have the words")
     parser.add_argument("--update", action="store_true", help="write what is measured now into the pages, where they are stale")
     parser.add_argument("--claims", default=ROOT / "scripts/numbers/claims.json")
@@ -185,16 +191,19 @@ def main(arguments):
                     printed = printed_in((ROOT / claim["page"]).read_text(encoding="utf-8"), claim["text"])
                     print(f"{claim['page']}: {', '.join(f'{k} {v}' for k, v in printed.items())}: {claim['command']}")
                     continue
-                if claim.get("long") and not options.long:
+                if claim.get("long", 0) > options.long:
                     continue
                 lines, measured = check(claim, runner)
                 bad = len(measured)
                 if options.update and measured:
                     page = ROOT / claim["page"]
                     page.write_text(rewrite(page.read_text(encoding="utf-8"), claim["text"], measured), encoding="utf-8")
+            except Missing as reason:
+                kind, bad = ("-----", 0) if "needs" in claim else ("STALE", 1)
+                lines = [f"{kind} {claim['page']}: {claim['text'][:60]}: {reason}" + (f"; needs {claim['needs']}" if not bad else "")]
             except Stale as reason:
                 lines, bad = [f"STALE {claim['page']}: {claim['text'][:60]}: {reason}"], 1
-            compared, stale = compared + len(lines), stale + bad
+            compared, stale = compared + sum(not line.startswith("-----") for line in lines), stale + bad
             print("\n".join(lines), flush=True)
     print(f"{compared} numbers compared, {stale} stale")
     return 1 if stale else 0

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <vector>
 
 VISP_DIRECT_USING_NAMESPACE
@@ -159,6 +160,13 @@ Outcome print(long cells, double sigma, vpPrintTriggerMethod method, double offs
     outcome.missed += n == 0 ? 1 : 0;
     outcome.doubled += n > 1 ? 1 : 0;
   }
+  const auto drops = static_cast<double>(outcome.drops);
+  std::cout << (method == vpPrintTriggerMethod::Horizon ? "horizon" : "algorithm 7.5")
+            << (plan ? "" : " without the plan") << ", sensor " << sigma << " px, " << cells
+            << " cells: " << outcome.missed << " missed, " << outcome.reported << " reported, " << outcome.doubled
+            << " doubled, " << 100. * static_cast<double>(outcome.missed + outcome.doubled) / static_cast<double>(cells)
+            << " % of the cells; " << 100. * static_cast<double>(outcome.within) / drops << " % within 10 um, landing "
+            << 4.5 * std::sqrt(outcome.sum2 / drops) << " um rms, " << 4.5 * outcome.worst << " um at most\n";
   return outcome;
 }
 } // namespace
