@@ -84,6 +84,8 @@ def test_benchmarks_by_name(compare):
     c["from"] = {"t": "bench: a, 2 rows: cpu_time", "p": "bench: a, 2 rows: p50"}
     assert compare("1.5 us, 3", c)[0] == 0
     assert compare("1.4 us, 3", c)[0] == 1
+    ratio = {**c, "text": "{r} times", "from": {"r": "ratio: a, 2 rows: cpu_time / a, 2 rows: p50"}, "scale": {}}
+    assert compare("500 times", ratio)[0] == 0 and compare("400 times", ratio)[0] == 1
     missing = {**c, "from": {"t": "bench: b: p50", "p": "bench: a: cpu_time"}}
     status, said = compare("1.5 us, 3", missing)
     assert status == 1 and "0 benchmarks have the name b" in said

@@ -8,7 +8,8 @@ A claim of claims.json:
   command    of build/release/bin, OUT is a result folder
   from       by name: "summary.json runs law=pbvs1,plant=D end_rotation_deg" (a path in a JSON file of OUT; name=value chooses in a
              list), "re: ..." (first group of a regular expression on the output; "max: ..." and "sum: ..." take all that it finds), or
-             "bench: NAME: COUNTER" (of Google Benchmark; cpu_time is in the unit of the benchmark)
+             "bench: NAME: COUNTER" (of Google Benchmark; cpu_time is in the unit of the benchmark), or the ratio of two,
+             "ratio: NAME: COUNTER / NAME: COUNTER"
   factor     by name: the tolerance as a ratio, for times; without it the number must round to what the page says
   at_most    names of bounds, which the measured number may stay below
   scale      by name: what the measured number is multiplied by, for other units
@@ -101,6 +102,9 @@ def measured_in(source, output, out):
         if not numbers:
             raise Stale(f"the command does not print {pattern}")
         return {"re": numbers[0], "max": max(numbers), "sum": sum(numbers)}[kind]
+    if kind == "ratio":
+        over, under = (measured_in("bench: " + part, output, out) for part in pattern.split(" / "))
+        return over / under
     if source.startswith("bench:"):
         name, counter = (part.strip() for part in source[6:].rsplit(":", 1))
         runs = json.loads(output[output.index("{\n") : output.rindex("}") + 1])["benchmarks"]
@@ -158,7 +162,7 @@ class Runner:
 def check(claim, runner):
     """A line for each number, and the stale ones by name; raises Stale where nothing can be compared."""
     printed = printed_in((ROOT / claim["page"]).read_text(encoding="utf-8"), claim["text"])
-    benchmark = any(source.startswith("bench:") for source in claim["from"].values())
+    benchmark = any(source.startswith(("bench:", "ratio:")) for source in claim["from"].values())
     output, out = runner.run(claim["command"] + (" --benchmark_format=json" if benchmark else ""))
     lines, stale = [], {}
     for name, source in claim["from"].items():

@@ -143,7 +143,6 @@ void vpPlannedMotion::look()
   if (m_status == vpAvoidanceStatus::InvalidInput) {
     return;
   }
-  m_now.setMargin(std::max(0., m_spec.common.margin - slack));
   if (m_goalChanged) {
     m_goal = m_wish;
     const State here = state(m_clock);
@@ -159,7 +158,7 @@ void vpPlannedMotion::look()
     m_status = vpAvoidanceStatus::Unreachable;
     return;
   }
-  if (m_toGoal && (isAtRest() || restIsFree())) {
+  if (m_toGoal && (isAtRest() || restIsFree(m_spec.common.margin))) {
     if (m_duration - m_clock > ending && m_spec.replanning == vpReplanning::OnTheFly) {
       hasten();
     }
@@ -169,14 +168,16 @@ void vpPlannedMotion::look()
     planFromRest();
   }
   else if (m_spec.replanning == vpReplanning::FromRest || !planOnTheFly()) {
-    if (m_toGoal || !restIsFree()) {
+    // A stop within the margin goes on as long as it touches nothing.
+    if (m_toGoal || !restIsFree(m_status == vpAvoidanceStatus::Unsafe ? 0. : m_spec.common.margin)) {
       brake();
     }
   }
 }
 
-bool vpPlannedMotion::restIsFree()
+bool vpPlannedMotion::restIsFree(double margin)
 {
+  m_now.setMargin(std::max(0., margin - slack));
   for (const vpTimedPath::Part &part : m_parts) {
     const double end = part.begin + part.plan.duration();
     if (end < m_clock) {
@@ -230,10 +231,10 @@ vpPathResult vpPlannedMotion::findPath(const vpJointVector &from, double time)
 }
 
 std::optional<vpPlannedMotion::Parts> vpPlannedMotion::timed(const vpJointPath &path, const State &from, double begin,
-                                                             double speed)
+                                                             double speed, double margin)
 {
   vpTimedPathSpec spec;
-  spec.margin = m_spec.common.margin;
+  spec.margin = margin;
   spec.startVelocity = from.v;
   spec.startAcceleration = from.a;
   predict(begin);
@@ -279,7 +280,7 @@ void vpPlannedMotion::planFromRest()
       continue;
     }
     for (const double share : {1., 0.4}) {
-      if (auto parts = timed(found.path, here, 0., share)) {
+      if (auto parts = timed(found.path, here, 0., share, m_spec.common.margin)) {
         follow(std::move(*parts), true,
                found.path.points.size() > 2 ? vpAvoidanceStatus::Detouring : vpAvoidanceStatus::Moving);
         return;
@@ -310,7 +311,7 @@ bool vpPlannedMotion::planOnTheFly()
   const State here = state(m_clock);
   const auto take = [&](const vpJointPath &path, std::initializer_list<double> speeds) {
     for (const double speed : speeds) {
-      if (auto parts = timed(path, here, 0., speed)) {
+      if (auto parts = timed(path, here, 0., speed, m_spec.common.margin)) {
         follow(std::move(*parts), true, vpAvoidanceStatus::Detouring);
         return true;
       }
@@ -339,7 +340,7 @@ void vpPlannedMotion::hasten()
   vpJointPath straight;
   straight.points = {here.q, m_goal.q};
   for (const vpJointPath &path : {straight, restOfPath()}) {
-    if (auto parts = timed(path, here, 0., 1.)) {
+    if (auto parts = timed(path, here, 0., 1., m_spec.common.margin)) {
       const double duration = parts->back().begin + parts->back().plan.duration();
       if (duration < quicker * (m_duration - m_clock)) {
         follow(std::move(*parts), true,
@@ -353,7 +354,7 @@ void vpPlannedMotion::hasten()
 // A free stop, and a free path after it.
 bool vpPlannedMotion::stopAndPlan()
 {
-  const std::vector<Stop> stops = freeStops();
+  const std::vector<Stop> stops = freeStops(m_spec.common.margin, true);
   for (std::size_t i = 0; i < std::min(stops.size(), mostPlans); ++i) {
     const double duration = stops[i].plan.duration();
     const int n = m_scene->arm().size();
@@ -365,7 +366,7 @@ bool vpPlannedMotion::stopAndPlan()
     if (found.status != vpPathStatus::Solved) {
       continue;
     }
-    if (auto parts = timed(found.path, rest, duration, 1.)) {
+    if (auto parts = timed(found.path, rest, duration, 1., m_spec.common.margin)) {
       parts->insert(parts->begin(), {0., stops[i].plan});
       follow(std::move(*parts), true, vpAvoidanceStatus::Detouring);
       m_stopping = stops[i].isHard ? duration : 0.;
@@ -376,8 +377,8 @@ bool vpPlannedMotion::stopAndPlan()
 }
 
 // Stops that are proven free: first those in which the end effector keeps its bounds, along the motion and straight on, the
-// shorter ones first; then the stops within the joint limits alone.
-std::vector<vpPlannedMotion::Stop> vpPlannedMotion::freeStops()
+// shorter ones first; then, on demand, the stops within the joint limits alone.
+std::vector<vpPlannedMotion::Stop> vpPlannedMotion::freeStops(double margin, bool withHard)
 {
   const vpArmModel &arm = m_scene->arm();
   const State here = state(m_clock);
@@ -386,7 +387,7 @@ std::vector<vpPlannedMotion::Stop> vpPlannedMotion::freeStops()
   way.points = {here.q, here.q};
   const auto tryStop = [&](const vpJointVector &end) {
     way.points[1] = end.cwiseMax(arm.lower()).cwiseMin(arm.upper());
-    if (const auto parts = timed(way, here, 0., 1.)) {
+    if (const auto parts = timed(way, here, 0., 1., margin)) {
       result.push_back({parts->front().plan, false});
     }
   };
@@ -394,9 +395,12 @@ std::vector<vpPlannedMotion::Stop> vpPlannedMotion::freeStops()
     tryStop(state(m_clock + ahead).q);
     tryStop(here.q + 0.5 * ahead * here.v);
   }
-  for (const vpTrajectoryPlan &plan : hardStops()) {
-    if (m_now.check(plan).isFree()) {
-      result.push_back({plan, true});
+  if (withHard) {
+    m_now.setMargin(std::max(0., margin - slack));
+    for (const vpTrajectoryPlan &plan : hardStops()) {
+      if (m_now.check(plan).isFree()) {
+        result.push_back({plan, true});
+      }
     }
   }
   return result;
@@ -437,9 +441,16 @@ void vpPlannedMotion::brake()
   if (isAtRest()) {
     return;
   }
-  const std::vector<Stop> stops = freeStops();
+  // An arm may be within its margin because something was seen to be larger or elsewhere. To brake as hard as possible would
+  // not bring it out: a stop that touches nothing will do.
+  std::vector<Stop> stops = freeStops(m_spec.common.margin, true);
   const bool safe = !stops.empty();
-  const Stop stop = safe ? stops.front() : Stop{hardStops().front(), true};
+  for (const double share : {0.5, 0.}) {
+    if (stops.empty()) {
+      stops = freeStops(share * m_spec.common.margin, false);
+    }
+  }
+  const Stop stop = stops.empty() ? Stop{hardStops().front(), true} : stops.front();
   const vpClearance pair = m_pair;
   follow({{0., stop.plan}}, false, safe ? vpAvoidanceStatus::Waiting : vpAvoidanceStatus::Unsafe);
   m_pair = pair;

@@ -155,6 +155,81 @@ TEST_CASE("Something appears on the way: both ways of replanning keep clear; on 
   CHECK(hard <= cases / 4); // what appears is a third of the motion ahead: there is room to stop within the bounds
 }
 
+TEST_CASE("Within the margin of what was just seen, the arm stops within the bounds of the tool and touches nothing",
+          "[planned]")
+{
+  CAPTURE(vpTestSupport::seed());
+  int cases = 0, hard = 0;
+  for (std::uint64_t problem = 0; problem < 60 && cases < 12; ++problem) {
+    CAPTURE(problem);
+    auto rng = vpTestSupport::generator(9700 + problem);
+    vpCollisionScene scene(amor());
+    vpPlannedMotion method(scene);
+    const vpJointVector start = configuration(amor(), rng, 0.1), goal = configuration(amor(), rng, 0.1);
+    vpCollisionData data;
+    scene.place(start, data);
+    const bool free = !scene.inCollision(data, 0.03);
+    scene.place(goal, data);
+    if (!free || scene.inCollision(data, 0.03) ||
+        method.start(start, vpAvoidanceGoal::at(amor(), goal)) == vpAvoidanceStatus::Waiting) {
+      continue;
+    }
+    vpAvoidanceOutput output;
+    vpJointVector q = start;
+    ToolMotion tool(start);
+    Outcome outcome;
+    const auto step = [&] {
+      method.step(q, output);
+      q += period * output.velocity;
+      tool.step(q, output.stopping, outcome);
+    };
+    while (method.clock() < 0.5 * method.duration()) {
+      step();
+    }
+    // A ball beside the tool's way, 5 mm from the arm, whose margin is 10 mm.
+    vpArmData here;
+    vpArmKinematics::update(amor(), q, here);
+    const Eigen::Vector3d velocity = here.J.topRows<3>() * output.velocity;
+    Eigen::Vector3d aside = velocity.cross(Eigen::Vector3d(uniform(rng, -1., 1.), uniform(rng, -1., 1.), 1.));
+    aside.normalize();
+    vpCollisionSceneSpec objects;
+    objects.objects.resize(1);
+    objects.objects[0].name = "ball";
+    objects.objects[0].shape = vpCollisionShape::sphere(0.03);
+    double distance = 0.4, clearance = 0.;
+    for (int k = 0; k < 50; ++k) {
+      objects.objects[0].pose.p = here.tool.p + distance * aside;
+      clearance = IndependentClearance(amor(), objects).clearance(q, {}, 1.);
+      distance -= clearance - 0.005;
+    }
+    if (velocity.norm() < 0.2 || std::fabs(clearance - 0.005) > 1e-6) {
+      continue;
+    }
+    ++cases;
+    scene.add(objects.objects[0]);
+    method.look();
+    CHECK(output.status != vpAvoidanceStatus::Unsafe); // of the step before
+    bool unsafe = false;
+    for (int k = 1; k < 600 && (k < 3 || output.velocity.norm() > 0.); ++k) {
+      step();
+      unsafe = unsafe || output.status == vpAvoidanceStatus::Unsafe;
+      clearance = std::min(clearance, IndependentClearance(amor(), objects).clearance(q, {}, 0.1));
+      if (k % 7 == 0) {
+        method.look();
+      }
+    }
+    CHECK(unsafe);
+    CHECK(outcome.acceleration <= 1.01 * vpAvoidanceMethodSpec().maxAcceleration);
+    hard += outcome.hard ? 1 : 0;
+    if (!outcome.hard) {
+      CHECK(clearance > 0.);
+    }
+  }
+  std::cout << cases << " times within the margin: " << hard << " stops beyond the bounds of the tool\n";
+  REQUIRE(cases == 12);
+  CHECK(hard <= cases / 2); // where the way leads into the ball, nothing else helps
+}
+
 TEST_CASE("What is driven is what was proven: the same motion, state by state", "[planned]")
 {
   const vpCollisionSceneFile file = vpLoadCollisionScene(dataFile("scene/s4b-shelf.json"));

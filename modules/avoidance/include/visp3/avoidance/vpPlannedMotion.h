@@ -53,7 +53,8 @@ struct VISP_EXPORT vpPlannedMotionSpec {
  *
  * Joints keep their limits, and the end effector the bounds of vpAvoidanceMethodSpec: motions that would not are
  * slowed, stops are longer. Only where no stop within these bounds is proven free is there one within the joint limits
- * alone, with vpAvoidanceOutput::stopping.
+ * alone, with vpAvoidanceOutput::stopping. Where none is either, for the arm is within its margin of something that was
+ * seen to be larger or elsewhere, it stops within the bounds if that is proven to touch nothing, with the status Unsafe.
  */
 class VISP_EXPORT vpPlannedMotion : public vpAvoidanceMethod
 {
@@ -93,17 +94,18 @@ private:
 
   [[nodiscard]] State state(double t) const;
   [[nodiscard]] bool isAtRest() const noexcept { return m_clock >= m_duration; }
-  [[nodiscard]] bool restIsFree();
+  [[nodiscard]] bool restIsFree(double margin);
   [[nodiscard]] vpJointPath restOfPath() const;
   void predict(double time);
   [[nodiscard]] vpPathResult findPath(const vpJointVector &from, double time);
-  [[nodiscard]] std::optional<Parts> timed(const vpJointPath &path, const State &from, double begin, double speed);
+  [[nodiscard]] std::optional<Parts> timed(const vpJointPath &path, const State &from, double begin, double speed,
+                                           double margin);
   void planFromRest();
   [[nodiscard]] bool planOnTheFly();
   void hasten();
   [[nodiscard]] bool stopAndPlan();
   void brake();
-  [[nodiscard]] std::vector<Stop> freeStops();
+  [[nodiscard]] std::vector<Stop> freeStops(double margin, bool withHard);
   [[nodiscard]] std::vector<vpTrajectoryPlan> hardStops() const;
   void follow(Parts parts, bool toGoal, vpAvoidanceStatus status);
 
