@@ -69,7 +69,7 @@ def laws_rows(c, measure, columns):
         styles = [marks(c, found, best) if found else {} for found, (*_, best) in zip(medians, columns)]
         for law in laws:
             cells = [cell_of(c.values(law, plant, metric, measure), style.get(law, "")) for (_, metric, _), style in zip(columns, styles)]
-            yield [law, plant, c.look(law)[2], *cells]
+            yield [law, plant, c.look(law)[1], *cells]
 
 
 def add_tables(page, c):
@@ -167,7 +167,7 @@ def add_film(page, c):
         out = c.runs(video["law"], c.hard)[0]["out_of_view_s"]
         seen = f"object partly out of view for {number(out)} s" if out > 0 else "object always in view"
         end = number(c.runs(video["law"], c.hard)[0]["end_rotation_deg"])
-        return f"{c.name(video['law'])}, plant {c.hard}, {number(video['speed_up'])} times as fast: ends {end}° off, {seen}."
+        return f"{video['law']}, plant {c.hard}, {number(video['speed_up'])} times as fast: ends {end}° off, {seen}."
 
     page.videos([(c.result.beside(page.results[0], video["file"]), caption(video)) for video in videos])
 

@@ -46,7 +46,7 @@ def curves(axes, c, plant, laws, value, until=math.inf, **style):
             part = stride(len(t))
             inside = t[part] <= until
             dashed = {"linestyle": "--"} if is_filtered(law) else {}
-            axes.plot(t[part][inside], value(log)[part][inside], color=c.look(law)[1], **{"label": plain(c.name(law))} | dashed | style)
+            axes.plot(t[part][inside], value(log)[part][inside], color=c.look(law)[0], **{"label": plain(law)} | dashed | style)
 
 
 def goal(axes, c, plant, laws):
@@ -194,8 +194,8 @@ def path_figure(axes, c, laws):
         log = c.log(law, c.hard)
         if not log:
             continue
-        part, paint = stride(len(log["time_s"])), c.look(law)[1]
-        axes.plot(column(log, "tx_m")[part], column(log, "tz_m")[part], color=paint, linewidth=2.2, label=plain(c.name(law)))
+        part, paint = stride(len(log["time_s"])), c.look(law)[0]
+        axes.plot(column(log, "tx_m")[part], column(log, "tz_m")[part], color=paint, linewidth=2.2, label=plain(law))
         last = np.searchsorted(column(log, "time_s"), ends(c) - 1e-9) - 1
         for wMc in poses_of(log, last):
             gaze(wMc, float(np.linalg.norm(start[:3, 3] - wMc[:3, 3])), color=paint, linewidth=0.8)
@@ -214,8 +214,8 @@ def seeds_figure(axes, c, metric, label):
     for i, law in enumerate(c.laws):
         values = np.array(c.values(law, c.hard, metric))
         spread = 0.36 * (np.mod(0.618 * np.arange(len(values)), 1) - 0.5)  # so that equal values do not hide each other
-        axes.plot(i + spread, values, ".", color=c.look(law)[1], markersize=5)
-    axes.set_xticks(range(len(c.laws)), [plain(c.name(law)) for law in c.laws], rotation=35, ha="right", fontsize=8)
+        axes.plot(i + spread, values, ".", color=c.look(law)[0], markersize=5)
+    axes.set_xticks(range(len(c.laws)), [plain(law) for law in c.laws], rotation=35, ha="right", fontsize=8)
     axes.set(ylabel=label, ylim=(0, None), xlim=(-0.6, len(c.laws) - 0.4))
 
 
@@ -274,7 +274,7 @@ def errors_figure(axes, joints, log):
 def add_joints(page, c, arm):
     law = arm_law(c)
     log = c.log(law, c.hard)
-    where = f"{c.name(law)} on plant {c.hard}"
+    where = f"{law} on plant {c.hard}"
     page.figure(
         joints_figure(arm["joints"], log).named("arm-joints", f"The joints: {where}"),
         f"{where}. From top to bottom: the joints; how much of their speed limits they use; how far the limited ones are from their nearer "
@@ -304,10 +304,10 @@ def add_view(page, c):
             ended = np.maximum(index - 1, 0)  # joints are those at the end of a row's cycle
             q = joint_columns(log, "q")[:, ended].T.round(4).tolist() if c.on_arm else [[] for _ in index]
             poses = world @ poses_of(log, index)
-            run = {"name": c.name(law), "colour": c.look(law)[1], "arm": 0, "t": column(log, "time_s")[index].round(4).tolist(), "q": q}
+            run = {"name": law, "colour": c.look(law)[0], "arm": 0, "t": column(log, "time_s")[index].round(4).tolist(), "q": q}
             runs.append(run | {"camera": camera(task["camera"], poses, 0.3 * start[2, 3], goals)})
     names = [run["name"] for run in runs]
-    first = [names.index(c.name(law)) for law in ("pbvs1", "ff-lookat-pi") if c.name(law) in names]
+    first = [names.index(law) for law in ("pbvs1", "ff-lookat-pi") if law in names]
     first = first if len(first) == 2 else list(range(min(2, len(runs))))
     sides = [np.eye(4), np.array(base_at(beside(1.4 if c.on_arm else 0.8)))][: len(first)]
     picture = photograph(c.result.bytes("target.png"))

@@ -10,19 +10,19 @@ from .plots import colour
 # Name, colour and rotation gain of each law, near the goal and times the given one.
 AS_GIVEN, DOUBLE, INTEGRAL, OWN = "×1", "×2", "×2, integral", "its own"
 LOOKS = {
-    "pbvs1": ("pbvs1", "#1f77b4", AS_GIVEN),
-    "pbvs1-rot2": ("pbvs1-rot2", "#0b3c6f", DOUBLE),
-    "pbvs2": ("pbvs2", "#17becf", AS_GIVEN),
-    "ibvs": ("ibvs", "#8c564b", AS_GIVEN),
-    "hybrid25d": ("hybrid25d", "#7f7f7f", AS_GIVEN),
-    "kyrki": ("kyrki", "#ff7f0e", AS_GIVEN),
-    "kyrki-rot2": ("kyrki-rot2", "#a84300", DOUBLE),
-    "kyrki-decoupled": ("kyrki-decoupled", "#d4ac0d", AS_GIVEN),
-    "ff-sum": ("ff-sum", "#2ca02c", DOUBLE),
-    "ff-lookat": ("ff-lookat", "#d62728", DOUBLE),
-    "ff-lookat-pi": ("ff-lookat-pi", "#9467bd", INTEGRAL),
-    "dtg": ("dtg", "#e377c2", INTEGRAL),
-    "ff-dtg": ("ff-dtg", "#bcbd22", INTEGRAL),
+    "pbvs1": ("#1f77b4", AS_GIVEN),
+    "pbvs1-rot2": ("#0b3c6f", DOUBLE),
+    "pbvs2": ("#17becf", AS_GIVEN),
+    "ibvs": ("#8c564b", AS_GIVEN),
+    "hybrid25d": ("#7f7f7f", AS_GIVEN),
+    "kyrki": ("#ff7f0e", AS_GIVEN),
+    "kyrki-rot2": ("#a84300", DOUBLE),
+    "kyrki-decoupled": ("#d4ac0d", AS_GIVEN),
+    "ff-sum": ("#2ca02c", DOUBLE),
+    "ff-lookat": ("#d62728", DOUBLE),
+    "ff-lookat-pi": ("#9467bd", INTEGRAL),
+    "dtg": ("#e377c2", INTEGRAL),
+    "ff-dtg": ("#bcbd22", INTEGRAL),
 }
 ARRIVED = 0.2  # deg, at the end of every segment
 FEW = 5  # distinguishable curves
@@ -61,14 +61,9 @@ class Comparison:
         self._logs = {}
 
     def look(self, law):
-        """Name, colour and gain."""
+        """Colour and gain."""
         base = law.removesuffix("+cbf")
-        own = (base, colour(self._own.index(base)) if base in self._own else "", OWN)
-        name, paint, gain = LOOKS.get(base, own)
-        return (name + "+cbf" if is_filtered(law) else name), paint, gain
-
-    def name(self, law):
-        return self.look(law)[0]
+        return LOOKS.get(base, (colour(self._own.index(base)) if base in self._own else "", OWN))
 
     def runs(self, law, plant, measure=None, shaped=False):
         wanted = (law, plant, measure or self.measure, shaped)
@@ -102,7 +97,7 @@ class Comparison:
         return f"plant {plant} ({note})" if friction > 0 else f"plant {plant}"
 
     def per_law(self, laws, plant, metric):
-        return listed(f"{self.name(law)} {number(self.median(law, plant, metric))}" for law in laws if self.runs(law, plant))
+        return listed(f"{law} {number(self.median(law, plant, metric))}" for law in laws if self.runs(law, plant))
 
 
 class Medians:

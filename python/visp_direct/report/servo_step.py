@@ -120,8 +120,8 @@ def add_step(page, c):
 
     jumps = largest[0][0] > 2 * parts[0][3]
     page.figure(
-        Figure(draw, 4, 1.6).named("figure-6.1", f"What {c.name(law)} commands in its first second on plant {c.easy}"),
-        f"Figure 6.1, its first second: what {c.name(law)} commands on plant {c.easy}. "
+        Figure(draw, 4, 1.6).named("figure-6.1", f"What {law} commands in its first second on plant {c.easy}"),
+        f"Figure 6.1, its first second: what {law} commands on plant {c.easy}. "
         + (JUMPS if jumps else "")
         + f"In this second the raw command asks for accelerations of up to {number(largest[0][0])} m/s² and {number(largest[1][0])} rad/s² at "
         f"{number(plant['loop_rate_hz'])} cycles a second (a jump counts for twice as much at twice as many), the shaped one for up to "
