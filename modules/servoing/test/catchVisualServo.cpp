@@ -13,8 +13,6 @@
 #include <visp3/servoing/vpServoTarget.h>
 #include <visp3/servoing/vpVisualServo.h>
 
-#include <Eigen/Cholesky>
-
 #include <deque>
 
 VISP_DIRECT_USING_NAMESPACE
@@ -105,34 +103,6 @@ TEST_CASE("An arm servo reaches its goal through a latency of 100 ms", "[servoin
     CHECK(bench.error() < 1e-5);
     CHECK(bench.velocity.norm() < 0.3); // the self-motion continues
   }
-}
-
-TEST_CASE("While the arm brakes there is no self-motion", "[servoing]")
-{
-  const auto selfSpeed = [](const Bench &bench) {
-    vpArmData data;
-    vpArmKinematics::update(amor(), bench.q, data);
-    const Eigen::MatrixXd J = data.J;
-    const Eigen::VectorXd v = bench.velocity;
-    return (v - J.transpose() * (J * J.transpose()).ldlt().solve(J * v)).norm();
-  };
-  Bench bench("pbvs1");
-  for (int i = 0; i < 300; ++i) {
-    bench.step();
-  }
-  REQUIRE(selfSpeed(bench) > 0.02);
-  REQUIRE(bench.servo.output().twist.linearNorm() > 0.05);
-  bench.servo.stop();
-  int braking = 0;
-  for (int i = 0; i < 200; ++i) {
-    const bool isBraking = bench.step().twist.linearNorm() > 1e-6;
-    if (i > 10 && isBraking) {
-      ++braking;
-      CHECK(selfSpeed(bench) < 1e-3);
-    }
-  }
-  CHECK(braking > 10);
-  CHECK(bench.velocity.norm() == 0.);
 }
 
 TEST_CASE("Five joints bring place and optical axis of the camera to the goal, with the rotation about it free",
