@@ -74,6 +74,37 @@ TEST_CASE("planned commands keep every limit in every cycle, whatever happens", 
   CHECK(worst > 0.8); // the limits are used
 }
 
+TEST_CASE("a target that is lost just when a motion begins, and is found again, makes no jump", "[plan]")
+{
+  const std::string law = GENERATE("dtg", "ff-dtg");
+  double worst = 0.;
+  for (unsigned int problem = 0; problem < static_cast<unsigned int>(longer(80)); ++problem) {
+    auto rng = generator(problem);
+    const double dt = uniform(rng, 0.002, 0.012), gap = uniform(rng, 2., 10.) * dt;
+    const int cycles = problem % 4 == 0 ? static_cast<int>(uniform(rng, 2., 8.)) : 1; // of the motion before the loss
+    CAPTURE(seed(), law, problem, dt, cycles, gap);
+    vpServoController servo = makeServo(law);
+    Judge judge({}, dt);
+    vpHomogeneousMatrix cMo = randomPose(rng, 0.4, 0.8, 0.2, 0.6);
+    servo.setGoal(goal(randomPose(rng, 0.4, 0.8, 0.2, 0.6), square));
+    vpServoMeasurement seen;
+    int moving = 0;
+    double lostUntil = 0.;
+    for (double t = 0.; t < 1.; t += dt) {
+      measure(cMo, square, seen);
+      seen.time = t + dt;
+      moving = moving > 0 || judge.v().linearNorm() > 0. ? moving + 1 : 0;
+      lostUntil = moving == cycles ? t + gap : lostUntil;
+      seen.valid = t >= lostUntil;
+      judge.see(servo.step(seen, dt).v);
+      cMo = move(cMo, judge.v(), dt);
+    }
+    CHECK(judge.worst <= 1. + 1e-6);
+    worst = std::max(worst, judge.worst);
+  }
+  CHECK(worst > 0.8); // the limits are used
+}
+
 TEST_CASE("a law that is passed over follows the motion of the camera, and goes on from it within the limits", "[plan]")
 {
   const std::string law = GENERATE("dtg", "ff-dtg");
