@@ -58,7 +58,7 @@ TEST_CASE("Help, version and list are printed", "[visp-plan-compare]")
   CHECK(run("--version") == 0);
   CHECK(run.out().find("visp-plan-compare 0.") == 0);
   CHECK(run("--list") == 0);
-  for (const char *piece : {"(v) planner-dtg: ", "S2 (200, 6): ", "S5: "}) {
+  for (const char *piece : {"\n  planner-dtg: ", "S2 (200, 6): ", "S5: "}) {
     CAPTURE(piece);
     CHECK(run.out().find(piece) != std::string::npos);
   }

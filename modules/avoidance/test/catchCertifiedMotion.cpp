@@ -175,8 +175,8 @@ TEST_CASE("Free motions of arms with followers stay free when rechecked", "[moti
   std::cout << "with followers: " << free << " free, of which " << wrong << " collide when rechecked at 10,000 points, "
             << colliding << " collide, " << undecided << " undecided" << std::endl;
   CHECK(wrong == 0);
-  CHECK(free > 100);
-  CHECK(colliding > 100);
+  CHECK(free > vpTestSupport::longer(30));
+  CHECK(colliding > vpTestSupport::longer(30));
   CHECK(undecided < 20);
 }
 

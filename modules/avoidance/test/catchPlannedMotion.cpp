@@ -134,7 +134,7 @@ TEST_CASE("Something appears on the way: both ways of replanning keep clear; on 
       CHECK_FALSE(outcome.unsafe);
       CHECK(outcome.least > 0.0095);
       CHECK(outcome.velocity <= 1.001 * vpAvoidanceMethodSpec().maxVelocity);
-      CHECK(outcome.acceleration <= 1.01 * vpAvoidanceMethodSpec().maxAcceleration);
+      CHECK(outcome.acceleration <= 1.02 * vpAvoidanceMethodSpec().maxAcceleration); // by differences over a period
       hard += outcome.hard ? 1 : 0;
     }
     arrivedFromRest += rest.arrived ? 1 : 0;
