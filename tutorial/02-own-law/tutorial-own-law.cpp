@@ -57,23 +57,27 @@ int main()
   std::cout << "e' = -k e, worst difference at 1000 places: " << worst << std::endl;
   //! [Check]
   //! [Run]
-  std::ofstream plot("tutorial-own-law.gp"); // time, the four errors, the four expected ones; then plot commands
-  plot << "$log << end\n";
+  std::ofstream log("tutorial-own-law.txt"); // time, the four errors, the four expected ones
   seen.cMo = vpHomogeneousMatrix(0.3, 0.1, 0.9, 0., 0.8, 0.);
   const Eigen::Vector4d start = errorOf(seen.cMo, goal.cdMo);
   for (double t = 0.; t < 5.; t += 0.02) {
     const Eigen::Vector4d promised = start.array() * (-t * k.array()).exp();
-    plot << t << ' ' << errorOf(seen.cMo, goal.cdMo).transpose() << ' ' << promised.transpose() << '\n';
+    log << t << ' ' << errorOf(seen.cMo, goal.cdMo).transpose() << ' ' << promised.transpose() << '\n';
     seen.cMo = vpExponentialMap::direct(law->step(seen, 0.02).v.toColVector(), 0.02).inverse() * seen.cMo;
   }
   //! [Run]
-  plot << "end\nset terminal pngcairo size 800,480; set output 'tutorial-own-law.png'\n"
-          "set xlabel 'time (s)'; set ylabel 'error (m, rad)'; set grid\n"
-          "names = 'x y z yaw'; set title 'Own law (lines) and its promise e(0) exp(-k t) (dots)'\n"
-          "plot for [i=1:4] $log using 1:(column(i + 1)) with lines lw 2 lc i title word(names, i), "
-          "for [i=1:4] $log using 1:(column(i + 5)) every 10 with points pt 7 lc i notitle\n";
-  plot.close();
-  const bool isDrawn = std::system("gnuplot tutorial-own-law.gp") == 0; // Debian's gnuplot-nox
+  log.close();
+  const char *const plot = R"(/usr/bin/python3 -c "
+from pylab import *
+t, *e = loadtxt('tutorial-own-law.txt').T
+figure(figsize=(8, 4.8))
+for i, name in enumerate(['x', 'y', 'z', 'yaw']):
+    plot(t, e[i], f'C{i}', label=name)
+    plot(t[::10], e[i + 4][::10], f'C{i}o')
+title('Own law (lines) and its promise e(0) exp(-k t) (dots)')
+xlabel('time (s)'); ylabel('error (m, rad)'); grid(); legend(); savefig('tutorial-own-law.png')
+")";
+  const bool isDrawn = std::system(plot) == 0; // Debian's python3-matplotlib
   const double left = errorOf(seen.cMo, goal.cdMo).norm();
   std::cout << "Error " << start.norm() << " at the start, " << left << " after 5 s" << std::endl;
   return isDrawn && worst < 1e-6 && left < 0.01 * start.norm() ? EXIT_SUCCESS : EXIT_FAILURE;

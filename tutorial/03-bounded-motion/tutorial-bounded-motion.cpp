@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
+#include <string>
 
 VISP_DIRECT_USING_NAMESPACE
 
@@ -76,20 +77,25 @@ Run servo(bool isShaped)
 int main()
 {
   const Run raw = servo(false), shaped = servo(true);
-  std::ofstream plot("tutorial-bounded-motion.gp");
-  plot << "$log << end\n"; // time, speeds, accelerations
+  std::ofstream log("tutorial-bounded-motion.txt"); // time, speeds, accelerations
   for (std::size_t i = 0; i < raw.speed.size(); ++i) {
-    plot << dt * i << ' ' << raw.speed[i] << ' ' << shaped.speed[i] << ' ' << raw.acceleration[i] << ' '
-         << shaped.acceleration[i] << '\n';
+    log << dt * i << ' ' << raw.speed[i] << ' ' << shaped.speed[i] << ' ' << raw.acceleration[i] << ' '
+        << shaped.acceleration[i] << '\n';
   }
-  plot << "end\nset terminal pngcairo size 900,640; set output 'tutorial-bounded-motion.png'\n"
-          "set multiplot layout 2,1; set grid; set lmargin 10; set ylabel 'speed (m/s)'\n"
-          "plot $log using 1:2 with lines lw 2 title 'vpServo', '' using 1:3 with lines lw 2 title 'shaped'\n"
-          "set xlabel 'time (s)'; set ylabel 'acceleration (m/s^2)'; set logscale y; set yrange [0.01:100]\n"
-          "plot $log using 1:4 with lines lw 2 title 'vpServo', '' using 1:5 with lines lw 2 title 'shaped', "
-       << bound << " with lines dt 2 lc 'black' title 'bound'\n";
-  plot.close();
-  const bool isDrawn = std::system("gnuplot tutorial-bounded-motion.gp") == 0; // Debian's gnuplot-nox
+  log.close();
+  const std::string plot = R"(/usr/bin/python3 -c "
+from pylab import *
+t, v, shaped_v, a, shaped_a = loadtxt('tutorial-bounded-motion.txt').T
+figure(figsize=(9, 6.4))
+subplot(211); plot(t, v, label='vpServo'); plot(t, shaped_v, label='shaped')
+ylabel('speed (m/s)'); grid(); legend()
+subplot(212); semilogy(t, a, label='vpServo'); semilogy(t, shaped_a, label='shaped')
+axhline()" + std::to_string(bound) +
+                           R"(, color='black', linestyle='--', label='bound')
+xlabel('time (s)'); ylabel('acceleration (m/s²)'); ylim(0.01, 100); grid(); legend()
+savefig('tutorial-bounded-motion.png')
+")";
+  const bool isDrawn = std::system(plot.c_str()) == 0; // Debian's python3-matplotlib
   const double rawMost = *std::max_element(raw.acceleration.begin(), raw.acceleration.end());
   const double shapedMost = *std::max_element(shaped.acceleration.begin(), shaped.acceleration.end());
   std::cout << "vpServo: at most " << rawMost << " m/s^2, image error at the end " << raw.error << "\n"

@@ -84,12 +84,17 @@ int main(int argc, char **argv)
     //! [Parts]
     std::ofstream log("tutorial-real-robot.txt");
     const bool wasLost = servo(robot, grab, target, log);
-    const char *const plot = R"(gnuplot << 'end'
-set terminal pngcairo size 900,400; set output 'tutorial-real-robot.png'
-set xlabel 'time (s)'; set ylabel 'commanded speed'; set style fill solid noborder; f = 'tutorial-real-robot.txt'
-plot [0:6] [0:0.4] f using 1:(0.4 * (strcol(4) eq 'Holding')) with boxes lc 'salmon' title 'target lost: holding', \
-  f using 1:(0.4 * (strcol(4) eq 'Retreating')) with boxes lc 'khaki' title 'going back', \
-  f using 1:2 with lines lw 2 lc 'blue' title 'm/s', f using 1:3 with lines lw 2 lc 'black' title 'rad/s')";
+    const char *const plot = R"(/usr/bin/python3 -c "
+from pylab import *
+log = genfromtxt('tutorial-real-robot.txt', dtype=None, encoding='utf-8')
+t, v, w, status = (log[name] for name in log.dtype.names[:4])
+figure(figsize=(9, 4))
+for name, colour, label in (('Holding', 'salmon', 'target lost: holding'), ('Retreating', 'khaki', 'going back')):
+    fill_between(t, 0, 0.4, where=status == name, step='mid', color=colour, label=label)
+plot(t, v, 'b', label='m/s'); plot(t, w, 'k', label='rad/s')
+xlim(0, 6); ylim(0, 0.4); xlabel('time (s)'); ylabel('commanded speed'); legend()
+savefig('tutorial-real-robot.png')
+")"; // Debian's python3-matplotlib
     const double mm = 1000. * (cdMo * fMo.inverse() * robot.get_fMc()).getTranslationVector().frobeniusNorm();
     std::cout << mm << " mm from the goal; " << robot.getSentence() << std::endl;
     return std::system(plot) == 0 && (argc > 1 || (wasLost && mm < 2.)) ? EXIT_SUCCESS : EXIT_FAILURE;

@@ -32,14 +32,14 @@ vpServoMeasurement look(const vpHomogeneousMatrix &cMo) // an ideal camera; else
 }
 //! [Measure]
 // Writes the corners, px; true if all are in a picture of 640 x 480 px.
-bool write(std::ofstream &plot, const vpServoMeasurement &seen)
+bool write(std::ofstream &log, const vpServoMeasurement &seen)
 {
   bool inside = true;
   for (const vpServoPoint &p : seen.points) {
-    plot << 320. + 800. * p.x << ' ' << 240. + 800. * p.y << ' ';
+    log << 320. + 800. * p.x << ' ' << 240. + 800. * p.y << ' ';
     inside = inside && std::abs(p.x) < 0.4 && std::abs(p.y) < 0.3;
   }
-  plot << std::endl;
+  log << std::endl;
   return inside;
 }
 } // namespace
@@ -71,11 +71,11 @@ int main()
   vpColVector q({0., -0.8, 3.3, -0.1, 1.4, 0.4});
   const vpHomogeneousMatrix fMo = arm.get_fMc(q) * start;
   vpHomogeneousMatrix cMoPbvs = start, cMo = start, cMoArm = start;
-  std::ofstream plot("tutorial-ff-pbvs.dat"); // of PBVS and of FF-PBVS, in turn
+  std::ofstream log("tutorial-ff-pbvs.dat"); // of PBVS and of FF-PBVS, in turn
   bool isSeen = true, isSeenByPbvs = true;
   for (int k = 0; k < 400; ++k) { // 8 s
-    isSeenByPbvs = write(plot, look(cMoPbvs)) && isSeenByPbvs;
-    isSeen = write(plot, look(cMo)) && isSeen;
+    isSeenByPbvs = write(log, look(cMoPbvs)) && isSeenByPbvs;
+    isSeen = write(log, look(cMo)) && isSeen;
     //! [Loop]
     t.buildFrom(cdMo * cMoPbvs.inverse());
     tu.buildFrom(cdMo * cMoPbvs.inverse());
@@ -91,10 +91,17 @@ int main()
   const auto mm = [&](const auto &M) { return 1e3 * (cdMo * M.inverse()).getTranslationVector().frobeniusNorm(); };
   std::cout << "Corners: PBVS " << (isSeenByPbvs ? "kept" : "lost") << " them, FF-PBVS " << (isSeen ? "kept" : "lost")
             << " them; camera " << mm(cMo) << " mm and arm " << mm(cMoArm) << " mm from the goal" << std::endl;
-  const int failed = std::system( // Debian's gnuplot-nox
-      "gnuplot -e \"set terminal pngcairo size 800,330; set output 'tutorial-ff-pbvs.png'; set multiplot layout 1,2;"
-      "set xrange [-40:760]; set yrange [620:-40]; set size ratio -1; set xtics 200; unset key; do for [k=0:1] {"
-      "set object rectangle from 0,0 to 640,480 fillstyle empty; set title word('PBVS FF-PBVS', k + 1) . ', px';"
-      "plot for [i=1:4] 'tutorial-ff-pbvs.dat' using 2*i-1:2*i every 2::k with lines lw 2}\"");
+  const char *const plot = R"(/usr/bin/python3 -c "
+from pylab import *
+pixels = loadtxt('tutorial-ff-pbvs.dat')
+figure(figsize=(8, 3.3))
+for k, name in enumerate(['PBVS', 'FF-PBVS']):
+    subplot(1, 2, k + 1, title=name + ', px', aspect='equal', xlim=(-40, 760), ylim=(620, -40))
+    gca().add_patch(Rectangle((0, 0), 640, 480, fill=False))
+    for i in range(4):
+        plot(pixels[k::2, 2 * i], pixels[k::2, 2 * i + 1])
+savefig('tutorial-ff-pbvs.png')
+")";
+  const int failed = std::system(plot); // Debian's python3-matplotlib
   return failed || !isSeen || isSeenByPbvs || mm(cMo) > 1. || mm(cMoArm) > 1. ? EXIT_FAILURE : EXIT_SUCCESS;
 }

@@ -74,12 +74,16 @@ int main()
     //! [Loop]
     const double mm = 1e3 * (cdMo * cMo.inverse()).getTranslationVector().frobeniusNorm();
     std::cout << servo.output().message << " It is " << mm << " mm from the goal." << std::endl;
-    const char *const plot = R"(gnuplot << 'end'
-set terminal pngcairo size 900,420; set output 'tutorial-servo-on-your-poster.png'; f = 'tutorial-servo-on-your-poster.txt'
-set multiplot layout 1,2; set xlabel 'time (s)'; set grid
-set ylabel 'from the goal'; plot f using 1:2 with lines lw 2 title 'mm', f using 1:($3*10) with lines lw 2 title 'degrees x 10'
-set ylabel 'commanded speed'; plot f using 1:4 with lines lw 2 title 'mm/s', f using 1:($5*10) with lines lw 2 title 'degrees/s x 10'
-)";
+    const char *const plot = R"(/usr/bin/python3 -c "
+from pylab import *
+t, mm, degrees, linear, angular = loadtxt('tutorial-servo-on-your-poster.txt').T
+figure(figsize=(9, 4.2))
+subplot(121); plot(t, mm, label='mm'); plot(t, 10 * degrees, label='degrees x 10')
+xlabel('time (s)'); ylabel('from the goal'); grid(); legend()
+subplot(122); plot(t, linear, label='mm/s'); plot(t, 10 * angular, label='degrees/s x 10')
+xlabel('time (s)'); ylabel('commanded speed'); grid(); legend()
+tight_layout(); savefig('tutorial-servo-on-your-poster.png')
+")"; // Debian's python3-matplotlib
     return std::system(plot) == 0 && servo.isConverged() && mm < 3. ? EXIT_SUCCESS : EXIT_FAILURE;
   }
   catch (const vpException &e) {
