@@ -41,7 +41,7 @@ file(GLOB programs "${moved}/bin/*")
 set(named 0)
 foreach(program ${programs})
   run("${program}" --help WORKING_DIRECTORY "${moved}/bin")
-  string(REGEX REPLACE "[ \n]+" " " output "${output}")
+  string(REGEX REPLACE "( [\\])?[ \n]+" " " output "${output}") # long commands go on behind a backslash
   string(REPLACE "${data}/" "DATA:" output "${output}")
   if(output MATCHES "(^|[^A-Za-z0-9_-])((data|doc|apps|lab|modules|test|tutorial)/[A-Za-z0-9_./-]*)")
     message(FATAL_ERROR "${program} --help names ${CMAKE_MATCH_2}, which is not installed")
