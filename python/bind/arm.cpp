@@ -4,6 +4,7 @@
  */
 #include "arm.h"
 
+#include <visp3/manipulator/vpArmDynamics.h>
 #include <visp3/manipulator/vpArmJson.h>
 #include <visp3/manipulator/vpArmUrdf.h>
 #include <visp3/manipulator/vpTwistAxes.h>
@@ -284,6 +285,55 @@ void bindArmMotion(py::module_ &m)
       .def("solver", &Motion::solver, py::return_value_policy::copy, doc(in + "solver"))
       .def("period", &Motion::period, doc(in + "period"));
 }
+
+// A result that is valid.
+template <class Result> Result answered(bool valid, const Result &result)
+{
+  if (!valid) {
+    throw py::value_error(
+        "the dynamics have no result: a vector has not one finite number below 1e+09 for each joint, or the result is "
+        "not finite");
+  }
+  return result;
+}
+
+void bindDynamics(py::module_ &m)
+{
+  using Dynamics = vpArmDynamics;
+  const std::string in = "vpArmDynamics::";
+  bindClass<Dynamics>(m)
+      .def(py::init<const vpArmModel &, const Eigen::Vector3d &>(), py::arg("model"),
+           py::arg("gravity") = Eigen::Vector3d(0., 0., -9.81), doc(in + "vpArmDynamics"))
+      .def(
+          "inertia",
+          [](Dynamics &self, const vpJointVector &q) {
+            vpJointMatrix M;
+            return answered(self.inertia(q, M), M);
+          },
+          py::arg("q"), doc(in + "inertia"))
+      .def(
+          "coriolis",
+          [](Dynamics &self, const vpJointVector &q, const vpJointVector &velocity) {
+            vpJointVector torque;
+            return answered(self.coriolis(q, velocity, torque), torque);
+          },
+          py::arg("q"), py::arg("velocity"), doc(in + "coriolis"))
+      .def(
+          "gravity",
+          [](Dynamics &self, const vpJointVector &q) {
+            vpJointVector torque;
+            return answered(self.gravity(q, torque), torque);
+          },
+          py::arg("q"), doc(in + "gravity"))
+      .def(
+          "acceleration",
+          [](Dynamics &self, const vpJointVector &q, const vpJointVector &velocity, const vpJointVector &torque) {
+            vpJointVector acceleration;
+            return answered(self.acceleration(q, velocity, torque, acceleration), acceleration);
+          },
+          py::arg("q"), py::arg("velocity"), py::arg("torque"),
+          "Joint accelerations q'' = M^-1 (torque - C q' - g), rad/s^2 or m/s^2. Include friction in torque.");
+}
 } // namespace
 
 void bindArm(py::module_ &m)
@@ -294,6 +344,7 @@ void bindArm(py::module_ &m)
   bindKinematics(m);
   bindRedundancy(m);
   bindArmMotion(m);
+  bindDynamics(m);
   m.def("freeAxes", &vpFreeAxes, py::arg("names"), doc("vpFreeAxes"));
   m.def(
       "axesInWords", [](unsigned int axes) { return vpAxesInWords(axes); }, py::arg("axes"), doc("vpAxesInWords"));

@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #define VISP_DIRECT_DOCSTRINGS
-#include "binding.h"
+#include "scene.h"
 
 #include <visp3/core/vpException.h>
 
@@ -97,6 +97,7 @@ PYBIND11_MODULE(_core, m)
   bindPrinting(m);
   bindArm(m);
   bindScene(m);
+  bindPerception(m);
   bindMotion(m);
   bindServoing(m);
 }

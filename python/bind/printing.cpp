@@ -4,6 +4,7 @@
  */
 #include "records.h"
 
+#include <visp3/printing/vpPrintMachine.h>
 #include <visp3/printing/vpPrintReference.h>
 #include <visp3/printing/vpPrintTrigger.h>
 
@@ -18,6 +19,15 @@ namespace
 // The input keeps the cells that it points at.
 struct TriggerInput : vpPrintTriggerInput {
   std::vector<vpPatternCell> kept;
+};
+
+// The output keeps the shots that it points at.
+struct MachineOutput : vpPrintMachineOutput {
+  explicit MachineOutput(const vpPrintMachineOutput &output) : vpPrintMachineOutput(output), fired(*output.trigger)
+  {
+    trigger = nullptr;
+  }
+  vpPrintTriggerOutput fired;
 };
 
 // A count may have been changed.
@@ -153,6 +163,63 @@ void bindTrigger(py::module_ &m)
           "None when\n"
           "the cell is not known.");
 }
+template <class Spec> Bound<Spec> bindSpec(py::module_ &m, const std::string &name)
+{
+  return bindStruct<Spec>(m).def("validate", &Spec::validate, doc(name + "::validate"));
+}
+
+void bindMachine(py::module_ &m)
+{
+  using Machine = vpPrintMachine;
+  using Gains = vpAlphaBetaGains;
+  using Pid = vpPrintVelocityControlSpec;
+  bindEnum<vpPrintController>(m);
+  bindEnum<vpMotionModel>(m);
+  bindStruct<vpFrictionModel>(m)
+      .def("friction", &vpFrictionModel::friction, py::arg("velocity"), doc("vpFrictionModel::friction"))
+      .def("force", &vpFrictionModel::force, py::arg("velocity"), py::arg("acceleration"),
+           doc("vpFrictionModel::force"));
+  bindSpec<Gains>(m, "vpAlphaBetaGains")
+      .def_static("criticallyDamped", &Gains::criticallyDamped, py::arg("alpha"),
+                  doc("vpAlphaBetaGains::criticallyDamped"))
+      .def_static("steadyKalman", &Gains::steadyKalman, py::arg("alpha"), doc("vpAlphaBetaGains::steadyKalman"))
+      .def("valueVariance", &Gains::valueVariance, doc("vpAlphaBetaGains::valueVariance"))
+      .def("rateVariance", &Gains::rateVariance, doc("vpAlphaBetaGains::rateVariance"));
+  bindSpec<Pid>(m, "vpPrintVelocityControlSpec")
+      .def_static("thesisPid", &Pid::thesisPid, doc("vpPrintVelocityControlSpec::thesisPid"))
+      .def_static("thesisFeedforward", &Pid::thesisFeedforward, doc("vpPrintVelocityControlSpec::thesisFeedforward"));
+  bindSpec<vpMotionKalmanSpec>(m, "vpMotionKalmanSpec");
+  bindSpec<vpMotionObserverSpec>(m, "vpMotionObserverSpec");
+  bindSpec<vpPreviewControlSpec>(m, "vpPreviewControlSpec");
+  bindSpec<vpPrintMachineSpec>(m, "vpPrintMachineSpec")
+      .def_static("defaultForecast", &vpPrintMachineSpec::defaultForecast, doc("vpPrintMachineSpec::defaultForecast"));
+
+  Bound<MachineOutput> output(m, "PrintMachineOutput", Reflect<vpPrintMachineOutput>::doc);
+  output.attr("_fields") = py::list();
+  Reflect<vpPrintMachineOutput>::each(
+      [&output](const char *name, auto member, const char *text) { bindField(output, name, member, text); });
+  output.def("__repr__", &represented)
+      .def_property_readonly(
+          "trigger", [](const MachineOutput &self) { return self.fired; }, doc("vpPrintMachineOutput::trigger"));
+  bindClass<Machine>(m)
+      .def(py::init<const vpPrintMachineSpec &>(), py::arg("spec") = vpPrintMachineSpec(),
+           doc("vpPrintMachine::vpPrintMachine"))
+      .def("reset", &Machine::reset, py::arg("firstRow") = 0, py::arg("firstColumn") = -1, doc("vpPrintMachine::reset"))
+      .def(
+          "step",
+          [](Machine &self, double time, const py::object &cells, unsigned int epoch) {
+            const std::vector<vpPatternCell> seen = fromRecords<vpPatternCell>(cells);
+            return MachineOutput(self.step({time, seen.data(), seen.size(), epoch}));
+          },
+          py::arg("time"), py::arg("cells"), py::arg("epoch") = 0,
+          "Processes one image. time: of this step, frame; one more than that of the previous step. cells: of the "
+          "newest "
+          "image,\n"
+          "an array of dtype PatternCell; empty: no image arrived, the expected motion continues. epoch: of the cells, "
+          "see PatternFrame.")
+      .def("spec", &Machine::spec, py::return_value_policy::copy, doc("vpPrintMachine::spec"))
+      .def("columnOf", &Machine::columnOf, py::arg("row"), py::arg("k"), doc("vpPrintMachine::columnOf"));
+}
 } // namespace
 
 void bindPrinting(py::module_ &m)
@@ -160,5 +227,6 @@ void bindPrinting(py::module_ &m)
   bindForecast(m);
   bindReference(m);
   bindTrigger(m);
+  bindMachine(m);
 }
 } // namespace visp_python

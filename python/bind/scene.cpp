@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-#include "binding.h"
+#include "scene.h"
 
 #include <visp3/avoidance/vpArmCover.h>
 #include <visp3/avoidance/vpCollisionSceneJson.h>
@@ -14,18 +14,17 @@
 
 namespace visp_python
 {
-namespace
-{
-using Scene = vpCollisionScene;
-
-// Scratch memory of the queries, one for each thread.
-const vpCollisionData &placed(const Scene &scene, const vpJointVector &q)
+const vpCollisionData &placed(const vpCollisionScene &scene, const vpJointVector &q)
 {
   thread_local const auto data = std::make_unique<vpCollisionData>();
   checkJoints("q", q.size(), scene.arm().size());
   scene.place(q, *data);
   return *data;
 }
+
+namespace
+{
+using Scene = vpCollisionScene;
 
 std::vector<Eigen::Vector3d> ends(const Scene &scene, const vpJointVector &q)
 {
@@ -36,6 +35,33 @@ std::vector<Eigen::Vector3d> ends(const Scene &scene, const vpJointVector &q)
     points.push_back(data.capsules[static_cast<std::size_t>(i)].to);
   }
   return points;
+}
+
+// A cube is a row: its centre and the length of an edge.
+void bindOctree(py::module_ &m)
+{
+  bindClass<vpOctree>(m)
+      .def(py::init([](const std::vector<Eigen::Vector4d> &cells, const std::string &label) {
+             std::vector<vpOctreeCell> cubes;
+             for (const Eigen::Vector4d &cell : cells) {
+               cubes.push_back({cell.head<3>(), cell(3)});
+             }
+             return vpOctree(cubes, label);
+           }),
+           py::arg("cells"), py::arg("label") = "octree",
+           "cells: cubes, one row each: centre in the map frame and length of an edge, m. label: for messages.")
+      .def_static("load", &vpOctree::load, py::arg("file"), Unlocked(), doc("vpOctree::load"))
+      .def(
+          "cells",
+          [](const vpOctree &self) {
+            std::vector<Eigen::Vector4d> rows;
+            for (const vpOctreeCell &cell : self.cells()) {
+              rows.emplace_back(cell.centre(0), cell.centre(1), cell.centre(2), cell.size);
+            }
+            return rows;
+          },
+          "The cubes, one row each: centre and length of an edge, m.")
+      .def("label", &vpOctree::label, doc("vpOctree::label"));
 }
 
 void bindShapes(py::module_ &m)
@@ -62,6 +88,7 @@ void bindShapes(py::module_ &m)
       .def("isWatertight", &Mesh::isWatertight, doc("vpTriangleMesh::isWatertight"))
       .def("message", &Mesh::message, doc("vpTriangleMesh::message"))
       .def("label", &Mesh::label, doc("vpTriangleMesh::label"));
+  bindOctree(m);
   bindEnum<vpShapeType>(m);
   bindEnum<vpMeshUse>(m);
   bindClass<Shape>(m)
@@ -72,6 +99,9 @@ void bindShapes(py::module_ &m)
       .def_static(
           "mesh", [](const Mesh &mesh, vpMeshUse use) { return Shape::mesh(mesh, use); }, py::arg("mesh"),
           py::arg("use") = vpMeshUse::Solid, doc("vpCollisionShape::mesh"))
+      .def_static(
+          "octree", [](const vpOctree &octree) { return Shape::octree(octree); }, py::arg("octree"),
+          doc("vpCollisionShape::octree"))
       .def("type", &Shape::type, doc("vpCollisionShape::type"))
       .def("radius", &Shape::radius, doc("vpCollisionShape::radius"))
       .def("length", &Shape::length, doc("vpCollisionShape::length"))
@@ -81,7 +111,13 @@ void bindShapes(py::module_ &m)
           [](const Shape &self) -> std::optional<Mesh> {
             return self.type() == vpShapeType::Mesh ? std::optional<Mesh>(self.mesh()) : std::nullopt;
           },
-          "The mesh of a shape of type Mesh; None for the others.");
+          "The mesh of a shape of type Mesh; None for the others.")
+      .def(
+          "cubes",
+          [](const Shape &self) -> std::optional<vpOctree> {
+            return self.type() == vpShapeType::Octree ? std::optional<vpOctree>(self.octree()) : std::nullopt;
+          },
+          "The octree of a shape of type Octree; None for the others.");
   Bound<vpExactShapes, std::shared_ptr<vpExactShapes>>(m, "ExactShapes", doc("vpExactShapes"))
       .def(py::init<const vpArmModel &>(), py::arg("arm"), Unlocked(), doc("vpExactShapes::vpExactShapes"))
       .def("has", &vpExactShapes::has, py::arg("i"), doc("vpExactShapes::has"))

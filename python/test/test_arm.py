@@ -197,3 +197,30 @@ def test_an_arm_lives_as_long_as_it_is_used(random):
     reference = kept[0].geometric()
     for now in kept:
         np.testing.assert_array_equal(now.geometric(), reference)
+
+
+def test_dynamics_hold_together(arm, random):
+    """M is symmetric and positive definite, M' - 2 C skew, and the acceleration the solution of the equation of motion."""
+    joint = vd.ArmJointSpec.standardDH(0.5, 0, 0, 0)
+    joint.name, joint.lower, joint.upper = "hinge", -4, 4
+    with pytest.raises(ValueError, match="mass"):
+        vd.ArmDynamics(vd.ArmModel(vd.ArmSpec(name="without masses", joints=[joint])))
+    dynamics, still = vd.ArmDynamics(arm), vd.ArmDynamics(arm, [0, 0, 0])
+    for _ in range(longer(20)):
+        q, v, torque = random.uniform(-1, 1, (3, arm.size()))
+        M = dynamics.inertia(q)
+        np.testing.assert_allclose(M, M.T, atol=1e-12)
+        assert np.linalg.eigvalsh(M).min() > 0
+        a = dynamics.acceleration(q, v, torque)
+        np.testing.assert_allclose(M @ a + dynamics.coriolis(q, v) + dynamics.gravity(q), torque, atol=1e-9)
+        np.testing.assert_allclose(still.gravity(q), 0, atol=1e-12)
+        # M' - 2 C is skew: v' (M' v / 2 - C v) = 0.
+        h = 1e-6
+        rate = (dynamics.inertia(q + h * v) - dynamics.inertia(q - h * v)) / (2 * h)
+        assert v @ (rate @ v / 2 - dynamics.coriolis(q, v)) == pytest.approx(0, abs=1e-6)
+    for call in (dynamics.inertia, dynamics.gravity):
+        for bad in (np.zeros(3), np.full(arm.size(), np.nan)):
+            with pytest.raises(ValueError, match="the dynamics have no result"):
+                call(bad)
+    with pytest.raises(ValueError, match="the dynamics have no result"):
+        dynamics.acceleration(q, v, np.full(arm.size(), np.inf))

@@ -106,6 +106,7 @@ pool = [None, True, -1, 0, 1, 3, 2**31, -2**63, 2**70, 0.5, -1.0, 1e300, float("
         np.zeros((2, 3)), np.zeros((5, 3, 2)), np.zeros((64, 64), np.uint8), np.zeros((64, 64), np.uint8)[::-1, ::3], np.zeros((64, 64), np.uint16),
         np.zeros((1, 1), np.uint8), np.array("x"), np.array([None]), np.ma.masked, np.zeros(3, vd.PatternCell), np.zeros(3, vd.CalibrationPoint),
         np.zeros((2, 2), vd.PatternCell), arm, scene, arm.home(), pose([0, 0, 0.4]), vd.CameraParameters(600, 600, 320, 240),
+        np.full((48, 64), 0.5, np.float32), vd.Octree(np.ones((2, 4))), vd.ArmDynamics(arm),
         vd.TrajectoryInput(7), vd.TrajectoryInput(1, maxVelocity=[np.nan]), vd.ServoTarget.rectangle(0.1, 0.1), vd.ArmKinematics(arm, arm.home()),
         vd.ServoTarget.rectangle(0.1, 0.1).goal(pose([0, 0, 0.4])), vd.ServoTarget.rectangle(0.1, 0.1).measure(pose([0, 0, 0.5])),
         vd.CollisionShape.sphere(0.1), vd.JointPath(points=np.zeros((2, 7)))]
@@ -123,7 +124,7 @@ pool += [vd.DirectTrajectory(7), vd.PatternTracker(64, 64), vd.ServoController.c
          vd.VisualServo("pbvs1"), vd.VisualServo("pbvs1", arm=arm), vd.PathPlanner(scene, vd.PathPlannerSpec(timeLimit=0.01, shortenTime=0)), vd.PrintTrigger(), vd.PrintReference(),
          vd.makeAvoidanceMethod(vd.avoidanceMethodNames()[0], scene), vd.TriangleMesh(np.eye(3), [[0, 1, 2]]),
          vd.PlanarMicroscopeCalibration(64, 64), vd.TsaiCalibration(64, 64), vd.PlanarTargetDatabase(vd.CameraParameters(600, 600, 320, 240))]
-SLOW = {"coverArm", "setTimeLimit"}
+SLOW = {"coverArm", "setTimeLimit", "save"}  # or writes files
 allowed = (TypeError, ValueError, IndexError, OSError, RuntimeError, NotImplementedError, OverflowError, AttributeError, UnicodeError)
 def call(function, count):
     arguments = [pool[i] for i in random.integers(0, len(pool), count)]
@@ -193,6 +194,8 @@ def test_nothing_leaks(arm):
     law, tracker, forecast = vd.ServoLaw.create("pbvs1"), vd.PatternTracker(64, 64), vd.MotionForecast()
     law.setGoal(target.goal(cMo))
     seen, q = target.measure(cMo), arm.home()
+    machine, dynamics, tracks = vd.PrintMachine(), vd.ArmDynamics(arm), vd.ObjectTracks()
+    depth, camera, image32 = vd.DepthOctomap(), vd.CameraParameters(60, 60, 2, 2), np.full((4, 4), 0.5, np.float32)
 
     def refused():
         with pytest.raises(ValueError):
@@ -207,6 +210,10 @@ def test_nothing_leaks(arm):
         lambda: vd.ArmKinematics(arm, q).geometric(),
         lambda: scene.clearance(q),
         lambda: vd.PrintTriggerInput(cells=cells, along=forecast),
+        lambda: machine.step(0, cells).trigger.shots,
+        lambda: dynamics.inertia(q),
+        lambda: (tracks.add(vd.ObjectSighting(name="box")), tracks.tracks()),
+        lambda: depth.insert(image32, camera, cMo),
         refused,
     ]
     for call in calls:

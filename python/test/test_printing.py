@@ -103,3 +103,62 @@ def test_bad_input_has_a_sentence_or_a_status():
         given.cells = np.zeros((3, 2), vd.PatternCell)
     with pytest.raises(ValueError, match="nozzle"):
         vd.PrintTrigger(vd.PrintTriggerSpec(nozzle=np.nan))
+
+
+def test_machine_prints_each_cell_of_a_row_once():
+    """On a stage that is a mass alone, accelerated by four commands in each frame, seen without delay."""
+    preview = vd.PreviewControlSpec(lag=0, positionGain=0.03, velocityGain=0.5)
+    spec = vd.PrintMachineSpec(cellsPerRow=8, visionDelay=0, commandsPerFrame=4, preview=preview, previewAcross=preview)
+    spec.observer = vd.MotionObserverSpec(lag=0)
+    spec.originX = spec.nozzle - spec.pitchX  # a distance to accelerate
+    spec.validate()
+    machine = vd.PrintMachine(spec)
+    assert machine.spec().cellsPerRow == 8 and [machine.columnOf(0, k) for k in range(3)] == [-1, -2, -3]
+    machine.reset(0, -1)
+    places, velocity, shots, missed = [0.0], 0.0, [], []  # places: each quarter of a frame
+    columns = -1 - np.arange(8)
+    for frame in range(200):
+        x = spec.originX + (columns + 1) * spec.pitchX + places[-1]
+        seen = (x > 0) & (x < 160)
+        cells = np.zeros(seen.sum(), vd.PatternCell)
+        cells["column"], cells["x"], cells["y"], cells["valid"] = columns[seen], x[seen], spec.nozzleAcross, True
+        cells["sigmaX"] = cells["sigmaY"] = 0.02
+        output = machine.step(frame, cells, 1)
+        assert output.commandCount == 4 and np.isfinite(output.forceX).all() and repr(output).startswith("PrintMachineOutput(")
+        shots += [(shot["column"], shot["fireTime"]) for shot in output.trigger.shots]
+        missed += output.trigger.missed["column"].tolist()
+        for force in output.forceX[:4]:
+            places.append(places[-1] + velocity / 4 + force / 32)
+            velocity += force / 4
+    assert sorted(column for column, _ in shots) == sorted(columns) and missed == []
+    for column, time in shots:
+        landed = np.interp(time + spec.travelTime, np.arange(len(places)) / 4, places)
+        assert abs(spec.originX + (column + 1) * spec.pitchX + landed - spec.nozzle) < 0.1
+    empty = machine.step(frame + 1, np.zeros(0, vd.PatternCell))
+    assert empty.commandCount == 1 and np.isfinite(empty.forceX).all()
+    assert np.isfinite(machine.step(np.nan, np.zeros(0, vd.PatternCell)).forceX).all()
+    with pytest.raises(TypeError, match="dtype visp_direct.PatternCell"):
+        machine.step(0, np.zeros((2, 2)))
+    with pytest.raises(ValueError, match="pitchX"):
+        vd.PrintMachine(vd.PrintMachineSpec(pitchX=np.nan))
+
+
+def test_parameters_of_the_machine_check_themselves(random):
+    for _ in range(longer(20)):
+        alpha = random.uniform(0.05, 0.95)
+        gains, kalman = vd.AlphaBetaGains.criticallyDamped(alpha), vd.AlphaBetaGains.steadyKalman(alpha)
+        gains.validate()
+        assert gains.beta == pytest.approx(2 - alpha - 2 * np.sqrt(1 - alpha))
+        assert kalman.beta == pytest.approx(2 * gains.beta)
+        assert 0 < gains.valueVariance() < 1 and gains.rateVariance() > 0
+        model = vd.FrictionModel(mass=random.uniform(0.5, 2), viscous=0.1, coulomb=0.3, stiction=0.3)
+        v, a = random.uniform(-1, 1, 2)
+        assert model.friction(v) == pytest.approx(0.1 * v + 0.3 * np.sign(v))
+        assert model.force(v, a) == pytest.approx(model.mass * a + model.friction(v))
+    assert not vd.PrintVelocityControlSpec.thesisPid().feedforward and vd.PrintVelocityControlSpec.thesisFeedforward().feedforward
+    vd.PrintMachineSpec.defaultForecast().validate()
+    assert vd.PrintMachineSpec().controller == vd.PrintController.Observer
+    bad = {"MotionKalmanSpec": "gate", "MotionObserverSpec": "lag", "PreviewControlSpec": "period", "PrintVelocityControlSpec": "kp"}
+    for name, field in {**bad, "PrintMachineSpec": "dropVelocity", "AlphaBetaGains": "alpha"}.items():
+        with pytest.raises(ValueError, match=field):
+            getattr(vd, name)(**{field: np.nan}).validate()

@@ -135,9 +135,11 @@ def test_show_makes_a_page(tmp_path):
     arm = vd.loadArmJson(str(DATA / "robot/amor.json"))
     loaded = vd.loadCollisionScene(str(DATA / "scene/s4a-pillar.json"))
     scene, task = vd.CollisionScene(arm, loaded.spec), loaded.tasks[0]
+    meshes = vd.show(arm, scene, file=tmp_path / "bare.html").read_text().count('"kind": "mesh"')
+    scene.add(vd.CollisionObject(name="map", shape=vd.CollisionShape.octree(vd.Octree([[1, 0, 1, 0.1]]))))
     file = vd.show(arm, scene, np.array([task.start, task.goal]), tmp_path / "arm.html")
     page = file.read_text()
-    assert "vispView" in page and '"kind": "cylinder"' in page and "capsule" in page
+    assert "vispView" in page and page.count('"kind": "mesh"') == meshes + 1 and '"kind": "cylinder"' in page and "capsule" in page
     assert vd.show(arm, file=tmp_path / "home.html").is_file()
     with pytest.raises(ValueError, match=r"a path of shape \(2, 3\) was given, must be n x 7"):
         vd.show(arm, scene, np.zeros((2, 3)), tmp_path / "bad.html")

@@ -72,8 +72,8 @@ def _arm(arm, missing):
     }
 
 
-def _object(item, seconds, missing):
-    from .report.view3d import MOST_TRIANGLES, mesh_part
+def _object(item, seconds):
+    from .report.view3d import MOST_TRIANGLES, cubes, mesh_part
 
     shape, types = item.shape, core.ShapeType
     if shape.type() == types.Sphere:
@@ -88,8 +88,7 @@ def _object(item, seconds, missing):
     elif shape.type() == types.Mesh:
         part = mesh_part(shape.triangles().vertices(), shape.triangles().triangles(), MOST_TRIANGLES // 4)
     else:
-        missing.append(f"{item.name}: octrees are not shown")
-        return None
+        part = mesh_part(*cubes(shape.cubes().cells()), MOST_TRIANGLES // 4)
     part["pose"] = item.pose.tolist()
     if np.any(item.velocity) and seconds > 0:
         times = np.linspace(0, seconds, 100)
@@ -126,12 +125,12 @@ def show(arm, scene=None, path=None, file=None):
     if path is not None:
         t, q = _motion(arm, path)
         runs, seconds = [{"name": "motion", "colour": "#0072b2", "arm": 0, "t": t.tolist(), "q": q.tolist()}], t[-1]
-    objects = [] if scene is None else [_object(scene.object(i), seconds, missing) for i in range(scene.objectCount())]
+    objects = [] if scene is None else [_object(scene.object(i), seconds) for i in range(scene.objectCount())]
     ground = None if scene is None or scene.ground() is None else scene.ground().offset
     page = Page(arm.spec().name, "Drag to turn, the wheel or two fingers to zoom. The grid has squares of 10 cm.")
     page.section("The arm")
     page.view(
-        view([_arm(arm, missing)], runs, [item for item in objects if item], ground),
+        view([_arm(arm, missing)], runs, objects, ground),
         "Covers: the capsules of collision checks.",
     )
     page.items(*missing)
