@@ -27,7 +27,7 @@ def test_octrees_are_obstacles(arm, tmp_path):
     assert not scene.inCollision(arm.home())
     scene.add(vd.CollisionObject(name="cube", shape=vd.CollisionShape.octree(vd.Octree([[*tool, 0.1]]))))
     assert scene.inCollision(arm.home())
-    for bad, sentence in ((-0.1, "made"), (np.nan, "finite")):
+    for bad, sentence in ((-0.1, "made: cell 0 has the size -0.1 m"), (np.nan, "size nan m")):
         with pytest.raises(ValueError, match=sentence):
             vd.Octree([[0, 0, 0, bad]], "made")
     with pytest.raises(ValueError, match=r"shape \(1, 3\) was given, must be n x 4 numbers"):
