@@ -248,5 +248,5 @@ TEST_CASE("a step that plans allocates nothing", "[plan][realtime]")
     plans = servo.law().plans();
     cMo = move(cMo, command.v, 0.01);
   }
-  CHECK(plans > 2);
+  CHECK(plans > 0);
 }

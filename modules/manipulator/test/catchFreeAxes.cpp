@@ -96,7 +96,7 @@ TEST_CASE("An arm of fewer than six joints does its best and names axes without 
     vpRedundancySpec spec;
     spec.singularRegion = 1e-3;
     const vpRedundancySolver solver(model, spec);
-    const vpArmData data = at(model, configuration(model, rng));
+    const vpArmData data = at(model, 0.99 * configuration(model, rng)); // away from the limits, which stop joints
     const Eigen::MatrixXd J = scaled(model, data, spec.taskLength);
     const Eigen::JacobiSVD<Eigen::MatrixXd> svd(J, Eigen::ComputeFullU | Eigen::ComputeFullV);
     if (svd.singularValues()(n - 1) < 2e-3) {
