@@ -277,19 +277,25 @@ VP_KERNEL_INLINE Verdict judgePair(const vpEdgeMotion &motion, const vpEdgePair 
   return judgeGround(*motion.ground, c, {radius, radius}, bound, half);
 }
 
-// Box of a capsule at all lanes and, with its motion, around them.
+// Box of a capsule at all lanes and, with its motion, around them; all of space if a number is NaN.
 VP_KERNEL_INLINE Eigen::AlignedBox3d boxOf(const Capsule &c, double radius, const vpLane &moves)
 {
   constexpr double slack = 1e-6; // m, more than all rounding
   const vpLane out = moves + (radius + slack);
   const vpLane *const from[3] = {&c.from.x, &c.from.y, &c.from.z}, *const to[3] = {&c.to.x, &c.to.y, &c.to.z};
   Eigen::AlignedBox3d box;
+  bool known = true;
   for (int i = 0; i < 3; ++i) {
     const vpLane low = smaller(*from[i], *to[i]) - out, high = larger(*from[i], *to[i]) + out;
     for (int l = 0; l < lanes; ++l) {
       box.min()[i] = low[l] < box.min()[i] ? low[l] : box.min()[i];
       box.max()[i] = high[l] > box.max()[i] ? high[l] : box.max()[i];
+      known = known && low[l] <= high[l];
     }
+  }
+  if (!known) {
+    box.min().setConstant(-std::numeric_limits<double>::infinity());
+    box.max().setConstant(std::numeric_limits<double>::infinity());
   }
   return box;
 }

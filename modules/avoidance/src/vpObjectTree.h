@@ -24,7 +24,7 @@ struct vpObjectNode {
   int left = -1, right = -1; // -1: an object.
 };
 
-//! Builds the tree anew. Allocates.
+//! Builds the tree. Allocates.
 void vpBuildObjectTree(const std::vector<vpCollisionCore> &cores, const std::vector<vpCollisionObject> &objects,
                        std::vector<vpObjectNode> &nodes);
 

@@ -144,3 +144,45 @@ TEST_CASE("the versions for all processors prove the same", "[certified]")
   CHECK(proven > unproven / 10);
   CHECK(unproven > proven / 10);
 }
+
+TEST_CASE("an object is found by its box, and where a number is NaN it is not called free", "[certified]")
+{
+  const vpArmModel &arm = vpTestArms::amor();
+  const vpEdgeCapsule capsules[1] = {{1, Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX(), 0.05, 0.5}};
+  std::vector<vpEdgePair> pairs(1);
+  pairs[0].kind = vpCollisionKind::Object;
+  const std::uint32_t index = 0;
+  for (const bool isNear : {true, false}) {
+    for (const double joint : {0.1, std::nan("")}) {
+      std::vector<vpCollisionCore> cores(1);
+      cores[0].radius = isNear ? 3. : 0.1;
+      vpRigidTransform pose;
+      pose.p.x() = isNear ? 0. : 5.;
+      cores[0].move(pose);
+      std::vector<vpObjectNode> tree(1);
+      tree[0].box =
+          Eigen::AlignedBox3d(cores[0].centre.array() - cores[0].radius, cores[0].centre.array() + cores[0].radius);
+      const vpEdgeObjects objects = {&tree, &index, 0, 1};
+      vpEdgeMotion motion;
+      motion.arm = &arm;
+      motion.capsules = capsules;
+      motion.cores = cores.data();
+      motion.from = vpJointVector::Constant(arm.size(), joint);
+      motion.change = vpJointVector::Constant(arm.size(), 0.01);
+      std::vector<std::pair<const char *, Entry>> versions = otherVersions();
+      versions.emplace_back("baseline", evaluateBaseline);
+      for (const auto &[name, entry] : versions) {
+        CAPTURE(isNear, joint, name);
+        std::uint32_t open = 0;
+        std::uint8_t unproven = 0, touched = 0;
+        vpEdgeBatch batch;
+        batch.objects = &objects;
+        batch.open = &open;
+        batch.unproven = &unproven;
+        batch.touched = &touched;
+        entry(motion, pairs.data(), nullptr, 0, 0., 0.125, batch);
+        CHECK((batch.count > 0) == (isNear || std::isnan(joint)));
+      }
+    }
+  }
+}

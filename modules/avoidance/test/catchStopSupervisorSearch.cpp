@@ -231,7 +231,7 @@ struct Stop {
   double share = 0.;                           // of the last wish
 };
 
-//! So many periods towards a wish, then bad input until the arm stands.
+//! The stop after a number of periods towards a wish: bad input until the arm stands.
 Stop stopOf(vpCollisionScene scene, const vpStopSupervisorSpec &spec, vpJointVector q, const vpJointVector &aim,
             int periods)
 {

@@ -28,7 +28,7 @@ constexpr double planLinear = 0.94, planAngular = 0.65;
 constexpr double lag = 0.1;
 // Least factor on the speeds.
 constexpr double slowest = 0.01;
-// A goal that moved by more than so many units of noise is a new one: the old plan does not delay the motion to it.
+// Multiple of the noise: a goal that moved by more is a new one, and the old plan does not delay the motion to it.
 constexpr double jump = 5.;
 // Least duration of a plan for a better measurement of the same goal, s.
 constexpr double leastCorrection = 0.4;

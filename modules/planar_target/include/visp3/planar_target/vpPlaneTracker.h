@@ -41,7 +41,7 @@ struct VISP_EXPORT vpPlaneTrack {
  * The frame is warped by a homography that is nearly right, so that windows of the reference are found again by a
  * shift, at any scale, rotation and tilt; gain and bias of the light are matched first. Points that do not agree with
  * one homography (not on the plane, or occluded) count as not visible. The same corners are found in each frame, with independent
- * errors of about 0.1 px: keypoints are detected anew in each frame and err by several tenths.
+ * errors of about 0.1 px: keypoints, which are detected in each frame again, err by several tenths.
  */
 class VISP_EXPORT vpPlaneTracker
 {
