@@ -6,6 +6,7 @@
 
 #include "vpLinkHull.h"
 #include "vpObjectTree.h"
+#include "vpPairVisitors.h"
 
 #include <visp3/core/vpException.h>
 

@@ -5,6 +5,7 @@
 #include "vpCollisionCore.h"
 #include "vpLinkHull.h"
 #include "vpObjectTree.h"
+#include "vpPairVisitors.h"
 #include "vpPlausible.h"
 #include "vpSceneCheck.h"
 
@@ -63,89 +64,6 @@ bool areApart(const Eigen::Vector3d &a, const Eigen::Vector3d &b, double radii, 
   const double reach = cutoff + radii;
   return reach < 0. || (a - b).squaredNorm() > reach * reach;
 }
-
-// Visitors of a query: they get the pairs below their cutoff and may stop. select() begins the pairs of a link with
-// objects or the ground, or of two links; close() ends those of two parts.
-struct Any {
-  double margin;
-  static void select(int /*link*/, int /*other*/ = -1) noexcept {}
-  static void close() noexcept {}
-  bool found = false;
-  // Slightly more, so that a contact exactly at the margin is still found.
-  [[nodiscard]] double cutoff() const noexcept { return margin + 1e-12; }
-  bool take(const vpClearance &pair) noexcept
-  {
-    found = !(pair.distance > margin);
-    return found;
-  }
-};
-
-struct Least {
-  vpClearance best;
-  static void select(int /*link*/, int /*other*/ = -1) noexcept {}
-  static void close() noexcept {}
-  [[nodiscard]] double cutoff() const noexcept { return best.distance; }
-  bool take(const vpClearance &pair) noexcept
-  {
-    if (pair.distance < best.distance) {
-      best = pair;
-    }
-    return false;
-  }
-};
-
-// Of the pairs between two calls of close() the least.
-struct Nearest {
-  vpNearPairs &list;
-  double limit;
-  double least;                         // limit of parts that do not move
-  const vpPartMotions *moves = nullptr; // if given, added to it
-  vpClearance best;
-  Nearest(vpNearPairs &into, double cutoff, const vpPartMotions *motions = nullptr) noexcept
-    : list(into), limit(cutoff), least(cutoff), moves(motions)
-  {
-    best.distance = cutoff;
-  }
-  void select(int link, int other = -1) noexcept
-  {
-    if (moves != nullptr) {
-      limit = least + moves->links[at(link)] + (other < 0 ? moves->objects : moves->links[at(other)]);
-      best.distance = limit;
-    }
-  }
-  [[nodiscard]] double cutoff() const noexcept { return best.distance; }
-  bool take(const vpClearance &pair) noexcept
-  {
-    if (pair.distance < best.distance) {
-      best = pair;
-    }
-    return false;
-  }
-  void close() noexcept
-  {
-    if (best.kind != vpCollisionKind::None) {
-      add();
-      best = vpClearance();
-      best.distance = limit;
-    }
-  }
-
-private:
-  void add() noexcept
-  {
-    if (list.count < vpNearPairs::capacity) {
-      list.pairs[at(list.count++)] = best;
-      return;
-    }
-    list.dropped = true;
-    auto farthest =
-        std::max_element(list.pairs.begin(), list.pairs.end(),
-                         [](const vpClearance &a, const vpClearance &b) { return a.distance < b.distance; });
-    if (best.distance < farthest->distance) {
-      *farthest = best;
-    }
-  }
-};
 } // namespace
 
 struct vpCollisionScene::Links {
@@ -431,7 +349,7 @@ bool vpCollisionScene::inCollision(const vpCollisionData &data, double margin, d
   if (!isKnown(data, margin, time)) {
     return true;
   }
-  Any any{margin};
+  vpAnyPair any{margin};
   visit(data, time, any);
   return any.found;
 }
@@ -441,7 +359,7 @@ vpClearance vpCollisionScene::clearance(const vpCollisionData &data, double cuto
   if (!isKnown(data, cutoff, time)) {
     return unknownClearance();
   }
-  Least least;
+  vpLeastPair least;
   least.best.distance = cutoff;
   visit(data, time, least);
   if (least.best.kind == vpCollisionKind::None) {
@@ -461,7 +379,7 @@ void vpCollisionScene::near(const vpCollisionData &data, double cutoff, const vp
   result.count = 0;
   result.dropped = !isKnown(data, cutoff, time);
   if (!result.dropped) {
-    Nearest nearest(result, cutoff, motions);
+    vpNearestPairs nearest(result, cutoff, motions);
     visit(data, time, nearest);
   }
 }

@@ -36,12 +36,6 @@ void vpFitObjectTree(const std::vector<vpCollisionCore> &cores, const std::vecto
 void vpFitObject(int object, const vpCollisionCore &core, const vpTwist &velocity,
                  std::vector<vpObjectNode> &nodes) noexcept;
 
-//! Largest motions of parts of a scene, m.
-struct vpPartMotions {
-  std::array<double, vpArmMaxJoints + 1> links{}; // By link, 0..n.
-  double objects = 0.;                            // Of any object.
-};
-
 //! Largest speed of any point of any object, m/s.
 inline double vpFastestObject(const std::vector<vpObjectNode> &nodes) noexcept
 {
