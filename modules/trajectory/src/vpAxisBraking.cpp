@@ -100,19 +100,19 @@ vpAxisTask vpAxisTask::harder(double hardness) const
   return task;
 }
 
-double vpAxisTask::brakingDistance() const
+std::pair<double, double> vpAxisTask::brakingWays() const
 {
   const auto stop = [this](double v, double a) {
     if (order == 2) {
-      return v * v / (2. * brakeAcceleration());
+      return v * std::abs(v) / (2. * brakeAcceleration());
     }
     if (v == 0. && a == 0.) {
       return 0.;
     }
     const vpVelocityRamp ramp(v, a, 0., brakeAcceleration(), brakeJerk({0., v, a, 0.}));
-    return std::abs(ramp.at(0., ramp.duration())[0]);
+    return ramp.at(0., ramp.duration())[0];
   };
-  return std::max(stop(from[1], from[2]), stop(-to[1], to[2]));
+  return {stop(from[1], from[2]), -stop(-to[1], to[2])};
 }
 
 bool vpAxisTask::isMoving() const
@@ -217,7 +217,8 @@ vpHardStop::vpHardStop(const vpAxisState &x, const vpAxisTask &task, double low,
     const vpAxisTask harder = task.harder(hardness);
     acceleration = harder.brakeAcceleration();
     jerk = harder.brakeJerk(x, hardness);
-    if (task.order == 2 || !(excess(x, low, high, 1.) > 0. || excess(x, low, high, -1.) > 0.)) {
+    const bool free = low == -infinity && high == infinity;
+    if (free || task.order == 2 || !(excess(x, low, high, 1.) > 0. || excess(x, low, high, -1.) > 0.)) {
       return;
     }
     if (hardness >= hardest || (jerk >= task.limits.jerk && std::isfinite(task.limits.acceleration))) {

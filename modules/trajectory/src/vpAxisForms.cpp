@@ -15,19 +15,17 @@ namespace
 {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-vpPolynomial scaled(vpPolynomial p, double factor)
+void append(vpTrajectoryPlan &plan, int axis, const vpPolynomial &p, double factor, double duration)
 {
-  for (int k = 0; k <= p.degree(); ++k) {
-    p[k] *= factor;
+  if (factor == 1.) {
+    plan.append(axis, p, duration);
+    return;
   }
-  return p;
-}
-
-bool within(const vpPolynomial &p, double place, const vpAxisLimits &limits)
-{
-  const auto range = p.range();
-  const double slack = vpMinimumDuration::tolerance * (std::abs(place) + range.max - range.min);
-  return place + range.min >= limits.minPosition - slack && place + range.max <= limits.maxPosition + slack;
+  vpPolynomial scaled = p;
+  for (int k = 0; k <= p.degree(); ++k) {
+    scaled[k] *= factor;
+  }
+  plan.append(axis, scaled, duration);
 }
 
 bool isBounded(const vpAxisLimits &limits)
@@ -125,6 +123,10 @@ void vpFramedMotion::padTail(double duration) noexcept
 
 void vpFramedMotion::launch(const vpAxisTask &task, double jerk) noexcept
 {
+  if (isTailAtRest()) {
+    m_tail = {m_tail[0], 0., 0., 0.};
+    return;
+  }
   vpFramedMotion backwards;
   backwards.m_order = m_order;
   backwards.m_head = m_tail;
@@ -135,6 +137,10 @@ void vpFramedMotion::launch(const vpAxisTask &task, double jerk) noexcept
 
 void vpFramedMotion::launch(const vpHardStop &stop) noexcept
 {
+  if (isTailAtRest()) {
+    m_tail = {m_tail[0], 0., 0., 0.};
+    return;
+  }
   vpFramedMotion backwards;
   backwards.m_order = m_order;
   backwards.m_head = m_tail;
@@ -214,8 +220,19 @@ void vpFramedMotion::close(const vpAxisTask &task) noexcept
   if (m_blocked) {
     return;
   }
-  m_lower = vpMinimumDuration::raiseLowerBound(m_middle, m_middleLimits,
-                                               vpMinimumDuration::lowerBound(m_head, m_tail, m_middleLimits));
+  const auto rests = [](const vpAxisState &x) { return x[1] == 0. && x[2] == 0.; };
+  m_restToRest = m_order == 3 && rests(m_head) && rests(m_tail);
+  const double lower = vpMinimumDuration::lowerBound(m_head, m_tail, m_middleLimits);
+  m_lower = m_restToRest ? std::max(lower, restToRestDuration())
+                         : vpMinimumDuration::raiseLowerBound(m_middle, m_middleLimits, lower);
+}
+
+// The smallest of the quintic, whose peaks are 15/8 h/T, 10/sqrt(3) h/T^2 and 60 h/T^3.
+double vpFramedMotion::restToRestDuration() const noexcept
+{
+  const double h = std::abs(m_tail[0] - m_head[0]);
+  return std::max({1.875 * h / m_middleLimits.velocity, std::sqrt(5.773502691896258 * h / m_middleLimits.acceleration),
+                   std::cbrt(60. * h / m_middleLimits.jerk)});
 }
 
 void vpFramedMotion::hull(double &low, double &high) const noexcept
@@ -259,6 +276,9 @@ bool vpFramedMotion::staysWithin(double low, double high, double T) const noexce
   if (!fixedStaysWithin(low, high)) {
     return false;
   }
+  if (m_restToRest) {
+    return std::min(m_head[0], m_tail[0]) >= low && std::max(m_head[0], m_tail[0]) <= high;
+  }
   double c[vpMotionFamily::maxDegree + 1];
   m_middle.evaluate(T - fixedDuration(), c);
   c[0] += m_head[0];
@@ -274,6 +294,9 @@ double vpFramedMotion::next(double T) const noexcept
   if (free < m_lower && fixed + m_lower > T) {
     return fixed + m_lower;
   }
+  if (m_restToRest) {
+    return T;
+  }
   const double now = std::max(free, m_lower);
   const double candidate = vpMinimumDuration::nextCandidate(m_middle, m_middleLimits, now);
   return candidate == now ? T : std::max(fixed + candidate, T * (1. + 4e-16));
@@ -283,7 +306,7 @@ void vpFramedMotion::emitHead(vpTrajectoryPlan &plan, int axis, double factor) c
 {
   for (int i = 0; i < m_heads; ++i) {
     const Piece &piece = m_headPieces[static_cast<std::size_t>(i)];
-    plan.append(axis, scaled(piece.p, factor), piece.duration);
+    append(plan, axis, piece.p, factor, piece.duration);
   }
 }
 
@@ -291,12 +314,53 @@ void vpFramedMotion::emit(vpTrajectoryPlan &plan, int axis, double factor, doubl
 {
   emitHead(plan, axis, factor);
   const double free = T - fixedDuration();
-  plan.append(axis, scaled(m_middle.at(free), factor), free);
+  append(plan, axis, m_middle.at(free), factor, free);
   for (int i = m_tails; i > 0; --i) {
     const Piece &piece = m_tailPieces[static_cast<std::size_t>(i - 1)];
-    plan.append(axis, scaled(piece.p, factor), piece.duration);
+    append(plan, axis, piece.p, factor, piece.duration);
   }
 }
+
+namespace
+{
+// For a change of velocity d > 0 from the acceleration a >= 0 the least T in which the quartic keeps the limit A is
+// 3 d/(a + A + sqrt(A (A - a))), because its greatest acceleration is (3 d - a T)^2/(3 (2 d - a T) T); its jerk is linear,
+// from (6 d - 4 a T)/T^2 to (2 a T - 6 d)/T^2.
+double leastVelocityStep(double d, double a, const vpAxisLimits &limits)
+{
+  const double A = limits.acceleration, J = limits.jerk;
+  double T = 3. * d / (a + A + std::sqrt(A * (A - a)));
+  for (bool raised = std::isfinite(J); raised;) {
+    raised = false;
+    for (const double share : {4., 2.}) {
+      const double y = 6. * d - share * a * T, excess = std::abs(y) - J * T * T;
+      if (excess > vpMinimumDuration::tolerance * J * T * T) {
+        const double g[] = {excess, -std::copysign(share * a, y) - 2. * J * T, -J};
+        T = std::max(T + vpRootKernel::firstPositiveRoot(g, 2), T * (1. + 4e-16));
+        raised = true;
+      }
+    }
+  }
+  return T;
+}
+
+// Smallest duration of the quartic from (v, a) to (target, 0); infinite where there is none.
+double velocityStepDuration(double v, double a, double target, const vpAxisLimits &limits)
+{
+  const vpAxisState from{0., v, a, 0.}, to{0., target, 0., 0.};
+  const vpMotionFamily step = vpMotionFamily::velocityStep(from, to, 2);
+  double T = vpMinimumDuration::lowerBound(from, to, limits);
+  const double side = target < v ? -1. : 1., d = side * (target - v);
+  if (d > 0. && side * a <= limits.acceleration) {
+    T = std::max(T, leastVelocityStep(d, side * a, limits));
+    if (a == 0. || (side * a > 0. && side * a * T <= 3. * d)) { // the velocity is monotone
+      return T;
+    }
+  }
+  const vpDurationAnswer answer = vpMinimumDuration::solve(step, limits, T);
+  return answer.kind == vpDurationAnswer::Kind::Found ? answer.T : infinity;
+}
+} // namespace
 
 void vpCruiseMotion::open(const vpAxisTask &task, const vpFramedMotion &framed) noexcept
 {
@@ -309,15 +373,11 @@ void vpCruiseMotion::open(const vpAxisTask &task, const vpFramedMotion &framed) 
   }
   const double full = std::copysign(task.limits.velocity, h);
   const vpAxisLimits free = task.withoutPosition();
-  const vpDurationAnswer up =
-      vpMinimumDuration::solve(vpMotionFamily::velocityStep(from, {0., full, 0., 0.}, 2), free,
-                               vpMinimumDuration::lowerBound({0., from[1], from[2], 0.}, {0., full, 0., 0.}, free));
-  const vpDurationAnswer down =
-      vpMinimumDuration::solve(vpMotionFamily::velocityStep({0., full, 0., 0.}, to, 2), free,
-                               vpMinimumDuration::lowerBound({0., full, 0., 0.}, {0., to[1], to[2], 0.}, free));
-  if (up.kind == vpDurationAnswer::Kind::Found && down.kind == vpDurationAnswer::Kind::Found) {
-    open(task, framed, up.T, down.T,
-         framed.fixedDuration() + rest(framed, up.T, down.T) / full + 0.5 * (up.T + down.T));
+  // With time running backwards the acceleration changes sign.
+  const double up = velocityStepDuration(from[1], from[2], full, free);
+  const double down = velocityStepDuration(to[1], -to[2], full, free);
+  if (up < infinity && down < infinity) {
+    open(task, framed, up, down, framed.fixedDuration() + rest(framed, up, down) / full + 0.5 * (up + down));
   }
 }
 
@@ -386,11 +446,18 @@ bool vpCruiseMotion::staysWithin(double low, double high, double T) const noexce
 {
   vpMotionFamily up, down;
   ramps(T, up, down);
-  vpAxisLimits places;
-  places.minPosition = low;
-  places.maxPosition = high;
-  const vpPolynomial last = down.at(m_down);
-  return within(up.at(m_up), m_from[0], places) && within(last, m_to[0] - last.value(1.), places);
+  const auto within = [=](const vpMotionFamily &ramp, double duration, const vpAxisState &end, double share) {
+    double c[vpMotionFamily::maxDegree + 1], way = 0., size = std::abs(end[0]);
+    ramp.evaluate(duration, c);
+    for (int k = 1; k <= ramp.degree(); ++k) {
+      way += c[k];
+      size += std::abs(c[k]);
+    }
+    c[0] = end[0] - share * way;
+    const double slack = vpMinimumDuration::tolerance * size;
+    return vpRootKernel::staysWithin(c, ramp.degree(), low - slack, high + slack);
+  };
+  return within(up, m_up, m_from, 0.) && within(down, m_down, m_to, 1.);
 }
 
 void vpCruiseMotion::emit(vpTrajectoryPlan &plan, int axis, double factor, double T) const noexcept
@@ -398,9 +465,9 @@ void vpCruiseMotion::emit(vpTrajectoryPlan &plan, int axis, double factor, doubl
   vpMotionFamily up, down;
   ramps(T, up, down);
   const double constant = T - m_braked - m_up - m_down;
-  plan.append(axis, scaled(up.at(m_up), factor), m_up);
+  append(plan, axis, up.at(m_up), factor, m_up);
   plan.append(axis, {0., factor * cruiseAt(T) * constant}, constant);
-  plan.append(axis, scaled(down.at(m_down), factor), m_down);
+  append(plan, axis, down.at(m_down), factor, m_down);
 }
 
 END_VISP_NAMESPACE

@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 BEGIN_VISP_NAMESPACE
 
@@ -42,8 +43,8 @@ struct vpAxisTask {
   [[nodiscard]] double highest() const { return std::max({maxPosition, 0., to[0]}); }
   //! Start or goal has a velocity (or what of higher derivatives matters): the axis needs room to brake or to launch.
   [[nodiscard]] bool isMoving() const;
-  //! The longer of the distances of a stop from the start and a launch to the goal, at usual hardness.
-  [[nodiscard]] double brakingDistance() const;
+  //! The ways of a stop from the start, and of one from the goal with time running backwards, at usual hardness.
+  [[nodiscard]] std::pair<double, double> brakingWays() const;
   //! True when the braking distance is defined.
   [[nodiscard]] bool hasBrakingDistance() const
   {
@@ -159,6 +160,8 @@ private:
   void takeTail(const vpFramedMotion &backwards) noexcept;
   void addHead(const vpPolynomial &p, double duration) noexcept;
   void addTail(const vpPolynomial &p, double duration) noexcept;
+  [[nodiscard]] double restToRestDuration() const noexcept;
+  [[nodiscard]] bool isTailAtRest() const { return m_tail[1] == 0. && (m_order == 2 || m_tail[2] == 0.); }
 
   std::array<Piece, maxHead> m_headPieces{};
   std::array<Piece, maxTail> m_tailPieces{};
@@ -166,7 +169,8 @@ private:
   double m_headTime = 0., m_tailTime = 0., m_lower = 0.;
   mutable double m_low = 0., m_high = 0.; // the hull, once it is asked for
   mutable bool m_hullKnown = false;
-  bool m_blocked = false; // the fixed pieces leave the position limits
+  bool m_blocked = false;    // the fixed pieces leave the position limits
+  bool m_restToRest = false; // the middle is monotone and keeps its limits from m_lower on
   vpAxisState m_head{}, m_tail{};
   vpMotionFamily m_middle;
   vpAxisLimits m_middleLimits;

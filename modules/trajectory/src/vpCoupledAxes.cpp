@@ -85,9 +85,13 @@ void vpCoupledAxes::boundPositions() noexcept
   for (int i = 0; i < m_count; ++i) {
     vpAxisTask &task = at(i).task;
     const double low = std::min(0., task.to[0]), high = std::max(0., task.to[0]);
-    const double distance = m_bounded && task.hasBrakingDistance() ? task.brakingDistance() : infinity;
+    const bool hasDistance = m_bounded && task.hasBrakingDistance();
+    const auto [stop, launch] = hasDistance ? task.brakingWays() : std::pair<double, double>(0., 0.);
+    const double distance = hasDistance ? std::max(std::abs(stop), std::abs(launch)) : infinity;
     at(i).low = low - distance;
     at(i).high = high + distance;
+    const auto fills = [this, i](double place) { return place <= at(i).low || place >= at(i).high; };
+    at(i).overshoots = (stop != 0. && fills(stop)) || (launch != 0. && fills(task.to[0] - launch));
     task.limits.minPosition = m_bounded ? std::min(low, task.minPosition) : -infinity;
     task.limits.maxPosition = m_bounded ? std::max(high, task.maxPosition) : infinity;
   }
@@ -97,6 +101,7 @@ void vpCoupledAxes::boundPositions() noexcept
 bool vpCoupledAxes::takeLast() noexcept
 {
   buildLast();
+  m_roomier = false;
   if (!m_bounded) {
     return false;
   }
@@ -107,12 +112,15 @@ bool vpCoupledAxes::takeLast() noexcept
     double low = 0., high = 0.;
     at(i)[m_last].hull(low, high);
     const double distance = task.hasBrakingDistance() ? at(i)[m_last].brakingDistance(task.to[0]) : infinity;
+    const double same = 1e-9 * (at(i).high - at(i).low), oldLow = at(i).low, oldHigh = at(i).high;
     at(i).low = std::min(low, std::min(0., task.to[0]) - distance);
     at(i).high = std::max(high, std::max(0., task.to[0]) + distance);
+    m_roomier = m_roomier || at(i).low < oldLow - same || at(i).high > oldHigh + same;
     wider = wider || low < limits.minPosition || high > limits.maxPosition;
     limits.minPosition = std::min(low, limits.minPosition);
     limits.maxPosition = std::max(high, limits.maxPosition);
   }
+  m_roomier = m_roomier || wider;
   if (wider) {
     m_cruiseReady = false;
     close(vpMotionAxis::Direct);
@@ -152,6 +160,9 @@ bool vpCoupledAxes::keepsPositions(Form form) const noexcept
   }
   return true;
 }
+
+// A single axis that overshoots leaves its range by more with a gentler stop.
+bool vpCoupledAxes::mayBeSoft() const noexcept { return !(isSingle() && order() == 3 && at(0).overshoots); }
 
 bool vpCoupledAxes::breaksNorm() const noexcept
 {
@@ -224,7 +235,8 @@ double vpCoupledAxes::next(double T) noexcept
     return searchStops(T, infinity);
   }
   double best = searchFree(T);
-  if (best < infinity && !makesDetour(best)) {
+  bool detour = best < infinity && makesDetour(best);
+  if (best < infinity && !detour) {
     return best;
   }
   if (!m_lastBuilt) { // it costs more than all others
@@ -233,9 +245,10 @@ double vpCoupledAxes::next(double T) noexcept
       return soft;
     }
     best = takeLast() ? searchFree(T) : best;
+    detour = best < infinity && ((detour && !m_roomier) || makesDetour(best));
   }
   // A detour only where it is faster than stopping first.
-  const bool stops = !(best < infinity) || (makesDetour(best) && !(best < searchLast(T)));
+  const bool stops = !(best < infinity) || (detour && !(best < searchLast(T)));
   return stops ? searchStops(T, best) : best;
 }
 
@@ -284,6 +297,9 @@ double vpCoupledAxes::searchRamped(double T) noexcept
 // The gentle stop, unless it needs more time than another form would, or more space; infinity then.
 double vpCoupledAxes::searchSoft(double T, double instead) noexcept
 {
+  if (!mayBeSoft()) {
+    return infinity;
+  }
   const vpTrajectoryForm form = m_form;
   const Form used = m_used;
   m_form = vpTrajectoryForm::StopAndGo;

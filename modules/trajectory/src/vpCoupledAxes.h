@@ -34,6 +34,7 @@ struct vpMotionAxis {
   std::array<vpFramedMotion, FormCount> forms;
   vpCruiseMotion cruise;
   double low = 0., high = 0.; // range of positions while it waits
+  bool overshoots = false;    // the usual stop or launch leaves no room for a gentler one
 };
 
 /*!
@@ -98,6 +99,7 @@ private:
   [[nodiscard]] bool breaksNorm() const noexcept;
   [[nodiscard]] bool keepsPositions(Form form) const noexcept;
   [[nodiscard]] bool isOutside() const noexcept;
+  [[nodiscard]] bool mayBeSoft() const noexcept;
   [[nodiscard]] double commonRamp(bool head) noexcept;
   [[nodiscard]] double commonStop(bool head) noexcept;
   [[nodiscard]] double commonDuration(double T) noexcept;
@@ -126,6 +128,7 @@ private:
   vpNormLimits m_norm;
   bool m_hasNorm = false, m_allowCruise = false, m_droppedGoal = false;
   bool m_rampedReady = false, m_softReady = false, m_lastBuilt = false, m_lastReady = false, m_cruiseReady = false;
+  bool m_roomier = false;           // the last resort widened a range or a position limit
   bool m_bounded = false;           // not a rest-to-rest move, which never leaves the range from start to goal
   Form m_last = vpMotionAxis::Hard; // has a solution for every duration
   Form m_used = vpMotionAxis::Direct;

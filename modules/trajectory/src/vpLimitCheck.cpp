@@ -104,6 +104,8 @@ void vpLimitCheck::checkAxis(int axis, double from, Wanted wanted, Worst &worst)
   const bool jerk = std::isfinite(limits.jerk) && m_problem.spec.continuity != vpTrajectoryContinuity::C1;
   // Positions are rounded relative to the largest of them.
   const double place = std::max(std::abs(m_problem.start(axis)[0]), std::abs(m_problem.goal(axis)[0]));
+  const double most[] = {limits.maxPosition, limits.velocity, limits.acceleration, limits.jerk};
+  const double least[] = {limits.minPosition, -limits.velocity, -limits.acceleration, -limits.jerk};
   const int count = m_plan.segments(axis) + m_plan.coasting(axis);
   for (int i = 0; i < count; ++i) {
     const vpTrajectorySegment &segment = m_plan.segment(axis, i);
@@ -123,9 +125,16 @@ void vpLimitCheck::checkAxis(int axis, double from, Wanted wanted, Worst &worst)
       if (degree < 0) {
         break;
       }
+      if (!std::isfinite(most[d]) && !std::isfinite(least[d])) {
+        continue;
+      }
       double low = 0., high = 0.;
       bool exact = false;
       vpRootKernel::enclose(c, degree, low, high);
+      const double slack = d > 0 ? 1. + 0.5 * precision : 1.;
+      if (low >= slack * least[d] * unit && high <= slack * most[d] * unit) {
+        continue;
+      }
       const auto consider = [&](vpTrajectoryLimit limit, bool upper) {
         const double bound = boundOf(limits, limit);
         if (!std::isfinite(bound) || (wanted == Wanted::Unexplained && startsOutside(axis, limit))) {

@@ -21,42 +21,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int size = vpMotionFamily::maxDegree + 1;
 constexpr double farAway = 1.05; // a jump by this factor makes the search for a longer one unnecessary
 
-// A derivative of the motion at the current T, with its roots.
-struct Level {
-  double c[size];
-  int degree = 0;
-  double roots[size];
-  int rootCount = 0;
-
-  void differentiateFrom(const Level &upper)
-  {
-    degree = std::max(upper.degree - 1, 0);
-    c[0] = 0.;
-    vpRootKernel::differentiate(upper.c, upper.degree, c);
-  }
-  void findRoots(const Level *below)
-  {
-    if (degree <= 2) {
-      rootCount = vpRootKernel::closedFormRoots(c, degree, roots);
-    }
-    else if (below != nullptr) {
-      rootCount =
-          vpRootKernel::rootsBetween(c, degree, below->roots, below->rootCount, vpRootKernel::Wanted::Extrema, roots);
-    }
-    else {
-      rootCount = vpRootKernel::allRoots(c, degree, roots);
-    }
-  }
-  [[nodiscard]] double noise() const
-  {
-    double sum = 0.;
-    for (int k = 0; k <= degree; ++k) {
-      sum += std::abs(c[k]);
-    }
-    return 2. * epsilon * sum;
-  }
-};
-
 double power(double x, int n)
 {
   double p = 1.;
@@ -86,12 +50,138 @@ vpPolynomial derivativeOf(const vpMotionFamily &motion, int d, double T)
 // From one duration to the next that may be feasible, given the distance of the root of g.
 double advance(double T, double root) { return std::max(T + root, T * (1. + 2. * epsilon)); }
 
-// Search over the extrema of one derivative at one T.
-class Look
+// A derivative of the motion at the current T, with its roots.
+template <int Degree> struct Level {
+  double c[Degree + 1];
+  double roots[Degree + 1];
+  int rootCount = 0;
+
+  template <int Upper> void differentiateFrom(const Level<Upper> &upper)
+  {
+    c[0] = 0.;
+    vpRootKernel::differentiate(upper.c, Upper, c);
+  }
+  // From the roots of the derivative.
+  template <int Below> void findRoots(const Level<Below> &below)
+  {
+    if constexpr (Degree <= 2) {
+      rootCount = vpRootKernel::closedFormRoots(c, Degree, roots);
+    }
+    else {
+      rootCount =
+          vpRootKernel::rootsBetween(c, Degree, below.roots, below.rootCount, vpRootKernel::Wanted::Extrema, roots);
+    }
+  }
+  void findRoots()
+  {
+    rootCount =
+        Degree <= 2 ? vpRootKernel::closedFormRoots(c, Degree, roots) : vpRootKernel::allRoots(c, Degree, roots);
+  }
+  [[nodiscard]] double noise() const
+  {
+    double sum = 0.;
+    for (const double x : c) {
+      sum += std::abs(x);
+    }
+    return 2. * epsilon * sum;
+  }
+};
+
+/*
+ * Search over the extrema of each derivative at one T. Sizes are known at compile time, which unrolls all loops: N is
+ * the degree in s, P in T.
+ */
+template <int N, int P> class Look
 {
 public:
   Look(const vpMotionFamily &motion, double T) : m_motion(motion), m_T(T) {}
-  [[nodiscard]] double next() const { return m_next; }
+
+  [[nodiscard]] double next(const vpAxisLimits &limits)
+  {
+    Level<N> place;
+    Level<N - 1> velocity;
+    Level<N - 2> acceleration;
+    Level<N - 3> jerk;
+    evaluate(m_T, place.c);
+    velocity.differentiateFrom(place);
+    acceleration.differentiateFrom(velocity);
+    jerk.differentiateFrom(acceleration);
+    const bool boundsPlace = std::isfinite(limits.minPosition) || std::isfinite(limits.maxPosition);
+    const bool boundsJerk = std::isfinite(limits.jerk), boundsAcceleration = std::isfinite(limits.acceleration);
+    // Without a closed form for the roots, first a bound: often no roots are needed.
+    const bool boundsVelocity =
+        std::isfinite(limits.velocity) &&
+        !(N > 4 && vpRootKernel::isSurelyWithin(velocity.c, N - 1, limits.velocity * m_motion.share() * m_T));
+    // From the highest derivative down: the roots of each split the next one into monotone pieces.
+    const bool deep = boundsPlace || boundsVelocity || boundsAcceleration;
+    Level<std::max(N - 4, 0)> snap;
+    if (boundsJerk || (N > 5 && deep)) {
+      snap.differentiateFrom(jerk);
+      snap.findRoots();
+    }
+    if (boundsJerk) {
+      boundAbsolute(jerk, snap, 3, limits.jerk);
+    }
+    if (deep) {
+      jerk.findRoots(snap);
+    }
+    if (boundsAcceleration) {
+      boundAbsolute(acceleration, jerk, 2, limits.acceleration);
+    }
+    if (m_next > farAway * m_T) {
+      return nextFollowing(); // the peak velocity at T no longer matters
+    }
+    if (boundsPlace || boundsVelocity) {
+      acceleration.findRoots(jerk);
+    }
+    if (boundsVelocity) {
+      boundAbsolute(velocity, acceleration, 1, limits.velocity);
+    }
+    if (boundsPlace && m_next == m_T) { // the most expensive last, and only when all others are satisfied
+      velocity.findRoots(acceleration);
+      boundPosition(place, velocity, limits.minPosition, limits.maxPosition);
+    }
+    return nextFollowing();
+  }
+
+  // Three limits at fixed places.
+  [[nodiscard]] double raise(const vpAxisLimits &limits)
+  {
+    if (std::isfinite(limits.velocity)) {
+      boundAt(0.5, 1, limits.velocity);
+    }
+    if (std::isfinite(limits.acceleration)) {
+      constexpr double early = 0.21132486540518712; // (3 - sqrt(3))/6
+      boundAt(early, 2, limits.acceleration);
+      boundAt(1. - early, 2, limits.acceleration);
+    }
+    return m_next;
+  }
+
+private:
+  void evaluate(double T, double *c) const
+  {
+    for (int k = 0; k <= N; ++k) {
+      c[k] = m_motion.coefficient(k, P);
+      for (int m = P - 1; m >= 0; --m) {
+        c[k] = c[k] * T + m_motion.coefficient(k, m);
+      }
+    }
+  }
+
+  // Coefficients in T of the derivative at s; see vpMotionFamily::inDuration().
+  [[nodiscard]] std::array<double, 4> inDuration(double s, int d) const
+  {
+    std::array<double, 4> out{};
+    for (int k = N; k >= d; --k) {
+      const double factor = fallingFactorials[d][k];
+      for (int m = 0; m <= P; ++m) {
+        double &x = out[static_cast<std::size_t>(m)];
+        x = x * s + factor * m_motion.coefficient(k, m);
+      }
+    }
+    return out;
+  }
 
   // Follows the extremum with the longest jump as it moves with T, to the roots at its next locations. Each step starts
   // where the limit is violated, so nothing is skipped; following one extremum is cheaper than searching all.
@@ -106,38 +196,39 @@ public:
       if (!(excess > 1e-9 * bound)) {
         break;
       }
-      m_next = step(m_last.s, m_last.d, m_last.sign, m_last.limit, m_next, excess);
+      m_next = step(inDuration(m_last.s, m_last.d), m_last, m_next, excess);
     }
     return m_next;
   }
 
   // |d^d p/ds^d| <= limit (share T)^d, at the extrema and, unless they are given, at the ends.
-  void boundAbsolute(const Level &level, const Level &derivative, int d, double limit)
+  template <int Degree, int Below>
+  void boundAbsolute(const Level<Degree> &level, const Level<Below> &derivative, int d, double limit)
   {
     const double bound = limit * power(m_motion.share() * m_T, d);
     const double allowed = bound * (1. + tolerance) + level.noise();
     forEachCandidate(derivative, d, [&](double s) {
-      const double y = vpRootKernel::horner(level.c, level.degree, s);
+      const double y = vpRootKernel::horner(level.c, Degree, s);
       if (std::abs(y) > allowed) {
-        jump(s, d, std::copysign(1., y), limit, std::abs(y) - bound);
+        jump({s, d, std::copysign(1., y), limit}, std::abs(y) - bound);
       }
     });
   }
 
   // lower <= p <= upper, all relative to the start.
-  void boundPosition(const Level &level, const Level &derivative, double lower, double upper)
+  void boundPosition(const Level<N> &level, const Level<N - 1> &derivative, double lower, double upper)
   {
     // Relative to the position range where there is one, never below the rounding of p.
     const double room =
         std::max(std::isfinite(lower) ? std::abs(lower) : 0., std::isfinite(upper) ? std::abs(upper) : 0.);
     const double slack = tolerance * room + 0.5 * level.noise();
     forEachCandidate(derivative, 0, [&](double s) {
-      const double y = vpRootKernel::horner(level.c, level.degree, s);
+      const double y = vpRootKernel::horner(level.c, N, s);
       if (y > upper + slack) {
-        jump(s, 0, 1., upper, y - upper);
+        jump({s, 0, 1., upper}, y - upper);
       }
       if (y < lower - slack) {
-        jump(s, 0, -1., -lower, lower - y);
+        jump({s, 0, -1., -lower}, lower - y);
       }
     });
   }
@@ -145,16 +236,15 @@ public:
   // |d^d p/ds^d| <= limit (share T)^d at a given s.
   void boundAt(double s, int d, double limit)
   {
-    const auto g = m_motion.inDuration(s, d);
+    const auto g = inDuration(s, d);
     const double y = ((g[3] * m_T + g[2]) * m_T + g[1]) * m_T + g[0];
     const double bound = limit * power(m_motion.share() * m_T, d);
     if (std::abs(y) > bound * (1. + 1e-9)) {
-      jump(s, d, std::copysign(1., y), limit, std::abs(y) - bound);
+      jump({s, d, std::copysign(1., y), limit}, std::abs(y) - bound);
     }
   }
 
-private:
-  template <typename Check> void forEachCandidate(const Level &derivative, int d, Check check) const
+  template <int Degree, typename Check> void forEachCandidate(const Level<Degree> &derivative, int d, Check check) const
   {
     for (int i = 0; i < derivative.rootCount; ++i) {
       check(derivative.roots[i]);
@@ -165,34 +255,39 @@ private:
     }
   }
 
+  struct Extremum {
+    double s = 0.;
+    int d = 0;
+    double sign = 1.;
+    double limit = 0.;
+  };
+
   // To the next root of the extremum's own g.
-  void jump(double s, int d, double sign, double limit, double excess)
+  void jump(const Extremum &extremum, double excess)
   {
-    const double next = step(s, d, sign, limit, m_T, excess);
+    const double next = step(inDuration(extremum.s, extremum.d), extremum, m_T, excess);
     if (next > m_next) {
       m_next = next;
-      m_last = {s, d, sign, limit};
+      m_last = extremum;
     }
   }
 
-  [[nodiscard]] double step(double s, int d, double sign, double limit, double T, double excess) const
+  [[nodiscard]] double step(std::array<double, 4> g, const Extremum &extremum, double T, double excess) const
   {
-    auto g = m_motion.inDuration(s, d);
     for (double &c : g) {
-      c *= sign;
+      c *= extremum.sign;
     }
-    g[static_cast<std::size_t>(d)] -= limit * power(m_motion.share(), d);
-    const int degree = std::max(m_motion.power(), d);
-    shift(g.data(), degree, T, excess);
-    return advance(T, vpRootKernel::firstPositiveRoot(g.data(), degree));
+    g[static_cast<std::size_t>(extremum.d)] -= extremum.limit * power(m_motion.share(), extremum.d);
+    shift(g.data(), 3, T, excess);
+    return advance(T, vpRootKernel::firstPositiveRoot(g.data(), 3));
   }
 
   // One Newton step from s towards the extremum of the derivative d at T, and the value there.
   [[nodiscard]] double follow(double s, int d, double T, double &value) const
   {
     double c[size];
-    m_motion.evaluate(T, c);
-    int degree = m_motion.degree();
+    evaluate(T, c);
+    int degree = N;
     for (int k = 0; k < d; ++k) {
       vpRootKernel::differentiate(c, degree--, c);
     }
@@ -208,65 +303,41 @@ private:
     return place;
   }
 
-  struct Extremum {
-    double s = 0.;
-    int d = 0;
-    double sign = 1.;
-    double limit = 0.;
-  };
+  // Derivative of order d of s^k: factors [d][k].
+  static constexpr double fallingFactorials[4][size] = {{1., 1., 1., 1., 1., 1., 1., 1., 1.},
+                                                        {0., 1., 2., 3., 4., 5., 6., 7., 8.},
+                                                        {0., 0., 2., 6., 12., 20., 30., 42., 56.},
+                                                        {0., 0., 0., 6., 24., 60., 120., 210., 336.}};
 
   const vpMotionFamily &m_motion;
   double m_T;
   double m_next = m_T;
   Extremum m_last; // extremum that determined m_next
 };
+
+// Calls \e visit with a look of the motion's size.
+template <typename Visit> double withLook(const vpMotionFamily &motion, double T, Visit visit)
+{
+  switch (motion.degree()) {
+  case 4:
+    return visit(Look<4, 2>(motion, T));
+  case 5:
+    return motion.power() == 2 ? visit(Look<5, 2>(motion, T)) : visit(Look<5, 3>(motion, T));
+  case 6:
+    return visit(Look<6, 3>(motion, T));
+  case 7:
+    return visit(Look<7, 3>(motion, T));
+  case 8:
+    return visit(Look<8, 3>(motion, T));
+  default:
+    return visit(Look<3, 3>(motion, T)); // coefficients beyond the degree are zero
+  }
+}
 } // namespace
 
 double nextCandidate(const vpMotionFamily &motion, const vpAxisLimits &limits, double T) noexcept
 {
-  Level level[5];
-  level[0].degree = motion.degree();
-  motion.evaluate(T, level[0].c);
-  for (int d = 1; d <= 3; ++d) {
-    level[d].differentiateFrom(level[d - 1]);
-  }
-  const bool position = std::isfinite(limits.minPosition) || std::isfinite(limits.maxPosition);
-  const bool jerk = std::isfinite(limits.jerk);
-  const bool acceleration = std::isfinite(limits.acceleration);
-  // Without a closed form for the roots, first a bound: often no roots are needed.
-  const bool velocity = std::isfinite(limits.velocity) &&
-                        !(level[2].degree > 2 && vpRootKernel::isSurelyWithin(level[1].c, level[1].degree,
-                                                                              limits.velocity * motion.share() * T));
-  // From the highest derivative down: the roots of each split the next one into monotone pieces.
-  Look look(motion, T);
-  const bool deep = level[3].degree > 2 && (position || velocity || acceleration);
-  if (jerk || deep) {
-    level[4].differentiateFrom(level[3]);
-    level[4].findRoots(nullptr);
-  }
-  if (jerk) {
-    look.boundAbsolute(level[3], level[4], 3, limits.jerk);
-  }
-  if (position || velocity || acceleration) {
-    level[3].findRoots(&level[4]);
-  }
-  if (acceleration) {
-    look.boundAbsolute(level[2], level[3], 2, limits.acceleration);
-  }
-  if (look.next() > farAway * T) {
-    return look.nextFollowing(); // the peak velocity at T no longer matters
-  }
-  if (position || velocity) {
-    level[2].findRoots(&level[3]);
-  }
-  if (velocity) {
-    look.boundAbsolute(level[1], level[2], 1, limits.velocity);
-  }
-  if (position && look.next() == T) { // the most expensive last, and only when all others are satisfied
-    level[1].findRoots(&level[2]);
-    look.boundPosition(level[0], level[1], limits.minPosition, limits.maxPosition);
-  }
-  return look.nextFollowing();
+  return withLook(motion, T, [&](auto look) { return look.next(limits); });
 }
 
 double nextCandidate(const vpMotionFamily *const motions[], int count, const vpNormLimits &limits, double T) noexcept
@@ -351,16 +422,7 @@ vpDurationAnswer solve(const vpMotionFamily &motion, const vpAxisLimits &limits,
 
 double raiseLowerBound(const vpMotionFamily &motion, const vpAxisLimits &limits, double T) noexcept
 {
-  Look look(motion, T);
-  if (std::isfinite(limits.velocity)) {
-    look.boundAt(0.5, 1, limits.velocity);
-  }
-  if (std::isfinite(limits.acceleration)) {
-    constexpr double early = 0.21132486540518712; // (3 - sqrt(3))/6
-    look.boundAt(early, 2, limits.acceleration);
-    look.boundAt(1. - early, 2, limits.acceleration);
-  }
-  return look.next();
+  return withLook(motion, T, [&](auto look) { return look.raise(limits); });
 }
 
 double lowerBound(const vpAxisState &from, const vpAxisState &to, const vpAxisLimits &limits) noexcept

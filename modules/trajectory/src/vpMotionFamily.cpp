@@ -20,6 +20,7 @@ constexpr double upper4[4][4] = {
     {35., -15., 2.5, -1. / 6.}, {-84., 39., -7., 0.5}, {70., -34., 6.5, -0.5}, {-20., 10., -2., 1. / 6.}};
 constexpr double factorial[] = {1., 1., 2., 6.};
 
+// Coefficients of the polynomial with M conditions at each end.
 template <int M>
 void hermiteCoefficients(const double (&upper)[M][M], const double *left, const double *right, double *out)
 {
@@ -39,17 +40,33 @@ void hermiteCoefficients(const double (&upper)[M][M], const double *left, const 
   }
 }
 
-void hermiteCoefficients(int order, const double *left, const double *right, double *out)
+// The same where only the derivative of order k is given at both ends, the others are zero.
+template <int M> void hermiteCoefficients(const double (&upper)[M][M], int k, double left, double right, double *out)
+{
+  double residual[M];
+  for (int i = 0; i < M; ++i) {
+    out[i] = i == k ? left / factorial[k] : 0.;
+    residual[i] = i < k ? -left / factorial[k - i] : i == k ? right - left : 0.;
+  }
+  for (int row = 0; row < M; ++row) {
+    double &x = out[M + row] = 0.;
+    for (int i = 0; i < M; ++i) {
+      x += upper[row][i] * residual[i];
+    }
+  }
+}
+
+void hermiteCoefficients(int order, int k, double left, double right, double *out)
 {
   switch (order) {
   case 1:
-    return hermiteCoefficients(upper1, left, right, out);
+    return hermiteCoefficients(upper1, k, left, right, out);
   case 2:
-    return hermiteCoefficients(upper2, left, right, out);
+    return hermiteCoefficients(upper2, k, left, right, out);
   case 3:
-    return hermiteCoefficients(upper3, left, right, out);
+    return hermiteCoefficients(upper3, k, left, right, out);
   default:
-    return hermiteCoefficients(upper4, left, right, out);
+    return hermiteCoefficients(upper4, k, left, right, out);
   }
 }
 
@@ -74,10 +91,9 @@ vpMotionFamily vpMotionFamily::hermite(const vpAxisState &from, const vpAxisStat
   // Each given derivative enters with its own power of T, so the power is also its column.
   for (int k = 0; k < order; ++k) {
     const int power = level + k;
-    double left[4] = {0., 0., 0., 0.}, right[4] = {0., 0., 0., 0.}, out[8];
-    left[k] = power == 0 ? 0. : from[static_cast<std::size_t>(power)];
-    right[k] = power == 0 ? to[0] - from[0] : to[static_cast<std::size_t>(power)];
-    hermiteCoefficients(order, left, right, out);
+    double out[8];
+    const auto given = static_cast<std::size_t>(power);
+    hermiteCoefficients(order, k, power == 0 ? 0. : from[given], power == 0 ? to[0] - from[0] : to[given], out);
     for (int i = 0; i < 2 * order; ++i) { // integrate `level` times
       family.m_c[static_cast<std::size_t>(i + level)][static_cast<std::size_t>(power)] =
           out[i] / fallingFactorial(i + level, level);
@@ -92,12 +108,39 @@ vpMotionFamily vpMotionFamily::hermite(const vpAxisState &from, const vpAxisStat
 
 vpMotionFamily vpMotionFamily::pointToPoint(const vpAxisState &from, const vpAxisState &to, int order)
 {
-  return hermite(from, to, 0, order);
+  if (order != 3) {
+    return hermite(from, to, 0, order);
+  }
+  // (3.62): what is planned most often.
+  const double h = to[0] - from[0], v0 = from[1], v1 = to[1], a0 = from[2], a1 = to[2];
+  vpMotionFamily family;
+  family.m_degree = 5;
+  family.m_power = 2;
+  family.m_endGiven = 3;
+  family.m_c[1][1] = v0;
+  family.m_c[2][2] = 0.5 * a0;
+  family.m_c[3] = {10. * h, -6. * v0 - 4. * v1, 0.5 * a1 - 1.5 * a0, 0.};
+  family.m_c[4] = {-15. * h, 8. * v0 + 7. * v1, 1.5 * a0 - a1, 0.};
+  family.m_c[5] = {6. * h, -3. * (v0 + v1), 0.5 * (a1 - a0), 0.};
+  return family;
 }
 
 vpMotionFamily vpMotionFamily::velocityStep(const vpAxisState &from, const vpAxisState &to, int order)
 {
-  return hermite(from, to, 1, order);
+  if (order != 2) {
+    return hermite(from, to, 1, order);
+  }
+  const double v0 = from[1], v1 = to[1], a0 = from[2], a1 = to[2];
+  vpMotionFamily family; // the quartic ramps of the cruise form
+  family.m_degree = 4;
+  family.m_power = 2;
+  family.m_firstGiven = 1;
+  family.m_endGiven = 3;
+  family.m_c[1][1] = v0;
+  family.m_c[2][2] = 0.5 * a0;
+  family.m_c[3] = {0., v1 - v0, -(2. * a0 + a1) / 3., 0.};
+  family.m_c[4] = {0., 0.5 * (v0 - v1), 0.25 * (a0 + a1), 0.};
+  return family;
 }
 
 vpMotionFamily vpMotionFamily::accelerationStep(const vpAxisState &from, const vpAxisState &to, int order)
@@ -164,7 +207,7 @@ vpMotionFamily vpMotionFamily::chained(const std::array<std::array<double, 3>, 3
   for (std::size_t m = 0; m <= 2; ++m) {
     const double left[3] = {from[0][m], from[1][m], from[2][m]}, right[3] = {to[0][m], to[1][m], to[2][m]};
     double out[6];
-    hermiteCoefficients(3, left, right, out);
+    hermiteCoefficients(upper3, left, right, out);
     for (std::size_t i = 0; i < 6; ++i) {
       family.m_c[i][m] = out[i];
     }

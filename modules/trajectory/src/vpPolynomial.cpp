@@ -16,225 +16,53 @@ namespace vpRootKernel
 {
 namespace
 {
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// 1/binomial(n, k)
-constexpr double inverseBinomial[9][9] = {{1.},
-                                          {1., 1.},
-                                          {1., 1. / 2., 1.},
-                                          {1., 1. / 3., 1. / 3., 1.},
-                                          {1., 1. / 4., 1. / 6., 1. / 4., 1.},
-                                          {1., 1. / 5., 1. / 10., 1. / 10., 1. / 5., 1.},
-                                          {1., 1. / 6., 1. / 15., 1. / 20., 1. / 15., 1. / 6., 1.},
-                                          {1., 1. / 7., 1. / 21., 1. / 35., 1. / 35., 1. / 21., 1. / 7., 1.},
-                                          {1., 1. / 8., 1. / 28., 1. / 56., 1. / 70., 1. / 56., 1. / 28., 1. / 8., 1.}};
-
-// Rounding error of the value at s >= 0. Near zero the high coefficients do not matter: a bound over the whole interval
-// would take small values there for zero and miss the root beside them.
-double rounding(const double *c, int degree, double s)
+// The place of the greatest value of side p near one of five samples, by Newton steps on the derivative.
+double greatestNear(const double *c, int degree, double side)
 {
-  double sum = std::abs(c[degree]);
-  for (int k = degree - 1; k >= 0; --k) {
-    sum = sum * s + std::abs(c[k]);
+  constexpr double spacing = 0.25;
+  double best = -infinity, s = 0.;
+  for (int i = 0; i <= 4; ++i) {
+    const double value = side * horner(c, degree, i * spacing);
+    s = value > best ? i * spacing : s;
+    best = std::max(best, value);
   }
-  return 2. * epsilon * sum;
-}
-
-// The root between l and r, where the polynomial is monotone and changes sign: Newton, bisection outside the bracket.
-double closeIn(const double *c, int degree, double l, double r, double fl, double fr, double precision)
-{
-  double x = l + (r - l) * (fl / (fl - fr));
-  for (int i = 0; i < 100; ++i) {
-    double f = c[degree], slope = 0.;
-    for (int k = degree - 1; k >= 0; --k) {
-      slope = slope * x + f;
-      f = f * x + c[k];
+  const double middle = s;
+  for (int k = 0; k < 2; ++k) {
+    double p = 0., slope = 0., half = 0.; // half the second derivative
+    for (int i = degree; i >= 0; --i) {
+      half = half * s + slope;
+      slope = slope * s + p;
+      p = p * s + c[i];
     }
-    if (f == 0.) {
-      return x;
-    }
-    ((f < 0.) == (fl < 0.) ? l : r) = x;
-    double next = x - f / slope;
-    if (!(next > l && next < r)) {
-      next = 0.5 * (l + r);
-    }
-    if (std::abs(next - x) <= precision * x || next == l || next == r) {
-      return next;
-    }
-    x = next;
+    const double next = s - 0.5 * slope / half;
+    s = next > middle - spacing && next < middle + spacing ? std::clamp(next, 0., 1.) : s;
   }
-  return x;
+  return side * horner(c, degree, s) > best ? s : middle;
 }
 } // namespace
-
-int closedFormRoots(const double *c, int degree, double *out) noexcept
-{
-  int count = 0;
-  const auto keep = [&](double s) {
-    if (s >= 0. && s <= 1.) {
-      out[count++] = s;
-    }
-  };
-  if (degree == 2 && c[2] != 0.) {
-    const double half = -0.5 * c[1];
-    const double discriminant = half * half - c[0] * c[2];
-    // A double root must not vanish because its discriminant is rounded to the wrong side of zero.
-    if (discriminant < -4. * epsilon * half * half) {
-      return 0;
-    }
-    const double root = std::sqrt(std::max(discriminant, 0.));
-    const double sum = half + std::copysign(root, half);
-    if (sum == 0.) { // c0 = c1 = 0
-      keep(0.);
-      return count;
-    }
-    keep(sum / c[2]);
-    keep(c[0] / sum);
-    if (count == 2) {
-      if (out[0] > out[1]) {
-        std::swap(out[0], out[1]);
-      }
-      count = out[0] == out[1] ? 1 : 2;
-    }
-  }
-  else if (degree >= 1 && c[1] != 0.) {
-    keep(-c[0] / c[1]);
-  }
-  return count;
-}
-
-int rootsBetween(const double *c, int degree, const double *critical, int criticalCount, Wanted wanted,
-                 double *out) noexcept
-{
-  const bool touching = wanted == Wanted::Roots;
-  // At an extremum an error of s enters squared: 1e-7 causes 1e-13 of the value.
-  const double precision = touching ? 2. * epsilon : 1e-7;
-  int count = 0;
-  double l = 0., fl = c[0];
-  if (touching && fl == 0.) {
-    out[count++] = 0.;
-  }
-  for (int i = 0; i <= criticalCount && count < degree; ++i) {
-    const double r = i < criticalCount ? critical[i] : 1.;
-    if (r <= l) {
-      continue;
-    }
-    double fr = horner(c, degree, r);
-    if (touching && std::abs(fr) <= rounding(c, degree, r)) {
-      fr = 0.;
-    }
-    if (fl * fr < 0.) {
-      out[count++] = closeIn(c, degree, l, r, fl, fr, precision);
-    }
-    else if (fr == 0. && touching) {
-      out[count++] = r;
-    }
-    l = r;
-    fl = fr;
-  }
-  return count;
-}
-
-namespace
-{
-template <int N> void bernstein(const double *c, double *b)
-{
-  for (int k = 0; k <= N; ++k) {
-    b[k] = c[k] * inverseBinomial[N][k];
-  }
-  for (int pass = 1; pass <= N; ++pass) {
-    for (int k = N; k >= pass; --k) {
-      b[k] += b[k - 1];
-    }
-  }
-}
-
-void bernstein(const double *c, int degree, double *b)
-{
-  switch (degree) { // unrolled
-  case 0:
-    b[0] = c[0];
-    break;
-  case 1:
-    return bernstein<1>(c, b);
-  case 2:
-    return bernstein<2>(c, b);
-  case 3:
-    return bernstein<3>(c, b);
-  case 4:
-    return bernstein<4>(c, b);
-  case 5:
-    return bernstein<5>(c, b);
-  case 6:
-    return bernstein<6>(c, b);
-  case 7:
-    return bernstein<7>(c, b);
-  default:
-    return bernstein<8>(c, b);
-  }
-}
-
-enum class Decision { Within, Beyond, Open };
-
-// By halves, from the Bernstein coefficients; those at the ends are values, which rounding does not change by slack.
-Decision decide(double *b, int degree, double low, double high, double slack, int depth)
-{
-  bool within = true;
-  for (int k = 0; k <= degree; ++k) {
-    within = within && b[k] >= low && b[k] <= high;
-  }
-  if (within) {
-    return Decision::Within;
-  }
-  if (b[0] < low - slack || b[0] > high + slack || b[degree] < low - slack || b[degree] > high + slack) {
-    return Decision::Beyond;
-  }
-  if (depth == 0) {
-    return Decision::Open;
-  }
-  double left[9];
-  for (int k = 0; k <= degree; ++k) { // de Casteljau; b becomes the right half
-    left[k] = b[0];
-    for (int i = 0; i < degree - k; ++i) {
-      b[i] = 0.5 * (b[i] + b[i + 1]);
-    }
-  }
-  const Decision first = decide(left, degree, low, high, slack, depth - 1);
-  if (first == Decision::Beyond) {
-    return first;
-  }
-  const Decision second = decide(b, degree, low, high, slack, depth - 1);
-  return second == Decision::Within ? first : second;
-}
-} // namespace
-
-void enclose(const double *c, int degree, double &low, double &high) noexcept
-{
-  double b[9];
-  bernstein(c, degree, b);
-  low = high = b[0];
-  for (int k = 1; k <= degree; ++k) {
-    low = std::min(low, b[k]);
-    high = std::max(high, b[k]);
-  }
-}
 
 bool staysWithin(const double *c, int degree, double low, double high) noexcept
 {
-  constexpr int depth = 3;
-  double b[9], sum = 0.;
-  bernstein(c, degree, b);
+  double min = 0., max = 0.;
+  enclose(c, degree, min, max);
+  const bool above = max > high, below = min < low;
+  if (!above && !below && max == max) {
+    return true;
+  }
+  // A value beyond is enough to know; rounding does not change it by slack.
+  double sum = 0.;
   for (int k = 0; k <= degree; ++k) {
     sum += std::abs(c[k]);
   }
-  const Decision decision = decide(b, degree, low, high, 32. * epsilon * sum, depth);
-  if (decision == Decision::Open) {
-    double min = 0., max = 0.;
-    extremes(c, degree, 0., min, max);
-    return min >= low && max <= high;
+  const double slack = 32. * epsilon * sum;
+  if ((above && horner(c, degree, greatestNear(c, degree, 1.)) > high + slack) ||
+      (below && horner(c, degree, greatestNear(c, degree, -1.)) < low - slack)) {
+    return false;
   }
-  return decision == Decision::Within;
+  extremes(c, degree, 0., min, max);
+  return min >= low && max <= high;
 }
 
 void extremes(const double *c, int degree, double from, double &low, double &high) noexcept
@@ -245,19 +73,13 @@ void extremes(const double *c, int degree, double from, double &low, double &hig
   double slope[9], places[9];
   slope[0] = 0.;
   differentiate(c, degree, slope);
-  const int count = allRoots(slope, std::max(degree - 1, 0), places, Wanted::Extrema);
+  const int count =
+      degree <= 3 ? closedFormRoots(slope, degree - 1, places) : allRoots(slope, degree - 1, places, Wanted::Extrema);
   for (int i = 0; i < count; ++i) {
     const double value = horner(c, degree, std::max(places[i], from));
     low = std::min(low, value);
     high = std::max(high, value);
   }
-}
-
-bool isSurelyWithin(const double *c, int degree, double bound) noexcept
-{
-  double low = 0., high = 0.;
-  enclose(c, degree, low, high);
-  return low >= -bound && high <= bound;
 }
 
 int allRoots(const double *c, int degree, double *out, Wanted wanted) noexcept
@@ -310,7 +132,11 @@ double firstPositiveRoot(const double *c, int degree) noexcept
   // Fujiwara's bound on all roots, then the roots on [0, bound] mapped to [0, 1].
   double bound = 0.;
   for (int k = 1; k <= degree; ++k) {
-    bound = std::max(bound, 2. * std::pow(std::abs(c[degree - k] / c[degree]), 1. / k));
+    const double ratio = std::abs(c[degree - k] / c[degree]);
+    bound = std::max(bound, 2. * (k == 1   ? ratio
+                                  : k == 2 ? std::sqrt(ratio)
+                                  : k == 3 ? std::cbrt(ratio)
+                                           : std::pow(ratio, 1. / k)));
   }
   if (!std::isfinite(bound)) {
     return firstPositiveRoot(c, degree - 1); // the leading coefficient is negligible

@@ -105,9 +105,14 @@ void vpTrajectoryPlan::append(int axis, const vpPolynomial &relative, double dur
   segment.duration = duration;
   segment.p = relative;
   segment.p[0] += track.place;
-  track.place += relative.value(1.) - relative[0];
+  double way = 0., slope = 0.;
+  for (int k = relative.degree(); k > 0; --k) {
+    way += relative[k];
+    slope += k * relative[k];
+  }
+  track.place += way;
   track.end += duration;
-  track.coast = segment.p.jet(1.)[1] / duration;
+  track.coast = slope / duration;
 }
 
 void vpTrajectoryPlan::appendRamp(int axis, const vpVelocityRamp &ramp, const vpAxisState &x) noexcept
