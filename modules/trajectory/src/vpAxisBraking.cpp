@@ -133,13 +133,13 @@ vpAxisLimits vpAxisTask::withoutPosition() const
   return free;
 }
 
-double rampDuration(const vpAxisState &x, const vpAxisTask &task) noexcept
+double rampDuration(const vpAxisState &x, const vpAxisTask &task, int order) noexcept
 {
   const double a = std::abs(x[2]);
-  if (task.order == 2 || (a == 0. && (task.order == 3 || x[3] == 0.))) {
+  if (order == 2 || (a == 0. && (order == 3 || x[3] == 0.))) {
     return 0.;
   }
-  if (task.order == 4) {
+  if (order == 4) {
     // Cubic acceleration: any sufficiently short ramp keeps an inside start; take the longest of a few.
     const vpMotionFamily ramp = vpMotionFamily::accelerationStep(x, {x[0], x[1], 0., 0.}, 2);
     double r = 4. * task.rampUnit();
@@ -167,10 +167,8 @@ bool needsBraking(const vpAxisTask &task) noexcept
       (task.order == 4 && std::abs(task.from[3]) > task.limits.jerk * slack)) {
     return true;
   }
-  vpAxisTask quintic = task;
-  quintic.order = 3;
   return task.order > 2 &&
-         (std::abs(task.from[2]) > task.limits.acceleration * slack || rampDuration(task.from, quintic) < 0.);
+         (std::abs(task.from[2]) > task.limits.acceleration * slack || rampDuration(task.from, task, 3) < 0.);
 }
 
 namespace

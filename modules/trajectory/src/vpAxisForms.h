@@ -53,10 +53,10 @@ struct vpAxisTask {
 };
 
 /*!
- * Duration of the ramp from acceleration a to zero starting in this state (j matters for order 4): gentle if there is a
+ * Duration of the ramp from acceleration a to zero starting in this state (j matters for order 4; \e order replaces that of the task): gentle if there is a
  * margin, never beyond the velocity limit. Zero when there is nothing to ramp, negative when no ramp keeps the limits.
  */
-double rampDuration(const vpAxisState &x, const vpAxisTask &task) noexcept;
+double rampDuration(const vpAxisState &x, const vpAxisTask &task, int order) noexcept;
 
 //! True when the state is outside the limits or will inevitably leave them: braking comes first.
 bool needsBraking(const vpAxisTask &task) noexcept;

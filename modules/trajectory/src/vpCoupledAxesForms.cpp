@@ -241,7 +241,7 @@ double vpCoupledAxes::commonRamp(bool head) noexcept
     // At the tail, time runs backwards: velocities and jerks change sign.
     const vpAxisState &tail = axis[vpMotionAxis::Direct].tail();
     const vpAxisState x = head ? axis[vpMotionAxis::Direct].head() : vpAxisState{tail[0], -tail[1], tail[2], -tail[3]};
-    const double r = rampDuration(x, axis.task);
+    const double r = rampDuration(x, axis.task, axis.task.order);
     if (r != 0.) {
       common = std::min(common, r);
       shortest = std::max(shortest, axis.task.order == 3 ? std::abs(x[2]) / axis.task.limits.jerk : 0.);

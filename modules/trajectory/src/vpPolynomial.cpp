@@ -47,15 +47,15 @@ bool staysWithin(const double *c, int degree, double low, double high) noexcept
 {
   double min = 0., max = 0.;
   enclose(c, degree, min, max);
-  const bool above = max > high, below = min < low;
-  if (!above && !below && max == max) {
-    return true;
-  }
-  // A value beyond is enough to know; rounding does not change it by slack.
   double sum = 0.;
   for (int k = 0; k <= degree; ++k) {
     sum += std::abs(c[k]);
   }
+  const bool above = max > high, below = min < low;
+  if (!above && !below) {
+    return std::isfinite(sum);
+  }
+  // A value beyond is enough to know; rounding does not change it by slack.
   const double slack = 32. * epsilon * sum;
   if ((above && horner(c, degree, greatestNear(c, degree, 1.)) > high + slack) ||
       (below && horner(c, degree, greatestNear(c, degree, -1.)) < low - slack)) {

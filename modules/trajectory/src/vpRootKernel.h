@@ -166,9 +166,10 @@ constexpr double inverseBinomial[9][9] = {{1.},
                                           {1., 1. / 7., 1. / 21., 1. / 35., 1. / 35., 1. / 21., 1. / 7., 1.},
                                           {1., 1. / 8., 1. / 28., 1. / 56., 1. / 70., 1. / 56., 1. / 28., 1. / 8., 1.}};
 
-//! Bernstein coefficients.
-template <int N> inline void bernstein(const double *c, double *b)
+//! The extremes of the Bernstein coefficients.
+template <int N> inline void enclose(const double *c, double &low, double &high) noexcept
 {
+  double b[N + 1];
   for (int k = 0; k <= N; ++k) {
     b[k] = c[k] * inverseBinomial[N][k];
   }
@@ -177,42 +178,36 @@ template <int N> inline void bernstein(const double *c, double *b)
       b[k] += b[k - 1];
     }
   }
-}
-
-inline void bernstein(const double *c, int degree, double *b)
-{
-  switch (degree) { // unrolled
-  case 0:
-    b[0] = c[0];
-    break;
-  case 1:
-    return bernstein<1>(c, b);
-  case 2:
-    return bernstein<2>(c, b);
-  case 3:
-    return bernstein<3>(c, b);
-  case 4:
-    return bernstein<4>(c, b);
-  case 5:
-    return bernstein<5>(c, b);
-  case 6:
-    return bernstein<6>(c, b);
-  case 7:
-    return bernstein<7>(c, b);
-  default:
-    return bernstein<8>(c, b);
+  low = high = b[0];
+  for (int k = 1; k <= N; ++k) {
+    low = std::min(low, b[k]);
+    high = std::max(high, b[k]);
   }
 }
 
 //! Bounds of the polynomial on [0, 1]: the extremes of its Bernstein coefficients, which enclose it. Degree <= 8.
 inline void enclose(const double *c, int degree, double &low, double &high) noexcept
 {
-  double b[9];
-  bernstein(c, degree, b);
-  low = high = b[0];
-  for (int k = 1; k <= degree; ++k) {
-    low = std::min(low, b[k]);
-    high = std::max(high, b[k]);
+  switch (degree) { // unrolled
+  case 0:
+    low = high = c[0];
+    break;
+  case 1:
+    return enclose<1>(c, low, high);
+  case 2:
+    return enclose<2>(c, low, high);
+  case 3:
+    return enclose<3>(c, low, high);
+  case 4:
+    return enclose<4>(c, low, high);
+  case 5:
+    return enclose<5>(c, low, high);
+  case 6:
+    return enclose<6>(c, low, high);
+  case 7:
+    return enclose<7>(c, low, high);
+  default:
+    return enclose<8>(c, low, high);
   }
 }
 

@@ -300,10 +300,9 @@ void vpTrajectoryPlanner::Impl::finish(const vpTrajectoryProblem &problem, vpTra
 double vpTrajectoryPlanner::Impl::coastingRamp(const vpTrajectoryProblem &problem, int i) const
 {
   const auto own = [&](int m) {
-    vpAxisTask task = axes[static_cast<std::size_t>(m)].task;
-    task.order = std::min(task.order, 3);
+    const vpAxisTask &task = axes[static_cast<std::size_t>(m)].task;
     const vpAxisState goal = problem.goal(m);
-    return goal[2] != 0. ? std::max(rampDuration(goal, task), 0.) : infinity;
+    return goal[2] != 0. ? std::max(rampDuration(goal, task, std::min(task.order, 3)), 0.) : infinity;
   };
   double longest = own(i);
   for (int g = 0; g < vpTrajectorySpec::maxGroups; ++g) {
