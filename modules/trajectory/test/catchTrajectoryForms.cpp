@@ -171,6 +171,55 @@ TEST_CASE("cruise brings long moves close to the trapezoid", "[forms]")
   CHECK(plan.form() == vpTrajectoryForm::Direct);
 }
 
+TEST_CASE("the ramps of a cruise are the shortest that a search finds", "[forms]")
+{
+  auto rng = vpTestSupport::generator(98);
+  CAPTURE(vpTestSupport::seed());
+  int cruises = 0;
+  const int count = vpTestSupport::longer(5000);
+  for (int k = 0; k < count; ++k) {
+    vpTrajectoryInput<1> input;
+    const double v = uniform(rng, 0.1, 3.), a = uniform(rng, 0.1, 9.), unit = a * a / v;
+    input.maxVelocity[0] = v;
+    input.maxAcceleration[0] = a;
+    input.maxJerk[0] = k % 2 == 0 ? std::numeric_limits<double>::infinity() : uniform(rng, 1., 20.) * unit;
+    input.start.v[0] = v * uniform(rng, -0.95, 0.95);
+    input.start.a[0] = k % 5 == 0 ? 0. : a * uniform(rng, -1., 1.);
+    input.goal.q[0] = (k % 3 == 0 ? -60. : 60.) * v * v / a;
+    input.goal.v[0] = k % 7 == 0 ? v * uniform(rng, -0.95, 0.95) : 0.;
+    vpTrajectoryPlan plan(1);
+    if (vpDirectTrajectory<1>::calculate(input, plan).result != vpTrajectoryResult::Working) {
+      continue; // outside
+    }
+    vpAxisLimits limits;
+    limits.velocity = v;
+    limits.acceleration = a;
+    limits.jerk = input.maxJerk[0];
+    const double full = std::copysign(v, input.goal.q[0]);
+    const auto search = [&](const vpAxisState &from, const vpAxisState &to) {
+      return vpMinimumDuration::solve(
+          vpMotionFamily::velocityStep(from, to, 2), limits,
+          vpMinimumDuration::lowerBound({0., from[1], from[2], 0.}, {0., to[1], to[2], 0.}, limits));
+    };
+    const auto up = search({0., input.start.v[0], input.start.a[0], 0.}, {0., full, 0., 0.});
+    const auto down = search({0., full, 0., 0.}, {0., input.goal.v[0], 0., 0.});
+    CAPTURE(k, input.start.v[0] / v, input.start.a[0] / a, input.maxJerk[0] / unit, up.T, down.T);
+    const bool exist = up.kind == vpDurationAnswer::Kind::Found && down.kind == vpDurationAnswer::Kind::Found;
+    if (exist) { // taken where it saves a fifth
+      const double rest = input.goal.q[0] - up.T * (input.start.v[0] / 2. + up.T * input.start.a[0] / 12.) -
+                          down.T * input.goal.v[0] / 2.;
+      REQUIRE(0.8 * plan.duration() <= (rest / full + 0.5 * (up.T + down.T)) * (1. + 1e-9));
+    }
+    if (plan.form() == vpTrajectoryForm::Cruise) {
+      ++cruises;
+      REQUIRE(exist);
+      REQUIRE(plan.segment(0, 0).duration == Approx(up.T).epsilon(1e-9));
+      REQUIRE(plan.segment(0, 2).duration == Approx(down.T).epsilon(1e-9));
+    }
+  }
+  CHECK(cruises > count / 2);
+}
+
 TEST_CASE("a group at rest cruises along its line", "[forms]")
 {
   const auto duration = [](bool group, bool cruise) {
