@@ -24,7 +24,8 @@ namespace vpApp
 
 /*!
  * A text for the user in which each data/NAME is replaced by the path of that file or folder, found as in dataFile():
- * relative to the current folder if it is inside it, else absolute. A name that is not found stays as it is.
+ * relative to the current folder if it is inside it, else absolute; between quotes where a shell needs them. A name that is not
+ * found stays as it is.
  */
 [[nodiscard]] std::string withDataPaths(const std::string &text);
 } // namespace vpApp

@@ -43,6 +43,13 @@ std::vector<std::string> dataFolders()
   return folders;
 }
 
+// As a word of a shell command.
+std::string quoted(const std::string &path)
+{
+  static const std::regex special(R"([^\w./+:@%,=-])"), quote("'");
+  return std::regex_search(path, special) ? "'" + std::regex_replace(path, quote, R"('\'')") + "'" : path;
+}
+
 // data/NAME as the user reaches it from the current folder; unchanged when there is no such file or folder.
 std::string reachable(const std::string &name)
 {
@@ -51,7 +58,7 @@ std::string reachable(const std::string &name)
     const std::filesystem::path file = std::filesystem::path(folder) / name;
     if (std::filesystem::exists(file, ignored)) {
       const std::string near = std::filesystem::proximate(file, ignored).string();
-      return near.empty() || near.rfind("..", 0) == 0 ? file.string() : near;
+      return quoted(near.empty() || near.rfind("..", 0) == 0 ? file.string() : near);
     }
   }
   return "data/" + name;

@@ -368,6 +368,17 @@ TEST_CASE("Texts name data files as the user reaches them", "[apps]")
   CHECK(vpApp::withDataPaths("").empty());
 }
 
+TEST_CASE("A path with a blank is a word of a shell command", "[apps]")
+{
+  const fs::path folder = fs::temp_directory_path() / "visp-direct it's data";
+  fs::create_directories(folder / "target");
+  setenv("VISP_DIRECT_DATA", folder.c_str(), 1);
+  const std::string text = vpApp::withDataPaths("--target data/target");
+  unsetenv("VISP_DIRECT_DATA");
+  fs::remove_all(folder);
+  CHECK(text == "--target '" + (folder.parent_path() / "visp-direct it'\\''s data/target").string() + "'");
+}
+
 TEST_CASE("A video file can be read back", "[apps]")
 {
   const TestFolder folder;
