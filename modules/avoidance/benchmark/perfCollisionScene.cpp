@@ -13,10 +13,12 @@
 #include <visp3/manipulator/vpArmJson.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
 #include <random>
+#include <set>
 
 VISP_DIRECT_USING_NAMESPACE
 
@@ -214,6 +216,54 @@ void setUpOfCertifiedMotion(benchmark::State &state)
   }
 }
 BENCHMARK(setUpOfCertifiedMotion);
+
+// 100,000 cubes of 1 cm on a ball, a floor and a wall, as a depth camera sees surfaces, in no order.
+const std::vector<vpOctreeCell> &cubes()
+{
+  static const std::vector<vpOctreeCell> all = [] {
+    constexpr std::size_t count = 100000;
+    constexpr double size = 0.01;
+    std::mt19937_64 rng(13);
+    std::uniform_real_distribution<double> u(-1., 1.);
+    std::set<std::array<long, 3>> places;
+    std::vector<vpOctreeCell> cells;
+    while (cells.size() < count) {
+      const Eigen::Vector3d d(u(rng), u(rng), u(rng));
+      const Eigen::Vector3d p = cells.size() % 3 == 0   ? Eigen::Vector3d(0.9 * d.normalized())
+                                : cells.size() % 3 == 1 ? Eigen::Vector3d(2. * d.x(), 2. * d.y(), -0.5)
+                                                        : Eigen::Vector3d(1.2, 1.5 * d.y(), 1.5 * d.z());
+      const Eigen::Vector3d corner = (p / size).array().floor();
+      if (places.insert({std::lround(corner.x()), std::lround(corner.y()), std::lround(corner.z())}).second) {
+        cells.push_back({size * (corner + Eigen::Vector3d::Constant(0.5)), size});
+      }
+    }
+    return cells;
+  }();
+  return all;
+}
+
+void octreeFromCubes(benchmark::State &state)
+{
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(vpOctree(cubes()).cells().data());
+  }
+}
+BENCHMARK(octreeFromCubes)->Unit(benchmark::kMillisecond);
+
+void clearanceFromCubes(benchmark::State &state)
+{
+  vpCollisionObject map;
+  map.name = "map";
+  map.shape = vpCollisionShape::octree(vpOctree(cubes()));
+  vpCollisionScene mapped(arm());
+  mapped.add(map);
+  vpSceneChecker checker(mapped);
+  std::size_t k = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(checker.clearance(configurations()[k++ % 1024], 1e9).distance);
+  }
+}
+BENCHMARK(clearanceFromCubes);
 
 template <class Checker> void leastClearance(benchmark::State &state)
 {

@@ -120,7 +120,7 @@ vpDepthReport vpDepthOctomap::insert(const vpImage<float> &depth, const vpCamera
 
 void vpDepthOctomap::clear() { m_map->tree.clear(); }
 
-vpOctree vpDepthOctomap::snapshot() const { return vpOctree(vpOctomapCells(m_map->tree), "depth images"); }
+vpOctree vpDepthOctomap::snapshot() const { return vpOctree(vpOctomapCells(m_map->tree, true), "depth images"); }
 
 void vpDepthOctomap::save(const std::string &file) const
 {

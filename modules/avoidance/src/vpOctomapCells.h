@@ -11,8 +11,12 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! Occupied leaves.
-std::vector<vpOctreeCell> vpOctomapCells(const octomap::OcTree &tree);
+/*!
+ * Occupied leaves, in the order of octomap's iterator.
+ * \param skipsFree : Leaves out what is below free inner nodes. Only if each is as occupied as its most occupied child, as after
+ * updateInnerOccupancy(); a file may say otherwise.
+ */
+std::vector<vpOctreeCell> vpOctomapCells(const octomap::OcTree &tree, bool skipsFree);
 
 END_VISP_NAMESPACE
 #endif

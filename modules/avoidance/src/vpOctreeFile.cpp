@@ -11,18 +11,50 @@
 #include <cstring>
 #include <locale>
 #include <sstream>
+#include <utility>
 
 BEGIN_VISP_NAMESPACE
 
-std::vector<vpOctreeCell> vpOctomapCells(const octomap::OcTree &tree)
+namespace
 {
+// Nodes of octomap are recursive, at most 16 levels deep.
+struct Occupied {
+  const octomap::OcTree *tree;
+  bool skipsFree;
   std::vector<vpOctreeCell> cells;
-  for (auto leaf = tree.begin_leafs(), end = tree.end_leafs(); leaf != end; ++leaf) {
-    if (tree.isNodeOccupied(*leaf)) {
-      cells.push_back({{leaf.getX(), leaf.getY(), leaf.getZ()}, leaf.getSize()});
+
+  void visit(const octomap::OcTreeNode *node, const octomap::OcTreeKey &key, unsigned int depth)
+  {
+    const bool isLeaf = !tree->nodeHasChildren(node);
+    if ((isLeaf || skipsFree) && !tree->isNodeOccupied(node)) {
+      return;
+    }
+    if (isLeaf) {
+      cells.push_back(
+          {{tree->keyToCoord(key[0], depth), tree->keyToCoord(key[1], depth), tree->keyToCoord(key[2], depth)},
+           tree->getNodeSize(depth)});
+      return;
+    }
+    const auto offset = static_cast<octomap::key_type>((1U << (tree->getTreeDepth() - 1)) >> (depth + 1));
+    for (unsigned int i = 0; i < 8; ++i) {
+      if (tree->nodeChildExists(node, i)) {
+        octomap::OcTreeKey child;
+        octomap::computeChildKey(i, offset, key, child);
+        visit(tree->getNodeChild(node, i), child, depth + 1);
+      }
     }
   }
-  return cells;
+};
+} // namespace
+
+std::vector<vpOctreeCell> vpOctomapCells(const octomap::OcTree &tree, bool skipsFree)
+{
+  Occupied occupied{&tree, skipsFree, {}};
+  if (tree.getRoot() != nullptr) {
+    const auto middle = static_cast<octomap::key_type>(1U << (tree.getTreeDepth() - 1));
+    occupied.visit(tree.getRoot(), octomap::OcTreeKey(middle, middle, middle), 0);
+  }
+  return std::move(occupied.cells);
 }
 
 namespace
@@ -172,7 +204,7 @@ vpOctree read(const std::string &file)
     std::istringstream data(bytes.substr(outline.data));
     outline.binary ? tree.readBinaryData(data) : tree.readData(data);
   }
-  return vpOctree(vpOctomapCells(tree), file);
+  return vpOctree(vpOctomapCells(tree, false), file);
 }
 } // namespace
 

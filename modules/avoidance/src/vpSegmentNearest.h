@@ -11,6 +11,7 @@
 #include <visp3/avoidance/vpSegmentDistance.h>
 #include <visp3/avoidance/vpTriangleMesh.h>
 
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -34,7 +35,9 @@ struct vpBoxTreeNode {
   int count = 0; // Number of items of a leaf; 0 for an inner node.
 };
 
-// Tree of axis-aligned boxes over the triangles of a mesh or the cubes of an octree, to find the nearest to a segment.
+// Tree of axis-aligned boxes over the triangles of a mesh or the cubes of an octree, to find the nearest to a segment: space
+// is halved along the axes in turn, at the same planes everywhere (a radix tree over the places on a Z-order curve, which
+// one sort makes: \cite Lauterbach09).
 class vpBoxTree
 {
 public:
@@ -71,12 +74,12 @@ public:
     if (empty()) {
       return best;
     }
-    // The items are halved at every level: the tree is at most 32 deep and the stack holds one node per level.
+    // The stack holds one node per level.
     struct Entry {
       int node;
       double bound;
     };
-    Entry stack[64];
+    Entry stack[mostLevels];
     int size = 0;
     stack[size++] = {0, bound(0, from, to)};
     while (size > 0) {
@@ -105,12 +108,20 @@ public:
   }
 
 private:
+  // A level for each bit of a code, then one for each halving of items with the same code.
+  static constexpr int mostLevels = 48 + 32 + 1;
+
   [[nodiscard]] double bound(int i, const Eigen::Vector3d &from, const Eigen::Vector3d &to) const noexcept
   {
     const vpBoxTreeNode &node = m_nodes[static_cast<std::size_t>(i)];
     return vpSegmentNearest::box(from - node.centre, to - node.centre, node.half).distance;
   }
-  void split(std::size_t node, int first, int count, const std::vector<Item> &items);
+  // Items in the order, with the places of their middles, and the highest bit in which these may differ.
+  struct Part {
+    const std::uint64_t *codes;
+    int first, count, top;
+  };
+  Item split(std::size_t node, Part part, const std::vector<Item> &items);
 
   std::vector<vpBoxTreeNode> m_nodes;
   std::vector<int> m_order;

@@ -195,6 +195,51 @@ TEST_CASE("Meshes: every triangle by search, and the sign by the winding number"
   CHECK(inside > 200);
 }
 
+namespace
+{
+// Cubes that are hard for a tree over a Z-order curve: at one place, ever nearer to a corner, of all sizes, on a line.
+std::vector<std::vector<vpOctreeCell>> hardCubes(std::mt19937_64 &rng)
+{
+  std::vector<std::vector<vpOctreeCell>> all(4);
+  for (int k = 0; k < 1000; ++k) {
+    all[0].push_back({Vector3d(0.5, 0., 0.2), 0.05});
+    const double shrinking = std::ldexp(1., -(k % 60));
+    all[1].push_back({shrinking * Vector3d(k % 3 == 0 ? 0.7 : 0., k % 3 == 1 ? 0.7 : 0., 0.3), 0.01});
+    all[2].push_back({point(rng, 0.8), std::pow(10., uniform(rng, -4., -0.7))});
+    all[3].push_back({Vector3d(0.4, 0.001 * k - 0.5, 0.3), 0.001});
+  }
+  all[0].push_back({Vector3d(vpLargestLength, -vpLargestLength, 0.), 1.});
+  return all;
+}
+} // namespace
+
+TEST_CASE("A tree of boxes finds the nearest of all cubes", "[scene]")
+{
+  auto rng = vpTestSupport::generator(13);
+  CAPTURE(vpTestSupport::seed());
+  for (const std::vector<vpOctreeCell> &cells : hardCubes(rng)) {
+    vpCollisionSceneSpec spec;
+    spec.objects = {object("map", vpCollisionShape::octree(vpOctree(cells)), pose(rng, 0.1))};
+    const vpCollisionScene scene(amor(), spec);
+    vpCollisionData data;
+    for (int k = 0; k < 30; ++k) {
+      scene.place(configuration(amor(), rng), data);
+      for (int i = 0; i < scene.capsuleCount(); ++i) {
+        const vpPlacedCapsule c = placed(amor(), data.arm, i);
+        const vpRigidTransform oMf = spec.objects[0].pose.inverse();
+        const Vector3d from = oMf.R * c.from + oMf.p, to = oMf.R * c.to + oMf.p;
+        double nearest = 1e9;
+        for (const vpOctreeCell &cell : cells) {
+          nearest = std::min(
+              nearest, vpSegmentDistance::box(from - cell.centre, to - cell.centre, Vector3d::Constant(0.5 * cell.size))
+                           .distance);
+        }
+        REQUIRE(scene.pair(data, i, 0).distance == Approx(nearest - c.radius).margin(1e-9));
+      }
+    }
+  }
+}
+
 TEST_CASE("Octrees are the nearest of their cubes; FCL beside", "[scene]")
 {
   auto rng = vpTestSupport::generator(12);
