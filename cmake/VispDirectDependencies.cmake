@@ -71,7 +71,7 @@ endif()
 file(GLOB vispdirect_ompl_folders "/usr/include/ompl-*" "/usr/local/include/ompl-*")
 find_path(VISP_DIRECT_OMPL_INCLUDE_DIR ompl/geometric/SimpleSetup.h HINTS ${vispdirect_ompl_folders})
 find_library(VISP_DIRECT_OMPL_LIBRARY ompl)
-vispdirect_optional(OMPL "sampling-based planners (vpPathPlanner)" "${VISP_DIRECT_OMPL_INCLUDE_DIR}" "${VISP_DIRECT_OMPL_LIBRARY}")
+vispdirect_optional(OMPL "planners of vpPathPlanner besides BiRRT" "${VISP_DIRECT_OMPL_INCLUDE_DIR}" "${VISP_DIRECT_OMPL_LIBRARY}")
 
 find_path(VISP_DIRECT_DLIB_INCLUDE_DIR dlib/image_keypoint.h)
 find_library(VISP_DIRECT_DLIB_LIBRARY dlib)

@@ -24,7 +24,7 @@ class vpHashRandom
 {
 public:
   //! Purpose of the numbers; streams of different purposes are independent.
-  enum class Purpose : std::uint64_t { Cell = 1, Flex, Dust, Crack, Noise, Scene, CameraPose };
+  enum class Purpose : std::uint64_t { Cell = 1, Flex, Dust, Crack, Noise, Scene, CameraPose, Planner };
 
   vpHashRandom(unsigned int seed, Purpose purpose, std::int64_t a, std::int64_t b)
     : m_state(mix(mix(mix(static_cast<std::uint64_t>(purpose) << 32 | seed) ^ static_cast<std::uint64_t>(a)) ^

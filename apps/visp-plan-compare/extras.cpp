@@ -11,6 +11,8 @@
 #include <visp3/core/vpException.h>
 #include <visp3/direct_core/vpQuantile.h>
 
+#include <iterator>
+
 namespace planCompare
 {
 namespace
@@ -19,12 +21,13 @@ constexpr int PLACES = 10000;
 constexpr unsigned int SEEDS = 50, QUICK = 5;
 
 struct Validator {
-  const char *name;
+  const char *planner, *name;
   vpMotionValidation validation;
 };
-constexpr Validator VALIDATORS[] = {{"certified", vpMotionValidation::Certified},
-                                    {"samples, own distances", vpMotionValidation::Discrete},
-                                    {"samples, FCL", vpMotionValidation::DiscreteFcl}};
+constexpr Validator VALIDATORS[] = {{"BiRRT", "certified", vpMotionValidation::Certified},
+                                    {"RRTConnect", "certified", vpMotionValidation::Certified},
+                                    {"RRTConnect", "samples, own distances", vpMotionValidation::Discrete},
+                                    {"RRTConnect", "samples, FCL", vpMotionValidation::DiscreteFcl}};
 
 bool collides(const vpCollisionScene &scene, const vpJointPath &path)
 {
@@ -43,10 +46,12 @@ ValidatorRow compareOn(const vpCollisionScene &scene, const vpCollisionSceneFile
 {
   ValidatorRow row;
   row.scene = file.name;
+  row.planner = validator.planner;
   row.validator = validator.name;
-  std::vector<double> times;
+  std::vector<double> times, lengths;
   for (unsigned int seed = 1; seed <= seeds; ++seed) {
     vpPathPlannerSpec spec;
+    spec.planner = validator.planner;
     spec.validation = validator.validation;
     spec.seed = seed;
     spec.margin = 0.; // only contact is checked
@@ -57,6 +62,7 @@ ValidatorRow compareOn(const vpCollisionScene &scene, const vpCollisionSceneFile
       times.push_back(1000. * result.planningTime);
       if (result.status == vpPathStatus::Solved) {
         ++row.solved;
+        lengths.push_back(result.path.length());
         row.colliding += collides(scene, result.path) ? 1 : 0;
       }
     }
@@ -64,6 +70,7 @@ ValidatorRow compareOn(const vpCollisionScene &scene, const vpCollisionSceneFile
   }
   row.p50 = vpQuantile(times, 0.50);
   row.p95 = vpQuantile(times, 0.95);
+  row.length = vpQuantile(lengths, 0.50);
   return row;
 }
 } // namespace
@@ -74,7 +81,8 @@ std::vector<ValidatorRow> compareValidators(const Plan &plan)
   if (plan.planned.empty()) {
     return rows;
   }
-  vpApp::Progress progress("comparing validators", 3. * static_cast<double>(plan.planned.size()));
+  vpApp::Progress progress("comparing validators",
+                           static_cast<double>(std::size(VALIDATORS)) * static_cast<double>(plan.planned.size()));
   for (const vpCollisionSceneFile &file : plan.planned) {
     const vpCollisionScene scene(*plan.arm, file.spec);
     for (const Validator &validator : VALIDATORS) {
@@ -82,7 +90,7 @@ std::vector<ValidatorRow> compareValidators(const Plan &plan)
         rows.push_back(compareOn(scene, file, validator, plan.quick ? QUICK : SEEDS));
       }
       catch (const vpException &e) {
-        if (e.getCode() != vpException::notImplementedError) { // FCL was missing when the module was built
+        if (e.getCode() != vpException::notImplementedError) { // OMPL or FCL was missing when the module was built
           throw;
         }
       }

@@ -16,15 +16,17 @@
 
 namespace planCompare
 {
-//! \brief RRTConnect with one motion validator, over the tasks of a scene and many seeds.
+//! \brief A planner with one motion validator, over the tasks of a scene and many seeds.
 struct ValidatorRow {
   std::string scene;
+  std::string planner;   //!< "BiRRT", "RRTConnect".
   std::string validator; //!< "certified", "samples, own distances", "samples, FCL".
   int plans = 0;
   int solved = 0;
   double p50 = 0.; //!< Planning time, ms.
   double p95 = 0.;
-  int colliding = 0; //!< Paths found in collision when rechecked at 10,000 configurations.
+  double length = 0.; //!< Median length of the paths, rad; NaN without any.
+  int colliding = 0;  //!< Paths found in collision when rechecked at 10,000 configurations.
 };
 
 //! Compares the validators, one plan at a time, as times are the result. Empty if S4 was not requested.

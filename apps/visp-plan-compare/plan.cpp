@@ -28,7 +28,7 @@ MethodInfo methodInfo(const std::string &id)
               "something "
               "was seen."},
       {"dtg-via", "The same with a via point beside the obstacle."},
-      {"planner", "A path of OMPL on proven motions, timed within all limits, driven as planned."},
+      {"planner", "A planned path of proven motions, timed within all limits, driven as planned."},
       {"planner-dtg",
        "The same path, tracked by direct trajectories and replanned on the fly when something was seen."},
   };

@@ -160,11 +160,13 @@ Json summaryOf(const Plan &plan, const Results &results, const Extras &extras)
   Json validators = Json::array(), selfMotion = Json::array();
   for (const ValidatorRow &row : extras.validators) {
     validators.push_back({{"scene", row.scene},
+                          {"planner", row.planner},
                           {"validator", row.validator},
                           {"plans", row.plans},
                           {"solved", row.solved},
                           {"planning_ms_p50", row.p50},
                           {"planning_ms_p95", row.p95},
+                          {"length_rad_p50", row.length},
                           {"colliding_at_10000_places", row.colliding}});
   }
   for (const SelfMotionRow &row : extras.selfMotion) {

@@ -64,7 +64,7 @@ enum class vpObstacleSight {
 
 /*!
  * \brief Everything that determines an avoidance experiment. The same specification gives the same log, bit for bit,
- * unless a time limit of OMPL ends a search.
+ * unless a time limit ends a search of a path.
  */
 struct vpAvoidanceRunSpec {
   std::shared_ptr<const vpArmModel> arm; //!< The arm; not null.

@@ -59,7 +59,7 @@ constexpr double feasibleMargin = 0.03;
 /*!
  * S2: three to ten boxes, balls, capsules and cylinders of 6 to 60 cm around the arm, known from the start; start and
  * goal are random configurations with tool positions 0.3 to 0.8 m apart. Neither the straight joint motion nor the
- * straight tool motion is free, and a path is known. Needs OMPL.
+ * straight tool motion is free, and a path is known.
  */
 [[nodiscard]] vpAvoidanceScenario randomStatic(const std::shared_ptr<const vpArmModel> &arm, unsigned int seed);
 /*!

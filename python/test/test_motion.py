@@ -141,7 +141,7 @@ def test_planner_and_timed_path(arm):
         assert certificate.check(plan).isFree() and certificate.check(plan, 0, plan.duration() / 2).isFree()
     certificate.setMargin(0.5)
     assert not certificate.check(timed.parts()[0][1]).isFree()
-    assert "RRTConnect" in vd.PathPlanner.names()
+    assert vd.PathPlannerSpec().planner == "BiRRT" and "RRTConnect" in vd.PathPlanner.names()
     with pytest.raises(ValueError, match="the path is empty"):
         vd.JointPath().at(0.5)
     with pytest.raises(ValueError, match="RRTConnect"):

@@ -54,7 +54,7 @@ int main(int argc, char **argv)
     }
     //! [Scene]
     //! [Plan]
-    vpPathPlanner planner(scene); // RRTConnect with certified motions
+    vpPathPlanner planner(scene); // RRT-Connect with certified motions
     const vpPathResult found = planner.plan(file.tasks.back().start, file.tasks.back().goal);
     std::cout << found.message << " " << found.path.points.size() << " points, " << found.path.length() << " rad, "
               << found.motions << " motions checked" << std::endl;

@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 // Planning time on pillar and shelf (S4), one seed per iteration: certified, own discrete and FCL discrete motions,
-// and the other planners. first_ms is the planner's own time without shortening.
+// and the other planners. first_ms is the planner's own time without shortening, call_us the whole of plan().
 #include "vpBenchmark.h"
 
 #include <visp3/avoidance/vpCollisionSceneJson.h>
@@ -11,6 +11,7 @@
 #include <visp3/direct_core/vpQuantile.h>
 #include <visp3/manipulator/vpArmJson.h>
 
+#include <chrono>
 #include <string>
 
 VISP_DIRECT_USING_NAMESPACE
@@ -24,7 +25,7 @@ void plan(benchmark::State &state, const std::string &file, const std::string &p
   static const vpArmModel arm = vpLoadArmJson(dataFile("robot/amor.json"));
   const vpCollisionSceneFile scenes = vpLoadCollisionScene(dataFile(file));
   const vpCollisionScene scene(arm, scenes.spec);
-  std::vector<double> times;
+  std::vector<double> times, calls, lengths;
   unsigned int seed = 0;
   int solved = 0;
   long motions = 0;
@@ -37,7 +38,10 @@ void plan(benchmark::State &state, const std::string &file, const std::string &p
     spec.shortenTime = 0.;
     vpPathPlanner how(scene, spec);
     const vpMotionTask &task = scenes.tasks[seed % scenes.tasks.size()];
+    const auto begin = std::chrono::steady_clock::now();
     const vpPathResult result = how.plan(task.start, task.goal);
+    calls.push_back(1e6 * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+    lengths.push_back(result.path.length());
     solved += result.status == vpPathStatus::Solved ? 1 : 0;
     motions += result.motions;
     times.push_back(1000. * result.planningTime);
@@ -46,6 +50,9 @@ void plan(benchmark::State &state, const std::string &file, const std::string &p
   state.counters["solved_%"] = 100. * solved / runs;
   state.counters["first_ms_p50"] = vpQuantile(times, 0.5);
   state.counters["first_ms_p95"] = vpQuantile(times, 0.95);
+  state.counters["call_us_p50"] = vpQuantile(calls, 0.5);
+  state.counters["call_us_p95"] = vpQuantile(calls, 0.95);
+  state.counters["length_p50"] = vpQuantile(lengths, 0.5);
   state.counters["motions"] = static_cast<double>(motions) / runs;
 }
 
@@ -64,6 +71,7 @@ int main(int argc, char **argv)
   const std::pair<const char *, const char *> scenes[] = {{"pillar", "scene/s4a-pillar.json"},
                                                           {"shelf", "scene/s4b-shelf.json"}};
   for (const auto &scene : scenes) {
+    add(scene.first, scene.second, "BiRRT", "certified", vpMotionValidation::Certified, 100);
     add(scene.first, scene.second, "RRTConnect", "certified", vpMotionValidation::Certified, 100);
     add(scene.first, scene.second, "RRTConnect", "discrete", vpMotionValidation::Discrete, 100);
     add(scene.first, scene.second, "RRTConnect", "discrete by FCL", vpMotionValidation::DiscreteFcl, 100);

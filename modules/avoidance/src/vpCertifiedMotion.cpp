@@ -46,9 +46,9 @@ void boundLink(const vpArmModel &arm, const vpReachBounds &reach, int link, vpEd
   }
 }
 
-vpClearance clearanceOf(const vpCollisionScene &scene, const vpEdgePair &pair, const vpJointVector &q)
+vpClearance clearanceOf(const vpCollisionScene &scene, const vpEdgePair &pair, const vpJointVector &q,
+                        vpCollisionData &data)
 {
-  vpCollisionData data;
   scene.place(q, data);
   switch (pair.kind) {
   case vpCollisionKind::Object:
@@ -187,6 +187,7 @@ struct vpMotionScratch::Memory {
   double resolution = 0.;
   double fastest = 0.; // Maximum of all links, per unit of s.
   int exactLooks = 0;
+  bool describes = true; // the result has the pair
   vpExactQuery query;
   vpCollisionData data;
   vpMotionResult result;
@@ -240,7 +241,7 @@ struct vpMotionScratch::Memory {
   }
   bool stop(vpMotionStatus status, double s, const vpEdgePair &pair)
   {
-    return stop(status, s, clearanceOf(*scene, pair, jointsFrom + s * jointsChange));
+    return stop(status, s, describes ? clearanceOf(*scene, pair, jointsFrom + s * jointsChange, data) : vpClearance());
   }
 
   // Largest motion of the pair's exact shapes per unit of s, seen from the inner one.
@@ -369,6 +370,19 @@ vpCertifiedMotion::vpCertifiedMotion(const vpCollisionScene &scene, const vpCert
 
 vpMotionResult vpCertifiedMotion::check(const vpJointVector &from, const vpJointVector &to,
                                         vpMotionScratch &scratch) const
+{
+  scratch.m_memory->describes = true;
+  return prove(from, to, scratch);
+}
+
+bool vpCertifiedMotion::isFree(const vpJointVector &from, const vpJointVector &to, vpMotionScratch &scratch) const
+{
+  scratch.m_memory->describes = false;
+  return prove(from, to, scratch).isFree();
+}
+
+const vpMotionResult &vpCertifiedMotion::prove(const vpJointVector &from, const vpJointVector &to,
+                                               vpMotionScratch &scratch) const
 {
   vpMotionScratch::Memory &memory = *scratch.m_memory;
   memory.result = vpMotionResult();

@@ -73,7 +73,7 @@ bool vpExactChecker::inCollision(const vpJointVector &q, double margin)
     return false;
   }
   // A little above the margin: a pair exactly at it is in collision.
-  return !m_data.placed || !std::isfinite(margin) ||
+  return !m_scene->exact() || !m_data.placed || !std::isfinite(margin) ||
          !(exactClearance(std::nextafter(margin + 1e-12, HUGE_VAL)).distance > margin);
 }
 

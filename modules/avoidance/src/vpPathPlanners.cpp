@@ -2,12 +2,12 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// The names of the planners and their parameters, which exist without OMPL too.
+// The names of the planners and their parameters.
 #include "vpPathPlanners.h"
 
+#include "vpBiRrt.h"
 #include "vpFieldCheck.h"
-
-#include <utility>
+#include "vpOmplSearch.h"
 
 BEGIN_VISP_NAMESPACE
 
@@ -15,17 +15,23 @@ namespace
 {
 constexpr vpFieldCheck fields("the path planner");
 
-struct Planners : vpRegistry<vpPathPlanner::Maker> {
+vpPathSearchMaker byOmpl(const std::string &name, const vpPathPlanner::Maker &maker)
+{
+  return [name, maker](vpMotionCheck &check) { return vpMakeOmplSearch(check, name, maker); };
+}
+
+struct Planners : vpRegistry<vpPathSearchMaker> {
   Planners() : vpRegistry("path planner")
   {
+    add("BiRRT", "Two trees, from start and goal, that grow towards each other, in flat arrays; needs no OMPL.",
+        [](vpMotionCheck &check) { return std::make_unique<vpBiRrt>(check); });
     const auto addOurs = [this](const char *name, const char *sentence) {
       add(name, sentence,
-          [name](const std::shared_ptr<ompl::base::SpaceInformation> &space, const vpPathPlannerSpec &spec) {
-            return vpOwnPathPlanner(name, space, spec);
-          });
+          byOmpl(name, [name](const std::shared_ptr<ompl::base::SpaceInformation> &space,
+                              const vpPathPlannerSpec &spec) { return vpMakeOmplPlanner(name, space, spec); }));
     };
     addOurs("RRT", "One tree of random motions, from the start.");
-    addOurs("RRTConnect", "Two trees, from start and goal, that grow towards each other.");
+    addOurs("RRTConnect", "The same two trees by OMPL.");
     addOurs("RRTstar", "RRT that rewires its tree, so that the path gets shorter until the time limit.");
     addOurs("PRM", "A graph of random configurations, joined to their neighbours.");
     addOurs("BITstar",
@@ -35,7 +41,7 @@ struct Planners : vpRegistry<vpPathPlanner::Maker> {
 };
 } // namespace
 
-vpRegistry<vpPathPlanner::Maker> &vpPathPlanners()
+vpRegistry<vpPathSearchMaker> &vpPathPlanners()
 {
   static Planners all; // at first use: static objects elsewhere may add planners
   return all;
@@ -47,7 +53,7 @@ std::string vpPathPlanner::sentence(const std::string &name) { return vpPathPlan
 
 void vpPathPlanner::add(const std::string &name, const std::string &sentence, Maker maker)
 {
-  vpPathPlanners().add(name, sentence, std::move(maker));
+  vpPathPlanners().add(name, sentence, maker ? byOmpl(name, maker) : nullptr);
 }
 
 void vpPathPlannerSpec::validate() const

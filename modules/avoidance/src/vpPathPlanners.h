@@ -9,21 +9,13 @@
 #ifndef vpPathPlanners_h
 #define vpPathPlanners_h
 
+#include "vpPathSearch.h"
 #include "vpRegistry.h"
-
-#include <visp3/avoidance/vpPathPlanner.h>
-
-#include <memory>
-#include <string>
 
 BEGIN_VISP_NAMESPACE
 
 //! All planners, ours first.
-vpRegistry<vpPathPlanner::Maker> &vpPathPlanners();
-//! One of ours. \throw vpException (notImplementedError) without OMPL.
-std::shared_ptr<ompl::base::Planner> vpOwnPathPlanner(const std::string &name,
-                                                      const std::shared_ptr<ompl::base::SpaceInformation> &space,
-                                                      const vpPathPlannerSpec &spec);
+vpRegistry<vpPathSearchMaker> &vpPathPlanners();
 
 END_VISP_NAMESPACE
 #endif

@@ -155,7 +155,7 @@ TEST_CASE("what is wrong with an added planner or method is one sentence", "[reg
   CHECK_THROWS_WITH(vpPathPlanner::add("RRT", "Mine.", none), "path planner \"RRT\" is registered already");
   CHECK_THROWS_WITH(vpPathPlanner::add("my planner", "Mine.", none), Contains("must have an id of a letter"));
   CHECK_THROWS_WITH(vpPathPlanner::add("mine", "Mine.", nullptr), "path planner \"mine\" has no maker");
-  CHECK_THROWS_WITH(vpPathPlanner::sentence("mine"), Contains("path planner \"mine\" is unknown, known are: RRT, "));
+  CHECK_THROWS_WITH(vpPathPlanner::sentence("mine"), Contains("path planner \"mine\" is unknown, known are: BiRRT, "));
   vpPathPlanner::add("none", "Makes nothing.", none);
   vpPathPlannerSpec spec;
   spec.planner = "none";

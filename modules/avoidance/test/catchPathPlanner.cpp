@@ -3,15 +3,18 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 // Paths of all planners: free where guaranteed, with correct ends, within the limits, and correctly reported failures.
+#include "../src/vpConfigurationTree.h"
 #include "vpAvoidanceTestKit.h"
 #include "vpCatch.h"
 #include "vpIndependentClearance.h"
 
 #include <visp3/avoidance/vpCollisionChecker.h>
 #include <visp3/avoidance/vpCollisionSceneJson.h>
+#include <visp3/avoidance/vpFclChecker.h>
 #include <visp3/avoidance/vpPathPlanner.h>
 #include <visp3/core/vpException.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <iostream>
 #include <thread>
@@ -31,6 +34,21 @@ double recheck(const vpCollisionScene &scene, const vpCollisionSceneSpec &spec, 
   return least;
 }
 
+//! Obstacles about the arm, with room for the shoulder.
+vpCollisionSceneSpec manyPrimitives(std::mt19937_64 &rng, int count)
+{
+  vpCollisionSceneSpec spec;
+  for (int j = 0; j < count; ++j) {
+    vpCollisionObject object;
+    object.name = "o" + std::to_string(j);
+    object.shape = primitive(rng, j);
+    object.pose = pose(rng, 1.);
+    object.pose.p = uniform(rng, 0.5, 0.9) * object.pose.p.normalized();
+    spec.objects.push_back(object);
+  }
+  return spec;
+}
+
 void requireEnds(const vpArmModel &arm, const vpPathResult &result, const vpJointVector &start,
                  const vpJointVector &goal)
 {
@@ -47,32 +65,69 @@ void requireEnds(const vpArmModel &arm, const vpPathResult &result, const vpJoin
 }
 } // namespace
 
-TEST_CASE("RRTConnect with certified motions solves pillar and shelf, free at every place", "[planner]")
+TEST_CASE("Two trees on certified motions solve pillar and shelf, free at every place", "[planner]")
 {
-  int plans = 0, motions = 0;
-  std::vector<double> planning;
-  for (const char *name : {"scene/s4a-pillar.json", "scene/s4b-shelf.json"}) {
-    const vpCollisionSceneFile file = vpLoadCollisionScene(dataFile(name));
-    const vpCollisionScene scene(amor(), file.spec);
-    for (int k = 0; k < vpTestSupport::longer(10); ++k) {
-      for (const vpMotionTask &task : file.tasks) {
-        vpPathPlannerSpec spec;
-        spec.seed = static_cast<unsigned int>(k + 1);
-        vpPathPlanner planner(scene, spec);
-        const vpPathResult result = planner.plan(task.start, task.goal);
-        CAPTURE(name, task.name, k, result.message);
-        REQUIRE(result.status == vpPathStatus::Solved);
-        requireEnds(amor(), result, task.start, task.goal);
-        REQUIRE(recheck(scene, file.spec, result.path, 10000) >= spec.margin - 1e-9);
-        planning.push_back(result.planningTime);
-        motions += static_cast<int>(result.motions);
-        ++plans;
+  for (const std::string planner : {"BiRRT", "RRTConnect"}) {
+    int plans = 0, motions = 0;
+    for (const char *name : {"scene/s4a-pillar.json", "scene/s4b-shelf.json"}) {
+      const vpCollisionSceneFile file = vpLoadCollisionScene(dataFile(name));
+      const vpCollisionScene scene(amor(), file.spec);
+      for (int k = 0; k < vpTestSupport::longer(10); ++k) {
+        for (const vpMotionTask &task : file.tasks) {
+          vpPathPlannerSpec spec;
+          spec.planner = planner;
+          spec.seed = static_cast<unsigned int>(k + 1);
+          const vpPathResult result = vpPathPlanner(scene, spec).plan(task.start, task.goal);
+          CAPTURE(planner, name, task.name, k, result.message);
+          REQUIRE(result.status == vpPathStatus::Solved);
+          requireEnds(amor(), result, task.start, task.goal);
+          REQUIRE(recheck(scene, file.spec, result.path, 10000) >= spec.margin - 1e-9);
+          motions += static_cast<int>(result.motions);
+          ++plans;
+        }
+      }
+    }
+    std::cout << planner << ": " << plans << " certified plans, none nearer than the margin at 10,000 places; "
+              << motions / plans << " motions checked on average\n";
+  }
+}
+
+TEST_CASE("FCL finds no contact on a thousand paths of BiRRT", "[planner][fcl]")
+{
+  auto rng = vpTestSupport::generator(902);
+  CAPTURE(vpTestSupport::seed());
+  constexpr int places = 100, pathsOfScene = 20;
+  int paths = 0, bent = 0, failures = 0;
+  while (paths < vpTestSupport::longer(1000)) {
+    const vpCollisionScene scene(amor(), manyPrimitives(rng, 12));
+    vpFclChecker fcl(scene);
+    vpPathPlannerSpec spec;
+    spec.planner = "BiRRT";
+    spec.timeLimit = 1.;
+    spec.shortenTime = paths % 3 == 0 ? 0. : 0.02;
+    vpPathPlanner planner(scene, spec);
+    for (int k = 0; k < pathsOfScene; ++k) {
+      planner.setSeed(static_cast<unsigned int>(paths + failures + 1));
+      const vpJointVector start = configuration(amor(), rng), goal = configuration(amor(), rng);
+      const vpPathResult result = planner.plan(start, goal);
+      CAPTURE(paths, k, result.message);
+      if (result.status != vpPathStatus::Solved) {
+        ++failures;
+        REQUIRE(result.status != vpPathStatus::NotFree);
+        REQUIRE(result.path.points.empty());
+        continue;
+      }
+      ++paths;
+      bent += result.path.points.size() > 2 ? 1 : 0;
+      requireEnds(amor(), result, start, goal);
+      for (int i = 0; i <= places; ++i) {
+        REQUIRE(!fcl.inCollision(result.path.at(static_cast<double>(i) / places), 0.));
       }
     }
   }
-  std::sort(planning.begin(), planning.end());
-  std::cout << plans << " certified plans, none nearer than the margin at 10,000 places; " << motions / plans
-            << " motions checked on average\n";
+  std::cout << paths << " paths of BiRRT, " << bent << " of them bent, no contact by FCL at " << places + 1
+            << " places of each\n";
+  CHECK(3 * bent > paths);
 }
 
 TEST_CASE("Every planner finds a free path round the pillar", "[planner]")
@@ -158,6 +213,7 @@ TEST_CASE("Plans repeat for a seed, and paths are shorter after shortening", "[p
   const vpCollisionSceneFile file = vpLoadCollisionScene(dataFile("scene/s4b-shelf.json"));
   const vpCollisionScene scene(amor(), file.spec);
   vpPathPlannerSpec spec;
+  spec.planner = GENERATE("BiRRT", "RRTConnect");
   spec.shortenTime = 0.;
   spec.timeLimit = 60.;
   vpPathPlanner first(scene, spec), second(scene, spec);
@@ -180,6 +236,7 @@ TEST_CASE("What cannot be planned is said", "[planner]")
   const vpCollisionSceneFile file = vpLoadCollisionScene(dataFile("scene/s4a-pillar.json"));
   vpCollisionScene scene(amor(), file.spec);
   vpPathPlannerSpec spec;
+  spec.planner = GENERATE("BiRRT", "RRTConnect");
   spec.timeLimit = 0.2;
   vpPathPlanner planner(scene, spec);
   const vpJointVector start = file.tasks[0].start, goal = file.tasks[0].goal;
@@ -266,7 +323,8 @@ TEST_CASE("What cannot be planned is said", "[planner]")
   spec.planner = "RRTX";
   CHECK_THROWS_WITH(
       vpPathPlanner(scene, spec),
-      Catch::Contains("path planner \"RRTX\" is unknown, known are: RRT, RRTConnect, RRTstar, PRM, BITstar, KPIECE"));
+      Catch::Contains(
+          "path planner \"RRTX\" is unknown, known are: BiRRT, RRT, RRTConnect, RRTstar, PRM, BITstar, KPIECE"));
   spec = vpPathPlannerSpec();
   spec.margin = -0.1;
   CHECK_THROWS_WITH(vpPathPlanner(scene, spec), Catch::Contains("margin of the path planner is -0.1, must be >= 0"));
@@ -293,8 +351,10 @@ TEST_CASE("Plans repeat for a seed, alone and while other threads plan", "[plann
   const vpCollisionSceneFile file = vpLoadCollisionScene(dataFile("scene/s4b-shelf.json"));
   const vpCollisionScene scene(amor(), file.spec);
   constexpr unsigned int seeds = 8;
+  const std::string name = GENERATE("BiRRT", "RRTConnect");
   const auto plan = [&](unsigned int seed) {
     vpPathPlannerSpec spec;
+    spec.planner = name;
     spec.seed = seed;
     spec.shortenTime = 0.; // a limit of time
     spec.timeLimit = 60.;
@@ -330,6 +390,40 @@ TEST_CASE("Plans repeat for a seed, alone and while other threads plan", "[plann
   CHECK((alone[0] != alone[1]));
 }
 
+TEST_CASE("The nearest configuration of a tree is the nearest of all", "[planner]")
+{
+  auto rng = vpTestSupport::generator(903);
+  CAPTURE(vpTestSupport::seed());
+  vpConfigurationTree tree;
+  for (const int joints : {1, 2, 7, 16}) {
+    const auto draw = [&] {
+      vpJointVector q(joints);
+      for (int i = 0; i < joints; ++i) {
+        q(i) = uniform(rng, -3., 3.);
+      }
+      return q;
+    };
+    std::vector<vpJointVector> all{draw()};
+    tree.start(all[0]);
+    for (int k = 1; k < 1000; ++k) {
+      const vpJointVector wanted = draw();
+      double least = 1e9;
+      for (const vpJointVector &q : all) {
+        least = std::min(least, (q - wanted).norm());
+      }
+      const int node = tree.nearest(wanted);
+      REQUIRE((tree.at(node) - wanted).norm() <= least + 1e-5);
+      REQUIRE(tree.at(node) == all[static_cast<std::size_t>(node)]);
+      all.push_back(draw());
+      REQUIRE(tree.add(all.back(), node) == k);
+      const std::vector<vpJointVector> way = tree.wayToRoot(k);
+      REQUIRE(way[0] == all.back());
+      REQUIRE(way[1] == all[static_cast<std::size_t>(node)]);
+      REQUIRE(way.back() == all[0]);
+    }
+  }
+}
+
 TEST_CASE("A limit of iterations ends a search that has no end", "[planner]")
 {
   vpCollisionSceneSpec closed; // walls on all sides, and the goal turned away: no way round the base
@@ -342,15 +436,50 @@ TEST_CASE("A limit of iterations ends a search that has no end", "[planner]")
   }
   const vpCollisionScene scene(amor(), closed);
   vpPathPlannerSpec spec;
-  spec.iterations = 20;
-  spec.timeLimit = 1000.;
   vpJointVector start = amor().home(), goal = start;
   start << 1.6, 1.4, 0., -1.6, 0., 0., 0.;
   goal = start;
   goal(0) = -1.6;
-  vpPathPlanner planner(scene, spec);
-  const vpPathResult result = planner.plan(start, goal);
+  for (const std::string name : {"BiRRT", "RRTConnect"}) {
+    spec.planner = name;
+    spec.iterations = 20;
+    spec.timeLimit = 1000.;
+    const vpPathResult few = vpPathPlanner(scene, spec).plan(start, goal);
+    CAPTURE(few.message);
+    CHECK(few.status == vpPathStatus::TimedOut);
+    CHECK(few.path.points.empty());
+    CHECK(few.message.find(name + " found no path in ") == 0);
+    CHECK(few.message.find(" or 20 iterations;") != std::string::npos);
+  }
+}
+
+TEST_CASE("A search without a path ends at the time limit", "[planner]")
+{
+  vpArmSpec one; // a single joint cannot go round anything
+  vpArmJointSpec joint = vpArmJointSpec::standardDH(0.5, 0., 0., 0.);
+  joint.name = "joint";
+  joint.lower = -1.5;
+  joint.upper = 1.5;
+  one.name = "one joint";
+  one.joints = {joint};
+  one.capsules = {{1, {-0.5, 0., 0.}, {0., 0., 0.}, 0.05}};
+  vpCollisionSceneSpec blocked;
+  vpCollisionObject ball;
+  ball.name = "ball";
+  ball.pose.p = Vector3d(0.4, 0., 0.);
+  blocked.objects = {ball};
+  const vpCollisionScene scene(vpArmModel(one), blocked);
+  vpPathPlannerSpec spec;
+  spec.planner = GENERATE("BiRRT", "RRTConnect");
+  spec.timeLimit = 0.1;
+  const auto begin = std::chrono::steady_clock::now();
+  const vpPathResult result =
+      vpPathPlanner(scene, spec).plan(vpJointVector::Constant(1, -1.), vpJointVector::Constant(1, 1.));
+  const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   CAPTURE(result.message);
   CHECK(result.status == vpPathStatus::TimedOut);
-  CHECK(result.message.find(" or 20 iterations;") != std::string::npos);
+  CHECK(result.path.points.empty());
+  CHECK(result.planningTime >= 0.1);
+  CHECK(elapsed < 2.); // of a machine under load
+  CHECK(result.message == spec.planner + " found no path in 0.100000 s; that does not mean that there is none.");
 }

@@ -183,7 +183,8 @@ SELF_MOTION = [
     "mean (mm) = 1000 mean_distance_m; end (mm) = 1000 end_distance_m; way of the joints (rad) = joint_travel_rad"
 ]
 VALIDATORS = [
-    "scene; motions = validator; plans; solved; median (ms) = planning_ms_p50; 95 % (ms) = planning_ms_p95",
+    "scene; planner; motions = validator; plans; solved; median (ms) = planning_ms_p50; 95 % (ms) = planning_ms_p95; "
+    "length (rad) = length_rad_p50",
     ("colliding", lambda row: Cell(row["colliding_at_10000_places"], "worst" if row["colliding_at_10000_places"] else "")),
 ]
 
@@ -227,12 +228,12 @@ def add_self_motion(page, data):
 def add_validators(page, summary):
     page.section("S4: proofs and samples")
     page.paragraph(
-        "RRTConnect on the tasks of S4 with three ways of looking at the motions between configurations: proofs that hold between samples, "
-        "samples at a fixed step with the same distances, and the usual set-up, samples with FCL. A margin of 0 is asked for. One plan at "
-        "a time on this machine."
+        "Two trees that grow towards each other, ours (BiRRT) and OMPL's (RRTConnect), on the tasks of S4, with three ways of looking at "
+        "the motions between configurations: proofs that hold between samples, samples at a fixed step with the same distances, and the "
+        "usual set-up, samples with FCL. A margin of 0 is asked for. One plan at a time on this machine."
     )
     page.paragraph(summary["validator_finding"])
-    says = "Planning time without set-up and shortening; paths that touch something at one of 10,000 places."
+    says = "Planning time without set-up and shortening; median length of the shortened paths; paths that touch something at one of 10,000 places."
     page.records(summary["validators"], VALIDATORS, says)
 
 

@@ -47,7 +47,7 @@ VISP_EXPORT void vpAddAvoidanceMethod(const std::string &name, const std::string
  * \param scene : Must outlive the method.
  * \param spec : Parameters common to all methods.
  * \throw vpException (badValue) naming an unknown method and the known ones, or a field out of range;
- * (notImplementedError) for planners if built without OMPL; whatever the maker of an added method throws.
+ * whatever the maker of an added method throws.
  */
 [[nodiscard]] VISP_EXPORT std::unique_ptr<vpAvoidanceMethod>
 vpMakeAvoidanceMethod(const std::string &name, const vpCollisionScene &scene, const vpAvoidanceMethodSpec &spec = {});

@@ -4,7 +4,7 @@
  */
 /*!
  * \file vpPathPlanner.h
- * \brief Collision-free paths in joint space, by the planners of OMPL. Requires a build with OMPL.
+ * \brief Collision-free paths in joint space, by a planner of our own and those of OMPL.
  */
 #ifndef vpPathPlanner_h
 #define vpPathPlanner_h
@@ -41,8 +41,8 @@ enum class vpMotionValidation {
  * \brief Parameters of vpPathPlanner.
  */
 struct VISP_EXPORT vpPathPlannerSpec {
-  //! One of vpPathPlanner::names(). RRTConnect is the fastest here; RRT*, BIT* keep improving until the time limit.
-  std::string planner = "RRTConnect";
+  //! One of vpPathPlanner::names(). BiRRT is the fastest; RRT*, BIT* keep improving until the time limit.
+  std::string planner = "BiRRT";
   vpMotionValidation validation = vpMotionValidation::Certified; //!< Check of motions.
   double margin = 0.005;                                         //!< Clearance to keep, m, >= 0.
   double step = 0.05;    //!< Discrete validation: largest change of a joint between samples, rad or m, > 0.
@@ -50,8 +50,8 @@ struct VISP_EXPORT vpPathPlannerSpec {
   //! Maximum number of iterations of the planner's loop, repeatable on any machine; 0: only the time limit.
   unsigned int iterations = 0;
   bool stopAtFirst = true;  //!< RRT* and BIT*: false keeps improving until the time limit.
-  double range = 0.;        //!< Longest motion of a tree, rad or m, >= 0; 0: chosen by OMPL.
-  double shortenTime = 0.2; //!< Maximum time for shortening a path (OMPL's PathSimplifier), s, >= 0; 0: none.
+  double range = 0.;        //!< Longest motion of a tree, rad or m, >= 0; 0: 0.2 of the diagonal of all positions.
+  double shortenTime = 0.2; //!< Maximum time for shortening a path, s, >= 0; 0: none.
   unsigned int seed = 1;    //!< Seed of the sampling, >= 1. Runs repeat unless ended by a time limit.
 
   /*!
@@ -89,7 +89,10 @@ struct VISP_EXPORT vpPathResult {
 /*!
  * \class vpPathPlanner
  * \ingroup group_avoidance
- * \brief Plans joint-space paths of a scene's arm, by OMPL \cite Sucan12, with the object poses at the call of plan().
+ * \brief Plans joint-space paths of a scene's arm, with the object poses at the call of plan().
+ *
+ * BiRRT is RRT-Connect \cite Kuffner00 on flat arrays, with random shortcuts \cite Geraerts07, and needs no other library.
+ * The others are those of OMPL \cite Sucan12, paths shortened by its PathSimplifier; they cost some 0.1 ms more a plan.
  *
  * Continuous joints take the shorter way to the goal's angle; the path never crosses position limits. A path found
  * with certified validation is free with the margin at every point, thesis (3.46), (3.48); with discrete validation
@@ -107,7 +110,8 @@ public:
   using Maker = std::function<std::shared_ptr<ompl::base::Planner>(
       const std::shared_ptr<ompl::base::SpaceInformation> &space, const vpPathPlannerSpec &spec)>;
 
-  //! Names of the planners: RRT, RRTConnect, RRTstar, PRM, BITstar, KPIECE, then those added.
+  //! Names of the planners: BiRRT; RRT, RRTConnect, RRTstar, PRM, BITstar, KPIECE of OMPL, also in a build without it;
+  //! then those added.
   [[nodiscard]] static std::vector<std::string> names();
   //! How a planner works, one sentence. \throw vpException (badValue) naming the unknown planner and the known ones.
   [[nodiscard]] static std::string sentence(const std::string &name);
@@ -125,8 +129,8 @@ public:
   /*!
    * \param scene : Must outlive the planner.
    * \param spec : Parameters; copied.
-   * \throw vpException (badValue), see vpPathPlannerSpec::validate(); (notImplementedError) naming FCL if built
-   * without it.
+   * \throw vpException (badValue), see vpPathPlannerSpec::validate(); (notImplementedError) naming OMPL or FCL if
+   * built without it, for any planner but BiRRT and for DiscreteFcl.
    */
   explicit vpPathPlanner(const vpCollisionScene &scene, const vpPathPlannerSpec &spec = {});
   ~vpPathPlanner();

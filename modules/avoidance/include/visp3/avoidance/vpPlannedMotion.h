@@ -28,7 +28,7 @@ enum class vpReplanning {
 struct VISP_EXPORT vpPlannedMotionSpec {
   vpAvoidanceMethodSpec common;                                  //!< Common parameters; the seed is for the planner.
   vpReplanning replanning = vpReplanning::OnTheFly;              //!< Reaction to obstacles on the path.
-  std::string planner = "RRTConnect";                            //!< See vpPathPlannerSpec.
+  std::string planner = "BiRRT";                                 //!< See vpPathPlannerSpec.
   vpMotionValidation validation = vpMotionValidation::Certified; //!< See vpPathPlannerSpec.
   double clearance = 0.005;  //!< Clearance of paths beyond the margin, m, >= 0: room for trajectories to deviate.
   double startTime = 2.;     //!< Maximum planning time in start(), s, > 0.
