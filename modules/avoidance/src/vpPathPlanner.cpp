@@ -9,6 +9,7 @@
 
 #include <visp3/direct_core/vpLimit.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 

@@ -5,6 +5,7 @@
 #include "vpPathShortcuts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 BEGIN_VISP_NAMESPACE

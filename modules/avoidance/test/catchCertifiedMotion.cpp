@@ -200,6 +200,7 @@ TEST_CASE("Free motions stay free when rechecked, and discrete checks do not", "
       CAPTURE(k);
       const Motion m = motion(arm, rng);
       const vpMotionResult result = certified.check(m.from, m.to, scratch);
+      REQUIRE(certified.isFree(m.from, m.to, scratch) == result.isFree());
       const vpMotionResult sampled = discrete.check(m.from, m.to);
       evaluated += result.evaluated;
       if (result.status == vpMotionStatus::Free) {
