@@ -233,7 +233,10 @@ def add_validators(page, summary):
         "usual set-up, samples with FCL. A margin of 0 is asked for. One plan at a time on this machine."
     )
     page.paragraph(summary["validator_finding"])
-    says = "Planning time without set-up and shortening; median length of the shortened paths; paths that touch something at one of 10,000 places."
+    says = (
+        "Planning time without set-up and shortening; median length of the shortened paths; paths that touch something at one of "
+        "10,000 places."
+    )
     page.records(summary["validators"], VALIDATORS, says)
 
 
