@@ -32,7 +32,6 @@ vpJointPath pathThrough(const vpConfigurationTree &from, const vpConfigurationTr
 }
 } // namespace
 
-// The end first: most motions that are not free end in a collision, which is found in a quarter of the time.
 bool vpBiRrt::isFree(const vpJointVector &from, const vpJointVector &to)
 {
   ++m_motions;
