@@ -68,33 +68,20 @@ std::size_t vpPhotometricRefiner::finestUseful(const vpRigidPose &pose) const
   return level;
 }
 
-// Sum of w row row^T with the residual in column 10; float within a row of samples, double beyond.
+// Sum of w row row^T with the residual in column 10.
 vpPhotometricRefiner::Design vpPhotometricRefiner::accumulate(const vpPhotometricLevel &level, double sigma,
                                                               double shift) const
 {
-  using Row = Eigen::Matrix<float, 12, 1>;
-  const vpPhotometricBound limit = m_photometry.bound(sigma, shift);
-  const std::vector<float> &residuals = m_photometry.residuals();
-  Design sum = Design::Zero();
-  std::size_t i = 0;
-  for (int r = 0; r < level.rows; ++r) {
-    const float y = static_cast<float>(level.firstY + r * level.pitchY);
-    Eigen::Matrix<float, 12, 12> rowSum = Eigen::Matrix<float, 12, 12>::Zero();
-    for (int c = 0; c < level.cols; ++c, ++i) {
-      const vpPhotometricSample &s = level.samples[i];
-      const float e = residuals[i], weight = limit.weight(e, s);
-      if (weight > 0.f) {
-        const float x = static_cast<float>(level.firstX) + static_cast<float>(c) * static_cast<float>(level.pitchX);
-        const float g = s.dx * x + s.dy * y;
-        Row row;
-        row << s.dx * x, s.dx * y, s.dx, s.dy * x, s.dy * y, s.dy, -g * x, -g * y, s.value, 1.f, e, 0.f;
-        const Row weighted = weight * row;
-        rowSum.noalias() += row * weighted.transpose();
-      }
-    }
-    sum += rowSum.cast<double>();
-  }
-  return sum;
+  const vpGreyGrid grid = {level.rows,
+                           level.stride,
+                           static_cast<float>(level.firstX),
+                           static_cast<float>(level.pitchX),
+                           static_cast<float>(level.firstY),
+                           static_cast<float>(level.pitchY)};
+  double sums[144] = {};
+  m_loops.normalSums(m_photometry.samples(level, sigma, shift), grid, sums);
+  const Design upper = Eigen::Map<const Eigen::Matrix<double, 12, 12, Eigen::RowMajor>>(sums);
+  return upper.selfadjointView<Eigen::Upper>();
 }
 
 /*
@@ -104,7 +91,6 @@ vpPhotometricRefiner::Design vpPhotometricRefiner::accumulate(const vpPhotometri
 bool vpPhotometricRefiner::iterate(const std::vector<cv::Mat> &pyramid, std::size_t index,
                                    const vpPhotometricLevel &level, vpRigidPose &pose, double &shift, double &sigma)
 {
-  m_photometry.update(level);
   sigma = std::min(sigma, m_photometry.textureDeviation(level));
   const Design N = accumulate(level, sigma, shift);
   const double gain = std::max(m_photometry.gain(), vpPhotometry::smallestGain);
@@ -233,7 +219,7 @@ vpPhotometricFit vpPhotometricRefiner::verify(const std::vector<cv::Mat> &pyrami
   const std::size_t inside = m_photometry.sample(pyramid, index, pose);
   if (inside < vpPhotometry::fewestSamples) {
     vpPhotometricFit fit;
-    fit.inImage = static_cast<double>(inside) / static_cast<double>(level.samples.size());
+    fit.inImage = static_cast<double>(inside) / static_cast<double>(level.size());
     return fit;
   }
   m_photometry.start(level);

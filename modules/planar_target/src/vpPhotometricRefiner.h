@@ -66,6 +66,7 @@ private:
   const vpPhotometricModel &m_model;
   vpTargetPlane m_plane;
   vpPhotometry m_photometry;
+  const vpGreyLanes &m_loops = vpChosenGreyLanes();
   bool m_precise;
   std::size_t m_soft = 1; //!< softness that fitted the last frame
 };

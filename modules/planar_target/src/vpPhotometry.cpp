@@ -4,8 +4,6 @@
  */
 #include "vpPhotometry.h"
 
-#include <visp3/direct_core/vpQuantile.h>
-
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
@@ -21,8 +19,12 @@ constexpr double tukey = 4.685;       // 95 % efficiency under Gaussian noise
 constexpr double madToSigma = 1.4826; // likewise
 constexpr double smallestSigma = 1.5; // grey levels; a smaller one would reject rounding and interpolation as occlusion
 constexpr std::size_t enoughForMedian = 2000;
-constexpr float outside = -1.f;
-constexpr float rejected = 1e9f;
+
+// Step to about enoughForMedian samples.
+int everyFor(const vpPhotometricLevel &level)
+{
+  return static_cast<int>(std::max<std::size_t>(1, level.size() / enoughForMedian));
+}
 
 vpPhotometricLevel makeLevel(const cv::Mat &image, const vpTargetPlane &plane, double unit)
 {
@@ -33,20 +35,25 @@ vpPhotometricLevel makeLevel(const cv::Mat &image, const vpTargetPlane &plane, d
   level.pitchY = plane.height / image.rows / unit;
   level.firstX = (border + 0.5 - 0.5 * image.cols) * level.pitchX;
   level.firstY = (border + 0.5 - 0.5 * image.rows) * level.pitchY;
-  level.samples.reserve(static_cast<std::size_t>(level.cols) * static_cast<std::size_t>(level.rows));
-  for (int v = border; v < image.rows - border; ++v) {
-    for (int u = border; u < image.cols - border; ++u) {
-      const double gu = 0.5 * (image.at<float>(v, u + 1) - image.at<float>(v, u - 1));
-      const double gv = 0.5 * (image.at<float>(v + 1, u) - image.at<float>(v - 1, u));
-      level.samples.push_back({image.at<float>(v, u), static_cast<float>(gu / level.pitchX),
-                               static_cast<float>(gv / level.pitchY), static_cast<float>(gu * gu + gv * gv)});
-    }
+  level.stride = vpGreyPadded(level.cols);
+  for (std::vector<float> *v : {&level.values, &level.dx, &level.dy, &level.slope2}) {
+    v->assign(static_cast<std::size_t>(level.stride) * static_cast<std::size_t>(level.rows), 0.f);
   }
   double sum = 0.;
-  for (const vpPhotometricSample &s : level.samples) {
-    sum += s.slope2;
+  for (int r = 0; r < level.rows; ++r) {
+    for (int c = 0; c < level.cols; ++c) {
+      const int v = r + border, u = c + border;
+      const auto i = static_cast<std::size_t>(r * level.stride + c);
+      const double gu = 0.5 * (image.at<float>(v, u + 1) - image.at<float>(v, u - 1));
+      const double gv = 0.5 * (image.at<float>(v + 1, u) - image.at<float>(v - 1, u));
+      level.values[i] = image.at<float>(v, u);
+      level.dx[i] = static_cast<float>(gu / level.pitchX);
+      level.dy[i] = static_cast<float>(gv / level.pitchY);
+      level.slope2[i] = static_cast<float>(gu * gu + gv * gv);
+      sum += level.slope2[i];
+    }
   }
-  level.textured = static_cast<float>(0.25 * sum / static_cast<double>(level.samples.size()));
+  level.textured = static_cast<float>(0.25 * sum / static_cast<double>(level.size()));
   return level;
 }
 } // namespace
@@ -76,10 +83,7 @@ vpPhotometricModel::vpPhotometricModel(const cv::Mat &reference, const vpTargetP
 
 vpPhotometry::vpPhotometry(const vpPhotometricModel &model, const vpPinhole &camera) : m_model(model), m_camera(camera)
 {
-  const std::size_t n = model.level(0, 0).samples.size();
-  m_values.reserve(n);
-  m_residuals.reserve(n);
-  m_scratch.reserve(n);
+  m_values.reserve(model.level(0, 0).values.size());
 }
 
 double vpPhotometry::pixelsPerSample(std::size_t level, const vpRigidPose &pose) const
@@ -96,125 +100,91 @@ std::size_t vpPhotometry::sample(const std::vector<cv::Mat> &pyramid, std::size_
   const int frameLevel = std::min(static_cast<int>(std::log2(pixels)), static_cast<int>(pyramid.size()) - 1);
   const cv::Mat &frame = pyramid[static_cast<std::size_t>(frameLevel)];
   const vpPinhole camera = m_camera.atLevel(frameLevel);
-  const float px = static_cast<float>(camera.px), py = static_cast<float>(camera.py);
-  const float u0 = static_cast<float>(camera.u0), v0 = static_cast<float>(camera.v0),
-              kud = static_cast<float>(camera.kud);
-  const float lastU = static_cast<float>(frame.cols - 1), lastV = static_cast<float>(frame.rows - 1);
+  vpGreyFrameRow row = {};
+  row.frame = frame.ptr<unsigned char>();
+  row.step = static_cast<int>(frame.step[0]);
+  row.lastU = static_cast<float>(frame.cols - 1);
+  row.lastV = static_cast<float>(frame.rows - 1);
+  row.px = static_cast<float>(camera.px);
+  row.py = static_cast<float>(camera.py);
+  row.u0 = static_cast<float>(camera.u0);
+  row.v0 = static_cast<float>(camera.v0);
+  row.kud = static_cast<float>(camera.kud);
   const Eigen::Vector3d a = m_model.unit() * pose.R.col(0), b = m_model.unit() * pose.R.col(1);
-  const Eigen::Vector3f next = (level.pitchX * a).cast<float>();
-  m_values.resize(level.samples.size());
-  for (std::vector<float> *row : {&m_u, &m_v}) {
-    row->resize(static_cast<std::size_t>(level.cols));
-  }
+  Eigen::Map<Eigen::Vector3f>(row.next) = (level.pitchX * a).cast<float>();
+  m_values.resize(level.values.size());
   std::size_t inside = 0;
   for (int r = 0; r < level.rows; ++r) {
-    const Eigen::Vector3f first = (pose.t + level.firstX * a + (level.firstY + r * level.pitchY) * b).cast<float>();
-    float *const us = m_u.data(), *const vs = m_v.data();
-    for (int c = 0; c < level.cols; ++c) { // a separate loop: compilers vectorise it
-      const float k = static_cast<float>(c);
-      const float invZ = 1.f / (first.z() + k * next.z());
-      const float x = invZ * (first.x() + k * next.x()), y = invZ * (first.y() + k * next.y());
-      const float distortion = 1.f + kud * (x * x + y * y);
-      us[c] = invZ > 0.f ? u0 + px * distortion * x : outside;
-      vs[c] = v0 + py * distortion * y;
-    }
-    float *const values = &m_values[static_cast<std::size_t>(r) * static_cast<std::size_t>(level.cols)];
-    for (int c = 0; c < level.cols; ++c) {
-      const float u = us[c], v = vs[c];
-      if (!(u >= 0.f && v >= 0.f && u < lastU && v < lastV)) {
-        values[c] = outside;
-        continue;
-      }
-      const int iu = static_cast<int>(u), iv = static_cast<int>(v);
-      const float fu = u - static_cast<float>(iu), fv = v - static_cast<float>(iv);
-      const unsigned char *p = frame.ptr<unsigned char>(iv) + iu, *q = p + frame.step[0];
-      const float top = static_cast<float>(p[0]) + fu * static_cast<float>(p[1] - p[0]);
-      const float bottom = static_cast<float>(q[0]) + fu * static_cast<float>(q[1] - q[0]);
-      values[c] = top + fv * (bottom - top);
-      ++inside;
-    }
+    Eigen::Map<Eigen::Vector3f>(row.first) =
+        (pose.t + level.firstX * a + (level.firstY + r * level.pitchY) * b).cast<float>();
+    inside += static_cast<std::size_t>(
+        m_loops.sampleFrame(row, level.cols, &m_values[static_cast<std::size_t>(r * level.stride)]));
   }
   return inside;
 }
 
-double vpPhotometry::median() { return vpQuantileInPlace(m_scratch.data(), m_scratch.data() + m_scratch.size(), 0.5); }
-
 // Occluders must not affect gain and bias: their errors would be taken for misalignment.
 void vpPhotometry::start(const vpPhotometricLevel &level)
 {
-  const std::size_t stride = std::max<std::size_t>(1, level.samples.size() / enoughForMedian);
   const auto medianOf = [&](auto value) {
-    m_scratch.clear();
-    for (std::size_t i = 0; i < level.samples.size(); i += stride) {
+    m_median.clear();
+    level.everyFew(everyFor(level), [&](std::size_t i) {
       if (m_values[i] >= 0.f) {
-        m_scratch.push_back(value(i));
+        m_median.add(value(i));
       }
-    }
-    return static_cast<float>(median());
+    });
+    return static_cast<float>(m_median.value());
   };
-  const float reference = medianOf([&](std::size_t i) { return level.samples[i].value; });
+  const float reference = medianOf([&](std::size_t i) { return level.values[i]; });
   const float frame = medianOf([&](std::size_t i) { return m_values[i]; });
-  const float referenceSpread = medianOf([&](std::size_t i) { return std::abs(level.samples[i].value - reference); });
+  const float referenceSpread = medianOf([&](std::size_t i) { return std::abs(level.values[i] - reference); });
   const float frameSpread = medianOf([&](std::size_t i) { return std::abs(m_values[i] - frame); });
-  const double lastGain = m_gain, lastBias = m_bias, last = update(level);
+  const double lastGain = m_gain, lastBias = m_bias, last = deviation(level);
   m_gain = std::clamp(static_cast<double>(frameSpread / std::max(1.f, referenceSpread)), 0.2, 5.);
   m_bias = frame - m_gain * reference;
-  if (last < update(level)) {
+  if (last < deviation(level)) {
     m_gain = lastGain;
     m_bias = lastBias;
   }
   fit(level);
 }
 
-double vpPhotometry::update(const vpPhotometricLevel &level)
-{
-  const std::size_t n = level.samples.size();
-  const float gain = static_cast<float>(m_gain), bias = static_cast<float>(m_bias);
-  m_residuals.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    m_residuals[i] = m_values[i] >= 0.f ? m_values[i] - gain * level.samples[i].value - bias : rejected;
-  }
-  return deviation(level, 0.f);
-}
-
 double vpPhotometry::textureDeviation(const vpPhotometricLevel &level) { return deviation(level, level.textured); }
 
 double vpPhotometry::deviation(const vpPhotometricLevel &level, float slope2)
 {
-  const std::size_t n = level.samples.size(), stride = std::max<std::size_t>(1, n / enoughForMedian);
-  m_scratch.clear();
-  for (std::size_t i = 0; i < n; i += stride) {
-    if (m_residuals[i] != rejected && level.samples[i].slope2 >= slope2) {
-      m_scratch.push_back(std::abs(m_residuals[i]));
+  const float gain = static_cast<float>(m_gain), bias = static_cast<float>(m_bias);
+  m_median.clear();
+  level.everyFew(everyFor(level), [&](std::size_t i) {
+    if (m_values[i] >= 0.f && level.slope2[i] >= slope2) {
+      m_median.add(std::abs(m_values[i] - gain * level.values[i] - bias));
     }
-  }
-  return m_scratch.empty() ? smallestSigma : std::max(smallestSigma, madToSigma * median());
+  });
+  return std::max(smallestSigma, madToSigma * m_median.value());
+}
+
+vpGreySamples vpPhotometry::samples(const vpPhotometricLevel &level, double sigma, double shift) const
+{
+  const vpPhotometricBound limit = bound(sigma, shift);
+  return {m_values.data(),
+          level.values.data(),
+          level.dx.data(),
+          level.dy.data(),
+          level.slope2.data(),
+          static_cast<float>(m_gain),
+          static_cast<float>(m_bias),
+          limit.noise2,
+          limit.shift2};
 }
 
 double vpPhotometry::fit(const vpPhotometricLevel &level)
 {
-  double sigma = update(level);
+  double sigma = deviation(level);
   for (int k = 0; k < 4; ++k) {
-    const vpPhotometricBound limit = bound(sigma, smallestShift);
-    Eigen::Matrix3d N = Eigen::Matrix3d::Zero();
-    std::size_t i = 0;
-    for (int r = 0; r < level.rows; ++r) {
-      float w1 = 0.f, wr = 0.f, wrr = 0.f, we = 0.f, wre = 0.f;
-      for (int c = 0; c < level.cols; ++c, ++i) {
-        const float e = m_residuals[i], value = level.samples[i].value;
-        const float w = limit.weight(e, level.samples[i]);
-        w1 += w;
-        wr += w * value;
-        wrr += w * value * value;
-        we += w * e;
-        wre += w * value * e;
-      }
-      N(0, 0) += wrr;
-      N(0, 1) += wr;
-      N(1, 1) += w1;
-      N(0, 2) += wre;
-      N(1, 2) += we;
-    }
+    double sums[5] = {};
+    m_loops.lightSums(samples(level, sigma, smallestShift), static_cast<int>(level.values.size()), sums);
+    Eigen::Matrix3d N;
+    N << sums[0], sums[1], sums[3], sums[1], sums[2], sums[4], 0., 0., 0.;
     const double det = N(0, 0) * N(1, 1) - N(0, 1) * N(0, 1);
     if (!(det > 1e-9 * N(0, 0) * N(1, 1))) {
       break; // the remaining samples have one grey value
@@ -222,7 +192,7 @@ double vpPhotometry::fit(const vpPhotometricLevel &level)
     const double gain = (N(1, 1) * N(0, 2) - N(0, 1) * N(1, 2)) / det;
     const double bias = (N(0, 0) * N(1, 2) - N(0, 1) * N(0, 2)) / det;
     addToLight(gain, bias);
-    sigma = update(level);
+    sigma = deviation(level);
     if (std::abs(gain) < 1e-3 * std::abs(m_gain) && std::abs(bias) < 0.1) {
       break;
     }
@@ -244,37 +214,29 @@ vpPhotometricBound vpPhotometry::bound(double sigma, double shift) const
 
 vpPhotometricFit vpPhotometry::judge(const vpPhotometricLevel &level, double sigma) const
 {
-  constexpr int block = 16; // samples; in larger blocks, light and dark halves would pass for a match of detail
-  const vpPhotometricBound limit = bound(sigma, smallestShift);
+  constexpr int block =
+      vpGreyMostLanes; // samples; in larger blocks, light and dark halves would pass for a match of detail
+  vpGreySamples part = samples(level, sigma, smallestShift);
   double inside = 0., accepted = 0., varR = 0., varI = 0., cov = 0.;
   for (int top = 0; top < level.rows; top += block) {
     for (int left = 0; left < level.cols; left += block) {
-      double count = 0., sumR = 0., sumI = 0., sumRR = 0., sumII = 0., sumRI = 0.;
-      for (int r = top; r < std::min(top + block, level.rows); ++r) {
-        for (int c = left; c < std::min(left + block, level.cols); ++c) {
-          const std::size_t i =
-              static_cast<std::size_t>(r) * static_cast<std::size_t>(level.cols) + static_cast<std::size_t>(c);
-          const double R = level.samples[i].value, I = m_values[i];
-          inside += I >= 0. ? 1. : 0.;
-          if (limit.weight(m_residuals[i], level.samples[i]) > 0.f) {
-            count += 1.;
-            sumR += R;
-            sumI += I;
-            sumRR += R * R;
-            sumII += I * I;
-            sumRI += R * I;
-          }
-        }
-      }
-      if (count > 0.) {
+      const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(top) * level.stride + left;
+      part.values = m_values.data() + at;
+      part.reference = level.values.data() + at;
+      part.slope2 = level.slope2.data() + at;
+      vpGreyMoments m;
+      m_loops.moments(part, std::min(block, level.rows - top), level.stride, m);
+      inside += m.inside;
+      if (m.count > 0.f) {
+        const double count = m.count, R = m.R, I = m.I;
         accepted += count;
-        varR += sumRR - sumR * sumR / count;
-        varI += sumII - sumI * sumI / count;
-        cov += sumRI - sumR * sumI / count;
+        varR += m.RR - R * R / count;
+        varI += m.II - I * I / count;
+        cov += m.RI - R * I / count;
       }
     }
   }
-  const double n = static_cast<double>(level.samples.size());
+  const double n = static_cast<double>(level.size());
   vpPhotometricFit result;
   result.inImage = inside / n;
   result.visible = accepted / n;

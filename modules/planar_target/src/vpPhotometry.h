@@ -10,6 +10,8 @@
 #ifndef vpPhotometry_h
 #define vpPhotometry_h
 
+#include "vpGreyLanes.h"
+#include "vpGreyMedian.h"
 #include "vpPlaneGeometry.h"
 
 #include <opencv2/core.hpp>
@@ -18,20 +20,29 @@
 
 BEGIN_VISP_NAMESPACE
 
-//! One sample of the reference.
-struct vpPhotometricSample {
-  float value;  //!< grey value
-  float dx, dy; //!< derivatives with respect to the plane coordinates, per vpPhotometricModel::unit()
-  float slope2; //!< squared gradient length, (grey levels per sample)^2
-};
-
 //! One level of the reference.
 struct vpPhotometricLevel {
-  int cols = 0, rows = 0;                   //!< number of samples, without the border of the level
-  double firstX = 0., firstY = 0.;          //!< first sample in the plane, in vpPhotometricModel::unit()
-  double pitchX = 0., pitchY = 0.;          //!< distance of samples, same units
-  std::vector<vpPhotometricSample> samples; //!< row by row
-  float textured = 0.f;                     //!< smallest slope2 of a sample with texture
+  int cols = 0, rows = 0;          //!< number of samples, without the border of the level
+  double firstX = 0., firstY = 0.; //!< first sample in the plane, in vpPhotometricModel::unit()
+  double pitchX = 0., pitchY = 0.; //!< distance of samples, same units
+  int stride = 0;                  //!< length of a row with padding, see vpGreyPadded()
+  std::vector<float> values;       //!< grey values, row by row; the padding of all is 0
+  std::vector<float> dx, dy; //!< derivatives with respect to the plane coordinates, per vpPhotometricModel::unit()
+  std::vector<float> slope2; //!< squared gradient length, (grey levels per sample)^2
+  float textured = 0.f;      //!< smallest slope2 of a sample with texture
+
+  //! Number of samples.
+  [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(cols) * static_cast<std::size_t>(rows); }
+  //! Calls visit(index) for every \e step-th sample.
+  template <class Visit> void everyFew(int step, const Visit &visit) const
+  {
+    for (int row = 0, col = 0; row < rows;) {
+      visit(static_cast<std::size_t>(row * stride + col));
+      for (col += step; col >= cols; col -= cols) {
+        ++row;
+      }
+    }
+  }
 };
 
 /*!
@@ -72,17 +83,10 @@ private:
   double m_contrast = 0.;
 };
 
-//! Accepted residuals: e^2 < noise2 + slope2 * (slope of the sample)^2, the bound of Tukey's weight.
+//! Accepted residuals: e^2 < noise2 + shift2 * (slope of the sample)^2, the bound of Tukey's weight.
 struct vpPhotometricBound {
   float noise2;
-  float slope2;
-
-  //! Tukey's weight (1 - e^2 / bound)^2, 0 beyond the bound.
-  [[nodiscard]] float weight(float residual, const vpPhotometricSample &sample) const
-  {
-    const float fit = 1.f - residual * residual / (noise2 + slope2 * sample.slope2);
-    return fit > 0.f ? fit * fit : 0.f;
-  }
+  float shift2;
 };
 
 //! Fit of the grey values of a frame to the reference at a pose.
@@ -116,10 +120,10 @@ public:
   void start(const vpPhotometricLevel &level);
   //! Gain and bias at the current samples, reweighted until convergence; returns the robust deviation of the residuals.
   double fit(const vpPhotometricLevel &level);
-  //! Residuals at the current samples, gain and bias; returns their robust deviation.
-  double update(const vpPhotometricLevel &level);
+  //! Robust deviation of the residuals at the current samples, gain and bias.
+  [[nodiscard]] double deviation(const vpPhotometricLevel &level) { return deviation(level, 0.f); }
   /*!
-   * Robust deviation after update() where the reference has texture. Blank areas fit to the noise, whatever the pose
+   * The same where the reference has texture. Blank areas fit to the noise, whatever the pose
    * and the softness; their deviation would reject misfitting edges and leave a pose confirmed only by blank areas.
    */
   double textureDeviation(const vpPhotometricLevel &level);
@@ -136,20 +140,18 @@ public:
 
   [[nodiscard]] double gain() const { return m_gain; }
   [[nodiscard]] double bias() const { return m_bias; }
-  //! Residual of each sample; huge outside the image.
-  [[nodiscard]] const std::vector<float> &residuals() const { return m_residuals; }
+  //! The samples for the loops over them, with the bound for \e sigma and \e shift.
+  [[nodiscard]] vpGreySamples samples(const vpPhotometricLevel &level, double sigma, double shift) const;
 
 private:
-  double median();
   double deviation(const vpPhotometricLevel &level, float slope2);
 
   const vpPhotometricModel &m_model;
   vpPinhole m_camera;
   double m_gain = 1., m_bias = 0.;
   std::vector<float> m_values; //!< of the frame at each sample, < 0 outside
-  std::vector<float> m_residuals;
-  std::vector<float> m_u, m_v; //!< frame coordinates of a row of samples
-  std::vector<double> m_scratch;
+  const vpGreyLanes &m_loops = vpChosenGreyLanes();
+  vpGreyMedian m_median{16};
 };
 
 END_VISP_NAMESPACE

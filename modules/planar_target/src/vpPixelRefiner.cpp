@@ -4,7 +4,6 @@
  */
 #include "vpPixelRefiner.h"
 
-#include <visp3/direct_core/vpQuantile.h>
 #include <visp3/direct_core/vpSO3.h>
 
 #include <Eigen/Cholesky>
@@ -42,89 +41,44 @@ constexpr int maskWindow = 7, maskGrowth = 7;       // px
 constexpr double misfitCap = 12., misfitLimit = 2.; // squares over variance, of a pixel and on average
 constexpr double largestHidden = 0.7;
 
-using Lanes = Eigen::Array<float, lanes, 1>;
-Lanes load(const cv::Mat &m, int row, int col) { return Eigen::Map<const Lanes>(m.ptr<float>(row) + col); }
+vpGreyPlane planeOf(const cv::Mat &m)
+{
+  return {const_cast<float *>(m.ptr<float>()), static_cast<std::ptrdiff_t>(m.step1())};
+}
 
-void clear(cv::Mat &buffer, int rows, int cols, int type)
+// Buffers grow and never shrink, because targets move. New ones hold zeros, so that all of them is finite.
+void enlarge(cv::Mat &buffer, int rows, int cols, int type)
 {
   if (buffer.type() != type || buffer.rows < rows || buffer.cols < cols) {
-    buffer.create(std::max(buffer.rows, rows), std::max(buffer.cols, cols), type);
+    buffer = cv::Mat::zeros(std::max(buffer.rows, rows), std::max(buffer.cols, cols), type);
   }
-  buffer(cv::Rect(0, 0, cols, rows)).setTo(0.);
 }
 } // namespace
 
-//! Sums over a block of weight * basis * basis^T and weight * basis * residual; the basis is (du, dv, grey, 1, dBlur).
-struct vpPixelRefiner::Sums {
-  Eigen::Matrix<double, 5, 5> normal;
-  Eigen::Matrix<double, 5, 1> right;
-};
-
-template <vpPixelRefiner::Weight kind> vpPixelRefiner::Sums vpPixelRefiner::blockSums(int row, int col) const
+// Sums over the blocks, see vpGreyLanes::blockSums.
+void vpPixelRefiner::sumBlocks(vpGreyWeights::Kind kind)
 {
-  const float gain = static_cast<float>(m_fit.camera.gain), bias = static_cast<float>(m_fit.camera.bias);
-  const float noise2 = static_cast<float>(tukey * tukey * m_fit.sigma * m_fit.sigma);
-  const double edge = tukey * m_slope * m_fit.camera.gain;
-  const float slope2 = static_cast<float>(edge * edge);
-  std::array<Lanes, 20> sums;
-  sums.fill(Lanes::Zero());
-  const int last = std::min(row + blockRows, m_prediction.area().height);
-  for (int r = row; r < last; ++r) {
-    const Lanes e = load(m_residuals, r, col), open = load(m_open, r, col), frame = load(m_frame, r, col);
-    const Lanes du = load(m_prediction.du(), r, col), dv = load(m_prediction.dv(), r, col);
-    const Lanes dBlur = load(m_prediction.dBlur(), r, col);
-    const Lanes grey = (frame - bias - e) / gain;
-    const Lanes misfit = (e * e / (noise2 + slope2 * (du * du + dv * dv))).min(1.f);
-    Lanes w = open * (1.f - misfit);
-    w *= kind == Weight::Derivative ? Lanes(1.f - 5.f * misfit) : Lanes(1.f - misfit);
-    if (kind == Weight::Score) {
-      w *= w * e * e;
-    }
-    const std::array<Lanes, 5> basis = {du, dv, grey, Lanes::Ones(), dBlur};
-    std::size_t k = 0;
-    for (std::size_t i = 0; i < 5; ++i) {
-      const Lanes weighted = w * basis[i];
-      for (std::size_t j = i; j < 5; ++j) {
-        sums[k++] += weighted * basis[j];
-      }
-      sums[k++] += weighted * e;
-    }
-  }
-  Sums result;
-  std::size_t k = 0;
-  for (int i = 0; i < 5; ++i) {
-    for (int j = i; j < 5; ++j) {
-      result.normal(i, j) = result.normal(j, i) = sums[k++].sum();
-    }
-    result.right(i) = sums[k++].sum();
-  }
-  return result;
+  const double edge = tukey * m_slope * m_fit.camera.gain, noise = tukey * m_fit.sigma;
+  const vpGreyWeights weights = {static_cast<float>(m_fit.camera.gain), static_cast<float>(m_fit.camera.bias),
+                                 static_cast<float>(noise * noise), static_cast<float>(edge * edge)};
+  m_sums.resize(24 * m_blocks.size());
+  m_loops.blockSums(planes(), m_blocks.data(), m_blocks.size(), kind, weights, m_sums.data());
 }
 
-// Calls visit(row, col, J, sums) for each block on the target, J the derivative of grey values over the gradient.
-template <vpPixelRefiner::Weight kind, typename Visit> void vpPixelRefiner::forBlocks(Visit visit) const
+vpGreyPixels vpPixelRefiner::planes() const
 {
-  const cv::Rect &area = m_prediction.area();
-  const auto &spans = m_prediction.spans();
-  for (int row = 0; row < area.height; row += blockRows) {
-    const int last = std::min(row + blockRows, area.height);
-    int begin = area.width, end = 0;
-    for (int r = row; r < last; ++r) {
-      const vpTargetPrediction::Span span = spans[static_cast<std::size_t>(r)];
-      if (span.begin < span.end) {
-        begin = std::min(begin, span.begin);
-        end = std::max(end, span.end);
-      }
-    }
-    for (int col = begin / lanes * lanes; col < end; col += lanes) {
-      visit(row, col, motion(row, col), blockSums<kind>(row, col));
-    }
-  }
+  return {planeOf(m_frame),
+          planeOf(m_open),
+          planeOf(m_residuals),
+          planeOf(m_prediction.grey()),
+          planeOf(m_prediction.du()),
+          planeOf(m_prediction.dv()),
+          planeOf(m_prediction.dBlur())};
 }
 
 void vpPixelRefiner::takeFrame(const cv::Mat &image, const cv::Rect &area)
 {
-  clear(m_frame, area.height, area.width, CV_32F);
+  enlarge(m_frame, area.height + blockRows, area.width, CV_32F);
   const cv::Rect seen = area & cv::Rect(cv::Point(), m_frameSize);
   const cv::Rect source(m_bin * seen.x, m_bin * seen.y, m_bin * seen.width, m_bin * seen.height);
   cv::Mat target = m_frame(cv::Rect(0, 0, seen.width, seen.height));
@@ -132,8 +86,8 @@ void vpPixelRefiner::takeFrame(const cv::Mat &image, const cv::Rect &area)
     image(source).convertTo(target, CV_32F);
   }
   else {
-    image(source).convertTo(m_misfit, CV_32F);
-    cv::resize(m_misfit, target, target.size(), 0., 0., cv::INTER_AREA); // mean of whole pixels: noise stays white
+    image(source).convertTo(m_mean, CV_32F);
+    cv::resize(m_mean, target, target.size(), 0., 0., cv::INTER_AREA); // mean of whole pixels: noise stays white
   }
 }
 
@@ -144,83 +98,95 @@ bool vpPixelRefiner::predict(const cv::Mat &image)
   }
   const cv::Rect &area = m_prediction.area();
   takeFrame(image, area);
-  clear(m_residuals, area.height, area.width, CV_32F);
-  clear(m_open, area.height, area.width, CV_32F);
-  for (int r = 0; r < area.height; ++r) {
-    const vpTargetPrediction::Span span = m_prediction.spans()[static_cast<std::size_t>(r)];
-    const unsigned char *const hidden = m_hidden.ptr<unsigned char>(area.y + r) + area.x;
+  enlarge(m_residuals, area.height + blockRows, area.width, CV_32F);
+  enlarge(m_open, area.height + blockRows, area.width, CV_32F);
+  for (int r = 0; r < (area.height + blockRows - 1) / blockRows * blockRows; ++r) {
     float *const open = m_open.ptr<float>(r);
-    for (int c = span.begin; c < span.end; ++c) {
-      open[c] = hidden[c] ? 0.f : 1.f;
+    std::fill_n(open, area.width, 0.f);
+    if (r < area.height) {
+      const vpTargetPrediction::Span span = m_prediction.spans()[static_cast<std::size_t>(r)];
+      const unsigned char *const hidden = m_hidden.ptr<unsigned char>(area.y + r) + area.x;
+      for (int c = span.begin; c < span.end; ++c) {
+        open[c] = hidden[c] ? 0.f : 1.f;
+      }
     }
   }
-  m_motions.clear();
-  for (int row = 0; row < area.height; row += blockRows) {
-    const double v = area.y + 0.5 * (row + std::min(row + blockRows, area.height) - 1);
-    for (int col = 0; col < area.width; col += lanes) {
-      m_motions.push_back(pixelMotion(m_fit.pose, m_binned, area.x + col + 0.5 * (lanes - 1), v));
-    }
-  }
+  makeBlocks();
   m_change.setZero();
   return true;
 }
 
-const vpPixelRefiner::Motion &vpPixelRefiner::motion(int row, int col) const
+// The blocks on the target.
+void vpPixelRefiner::makeBlocks()
 {
-  return m_motions[static_cast<std::size_t>(row / blockRows * (m_prediction.area().width / lanes) + col / lanes)];
+  const cv::Rect &area = m_prediction.area();
+  m_blocks.clear();
+  for (int row = 0; row < area.height; row += blockRows) {
+    const int last = std::min(row + blockRows, area.height);
+    int begin = area.width, end = 0;
+    for (int r = row; r < last; ++r) {
+      const vpTargetPrediction::Span span = m_prediction.spans()[static_cast<std::size_t>(r)];
+      if (span.begin < span.end) {
+        begin = std::min(begin, span.begin);
+        end = std::max(end, span.end);
+      }
+    }
+    const double v = area.y + 0.5 * (row + last - 1);
+    for (int col = begin / lanes * lanes; col < end; col += lanes) {
+      const Motion motion = pixelMotion(m_fit.pose, m_binned, area.x + col + 0.5 * (lanes - 1), v);
+      vpGreyBlock block = {row, col, {}};
+      for (int k = 0; k < 6; ++k) {
+        block.motion[0][k] = motion(0, k);
+        block.motion[1][k] = motion(1, k);
+      }
+      m_blocks.push_back(block);
+    }
+  }
 }
 
 void vpPixelRefiner::updateResiduals()
 {
-  const float gain = static_cast<float>(m_fit.camera.gain), bias = static_cast<float>(m_fit.camera.bias);
-  const float beta = static_cast<float>(m_change(8));
-  const cv::Rect &area = m_prediction.area();
-  for (int row = 0; row < area.height; row += blockRows) {
-    for (int col = 0; col < area.width; col += lanes) {
-      const Eigen::Vector2d shift = motion(row, col) * m_change.head<6>();
-      const float su = static_cast<float>(shift.x()), sv = static_cast<float>(shift.y());
-      for (int r = row; r < std::min(row + blockRows, area.height); ++r) {
-        const Lanes grey = load(m_prediction.grey(), r, col) - su * load(m_prediction.du(), r, col) -
-                           sv * load(m_prediction.dv(), r, col) + beta * load(m_prediction.dBlur(), r, col);
-        Eigen::Map<Lanes>(m_residuals.ptr<float>(r) + col) = load(m_frame, r, col) - bias - gain * grey;
-      }
-    }
-  }
+  m_loops.residuals(planes(), m_blocks.data(), m_blocks.size(), m_change.data(), static_cast<float>(m_fit.camera.gain),
+                    static_cast<float>(m_fit.camera.bias), static_cast<float>(m_change(8)));
 }
 
 // Standard deviation of the unoccluded residuals, from their median.
 double vpPixelRefiner::scale()
 {
   const int stride = 1 + m_prediction.pixels() / static_cast<int>(enoughForMedian);
-  m_sample.clear();
+  m_median.clear();
   int skip = 0;
   for (int r = 0; r < m_prediction.area().height; ++r) {
     const vpTargetPrediction::Span span = m_prediction.spans()[static_cast<std::size_t>(r)];
     int c = span.begin + skip;
     for (; c < span.end; c += stride) {
       if (m_open.at<float>(r, c) > 0.f) {
-        m_sample.push_back(std::abs(m_residuals.at<float>(r, c)));
+        m_median.add(std::abs(m_residuals.at<float>(r, c)));
       }
     }
     skip = std::max(0, c - span.end);
   }
-  const double median = vpQuantileInPlace(m_sample.data(), m_sample.data() + m_sample.size(), 0.5);
-  return m_sample.empty() ? smallestSigma : std::max(smallestSigma, madToSigma * median);
+  return std::max(smallestSigma, madToSigma * m_median.value());
 }
 
 // Normal equations of the nine parameters.
-template <vpPixelRefiner::Weight kind> void vpPixelRefiner::assemble(Normal &N, Params &right) const
+void vpPixelRefiner::assemble(vpGreyWeights::Kind kind, Normal &N, Params &right)
 {
-  N.setZero();
-  right.setZero();
-  forBlocks<kind>([&](int, int, const Motion &motion, const Sums &sums) {
-    const Eigen::Matrix<double, 6, 2> J = -m_fit.camera.gain * motion.transpose();
-    N.topLeftCorner<6, 6>() += J * sums.normal.topLeftCorner<2, 2>() * J.transpose();
-    N.topRightCorner<6, 3>() += J * sums.normal.topRightCorner<2, 3>();
-    N.bottomRightCorner<3, 3>() += sums.normal.bottomRightCorner<3, 3>();
-    right.head<6>() += J * sums.right.head<2>();
-    right.tail<3>() += sums.right.tail<3>();
-  });
+  sumBlocks(kind);
+  vpGreyNormal sums;
+  m_loops.assemble(m_blocks.data(), m_sums.data(), m_blocks.size(), m_fit.camera.gain, sums);
+  for (int i = 0; i < 6; ++i) {
+    N.block<1, 6>(i, 0) = Eigen::Map<const Eigen::Matrix<double, 1, 6>>(sums.pose[i]);
+    right(i) = sums.right[i];
+  }
+  constexpr int lightSum[3][3] = {{11, 12, 13}, {12, 15, 16}, {13, 16, 18}}, lightRight[3] = {14, 17, 19};
+  for (int i = 0; i < 3; ++i) {
+    N.block<6, 1>(0, 6 + i) = Eigen::Map<const Eigen::Matrix<double, 6, 1>>(sums.light[i]);
+    for (int j = 0; j < 3; ++j) {
+      N(6 + i, 6 + j) = sums.sums[lightSum[i][j]];
+    }
+    right(6 + i) = sums.sums[lightRight[i]];
+  }
   N.bottomLeftCorner<3, 6>() = N.topRightCorner<6, 3>().transpose();
   // The derivative with respect to the blur includes the gain.
   N.row(8) *= m_fit.camera.gain;
@@ -237,7 +203,7 @@ bool vpPixelRefiner::step(double &length)
   }
   Normal N;
   Params right;
-  assemble<Weight::Estimate>(N, right);
+  assemble(Kind::Estimate, N, right);
   Normal held = N;
   const double variance = m_fit.sigma * m_fit.sigma, move = usualMove * m_fit.pose.t.norm();
   held.diagonal().head<3>().array() += variance / (move * move);
@@ -278,27 +244,21 @@ bool vpPixelRefiner::descend()
 bool vpPixelRefiner::maskHidden()
 {
   const cv::Rect &area = m_prediction.area();
-  clear(m_misfit, area.height, area.width, CV_32F);
-  clear(m_count, area.height, area.width, CV_32F);
-  const double noise2 = m_fit.sigma * m_fit.sigma, edge = m_slope * m_fit.camera.gain;
+  enlarge(m_misfit, area.height, area.width + vpGreyMostLanes, CV_32F);
+  const double edge = m_slope * m_fit.camera.gain;
+  const vpGreyWeights variance = {1.f, 0.f, static_cast<float>(m_fit.sigma * m_fit.sigma),
+                                  static_cast<float>(edge * edge)};
   for (int r = 0; r < area.height; ++r) {
     const vpTargetPrediction::Span span = m_prediction.spans()[static_cast<std::size_t>(r)];
-    const float *const e = m_residuals.ptr<float>(r), *const du = m_prediction.du().ptr<float>(r),
-                       *const dv = m_prediction.dv().ptr<float>(r);
-    float *const misfit = m_misfit.ptr<float>(r), *const count = m_count.ptr<float>(r);
-    for (int c = span.begin; c < span.end; ++c) {
-      const float variance = static_cast<float>(noise2 + edge * edge * (du[c] * du[c] + dv[c] * dv[c]));
-      misfit[c] = std::min(static_cast<float>(misfitCap), e[c] * e[c] / variance);
-      count[c] = 1.f;
-    }
+    m_loops.misfit(m_residuals.ptr<float>(r), m_prediction.du().ptr<float>(r), m_prediction.dv().ptr<float>(r),
+                   span.begin, span.end, area.width, variance, static_cast<float>(misfitCap),
+                   static_cast<float>(misfitLimit), m_misfit.ptr<float>(r));
   }
-  const cv::Rect part(0, 0, area.width, area.height);
-  const cv::Size window(maskWindow, maskWindow);
-  cv::Mat misfit = m_misfit(part), count = m_count(part);
-  cv::boxFilter(misfit, misfit, CV_32F, window, cv::Point(-1, -1), false, cv::BORDER_CONSTANT | cv::BORDER_ISOLATED);
-  cv::boxFilter(count, count, CV_32F, window, cv::Point(-1, -1), false, cv::BORDER_CONSTANT | cv::BORDER_ISOLATED);
-  cv::scaleAdd(count, -misfitLimit, misfit, misfit);
-  cv::compare(misfit, 0., m_bad, cv::CMP_GT);
+  // The mean over the target's pixels in the window exceeds the limit where the sum of the differences is positive.
+  const cv::Mat misfit = m_misfit(cv::Rect(0, 0, area.width, area.height));
+  cv::boxFilter(misfit, m_mean, CV_32F, cv::Size(maskWindow, maskWindow), cv::Point(-1, -1), false,
+                cv::BORDER_CONSTANT | cv::BORDER_ISOLATED);
+  cv::compare(m_mean, 0., m_bad, cv::CMP_GT);
   cv::dilate(m_bad, m_bad, cv::Mat::ones(maskGrowth, maskGrowth, CV_8U));
   bool changed = false;
   for (int r = 0; r < area.height; ++r) {
@@ -353,18 +313,25 @@ void vpPixelRefiner::adopt()
 }
 
 // Sum of squares of the score of whole patches, which includes errors correlated between neighbours.
-vpPixelRefiner::Normal vpPixelRefiner::patchScores() const
+vpPixelRefiner::Normal vpPixelRefiner::patchScores()
 {
   const cv::Rect &area = m_prediction.area();
   const double gain = m_fit.camera.gain;
   const int across = area.width / (lanes * patch) + 1, down = area.height / (blockRows * patch) + 1;
   std::vector<Params> scores(static_cast<std::size_t>(across) * static_cast<std::size_t>(down), Params::Zero());
-  forBlocks<Weight::Estimate>([&](int row, int col, const Motion &motion, const Sums &sums) {
-    Params &score = scores[static_cast<std::size_t>(row / (blockRows * patch) * across + col / (lanes * patch))];
-    score.head<6>() -= gain * motion.transpose() * sums.right.head<2>();
-    score.segment<2>(6) += sums.right.segment<2>(2);
-    score(8) += gain * sums.right(4);
-  });
+  sumBlocks(Kind::Estimate);
+  for (std::size_t k = 0; k < m_blocks.size(); ++k) {
+    const vpGreyBlock &block = m_blocks[k];
+    const float *const sums = &m_sums[24 * k];
+    const int patchRow = block.row / (blockRows * patch), patchCol = block.col / (lanes * patch);
+    Params &score = scores[static_cast<std::size_t>(patchRow * across + patchCol)];
+    for (int i = 0; i < 6; ++i) {
+      score(i) -= gain * (block.motion[0][i] * sums[5] + block.motion[1][i] * sums[10]);
+    }
+    score(6) += sums[14];
+    score(7) += sums[17];
+    score(8) += gain * sums[19];
+  }
   Normal S = Normal::Zero();
   int used = 0;
   for (const Params &score : scores) {
@@ -400,8 +367,8 @@ void vpPixelRefiner::conclude()
   m_fit.sigma = scale();
   Normal A, B;
   Params unused;
-  assemble<Weight::Derivative>(A, unused);
-  assemble<Weight::Score>(B, unused);
+  assemble(Kind::Derivative, A, unused);
+  assemble(Kind::Score, B, unused);
   const Normal S = patchScores();
   const int open = judgeResiduals();
   const Eigen::LDLT<Normal> factor(A);
@@ -429,7 +396,8 @@ void vpPixelRefiner::begin(const cv::Mat &image, const vpRigidPose &pose, const 
   m_binned = {m_camera.px / k, m_camera.py / k, (m_camera.u0 - centre) / k, (m_camera.v0 - centre) / k, m_camera.kud};
   m_frameSize = cv::Size(image.cols / m_bin, image.rows / m_bin);
   m_fit.camera.blur = std::clamp(start.blur / k, vpTargetPrediction::sharpest, vpTargetPrediction::softest);
-  clear(m_hidden, m_frameSize.height, m_frameSize.width + lanes, CV_8U);
+  enlarge(m_hidden, m_frameSize.height, m_frameSize.width + lanes, CV_8U);
+  m_hidden(cv::Rect(0, 0, m_frameSize.width + lanes, m_frameSize.height)).setTo(0);
   m_slope = startSlope;
 }
 
@@ -478,21 +446,29 @@ const vpPixelFit &vpPixelRefiner::refine(const cv::Mat &image, const vpRigidPose
   return m_fit;
 }
 
-double vpPixelRefiner::distance(const vpRigidPose &other) const
+double vpPixelRefiner::distance(const vpRigidPose &other)
 {
   using Vector6 = Eigen::Matrix<double, 6, 1>;
   Eigen::Matrix<double, 6, 6> N = Eigen::Matrix<double, 6, 6>::Zero();
   Vector6 right = Vector6::Zero();
   double squares = 0.;
   const cv::Rect &area = m_prediction.area();
-  forBlocks<Weight::Estimate>([&](int row, int col, const Motion &motion, const Sums &sums) {
-    const Eigen::Vector2d shift =
-        pixelShift(m_fit.pose, other, m_binned, area.x + col + 0.5 * (lanes - 1), area.y + row + 0.5 * (blockRows - 1));
-    const Eigen::Matrix2d slopes = sums.normal.topLeftCorner<2, 2>();
+  sumBlocks(Kind::Estimate);
+  for (std::size_t k = 0; k < m_blocks.size(); ++k) {
+    const vpGreyBlock &block = m_blocks[k];
+    const Eigen::Vector2d shift = pixelShift(m_fit.pose, other, m_binned, area.x + block.col + 0.5 * (lanes - 1),
+                                             area.y + block.row + 0.5 * (blockRows - 1));
+    Motion motion;
+    Eigen::Matrix2d slopes;
+    for (int i = 0; i < 6; ++i) {
+      motion.col(i) << block.motion[0][i], block.motion[1][i];
+    }
+    const float *const sums = &m_sums[24 * k];
+    slopes << sums[0], sums[1], sums[1], sums[6];
     N += motion.transpose() * slopes * motion;
     right += motion.transpose() * slopes * shift;
     squares += shift.dot(slopes * shift);
-  });
+  }
   const double left = squares - right.dot(N.ldlt().solve(right));
   return m_fit.camera.gain / m_fit.sigma * std::sqrt(std::max(0., left));
 }

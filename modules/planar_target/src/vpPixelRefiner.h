@@ -9,6 +9,7 @@
 #ifndef vpPixelRefiner_h
 #define vpPixelRefiner_h
 
+#include "vpGreyMedian.h"
 #include "vpTargetPrediction.h"
 
 BEGIN_VISP_NAMESPACE
@@ -73,24 +74,23 @@ public:
   [[nodiscard]] const cv::Mat &open() const { return m_open; }           //!< see area()
   //! Distance of \e other from the fit in standard deviations of the pixels, after the fit's other parameters are
   //! adapted.
-  [[nodiscard]] double distance(const vpRigidPose &other) const;
+  [[nodiscard]] double distance(const vpRigidPose &other);
 
 private:
   using Params = Eigen::Matrix<double, 9, 1>; // v, w, gain, bias, half the square of the blur
   using Normal = Eigen::Matrix<double, 9, 9>;
   using Motion = Eigen::Matrix<double, 2, 6>;
-  struct Sums;
-  enum class Weight { Estimate, Derivative, Score };
+  using Kind = vpGreyWeights::Kind;
 
   void begin(const cv::Mat &image, const vpRigidPose &pose, const vpCameraState &start);
   bool predict(const cv::Mat &image);
-  [[nodiscard]] const Motion &motion(int row, int col) const;
+  void makeBlocks();
   void takeFrame(const cv::Mat &image, const cv::Rect &area);
   void updateResiduals();
   double scale();
-  template <Weight kind> Sums blockSums(int row, int col) const;
-  template <Weight kind, typename Visit> void forBlocks(Visit visit) const;
-  template <Weight kind> void assemble(Normal &N, Params &right) const;
+  [[nodiscard]] vpGreyPixels planes() const;
+  void sumBlocks(Kind kind);
+  void assemble(Kind kind, Normal &N, Params &right);
   bool descend();
   bool step(double &length);
   double largestMove() const;
@@ -98,7 +98,7 @@ private:
   double blurred(double change) const;
   void adopt();
   bool maskHidden();
-  Normal patchScores() const;
+  Normal patchScores();
   int judgeResiduals();
   void conclude();
 
@@ -113,9 +113,11 @@ private:
   int m_bin = 1;
   vpPinhole m_binned;   // camera of the frame after binning
   cv::Size m_frameSize; // likewise
-  cv::Mat m_frame, m_residuals, m_open, m_hidden, m_misfit, m_count, m_bad;
-  std::vector<Motion> m_motions; // of the blocks, at the prediction
-  std::vector<double> m_sample;
+  cv::Mat m_frame, m_residuals, m_open, m_hidden, m_misfit, m_mean, m_bad;
+  const vpGreyLanes &m_loops = vpChosenGreyLanes();
+  std::vector<vpGreyBlock> m_blocks; // on the target, with their motions at the prediction
+  std::vector<float> m_sums;         // see sumBlocks()
+  vpGreyMedian m_median{64};
 };
 
 END_VISP_NAMESPACE

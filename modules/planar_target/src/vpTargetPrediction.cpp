@@ -22,20 +22,16 @@ constexpr int smallestSide = 16;  // of a texture, texels
 constexpr double texelSize = 0.6; // px
 constexpr double reach = 3.;      // deviations of the blur: of the kernel,
 constexpr double edge = 2.;       // and from the edge of the target, beyond half a pixel and another half
-constexpr int undistortSteps = 4; // fixed point; each gains a factor of 3 kud r^2
-
-using Lanes = Eigen::Array<float, vpTargetPrediction::lanes, 1>;
 
 // Undistorted normalised coordinates of a pixel.
-template <typename T> void toNormalised(const vpPinhole &camera, T u, T v, T &x, T &y)
+void toNormalised(const vpPinhole &camera, double u, double v, double &x, double &y)
 {
-  const T xd = (u - static_cast<T>(camera.u0)) / static_cast<T>(camera.px);
-  const T yd = (v - static_cast<T>(camera.v0)) / static_cast<T>(camera.py);
+  const double xd = (u - camera.u0) / camera.px, yd = (v - camera.v0) / camera.py;
   x = xd;
   y = yd;
   if (camera.kud != 0.) {
-    for (int k = 0; k < undistortSteps; ++k) {
-      const T scale = T(1) / (T(1) + static_cast<T>(camera.kud) * (x * x + y * y));
+    for (int k = 0; k < vpGreyTextureRow::undistortSteps; ++k) {
+      const double scale = 1. / (1. + camera.kud * (x * x + y * y));
       x = xd * scale;
       y = yd * scale;
     }
@@ -49,13 +45,12 @@ Eigen::Matrix3d planeToCamera(const vpRigidPose &pose)
   return H;
 }
 
-cv::Mat resized(cv::Mat &buffer, int rows, int cols)
+// Buffers grow and never shrink, because targets move. New ones hold zeros, so that all of them is finite.
+void enlarge(cv::Mat &buffer, int rows, int cols)
 {
-  // Buffers grow and never shrink, because targets move.
   if (buffer.rows < rows || buffer.cols < cols) {
-    buffer.create(std::max(buffer.rows, rows), std::max(buffer.cols, cols), CV_32F);
+    buffer = cv::Mat::zeros(std::max(buffer.rows, rows), std::max(buffer.cols, cols), CV_32F);
   }
-  return buffer;
 }
 } // namespace
 
@@ -63,13 +58,17 @@ vpTargetTexture::vpTargetTexture(const cv::Mat &reference, const vpTargetPlane &
 {
   cv::Mat level;
   reference.convertTo(level, CV_32F);
-  m_levels.push_back(level);
+  const auto add = [this](const cv::Mat &image) {
+    m_levels.emplace_back();
+    image.convertTo(m_levels.back(), CV_16U, scale);
+  };
+  add(level);
   while (std::min(level.cols, level.rows) >= 2 * smallestSide) {
     cv::Mat half;
     // Also for odd sizes: the level still covers the target from edge to edge.
     cv::resize(level, half, cv::Size((level.cols + 1) / 2, (level.rows + 1) / 2), 0., 0., cv::INTER_AREA);
     level = half;
-    m_levels.push_back(level);
+    add(level);
   }
 }
 
@@ -115,6 +114,7 @@ struct vpTargetPrediction::Kernel {
       curvature[k] = static_cast<float>((16. * (at(i - 1) + at(i + 1)) - 30. * at(i) - (at(i - 2) + at(i + 2))) / 3.);
     }
   }
+  [[nodiscard]] std::array<const float *, 3> parts() const { return {mean.data(), slope.data(), curvature.data()}; }
   //! Radius of the kernel, whole pixels.
   [[nodiscard]] int halo() const { return (size + 1) / 2; }
 };
@@ -159,7 +159,7 @@ bool vpTargetPrediction::findArea(const vpRigidPose &pose, const vpPinhole &came
   const Eigen::Matrix3d toPlane = planeToCamera(pose).inverse();
   const auto inside = [&](int u, int v) {
     double x, y;
-    toNormalised<double>(camera, u, v, x, y);
+    toNormalised(camera, u, v, x, y);
     const Eigen::Vector3d q = toPlane * Eigen::Vector3d(x, y, 1.);
     return std::abs(q.x()) <= halfX * q.z() && std::abs(q.y()) <= halfY * q.z();
   };
@@ -178,104 +178,46 @@ bool vpTargetPrediction::findArea(const vpRigidPose &pose, const vpPinhole &came
 }
 
 // Two samples per pixel of [begin, end) of the rectangle's columns, at row v of the frame.
-void vpTargetPrediction::sampleRow(const cv::Mat &texture, const Eigen::Matrix3f &toTexel, const vpPinhole &camera,
-                                   double v, int begin, int end)
+void vpTargetPrediction::sampleRow(const vpGreyLanes &loops, vpGreyTextureRow &row, double v, int begin, int end)
 {
-  const int n = 2 * (end - begin), stride = static_cast<int>(texture.step1());
-  const float lastU = static_cast<float>(texture.cols - 1) - 1e-3f,
-              lastV = static_cast<float>(texture.rows - 1) - 1e-3f;
-  const float first = static_cast<float>(m_area.x + begin) - 0.25f, line = static_cast<float>(v);
-  float *const texelU = m_texelU.data(), *const texelV = m_texelV.data();
-  int *const texel = m_texel.data();
-  // Separate loops with one kind of work each, which compilers vectorise.
-  if (camera.kud == 0.) {
-    float x, y;
-    toNormalised<float>(camera, first, line, x, y);
-    const float step = static_cast<float>(0.5 / camera.px);
-    for (int i = 0; i < n; ++i) {
-      texelU[i] = x + step * static_cast<float>(i);
-      texelV[i] = y;
-    }
-  }
-  else {
-    for (int i = 0; i < n; ++i) {
-      toNormalised<float>(camera, first + 0.5f * static_cast<float>(i), line, texelU[i], texelV[i]);
-    }
-  }
-  for (int i = 0; i < n; ++i) {
-    const float x = texelU[i], y = texelV[i];
-    const float scale = 1.f / (toTexel(2, 0) * x + toTexel(2, 1) * y + toTexel(2, 2));
-    const float a = scale * (toTexel(0, 0) * x + toTexel(0, 1) * y + toTexel(0, 2));
-    const float b = scale * (toTexel(1, 0) * x + toTexel(1, 1) * y + toTexel(1, 2));
-    const float u = std::min(lastU, std::max(0.f, a)), w = std::min(lastV, std::max(0.f, b)); // also removes NaN
-    const int iu = static_cast<int>(u), iv = static_cast<int>(w);
-    texelU[i] = u - static_cast<float>(iu);
-    texelV[i] = w - static_cast<float>(iv);
-    texel[i] = iv * stride + iu;
-  }
-  const float *const upperRow = texture.ptr<float>(), *const lowerRow = upperRow + stride;
-  const auto sample = [&](int i) {
-    const float *const p = upperRow + texel[i], *const q = lowerRow + texel[i];
-    const float upper = p[0] + texelU[i] * (p[1] - p[0]), lower = q[0] + texelU[i] * (q[1] - q[0]);
-    return upper + texelV[i] * (lower - upper);
-  };
-  float *const left = m_left.data(), *const right = m_right.data();
-  for (int i = 0; i < n / 2; ++i) {
-    left[i] = sample(2 * i);
-    right[i] = sample(2 * i + 1);
-  }
+  const int count = vpGreyPadded(end - begin);
+  row.row = static_cast<float>(v);
+  row.first = static_cast<float>(m_area.x + begin) - 0.25f;
+  loops.sampleTexture(row, count, m_left.data());
+  row.first += 0.5f;
+  loops.sampleTexture(row, count, m_right.data());
 }
 
 // Filters the samples along the row. begin and end as in sampleRow(); row is that of the ring.
-void vpTargetPrediction::filterRow(const Kernel &kernel, int begin, int end, int row)
+void vpTargetPrediction::filterRow(const vpGreyLanes &loops, const Kernel &kernel, int begin, int end, int row)
 {
-  const int halo = kernel.halo();
-  float *const mean = m_smooth.ptr<float>(row), *const slope = m_slope.ptr<float>(row),
-               *const curvature = m_curvature.ptr<float>(row);
-  const int last = std::min(end - halo, m_area.width);
-  for (int c = std::max(0, begin + halo); c < last; c += lanes) {
-    Lanes h = Lanes::Zero(), d = Lanes::Zero(), l = Lanes::Zero();
-    for (int i = 0; i < kernel.size; ++i) {
-      // Sample 1/4 + i/2 to the right is in the right half when i is even; its mirror image in the left half.
-      const int step = (i + 1) / 2, k = c - begin;
-      const float *const above =
-          i % 2 == 0 ? &m_right[static_cast<std::size_t>(k + step)] : &m_left[static_cast<std::size_t>(k + step)];
-      const float *const below =
-          i % 2 == 0 ? &m_left[static_cast<std::size_t>(k - step)] : &m_right[static_cast<std::size_t>(k - step)];
-      const Lanes a = Eigen::Map<const Lanes>(above), b = Eigen::Map<const Lanes>(below), sum = a + b;
-      h += kernel.mean[static_cast<std::size_t>(i)] * sum;
-      d += kernel.slope[static_cast<std::size_t>(i)] * (a - b);
-      l += kernel.curvature[static_cast<std::size_t>(i)] * sum;
-    }
-    Eigen::Map<Lanes>(mean + c) = h;
-    Eigen::Map<Lanes>(slope + c) = d;
-    Eigen::Map<Lanes>(curvature + c) = l;
-  }
+  const int halo = kernel.halo(), first = std::max(0, begin + halo), last = std::min(end - halo, m_area.width);
+  float *const out[3] = {m_smooth.ptr<float>(row) + first, m_slope.ptr<float>(row) + first,
+                         m_curvature.ptr<float>(row) + first};
+  const auto shift = static_cast<std::size_t>(first - begin);
+  loops.filterRow(m_left.data() + shift, m_right.data() + shift, kernel.parts().data(), kernel.size, last - first, out);
 }
 
 // One row of the prediction from the ring.
-void vpTargetPrediction::filterColumns(const Kernel &kernel, int row)
+void vpTargetPrediction::filterColumns(const vpGreyLanes &loops, const Kernel &kernel, int row)
 {
   const Span span = m_spans[static_cast<std::size_t>(row)];
   const int ring = 4 * kernel.halo() + 2, first = 2 * (row + kernel.halo()); // fine row of this row's upper half
-  for (int c = span.begin / lanes * lanes; c < span.end; c += lanes) {
-    Lanes grey = Lanes::Zero(), du = Lanes::Zero(), dv = Lanes::Zero(), dBlur = Lanes::Zero();
-    for (int i = 0; i < kernel.size; ++i) {
-      const int lower = (first + 1 + i) % ring, upper = (first - i) % ring;
-      const auto at = [c](const cv::Mat &m, int r) -> Lanes { return Eigen::Map<const Lanes>(m.ptr<float>(r) + c); };
-      const Lanes a = at(m_smooth, lower), b = at(m_smooth, upper), sum = a + b;
-      const float h = kernel.mean[static_cast<std::size_t>(i)];
-      grey += h * sum;
-      du += h * (at(m_slope, lower) + at(m_slope, upper));
-      dv += kernel.slope[static_cast<std::size_t>(i)] * (a - b);
-      dBlur +=
-          h * (at(m_curvature, lower) + at(m_curvature, upper)) + kernel.curvature[static_cast<std::size_t>(i)] * sum;
-    }
-    Eigen::Map<Lanes>(m_grey.ptr<float>(row) + c) = grey;
-    Eigen::Map<Lanes>(m_du.ptr<float>(row) + c) = du;
-    Eigen::Map<Lanes>(m_dv.ptr<float>(row) + c) = dv;
-    Eigen::Map<Lanes>(m_dBlur.ptr<float>(row) + c) = dBlur;
+  const int begin = span.begin / lanes * lanes;
+  std::array<const float *, static_cast<std::size_t>(3 * Kernel::most)> below{}, above{};
+  for (int i = 0; i < kernel.size; ++i) {
+    const auto k = static_cast<std::size_t>(3 * i);
+    const int lower = (first + 1 + i) % ring, upper = (first - i) % ring;
+    below[k] = m_smooth.ptr<float>(lower) + begin;
+    above[k] = m_smooth.ptr<float>(upper) + begin;
+    below[k + 1] = m_slope.ptr<float>(lower) + begin;
+    above[k + 1] = m_slope.ptr<float>(upper) + begin;
+    below[k + 2] = m_curvature.ptr<float>(lower) + begin;
+    above[k + 2] = m_curvature.ptr<float>(upper) + begin;
   }
+  float *const out[4] = {m_grey.ptr<float>(row) + begin, m_du.ptr<float>(row) + begin, m_dv.ptr<float>(row) + begin,
+                         m_dBlur.ptr<float>(row) + begin};
+  loops.filterColumns(below.data(), above.data(), kernel.parts().data(), kernel.size, span.end - begin, out);
 }
 
 bool vpTargetPrediction::predict(const vpTargetTexture &texture, const vpRigidPose &pose, const vpPinhole &camera,
@@ -292,20 +234,29 @@ bool vpTargetPrediction::predict(const vpTargetTexture &texture, const vpRigidPo
       0.5 * level.rows - 0.5, 0., 0., 1.;
   Eigen::Matrix3d normalisedToTexel = toTexel * planeToCamera(pose).inverse();
   normalisedToTexel *= pose.t.z(); // about 1 in the denominator
-  const Eigen::Matrix3f projection = normalisedToTexel.cast<float>();
+  vpGreyTextureRow source = {};
+  source.texels = level.ptr<std::uint16_t>();
+  source.step = static_cast<int>(level.step1());
+  source.lastU = static_cast<float>(level.cols - 1) - 1e-3f;
+  source.lastV = static_cast<float>(level.rows - 1) - 1e-3f;
+  Eigen::Map<Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(source.toTexel) = normalisedToTexel.cast<float>();
+  source.px = static_cast<float>(camera.px);
+  source.py = static_cast<float>(camera.py);
+  source.u0 = static_cast<float>(camera.u0);
+  source.v0 = static_cast<float>(camera.v0);
+  source.kud = static_cast<float>(camera.kud);
 
+  const vpGreyLanes &loops = vpChosenGreyLanes();
   const int halo = kernel.halo(), rows = m_area.height, ring = 4 * halo + 2;
   for (cv::Mat *m : {&m_grey, &m_du, &m_dv, &m_dBlur}) {
-    resized(*m, rows, m_area.width).setTo(0.f);
+    enlarge(*m, rows + lanes, m_area.width + vpGreyMostLanes);
   }
   for (cv::Mat *m : {&m_smooth, &m_slope, &m_curvature}) {
-    resized(*m, ring, m_area.width + lanes);
+    enlarge(*m, ring, m_area.width + vpGreyMostLanes);
   }
-  const std::size_t samples = 2 * static_cast<std::size_t>(m_area.width + 2 * halo + 2 * lanes);
-  for (std::vector<float> *v : {&m_texelU, &m_texelV, &m_left, &m_right}) {
-    v->resize(samples);
-  }
-  m_texel.resize(samples);
+  const std::size_t samples = static_cast<std::size_t>(m_area.width + 4 * halo + 3 * vpGreyMostLanes);
+  m_left.resize(std::max(m_left.size(), samples));
+  m_right.resize(m_left.size());
   int next = 0; // row of samples, 0 is the upper one of row -halo
   for (int r = 0; r < rows; ++r) {
     if (m_spans[static_cast<std::size_t>(r)].begin >= m_spans[static_cast<std::size_t>(r)].end) {
@@ -325,10 +276,10 @@ bool vpTargetPrediction::predict(const vpTargetTexture &texture, const vpRigidPo
       if (begin >= end) {
         continue;
       }
-      sampleRow(level, projection, camera, m_area.y - halo + 0.5 * next - 0.25, begin - halo, end + halo);
-      filterRow(kernel, begin - halo, end + halo, next % ring);
+      sampleRow(loops, source, m_area.y - halo + 0.5 * next - 0.25, begin - halo, end + halo);
+      filterRow(loops, kernel, begin - halo, end + halo, next % ring);
     }
-    filterColumns(kernel, r);
+    filterColumns(loops, kernel, r);
   }
   return true;
 }
@@ -336,7 +287,7 @@ bool vpTargetPrediction::predict(const vpTargetTexture &texture, const vpRigidPo
 Eigen::Matrix<double, 2, 6> pixelMotion(const vpRigidPose &pose, const vpPinhole &camera, double u, double v)
 {
   double x, y;
-  toNormalised<double>(camera, u, v, x, y);
+  toNormalised(camera, u, v, x, y);
   const Eigen::Vector3d ray(x, y, 1.), normal = pose.R.col(2);
   const double Z = normal.dot(pose.t) / normal.dot(ray);
   Eigen::Matrix<double, 2, 3> projection;
@@ -355,7 +306,7 @@ Eigen::Matrix<double, 2, 6> pixelMotion(const vpRigidPose &pose, const vpPinhole
 Eigen::Vector2d pixelShift(const vpRigidPose &from, const vpRigidPose &to, const vpPinhole &camera, double u, double v)
 {
   double x, y;
-  toNormalised<double>(camera, u, v, x, y);
+  toNormalised(camera, u, v, x, y);
   const Eigen::Vector3d ray(x, y, 1.), normal = from.R.col(2);
   const Eigen::Vector3d point = from.R.transpose() * (ray * (normal.dot(from.t) / normal.dot(ray)) - from.t);
   const Eigen::Vector3d P = to.R * point + to.t;

@@ -9,16 +9,19 @@
 #ifndef vpTargetPrediction_h
 #define vpTargetPrediction_h
 
+#include "vpGreyLanes.h"
 #include "vpPlaneGeometry.h"
 
 #include <opencv2/core.hpp>
 
 BEGIN_VISP_NAMESPACE
 
-//! The reference as grey values of CV_32F, each level the means of 2x2 pixels of the one before.
+//! The reference as grey values, each level the means of 2x2 pixels of the one before.
 class vpTargetTexture
 {
 public:
+  static constexpr int scale = vpGreyTextureRow::scale; //!< of the stored grey values, CV_16U
+
   //! \param reference : CV_8UC1.
   vpTargetTexture(const cv::Mat &reference, const vpTargetPlane &plane);
   //! The coarsest level with a texel of at most 0.6 pixels at this pose: finer than the frame, if the reference is.
@@ -61,6 +64,7 @@ public:
   [[nodiscard]] const std::vector<Span> &spans() const { return m_spans; } //!< one for each row
   [[nodiscard]] int pixels() const { return m_pixels; }                    //!< in all spans
   //! Grey values and their derivatives with respect to u, v (per px), and half the squared blur (per px^2); CV_32F.
+  //! Beyond the spans: old values, finite, up to whole blocks of lanes x lanes.
   [[nodiscard]] const cv::Mat &grey() const { return m_grey; }
   [[nodiscard]] const cv::Mat &du() const { return m_du; }       //!< see grey()
   [[nodiscard]] const cv::Mat &dv() const { return m_dv; }       //!< see grey()
@@ -69,18 +73,15 @@ public:
 private:
   struct Kernel;
   bool findArea(const vpRigidPose &pose, const vpPinhole &camera, cv::Size size, double margin);
-  void sampleRow(const cv::Mat &texture, const Eigen::Matrix3f &toTexel, const vpPinhole &camera, double v, int begin,
-                 int end);
-  void filterRow(const Kernel &kernel, int begin, int end, int row);
-  void filterColumns(const Kernel &kernel, int row);
+  void sampleRow(const vpGreyLanes &loops, vpGreyTextureRow &row, double v, int begin, int end);
+  void filterRow(const vpGreyLanes &loops, const Kernel &kernel, int begin, int end, int row);
+  void filterColumns(const vpGreyLanes &loops, const Kernel &kernel, int row);
 
   vpTargetPlane m_plane;
   cv::Rect m_area;
   std::vector<Span> m_spans;
   int m_pixels = 0;
   cv::Mat m_grey, m_du, m_dv, m_dBlur;
-  std::vector<float> m_texelU, m_texelV;  //!< of one row of samples: where, then where between four texels
-  std::vector<int> m_texel;               //!< likewise: index of the first of the four
   std::vector<float> m_left, m_right;     //!< the samples in the left and in the right half of each pixel of a row
   cv::Mat m_smooth, m_slope, m_curvature; //!< rows of samples, filtered along the row; a ring
 };
