@@ -2,7 +2,7 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Acquisition and tracking of a planar target in 640x480 renders, on one core, compared with ViSP and OpenCV. Each
+// Acquisition of a planar target in 640x480 renders, and tracking there and in 1920x1080 (/1080), on one core, compared with ViSP and OpenCV. Each
 // benchmark also shows its error: rotation against the render's truth, deg (root mean square over the poses).
 #include "../test/vpPlanarScene.h"
 #include "vpBenchmark.h"
@@ -16,6 +16,8 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/features2d.hpp>
 #include <opencv2/video/tracking.hpp>
+
+#include <cstdint>
 
 namespace
 {
@@ -48,22 +50,35 @@ const std::vector<View> &scattered()
   return views;
 }
 
-// A camera that moves: 3 to 4 px and 0.4 deg per frame, back and forth.
-const std::vector<View> &sequence()
+// Of 640x480 or, with 1080 rows, 1920x1080 px: the same view, 2.25 times as large.
+vpCameraParameters cameraOf(std::int64_t rows)
 {
-  static const std::vector<View> views = []() {
-    std::vector<View> all(24);
-    std::mt19937_64 rng(8);
-    const Image behind = vpPlanarScene::background(rng);
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      const double s = i < 12 ? i : 24. - i;
-      all[i].cMo = vpPlanarScene::pose(0.002 * s - 0.01, 0.001 * s, 0.52 + 0.002 * s, 0.007 * s, 0.1, 0.007 * s - 0.1);
-      all[i].image = behind;
-      vpPlanarScene::draw(all[i].image, klimt(), vpPlanarScene::camera(), all[i].cMo);
-    }
-    return all;
-  }();
-  return views;
+  return rows == 1080 ? vpCameraParameters(1800., 1800., 959.5, 539.5) : vpPlanarScene::camera();
+}
+
+std::vector<View> makeSequence(std::int64_t rows)
+{
+  std::vector<View> all(24);
+  std::mt19937_64 rng(8);
+  const Image behind = rows == 1080 ? vpPlanarScene::background(rng, 1080, 1920) : vpPlanarScene::background(rng);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const double s = i < 12 ? i : 24. - i;
+    all[i].cMo = vpPlanarScene::pose(0.002 * s - 0.01, 0.001 * s, 0.52 + 0.002 * s, 0.007 * s, 0.1, 0.007 * s - 0.1);
+    all[i].image = behind;
+    vpPlanarScene::draw(all[i].image, klimt(), cameraOf(rows), all[i].cMo);
+  }
+  return all;
+}
+
+// A camera that moves: 3 to 4 px of 640 and 0.4 deg per frame, back and forth.
+const std::vector<View> &sequence(std::int64_t rows = 480)
+{
+  static const std::vector<View> small = makeSequence(480);
+  if (rows != 1080) {
+    return small;
+  }
+  static const std::vector<View> large = makeSequence(1080);
+  return large;
 }
 
 cv::Mat view(const Image &image)
@@ -72,7 +87,7 @@ cv::Mat view(const Image &image)
 }
 
 // Pose from a homography of reference pixels to frame pixels, for methods that give only that: IPPE on a grid.
-vpHomogeneousMatrix poseOf(const cv::Mat &H)
+vpHomogeneousMatrix poseOf(const cv::Mat &H, std::int64_t rows = 480)
 {
   const double W = klimt().image.getWidth(), Hh = klimt().image.getHeight();
   std::vector<cv::Point2f> reference, image;
@@ -86,7 +101,8 @@ vpHomogeneousMatrix poseOf(const cv::Mat &H)
   }
   cv::perspectiveTransform(reference, image, H);
   cv::Mat rvec, tvec, R;
-  const cv::Matx33d K(800., 0., 319.5, 0., 800., 239.5, 0., 0., 1.);
+  const vpCameraParameters camera = cameraOf(rows);
+  const cv::Matx33d K(camera.get_px(), 0., camera.get_u0(), 0., camera.get_py(), camera.get_v0(), 0., 0., 1.);
   cv::solvePnP(object, image, K, cv::noArray(), rvec, tvec, false, cv::SOLVEPNP_IPPE);
   cv::Rodrigues(rvec, R);
   vpHomogeneousMatrix M;
@@ -186,12 +202,13 @@ void acquireVispKeyPoint(benchmark::State &state)
 
 void track(benchmark::State &state)
 {
-  vpPlanarTarget target(klimt().image, klimt().width, klimt().height, vpPlanarScene::camera());
-  target.acquire(sequence()[0].image);
+  const std::int64_t rows = state.range(0);
+  vpPlanarTarget target(klimt().image, klimt().width, klimt().height, cameraOf(rows));
+  target.acquire(sequence(rows)[0].image);
   Error error;
   std::size_t i = 1;
   for (auto _ : state) {
-    const View &frame = sequence()[i++ % sequence().size()];
+    const View &frame = sequence(rows)[i++ % sequence(rows).size()];
     const vpPlanarTargetResult &result = target.track(frame.image);
     if (result.found()) {
       error.add(frame.cMo, result.cMo);
@@ -209,26 +226,28 @@ void track(benchmark::State &state)
 // ViSP's template trackers track the outline given in the first frame, by a homography on its first image.
 template <typename Tracker> void trackVispTemplate(benchmark::State &state)
 {
+  const std::int64_t rows = state.range(0);
+  const vpCameraParameters camera = cameraOf(rows);
   vpTemplateTrackerWarpHomography warp;
   Tracker tracker(&warp);
   tracker.setSampling(3, 3);
   tracker.setLambda(0.001);
   tracker.setIterationMax(50);
   tracker.setPyramidal(2, 1);
-  const View &first = sequence()[0];
+  const View &first = sequence(rows)[0];
   std::vector<vpImagePoint> triangles;
   const double x = 0.48 * klimt().width, y = 0.48 * klimt().height;
   const double corners[6][2] = {{-x, -y}, {x, -y}, {x, y}, {-x, -y}, {x, y}, {-x, y}};
   for (const auto &c : corners) {
     const vpHomogeneousMatrix &M = first.cMo;
     const double Z = M[2][0] * c[0] + M[2][1] * c[1] + M[2][3];
-    triangles.emplace_back(239.5 + 800. * (M[1][0] * c[0] + M[1][1] * c[1] + M[1][3]) / Z,
-                           319.5 + 800. * (M[0][0] * c[0] + M[0][1] * c[1] + M[0][3]) / Z);
+    triangles.emplace_back(camera.get_v0() + camera.get_py() * (M[1][0] * c[0] + M[1][1] * c[1] + M[1][3]) / Z,
+                           camera.get_u0() + camera.get_px() * (M[0][0] * c[0] + M[0][1] * c[1] + M[0][3]) / Z);
   }
   tracker.initFromPoints(first.image, triangles);
   std::size_t i = 1, lost = 0;
   for (auto _ : state) {
-    const View &frame = sequence()[i++ % sequence().size()];
+    const View &frame = sequence(rows)[i++ % sequence(rows).size()];
     try {
       tracker.track(frame.image);
     }
@@ -274,26 +293,28 @@ void trackOpenCvEcc(benchmark::State &state)
 
 void trackOpenCvFlow(benchmark::State &state)
 {
+  const std::int64_t rows = state.range(0);
   // Points of the reference, tracked from frame to frame, homography each time: it drifts, as such trackers do.
-  vpPlanarTarget target(klimt().image, klimt().width, klimt().height, vpPlanarScene::camera());
+  vpPlanarTarget target(klimt().image, klimt().width, klimt().height, cameraOf(rows));
   std::vector<cv::Point2f> reference, points;
   cv::goodFeaturesToTrack(view(klimt().image), reference, 300, 0.01, 7.);
   const auto restart = [&]() {
-    const vpPlanarTargetResult &r = target.acquire(sequence()[0].image);
+    const vpPlanarTargetResult &r = target.acquire(sequence(rows)[0].image);
     cv::perspectiveTransform(reference, points, cv::Mat(3, 3, CV_64F, const_cast<double *>(r.homography.data())));
   };
   restart();
   Error error;
   std::size_t i = 1, frames = 0;
   for (auto _ : state) {
-    const View &before = sequence()[(i - 1) % sequence().size()], &frame = sequence()[i % sequence().size()];
+    const View &before = sequence(rows)[(i - 1) % sequence(rows).size()],
+               &frame = sequence(rows)[i % sequence(rows).size()];
     ++i;
     std::vector<cv::Point2f> next;
     std::vector<unsigned char> ok;
     std::vector<float> distance;
     cv::calcOpticalFlowPyrLK(view(before.image), view(frame.image), points, next, ok, distance);
     const cv::Mat H = cv::findHomography(reference, next, cv::RANSAC, 3.);
-    H.empty() ? error.miss() : error.add(frame.cMo, poseOf(H));
+    H.empty() ? error.miss() : error.add(frame.cMo, poseOf(H, rows));
     points = next;
     if (++frames % 24 == 0) {
       state.PauseTiming();
@@ -316,11 +337,17 @@ BENCHMARK_CAPTURE(acquire, BRISK_unrefined, vpKeypointType::BRISK, false)->Unit(
 BENCHMARK_CAPTURE(acquire, SURF_unrefined, vpKeypointType::SURF, false)->Unit(benchmark::kMillisecond);
 BENCHMARK(acquireOpenCvOrb)->Unit(benchmark::kMillisecond);
 BENCHMARK(acquireVispKeyPoint)->Unit(benchmark::kMillisecond);
-BENCHMARK(track)->Unit(benchmark::kMillisecond);
-BENCHMARK(trackVispTemplate<vpTemplateTrackerSSDInverseCompositional>)->Unit(benchmark::kMillisecond);
-BENCHMARK(trackVispTemplate<vpTemplateTrackerZNCCInverseCompositional>)->Unit(benchmark::kMillisecond);
+BENCHMARK(track)->Arg(480)->Arg(1080)->Unit(benchmark::kMillisecond);
+BENCHMARK(trackVispTemplate<vpTemplateTrackerSSDInverseCompositional>)
+    ->Arg(480)
+    ->Arg(1080)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(trackVispTemplate<vpTemplateTrackerZNCCInverseCompositional>)
+    ->Arg(480)
+    ->Arg(1080)
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK(trackOpenCvEcc)->Unit(benchmark::kMillisecond);
-BENCHMARK(trackOpenCvFlow)->Unit(benchmark::kMillisecond);
+BENCHMARK(trackOpenCvFlow)->Arg(480)->Arg(1080)->Unit(benchmark::kMillisecond);
 
 int main(int argc, char *argv[])
 {
@@ -328,5 +355,6 @@ int main(int argc, char *argv[])
   // Rendered here and not in whichever benchmark runs first.
   scattered();
   sequence();
+  sequence(1080);
   return vpTestSupport::runBenchmarks(argc, argv);
 }

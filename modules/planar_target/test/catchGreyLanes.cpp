@@ -305,3 +305,100 @@ TEST_CASE("the median by counting is that of the sorted values", "[grey_lanes]")
   median.add(NAN);
   CHECK(median.value() >= 256.);
 }
+
+TEST_CASE("textures are bilinear between texels and repeated beyond, by every version", "[grey_lanes]")
+{
+  constexpr int cols = 40, rows = 30;
+  for (unsigned int problem = 0; problem < vpTestSupport::longer(60U); ++problem) {
+    auto rng = vpTestSupport::generator(problem);
+    std::vector<std::uint16_t> texels(cols * rows);
+    for (std::uint16_t &t : texels) {
+      t = static_cast<std::uint16_t>(rng() % 65281);
+    }
+    vpGreyTextureRow row = {texels.data(), cols, cols - 1.001f, rows - 1.001f, {},    50.f,
+                            52.f,          20.f, 15.f,          0.f,           -5.3f, 9.7f};
+    const double H[9] = {45., 3., 19., -4., 44., 14., uniform(rng, -0.2, 0.2), uniform(rng, -0.2, 0.2), 1.};
+    std::copy_n(H, 9, row.toTexel);
+    for (const vpGreyLanes *version : versionsOfThisMachine()) {
+      Floats values(64);
+      version->sampleTexture(row, 64, values.data());
+      for (int i = 0; i < 64; ++i) {
+        const double x = (row.first + i - row.u0) / row.px, y = (row.row - row.v0) / row.py,
+                     z = H[6] * x + H[7] * y + 1.;
+        const double u = std::clamp((H[0] * x + H[1] * y + H[2]) / z, 0., cols - 1.001);
+        const double v = std::clamp((H[3] * x + H[4] * y + H[5]) / z, 0., rows - 1.001);
+        const int iu = static_cast<int>(u), iv = static_cast<int>(v);
+        const std::uint16_t *const p = &texels[static_cast<std::size_t>(iv * cols + iu)];
+        const double fu = u - iu, fv = v - iv;
+        const double wanted =
+            (1. - fv) * ((1. - fu) * p[0] + fu * p[1]) + fv * ((1. - fu) * p[cols] + fu * p[cols + 1]);
+        CAPTURE(problem, version->name, i, u, v);
+        REQUIRE(std::abs(values[static_cast<std::size_t>(i)] - wanted / 256.) < 0.02);
+      }
+    }
+  }
+}
+
+TEST_CASE("filters along rows and columns and misfits agree with double precision, by every version", "[grey_lanes]")
+{
+  constexpr int size = 5, count = 37, room = 80, halo = 4;
+  auto rng = vpTestSupport::generator();
+  const Floats left = numbers(rng, room, 0., 255.), right = numbers(rng, room, 0., 255.);
+  std::vector<Floats> kernels, lines;
+  for (int i = 0; i < 3; ++i) {
+    kernels.push_back(numbers(rng, size, -1., 1.));
+  }
+  for (int i = 0; i < 6 * size; ++i) {
+    lines.push_back(numbers(rng, room, 0., 255.));
+  }
+  const float *const parts[3] = {kernels[0].data(), kernels[1].data(), kernels[2].data()};
+  const float *below[3 * size], *above[3 * size];
+  for (int i = 0; i < 3 * size; ++i) {
+    below[i] = lines[static_cast<std::size_t>(i)].data();
+    above[i] = lines[static_cast<std::size_t>(3 * size + i)].data();
+  }
+  for (const vpGreyLanes *version : versionsOfThisMachine()) {
+    CAPTURE(version->name);
+    std::array<Floats, 4> out;
+    float *to[4];
+    for (std::size_t k = 0; k < 4; ++k) {
+      out[k].resize(room);
+      to[k] = out[k].data();
+    }
+    version->filterRow(left.data() + halo, right.data() + halo, parts, size, count, to);
+    for (int c = 0; c < count; ++c) {
+      double sums[3] = {};
+      for (int i = 0; i < size; ++i) {
+        const int s = (i + 1) / 2, at = halo + c;
+        const double a = i % 2 == 0 ? right[static_cast<std::size_t>(at + s)] : left[static_cast<std::size_t>(at + s)];
+        const double b = i % 2 == 0 ? left[static_cast<std::size_t>(at - s)] : right[static_cast<std::size_t>(at - s)];
+        sums[0] += parts[0][i] * (a + b);
+        sums[1] += parts[1][i] * (a - b);
+        sums[2] += parts[2][i] * (a + b);
+      }
+      for (std::size_t k = 0; k < 3; ++k) {
+        REQUIRE(near(out[k][static_cast<std::size_t>(c)], sums[k], 1000.));
+      }
+    }
+    version->filterColumns(below, above, parts, size, count, to);
+    for (int c = 0; c < count; ++c) {
+      double sums[4] = {};
+      for (int i = 0; i < size; ++i) {
+        const double a = below[3 * i][c], b = above[3 * i][c];
+        sums[0] += parts[0][i] * (a + b);
+        sums[1] += parts[0][i] * (double(below[3 * i + 1][c]) + above[3 * i + 1][c]);
+        sums[2] += parts[1][i] * (a - b);
+        sums[3] += parts[0][i] * (double(below[3 * i + 2][c]) + above[3 * i + 2][c]) + parts[2][i] * (a + b);
+      }
+      for (std::size_t k = 0; k < 4; ++k) {
+        REQUIRE(near(out[k][static_cast<std::size_t>(c)], sums[k], 2000.));
+      }
+    }
+    version->misfit(left.data(), below[0], below[1], 3, 20, count, {1.f, 0.f, 100.f, 0.5f}, 12.f, 2.f, to[0]);
+    for (int c = 0; c < count; ++c) {
+      const double u = below[0][c], v = below[1][c], e = left[static_cast<std::size_t>(c)];
+      const double wanted = c >= 3 && c < 20 ? std::min(12., e * e / (100. + 0.5 * (u * u + v * v))) - 2. : 0.;
+      REQUIRE(near(out[0][static_cast<std::size_t>(c)], wanted, 12.));
+    }
+  }
+}
