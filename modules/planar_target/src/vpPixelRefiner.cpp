@@ -91,9 +91,9 @@ void vpPixelRefiner::takeFrame(const cv::Mat &image, const cv::Rect &area)
   }
 }
 
-bool vpPixelRefiner::predict(const cv::Mat &image)
+bool vpPixelRefiner::predict(const cv::Mat &image, bool sparse)
 {
-  if (!m_prediction.predict(m_texture, m_fit.pose, m_binned, m_frameSize, m_fit.camera.blur)) {
+  if (!m_prediction.predict(m_texture, m_fit.pose, m_binned, m_frameSize, m_fit.camera.blur, sparse)) {
     return false;
   }
   const cv::Rect &area = m_prediction.area();
@@ -394,6 +394,7 @@ void vpPixelRefiner::begin(const cv::Mat &image, const vpRigidPose &pose, const 
                      std::max(1, std::min(image.cols, image.rows) / 32));
   const double k = m_bin, centre = 0.5 * (k - 1.);
   m_binned = {m_camera.px / k, m_camera.py / k, (m_camera.u0 - centre) / k, (m_camera.v0 - centre) / k, m_camera.kud};
+  m_large = pixels >= vpTargetPrediction::enoughToThin * k * k;
   m_frameSize = cv::Size(image.cols / m_bin, image.rows / m_bin);
   m_fit.camera.blur = std::clamp(start.blur / k, vpTargetPrediction::sharpest, vpTargetPrediction::softest);
   enlarge(m_hidden, m_frameSize.height, m_frameSize.width + lanes, CV_8U);
@@ -414,7 +415,13 @@ bool vpPixelRefiner::glance(const cv::Mat &image, const vpRigidPose &pose, const
 const vpPixelFit &vpPixelRefiner::refine(const cv::Mat &image, const vpRigidPose &pose, const vpCameraState &start)
 {
   begin(image, pose, start);
-  for (unsigned int round = 0; round < mostRounds; ++round) {
+  if (m_large) { // only to come near enough for a prediction that is linear: a third of the pixels will do
+    if (!predict(image, true) || !descend()) {
+      return m_fit;
+    }
+    adopt();
+  }
+  for (unsigned int round = m_large ? 1 : 0; round < mostRounds; ++round) {
     if (!predict(image) || !descend()) {
       return m_fit;
     }

@@ -40,7 +40,7 @@ struct vpPixelFit {
  *
  * The derivative of T with respect to the pose is its gradient times the motion of the pixels, which changes slowly: it
  * is constant in blocks of 8x8 pixels, so that an iteration needs 20 sums per block. T is predicted anew when the pose
- * has moved by more than a tenth of a pixel, and linear within.
+ * has moved by more than a tenth of a pixel, and linear within; of a large target first in a third of the blocks only.
  *
  * The covariance is A^-1 B A^-1 with A = sum psi' J J^T and B = sum psi^2 J J^T, times kappa = max(1, tr(C^-1
  * C_S) / 6), where C_S uses for B the squares of the sums of whole blocks, which include errors correlated between
@@ -83,7 +83,7 @@ private:
   using Kind = vpGreyWeights::Kind;
 
   void begin(const cv::Mat &image, const vpRigidPose &pose, const vpCameraState &start);
-  bool predict(const cv::Mat &image);
+  bool predict(const cv::Mat &image, bool sparse = false);
   void makeBlocks();
   void takeFrame(const cv::Mat &image, const cv::Rect &area);
   void updateResiduals();
@@ -111,6 +111,7 @@ private:
   double m_way = 0.;                // length of m_change, deviations of the pose
   double m_slope = 0.;              // px; possible error of the prediction that is not an occlusion
   int m_bin = 1;
+  bool m_large = false; // the target in the frame
   vpPinhole m_binned;   // camera of the frame after binning
   cv::Size m_frameSize; // likewise
   cv::Mat m_frame, m_residuals, m_open, m_hidden, m_misfit, m_mean, m_bad;

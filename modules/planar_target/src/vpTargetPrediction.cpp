@@ -220,13 +220,28 @@ void vpTargetPrediction::filterColumns(const vpGreyLanes &loops, const Kernel &k
   loops.filterColumns(below.data(), above.data(), kernel.parts().data(), kernel.size, span.end - begin, out);
 }
 
+// Leaves every third row of blocks.
+void vpTargetPrediction::thin()
+{
+  m_pixels = 0;
+  for (std::size_t r = 0; r < m_spans.size(); ++r) {
+    if (r / lanes % 3 != 1) {
+      m_spans[r] = Span();
+    }
+    m_pixels += m_spans[r].end - m_spans[r].begin;
+  }
+}
+
 bool vpTargetPrediction::predict(const vpTargetTexture &texture, const vpRigidPose &pose, const vpPinhole &camera,
-                                 cv::Size size, double blur)
+                                 cv::Size size, double blur, bool sparse)
 {
   const Kernel kernel(blur);
   // Beyond the kernel's reach the frame mixes with what is behind the target.
   if (!findArea(pose, camera, size, 1. + edge * blur)) {
     return false;
+  }
+  if (sparse && m_pixels >= enoughToThin) {
+    thin();
   }
   const cv::Mat &level = texture.at(pose, camera);
   Eigen::Matrix3d toTexel;

@@ -45,6 +45,8 @@ public:
   static constexpr double softest = 4.;    //!< px
   static constexpr int fewestPixels = 200; //!< to fit six parameters of a pose and three of the camera
 
+  static constexpr int enoughToThin = 20000; //!< pixels of a large target, see predict()
+
   //! Pixels of one row that are certainly on the target, columns from the rectangle's left.
   struct Span {
     int begin = 0, end = 0;
@@ -55,10 +57,11 @@ public:
   /*!
    * \param size : Size of the frame, px. \param blur : Standard deviation of the Gaussian, px, within sharpest and
    *   softest.
+   * \param sparse : From enoughToThin pixels on, every third row of blocks only; the other spans are empty.
    * \return False if fewer than fewestPixels pixels are on the target.
    */
   bool predict(const vpTargetTexture &texture, const vpRigidPose &pose, const vpPinhole &camera, cv::Size size,
-               double blur);
+               double blur, bool sparse = false);
 
   [[nodiscard]] const cv::Rect &area() const { return m_area; } //!< in the frame; wider than it by less than lanes
   [[nodiscard]] const std::vector<Span> &spans() const { return m_spans; } //!< one for each row
@@ -72,6 +75,7 @@ public:
 
 private:
   struct Kernel;
+  void thin();
   bool findArea(const vpRigidPose &pose, const vpPinhole &camera, cv::Size size, double margin);
   void sampleRow(const vpGreyLanes &loops, vpGreyTextureRow &row, double v, int begin, int end);
   void filterRow(const vpGreyLanes &loops, const Kernel &kernel, int begin, int end, int row);
