@@ -41,8 +41,10 @@ constexpr double worthTrying = 0.25;
 // Work of a cycle, evaluations of a twist: per second, and its limits.
 constexpr double evaluationRate = 20000.;
 constexpr int leastWork = 16, mostWork = 800;
-// Part of the limits by which a command may differ from the law's and still count as executed.
+// Part of the limits by which motions may exceed them.
 constexpr double tolerance = 1e-6;
+// Parts of the speed by which a command may differ from the law's and still count as executed: single precision, and frames.
+constexpr double singlePrecision = 1.2e-7, rounding = 1e-12;
 
 Vector6 parts(double linear, double angular)
 {
@@ -119,12 +121,12 @@ protected:
     }
     m_sentBefore = m_sent;
     m_period = dt;
-    const Vector6 off = m_sent - m_own;
     const bool isPassedOver = !std::exchange(m_isAsked, false) && !(m_motion.isAtRest() && m_sent.isZero(0.));
-    if (m_isDisturbed || isPassedOver || off.head<3>().norm() > tolerance * m_motionLimits.linearVelocity ||
-        off.tail<3>().norm() > tolerance * m_motionLimits.angularVelocity) {
+    const bool isOther = m_isDisturbed || isPassedOver || !isExecuted(dt);
+    if (isOther) {
       restart(rate);
     }
+    m_wasOther = isOther;
     m_speed = m_own;
     m_own.setZero(); // until compute()
   }
@@ -163,6 +165,23 @@ private:
   }
 
   Pose camera() const { return {m_object.fRc(), m_object.ftc()}; }
+
+  /*
+   * The last command was the law's own. What else brakes the robot may take nearly the same way, and the step from its twist to the
+   * law's is one of acceleration and jerk: after another command the difference must be small for these, too, in a cycle.
+   */
+  bool isExecuted(double dt) const
+  {
+    const auto most = [&](double speed, double acceleration, double jerk) {
+      const double step = std::min(acceleration * dt, jerk * dt * dt);
+      return m_wasOther ? std::clamp(tolerance * step, rounding * speed, singlePrecision * speed)
+                        : singlePrecision * speed;
+    };
+    const vpServoMotionLimits &limits = m_motionLimits;
+    const Vector6 off = m_sent - m_own;
+    return off.head<3>().norm() <= most(limits.linearVelocity, limits.linearAcceleration, limits.linearJerk) &&
+           off.tail<3>().norm() <= most(limits.angularVelocity, limits.angularAcceleration, limits.angularJerk);
+  }
 
   // The acceleration, at most that from which braking does not exceed the speed.
   Vector6 withinSpeed(const Vector6 &rate) const
@@ -387,6 +406,7 @@ private:
   vpPlanFeedback m_feedback;
   bool m_isDisturbed = false; // the commands do not go on as planned
   bool m_isAsked = false;     // compute() made the last command
+  bool m_wasOther = false;    // the command before the last one was not the law's
   Vector6 m_own = Vector6::Zero(), m_speed = m_own, m_sent = Vector6::Zero(), m_sentBefore = Vector6::Zero();
   vpTwist m_moved;
   double m_period = 0.;

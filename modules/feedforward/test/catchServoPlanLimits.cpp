@@ -149,6 +149,48 @@ TEST_CASE("a law that is passed over follows the motion of the camera, and goes 
   }
 }
 
+TEST_CASE("something else that brakes nearly as the law would leaves no step behind", "[plan]")
+{
+  const std::string law = GENERATE("dtg", "ff-dtg");
+  const vpServoMotionLimits limits;
+  const double dt = 0.001;
+  int hard = 0; // problems that brake with full acceleration
+  for (unsigned int problem = 0; problem < static_cast<unsigned int>(longer(10)); ++problem) {
+    auto rng = generator(problem);
+    CAPTURE(seed(), law, problem);
+    vpServoController servo = makeServo(law);
+    Judge judge(limits, dt);
+    vpHomogeneousMatrix cMo = randomPose(rng, 0.8, 1., 0.3, 1.);
+    servo.setGoal(goal(randomPose(rng, 0.4, 0.5, 0.2, 0.6), square));
+    vpServoMeasurement seen;
+    vpTwistShaper brake(limits.shaperLimits());
+    vpTwist off = randomTwist(rng, 1., 1.); // grows so slowly that no limit notices it
+    off = off.scaled(2e-7 * limits.linearVelocity / std::max(off.linearNorm(), off.angularNorm()));
+    const double begin = uniform(rng, 0.6, 1.), end = begin + uniform(rng, 0.12, 0.3);
+    bool isBraking = false, isHard = false;
+    for (double t = 0.; t < 2.; t += dt) {
+      measure(cMo, square, seen);
+      seen.time = std::floor(t * 30.) / 30.;
+      vpTwist sent = servo.step(seen, dt).v;
+      if (t >= begin && t < end) {
+        if (!isBraking) {
+          brake.reset(judge.v(), judge.a());
+        }
+        isBraking = true;
+        const double grown = std::min((t - begin) / 0.3, 1.);
+        sent = minus(brake.step(vpTwist(), dt), off.scaled(grown * grown * (3. - 2. * grown)));
+        isHard = isHard || judge.a().linearNorm() > 0.999 * limits.linearAcceleration;
+      }
+      judge.see(sent);
+      servo.notifyExecuted(sent, sent);
+      cMo = move(cMo, sent, dt);
+    }
+    CHECK(judge.worst <= 1. + 1e-6);
+    hard += isHard ? 1 : 0;
+  }
+  CHECK(2 * hard > longer(10));
+}
+
 TEST_CASE("a push that the feedback takes back, and another goal meanwhile, keep every limit", "[plan]")
 {
   for (int problem = 0; problem < longer(10); ++problem) {
