@@ -57,6 +57,7 @@ vpServoControlSide::vpServoControlSide(vpServoController controller, const vpVis
     m_motion.emplace(*arm, m_spec.redundancy, vpClosedLoopSpec());
     m_q = arm->home();
     m_output.velocity.setZero(arm->size());
+    m_jointRate = m_lastVelocity = m_output.velocity;
   }
   // Memory for all later measurements and goals.
   vpServoMeasurement largest;
@@ -437,6 +438,18 @@ void vpServoControlSide::moveArm(bool isAllowed) noexcept
   }
   else {
     m_output.velocity = wish;
+  }
+  measureJointJerk();
+}
+
+void vpServoControlSide::measureJointJerk() noexcept
+{
+  m_output.jointJerk = 0.;
+  for (int i = 0; i < m_jointRate.size(); ++i) {
+    const double rate = (m_output.velocity(i) - m_lastVelocity(i)) / m_spec.period;
+    m_output.jointJerk = std::max(m_output.jointJerk, std::abs(rate - m_jointRate(i)) / m_spec.period);
+    m_jointRate(i) = rate;
+    m_lastVelocity(i) = m_output.velocity(i);
   }
 }
 

@@ -61,6 +61,7 @@ private:
   void report() noexcept;
   double approachShare(const vpTwist &wish) const noexcept;
   void moveArm(bool isAllowed) noexcept;
+  void measureJointJerk() noexcept;
   void conclude(vpVisualServoStatus images) noexcept;
   const char *message() const noexcept;
 
@@ -76,10 +77,11 @@ private:
   vpServoMeasurement m_measurement; // predicted to now
   vpArmData m_data;
   vpJointVector m_q;
-  std::optional<vpArmMotionCheck> m_check; // for laws that plan
-  std::optional<vpToolView> m_tool;        // for laws that plan, before a fixed camera
-  vpTwist m_ofLaw;                         // twist of the law in this step
-  vpTwist m_executed;                      // motion of the camera relative to the object since the last step
+  vpJointVector m_jointRate, m_lastVelocity; // acceleration and velocity of the joints in the last cycle
+  std::optional<vpArmMotionCheck> m_check;   // for laws that plan
+  std::optional<vpToolView> m_tool;          // for laws that plan, before a fixed camera
+  vpTwist m_ofLaw;                           // twist of the law in this step
+  vpTwist m_executed;                        // motion of the camera relative to the object since the last step
   vpFollowWatchdog m_watchdog;
   vpObjectMotion m_object;
   vpRigidTransform m_camera; // in the frame in which the object is at rest

@@ -220,6 +220,50 @@ TEST_CASE("A target that is lost stops the arm, and it goes on when it comes bac
   CHECK(before > 1e-3);
 }
 
+TEST_CASE("While the arm brakes there is no self-motion, and the largest jerk of a joint is told", "[servoing]")
+{
+  vpRedundancySpec ofTwin;
+  ofTwin.period = period;
+  const vpRedundancySolver twin(amor(), ofTwin);
+  for (unsigned int problem = 0; problem < static_cast<unsigned int>(vpTestSupport::longer(6)); ++problem) {
+    std::mt19937_64 rng = vpTestSupport::generator(problem);
+    Bench bench(problem % 2 == 0 ? "ff-lookat" : "ff-dtg");
+    vpJointVector rate = vpJointVector::Zero(7);
+    const int stop = 60 + static_cast<int>(vpTestSupport::uniform(rng, 0., 100.));
+    int braked = 0;
+    double most = 0.; // difference of the motions with and without the indices
+    CAPTURE(problem, stop);
+    for (int i = 0; i < stop + 200; ++i) {
+      if (i == stop) {
+        bench.servo.stop();
+      }
+      vpArmData data;
+      vpArmKinematics::update(amor(), bench.q, data);
+      const vpJointVector before = bench.velocity;
+      const vpVisualServoOutput &out = bench.step();
+      const vpJointVector now = (bench.velocity - before) / period;
+      REQUIRE(out.jointJerk == Approx((now - rate).cwiseAbs().maxCoeff() / period).margin(1e-6));
+      rate = now;
+      if (i < stop || (out.twist.linearNorm() == 0. && out.twist.angularNorm() == 0.)) {
+        continue;
+      }
+      vpRedundancyInput input;
+      input.twist = out.twist;
+      input.previous = before;
+      vpRedundancyOutput without, with;
+      twin.step(data, input, without);
+      input.indices[0] = vpSelfMotionIndex::jointLimits();
+      input.indexCount = 1;
+      twin.step(data, input, with);
+      REQUIRE((out.velocity - without.velocity).norm() < 1e-9);
+      most = std::max(most, (with.velocity - without.velocity).norm());
+      ++braked;
+    }
+    CHECK(braked > 5);
+    CHECK(most > 1e-3); // self-motion would have been seen
+  }
+}
+
 TEST_CASE("Wild configurations, times and measurements leave the arm's velocities within its limits", "[servoing]")
 {
   std::mt19937_64 rng(Catch::rngSeed());

@@ -61,7 +61,7 @@ struct VISP_EXPORT vpVisualServoSpec {
   std::array<bool, 6> free{};
   vpRedundancySpec redundancy; //!< Parameters of an arm; its period is replaced by #period.
   //! Indices that self-motion of an arm maximizes; at most vpMaxArmIndices. Self-motion keeps the joints' limits of position,
-  //! velocity and acceleration; its jerk is not bounded.
+  //! velocity and acceleration; its jerk is not bounded, vpVisualServoOutput::jointJerk tells it.
   std::vector<vpSelfMotionIndex> indices;
 
   //! The numbers with their ranges and units.
@@ -111,7 +111,10 @@ struct VISP_EXPORT vpVisualServoOutput {
   const char *message = ""; //!< The most important of all statuses in a sentence, static text.
   //! Twist of the camera in the camera frame (EyeInHand), or of the end effector in its frame (EyeToHand), m/s, rad/s.
   vpTwist twist;
-  vpJointVector velocity;                             //!< Joint velocities, rad/s or m/s; empty without an arm's model.
+  vpJointVector velocity; //!< Joint velocities, rad/s or m/s; empty without an arm's model.
+  //! Largest jerk of a joint, rad/s^3 or m/s^3: second difference of #velocity over the nominal period. It is measured, not bounded:
+  //! self-motion may exceed what the limits of the twist ask for. 0 without an arm's model.
+  double jointJerk = 0.;
   vpServoStatus servo = vpServoStatus::Holding;       //!< Status of law, view filter and recovery.
   vpRedundancyStatus arm = vpRedundancyStatus::Exact; //!< Status of the redundancy solver.
   vpSupervision supervision = vpSupervision::Passed;  //!< Status of the supervisor; Passed without one.
