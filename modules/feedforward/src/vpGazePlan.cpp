@@ -98,6 +98,13 @@ void vpGazePlan::slowDown(double factor) noexcept
   }
 }
 
+void vpGazePlan::soften(Part part, double factor) noexcept
+{
+  for (int i = 0; i < 3; ++i) {
+    m_problems[part].field(P::MaxJerk)[i] /= factor;
+  }
+}
+
 double vpGazePlan::plan(Part part, double floor) noexcept
 {
   vpTrajectoryPlan &plan = m_plans[part];

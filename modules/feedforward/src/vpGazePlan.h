@@ -45,6 +45,8 @@ public:
   void slowDown(double factor) noexcept;
   //! The two plans: of the position, and of what is left of the orientation.
   enum Part { Position, Orientation };
+  //! Limit the jerk of a part to less, by \e factor.
+  void soften(Part part, double factor) noexcept;
   //! Plan a part with a duration of at least \e floor, s: half of the work. \return Its duration; NaN when there is no such plan.
   double plan(Part part, double floor) noexcept;
 

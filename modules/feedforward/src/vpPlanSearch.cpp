@@ -4,12 +4,18 @@
  */
 #include "vpPlanSearch.h"
 
+#include <utility>
+
 BEGIN_VISP_NAMESPACE
 
 namespace
 {
 // Stretch a little more than the excess says: durations do not scale every part of a motion alike.
 constexpr double surplus = 1.005, leastStretch = 1.01, mostStretch = 3.;
+// The same for a jerk: less of it lasts longer, and the other axes use more of theirs.
+constexpr double jerkSurplus = 1.2;
+// A longer duration mends the jerk of a join when it comes at least to this part.
+constexpr double leastMending = 0.99;
 constexpr double h = vpTwistSpline::knot;
 constexpr double impossible = 1e6; // excess that no duration mends
 constexpr double longest = 1e4;    // s; a plan of more control points is not verified
@@ -26,6 +32,7 @@ void vpPlanSearch::open(const Task &task) noexcept
   m_task = task;
   m_floor = task.floor;
   m_tries = m_passed = 0;
+  m_join = std::numeric_limits<double>::infinity();
   m_step = Step::Set;
   m_calls = 0;
   m_state = State::Busy;
@@ -49,6 +56,35 @@ bool vpPlanSearch::stretch(double excess) noexcept
   return true;
 }
 
+/*
+ * A plan from an acceleration begins with the full jerk of each axis to end it, however long it takes. Together, and across the knot,
+ * that is up to twice the limit. Less is left to the axes then, which takes longer: only where the plan need not arrive with the old one.
+ */
+bool vpPlanSearch::finishCandidate() noexcept
+{
+  const vpTwistNorms norms = vpTwistExcess::normsOf(m_task.before, m_task.last, m_plan.twist(1.5 * h), h);
+  const vpTwistNorms share = norms / vpTwistExcess::normsOf(m_limits);
+  const double linear = share[2], angular = share[5];
+  const double worst = std::max(linear, angular);
+  if (m_task.isAtRest || !(worst > 1.)) {
+    return beginGlance();
+  }
+  if (!m_task.isFresh) {
+    const bool isMending = worst < leastMending * m_join;
+    m_join = worst;
+    return isMending && beginGlance();
+  }
+  for (const auto &[part, jerk] :
+       {std::pair(vpGazePlan::Position, linear), std::pair(vpGazePlan::Orientation, angular)}) {
+    if (jerk > 1.) {
+      m_plan.soften(part, jerkSurplus * jerk);
+    }
+  }
+  m_step = Step::Plan;
+  m_calls = 0;
+  return true;
+}
+
 // The next candidate, part by part until both have the same duration: a longer one may be infeasible for the other part.
 bool vpPlanSearch::planNext() noexcept
 {
@@ -65,7 +101,7 @@ bool vpPlanSearch::planNext() noexcept
   m_content = T <= m_common * (1. + 1e-12) ? m_content + 1 : 1;
   m_common = std::max(m_common, T);
   m_part = m_part == vpGazePlan::Position ? vpGazePlan::Orientation : vpGazePlan::Position;
-  return m_content < 2 || beginGlance();
+  return m_content < 2 || finishCandidate();
 }
 
 bool vpPlanSearch::beginGlance() noexcept

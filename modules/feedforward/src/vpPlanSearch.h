@@ -35,6 +35,7 @@ public:
     Eigen::Vector3d origin = Eigen::Vector3d::Zero(); //!< Of the object in the goal camera, m.
     double floor = 0.;                                //!< Least duration, s.
     bool gaze = true;
+    bool isFresh = true;                   //!< Not a better plan to the goal of the present one.
     bool isAtRest = false;                 //!< The start: a plan with scaled limits is then the same motion, slower.
     std::array<Vector6, maxDelay + 2> way; //!< Control points from now until #last, for the robot's check.
     int wayCount = 0;
@@ -69,6 +70,7 @@ private:
   int cost() const;
   bool advance() noexcept;
   bool stretch(double excess) noexcept;
+  bool finishCandidate() noexcept;
   bool planNext() noexcept;
   bool beginGlance() noexcept;
   bool glanceNext() noexcept;
@@ -86,6 +88,7 @@ private:
   double m_common = 0.;                           // duration of both parts so far, s
   int m_calls = 0, m_content = 0;                 // of the planner for this candidate; parts with that duration
   double m_floor = 0., m_worst = 0.;
+  double m_join = 0.; // jerk of the join of the last candidate, as a share of its limit
   int m_tries = 0, m_index = 0, m_last = 0, m_passed = 0;
   Vector6 m_a = Vector6::Zero(), m_b = Vector6::Zero();
 };

@@ -112,3 +112,41 @@ TEST_CASE("rate mode plans again and again and still arrives within the limits",
     CHECK(rotationError(cdMo, cMo) < 0.0061);
   }
 }
+
+TEST_CASE("another goal while the camera accelerates is planned for on the way, without a stop", "[plan]")
+{
+  const std::string law = GENERATE("dtg", "ff-dtg");
+  int stopped = 0;
+  const int problems = longer(20);
+  for (unsigned int problem = 0; problem < static_cast<unsigned int>(problems); ++problem) {
+    auto rng = generator(problem);
+    CAPTURE(seed(), law, problem);
+    const double dt = problem % 2 ? 0.001 : 0.01;
+    vpServoController servo = makeServo(law);
+    Judge judge({}, dt);
+    vpHomogeneousMatrix cMo = randomPose(rng, 0.6, 1., 0.3, 1.);
+    const vpServoGoal goals[] = {goal(randomPose(rng, 0.4, 0.6, 0.2, 0.6), square),
+                                 goal(randomPose(rng, 0.4, 0.6, 0.2, 0.6), square)};
+    servo.setGoal(goals[0]);
+    const double change = uniform(rng, 0.15, 0.4);
+    vpServoMeasurement seen;
+    bool isChanged = false, hasStopped = false;
+    for (double t = 0.; t < 12. && !(isChanged && servo.law().timeToArrival() == 0.); t += dt) {
+      if (t >= change && !isChanged) {
+        servo.setGoal(goals[1]);
+        isChanged = true;
+      }
+      measure(cMo, square, seen);
+      seen.time = t + dt;
+      judge.see(servo.step(seen, dt).v);
+      cMo = move(cMo, judge.v(), dt);
+      const bool isOnItsWay = translationError(goals[1].cdMo, cMo) > 0.01;
+      hasStopped = hasStopped || (isChanged && isOnItsWay && judge.v().linearNorm() == 0.);
+    }
+    CHECK(judge.worst <= 1. + 1e-6);
+    CHECK(translationError(goals[1].cdMo, cMo) < 0.0021);
+    stopped += hasStopped ? 1 : 0;
+  }
+  CAPTURE(seed(), law, stopped);
+  CHECK(4 * stopped <= problems);
+}
