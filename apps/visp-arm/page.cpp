@@ -5,6 +5,7 @@
 #include "page.h"
 
 #include "numberText.h"
+#include "robot.h"
 #include "viewData.h"
 
 #include <algorithm>
@@ -58,17 +59,7 @@ std::string carrierText(const vpArmModel &arm, const std::string &what, int link
   if (link < 0) {
     return "";
   }
-  std::vector<std::string> behind;
-  for (int i = 0; i < arm.size(); ++i) {
-    const auto movesIt = [&](int k) { return arm.chain(k).joint == i; };
-    int k = 0;
-    while (k < link && !movesIt(k)) {
-      ++k;
-    }
-    if (k == link) {
-      behind.push_back(arm.spec().joints[static_cast<std::size_t>(i)].name);
-    }
-  }
+  const std::vector<std::string> behind = vpApp::jointsBehind(arm, link);
   return "  the " + what + " is on link " + std::to_string(link) +
          (behind.empty() ? "" : "; not moved by " + vpApp::enumerate(behind)) + "\n";
 }

@@ -156,6 +156,7 @@ PhotoScene loadPhotoScene(const Options &options)
   scene.carriers = content.photos;
   scene.remarks = content.warnings;
   scene.warnings = robot.warnings;
+  vpApp::warnOfJointsBehind(*scene.arm, "end effector", scene.arm->toolLink(), scene.warnings);
   scene.targets = options.targets.empty()
                       ? std::filesystem::path(vpApp::dataFile("target/targets.json")).parent_path().string()
                       : options.targets;

@@ -280,6 +280,7 @@ Plan makePlan(const Options &options)
   const vpApp::Robot robot = vpApp::loadUsableRobot(options.robot);
   plan.arm = robot.arm;
   plan.remarks = robot.warnings;
+  vpApp::warnOfJointsBehind(*plan.arm, "end effector", plan.arm->toolLink(), plan.remarks);
   Adder adder(plan, options);
   std::vector<std::string> asked, files;
   for (const std::string &name : options.scenes) {

@@ -279,6 +279,7 @@ Plan makePlan(const Options &options)
   plan.arm = chooseArm(options.robot, task);
   if (plan.arm) {
     plan.remarks = plan.arm->model.spec().warnings;
+    vpApp::warnOfJointsBehind(plan.arm->model, "camera", plan.arm->model.cameraLink(), plan.remarks);
     chooseDrivable(options, plan);
   }
 

@@ -67,8 +67,11 @@ struct VispRobot {
  * driver says.
  */
 [[nodiscard]] std::unique_ptr<Robot> openRobot(const Options &options);
-//! The arm of the options, with the camera of --eMc; among obstacles with all of its bodies covered. \throw As openRobot().
-[[nodiscard]] vpArmModel loadModel(const MotionOptions &options);
+/*!
+ * The arm of the options, with the camera of --eMc; among obstacles with all of its bodies covered. What was assumed of it is printed.
+ * \throw As openRobot().
+ */
+[[nodiscard]] vpArmModel loadModel(const Options &options);
 /*!
  * The obstacles of the options about the arm of \e robot; null without --scene.
  * \throw vpException naming the file and the element.

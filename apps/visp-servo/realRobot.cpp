@@ -41,7 +41,7 @@ public:
   DrivenRobot(OpenedRobot opened, const Options &options) : m_opened(std::move(opened))
   {
     if (options.hasModel()) {
-      m_arm.emplace(loadModel(options.motion));
+      m_arm.emplace(loadModel(options));
     }
     else if (!m_opened.hasMount) {
       m_eMc = mountOf(options);

@@ -107,11 +107,15 @@ private:
   vpColVector m_velocity;
 };
 
-vpArmModel loadCovered(const vpApp::RobotOptions &options)
+//! The arm, with covers among obstacles, and what was assumed of it.
+std::pair<vpArmModel, std::vector<std::string>> loadFor(const MotionOptions &options)
 {
-  const vpApp::Robot robot = vpApp::loadUsableRobot(options);
-  vpApp::printWarnings("visp-servo", robot.warnings);
-  return *robot.arm;
+  if (!options.scene.empty()) {
+    const vpApp::Robot robot = vpApp::loadUsableRobot(options.robot);
+    return {*robot.arm, robot.warnings};
+  }
+  const vpArmModel model = vpApp::loadArm(options.robot);
+  return {model, model.spec().warnings};
 }
 } // namespace
 
@@ -125,7 +129,7 @@ std::unique_ptr<Robot> simulatedRobot(const Options &options)
     }
     return std::make_unique<FlyingCamera>(options.camera.isFixed);
   }
-  return std::make_unique<SimulatedArm>(loadModel(options.motion), options);
+  return std::make_unique<SimulatedArm>(loadModel(options), options);
 }
 
 std::unique_ptr<const vpCollisionScene> loadObstacles(const MotionOptions &options, const Robot &robot)
@@ -140,18 +144,23 @@ std::unique_ptr<const vpCollisionScene> loadObstacles(const MotionOptions &optio
   return std::make_unique<vpCollisionScene>(*robot.arm(), file.spec);
 }
 
-vpArmModel loadModel(const MotionOptions &options)
+vpArmModel loadModel(const Options &options)
 {
-  vpArmModel model = options.scene.empty() ? vpApp::loadArm(options.robot) : loadCovered(options.robot);
+  auto [model, warnings] = loadFor(options.motion);
   const std::string missing = vpApp::missingLimitSentence(model);
   if (!missing.empty()) {
     throw std::runtime_error(missing);
   }
-  if (!options.eMc.empty()) {
+  if (!options.motion.eMc.empty()) {
     vpArmSpec spec = model.spec();
-    spec.camera = vpLoadPose(options.eMc);
+    spec.camera = vpLoadPose(options.motion.eMc);
+    spec.cameraLink = -1; // the file is of the camera in the end effector
     model = vpArmModel(spec);
   }
+  const bool isTool = options.camera.isFixed;
+  vpApp::warnOfJointsBehind(model, isTool ? "end effector" : "camera", isTool ? model.toolLink() : model.cameraLink(),
+                            warnings);
+  vpApp::printWarnings("visp-servo", warnings);
   return model;
 }
 } // namespace visualServo

@@ -245,6 +245,30 @@ std::string unseenSentence(const Robot &robot)
   return robot.arm->spec().capsules.empty() ? label + ": no link has a shape, collisions cannot be checked" : "";
 }
 
+std::vector<std::string> jointsBehind(const vpArmModel &arm, int link)
+{
+  std::vector<std::string> behind;
+  for (int i = 0; i < arm.size(); ++i) {
+    int k = 0;
+    while (k < link && arm.chain(k).joint != i) {
+      ++k;
+    }
+    if (k == link) {
+      behind.push_back(arm.spec().joints[static_cast<std::size_t>(i)].name);
+    }
+  }
+  return behind;
+}
+
+void warnOfJointsBehind(const vpArmModel &arm, const std::string &frame, int link, std::vector<std::string> &warnings)
+{
+  const std::vector<std::string> behind = jointsBehind(arm, link);
+  if (!behind.empty()) {
+    warnings.push_back(arm.label() + ": the " + frame + " is on link " + std::to_string(link) + ", not moved by " +
+                       enumerate(behind));
+  }
+}
+
 std::string missingLimitSentence(const vpArmModel &arm)
 {
   for (const vpArmJointSpec &joint : arm.spec().joints) {

@@ -50,6 +50,13 @@ struct Robot {
 
 //! What is wrong with a robot for collision checks, and the options that help; empty: nothing.
 [[nodiscard]] std::string unseenSentence(const Robot &robot);
+//! Joints that do not move the frame that a link carries, since they come after it. \param link : vpArmModel::toolLink() or cameraLink().
+[[nodiscard]] std::vector<std::string> jointsBehind(const vpArmModel &arm, int link);
+/*!
+ * Adds the sentence which joints do not move the frame that a program moves; none if all do.
+ * \param frame : Its name. \param link : The link that carries it, vpArmModel::toolLink() or cameraLink().
+ */
+void warnOfJointsBehind(const vpArmModel &arm, const std::string &frame, int link, std::vector<std::string> &warnings);
 //! The first joint without velocity or acceleration limit, and the options that supply it; empty: there is none.
 [[nodiscard]] std::string missingLimitSentence(const vpArmModel &arm);
 /*!

@@ -6,6 +6,7 @@
 #include "vpCatch.h"
 
 #include "goal.h"
+#include "liveRobot.h"
 #include "recording.h"
 #include "recorded.h"
 #include "options.h"
@@ -19,6 +20,8 @@
 #include <visp3/direct_core/vpSO3.h>
 
 #include <cmath>
+#include <iostream>
+#include <sstream>
 #include <thread>
 
 namespace
@@ -378,4 +381,39 @@ TEST_CASE("the picture shows target and goal where the camera has them", "[visp-
       CHECK(centre == cv::Vec3b(100, 100, 100));
     }
   }
+}
+
+TEST_CASE("joints that do not move the camera are named, and --eMc puts it into the end effector",
+          "[visp-servo][robot]")
+{
+  const TestFolder folder;
+  std::ifstream amor(VISP_DIRECT_DATA_DIR "/robot/amor.json");
+  std::string text{std::istreambuf_iterator<char>(amor), {}};
+  const std::string key = "\"camera\": {";
+  text.insert(text.find(key) + key.size(), "\"link\": 5, ");
+  Options options;
+  options.motion.robot.robot = folder.write("arm.json", text);
+  std::ostringstream told;
+  const auto load = [&] {
+    std::streambuf *before = std::cerr.rdbuf(told.rdbuf());
+    const vpArmModel model = loadModel(options);
+    std::cerr.rdbuf(before);
+    return model;
+  };
+  CHECK(load().cameraLink() == 5);
+  CHECK_THAT(told.str(), Catch::Contains(": the camera is on link 5, not moved by q6 and q7\n"));
+  options.camera.isFixed = true;
+  told.str("");
+  CHECK(load().cameraLink() == 5);
+  CHECK(told.str().empty()); // the target is on the end effector, which all joints move
+  options.camera.isFixed = false;
+  options.motion.eMc = folder.write("eMc.txt", "0.01\n-0.02\n0.03\n0.1\n0.2\n-0.3\n");
+  const vpArmModel mounted = load();
+  CHECK(told.str().empty());
+  CHECK(mounted.cameraLink() == mounted.toolLink());
+  vpArmData data;
+  vpArmKinematics::update(mounted, mounted.home(), data);
+  const vpRigidTransform eMc = data.tool.inverse() * vpArmKinematics::camera(mounted, data);
+  CHECK(distance(eMc, vpRigidTransform::fromHomogeneous(
+                          vpHomogeneousMatrix(vpPoseVector(0.01, -0.02, 0.03, 0.1, 0.2, -0.3)))) < 1e-12);
 }

@@ -131,6 +131,7 @@ void vpUrdfBodies::addBase(const std::string &base)
       above.link = m_tree.link(joint->parent_link_name);
       above.at = part.at * m_posture.frame(*joint).inverse();
       above.moves = part.moves || !m_posture.stands(*joint);
+      warnOfMoving(*joint);
       parts.push_back(above);
     }
   }
@@ -171,6 +172,7 @@ vpUrdfBodies::Part vpUrdfBodies::below(const Part &part, const urdf::Joint &join
   if (m_posture.stands(joint)) {
     return child;
   }
+  warnOfMoving(joint);
   child.moves = true;
   child.isShort = false;
   double ratio = 1., offset = 0.;
@@ -185,6 +187,15 @@ vpUrdfBodies::Part vpUrdfBodies::below(const Part &part, const urdf::Joint &join
     child.middle = middle * (part.at.R * (vpUrdfPose(joint.parent_to_joint_origin_transform).R * axis.normalized()));
   }
   return child;
+}
+
+// A joint beside the chain that neither stands still nor follows one of the chain.
+void vpUrdfBodies::warnOfMoving(const urdf::Joint &joint) const
+{
+  double ratio = 1., offset = 0.;
+  if (!m_posture.stands(joint) && m_chain.count(m_posture.leader(joint, ratio, offset).name) == 0) {
+    m_warnings.add("joints beside the chain are not moved with the arm: ", joint.name, "");
+  }
 }
 
 // False if the shape is not known.

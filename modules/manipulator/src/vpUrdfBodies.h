@@ -50,6 +50,7 @@ private:
     double half = 0.;
   };
   [[nodiscard]] Part below(const Part &part, const urdf::Joint &joint) const;
+  void warnOfMoving(const urdf::Joint &joint) const;
   void addWithBranches(std::vector<Part> parts, const std::string &from);
   void addBody(const Part &part);
   void addMass(const Part &part);

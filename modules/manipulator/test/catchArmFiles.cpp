@@ -243,7 +243,8 @@ TEST_CASE("Bodies beside the chain belong to the arm, and what no capsule covers
   CHECK(arm.shapes[1].size == Eigen::Vector3d(0.1, 0.2, 0.4));
   CHECK((arm.shapes[1].pose.p - Eigen::Vector3d(0., 0.5, 1.)).norm() < 1e-12);
   CHECK(arm.capsules[1].body == arm.shapes[1].body);
-  REQUIRE(arm.warnings.size() == 1);
+  REQUIRE(arm.warnings.size() == 2);
+  CHECK(arm.warnings[1] == "joints beside the chain are not moved with the arm: grip");
   CHECK(arm.warnings[0].find("a mesh is not found in ") == 0);
   CHECK(arm.warnings[0].find(" and the folders above it: base.stl of base") != std::string::npos);
   REQUIRE(arm.capsules.size() == 2); // the sphere, and the box at (0, 0.5, 1) along z

@@ -28,8 +28,14 @@ TEST_CASE("Joints that mimic others are held, carried along or independent", "[u
       joint("c", "revolute", "base", "cam", good + "<mimic joint='j'/>") + "</robot>";
   vpArmUrdfSpec spec = toTip("arm");
   CHECK(load(urdf, spec).spec().uncovered == Sentences{"cam", "left", "right"});
+  const auto isTold = [](const vpArmSpec &arm) {
+    return std::count(arm.warnings.begin(), arm.warnings.end(),
+                      "joints beside the chain are not moved with the arm: l, r");
+  };
+  CHECK(isTold(load(urdf, spec).spec()) == 1);
   spec.held = {{"l", 0.4}};
   const vpArmSpec held = load(urdf, spec).spec();
+  CHECK(isTold(held) == 0);
   CHECK(held.uncovered == Sentences{"cam"});
   REQUIRE(held.capsules.size() == 4);
   CHECK(held.capsules[2].from(2) == Approx(0.4));

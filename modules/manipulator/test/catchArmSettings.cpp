@@ -118,7 +118,8 @@ TEST_CASE("An SRDF gives pairs, ends and the home of an arm", "[srdf]")
   const std::string none = "<group name='n'><joint name='tool_mount'/><joint name='camera_mount'/></group>";
   const vpArmSpec ends = sixAxesWith(some + all + none + "<group name='b'><group name='g'/></group>", "");
   CHECK(ends.joints.size() == 5);
-  CHECK(ends.warnings == Sentences{"base turret and tip camera are those of the group g of the SRDF"});
+  CHECK(ends.warnings == Sentences{"base turret and tip camera are those of the group g of the SRDF",
+                                   "joints beside the chain are not moved with the arm: base_yaw"});
   vpArmUrdfSpec spec;
   spec.group = "h";
   CHECK(sixAxesWith(some + all, "", spec).joints.size() == 2);

@@ -84,7 +84,8 @@ struct VISP_EXPORT vpArmUrdfSpec {
  * negative mass, a mass of 0 of a link with a shape and an inertia that no body has make the mass of the whole link
  * unknown; a mass of 0 of a body that is fixed to a link is taken as included in the link's; empty shapes, and calls
  * of xacro macros that were never expanded, are left out. vpArmSpec::warnings says so, and what else was assumed:
- * names, roots, the group, soft limits, the home state, names of the other files that this one does not have.
+ * names, roots, the group, soft limits, the home state, joints beside the chain that are not held, names of the other
+ * files that this one does not have.
  * \throw vpException (ioError) if a file cannot be read, (badValue) if it is malformed or written in xacro, a link,
  * joint, group or state is missing, the tip is not unique or not below the base, the camera or the tool is not fixed to
  * a link of the chain, a joint of the chain is floating or planar, or vpArmModel rejects a value; one sentence with the
