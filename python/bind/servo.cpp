@@ -217,6 +217,9 @@ void bindController(py::module_ &m)
             return command;
           },
           py::arg("measurement"), py::arg("dt"), doc("vpServoController::step"))
+      .def("pass_", &Controller::pass, py::arg("dt"), doc("vpServoController::pass"))
+      .def("notifyExecuted", &Controller::notifyExecuted, py::arg("commanded"), py::arg("moved"),
+           doc("vpServoController::notifyExecuted"))
       .def("referenceRotation", &Controller::referenceRotation, py::arg("measurement"), py::arg("command"),
            doc("vpServoController::referenceRotation"));
   bindClass<vpViewConstraintFilter>(m)

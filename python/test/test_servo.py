@@ -254,3 +254,23 @@ def test_target_points_and_measurement_of_an_image(random):
     assert not target.measure(vd.PlanarTargetResult()).valid
     with pytest.raises(ValueError, match="must be n x 3 numbers"):
         vd.ServoTarget(np.zeros((4, 2)))
+
+
+def test_a_controller_that_is_passed_over_knows_where_the_camera_went(random):
+    goal, dt = pose([0, 0, 0.4]), 0.01
+    for id in ("dtg", "ff-dtg"):
+        controller, cMo = vd.ServoController.create(id), start(random)
+        controller.setGoal(plate().goal(goal))
+        away = np.concatenate([random.uniform(-0.02, 0.02, 3), random.uniform(-0.05, 0.05, 3)])
+        for k in range(3000):
+            if 50 <= k < 100:  # something else moves the camera
+                controller.pass_(dt)
+                twist = away * np.sin(np.pi * (k - 50) / 50)
+            else:
+                seen = plate().measure(cMo, 1.0)  # one image: afterwards there is the odometry alone
+                twist = controller.step(seen, dt).v
+            controller.notifyExecuted(twist, twist)
+            cMo = moved(cMo, twist, dt)
+        np.testing.assert_allclose(cMo, goal, atol=8e-3, err_msg=id)
+    with pytest.raises(TypeError):
+        controller.pass_()
