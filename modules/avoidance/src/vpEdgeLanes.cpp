@@ -4,6 +4,8 @@
  */
 #include "vpEdgeLanes.h"
 
+#include "vpSegmentKernel.h"
+
 #include <atomic>
 #include <cmath>
 #include <optional>
@@ -13,28 +15,11 @@ using vpLane2 = double __attribute__((vector_size(16)));
 using vpLane4 = double __attribute__((vector_size(32)));
 using vpLane8 = double __attribute__((vector_size(64)));
 
-namespace vpSegmentKernel
-{
-template <class Lane, int lanes> inline __attribute__((always_inline)) Lane rootOf(const Lane &v)
-{
-  Lane r;
-  for (int l = 0; l < lanes; ++l) {
-    r[l] = __builtin_sqrt(v[l]);
-  }
-  return r;
-}
-inline __attribute__((always_inline)) vpLane2 root(const vpLane2 &v) { return rootOf<vpLane2, 2>(v); }
-inline __attribute__((always_inline)) vpLane4 root(const vpLane4 &v) { return rootOf<vpLane4, 4>(v); }
-inline __attribute__((always_inline)) vpLane8 root(const vpLane8 &v) { return rootOf<vpLane8, 8>(v); }
-} // namespace vpSegmentKernel
-
-// After root(), which its templates must find.
-#include "vpSegmentKernel.h"
-
 // One entry per instruction set, chosen at run time: the build needs no -march, and no type whose layout depends on it
 // crosses a call.
 #if defined(__x86_64__) && defined(__GNUC__)
 #define VP_TARGET(set) __attribute__((target(set)))
+#define VP_EDGE_VERSIONS
 #else
 #define VP_TARGET(set)
 #endif
@@ -43,31 +28,57 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-using namespace vpSegmentKernel;
 // Rounding of distances, and of the normals of nearest points over the size of a core.
 constexpr double rounding = 1e-9, normalRounding = 1e-7;
+
+template <class Lane, int lanes> inline __attribute__((always_inline)) Lane rootOf(const Lane &v)
+{
+  Lane r;
+  for (int l = 0; l < lanes; ++l) {
+    r[l] = __builtin_sqrt(v[l]);
+  }
+  return r;
+}
 
 namespace two
 {
 using vpLane = vpLane2;
-using Vector = V3<vpLane>;
 constexpr int lanes = 2;
+VP_KERNEL_INLINE vpLane root(const vpLane &v) { return rootOf<vpLane, lanes>(v); }
+#include "vpSegmentKernelBody.h"
 #include "vpEdgeLanesBody.h"
 } // namespace two
+// GCC breaks vectors up before it inlines, so that the bodies must have the entry's instruction set, too.
+#if defined(VP_EDGE_VERSIONS)
+#if !defined(__clang__)
+#pragma GCC push_options
+#pragma GCC target("avx2,fma")
+#endif
 namespace four
 {
 using vpLane = vpLane4;
-using Vector = V3<vpLane>;
 constexpr int lanes = 4;
+VP_KERNEL_INLINE vpLane root(const vpLane &v) { return rootOf<vpLane, lanes>(v); }
+#include "vpSegmentKernelBody.h"
 #include "vpEdgeLanesBody.h"
 } // namespace four
+#if !defined(__clang__)
+#pragma GCC pop_options
+#pragma GCC push_options
+#pragma GCC target("avx512f,avx512dq,avx512vl,avx2,fma")
+#endif
 namespace eight
 {
 using vpLane = vpLane8;
-using Vector = V3<vpLane>;
 constexpr int lanes = 8;
+VP_KERNEL_INLINE vpLane root(const vpLane &v) { return rootOf<vpLane, lanes>(v); }
+#include "vpSegmentKernelBody.h"
 #include "vpEdgeLanesBody.h"
 } // namespace eight
+#if !defined(__clang__)
+#pragma GCC pop_options
+#endif
+#endif
 
 using Entry = void (*)(const vpEdgeMotion &, const vpEdgePair *, const std::uint32_t *, int, double, double,
                        vpEdgeBatch &);
@@ -82,6 +93,7 @@ void evaluateBaseline(const vpEdgeMotion &motion, const vpEdgePair *pairs, const
   }
 }
 
+#if defined(VP_EDGE_VERSIONS)
 VP_TARGET("avx2,fma")
 void evaluateAvx2(const vpEdgeMotion &motion, const vpEdgePair *pairs, const std::uint32_t *list, int count,
                   double start, double piece, vpEdgeBatch &batch)
@@ -99,10 +111,11 @@ void evaluateAvx512(const vpEdgeMotion &motion, const vpEdgePair *pairs, const s
 {
   static_cast<void>(eight::evaluate(motion, pairs, list, count, start, piece, 0, batch));
 }
+#endif
 
 Entry chooseEntry()
 {
-#if defined(__x86_64__) && defined(__GNUC__)
+#if defined(VP_EDGE_VERSIONS)
   __builtin_cpu_init();
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl")) {
     return evaluateAvx512;

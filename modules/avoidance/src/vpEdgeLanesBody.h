@@ -5,6 +5,8 @@
 // Included by vpEdgeLanes.cpp once per vector width, each time in a namespace that defines vpLane and lanes: not
 // a template, because all of it must be compiled for the instruction set of the entry.
 
+using Vector = V3<vpLane>;
+
 struct Frame {
   Vector x, y, z, p;
 };
