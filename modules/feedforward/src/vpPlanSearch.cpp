@@ -66,7 +66,9 @@ bool vpPlanSearch::finishCandidate() noexcept
   const vpTwistNorms share = norms / vpTwistExcess::normsOf(m_limits);
   const double linear = share[2], angular = share[5];
   const double worst = std::max(linear, angular);
-  if (m_task.isAtRest || !(worst > 1.)) {
+  // Than the present plan to the same goal: with less jerk it would overshoot, and what is not found now is found soon.
+  const bool isQuicker = !m_task.isFresh && m_task.floor == 0.;
+  if (m_task.isAtRest || isQuicker || !(worst > 1.)) {
     return beginGlance();
   }
   if (!m_task.isFresh) {

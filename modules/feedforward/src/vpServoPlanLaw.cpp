@@ -305,7 +305,7 @@ private:
     task.floor = m_fresh || isTooSlow() ? 0. : off > 1. ? std::max(left, leastCorrection) : std::max(left, 0.);
     m_startPose = m_hasFeedback ? place : camera() * m_motion.reference().inverse() * place;
     task.isAtRest = m_rested;
-    task.isFresh = m_fresh || isTooSlow();
+    task.isFresh = m_fresh;
     task.start = {goal.inverse() * m_startPose, 0.5 * (task.before + task.last), (task.last - task.before) / h};
     m_searchGoal = goal;
     m_search.open(task);
