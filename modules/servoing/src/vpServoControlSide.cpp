@@ -341,8 +341,11 @@ double vpServoControlSide::approachShare(const vpTwist &wish) const noexcept
   };
   const vpServoMotionLimits &limits = m_controller.spec().motion;
   const double turnGain = m_controller.law().rotationGain();
-  // Before a fixed camera the rotation moves the end effector with its own gain, too.
-  const double gain = isInHand() ? m_controller.gains().lambda : std::max(m_controller.gains().lambda, turnGain);
+  // Before a fixed camera the rotation moves the end effector with its own gain, too, and about a far object also across the wish,
+  // which takes a part of the acceleration: without a margin a few motions of a hundred end in a circle about the goal.
+  constexpr double margin = 1.5;
+  const double gain =
+      isInHand() ? m_controller.gains().lambda : margin * std::max(m_controller.gains().lambda, turnGain);
   return std::min(vpApproachShare(wish.linearNorm(), gain, limits.linearAcceleration, limits.linearJerk,
                                   along(vpRigidMotion::linear)),
                   vpApproachShare(wish.angularNorm(), turnGain, limits.angularAcceleration, limits.angularJerk,
