@@ -45,12 +45,12 @@ struct vpCollisionCore {
    */
   [[nodiscard]] vpNearestPoints nearest(const Eigen::Vector3d &from, const Eigen::Vector3d &to,
                                         double cutoff) const noexcept;
-  // Clearance of a capsule of the arm, within the cutoff; may be negative (see nearest()).
+  // Clearance of a capsule of the arm; may be negative (see nearest()). Beyond the cutoff without points.
   [[nodiscard]] vpClearance clearance(const vpPlacedCapsule &c, double cutoff) const noexcept;
 };
 
-// Clearance of two capsules of the arm.
-vpClearance vpSelfClearance(const vpPlacedCapsule &a, const vpPlacedCapsule &b) noexcept;
+// Clearance of two capsules of the arm. Beyond the cutoff without points.
+vpClearance vpSelfClearance(const vpPlacedCapsule &a, const vpPlacedCapsule &b, double cutoff) noexcept;
 // Clearance of a capsule of the arm from the ground.
 vpClearance vpGroundClearance(const vpHalfSpace &ground, const vpPlacedCapsule &c) noexcept;
 

@@ -44,6 +44,14 @@ std::vector<vpArmCapsule> placedOnJoints(const vpArmModel &arm)
   return capsules;
 }
 
+vpClearance selfClearance(const vpCollisionData &data, int first, int second, double cutoff)
+{
+  vpClearance clearance = vpSelfClearance(data.capsules[at(first)], data.capsules[at(second)], cutoff);
+  clearance.capsule = first;
+  clearance.other = second;
+  return clearance;
+}
+
 vpClearance unknownClearance() noexcept
 {
   vpClearance clearance;
@@ -263,7 +271,7 @@ void vpCollisionScene::visit(const vpCollisionData &data, double time, Visit &vi
       const vpPlacedCapsule &a = data.capsules[at(pair.first)], &b = data.capsules[at(pair.second)];
       const double radii = a.halfLength + a.radius + b.halfLength + b.radius;
       if (!areApart(a.centre, b.centre, radii, visitor.cutoff()) &&
-          visitor.take(selfPair(data, pair.first, pair.second))) {
+          visitor.take(selfClearance(data, pair.first, pair.second, visitor.cutoff()))) {
         return;
       }
     }
@@ -399,13 +407,7 @@ vpClearance vpCollisionScene::pair(const vpCollisionData &data, int capsule, int
 
 vpClearance vpCollisionScene::selfPair(const vpCollisionData &data, int first, int second) const noexcept
 {
-  if (!data.placed) {
-    return unknownClearance();
-  }
-  vpClearance clearance = vpSelfClearance(data.capsules[at(first)], data.capsules[at(second)]);
-  clearance.capsule = first;
-  clearance.other = second;
-  return clearance;
+  return data.placed ? selfClearance(data, first, second, std::numeric_limits<double>::infinity()) : unknownClearance();
 }
 
 vpClearance vpCollisionScene::groundPair(const vpCollisionData &data, int capsule) const noexcept

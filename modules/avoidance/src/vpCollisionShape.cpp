@@ -24,12 +24,16 @@ double checked(const char *what, double value, bool zeroAllowed = false)
   return value;
 }
 
-// Clearance of two rounded cores from the nearest points of the cores; the distance may be negative.
-vpClearance rounded(const vpNearestPoints &cores, double radius, double otherRadius,
-                    const Eigen::Vector3d &otherCentre) noexcept
+// Clearance of two rounded cores from the nearest points of the cores; the distance may be negative. Beyond the cutoff
+// without points.
+vpClearance rounded(const vpNearestPoints &cores, double radius, double otherRadius, const Eigen::Vector3d &otherCentre,
+                    double cutoff) noexcept
 {
   vpClearance clearance;
   clearance.distance = cores.distance - radius - otherRadius;
+  if (clearance.distance > cutoff) {
+    return clearance;
+  }
   Eigen::Vector3d away = cores.onSegment - cores.onOther;
   if (cores.distance < 0.) {
     away = -away;
@@ -176,9 +180,10 @@ vpNearestPoints vpCollisionCore::nearest(const Eigen::Vector3d &from, const Eige
   return near;
 }
 
-vpClearance vpSelfClearance(const vpPlacedCapsule &a, const vpPlacedCapsule &b) noexcept
+vpClearance vpSelfClearance(const vpPlacedCapsule &a, const vpPlacedCapsule &b, double cutoff) noexcept
 {
-  vpClearance clearance = rounded(vpSegmentNearest::segment(a.from, a.to, b.from, b.to), a.radius, b.radius, b.centre);
+  vpClearance clearance =
+      rounded(vpSegmentNearest::segment(a.from, a.to, b.from, b.to), a.radius, b.radius, b.centre, cutoff);
   clearance.kind = vpCollisionKind::Self;
   return clearance;
 }
@@ -199,7 +204,7 @@ vpClearance vpGroundClearance(const vpHalfSpace &ground, const vpPlacedCapsule &
 vpClearance vpCollisionCore::clearance(const vpPlacedCapsule &c, double cutoff) const noexcept
 {
   const double radii = c.radius + radius;
-  vpClearance result = rounded(nearest(c.from, c.to, cutoff + radii), c.radius, radius, centre);
+  vpClearance result = rounded(nearest(c.from, c.to, cutoff + radii), c.radius, radius, centre, cutoff);
   result.kind = vpCollisionKind::Object;
   return result;
 }
