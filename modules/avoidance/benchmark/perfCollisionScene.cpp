@@ -9,16 +9,19 @@
 #include <visp3/avoidance/vpCollisionSceneJson.h>
 #include <visp3/avoidance/vpDiscreteMotion.h>
 #include <visp3/avoidance/vpFclChecker.h>
+#include <visp3/direct_core/vpQuantile.h>
 #include <visp3/direct_core/vpSO3.h>
 #include <visp3/manipulator/vpArmJson.h>
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <map>
 #include <memory>
 #include <random>
 #include <set>
+#include <vector>
 
 VISP_DIRECT_USING_NAMESPACE
 
@@ -176,13 +179,18 @@ void nearPairsOf30Capsules(benchmark::State &state)
   vpCollisionData data;
   vpNearPairs near;
   std::size_t k = 0, dropped = 0, pairs = 0;
+  std::vector<double> times; // us
   for (auto _ : state) {
+    const auto begin = std::chrono::steady_clock::now();
     coveredScene().place(configurations()[k++ % 1024], data);
     coveredScene().near(data, 0.35, near);
+    times.push_back(1e6 * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
     dropped += near.dropped ? 1 : 0;
     pairs += static_cast<std::size_t>(near.count);
     benchmark::DoNotOptimize(near.pairs.data());
   }
+  state.counters["us_p50"] = vpQuantile(times, 0.5);
+  state.counters["us_p99"] = vpQuantile(times, 0.99);
   state.counters["dropped_%"] = 100. * static_cast<double>(dropped) / static_cast<double>(k);
   state.counters["pairs"] = static_cast<double>(pairs) / static_cast<double>(k);
 }
