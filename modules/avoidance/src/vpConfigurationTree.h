@@ -19,7 +19,7 @@
 BEGIN_VISP_NAMESPACE
 
 /*!
- * \brief Configurations, each joined to an earlier one. Keeps its memory when it is started anew.
+ * \brief Configurations, each joined to an earlier one. start() keeps the memory.
  *
  * The nearest is found by looking at all of them in single precision, blocks of nodes side by side: for the few thousand
  * nodes of a search this is faster than a tree for neighbours, which would have to be updated at each node.

@@ -39,7 +39,7 @@ struct vpPixelFit {
  * have a likely grey value.
  *
  * The derivative of T with respect to the pose is its gradient times the motion of the pixels, which changes slowly: it
- * is constant in blocks of 8x8 pixels, so that an iteration needs 20 sums per block. T is predicted anew when the pose
+ * is constant in blocks of 8x8 pixels, so that an iteration needs 20 sums per block. T is predicted again when the pose
  * has moved by more than a tenth of a pixel, and linear within; of a large target first in a third of the blocks only.
  *
  * The covariance is A^-1 B A^-1 with A = sum psi' J J^T and B = sum psi^2 J J^T, times kappa = max(1, tr(C^-1

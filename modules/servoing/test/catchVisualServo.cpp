@@ -220,7 +220,7 @@ TEST_CASE("A target that is lost stops the arm, and it goes on when it comes bac
   CHECK(before > 1e-3);
 }
 
-TEST_CASE("While the arm brakes there is no self-motion, and the largest jerk of a joint is told", "[servoing]")
+TEST_CASE("While the arm brakes there is no self-motion, and the largest jerk of a joint is reported", "[servoing]")
 {
   vpRedundancySpec ofTwin;
   ofTwin.period = period;

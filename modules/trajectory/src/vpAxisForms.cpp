@@ -330,7 +330,9 @@ double leastVelocityStep(double d, double a, const vpAxisLimits &limits)
 {
   const double A = limits.acceleration, J = limits.jerk;
   double T = 3. * d / (a + A + std::sqrt(A * (A - a)));
-  for (bool raised = std::isfinite(J); raised;) {
+  constexpr int rounds = 8; // each goes to the next root of one end; rounding could go on for ever
+  bool raised = std::isfinite(J);
+  for (int k = 0; k < rounds && raised; ++k) {
     raised = false;
     for (const double share : {4., 2.}) {
       const double y = 6. * d - share * a * T, excess = std::abs(y) - J * T * T;
