@@ -364,6 +364,13 @@ TEST_CASE("Whole-arm queries are those of their pairs, now and later, for moved 
         const std::array<int, 3> key = {static_cast<int>(pair.kind), scene.capsule(pair.capsule).link,
                                         self ? scene.capsule(pair.other).link : pair.other};
         CHECK(pair.distance == Approx(least.at(key)).margin(1e-12));
+        const vpClearance alone = self ? scene.selfPair(data, pair.capsule, pair.other)
+                                  : pair.kind == vpCollisionKind::Ground
+                                      ? scene.groundPair(data, pair.capsule)
+                                      : scene.pair(data, pair.capsule, pair.other, time);
+        CHECK((pair.onArm - alone.onArm).norm() + (pair.onOther - alone.onOther).norm() +
+                  (pair.normal - alone.normal).norm() <
+              1e-12);
       }
       CHECK_FALSE(near.dropped);
     }
