@@ -84,7 +84,7 @@ TEST_CASE("A rotation that the bounds make slow winds up no integral", "[servoin
 TEST_CASE("A rotation about a far object before a fixed camera brings the end effector to its goal without overshoot",
           "[servoing]")
 {
-  for (unsigned int i = 0; i < static_cast<unsigned int>(vpTestSupport::longer(30)); ++i) {
+  for (unsigned int i = 0; i < static_cast<unsigned int>(vpTestSupport::longer(200)); ++i) {
     vpServoControllerSpec controller;
     controller.gains.lambda = 3.;
     vpVisualServoSpec spec;
