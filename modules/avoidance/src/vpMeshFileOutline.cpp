@@ -288,7 +288,45 @@ std::string plyFault(const std::string &line, std::size_t left)
   return "\"" + vpPrintable(line, 60) + "\" is no line of a .ply head";
 }
 
-void requirePlyHead(const std::string &bytes, const std::string &file)
+// Type of the first value of a binary .ply file, from its head; "" if there is none, or if the values are text.
+std::string firstPlyType(const std::string &head)
+{
+  if (head.find("\nformat ascii") != std::string::npos) {
+    return "";
+  }
+  std::istringstream lines(head);
+  bool hasData = false;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string kind, name, count;
+    words >> kind >> name >> count;
+    hasData = hasData || (kind == "element" && count.find_first_not_of('0') != std::string::npos);
+    if (hasData && kind == "property") {
+      return name;
+    }
+  }
+  return "";
+}
+
+// Assimp takes line ends at the beginning of binary data for a part of the head, and reads on one byte late. As the first byte of a
+// floating-point number, in either byte order, such a byte loses its last bit: 1e-7 of the number, or all of one below 1e-30.
+void hideLineEnd(std::string &bytes, std::size_t data, const std::string &file)
+{
+  if (data >= bytes.size() || (bytes[data] != '\n' && bytes[data] != '\r')) {
+    return;
+  }
+  static const std::set<std::string> floating{"float", "double", "float32", "float64"};
+  const std::string type = firstPlyType(bytes.substr(0, data));
+  if (floating.count(type) > 0) {
+    bytes[data] = static_cast<char>(bytes[data] ^ 1);
+  }
+  else if (!type.empty()) {
+    fail(file, "its binary data begins with a byte " + std::to_string(static_cast<int>(bytes[data])) +
+                   ", which is mistaken for the end of a line; save it as text");
+  }
+}
+
+void requirePlyHead(std::string &bytes, const std::string &file)
 {
   for (std::size_t at = 0, number = 1; at < bytes.size(); ++number) {
     const std::size_t end = std::min(bytes.find('\n', at), bytes.size());
@@ -298,6 +336,7 @@ void requirePlyHead(const std::string &bytes, const std::string &file)
     }
     at = end + 1;
     if (number > 1 && line == "end_header") {
+      hideLineEnd(bytes, at, file);
       return;
     }
     const std::string fault = number == 1 && line == "ply" ? "" : plyFault(line, bytes.size());

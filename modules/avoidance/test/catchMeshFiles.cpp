@@ -11,8 +11,10 @@
 #include <visp3/avoidance/vpTriangleMesh.h>
 #include <visp3/core/vpException.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <fstream>
 #include <iostream>
 #include <sstream>
@@ -116,6 +118,22 @@ std::string ply(const vpTriangleMesh &mesh, bool binary)
       binary ? append(text, static_cast<std::int32_t>(i)) : void(text += " " + std::to_string(i));
     }
     text += binary ? "" : "\n";
+  }
+  return text;
+}
+
+// A binary .ply file in the other byte order.
+std::string bigEndian(std::string text, std::size_t vertices)
+{
+  text.replace(text.find("little"), 6, "big");
+  auto at = text.begin() + static_cast<std::ptrdiff_t>(text.find("end_header\n") + 11);
+  for (std::size_t i = 0; i < 3 * vertices; ++i, at += 8) {
+    std::reverse(at, at + 8);
+  }
+  for (; at != text.end(); at += 13) { // a number of vertices in one byte, and three of them
+    for (int k = 1; k < 13; k += 4) {
+      std::reverse(at + k, at + k + 4);
+    }
   }
   return text;
 }
@@ -229,6 +247,40 @@ TEST_CASE("Every format gives the same solid, with any scale, in any case of let
       // Outwards, also when mirrored.
       CHECK(volume(scaled) == Approx(std::fabs(scale.prod()) * volume(mesh)).epsilon(1e-4));
     }
+  }
+}
+
+TEST_CASE("Binary data may begin with a line end", "[files]")
+{
+  CAPTURE(vpTestSupport::seed());
+  std::mt19937_64 rng = vpTestSupport::generator();
+  const vpTriangleMesh any = solid(rng);
+  for (const char first : {'\n', '\r'}) {
+    std::vector<Vector3d> corners = any.vertices();
+    std::memcpy(&corners[0](0), &first, 1);
+    const vpTriangleMesh mesh(corners, any.triangles());
+    const std::string bytes = ply(mesh, true);
+    const std::size_t data = bytes.find("end_header\n") + 11;
+    REQUIRE(bytes[data] == first);
+    const File little("line-end.ply", bytes);
+    const vpTriangleMesh same = vpTriangleMesh::load(little.name());
+    CHECK(same.isWatertight());
+    CHECK(difference(same, mesh, [](const Vector3d &v) { return v; }) < 1e-6);
+
+    // The other byte order, in which such a number is almost 0.
+    corners[0](0) = 0.;
+    const vpTriangleMesh flat(corners, any.triangles());
+    std::string turned = bigEndian(ply(flat, true), corners.size());
+    turned[turned.find("end_header\n") + 11] = first;
+    const File big("line-end-big.ply", turned);
+    CHECK(difference(vpTriangleMesh::load(big.name()), flat, [](const Vector3d &v) { return v; }) < 1e-6);
+
+    std::string whole = ply(mesh, true); // an integer cannot be changed
+    whole.replace(whole.find("double x"), 8, "int x");
+    const File integer("line-end-int.ply", whole);
+    CHECK(errorOf([&] { return vpTriangleMesh::load(integer.name()); }) ==
+          integer.name() + ": its binary data begins with a byte " + std::to_string(int{first}) +
+              ", which is mistaken for the end of a line; save it as text");
   }
 }
 
