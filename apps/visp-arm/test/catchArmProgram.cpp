@@ -22,7 +22,7 @@
 
 namespace
 {
-using Catch::Matchers::Contains;
+using Catch::Contains;
 using nlohmann::json;
 
 //! \brief A public description, and which part of it is the arm.

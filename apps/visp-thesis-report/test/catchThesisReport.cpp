@@ -226,7 +226,7 @@ TEST_CASE("Judgements: each has a place and words of the thesis and a tolerance,
     for (const auto &row : item.second) {
       CAPTURE(row.first);
       CHECK_FALSE(row.second.where.empty());
-      CHECK_THAT(row.second.where, Catch::Matches(".*, line [0-9]+( (to|and) [0-9]+)? of the transcription"));
+      CHECK_THAT(row.second.where, Catch::Matchers::Matches(".*, line [0-9]+( (to|and) [0-9]+)? of the transcription"));
       CHECK_FALSE(row.second.quote.empty());
       CHECK_FALSE(row.second.tolerance.empty());
     }
