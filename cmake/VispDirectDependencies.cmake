@@ -97,7 +97,11 @@ vispdirect_optional(MUJOCO "second opinion on arms (test catchMujocoOracle)" "${
 
 # The Python package: pybind11, and an interpreter that has numpy. Another python3 (pyenv, conda) may stand before the one that
 # the system's packages belong to; -DPython3_EXECUTABLE decides.
-if(Python3_EXECUTABLE)
+get_property(vispdirect_python_searched GLOBAL PROPERTY VISP_DIRECT_PYTHON_SEARCHED)
+set_property(GLOBAL PROPERTY VISP_DIRECT_PYTHON_SEARCHED TRUE)
+if(vispdirect_python_searched) # once, not for every component
+  set(vispdirect_candidates "")
+elseif(Python3_EXECUTABLE)
   set(vispdirect_candidates "${Python3_EXECUTABLE}")
 elseif(NOT VISP_DIRECT_PYTHON_EXECUTABLE)
   find_program(VISP_DIRECT_PYTHON_OF_PATH python3)

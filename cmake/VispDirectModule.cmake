@@ -42,6 +42,14 @@ function(vispdirect_precompile target header)
   endif()
 endfunction()
 
+# vispdirect_tests_need(NAME test...): these tests of the module are not compiled without the library NAME. A test that compiles but
+# cannot pass without it has the tag [needs-NAME], and is then not run (test/support/vpTestMain.cpp).
+macro(vispdirect_tests_need name)
+  if(NOT VISP_DIRECT_HAVE_${name})
+    list(APPEND vispdirect_not_compiled ${ARGN})
+  endif()
+endmacro()
+
 # vispdirect_add_tests([DEPENDS_ON library...] [ALONE test...]): every test/*.cpp of the module is a test of Catch2 with the shared
 # main of test/support. In a ViSP tree each is a program; standalone, see vispdirect_unite_tests. ALONE are tests with libraries,
 # options or macros of their own. Benchmarks are never tests: see vispdirect_add_benchmarks.
@@ -52,12 +60,13 @@ macro(vispdirect_add_tests)
     file(GLOB_RECURSE vispdirect_tests CONFIGURE_DEPENDS "${CMAKE_CURRENT_LIST_DIR}/test/*.cpp")
     list(TRANSFORM vispdirect_tests REPLACE ".*/(.+)[.]cpp$" "\\1")
     if(VISP_DIRECT_STANDALONE)
-      list(REMOVE_ITEM vispdirect_tests ${vispdirect_ALONE} "") # the latter because a list of nothing is an error
+      list(REMOVE_ITEM vispdirect_ALONE ${vispdirect_not_compiled} "") # the latter because a list of nothing is an error
+      list(REMOVE_ITEM vispdirect_tests ${vispdirect_ALONE} ${vispdirect_not_compiled} "")
       foreach(vispdirect_test ${vispdirect_ALONE})
         vispdirect_add_test(${vispdirect_test} SOURCE "test/${vispdirect_test}.cpp" LINK ${the_module} ${vispdirect_DEPENDS_ON})
       endforeach()
       vispdirect_unite_tests(vispdirect_tests_${name} FOLDER test TESTS ${vispdirect_tests} LINK ${the_module} ${vispdirect_DEPENDS_ON})
-    else()
+    elseif(NOT vispdirect_not_compiled) # ViSP's macro takes all files of a folder
       vp_add_tests(DEPENDS_ON vispdirect_test_support ${vispdirect_DEPENDS_ON})
       foreach(vispdirect_test ${vispdirect_tests})
         if(TARGET ${vispdirect_test})
@@ -74,9 +83,13 @@ function(vispdirect_test_support)
   if(TARGET vispdirect_test_support)
     return()
   endif()
-  # Catch2 3 is a library, 2 is a header, also part of ViSP's sources; test/support/vpCatch.h supports all of them.
+  # Catch2 3 is a library, 2 is a header; both are also part of ViSP's sources. test/support/vpCatch.h supports all of them.
   find_package(Catch2 QUIET)
-  if(TARGET Catch2::Catch2 AND Catch2_VERSION VERSION_GREATER_EQUAL 3)
+  if(TARGET visp_catch2) # since ViSP 3.7, version 3 in one header
+    set(VISP_DIRECT_CATCH2_INCLUDE_DIR "${VISP_SOURCE_DIR}/3rdparty/catch2" "${CMAKE_BINARY_DIR}/vispdirect-catch2")
+    file(WRITE "${CMAKE_BINARY_DIR}/vispdirect-catch2/catch2/catch_all.hpp" "#include <catch_amalgamated.hpp>\n")
+    set(vispdirect_catch visp_catch2)
+  elseif(TARGET Catch2::Catch2 AND Catch2_VERSION VERSION_GREATER_EQUAL 3)
     set(vispdirect_catch Catch2::Catch2)
     get_target_property(VISP_DIRECT_CATCH2_INCLUDE_DIR Catch2::Catch2 INTERFACE_INCLUDE_DIRECTORIES)
   else()
@@ -95,6 +108,14 @@ function(vispdirect_test_support)
   target_link_libraries(vispdirect_test_support PUBLIC ${vispdirect_catch})
   target_compile_features(vispdirect_test_support PUBLIC cxx_std_17)
   target_compile_definitions(vispdirect_test_support PUBLIC VISP_DIRECT_DATA_DIR="${VISP_DIRECT_ROOT}/data")
+  set(without "")
+  foreach(name KDL OCTOMAP ASSIMP FCL OMPL DLIB)
+    if(NOT VISP_DIRECT_HAVE_${name})
+      string(APPEND without "~[needs-${name}]")
+    endif()
+  endforeach()
+  set_source_files_properties("${VISP_DIRECT_ROOT}/test/support/vpTestMain.cpp" PROPERTIES COMPILE_DEFINITIONS
+                              VISP_DIRECT_WITHOUT="${without}")
   # What takes time in a test is in the modules: -O1 saves a quarter of the tests' own compile time.
   target_compile_options(vispdirect_test_support PUBLIC "$<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU,Clang>>:-O1>")
   # Precompile the headers of every test: a quarter to a third of its compile time.
@@ -124,6 +145,16 @@ function(vispdirect_add_test_program program)
   target_link_libraries(${program} PRIVATE ${program_LINK} vispdirect_test_support)
   if(TARGET vispdirect_test_pch)
     target_precompile_headers(${program} REUSE_FROM vispdirect_test_pch)
+  endif()
+endfunction()
+
+# vispdirect_link_test(TEST library...): more libraries for a test of a module. CMake wants one form for a target, and ViSP's has no
+# keyword.
+function(vispdirect_link_test test)
+  if(VISP_DIRECT_STANDALONE)
+    target_link_libraries(${test} PRIVATE ${ARGN})
+  else()
+    target_link_libraries(${test} ${ARGN})
   endif()
 endfunction()
 

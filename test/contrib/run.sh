@@ -65,7 +65,7 @@ mkdir -p "$build"
 build=$(cd "$build" && pwd)
 
 # What our modules and their tests use; everything else of ViSP stays out.
-needed='core gui imgproc io sensor visual_features vision vs robot'
+needed='core detection gui imgproc io sensor visual_features vision vs robot'
 switches=()
 while read -r module; do
   case " $needed " in *" $module "*) state=ON ;; *) state=OFF ;; esac

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Configure and build with each optional library switched off in turn, and see what a program says that wants it.
+# Configure, build and test with each optional library switched off in turn, and see what a program says that wants it.
 set -euo pipefail
 usage() {
   cat <<'TEXT'
 usage: test/dependencies/run.sh [NAME...]
 
-Modules, programs and tutorials are built without tests, in build/without-NAME, once for each NAME: KDL, URDFDOM, OCTOMAP, ASSIMP, FCL,
-OMPL, DLIB, ARAVIS, CLI11 or PYTHON (by default all of them). JOBS=N sets the number of compilers at work.
+Everything is built and tested in build/without-NAME, once for each NAME: KDL, URDFDOM, OCTOMAP, ASSIMP, FCL, OMPL, DLIB, ARAVIS,
+CLI11 or PYTHON (by default all of them). CTEST_ARGS="-R Servo" goes to ctest; JOBS=N sets the number of compilers and tests at work.
 TEXT
 }
 case ${1:-} in -h | --help) usage; exit 0 ;; esac
@@ -30,8 +30,7 @@ for name; do
   build=build/without-$name
   out=$(mktemp -d)
   echo "== without $name"
-  cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DVISP_DIRECT_BUILD_TESTS=OFF \
-    -DVISP_DIRECT_BUILD_BENCHMARKS=OFF "-DWITH_$name=OFF" "${launcher[@]}" >"$build.log" 2>&1 || { cat "$build.log" >&2; exit 1; }
+  cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DVISP_DIRECT_BUILD_BENCHMARKS=OFF "-DWITH_$name=OFF" "${launcher[@]}" >"$build.log" 2>&1 || { cat "$build.log" >&2; exit 1; }
   grep -q "$name is switched off\|no programs are built" "$build.log" || { echo "dependencies: no word about $name" >&2; exit 1; }
   cmake --build "$build" -j "${JOBS:-$(nproc)}" >"$build.log" 2>&1 || { tail -40 "$build.log" >&2; exit 1; }
   bin=$build/bin
@@ -42,4 +41,8 @@ for name; do
   OMPL) expect 1 "OMPL" "$bin/visp-avoid-obstacle" --method planner --out "$out/planner" ;;
   esac
   rm -rf "$out"
+  # shellcheck disable=SC2086 # several arguments
+  OMP_NUM_THREADS=1 ctest --test-dir "$build" -j "${JOBS:-$(nproc)}" --no-tests=error --output-on-failure ${CTEST_ARGS:-} >"$build.log" 2>&1 ||
+    { grep -A 20 "tests passed" "$build.log" >&2; echo "dependencies: the whole output is in $build.log" >&2; exit 1; }
+  grep "tests passed" "$build.log"
 done

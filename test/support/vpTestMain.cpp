@@ -21,13 +21,26 @@ namespace
 constexpr int skipped = 77; // SKIP_RETURN_CODE of cmake/VispDirectModule.cmake
 unsigned int s_seed = 20240613;
 bool s_skipped = false;
+bool s_ran = false;             // any test
 bool s_halved = false;          // see vpTestSupport::longer()
 std::set<std::string> s_random; // names of the tests that used the seed
 
+#if __has_include(<catch2/catch_all.hpp>)
+using CatchListener = Catch::EventListenerBase;
+#else
+using CatchListener = Catch::TestEventListenerBase;
+#endif
+
+struct Listener : CatchListener {
+  using CatchListener::CatchListener;
+  void testCaseStarting(const Catch::TestCaseInfo &) override { s_ran = true; }
+};
+CATCH_REGISTER_LISTENER(Listener)
+
 void noteRandomTest() { s_random.insert(Catch::getResultCapture().getCurrentTestName()); }
 
-// Adds a tag that tests must have: to each alternative of a filter; commas outside of quotes and brackets separate them.
-std::string withTag(const std::string &filter, const std::string &tag)
+// Adds tags that tests must have: to each alternative of a filter; commas outside of quotes and brackets separate them.
+std::string withTags(const std::string &filter, const std::string &tags)
 {
   std::string text;
   char closing = '\0';
@@ -45,27 +58,31 @@ std::string withTag(const std::string &filter, const std::string &tag)
       closing = c == '[' ? ']' : c;
     }
     else if (c == ',') {
-      text += tag;
+      text += tags;
     }
     text += c;
   }
   return text;
 }
 
-// A program that unites the tests of several files runs those of catchName.cpp alone when it is called catchName.
-void selectFile(Catch::ConfigData &config, const char *called)
+// A program that unites the tests of several files runs those of catchName.cpp alone when it is called catchName. Tests that
+// need a library which this build has not are left out.
+void selectTests(Catch::ConfigData &config, const char *called)
 {
+  std::string tags = VISP_DIRECT_WITHOUT;
   std::string name(called);
   name.erase(0, name.find_last_of("/\\") + 1); // npos + 1 is 0
   name.erase(std::min(name.find('.'), name.size()));
-  if (name.compare(0, 5, "catch") != 0) {
+  if (name.compare(0, 5, "catch") == 0) {
+    config.filenamesAsTags = true;
+    tags += "[#" + name + "]";
+  }
+  if (tags.empty()) {
     return;
   }
-  config.filenamesAsTags = true;
-  const std::string tag = "[#" + name + "]";
   std::vector<std::string> &filters = config.testsOrTags;
-  std::transform(filters.begin(), filters.end(), filters.begin(), [&](const auto &f) { return withTag(f, tag); });
-  filters.push_back(filters.empty() ? tag + "~[.]" : tag); // hidden tests run only when they are named
+  std::transform(filters.begin(), filters.end(), filters.begin(), [&](const auto &f) { return withTags(f, tags); });
+  filters.push_back(filters.empty() ? tags + "~[.]" : tags); // hidden tests run only when they are named
 }
 
 // Runs the random tests again, with a seed from the environment; a test that its filter does not find is a failure.
@@ -138,13 +155,17 @@ int main(int argc, char *argv[])
   if (status != 0) {
     return status;
   }
-  selectFile(session.configData(), argv[0]);
+  selectTests(session.configData(), argv[0]);
   if (seedGiven) {
     s_seed = session.configData().rngSeed;
   }
   const char *seeds = std::getenv("VISP_DIRECT_SEED");
   s_halved = !seedGiven && seeds != nullptr;
   int failed = session.run();
+  if (!s_ran && *VISP_DIRECT_WITHOUT != '\0') {
+    std::cout << "skipped: no test of this file runs without the libraries that are missing\n";
+    return skipped;
+  }
   if (s_halved && !s_random.empty()) {
     std::istringstream list(seeds);
     for (unsigned int seed = 0; failed == 0 && !(list >> std::ws).eof();) {

@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 // M, C and g against chains of KDL that are made straight from the table and from the URDF, and against energy.
-#include "vpArmTestKit.h"
+#include "vpKdlTestKit.h"
 #include "vpCatch.h"
 
 #include <visp3/direct_core/vpSO3.h>

@@ -5,6 +5,7 @@
 // Joints that follow others, and tools and cameras on any link.
 #define VP_URDF_TEST "catchArmFollowers"
 #include "vpCatch.h"
+#include "vpKdlTestKit.h"
 #include "vpRandomRow.h"
 
 #include <visp3/manipulator/vpArmDynamics.h>

@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 // Forward kinematics and Jacobians against KDL, reference poses and finite differences.
-#include "vpArmTestKit.h"
+#include "vpKdlTestKit.h"
 #include "vpCatch.h"
 
 #include <visp3/core/vpException.h>

@@ -4,7 +4,7 @@
  */
 // Joint bounds and redundancy solver over random steps, verified by independent rules: braking is simulated
 // step by step, the Jacobian is KDL's. VISP_DIRECT_LONG_TESTS=50 runs 10^6 steps of each.
-#include "vpArmTestKit.h"
+#include "vpKdlTestKit.h"
 #include "vpCatch.h"
 
 #include <visp3/manipulator/vpJointBounds.h>

@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 // Public descriptions of arms: all load, move as KDL says, and hide nothing from a collision check.
-#include "vpArmTestKit.h"
+#include "vpKdlTestKit.h"
 #include "vpCaseFile.h"
 #include "vpCatch.h"
 
