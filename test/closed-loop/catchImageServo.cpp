@@ -7,6 +7,7 @@
  * \brief The whole chain from picture to motion: rendered views, vpPlanarTarget, law, plant with friction.
  * VISP_DIRECT_LONG_TESTS=10 runs each photograph with ten seeds; without it, even and odd seeds share the photographs.
  */
+#include "vpCaseFile.h"
 #include "vpCatch.h"
 
 #include <visp3/core/vpIoTools.h>
@@ -25,12 +26,13 @@ namespace
 // Photographs of all kinds: paintings, fruit, a front of a house, plants, an animal, a landscape, a toy on blank ground.
 std::vector<std::string> photographs()
 {
-  const std::string visp = vpIoTools::getViSPImagesDataPath(), opencv = VISP_DIRECT_OPENCV_SAMPLES;
+  const std::string opencv = VISP_DIRECT_OPENCV_SAMPLES;
   std::vector<std::string> there;
   for (const std::string &file :
-       {visp + "/Klimt/Klimt.png", visp + "/mbt/cube/image0000.pgm", visp + "/mbt-depth/castel/chateau.ppm",
-        opencv + "/home.jpg", opencv + "/fruits.jpg", opencv + "/graf1.png", opencv + "/aloeL.jpg",
-        opencv + "/baboon.jpg", opencv + "/starry_night.jpg", opencv + "/leuvenA.jpg"}) {
+       {vpTestSupport::vispImage("Klimt/Klimt.png"), vpTestSupport::vispImage("mbt/cube/image0000.pgm"),
+        vpTestSupport::vispImage("mbt-depth/castel/chateau.ppm"), opencv + "/home.jpg", opencv + "/fruits.jpg",
+        opencv + "/graf1.png", opencv + "/aloeL.jpg", opencv + "/baboon.jpg", opencv + "/starry_night.jpg",
+        opencv + "/leuvenA.jpg"}) {
     if (vpIoTools::checkFilename(file)) {
       there.push_back(file);
     }

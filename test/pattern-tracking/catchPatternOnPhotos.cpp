@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 // Real photographs of dots: a printed grid seen at an angle, and a box in a hand. From ViSP's images.
+#include "vpCaseFile.h"
 #include "vpCatch.h"
 
 #include <visp3/core/vpImageTools.h>
@@ -69,7 +70,7 @@ TEST_CASE("printed grids seen at an angle are found whole and followed", "[patte
   const auto method = GENERATE(vpPatternMethod::GaussNewton, vpPatternMethod::HalfMaximumEdges);
   CAPTURE(number, vpToString(method));
   vpImage<unsigned char> photo, image;
-  vpImageIo::read(photo, folder + "/calibration/grid36-0" + std::to_string(number) + ".pgm");
+  vpImageIo::read(photo, vpTestSupport::vispImage("calibration/grid36-0" + std::to_string(number) + ".pgm"));
   vpPatternTrackerSpec spec;
   spec.method = method;
   vpPatternTracker tracker(photo.getWidth() - 24, photo.getHeight() - 24, spec);
@@ -143,7 +144,8 @@ TEST_CASE("four dots on a box in a hand are followed while it turns, tilts and c
   double squares = 0.;
   for (int k = 20; k <= 501; ++k) {
     const std::string digits = std::to_string(k);
-    vpImageIo::read(photo, folder + "/mire-2/image." + std::string(4 - digits.size(), '0') + digits + ".pgm");
+    vpImageIo::read(photo,
+                    vpTestSupport::vispImage("mire-2/image." + std::string(4 - digits.size(), '0') + digits + ".pgm"));
     vpImageTools::crop(photo, top, left, height, width, image);
     const vpPatternFrame &frame = tracker.process(image);
     lost += frame.status == vpPatternStatus::Lost ? 1 : 0;

@@ -7,6 +7,7 @@
 #ifndef vpPlanarPoseKit_h
 #define vpPlanarPoseKit_h
 
+#include "vpCaseFile.h"
 #include "vpCatch.h"
 
 #include <visp3/core/vpHomogeneousMatrix.h>
@@ -274,7 +275,7 @@ inline std::vector<Photo> photos()
 {
   std::vector<Photo> all = {{"klimt", std::string(VISP_DIRECT_DATA_DIR) + "/target/klimt.jpg"},
                             {"home", std::string(VISP_DIRECT_OPENCV_SAMPLES) + "/home.jpg"},
-                            {"cube", vpIoTools::getViSPImagesDataPath() + "/mbt/cube/image0000.pgm"}};
+                            {"cube", vpTestSupport::vispImage("mbt/cube/image0000.pgm")}};
   std::vector<Photo> there;
   for (const Photo &photo : all) {
     if (vpIoTools::checkFilename(photo.file)) {

@@ -4,12 +4,14 @@
  */
 /*!
  * \file vpCaseFile.h
- * \brief Inputs from public problems, which are not part of the project.
+ * \brief Inputs from public problems and packages, which are not part of the project.
  */
 #ifndef vpCaseFile_h
 #define vpCaseFile_h
 
 #include "vpCatch.h"
+
+#include <visp3/core/vpIoTools.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -38,6 +40,16 @@ inline std::string caseFile(const std::string &name)
   }
   skip("the public case " + name + " is not there (folder shared/cases, or VISP_DIRECT_CASES)");
   return "";
+}
+
+//! Path of an image of Debian's visp-images-data, whether it is there or not. Those of type .pgm are of type .png since ViSP 3.6.
+inline std::string vispImage(const std::string &name)
+{
+  const std::filesystem::path file = std::filesystem::path(vpIoTools::getViSPImagesDataPath()) / name;
+  std::filesystem::path later = file;
+  later.replace_extension(".png");
+  std::error_code ignored;
+  return (std::filesystem::exists(later, ignored) ? later : file).string();
 }
 } // namespace vpTestSupport
 

@@ -6,6 +6,7 @@
 // longer than most tests of it. Here the program is loaded once and stops before its main(); each run is a copy of the process.
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <string>
 #include <vector>
 
@@ -97,6 +98,8 @@ __libc_start_main(Main *main, int argc, char **argv, void (*init)(), void (*fini
   using Start = int(Main *, int, char **, void (*)(), void (*)(), void (*)(), void *);
   Start *const start = reinterpret_cast<Start *>(dlsym(RTLD_NEXT, "__libc_start_main"));
   s_main = main;
-  return start(std::getenv("VISP_DIRECT_PROGRAM_SERVER") == nullptr ? main : serve, argc, argv, init, fini, loaderFini,
+  const char *server = std::getenv("VISP_DIRECT_PROGRAM_SERVER"); // "SOCKET PROCESS"
+  const char *process = server == nullptr ? nullptr : std::strchr(server, ' ');
+  return start(process == nullptr || std::atol(process) != getpid() ? main : serve, argc, argv, init, fini, loaderFini,
                stack);
 }

@@ -45,7 +45,8 @@ public:
     if (child == 0) {
       const int end = dup(ends[1]); // without SOCK_CLOEXEC
       setenv("LD_PRELOAD", VISP_DIRECT_PROGRAM_SERVER, 1);
-      setenv("VISP_DIRECT_PROGRAM_SERVER", std::to_string(end).c_str(), 1);
+      // With the process, for what a library starts before main() is another one (a shell, on Debian 13).
+      setenv("VISP_DIRECT_PROGRAM_SERVER", (std::to_string(end) + " " + std::to_string(getpid())).c_str(), 1);
       execl(program.c_str(), program.c_str(), static_cast<char *>(nullptr));
       _exit(127);
     }

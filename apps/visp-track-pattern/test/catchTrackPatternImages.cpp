@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 // Real images: the dot grids and the film of marks of visp-images-data.
+#include "vpCaseFile.h"
 #include "vpCatch.h"
 
 #include "fileSource.h"
@@ -42,9 +43,9 @@ vpImage<unsigned char> greyImage(const std::string &file)
   return image;
 }
 
-std::string gridFile(const std::string &folder, int number)
+std::string gridFile(int number)
 {
-  return folder + "/grid36-0" + std::to_string(number) + ".pgm";
+  return vpTestSupport::vispImage("calibration/grid36-0" + std::to_string(number) + ".pgm");
 }
 
 // Root mean square distance of the points from the homography of their lattice, px (least squares on normalised data).
@@ -80,7 +81,7 @@ TEST_CASE("all dots of the real grids are found, in straight and in strongly til
   vpTsaiCalibration tsai(640, 480);
   for (int number = 1; number <= 4; ++number) {
     vpImage<unsigned char> image;
-    image = greyImage(gridFile(folder, number));
+    image = greyImage(gridFile(number));
     const std::vector<vpCalibrationPoint> points = vpCalibrationPoints(image, {0.03, 0.03, 0.});
     CAPTURE(number);
     REQUIRE(points.size() == 36);
@@ -115,7 +116,7 @@ TEST_CASE("a real grid that is moved is tracked", "[images]")
   }
   for (int number = 1; number <= 4; ++number) {
     vpImage<unsigned char> whole;
-    whole = greyImage(gridFile(folder, number));
+    whole = greyImage(gridFile(number));
     // A window moving over the image by whole pixels shows the grid in motion, with real light and real dots.
     const unsigned int width = 580, height = 440;
     vpPatternTracker tracker(width, height);
