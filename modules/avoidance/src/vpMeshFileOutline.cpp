@@ -5,6 +5,7 @@
 #include "vpMeshFileOutline.h"
 
 #include "vpFileText.h"
+#include "vpPlyOutline.h"
 #include "vpXmlOutline.h"
 
 #include <map>
@@ -254,97 +255,25 @@ void removeExtras(std::string &text)
   text = kept.append(text, from, std::string::npos);
 }
 
-// One line of the head of a .ply file; "" if it is right.
-std::string plyFault(const std::string &line, std::size_t left)
+// The indices of a primitive come after its inputs, by whose number assimp divides theirs.
+void requireInputs(const std::vector<vpXmlElement> &elements, const std::string &file)
 {
-  static const std::set<std::string> formats{"ascii", "binary_little_endian", "binary_big_endian"};
-  static const std::set<std::string> types{"char", "uchar", "short", "ushort", "int",   "uint",   "float",   "double",
-                                           "int8", "uint8", "int16", "uint16", "int32", "uint32", "float32", "float64"};
-  std::istringstream in(line);
-  std::vector<std::string> words;
-  for (std::string word; in >> word;) {
-    words.push_back(word);
-  }
-  const std::string kind = words.empty() ? "" : words[0];
-  if (kind == "comment" || kind == "obj_info") {
-    return "";
-  }
-  if (kind == "format" && words.size() == 3 && formats.count(words[1]) > 0 && words[2] == "1.0") {
-    return "";
-  }
-  if (kind == "property" && words.size() == 3 && types.count(words[1]) > 0) {
-    return "";
-  }
-  if (kind == "property" && words.size() == 5 && words[1] == "list" &&
-      types.count(words[2]) + types.count(words[3]) == 2) {
-    return "";
-  }
-  if (kind == "element" && words.size() == 3 && words[2].size() < 12 &&
-      words[2].find_first_not_of("0123456789") == std::string::npos) {
-    return std::stoull(words[2]) <= left
-               ? ""
-               : "says " + words[2] + " of the element " + vpPrintable(words[1], 60) + ", more than it has bytes";
-  }
-  return "\"" + vpPrintable(line, 60) + "\" is no line of a .ply head";
-}
-
-// Type of the first value of a binary .ply file, from its head; "" if there is none, or if the values are text.
-std::string firstPlyType(const std::string &head)
-{
-  if (head.find("\nformat ascii") != std::string::npos) {
-    return "";
-  }
-  std::istringstream lines(head);
-  bool hasData = false;
-  for (std::string line; std::getline(lines, line);) {
-    std::istringstream words(line);
-    std::string kind, name, count;
-    words >> kind >> name >> count;
-    hasData = hasData || (kind == "element" && count.find_first_not_of('0') != std::string::npos);
-    if (hasData && kind == "property") {
-      return name;
+  static const std::set<std::string> primitives{"triangles",  "polylist",  "polygons", "lines",
+                                                "linestrips", "tristrips", "trifans"};
+  std::set<int> complete;
+  for (const vpXmlElement &element : elements) {
+    if (element.parent < 0 || primitives.count(elements[static_cast<std::size_t>(element.parent)].name) == 0) {
+      continue;
+    }
+    const auto semantic = element.attributes.find("semantic");
+    if (element.name == "input" && semantic != element.attributes.end() && semantic->second == "VERTEX") {
+      complete.insert(element.parent);
+    }
+    else if (element.name != "input" && element.name != "extra" && complete.count(element.parent) == 0) {
+      fail(file, "an element " + elements[static_cast<std::size_t>(element.parent)].name +
+                     " has no input VERTEX before its indices");
     }
   }
-  return "";
-}
-
-// Assimp takes line ends at the beginning of binary data for a part of the head, and reads on one byte late. As the first byte of a
-// floating-point number, in either byte order, such a byte loses its last bit: 1e-7 of the number, or all of one below 1e-30.
-void hideLineEnd(std::string &bytes, std::size_t data, const std::string &file)
-{
-  if (data >= bytes.size() || (bytes[data] != '\n' && bytes[data] != '\r')) {
-    return;
-  }
-  static const std::set<std::string> floating{"float", "double", "float32", "float64"};
-  const std::string type = firstPlyType(bytes.substr(0, data));
-  if (floating.count(type) > 0) {
-    bytes[data] = static_cast<char>(bytes[data] ^ 1);
-  }
-  else if (!type.empty()) {
-    fail(file, "its binary data begins with a byte " + std::to_string(static_cast<int>(bytes[data])) +
-                   ", which is mistaken for the end of a line; save it as text");
-  }
-}
-
-void requirePlyHead(std::string &bytes, const std::string &file)
-{
-  for (std::size_t at = 0, number = 1; at < bytes.size(); ++number) {
-    const std::size_t end = std::min(bytes.find('\n', at), bytes.size());
-    std::string line = bytes.substr(at, std::min<std::size_t>(end - at, 1000));
-    if (!line.empty() && line.back() == '\r') {
-      line.pop_back();
-    }
-    at = end + 1;
-    if (number > 1 && line == "end_header") {
-      hideLineEnd(bytes, at, file);
-      return;
-    }
-    const std::string fault = number == 1 && line == "ply" ? "" : plyFault(line, bytes.size());
-    if (!fault.empty()) {
-      fail(file, "line " + std::to_string(number) + ": " + fault);
-    }
-  }
-  fail(file, "ends within its head");
 }
 } // namespace
 
@@ -354,12 +283,12 @@ void vpRequireMeshOutline(std::string &bytes, const std::string &extension, cons
     fail(file, "is empty");
   }
   if (extension == "dae") {
-    static_cast<void>(vpReadXmlOutline(bytes, file, false));
+    requireInputs(vpReadXmlOutline(bytes, file, false), file);
     requireFewInstances(bytes, file);
     removeExtras(bytes);
     requireArrays(bytes, file);
   }
   if (extension == "ply") {
-    requirePlyHead(bytes, file);
+    vpRequirePlyOutline(bytes, file);
   }
 }

@@ -9,6 +9,9 @@
 
 #include <Eigen/Geometry>
 
+#if __has_include(<assimp/AssertHandler.h>)
+#include <assimp/AssertHandler.h>
+#endif
 #include <assimp/Importer.hpp>
 #include <assimp/config.h>
 #include <assimp/scene.h>
@@ -16,6 +19,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <mutex>
+#include <stdexcept>
 
 BEGIN_VISP_NAMESPACE
 
@@ -92,8 +97,33 @@ void add(const aiScene &scene, const aiNode &node, const Eigen::Affine3d &parent
   }
 }
 
+#if __has_include(<assimp/AssertHandler.h>)
+// While one lives, a failed assertion of assimp is an exception; in Debian 13's build it would end the process.
+class AssertionsThrow
+{
+public:
+  AssertionsThrow() : m_lock(s_mutex)
+  {
+    Assimp::setAiAssertHandler([](const char *expression, const char *, int) {
+      throw std::runtime_error(std::string("assimp expects ") + expression);
+    });
+  }
+  ~AssertionsThrow() { Assimp::setAiAssertHandler(Assimp::defaultAiAssertHandler); }
+  AssertionsThrow(const AssertionsThrow &) = delete;
+  AssertionsThrow &operator=(const AssertionsThrow &) = delete;
+
+private:
+  static inline std::mutex s_mutex; // assimp has one handler for all threads
+  std::lock_guard<std::mutex> m_lock;
+};
+#else
+struct AssertionsThrow {
+};
+#endif
+
 Soup parse(const std::string &bytes, const std::string &extension, const std::string &file)
 {
+  [[maybe_unused]] const AssertionsThrow guard{};
   Assimp::Importer importer;
   // As RViz and MoveIt read Collada: its up axis is ignored, its unit is not.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);

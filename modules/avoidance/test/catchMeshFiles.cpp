@@ -276,7 +276,7 @@ TEST_CASE("Binary data may begin with a line end", "[files]")
     CHECK(difference(vpTriangleMesh::load(big.name()), flat, [](const Vector3d &v) { return v; }) < 1e-6);
 
     std::string whole = ply(mesh, true); // an integer cannot be changed
-    whole.replace(whole.find("double x"), 8, "int x");
+    whole.replace(whole.find("double x"), 8, "int a\nproperty int x");
     const File integer("line-end-int.ply", whole);
     CHECK(errorOf([&] { return vpTriangleMesh::load(integer.name()); }) ==
           integer.name() + ": its binary data begins with a byte " + std::to_string(int{first}) +
@@ -370,12 +370,18 @@ TEST_CASE("What would crash the parser is refused by name", "[files]")
   CHECK(errorIn(".dae", changed(good, "stride=\"3\"", "stride=\"2\"")) ==
         dae + "the accessor of #a has more parameters than its stride");
   CHECK(errorIn(".dae", changed(good, "<p>0", "<p>1e154")) == dae + "an element p has more than whole numbers");
+  CHECK(errorIn(".dae", changed(good, "semantic=\"VERTEX\"", "semantic=\"NORMAL\"")) ==
+        dae + "an element triangles has no input VERTEX before its indices");
   CHECK(errorIn(".dae", changed(good, "instance_geometry", "instance_controller")) ==
         dae + "has an instance_controller, must be without skins");
   CHECK(errorIn(".dae", changed(good, "<node id=\"a\">", "<node id=\"&lt;\">")) ==
         dae + "id of an element node is \"&lt;\", must be without & and %");
   std::string wrong = ply(mesh, false);
   CHECK(errorIn(".ply", wrong.replace(wrong.find("\n3 ") + 3, 1, "9")) == file + "a face uses vertex 9 of 8");
+  wrong = ply(mesh, false); // for which assimp would make room
+  CHECK(errorIn(".ply", wrong.replace(wrong.find("\n3 ") + 1, 1, "2147483647")) ==
+        file + "a list of the element face has 2147483647 values, more than its line");
+  CHECK(errorIn(".ply", ply(mesh, true).substr(0, ply(mesh, true).size() - 1)) == file + "ends within its data");
   wrong = ply(mesh, true);
   CHECK(errorIn(".ply", wrong.replace(wrong.find("vertex 8"), 8, "vertex 4000000000")) ==
         file + "line 3: says 4000000000 of the element vertex, more than it has bytes");
