@@ -144,6 +144,9 @@ std::string answerLine(const Problem &problem, const Motion &motion)
   if (motion.plans.size() > 1) {
     answer["plans"] = plansOf(motion);
   }
+  if (motion.plans.back().plan.vias() > 0) {
+    answer["vias"] = viasOf(problem, motion);
+  }
   Json segments = Json::array();
   for (const vpTrajectoryPiece &piece : motion.pieces) {
     segments.push_back(

@@ -7,6 +7,7 @@
 #include "jsonReader.h"
 
 #include <visp3/core/vpException.h>
+#include <visp3/trajectory/vpDirectTrajectory.h>
 #include <visp3/trajectory/vpMotionForm.h>
 
 #include <cmath>
@@ -87,7 +88,10 @@ void readVias(JsonObject &object, Input &input)
   }
   for (JsonObject &item : object.objects("via")) {
     vpTrajectoryVia<Eigen::Dynamic> via(static_cast<int>(input.goal.q.size()));
-    via.tau = item.number("tau");
+    via.tau = item.number("tau", via.tau);
+    if (item.has("tau") && via.tau == vpAutomaticTau) {
+      throw item.wrong("tau", item.value("tau"), "in (0, 1), or left out");
+    }
     static_cast<void>(item.value("q")); // required
     readVector(item, "q", via.q);
     via.hasVelocity = item.has("v");
@@ -247,6 +251,10 @@ Problem readProblem(const std::string &text, const std::string &place, std::size
   readVector(object, "j0", problem.input.start.j);
   readTask(object, problem.input);
   readMethod(object, problem.input.spec);
+  if (object.flag("optimise_vias", false)) {
+    // An invalid problem stays as it is; planning tells what is wrong.
+    static_cast<void>(vpDirectTrajectory<Eigen::Dynamic>::optimiseVias(problem.input));
+  }
   problem.dt = object.number("dt", problem.dt);
   if (!(problem.dt > 0.)) {
     throw object.wrong("dt", object.value("dt"), "> 0");

@@ -141,7 +141,15 @@ void bindDirect(py::module_ &m)
           },
           py::arg("input"),
           "(status, plan): the whole motion at once, by the exact method. The plan is empty when the input is "
-          "invalid.");
+          "invalid.")
+      .def_static(
+          "optimiseVias",
+          [](Input &input) {
+            checkedAxes(static_cast<int>(input.goal.q.size()));
+            const py::gil_scoped_release unlocked;
+            return Trajectory::optimiseVias(input);
+          },
+          py::arg("input"), doc("vpDirectTrajectory::optimiseVias"));
 }
 
 void bindPose(py::module_ &m)

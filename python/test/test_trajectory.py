@@ -75,6 +75,11 @@ def test_vias_groups_and_options(random):
     status, plan = vd.DirectTrajectory.calculate(problem)
     assert status.isGood() and len(plan.viaTimes()) == 1
     np.testing.assert_allclose([plan.at(i, plan.viaTimes()[0])[0] for i in (0, 1)], [0.2, 0.6], atol=1e-9)
+    problem.vias = [vd.TrajectoryVia(2, q=[0.2, 0.6])]  # no tau: chosen
+    chosen = vd.DirectTrajectory.calculate(problem)[1].duration()
+    assert vd.DirectTrajectory.optimiseVias(problem).isGood()
+    assert 0 < problem.vias[0].tau < 1 and problem.vias[0].hasVelocity
+    assert vd.DirectTrajectory.calculate(problem)[1].duration() <= chosen < plan.duration()
     problem.vias = []
     problem.spec.groups = [vd.AxisGroup(axes=3, maxSpeed=0.3)]
     assert problem.spec.groups[0].contains(1) and not problem.spec.groups[0].contains(2)

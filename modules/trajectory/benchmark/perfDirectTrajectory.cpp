@@ -4,12 +4,14 @@
  */
 // Planning times, compared with the thesis's iteration, and with Ruckig where VISP_DIRECT_PEER_RUCKIG is its source.
 #include "vpBenchmark.h"
+#include "../test/vpViaProblems.h"
 #include "vpRetargets.h"
 
 #include <visp3/trajectory/vpPoseTrajectory.h>
 #include <visp3/trajectory/vpThesisDuration.h>
 #include <visp3/trajectory/vpTwistShaper.h>
 
+#include <chrono>
 #include <cstdio>
 
 VISP_DIRECT_USING_NAMESPACE
@@ -141,6 +143,64 @@ void sixthOrder(benchmark::State &state)
   state.counters["iterations"] = iterations;
 }
 
+// How vias get their times: in proportion to the way as a user would, by the planner, by a search before the motion.
+enum class ViaTimes { ByWay, Chosen, Optimised };
+
+// Plans of 7 axes through vias, their duration over that of TOPP-RA with 100 intervals, its usual number, and converged.
+void vias(benchmark::State &state, ViaTimes times)
+{
+  constexpr int axes = vpViaProblems::axes;
+  const int count = static_cast<int>(state.range(0));
+  std::mt19937_64 rng(7);
+  std::vector<vpTrajectoryProblem> problems;
+  std::vector<double> usual, converged, search;
+  vpTrajectoryPlanner planner(axes, count);
+  vpTrajectoryPlan plan(axes, count);
+  const std::size_t number = times != ViaTimes::Optimised ? 500 : (count > 4 ? 10 : 60);
+  while (problems.size() < number) {
+    auto input = vpViaProblems::random(rng, count);
+    const double coarse = vpViaProblems::peerDuration(input, 100), fine = vpViaProblems::peerDuration(input, 1000);
+    if (times == ViaTimes::ByWay) {
+      vpViaProblems::setTimesByWay(input);
+    }
+    vpTrajectoryProblem problem(axes, count);
+    static_cast<void>(input.copyTo(problem));
+    if (times == ViaTimes::Optimised) {
+      const auto begin = std::chrono::steady_clock::now();
+      planner.optimiseVias(problem);
+      search.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
+    }
+    static_cast<void>(planner.plan(problem, 0., plan));
+    usual.push_back(plan.duration() / coarse);
+    converged.push_back(plan.duration() / fine);
+    problems.push_back(problem);
+  }
+  measure(state, problems.size(),
+          [&](std::size_t k) { benchmark::DoNotOptimize(planner.plan(problems[k], 0., plan)); });
+  const auto quantile = [](std::vector<double> x, double p) {
+    std::sort(x.begin(), x.end());
+    return x[static_cast<std::size_t>(p * static_cast<double>(x.size() - 1))];
+  };
+  state.counters["time_p50"] = quantile(usual, 0.5);
+  state.counters["time_p95"] = quantile(usual, 0.95);
+  state.counters["time_converged_p50"] = quantile(converged, 0.5);
+  if (!search.empty()) {
+    state.counters["search_ms"] = quantile(search, 0.5);
+  }
+}
+
+// The peer itself: TOPP-RA along the spline through the same points.
+void viasPeer(benchmark::State &state)
+{
+  std::mt19937_64 rng(7);
+  std::vector<vpTrajectoryInput<vpViaProblems::axes>> inputs;
+  for (int k = 0; k < 200; ++k) {
+    inputs.push_back(vpViaProblems::random(rng, static_cast<int>(state.range(0))));
+  }
+  measure(state, inputs.size(),
+          [&](std::size_t k) { benchmark::DoNotOptimize(vpViaProblems::peerDuration(inputs[k], 100)); });
+}
+
 // Retargets solved by a single polynomial, by (6.6) with its default gains, one axis.
 void thesisIteration(benchmark::State &state)
 {
@@ -197,6 +257,10 @@ BENCHMARK_CAPTURE(planning7, retarget_jerk_limits, vpTrajectoryForm::Hold, true)
 BENCHMARK_CAPTURE(forms, single_polynomial, false)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(forms, cruise, true)->Unit(benchmark::kMicrosecond);
 BENCHMARK(sixthOrder)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(vias, by_way, ViaTimes::ByWay)->Arg(1)->Arg(4)->Arg(10)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(vias, chosen, ViaTimes::Chosen)->Arg(1)->Arg(4)->Arg(10)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(vias, optimised, ViaTimes::Optimised)->Arg(1)->Arg(4)->Arg(10)->Unit(benchmark::kMicrosecond);
+BENCHMARK(viasPeer)->Arg(1)->Arg(4)->Arg(10)->Unit(benchmark::kMicrosecond);
 BENCHMARK(cycle<1>)->Unit(benchmark::kMicrosecond);
 BENCHMARK(cycle<7>)->Unit(benchmark::kMicrosecond);
 BENCHMARK(thesisIteration)->Unit(benchmark::kMicrosecond);

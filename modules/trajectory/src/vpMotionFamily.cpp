@@ -157,6 +157,23 @@ vpMotionFamily vpMotionFamily::throughPosition(const vpAxisState &from, const vp
   return family;
 }
 
+vpMotionFamily vpMotionFamily::throughPosition(const vpAxisState &from, const vpAxisState &to, double via, double tau,
+                                               double velocityShare, double accelerationShare)
+{
+  const vpMotionFamily smooth = throughPosition(from, to, via, tau);
+  std::array<std::array<double, maxPower + 1>, 3> targets{};
+  targets[0][0] = via - from[0];
+  targets[1] = smooth.inDuration(tau, 1);
+  targets[2] = smooth.inDuration(tau, 2);
+  for (std::size_t m = 0; m <= maxPower; ++m) {
+    targets[1][m] *= velocityShare;
+    targets[2][m] *= accelerationShare;
+  }
+  vpMotionFamily family = pointToPoint(from, to, 3);
+  family.addBump(tau, 3, targets);
+  return family;
+}
+
 vpMotionFamily vpMotionFamily::throughState(const vpAxisState &from, const vpAxisState &to, const vpAxisState &via,
                                             double tau)
 {

@@ -159,8 +159,25 @@ vpTrajectoryFollower::Event vpTrajectoryFollower::detect(const vpTrajectoryProbl
   return due && !frozen && remaining() > 0. ? Event::Rate : Event::None;
 }
 
-// The rest of the task from the commanded state: passed vias are dropped until the list of vias changes.
-void vpTrajectoryFollower::takeRest(const vpTrajectoryProblem &problem) noexcept
+// The remaining vias as they are in the plan: their times, and the state at the via of a single polynomial, which those
+// do not determine.
+void vpTrajectoryFollower::keepVias(int passed) noexcept
+{
+  const bool single = isSinglePolynomial();
+  for (int k = 0; k < m_rest.vias(); ++k) {
+    const double time = m_plan.viaTime(passed + k);
+    for (int i = 0; i < m_rest.axes() && single; ++i) {
+      vpAxisState x = m_plan.at(i, time);
+      x[0] = m_rest.viaState(k, i)[0];
+      m_rest.setViaState(k, i, x);
+    }
+    m_rest.setViaTime(k, (time - m_clock) / (m_plan.duration() - m_clock), single ? 3 : m_rest.viaOrder(k));
+  }
+}
+
+// The rest of the task from the commanded state: passed vias are dropped until the list of vias changes. The times of
+// automatic vias are chosen again at an event, otherwise kept.
+void vpTrajectoryFollower::takeRest(const vpTrajectoryProblem &problem, Event event) noexcept
 {
   if (!m_started) {
     m_rest = problem;
@@ -174,13 +191,23 @@ void vpTrajectoryFollower::takeRest(const vpTrajectoryProblem &problem) noexcept
       tauBegin = m_rest.viaTime(passed);
       ++passed;
     }
-    const bool last = passed >= m_plan.vias();
-    const double end = last ? m_plan.duration() : m_plan.viaTime(passed);
-    const double tauEnd = last ? 1. : m_rest.viaTime(passed);
-    const double done =
-        end > begin ? tauBegin + (tauEnd - tauBegin) * std::min((m_clock - begin) / (end - begin), 1.) : tauEnd;
-    m_rest.dropVias(passed, done);
-    m_rest.takeTask(problem);
+    if (problem.hasAutomaticVias()) {
+      const int gone = problem.vias() - m_plan.vias() + passed;
+      m_rest = problem;
+      m_rest.dropVias(gone, 0.);
+      if (event != Event::Task) {
+        keepVias(passed);
+      }
+    }
+    else {
+      const bool last = passed >= m_plan.vias();
+      const double end = last ? m_plan.duration() : m_plan.viaTime(passed);
+      const double tauEnd = last ? 1. : m_rest.viaTime(passed);
+      const double done =
+          end > begin ? tauBegin + (tauEnd - tauBegin) * std::min((m_clock - begin) / (end - begin), 1.) : tauEnd;
+      m_rest.dropVias(passed, done);
+      m_rest.takeTask(problem);
+    }
   }
   else {
     m_rest = problem;
@@ -259,7 +286,7 @@ void vpTrajectoryFollower::replan(const vpTrajectoryProblem &problem, Event even
   const double left = m_started ? remaining() : 0.;
   noteGoal(problem);
   const double floor = floorOf(problem, event);
-  takeRest(problem);
+  takeRest(problem, event);
   m_task = problem;
   m_started = true;
   m_newPlan = true;
@@ -290,7 +317,7 @@ void vpTrajectoryFollower::replan(const vpTrajectoryProblem &problem, Event even
 void vpTrajectoryFollower::iterateThesis() noexcept
 {
   if (m_clock > 0.) {
-    takeRest(m_task);
+    takeRest(m_task, Event::Rate);
     m_thesisT = remaining();
     m_clock = 0.;
   }

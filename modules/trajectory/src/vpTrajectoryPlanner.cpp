@@ -26,7 +26,8 @@ vpTrajectoryPlanner::Impl::Impl(int count, int maxVias)
     lines(static_cast<std::size_t>(count)), unitDurations(static_cast<std::size_t>(count)),
     direction(static_cast<std::size_t>(count)), spline(maxVias),
     chain(static_cast<std::size_t>(count) * (static_cast<std::size_t>(maxVias) + 1)),
-    column(static_cast<std::size_t>(count)), legs(static_cast<std::size_t>(maxVias) + 1)
+    column(static_cast<std::size_t>(count)), legs(static_cast<std::size_t>(maxVias) + 1),
+    taus(static_cast<std::size_t>(maxVias)), shares(legs.size()), bestShares(legs.size())
 {
   for (vpCoupledAxes &unit : units) {
     unit.reserve(count);
@@ -475,6 +476,7 @@ vpTrajectoryStatus vpTrajectoryPlanner::planDirect(const vpTrajectoryProblem &pr
   Impl &d = *m_impl;
   plan.clear();
   d.begin();
+  d.takeTimes(problem);
   d.makeChain(problem);
   d.emitChain(problem, std::min(1e12, std::max(1e-9, T)), plan);
   d.finish(problem, plan);

@@ -32,7 +32,8 @@ public:
   explicit vpViaSpline(int maxVias);
   //! Compute the free values of the vias of one axis. Positions in \e from and \e to are relative to the problem's
   //! start.
-  void solve(const vpTrajectoryProblem &problem, int axis, const vpAxisState &from, const vpAxisState &to) noexcept;
+  void solve(const vpTrajectoryProblem &problem, const std::vector<double> &taus, int axis, const vpAxisState &from,
+             const vpAxisState &to) noexcept;
   //! Segment \e k = 0 ... vias() of the last chain solved.
   [[nodiscard]] vpMotionFamily segment(int k) const noexcept;
 
@@ -50,6 +51,12 @@ private:
 
   std::vector<Node> m_nodes; // start, vias, goal
   std::vector<Row> m_rows;
+};
+
+//! \brief Velocity and acceleration at a single via as shares of those of the motion of degree 6.
+struct vpViaPace {
+  double velocity = 1., acceleration = 1.;
+  [[nodiscard]] bool isSmooth() const { return velocity == 1. && acceleration == 1.; } //!< Degree 6 itself.
 };
 
 struct vpTrajectoryPlanner::Impl {
@@ -100,6 +107,18 @@ struct vpTrajectoryPlanner::Impl {
   double planLegs(const vpTrajectoryProblem &problem, bool withFloors, vpTrajectoryPlan &plan);
   double planVias(const vpTrajectoryProblem &problem, double floor, vpTrajectoryPlan &plan);
 
+  // When each via is passed: given, or chosen for the least duration of the chain.
+  void takeTimes(const vpTrajectoryProblem &problem);
+  void setShares(const vpTrajectoryProblem &problem);
+  [[nodiscard]] double timeOf(const vpTrajectoryProblem &problem, int k);
+  void takeShares(int vias);
+  [[nodiscard]] double tryShares(const vpTrajectoryProblem &problem, double floor);
+  [[nodiscard]] double needOf(const vpTrajectoryProblem &problem, int k, double T);
+  void balanceShares(const vpTrajectoryProblem &problem, double T);
+  double chooseTimes(const vpTrajectoryProblem &problem, double floor);
+  void giveStates(vpTrajectoryProblem &problem, double T);
+  bool optimiseVias(vpTrajectoryProblem &problem);
+
   int n;
   std::vector<vpAxisState> from, to; // of the current leg, positions as in the problem
   std::vector<vpMotionAxis> axes;    // plus one for the straight line of all axes and of each group
@@ -112,7 +131,9 @@ struct vpTrajectoryPlanner::Impl {
   vpViaSpline spline;
   std::vector<vpMotionFamily> chain; // segment by segment, axis by axis
   std::vector<const vpMotionFamily *> column;
-  std::vector<double> legs; // durations
+  std::vector<double> legs;                     // durations
+  std::vector<double> taus, shares, bestShares; // of vias, of segments
+  vpViaPace pace;
   int iterations = 0;
   double braking = 0.;      // of groups, in the first leg
   vpTrajectoryStatus fault; // fault other than a limit

@@ -78,8 +78,8 @@ void vpViaSpline::assemble(Row &row, const Node &before, const Node &here, const
   }
 }
 
-void vpViaSpline::solve(const vpTrajectoryProblem &problem, int axis, const vpAxisState &from,
-                        const vpAxisState &to) noexcept
+void vpViaSpline::solve(const vpTrajectoryProblem &problem, const std::vector<double> &taus, int axis,
+                        const vpAxisState &from, const vpAxisState &to) noexcept
 {
   const int n = problem.vias();
   const auto node = [this](int i) -> Node & { return m_nodes[static_cast<std::size_t>(i)]; };
@@ -88,7 +88,7 @@ void vpViaSpline::solve(const vpTrajectoryProblem &problem, int axis, const vpAx
     if (i > 0 && i <= n) {
       x[0] -= problem.start(axis)[0];
     }
-    node(i).time = i == 0 ? 0. : (i > n ? 1. : problem.viaTime(i - 1));
+    node(i).time = i == 0 ? 0. : (i > n ? 1. : taus[static_cast<std::size_t>(i - 1)]);
     node(i).p = {x[0] - from[0], 0., 0.};
     node(i).d1 = {0., x[1], 0.};
     node(i).d2 = {0., 0., x[2]};
@@ -184,12 +184,19 @@ void vpTrajectoryPlanner::Impl::makeChain(const vpTrajectoryProblem &problem)
     else if (count == 1) {
       vpAxisState via = problem.viaState(0, i);
       via[0] -= problem.start(i)[0];
-      segment(0, i) = problem.viaOrder(0) == 1
-                          ? vpMotionFamily::throughPosition(task.from, task.to, via[0], problem.viaTime(0))
-                          : vpMotionFamily::throughState(task.from, task.to, via, problem.viaTime(0));
+      if (problem.viaOrder(0) != 1) {
+        segment(0, i) = vpMotionFamily::throughState(task.from, task.to, via, taus[0]);
+      }
+      else if (pace.isSmooth()) {
+        segment(0, i) = vpMotionFamily::throughPosition(task.from, task.to, via[0], taus[0]);
+      }
+      else {
+        segment(0, i) =
+            vpMotionFamily::throughPosition(task.from, task.to, via[0], taus[0], pace.velocity, pace.acceleration);
+      }
     }
     else {
-      spline.solve(problem, i, task.from, task.to);
+      spline.solve(problem, taus, i, task.from, task.to);
       for (int k = 0; k < count; ++k) {
         segment(k, i) = spline.segment(k);
       }
@@ -250,7 +257,7 @@ void vpTrajectoryPlanner::Impl::emitChain(const vpTrajectoryProblem &problem, do
     plan.endLeg(i, T);
   }
   for (int k = 0; k < problem.vias(); ++k) {
-    plan.addVia(problem.viaTime(k) * T);
+    plan.addVia(taus[static_cast<std::size_t>(k)] * T);
   }
 }
 
@@ -284,8 +291,7 @@ double vpTrajectoryPlanner::Impl::planLegs(const vpTrajectoryProblem &problem, b
 double vpTrajectoryPlanner::Impl::planVias(const vpTrajectoryProblem &problem, double floor, vpTrajectoryPlan &plan)
 {
   if (problem.spec.synchronisation != vpSynchronisation::Straight) {
-    makeChain(problem);
-    const double T = searchChain(problem, floor);
+    const double T = chooseTimes(problem, floor);
     if (T < infinity) {
       emitChain(problem, T, plan);
       return T;

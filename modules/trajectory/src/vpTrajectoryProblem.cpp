@@ -62,6 +62,20 @@ void vpTrajectoryProblem::setVia(int k, double tau, const double *q, const doubl
   }
 }
 
+void vpTrajectoryProblem::setViaTime(int k, double tau, int order)
+{
+  m_viaTimes[static_cast<std::size_t>(k)] = tau;
+  m_viaOrders[static_cast<std::size_t>(k)] = order;
+}
+
+void vpTrajectoryProblem::setViaState(int k, int axis, const vpAxisState &x)
+{
+  double *values = m_viaValues.data() + k * 3 * m_axes + axis;
+  for (std::size_t d = 0; d < 3; ++d) {
+    values[static_cast<int>(d) * m_axes] = x[d];
+  }
+}
+
 vpAxisState vpTrajectoryProblem::viaState(int k, int axis) const
 {
   const double *values = m_viaValues.data() + k * 3 * m_axes + axis;
@@ -78,7 +92,7 @@ void vpTrajectoryProblem::dropVias(int count, double done)
   m_vias -= count;
   for (int k = 0; k < m_vias; ++k) {
     double &tau = m_viaTimes[static_cast<std::size_t>(k)];
-    tau = (tau - done) / (1. - done);
+    tau = tau == vpAutomaticTau ? tau : (tau - done) / (1. - done);
   }
 }
 
@@ -326,10 +340,10 @@ vpTrajectoryStatus vpTrajectoryProblem::validateVias() const noexcept
   double before = 0.;
   for (int k = 0; k < m_vias; ++k) {
     const double tau = viaTime(k);
-    if (!(tau > 0. && tau < 1.)) {
+    if (hasAutomaticVias() ? tau != vpAutomaticTau : !(tau > 0. && tau < 1.)) {
       return fault(vpTrajectoryFault::ViaTime, k, tau);
     }
-    if (tau <= before) {
+    if (!hasAutomaticVias() && tau <= before) {
       return fault(vpTrajectoryFault::ViaOrder, k, tau);
     }
     before = tau;

@@ -51,7 +51,7 @@ const char *sentenceOf(vpTrajectoryFault fault)
   case vpTrajectoryFault::ViaNotFinite:
     return "via %d has the value %s, must be finite";
   case vpTrajectoryFault::ViaTime:
-    return "tau of via %d is %s, must be in (0, 1)";
+    return "tau of via %d is %s, must be in (0, 1), or automatic in all vias";
   case vpTrajectoryFault::ViaOrder:
     return "tau of via %d is %s, must be above that of the via before";
   case vpTrajectoryFault::ViaOutsideLimits:

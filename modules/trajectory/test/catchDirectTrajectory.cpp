@@ -101,6 +101,7 @@ TEST_CASE("sixth order and printing", "[reference]")
   vpTrajectoryPlan plan(1);
   auto input = figureInput(1., 1., none);
   vpTrajectoryVia<1> via;
+  via.tau = 0.5;
   via.q[0] = 0.8;
   input.vias.push_back(via);
   REQUIRE(vpDirectTrajectory<1>::calculate(input, plan).isGood());

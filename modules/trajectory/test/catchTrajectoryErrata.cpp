@@ -94,6 +94,7 @@ TEST_CASE("(6.10) as printed breaks the limit of acceleration, and its constants
 {
   auto input = moveTo(0.3, none, 1.);
   vpTrajectoryVia<1> via;
+  via.tau = 0.5;
   via.q[0] = 0.15;
   via.hasVelocity = via.hasAcceleration = true;
   input.vias.push_back(via);
@@ -118,6 +119,7 @@ TEST_CASE("(8.8) and (8.9) as printed put the via behind the end; one T with a s
   CHECK(printedDuration(via, 0.5, 2.) > printedDuration(goal, 0.5, 2.));
   auto input = moveTo(goal, 0.5, 2.);
   vpTrajectoryVia<1> between;
+  between.tau = 0.5;
   between.q[0] = via;
   input.vias.push_back(between);
   vpTrajectoryPlan plan(1);

@@ -147,6 +147,7 @@ TEST_CASE("figure 8.9: the via appears under way and is dropped once passed", "[
   for (int i = 0; i < 5000; ++i) {
     if (i == 550) {
       vpTrajectoryVia<2> via;
+      via.tau = 0.5;
       via.q << 0.18, 0.15;
       input.vias.push_back(via);
       input.goal.q << 0.125, 0.3;

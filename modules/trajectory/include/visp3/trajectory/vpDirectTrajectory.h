@@ -103,6 +103,24 @@ public:
     return status;
   }
 
+  /*!
+   * Choose tau of each via, and the velocities where they are free, for a short duration of the whole motion; see
+   * vpTrajectoryPlanner::optimiseVias(). Before the motion, not in the control loop. Allocates.
+   * \param input : The problem; receives times and velocities of the vias where there are any to choose.
+   * \return InvalidInput with a message, \e input is unchanged then; otherwise Working.
+   */
+  static vpTrajectoryStatus optimiseVias(vpTrajectoryInput<N> &input)
+  {
+    const int vias = static_cast<int>(input.vias.size());
+    vpTrajectoryProblem problem(static_cast<int>(input.goal.q.size()), vias);
+    vpTrajectoryStatus status = input.copyTo(problem);
+    status = status.isGood() ? problem.validate(true) : status;
+    if (status.isGood() && vpTrajectoryPlanner(problem.axes(), vias).optimiseVias(problem)) {
+      input.takeVias(problem);
+    }
+    return status;
+  }
+
 private:
   static int checked(int axes)
   {

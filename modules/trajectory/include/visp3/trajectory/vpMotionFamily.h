@@ -61,6 +61,13 @@ public:
   [[nodiscard]] static vpMotionFamily throughPosition(const vpAxisState &from, const vpAxisState &to, double via,
                                                       double tau);
 
+  /*!
+   * One via position with less speed there: degree 8. Velocity and acceleration at the via are these shares of those of
+   * the motion of degree 6, at every T.
+   */
+  [[nodiscard]] static vpMotionFamily throughPosition(const vpAxisState &from, const vpAxisState &to, double via,
+                                                      double tau, double velocityShare, double accelerationShare);
+
   //! One via with position, velocity and acceleration: degree 8.
   [[nodiscard]] static vpMotionFamily throughState(const vpAxisState &from, const vpAxisState &to,
                                                    const vpAxisState &via, double tau);

@@ -37,9 +37,9 @@ template <int N> struct vpTrajectoryState {
 };
 
 //! \ingroup group_trajectory
-//! \brief A point to pass at the fraction \e tau of the move.
+//! \brief A point to pass at the fraction \e tau of the move, by default chosen by the planner.
 template <int N> struct vpTrajectoryVia {
-  double tau = 0.5;             //!< Time as a fraction of the whole move, in (0, 1), ascending.
+  double tau = vpAutomaticTau;  //!< Time as a fraction of the whole move, in (0, 1), ascending; or automatic in all.
   vpAxisVector<N> q;            //!< Position.
   vpAxisVector<N> v;            //!< Velocity at the via, if given.
   vpAxisVector<N> a;            //!< Acceleration at the via, if given.
@@ -79,6 +79,8 @@ template <int N> struct vpTrajectoryInput {
    * \return InvalidInput when a vector has the wrong length or there are too many vias, otherwise Working.
    */
   vpTrajectoryStatus copyTo(vpTrajectoryProblem &problem) const noexcept;
+  //! Take times, and velocities and accelerations if given, of the vias of \e problem, which has the same vias.
+  void takeVias(const vpTrajectoryProblem &problem) noexcept;
 };
 
 //! \ingroup group_trajectory
@@ -135,6 +137,21 @@ template <int N> vpTrajectoryStatus vpTrajectoryInput<N>::copyTo(vpTrajectoryPro
                    via.hasVelocity && via.hasAcceleration ? via.a.data() : nullptr);
   }
   return status;
+}
+
+template <int N> void vpTrajectoryInput<N>::takeVias(const vpTrajectoryProblem &problem) noexcept
+{
+  for (int k = 0; k < problem.vias(); ++k) {
+    vpTrajectoryVia<N> &via = vias[static_cast<std::size_t>(k)];
+    via.tau = problem.viaTime(k);
+    via.hasVelocity = problem.viaOrder(k) >= 2;
+    via.hasAcceleration = problem.viaOrder(k) >= 3;
+    for (int i = 0; i < problem.axes(); ++i) {
+      const vpAxisState x = problem.viaState(k, i);
+      via.v[i] = via.hasVelocity ? x[1] : via.v[i];
+      via.a[i] = via.hasAcceleration ? x[2] : via.a[i];
+    }
+  }
 }
 
 END_VISP_NAMESPACE

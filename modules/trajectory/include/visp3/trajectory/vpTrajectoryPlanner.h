@@ -58,6 +58,17 @@ public:
    */
   vpTrajectoryStatus planDirect(const vpTrajectoryProblem &problem, double T, vpTrajectoryPlan &plan) noexcept;
 
+  /*!
+   * Choose when each via is passed, and how fast where its velocity is free, for a short duration of the whole motion: by
+   * looking at many motions, between 60 for one via and some 1000 for ten, before the motion, not in the control
+   * loop. Allocates.
+   * \param problem : Valid, with room for its vias in this planner; receives tau of each via, and velocities (of a
+   *   single via also the acceleration) where they were free.
+   * \return False when there is nothing to choose: no vias, straight lines from via to via, or no motion with one
+   *   duration over all vias was found. \e problem is unchanged then.
+   */
+  bool optimiseVias(vpTrajectoryProblem &problem);
+
 private:
   struct Impl;
   std::unique_ptr<Impl> m_impl;

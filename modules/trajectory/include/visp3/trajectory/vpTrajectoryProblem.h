@@ -66,7 +66,7 @@ public:
   /*!
    * Sets a via.
    * \param k : Index of the via, 0 <= k < maxVias().
-   * \param tau : Time as a fraction of the whole move.
+   * \param tau : Time as a fraction of the whole move, or vpAutomaticTau in all vias.
    * \param q, v, a : axes() numbers each; \e v, \e a may be null: left free.
    */
   void setVia(int k, double tau, const double *q, const double *v, const double *a);
@@ -75,9 +75,16 @@ public:
   {
     return m_viaOrders[static_cast<std::size_t>(k)];
   } //!< Given values, 1: q; 2: q, v; 3: q, v, a.
+  //! Set tau and the number of given values (1 to 3) of via \e k.
+  void setViaTime(int k, double tau, int order);
+  //! Set position, velocity and acceleration of via \e k on \e axis; viaOrder() tells which of them count.
+  void setViaState(int k, int axis, const vpAxisState &x);
+  //! The planner chooses the times of the vias.
+  [[nodiscard]] bool hasAutomaticVias() const { return m_vias > 0 && m_maxVias > 0 && viaTime(0) == vpAutomaticTau; }
   //! Position, velocity and acceleration of via \e k on \e axis.
   [[nodiscard]] vpAxisState viaState(int k, int axis) const;
-  //! Forget the first \e count vias; rescale the others to the part of the move left after the fraction \e done.
+  //! Forget the first \e count vias; rescale the others to the part of the move left after the fraction \e done < 1,
+  //! unless they are automatic.
   void dropVias(int count, double done);
 
   //! Take goal, limits and options of \e other, which has the same number of axes, and keep the vias.

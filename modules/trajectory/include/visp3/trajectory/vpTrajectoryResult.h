@@ -60,7 +60,7 @@ enum class vpTrajectoryFault {
   GroupLimit,              //!< A limit of a group is not > 0, or beyond 1e-12 to 1e12.
   GroupAxis,               //!< A group names an axis that does not exist, or an axis of another group.
   ViaNotFinite,            //!< A number of a via is NaN or infinite.
-  ViaTime,                 //!< tau of a via is not in (0, 1).
+  ViaTime,                 //!< tau of a via is not in (0, 1), or automatic in some vias only.
   ViaOrder,                //!< tau of a via is not above the tau of the previous via.
   ViaOutsideLimits,        //!< Position, velocity or acceleration of a via is outside the limits.
   TooManyVias,             //!< More vias than the maximum.

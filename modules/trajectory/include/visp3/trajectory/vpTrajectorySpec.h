@@ -37,6 +37,10 @@ enum class vpReplanPolicy {
 };
 
 //! \ingroup group_trajectory
+//! \brief As tau of every via: the planner chooses when each is passed.
+constexpr double vpAutomaticTau = -1.;
+
+//! \ingroup group_trajectory
 //! \brief How the axes are synchronised.
 enum class vpSynchronisation {
   Time,     //!< All axes arrive at the same time.
