@@ -95,6 +95,9 @@ template <int N> void planning(benchmark::State &state, vpTrajectoryForm form, b
 void planning1(benchmark::State &state, vpTrajectoryForm form, bool jerk) { planning<1>(state, form, jerk); }
 void planning7(benchmark::State &state, vpTrajectoryForm form, bool jerk) { planning<7>(state, form, jerk); }
 
+// Retargets of 1 to 16 axes: how the time grows.
+template <int N> void retargetOf(benchmark::State &state) { planning<N>(state, vpTrajectoryForm::Hold); }
+
 // Time of a control loop: one cycle of update(), a new goal every 20 cycles.
 template <int N> void cycle(benchmark::State &state)
 {
@@ -254,6 +257,11 @@ BENCHMARK_CAPTURE(planning7, retarget, vpTrajectoryForm::Hold, false)->Unit(benc
 BENCHMARK_CAPTURE(planning7, retarget_direct, vpTrajectoryForm::Direct, false)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(planning7, retarget_fallback, vpTrajectoryForm::StopAndGo, false)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(planning7, retarget_jerk_limits, vpTrajectoryForm::Hold, true)->Unit(benchmark::kMicrosecond);
+BENCHMARK(retargetOf<1>)->Unit(benchmark::kMicrosecond);
+BENCHMARK(retargetOf<2>)->Unit(benchmark::kMicrosecond);
+BENCHMARK(retargetOf<4>)->Unit(benchmark::kMicrosecond);
+BENCHMARK(retargetOf<8>)->Unit(benchmark::kMicrosecond);
+BENCHMARK(retargetOf<16>)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(forms, single_polynomial, false)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(forms, cruise, true)->Unit(benchmark::kMicrosecond);
 BENCHMARK(sixthOrder)->Unit(benchmark::kMicrosecond);

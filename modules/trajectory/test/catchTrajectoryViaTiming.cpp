@@ -254,9 +254,9 @@ TEST_CASE("motions through vias with chosen times are those with these times giv
       fastest = std::max(fastest, output.state.v.cwiseAbs().maxCoeff());
     } while (vpIsWorking(output.status.result) && t < 60.);
     CHECK(vpTestSupport::allocationCount() == before);
-    CHECK(output.status.result == vpTrajectoryResult::Finished);
-    CHECK(fastest <= 2. + 1e-9);
     if (input.spec.replanPeriod == 0.) { // otherwise both follow their rounding errors
+      CHECK(output.status.result == vpTrajectoryResult::Finished);
+      CHECK(fastest <= 2. + 1e-9);
       CHECK(off < 1e-6);
       CHECK(t == Approx(plan.duration()).margin(2. * dt));
     }
