@@ -90,7 +90,7 @@ def draw_panel(axes, build, title, xlabel, curves):
     axes.set(xlabel=xlabel, ylabel=f"CPU time ({unit})", title=title)
     axes.grid(which="both", color="#dddddd")
     places = sorted({x for _, places, _ in measured for x in places})
-    axes.set_xticks(places, [f"{x:.3g}" for x in places], rotation=30 if len(places) > 5 else 0)
+    axes.set_xticks(places, [f"{round(x, 2):g}" for x in places], rotation=30 if len(places) > 5 else 0)
     axes.minorticks_off()
     axes.margins(y=0.25)
     axes.legend(loc="upper left")
