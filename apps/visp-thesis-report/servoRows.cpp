@@ -229,8 +229,7 @@ void addNoise(const std::string &noise, double px, const Runs &runs, std::vector
       "leads the yaw beyond its goal.";
   add("fig5.6",
       {greater(with + "peak of the feedforward's reference over that of PBVS", EQUAL, peak[FEEDFORWARD] / peak[PBVS],
-               "As without noise; more noise scatters both references farther than the image term leads them.",
-               "Peak over goal: " + inWords(peak, "") + " " + note),
+               "", "Peak over goal: " + inWords(peak, "") + " " + note),
        {with + "reference of the feedforward minus that of PBVS at the end of pose 2", "deg", 0.,
         std::fabs(left[FEEDFORWARD] - left[PBVS]), Tolerance::atMost(0.5), Good::Smaller, "",
         "The thesis: the feedforward dies out. Reference minus goal, over the last second: " + inWords(left, "deg") +
@@ -243,6 +242,17 @@ void addNoise(const std::string &noise, double px, const Runs &runs, std::vector
                      errors)},
       items);
 }
+constexpr double HEAVY = 4.; // times the weight of the image term elsewhere
+
+//! The overshoot of figure 5.6 with another weight of the image term, which the thesis does not give.
+void addWeight(const Runs &runs, std::vector<Item> &items)
+{
+  add("fig5.6",
+      {{"feedforward with four times the weight of its image term: peak of the reference over the goal", "1",
+        std::nullopt, runs.values(peakReference)[FEEDFORWARD], Tolerance::factor(1.1), Good::Neither, "",
+        "The constants of (5.26) decide how far the reference goes beyond the goal."}},
+      items);
+}
 } // namespace
 
 void addServoRows(const Setting &setting, std::vector<Item> &items, const std::function<void(double)> &progress)
@@ -250,7 +260,7 @@ void addServoRows(const Setting &setting, std::vector<Item> &items, const std::f
   const bool arm = itemWith("fig5.8", items) || itemWith("fig5.9", items) || itemWith("fig5.10", items) ||
                    itemWith("fig5.11", items);
   const bool noisy = itemWith("fig5.6", items) || itemWith("fig5.7", items);
-  const double total = 2. * static_cast<double>(laws().size()) * ((arm ? 1. : 0.) + (noisy ? 1. : 0.));
+  const double total = static_cast<double>(laws().size()) * ((arm ? 2. : 0.) + (noisy ? 3. : 0.));
   double count = 0.;
   const auto done = [&] { progress(++count / total); };
   if (noisy) {
@@ -261,6 +271,8 @@ void addServoRows(const Setting &setting, std::vector<Item> &items, const std::f
       };
       addNoise(name, px, Runs(setting, {}, "A", change, done), items);
     }
+    const auto heavier = [](vpServoRunSpec &spec) { spec.gains.kappa *= HEAVY; };
+    addWeight(Runs(setting, {}, "A", heavier, done), items);
   }
   for (const char *const drive : {"measured", "integrated"}) {
     if (arm) {

@@ -283,6 +283,64 @@ Item iterations()
   return item;
 }
 
+/*!
+ * Shortest time from rest to rest over \e h with a stop at h/2 in the middle of the time: one polynomial of order 8, as
+ * (6.10) has it.
+ */
+double stoppedDuration(double h, double maxVelocity, double maxAcceleration)
+{
+  vpTrajectoryInput<1> input;
+  input.goal.q[0] = h;
+  input.maxVelocity[0] = maxVelocity;
+  input.maxAcceleration[0] = maxAcceleration;
+  vpTrajectoryVia<1> via;
+  via.q[0] = 0.5 * h;
+  via.hasVelocity = via.hasAcceleration = true;
+  input.vias.push_back(via);
+  vpTrajectoryPlan plan(1);
+  static_cast<void>(vpDirectTrajectory<1>::calculate(input, plan));
+  return plan.duration();
+}
+
+Item viaConstants()
+{
+  constexpr double velocity = 1.9444, acceleration = 2.6925; // of the thesis
+  constexpr double moved = 0.3;                              // rad
+  const double printed = acceleration * moved;               // s, (6.10) with alpha_max 1 rad/s^2
+  const char *const root = "(6.10) has h outside of the root, where the duration grows with the root of h: by (6.11) "
+                           "alpha_8 depends on h.";
+  Item item;
+  item.id = "eq6.10";
+  item.quantities = {
+      {"v_8", "1", velocity, stoppedDuration(1., 1., NONE), Tolerance::distance(5e-5), Good::Neither, "",
+       "(6.11): duration times largest velocity over the way, with a stop half way."},
+      {"alpha_8, way of 1", "1", acceleration, stoppedDuration(1., NONE, 1.), Tolerance::distance(5e-5), Good::Neither,
+       root, "(6.11): duration times the root of the largest acceleration, over the way."},
+      {"alpha_8, way of 2", "1", std::nullopt, 0.5 * stoppedDuration(2., NONE, 1.), Tolerance::distance(5e-5),
+       Good::Neither, "", "Where the thesis's value is met; it does not give its way."},
+      {"largest acceleration over the limit by (6.10), way of 0.3 rad", "1", 1.,
+       std::pow(stoppedDuration(moved, NONE, 1.) / printed, 2), Tolerance::atMost(1e-3), Good::Smaller, root,
+       "Limit of 1 rad/s^2; the acceleration goes with the inverse square of the duration."}};
+  item.parameters = {{"motion",
+                      "three points of position, velocity and acceleration: order 8; at rest at both ends and "
+                      "half way, the one choice with which v_8 comes out"}};
+  vpApp::Plot plot;
+  plot.title = "Duration within 1 rad/s^2";
+  plot.xLabel = "way (rad)";
+  plot.yLabel = "duration (s)";
+  plot.fromZero = true;
+  std::vector<double> ways, least, byFormula;
+  for (double h = 0.1; h < 3.; h += 0.1) {
+    ways.push_back(h);
+    least.push_back(stoppedDuration(h, NONE, 1.));
+    byFormula.push_back(acceleration * h);
+  }
+  addCurve(plot, "shortest", ways, least);
+  addCurve(plot, "(6.10)", ways, byFormula, vpApp::PlotStyle::Dashed);
+  addPlot(item, "duration", plot.title, "Below the solid line the limit is broken.", {plot});
+  return item;
+}
+
 constexpr int INTERVALS = 400; // intervals of the discretised motion
 
 /*!
@@ -375,7 +433,8 @@ std::vector<Part> trajectoryParts()
                 [make](const Setting &) { return std::vector<Item>{make()}; },
                 false};
   };
-  return {part("fig6.3", "goal moved under way, velocity bounded", velocityBound),
+  return {part("eq6.10", "duration of a motion with a stop on the way", viaConstants),
+          part("fig6.3", "goal moved under way, velocity bounded", velocityBound),
           part("fig6.4", "goal moved under way, acceleration bounded", accelerationBound),
           part("fig6.5", "goal moved under way, final time kept: bounds violated", timeKept),
           part("fig6.6", "constraint optimisation in one cycle or spread over cycles", iterations)};

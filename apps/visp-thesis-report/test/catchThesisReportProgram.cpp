@@ -10,7 +10,10 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdlib>
+#include <map>
+#include <thread>
 
 using Json = nlohmann::json;
 
@@ -26,7 +29,58 @@ bool isExplained(const Json &row)
   const auto reason = row["reason"].get<std::string>();
   return !owed || (!reason.empty() && reason != "Not explained." && !row["support"].get<std::string>().empty());
 }
+//! Keeps every core busy while it lives.
+class BusyCores
+{
+public:
+  BusyCores()
+  {
+    for (unsigned int i = 0; i < 2 * std::max(1u, std::thread::hardware_concurrency()); ++i) {
+      m_threads.emplace_back([this] {
+        while (!m_stop) {
+        }
+      });
+    }
+  }
+  BusyCores(const BusyCores &) = delete;
+  BusyCores &operator=(const BusyCores &) = delete;
+  ~BusyCores()
+  {
+    m_stop = true;
+    for (std::thread &thread : m_threads) {
+      thread.join();
+    }
+  }
+
+private:
+  std::atomic<bool> m_stop{false};
+  std::vector<std::thread> m_threads;
+};
+
+//! Verdict of each row, by id and name.
+std::map<std::string, std::string> verdictsIn(const std::string &file)
+{
+  std::map<std::string, std::string> verdicts;
+  for (const Json &row : Json::parse(vpApp::readFile(file))) {
+    verdicts[row["id"].get<std::string>() + ": " + row["quantity"].get<std::string>()] = row["verdict"];
+  }
+  return verdicts;
+}
 } // namespace
+
+TEST_CASE("Times are compared: the verdicts are the same beside busy programs", "[program]")
+{
+  ProgramRun run(THESIS_REPORT);
+  const std::string timed = "--only eq7.2,table7.1,table7.3 --seeds 1 --jobs 1 --out ";
+  REQUIRE(run(timed + "alone") == 0);
+  {
+    const BusyCores load;
+    REQUIRE(run(timed + "beside") == 0);
+  }
+  const auto alone = verdictsIn(run.path("alone/results.json"));
+  CHECK(alone.size() > 15);
+  CHECK(verdictsIn(run.path("beside/results.json")) == alone);
+}
 
 TEST_CASE("Two figures: rows, data, and nothing else", "[program]")
 {
