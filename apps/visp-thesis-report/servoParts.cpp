@@ -110,8 +110,8 @@ Item hardReference(const Runs &runs)
   Item item;
   item.id = "fig5.8";
   item.quantities = {
-      greater("peak reference, feedforward over PBVS", SAME, runs.ratio(FEEDFORWARD, PBVS, HARD, peakReference), ""),
-      greater("peak reference, feedforward over kyrki-decoupled", SAME,
+      greater("peak reference, feedforward over PBVS", EQUAL, runs.ratio(FEEDFORWARD, PBVS, HARD, peakReference), ""),
+      greater("peak reference, feedforward over kyrki-decoupled", EQUAL,
               runs.ratio(FEEDFORWARD, KYRKI, HARD, peakReference), ""),
       {"feedforward: reference minus goal at the end of pose 2", "deg", DIED_OUT,
        runs.of(FEEDFORWARD, HARD, referenceLeft), Tolerance::atLeast(), Good::Neither, "",

@@ -170,8 +170,8 @@ void addArm(const std::string &drive, const Runs &runs, std::vector<Item> &items
          error = runs.values(imageError), seen = runs.values(inView), yaw = runs.values(yawAtPose2);
   const std::string peaks = "Peak over goal: " + inWords(peak, "");
   add("fig5.8",
-      {greater(on + "peak reference, feedforward over PBVS", SAME, peak[FEEDFORWARD] / peak[PBVS], reason, peaks),
-       greater(on + "peak reference, feedforward over kyrki-decoupled", SAME, peak[FEEDFORWARD] / peak[KYRKI], reason,
+      {greater(on + "peak reference, feedforward over PBVS", EQUAL, peak[FEEDFORWARD] / peak[PBVS], reason, peaks),
+       greater(on + "peak reference, feedforward over kyrki-decoupled", EQUAL, peak[FEEDFORWARD] / peak[KYRKI], reason,
                peaks),
        {on + "feedforward: reference minus goal at the end of pose 2", "deg", 0.5, left[FEEDFORWARD],
         Tolerance::atLeast(), Good::Neither, reason,

@@ -40,7 +40,7 @@ constexpr const char *FEEDFORWARD = "ff-sum", *PBVS = "pbvs1", *KYRKI = "kyrki-d
 [[nodiscard]] double imageError(const vpServoRun &run);
 
 constexpr double EQUAL = 0.05; //!< Two errors that differ by less are "equal"; "clear greater" is more than that.
-constexpr double SAME = 0.01;  //!< A ratio nearer to 1 is neither "greater" nor "bigger": seeds scatter it as far.
+constexpr double SAME = 0.01;  //!< A ratio of ranges nearer to 1 is not "greater": seeds scatter it by a tenth of that.
 
 //! A ratio of errors that the thesis claims to be "equal or better": at most 1. \param note : Always shown.
 [[nodiscard]] Quantity equalOrBetter(const std::string &name, double ours, const std::string &reason,

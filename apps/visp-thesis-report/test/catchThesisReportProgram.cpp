@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstdlib>
 #include <map>
 #include <thread>
@@ -29,6 +30,17 @@ bool isExplained(const Json &row)
   const auto reason = row["reason"].get<std::string>();
   return !owed || (!reason.empty() && reason != "Not explained." && !row["support"].get<std::string>().empty());
 }
+double valueOf(const Json &rows, const std::string &id, const std::string &quantity)
+{
+  for (const Json &row : rows) {
+    if (row["id"] == id && row["quantity"] == quantity) {
+      return row["ours"].get<double>();
+    }
+  }
+  FAIL("there is no row " << quantity << " of " << id);
+  return 0.;
+}
+
 //! Keeps every core busy while it lives.
 class BusyCores
 {
@@ -113,19 +125,26 @@ TEST_CASE("Two figures: rows, data, and nothing else", "[program]")
   CHECK(Json::parse(vpApp::readFile(run.path("again/results.json"))) == rows);
 }
 
+TEST_CASE("The constants of (6.10), and where (5.31) holds", "[program]")
+{
+  ProgramRun run(THESIS_REPORT);
+  REQUIRE(run("--only eq6.10,eq5.31 --out out --jobs 2") == 0);
+  const Json rows = Json::parse(vpApp::readFile(run.path("out/results.json")));
+  CHECK(std::all_of(rows.begin(), rows.end(), isExplained));
+  CHECK(valueOf(rows, "eq6.10", "v_8") == Approx(35. / 18.).epsilon(1e-6));
+  const double alpha = valueOf(rows, "eq6.10", "alpha_8, way of 1");
+  CHECK(valueOf(rows, "eq6.10", "alpha_8, way of 2") == Approx(alpha / std::sqrt(2.)).epsilon(1e-6));
+  CHECK(valueOf(rows, "eq6.10", "largest acceleration over the limit by (6.10), way of 0.3 rad") ==
+        Approx(alpha * alpha / (0.3 * 2.6925 * 2.6925)).epsilon(1e-6));
+  CHECK(valueOf(rows, "eq5.31", "least margin, bearing up to 84 deg and rotation up to 179 deg") < 0.);
+  CHECK(valueOf(rows, "eq5.31",
+                "share of the starts without a positive margin that arrive, object in front of the camera") == 1.);
+}
+
 TEST_CASE("Chapter 7 up to figure 7.11: what is arithmetic, and what follows from it", "[program]")
 {
   ProgramRun run(THESIS_REPORT);
   REQUIRE(run("--only table7.3,fig7.10,table7.4 --seeds 1 --out out --jobs 2") == 0);
-  const auto valueOf = [](const Json &rows, const std::string &id, const std::string &quantity) {
-    for (const Json &row : rows) {
-      if (row["id"] == id && row["quantity"] == quantity) {
-        return row["ours"].get<double>();
-      }
-    }
-    FAIL("there is no row " << quantity << " of " << id);
-    return 0.;
-  };
   const Json rows = Json::parse(vpApp::readFile(run.path("out/results.json")));
   for (const Json &row : rows) {
     CAPTURE(row.dump());
