@@ -244,6 +244,11 @@ Item scalingItem(const Scaling &tracker, const Scaling &thesis)
         {"time of a pixel, " + method, "ns", std::nullopt, 1e3 * line.perPixel, Tolerance::factor(2.), Good::Neither,
          "",
          "From " + number(times.cells.front(), 3) + " cells of an image to " + number(times.cells.back(), 4) + "."});
+    const double little = times.median.front() / times.cells.front(), much = times.median.back() / times.cells.back();
+    item.quantities.push_back({"time of a cell, 1280 x 800 px over 160 x 100 px, " + method, "1", std::nullopt,
+                               much / little, Tolerance::factor(2.), Good::Neither, "",
+                               "Medians, of the core, over the cells that are found: " + number(little, 3) + " and " +
+                                   number(much, 3) + " us."});
   };
   rows("vpPatternTracker", ours, tracker);
   rows("Algorithm 7.4", printed, thesis);
