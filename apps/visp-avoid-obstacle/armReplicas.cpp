@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <random>
 #include <vector>
 
 namespace avoidObstacle
@@ -150,12 +151,13 @@ using Eigen::Vector3d;
 using vpApp::fixed;
 using vpApp::number;
 
-constexpr double MOTION_BEGINS = 0.4;    // s
-constexpr double MOST_ACCELERATION = 2.; // m/s^2
-constexpr double SETTLED = 0.008;        // m: table 8.1 has 3.0, 5.6 and 5.2 mm rms, 8.2 mm in total
-constexpr double HEIGHT = 0.35;          // m
-constexpr double ROUNDING = 1e-6;        // relative tolerance of a bound
-constexpr double BOX_APPEARS = 0.85;     // s: one image before the change of the figures
+constexpr double MOTION_BEGINS = 0.4;                 // s
+constexpr double MOST_ACCELERATION = 2.;              // m/s^2
+constexpr double SETTLED = 0.008;                     // m: table 8.1 has 3.0, 5.6 and 5.2 mm rms, 8.2 mm in total
+constexpr double HEIGHT = 0.35;                       // m
+constexpr double ROUNDING = 1e-6;                     // relative tolerance of a bound
+constexpr double APPEARS_FROM = 0.6, APPEARS_TO = 1.; // s
+constexpr double IMAGE_BEFORE = 0.8, IMAGE = 0.1;     // s: the figures' change comes with the image after that one
 
 Vector3d place(double x, double y) { return {x, y, HEIGHT}; }
 std::string text(const Vector3d &p) { return "[" + number(p.x(), 3) + ", " + number(p.y(), 3) + "] m"; }
@@ -218,6 +220,14 @@ double passes(const vpAvoidanceRun &run, const Vector3d &via)
   return least;
 }
 
+//! When the box appears: any time about the figures' change but that with which the change would come by their clock.
+double appearanceOf(unsigned int seed)
+{
+  std::mt19937_64 rng(seed + 8800);
+  const double t = std::uniform_real_distribution<double>(APPEARS_FROM, APPEARS_TO)(rng);
+  return t < IMAGE_BEFORE ? t : t + IMAGE;
+}
+
 nlohmann::ordered_json eventsOf(const Script &script)
 {
   nlohmann::ordered_json events = nlohmann::ordered_json::array();
@@ -264,14 +274,16 @@ nlohmann::ordered_json playSeenArmReplica(const Options &options)
   Script script = scriptOf(options.replica == "fig8.10");
   script.events[1].whenSeen = true;
   vpAvoidanceRunSpec spec = specOf(options, script);
-  addSeenBox(options, place(0.05, 1.05), BOX_APPEARS, spec);
+  const double appears = appearanceOf(options.seed);
+  addSeenBox(options, place(0.05, 1.05), appears, spec);
   const vpAvoidanceRun run = runAvoidanceExperiment(spec);
   const auto changed = std::find_if(run.samples.begin(), run.samples.end(), [](const vpAvoidanceSample &s) {
     return s.status == vpAvoidanceStatus::Detouring;
   });
   nlohmann::ordered_json numbers = {{"metrics", vpApp::metricsJson(run.metrics)},
                                     {"seen", changed != run.samples.end()},
-                                    {"seen_after_s", changed == run.samples.end() ? NAN : changed->time - BOX_APPEARS}};
+                                    {"appears_s", appears},
+                                    {"seen_after_s", changed == run.samples.end() ? NAN : changed->time - appears}};
   if (script.events.back().via) {
     numbers["via_distance_m"] = passes(run, *script.events.back().via);
   }

@@ -53,8 +53,9 @@ struct Replica {
 [[nodiscard]] Replica playPointReplica(const Options &options); //!< 8.7, 8.9, 8.13
 [[nodiscard]] Replica playArmReplica(const Options &options);   //!< 8.8, 8.10, 8.11, 8.12
 /*!
- * Figure 8.8 or 8.10 with the image sensor: a box with a photograph appears 0.1 s before the change, which comes when the
- * camera in the hand has found it. \return metrics, seen, seen_after_s, via_distance_m.
+ * Figure 8.8 or 8.10 with the image sensor: a box with a photograph appears, at a time by the seed, and the change comes
+ * when the camera in the hand has found it, not with the clock of the figure.
+ * \return metrics, seen, appears_s, seen_after_s, via_distance_m.
  */
 [[nodiscard]] nlohmann::ordered_json playSeenArmReplica(const Options &options);
 //! Figure 8.6 by the arm, whose camera sees the obstacle. \return strict and mild as playFieldReplica().

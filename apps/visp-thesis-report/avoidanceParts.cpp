@@ -193,7 +193,9 @@ void addArmVariants(const avoidObstacle::Options &options, Item &item)
   item.quantities.push_back({"image sensor: time from the appearance of the obstacle to the change", "s", std::nullopt,
                              seen.at("seen_after_s"), Tolerance::factor(1.1), Good::Neither, "",
                              "10 Hz as in section 8.3.2, a latency of " + vpApp::number(options.latency, 2) +
-                                 " s; a box with a photograph, found by the database of targets."});
+                                 " s; a box with a photograph, found by the database of targets. It appears at " +
+                                 vpApp::number(seen.at("appears_s").get<double>(), 3) +
+                                 " s, by the seed, and the change comes when it is seen, not at 0.95 s."});
 }
 
 Item itemOf(const std::string &id, const Setting &setting,

@@ -196,6 +196,10 @@ TEST_CASE("Figure 8.10 with the image sensor: the change comes when the box is s
   for (const char *name : {"fig8.10"}) {
     const nlohmann::ordered_json seen = playSeenArmReplica(replica(name));
     CAPTURE(name, seen.dump());
+    // Another motion than that with the clock of the figure.
+    const double changed = seen.at("appears_s").get<double>() + seen.at("seen_after_s").get<double>();
+    CHECK(std::fabs(changed - 0.95) > 0.04);
+    CHECK(seen.at("metrics").at("goal_error_m") != playReplica(replica(name)).numbers.at("metrics").at("goal_error_m"));
     REQUIRE(seen.at("seen").get<bool>());
     CHECK(seen.at("seen_after_s").get<double>() >= 0.05); // the latency
     CHECK(seen.at("seen_after_s").get<double>() < 0.3);
