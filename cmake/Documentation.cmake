@@ -2,9 +2,10 @@
 # on any warning and any class without a group. Links are the matter of the test `pages`.
 find_package(Doxygen QUIET)
 find_program(VISP_DIRECT_BIBTEX bibtex)
-mark_as_advanced(VISP_DIRECT_BIBTEX)
-if(NOT DOXYGEN_FOUND OR NOT VISP_DIRECT_BIBTEX)
-  message(STATUS "visp-direct: the documentation is not built, doxygen or bibtex (texlive-binaries) is missing")
+find_program(VISP_DIRECT_DOC_PYTHON python3)
+mark_as_advanced(VISP_DIRECT_BIBTEX VISP_DIRECT_DOC_PYTHON)
+if(NOT DOXYGEN_FOUND OR NOT VISP_DIRECT_BIBTEX OR NOT VISP_DIRECT_DOC_PYTHON)
+  message(STATUS "visp-direct: the documentation is not built, doxygen, bibtex (texlive-binaries) or python3 is missing")
   return()
 endif()
 

@@ -1,6 +1,6 @@
 # visp-direct: direct methods for vision-based robot control, for ViSP.
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What pages say that a reader may click or type is there: checkPages.py [--bin FOLDER] [ROOT].
+"""What pages say that a reader may click or type is there: checkPages.py [--bin FOLDER] [--update] [ROOT].
 
 Pages are all Markdown files and .dox pages of the repository and, with --bin, what the programs print for --help. Checked are
 
@@ -8,6 +8,8 @@ Pages are all Markdown files and .dox pages of the repository and, with --bin, w
   files      paths of the repository, in commands and in code spans
   commands   programs of the repository, their options (each is in --help) and values (the program reads them before it prints its
              help; nothing runs), options of scripts, presets of CMake, names of test programs and of tutorials
+  code       a block below a comment <!-- FILE.cpp: Part --> is the part of the file beside the page between its two lines //! [Part];
+             --update writes it so
 
 Nothing here needs hardware: a command for a robot or a camera is read like any other. A word in capitals or with "..." or "<" is a place
 for the reader's own; commands with one are not read by the program, only their options are looked up.
@@ -20,6 +22,7 @@ import shlex
 import subprocess
 import sys
 import tempfile
+import textwrap
 
 FOLDERS = ("apps", "cmake", "data", "doc", "lab", "modules", "python", "scripts", "support", "test", "tutorial")
 PATH = re.compile(rf"(?<![\w./-])(?:\./)?((?:{'|'.join(FOLDERS)})/[\w./-]*\w/?|demo\.sh|test\.sh|[A-Z]+\.md)(?![\w*{{<$-])")
@@ -27,6 +30,15 @@ OWN = re.compile(r"\.\.\.|[<|*$]|(?<!\w)(?!README)[A-Z][A-Z_]*(?![\w-])")  # a p
 OPTION = re.compile(r"(?<![\w-])--[a-z][\w-]*")
 FOREIGN = ["--bind-to", "--prefix", "--rng-seed"]  # of mpirun, CMake and Catch2
 PROGRAM = re.compile(r"visp-(?!direct$|images-data$)[a-z-]+[a-z]")
+
+
+QUOTED = re.compile(r"(?<=^<!-- )([\w.-]+): (\w+) -->\n```cpp\n(.*?)^```", re.S | re.M)
+
+
+def part_of(file, name):
+    """The lines of a program between //! [name] and //! [name], without the indentation that they share; None where they are not there."""
+    found = file.is_file() and re.search(rf"^ *//! \[{name}\]\n(.*?)^ *//! \[{name}\]$", file.read_text(encoding="utf-8"), re.S | re.M)
+    return textwrap.dedent(re.sub(r"^ *//! \[\w+\]\n", "", found[1], flags=re.M)) if found else None
 
 
 def headings(text):
@@ -76,7 +88,7 @@ def commands_in(line):
 
 class Checker:
     def __init__(self, root, bin_folder=None):
-        self.root, self.bin, self.faults, self.counts = root, bin_folder, [], {"links": 0, "files": 0, "commands": 0}
+        self.root, self.bin, self.faults, self.counts = root, bin_folder, [], {"links": 0, "files": 0, "commands": 0, "quotations": 0}
         self.helps, self.done, self.page, self.anywhere = {}, set(), "", []  # helps: what each call says
         names = (path.stem for folder in FOLDERS for path in (root / folder).rglob("*.cpp"))
         self.sources = {name for name in names if re.match(r"catch|perf|tutorial-", name)}
@@ -189,10 +201,20 @@ class Checker:
             elif anchor and anchor not in headings(path.read_text(encoding="utf-8")):
                 self.fault(f"{file or 'the page'} has no heading #{anchor}")
 
+    def check_code(self, text):
+        for file, name, block in QUOTED.findall(text):
+            self.counts["quotations"] += 1
+            part = part_of((self.root / self.page).parent / file, name)
+            if part is None:
+                self.fault(f"{file} has no part [{name}]")
+            elif part != block:
+                self.fault(f"the code is not [{name}] of {file}: checkPages.py --update copies it")
+
     def check_text(self, page, text):
         self.page, is_page = str(page), str(page).endswith(".dox")
         if not is_page:
             self.check_links(text)
+            self.check_code(text)
         for line in blocks_of(text, is_page):
             self.check_files(line)
             for words in commands_in(line):
@@ -220,11 +242,23 @@ class Checker:
             for words in commands_in(claim["command"]):
                 self.check_command(words)
 
-    def check_all(self):
+    def pages(self):
         pages = [*self.root.glob("*.md")]
         for folder in FOLDERS:
             pages += [p for suffix in ("md", "dox") for p in (self.root / folder).rglob(f"*.{suffix}")]
-        for page in sorted(pages):
+        return sorted(pages)
+
+    def update(self):
+        """Copies the code that pages quote."""
+        for page in self.pages():
+            text = page.read_text(encoding="utf-8")
+            new = QUOTED.sub(lambda m: f"{m[1]}: {m[2]} -->\n```cpp\n{part_of(page.parent / m[1], m[2]) or m[3]}```", text)
+            if new != text:
+                page.write_text(new, encoding="utf-8")
+
+    def check_all(self):
+        pages = self.pages()
+        for page in pages:
             if page.name != "CHANGELOG.md" or self.root not in page.parents:  # which names what was
                 self.check_text(page.relative_to(self.root), page.read_text(encoding="utf-8"))
         if self.bin:
@@ -239,9 +273,12 @@ class Checker:
 def main(arguments):
     parser = argparse.ArgumentParser()
     parser.add_argument("--bin", type=pathlib.Path, help="folder of the programs")
+    parser.add_argument("--update", action="store_true", help="copies the code that pages quote")
     parser.add_argument("root", type=pathlib.Path, nargs="?", default=pathlib.Path(__file__).resolve().parents[2])
     options = parser.parse_args(arguments)
     checker = Checker(options.root, options.bin)
+    if options.update:
+        checker.update()
     pages = checker.check_all()
     print("\n".join(checker.faults) or f"{pages} pages: " + ", ".join(f"{n} {what}" for what, n in checker.counts.items()) + " are good")
     return 1 if checker.faults else 0

@@ -101,6 +101,17 @@ class Pages(unittest.TestCase):
         self.assert_fault("```\ncmake --preset rlease\n```\n", "there is no preset rlease")
         self.assert_fault("`catchSaw`", "there is no program catchSaw")
 
+    def test_quoted_code(self):
+        (self.root / "tutorial/01-see/see.cpp").write_text("int f()\n{\n  //! [Look]\n  if (a)\n    b();\n  //! [Look]\n}\n")
+        page, good = "tutorial/01-see/README.md", "<!-- see.cpp: Look -->\n```cpp\nif (a)\n  b();\n```\n"
+        self.assert_good(good, page)
+        self.assert_fault(good.replace("b()", "c()"), "the code is not [Look] of see.cpp: checkPages.py --update copies it", page)
+        self.assert_fault(good.replace("Look", "Lock"), "see.cpp has no part [Lock]", page)
+        self.assert_fault(good.replace("see.cpp", "saw.cpp"), "saw.cpp has no part [Look]", page)
+        (self.root / page).write_text(good.replace("b()", "c()") + "more\n")
+        Checker(self.root).update()
+        self.assertEqual((self.root / page).read_text(), good + "more\n")
+
     def test_examples_of_the_help(self):
         self.program("--rat 5")
         self.assertEqual(self.faults(""), ["visp-see --help: visp-see has no option --rat"])

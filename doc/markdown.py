@@ -1,0 +1,48 @@
+# visp-direct: direct methods for vision-based robot control, for ViSP.
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Filters a Markdown page for doxygen: markdown.py FILE. The same text reads well on a forge and in the documentation."""
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+# Pages of which the links that begin a row of a table or an item of a list go to the pages below them.
+PARENTS = ("CONTRIBUTING.md", "data/README.md", "doc/guides.md", "doc/thesis.md", "modules/README.md", "tutorial/README.md")
+
+
+def label(page):
+    """The name of a page, which is that of its HTML file: tutorial-01-first-law, real-time."""
+    parts = page.resolve().relative_to(ROOT).with_suffix("").parts
+    name = "-".join(part for part in parts if part not in ("README", "doc")).lower()
+    return "module-pages" if name == "modules" else name  # modules.html is doxygen's
+
+
+def link(page, start, text, target):
+    """A link to a page goes by its label."""
+    path = page.parent / target.partition("#")[0]
+    if path.suffix != ".md" or not path.is_file() or path.resolve() == ROOT / "README.md":
+        return f"{start}[{text}]({target})"
+    is_parent = start and page.resolve().relative_to(ROOT).as_posix() in PARENTS
+    text = text.replace("`", "")
+    return f'{start}\\{"subpage" if is_parent else "ref"} {label(path)} "{text}"'
+
+
+def prose(page, text):
+    text = re.sub(r"(!\[[^\]]*\]\()(?:\.\./)+", r"\1", text)  # doxygen looks up a figure by the end of its path
+    text = re.sub(r"(^(?:\| |[-*] ))?(?<!!)\[([^\]]+)\]\(([^()\s]+)\)", lambda m: link(page, m[1] or "", m[2], m[3]), text, flags=re.M)
+    # A code span, in which doxygen makes no links; <code> looks the same and does get links.
+    return re.sub(r"`(vp[A-Z]\w*(?:::\w+)?(?:\(\))?|vispDirect\w+\(\))`", r"<code>\1</code>", text)
+
+
+def main(page):
+    parts = re.split(r"(^```.*?^```)", page.read_text(encoding="utf-8"), flags=re.S | re.M)
+    text = "".join(part if i % 2 else prose(page, part) for i, part in enumerate(parts))
+    if page.resolve() == ROOT / "README.md":  # its sections are no pages
+        text = re.sub(r"^## (.*)", r"<h2>\1</h2>", text, flags=re.M)
+    else:
+        text = re.sub(r"\A# (.*)", lambda m: f"# {m[1]} {{#{label(page)}}}", text)
+    sys.stdout.write(text)
+
+
+if __name__ == "__main__":
+    main(pathlib.Path(sys.argv[1]))
