@@ -38,7 +38,7 @@ def main(page):
     parts = re.split(r"(^```.*?^```)", page.read_text(encoding="utf-8"), flags=re.S | re.M)
     text = "".join(part if i % 2 else prose(page, part) for i, part in enumerate(parts))
     if page.resolve() == ROOT / "README.md":  # its sections are no pages
-        text = re.sub(r"^## (.*)", r"<h2>\1</h2>", text, flags=re.M)
+        text = re.sub(r"^## (.*)", r"<h1>\1</h1>", text, flags=re.M)
     else:
         text = re.sub(r"\A# (.*)", lambda m: f"# {m[1]} {{#{label(page)}}}", text)
     sys.stdout.write(text)
