@@ -30,6 +30,7 @@ def link(page, start, text, target):
 def prose(page, text):
     text = re.sub(r"(!\[[^\]]*\]\()(?:\.\./)+", r"\1", text)  # doxygen looks up a figure by the end of its path
     text = re.sub(r"(^(?:\| |[-*] ))?(?<!!)\[([^\]]+)\]\(([^()\s]+)\)", lambda m: link(page, m[1] or "", m[2], m[3]), text, flags=re.M)
+    text = re.sub(r"(?<!`)`([^`\n]*'[^`\n]*)`(?!`)", r"``\1``", text)  # to doxygen `a' is a quotation
     # A code span, in which doxygen makes no links; <code> looks the same and does get links.
     return re.sub(r"`(vp[A-Z]\w*(?:::\w+)?(?:\(\))?|vispDirect\w+\(\))`", r"<code>\1</code>", text)
 
