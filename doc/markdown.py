@@ -27,12 +27,17 @@ def link(page, start, text, target):
     return f'{start}\\{"subpage" if is_parent else "ref"} {label(path)} "{text}"'
 
 
+def code(span):
+    """A name of ours in <code>, which looks like a code span and gets links; with an apostrophe, which would end a span, two backticks."""
+    if re.fullmatch(r"vp[A-Z]\w*(::\w+)?(\(\))?|vispDirect\w+\(\)", span):
+        return f"<code>{span}</code>"
+    return f"``{span}``" if "'" in span else f"`{span}`"
+
+
 def prose(page, text):
     text = re.sub(r"(!\[[^\]]*\]\()(?:\.\./)+", r"\1", text)  # doxygen looks up a figure by the end of its path
     text = re.sub(r"(^(?:\| |[-*] ))?(?<!!)\[([^\]]+)\]\(([^()\s]+)\)", lambda m: link(page, m[1] or "", m[2], m[3]), text, flags=re.M)
-    text = re.sub(r"(?<!`)`([^`\n]*'[^`\n]*)`(?!`)", r"``\1``", text)  # to doxygen `a' is a quotation
-    # A code span, in which doxygen makes no links; <code> looks the same and does get links.
-    return re.sub(r"`(vp[A-Z]\w*(?:::\w+)?(?:\(\))?|vispDirect\w+\(\))`", r"<code>\1</code>", text)
+    return re.sub(r"`([^`]+)`", lambda m: code(m[1]), text)
 
 
 def main(page):
