@@ -247,7 +247,7 @@ TEST_CASE("A covered camera sees nothing; what it has seen is still there", "[se
   }
 }
 
-TEST_CASE("A depth camera maps what it sees, and the map comes into the scene", "[sensor]")
+TEST_CASE("A depth camera maps what it sees, and the map comes into the scene", "[sensor][needs-OCTOMAP]")
 {
   auto rng = vpTestSupport::generator(744);
   CAPTURE(vpTestSupport::seed());
@@ -295,7 +295,7 @@ TEST_CASE("A depth camera maps what it sees, and the map comes into the scene", 
   CHECK(off <= 2);
 }
 
-TEST_CASE("Sensors that cannot work are refused", "[sensor]")
+TEST_CASE("Sensors that cannot work are refused", "[sensor][needs-OCTOMAP]")
 {
   vpImageObstacleSensorSpec image;
   image.angleSigma = -1.;

@@ -159,7 +159,7 @@ json &entryOf(json &content, const std::string &body)
 }
 } // namespace
 
-TEST_CASE("Every body with shapes gets capsules that hold all of them", "[cover]")
+TEST_CASE("Every body with shapes gets capsules that hold all of them", "[cover][needs-ASSIMP]")
 {
   CAPTURE(vpTestSupport::seed());
   std::mt19937_64 rng = vpTestSupport::generator();
@@ -193,7 +193,7 @@ TEST_CASE("Every body with shapes gets capsules that hold all of them", "[cover]
   }
 }
 
-TEST_CASE("Ignored and unreadable bodies stay uncovered, by name", "[cover]")
+TEST_CASE("Ignored and unreadable bodies stay uncovered, by name", "[cover][needs-ASSIMP]")
 {
   std::mt19937_64 rng = vpTestSupport::generator(1);
   const Folder folder;
@@ -218,7 +218,8 @@ TEST_CASE("Ignored and unreadable bodies stay uncovered, by name", "[cover]")
         "capsules of the covers of an arm is 0, must be 1 to 8");
 }
 
-TEST_CASE("Covers from a file are the same to the last bit, and fitted again when shapes or options change", "[cover]")
+TEST_CASE("Covers from a file are the same to the last bit, and fitted again when shapes or options change",
+          "[cover][needs-ASSIMP]")
 {
   CAPTURE(vpTestSupport::seed());
   std::mt19937_64 rng = vpTestSupport::generator(2);
@@ -263,7 +264,8 @@ TEST_CASE("Covers from a file are the same to the last bit, and fitted again whe
   }
 }
 
-TEST_CASE("Edited covers are used if they enclose, else refused by name or taken with a warning", "[cover]")
+TEST_CASE("Edited covers are used if they enclose, else refused by name or taken with a warning",
+          "[cover][needs-ASSIMP]")
 {
   CAPTURE(vpTestSupport::seed());
   std::mt19937_64 rng = vpTestSupport::generator(3);
@@ -306,7 +308,7 @@ TEST_CASE("Edited covers are used if they enclose, else refused by name or taken
   CHECK(unchecked.warnings[0] == error);
 }
 
-TEST_CASE("A broken file of covers is an error, one that cannot be written a warning", "[cover]")
+TEST_CASE("A broken file of covers is an error, one that cannot be written a warning", "[cover][needs-ASSIMP]")
 {
   std::mt19937_64 rng = vpTestSupport::generator(4);
   const Folder folder;
@@ -341,7 +343,7 @@ TEST_CASE("A broken file of covers is an error, one that cannot be written a war
   CHECK(cover.warnings[0] == options.cacheFile + ": the covers cannot be written (No such file or directory)");
 }
 
-TEST_CASE("Public arms: all links covered, twice the same", "[cover][cases]")
+TEST_CASE("Public arms: all links covered, twice the same", "[cover][cases][needs-ASSIMP]")
 {
   std::vector<CaseArm> arms = caseArms();
   vpArmSpec spec;

@@ -52,7 +52,7 @@ TEST_CASE("A distance of numbers out of range is -infinity, never NaN and never 
   }
 }
 
-TEST_CASE("A configuration or time out of range is in collision for every query", "[numbers]")
+TEST_CASE("A configuration or time out of range is in collision for every query", "[numbers][needs-FCL]")
 {
   const vpCollisionScene scene(amor(), everything());
   vpCollisionData data;

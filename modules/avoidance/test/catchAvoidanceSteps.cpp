@@ -207,7 +207,8 @@ TEST_CASE("Wild sightings and clocks neither break a track nor lose its object",
   }
 }
 
-TEST_CASE("A depth image with wild numbers, seen from nowhere, maps nothing that is not there", "[numbers]")
+TEST_CASE("A depth image with wild numbers, seen from nowhere, maps nothing that is not there",
+          "[numbers][needs-OCTOMAP]")
 {
   auto rng = vpTestSupport::generator(984);
   CAPTURE(vpTestSupport::seed());

@@ -305,7 +305,7 @@ TEST_CASE("Wrong fields of a cover are named", "[cover]")
 }
 
 // Per link and number of capsules: overhang, its share of the link's radius, volume over that of the hull.
-TEST_CASE("Links of public arms: how tight their covers are", "[cover][cases]")
+TEST_CASE("Links of public arms: how tight their covers are", "[cover][cases][needs-ASSIMP]")
 {
   std::mt19937_64 rng(7); // the fits do not depend on the seed of the day and are not worth repeating
   std::vector<double> shares, volumes;

@@ -85,7 +85,7 @@ std::string binaryStl(const vpTriangleMesh &mesh)
 }
 } // namespace
 
-TEST_CASE("Meshes from files", "[files]")
+TEST_CASE("Meshes from files", "[files][needs-ASSIMP]")
 {
   const File obj("cube.obj", cube);
   const vpTriangleMesh mesh = vpTriangleMesh::load(obj.name(), 0.5);
@@ -106,7 +106,7 @@ TEST_CASE("Meshes from files", "[files]")
                                        "an inside");
 }
 
-TEST_CASE("A closed mesh is a solid, however its file repeats corners and turns triangles", "[files]")
+TEST_CASE("A closed mesh is a solid, however its file repeats corners and turns triangles", "[files][needs-ASSIMP]")
 {
   // A box of six faces with corners of their own, as textured models have them.
   std::string vertices, faces, turned;
@@ -193,7 +193,7 @@ TEST_CASE("A closed mesh is a solid, however its file repeats corners and turns 
   CHECK(depth(-0.1) == Approx(0.099));
 }
 
-TEST_CASE("A mesh that stays open is refused as a solid, by name, unless a surface is enough", "[files]")
+TEST_CASE("A mesh that stays open is refused as a solid, by name, unless a surface is enough", "[files][needs-ASSIMP]")
 {
   std::string open = cube;
   open.resize(open.rfind("f "));
@@ -219,7 +219,7 @@ TEST_CASE("A mesh that stays open is refused as a solid, by name, unless a surfa
   CHECK(errorOf([&] { return vpLoadCollisionScene(wrong.name()); }).find("surface") != std::string::npos);
 }
 
-TEST_CASE("The public case of a block round the arm collides", "[files]")
+TEST_CASE("The public case of a block round the arm collides", "[files][needs-ASSIMP]")
 {
   for (const char *name : {"jenga.obj", "cube.obj"}) {
     const std::string file = vpTestSupport::caseFile(std::string("meshes/") + name);
@@ -241,7 +241,7 @@ TEST_CASE("The public case of a block round the arm collides", "[files]")
   }
 }
 
-TEST_CASE("Magnitudes that no workplace has are refused in a sentence", "[files]")
+TEST_CASE("Magnitudes that no workplace has are refused in a sentence", "[files][needs-ASSIMP]")
 {
   const auto sceneError = [](const std::string &object) {
     const File file("large.json", R"({"name": "s", "objects": [{"name": "a", )" + object + "}]}");
@@ -264,7 +264,7 @@ TEST_CASE("Magnitudes that no workplace has are refused in a sentence", "[files]
         std::string::npos);
 }
 
-TEST_CASE("Errors in meshes name the file and the place", "[files]")
+TEST_CASE("Errors in meshes name the file and the place", "[files][needs-ASSIMP][needs-OCTOMAP]")
 {
   const std::string obj = "catchCollisionFiles-mesh.obj: ", stl = "catchCollisionFiles-mesh.stl: ";
   const std::string noObj = obj + "is no readable .obj file (", noStl = stl + "is no readable .stl file (";
@@ -293,7 +293,7 @@ TEST_CASE("Errors in meshes name the file and the place", "[files]")
   CHECK(errorOf([&] { return vpOctree::load(tree.name()); }) == tree.name() + ": is no octree of octomap");
 }
 
-TEST_CASE("Octrees that would harm octomap are refused before they get there", "[files][hostile]")
+TEST_CASE("Octrees that would harm octomap are refused before they get there", "[files][hostile][needs-OCTOMAP]")
 {
   const auto treeError = [](const std::string &name, const std::string &bytes) {
     const File file(name, bytes);
@@ -336,7 +336,7 @@ TEST_CASE("Octrees that would harm octomap are refused before they get there", "
         bt + "is a tree of the kind ColorOcTree, must be OcTree");
 }
 
-TEST_CASE("Scenes are read as strictly as tasks; the public broken ones", "[files][hostile]")
+TEST_CASE("Scenes are read as strictly as tasks; the public broken ones", "[files][hostile][needs-OCTOMAP]")
 {
   const std::string file = "catchCollisionFiles-scene.json: ";
   CHECK(sceneError("{\"name\": \"s\", \"objects\": [], \"objects\": []}") == file + "field \"objects\" is given twice");
@@ -360,7 +360,7 @@ TEST_CASE("Scenes are read as strictly as tasks; the public broken ones", "[file
   CHECK(caseError("trunc.bt.json").find("trunc.bt: says 4027 nodes and is cut off") != std::string::npos);
 }
 
-TEST_CASE("A scene with everything arrives", "[files]")
+TEST_CASE("A scene with everything arrives", "[files][needs-ASSIMP]")
 {
   const File obj("all.obj", cube);
   const File file("scene.json", R"({"name": "all", "comment": "x",
@@ -398,7 +398,7 @@ TEST_CASE("A scene with everything arrives", "[files]")
   CHECK(scene.isChecked(1, 3));
 }
 
-TEST_CASE("Errors in scenes name the file and the element", "[files]")
+TEST_CASE("Errors in scenes name the file and the element", "[files][needs-ASSIMP][needs-OCTOMAP]")
 {
   const std::string file = "catchCollisionFiles-scene.json: ";
   CHECK(sceneError("{\"name\": ").find(file + "line 1, column ") == 0);
@@ -454,7 +454,7 @@ TEST_CASE("Errors in scenes name the file and the element", "[files]")
         "nowhere.json: cannot be read (there is no such file)");
 }
 
-TEST_CASE("The scenes of data/scene load, and their tasks start and end free", "[files]")
+TEST_CASE("The scenes of data/scene load, and their tasks start and end free", "[files][needs-ASSIMP][needs-OCTOMAP]")
 {
   for (const char *name : {"empty", "s4a-pillar", "s4b-shelf", "s6-trap", "seen"}) {
     CAPTURE(name);

@@ -69,7 +69,7 @@ std::string errorOf(const vpCollisionSceneSpec &spec, const vpArmModel &arm = am
 }
 } // namespace
 
-TEST_CASE("Clearances of capsules from primitives agree with a search; FCL beside", "[scene]")
+TEST_CASE("Clearances of capsules from primitives agree with a search; FCL beside", "[scene][needs-FCL]")
 {
   const char *const names[] = {"sphere", "capsule", "box", "cylinder"};
   CAPTURE(vpTestSupport::seed());
@@ -240,7 +240,7 @@ TEST_CASE("A tree of boxes finds the nearest of all cubes", "[scene]")
   }
 }
 
-TEST_CASE("Octrees are the nearest of their cubes; FCL beside", "[scene]")
+TEST_CASE("Octrees are the nearest of their cubes; FCL beside", "[scene][needs-FCL]")
 {
   auto rng = vpTestSupport::generator(12);
   CAPTURE(vpTestSupport::seed());
@@ -379,7 +379,7 @@ TEST_CASE("Whole-arm queries are those of their pairs, now and later, for moved 
   CHECK(collisions < 5500);
 }
 
-TEST_CASE("FCL and the fast path agree on collisions that are not grazing", "[scene]")
+TEST_CASE("FCL and the fast path agree on collisions that are not grazing", "[scene][needs-FCL]")
 {
   auto rng = vpTestSupport::generator(14);
   CAPTURE(vpTestSupport::seed());

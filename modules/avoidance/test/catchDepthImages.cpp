@@ -132,7 +132,7 @@ vpDepthObstaclesSpec everyPixel()
 }
 } // namespace
 
-TEST_CASE("What is seen is occupied, and nothing else", "[octomap]")
+TEST_CASE("What is seen is occupied, and nothing else", "[octomap][needs-OCTOMAP]")
 {
   const vpCollisionSceneSpec bodies = twoBodies();
   const vpImage<float> depth = render(bodies, {}, view());
@@ -179,7 +179,7 @@ TEST_CASE("What is seen is occupied, and nothing else", "[octomap]")
   }
 }
 
-TEST_CASE("What has gone is cleared by carving, and only by carving", "[octomap]")
+TEST_CASE("What has gone is cleared by carving, and only by carving", "[octomap][needs-OCTOMAP]")
 {
   vpCollisionSceneSpec bodies = twoBodies();
   const vpImage<float> before = render(bodies, {}, view());
@@ -204,7 +204,7 @@ TEST_CASE("What has gone is cleared by carving, and only by carving", "[octomap]
   CHECK(left[0] > 5);
 }
 
-TEST_CASE("The arm in view is left out", "[octomap]")
+TEST_CASE("The arm in view is left out", "[octomap][needs-OCTOMAP]")
 {
   vpCollisionSceneSpec bodies = twoBodies();
   const vpCollisionScene scene(amor(), bodies);
@@ -241,7 +241,7 @@ TEST_CASE("The arm in view is left out", "[octomap]")
   }
 }
 
-TEST_CASE("Images without use say so; files; bad parameters", "[octomap]")
+TEST_CASE("Images without use say so; files; bad parameters", "[octomap][needs-OCTOMAP]")
 {
   vpDepthOctomap map;
   vpImage<float> depth;
@@ -289,7 +289,7 @@ TEST_CASE("Images without use say so; files; bad parameters", "[octomap]")
   CHECK_THROWS_WITH(map.save("/nowhere/x.bt"), Catch::Contains("/nowhere/x.bt: cannot be written"));
 }
 
-TEST_CASE("What depth images show beside what is known becomes one object", "[depth]")
+TEST_CASE("What depth images show beside what is known becomes one object", "[depth][needs-OCTOMAP]")
 {
   const Ball known{{0.15, 0.9, 0.4}, 0.12}, other{{-0.25, 0.8, 0.45}, 0.1};
   vpCollisionSceneSpec spec;
@@ -326,7 +326,8 @@ TEST_CASE("What depth images show beside what is known becomes one object", "[de
   CHECK(scene.find("depth") < 0);
 }
 
-TEST_CASE("A tracked object that moves leaves nothing behind; one that is elsewhere than thought is seen", "[depth]")
+TEST_CASE("A tracked object that moves leaves nothing behind; one that is elsewhere than thought is seen",
+          "[depth][needs-OCTOMAP]")
 {
   Ball ball{{-0.2, 0.9, 0.4}, 0.12};
   vpCollisionSceneSpec spec;
@@ -348,7 +349,8 @@ TEST_CASE("A tracked object that moves leaves nothing behind; one that is elsewh
   CHECK(cellsNear(scene, ball, 0.03) > 50);
 }
 
-TEST_CASE("The ground is known; a camera that is nowhere and names that are taken are refused", "[depth]")
+TEST_CASE("The ground is known; a camera that is nowhere and names that are taken are refused",
+          "[depth][needs-OCTOMAP]")
 {
   vpCollisionSceneSpec spec;
   spec.ground = vpHalfSpace();

@@ -216,7 +216,7 @@ template <class Map> double difference(const vpTriangleMesh &a, const vpTriangle
 }
 } // namespace
 
-TEST_CASE("Every format gives the same solid, with any scale, in any case of letters", "[files]")
+TEST_CASE("Every format gives the same solid, with any scale, in any case of letters", "[files][needs-ASSIMP]")
 {
   CAPTURE(vpTestSupport::seed());
   std::mt19937_64 rng = vpTestSupport::generator();
@@ -250,7 +250,7 @@ TEST_CASE("Every format gives the same solid, with any scale, in any case of let
   }
 }
 
-TEST_CASE("Binary data may begin with a line end", "[files]")
+TEST_CASE("Binary data may begin with a line end", "[files][needs-ASSIMP]")
 {
   CAPTURE(vpTestSupport::seed());
   std::mt19937_64 rng = vpTestSupport::generator();
@@ -284,7 +284,7 @@ TEST_CASE("Binary data may begin with a line end", "[files]")
   }
 }
 
-TEST_CASE("A cavity stays one when the file is mirrored", "[files]")
+TEST_CASE("A cavity stays one when the file is mirrored", "[files][needs-ASSIMP]")
 {
   std::vector<Vector3d> corners = tetrahedron(1.).vertices();
   std::vector<std::array<int, 3>> triangles = tetrahedron(1.).triangles();
@@ -301,7 +301,7 @@ TEST_CASE("A cavity stays one when the file is mirrored", "[files]")
   CHECK(volume(vpTriangleMesh::load(file.name(), Vector3d(-1., 2., 1.))) == Approx(2. * 0.875 * full));
 }
 
-TEST_CASE("Collada: units and places count, the up axis does not", "[files]")
+TEST_CASE("Collada: units and places count, the up axis does not", "[files][needs-ASSIMP]")
 {
   CAPTURE(vpTestSupport::seed());
   std::mt19937_64 rng = vpTestSupport::generator(1);
@@ -320,7 +320,7 @@ TEST_CASE("Collada: units and places count, the up axis does not", "[files]")
                    [](const Vector3d &v) { return (0.5 * Vector3d(-v.y(), v.x(), v.z() + 3.)).eval(); }) < 1e-6);
 }
 
-TEST_CASE("What would crash the parser is refused by name", "[files]")
+TEST_CASE("What would crash the parser is refused by name", "[files][needs-ASSIMP]")
 {
   std::mt19937_64 rng = vpTestSupport::generator(2);
   const vpTriangleMesh mesh = solid(rng);

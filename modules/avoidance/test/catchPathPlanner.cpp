@@ -65,7 +65,7 @@ void requireEnds(const vpArmModel &arm, const vpPathResult &result, const vpJoin
 }
 } // namespace
 
-TEST_CASE("Two trees on certified motions solve pillar and shelf, free at every place", "[planner]")
+TEST_CASE("Two trees on certified motions solve pillar and shelf, free at every place", "[planner][needs-OMPL]")
 {
   for (const std::string planner : {"BiRRT", "RRTConnect"}) {
     int plans = 0, motions = 0;
@@ -92,7 +92,7 @@ TEST_CASE("Two trees on certified motions solve pillar and shelf, free at every 
   }
 }
 
-TEST_CASE("FCL finds no contact on a thousand paths of BiRRT", "[planner][fcl]")
+TEST_CASE("FCL finds no contact on a thousand paths of BiRRT", "[planner][fcl][needs-FCL]")
 {
   auto rng = vpTestSupport::generator(902);
   CAPTURE(vpTestSupport::seed());
@@ -130,7 +130,7 @@ TEST_CASE("FCL finds no contact on a thousand paths of BiRRT", "[planner][fcl]")
   CHECK(3 * bent > paths);
 }
 
-TEST_CASE("Every planner finds a free path round the pillar", "[planner]")
+TEST_CASE("Every planner finds a free path round the pillar", "[planner][needs-OMPL]")
 {
   const vpCollisionSceneFile file = vpLoadCollisionScene(dataFile("scene/s4a-pillar.json"));
   const vpCollisionScene scene(amor(), file.spec);
@@ -208,7 +208,7 @@ TEST_CASE("Discrete validation calls paths free that are not", "[planner]")
   CHECK(lies > 0);
 }
 
-TEST_CASE("Plans repeat for a seed, and paths are shorter after shortening", "[planner]")
+TEST_CASE("Plans repeat for a seed, and paths are shorter after shortening", "[planner][needs-OMPL]")
 {
   const vpCollisionSceneFile file = vpLoadCollisionScene(dataFile("scene/s4b-shelf.json"));
   const vpCollisionScene scene(amor(), file.spec);
@@ -231,7 +231,7 @@ TEST_CASE("Plans repeat for a seed, and paths are shorter after shortening", "[p
   CHECK(c.path.length() < a.path.length());
 }
 
-TEST_CASE("What cannot be planned is said", "[planner]")
+TEST_CASE("What cannot be planned is said", "[planner][needs-OMPL]")
 {
   const vpCollisionSceneFile file = vpLoadCollisionScene(dataFile("scene/s4a-pillar.json"));
   vpCollisionScene scene(amor(), file.spec);
@@ -346,7 +346,7 @@ TEST_CASE("A path is walked by its length", "[planner]")
   CHECK(path.at(2.)(0) == 4.);
 }
 
-TEST_CASE("Plans repeat for a seed, alone and while other threads plan", "[planner]")
+TEST_CASE("Plans repeat for a seed, alone and while other threads plan", "[planner][needs-OMPL]")
 {
   const vpCollisionSceneFile file = vpLoadCollisionScene(dataFile("scene/s4b-shelf.json"));
   const vpCollisionScene scene(amor(), file.spec);
@@ -424,7 +424,7 @@ TEST_CASE("The nearest configuration of a tree is the nearest of all", "[planner
   }
 }
 
-TEST_CASE("A limit of iterations ends a search that has no end", "[planner]")
+TEST_CASE("A limit of iterations ends a search that has no end", "[planner][needs-OMPL]")
 {
   vpCollisionSceneSpec closed; // walls on all sides, and the goal turned away: no way round the base
   for (int k = 0; k < 2; ++k) {
@@ -453,7 +453,7 @@ TEST_CASE("A limit of iterations ends a search that has no end", "[planner]")
   }
 }
 
-TEST_CASE("A search without a path ends at the time limit", "[planner]")
+TEST_CASE("A search without a path ends at the time limit", "[planner][needs-OMPL]")
 {
   vpArmSpec one; // a single joint cannot go round anything
   vpArmJointSpec joint = vpArmJointSpec::standardDH(0.5, 0., 0., 0.);

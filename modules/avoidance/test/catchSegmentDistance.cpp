@@ -131,7 +131,7 @@ TEST_CASE("Triangles, by a search over all of their points", "[kernel]")
 }
 
 // The rotation from z to the axis of a capsule that points nearly along -z is hard to compute.
-TEST_CASE("capsules along -z stand where they are, to the last digits", "[fcl]")
+TEST_CASE("capsules along -z stand where they are, to the last digits", "[fcl][needs-FCL]")
 {
   auto rng = vpTestSupport::generator(1);
   CAPTURE(vpTestSupport::seed());
