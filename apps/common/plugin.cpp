@@ -82,7 +82,7 @@ void loadPlugin(const std::string &file)
 void addPluginOption(CommandLine &line, const std::string &brings)
 {
   line.add(
-      "--plugin", "LIB.so", "Library with " + brings + " of your own, see tutorial/02-own-law; may be repeated", "",
+      "--plugin", "LIB.so", "Library with " + brings + " of your own (tutorial \"Your own law\"); may be repeated", "",
       [](const auto &files) {
         for (const std::string &file : files) {
           loadPlugin(file);

@@ -45,8 +45,8 @@ constexpr const char *EXAMPLES = R"(Examples:
   visp-servo-compare --robot data/robot/five-axis.json --free rz --plant A --measure points
       an arm of five joints, which leaves the rotation about the optical axis as it comes
   visp-servo-compare --plugin ./libmine.so --law mine,mine+cbf,ff-lookat-pi --measure points
-      a law of your own, from a library that registers it (tutorial/02-own-law),
-      beside ours
+      a law of your own, from a library that registers it (tutorial "Your own
+      law"), beside ours
   visp-servo-compare --task my-task.json
       your own poses, camera, gains and robots; start from data/scenario/thesis-5.4.json
 

@@ -121,8 +121,10 @@ TEST_CASE("Poses read from a history while it is written are those of their time
   vpPoseHistory history(16);
   std::atomic<double> newest{-1.};
   std::atomic<bool> isWriting{true};
+  std::atomic<unsigned long> found{0};
   std::thread writer([&]() {
-    for (int i = 0; i < vpTestSupport::longer(200000); ++i) {
+    const int count = vpTestSupport::longer(200000); // more where the reader does not come to its turn
+    for (int i = 0; i < count || (found == 0 && i < 100 * count); ++i) {
       vpRigidTransform pose;
       pose.p.setConstant(i);
       history.add(i, pose);
@@ -133,7 +135,7 @@ TEST_CASE("Poses read from a history while it is written are those of their time
     }
     isWriting = false;
   });
-  unsigned long found = 0, wrong = 0;
+  unsigned long wrong = 0;
   while (isWriting) {
     const double time = newest - 2.5;
     vpRigidTransform pose;

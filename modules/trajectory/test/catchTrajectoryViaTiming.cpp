@@ -121,8 +121,9 @@ TEST_CASE("chosen times keep all limits, for any motion", "[via]")
 {
   auto rng = vpTestSupport::generator(85);
   CAPTURE(vpTestSupport::seed());
+  const int count = vpTestSupport::longer(1500);
   int direct = 0;
-  for (int k = 0; k < vpTestSupport::longer(1500); ++k) {
+  for (int k = 0; k < count; ++k) {
     CAPTURE(k);
     auto input = randomTask(rng, k);
     const vpTrajectoryPlan plan = planned(input);
@@ -138,7 +139,7 @@ TEST_CASE("chosen times keep all limits, for any motion", "[via]")
     }
   }
   WARN("one duration over all vias in " << direct);
-  CHECK(direct > 700);
+  CHECK(2 * direct > count);
 }
 
 TEST_CASE("chosen times know no unit and no direction", "[via]")
