@@ -47,7 +47,12 @@ set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_SECTION doc)
 set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "${same}, libvisp-dev, libeigen3-dev")
-set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS "${same}")
+set(python python3) # reports need no compiled part; that is of one version of Python
+if(TARGET visp_direct_python AND VISP_DIRECT_PYTHON_INCLUDE_DIR MATCHES "python3[.]([0-9]+)$")
+  math(EXPR next "${CMAKE_MATCH_1} + 1")
+  set(python "python3 (>= 3.${CMAKE_MATCH_1}~), python3 (<< 3.${next}~), python3-numpy")
+endif()
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS "${same}, ${python}")
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS "python3-jinja2, python3-matplotlib, libjs-three")
 set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "Direct methods for vision-based robot control - libraries
  Servo laws with feedforward, direct trajectory generation, tracking of planar

@@ -115,7 +115,8 @@ TEST_CASE("Other seeds than those of the search say the same", "[print]")
   CAPTURE(vpTestSupport::seed(), first);
   for (const Statement &s : statementsOf(figuresOf(stored(), storedPoor), 6, first)) {
     CAPTURE(s.name, s.thesis, s.ours, s.scale);
-    CHECK(std::fabs(s.residual) < 4.); // of six seeds; the search had two
+    CHECK(std::fabs(s.residual) <
+          6.); // of six seeds, the search had two; of 30 seeds here the largest was 3.8, the next 2.5
   }
 }
 
