@@ -133,10 +133,10 @@ TEST_CASE("four dots on a box in a hand are followed while it turns, tilts and c
   // From image 20 on; before, the box is thrust into the view, too blurred to be seen as four dots. The window leaves out
   // most of the room and follows the dots by one px an image at most. With dots of 11 to 22 px in width, row and column
   // distances go from 135 x 80 to 170 x 50 to 110 x 65 px.
-  const bool anew = GENERATE(true, false);
-  CAPTURE(anew);
+  const bool relearns = GENERATE(true, false);
+  CAPTURE(relearns);
   vpPatternTrackerSpec spec;
-  spec.refreshEvery = anew ? spec.refreshEvery : 0;
+  spec.refreshEvery = relearns ? spec.refreshEvery : 0;
   constexpr int width = 235, height = 178;
   vpImage<unsigned char> photo, image;
   vpPatternTracker tracker(width, height, spec);
@@ -176,12 +176,12 @@ TEST_CASE("four dots on a box in a hand are followed while it turns, tilts and c
       top = std::clamp(top + towards(sy, height / 2), 0, static_cast<int>(photo.getHeight()) - height);
     }
   }
-  std::cout << "mire-2, " << (anew ? "template learned anew " : "one template ") << tracker.frame().templates - 1
+  std::cout << "mire-2, " << (relearns ? "template learned again " : "one template ") << tracker.frame().templates - 1
             << " times: " << locked << " images, " << lost << " lost, " << degraded
             << " with less than half of the dots, " << cells / static_cast<double>(locked)
             << " dots on average, three or more until image " << last << "; " << wrong << " of " << cells
             << " beside a dot, the others " << std::sqrt(squares / (cells - wrong)) << " px rms from its middle\n";
-  if (anew) {
+  if (relearns) {
     CHECK(lost == 0);
     CHECK(tracker.frame().epoch == 0);
     CHECK(locked > 400);
@@ -192,6 +192,6 @@ TEST_CASE("four dots on a box in a hand are followed while it turns, tilts and c
     CHECK(tracker.frame().templates > 10);
   }
   else {
-    CHECK(cells < 3.8 * locked); // learning anew sees 3.87 of the four dots
+    CHECK(cells < 3.8 * locked); // learning again sees 3.87 of the four dots
   }
 }

@@ -86,7 +86,7 @@ TEST_CASE("The supervisor answers every number with a command within the limits,
   });
 }
 
-TEST_CASE("Every method commands numbers within the joints' limits, whatever it is told", "[numbers]")
+TEST_CASE("Every method commands finite numbers within the joints' limits for any input", "[numbers]")
 {
   auto rng = vpTestSupport::generator(982);
   CAPTURE(vpTestSupport::seed());

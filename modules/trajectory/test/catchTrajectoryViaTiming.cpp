@@ -264,7 +264,7 @@ TEST_CASE("motions through vias with chosen times are those with these times giv
   }
 }
 
-TEST_CASE("another goal on the way: the remaining vias are passed at times chosen anew", "[via]")
+TEST_CASE("another goal on the way: the times of the remaining vias are chosen again", "[via]")
 {
   auto rng = vpTestSupport::generator(89);
   CAPTURE(vpTestSupport::seed());
