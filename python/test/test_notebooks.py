@@ -13,6 +13,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 
 NOTEBOOKS = sorted((pathlib.Path(__file__).parents[1] / "notebooks").glob("*.ipynb"))
 OUT = pathlib.Path(os.environ.get("VISP_DIRECT_TEST_OUT", "."))
+OUT.mkdir(parents=True, exist_ok=True)
 
 
 def test_there_are_notebooks():
