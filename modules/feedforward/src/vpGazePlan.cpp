@@ -9,7 +9,9 @@
 #include <visp3/direct_core/vpSO3.h>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
+#include <tuple>
 
 BEGIN_VISP_NAMESPACE
 
@@ -52,12 +54,9 @@ vpGazePlan::Rest vpGazePlan::restAt(const Start &start, double time) const noexc
   return rest;
 }
 
-bool vpGazePlan::set(const Start &start, const Eigen::Vector3d &origin, bool gaze,
-                     const vpServoMotionLimits &limits) noexcept
+bool vpGazePlan::coordinates(const Start &start, Axes &axes) const noexcept
 {
-  m_origin = origin;
-  m_gaze = gaze;
-  if (gaze && !vpLookAt(origin, start.pose.t).defined) {
+  if (m_gaze && !vpLookAt(m_origin, start.pose.t).defined) {
     return false;
   }
   const Eigen::Vector3d v = start.twist.head<3>(), w = start.twist.tail<3>();
@@ -66,8 +65,22 @@ bool vpGazePlan::set(const Start &start, const Eigen::Vector3d &origin, bool gaz
   const Eigen::Vector3d second =
       (restAt(start, differenceStep).rate - restAt(start, -differenceStep).rate) / (2. * differenceStep);
   for (int i = 0; i < 3; ++i) {
-    m_problems[Position].setStart(i, {start.pose.t[i], velocity[i], acceleration[i], 0.});
-    m_problems[Orientation].setStart(i, {now.e[i], now.rate[i], second[i], 0.});
+    const auto k = static_cast<std::size_t>(i);
+    axes[Position][k] = {start.pose.t[i], velocity[i], acceleration[i], 0.};
+    axes[Orientation][k] = {now.e[i], now.rate[i], second[i], 0.};
+  }
+  return true;
+}
+
+bool vpGazePlan::set(const Start &start, const Eigen::Vector3d &origin, bool gaze,
+                     const vpServoMotionLimits &limits) noexcept
+{
+  m_origin = origin;
+  m_gaze = gaze;
+  m_since = m_correctionTime = 0.;
+  Axes axes;
+  if (!coordinates(start, axes)) {
+    return false;
   }
   const vpTwistNorms norms = vpTwistExcess::normsOf(limits);
   bool isGood = true;
@@ -75,6 +88,7 @@ bool vpGazePlan::set(const Start &start, const Eigen::Vector3d &origin, bool gaz
     vpTrajectoryProblem &problem = m_problems[part];
     const double *limit = norms.data() + 3 * part;
     for (int i = 0; i < 3; ++i) {
+      problem.setStart(i, axes[part][static_cast<std::size_t>(i)]);
       problem.field(P::MaxVelocity)[i] = limit[0];
       problem.field(P::MaxAcceleration)[i] = limit[1];
       problem.field(P::MaxJerk)[i] = limit[2];
@@ -83,6 +97,42 @@ bool vpGazePlan::set(const Start &start, const Eigen::Vector3d &origin, bool gaz
     isGood = problem.validate(true).isGood() && isGood;
   }
   return isGood;
+}
+
+bool vpGazePlan::correct(const vpGazePlan &base, double since, const Start &start, double duration) noexcept
+{
+  m_origin = base.m_origin;
+  m_gaze = base.m_gaze;
+  m_plans = base.m_plans; // of equal size: no allocation
+  m_since = base.m_since + since;
+  m_correctionTime = duration;
+  Axes axes;
+  if (!coordinates(start, axes)) {
+    return false;
+  }
+  for (const Part part : {Position, Orientation}) {
+    for (int i = 0; i < 3; ++i) {
+      vpAxisState &off = axes[part][static_cast<std::size_t>(i)];
+      const vpAxisState plan = m_plans[part].at(i, m_since);
+      std::transform(off.begin(), off.end(), plan.begin(), off.begin(), std::minus<>());
+      vpPolynomial &quintic = m_corrections[part][static_cast<std::size_t>(i)];
+      const vpAxisState back = {-off[0], 0., 0., 0.};
+      quintic = vpMotionFamily::pointToPoint({0., off[1], off[2], 0.}, back, 3).at(duration);
+      quintic[0] += off[0];
+    }
+  }
+  return true;
+}
+
+// Of an axis: value and rate.
+std::pair<double, double> vpGazePlan::at(Part part, int axis, double time) const noexcept
+{
+  const vpAxisState plan = m_plans[part].at(axis, m_since + time);
+  if (!(time < m_correctionTime)) {
+    return {plan[0], plan[1]};
+  }
+  const auto off = m_corrections[part][static_cast<std::size_t>(axis)].jet(time / m_correctionTime);
+  return {plan[0] + off[0], plan[1] + off[1] / m_correctionTime};
 }
 
 void vpGazePlan::slowDown(double factor) noexcept
@@ -120,11 +170,8 @@ vpGazePlan::Vector6 vpGazePlan::twist(double time) const noexcept
   }
   Eigen::Vector3d t, velocity, e, rate;
   for (int i = 0; i < 3; ++i) {
-    const vpAxisState place = m_plans[Position].at(i, time), turn = m_plans[Orientation].at(i, time);
-    t[i] = place[0];
-    velocity[i] = place[1];
-    e[i] = turn[0];
-    rate[i] = turn[1];
+    std::tie(t[i], velocity[i]) = at(Position, i, time);
+    std::tie(e[i], rate[i]) = at(Orientation, i, time);
   }
   Eigen::Matrix3d R = vpSO3::exp(e);
   twist.tail<3>() = vpSO3::rightJacobian(e) * rate;

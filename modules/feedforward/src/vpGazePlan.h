@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 BEGIN_VISP_NAMESPACE
 
@@ -50,9 +51,16 @@ public:
   //! Plan a part with a duration of at least \e floor, s: half of the work. \return Its duration; NaN when there is no such plan.
   double plan(Part part, double floor) noexcept;
 
+  /*!
+   * Instead of a plan of its own: what is left of another one from its time \e since on, s, towards a goal that is a little elsewhere. A
+   * quintic for each axis leads its difference from the start to 0 in \e duration, s. \return False when R_la is not defined there.
+   */
+  bool correct(const vpGazePlan &base, double since, const Start &start, double duration) noexcept;
+
   //! Camera twist at \e time, s from the start; zero after the end.
   Vector6 twist(double time) const noexcept;
-  double duration() const { return std::max(m_plans[0].duration(), m_plans[1].duration()); } //!< s
+  double duration() const { return std::max(planned() - m_since, m_correctionTime); } //!< s
+  bool looksAtObject() const { return m_gaze; }                                       //!< R_la is used.
 
   /*! \name Largest norms of what is left of the motion */
   //! @{
@@ -71,10 +79,16 @@ private:
       5. * vpTwistSpline::knot; // s after the end, in which control points still have an effect
   std::size_t binOf(double time) const noexcept;
   Rest restAt(const Start &start, double time) const noexcept;
+  using Axes = std::array<std::array<vpAxisState, 3>, 2>; // of both parts
+  bool coordinates(const Start &start, Axes &axes) const noexcept;
+  std::pair<double, double> at(Part part, int axis, double time) const noexcept;
+  double planned() const { return std::max(m_plans[0].duration(), m_plans[1].duration()); }
 
   std::array<vpTrajectoryProblem, 2> m_problems;
   vpTrajectoryPlanner m_planner;
   std::array<vpTrajectoryPlan, 2> m_plans;
+  double m_since = 0., m_correctionTime = 0.; // of the plans, at the start; no correction: 0, 0
+  std::array<std::array<vpPolynomial, 3>, 2> m_corrections;
   Eigen::Vector3d m_origin = Eigen::Vector3d::Zero();
   bool m_gaze = true;
   std::array<vpTwistNorms, bins> m_norms;

@@ -17,9 +17,27 @@ constexpr double jerkSurplus = 1.2;
 // A longer duration mends the jerk of a join when it comes at least to this part.
 constexpr double leastMending = 0.99;
 constexpr double h = vpTwistSpline::knot;
+// Of the speed limits, the part for new plans: the rest is for corrections of a plan that is as fast as it may be.
+constexpr double fullness = 0.99;
+// A correction that exceeds the limits is tried again with a duration longer by this at least; then a new plan is made.
+constexpr double longerCorrection = 1.5;
+constexpr int maxCorrections = 3;
 constexpr double impossible = 1e6; // excess that no duration mends
 constexpr double longest = 1e4;    // s; a plan of more control points is not verified
 } // namespace
+
+vpPlanSearch::vpPlanSearch(const vpServoMotionLimits &limits) : m_excess(limits), m_newExcess(limits)
+{
+  setLimits(limits);
+}
+
+void vpPlanSearch::setLimits(const vpServoMotionLimits &limits)
+{
+  m_limits = limits;
+  m_newLimits = limits.slowed(fullness);
+  m_excess = vpTwistExcess(m_limits);
+  m_newExcess = vpTwistExcess(m_newLimits);
+}
 
 int vpPlanSearch::effort(double duration) const
 {
@@ -38,6 +56,27 @@ void vpPlanSearch::open(const Task &task) noexcept
   m_state = State::Busy;
 }
 
+// Instead of correcting the present plan.
+void vpPlanSearch::planAnew() noexcept
+{
+  m_task.base = nullptr;
+  m_tries = 0;
+  m_floor = m_task.floor;
+}
+
+bool vpPlanSearch::setNext() noexcept
+{
+  if (m_task.base) {
+    if (m_plan.correct(*m_task.base, m_task.since, m_task.start, m_floor)) {
+      beginVerification();
+      return true;
+    }
+    planAnew();
+  }
+  m_step = Step::Plan;
+  return m_plan.set(m_task.start, m_task.origin, m_task.gaze, m_newLimits);
+}
+
 // Try again with a longer duration. The excess may be that of the join, which no duration mends.
 bool vpPlanSearch::stretch(double excess) noexcept
 {
@@ -45,6 +84,14 @@ bool vpPlanSearch::stretch(double excess) noexcept
     return false;
   }
   const double factor = std::clamp(surplus * excess, leastStretch, mostStretch);
+  if (m_task.base) {
+    m_floor *= std::max(factor, longerCorrection);
+    if (++m_tries == maxCorrections) {
+      planAnew();
+    }
+    m_step = Step::Set;
+    return true;
+  }
   if (m_task.isAtRest) {
     m_plan.slowDown(factor);
   }
@@ -63,7 +110,7 @@ bool vpPlanSearch::stretch(double excess) noexcept
 bool vpPlanSearch::finishCandidate() noexcept
 {
   const vpTwistNorms norms = vpTwistExcess::normsOf(m_task.before, m_task.last, m_plan.twist(1.5 * h), h);
-  const vpTwistNorms share = norms / vpTwistExcess::normsOf(m_limits);
+  const vpTwistNorms share = norms / vpTwistExcess::normsOf(m_newLimits);
   const double linear = share[2], angular = share[5];
   const double worst = std::max(linear, angular);
   // Than the present plan to the same goal: with less jerk it would overshoot, and what is not found now is found soon.
@@ -123,7 +170,7 @@ bool vpPlanSearch::glanceNext() noexcept
 {
   const double step = std::max(h, m_plan.duration() / coarse);
   const Vector6 next = m_plan.twist(m_index * step);
-  m_worst = std::max(m_worst, m_excess.of(vpTwistExcess::normsOf(m_a, m_b, next, step)));
+  m_worst = std::max(m_worst, limitExcess().of(vpTwistExcess::normsOf(m_a, m_b, next, step)));
   m_a = m_b;
   m_b = next;
   if (++m_index <= m_last) {
@@ -163,7 +210,7 @@ bool vpPlanSearch::verifyNext() noexcept
   ++m_index;
   const Vector6 next = m_plan.twist((m_index + 0.5) * h);
   const vpTwistNorms norms = vpTwistExcess::normsOf(m_a, m_b, next, h);
-  double excess = m_excess.of(norms);
+  double excess = limitExcess().of(norms);
   if (m_check) {
     const double robot = m_check->add(vpTwistSpline::toTwist(next), h);
     excess = robot <= excess ? excess : robot;
@@ -204,8 +251,7 @@ bool vpPlanSearch::advance() noexcept
 {
   switch (m_step) {
   case Step::Set:
-    m_step = Step::Plan;
-    return m_plan.set(m_task.start, m_task.origin, m_task.gaze, m_limits);
+    return setNext();
   case Step::Plan:
     return planNext();
   case Step::Glance:

@@ -19,7 +19,8 @@ BEGIN_VISP_NAMESPACE
 
 /*!
  * \brief "Verify or keep": a candidate is evaluated at every control point that it would command, joined to the two
- * before it; where it exceeds a limit, its duration is stretched by the excess and it is evaluated again.
+ * before it; where it exceeds a limit, its duration is stretched by the excess and it is evaluated again. A goal that is a little
+ * elsewhere is tried first with the present plan and a correction, which need not be slower where the plan accelerates.
  */
 class vpPlanSearch
 {
@@ -39,16 +40,15 @@ public:
     bool isAtRest = false;                 //!< The start: a plan with scaled limits is then the same motion, slower.
     std::array<Vector6, maxDelay + 2> way; //!< Control points from now until #last, for the robot's check.
     int wayCount = 0;
+    //! Correct this plan, from its time #since on, s, when that keeps the limits; nullptr: make a new one.
+    const vpGazePlan *base = nullptr;
+    double since = 0.;
   };
 
-  explicit vpPlanSearch(const vpServoMotionLimits &limits) : m_limits(limits), m_excess(limits) {}
+  explicit vpPlanSearch(const vpServoMotionLimits &limits);
 
   //! For the next open().
-  void setLimits(const vpServoMotionLimits &limits)
-  {
-    m_limits = limits;
-    m_excess = vpTwistExcess(limits);
-  }
+  void setLimits(const vpServoMotionLimits &limits);
   void setCheck(vpServoMotionCheck *check) { m_check = check; }
   void open(const Task &task) noexcept;
   void close() { m_state = State::Idle; }
@@ -64,12 +64,15 @@ public:
 
 private:
   // Costs in evaluations of a twist.
-  static constexpr int setCost = 8, planCost = 20, checkCost = 8, coarse = 24, mostCalls = 12;
+  static constexpr int setCost = 8, planCost = 20, checkCost = 4, coarse = 24, mostCalls = 12;
   // What to do next with a candidate.
   enum class Step { Set, Plan, Glance, Verify };
   int cost() const;
   bool advance() noexcept;
+  const vpTwistExcess &limitExcess() const { return m_task.base ? m_excess : m_newExcess; }
   bool stretch(double excess) noexcept;
+  void planAnew() noexcept;
+  bool setNext() noexcept;
   bool finishCandidate() noexcept;
   bool planNext() noexcept;
   bool beginGlance() noexcept;
@@ -77,8 +80,8 @@ private:
   void beginVerification() noexcept;
   bool verifyNext() noexcept;
 
-  vpServoMotionLimits m_limits;
-  vpTwistExcess m_excess;
+  vpServoMotionLimits m_limits, m_newLimits; // of all plans, of new ones
+  vpTwistExcess m_excess, m_newExcess;
   vpServoMotionCheck *m_check = nullptr;
   Task m_task;
   vpGazePlan m_plan;

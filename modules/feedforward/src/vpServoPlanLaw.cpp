@@ -306,6 +306,10 @@ private:
     m_startPose = m_hasFeedback ? place : camera() * m_motion.reference().inverse() * place;
     task.isAtRest = m_rested;
     task.isFresh = m_fresh;
+    if (!m_fresh && !m_rested && task.floor > 0. && m_motion.plan().looksAtObject() == task.gaze) {
+      task.base = &m_motion.plan();
+      task.since = task.base->duration() - left;
+    }
     task.start = {goal.inverse() * m_startPose, 0.5 * (task.before + task.last), (task.last - task.before) / h};
     m_searchGoal = goal;
     m_search.open(task);

@@ -150,3 +150,42 @@ TEST_CASE("another goal while the camera accelerates is planned for on the way, 
   CAPTURE(seed(), law, stopped);
   CHECK(4 * stopped <= problems);
 }
+
+TEST_CASE("a goal that turns out to be a little elsewhere is corrected on the way, and the camera arrives as told",
+          "[plan]")
+{
+  const int problems = longer(20);
+  int corrected = 0, inTime = 0;
+  for (unsigned int problem = 0; problem < static_cast<unsigned int>(problems); ++problem) {
+    auto rng = generator(problem);
+    CAPTURE(seed(), problem);
+    const double dt = problem % 2 ? 0.002 : 0.01, share = uniform(rng, 0.1, 0.7); // of the time, when the goal changes
+    vpServoController servo = makeServo("ff-dtg");
+    Judge judge({}, dt);
+    vpHomogeneousMatrix cMo = randomPose(rng, 0.6, 1., 0.3, 1.), cdMo = randomPose(rng, 0.4, 0.6, 0.2, 0.6);
+    servo.setGoal(goal(cdMo, square));
+    vpServoMeasurement seen;
+    double told = 0., change = 12., t = 0.;
+    bool isCorrected = false;
+    for (; t < 12. && !(t > change && servo.law().timeToArrival() == 0.); t += dt) {
+      if (told > 0. && t >= share * told && change == 12.) {
+        cdMo = pose(Eigen::Matrix3d::Identity(), uniform(rng, 0.003, 0.008) * direction(rng)) * cdMo;
+        servo.setGoal(goal(cdMo, square));
+        change = t;
+      }
+      measure(cMo, square, seen);
+      seen.time = t + dt;
+      judge.see(servo.step(seen, dt).v);
+      cMo = move(cMo, judge.v(), dt);
+      told = told == 0. && servo.law().plans() > 0 ? t + servo.law().timeToArrival() : told;
+      isCorrected = isCorrected || (t > change && t < change + 0.25 && servo.law().plans() > 1);
+    }
+    CHECK(judge.worst <= 1. + 1e-6);
+    CHECK(translationError(cdMo, cMo) < 0.0021);
+    corrected += isCorrected ? 1 : 0;
+    inTime += t <= told + 0.1 ? 1 : 0;
+  }
+  CAPTURE(seed(), corrected, inTime);
+  CHECK(10 * corrected >= 9 * problems);
+  CHECK(10 * inTime >= 8 * problems);
+}

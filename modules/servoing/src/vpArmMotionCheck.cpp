@@ -19,6 +19,8 @@ namespace
 constexpr double shortfall = 1e-3, dampedShortfall = 0.02;
 // Of the limits of jerk, the part for the copy: the arm's period is another one.
 constexpr double jerkPart = 0.9;
+// Near a singularity or a joint limit no factor is exact: a slower motion leaves the self-motion time to get past it.
+constexpr double slower = 1.5;
 constexpr double step = 0.01; // s, the period of the copy's solver
 
 vpRedundancySpec withPeriod(vpRedundancySpec spec)
@@ -98,11 +100,11 @@ double vpArmMotionCheck::armExcess() const noexcept
     return 0.;
   case vpRedundancyStatus::Accelerating:
   case vpRedundancyStatus::Scaled:
-    return m_output.taskShare >= 1. - shortfall ? 1. : 1. / std::max(m_output.taskShare, 0.5);
+    return m_output.taskShare >= 1. - shortfall ? 1. : std::min(1. / m_output.taskShare, slower);
   case vpRedundancyStatus::Damped:
   case vpRedundancyStatus::Escaping:
   case vpRedundancyStatus::JointsStopped:
-    return m_output.taskShare >= 1. - dampedShortfall ? 1. : std::numeric_limits<double>::infinity();
+    return m_output.taskShare >= 1. - dampedShortfall ? 1. : slower;
   default:
     return std::numeric_limits<double>::infinity();
   }
