@@ -155,29 +155,14 @@ vpTrajectoryFollower::Event vpTrajectoryFollower::detect(const vpTrajectoryProbl
                       sameLimits(problem, m_task);
     return wait && frozen ? Event::None : Event::Task;
   }
-  const bool due = spec.replanPeriod > 0. && m_sinceReplan >= spec.replanPeriod * (1. - 1e-9);
+  // A plan through vias stays: the rest of it is no motion that the planner would find again.
+  const bool due = spec.replanPeriod > 0. && m_plan.vias() == 0 && m_sinceReplan >= spec.replanPeriod * (1. - 1e-9);
   return due && !frozen && remaining() > 0. ? Event::Rate : Event::None;
 }
 
-// The remaining vias as they are in the plan: their times, and the state at the via of a single polynomial, which those
-// do not determine.
-void vpTrajectoryFollower::keepVias(int passed) noexcept
-{
-  const bool single = isSinglePolynomial();
-  for (int k = 0; k < m_rest.vias(); ++k) {
-    const double time = m_plan.viaTime(passed + k);
-    for (int i = 0; i < m_rest.axes() && single; ++i) {
-      vpAxisState x = m_plan.at(i, time);
-      x[0] = m_rest.viaState(k, i)[0];
-      m_rest.setViaState(k, i, x);
-    }
-    m_rest.setViaTime(k, (time - m_clock) / (m_plan.duration() - m_clock), single ? 3 : m_rest.viaOrder(k));
-  }
-}
-
 // The rest of the task from the commanded state: passed vias are dropped until the list of vias changes. The times of
-// automatic vias are chosen again at an event, otherwise kept.
-void vpTrajectoryFollower::takeRest(const vpTrajectoryProblem &problem, Event event) noexcept
+// automatic vias are chosen again.
+void vpTrajectoryFollower::takeRest(const vpTrajectoryProblem &problem) noexcept
 {
   if (!m_started) {
     m_rest = problem;
@@ -195,9 +180,6 @@ void vpTrajectoryFollower::takeRest(const vpTrajectoryProblem &problem, Event ev
       const int gone = problem.vias() - m_plan.vias() + passed;
       m_rest = problem;
       m_rest.dropVias(gone, 0.);
-      if (event != Event::Task) {
-        keepVias(passed);
-      }
     }
     else {
       const bool last = passed >= m_plan.vias();
@@ -286,7 +268,7 @@ void vpTrajectoryFollower::replan(const vpTrajectoryProblem &problem, Event even
   const double left = m_started ? remaining() : 0.;
   noteGoal(problem);
   const double floor = floorOf(problem, event);
-  takeRest(problem, event);
+  takeRest(problem);
   m_task = problem;
   m_started = true;
   m_newPlan = true;
@@ -317,7 +299,7 @@ void vpTrajectoryFollower::replan(const vpTrajectoryProblem &problem, Event even
 void vpTrajectoryFollower::iterateThesis() noexcept
 {
   if (m_clock > 0.) {
-    takeRest(m_task, Event::Rate);
+    takeRest(m_task);
     m_thesisT = remaining();
     m_clock = 0.;
   }

@@ -57,8 +57,7 @@ public:
 private:
   enum class Event { None, Task, Rate };
   [[nodiscard]] Event detect(const vpTrajectoryProblem &problem) const noexcept;
-  void takeRest(const vpTrajectoryProblem &problem, Event event) noexcept;
-  void keepVias(int passed) noexcept;
+  void takeRest(const vpTrajectoryProblem &problem) noexcept;
   void noteGoal(const vpTrajectoryProblem &problem) noexcept;
   [[nodiscard]] double floorOf(const vpTrajectoryProblem &problem, Event event) noexcept;
   void aim() noexcept;

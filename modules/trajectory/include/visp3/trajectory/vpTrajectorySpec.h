@@ -100,8 +100,9 @@ struct VISP_EXPORT vpTrajectorySpec {
   const vpMotionForm *form = nullptr; //!< Form of the user's own, tried first: vpMotionForm::find(); null: none.
   double arrivalTime = 0.;            //!< FixedArrival: arrival time, s from the event that set it, > 0.
   double minimumDuration = 0.;        //!< Minimum duration of a plan, s, >= 0; the minimum of KeepArrival.
-  double freeze = 0.05;     //!< Within this time before arrival a plan is recomputed for a new goal only, s, >= 0.
-  double replanPeriod = 0.; //!< Rate-based use (6.2.1): period for recomputing the polynomial, s; 0: at events only.
+  double freeze = 0.05; //!< Within this time before arrival a plan is recomputed for a new goal only, s, >= 0.
+  //! Rate-based use (6.2.1): period for recomputing the polynomial, s; 0: at events only. A plan through vias stays until an event.
+  double replanPeriod = 0.;
   double thesisVelocityGain = 0.5;             //!< d_v of (6.6), s/(unit/s), > 0.
   double thesisAccelerationGain = 0.1;         //!< d_alpha of (6.6), s/(unit/s^2), > 0.
   int thesisStepsPerCycle = 1000;              //!< Iterations per cycle; 1 spreads them over cycles (figure 6.6), >= 1.
