@@ -3,7 +3,8 @@
 include("${CMAKE_CURRENT_LIST_DIR}/VispDirectModule.cmake")
 
 # vispdirect_add_tutorial(NAME TARGET...): NAME.cpp with its required modules; if one is missing it is not built.
-# ctest runs it without arguments and without a screen; its figures stay in the build folder.
+# ctest runs it without arguments and without a screen; its figures stay in the build folder. Where the page can be compared with what
+# is printed, ctest runs the commands of the page instead, see test/pages/checkTutorial.py. Other versions of ViSP print other numbers.
 macro(vispdirect_add_tutorial vispdirect_tutorial)
   vispdirect_find_visp()
   foreach(vispdirect_need ${ARGN})
@@ -17,7 +18,11 @@ macro(vispdirect_add_tutorial vispdirect_tutorial)
   target_link_libraries(${vispdirect_tutorial} PRIVATE ${ARGN})
   target_compile_features(${vispdirect_tutorial} PRIVATE cxx_std_17)
   target_compile_definitions(${vispdirect_tutorial} PRIVATE VISP_DIRECT_DATA_DIR="${VISP_DIRECT_ROOT}/data")
-  if(BUILD_TESTS)
+  if(BUILD_TESTS AND VISP_DIRECT_TOP_LEVEL AND VISP_DIRECT_PYTHON_EXECUTABLE)
+    add_test(NAME ${vispdirect_tutorial} WORKING_DIRECTORY "${CMAKE_CURRENT_BINARY_DIR}"
+             COMMAND "${VISP_DIRECT_PYTHON_EXECUTABLE}" "${VISP_DIRECT_ROOT}/test/pages/checkTutorial.py"
+                     "${CMAKE_CURRENT_SOURCE_DIR}/README.md" "${CMAKE_RUNTIME_OUTPUT_DIRECTORY}" "${CMAKE_LIBRARY_OUTPUT_DIRECTORY}")
+  elseif(BUILD_TESTS)
     add_test(NAME ${vispdirect_tutorial} COMMAND ${vispdirect_tutorial} WORKING_DIRECTORY "${CMAKE_CURRENT_BINARY_DIR}")
   endif()
 endmacro()
