@@ -224,8 +224,7 @@ TEST_CASE("vias that are not valid are refused and stay as they are", "[via]")
   CHECK(vpDirectTrajectory<2>::optimiseVias(none).isGood());
 }
 
-TEST_CASE("motions through vias with chosen times are those with these times given, at a rate of replans too",
-          "[via]")
+TEST_CASE("motions through vias with chosen times are those with these times given, at a rate of replans too", "[via]")
 {
   auto rng = vpTestSupport::generator(88);
   CAPTURE(vpTestSupport::seed());
