@@ -53,7 +53,7 @@ vpMotionResult vpDiscreteMotion::check(const vpJointVector &from, const vpJointV
     return result;
   }
   const vpJointVector change = to - from;
-  const double steps = std::ceil(change.cwiseAbs().maxCoeff() / m_step);
+  const double steps = std::ceil(change.lpNorm<Eigen::Infinity>() / m_step);
   if (!(steps < 1e8)) {
     return result;
   }
