@@ -159,20 +159,17 @@ std::vector<Item> detection(const Setting &setting)
        {},
        printPattern::pngOf(printPattern::detection(spec)),
        "png"});
-  item.data.push_back({"deviations.csv",
-                       "method,deviation x (px),bias x (px),deviation y (px),bias y (px),cells found (share)\n" + [&] {
-                         std::string rows;
-                         for (const auto &method : {std::make_pair("Algorithm 7.4 as printed", &printed),
-                                                    {"Algorithm 7.4 mended", &mended},
-                                                    {"edges at half height", &edges},
-                                                    {"vpPatternTracker", &tracker}}) {
-                           const CentreErrors &e = *method.second;
-                           rows += std::string(method.first) + "," + number(e.x.sigma(), 4) + "," +
-                                   number(e.x.mean(), 3) + "," + number(e.y.sigma(), 4) + "," + number(e.y.mean(), 3) +
-                                   "," + number(e.share(), 5) + "\n";
-                         }
-                         return rows;
-                       }()});
+  std::string rows = "method,deviation x (px),bias x (px),deviation y (px),bias y (px),cells found (share)\n";
+  const std::pair<const char *, const CentreErrors *> methods[] = {{"Algorithm 7.4 as printed", &printed},
+                                                                   {"Algorithm 7.4 mended", &mended},
+                                                                   {"edges at half height", &edges},
+                                                                   {"vpPatternTracker", &tracker}};
+  for (const auto &method : methods) {
+    const CentreErrors &of = *method.second;
+    rows += std::string(method.first) + "," + number(of.x.sigma(), 4) + "," + number(of.x.mean(), 3) + "," +
+            number(of.y.sigma(), 4) + "," + number(of.y.mean(), 3) + "," + number(of.share(), 5) + "\n";
+  }
+  item.data.push_back({"deviations.csv", rows});
   return {item};
 }
 } // namespace thesisReport

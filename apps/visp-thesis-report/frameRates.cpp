@@ -261,7 +261,8 @@ Item scalingItem(const Scaling &tracker, const Scaling &thesis)
   addCurve(plot, "vpPatternTracker", tracker.pixels, tracker.median);
   addCurve(plot, "vpPatternTracker, 99 %", tracker.pixels, tracker.p99, vpApp::PlotStyle::Dotted);
   addCurve(plot, "Algorithm 7.4", thesis.pixels, thesis.median);
-  for (const auto &fit : {std::make_pair(ours, &tracker), {printed, &thesis}}) {
+  const std::pair<Line, const Scaling *> fits[] = {{ours, &tracker}, {printed, &thesis}};
+  for (const auto &fit : fits) {
     std::vector<double> times;
     for (const double pixels : fit.second->pixels) {
       times.push_back(fit.first.at(pixels));

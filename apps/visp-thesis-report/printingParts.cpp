@@ -246,7 +246,9 @@ std::vector<Item> play(const Setting &setting)
        Tolerance::atLeast(), Good::Neither, "",
        "The thesis: without the alpha-beta filter the motion becomes unstable; taken as an error at least twice as "
        "large. The measured velocity itself instead of the filter's."});
-  for (const auto &part : {std::make_pair("with feedforward", &forward), std::make_pair("without", &pid)}) {
+  const std::pair<const char *, const printPattern::Replica *> parts[] = {{"with feedforward", &forward},
+                                                                          {"without", &pid}};
+  for (const auto &part : parts) {
     feedforward.quantities.push_back(
         {std::string("spread of the true velocity over that of the reference, ") + part.first, "1", std::nullopt,
          velocitySpread(*part.second), Tolerance::factor(1.1), Good::Neither, "",

@@ -270,8 +270,9 @@ Item iterations()
   item.parameters.emplace_back("gain of (6.6)", "d_v = " + number(spread.gain, 3) + " s/(rad/s)");
   vpApp::Plot end = vpApp::timePlot("Final time as planned", "t_f (s)"),
               velocity = vpApp::timePlot("Velocity", "velocity (rad/s)");
-  for (const auto &motion : {std::make_pair("exact", &byExact), std::make_pair("(6.6) at once", &byWhole),
-                             std::make_pair("(6.6), a step each cycle", &bySpread)}) {
+  const std::pair<const char *, const Motion *> motions[] = {
+      {"exact", &byExact}, {"(6.6) at once", &byWhole}, {"(6.6), a step each cycle", &bySpread}};
+  for (const auto &motion : motions) {
     const Motion &m = *motion.second;
     const auto from = m.t.begin() + std::lround((CHANGE - 0.02) / PERIOD);
     const auto to = m.t.begin() + std::lround((CHANGE + 0.15) / PERIOD);

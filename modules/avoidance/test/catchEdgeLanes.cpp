@@ -105,7 +105,8 @@ TEST_CASE("the versions for all processors prove the same", "[certified]")
     motion.cores = cores;
     motion.margin = uniform(rng, 0., 0.05);
     motion.from = vpTestArms::configuration(arm, rng);
-    motion.change = std::pow(10., uniform(rng, -2., 0.)) * vpTestArms::randomVector(arm.size(), rng);
+    motion.change = vpTestArms::randomVector(arm.size(), rng);
+    motion.change *= std::pow(10., uniform(rng, -2., 0.));
     for (auto &row : motion.bounds) {
       std::generate(row.begin(), row.end(), [&rng] { return vpEdgeBound{uniform(rng, 0., 3.), uniform(rng, 0., 3.)}; });
     }

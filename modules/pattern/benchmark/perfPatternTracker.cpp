@@ -223,7 +223,8 @@ void coldAcquisition(benchmark::State &state)
   vpPatternTracker tracker(160, 100, spec);
   measure(state, small().images.size(), 30, [&](std::size_t k) {
     tracker.reset();
-    benchmark::DoNotOptimize(tracker.process(small().images[k]).validCells);
+    int valid = tracker.process(small().images[k]).validCells;
+    benchmark::DoNotOptimize(valid);
   });
 }
 
@@ -234,7 +235,8 @@ void learning(benchmark::State &state)
     if (k == 0) {
       tracker.reset();
     }
-    benchmark::DoNotOptimize(tracker.process(small().images[k]).validCells);
+    int valid = tracker.process(small().images[k]).validCells;
+    benchmark::DoNotOptimize(valid);
   });
 }
 

@@ -49,7 +49,8 @@ void alphaBeta(benchmark::State &state)
   vpAlphaBetaFilter filter;
   double z = 0.;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(filter.step(z += 5.).value);
+    double value = filter.step(z += 5.).value;
+    benchmark::DoNotOptimize(value);
   }
 }
 BENCHMARK(alphaBeta);
@@ -84,7 +85,8 @@ void kalmanOpenCV(benchmark::State &state)
     t += 1.;
     z.at<double>(0) = 5. * t;
     filter.predict();
-    benchmark::DoNotOptimize(filter.correct(z).at<double>(1));
+    double rate = filter.correct(z).at<double>(1);
+    benchmark::DoNotOptimize(rate);
   }
 }
 BENCHMARK(kalmanOpenCV);
@@ -99,7 +101,8 @@ void odometer(benchmark::State &state)
   std::size_t k = 0;
   for (auto _ : state) {
     k = (k + 1) % frames.size();
-    benchmark::DoNotOptimize(meter.step(frames[k].data(), frames[k].size(), 0).x);
+    double x = meter.step(frames[k].data(), frames[k].size(), 0).x;
+    benchmark::DoNotOptimize(x);
   }
 }
 BENCHMARK(odometer);
@@ -149,7 +152,8 @@ void reference(benchmark::State &state)
       targets[i].position =
           pitch * static_cast<double>(targets[i].key + 1) + 0.01 * static_cast<double>(static_cast<long>(now) % 3);
     }
-    benchmark::DoNotOptimize(motion.step(now, targets.data(), targets.size()).state[1]);
+    double velocity = motion.step(now, targets.data(), targets.size()).state[1];
+    benchmark::DoNotOptimize(velocity);
   }
 }
 BENCHMARK(reference);
@@ -170,7 +174,8 @@ void trigger(benchmark::State &state)
     input.along.velocity = 5.;
     input.cells = cells.data();
     input.cellCount = cells.size();
-    benchmark::DoNotOptimize(head.step(input).shotCount);
+    int shots = head.step(input).shotCount;
+    benchmark::DoNotOptimize(shots);
   }
 }
 BENCHMARK(trigger);

@@ -215,7 +215,7 @@ void thesisIteration(benchmark::State &state)
     const vpMotionFamily motion = vpMotionFamily::pointToPoint(from, to, 3);
     const vpAxisLimits limits = problem.limits(0);
     const double T = std::max(vpMinimumDuration::lowerBound(from, to, limits), 0.1);
-    const vpDurationAnswer answer = vpThesisDuration::solve(motion, limits, {0.5, 0.1}, T, 2600);
+    vpDurationAnswer answer = vpThesisDuration::solve(motion, limits, {0.5, 0.1}, T, 2600);
     notConverged += answer.kind != vpDurationAnswer::Kind::Found;
     ++calls;
     benchmark::DoNotOptimize(answer.T);
