@@ -71,6 +71,7 @@ macro(vp_create_module)
   unset(_vispdirect_library)
   unset(_vispdirect_file)
   target_compile_definitions(${the_module} PRIVATE visp_EXPORTS)
-  set_target_properties(${the_module} PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION}
+  # Without the symbol of its own, which no header reads, all modules can share one precompiled header.
+  set_target_properties(${the_module} PROPERTIES DEFINE_SYMBOL "" EXPORT_NAME ${name} VERSION ${PROJECT_VERSION}
                         SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 endmacro()

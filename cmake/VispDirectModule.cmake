@@ -21,7 +21,7 @@ macro(vispdirect_module_settings)
   # ViSP's flags switch OpenMP on, and Eigen's products would start threads that wait for each other by spinning.
   target_compile_definitions(${the_module} PRIVATE EIGEN_DONT_PARALLELIZE)
   target_include_directories(${the_module} PRIVATE "${VISP_DIRECT_ROOT}/support")
-  vispdirect_precompile(${the_module} support/vpModuleHeaders.h)
+  vispdirect_precompile(${the_module} support/vpModuleHeaders.h visp_direct_core)
   get_target_property(_vispdirect_type ${the_module} TYPE)
   if(CMAKE_SYSTEM_NAME STREQUAL "Linux" AND _vispdirect_type STREQUAL "SHARED_LIBRARY")
     target_link_options(${the_module} PRIVATE "LINKER:--version-script,${VISP_DIRECT_ROOT}/cmake/exports.map")
@@ -34,10 +34,16 @@ macro(vispdirect_module_settings)
   endif()
 endmacro()
 
-# vispdirect_precompile(TARGET HEADER): precompiles the headers that nearly every source of a target includes. Not with ccache,
-# which is even faster and accepts precompiled headers only with special settings.
+# vispdirect_precompile(TARGET HEADER [OWNER]): precompiles the headers that nearly every source of a target includes; not again where
+# the target OWNER has done it, which must have the same options and none but macros of TARGET, and be built before it anyway. Not with
+# ccache, which is even faster and accepts precompiled headers only with special settings.
 function(vispdirect_precompile target header)
-  if(VISP_DIRECT_STANDALONE AND NOT CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache")
+  if(NOT VISP_DIRECT_STANDALONE OR CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache")
+    return()
+  endif()
+  if(ARGN AND NOT target STREQUAL ARGN)
+    target_precompile_headers(${target} REUSE_FROM ${ARGN})
+  else()
     target_precompile_headers(${target} PRIVATE "${VISP_DIRECT_ROOT}/${header}")
   endif()
 endfunction()

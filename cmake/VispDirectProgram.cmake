@@ -30,7 +30,7 @@ macro(vispdirect_add_program vispdirect_program)
   target_include_directories(${vispdirect_library} SYSTEM PUBLIC ${VISP_INCLUDE_DIRS} ${VISP_DIRECT_EIGEN3_INCLUDE_DIR})
   target_link_libraries(${vispdirect_library} PUBLIC vispdirect_apps_common ${ARGN})
   target_compile_options(${vispdirect_library} PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang>:-Wall;-Wextra;-Wshadow>)
-  vispdirect_precompile(${vispdirect_library} support/vpModuleHeaders.h)
+  vispdirect_precompile(${vispdirect_library} support/vpModuleHeaders.h vispdirect_apps_common)
 
   add_executable(${vispdirect_program} main.cpp)
   target_link_libraries(${vispdirect_program} PRIVATE ${vispdirect_library})
