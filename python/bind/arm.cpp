@@ -23,7 +23,7 @@ ArmKinematics::ArmKinematics(const vpArmModel &arm, const vpJointVector &q) : mo
 
 namespace
 {
-void bindSpec(py::module_ &m)
+void bindArmSpec(py::module_ &m)
 {
   bindEnum<vpJointType>(m);
   bindEnum<vpArmShapeKind>(m);
@@ -206,8 +206,7 @@ void bindRedundancy(py::module_ &m)
   using Solver = vpRedundancySolver;
   bindEnum<vpLimitPolicy>(m);
   bindEnum<vpRedundancyStatus>(m);
-  bindStruct<vpRedundancySpec>(m).def("validate", &vpRedundancySpec::validate, py::arg("model"),
-                                      doc("vpRedundancySpec::validate"));
+  bindSpec<vpRedundancySpec>(m, py::arg("model"));
   bindStruct<vpArmTask>(m).def_static(
       "pointVelocity",
       [](const ArmKinematics &kinematics, int joint, const Eigen::Vector3d &velocity) {
@@ -240,8 +239,7 @@ void bindArmMotion(py::module_ &m)
 {
   using Motion = vpArmMotion;
   bindEnum<vpClosedLoopStatus>(m);
-  bindStruct<vpClosedLoopSpec>(m).def("validate", &vpClosedLoopSpec::validate, py::arg("period"),
-                                      doc("vpClosedLoopSpec::validate"));
+  bindSpec<vpClosedLoopSpec>(m, py::arg("period"));
   bindEnum<vpArmTaskKind>(m);
   bindEnum<vpArmTwistFrame>(m);
   const std::string in = "vpArmMotion::";
@@ -338,7 +336,7 @@ void bindDynamics(py::module_ &m)
 
 void bindArm(py::module_ &m)
 {
-  bindSpec(m);
+  bindArmSpec(m);
   bindModel(m);
   bindIndex(m);
   bindKinematics(m);

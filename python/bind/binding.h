@@ -141,13 +141,26 @@ template <class T, class... Options> Bound<T, Options...> bindStruct(py::module_
   return bound;
 }
 
-//! An enum with all its values, and no others: none is made from a number.
+//! Parameters with validate(); \e names: those of its arguments.
+template <class Spec, class... Names> Bound<Spec> bindSpec(py::module_ &m, const Names &...names)
+{
+  return bindStruct<Spec>(m).def("validate", &Spec::validate, names...,
+                                 doc(std::string("vp") + Reflect<Spec>::name + "::validate"));
+}
+
+//! No value is made from a number.
+inline void closeEnum(const py::object &bound)
+{
+  py::delattr(bound, "__init__");
+  py::delattr(bound, "__setstate__");
+}
+
+//! An enum with all its values, and no others.
 template <class E> py::enum_<E> bindEnum(py::module_ &m)
 {
   py::enum_<E> bound(m, Reflect<E>::name, Reflect<E>::doc);
   Reflect<E>::each([&bound](const char *name, E value, const char *text) { bound.value(name, value, text); });
-  py::delattr(bound, "__init__");
-  py::delattr(bound, "__setstate__");
+  closeEnum(bound);
   return bound;
 }
 
@@ -164,9 +177,11 @@ void bindTrajectory(py::module_ &m);
 void bindServo(py::module_ &m);
 void bindVision(py::module_ &m);
 void bindPrinting(py::module_ &m);
+void bindObservers(py::module_ &m);
 void bindArm(py::module_ &m);
 void bindScene(py::module_ &m);
 void bindMotion(py::module_ &m);
 void bindServoing(py::module_ &m);
+void bindSimulation(py::module_ &m);
 } // namespace visp_python
 #endif

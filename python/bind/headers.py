@@ -123,7 +123,7 @@ def plain(doc):
     """Doxygen as plain text, in the names of Python."""
     doc = re.sub(r"\\code.*?\\endcode|\\cite \w+|\\f[$\[\]]", "", doc, flags=re.S)
     doc = re.sub(r"\\(ingroup|class|file|name) ?[^\n]*\n?|\\(brief|verbatim|endverbatim|overload)\b|@[{}]", "", doc)
-    doc = re.sub(r"\\throws? (?:vpException )?", "Raises an exception ", doc)
+    doc = re.sub(r"\\throws? (?:vp(?:Robot)?Exception )?", "Raises an exception ", doc)
     doc = re.sub(r"\\t?param ", "", re.sub(r"\\return ", "Returns: ", doc))
     doc = re.sub(r"\\(e|c|a|p|li|note|copydoc) ?", "", doc)
     doc = re.sub(r"#(?=\w)", "", re.sub(r"\bvp(?=[A-Z])", "", doc)).replace("::", ".")

@@ -6,6 +6,7 @@
 #include "scene.h"
 
 #include <visp3/core/vpException.h>
+#include <visp3/robot/vpRobotException.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -69,6 +70,10 @@ static void translate(std::exception_ptr error)
   try {
     std::rethrow_exception(error);
   }
+  catch (const vpRobotException &e) { // has codes of its own
+    const bool isValue = const_cast<vpRobotException &>(e).getCode() == vpRobotException::positionOutOfRangeError;
+    PyErr_SetString(isValue ? PyExc_ValueError : PyExc_RuntimeError, e.what());
+  }
   catch (const vpException &e) {
     const int code = const_cast<vpException &>(e).getCode();
     PyObject *type = PyExc_RuntimeError;
@@ -95,9 +100,11 @@ PYBIND11_MODULE(_core, m)
   bindVision(m);
   bindServo(m);
   bindPrinting(m);
+  bindObservers(m);
   bindArm(m);
   bindScene(m);
   bindPerception(m);
   bindMotion(m);
   bindServoing(m);
+  bindSimulation(m);
 }

@@ -68,7 +68,7 @@ void bindPlanners(py::module_ &m)
           },
           py::arg("s"), doc("vpJointPath::at"));
   bindEnum<vpMotionValidation>(m);
-  bindStruct<vpPathPlannerSpec>(m).def("validate", &vpPathPlannerSpec::validate, doc("vpPathPlannerSpec::validate"));
+  bindSpec<vpPathPlannerSpec>(m);
   bindEnum<vpPathStatus>(m);
   bindStruct<vpPathResult>(m);
   bindClass<Planner>(m)
@@ -127,8 +127,7 @@ void bindAvoidance(py::module_ &m)
   bindStruct<vpAvoidanceOutput>(m).def(
       "message", [](const vpAvoidanceOutput &self) { return vpMessage(self.status); },
       "Status as a readable sentence.");
-  bindStruct<vpAvoidanceMethodSpec>(m).def("validate", &vpAvoidanceMethodSpec::validate,
-                                           doc("vpAvoidanceMethodSpec::validate"));
+  bindSpec<vpAvoidanceMethodSpec>(m);
   bindClass<Method>(m)
       .def("start", &Method::start, py::arg("q"), py::arg("goal"), Unlocked(), doc("vpAvoidanceMethod::start"))
       .def("setGoal", &Method::setGoal, py::arg("goal"), doc("vpAvoidanceMethod::setGoal"))
@@ -155,8 +154,7 @@ void bindSupervisor(py::module_ &m)
   bindEnum<vpSupervision>(m);
   bindStruct<vpSupervisedVelocity>(m).def("message", &vpSupervisedVelocity::message,
                                           doc("vpSupervisedVelocity::message"));
-  bindStruct<vpStopSupervisorSpec>(m).def("validate", &vpStopSupervisorSpec::validate,
-                                          doc("vpStopSupervisorSpec::validate"));
+  bindSpec<vpStopSupervisorSpec>(m);
   bindClass<Supervisor>(m)
       .def(py::init<const Scene &, const vpStopSupervisorSpec &>(), py::arg("scene"),
            py::arg("spec") = vpStopSupervisorSpec(), py::keep_alive<1, 2>(), doc("vpStopSupervisor::vpStopSupervisor"))

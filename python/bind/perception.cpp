@@ -2,14 +2,16 @@
  * visp-direct: direct methods for vision-based robot control, for ViSP.
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
-// Obstacles as sensors see them: tracks of objects, and maps from depth images.
+// Obstacles as sensors see them: found in images, tracks of objects, and maps from depth images.
 #include "scene.h"
 
 #include <visp3/avoidance/vpDepthObstacles.h>
 #include <visp3/avoidance/vpObjectTracks.h>
+#include <visp3/avoidance/vpObstacleDetector.h>
 #include <visp3/core/vpCameraParameters.h>
 
 #include <optional>
+#include <utility>
 
 namespace visp_python
 {
@@ -31,7 +33,7 @@ void bindTracks(py::module_ &m)
   using Tracks = vpObjectTracks;
   bindEnum<vpTrackStatus>(m);
   bindStruct<vpObjectSighting>(m);
-  bindStruct<vpObjectTrackSpec>(m).def("validate", &vpObjectTrackSpec::validate, doc("vpObjectTrackSpec::validate"));
+  bindSpec<vpObjectTrackSpec>(m);
   bindStruct<vpObjectTrack>(m);
   bindClass<Tracks>(m)
       .def(py::init<const vpObjectTrackSpec &>(), py::arg("spec") = vpObjectTrackSpec(),
@@ -102,11 +104,36 @@ void bindDepth(py::module_ &m)
           "snapshot", [](const Obstacles &self) { return self.map().snapshot(); }, doc("vpDepthOctomap::snapshot"))
       .def("clear", &Obstacles::clear, doc("vpDepthObstacles::clear"));
 }
+
+void bindDetector(py::module_ &m)
+{
+  using Detector = vpObstacleDetector;
+  using Targets = vpPlanarTargetDatabase;
+  const std::string in = "vpObstacleDetector::";
+  constexpr auto copy = py::return_value_policy::copy;
+  bindSpec<vpObstacleDetectorSpec>(m);
+  bindStruct<vpObstacleDetection>(m);
+  bindClass<Detector>(m)
+      .def(py::init([](Targets &targets, const vpCameraParameters &camera, const vpObstacleDetectorSpec &spec) {
+             spec.validate();
+             return std::make_unique<Detector>(std::exchange(targets, Targets(camera)), camera, spec);
+           }),
+           py::arg("targets"), py::arg("camera"), py::arg("spec") = vpObstacleDetectorSpec(),
+           "targets: the photographs, of a database made for camera; they move into the detector, and the database is\n"
+           "empty afterwards. camera: intrinsics of the images. spec: parameters.")
+      .def_static("fastTargets", &Detector::fastTargets, doc(in + "fastTargets"))
+      .def("process", &Detector::process, py::arg("image"), py::arg("fMc"), py::arg("time"), copy, Unlocked(),
+           doc(in + "process"))
+      .def("detections", &Detector::detections, copy, doc(in + "detections"))
+      .def("targets", &Detector::targets, copy, doc(in + "targets"))
+      .def("reset", &Detector::reset, doc(in + "reset"));
+}
 } // namespace
 
 void bindPerception(py::module_ &m)
 {
   bindTracks(m);
+  bindDetector(m);
   bindDepth(m);
 }
 } // namespace visp_python

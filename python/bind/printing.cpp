@@ -72,8 +72,7 @@ void bindReference(py::module_ &m)
 {
   using Reference = vpPrintReference;
   bindEnum<vpPrintReferenceMode>(m);
-  bindStruct<vpPrintReferenceSpec>(m).def("validate", &vpPrintReferenceSpec::validate,
-                                          doc("vpPrintReferenceSpec::validate"));
+  bindSpec<vpPrintReferenceSpec>(m);
   bindStruct<vpPrintTarget>(m);
   bindStruct<vpPrintReference::Output>(m);
   bindClass<Reference>(m)
@@ -106,7 +105,7 @@ void bindTrigger(py::module_ &m)
   bindEnum<vpPrintTriggerMethod>(m);
   bindEnum<vpPrintAxis>(m);
   bindEnum<vpPrintTriggerStatus>(m);
-  bindStruct<vpPrintTriggerSpec>(m).def("validate", &vpPrintTriggerSpec::validate, doc("vpPrintTriggerSpec::validate"));
+  bindSpec<vpPrintTriggerSpec>(m);
   Bound<TriggerInput> input(m, "PrintTriggerInput", Reflect<vpPrintTriggerInput>::doc);
   input.attr("_fields") = py::list();
   Reflect<vpPrintTriggerInput>::each([&input](const char *name, auto member, const char *text) {
@@ -163,10 +162,6 @@ void bindTrigger(py::module_ &m)
           "None when\n"
           "the cell is not known.");
 }
-template <class Spec> Bound<Spec> bindSpec(py::module_ &m, const std::string &name)
-{
-  return bindStruct<Spec>(m).def("validate", &Spec::validate, doc(name + "::validate"));
-}
 
 void bindMachine(py::module_ &m)
 {
@@ -179,20 +174,20 @@ void bindMachine(py::module_ &m)
       .def("friction", &vpFrictionModel::friction, py::arg("velocity"), doc("vpFrictionModel::friction"))
       .def("force", &vpFrictionModel::force, py::arg("velocity"), py::arg("acceleration"),
            doc("vpFrictionModel::force"));
-  bindSpec<Gains>(m, "vpAlphaBetaGains")
+  bindSpec<Gains>(m)
       .def_static("criticallyDamped", &Gains::criticallyDamped, py::arg("alpha"),
                   doc("vpAlphaBetaGains::criticallyDamped"))
       .def_static("steadyKalman", &Gains::steadyKalman, py::arg("alpha"), doc("vpAlphaBetaGains::steadyKalman"))
       .def("valueVariance", &Gains::valueVariance, doc("vpAlphaBetaGains::valueVariance"))
       .def("rateVariance", &Gains::rateVariance, doc("vpAlphaBetaGains::rateVariance"));
-  bindSpec<Pid>(m, "vpPrintVelocityControlSpec")
+  bindSpec<Pid>(m)
       .def_static("thesisPid", &Pid::thesisPid, doc("vpPrintVelocityControlSpec::thesisPid"))
       .def_static("thesisFeedforward", &Pid::thesisFeedforward, doc("vpPrintVelocityControlSpec::thesisFeedforward"));
-  bindSpec<vpMotionKalmanSpec>(m, "vpMotionKalmanSpec");
-  bindSpec<vpMotionObserverSpec>(m, "vpMotionObserverSpec");
-  bindSpec<vpPreviewControlSpec>(m, "vpPreviewControlSpec");
-  bindSpec<vpPrintMachineSpec>(m, "vpPrintMachineSpec")
-      .def_static("defaultForecast", &vpPrintMachineSpec::defaultForecast, doc("vpPrintMachineSpec::defaultForecast"));
+  bindSpec<vpMotionKalmanSpec>(m);
+  bindSpec<vpMotionObserverSpec>(m);
+  bindSpec<vpPreviewControlSpec>(m);
+  bindSpec<vpPrintMachineSpec>(m).def_static("defaultForecast", &vpPrintMachineSpec::defaultForecast,
+                                             doc("vpPrintMachineSpec::defaultForecast"));
 
   Bound<MachineOutput> output(m, "PrintMachineOutput", Reflect<vpPrintMachineOutput>::doc);
   output.attr("_fields") = py::list();

@@ -161,9 +161,8 @@ struct Gains : vpServoLaw { // gives a Python law its gains
 void bindLaw(py::module_ &m)
 {
   using Law = vpServoLaw;
-  bindStruct<vpServoMotionLimits>(m).def("validate", &vpServoMotionLimits::validate,
-                                         doc("vpServoMotionLimits::validate"));
-  bindStruct<vpServoGains>(m).def("validate", &vpServoGains::validate, doc("vpServoGains::validate"));
+  bindSpec<vpServoMotionLimits>(m);
+  bindSpec<vpServoGains>(m);
   Bound<Law, PythonLaw>(
       m, "ServoLaw",
       "A servo law: measurement and goal in, camera twist out. ServoLaw.create() makes one of ids(). A law of\n"
@@ -197,9 +196,8 @@ void bindController(py::module_ &m)
       .def_static("fromCamera", &vpViewConstraintSpec::fromCamera, py::arg("camera"), py::arg("width"),
                   py::arg("height"), doc("vpViewConstraintSpec::fromCamera"))
       .def("validate", &vpViewConstraintSpec::validate, doc("vpViewConstraintSpec::validate"));
-  bindStruct<vpTargetLossSpec>(m).def("validate", &vpTargetLossSpec::validate, doc("vpTargetLossSpec::validate"));
-  bindStruct<vpServoControllerSpec>(m).def("validate", &vpServoControllerSpec::validate,
-                                           doc("vpServoControllerSpec::validate"));
+  bindSpec<vpTargetLossSpec>(m);
+  bindSpec<vpServoControllerSpec>(m);
   bindClass<Controller>(m)
       .def_static("create", &Controller::create, py::arg("id"), py::arg("spec") = vpServoControllerSpec(),
                   doc("vpServoController::create"))

@@ -69,7 +69,7 @@ void bindSettings(py::module_ &m)
 {
   bindEnum<vpServoCameraPlace>(m);
   bindEnum<vpVisualServoStatus>(m);
-  bindStruct<vpVisualServoSpec>(m).def("validate", &vpVisualServoSpec::validate, doc("vpVisualServoSpec::validate"));
+  bindSpec<vpVisualServoSpec>(m);
   bindStruct<vpServoRobotState>(m);
   bindStruct<vpServoSight>(m);
   bindStruct<vpVisualServoOutput>(m).def_property_readonly(

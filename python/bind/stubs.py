@@ -83,7 +83,8 @@ def property_stub(name, member, indent):
 
 
 def class_stub(name, cls):
-    lines = [f"class {name}:", docstring(cls, "    ")]
+    bases = [base.__name__ for base in cls.__bases__ if base.__module__ == core.__name__]
+    lines = [f"class {name}{'(' + bases[0] + ')' if bases else ''}:", docstring(cls, "    ")]
     values = getattr(cls, "__members__", None)
     if values:
         return [
@@ -95,7 +96,9 @@ def class_stub(name, cls):
             "",
         ]
     for key, member in vars(cls).items():
-        if isinstance(member, property):
+        if hasattr(type(member), "__members__"):
+            lines.append(f"    {key}: ClassVar[{type(member).__name__}]")
+        elif isinstance(member, property):
             lines += property_stub(key, member, "    ")
         elif isinstance(member, staticmethod):
             lines += function_stub(key, member.__func__, "    ", "@staticmethod")

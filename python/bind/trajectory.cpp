@@ -156,8 +156,7 @@ void bindPose(py::module_ &m)
 {
   using Pose = vpPoseTrajectory;
   bindEnum<vpRotationPath>(m);
-  bindStruct<vpPoseTrajectorySpec>(m).def("validate", &vpPoseTrajectorySpec::validate,
-                                          doc("vpPoseTrajectorySpec::validate"));
+  bindSpec<vpPoseTrajectorySpec>(m);
   bindStruct<vpCameraState>(m).def_property_readonly(
       "fMc",
       [](const vpCameraState &state) {
@@ -182,8 +181,7 @@ void bindPose(py::module_ &m)
 void bindTwists(py::module_ &m)
 {
   using Shaper = vpTwistShaper;
-  bindStruct<vpTwistShaperLimits>(m).def("validate", &vpTwistShaperLimits::validate,
-                                         doc("vpTwistShaperLimits::validate"));
+  bindSpec<vpTwistShaperLimits>(m);
   bindClass<Shaper>(m)
       .def(py::init<const vpTwistShaperLimits &>(), py::arg("limits") = vpTwistShaperLimits(),
            doc("vpTwistShaper::vpTwistShaper"))

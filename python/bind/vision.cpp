@@ -76,7 +76,7 @@ void bindPlanarTarget(py::module_ &m)
   constexpr auto copy = py::return_value_policy::copy;
   bindEnum<vpKeypointType>(m);
   bindEnum<vpPlanarTargetStatus>(m);
-  bindStruct<vpPlanarTargetSpec>(m).def("validate", &vpPlanarTargetSpec::validate, doc("vpPlanarTargetSpec::validate"));
+  bindSpec<vpPlanarTargetSpec>(m);
   bindStruct<vpPlanarTargetEffort>(m);
   bindStruct<vpPlanarTargetRival>(m);
   bindStruct<Result>(m)

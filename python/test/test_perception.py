@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 import visp_direct as vd
 from conftest import longer, pose
+from test_vision import rendered, texture
 
 CAMERA = vd.CameraParameters(60, 60, 31.5, 23.5)
 
@@ -122,3 +123,38 @@ def test_depth_images_of_other_kinds_are_refused(arm):
         vd.DepthOctomap(vd.DepthOctomapSpec(resolution=-1))
     with pytest.raises(ValueError, match="name"):
         vd.DepthObstacles(vd.DepthObstaclesSpec(name=""))
+
+
+def test_obstacles_are_found_by_their_photographs(random):
+    """A box with a photograph, seen by a camera that moves: its pose in the base, its size, within its sigma."""
+    camera, database = vd.CameraParameters(600, 600, 319.5, 239.5), vd.PlanarTargetDatabase(vd.CameraParameters(600, 600, 319.5, 239.5))
+    picture = texture(random)
+    database.add("box", picture, 0.16, 0.12, 0.05)
+    spec = vd.ObstacleDetectorSpec(cameraPositionSigma=1e-4, cameraAngleSigma=1e-4)
+    spec.validate()
+    detector = vd.ObstacleDetector(database, camera, spec)
+    assert len(database) == 0 and not database.process(np.zeros((480, 640), np.uint8))  # what it had is the detector's
+    assert detector.detections()[0].status == vd.PlanarTargetStatus.NoFrame
+    assert not vd.ObstacleDetector.fastTargets().fallback
+    fMo = pose([0.5, 0.2, 0.9], [0.1, -0.2, 0.3])
+    for k in range(longer(4)):
+        fMc = pose([0.5 + 0.005 * k, 0.2, 0.6], [0, 0.01 * k, 0.3])
+        image = rendered(picture, 0.16, 0.12, np.linalg.inv(fMc) @ fMo @ pose([0, 0, -0.025]), random)
+        (found,) = detector.process(image, fMc, 0.1 * k)
+        assert found.seen, found.message
+        sighting = found.sighting
+        assert sighting.name == "box" and sighting.time == 0.1 * k and sighting.shape.size() == pytest.approx([0.16, 0.12, 0.05])
+        np.testing.assert_allclose(sighting.pose[:3, 3], fMo[:3, 3], atol=6 * sighting.positionSigma)
+        np.testing.assert_allclose(sighting.pose[:3, :3], fMo[:3, :3], atol=6 * sighting.angleSigma)
+    assert detector.targets()[0].name == "box" and vd.ObjectTracks().add(sighting)
+    assert not detector.process(image, fMc, np.nan)[0].seen
+    detector.reset()
+    assert not detector.detections()[0].seen
+    with pytest.raises(ValueError, match="has no target"):
+        vd.ObstacleDetector(database, camera)
+    with pytest.raises(TypeError, match="uint8"):
+        detector.process(np.zeros((480, 640)), fMc, 1)
+    database.add("again", picture, 0.16, 0.12)
+    with pytest.raises(ValueError, match="thickness"):
+        vd.ObstacleDetector(database, camera, vd.ObstacleDetectorSpec(thickness=0))
+    assert len(database) == 1
