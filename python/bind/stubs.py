@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 # visp-direct: direct methods for vision-based robot control, for ViSP.
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Writes the type stubs of visp_direct._core from the compiled module. Usage: stubs.py OUTPUT.pyi"""
+"""Writes the type stubs of visp_direct._core from the compiled module. Usage: stubs.py FOLDER/visp_direct/_core.pyi"""
 import ast
 import inspect
+import pathlib
 import re
 import sys
 
-import visp_direct._core as core
+sys.path.insert(0, str(pathlib.Path(sys.argv[1]).resolve().parents[1]))
+import visp_direct._core as core  # noqa: E402
 
 OBJECT = re.compile(r"<[^<>]*>|array\([^()]*\)(?:, dtype=\w+)?|\b[A-Z]\w+\((?:[^()]|\([^()]*\))*\)")
 

@@ -14,14 +14,16 @@ import time
 import visp_direct as vd
 import visp_direct._core as core
 
-CHEAP, BUDGET, MOST = 0.03, 0.03, 100000  # s: of one call, of all calls of a function; number of these
-FIRST = {}  # name: function and arguments of a call that succeeded
+CHEAP, BUDGET, LONGEST = 0.03, 0.005, 3  # s: CPU of one call, of many calls of a function; of these, on the clock
+FIRST = {}  # name: function and arguments of a call that succeeded, and CPU time of it
 
 
 def noted(name, function, again=None):
     def call(*args, **kwargs):
+        start = time.process_time()
         result = function(*args, **kwargs)
-        FIRST.setdefault(name, (again, args[1:], kwargs) if again else (function, args, kwargs))
+        if name not in FIRST:
+            FIRST[name] = again or function, args[1:] if again else args, kwargs, time.process_time() - start
         return result
 
     return call
@@ -58,23 +60,22 @@ def used():
 
 
 def lost(function, args, kwargs):
-    """Number of calls, and what each of them loses; in words, empty: nothing."""
+    """Number of calls, and what they lose in words, empty: nothing."""
 
-    def run(count):
-        start = time.perf_counter()
-        for _ in range(count):
+    def run():
+        start, cpu, done = time.monotonic(), time.process_time(), 0
+        while done < 5 or ((done % 16 or time.process_time() - cpu < BUDGET) and time.monotonic() - start < LONGEST):
+            done += 1
             try:
                 function(*args, **kwargs)
             except Exception:  # pylint: disable=broad-except
                 pass  # a wrong call, or one that succeeds only once
-        return (time.perf_counter() - start) / count
+        return done
 
-    if run(1) > CHEAP:
-        return 0, ""
-    count = int(min(max(BUDGET / run(3), 5), MOST))
-    for _ in range(4):  # memory that is kept for later use is not taken in each of them
+    run()
+    for _ in range(10):  # caches grow in some of them
         blocks, size = used()
-        run(count)
+        count = run()
         blocks, size = (b - a for a, b in zip((blocks, size), used()))
         if blocks < count / 2 and size < 8 * count:
             return count, ""
@@ -82,11 +83,12 @@ def lost(function, args, kwargs):
 
 
 def pytest_sessionfinish():
+    gc.collect()
+    gc.freeze()
     result = {}
-    for name, (function, args, kwargs) in sorted(FIRST.items()):
-        count, said = lost(function, args, kwargs)
-        if count and args:
-            wrongly, also = lost(function, (*args[:-1], object()), kwargs)
-            count, said = count + wrongly, said or also
-        result[name] = count, said
+    for name, (function, args, kwargs, cost) in sorted(FIRST.items()):
+        result[name] = count, said = lost(function, args, kwargs) if cost < CHEAP else (0, "")
+        if count and args and not said:
+            wrongly, said = lost(function, (*args[:-1], object()), kwargs)
+            result[name] = count + wrongly, said
     pathlib.Path(os.environ["VISP_DIRECT_CALLS"]).write_text(json.dumps(result))
