@@ -73,7 +73,7 @@ def lost(function, args, kwargs):
         return done
 
     run()
-    for _ in range(10):  # caches grow in some of them
+    for _ in range(100):  # caches grow in some of them
         blocks, size = used()
         count = run()
         blocks, size = (b - a for a, b in zip((blocks, size), used()))
