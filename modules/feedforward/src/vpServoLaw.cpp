@@ -31,32 +31,32 @@ struct Laws : vpRegistry<vpServoLaw::Maker> {
       add(id, sentence, ours(id, make, rotationFactor));
     };
     addOurs("pbvs1", makePbvs1, 1.,
-            "Position-based on the camera's pose: a straight camera path, the view is not looked after.");
+            "Position-based on the camera's pose: a straight camera path; the object may leave the view.");
     addOurs("pbvs1-rot2", makePbvs1, 2., "pbvs1 with twice the rotation gain.");
     addOurs("pbvs2", makePbvs2, 1.,
-            "Position-based on the object's pose: the object's origin goes straight in the camera frame.");
+            "Position-based on the object's pose: the object's origin moves on a straight line in the camera frame.");
     addOurs("ibvs", makeIbvs, 1.,
-            "Image-based on the feature points: straight lines in the image, no care for the path.");
+            "Image-based on the feature points: nearly straight lines in the image; the camera's path may be long.");
     addOurs("hybrid25d", makeHybrid25d, 1.,
             "Hybrid of Malis: translation by an image point and depth, rotation by pose.");
     addOurs("kyrki", makeKyrki, 1.,
-            "Kyrki's law as published: a straight camera path, the rotation holds the object in the image and "
-            "compensates the "
-            "translation.");
+            "Kyrki's law as published: a straight camera path; the rotation holds the object in the image and "
+            "compensates the translation.");
     addOurs("kyrki-rot2", makeKyrki, 2., "kyrki with twice the rotation gain.");
-    addOurs(
-        "kyrki-decoupled", makeKyrkiDecoupled, 1.,
-        "Kyrki's law with the rotation driven by the image error alone, without compensation: what the thesis compares "
-        "with.");
+    addOurs("kyrki-decoupled", makeKyrkiDecoupled, 1.,
+            "kyrki without compensation of the translation: the rotation follows the image error alone, as section "
+            "5.4.4 of "
+            "the thesis may be read.");
     addOurs("ff-sum", makeFeedforwardSum, 1.,
             "The thesis' law, corrected: pbvs1 plus the bearing of the object as a feedforward of the rotation.");
     addOurs("ff-lookat", makeLookAt, lookAtFactor,
-            "Feedforward that keeps the camera turned to the object while it translates; rotation gain x2.");
+            "Feedforward that keeps the camera turned to the object on a straight path; twice the rotation gain.");
     addOurs("ff-lookat-pi", makeLookAtPi, lookAtFactor,
             "ff-lookat with an integral of the rotation error against friction; the default of visp-direct.");
     add("dtg",
-        "Direct trajectory generation: a minimum-jerk motion to the goal within limits, the gaze on the object, "
-        "replanned when the measurement says so.",
+        "Direct trajectory generation: a motion of minimum jerk to the goal within limits, the gaze on the object; "
+        "planned "
+        "again when the goal or the measured object has moved.",
         makeDtg);
     add("ff-dtg", "The motion of dtg as a feedforward, and a feedback that keeps the camera on it.",
         makeFeedforwardDtg);
