@@ -36,6 +36,7 @@ def code(span):
 
 def prose(page, text):
     text = re.sub(r"(!\[[^\]]*\]\()(?:\.\./)+", r"\1", text)  # doxygen looks up a figure by the end of its path
+    text = re.sub(r'(<img src=")[^"]*/', r"\1", text)  # and puts all into one folder
     text = re.sub(r"(^(?:\| |[-*] ))?(?<!!)\[([^\]]+)\]\(([^()\s]+)\)", lambda m: link(page, m[1] or "", m[2], m[3]), text, flags=re.M)
     return re.sub(r"`([^`]+)`", lambda m: code(m[1]), text)
 
