@@ -14,6 +14,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstdlib>
+#include <numeric>
 #include <sstream>
 
 namespace vpApp
@@ -133,6 +134,50 @@ std::string mismatchSentence(const CLI::App &app, const std::string &message)
   }
   const int count = option->get_items_expected_min();
   return name + " is given without " + (count > 1 ? "its " + std::to_string(count) + " values" : "a value");
+}
+
+//! Number of letters to insert, remove or replace between two words.
+std::size_t distanceOf(const std::string &a, const std::string &b)
+{
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t corner = row[0]++;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t replaced = corner + (a[i] == b[j] ? 0 : 1);
+      corner = row[j + 1];
+      row[j + 1] = std::min({replaced, corner + 1, row[j] + 1});
+    }
+  }
+  return row.back();
+}
+
+//! The option that was probably meant, or nothing.
+std::string nearestOption(const CLI::App &app, const std::string &word)
+{
+  std::string nearest;
+  std::size_t least = 3; // letters
+  for (const CLI::Option *option : app.get_options()) {
+    for (const std::string &name : option->get_lnames()) {
+      const std::size_t distance = distanceOf(word, "--" + name);
+      if (distance < least) {
+        least = distance;
+        nearest = "--" + name;
+      }
+    }
+  }
+  return nearest;
+}
+
+std::string extraSentence(const CLI::App &app)
+{
+  const std::vector<std::string> extras = app.remaining();
+  const auto option = std::find_if(extras.begin(), extras.end(), [](const auto &word) { return word[0] == '-'; });
+  if (option == extras.end()) {
+    return "nothing is expected where \"" + extras.front() + "\" stands";
+  }
+  const std::string word = option->substr(0, option->find('=')), nearest = nearestOption(app, word);
+  return "there is no option " + word + (nearest.empty() ? "" : ", did you mean " + nearest + "?");
 }
 } // namespace
 
@@ -289,6 +334,9 @@ bool CommandLine::parse(int argc, const char *const *argv)
   }
   catch (const CLI::ArgumentMismatch &error) {
     throw UsageError(mismatchSentence(*m_app, error.what()));
+  }
+  catch (const CLI::ExtrasError &) {
+    throw UsageError(extraSentence(*m_app));
   }
   catch (const CLI::ParseError &error) {
     throw UsageError(error.what());

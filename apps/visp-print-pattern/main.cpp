@@ -50,10 +50,11 @@ void print(const Options &options, const std::string &commandLine)
   out.write("drops.csv", dropsCsv(run));
   out.write("landing.csv", landingCsv(results.landing));
   const double wallTime = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  vpApp::finishWithReport(out, summaryOf(options, results, commandLine, wallTime));
+  const std::string made = vpApp::finishWithReport(out, summaryOf(options, results, commandLine, wallTime));
   std::cout << sumOf(results.runs, &vpPrintMetrics::printed) << " cells printed, "
             << sumOf(results.runs, &vpPrintMetrics::missed) << " missed, "
-            << sumOf(results.runs, &vpPrintMetrics::doubled) << " doubled: " << out.path().string() << std::endl;
+            << sumOf(results.runs, &vpPrintMetrics::doubled) << " doubled\n"
+            << made << std::endl;
 }
 } // namespace
 

@@ -60,6 +60,8 @@ struct VispRobot {
 };
 //! The robots of ViSP that this program knows.
 [[nodiscard]] const std::vector<VispRobot> &robotsOfVisp();
+//! \throw vpApp::UsageError for a word that is none of them; std::runtime_error if ViSP was built without it.
+void requireVispRobot(const std::string &word);
 
 /*!
  * The robot of the options.

@@ -4,6 +4,8 @@
  */
 #include "options.h"
 
+#include "liveRobot.h"
+
 #include "appMain.h"
 #include "commandLine.h"
 #include "numberText.h"
@@ -242,6 +244,9 @@ void checkRobot(const vpApp::CommandLine &line, const Options &options)
   if (!isReal && line.isGiven("--robot-arguments")) {
     throw vpApp::UsageError("--robot-arguments are for a real robot, and there is none");
   }
+  if (isReal && motion.plugin.empty() && options.task != Task::Replay) {
+    requireVispRobot(motion.robot.robot);
+  }
   if (isReal && !motion.dryRun && options.task == Task::Servo && options.camera.xml.empty() &&
       options.camera.source != "sim") {
     throw vpApp::UsageError("a robot that moves needs --camera-xml, the calibration of its camera");
@@ -268,6 +273,9 @@ void checkRobot(const vpApp::CommandLine &line, const Options &options)
   }
   if (line.isGiven("--margin") && motion.scene.empty()) {
     throw vpApp::UsageError("--margin is given without --scene");
+  }
+  if (options.camera.source == "sim" && !options.camera.xml.empty() && options.task != Task::Replay) {
+    throw vpApp::UsageError("--camera-xml is for a real camera, and --camera is sim");
   }
   if (options.camera.source == "sim" && motion.robot.robot == "none" && motion.plugin.empty()) {
     throw vpApp::UsageError("--camera sim needs a robot that carries it, --robot is none");

@@ -123,6 +123,9 @@ std::vector<std::string> findings(const Outcome &outcome)
                         ? "At the end the camera was " + fixed(1e3 * row.positionError, 2) + " mm and " +
                               fixed(vpMath::deg(row.rotationError), 3) + " degrees from the goal, as it sees it."
                         : "At the end the target was not seen: " + std::string(row.message));
+    if (recording.found() == 0 && recording.imageCount() > 0) {
+      lines.push_back("The target was in no image. It is " + outcome.target + ".");
+    }
     if (row.status == vpVisualServoStatus::Obstructed) {
       lines.push_back(recording.sentenceOf(row));
     }

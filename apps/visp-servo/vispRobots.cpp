@@ -98,18 +98,24 @@ const std::vector<VispRobot> &robotsOfVisp()
   return all;
 }
 
+void requireVispRobot(const std::string &word)
+{
+  const auto &all = robotsOfVisp();
+  const auto robot = std::find_if(all.begin(), all.end(), [&word](const VispRobot &one) { return word == one.word; });
+  if (robot == all.end()) {
+    throw vpApp::UsageError("--robot is " + word + ", which is no file and no robot of ViSP; --list names these");
+  }
+  if (!robot->isBuilt) {
+    throw std::runtime_error("--robot " + word + ": the installed ViSP was built without " + robot->className);
+  }
+}
+
 OpenedRobot openVispRobot(const Options &options)
 {
   const std::string &word = options.motion.robot.robot;
+  requireVispRobot(word);
   const auto *entry =
       std::find_if(std::begin(ENTRIES), std::end(ENTRIES), [&word](const Entry &one) { return word == one.word; });
-  if (entry == std::end(ENTRIES)) {
-    throw vpApp::UsageError("--robot is " + word + ", which is no robot of ViSP; --list names them");
-  }
-  if (entry->open == nullptr) {
-    throw std::runtime_error(std::string("--robot ") + word + ": the installed ViSP was built without " +
-                             entry->className);
-  }
   OpenedRobot opened = entry->open(options.motion.arguments, mountOf(options));
   opened.name = std::string("the robot ") + entry->className;
   return opened;

@@ -121,8 +121,8 @@ std::vector<std::string> findings(const RunResults &results)
     lines.push_back(endingSentence(results));
   }
   if (results.imagesWithCells() == 0) {
-    lines.push_back(text("No pattern was found in any of the %zu image%s. The tracker says: %s", n, plural(n),
-                         mostFrequentMessage(results).c_str()));
+    lines.push_back("No pattern was found in " + (n == 1 ? "the image" : text("any of the %zu images", n)) +
+                    ". The tracker says: " + mostFrequentMessage(results));
   }
   else {
     std::string line = text("The product was tracked in %zu of %zu image%s", tracked, n, plural(n));
@@ -155,7 +155,7 @@ std::vector<std::string> findings(const RunResults &results)
   }
   const std::vector<double> times = column(results, &FrameRecord::microseconds);
   lines.push_back(
-      text("The tracker took %.*f us per image (median; %.0f us at most), on this machine as busy as it was.",
+      text("The tracker took %.*f us per image (median; %.0f us at most), under the load that this machine had.",
            quantile(times, 0.5) < 100. ? 1 : 0, quantile(times, 0.5), quantile(times, 1.)));
   if (results.calibrated) {
     lines.push_back(text("Calibration from %zu view%s. ", results.calibrationViews, plural(results.calibrationViews)) +

@@ -10,7 +10,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstring>
 #include <stdexcept>
+#include <unistd.h>
 
 namespace vpApp
 {
@@ -160,7 +163,9 @@ std::unique_ptr<ImageSource> openCamera(const std::string &device, std::size_t f
   const QuietLibraries quiet;
   auto capture = std::make_unique<cv::VideoCapture>();
   if (!capture->open(std::stoi(device.substr(10)), cv::CAP_V4L2)) {
-    throw std::runtime_error(device + ": the camera cannot be opened");
+    const bool isThere = ::access(device.c_str(), R_OK | W_OK) == 0;
+    throw std::runtime_error(device + ": the camera cannot be opened (" +
+                             (isThere ? "it is in use, or gives no images" : std::strerror(errno)) + ")");
   }
   return std::make_unique<VideoSource>(std::move(capture), device, true, frames);
 }

@@ -91,7 +91,11 @@ TEST_CASE("a command line tells help from mistakes", "[apps]")
       {{"--names", "a,,b"}, "--names is a,,b, which has an empty name"},
       {{"--pair", "1"}, "--pair is given without its 2 values"},
       {{"--pair", "1", "x"}, "--pair is x, must be a number"},
-      {{"--nonsense"}, "The following argument was not expected: --nonsense"}};
+      {{"--nonsense"}, "there is no option --nonsense"},
+      {{"--nonsense=5"}, "there is no option --nonsense"},
+      {{"--colur", "red"}, "there is no option --colur, did you mean --colour?"},
+      {{"--rte=5"}, "there is no option --rte, did you mean --rate?"},
+      {{"extra"}, "nothing is expected where \"extra\" stands"}};
   for (const auto &[arguments, sentence] : mistakes) {
     CHECK(complaint([&arguments = arguments, &parse] { (void)parse(arguments); }) == sentence);
   }

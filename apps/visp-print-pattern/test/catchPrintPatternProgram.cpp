@@ -111,6 +111,7 @@ TEST_CASE("The summary follows from the tables", "[visp-print-pattern]")
     CHECK(std::filesystem::exists(run.path("d/" + file.get<std::string>())));
   }
   CHECK(run.out().find("cells printed, ") != std::string::npos);
+  CHECK(run.out().find(" doubled\nReport: " + run.path("d/report.html").string() + "\n") != std::string::npos);
 }
 
 TEST_CASE("Through rendered pictures every cell gets one drop, within the tolerance", "[visp-print-pattern]")

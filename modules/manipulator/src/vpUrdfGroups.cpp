@@ -131,7 +131,7 @@ std::string onlyLeaf(const vpUrdfTree &tree)
     }
   }
   if (leaves.size() != 1) {
-    vpUrdfFail(tree.file, "the end effector is not unique, name one of the links " + listed(leaves));
+    vpUrdfFail(tree.file, "the end effector is not unique, name one of the links " + listed(leaves) + " as the tip");
   }
   return leaves.front();
 }

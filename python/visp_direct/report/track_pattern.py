@@ -175,7 +175,7 @@ def add_result(page, result):
     page.section("Time")
     page.figure(
         time_figure(motion["microseconds"]).named(f"time-{result.name}", "Histogram of the time per image"),
-        "Time of the tracker alone, without reading and drawing, on this machine as busy as it was. The slow images are those in which it "
+        "Time of the tracker alone, without reading and drawing, under the load that this machine had. The slow images are those in which it "
         "searches or learns; the two per cent that took longest may lie outside.",
     )
 

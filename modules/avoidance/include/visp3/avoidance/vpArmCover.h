@@ -16,14 +16,14 @@ BEGIN_VISP_NAMESPACE
 //! \ingroup group_avoidance
 //! \brief Options of vpCoverArm().
 struct VISP_EXPORT vpArmCoverSpec {
-  int capsules = 3; //!< Most fitted capsules of a body, 1..8.
+  int capsules = 3; //!< Maximum number of fitted capsules of a body, 1..8.
   /*!
    * JSON file of covers, read before and written after fitting (data/robot/README.md has its fields); may be edited;
    * empty: none. Entries of other bodies stay, so several arms may share a file if their bodies' names differ.
    */
   std::string cacheFile;
   std::vector<std::string> ignored; //!< Names of bodies that get no capsules and stay in vpArmSpec::uncovered.
-  unsigned int seed = 1;            //!< Of the fits: the same seed gives the same covers.
+  unsigned int seed = 1;            //!< Seed of the fits: the same seed gives the same covers.
 };
 
 //! \ingroup group_avoidance
@@ -38,7 +38,7 @@ struct VISP_EXPORT vpBodyCover {
   double radius = 0.;     //!< Half the least width of the shapes, m: see vpCapsuleCover.
   bool fromCache = false; //!< Read from the file, not fitted.
   bool edited = false;    //!< The capsules in the file are not those that were fitted.
-  bool unchecked = false; //!< The file demands to use them, but they are not proven to enclose the shapes.
+  bool unchecked = false; //!< The file requires these capsules, although they are not proven to enclose the shapes.
 };
 
 //! \ingroup group_avoidance
@@ -51,14 +51,14 @@ struct VISP_EXPORT vpArmCover {
 
 /*!
  * \ingroup group_avoidance
- * \brief Covers all bodies that have shapes by capsules that enclose them. Takes up to seconds a body, or milliseconds
- * where the file has its cover.
+ * \brief Covers all bodies that have shapes by capsules that enclose them. A fit takes up to some seconds for each
+ * body; a cover from the file takes milliseconds.
  *
  * A sphere is its own capsule; meshes, boxes and cylinders (as prisms of 48 sides about them) of a body together get a
  * cover by vpFitCapsules() in the frame of the link. It replaces the body's capsules, and the body leaves
- * vpArmSpec::uncovered. vpArmSpec::shapes are taken as all that the body has, at a place that does not change: of a
- * body of which only a part is known, or which moves relative to its link, the arm must have no shape. Bodies without
- * shapes stay as they are. A body of which a mesh cannot be read stays uncovered, with a warning.
+ * vpArmSpec::uncovered. vpArmSpec::shapes are taken as all that the body has, at a place that does not change: the arm
+ * must have no shape of a body that is known only in part or moves relative to its link. Bodies without shapes stay as
+ * they are. A body of which a mesh cannot be read stays uncovered, with a warning.
  *
  * A cover from the file is verified by vpProveCover(). An unedited cover is fitted again when the shapes,
  * the number of capsules or the seed have changed. An edited or `unchecked` one is always used.

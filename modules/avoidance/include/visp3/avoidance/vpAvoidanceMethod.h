@@ -36,7 +36,7 @@ enum class vpAvoidanceStatus {
   GoalInCollision,  //!< The goal is not free: brakes or stands, and resumes when it is.
   StartInCollision, //!< An obstacle is nearer to the arm than the margin at the start: stands.
   Unreachable,      //!< The arm cannot reach the goal even without obstacles: brakes or stands.
-  Unsafe,           //!< Brakes, but because of a new or faster obstacle may not stop in time.
+  Unsafe,           //!< Brakes, but may not stop in time because of a new or faster obstacle.
   InvalidInput      //!< A number is not finite or out of range, or a vector has the wrong size; brakes.
 };
 

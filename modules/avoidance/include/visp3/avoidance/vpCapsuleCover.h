@@ -17,9 +17,9 @@ BEGIN_VISP_NAMESPACE
 //! \ingroup group_avoidance
 //! \brief Options of vpFitCapsules().
 struct VISP_EXPORT vpCapsuleCoverSpec {
-  int count = 3;         //!< Most capsules, 1..8.
-  double enough = 0.005; //!< No further capsule once the overhang is at most this, m, >= 0.
-  unsigned int seed = 1; //!< Of the random search: the same seed gives the same cover.
+  int count = 3;         //!< Maximum number of capsules, 1..8.
+  double enough = 0.005; //!< No further capsule is added once the overhang is at most this, m, >= 0.
+  unsigned int seed = 1; //!< Seed of the random search: the same seed gives the same cover.
 };
 
 /*!
@@ -29,15 +29,15 @@ struct VISP_EXPORT vpCapsuleCoverSpec {
 struct VISP_EXPORT vpCapsuleCover {
   std::vector<vpArmCapsule> capsules; //!< In the frame of the mesh; their link is 0, their body -1.
   /*!
-   * Largest distance of the cover's surface from the mesh, outside of it, m; 0 if none is outside. By samples that are
-   * at most a tenth of a capsule's radius from any point of its surface (on the tube at most an eighth of its length
-   * along it): points between them may be farther out by as much.
+   * Largest distance of the cover's surface from the mesh, outside of it, m; 0 if none is outside. It is measured at
+   * samples that are at most a tenth of a capsule's radius from any point of its surface (on the tube at most an eighth
+   * of its length along it): points between them may be farther out by as much.
    */
   double overhang = 0.;
   //! Volume of the union of the capsules over that of the mesh's convex hull, to about 2 %; 0 if the hull is flat.
   double volumeRatio = 0.;
-  //! Half the least width of the mesh across any of its triangles, along an axis or in 600 directions, m: of a long
-  //! cylinder its radius.
+  //! Half the least width of the mesh across any of its triangles, along an axis or in 600 directions, m; for a long
+  //! cylinder this is its radius.
   double radius = 0.;
 };
 
@@ -77,13 +77,13 @@ struct VISP_EXPORT vpCoverProof {
  * \ingroup group_avoidance
  * \brief Proves that capsules enclose a mesh, its inside included.
  *
- * A triangle is proven when one capsule contains its corners; else its halves are, down to 0.1 mm. The capsules then
- * contain the whole surface. Points inside a closed mesh could be left out only in a hollow that the capsules enclose
- * on all sides. The union of convex sets has the holes of its nerve (nerve theorem), and a nerve has no hollow if
- * removing capsules that touch at most two of the remaining ones, one after the other, removes all. So up to three
- * capsules never have one. For a mesh with holes the cubes of vpFitCapsules() must lie in one capsule each; other
- * points behind its surface are not checked. What is not proven may still be enclosed: a seam of capsules exactly on
- * the surface, more than three that all touch one another.
+ * A triangle is proven when one capsule contains its corners; otherwise its halves are examined, down to 0.1 mm. The
+ * capsules then contain the whole surface. Points inside a closed mesh could be left out only in a hollow that the
+ * capsules enclose on all sides. The union of convex sets has the holes of its nerve (nerve theorem), and a nerve has
+ * no hollow if removing capsules that touch at most two of the remaining ones, one after the other, removes all. So up
+ * to three capsules never have one. For a mesh with holes the cubes of vpFitCapsules() must lie in one capsule each;
+ * other points behind its surface are not checked. What is not proven may still be enclosed: a seam of capsules exactly
+ * on the surface, more than three that all touch one another.
  *
  * \throw vpException (badValue) as vpMeasureCover().
  */

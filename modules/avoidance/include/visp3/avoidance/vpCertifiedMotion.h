@@ -81,7 +81,7 @@ public:
   //! Checks the motion, both ends included. Does not allocate unless the scratch has to grow, or exact shapes decide.
   [[nodiscard]] vpMotionResult check(const vpJointVector &from, const vpJointVector &to,
                                      vpMotionScratch &scratch) const;
-  //! As check(), without what is in the way: faster where motions collide.
+  //! As check(), but does not say what is in the way: faster where motions collide.
   [[nodiscard]] bool isFree(const vpJointVector &from, const vpJointVector &to, vpMotionScratch &scratch) const;
   //! Margin and resolution.
   [[nodiscard]] const vpCertifiedMotionSpec &spec() const noexcept { return m_spec; }

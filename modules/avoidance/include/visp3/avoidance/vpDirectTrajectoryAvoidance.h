@@ -50,8 +50,8 @@ struct VISP_EXPORT vpDirectTrajectoryAvoidanceSpec {
  * is none the tool brakes within its bounds, and every look() tries again.
  *
  * step() follows by the redundancy solver, with self-motion away from obstacles ((8.10)-(8.12), corrected), and under
- * vpStopSupervisor: the arm can always stop in time, slows for approaching obstacles, may always retreat. If the joints
- * or the supervisor do not allow the planned motion, the next one starts from the allowed state.
+ * vpStopSupervisor: the arm can always stop in time, slows for approaching obstacles, and may always retreat. If the
+ * joints or the supervisor do not allow the planned motion, the next one starts from the allowed state.
  *
  * Norms of the tool's planned velocity and acceleration keep the bounds; joint limits always hold. Only while the
  * supervisor acts (vpAvoidanceOutput::stopping) may the tool brake harder than its bound.

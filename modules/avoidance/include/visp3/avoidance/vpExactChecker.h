@@ -23,7 +23,7 @@ class vpExactQuery;
  * \brief Collision checker for planning: pairs that the capsules of a scene do not prove free are decided by the exact
  * shapes of vpCollisionSceneSpec::exact, where both parts have one. Without exact shapes the same as vpSceneChecker.
  *
- * A pair of two exact shapes that touch has the distance 0, whatever the depth. Some 50 us for each pair whose
+ * A pair of two exact shapes that touch has the distance 0, whatever the depth. Takes some 50 us for each pair whose
  * capsules touch. Allocates.
  */
 class VISP_EXPORT vpExactChecker : public vpCollisionChecker

@@ -21,11 +21,11 @@ BEGIN_VISP_NAMESPACE
  * \brief Checks all pairs of a scene by FCL 0.7 \cite Pan12 : an independent implementation, slower and less exact than
  * the fast path.
  *
- * Its capsule-box distances err by up to 1 mm; meshes are surfaces without inside; penetrating
- * pairs have distance 0 (so do those whose axis is deeper than the inflation). Boolean checks pad the
- * capsules by margin and inflation and use FCL's broad phase and collide(); where objects have different inflations, its
- * distance for all but the largest. The ground is checked by the scene: FCL 0.7 has no
- * half-space distance and crashes. Allocates.
+ * Its capsule-box distances err by up to 1 mm; meshes are surfaces without inside; penetrating pairs have distance 0
+ * (so do those whose axis is deeper than the inflation). Boolean checks pad the capsules by margin and inflation and
+ * use FCL's broad phase and collide(); where the inflations of objects differ, all but those of the largest one are
+ * checked by FCL's distance(). The ground is checked by the scene: FCL 0.7 has no half-space distance and crashes.
+ * Allocates.
  */
 class VISP_EXPORT vpFclChecker : public vpCollisionChecker
 {

@@ -10,7 +10,7 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_avoidance
-//! \brief What was found of a goal.
+//! \brief Result of the search for a goal configuration.
 enum class vpGoalConfigurationStatus {
   Free,        //!< A configuration that keeps the margin.
   InCollision, //!< The place can be reached, but no configuration that was found keeps the margin.
@@ -18,10 +18,10 @@ enum class vpGoalConfigurationStatus {
 };
 
 //! \ingroup group_avoidance
-//! \brief A configuration and what it is worth.
+//! \brief A configuration and the result of the search for it.
 struct VISP_EXPORT vpGoalConfiguration {
-  vpGoalConfigurationStatus status = vpGoalConfigurationStatus::Unreachable; //!< Look at it before q.
-  //! rad or m, within the position limits. InCollision: the first that was found, to tell what is in the way;
+  vpGoalConfigurationStatus status = vpGoalConfigurationStatus::Unreachable; //!< Read it before #q.
+  //! Configuration, rad or m, within the position limits. InCollision: the first that was found, for a message;
   //! Unreachable: empty.
   vpJointVector q;
 
@@ -36,9 +36,11 @@ struct VISP_EXPORT vpGoalConfiguration {
  * Closed-loop inverse kinematics (vpClosedLoopKinematics) from \e from and, if that gives no free configuration, from
  * random configurations. Takes milliseconds; allocates.
  * \param scene : Arm and obstacles.
- * \param from : n numbers, rad or m: the answer is the first one found, so near here when the straight way leads there.
- * \param position : In the base, m. \param margin : Clearance wanted, m, >= 0.
- * \param attempts : Starts that are tried, >= 1. \param seed : Of the random ones, >= 1.
+ * \param from : Configuration from which the search starts, n numbers, rad or m. The first solution is returned, so it
+ *   is near this configuration where a direct motion leads to it.
+ * \param position : Position of the end effector's origin in the base frame, m. \param margin : Clearance wanted, m, >=
+ *   0.
+ * \param attempts : Number of start configurations tried, >= 1. \param seed : Seed of the random ones, >= 1.
  * \return The first configuration that keeps the margin, or a status that says what is missing.
  * \throw vpException (badValue) when \e from does not fit the arm or \e position is not finite.
  */

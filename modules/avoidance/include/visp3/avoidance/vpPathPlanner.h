@@ -91,8 +91,9 @@ struct VISP_EXPORT vpPathResult {
  * \ingroup group_avoidance
  * \brief Plans joint-space paths of a scene's arm, with the object poses at the call of plan().
  *
- * BiRRT is RRT-Connect \cite Kuffner00 on flat arrays, with random shortcuts \cite Geraerts07, and needs no other library.
- * The others are those of OMPL \cite Sucan12, paths shortened by its PathSimplifier; they cost some 0.1 ms more a plan.
+ * BiRRT is RRT-Connect \cite Kuffner00 on flat arrays, with random shortcuts \cite Geraerts07, and needs no other
+ * library. The others are those of OMPL \cite Sucan12, paths shortened by its PathSimplifier; they take some 0.1 ms
+ * more for each plan.
  *
  * Continuous joints take the shorter way to the goal's angle; the path never crosses position limits. A path found
  * with certified validation is free with the margin at every point, thesis (3.46), (3.48); with discrete validation
@@ -104,8 +105,8 @@ class VISP_EXPORT vpPathPlanner
 {
 public:
   /*!
-   * Makes a planner of OMPL for a space of joints that has the checks of states and motions; its problem is set afterwards.
-   * Called once for each search, by any thread, but never twice at the same time.
+   * Makes an OMPL planner for a joint space whose checks of states and motions are set already; the problem is set
+   * afterwards. Called once for each search, by any thread, but never twice at the same time.
    */
   using Maker = std::function<std::shared_ptr<ompl::base::Planner>(
       const std::shared_ptr<ompl::base::SpaceInformation> &space, const vpPathPlannerSpec &spec)>;
@@ -116,13 +117,13 @@ public:
   //! How a planner works, one sentence. \throw vpException (badValue) naming the unknown planner and the known ones.
   [[nodiscard]] static std::string sentence(const std::string &name);
   /*!
-   * Adds a planner of your own, for vpPathPlannerSpec::planner. Any thread; cannot be undone, so a library that holds the
-   * maker must stay loaded. Its paths are checked as a whole before they are used: NotFree.
+   * Adds a planner of your own, for vpPathPlannerSpec::planner. Any thread; cannot be undone, so a library that holds
+   * the maker must stay loaded. Its paths are checked as a whole before they are used: NotFree.
    * \param name : A letter and up to 63 more letters, digits, `-` or `_`.
    * \param sentence : How it works, one printable line.
    * \param maker : Uses the same OMPL as visp-direct.
-   * \throw vpException (badValue) naming the planner, when the name is malformed or used already, or the sentence or maker
-   * is empty.
+   * \throw vpException (badValue) naming the planner, when the name is malformed or used already, or the sentence or
+   * maker is empty.
    */
   static void add(const std::string &name, const std::string &sentence, Maker maker);
 

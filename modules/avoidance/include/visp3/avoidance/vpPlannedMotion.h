@@ -45,16 +45,17 @@ struct VISP_EXPORT vpPlannedMotionSpec {
  * \brief Follows a path of vpPathPlanner as trajectories (vpTimedPath), re-timed or replanned when the scene changes:
  * the methods `planner` and `planner-dtg`, proposed in section 9.2 of the thesis.
  *
- * Every commanded motion is proven free up to its end at rest (vpCertifiedTrajectory), with the objects
- * moving at their velocities; look() proves the remaining part again. If that fails, vpReplanning::OnTheFly tries the
- * same path slower, then another path from the moving state (moving obstacles fixed at their predicted near-future poses),
- * and at last a stop followed by a new path. Stops go straight on or along the path, whichever is proven free. If no stop is, the
- * status is Unsafe.
+ * Every commanded motion is proven free up to its end at rest (vpCertifiedTrajectory), with the objects moving at their
+ * velocities; look() proves the remaining part again. If that fails, vpReplanning::OnTheFly tries the same path slower,
+ * then another path from the moving state (moving obstacles fixed at their predicted near-future poses), and finally a
+ * stop followed by a new path. Stops go straight on or along the path, whichever is proven free. If no stop is proven
+ * free, the status is Unsafe.
  *
- * Joints keep their limits, and the end effector the bounds of vpAvoidanceMethodSpec: motions that would not are
- * slowed, stops are longer. Only where no stop within these bounds is proven free is there one within the joint limits
- * alone, with vpAvoidanceOutput::stopping. Where none is either, for the arm is within its margin of something that was
- * seen to be larger or elsewhere, it stops within the bounds if that is proven to touch nothing, with the status Unsafe.
+ * Joints keep their limits, and the end effector the bounds of vpAvoidanceMethodSpec: motions that would exceed them
+ * are slowed, and stops take longer. Where no stop within these bounds is proven free, the arm stops within the joint
+ * limits alone (vpAvoidanceOutput::stopping). Where no such stop is proven free either, because the arm is within its
+ * margin of something that was found to be larger or elsewhere, it stops within the bounds if that is proven to touch
+ * nothing; the status is Unsafe.
  */
 class VISP_EXPORT vpPlannedMotion : public vpAvoidanceMethod
 {

@@ -18,11 +18,11 @@
 BEGIN_VISP_NAMESPACE
 
 //! \ingroup group_avoidance
-//! \brief What statistics say of a pair of bodies.
+//! \brief Verdict of the statistics on a pair of bodies.
 enum class vpContactRule {
   Checked, //!< Touches in some configurations: must be checked.
   Always,  //!< Touches in at least 95 % of the samples: a check would refuse nearly every configuration.
-  Default, //!< Touches where all joints are at 0 (or at the limit next to it): as MoveIt, taken as meant to touch.
+  Default, //!< Touches where all joints are at 0 (or at the limit next to it): an intended contact, as in MoveIt.
   Never    //!< Touched in no sample.
 };
 
@@ -45,9 +45,9 @@ struct VISP_EXPORT vpBodyPairStatistics {
  * \brief How often the bodies of an arm touch each other in random configurations within the limits (continuous joints:
  * within +-pi); value type.
  *
- * An estimate, not a proof: of a pair that never touched in N samples, less than a share of 3/N of the configurations
- * has a contact, with 95 % confidence. Pairs that touch in one of 2000 configurations are known: take 10,000 samples or
- * more.
+ * An estimate, not a proof: a pair that never touched in N samples is in contact in less than 3/N of the
+ * configurations, with 95 % confidence. Some arms have pairs that touch in one of 2000 configurations: take 10,000
+ * samples or more.
  */
 struct VISP_EXPORT vpSelfCollisionStatistics {
   std::string arm;                         //!< Label of the arm.
@@ -55,11 +55,11 @@ struct VISP_EXPORT vpSelfCollisionStatistics {
   unsigned int seed = 1;                   //!< Seed of the configurations.
   std::vector<vpBodyPairStatistics> pairs; //!< All pairs on links that are neither the same nor neighbours.
 
-  //! What the samples say of a pair, in the order Always, Default, Never, Checked.
+  //! Verdict of the samples on a pair, in the order Always, Default, Never, Checked.
   [[nodiscard]] vpContactRule rule(const vpBodyPairStatistics &pair) const noexcept;
   /*!
    * Pairs that need no check, for vpArmSpec::allowedBodies.
-   * \param never : With those that never touched, as MoveIt's setup assistant does.
+   * \param never : Include those that never touched, as MoveIt's setup assistant does.
    */
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> allowed(bool never = true) const;
 

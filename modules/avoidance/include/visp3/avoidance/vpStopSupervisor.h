@@ -71,22 +71,22 @@ struct VISP_EXPORT vpSupervisedVelocity {
  * Proof. Let the arm be where its commands took it, and the objects keep their velocities. By induction over the
  * periods every command is the first period, or the next one, of a plan q(t) that was proven: constant velocity for a
  * period T, then constant deceleration, then rest. A command holds one velocity for T, the mean of the plan's over that
- * period, so at the ends of periods the arm is where the plan is. In between it goes on the chord: |q''_j| <= d_j
+ * period, so at the ends of periods the arm is where the plan is. In between it moves along the chord: |q''_j| <= d_j
  * almost everywhere, with d_j the deceleration of joint j, so it is never farther from q_j(t) than min(d_j T / 8,
  * |v_j|) T, and a point of link l by no more than e_l = sum_j R_lj of that (vpReachBounds). A clearance is off by no
- * more than e, the largest e_l: also that of two capsules of the arm, which changes only with the joints between them,
- * and by them as the outer one moves seen from the inner one. That holds to the end of the last period, in which the
- * plan comes to rest before the arm does. So the plan is proven from its start to the end of the period in which it
- * ends, with the margin enlarged by e and the resolution, and the arm keeps the margin at every instant until it
- * stands. Two means that follow each other differ by no more than d_j T, which keeps the limit of acceleration. An arm
- * within the margin, at a clearance c, may go where it is no nearer at the end of any period, and keeps c - 0.1 mm - e
- * in between, which therefore is not lost again and again; an arm that is nearer to its margin than e and the
+ * more than e, the largest e_l: this includes two capsules of the arm, as their clearance changes only with the joints
+ * between them, by the motion of the outer one relative to the inner one. That holds to the end of the last period, in
+ * which the plan comes to rest before the arm does. So the plan is proven from its start to the end of the period in
+ * which it ends, with the margin enlarged by e and the resolution, and the arm keeps the margin at every instant until
+ * it stands. Two means that follow each other differ by no more than d_j T, which keeps the limit of acceleration. An
+ * arm within the margin, at a clearance c, may go where it is no nearer at the end of any period, and keeps
+ * c - 0.1 mm - e in between, so the loss does not accumulate; an arm that is nearer to its margin than e and the
  * resolution counts as within it.
  *
- * What is beyond it: an object that comes faster than was told or appears (Unsafe says so), what runs into an arm that
- * stands, and drives that do not follow. An arm nearer to something than 0.1 mm, e and the resolution together has no
- * way that could be proven, and stands. Capsules alone decide, also where the scene has exact shapes: capsules larger
- * than the arm stop it early, and those that touch where the arm does not never let it move.
+ * The proof does not cover an object that appears or is faster than stated (the status is Unsafe), an object that runs
+ * into a standing arm, and drives that do not follow. An arm that is nearer to something than the sum of 0.1 mm, e and
+ * the resolution has no motion that could be proven, and stands. Capsules alone decide, also where the scene has exact
+ * shapes: capsules larger than the arm stop it early, and those that touch where the arm does not never let it move.
  */
 class VISP_EXPORT vpStopSupervisor
 {

@@ -43,7 +43,8 @@ struct VISP_EXPORT vpFitTest {
   double level = 0.01;                            //!< Probability that a correct fit is reported as a misfit.
   //! Probability of the sum of squares, for a correct fit; NaN: no deviation was given, or the test cannot be made.
   double wholeProbability = std::numeric_limits<double>::quiet_NaN();
-  double viewProbability = std::numeric_limits<double>::quiet_NaN();  //!< Probability of worst view; NaN for one view.
+  //! Probability of the worst view; NaN for one view.
+  double viewProbability = std::numeric_limits<double>::quiet_NaN();
   double pointProbability = std::numeric_limits<double>::quiet_NaN(); //!< Probability of the worst point.
   double fieldProbability = std::numeric_limits<double>::quiet_NaN(); //!< Probability of the worst field of a view.
   int worstView = -1;             //!< View that fits the others worst; 0 for one view. -1: unknown.

@@ -32,7 +32,7 @@ enum class vpPatternStatus {
 //! \brief Why the status is not Tracking.
 enum class vpPatternReason {
   None,            //!< No remark.
-  WrongSize,       //!< The image does not have the size of the tracker.
+  WrongSize,       //!< The size of the image is not that given to the tracker.
   NoContrast,      //!< The image has a single grey value, or two nearly equal ones.
   NoCells,         //!< No spots of equal size.
   TooMuchNoise,    //!< More spots than a pattern can have.
@@ -43,7 +43,7 @@ enum class vpPatternReason {
   AmbiguousMotion, //!< The motion is near or above half a pitch: identities restarted.
   IdentitySlip,    //!< The cells do not deviate from the lattice as before: identities restarted.
   Restarted,       //!< Found again after too many frames: identities restarted.
-  NoMatch,         //!< The image does not show the pattern where it can be.
+  NoMatch,         //!< The image does not show the pattern where it is expected.
   ImagesMissing,   //!< vpPatternTracker::interrupt(): identities restarted.
   SingleRow,       //!< Instead of NoLattice: all spots are on one line.
   TurnedTooFar     //!< Instead of NoLattice: rows that are turned by more than 30 degrees.

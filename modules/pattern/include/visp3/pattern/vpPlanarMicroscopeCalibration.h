@@ -96,11 +96,13 @@ struct VISP_EXPORT vpMicroscopeCalibrationResult {
   int degreesOfFreedom = 0;   //!< Two per point minus the number of parameters.
   int worstPoint = 0;         //!< Index of the point with the largest residual.
   double worstResidual = 0.;  //!< Residual of #worstPoint, standard deviations.
-  double condition = 1.;      //!< Condition of the common parameters, scaled to equal columns; above 1e3 correlated.
-  int iterations = 0;         //!< Iterations of the refinement.
-  bool converged = false;     //!< The refinement converged.
-  bool looksTiltedTooFar = false; //!< More than vpMicroscopeCalibrationSpec::maxTilt, and not explained by noise.
-  vpFitTest fit;                  //!< Tests whether the calibration fits the points.
+  //! Condition number of the common parameters (columns of equal length); above 1e3 they are correlated.
+  double condition = 1.;
+  int iterations = 0;     //!< Iterations of the refinement.
+  bool converged = false; //!< The refinement converged.
+  //! The tilt exceeds vpMicroscopeCalibrationSpec::maxTilt by more than noise explains.
+  bool looksTiltedTooFar = false;
+  vpFitTest fit; //!< Tests whether the calibration fits the points.
   //! Converged, the points fit, and distortion and tilt are neither missing nor implausible; see #message.
   bool reliable = false;
   std::string message; //!< Summary in a few sentences.

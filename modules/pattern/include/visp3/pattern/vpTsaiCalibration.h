@@ -63,7 +63,7 @@ struct VISP_EXPORT vpTsaiCalibrationResult {
   double residualRms = 0.;     //!< Root mean square reprojection error of all points, px.
   double varianceFactor = 0.;  //!< Sum of squares over degrees of freedom: 1 when the points' deviations are correct.
   int degreesOfFreedom = 0;    //!< Two per point minus the number of parameters.
-  double condition = 1.;       //!< Condition of the common parameters, columns scaled to equal length.
+  double condition = 1.;       //!< Condition number of the common parameters (columns of equal length).
   int iterations = 0;          //!< Iterations of the refinement.
   bool converged = false;      //!< The refinement converged.
   vpFitTest fit;               //!< Tests whether the camera fits the points.

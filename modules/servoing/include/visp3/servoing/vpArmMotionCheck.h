@@ -19,10 +19,12 @@ BEGIN_VISP_NAMESPACE
 /*!
  * \class vpArmMotionCheck
  * \ingroup group_servoing
- * \brief Executes planned twists on a copy of the arm, with the same redundancy resolution and limits as the arm itself.
+ * \brief Executes planned twists on a copy of the arm, with the same redundancy resolution and limits as the arm
+ * itself.
  *
- * The periods differ, so a verified motion may be slowed a little where it is near an acceleration limit; the joints'
- * limits are kept by the arm's own solver in any case. No function allocates after construction.
+ * The check and the arm have different periods, so a verified motion may be slowed a little where it is near an
+ * acceleration limit; the joints' limits are kept by the arm's own solver in any case. No function allocates after
+ * construction.
  *
  * \code
  * vpArmMotionCheck check(model, redundancy, indices, free);
@@ -38,9 +40,10 @@ public:
    * \param model : The arm; referenced, must outlive this. \param spec : Parameters of its solver.
    * \param indices : Indices that self-motion maximizes; of more than vpMaxArmIndices the first.
    * \param free : Axes of the twists that are not commanded.
-   * \param jerk : Limits of the joints' jerks, differences of their accelerations at the control points of a plan, rad/s^3 or m/s^3;
-   *   empty: none. A tenth of them is left for the difference of the periods. Self-motion jumps within the limits of acceleration: with \e indices no plan may be found.
-   * \param frame : Of the twists: those of the camera, or of the end effector before a fixed camera.
+   * \param jerk : Limits of the joints' jerks, computed as differences of their accelerations at the control points of
+   *   a plan, rad/s^3 or m/s^3; empty: none. A tenth of them is left for the difference of the periods. Self-motion
+   *   jumps within the limits of acceleration: with \e indices no plan may be found.
+   * \param frame : Frame of the twists: that of the camera, or that of the end effector before a fixed camera.
    * \throw vpException (badValue) naming the field of \e spec that is out of range, a joint without motion limits, or a
    *   limit of jerk that is not > 0, or their number.
    */
@@ -53,8 +56,9 @@ public:
 
   void begin() noexcept VP_OVERRIDE;
   /*!
-   * \return 1 or less when the arm executes the twist; 1 / share when acceleration or velocity limits allow only a share of it, or
-   *   the cube root of the excess over a limit of jerk; infinity when position limits or a singularity forbid it, and when the state is not finite. 
+   * \return 1 or less when the arm executes the twist; 1 / share when acceleration or velocity limits allow only a
+   *   share of it, or the cube root of the excess over a limit of jerk; infinity when position limits or a singularity
+   *   forbid it, and when the state is not finite.
    */
   [[nodiscard]] double add(const vpTwist &twist, double dt) noexcept VP_OVERRIDE;
 

@@ -18,18 +18,18 @@ BEGIN_VISP_NAMESPACE
 //! \ingroup group_servoing
 //! \brief What the operating system has allowed.
 struct VISP_EXPORT vpRealTimeGrant {
-  bool isScheduled = false; //!< The thread runs with SCHED_FIFO at the priority: before all threads without.
+  bool isScheduled = false; //!< The thread runs with SCHED_FIFO at the requested priority.
   bool isLocked = false;    //!< The memory of the process stays in RAM (mlockall): no step waits for a disk.
-  std::string message;      //!< Both in one sentence, with the reason where it was refused.
+  std::string message;      //!< Both grants in one sentence, with the reason of a refusal.
 };
 
 /*!
  * \ingroup group_servoing
- * \brief Gives the calling thread a fixed priority (SCHED_FIFO), locks the memory of the process and touches 256 kB of the
- * stack. Call it in the control thread, before its loop; Linux only.
+ * \brief Gives the calling thread a fixed priority (SCHED_FIFO), locks the memory of the process and touches 256 kB of
+ * the stack. Call it in the control thread, before its loop; Linux only.
  *
- * Neither is needed: a loop without is late more often. A thread with SCHED_FIFO that never sleeps blocks its
- * processor for everything else. See doc/real-time.md.
+ * Neither is required, but a loop without them is late more often. A thread with SCHED_FIFO that never sleeps blocks
+ * its processor for everything else. See doc/real-time.md.
  * \param priority : 1..99; interrupt threads of a PREEMPT_RT kernel have 50.
  * \return What was allowed.
  * \throw vpException (badValue) naming a priority out of range.

@@ -27,7 +27,7 @@ BEGIN_VISP_NAMESPACE
 struct VISP_EXPORT vpReferencePoseSpec {
   double nearest = 0.1;  //!< Smallest distance d that the reference camera may have from the plane, m, > 0, <= 1000.
   double farthest = 2.;  //!< Largest distance, at least nearest, m, > 0, <= 1000.
-  double caution = 2.;   //!< Standard deviations of 1/d by which the scale is on the near side, 0..10.
+  double caution = 2.;   //!< Number of standard deviations of 1/d by which the scale is on the near side, 0..10.
   double tilt = 0.6;     //!< Standard deviation of the plane's tilt against the reference image, rad, > 0, <= 10.
   double slowness = 0.3; //!< Factor on the speed while two planes explain the images, > 0, <= 1.
   unsigned int minPoints = 8; //!< Fewest visible points of an image that is used, 5..1000.
@@ -39,14 +39,14 @@ struct VISP_EXPORT vpReferencePoseSpec {
 };
 
 //! \ingroup group_servoing
-//! \brief What the images so far say. All but TooFewPoints and Inconsistent have a pose.
+//! \brief What is known from the images so far. All but TooFewPoints and Inconsistent have a pose.
 enum class vpReferenceStatus {
   Unique,       //!< One pose.
   Ambiguous,    //!< Two planes explain the images so far; the more likely one is used, slowly.
   PureRotation, //!< The camera has only turned: the plane's normal and distance are not known yet, and do not matter.
   TooFewPoints, //!< The image shows fewer points than needed.
   NoOdometry,   //!< The pose of the camera at capture is missing or not finite, but was known before.
-  Inconsistent, //!< No motion before a plane explains the image; three in succession restart the estimation.
+  Inconsistent, //!< No motion in front of a plane explains the image; three such images restart the estimation.
   NoImage       //!< No image was given yet.
 };
 
@@ -97,7 +97,7 @@ struct VISP_EXPORT vpReferencePoseResult {
  * = rho d makes a servo law slower or faster, not inexact: stable for 0 < rho < 2 with any delay that is bridged by
  * odometry. A range so narrow that it contains one distance makes this the estimator for a plane of known distance.
  *
- * Without odometry each image stands alone but for the normal, d stays unknown, and the message says so.
+ * Without odometry each image is evaluated by itself, except for the normal; d stays unknown, and the message says so.
  */
 class VISP_EXPORT vpReferencePose
 {
@@ -128,7 +128,7 @@ public:
    * images.
    * \param normal : Normal in the reference camera, away from it, any length. \param sigma : Standard deviation of its
    *   angles, rad, > 0.
-   * \throw vpException (badValue) for a vector of no direction, or another sigma.
+   * \throw vpException (badValue) for a vector of length 0, or a sigma that is not positive.
    */
   void setNormalPrior(const Eigen::Vector3d &normal, double sigma);
   //! Forgets all images.
@@ -136,15 +136,16 @@ public:
   //! The last result.
   [[nodiscard]] const vpReferencePoseResult &result() const;
   /*!
-   * The reference points as an object, scaled by vpReferencePoseResult::scale: those that at least half as many images
-   * showed as showed the most frequent one. The origin is their mean, the axes are those of the reference camera, the
+   * The reference points as an object, scaled by vpReferencePoseResult::scale: those that were visible in at least half
+   * as many images as the most frequent one. The origin is their mean, the axes are those of the reference camera, the
    * outline is the rectangle around them in the reference image.
    */
   [[nodiscard]] vpServoTarget target() const;
   /*!
-   * The last result as a measurement of target(), and the goal to be where the reference image was taken, both of the
-   * same scale.
-   * \param time : Time of capture, s. \param sight : Receives all of it; the measurement is invalid without a pose.
+   * The last result as a measurement of target(), and the pose of the reference image as the goal, both with the same
+   * scale.
+   * \param time : Time of capture, s. \param sight : All of its fields are set; the measurement is invalid without a
+   *   pose.
    */
   void sight(double time, vpServoSight &sight) const;
 

@@ -53,12 +53,12 @@ public:
    * \throw vpException as vpPlaneTracker for an image without texture; (dimensionError) for one of another size.
    */
   bool add(const vpImage<unsigned char> &image);
-  [[nodiscard]] bool isComplete() const; //!< True when all images are there.
+  [[nodiscard]] bool isComplete() const; //!< True when all images have been added.
   //! The average. \throw vpException (notInitialized) before the first image.
   [[nodiscard]] vpImage<unsigned char> image() const;
   //! Standard deviation of a coordinate of a corner from image to image, px; NaN before the second one.
   [[nodiscard]] double pointNoise() const;
-  //! The same of the average, for vpReferenceVisionSpec::referenceNoise: pointNoise() / sqrt(number of images).
+  //! The same for the average, for vpReferenceVisionSpec::referenceNoise: pointNoise() / sqrt(number of images).
   [[nodiscard]] double averageNoise() const;
   //! One sentence about the last image.
   [[nodiscard]] const std::string &message() const;

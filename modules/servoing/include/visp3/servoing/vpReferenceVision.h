@@ -43,7 +43,7 @@ struct VISP_EXPORT vpReferenceVisionSpec {
  * spec.pose.farthest = 1.2;
  * servo.setVision(std::make_unique<vpReferenceVision>(reference, camera, spec)); // vpVisualServo servo
  * \endcode
- * The largest plane in the image is used; what is not on it is left out. The noise of the reference image decides the
+ * The largest plane in the image is used; points outside of it are left out. The noise of the reference image decides the
  * error at the end: average several with vpReferenceTeacher.
  */
 class VISP_EXPORT vpReferenceVision : public vpServoVision
@@ -69,7 +69,7 @@ public:
   [[nodiscard]] const std::string &message() const VP_OVERRIDE;
   //! Points of the last image.
   [[nodiscard]] const vpPlaneTrack &track() const;
-  //! Pose, plane and distance by all images.
+  //! Pose, plane and distance from all images.
   [[nodiscard]] const vpReferencePoseResult &result() const;
 
 private:

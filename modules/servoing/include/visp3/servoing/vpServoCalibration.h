@@ -19,9 +19,9 @@ BEGIN_VISP_NAMESPACE
 //! \ingroup group_servoing
 //! \brief A camera of a calibration file.
 struct VISP_EXPORT vpCalibratedCamera {
-  std::string name;              //!< As in the file.
-  unsigned int width = 0;        //!< Width of the images of the calibration, px; 0 if the file does not tell.
-  unsigned int height = 0;       //!< Height of the images of the calibration, px; 0 if the file does not tell.
+  std::string name;              //!< Name of the camera in the file.
+  unsigned int width = 0;        //!< Width of the images of the calibration, px; 0 if the file does not state it.
+  unsigned int height = 0;       //!< Height of the images of the calibration, px; 0 if the file does not state it.
   vpCameraParameters parameters; //!< With distortion where the file has it: vision by vpServoVision removes it.
 };
 
@@ -41,12 +41,13 @@ struct VISP_EXPORT vpCalibratedCamera {
 
 /*!
  * \ingroup group_servoing
- * \brief Reads a pose, m, as written by ViSP's hand-eye calibration: YAML of vpPoseVector::saveYAML() (6 numbers: translation, theta
- * u) or of vpHomogeneousMatrix::saveYAML() (4 x 4), or the text of vpHomogeneousMatrix::save() or vpPoseVector::save().
+ * \brief Reads a pose, m, as written by ViSP's hand-eye calibration: YAML of vpPoseVector::saveYAML() (6 numbers:
+ * translation, theta u) or of vpHomogeneousMatrix::saveYAML() (4 x 4), or the text of vpHomogeneousMatrix::save() or
+ * vpPoseVector::save().
  *
  * A rotation with errors of rounding is replaced by the nearest one.
- * \throw vpException (ioError) for a file that cannot be read; (badValue) naming the file and what is wrong: another number of
- * numbers, one that is not finite, no rotation (off by more than 0.001), a translation of more than 1000 m.
+ * \throw vpException (ioError) for a file that cannot be read; (badValue) naming the file and what is wrong: a wrong
+ *   number of numbers, one that is not finite, no rotation (off by more than 0.001), a translation of more than 1000 m.
  */
 [[nodiscard]] VISP_EXPORT vpRigidTransform vpLoadPose(const std::string &file);
 

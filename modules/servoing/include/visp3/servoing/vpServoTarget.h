@@ -52,14 +52,15 @@ public:
    * Measurement of a camera that sees the object at \e cMo; points behind the camera are not visible. Allocates only
    * until \e result has its size.
    * \param cMo : Pose of the object in the camera, m. \param time : Time of exposure, s.
-   * \param result : Receives all of it.
+   * \param result : All of its fields are set.
    */
   void measure(const vpHomogeneousMatrix &cMo, double time, vpServoMeasurement &result) const;
   //! Measurement from a target found in an image, with its covariance; invalid unless vpPlanarTargetResult::found().
   void measure(const vpPlanarTargetResult &seen, double time, vpServoMeasurement &result) const;
   /*!
    * Images of points of an object at \e cMo; a point behind the camera is not visible and keeps its previous numbers.
-   * \param points : In the object's frame, m. \param cMo : Pose of the object in the camera, m. \param images : Resized to \e points; allocates when it grows.
+   * \param points : Points in the object's frame, m. \param cMo : Pose of the object in the camera, m. \param images :
+   *   Receives one image for each point; allocates only when it grows.
    */
   static void project(const std::vector<Eigen::Vector3d> &points, const vpHomogeneousMatrix &cMo,
                       std::vector<vpServoPoint> &images);

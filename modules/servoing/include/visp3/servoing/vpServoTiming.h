@@ -23,7 +23,8 @@ BEGIN_VISP_NAMESPACE
  * \ingroup group_servoing
  * \brief Histogram of durations from 0.1 us to 1000 s, 50 bins per decade: quantiles are exact to 4.8 %.
  *
- * One thread adds, any thread reads meanwhile; no allocation, no lock. A reader may miss what is just being added.
+ * One thread adds durations, and any thread may read at the same time; no allocation, no lock. A reader may miss what
+ * is just being added.
  */
 class VISP_EXPORT vpTimingStatistics
 {
@@ -37,8 +38,8 @@ public:
   [[nodiscard]] std::uint64_t invalid() const noexcept { return m_invalid.load(std::memory_order_relaxed); }
   //! Largest duration, s; 0 without any.
   [[nodiscard]] double max() const noexcept { return m_max.load(std::memory_order_relaxed); }
-  //! Smallest value that at least this share (0..1) of the durations do not exceed, s, at most 4.8 % too large; never above
-  //! max(). NaN without any.
+  //! Smallest value that at least this share (0..1) of the durations do not exceed, s, at most 4.8 % too large; never
+  //! above max(). NaN without any.
   [[nodiscard]] double quantile(double share) const noexcept;
 
   static constexpr std::size_t bins = 500; //!< Number of bins.

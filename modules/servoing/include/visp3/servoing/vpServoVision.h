@@ -48,11 +48,11 @@ public:
   vpServoVision &operator=(const vpServoVision &) = delete;
 
   /*!
-   * One image.
+   * Processes one image.
    * \param image : The image. \param time : Time of its capture, s, on the clock of the control loop.
-   * \param fMc : Pose of the camera at that time in the frame in which the object is at rest: the robot's base, or the end
-   *   effector for a fixed camera that looks at what the arm holds. Null where it is not known.
-   * \param sight : Receives all of it.
+   * \param fMc : Pose of the camera at that time in the frame in which the object is at rest: the robot's base, or the
+   *   end effector for a fixed camera that looks at what the arm holds. Null where it is not known.
+   * \param sight : All of its fields are set.
    * \throw vpException where the image cannot be processed at all; no target in it is no error.
    */
   virtual void see(const vpImage<unsigned char> &image, double time, const vpRigidTransform *fMc,
@@ -63,7 +63,8 @@ public:
   [[nodiscard]] virtual const std::string &message() const = 0;
 
   /*!
-   * Vision by vpPlanarTarget: a textured plane. The law sees the corners of the photograph, z = 0, origin in its centre.
+   * Vision by vpPlanarTarget: a textured plane. The law sees the corners of the photograph, z = 0, origin in its
+   * centre.
    * \param photo : Fronto-parallel image of the target. \param width, height : Its size, m, > 0.
    * \param camera : Intrinsics; distortion is removed. \param spec : Settings.
    * \throw vpException as vpPlanarTarget.
@@ -73,13 +74,14 @@ public:
                                                                  const vpPlanarTargetSpec &spec = {});
 
   /*!
-   * Vision by an AprilTag (vpDetectorAprilTag); frame and points as photograph(), for the black square. The covariance of
-   * the pose follows from the noise of the corners. Where two poses of the square fit, the one nearer to the last is taken
-   * and vpServoSight::speedFactor is 0.3.
+   * Vision by an AprilTag (vpDetectorAprilTag); frame and points as photograph(), for the black square. The covariance
+   * of the pose follows from the noise of the corners. Where two poses of the square fit, the one nearer to the last is
+   * taken and vpServoSight::speedFactor is 0.3.
    * \param family : "36h11", "25h9", "16h5", "Circle21h7" or "Standard41h12". \param id : Number of the tag.
    * \param size : Side of the black square, m, > 0. \param camera : Intrinsics; distortion is removed.
    * \param cornerSigma : Standard deviation of a corner's coordinate, px, > 0.
-   * \throw vpException (badValue) naming what is unknown or out of range; (notImplementedError) with a ViSP without AprilTag.
+   * \throw vpException (badValue) naming what is unknown or out of range; (notImplementedError) with a ViSP without
+   *   AprilTag.
    */
   [[nodiscard]] static std::unique_ptr<vpServoVision> tag(const std::string &family, int id, double size,
                                                           const vpCameraParameters &camera, double cornerSigma = 0.3);

@@ -31,8 +31,8 @@ enum class vpServoCameraPlace {
 
 /*!
  * \ingroup group_servoing
- * \brief Parameters of a vpVisualServo besides those of its controller, whose vpServoControllerSpec::motion are the limits
- * of velocity, acceleration and jerk of what moves: the camera, or the end effector in front of a fixed camera.
+ * \brief Parameters of a vpVisualServo besides those of its controller, whose vpServoControllerSpec::motion are the
+ * limits of velocity, acceleration and jerk of what moves: the camera, or the end effector in front of a fixed camera.
  */
 struct VISP_EXPORT vpVisualServoSpec {
   double period = 0.005;            //!< Period of step(), s, > 0, <= 1.
@@ -55,13 +55,14 @@ struct VISP_EXPORT vpVisualServoSpec {
   vpRigidTransform fMc;                                     //!< Pose of a fixed camera in the base (EyeToHand), m.
   //! Without an arm's model: there is no robot state, and the commanded motion counts as executed. EyeInHand only.
   bool assumeExecuted = false;
-  //! The object moves in the base frame with a velocity that changes little: it is estimated and followed. EyeInHand only.
+  //! The object moves in the base frame with a velocity that changes little: it is estimated and followed. EyeInHand
+  //! only.
   bool objectMoves = false;
   //! Axes of the commanded twist that stay 0, see vpFreeAxes(), for arms with fewer than six joints.
   std::array<bool, 6> free{};
   vpRedundancySpec redundancy; //!< Parameters of an arm; its period is replaced by #period.
-  //! Indices that self-motion of an arm maximizes; at most vpMaxArmIndices. Self-motion keeps the joints' limits of position,
-  //! velocity and acceleration; its jerk is not bounded, vpVisualServoOutput::jointJerk tells it.
+  //! Indices that self-motion of an arm maximizes; at most vpMaxArmIndices. Self-motion keeps the joints' limits of
+  //! position, velocity and acceleration; its jerk is not bounded, but vpVisualServoOutput::jointJerk reports it.
   std::vector<vpSelfMotionIndex> indices;
 
   //! The numbers with their ranges and units.
@@ -89,13 +90,13 @@ enum class vpVisualServoStatus {
   Converged,    //!< Within the tolerances for vpVisualServoSpec::convergedTime; the law goes on.
   Idle,         //!< Before start() or after stop().
   LawStopped,   //!< The law gives no motion; vpVisualServoOutput::servo says why.
-  Obstructed,   //!< The supervisor lets the arm not move on; vpVisualServoOutput::supervision.
-  NoImages,     //!< No new image for vpVisualServoSpec::imageTimeout. Goes on with the next image.
-  FrozenImages, //!< The image does not change although the camera moves. Goes on when it does.
-  ImageClock, //!< Images are not newer than the last, or from the future: wrong time stamps. Goes on with a right one.
-  LateStep,   //!< The clock advanced by more than vpVisualServoSpec::longestStep. Goes on with an image taken after it.
-  ClockFault, //!< The clock went back, stood, or is not finite. Stays until start().
-  StateFault, //!< No valid robot state for vpVisualServoSpec::stateTimeout. Stays until start().
+  Obstructed,   //!< The supervisor does not let the arm move on: vpVisualServoOutput::supervision.
+  NoImages,     //!< No new image for vpVisualServoSpec::imageTimeout. Continues with the next image.
+  FrozenImages, //!< The image does not change although the camera moves. Continues when it changes.
+  ImageClock,   //!< Images are not newer than the last, or from the future. Continues with a correct time stamp.
+  LateStep, //!< The clock advanced by more than vpVisualServoSpec::longestStep. Continues with an image taken after it.
+  ClockFault,  //!< The clock went back, stood, or is not finite. Stays until start().
+  StateFault,  //!< No valid robot state for vpVisualServoSpec::stateTimeout. Stays until start().
   NotFollowing //!< The robot does not move as commanded. Stays until start().
 };
 //! \ingroup group_servoing
@@ -112,8 +113,8 @@ struct VISP_EXPORT vpVisualServoOutput {
   //! Twist of the camera in the camera frame (EyeInHand), or of the end effector in its frame (EyeToHand), m/s, rad/s.
   vpTwist twist;
   vpJointVector velocity; //!< Joint velocities, rad/s or m/s; empty without an arm's model.
-  //! Largest jerk of a joint, rad/s^3 or m/s^3: second difference of #velocity over the nominal period. It is measured, not bounded:
-  //! self-motion may exceed what the limits of the twist ask for. 0 without an arm's model.
+  //! Largest jerk of a joint, rad/s^3 or m/s^3: second difference of #velocity over the nominal period. It is measured,
+  //! not bounded: self-motion may exceed what the limits of the twist ask for. 0 without an arm's model.
   double jointJerk = 0.;
   vpServoStatus servo = vpServoStatus::Holding;       //!< Status of law, view filter and recovery.
   vpRedundancyStatus arm = vpRedundancyStatus::Exact; //!< Status of the redundancy solver.
@@ -141,24 +142,25 @@ struct VISP_EXPORT vpVisualServoOutput {
  * for the other.
  *
  * step() takes the newest result of the vision thread, predicts it for now by the robot's own motion since the capture
- * (vpOdometryBridge), steps the law with view filter and recovery, bounds velocity, acceleration and jerk (vpLimitTwist,
- * vpTwistShaper), and for an arm converts the twist to joint velocities (vpArmMotion), which a vpStopSupervisor passes
- * only if the arm can still stop.
+ * (vpOdometryBridge), steps the law with view filter and recovery, bounds velocity, acceleration and jerk
+ * (vpLimitTwist, vpTwistShaper), and for an arm converts the twist to joint velocities (vpArmMotion), which a
+ * vpStopSupervisor passes only if the arm can still stop.
  *
- * A fixed camera that looks at an object on the arm is the same problem: seen from the object it is the camera that moves.
- * Pose history, bridge and law use the camera's pose in the end effector; the law's twist v gives the end effector the
- * opposite one, -eVc v. A law that plans moves the end effector itself, to its goal eMc cdMo eMo^-1 with eMo averaged over
- * the images, in a straight line and turning the shortest way.
+ * A fixed camera that looks at an object on the arm is the same problem: seen from the object it is the camera that
+ * moves. Pose history, bridge and law use the camera's pose in the end effector; the law's twist v gives the end
+ * effector the opposite one, -eVc v. A law that plans moves the end effector itself, to its goal eMc cdMo eMo^-1 with
+ * eMo averaged over the images, in a straight line and turning the shortest way.
  *
- * Approach: a law may slow down faster than the bounds allow, v' = -lambda v. Where lambda v exceeds 0.7 of the bound of
- * acceleration, or lambda^2 v half of that of jerk, the twist is scaled to v = sqrt(2 a (d - d0)) of constant deceleration, d
- * = v / lambda being what the law has yet to go: it does not overshoot at any gain.
+ * Approach: a law may slow down faster than the bounds allow, v' = -lambda v. Where lambda v exceeds 0.7 of the bound
+ * of acceleration, or lambda^2 v half of that of jerk, the twist is scaled to v = sqrt(2 a (d - d0)) of constant
+ * deceleration, where d = v / lambda is the distance to the goal: it does not overshoot at any gain.
  *
- * Moving objects: a Kalman filter in the base frame estimates their velocity with its standard deviation. It is added to
- * the law's twist while the law moves, none of it below two standard deviations, all of it from four on.
+ * Moving objects: a Kalman filter in the base frame estimates their velocity with its standard deviation. The estimate
+ * is added to the law's twist while the law moves: not at all below two of its standard deviations, fully from four on.
  *
  * Threads: see() and setGoal() in one thread; step() and the accessors in another; start() and stop() in any.
- * Construction, setVision(), supervise() and setController() before both. step() does not allocate, throw, lock or print.
+ * Construction, setVision(), supervise() and setController() before both. step() does not allocate, throw, lock or
+ * print.
  * \code
  * vpVisualServo servo(vpServoController::create("ff-lookat-pi"), {}, &model); // without &model: camera twists
  * servo.setVision(vpServoVision::photograph(photo, 0.16, 0.11, camera));
@@ -191,7 +193,8 @@ public:
 
   //! Sets the vision. \throw vpException (badValue) if it is null.
   void setVision(std::unique_ptr<vpServoVision> vision);
-  //! Enables collision avoidance in a scene, which must outlive this. \throw vpException as vpStopSupervisor; without arm.
+  //! Enables collision avoidance in a scene, which must outlive this. \throw vpException as vpStopSupervisor, and where
+  //! there is no arm.
   void supervise(const vpCollisionScene &scene, const vpStopSupervisorSpec &spec = {});
   //! Replaces law, view filter, recovery and limits; the goal stays. \throw vpException (badValue) as the constructor.
   void setController(vpServoController controller);
@@ -200,13 +203,15 @@ public:
   //! \throw vpException (badValue) as vpServoLaw::setGoal(); (dimensionError) if there are too many points.
   void setGoal(const vpServoGoal &goal);
   /*!
-   * One image. Vision thread.
+   * Processes one image. Vision thread.
    * \param image : The image. \param captureTime : Time of its capture, s, on the clock of step().
    * \return What was found, valid until the next call; not valid for an image that is not newer than the last.
-   * \throw vpException of the vision; (dimensionError) if it gives too many points; (notInitialized) without setVision().
+   * \throw vpException of the vision; (dimensionError) if it gives too many points; (notInitialized) without
+   *   setVision().
    */
   const vpServoSight &see(const vpImage<unsigned char> &image, double captureTime);
-  //! The result of another vision system, instead of an image. Vision thread. \throw vpException if it has too many points.
+  //! The result of another vision system, instead of an image. Vision thread. \throw vpException if it has too many
+  //! points.
   void see(const vpServoSight &sight);
   //! The vision. Vision thread. \throw vpException (notInitialized) without setVision().
   [[nodiscard]] vpServoVision &vision() const;
@@ -220,7 +225,7 @@ public:
   void stop() noexcept;  //!< Brakes within the limits from the next step on. Any thread.
 
   /*!
-   * One period. Control thread.
+   * Executes one period. Control thread.
    * \param state : State of the robot. \param now : Current time, s; increasing.
    * \return The output, valid until the next step. The motion is safe to command with any input.
    */
