@@ -4,7 +4,7 @@
 
 Pages are all Markdown files and .dox pages of the repository and, with --bin, what the programs print for --help. Checked are
 
-  links      files, and headings after a #; web links are not followed
+  links      files, figures, and headings after a #; web links are not followed
   files      paths of the repository, in commands and in code spans
   commands   programs of the repository, their options (each is in --help) and values (the program reads them before it prints its
              help; nothing runs), options of scripts, presets of CMake, names of test programs and of tutorials
@@ -190,7 +190,8 @@ class Checker:
 
     def check_links(self, text):
         folder = (self.root / self.page).parent
-        for target in re.findall(r"\]\(([^()\s]+)\)", re.sub(r"^```.*?^```|`[^`\n]*`", "", text, flags=re.S | re.M)):
+        prose = re.sub(r"^```.*?^```|`[^`\n]*`", "", text, flags=re.S | re.M)
+        for target in re.findall(r"\]\(([^()\s]+)\)", prose) + re.findall(r'<img src="([^"]+)"', prose):
             if re.match(r"(https?|mailto):", target):
                 continue
             self.counts["links"] += 1

@@ -67,6 +67,8 @@ class Pages(unittest.TestCase):
         self.assert_good("# Here\n[a](doc/other.md), [b](#here), [c](doc/other.md#other-things-a--b), [d](doc/other.md#twice-1)")
         self.assert_good("[a](https://nowhere.example/x.md) `[b](c.md)`")
         self.assert_fault("[a](doc/othre.md)", "there is no file doc/othre.md")
+        self.assert_good('<img src="data/target/box.png" alt=""> `<img src="b.png">`')
+        self.assert_fault('| a<br><img src="data/target/bix.png" alt=""> |', "there is no file data/target/bix.png")
         self.assert_fault("# Here\n[a](#there)", "the page has no heading #there")
         self.assert_fault("[a](doc/other.md#thrice)", "doc/other.md has no heading #thrice")
 
