@@ -125,7 +125,7 @@ std::vector<std::string> answerOf(const Plan &plan, const Results &results)
   });
   const Cell best = results.all(order.front());
   const Interval interval = best.interval();
-  answer.push_back("Of " + std::to_string(best.runs.size()) + " scenes " + order.front() + " masters the most, " +
+  answer.push_back("Of " + std::to_string(best.runs.size()) + " scenes " + order.front() + " solves the most, " +
                    std::to_string(best.successes()) + " (95 % interval " + fixed(100. * interval.low, 1) + " to " +
                    fixed(100. * interval.high, 1) + " %)" +
                    (order.size() > 1 ? "; " + order.back() + " the fewest, " +
@@ -134,7 +134,8 @@ std::vector<std::string> answerOf(const Plan &plan, const Results &results)
   const std::vector<std::string> safe = safest(plan, results);
   answer.push_back(safe.empty() ? "Every method touched something while it moved in at least one run."
                                 : enumerate(safe) + " never touched anything while moving" +
-                                      (safe.size() == plan.methods.size() ? ", so none did." : "; all others did."));
+                                      (safe.size() == plan.methods.size() ? "; no other method was compared."
+                                                                          : "; all others did."));
   for (const auto &pair : pairsOf(plan)) {
     answer.push_back(pairSentence(results, "", pair, " over all scenes"));
   }
@@ -179,7 +180,7 @@ std::vector<std::string> findingsOf(const Plan &plan, const Results &results, co
   const std::string hero = heroOf(plan, results, scene.id);
   const Cell best = results.cell(scene.id, hero);
   if (best.successes() == 0) {
-    findings.push_back("No method masters this scene.");
+    findings.push_back("No method solves this scene.");
     return findings;
   }
   findings.push_back(hero + " succeeds in " + countText(best.successes(), best.runs.size()) + " runs, in " +

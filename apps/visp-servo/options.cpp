@@ -277,6 +277,9 @@ void checkRobot(const vpApp::CommandLine &line, const Options &options)
   if (options.camera.source == "sim" && !options.camera.xml.empty() && options.task != Task::Replay) {
     throw vpApp::UsageError("--camera-xml is for a real camera, and --camera is sim");
   }
+  if (options.camera.source == "sim" && !options.target.tagFamily.empty() && options.task != Task::Replay) {
+    throw vpApp::UsageError("--tag needs a camera or recorded images, and --camera is sim, which shows a photograph");
+  }
   if (options.camera.source == "sim" && motion.robot.robot == "none" && motion.plugin.empty()) {
     throw vpApp::UsageError("--camera sim needs a robot that carries it, --robot is none");
   }

@@ -75,6 +75,7 @@ TEST_CASE("wrong input is one sentence", "[visp-servo][errors]")
       {"--goal-pose 0,0,1", USAGE, "--goal-pose is 0,0,1, must be six numbers"},
       {"--goal g.json --goal-pose 0,0,1,0,0,0", USAGE, "--goal and --goal-pose are both given"},
       {"--tag 36h11:0", USAGE, "--tag is given without --size"},
+      {"--tag 36h11:0 --size 0.1", USAGE, "--tag needs a camera or recorded images, and --camera is sim"},
       {"--tag nothing --size 0.1", USAGE, "--tag is nothing, must be FAMILY:ID"},
       {"--reference r.png --goal g.json", USAGE, "--reference is the goal itself"},
       {"--reference missing.png", DATA, "missing.png: cannot be read"},
