@@ -109,7 +109,7 @@ def test_motion_reaches_a_configuration_and_a_pose(arm, random):
         velocity = motion.step(q, velocity)
         assert (np.abs(velocity) <= arm.velocity() * (1 + 1e-9)).all()
         q = q + motion.period() * velocity
-    assert motion.finished() and not motion.failed(), motion.pathSentence()
+    assert motion.finished() and not motion.failed() and motion.pathSentence()
     np.testing.assert_allclose(q, goal, atol=1e-6)
     there = forward(arm, np.clip(goal + 0.1, arm.lower() + 0.01, arm.upper() - 0.01))
     motion.setSelfMotion([vd.SelfMotionIndex.jointLimits()], [False] * 6)

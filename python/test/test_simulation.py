@@ -171,7 +171,7 @@ def test_simulated_arm_is_a_robot(arm, random):
     for _ in range(25):
         robot.setVelocity(CAMERA_FRAME, v)
     state = robot.getState()
-    assert state.time == pytest.approx(start + 1) and state.status == vd.SimulatedArmStatus.Moving, robot.getSentence()
+    assert state.time == pytest.approx(start + 1) and state.status == vd.SimulatedArmStatus.Moving and robot.getSentence()
     np.testing.assert_allclose(robot.getVelocity(CAMERA_FRAME), v, atol=1e-4)
     moved = np.linalg.inv(before) @ robot.get_fMc()
     np.testing.assert_allclose(moved, exponential(v, 1), atol=2e-3)
