@@ -141,11 +141,16 @@ TEST_CASE("the median of the tracker is the value in the middle of any number of
   std::vector<double> values = {1., 2., 3., 4., 5., 6., 7., 8., 9., 10.};
   CHECK(vpRobustMean::median(values) == 6.);
   for (int trial = 0; trial < 2000; ++trial) {
-    values.resize(static_cast<std::size_t>(1 + trial % 70));
+    values.resize(static_cast<std::size_t>(trial % 10 == 0 ? 71 + 2 * trial : 1 + trial % 70));
     const bool ties = trial % 3 == 0;
+    const double outliers = trial % 4 == 0 ? 0.6 : 0.;
+    std::uniform_real_distribution<double> between(-5., 5.), chance(0., 1.);
     for (double &value : values) {
-      const double number = std::uniform_real_distribution<double>(-5., 5.)(rng);
-      value = ties ? std::round(number) : number;
+      const double number = between(rng);
+      value = chance(rng) < outliers ? 1e9 : ties ? std::round(number) : number;
+    }
+    if (trial % 7 == 0) { // in order, as deviations along a row may be
+      std::sort(values.begin(), values.end());
     }
     std::vector<double> sorted = values;
     std::sort(sorted.begin(), sorted.end());
