@@ -4,7 +4,7 @@
 #   scripts/sanitize.sh memory [MODULE...]   address and undefined behaviour: all tests of these modules
 #                                            (default: trajectory feedforward manipulator avoidance)
 #   scripts/sanitize.sh files [FACTOR]       same sanitizers: damaged files of every format, 400 times FACTOR each (default: 25)
-#   scripts/sanitize.sh threads              data races: the programs' job runner, the real-time arm, and the servo of two threads
+#   scripts/sanitize.sh threads              data races: the programs' job runner, the real-time arm, the servo of two threads, and the pattern tracker
 #
 # JOBS=N compiles N files at a time (default: the number of cores). Exit status 1 when anything is found.
 set -eu
@@ -52,8 +52,8 @@ files)
   run asan catchMutatedFiles catchMutatedProgramFiles
   ;;
 threads)
-  build tsan catchAppsCommon catchSimulatedArm catchSimulatedArmThreads catchVisualServoThreads
-  run tsan catchAppsCommon catchSimulatedArm catchSimulatedArmThreads catchVisualServoThreads
+  build tsan catchAppsCommon catchSimulatedArm catchSimulatedArmThreads catchVisualServoThreads catchPatternThreads
+  run tsan catchAppsCommon catchSimulatedArm catchSimulatedArmThreads catchVisualServoThreads catchPatternThreads
   ;;
 *)
   sed -n '2,/^set/s/^# \{0,1\}//p' "$0" >&2

@@ -13,6 +13,10 @@
 
 #include <opencv2/imgproc.hpp>
 
+#ifdef __linux__
+#include <sched.h>
+#endif
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -31,17 +35,18 @@ struct Sequence {
   std::vector<double> x, y; // of cell (0, 0)
 };
 
-Sequence sequence(unsigned int width, unsigned int height, double amplitude = 40., const Pattern &pattern = Pattern())
+Sequence sequence(unsigned int width, unsigned int height, double amplitude = 40., const Pattern &pattern = Pattern(),
+                  int count = frames)
 {
   std::mt19937_64 rng(1);
   Sequence s;
   s.pattern = pattern;
-  s.images.resize(frames);
+  s.images.resize(static_cast<std::size_t>(count));
   s.pattern.width = width;
   s.pattern.height = height;
   const double x = s.pattern.x, y = s.pattern.y;
-  for (int i = 0; i < frames; ++i) {
-    const double phase = 2. * M_PI * i / frames;
+  for (int i = 0; i < count; ++i) {
+    const double phase = 2. * M_PI * i / count;
     s.pattern.x = x + amplitude * std::sin(phase);
     s.pattern.y = y + 0.3 * amplitude * std::cos(phase);
     s.pattern.render(rng, s.images[static_cast<std::size_t>(i)]);
@@ -200,6 +205,75 @@ void scaling(benchmark::State &state)
 {
   const auto size = static_cast<unsigned int>(state.range(0));
   track(state, sequence(size, size, 4.), vpPatternTrackerSpec());
+}
+
+// The processor of the calling thread and of those that it starts; 0 is the first that the program may use.
+void useProcessor(int which)
+{
+#ifdef __linux__
+  static const cpu_set_t all = [] {
+    cpu_set_t set;
+    sched_getaffinity(0, sizeof(set), &set);
+    return set;
+  }();
+  cpu_set_t one;
+  CPU_ZERO(&one);
+  for (int cpu = 0, k = 0; cpu < CPU_SETSIZE; ++cpu) {
+    if (CPU_ISSET(cpu, &all) && k++ == which) {
+      CPU_SET(cpu, &one);
+    }
+  }
+  sched_setaffinity(0, sizeof(one), CPU_COUNT(&one) > 0 ? &one : &all);
+#else
+  static_cast<void>(which);
+#endif
+}
+
+/*
+ * 2048 x 2048 px, by turns in one thread and in two, the second on another processor. On a busy machine most images are interrupted in one of
+ * them: compare the fastest tenths.
+ */
+void twoThreads(benchmark::State &state)
+{
+  static const Sequence s = sequence(2048, 2048, 4., Pattern(), 24);
+  vpPatternTrackerSpec spec;
+  vpPatternTracker one(2048, 2048, spec);
+  spec.threads = 2;
+  useProcessor(1);
+  vpPatternTracker two(2048, 2048, spec);
+  useProcessor(0);
+  std::size_t locked = 0;
+  using Clock = std::chrono::steady_clock;
+  std::vector<double> times[2];
+  for (int round = 0; round < 30; ++round) {
+    for (const auto &image : s.images) {
+      for (vpPatternTracker *tracker : {&one, &two}) {
+        const auto begin = Clock::now();
+        const bool tracks = tracker->process(image).status == vpPatternStatus::Tracking;
+        const double us = std::chrono::duration<double, std::micro>(Clock::now() - begin).count();
+        if (round >= 10) { // before, they acquire and learn
+          times[tracker == &one ? 0 : 1].push_back(us);
+          locked += tracks ? 1 : 0;
+        }
+      }
+    }
+  }
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(two.process(s.images[0]).validCells);
+  }
+  for (std::vector<double> &us : times) {
+    std::sort(us.begin(), us.end());
+  }
+  const std::size_t n = times[0].size();
+  for (int k = 0; k < 2; ++k) {
+    const std::string name = k == 0 ? "one_" : "two_";
+    state.counters[name + "min_us"] = times[k][0];
+    state.counters[name + "p10_us"] = times[k][n / 10];
+    state.counters[name + "p50_us"] = times[k][n / 2];
+  }
+  state.counters["ratio_p10"] = times[0][n / 10] / times[1][n / 10];
+  state.counters["cells"] = static_cast<double>(two.frame().cells.size());
+  state.counters["locked_percent"] = 100. * static_cast<double>(locked) / static_cast<double>(2 * n);
 }
 
 // The same view of the product with larger or smaller pixels, in percent of 160 x 100.
@@ -369,6 +443,7 @@ BENCHMARK(opencvComponents)->Unit(benchmark::kMicrosecond);
 BENCHMARK(opencvMatchTemplate)->Unit(benchmark::kMicrosecond);
 BENCHMARK(vispDot2)->Unit(benchmark::kMicrosecond);
 BENCHMARK(scaling)->RangeMultiplier(2)->Range(128, 2048)->Unit(benchmark::kMicrosecond)->Iterations(200);
+BENCHMARK(twoThreads)->Unit(benchmark::kMicrosecond)->Iterations(24);
 BENCHMARK(magnified)->Arg(50)->Arg(70)->Arg(100)->Arg(140)->Arg(200)->Arg(300)->Unit(benchmark::kMicrosecond);
 
 VP_BENCHMARK_MAIN();

@@ -289,7 +289,7 @@ void vpPatternTracker::Impl::learn(const vpImage<unsigned char> &image)
     m_stage = Stage::Locked;
     m_slopes = {};
     m_slopeWeight = 0.;
-    m_aligner.setSlopes(m_slopes);
+    setSlopes();
     m_noise = 0.;
     beginRefresh();
     // Measure this image again, as the next one will be: under uneven light, edges and template have slightly different

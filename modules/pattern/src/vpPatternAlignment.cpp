@@ -24,8 +24,15 @@ constexpr double latticeGain = 0.02;
 constexpr unsigned int forgetAfter =
     20;                            // images: a deviation with which a cell is not found, perhaps that of something else
 constexpr int hurryAfterTurn = 30; // images
-constexpr int restlessAfterTurn = 10;  // images
-constexpr double slopeMemory = 400.;   // cells
+constexpr int restlessAfterTurn = 10; // images
+constexpr double slopeMemory = 400.;  // cells
+enum Column : std::size_t {
+  offsetX,
+  offsetY,
+  variance,
+  contrast,
+  sigma
+};                                     // of m_columns, from startAll() to validate()
 constexpr std::size_t slopesEvery = 3; // cells, once they are known: they change slowly
 } // namespace
 
@@ -74,12 +81,27 @@ void vpPatternTracker::Impl::startAll(const vpImage<unsigned char> &image, bool 
   expectCells(expected);
   const std::size_t n = m_frame.cells.size();
   m_fits.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
+  forCells([&](std::size_t i, int thread) {
     if (i + 1 < n) {
       vpCellAligner::prefetch(image, m_bank, m_startX[i + 1], m_startY[i + 1]);
     }
     const bool withSlopes = m_slopeWeight < slopeMemory || (i + m_frame.index) % slopesEvery == 0;
-    m_fits[i] = m_aligner.align(image, m_bank, m_startX[i], m_startY[i], withSlopes);
+    m_fits[i] =
+        m_aligners[static_cast<std::size_t>(thread)]->align(image, m_bank, m_startX[i], m_startY[i], withSlopes);
+    const vpCellFit &fit = m_fits[i];
+    m_use[i] = useOf(fit.ok, i);
+    m_columns[offsetX][i] = fit.x - m_startX[i];
+    m_columns[offsetY][i] = fit.y - m_startY[i];
+    m_columns[variance][i] = fit.variance;
+    m_columns[contrast][i] = fit.contrast;
+    m_columns[sigma][i] = std::sqrt(fit.variance * (fit.xx + fit.yy));
+  });
+}
+
+void vpPatternTracker::Impl::setSlopes()
+{
+  for (const auto &aligner : m_aligners) {
+    aligner->setSlopes(m_slopes);
   }
 }
 
@@ -87,36 +109,26 @@ void vpPatternTracker::Impl::startAll(const vpImage<unsigned char> &image, bool 
 // positions of known, clean cells have changed: these are other cells.
 bool vpPatternTracker::Impl::deviateAsBefore()
 {
-  const std::size_t n = m_frame.cells.size();
-  bool anyKnown = false;
-  for (std::size_t i = 0; i < n; ++i) {
-    anyKnown = anyKnown || (m_fits[i].ok && m_ownStart[i] != 0);
-  }
-  const auto shift = [&](const std::vector<double> &start, double vpCellFit::*centre) {
-    m_scratch.clear();
-    for (std::size_t i = 0; i < n; ++i) {
-      if (m_fits[i].ok && (!anyKnown || m_ownStart[i] != 0)) {
-        m_scratch.push_back(m_fits[i].*centre - start[i]);
-      }
-    }
-    return vpRobustMean::median(m_scratch);
-  };
-  m_shiftX = shift(m_startX, &vpCellFit::x);
-  m_shiftY = shift(m_startY, &vpCellFit::y);
+  const unsigned char least = leastUse();
+  m_workers.run(2, [&](int axis, int) {
+    std::vector<double> &room = axis == 0 ? m_scratch : m_scratch2;
+    vpRobustMean::choose(m_columns[axis == 0 ? offsetX : offsetY], m_use, least, room);
+    (axis == 0 ? m_shiftX : m_shiftY) = vpRobustMean::median(room);
+  });
   m_scratch.clear();
-  double sigma = 0.;
-  for (std::size_t i = 0; i < n; ++i) {
-    const vpCellFit &fit = m_fits[i];
-    if (m_ownStart[i] != 0 && fit.ok && fit.variance < dirty * m_noise + allowance()) {
-      const double ex = fit.x - m_startX[i] - m_shiftX, ey = fit.y - m_startY[i] - m_shiftY;
+  double deviations = 0.;
+  const double clean = dirty * m_noise + allowance();
+  for (std::size_t i = 0; i < m_use.size(); ++i) {
+    if (m_use[i] == static_cast<unsigned char>(Use::Known) && m_columns[variance][i] < clean) {
+      const double ex = m_columns[offsetX][i] - m_shiftX, ey = m_columns[offsetY][i] - m_shiftY;
       m_scratch.push_back(std::sqrt(ex * ex + ey * ey));
-      sigma += std::sqrt(fit.variance * (fit.xx + fit.yy));
+      deviations += m_columns[sigma][i];
     }
   }
-  const double count = static_cast<double>(m_scratch.size()), calm = std::max(0.1, 6. * sigma / count);
+  const double count = static_cast<double>(m_scratch.size()), calm = std::max(0.1, 6. * deviations / count);
   const double limit = m_restless > 0 ? 3. * calm : calm; // in perspective the deviations turn, too
   const double usual = vpRobustMean::median(m_scratch);
-  if (count < 3. || usual < 2. * sigma / count) {
+  if (count < 3. || usual < 2. * deviations / count) {
     return true;
   }
   return turnLattice(limit) || count < 4. || usual < limit;
@@ -189,22 +201,17 @@ double vpPatternTracker::Impl::allowance() const { return 1e-4 * m_bank.range() 
 void vpPatternTracker::Impl::validate(const vpImage<unsigned char> &image)
 {
   const std::size_t n = m_frame.cells.size();
-  const auto median = [&](auto value) {
-    m_scratch.clear();
-    for (std::size_t i = 0; i < n; ++i) {
-      if (m_fits[i].ok) {
-        m_scratch.push_back(value(i));
-      }
-    }
-    return vpRobustMean::median(m_scratch);
-  };
+  double now = 0., usualContrast = 0.;
+  m_workers.run(2, [&](int k, int) {
+    std::vector<double> &room = k == 0 ? m_scratch : m_scratch2;
+    vpRobustMean::choose(m_columns[k == 0 ? variance : contrast], m_use, static_cast<unsigned char>(Use::New), room);
+    (k == 0 ? now : usualContrast) = vpRobustMean::median(room);
+  });
   // Usual residuals, also when the light changes or most cells are dirty.
-  const double now = median([&](std::size_t i) { return m_fits[i].variance; });
   const double usual = m_noise > 0. ? std::clamp(now, 0.5 * m_noise, 2. * m_noise) : std::max(now, 0.05);
-  const double contrast = median([&](std::size_t i) { return m_fits[i].contrast; });
   const double pitch = std::min(std::hypot(m_lattice.ax, m_lattice.ay), std::hypot(m_lattice.bx, m_lattice.by));
   const double newGate = std::clamp(0.12 * pitch, 0.5, 4.);
-  for (std::size_t i = 0; i < n; ++i) {
+  forCells([&](std::size_t i, int thread) {
     vpCellFit &fit = m_fits[i];
     const double gate = m_ownStart[i] == 0 ? newGate : std::min(m_restless > 0 ? 3. * knownGate : knownGate, newGate);
     const auto near = [&](const vpCellFit &f) {
@@ -212,25 +219,26 @@ void vpPatternTracker::Impl::validate(const vpImage<unsigned char> &image)
       return dx * dx + dy * dy < gate * gate;
     };
     if (!fit.ok || fit.variance > dirty * usual + allowance() || !near(fit)) {
-      fit = m_aligner.alignMasked(image, m_bank, m_startX[i] + m_shiftX, m_startY[i] + m_shiftY, std::sqrt(usual));
+      fit = m_aligners[static_cast<std::size_t>(thread)]->alignMasked(image, m_bank, m_startX[i] + m_shiftX,
+                                                                      m_startY[i] + m_shiftY, std::sqrt(usual));
     }
     vpPatternCell &cell = m_frame.cells[i];
     const double hidden = fit.masked ? maskedSigma * maskedSigma : 0.;
     const double sx = std::sqrt(fit.variance * fit.xx + hidden), sy = std::sqrt(fit.variance * fit.yy + hidden);
-    cell.valid = fit.ok && fit.variance < hopeless * usual + allowance() && fit.contrast > 0.5 * contrast &&
-                 fit.contrast < 2. * contrast && near(fit) && sx < m_spec.maxCellSigma && sy < m_spec.maxCellSigma;
+    cell.valid = fit.ok && fit.variance < hopeless * usual + allowance() && fit.contrast > 0.5 * usualContrast &&
+                 fit.contrast < 2. * usualContrast && near(fit) && sx < m_spec.maxCellSigma && sy < m_spec.maxCellSigma;
     if (cell.valid) {
       cell.x = fit.x;
       cell.y = fit.y;
       const double doubt = std::max(leastDoubt, 0.5 * newGate); // the centre is anywhere within the gate
       cell.sigmaX = fit.doubtX ? std::hypot(sx, doubt) : sx;
       cell.sigmaY = fit.doubtY ? std::hypot(sy, doubt) : sy;
-      ++m_frame.validCells;
     }
-  }
+  });
   vpSlopes sum{};
   int clean = 0;
   for (std::size_t i = 0; i < n; ++i) {
+    m_frame.validCells += m_frame.cells[i].valid ? 1 : 0;
     if (m_frame.cells[i].valid && m_fits[i].hasSlopes) {
       ++clean;
       for (std::size_t k = 0; k < sum.size(); ++k) {
@@ -245,7 +253,7 @@ void vpPatternTracker::Impl::validate(const vpImage<unsigned char> &image)
     for (std::size_t k = 0; k < sum.size(); ++k) {
       m_slopes[k] += gain * (sum[k] / clean - m_slopes[k]);
     }
-    m_aligner.setSlopes(m_slopes);
+    setSlopes();
   }
   if (2 * m_frame.validCells >= static_cast<int>(n) && m_frame.validCells > 0) {
     m_noise += (m_noise > 0. ? 0.1 : 1.) * (usual - m_noise);
@@ -338,21 +346,40 @@ void vpPatternTracker::Impl::follow(const vpImage<unsigned char> &image)
 // The common part of the deviations belongs to the lattice; the rest stays with the cells.
 void vpPatternTracker::Impl::updateDeviations()
 {
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Eigen::Matrix<double, 3, 2> right = Eigen::Matrix<double, 3, 2>::Zero();
   // A cell in doubt may be the edge of something else: learned from, it would be expected, and found, where that was. While the
   // template is learned anew it does not fit, and doubt says little.
   const auto teaches = [this](std::size_t i) {
     return m_frame.cells[i].valid && (m_hurry > 0 || (!m_fits[i].doubtX && !m_fits[i].doubtY));
   };
-  for (std::size_t i = 0; i < m_frame.cells.size(); ++i) {
-    if (teaches(i)) {
-      const vpPatternCell &cell = m_frame.cells[i];
-      const int r = cell.row - m_row, c = cell.column - m_column;
-      const Eigen::Vector3d a(1., c, r);
-      normal += a * a.transpose();
-      right += a * Eigen::RowVector2d(cell.x - m_lattice.x(r, c), cell.y - m_lattice.y(r, c));
+  m_stripSums.resize((m_frame.cells.size() + cellsOfStrip - 1) / cellsOfStrip);
+  forStrips([&](std::size_t strip, std::size_t begin, std::size_t end, int) {
+    StripSums s;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (teaches(i)) {
+        const vpPatternCell &cell = m_frame.cells[i];
+        const double r = cell.row - m_row, c = cell.column - m_column;
+        const double x = cell.x - m_lattice.x(r, c), y = cell.y - m_lattice.y(r, c);
+        s.n += 1.;
+        s.c += c;
+        s.r += r;
+        s.cc += c * c;
+        s.cr += c * r;
+        s.rr += r * r;
+        s.x += x;
+        s.cx += c * x;
+        s.rx += r * x;
+        s.y += y;
+        s.cy += c * y;
+        s.ry += r * y;
+      }
     }
+    m_stripSums[strip] = s;
+  });
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Matrix<double, 3, 2> right = Eigen::Matrix<double, 3, 2>::Zero();
+  for (const StripSums &s : m_stripSums) {
+    normal += (Eigen::Matrix3d() << s.n, s.c, s.r, s.c, s.cc, s.cr, s.r, s.cr, s.rr).finished();
+    right += (Eigen::Matrix<double, 3, 2>() << s.x, s.y, s.cx, s.cy, s.rx, s.ry).finished();
   }
   normal(1, 1) += 1e-3; // one row or one column alone does not determine the other vector
   normal(2, 2) += 1e-3;
@@ -366,7 +393,7 @@ void vpPatternTracker::Impl::updateDeviations()
     m_lattice.bx += s(2, 0);
     m_lattice.by += s(2, 1);
   }
-  for (std::size_t i = 0; i < m_frame.cells.size(); ++i) {
+  forSlots([&](std::size_t i) {
     vpPatternCell &cell = m_frame.cells[i];
     const int r = cell.row - m_row, c = cell.column - m_column;
     vpCellMemory::Slot *slot = m_memory.find(cell.row, cell.column);
@@ -388,7 +415,7 @@ void vpPatternTracker::Impl::updateDeviations()
     }
     cell.deviationX = slot != nullptr ? slot->offsetX : 0.;
     cell.deviationY = slot != nullptr ? slot->offsetY : 0.;
-  }
+  });
 }
 
 END_VISP_NAMESPACE

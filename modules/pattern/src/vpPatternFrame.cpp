@@ -85,6 +85,7 @@ void vpPatternTrackerSpec::check() const
   inRange("refreshEvery", refreshEvery, 0, 1000000);
   inRange("maxCellSigma", maxCellSigma, 1e-6, 10.);
   inRange("maxLostFrames", maxLostFrames, 0, 1000000);
+  inRange("threads", threads, 1, 64);
 }
 
 const char *vpToString(vpPatternMethod method)

@@ -130,7 +130,7 @@ bool vpPatternTracker::Impl::exchange(const vpImage<unsigned char> &image)
   for (std::size_t i = 0; i < n; i += step) {
     const vpPatternCell &cell = m_frame.cells[i];
     if (isGoodExample(i)) {
-      const vpCellFit fit = m_aligner.align(image, m_bank, cell.x, cell.y, false);
+      const vpCellFit fit = m_aligners[0]->align(image, m_bank, cell.x, cell.y, false);
       before += m_fits[i].variance;
       after += fit.ok ? fit.variance : HUGE_VAL;
       dx += fit.x - cell.x;

@@ -16,7 +16,8 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
-constexpr double unknownVariance = 0.01; // px^2, of centres with unknown variance: any equal value works
+constexpr std::size_t enoughForThreads = 128; // cells: waking a thread takes as long as some of them
+constexpr double unknownVariance = 0.01;      // px^2, of centres with unknown variance: any equal value works
 
 std::size_t roomForCells(unsigned int width, unsigned int height, double minPitch)
 {
@@ -114,7 +115,7 @@ vpPatternTracker::Impl::Impl(unsigned int width, unsigned int height, const vpPa
   : m_spec(checkedOptions(spec)), m_width(checkedSize("width", width)), m_height(checkedSize("height", height)),
     m_maxCells(roomForCells(width, height, spec.minPitch)), m_labels(width, height, m_maxCells), m_fitter(m_maxCells),
     m_learner(roomForPixels(width, height)), m_bank(roomForPixels(width, height)),
-    m_nextBank(spec.refreshEvery > 0 ? roomForPixels(width, height) : 0), m_aligner(roomForPixels(width, height)),
+    m_nextBank(spec.refreshEvery > 0 ? roomForPixels(width, height) : 0), m_workers(spec.threads),
     m_memory(4 * m_maxCells + 64), m_meanX(m_maxCells), m_meanY(m_maxCells)
 {
   m_frame.cells.reserve(m_maxCells);
@@ -122,6 +123,15 @@ vpPatternTracker::Impl::Impl(unsigned int width, unsigned int height, const vpPa
   m_startX.reserve(m_maxCells);
   m_startY.reserve(m_maxCells);
   m_scratch.reserve(m_maxCells);
+  m_scratch2.reserve(m_maxCells);
+  m_use.reserve(m_maxCells);
+  for (std::vector<double> &column : m_columns) {
+    column.reserve(m_maxCells);
+  }
+  m_stripSums.reserve(m_maxCells / cellsOfStrip + 1);
+  for (int k = 0; k < spec.threads; ++k) {
+    m_aligners.push_back(std::make_unique<vpCellAligner>(roomForPixels(width, height)));
+  }
   m_ownStart.reserve(m_maxCells);
   reset();
 }
@@ -159,7 +169,11 @@ const vpPatternFrame &vpPatternTracker::Impl::process(const vpImage<unsigned cha
     lose(vpPatternReason::WrongSize, vpPatternStatus::Lost);
   }
   else if (m_stage == Stage::Locked) {
+    if (m_fits.size() >= enoughForThreads) { // of the last image
+      m_workers.begin();
+    }
     follow(image);
+    m_workers.end();
   }
   else {
     acquire(image);
@@ -224,7 +238,11 @@ void vpPatternTracker::Impl::expectCells(bool deviations)
   m_startX.resize(n);
   m_startY.resize(n);
   m_ownStart.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
+  m_use.resize(n);
+  for (std::vector<double> &column : m_columns) {
+    column.resize(n);
+  }
+  forCells([&](std::size_t i, int) {
     const vpPatternCell &cell = m_frame.cells[i];
     double x = 0., y = 0.;
     // Cells that return are remembered, but the lattice has moved since.
@@ -232,57 +250,68 @@ void vpPatternTracker::Impl::expectCells(bool deviations)
     m_ownStart[i] = own && wasInLast(*m_memory.find(cell.row, cell.column)) ? 1 : 0;
     m_startX[i] = cell.x + x;
     m_startY[i] = cell.y + y;
-  }
+  });
+}
+
+// Use of a cell's measurement.
+unsigned char vpPatternTracker::Impl::useOf(bool measured, std::size_t cell) const
+{
+  return static_cast<unsigned char>(!measured ? Use::No : m_ownStart[cell] == 0 ? Use::New : Use::Known);
+}
+
+// Known cells show the common motion, new ones their deviations, too: these count where there are no others.
+unsigned char vpPatternTracker::Impl::leastUse() const
+{
+  const auto known = static_cast<unsigned char>(Use::Known);
+  return std::find(m_use.begin(), m_use.end(), known) != m_use.end() ? known : static_cast<unsigned char>(Use::New);
 }
 
 // Move the lattice onto the cells: the known ones determine its motion, the others their deviations.
 void vpPatternTracker::Impl::updateLattice()
 {
-  const std::size_t n = m_frame.cells.size();
-  bool anyKnown = false;
-  for (std::size_t i = 0; i < n; ++i) {
-    anyKnown = anyKnown || (m_frame.cells[i].valid && m_ownStart[i] != 0);
-  }
   const auto variance = [](double sigma) { return std::isfinite(sigma) ? sigma * sigma : unknownVariance; };
-  m_meanX.clear();
-  m_meanY.clear();
-  for (std::size_t i = 0; i < n; ++i) {
+  forCells([&](std::size_t i, int) {
     const vpPatternCell &cell = m_frame.cells[i];
-    if (cell.valid && (!anyKnown || m_ownStart[i] != 0)) {
-      m_meanX.add(cell.x - m_startX[i], variance(cell.sigmaX));
-      m_meanY.add(cell.y - m_startY[i], variance(cell.sigmaY));
-    }
-  }
+    m_use[i] = useOf(cell.valid, i);
+    m_columns[0][i] = cell.x - m_startX[i];
+    m_columns[1][i] = cell.y - m_startY[i];
+    m_columns[2][i] = variance(cell.sigmaX);
+    m_columns[3][i] = variance(cell.sigmaY);
+  });
+  const unsigned char least = leastUse();
   const bool aligned = m_stage == Stage::Locked; // then the shift is known, and is as good a centre as the median
-  m_lattice.ox += (aligned ? m_meanX.mean(m_shiftX) : m_meanX.mean()).value;
-  m_lattice.oy += (aligned ? m_meanY.mean(m_shiftY) : m_meanY.mean()).value;
+  m_workers.run(2, [&](int axis, int) {
+    const std::size_t k = static_cast<std::size_t>(axis);
+    vpRobustMean &mean = axis == 0 ? m_meanX : m_meanY;
+    mean.assign(m_columns[k], m_columns[k + 2], m_use, least);
+    (axis == 0 ? m_lattice.ox : m_lattice.oy) +=
+        (aligned ? mean.mean(axis == 0 ? m_shiftX : m_shiftY) : mean.mean()).value;
+  });
 }
 
 void vpPatternTracker::Impl::measureMotion()
 {
   // Centres from edges get their deviation from the spread of their motion; before that, any equal value works.
   const bool edges = m_stage != Stage::Locked || m_spec.method != vpPatternMethod::GaussNewton;
-  m_meanX.clear();
-  m_meanY.clear();
-  double squaresX = 0., squaresY = 0., sumX = 0., sumY = 0.;
-  int n = 0;
-  for (const vpPatternCell &cell : m_frame.cells) {
+  forCells([&](std::size_t i, int) {
+    const vpPatternCell &cell = m_frame.cells[i];
     const vpCellMemory::Slot *slot = cell.valid ? m_memory.find(cell.row, cell.column) : nullptr;
-    if (slot == nullptr || slot->frame + 1 != m_frame.index) {
-      continue;
+    m_use[i] = slot != nullptr && slot->frame + 1 == m_frame.index ? 1 : 0;
+    if (m_use[i] != 0) {
+      const bool unknown = !std::isfinite(cell.sigmaX) || !std::isfinite(slot->varianceX);
+      m_columns[0][i] = cell.x - slot->x;
+      m_columns[1][i] = cell.y - slot->y;
+      m_columns[2][i] = unknown ? unknownVariance : cell.sigmaX * cell.sigmaX + slot->varianceX;
+      m_columns[3][i] = unknown ? unknownVariance : cell.sigmaY * cell.sigmaY + slot->varianceY;
     }
-    const double dx = cell.x - slot->x, dy = cell.y - slot->y;
-    const bool unknown = !std::isfinite(cell.sigmaX) || !std::isfinite(slot->varianceX);
-    m_meanX.add(dx, unknown ? unknownVariance : cell.sigmaX * cell.sigmaX + slot->varianceX);
-    m_meanY.add(dy, unknown ? unknownVariance : cell.sigmaY * cell.sigmaY + slot->varianceY);
-    sumX += dx;
-    sumY += dy;
-    squaresX += dx * dx;
-    squaresY += dy * dy;
-    ++n;
-  }
-  const vpRobustMean::Result x = edges ? m_meanX.mean() : m_meanX.mean(m_vx); // the lattice has moved by m_vx
-  const vpRobustMean::Result y = edges ? m_meanY.mean() : m_meanY.mean(m_vy);
+  });
+  vpRobustMean::Result x, y;
+  m_workers.run(2, [&](int axis, int) {
+    const std::size_t k = static_cast<std::size_t>(axis);
+    vpRobustMean &mean = axis == 0 ? m_meanX : m_meanY;
+    mean.assign(m_columns[k], m_columns[k + 2], m_use, 1);
+    (axis == 0 ? x : y) = edges ? mean.mean() : mean.mean(axis == 0 ? m_vx : m_vy); // the lattice has moved by this
+  });
   m_frame.hasMotion = x.count > 0 && y.count > 0;
   if (!m_frame.hasMotion) {
     return;
@@ -294,6 +323,18 @@ void vpPatternTracker::Impl::measureMotion()
   if (edges) {
     m_vx = x.value;
     m_vy = y.value;
+    double squaresX = 0., squaresY = 0., sumX = 0., sumY = 0.;
+    int n = 0;
+    for (std::size_t i = 0; i < m_use.size(); ++i) {
+      if (m_use[i] != 0) {
+        const double dx = m_columns[0][i], dy = m_columns[1][i];
+        sumX += dx;
+        sumY += dy;
+        squaresX += dx * dx;
+        squaresY += dy * dy;
+        ++n;
+      }
+    }
     if (n >= 3) {
       const double vx = std::max(1e-6, 0.5 * (squaresX - sumX * sumX / n) / (n - 1));
       const double vy = std::max(1e-6, 0.5 * (squaresY - sumY * sumY / n) / (n - 1));
@@ -305,7 +346,8 @@ void vpPatternTracker::Impl::measureMotion()
 
 void vpPatternTracker::Impl::remember()
 {
-  for (const vpPatternCell &cell : m_frame.cells) {
+  forSlots([&](std::size_t i) {
+    const vpPatternCell &cell = m_frame.cells[i];
     if (cell.valid) {
       vpCellMemory::Slot &slot = m_memory.claim(cell.row, cell.column);
       slot.x = cell.x;
@@ -314,7 +356,7 @@ void vpPatternTracker::Impl::remember()
       slot.varianceY = cell.sigmaY * cell.sigmaY;
       slot.frame = m_frame.index;
     }
-  }
+  });
 }
 
 // Keep the lattice's own (0, 0) near the middle of the view: far away an error of the pitch would shift the cells.

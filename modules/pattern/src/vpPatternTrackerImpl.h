@@ -9,10 +9,14 @@
 #include "vpCellAligner.h"
 #include "vpLatticeFit.h"
 #include "vpPatternSpot.h"
+#include "vpPatternWorkers.h"
 #include "vpRobustMean.h"
 
 #include <visp3/pattern/vpPatternTracker.h>
 
+#include <algorithm>
+#include <array>
+#include <memory>
 #include <vector>
 
 BEGIN_VISP_NAMESPACE
@@ -34,6 +38,11 @@ public:
 
   //! Forget everything, and set the number of rows and columns stored at a time, within the capacity.
   void shape(int rows, int columns);
+  //! Whether so many rows and columns fit at a time.
+  [[nodiscard]] bool holds(int rows, int columns) const
+  {
+    return rows <= 1 << m_rowBits && columns <= 1 << m_columnBits;
+  }
   //! Forget everything, in constant time: old entries belong to another generation.
   void clear() { ++m_generation; }
   //! The cell if it is stored, or null.
@@ -83,6 +92,7 @@ private:
   void follow(const vpImage<unsigned char> &image);
   bool alignAll(const vpImage<unsigned char> &image);
   void startAll(const vpImage<unsigned char> &image, bool expected = true);
+  void setSlopes();
   bool mostKnownAreGone() const;
   bool deviateAsBefore();
   double allowance() const;
@@ -102,11 +112,45 @@ private:
   struct Range {
     int rowLow, rowHigh, columnLow, columnHigh;
   };
+  // Calls strip(index, begin, end, thread) for each 64 cells of m_frame, in several threads. What is summed over the cells is summed
+  // strip by strip, so that results do not depend on their number.
+  static constexpr std::size_t cellsOfStrip = 64;
+  template <class Strip> void forStrips(const Strip &strip)
+  {
+    const std::size_t n = m_frame.cells.size();
+    m_workers.run(static_cast<int>((n + cellsOfStrip - 1) / cellsOfStrip), [&](int part, int thread) {
+      const std::size_t k = static_cast<std::size_t>(part), begin = k * cellsOfStrip;
+      strip(k, begin, std::min(n, begin + cellsOfStrip), thread);
+    });
+  }
+  // Calls cell(index, thread) for each cell, likewise.
+  template <class Cell> void forCells(const Cell &cell)
+  {
+    forStrips([&](std::size_t, std::size_t begin, std::size_t end, int thread) {
+      for (std::size_t i = begin; i < end; ++i) {
+        cell(i, thread);
+      }
+    });
+  }
+  // The same for a cell(index) that writes to the cell's slot in the memory.
+  template <class Cell> void forSlots(const Cell &cell)
+  {
+    const Range range = inView(0., 0.);
+    if (m_memory.holds(range.rowHigh - range.rowLow + 1, range.columnHigh - range.columnLow + 1)) {
+      forCells([&](std::size_t i, int) { cell(i); });
+      return;
+    }
+    for (std::size_t i = 0; i < m_frame.cells.size(); ++i) { // two cells may have the same
+      cell(i);
+    }
+  }
   Range inView(double halfWidth, double halfHeight) const;
   void listCells(double halfWidth, double halfHeight);
   double usualCells() const;
   void updateShare();
   void expectCells(bool deviations);
+  unsigned char useOf(bool measured, std::size_t cell) const;
+  unsigned char leastUse() const;
   void updateLattice();
   void measureMotion();
   bool wasInLast(const vpCellMemory::Slot &slot) const { return slot.frame + 1 + m_gap == m_frame.index; }
@@ -124,7 +168,8 @@ private:
   vpLatticeFit m_fitter;
   vpTemplateLearner m_learner;
   vpTemplateBank m_bank, m_nextBank;
-  vpCellAligner m_aligner;
+  vpPatternWorkers m_workers;
+  std::vector<std::unique_ptr<vpCellAligner>> m_aligners; // one for each thread
   vpCellMemory m_memory;
   vpRobustMean m_meanX, m_meanY;
 
@@ -152,7 +197,16 @@ private:
          m_edgeVarianceY = 0.;         // of centres from edges, from the spread of their motion; 0: unknown
   std::vector<vpCellFit> m_fits;       // of the cells of m_frame
   double m_shiftX = 0., m_shiftY = 0.; // common shift of all cells from their start
-  std::vector<double> m_startX, m_startY, m_scratch;
+  std::vector<double> m_startX, m_startY, m_scratch, m_scratch2;
+  // Of each cell, for medians and means over them: copies side by side, as the cells' own data are spread over the caches of
+  // the processors.
+  enum class Use : unsigned char { No, New, Known };
+  std::vector<unsigned char> m_use;
+  std::array<std::vector<double>, 5> m_columns;
+  struct StripSums { // over cells: of 1, c, r and their products, and of their products with the deviations
+    double n = 0., c = 0., r = 0., cc = 0., cr = 0., rr = 0., x = 0., cx = 0., rx = 0., y = 0., cy = 0., ry = 0.;
+  };
+  std::vector<StripSums> m_stripSums;
   std::vector<unsigned char> m_ownStart; // the start of the cell includes its own deviation
 };
 

@@ -112,16 +112,24 @@ vpRobustMean::vpRobustMean(std::size_t capacity)
   m_scratch.reserve(capacity);
 }
 
-void vpRobustMean::clear()
+void vpRobustMean::choose(const std::vector<double> &values, const std::vector<unsigned char> &use, unsigned char least,
+                          std::vector<double> &chosen)
 {
-  m_values.clear();
-  m_variances.clear();
+  const std::size_t n = use.size();
+  chosen.resize(n);
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    chosen[k] = values[i];
+    k += use[i] >= least ? 1 : 0;
+  }
+  chosen.resize(k);
 }
 
-void vpRobustMean::add(double value, double variance)
+void vpRobustMean::assign(const std::vector<double> &values, const std::vector<double> &variances,
+                          const std::vector<unsigned char> &use, unsigned char least)
 {
-  m_values.push_back(value);
-  m_variances.push_back(variance);
+  choose(values, use, least, m_values);
+  choose(variances, use, least, m_variances);
 }
 
 double vpRobustMean::median(std::vector<double> &values)

@@ -21,8 +21,12 @@ public:
   };
   explicit vpRobustMean(std::size_t capacity);
 
-  void clear();
-  void add(double value, double variance);
+  //! Those values with which \e use is at least \e least.
+  void assign(const std::vector<double> &values, const std::vector<double> &variances,
+              const std::vector<unsigned char> &use, unsigned char least);
+  //! The same without variances, to \e chosen; without branches that depend on the values.
+  static void choose(const std::vector<double> &values, const std::vector<unsigned char> &use, unsigned char least,
+                     std::vector<double> &chosen);
   //! Tukey's biweight about \e centre, each value weighted with its variance.
   Result mean(double centre);
   //! Tukey's biweight about the median.

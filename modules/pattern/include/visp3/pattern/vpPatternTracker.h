@@ -37,7 +37,7 @@ public:
   /*!
    * \param width, height Size of the images, px, each in [16, 16384].
    * \param spec Validated here.
-   * \throw vpException (badValue) that names what is out of range, and its value.
+   * \throw vpException (badValue) that names what is out of range, and its value; (fatalError) when a thread cannot be started.
    */
   vpPatternTracker(unsigned int width, unsigned int height, const vpPatternTrackerSpec &spec = vpPatternTrackerSpec());
   ~vpPatternTracker();

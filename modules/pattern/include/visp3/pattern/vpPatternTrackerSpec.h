@@ -58,6 +58,14 @@ struct VISP_EXPORT vpPatternTrackerSpec {
   int refreshEvery = 128;
   double maxCellSigma = 0.25; //!< Maximum standard deviation of a valid cell, px, in (0, 10].
   int maxLostFrames = 20;     //!< Frames without a lock after which the identities restart, in [0, 1000000].
+  /*!
+   * Threads that share the cells of an image, the caller's included, in [1, 64]; for images with 128 cells and more while
+   * tracking. Results are the same for any number, to the last bit. The others are started by the constructor, with the
+   * scheduling policy, priority and processors of its thread. They sleep between images, and keep their processors busy during one.
+   * process() takes no lock; it waits only for parts (64 cells) that another thread has begun, and does what none has.
+   * FreeBSD and Linux; elsewhere one thread does everything.
+   */
+  int threads = 1;
 
   //! \throw vpException (badValue) that names the first field that is out of range, and its value.
   void check() const;
