@@ -50,7 +50,7 @@ as_root() {
 }
 
 apt_install() {
-  local get=(apt-get -y -o DPkg::Lock::Timeout=300)
+  local get=(apt-get -y -o DPkg::Lock::Timeout=300 -o Dpkg::Options::=--force-confold) # nobody is there to answer
   as_root "${get[@]}" install --no-install-recommends "$@" && return
   # Package lists missing or out of date: fetch them once and retry.
   as_root "${get[@]}" update && as_root "${get[@]}" install --no-install-recommends "$@"

@@ -29,7 +29,7 @@ const vpFields<vpReferencePoseSpec> &vpReferencePoseSpec::fields()
        "Smallest distance d that the reference camera may have from the plane"},
       {"farthest", &Spec::farthest, vpFieldRange::positive(1000.), "m", "Largest distance, at least nearest"},
       {"caution", &Spec::caution, vpFieldRange::notNegative(10.), "",
-       "Standard deviations of 1/d by which the scale is on the near side"},
+       "Number of standard deviations of 1/d by which the scale is on the near side"},
       {"tilt", &Spec::tilt, vpFieldRange::positive(10.), "rad",
        "Standard deviation of the plane's tilt against the reference image"},
       {"slowness", &Spec::slowness, vpFieldRange::positive(1.), "",
