@@ -1,7 +1,8 @@
 # visp-direct: direct methods for vision-based robot control, for ViSP.
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Plugin of pytest (-p calls): notes which functions of visp_direct the tests call, and calls each again and again as the first test
-did, rightly and wrongly, to see whether memory is lost. Writes the file VISP_DIRECT_CALLS: {name: [calls, what was lost or ""]}."""
+did, rightly and wrongly, to see whether memory is lost, if one call takes less than VISP_DIRECT_CHEAP (s). Writes the file
+VISP_DIRECT_CALLS: {name: [calls, what was lost or ""]}."""
 import ctypes
 import gc
 import inspect
@@ -14,7 +15,8 @@ import time
 import visp_direct as vd
 import visp_direct._core as core
 
-CHEAP, BUDGET, LONGEST = 0.03, 0.005, 3  # s: CPU of one call, of many calls of a function; of these, on the clock
+CHEAP = float(os.environ["VISP_DIRECT_CHEAP"])  # s, CPU time of one call of what is called again
+BUDGET, LONGEST = 0.005, 3  # s: CPU time of many calls of a function; of these, on the clock
 # They keep what they are given, and are not called again.
 KEEPING = {"CollisionScene.add", "PlanarMicroscopeCalibration.addView", "TsaiCalibration.addView", "VisionChannel.push"}
 FIRST = {}  # name: function and arguments of a call that succeeded, and CPU time of it

@@ -62,9 +62,10 @@ def test_stubs_have_the_same_names():
 @pytest.fixture(scope="module")
 def calls(tmp_path_factory):
     """What calls.py writes of a run of the other tests."""
-    files = [HERE / f"test_{name}.py" for name in "arm motion observers perception printing servo simulation trajectory vision".split()]
+    files = [HERE / f"test_{name}.py" for name in "arm motion observers perception printing servo simulation specs trajectory vision".split()]
     written = tmp_path_factory.mktemp("calls") / "calls.json"
     environment = {**os.environ, "VISP_DIRECT_CALLS": str(written), "VISP_DIRECT_SEED": "", "VISP_DIRECT_LONG_TESTS": "1"}
+    environment["VISP_DIRECT_CHEAP"] = "0.03" if longer(1) > 1 else "0.0005"  # with the former it takes minutes
     environment["PYTHONPATH"] = f"{HERE}:{environment.get('PYTHONPATH', '')}"
     command = [sys.executable, "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", "-p", "calls", *map(str, files)]
     run = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=1000)
@@ -81,7 +82,7 @@ def test_every_function_is_called_by_a_test(calls):
 
 
 def test_nothing_leaks(calls):
-    """More than 10^5 calls, right and wrong ones, of each function of which one takes at most 30 ms."""
+    """More than 10^5 calls, right and wrong ones, of each function of which one takes at most 0.5 ms, in long tests 30 ms."""
     assert {name: said for name, (_, said) in calls.items() if said} == {}
     assert sum(count for count, _ in calls.values()) > 1e5
     assert sum(count > 0 for count, _ in calls.values()) > 0.9 * len(calls)
