@@ -58,7 +58,7 @@ TEST_CASE("The list has the laws of a plug-in", "[visp-servo-compare][plugin]")
   REQUIRE(run(PLUGIN_OPTION + "--list") == 0);
   CHECK(run.out().find("  again            Does what pbvs1 does, from a plug-in.\n") != std::string::npos);
   REQUIRE(run("--list") == 0);
-  CHECK(run.out().find("again ") == std::string::npos);
+  CHECK(run.out().find("  again ") == std::string::npos);
 }
 
 TEST_CASE("What is wrong with a plug-in is one sentence", "[visp-servo-compare][plugin][errors]")
