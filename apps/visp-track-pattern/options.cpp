@@ -114,6 +114,8 @@ void addMethod(vpApp::CommandLine &line, vpPatternTrackerSpec &tracker)
                {"prewitt", vpPatternDerivative::Prewitt},
                {"sobel", vpPatternDerivative::Sobel}},
               "Derivative filter of the two thesis methods");
+  line.whole("--threads", tracker.threads, {1, 64}, "N",
+             "Threads that share the cells of an image of 128 cells and more; results are the same");
   line.choice("--polarity", tracker.polarity,
               {{"automatic", vpPatternPolarity::Automatic},
                {"bright", vpPatternPolarity::Bright},

@@ -55,6 +55,7 @@ TEST_CASE("Bad use ends with a sentence and nothing written", "[visp-track-patte
       {"--camera front", USAGE, "--camera is front, must be a number or /dev/videoN"},
       {"--camera 9999", DATA, "/dev/video9999: the camera cannot be opened (No such file or directory)"},
       {"/dev/video9999", DATA, "/dev/video9999: the camera cannot be opened (No such file or directory)"},
+      {"good.png --threads 0", USAGE, "--threads is 0"},
       {"none", DATA, "none: there is no such file or folder"},
       {"none.png", DATA, "none.png: there is no such file or folder"},
       {"good.png none.png", DATA, "none.png: cannot be read (there is no such file)"},
