@@ -60,7 +60,7 @@ struct VispRobot {
 };
 //! The robots of ViSP that this program knows.
 [[nodiscard]] const std::vector<VispRobot> &robotsOfVisp();
-//! \throw vpApp::UsageError for a word that is none of them; std::runtime_error if ViSP was built without it.
+//! \throw vpApp::UsageError if ViSP has no robot of this name; std::runtime_error if the installed ViSP was built without it.
 void requireVispRobot(const std::string &word);
 
 /*!

@@ -45,8 +45,7 @@ struct Laws : vpRegistry<vpServoLaw::Maker> {
     addOurs("kyrki-rot2", makeKyrki, 2., "kyrki with twice the rotation gain.");
     addOurs("kyrki-decoupled", makeKyrkiDecoupled, 1.,
             "kyrki without compensation of the translation: the rotation follows the image error alone, as section "
-            "5.4.4 of "
-            "the thesis may be read.");
+            "5.4.4 of the thesis may be read.");
     addOurs("ff-sum", makeFeedforwardSum, 1.,
             "The thesis' law, corrected: pbvs1 plus the bearing of the object as a feedforward of the rotation.");
     addOurs("ff-lookat", makeLookAt, lookAtFactor,
@@ -55,8 +54,7 @@ struct Laws : vpRegistry<vpServoLaw::Maker> {
             "ff-lookat with an integral of the rotation error against friction; the default of visp-direct.");
     add("dtg",
         "Direct trajectory generation: a motion of minimum jerk to the goal within limits, the gaze on the object; "
-        "planned "
-        "again when the goal or the measured object has moved.",
+        "planned again when the goal or the measured object has moved.",
         makeDtg);
     add("ff-dtg", "The motion of dtg as a feedforward, and a feedback that keeps the camera on it.",
         makeFeedforwardDtg);

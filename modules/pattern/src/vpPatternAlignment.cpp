@@ -24,16 +24,12 @@ constexpr double latticeGain = 0.02;
 constexpr unsigned int forgetAfter =
     20;                            // images: a deviation with which a cell is not found, perhaps that of something else
 constexpr int hurryAfterTurn = 30; // images
-constexpr int restlessAfterTurn = 10; // images
-constexpr double slopeMemory = 400.;  // cells
-enum Column : std::size_t {
-  offsetX,
-  offsetY,
-  variance,
-  contrast,
-  sigma
-};                                     // of m_columns, from startAll() to validate()
+constexpr int restlessAfterTurn = 10;  // images
+constexpr double slopeMemory = 400.;   // cells
 constexpr std::size_t slopesEvery = 3; // cells, once they are known: they change slowly
+
+// Index into m_columns from startAll() to validate().
+enum Column : std::size_t { offsetX, offsetY, variance, contrast, sigma };
 } // namespace
 
 bool vpPatternTracker::Impl::alignAll(const vpImage<unsigned char> &image)
@@ -346,8 +342,8 @@ void vpPatternTracker::Impl::follow(const vpImage<unsigned char> &image)
 // The common part of the deviations belongs to the lattice; the rest stays with the cells.
 void vpPatternTracker::Impl::updateDeviations()
 {
-  // A cell in doubt may be the edge of something else: learned from, it would be expected, and found, where that was. While the
-  // template is learned anew it does not fit, and doubt says little.
+  // A doubtful cell may be the edge of something else; its deviation is not learned, or it would be expected, and found, at that edge. While
+  // the template is being relearned nothing fits well, and doubt is no reason.
   const auto teaches = [this](std::size_t i) {
     return m_frame.cells[i].valid && (m_hurry > 0 || (!m_fits[i].doubtX && !m_fits[i].doubtY));
   };
@@ -357,30 +353,21 @@ void vpPatternTracker::Impl::updateDeviations()
     for (std::size_t i = begin; i < end; ++i) {
       if (teaches(i)) {
         const vpPatternCell &cell = m_frame.cells[i];
-        const double r = cell.row - m_row, c = cell.column - m_column;
-        const double x = cell.x - m_lattice.x(r, c), y = cell.y - m_lattice.y(r, c);
-        s.n += 1.;
-        s.c += c;
-        s.r += r;
-        s.cc += c * c;
-        s.cr += c * r;
-        s.rr += r * r;
-        s.x += x;
-        s.cx += c * x;
-        s.rx += r * x;
-        s.y += y;
-        s.cy += c * y;
-        s.ry += r * y;
+        const int r = cell.row - m_row, c = cell.column - m_column;
+        const Eigen::Vector3d a(1., c, r);
+        s.normal += a * a.transpose();
+        s.right += a * Eigen::RowVector2d(cell.x - m_lattice.x(r, c), cell.y - m_lattice.y(r, c));
       }
     }
     m_stripSums[strip] = s;
   });
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Eigen::Matrix<double, 3, 2> right = Eigen::Matrix<double, 3, 2>::Zero();
+  StripSums all;
   for (const StripSums &s : m_stripSums) {
-    normal += (Eigen::Matrix3d() << s.n, s.c, s.r, s.c, s.cc, s.cr, s.r, s.cr, s.rr).finished();
-    right += (Eigen::Matrix<double, 3, 2>() << s.x, s.y, s.cx, s.cy, s.rx, s.ry).finished();
+    all.normal += s.normal;
+    all.right += s.right;
   }
+  Eigen::Matrix3d &normal = all.normal;
+  const Eigen::Matrix<double, 3, 2> &right = all.right;
   normal(1, 1) += 1e-3; // one row or one column alone does not determine the other vector
   normal(2, 2) += 1e-3;
   Eigen::Matrix<double, 3, 2> s = Eigen::Matrix<double, 3, 2>::Zero();

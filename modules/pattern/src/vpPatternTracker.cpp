@@ -253,6 +253,23 @@ void vpPatternTracker::Impl::expectCells(bool deviations)
   });
 }
 
+// No two cells of m_frame share a slot of the memory: while the pattern turns, more rows or columns may be in view than when it was shaped.
+bool vpPatternTracker::Impl::haveOwnSlots() const
+{
+  if (m_frame.cells.empty()) {
+    return true;
+  }
+  const vpPatternCell &first = m_frame.cells.front();
+  Range range{first.row, first.row, first.column, first.column};
+  for (const vpPatternCell &cell : m_frame.cells) {
+    range.rowLow = std::min(range.rowLow, cell.row);
+    range.rowHigh = std::max(range.rowHigh, cell.row);
+    range.columnLow = std::min(range.columnLow, cell.column);
+    range.columnHigh = std::max(range.columnHigh, cell.column);
+  }
+  return m_memory.holds(range.rowHigh - range.rowLow + 1, range.columnHigh - range.columnLow + 1);
+}
+
 // Use of a cell's measurement.
 unsigned char vpPatternTracker::Impl::useOf(bool measured, std::size_t cell) const
 {

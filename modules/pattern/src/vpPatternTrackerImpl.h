@@ -14,6 +14,8 @@
 
 #include <visp3/pattern/vpPatternTracker.h>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -38,7 +40,7 @@ public:
 
   //! Forget everything, and set the number of rows and columns stored at a time, within the capacity.
   void shape(int rows, int columns);
-  //! Whether so many rows and columns fit at a time.
+  //! Whether each of this many neighbouring rows and columns has a slot of its own.
   [[nodiscard]] bool holds(int rows, int columns) const
   {
     return rows <= 1 << m_rowBits && columns <= 1 << m_columnBits;
@@ -135,12 +137,11 @@ private:
   // The same for a cell(index) that writes to the cell's slot in the memory.
   template <class Cell> void forSlots(const Cell &cell)
   {
-    const Range range = inView(0., 0.);
-    if (m_memory.holds(range.rowHigh - range.rowLow + 1, range.columnHigh - range.columnLow + 1)) {
+    if (haveOwnSlots()) {
       forCells([&](std::size_t i, int) { cell(i); });
       return;
     }
-    for (std::size_t i = 0; i < m_frame.cells.size(); ++i) { // two cells may have the same
+    for (std::size_t i = 0; i < m_frame.cells.size(); ++i) {
       cell(i);
     }
   }
@@ -149,6 +150,7 @@ private:
   double usualCells() const;
   void updateShare();
   void expectCells(bool deviations);
+  bool haveOwnSlots() const;
   unsigned char useOf(bool measured, std::size_t cell) const;
   unsigned char leastUse() const;
   void updateLattice();
@@ -203,8 +205,9 @@ private:
   enum class Use : unsigned char { No, New, Known };
   std::vector<unsigned char> m_use;
   std::array<std::vector<double>, 5> m_columns;
-  struct StripSums { // over cells: of 1, c, r and their products, and of their products with the deviations
-    double n = 0., c = 0., r = 0., cc = 0., cr = 0., rr = 0., x = 0., cx = 0., rx = 0., y = 0., cy = 0., ry = 0.;
+  struct StripSums { // normal equations of the deviations
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    Eigen::Matrix<double, 3, 2> right = Eigen::Matrix<double, 3, 2>::Zero();
   };
   std::vector<StripSums> m_stripSums;
   std::vector<unsigned char> m_ownStart; // the start of the cell includes its own deviation

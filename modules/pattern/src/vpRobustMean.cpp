@@ -61,7 +61,7 @@ double medianOfFew(const double *values, int n)
  */
 double valueOfRank(double *values, std::size_t n, std::size_t rank)
 {
-  constexpr std::size_t samples = 64, beyond = 5; // nearly the deviation of the median of so many: 4
+  constexpr std::size_t samples = 64, beyond = 5; // the median of 64 deviates by 4 ranks
   constexpr int mostPasses = 12;
   for (int pass = 0; pass < mostPasses && n > 2 * samples; ++pass) {
     std::array<double, samples> sample;

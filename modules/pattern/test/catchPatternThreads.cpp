@@ -109,7 +109,7 @@ TEST_CASE("the tracker's results do not depend on the number of threads", "[thre
         CAPTURE(problem, image, k, one.cells.size(), vpToString(one.status));
         REQUIRE(same(one, trackers[k].process(view)));
       }
-      tracked += one.status == vpPatternStatus::Tracking && one.cells.size() >= 128 ? 1 : 0; // so many are shared
+      tracked += one.status == vpPatternStatus::Tracking && one.cells.size() >= 128 ? 1 : 0; // fewer are not shared
       degraded += one.status == vpPatternStatus::Degraded ? 1 : 0;
       lost += one.status == vpPatternStatus::Lost ? 1 : 0;
       invalid += one.status == vpPatternStatus::Tracking ? static_cast<int>(one.cells.size()) - one.validCells : 0;

@@ -119,7 +119,7 @@ public:
    *   count as not visible.
    * \param sigma : Standard deviation of their coordinates, normalised, > 0.
    * \param fMc : Camera at capture in a frame at rest with the plane, usually the robot's base; nullptr: unknown. The
-   *   first image with it starts anew; after that images without it are not used, until reset().
+   *   first image with it discards all before; from then on images without it are not used, until reset().
    * \throw vpException (badValue) when the number of points is not that of the reference, or sigma is not positive.
    */
   const vpReferencePoseResult &add(const std::vector<vpServoPoint> &points, double sigma, const vpRigidTransform *fMc);

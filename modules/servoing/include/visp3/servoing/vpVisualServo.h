@@ -122,7 +122,7 @@ struct VISP_EXPORT vpVisualServoOutput {
   vpClearance
       obstacle; //!< The pair in the way, see vpCollisionScene::describe(); None where #supervision is Passed or Limited.
   double age = std::numeric_limits<double>::infinity(); //!< Time since the capture of the image in use, s.
-  //! Distance of the camera from its goal as predicted for now, m; NaN without a measurement.
+  //! Distance of the camera from its goal predicted to the present, m; NaN without a measurement.
   double positionError = std::numeric_limits<double>::quiet_NaN();
   double rotationError = std::numeric_limits<double>::quiet_NaN(); //!< Angle to the goal, rad; NaN likewise.
   double distance = 0.;                                            //!< See vpServoSight, m.
@@ -141,7 +141,7 @@ struct VISP_EXPORT vpVisualServoOutput {
  * \brief Visual servoing of a camera or an arm: see() in the vision thread, step() in the control thread. Neither waits
  * for the other.
  *
- * step() takes the newest result of the vision thread, predicts it for now by the robot's own motion since the capture
+ * step() takes the newest result of the vision thread, predicts it to the present by the robot's own motion since the capture
  * (vpOdometryBridge), steps the law with view filter and recovery, bounds velocity, acceleration and jerk
  * (vpLimitTwist, vpTwistShaper), and for an arm converts the twist to joint velocities (vpArmMotion), which a
  * vpStopSupervisor passes only if the arm can still stop.
