@@ -10,6 +10,7 @@
 
 #include <visp3/pattern/vpPatternTracker.h>
 
+#include <algorithm>
 #include <cstring>
 #include <numeric>
 
@@ -119,6 +120,40 @@ TEST_CASE("the tracker's results do not depend on the number of threads", "[thre
   CHECK(degraded > 0);
   CHECK(lost > 0);
   CHECK(invalid > 30);
+}
+
+// The memory has 64 rows for the 62 in view at first: later two cells have one slot, and what writes to it stays in one thread.
+TEST_CASE("more rows come into view than the memory has", "[threads]")
+{
+  CAPTURE(vpTestSupport::seed());
+  auto rng = vpTestSupport::generator(873);
+  Pattern pattern;
+  pattern.width = 200;
+  pattern.height = 1000;
+  pattern.pitchX = 20.;
+  pattern.cellX = 12.;
+  pattern.cellY = 9.;
+  vpPatternTrackerSpec spec;
+  vpPatternTracker one(pattern.width, pattern.height, spec);
+  spec.threads = 4;
+  vpPatternTracker four(pattern.width, pattern.height, spec);
+  vpImage<unsigned char> view;
+  int rows = 0;
+  for (int image = 0; image < 130; ++image) {
+    CAPTURE(image);
+    pattern.pitchY = 16. - 0.02 * std::max(0, image - 70);
+    pattern.x = 0.3 * image;
+    pattern.render(rng, view);
+    const vpPatternFrame &frame = one.process(view);
+    REQUIRE(same(frame, four.process(view)));
+    if (image > 70) {
+      REQUIRE(frame.status == vpPatternStatus::Tracking);
+      const auto ends = std::minmax_element(frame.cells.begin(), frame.cells.end(),
+                                            [](const auto &a, const auto &b) { return a.row < b.row; });
+      rows = std::max(rows, ends.second->row - ends.first->row + 1);
+    }
+  }
+  CHECK(rows > 64);
 }
 
 TEST_CASE("a frame in several threads does not allocate", "[threads][allocation]")
