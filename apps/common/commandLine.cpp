@@ -174,7 +174,7 @@ std::string extraSentence(const CLI::App &app)
   const std::vector<std::string> extras = app.remaining();
   const auto option = std::find_if(extras.begin(), extras.end(), [](const auto &word) { return word[0] == '-'; });
   if (option == extras.end()) {
-    return "nothing is expected where \"" + extras.front() + "\" stands";
+    return "unexpected argument \"" + extras.front() + "\"";
   }
   const std::string word = option->substr(0, option->find('=')), nearest = nearestOption(app, word);
   return "there is no option " + word + (nearest.empty() ? "" : ", did you mean " + nearest + "?");

@@ -68,7 +68,7 @@ TEST_CASE("wrong input is one sentence", "[visp-servo][errors]")
       {"--law nonsense", USAGE, "--law: servo law \"nonsense\" is unknown"},
       {"--law pbvs1,nonsense", USAGE, "--law: servo law \"nonsense\" is unknown"},
       {"--law ff-dtg+cbf", USAGE, "--law: \"ff-dtg+cbf\": the view filter cannot follow a law that plans"},
-      {"extra", USAGE, "nothing is expected where \"extra\" stands"},
+      {"extra", USAGE, "unexpected argument \"extra\""},
       {"--lamda 2", USAGE, "there is no option --lamda, did you mean --lambda?"},
       {"--lambda 0", USAGE, "--lambda is 0, must be a number > 0"},
       {"--max-linear inf", USAGE, "--max-linear is inf"},

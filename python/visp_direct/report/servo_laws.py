@@ -153,7 +153,7 @@ def matched_rival(c):
     if not feedforward.ties(rival):
         return f"{head} differ {numbers}."
     better = bool(integral) and integral.rotation < 0.5 * min(feedforward.rotation, rival.rotation)
-    cause = ", what does is the integral of ff-lookat-pi" if better else ""
+    cause = ", but the integral of ff-lookat-pi does" if better else ""
     return f"{head} tie {numbers}; at equal gain the form of the law makes no difference there{cause}."
 
 
