@@ -12,6 +12,13 @@ if(NOT status EQUAL 0 OR said MATCHES "(warning|error): ")
   list(APPEND faults "doxygen ended with status ${status} and said:\n${said}")
 endif()
 
+# The 3D views of the gallery, where there are any.
+file(GLOB views "${SOURCE_DIR}/out/gallery/live/*.html")
+foreach(view ${views})
+  get_filename_component(name "${view}" NAME)
+  configure_file("${view}" "${DOC_DIR}/html/live-${name}" COPYONLY)
+endforeach()
+
 # Classes and namespaces that belong to no module. Doxygen silently omits a namespace without a docstring.
 if(EXISTS "${DOC_DIR}/visp-direct.tag")
   file(READ "${DOC_DIR}/visp-direct.tag" tags)

@@ -27,6 +27,14 @@ def link(page, start, text, target):
     return f'{start}\\{"subpage" if is_parent else "ref"} {label(path)} "{text}"'
 
 
+def figure(page, alt, target):
+    """A picture, or its 3D view where scripts/gallery.sh made one; build.cmake puts that beside the pages."""
+    name = target.removesuffix(".jpg")
+    if page.parent.name == "gallery" and (ROOT / f"out/gallery/live/{name}.html").is_file():
+        return f'\\htmlonly <iframe class="live" src="live-{name}.html" title="{alt}" loading="lazy"></iframe> \\endhtmlonly'
+    return f"![{alt}]({target})"
+
+
 def code(span):
     """A name of ours in <code>, which looks like a code span and gets links; with an apostrophe, which would end a span, two backticks."""
     if re.fullmatch(r"vp[A-Z]\w*(::\w+)?(\(\))?|vispDirect\w+\(\)", span):
@@ -35,6 +43,7 @@ def code(span):
 
 
 def prose(page, text):
+    text = re.sub(r"!\[([^\]]*)\]\(([^)]*)\)", lambda m: figure(page, m[1], m[2]), text)
     text = re.sub(r"(!\[[^\]]*\]\()(?:\.\./)+", r"\1", text)  # doxygen looks up a figure by the end of its path
     text = re.sub(r'(<img src=")[^"]*/', r"\1", text)  # and puts all into one folder
     text = re.sub(r"(^(?:\| |[-*] ))?(?<!!)\[([^\]]+)\]\(([^()\s]+)\)", lambda m: link(page, m[1] or "", m[2], m[3]), text, flags=re.M)

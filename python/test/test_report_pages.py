@@ -254,12 +254,16 @@ def test_results_side_by_side(tmp_path):
 
 
 @of("visp-avoid-obstacle")
-def test_two_runs_stand_beside_each_other():
+def test_two_runs_stand_beside_each_other(browser):
     """One sees the obstacle, the other, whose camera is covered, knows none."""
     folders = [run("visp-avoid-obstacle", "--sensor=poses", *more, "--duration=0.6")[0] for more in ((), ("--hide=0:9",))]
-    made = subprocess.run([sys.executable, "-m", "visp_direct.report", *folders, "--paper"], capture_output=True, text=True)
+    made = subprocess.run([sys.executable, "-m", "visp_direct.report", *folders, "--paper", "--views"], capture_output=True, text=True)
     assert made.returncode == 0 and "Warning" not in made.stderr, made.stderr
     page = (folders[0] / "report.html").read_text()
+    view = (folders[0] / "view-1.html").read_text()
+    assert view.count("vispView(document") == 1 and "<table" not in view and not (folders[0] / "view-2.html").exists()
+    browser.open(folders[0] / "view-1.html")
+    assert not browser.messages and browser.evaluate("document.querySelector('.view').vispView && window.innerHeight") > 0
     scene = json.loads(re.search(r"vispView\(document.getElementById\(\"view0\"\), (.*)\);</script>", page).group(1))
     assert [name["name"] for name in scene["runs"]] == [folder.name for folder in folders]
     assert len(scene["arms"]) == 2 and np.linalg.norm([row[3] for row in scene["runs"][1]["base"][:3]]) > 0.8

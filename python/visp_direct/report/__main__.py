@@ -1,6 +1,6 @@
 # visp-direct: direct methods for vision-based robot control, for ViSP.
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""python3 -m visp_direct.report OUT [OUT2...] [--paper]"""
+"""python3 -m visp_direct.report OUT [OUT2...] [--paper] [--views]"""
 import argparse
 import importlib
 import pathlib
@@ -21,6 +21,7 @@ def main(arguments):
     parser = argparse.ArgumentParser(prog="python3 -m visp_direct.report", description=about.split("\n\n")[1])
     parser.add_argument("folders", metavar="OUT", nargs="+", type=pathlib.Path, help="result folder of a program")
     parser.add_argument("--paper", action="store_true", help="write each figure as PDF into OUT/paper, too")
+    parser.add_argument("--views", action="store_true", help="write each 3D view as a page of its own, OUT/view-1.html..., too")
     options = parser.parse_args(arguments)
     results = read_results(options.folders)
     if results[0].kind not in SCHEMA:
@@ -30,6 +31,12 @@ def main(arguments):
     file.write_text(page.html(), encoding="utf-8")
     if options.paper:
         page.write_paper(options.folders[0] / "paper")
+    if options.views:
+        views = page.views()
+        if not views:
+            raise DataError(f"{options.folders[0]}: its report has no 3D view")
+        for i, view in enumerate(views, 1):
+            (options.folders[0] / f"view-{i}.html").write_text(view, encoding="utf-8")
     print(file)
 
 

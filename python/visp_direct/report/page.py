@@ -161,6 +161,14 @@ class Page:
         return next(i for i, other in enumerate(self.arms) if arm is other)
 
     def html(self):
+        return self._rendered(self.sections)
+
+    def views(self):
+        """Each 3D view as a page of its own, for a frame in another page."""
+        views = [(section, part) for section in self.sections for part in section["parts"] if part["kind"] == "view"]
+        return [self._rendered([{**section, "parts": [view]}], alone=True) for section, view in views]
+
+    def _rendered(self, sections, alone=False):
         strict = {"autoescape": True, "undefined": jinja2.StrictUndefined}
         environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), trim_blocks=True, lstrip_blocks=True, **strict)
         scripts = ""
@@ -168,7 +176,7 @@ class Page:
             from .view3d import scripts as view_scripts
 
             scripts = view_scripts()
-        return environment.get_template("template.html").render(page=self, scripts=scripts)
+        return environment.get_template("template.html").render(page=self, sections=sections, alone=alone, scripts=scripts)
 
     def write_paper(self, folder):
         """Each figure as PDF, 3.4 inch wide."""
