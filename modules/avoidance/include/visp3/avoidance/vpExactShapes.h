@@ -26,10 +26,11 @@ struct vpExactBody;
  * may be shared by scenes and threads.
  *
  * A body has an exact shape if it has capsules and these enclose it: all vertices of its shapes are checked. A
- * box and a mesh are taken as they are, a cylinder as the prism of 48 sides around it (0.2 % of the radius more), a
- * sphere as its centre and radius, both less than 0.02 mm larger than they are. A body without capsules is not seen by
- * any check, and one whose capsules do not enclose it is known by these alone; warnings() names the latter. Where exact
- * shapes decide, they are all that is known of a body: give a capsule that stands for more, such as a cable, no body.
+ * box and a mesh are taken as they are, a cylinder as the prism of 48 sides around it, whose edges stand out by 0.2 %
+ * of the radius, and a sphere as a triangle of 0.01 mm at its centre with the radius around it, less than 0.02 mm more
+ * than the sphere. A body without capsules is not seen by any check, and one whose capsules do not enclose it is known
+ * by these alone; warnings() names the latter. Where exact shapes decide, they are all that is known of a body: give a
+ * capsule that stands for more, such as a cable, no body.
  *
  * An obstacle inside a closed mesh, without touching its surface, is in contact: the inside is where the winding number
  * exceeds 1/2. A mesh with holes has such an inside only away from its holes.
