@@ -211,6 +211,17 @@ vpAvoidanceRunSpec specOf(const Options &options, const Script &script)
   return spec;
 }
 
+//! Largest speed of the true tool, from differences between the samples, m/s.
+double movedSpeed(const vpAvoidanceRun &run)
+{
+  double largest = 0.;
+  for (std::size_t i = 1; i < run.samples.size(); ++i) {
+    const vpAvoidanceSample &before = run.samples[i - 1], &now = run.samples[i];
+    largest = std::max(largest, (now.tool - before.tool).norm() / (now.time - before.time));
+  }
+  return largest;
+}
+
 double passes(const vpAvoidanceRun &run, const Vector3d &via)
 {
   double least = HUGE_VAL;
@@ -244,13 +255,16 @@ void compare(const vpAvoidanceRun &run, const Script &script, Replica &replica)
 {
   const vpAvoidanceMetrics &m = run.metrics;
   const Vector3d end = run.samples.back().tool, goal = script.events.back().goal;
-  const bool kept = m.peak_v <= run.spec.methodSpec.maxVelocity * (1. + ROUNDING);
+  const double moved = movedSpeed(run);
+  const bool kept = moved <= run.spec.methodSpec.maxVelocity * (1. + ROUNDING);
+  replica.numbers["moved_peak_v"] = moved;
   replica.comparisons = {
       {"start", "[0.05, 0.63] m", text(run.samples.front().tool)},
       {"changed at", script.events.size() > 2 ? "0.95 and 1.15 s" : "0.95 s",
        script.events.size() > 2 ? "0.95 s (via) and 1.15 s (goal)" : "0.95 s"},
       {"ends at", text(goal), text(end) + ", off by " + number(1000. * m.goal_error_m, 2) + " mm", m.success},
-      {"speed", "at most 0.5 m/s, not violated", "at most " + number(m.peak_v, 6) + " m/s (commanded)", kept},
+      {"speed", "at most 0.5 m/s, not violated",
+       "at most " + number(moved, 4) + " m/s, commanded " + number(m.peak_v, 6), kept},
       {"acceleration", "no limit given", "up to " + number(m.peak_a, 3) + " m/s^2 (commanded)"},
       {"duration", "not given",
        fixed(m.duration_s, 2) + " s, of them " + number(MOTION_BEGINS, 2) + " s before it moves"},
@@ -262,7 +276,8 @@ void compare(const vpAvoidanceRun &run, const Script &script, Replica &replica)
     replica.numbers["via_distance_m"] = missed;
   }
   replica.findings = {
-      "The arm went at no more than " + number(m.peak_v, 6) + " m/s where 0.5 m/s are allowed and ended " +
+      "The tool was commanded to go at no more than " + number(m.peak_v, 6) +
+          " m/s, where 0.5 m/s are allowed, went at up to " + number(moved, 4) + " m/s and ended " +
           number(1000. * m.goal_error_m, 2) + " mm from the goal after " + fixed(m.duration_s, 2) + " s.",
       "There is no obstacle in this scene: the thesis gives when goal and via changed and to what, which is "
       "repeated, but not where the obstacle was."};
@@ -281,6 +296,7 @@ nlohmann::ordered_json playSeenArmReplica(const Options &options)
     return s.status == vpAvoidanceStatus::Detouring;
   });
   nlohmann::ordered_json numbers = {{"metrics", vpApp::metricsJson(run.metrics)},
+                                    {"moved_peak_v", movedSpeed(run)},
                                     {"seen", changed != run.samples.end()},
                                     {"appears_s", appears},
                                     {"seen_after_s", changed == run.samples.end() ? NAN : changed->time - appears}};

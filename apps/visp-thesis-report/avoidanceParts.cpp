@@ -21,6 +21,7 @@ using avoidObstacle::Replica;
 
 constexpr double MAX_SPEED = 0.5, MAX_ACCELERATION = 1.; // m/s, m/s^2
 constexpr double KEPT = 1e-9;                            // m/s: rounding tolerance
+constexpr double NEAR = 0.005;                           // m: a via is reached
 
 Quantity speedKept(double peak)
 {
@@ -28,15 +29,16 @@ Quantity speedKept(double peak)
           Tolerance::atMost(KEPT), Good::Smaller, "",        "The thesis: not violated."};
 }
 
-Quantity arrived(double distance, double tolerance, const std::string &reason = "")
+//! \param thesis : None on an arm, of which the thesis gives no distances.
+Quantity arrived(double distance, double tolerance, std::optional<double> thesis = 0.)
 {
-  return {"distance from the final point", "m", 0., distance, Tolerance::atMost(tolerance), Good::Smaller, reason, ""};
+  return {"distance from the final point", "m", thesis, distance, Tolerance::atMost(tolerance), Good::Smaller, "", ""};
 }
 
-Quantity throughVia(double distance, double tolerance)
+Quantity throughVia(double distance, double tolerance, std::optional<double> thesis = 0.)
 {
-  return {"distance at which the via is passed", "m",           0., distance,
-          Tolerance::atMost(tolerance),          Good::Smaller, "", ""};
+  return {"distance at which the via is passed", "m",           thesis, distance,
+          Tolerance::atMost(tolerance),          Good::Smaller, "",     ""};
 }
 
 double distanceOf(const nlohmann::ordered_json &a, const nlohmann::ordered_json &b)
@@ -60,10 +62,21 @@ std::vector<Quantity> fieldQuantities(const nlohmann::ordered_json &numbers)
   const auto missed = [](const nlohmann::ordered_json &motion, std::size_t i) {
     return motion.at("missed_m").at(i).get<double>();
   };
+  double missing = 0.;
+  std::string distances;
+  for (const auto *motion : {&strict, &mild}) {
+    for (const std::size_t via : {0, 1}) {
+      missing += missed(*motion, via) >= NEAR ? 1. : 0.;
+      distances += (distances.empty() ? "" : ", ") + vpApp::number(1000. * missed(*motion, via), 3);
+    }
+  }
   return {reached("strict parameters", 0., strict),
           reached("mild parameters", 1., mild),
-          {"strict parameters: distance at which the second via is missed", "m", 0.005, missed(strict, 1),
-           Tolerance::atLeast(), Good::Neither, "", "The thesis: vias are not reached. Reached would be within 5 mm."},
+          {"vias that are not reached, of two with strict and two with mild parameters", "1", 4., missing,
+           Tolerance::distance(0.), Good::Neither,
+           "Only near the obstacle the field acts, and the mild one hardly at the second via; where the vias are the "
+           "thesis does not say.",
+           "Reached: within 5 mm. The four are missed by " + distances + " mm."},
           {"the same, mild over strict", "1", 1., missed(mild, 1) / missed(strict, 1), Tolerance::atMost(),
            Good::Smaller, "", "The thesis: with less strict parameters the path stays closer to the wanted one."}};
 }
@@ -83,11 +96,14 @@ std::vector<Quantity> pointQuantities(const nlohmann::ordered_json &numbers)
 std::vector<Quantity> armQuantities(const nlohmann::ordered_json &numbers)
 {
   const auto &metrics = numbers.at("metrics");
-  std::vector<Quantity> quantities = {speedKept(metrics.at("peak_v")), arrived(metrics.at("goal_error_m"), 0.005)};
-  quantities.front().note += " The commanded tool; the joints follow with the errors of their drives.";
+  std::vector<Quantity> quantities = {speedKept(numbers.at("moved_peak_v")), speedKept(metrics.at("peak_v")),
+                                      arrived(metrics.at("goal_error_m"), 0.005, std::nullopt)};
+  quantities[0].name += " of the tool";
+  quantities[0].reason = "Only the commanded motion is bounded; drives with PD and gravity overshoot it.";
+  quantities[1].name += " of the commanded tool";
   quantities.back().note = "Drives as in section 8.2.3: PD with gravity, without friction compensation.";
   if (numbers.contains("via_distance_m")) {
-    quantities.push_back(throughVia(numbers.at("via_distance_m"), 0.01));
+    quantities.push_back(throughVia(numbers.at("via_distance_m"), 0.01, std::nullopt));
   }
   return quantities;
 }

@@ -52,11 +52,11 @@ std::vector<Quantity> mismatches()
   const vpMicroscopeCalibration one = lensOfShare(0.01), tenth = lensOfShare(0.001),
                                 thesis = lens(KAPPA * PIXEL * PIXEL);
   const double here = mismatch(thesis, EDGE);
-  const char *const units = "It does not follow from its kappa1: kappa1 r^2 at 80 px = 360 um is 0.005 %, 0.018 um. At "
-                            "160 px, the whole width "
-                            "of the image, the same kappa1 gives 0.032 px = 0.14 um: the text seems to have taken the "
-                            "width for the half and px "
-                            "for %. What it concludes holds all the more.";
+  const char *const units =
+      "It does not follow from its kappa1: kappa1 r^2 at 80 px = 360 um is 0.005 %, 0.018 um. At "
+      "160 px, the whole width "
+      "of the image, the same kappa1 gives 0.032 px = 0.14 um; so do the 0.1 % at 200 px of the text, scaled "
+      "by (80/200)^2. Either way px were taken for %. What it concludes holds all the more.";
   return {{"mismatch of 1 % distortion at 200 px", "px", 2., mismatch(one, FAR_OFF), Tolerance::factor(1.01),
            Good::Neither, "", "By vpMicroscopeCalibration: from the pixel that is seen to where it belongs."},
           {"mismatch of 0.1 % distortion at 200 px", "px", 0.2, mismatch(tenth, FAR_OFF), Tolerance::factor(1.01),

@@ -141,26 +141,33 @@ void addOthers(Item &item, const Row &row, const Measured &m)
 //! What the text says of the order of the deviations.
 void addOrders(Item &item, const std::vector<Measured> &all)
 {
-  const auto sigma = [&](PoseAxis axis, std::size_t offset) {
-    const PoseErrors &errors = all[static_cast<std::size_t>(axis)].errors[offset];
-    return 3. * (isAngle(axis) ? errors.surf : errors.centre).sigma(); // positions: of the object's centre
+  const auto errors = [&](PoseAxis axis, std::size_t offset) -> const Spread & {
+    const PoseErrors &of = all[static_cast<std::size_t>(axis)].errors[offset];
+    return isAngle(axis) ? of.surf : of.centre; // positions: of the object's centre
   };
-  const auto meanOfEnds = [&](PoseAxis axis) {
-    return 0.5 * (sigma(axis, 0) + sigma(axis, rows()[static_cast<std::size_t>(axis)].offsets.size() - 1));
+  const auto meanOfEnds = [&](PoseAxis axis, double (*value)(const Spread &)) {
+    const std::size_t last = rows()[static_cast<std::size_t>(axis)].offsets.size() - 1;
+    return 0.5 * (value(errors(axis, 0)) + value(errors(axis, last)));
   };
-  const auto add = [&](const std::string &name, double ours, const Tolerance &tolerance, Good good) {
-    item.quantities.push_back({name, "1", 1., ours, tolerance, good, "", "Means of the two ends of a row."});
+  const auto add = [&](const std::string &name, double ours, const Tolerance &tolerance) {
+    item.quantities.push_back({name, "1", 1., ours, tolerance, Good::Neither, "", "Means of the two ends of a row."});
   };
+  const auto threeSigma = [](const Spread &spread) { return 3. * spread.sigma(); };
+  const auto offMean = [](const Spread &spread) { return std::fabs(spread.mean()); };
   for (const PoseAxis axis : {PoseAxis::Roll, PoseAxis::Pitch, PoseAxis::Yaw}) {
-    add(std::string(nameOf(axis)) + ", 3 sigma at 30 deg over that at 0", meanOfEnds(axis) / sigma(axis, 3),
-        Tolerance::atLeast(), Good::Neither);
+    add(std::string(nameOf(axis)) + ", 3 sigma at 30 deg over that at 0",
+        meanOfEnds(axis, threeSigma) / threeSigma(errors(axis, 3)), Tolerance::atLeast());
   }
-  add("3 sigma at 30 deg, roll over pitch and yaw",
-      2. * meanOfEnds(PoseAxis::Roll) / (meanOfEnds(PoseAxis::Pitch) + meanOfEnds(PoseAxis::Yaw)), Tolerance::atMost(),
-      Good::Neither);
-  for (const PoseAxis axis : {PoseAxis::X, PoseAxis::Y}) {
-    add(std::string("3 sigma at the largest offset, ") + nameOf(axis) + " over z",
-        meanOfEnds(axis) / meanOfEnds(PoseAxis::Z), Tolerance::atLeast(), Good::Neither);
+  for (const auto &[name, value] :
+       {std::pair<std::string, double (*)(const Spread &)>{"3 sigma", threeSigma}, {"error of the mean", offMean}}) {
+    add(name + " at 30 deg, roll over pitch and yaw",
+        2. * meanOfEnds(PoseAxis::Roll, value) /
+            (meanOfEnds(PoseAxis::Pitch, value) + meanOfEnds(PoseAxis::Yaw, value)),
+        Tolerance::atMost());
+    for (const PoseAxis axis : {PoseAxis::X, PoseAxis::Y}) {
+      add(name + " at the largest offset, " + nameOf(axis) + " over z",
+          meanOfEnds(axis, value) / meanOfEnds(PoseAxis::Z, value), Tolerance::atLeast());
+    }
   }
 }
 

@@ -45,9 +45,11 @@ constexpr double SAME = 0.01;  //!< A ratio of ranges nearer to 1 is not "greate
 //! A ratio of errors that the thesis claims to be "equal or better": at most 1. \param note : Always shown.
 [[nodiscard]] Quantity equalOrBetter(const std::string &name, double ours, const std::string &reason,
                                      const std::string &note = "");
-//! A ratio that the thesis claims to be above 1. \param by : By how much at least: #EQUAL or #SAME.
+//! A ratio that the thesis claims to be above 1. \param by : By how much at least: #EQUAL, #SAME or 0.
 [[nodiscard]] Quantity greater(const std::string &name, double by, double ours, const std::string &reason,
                                const std::string &note = "");
+//! A ratio of Kyrki's law over PBVS that the thesis calls minimal: clearly below 1.
+[[nodiscard]] Quantity minimal(const std::string &name, double ours, const std::string &note = "");
 
 /*!
  * \brief Adds rows of further runs to the items: figures 5.8 to 5.11 on AMOR with both references of the drives,
