@@ -93,15 +93,20 @@ struct VISP_EXPORT vpAvoidanceMethodSpec {
  * A method reads its scene and never changes it. The owner updates the poses and velocities of the objects between
  * the calls:
  * \code
- * method.start(q, goal);
- * do {
- *   if (newImage) {
- *     tracks.applyTo(scene);        // objects may come and go here
+ * vpObjectTracks tracks; // of a vpObstacleDetector, say
+ * vpDirectTrajectoryAvoidance method(scene);
+ * method.start(q, vpAvoidanceGoal::at(arm, goal));
+ * vpAvoidanceOutput output;
+ * for (int cycle = 0; cycle == 0 || vpIsWorking(output); ++cycle) { // every 5 ms
+ *   if (cycle % 8 == 0) {                                           // after an image
+ *     tracks.advance(0.005 * cycle);                                // s
+ *     tracks.applyTo(scene);                                        // objects may come and go here
  *     method.look();
  *   }
  *   method.step(q, output);
- *   q += period * output.velocity;  // or the position commanded to the drives
- * } while (vpIsWorking(output));
+ *   q += 0.005 * output.velocity; // or the position commanded to the drives
+ * }
+ * std::cout << vpMessage(output, scene, 0.01) << std::endl; // arrived, or what is in the way
  * \endcode
  */
 class VISP_EXPORT vpAvoidanceMethod

@@ -43,6 +43,7 @@ struct VISP_EXPORT vpFieldRange {
  * \brief One number of a specification: what its docstring, its validation, files and command lines say about it.
  *
  * \code
+ * const vpServoGains gains;
  * for (const auto &field : vpServoGains::fields()) {
  *   std::cout << field.name << " " << field.of(gains) << " " << field.unit << ": " << field.description << "\n";
  * }

@@ -18,9 +18,24 @@
  *
  * \code
  * #include <visp3/direct_core/vpPlugin.h>
- * extern "C" void vispDirectPlugin() { vpServoLaw::add("mine", "One sentence.", makeMine); }
+ * class Mine : public vpServoLaw
+ * {
+ * public:
+ *   explicit Mine(const vpServoGains &gains) : vpServoLaw("mine", gains) {}
+ *
+ * protected:
+ *   vpServoCommand compute(const vpServoMeasurement &seen, double) noexcept override
+ *   {
+ *     return {vpTwist(0., 0., m_gains.lambda * (seen.points[0].Z - 0.5), 0., 0., 0.), vpServoStatus::Servoing};
+ *   }
+ * };
+ * extern "C" void vispDirectPlugin()
+ * {
+ *   vpServoLaw::add("mine", "Half a metre from the first point.",
+ *                   [](const vpServoGains &gains, const vpServoMotionLimits &) { return std::make_unique<Mine>(gains); });
+ * }
  * \endcode
- * \code
+ * \code{.unparsed}
  * add_library(mine MODULE mine.cpp)
  * target_link_libraries(mine PRIVATE VispDirect::feedforward)
  * \endcode

@@ -27,20 +27,22 @@ BEGIN_VISP_NAMESPACE
  * \brief A vpServo whose features are those of an FF-PBVS law: it commands the velocity of the law.
  *
  * \code
- * vpFeedforwardTask task("ff-lookat", gains);
+ * vpFeedforwardTask task("ff-lookat");
  * task.setGoal(goal);
- * // each cycle:
- * const vpColVector v = task.computeControlLaw(seen);
+ * while (measurement.valid && !closeEnough(measurement)) { // with an invalid one computeControlLaw() throws
+ *   robot.setVelocity(vpRobot::CAMERA_FRAME, task.computeControlLaw(measurement));
+ * }
+ * robot.setRobotState(vpRobot::STATE_STOP);
  * \endcode
  *
  * With an arm, vpServo turns the twist into joint velocities:
  * \code
- * vpFeedforwardTask task("ff-lookat", gains, vpServo::EYEINHAND_L_cVe_eJe);
- * task.set_cVe(eMc.inverse());
+ * vpFeedforwardTask task("ff-lookat", vpServoGains(), vpServo::EYEINHAND_L_cVe_eJe);
+ * task.set_cVe(vpHomogeneousMatrix(0., 0., 0.1, 0., 0., 0.).inverse()); // cMe, m
  * task.setGoal(goal);
  * // each cycle:
  * task.set_eJe(eJe);
- * const vpColVector qdot = task.computeControlLaw(seen);
+ * robot.setVelocity(vpRobot::JOINT_STATE, task.computeControlLaw(measurement)); // rad/s
  * \endcode
  *
  * For a camera that watches the object in the hand, the types EYETOHAND_*: the object then moves against the law's twist.

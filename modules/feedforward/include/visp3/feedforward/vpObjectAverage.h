@@ -28,10 +28,14 @@ BEGIN_VISP_NAMESPACE
  *
  * \code
  * vpObjectAverage object;
+ * vpTwist twist; // of the camera since the last cycle, by its encoders
  * // each cycle:
- * object.move(twist, dt);      // the motion since the last call
- * object.see(measurement);     // as it is now, e.g. by vpOdometryBridge
+ * object.move(twist, dt);
+ * if (!object.see(measurement)) { // as it is now, e.g. by vpOdometryBridge
+ *   std::cerr << "no image, the mean of " << object.images() << " remains" << std::endl;
+ * }
  * object.predict(measurement); // its cMo is now that of the mean
+ * twist = law.step(measurement, dt).v;
  * \endcode
  */
 class VISP_EXPORT vpObjectAverage

@@ -51,6 +51,8 @@ struct VISP_EXPORT vpServoControllerSpec {
  *   command = servo.step(measurement, dt); // measurement.valid = false when the target is not seen
  *   robot.setVelocity(vpRobot::CAMERA_FRAME, command.v.toColVector());
  * } while (vpIsWorking(command.status) && !closeEnough(measurement));
+ * std::cout << vpMessage(command.status) << std::endl;
+ * robot.setRobotState(vpRobot::STATE_STOP);
  * \endcode
  */
 class VISP_EXPORT vpServoController

@@ -39,9 +39,16 @@ enum class vpArmTwistFrame { Base, EndEffector, Camera, Mixt };
  *
  * The request may change at any time. Set it in the thread that calls step(), or lock both.
  * \code
- * vpArmMotion motion(model, vpRedundancySpec(), vpClosedLoopSpec());
- * motion.twist(law->step(measurement, motion.period()).v, vpArmTwistFrame::Camera);
- * velocity = motion.step(q, velocity); // every vpRedundancySpec::period; send it to the drives
+ * vpArmMotion motion(arm, vpRedundancySpec(), vpClosedLoopSpec());
+ * vpJointVector velocity = vpJointVector::Zero(arm.size()); // rad/s
+ * while (measurement.valid) {                               // every vpRedundancySpec::period, 5 ms
+ *   motion.twist(law.step(measurement, motion.period()).v, vpArmTwistFrame::Camera);
+ *   velocity = motion.step(q, velocity);
+ *   q += motion.period() * velocity; // to the drives
+ *   if (motion.solver().taskShare < 0.5) {
+ *     std::cerr << motion.solver().message() << std::endl; // limits or a singularity
+ *   }
+ * }
  * \endcode
  */
 class VISP_EXPORT vpArmMotion

@@ -139,9 +139,17 @@ struct VISP_EXPORT vpMicroscopeCalibrationResult {
  *
  * \code
  * vpPlanarMicroscopeCalibration microscope(640, 480);
- * microscope.addView(vpCalibrationPoints(tracker.frame(), {220e-6, 80e-6}));
+ * vpPatternTracker tracker(640, 480);
+ * for (int i = 0; i < 100; ++i) { // images of the product while it moves
+ *   grabber.acquire(image);
+ *   tracker.process(image);
+ * }
+ * microscope.addView(vpCalibrationPoints(tracker.frame(), {220e-6, 80e-6})); // pitches of columns and rows, m
  * const vpMicroscopeCalibrationResult result = microscope.compute();
  * std::cout << result.message << std::endl; // "The scale is 222222 +- 4 px/m (4.5 um a pixel). ..."
+ * if (result.reliable) {
+ *   result.calibration.saveXml("microscope.xml");
+ * }
  * \endcode
  */
 class VISP_EXPORT vpPlanarMicroscopeCalibration

@@ -113,13 +113,22 @@ struct VISP_EXPORT vpPrintMachineOutput {
  * numbers must stay with the cells: when the tracker changes its epoch, the caller must restore the old numbers, or the
  * rest of the row is located by its pitch.
  * \code
+ * vpPrintMachineSpec spec; // that of the thesis; px and frames
+ * spec.observer.model = spec.preview.model = spec.previewAcross.model = {1., 0.02, 0.08, 0.12, 0.3};
  * vpPrintMachine machine(spec);
  * machine.reset(0, -1); // the first cell to print
- * for (double frame = 0;; ++frame) {
- *   const vpPatternFrame &seen = tracker.process(grab());
+ * vpPatternTracker tracker(160, 100);
+ * for (double frame = 0.; frame < 250.; ++frame) {
+ *   grabber.acquire(image);
+ *   const vpPatternFrame &seen = tracker.process(image);
  *   const vpPrintMachineOutput &out = machine.step({frame, seen.cells.data(), seen.cells.size(), seen.epoch});
- *   send(out.forceX, out.forceY, out.commandCount); // to the drives
- *   fire(out.trigger->shots, out.trigger->shotCount);
+ *   send(out.forceX[0], out.forceY[0]); // to the drives
+ *   for (int i = 0; i < out.trigger->shotCount; ++i) {
+ *     send(out.trigger->shots[i].fireTime); // to the print head, frame
+ *   }
+ *   for (int i = 0; i < out.trigger->missedCount; ++i) {
+ *     std::cerr << "cell " << out.trigger->missed[i].column << " was missed" << std::endl;
+ *   }
  * }
  * \endcode
  * step() does not allocate, throw, lock or print.

@@ -56,8 +56,10 @@ struct VISP_EXPORT vpPatternTruthCell {
  * const vpProductPattern product(spec);
  * vpImage<unsigned char> I;
  * for (unsigned int frame = 0; frame < 100; ++frame) {
- *   product.render(5. * frame, 0., 5., 0., frame, I);
- *   for (const vpPatternTruthCell &cell : product.cells(5. * frame, 0.)) { ... }
+ *   product.render(5. * frame, 0., 5., 0., frame, I); // px, px/frame
+ *   for (const vpPatternTruthCell &cell : product.cells(5. * frame, 0.)) {
+ *     std::cout << cell.row << " " << cell.column << ": " << cell.x << ", " << cell.y << " px\n";
+ *   }
  * }
  * \endcode
  */

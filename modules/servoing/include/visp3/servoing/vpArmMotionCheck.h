@@ -27,10 +27,12 @@ BEGIN_VISP_NAMESPACE
  * construction.
  *
  * \code
- * vpArmMotionCheck check(model, redundancy, indices, free);
+ * vpArmMotionCheck check(arm, vpRedundancySpec());
+ * vpServoController controller = vpServoController::create("ff-dtg");
  * controller.setMotionCheck(&check);
- * // each cycle, before controller.step():
+ * // each cycle, q and velocity being what the joints were commanded:
  * check.setState(q, velocity);
+ * const vpServoCommand command = controller.step(measurement, dt);
  * \endcode
  */
 class VISP_EXPORT vpArmMotionCheck : public vpServoMotionCheck

@@ -25,7 +25,7 @@ BEGIN_VISP_NAMESPACE
  * \code
  * vpReferenceTeacher teacher;
  * while (!teacher.isComplete()) {
- *   camera.acquire(image);
+ *   grabber.acquire(image);
  *   if (!teacher.add(image)) {
  *     std::cerr << teacher.message() << std::endl; // moved: starts again
  *   }

@@ -41,7 +41,10 @@ struct VISP_EXPORT vpReferenceVisionSpec {
  * vpReferenceVisionSpec spec;
  * spec.pose.nearest = 0.2; // m
  * spec.pose.farthest = 1.2;
- * servo.setVision(std::make_unique<vpReferenceVision>(reference, camera, spec)); // vpVisualServo servo
+ * vpVisualServo servo(vpServoController::create("ff-lookat"));
+ * servo.setVision(std::make_unique<vpReferenceVision>(reference, camera, spec));
+ * const vpServoSight &sight = servo.see(image, now()); // each image; see vpVisualServo
+ * std::cout << servo.vision().message() << " " << sight.distance << " +- " << sight.distanceSigma << " m\n";
  * \endcode
  * The largest plane in the image is used; points outside of it are left out. The noise of the reference image decides the
  * error at the end: average several with vpReferenceTeacher.

@@ -18,12 +18,13 @@ class vpRobot;
  * \ingroup group_servoing
  * Written by you, in a shared library: makes a robot for `visp-servo --robot-plugin LIBRARY --robot-arguments TEXT`.
  * \code
+ * #include <visp3/robot/vpSimulatorCamera.h>
  * #include <visp3/servoing/vpRobotPlugin.h>
  * extern "C" VISP_EXPORT vpRobot *vispDirectRobot(const char *address)
  * {
- *   auto *robot = new MyRobot(); // derived from vpRobot
- *   robot->connect(address);     // may throw: visp-servo prints the message and ends
- *   return robot;
+ *   auto robot = std::make_unique<vpSimulatorCamera>(); // or a class of your own, derived from vpRobot
+ *   robot->setSamplingTime(std::stod(address));         // may throw: visp-servo prints the message and ends
+ *   return robot.release();
  * }
  * \endcode
  * Build it with the same ViSP and compiler as visp-servo: `g++ -shared -fPIC my-robot.cpp -o libmy-robot.so`. The program calls

@@ -25,9 +25,10 @@ BEGIN_VISP_NAMESPACE
  *
  * \code
  * const vpServoTarget plate = vpServoTarget::rectangle(0.16, 0.11); // m
- * law->setGoal(plate.goal(cdMo));
- * plate.measure(target.process(image), time, measurement); // each frame
- * command = law->step(measurement, dt);
+ * vpPlanarTarget target(photo, 0.16, 0.11, camera);
+ * law.setGoal(plate.goal(cdMo));
+ * plate.measure(target.process(image), now(), measurement); // each frame
+ * const vpServoCommand command = law.step(measurement, dt); // Holding where the target was not found
  * \endcode
  */
 class VISP_EXPORT vpServoTarget

@@ -162,19 +162,21 @@ struct VISP_EXPORT vpVisualServoOutput {
  * Construction, setVision(), supervise() and setController() before both. step() does not allocate, throw, lock or
  * print.
  * \code
- * vpVisualServo servo(vpServoController::create("ff-lookat-pi"), {}, &model); // without &model: camera twists
+ * vpVisualServo servo(vpServoController::create("ff-lookat-pi"), {}, &arm); // without &arm: camera twists
  * servo.setVision(vpServoVision::photograph(photo, 0.16, 0.11, camera));
  * servo.setGoal(servo.vision().goal(cdMo));
  * std::thread vision([&]() {
  *   while (isRunning) {
- *     camera.acquire(image);
- *     servo.see(image, camera.captureTime());
+ *     grabber.acquire(image);
+ *     servo.see(image, now()); // better: the time stamp of the camera, on the clock of step()
  *   }
  * });
  * servo.start();
- * while (servo.step(robot.state(), now()).status != vpVisualServoStatus::Converged) { // every spec.period
- *   robot.command(servo.output().velocity);
+ * while (servo.step(encoders(), now()).status != vpVisualServoStatus::Converged) { // every spec.period
+ *   send(servo.output().velocity);                                                  // rad/s, to the drives
+ *   std::cout << servo.output().message << "\n";                                    // also why the robot stops
  * }
+ * servo.stop();
  * \endcode
  */
 class VISP_EXPORT vpVisualServo

@@ -30,8 +30,8 @@ BEGIN_VISP_NAMESPACE
  * \code
  * vpFrictionCamera robot(vpServoPlant::byName("B"));
  * robot.setRobotState(vpRobot::STATE_VELOCITY_CONTROL);
- * robot.setVelocity(vpRobot::CAMERA_FRAME, v);
- * vpHomogeneousMatrix wMc = robot.getPosition();
+ * robot.setVelocity(vpRobot::CAMERA_FRAME, vpTwist(0.1, 0., 0., 0., 0., 0.3).toColVector()); // m/s, rad/s
+ * std::cout << robot.getPosition() << "\n" << robot.actualTwist()[5] << " rad/s\n"; // wMc after 10 ms
  * \endcode
  */
 class VISP_EXPORT vpFrictionCamera : public vpSimulatorCamera

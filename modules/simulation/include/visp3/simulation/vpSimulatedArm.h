@@ -94,8 +94,9 @@ struct VISP_EXPORT vpSimulatedArmState {
  * \code
  * vpSimulatedArm robot(vpLoadArmJson("data/robot/amor.json"));
  * robot.setRobotState(vpRobot::STATE_VELOCITY_CONTROL);
- * robot.setVelocity(vpRobot::CAMERA_FRAME, v);     // 40 ms pass (getSamplingTime())
- * vpHomogeneousMatrix fMc = robot.get_fMc();
+ * robot.setVelocity(vpRobot::CAMERA_FRAME, vpTwist(0.1, 0., 0., 0., 0., 0.).toColVector()); // m/s; 40 ms pass
+ * const vpHomogeneousMatrix fMc = robot.get_fMc();
+ * std::cout << robot.getSentence() << "\n"; // moves, or what limits or blocks it
  * \endcode
  *
  * With vpArmClock::RealTime all functions may be called while the arm moves; the functions below are thread-safe. Those

@@ -78,7 +78,9 @@ struct VISP_EXPORT vpXYStageSpec {
  * for (int frame = 0; frame < 100; ++frame) {
  *   stage.step(1., {0.2, 0.}); // after a while, about 6 px/frame
  * }
- * product.render(stage.state().position[0], stage.state().position[1], ...);
+ * const vpXYStage::State &state = stage.state();
+ * const vpProductPattern product{vpProductPatternSpec()};
+ * product.render(state.position[0], state.position[1], state.velocity[0], state.velocity[1], 100, image);
  * \endcode
  */
 class VISP_EXPORT vpXYStage

@@ -31,10 +31,10 @@ BEGIN_VISP_NAMESPACE
  * input.goal.q << 0.5, 0.2, -0.1;
  * input.maxVelocity.setConstant(0.5);
  * while (vpIsWorking(trajectory.step(input, output, 0.001))) {
- *   robot.setPosition(output.state.q);   // input.goal or the limits may change here, at any cycle
+ *   send(output.state.q); // input.goal or the limits may change here, at any cycle
  * }
  * if (output.status.result == vpTrajectoryResult::Finished) {
- *   robot.setPosition(output.state.q);   // the goal itself
+ *   send(output.state.q); // the goal itself
  * }
  * else {
  *   std::cerr << output.status.message(); // an error also ends the loop

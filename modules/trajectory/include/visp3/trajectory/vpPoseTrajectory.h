@@ -78,14 +78,15 @@ struct VISP_EXPORT vpCameraState {
  * bounds |w_c|. Position and rotation arrive together.
  *
  * \code
- * vpPoseTrajectory trajectory(spec);
- * trajectory.reset(fMc);
- * trajectory.setGoal(fMcd);                       // at every image, if it moves
+ * vpPoseTrajectory trajectory;
+ * trajectory.reset(vpHomogeneousMatrix(0.3, 0., 0.5, 3.1, 0., 0.));   // fMc, m and rad
+ * trajectory.setGoal(vpHomogeneousMatrix(0.5, 0.2, 0.4, 2.8, 0., 0.)); // fMcd; at every image, if it moves
  * vpTrajectoryStatus status = trajectory.step(dt);
  * for (; vpIsWorking(status.result); status = trajectory.step(dt)) {
  *   robot.setVelocity(vpRobot::CAMERA_FRAME, trajectory.state().v.toColVector());
  * }
- * robot.setVelocity(vpRobot::CAMERA_FRAME, vpColVector(6)); // at the goal, or status.message() gives the error
+ * robot.setVelocity(vpRobot::CAMERA_FRAME, vpColVector(6)); // at the goal, or at an error
+ * std::cout << status.message() << std::endl;
  * \endcode
  */
 class VISP_EXPORT vpPoseTrajectory

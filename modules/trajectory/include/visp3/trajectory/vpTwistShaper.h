@@ -53,10 +53,12 @@ struct VISP_EXPORT vpTwistShaperLimits {
  * within the bounds of its parts.
  *
  * \code
- * vpTwistShaper shaper(limits);
- * while (task.getError().sumSquare() > small) {
- *   v = shaper.step(vpTwist::fromColVector(task.computeControlLaw()), dt);
- * }
+ * vpServo task; // with its features, see ViSP
+ * vpTwistShaper shaper({1., 10., 2., 20.}); // linear m/s^2, m/s^3; angular rad/s^2, rad/s^3
+ * do {
+ *   const vpTwist v = shaper.step(vpTwist::fromColVector(task.computeControlLaw()), dt);
+ *   robot.setVelocity(vpRobot::CAMERA_FRAME, v.toColVector());
+ * } while (task.getError().sumSquare() > 1e-6);
  * \endcode
  */
 class VISP_EXPORT vpTwistShaper
