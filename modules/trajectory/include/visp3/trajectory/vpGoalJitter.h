@@ -27,6 +27,17 @@ BEGIN_VISP_NAMESPACE
  * Corrections of this size, made at every new goal with plans of duration T, need accelerations up to
  * 10/sqrt(3) jitter / T^2 and jerks up to 60 jitter / T^3. floor() is #ease times the duration at which a correction
  * would reach the limits.
+ *
+ * \code
+ * vpTrajectoryProblem problem(1); // axes
+ * problem.field(vpTrajectoryProblem::MaxAcceleration)[0] = 2.; // m/s^2
+ * vpGoalJitter jitter(1);
+ * for (int i = 0; i < 50; ++i) {
+ *   jitter.pass(0.04);                          // s
+ *   jitter.see(0, i % 2 == 0 ? 0.001 : -0.001); // new goal minus the expected one, m
+ * }
+ * std::cout << "noise of " << jitter.level(0) << " m, plans of " << jitter.floor(problem) << " s" << std::endl;
+ * \endcode
  */
 class VISP_EXPORT vpGoalJitter
 {

@@ -60,6 +60,18 @@ struct VISP_EXPORT vpDurationAnswer {
  * feasible set may consist of several intervals; both are handled. Replaces the iteration (6.6), see vpThesisDuration.
  *
  * Nothing here allocates or throws.
+ *
+ * \code
+ * const vpAxisState from{}, to{0.5}; // at rest, m
+ * vpAxisLimits limits;
+ * limits.velocity = 0.5;    // m/s
+ * limits.acceleration = 2.; // m/s^2
+ * const vpDurationAnswer answer = vpMinimumDuration::solve(vpMotionFamily::pointToPoint(from, to, 3), limits,
+ *                                                          vpMinimumDuration::lowerBound(from, to, limits));
+ * if (answer.kind == vpDurationAnswer::Kind::Found) { // not Infeasible or Undecided
+ *   std::cout << answer.T << " s" << std::endl;       // 1.875
+ * }
+ * \endcode
  */
 namespace vpMinimumDuration
 {

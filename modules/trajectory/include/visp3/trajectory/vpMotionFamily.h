@@ -27,6 +27,13 @@ using vpAxisState = std::array<double, 4>;
  * Each coefficient of p is a polynomial in T of degree <= 3, because a derivative of order k given in 1/s^k enters as
  * T^k times its value. So at a fixed s every derivative of the motion is also a polynomial in T, which makes the
  * smallest duration an exact computation (see vpMinimumDuration). Positions are relative to the start.
+ *
+ * \code
+ * const vpAxisState from{0., 0.2}, to{0.5}; // m, m/s
+ * const vpMotionFamily motion = vpMotionFamily::pointToPoint(from, to, 3); // minimum jerk, for every duration
+ * const vpPolynomial p = motion.at(2.);                                    // in 2 s; relative to the start
+ * std::cout << "after 1 s " << from[0] + p.value(0.5) << " m, " << p.jet(0.5)[1] / 2. << " m/s" << std::endl;
+ * \endcode
  */
 class VISP_EXPORT vpMotionFamily
 {

@@ -36,6 +36,37 @@ BEGIN_VISP_NAMESPACE
  * iteration of the thesis do not ask it.
  *
  * Forms are called in real-time steps, by several threads at once: hence const, without scratch memory.
+ *
+ * \code
+ * class Septic : public vpMotionForm // from rest to rest, with jerk 0 at both ends
+ * {
+ * public:
+ *   bool plan(const vpTrajectoryProblem &problem, double floor, Writer &writer) const noexcept override
+ *   {
+ *     double T = floor; // s, for all axes
+ *     for (int i = 0; i < problem.axes(); ++i) {
+ *       const double h = std::abs(problem.goal(i)[0] - problem.start(i)[0]);
+ *       const vpAxisLimits limits = problem.limits(i);
+ *       T = std::max({T, 2.1875 * h / limits.velocity, std::sqrt(7.5133 * h / limits.acceleration)});
+ *     }
+ *     for (int i = 0; i < problem.axes(); ++i) {
+ *       const double h = problem.goal(i)[0] - problem.start(i)[0];
+ *       writer.append(i, {0., 0., 0., 0., 35. * h, -84. * h, 70. * h, -20. * h}, T);
+ *     }
+ *     return true;
+ *   }
+ * };
+ * \endcode
+ *
+ * \code
+ * vpMotionForm::add("septic", "A polynomial of degree seven, from rest to rest.", std::make_unique<Septic>());
+ * vpTrajectoryInput<1> input;
+ * input.goal.q << 0.5; // m
+ * input.spec.form = vpMotionForm::find("septic");
+ * vpTrajectoryPlan plan(1);
+ * const vpTrajectoryStatus status = vpDirectTrajectory<1>::calculate(input, plan);
+ * std::cout << status.message() << ", " << vpToString(plan.form()) << std::endl; // Own, if it passed the check
+ * \endcode
  */
 class VISP_EXPORT vpMotionForm
 {

@@ -25,6 +25,16 @@ BEGIN_VISP_NAMESPACE
  * condition 2e16 at T = 1 ms, in s the coefficients are closed forms of the order of the motion itself.
  * The capacity holds a path of degree 8 and the square of its derivative (for limits on a Euclidean norm).
  * Nothing here allocates or throws.
+ *
+ * \code
+ * vpPolynomial p{0., 0., 0., 10., -15., 6.}; // minimum jerk: 10 s^3 - 15 s^4 + 6 s^5
+ * const vpPolynomial::Range speed = p.derivative().range();
+ * std::cout << "fastest at " << speed.atMax << ": " << speed.max << std::endl; // 0.5: 1.875
+ * p[0] -= 0.1;
+ * for (const double s : p.roots()) {
+ *   std::cout << "a tenth of the way at " << s << std::endl; // 0.247
+ * }
+ * \endcode
  */
 class VISP_EXPORT vpPolynomial
 {

@@ -20,6 +20,17 @@ BEGIN_VISP_NAMESPACE
  * Corrected as follows: the peaks are the largest absolute values over all interior extrema and both ends (not the
  * latest root), and the duration can decrease as well as increase. With a fixed gain it needs 6 to 2600 iterations and
  * often does not converge, so the limits are not guaranteed. Kept for comparison with vpMinimumDuration.
+ *
+ * \code
+ * const vpMotionFamily motion = vpMotionFamily::pointToPoint({}, {0.5}, 3); // m, from rest to rest
+ * vpAxisLimits limits;
+ * limits.velocity = 0.5;    // m/s
+ * limits.acceleration = 2.; // m/s^2
+ * const vpDurationAnswer answer = vpThesisDuration::solve(motion, limits, vpThesisDuration::Gains(), 1., 2600);
+ * if (answer.kind == vpDurationAnswer::Kind::Found) { // often it is Undecided
+ *   std::cout << answer.T << " s, " << answer.iterations << " iterations" << std::endl;
+ * }
+ * \endcode
  */
 namespace vpThesisDuration
 {

@@ -28,6 +28,22 @@ BEGIN_VISP_NAMESPACE
  * and has a velocity is a moving object: the remaining time then decreases quickly to that minimum, and the plan aims
  * at the predicted position q + v floor, within the position limits. (A plan to q would always lag behind by its own
  * duration.) The plan of the first goal ends at the goal as given, as with the other policies.
+ *
+ * \code
+ * vpTrajectoryProblem problem(2); // axes
+ * for (int i = 0; i < problem.axes(); ++i) {
+ *   problem.field(vpTrajectoryProblem::GoalQ)[i] = 0.3;          // rad
+ *   problem.field(vpTrajectoryProblem::MaxVelocity)[i] = 1.;     // rad/s
+ *   problem.field(vpTrajectoryProblem::MaxAcceleration)[i] = 5.; // rad/s^2
+ * }
+ * vpTrajectoryFollower follower(problem.axes());
+ * vpTrajectoryStatus status;
+ * do {
+ *   status = follower.step(problem, 0.001);           // s; the problem may change at any cycle
+ *   send(follower.state(0)[0], follower.state(1)[0]); // rad
+ * } while (vpIsWorking(status.result));
+ * std::cout << status.message() << std::endl; // at the goal, or what is wrong
+ * \endcode
  */
 class VISP_EXPORT vpTrajectoryFollower
 {

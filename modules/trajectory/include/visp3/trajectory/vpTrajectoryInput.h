@@ -55,6 +55,21 @@ template <int N> struct vpTrajectoryVia {
  * \brief Start, goal, limits, vias and options: everything that vpDirectTrajectory reads, each cycle.
  *
  * Any member may change at any cycle; that is an event. \e start is read in the first cycle and after reset() only.
+ *
+ * \code
+ * vpTrajectoryInput<2> input;
+ * input.goal.q << 0.6, 0.2;             // m
+ * input.maxVelocity.setConstant(0.5);   // m/s
+ * input.maxAcceleration.setConstant(2.); // m/s^2
+ * vpTrajectoryVia<2> via;
+ * via.q << 0.3, 0.4;
+ * input.vias = {via};
+ * const vpTrajectoryStatus status = vpDirectTrajectory<2>::optimiseVias(input); // when it is passed, and how fast
+ * if (status.isGood()) {
+ *   std::cout << "passed after " << input.vias[0].tau << " of the time" << std::endl;
+ * }
+ * vpDirectTrajectory<2> trajectory(2, 1); // with room for one via; then step(input, ...)
+ * \endcode
  */
 template <int N> struct vpTrajectoryInput {
   vpTrajectoryState<N> start;           //!< Initial state.

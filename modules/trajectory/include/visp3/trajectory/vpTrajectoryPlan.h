@@ -64,6 +64,20 @@ struct VISP_EXPORT vpTrajectoryPiece {
  * \class vpTrajectoryPlan
  * \ingroup group_trajectory
  * \brief An immutable motion, as a value. Made by vpTrajectoryPlanner; queries never allocate except pieces().
+ *
+ * \code
+ * vpTrajectoryInput<2> input;
+ * input.goal.q << 0.5, -0.2; // m; limits are 1 m/s, 1 m/s^2 unless set
+ * vpTrajectoryPlan plan(2);
+ * const vpTrajectoryStatus status = vpDirectTrajectory<2>::calculate(input, plan);
+ * if (status.isGood()) {
+ *   std::cout << plan.duration() << " s, at most " << plan.peaks(0).velocity << " m/s" << std::endl;
+ *   std::cout << "half-way at " << plan.at(0, plan.duration() / 2.)[0] << " m" << std::endl;
+ * }
+ * else {
+ *   std::cerr << status.message() << std::endl;
+ * }
+ * \endcode
  */
 class VISP_EXPORT vpTrajectoryPlan
 {

@@ -27,6 +27,18 @@ BEGIN_VISP_NAMESPACE
  * within these forms, not over all motions.
  *
  * Has no state except scratch memory: the same problem gives the same plan. Allocates at construction only.
+ *
+ * \code
+ * vpTrajectoryProblem problem(1);                              // axes
+ * problem.field(vpTrajectoryProblem::GoalQ)[0] = 0.5;          // m
+ * problem.field(vpTrajectoryProblem::MaxVelocity)[0] = 0.5;    // m/s
+ * problem.field(vpTrajectoryProblem::MaxAcceleration)[0] = 2.; // m/s^2
+ * vpTrajectoryPlanner planner(1);
+ * vpTrajectoryPlan plan(1);
+ * vpTrajectoryStatus status = problem.validate(true);
+ * status = status.isGood() ? planner.plan(problem, 0., plan) : status;
+ * std::cout << plan.duration() << " s; " << status.message() << std::endl;
+ * \endcode
  */
 class VISP_EXPORT vpTrajectoryPlanner
 {

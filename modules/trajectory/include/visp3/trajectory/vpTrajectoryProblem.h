@@ -23,6 +23,20 @@ BEGIN_VISP_NAMESPACE
  * \brief Input of vpTrajectoryPlanner, with the number of axes known at run time only.
  *
  * vpTrajectoryInput is its typed form for users. Allocates at construction only.
+ *
+ * \code
+ * vpTrajectoryProblem problem(1, 1); // axes, vias
+ * problem.setStart(0, {0., 0.1});    // m, m/s
+ * problem.field(vpTrajectoryProblem::GoalQ)[0] = 0.5;
+ * problem.field(vpTrajectoryProblem::MaxAcceleration)[0] = 2.; // m/s^2
+ * const double via = 0.4;                                      // m
+ * problem.setViaCount(1);
+ * problem.setVia(0, vpAutomaticTau, &via, nullptr, nullptr);
+ * const vpTrajectoryStatus status = problem.validate(true);
+ * if (!status.isGood()) {
+ *   std::cerr << status.message() << std::endl; // "velocity limit of axis 1 is -1, must be > 0"
+ * }
+ * \endcode
  */
 class VISP_EXPORT vpTrajectoryProblem
 {

@@ -82,8 +82,18 @@ struct VISP_EXPORT vpAxisGroup {
   [[nodiscard]] bool contains(int axis) const { return axis < 64 && (axes >> axis & 1) != 0; } //!< Membership.
 };
 
-//! \ingroup group_trajectory
-//! \brief Everything about a trajectory that is not one number per axis.
+/*!
+ * \ingroup group_trajectory
+ * \brief Everything about a trajectory that is not one number per axis.
+ *
+ * \code
+ * vpTrajectoryInput<3> input;
+ * input.spec.continuity = vpTrajectoryContinuity::C3;
+ * input.spec.policy = vpReplanPolicy::FixedArrival;
+ * input.spec.arrivalTime = 2.;                              // s
+ * input.spec.groups[0] = vpAxisGroup({0, 1, 2}, 0.25, 0.5); // speed of the tool: m/s, m/s^2
+ * \endcode
+ */
 struct VISP_EXPORT vpTrajectorySpec {
   static constexpr int maxGroups = 4; //!< Largest number of groups.
 

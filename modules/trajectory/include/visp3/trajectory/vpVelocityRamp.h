@@ -21,6 +21,12 @@ BEGIN_VISP_NAMESPACE
  *
  * Used to brake from outside the limits and, one cycle at a time, by vpTwistShaper. A start beyond a_max first returns
  * to it at full jerk.
+ *
+ * \code
+ * const vpVelocityRamp ramp(0.4, 0., 0., 1., 10.); // brake from 0.4 m/s with at most 1 m/s^2 and 10 m/s^3
+ * const vpAxisState end = ramp.at(0., ramp.duration());
+ * std::cout << ramp.duration() << " s, " << end[0] << " m" << std::endl; // 0.5 s, 0.1 m
+ * \endcode
  */
 class VISP_EXPORT vpVelocityRamp
 {
