@@ -21,6 +21,13 @@ BEGIN_VISP_NAMESPACE
  *
  * Limits and values may come from files, floats or sums; pi as a float is 8.7e-8 above pi as a double.
  * A value that exceeds its limit by at most one millionth counts as on the limit. NaN never does.
+ *
+ * \code
+ * const double high = 3.14159265; // rad, as read from a file
+ * if (vpLimit::isBetween(-high, M_PI, high)) {
+ *   std::cout << "on its limit" << std::endl; // beyond it by less than a millionth
+ * }
+ * \endcode
  */
 namespace vpLimit
 {

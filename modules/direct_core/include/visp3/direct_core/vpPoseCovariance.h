@@ -23,6 +23,13 @@ BEGIN_VISP_NAMESPACE
  * (exp([w]x) R, t + v), v in m, w in rad.
  *
  * While `known` is false the numbers carry no information and must not be used: an unknown covariance is not zero.
+ *
+ * \code
+ * const vpPoseCovariance &covariance = measurement.covariance;
+ * if (covariance.positionDeviation() < 0.002) { // m; infinite where it is not known
+ *   std::cout << "depth is known to " << std::sqrt(covariance(2, 2)) << " m" << std::endl;
+ * }
+ * \endcode
  */
 struct VISP_EXPORT vpPoseCovariance {
   bool known = false;         //!< True when #C has been estimated.

@@ -26,6 +26,13 @@ BEGIN_VISP_NAMESPACE
 /*!
  * \ingroup group_direct_core
  * \brief Functions on rotations that neither allocate nor throw.
+ *
+ * \code
+ * const Eigen::Matrix3d R = vpSO3::exp({0., 0., 0.5}); // rad, about z
+ * const Eigen::Vector3d e = vpSO3::log(R);             // (0, 0, 0.5)
+ * const Eigen::Vector3d w(0.1, 0., 0.);                // rotates at this body rate, rad/s
+ * std::cout << (vpSO3::rightJacobianInverse(e) * w).transpose() << " rad/s" << std::endl; // e'
+ * \endcode
  */
 namespace vpSO3
 {

@@ -16,6 +16,13 @@ BEGIN_VISP_NAMESPACE
 /*!
  * \ingroup group_direct_core
  * Probability that a chi-square variable is at least \e value: test of a fit with known standard deviations.
+ *
+ * \code
+ * const double squares = 31.4; // of 12 residuals, each over its standard deviation; 2 parameters were fitted
+ * if (vpChiSquareTail(squares, 12. - 2.) < 0.01) {
+ *   std::cout << "not noise alone" << std::endl; // the probability is 0.0005
+ * }
+ * \endcode
  * \param value : Sum of squares, >= 0, in standard deviations squared. \param degrees : Degrees of freedom, > 0.
  * \return In [0, 1]; 0 for infinity, NaN for NaN or out-of-range input.
  */

@@ -25,6 +25,14 @@ BEGIN_VISP_NAMESPACE
  * ViSP passes velocities as a vpColVector, which is allocated on the heap. A real-time step must not allocate, so the
  * laws, filters and trajectories of visp-direct exchange this type and convert at the edge with toColVector().
  * Unless stated otherwise, twists in visp-direct are expressed in the current camera frame.
+ *
+ * \code
+ * vpTwist v(0.3, 0., 0.4, 0., 0., 1.); // m/s and rad/s, in the camera frame
+ * v = vpLimitTwist(v, 0.25, 1.5);      // 0.5 m/s is twice too fast: (0.15, 0, 0.2, 0, 0, 0.5)
+ * if (v.isFinite()) {
+ *   robot.setVelocity(vpRobot::CAMERA_FRAME, v.toColVector());
+ * }
+ * \endcode
  */
 class VISP_EXPORT vpTwist
 {
