@@ -87,6 +87,18 @@ struct VISP_EXPORT vpPlanarTargetEffort {
  * the camera, and excludes occluded areas. It gives the covariance of the pose. Where the perspective is weak, it
  * compares both poses of the plane; the status is Ambiguous until odds of 10,000 and three standard deviations decide,
  * in one frame or in several: evidence decays by a tenth each frame, so a choice can change.
+ *
+ * \code
+ * vpImageIo::read(photo, "data/target/klimt.jpg");
+ * vpPlanarTarget target(photo, 0.16, 0.16, camera);         // m
+ * const vpPlanarTargetResult &seen = target.process(image); // each frame
+ * if (seen.found()) {
+ *   std::cout << seen.cMo.getTranslationVector().t() << " +- " << seen.covariance.positionDeviation() << " m\n";
+ * }
+ * else {
+ *   std::cerr << seen.message << std::endl; // also where two poses fit
+ * }
+ * \endcode
  */
 class VISP_EXPORT vpPlanarTarget
 {

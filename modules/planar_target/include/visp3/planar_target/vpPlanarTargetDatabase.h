@@ -53,6 +53,16 @@ struct VISP_EXPORT vpPlanarTargetSighting {
  * (catchPlanarTargetSearch). A target that resembles no lost one at first is found after at most three times as many frames as there
  * are lost targets, and one that only the fallback detector finds, which searches one of nine parts of the frame in every third
  * frame, after 27 frames or more.
+ *
+ * \code
+ * vpPlanarTargetDatabase targets = vpPlanarTargetDatabase::fromFolder("data/target", camera);
+ * for (const vpPlanarTargetSighting &target : targets.process(image)) { // each frame
+ *   if (target.result.found()) {
+ *     std::cout << target.name << ": " << target.result.cMo.getTranslationVector().t() << " +- "
+ *               << target.result.covariance.positionDeviation() << " m" << std::endl;
+ *   }
+ * }
+ * \endcode
  */
 class VISP_EXPORT vpPlanarTargetDatabase
 {

@@ -77,6 +77,16 @@ struct VISP_EXPORT vpPlaneMatch {
  *
  * For a plane known from one picture only. With vpTwoViewDecomposition it gives the camera's motion up to scale (thesis
  * 4.3); where the metric size is known, vpPlanarTarget gives more and is far more precise.
+ *
+ * \code
+ * vpPlaneMatcher matcher(reference);
+ * const vpPlaneMatch &match = matcher.match(image); // each frame
+ * std::cout << match.message << std::endl;
+ * if (match.found()) { // and not only near the matches
+ *   std::cout << match.inliers.size() << " matches, corners +- " << match.cornerDeviation << " px\n"
+ *             << match.euclidean(camera) << std::endl;
+ * }
+ * \endcode
  */
 class VISP_EXPORT vpPlaneMatcher
 {

@@ -42,6 +42,20 @@ struct VISP_EXPORT vpPlaneTrack {
  * shift, at any scale, rotation and tilt; gain and bias of the light are matched first. Points that do not agree with
  * one homography (not on the plane, or occluded) count as not visible. The same corners are found in each frame, with independent
  * errors of about 0.1 px: keypoints, which are detected in each frame again, err by several tenths.
+ *
+ * \code
+ * vpPlaneTracker tracker(reference);
+ * for (int i = 0; i < 100; ++i) {
+ *   grabber.acquire(image);
+ *   const std::array<double, 9> last = tracker.result().homography;
+ *   const vpPlaneTrack &track = tracker.result().found ? tracker.track(image, last) : tracker.acquire(image);
+ *   for (std::size_t k = 0; track.found && k < track.points.size(); ++k) {
+ *     if (track.visible[k]) {
+ *       std::cout << tracker.reference()[k] << " is at " << track.points[k] << " +- " << track.sigma << " px\n";
+ *     }
+ *   }
+ * }
+ * \endcode
  */
 class VISP_EXPORT vpPlaneTracker
 {

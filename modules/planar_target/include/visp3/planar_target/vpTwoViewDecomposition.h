@@ -80,6 +80,19 @@ struct VISP_EXPORT vpTwoViewSpec {
  * motion is immediately Unique.
  *
  * The homography comes from vpHomography or OpenCV, in normalised coordinates, not pixels.
+ *
+ * \code
+ * vpPlaneMatcher matcher(reference);
+ * vpTwoViewDecomposition decomposition;
+ * const vpPlaneMatch &match = matcher.match(image); // each frame, while the camera moves
+ * if (match.found()) {
+ *   const vpTwoViewResult &motion = decomposition.process(match.euclidean(camera), match.referencePoints(camera));
+ *   std::cout << motion.message << std::endl;
+ *   if (motion.status == vpTwoViewStatus::Unique) {
+ *     std::cout << motion.best.c2Rc1 << "\n" << motion.best.t.t() << std::endl; // in units of the plane's distance
+ *   }
+ * }
+ * \endcode
  */
 class VISP_EXPORT vpTwoViewDecomposition
 {
