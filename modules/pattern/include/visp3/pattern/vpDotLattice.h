@@ -77,6 +77,15 @@ struct VISP_EXPORT vpDotLattice {
  * walk from dot to dot reaches most dots wins. At least 30 % of the spots must lie on it, within a tenth of the pitch,
  * and more than random spots would (probability 1e-6): nine dots that fit well, or more that fit badly. The effort is
  * bounded: one pass over the image per window size (four), and at most 20000 spots.
+ *
+ * \code
+ * const vpDotLattice lattice = vpFindDotLattice(image);
+ * std::cout << lattice.message << std::endl; // also why there is none
+ * if (lattice.kind == vpDotLatticeKind::Plane) {
+ *   std::cout << lattice.name() << ": " << lattice.dots.size() << " dots, pitches " << lattice.columnPitch() << " and "
+ *             << lattice.rowPitch() << " px, " << lattice.rms << " px rms" << std::endl;
+ * }
+ * \endcode
  * \param image : 8 bit, at least 16 x 16 px.
  * \throw vpException (badValue) when the image is smaller.
  */

@@ -31,6 +31,12 @@ BEGIN_VISP_NAMESPACE
  * where F mirrors y when #mirrored is set and g = (tiltX, tiltY). With g and D - 1 zero this is (7.7), and scaleX its
  * magnification M_o = f / t_z in px per metre of product. A plane tilted by the angle a about the axis at the angle b
  * to u has |g| = sin a / distance, the distance in px, and is foreshortened across the axis by 1 - cos a.
+ *
+ * \code
+ * vpMicroscopeCalibration microscope = vpMicroscopeCalibration::loadXml("microscope.xml", "microscope", 640, 480);
+ * const Eigen::Vector2d p = microscope.toPlane(100., 50.); // px to m, from the principal point
+ * std::cout << 1e6 * p.transpose() << " um; a pixel is " << microscope.pixelSizeUm() << " um" << std::endl;
+ * \endcode
  */
 struct VISP_EXPORT vpMicroscopeCalibration {
   unsigned int width = 0;  //!< Columns of the images, px.

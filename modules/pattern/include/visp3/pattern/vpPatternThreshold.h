@@ -42,6 +42,17 @@ struct VISP_EXPORT vpPatternThresholdResult {
 /*!
  * \ingroup group_pattern
  * \brief Threshold of a histogram, thesis table 7.1. Allocates nothing; an empty histogram has the threshold -1.
+ *
+ * \code
+ * vpPatternHistogram histogram{};
+ * for (unsigned int i = 0; i < image.getSize(); ++i) {
+ *   ++histogram[image.bitmap[i]];
+ * }
+ * const vpPatternThresholdResult found = vpFindThreshold(histogram, vpPatternThreshold::Otsu);
+ * if (found.threshold >= 0 && found.separability > 0.8) { // noise alone: 0.64
+ *   std::cout << "bright above " << found.threshold << std::endl;
+ * }
+ * \endcode
  */
 [[nodiscard]] VISP_EXPORT vpPatternThresholdResult vpFindThreshold(const vpPatternHistogram &histogram,
                                                                    vpPatternThreshold method);

@@ -30,6 +30,24 @@ BEGIN_VISP_NAMESPACE
  * distinguished from one by -0.2. Motion near half a pitch and sudden jumps start a new epoch.
  *
  * All memory is allocated in the constructor. process() does not allocate, throw, lock or print.
+ *
+ * \code
+ * vpPatternTracker tracker(640, 480); // px
+ * double moved = 0.;                  // px to the right
+ * for (int i = 0; i < 100; ++i) {
+ *   grabber.acquire(image);
+ *   const vpPatternFrame &frame = tracker.process(image);
+ *   moved += frame.hasMotion ? frame.dx : 0.; // +- frame.sigmaDx
+ *   if (frame.status != vpPatternStatus::Tracking) {
+ *     std::cerr << frame.message() << std::endl; // learning, or lost and why
+ *   }
+ *   for (const vpPatternCell &cell : frame.cells) {
+ *     if (cell.valid) {
+ *       std::cout << cell.row << ", " << cell.column << ": " << cell.x << " +- " << cell.sigmaX << " px\n";
+ *     }
+ *   }
+ * }
+ * \endcode
  */
 class VISP_EXPORT vpPatternTracker
 {

@@ -90,6 +90,21 @@ struct VISP_EXPORT vpTsaiCalibrationResult {
  * result is then not `reliable` and the message says so. Nor is it when the points do not fit (vpFitTest): outliers, a
  * view with permuted points, wrong distances on the object. A wrong common scale of the object changes only the poses
  * and cannot be detected.
+ *
+ * \code
+ * vpTsaiCalibrationSpec spec;
+ * spec.sigmaFromResiduals = true; // how well dots are measured is not known
+ * vpTsaiCalibration calibration(640, 480, spec);
+ * for (int view = 0; view < 6; ++view) { // of a grid of dots 10 mm apart, in each image tilted another way
+ *   grabber.acquire(image);
+ *   calibration.addView(vpCalibrationPoints(image, {0.01, 0.01}));
+ * }
+ * const vpTsaiCalibrationResult result = calibration.compute();
+ * std::cout << result.message << std::endl;
+ * if (result.reliable) {
+ *   std::cout << result.px << " +- " << result.sigma(vpTsaiPx) << " px\n" << result.toCamera() << std::endl;
+ * }
+ * \endcode
  */
 class VISP_EXPORT vpTsaiCalibration
 {
