@@ -29,12 +29,22 @@ extern const vpHomogeneousMatrix cdMo;
 extern vpServoMeasurement measurement;
 extern const double dt; // s
 
+namespace avoidance
+{
+extern vpImage<float> depth; // m
+}
+
 namespace feedforward
 {
 extern const vpServoGoal goal;
 extern const vpMatrix eJe;
 bool closeEnough(const vpServoMeasurement &seen);
 } // namespace feedforward
+
+namespace printing
+{
+extern const std::vector<vpFrictionSample> samples; // force, velocity, acceleration
+}
 
 namespace servoing
 {

@@ -60,6 +60,16 @@ struct VISP_EXPORT vpAlphaBetaGains {
  * velocity) or a measured velocity (the rate is the acceleration). With velocities in px/frame the period is 1.
  *
  * step() does not allocate, throw, lock or print.
+ *
+ * \code
+ * vpAlphaBetaFilter filter(vpAlphaBetaGains::criticallyDamped(0.4));
+ * for (const double velocity : {4.9, 5.2, 5.}) { // measured, px/frame
+ *   filter.step(velocity);
+ * }
+ * filter.skip(); // a frame without a measurement
+ * std::cout << filter.state().value << " px/frame, in two frames " << filter.predict(2.) << ", noise times "
+ *           << std::sqrt(filter.gains().valueVariance()) << std::endl;
+ * \endcode
  */
 class VISP_EXPORT vpAlphaBetaFilter
 {

@@ -31,6 +31,16 @@ struct VISP_EXPORT vpCellVelocity {
  * each weighted by the variance of its displacement. As printed, the sum runs over the cells of one frame and jumps by
  * a pitch when a cell enters or leaves.
  *
+ * \code
+ * vpPatternTracker tracker(160, 100);
+ * const std::vector<vpPatternCell> before = tracker.process(image).cells;
+ * grabber.acquire(image);
+ * const std::vector<vpPatternCell> &cells = tracker.process(image).cells;
+ * const vpCellVelocity found = vpFindCellVelocity(before.data(), before.size(), cells.data(), cells.size());
+ * if (found.cells > 0) {
+ *   std::cout << found.vx << " +- " << found.sigmaX << " px/frame" << std::endl;
+ * }
+ * \endcode
  * \param before, beforeCount : Cells of the earlier frame. Cells with numbers that are not finite or beyond
  *   vpPrintingLargest, or with deviations not > 0, are ignored.
  * \param now, nowCount : Cells of the later frame, of the same epoch.

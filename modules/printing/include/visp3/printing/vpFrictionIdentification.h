@@ -82,6 +82,14 @@ struct VISP_EXPORT vpFrictionIdentification {
  * The other tests whether consecutive residuals of the log are correlated. If either finds something, the status is
  * vpFrictionStatus::Misfit. Samples that were smoothed over overlapping windows are correlated.
  * Allocates; not for control loops.
+ *
+ * \code
+ * const vpFrictionIdentification found = vpIdentifyFriction(samples); // of slow and fast motions
+ * std::cout << found.message() << std::endl;
+ * if (found.status == vpFrictionStatus::Good || found.status == vpFrictionStatus::NoStribeck) {
+ *   std::cout << "Coulomb " << found.model.coulomb << " +- " << found.sigmaCoulomb << std::endl;
+ * }
+ * \endcode
  * \throw vpException (badValue) naming a field of \e spec that is out of range.
  */
 [[nodiscard]] VISP_EXPORT vpFrictionIdentification

@@ -23,6 +23,16 @@ BEGIN_VISP_NAMESPACE
  *
  * With a plan r(t) and the state (p, v) at the time t0, the motion is
  * p + r(t) - r(t0) + (v - r'(t0)) tau (1 - exp(-(t - t0) / tau)): the velocity error decays as under the controller.
+ *
+ * \code
+ * vpMotionForecast forecast;
+ * forecast.time = 100.;    // frame
+ * forecast.position = 48.; // px
+ * forecast.velocity = 5.;  // px/frame
+ * if (forecast.isPlausible()) {
+ *   std::cout << forecast.at(103.)[0] << " px" << std::endl; // 63
+ * }
+ * \endcode
  */
 struct VISP_EXPORT vpMotionForecast {
   static constexpr int maxPieces = 4;    //!< Maximum number of pieces of a plan.

@@ -108,6 +108,20 @@ struct VISP_EXPORT vpMotionEstimate {
  * call reset() first when the clock does not.
  *
  * add() and at() do not allocate, throw, lock or print.
+ *
+ * \code
+ * vpMotionKalmanFilter filter; // px and frames
+ * for (int frame = 2; frame < 50; ++frame) {
+ *   const double captured = frame - 1.3; // the image is late
+ *   if (filter.add({vpMotionReadingKind::Position, captured, 5. * captured, 0.02}) != vpMotionReadingResult::Used) {
+ *     std::cerr << "not used, " << filter.outliers() << " outliers so far" << std::endl;
+ *   }
+ * }
+ * const vpMotionEstimate present = filter.at(50.);
+ * if (present.asAsked) {
+ *   std::cout << present.position << " +- " << present.sigmaPosition << " px" << std::endl; // 250
+ * }
+ * \endcode
  */
 class VISP_EXPORT vpMotionKalmanFilter
 {

@@ -81,6 +81,22 @@ struct VISP_EXPORT vpObservedMotion {
  * reset() first when the clock does not.
  *
  * The functions of the control loop do not allocate, throw, lock or print.
+ *
+ * \code
+ * vpMotionObserverSpec spec;
+ * spec.model = {1., 0.02, 0.08, 0.12, 0.3}; // mass 1, friction, px and frames
+ * vpMotionObserver observer(spec);
+ * for (double frame = 2.; frame < 50.; ++frame) {
+ *   const double position = encoders()(0); // as the camera saw it 1.28 frames ago, px
+ *   if (observer.measure(frame - 1.28, position, 0.01) != vpMotionReadingResult::Used) {
+ *     std::cerr << "position " << position << " is not used" << std::endl;
+ *   }
+ *   const vpObservedMotion present = observer.at(frame);
+ *   const double force = 0.3 * (5. - present.velocity); // to 5 px/frame
+ *   observer.command(frame, force);
+ *   send(force);
+ * }
+ * \endcode
  */
 class VISP_EXPORT vpMotionObserver
 {

@@ -41,6 +41,21 @@ struct VISP_EXPORT vpPreviewControlSpec {
  * A command given now acts from now + delay for one period, through the lag: its feedforward is that of the reference
  * in the middle of this time, actsAt(), with the lag inverted, u = F + lag F'. Its feedback uses the state predicted
  * for feedbackAt(), when it begins to act. Stateless: the same input gives the same output.
+ *
+ * \code
+ * vpMotionObserver observer;  // is told what the camera sees and what is commanded
+ * vpPrintReference reference; // leads from cell to cell
+ * const vpPreviewControl control;
+ * const double frame = 10.;
+ * const vpObservedMotion motion = observer.at(control.feedbackAt(frame));
+ * const vpPreviewControl::Output command =
+ *     control.command({reference.at(control.actsAt(frame)), reference.at(control.feedbackAt(frame)), motion.position,
+ *                      motion.velocity, motion.disturbance});
+ * if (command.valid) { // and not command.saturated
+ *   observer.command(frame, command.force);
+ *   send(command.force);
+ * }
+ * \endcode
  */
 class VISP_EXPORT vpPreviewControl
 {

@@ -62,6 +62,18 @@ struct VISP_EXPORT vpPrintTarget {
  * The rest is corrected on the way to the next target.
  *
  * step() and at() do not allocate, throw, lock or print.
+ *
+ * \code
+ * const vpPrintTarget cells[] = {{1, 48.9}, {2, 97.8}, {3, 146.7}}; // px, passed with 4 px/frame
+ * vpPrintReference reference;                                       // 5 px/frame on average
+ * for (double frame = 0.; frame < 40.; ++frame) {
+ *   const vpPrintReference::Output &out = reference.step(frame, cells, 3);
+ *   if (out.valid && out.hasTarget) {
+ *     std::cout << out.state[0] << " px, " << out.state[1] << " px/frame; cell " << out.target << " at "
+ *               << out.arrival << (out.frozen ? ", frozen" : "") << std::endl;
+ *   }
+ * }
+ * \endcode
  */
 class VISP_EXPORT vpPrintReference
 {

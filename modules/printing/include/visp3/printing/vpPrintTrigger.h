@@ -130,6 +130,31 @@ struct VISP_EXPORT vpPrintTriggerOutput {
  * deviations not > 0, are ignored.
  *
  * step() does not allocate, throw, lock or print.
+ *
+ * \code
+ * vpPrintTrigger trigger; // nozzle at 79.5 px
+ * vpPatternTracker tracker(160, 100);
+ * vpPrintTriggerInput input;
+ * for (double frame = 1.28; frame < 50.; ++frame) {
+ *   grabber.acquire(image);
+ *   const vpPatternFrame &seen = tracker.process(image);
+ *   input.time = input.along.time = frame;
+ *   input.captureTime = frame - 1.28;
+ *   input.cells = seen.cells.data();
+ *   input.cellCount = seen.cells.size();
+ *   input.epoch = seen.epoch;
+ *   input.captureAlong = 5. * input.captureTime; // px; of a vpProductOdometer
+ *   input.along.position = 5. * frame;
+ *   input.along.velocity = 5.; // px/frame
+ *   const vpPrintTriggerOutput &out = trigger.step(input);
+ *   for (int i = 0; i < out.shotCount; ++i) {
+ *     send(out.shots[i].fireTime); // frame
+ *   }
+ *   if (out.status != vpPrintTriggerStatus::Good || out.missedCount > 0) {
+ *     std::cerr << out.missedCount << " cells missed" << std::endl;
+ *   }
+ * }
+ * \endcode
  */
 class VISP_EXPORT vpPrintTrigger
 {

@@ -43,6 +43,14 @@ struct VISP_EXPORT vpPrintVelocityControlSpec {
  *
  * Anti-windup: while the command is at its bound, the integral changes only in the direction that leads away from it.
  * step() does not allocate, throw, lock or print.
+ *
+ * \code
+ * vpPrintVelocityControl control(vpPrintVelocityControlSpec::thesisFeedforward());
+ * const vpPrintVelocityControl::Output out = control.step({5., 0.1, 4.8}); // reference and measured, px/frame
+ * if (out.valid) {                                                         // and not out.saturated
+ *   send(out.force);
+ * }
+ * \endcode
  */
 class VISP_EXPORT vpPrintVelocityControl
 {

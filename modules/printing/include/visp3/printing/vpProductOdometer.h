@@ -25,6 +25,17 @@ BEGIN_VISP_NAMESPACE
  * epoch, or without common cells, the displacement in between is predicted.
  *
  * step() does not allocate, throw, lock or print.
+ *
+ * \code
+ * vpProductOdometer odometer;
+ * vpPatternTracker tracker(160, 100);
+ * for (int i = 0; i < 100; ++i) {
+ *   grabber.acquire(image);
+ *   const vpPatternFrame &seen = tracker.process(image);
+ *   const vpProductOdometer::Output &moved = odometer.step(seen.cells.data(), seen.cells.size(), seen.epoch);
+ *   std::cout << moved.x << " px" << (moved.lost ? ", wrong since a frame without cells" : "") << std::endl;
+ * }
+ * \endcode
  */
 class VISP_EXPORT vpProductOdometer
 {
