@@ -26,6 +26,16 @@ BEGIN_VISP_NAMESPACE
  * or if the result is not finite.
  *
  * Recursions of Newton and Euler (torques) and of composite rigid bodies (M). An object holds scratch memory: use one per thread.
+ *
+ * \code
+ * vpArmDynamics dynamics(arm);
+ * vpJointMatrix M;
+ * vpJointVector gravity;
+ * if (dynamics.inertia(q, M) && dynamics.gravity(q, gravity)) {
+ *   const vpJointVector torque = M * vpJointVector::Constant(arm.size(), 0.5) + gravity; // 0.5 rad/s^2 from rest
+ *   std::cout << torque.transpose() << " Nm" << std::endl;
+ * }
+ * \endcode
  */
 class VISP_EXPORT vpArmDynamics
 {

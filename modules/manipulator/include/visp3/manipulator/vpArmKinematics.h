@@ -44,6 +44,15 @@ struct VISP_EXPORT vpArmData {
  * A joint moves the end effector and the camera as far as their links are behind it, see vpArmSpec::toolLink and
  * vpArmSpec::cameraLink; its other columns are 0. The columns of followers, times their ratios, are added to that of
  * their joint. In (3.12)-(3.13), as corrected, z_{i-1} is the third column of R^0_{i-1}, the axis in the base frame.
+ *
+ * \code
+ * vpArmData data;
+ * if (vpArmKinematics::update(arm, q, data)) { // false: q does not fit
+ *   const vpArmJacobian J = vpArmKinematics::geometric(arm, data, vpArmFrame::Camera);
+ *   std::cout << "tool at " << data.tool.p.transpose() << " m, camera moves with " << (J * velocity).transpose()
+ *             << " m/s, rad/s" << std::endl;
+ * }
+ * \endcode
  */
 namespace vpArmKinematics
 {

@@ -41,6 +41,14 @@ struct VISP_EXPORT vpArmChainJoint {
  * of configurations, velocities, limits and torques have n numbers.
  *
  * Created from a vpArmSpec, by vpLoadArmJson() or by vpLoadArmUrdf(). Copy it during set-up, not in a control loop.
+ *
+ * \code
+ * const vpArmModel amor = vpLoadArmJson("data/robot/amor.json");
+ * amor.requireMotionLimits("my program"); // throws, naming the joint
+ * const vpJointVector there = amor.home() + vpJointVector::Constant(amor.size(), 0.3); // rad
+ * const std::string fault = amor.outsideLimits(there);
+ * std::cout << (fault.empty() ? "within the limits" : fault) << std::endl;
+ * \endcode
  */
 class VISP_EXPORT vpArmModel
 {

@@ -133,6 +133,21 @@ struct VISP_EXPORT vpArmCapsule {
  * \brief Specification of an arm; validated by vpArmModel.
  *
  * Links are numbered from the base (0) to the last one (l), one for each joint and follower in the order of the chain.
+ *
+ * \code
+ * vpArmSpec spec; // two links in a plane
+ * spec.name = "planar";
+ * for (const char *name : {"shoulder", "elbow"}) {
+ *   vpArmJointSpec joint = vpArmJointSpec::standardDH(0.3, 0., 0., 0.); // a, alpha, d, offset: m, rad
+ *   joint.name = name;
+ *   joint.lower = -2.5;       // rad
+ *   joint.upper = 2.5;
+ *   joint.velocity = 2.;      // rad/s
+ *   joint.acceleration = 10.; // rad/s^2
+ *   spec.joints.push_back(joint);
+ * }
+ * const vpArmModel planar(spec); // throws, naming what is wrong
+ * \endcode
  */
 struct VISP_EXPORT vpArmSpec {
   std::string name;                   //!< Name for messages.

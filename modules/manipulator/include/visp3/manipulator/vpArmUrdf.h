@@ -86,6 +86,17 @@ struct VISP_EXPORT vpArmUrdfSpec {
  * of xacro macros that were never expanded, are left out. vpArmSpec::warnings says so, and what else was assumed:
  * names, roots, the group, soft limits, the home state, joints beside the chain that are not held, names of the other
  * files that this one does not have.
+ *
+ * \code
+ * vpArmUrdfSpec spec;
+ * spec.tip = "tool"; // links of the file
+ * spec.camera = "camera";
+ * spec.acceleration = 10.; // rad/s^2, which a URDF lacks
+ * const vpArmModel robot = vpLoadArmUrdf("data/robot/generic-6r.urdf", spec);
+ * for (const std::string &warning : robot.spec().warnings) {
+ *   std::cerr << warning << std::endl; // what was assumed
+ * }
+ * \endcode
  * \throw vpException (ioError) if a file cannot be read, (badValue) if it is malformed or written in xacro, a link,
  * joint, group or state is missing, the tip is not unique or not below the base, the camera or the tool is not fixed to
  * a link of the chain, a joint of the chain is floating or planar, or vpArmModel rejects a value; one sentence with the

@@ -98,6 +98,23 @@ struct VISP_EXPORT vpClosedLoopOutput {
  * An Euler step makes the tool drift with the square of the joint step. Each step is therefore predicted and its drift
  * compensated in advance; self-motion whose drift cannot be compensated, near a singularity, is slowed down. step()
  * does not allocate.
+ *
+ * \code
+ * vpArmData data;
+ * vpArmKinematics::forward(arm, q, data);
+ * vpClosedLoopKinematics loop(arm);
+ * vpClosedLoopState state;
+ * state.q = q;
+ * vpClosedLoopInput input;
+ * input.goal = data.tool;
+ * input.goal.p.z() -= 0.05; // m
+ * vpClosedLoopOutput output;
+ * do {
+ *   loop.step(input, state, output); // every 5 ms
+ *   send(state.q);
+ * } while (output.status == vpClosedLoopStatus::Moving);
+ * std::cout << output.message() << std::endl; // reached, or what stopped it
+ * \endcode
  */
 class VISP_EXPORT vpClosedLoopKinematics
 {

@@ -20,6 +20,17 @@ BEGIN_VISP_NAMESPACE
  * A joint that moves for one period and then brakes at its acceleration limit must stop before its position limit:
  * v dt + v^2 / (2 a) <= room, so v <= a (sqrt(dt^2 + 2 room / a) - dt). Braking at a preserves this in the next
  * period, so a joint that starts inside never needs more than a.
+ *
+ * \code
+ * vpJointBounds bounds;
+ * if (!bounds.update(arm, q, velocity, 0.005, 0.)) { // velocity: the last one; period, s; margin, rad
+ *   std::cerr << "invalid numbers: the bounds brake the arm" << std::endl;
+ * }
+ * for (int i = 0; i < arm.size(); ++i) {
+ *   velocity(i) = bounds.clamp(i, wish(i)); // rad/s
+ * }
+ * send(velocity);
+ * \endcode
  */
 struct VISP_EXPORT vpJointBounds {
   vpJointVector lower;         //!< Lower bound from position and velocity limits; <= 0 inside the position limits.

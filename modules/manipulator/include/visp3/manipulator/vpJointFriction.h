@@ -17,6 +17,14 @@ BEGIN_VISP_NAMESPACE
  * \ingroup group_manipulator
  * \brief Joint friction F_f = Fv q' + Fc sgn(q'), thesis (3.2)-(3.3), with sgn replaced by tanh(q' / smoothing). Use
  * the desired velocity: the noise of the measured one would be fed back through the sign.
+ *
+ * \code
+ * const vpJointFriction friction = vpJointFriction::of(arm);
+ * vpJointVector torque;
+ * if (friction.torque(velocity, torque)) {
+ *   std::cout << torque.transpose() << " Nm" << std::endl;
+ * }
+ * \endcode
  */
 struct VISP_EXPORT vpJointFriction {
   vpJointVector viscous;   //!< Viscous coefficients Fv, Nm s/rad or N s/m, n numbers >= 0.

@@ -35,6 +35,24 @@ struct VISP_EXPORT vpJointPositionControlSpec {
  * \ingroup group_manipulator
  * \brief PD control with gravity compensation tau = K_p (q_d - q) + K_d (q'_d - q') + g(q), thesis (3.19), with
  * optional friction and feedforward. Stateless.
+ *
+ * \code
+ * vpJointPositionControlSpec spec;
+ * spec.kp.setConstant(arm.size(), 500.); // Nm/rad
+ * spec.kd.setConstant(arm.size(), 30.);  // Nm s/rad
+ * spec.maxTorque = arm.torque();
+ * const vpJointPositionControl control(spec);
+ * vpArmDynamics dynamics(arm);
+ * vpJointPositionControl::Input input;
+ * input.q = encoders();
+ * input.velocity = velocity;
+ * input.wantedQ = goal;
+ * input.wantedVelocity = vpJointVector::Zero(arm.size());
+ * dynamics.gravity(input.q, input.feedforward);
+ * vpJointPositionControl::Output output;
+ * control.step(input, output);
+ * send(output.torque); // 0 unless output.valid; output.saturated tells which joints are at their limits
+ * \endcode
  */
 class VISP_EXPORT vpJointPositionControl
 {

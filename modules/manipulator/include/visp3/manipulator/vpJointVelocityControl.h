@@ -36,6 +36,22 @@ struct VISP_EXPORT vpJointVelocityControlSpec {
  * \ingroup group_manipulator
  * \brief PI control tau = K_p e' + K_i xi, xi' = e', thesis (3.20)-(3.21), e' the velocity error, with anti-windup: the
  * integral is frozen where the torque is at its limit and would grow further.
+ *
+ * \code
+ * vpJointVelocityControlSpec spec;       // every 1 ms
+ * spec.kp.setConstant(arm.size(), 30.);  // Nm s/rad
+ * spec.ki.setConstant(arm.size(), 100.); // Nm/rad
+ * spec.maxTorque = arm.torque();
+ * vpJointVelocityControl control(spec);
+ * vpArmDynamics dynamics(arm);
+ * vpJointVelocityControl::Input input;
+ * input.velocity = velocity;
+ * input.wantedVelocity = wish;
+ * dynamics.gravity(encoders(), input.feedforward);
+ * vpJointVelocityControl::Output output;
+ * control.step(input, output);
+ * send(output.torque); // 0 unless output.valid; output.saturated tells which joints are at their limits
+ * \endcode
  */
 class VISP_EXPORT vpJointVelocityControl
 {

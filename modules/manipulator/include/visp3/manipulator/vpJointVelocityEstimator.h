@@ -19,6 +19,16 @@ BEGIN_VISP_NAMESPACE
  * \brief Velocity observer of thesis 8.2.3: integrates instead of differentiating. The integrated model q'' = a is
  * corrected by its position error, with a double pole at exp(-bandwidth period): no steady-state velocity error in a
  * ramp, nor in any motion whose acceleration is given.
+ *
+ * \code
+ * vpJointVelocityEstimator estimator(arm.size(), 0.001, 100.); // period, s; bandwidth, rad/s
+ * for (int i = 0; i < 1000; ++i) {
+ *   velocity = estimator.step(encoders());
+ *   if (!estimator.measured()) {
+ *     std::cerr << "no encoders: as in the last period" << std::endl;
+ *   }
+ * }
+ * \endcode
  */
 class VISP_EXPORT vpJointVelocityEstimator
 {

@@ -150,6 +150,25 @@ struct VISP_EXPORT vpRedundancyOutput {
  * leaves its share to the others as long as this makes the task faster (saturation in the null space, at most four
  * joints); beyond that velocity limits scale the motion. None of this bends a path from rest. Saturation is for the
  * main task: where tasks of lower priority exceed a velocity limit the whole motion is scaled.
+ *
+ * \code
+ * const vpRedundancySolver solver(arm);
+ * vpRedundancyInput input;
+ * input.twist = vpTwist(0.1, 0., 0., 0., 0., 0.);    // of the camera, m/s and rad/s
+ * input.free = {false, false, false, false, false, true}; // it may turn about its optical axis
+ * input.indices[0] = vpSelfMotionIndex::jointLimits();
+ * input.indexCount = 1;
+ * input.previous = vpJointVector::Zero(arm.size());
+ * vpArmData data;
+ * vpRedundancyOutput output;
+ * for (int i = 0; i < 200; ++i) { // every 5 ms
+ *   vpArmKinematics::update(arm, q, data);
+ *   solver.step(data, input, output);
+ *   input.previous = output.velocity;
+ *   q += solver.spec().period * output.velocity; // to the drives
+ * }
+ * std::cout << 100. * output.taskShare << " % of the twist: " << output.message() << std::endl;
+ * \endcode
  */
 class VISP_EXPORT vpRedundancySolver
 {

@@ -41,6 +41,17 @@ enum class vpIndexKind {
  * exp(-d/s)) from planes, so that repulsion decays with distance (the raw vector repels more when farther away), and a
  * joint on the wrong side of a plane is led back. Sense and gain >= 0 replace the sign of k0, on which the text and
  * figures 8.14 and 8.17 disagree.
+ *
+ * \code
+ * const vpSelfMotionIndex elbow = // the origin of joint 4 stays above the plane z = 0.2 m
+ *     vpSelfMotionIndex::planeDistance(3, {0., 0., 0.2}, {0., 0., 1.}, vpIndexSense::Repel);
+ * elbow.validate(arm); // throws, naming what does not fit
+ * vpArmData data;
+ * vpIndexValue value;
+ * if (vpArmKinematics::update(arm, q, data) && vpEvaluateIndex(arm, data, elbow, value)) {
+ *   std::cout << value.distance << " m above it" << std::endl;
+ * }
+ * \endcode
  */
 struct VISP_EXPORT vpSelfMotionIndex {
   vpIndexKind kind = vpIndexKind::Manipulability; //!< Quantity measured.

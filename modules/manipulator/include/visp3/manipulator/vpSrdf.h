@@ -68,6 +68,13 @@ struct VISP_EXPORT vpSrdf {
  *
  * Other elements (virtual and passive joints, end effectors, spheres) are not used. `disable_default_collisions` is not
  * used either: more pairs are checked than it asks for.
+ *
+ * \code
+ * const vpSrdf srdf = vpLoadSrdf("robot.srdf");
+ * for (const vpSrdfState &state : srdf.states) {
+ *   std::cout << state.name << " of " << state.group << ": " << state.joints.size() << " joints" << std::endl;
+ * }
+ * \endcode
  * \throw vpException (ioError) if the file cannot be read, (badValue) if it is malformed, its outermost element is not
  * `robot`, a name is missing or a coordinate is no finite number; one sentence with the file and the line.
  */

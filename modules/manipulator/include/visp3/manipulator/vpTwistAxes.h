@@ -20,6 +20,12 @@ BEGIN_VISP_NAMESPACE
 /*!
  * \ingroup group_manipulator
  * \brief Free axes by name, for vpRedundancyInput::free and others.
+ *
+ * \code
+ * vpRedundancyInput input;
+ * input.free = vpFreeAxes({"rz"});
+ * std::cout << "not commanded: " << vpAxesInWords(input.free) << std::endl; // "rotation about z"
+ * \endcode
  * \param names : x, y, z (translation along an axis) and rx, ry, rz (rotation about it), in any order.
  * \return True for each named component of the twist.
  * \throw vpException (badValue) naming an unknown or repeated name; also if all six are named, which leaves no task.
