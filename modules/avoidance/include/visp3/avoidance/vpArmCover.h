@@ -63,6 +63,18 @@ struct VISP_EXPORT vpArmCover {
  * A cover from the file is verified by vpProveCover(). An unedited cover is fitted again when the shapes,
  * the number of capsules or the seed have changed. An edited or `unchecked` one is always used.
  *
+ * \code
+ * vpArmCoverSpec spec;
+ * spec.cacheFile = "covers.json"; // fits only what has changed
+ * const vpArmCover cover = vpCoverArm(arm, spec);
+ * for (const vpBodyCover &body : cover.bodies) {
+ *   std::cout << body.body << ": " << body.count << " capsules, at most " << body.overhang << " m too far out\n";
+ * }
+ * for (const std::string &warning : cover.warnings) {
+ *   std::cerr << warning << std::endl; // what no check would see
+ * }
+ * const vpCollisionScene covered(cover.arm); // throws while a body is uncovered
+ * \endcode
  * \throw vpException (badValue) naming the body: edited capsules that are not proven to enclose it, with the point
  * farthest outside, unless the file says `unchecked`; an ignored name that is no body. (badValue, ioError) naming the
  * file and the field if the file exists and cannot be read. A file that cannot be written is only a warning.

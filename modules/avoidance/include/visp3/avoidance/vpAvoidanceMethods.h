@@ -43,6 +43,15 @@ VISP_EXPORT void vpAddAvoidanceMethod(const std::string &name, const std::string
 /*!
  * \ingroup group_avoidance
  * Creates a method by name, with its own parameters at their defaults.
+ *
+ * \code
+ * for (const std::string &name : vpAvoidanceMethodNames()) {
+ *   std::cout << name << ": " << vpAvoidanceMethodMessage(name) << std::endl;
+ * }
+ * vpAvoidanceMethodSpec spec;
+ * spec.maxVelocity = 0.3; // of the tool, m/s
+ * const std::unique_ptr<vpAvoidanceMethod> method = vpMakeAvoidanceMethod("planner-dtg", scene, spec);
+ * \endcode
  * \param name : One of vpAvoidanceMethodNames().
  * \param scene : Must outlive the method.
  * \param spec : Parameters common to all methods.

@@ -60,6 +60,15 @@ struct VISP_EXPORT vpCoverProof {
  * volume outside the mesh, weighted by the squared distance from it, from several starts; of their results the one of
  * least overhang times squared volume is taken. One more capsule must lower this by at least 2 %.
  *
+ * \code
+ * const vpTriangleMesh mesh = vpTriangleMesh::load("data/scene/bracket.obj", 0.001); // mm
+ * const vpCapsuleCover cover = vpFitCapsules(mesh);
+ * std::cout << cover.capsules.size() << " capsules, at most " << cover.overhang << " m too far out" << std::endl;
+ * const vpCoverProof proof = vpProveCover(mesh, cover.capsules);
+ * if (!proof.enclosed) {
+ *   std::cerr << proof.message << std::endl;
+ * }
+ * \endcode
  * \throw vpException (badValue) naming the field and its value if out of range, or the mesh if it has more than two
  * million cells.
  */

@@ -66,6 +66,16 @@ private:
  * 0.
  *
  * Immutable; may be shared by threads, each with its own vpMotionScratch.
+ *
+ * \code
+ * const vpCertifiedMotion motions(scene, {0.01}); // margin, m
+ * vpMotionScratch scratch;                        // one for each thread
+ * const vpMotionResult result = motions.check(q, goal, scratch);
+ * std::cout << result.message() << std::endl;
+ * if (!result.isFree()) {
+ *   std::cerr << scene.describe(result.pair) << " after " << 100. * result.s << " % of the way" << std::endl;
+ * }
+ * \endcode
  */
 class VISP_EXPORT vpCertifiedMotion
 {

@@ -44,6 +44,22 @@ struct VISP_EXPORT vpTrajectoryClearance {
  * joints beyond vpLargestCoordinate and prismatic joints where the bounds do not hold (vpReachBounds::holds()) give
  * BadInput; reaching the limit on evaluations gives Undecided. Capsules alone decide, also where the scene has exact
  * shapes: a motion that vpCertifiedMotion calls free by these is a Collision here.
+ *
+ * \code
+ * vpTrajectoryInput<Eigen::Dynamic> input(arm.size());
+ * input.start.q = q;
+ * input.goal.q = goal;
+ * input.maxVelocity = arm.velocity();
+ * input.maxAcceleration = arm.acceleration();
+ * vpTrajectoryPlan plan(arm.size());
+ * vpCertifiedTrajectory certificate(scene, {0.01}); // margin, m
+ * if (vpDirectTrajectory<Eigen::Dynamic>::calculate(input, plan).isGood()) {
+ *   const vpTrajectoryClearance result = certificate.check(plan);
+ *   if (!result.isFree()) {
+ *     std::cerr << "free until " << result.time << " s: " << scene.describe(result.pair) << std::endl;
+ *   }
+ * }
+ * \endcode
  */
 class VISP_EXPORT vpCertifiedTrajectory
 {

@@ -34,6 +34,14 @@ public:
  * \class vpSceneChecker
  * \ingroup group_avoidance
  * \brief Collision checker using the fast path of vpCollisionScene. Does not allocate.
+ *
+ * \code
+ * vpSceneChecker checker(scene);
+ * if (checker.inCollision(q, 0.01)) { // margin, m; also where q does not fit the arm
+ *   const vpClearance nearest = checker.clearance(q, 0.02);
+ *   std::cerr << scene.describe(nearest) << ": " << nearest.distance << " m" << std::endl;
+ * }
+ * \endcode
  */
 class VISP_EXPORT vpSceneChecker : public vpCollisionChecker
 {

@@ -91,6 +91,24 @@ struct VISP_EXPORT vpSelfPair {
  * All queries are about capsules. Where these enclose the arm's true shape they may touch while the shape does not; so
  * a vpStopSupervisor may brake early. vpExactChecker and vpCertifiedMotion use the exact shapes where the scene has
  * them. Capsules that touch in most configurations need an allowed pair, see vpSelfCollisionStatistics.
+ *
+ * \code
+ * const vpArmModel amor = vpLoadArmJson("data/robot/amor.json");
+ * vpCollisionSceneSpec spec;
+ * spec.ground = vpHalfSpace(); // the table, z = 0
+ * vpCollisionScene table(amor, spec);
+ * vpCollisionObject pillar;
+ * pillar.name = "pillar";
+ * pillar.shape = vpCollisionShape::cylinder(0.05, 0.8); // m
+ * pillar.pose.p << 0.4, 0.3, 0.4;
+ * table.add(pillar);
+ * vpCollisionData data; // one for each thread
+ * table.place(amor.home(), data);
+ * const vpClearance nearest = table.clearance(data);
+ * if (nearest.distance < 0.01) { // m; -infinity where the configuration is invalid
+ *   std::cerr << table.describe(nearest) << ": " << nearest.distance << " m" << std::endl;
+ * }
+ * \endcode
  */
 class VISP_EXPORT vpCollisionScene
 {

@@ -48,6 +48,15 @@ struct VISP_EXPORT vpCollisionSceneFile {
  * \ingroup group_avoidance
  * \brief Reads a scene; data/scene/README.md lists the fields. Unknown fields are errors, so that misspelt names are
  * noticed. Paths of meshes and octrees are relative to the file.
+ *
+ * \code
+ * const vpCollisionSceneFile file = vpLoadCollisionScene("data/scene/s4b-shelf.json");
+ * for (const std::string &warning : file.warnings) {
+ *   std::cerr << warning << std::endl;
+ * }
+ * const vpCollisionScene shelf(arm, file.spec);
+ * std::cout << shelf.objectCount() << " objects, " << file.tasks.size() << " motions to plan" << std::endl;
+ * \endcode
  * \throw vpException (ioError) if it or a referenced file cannot be read, (badValue) if it is not valid JSON or a field
  * is missing or out of range; one sentence with the file and the element: "shelf.json: objects[2].size_m is missing".
  */

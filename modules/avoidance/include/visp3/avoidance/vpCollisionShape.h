@@ -38,6 +38,14 @@ enum class vpMeshUse {
  * \class vpCollisionShape
  * \ingroup group_avoidance
  * \brief Collision shape (value type) in its own frame; lengths in m. Copies share meshes and octrees.
+ *
+ * \code
+ * vpCollisionObject bracket;
+ * bracket.name = "bracket";
+ * bracket.shape = vpCollisionShape::mesh(vpTriangleMesh::load("data/scene/bracket.obj", 0.001)); // throws at holes
+ * bracket.pose.p << 0.5, 0., 0.2; // m
+ * scene.add(bracket);
+ * \endcode
  */
 class VISP_EXPORT vpCollisionShape
 {

@@ -40,6 +40,18 @@ struct VISP_EXPORT vpDepthObstaclesSpec {
  * the scene twice, which is safe, but it would also leave cubes at its old positions until they are carved, which block
  * free paths. What was mapped before its object was recognised remains until it is carved: safe, but temporarily in the
  * way. Points beside a tracked object, due to an error of its pose, enter the map.
+ *
+ * \code
+ * vpDepthObstacles obstacles;
+ * vpCollisionData placed;
+ * scene.place(q, placed); // when the image was taken
+ * const vpRigidTransform fMc = vpArmKinematics::camera(arm, placed.arm);
+ * const vpDepthReport report = obstacles.insert(depth, camera, fMc, scene, placed); // each image, m
+ * if (report.status == vpDepthStatus::BadInput) {
+ *   std::cerr << report.message() << std::endl;
+ * }
+ * obstacles.applyTo(scene); // the object "depth"
+ * \endcode
  */
 class VISP_EXPORT vpDepthObstacles
 {

@@ -58,6 +58,20 @@ struct VISP_EXPORT vpDepthReport {
  * \class vpDepthOctomap
  * \ingroup group_avoidance
  * \brief Map of occupied space in the base frame, by octomap \cite Hornung13, built from depth images. Not thread-safe.
+ *
+ * \code
+ * vpDepthOctomap map; // cubes of 2 cm, up to 2 m
+ * vpArmData data;
+ * vpArmKinematics::update(arm, q, data); // when the image was taken
+ * const vpDepthReport report = map.insert(depth, camera, vpArmKinematics::camera(arm, data)); // m
+ * if (report.status != vpDepthStatus::Ok) {
+ *   std::cerr << report.message() << std::endl;
+ * }
+ * vpCollisionObject seen;
+ * seen.name = "map";
+ * seen.shape = vpCollisionShape::octree(map.snapshot());
+ * scene.add(seen);
+ * \endcode
  */
 class VISP_EXPORT vpDepthOctomap
 {

@@ -55,6 +55,20 @@ struct VISP_EXPORT vpDirectTrajectoryAvoidanceSpec {
  *
  * Norms of the tool's planned velocity and acceleration keep the bounds; joint limits always hold. Only while the
  * supervisor acts (vpAvoidanceOutput::stopping) may the tool brake harder than its bound.
+ *
+ * \code
+ * vpDirectTrajectoryAvoidanceSpec spec;
+ * spec.common.maxVelocity = 0.3; // of the tool, m/s
+ * spec.keepOrientation = true;
+ * vpDirectTrajectoryAvoidance method(scene, spec);
+ * method.start(q, vpAvoidanceGoal::at(arm, goal));
+ * vpAvoidanceOutput output;
+ * do { // every 5 ms; after an image the scene is updated, and method.look() called
+ *   method.step(q, output);
+ *   q += spec.common.period * output.velocity; // to the drives
+ * } while (vpIsWorking(output));
+ * std::cout << vpMessage(output, scene, spec.common.margin) << std::endl; // arrived, or what is in the way
+ * \endcode
  */
 class VISP_EXPORT vpDirectTrajectoryAvoidance : public vpAvoidanceMethod
 {

@@ -19,6 +19,13 @@ BEGIN_VISP_NAMESPACE
  * \ingroup group_avoidance
  * \brief Discrete motion check: samples configurations at most a step apart, the middle first as OMPL does. Collisions
  * between samples are missed: "free" may be wrong.
+ *
+ * \code
+ * vpSceneChecker checker(scene);
+ * vpDiscreteMotion motions(checker, 0.02, 0.01); // step, rad; margin, m
+ * const vpMotionResult result = motions.check(q, goal);
+ * std::cout << result.message() << " " << result.evaluated << " configurations" << std::endl;
+ * \endcode
  */
 class VISP_EXPORT vpDiscreteMotion
 {

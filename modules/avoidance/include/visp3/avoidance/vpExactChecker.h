@@ -25,6 +25,16 @@ class vpExactQuery;
  *
  * A pair of two exact shapes that touch has the distance 0, whatever the depth. Takes some 50 us for each pair whose
  * capsules touch. Allocates.
+ *
+ * \code
+ * vpCollisionSceneSpec spec;
+ * spec.exact = std::make_shared<vpExactShapes>(arm);
+ * const vpCollisionScene exact(arm, spec);
+ * vpExactChecker checker(exact);
+ * if (checker.inCollision(q, 0.01)) { // margin, m
+ *   std::cerr << exact.describe(checker.clearance(q, 0.02)) << std::endl;
+ * }
+ * \endcode
  */
 class VISP_EXPORT vpExactChecker : public vpCollisionChecker
 {

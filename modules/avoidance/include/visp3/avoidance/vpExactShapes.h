@@ -34,6 +34,15 @@ struct vpExactBody;
  *
  * An obstacle inside a closed mesh, without touching its surface, is in contact: the inside is where the winding number
  * exceeds 1/2. A mesh with holes has such an inside only away from its holes.
+ *
+ * \code
+ * vpCollisionSceneSpec spec;
+ * spec.exact = std::make_shared<vpExactShapes>(arm); // throws, naming a mesh that cannot be read
+ * for (const std::string &warning : spec.exact->warnings()) {
+ *   std::cerr << warning << std::endl; // bodies known by their capsules alone
+ * }
+ * const vpCollisionScene exact(arm, spec); // for vpPathPlanner and vpCertifiedMotion
+ * \endcode
  */
 class VISP_EXPORT vpExactShapes
 {

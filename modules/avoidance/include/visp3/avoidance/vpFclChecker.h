@@ -26,6 +26,14 @@ BEGIN_VISP_NAMESPACE
  * use FCL's broad phase and collide(); where the inflations of objects differ, all but those of the largest one are
  * checked by FCL's distance(). The ground is checked by the scene: FCL 0.7 has no half-space distance and crashes.
  * Allocates.
+ *
+ * \code
+ * vpFclChecker reference(scene);
+ * vpSceneChecker checker(scene);
+ * if (reference.inCollision(q, 0.) != checker.inCollision(q, 0.)) {
+ *   std::cout << "touches by less than the errors of FCL" << std::endl;
+ * }
+ * \endcode
  */
 class VISP_EXPORT vpFclChecker : public vpCollisionChecker
 {

@@ -35,6 +35,16 @@ struct VISP_EXPORT vpGoalConfiguration {
  *
  * Closed-loop inverse kinematics (vpClosedLoopKinematics) from \e from and, if that gives no free configuration, from
  * random configurations. Takes milliseconds; allocates.
+ *
+ * \code
+ * const vpGoalConfiguration found = vpFindGoalConfiguration(scene, q, {-0.1, 0.4, 0.3}, 0.01); // m
+ * if (found.isFree()) {
+ *   std::cout << found.q.transpose() << " rad" << std::endl;
+ * }
+ * else {
+ *   std::cerr << (found.status == vpGoalConfigurationStatus::InCollision ? "not free" : "out of reach") << std::endl;
+ * }
+ * \endcode
  * \param scene : Arm and obstacles.
  * \param from : Configuration from which the search starts, n numbers, rad or m. The first solution is returned, so it
  *   is near this configuration where a direct motion leads to it.

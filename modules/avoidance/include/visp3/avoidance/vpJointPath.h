@@ -18,6 +18,12 @@ BEGIN_VISP_NAMESPACE
 /*!
  * \ingroup group_avoidance
  * \brief Configurations joined by straight motions in joint space.
+ *
+ * \code
+ * vpJointPath path;
+ * path.points = {q, goal};
+ * std::cout << path.length() << " rad, half-way at " << path.at(0.5).transpose() << std::endl;
+ * \endcode
  */
 struct VISP_EXPORT vpJointPath {
   std::vector<vpJointVector> points; //!< Configurations from start to goal, rad or m.

@@ -110,6 +110,26 @@ struct VISP_EXPORT vpObjectTrack {
  * A sighting outside the gate is not used. If several consecutive ones agree with each other, the track is restarted
  * there, which vpObjectTrack::restarts counts and vpObjectTrack::confidence reflects. Four times as many consecutive
  * ones that disagree do the same.
+ *
+ * \code
+ * vpObjectTracks tracks;
+ * vpObjectSighting box; // of a vpObstacleDetector or any other sensor
+ * box.name = "box";
+ * box.shape = vpCollisionShape::box({0.16, 0.11, 0.06}); // m
+ * for (int i = 0; i < 50; ++i) {
+ *   box.time = 0.04 * i;                      // of the exposure, s
+ *   box.pose.p << 0.5, 0.1 * box.time, 0.2;   // in the base; +- positionSigma
+ *   if (!tracks.add(box)) {
+ *     std::cerr << "not used: too old, or not where it can be" << std::endl;
+ *   }
+ *   tracks.advance(box.time + 0.03); // now
+ *   tracks.applyTo(scene);
+ * }
+ * const vpObjectTrack *track = tracks.find("box");
+ * if (track != nullptr) {
+ *   std::cout << vpToString(track->status) << ": " << track->velocity[1] << " +- " << track->velocitySigma << " m/s\n";
+ * }
+ * \endcode
  */
 class VISP_EXPORT vpObjectTracks
 {

@@ -61,6 +61,23 @@ struct VISP_EXPORT vpObstacleDetection {
  * each with a sigma of vpObstacleDetectorSpec::pixelSigma, or more for a lower correlation of the image with the
  * photograph. Depth is less accurate than the other two coordinates; the sighting reports the worst direction. The
  * uncertainties of camera position, camera rotation and sizes are added.
+ *
+ * \code
+ * vpPlanarTargetDatabase targets(camera, vpObstacleDetector::fastTargets());
+ * targets.add("box", photo, 0.16, 0.11, 0.06); // width, height and depth, m
+ * vpObstacleDetector detector(std::move(targets), camera);
+ * vpObjectTracks tracks;
+ * vpArmData data;
+ * vpArmKinematics::update(arm, q, data); // when the image was taken
+ * for (const vpObstacleDetection &found : detector.process(image, vpArmKinematics::camera(arm, data), now())) {
+ *   if (found.seen) {
+ *     tracks.add(found.sighting); // +- found.sighting.positionSigma
+ *   }
+ *   else {
+ *     std::cerr << found.message << std::endl;
+ *   }
+ * }
+ * \endcode
  */
 class VISP_EXPORT vpObstacleDetector
 {

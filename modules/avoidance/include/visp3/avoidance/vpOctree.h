@@ -35,6 +35,14 @@ struct VISP_EXPORT vpOctreeCell {
  * \ingroup group_avoidance
  * \brief Immutable set of occupied cubes with a bounding-box tree for distances; copies share it. Unknown space counts
  * as free. May be empty.
+ *
+ * \code
+ * vpCollisionObject seen;
+ * seen.name = "map";
+ * seen.shape = vpCollisionShape::octree(vpOctree::load("data/scene/seen.bt")); // throws, naming the file
+ * scene.add(seen);
+ * std::cout << seen.shape.octree().cells().size() << " occupied cubes" << std::endl;
+ * \endcode
  */
 class VISP_EXPORT vpOctree
 {

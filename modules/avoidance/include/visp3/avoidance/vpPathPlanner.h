@@ -100,6 +100,17 @@ struct VISP_EXPORT vpPathResult {
  * it may not be. Where the scene has exact shapes (vpCollisionSceneSpec::exact) they decide where capsules touch,
  * except with DiscreteFcl; a path that passes there cannot be proven by vpCertifiedTrajectory, nor timed by
  * vpTimedPath. One object per thread.
+ *
+ * \code
+ * vpPathPlannerSpec spec;
+ * spec.margin = 0.01; // m
+ * vpPathPlanner planner(scene, spec);
+ * const vpPathResult found = planner.plan(q, goal);
+ * std::cout << found.message << std::endl; // also why there is no path
+ * if (found.status == vpPathStatus::Solved) {
+ *   std::cout << found.path.points.size() << " points, " << found.path.length() << " rad" << std::endl;
+ * }
+ * \endcode
  */
 class VISP_EXPORT vpPathPlanner
 {

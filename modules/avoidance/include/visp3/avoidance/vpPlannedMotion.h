@@ -56,6 +56,17 @@ struct VISP_EXPORT vpPlannedMotionSpec {
  * limits alone (vpAvoidanceOutput::stopping). Where no such stop is proven free either, because the arm is within its
  * margin of something that was found to be larger or elsewhere, it stops within the bounds if that is proven to touch
  * nothing; the status is Unsafe.
+ *
+ * \code
+ * vpPlannedMotion motion(scene);
+ * motion.start(q, vpAvoidanceGoal::at(arm, goal));
+ * vpAvoidanceOutput output;
+ * do { // every 5 ms; after an image the scene is updated, and motion.look() called
+ *   motion.step(q, output);
+ *   q += 0.005 * output.velocity; // to the drives
+ * } while (vpIsWorking(output));
+ * std::cout << vpMessage(output, scene, 0.01) << std::endl; // arrived, or what is in the way
+ * \endcode
  */
 class VISP_EXPORT vpPlannedMotion : public vpAvoidanceMethod
 {

@@ -59,6 +59,12 @@ struct VISP_EXPORT vpFieldWeightSpec {
  * \ingroup group_avoidance
  * \brief (8.1) as corrected: the task velocity towards the obstacle is blended into a velocity away from it; motion
  * along or away from the obstacle is unchanged.
+ *
+ * \code
+ * const vpFieldWeightSpec spec; // half the effect 4 cm from the surface
+ * const Eigen::Vector3d task(-0.2, 0.1, 0.), normal(1., 0., 0.); // m/s; away from the obstacle
+ * std::cout << vpBlendRadial(spec, 0.05, normal, 0.25, task).transpose() << " m/s, 5 cm from it" << std::endl;
+ * \endcode
  * \param spec : Parameters of the weight, m.
  * \param distance : Distance from the obstacle's surface, m. \param normal : Unit vector from obstacle to tool.
  * \param speed : Avoidance speed |x'_oa|, m/s, >= 0. \param task : Task velocity x'_t, m/s, in the frame of the normal.

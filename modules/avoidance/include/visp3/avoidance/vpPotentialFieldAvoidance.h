@@ -47,6 +47,17 @@ struct VISP_EXPORT vpPotentialFieldAvoidanceSpec {
  * velocity towards the obstacle changes. Tool speed and joint limits are kept, the tool's acceleration limit is not.
  *
  * Both push the rest of the arm away from obstacles by self-motion, (8.10)-(8.12).
+ *
+ * \code
+ * vpPotentialFieldAvoidance method(scene);
+ * method.start(q, vpAvoidanceGoal::at(arm, goal));
+ * vpAvoidanceOutput output;
+ * for (int i = 0; i < 4000 && (i == 0 || vpIsWorking(output)); ++i) { // 20 s: it may stand for ever
+ *   method.step(q, output);
+ *   q += 0.005 * output.velocity; // to the drives
+ * }
+ * std::cout << vpMessage(output, scene, 0.01) << std::endl;
+ * \endcode
  */
 class VISP_EXPORT vpPotentialFieldAvoidance : public vpAvoidanceMethod
 {

@@ -31,6 +31,13 @@ BEGIN_VISP_NAMESPACE
  * limits of revolute joints are ignored, those of prismatic joints apply, slightly widened, so the bounds hold for any
  * angle and wherever holds() is true. Between samples the support function is bounded from above by its sublinearity.
  * About 0.1 % above the true maximum without limits.
+ *
+ * \code
+ * const vpReachBounds reach(arm);
+ * if (reach.holds(q)) {
+ *   std::cout << "0.1 rad of joint 1 move the last link by at most " << 0.1 * reach.ofLink(arm.links(), 0) << " m\n";
+ * }
+ * \endcode
  */
 class VISP_EXPORT vpReachBounds
 {

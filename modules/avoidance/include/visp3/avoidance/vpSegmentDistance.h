@@ -31,6 +31,14 @@ struct VISP_EXPORT vpNearestPoints {
  * 0 for a segment inside. A segment with coinciding ends is a point. Relative accuracy about 1e-15, for the
  * cylinder 1e-12 m; tests against an independent search require 1e-9 m. If a number is not finite or beyond
  * 100 vpLargestLength the distance is -infinity, which every comparison treats as near.
+ *
+ * \code
+ * const Eigen::Vector3d from(0.3, 0., 0.), to(0.3, 0., 0.4), half(0.1, 0.1, 0.1); // m
+ * const vpNearestPoints near = vpSegmentDistance::box(from, to, half);
+ * if (near.distance > 0.05) { // radius of the capsule, m; -infinity where a number is invalid
+ *   std::cout << near.distance - 0.05 << " m between capsule and box" << std::endl; // 0.15
+ * }
+ * \endcode
  */
 namespace vpSegmentDistance
 {

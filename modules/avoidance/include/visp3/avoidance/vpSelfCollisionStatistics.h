@@ -72,6 +72,16 @@ struct VISP_EXPORT vpSelfCollisionStatistics {
 /*!
  * \ingroup group_avoidance
  * \brief Statistics of all pairs of named bodies that have capsules, whether vpArmSpec::allowedBodies has them or not.
+ *
+ * \code
+ * const vpSelfCollisionStatistics found = vpSampleBodyPairs(arm); // 10,000 configurations
+ * for (const vpBodyPairStatistics &pair : found.pairs) {
+ *   std::cout << pair.first << ", " << pair.second << ": touch in " << pair.touching << " configurations\n";
+ * }
+ * vpArmSpec spec = arm.spec();
+ * spec.allowedBodies = found.allowed(false); // pairs that always touch
+ * const vpCollisionScene usable{vpArmModel(spec)};
+ * \endcode
  * \param arm : The arm; vpArmSpec::uncovered bodies and capsules without a body take no part.
  * \param exact : Its exact shapes, which decide where capsules touch; may be null.
  * \param samples : Number of configurations, > 0.

@@ -87,6 +87,19 @@ struct VISP_EXPORT vpSupervisedVelocity {
  * into a standing arm, and drives that do not follow. An arm that is nearer to something than the sum of 0.1 mm, e and
  * the resolution has no motion that could be proven, and stands. Capsules alone decide, also where the scene has exact
  * shapes: capsules larger than the arm stop it early, and those that touch where the arm does not never let it move.
+ *
+ * \code
+ * vpStopSupervisor supervisor(scene); // every 5 ms; margin 1 cm
+ * vpSupervisedVelocity command;
+ * for (int i = 0; i < 400; ++i) {
+ *   scene.advance(0.005); // or vpObjectTracks::applyTo()
+ *   supervisor.step(q, wish, command);
+ *   q += 0.005 * command.velocity; // to the drives
+ *   if (command.status != vpSupervision::Passed) {
+ *     std::cerr << command.message() << " " << scene.describe(command.pair) << std::endl;
+ *   }
+ * }
+ * \endcode
  */
 class VISP_EXPORT vpStopSupervisor
 {

@@ -47,6 +47,21 @@ struct VISP_EXPORT vpTimedPathSpec {
  *
  * With a start velocity, the first trajectory begins with it; the motion to the second point is then not straight, and
  * inserting a rest may not resolve a collision.
+ *
+ * \code
+ * vpPathPlanner planner(scene); // margin 5 mm
+ * const vpPathResult found = planner.plan(q, goal);
+ * if (found.status == vpPathStatus::Solved) {
+ *   vpTimedPathSpec spec;
+ *   spec.speed = 0.5;    // of the joints' velocity limits
+ *   spec.margin = 0.004; // m, proven
+ *   const vpTimedPath motion(scene, found.path, spec);
+ *   std::cout << motion.message(scene) << std::endl; // also what is in the way
+ *   for (double t = 0.; motion.isFree() && t < motion.duration(); t += 0.005) {
+ *     send(motion.at(0, t)[0]); // joint 1, rad
+ *   }
+ * }
+ * \endcode
  */
 class VISP_EXPORT vpTimedPath
 {

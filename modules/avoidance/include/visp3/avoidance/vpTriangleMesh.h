@@ -31,6 +31,14 @@ struct vpTriangleMeshData;
  * surface (every edge in two triangles) is a solid: points inside have a negative distance, whatever the orientation of
  * the triangles; an inner shell of opposite orientation is a cavity. A surface with holes has no inside, which
  * message() reports; vpCollisionShape::mesh() rejects it unless a sheet is requested.
+ *
+ * \code
+ * const vpTriangleMesh mesh = vpTriangleMesh::load("data/scene/bracket.obj", 0.001); // mm; throws, naming the file
+ * std::cout << mesh.triangles().size() << " triangles" << std::endl;
+ * if (!mesh.isWatertight()) {
+ *   std::cerr << mesh.message() << std::endl; // only vpMeshUse::Surface takes it
+ * }
+ * \endcode
  */
 class VISP_EXPORT vpTriangleMesh
 {
