@@ -32,6 +32,22 @@ BEGIN_VISP_NAMESPACE
  * true interaction matrix moves like this law. For that s' = -lambda s, and the motion has six eigenvalues -lambda at the
  * goal; with rotation and kappa 1 the law has four -lambda and two -2 lambda. So do not estimate the target's motion with
  * it, and do not expect s to decay exponentially while the camera translates.
+ *
+ * \code
+ * vpFeatureTranslation t(vpFeatureTranslation::cdMc);
+ * vpFeatureFeedforwardSum rotation;
+ * vpServo task;
+ * task.setServo(vpServo::EYEINHAND_CAMERA);
+ * task.setInteractionMatrixType(vpServo::CURRENT);
+ * task.setLambda(1.); // 1/s
+ * task.addFeature(t);
+ * task.addFeature(rotation);
+ * // each cycle with a valid measurement:
+ * const vpHomogeneousMatrix cdMc = goal.cdMo * measurement.cMo.inverse();
+ * t.buildFrom(cdMc);
+ * rotation.buildFrom(cdMc, measurement.points, goal.points); // throws where no point is visible
+ * robot.setVelocity(vpRobot::CAMERA_FRAME, task.computeControlLaw());
+ * \endcode
  */
 class VISP_EXPORT vpFeatureFeedforwardSum : public vpBasicFeature
 {

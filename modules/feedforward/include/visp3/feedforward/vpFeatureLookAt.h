@@ -33,6 +33,22 @@ BEGIN_VISP_NAMESPACE
  * \note interaction() is the task matrix: the exact interaction matrix of e, L = J_r^-1(e) [R^T W R, I], with W the rate
  * of R_la per rate of the direction O* - t. That of s is rho L, with which vpServo would divide by rho again. Rounding
  * grows towards the object's origin: at 1 mm the velocity differs from the law's by up to 1e-6 of the angular velocity.
+ *
+ * \code
+ * vpFeatureTranslation t(vpFeatureTranslation::cdMc);
+ * vpFeatureLookAt gaze;
+ * vpServo task;
+ * task.setServo(vpServo::EYEINHAND_CAMERA);
+ * task.setInteractionMatrixType(vpServo::CURRENT);
+ * task.setLambda(1.); // 1/s
+ * task.addFeature(t);
+ * task.addFeature(gaze);
+ * // each cycle with a valid measurement:
+ * const vpHomogeneousMatrix cdMc = goal.cdMo * measurement.cMo.inverse();
+ * t.buildFrom(cdMc);
+ * gaze.buildFrom(cdMc, goal.cdMo);
+ * robot.setVelocity(vpRobot::CAMERA_FRAME, task.computeControlLaw());
+ * \endcode
  */
 class VISP_EXPORT vpFeatureLookAt : public vpBasicFeature
 {

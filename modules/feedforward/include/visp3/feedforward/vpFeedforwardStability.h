@@ -25,6 +25,10 @@ BEGIN_VISP_NAMESPACE
  * the whole path, |e_w| decreases at least as exp(-k margin t). Where it is <= 0 nothing is known: the thesis's claim
  * of global stability, (5.29)-(5.31), does not apply to this law.
  *
+ * \code
+ * const double margin = vpFeedforwardSumStabilityMargin(vpMath::rad(20.), vpMath::rad(60.), 1.);
+ * std::cout << (margin > 0. ? "converges" : "not known to converge") << ", margin " << margin << std::endl;
+ * \endcode
  * \param bearing : Angle between the optical axis and the direction to the object, rad, in [0, pi/2).
  * \param rotation : Angle theta of the rotation to the goal, rad, in [0, pi].
  * \param kappa : Weight of the image term, >= 0.

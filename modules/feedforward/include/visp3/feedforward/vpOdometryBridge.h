@@ -31,6 +31,23 @@ BEGIN_VISP_NAMESPACE
  * The memory is a ring buffer of fixed size, allocated by the constructor; a step allocates nothing once the vectors of
  * the measurements have their sizes. A step does not throw, lock or print. The clock is the caller's; a time that is
  * not finite, runs backwards, or advances by more than the maximum age invalidates all earlier data.
+ *
+ * \code
+ * vpOdometryBridge bridge;
+ * vpServoMeasurement present;
+ * vpTwist twist;                    // executed in the last cycle, by the encoders
+ * for (int k = 1; k <= 100; ++k) {  // every 10 ms
+ *   bridge.move(twist, 0.01 * k);   // s
+ *   if (k % 10 == 0) {              // a result arrives, captured 80 ms ago
+ *     measurement.time = 0.01 * k - 0.08;
+ *     if (!bridge.correct(measurement)) {
+ *       std::cerr << "captured before the motion is known" << std::endl;
+ *     }
+ *   }
+ *   bridge.predict(present); // present.valid is false where the result is too old
+ *   twist = law.step(present, 0.01).v;
+ * }
+ * \endcode
  */
 class VISP_EXPORT vpOdometryBridge
 {

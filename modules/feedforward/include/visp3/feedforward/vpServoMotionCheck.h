@@ -21,6 +21,26 @@ BEGIN_VISP_NAMESPACE
  * A loop that knows its arm derives from it and passes it to vpServoController::setMotionCheck(). The law asks about each plan before it
  * follows it, a few twists each cycle: begin(), then add() for every twist from now to the end of the plan. It asks
  * from the thread that calls step(); no function may allocate, throw, lock or print.
+ *
+ * \code
+ * class SlowTable : public vpServoMotionCheck // a robot that moves by at most 0.1 m/s
+ * {
+ * public:
+ *   void begin() noexcept override {}
+ *   double add(const vpTwist &twist, double) noexcept override { return twist.linearNorm() / 0.1; }
+ * };
+ * \endcode
+ *
+ * \code
+ * SlowTable table;
+ * vpServoController controller = vpServoController::create("ff-dtg");
+ * controller.setMotionCheck(&table); // lives as long as the controller
+ * controller.setGoal(goal);
+ * const vpServoCommand command = controller.step(measurement, dt);
+ * if (command.status == vpServoStatus::Degenerate) {
+ *   std::cerr << vpMessage(command.status) << std::endl; // no plan within the limits
+ * }
+ * \endcode
  */
 class VISP_EXPORT vpServoMotionCheck
 {

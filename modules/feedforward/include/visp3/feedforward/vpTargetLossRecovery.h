@@ -38,6 +38,16 @@ struct VISP_EXPORT vpTargetLossSpec {
  * for the hold time and then undoes the recorded motion, most recent first: the opposite twist for the same time
  * returns a camera exactly to its previous pose. Where the recorded speed exceeds the limits of the retreat, twist and
  * time are scaled by the same factor, so the path stays the same. Undone motion is removed from the record.
+ *
+ * \code
+ * vpTargetLossRecovery recovery({0.3, 2., 0.1, 0.3}); // hold for 0.3 s, then undo 2 s, at 0.1 m/s and 0.3 rad/s
+ * vpServoCommand command;
+ * do {
+ *   command = recovery.step(law.step(measurement, dt), dt); // measurement.valid = false where it is not seen
+ *   robot.setVelocity(vpRobot::CAMERA_FRAME, command.v.toColVector());
+ * } while (vpIsWorking(command.status) && !closeEnough(measurement));
+ * std::cout << vpMessage(command.status) << std::endl; // lost for good, say
+ * \endcode
  */
 class VISP_EXPORT vpTargetLossRecovery
 {

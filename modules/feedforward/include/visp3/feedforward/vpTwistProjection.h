@@ -23,6 +23,17 @@ BEGIN_VISP_NAMESPACE
  * The dual active-set method of Goldfarb and Idnani \cite Goldfarb83 for a unit Hessian: it starts from x0, the
  * unconstrained optimum, and adds the most violated row until none is left. No allocation, no exception; a few
  * microseconds. ViSP's vpQuadProg solves the general problem on the heap.
+ *
+ * \code
+ * vpTwistProjection::Vector wanted, row;
+ * wanted << 0.2, 0., 0.1, 0., 0., 0.; // m/s, rad/s
+ * row << 0., 0., -1., 0., 0., 0.;
+ * vpTwistProjection projection;
+ * const bool isAdded = projection.addRow(row, -0.05); // -vz >= -0.05 m/s
+ * if (isAdded && projection.solve(wanted) == vpTwistProjection::Result::Solved) {
+ *   std::cout << projection.solution().transpose() << std::endl; // 0.2 0 0.05 0 0 0
+ * }
+ * \endcode
  */
 class VISP_EXPORT vpTwistProjection
 {

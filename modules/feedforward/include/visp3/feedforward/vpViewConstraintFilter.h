@@ -87,6 +87,15 @@ struct VISP_EXPORT vpViewConstraintSpec {
  * (vpServoStatus::Deadlock) when less than 2 % of the desired speed is left.
  *
  * **Uncertain depth:** rows hold at both ends of the depth interval; they are linear in 1/Z, so in between too.
+ *
+ * \code
+ * vpViewConstraintFilter filter(vpViewConstraintSpec::fromCamera(camera, 640, 480));
+ * const vpServoCommand safe = filter.filter(law.step(measurement, dt), measurement.outline, dt); // each cycle
+ * robot.setVelocity(vpRobot::CAMERA_FRAME, safe.v.toColVector());
+ * if (safe.status == vpServoStatus::Deadlock) {
+ *   std::cerr << vpMessage(safe.status) << std::endl;
+ * }
+ * \endcode
  */
 class VISP_EXPORT vpViewConstraintFilter
 {
