@@ -43,6 +43,15 @@ struct VISP_EXPORT vpCameraFaults {
  * Convention: the photograph of W x H pixels covers the object edge to edge, the centre of its pixel (u, v) lies at
  * x = ((u + 1/2) / W - 1/2) objectWidth, y likewise. Image point (0, 0) is the centre of the top left pixel.
  * Each pixel is the mean of 2x2 samples of a pyramid level of similar resolution (anti-aliasing).
+ *
+ * \code
+ * vpImageIo::read(photo, "data/target/klimt.jpg");
+ * vpPlaneRenderer view(photo, 0.16, 0.16, vpCameraParameters(800., 800., 319.5, 239.5), 640, 480); // m, px
+ * vpCameraFaults faults;
+ * faults.noise = 2.; // grey levels
+ * faults.blur = 0.5; // px
+ * view.render(vpHomogeneousMatrix(0.02, 0., 0.5, 0.2, -0.3, 0.1), faults, 1, image); // cMo, m and rad; seed
+ * \endcode
  */
 class VISP_EXPORT vpPlaneRenderer
 {

@@ -59,6 +59,19 @@ struct VISP_EXPORT vpDepthFaults {
  * a mesh, cubes of an octree, and the ground; the nearest is seen. Photographs are drawn as by vpPlaneRenderer, all
  * other faces in uniform grey by name and direction, so that they offer few keypoints. Inflation
  * (vpCollisionObject::inflation), the arm and the inside of a body are not rendered. Not thread-safe.
+ *
+ * \code
+ * vpSceneCamera camera{vpSceneCameraSpec()}; // 640 x 480 px
+ * vpCollisionData placed;
+ * scene.place(q, placed);
+ * const vpRigidTransform fMc = vpArmKinematics::camera(scene.arm(), placed.arm);
+ * camera.picture(scene, fMc, {}, 1, image); // grey; seed of the noise
+ * vpDepthFaults faults;
+ * faults.noise = 0.002; // m at 1 m
+ * faults.dropout = 0.05;
+ * vpImage<float> depth; // m; 0: nothing there
+ * camera.depth(scene, fMc, faults, 1, depth);
+ * \endcode
  */
 class VISP_EXPORT vpSceneCamera
 {
