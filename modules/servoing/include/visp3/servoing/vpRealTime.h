@@ -30,6 +30,13 @@ struct VISP_EXPORT vpRealTimeGrant {
  *
  * Neither is required, but a loop without them is late more often. A thread with SCHED_FIFO that never sleeps blocks
  * its processor for everything else. See doc/real-time.md.
+ *
+ * \code
+ * const vpRealTimeGrant grant = vpRequestRealTime();
+ * if (!grant.isScheduled || !grant.isLocked) {
+ *   std::cerr << grant.message << std::endl; // the loop works, but is late more often
+ * }
+ * \endcode
  * \param priority : 1..99; interrupt threads of a PREEMPT_RT kernel have 50.
  * \return What was allowed.
  * \throw vpException (badValue) naming a priority out of range.

@@ -46,6 +46,12 @@ struct VISP_EXPORT vpCalibratedCamera {
  * vpPoseVector::save().
  *
  * A rotation with errors of rounding is replaced by the nearest one.
+ *
+ * \code
+ * const vpCameraParameters calibrated = vpLoadCalibratedCamera("camera.xml", "", 640, 480).parameters;
+ * const vpRigidTransform eMc = vpLoadPose("eMc.yaml"); // both throw, naming the file and what is wrong
+ * std::cout << calibrated << "camera at " << eMc.p.transpose() << " m in the end effector" << std::endl;
+ * \endcode
  * \throw vpException (ioError) for a file that cannot be read; (badValue) naming the file and what is wrong: a wrong
  *   number of numbers, one that is not finite, no rotation (off by more than 0.001), a translation of more than 1000 m.
  */

@@ -25,6 +25,17 @@ BEGIN_VISP_NAMESPACE
  *
  * One thread adds durations, and any thread may read at the same time; no allocation, no lock. A reader may miss what
  * is just being added.
+ *
+ * \code
+ * vpTimingStatistics times;
+ * for (int i = 0; i < 1000; ++i) {
+ *   const double before = now();
+ *   grabber.acquire(image);
+ *   times.add(now() - before);
+ * }
+ * std::cout << "median " << 1e3 * times.quantile(0.5) << " ms, 99 % within " << 1e3 * times.quantile(0.99)
+ *           << " ms, all within " << 1e3 * times.max() << " ms" << std::endl;
+ * \endcode
  */
 class VISP_EXPORT vpTimingStatistics
 {

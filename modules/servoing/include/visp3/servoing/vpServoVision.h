@@ -39,6 +39,18 @@ struct VISP_EXPORT vpServoSight {
  * \class vpServoVision
  * \ingroup group_servoing
  * \brief Finds the target of a servo loop in images. One object per camera; used by one thread at a time.
+ *
+ * \code
+ * const std::unique_ptr<vpServoVision> vision = vpServoVision::tag("36h11", 3, 0.05, camera); // number, side in m
+ * vpServoSight sight;
+ * vision->see(image, now(), nullptr, sight); // each frame
+ * if (sight.measurement.valid) {
+ *   std::cout << sight.measurement.cMo << "\n+- " << sight.measurement.covariance.positionDeviation() << " m\n";
+ * }
+ * else {
+ *   std::cerr << vision->message() << std::endl;
+ * }
+ * \endcode
  */
 class VISP_EXPORT vpServoVision
 {
