@@ -76,6 +76,18 @@ struct VISP_EXPORT vpJointShortfall {
  * friction at a velocity v (as with AMOR's gains), critically damped. They are reduced where the cycle or the
  * estimation of velocities would make them unstable with the least inertia that a joint sees; errors by friction are
  * larger then.
+ *
+ * \code
+ * vpArmDrives drives(arm);
+ * drives.reset(arm.home());
+ * for (int i = 0; i < 100; ++i) {
+ *   if (!drives.move(vpJointVector::Constant(arm.size(), 0.1), 0.005)) { // rad/s, s
+ *     std::cerr << "a number is out of range" << std::endl;
+ *   }
+ * }
+ * std::cout << "off by " << (drives.q() - drives.wanted()).norm() << " rad"
+ *           << (drives.saturated() != 0 ? ", at a torque limit" : "") << std::endl;
+ * \endcode
  */
 class VISP_EXPORT vpArmDrives
 {

@@ -23,6 +23,19 @@ BEGIN_VISP_NAMESPACE
  * impulses that at most bring a joint to rest (projected Gauss-Seidel): a joint whose load is below its friction does
  * not move at all, where an explicit sgn would chatter. A joint that reaches its position limit stops without
  * bouncing.
+ *
+ * \code
+ * vpArmPlant plant(arm);
+ * plant.reset(arm.home());
+ * vpArmDynamics dynamics(arm);
+ * vpJointVector torque; // Nm
+ * for (int i = 0; i < 1000; ++i) {
+ *   if (!dynamics.gravity(plant.q(), torque) || !plant.step(torque, 0.001)) { // s
+ *     std::cerr << "a number is out of range" << std::endl;
+ *   }
+ * }
+ * std::cout << plant.velocity().transpose() << " rad/s" << std::endl; // 0: held by gravity compensation and friction
+ * \endcode
  */
 class VISP_EXPORT vpArmPlant
 {

@@ -20,6 +20,20 @@ BEGIN_VISP_NAMESPACE
  * \ingroup group_simulation
  * \brief Models frame rate and latency of a vision system: results come in the order of their exposures, without loss,
  * each with its time of capture (vpServoMeasurement::time).
+ *
+ * \code
+ * vpVisionChannel channel(10., 0.1); // images at 10 Hz, results 100 ms later
+ * for (int k = 0; k < 100; ++k) {
+ *   const double time = 0.01 * k; // s
+ *   if (channel.due(time)) {
+ *     measurement.time = time;
+ *     channel.push(measurement);
+ *   }
+ *   while (channel.pop(time, measurement)) {
+ *     std::cout << "at " << time << " s the image of " << measurement.time << " s" << std::endl;
+ *   }
+ * }
+ * \endcode
  */
 class VISP_EXPORT vpVisionChannel
 {
