@@ -63,10 +63,13 @@ struct VISP_EXPORT vpDirectTrajectoryAvoidanceSpec {
  * vpDirectTrajectoryAvoidance method(scene, spec);
  * method.start(q, vpAvoidanceGoal::at(arm, goal));
  * vpAvoidanceOutput output;
- * do { // every 5 ms; after an image the scene is updated, and method.look() called
+ * for (int cycle = 0; cycle < 4000 && (cycle == 0 || vpIsWorking(output)); ++cycle) { // every 5 ms, up to 20 s
+ *   if (cycle % 8 == 0) {
+ *     method.look(); // after each image, when the scene has been updated
+ *   }
  *   method.step(q, output);
  *   q += spec.common.period * output.velocity; // to the drives
- * } while (vpIsWorking(output));
+ * }
  * std::cout << vpMessage(output, scene, spec.common.margin) << std::endl; // arrived, or what is in the way
  * \endcode
  */

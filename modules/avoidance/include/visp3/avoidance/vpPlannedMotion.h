@@ -61,10 +61,13 @@ struct VISP_EXPORT vpPlannedMotionSpec {
  * vpPlannedMotion motion(scene);
  * motion.start(q, vpAvoidanceGoal::at(arm, goal));
  * vpAvoidanceOutput output;
- * do { // every 5 ms; after an image the scene is updated, and motion.look() called
+ * for (int cycle = 0; cycle < 4000 && (cycle == 0 || vpIsWorking(output)); ++cycle) { // every 5 ms, up to 20 s
+ *   if (cycle % 8 == 0) {
+ *     motion.look(); // after each image, when the scene has been updated
+ *   }
  *   motion.step(q, output);
  *   q += 0.005 * output.velocity; // to the drives
- * } while (vpIsWorking(output));
+ * }
  * std::cout << vpMessage(output, scene, 0.01) << std::endl; // arrived, or what is in the way
  * \endcode
  */

@@ -95,7 +95,7 @@ struct VISP_EXPORT vpSupervisedVelocity {
  *   scene.advance(0.005); // or vpObjectTracks::applyTo()
  *   supervisor.step(q, wish, command);
  *   q += 0.005 * command.velocity; // to the drives
- *   if (command.status != vpSupervision::Passed) {
+ *   if (command.status != vpSupervision::Passed && command.status != vpSupervision::Limited) {
  *     std::cerr << command.message() << " " << scene.describe(command.pair) << std::endl;
  *   }
  * }

@@ -51,7 +51,9 @@ struct VISP_EXPORT vpServoControllerSpec {
  *   command = servo.step(measurement, dt); // measurement.valid = false when the target is not seen
  *   robot.setVelocity(vpRobot::CAMERA_FRAME, command.v.toColVector());
  * } while (vpIsWorking(command.status) && !closeEnough(measurement));
- * std::cout << vpMessage(command.status) << std::endl;
+ * if (!vpIsWorking(command.status)) {
+ *   std::cerr << vpMessage(command.status) << std::endl;
+ * }
  * robot.setRobotState(vpRobot::STATE_STOP);
  * \endcode
  */

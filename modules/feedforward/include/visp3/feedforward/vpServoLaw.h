@@ -59,7 +59,9 @@ struct VISP_EXPORT vpServoGains {
  *   command = law->step(measurement, dt);
  *   robot.setVelocity(vpRobot::CAMERA_FRAME, command.v.toColVector());
  * } while (vpIsWorking(command.status) && !closeEnough(measurement));
- * std::cout << vpMessage(command.status) << std::endl;
+ * if (!vpIsWorking(command.status)) {
+ *   std::cerr << vpMessage(command.status) << std::endl;
+ * }
  * robot.setRobotState(vpRobot::STATE_STOP);
  * \endcode
  */

@@ -46,6 +46,19 @@ struct VISP_EXPORT vpServoGoal {
 /*!
  * \ingroup group_feedforward
  * \brief Measurement of one cycle. Reuse one object: assigning to its members then allocates nothing.
+ *
+ * \code
+ * vpServoMeasurement seen;
+ * seen.valid = true;                                          // false where the target was not found
+ * seen.time = now();                                          // of the capture, s
+ * seen.cMo = vpHomogeneousMatrix(0.02, 0., 0.5, 0., 0., 0.3); // m, rad
+ * for (const double x : {-0.08, 0., 0.08}) {
+ *   vpPoint point(x, 0.05, 0.); // on the object, m
+ *   point.track(seen.cMo);      // in practice measured
+ *   seen.points.push_back({point.get_x(), point.get_y(), point.get_Z()}); // in the order of the goal's points
+ * }
+ * seen.outline = seen.points;
+ * \endcode
  */
 struct VISP_EXPORT vpServoMeasurement {
   bool valid = false; //!< False when the target was not found; all other members except #time are then ignored.

@@ -46,7 +46,9 @@ struct VISP_EXPORT vpTargetLossSpec {
  *   command = recovery.step(law.step(measurement, dt), dt); // measurement.valid = false where it is not seen
  *   robot.setVelocity(vpRobot::CAMERA_FRAME, command.v.toColVector());
  * } while (vpIsWorking(command.status) && !closeEnough(measurement));
- * std::cout << vpMessage(command.status) << std::endl; // lost for good, say
+ * if (!vpIsWorking(command.status)) {
+ *   std::cerr << vpMessage(command.status) << std::endl; // lost for good, say
+ * }
  * \endcode
  */
 class VISP_EXPORT vpTargetLossRecovery

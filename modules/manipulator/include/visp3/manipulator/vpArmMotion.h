@@ -45,8 +45,8 @@ enum class vpArmTwistFrame { Base, EndEffector, Camera, Mixt };
  *   motion.twist(law.step(measurement, motion.period()).v, vpArmTwistFrame::Camera);
  *   velocity = motion.step(q, velocity);
  *   q += motion.period() * velocity; // to the drives
- *   if (motion.solver().taskShare < 0.5) {
- *     std::cerr << motion.solver().message() << std::endl; // limits or a singularity
+ *   if (motion.solver().status == vpRedundancyStatus::BlockedByLimits) {
+ *     std::cerr << motion.solver().message() << std::endl;
  *   }
  * }
  * \endcode

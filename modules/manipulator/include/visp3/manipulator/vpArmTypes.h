@@ -55,6 +55,14 @@ template <class Derived> [[nodiscard]] bool vpIsPlausibleForArm(const Eigen::Mat
 /*!
  * \ingroup group_manipulator
  * \brief Pose aMb of a frame b in a frame a, as a rotation and a translation (m). ViSP's vpHomogeneousMatrix allocates.
+ *
+ * \code
+ * vpArmData data;
+ * vpArmKinematics::update(arm, q, data);
+ * const vpRigidTransform eMc{Eigen::Matrix3d::Identity(), {0., 0., 0.1}}; // m
+ * const vpRigidTransform cMf = (data.tool * eMc).inverse();
+ * std::cout << cMf.toHomogeneous() << std::endl;
+ * \endcode
  */
 struct VISP_EXPORT vpRigidTransform {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity(); //!< Rotation aRb.

@@ -46,7 +46,7 @@ struct VISP_EXPORT vpJointPositionControlSpec {
  * vpJointPositionControl::Input input;
  * input.q = encoders();
  * input.velocity = velocity;
- * input.wantedQ = goal;
+ * input.wantedQ = q; // as commanded
  * input.wantedVelocity = vpJointVector::Zero(arm.size());
  * dynamics.gravity(input.q, input.feedforward);
  * vpJointPositionControl::Output output;

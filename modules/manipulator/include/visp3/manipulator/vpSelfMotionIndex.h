@@ -43,8 +43,8 @@ enum class vpIndexKind {
  * figures 8.14 and 8.17 disagree.
  *
  * \code
- * const vpSelfMotionIndex elbow = // the origin of joint 4 stays above the plane z = 0.2 m
- *     vpSelfMotionIndex::planeDistance(3, {0., 0., 0.2}, {0., 0., 1.}, vpIndexSense::Repel);
+ * const vpSelfMotionIndex elbow = // the origin of joint 4 stays above the table, z = 0
+ *     vpSelfMotionIndex::planeDistance(3, {0., 0., 0.}, {0., 0., 1.}, vpIndexSense::Repel);
  * elbow.validate(arm); // throws, naming what does not fit
  * vpArmData data;
  * vpIndexValue value;

@@ -17,6 +17,11 @@ BEGIN_VISP_NAMESPACE
  * \ingroup group_printing
  * \brief Mass and friction of one axis: F = m a + Fv v + sgn(v) (Fc + (Fs - Fc) exp(-(v / vs)^2)), thesis (7.25),
  * (7.26) with Stribeck's term. Units: length L (px), time T (frame), force F; with mass 1 forces are accelerations.
+ *
+ * \code
+ * const vpFrictionModel axis{1., 0.02, 0.08, 0.12, 0.3}; // px and frames; of vpIdentifyFriction(), say
+ * std::cout << axis.force(5., 0.1) << " px/frame^2" << std::endl; // at 5 px/frame, for 0.1 px/frame^2: 0.28
+ * \endcode
  */
 struct VISP_EXPORT vpFrictionModel {
   double mass = 1.;             //!< Mass, F T^2/L, > 0.

@@ -132,7 +132,10 @@ struct VISP_EXPORT vpPrintTriggerOutput {
  * step() does not allocate, throw, lock or print.
  *
  * \code
- * vpPrintTrigger trigger; // nozzle at 79.5 px
+ * vpPrintTriggerSpec spec;
+ * spec.nozzle = 79.5;     // px to the right
+ * spec.rowTolerance = 8.; // px, half a pitch: one row
+ * vpPrintTrigger trigger(spec);
  * vpPatternTracker tracker(160, 100);
  * vpPrintTriggerInput input;
  * for (double frame = 1.28; frame < 50.; ++frame) {

@@ -100,15 +100,17 @@ struct VISP_EXPORT vpReferencePoseResult {
  * Without odometry each image is evaluated by itself, except for the normal; d stays unknown, and the message says so.
  *
  * \code
- * std::vector<Eigen::Vector2d> corners; // in the reference image, normalised; in practice by vpPlaneTracker
+ * std::vector<Eigen::Vector2d> corners; // in the reference image, normalised: by vpPlaneTracker, say
+ * std::vector<vpServoPoint> points;     // the same corners now
  * for (int i = 0; i < 25; ++i) {
  *   corners.emplace_back(0.1 * (i % 5) - 0.2, 0.1 * (i / 5) - 0.2);
+ *   points.push_back({0.8 * corners.back().x() + 0.05, 0.8 * corners.back().y()});
  * }
  * vpReferencePose estimate(corners, 0.1 / 800.); // 0.1 px, focal length 800 px
  * vpArmData data;
  * vpArmKinematics::update(arm, q, data); // when the image was taken
  * const vpRigidTransform fMc = vpArmKinematics::camera(arm, data);
- * const vpReferencePoseResult &found = estimate.add(measurement.points, 0.1 / 800., &fMc); // each image
+ * const vpReferencePoseResult &found = estimate.add(points, 0.1 / 800., &fMc); // each image
  * if (found.found()) {
  *   std::cout << "plane at " << found.distance << " +- " << found.distanceSigma << " m, camera at "
  *             << found.tau.transpose() << " of that" << std::endl;

@@ -174,7 +174,9 @@ struct VISP_EXPORT vpVisualServoOutput {
  * servo.start();
  * while (servo.step(encoders(), now()).status != vpVisualServoStatus::Converged) { // every spec.period
  *   send(servo.output().velocity);                                                  // rad/s, to the drives
- *   std::cout << servo.output().message << "\n";                                    // also why the robot stops
+ *   if (servo.output().status != vpVisualServoStatus::Servoing) {
+ *     std::cerr << servo.output().message << std::endl; // why the robot brakes or stands
+ *   }
  * }
  * servo.stop();
  * \endcode

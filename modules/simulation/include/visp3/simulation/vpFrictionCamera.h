@@ -30,8 +30,10 @@ BEGIN_VISP_NAMESPACE
  * \code
  * vpFrictionCamera robot(vpServoPlant::byName("B"));
  * robot.setRobotState(vpRobot::STATE_VELOCITY_CONTROL);
- * robot.setVelocity(vpRobot::CAMERA_FRAME, vpTwist(0.1, 0., 0., 0., 0., 0.3).toColVector()); // m/s, rad/s
- * std::cout << robot.getPosition() << "\n" << robot.actualTwist()[5] << " rad/s\n"; // wMc after 10 ms
+ * for (int i = 0; i < 100; ++i) { // 1 s
+ *   robot.setVelocity(vpRobot::CAMERA_FRAME, vpTwist(0.1, 0., 0., 0., 0., 0.3).toColVector()); // m/s, rad/s
+ * }
+ * std::cout << robot.getPosition() << "\nturns with " << robot.actualTwist()[5] << " rad/s" << std::endl; // 0.2
  * \endcode
  */
 class VISP_EXPORT vpFrictionCamera : public vpSimulatorCamera

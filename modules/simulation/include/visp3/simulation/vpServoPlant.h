@@ -18,6 +18,13 @@ BEGIN_VISP_NAMESPACE
 /*!
  * \ingroup group_simulation
  * \brief Parameters of a plant. The limits are the same for all laws compared.
+ *
+ * \code
+ * vpServoPlant plant = vpServoPlant::byName("B");
+ * plant.deadband = 0.05; // rad/s
+ * plant.validate();      // throws, naming what is out of range
+ * vpFrictionCamera robot(plant);
+ * \endcode
  */
 struct VISP_EXPORT vpServoPlant {
   std::string name = "A";   //!< Name for reports.
