@@ -28,7 +28,7 @@ def examples_of(header):
 
 
 def program_of(root, folders):
-    """The program text, and how many examples of how many headers are in it."""
+    """The program text, and how many examples of how many headers are in it; ends at braces that would hide the faults behind them."""
     headers = sorted(root.glob("modules/*/include/visp3/*/*.h"))
     known = {header.stem for header in headers}
     includes, body, counted, number = [f"#include <{h.parent.parent.name}/{h.parent.name}/{h.name}>\n" for h in headers], [], 0, 0
@@ -37,6 +37,8 @@ def program_of(root, folders):
         counted += bool(examples)
         for line, text in examples:
             number += 1
+            if text.count("{") != text.count("}"):
+                sys.exit(f"{header.relative_to(root)}:{line}: the braces of the example do not match")
             includes += re.findall(r"^#include .*\n", text, re.M)
             for name in re.findall(r"\bvp[A-Z]\w*", text):
                 paths = [p.relative_to(f) for f in folders for p in f.glob(f"visp3/*/{name}.h")] if name not in known else []
