@@ -55,6 +55,18 @@ const Prototype prototypes[] = {
 };
 
 // The size of the object, m, is that of the task unless it is given.
+vpServoRunSpec specOf(const std::string &law, const std::string &plant, unsigned int seed = 1, double size = 0.)
+{
+  vpServoRunSpec spec;
+  spec.law = law;
+  spec.plant = vpServoPlant::byName(plant);
+  spec.seed = seed;
+  if (size > 0.) {
+    spec.task.objectWidth = spec.task.objectHeight = size;
+  }
+  return spec;
+}
+
 const vpServoMetrics &figures(const std::string &law, const std::string &plant, unsigned int seed = 1, double size = 0.)
 {
   static std::map<std::string, vpServoMetrics> done;
@@ -63,14 +75,15 @@ const vpServoMetrics &figures(const std::string &law, const std::string &plant, 
   if (found != done.end()) {
     return found->second;
   }
-  vpServoRunSpec spec;
-  spec.law = law;
-  spec.plant = vpServoPlant::byName(plant);
-  spec.seed = seed;
-  if (size > 0.) {
-    spec.task.objectWidth = spec.task.objectHeight = size;
-  }
-  return done[key] = runServoExperiment(spec).metrics;
+  return done[key] = runServoExperiment(specOf(law, plant, seed, size)).metrics;
+}
+
+bool isInViewAtPose2(const std::string &law, double size)
+{
+  const vpServoRun run = runServoExperiment(specOf(law, "D", 1, size));
+  const auto next =
+      std::find_if(run.samples.begin(), run.samples.end(), [](const vpServoSample &s) { return s.segment > 0; });
+  return next != run.samples.begin() && next != run.samples.end() && (next - 1)->inView;
 }
 
 // What Coulomb friction leaves of the rotation error of a proportional law with this gain, deg.
@@ -223,4 +236,9 @@ TEST_CASE("which law loses the view depends on the size of the object, the rest 
     CHECK(small.yaw_range_deg == Approx(usual.yaw_range_deg).margin(0.5));
   }
   std::fflush(stdout);
+  // At the end of pose 2, figure 5.11: with 0.18 m both laws keep it in view, with 0.22 m only the feedforward.
+  CHECK(isInViewAtPose2("pbvs1", 0.18));
+  CHECK(isInViewAtPose2("ff-sum", 0.18));
+  CHECK_FALSE(isInViewAtPose2("pbvs1", 0.22));
+  CHECK(isInViewAtPose2("ff-sum", 0.22));
 }

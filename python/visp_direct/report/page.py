@@ -165,8 +165,7 @@ class Page:
 
     def views(self):
         """Each 3D view as a page of its own, for a frame in another page."""
-        views = [(section, part) for section in self.sections for part in section["parts"] if part["kind"] == "view"]
-        return [self._rendered([{**section, "parts": [view]}], alone=True) for section, view in views]
+        return [self._rendered([{**s, "parts": [p]}], alone=True) for s in self.sections for p in s["parts"] if p["kind"] == "view"]
 
     def _rendered(self, sections, alone=False):
         strict = {"autoescape": True, "undefined": jinja2.StrictUndefined}

@@ -29,11 +29,6 @@ COLUMNS = [
 ]
 
 
-def designs_of(result):
-    table = result.table("explore.csv")
-    return [dict(zip(table, row)) for row in zip(*table.values())]
-
-
 def text_of(d):
     return (
         f"{number(d['frame_rate_hz'], 4)} Hz, {d['width_px']:.0f} × {d['height_px']:.0f} px, {number(d['um_per_px'])} µm/px, "
@@ -137,7 +132,8 @@ def camera_figure(axes, designs, setup):
 
 
 def add_result(page, result):
-    summary, setup, designs = result.summary, result.json("setup.json"), designs_of(result)
+    summary, setup, table = result.summary, result.json("setup.json"), result.table("explore.csv")
+    designs = [dict(zip(table, row)) for row in zip(*table.values())]
     feasible, metrics = [d for d in designs if d["feasible"]], setup["metrics"]
     objective = summary["objectives"][0]
     if feasible:

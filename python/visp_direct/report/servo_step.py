@@ -24,10 +24,6 @@ STEP = [
 ]
 
 
-def _largest(c, metric, shaped):
-    return max((run[metric] for run in c.summary["runs"] if run["shaped"] == shaped), default=0.0)
-
-
 def _rise(c, plant, metric, what, unit):
     """The law whose metric rises most by shaping."""
     pairs = [(law, c.median(law, plant, metric), c.median(law, plant, metric, shaped=True)) for law in c.laws]
@@ -64,7 +60,8 @@ def filter_behind_shaper(c):
 def step_findings(c):
     """Benefit and cost of shaping."""
     metrics = ("peak_linear_acceleration_mps2", "peak_angular_acceleration_radps2")
-    raw, shaped = ([number(_largest(c, metric, is_shaped)) for metric in metrics] for is_shaped in (False, True))
+    each = ([run for run in c.summary["runs"] if run["shaped"] == is_shaped] for is_shaped in (False, True))
+    raw, shaped = ([number(max((run[metric] for run in runs), default=0.0)) for metric in metrics] for runs in each)
     sentences = [
         f"Over all laws and plants the command asks for accelerations of up to {raw[0]} m/s² and {raw[1]} rad/s² raw, and of up to "
         f"{shaped[0]} m/s² and {shaped[1]} rad/s² shaped.",
