@@ -4,6 +4,8 @@
  */
 #include "binding.h"
 
+#include <visp3/servoing/vpReferenceTeacher.h>
+#include <visp3/servoing/vpReferenceVision.h>
 #include <visp3/servoing/vpVisualServo.h>
 
 #include <cstring>
@@ -69,11 +71,28 @@ void bindSettings(py::module_ &m)
 {
   bindEnum<vpServoCameraPlace>(m);
   bindEnum<vpVisualServoStatus>(m);
+  bindSpec<vpReferencePoseSpec>(m);
+  bindSpec<vpReferenceVisionSpec>(m);
   bindSpec<vpVisualServoSpec>(m);
   bindStruct<vpServoRobotState>(m);
   bindStruct<vpServoSight>(m);
   bindStruct<vpVisualServoOutput>(m).def_property_readonly(
       "message", [](const vpVisualServoOutput &self) { return self.message; }, doc("vpVisualServoOutput::message"));
+}
+
+void bindTeacher(py::module_ &m)
+{
+  using Teacher = vpReferenceTeacher;
+  const std::string in = "vpReferenceTeacher::";
+  bindClass<Teacher>(m)
+      .def(py::init<unsigned int, double>(), py::arg("images") = 25, py::arg("motion") = 0.5,
+           doc(in + "vpReferenceTeacher"))
+      .def("add", &Teacher::add, py::arg("image"), Unlocked(), doc(in + "add"))
+      .def("isComplete", &Teacher::isComplete, doc(in + "isComplete"))
+      .def("image", &Teacher::image, doc(in + "image"))
+      .def("pointNoise", &Teacher::pointNoise, doc(in + "pointNoise"))
+      .def("averageNoise", &Teacher::averageNoise, doc(in + "averageNoise"))
+      .def("message", &Teacher::message, doc(in + "message"));
 }
 
 void bindVisualServo(py::module_ &m)
@@ -99,6 +118,20 @@ void bindVisualServo(py::module_ &m)
           py::arg("photo"), py::arg("width"), py::arg("height"), py::arg("camera"),
           py::arg("spec") = vpPlanarTargetSpec(), doc("vpServoVision::photograph"))
       .def(
+          "setReference",
+          [](Servo &self, const vpImage<unsigned char> &reference, const vpCameraParameters &camera,
+             const vpReferenceVisionSpec &spec) {
+            self.setVision(std::make_unique<vpReferenceVision>(reference, camera, spec));
+          },
+          py::arg("reference"), py::arg("camera"), py::arg("spec") = vpReferenceVisionSpec(),
+          doc("vpReferenceVision::vpReferenceVision"))
+      .def(
+          "setTag",
+          [](Servo &self, const std::string &family, int id, double size, const vpCameraParameters &camera,
+             double cornerSigma) { self.setVision(vpServoVision::tag(family, id, size, camera, cornerSigma)); },
+          py::arg("family"), py::arg("id"), py::arg("size"), py::arg("camera"), py::arg("cornerSigma") = 0.3,
+          doc("vpServoVision::tag"))
+      .def(
           "setPoseSource",
           [](Servo &self, const py::function &source, const vpServoTarget &target) {
             self.setVision(vpServoVision::poses(sourceOf(source), target));
@@ -107,6 +140,8 @@ void bindVisualServo(py::module_ &m)
           "Vision by any source of poses: source(image) returns the pose cMo of the object, or (cMo, PoseCovariance), "
           "or None\n"
           "when it was not found. target: points of the object, a ServoTarget.")
+      .def(
+          "visionMessage", [](const Servo &self) { return self.vision().message(); }, doc("vpServoVision::message"))
       .def("supervise", &Servo::supervise, py::arg("scene"), py::arg("spec") = vpStopSupervisorSpec(),
            py::keep_alive<1, 2>(), doc(in + "supervise"))
       .def(
@@ -147,6 +182,7 @@ void bindServoing(py::module_ &m)
 {
   bindTiming(m);
   bindSettings(m);
+  bindTeacher(m);
   bindVisualServo(m);
 }
 } // namespace visp_python

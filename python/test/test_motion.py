@@ -307,6 +307,36 @@ def test_servo_with_a_photograph(random):
     sight = servo.see(rendered(photo, 0.16, 0.12, cMo, random), 0.5)
     assert sight.measurement.valid
     np.testing.assert_allclose(sight.measurement.cMo[:3, 3], cMo[:3, 3], atol=1e-3)
+    assert " " in servo.visionMessage()
+
+
+def test_servo_with_one_reference_image(random):
+    from test_vision import CAMERA, rendered, texture
+
+    photo, cdMo = texture(random), pose([0, 0, 0.3], [0, 0, 0])
+    teacher = vd.ReferenceTeacher(images=3)
+    with pytest.raises(RuntimeError):
+        teacher.image()
+    while not teacher.isComplete():
+        assert teacher.add(rendered(photo, 0.16, 0.12, cdMo, random)), teacher.message()
+    assert 0 < teacher.averageNoise() < teacher.pointNoise() < 1
+    servo = vd.VisualServo("ff-lookat", spec=vd.VisualServoSpec(assumeExecuted=True))
+    servo.setReference(teacher.image(), CAMERA, vd.ReferenceVisionSpec(pose=vd.ReferencePoseSpec(nearest=0.2, farthest=1.0)))
+    for k, cMo in enumerate((cdMo, pose([0.01, 0, 0.32], [0.1, -0.2, 0.3]))):
+        sight = servo.see(rendered(photo, 0.16, 0.12, cMo, random), 0.1 * k)
+        assert sight.measurement.valid and sight.hasGoal, servo.visionMessage()
+        cdMc = sight.goal.cdMo @ np.linalg.inv(sight.measurement.cMo)  # its translation is known up to the scale
+        np.testing.assert_allclose(cdMc[:3, :3], (cdMo @ np.linalg.inv(cMo))[:3, :3], atol=5e-3)
+
+
+def test_servo_with_a_tag(random):
+    from test_vision import CAMERA, texture
+
+    servo = vd.VisualServo("pbvs1", spec=vd.VisualServoSpec(assumeExecuted=True))
+    with pytest.raises(ValueError, match="36h12"):
+        servo.setTag("36h12", 3, 0.05, CAMERA)
+    servo.setTag("36h11", 3, 0.05, CAMERA)
+    assert not servo.see(texture(random, 480, 640), 0.1).measurement.valid and "tag" in servo.visionMessage().lower()
 
 
 def test_covers_and_exact_shapes():
